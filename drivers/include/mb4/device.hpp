@@ -1,0 +1,190 @@
+// SPDX-FileCopyrightText: 2026 The openmb4 authors
+// SPDX-License-Identifier: Apache-2.0
+
+// Layer 3: one chip. The class that most users need.
+
+#ifndef MB4_DEVICE_HPP_
+#define MB4_DEVICE_HPP_
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+#include "mb4/acquisition.hpp"
+#include "mb4/bus.hpp"
+#include "mb4/config.hpp"
+#include "mb4/fields.hpp"
+#include "mb4/opcodes.hpp"
+#include "mb4/reading.hpp"
+#include "mb4/register_image.hpp"
+#include "mb4/result.hpp"
+#include "mb4/span.hpp"
+#include "mb4/status.hpp"
+#include "mb4_regs.hpp"
+
+namespace mb4 {
+
+// What the chip says it is (tables 41, 42, page 31).
+struct Identity {
+  std::uint8_t version = 0;   // 0x84; a regs::DeviceVersion
+  std::uint8_t revision = 0;  // 0x10 Z, 0x11 Z1, 0x20 Y; others are reported as they are
+};
+
+// One iC-MB4 or compatible chip on an SPI bus.
+//
+// `Bus` and `Clock` obey the contracts in bus.hpp and outlive the Device. No heap, no global state:
+// any number of devices side by side. Size: a Config and two pointers.
+//
+// Interrupt safety: no call may be interrupted by another call on the same Device, and all calls
+// of one Device belong in one context (main loop or one interrupt). Different devices are
+// independent as far as their buses are. Calls block until their transfers are done; the number of
+// transfers is stated for each.
+template <typename Bus, typename Clock>
+class Device {
+ public:
+  constexpr Device(Bus& bus, Clock& clock)
+      : opcodes_(bus), fields_(opcodes_), single_shot_(opcodes_, clock) {}
+
+  // Reads VERSION and REVISION. One transfer, changes nothing.
+  // kTransport; kNotDetected: VERSION is not 0x84 (an iC-MB3 says 0x83).
+  Result<Identity> probe() {
+    std::array<std::uint8_t, 2> bytes{};
+    static_assert(regs::kAddrVersion == regs::kAddrRevision + 1);
+    if (const Result<void> read = opcodes_.read_registers(regs::kAddrRevision, bytes); !read) {
+      return read.info();
+    }
+    if (bytes[1] != static_cast<std::uint8_t>(regs::DeviceVersion::kIcMb4)) {
+      return Error::kNotDetected;
+    }
+    Identity identity;
+    identity.revision = bytes[0];
+    identity.version = bytes[1];
+    return identity;
+  }
+
+  // Validates `config` completely, then stops whatever the chip is doing (BREAK, AGS off), writes
+  // all configuration registers, reads them back and compares. Three transfers:
+  //   0x07  0xF4, 0xF5   BREAK, clock source and interface
+  //   0x02  0xC0..0xF2   everything else; clears SVALID 1 to 8
+  //   0x03  0xC0..0xF5   comparison of all bits that can be written, and of VERSION
+  // kInvalidConfig, kUnsupported (not touched); kTransport, kNotDetected, kVerify (touched, the
+  // Device counts as not configured). The configuration must not be changed while an encoder frame
+  // is wanted: call it at start-up or between frames. No frame runs here.
+  Result<void> configure(const Config& config) {
+    if (const Result<void> valid = validate(config); !valid) {
+      return valid;
+    }
+    configured_ = false;
+    const RegisterImage image = encode_registers(config);
+    const std::array<std::uint8_t, 2> stop_and_interface{regs::BREAK::encode<1>(),
+                                                         encode_interface(config)};
+    if (const Result<void> write = opcodes_.write_instruction(stop_and_interface); !write) {
+      return write;
+    }
+    if (const Result<void> write = opcodes_.write_registers(kImageFirst, image); !write) {
+      return write;
+    }
+    if (const Result<void> same = verify(image, encode_interface(config)); !same) {
+      return same;
+    }
+    config_ = config;
+    configured_ = true;
+    single_shot_.on_flags_cleared();
+    return {};
+  }
+
+  // Requests one frame with CDM = 0, waits for its end and returns the data of `slave` (1..8, must
+  // be enabled in the configuration).
+  //
+  // Transfers of a good read: 3 + p, where p >= 1 is the number of status polls; 1 more after a
+  // failed read. Each poll is 6 bytes, and p is limited by frame_timeout_us(config): at most
+  // t + t/16 + 2 polls for t microseconds even if the clock stands still. In order:
+  //   0x07  INSTR = 010
+  //   0x05  0xF0..0xF4, repeated until EOT = 1 and INSTR = 0
+  //   0x09  SCDATA1, 1..8 bytes (0x03 with its address for slaves 2 to 8)
+  //   0x02  SVALIDx = 0
+  //
+  // kNotConfigured, kInvalidArgument (not touched); kTransport; kNotDetected (status cannot be
+  // that of an iC-MB4); kTimeout, kLineError (BREAK was sent); kCrc, kNoData, kCorrupted. A
+  // Reading is returned only for a good frame; whether the slave itself trusts its position is
+  // Reading::error.
+  //
+  // Sets AGS, HOLDBANK and SWBANK to 0, as any single frame does.
+  Result<Reading> read_frame(std::uint8_t slave = 1) {
+    if (!configured_) {
+      return Error::kNotConfigured;
+    }
+    if (slave < 1 || slave > kSlaves || !config_.slaves[slave - 1U].enabled) {
+      return Error::kInvalidArgument;
+    }
+    return single_shot_.read(config_, slave);
+  }
+
+  // Writes BREAK (page 33): aborts a frame at once, clock and AGS stop, MA returns to 1, the error
+  // flags return to 1. One transfer. kTransport. The configuration stays. A following read_frame()
+  // waits for the slaves' timeout, see FrameStart.
+  Result<void> break_transmission() {
+    return detail::write_instruction(opcodes_, regs::BREAK::encode<1>());
+  }
+
+  // 0xF0..0xF4 in one transfer; changes nothing. kTransport, kNotDetected.
+  Result<Status> read_status() { return detail::read_status(opcodes_); }
+
+  // Clears SVALIDx of `slave` (1..8) and nothing else. One transfer. kInvalidArgument (not
+  // touched), kTransport.
+  Result<void> clear_valid(std::uint8_t slave) {
+    if (slave < 1 || slave > kSlaves) {
+      return Error::kInvalidArgument;
+    }
+    return detail::clear_valid(opcodes_, slave);
+  }
+
+  // The lower layers, for what Device does not cover. See their headers for what they do not
+  // protect from.
+  [[nodiscard]] Fields<Bus>& fields() { return fields_; }
+  [[nodiscard]] Opcodes<Bus>& opcodes() { return opcodes_; }
+
+  // True after a successful configure().
+  [[nodiscard]] bool configured() const { return configured_; }
+  // The configuration in the chip; meaningful if configured().
+  [[nodiscard]] const Config& config() const { return config_; }
+
+ private:
+  Result<void> verify(const RegisterImage& image, std::uint8_t interface_byte) {
+    std::array<std::uint8_t, regs::kAddrIface - kImageFirst + 1> bytes{};
+    if (const Result<void> read = opcodes_.read_registers(kImageFirst, bytes); !read) {
+      return read;
+    }
+    // Asked first: with nothing on the bus every register is different, which says less.
+    if (bytes[regs::kAddrVersion - kImageFirst] !=
+        static_cast<std::uint8_t>(regs::DeviceVersion::kIcMb4)) {
+      return Error::kNotDetected;
+    }
+    for (unsigned address = kImageFirst; address < regs::kAddrStatus0; ++address) {
+      if (is_compared(address) && bytes[address - kImageFirst] != image[address - kImageFirst]) {
+        return ErrorInfo::at_register(Error::kVerify, static_cast<std::uint8_t>(address));
+      }
+    }
+    if (bytes[regs::kAddrIface - kImageFirst] != interface_byte) {
+      return ErrorInfo::at_register(Error::kVerify, regs::kAddrIface);
+    }
+    return {};
+  }
+
+  // REVISION and VERSION are constant; 0xE0, 0xE1 and 0xEE are reserved, what they read is not
+  // promised.
+  static constexpr bool is_compared(unsigned address) {
+    return (address < 0xE0 || address > 0xE1) && address != 0xEE &&
+           address != regs::kAddrRevision && address != regs::kAddrVersion;
+  }
+
+  Opcodes<Bus> opcodes_;
+  Fields<Bus> fields_;
+  SingleShot<Bus, Clock> single_shot_;
+  Config config_{};
+  bool configured_ = false;
+};
+
+}  // namespace mb4
+
+#endif  // MB4_DEVICE_HPP_

@@ -1,0 +1,24 @@
+// SPDX-FileCopyrightText: 2026 The openmb4 authors
+// SPDX-License-Identifier: Apache-2.0
+
+// The whole driver. Layers: opcodes (bytes) -> fields (typed bits) -> device (one chip) ->
+// acquisition (frames).
+
+#ifndef MB4_MB4_HPP_
+#define MB4_MB4_HPP_
+
+#include "mb4/acquisition.hpp"
+#include "mb4/bus.hpp"
+#include "mb4/config.hpp"
+#include "mb4/crc.hpp"
+#include "mb4/device.hpp"
+#include "mb4/fields.hpp"
+#include "mb4/opcodes.hpp"
+#include "mb4/reading.hpp"
+#include "mb4/register_image.hpp"
+#include "mb4/result.hpp"
+#include "mb4/span.hpp"
+#include "mb4/status.hpp"
+#include "mb4/version.hpp"
+
+#endif  // MB4_MB4_HPP_

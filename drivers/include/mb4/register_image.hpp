@@ -1,0 +1,94 @@
+// SPDX-FileCopyrightText: 2026 The openmb4 authors
+// SPDX-License-Identifier: Apache-2.0
+
+// A Config as the bytes that go into the chip. Used by Device; of use to others only for showing or
+// storing a register image.
+
+#ifndef MB4_REGISTER_IMAGE_HPP_
+#define MB4_REGISTER_IMAGE_HPP_
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+#include "mb4/config.hpp"
+#include "mb4/crc.hpp"
+#include "mb4_regs.hpp"
+
+namespace mb4 {
+
+// First and last register of the configuration burst. The range includes the constant REVISION and
+// VERSION, and ends behind the SVALID flags: chip and datasheet ignore writes to read-only bits
+// (page 21), so one burst sets everything and also clears the flags of old data.
+inline constexpr std::uint8_t kImageFirst = regs::kAddrSlaveCfg;
+inline constexpr std::uint8_t kImageLast = regs::kAddrSvalidHi;
+inline constexpr std::size_t kImageBytes = kImageLast - kImageFirst + 1;
+
+using RegisterImage = std::array<std::uint8_t, kImageBytes>;
+
+namespace detail {
+
+template <typename Field>
+constexpr void put(RegisterImage& image, std::uint8_t value) {
+  std::uint8_t& byte = image[Field::kAddress - kImageFirst];
+  byte = Field::insert(byte, value);
+}
+
+template <typename Field, typename Code>
+constexpr void put(RegisterImage& image, Code code) {
+  put<Field>(image, static_cast<std::uint8_t>(code));
+}
+
+constexpr void put_slave(RegisterImage& image, const SlaveConfig& slave, std::size_t number) {
+  const CrcCode crc_code = encode_crc(slave.crc_polynomial);
+  // All slaves have the same layout: the fields of slave 1 at the address of slave `number`.
+  const std::size_t base =
+      regs::slave_cfg_address(static_cast<unsigned>(number)) - std::size_t{kImageFirst};
+  image[base + regs::kSlaveCfgLengthOffset] = static_cast<std::uint8_t>(
+      regs::ENSCD<1>::encode<1>() |
+      regs::SCDLEN<1>::insert(0, static_cast<std::uint8_t>(slave.data_bits - 1U)));
+  image[base + regs::kSlaveCfgCrcOffset] =
+      regs::SELCRCS<1>::insert(crc_code.code, crc_code.by_polynomial ? 1 : 0);
+  image[base + regs::kSlaveCfgCrcstartLoOffset] = static_cast<std::uint8_t>(slave.crc_start);
+  image[base + regs::kSlaveCfgCrcstartHiOffset] = static_cast<std::uint8_t>(slave.crc_start >> 8);
+}
+
+}  // namespace detail
+
+// Registers kImageFirst..kImageLast for a valid `config`. Registers of slaves that are not enabled,
+// reserved registers and everything this driver version does not use are 0.
+[[nodiscard]] constexpr RegisterImage encode_registers(const Config& config) {
+  RegisterImage image{};
+  for (std::size_t number = 1; number <= kSlaves; ++number) {
+    if (config.slaves[number - 1].enabled) {
+      detail::put_slave(image, config.slaves[number - 1], number);
+    }
+  }
+  detail::put<regs::REGVERS>(image, regs::RegisterProtocol::kBissC);
+  // Table 36: FREQR = 5 must be set for BiSS C.
+  detail::put<regs::FREQR>(image, std::uint8_t{5});
+  detail::put<regs::FREQS>(image, freqs_code(config.f_clk_hz, config.ma_hz).value_or(0));
+  detail::put<regs::NOCRC>(
+      image, config.store_crc ? regs::CrcStorage::kStored : regs::CrcStorage::kDropped);
+  // Without AGS the rate only decides about SL = 0 at the start. AGSINFINITE is the other choice
+  // because nothing can then start by itself.
+  detail::put<regs::FREQAGS>(image, config.frame_start == FrameStart::kWaitForLine
+                                        ? regs::AgsRate::kAgsMin
+                                        : regs::AgsRate::kAgsInfinite);
+  // Bit 0 of 0xEC is constant 1 (table 6); writing what it reads keeps the comparison simple.
+  image[regs::kAddrSlaveloc5 - kImageFirst] = 0x01;
+  detail::put<regs::CFGCH1>(image, config.channels[0].protocol);
+  detail::put<regs::CFGCH2>(image, config.channels[1].protocol);
+  return image;
+}
+
+// Register 0xF5 for a valid `config`: clock source and interface; MA not forced, no factory test.
+[[nodiscard]] constexpr std::uint8_t encode_interface(const Config& config) {
+  const std::uint8_t byte =
+      regs::CFGIF::insert(0, static_cast<std::uint8_t>(config.line_interface));
+  return regs::CLKENI::insert(byte, static_cast<std::uint8_t>(config.clock_source));
+}
+
+}  // namespace mb4
+
+#endif  // MB4_REGISTER_IMAGE_HPP_

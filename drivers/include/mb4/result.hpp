@@ -1,0 +1,220 @@
+// SPDX-FileCopyrightText: 2026 The openmb4 authors
+// SPDX-License-Identifier: Apache-2.0
+
+// The driver's errors and `Result<T>`, which carries either a value or an error.
+
+#ifndef MB4_RESULT_HPP_
+#define MB4_RESULT_HPP_
+
+#include <cstdint>
+#include <type_traits>
+#include <utility>
+
+namespace mb4 {
+
+// Why a call failed. Three groups, by what has happened to the chip:
+//  * "not touched": no SPI transfer was made;
+//  * "read only": the chip was read, nothing in it was changed;
+//  * "touched": something was written, the text says in which state the chip is left.
+enum class Error : std::uint8_t {
+  // Success; a Result that holds a value reports this.
+  kNone = 0,
+  // An argument is out of its documented range. Not touched.
+  kInvalidArgument = 1,
+  // A Config member has an impossible value; ErrorInfo::field and ::number name it. Not touched.
+  kInvalidConfig = 2,
+  // A Config asks for something that the chip can do but this driver version cannot; ErrorInfo
+  // names the member. Not touched.
+  kUnsupported = 3,
+  // A frame was requested before configure() has succeeded. Not touched.
+  kNotConfigured = 4,
+  // Bus::transfer() returned false. Touched: that transfer may have reached the chip in part.
+  kTransport = 5,
+  // What was read cannot come from an iC-MB4: VERSION is not 0x84, or bits that are constant in
+  // the register map (datasheet pages 21, 22) read otherwise. MISO stuck at 0 or at 1, a wrong SPI
+  // mode and a missing chip look like this. Read only for probe(); touched for other calls.
+  kNotDetected = 6,
+  // Configuration reads back differently; ErrorInfo::address is the first such register. Touched:
+  // the configuration in the chip must not be used.
+  kVerify = 7,
+  // The frame has not ended in time and SL is not stuck: the slave does not answer or takes longer
+  // than the timeout, or the chip has no system clock. Touched: BREAK has been sent, the chip is
+  // idle.
+  kTimeout = 8,
+  // SL is low where it must be high. Either the chip refused to start the frame (nAGSERR = 0,
+  // datasheet pages 32, 34), or the frame did not end and SL is still low well after BREAK: broken
+  // or shorted line, slave without supply. Touched: BREAK has been sent, the chip is idle.
+  kLineError = 9,
+  // The frame came with a wrong CRC: nSCDERR = 0 or SVALIDx = 0 (datasheet pages 34, 35). Touched:
+  // one frame has run, the chip is idle and the next frame may be requested.
+  kCrc = 10,
+  // The frame ended without an error flag but holds no new data of this slave (SVALIDx = 0).
+  // Touched: one frame has run, the chip is idle.
+  kNoData = 11,
+  // The chip called the frame good, but what came over SPI contradicts it: bits beyond the data
+  // length are not 0, or the stored CRC does not match the data. Touched as for kCrc.
+  kCorrupted = 12,
+};
+
+// The Config member that an error is about. Values are stable; new ones are added at the end.
+enum class ConfigField : std::uint8_t {
+  kNone = 0,
+  kClkHz,            // Config::f_clk_hz
+  kClockSource,      // Config::clock_source
+  kMaHz,             // Config::ma_hz
+  kLineInterface,    // Config::line_interface
+  kFrameStart,       // Config::frame_start
+  kFrameTimeoutUs,   // Config::frame_timeout_us
+  kChannelProtocol,  // Config::channels[number - 1].protocol
+  kSlaveEnabled,     // Config::slaves[number - 1].enabled
+  kDataBits,         // Config::slaves[number - 1].data_bits
+  kFlags,            // Config::slaves[number - 1].flags
+  kCrcPolynomial,    // Config::slaves[number - 1].crc_polynomial
+  kCrcStart,         // Config::slaves[number - 1].crc_start
+};
+
+// An error with the place it is about.
+struct ErrorInfo {
+  Error code = Error::kNone;
+  // For kInvalidConfig and kUnsupported; otherwise kNone.
+  ConfigField field = ConfigField::kNone;
+  // Slave 1..8 or channel 1..2 that `field` belongs to; 0 for the whole chip.
+  std::uint8_t number = 0;
+  // Register address for kVerify; otherwise 0.
+  std::uint8_t address = 0;
+
+  constexpr ErrorInfo() = default;
+  constexpr ErrorInfo(Error error) : code(error) {}
+  constexpr ErrorInfo(Error error, ConfigField which, std::uint8_t which_number)
+      : code(error), field(which), number(which_number) {}
+
+  [[nodiscard]] static constexpr ErrorInfo at_register(Error error, std::uint8_t register_address) {
+    ErrorInfo info(error);
+    info.address = register_address;
+    return info;
+  }
+};
+
+// Short stable names for messages; they cost program memory only where they are used.
+[[nodiscard]] constexpr const char* to_string(Error error) {
+  switch (error) {
+    case Error::kNone:
+      return "none";
+    case Error::kInvalidArgument:
+      return "invalid argument";
+    case Error::kInvalidConfig:
+      return "invalid configuration";
+    case Error::kUnsupported:
+      return "unsupported configuration";
+    case Error::kNotConfigured:
+      return "not configured";
+    case Error::kTransport:
+      return "SPI transfer failed";
+    case Error::kNotDetected:
+      return "no iC-MB4 detected";
+    case Error::kVerify:
+      return "configuration reads back differently";
+    case Error::kTimeout:
+      return "frame did not end in time";
+    case Error::kLineError:
+      return "SL low at the start of the frame";
+    case Error::kCrc:
+      return "CRC error";
+    case Error::kNoData:
+      return "frame without data";
+    case Error::kCorrupted:
+      return "data corrupted on SPI";
+  }
+  return "unknown";
+}
+
+[[nodiscard]] constexpr const char* to_string(ConfigField field) {
+  switch (field) {
+    case ConfigField::kNone:
+      return "none";
+    case ConfigField::kClkHz:
+      return "f_clk_hz";
+    case ConfigField::kClockSource:
+      return "clock_source";
+    case ConfigField::kMaHz:
+      return "ma_hz";
+    case ConfigField::kLineInterface:
+      return "line_interface";
+    case ConfigField::kFrameStart:
+      return "frame_start";
+    case ConfigField::kFrameTimeoutUs:
+      return "frame_timeout_us";
+    case ConfigField::kChannelProtocol:
+      return "protocol";
+    case ConfigField::kSlaveEnabled:
+      return "enabled";
+    case ConfigField::kDataBits:
+      return "data_bits";
+    case ConfigField::kFlags:
+      return "flags";
+    case ConfigField::kCrcPolynomial:
+      return "crc_polynomial";
+    case ConfigField::kCrcStart:
+      return "crc_start";
+  }
+  return "unknown";
+}
+
+// Either a value or an error, never both. Test it (`if (result)`) before value().
+template <typename T>
+class [[nodiscard]] Result {
+ public:
+  constexpr Result(T value) : value_(std::move(value)) {}
+  // `error.code` must not be kNone: that would claim a value that does not exist.
+  constexpr Result(ErrorInfo error) : error_(error) { require(error.code != Error::kNone); }
+  constexpr Result(Error error) : Result(ErrorInfo(error)) {}
+
+  [[nodiscard]] constexpr bool ok() const { return error_.code == Error::kNone; }
+  [[nodiscard]] constexpr explicit operator bool() const { return ok(); }
+  [[nodiscard]] constexpr Error error() const { return error_.code; }
+  [[nodiscard]] constexpr const ErrorInfo& info() const { return error_; }
+
+  // The value. Calling it on an error is a programming mistake; it stops the program (trap
+  // instruction) instead of handing out a position that was never read.
+  [[nodiscard]] constexpr const T& value() const {
+    require(ok());
+    return value_;
+  }
+  [[nodiscard]] constexpr const T& operator*() const { return value(); }
+  [[nodiscard]] constexpr const T* operator->() const { return &value(); }
+
+  // The value, or `otherwise` for an error.
+  [[nodiscard]] constexpr T value_or(T otherwise) const { return ok() ? value_ : otherwise; }
+
+ private:
+  static constexpr void require(bool condition) {
+    if (!condition) {
+      __builtin_trap();
+    }
+  }
+
+  T value_{};
+  ErrorInfo error_{};
+};
+
+// Success without a value, or an error.
+template <>
+class [[nodiscard]] Result<void> {
+ public:
+  constexpr Result() = default;
+  // An ErrorInfo with kNone means success, so that a check's outcome can be returned as it is.
+  constexpr Result(ErrorInfo error) : error_(error) {}
+  constexpr Result(Error error) : error_(error) {}
+
+  [[nodiscard]] constexpr bool ok() const { return error_.code == Error::kNone; }
+  [[nodiscard]] constexpr explicit operator bool() const { return ok(); }
+  [[nodiscard]] constexpr Error error() const { return error_.code; }
+  [[nodiscard]] constexpr const ErrorInfo& info() const { return error_; }
+
+ private:
+  ErrorInfo error_{};
+};
+
+}  // namespace mb4
+
+#endif  // MB4_RESULT_HPP_

@@ -1,0 +1,68 @@
+// SPDX-FileCopyrightText: 2026 The openmb4 authors
+// SPDX-License-Identifier: Apache-2.0
+
+// The status registers as one snapshot (datasheet pages 34, 35).
+
+#ifndef MB4_STATUS_HPP_
+#define MB4_STATUS_HPP_
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+#include "mb4_regs.hpp"
+
+namespace mb4 {
+
+// 0xF0..0xF4 as read in one SPI frame. Flag names say the active meaning: `scd_error()` is true
+// when nSCDERR reads 0.
+class Status {
+ public:
+  static constexpr std::size_t kBytes = regs::kAddrInstr - regs::kAddrStatus0 + 1;
+
+  constexpr Status() = default;
+  explicit constexpr Status(const std::array<std::uint8_t, kBytes>& bytes) : bytes_(bytes) {}
+
+  // Value of any field of 0xF0..0xF4, right aligned.
+  template <typename Field>
+  [[nodiscard]] constexpr std::uint8_t get() const {
+    static_assert(Field::kAddress >= regs::kAddrStatus0 && Field::kAddress <= regs::kAddrInstr,
+                  "mb4: this field is not part of the status snapshot");
+    return Field::get(bytes_[Field::kAddress - regs::kAddrStatus0]);
+  }
+
+  // No frame, register access or INIT is running (EOT = 1).
+  [[nodiscard]] constexpr bool idle() const { return get<regs::EOT>() == 1; }
+  // No instruction waits for its frame or is being executed (INSTR = 0).
+  [[nodiscard]] constexpr bool instruction_done() const { return get<regs::INSTR>() == 0; }
+  // A frame could not be started (nAGSERR = 0).
+  [[nodiscard]] constexpr bool start_error() const { return get<regs::nAGSERR>() == 0; }
+  // A CRC of the last frame was wrong (nSCDERR = 0).
+  [[nodiscard]] constexpr bool scd_error() const { return get<regs::nSCDERR>() == 0; }
+  // NER is low (nERR = 0): one of the chip's errors, or another device on that pin.
+  [[nodiscard]] constexpr bool ner_low() const { return get<regs::nERR>() == 0; }
+  // SVALIDx of slave 1..8, of the bank that the host reads.
+  [[nodiscard]] constexpr bool valid(std::uint8_t slave) const {
+    return (bytes_[regs::kFamilySvalid.address(slave) - regs::kAddrStatus0] &
+            regs::kFamilySvalid.mask(slave)) != 0;
+  }
+
+  // The constant bits (table 6, page 22) read as they must: bit 1 of 0xF0 is 1, bits 0, 2, 4, 6 of
+  // 0xF1 and 0xF2 are 0. False for MISO stuck at 0 or at 1.
+  [[nodiscard]] constexpr bool plausible() const {
+    constexpr std::uint8_t kStatusOne = 0x02;
+    constexpr std::uint8_t kSvalidZeros = 0x55;
+    return (bytes_[0] & kStatusOne) != 0 &&
+           (bytes_[regs::kAddrSvalidLo - regs::kAddrStatus0] & kSvalidZeros) == 0 &&
+           (bytes_[regs::kAddrSvalidHi - regs::kAddrStatus0] & kSvalidZeros) == 0;
+  }
+
+  [[nodiscard]] constexpr const std::array<std::uint8_t, kBytes>& bytes() const { return bytes_; }
+
+ private:
+  std::array<std::uint8_t, kBytes> bytes_{};
+};
+
+}  // namespace mb4
+
+#endif  // MB4_STATUS_HPP_

@@ -1,0 +1,59 @@
+// SPDX-FileCopyrightText: 2026 The openmb4 authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// SPI host interface: pins to the host byte bus (instances only).
+//
+// Clock domain: SCLK. See mb4_spi_shift and mb4_spi_cmd for timing and misuse.
+// Datasheet: pages 11, 17..19.
+
+module mb4_spi (
+  input  logic       rst_ni,
+  // pins
+  input  logic       sclk_i,
+  input  logic       cs_ni,
+  input  logic       mosi_i,
+  output logic       miso_o,
+  output logic       miso_oe_o,  // 0 = high impedance
+  // host byte bus, sampled at the rising edge of sclk_i
+  output logic       wr_en_o,
+  output logic [7:0] wr_addr_o,
+  output logic [7:0] wr_data_o,
+  output logic       rd_en_o,
+  output logic [7:0] rd_addr_o,
+  input  logic [7:0] rd_data_i   // valid after that edge, until the next read
+);
+
+  logic       frame_rst_n;
+  logic       byte_valid;
+  logic [7:0] rx_byte;
+  logic       tx_en;
+
+  assign frame_rst_n = rst_ni && !cs_ni;
+
+  mb4_spi_shift u_shift (
+    .sclk_i,
+    .frame_rst_ni (frame_rst_n),
+    .mosi_i,
+    .miso_o,
+    .byte_valid_o (byte_valid),
+    .byte_o       (rx_byte),
+    .tx_en_i      (tx_en),
+    .tx_byte_i    (rd_data_i)
+  );
+
+  mb4_spi_cmd u_cmd (
+    .sclk_i,
+    .frame_rst_ni (frame_rst_n),
+    .byte_valid_i (byte_valid),
+    .byte_i       (rx_byte),
+    .tx_en_o      (tx_en),
+    .wr_en_o,
+    .wr_addr_o,
+    .wr_data_o,
+    .rd_en_o,
+    .rd_addr_o
+  );
+
+  assign miso_oe_o = !cs_ni;
+
+endmodule

@@ -1,0 +1,53 @@
+// SPDX-FileCopyrightText: 2026 The openmb4 authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// SPI serial-parallel conversion, mode 0 (SCLK idles low, MOSI taken on the rising edge, MISO
+// changes on the falling edge), most significant bit first.
+//
+// Clock domain: SCLK; no system clock is needed. NCS high resets the bit count, so that an aborted
+// byte has no effect. byte_valid_o and byte_o are combinational from MOSI and valid up to the
+// rising SCLK edge that completes a byte: the next falling edge must already carry its answer
+// (datasheet pages 11, 17..19: no dummy byte).
+// Misuse: SCLK high while NCS falls counts no bit; the frame starts with the next rising edge.
+
+module mb4_spi_shift (
+  input  logic       sclk_i,
+  input  logic       frame_rst_ni,  // low with NCS high or NRES low
+  input  logic       mosi_i,
+  output logic       miso_o,
+  // to and from the command decoder, rising SCLK edge
+  output logic       byte_valid_o,
+  output logic [7:0] byte_o,
+  input  logic       tx_en_i,       // 0: send zeros
+  input  logic [7:0] tx_byte_i
+);
+
+  logic [2:0] bit_q;
+  logic [6:0] shift_q;
+  logic       miso_q;
+  logic       miso_d;
+
+  always_ff @(posedge sclk_i or negedge frame_rst_ni) begin
+    if (!frame_rst_ni) begin
+      bit_q   <= 3'd0;
+      shift_q <= '0;
+    end else begin
+      bit_q   <= bit_q + 3'd1;
+      shift_q <= {shift_q[5:0], mosi_i};
+    end
+  end
+
+  assign byte_valid_o = bit_q == 3'd7;
+  assign byte_o       = {shift_q, mosi_i};
+
+  // After k rising edges of a byte the falling edge puts out bit 7 - k.
+  assign miso_d = tx_en_i && tx_byte_i[~bit_q];
+
+  always_ff @(negedge sclk_i or negedge frame_rst_ni) begin
+    if (!frame_rst_ni) miso_q <= 1'b0;
+    else               miso_q <= miso_d;
+  end
+
+  assign miso_o = miso_q;
+
+endmodule

@@ -1,0 +1,242 @@
+// SPDX-FileCopyrightText: 2026 The openmb4 authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// BiSS C frame on one line: drives MA, follows the slaves from the request to their timeout.
+//
+// Clock domain: core. start_i (with use_i) begins a frame at a restart of the time base: half a
+// period of MA high, then the first falling edge. MA changes at ticks only, so that no pulse is
+// shorter than half a period. After the last needed rising edge MA takes the inverted CDM and keeps
+// it through the slaves' timeout. MA edges: 5 + processing clocks + data and CRC bits, or as many as
+// had been sent when the start bit came back over a long line (decision 17).
+// frame_end_o: the last data bit has been taken. idle_o: the slaves' timeout is over as well.
+// init_i makes the two-pulse initialisation instead; init_done_o when the acknowledge has come,
+// init_fail_o after 255 quarter periods without it.
+// Misuse: start_i while idle_o is low is ignored. A slave that never answers keeps the frame running
+// until abort_i (decision 4); after it MA returns to 1 with the next tick.
+// Datasheet: pages 12, 15, 16, 27, 32, 33, Figures 8, 11, 13.
+
+`include "mb4_check.svh"
+
+module mb4_frame_biss (
+  input  logic       clk_i,
+  input  logic       rst_ni,
+  // control
+  input  logic       start_i,
+  input  logic       use_i,
+  input  logic       init_i,
+  input  logic       cdm_i,
+  input  logic       hold_cdm_i,
+  input  logic       abort_i,
+  // time base
+  input  logic       tick_i,
+  input  logic       half_next_i,
+  // sampler
+  output logic       armed_a_o,
+  output logic       armed_b_o,
+  input  logic       ack_i,
+  input  logic [7:0] quarters_i,
+  input  logic       sl_i,
+  input  logic       bit_valid_i,
+  input  logic       bit_i,
+  // words
+  input  logic       len_valid_i,
+  input  logic [6:0] len_i,
+  input  logic       any_word_i,
+  input  logic       last_word_i,
+  input  logic       word_done_i,
+  output logic       word_load_o,
+  output logic       word_bit_o,
+  // results
+  output logic       cds_o,
+  output logic       frame_end_o,
+  output logic       init_done_o,
+  output logic       init_fail_o,
+  output logic       idle_o,
+  output logic       timeout_o,    // waiting for SL = 1
+  output logic       ma_o
+);
+
+  typedef enum logic [2:0] {
+    IDLE,
+    REQUEST,
+    CDS,
+    DATA,
+    STOP,
+    TIMEOUT,
+    RELEASE
+  } state_e;
+
+  state_e             state_d;
+  state_e             state_q;
+  logic               ma_d;
+  logic               ma_q;
+  logic               clocking_d;
+  logic               clocking_q;
+  logic               cdm_d;
+  logic               cdm_q;
+  logic               init_d;
+  logic               init_q;
+  logic               started_d;
+  logic               started_q;   // the start bit has come
+  logic [1:0]         rises_d;
+  logic [1:0]         rises_q;     // rising edges up to 2
+  logic signed [10:0] need_d;
+  logic signed [10:0] need_q;      // rising edges still needed; -1: more were sent
+  logic               cds_d;
+  logic               cds_q;
+  logic               load_d;
+  logic               load_q;
+  logic               enough;
+  logic               rise;
+  logic               begin_frame;
+  logic               waited;      // one more processing clock
+
+  assign begin_frame = start_i && use_i && state_q == IDLE;
+  assign enough      = init_q ? rises_q == 2'd2 : started_q && need_q <= 11'sd0;
+
+  // MA at the ticks.
+  always_comb begin
+    ma_d       = ma_q;
+    clocking_d = clocking_q;
+    rise       = 1'b0;
+    if (begin_frame) begin
+      ma_d       = 1'b1;
+      clocking_d = 1'b1;
+    end else if (abort_i) begin
+      clocking_d = 1'b0;
+    end else if (tick_i && clocking_q) begin
+      if (!half_next_i) begin
+        ma_d       = enough ? !cdm_q : 1'b0;
+        clocking_d = !enough;
+      end else if (enough && cdm_q) begin
+        clocking_d = 1'b0;
+      end else begin
+        ma_d = 1'b1;
+        rise = 1'b1;
+      end
+    end else if (tick_i && (state_q == RELEASE || (state_q == TIMEOUT && sl_i && !hold_cdm_i))) begin
+      ma_d = 1'b1;
+    end
+  end
+
+  // Edges sent and needed.
+  always_comb begin
+    rises_d = rises_q;
+    need_d  = need_q;
+    if (begin_frame) begin
+      rises_d = 2'd0;
+      need_d  = 11'sd5;
+    end else begin
+      if (rise && rises_q != 2'd2) rises_d = rises_q + 2'd1;
+      need_d = need_q + (len_valid_i ? signed'({4'h0, len_i}) : 11'sd0)
+                      + (waited ? 11'sd1 : 11'sd0)
+                      - ((rise && !need_q[10]) ? 11'sd1 : 11'sd0);
+    end
+  end
+
+  // The frame.
+  always_comb begin
+    state_d     = state_q;
+    cdm_d       = cdm_q;
+    init_d      = init_q;
+    started_d   = started_q;
+    cds_d       = cds_q;
+    load_d      = 1'b0;
+    waited      = 1'b0;
+    word_bit_o  = 1'b0;
+    frame_end_o = 1'b0;
+    init_done_o = 1'b0;
+    init_fail_o = 1'b0;
+
+    unique case (state_q)
+      IDLE: begin
+        if (begin_frame) begin
+          state_d   = REQUEST;
+          cdm_d     = cdm_i && !init_i;
+          init_d    = init_i;
+          started_d = 1'b0;
+        end
+      end
+      REQUEST: begin
+        // Acknowledge and processing time, up to the start bit.
+        if (init_q) begin
+          init_done_o = ack_i;
+          init_fail_o = !ack_i && quarters_i == 8'hFF;
+          if (init_done_o || init_fail_o) state_d = TIMEOUT;
+        end else if (bit_valid_i) begin
+          waited    = !bit_i;
+          started_d = bit_i;
+          if (bit_i) state_d = CDS;
+        end
+      end
+      CDS: begin
+        if (bit_valid_i) begin
+          cds_d       = bit_i;
+          load_d      = any_word_i;
+          frame_end_o = !any_word_i;
+          state_d     = any_word_i ? DATA : STOP;
+        end
+      end
+      DATA: begin
+        word_bit_o = bit_valid_i;
+        if (word_done_i) begin
+          load_d      = !last_word_i;
+          frame_end_o = last_word_i;
+          if (last_word_i) state_d = STOP;
+        end
+      end
+      STOP: begin
+        // SL shows the last data bit up to here.
+        if (bit_valid_i) state_d = TIMEOUT;
+      end
+      TIMEOUT: begin
+        if (tick_i && sl_i && !clocking_q) state_d = IDLE;
+      end
+      RELEASE: begin
+        if (tick_i) state_d = IDLE;
+      end
+      default: state_d = RELEASE;
+    endcase
+
+    if (abort_i && (state_q != IDLE || !ma_q)) state_d = RELEASE;
+  end
+
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      state_q    <= IDLE;
+      ma_q       <= 1'b1;
+      clocking_q <= 1'b0;
+      cdm_q      <= 1'b0;
+      init_q     <= 1'b0;
+      started_q  <= 1'b0;
+      rises_q    <= '0;
+      need_q     <= '0;
+      cds_q      <= 1'b0;
+      load_q     <= 1'b0;
+    end else begin
+      state_q    <= state_d;
+      ma_q       <= ma_d;
+      clocking_q <= clocking_d;
+      cdm_q      <= cdm_d;
+      init_q     <= init_d;
+      started_q  <= started_d;
+      rises_q    <= rises_d;
+      need_q     <= need_d;
+      cds_q      <= cds_d;
+      load_q     <= load_d;
+    end
+  end
+
+  assign armed_a_o   = rises_q == 2'd2;
+  assign armed_b_o   = rises_d == 2'd2;
+  assign word_load_o = load_q;
+  assign cds_o       = cds_d;
+  assign idle_o      = state_q == IDLE;
+  assign timeout_o   = state_q == TIMEOUT;
+  assign ma_o        = ma_q;
+
+  `MB4_ASSERT(StateInRange_A, clk_i, rst_ni, state_q <= RELEASE)
+  `MB4_ASSERT_IF(IdleDoesNotClock_A, clk_i, rst_ni, state_q == IDLE, !clocking_q)
+  `MB4_ASSERT(NeedInRange_A, clk_i, rst_ni, need_q >= -11'sd1 && need_q <= 11'sd700)
+
+endmodule

@@ -1,0 +1,107 @@
+// SPDX-FileCopyrightText: 2026 The openmb4 authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Assembles one data word from received bits, most significant first, into bytes, and checks its CRC.
+//
+// Clock domain: core. load_i prepares for the word described by word_i, which stays until done_o.
+// Each bit_valid_i takes one bit. A byte is offered for one clock when its lowest bit has come:
+// data from the top used byte down to byte 0, unused bits of a written byte 0, then the re-inverted
+// CRC right aligned in byte 7 (a 16-bit CRC in bytes 7 and 6). done_o comes with the last bit;
+// ok_o tells the CRC's result with it.
+// Misuse: bits without a load continue the old word.
+// Datasheet: page 26, Tables 20..22; decision 28.
+
+module mb4_rx_word (
+  input  logic       clk_i,
+  input  logic       rst_ni,
+  input  mb4_pkg::word_cfg_t word_i,
+  input  logic       load_i,
+  input  logic       bit_valid_i,
+  input  logic       bit_i,
+  output logic       wr_en_o,
+  output logic [2:0] wr_byte_o,
+  output logic [7:0] wr_data_o,
+  output logic       done_o,
+  output logic       ok_o
+);
+
+  logic       in_crc_d;
+  logic       in_crc_q;
+  logic [5:0] left_d;
+  logic [5:0] left_q;    // bits of the current part that follow this one
+  logic [6:0] part_d;
+  logic [6:0] part_q;
+  logic       good_d;
+  logic       good_q;
+  logic       crc_top;
+  logic       value;
+  logic       crc_fits;
+
+  mb4_crc u_crc (
+    .clk_i,
+    .rst_ni,
+    .poly_i  (word_i.crc_poly),
+    .top_i   (word_i.crc_top),
+    .start_i (word_i.crc_start),
+    .load_i,
+    .shift_i (bit_valid_i),
+    .feed_i  (!in_crc_q),
+    .bit_i,
+    .top_o   (crc_top)
+  );
+
+  // CRC bits are sent inverted.
+  assign value    = bit_i ^ in_crc_q;
+  assign crc_fits = good_q && value == crc_top;
+
+  always_comb begin
+    in_crc_d  = in_crc_q;
+    left_d    = left_q;
+    part_d    = part_q;
+    good_d    = good_q;
+    wr_en_o   = 1'b0;
+    wr_byte_o = left_q[5:3];
+    wr_data_o = {part_q, value};
+    done_o    = 1'b0;
+    ok_o      = 1'b1;
+
+    if (load_i) begin
+      in_crc_d = 1'b0;
+      left_d   = word_i.data_last;
+      part_d   = '0;
+      good_d   = 1'b1;
+    end else if (bit_valid_i) begin
+      left_d = left_q - 6'd1;
+      part_d = (left_q[2:0] == 3'd0) ? 7'h00 : {part_q[5:0], value};
+      if (!in_crc_q) begin
+        wr_en_o = left_q[2:0] == 3'd0;
+        if (left_q == 6'd0) begin
+          in_crc_d = 1'b1;
+          left_d   = 6'(word_i.crc_len) - 6'd1;
+          done_o   = word_i.crc_len == 5'd0;
+        end
+      end else begin
+        good_d    = crc_fits;
+        ok_o      = crc_fits;
+        done_o    = left_q == 6'd0;
+        wr_en_o   = word_i.crc_store && left_q[2:0] == 3'd0;
+        wr_byte_o = (word_i.crc_len[4] && left_q == 6'd0) ? 3'd6 : 3'd7;
+      end
+    end
+  end
+
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      in_crc_q <= 1'b0;
+      left_q   <= '0;
+      part_q   <= '0;
+      good_q   <= 1'b0;
+    end else begin
+      in_crc_q <= in_crc_d;
+      left_q   <= left_d;
+      part_q   <= part_d;
+      good_q   <= good_d;
+    end
+  end
+
+endmodule

@@ -1,0 +1,138 @@
+// SPDX-FileCopyrightText: 2026 The openmb4 authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// SL input of one line: synchroniser for both clock edges, line-delay measurement, bit sampling.
+//
+// Clock domain: core; SL is asynchronous, captured by a flop on each clock edge (the only falling
+// edge use in the chip) and by a second one on the rising edge: a sample is used two clocks after it
+// was taken.
+// From the second rising MA edge on the sampling points are counted up to and including the first
+// that reads 0 (the acknowledge): quarters_o. Every bit is then taken one sampling point after that
+// phase, mid-bit: with no delay at the falling MA edge. bit_valid_o is high for one clock a bit, the
+// first time in the period after the acknowledge.
+// Misuse: SL already low when armed gives 1; quarters_o stops at 255.
+// Datasheet: page 12 (I304, I305, four sampling points); decisions 2, 17.
+
+`include "mb4_check.svh"
+
+module mb4_sl_sampler (
+  input  logic       clk_i,
+  input  logic       rst_ni,
+  input  logic       sl_i,         // pin
+  // time base
+  input  logic       smp_a_i,
+  input  logic       smp_b_i,
+  input  logic       smp_half_i,
+  input  logic       smp_b_neg_i,
+  // frame engine: points a and b after the second rising MA edge, not yet delayed
+  input  logic       clear_i,
+  input  logic       armed_a_i,
+  input  logic       armed_b_i,
+  // results
+  output logic       sl_o,         // synchronised level
+  output logic       ack_o,        // line delay is known
+  output logic [7:0] quarters_o,
+  output logic       bit_valid_o,
+  output logic       bit_o
+);
+
+  logic       pos1_q;
+  logic       pos2_q;
+  logic       neg1_q;
+  logic       neg2_q;
+  logic [1:0] armed_a_q;
+  logic [1:0] armed_b_q;
+  logic       value_a;
+  logic       value_b;
+  logic       look_a;
+  logic       look_b;
+  logic       hit_a;
+  logic       hit_b;
+  logic       found_q;
+  logic       found_d;
+  logic [1:0] phase_q;   // sampling point of the bits: {after the falling edge, middle}
+  logic [1:0] phase_d;
+  logic       skip_q;
+  logic       skip_d;
+  logic [7:0] quarters_q;
+  logic [7:0] quarters_d;
+  logic       at_phase;
+
+  always_ff @(negedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) neg1_q <= 1'b1;
+    else         neg1_q <= sl_i;
+  end
+
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      pos1_q    <= 1'b1;
+      pos2_q    <= 1'b1;
+      neg2_q    <= 1'b1;
+      armed_a_q <= '0;
+      armed_b_q <= '0;
+    end else begin
+      pos1_q    <= sl_i;
+      pos2_q    <= pos1_q;
+      neg2_q    <= neg1_q;
+      armed_a_q <= {armed_a_q[0], armed_a_i};
+      armed_b_q <= {armed_b_q[0], armed_b_i};
+    end
+  end
+
+  assign value_a = pos2_q;
+  assign value_b = smp_b_neg_i ? neg2_q : pos2_q;
+  assign look_a  = smp_a_i && armed_a_q[1] && !found_q;
+  assign look_b  = smp_b_i && armed_b_q[1] && !found_q;
+  assign hit_a   = look_a && !value_a;
+  assign hit_b   = look_b && !value_b && !hit_a;
+
+  always_comb begin
+    at_phase   = found_q && smp_half_i != phase_q[1] && (phase_q[0] ? smp_b_i : smp_a_i);
+    found_d    = found_q;
+    phase_d    = phase_q;
+    skip_d     = skip_q && !at_phase;
+    quarters_d = quarters_q;
+    if (clear_i) begin
+      found_d    = 1'b0;
+      skip_d     = 1'b0;
+      quarters_d = 8'd0;
+    end else if (!found_q) begin
+      // Point a comes before point b; both in one clock at the highest MA frequency.
+      if (look_a && quarters_d != 8'hFF)           quarters_d = quarters_d + 8'd1;
+      if (look_b && !hit_a && quarters_d != 8'hFF) quarters_d = quarters_d + 8'd1;
+      found_d = hit_a || hit_b;
+      // The point after the one that read 0. It still lies in the acknowledge: left out, if it has
+      // not gone by in this very clock.
+      if (hit_a) begin
+        phase_d = {!smp_half_i, 1'b1};
+        skip_d  = !smp_b_i;
+      end else if (hit_b) begin
+        phase_d = {smp_half_i, 1'b0};
+        skip_d  = 1'b1;
+      end
+    end
+  end
+
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      found_q    <= 1'b0;
+      phase_q    <= '0;
+      skip_q     <= 1'b0;
+      quarters_q <= '0;
+    end else begin
+      found_q    <= found_d;
+      phase_q    <= phase_d;
+      skip_q     <= skip_d;
+      quarters_q <= quarters_d;
+    end
+  end
+
+  assign sl_o        = pos2_q;
+  assign ack_o       = found_q;
+  assign quarters_o  = quarters_q;
+  assign bit_valid_o = at_phase && !skip_q;
+  assign bit_o       = phase_q[0] ? value_b : value_a;
+
+  `MB4_ASSERT_NEXT(AckIsKept_A, clk_i, rst_ni, found_q && !clear_i, found_q)
+
+endmodule

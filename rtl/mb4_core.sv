@@ -1,0 +1,298 @@
+// SPDX-FileCopyrightText: 2026 The openmb4 authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// The chip without pins: SPI host, registers, control, two lines (instances and glue only). This is
+// what an FPGA design instantiates.
+//
+// Clock domains: sclk_i (host) and clk_i (core). Registers 0xC0..0xFB are written and read with no
+// core clock; frames, data memories and instructions need it. rst_ni is asynchronous: it reaches the
+// host domain as it is, because SCLK stands still while a reset ends, and the core synchronised.
+// In this version a line takes part in frames if its CFGCH is BiSS C, line 2 only with
+// SLAVELOC5 = 1; other protocols, MO, RDATA traffic and the MA force bits are not there yet.
+// Datasheet: pages 15..36. Crossings: docs/crossings.md.
+
+module mb4_core (
+  input  logic       clk_i,
+  input  logic       rst_ni,
+  // SPI
+  input  logic       sclk_i,
+  input  logic       cs_ni,
+  input  logic       mosi_i,
+  output logic       miso_o,
+  output logic       miso_oe_o,
+  // status
+  output logic       eot_o,
+  output logic       ner_low_o,   // an error flag is set: pull NER low
+  input  logic       ner_i,       // level at NER
+  output logic       clkeni_o,    // 1 = internal oscillator
+  // lines
+  output logic       ma1_o,
+  input  logic       sl1_i,
+  output logic       ma2_o,
+  input  logic       sl2_i,
+  // constants
+  input  logic [mb4_pkg::QUIRKS_W-1:0] quirks_i
+);
+
+  logic       rst_core_n;
+
+  // host byte bus
+  logic       wr_en;
+  logic [7:0] wr_addr;
+  logic [7:0] wr_data;
+  logic       rd_en;
+  logic [7:0] rd_addr;
+  logic [7:0] rd_data;
+
+  // registers
+  logic [mb4_pkg::NUM_SLAVES*mb4_pkg::SLAVE_CFG_W-1:0] slave_cfg;
+  mb4_pkg::cfg_t    cfg;
+  mb4_pkg::instr_t  written;
+  mb4_pkg::instr_t  held;
+  mb4_pkg::status_t status;
+  logic       instr_toggle;
+  logic       instr_ack;
+
+  // memories and banks
+  logic mem_busy;
+  logic bank_pending;
+  logic bank_end;
+  logic holdbank;
+  logic swbank_pulse;
+
+  // control
+  logic [7:0] half_len;
+  logic       tick;
+  logic       half_next;
+  logic       smp_a, smp_b, smp_half, smp_b_neg;
+  logic       start, init, cdm, abort;
+  logic       cdssel;
+  logic [1:0] in_use;
+  logic [1:0] idle;
+  logic [1:0] timeout;
+  logic [1:0] sl;
+  logic [1:0] frame_end;
+  logic [1:0] word_done;
+  logic [1:0] word_ok;
+  logic [1:0] init_done;
+  logic [1:0] init_fail;
+  logic [1:0] cds;
+  logic [1:0] ma;
+  logic       n_scderr, n_agserr;
+
+  // words of the two lines; slices of flat vectors, one slice a line
+  localparam int unsigned WORD_W = mb4_pkg::WORD_CFG_W;
+  logic [1:0]          len_valid;
+  logic [13:0]         len;
+  logic [1:0]          any_word;
+  logic [1:0]          last_word;
+  logic [5:0]          slave;
+  logic [2*WORD_W-1:0] word;
+  logic [15:0]         mine;
+  logic [1:0]          line_wr_en;
+  logic [5:0]          line_wr_byte;
+  logic [15:0]         line_wr_data;
+  logic [15:0]         quarters;
+
+  mb4_reset_sync u_reset (
+    .clk_i,
+    .rst_ni,
+    .rst_sync_no (rst_core_n)
+  );
+
+  // ---- host ---------------------------------------------------------------------------------
+
+  mb4_spi u_spi (
+    .rst_ni,
+    .sclk_i,
+    .cs_ni,
+    .mosi_i,
+    .miso_o,
+    .miso_oe_o,
+    .wr_en_o   (wr_en),
+    .wr_addr_o (wr_addr),
+    .wr_data_o (wr_data),
+    .rd_en_o   (rd_en),
+    .rd_addr_o (rd_addr),
+    .rd_data_i (rd_data)
+  );
+
+  // ---- registers ----------------------------------------------------------------------------
+
+  mb4_reg_file u_regs (
+    .clk_i,
+    .rst_ni         (rst_core_n),
+    .hclk_i         (sclk_i),
+    .hrst_ni        (rst_ni),
+    .wr_en_i        (wr_en),
+    .wr_addr_i      (wr_addr),
+    .wr_data_i      (wr_data),
+    .rd_en_i        (rd_en),
+    .rd_addr_i      (rd_addr),
+    .rd_data_o      (rd_data),
+    .slave_cfg_o    (slave_cfg),
+    .cfg_o          (cfg),
+    .written_o      (written),
+    .toggle_o       (instr_toggle),
+    .ack_i          (instr_ack),
+    .held_i         (held),
+    .status_i       (status),
+    .revision_sel_i (quirks_i[mb4_pkg::QUIRK_REVISION_LSB +: 2]),
+    .mem_busy_o     (mem_busy),
+    .holdbank_i     (holdbank),
+    .swbank_pulse_i (swbank_pulse),
+    .bank_end_i     (bank_end),
+    .bank_pending_o (bank_pending),
+    .wr_line_i      (line_wr_en),
+    .wr_byte_i      (line_wr_byte),
+    .wr_line_data_i (line_wr_data),
+    .slave_i        (slave),
+    .word_done_i    (word_done),
+    .word_ok_i      (word_ok),
+    .delay_en_i     (init_done),
+    .delay_i        (quarters)
+  );
+
+  // ---- control ------------------------------------------------------------------------------
+
+  assign in_use = {cfg.cfgch2 == mb4_regs_pkg::PROTOCOL_BISS_C && cfg.slaveloc5,
+                   cfg.cfgch1 == mb4_regs_pkg::PROTOCOL_BISS_C};
+  assign cdssel = (cfg.chsel == 2'b10) ? cds[1] : cds[0];
+
+  mb4_sequencer u_sequencer (
+    .clk_i,
+    .rst_ni            (rst_core_n),
+    .written_i         (written),
+    .toggle_i          (instr_toggle),
+    .ack_o             (instr_ack),
+    .held_o            (held),
+    .mem_busy_i        (mem_busy),
+    .agsmin_i          (cfg.freqags == mb4_regs_pkg::AGS_RATE_AGS_MIN),
+    .regvers_i         (cfg.regvers),
+    .use_i             (in_use),
+    .agserr_on_hold_i  (quirks_i[mb4_pkg::QUIRK_AGSERR_ON_HOLDBANK]),
+    .agserr_on_write_i (quirks_i[mb4_pkg::QUIRK_AGSERR_ON_INSTR_WR]),
+    .start_o           (start),
+    .init_o            (init),
+    .cdm_o             (cdm),
+    .abort_o           (abort),
+    .tick_i            (tick),
+    .cdssel_i          (cdssel),
+    .idle_i            (idle),
+    .timeout_i         (timeout),
+    .sl_i              (sl),
+    .frame_end_i       (frame_end),
+    .word_done_i       (word_done),
+    .word_ok_i         (word_ok),
+    .init_done_i       (init_done),
+    .init_fail_i       (init_fail),
+    .bank_pending_i    (bank_pending),
+    .bank_end_o        (bank_end),
+    .holdbank_o        (holdbank),
+    .swbank_pulse_o    (swbank_pulse),
+    .eot_o             (eot_o),
+    .n_scderr_o        (n_scderr),
+    .n_agserr_o        (n_agserr),
+    .swbank_fail_o     (status.swbank_fail)
+  );
+
+  mb4_freqs_dec u_freqs (
+    .freqs_i    (cfg.freqs),
+    .half_len_o (half_len)
+  );
+
+  mb4_timebase u_timebase (
+    .clk_i,
+    .rst_ni      (rst_core_n),
+    .half_len_i  (half_len),
+    .run_i       (idle != 2'b11),
+    .restart_i   (start),
+    .tick_o      (tick),
+    .half_next_o (half_next),
+    .smp_a_o     (smp_a),
+    .smp_b_o     (smp_b),
+    .smp_half_o  (smp_half),
+    .smp_b_neg_o (smp_b_neg)
+  );
+
+  // ---- lines --------------------------------------------------------------------------------
+
+  assign mine = cfg.slaveloc5 ? 16'hF00F : 16'h00FF;
+
+  for (genvar i = 0; i < 2; i++) begin : gen_line
+    mb4_word_list u_words (
+      .clk_i,
+      .rst_ni      (rst_core_n),
+      .slave_cfg_i (slave_cfg),
+      .mine_i      (mine[i*8 +: 8]),
+      .nocrc_i     (cfg.nocrc),
+      .start_i     (start),
+      .next_i      (word_done[i]),
+      .len_valid_o (len_valid[i]),
+      .len_o       (len[i*7 +: 7]),
+      .any_o       (any_word[i]),
+      .last_o      (last_word[i]),
+      .slave_o     (slave[i*3 +: 3]),
+      .word_o      (word[i*WORD_W +: WORD_W])
+    );
+
+    mb4_channel u_channel (
+      .clk_i,
+      .rst_ni      (rst_core_n),
+      .start_i     (start),
+      .use_i       (in_use[i]),
+      .init_i      (init),
+      .cdm_i       (cdm),
+      .hold_cdm_i  (cfg.holdcdm),
+      .abort_i     (abort),
+      .tick_i      (tick),
+      .half_next_i (half_next),
+      .smp_a_i     (smp_a),
+      .smp_b_i     (smp_b),
+      .smp_half_i  (smp_half),
+      .smp_b_neg_i (smp_b_neg),
+      .len_valid_i (len_valid[i]),
+      .len_i       (len[i*7 +: 7]),
+      .any_word_i  (any_word[i]),
+      .last_word_i (last_word[i]),
+      .word_i      (word[i*WORD_W +: WORD_W]),
+      .wr_en_o     (line_wr_en[i]),
+      .wr_byte_o   (line_wr_byte[i*3 +: 3]),
+      .wr_data_o   (line_wr_data[i*8 +: 8]),
+      .word_done_o (word_done[i]),
+      .word_ok_o   (word_ok[i]),
+      .cds_o       (cds[i]),
+      .frame_end_o (frame_end[i]),
+      .init_done_o (init_done[i]),
+      .init_fail_o (init_fail[i]),
+      .quarters_o  (quarters[i*8 +: 8]),
+      .idle_o      (idle[i]),
+      .timeout_o   (timeout[i]),
+      .sl_o        (sl[i]),
+      .ma_o        (ma[i]),
+      .sl_i        (i == 0 ? sl1_i : sl2_i)
+    );
+  end
+
+  // ---- status -------------------------------------------------------------------------------
+
+  assign status.eot         = eot_o;
+  assign status.n_scderr    = n_scderr;
+  assign status.n_agserr    = n_agserr;
+  assign status.n_delayerr  = 1'b1;
+  assign status.n_regerr    = 1'b1;
+  assign status.regend      = 1'b0;
+  assign status.n_err       = ner_i && !ner_low_o;
+  assign status.cdm_timeout = 1'b0;
+  assign status.cdssel      = cdssel;
+  assign status.regbytes    = 6'd0;
+  assign status.cds1        = cds[0];
+  assign status.cds2        = cds[1];
+  assign status.sl1         = sl1_i;
+  assign status.sl2         = sl2_i;
+  assign ner_low_o          = !(n_scderr && n_agserr);
+  assign clkeni_o           = cfg.clkeni;
+  assign ma1_o              = ma[0];
+  assign ma2_o              = ma[1];
+
+endmodule

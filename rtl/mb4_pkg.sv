@@ -1,0 +1,103 @@
+// SPDX-FileCopyrightText: 2026 The openmb4 authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Types and numbers shared by the whole chip. Register addresses and field positions are not here
+// but in the generated mb4_regs_pkg; neither package refers to the other.
+
+package mb4_pkg;
+
+  // Single-cycle data channels of the chip and width of one channel's four configuration bytes
+  // (0xC0 + 4 (x - 1) .. + 3, first byte in bits 7:0).
+  localparam int unsigned NUM_SLAVES  = 8;
+  localparam int unsigned SLAVE_CFG_W = 32;
+
+  typedef struct packed {
+    logic [15:0] crc_start;  // SCRCSTARTx
+    logic        selcrc;     // SELCRCSx: 1 = crc_code is the polynomial without its last 1
+    logic [6:0]  crc_code;   // SCRCLENx or SCRCPOLYx(7:1)
+    logic        gray_lstop; // GRAYSx (SSI) or LSTOPx (actuator)
+    logic        enscd;      // ENSCDx
+    logic [5:0]  scdlen;     // SCDLENx: data bits minus 1
+  } slave_cfg_t;
+
+  // Everything the host configures outside the slaves (0xE2..0xEF, 0xF5).
+  typedef struct packed {
+    logic       wnr;
+    logic [6:0] regadr;
+    logic [5:0] regnum;
+    logic [1:0] chsel;
+    logic       cts;
+    logic       regvers;
+    logic [2:0] slaveid;     // or CMD(1:0), IDA_TEST
+    logic       en_mo;
+    logic       holdcdm;
+    logic [2:0] freqr;
+    logic [4:0] freqs;
+    logic       nocrc;
+    logic       singlebank;
+    logic [7:0] freqags;
+    logic [7:0] mo_busy;
+    logic       slaveloc5;
+    logic [1:0] cfgch2;
+    logic [1:0] cfgch1;
+    logic [7:0] actnsens;
+    logic       mavo;
+    logic       mafo;
+    logic       mavs;
+    logic       mafs;
+    logic [1:0] cfgif;
+    logic       entest;
+    logic       clkeni;
+  } cfg_t;
+
+  // One data word as the line engine sees it: lengths and CRC decoded, no register map in it.
+  typedef struct packed {
+    logic [5:0]  data_last;  // data bits minus 1
+    logic [4:0]  crc_len;    // 0, 1..8 or 16
+    logic [15:0] crc_poly;   // without the highest power, right aligned
+    logic [15:0] crc_top;    // one-hot: highest bit of the remainder
+    logic [15:0] crc_start;
+    logic        crc_store;  // received CRC goes to the top byte(s)
+  } word_cfg_t;
+
+  localparam int unsigned WORD_CFG_W = 60;
+
+  // What 0xF4 holds (datasheet Tables 44..49), bit 7 first.
+  typedef struct packed {
+    logic       brk;
+    logic       holdbank;
+    logic       swbank;
+    logic       init;
+    logic [2:0] instr;
+    logic       ags;
+  } instr_t;
+
+  // Status as the core drives it, one flop a bit; SVALID comes from its banks.
+  typedef struct packed {
+    logic       n_err;
+    logic       n_agserr;
+    logic       n_delayerr;
+    logic       n_scderr;
+    logic       n_regerr;
+    logic       regend;
+    logic       eot;
+    logic       cdm_timeout;
+    logic       cdssel;
+    logic [5:0] regbytes;
+    logic       cds2;
+    logic       sl2;
+    logic       cds1;
+    logic       sl1;
+    logic       swbank_fail;
+  } status_t;
+
+  // Quirks: one static input vector by which real silicon can be matched (docs/choices.md).
+  localparam int unsigned QUIRKS_W                   = 6;
+  localparam int unsigned QUIRK_IDA_TEST_INVERT      = 0;
+  localparam int unsigned QUIRK_AGSERR_ON_INSTR_WR   = 1;
+  localparam int unsigned QUIRK_AGSERR_ON_HOLDBANK   = 2;
+  localparam int unsigned QUIRK_AGS_CLEARED_ON_ERROR = 3;
+  localparam int unsigned QUIRK_REVISION_LSB         = 4;  // 2 bits: 0 = Y, 1 = Z, 2 = Z1
+  localparam logic [5:0]  QUIRKS_DEFAULT             = 6'b000100;
+
+endpackage

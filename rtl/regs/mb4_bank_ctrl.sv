@@ -1,0 +1,45 @@
+// SPDX-FileCopyrightText: 2026 The openmb4 authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Which bank belongs to the host and which to the line engine.
+//
+// Clock domain: core. A frame's end swaps the banks, unless HOLDBANK is set: then the swap stays
+// pending and happens when HOLDBANK is cleared. A change of SWBANK swaps once, held or not.
+// With SINGLEBANK both sides use the host's bank and nothing swaps at a frame's end.
+// Datasheet: pages 26, 31, 33, Tables 38, 48, 49; decision 15.
+
+module mb4_bank_ctrl (
+  input  logic clk_i,
+  input  logic rst_ni,
+  input  logic singlebank_i,
+  input  logic holdbank_i,
+  input  logic swbank_pulse_i,  // SWBANK has changed its value
+  input  logic frame_end_i,
+  output logic pending_o,
+  output logic host_bank_o,
+  output logic eng_bank_o
+);
+
+  logic host_q;
+  logic pending_q;
+  logic want;
+  logic swap;
+
+  assign want = (pending_q || frame_end_i) && !singlebank_i;
+  assign swap = want && !holdbank_i;
+
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      host_q    <= 1'b0;
+      pending_q <= 1'b0;
+    end else begin
+      host_q    <= host_q ^ swap ^ swbank_pulse_i;
+      pending_q <= want && holdbank_i;
+    end
+  end
+
+  assign pending_o   = pending_q;
+  assign host_bank_o = host_q;
+  assign eng_bank_o  = host_q ^ !singlebank_i;
+
+endmodule

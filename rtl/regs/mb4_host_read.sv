@@ -1,0 +1,109 @@
+// SPDX-FileCopyrightText: 2026 The openmb4 authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Host read side: chooses the source of every address and holds the byte for the host interface.
+//
+// Clock domain: host (hclk_i). rd_data_o is valid after the edge with rd_en_i and stays until the
+// next one. Core status bits are asynchronous here: each is sampled by one flop of its own (the read
+// register) half an SCLK period before the first of them reaches MISO.
+// Misuse: reserved addresses read 0 (decision 13).
+// Datasheet: pages 21, 22, 34..36, Tables 6, 41, 42, 54..67.
+
+module mb4_host_read (
+  input  logic       hclk_i,
+  input  logic       rst_ni,
+  // host byte bus
+  input  logic       rd_en_i,
+  input  logic [7:0] rd_addr_i,
+  output logic [7:0] rd_data_o,
+  // sources
+  input  logic       ram_ready_i,    // core: memories are cleared
+  input  logic [7:0] scd_lo_data_i,  // read registers of the memories, same edge as rd_en_i
+  input  logic [7:0] scd_hi_data_i,
+  input  logic [7:0] rdata_data_i,
+  input  logic [7:0] cfg_data_i,     // combinational from rd_addr_i
+  input  logic [7:0] instr_data_i,
+  input  logic       instr_pending_i,
+  input  mb4_pkg::status_t status_i,
+  input  logic [7:0] svalid_i,       // of the bank that the host owns
+  input  logic [1:0] revision_sel_i
+);
+
+  typedef enum logic [1:0] {
+    REGISTER,
+    SCD_LO,
+    SCD_HI,
+    RDATA
+  } source_e;
+
+  source_e    source_d;
+  source_e    source_q;
+  logic [7:0] reg_d;
+  logic [7:0] reg_q;
+
+  always_comb begin
+    source_d = REGISTER;
+    if (ram_ready_i) begin
+      unique casez (rd_addr_i)
+        8'b000?????: source_d = SCD_LO;
+        8'b001?????: source_d = SCD_HI;
+        8'b10??????: source_d = RDATA;
+        default:     source_d = REGISTER;
+      endcase
+    end
+  end
+
+  always_comb begin
+    unique case (rd_addr_i)
+      mb4_regs_pkg::ADDR_REVISION:
+        unique case (revision_sel_i)
+          2'd1:    reg_d = 8'h10;
+          2'd2:    reg_d = 8'h11;
+          default: reg_d = mb4_regs_pkg::RESET_REVISION;
+        endcase
+      mb4_regs_pkg::ADDR_VERSION:
+        reg_d = mb4_regs_pkg::RESET_VERSION;
+      mb4_regs_pkg::ADDR_STATUS0:
+        reg_d = {status_i.n_err, status_i.n_agserr, status_i.n_delayerr, status_i.n_scderr,
+                 status_i.n_regerr, status_i.regend, 1'b1, status_i.eot && !instr_pending_i};
+      mb4_regs_pkg::ADDR_SVALID_LO:
+        reg_d = {svalid_i[3], 1'b0, svalid_i[2], 1'b0,
+                 svalid_i[1], 1'b0, svalid_i[0], 1'b0};
+      mb4_regs_pkg::ADDR_SVALID_HI:
+        reg_d = {svalid_i[7], 1'b0, svalid_i[6], 1'b0,
+                 svalid_i[5], 1'b0, svalid_i[4], 1'b0};
+      mb4_regs_pkg::ADDR_STATUS3:
+        reg_d = {status_i.cdm_timeout, status_i.cdssel, status_i.regbytes};
+      mb4_regs_pkg::ADDR_INSTR:
+        reg_d = instr_data_i;
+      mb4_regs_pkg::ADDR_STATUS8:
+        reg_d = {4'b0101, status_i.cds2, status_i.sl2, status_i.cds1, status_i.sl1};
+      mb4_regs_pkg::ADDR_STATUS9:
+        reg_d = mb4_regs_pkg::RESET_STATUS9;
+      mb4_regs_pkg::ADDR_SWBANKFAIL:
+        reg_d = {7'b0000000, status_i.swbank_fail};
+      default:
+        reg_d = cfg_data_i;
+    endcase
+  end
+
+  always_ff @(posedge hclk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      source_q <= REGISTER;
+      reg_q    <= '0;
+    end else if (rd_en_i) begin
+      source_q <= source_d;
+      reg_q    <= reg_d;
+    end
+  end
+
+  always_comb begin
+    unique case (source_q)
+      SCD_LO:  rd_data_o = scd_lo_data_i;
+      SCD_HI:  rd_data_o = scd_hi_data_i;
+      RDATA:   rd_data_o = rdata_data_i;
+      default: rd_data_o = reg_q;
+    endcase
+  end
+
+endmodule

@@ -1,0 +1,33 @@
+// SPDX-FileCopyrightText: 2026 The openmb4 authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Clears the data memories after reset, one address of every memory a clock, 64 clocks.
+//
+// Clock domain: core. busy_o is high from reset until the last address is cleared; meanwhile the
+// host reads 0, posted host writes wait and no frame starts.
+// Datasheet: page 22 (all RAM registers are reset to 0).
+
+module mb4_ram_clear (
+  input  logic       clk_i,
+  input  logic       rst_ni,
+  output logic       busy_o,
+  output logic [5:0] addr_o
+);
+
+  logic       done_q;
+  logic [5:0] addr_q;
+
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      done_q <= 1'b0;
+      addr_q <= '0;
+    end else if (!done_q) begin
+      done_q <= addr_q == 6'h3F;
+      addr_q <= addr_q + 6'd1;
+    end
+  end
+
+  assign busy_o = !done_q;
+  assign addr_o = addr_q;
+
+endmodule

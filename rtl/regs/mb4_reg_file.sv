@@ -1,0 +1,298 @@
+// SPDX-FileCopyrightText: 2026 The openmb4 authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Everything that has an address: configuration, instruction register, data memories with their
+// banks, validity flags, and the read side (instances and glue only).
+//
+// Clock domains: host (hclk_i) and core (clk_i). SCDATA, RDATA and SVALID live in the core domain:
+// host writes to them are posted and need a running core clock; everything else works without it.
+// Bit i of a vector {2, 1} belongs to line i + 1.
+// Datasheet: pages 21..36. Crossings: docs/crossings.md.
+
+module mb4_reg_file (
+  input  logic       clk_i,
+  input  logic       rst_ni,          // core domain
+  input  logic       hclk_i,
+  input  logic       hrst_ni,         // host domain
+  // host byte bus, sampled at the rising edge of hclk_i
+  input  logic       wr_en_i,
+  input  logic [7:0] wr_addr_i,
+  input  logic [7:0] wr_data_i,
+  input  logic       rd_en_i,
+  input  logic [7:0] rd_addr_i,
+  output logic [7:0] rd_data_o,
+  // configuration, host domain, quasi-static
+  output logic [mb4_pkg::NUM_SLAVES*mb4_pkg::SLAVE_CFG_W-1:0] slave_cfg_o,
+  output mb4_pkg::cfg_t    cfg_o,
+  // instruction register
+  output mb4_pkg::instr_t  written_o,
+  output logic             toggle_o,
+  input  logic             ack_i,
+  input  mb4_pkg::instr_t  held_i,
+  // status, core domain, without SVALID
+  input  mb4_pkg::status_t status_i,
+  input  logic [1:0]       revision_sel_i,
+  // memories and banks
+  output logic       mem_busy_o,
+  input  logic       holdbank_i,
+  input  logic       swbank_pulse_i,
+  input  logic       bank_end_i,
+  output logic       bank_pending_o,
+  // received bytes and words of lines {2, 1}
+  input  logic [1:0]  wr_line_i,
+  input  logic [5:0]  wr_byte_i,
+  input  logic [15:0] wr_line_data_i,
+  input  logic [5:0]  slave_i,
+  input  logic [1:0]  word_done_i,
+  input  logic [1:0]  word_ok_i,
+  input  logic [1:0]  delay_en_i,
+  input  logic [15:0] delay_i
+);
+
+  logic [7:0]  cfg_data;
+  logic [7:0]  instr_data;
+  logic        instr_pending;
+  logic        clear_busy;
+  logic [5:0]  clear_addr;
+  logic        clear_busy_h;
+  logic        post_wr;
+  logic        post_valid;
+  logic        post_ready;
+  logic [15:0] post_data;
+  logic        post_lo;
+  logic        post_hi;
+  logic        post_rdata;
+  logic        post_svalid_lo;
+  logic        post_svalid_hi;
+  logic        ready_lo;
+  logic        ready_hi;
+  logic        ready_rdata;
+  logic [7:0]  scd_lo_data;
+  logic [7:0]  scd_hi_data;
+  logic [7:0]  rdata_data;
+  logic        host_bank;
+  logic        host_bank_h;
+  logic        eng_bank;
+  logic        lo_wr_en;
+  logic [5:0]  lo_wr_addr;
+  logic [7:0]  lo_wr_data;
+  logic        hi_wr_en;
+  logic [5:0]  hi_wr_addr;
+  logic [7:0]  hi_wr_data;
+  logic [7:0]  svalid;
+
+  // ---- registers ----------------------------------------------------------------------------
+
+  mb4_cfg_regs u_cfg (
+    .hclk_i,
+    .rst_ni (hrst_ni),
+    .wr_en_i,
+    .wr_addr_i,
+    .wr_data_i,
+    .rd_addr_i,
+    .rd_data_o   (cfg_data),
+    .slave_cfg_o,
+    .cfg_o
+  );
+
+  mb4_instr_reg u_instr (
+    .hclk_i,
+    .rst_ni (hrst_ni),
+    .wr_en_i,
+    .wr_addr_i,
+    .wr_data_i,
+    .rd_data_o (instr_data),
+    .pending_o (instr_pending),
+    .written_o,
+    .toggle_o,
+    .ack_i,
+    .held_i
+  );
+
+  mb4_host_read u_read (
+    .hclk_i,
+    .rst_ni (hrst_ni),
+    .rd_en_i,
+    .rd_addr_i,
+    .rd_data_o,
+    .ram_ready_i     (!clear_busy_h),
+    .scd_lo_data_i   (scd_lo_data),
+    .scd_hi_data_i   (scd_hi_data),
+    .rdata_data_i    (rdata_data),
+    .cfg_data_i      (cfg_data),
+    .instr_data_i    (instr_data),
+    .instr_pending_i (instr_pending),
+    .status_i,
+    .svalid_i        (svalid),
+    .revision_sel_i
+  );
+
+  mb4_sync_bit #(.ResetValue(1'b1)) u_clear_busy_sync (
+    .clk_i  (hclk_i),
+    .rst_ni (hrst_ni),
+    .data_i (clear_busy),
+    .data_o (clear_busy_h)
+  );
+
+  mb4_sync_bit u_host_bank_sync (
+    .clk_i  (hclk_i),
+    .rst_ni (hrst_ni),
+    .data_i (host_bank),
+    .data_o (host_bank_h)
+  );
+
+  // ---- memories -----------------------------------------------------------------------------
+
+  // SCDATA, RDATA and SVALID live in the core domain; writes to them are posted.
+  assign post_wr = wr_en_i && (wr_addr_i < 8'h40 ||
+                             wr_addr_i[7:6] == mb4_regs_pkg::ADDR_RDATA[7:6] ||
+                             wr_addr_i == mb4_regs_pkg::ADDR_SVALID_LO ||
+                             wr_addr_i == mb4_regs_pkg::ADDR_SVALID_HI);
+
+  mb4_posted #(.Width(16)) u_posted (
+    .hclk_i,
+    .hrst_ni,
+    .wr_en_i   (post_wr),
+    .wr_data_i ({wr_addr_i, wr_data_i}),
+    .clk_i,
+    .rst_ni,
+    .valid_o   (post_valid),
+    .data_o    (post_data),
+    .ready_i   (post_ready)
+  );
+
+  assign post_lo        = post_valid && post_data[15:13] == 3'b000;
+  assign post_hi        = post_valid && post_data[15:13] == 3'b001;
+  assign post_rdata     = post_valid && post_data[15:14] == 2'b10;
+  assign post_svalid_lo = post_valid && post_data[15:8] == mb4_regs_pkg::ADDR_SVALID_LO;
+  assign post_svalid_hi = post_valid && post_data[15:8] == mb4_regs_pkg::ADDR_SVALID_HI;
+  assign post_ready     = (ready_lo || !post_lo) && (ready_hi || !post_hi) &&
+                          (ready_rdata || !post_rdata);
+
+  assign mem_busy_o = clear_busy;
+
+  mb4_ram_clear u_clear (
+    .clk_i,
+    .rst_ni,
+    .busy_o (clear_busy),
+    .addr_o (clear_addr)
+  );
+
+  mb4_scd_bank u_scd_lo (
+    .clk_i,
+    .clear_i        (clear_busy),
+    .clear_addr_i   (clear_addr),
+    .eng_wr_en_i    (lo_wr_en),
+    .eng_wr_addr_i  (lo_wr_addr),
+    .eng_wr_data_i  (lo_wr_data),
+    .host_wr_en_i   (post_lo),
+    .host_wr_addr_i ({host_bank, post_data[12:8]}),
+    .host_wr_data_i (post_data[7:0]),
+    .host_ready_o   (ready_lo),
+    .hclk_i,
+    .rd_en_i,
+    .rd_addr_i      ({host_bank_h, rd_addr_i[4:0]}),
+    .rd_data_o      (scd_lo_data)
+  );
+
+  mb4_scd_bank u_scd_hi (
+    .clk_i,
+    .clear_i        (clear_busy),
+    .clear_addr_i   (clear_addr),
+    .eng_wr_en_i    (hi_wr_en),
+    .eng_wr_addr_i  (hi_wr_addr),
+    .eng_wr_data_i  (hi_wr_data),
+    .host_wr_en_i   (post_hi),
+    .host_wr_addr_i ({host_bank, post_data[12:8]}),
+    .host_wr_data_i (post_data[7:0]),
+    .host_ready_o   (ready_hi),
+    .hclk_i,
+    .rd_en_i,
+    .rd_addr_i      ({host_bank_h, rd_addr_i[4:0]}),
+    .rd_data_o      (scd_hi_data)
+  );
+
+  // RDATA has one bank and, until control communication exists, one writer: the host.
+  mb4_scd_bank u_rdata (
+    .clk_i,
+    .clear_i        (clear_busy),
+    .clear_addr_i   (clear_addr),
+    .eng_wr_en_i    (1'b0),
+    .eng_wr_addr_i  (6'd0),
+    .eng_wr_data_i  (8'd0),
+    .host_wr_en_i   (post_rdata),
+    .host_wr_addr_i (post_data[13:8]),
+    .host_wr_data_i (post_data[7:0]),
+    .host_ready_o   (ready_rdata),
+    .hclk_i,
+    .rd_en_i,
+    .rd_addr_i      (rd_addr_i[5:0]),
+    .rd_data_o      (rdata_data)
+  );
+
+  mb4_bank_ctrl u_bank (
+    .clk_i,
+    .rst_ni,
+    .singlebank_i   (cfg_o.singlebank),
+    .holdbank_i,
+    .swbank_pulse_i,
+    .frame_end_i    (bank_end_i),
+    .pending_o      (bank_pending_o),
+    .host_bank_o    (host_bank),
+    .eng_bank_o     (eng_bank)
+  );
+
+  // Validity flags of the lower and the upper four data channels.
+  mb4_svalid u_svalid_lo (
+    .clk_i,
+    .rst_ni,
+    .host_bank_i (host_bank),
+    .eng_bank_i  (eng_bank),
+    .set_en_i    (word_done_i[0] && !slave_i[2]),
+    .set_slave_i (slave_i[1:0]),
+    .set_valid_i (word_ok_i[0]),
+    .keep_en_i   (post_svalid_lo),
+    .keep_i      ({post_data[7], post_data[5], post_data[3], post_data[1]}),
+    .svalid_o    (svalid[3:0])
+  );
+
+  mb4_svalid u_svalid_hi (
+    .clk_i,
+    .rst_ni,
+    .host_bank_i (host_bank),
+    .eng_bank_i  (eng_bank),
+    .set_en_i    (cfg_o.slaveloc5 ? word_done_i[1] && slave_i[5] : word_done_i[0] && slave_i[2]),
+    .set_slave_i (cfg_o.slaveloc5 ? slave_i[4:3] : slave_i[1:0]),
+    .set_valid_i (cfg_o.slaveloc5 ? word_ok_i[1] : word_ok_i[0]),
+    .keep_en_i   (post_svalid_hi),
+    .keep_i      ({post_data[7], post_data[5], post_data[3], post_data[1]}),
+    .svalid_o    (svalid[7:4])
+  );
+
+  // ---- received data ----------------------------------------------------------------------
+
+  mb4_rx_router u_router (
+    .slaveloc5_i    (cfg_o.slaveloc5),
+    .host_bank_i    (host_bank),
+    .eng_bank_i     (eng_bank),
+    .ch1_slave_i    (slave_i[2:0]),
+    .ch1_wr_en_i    (wr_line_i[0]),
+    .ch1_wr_byte_i  (wr_byte_i[2:0]),
+    .ch1_wr_data_i  (wr_line_data_i[7:0]),
+    .ch1_delay_en_i (delay_en_i[0]),
+    .ch1_delay_i    (delay_i[7:0]),
+    .ch2_slave_i    (slave_i[5:3]),
+    .ch2_wr_en_i    (wr_line_i[1]),
+    .ch2_wr_byte_i  (wr_byte_i[5:3]),
+    .ch2_wr_data_i  (wr_line_data_i[15:8]),
+    .ch2_delay_en_i (delay_en_i[1]),
+    .ch2_delay_i    (delay_i[15:8]),
+    .lo_wr_en_o     (lo_wr_en),
+    .lo_wr_addr_o   (lo_wr_addr),
+    .lo_wr_data_o   (lo_wr_data),
+    .hi_wr_en_o     (hi_wr_en),
+    .hi_wr_addr_o   (hi_wr_addr),
+    .hi_wr_data_o   (hi_wr_data)
+  );
+
+endmodule

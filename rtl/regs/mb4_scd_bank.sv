@@ -1,0 +1,66 @@
+// SPDX-FileCopyrightText: 2026 The openmb4 authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Single-cycle data of four slaves in two banks: 2 x 32 bytes (SCDATA1..4 or SCDATA5..8).
+//
+// Clock domains: writes in the core clock, host reads in hclk_i (data valid after the edge with
+// rd_en_i). Write priority: clearing after reset, then the line engine, then the host; host_ready_o
+// tells that the host's posted byte is taken in this clock. The line engine writes at most every
+// second clock, so the host waits one clock at most.
+// Datasheet: page 26, Table 20.
+
+module mb4_scd_bank (
+  input  logic       clk_i,
+  // clearing after reset
+  input  logic       clear_i,
+  input  logic [5:0] clear_addr_i,
+  // line engine: bank, slave within the four, byte
+  input  logic       eng_wr_en_i,
+  input  logic [5:0] eng_wr_addr_i,
+  input  logic [7:0] eng_wr_data_i,
+  // host, posted into the core domain
+  input  logic       host_wr_en_i,
+  input  logic [5:0] host_wr_addr_i,
+  input  logic [7:0] host_wr_data_i,
+  output logic       host_ready_o,
+  // host read port
+  input  logic       hclk_i,
+  input  logic       rd_en_i,
+  input  logic [5:0] rd_addr_i,
+  output logic [7:0] rd_data_o
+);
+
+  logic       wr_en;
+  logic [5:0] wr_addr;
+  logic [7:0] wr_data;
+
+  always_comb begin
+    wr_en        = host_wr_en_i;
+    wr_addr      = host_wr_addr_i;
+    wr_data      = host_wr_data_i;
+    host_ready_o = 1'b1;
+    if (clear_i) begin
+      wr_en        = 1'b1;
+      wr_addr      = clear_addr_i;
+      wr_data      = 8'h00;
+      host_ready_o = 1'b0;
+    end else if (eng_wr_en_i) begin
+      wr_en        = 1'b1;
+      wr_addr      = eng_wr_addr_i;
+      wr_data      = eng_wr_data_i;
+      host_ready_o = 1'b0;
+    end
+  end
+
+  mb4_ram #(.Width(8), .AddrW(6)) u_ram (
+    .wclk_i    (clk_i),
+    .wr_en_i   (wr_en),
+    .wr_addr_i (wr_addr),
+    .wr_data_i (wr_data),
+    .rclk_i    (hclk_i),
+    .rd_en_i,
+    .rd_addr_i,
+    .rd_data_o
+  );
+
+endmodule

@@ -1,0 +1,58 @@
+// SPDX-FileCopyrightText: 2026 The openmb4 authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Watches MA of one line at the chip's pin: edges of each frame, widths of its levels and what MA
+// does in the timeout. It needs no knowledge of the slaves: a frame starts with a falling edge
+// after a rest, and a rest is 1.5 periods (falling #1 to rising #2 of the frame) without an edge.
+#ifndef MB4SIM_MA_MONITOR_HPP_
+#define MB4SIM_MA_MONITOR_HPP_
+
+#include <cstdint>
+
+#include "mb4sim/time.hpp"
+
+namespace mb4::sim {
+
+// One frame as seen on MA. Widths are between two edges inside the frame; 0 if there was none.
+struct MaFrame {
+  Time start = 0;              // first falling edge
+  Time last_edge = 0;
+  std::uint64_t rising = 0;    // rising edges
+  std::uint64_t falling = 0;   // falling edges, the first one included
+  Time min_high = 0;
+  Time max_high = 0;
+  Time min_low = 0;
+  Time max_low = 0;
+  // Rest behind the frame: level and how long it has lasted (until the next edge, or until now).
+  bool rest_level = true;
+  Time rest = 0;
+};
+
+class MaMonitor {
+ public:
+  // Rest that ends a frame which has not reached its second rising edge.
+  static constexpr Time kUnmeasuredRest = 40 * kPsPerUs;
+
+  void edge(Time now, bool level);
+
+  // Frames that have started.
+  std::uint64_t frames() const { return frames_; }
+  // True while a frame is being clocked.
+  bool running(Time now) const { return active_ && now < current_.last_edge + rest_limit(); }
+  // The last frame whose clock has ended, or the running one if it is the first.
+  MaFrame last(Time now) const;
+
+ private:
+  Time rest_limit() const { return rest_limit_ == 0 ? kUnmeasuredRest : rest_limit_; }
+
+  std::uint64_t frames_ = 0;
+  bool active_ = false;      // current_ has started and no rest was seen at an edge since
+  bool level_ = true;
+  Time rest_limit_ = 0;
+  MaFrame current_;
+  MaFrame finished_;
+};
+
+}  // namespace mb4::sim
+
+#endif  // MB4SIM_MA_MONITOR_HPP_

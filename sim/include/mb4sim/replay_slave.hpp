@@ -1,0 +1,79 @@
+// SPDX-FileCopyrightText: 2026 The openmb4 authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// A slave that plays a recorded frame whenever a frame starts. It does not know BiSS: it answers
+// the first falling edge of MA in idle with the recorded edges of SL.
+#ifndef MB4SIM_REPLAY_SLAVE_HPP_
+#define MB4SIM_REPLAY_SLAVE_HPP_
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+
+#include "mb4sim/biss_c_slave.hpp"
+#include "mb4sim/crc.hpp"
+#include "mb4sim/replay_recording.hpp"
+#include "mb4sim/slave.hpp"
+#include "mb4sim/time.hpp"
+
+namespace mb4::sim {
+
+struct ReplaySlaveConfig {
+  // kTime: each edge at its recorded time after the first falling edge of MA.
+  // kClock: each edge after the rising edge of MA it belonged to when recorded, with the recorded
+  // remainder, so the recording can be played at another frequency. Edges whose clock does not
+  // come are left out; SL goes to 1 when MA has been constant for the timeout.
+  enum class Play { kTime, kClock };
+
+  std::string name = "replay";
+  ReplayRecording recording;
+  Play play = Play::kTime;
+  SlaveTimeout timeout;  // kClock only
+  // What the recording holds; the slave itself does not need them.
+  unsigned data_bits = 1;
+  unsigned flag_bits = 0;
+  Crc crc;
+};
+
+class ReplaySlave final : public Slave {
+ public:
+  explicit ReplaySlave(const ReplaySlaveConfig& config);
+
+  void sample(bool /*sli*/) override {}
+  void ma_edge(Time now, bool ma, bool sli) override;
+  void sli_changed(Time /*now*/, bool /*sli*/) override {}
+  Time deadline() const override;
+  void timer(Time now, bool sli) override;
+  bool slo() const override { return slo_; }
+  bool idle() const override { return !active_; }
+
+  unsigned data_bits() const override { return config_.data_bits; }
+  bool set_data(std::uint64_t /*raw*/) override { return false; }
+
+  const ReplaySlaveConfig& config() const { return config_; }
+
+ private:
+  // kClock: the recorded edge's rising edge of MA, counted from 1, and the time after it.
+  struct Place {
+    std::uint64_t rising;
+    Time after;
+  };
+  Place place(std::size_t index) const;
+  Time next_edge() const;
+  void play_due(Time now);
+
+  ReplaySlaveConfig config_;
+  bool active_ = false;
+  bool ma_ = true;
+  bool slo_ = true;
+  std::size_t next_ = 0;
+  std::uint64_t risings_ = 0;
+  Time first_falling_ = 0;
+  Time last_edge_ = 0;
+  Time last_rising_ = 0;
+  Time timeout_ = 0;
+};
+
+}  // namespace mb4::sim
+
+#endif  // MB4SIM_REPLAY_SLAVE_HPP_

@@ -1,0 +1,84 @@
+// SPDX-FileCopyrightText: 2026 The openmb4 authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// A scenario: everything outside and around the chip, as read from a TOML file. sim/README.md lists
+// every key with unit, range and default.
+#ifndef MB4SIM_SCENARIO_HPP_
+#define MB4SIM_SCENARIO_HPP_
+
+#include <cstdint>
+#include <map>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "mb4sim/biss_c_slave.hpp"
+#include "mb4sim/replay_slave.hpp"
+#include "mb4sim/time.hpp"
+
+namespace mb4::sim {
+
+// Largest number of slaves of a chip (single-cycle data channels).
+inline constexpr unsigned kMaxSlaves = 8;
+
+struct ChipConfig {
+  std::uint64_t f_clk_hz = 20'000'000;  // pin CLK; 0 = not connected, pin stays 0
+  std::uint64_t f_osc_hz = 20'000'000;  // internal oscillator
+  // quirks_i of the chip, bits as in mb4_pkg; the default sets AGSERR_ON_HOLDBANK only.
+  unsigned quirks = 0b000100;
+
+  // Frequency the chip is meant to run from: pin CLK if connected, else the oscillator.
+  std::uint64_t system_hz() const { return f_clk_hz != 0 ? f_clk_hz : f_osc_hz; }
+};
+
+struct HostConfig {
+  std::uint64_t sclk_hz = 10'000'000;
+  // MA frequency that `mb4sim run` sets up; always one the chip can make.
+  std::uint64_t ma_hz = 10'000'000;
+};
+
+struct SlaveConfig {
+  std::variant<BissCSlaveConfig, ReplaySlaveConfig> device;
+  std::map<std::uint8_t, std::uint8_t> registers;
+
+  const std::string& name() const;
+  unsigned data_bits() const;
+  unsigned flag_bits() const;
+  const Crc& crc() const;
+};
+
+struct ChannelConfig {
+  unsigned number = 1;  // 1 or 2
+  Time delay = 0;       // round trip, ps
+  std::vector<SlaveConfig> slaves;  // first = next to SL
+};
+
+struct Scenario {
+  std::string name = "scenario";  // file name as given, for messages
+  ChipConfig chip;
+  HostConfig host;
+  std::vector<ChannelConfig> channels;  // each number at most once
+  std::uint64_t seed = 1;
+
+  const ChannelConfig* channel(unsigned number) const;
+};
+
+// A mistake in a scenario or in a file it names. what() is one complete line:
+// "file:line:column: key 'x': message", without line and column where there is none.
+class ScenarioError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+// Reads a scenario from TOML text. `name` is used in messages and, up to its last slash, as the
+// folder to which file names inside the scenario are relative. Throws ScenarioError.
+Scenario parse_scenario(std::string_view text, const std::string& name);
+
+// The same from a file.
+Scenario load_scenario(const std::string& path);
+
+}  // namespace mb4::sim
+
+#endif  // MB4SIM_SCENARIO_HPP_

@@ -1,0 +1,119 @@
+// SPDX-FileCopyrightText: 2026 The openmb4 authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// One chip with its clock, reset, host and lines: the whole simulation. Objects are independent of
+// each other; one is used by one thread at a time.
+#ifndef MB4SIM_SIMULATOR_HPP_
+#define MB4SIM_SIMULATOR_HPP_
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "mb4sim/event_queue.hpp"
+#include "mb4sim/host_pins.hpp"
+#include "mb4sim/line.hpp"
+#include "mb4sim/model_stopped.hpp"
+#include "mb4sim/pins.hpp"
+#include "mb4sim/scenario.hpp"
+#include "mb4sim/slave.hpp"
+#include "mb4sim/spi_host.hpp"
+#include "mb4sim/time.hpp"
+
+namespace mb4::sim {
+
+class ChipModel;
+
+struct SimulatorOptions {
+  std::optional<std::uint64_t> seed;      // instead of the scenario's
+  std::optional<std::string> trace_path;  // FST waveform file
+};
+
+class Simulator final : public HostPins {
+ public:
+  // Builds everything, resets the chip (NRES low for kResetLow) and returns at kReady.
+  // Throws ScenarioError if the trace file cannot be written.
+  explicit Simulator(const Scenario& scenario, const SimulatorOptions& options = {});
+  ~Simulator();
+  Simulator(const Simulator&) = delete;
+  Simulator& operator=(const Simulator&) = delete;
+
+  static constexpr Time kResetLow = 500 * kPsPerNs;  // E08: at least 250 ns
+  static constexpr Time kReady = 1000 * kPsPerNs;
+
+  // --- time ----------------------------------------------------------------------------------
+  Time now() const override { return now_; }
+  // Runs up to and including `time`; nothing if it has passed. Everything that lets time pass or
+  // moves a pin throws ModelStopped when an assertion in the RTL fails, and again at every later
+  // call. Not to be called from inside a callback.
+  void run_until(Time time) override;
+  void advance(Time duration) { run_until(now_ + duration); }
+  // Runs until `done` returns true, asked after every event and every change of an output, but not
+  // beyond `limit`. Returns whether it became true.
+  bool run_while_waiting(const std::function<bool()>& done, Time limit);
+  // Calls back at `time`, not before now().
+  void at(Time time, std::function<void()> callback) { queue_.post(time, std::move(callback)); }
+  // Rising edges of the chip's system clock: pin CLK or, with CLKENI = 1, the oscillator.
+  std::uint64_t clk_cycles() const;
+
+  // --- pins ----------------------------------------------------------------------------------
+  // Drives a pin from outside. It stays so until the next call. No effect on output pins, on SL of
+  // a channel that the scenario has, and on CLK if it is connected. NER: false pulls it low, true
+  // leaves it to the pull-up.
+  void set_pin(Pin pin, bool level) override;
+  // Level of any pin as a voltmeter would see it.
+  bool pin(Pin pin) const override;
+  // False for pins that set_pin() ignores.
+  bool can_set(Pin pin) const;
+
+  // --- hosts, lines, slaves ------------------------------------------------------------------
+  SpiHost& spi() { return spi_; }
+  // Null if the scenario has no such channel (1 or 2).
+  Line* line(unsigned channel);
+  // Slave by the number of its SCDATAx, 1 to 8: channel 1 counts from 1; channel 2 from 5. Null if
+  // there is none.
+  Slave* slave(unsigned number);
+  const Slave* slave(unsigned number) const;
+  // Applies changed line faults (SlFaults::stick) to the SL pins now.
+  void refresh_lines();
+
+  const Scenario& scenario() const { return scenario_; }
+  std::uint64_t seed() const { return seed_; }
+  // Completes the waveform file as far as time has gone.
+  void flush_trace();
+
+ private:
+  struct SlPin {
+    Simulator* simulator;
+    Pin pin;
+  };
+  static void on_probe(Time now, void* receiver);
+  static void on_sl(Time now, void* receiver, bool level);
+
+  bool step(Time limit);
+  void drive_chip(Pin pin, bool level);
+  void settle();
+  void check_alive() const;
+
+  Scenario scenario_;
+  std::uint64_t seed_;
+  EventQueue queue_;
+  std::unique_ptr<ChipModel> chip_;
+  std::array<SlPin, 2> sl_pins_;
+  std::array<std::unique_ptr<Line>, 2> lines_;
+  SpiHost spi_;
+  Time now_ = 0;
+  unsigned seen_ = 0;           // watched outputs that have been acted upon
+  bool settling_ = false;
+  bool ner_pulled_ = false;     // by something outside
+  std::array<bool, 32> levels_{};  // of input pins, by Pin
+  std::optional<ModelStopped> stopped_;
+};
+
+}  // namespace mb4::sim
+
+#endif  // MB4SIM_SIMULATOR_HPP_

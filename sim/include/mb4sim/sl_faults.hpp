@@ -1,0 +1,42 @@
+// SPDX-FileCopyrightText: 2026 The openmb4 authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Faults of one line on purpose: inverted bits in the next frame, and a data line that is stuck.
+#ifndef MB4SIM_SL_FAULTS_HPP_
+#define MB4SIM_SL_FAULTS_HPP_
+
+#include <optional>
+#include <vector>
+
+namespace mb4::sim {
+
+class SlFaults {
+ public:
+  // Inverts these bits of the next frame that reaches its start bit. Bits are counted on the wire
+  // in periods of MA: 0 = start bit, 1 = CDS, 2 = first data bit (MSB of slave 1), and so on
+  // through the CRC and the slaves behind. Several calls add up.
+  void flip_next_frame(std::vector<unsigned> bits);
+  // Level of pin SL whatever the slaves say; without a value the line works again. Takes effect
+  // with the next change on the line or with Simulator::refresh().
+  void stick(std::optional<bool> level) { stuck_ = level; }
+  std::optional<bool> stuck() const { return stuck_; }
+
+  // --- used by Line --------------------------------------------------------------------------
+  void rising_edge();                  // MA rises at the slaves
+  void levels(bool slo, bool idle);    // after each change at the slaves
+  bool wire(bool slo) const { return slo != flip_now_; }
+
+ private:
+  void update();
+
+  std::vector<unsigned> pending_;
+  std::optional<bool> stuck_;
+  bool acknowledged_ = false;
+  bool counting_ = false;
+  unsigned bit_ = 0;
+  bool flip_now_ = false;
+};
+
+}  // namespace mb4::sim
+
+#endif  // MB4SIM_SL_FAULTS_HPP_

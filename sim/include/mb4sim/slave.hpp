@@ -1,0 +1,70 @@
+// SPDX-FileCopyrightText: 2026 The openmb4 authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// What every device on a line offers: the side the line sees (clock and data pins) and the back
+// door by which a test sets the world and looks at what arrived.
+#ifndef MB4SIM_SLAVE_HPP_
+#define MB4SIM_SLAVE_HPP_
+
+#include <array>
+#include <cstdint>
+
+#include "mb4sim/time.hpp"
+
+namespace mb4::sim {
+
+class Slave {
+ public:
+  Slave() = default;
+  Slave(const Slave&) = delete;
+  Slave& operator=(const Slave&) = delete;
+  virtual ~Slave() = default;
+
+  // --- line side, called by SlaveChain -------------------------------------------------------
+  // A change of MA goes to all slaves of a chain at once: first sample() on each with the levels
+  // before the edge, then ma_edge() from the far slave to the near one with the new levels.
+  virtual void sample(bool sli) = 0;
+  virtual void ma_edge(Time now, bool ma, bool sli) = 0;
+  // SLI changed without an edge of MA.
+  virtual void sli_changed(Time now, bool sli) = 0;
+  // Next time the slave wants timer() to be called if nothing happens before; kNever if none.
+  virtual Time deadline() const = 0;
+  virtual void timer(Time now, bool sli) = 0;
+  // Level of pin SLO.
+  virtual bool slo() const = 0;
+  // True between two frames: the timeout has elapsed.
+  virtual bool idle() const = 0;
+
+  // --- back door -----------------------------------------------------------------------------
+  // Length of the process data in bits, without CRC.
+  virtual unsigned data_bits() const = 0;
+  // Raw word that is latched from now on. False if it does not fit into data_bits() or the slave
+  // has no data of its own (replay).
+  virtual bool set_data(std::uint64_t raw) = 0;
+  // Frames seen: those in which the slave has sent its start bit.
+  std::uint64_t frames() const { return frames_; }
+  // CDM bits taken so far, and the last of them: the inverted level of MA at the end of the
+  // timeout. False before the first.
+  std::uint64_t cdm_count() const { return cdm_count_; }
+  bool last_cdm() const { return last_cdm_; }
+  // The slave's own register file, every address valid.
+  std::uint8_t reg_read(std::uint8_t address) const { return registers_[address]; }
+  void reg_write(std::uint8_t address, std::uint8_t value) { registers_[address] = value; }
+
+ protected:
+  void count_frame() { ++frames_; }
+  void take_cdm(bool cdm) {
+    last_cdm_ = cdm;
+    ++cdm_count_;
+  }
+
+ private:
+  std::array<std::uint8_t, 256> registers_{};
+  std::uint64_t frames_ = 0;
+  std::uint64_t cdm_count_ = 0;
+  bool last_cdm_ = false;
+};
+
+}  // namespace mb4::sim
+
+#endif  // MB4SIM_SLAVE_HPP_

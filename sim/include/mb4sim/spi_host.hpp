@@ -1,0 +1,62 @@
+// SPDX-FileCopyrightText: 2026 The openmb4 authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// An SPI master with the timing of a real one: mode 0, MSB first, every edge at its own time.
+// Limits: iC-MB4 Rev D2, items I201 to I209.
+#ifndef MB4SIM_SPI_HOST_HPP_
+#define MB4SIM_SPI_HOST_HPP_
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "mb4sim/host_pins.hpp"
+#include "mb4sim/time.hpp"
+
+namespace mb4::sim {
+
+struct SpiTiming {
+  Time sclk_low = 50'000;            // I203, at least 10 ns
+  Time sclk_high = 50'000;           // I204, at least 10 ns
+  Time sclk_high_address = 100'000;  // I204, last high phase of the address byte of 0x03
+  Time ncs_setup = 50'000;           // I201, NCS low to first rising SCLK, at least 10 ns
+  Time ncs_hold = 50'000;            // I202, last falling SCLK to NCS high, at least 10 ns
+  Time ncs_high = 50'000;            // I209, at least 10 ns
+
+  // The timing of a host whose SCLK runs at `sclk_hz` (1 Hz to 50 MHz), never faster.
+  static SpiTiming for_frequency(std::uint64_t sclk_hz);
+};
+
+class SpiHost {
+ public:
+  SpiHost(HostPins& pins, const SpiTiming& timing) : pins_(pins), timing_(timing) {}
+
+  // One frame: NCS low, all bytes, NCS high. rx takes as many bytes as it has room for, at most
+  // tx.size(). Returns at the time of the rising edge of NCS.
+  void transfer(std::span<const std::uint8_t> tx, std::span<std::uint8_t> rx);
+
+  // The same step by step. select() returns when NCS has its new level; byte() after the falling
+  // edge of its last clock. A second select(true) does nothing. byte() without NCS low clocks, but
+  // the chip does not listen.
+  void select(bool active);
+  std::uint8_t byte(std::uint8_t mosi);
+
+  void set_timing(const SpiTiming& timing) { timing_ = timing; }
+  const SpiTiming& timing() const { return timing_; }
+
+ private:
+  void wait(Time duration) { pins_.run_until(pins_.now() + duration); }
+
+  HostPins& pins_;
+  SpiTiming timing_;
+  bool selected_ = false;
+  bool deselected_once_ = false;
+  Time deselected_at_ = 0;
+  Time last_falling_ = 0;
+  std::size_t bytes_in_frame_ = 0;
+  std::uint8_t opcode_ = 0;
+};
+
+}  // namespace mb4::sim
+
+#endif  // MB4SIM_SPI_HOST_HPP_

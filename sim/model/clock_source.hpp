@@ -1,0 +1,76 @@
+// SPDX-FileCopyrightText: 2026 The openmb4 authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// A clock whose edges lie at exact rational times: edge k at k / (2 f), rounded down to a whole
+// picosecond, without drift. Inline: it is asked once per half period.
+#ifndef MB4SIM_MODEL_CLOCK_SOURCE_HPP_
+#define MB4SIM_MODEL_CLOCK_SOURCE_HPP_
+
+#include <cstdint>
+
+#include "mb4sim/time.hpp"
+
+namespace mb4::sim {
+
+class ClockSource {
+ public:
+  // frequency_hz = 0: the clock never moves and stays 0.
+  explicit ClockSource(std::uint64_t frequency_hz)
+      : denominator_(2 * frequency_hz),
+        whole_(denominator_ == 0 ? 0 : kPsPerSecond / denominator_),
+        rest_(denominator_ == 0 ? 0 : kPsPerSecond % denominator_) {
+    if (denominator_ == 0) {
+      next_ = kNever;
+    } else {
+      step();
+    }
+  }
+
+  Time next() const { return next_; }  // time of the next edge
+  bool level() const { return level_; }
+
+  // Makes the next edge happen.
+  bool edge() {
+    level_ = !level_;
+    step();
+    return level_;
+  }
+
+  // Leaves out whole periods so that the next edge is not before `now`; the level stays. For a
+  // clock that was not looked at for a while.
+  void skip_to(Time now) {
+    if (denominator_ == 0 || next_ >= now) return;
+    const Time period = 2 * whole_ + (2 * rest_) / denominator_;
+    const std::uint64_t periods = (now - next_) / (period + 1);
+    const auto parts = static_cast<Wide>(2 * periods) * rest_ + rest_sum_;
+    next_ += 2 * periods * whole_ + static_cast<Time>(parts / denominator_);
+    rest_sum_ = static_cast<std::uint64_t>(parts % denominator_);
+    while (next_ < now) {
+      step();
+      step();
+    }
+  }
+
+ private:
+  __extension__ using Wide = unsigned __int128;
+
+  void step() {
+    next_ += whole_;
+    rest_sum_ += rest_;
+    if (rest_sum_ >= denominator_) {
+      rest_sum_ -= denominator_;
+      ++next_;
+    }
+  }
+
+  std::uint64_t denominator_;
+  Time whole_;
+  std::uint64_t rest_;
+  std::uint64_t rest_sum_ = 0;
+  Time next_ = 0;
+  bool level_ = false;
+};
+
+}  // namespace mb4::sim
+
+#endif  // MB4SIM_MODEL_CLOCK_SOURCE_HPP_

@@ -1,0 +1,23 @@
+// SPDX-FileCopyrightText: 2026 The openmb4 authors
+// SPDX-License-Identifier: Apache-2.0
+// The model without tracing.
+#include <Vmb4_chip.h>
+#include <Vmb4_chip___024root.h>
+
+#include "verilated_chip.hpp"
+
+namespace mb4::sim {
+namespace {
+
+struct OscSelect {
+  // Made visible by public.vlt.
+  static bool get(const Vmb4_chip& model) { return model.rootp->mb4_chip__DOT__clkeni != 0; }
+};
+
+}  // namespace
+
+std::unique_ptr<ChipModel> make_fast_chip(const ChipConfig& config, std::uint64_t seed) {
+  return std::make_unique<VerilatedChip<Vmb4_chip, NoTrace, OscSelect>>(config, seed, "");
+}
+
+}  // namespace mb4::sim

@@ -1,0 +1,64 @@
+// SPDX-FileCopyrightText: 2026 The openmb4 authors
+// SPDX-License-Identifier: Apache-2.0
+// The model with a waveform file.
+#include <Vmb4_chip_trace.h>
+#include <Vmb4_chip_trace___024root.h>
+#include <verilated_fst_c.h>
+
+#include <algorithm>
+#include <memory>
+#include <string>
+
+#include "verilated_chip.hpp"
+
+namespace mb4::sim {
+namespace {
+
+struct OscSelect {
+  // Made visible by public.vlt.
+  static bool get(const Vmb4_chip_trace& model) {
+    return model.rootp->mb4sim_trace_top__DOT__u_chip__DOT__clkeni != 0;
+  }
+};
+
+class FstTrace {
+ public:
+  FstTrace() = default;
+  FstTrace(const FstTrace&) = delete;
+  FstTrace& operator=(const FstTrace&) = delete;
+  ~FstTrace() {
+    if (file_ != nullptr) file_->close();
+  }
+
+  template <typename Model>
+  void open(VerilatedContext& /*context*/, Model& model, const std::string& path) {
+    constexpr int kAllLevels = 99;
+    file_ = std::make_unique<VerilatedFstC>();
+    model.trace(file_.get(), kAllLevels);
+    file_->open(path.c_str());
+    if (!file_->isOpen()) throw ScenarioError(path + ": cannot write the waveform");
+  }
+  // Several evaluations at one time (a slave that answers without delay) become visible one
+  // picosecond after the other: a file takes only one set of values per time.
+  void dump(Time now) {
+    next_ = std::max(now, next_);
+    file_->dump(next_++);
+  }
+  void flush() {
+    if (file_ != nullptr) file_->flush();
+  }
+
+ private:
+  std::unique_ptr<VerilatedFstC> file_;
+  Time next_ = 0;
+};
+
+}  // namespace
+
+std::unique_ptr<ChipModel> make_traced_chip(const ChipConfig& config, std::uint64_t seed,
+                                            const std::string& fst_path) {
+  return std::make_unique<VerilatedChip<Vmb4_chip_trace, FstTrace, OscSelect>>(config, seed,
+                                                                                  fst_path);
+}
+
+}  // namespace mb4::sim

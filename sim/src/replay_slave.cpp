@@ -1,0 +1,75 @@
+// SPDX-FileCopyrightText: 2026 The openmb4 authors
+// SPDX-License-Identifier: Apache-2.0
+#include "mb4sim/replay_slave.hpp"
+
+#include <algorithm>
+
+namespace mb4::sim {
+
+ReplaySlave::ReplaySlave(const ReplaySlaveConfig& config)
+    : config_(config),
+      timeout_(config.timeout.adaptive() ? config.timeout.initial : config.timeout.fixed) {}
+
+void ReplaySlave::ma_edge(Time now, bool ma, bool /*sli*/) {
+  ma_ = ma;
+  last_edge_ = now;
+  if (!active_) {
+    if (ma) return;
+    active_ = true;
+    first_falling_ = now;
+    next_ = 0;
+    risings_ = 0;
+    if (config_.timeout.adaptive()) timeout_ = config_.timeout.initial;
+  } else if (ma) {
+    ++risings_;
+    last_rising_ = now;
+    if (risings_ == 2 && config_.timeout.adaptive()) timeout_ = now - first_falling_;
+    if (risings_ == 3) count_frame();
+  }
+  play_due(now);
+}
+
+ReplaySlave::Place ReplaySlave::place(std::size_t index) const {
+  const Time time = config_.recording.edges[index].time;
+  const Time period = kPsPerSecond / config_.recording.ma_hz;
+  // Rising edge n came (n - 1/2) periods after the first falling edge.
+  const std::uint64_t rising = (time + period / 2) / period;
+  if (rising == 0) return {0, time};
+  return {rising, time - (rising * period - period / 2)};
+}
+
+// Time of the next recorded edge as far as it is known, else kNever.
+Time ReplaySlave::next_edge() const {
+  if (next_ >= config_.recording.edges.size()) return kNever;
+  if (config_.play == ReplaySlaveConfig::Play::kTime) {
+    return first_falling_ + config_.recording.edges[next_].time;
+  }
+  const Place at = place(next_);
+  if (at.rising > risings_) return kNever;
+  if (at.rising < risings_) return last_edge_;  // its clock has passed: at once
+  return (at.rising == 0 ? first_falling_ : last_rising_) + at.after;
+}
+
+Time ReplaySlave::deadline() const {
+  if (!active_) return kNever;
+  const Time end =
+      config_.play == ReplaySlaveConfig::Play::kTime ? kNever : last_edge_ + timeout_;
+  return std::min(next_edge(), end);
+}
+
+void ReplaySlave::play_due(Time now) {
+  while (next_edge() <= now) slo_ = config_.recording.edges[next_++].level;
+}
+
+void ReplaySlave::timer(Time now, bool /*sli*/) {
+  play_due(now);
+  const bool time_mode = config_.play == ReplaySlaveConfig::Play::kTime;
+  const bool over =
+      time_mode ? next_ == config_.recording.edges.size() : now >= last_edge_ + timeout_;
+  if (!over) return;
+  if (risings_ >= 3) take_cdm(!ma_);
+  active_ = false;
+  slo_ = true;
+}
+
+}  // namespace mb4::sim

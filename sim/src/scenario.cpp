@@ -1,0 +1,207 @@
+// SPDX-FileCopyrightText: 2026 The openmb4 authors
+// SPDX-License-Identifier: Apache-2.0
+#include "mb4sim/scenario.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <iterator>
+#include <system_error>
+#include <utility>
+
+#include "mb4sim/ma_frequency.hpp"
+#include "number_text.hpp"
+#include "scenario_slave.hpp"
+#include "text_file.hpp"
+#include "toml_reader.hpp"
+
+namespace mb4::sim {
+namespace {
+
+constexpr std::int64_t kMinClkHz = 1'000;
+constexpr std::int64_t kMaxClkHz = 200'000'000;
+constexpr std::int64_t kMinOscHz = 12'500'000;
+constexpr std::int64_t kMaxOscHz = 25'000'000;
+constexpr std::int64_t kMinSclkHz = 1'000;
+constexpr std::int64_t kMaxSclkHz = 50'000'000;  // I203, I204: 10 ns each
+constexpr double kMaxDelayNs = 1e6;
+constexpr double kNsPerMetre = 5.3;              // each way
+constexpr double kMaxCableM = 10'000;
+constexpr unsigned kSlavesOfOneOfTwoChannels = 4;
+constexpr const char* kNotSupported = " is not supported in this version";
+
+// Bits of quirks_i, as in mb4_pkg.
+constexpr std::pair<const char*, unsigned> kQuirkBits[] = {{"IDA_TEST_INVERT", 0},
+                                                           {"AGSERR_ON_INSTR_WRITE", 1},
+                                                           {"AGSERR_ON_HOLDBANK", 2},
+                                                           {"AGS_CLEARED_ON_ERROR", 3}};
+constexpr unsigned kQuirkRevisionBit = 4;
+constexpr std::pair<std::int64_t, unsigned> kRevisions[] = {{0x20, 0}, {0x10, 1}, {0x11, 2}};
+
+void read_quirks(const toml::table& table, const std::string& file, ChipConfig& chip) {
+  TomlReader reader(table, file);
+  for (const auto& [name, bit] : kQuirkBits) {
+    if (const auto on = reader.boolean(name)) {
+      chip.quirks = (chip.quirks & ~(1U << bit)) | (static_cast<unsigned>(*on) << bit);
+    }
+  }
+  if (const auto revision = reader.integer("REVISION", 0, 0xFF)) {
+    const auto* found = std::find_if(std::begin(kRevisions), std::end(kRevisions),
+                                     [&](const auto& entry) { return entry.first == *revision; });
+    if (found == std::end(kRevisions)) {
+      reader.fail("REVISION", "expected 0x20 (Y), 0x10 (Z) or 0x11 (Z1)");
+    }
+    chip.quirks |= found->second << kQuirkRevisionBit;
+  }
+  reader.finish();
+}
+
+ChipConfig read_chip(const toml::table& table, const std::string& file) {
+  TomlReader reader(table, file);
+  ChipConfig chip;
+  if (const auto hz = reader.integer("f_clk_hz", 0, kMaxClkHz)) {
+    if (*hz != 0 && *hz < kMinClkHz) {
+      reader.fail("f_clk_hz", std::to_string(*hz) + " is below 1000 (0 = not connected)");
+    }
+    chip.f_clk_hz = static_cast<std::uint64_t>(*hz);
+  }
+  if (const auto hz = reader.integer("f_osc_hz", kMinOscHz, kMaxOscHz)) {
+    chip.f_osc_hz = static_cast<std::uint64_t>(*hz);
+  }
+  if (const auto* quirks = reader.table("quirks")) read_quirks(*quirks, file, chip);
+  reader.finish();
+  return chip;
+}
+
+HostConfig read_host(const toml::table& table, const std::string& file, const ChipConfig& chip) {
+  TomlReader reader(table, file);
+  HostConfig host;
+  if (const auto which = reader.choice("interface", {"spi", "intel", "motorola"});
+      which.value_or(0) != 0) {
+    reader.fail("interface", *reader.text("interface") + kNotSupported);
+  }
+  if (const auto hz = reader.integer("sclk_hz", kMinSclkHz, kMaxSclkHz)) {
+    host.sclk_hz = static_cast<std::uint64_t>(*hz);
+  }
+  host.ma_hz = default_ma_frequency(chip.system_hz());
+  if (const auto hz = reader.integer("ma_hz", 1, kMaxClkHz)) {
+    host.ma_hz = static_cast<std::uint64_t>(*hz);
+    if (!freqs_code(chip.system_hz(), host.ma_hz)) {
+      const NearestMa nearest = nearest_ma(chip.system_hz(), host.ma_hz);
+      std::string choice;
+      if (nearest.below != 0) choice = std::to_string(nearest.below);
+      if (nearest.above != 0) {
+        choice += (choice.empty() ? "" : " and ") + std::to_string(nearest.above);
+      }
+      reader.fail("ma_hz", "the chip cannot make " + std::to_string(host.ma_hz) + " Hz from " +
+                               std::to_string(chip.system_hz()) + " Hz; nearest: " + choice);
+    }
+  }
+  reader.finish();
+  return host;
+}
+
+ChannelConfig read_channel(const toml::table& table, const std::string& file) {
+  TomlReader reader(table, file);
+  ChannelConfig channel;
+  const auto number = reader.integer("number", 1, 2);
+  if (!number) reader.fail("number", "missing");
+  channel.number = static_cast<unsigned>(*number);
+  const auto delay = reader.number("delay_ns", 0, kMaxDelayNs);
+  const auto cable = reader.number("cable_m", 0, kMaxCableM);
+  if (delay && cable) reader.fail("cable_m", "cannot be given together with delay_ns");
+  if (delay) channel.delay = from_ns(*delay);
+  if (cable) channel.delay = 2 * from_ns(*cable * kNsPerMetre);
+  if (const auto* slaves = reader.tables("slave")) {
+    for (const auto& node : *slaves) {
+      if (channel.slaves.size() == kMaxSlaves) {
+        reader.fail_at(node.source(), "slave", "more than 8 slaves on a channel");
+      }
+      channel.slaves.push_back(read_slave(*node.as_table(), file));
+      const bool replay = std::holds_alternative<ReplaySlaveConfig>(channel.slaves.back().device);
+      if (slaves->size() > 1 && replay) {
+        reader.fail_at(node.source(), "protocol", "a replay slave must be alone on its channel");
+      }
+    }
+  }
+  reader.finish();
+  return channel;
+}
+
+void read_channels(TomlReader& top, Scenario& scenario) {
+  const auto* channels = top.tables("channel");
+  if (channels == nullptr) return;
+  for (const auto& node : *channels) {
+    const toml::table& table = *node.as_table();
+    ChannelConfig channel = read_channel(table, top.file());
+    const TomlReader reader(table, top.file());
+    if (scenario.channel(channel.number) != nullptr) {
+      reader.fail("number", "channel " + std::to_string(channel.number) + " is given twice");
+    }
+    scenario.channels.push_back(std::move(channel));
+    // Two channels: SLAVELOC5 gives slaves 1 to 4 to channel 1 and 5 to 8 to channel 2.
+    if (scenario.channel(2) != nullptr) {
+      for (const ChannelConfig& each : scenario.channels) {
+        if (each.slaves.size() > kSlavesOfOneOfTwoChannels) {
+          reader.fail("slave", "with channel 2 in use a channel takes at most 4 slaves");
+        }
+      }
+    }
+  }
+}
+
+}  // namespace
+
+const std::string& SlaveConfig::name() const {
+  return std::visit([](const auto& d) -> const std::string& { return d.name; }, device);
+}
+unsigned SlaveConfig::data_bits() const {
+  return std::visit([](const auto& d) { return d.data_bits; }, device);
+}
+unsigned SlaveConfig::flag_bits() const {
+  return std::visit([](const auto& d) { return d.flag_bits; }, device);
+}
+const Crc& SlaveConfig::crc() const {
+  return std::visit([](const auto& d) -> const Crc& { return d.crc; }, device);
+}
+
+const ChannelConfig* Scenario::channel(unsigned number) const {
+  for (const ChannelConfig& each : channels) {
+    if (each.number == number) return &each;
+  }
+  return nullptr;
+}
+
+Scenario parse_scenario(std::string_view text, const std::string& name) {
+  Scenario scenario;
+  scenario.name = name;
+  toml::table root;
+  try {
+    root = toml::parse(text, name);
+  } catch (const toml::parse_error& error) {
+    const auto where = error.source().begin;
+    std::string description(error.description());
+    std::replace(description.begin(), description.end(), '\n', ' ');
+    throw ScenarioError(name + ":" + std::to_string(where.line) + ":" +
+                        std::to_string(where.column) + ": not valid TOML: " + description);
+  }
+  TomlReader reader(root, name);
+  if (const auto* chip = reader.table("chip")) scenario.chip = read_chip(*chip, name);
+  const toml::table none;
+  const auto* host = reader.table("host");
+  scenario.host = read_host(host != nullptr ? *host : none, name, scenario.chip);
+  if (const auto* sim = reader.table("sim")) {
+    TomlReader sim_reader(*sim, name);
+    scenario.seed = sim_reader.word("seed").value_or(scenario.seed);
+    sim_reader.finish();
+  }
+  read_channels(reader, scenario);
+  reader.finish();
+  return scenario;
+}
+
+Scenario load_scenario(const std::string& path) {
+  return parse_scenario(read_text_file(path), path);
+}
+
+}  // namespace mb4::sim

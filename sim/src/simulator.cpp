@@ -1,0 +1,247 @@
+// SPDX-FileCopyrightText: 2026 The openmb4 authors
+// SPDX-License-Identifier: Apache-2.0
+#include "mb4sim/simulator.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <utility>
+
+#include "chip_model.hpp"
+#include "mb4sim/biss_c_slave.hpp"
+#include "mb4sim/random.hpp"
+#include "mb4sim/replay_slave.hpp"
+
+namespace mb4::sim {
+namespace {
+
+constexpr unsigned kChannel2FirstSlave = 5;
+constexpr std::uint64_t kChipSeed = 0;  // part numbers of derive_seed(); slaves use 1 to 8
+
+std::unique_ptr<Slave> make_slave(const SlaveConfig& config, std::uint64_t seed) {
+  std::unique_ptr<Slave> slave;
+  if (const auto* biss_c = std::get_if<BissCSlaveConfig>(&config.device)) {
+    slave = std::make_unique<BissCSlave>(*biss_c, seed);
+  } else {
+    slave = std::make_unique<ReplaySlave>(std::get<ReplaySlaveConfig>(config.device));
+  }
+  for (const auto& [address, value] : config.registers) slave->reg_write(address, value);
+  return slave;
+}
+
+constexpr std::size_t index_of(Pin pin) { return static_cast<std::size_t>(pin); }
+
+}  // namespace
+
+Simulator::Simulator(const Scenario& scenario, const SimulatorOptions& options)
+    : scenario_(scenario),
+      seed_(options.seed.value_or(scenario.seed)),
+      sl_pins_{SlPin{this, Pin::kSl1}, SlPin{this, Pin::kSl2}},
+      spi_(*this, SpiTiming::for_frequency(scenario.host.sclk_hz)) {
+  const std::uint64_t chip_seed = derive_seed(seed_, kChipSeed);
+  for (const Pin pin : {Pin::kNcs, Pin::kNrdRnw, Pin::kNwrE, Pin::kCfgspi, Pin::kSl1, Pin::kSl2}) {
+    levels_[index_of(pin)] = true;
+  }
+  for (const ChannelConfig& channel : scenario_.channels) {
+    const std::size_t index = channel.number - 1;
+    auto line = std::make_unique<Line>(queue_, channel.delay, &Simulator::on_sl, &sl_pins_[index]);
+    unsigned number = channel.number == 1 ? 1 : kChannel2FirstSlave;
+    for (const SlaveConfig& slave : channel.slaves) {
+      line->chain().add(make_slave(slave, derive_seed(seed_, number)));
+      ++number;
+    }
+    lines_[index] = std::move(line);
+  }
+  chip_ = options.trace_path ? make_traced_chip(scenario_.chip, chip_seed, *options.trace_path)
+                             : make_fast_chip(scenario_.chip, chip_seed);
+  if (options.trace_path) {
+    for (const auto& line : lines_) {
+      if (line != nullptr) line->set_probe(&Simulator::on_probe, this);
+    }
+    on_probe(0, this);
+  }
+  // MA and MO rest at 1 and 0 for the lines; whatever else the chip says now is a change.
+  seen_ = ChipModel::kMa1 | ChipModel::kMa2;
+  settle();
+  run_until(kResetLow);
+  set_pin(Pin::kNres, true);
+  run_until(kReady);
+}
+
+Simulator::~Simulator() = default;
+
+void Simulator::check_alive() const {
+  if (stopped_) throw ModelStopped(*stopped_);
+}
+
+bool Simulator::step(Time limit) {
+  const Time event = queue_.next_time();
+  const Time until = std::min(limit, event);
+  // Clock edges come before events of the same time: an input that changes together with the clock
+  // is too late for that edge.
+  if (const Time changed = chip_->run_clocks(until); changed != kNever) {
+    now_ = changed;
+    settle();
+    return true;
+  }
+  now_ = until;
+  if (event > limit) return false;
+  queue_.run_next();
+  return true;
+}
+
+void Simulator::run_until(Time time) {
+  check_alive();
+  if (time < now_) return;
+  try {
+    while (step(time)) {
+    }
+  } catch (const ModelStopped& error) {
+    stopped_ = error;
+    throw;
+  }
+}
+
+bool Simulator::run_while_waiting(const std::function<bool()>& done, Time limit) {
+  check_alive();
+  try {
+    while (!done()) {
+      if (!step(limit)) return done();
+    }
+  } catch (const ModelStopped& error) {
+    stopped_ = error;
+    throw;
+  }
+  return true;
+}
+
+std::uint64_t Simulator::clk_cycles() const { return chip_->cycles(); }
+
+void Simulator::drive_chip(Pin pin, bool level) {
+  chip_->set_input(now_, pin, level);
+  settle();
+}
+
+// Acts upon outputs that have changed. What it does may change inputs, which comes back here.
+void Simulator::settle() {
+  if (settling_) return;
+  settling_ = true;
+  struct Leave {
+    bool& flag;
+    ~Leave() { flag = false; }
+  } leave{settling_};
+  constexpr std::pair<unsigned, unsigned> kLineBits[] = {
+      {ChipModel::kMa1, ChipModel::kMo1}, {ChipModel::kMa2, ChipModel::kMo2}};
+  while (chip_->watched() != seen_) {
+    const unsigned outputs = chip_->watched();
+    const unsigned changed = outputs ^ seen_;
+    seen_ = outputs;
+    for (std::size_t i = 0; i < lines_.size(); ++i) {
+      const auto [ma, mo] = kLineBits[i];
+      if ((changed & (ma | mo)) != 0 && lines_[i] != nullptr) {
+        lines_[i]->drive(now_, (outputs & ma) != 0, (outputs & mo) != 0);
+      }
+    }
+    if ((changed & ChipModel::kNerLow) != 0) chip_->set_input(now_, Pin::kNer, pin(Pin::kNer));
+  }
+}
+
+void Simulator::on_sl(Time /*now*/, void* receiver, bool level) {
+  const auto* sl = static_cast<SlPin*>(receiver);
+  sl->simulator->levels_[index_of(sl->pin)] = level;
+  sl->simulator->drive_chip(sl->pin, level);
+}
+
+void Simulator::on_probe(Time now, void* receiver) {
+  auto* simulator = static_cast<Simulator*>(receiver);
+  unsigned ma = 0;
+  unsigned slo = 0;
+  unsigned idle = 0;
+  for (unsigned channel = 1; channel <= 2; ++channel) {
+    const Line* line = simulator->lines_[channel - 1].get();
+    if (line == nullptr || line->chain().ma()) ma |= 1U << (channel - 1);
+  }
+  for (unsigned number = 1; number <= kMaxSlaves; ++number) {
+    const Slave* slave = simulator->slave(number);
+    if (slave == nullptr || slave->slo()) slo |= 1U << (number - 1);
+    if (slave == nullptr || slave->idle()) idle |= 1U << (number - 1);
+  }
+  simulator->chip_->set_probes(now, ma, slo, idle);
+}
+
+bool Simulator::can_set(Pin pin) const {
+  if (is_output(pin)) return false;
+  if (pin == Pin::kSl1) return lines_[0] == nullptr;
+  if (pin == Pin::kSl2) return lines_[1] == nullptr;
+  if (pin == Pin::kClk) return scenario_.chip.f_clk_hz == 0;
+  return true;
+}
+
+void Simulator::set_pin(Pin pin, bool level) {
+  check_alive();
+  if (!can_set(pin)) return;
+  try {
+    if (pin == Pin::kNer) {
+      ner_pulled_ = !level;
+      drive_chip(pin, this->pin(pin));
+      return;
+    }
+    if (levels_[index_of(pin)] == level) return;
+    levels_[index_of(pin)] = level;
+    drive_chip(pin, level);
+  } catch (const ModelStopped& error) {
+    stopped_ = error;
+    throw;
+  }
+}
+
+bool Simulator::pin(Pin pin) const {
+  const unsigned outputs = chip_->watched();
+  switch (pin) {
+    case Pin::kEot:
+      return (outputs & ChipModel::kEot) != 0;
+    case Pin::kMa1:
+      return (outputs & ChipModel::kMa1) != 0;
+    case Pin::kMa2:
+      return (outputs & ChipModel::kMa2) != 0;
+    case Pin::kMo1:
+      return (outputs & ChipModel::kMo1) != 0;
+    case Pin::kMo2:
+      return (outputs & ChipModel::kMo2) != 0;
+    case Pin::kNer:
+      return !ner_pulled_ && (outputs & ChipModel::kNerLow) == 0;
+    default:
+      break;
+  }
+  const std::size_t index = index_of(pin);
+  if (index <= index_of(Pin::kDb7) && ((chip_->db_enable() >> index) & 1U) != 0) {
+    return ((chip_->db_out() >> index) & 1U) != 0;
+  }
+  return levels_[index];
+}
+
+Line* Simulator::line(unsigned channel) {
+  return channel >= 1 && channel <= lines_.size() ? lines_[channel - 1].get() : nullptr;
+}
+
+const Slave* Simulator::slave(unsigned number) const {
+  if (number == 0) return nullptr;
+  const bool second = lines_[1] != nullptr && number >= kChannel2FirstSlave;
+  const Line* line = lines_[second ? 1 : 0].get();
+  const unsigned index = number - (second ? kChannel2FirstSlave : 1);
+  return line != nullptr && index < line->chain().size() ? &line->chain().slave(index) : nullptr;
+}
+
+Slave* Simulator::slave(unsigned number) {
+  return const_cast<Slave*>(std::as_const(*this).slave(number));
+}
+
+void Simulator::refresh_lines() {
+  check_alive();
+  for (const auto& line : lines_) {
+    if (line != nullptr) line->refresh(now_);
+  }
+}
+
+void Simulator::flush_trace() { chip_->finish_trace(); }
+
+}  // namespace mb4::sim

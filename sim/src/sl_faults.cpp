@@ -1,0 +1,38 @@
+// SPDX-FileCopyrightText: 2026 The openmb4 authors
+// SPDX-License-Identifier: Apache-2.0
+#include "mb4sim/sl_faults.hpp"
+
+#include <algorithm>
+
+namespace mb4::sim {
+
+void SlFaults::flip_next_frame(std::vector<unsigned> bits) {
+  pending_.insert(pending_.end(), bits.begin(), bits.end());
+}
+
+void SlFaults::rising_edge() {
+  if (!counting_) return;
+  ++bit_;
+  update();
+}
+
+void SlFaults::levels(bool slo, bool idle) {
+  if (idle) {
+    if (counting_) pending_.clear();
+    acknowledged_ = false;
+    counting_ = false;
+    flip_now_ = false;
+  } else if (!acknowledged_) {
+    acknowledged_ = !slo;
+  } else if (!counting_ && slo) {
+    counting_ = true;
+    bit_ = 0;
+    update();
+  }
+}
+
+void SlFaults::update() {
+  flip_now_ = std::find(pending_.begin(), pending_.end(), bit_) != pending_.end();
+}
+
+}  // namespace mb4::sim

@@ -1,0 +1,64 @@
+// SPDX-FileCopyrightText: 2026 The openmb4 authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Reads one TOML table of a scenario key by key. Every mistake becomes a ScenarioError with the
+// place of the node; keys that nobody asked for are mistakes too.
+#ifndef MB4SIM_SRC_TOML_READER_HPP_
+#define MB4SIM_SRC_TOML_READER_HPP_
+
+#include <toml++/toml.h>
+
+#include <cstdint>
+#include <initializer_list>
+#include <optional>
+#include <set>
+#include <string>
+#include <string_view>
+
+#include "mb4sim/scenario.hpp"
+
+namespace mb4::sim {
+
+class TomlReader {
+ public:
+  TomlReader(const toml::table& table, std::string file) : table_(table), file_(std::move(file)) {}
+
+  // Throws: "file:line:column: key 'key': message", at the value of the key if it is there, else
+  // at the table.
+  [[noreturn]] void fail(std::string_view key, const std::string& message) const;
+  [[noreturn]] void fail_at(const toml::source_region& where, std::string_view key,
+                            const std::string& message) const;
+
+  bool has(std::string_view key) const { return table_.contains(key); }
+
+  // All of these return nothing if the key is absent and throw if the value is wrong.
+  std::optional<std::int64_t> integer(std::string_view key, std::int64_t minimum,
+                                      std::int64_t maximum);
+  // An integer or, for 64-bit words, a string such as "0xFFFF_FFFF_FFFF_FFFF".
+  std::optional<std::uint64_t> word(std::string_view key);
+  std::optional<double> number(std::string_view key, double minimum, double maximum);
+  std::optional<bool> boolean(std::string_view key);
+  std::optional<std::string> text(std::string_view key);
+  // Index into `choices`.
+  std::optional<std::size_t> choice(std::string_view key,
+                                    std::initializer_list<std::string_view> choices);
+  const toml::node* node(std::string_view key);
+  const toml::table* table(std::string_view key);
+  // An array of tables ([[key]]); null if absent.
+  const toml::array* tables(std::string_view key);
+
+  // Throws for the first key of the table that has not been asked for.
+  void finish() const;
+
+  const toml::table& raw() const { return table_; }
+  const std::string& file() const { return file_; }
+
+ private:
+  const toml::table& table_;
+  std::string file_;
+  std::set<std::string, std::less<>> known_;
+};
+
+}  // namespace mb4::sim
+
+#endif  // MB4SIM_SRC_TOML_READER_HPP_

@@ -1,0 +1,123 @@
+// SPDX-FileCopyrightText: 2026 The openmb4 authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Test bench top: one line with its time base and word list, without registers and sequencer.
+
+module frame_top (
+  input  logic         clk_i,
+  input  logic         rst_ni,
+  input  logic [4:0]   freqs_i,
+  input  logic [255:0] slave_cfg_i,
+  input  logic         nocrc_i,
+  input  logic         start_i,
+  input  logic         init_i,
+  input  logic         cdm_i,
+  input  logic         hold_cdm_i,
+  input  logic         abort_i,
+  output logic         wr_en_o,
+  output logic [2:0]   wr_byte_o,
+  output logic [7:0]   wr_data_o,
+  output logic [2:0]   slave_o,
+  output logic         word_done_o,
+  output logic         word_ok_o,
+  output logic         cds_o,
+  output logic         frame_end_o,
+  output logic         init_done_o,
+  output logic         init_fail_o,
+  output logic [7:0]   quarters_o,
+  output logic         idle_o,
+  output logic         timeout_o,
+  output logic         ma_o,
+  input  logic         sl_i
+);
+
+  logic [7:0] half_len;
+  logic       tick;
+  logic       half_next;
+  logic       smp_a;
+  logic       smp_b;
+  logic       smp_half;
+  logic       smp_b_neg;
+  logic       len_valid;
+  logic [6:0] len;
+  logic       any_word;
+  logic       last_word;
+  logic       sl_sync;
+  mb4_pkg::word_cfg_t word;
+
+  mb4_freqs_dec u_freqs (
+    .freqs_i,
+    .half_len_o (half_len)
+  );
+
+  mb4_timebase u_timebase (
+    .clk_i,
+    .rst_ni,
+    .half_len_i  (half_len),
+    .run_i       (!idle_o),
+    .restart_i   (start_i),
+    .tick_o      (tick),
+    .half_next_o (half_next),
+    .smp_a_o     (smp_a),
+    .smp_b_o     (smp_b),
+    .smp_half_o  (smp_half),
+    .smp_b_neg_o (smp_b_neg)
+  );
+
+  mb4_word_list u_words (
+    .clk_i,
+    .rst_ni,
+    .slave_cfg_i,
+    .mine_i      (8'hFF),
+    .nocrc_i,
+    .start_i,
+    .next_i      (word_done_o),
+    .len_valid_o (len_valid),
+    .len_o       (len),
+    .any_o       (any_word),
+    .last_o      (last_word),
+    .slave_o,
+    .word_o      (word)
+  );
+
+  mb4_channel u_channel (
+    .clk_i,
+    .rst_ni,
+    .start_i,
+    .use_i       (1'b1),
+    .init_i,
+    .cdm_i,
+    .hold_cdm_i,
+    .abort_i,
+    .tick_i      (tick),
+    .half_next_i (half_next),
+    .smp_a_i     (smp_a),
+    .smp_b_i     (smp_b),
+    .smp_half_i  (smp_half),
+    .smp_b_neg_i (smp_b_neg),
+    .len_valid_i (len_valid),
+    .len_i       (len),
+    .any_word_i  (any_word),
+    .last_word_i (last_word),
+    .word_i      (word),
+    .wr_en_o,
+    .wr_byte_o,
+    .wr_data_o,
+    .word_done_o,
+    .word_ok_o,
+    .cds_o,
+    .frame_end_o,
+    .init_done_o,
+    .init_fail_o,
+    .quarters_o,
+    .idle_o,
+    .timeout_o,
+    .sl_o        (sl_sync),
+    .ma_o,
+    .sl_i
+  );
+
+  logic unused;
+  assign unused = sl_sync;
+
+endmodule

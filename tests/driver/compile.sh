@@ -1,0 +1,62 @@
+#!/bin/sh
+# SPDX-FileCopyrightText: 2026 The openmb4 authors
+# SPDX-License-Identifier: Apache-2.0
+#
+# Compiles driver code the way drive firmware does.
+#
+#   compile.sh accept COMPILER FILE FLAGS...           FILE must compile without a warning
+#   compile.sh reject COMPILER FILE MESSAGE FLAGS...   FILE must fail and print MESSAGE
+#   compile.sh readme COMPILER FILE FLAGS...           cpp blocks of a Markdown file must build
+#
+# FLAGS are the include options. Exit status 77: the compiler is missing.
+
+set -u
+mode=$1
+compiler=$2
+file=$3
+shift 3
+
+if ! command -v "$compiler" > /dev/null 2>&1; then
+  echo "skipped: $compiler is not installed"
+  exit 77
+fi
+
+strict="-Wall -Wextra -Wpedantic -Wconversion -Wshadow -Werror"
+freestanding="-std=c++17 -ffreestanding -fno-exceptions -fno-rtti -fno-threadsafe-statics"
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+
+case $mode in
+  accept)
+    # Twice: the include guard has to hold as well.
+    printf '#include "%s"\n#include "%s"\n' "$file" "$file" > "$work/unit.cpp"
+    "$compiler" $freestanding $strict "$@" -c "$work/unit.cpp" -o "$work/unit.o"
+    ;;
+  reject)
+    message=$1
+    shift
+    if "$compiler" $freestanding $strict "$@" -c "$file" -o "$work/unit.o" 2> "$work/log"; then
+      echo "$file compiles, but must not"
+      exit 1
+    fi
+    if ! grep -q -e "$message" "$work/log"; then
+      echo "$file is rejected, but without the message '$message':"
+      cat "$work/log"
+      exit 1
+    fi
+    grep -m 1 -e "$message" "$work/log"
+    ;;
+  readme)
+    awk '/^```cpp$/ { inside = 1; next } /^```$/ { inside = 0 } inside' "$file" > "$work/unit.cpp"
+    if ! [ -s "$work/unit.cpp" ]; then
+      echo "$file has no cpp block"
+      exit 1
+    fi
+    # An application, not firmware: hosted, but with the same warnings.
+    "$compiler" -std=c++17 $strict "$@" "$work/unit.cpp" -o "$work/unit"
+    ;;
+  *)
+    echo "unknown mode $mode"
+    exit 2
+    ;;
+esac

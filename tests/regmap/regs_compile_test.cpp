@@ -1,0 +1,70 @@
+// SPDX-FileCopyrightText: 2026 The openmb4 authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// What the field types promise, beyond the values of the map. All of it is decided at compile time.
+
+#include <type_traits>
+
+#include "mb4_regs.hpp"
+#include "mb4_regs_table.hpp"
+
+namespace {
+
+using namespace mb4::regs;
+
+// get extracts and aligns, whatever else the byte holds.
+static_assert(FREQR::get(0xBF) == 5 && FREQS::get(0xBF) == 0x1F);
+static_assert(CFGCH<2>::get(0xF6) == 1);
+static_assert(SCRCSTART_HI<8>::get(0xA5) == 0xA5);
+
+// insert replaces its own bits only, and drops what does not fit.
+static_assert(FREQR::insert(0xFF, 0) == 0x1F && FREQR::insert(0x00, 5) == 0xA0);
+static_assert(SCDLEN<1>::insert(0xC0, 0x7F) == 0xFF);
+static_assert(SVALID<1>::insert(0xFF, 0) == 0xFD);
+
+// encode puts a constant in place.
+static_assert(INSTR::encode<static_cast<std::uint8_t>(Instr::kControl)>() == 0x08);
+static_assert((BREAK::encode<1>() | AGS::encode<1>()) == 0x81);
+
+// Members.
+static_assert(EOT::kAddress == kAddrStatus0 && EOT::kMask == 0x01 && EOT::kReset == 1);
+static_assert(!EOT::kWritable && HOLDCDM::kWritable && INIT::kWritable && SVALID<4>::kWritable);
+static_assert(FREQS::kMax == 0x1F && FREQS::kMask == 0x1F && FREQR::kMask == 0xE0);
+static_assert(std::is_same_v<CFGCH1, CFGCH<1>> && std::is_same_v<SL2, SL<2>>);
+static_assert(IDS0::kMask == 0x80 && IDS7::kMask == 0x01 && IDS::kMask == 0xFF);
+static_assert(CHSEL::kMask == 0x03 && ACTnSENS_ALL::kMask == 0xFF);
+
+// Addresses, at compile time and at run time.
+static_assert(scdata_address(1) == 0x00 && scdata_address(8) == 0x38);
+static_assert(SCDATA<5>::kAddress == 0x20 && SCDATA<8, 7>::kAddress == 0x3F);
+static_assert(slave_cfg_address(1) == 0xC0 && slave_cfg_address(8) == 0xDC);
+static_assert(rdata_address(1) == 0x80 && rdata_address(64) == 0xBF);
+static_assert(kFamilySvalid.address(4) == 0xF1 && kFamilySvalid.address(5) == 0xF2);
+static_assert(kFamilySvalid.mask(4) == 0x80 && kFamilySvalid.mask(5) == 0x02);
+
+// The table holds every address that has a field, in order, and names both meanings of dual-use
+// bits.
+constexpr bool ascending() {
+  for (std::size_t i = 1; i < kFields.size(); ++i) {
+    const FieldInfo& a = kFields[i - 1];
+    const FieldInfo& b = kFields[i];
+    if (a.address > b.address || (a.address == b.address && a.lsb <= b.lsb)) {
+      return false;
+    }
+  }
+  return true;
+}
+static_assert(ascending());
+
+constexpr int dual_use() {
+  int count = 0;
+  for (const FieldInfo& field : kFields) {
+    count += field.alternate != nullptr ? 1 : 0;
+  }
+  return count;
+}
+static_assert(dual_use() == 1 + 8 + 8 + 1);  // RDATA1, GRAYSx, SCRCLENx, SLAVEID
+
+}  // namespace
+
+int main() { return 0; }

@@ -1,0 +1,94 @@
+# SPDX-FileCopyrightText: 2026 The openmb4 authors
+# SPDX-License-Identifier: Apache-2.0
+#
+# Helpers used by every room. They are the only place that calls Verilator's verilate() or that
+# chooses warning and sanitizer flags.
+
+set(MB4_ROOT "${CMAKE_CURRENT_LIST_DIR}/../..")
+cmake_path(ABSOLUTE_PATH MB4_ROOT NORMALIZE)
+
+find_program(MB4_CCACHE ccache)
+if(MB4_CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
+  set(CMAKE_CXX_COMPILER_LAUNCHER ${MB4_CCACHE})
+  set(CMAKE_C_COMPILER_LAUNCHER ${MB4_CCACHE})
+endif()
+
+if(MB4_SANITIZE)
+  add_compile_options(-fsanitize=address,undefined -fno-sanitize-recover=all
+                      -fno-omit-frame-pointer)
+  add_link_options(-fsanitize=address,undefined)
+endif()
+
+# mb4_warnings(TARGET): the warning set of hand-written code.
+function(mb4_warnings target)
+  target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Wconversion -Wshadow
+    $<$<BOOL:${MB4_WERROR}>:-Werror>)
+endfunction()
+
+# mb4_add_test(NAME LABELS label... SOURCES file... [LIBS lib...] [ENV "VAR=value"...])
+# One GoogleTest program; every TEST becomes a CTest entry of the same name.
+function(mb4_add_test name)
+  cmake_parse_arguments(ARG "" "" "LABELS;SOURCES;LIBS;ENV" ${ARGN})
+  add_executable(${name} ${ARG_SOURCES})
+  target_compile_features(${name} PRIVATE cxx_std_20)
+  target_link_libraries(${name} PRIVATE ${ARG_LIBS} GTest::gtest GTest::gtest_main)
+  mb4_warnings(${name})
+  include(GoogleTest)
+  gtest_discover_tests(${name} DISCOVERY_TIMEOUT 60
+    PROPERTIES LABELS "${ARG_LABELS}" ENVIRONMENT "${ARG_ENV}" TIMEOUT 600)
+endfunction()
+
+# mb4_rtl_sources(OUT): the absolute paths named by rtl/mb4.f, the only file list.
+function(mb4_rtl_sources out)
+  file(STRINGS ${MB4_ROOT}/rtl/mb4.f lines)
+  set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${MB4_ROOT}/rtl/mb4.f)
+  set(files)
+  foreach(line IN LISTS lines)
+    string(STRIP "${line}" line)
+    if(line MATCHES "^(//|#|\\+|-)" OR line STREQUAL "")
+      continue()
+    endif()
+    cmake_path(ABSOLUTE_PATH line BASE_DIRECTORY ${MB4_ROOT}/rtl NORMALIZE)
+    list(APPEND files ${line})
+  endforeach()
+  set(${out} ${files} PARENT_SCOPE)
+endfunction()
+
+# mb4_verilate(TARGET TOP module [PREFIX class] [TRACE] [SOURCES extra...] [ARGS arg...])
+# Adds the Verilated model of one RTL module to a library.
+#
+# -fno-const-bit-op-tree is not an optimisation choice: without it Verilator 5.006 computes wrong
+# values for XOR trees with inversions (tests/canary shows it).
+function(mb4_verilate target)
+  cmake_parse_arguments(ARG "TRACE" "TOP;PREFIX" "SOURCES;ARGS" ${ARGN})
+  if(NOT ARG_PREFIX)
+    set(ARG_PREFIX V${ARG_TOP})
+  endif()
+  mb4_rtl_sources(sources)
+  set(trace)
+  if(ARG_TRACE)
+    set(trace TRACE_FST)
+  endif()
+  verilate(${target} ${trace}
+    TOP_MODULE ${ARG_TOP} PREFIX ${ARG_PREFIX}
+    SOURCES ${MB4_ROOT}/rtl/mb4.vlt ${sources} ${ARG_SOURCES}
+    INCLUDE_DIRS ${MB4_ROOT}/rtl
+    VERILATOR_ARGS -Wall --assert --x-assign unique --x-initial unique -fno-const-bit-op-tree
+                   --no-timing ${ARG_ARGS})
+endfunction()
+
+# mb4_verilated_library(TARGET): an empty static library to which mb4_verilate() adds models.
+# Assertion stops and messages go through sim/model/verilated_hooks.{h,cpp}.
+function(mb4_verilated_library target)
+  add_library(${target} STATIC ${MB4_ROOT}/sim/model/verilated_hooks.cpp)
+  target_compile_features(${target} PUBLIC cxx_std_20)
+  target_compile_definitions(${target} PRIVATE VL_USER_STOP VL_PRINTF=mb4sim_vl_printf)
+  target_compile_options(${target} PRIVATE
+    "SHELL:-include ${MB4_ROOT}/sim/model/verilated_hooks.h" -Wno-sign-compare)
+  target_include_directories(${target} PUBLIC ${MB4_ROOT}/sim/model)
+  # Verilator's headers are not ours to keep free of warnings.
+  target_include_directories(${target} SYSTEM PUBLIC
+    ${VERILATOR_ROOT}/include ${VERILATOR_ROOT}/include/vltstd)
+endfunction()
+
+find_package(verilator 5.006 REQUIRED HINTS $ENV{VERILATOR_ROOT})

@@ -1,0 +1,24 @@
+// SPDX-FileCopyrightText: 2026 The openmb4 authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// The driver's configuration for the slaves of a scenario.
+#ifndef MB4SIM_TOOL_CHIP_SETUP_HPP_
+#define MB4SIM_TOOL_CHIP_SETUP_HPP_
+
+#include <string>
+
+#include "mb4/config.hpp"
+#include "mb4/result.hpp"
+#include "mb4sim/scenario.hpp"
+
+namespace mb4::tool {
+
+// Configuration that reads all slaves of channel 1. Throws UseError if chip or driver cannot.
+Config make_config(const sim::Scenario& scenario);
+
+// "no iC-MB4 detected", "invalid configuration: data_bits of slave 1", ...
+std::string describe(const ErrorInfo& error);
+
+}  // namespace mb4::tool
+
+#endif  // MB4SIM_TOOL_CHIP_SETUP_HPP_

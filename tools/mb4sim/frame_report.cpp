@@ -1,0 +1,134 @@
+// SPDX-FileCopyrightText: 2026 The openmb4 authors
+// SPDX-License-Identifier: Apache-2.0
+#include "frame_report.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+
+#include "chip_setup.hpp"
+
+namespace mb4::tool {
+namespace {
+
+constexpr const char* kTableRow = "{:>5}  {:>12}  {:>5}  {:>{}}  {:>{}}  {:>2}  {:>2}  {:>6}  {}\n";
+
+std::string state_of(const Result<Reading>& result) {
+  if (!result) return describe(result.info());
+  if (result->error && result->warning) return "ok (encoder error, warning)";
+  if (result->error) return "ok (encoder error)";
+  if (result->warning) return "ok (encoder warning)";
+  return "ok";
+}
+
+}  // namespace
+
+std::string json_text(const std::string& text) {
+  std::string out(1, '"');
+  for (const char c : text) {
+    if (c == '"' || c == '\\') {
+      out += '\\';
+      out += c;
+    } else if (static_cast<unsigned char>(c) < 0x20) {
+      out += fmt::format("\\u{:04x}", static_cast<unsigned>(c));
+    } else {
+      out += c;
+    }
+  }
+  out += '"';
+  return out;
+}
+
+// The values of one row as text; empty where there is none.
+struct FrameReport::Cells {
+  std::string raw;
+  std::string position;
+  std::string error;    // nE
+  std::string warning;  // nW
+  std::string crc;
+};
+
+FrameReport::Cells FrameReport::cells(const FrameRow& row) const {
+  Cells cells;
+  if (!row.reading) return cells;
+  const Reading& reading = *row.reading;
+  const sim::SlaveConfig& slave = channel_.slaves[row.slave - 1];
+  const unsigned flags = slave.flag_bits();
+  cells.raw = fmt::format("0x{:0{}X}", reading.raw, (slave.data_bits() + 3) / 4);
+  cells.position = fmt::format("{}", flags >= 64 ? 0 : reading.raw >> flags);
+  if (flags == 2) {
+    cells.error = fmt::format("{:d}", (reading.raw & 2U) != 0);
+    cells.warning = fmt::format("{:d}", (reading.raw & 1U) != 0);
+  }
+  if (reading.crc_stored) cells.crc = fmt::format("0x{:02X}", reading.crc);
+  return cells;
+}
+
+void FrameReport::add(std::uint64_t frame, sim::Time time, unsigned slave,
+                      const Result<Reading>& result) {
+  FrameRow row;
+  row.frame = frame;
+  row.time = time;
+  row.slave = slave;
+  if (result) row.reading = *result;
+  row.state = state_of(result);
+  rows_.push_back(std::move(row));
+}
+
+std::string FrameReport::table_header() const {
+  return fmt::format(kTableRow, "frame", "time/us", "slave", "raw", 18, "position", 20, "nE", "nW",
+                     "CRC", "state");
+}
+
+std::string FrameReport::table_row() const {
+  const FrameRow& row = rows_.back();
+  const Cells c = cells(row);
+  const auto dash = [](const std::string& text) { return text.empty() ? std::string("-") : text; };
+  return fmt::format(kTableRow, row.frame, fmt::format("{:.3f}", sim::to_us(row.time)), row.slave,
+                     dash(c.raw), 18, dash(c.position), 20, dash(c.error), dash(c.warning),
+                     dash(c.crc), row.state);
+}
+
+std::string FrameReport::table_summary(const RunSummary& summary) {
+  return fmt::format(
+      "frames good {}, bad {}; simulated time {:.3f} us, simulated clocks {}; seed {}\n",
+      summary.good, summary.bad, sim::to_us(summary.time), summary.clocks, summary.seed);
+}
+
+std::string FrameReport::csv() const {
+  std::string out = "frame,time_us,slave,raw,position,nE,nW,crc,state\n";
+  for (const FrameRow& row : rows_) {
+    const Cells c = cells(row);
+    std::string state = row.state;
+    if (state.find(',') != std::string::npos) state = fmt::format("\"{}\"", state);
+    out += fmt::format("{},{:.3f},{},{},{},{},{},{},{}\n", row.frame, sim::to_us(row.time),
+                       row.slave, c.raw, c.position, c.error, c.warning, c.crc, state);
+  }
+  return out;
+}
+
+std::string FrameReport::json(const std::string& scenario, const RunSummary& summary) const {
+  std::string out = fmt::format("{{\"scenario\": {}, \"seed\": {}, \"frames\": [\n",
+                                json_text(scenario), summary.seed);
+  const auto number = [](const std::string& text) {
+    return text.empty() ? std::string("null") : text;
+  };
+  const auto quoted = [](const std::string& text) {
+    return text.empty() ? std::string("null") : json_text(text);
+  };
+  for (const FrameRow& row : rows_) {
+    const Cells c = cells(row);
+    out += fmt::format(
+        "  {{\"frame\": {}, \"time_us\": {:.3f}, \"slave\": {}, \"good\": {}, \"raw\": {}, "
+        "\"position\": {}, \"nE\": {}, \"nW\": {}, \"crc\": {}, \"state\": {}}}{}\n",
+        row.frame, sim::to_us(row.time), row.slave, row.reading.has_value(), quoted(c.raw),
+        number(c.position), number(c.error), number(c.warning), quoted(c.crc),
+        json_text(row.state), &row == &rows_.back() ? "" : ",");
+  }
+  out += fmt::format(
+      "], \"summary\": {{\"good\": {}, \"bad\": {}, \"time_us\": {:.3f}, \"clocks\": {}}}}}\n",
+      summary.good, summary.bad, sim::to_us(summary.time), summary.clocks);
+  return out;
+}
+
+}  // namespace mb4::tool

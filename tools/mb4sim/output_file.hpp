@@ -1,0 +1,37 @@
+// SPDX-FileCopyrightText: 2026 The openmb4 authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// A file that appears complete or not at all.
+#ifndef MB4SIM_TOOL_OUTPUT_FILE_HPP_
+#define MB4SIM_TOOL_OUTPUT_FILE_HPP_
+
+#include <string>
+#include <string_view>
+
+namespace mb4::tool {
+
+class OutputFile {
+ public:
+  // Throws UseError at once if `path` cannot be written. Nothing of an existing file is lost until
+  // commit().
+  explicit OutputFile(std::string path);
+  OutputFile(const OutputFile&) = delete;
+  OutputFile& operator=(const OutputFile&) = delete;
+  ~OutputFile();
+
+  // Gives the file its content. Throws UseError.
+  void commit(std::string_view content);
+
+ private:
+  std::string path_;
+  std::string partial_;  // written first, then renamed; equals path_ for devices and pipes
+  bool committed_ = false;
+};
+
+// Throws UseError if a file of this name cannot be created or overwritten. Leaves no file behind
+// that was not there.
+void require_writable(const std::string& path);
+
+}  // namespace mb4::tool
+
+#endif  // MB4SIM_TOOL_OUTPUT_FILE_HPP_

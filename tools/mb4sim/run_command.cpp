@@ -1,0 +1,89 @@
+// SPDX-FileCopyrightText: 2026 The openmb4 authors
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/core.h>
+
+#include <cstdio>
+#include <memory>
+
+#include "chip_setup.hpp"
+#include "commands.hpp"
+#include "exit_status.hpp"
+#include "frame_report.hpp"
+#include "mb4/device.hpp"
+#include "mb4sim/scenario.hpp"
+#include "mb4sim/simulator.hpp"
+#include "mb4sim/wave_view.hpp"
+#include "output_file.hpp"
+#include "sim_bus.hpp"
+
+namespace mb4::tool {
+namespace {
+
+// "x.fst" -> "x.gtkw"; other names get the ending added.
+std::string view_path(const std::string& trace) {
+  constexpr std::string_view kEnding = ".fst";
+  const bool fst = trace.ends_with(kEnding);
+  return trace.substr(0, trace.size() - (fst ? kEnding.size() : 0)) + ".gtkw";
+}
+
+}  // namespace
+
+int run_command(const RunOptions& options) {
+  const sim::Scenario scenario = sim::load_scenario(options.scenario);
+  const Config config = make_config(scenario);
+  const sim::ChannelConfig& channel = *scenario.channel(1);
+  // Everything is checked before the first file is touched.
+  std::unique_ptr<OutputFile> csv;
+  if (!options.csv.empty()) csv = std::make_unique<OutputFile>(options.csv);
+  sim::SimulatorOptions sim_options;
+  sim_options.seed = options.seed;
+  if (!options.trace.empty()) {
+    require_writable(options.trace);
+    require_writable(view_path(options.trace));
+    sim_options.trace_path = options.trace;
+  }
+
+  FrameReport report(channel);
+  RunSummary summary;
+  Result<void> configured;
+  // The waveform file is complete when the simulator has gone, also after an assertion.
+  const auto write_view = [&] {
+    if (!options.trace.empty()) sim::write_wave_view(options.trace, view_path(options.trace));
+  };
+  try {
+    sim::Simulator simulator(scenario, sim_options);
+    summary.seed = simulator.seed();
+    SimBus bus(simulator);
+    SimClock clock(simulator);
+    Device device(bus, clock);
+    configured = device.configure(config);
+    if (configured && !options.json) fmt::print("{}", report.table_header());
+    for (std::uint64_t frame = 1; configured && frame <= options.frames; ++frame) {
+      for (unsigned slave = 1; slave <= channel.slaves.size(); ++slave) {
+        const Result<Reading> result = device.read_frame(static_cast<std::uint8_t>(slave));
+        report.add(frame, simulator.now(), slave, result);
+        ++(result ? summary.good : summary.bad);
+        if (!options.json) fmt::print("{}", report.table_row());
+      }
+    }
+    summary.time = simulator.now();
+    summary.clocks = simulator.clk_cycles();
+  } catch (const sim::ModelStopped&) {
+    write_view();
+    throw;
+  }
+  write_view();
+  if (!configured) {
+    fmt::print(stderr, "mb4sim: cannot configure the chip: {}\n", describe(configured.info()));
+    return kBad;
+  }
+  if (options.json) {
+    fmt::print("{}", report.json(options.scenario, summary));
+  } else {
+    fmt::print("{}", FrameReport::table_summary(summary));
+  }
+  if (csv != nullptr) csv->commit(report.csv());
+  return summary.bad == 0 ? kGood : kBad;
+}
+
+}  // namespace mb4::tool

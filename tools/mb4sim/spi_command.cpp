@@ -1,0 +1,98 @@
+// SPDX-FileCopyrightText: 2026 The openmb4 authors
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/core.h>
+
+#include <charconv>
+#include <cstdio>
+#include <iostream>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "commands.hpp"
+#include "exit_status.hpp"
+#include "mb4sim/scenario.hpp"
+#include "mb4sim/simulator.hpp"
+
+namespace mb4::tool {
+namespace {
+
+constexpr std::uint64_t kMaxAdvanceNs = 1'000'000'000'000;  // 1000 s
+
+std::vector<std::string_view> words_of(std::string_view line) {
+  line = line.substr(0, std::min(line.find('#'), line.size()));
+  std::vector<std::string_view> words;
+  constexpr std::string_view kBlank = " \t\r";
+  for (auto at = line.find_first_not_of(kBlank); at != std::string_view::npos;) {
+    const auto end = std::min(line.find_first_of(kBlank, at), line.size());
+    words.push_back(line.substr(at, end - at));
+    at = line.find_first_not_of(kBlank, end);
+  }
+  return words;
+}
+
+template <typename T>
+bool parse(std::string_view word, T& value, int base) {
+  const char* const end = word.data() + word.size();
+  const auto [stop, error] = std::from_chars(word.data(), end, value, base);
+  return error == std::errc() && stop == end;
+}
+
+// One line of standard input; throws UseError without the place.
+void execute(sim::Simulator& simulator, const std::vector<std::string_view>& words) {
+  if (words[0].starts_with('+')) {
+    std::uint64_t ns = 0;
+    if (words.size() != 1 || !parse(words[0].substr(1), ns, 10) || ns > kMaxAdvanceNs) {
+      throw UseError("expected +N with N nanoseconds up to 10^12");
+    }
+    simulator.advance(ns * sim::kPsPerNs);
+    return;
+  }
+  if (words[0] == "pin") {
+    if (words.size() != 3 || (words[2] != "0" && words[2] != "1")) {
+      throw UseError("expected 'pin NAME LEVEL' with level 0 or 1");
+    }
+    const auto pin = sim::pin_by_name(words[1]);
+    if (!pin) throw UseError(fmt::format("there is no pin '{}'", words[1]));
+    if (!simulator.can_set(*pin)) {
+      throw UseError(fmt::format("pin '{}' is driven by chip or simulation", words[1]));
+    }
+    simulator.set_pin(*pin, words[2] == "1");
+    return;
+  }
+  std::vector<std::uint8_t> tx;
+  for (const std::string_view word : words) {
+    std::uint8_t byte = 0;
+    if (word.size() != 2 || !parse(word, byte, 16)) {
+      throw UseError(
+          fmt::format("expected bytes of two hex digits, +N or pin NAME LEVEL, found '{}'", word));
+    }
+    tx.push_back(byte);
+  }
+  std::vector<std::uint8_t> rx(tx.size());
+  simulator.spi().transfer(tx, rx);
+  std::string answer;
+  for (const std::uint8_t byte : rx) answer += fmt::format("{}{:02X}", answer.empty() ? "" : " ", byte);
+  fmt::print("{}\n", answer);
+}
+
+}  // namespace
+
+int spi_command(const SpiOptions& options) {
+  const sim::Scenario scenario = sim::load_scenario(options.scenario);
+  sim::Simulator simulator(scenario);
+  std::string line;
+  for (unsigned number = 1; std::getline(std::cin, line); ++number) {
+    const auto words = words_of(line);
+    if (words.empty()) continue;
+    try {
+      execute(simulator, words);
+    } catch (const UseError& error) {
+      throw UseError(fmt::format("standard input:{}: {}", number, error.what()));
+    }
+    std::fflush(stdout);
+  }
+  return kGood;
+}
+
+}  // namespace mb4::tool
