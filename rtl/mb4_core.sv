@@ -55,7 +55,7 @@ module mb4_core (
 
   // memories and banks
   logic mem_busy;
-  logic bank_pending;
+  logic bank_pending, bank_swapped;
   logic bank_end;
   logic holdbank;
   logic swbank_pulse;
@@ -143,6 +143,7 @@ module mb4_core (
     .swbank_pulse_i (swbank_pulse),
     .bank_end_i     (bank_end),
     .bank_pending_o (bank_pending),
+    .bank_swapped_o (bank_swapped),
     .wr_line_i      (line_wr_en),
     .wr_byte_i      (line_wr_byte),
     .wr_line_data_i (line_wr_data),
@@ -187,6 +188,7 @@ module mb4_core (
     .init_done_i       (init_done),
     .init_fail_i       (init_fail),
     .bank_pending_i    (bank_pending),
+    .bank_swapped_i    (bank_swapped),
     .bank_end_o        (bank_end),
     .holdbank_o        (holdbank),
     .swbank_pulse_o    (swbank_pulse),

@@ -48,6 +48,7 @@ module mb4_sequencer (
   input  logic [1:0] init_fail_i,
   // banks
   input  logic       bank_pending_i,
+  input  logic       bank_swapped_i,
   output logic       bank_end_o,      // a frame is complete
   output logic       holdbank_o,
   output logic       swbank_pulse_o,
@@ -131,7 +132,7 @@ module mb4_sequencer (
     bad_d          = bad_q;
     n_scderr_d     = n_scderr_q;
     n_agserr_d     = n_agserr_q;
-    fail_d         = fail_q;
+    fail_d         = fail_q && !bank_swapped_i;
     wait_d         = wait_q;
     start_o        = 1'b0;
     init_o         = 1'b0;
@@ -188,7 +189,6 @@ module mb4_sequencer (
           state_d    = IDLE;
           bank_end_o = 1'b1;
           n_scderr_d = !bad_d;
-          if (!holdbank_o) fail_d = 1'b0;
           if (!held_q.ags && !new_q) held_d.instr = 3'b000;
         end
       end

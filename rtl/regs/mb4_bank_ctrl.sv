@@ -16,6 +16,7 @@ module mb4_bank_ctrl (
   input  logic swbank_pulse_i,  // SWBANK has changed its value
   input  logic frame_end_i,
   output logic pending_o,
+  output logic swapped_o,       // the switch of a frame's end takes place
   output logic host_bank_o,
   output logic eng_bank_o
 );
@@ -39,6 +40,7 @@ module mb4_bank_ctrl (
   end
 
   assign pending_o   = pending_q;
+  assign swapped_o   = swap;
   assign host_bank_o = host_q;
   assign eng_bank_o  = host_q ^ !singlebank_i;
 

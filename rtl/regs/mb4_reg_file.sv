@@ -38,6 +38,7 @@ module mb4_reg_file (
   input  logic       swbank_pulse_i,
   input  logic       bank_end_i,
   output logic       bank_pending_o,
+  output logic       bank_swapped_o,
   // received bytes and words of lines {2, 1}
   input  logic [1:0]  wr_line_i,
   input  logic [5:0]  wr_byte_i,
@@ -170,7 +171,6 @@ module mb4_reg_file (
                           (ready_rdata || !post_rdata);
 
   assign mem_busy_o = clear_busy;
-
   mb4_ram_clear u_clear (
     .clk_i,
     .rst_ni,
@@ -238,6 +238,7 @@ module mb4_reg_file (
     .swbank_pulse_i,
     .frame_end_i    (bank_end_i),
     .pending_o      (bank_pending_o),
+    .swapped_o      (bank_swapped_o),
     .host_bank_o    (host_bank),
     .eng_bank_o     (eng_bank)
   );

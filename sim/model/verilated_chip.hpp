@@ -34,10 +34,13 @@ class VerilatedChip final : public ChipModel {
         pin_clock_(config.f_clk_hz),
         oscillator_(config.f_osc_hz),
         pin_clock_connected_(config.f_clk_hz != 0) {
+    // The default makes idle worker threads.
+    context_->threads(1);
     // Flops and memories without reset get random values at power-on; 31 bits, not 0, as
     // randSeed() demands.
     context_->randReset(2);
     context_->randSeed(static_cast<int>(seed % 0x7FFFFFFEU) + 1);
+    context_->threads(1);  // else every context starts a pool of threads that nobody uses
     context_->timeunit(-12);
     context_->timeprecision(-12);
     if constexpr (kTraced) context_->traceEverOn(true);
@@ -68,9 +71,15 @@ class VerilatedChip final : public ChipModel {
     watched_ = pack();
   }
 
-  ~VerilatedChip() override { model_->final(); }
+  ~VerilatedChip() override {
+    // The model's destructor works on the context of the thread, not on its own one: with several
+    // simulators in a process that may be another's, or one that is already gone.
+    Verilated::threadContextp(context_.get());
+    model_->final();
+  }
 
   Time run_clocks(Time limit) override {
+    Verilated::threadContextp(context_.get());
     if (osc_running_) return run_two_clocks(limit);
     Model& model = *model_;
     while (pin_clock_.next() <= limit) {
@@ -92,6 +101,7 @@ class VerilatedChip final : public ChipModel {
   }
 
   void set_input(Time now, Pin pin, bool level) override {
+    Verilated::threadContextp(context_.get());
     const CData value = level ? 1 : 0;
     switch (pin) {
       case Pin::kNcs:

@@ -5,7 +5,6 @@
 #include <gtkwave/fstapi.h>
 
 #include <algorithm>
-#include <array>
 #include <filesystem>
 #include <fstream>
 #include <memory>
@@ -18,35 +17,50 @@ namespace mb4::sim {
 namespace {
 
 struct Signal {
-  std::string path;   // without the leading TOP and the name of the top
-  std::string full;   // as GTKWave wants it
+  std::string path;  // below the top module
+  std::string full;  // as GTKWave wants it
   bool vector = false;
 };
 
+// A group of the view: pins of the chip by the start of their name, and what lies inside the chip by
+// a scope of its path.
 struct Group {
-  const char* name;
-  // A signal belongs to the first group that has a word which occurs in its path.
-  std::vector<std::string_view> words;
+  std::string_view name;
+  std::vector<std::string_view> pins;
+  std::vector<std::string_view> scopes;
 };
 
-const std::array<Group, 5>& groups() {
-  static const std::array<Group, 5> list = {{
-      {"slaves", {"slaves_"}},
-      {"host", {"nres_i", "ncs_i", "ale_i", "nrd_rnw_i", "nwr_e_i", "db_", "cfgspi", "int_nmot",
-                "getsens", "eot_o", "ner_", "u_spi", "u_host"}},
-      {"line", {"ma1_o", "ma2_o", "mo1_o", "mo2_o", "sl1_i", "sl2_i", "u_channel", "u_ch",
-                "u_line", "u_timebase", "u_frame", "u_rx"}},
-      {"control", {"u_seq", "u_ctrl", "u_init", "u_frame_timer", "u_command", "u_reg_access",
-                   "u_word_list", "u_freqs", "clk_i", "osc_i"}},
-      {"registers", {"u_cfg", "u_instr", "u_scd", "u_svalid", "u_bank", "u_rdata", "u_status",
-                     "u_regs", "u_ram"}},
-  }};
+// In the order in which they stand in the view.
+const std::vector<Group>& groups() {
+  static const std::vector<Group> list = {
+      {"host",
+       {"nres_i", "cfgspi_i", "int_nmot_i", "ncs_i", "ale_i", "nrd_rnw_i", "nwr_e_i", "db_",
+        "getsens_i", "eot_o", "ner_"},
+       {".u_spi.", ".u_host."}},
+      {"registers", {}, {".u_regs."}},
+      {"control", {"clk_i", "osc_i"}, {".u_sequencer.", ".u_timebase.", ".u_ctrl."}},
+      {"line", {"ma", "mo", "sl1_i", "sl2_i"}, {".gen_line[", ".u_line."}},
+      {"slaves", {"slaves_"}, {}},
+  };
   return list;
 }
 
-// Order in which the groups stand in the view.
-constexpr std::array<std::string_view, 5> kOrder = {"host", "registers", "control", "line",
-                                                    "slaves"};
+bool belongs(const Group& group, const Signal& signal) {
+  const bool pin = signal.path.find('.') == std::string::npos;
+  if (pin) {
+    return std::any_of(group.pins.begin(), group.pins.end(),
+                       [&](std::string_view word) { return signal.path.starts_with(word); });
+  }
+  // Of the inside only registers and outputs; the rest follows from them and is in the file.
+  const std::string name = signal.path.substr(0, signal.path.find('[', signal.path.rfind('.')));
+  if (!name.ends_with("_q") && !name.ends_with("_o")) return false;
+  for (const std::string_view detail : {"_sync.", "sync.", ".u_ram."}) {
+    if (signal.path.find(detail) != std::string::npos) return false;
+  }
+  return std::any_of(group.scopes.begin(), group.scopes.end(), [&](std::string_view word) {
+    return signal.path.find(word) != std::string::npos;
+  });
+}
 
 struct CloseReader {
   void operator()(void* reader) const { fstReaderClose(reader); }
@@ -73,20 +87,11 @@ std::vector<Signal> read_signals(const std::string& fst_path) {
       signal.full += name;
       signal.path += name;
       signal.vector = entry->u.var.length > 1;
-      // The top repeats the ports of the chip; Verilator lists its own ports above the top again.
+      // Verilator lists the ports of the top above it once more.
       if (scopes.size() > 1) signals.push_back(std::move(signal));
     }
   }
   return signals;
-}
-
-const Group* group_of(const Signal& signal) {
-  for (const Group& group : groups()) {
-    for (const std::string_view word : group.words) {
-      if (signal.path.find(word) != std::string::npos) return &group;
-    }
-  }
-  return nullptr;
 }
 
 void write_signal(std::ostream& out, const Signal& signal) {
@@ -102,16 +107,12 @@ void write_wave_view(const std::string& fst_path, const std::string& view_path) 
       << "[dumpfile] \"" << std::filesystem::path(fst_path).filename().string() << "\"\n"
       << "[savefile] \"" << std::filesystem::path(view_path).filename().string() << "\"\n"
       << "[timestart] 0\n[sst_expanded] 1\n";
-  for (const std::string_view name : kOrder) {
-    out << "@800200\n-" << name << '\n';
+  for (const Group& group : groups()) {
+    out << "@800200\n-" << group.name << '\n';
     for (const Signal& signal : signals) {
-      const Group* group = group_of(signal);
-      // The ports of the chip are those of the top: once is enough.
-      const bool port_again = signal.path.starts_with("u_chip.") &&
-                              signal.path.find('.') == signal.path.rfind('.');
-      if (group != nullptr && group->name == name && !port_again) write_signal(out, signal);
+      if (belongs(group, signal)) write_signal(out, signal);
     }
-    out << "@1000200\n-" << name << '\n';
+    out << "@1000200\n-" << group.name << '\n';
   }
   out.close();
   if (!out) throw std::runtime_error(view_path + ": cannot write");

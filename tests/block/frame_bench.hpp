@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "Vframe_top.h"
-#include "verilated.h"
+#include "model_context.hpp"
 
 namespace mb4test {
 
@@ -91,9 +91,7 @@ class FrameBench {
  public:
   static constexpr std::uint64_t kSub = 16;  // time steps in a clock
 
-  FrameBench() : context_(std::make_unique<VerilatedContext>()) {
-    context_->randReset(2);
-    context_->randSeed(1);
+  FrameBench() : context_(make_context()) {
     model = std::make_unique<Vframe_top>(context_.get());
     model->clk_i = 0;
     model->rst_ni = 0;
@@ -110,7 +108,10 @@ class FrameBench {
     model->rst_ni = 1;
     clocks(2);
   }
-  ~FrameBench() { model->final(); }
+  ~FrameBench() {
+    Verilated::threadContextp(context_.get());  // Verilator 5.006 looks there for its scopes
+    model->final();
+  }
 
   // Datasheet 0xC0..0xC3 of one data channel: SCDLEN = bits - 1, ENSCD, CRC code, start value.
   void configure(unsigned slave, unsigned data_bits, std::uint32_t crc_byte,

@@ -1,0 +1,272 @@
+# SPDX-FileCopyrightText: 2026 The openmb4 authors
+# SPDX-License-Identifier: Apache-2.0
+"""Random inputs, one table entry a module, so that each module does what it is there for.
+
+A step is a complete set of input values. Clocks and data never change in one step, so that neither
+simulator has to decide a race; several clocks may."""
+
+# SPI opcodes (datasheet Table 3): write, read with address; status, SCDATA; instruction, SCDATA.
+OPCODES = [0x02, 0x03, 0x05, 0x0B, 0x07, 0x12]
+
+
+class Steps:
+    """The steps so far and the values of the inputs now."""
+
+    def __init__(self, rng, widths):
+        self.rng = rng
+        self.widths = widths
+        self.now = {port: 0 for port in widths}
+        self.steps = []
+        self.compare_from = 0
+
+    def step(self, **values):
+        self.now.update(values)
+        self.steps.append(dict(self.now))
+
+    def reset(self, ports):
+        """Edges, so that flops with an asynchronous reset take their value in both simulators."""
+        self.step(**{port: 1 for port in ports})
+        self.step(**{port: 0 for port in ports})
+        self.compare_from = len(self.steps) - 1
+        self.step(**{port: 1 for port in ports})
+
+    def clock(self, port):
+        self.step(**{port: 1})
+        self.step(**{port: 0})
+
+    def chance(self, probability):
+        return self.rng.random() < probability
+
+
+def any_value(steps, port):
+    return steps.rng.getrandbits(steps.widths[port])
+
+
+def play(steps, clocks, resets, rounds, ports=None, hold=0.5, reset_rate=0.002):
+    """Random data between clock edges. `ports`: name to probability that a one-bit input is 1, or
+    to a function of the steps that gives a new value or None for no change. All other inputs keep
+    their value with probability `hold`."""
+    ports = ports or {}
+    data = [p for p in steps.widths if p not in clocks and p not in resets]
+    for _ in range(rounds):
+        values = {}
+        for port in data:
+            rule = ports.get(port)
+            if callable(rule):
+                value = rule(steps)
+                if value is not None:
+                    values[port] = value
+            elif rule is not None:
+                values[port] = int(steps.chance(rule))
+            elif not steps.chance(hold):
+                values[port] = any_value(steps, port)
+        if data:
+            steps.step(**values)
+        if resets and steps.chance(reset_rate):
+            reset = steps.rng.choice(resets)
+            steps.step(**{reset: 0})
+            steps.step(**{reset: 1})
+        edges = [c for c in clocks if steps.chance(0.6)] or clocks[:1]
+        if edges:
+            steps.step(**{c: 1 - steps.now[c] for c in edges})
+
+
+def rarely(port, probability, choose=None):
+    """A rule: a new value now and then."""
+    def rule(steps):
+        if not steps.chance(probability):
+            return None
+        return choose(steps) if choose else any_value(steps, port)
+    return rule
+
+
+def host_write(steps):
+    """An address of 0xC0..0xFF mostly: where the configuration lives."""
+    return steps.rng.getrandbits(6) | 0xC0 if steps.chance(0.9) else steps.rng.getrandbits(8)
+
+
+def host(*names):
+    return {name: rarely(name, 0.5, host_write) for name in names}
+
+
+def instruction_byte(steps):
+    return steps.rng.choice([0x02, 0x04, 0x06, 0x03, 0x12, 0x80, 0x40, 0x20, 0x60]) \
+        if steps.chance(0.8) else steps.rng.getrandbits(8)
+
+
+def simple(clocks, resets, rounds=3000, ports=None, **options):
+    def make(steps):
+        steps.reset(resets)
+        play(steps, clocks, resets, rounds, ports, **options)
+    return make
+
+
+def combinational(steps):
+    play(steps, [], [], 4000, hold=0.3)
+
+
+def spi_bytes(steps, values, between=lambda steps: None):
+    """One frame in SPI mode 0."""
+    steps.step(cs_ni=0)
+    for value in values:
+        for bit in range(7, -1, -1):
+            steps.step(mosi_i=value >> bit & 1)
+            between(steps)
+            steps.step(sclk_i=1)
+            between(steps)
+            steps.step(sclk_i=0)
+    steps.step(cs_ni=1)
+
+
+def spi(steps):
+    steps.step(cs_ni=1)
+    steps.reset(["rst_ni"])
+
+    def between(steps):
+        if steps.chance(0.3):
+            steps.step(rd_data_i=any_value(steps, "rd_data_i"))
+        if steps.chance(0.001):
+            steps.step(cs_ni=1)
+            steps.step(cs_ni=0)
+        if steps.chance(0.0005):
+            steps.step(rst_ni=0)
+            steps.step(rst_ni=1)
+
+    for _ in range(40):
+        opcode = steps.rng.choice(OPCODES) if steps.chance(0.9) else steps.rng.getrandbits(8)
+        spi_bytes(steps, [opcode] + [steps.rng.getrandbits(8)
+                                     for _ in range(steps.rng.randint(0, 6))], between)
+
+
+def timebase(steps):
+    steps.step(half_len_i=1)
+    steps.reset(["rst_ni"])
+    lengths = [1, 2, 3, 4, 5, 7, 20]
+    play(steps, ["clk_i"], ["rst_ni"], 6000,
+         {"half_len_i": rarely("half_len_i", 0.01, lambda s: s.rng.choice(lengths)
+                               if s.chance(0.95) else s.rng.randint(1, 255)),
+          "run_i": 0.98, "restart_i": 0.02})
+
+
+def scd_bank(steps):
+    """Memory contents are unknown until written: clear all, then read once."""
+    steps.step(clear_i=1)
+    for address in range(64):
+        steps.step(clear_addr_i=address)
+        steps.clock("clk_i")
+    steps.step(clear_i=0, rd_en_i=1)
+    steps.clock("hclk_i")
+    steps.compare_from = len(steps.steps)
+    few = {port: rarely(port, 0.6, lambda s: s.rng.getrandbits(3) * 9) for port in
+           ("clear_addr_i", "eng_wr_addr_i", "host_wr_addr_i", "rd_addr_i")}
+    # A write and a read of one address never share a clock edge: which byte is read is left open.
+    for _ in range(3000):
+        play(steps, ["clk_i"], [], 1, dict(few, clear_i=0.05))
+        play(steps, ["hclk_i"], [], 1, dict(few, clear_i=0.05))
+
+
+def rx_word(steps):
+    steps.reset(["rst_ni"])
+    for _ in range(120):
+        crc = steps.rng.choice([0, 0, 1, 3, 5, 6, 7, 8, 16])
+        word = steps.rng.getrandbits(6)  # data_last, then crc_len .. crc_store of mb4_pkg
+        top = 1 << (crc - 1) if crc else 0
+        for value, width in ((crc, 5), (steps.rng.getrandbits(16) & (2 * top - 1 if top else 0), 16),
+                             (top, 16), (steps.rng.getrandbits(16), 16), (steps.rng.getrandbits(1), 1)):
+            word = word << width | value
+        steps.step(word_i=word, load_i=1, bit_valid_i=0)
+        steps.clock("clk_i")
+        steps.step(load_i=0)
+        for _ in range(steps.rng.randint(1, 90)):
+            steps.step(bit_valid_i=int(steps.chance(0.8)), bit_i=steps.rng.getrandbits(1))
+            steps.clock("clk_i")
+
+
+def core(steps):
+    """Whole chip without pins: a host that configures, starts frames and reads, noisy slaves."""
+    rng = steps.rng
+    steps.step(cs_ni=1, sl1_i=1, sl2_i=1, ner_i=1, quirks_i=4)
+    steps.reset(["rst_ni"])
+
+    def between(steps):
+        for _ in range(rng.randint(0, 3)):
+            steps.clock("clk_i")
+            for line in ("sl1_i", "sl2_i"):
+                if steps.chance(0.3):
+                    steps.step(**{line: rng.getrandbits(1)})
+
+    def write(address, *values):
+        spi_bytes(steps, [0x02, address, *values], between)
+
+    for _ in range(100):
+        steps.clock("clk_i")
+    for _ in range(5):
+        steps.step(quirks_i=rng.getrandbits(6), ner_i=rng.getrandbits(1))
+        write(0xED, rng.choice([5, 5, 0, 15]) & 0xF)
+        write(0xEC, rng.choice([0x00, 0x10]))
+        write(0xE6, rng.choice([0, 0, 1, 2]))
+        write(0xF5, rng.getrandbits(8))
+        for slave in rng.sample(range(8), 3):
+            write(0xC0 + 4 * slave, 0x40 | rng.getrandbits(4), rng.choice([0, 3, 5, 6, 0xA1]),
+                  rng.getrandbits(8), rng.getrandbits(8))
+        for _ in range(4):
+            spi_bytes(steps, [0x07, instruction_byte(steps)], between)
+            for _ in range(150):
+                between(steps)
+            spi_bytes(steps, [0x05] + [0] * rng.randint(1, 5), between)
+            spi_bytes(steps, [0x03, rng.choice([0x00, 0x08, 0x20, 0x80, 0xC0, 0xE2, 0xEA, 0xF0])]
+                      + [0] * 8, between)
+        write(rng.choice([0x00, 0x20, 0x80]), *[rng.getrandbits(8) for _ in range(4)])
+        write(0xF1, rng.getrandbits(8), rng.getrandbits(8))
+        if steps.chance(0.2):
+            steps.step(rst_ni=0)
+            steps.step(rst_ni=1)
+
+
+CORE = (["clk_i"], ["rst_ni"])
+HOST = (["hclk_i"], ["rst_ni"])
+
+MODULES = {
+    "mb4_clk_mux": simple(["clk0_i", "clk1_i"], ["rst_ni"], 4000,
+                          {"sel_i": rarely("sel_i", 0.02)}),
+    "mb4_posted": simple(["hclk_i", "clk_i"], ["hrst_ni", "rst_ni"], 6000, {"wr_en_i": 0.2}),
+    "mb4_scd_bank": scd_bank,
+    "mb4_spi": spi,
+    "mb4_cfg_regs": simple(*HOST, 6000, host("wr_addr_i", "rd_addr_i"), hold=0.2),
+    "mb4_instr_reg": simple(*HOST, 4000, {"wr_addr_i": rarely("wr_addr_i", 0.5,
+                            lambda s: 0xF4 ^ (int(s.chance(0.3)) << s.rng.randrange(8)))}),
+    "mb4_host_read": simple(*HOST, 6000, host("rd_addr_i")),
+    "mb4_bank_ctrl": simple(*CORE, 4000, {"frame_end_i": 0.2, "swbank_pulse_i": 0.1}),
+    "mb4_crc_decode": combinational,
+    "mb4_word_list": simple(*CORE, 6000, {"start_i": 0.02, "next_i": 0.2, "mine_i":
+                            rarely("mine_i", 0.01), "slave_cfg_i": rarely("slave_cfg_i", 0.02)}),
+    "mb4_sequencer": simple(*CORE, 12000, {
+        "written_i": rarely("written_i", 0.1, instruction_byte), "toggle_i": rarely("toggle_i", 0.1),
+        "mem_busy_i": 0.02, "idle_i": rarely("idle_i", 0.3, lambda s: s.rng.choice([3, 3, 3, 1])),
+        "sl_i": rarely("sl_i", 0.2, lambda s: s.rng.choice([3, 3, 3, 1])), "tick_i": 0.9,
+        "use_i": rarely("use_i", 0.02), "regvers_i": rarely("regvers_i", 0.02),
+        "frame_end_i": rarely("frame_end_i", 0.9, lambda s: s.rng.choice([0, 1, 2, 3])),
+        "init_done_i": rarely("init_done_i", 0.9, lambda s: s.rng.choice([0, 1, 2, 3])),
+        "init_fail_i": rarely("init_fail_i", 0.9, lambda s: s.rng.choice([0] * 9 + [1, 2])),
+        "agserr_on_write_i": rarely("agserr_on_write_i", 0.01),
+    }),
+    "mb4_timebase": timebase,
+    "mb4_sl_sampler": simple(*CORE, 12000, {
+        "clear_i": 0.004, "smp_a_i": 0.4, "smp_b_i": 0.4, "sl_i": rarely("sl_i", 0.3, lambda s:
+                                                                        int(s.chance(0.97))),
+        "armed_a_i": 0.95, "armed_b_i": 0.95}, reset_rate=0.0005),
+    "mb4_crc": simple(*CORE, 4000, {
+        "load_i": 0.02, "shift_i": 0.8, "feed_i": 0.8, "poly_i": rarely("poly_i", 0.02),
+        "top_i": rarely("top_i", 0.02, lambda s: 1 << s.rng.randrange(16))}),
+    "mb4_rx_word": rx_word,
+    "mb4_frame_biss": simple(*CORE, 12000, {
+        "start_i": 0.1, "use_i": 0.95, "init_i": 0.1, "abort_i": 0.003, "bit_valid_i": 0.3,
+        "tick_i": 0.5, "len_valid_i": 0.03, "last_word_i": 0.3, "word_done_i": 0.2, "sl_i": 0.7,
+        "ack_i": 0.2, "hold_cdm_i": 0.2, "quarters_i": rarely("quarters_i", 0.1, lambda s:
+                                                             s.rng.choice([3, 254, 255]))}),
+    "mb4_core": core,
+    "struct_in_block": simple(*CORE, 500),
+}
+
+# Output bits that no input can change, as text in which they are named: port[bit].
+CONSTANT = {}

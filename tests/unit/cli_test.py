@@ -1,0 +1,223 @@
+# SPDX-FileCopyrightText: 2026 The openmb4 authors
+# SPDX-License-Identifier: Apache-2.0
+"""The contract of the mb4sim command line: exit statuses, messages, output, files.
+
+Usage: cli_test.py MB4SIM EXAMPLES
+"""
+import csv
+import json
+import os
+import re
+import subprocess
+import sys
+import tempfile
+import unittest
+
+MB4SIM, EXAMPLES = sys.argv[1:3]
+RESOLUTE = os.path.join(EXAMPLES, "resolute-26.toml")
+
+
+def run(*arguments, text=""):
+    return subprocess.run([MB4SIM, *arguments], input=text, capture_output=True, text=True,
+                          timeout=120, check=False)
+
+
+class Cli(unittest.TestCase):
+    def setUp(self):
+        self.folder = tempfile.TemporaryDirectory()
+        self.addCleanup(self.folder.cleanup)
+
+    def path(self, name, content=None):
+        path = os.path.join(self.folder.name, name)
+        if content is not None:
+            with open(path, "w", encoding="utf-8") as file:
+                file.write(content)
+        return path
+
+    def assert_one_line(self, result, status, pattern):
+        self.assertEqual(result.returncode, status, result.stderr)
+        self.assertEqual(len(result.stderr.splitlines()), 1, result.stderr)
+        self.assertRegex(result.stderr, pattern)
+
+    # --- wrong use ---------------------------------------------------------------------------
+
+    def test_wrong_use_is_status_2(self):
+        for arguments in ([], ["fly"], ["run"], ["run", RESOLUTE, "--frames", "x"],
+                          ["run", RESOLUTE, "--frames", "0"], ["run", RESOLUTE, "--fast"],
+                          ["spi"], ["regs", RESOLUTE, "again"]):
+            with self.subTest(arguments):
+                result = run(*arguments)
+                self.assert_one_line(result, 2, r"^mb4sim: ")
+                self.assertEqual(result.stdout, "")
+
+    def test_help_and_version_are_status_0(self):
+        for arguments in (["--help"], ["run", "--help"], ["spi", "--help"], ["regs", "--help"]):
+            result = run(*arguments)
+            self.assertEqual(result.returncode, 0)
+            self.assertIn("Example", result.stdout)
+            self.assertEqual(result.stderr, "")
+        result = run("--version")
+        self.assertEqual(result.returncode, 0)
+        self.assertRegex(result.stdout, r"^mb4sim \d+\.\d+\.\d+\n$")
+
+    # --- bad input ---------------------------------------------------------------------------
+
+    def test_bad_scenario_is_one_line_with_file_line_and_key(self):
+        bad = self.path("bad.toml", "[chip]\nf_clk_hz = 20_000_000\nf_osk_hz = 1\n")
+        for command in ("run", "spi", "regs"):
+            result = run(command, bad)
+            self.assert_one_line(result, 2, re.escape(bad) + r":3:1: key 'f_osk_hz': unknown key")
+            self.assertEqual(result.stdout, "")
+
+    def test_missing_scenario(self):
+        for command in ("run", "spi", "regs"):
+            self.assert_one_line(run(command, "/no/such.toml"), 2,
+                                 r"/no/such\.toml: cannot read: No such file")
+        self.assert_one_line(run("run", self.folder.name), 2, "is a directory")
+
+    def test_unsupported_parts_are_named(self):
+        channel = "[[channel]]\nnumber = 1\n[[channel.slave]]\n"
+        for text, key in (("[host]\ninterface = \"motorola\"\n", "interface"),
+                          (channel + "protocol = \"ssi\"\n", "protocol"),
+                          (channel + "protocol = \"biss-b\"\n", "protocol")):
+            result = run("run", self.path("x.toml", text))
+            self.assert_one_line(result, 2, f"key '{key}': .* is not supported in this version")
+
+    def test_nothing_is_written_before_everything_is_valid(self):
+        bad = self.path("bad.toml", "x = 1\n")
+        run("run", bad, "--csv", self.path("a.csv"), "--trace", self.path("a.fst"))
+        self.assertEqual(os.listdir(self.folder.name), ["bad.toml"])
+        result = run("run", RESOLUTE, "--csv", self.path("a.csv"), "--trace", "/no/such/dir/a.fst")
+        self.assert_one_line(result, 2, "/no/such/dir/a.fst: cannot write: No such file")
+        result = run("run", RESOLUTE, "--csv", "/no/such/dir/a.csv", "--trace", self.path("a.fst"))
+        self.assert_one_line(result, 2, "/no/such/dir/a.csv: cannot write: No such file")
+        self.assertEqual(os.listdir(self.folder.name), ["bad.toml"])
+
+    # --- run ---------------------------------------------------------------------------------
+
+    def test_run_prints_table_and_summary(self):
+        result = run("run", RESOLUTE, "--frames", "3")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        lines = result.stdout.splitlines()
+        self.assertEqual(len(lines), 1 + 3 + 1)
+        for line in lines[1:4]:
+            words = line.split()
+            # 28 bits 0x2ABCDEF: position without nE, nW; CRC by an independent computation.
+            self.assertEqual(words[2:], ["1", "0x2ABCDEF", str(0x2ABCDEF >> 2), "1", "1",
+                                         f"0x{crc6(0x2ABCDEF, 28):02X}", "ok"])
+        self.assertRegex(lines[4], r"^frames good 3, bad 0; simulated time .* us, simulated clocks")
+
+    def test_run_default_is_ten_frames_and_repeatable(self):
+        first = run("run", RESOLUTE)
+        self.assertEqual(len(first.stdout.splitlines()), 12)
+        self.assertEqual(first.stdout, run("run", RESOLUTE).stdout)
+
+    def test_run_reads_the_recorded_frame_of_ti(self):
+        result = run("run", os.path.join(EXAMPLES, "ti-tidep0022.toml"), "--frames", "2", "--json")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        for frame in json.loads(result.stdout)["frames"]:
+            self.assertEqual(frame["position"], 0x0E08)
+            self.assertEqual((frame["nE"], frame["nW"]), (1, 1))
+            self.assertEqual(int(frame["crc"], 16), 0b101110 ^ 0b111111)
+
+    def test_run_json_and_csv_agree(self):
+        table = self.path("out.csv")
+        result = run("run", os.path.join(EXAMPLES, "ramp-sensor.toml"), "--frames", "4", "--json",
+                     "--csv", table)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        document = json.loads(result.stdout)
+        with open(table, encoding="utf-8", newline="") as file:
+            rows = list(csv.DictReader(file))
+        self.assertEqual([f["position"] for f in document["frames"]], [0, 1000, 2000, 3000])
+        self.assertEqual([int(r["position"]) for r in rows], [0, 1000, 2000, 3000])
+        self.assertEqual(document["summary"]["good"], 4)
+        self.assertEqual(os.listdir(self.folder.name), ["out.csv"])
+
+    def test_run_with_bad_frames_is_status_1(self):
+        # A recording whose CRC is wrong in one bit.
+        with open(os.path.join(EXAMPLES, "ti-tidep0022.edges"), encoding="utf-8") as file:
+            edges = file.read()
+        bad = edges.replace("24500  0", "23500  0")
+        self.assertNotEqual(bad, edges)
+        self.path("bad.edges", bad)
+        scenario = self.path("bad.toml", "[host]\nma_hz = 1_000_000\n[[channel]]\nnumber = 1\n"
+                             "[[channel.slave]]\nprotocol = \"replay\"\nedges = \"bad.edges\"\n"
+                             "data_bits = 15\n")
+        result = run("run", scenario, "--frames", "2")
+        self.assertEqual(result.returncode, 1, result.stderr)
+        self.assertIn("CRC error", result.stdout)
+        self.assertIn("frames good 0, bad 2", result.stdout)
+
+    def test_run_trace_writes_waveform_and_view(self):
+        wave = self.path("wave.fst")
+        result = run("run", RESOLUTE, "--frames", "1", "--trace", wave)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertEqual(result.stdout, run("run", RESOLUTE, "--frames", "1").stdout)
+        self.assertEqual(sorted(os.listdir(self.folder.name)), ["wave.fst", "wave.gtkw"])
+        self.assertGreater(os.path.getsize(wave), 1000)
+        with open(self.path("wave.gtkw"), encoding="utf-8") as file:
+            view = file.read()
+        self.assertIn('[dumpfile] "wave.fst"', view)
+        for group in ("host", "registers", "control", "line", "slaves"):
+            self.assertEqual(view.count(f"\n-{group}\n"), 2)
+            self.assertNotIn(f"-{group}\n@1000200", view)  # no empty group
+        for pin in ("ncs_i", "ale_i", "ma1_o", "sl1_i", "slaves_slo_i[7:0]"):
+            self.assertRegex(view, r"\." + re.escape(pin) + "\n")
+
+    # --- spi ---------------------------------------------------------------------------------
+
+    def test_spi_answers_each_frame_line(self):
+        result = run("spi", RESOLUTE, text="# comment\n\n03 ea 00 00\n+1000\npin GETSENS 1\n"
+                     "  05 00   # status\n")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertEqual(result.stdout, "00 00 20 84\n00 FB\n")
+
+    def test_spi_answers_before_the_next_line_is_written(self):
+        with subprocess.Popen([MB4SIM, "spi", RESOLUTE], stdin=subprocess.PIPE,
+                              stdout=subprocess.PIPE, text=True) as process:
+            for _ in range(3):
+                process.stdin.write("03 EB 00\n")
+                process.stdin.flush()
+                self.assertEqual(process.stdout.readline(), "00 00 84\n")
+            process.stdin.close()
+            self.assertEqual(process.wait(timeout=10), 0)
+
+    def test_spi_refuses_anything_else_with_its_line(self):
+        for line in ("03 E", "03 EBC", "hello", "+", "+1.5", "+-3", "+1 2", "pin", "pin EOT 1",
+                     "pin GETSENS", "pin GETSENS 2", "pin NOPE 1", "pin GETSENS 1 1", "0x03"):
+            with self.subTest(line):
+                result = run("spi", RESOLUTE, text=f"03 EB 00\n\n{line}\n03 EB 00\n")
+                self.assert_one_line(result, 2, r"^mb4sim: standard input:3: ")
+                self.assertEqual(result.stdout, "00 00 84\n")
+
+    # --- regs --------------------------------------------------------------------------------
+
+    def test_regs_shows_the_configured_chip(self):
+        result = run("regs", RESOLUTE, "--frames", "1")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertRegex(result.stdout, r"0x00 +SCDATA1 +EF CD AB 02")
+        self.assertRegex(result.stdout, r"0xEA +0x20 +REVISION +7:0 +0x20")
+        self.assertRegex(result.stdout, r"0xEB +0x84 +VERSION +7:0 +0x84")
+        self.assertRegex(result.stdout, r"0xC0 +0x5B +SCDLEN1 +5:0 +0x1B")
+        self.assertRegex(result.stdout, r"CFGCH1 +1:0 +0x01")
+        self.assertRegex(result.stdout, r"nSCDERR +4 +0x01")
+
+    def test_regs_after_reset(self):
+        result = run("regs", RESOLUTE, "--reset", "--json")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        document = json.loads(result.stdout)
+        self.assertEqual(document["registers"][0xC0:0xE8], [0] * 0x28)
+        self.assertEqual(document["registers"][0xEB], 0x84)
+
+
+def crc6(data, bits):
+    """CRC6 0x43, start 0, bit by bit."""
+    register = 0
+    for index in reversed(range(bits)):
+        feedback = ((data >> index) & 1) ^ (register >> 5)
+        register = ((register << 1) & 0x3F) ^ (0x03 if feedback else 0)
+    return register
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1])

@@ -1,0 +1,239 @@
+// SPDX-FileCopyrightText: 2026 The openmb4 authors
+// SPDX-License-Identifier: Apache-2.0
+#include "mb4sim/scenario.hpp"
+
+#include <gtest/gtest.h>
+
+#include <ostream>
+#include <string>
+
+#include "mb4sim/presets.hpp"
+
+namespace mb4::sim {
+namespace {
+
+const BissCSlaveConfig& biss_c(const Scenario& scenario, std::size_t index = 0) {
+  return std::get<BissCSlaveConfig>(scenario.channels.at(0).slaves.at(index).device);
+}
+
+std::string slave(const std::string& keys) {
+  return "[[channel]]\nnumber = 1\n[[channel.slave]]\nprotocol = \"biss-c\"\n" + keys + "\n";
+}
+
+// The scenario of the design page, every key of it.
+TEST(Scenario, ExampleOfTheDesign_IsReadCompletely) {
+  const Scenario scenario = parse_scenario(R"([chip]
+f_clk_hz = 20_000_000
+f_osc_hz = 20_000_000
+[chip.quirks]
+[host]
+interface = "spi"
+sclk_hz = 10_000_000
+[[channel]]
+number = 1
+delay_ns = 0.0
+[[channel.slave]]
+protocol = "biss-c"
+preset = "resolute-26"
+data_bits = 28
+crc = 0x43
+crc_start = 0
+data = 0x2ABCDEF
+timeout = "adaptive"
+busy_periods = 0
+registers = { 0x44 = [0x00, 0xD9, 0x01, 0x32] }
+)",
+                                           "design.toml");
+  EXPECT_EQ(scenario.chip.f_clk_hz, 20'000'000U);
+  EXPECT_EQ(scenario.chip.quirks, 0b000100U);
+  EXPECT_EQ(scenario.host.sclk_hz, 10'000'000U);
+  EXPECT_EQ(scenario.host.ma_hz, 10'000'000U);
+  EXPECT_EQ(biss_c(scenario).data_bits, 28U);
+  EXPECT_EQ(biss_c(scenario).crc.polynomial, 0x43U);
+  EXPECT_EQ(biss_c(scenario).source.constant, 0x2ABCDEFU);
+  EXPECT_TRUE(biss_c(scenario).timeout.adaptive());
+  EXPECT_EQ(scenario.channels[0].slaves[0].registers.at(0x45), 0xD9);
+  EXPECT_EQ(scenario.channels[0].slaves[0].registers.at(0x47), 0x32);
+}
+
+TEST(Scenario, CableLength_Is5Point3NanosecondsPerMetreEachWay) {
+  const Scenario scenario = parse_scenario("[[channel]]\nnumber = 1\ncable_m = 10.0\n", "s");
+  EXPECT_EQ(scenario.channels[0].delay, 106'000U);
+}
+
+TEST(Scenario, Quirks_SetTheirBits) {
+  const auto quirks = [](const std::string& keys) {
+    return parse_scenario("[chip.quirks]\n" + keys, "s").chip.quirks;
+  };
+  EXPECT_EQ(quirks("IDA_TEST_INVERT = true"), 0b000101U);
+  EXPECT_EQ(quirks("AGSERR_ON_INSTR_WRITE = true"), 0b000110U);
+  EXPECT_EQ(quirks("AGSERR_ON_HOLDBANK = false"), 0b000000U);
+  EXPECT_EQ(quirks("AGS_CLEARED_ON_ERROR = true"), 0b001100U);
+  EXPECT_EQ(quirks("REVISION = 0x20"), 0b000100U);
+  EXPECT_EQ(quirks("REVISION = 0x10"), 0b010100U);
+  EXPECT_EQ(quirks("REVISION = 0x11"), 0b100100U);
+}
+
+TEST(Scenario, Word64Bits_IsWrittenAsString) {
+  const Scenario scenario =
+      parse_scenario(slave("data_bits = 64\ndata = \"0xFFFF_FFFF_FFFF_FFFF\""), "s");
+  EXPECT_EQ(biss_c(scenario).source.constant, UINT64_MAX);
+}
+
+TEST(Scenario, EveryPreset_CanBeUsed) {
+  for (const Preset& preset : presets()) {
+    std::string keys = "preset = \"" + std::string(preset.name) + "\"";
+    if (preset.config.data_bits == 0) keys += "\ndata_bits = 20";
+    EXPECT_NO_THROW(parse_scenario(slave(keys), "s")) << preset.name;
+  }
+}
+
+TEST(Scenario, SecondChannel_TakesSlaves5To8) {
+  const Scenario scenario = parse_scenario(
+      "[[channel]]\nnumber = 2\n[[channel.slave]]\nprotocol = \"biss-c\"\ndata_bits = 8\n", "s");
+  EXPECT_EQ(scenario.channel(1), nullptr);
+  ASSERT_NE(scenario.channel(2), nullptr);
+}
+
+struct BadScenario {
+  const char* name;
+  std::string text;
+  const char* message;  // complete
+};
+
+void PrintTo(const BadScenario& bad, std::ostream* out) { *out << bad.name; }
+
+class Scenarios : public testing::TestWithParam<BadScenario> {};
+
+TEST_P(Scenarios, BadInput_GivesOneLineWithPlaceAndKey) {
+  try {
+    parse_scenario(GetParam().text, "s.toml");
+    FAIL() << "accepted";
+  } catch (const ScenarioError& error) {
+    EXPECT_STREQ(error.what(), GetParam().message);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Bad, Scenarios,
+    testing::Values(
+        BadScenario{"UnknownTable", "[chips]\n", "s.toml:1:2: key 'chips': unknown key"},
+        BadScenario{"UnknownKey", "[chip]\nf_clk_hz = 20_000_000\nf_clk = 3\n",
+                    "s.toml:3:1: key 'f_clk': unknown key"},
+        BadScenario{"WrongType", "[chip]\nf_clk_hz = \"fast\"\n",
+                    "s.toml:2:12: key 'f_clk_hz': expected an integer, found a string"},
+        BadScenario{"Negative", "[chip]\nf_clk_hz = -1\n",
+                    "s.toml:2:12: key 'f_clk_hz': -1 is outside 0 to 200000000"},
+        BadScenario{"TooSlow", "[chip]\nf_clk_hz = 10\n",
+                    "s.toml:2:12: key 'f_clk_hz': 10 is below 1000 (0 = not connected)"},
+        BadScenario{"Oscillator", "[chip]\nf_osc_hz = 30_000_000\n",
+                    "s.toml:2:12: key 'f_osc_hz': 30000000 is outside 12500000 to 25000000"},
+        BadScenario{"Quirk", "[chip.quirks]\nNO_SUCH = true\n",
+                    "s.toml:2:1: key 'NO_SUCH': unknown key"},
+        BadScenario{"QuirkType", "[chip.quirks]\nIDA_TEST_INVERT = 2\n",
+                    "s.toml:2:19: key 'IDA_TEST_INVERT': expected true or false, found an integer"},
+        BadScenario{"Revision", "[chip.quirks]\nREVISION = 0x21\n",
+                    "s.toml:2:12: key 'REVISION': expected 0x20 (Y), 0x10 (Z) or 0x11 (Z1)"},
+        BadScenario{"Intel", "[host]\ninterface = \"intel\"\n",
+                    "s.toml:2:13: key 'interface': intel is not supported in this version"},
+        BadScenario{"Interface", "[host]\ninterface = \"i2c\"\n",
+                    "s.toml:2:13: key 'interface': unknown value 'i2c', expected one of: spi, "
+                    "intel, motorola"},
+        BadScenario{"Sclk", "[host]\nsclk_hz = 60_000_000\n",
+                    "s.toml:2:11: key 'sclk_hz': 60000000 is outside 1000 to 50000000"},
+        BadScenario{"Ma", "[host]\nma_hz = 4_000_000\n",
+                    "s.toml:2:9: key 'ma_hz': the chip cannot make 4000000 Hz from 20000000 Hz; "
+                    "nearest: 3333333 and 5000000"},
+        BadScenario{"ChannelNumber", "[[channel]]\nnumber = 3\n",
+                    "s.toml:2:10: key 'number': 3 is outside 1 to 2"},
+        BadScenario{"NoNumber", "[[channel]]\ndelay_ns = 1\n", "s.toml:1:1: key 'number': missing"},
+        BadScenario{"TwoOnes", "[[channel]]\nnumber = 1\n[[channel]]\nnumber = 1\n",
+                    "s.toml:4:10: key 'number': channel 1 is given twice"},
+        BadScenario{"Delay", "[[channel]]\nnumber = 1\ndelay_ns = -0.5\n",
+                    "s.toml:3:12: key 'delay_ns': -0.5 is outside 0 to 1e+06"},
+        BadScenario{"DelayNan", "[[channel]]\nnumber = 1\ndelay_ns = nan\n",
+                    "s.toml:3:12: key 'delay_ns': nan is outside 0 to 1e+06"},
+        BadScenario{"DelayAndCable", "[[channel]]\nnumber = 1\ndelay_ns = 1\ncable_m = 1\n",
+                    "s.toml:4:11: key 'cable_m': cannot be given together with delay_ns"},
+        BadScenario{"NoProtocol", "[[channel]]\nnumber = 1\n[[channel.slave]]\ndata_bits = 8\n",
+                    "s.toml:3:1: key 'protocol': missing"},
+        BadScenario{"Ssi", "[[channel]]\nnumber = 1\n[[channel.slave]]\nprotocol = \"ssi\"\n",
+                    "s.toml:4:12: key 'protocol': ssi is not supported in this version"},
+        BadScenario{"BissB", "[[channel]]\nnumber = 1\n[[channel.slave]]\nprotocol = \"biss-b\"\n",
+                    "s.toml:4:12: key 'protocol': biss-b is not supported in this version"},
+        BadScenario{"NoLength", slave(""), "s.toml:3:1: key 'data_bits': missing"},
+        BadScenario{"Length", slave("data_bits = 65"),
+                    "s.toml:5:13: key 'data_bits': 65 is outside 1 to 64"},
+        BadScenario{"Crc", slave("data_bits = 8\ncrc = 0x42"),
+                    "s.toml:6:7: key 'crc': not a full polynomial such as 0x43 (0 = no CRC)"},
+        BadScenario{"Data", slave("data_bits = 8\ndata = 0x100"),
+                    "s.toml:6:8: key 'data': does not fit into 8 bits"},
+        BadScenario{"Timeout", slave("data_bits = 8\ntimeout = \"soon\""),
+                    "s.toml:6:11: key 'timeout': expected \"adaptive\" or a number of microseconds"},
+        BadScenario{"TimeoutZero", slave("data_bits = 8\ntimeout = 0"),
+                    "s.toml:6:11: key 'timeout': 0 is outside 0.05 to 1e+06"},
+        BadScenario{"Busy", slave("data_bits = 8\nbusy_periods = -1"),
+                    "s.toml:6:16: key 'busy_periods': -1 is outside 0 to 1000000"},
+        BadScenario{"DataAndSource", slave("data_bits = 8\nsource = \"ramp\"\ndata = 1"),
+                    "s.toml:7:8: key 'data': cannot be given together with source"},
+        BadScenario{"RampKeyWithoutRamp", slave("data_bits = 8\nstep = 1"),
+                    "s.toml:6:1: key 'step': unknown key"},
+        BadScenario{"SineWithoutPeriod", slave("data_bits = 8\nsource = \"sine\"\namplitude = 1"),
+                    "s.toml:3:1: key 'period_us': missing: source \"sine\" needs it"},
+        BadScenario{"Register", slave("data_bits = 8\nregisters = { 0x144 = 1 }"),
+                    "s.toml:6:15: key '0x144': expected a register address of 0x00 to 0xFF"},
+        BadScenario{"RegisterValue", slave("data_bits = 8\nregisters = { 0x44 = [256] }"),
+                    "s.toml:6:23: key '0x44': expected bytes of 0 to 255"},
+        BadScenario{"RegisterPastEnd", slave("data_bits = 8\nregisters = { 0xFF = [1, 2] }"),
+                    "s.toml:6:26: key '0xFF': runs past register 0xFF"},
+        BadScenario{"NoEdges",
+                    "[[channel]]\nnumber = 1\n[[channel.slave]]\nprotocol = \"replay\"\n"
+                    "data_bits = 8\nedges = \"/no/such/file\"\n",
+                    "s.toml:6:9: key 'edges': /no/such/file: cannot read: No such file or "
+                    "directory"}),
+    [](const auto& entry) { return entry.param.name; });
+
+TEST(Scenario, UnknownPreset_ListsTheKnownOnes) {
+  try {
+    parse_scenario(slave("preset = \"resolute-27\""), "s.toml");
+    FAIL() << "accepted";
+  } catch (const ScenarioError& error) {
+    const std::string message = error.what();
+    EXPECT_EQ(message.rfind("s.toml:5:10: key 'preset': unknown preset 'resolute-27'", 0), 0U);
+    EXPECT_NE(message.find("resolute-26"), std::string::npos);
+  }
+}
+
+TEST(Scenario, NinthSlave_IsRefused) {
+  std::string text = "[[channel]]\nnumber = 1\n";
+  for (int i = 0; i < 9; ++i) text += "[[channel.slave]]\nprotocol = \"biss-c\"\ndata_bits = 8\n";
+  try {
+    parse_scenario(text, "s.toml");
+    FAIL() << "accepted";
+  } catch (const ScenarioError& error) {
+    EXPECT_STREQ(error.what(), "s.toml:27:1: key 'slave': more than 8 slaves on a channel");
+  }
+}
+
+TEST(Scenario, BrokenToml_IsNamedWithItsPlaceInOneLine) {
+  try {
+    parse_scenario("[chip\n", "s.toml");
+    FAIL() << "accepted";
+  } catch (const ScenarioError& error) {
+    const std::string message = error.what();
+    EXPECT_EQ(message.rfind("s.toml:1:6: not valid TOML: ", 0), 0U) << message;
+    EXPECT_EQ(message.find('\n'), std::string::npos);
+  }
+}
+
+TEST(Scenario, MissingFile_IsNamed) {
+  try {
+    load_scenario("/no/such.toml");
+    FAIL() << "accepted";
+  } catch (const ScenarioError& error) {
+    EXPECT_STREQ(error.what(), "/no/such.toml: cannot read: No such file or directory");
+  }
+}
+
+}  // namespace
+}  // namespace mb4::sim

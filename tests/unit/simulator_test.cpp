@@ -1,0 +1,170 @@
+// SPDX-FileCopyrightText: 2026 The openmb4 authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// The whole simulator with the Verilated chip, as far as the simulator itself is concerned.
+#include "mb4sim/simulator.hpp"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <vector>
+
+namespace mb4::sim {
+namespace {
+
+Scenario load(const char* example) { return load_scenario(std::string(MB4_EXAMPLES) + example); }
+
+std::vector<std::uint8_t> exchange(Simulator& simulator, std::vector<std::uint8_t> tx) {
+  std::vector<std::uint8_t> rx(tx.size());
+  simulator.spi().transfer(tx, rx);
+  return rx;
+}
+
+// Datasheet Tables 41, 42: REVISION 0x20, VERSION 0x84.
+TEST(Simulator, ChipAfterReset_AnswersOverSpi) {
+  Simulator simulator(load("/resolute-26.toml"));
+  const auto rx = exchange(simulator, {0x03, 0xEA, 0, 0});
+  EXPECT_EQ(rx[2], 0x20);
+  EXPECT_EQ(rx[3], 0x84);
+}
+
+// Datasheet page 21: RAM registers reset to 0, whatever the power-on values of the flops were.
+TEST(Simulator, AnySeed_ConfigurationIsZeroAfterReset) {
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    SimulatorOptions options;
+    options.seed = seed;
+    Simulator simulator(load("/resolute-26.toml"), options);
+    std::vector<std::uint8_t> tx(2 + 42, 0);
+    tx[0] = 0x03;
+    tx[1] = 0xC0;
+    const auto rx = exchange(simulator, tx);
+    for (std::size_t i = 2; i < rx.size(); ++i) EXPECT_EQ(rx[i], 0) << "seed " << seed;
+  }
+}
+
+TEST(Simulator, ClockAndTime_AgreeWithTheFrequency) {
+  Scenario scenario = load("/resolute-26.toml");
+  scenario.channels.clear();
+  Simulator simulator(scenario);
+  const std::uint64_t before = simulator.clk_cycles();
+  simulator.advance(1000 * kPsPerUs);
+  EXPECT_EQ(simulator.clk_cycles() - before, 20'000U);
+  EXPECT_EQ(simulator.now(), Simulator::kReady + 1000 * kPsPerUs);
+}
+
+TEST(Simulator, NoClockAtPin_StandsStillUntilOscillatorIsSelected) {
+  Simulator simulator(load("/sine-internal-osc.toml"));
+  simulator.advance(10 * kPsPerUs);
+  EXPECT_EQ(simulator.clk_cycles(), 0U);
+  exchange(simulator, {0x02, 0xF5, 0x01});  // CLKENI
+  const std::uint64_t before = simulator.clk_cycles();
+  simulator.advance(100 * kPsPerUs);
+  EXPECT_EQ(simulator.clk_cycles() - before, 2000U);
+  exchange(simulator, {0x02, 0xF5, 0x00});
+  simulator.advance(10 * kPsPerUs);
+  const std::uint64_t stopped = simulator.clk_cycles();
+  simulator.advance(10 * kPsPerUs);
+  EXPECT_EQ(simulator.clk_cycles(), stopped);
+}
+
+TEST(Simulator, Callbacks_RunAtTheirTimes) {
+  Simulator simulator(load("/resolute-26.toml"));
+  std::vector<Time> seen;
+  for (const Time time : {5'000'123U, 2'000'000U, 3'333'333U}) {
+    simulator.at(time, [&] { seen.push_back(simulator.now()); });
+  }
+  simulator.run_until(10 * kPsPerUs);
+  EXPECT_EQ(seen, (std::vector<Time>{2'000'000, 3'333'333, 5'000'123}));
+}
+
+TEST(Simulator, ManyAtOnce_DoNotDisturbEachOther) {
+  const Scenario scenario = load("/resolute-26.toml");
+  Simulator first(scenario);
+  Simulator second(scenario);
+  exchange(first, {0x02, 0xE6, 0x55});
+  EXPECT_EQ(exchange(first, {0x03, 0xE6, 0})[2], 0x55);
+  EXPECT_EQ(exchange(second, {0x03, 0xE6, 0})[2], 0x00);
+}
+
+TEST(Simulator, SameSeed_GivesTheSameRun) {
+  Scenario scenario = load("/resolute-26.toml");
+  std::get<BissCSlaveConfig>(scenario.channels[0].slaves[0].device).timeout.sample_period = 9'000;
+  const auto run = [&](std::uint64_t seed) {
+    SimulatorOptions options;
+    options.seed = seed;
+    Simulator simulator(scenario, options);
+    exchange(simulator, {0x02, 0xC0, 0x5B, 0x06, 0, 0});
+    exchange(simulator, {0x02, 0xE5, 0x40, 0xA0, 0x00, 0x7C});
+    exchange(simulator, {0x02, 0xED, 0x0D});
+    Time end = 0;
+    for (int i = 0; i < 5; ++i) {
+      exchange(simulator, {0x07, 0x04});
+      simulator.run_while_waiting([&] { return !simulator.slave(1)->idle(); },
+                                  simulator.now() + 100 * kPsPerUs);
+      simulator.run_while_waiting([&] { return simulator.slave(1)->idle(); },
+                                  simulator.now() + 100 * kPsPerUs);
+      end = end * 31 + simulator.now();
+    }
+    EXPECT_EQ(simulator.slave(1)->frames(), 5U);
+    return end;
+  };
+  EXPECT_EQ(run(7), run(7));
+  EXPECT_NE(run(7), run(8));
+}
+
+// Pins nobody drives: datasheet page 3 and electrical characteristics.
+TEST(Simulator, UndrivenPins_RestAtTheirPulls) {
+  Simulator simulator(load("/resolute-26.toml"));
+  for (const Pin pin : {Pin::kNcs, Pin::kNrdRnw, Pin::kNwrE, Pin::kNer, Pin::kSl1, Pin::kSl2,
+                        Pin::kCfgspi, Pin::kMa1, Pin::kEot, Pin::kNres}) {
+    EXPECT_TRUE(simulator.pin(pin)) << static_cast<int>(pin);
+  }
+  for (const Pin pin : {Pin::kAle, Pin::kGetsens, Pin::kDb0, Pin::kDb1, Pin::kDb7, Pin::kIntNmot,
+                        Pin::kMo1}) {
+    EXPECT_FALSE(simulator.pin(pin)) << static_cast<int>(pin);
+  }
+}
+
+TEST(Simulator, NerPulledOutside_ReadsLowUntilReleased) {
+  Simulator simulator(load("/resolute-26.toml"));
+  simulator.set_pin(Pin::kNer, false);
+  EXPECT_FALSE(simulator.pin(Pin::kNer));
+  EXPECT_EQ(exchange(simulator, {0x05, 0})[1] & 0x80, 0);  // nERR shows the level of the pin
+  simulator.set_pin(Pin::kNer, true);
+  EXPECT_TRUE(simulator.pin(Pin::kNer));
+}
+
+TEST(Simulator, DrivenPins_CannotBeSet) {
+  Simulator simulator(load("/resolute-26.toml"));
+  for (const Pin pin : {Pin::kEot, Pin::kMa1, Pin::kMa2, Pin::kMo1, Pin::kSl1, Pin::kClk}) {
+    EXPECT_FALSE(simulator.can_set(pin));
+  }
+  EXPECT_TRUE(simulator.can_set(Pin::kSl2));  // no channel 2 in this scenario
+}
+
+// Datasheet BiSS C chapter: N + 5 rising edges, 50 % duty (I302, I303) and CDM = 0: MA rests high.
+TEST(Simulator, OneFrame_MonitorSeesTheChipsClock) {
+  Scenario scenario = load("/resolute-26.toml");
+  scenario.channels[0].delay = 0;
+  Simulator simulator(scenario);
+  exchange(simulator, {0x02, 0xC0, 0x5B, 0x06, 0, 0});
+  exchange(simulator, {0x02, 0xE5, 0x40, 0xA0, 0x00, 0x7C});
+  exchange(simulator, {0x02, 0xED, 0x0D});
+  exchange(simulator, {0x07, 0x04});
+  simulator.advance(50 * kPsPerUs);
+  const MaFrame frame = simulator.line(1)->monitor().last(simulator.now());
+  EXPECT_EQ(frame.rising, 28U + 6 + 5);
+  EXPECT_EQ(frame.min_low, 50'000U);
+  EXPECT_EQ(frame.max_low, 50'000U);
+  EXPECT_EQ(frame.min_high, 50'000U);
+  EXPECT_EQ(frame.max_high, 50'000U);
+  EXPECT_TRUE(frame.rest_level);
+  EXPECT_EQ(simulator.slave(1)->frames(), 1U);
+  EXPECT_FALSE(simulator.slave(1)->last_cdm());
+  const auto rx = exchange(simulator, {0x09, 0, 0, 0, 0});
+  EXPECT_EQ(rx[1], 0xEF);
+  EXPECT_EQ(rx[4], 0x02);
+}
+
+}  // namespace
+}  // namespace mb4::sim

@@ -1,0 +1,112 @@
+// SPDX-FileCopyrightText: 2026 The openmb4 authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Chains (protocol facts section 1.7): slave 1, next to the master, comes first; each slave is a
+// shift register of its own length.
+#include "mb4sim/slave_chain.hpp"
+
+#include <gtest/gtest.h>
+
+#include "chain_bench.hpp"
+
+namespace mb4::sim {
+namespace {
+
+constexpr Time kPeriod = 100 * kPsPerNs;
+constexpr Time kStart = 1000 * kPsPerNs;
+
+std::string line_word(std::uint64_t word, unsigned bits, std::uint32_t polynomial) {
+  const Crc crc{polynomial, 0};
+  return binary(word, bits) + binary(crc.line_bits(word, bits), crc.width());
+}
+
+TEST(SlaveChain, TwoSlaves_SendNearOneFirst) {
+  ChainBench bench;
+  bench.add(constant_slave(13, 0x1234, 0x43));
+  bench.add(constant_slave(9, 0x0AB, 0x25));
+  const std::string data = line_word(0x1234, 13, 0x43) + line_word(0x0AB, 9, 0x25);
+  EXPECT_EQ(bench.frame(kStart, kPeriod, static_cast<unsigned>(data.size()) + 5),
+            "1010" + data + "0");
+}
+
+// The datasheet's example of a sensor bus with three slaves (page 26): 19+2 bits CRC6, 12+2 bits
+// CRC5, 24 bits CRC16; 86 bits altogether.
+TEST(SlaveChain, ThreeSlavesOfDatasheetExample_SendTheirWordsInOrder) {
+  ChainBench bench;
+  bench.add(constant_slave(21, 0x15A5A5, 0x43));
+  bench.add(constant_slave(14, 0x2F0F, 0x25));
+  bench.add(constant_slave(24, 0xC0FFEE, 0x190D9));
+  const std::string data = line_word(0x15A5A5, 21, 0x43) + line_word(0x2F0F, 14, 0x25) +
+                           line_word(0xC0FFEE, 24, 0x190D9);
+  ASSERT_EQ(data.size(), 86U);
+  EXPECT_EQ(bench.frame(kStart, kPeriod, 86 + 5), "1010" + data + "0");
+}
+
+TEST(SlaveChain, BusyLastSlave_DelaysStartBitOfAll) {
+  ChainBench bench;
+  BissCSlaveConfig near = constant_slave(8, 0x5A, 0);
+  near.busy_periods = 100;  // only the last slave makes the start bit
+  BissCSlaveConfig far = constant_slave(8, 0xC3, 0);
+  far.busy_periods = 2;
+  bench.add(near);
+  bench.add(far);
+  EXPECT_EQ(bench.frame(kStart, kPeriod, 16 + 5 + 2),
+            "1" "000" "10" + binary(0x5AC3, 16) + "0");
+}
+
+// Datasheet page 15: in the timeout only the last slave forces SLO high, the others pass SLI on. The
+// master sees 1 when all have timed out.
+TEST(SlaveChain, DifferentTimeouts_SlRisesWithTheLongest) {
+  for (const bool near_is_longer : {true, false}) {
+    ChainBench bench;
+    BissCSlaveConfig near = constant_slave(8, 0, 0);
+    BissCSlaveConfig far = constant_slave(8, 0, 0);
+    near.timeout.fixed = from_us(near_is_longer ? 20 : 10);
+    far.timeout.fixed = from_us(near_is_longer ? 10 : 20);
+    bench.add(near);
+    bench.add(far);
+    bench.frame(kStart, kPeriod, 21);
+    const Time last = kStart + 21 * kPeriod - kPeriod / 2;
+    bench.run_until(last + from_us(30));
+    EXPECT_EQ(bench.slo.back(), std::make_pair(last + from_us(20), true)) << near_is_longer;
+  }
+}
+
+TEST(SlaveChain, OnlyTheFarSlaveIsLast) {
+  ChainBench bench;
+  const BissCSlave& near = bench.add(constant_slave(8, 0, 0));
+  const BissCSlave& far = bench.add(constant_slave(8, 0, 0));
+  bench.frame(kStart, kPeriod, 21);
+  EXPECT_FALSE(near.is_last());
+  EXPECT_TRUE(far.is_last());
+}
+
+// Bus configuration (datasheet page 15, figure 12): with MO the master makes the start bit and no
+// slave is the last one.
+TEST(SlaveChain, MoHigh_StartBitComesFromMo) {
+  ChainBench bench;
+  const BissCSlave& slave = bench.add(constant_slave(8, 0xA5, 0));
+  bench.mo = true;
+  bench.chain.drive(0, true, true);
+  bench.ma(kStart, false);
+  std::string bits;
+  // MO: acknowledge with rising edge 2, start bit with rising edge 5, then 0.
+  for (unsigned i = 1; i <= 16; ++i) {
+    bench.mo = i == 1 || i == 5;
+    bench.ma(kStart + i * kPeriod - kPeriod / 2, true);
+    bits += bench.chain.slo() ? '1' : '0';
+    bench.ma(kStart + i * kPeriod, false);
+  }
+  EXPECT_FALSE(slave.is_last());
+  EXPECT_EQ(bits, "1000" "10" + binary(0xA5, 8) + "00");
+}
+
+TEST(SlaveChain, NoSlaves_LineRestsHigh) {
+  ChainBench bench;
+  bench.frame(kStart, kPeriod, 10);
+  EXPECT_TRUE(bench.chain.slo());
+  EXPECT_TRUE(bench.slo.empty());
+}
+
+}  // namespace
+}  // namespace mb4::sim

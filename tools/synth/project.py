@@ -1,0 +1,66 @@
+# SPDX-FileCopyrightText: 2026 The openmb4 authors
+# SPDX-License-Identifier: Apache-2.0
+"""What the scripts under tests/netlist, tests/lint and tests/canary know about the project: the file
+list, Verilator's flags, and how a missing tool is reported."""
+
+import re
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[2]
+RTL = ROOT / "rtl"
+SKIPPED = 77
+
+
+def rtl_files():
+    """The files named by rtl/mb4.f, packages first, as absolute paths."""
+    lines = (RTL / "mb4.f").read_text(encoding="utf-8").splitlines()
+    names = [line.strip() for line in lines if line.strip() and line.strip()[:2] != "//"]
+    return [(RTL / name).resolve() for name in names]
+
+
+def rtl_modules():
+    """Module name to file, in the order of rtl/mb4.f, without the packages."""
+    return {path.stem: path for path in rtl_files() if not path.stem.endswith("_pkg")}
+
+
+def rtl_packages():
+    return [path for path in rtl_files() if path.stem.endswith("_pkg")]
+
+
+def verilator_flags():
+    """The flags that tools/cmake/mb4.cmake gives to every model, -fno-const-bit-op-tree among them."""
+    text = (ROOT / "tools" / "cmake" / "mb4.cmake").read_text(encoding="utf-8")
+    flags = re.search(r"VERILATOR_ARGS([^)]*)\)", text).group(1).replace("${ARG_ARGS}", "").split()
+    if "-Wall" not in flags or "-fno-const-bit-op-tree" not in flags:
+        raise SystemExit("tools/cmake/mb4.cmake: -Wall or -fno-const-bit-op-tree has gone")
+    return flags
+
+
+def tool(name):
+    """Path of a program; ends the test as skipped if it is not installed."""
+    path = shutil.which(name)
+    if path is None:
+        print(f"skipped: {name} is not installed")
+        sys.exit(SKIPPED)
+    return path
+
+
+def run(command, **options):
+    """Exit status and all text of a command."""
+    done = subprocess.run([str(word) for word in command], stdout=subprocess.PIPE,
+                          stderr=subprocess.STDOUT, text=True, check=False, **options)
+    return done.returncode, done.stdout
+
+
+def finish(findings, passed):
+    """Prints findings and ends: exit status 1 if there is one, else the sentence `passed`."""
+    for finding in findings:
+        print(finding)
+    if findings:
+        print(f"{len(findings)} finding(s)")
+        sys.exit(1)
+    print(passed)
+    sys.exit(0)

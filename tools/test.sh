@@ -1,0 +1,47 @@
+#!/usr/bin/env bash
+# SPDX-FileCopyrightText: 2026 The openmb4 authors
+# SPDX-License-Identifier: Apache-2.0
+#
+# Installs missing packages, builds everything, runs every test through CTest.
+# Usage: tools/test.sh [--sanitize] [CTEST-ARGUMENT...]
+#   --sanitize   the same with AddressSanitizer and UBSan, in build-sanitize/
+# JUnit report: build/junit.xml (build-sanitize/junit.xml).
+# MB4_DATASHEET=FILE names the datasheet's text for the register map comparison.
+set -euo pipefail
+cd "$(dirname "$0")/.."
+
+preset=default
+build=build
+if [ "${1:-}" = --sanitize ]; then
+  preset=sanitize
+  build=build-sanitize
+  shift
+fi
+
+tools/setup.sh test
+
+for tool in "cmake --version" "g++ --version" "verilator --version" "yosys -V" "iverilog -V"; do
+  $tool 2>/dev/null | sed -n 1p
+done
+
+mkdir -p "$build"
+echo "test: configuring $build/" >&2
+if ! cmake --preset "$preset" >"$build/configure.log" 2>&1; then
+  cat "$build/configure.log" >&2
+  exit 1
+fi
+echo "test: building" >&2
+cmake --build "$build" -- --quiet
+
+status=0
+ctest --test-dir "$build" --output-on-failure --no-tests=error -j "$(nproc)" \
+  --output-junit junit.xml "$@" >"$build/ctest.log" 2>&1 || status=$?
+# The passed tests are many; show what failed, what was skipped and the summary.
+sed -n '/\*\*\*/,$p' "$build/ctest.log" | grep -v ' Passed ' || tail -n 6 "$build/ctest.log"
+if [ "$status" -ne 0 ]; then
+  sed -n 's/^[[:space:]]*[0-9]* - \(.*\) (Failed)$/\1/p; s/^[[:space:]]*[0-9]* - \(.*\) (Timeout)$/\1/p' \
+    "$build/ctest.log" | while read -r name; do
+    echo "repeat with: ctest --test-dir $build --output-on-failure -R '^$name\$'"
+  done
+fi
+exit "$status"
