@@ -55,30 +55,21 @@ module mb4_core (
 
   // memories and banks
   logic mem_busy;
-  logic bank_pending, bank_swapped;
-  logic bank_end;
-  logic holdbank;
+  logic bank_pending, bank_swapped, bank_end, holdbank;
   logic swbank_pulse;
 
   // control
   logic [7:0] half_len;
   logic       tick;
-  logic       half_next;
-  logic       smp_a, smp_b, smp_half, smp_b_neg;
   logic       start, init, cdm, abort;
   logic       cdssel;
   logic [1:0] in_use;
-  logic [1:0] idle;
-  logic [1:0] timeout;
-  logic [1:0] sl;
+  logic [1:0] idle, timeout, sl;
   logic [1:0] frame_end;
-  logic [1:0] word_done;
-  logic [1:0] word_ok;
-  logic [1:0] init_done;
-  logic [1:0] init_fail;
-  logic [1:0] cds;
-  logic [1:0] ma;
-  logic       n_scderr, n_agserr;
+  logic [1:0] word_begin, word_done, word_ok;
+  logic [1:0] init_done, init_fail;
+  logic [1:0] cds, cds_host;
+  logic       busy, clear_flags, scd_en, scd_bad, ags_error, bank_fail, init_clear, frame_cdm;
 
   // words of the two lines; slices of flat vectors, one slice a line
   localparam int unsigned WORD_W = mb4_pkg::WORD_CFG_W;
@@ -142,12 +133,15 @@ module mb4_core (
     .holdbank_i     (holdbank),
     .swbank_pulse_i (swbank_pulse),
     .bank_end_i     (bank_end),
+    .cds_i          (cds),
+    .cds_o          (cds_host),
     .bank_pending_o (bank_pending),
     .bank_swapped_o (bank_swapped),
     .wr_line_i      (line_wr_en),
     .wr_byte_i      (line_wr_byte),
     .wr_line_data_i (line_wr_data),
     .slave_i        (slave),
+    .word_begin_i   (word_begin),
     .word_done_i    (word_done),
     .word_ok_i      (word_ok),
     .delay_en_i     (init_done),
@@ -188,33 +182,48 @@ module mb4_core (
     .init_done_i       (init_done),
     .init_fail_i       (init_fail),
     .bank_pending_i    (bank_pending),
-    .bank_swapped_i    (bank_swapped),
     .bank_end_o        (bank_end),
     .holdbank_o        (holdbank),
     .swbank_pulse_o    (swbank_pulse),
-    .eot_o             (eot_o),
-    .n_scderr_o        (n_scderr),
-    .n_agserr_o        (n_agserr),
-    .swbank_fail_o     (status.swbank_fail)
+    .busy_o            (busy),
+    .clear_flags_o     (clear_flags),
+    .scd_en_o          (scd_en),
+    .scd_bad_o         (scd_bad),
+    .ags_error_o       (ags_error),
+    .bank_fail_o       (bank_fail),
+    .init_clear_o      (init_clear),
+    .frame_cdm_o       (frame_cdm)
+  );
+
+  mb4_status_flags u_flags (
+    .clk_i,
+    .rst_ni         (rst_core_n),
+    .busy_i         (busy),
+    .clear_i        (clear_flags),
+    .scd_en_i       (scd_en),
+    .scd_bad_i      (scd_bad),
+    .ags_error_i    (ags_error),
+    .bank_fail_i    (bank_fail),
+    .bank_swapped_i (bank_swapped),
+    .eot_o,
+    .n_scderr_o     (status.n_scderr),
+    .n_agserr_o     (status.n_agserr),
+    .swbank_fail_o  (status.swbank_fail),
+    .ner_low_o
+  );
+
+  mb4_cdm_timeout u_cdm_timeout (
+    .clk_i,
+    .rst_ni      (rst_core_n),
+    .frame_end_i (bank_end),
+    .cdm_i       (frame_cdm),
+    .clear_i     (init_clear),
+    .timeout_o   (status.cdm_timeout)
   );
 
   mb4_freqs_dec u_freqs (
     .freqs_i    (cfg.freqs),
     .half_len_o (half_len)
-  );
-
-  mb4_timebase u_timebase (
-    .clk_i,
-    .rst_ni      (rst_core_n),
-    .half_len_i  (half_len),
-    .run_i       (idle != 2'b11),
-    .restart_i   (start),
-    .tick_o      (tick),
-    .half_next_o (half_next),
-    .smp_a_o     (smp_a),
-    .smp_b_o     (smp_b),
-    .smp_half_o  (smp_half),
-    .smp_b_neg_o (smp_b_neg)
   );
 
   // ---- lines --------------------------------------------------------------------------------
@@ -237,64 +246,55 @@ module mb4_core (
       .slave_o     (slave[i*3 +: 3]),
       .word_o      (word[i*WORD_W +: WORD_W])
     );
-
-    mb4_channel u_channel (
-      .clk_i,
-      .rst_ni      (rst_core_n),
-      .start_i     (start),
-      .use_i       (in_use[i]),
-      .init_i      (init),
-      .cdm_i       (cdm),
-      .hold_cdm_i  (cfg.holdcdm),
-      .abort_i     (abort),
-      .tick_i      (tick),
-      .half_next_i (half_next),
-      .smp_a_i     (smp_a),
-      .smp_b_i     (smp_b),
-      .smp_half_i  (smp_half),
-      .smp_b_neg_i (smp_b_neg),
-      .len_valid_i (len_valid[i]),
-      .len_i       (len[i*7 +: 7]),
-      .any_word_i  (any_word[i]),
-      .last_word_i (last_word[i]),
-      .word_i      (word[i*WORD_W +: WORD_W]),
-      .wr_en_o     (line_wr_en[i]),
-      .wr_byte_o   (line_wr_byte[i*3 +: 3]),
-      .wr_data_o   (line_wr_data[i*8 +: 8]),
-      .word_done_o (word_done[i]),
-      .word_ok_o   (word_ok[i]),
-      .cds_o       (cds[i]),
-      .frame_end_o (frame_end[i]),
-      .init_done_o (init_done[i]),
-      .init_fail_o (init_fail[i]),
-      .quarters_o  (quarters[i*8 +: 8]),
-      .idle_o      (idle[i]),
-      .timeout_o   (timeout[i]),
-      .sl_o        (sl[i]),
-      .ma_o        (ma[i]),
-      .sl_i        (i == 0 ? sl1_i : sl2_i)
-    );
   end
+
+  mb4_lines u_lines (
+    .clk_i,
+    .rst_ni       (rst_core_n),
+    .half_len_i   (half_len),
+    .start_i      (start),
+    .use_i        (in_use),
+    .init_i       (init),
+    .cdm_i        (cdm),
+    .hold_cdm_i   (cfg.holdcdm),
+    .abort_i      (abort),
+    .tick_o       (tick),
+    .len_valid_i  (len_valid),
+    .len_i        (len),
+    .any_word_i   (any_word),
+    .last_word_i  (last_word),
+    .word_i       (word),
+    .wr_en_o      (line_wr_en),
+    .wr_byte_o    (line_wr_byte),
+    .wr_data_o    (line_wr_data),
+    .word_begin_o (word_begin),
+    .word_done_o  (word_done),
+    .word_ok_o    (word_ok),
+    .cds_o        (cds),
+    .frame_end_o  (frame_end),
+    .init_done_o  (init_done),
+    .init_fail_o  (init_fail),
+    .quarters_o   (quarters),
+    .idle_o       (idle),
+    .timeout_o    (timeout),
+    .sl_o         (sl),
+    .ma_o         ({ma2_o, ma1_o}),
+    .sl_i         ({sl2_i, sl1_i})
+  );
 
   // ---- status -------------------------------------------------------------------------------
 
   assign status.eot         = eot_o;
-  assign status.n_scderr    = n_scderr;
-  assign status.n_agserr    = n_agserr;
   assign status.n_delayerr  = 1'b1;
   assign status.n_regerr    = 1'b1;
   assign status.regend      = 1'b0;
   assign status.n_err       = ner_i && !ner_low_o;
-  assign status.cdm_timeout = 1'b0;
-  assign status.cdssel      = cdssel;
+  assign status.cdssel      = (cfg.chsel == 2'b10) ? cds_host[1] : cds_host[0];
   assign status.regbytes    = 6'd0;
-  assign status.cds1        = cds[0];
-  assign status.cds2        = cds[1];
+  assign status.cds1        = cds_host[0];
+  assign status.cds2        = cds_host[1];
   assign status.sl1         = sl1_i;
   assign status.sl2         = sl2_i;
-  assign ner_low_o          = !(n_scderr && n_agserr);
   assign clkeni_o           = cfg.clkeni;
-  assign ma1_o              = ma[0];
-  assign ma2_o              = ma[1];
 
 endmodule

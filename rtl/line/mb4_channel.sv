@@ -32,6 +32,7 @@ module mb4_channel (
   output logic       wr_en_o,
   output logic [2:0] wr_byte_o,
   output logic [7:0] wr_data_o,
+  output logic       word_begin_o,
   output logic       word_done_o,
   output logic       word_ok_o,
   // results
@@ -53,7 +54,6 @@ module mb4_channel (
   logic ack;
   logic bit_valid;
   logic sl_bit;
-  logic word_load;
   logic word_bit;
 
   mb4_frame_biss u_frame (
@@ -79,7 +79,7 @@ module mb4_channel (
     .any_word_i,
     .last_word_i,
     .word_done_i (word_done_o),
-    .word_load_o (word_load),
+    .word_load_o (word_begin_o),
     .word_bit_o  (word_bit),
     .cds_o,
     .frame_end_o,
@@ -112,7 +112,7 @@ module mb4_channel (
     .clk_i,
     .rst_ni,
     .word_i,
-    .load_i      (word_load),
+    .load_i      (word_begin_o),
     .bit_valid_i (word_bit),
     .bit_i       (sl_bit),
     .wr_en_o,

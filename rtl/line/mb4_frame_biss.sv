@@ -8,7 +8,7 @@
 // shorter than half a period. After the last needed rising edge MA takes the inverted CDM and keeps
 // it through the slaves' timeout. MA edges: 5 + processing clocks + data and CRC bits, or as many as
 // had been sent when the start bit came back over a long line (decision 17).
-// frame_end_o: the last data bit has been taken. idle_o: the slaves' timeout is over as well.
+// frame_end_o: the last data bit has been taken; cds_o is valid from the next clock on. idle_o: the slaves' timeout is over as well.
 // init_i makes the two-pulse initialisation instead; init_done_o when the acknowledge has come,
 // init_fail_o after 255 quarter periods without it.
 // Misuse: start_i while idle_o is low is ignored. A slave that never answers keeps the frame running
@@ -44,7 +44,7 @@ module mb4_frame_biss (
   input  logic       any_word_i,
   input  logic       last_word_i,
   input  logic       word_done_i,
-  output logic       word_load_o,
+  output logic       word_load_o,  // the word's first bit comes next
   output logic       word_bit_o,
   // results
   output logic       cds_o,
@@ -74,6 +74,8 @@ module mb4_frame_biss (
   logic               clocking_q;
   logic               cdm_d;
   logic               cdm_q;
+  logic               hold_d;
+  logic               hold_q;
   logic               init_d;
   logic               init_q;
   logic               started_d;
@@ -102,7 +104,7 @@ module mb4_frame_biss (
     if (begin_frame) begin
       ma_d       = 1'b1;
       clocking_d = 1'b1;
-    end else if (abort_i) begin
+    end else if (abort_i && state_q != RELEASE) begin
       clocking_d = 1'b0;
     end else if (tick_i && clocking_q) begin
       if (!half_next_i) begin
@@ -114,7 +116,7 @@ module mb4_frame_biss (
         ma_d = 1'b1;
         rise = 1'b1;
       end
-    end else if (tick_i && (state_q == RELEASE || (state_q == TIMEOUT && sl_i && !hold_cdm_i))) begin
+    end else if (tick_i && (state_q == RELEASE || (state_q == TIMEOUT && sl_i && !hold_q))) begin
       ma_d = 1'b1;
     end
   end
@@ -126,7 +128,7 @@ module mb4_frame_biss (
     if (begin_frame) begin
       rises_d = 2'd0;
       need_d  = 11'sd5;
-    end else begin
+    end else if (state_q != IDLE) begin
       if (rise && rises_q != 2'd2) rises_d = rises_q + 2'd1;
       need_d = need_q + (len_valid_i ? signed'({4'h0, len_i}) : 11'sd0)
                       + (waited ? 11'sd1 : 11'sd0)
@@ -138,6 +140,7 @@ module mb4_frame_biss (
   always_comb begin
     state_d     = state_q;
     cdm_d       = cdm_q;
+    hold_d      = hold_q;
     init_d      = init_q;
     started_d   = started_q;
     cds_d       = cds_q;
@@ -153,6 +156,7 @@ module mb4_frame_biss (
         if (begin_frame) begin
           state_d   = REQUEST;
           cdm_d     = cdm_i && !init_i;
+          hold_d    = hold_cdm_i;
           init_d    = init_i;
           started_d = 1'b0;
         end
@@ -198,7 +202,8 @@ module mb4_frame_biss (
       default: state_d = RELEASE;
     endcase
 
-    if (abort_i && (state_q != IDLE || !ma_q)) state_d = RELEASE;
+    // MA low while idle: HOLDCDM.
+    if (abort_i && (state_q == IDLE ? !ma_q : state_q != RELEASE)) state_d = RELEASE;
   end
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
@@ -207,6 +212,7 @@ module mb4_frame_biss (
       ma_q       <= 1'b1;
       clocking_q <= 1'b0;
       cdm_q      <= 1'b0;
+      hold_q     <= 1'b0;
       init_q     <= 1'b0;
       started_q  <= 1'b0;
       rises_q    <= '0;
@@ -218,6 +224,7 @@ module mb4_frame_biss (
       ma_q       <= ma_d;
       clocking_q <= clocking_d;
       cdm_q      <= cdm_d;
+      hold_q     <= hold_d;
       init_q     <= init_d;
       started_q  <= started_d;
       rises_q    <= rises_d;
@@ -230,7 +237,7 @@ module mb4_frame_biss (
   assign armed_a_o   = rises_q == 2'd2;
   assign armed_b_o   = rises_d == 2'd2;
   assign word_load_o = load_q;
-  assign cds_o       = cds_d;
+  assign cds_o       = cds_q;
   assign idle_o      = state_q == IDLE;
   assign timeout_o   = state_q == TIMEOUT;
   assign ma_o        = ma_q;

@@ -74,8 +74,8 @@ module mb4_sl_sampler (
       pos1_q    <= sl_i;
       pos2_q    <= pos1_q;
       neg2_q    <= neg1_q;
-      armed_a_q <= {armed_a_q[0], armed_a_i};
-      armed_b_q <= {armed_b_q[0], armed_b_i};
+      armed_a_q <= clear_i ? 2'b00 : {armed_a_q[0], armed_a_i};
+      armed_b_q <= clear_i ? 2'b00 : {armed_b_q[0], armed_b_i};
     end
   end
 

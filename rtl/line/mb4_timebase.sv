@@ -3,12 +3,14 @@
 //
 // Time base of all lines: half MA periods and the four sampling points of each MA period.
 //
-// Clock domain: core, rising edge. restart_i begins a half period in which MA is high. tick_o is
+// Clock domain: core, rising edge. restart_i takes half_len_i for all that follows and begins a half
+// period in which MA is high. tick_o is
 // high in the last clock of each half period; half_next_o is MA's level in the one that follows.
 // smp_*_o mark the sampling points, two clocks late to meet SL behind its synchroniser: smp_a_o at
-// the half period's beginning, smp_b_o at its middle (both in the same clock if half_len_i is 1).
-// With an odd half_len_i the middle lies on a falling clock edge: smp_b_neg_o.
-// Misuse: half_len_i of 0 is not possible (mb4_freqs_dec); a change takes effect with the next tick.
+// the half period's beginning, smp_b_o at its middle (both in the same clock if the half period is one clock).
+// With an odd half period the middle lies on a falling clock edge: smp_b_neg_o.
+// Misuse: half_len_i of 0 is not possible (mb4_freqs_dec). It comes from the host domain and is looked
+// at with restart_i only; FREQS may be written while slaves are still in their timeout.
 // Datasheet: page 12 (I301..I303 and sampling points), page 30.
 
 `include "mb4_check.svh"
@@ -27,6 +29,7 @@ module mb4_timebase (
   output logic       smp_b_neg_o
 );
 
+  logic [7:0] len_q;
   logic [7:0] cnt_d;
   logic [7:0] cnt_q;
   logic       half_d;
@@ -37,8 +40,8 @@ module mb4_timebase (
   logic [1:0] b_q;
   logic [1:0] h_q;
 
-  assign tick   = run_i && cnt_q == half_len_i - 8'd1;
-  assign middle = (half_len_i == 8'd1) ? tick : run_i && cnt_q == {1'b0, half_len_i[7:1]} - 8'd1;
+  assign tick   = run_i && cnt_q == len_q - 8'd1;
+  assign middle = (len_q == 8'd1) ? tick : run_i && cnt_q == {1'b0, len_q[7:1]} - 8'd1;
 
   always_comb begin
     cnt_d  = cnt_q;
@@ -56,16 +59,19 @@ module mb4_timebase (
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
+      len_q  <= 8'd1;
       cnt_q  <= '0;
       half_q <= 1'b1;
       a_q    <= '0;
       b_q    <= '0;
       h_q    <= '0;
     end else begin
+      if (restart_i) len_q <= half_len_i;
       cnt_q  <= cnt_d;
       half_q <= half_d;
-      a_q    <= {a_q[0], tick};
-      b_q    <= {b_q[0], middle};
+      // Points of the time before a restart belong to nobody.
+      a_q    <= restart_i ? 2'b00 : {a_q[0], tick};
+      b_q    <= restart_i ? 2'b00 : {b_q[0], middle};
       h_q    <= {h_q[0], half_d};
     end
   end
@@ -75,9 +81,9 @@ module mb4_timebase (
   assign smp_a_o     = a_q[1];
   assign smp_b_o     = b_q[1];
   assign smp_half_o  = h_q[1];
-  assign smp_b_neg_o = half_len_i[0];
+  assign smp_b_neg_o = len_q[0];
 
-  `MB4_ASSERT(HalfLength_A, clk_i, rst_ni, half_len_i != 8'd0)
-  `MB4_ASSERT_IF(CountInRange_A, clk_i, rst_ni, run_i, cnt_q < half_len_i)
+  `MB4_ASSERT(HalfLength_A, clk_i, rst_ni, len_q != 8'd0)
+  `MB4_ASSERT_IF(CountInRange_A, clk_i, rst_ni, run_i, cnt_q < len_q)
 
 endmodule

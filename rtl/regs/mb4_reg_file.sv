@@ -37,6 +37,8 @@ module mb4_reg_file (
   input  logic       holdbank_i,
   input  logic       swbank_pulse_i,
   input  logic       bank_end_i,
+  input  logic [1:0] cds_i,
+  output logic [1:0] cds_o,          // of the host's bank
   output logic       bank_pending_o,
   output logic       bank_swapped_o,
   // received bytes and words of lines {2, 1}
@@ -44,6 +46,7 @@ module mb4_reg_file (
   input  logic [5:0]  wr_byte_i,
   input  logic [15:0] wr_line_data_i,
   input  logic [5:0]  slave_i,
+  input  logic [1:0]  word_begin_i,
   input  logic [1:0]  word_done_i,
   input  logic [1:0]  word_ok_i,
   input  logic [1:0]  delay_en_i,
@@ -57,29 +60,15 @@ module mb4_reg_file (
   logic [5:0]  clear_addr;
   logic        clear_busy_h;
   logic        post_wr;
-  logic        post_valid;
-  logic        post_ready;
+  logic        post_valid, post_ready;
   logic [15:0] post_data;
-  logic        post_lo;
-  logic        post_hi;
-  logic        post_rdata;
-  logic        post_svalid_lo;
-  logic        post_svalid_hi;
-  logic        ready_lo;
-  logic        ready_hi;
-  logic        ready_rdata;
-  logic [7:0]  scd_lo_data;
-  logic [7:0]  scd_hi_data;
-  logic [7:0]  rdata_data;
-  logic        host_bank;
-  logic        host_bank_h;
-  logic        eng_bank;
-  logic        lo_wr_en;
-  logic [5:0]  lo_wr_addr;
-  logic [7:0]  lo_wr_data;
-  logic        hi_wr_en;
-  logic [5:0]  hi_wr_addr;
-  logic [7:0]  hi_wr_data;
+  logic        post_lo, post_hi, post_rdata, post_svalid_lo, post_svalid_hi;
+  logic        ready_lo, ready_hi, ready_rdata;
+  logic [7:0]  scd_lo_data, scd_hi_data, rdata_data;
+  logic        host_bank, host_bank_h, eng_bank;
+  logic        lo_wr_en, hi_wr_en;
+  logic [5:0]  lo_wr_addr, hi_wr_addr;
+  logic [7:0]  lo_wr_data, hi_wr_data;
   logic [7:0]  svalid;
 
   // ---- registers ----------------------------------------------------------------------------
@@ -243,12 +232,23 @@ module mb4_reg_file (
     .eng_bank_o     (eng_bank)
   );
 
+  mb4_cds_bank u_cds (
+    .clk_i,
+    .rst_ni,
+    .host_bank_i (host_bank),
+    .eng_bank_i  (eng_bank),
+    .frame_end_i (bank_end_i),
+    .cds_i,
+    .cds_o
+  );
+
   // Validity flags of the lower and the upper four data channels.
   mb4_svalid u_svalid_lo (
     .clk_i,
     .rst_ni,
     .host_bank_i (host_bank),
     .eng_bank_i  (eng_bank),
+    .begin_i     (word_begin_i[0] && !slave_i[2]),
     .set_en_i    (word_done_i[0] && !slave_i[2]),
     .set_slave_i (slave_i[1:0]),
     .set_valid_i (word_ok_i[0]),
@@ -262,6 +262,7 @@ module mb4_reg_file (
     .rst_ni,
     .host_bank_i (host_bank),
     .eng_bank_i  (eng_bank),
+    .begin_i     (cfg_o.slaveloc5 ? word_begin_i[1] && slave_i[5] : word_begin_i[0] && slave_i[2]),
     .set_en_i    (cfg_o.slaveloc5 ? word_done_i[1] && slave_i[5] : word_done_i[0] && slave_i[2]),
     .set_slave_i (cfg_o.slaveloc5 ? slave_i[4:3] : slave_i[1:0]),
     .set_valid_i (cfg_o.slaveloc5 ? word_ok_i[1] : word_ok_i[0]),

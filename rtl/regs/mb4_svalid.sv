@@ -4,8 +4,10 @@
 // Validity flags SVALIDx of four data channels (1..4 or 5..8) in both banks.
 //
 // Clock domain: core. The line engine writes the flag of its bank, the host clears flags of its own
-// bank: writing 0 clears, 1 has no effect (decision 18). With one bank both act on the same flags;
-// the engine wins if both meet in one clock.
+// bank: writing 0 clears, 1 has no effect (decision 18). A flag falls when the first bit of a new
+// word arrives, so that half-written data are never called valid. With one bank both act on the same
+// flags; the engine wins if both meet in one clock. The output follows one clock later, without
+// glitches.
 // Datasheet: page 35, Table 61.
 
 module mb4_svalid (
@@ -14,7 +16,8 @@ module mb4_svalid (
   input  logic       host_bank_i,
   input  logic       eng_bank_i,
   // line engine
-  input  logic       set_en_i,
+  input  logic       begin_i,      // a word begins
+  input  logic       set_en_i,     // a word is complete
   input  logic [1:0] set_slave_i,  // within the four
   input  logic       set_valid_i,
   // host: bits that are 0 clear
@@ -27,6 +30,7 @@ module mb4_svalid (
   logic [3:0] bank1_q;
   logic [3:0] bank0_d;
   logic [3:0] bank1_d;
+  logic [3:0] host_q;
 
   always_comb begin
     bank0_d = bank0_q;
@@ -35,9 +39,9 @@ module mb4_svalid (
       if (host_bank_i) bank1_d = bank1_q & keep_i;
       else             bank0_d = bank0_q & keep_i;
     end
-    if (set_en_i) begin
-      if (eng_bank_i) bank1_d[set_slave_i] = set_valid_i;
-      else            bank0_d[set_slave_i] = set_valid_i;
+    if (set_en_i || begin_i) begin
+      if (eng_bank_i) bank1_d[set_slave_i] = set_en_i && set_valid_i;
+      else            bank0_d[set_slave_i] = set_en_i && set_valid_i;
     end
   end
 
@@ -45,12 +49,14 @@ module mb4_svalid (
     if (!rst_ni) begin
       bank0_q <= '0;
       bank1_q <= '0;
+      host_q  <= '0;
     end else begin
       bank0_q <= bank0_d;
       bank1_q <= bank1_d;
+      host_q  <= host_bank_i ? bank1_q : bank0_q;
     end
   end
 
-  assign svalid_o = host_bank_i ? bank1_q : bank0_q;
+  assign svalid_o = host_q;
 
 endmodule

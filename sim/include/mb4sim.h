@@ -29,10 +29,10 @@ typedef struct mb4sim mb4sim;
 
 /* Negative return values. */
 enum {
-  MB4SIM_ERROR_UNKNOWN = -1,  /* no such pin or slave, or a null pointer */
-  MB4SIM_ERROR_VALUE = -2,    /* level not 0 or 1; word longer than the slave's data */
-  MB4SIM_ERROR_DRIVEN = -3,   /* the pin is an output or driven by the simulation */
-  MB4SIM_ERROR_STOPPED = -4   /* an assertion in the chip's RTL has failed */
+  MB4SIM_ERROR_UNKNOWN = -1, /* no such pin or slave, or a null pointer */
+  MB4SIM_ERROR_VALUE = -2,   /* level not 0 or 1; word longer than the slave's data */
+  MB4SIM_ERROR_DRIVEN = -3,  /* the pin is an output or driven by the simulation */
+  MB4SIM_ERROR_STOPPED = -4  /* an assertion in the chip's RTL has failed */
 };
 
 /* Opens a simulator from the TOML text of a scenario (sim/README.md). Files that it names are
@@ -74,10 +74,8 @@ MB4SIM_API int mb4sim_pin_write(mb4sim *sim, const char *pin, int level);
  * negative error; a replay slave has no data of its own (MB4SIM_ERROR_VALUE). */
 MB4SIM_API int mb4sim_slave_set_data(mb4sim *sim, unsigned slave, uint64_t raw);
 /* The slave's own register file. 0 or a negative error. */
-MB4SIM_API int mb4sim_slave_reg_read(mb4sim *sim, unsigned slave, uint8_t address,
-                                     uint8_t *value);
-MB4SIM_API int mb4sim_slave_reg_write(mb4sim *sim, unsigned slave, uint8_t address,
-                                      uint8_t value);
+MB4SIM_API int mb4sim_slave_reg_read(mb4sim *sim, unsigned slave, uint8_t address, uint8_t *value);
+MB4SIM_API int mb4sim_slave_reg_write(mb4sim *sim, unsigned slave, uint8_t address, uint8_t value);
 /* Frames in which this slave has sent its start bit; 0 for a slave that does not exist. */
 MB4SIM_API uint64_t mb4sim_slave_frames(const mb4sim *sim, unsigned slave);
 

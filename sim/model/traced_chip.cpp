@@ -58,7 +58,7 @@ class FstTrace {
 std::unique_ptr<ChipModel> make_traced_chip(const ChipConfig& config, std::uint64_t seed,
                                             const std::string& fst_path) {
   return std::make_unique<VerilatedChip<Vmb4_chip_trace, FstTrace, OscSelect>>(config, seed,
-                                                                                  fst_path);
+                                                                               fst_path);
 }
 
 }  // namespace mb4::sim

@@ -62,8 +62,8 @@ class VerilatedChip final : public ChipModel {
     model_->sl2_i = 1;
     model_->quirks_i = static_cast<CData>(config.quirks);
     evaluate(0);
-    // NRES and NCS reset flops asynchronously: by their level in a chip, but only by their edge in a
-    // Verilated model. Without these edges flops whose clock stands still would keep their random
+    // NRES and NCS reset flops asynchronously: by their level in a chip, but only by their edge in
+    // a Verilated model. Without these edges flops whose clock stands still would keep their random
     // values.
     model_->nres_i = 0;
     model_->ncs_i = 1;

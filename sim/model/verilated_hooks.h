@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // What every Verilated model is compiled with: its messages go to standard error (standard output
-// carries data), and a failing assertion throws mb4::sim::ModelStopped instead of ending the process.
+// carries data), and a failing assertion throws mb4::sim::ModelStopped instead of ending the
+// process.
 #ifndef MB4_SIM_MODEL_VERILATED_HOOKS_H_
 #define MB4_SIM_MODEL_VERILATED_HOOKS_H_
 

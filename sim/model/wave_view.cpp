@@ -22,8 +22,8 @@ struct Signal {
   bool vector = false;
 };
 
-// A group of the view: pins of the chip by the start of their name, and what lies inside the chip by
-// a scope of its path.
+// A group of the view: pins of the chip by the start of their name, and what lies inside the chip
+// by a scope of its path.
 struct Group {
   std::string_view name;
   std::vector<std::string_view> pins;

@@ -44,8 +44,8 @@ void BissCSlave::rising(Time now, bool sli) {
       follow(sli);
       break;
     case State::kArmed:
-      word_ = config_.source.word(now, frames(), config_.data_bits, config_.flag_bits,
-                                  config_.flags);
+      word_ =
+          config_.source.word(now, frames(), config_.data_bits, config_.flag_bits, config_.flags);
       state_ = State::kAckWait;
       follow(sli);
       break;

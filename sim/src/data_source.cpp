@@ -23,9 +23,9 @@ std::uint64_t DataSource::word(Time now, std::uint64_t frames, unsigned data_bit
       return low_bits(constant, data_bits);
     case Kind::kList:
       if (words.empty()) return 0;
-      return low_bits(words[repeat ? frames % words.size()
-                                   : std::min<std::uint64_t>(frames, words.size() - 1)],
-                      data_bits);
+      return low_bits(
+          words[repeat ? frames % words.size() : std::min<std::uint64_t>(frames, words.size() - 1)],
+          data_bits);
     case Kind::kRamp:
       position = static_cast<std::uint64_t>(start) + static_cast<std::uint64_t>(step) * frames;
       break;

@@ -18,13 +18,12 @@ void ReplaySlave::ma_edge(Time now, bool ma, bool /*sli*/) {
     active_ = true;
     first_falling_ = now;
     next_ = 0;
-    risings_ = 0;
+    risings_.clear();
     if (config_.timeout.adaptive()) timeout_ = config_.timeout.initial;
   } else if (ma) {
-    ++risings_;
-    last_rising_ = now;
-    if (risings_ == 2 && config_.timeout.adaptive()) timeout_ = now - first_falling_;
-    if (risings_ == 3) count_frame();
+    risings_.push_back(now);
+    if (risings_.size() == 2 && config_.timeout.adaptive()) timeout_ = now - first_falling_;
+    if (risings_.size() == 3) count_frame();
   }
   play_due(now);
 }
@@ -45,15 +44,13 @@ Time ReplaySlave::next_edge() const {
     return first_falling_ + config_.recording.edges[next_].time;
   }
   const Place at = place(next_);
-  if (at.rising > risings_) return kNever;
-  if (at.rising < risings_) return last_edge_;  // its clock has passed: at once
-  return (at.rising == 0 ? first_falling_ : last_rising_) + at.after;
+  if (at.rising > risings_.size()) return kNever;
+  return (at.rising == 0 ? first_falling_ : risings_[at.rising - 1]) + at.after;
 }
 
 Time ReplaySlave::deadline() const {
   if (!active_) return kNever;
-  const Time end =
-      config_.play == ReplaySlaveConfig::Play::kTime ? kNever : last_edge_ + timeout_;
+  const Time end = config_.play == ReplaySlaveConfig::Play::kTime ? kNever : last_edge_ + timeout_;
   return std::min(next_edge(), end);
 }
 
@@ -67,7 +64,7 @@ void ReplaySlave::timer(Time now, bool /*sli*/) {
   const bool over =
       time_mode ? next_ == config_.recording.edges.size() : now >= last_edge_ + timeout_;
   if (!over) return;
-  if (risings_ >= 3) take_cdm(!ma_);
+  if (risings_.size() >= 3) take_cdm(!ma_);
   active_ = false;
   slo_ = true;
 }

@@ -129,8 +129,8 @@ void Simulator::settle() {
     bool& flag;
     ~Leave() { flag = false; }
   } leave{settling_};
-  constexpr std::pair<unsigned, unsigned> kLineBits[] = {
-      {ChipModel::kMa1, ChipModel::kMo1}, {ChipModel::kMa2, ChipModel::kMo2}};
+  constexpr std::pair<unsigned, unsigned> kLineBits[] = {{ChipModel::kMa1, ChipModel::kMo1},
+                                                         {ChipModel::kMa2, ChipModel::kMo2}};
   while (chip_->watched() != seen_) {
     const unsigned outputs = chip_->watched();
     const unsigned changed = outputs ^ seen_;

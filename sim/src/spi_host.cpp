@@ -8,8 +8,8 @@ namespace mb4::sim {
 namespace {
 
 constexpr std::uint8_t kOpcodeRead = 0x03;
-constexpr Time kMinimumPhase = 10 * kPsPerNs;          // I201, I202, I209
-constexpr Time kMinimumAddressHigh = 100 * kPsPerNs;   // I204
+constexpr Time kMinimumPhase = 10 * kPsPerNs;         // I201, I202, I209
+constexpr Time kMinimumAddressHigh = 100 * kPsPerNs;  // I204
 
 }  // namespace
 

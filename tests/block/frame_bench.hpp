@@ -147,6 +147,7 @@ class FrameBench {
     model->start_i = 0;
     for (std::uint64_t i = 0; i < max_clocks && !(model->idle_o != 0); ++i) clocks(1);
     result_.idle = model->idle_o != 0;
+    result_.cds = model->cds_o != 0;
     recording_ = false;
     slave_ = nullptr;
     return result_;
@@ -213,7 +214,6 @@ class FrameBench {
     if (model->frame_end_o != 0) {
       result_.ended = true;
       result_.end_time = time_;
-      result_.cds = model->cds_o != 0;
     }
     if (model->timeout_o != 0 && model->idle_o == 0 && model->sl_i == 0) {
       result_.ma_in_timeout = model->ma_o;

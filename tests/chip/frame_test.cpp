@@ -353,6 +353,113 @@ TEST(ChipInit, LineDelay_IsMeasuredInQuarterPeriods) {
   }
 }
 
+// INIT is not lost and does not hang, whatever the line is doing (decisions 19, 25).
+TEST(ChipInit, WrittenAtAnyTime_RunsOnceAndLeavesTheFrameBeforeItWhole) {
+  for (unsigned step = 0; step < 60; ++step) {
+    for (const unsigned cdm : {0U, 1U}) {
+      Chip chip(one_slave("data_bits = 28\ncrc = 0x43\ndata = 0xAAF37BF\ntimeout = 13.0"));
+      chip.configure_slave1(28, 0x06, 0x01);
+      chip.instruct(cdm == 0 ? 0x04 : 0x02);
+      chip.simulator.advance(step * 500 * sim::kPsPerNs);
+      chip.instruct(0x10);
+      ASSERT_TRUE(chip.wait_eot()) << step;
+      EXPECT_EQ(chip.read(0xF4), 0x00);
+      EXPECT_EQ(chip.status(), 0xFB);
+      EXPECT_EQ(chip.read(0x00), 1) << step;
+      EXPECT_EQ(chip.simulator.slave(1)->frames(), 1U) << step;
+      EXPECT_EQ(chip.simulator.line(1)->monitor().frames(), 2U) << step;
+      EXPECT_EQ(chip.simulator.line(1)->monitor().last(chip.simulator.now()).rising, 2U);
+    }
+  }
+}
+
+// A slave that is still in the frame broken off may not answer the first INIT; the next one does.
+TEST(ChipInit, TogetherWithBreakOnASilentLine_EndsAndTheNextMeasuresTheLine) {
+  for (unsigned step = 0; step < 24; ++step) {
+    Chip chip(one_slave(kEncoder26));
+    chip.configure_slave1(28, 0x06, static_cast<std::uint8_t>(step % 12));
+    chip.simulator.line(1)->faults().stick(true);
+    chip.simulator.refresh_lines();
+    chip.instruct(0x04);
+    chip.simulator.advance(30 * sim::kPsPerUs + step * 31 * sim::kPsPerNs);
+    chip.simulator.line(1)->faults().stick(std::nullopt);
+    chip.simulator.refresh_lines();
+    chip.instruct(0x90);
+    ASSERT_TRUE(chip.wait_eot()) << step;
+    EXPECT_EQ(chip.read(0xF4), 0x00);
+    chip.advance_us(50);
+    chip.instruct(0x10);
+    ASSERT_TRUE(chip.wait_eot()) << step;
+    EXPECT_EQ(chip.status(), 0xFB);
+    EXPECT_EQ(chip.read(0x00), 1);
+  }
+}
+
+// FREQS and HOLDCDM belong to the next frame as soon as EOT is 1, though MA may still have to end.
+TEST(ChipConfig, FreqsWrittenAtEot_TheRunningTailKeepsItsClock) {
+  for (const auto& [before, after] : {std::pair{0x1F, 0x01}, {0x01, 0x1F}, {0x09, 0x00}}) {
+    Chip chip(one_slave(kEncoder26));
+    chip.simulator.spi().set_timing(sim::SpiTiming::for_frequency(50'000'000));
+    chip.configure_slave1(28, 0x06, static_cast<std::uint8_t>(before));
+    chip.instruct(0x02);
+    ASSERT_TRUE(chip.wait_eot());
+    chip.write(0xE6, {static_cast<std::uint8_t>(0xA0 | after)});
+    chip.advance_us(100);
+    const auto frame = chip.simulator.line(1)->monitor().last(chip.simulator.now());
+    const unsigned half_clocks = before < 0x10 ? before + 1 : 10 * (before - 15);
+    EXPECT_EQ(frame.max_low, half_clocks * 50 * sim::kPsPerNs);
+    EXPECT_EQ(frame.max_high, half_clocks * 50 * sim::kPsPerNs);
+    chip.instruct(0x04);
+    ASSERT_TRUE(chip.wait_eot());
+    EXPECT_EQ(chip.read(0xF1), 0x02);
+  }
+}
+
+// Page 35: CDS1, CDSSEL switch with the banks; CDMTIMEOUT counts 14 frames with CDM = 0.
+TEST(ChipStatus, CdmTimeout_FourteenZerosSetItAndAOneClearsIt) {
+  Chip chip(one_slave(kEncoder26));
+  chip.configure_slave1(28, 0x06, 0x00, 0x7C);
+  for (int round = 0; round < 2; ++round) {
+    for (int i = 1; i <= 16; ++i) {
+      chip.instruct(0x04);
+      ASSERT_TRUE(chip.wait_eot());
+      EXPECT_EQ(chip.read(0xF3), i >= 14 ? 0x80 : 0x00) << i;
+    }
+    chip.instruct(0x02);
+    ASSERT_TRUE(chip.wait_eot());
+    EXPECT_EQ(chip.read(0xF3), 0x00);
+  }
+  for (int i = 0; i < 14; ++i) {
+    chip.instruct(0x04);
+    ASSERT_TRUE(chip.wait_eot());
+  }
+  chip.instruct(0x10);
+  ASSERT_TRUE(chip.wait_eot());
+  EXPECT_EQ(chip.read(0xF3), 0x00) << "INIT";
+}
+
+// Decision 19: the same INSTR written again during its frame (to set HOLDBANK, say) is no request.
+TEST(ChipInstr, SameInstrWrittenDuringItsFrame_NoSecondFrame) {
+  Chip chip(one_slave(kEncoder26));
+  chip.configure_slave1(28, 0x06, 0x03, 0x7C);
+  chip.instruct(0x04);
+  chip.advance_us(2);
+  chip.instruct(0x44);
+  ASSERT_TRUE(chip.wait_eot());
+  chip.advance_us(100);
+  EXPECT_EQ(chip.status(), 0xFB);
+  EXPECT_EQ(chip.read(0xFB), 0x00);
+  EXPECT_EQ(chip.simulator.slave(1)->frames(), 1U);
+  EXPECT_EQ(chip.read(0xF4), 0x40);
+  // A different one is taken after the frame.
+  chip.instruct(0x04);
+  chip.advance_us(2);
+  chip.instruct(0x02);
+  chip.advance_us(200);
+  EXPECT_EQ(chip.simulator.slave(1)->frames(), 3U);
+  EXPECT_TRUE(chip.simulator.slave(1)->last_cdm());
+}
+
 TEST(ChipInit, NoAnswerIn255Quarters_AbortsWithAgsError) {
   Chip chip(one_slave(kEncoder26, "delay_ns = 7000.0"));
   chip.configure_slave1(28, 0x06, 0x00);

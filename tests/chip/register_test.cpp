@@ -182,6 +182,59 @@ TEST(ChipBanks, FrameDueWhileSwitchIsPending_IsOmittedAndFlagged) {
   EXPECT_EQ(chip.read(0xFB), 0x00);
 }
 
+// Table 48: HOLDBANK released and the next frame asked for in one byte.
+TEST(ChipBanks, ReleaseAndFrameInOneByte_SwitchAndFrameHappen) {
+  Chip chip(one_slave("data_bits = 28\ncrc = 0x43\ndata = 0x1111111"));
+  chip.configure_slave1(28, 0x06, 0x00, 0x7C);
+  chip.instruct(0x44);
+  ASSERT_TRUE(chip.wait_eot());
+  chip.simulator.slave(1)->set_data(0x2222222);
+  chip.instruct(0x04);
+  ASSERT_TRUE(chip.wait_eot());
+  EXPECT_EQ(chip.status(), 0xFB);
+  EXPECT_EQ(chip.read(0xFB), 0x00);
+  EXPECT_EQ(chip.simulator.slave(1)->frames(), 2U);
+  EXPECT_EQ(chip.read(0x00), 0x22);
+}
+
+// With one bank a frame that is broken off must not leave half-written data marked as valid.
+TEST(ChipBanks, SingleBankFrameBrokenOff_SvalidIsZero) {
+  Chip chip(one_slave("data_bits = 28\ncrc = 0x43\ndata = 0x1111111"));
+  chip.configure_slave1(28, 0x06, 0x03, 0x7C);
+  chip.write(0xE7, {0x01});
+  chip.instruct(0x04);
+  ASSERT_TRUE(chip.wait_eot());
+  EXPECT_EQ(chip.read(0xF1), 0x02);
+  chip.advance_us(50);
+  chip.instruct(0x04);
+  chip.advance_us(10);
+  chip.instruct(0x80);
+  EXPECT_EQ(chip.read(0xF1), 0x00);
+}
+
+// Two lines: unequal lengths end one frame together; a line that is not used stays quiet.
+TEST(ChipBanks, TwoLines_UnequalLengthsEndTogether) {
+  Chip chip(one_slave("data_bits = 28\ncrc = 0x43\ndata = 0x1111111") +
+            "[[channel]]\nnumber = 2\ndelay_ns = 333.0\n[[channel.slave]]\n"
+            "protocol = \"biss-c\"\ndata_bits = 50\ncrc = 0x25\ndata = 0x2FEDCBA987654\n");
+  chip.configure_slave1(28, 0x06, 0x00, 0x7C);
+  chip.write(0xD0, {0x40 | 49, 0x05});
+  chip.write(0xEC, {0x11, 0x0D});  // CFGCH2: not used
+  for (int i = 0; i < 30; ++i) {
+    chip.instruct(0x04);
+    ASSERT_TRUE(chip.wait_eot());
+  }
+  EXPECT_EQ(chip.read(0xF1, 2), (std::vector<std::uint8_t>{0x02, 0x00}));
+  EXPECT_EQ(chip.simulator.line(2)->monitor().frames(), 0U);
+  chip.write(0xED, {0x05});
+  chip.instruct(0x04);
+  ASSERT_TRUE(chip.wait_eot());
+  EXPECT_EQ(chip.read(0xF1, 2), (std::vector<std::uint8_t>{0x02, 0x02}));
+  EXPECT_EQ(chip.read(0x20, 7),
+            (std::vector<std::uint8_t>{0x54, 0x76, 0x98, 0xBA, 0xDC, 0xFE, 0x02}));
+  EXPECT_EQ(chip.read(0x00, 4), (std::vector<std::uint8_t>{0x11, 0x11, 0x11, 0x01}));
+}
+
 // Table 49: each change of SWBANK swaps once; the same value again does nothing.
 TEST(ChipBanks, SwBank_EveryChangeSwapsOnce) {
   Chip chip("");

@@ -5,8 +5,12 @@
 A step is a complete set of input values. Clocks and data never change in one step, so that neither
 simulator has to decide a race; several clocks may."""
 
-# SPI opcodes (datasheet Table 3): write, read with address; status, SCDATA; instruction, SCDATA.
-OPCODES = [0x02, 0x03, 0x05, 0x0B, 0x07, 0x12]
+# SPI opcodes (datasheet Table 3): write and read with address, read status, write instruction,
+# read and write from address 0.
+OPCODES = [0x02, 0x03, 0x05, 0x07, 0x09, 0x0B]
+
+# SCRCLEN codes of Table 14, one that it does not permit, own polynomials (bit 7).
+CRC_CODES = [0x00, 0x03, 0x04, 0x05, 0x06, 0x07, 0x08, 0x10, 0x21, 0xA1, 0xC9]
 
 
 class Steps:
@@ -42,7 +46,7 @@ def any_value(steps, port):
     return steps.rng.getrandbits(steps.widths[port])
 
 
-def play(steps, clocks, resets, rounds, ports=None, hold=0.5, reset_rate=0.002):
+def play(steps, clocks, resets, rounds, ports=None, hold=0.5, reset_rate=0.002, one_clock=False):
     """Random data between clock edges. `ports`: name to probability that a one-bit input is 1, or
     to a function of the steps that gives a new value or None for no change. All other inputs keep
     their value with probability `hold`."""
@@ -67,6 +71,8 @@ def play(steps, clocks, resets, rounds, ports=None, hold=0.5, reset_rate=0.002):
             steps.step(**{reset: 0})
             steps.step(**{reset: 1})
         edges = [c for c in clocks if steps.chance(0.6)] or clocks[:1]
+        if one_clock:
+            edges = [steps.rng.choice(clocks)]
         if edges:
             steps.step(**{c: 1 - steps.now[c] for c in edges})
 
@@ -101,8 +107,18 @@ def simple(clocks, resets, rounds=3000, ports=None, **options):
     return make
 
 
-def combinational(steps):
-    play(steps, [], [], 4000, hold=0.3)
+def crc_decode(steps):
+    play(steps, [], [], 4000, {"crc_code_i": rarely("crc_code_i", 0.9, lambda s: s.rng.choice(
+        CRC_CODES) & 0x7F if s.chance(0.5) else s.rng.getrandbits(7))})
+
+
+def slave_cfg(steps):
+    """Eight data channels, most of them with a CRC that the chip knows."""
+    value = 0
+    for _ in range(8):
+        crc = steps.rng.choice(CRC_CODES) if steps.chance(0.8) else steps.rng.getrandbits(8)
+        value = value << 32 | steps.rng.getrandbits(16) << 16 | crc << 8 | steps.rng.getrandbits(8)
+    return value
 
 
 def spi_bytes(steps, values, between=lambda steps: None):
@@ -119,8 +135,8 @@ def spi_bytes(steps, values, between=lambda steps: None):
 
 
 def spi(steps):
+    steps.reset(["rst_ni"])  # selected, so that the frame's reset has an edge
     steps.step(cs_ni=1)
-    steps.reset(["rst_ni"])
 
     def between(steps):
         if steps.chance(0.3):
@@ -160,9 +176,7 @@ def scd_bank(steps):
     few = {port: rarely(port, 0.6, lambda s: s.rng.getrandbits(3) * 9) for port in
            ("clear_addr_i", "eng_wr_addr_i", "host_wr_addr_i", "rd_addr_i")}
     # A write and a read of one address never share a clock edge: which byte is read is left open.
-    for _ in range(3000):
-        play(steps, ["clk_i"], [], 1, dict(few, clear_i=0.05))
-        play(steps, ["hclk_i"], [], 1, dict(few, clear_i=0.05))
+    play(steps, ["clk_i", "hclk_i"], [], 6000, dict(few, clear_i=0.05), one_clock=True)
 
 
 def rx_word(steps):
@@ -185,8 +199,12 @@ def rx_word(steps):
 def core(steps):
     """Whole chip without pins: a host that configures, starts frames and reads, noisy slaves."""
     rng = steps.rng
-    steps.step(cs_ni=1, sl1_i=1, sl2_i=1, ner_i=1, quirks_i=4)
+    # Selected and with clocks before, so that the derived resets have an edge.
+    steps.step(sl1_i=1, sl2_i=1, ner_i=1, quirks_i=4, rst_ni=1)
+    for _ in range(3):
+        steps.clock("clk_i")
     steps.reset(["rst_ni"])
+    steps.step(cs_ni=1)
 
     def between(steps):
         for _ in range(rng.randint(0, 3)):
@@ -202,12 +220,12 @@ def core(steps):
         steps.clock("clk_i")
     for _ in range(5):
         steps.step(quirks_i=rng.getrandbits(6), ner_i=rng.getrandbits(1))
-        write(0xED, rng.choice([5, 5, 0, 15]) & 0xF)
-        write(0xEC, rng.choice([0x00, 0x10]))
+        write(0xED, rng.choice([5, 5, 5, 15]))
+        write(0xEC, rng.choice([0x00, 0x10, 0x10]))
         write(0xE6, rng.choice([0, 0, 1, 2]))
         write(0xF5, rng.getrandbits(8))
         for slave in rng.sample(range(8), 3):
-            write(0xC0 + 4 * slave, 0x40 | rng.getrandbits(4), rng.choice([0, 3, 5, 6, 0xA1]),
+            write(0xC0 + 4 * slave, 0x40 | rng.getrandbits(4), rng.choice(CRC_CODES),
                   rng.getrandbits(8), rng.getrandbits(8))
         for _ in range(4):
             spi_bytes(steps, [0x07, instruction_byte(steps)], between)
@@ -237,9 +255,9 @@ MODULES = {
                             lambda s: 0xF4 ^ (int(s.chance(0.3)) << s.rng.randrange(8)))}),
     "mb4_host_read": simple(*HOST, 6000, host("rd_addr_i")),
     "mb4_bank_ctrl": simple(*CORE, 4000, {"frame_end_i": 0.2, "swbank_pulse_i": 0.1}),
-    "mb4_crc_decode": combinational,
+    "mb4_crc_decode": crc_decode,
     "mb4_word_list": simple(*CORE, 6000, {"start_i": 0.02, "next_i": 0.2, "mine_i":
-                            rarely("mine_i", 0.01), "slave_cfg_i": rarely("slave_cfg_i", 0.02)}),
+                            rarely("mine_i", 0.01), "slave_cfg_i": rarely("slave_cfg_i", 0.02, slave_cfg)}),
     "mb4_sequencer": simple(*CORE, 12000, {
         "written_i": rarely("written_i", 0.1, instruction_byte), "toggle_i": rarely("toggle_i", 0.1),
         "mem_busy_i": 0.02, "idle_i": rarely("idle_i", 0.3, lambda s: s.rng.choice([3, 3, 3, 1])),
@@ -261,12 +279,20 @@ MODULES = {
     "mb4_rx_word": rx_word,
     "mb4_frame_biss": simple(*CORE, 12000, {
         "start_i": 0.1, "use_i": 0.95, "init_i": 0.1, "abort_i": 0.003, "bit_valid_i": 0.3,
-        "tick_i": 0.5, "len_valid_i": 0.03, "last_word_i": 0.3, "word_done_i": 0.2, "sl_i": 0.7,
+        "tick_i": 0.5, "len_valid_i": 0.01, "len_i": rarely("len_i", 0.5, lambda s:
+                                                            s.rng.choice([1, 7, 30, 80])),
+        "last_word_i": 0.3, "word_done_i": 0.2, "sl_i": 0.7,
         "ack_i": 0.2, "hold_cdm_i": 0.2, "quarters_i": rarely("quarters_i", 0.1, lambda s:
                                                              s.rng.choice([3, 254, 255]))}),
     "mb4_core": core,
     "struct_in_block": simple(*CORE, 500),
 }
 
-# Output bits that no input can change, as text in which they are named: port[bit].
-CONSTANT = {}
+# Output bits that no input can change: of the polynomials only the 16-bit one uses the upper byte.
+POLY = [14, 13, 11, 10, 9, 8]
+TOP = [14, 13, 12, 11, 10, 9, 8]
+CONSTANT = {
+    "mb4_crc_decode": [f"crc_poly_o[{i}]" for i in POLY] + [f"crc_top_o[{i}]" for i in TOP],
+    "mb4_word_list": [f"word_o[{33 + i}]" for i in POLY] + [f"word_o[{17 + i}]" for i in TOP],
+    "mb4_sequencer": ["held_o[7]"],  # BREAK never reads 1
+}

@@ -26,7 +26,9 @@ TEST(BissCSlave, ReferenceFrame_ShowsEveryBitAfterItsRisingEdge) {
   bench.add(constant_slave(28, kWord, 0x43));
   // #1 still idle level, #2 Ack, #3 start, #4 CDS, 28 data, 6 CRC, stop.
   EXPECT_EQ(bench.frame(kStart, kPeriod, kRisings),
-            "101" "0" + binary(kWord, 28) + binary(0x27, 6) + "0");
+            "101"
+            "0" +
+                binary(kWord, 28) + binary(0x27, 6) + "0");
 }
 
 TEST(BissCSlave, ReferenceFrame_ChangesOnRisingEdgesOnly) {
@@ -46,7 +48,8 @@ TEST(BissCSlave, BusyPeriods_DelayStartBitByThatMany) {
     config.busy_periods = busy;
     bench.add(config);
     EXPECT_EQ(bench.frame(kStart, kPeriod, kRisings + busy),
-              std::string(1, '1') + std::string(1 + busy, '0') + "10" + binary(kWord, 28) + binary(0x27, 6) + "0")
+              std::string(1, '1') + std::string(1 + busy, '0') + "10" + binary(kWord, 28) +
+                  binary(0x27, 6) + "0")
         << "busy " << busy;
   }
 }
@@ -137,9 +140,11 @@ TEST(BissCSlave, MaRestsLow_NextFrameIsNotShifted) {
   bench.frame(kStart, kPeriod, kRisings, false);
   const Time second = 20 * kPsPerUs;
   bench.ma(second - kPeriod / 2, true);
+  EXPECT_TRUE(slave.idle());  // a rising edge is no start
   EXPECT_EQ(bench.frame(second, kPeriod, kRisings),
             "1010" + binary(kWord, 28) + binary(0x27, 6) + "0");
   EXPECT_EQ(slave.frames(), 2U);
+  EXPECT_EQ(slave.timeout(), 3 * kPeriod / 2);  // measured from the falling edge
 }
 
 // INIT (datasheet page 16): two low pulses are acknowledged and time out, but are no frame.
@@ -173,7 +178,8 @@ TEST(BissCSlave, RegisterFile_KeepsAllBytes) {
   for (unsigned i = 0; i < 256; ++i) {
     slave.reg_write(static_cast<std::uint8_t>(i), static_cast<std::uint8_t>(255 - i));
   }
-  for (unsigned i = 0; i < 256; ++i) EXPECT_EQ(slave.reg_read(static_cast<std::uint8_t>(i)), 255 - i);
+  for (unsigned i = 0; i < 256; ++i)
+    EXPECT_EQ(slave.reg_read(static_cast<std::uint8_t>(i)), 255 - i);
 }
 
 }  // namespace

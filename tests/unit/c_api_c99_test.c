@@ -39,8 +39,8 @@ int main(void) {
   failures += check(mb4sim_pin_write(sim, "GETSENS", 0) == 0, "pin_write");
   failures += check(mb4sim_slave_set_data(sim, 1, 0xA5) == 0, "slave_set_data");
   failures += check(mb4sim_slave_reg_write(sim, 1, 0x44, 7) == 0, "slave_reg_write");
-  failures += check(mb4sim_slave_reg_read(sim, 1, 0x44, &value) == 0 && value == 7,
-                    "slave_reg_read");
+  failures +=
+      check(mb4sim_slave_reg_read(sim, 1, 0x44, &value) == 0 && value == 7, "slave_reg_read");
   failures += check(mb4sim_slave_frames(sim, 1) == 0, "slave_frames");
   failures += check(strlen(mb4sim_version()) > 0, "version");
   mb4sim_close(sim);

@@ -67,9 +67,9 @@ TEST_F(CApi, NullRx_IsAllowed) {
 }
 
 TEST_F(CApi, Pins_HaveDatasheetNames) {
-  for (const char* pin : {"NCS", "ALE", "NRD_RNW", "NWR_E", "DB0", "DB7", "CFGSPI", "INT_NMOT",
-                          "NRES", "CLK", "GETSENS", "NER", "EOT", "MA1", "MA2_NMA1", "MO1",
-                          "MO2_NMO1", "SL1", "SL2_NSL1"}) {
+  for (const char* pin :
+       {"NCS", "ALE", "NRD_RNW", "NWR_E", "DB0", "DB7", "CFGSPI", "INT_NMOT", "NRES", "CLK",
+        "GETSENS", "NER", "EOT", "MA1", "MA2_NMA1", "MO1", "MO2_NMO1", "SL1", "SL2_NSL1"}) {
     EXPECT_GE(mb4sim_pin_read(sim, pin), 0) << pin;
   }
   EXPECT_EQ(mb4sim_pin_read(sim, "MA3"), -1);

@@ -26,9 +26,7 @@ TEST(ClockSource, FractionalPeriod_DoesNotDrift) {
   }
 }
 
-TEST(ClockSource, NoFrequency_NeverMoves) {
-  EXPECT_EQ(ClockSource(0).next(), kNever);
-}
+TEST(ClockSource, NoFrequency_NeverMoves) { EXPECT_EQ(ClockSource(0).next(), kNever); }
 
 TEST(ClockSource, SkippedAhead_EdgesAreThoseOfAnUninterruptedClock) {
   ClockSource skipped(3'000'000);

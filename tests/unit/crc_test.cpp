@@ -35,17 +35,18 @@ TEST_P(CrcGolden, DocumentedData_GivesDocumentedCrcAndLineValue) {
   EXPECT_EQ(crc.line_bits(kData28, 28), golden.line);
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    Widths, CrcGolden,
-    testing::Values(Golden{0xB, 0, 0x5, 0x2}, Golden{0x13, 0, 0x9, 0x6},
-                    Golden{0x25, 0, 0x10, 0x0F}, Golden{0x43, 0, 0x18, 0x27},
-                    Golden{0x89, 0, 0x21, 0x5E}, Golden{0x12F, 0, 0x0C, 0xF3},
-                    Golden{0x190D9, 0, 0x13F8, 0xEC07}, Golden{0x43, 1, 0x04, 0x3B},
-                    Golden{0x43, 0xFFFF, 0x31, 0x0E}, Golden{0x190D9, 0xFFFF, 0x07A8, 0xF857}),
-    [](const auto& entry) {
-      return "Polynomial" + std::to_string(entry.param.polynomial) + "Start" +
-             std::to_string(entry.param.start);
-    });
+INSTANTIATE_TEST_SUITE_P(Widths, CrcGolden,
+                         testing::Values(Golden{0xB, 0, 0x5, 0x2}, Golden{0x13, 0, 0x9, 0x6},
+                                         Golden{0x25, 0, 0x10, 0x0F}, Golden{0x43, 0, 0x18, 0x27},
+                                         Golden{0x89, 0, 0x21, 0x5E}, Golden{0x12F, 0, 0x0C, 0xF3},
+                                         Golden{0x190D9, 0, 0x13F8, 0xEC07},
+                                         Golden{0x43, 1, 0x04, 0x3B},
+                                         Golden{0x43, 0xFFFF, 0x31, 0x0E},
+                                         Golden{0x190D9, 0xFFFF, 0x07A8, 0xF857}),
+                         [](const auto& entry) {
+                           return "Polynomial" + std::to_string(entry.param.polynomial) + "Start" +
+                                  std::to_string(entry.param.start);
+                         });
 
 // TI TIDEP0022, section 6-bit CRC verification: data 101, CRC 001111, line 110000.
 TEST(Crc, TiExample_GivesPrintedCrc) {

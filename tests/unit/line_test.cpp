@@ -15,11 +15,12 @@ constexpr Time kStart = 1000 * kPsPerNs;
 // A line driven at the chip's MA pin; records the chip's SL pin.
 struct LineBench {
   explicit LineBench(Time round_trip)
-      : line(queue, round_trip,
-             [](Time now, void* receiver, bool level) {
-               static_cast<ChainBench::Edges*>(receiver)->emplace_back(now, level);
-             },
-             &sl) {
+      : line(
+            queue, round_trip,
+            [](Time now, void* receiver, bool level) {
+              static_cast<ChainBench::Edges*>(receiver)->emplace_back(now, level);
+            },
+            &sl) {
     line.chain().add(std::make_unique<BissCSlave>(constant_slave(8, 0xA5, 0), 1));
   }
   void run_until(Time time) {
@@ -70,8 +71,14 @@ TEST(Line, LongDelay_CarriesTheWholeFrame) {
 TEST(Line, FlippedBits_AreInvertedInOneFrameOnly) {
   LineBench bench(0);
   bench.line.faults().flip_next_frame({1, 2, 9});  // CDS, first and last data bit
-  EXPECT_EQ(bench.frame(kStart, 13, kPeriod / 2), "1011" "00100100" "0");
-  EXPECT_EQ(bench.frame(kStart + 100 * kPeriod, 13, kPeriod / 2), "1010" "10100101" "0");
+  EXPECT_EQ(bench.frame(kStart, 13, kPeriod / 2),
+            "1011"
+            "00100100"
+            "0");
+  EXPECT_EQ(bench.frame(kStart + 100 * kPeriod, 13, kPeriod / 2),
+            "1010"
+            "10100101"
+            "0");
 }
 
 TEST(Line, StuckLow_ThenReleased_FollowsTheSlaveAgain) {
@@ -83,7 +90,10 @@ TEST(Line, StuckLow_ThenReleased_FollowsTheSlaveAgain) {
   bench.line.faults().stick(std::nullopt);
   bench.line.refresh(kStart + 90 * kPeriod);
   EXPECT_TRUE(bench.line.sl());
-  EXPECT_EQ(bench.frame(kStart + 100 * kPeriod, 13, kPeriod / 2), "1010" "10100101" "0");
+  EXPECT_EQ(bench.frame(kStart + 100 * kPeriod, 13, kPeriod / 2),
+            "1010"
+            "10100101"
+            "0");
 }
 
 TEST(Line, StuckHigh_NeverFalls) {

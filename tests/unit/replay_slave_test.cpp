@@ -26,7 +26,12 @@ ReplaySlaveConfig ti_frame() {
 }
 
 // TI TIDEP0022: CDS 0, position 0111000001000, nE = nW = 1, CRC line bits 101110, stop 0.
-const char* const kTiBits = "1010" "0111000001000" "11" "101110" "0";
+const char* const kTiBits =
+    "1010"
+    "0111000001000"
+    "11"
+    "101110"
+    "0";
 constexpr unsigned kTiRisings = 15 + 6 + 5;
 
 TEST(ReplaySlave, TiFrameByTime_ShowsTheRecordedBitsAndTimeout) {
@@ -63,6 +68,16 @@ TEST(ReplaySlave, RemainderAfterClockEdge_IsKept) {
   bench.chain.add(std::make_unique<ReplaySlave>(config));
   bench.frame(kStart, 500 * kPsPerNs, 4);
   EXPECT_EQ(bench.slo.front(), std::make_pair(kStart + 870 * kPsPerNs, false));
+}
+
+TEST(ReplaySlave, RemainderLongerThanHalfAPeriod_BelongsToTheEarlierClockEdge) {
+  ChainBench bench;
+  ReplaySlaveConfig config;
+  config.recording = parse_recording("ma_hz 1000000\n2200 0\n9000 1\n", "x");  // 700 ns after #2
+  config.play = ReplaySlaveConfig::Play::kClock;
+  bench.chain.add(std::make_unique<ReplaySlave>(config));
+  bench.frame(kStart, 500 * kPsPerNs, 6);
+  EXPECT_EQ(bench.slo.front(), std::make_pair(kStart + (750 + 700) * kPsPerNs, false));
 }
 
 struct BadRecording {

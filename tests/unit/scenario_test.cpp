@@ -168,8 +168,9 @@ INSTANTIATE_TEST_SUITE_P(
                     "s.toml:6:7: key 'crc': not a full polynomial such as 0x43 (0 = no CRC)"},
         BadScenario{"Data", slave("data_bits = 8\ndata = 0x100"),
                     "s.toml:6:8: key 'data': does not fit into 8 bits"},
-        BadScenario{"Timeout", slave("data_bits = 8\ntimeout = \"soon\""),
-                    "s.toml:6:11: key 'timeout': expected \"adaptive\" or a number of microseconds"},
+        BadScenario{
+            "Timeout", slave("data_bits = 8\ntimeout = \"soon\""),
+            "s.toml:6:11: key 'timeout': expected \"adaptive\" or a number of microseconds"},
         BadScenario{"TimeoutZero", slave("data_bits = 8\ntimeout = 0"),
                     "s.toml:6:11: key 'timeout': 0 is outside 0.05 to 1e+06"},
         BadScenario{"Busy", slave("data_bits = 8\nbusy_periods = -1"),

@@ -119,8 +119,8 @@ TEST(Simulator, UndrivenPins_RestAtTheirPulls) {
                         Pin::kCfgspi, Pin::kMa1, Pin::kEot, Pin::kNres}) {
     EXPECT_TRUE(simulator.pin(pin)) << static_cast<int>(pin);
   }
-  for (const Pin pin : {Pin::kAle, Pin::kGetsens, Pin::kDb0, Pin::kDb1, Pin::kDb7, Pin::kIntNmot,
-                        Pin::kMo1}) {
+  for (const Pin pin :
+       {Pin::kAle, Pin::kGetsens, Pin::kDb0, Pin::kDb1, Pin::kDb7, Pin::kIntNmot, Pin::kMo1}) {
     EXPECT_FALSE(simulator.pin(pin)) << static_cast<int>(pin);
   }
 }

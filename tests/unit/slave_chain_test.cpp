@@ -51,11 +51,14 @@ TEST(SlaveChain, BusyLastSlave_DelaysStartBitOfAll) {
   bench.add(near);
   bench.add(far);
   EXPECT_EQ(bench.frame(kStart, kPeriod, 16 + 5 + 2),
-            "1" "000" "10" + binary(0x5AC3, 16) + "0");
+            "1"
+            "000"
+            "10" +
+                binary(0x5AC3, 16) + "0");
 }
 
-// Datasheet page 15: in the timeout only the last slave forces SLO high, the others pass SLI on. The
-// master sees 1 when all have timed out.
+// Datasheet page 15: in the timeout only the last slave forces SLO high, the others pass SLI on.
+// The master sees 1 when all have timed out.
 TEST(SlaveChain, DifferentTimeouts_SlRisesWithTheLongest) {
   for (const bool near_is_longer : {true, false}) {
     ChainBench bench;
@@ -98,7 +101,10 @@ TEST(SlaveChain, MoHigh_StartBitComesFromMo) {
     bench.ma(kStart + i * kPeriod, false);
   }
   EXPECT_FALSE(slave.is_last());
-  EXPECT_EQ(bits, "1000" "10" + binary(0xA5, 8) + "00");
+  EXPECT_EQ(bits,
+            "1000"
+            "10" +
+                binary(0xA5, 8) + "00");
 }
 
 TEST(SlaveChain, NoSlaves_LineRestsHigh) {

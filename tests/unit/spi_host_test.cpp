@@ -67,12 +67,12 @@ TEST_P(SpiFrequencies, TwoFrames_KeepEveryLimit) {
   const auto deselect = pins.times(Pin::kNcs, true);
   ASSERT_EQ(rise.size(), 64U);
   ASSERT_EQ(fall.size(), 64U);
-  EXPECT_GE(rise[0] - select[0], 10'000U);        // I201
-  EXPECT_GE(deselect[0] - fall[31], 10'000U);     // I202
-  EXPECT_GE(select[1] - deselect[0], 10'000U);    // I209
+  EXPECT_GE(rise[0] - select[0], 10'000U);      // I201
+  EXPECT_GE(deselect[0] - fall[31], 10'000U);   // I202
+  EXPECT_GE(select[1] - deselect[0], 10'000U);  // I209
   const Time period = (kPsPerSecond + GetParam() - 1) / GetParam();
   for (std::size_t i = 0; i < 32; ++i) {
-    EXPECT_GE(fall[i] - rise[i], 10'000U);        // I204
+    EXPECT_GE(fall[i] - rise[i], 10'000U);  // I204
     if (i + 1 < 32) {
       EXPECT_GE(rise[i + 1] - fall[i], 10'000U);  // I203
     }
@@ -80,10 +80,10 @@ TEST_P(SpiFrequencies, TwoFrames_KeepEveryLimit) {
       EXPECT_EQ(rise[i + 1] - rise[i], period);
     }
   }
-  EXPECT_GE(fall[15] - rise[15], 100'000U);       // I204 between address and data of 0x03
+  EXPECT_GE(fall[15] - rise[15], 100'000U);  // I204 between address and data of 0x03
   for (const auto& change : pins.changes) {
     if (change.pin != Pin::kDb0) continue;
-    for (const Time edge : rise) {                // I205, I206
+    for (const Time edge : rise) {  // I205, I206
       const Time apart = change.time > edge ? change.time - edge : edge - change.time;
       EXPECT_GE(apart, 7'500U);
     }

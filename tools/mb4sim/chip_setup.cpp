@@ -28,8 +28,8 @@ std::uint32_t frame_timeout(const sim::Scenario& scenario, const sim::ChannelCon
       slave_us = std::max(slave_us, sim::to_us(replay->recording.edges.back().time));
     }
   }
-  const double us = periods * period_us + 2 * slave_us + 2 * sim::to_us(channel.delay) +
-                    kFrameMarginUs;
+  const double us =
+      periods * period_us + 2 * slave_us + 2 * sim::to_us(channel.delay) + kFrameMarginUs;
   return static_cast<std::uint32_t>(std::min<double>(us, kMaxFrameTimeoutUs));
 }
 
@@ -59,8 +59,8 @@ Config make_config(const sim::Scenario& scenario) {
     SlaveConfig& target = config.slaves[i];
     target.enabled = true;
     target.data_bits = static_cast<std::uint8_t>(slave.data_bits());
-    target.flags = slave.flag_bits() == 2 && slave.data_bits() > 2 ? Flags::kErrorWarning
-                                                                   : Flags::kNone;
+    target.flags =
+        slave.flag_bits() == 2 && slave.data_bits() > 2 ? Flags::kErrorWarning : Flags::kNone;
     target.crc_polynomial = slave.crc().polynomial;
     target.crc_start = static_cast<std::uint16_t>(slave.crc().start);
   }

@@ -122,8 +122,8 @@ std::string FrameReport::json(const std::string& scenario, const RunSummary& sum
         "  {{\"frame\": {}, \"time_us\": {:.3f}, \"slave\": {}, \"good\": {}, \"raw\": {}, "
         "\"position\": {}, \"nE\": {}, \"nW\": {}, \"crc\": {}, \"state\": {}}}{}\n",
         row.frame, sim::to_us(row.time), row.slave, row.reading.has_value(), quoted(c.raw),
-        number(c.position), number(c.error), number(c.warning), quoted(c.crc),
-        json_text(row.state), &row == &rows_.back() ? "" : ",");
+        number(c.position), number(c.error), number(c.warning), quoted(c.crc), json_text(row.state),
+        &row == &rows_.back() ? "" : ",");
   }
   out += fmt::format(
       "], \"summary\": {{\"good\": {}, \"bad\": {}, \"time_us\": {:.3f}, \"clocks\": {}}}}}\n",

@@ -19,8 +19,8 @@ namespace mb4::tool {
 
 // One slave of one frame.
 struct FrameRow {
-  std::uint64_t frame = 0;     // counted from 1
-  sim::Time time = 0;          // when the host had the result
+  std::uint64_t frame = 0;  // counted from 1
+  sim::Time time = 0;       // when the host had the result
   unsigned slave = 1;
   std::optional<Reading> reading;  // absent: bad frame
   std::string state;               // "ok", "encoder error", "CRC error", ...

@@ -39,7 +39,8 @@ int run(int argc, char** argv) {
   std::function<int()> command;
 
   RunOptions run_options;
-  CLI::App* run_app = app.add_subcommand("run", "Configure the chip through the driver and read all slaves");
+  CLI::App* run_app =
+      app.add_subcommand("run", "Configure the chip through the driver and read all slaves");
   add_scenario(*run_app, run_options.scenario);
   run_app->add_option("--frames", run_options.frames, "Frames to read (default 10)")
       ->type_name("N")

@@ -43,7 +43,8 @@ bool is_data(const regs::FieldInfo& field) {
 
 std::string bits_of(const regs::FieldInfo& field) {
   const unsigned lsb = field.lsb;
-  return field.width == 1 ? fmt::format("{}", lsb) : fmt::format("{}:{}", lsb + field.width - 1, lsb);
+  return field.width == 1 ? fmt::format("{}", lsb)
+                          : fmt::format("{}:{}", lsb + field.width - 1, lsb);
 }
 
 std::string name_of(const regs::FieldInfo& field) {
@@ -81,9 +82,10 @@ void print_json(const Dump& dump) {
   fmt::print("], \"fields\": [\n");
   bool first = true;
   for (const regs::FieldInfo& field : regs::kFields) {
-    fmt::print("{}  {{\"name\": \"{}\", \"address\": {}, \"lsb\": {}, \"width\": {}, \"value\": {}}}",
-               first ? "" : ",\n", field.name, field.address, field.lsb, field.width,
-               value_of(field, dump));
+    fmt::print(
+        "{}  {{\"name\": \"{}\", \"address\": {}, \"lsb\": {}, \"width\": {}, \"value\": {}}}",
+        first ? "" : ",\n", field.name, field.address, field.lsb, field.width,
+        value_of(field, dump));
     first = false;
   }
   fmt::print("\n]}}\n");

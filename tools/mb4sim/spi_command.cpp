@@ -72,7 +72,8 @@ void execute(sim::Simulator& simulator, const std::vector<std::string_view>& wor
   std::vector<std::uint8_t> rx(tx.size());
   simulator.spi().transfer(tx, rx);
   std::string answer;
-  for (const std::uint8_t byte : rx) answer += fmt::format("{}{:02X}", answer.empty() ? "" : " ", byte);
+  for (const std::uint8_t byte : rx)
+    answer += fmt::format("{}{:02X}", answer.empty() ? "" : " ", byte);
   fmt::print("{}\n", answer);
 }
 

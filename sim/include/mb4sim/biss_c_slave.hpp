@@ -36,12 +36,12 @@ struct SlaveTimeout {
 
 struct BissCSlaveConfig {
   std::string name = "biss-c";
-  unsigned data_bits = 28;       // 1 to 64, position and flags
-  unsigned flag_bits = 2;        // the lowest bits of the word that are no position
-  std::uint64_t flags = 0b11;    // their level with source ramp or sine; nE = nW = 1: no error
+  unsigned data_bits = 28;     // 1 to 64, position and flags
+  unsigned flag_bits = 2;      // the lowest bits of the word that are no position
+  std::uint64_t flags = 0b11;  // their level with source ramp or sine; nE = nW = 1: no error
   Crc crc{0x43, 0};
   SlaveTimeout timeout;
-  unsigned busy_periods = 0;     // periods of MA between acknowledge and start bit beyond one
+  unsigned busy_periods = 0;  // periods of MA between acknowledge and start bit beyond one
   DataSource source;
 };
 

@@ -66,9 +66,9 @@ class Line {
   void* receiver_;
   Probe probe_ = nullptr;
   void* probe_receiver_ = nullptr;
-  bool driving_ = false;   // inside SlaveChain::drive(): SLO is sent when it has settled
-  bool sent_ = true;       // level put into the way back
-  bool received_ = true;   // level that came out of it
+  bool driving_ = false;  // inside SlaveChain::drive(): SLO is sent when it has settled
+  bool sent_ = true;      // level put into the way back
+  bool received_ = true;  // level that came out of it
   bool pin_ = true;
 };
 

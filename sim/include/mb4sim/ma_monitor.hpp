@@ -15,10 +15,10 @@ namespace mb4::sim {
 
 // One frame as seen on MA. Widths are between two edges inside the frame; 0 if there was none.
 struct MaFrame {
-  Time start = 0;              // first falling edge
+  Time start = 0;  // first falling edge
   Time last_edge = 0;
-  std::uint64_t rising = 0;    // rising edges
-  std::uint64_t falling = 0;   // falling edges, the first one included
+  std::uint64_t rising = 0;   // rising edges
+  std::uint64_t falling = 0;  // falling edges, the first one included
   Time min_high = 0;
   Time max_high = 0;
   Time min_low = 0;
@@ -46,7 +46,7 @@ class MaMonitor {
   Time rest_limit() const { return rest_limit_ == 0 ? kUnmeasuredRest : rest_limit_; }
 
   std::uint64_t frames_ = 0;
-  bool active_ = false;      // current_ has started and no rest was seen at an edge since
+  bool active_ = false;  // current_ has started and no rest was seen at an edge since
   bool level_ = true;
   Time rest_limit_ = 0;
   MaFrame current_;

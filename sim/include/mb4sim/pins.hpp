@@ -12,11 +12,31 @@
 namespace mb4::sim {
 
 enum class Pin {
-  kDb0, kDb1, kDb2, kDb3, kDb4, kDb5, kDb6, kDb7,  // kDb0 + n = DBn
-  kNcs, kAle, kNrdRnw, kNwrE,                      // kAle is SCLK with SPI
-  kCfgspi, kIntNmot, kNres, kClk, kGetsens, kNer,
-  kSl1, kSl2,
-  kEot, kMa1, kMa2, kMo1, kMo2,                    // outputs from here on
+  kDb0,
+  kDb1,
+  kDb2,
+  kDb3,
+  kDb4,
+  kDb5,
+  kDb6,
+  kDb7,  // kDb0 + n = DBn
+  kNcs,
+  kAle,
+  kNrdRnw,
+  kNwrE,  // kAle is SCLK with SPI
+  kCfgspi,
+  kIntNmot,
+  kNres,
+  kClk,
+  kGetsens,
+  kNer,
+  kSl1,
+  kSl2,
+  kEot,
+  kMa1,
+  kMa2,
+  kMo1,
+  kMo2,  // outputs from here on
 };
 
 // "NCS", "ALE", "SL2_NSL1", ...; also "SCLK", "MOSI", "MISO" and the short "SL2", "MA2", "MO2".

@@ -9,6 +9,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include "mb4sim/biss_c_slave.hpp"
 #include "mb4sim/crc.hpp"
@@ -67,10 +68,9 @@ class ReplaySlave final : public Slave {
   bool ma_ = true;
   bool slo_ = true;
   std::size_t next_ = 0;
-  std::uint64_t risings_ = 0;
+  std::vector<Time> risings_;  // of the running frame
   Time first_falling_ = 0;
   Time last_edge_ = 0;
-  Time last_rising_ = 0;
   Time timeout_ = 0;
 };
 

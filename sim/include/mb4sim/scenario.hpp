@@ -50,8 +50,8 @@ struct SlaveConfig {
 };
 
 struct ChannelConfig {
-  unsigned number = 1;  // 1 or 2
-  Time delay = 0;       // round trip, ps
+  unsigned number = 1;              // 1 or 2
+  Time delay = 0;                   // round trip, ps
   std::vector<SlaveConfig> slaves;  // first = next to SL
 };
 

@@ -107,9 +107,9 @@ class Simulator final : public HostPins {
   std::array<std::unique_ptr<Line>, 2> lines_;
   SpiHost spi_;
   Time now_ = 0;
-  unsigned seen_ = 0;           // watched outputs that have been acted upon
+  unsigned seen_ = 0;  // watched outputs that have been acted upon
   bool settling_ = false;
-  bool ner_pulled_ = false;     // by something outside
+  bool ner_pulled_ = false;        // by something outside
   std::array<bool, 32> levels_{};  // of input pins, by Pin
   std::optional<ModelStopped> stopped_;
 };

@@ -22,8 +22,8 @@ class SlFaults {
   std::optional<bool> stuck() const { return stuck_; }
 
   // --- used by Line --------------------------------------------------------------------------
-  void rising_edge();                  // MA rises at the slaves
-  void levels(bool slo, bool idle);    // after each change at the slaves
+  void rising_edge();                // MA rises at the slaves
+  void levels(bool slo, bool idle);  // after each change at the slaves
   bool wire(bool slo) const { return slo != flip_now_; }
 
  private:

@@ -43,6 +43,7 @@ module frame_top (
   logic       any_word;
   logic       last_word;
   logic       sl_sync;
+  logic       word_begin;
   mb4_pkg::word_cfg_t word;
 
   mb4_freqs_dec u_freqs (
@@ -103,6 +104,7 @@ module frame_top (
     .wr_en_o,
     .wr_byte_o,
     .wr_data_o,
+    .word_begin_o (word_begin),
     .word_done_o,
     .word_ok_o,
     .cds_o,
@@ -118,6 +120,6 @@ module frame_top (
   );
 
   logic unused;
-  assign unused = sl_sync;
+  assign unused = sl_sync ^ word_begin;
 
 endmodule

@@ -1,0 +1,76 @@
+// SPDX-FileCopyrightText: 2026 The openmb4 authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Status flags with their set and clear conditions; EOT and the NER output.
+//
+// Clock domain: core. EOT falls in the clock after busy_i and rises three clocks after it ends, when
+// the other flags, SVALID and the banks have settled: a host that reads EOT = 1 reads their new
+// values with it. Of a
+// set and a clear in the same clock the set wins.
+// Datasheet: pages 33..35, Tables 54, 55, 59, 60, 62; decisions 1, 8, 9, 15, 26.
+
+module mb4_status_flags (
+  input  logic clk_i,
+  input  logic rst_ni,
+  input  logic busy_i,         // a frame or INIT runs or is about to
+  input  logic clear_i,        // INIT, BREAK
+  input  logic scd_en_i,       // a frame is complete: its result
+  input  logic scd_bad_i,
+  input  logic ags_error_i,    // a frame could not start
+  input  logic bank_fail_i,    // a bank switch was prevented
+  input  logic bank_swapped_i,
+  output logic eot_o,
+  output logic n_scderr_o,
+  output logic n_agserr_o,
+  output logic swbank_fail_o,
+  output logic ner_low_o       // pull NER low
+);
+
+  logic [1:0] quiet_q;
+  logic       eot_q;
+  logic       n_scderr_d;
+  logic       n_scderr_q;
+  logic       n_agserr_d;
+  logic       n_agserr_q;
+  logic       fail_d;
+  logic       fail_q;
+  logic       ner_low_q;
+
+  always_comb begin
+    n_scderr_d = n_scderr_q;
+    n_agserr_d = n_agserr_q;
+    fail_d     = fail_q && !bank_swapped_i;
+    if (clear_i) begin
+      n_scderr_d = 1'b1;
+      n_agserr_d = 1'b1;
+    end
+    if (scd_en_i)    n_scderr_d = !scd_bad_i;
+    if (ags_error_i) n_agserr_d = 1'b0;
+    if (bank_fail_i) fail_d     = 1'b1;
+  end
+
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      quiet_q    <= 2'b11;
+      eot_q      <= 1'b1;
+      n_scderr_q <= 1'b1;
+      n_agserr_q <= 1'b1;
+      fail_q     <= 1'b0;
+      ner_low_q  <= 1'b0;
+    end else begin
+      quiet_q    <= {quiet_q[0], !busy_i};
+      eot_q      <= (quiet_q == 2'b11) && !busy_i;
+      n_scderr_q <= n_scderr_d;
+      n_agserr_q <= n_agserr_d;
+      fail_q     <= fail_d;
+      ner_low_q  <= !(n_scderr_d && n_agserr_d);
+    end
+  end
+
+  assign eot_o         = eot_q;
+  assign n_scderr_o    = n_scderr_q;
+  assign n_agserr_o    = n_agserr_q;
+  assign swbank_fail_o = fail_q;
+  assign ner_low_o     = ner_low_q;
+
+endmodule

@@ -1,0 +1,110 @@
+// SPDX-FileCopyrightText: 2026 The openmb4 authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Both physical channels and the time base they share (instances only): one frame start, the same
+// MA phase on both. Bit i of a vector {2, 1} belongs to line i + 1, wider fields are slices.
+//
+// Clock domain: core. See mb4_timebase and mb4_channel.
+
+module mb4_lines (
+  input  logic       clk_i,
+  input  logic       rst_ni,
+  // control
+  input  logic [7:0] half_len_i,
+  input  logic       start_i,
+  input  logic [1:0] use_i,
+  input  logic       init_i,
+  input  logic       cdm_i,
+  input  logic       hold_cdm_i,
+  input  logic       abort_i,
+  output logic       tick_o,
+  // words
+  input  logic [1:0]  len_valid_i,
+  input  logic [13:0] len_i,
+  input  logic [1:0]  any_word_i,
+  input  logic [1:0]  last_word_i,
+  input  logic [2*mb4_pkg::WORD_CFG_W-1:0] word_i,
+  // received bytes and words
+  output logic [1:0]  wr_en_o,
+  output logic [5:0]  wr_byte_o,
+  output logic [15:0] wr_data_o,
+  output logic [1:0]  word_begin_o,
+  output logic [1:0]  word_done_o,
+  output logic [1:0]  word_ok_o,
+  // results
+  output logic [1:0]  cds_o,
+  output logic [1:0]  frame_end_o,
+  output logic [1:0]  init_done_o,
+  output logic [1:0]  init_fail_o,
+  output logic [15:0] quarters_o,
+  output logic [1:0]  idle_o,
+  output logic [1:0]  timeout_o,
+  output logic [1:0]  sl_o,
+  // pins
+  output logic [1:0]  ma_o,
+  input  logic [1:0]  sl_i
+);
+
+  localparam int unsigned WORD_W = mb4_pkg::WORD_CFG_W;
+
+  logic half_next;
+  logic smp_a;
+  logic smp_b;
+  logic smp_half;
+  logic smp_b_neg;
+
+  mb4_timebase u_timebase (
+    .clk_i,
+    .rst_ni,
+    .half_len_i,
+    .run_i       (idle_o != 2'b11),
+    .restart_i   (start_i),
+    .tick_o,
+    .half_next_o (half_next),
+    .smp_a_o     (smp_a),
+    .smp_b_o     (smp_b),
+    .smp_half_o  (smp_half),
+    .smp_b_neg_o (smp_b_neg)
+  );
+
+  for (genvar i = 0; i < 2; i++) begin : gen_line
+    mb4_channel u_channel (
+      .clk_i,
+      .rst_ni,
+      .start_i,
+      .use_i        (use_i[i]),
+      .init_i,
+      .cdm_i,
+      .hold_cdm_i,
+      .abort_i,
+      .tick_i       (tick_o),
+      .half_next_i  (half_next),
+      .smp_a_i      (smp_a),
+      .smp_b_i      (smp_b),
+      .smp_half_i   (smp_half),
+      .smp_b_neg_i  (smp_b_neg),
+      .len_valid_i  (len_valid_i[i]),
+      .len_i        (len_i[i*7 +: 7]),
+      .any_word_i   (any_word_i[i]),
+      .last_word_i  (last_word_i[i]),
+      .word_i       (word_i[i*WORD_W +: WORD_W]),
+      .wr_en_o      (wr_en_o[i]),
+      .wr_byte_o    (wr_byte_o[i*3 +: 3]),
+      .wr_data_o    (wr_data_o[i*8 +: 8]),
+      .word_begin_o (word_begin_o[i]),
+      .word_done_o  (word_done_o[i]),
+      .word_ok_o    (word_ok_o[i]),
+      .cds_o        (cds_o[i]),
+      .frame_end_o  (frame_end_o[i]),
+      .init_done_o  (init_done_o[i]),
+      .init_fail_o  (init_fail_o[i]),
+      .quarters_o   (quarters_o[i*8 +: 8]),
+      .idle_o       (idle_o[i]),
+      .timeout_o    (timeout_o[i]),
+      .sl_o         (sl_o[i]),
+      .ma_o         (ma_o[i]),
+      .sl_i         (sl_i[i])
+    );
+  end
+
+endmodule
