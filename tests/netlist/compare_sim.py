@@ -23,7 +23,7 @@ import project  # noqa: E402
 import stimulus  # noqa: E402
 import sv_widths  # noqa: E402
 import yosys  # noqa: E402
-from make_harness import module_file  # noqa: E402
+from make_harness import module_file, sources_digest  # noqa: E402
 
 DEFAULT_SEED = 20260101
 
@@ -151,6 +151,10 @@ def main():
     module, folder = arguments.module, arguments.folder
     for name in ("yosys", "iverilog", "vvp"):
         project.tool(name)
+
+    status, text = project.run([arguments.program, "--sources"])
+    if status != 0 or text.strip() != sources_digest():
+        raise SystemExit("the RTL has changed since the models were built: build first")
 
     ports = sv_widths.module_ports(module_file(module),
                                    sv_widths.read_packages(project.rtl_packages()))

@@ -3,6 +3,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """make_harness.py OUTPUT MODULE...: the port lists of the Verilated models for rtl_run.cpp."""
 
+import hashlib
 import sys
 from pathlib import Path
 
@@ -17,10 +18,19 @@ def module_file(module):
     return project.rtl_modules().get(module) or HERE / "rtl" / f"{module}.sv"
 
 
+def sources_digest():
+    """Tells whether a model was built from the sources as they are now."""
+    digest = hashlib.sha256()
+    for path in [*project.rtl_files(), *sorted((HERE / "rtl").glob("*.sv"))]:
+        digest.update(path.read_bytes())
+    return digest.hexdigest()
+
+
 def main():
     scope = sv_widths.read_packages(project.rtl_packages())
     output, modules = Path(sys.argv[1]), sys.argv[2:]
-    text = ["// Made by tests/netlist/make_harness.py."]
+    text = ["// Made by tests/netlist/make_harness.py.",
+            f'const char* const kSources = "{sources_digest()}";']
     text += [f'#include "V{module}.h"' for module in modules]
     for module in modules:
         ports = sv_widths.module_ports(module_file(module), scope)

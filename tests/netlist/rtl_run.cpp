@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // rtl_run MODULE < steps: plays input steps to the Verilated RTL of one module and prints the outputs
-// after each. The ports are listed in rtl_run_models.inc, made from the sources by make_harness.py.
+// after each. rtl_run --sources: of which sources the models were made. The ports are listed in
+// rtl_run_models.inc, made from the sources by make_harness.py.
 
 #include "rtl_run.hpp"
 
@@ -37,6 +38,10 @@ int play() {
 
 int main(int argc, char** argv) {
   const std::string module = argc == 2 ? argv[1] : "";
+  if (module == "--sources") {
+    std::cout << kSources << '\n';
+    return 0;
+  }
   const int status = play_module(module);
   if (status < 0) std::cerr << "usage: rtl_run MODULE < steps (not a module: " << module << ")\n";
   return status < 0 ? 2 : status;

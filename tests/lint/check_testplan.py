@@ -1,0 +1,61 @@
+#!/usr/bin/env python3
+# SPDX-FileCopyrightText: 2026 The openmb4 authors
+# SPDX-License-Identifier: Apache-2.0
+"""Checks tests/testplan.toml against the tests that CTest knows.
+
+Usage: check_testplan.py TESTPLAN BUILD_DIR
+Exit status: 0 every row is whole and names existing tests, 1 otherwise (one line per finding).
+"""
+
+import fnmatch
+import json
+import subprocess
+import sys
+import tomllib
+
+
+def known_tests(build_dir):
+    listing = subprocess.run(
+        ["ctest", "--test-dir", build_dir, "--show-only=json-v1"],
+        check=True, capture_output=True, text=True).stdout
+    return {test["name"] for test in json.loads(listing)["tests"]}
+
+
+def findings(plan, tests):
+    rows = plan.get("row", [])
+    if not rows:
+        yield "the plan has no rows"
+    for number, row in enumerate(rows, start=1):
+        place = f"row {number} ({row.get('where', 'no place')})"
+        for key in ("where", "says", "tests"):
+            if not row.get(key):
+                yield f"{place}: key '{key}' is missing or empty"
+        for key in row.keys() - {"where", "says", "tests"}:
+            yield f"{place}: unknown key '{key}'"
+        for pattern in row.get("tests", []):
+            if not any(fnmatch.fnmatchcase(test, pattern) for test in tests):
+                yield f"{place}: there is no test '{pattern}'"
+
+
+def main():
+    if len(sys.argv) != 3:
+        print(__doc__, file=sys.stderr)
+        return 2
+    with open(sys.argv[1], "rb") as file:
+        plan = tomllib.load(file)
+    tests = known_tests(sys.argv[2])
+    # The check must be able to fail.
+    broken = {"row": [{"where": "x", "says": "y", "tests": ["No.SuchTest"]}]}
+    if not list(findings(broken, tests)) or not list(findings({}, tests)):
+        print("the check does not notice a missing test")
+        return 1
+    found = list(findings(plan, tests))
+    for line in found:
+        print(f"{sys.argv[1]}: {line}")
+    if not found:
+        print(f"{len(plan['row'])} rows, {len(tests)} tests known")
+    return 1 if found else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
