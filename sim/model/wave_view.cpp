@@ -5,6 +5,8 @@
 #include <gtkwave/fstapi.h>
 
 #include <algorithm>
+#include <cmath>
+#include <cstdint>
 #include <filesystem>
 #include <fstream>
 #include <memory>
@@ -26,21 +28,21 @@ struct Signal {
 // by a scope of its path.
 struct Group {
   std::string_view name;
+  bool open;  // unfolded when the view is loaded
   std::vector<std::string_view> pins;
   std::vector<std::string_view> scopes;
 };
 
-// In the order in which they stand in the view.
+// In the order in which they stand in the view: first what a user of the chip sees.
 const std::vector<Group>& groups() {
   static const std::vector<Group> list = {
-      {"host",
-       {"nres_i", "cfgspi_i", "int_nmot_i", "ncs_i", "ale_i", "nrd_rnw_i", "nwr_e_i", "db_",
-        "getsens_i", "eot_o", "ner_"},
-       {".u_spi.", ".u_host."}},
-      {"registers", {}, {".u_regs."}},
-      {"control", {"clk_i", "osc_i"}, {".u_sequencer.", ".u_timebase.", ".u_ctrl."}},
-      {"line", {"ma", "mo", "sl1_i", "sl2_i"}, {".gen_line[", ".u_line."}},
-      {"slaves", {"slaves_"}, {}},
+      {"host", true, {"nres_i", "ncs_i", "ale_i", "db_", "eot_o", "ner_"}, {".u_spi.u_cmd."}},
+      {"line", true, {"ma1_o", "sl1_i", "ma2_o", "sl2_i"}, {}},
+      {"slaves", true, {"slaves_"}, {}},
+      {"control", false, {"clk_i"}, {".u_sequencer.", ".u_timebase.", ".u_flags.", ".u_ctrl."}},
+      {"line engine", false, {"mo"}, {".gen_line[", ".u_line."}},
+      {"registers", false, {}, {".u_regs."}},
+      {"straps", false, {"osc_i", "cfgspi_i", "int_nmot_i", "nrd_rnw_i", "nwr_e_i", "getsens_i"}, {}},
   };
   return list;
 }
@@ -66,10 +68,17 @@ struct CloseReader {
   void operator()(void* reader) const { fstReaderClose(reader); }
 };
 
-std::vector<Signal> read_signals(const std::string& fst_path) {
+struct Waveform {
+  std::vector<Signal> signals;
+  std::uint64_t end = 0;  // ps
+};
+
+Waveform read_waveform(const std::string& fst_path) {
   const std::unique_ptr<void, CloseReader> reader(fstReaderOpen(fst_path.c_str()));
   if (reader == nullptr) throw std::runtime_error(fst_path + ": cannot read the waveform");
-  std::vector<Signal> signals;
+  Waveform waveform;
+  waveform.end = fstReaderGetEndTime(reader.get());
+  std::vector<Signal>& signals = waveform.signals;
   std::vector<std::string> scopes;
   while (const fstHier* entry = fstReaderIterateHier(reader.get())) {
     if (entry->htyp == FST_HT_SCOPE) {
@@ -91,7 +100,7 @@ std::vector<Signal> read_signals(const std::string& fst_path) {
       if (scopes.size() > 1) signals.push_back(std::move(signal));
     }
   }
-  return signals;
+  return waveform;
 }
 
 void write_signal(std::ostream& out, const Signal& signal) {
@@ -101,18 +110,25 @@ void write_signal(std::ostream& out, const Signal& signal) {
 }  // namespace
 
 void write_wave_view(const std::string& fst_path, const std::string& view_path) {
-  const std::vector<Signal> signals = read_signals(fst_path);
+  constexpr double kWindowPs = 150e6;    // configuration and the first frames of a usual scenario
+  constexpr double kWindowPixels = 900;  // of an ordinary screen
+  constexpr double kZoomUnit = 200;      // GTKWave: a pixel is 2^zoom / 200 time units
+  const Waveform waveform = read_waveform(fst_path);
+  const double shown = std::clamp(static_cast<double>(waveform.end), 1.0, kWindowPs);
   std::ofstream out(view_path);
   out << "[*] View of an openmb4 waveform\n"
       << "[dumpfile] \"" << std::filesystem::path(fst_path).filename().string() << "\"\n"
       << "[savefile] \"" << std::filesystem::path(view_path).filename().string() << "\"\n"
-      << "[timestart] 0\n[sst_expanded] 1\n";
+      << "[timestart] 0\n[size] 1400 900\n[signals_width] 230\n[sst_expanded] 0\n"
+      << "*-" << std::log2(shown / kWindowPixels * kZoomUnit) << " 0";
+  for (int marker = 0; marker < 26; ++marker) out << " -1";
+  out << '\n';
   for (const Group& group : groups()) {
-    out << "@800200\n-" << group.name << '\n';
-    for (const Signal& signal : signals) {
+    out << (group.open ? "@800200\n-" : "@c00200\n-") << group.name << '\n';
+    for (const Signal& signal : waveform.signals) {
       if (belongs(group, signal)) write_signal(out, signal);
     }
-    out << "@1000200\n-" << group.name << '\n';
+    out << (group.open ? "@1000200\n-" : "@1401200\n-") << group.name << '\n';
   }
   out.close();
   if (!out) throw std::runtime_error(view_path + ": cannot write");
