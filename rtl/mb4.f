@@ -26,9 +26,11 @@ regs/mb4_reg_file.sv
 ctrl/mb4_freqs_dec.sv
 ctrl/mb4_crc_decode.sv
 ctrl/mb4_word_list.sv
+ctrl/mb4_frame_request.sv
 ctrl/mb4_sequencer.sv
 ctrl/mb4_status_flags.sv
 ctrl/mb4_cdm_timeout.sv
+ctrl/mb4_control.sv
 line/mb4_timebase.sv
 line/mb4_sl_sampler.sv
 line/mb4_crc.sv

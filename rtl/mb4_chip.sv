@@ -5,7 +5,7 @@
 //
 // Every pin that can be driven from both sides is split into input, output and output enable, so
 // that the level on the wire is decided outside. SPI uses ALE = SCLK, DB0 = MOSI, DB1 = MISO with
-// CFGSPI = 1. In this version CFGSPI = 0 (parallel bus), SPI2 (NWR_E = 0), MO and GETSENS are not
+// CFGSPI = 1. In this version CFGSPI = 0 (parallel bus), SPI2 (NWR_E = 0) and MO are not
 // there yet: the data bus stays in high impedance, MO stays low.
 // Clock domains: SCLK; the system clock, from CLK or the internal oscillator (CLKENI).
 // Datasheet: pages 3, 17, 23.
@@ -71,6 +71,7 @@ module mb4_chip (
     .ner_low_o,
     .ner_i,
     .clkeni_o  (clkeni),
+    .getsens_i,
     .ma1_o,
     .sl1_i,
     .ma2_o,
@@ -85,6 +86,6 @@ module mb4_chip (
 
   // Pins of functions that this version does not have.
   logic unused;
-  assign unused = ^{int_nmot_i, nrd_rnw_i, nwr_e_i, db_i[7:1], getsens_i};
+  assign unused = ^{int_nmot_i, nrd_rnw_i, nwr_e_i, db_i[7:1]};
 
 endmodule

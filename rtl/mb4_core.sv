@@ -25,6 +25,7 @@ module mb4_core (
   output logic       ner_low_o,   // an error flag is set: pull NER low
   input  logic       ner_i,       // level at NER
   output logic       clkeni_o,    // 1 = internal oscillator
+  input  logic       getsens_i,
   // lines
   output logic       ma1_o,
   input  logic       sl1_i,
@@ -69,7 +70,6 @@ module mb4_core (
   logic [1:0] word_begin, word_done, word_ok;
   logic [1:0] init_done, init_fail;
   logic [1:0] cds, cds_host;
-  logic       busy, clear_flags, scd_en, scd_bad, ags_error, bank_fail, init_clear, frame_cdm;
 
   // words of the two lines; slices of flat vectors, one slice a line
   localparam int unsigned WORD_W = mb4_pkg::WORD_CFG_W;
@@ -154,76 +154,47 @@ module mb4_core (
                    cfg.cfgch1 == mb4_regs_pkg::PROTOCOL_BISS_C};
   assign cdssel = (cfg.chsel == 2'b10) ? cds[1] : cds[0];
 
-  mb4_sequencer u_sequencer (
-    .clk_i,
-    .rst_ni            (rst_core_n),
-    .written_i         (written),
-    .toggle_i          (instr_toggle),
-    .ack_o             (instr_ack),
-    .held_o            (held),
-    .mem_busy_i        (mem_busy),
-    .agsmin_i          (cfg.freqags == mb4_regs_pkg::AGS_RATE_AGS_MIN),
-    .regvers_i         (cfg.regvers),
-    .use_i             (in_use),
-    .agserr_on_hold_i  (quirks_i[mb4_pkg::QUIRK_AGSERR_ON_HOLDBANK]),
-    .agserr_on_write_i (quirks_i[mb4_pkg::QUIRK_AGSERR_ON_INSTR_WR]),
-    .start_o           (start),
-    .init_o            (init),
-    .cdm_o             (cdm),
-    .abort_o           (abort),
-    .tick_i            (tick),
-    .cdssel_i          (cdssel),
-    .idle_i            (idle),
-    .timeout_i         (timeout),
-    .sl_i              (sl),
-    .frame_end_i       (frame_end),
-    .word_done_i       (word_done),
-    .word_ok_i         (word_ok),
-    .init_done_i       (init_done),
-    .init_fail_i       (init_fail),
-    .bank_pending_i    (bank_pending),
-    .bank_end_o        (bank_end),
-    .holdbank_o        (holdbank),
-    .swbank_pulse_o    (swbank_pulse),
-    .busy_o            (busy),
-    .clear_flags_o     (clear_flags),
-    .scd_en_o          (scd_en),
-    .scd_bad_o         (scd_bad),
-    .ags_error_o       (ags_error),
-    .bank_fail_o       (bank_fail),
-    .init_clear_o      (init_clear),
-    .frame_cdm_o       (frame_cdm)
-  );
-
-  mb4_status_flags u_flags (
+  mb4_control u_control (
     .clk_i,
     .rst_ni         (rst_core_n),
-    .busy_i         (busy),
-    .clear_i        (clear_flags),
-    .scd_en_i       (scd_en),
-    .scd_bad_i      (scd_bad),
-    .ags_error_i    (ags_error),
-    .bank_fail_i    (bank_fail),
-    .bank_swapped_i (bank_swapped),
+    .written_i      (written),
+    .toggle_i       (instr_toggle),
+    .ack_o          (instr_ack),
+    .held_o         (held),
+    .freqs_i        (cfg.freqs),
+    .freqags_i      (cfg.freqags),
+    .hold_cdm_i     (cfg.holdcdm),
+    .regvers_i      (cfg.regvers),
+    .quirks_i,
+    .getsens_i,
     .eot_o,
+    .ner_low_o,
+    .mem_busy_i     (mem_busy),
+    .bank_pending_i (bank_pending),
+    .bank_swapped_i (bank_swapped),
+    .bank_end_o     (bank_end),
+    .holdbank_o     (holdbank),
+    .swbank_pulse_o (swbank_pulse),
+    .use_i          (in_use),
+    .half_len_o     (half_len),
+    .start_o        (start),
+    .init_o         (init),
+    .cdm_o          (cdm),
+    .abort_o        (abort),
+    .tick_i         (tick),
+    .cdssel_i       (cdssel),
+    .idle_i         (idle),
+    .timeout_i      (timeout),
+    .sl_i           (sl),
+    .frame_end_i    (frame_end),
+    .word_done_i    (word_done),
+    .word_ok_i      (word_ok),
+    .init_done_i    (init_done),
+    .init_fail_i    (init_fail),
     .n_scderr_o     (status.n_scderr),
     .n_agserr_o     (status.n_agserr),
     .swbank_fail_o  (status.swbank_fail),
-    .ner_low_o
-  );
-
-  mb4_cdm_timeout u_cdm_timeout (
-    .clk_i,
-    .rst_ni      (rst_core_n),
-    .frame_end_i (bank_end),
-    .cdm_i       (frame_cdm),
-    .clear_i     (init_clear),
-    .timeout_o   (status.cdm_timeout)
-  );
-
-  mb4_freqs_dec u_freqs (
-    .freqs_i    (cfg.freqs),
-    .half_len_o (half_len)
+    .cdm_timeout_o  (status.cdm_timeout)
   );
 
   // ---- lines --------------------------------------------------------------------------------

@@ -7,9 +7,9 @@
 // Clock domain: core. A written byte arrives 2..3 clocks after its last bit; the frame it asks for
 // starts with the next clock at the earliest. busy_o comes before ack_o tells the host half. A frame
 // ends two clocks after its last bit: its result first, then the bank switch.
-// In this version frames are started by INSTR = 001, 010 and 011 (with AGS = 0 or 1) and INIT runs
-// with REGVERS = 1; the AGS timer and control communication are not there yet: other INSTR codes
-// clear themselves without a frame, AGS is kept and read back.
+// With AGS = 1 INSTR sets the CDM of the frames that come by themselves (mb4_frame_request) and stays;
+// only with FREQAGS = AGSINFINITE it asks for one as well. In this version INIT runs with REGVERS = 1,
+// and control communication is not there yet: its INSTR codes clear themselves without a frame.
 // Misuse: SL low when a frame is due: no frame, nAGSERR = 0, or with FREQAGS = AGSMIN waiting for
 // SL = 1 (decision 3). A frame due while HOLDBANK holds back a switch: no frame, SWBANKFAIL = 1,
 // nAGSERR = 0 (decision 15). INSTR written with the value that is running does not ask for another
@@ -29,10 +29,19 @@ module mb4_sequencer (
   // configuration
   input  logic       mem_busy_i,
   input  logic       agsmin_i,
+  input  logic       infinite_i,
   input  logic       regvers_i,
   input  logic [1:0] use_i,           // lines in use: {2, 1}
   input  logic       agserr_on_hold_i,
   input  logic       agserr_on_write_i,
+  input  logic       ags_clear_i,     // an AGS error clears AGS
+  // frames due by themselves
+  input  logic       request_i,
+  input  logic       missed_i,
+  output logic       taken_o,
+  output logic       lines_idle_o,
+  output logic       running_o,
+  output logic       break_o,
   // lines, {2, 1} each
   output logic       start_o,
   output logic       init_o,
@@ -94,6 +103,7 @@ module mb4_sequencer (
   logic             all_idle;
   logic             sl_low;
   logic             is_frame;
+  logic             by_instr;      // INSTR asks for a frame
   logic             word_bad;
 
   // INIT does not test SL (page 33), yet slaves need their timeout before and after it: SL gets 1024
@@ -113,6 +123,7 @@ module mb4_sequencer (
   assign is_frame = held_q.instr == mb4_regs_pkg::INSTR_CDM1 ||
                     held_q.instr == mb4_regs_pkg::INSTR_CDM0 ||
                     held_q.instr == mb4_regs_pkg::INSTR_CDM_NOT_CDSSEL;
+  assign by_instr = new_q && is_frame && use_i != 2'b00 && (!held_q.ags || infinite_i);
   assign word_bad = (word_done_i & ~word_ok_i) != 2'b00;
 
   always_comb begin
@@ -142,6 +153,8 @@ module mb4_sequencer (
     scd_en_o       = 1'b0;
     ags_error_o    = 1'b0;
     bank_fail_o    = 1'b0;
+    taken_o        = 1'b0;
+    break_o        = 1'b0;
 
     unique case (state_q)
       IDLE: begin
@@ -161,28 +174,28 @@ module mb4_sequencer (
           end else if (wait_q == 11'd0) begin
             abort_o = 1'b1;
           end
-        end else if (new_q && !mem_busy_i) begin
-          if (!is_frame || use_i == 2'b00) begin
-            new_d        = 1'b0;
-            held_d.instr = 3'b000;
-          end else if (bank_pending_i && held_q.holdbank && agserr_on_hold_i) begin
-            new_d        = 1'b0;
-            held_d.instr = 3'b000;
-            ags_error_o  = 1'b1;
-            bank_fail_o  = 1'b1;
+        end else if (new_q && !by_instr) begin
+          new_d = 1'b0;
+          if (!is_frame) held_d.instr = 3'b000;
+        end else if ((by_instr || request_i) && !mem_busy_i && use_i != 2'b00) begin
+          if (bank_pending_i && held_q.holdbank && agserr_on_hold_i) begin
+            taken_o     = 1'b1;
+            ags_error_o = 1'b1;
+            bank_fail_o = 1'b1;
           end else if (sl_low && !agsmin_i) begin
-            new_d        = 1'b0;
-            held_d.instr = 3'b000;
-            ags_error_o  = 1'b1;
+            taken_o     = 1'b1;
+            ags_error_o = 1'b1;
           end else if (all_idle && !sl_low) begin
+            taken_o = 1'b1;
             start_o = 1'b1;
-            new_d   = 1'b0;
             use_d   = use_i;
             done_d  = ~use_i;
             bad_d   = 1'b0;
             cdm_d   = cdm_o;
             state_d = FRAME;
           end
+          if (taken_o) new_d = 1'b0;
+          if (ags_error_o && !held_q.ags) held_d.instr = 3'b000;
         end
       end
       FRAME: begin
@@ -215,6 +228,9 @@ module mb4_sequencer (
       default: state_d = IDLE;
     endcase
 
+    if (missed_i) ags_error_o = 1'b1;
+    if (ags_error_o && ags_clear_i) held_d.ags = 1'b0;
+
     if (written) begin
       // An INIT that has not come to its end is not lost; AGS waits for it.
       new_d           = written_i.instr != 3'b000 &&
@@ -227,6 +243,7 @@ module mb4_sequencer (
       swbank_pulse_o  = written_i.swbank != held_q.swbank;
       if (written_i.brk) begin
         abort_o       = 1'b1;
+        break_o       = 1'b1;
         start_o       = 1'b0;
         bank_end_o    = 1'b0;
         scd_en_o      = 1'b0;
@@ -270,6 +287,8 @@ module mb4_sequencer (
   assign holdbank_o  = held_q.holdbank;
   assign scd_bad_o   = bad_d;
   assign frame_cdm_o = cdm_q;
+  assign running_o    = state_q != IDLE;
+  assign lines_idle_o = all_idle;
   assign busy_o      = state_d != IDLE || new_d || held_d.init;
 
   `MB4_ASSERT(StateInRange_A, clk_i, rst_ni, state_q <= INIT_TIMEOUT)

@@ -39,7 +39,7 @@ const std::vector<Group>& groups() {
       {"host", true, {"nres_i", "ncs_i", "ale_i", "db_", "eot_o", "ner_"}, {".u_spi.u_cmd."}},
       {"line", true, {"ma1_o", "sl1_i", "ma2_o", "sl2_i"}, {}},
       {"slaves", true, {"slaves_"}, {}},
-      {"control", false, {"clk_i"}, {".u_sequencer.", ".u_timebase.", ".u_flags.", ".u_ctrl."}},
+      {"control", false, {"clk_i"}, {".u_control.", ".u_timebase."}},
       {"line engine", false, {"mo"}, {".gen_line[", ".u_line."}},
       {"registers", false, {}, {".u_regs."}},
       {"straps", false, {"osc_i", "cfgspi_i", "int_nmot_i", "nrd_rnw_i", "nwr_e_i", "getsens_i"}, {}},

@@ -98,13 +98,13 @@ def self_test(folder):
         status, text = yosys.execute(commands, folder, name)
         if status == 0 or not re.search(expected, text):
             findings.append(f"planted {name} was not reported (exit status {status}):\n{text}")
-    listed = "Warning: Replacing memory \\slave_q with list of registers. See mb4_cfg_regs.sv:46"
-    patterns = yosys.allowed(ALLOW_LIST)
-    if unlisted(f"{listed}\n", patterns):
+    patterns = [r"Warning: expected in \w+\.sv:\d+"]
+    listed = "top mb4_x\nWarning: expected in /some/where/mb4_x.sv:46\n"
+    if unlisted(listed, patterns):
         findings.append("a listed warning was reported")
-    if len(unlisted(f"top mb4_x\n{listed}\nWarning: something new\n", patterns)) != 1:
+    if len(unlisted(listed + "Warning: something new\n", patterns)) != 1:
         findings.append("a new warning was not reported")
-    if len(unlisted("", patterns)) != len(patterns):
+    if len(unlisted("", patterns)) != 1:
         findings.append("a warning that has gone was not reported")
     project.finish(findings, f"{len(PLANTED) + 2} planted faults, all reported")
 

@@ -148,10 +148,10 @@ def spi(steps):
             steps.step(rst_ni=0)
             steps.step(rst_ni=1)
 
-    for _ in range(40):
+    for _ in range(60):
         opcode = steps.rng.choice(OPCODES) if steps.chance(0.9) else steps.rng.getrandbits(8)
         spi_bytes(steps, [opcode] + [steps.rng.getrandbits(8)
-                                     for _ in range(steps.rng.randint(0, 6))], between)
+                                     for _ in range(steps.rng.choice([0, 1, 3, 9]))], between)
 
 
 def timebase(steps):
@@ -218,7 +218,7 @@ def core(steps):
 
     for _ in range(100):
         steps.clock("clk_i")
-    for _ in range(5):
+    for _ in range(4):
         steps.step(quirks_i=rng.getrandbits(6), ner_i=rng.getrandbits(1))
         write(0xED, rng.choice([5, 5, 5, 15]))
         write(0xEC, rng.choice([0x00, 0x10, 0x10]))
@@ -229,7 +229,7 @@ def core(steps):
                   rng.getrandbits(8), rng.getrandbits(8))
         for _ in range(4):
             spi_bytes(steps, [0x07, instruction_byte(steps)], between)
-            for _ in range(150):
+            for _ in range(120):
                 between(steps)
             spi_bytes(steps, [0x05] + [0] * rng.randint(1, 5), between)
             spi_bytes(steps, [0x03, rng.choice([0x00, 0x08, 0x20, 0x80, 0xC0, 0xE2, 0xEA, 0xF0])]

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 The openmb4 authors
 # SPDX-License-Identifier: Apache-2.0
-"""Port widths as Verilator resolves them (--xml-only)."""
+"""Port widths as Verilator resolves them, from its XML output."""
 
 import xml.etree.ElementTree as ElementTree
 

@@ -1,0 +1,93 @@
+// SPDX-FileCopyrightText: 2026 The openmb4 authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// When a frame is due by itself (AGS = 1): at the rate of FREQAGS, at once (AGSMIN), or by pin GETSENS
+// (AGSINFINITE).
+//
+// Clock domain: core; GETSENS is asynchronous. With a rate the first frame is due one period after
+// AGS was set, then every 20 (FREQAGS + 1) or 625 (FREQAGS - 127) clocks, whatever the frames do:
+// writing AGS = 1 again shifts nothing, BREAK starts anew. request_o stays until taken_i. missed_o: a
+// frame is due while the last one has not finished; it is left out.
+// GETSENS high is a request whenever the lines are idle; with hold_cdm_i each pulse gives one frame.
+// From GETSENS to the start of a frame 2 clocks; half an MA period later MA falls.
+// Datasheet: pages 30..32, Tables 37, 44, item C08; decision 19.
+
+module mb4_frame_request (
+  input  logic       clk_i,
+  input  logic       rst_ni,
+  input  logic       ags_i,
+  input  logic       restart_i,    // BREAK
+  input  logic [7:0] freqags_i,
+  input  logic       hold_cdm_i,
+  input  logic       getsens_i,    // pin
+  input  logic       busy_i,       // a frame runs
+  input  logic       lines_idle_i,
+  input  logic       taken_i,
+  output logic       agsmin_o,     // FREQAGS is AGSMIN, AGS set or not
+  output logic       infinite_o,   // FREQAGS is AGSINFINITE
+  output logic       request_o,
+  output logic       missed_o
+);
+
+  logic       timed;
+  logic       getsens;
+  logic [9:0] pre_d;
+  logic [9:0] pre_q;      // clocks of the current step
+  logic [6:0] step_d;
+  logic [6:0] step_q;     // steps of the current period
+  logic       pre_end;
+  logic       due;
+  logic       pending_d;
+  logic       pending_q;
+  logic       armed_d;
+  logic       armed_q;    // GETSENS was low since the last frame
+
+  mb4_sync_bit u_getsens (
+    .clk_i,
+    .rst_ni,
+    .data_i (getsens_i),
+    .data_o (getsens)
+  );
+
+  assign agsmin_o   = freqags_i == mb4_regs_pkg::AGS_RATE_AGS_MIN;
+  assign infinite_o = freqags_i[7:2] == 6'b011111 && !agsmin_o;
+  assign timed      = ags_i && !agsmin_o && !infinite_o;
+
+  assign pre_end = pre_q == (freqags_i[7] ? 10'd624 : 10'd19);
+  assign due     = timed && !restart_i && pre_end && step_q == freqags_i[6:0];
+
+  always_comb begin
+    pre_d     = pre_q;
+    step_d    = step_q;
+    pending_d = pending_q;
+    armed_d   = (armed_q || !getsens) && !taken_i;
+    if (!timed || restart_i) begin
+      pre_d     = 10'd0;
+      step_d    = 7'd0;
+      pending_d = 1'b0;
+    end else begin
+      pre_d = pre_end ? 10'd0 : pre_q + 10'd1;
+      if (pre_end) step_d = due ? 7'd0 : step_q + 7'd1;
+      pending_d = (pending_q && !taken_i) || (due && !busy_i);
+    end
+  end
+
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      pre_q     <= '0;
+      step_q    <= '0;
+      pending_q <= 1'b0;
+      armed_q   <= 1'b1;
+    end else begin
+      pre_q     <= pre_d;
+      step_q    <= step_d;
+      pending_q <= pending_d;
+      armed_q   <= armed_d;
+    end
+  end
+
+  assign request_o = ags_i && (agsmin_o || pending_q ||
+                               (infinite_o && getsens && lines_idle_i && (armed_q || !hold_cdm_i)));
+  assign missed_o  = due && busy_i;
+
+endmodule

@@ -1,0 +1,265 @@
+// SPDX-FileCopyrightText: 2026 The openmb4 authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Frames that come by themselves: datasheet pages 30..32, Tables 37, 44.
+#include <gtest/gtest.h>
+
+#include "chip_fixture.hpp"
+
+namespace {
+
+using mb4test::Chip;
+using mb4test::one_slave;
+namespace sim = mb4::sim;
+
+constexpr sim::Time kClk = 50'000;  // 20 MHz in ps
+const char kTiny[] = "data_bits = 1\ncrc = 0\ndata = 1\nflag_bits = 0\ntimeout = \"adaptive\"";
+const char kEncoder26[] = "data_bits = 28\ncrc = 0x43\ndata = 0xAAF37BF\ntimeout = \"adaptive\"";
+
+// Table 37 in clocks.
+std::uint64_t ags_period(unsigned code) {
+  return code < 0x80 ? 20ULL * (code + 1) : 625ULL * (code - 127);
+}
+
+// Start times of the next `count` frames on channel 1.
+std::vector<sim::Time> frame_starts(Chip& chip, unsigned count, sim::Time limit) {
+  std::vector<sim::Time> starts;
+  auto& monitor = chip.simulator.line(1)->monitor();
+  std::uint64_t seen = monitor.frames();
+  const sim::Time end = chip.simulator.now() + limit;
+  bool was_high = true;
+  chip.simulator.run_while_waiting(
+      [&] {
+        const bool ma = chip.simulator.pin(sim::Pin::kMa1);
+        if (was_high && !ma && monitor.frames() != seen) {
+          seen = monitor.frames();
+          starts.push_back(chip.simulator.now());
+        }
+        was_high = ma;
+        return starts.size() >= count;
+      },
+      end);
+  return starts;
+}
+
+class AgsRate : public testing::TestWithParam<unsigned> {};
+
+TEST_P(AgsRate, Frames_AreExactlyOnePeriodApart) {
+  const unsigned code = GetParam();
+  Chip chip(one_slave(kTiny));
+  chip.configure_slave1(1, 0x00, 0x00, static_cast<std::uint8_t>(code));
+  chip.instruct(0x01);
+  const auto starts = frame_starts(chip, 4, (6 * ags_period(code) + 100) * kClk);
+  ASSERT_EQ(starts.size(), 4U);
+  for (std::size_t i = 1; i < starts.size(); ++i) {
+    EXPECT_EQ(starts[i] - starts[i - 1], ags_period(code) * kClk);
+  }
+  chip.advance_us(2);
+  EXPECT_EQ(chip.status() & 0xD0, 0xD0);
+  chip.instruct(0x00);
+}
+
+INSTANTIATE_TEST_SUITE_P(Table37Fast, AgsRate, testing::Range(1U, 0x7CU));
+INSTANTIATE_TEST_SUITE_P(Table37Slow, AgsRate,
+                         testing::Values(0x80, 0x81, 0x82, 0x83, 0x87, 0x88, 0x8F, 0x90, 0x9F,
+                                         0xA0, 0xBF, 0xC0, 0xD5, 0xEA, 0xFE, 0xFF));
+
+TEST(ChipAgs, HundredThousandFrames_NoDrift) {
+  Chip chip(one_slave(kTiny));
+  chip.configure_slave1(1, 0x00, 0x00, 0x01);
+  chip.instruct(0x01);
+  const auto first = frame_starts(chip, 1, 100'000'000).at(0);
+  const auto frames = chip.simulator.line(1)->monitor().frames();
+  chip.simulator.run_until(first + 100'000 * 40 * kClk - 10 * kClk);
+  const auto last = frame_starts(chip, 1, 100'000'000).at(0);
+  EXPECT_EQ(last - first, 100'000ULL * 40 * kClk);
+  EXPECT_EQ(chip.simulator.line(1)->monitor().frames(), frames + 100'000);
+  EXPECT_EQ(chip.status() & 0xD0, 0xD0);
+}
+
+// Decision 19: AGS = 1 written again neither restarts nor shifts the repetition.
+TEST(ChipAgs, AgsWrittenAgain_DoesNotShiftTheFrames) {
+  Chip chip(one_slave(kTiny));
+  chip.configure_slave1(1, 0x00, 0x00, 0x09);
+  chip.instruct(0x01);
+  const auto first = frame_starts(chip, 1, 100'000'000).at(0);
+  for (int i = 0; i < 20; ++i) {
+    chip.simulator.advance(1'234'567);
+    chip.instruct(i % 2 == 0 ? 0x03 : 0x01);  // another CDM, AGS stays
+  }
+  const auto later = frame_starts(chip, 1, 100'000'000).at(0);
+  EXPECT_EQ((later - first) % (200 * kClk), 0U);
+}
+
+// Page 34: a frame that is due while the last one has not finished is left out: nAGSERR = 0; the
+// next one is tried.
+TEST(ChipAgs, RateTooHigh_FramesAreOmittedAndFlagged) {
+  Chip chip(one_slave(kEncoder26));
+  chip.configure_slave1(28, 0x06, 0x00, 0x01);  // 2 us, the frame needs 4
+  chip.instruct(0x01);
+  chip.advance_us(50);
+  EXPECT_EQ(chip.status() & 0xC0, 0x00);
+  const auto frames = chip.simulator.slave(1)->frames();
+  EXPECT_GT(frames, 5U);
+  EXPECT_LT(frames, 15U);
+  EXPECT_EQ(chip.read(0xF4), 0x01) << "decision 21: AGS stays";
+  EXPECT_EQ(chip.read(0xF1), 0x02);
+}
+
+TEST(ChipAgs, ErrorWithQuirk_ClearsAgs) {
+  Chip chip(one_slave(kEncoder26, "", "[chip.quirks]\nAGS_CLEARED_ON_ERROR = true"));
+  chip.configure_slave1(28, 0x06, 0x00, 0x01);
+  chip.instruct(0x01);
+  chip.advance_us(50);
+  EXPECT_EQ(chip.status() & 0xC0, 0x00);
+  EXPECT_EQ(chip.read(0xF4), 0x00);
+}
+
+// Page 30: AGSMIN restarts with the slave's timeout.
+TEST(ChipAgs, AgsMin_PitchIsFramePlusTimeout) {
+  Chip chip(one_slave(kEncoder26, "delay_ns = 0.0"));
+  chip.configure_slave1(28, 0x06, 0x00, 0x7C);
+  chip.instruct(0x01);
+  const auto starts = frame_starts(chip, 12, 1'000'000'000);
+  ASSERT_EQ(starts.size(), 12U);
+  // N + 5 edges and 1.5 periods of adaptive timeout at 100 ns are 4.05 us.
+  const double limit_us = (34 + 5 + 1.5) * 0.1;
+  for (std::size_t i = 3; i < starts.size(); ++i) {
+    const double pitch_us = static_cast<double>(starts[i] - starts[i - 1]) * 1e-6;
+    EXPECT_GE(pitch_us, limit_us - 0.1);
+    EXPECT_LE(pitch_us, limit_us + 0.2);
+    if (i == 3) RecordProperty("pitch_ns", static_cast<int>(pitch_us * 1000));
+  }
+  std::printf("AGSMIN pitch %.3f us, limit %.3f us\n",
+              static_cast<double>(starts[5] - starts[4]) * 1e-6, limit_us);
+  EXPECT_EQ(chip.status() & 0xD0, 0xD0);
+}
+
+// C08, page 32: GETSENS to the falling edge of MA takes 2 / f_CLK + 1 / (2 f_MA), exactly.
+TEST(ChipGetsens, PulseOfOneClock_MaFallsAfterTwoClocksAndHalfAPeriod) {
+  for (const unsigned code : {0U, 1U, 3U, 9U, 0x1FU}) {
+    Chip chip(one_slave(kEncoder26));
+    chip.configure_slave1(28, 0x06, static_cast<std::uint8_t>(code), 0x7D);
+    chip.instruct(0x01);
+    chip.advance_us(200);
+    EXPECT_EQ(chip.simulator.line(1)->monitor().frames(), 0U);
+    for (int i = 0; i < 3; ++i) {
+      // A pulse from just after one rising clock edge to just after the next.
+      const sim::Time edge = (chip.simulator.now() / kClk + 2) * kClk - kClk / 2;
+      chip.simulator.run_until(edge + 1000);
+      const bool first_half = (edge / (kClk / 2)) % 2 == 0;
+      chip.simulator.set_pin(sim::Pin::kGetsens, true);
+      const sim::Time raised = chip.simulator.now();
+      chip.simulator.advance(kClk);
+      chip.simulator.set_pin(sim::Pin::kGetsens, false);
+      const auto fall = frame_starts(chip, 1, 1'000'000'000).at(0);
+      const unsigned half = code < 0x10 ? code + 1 : 10 * (code - 15);
+      // From the clock edge that samples the pulse: one clock more to the second flop, one to the
+      // start, then half a period.
+      const sim::Time from_raise = fall - raised;
+      EXPECT_GE(from_raise, (2 + half) * kClk - kClk / 2) << first_half;
+      EXPECT_LE(from_raise, (2 + half) * kClk + kClk);
+      EXPECT_EQ((fall - raised + 1000) % (kClk / 2), 0U);
+      ASSERT_TRUE(chip.wait_eot());
+      chip.advance_us(700);
+      EXPECT_EQ(chip.simulator.slave(1)->frames(), static_cast<std::uint64_t>(i) + 1);
+    }
+  }
+}
+
+// Page 32: GETSENS works by its level: held high it starts the next frame too, if HOLDCDM = 0.
+TEST(ChipGetsens, HeldHigh_FramesRepeatUnlessHoldCdm) {
+  for (const bool hold : {false, true}) {
+    Chip chip(one_slave(kEncoder26));
+    chip.configure_slave1(28, 0x06, 0x00, 0x7E);
+    chip.write(0xE5, {static_cast<std::uint8_t>(hold ? 0x41 : 0x40)});
+    chip.instruct(0x01);
+    chip.simulator.set_pin(sim::Pin::kGetsens, true);
+    chip.advance_us(100);
+    if (hold) {
+      EXPECT_EQ(chip.simulator.slave(1)->frames(), 1U);
+      chip.simulator.set_pin(sim::Pin::kGetsens, false);
+      chip.advance_us(1);
+      chip.simulator.set_pin(sim::Pin::kGetsens, true);
+      chip.advance_us(100);
+      EXPECT_EQ(chip.simulator.slave(1)->frames(), 2U);
+    } else {
+      EXPECT_GT(chip.simulator.slave(1)->frames(), 15U);
+    }
+    EXPECT_EQ(chip.status() & 0xD0, 0xD0);
+  }
+}
+
+// Pages 31, 32: with AGSINFINITE a frame is started by GETSENS or by INSTR; without AGS GETSENS does
+// nothing.
+TEST(ChipGetsens, AgsInfinite_InstrStartsAFrameAndStays) {
+  Chip chip(one_slave(kEncoder26));
+  chip.configure_slave1(28, 0x06, 0x00, 0x7F);
+  chip.simulator.set_pin(sim::Pin::kGetsens, true);
+  chip.advance_us(20);
+  EXPECT_EQ(chip.simulator.slave(1)->frames(), 0U);
+  chip.simulator.set_pin(sim::Pin::kGetsens, false);
+  chip.instruct(0x05);
+  chip.advance_us(50);
+  EXPECT_EQ(chip.simulator.slave(1)->frames(), 1U);
+  EXPECT_EQ(chip.read(0xF4), 0x05);
+}
+
+// Table 45 with AGS = 1: INSTR chooses CDM of the frames to come.
+TEST(ChipAgs, InstrUnderAgs_ChoosesCdmAndStays) {
+  Chip chip(one_slave(kEncoder26));
+  chip.configure_slave1(28, 0x06, 0x00, 0x31);  // 50 us
+  for (const auto& [byte, cdm] : {std::pair{0x01, false}, {0x03, true}, {0x05, false}, {0x07, true}}) {
+    chip.instruct(static_cast<std::uint8_t>(byte));
+    chip.advance_us(220);
+    EXPECT_EQ(chip.simulator.slave(1)->last_cdm(), cdm) << byte;  // 011: NOT CDSSEL = NOT 0
+    EXPECT_EQ(chip.read(0xF4), byte);
+  }
+  EXPECT_NEAR(static_cast<double>(chip.simulator.slave(1)->frames()), 890.0 / 50, 1.0);
+}
+
+// Decision 8: BREAK and AGS in one byte: abort, then the repetition runs again; the flags are 1.
+TEST(ChipAgs, BreakWithAgs_RecoversFromASilentSensor) {
+  Chip chip(one_slave(kEncoder26));
+  chip.configure_slave1(28, 0x06, 0x00, 0x31);
+  chip.simulator.line(1)->faults().stick(true);
+  chip.simulator.refresh_lines();
+  chip.instruct(0x01);
+  chip.advance_us(500);
+  EXPECT_EQ(chip.status() & 0xC1, 0x00) << "missed frames raise nAGSERR (decision 4)";
+  chip.simulator.line(1)->faults().stick(std::nullopt);
+  chip.simulator.refresh_lines();
+  chip.instruct(0x81);
+  EXPECT_EQ(chip.status() & 0xC0, 0xC0);
+  EXPECT_EQ(chip.read(0xF4), 0x01);
+  const auto frames = chip.simulator.slave(1)->frames();
+  chip.advance_us(500);
+  EXPECT_EQ(chip.status() & 0xD0, 0xD0);
+  EXPECT_GE(chip.simulator.slave(1)->frames(), frames + 9);
+  EXPECT_EQ(chip.read(0xF1), 0x02);
+}
+
+// Page 33: HOLDBANK under AGS: the next frame due is omitted with nAGSERR = 0 and SWBANKFAIL = 1; the
+// quirk lets it run.
+TEST(ChipAgs, HoldBank_OmitsFramesOrWithTheQuirkRunsThem) {
+  for (const bool error : {true, false}) {
+    Chip chip(one_slave(kEncoder26, "",
+                        std::string("[chip.quirks]\nAGSERR_ON_HOLDBANK = ") +
+                            (error ? "true" : "false")));
+    chip.configure_slave1(28, 0x06, 0x00, 0x31);
+    chip.instruct(0x01);
+    chip.advance_us(130);
+    const auto frames = chip.simulator.slave(1)->frames();
+    chip.instruct(0x41);
+    chip.advance_us(500);
+    EXPECT_EQ(chip.status() & 0x40, error ? 0x00 : 0x40);
+    EXPECT_EQ(chip.read(0xFB), error ? 0x01 : 0x00);
+    EXPECT_EQ(chip.simulator.slave(1)->frames(), error ? frames + 1 : frames + 10);
+    chip.instruct(0x01);
+    chip.advance_us(120);
+    EXPECT_EQ(chip.read(0xFB), 0x00);
+    EXPECT_EQ(chip.read(0xF1), 0x02);
+  }
+}
+
+}  // namespace

@@ -1,0 +1,136 @@
+#!/usr/bin/env python3
+# SPDX-FileCopyrightText: 2026 The openmb4 authors
+# SPDX-License-Identifier: Apache-2.0
+"""Verilator's lint of the RTL and the waivers.
+
+  check_verilator.py lint        every module as top, the project's flags: no message
+  check_verilator.py waivers     each waiver of rtl/mb4.vlt stands under its reason, none is idle,
+                                 none names UNOPTFLAT; no lint_off inside the RTL
+  check_verilator.py self-test   planted faults are reported
+"""
+
+import re
+import sys
+import tempfile
+from pathlib import Path
+
+HERE = Path(__file__).resolve().parent
+sys.path.insert(0, str(HERE.parents[1] / "tools" / "synth"))
+
+import project  # noqa: E402
+
+# The generated package is a list of constants of which a design uses a part: its one pair.
+INLINE_ALLOWED = {("mb4_regs_pkg.sv", "UNUSEDPARAM"): 1}
+
+
+def lint(top, files, waivers):
+    """What Verilator says about one top module; verilator_flags() holds -fno-const-bit-op-tree."""
+    status, text = project.run([project.tool("verilator"), "--lint-only", *project.verilator_flags(),
+                                f"-I{project.RTL}", "--top-module", top, *waivers, *files])
+    text = text.replace(f"{project.ROOT}/", "")
+    return [f"{top}: {text.strip()}"] if status != 0 or text.strip() else []
+
+
+def inline(path, text):
+    """lint_off comments, beyond those that are allowed."""
+    findings, seen = [], {}
+    for number, line in enumerate(text.splitlines(), 1):
+        for rule in re.findall(r"\blint_off\b\s*(\w*)", line):
+            key = (path.name, rule)
+            seen[key] = seen.get(key, 0) + 1
+            if seen[key] > INLINE_ALLOWED.get(key, 0):
+                findings.append(f"{path.name}:{number}: lint_off {rule}: waivers live in mb4.vlt")
+    return findings
+
+
+def unreasoned(name, text):
+    """Waivers without a sentence above them, and those of UNOPTFLAT. A reason holds up to the next
+    empty line."""
+    findings, reason = [], False
+    for number, line in enumerate(text.splitlines(), 1):
+        line = line.strip()
+        if line.startswith("//"):
+            reason = reason or ("SPDX" not in line and re.search(r"\w+\W+\w+\W+\w+", line) is not None)
+        elif line == "" or line.startswith("`"):
+            reason = False
+        else:
+            if not reason:
+                findings.append(f"{name}:{number}: waiver without a reason above it")
+            if "UNOPTFLAT" in line:
+                findings.append(f"{name}:{number}: UNOPTFLAT is never waived")
+            if not re.match(r"lint_off\s+-rule\s+\w+", line):
+                findings.append(f"{name}:{number}: a waiver names its rule: lint_off -rule")
+    return findings
+
+
+def waiver_lines(text):
+    return [n for n, line in enumerate(text.splitlines()) if line.strip().startswith("lint_off")]
+
+
+def idle(files, tops, text):
+    """Waivers whose removal brings no message, with any of `tops` or the module that they name as
+    top: left over from code that has gone, they would hide the next fault."""
+    findings = []
+    stems = {path.stem for path in files}
+    lines = text.splitlines()
+    for number in waiver_lines(text):
+        with tempfile.TemporaryDirectory() as folder:
+            rest = Path(folder) / "rest.vlt"
+            rest.write_text("\n".join(lines[:number] + lines[number + 1:]) + "\n", encoding="utf-8")
+            named = set(re.findall(r"\w+(?=\.sv\b)", lines[number])) & stems
+            named = {name for name in named if not name.endswith("_pkg")}
+            if not any(lint(top, files, [rest]) for top in [*tops, *sorted(named - set(tops))]):
+                findings.append(f"mb4.vlt:{number + 1}: nothing needs this waiver any more: "
+                                f"{lines[number]}")
+    return findings
+
+
+def check_lint():
+    files, modules = project.rtl_files(), list(project.rtl_modules())
+    findings = [line for top in modules for line in lint(top, files, [project.RTL / "mb4.vlt"])]
+    project.finish(findings, f"{len(modules)} modules as top: no message")
+
+
+def check_waivers():
+    waivers = (project.RTL / "mb4.vlt").read_text(encoding="utf-8")
+    findings = unreasoned("mb4.vlt", waivers)
+    texts = {*project.RTL.rglob("*.sv"), *project.RTL.rglob("*.svh"), *project.rtl_files()}
+    for path in sorted(texts):
+        findings += inline(path, path.read_text(encoding="utf-8"))
+    findings += idle(project.rtl_files(), ["mb4_chip", "mb4_core"], waivers)
+    project.finish(findings, f"{len(waiver_lines(waivers))} waivers, each with a reason and needed")
+
+
+def self_test():
+    findings = []
+    with tempfile.TemporaryDirectory() as folder:
+        source = Path(folder) / "mb4_x.sv"
+        source.write_text("module mb4_x (input logic [1:0] a_i, output logic [1:0] y_o);\n"
+                          "  assign y_o = a_i + 3'd1;\nendmodule\n", encoding="utf-8")
+        if not any("WIDTH" in text for text in lint("mb4_x", [source], [])):
+            findings.append("a width that does not fit was not reported")
+        waiver = Path(folder) / "x.vlt"
+        waiver.write_text("`verilator_config\nlint_off -rule WIDTH -file \"*mb4_x.sv\"\n"
+                          "lint_off -rule LATCH\n", encoding="utf-8")
+        if lint("mb4_x", [source], [waiver]):
+            findings.append("a waived message was reported")
+        if len(idle([source], ["mb4_x"], waiver.read_text(encoding="utf-8"))) != 1:
+            findings.append("one of two waivers is idle, this was not reported")
+    head = "// SPDX-License-Identifier: Apache-2.0\n`verilator_config\n"
+    if len(unreasoned("x.vlt", head + "lint_off -rule WIDTH\n")) != 1:
+        findings.append("a waiver without a reason was not reported")
+    if unreasoned("x.vlt", head + "// Because it is so.\nlint_off -rule WIDTH\n"):
+        findings.append("a waiver with a reason was reported")
+    if len(unreasoned("x.vlt", head + "// It is so here.\nlint_off -rule UNOPTFLAT\n")) != 1:
+        findings.append("a waiver of UNOPTFLAT was not reported")
+    if len(unreasoned("x.vlt", head + "// It is so here.\nlint_off\n")) != 1:
+        findings.append("a waiver of everything was not reported")
+    off = "// verilator " "lint_off UNUSEDPARAM\n"
+    if inline(Path("mb4_regs_pkg.sv"), off) or len(inline(Path("mb4_regs_pkg.sv"), off * 2)) != 1 \
+            or len(inline(Path("mb4_x.sv"), off)) != 1:
+        findings.append("lint_off comments are not counted right")
+    project.finish(findings, "planted faults, all reported")
+
+
+project.tool("verilator")
+{"lint": check_lint, "waivers": check_waivers, "self-test": self_test}[sys.argv[1]]()
