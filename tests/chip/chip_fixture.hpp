@@ -54,8 +54,8 @@ class Chip {
   // Opcode 0x07.
   void instruct(std::uint8_t byte) { spi({0x07, byte}); }
   void advance_us(std::uint64_t us) { simulator.advance(us * sim::kPsPerUs); }
-  // Waits until EOT = 1 at the pin; false after `us`. Pin EOT falls up to four clocks after the
-  // instruction's last SCLK edge (docs/timing.md).
+  // Waits until EOT = 1 at the pin; false after `us`. Pin EOT falls two or three clocks after
+  // the instruction's last SCLK edge (docs/timing.md).
   bool wait_eot(std::uint64_t us = 10000) {
     simulator.advance(400 * sim::kPsPerNs);
     return simulator.run_while_waiting([&] { return simulator.pin(sim::Pin::kEot); },

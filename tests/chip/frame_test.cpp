@@ -241,11 +241,14 @@ TEST(ChipBreak, SilentSensor_FrameRunsUntilBreak) {
 TEST(ChipBreak, AnyPhaseOfAFrame_AbortsAndRecovers) {
   Chip chip(one_slave(kEncoder26, "delay_ns = 123.0"));
   ASSERT_TRUE(chip.device.configure(config26(5'000'000)).ok());
-  for (unsigned step = 0; step < 120; ++step) {
+  for (unsigned step = 0; step < 90; ++step) {
+    chip.write(0x00, {0x5A});  // the host's bank; a good read has cleared SVALID1
     chip.instruct(0x04);
     chip.simulator.advance(step * 67 * sim::kPsPerNs);
     chip.instruct(0x80);
     EXPECT_EQ(chip.status() & 0x79, 0x79) << step;
+    EXPECT_EQ(chip.read(0xF1), 0x00) << "no validity at step " << step;
+    EXPECT_EQ(chip.read(0x00), 0x5A) << "no bank switch at step " << step;
     chip.advance_us(30);
     EXPECT_TRUE(chip.simulator.pin(sim::Pin::kMa1)) << step;
     const auto frame = chip.simulator.line(1)->monitor().last(chip.simulator.now());

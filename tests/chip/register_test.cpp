@@ -119,6 +119,28 @@ TEST(ChipNoClock, ClkeniSet_FramesRunFromTheOscillator) {
   EXPECT_GT(chip.simulator.clk_cycles(), 0U);
 }
 
+// Table 67: live levels of the pins SL1 and SL2_NSL1.
+TEST(ChipPins, SlLevels_ShowInRegisterF8) {
+  Chip chip("");
+  for (const unsigned levels : {0U, 1U, 2U, 3U, 0U}) {
+    chip.simulator.set_pin(sim::Pin::kSl1, (levels & 1U) != 0);
+    chip.simulator.set_pin(sim::Pin::kSl2, (levels & 2U) != 0);
+    chip.advance_us(1);
+    EXPECT_EQ(chip.read(0xF8), 0x50 | ((levels & 2U) << 1) | (levels & 1U));
+  }
+}
+
+// Page 34, Table 60: nERR shows pin NER, also when something outside pulls it low.
+TEST(ChipPins, NerPulledLowOutside_NerrIsZeroAndNoOtherFlag) {
+  Chip chip("");
+  chip.simulator.set_pin(sim::Pin::kNer, false);
+  chip.advance_us(1);
+  EXPECT_EQ(chip.status(), 0x7B);
+  chip.simulator.set_pin(sim::Pin::kNer, true);
+  chip.advance_us(1);
+  EXPECT_EQ(chip.status(), 0xFB);
+}
+
 // Decision 18: writing 0 to SVALIDx clears, writing 1 has no effect.
 TEST(ChipSvalid, Writing_ZeroClearsAndOneDoesNothing) {
   Chip chip(one_slave("data_bits = 28\ncrc = 0x43\ndata = 0x1"));
@@ -157,10 +179,15 @@ TEST(ChipBanks, HoldBank_KeepsTheHostsBankUntilReleased) {
   chip.instruct(0x44);  // HOLDBANK and a frame
   ASSERT_TRUE(chip.wait_eot());
   EXPECT_EQ(chip.read(0x00, 4), (std::vector<std::uint8_t>{0x11, 0x11, 0x11, 0x01}));
+  EXPECT_EQ(chip.read(0xF1), 0x02);
+  chip.write(0xF1, {0x00});
+  chip.advance_us(1);
+  EXPECT_EQ(chip.read(0xF1), 0x00) << "cleared while held, in the host's bank only";
   EXPECT_EQ(chip.read(0xFB), 0x00);
   chip.instruct(0x00);
   chip.advance_us(1);
   EXPECT_EQ(chip.read(0x00, 4), (std::vector<std::uint8_t>{0x22, 0x22, 0x22, 0x02}));
+  EXPECT_EQ(chip.read(0xF1), 0x02) << "SVALID switches with the data";
 }
 
 // Page 33, decision 15: another frame due while the switch is held back: none runs, SWBANKFAIL = 1,
@@ -219,6 +246,14 @@ TEST(ChipBanks, TwoLines_UnequalLengthsEndTogether) {
             "protocol = \"biss-c\"\ndata_bits = 50\ncrc = 0x25\ndata = 0x2FEDCBA987654\n");
   chip.configure_slave1(28, 0x06, 0x00, 0x7C);
   chip.write(0xD0, {0x40 | 49, 0x05});
+  // SLAVELOC5 = 0: channel 2 takes no part whatever CFGCH2 says; slaves 5 to 8 would be on line 1.
+  chip.write(0xD0, {0x00});
+  chip.write(0xEC, {0x01, 0x05});
+  chip.instruct(0x04);
+  ASSERT_TRUE(chip.wait_eot());
+  EXPECT_EQ(chip.simulator.line(2)->monitor().frames(), 0U);
+  EXPECT_EQ(chip.read(0xF1), 0x02);
+  chip.write(0xD0, {0x40 | 49});
   chip.write(0xEC, {0x11, 0x0D});  // CFGCH2: not used
   for (int i = 0; i < 30; ++i) {
     chip.instruct(0x04);

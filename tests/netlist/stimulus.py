@@ -206,7 +206,14 @@ def core(steps):
     steps.reset(["rst_ni"])
     steps.step(cs_ni=1)
 
+    # Pins that this table does not know get random levels, so that a new one is not forgotten.
+    driven = {"clk_i", "rst_ni", "sclk_i", "cs_ni", "mosi_i", "sl1_i", "sl2_i", "quirks_i", "ner_i"}
+    others = [port for port in steps.widths if port not in driven]
+
     def between(steps):
+        for port in others:
+            if steps.chance(0.01):
+                steps.step(**{port: any_value(steps, port)})
         for _ in range(rng.randint(0, 3)):
             steps.clock("clk_i")
             for line in ("sl1_i", "sl2_i"):
@@ -224,6 +231,7 @@ def core(steps):
         write(0xEC, rng.choice([0x00, 0x10, 0x10]))
         write(0xE6, rng.choice([0, 0, 1, 2]))
         write(0xF5, rng.getrandbits(8))
+        write(0xE8, rng.choice([0x7C, 0x7F, 0x01, 0x00]))
         for slave in rng.sample(range(8), 3):
             write(0xC0 + 4 * slave, 0x40 | rng.getrandbits(4), rng.choice(CRC_CODES),
                   rng.getrandbits(8), rng.getrandbits(8))
@@ -268,6 +276,14 @@ MODULES = {
         "init_fail_i": rarely("init_fail_i", 0.9, lambda s: s.rng.choice([0] * 9 + [1, 2])),
         "agserr_on_write_i": rarely("agserr_on_write_i", 0.01),
     }),
+    "mb4_frame_request": simple(*CORE, 12000, {
+        "ags_i": 0.999, "restart_i": 0.001, "busy_i": 0.3, "taken_i": 0.05, "lines_idle_i": 0.8,
+        "getsens_i": rarely("getsens_i", 0.1), "hold_cdm_i": rarely("hold_cdm_i", 0.01), "freqags_i":
+        rarely("freqags_i", 0.003, lambda s: s.rng.choice([0, 1, 2, 3, 0x7C, 0x7F, 0x80]))}),
+    "mb4_cdm_timeout": simple(*CORE, 4000, {"cdm_i": 0.02, "clear_i": 0.01}),
+    "mb4_status_flags": simple(*CORE, 4000, {
+        "clear_i": 0.05, "scd_bad_i": 0.2, "ags_error_i": 0.05, "bank_fail_i": 0.1}),
+    "mb4_cds_bank": simple(*CORE, 3000),
     "mb4_timebase": timebase,
     "mb4_sl_sampler": simple(*CORE, 12000, {
         "clear_i": 0.004, "smp_a_i": 0.4, "smp_b_i": 0.4, "sl_i": rarely("sl_i", 0.3, lambda s:
