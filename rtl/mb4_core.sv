@@ -1,14 +1,14 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The chip without pins: SPI host, registers, control, two lines (instances and glue only). This is
-// what an FPGA design instantiates.
+// The chip without pins: SPI host, registers, control, two lines (instances and glue only). This
+// is what an FPGA design instantiates.
 //
 // Clock domains: sclk_i (host) and clk_i (core). Registers 0xC0..0xFB are written and read with no
-// core clock; frames, data memories and instructions need it. rst_ni is asynchronous: it reaches the
-// host domain as it is, because SCLK stands still while a reset ends, and the core synchronised.
-// In this version a line takes part in frames if its CFGCH is BiSS C, line 2 only with
-// SLAVELOC5 = 1; other protocols, MO, RDATA traffic and the MA force bits are not there yet.
+// core clock; frames, data memories and instructions need it. rst_ni is asynchronous: it reaches
+// the host domain as it is, because SCLK stands still while a reset ends, and the core
+// synchronised. In this version a line takes part in frames if its CFGCH is BiSS C, line 2 only
+// with SLAVELOC5 = 1; other protocols, MO, RDATA traffic and the MA force bits are not there yet.
 // Datasheet: pages 15..36. Crossings: docs/crossings.md.
 
 module mb4_core (

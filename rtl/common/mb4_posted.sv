@@ -8,8 +8,8 @@
 // after it was written and is taken by ready_i.
 // Misuse: a write while four bytes wait overwrites the oldest. A host byte lasts 160 ns or more
 // (datasheet I203, I204: eight SCLK periods of 20 ns) and the core takes one byte a clock, so four
-// slots are enough for every permitted clock. Writes while the core clock stands still, or while the
-// core does not take them for longer than four bytes, are lost in whole or in part.
+// slots are enough for every permitted clock. Writes while the core clock stands still, or while
+// the core does not take them for longer than four bytes, are lost in whole or in part.
 // Constraint: slot_q to the core is held for at least four host bytes; maximum delay one clk_i
 // period; false path to the first flops of the count.
 

@@ -1,15 +1,15 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// When a frame is due by itself (AGS = 1): at the rate of FREQAGS, at once (AGSMIN), or by pin GETSENS
-// (AGSINFINITE).
+// When a frame is due by itself (AGS = 1): at the rate of FREQAGS, at once (AGSMIN), or by pin
+// GETSENS (AGSINFINITE).
 //
 // Clock domain: core; GETSENS is asynchronous. With a rate the first frame is due one period after
 // AGS was set, then every 20 (FREQAGS + 1) or 625 (FREQAGS - 127) clocks, whatever the frames do:
-// writing AGS = 1 again shifts nothing, BREAK starts anew. request_o stays until taken_i. missed_o: a
-// frame is due while the last one has not finished; it is left out.
-// GETSENS high is a request whenever the lines are idle; with hold_cdm_i each pulse gives one frame.
-// From GETSENS to the start of a frame 2 clocks; half an MA period later MA falls.
+// writing AGS = 1 again shifts nothing, BREAK starts anew. request_o stays until taken_i.
+// missed_o: a frame is due while the last one has not finished; it is left out. GETSENS high is a
+// request whenever the lines are idle; with hold_cdm_i each pulse gives one frame. From GETSENS to
+// the start of a frame 2 clocks; half an MA period later MA falls.
 // Datasheet: pages 30..32, Tables 37, 44, item C08; decision 19.
 
 module mb4_frame_request (

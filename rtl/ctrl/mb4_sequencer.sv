@@ -1,14 +1,14 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Instruction register 0xF4, core half, and the order of events: which frame runs when, and when the
-// instruction clears itself.
+// Instruction register 0xF4, core half, and the order of events: which frame runs when, and when
+// the instruction clears itself.
 //
 // Clock domain: core. A written byte arrives 2..3 clocks after its last bit; the frame it asks for
-// starts with the next clock at the earliest. busy_o comes before ack_o tells the host half. A frame
-// ends two clocks after its last bit: its result first, then the bank switch.
-// With AGS = 1 INSTR sets the CDM of the frames that come by themselves (mb4_frame_request) and stays;
-// only with FREQAGS = AGSINFINITE it asks for one as well. In this version INIT runs with REGVERS = 1,
+// starts with the next clock at the earliest. busy_o comes before ack_o tells the host half. A
+// frame ends two clocks after its last bit: its result first, then the bank switch. With AGS = 1
+// INSTR sets the CDM of the frames that come by themselves (mb4_frame_request) and stays; only
+// with FREQAGS = AGSINFINITE it asks for one as well. In this version INIT runs with REGVERS = 1,
 // and control communication is not there yet: its INSTR codes clear themselves without a frame.
 // Misuse: SL low when a frame is due: no frame, nAGSERR = 0, or with FREQAGS = AGSMIN waiting for
 // SL = 1 (decision 3). A frame due while HOLDBANK holds back a switch: no frame, SWBANKFAIL = 1,
@@ -106,8 +106,8 @@ module mb4_sequencer (
   logic             by_instr;      // INSTR asks for a frame
   logic             word_bad;
 
-  // INIT does not test SL (page 33), yet slaves need their timeout before and after it: SL gets 1024
-  // MA periods to return. The longest timeout in the field is 40 us, 400 periods at 10 MHz.
+  // INIT does not test SL (page 33), yet slaves need their timeout before and after it: SL gets
+  // 1024 MA periods to return. The longest timeout in the field is 40 us, 400 periods at 10 MHz.
   localparam logic [10:0] INIT_WAIT = 11'h7FF;
 
   mb4_toggle_rx u_written (

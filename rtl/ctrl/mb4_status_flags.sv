@@ -3,10 +3,9 @@
 //
 // Status flags with their set and clear conditions; EOT and the NER output.
 //
-// Clock domain: core. EOT falls in the clock after busy_i and rises three clocks after it ends, when
-// the other flags, SVALID and the banks have settled: a host that reads EOT = 1 reads their new
-// values with it. Of a
-// set and a clear in the same clock the set wins.
+// Clock domain: core. EOT falls in the clock after busy_i and rises three clocks after it ends,
+// when the other flags, SVALID and the banks have settled: a host that reads EOT = 1 reads their
+// new values with it. Of a set and a clear in the same clock the set wins.
 // Datasheet: pages 33..35, Tables 54, 55, 59, 60, 62; decisions 1, 8, 9, 15, 26.
 
 module mb4_status_flags (

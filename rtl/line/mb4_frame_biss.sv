@@ -5,14 +5,14 @@
 //
 // Clock domain: core. start_i (with use_i) begins a frame at a restart of the time base: half a
 // period of MA high, then the first falling edge. MA changes at ticks only, so that no pulse is
-// shorter than half a period. After the last needed rising edge MA takes the inverted CDM and keeps
-// it through the slaves' timeout. MA edges: 5 + processing clocks + data and CRC bits, or as many as
-// had been sent when the start bit came back over a long line (decision 17).
-// frame_end_o: the last data bit has been taken; cds_o is valid from the next clock on. idle_o: the slaves' timeout is over as well.
-// init_i makes the two-pulse initialisation instead; init_done_o when the acknowledge has come,
-// init_fail_o after 255 quarter periods without it.
-// Misuse: start_i while idle_o is low is ignored. A slave that never answers keeps the frame running
-// until abort_i (decision 4); after it MA returns to 1 with the next tick.
+// shorter than half a period. After the last needed rising edge MA takes the inverted CDM and
+// keeps it through the slaves' timeout. MA edges: 5 + processing clocks + data and CRC bits, or as
+// many as had been sent when the start bit came back over a long line (decision 17). frame_end_o:
+// the last data bit has been taken; cds_o is valid from the next clock on. idle_o: the slaves'
+// timeout is over as well. init_i makes the two-pulse initialisation instead; init_done_o when the
+// acknowledge has come, init_fail_o after 255 quarter periods without it.
+// Misuse: start_i while idle_o is low is ignored. A slave that never answers keeps the frame
+// running until abort_i (decision 4); after it MA returns to 1 with the next tick.
 // Datasheet: pages 12, 15, 16, 27, 32, 33, Figures 8, 11, 13.
 
 `include "mb4_check.svh"

@@ -1,13 +1,14 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Assembles one data word from received bits, most significant first, into bytes, and checks its CRC.
+// Assembles one data word from received bits, most significant first, into bytes, and checks its
+// CRC.
 //
 // Clock domain: core. load_i prepares for the word described by word_i, which stays until done_o.
 // Each bit_valid_i takes one bit. A byte is offered for one clock when its lowest bit has come:
-// data from the top used byte down to byte 0, unused bits of a written byte 0, then the re-inverted
-// CRC right aligned in byte 7 (a 16-bit CRC in bytes 7 and 6). done_o comes with the last bit;
-// ok_o tells the CRC's result with it.
+// data from the top used byte down to byte 0, unused bits of a written byte 0, then the
+// re-inverted CRC right aligned in byte 7 (a 16-bit CRC in bytes 7 and 6). done_o comes with the
+// last bit; ok_o tells the CRC's result with it.
 // Misuse: bits without a load continue the old word.
 // Datasheet: page 26, Tables 20..22; decision 28.
 

@@ -4,12 +4,11 @@
 // SL input of one line: synchroniser for both clock edges, line-delay measurement, bit sampling.
 //
 // Clock domain: core; SL is asynchronous, captured by a flop on each clock edge (the only falling
-// edge use in the chip) and by a second one on the rising edge: a sample is used two clocks after it
-// was taken.
-// From the second rising MA edge on the sampling points are counted up to and including the first
-// that reads 0 (the acknowledge): quarters_o. Every bit is then taken one sampling point after that
-// phase, mid-bit: with no delay at the falling MA edge. bit_valid_o is high for one clock a bit, the
-// first time in the period after the acknowledge.
+// edge use in the chip) and by a second one on the rising edge: a sample is used two clocks after
+// it was taken. From the second rising MA edge on the sampling points are counted up to and
+// including the first that reads 0 (the acknowledge): quarters_o. Every bit is then taken one
+// sampling point after that phase, mid-bit: with no delay at the falling MA edge. bit_valid_o is
+// high for one clock a bit, the first time in the period after the acknowledge.
 // Misuse: SL already low when armed gives 1; quarters_o stops at 255.
 // Datasheet: page 12 (I304, I305, four sampling points); decisions 2, 17.
 

@@ -3,14 +3,14 @@
 //
 // Time base of all lines: half MA periods and the four sampling points of each MA period.
 //
-// Clock domain: core, rising edge. restart_i takes half_len_i for all that follows and begins a half
-// period in which MA is high. tick_o is
-// high in the last clock of each half period; half_next_o is MA's level in the one that follows.
-// smp_*_o mark the sampling points, two clocks late to meet SL behind its synchroniser: smp_a_o at
-// the half period's beginning, smp_b_o at its middle (both in the same clock if the half period is one clock).
-// With an odd half period the middle lies on a falling clock edge: smp_b_neg_o.
-// Misuse: half_len_i of 0 is not possible (mb4_freqs_dec). It comes from the host domain and is looked
-// at with restart_i only; FREQS may be written while slaves are still in their timeout.
+// Clock domain: core, rising edge. restart_i takes half_len_i for all that follows and begins a
+// half period in which MA is high. tick_o is high in the last clock of each half period;
+// half_next_o is MA's level in the one that follows. smp_*_o mark the sampling points, two clocks
+// late to meet SL behind its synchroniser: smp_a_o at the half period's beginning, smp_b_o at its
+// middle (both in the same clock if the half period is one clock). With an odd half period the
+// middle lies on a falling clock edge: smp_b_neg_o.
+// Misuse: half_len_i of 0 is not possible (mb4_freqs_dec). It comes from the host domain and is
+// looked at with restart_i only; FREQS may be written while slaves are still in their timeout.
 // Datasheet: page 12 (I301..I303 and sampling points), page 30.
 
 `include "mb4_check.svh"

@@ -4,11 +4,11 @@
 // Configuration registers 0xC0..0xDF, 0xE2..0xE9, 0xEC..0xEF and 0xF5.
 //
 // Clock domain: host (hclk_i: SCLK or bus strobe); works with no system clock. Written at the
-// hclk_i edge with wr_en_i; rd_data_o is combinational from rd_addr_i.
-// The outputs are quasi-static for the core: the datasheet (page 28) wants them stable while frames
-// run, and an instruction written after them crosses later than they settle (docs/crossings.md).
-// Misuse: reserved bits and addresses accept writes and read 0 (decision 13). FREQS code 0x10 is not
-// permitted by Table 35; it gives f_CLK / 20.
+// hclk_i edge with wr_en_i; rd_data_o is combinational from rd_addr_i. The outputs are
+// quasi-static for the core: the datasheet (page 28) wants them stable while frames run, and an
+// instruction written after them crosses later than they settle (docs/crossings.md).
+// Misuse: reserved bits and addresses accept writes and read 0 (decision 13). FREQS code 0x10 is
+// not permitted by Table 35; it gives f_CLK / 20.
 // Datasheet: pages 21..31, Tables 6..43.
 
 module mb4_cfg_regs (

@@ -4,8 +4,8 @@
 // Host read side: chooses the source of every address and holds the byte for the host interface.
 //
 // Clock domain: host (hclk_i). rd_data_o is valid after the edge with rd_en_i and stays until the
-// next one. Core status bits are asynchronous here: each is sampled by one flop of its own (the read
-// register) half an SCLK period before the first of them reaches MISO.
+// next one. Core status bits are asynchronous here: each is sampled by one flop of its own (the
+// read register) half an SCLK period before the first of them reaches MISO.
 // Misuse: reserved addresses read 0 (decision 13).
 // Datasheet: pages 21, 22, 34..36, Tables 6, 41, 42, 54..67.
 

@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Brings the received bytes and words of both lines to the two halves of the data memory: SCDATA1..4
-// (lo) and SCDATA5..8 (hi). With SLAVELOC5 = 1 line 2 owns the upper half, otherwise line 1 fills
-// both. The line delay measured by INIT goes to byte 0 of the half of its line, into the bank that
-// the host reads (decision 16).
+// Brings the received bytes and words of both lines to the two halves of the data memory:
+// SCDATA1..4 (lo) and SCDATA5..8 (hi). With SLAVELOC5 = 1 line 2 owns the upper half, otherwise
+// line 1 fills both. The line delay measured by INIT goes to byte 0 of the half of its line, into
+// the bank that the host reads (decision 16).
 //
 // Clock domain: core; combinational.
 // Datasheet: pages 23, 26, 32, 33, Tables 10, 20.

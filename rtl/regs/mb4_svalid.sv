@@ -3,11 +3,11 @@
 //
 // Validity flags SVALIDx of four data channels (1..4 or 5..8) in both banks.
 //
-// Clock domain: core. The line engine writes the flag of its bank, the host clears flags of its own
-// bank: writing 0 clears, 1 has no effect (decision 18). A flag falls when the first bit of a new
-// word arrives, so that half-written data are never called valid. With one bank both act on the same
-// flags; the engine wins if both meet in one clock. The output follows one clock later, without
-// glitches.
+// Clock domain: core. The line engine writes the flag of its bank, the host clears flags of its
+// own bank: writing 0 clears, 1 has no effect (decision 18). A flag falls when the first bit of a
+// new word arrives, so that half-written data are never called valid. With one bank both act on
+// the same flags; the engine wins if both meet in one clock. The output follows one clock later,
+// without glitches.
 // Datasheet: page 35, Table 61.
 
 module mb4_svalid (

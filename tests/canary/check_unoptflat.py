@@ -1,8 +1,9 @@
 #!/usr/bin/env python3
 # SPDX-FileCopyrightText: 2026 The openmb4 authors
 # SPDX-License-Identifier: Apache-2.0
-"""Where bits of a vector are computed from other bits of it, Verilator 5.006 may leave outputs stale.
-Only its warning UNOPTFLAT protects from that, so -Wall must give it: as an error, for seven lines."""
+"""Where bits of a vector are computed from other bits of it, Verilator 5.006 may leave outputs
+stale. Only its warning UNOPTFLAT protects from that, so -Wall must give it: as an error, for a
+module of seven lines."""
 
 import sys
 from pathlib import Path

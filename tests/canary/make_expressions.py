@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-FileCopyrightText: 2026 The openmb4 authors
 # SPDX-License-Identifier: Apache-2.0
-"""make_expressions.py SV_FILE INC_FILE: random XOR trees with inversions inside, 60 single bits of a
-32-bit input, as a SystemVerilog module and as plain C++ to compare with. Always the same ones."""
+"""make_expressions.py SV_FILE INC_FILE: random XOR trees with inversions inside, 60 single bits of
+a 32-bit input, as a SystemVerilog module and as plain C++ to compare with. Always the same ones."""
 
 import random
 import sys

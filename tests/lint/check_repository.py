@@ -5,8 +5,8 @@
 
   check_repository.py licences    the two SPDX lines in the file or in FILE.license
   check_repository.py paths       no path of somebody's machine
-  check_repository.py verilator   every call of Verilator goes through tools/cmake/mb4.cmake or carries
-                                  -fno-const-bit-op-tree
+  check_repository.py verilator   every call of Verilator goes through tools/cmake/mb4.cmake or
+                                  carries -fno-const-bit-op-tree
   check_repository.py self-test   planted faults are reported
 """
 
@@ -113,17 +113,19 @@ def self_test():
     expect(1, licence_findings({"a.py": spdx.split("\n", maxsplit=1)[0]}), "one SPDX line")
     expect(2, licence_findings({"b.bin": None}), "no sidecar")
 
-    for path in ("/" "home/joe/x", "/" "root/x", "see /" "work/main", "/" "tmp/b-net/a", "/" "farm"):
+    for path in ("/" "home/joe/x", "/" "root/x", "see /" "work/x", "/" "tmp/build/a", "/" "farm"):
         expect(1, path_findings({"a.md": path}), path)
-    for path in ("https://example.org/" "home/joe", "$HOME/" "work/x", "docs/" "root/x", "read/" "work",
-                 "mktemp -d /" "tmp", "${dir}/" "tmp/x"):
+    for path in ("https://example.org/" "home/joe", "$HOME/" "work/x", "docs/" "root/x",
+                 "read/" "work", "mktemp -d /" "tmp", "${dir}/" "tmp/x"):
         expect(0, path_findings({"a.md": path}), path)
 
     helper = {HELPER: f"verilate(x VERILATOR_ARGS {FLAG})"}
     expect(0, verilator_findings(helper), "helper")
-    expect(1, verilator_findings({HELPER: "verilate(x VERILATOR_ARGS -Wall)"})[-1:], "helper's flag")
-    expect(1, verilator_findings({**helper, "t/CMakeLists.txt": "verilate(x TOP_MODULE y)"}), "verilate")
-    expect(0, verilator_findings({**helper, "t/CMakeLists.txt": "# verilate() is\nmb4_verilate(x)"}),
+    bare = {HELPER: "verilate(x VERILATOR_ARGS -Wall)"}
+    expect(1, verilator_findings(bare)[-1:], "helper's flag")
+    script = "t/CMakeLists.txt"
+    expect(1, verilator_findings({**helper, script: "verilate(x TOP_MODULE y)"}), "verilate")
+    expect(0, verilator_findings({**helper, script: "# verilate() is\nmb4_verilate(x)"}),
            "mb4_verilate")
     expect(1, verilator_findings({**helper, "t.sh": "verilator --" "cc x.sv\n"}), "script")
     expect(0, verilator_findings({**helper, "t.sh": f"verilator --" f"cc {FLAG} x.sv\n"}), "flag")

@@ -6,8 +6,8 @@
   check_subset.py [FILE...]    default: rtl/**/*.sv and the packages of rtl/mb4.f
   check_subset.py --self-test  a bad snippet for every rule, and good ones
 
-One line `file:line: message` per finding, exit status 1. The rules marked W name constructs of which
-Yosys 0.23 builds wrong hardware without a message; most of the others it refuses.
+One line `file:line: message` per finding, exit status 1. The rules marked W name constructs of
+which Yosys 0.23 builds wrong hardware without a message; most of the others it refuses.
 """
 
 import bisect
@@ -248,7 +248,8 @@ def check(path, name=None, generated=False):
 
 # ---- Self-test -----------------------------------------------------------------------------------
 
-SPDX = "// SPDX-FileCopyrightText: 2026 The openmb4 authors\n// SPDX-License-Identifier: Apache-2.0\n"
+SPDX = ("// SPDX-FileCopyrightText: 2026 The openmb4 authors\n"
+        "// SPDX-License-Identifier: Apache-2.0\n")
 HEADER = "module mb4_x (\n  input  logic clk_i,\n  output logic y_o\n);\n"
 
 # (part of the message, lines inside a module); each gives exactly this finding in its last line
@@ -262,7 +263,8 @@ BAD_BODIES = [
     ("W unpacked array", "mb4_pkg::instr_t four [0:3];"),
     ("W unpacked array", "mb4_pkg::instr_t one, four [0:3];"),
     ("W variable or argument", "always_comb begin\n  mb4_pkg::instr_t both;", "end"),
-    ("W variable or argument", "for (genvar i = 0; i < 2; i++) begin : gen_x\n  pair_t both;", "end"),
+    ("W variable or argument", "for (genvar i = 0; i < 2; i++) begin : gen_x\n  pair_t both;",
+     "end"),
     ("W variable or argument", "function logic f(input mb4_pkg::instr_t a);",
      "f = a.brk;\nendfunction"),
     ("W variable or argument", "function logic f(input logic a);\n  pair_t both;",

@@ -25,8 +25,8 @@ INLINE_ALLOWED = {("mb4_regs_pkg.sv", "UNUSEDPARAM"): 1}
 
 def lint(top, files, waivers):
     """What Verilator says about one top module; verilator_flags() holds -fno-const-bit-op-tree."""
-    status, text = project.run([project.tool("verilator"), "--lint-only", *project.verilator_flags(),
-                                f"-I{project.RTL}", "--top-module", top, *waivers, *files])
+    status, text = project.run([project.tool("verilator"), "--lint-only",
+                                *project.verilator_flags(), f"-I{project.RTL}", "--top-module", top, *waivers, *files])
     text = text.replace(f"{project.ROOT}/", "")
     return [f"{top}: {text.strip()}"] if status != 0 or text.strip() else []
 
@@ -50,7 +50,8 @@ def unreasoned(name, text):
     for number, line in enumerate(text.splitlines(), 1):
         line = line.strip()
         if line.startswith("//"):
-            reason = reason or ("SPDX" not in line and re.search(r"\w+\W+\w+\W+\w+", line) is not None)
+            words = re.search(r"\w+\W+\w+\W+\w+", line) is not None
+            reason = reason or ("SPDX" not in line and words)
         elif line == "" or line.startswith("`"):
             reason = False
         else:

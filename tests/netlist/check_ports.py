@@ -41,7 +41,8 @@ def differences(module, expected, found, witness):
     texts = []
     for port in sorted(set(expected) | set(found)):
         if expected.get(port) != found.get(port):
-            texts.append(f"{module}.{port}: source {expected.get(port)}, {witness} {found.get(port)}")
+            texts.append(f"{module}.{port}: source {expected.get(port)}, "
+                         f"{witness} {found.get(port)}")
     return texts
 
 

@@ -3,7 +3,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Yosys reads, elaborates and synthesises the RTL.
 
-  check_synth.py every FOLDER          each module as its own top, then everything with synth; leaves
+  check_synth.py every FOLDER          each module as its own top, then all with synth; leaves
                                        all.json (ports, cells) and yosys.log in FOLDER
   check_synth.py warnings FOLDER       the log of the first holds only warnings that are listed
   check_synth.py ice40 FOLDER MODULE   synth_ice40; prints LUT, flop and RAM counts

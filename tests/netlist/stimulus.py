@@ -185,8 +185,9 @@ def rx_word(steps):
         crc = steps.rng.choice([0, 0, 1, 3, 5, 6, 7, 8, 16])
         word = steps.rng.getrandbits(6)  # data_last, then crc_len .. crc_store of mb4_pkg
         top = 1 << (crc - 1) if crc else 0
-        for value, width in ((crc, 5), (steps.rng.getrandbits(16) & (2 * top - 1 if top else 0), 16),
-                             (top, 16), (steps.rng.getrandbits(16), 16), (steps.rng.getrandbits(1), 1)):
+        poly = steps.rng.getrandbits(16) & (2 * top - 1 if top else 0)
+        for value, width in ((crc, 5), (poly, 16), (top, 16), (steps.rng.getrandbits(16), 16),
+                             (steps.rng.getrandbits(1), 1)):
             word = word << width | value
         steps.step(word_i=word, load_i=1, bit_valid_i=0)
         steps.clock("clk_i")
@@ -225,10 +226,12 @@ def core(steps):
 
     for _ in range(100):
         steps.clock("clk_i")
-    for _ in range(4):
+    for number in range(4):
+        # Line 2 takes part in every other round at least.
+        both = number % 2 == 0
         steps.step(quirks_i=rng.getrandbits(6), ner_i=rng.getrandbits(1))
-        write(0xED, rng.choice([5, 5, 5, 15]))
-        write(0xEC, rng.choice([0x00, 0x10, 0x10]))
+        write(0xED, 5 if both else rng.choice([5, 15, 1]))
+        write(0xEC, 0x10 if both else 0x00)
         write(0xE6, rng.choice([0, 0, 1, 2]))
         write(0xF5, rng.getrandbits(8))
         write(0xE8, rng.choice([0x7C, 0x7F, 0x01, 0x00]))
@@ -264,10 +267,12 @@ MODULES = {
     "mb4_host_read": simple(*HOST, 6000, host("rd_addr_i")),
     "mb4_bank_ctrl": simple(*CORE, 4000, {"frame_end_i": 0.2, "swbank_pulse_i": 0.1}),
     "mb4_crc_decode": crc_decode,
-    "mb4_word_list": simple(*CORE, 6000, {"start_i": 0.02, "next_i": 0.2, "mine_i":
-                            rarely("mine_i", 0.01), "slave_cfg_i": rarely("slave_cfg_i", 0.02, slave_cfg)}),
+    "mb4_word_list": simple(*CORE, 6000, {
+        "start_i": 0.02, "next_i": 0.2, "mine_i": rarely("mine_i", 0.01),
+        "slave_cfg_i": rarely("slave_cfg_i", 0.02, slave_cfg)}),
     "mb4_sequencer": simple(*CORE, 12000, {
-        "written_i": rarely("written_i", 0.1, instruction_byte), "toggle_i": rarely("toggle_i", 0.1),
+        "written_i": rarely("written_i", 0.1, instruction_byte),
+        "toggle_i": rarely("toggle_i", 0.1),
         "mem_busy_i": 0.02, "idle_i": rarely("idle_i", 0.3, lambda s: s.rng.choice([3, 3, 3, 1])),
         "sl_i": rarely("sl_i", 0.2, lambda s: s.rng.choice([3, 3, 3, 1])), "tick_i": 0.9,
         "use_i": rarely("use_i", 0.02), "regvers_i": rarely("regvers_i", 0.02),
@@ -278,16 +283,17 @@ MODULES = {
     }),
     "mb4_frame_request": simple(*CORE, 12000, {
         "ags_i": 0.999, "restart_i": 0.001, "busy_i": 0.3, "taken_i": 0.05, "lines_idle_i": 0.8,
-        "getsens_i": rarely("getsens_i", 0.1), "hold_cdm_i": rarely("hold_cdm_i", 0.01), "freqags_i":
-        rarely("freqags_i", 0.003, lambda s: s.rng.choice([0, 1, 2, 3, 0x7C, 0x7F, 0x80]))}),
+        "getsens_i": rarely("getsens_i", 0.1), "hold_cdm_i": rarely("hold_cdm_i", 0.01),
+        "freqags_i": rarely("freqags_i", 0.003,
+                            lambda s: s.rng.choice([0, 1, 2, 3, 0x7C, 0x7F, 0x80]))}),
     "mb4_cdm_timeout": simple(*CORE, 4000, {"cdm_i": 0.02, "clear_i": 0.01}),
     "mb4_status_flags": simple(*CORE, 4000, {
         "clear_i": 0.05, "scd_bad_i": 0.2, "ags_error_i": 0.05, "bank_fail_i": 0.1}),
     "mb4_cds_bank": simple(*CORE, 3000),
     "mb4_timebase": timebase,
     "mb4_sl_sampler": simple(*CORE, 12000, {
-        "clear_i": 0.004, "smp_a_i": 0.4, "smp_b_i": 0.4, "sl_i": rarely("sl_i", 0.3, lambda s:
-                                                                        int(s.chance(0.97))),
+        "clear_i": 0.002, "smp_a_i": 0.4, "smp_b_i": 0.4, "sl_i": rarely("sl_i", 0.3, lambda s:
+                                                                        int(s.chance(0.99))),
         "armed_a_i": 0.95, "armed_b_i": 0.95}, reset_rate=0.0005),
     "mb4_crc": simple(*CORE, 4000, {
         "load_i": 0.02, "shift_i": 0.8, "feed_i": 0.8, "poly_i": rarely("poly_i", 0.02),

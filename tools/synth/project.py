@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: 2026 The openmb4 authors
 # SPDX-License-Identifier: Apache-2.0
-"""What the scripts under tests/netlist, tests/lint and tests/canary know about the project: the file
-list, Verilator's flags, and how a missing tool is reported."""
+"""What the scripts under tests/netlist, tests/lint and tests/canary know about the project: the
+file list, Verilator's flags, and how a missing tool is reported."""
 
 import re
 import shutil
@@ -31,7 +31,8 @@ def rtl_packages():
 
 
 def verilator_flags():
-    """The flags that tools/cmake/mb4.cmake gives to every model, -fno-const-bit-op-tree among them."""
+    """The flags that tools/cmake/mb4.cmake gives to every model, the one against wrong XOR trees
+    (-fno-const-bit-op-tree) among them."""
     text = (ROOT / "tools" / "cmake" / "mb4.cmake").read_text(encoding="utf-8")
     flags = re.search(r"VERILATOR_ARGS([^)]*)\)", text).group(1).replace("${ARG_ARGS}", "").split()
     if "-Wall" not in flags or "-fno-const-bit-op-tree" not in flags:

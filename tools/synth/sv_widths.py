@@ -66,8 +66,8 @@ class Scope:
 
     def width(self, text, prefix=""):
         """Bits of a type: base word or typedef, signing, packed dimensions."""
-        match = re.fullmatch(r"\s*(?:(\w+(?:::\w+)?)\s*)?(?:(?:un)?signed\b)?\s*((?:\[[^]]*\]\s*)*)",
-                             text)
+        match = re.fullmatch(r"\s*(?:(\w+(?:::\w+)?)\s*)?(?:(?:un)?signed\b)?\s*"
+                             r"((?:\[[^]]*\]\s*)*)", text)
         if not match:
             raise WidthError(f"type not understood: {text.strip()}")
         base, dimensions = match.group(1) or "logic", match.group(2)

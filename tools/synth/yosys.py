@@ -68,7 +68,7 @@ def warnings(text):
 
 
 def allowed(path):
-    """Regular expressions of an allow list; each must stand under a comment that gives the reason."""
+    """Regular expressions of an allow list; each must stand under a comment with the reason."""
     patterns = []
     reason = False
     for number, line in enumerate(path.read_text(encoding="utf-8").splitlines(), 1):
