@@ -8,6 +8,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <vector>
 
 #include "encoder26.hpp"
 #include "mb4/acquisition.hpp"
@@ -48,6 +49,11 @@ class ReadFrame : public testing::Test {
   void configure(mb4::Config config = encoder26()) {
     mb4_test::expect_configure(bus);
     ASSERT_TRUE(device.configure(config).ok());
+  }
+  // What comes first after a failed read.
+  void expect_recovery() {
+    bus.expect_write(kBreak);
+    bus.expect_write(kClearValid1);
   }
   void expect_good_frame() {
     bus.expect_write(kStartFrame);
@@ -210,7 +216,7 @@ TEST_F(ReadFrame, StatusAllOnesOrAllZeros_IsNotDetected) {
   bus.expect_write(kStartFrame);
   bus.expect_read(kReadStatus, Bytes(6, 0xFF));
   EXPECT_EQ(device.read_frame().error(), Error::kNotDetected);
-  bus.expect_write(kClearValid1);  // the flag's state is unknown after a failed read
+  expect_recovery();
   bus.expect_write(kStartFrame);
   bus.expect_read(kReadStatus, Bytes(6, 0x00));
   EXPECT_EQ(device.read_frame().error(), Error::kNotDetected);
@@ -236,26 +242,175 @@ TEST(ReadFrameFailure, TransportAtEachTransfer_IsReportedWithoutPosition) {
   }
 }
 
-// The old value must not come back: after any failure SVALID is cleared before the next frame.
-TEST_F(ReadFrame, AfterFailedRead_ClearsOldValidFlagFirst) {
+// ---- Chip with AGSERR_ON_INSTR_WRITE = 1: each write of 0xF4 sets nAGSERR = 0 (page 34) ------------
+// 0x3B is 0xFB with nAGSERR (bit 6) and nERR (bit 7) at 0; 0x2B has nSCDERR (bit 4) at 0, too.
+
+TEST_F(ReadFrame, StartErrorFlagFromTheWrite_DoesNotSpoilGoodFrame) {
+  configure();
+  bus.expect_write(kStartFrame);
+  bus.expect_read(kReadStatus, status(0x3B, 0x00, 0x04));  // not yet begun
+  bus.expect_read(kReadStatus, status(0x3A, 0x00, 0x04));  // running
+  bus.expect_read(kReadStatus, status(0x3B, 0x02));
+  bus.expect_read(kReadData4, kData4);
+  bus.expect_write(kClearValid1);
+  const Result<Reading> reading = device.read_frame();
+  ASSERT_TRUE(reading.ok());
+  EXPECT_EQ(reading->position, mb4_test::kPosition);
+  expect_good_frame();  // and nothing has to be recovered
+  EXPECT_TRUE(device.read_frame().ok());
+}
+
+TEST_F(ReadFrame, StartErrorFlagFromTheWriteAndCrcError_IsCrc) {
+  configure();
+  bus.expect_write(kStartFrame);
+  bus.expect_read(kReadStatus, status(0x2B, 0x00));
+  EXPECT_EQ(device.read_frame().error(), Error::kCrc);
+}
+
+TEST_F(ReadFrame, StartErrorFlagAndCrcErrorWithValidFlag_IsCrc) {
+  configure();
+  bus.expect_write(kStartFrame);
+  bus.expect_read(kReadStatus, status(0x2B, 0x02));
+  EXPECT_EQ(device.read_frame().error(), Error::kCrc);
+}
+
+// ---- After a failed read ------------------------------------------------------------------------
+// Its frame may still run, and the chip ignores an equal INSTR until that frame's end: the result
+// of the old request would pass for the new one's. BREAK first, then SVALID, then the request.
+
+TEST_F(ReadFrame, FirstPollFailsInTransport_NextReadBreaksOldFrameFirst) {
+  configure();
+  bus.expect_write(kStartFrame);
+  bus.expect_read(kReadStatus, kRunning).fail_last();
+  EXPECT_EQ(device.read_frame().error(), Error::kTransport);
+  expect_recovery();
+  expect_good_frame();
+  const std::size_t before = bus.transfers();
+  EXPECT_TRUE(device.read_frame().ok());
+  EXPECT_EQ(bus.transfers() - before, 6U);
+  expect_good_frame();  // only once
+  EXPECT_TRUE(device.read_frame().ok());
+}
+
+TEST_F(ReadFrame, FirstPollReadsAllOnes_NextReadBreaksOldFrameFirst) {
+  configure();
+  bus.expect_write(kStartFrame);
+  bus.expect_read(kReadStatus, Bytes(6, 0xFF));
+  EXPECT_EQ(device.read_frame().error(), Error::kNotDetected);
+  expect_recovery();
+  expect_good_frame();
+  EXPECT_TRUE(device.read_frame().ok());
+}
+
+// The transfer may have reached the chip although the bus says that it failed.
+TEST_F(ReadFrame, RequestFailsInTransport_NextReadBreaksFirst) {
+  configure();
+  bus.expect_write(kStartFrame).fail_last();
+  EXPECT_EQ(device.read_frame().error(), Error::kTransport);
+  expect_recovery();
+  expect_good_frame();
+  EXPECT_TRUE(device.read_frame().ok());
+}
+
+TEST_F(ReadFrame, BadFrame_NextReadBreaksAndClearsOldValidFlagFirst) {
   configure();
   bus.expect_write(kStartFrame);
   bus.expect_read(kReadStatus, status(0x6B, 0x00));
   EXPECT_EQ(device.read_frame().error(), Error::kCrc);
-  bus.expect_write(kClearValid1);
+  expect_recovery();
   expect_good_frame();
   EXPECT_TRUE(device.read_frame().ok());
   expect_good_frame();
   EXPECT_TRUE(device.read_frame().ok());
 }
 
-TEST_F(ReadFrame, TransportFailureOfFirstClear_StartsNoFrame) {
+// Bits were lost on SPI: the status that said "ended" is as doubtful as the data.
+TEST_F(ReadFrame, CorruptedData_NextReadBreaksFirst) {
+  configure();
+  bus.expect_write(kStartFrame);
+  bus.expect_read(kReadStatus, kGoodFrame);
+  bus.expect_read(kReadData4, {0xFF, 0xFF, 0xFF, 0xFF, 0xFF});
+  bus.expect_write(kClearValid1);
+  EXPECT_EQ(device.read_frame().error(), Error::kCorrupted);
+  expect_recovery();
+  expect_good_frame();
+  EXPECT_TRUE(device.read_frame().ok());
+}
+
+TEST_F(ReadFrame, TransportFailureOfRecovery_StartsNoFrameAndIsRepeated) {
   configure();
   bus.expect_write(kStartFrame);
   bus.expect_read(kReadStatus, kIdleStatus);
   EXPECT_EQ(device.read_frame().error(), Error::kNoData);
-  bus.expect_write(kClearValid1).fail_at(bus.transfers());
+  bus.expect_write(kBreak).fail_last();
   EXPECT_EQ(device.read_frame().error(), Error::kTransport);
+  bus.expect_write(kBreak);
+  bus.expect_write(kClearValid1).fail_last();
+  EXPECT_EQ(device.read_frame().error(), Error::kTransport);
+  expect_recovery();
+  expect_good_frame();
+  EXPECT_TRUE(device.read_frame().ok());
+}
+
+TEST_F(ReadFrame, WrongArgument_NeedsNoRecovery) {
+  configure();
+  EXPECT_EQ(device.read_frame(2).error(), Error::kInvalidArgument);
+  expect_good_frame();
+  EXPECT_TRUE(device.read_frame().ok());
+}
+
+// configure() sends BREAK and clears SVALID itself.
+TEST_F(ReadFrame, ConfiguredAfterFailedRead_NeedsNoRecovery) {
+  configure();
+  bus.expect_write(kStartFrame);
+  bus.expect_read(kReadStatus, kRunning).fail_last();
+  EXPECT_EQ(device.read_frame().error(), Error::kTransport);
+  configure();
+  expect_good_frame();
+  EXPECT_TRUE(device.read_frame().ok());
+}
+
+// The time of each transfer.
+struct TimedBus {
+  StrictBus& bus;
+  FakeClock& clock;
+  std::vector<std::uint32_t> times_us{};
+
+  bool transfer(mb4::Span<const std::uint8_t> tx, mb4::Span<std::uint8_t> rx) {
+    times_us.push_back(clock.time_us);
+    return bus.transfer(tx, rx);
+  }
+};
+
+// BREAK has stopped MA in the middle of the old frame. Until its timeout (40 us at most) the slave
+// would take the clock of the new frame for the rest of the old one, and SL = 1 may be a data bit.
+TEST(ReadFrameRecovery, SlaveCutOffByBreak_GetsItsTimeoutBeforeTheRequest) {
+  StrictBus strict;
+  FakeClock clock;
+  TimedBus bus{strict, clock};
+  mb4::Device<TimedBus, FakeClock> device(bus, clock);
+  mb4_test::expect_configure(strict);
+  strict.expect_write(kStartFrame);
+  strict.expect_read(kReadStatus, kRunning).fail_last();
+  ASSERT_TRUE(device.configure(encoder26()).ok());
+  EXPECT_EQ(device.read_frame().error(), Error::kTransport);
+  strict.expect_write(kBreak);
+  strict.expect_write(kClearValid1);
+  strict.expect_write(kStartFrame).fail_last();
+  EXPECT_EQ(device.read_frame().error(), Error::kTransport);
+  ASSERT_EQ(bus.times_us.size(), 8U);
+  EXPECT_GE(bus.times_us[7] - bus.times_us[5], 100U);
+}
+
+TEST_F(ReadFrame, ClockStandsStillAfterFailedRead_RecoveryEnds) {
+  configure();
+  bus.expect_write(kStartFrame);
+  bus.expect_read(kReadStatus, kRunning).fail_last();
+  EXPECT_EQ(device.read_frame().error(), Error::kTransport);
+  clock.step_us = 0;
+  expect_recovery();
+  expect_good_frame();
+  EXPECT_TRUE(device.read_frame().ok());
 }
 
 // ---- Timeouts -----------------------------------------------------------------------------------
@@ -369,8 +524,19 @@ TEST(TimeoutFailure, TransportWhileStopping_IsTransport) {
   }
 }
 
-// ---- Slaves beyond the first: the layer below Device is ready for them
-// ---------------------------
+TEST_F(ReadFrame, BreakAfterTimeoutFailsInTransport_NextReadBreaksAgain) {
+  configure(with_timeout(100));
+  clock.step_us = 1000;
+  bus.expect_write(kStartFrame);
+  bus.expect_read(kReadStatus, kRunning);
+  bus.expect_write(kBreak).fail_last();
+  EXPECT_EQ(device.read_frame().error(), Error::kTransport);
+  expect_recovery();
+  expect_good_frame();
+  EXPECT_TRUE(device.read_frame().ok());
+}
+
+// ---- Slaves beyond the first: the layer below Device is ready for them --------------------------
 
 mb4::Config two_slaves() {
   mb4::Config config = encoder26();
@@ -405,6 +571,17 @@ TEST(SingleShot, CrcErrorOfAnotherSlave_DoesNotSpoilThisOne) {
   bus.expect_read(kReadData4, kData4);
   bus.expect_write(kClearValid1);
   EXPECT_TRUE(single_shot.read(two_slaves(), 1).ok());
+}
+
+// The same, seen from the slave whose CRC was wrong.
+TEST(SingleShot, OwnCrcError_IsCrcWhateverTheOtherFlagSays) {
+  StrictBus bus;
+  FakeClock clock;
+  mb4::SingleShot<StrictBus, FakeClock> single_shot(mb4::Opcodes<StrictBus>(bus), clock);
+  single_shot.on_flags_cleared();
+  bus.expect_write(kStartFrame);
+  bus.expect_read(kReadStatus, status(0x2B, 0x20));
+  EXPECT_EQ(single_shot.read(two_slaves(), 1).error(), Error::kCrc);
 }
 
 }  // namespace

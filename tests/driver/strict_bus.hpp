@@ -76,6 +76,9 @@ class StrictBus {
     return *this;
   }
 
+  // The transfer that was added last fails; others may follow.
+  StrictBus& fail_last() { return fail_at(expected_.size() - 1); }
+
   bool transfer(mb4::Span<const std::uint8_t> tx, mb4::Span<std::uint8_t> rx) {
     const Bytes mosi(tx.begin(), tx.end());
     if (next_ >= expected_.size()) {

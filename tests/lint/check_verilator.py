@@ -26,7 +26,8 @@ INLINE_ALLOWED = {("mb4_regs_pkg.sv", "UNUSEDPARAM"): 1}
 def lint(top, files, waivers):
     """What Verilator says about one top module; verilator_flags() holds -fno-const-bit-op-tree."""
     status, text = project.run([project.tool("verilator"), "--lint-only",
-                                *project.verilator_flags(), f"-I{project.RTL}", "--top-module", top, *waivers, *files])
+                                *project.verilator_flags(), f"-I{project.RTL}",
+                                "--top-module", top, *waivers, *files])
     text = text.replace(f"{project.ROOT}/", "")
     return [f"{top}: {text.strip()}"] if status != 0 or text.strip() else []
 

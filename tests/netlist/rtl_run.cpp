@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // rtl_run MODULE < steps: plays input steps to the Verilated RTL of one module and prints the
-// outputs after each. rtl_run --sources: of which sources the models were made. The ports are listed in
-// rtl_run_models.inc, made from the sources by make_harness.py.
+// outputs after each. rtl_run --sources: of which sources the models were made. The ports are
+// listed in rtl_run_models.inc, made from the sources by make_harness.py.
 
 #include "rtl_run.hpp"
 

@@ -4,10 +4,25 @@
 // The C interface through the shared library.
 #include <gtest/gtest.h>
 
+#include <cstdlib>
 #include <cstring>
+#include <new>
 #include <string>
 
 #include "mb4sim.h"
+
+// The library allocates through these, so that a test can let it run out of memory.
+namespace {
+bool memory_is_out = false;
+}  // namespace
+
+void* operator new(std::size_t size) {
+  void* const memory = memory_is_out ? nullptr : std::malloc(size != 0 ? size : 1);
+  if (memory == nullptr) throw std::bad_alloc();
+  return memory;
+}
+void operator delete(void* memory) noexcept { std::free(memory); }
+void operator delete(void* memory, std::size_t /*size*/) noexcept { std::free(memory); }
 
 namespace {
 
@@ -59,6 +74,48 @@ TEST_F(CApi, ByteByByte_ReadsTheSame) {
   EXPECT_EQ(mb4sim_spi_byte(sim, 0), 0x84);
   mb4sim_spi_select(sim, 0);
   EXPECT_EQ(mb4sim_pin_read(sim, "NCS"), 1);
+}
+
+TEST_F(CApi, TransferWhileSelected_ContinuesThatFrameAndEndsIt) {
+  mb4sim_spi_select(sim, 1);
+  mb4sim_spi_byte(sim, 0x03);
+  const uint8_t tx[3] = {0xEA, 0, 0};
+  uint8_t rx[3] = {};
+  EXPECT_EQ(mb4sim_spi_transfer(sim, tx, rx, 3), 0);
+  EXPECT_EQ(rx[1], 0x20);
+  EXPECT_EQ(rx[2], 0x84);
+  EXPECT_EQ(mb4sim_pin_read(sim, "NCS"), 1);
+}
+
+TEST_F(CApi, Clk_ShowsItsPresentLevel) {
+  // 20 MHz: rising edges at 25 ns + n * 50 ns, falling ones at n * 50 ns.
+  EXPECT_EQ(mb4sim_pin_read(sim, "CLK"), 0);
+  mb4sim_advance_ns(sim, 25);
+  EXPECT_EQ(mb4sim_pin_read(sim, "CLK"), 1);
+  mb4sim_advance_ns(sim, 24);
+  EXPECT_EQ(mb4sim_pin_read(sim, "CLK"), 1);
+  mb4sim_advance_ns(sim, 1);
+  EXPECT_EQ(mb4sim_pin_read(sim, "CLK"), 0);
+}
+
+TEST_F(CApi, OutOfMemory_IsAnErrorAndStaysOne) {
+  const auto send = [&](std::initializer_list<uint8_t> bytes) {
+    return mb4sim_spi_transfer(sim, bytes.begin(), nullptr, bytes.size());
+  };
+  send({0x02, 0xC0, 0x5B, 0x06, 0, 0});
+  send({0x02, 0xE5, 0x40, 0xA0, 0x00, 0x7C});
+  send({0x02, 0xED, 0x0D});
+  memory_is_out = true;  // queue, monitor and slave of the first frame need memory
+  int status = send({0x07, 0x04});
+  for (int i = 0; i < 100 && status == 0; ++i) status = send({0x05, 0x00});
+  memory_is_out = false;
+  EXPECT_EQ(status, -5);
+  const uint64_t stopped = mb4sim_time_ns(sim);
+  mb4sim_advance_ns(sim, 1000);
+  EXPECT_EQ(mb4sim_time_ns(sim), stopped);
+  EXPECT_EQ(send({0x05, 0x00}), -5);
+  EXPECT_EQ(mb4sim_pin_write(sim, "GETSENS", 1), -5);
+  EXPECT_EQ(mb4sim_spi_byte(sim, 0x05), 0);
 }
 
 TEST_F(CApi, NullRx_IsAllowed) {
@@ -154,6 +211,33 @@ TEST(CApiOpen, NullHandle_IsHarmless) {
   EXPECT_EQ(mb4sim_spi_transfer(nullptr, tx, nullptr, 1), MB4SIM_ERROR_UNKNOWN);
   EXPECT_EQ(mb4sim_time_ns(nullptr), 0U);
   EXPECT_EQ(mb4sim_pin_read(nullptr, "EOT"), MB4SIM_ERROR_UNKNOWN);
+}
+
+TEST(CApiOpen, OutOfMemory_ReturnsNull) {
+  char error[200] = "untouched";
+  memory_is_out = true;
+  mb4sim* sim = mb4sim_open(kScenario, error, sizeof error);
+  memory_is_out = false;
+  EXPECT_EQ(sim, nullptr);
+  EXPECT_STRNE(error, "");
+  EXPECT_STRNE(error, "untouched");
+}
+
+TEST(CApiOpen, LongestAdvance_EndsAtTheEndOfTime) {
+  mb4sim* sim = mb4sim_open("[chip]\nf_clk_hz = 0\n", nullptr, 0);
+  ASSERT_NE(sim, nullptr);
+  constexpr uint64_t kEndNs = (uint64_t{1} << 63) / 1000;
+  mb4sim_advance_ns(sim, UINT64_MAX);
+  EXPECT_EQ(mb4sim_time_ns(sim), kEndNs);
+  mb4sim_advance_ns(sim, UINT64_MAX / 1000);
+  EXPECT_EQ(mb4sim_time_ns(sim), kEndNs);
+  mb4sim_close(sim);
+}
+
+TEST(CApiOpen, ControlCharacters_AreEscaped) {
+  char error[200];
+  EXPECT_EQ(mb4sim_open("\"a\\n\" = 1\n", error, sizeof error), nullptr);
+  EXPECT_STREQ(error, "scenario:1:1: key 'a\\n': unknown key");
 }
 
 TEST(CApiOpen, Version_HasThreeNumbers) {

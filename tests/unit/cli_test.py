@@ -4,10 +4,13 @@
 
 Usage: cli_test.py MB4SIM EXAMPLES
 """
+import contextlib
 import csv
 import json
 import os
 import re
+import shutil
+import stat
 import subprocess
 import sys
 import tempfile
@@ -20,6 +23,11 @@ RESOLUTE = os.path.join(EXAMPLES, "resolute-26.toml")
 def run(*arguments, text=""):
     return subprocess.run([MB4SIM, *arguments], input=text, capture_output=True, text=True,
                           timeout=120, check=False)
+
+
+def slave(keys):
+    """A scenario with one BiSS C slave on channel 1; its keys begin on line 5."""
+    return "[[channel]]\nnumber = 1\n[[channel.slave]]\nprotocol = \"biss-c\"\n" + keys + "\n"
 
 
 class Cli(unittest.TestCase):
@@ -44,7 +52,17 @@ class Cli(unittest.TestCase):
     def test_wrong_use_is_status_2(self):
         for arguments in ([], ["fly"], ["run"], ["run", RESOLUTE, "--frames", "x"],
                           ["run", RESOLUTE, "--frames", "0"], ["run", RESOLUTE, "--fast"],
-                          ["spi"], ["regs", RESOLUTE, "again"]):
+                          ["spi"], ["regs", RESOLUTE, "again"], ["run", ""],
+                          ["run", RESOLUTE, "--frames", "-1"],
+                          ["run", RESOLUTE, "--frames", "1000000001"],
+                          ["run", RESOLUTE, "--frames", "99999999999999999999"],
+                          ["regs", RESOLUTE, "--frames", "-1"],
+                          ["run", RESOLUTE, "--seed", "-1"],
+                          ["run", RESOLUTE, "--seed", "18446744073709551616"],
+                          ["run", RESOLUTE, "--seed", "0x10000000000000000"],
+                          ["run", RESOLUTE, "--seed", "1.5"], ["run", RESOLUTE, "--seed", ""],
+                          ["run", RESOLUTE, "--csv", ""], ["run", RESOLUTE, "--trace", ""],
+                          ["run", RESOLUTE, "--csv="], ["run", RESOLUTE, "--trace="]):
             with self.subTest(arguments):
                 result = run(*arguments)
                 self.assert_one_line(result, 2, r"^mb4sim: ")
@@ -93,7 +111,142 @@ class Cli(unittest.TestCase):
         self.assert_one_line(result, 2, "/no/such/dir/a.csv: cannot write: No such file")
         self.assertEqual(os.listdir(self.folder.name), ["bad.toml"])
 
+    def test_what_the_driver_cannot_do_is_named_with_place_and_key(self):
+        good = "data_bits = 28\n"
+        two = slave(good) + "[[channel.slave]]\nprotocol = \"biss-c\"\n" + good
+        for text, message in (
+                ("[chip]\nf_clk_hz = 25_000_001\n" + slave(good), r":2:12: key 'f_clk_hz': "),
+                ("[chip]\nf_clk_hz = 999_999\n" + slave(good), r":2:12: key 'f_clk_hz': "),
+                (slave(good + "crc = 0x101"), r":6:7: key 'crc': .*0x101"),
+                (slave(good + "crc = 0\ncrc_start = 1"), r":7:13: key 'crc_start': "),
+                (two, r":6:1: key 'slave': .*in this version"),
+                (slave(good) + "[[channel]]\nnumber = 2\n", r":7:10: key 'number': .*channel 2"),
+                ("[[channel]]\nnumber = 2\n", r":2:10: key 'number': .*channel 2"),
+                ("[[channel]]\nnumber = 1\n", r":1:1: key 'slave': "),
+                ("[chip]\n", r":1:1: key 'channel': ")):
+            with self.subTest(text):
+                scenario = self.path("x.toml", text)
+                for command in ("run", "regs"):
+                    result = run(command, scenario)
+                    self.assert_one_line(result, 2, "^mb4sim: " + re.escape(scenario) + message)
+                    self.assertNotIn("polynomial of", result.stderr)
+                # The chip alone takes it: what the driver cannot do is no matter here.
+                self.assertEqual(run("spi", scenario, text="03 EB 00\n").returncode, 0)
+
+    def test_messages_stay_one_line_without_control_characters(self):
+        for text, message in (
+                ('"a\\nb" = 1\n', r"key 'a\\nb': unknown key"),
+                ('[host]\ninterface = "a\\u0000\\u001b[1m\\r\\t\\u007f"\n',
+                 r"'a\\x00\\x1b\[1m\\r\\t\\x7f'"),
+                (slave('preset = "a\\u009b\\nb"'), r"'a\\x9b\\nb'"),
+                (slave('data_bits = 8\nsource = "file"\nfile = "no\\nsuch"'), r"no\\nsuch: cannot"),
+                (slave('data_bits = 8\nsource = "file"\nfile = "x.toml\\u0000y"'),
+                 r":7:8: key 'file': a file name cannot hold a NUL character")):
+            with self.subTest(text):
+                self.assert_one_line(run("run", self.path("x.toml", text)), 2, message)
+        self.assert_one_line(run("run", self.path("no\nsuch.toml")), 2, r"no\\nsuch\.toml: cannot")
+        result = run("spi", RESOLUTE, text="\x1b[2J\n")
+        self.assert_one_line(result, 2, r"found '\\x1b\[2J'")
+
+    def test_output_never_replaces_input_or_other_output(self):
+        words = self.path("words.txt", "1\n2\n")
+        scenario = self.path("s.toml", slave('data_bits = 8\nsource = "file"\nfile = "words.txt"'))
+        edges = self.path("ti.edges")
+        shutil.copy(os.path.join(EXAMPLES, "ti-tidep0022.edges"), edges)
+        replay = self.path("replay.toml", "[host]\nma_hz = 1_000_000\n[[channel]]\nnumber = 1\n"
+                           "[[channel.slave]]\nprotocol = \"replay\"\nedges = \"ti.edges\"\n"
+                           "data_bits = 15\n")
+        gtkw = self.path("view.gtkw", slave("data_bits = 8"))
+        partial = self.path("p.csv.partial", slave("data_bits = 8"))
+        hier = self.path("h.fst.hier", slave("data_bits = 8"))
+        link = self.path("link")
+        os.symlink("s.toml", link)
+        hard = self.path("hard")
+        os.link(scenario, hard)
+        dangling = self.path("dangling")
+        os.symlink("new.fst", dangling)
+        new = self.path("new")
+        before = self.contents()
+        for arguments in ([scenario, "--csv", scenario], [scenario, "--trace", scenario],
+                          [scenario, "--csv", os.path.join(self.folder.name, ".", "s.toml")],
+                          [scenario, "--csv", link], [link, "--trace", scenario],
+                          [scenario, "--trace", hard], [scenario, "--csv", words],
+                          [scenario, "--trace", words], [replay, "--csv", edges],
+                          [replay, "--trace", edges], [gtkw, "--trace", self.path("view.fst")],
+                          [partial, "--csv", self.path("p.csv")],
+                          [hier, "--trace", self.path("h.fst")],
+                          [scenario, "--csv", new, "--trace", new],
+                          [scenario, "--csv", new + ".gtkw", "--trace", new + ".fst"],
+                          [scenario, "--csv", new + ".fst", "--trace", dangling],
+                          [scenario, "--trace", new + ".gtkw"]):
+            with self.subTest(arguments):
+                result = run("run", *arguments, "--frames", "1")
+                self.assert_one_line(result, 2, r"^mb4sim: --(csv|trace): .*(same file|would)")
+                self.assertEqual(result.stdout, "")
+                self.assertEqual(self.contents(), before)
+
+    def contents(self):
+        found = {}
+        for name in sorted(os.listdir(self.folder.name)):
+            path = os.path.join(self.folder.name, name)
+            with contextlib.suppress(FileNotFoundError), open(path, "rb") as file:
+                found[name] = file.read()
+        return found
+
+    def test_trace_takes_only_regular_files(self):
+        fifo = self.path("fifo")
+        os.mkfifo(fifo)
+        os.symlink("fifo", self.path("link"))
+        os.mkfifo(self.path("x.gtkw"))
+        os.mkfifo(self.path("y.fst.hier"))
+        os.mkdir(self.path("dir"))
+        names = sorted(os.listdir(self.folder.name))
+        for name in ("fifo", "link", "x.fst", "y.fst", "dir"):
+            with self.subTest(name):
+                result = run("run", RESOLUTE, "--frames", "1", "--trace", self.path(name),
+                             "--csv", self.path("out.csv"))
+                self.assert_one_line(result, 2, r"^mb4sim: .*(not a regular|is a directory)")
+                self.assertEqual(sorted(os.listdir(self.folder.name)), names)
+        self.assertTrue(stat.S_ISFIFO(os.stat(fifo).st_mode))
+
+    def test_trace_through_a_link_keeps_the_link(self):
+        target = self.path("target", "old")
+        link = self.path("wave.fst")
+        os.symlink("target", link)
+        result = run("run", RESOLUTE, "--frames", "1", "--trace", link)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertTrue(os.path.islink(link))
+        self.assertGreater(os.path.getsize(target), 1000)
+        with open(self.path("wave.gtkw"), encoding="utf-8") as file:
+            self.assertIn('[dumpfile] "wave.fst"', file.read())
+
+    def test_csv_may_go_to_a_pipe(self):
+        fifo = self.path("fifo")
+        os.mkfifo(fifo)
+        with subprocess.Popen([MB4SIM, "run", RESOLUTE, "--frames", "1", "--csv", fifo],
+                              stdout=subprocess.DEVNULL) as process:
+            with open(fifo, encoding="utf-8") as file:
+                self.assertEqual(len(file.read().splitlines()), 2)
+            self.assertEqual(process.wait(timeout=10), 0)
+        self.assertEqual(os.listdir(self.folder.name), ["fifo"])
+
+    def test_output_that_cannot_be_written_is_status_2(self):
+        for command, text in (("spi", "05 00\n"), ("spi", "05 00\n" * 3000), ("run", ""),
+                              ("regs", "")):
+            with self.subTest(command), open("/dev/full", "w", encoding="utf-8") as full:
+                result = subprocess.run([MB4SIM, command, RESOLUTE], input=text, stdout=full,
+                                        stderr=subprocess.PIPE, text=True, timeout=120,
+                                        check=False)
+                self.assert_one_line(result, 2, r"^mb4sim: cannot write to ")
+
     # --- run ---------------------------------------------------------------------------------
+
+    def test_run_numbers_are_decimal_or_hexadecimal(self):
+        count = len(run("run", RESOLUTE, "--frames", "010").stdout.splitlines())
+        self.assertEqual(count, 1 + 10 + 1)
+        for seed, value in (("0x1F", 31), ("010", 10), ("18446744073709551615", 2**64 - 1)):
+            result = run("run", RESOLUTE, "--frames", "0x1", "--seed", seed)
+            self.assertIn(f"seed {value}\n", result.stdout)
 
     def test_run_prints_table_and_summary(self):
         result = run("run", RESOLUTE, "--frames", "3")

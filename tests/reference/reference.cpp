@@ -1,0 +1,130 @@
+// SPDX-FileCopyrightText: 2026 The openmb4 authors
+// SPDX-License-Identifier: Apache-2.0
+#include "reference.hpp"
+
+#include <map>
+#include <stdexcept>
+
+namespace mb4ref {
+namespace {
+
+bool on_line(const Registers& registers, unsigned x, unsigned line) {
+  // Table 10: channels 5..8 belong to line 2 with SLAVELOC5 = 1.
+  return (registers.slaveloc5 && x >= 4) == (line == 2);
+}
+
+bool enabled(const Registers& registers, unsigned x) { return (registers.slave[4 * x] & 0x40) != 0; }
+
+unsigned data_bits(const Registers& registers, unsigned x) {
+  return (registers.slave[4 * x] & 0x3FU) + 1;
+}
+
+}  // namespace
+
+CrcChoice crc_choice(std::uint8_t register_c1) {
+  const unsigned code = register_c1 & 0x7FU;
+  if ((register_c1 & 0x80) != 0) {
+    // Table 15: the polynomial without its last 1; its degree is the width.
+    if (code == 0) return {};
+    unsigned width = 0;
+    for (unsigned rest = code; rest != 0; rest /= 2) ++width;
+    return {width, code * 2 + 1};
+  }
+  static const std::map<unsigned, std::uint32_t> table14 = {
+      {3, 0xB}, {4, 0x13}, {5, 0x25}, {6, 0x43}, {7, 0x89}, {8, 0x12F}, {16, 0x190D9}};
+  const auto found = table14.find(code);
+  return found == table14.end() ? CrcChoice{} : CrcChoice{code, found->second};
+}
+
+std::uint32_t remainder(const std::string& data, CrcChoice crc, std::uint16_t start) {
+  // Long division on a string of bits: the start value is added to the first `width` bits of the
+  // message with `width` zeros behind it.
+  std::string message = data + std::string(crc.width, '0');
+  for (unsigned i = 0; i < crc.width; ++i) {
+    const bool bit = ((start >> (crc.width - 1 - i)) & 1U) != 0;
+    if (bit) message[i] = message[i] == '0' ? '1' : '0';
+  }
+  for (std::size_t i = 0; i < data.size(); ++i) {
+    if (message[i] == '0') continue;
+    for (unsigned k = 0; k <= crc.width; ++k) {
+      if (((crc.polynomial >> (crc.width - k)) & 1U) != 0) {
+        message[i + k] = message[i + k] == '0' ? '1' : '0';
+      }
+    }
+  }
+  std::uint32_t value = 0;
+  for (unsigned i = 0; i < crc.width; ++i) {
+    value = value * 2 + (message[data.size() + i] == '1' ? 1U : 0U);
+  }
+  return value;
+}
+
+unsigned Reference::frame_bits(const Registers& registers, unsigned line) {
+  unsigned bits = 0;
+  for (unsigned x = 0; x < 8; ++x) {
+    if (enabled(registers, x) && on_line(registers, x, line)) {
+      bits += data_bits(registers, x) + crc_choice(registers.slave[4 * x + 1]).width;
+    }
+  }
+  return bits;
+}
+
+bool Reference::word(const Registers& registers, unsigned x, std::string& bits, Bank& bank) {
+  const unsigned length = data_bits(registers, x);
+  const CrcChoice crc = crc_choice(registers.slave[4 * x + 1]);
+  const auto start = static_cast<std::uint16_t>(registers.slave[4 * x + 2] |
+                                                (registers.slave[4 * x + 3] << 8));
+  if (bits.size() < length + crc.width) throw std::logic_error("reference: too few bits");
+  const std::string data = bits.substr(0, length);
+  const std::string sent = bits.substr(length, crc.width);
+  bits.erase(0, length + crc.width);
+
+  // Page 26: byte by byte from the least significant end, unused bits of a touched byte are zero.
+  const unsigned bytes = (length + 7) / 8;
+  for (unsigned byte = 0; byte < bytes; ++byte) {
+    unsigned value = 0;
+    for (unsigned bit = 0; bit < 8; ++bit) {
+      const unsigned weight = byte * 8 + bit;
+      if (weight < length && data[length - 1 - weight] == '1') value |= 1U << bit;
+    }
+    bank.data[8 * x + byte] = static_cast<std::uint8_t>(value);
+  }
+  if (crc.width == 0) return true;
+
+  std::uint32_t received = 0;
+  for (const char bit : sent) received = received * 2 + (bit == '0' ? 1U : 0U);  // sent inverted
+  const unsigned crc_bytes = crc.width > 8 ? 2 : 1;
+  if (!registers.nocrc && bytes + crc_bytes <= 8) {
+    bank.data[8 * x + 7] = static_cast<std::uint8_t>(crc_bytes == 2 ? received >> 8 : received);
+    if (crc_bytes == 2) bank.data[8 * x + 6] = static_cast<std::uint8_t>(received & 0xFF);
+  }
+  return received == remainder(data, crc, start);
+}
+
+void Reference::frame(const Registers& registers, const Lines& lines) {
+  Bank& bank = registers.singlebank ? banks_[host_] : banks_[1 - host_];
+  scd_error_ = false;
+  for (unsigned line = 1; line <= 2; ++line) {
+    std::string bits = lines.bits[line - 1];
+    if (bits.empty()) continue;  // takes no part
+    bank.cds[line - 1] = bits[0] == '1';
+    bits.erase(0, 1);
+    for (unsigned x = 0; x < 8; ++x) {
+      if (!enabled(registers, x) || !on_line(registers, x, line)) continue;
+      const bool good = word(registers, x, bits, bank);
+      bank.valid[x] = good;
+      if (!good) scd_error_ = true;
+    }
+  }
+  if (!registers.singlebank) host_ = 1 - host_;
+}
+
+std::uint8_t Reference::spread(unsigned first) const {
+  unsigned value = 0;
+  for (unsigned i = 0; i < 4; ++i) {
+    if (banks_[host_].valid[first + i]) value |= 2U << (2 * i);
+  }
+  return static_cast<std::uint8_t>(value);
+}
+
+}  // namespace mb4ref

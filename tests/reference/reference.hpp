@@ -1,0 +1,75 @@
+// SPDX-FileCopyrightText: 2026 The openmb4 authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// What an iC-MB4 shows its host after a BiSS C frame, computed from the registers the host wrote and
+// the bits that stood on the lines. Written from the datasheet (pages 23..26, 31, 34, 35) and
+// decisions 9, 28, 30; it shares no code with the RTL, the simulator or the driver.
+#ifndef MB4_TESTS_REFERENCE_REFERENCE_HPP_
+#define MB4_TESTS_REFERENCE_REFERENCE_HPP_
+
+#include <array>
+#include <cstdint>
+#include <string>
+
+namespace mb4ref {
+
+// Registers 0xC0..0xDF and the few others that shape a frame.
+struct Registers {
+  std::array<std::uint8_t, 32> slave{};
+  bool slaveloc5 = false;
+  bool nocrc = false;
+  bool singlebank = false;
+};
+
+// Bits of one line behind the start bit as '0' and '1': CDS first, then all words.
+struct Lines {
+  std::array<std::string, 2> bits;
+};
+
+// One data channel's choice of CRC (Tables 13..15).
+struct CrcChoice {
+  unsigned width = 0;            // 0 = off
+  std::uint32_t polynomial = 0;  // with its highest power
+};
+CrcChoice crc_choice(std::uint8_t register_c1);
+
+// Remainder of polynomial division: data bits, MSB first, start value, bit by bit on a string.
+std::uint32_t remainder(const std::string& data, CrcChoice crc, std::uint16_t start);
+
+class Reference {
+ public:
+  // Bits that the enabled channels of line 1 or 2 take.
+  static unsigned frame_bits(const Registers& registers, unsigned line);
+
+  // A complete frame; then the banks switch (SINGLEBANK = 0).
+  void frame(const Registers& registers, const Lines& lines);
+
+  // What the host reads.
+  std::uint8_t scdata(unsigned address) const { return banks_[host_].data.at(address); }
+  std::uint8_t svalid_lo() const { return spread(0); }
+  std::uint8_t svalid_hi() const { return spread(4); }
+  bool scd_error() const { return scd_error_; }
+  bool cds(unsigned line) const { return banks_[host_].cds.at(line - 1); }
+
+  // A host write to SCDATA.
+  void write(unsigned address, std::uint8_t value) { banks_[host_].data.at(address) = value; }
+
+ private:
+  struct Bank {
+    std::array<std::uint8_t, 64> data{};
+    std::array<bool, 8> valid{};
+    std::array<bool, 2> cds{};
+  };
+
+  std::uint8_t spread(unsigned first) const;
+  // Takes channel `x` (0..7) from the front of `bits`; false if its CRC is wrong.
+  bool word(const Registers& registers, unsigned x, std::string& bits, Bank& bank);
+
+  std::array<Bank, 2> banks_{};
+  unsigned host_ = 0;
+  bool scd_error_ = false;
+};
+
+}  // namespace mb4ref
+
+#endif  // MB4_TESTS_REFERENCE_REFERENCE_HPP_
