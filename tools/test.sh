@@ -37,7 +37,7 @@ status=0
 ctest --test-dir "$build" --output-on-failure --no-tests=error -j "$(nproc)" \
   --output-junit junit.xml "$@" >"$build/ctest.log" 2>&1 || status=$?
 # The passed tests are many; show what failed, what was skipped and the summary.
-sed -n '/\*\*\*/,$p' "$build/ctest.log" | grep -v ' Passed ' || tail -n 6 "$build/ctest.log"
+sed -n '/\*\*\*/,$p' "$build/ctest.log" | grep -v -e ' Passed ' -e '^ *Start ' || tail -n 6 "$build/ctest.log"
 if [ "$status" -ne 0 ]; then
   sed -n 's/^[[:space:]]*[0-9]* - \(.*\) (Failed)$/\1/p; s/^[[:space:]]*[0-9]* - \(.*\) (Timeout)$/\1/p' \
     "$build/ctest.log" | while read -r name; do

@@ -41,6 +41,8 @@ class ChipModel {
   // Drives an input pin (no output pin) and evaluates the chip at time `now`.
   virtual void set_input(Time now, Pin pin, bool level) = 0;
   virtual unsigned watched() const = 0;
+  // Level of pin CLK.
+  virtual bool clk() const = 0;
   // Data bus as the chip drives it: DB0 in bit 0.
   virtual unsigned db_out() const = 0;
   virtual unsigned db_enable() const = 0;

@@ -6,8 +6,10 @@
 #include <verilated_fst_c.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <memory>
 #include <string>
+#include <system_error>
 
 #include "verilated_chip.hpp"
 
@@ -33,6 +35,12 @@ class FstTrace {
   template <typename Model>
   void open(VerilatedContext& /*context*/, Model& model, const std::string& path) {
     constexpr int kAllLevels = 99;
+    // The FST writer removes whatever is there, a device node too.
+    std::error_code ignored;
+    const auto status = std::filesystem::status(path, ignored);
+    if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status)) {
+      throw ScenarioError(path + ": cannot write the waveform: not a regular file");
+    }
     file_ = std::make_unique<VerilatedFstC>();
     model.trace(file_.get(), kAllLevels);
     file_->open(path.c_str());

@@ -157,6 +157,7 @@ class VerilatedChip final : public ChipModel {
   }
 
   unsigned watched() const override { return watched_; }
+  bool clk() const override { return model_->clk_i != 0; }
   unsigned db_out() const override { return model_->db_o; }
   unsigned db_enable() const override { return model_->db_oe_o; }
   std::uint64_t cycles() const override { return cycles_; }

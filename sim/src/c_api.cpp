@@ -21,6 +21,7 @@ using mb4::sim::Simulator;
 struct mb4sim {
   explicit mb4sim(const Scenario& scenario) : simulator(scenario) {}
   Simulator simulator;
+  bool failed = false;  // by something that leaves the simulator half done
 };
 
 namespace {
@@ -41,17 +42,24 @@ mb4sim* open(Load load, char* error, size_t error_size) {
   } catch (const std::exception& failure) {
     put_error(failure.what(), error, error_size);
     return nullptr;
+  } catch (...) {
+    put_error("scenario: unknown failure", error, error_size);
+    return nullptr;
   }
 }
 
-// Runs `call` on the simulator; a stopped model becomes MB4SIM_ERROR_STOPPED.
+// Runs `call` on the simulator; every exception becomes a negative error.
 template <typename Call>
 int guarded(mb4sim* sim, Call call) {
   if (sim == nullptr) return MB4SIM_ERROR_UNKNOWN;
+  if (sim->failed) return MB4SIM_ERROR_FAILED;
   try {
     return call(sim->simulator);
   } catch (const ModelStopped&) {
     return MB4SIM_ERROR_STOPPED;
+  } catch (...) {
+    sim->failed = true;
+    return MB4SIM_ERROR_FAILED;
   }
 }
 
@@ -99,7 +107,8 @@ uint8_t mb4sim_spi_byte(mb4sim* sim, uint8_t mosi) {
 
 void mb4sim_advance_ns(mb4sim* sim, uint64_t ns) {
   guarded(sim, [&](Simulator& simulator) {
-    simulator.advance(ns * mb4::sim::kPsPerNs);
+    simulator.advance(std::min(ns, mb4::sim::kEndOfTime / mb4::sim::kPsPerNs + 1) *
+                      mb4::sim::kPsPerNs);
     return 0;
   });
 }
@@ -132,10 +141,11 @@ int mb4sim_pin_write(mb4sim* sim, const char* pin, int level) {
 }
 
 int mb4sim_slave_set_data(mb4sim* sim, unsigned slave, uint64_t raw) {
-  if (sim == nullptr) return MB4SIM_ERROR_UNKNOWN;
-  auto* device = sim->simulator.slave(slave);
-  if (device == nullptr) return MB4SIM_ERROR_UNKNOWN;
-  return device->set_data(raw) ? 0 : MB4SIM_ERROR_VALUE;
+  return guarded(sim, [&](Simulator& simulator) {
+    auto* device = simulator.slave(slave);
+    if (device == nullptr) return int{MB4SIM_ERROR_UNKNOWN};
+    return device->set_data(raw) ? 0 : int{MB4SIM_ERROR_VALUE};
+  });
 }
 
 int mb4sim_slave_reg_read(mb4sim* sim, unsigned slave, uint8_t address, uint8_t* value) {
@@ -147,11 +157,12 @@ int mb4sim_slave_reg_read(mb4sim* sim, unsigned slave, uint8_t address, uint8_t*
 }
 
 int mb4sim_slave_reg_write(mb4sim* sim, unsigned slave, uint8_t address, uint8_t value) {
-  if (sim == nullptr) return MB4SIM_ERROR_UNKNOWN;
-  auto* device = sim->simulator.slave(slave);
-  if (device == nullptr) return MB4SIM_ERROR_UNKNOWN;
-  device->reg_write(address, value);
-  return 0;
+  return guarded(sim, [&](Simulator& simulator) {
+    auto* device = simulator.slave(slave);
+    if (device == nullptr) return int{MB4SIM_ERROR_UNKNOWN};
+    device->reg_write(address, value);
+    return 0;
+  });
 }
 
 uint64_t mb4sim_slave_frames(const mb4sim* sim, unsigned slave) {

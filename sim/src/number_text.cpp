@@ -3,7 +3,7 @@
 #include "number_text.hpp"
 
 #include <charconv>
-#include <string>
+#include <sstream>
 
 namespace mb4::sim {
 
@@ -22,6 +22,12 @@ std::optional<std::uint64_t> parse_word(std::string_view text) {
   const auto [stop, error] = std::from_chars(digits.data(), end, value, base);
   if (digits.empty() || error != std::errc() || stop != end) return std::nullopt;
   return value;
+}
+
+std::string plain(double value) {
+  std::ostringstream out;
+  out << value;
+  return out.str();
 }
 
 }  // namespace mb4::sim

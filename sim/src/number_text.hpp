@@ -7,12 +7,16 @@
 
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <string_view>
 
 namespace mb4::sim {
 
 // Nothing if the text is no such number or does not fit into 64 bits.
 std::optional<std::uint64_t> parse_word(std::string_view text);
+
+// As short as an output stream writes it.
+std::string plain(double value);
 
 }  // namespace mb4::sim
 

@@ -37,6 +37,7 @@ ReplayRecording parse_recording(std::string_view text, const std::string& name) 
   const auto fail = [&](const std::string& message) -> void {
     throw RecordingError(name + ":" + std::to_string(number) + ": " + message);
   };
+  if (text.empty()) throw RecordingError(name + ": the file is empty");
   while (!text.empty()) {
     ++number;
     const auto end = std::min(text.find('\n'), text.size());

@@ -69,6 +69,7 @@ ChipConfig read_chip(const toml::table& table, const std::string& file) {
     chip.f_osc_hz = static_cast<std::uint64_t>(*hz);
   }
   if (const auto* quirks = reader.table("quirks")) read_quirks(*quirks, file, chip);
+  chip.source = reader.source();
   reader.finish();
   return chip;
 }
@@ -98,6 +99,7 @@ HostConfig read_host(const toml::table& table, const std::string& file, const Ch
     }
   }
   reader.finish();
+  host.source = reader.source();
   return host;
 }
 
@@ -125,6 +127,7 @@ ChannelConfig read_channel(const toml::table& table, const std::string& file) {
     }
   }
   reader.finish();
+  channel.source = reader.source();
   return channel;
 }
 
@@ -165,6 +168,19 @@ const Crc& SlaveConfig::crc() const {
   return std::visit([](const auto& d) -> const Crc& { return d.crc; }, device);
 }
 
+SourcePos TableSource::of(std::string_view key) const {
+  const auto found = keys.find(key);
+  return found == keys.end() ? table : found->second;
+}
+
+ScenarioError::ScenarioError(const std::string& file, SourcePos where, std::string_view key,
+                             const std::string& message)
+    : ScenarioError(file + ":" +
+                    (where.line == 0 ? ""
+                                     : std::to_string(where.line) + ":" +
+                                           std::to_string(where.column) + ":") +
+                    " key '" + std::string(key) + "': " + message) {}
+
 const ChannelConfig* Scenario::channel(unsigned number) const {
   for (const ChannelConfig& each : channels) {
     if (each.number == number) return &each;
@@ -197,6 +213,7 @@ Scenario parse_scenario(std::string_view text, const std::string& name) {
   }
   read_channels(reader, scenario);
   reader.finish();
+  scenario.source = reader.source();
   return scenario;
 }
 

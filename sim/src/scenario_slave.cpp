@@ -2,7 +2,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scenario_slave.hpp"
 
+#include <algorithm>
+#include <cmath>
+#include <set>
 #include <utility>
+#include <vector>
 
 #include "mb4sim/presets.hpp"
 #include "number_text.hpp"
@@ -68,8 +72,9 @@ void read_lengths(TomlReader& reader, unsigned& data_bits, unsigned& flag_bits) 
   }
 }
 
-void read_words(TomlReader& reader, unsigned data_bits, DataSource& source) {
-  const auto name = reader.text("file");
+// Returns the path of the file.
+std::string read_words(TomlReader& reader, unsigned data_bits, DataSource& source) {
+  const auto name = reader.file_name("file");
   if (!name) reader.fail("file", "missing: source \"file\" needs it");
   const std::string path = beside(reader.file(), *name);
   std::string text;
@@ -97,9 +102,10 @@ void read_words(TomlReader& reader, unsigned data_bits, DataSource& source) {
   }
   if (source.words.empty()) reader.fail("file", path + " holds no words");
   source.repeat = reader.boolean("repeat").value_or(true);
+  return path;
 }
 
-void read_source(TomlReader& reader, BissCSlaveConfig& config) {
+void read_source(TomlReader& reader, BissCSlaveConfig& config, std::string& file) {
   DataSource& source = config.source;
   const auto kind = reader.choice("source", {"ramp", "sine", "file"});
   if (const auto word = reader.word("data")) {
@@ -124,19 +130,36 @@ void read_source(TomlReader& reader, BissCSlaveConfig& config) {
     const auto amplitude = reader.number("amplitude", 0, kMaxPosition);
     if (!amplitude) reader.fail("amplitude", "missing: source \"sine\" needs it");
     source.amplitude = *amplitude;
+    if (const double most = kMaxPosition - std::abs(source.offset); source.amplitude > most) {
+      reader.fail("amplitude", "with offset " + plain(source.offset) + " at most " + plain(most));
+    }
     const auto period = reader.number("period_us", 0.001, 1e12);
     if (!period) reader.fail("period_us", "missing: source \"sine\" needs it");
     source.period = from_us(*period);
   } else {
     source.kind = DataSource::Kind::kList;
-    read_words(reader, config.data_bits, source);
+    file = read_words(reader, config.data_bits, source);
   }
+}
+
+std::string hex_byte(std::uint64_t value) {
+  constexpr std::string_view kDigits = "0123456789ABCDEF";
+  return std::string("0x") + kDigits[(value >> 4U) & 0xFU] + kDigits[value & 0xFU];
 }
 
 void read_registers(TomlReader& reader, std::map<std::uint8_t, std::uint8_t>& registers) {
   const toml::table* table = reader.table("registers");
   if (table == nullptr) return;
-  for (auto&& [key, node] : *table) {
+  // The table is sorted by name; the user reads from top to bottom.
+  std::vector<std::pair<const toml::key*, const toml::node*>> entries;
+  for (auto&& [key, node] : *table) entries.emplace_back(&key, &node);
+  std::sort(entries.begin(), entries.end(), [](const auto& a, const auto& b) {
+    return a.first->source().begin < b.first->source().begin;
+  });
+  std::set<std::uint64_t> given;
+  for (const auto& [key_entry, node_entry] : entries) {
+    const toml::key& key = *key_entry;
+    const toml::node& node = *node_entry;
     const auto address = parse_word(key.str());
     if (!address || *address > 0xFF) {
       reader.fail_at(key.source(), key.str(), "expected a register address of 0x00 to 0xFF");
@@ -148,6 +171,9 @@ void read_registers(TomlReader& reader, std::map<std::uint8_t, std::uint8_t>& re
         reader.fail_at(value.source(), key.str(), "expected bytes of 0 to 255");
       }
       if (at > 0xFF) reader.fail_at(value.source(), key.str(), "runs past register 0xFF");
+      if (!given.insert(at).second) {
+        reader.fail_at(value.source(), key.str(), "register " + hex_byte(at) + " is given twice");
+      }
       registers[static_cast<std::uint8_t>(at++)] = static_cast<std::uint8_t>(integer->get());
     };
     if (const auto* list = node.as_array()) {
@@ -190,7 +216,7 @@ SlaveConfig read_biss_c(TomlReader& reader) {
   if (const auto busy = reader.integer("busy_periods", 0, kMaxBusy)) {
     config.busy_periods = static_cast<unsigned>(*busy);
   }
-  read_source(reader, config);
+  read_source(reader, config, slave.file);
   slave.device = std::move(config);
   return slave;
 }
@@ -207,7 +233,7 @@ SlaveConfig read_replay(TomlReader& reader) {
   } else if (reader.has("timeout")) {
     reader.fail("timeout", "only with play = \"clock\": the recording holds the timeout");
   }
-  const auto name = reader.text("edges");
+  const auto name = reader.file_name("edges");
   if (!name) reader.fail("edges", "missing: protocol \"replay\" needs a file of edges");
   const std::string path = beside(reader.file(), *name);
   std::string text;
@@ -223,6 +249,7 @@ SlaveConfig read_replay(TomlReader& reader) {
   }
   SlaveConfig slave;
   slave.device = std::move(config);
+  slave.file = path;
   return slave;
 }
 
@@ -238,6 +265,7 @@ SlaveConfig read_slave(const toml::table& table, const std::string& file) {
   SlaveConfig slave = *protocol == 0 ? read_biss_c(reader) : read_replay(reader);
   read_registers(reader, slave.registers);
   reader.finish();
+  slave.source = reader.source();
   return slave;
 }
 

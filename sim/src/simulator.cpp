@@ -101,6 +101,11 @@ void Simulator::run_until(Time time) {
   }
 }
 
+void Simulator::advance(Time duration) {
+  const Time left = now_ < kEndOfTime ? kEndOfTime - now_ : 0;
+  run_until(now_ + std::min(duration, left));
+}
+
 bool Simulator::run_while_waiting(const std::function<bool()>& done, Time limit) {
   check_alive();
   try {
@@ -207,6 +212,8 @@ bool Simulator::pin(Pin pin) const {
       return (outputs & ChipModel::kMo1) != 0;
     case Pin::kMo2:
       return (outputs & ChipModel::kMo2) != 0;
+    case Pin::kClk:
+      return chip_->clk();
     case Pin::kNer:
       return !ner_pulled_ && (outputs & ChipModel::kNerLow) == 0;
     default:

@@ -3,7 +3,6 @@
 #include "toml_reader.hpp"
 
 #include <cmath>
-#include <sstream>
 
 #include "number_text.hpp"
 
@@ -29,21 +28,15 @@ std::string type_name(const toml::node& node) {
   }
 }
 
-std::string plain(double value) {
-  std::ostringstream out;
-  out << value;
-  return out.str();
+SourcePos position(const toml::source_region& where) {
+  return {where.begin.line, where.begin.column};
 }
 
 }  // namespace
 
 void TomlReader::fail_at(const toml::source_region& where, std::string_view key,
                          const std::string& message) const {
-  std::ostringstream out;
-  out << file_ << ':';
-  if (where.begin.line != 0) out << where.begin.line << ':' << where.begin.column << ':';
-  out << " key '" << key << "': " << message;
-  throw ScenarioError(out.str());
+  throw ScenarioError(file_, position(where), key, message);
 }
 
 void TomlReader::fail(std::string_view key, const std::string& message) const {
@@ -111,6 +104,23 @@ std::optional<std::string> TomlReader::text(std::string_view key) {
   if (found == nullptr) return std::nullopt;
   if (!found->is_string()) fail(key, "expected a string, found " + type_name(*found));
   return found->as_string()->get();
+}
+
+std::optional<std::string> TomlReader::file_name(std::string_view key) {
+  auto name = text(key);
+  if (name && name->find('\0') != std::string::npos) {
+    fail(key, "a file name cannot hold a NUL character");
+  }
+  return name;
+}
+
+TableSource TomlReader::source() const {
+  TableSource source;
+  source.table = position(table_.source());
+  for (auto&& [key, value] : table_) {
+    source.keys.emplace(std::string(key.str()), position(value.source()));
+  }
+  return source;
 }
 
 std::optional<std::size_t> TomlReader::choice(std::string_view key,

@@ -42,6 +42,8 @@ class TomlReader {
   // Index into `choices`.
   std::optional<std::size_t> choice(std::string_view key,
                                     std::initializer_list<std::string_view> choices);
+  // Name of a file: text without a NUL character.
+  std::optional<std::string> file_name(std::string_view key);
   const toml::node* node(std::string_view key);
   const toml::table* table(std::string_view key);
   // An array of tables ([[key]]); null if absent.
@@ -50,6 +52,7 @@ class TomlReader {
   // Throws for the first key of the table that has not been asked for.
   void finish() const;
 
+  TableSource source() const;
   const toml::table& raw() const { return table_; }
   const std::string& file() const { return file_; }
 

@@ -283,6 +283,32 @@ TEST(FrameChain, DatasheetExampleOfThreeSlaves_BytesAreWhereTable22ShowsThem) {
   EXPECT_FALSE(result.written[3][0]);
 }
 
+// Page 26: a 16-bit CRC needs bytes 6 and 7; data that reach into byte 6 keep it out of the memory.
+TEST(FrameCrc16, StoredOnlyWhereBothBytesAreFree) {
+  for (unsigned bits = 40; bits <= 64; ++bits) {
+    const std::uint64_t mask = bits == 64 ? ~0ULL : (1ULL << bits) - 1;
+    const std::uint64_t data = 0xA5C396F0E1D2B487ULL & mask;
+    FrameBench bench;
+    bench.configure(0, bits, 0x10);
+    Slave slave = slave_with(line_word(data, bits, 0x190D9), 0);
+    const auto result = bench.run(slave, 0);
+    ASSERT_EQ(result.good, 1U);
+    for (unsigned byte = 0; byte < 8; ++byte) {
+      const bool data_byte = byte < (bits + 7) / 8;
+      const bool crc_byte = byte >= 6 && bits <= 48;
+      ASSERT_EQ(result.written[0][byte], data_byte || crc_byte) << bits << " byte " << byte;
+      if (data_byte) {
+        EXPECT_EQ(result.memory[0][byte], (data >> (8 * byte)) & 0xFF) << bits << " byte " << byte;
+      }
+    }
+    if (bits <= 48) {
+      const std::uint32_t crc = crc_of(bits_of(data, bits), 0x190D9);
+      EXPECT_EQ(result.memory[0][6], crc & 0xFF);
+      EXPECT_EQ(result.memory[0][7], crc >> 8);
+    }
+  }
+}
+
 // Table 21: NOCRC keeps the CRC out of the memory but still checks it.
 TEST(FrameNoCrc, StorageIsOff_CheckIsOn) {
   FrameBench bench;

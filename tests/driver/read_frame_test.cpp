@@ -242,7 +242,8 @@ TEST(ReadFrameFailure, TransportAtEachTransfer_IsReportedWithoutPosition) {
   }
 }
 
-// ---- Chip with AGSERR_ON_INSTR_WRITE = 1: each write of 0xF4 sets nAGSERR = 0 (page 34) ------------
+// ---- A chip whose nAGSERR is 0 after each write of 0xF4 -----------------------------------------
+// Page 34 can be read so; AGSERR_ON_INSTR_WRITE = 1 in the RTL of this project.
 // 0x3B is 0xFB with nAGSERR (bit 6) and nERR (bit 7) at 0; 0x2B has nSCDERR (bit 4) at 0, too.
 
 TEST_F(ReadFrame, StartErrorFlagFromTheWrite_DoesNotSpoilGoodFrame) {

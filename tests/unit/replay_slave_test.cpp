@@ -103,6 +103,8 @@ INSTANTIATE_TEST_SUITE_P(
     Bad, Recording,
     testing::Values(
         BadRecording{"NoFrequency", "100 0\n200 1\n", "f:2: ma_hz is missing"},
+        BadRecording{"Empty", "", "f: the file is empty"},
+        BadRecording{"OnlyComment", "# nothing\n", "f:1: ma_hz is missing"},
         BadRecording{"NoEdges", "ma_hz 1000\n", "f:1: no edges"},
         BadRecording{"Word", "ma_hz 1000\n\nabc 0\n",
                      "f:3: expected a time of 0 to 1e9 ns, found 'abc'"},

@@ -77,16 +77,35 @@ class Deadline {
   std::uint32_t polls_left_;
 };
 
+// Lets time pass without a transfer. A time source that stands still ends it, too: even at 1 ns a
+// call the count is not reached before the time is over.
+template <typename Clock>
+void pause(Clock& clock, std::uint32_t time_us) {
+  const std::uint32_t start_us = clock.now_us();
+  std::uint32_t calls_left = time_us * 1000;
+  while (clock.now_us() - start_us < time_us && --calls_left != 0) {
+  }
+}
+
 }  // namespace detail
 
 // Requests one frame by INSTR = 010 (CDM = 0) and fetches the result of one slave. Used through
 // Device::read_frame(), which documents the errors.
 //
-// Why the value cannot be an old one: SVALIDx is cleared before every frame (by the previous good
-// read, by configure(), or first thing after a failed read), the frame's end is recognised by
-// EOT = 1 together with INSTR = 0, and only SVALIDx = 1 makes the data readable. With two banks the
-// chip switches at the end of the frame (page 26), so that data and SVALIDx of this frame are
-// what the host sees, and no later frame can replace them before the next request.
+// Why the value cannot be an old one:
+//  * No older frame runs when the new one is requested. The chip ignores an equal INSTR while a
+//    frame runs, and would deliver that frame. A good read has seen the end of its frame,
+//    configure() sends BREAK, and after a failed read BREAK comes first: its frame may still run,
+//    for instance if its first status poll has failed.
+//  * A slave that BREAK has cut off gets the time of its timeout before the request. Until then it
+//    would take the new frame's clock for the rest of the old frame, and waiting for SL = 1
+//    (FrameStart::kWaitForLine) is not enough, as SL may be 1 for a data bit.
+//  * SVALIDx is cleared before every frame: by the previous good read, by configure(), or after
+//    that BREAK.
+//  * The frame's end is recognised by EOT = 1 together with INSTR = 0, and only SVALIDx = 1 makes
+//    the data readable. With two banks the chip switches at the end of the frame (page 26), so that
+//    data and SVALIDx of this frame are what the host sees, and no later frame can replace them
+//    before the next request.
 template <typename Bus, typename Clock>
 class SingleShot {
   static_assert(kIsClock<Clock>,
@@ -96,17 +115,17 @@ class SingleShot {
   // `opcodes` is copied; `clock` must outlive this object.
   constexpr SingleShot(Opcodes<Bus> opcodes, Clock& clock) : opcodes_(opcodes), clock_(&clock) {}
 
-  // To be called when all SVALID flags have just been cleared.
-  constexpr void on_flags_cleared() { clear_first_ = false; }
+  // To be called when BREAK has been sent and then all SVALID flags have been cleared.
+  constexpr void on_flags_cleared() { recover_first_ = false; }
 
   // `config` is in the chip; `slave` 1..8 is enabled in it.
   Result<Reading> read(const Config& config, std::uint8_t slave) {
-    if (clear_first_) {
-      if (const Result<void> clear = detail::clear_valid(opcodes_, slave); !clear) {
-        return clear.info();
+    if (recover_first_) {
+      if (const Result<void> recovered = recover(slave); !recovered) {
+        return recovered.info();
       }
     }
-    clear_first_ = true;
+    recover_first_ = true;
     constexpr std::uint8_t kOneFrame =
         regs::INSTR::encode<static_cast<std::uint8_t>(regs::Instr::kCdm0)>();
     if (const Result<void> start = detail::write_instruction(opcodes_, kOneFrame); !start) {
@@ -117,7 +136,7 @@ class SingleShot {
       return status.info();
     }
     if (const ErrorInfo bad = judge(config, slave, *status); bad.code != Error::kNone) {
-      return bad;
+      return bad.code == Error::kLineError ? stop_frame(bad.code) : bad;
     }
     std::array<std::uint8_t, 8> bytes{};
     const Span<std::uint8_t> wanted = Span<std::uint8_t>(bytes).first(reading_bytes(config, slave));
@@ -127,15 +146,27 @@ class SingleShot {
     if (const Result<void> clear = detail::clear_valid(opcodes_, slave); !clear) {
       return clear.info();
     }
-    clear_first_ = false;
-    return decode_reading(config, slave, wanted);
+    const Result<Reading> reading = decode_reading(config, slave, wanted);
+    // kCorrupted casts doubt on the status that came over the same SPI.
+    recover_first_ = !reading;
+    return reading;
   }
 
  private:
   // How long SL may stay low after BREAK while the slaves' timeout runs (12.5 to 40 us are common).
   static constexpr std::uint32_t kLineRecoveryUs = 100;
 
-  // Polls until the frame has ended; stops it when it does not end or could not be started.
+  // After a failed read: ends its frame if it still runs, lets the slaves' timeout pass, and clears
+  // SVALIDx, which that frame may have set. BREAK also sets AGS = 0, which is not used here.
+  Result<void> recover(std::uint8_t slave) {
+    if (const Result<void> stopped = write_break(); !stopped) {
+      return stopped;
+    }
+    detail::pause(*clock_, kLineRecoveryUs);
+    return detail::clear_valid(opcodes_, slave);
+  }
+
+  // Polls until the frame has ended or was refused; stops it when it does not end.
   Result<Status> wait_for_end(std::uint32_t timeout_us) {
     detail::Deadline<Clock> deadline(*clock_, timeout_us);
     for (bool last = false; !last;) {
@@ -144,10 +175,8 @@ class SingleShot {
       if (!status) {
         return status;
       }
-      if (status->idle() && status->start_error()) {
-        return stop_frame(Error::kLineError);
-      }
-      // EOT alone is also 1 before the chip has taken the instruction.
+      // EOT alone is also 1 before the chip has taken the instruction. A refused frame resets
+      // INSTR, too; nAGSERR proves nothing yet, see judge().
       if (status->idle() && status->instruction_done()) {
         return status;
       }
@@ -156,10 +185,15 @@ class SingleShot {
     return stopped.code == Error::kTimeout ? diagnose_line() : stopped;
   }
 
-  // BREAK: the chip is idle, MA is 1 and nAGSERR is 1 again. Returns `cause`, or the failure of the
-  // transfer, which is then the more urgent news.
+  // BREAK: the chip is idle, MA is 1 and the error flags are 1 again.
+  Result<void> write_break() {
+    return detail::write_instruction(opcodes_, regs::BREAK::encode<1>());
+  }
+
+  // Sends BREAK. Returns `cause`, or the failure of the transfer, which is then the more urgent
+  // news.
   ErrorInfo stop_frame(Error cause) {
-    const Result<void> stopped = detail::write_instruction(opcodes_, regs::BREAK::encode<1>());
+    const Result<void> stopped = write_break();
     return stopped ? ErrorInfo(cause) : stopped.info();
   }
 
@@ -181,16 +215,27 @@ class SingleShot {
     return Error::kLineError;
   }
 
-  // What the status after a frame says about one slave.
+  // What the status after a frame (EOT = 1, INSTR = 0) says about one slave.
+  //
+  // SVALIDx comes first: it was cleared before the request, so 1 proves that the requested frame
+  // ran, whatever nAGSERR says. A chip may set nAGSERR = 0 at each write of 0xF4 (page 34 can be
+  // read so; AGSERR_ON_INSTR_WRITE = 1). nAGSERR only tells why there is no data, and only after
+  // nSCDERR, which is 0 when a frame ran. On a chip as above kNoData shows as kLineError. With
+  // several slaves nSCDERR = 0 may be left from an earlier good read that another slave has
+  // spoilt; a frame refused then shows as kCrc.
   static ErrorInfo judge(const Config& config, std::uint8_t slave, const Status& status) {
     if (!status.valid(slave)) {
-      return status.scd_error() ? Error::kCrc : Error::kNoData;
+      if (status.scd_error()) {
+        return Error::kCrc;
+      }
+      return status.start_error() ? Error::kLineError : Error::kNoData;
     }
     if (!status.scd_error()) {
       return {};
     }
-    // Some slave's CRC was wrong. If it is another one its SVALID flag is 0; if all are 1 the chip
-    // contradicts itself and nothing of it is believed.
+    // Some slave's CRC was wrong; SVALIDx identifies it (page 34). If another slave's flag is 0 it
+    // is that one, and this slave's data is good. If all are 1 the chip contradicts itself and
+    // nothing of it is believed.
     for (std::size_t number = 1; number <= kSlaves; ++number) {
       if (config.slaves[number - 1].enabled && !status.valid(static_cast<std::uint8_t>(number))) {
         return {};
@@ -209,8 +254,9 @@ class SingleShot {
 
   Opcodes<Bus> opcodes_;
   Clock* clock_;
-  // Unknown state of SVALID: clear before the next frame.
-  bool clear_first_ = true;
+  // A frame may still run and SVALID is unknown: recover() before the next request. Set by every
+  // error after the first transfer, whatever it is.
+  bool recover_first_ = true;
 };
 
 }  // namespace mb4

@@ -28,6 +28,9 @@ namespace mb4 {
 //   must be high for >= 100 ns. Run SCLK at <= 5 MHz, or stretch the 16th high phase of frames
 //   that begin with 0x03. All other opcodes may run at the full rate; read_frame() of slave 1 does
 //   not use 0x03, so only probe, configuration and other slaves are affected.
+// * The chip needs three system clocks between two writes of 0xF4, and between such a write and a
+//   status read that must see EOT = 0. SCLK <= 2 * f_CLK is always safe; it matters for a slow
+//   system clock: 2 MHz at f_CLK = 1 MHz. The driver cannot check SCLK.
 // * rx is either as long as tx (rx[i] is received while tx[i] is sent) or empty (discard MISO).
 //   tx and rx never overlap.
 // * 2 <= tx.size() <= kMaxTransferBytes (opcodes.hpp).

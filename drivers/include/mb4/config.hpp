@@ -65,8 +65,10 @@ struct ChannelConfig {
 // Complete configuration of one chip. This driver version accepts one slave on channel 1, BiSS C;
 // other combinations are reported as kUnsupported.
 struct Config {
-  // System clock. Pin CLK: 1..25 MHz (D01, page 9). Internal: 10..25 MHz (D05), 20 MHz typical
-  // with a wide spread, so ma_hz and the timeout are then only as good as this figure.
+  // System clock. Pin CLK: at most 25 MHz (D01, page 9). D01 states no minimum; validate() asks
+  // for 1 MHz, which is this driver's own choice. Internal: 10..25 MHz (D05), 20 MHz typical with a
+  // wide spread, so ma_hz and the timeout are then only as good as this figure. A slow system clock
+  // limits SCLK: <= 2 * f_clk_hz is always safe, see bus.hpp; the driver cannot check it.
   std::uint32_t f_clk_hz = 20'000'000;
   ClockSource clock_source = ClockSource::kExternal;
 
@@ -192,7 +194,7 @@ constexpr ErrorInfo check_clock(const Config& config) {
   std::uint32_t min_clk_hz = 0;
   switch (config.clock_source) {
     case ClockSource::kExternal:
-      min_clk_hz = 1'000'000;
+      min_clk_hz = 1'000'000;  // not from the datasheet, see Config::f_clk_hz
       break;
     case ClockSource::kInternal:
       min_clk_hz = 10'000'000;

@@ -96,9 +96,12 @@ class Device {
   // Requests one frame with CDM = 0, waits for its end and returns the data of `slave` (1..8, must
   // be enabled in the configuration).
   //
-  // Transfers of a good read: 3 + p, where p >= 1 is the number of status polls; 1 more after a
-  // failed read. Each poll is 6 bytes, and p is limited by frame_timeout_us(config): at most
-  // t + t/16 + 2 polls for t microseconds even if the clock stands still. In order:
+  // Transfers of a good read: 3 + p, where p >= 1 is the number of status polls; 2 more and 100 us
+  // after a failed read that has made a transfer, because its frame may still run. Each poll is 6
+  // bytes, and p is limited by frame_timeout_us(config): at most t + t/16 + 2 polls for t
+  // microseconds even if the clock stands still. In order:
+  //   0x07  BREAK, then 100 us for the slaves' timeout  (after a failed read)
+  //   0x02  SVALIDx = 0                                 (after a failed read)
   //   0x07  INSTR = 010
   //   0x05  0xF0..0xF4, repeated until EOT = 1 and INSTR = 0
   //   0x09  SCDATA1, 1..8 bytes (0x03 with its address for slaves 2 to 8)
@@ -106,8 +109,8 @@ class Device {
   //
   // kNotConfigured, kInvalidArgument (not touched); kTransport; kNotDetected (status cannot be
   // that of an iC-MB4); kTimeout, kLineError (BREAK was sent); kCrc, kNoData, kCorrupted. A
-  // Reading is returned only for a good frame; whether the slave itself trusts its position is
-  // Reading::error.
+  // Reading is returned only for a good frame that began after this request; whether the slave
+  // itself trusts its position is Reading::error.
   //
   // Sets AGS, HOLDBANK and SWBANK to 0, as any single frame does.
   Result<Reading> read_frame(std::uint8_t slave = 1) {

@@ -41,9 +41,10 @@ enum class Error : std::uint8_t {
   // than the timeout, or the chip has no system clock. Touched: BREAK has been sent, the chip is
   // idle.
   kTimeout = 8,
-  // SL is low where it must be high. Either the chip refused to start the frame (nAGSERR = 0,
-  // datasheet pages 32, 34), or the frame did not end and SL is still low well after BREAK: broken
-  // or shorted line, slave without supply. Touched: BREAK has been sent, the chip is idle.
+  // SL is low where it must be high. Either the chip refused to start the frame (nAGSERR = 0 and no
+  // new data, datasheet pages 32, 34), or the frame did not end and SL is still low well after
+  // BREAK: broken or shorted line, slave without supply. Touched: BREAK has been sent, the chip is
+  // idle.
   kLineError = 9,
   // The frame came with a wrong CRC: nSCDERR = 0 or SVALIDx = 0 (datasheet pages 34, 35). Touched:
   // one frame has run, the chip is idle and the next frame may be requested.

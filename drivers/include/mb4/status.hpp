@@ -35,7 +35,8 @@ class Status {
   [[nodiscard]] constexpr bool idle() const { return get<regs::EOT>() == 1; }
   // No instruction waits for its frame or is being executed (INSTR = 0).
   [[nodiscard]] constexpr bool instruction_done() const { return get<regs::INSTR>() == 0; }
-  // A frame could not be started (nAGSERR = 0).
+  // A frame could not be started (nAGSERR = 0). On a chip that indicates each write of 0xF4 by
+  // nAGSERR (page 34 can be read so) this is true after every request, also of a good frame.
   [[nodiscard]] constexpr bool start_error() const { return get<regs::nAGSERR>() == 0; }
   // A CRC of the last frame was wrong (nSCDERR = 0).
   [[nodiscard]] constexpr bool scd_error() const { return get<regs::nSCDERR>() == 0; }

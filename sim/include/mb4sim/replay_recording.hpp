@@ -27,7 +27,8 @@ struct ReplayRecording {
                             // last to 1, because SL rests at 1
 };
 
-// A mistake in an edge file. what() is complete: "file:line: message".
+// A mistake in an edge file. what() is complete: "file:line: message", without
+// line if the file is empty.
 class RecordingError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;

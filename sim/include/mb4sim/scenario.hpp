@@ -7,6 +7,7 @@
 #define MB4SIM_SCENARIO_HPP_
 
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <stdexcept>
 #include <string>
@@ -15,6 +16,7 @@
 #include <vector>
 
 #include "mb4sim/biss_c_slave.hpp"
+#include "mb4sim/one_line.hpp"
 #include "mb4sim/replay_slave.hpp"
 #include "mb4sim/time.hpp"
 
@@ -23,11 +25,27 @@ namespace mb4::sim {
 // Largest number of slaves of a chip (single-cycle data channels).
 inline constexpr unsigned kMaxSlaves = 8;
 
+// Place in the scenario file, both counted from 1; 0 = unknown.
+struct SourcePos {
+  unsigned line = 0;
+  unsigned column = 0;
+};
+
+// Where a table of the scenario and the values of its keys stand.
+struct TableSource {
+  SourcePos table;
+  std::map<std::string, SourcePos, std::less<>> keys;
+
+  // Of the value if the key is there, else of the table.
+  SourcePos of(std::string_view key) const;
+};
+
 struct ChipConfig {
   std::uint64_t f_clk_hz = 20'000'000;  // pin CLK; 0 = not connected, pin stays 0
   std::uint64_t f_osc_hz = 20'000'000;  // internal oscillator
   // quirks_i of the chip, bits as in mb4_pkg; the default sets AGSERR_ON_HOLDBANK only.
   unsigned quirks = 0b000100;
+  TableSource source;
 
   // Frequency the chip is meant to run from: pin CLK if connected, else the oscillator.
   std::uint64_t system_hz() const { return f_clk_hz != 0 ? f_clk_hz : f_osc_hz; }
@@ -37,11 +55,14 @@ struct HostConfig {
   std::uint64_t sclk_hz = 10'000'000;
   // MA frequency that `mb4sim run` sets up; always one the chip can make.
   std::uint64_t ma_hz = 10'000'000;
+  TableSource source;
 };
 
 struct SlaveConfig {
   std::variant<BissCSlaveConfig, ReplaySlaveConfig> device;
   std::map<std::uint8_t, std::uint8_t> registers;
+  std::string file;  // words or edges were read from it; empty: none
+  TableSource source;
 
   const std::string& name() const;
   unsigned data_bits() const;
@@ -53,6 +74,7 @@ struct ChannelConfig {
   unsigned number = 1;              // 1 or 2
   Time delay = 0;                   // round trip, ps
   std::vector<SlaveConfig> slaves;  // first = next to SL
+  TableSource source;
 };
 
 struct Scenario {
@@ -61,15 +83,19 @@ struct Scenario {
   HostConfig host;
   std::vector<ChannelConfig> channels;  // each number at most once
   std::uint64_t seed = 1;
+  TableSource source;  // of the whole file
 
   const ChannelConfig* channel(unsigned number) const;
 };
 
 // A mistake in a scenario or in a file it names. what() is one complete line:
-// "file:line:column: key 'x': message", without line and column where there is none.
+// "file:line:column: key 'x': message", without line and column where there is none. Control
+// characters are escaped (one_line.hpp).
 class ScenarioError : public std::runtime_error {
  public:
-  using std::runtime_error::runtime_error;
+  explicit ScenarioError(const std::string& message) : std::runtime_error(one_line(message)) {}
+  ScenarioError(const std::string& file, SourcePos where, std::string_view key,
+                const std::string& message);
 };
 
 // Reads a scenario from TOML text. `name` is used in messages and, up to its last slash, as the

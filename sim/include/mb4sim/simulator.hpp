@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// One chip with its clock, reset, host and lines: the whole simulation. Objects are independent of
-// each other; one is used by one thread at a time.
+// One chip with its clock, reset, host and lines: the whole simulation. A process may hold any
+// number of them, all used from one thread.
 #ifndef MB4SIM_SIMULATOR_HPP_
 #define MB4SIM_SIMULATOR_HPP_
 
@@ -51,7 +51,8 @@ class Simulator final : public HostPins {
   // moves a pin throws ModelStopped when an assertion in the RTL fails, and again at every later
   // call. Not to be called from inside a callback.
   void run_until(Time time) override;
-  void advance(Time duration) { run_until(now_ + duration); }
+  // Not beyond kEndOfTime.
+  void advance(Time duration);
   // Runs until `done` returns true, asked after every event and every change of an output, but not
   // beyond `limit`. Returns whether it became true.
   bool run_while_waiting(const std::function<bool()>& done, Time limit);

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Simulated time: a 64-bit count of picoseconds since power-on. It overflows after 213 days.
+// Simulated time: a 64-bit count of picoseconds since power-on.
 #ifndef MB4SIM_TIME_HPP_
 #define MB4SIM_TIME_HPP_
 
@@ -13,6 +13,8 @@ namespace mb4::sim {
 using Time = std::uint64_t;  // ps
 
 inline constexpr Time kNever = std::numeric_limits<Time>::max();
+// No wait goes beyond it (106 days): what is added to it does not overflow.
+inline constexpr Time kEndOfTime = Time{1} << 63U;
 inline constexpr Time kPsPerNs = 1000;
 inline constexpr Time kPsPerUs = 1'000'000;
 inline constexpr Time kPsPerSecond = 1'000'000'000'000;
