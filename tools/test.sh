@@ -36,8 +36,12 @@ cmake --build "$build" -- --quiet
 status=0
 ctest --test-dir "$build" --output-on-failure --no-tests=error -j "$(nproc)" \
   --output-junit junit.xml "$@" >"$build/ctest.log" 2>&1 || status=$?
-# The passed tests are many; show what failed, what was skipped and the summary.
-sed -n '/\*\*\*/,$p' "$build/ctest.log" | grep -v -e ' Passed ' -e '^ *Start ' || tail -n 6 "$build/ctest.log"
+# The passed tests are many: show what failed with its output, and the summary.
+if [ "$status" -ne 0 ]; then
+  grep -v -e ' Passed ' -e '^ *Start ' "$build/ctest.log" || true
+else
+  sed -n '/tests passed/,$p' "$build/ctest.log"
+fi
 if [ "$status" -ne 0 ]; then
   sed -n 's/^[[:space:]]*[0-9]* - \(.*\) (Failed)$/\1/p; s/^[[:space:]]*[0-9]* - \(.*\) (Timeout)$/\1/p' \
     "$build/ctest.log" | while read -r name; do

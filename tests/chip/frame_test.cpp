@@ -281,6 +281,45 @@ TEST(ChipDriver, SilentSensor_TimeoutAndNextReadWorks) {
   EXPECT_EQ(reading.value().position, 0xAAF37BFU >> 2);
 }
 
+// A read that fails while its frame runs must not hand that frame's position to the next read.
+TEST(ChipDriver, ReadFailsInTheMiddle_NextReadReturnsANewPosition) {
+  Chip chip(one_slave(std::string(kEncoder26) + "\nbusy_periods = 60"));
+  struct FlakyBus {
+    mb4::tool::SimBus& bus;
+    int fail_at = 0;
+    int count = 0;
+    bool transfer(mb4::Span<const std::uint8_t> tx, mb4::Span<std::uint8_t> rx) {
+      return ++count == fail_at ? false : bus.transfer(tx, rx);
+    }
+  };
+  for (int fail = 1; fail <= 6; ++fail) {
+    FlakyBus bus{chip.bus};
+    mb4::Device device(bus, chip.clock);
+    ASSERT_TRUE(device.configure(config26(10'000'000)).ok());
+    ASSERT_TRUE(chip.simulator.slave(1)->set_data((100U << 2) | 3U));
+    bus.count = 0;
+    bus.fail_at = fail;
+    const auto failed = device.read_frame();
+    ASSERT_TRUE(chip.simulator.slave(1)->set_data((200U << 2) | 3U));
+    if (failed.ok()) continue;
+    bus.fail_at = 0;
+    const auto reading = device.read_frame();
+    ASSERT_TRUE(reading.ok()) << fail;
+    EXPECT_EQ(reading.value().position, 200U) << fail;
+  }
+}
+
+// Page 34 read literally (decision 8): each write of 0xF4 sets nAGSERR to 0; good frames stay good.
+TEST(ChipDriver, QuirkAgserrOnInstrWrite_GoodFramesAreRead) {
+  Chip chip(one_slave(kEncoder26, "", "[chip.quirks]\nAGSERR_ON_INSTR_WRITE = true"));
+  ASSERT_TRUE(chip.device.configure(config26(10'000'000)).ok());
+  for (int i = 0; i < 3; ++i) {
+    const auto reading = chip.device.read_frame();
+    ASSERT_TRUE(reading.ok());
+    EXPECT_EQ(reading.value().raw, 0xAAF37BFU);
+  }
+}
+
 TEST(ChipDriver, Probe_ReportsVersionAndRevision) {
   for (const auto& [quirk, revision] :
        {std::pair{"", 0x20}, {"[chip.quirks]\nREVISION = 0x10\n", 0x10},
