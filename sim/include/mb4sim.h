@@ -9,7 +9,8 @@
  * then on, mb4sim_spi_transfer() and mb4sim_pin_write() return MB4SIM_ERROR_STOPPED,
  * mb4sim_spi_byte() returns 0. The same with MB4SIM_ERROR_FAILED, also from
  * mb4sim_slave_set_data() and mb4sim_slave_reg_write(), when a call runs out of memory or fails in
- * another unforeseen way.
+ * another unforeseen way. One exception: the TOML parser ends the process when memory runs out while
+ * a scenario is opened.
  */
 #ifndef MB4SIM_H_
 #define MB4SIM_H_

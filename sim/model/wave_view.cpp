@@ -42,7 +42,10 @@ const std::vector<Group>& groups() {
       {"control", false, {"clk_i"}, {".u_control.", ".u_timebase."}},
       {"line engine", false, {"mo"}, {".gen_line[", ".u_line."}},
       {"registers", false, {}, {".u_regs."}},
-      {"straps", false, {"osc_i", "cfgspi_i", "int_nmot_i", "nrd_rnw_i", "nwr_e_i", "getsens_i"}, {}},
+      {"straps",
+       false,
+       {"osc_i", "cfgspi_i", "int_nmot_i", "nrd_rnw_i", "nwr_e_i", "getsens_i"},
+       {}},
   };
   return list;
 }

@@ -176,9 +176,9 @@ SourcePos TableSource::of(std::string_view key) const {
 ScenarioError::ScenarioError(const std::string& file, SourcePos where, std::string_view key,
                              const std::string& message)
     : ScenarioError(file + ":" +
-                    (where.line == 0 ? ""
-                                     : std::to_string(where.line) + ":" +
-                                           std::to_string(where.column) + ":") +
+                    (where.line == 0
+                         ? ""
+                         : std::to_string(where.line) + ":" + std::to_string(where.column) + ":") +
                     " key '" + std::string(key) + "': " + message) {}
 
 const ChannelConfig* Scenario::channel(unsigned number) const {

@@ -51,14 +51,14 @@ inline std::string line_word(std::uint64_t data, unsigned data_bits, std::uint32
 
 // A slave that answers rising edge after rising edge (BiSS C frame, edge by edge).
 struct Slave {
-  std::string payload;           // CDS, then all data and CRC bits
-  unsigned busy = 0;             // processing clocks
-  std::uint64_t timeout = 0;     // in sixteenths of a clock
+  std::string payload;        // CDS, then all data and CRC bits
+  unsigned busy = 0;          // processing clocks
+  std::uint64_t timeout = 0;  // in sixteenths of a clock
   unsigned rises = 0;
   bool in_frame = false;
   bool out = true;
   std::uint64_t last_edge = 0;
-  int cdm_level = -1;            // MA when the timeout ended, -1: not yet
+  int cdm_level = -1;  // MA when the timeout ended, -1: not yet
 
   void edge(bool ma, std::uint64_t now) {
     last_edge = now;
@@ -122,7 +122,7 @@ class FrameBench {
   struct Result {
     std::vector<std::uint64_t> rises;  // time of MA edges in sixteenths of a clock
     std::vector<std::uint64_t> falls;
-    std::uint64_t end_time = 0;        // frame_end
+    std::uint64_t end_time = 0;  // frame_end
     bool ended = false;
     bool idle = false;
     int ma_in_timeout = -1;

@@ -328,7 +328,8 @@ TEST(FrameNoCrc, StorageIsOff_CheckIsOn) {
 TEST(FrameAbort, SilentSlave_MaReturnsHighAfterAFullHalfPeriod) {
   for (const unsigned code : {0U, 1U, 3U, 31U}) {
     const std::uint64_t half = period_clocks(code) / 2 * kSub;
-    for (unsigned phase = 0; phase < 2 * period_clocks(code); phase += 1 + period_clocks(code) / 9) {
+    for (unsigned phase = 0; phase < 2 * period_clocks(code);
+         phase += 1 + period_clocks(code) / 9) {
       FrameBench bench;
       bench.model->freqs_i = static_cast<std::uint8_t>(code);
       bench.configure(0, 8, 0x00);

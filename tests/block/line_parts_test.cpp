@@ -51,9 +51,12 @@ TEST(CrcBlock, GoldenVectors_OfAllWidthsAndStarts) {
     std::uint32_t polynomial;
     std::uint16_t start0, start1, start_ffff;
   };
-  const Row rows[] = {{3, 0xB, 0x5, 0x4, 0x2},      {4, 0x13, 0x9, 0x4, 0xE},
-                      {5, 0x25, 0x10, 0x06, 0x1E},  {6, 0x43, 0x18, 0x04, 0x31},
-                      {7, 0x89, 0x21, 0x12, 0x20},  {8, 0x12F, 0x0C, 0xEC, 0x7E},
+  const Row rows[] = {{3, 0xB, 0x5, 0x4, 0x2},
+                      {4, 0x13, 0x9, 0x4, 0xE},
+                      {5, 0x25, 0x10, 0x06, 0x1E},
+                      {6, 0x43, 0x18, 0x04, 0x31},
+                      {7, 0x89, 0x21, 0x12, 0x20},
+                      {8, 0x12F, 0x0C, 0xEC, 0x7E},
                       {16, 0x190D9, 0x13F8, 0x2264, 0x07A8}};
   Block<Vmb4_crc> crc;
   crc.model.load_i = 0;
@@ -163,7 +166,8 @@ TEST(SamplerBlock, DelayOfKQuarters_CountsKPlusOneAndTakesBitsMidway) {
       sampler.clock();
       m.clear_i = 0;
       // Time 0 (in half clocks) is the rising clock edge at which MA rises for the second time. SL
-      // falls `delay` plus a quarter of a half clock later; then bits follow, one a period: 1 0 1 1.
+      // falls `delay` plus a quarter of a half clock later; then bits follow, one a period: 1 0
+      // 1 1.
       const unsigned period = 4 * half;
       const std::string bits = "1011001110001";
       const auto level = [&](int time) {

@@ -61,8 +61,8 @@ TEST_P(AgsRate, Frames_AreExactlyOnePeriodApart) {
 
 INSTANTIATE_TEST_SUITE_P(Table37Fast, AgsRate, testing::Range(1U, 0x7CU));
 INSTANTIATE_TEST_SUITE_P(Table37Slow, AgsRate,
-                         testing::Values(0x80, 0x81, 0x82, 0x83, 0x87, 0x88, 0x8F, 0x90, 0x9F,
-                                         0xA0, 0xBF, 0xC0, 0xD5, 0xEA, 0xFE, 0xFF));
+                         testing::Values(0x80, 0x81, 0x82, 0x83, 0x87, 0x88, 0x8F, 0x90, 0x9F, 0xA0,
+                                         0xBF, 0xC0, 0xD5, 0xEA, 0xFE, 0xFF));
 
 TEST(ChipAgs, HundredThousandFrames_NoDrift) {
   Chip chip(one_slave(kTiny));
@@ -190,8 +190,8 @@ TEST(ChipGetsens, HeldHigh_FramesRepeatUnlessHoldCdm) {
   }
 }
 
-// Pages 31, 32: with AGSINFINITE a frame is started by GETSENS or by INSTR; without AGS GETSENS does
-// nothing.
+// Pages 31, 32: with AGSINFINITE a frame is started by GETSENS or by INSTR; without AGS GETSENS
+// does nothing.
 TEST(ChipGetsens, AgsInfinite_InstrStartsAFrameAndStays) {
   Chip chip(one_slave(kEncoder26));
   chip.configure_slave1(28, 0x06, 0x00, 0x7F);
@@ -209,7 +209,8 @@ TEST(ChipGetsens, AgsInfinite_InstrStartsAFrameAndStays) {
 TEST(ChipAgs, InstrUnderAgs_ChoosesCdmAndStays) {
   Chip chip(one_slave(kEncoder26));
   chip.configure_slave1(28, 0x06, 0x00, 0x31);  // 50 us
-  for (const auto& [byte, cdm] : {std::pair{0x01, false}, {0x03, true}, {0x05, false}, {0x07, true}}) {
+  for (const auto& [byte, cdm] :
+       {std::pair{0x01, false}, {0x03, true}, {0x05, false}, {0x07, true}}) {
     chip.instruct(static_cast<std::uint8_t>(byte));
     chip.advance_us(220);
     EXPECT_EQ(chip.simulator.slave(1)->last_cdm(), cdm) << byte;  // 011: NOT CDSSEL = NOT 0
@@ -239,13 +240,13 @@ TEST(ChipAgs, BreakWithAgs_RecoversFromASilentSensor) {
   EXPECT_EQ(chip.read(0xF1), 0x02);
 }
 
-// Page 33: HOLDBANK under AGS: the next frame due is omitted with nAGSERR = 0 and SWBANKFAIL = 1; the
-// quirk lets it run.
+// Page 33: HOLDBANK under AGS: the next frame due is omitted with nAGSERR = 0 and SWBANKFAIL = 1;
+// the quirk lets it run.
 TEST(ChipAgs, HoldBank_OmitsFramesOrWithTheQuirkRunsThem) {
   for (const bool error : {true, false}) {
-    Chip chip(one_slave(kEncoder26, "",
-                        std::string("[chip.quirks]\nAGSERR_ON_HOLDBANK = ") +
-                            (error ? "true" : "false")));
+    Chip chip(one_slave(
+        kEncoder26, "",
+        std::string("[chip.quirks]\nAGSERR_ON_HOLDBANK = ") + (error ? "true" : "false")));
     chip.configure_slave1(28, 0x06, 0x00, 0x31);
     chip.instruct(0x01);
     chip.advance_us(130);

@@ -86,7 +86,8 @@ TEST(ChipFrame, ProcessingTimeAndDelay_EdgesAreNPlus5PlusB) {
   }
 }
 
-// Every single flipped bit of data and CRC: no value from the driver, SVALID1 = 0, nSCDERR = 0, NER.
+// Every single flipped bit of data and CRC: no value from the driver, SVALID1 = 0, nSCDERR = 0,
+// NER.
 TEST(ChipFrame, EveryFlippedBit_IsAnErrorAndNeverAValue) {
   Chip chip(one_slave(kEncoder26));
   ASSERT_TRUE(chip.device.configure(config26(10'000'000)).ok());
@@ -321,9 +322,9 @@ TEST(ChipDriver, QuirkAgserrOnInstrWrite_GoodFramesAreRead) {
 }
 
 TEST(ChipDriver, Probe_ReportsVersionAndRevision) {
-  for (const auto& [quirk, revision] :
-       {std::pair{"", 0x20}, {"[chip.quirks]\nREVISION = 0x10\n", 0x10},
-        {"[chip.quirks]\nREVISION = 0x11\n", 0x11}}) {
+  for (const auto& [quirk, revision] : {std::pair{"", 0x20},
+                                        {"[chip.quirks]\nREVISION = 0x10\n", 0x10},
+                                        {"[chip.quirks]\nREVISION = 0x11\n", 0x11}}) {
     Chip chip(quirk);
     const auto identity = chip.device.probe();
     ASSERT_TRUE(identity.ok());
@@ -342,14 +343,15 @@ TEST(ChipDriver, EncoderReportsErrorBit_ReadingSaysSo) {
   EXPECT_TRUE(reading.value().warning);
 }
 
-// The same word whatever the length, CRC and frequency; the slave's data change from frame to frame.
+// The same word whatever the length, CRC and frequency; the slave's data change from frame to
+// frame.
 TEST(ChipDriver, LengthsAndCrcs_RoundTrip) {
   std::uint64_t seed = 0x9E3779B97F4A7C15ULL;
   for (unsigned bits = 1; bits <= 64; ++bits) {
     for (const std::uint32_t polynomial : {0x0U, 0xBU, 0x43U, 0x97U, 0x12FU, 0x190D9U}) {
       std::ostringstream keys;
-      keys << "data_bits = " << bits << "\ncrc = " << polynomial << "\ncrc_start = "
-           << (polynomial == 0 ? 0 : 5) << "\n";
+      keys << "data_bits = " << bits << "\ncrc = " << polynomial
+           << "\ncrc_start = " << (polynomial == 0 ? 0 : 5) << "\n";
       Chip chip(one_slave(keys.str(), "delay_ns = 80.0"));
       mb4::Config config = config26(10'000'000);
       config.slaves[0].data_bits = static_cast<std::uint8_t>(bits);
@@ -375,8 +377,8 @@ TEST(ChipDriver, LengthsAndCrcs_RoundTrip) {
 // Page 32, 33, Table 46: BiSS C INIT stores the line delay of channel 1 in quarter periods
 // (decision 2: an ideal line gives 1), resets the flags and clears itself.
 TEST(ChipInit, LineDelay_IsMeasuredInQuarterPeriods) {
-  for (const auto& [delay, quarters] : {std::pair{"0.0", 1}, {"30.0", 2}, {"110.0", 5},
-                                        {"1000.0", 41}, {"6300.0", 253}}) {
+  for (const auto& [delay, quarters] :
+       {std::pair{"0.0", 1}, {"30.0", 2}, {"110.0", 5}, {"1000.0", 41}, {"6300.0", 253}}) {
     Chip chip(one_slave(kEncoder26, std::string("delay_ns = ") + delay));
     chip.configure_slave1(28, 0x06, 0x00);
     // Decision 25: INIT reads back 1 at least until the next possible register read.

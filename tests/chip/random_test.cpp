@@ -66,13 +66,16 @@ class Generator {
     result.registers.singlebank = one_in(5);
     result.freqs = one_in(3) ? 0 : one_in(12) ? 0x11 + below(2) : below(6);
     std::ostringstream text;
-    text << "[chip]\nf_clk_hz = " << (one_in(2) ? 20'000'000 : one_in(2) ? 25'000'000 : 12'500'000)
+    text << "[chip]\nf_clk_hz = "
+         << (one_in(2)   ? 20'000'000
+             : one_in(2) ? 25'000'000
+                         : 12'500'000)
          << "\n";
     for (unsigned line = 0; line < (result.registers.slaveloc5 ? 2U : 1U); ++line) {
       const unsigned first = line * 4;
       const unsigned room = result.registers.slaveloc5 ? 4 : 8;
-      text << "[[channel]]\nnumber = " << line + 1 << "\ndelay_ns = "
-           << (one_in(3) ? 0U : below(one_in(10) ? 20'000 : 900)) << ".0\n";
+      text << "[[channel]]\nnumber = " << line + 1
+           << "\ndelay_ns = " << (one_in(3) ? 0U : below(one_in(10) ? 20'000 : 900)) << ".0\n";
       unsigned mask = 0;
       while (mask == 0) mask = below(1U << room);
       if (one_in(2)) mask = 1U << below(room);  // one slave is the usual case

@@ -22,24 +22,42 @@ Bits table6(unsigned address) {
   if (address < 0x80) return {0, 0};
   if (address < 0xE0) return {0xFF, 0};
   switch (address) {
-    case 0xE2: return {0xFF, 0};
-    case 0xE3: return {0x3F, 0};
-    case 0xE4: return {0x03, 0};
-    case 0xE5: return {0xFB, 0};
-    case 0xE6: return {0xFF, 0};
-    case 0xE7: return {0x03, 0};
-    case 0xE8: return {0xFF, 0};
-    case 0xE9: return {0xFF, 0};
-    case 0xEA: return {0, 0x20};
-    case 0xEB: return {0, 0x84};
-    case 0xEC: return {0x10, 0x01};
-    case 0xED: return {0x0F, 0};
-    case 0xEF: return {0xFF, 0};
-    case 0xF0: return {0, 0xFB};  // decision 27: healthy bus, REGEND 0
-    case 0xF5: return {0xFF, 0};
-    case 0xF8: return {0, 0x55};  // '0101', CDS 0, SL1 and SL2 pulled up
-    case 0xF9: return {0, 0x55};
-    default: return {0, 0};
+    case 0xE2:
+      return {0xFF, 0};
+    case 0xE3:
+      return {0x3F, 0};
+    case 0xE4:
+      return {0x03, 0};
+    case 0xE5:
+      return {0xFB, 0};
+    case 0xE6:
+      return {0xFF, 0};
+    case 0xE7:
+      return {0x03, 0};
+    case 0xE8:
+      return {0xFF, 0};
+    case 0xE9:
+      return {0xFF, 0};
+    case 0xEA:
+      return {0, 0x20};
+    case 0xEB:
+      return {0, 0x84};
+    case 0xEC:
+      return {0x10, 0x01};
+    case 0xED:
+      return {0x0F, 0};
+    case 0xEF:
+      return {0xFF, 0};
+    case 0xF0:
+      return {0, 0xFB};  // decision 27: healthy bus, REGEND 0
+    case 0xF5:
+      return {0xFF, 0};
+    case 0xF8:
+      return {0, 0x55};  // '0101', CDS 0, SL1 and SL2 pulled up
+    case 0xF9:
+      return {0, 0x55};
+    default:
+      return {0, 0};
   }
 }
 

@@ -84,8 +84,7 @@ TEST(ChipSpi, WriteInstruction_StartsAt0xF4) {
 
 // SCLK, CLK and a starting phase: 50 MHz SCLK is I203, I204 (10 ns each); CLK 12.5..25 MHz is D01,
 // D05. All opcodes at once.
-class SpiAtRatio
-    : public testing::TestWithParam<std::tuple<unsigned, unsigned, unsigned>> {};
+class SpiAtRatio : public testing::TestWithParam<std::tuple<unsigned, unsigned, unsigned>> {};
 
 TEST_P(SpiAtRatio, AllOpcodes_WorkAtEveryPhase) {
   const auto [sclk_khz, clk_khz, phases] = GetParam();

@@ -13,7 +13,9 @@ bool on_line(const Registers& registers, unsigned x, unsigned line) {
   return (registers.slaveloc5 && x >= 4) == (line == 2);
 }
 
-bool enabled(const Registers& registers, unsigned x) { return (registers.slave[4 * x] & 0x40) != 0; }
+bool enabled(const Registers& registers, unsigned x) {
+  return (registers.slave[4 * x] & 0x40) != 0;
+}
 
 unsigned data_bits(const Registers& registers, unsigned x) {
   return (registers.slave[4 * x] & 0x3FU) + 1;
@@ -72,8 +74,8 @@ unsigned Reference::frame_bits(const Registers& registers, unsigned line) {
 bool Reference::word(const Registers& registers, unsigned x, std::string& bits, Bank& bank) {
   const unsigned length = data_bits(registers, x);
   const CrcChoice crc = crc_choice(registers.slave[4 * x + 1]);
-  const auto start = static_cast<std::uint16_t>(registers.slave[4 * x + 2] |
-                                                (registers.slave[4 * x + 3] << 8));
+  const auto start =
+      static_cast<std::uint16_t>(registers.slave[4 * x + 2] | (registers.slave[4 * x + 3] << 8));
   if (bits.size() < length + crc.width) throw std::logic_error("reference: too few bits");
   const std::string data = bits.substr(0, length);
   const std::string sent = bits.substr(length, crc.width);

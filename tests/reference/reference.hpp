@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What an iC-MB4 shows its host after a BiSS C frame, computed from the registers the host wrote and
-// the bits that stood on the lines. Written from the datasheet (pages 23..26, 31, 34, 35) and
+// What an iC-MB4 shows its host after a BiSS C frame, computed from the registers the host wrote
+// and the bits that stood on the lines. Written from the datasheet (pages 23..26, 31, 34, 35) and
 // decisions 9, 28, 30; it shares no code with the RTL, the simulator or the driver.
 #ifndef MB4_TESTS_REFERENCE_REFERENCE_HPP_
 #define MB4_TESTS_REFERENCE_REFERENCE_HPP_

@@ -191,14 +191,15 @@ INSTANTIATE_TEST_SUITE_P(
                     "s.toml:6:30: key '68': register 0x44 is given twice"},
         BadScenario{"RegistersOverlap",
                     slave("data_bits = 8\nregisters = { 0x44 = [1, 2], 0x43 = [3, 4] }"),
-                    "s.toml:6:42: key '0x43': register 0x44 is given twice"},
+                    "s.toml:6:41: key '0x43': register 0x44 is given twice"},
         BadScenario{"SineOverflow",
                     slave("data_bits = 8\nsource = \"sine\"\noffset = -5e18\namplitude = 5e18\n"
                           "period_us = 1"),
                     "s.toml:8:13: key 'amplitude': with offset -5e+18 at most 4e+18"},
-        BadScenario{"ControlCharacters", "[host]\ninterface = \"\\u001B\\u0000\\u0085\\r\"\n",
-                    "s.toml:2:13: key 'interface': unknown value '\\x1b\\x00\\x85\\r', expected one "
-                    "of: spi, intel, motorola"},
+        BadScenario{
+            "ControlCharacters", "[host]\ninterface = \"\\u001B\\u0000\\u0085\\r\"\n",
+            "s.toml:2:13: key 'interface': unknown value '\\x1b\\x00\\x85\\r', expected one "
+            "of: spi, intel, motorola"},
         BadScenario{"ControlCharactersInKey", "\"a\\n\\u0007\" = 1\n",
                     "s.toml:1:1: key 'a\\n\\x07': unknown key"},
         BadScenario{"NulInFileName",

@@ -5,8 +5,8 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-
-#include "exit_status.hpp"
+#include <string_view>
+#include <vector>
 
 namespace mb4::tool {
 namespace {
@@ -33,19 +33,56 @@ std::uint32_t frame_timeout(const sim::Scenario& scenario, const sim::ChannelCon
   return static_cast<std::uint32_t>(std::min<double>(us, kMaxFrameTimeoutUs));
 }
 
+[[noreturn]] void fail(const sim::Scenario& scenario, const sim::TableSource& source,
+                       std::string_view key, const std::string& message) {
+  throw sim::ScenarioError(scenario.name, source.of(key), key, message);
+}
+
+// What the driver refuses, with the key of the scenario that causes it.
+[[noreturn]] void refuse(const sim::Scenario& scenario, const ErrorInfo& error) {
+  const std::vector<sim::SlaveConfig>& slaves = scenario.channel(1)->slaves;
+  const bool of_slave = error.number >= 1 && error.number <= slaves.size();
+  const sim::SlaveConfig& slave = slaves[of_slave ? error.number - 1U : 0U];
+  switch (error.field) {
+    case ConfigField::kClkHz:
+      fail(scenario, scenario.chip.source, scenario.chip.f_clk_hz != 0 ? "f_clk_hz" : "f_osc_hz",
+           fmt::format("{} is outside what the driver takes, 1 to 25 MHz (internal: 10 to 25 MHz)",
+                       scenario.chip.system_hz()));
+    case ConfigField::kMaHz:
+      fail(scenario, scenario.host.source, "ma_hz",
+           fmt::format("the chip cannot make {} Hz", scenario.host.ma_hz));
+    case ConfigField::kSlaveEnabled:
+      fail(scenario, slave.source, "slave", "the driver reads one slave in this version");
+    case ConfigField::kDataBits:
+      fail(scenario, slave.source, "data_bits",
+           fmt::format("the chip cannot take {}", slave.data_bits()));
+    case ConfigField::kFlags:
+      fail(scenario, slave.source, "flag_bits",
+           fmt::format("the driver cannot take {}", slave.flag_bits()));
+    case ConfigField::kCrcPolynomial:
+      fail(scenario, slave.source, "crc",
+           fmt::format("the chip cannot calculate 0x{:X}, only degree 1 to 7, 0x12F and 0x190D9",
+                       slave.crc().polynomial));
+    case ConfigField::kCrcStart:
+      fail(scenario, slave.source, "crc_start", "must be 0 without CRC (crc = 0)");
+    default:
+      break;
+  }
+  fail(scenario, scenario.source, "channel", describe(error));
+}
+
 }  // namespace
 
 Config make_config(const sim::Scenario& scenario) {
-  const auto fail = [&](const std::string& message) -> void {
-    throw UseError(fmt::format("{}: {}", scenario.name, message));
-  };
+  if (const sim::ChannelConfig* second = scenario.channel(2)) {
+    fail(scenario, second->source, "number",
+         "the driver does not support channel 2 in this version");
+  }
   const sim::ChannelConfig* channel = scenario.channel(1);
-  if (channel == nullptr || channel->slaves.empty()) {
-    fail("key 'slave': channel 1 has no slave to read");
-  }
-  if (scenario.channel(2) != nullptr) {
-    fail("key 'number': channel 2 is not supported in this version");
-  }
+  if (channel == nullptr)
+    fail(scenario, scenario.source, "channel", "missing: there is no slave to read");
+  if (channel->slaves.empty())
+    fail(scenario, channel->source, "slave", "missing: there is no slave to read");
   Config config;
   config.f_clk_hz = static_cast<std::uint32_t>(scenario.chip.system_hz());
   config.clock_source =
@@ -64,9 +101,7 @@ Config make_config(const sim::Scenario& scenario) {
     target.crc_polynomial = slave.crc().polynomial;
     target.crc_start = static_cast<std::uint16_t>(slave.crc().start);
   }
-  if (const Result<void> valid = validate(config); !valid) {
-    fail(describe(valid.info()) + " (this is what chip and driver can do in this version)");
-  }
+  if (const Result<void> valid = validate(config); !valid) refuse(scenario, valid.info());
   return config;
 }
 

@@ -13,7 +13,8 @@
 
 namespace mb4::tool {
 
-// Configuration that reads all slaves of channel 1. Throws UseError if chip or driver cannot.
+// Configuration that reads all slaves of channel 1. Throws sim::ScenarioError with
+// the key of the scenario that chip or driver cannot follow.
 Config make_config(const sim::Scenario& scenario);
 
 // "no iC-MB4 detected", "invalid configuration: data_bits of slave 1", ...

@@ -6,14 +6,19 @@
 #include <fmt/core.h>
 
 #include <CLI/CLI.hpp>
+#include <charconv>
+#include <cstdint>
 #include <cstdio>
 #include <exception>
 #include <functional>
+#include <limits>
 #include <string>
+#include <system_error>
 
 #include "commands.hpp"
 #include "exit_status.hpp"
 #include "mb4sim/model_stopped.hpp"
+#include "mb4sim/one_line.hpp"
 #include "mb4sim/version.hpp"
 
 namespace {
@@ -24,8 +29,37 @@ using mb4::tool::SpiOptions;
 
 constexpr std::uint64_t kMaxFrames = 1'000'000'000;
 
+// Whole number, decimal or 0x. What goes on to CLI11 is decimal without leading zeros: left alone
+// it reads octal, wraps negative numbers and cuts long ones.
+CLI::Validator whole_number(std::uint64_t minimum, std::uint64_t maximum) {
+  const auto check = [=](std::string& text) {
+    const bool hex = text.starts_with("0x") || text.starts_with("0X");
+    const char* const begin = text.data() + (hex ? 2 : 0);
+    const char* const end = text.data() + text.size();
+    std::uint64_t value = 0;
+    const auto [stop, error] = std::from_chars(begin, end, value, hex ? 16 : 10);
+    if (error != std::errc() || stop != end || value < minimum || value > maximum) {
+      return fmt::format("'{}' is no whole number of {} to {}", text, minimum, maximum);
+    }
+    text = fmt::format("{}", value);
+    return std::string();
+  };
+  return CLI::Validator(check, "");
+}
+
+CLI::Validator file_name() {
+  return CLI::Validator(
+      [](const std::string& text) {
+        return text.empty() ? std::string("a file name is needed") : std::string();
+      },
+      "");
+}
+
 void add_scenario(CLI::App& command, std::string& target) {
-  command.add_option("scenario", target, "Scenario file (TOML)")->required()->type_name("SCENARIO");
+  command.add_option("scenario", target, "Scenario file (TOML)")
+      ->required()
+      ->type_name("SCENARIO")
+      ->check(file_name());
 }
 
 int run(int argc, char** argv) {
@@ -44,13 +78,17 @@ int run(int argc, char** argv) {
   add_scenario(*run_app, run_options.scenario);
   run_app->add_option("--frames", run_options.frames, "Frames to read (default 10)")
       ->type_name("N")
-      ->check(CLI::Range(std::uint64_t{1}, kMaxFrames));
+      ->transform(whole_number(1, kMaxFrames));
   run_app->add_option("--trace", run_options.trace, "Write a waveform, and a .gtkw view beside it")
-      ->type_name("F.fst");
-  run_app->add_option("--csv", run_options.csv, "Also write the table as CSV")->type_name("F");
+      ->type_name("F.fst")
+      ->check(file_name());
+  run_app->add_option("--csv", run_options.csv, "Also write the table as CSV")
+      ->type_name("F")
+      ->check(file_name());
   run_app->add_flag("--json", run_options.json, "Print JSON instead of the table");
   run_app->add_option("--seed", run_options.seed, "Seed of every random choice (default 1)")
-      ->type_name("S");
+      ->type_name("S")
+      ->transform(whole_number(0, std::numeric_limits<std::uint64_t>::max()));
   run_app->footer("Example: mb4sim run examples/resolute-26.toml --frames 5 --trace run.fst");
   run_app->callback([&] { command = [&] { return mb4::tool::run_command(run_options); }; });
 
@@ -71,7 +109,7 @@ int run(int argc, char** argv) {
   add_scenario(*regs_app, regs_options.scenario);
   regs_app->add_option("--frames", regs_options.frames, "Frames to read before (default 0)")
       ->type_name("N")
-      ->check(CLI::Range(std::uint64_t{0}, kMaxFrames));
+      ->transform(whole_number(0, kMaxFrames));
   regs_app->add_flag("--reset", regs_options.reset, "As after reset, without configuring the chip")
       ->excludes("--frames");
   regs_app->add_flag("--json", regs_options.json, "Print JSON instead of the table");
@@ -82,7 +120,7 @@ int run(int argc, char** argv) {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) return app.exit(error);  // --help, --version
-    fmt::print(stderr, "mb4sim: {} (see mb4sim --help)\n", error.what());
+    fmt::print(stderr, "mb4sim: {} (see mb4sim --help)\n", mb4::sim::one_line(error.what()));
     return mb4::tool::kWrongUse;
   }
   return command();
@@ -98,9 +136,10 @@ int main(int argc, char** argv) {
     fmt::print(stderr, "mb4sim: the model stopped: {}\n", error.what());
     status = mb4::tool::kModelStopped;
   } catch (const std::exception& error) {
-    fmt::print(stderr, "mb4sim: {}\n", error.what());
+    fmt::print(stderr, "mb4sim: {}\n", mb4::sim::one_line(error.what()));
   }
-  if (std::fflush(stdout) != 0 && status == mb4::tool::kGood) {
+  const bool written = std::fflush(stdout) == 0 && std::ferror(stdout) == 0;
+  if (!written && (status == mb4::tool::kGood || status == mb4::tool::kBad)) {
     fmt::print(stderr, "mb4sim: cannot write to standard output\n");
     status = mb4::tool::kWrongUse;
   }

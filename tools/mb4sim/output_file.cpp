@@ -3,6 +3,7 @@
 #include "output_file.hpp"
 
 #include <fmt/core.h>
+#include <unistd.h>
 
 #include <cerrno>
 #include <cstring>
@@ -27,12 +28,68 @@ bool is_special(const std::string& path) {
   return fs::exists(status) && !fs::is_regular_file(status);
 }
 
+bool same_file(const std::string& a, const std::string& b) {
+  std::error_code error;
+  if (fs::equivalent(a, b, error) && !error) return true;
+  const auto plain = [&](const std::string& path) {
+    const fs::path absolute = fs::absolute(link_target(path), error);
+    const fs::path canonical = fs::weakly_canonical(absolute, error);
+    return error ? absolute.lexically_normal() : canonical;
+  };
+  return plain(a) == plain(b);
+}
+
 }  // namespace
 
-OutputFile::OutputFile(std::string path)
-    : path_(std::move(path)), partial_(is_special(path_) ? path_ : path_ + ".partial") {
+std::string link_target(const std::string& path) {
+  constexpr int kMaxLinks = 40;  // as Linux follows
+  fs::path target(path);
+  std::error_code error;
+  for (int i = 0; i < kMaxLinks && fs::is_symlink(fs::symlink_status(target, error)); ++i) {
+    const fs::path next = fs::read_symlink(target, error);
+    if (error) break;
+    target = target.parent_path() / next;
+  }
+  return target.string();
+}
+
+std::string partial_path(const std::string& path) {
+  return is_special(path) ? path : path + ".partial";
+}
+
+void require_regular(const std::string& path) {
+  std::error_code error;
+  const fs::file_status status = fs::status(path, error);
+  if (status.type() == fs::file_type::none) {
+    throw UseError(fmt::format("{}: cannot write: {}", path, error.message()));
+  }
+  if (!fs::exists(status) || fs::is_regular_file(status)) return;
+  throw UseError(fmt::format("{}: cannot write: it is {}", path,
+                             fs::is_directory(status) ? "a directory" : "not a regular file"));
+}
+
+void require_distinct(const std::vector<Output>& outputs, const std::vector<std::string>& inputs) {
+  for (std::size_t i = 0; i < outputs.size(); ++i) {
+    const auto& [option, path] = outputs[i];
+    for (const std::string& input : inputs) {
+      if (same_file(path, input)) {
+        throw UseError(fmt::format("{}: {} would replace the input {}", option, path, input));
+      }
+    }
+    for (std::size_t k = 0; k < i; ++k) {
+      if (outputs[k].option == option && outputs[k].path == path) continue;
+      if (same_file(path, outputs[k].path)) {
+        throw UseError(fmt::format("{}: {} is the same file as {} of {}", option, path,
+                                   outputs[k].path, outputs[k].option));
+      }
+    }
+  }
+}
+
+OutputFile::OutputFile(std::string path) : path_(std::move(path)), partial_(partial_path(path_)) {
   require_writable(path_);
   if (partial_ == path_) return;
+  require_regular(partial_);
   errno = 0;
   if (!std::ofstream(partial_, std::ios::binary)) fail(path_);
 }
@@ -61,6 +118,11 @@ void require_writable(const std::string& path) {
   if (fs::is_directory(path, ignored)) {
     errno = EISDIR;
     fail(path);
+  }
+  if (is_special(path)) {
+    // Opening a pipe only to try it would end it for its reader.
+    if (::access(path.c_str(), W_OK) != 0) fail(path);
+    return;
   }
   const bool existed = fs::exists(path, ignored);
   errno = 0;

@@ -7,6 +7,7 @@
 
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace mb4::tool {
 
@@ -27,6 +28,24 @@ class OutputFile {
   std::string partial_;  // written first, then renamed; equals path_ for devices and pipes
   bool committed_ = false;
 };
+
+// An output file and the option that asks for it.
+struct Output {
+  std::string option;
+  std::string path;
+};
+
+// Throws UseError if one of `outputs` is the same file as one of `inputs` or as another output.
+void require_distinct(const std::vector<Output>& outputs, const std::vector<std::string>& inputs);
+
+// Throws UseError if there is something at `path` that is no regular file.
+void require_regular(const std::string& path);
+
+// `path` with symbolic links at its end followed, also to a file that does not exist yet.
+std::string link_target(const std::string& path);
+
+// Name under which an OutputFile is written before it is complete.
+std::string partial_path(const std::string& path);
 
 // Throws UseError if a file of this name cannot be created or overwritten. Leaves no file behind
 // that was not there.

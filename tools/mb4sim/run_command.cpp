@@ -4,6 +4,9 @@
 
 #include <cstdio>
 #include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
 
 #include "chip_setup.hpp"
 #include "commands.hpp"
@@ -26,6 +29,30 @@ std::string view_path(const std::string& trace) {
   return trace.substr(0, trace.size() - (fst ? kEnding.size() : 0)) + ".gtkw";
 }
 
+// Refuses outputs that would overwrite something they must not, before anything is written.
+void check_outputs(const RunOptions& options, const sim::Scenario& scenario) {
+  std::vector<std::string> inputs{options.scenario};
+  for (const sim::ChannelConfig& channel : scenario.channels) {
+    for (const sim::SlaveConfig& slave : channel.slaves) {
+      if (!slave.file.empty()) inputs.push_back(slave.file);
+    }
+  }
+  std::vector<Output> outputs;
+  if (!options.csv.empty()) {
+    outputs.push_back({"--csv", options.csv});
+    outputs.push_back({"--csv", partial_path(options.csv)});
+  }
+  if (!options.trace.empty()) {
+    // The FST writer keeps a second file while it works.
+    const std::string work = link_target(options.trace) + ".hier";
+    for (const std::string& path : {options.trace, work, view_path(options.trace)}) {
+      require_regular(path);
+      outputs.push_back({"--trace", path});
+    }
+  }
+  require_distinct(outputs, inputs);
+}
+
 }  // namespace
 
 int run_command(const RunOptions& options) {
@@ -33,6 +60,7 @@ int run_command(const RunOptions& options) {
   const Config config = make_config(scenario);
   const sim::ChannelConfig& channel = *scenario.channel(1);
   // Everything is checked before the first file is touched.
+  check_outputs(options, scenario);
   std::unique_ptr<OutputFile> csv;
   if (!options.csv.empty()) csv = std::make_unique<OutputFile>(options.csv);
   sim::SimulatorOptions sim_options;
@@ -40,7 +68,8 @@ int run_command(const RunOptions& options) {
   if (!options.trace.empty()) {
     require_writable(options.trace);
     require_writable(view_path(options.trace));
-    sim_options.trace_path = options.trace;
+    // The FST writer would replace a link instead of following it.
+    sim_options.trace_path = link_target(options.trace);
   }
 
   FrameReport report(channel);

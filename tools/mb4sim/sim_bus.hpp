@@ -26,8 +26,8 @@ class SimBus {
   sim::Simulator& simulator_;
 };
 
-// Looking at the clock takes time, as it does on a processor: a driver that waits by the clock alone
-// would wait for ever otherwise.
+// Looking at the clock takes time, as it does on a processor: a driver that waits by the clock
+// alone would wait for ever otherwise.
 class SimClock {
  public:
   explicit SimClock(sim::Simulator& simulator) : simulator_(simulator) {}

@@ -91,7 +91,7 @@ int spi_command(const SpiOptions& options) {
     } catch (const UseError& error) {
       throw UseError(fmt::format("standard input:{}: {}", number, error.what()));
     }
-    std::fflush(stdout);
+    if (std::fflush(stdout) != 0) throw UseError("cannot write to standard output");
   }
   return kGood;
 }
