@@ -43,9 +43,10 @@ else
   sed -n '/tests passed/,$p' "$build/ctest.log"
 fi
 if [ "$status" -ne 0 ]; then
-  sed -n 's/^[[:space:]]*[0-9]* - \(.*\) (Failed)$/\1/p; s/^[[:space:]]*[0-9]* - \(.*\) (Timeout)$/\1/p' \
-    "$build/ctest.log" | while read -r name; do
-    echo "repeat with: ctest --test-dir $build --output-on-failure -R '^$name\$'"
-  done
+  # "  12 - Name (Failed)", but not the skipped ones.
+  sed -n '/tests FAILED/,$ s/^[[:space:]]*\([0-9]*\) - .* (.*)$/\1/p' "$build/ctest.log" |
+    while read -r number; do
+      echo "repeat with: ctest --test-dir $build --output-on-failure -I $number,$number"
+    done
 fi
 exit "$status"

@@ -42,7 +42,7 @@ add_executable(app main.cpp)
 target_link_libraries(app PRIVATE mb4::driver)
 END
 
-if "$cmake" -S "$work/app" -B "$work/build" > "$work/log" 2>&1; then
+if "$cmake" -G Ninja -S "$work/app" -B "$work/build" > "$work/log" 2>&1; then
   if [ "$case" = copied_without_header ]; then
     echo "configures without mb4_regs.hpp"
     exit 1
