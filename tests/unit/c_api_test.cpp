@@ -4,25 +4,10 @@
 // The C interface through the shared library.
 #include <gtest/gtest.h>
 
-#include <cstdlib>
 #include <cstring>
-#include <new>
 #include <string>
 
 #include "mb4sim.h"
-
-// The library allocates through these, so that a test can let it run out of memory.
-namespace {
-bool memory_is_out = false;
-}  // namespace
-
-void* operator new(std::size_t size) {
-  void* const memory = memory_is_out ? nullptr : std::malloc(size != 0 ? size : 1);
-  if (memory == nullptr) throw std::bad_alloc();
-  return memory;
-}
-void operator delete(void* memory) noexcept { std::free(memory); }
-void operator delete(void* memory, std::size_t /*size*/) noexcept { std::free(memory); }
 
 namespace {
 
@@ -96,26 +81,6 @@ TEST_F(CApi, Clk_ShowsItsPresentLevel) {
   EXPECT_EQ(mb4sim_pin_read(sim, "CLK"), 1);
   mb4sim_advance_ns(sim, 1);
   EXPECT_EQ(mb4sim_pin_read(sim, "CLK"), 0);
-}
-
-TEST_F(CApi, OutOfMemory_IsAnErrorAndStaysOne) {
-  const auto send = [&](std::initializer_list<uint8_t> bytes) {
-    return mb4sim_spi_transfer(sim, bytes.begin(), nullptr, bytes.size());
-  };
-  send({0x02, 0xC0, 0x5B, 0x06, 0, 0});
-  send({0x02, 0xE5, 0x40, 0xA0, 0x00, 0x7C});
-  send({0x02, 0xED, 0x0D});
-  memory_is_out = true;  // queue, monitor and slave of the first frame need memory
-  int status = send({0x07, 0x04});
-  for (int i = 0; i < 100 && status == 0; ++i) status = send({0x05, 0x00});
-  memory_is_out = false;
-  EXPECT_EQ(status, MB4SIM_ERROR_FAILED);
-  const uint64_t stopped = mb4sim_time_ns(sim);
-  mb4sim_advance_ns(sim, 1000);
-  EXPECT_EQ(mb4sim_time_ns(sim), stopped);
-  EXPECT_EQ(send({0x05, 0x00}), -5);
-  EXPECT_EQ(mb4sim_pin_write(sim, "GETSENS", 1), -5);
-  EXPECT_EQ(mb4sim_spi_byte(sim, 0x05), 0);
 }
 
 TEST_F(CApi, NullRx_IsAllowed) {
