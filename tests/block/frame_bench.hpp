@@ -91,8 +91,7 @@ class FrameBench {
  public:
   static constexpr std::uint64_t kSub = 16;  // time steps in a clock
 
-  FrameBench() : context_(make_context()) {
-    model = std::make_unique<Vframe_top>(context_.get());
+  FrameBench() {
     model->clk_i = 0;
     model->rst_ni = 0;
     model->freqs_i = 0;
@@ -107,10 +106,6 @@ class FrameBench {
     clocks(2);
     model->rst_ni = 1;
     clocks(2);
-  }
-  ~FrameBench() {
-    Verilated::threadContextp(context_.get());  // Verilator 5.006 looks there for its scopes
-    model->final();
   }
 
   // Datasheet 0xC0..0xC3 of one data channel: SCDLEN = bits - 1, ENSCD, CRC code, start value.
@@ -161,13 +156,7 @@ class FrameBench {
   }
 
   std::uint64_t now() const { return time_; }
-
- private:
-  // Before the model: it must outlive it.
-  std::unique_ptr<VerilatedContext> context_;
-
- public:
-  std::unique_ptr<Vframe_top> model;
+  Owned<Vframe_top> model;
 
  private:
   void half_clock(int level) {

@@ -14,8 +14,6 @@
 
 namespace {
 
-using mb4test::make_context;
-
 template <typename Model>
 class Block {
  public:
@@ -24,10 +22,6 @@ class Block {
       model.clk_i = 0;
       model.rst_ni = 0;
     }
-  }
-  ~Block() {
-    Verilated::threadContextp(context.get());
-    model.final();
   }
   void reset() {
     clock();
@@ -40,8 +34,8 @@ class Block {
     model.clk_i = 0;
     model.eval();
   }
-  std::unique_ptr<VerilatedContext> context = make_context();
-  Model model{context.get()};
+  mb4test::Owned<Model> owner;
+  Model& model = *owner;
 };
 
 // Golden vectors of protocol facts, section 7: 28 bits of 0x2ABCDEF with nE = nW = 1.

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// A context for one Verilated model. It must outlive the model: declare it first.
+// A Verilated model with the context it lives in.
 #ifndef MB4_TESTS_BLOCK_MODEL_CONTEXT_HPP_
 #define MB4_TESTS_BLOCK_MODEL_CONTEXT_HPP_
 
@@ -20,6 +20,26 @@ inline std::unique_ptr<VerilatedContext> make_context(int seed = 1) {
   context->randSeed(seed);
   return context;
 }
+
+// One model and its context, ended in the right order.
+template <typename Model>
+class Owned {
+ public:
+  Owned() = default;
+  Owned(const Owned&) = delete;
+  Owned& operator=(const Owned&) = delete;
+  ~Owned() {
+    // Verilator 5.006 looks for the scopes of a dying model in the context of the thread.
+    Verilated::threadContextp(context_.get());
+    model_.final();
+  }
+  Model& operator*() { return model_; }
+  Model* operator->() { return &model_; }
+
+ private:
+  std::unique_ptr<VerilatedContext> context_ = make_context();
+  Model model_{context_.get()};
+};
 
 }  // namespace mb4test
 

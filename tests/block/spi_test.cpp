@@ -32,10 +32,6 @@ class SpiBlock : public testing::Test {
     spi.rst_ni = 1;
     spi.eval();
   }
-  ~SpiBlock() override {
-    Verilated::threadContextp(context.get());
-    spi.final();
-  }
 
   void select(bool active) {
     spi.cs_ni = active ? 0 : 1;
@@ -81,8 +77,8 @@ class SpiBlock : public testing::Test {
     return rx;
   }
 
-  std::unique_ptr<VerilatedContext> context = mb4test::make_context();
-  Vmb4_spi spi{context.get()};
+  mb4test::Owned<Vmb4_spi> owner;
+  Vmb4_spi& spi = *owner;
   std::array<std::uint8_t, 256> memory{};
   std::uint8_t next = 0;
   unsigned writes = 0;
