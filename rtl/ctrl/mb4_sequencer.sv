@@ -176,7 +176,7 @@ module mb4_sequencer (
           end
         end else if (new_q && !by_instr) begin
           new_d = 1'b0;
-          if (!is_frame) held_d.instr = 3'b000;
+          if (!is_frame || !held_q.ags) held_d.instr = 3'b000;
         end else if ((by_instr || request_i) && !mem_busy_i && use_i != 2'b00) begin
           if (bank_pending_i && held_q.holdbank && agserr_on_hold_i) begin
             taken_o     = 1'b1;

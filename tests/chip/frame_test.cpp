@@ -482,6 +482,18 @@ TEST(ChipStatus, CdmTimeout_FourteenZerosSetItAndAOneClearsIt) {
   EXPECT_EQ(chip.read(0xF3), 0x00) << "INIT";
 }
 
+// No line in use: nothing to run; INSTR clears itself all the same (docs/choices.md).
+TEST(ChipInstr, NoLineInUse_InstrClearsWithoutAFrame) {
+  Chip chip(one_slave(kEncoder26));
+  chip.configure_slave1(28, 0x06, 0x00);
+  chip.write(0xED, {0x0F});
+  chip.instruct(0x04);
+  chip.advance_us(2);
+  EXPECT_EQ(chip.read(0xF4), 0x00);
+  EXPECT_EQ(chip.status(), 0xFB);
+  EXPECT_EQ(chip.simulator.line(1)->monitor().frames(), 0U);
+}
+
 // Decision 19: the same INSTR written again during its frame (to set HOLDBANK, say) is no request.
 TEST(ChipInstr, SameInstrWrittenDuringItsFrame_NoSecondFrame) {
   Chip chip(one_slave(kEncoder26));
