@@ -17,11 +17,14 @@ regs/mb4_cfg_regs.sv
 regs/mb4_instr_reg.sv
 regs/mb4_host_read.sv
 regs/mb4_ram_clear.sv
+regs/mb4_write_port.sv
 regs/mb4_scd_bank.sv
 regs/mb4_svalid.sv
 regs/mb4_bank_ctrl.sv
 regs/mb4_cds_bank.sv
 regs/mb4_rx_router.sv
+regs/mb4_scd_store.sv
+regs/mb4_rdata_buf.sv
 regs/mb4_reg_file.sv
 ctrl/mb4_freqs_dec.sv
 ctrl/mb4_crc_decode.sv
@@ -30,6 +33,9 @@ ctrl/mb4_frame_request.sv
 ctrl/mb4_sequencer.sv
 ctrl/mb4_status_flags.sv
 ctrl/mb4_cdm_timeout.sv
+ctrl/mb4_cdm_select.sv
+ctrl/mb4_control_frame.sv
+ctrl/mb4_reg_watchdog.sv
 ctrl/mb4_control.sv
 line/mb4_timebase.sv
 line/mb4_sl_sampler.sv

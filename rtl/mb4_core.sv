@@ -8,7 +8,7 @@
 // core clock; frames, data memories and instructions need it. rst_ni is asynchronous: it reaches
 // the host domain as it is, because SCLK stands still while a reset ends, and the core
 // synchronised. In this version a line takes part in frames if its CFGCH is BiSS C, line 2 only
-// with SLAVELOC5 = 1; other protocols, MO, RDATA traffic and the MA force bits are not there yet.
+// with SLAVELOC5 = 1; other protocols, MO and the MA force bits are not there yet.
 // Datasheet: pages 15..36. Crossings: docs/crossings.md.
 
 module mb4_core (
@@ -56,20 +56,22 @@ module mb4_core (
 
   // memories and banks
   logic mem_busy;
-  logic bank_pending, bank_swapped, bank_end, holdbank;
+  logic bank_pending, bank_swapped, frame_done, reduced, bank_end, holdbank;
   logic swbank_pulse;
+  logic       rdata_rd_en, rdata_wr_en;
+  logic [5:0] rdata_addr;
+  logic [7:0] rdata, rdata_wr_data;
 
   // control
   logic [7:0] half_len;
   logic       tick;
-  logic       start, init, cdm, abort;
-  logic       cdssel;
+  logic       start, init, abort, keep_time;
   logic [1:0] in_use;
   logic [1:0] idle, timeout, sl;
   logic [1:0] frame_end;
   logic [1:0] word_begin, word_done, word_ok;
   logic [1:0] init_done, init_fail;
-  logic [1:0] cds, cds_host;
+  logic [1:0] cds, cds_host, cdm0, cdm1, cdm;
 
   // words of the two lines; slices of flat vectors, one slice a line
   localparam int unsigned WORD_W = mb4_pkg::WORD_CFG_W;
@@ -132,11 +134,18 @@ module mb4_core (
     .mem_busy_o     (mem_busy),
     .holdbank_i     (holdbank),
     .swbank_pulse_i (swbank_pulse),
+    .frame_end_i    (frame_done),
+    .reduced_i      (reduced),
     .bank_end_i     (bank_end),
     .cds_i          (cds),
     .cds_o          (cds_host),
     .bank_pending_o (bank_pending),
     .bank_swapped_o (bank_swapped),
+    .rdata_rd_en_i  (rdata_rd_en),
+    .rdata_addr_i   (rdata_addr),
+    .rdata_o        (rdata),
+    .rdata_wr_en_i  (rdata_wr_en),
+    .rdata_wr_data_i (rdata_wr_data),
     .wr_line_i      (line_wr_en),
     .wr_byte_i      (line_wr_byte),
     .wr_line_data_i (line_wr_data),
@@ -152,7 +161,6 @@ module mb4_core (
 
   assign in_use = {cfg.cfgch2 == mb4_regs_pkg::PROTOCOL_BISS_C && cfg.slaveloc5,
                    cfg.cfgch1 == mb4_regs_pkg::PROTOCOL_BISS_C};
-  assign cdssel = (cfg.chsel == 2'b10) ? cds[1] : cds[0];
 
   mb4_control u_control (
     .clk_i,
@@ -161,10 +169,7 @@ module mb4_core (
     .toggle_i       (instr_toggle),
     .ack_o          (instr_ack),
     .held_o         (held),
-    .freqs_i        (cfg.freqs),
-    .freqags_i      (cfg.freqags),
-    .hold_cdm_i     (cfg.holdcdm),
-    .regvers_i      (cfg.regvers),
+    .cfg_i          (cfg),
     .quirks_i,
     .getsens_i,
     .eot_o,
@@ -172,27 +177,41 @@ module mb4_core (
     .mem_busy_i     (mem_busy),
     .bank_pending_i (bank_pending),
     .bank_swapped_i (bank_swapped),
+    .frame_end_o    (frame_done),
     .bank_end_o     (bank_end),
+    .reduced_o      (reduced),
     .holdbank_o     (holdbank),
     .swbank_pulse_o (swbank_pulse),
+    .rdata_rd_en_o  (rdata_rd_en),
+    .rdata_addr_o   (rdata_addr),
+    .rdata_i        (rdata),
+    .rdata_wr_en_o  (rdata_wr_en),
+    .rdata_wr_data_o (rdata_wr_data),
     .use_i          (in_use),
     .half_len_o     (half_len),
     .start_o        (start),
     .init_o         (init),
-    .cdm_o          (cdm),
+    .cdm0_o         (cdm0),
+    .cdm1_o         (cdm1),
     .abort_o        (abort),
+    .time_o         (keep_time),
     .tick_i         (tick),
-    .cdssel_i       (cdssel),
+    .cds_i          (cds),
+    .cdm_i          (cdm),
     .idle_i         (idle),
     .timeout_i      (timeout),
     .sl_i           (sl),
-    .frame_end_i    (frame_end),
+    .line_end_i     (frame_end),
     .word_done_i    (word_done),
     .word_ok_i      (word_ok),
     .init_done_i    (init_done),
     .init_fail_i    (init_fail),
     .n_scderr_o     (status.n_scderr),
     .n_agserr_o     (status.n_agserr),
+    .n_regerr_o     (status.n_regerr),
+    .n_delayerr_o   (status.n_delayerr),
+    .regend_o       (status.regend),
+    .regbytes_o     (status.regbytes),
     .swbank_fail_o  (status.swbank_fail),
     .cdm_timeout_o  (status.cdm_timeout)
   );
@@ -226,9 +245,12 @@ module mb4_core (
     .start_i      (start),
     .use_i        (in_use),
     .init_i       (init),
-    .cdm_i        (cdm),
+    .cdm0_i       (cdm0),
+    .cdm1_i       (cdm1),
+    .reduced_i    (reduced),
     .hold_cdm_i   (cfg.holdcdm),
     .abort_i      (abort),
+    .time_i       (keep_time),
     .tick_o       (tick),
     .len_valid_i  (len_valid),
     .len_i        (len),
@@ -242,6 +264,7 @@ module mb4_core (
     .word_done_o  (word_done),
     .word_ok_o    (word_ok),
     .cds_o        (cds),
+    .cdm_o        (cdm),
     .frame_end_o  (frame_end),
     .init_done_o  (init_done),
     .init_fail_o  (init_fail),
@@ -256,12 +279,8 @@ module mb4_core (
   // ---- status -------------------------------------------------------------------------------
 
   assign status.eot         = eot_o;
-  assign status.n_delayerr  = 1'b1;
-  assign status.n_regerr    = 1'b1;
-  assign status.regend      = 1'b0;
   assign status.n_err       = ner_i && !ner_low_o;
   assign status.cdssel      = (cfg.chsel == 2'b10) ? cds_host[1] : cds_host[0];
-  assign status.regbytes    = 6'd0;
   assign status.cds1        = cds_host[0];
   assign status.cds2        = cds_host[1];
   assign status.sl1         = sl1_i;

@@ -91,6 +91,27 @@ package mb4_pkg;
     logic       swbank_fail;
   } status_t;
 
+  // Slots of a BiSS C control frame: frames since the start bit S (slot 0). CDM of the slots named;
+  // CDS answers one slot later. Datasheet pages 27..29; decision 31 for the commands.
+  localparam logic [5:0] SLOT_START        = 6'd0;
+  localparam logic [5:0] SLOT_CTS          = 6'd1;
+  localparam logic [5:0] SLOT_HEADER       = 6'd1;   // covered by the header's CRC from here on
+  localparam logic [5:0] SLOT_CRC          = 6'd12;
+  localparam logic [5:0] SLOT_READ         = 6'd16;  // R; EX of a command executed at once
+  localparam logic [5:0] SLOT_WRITE        = 6'd17;  // W
+  localparam logic [5:0] SLOT_BYTE         = 6'd18;  // S of the data part
+  localparam logic [5:0] SLOT_WAIT         = 6'd19;  // first data bit, or S again
+  localparam logic [5:0] SLOT_DATA_CRC     = 6'd27;
+  localparam logic [5:0] SLOT_STOP         = 6'd31;
+  localparam logic [5:0] SLOT_NEXT         = 6'd32;  // S of the next byte, or the end
+  localparam logic [5:0] SLOT_IDA          = 6'd17;  // first acknowledge on CDS
+  localparam logic [5:0] SLOT_STOP_COMMAND = 6'd17;
+  localparam logic [5:0] SLOT_EX_TESTED    = 6'd24;  // and last acknowledge on CDS
+  localparam logic [5:0] SLOT_STOP_TESTED  = 6'd25;
+
+  // Generator of the control CRC, x^4 + x + 1, without its highest power.
+  localparam logic [3:0] CONTROL_CRC_POLY = 4'h3;
+
   // Quirks: one static input vector by which real silicon can be matched (docs/choices.md).
   localparam int unsigned QUIRKS_W                   = 6;
   localparam int unsigned QUIRK_IDA_TEST_INVERT      = 0;

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Control: sequencer, frames due by themselves, flags (instances only). Bit i of a vector {2, 1}
-// belongs to line i + 1.
+// Control: sequencer, frames due by themselves, control communication, flags (instances only).
+// Bit i of a vector {2, 1} belongs to line i + 1.
 //
 // Clock domain: core. Misuse and datasheet sections: see the modules.
 
@@ -14,10 +14,7 @@ module mb4_control (
   input  logic            toggle_i,
   output logic            ack_o,
   output mb4_pkg::instr_t held_o,
-  input  logic [4:0]      freqs_i,
-  input  logic [7:0]      freqags_i,
-  input  logic            hold_cdm_i,
-  input  logic            regvers_i,
+  input  mb4_pkg::cfg_t   cfg_i,
   input  logic [mb4_pkg::QUIRKS_W-1:0] quirks_i,
   // pins
   input  logic       getsens_i,
@@ -27,22 +24,33 @@ module mb4_control (
   input  logic       mem_busy_i,
   input  logic       bank_pending_i,
   input  logic       bank_swapped_i,
+  output logic       frame_end_o,
   output logic       bank_end_o,
+  output logic       reduced_o,
   output logic       holdbank_o,
   output logic       swbank_pulse_o,
+  // RDATA
+  output logic       rdata_rd_en_o,
+  output logic [5:0] rdata_addr_o,
+  input  logic [7:0] rdata_i,
+  output logic       rdata_wr_en_o,
+  output logic [7:0] rdata_wr_data_o,
   // lines
   input  logic [1:0] use_i,
   output logic [7:0] half_len_o,
   output logic       start_o,
   output logic       init_o,
-  output logic       cdm_o,
+  output logic [1:0] cdm0_o,
+  output logic [1:0] cdm1_o,
   output logic       abort_o,
+  output logic       time_o,
   input  logic       tick_i,
-  input  logic       cdssel_i,
+  input  logic [1:0] cds_i,
+  input  logic [1:0] cdm_i,
   input  logic [1:0] idle_i,
   input  logic [1:0] timeout_i,
   input  logic [1:0] sl_i,
-  input  logic [1:0] frame_end_i,
+  input  logic [1:0] line_end_i,
   input  logic [1:0] word_done_i,
   input  logic [1:0] word_ok_i,
   input  logic [1:0] init_done_i,
@@ -50,12 +58,20 @@ module mb4_control (
   // status
   output logic       n_scderr_o,
   output logic       n_agserr_o,
+  output logic       n_regerr_o,
+  output logic       n_delayerr_o,
+  output logic       regend_o,
+  output logic [5:0] regbytes_o,
   output logic       swbank_fail_o,
   output logic       cdm_timeout_o
 );
 
   logic agsmin, infinite, request, missed, taken, lines_idle, running, brk;
-  logic busy, clear_flags, scd_en, scd_bad, ags_error, bank_fail, init_clear, frame_cdm;
+  logic busy, clear_flags, scd_en, scd_bad, ags_error, bank_fail, init_clear;
+  logic control_want, control_active, control_begin, control_end, reg_error, delay_error, expired;
+  logic in_body, sent;
+  logic [1:0] select, control0, control1;
+  logic [5:0] good_bytes;
 
   mb4_sequencer u_sequencer (
     .clk_i,
@@ -67,7 +83,7 @@ module mb4_control (
     .mem_busy_i,
     .agsmin_i          (agsmin),
     .infinite_i        (infinite),
-    .regvers_i,
+    .regvers_i         (cfg_i.regvers),
     .use_i,
     .agserr_on_hold_i  (quirks_i[mb4_pkg::QUIRK_AGSERR_ON_HOLDBANK]),
     .agserr_on_write_i (quirks_i[mb4_pkg::QUIRK_AGSERR_ON_INSTR_WR]),
@@ -80,19 +96,19 @@ module mb4_control (
     .break_o           (brk),
     .start_o,
     .init_o,
-    .cdm_o,
+    .reduced_o,
     .abort_o,
     .tick_i,
-    .cdssel_i,
     .idle_i,
     .timeout_i,
     .sl_i,
-    .frame_end_i,
+    .frame_end_i       (line_end_i),
     .word_done_i,
     .word_ok_i,
     .init_done_i,
     .init_fail_i,
     .bank_pending_i,
+    .frame_end_o,
     .bank_end_o,
     .holdbank_o,
     .swbank_pulse_o,
@@ -103,7 +119,9 @@ module mb4_control (
     .ags_error_o       (ags_error),
     .bank_fail_o       (bank_fail),
     .init_clear_o      (init_clear),
-    .frame_cdm_o       (frame_cdm)
+    .control_begin_o   (control_want),
+    .control_active_i  (control_active),
+    .control_end_i     (control_end)
   );
 
   mb4_frame_request u_request (
@@ -111,8 +129,8 @@ module mb4_control (
     .rst_ni,
     .ags_i        (held_o.ags),
     .restart_i    (brk),
-    .freqags_i,
-    .hold_cdm_i,
+    .freqags_i    (cfg_i.freqags),
+    .hold_cdm_i   (cfg_i.holdcdm),
     .getsens_i,
     .busy_i       (running),
     .lines_idle_i (lines_idle),
@@ -133,24 +151,93 @@ module mb4_control (
     .ags_error_i    (ags_error),
     .bank_fail_i    (bank_fail),
     .bank_swapped_i,
+    .reg_begin_i    (control_begin),
+    .reg_end_i      (control_end),
+    .reg_error_i    (reg_error),
+    .delay_error_i  (delay_error),
     .eot_o,
     .n_scderr_o,
     .n_agserr_o,
+    .n_regerr_o,
+    .n_delayerr_o,
+    .regend_o,
     .swbank_fail_o,
     .ner_low_o
   );
 
+  mb4_control_frame u_frame (
+    .clk_i,
+    .rst_ni,
+    .cts_i           (cfg_i.cts),
+    .wnr_i           (cfg_i.wnr),
+    .regadr_i        (cfg_i.regadr),
+    .regnum_i        (cfg_i.regnum),
+    .slaveid_i       (cfg_i.slaveid),
+    .ida_invert_i    (quirks_i[mb4_pkg::QUIRK_IDA_TEST_INVERT]),
+    .select_i        (select),
+    .rdata_addr_o,
+    .rdata_i,
+    .rdata_wr_en_o,
+    .rdata_wr_data_o,
+    .begin_i         (control_want),
+    .abort_i         (brk || init_clear),
+    .start_i         (start_o && !init_o),
+    .frame_end_i     (frame_end_o),
+    .cds_i           (cds_i & use_i),
+    .cdm_timeout_i   (cdm_timeout_o),
+    .expired_i       (expired),
+    .running_i       (running),
+    .active_o        (control_active),
+    .in_body_o       (in_body),
+    .wait_o          (time_o),
+    .cdm0_o          (control0),
+    .cdm1_o          (control1),
+    .begin_o         (control_begin),
+    .end_o           (control_end),
+    .reg_error_o     (reg_error),
+    .delay_error_o   (delay_error),
+    .good_bytes_o    (good_bytes)
+  );
+
+  // Only an error tells how many bytes were good (Table 63).
+  assign regbytes_o    = (n_regerr_o && n_delayerr_o) ? 6'd0 : good_bytes;
+  assign rdata_rd_en_o = control_active;
+
+  mb4_cdm_select u_cdm (
+    .chsel_i    (cfg_i.chsel),
+    .cts_i      (cfg_i.cts),
+    .instr_i    (held_o.instr),
+    .active_i   (control_active),
+    .control0_i (control0),
+    .control1_i (control1),
+    .select_o   (select),
+    .cdm0_o,
+    .cdm1_o
+  );
+
+  mb4_reg_watchdog u_watchdog (
+    .clk_i,
+    .rst_ni,
+    .freqr_i   (cfg_i.freqr),
+    .wait_i    (time_o),
+    .tick_i,
+    .expired_o (expired)
+  );
+
+  // Zeros inside a control frame do not count; its stop bit is the first that does.
+  assign sent = (cdm_i & use_i) != 2'b00;
+
   mb4_cdm_timeout u_cdm_timeout (
     .clk_i,
     .rst_ni,
-    .frame_end_i (bank_end_o),
-    .cdm_i       (frame_cdm),
+    .frame_end_i (frame_end_o),
+    .cdm_i       (sent || in_body),
     .clear_i     (init_clear),
     .timeout_o   (cdm_timeout_o)
   );
 
   mb4_freqs_dec u_freqs (
-    .freqs_i,
+    .freqs_i    (cfg_i.freqs),
     .half_len_o
   );
 

@@ -8,13 +8,13 @@
 // starts with the next clock at the earliest. busy_o comes before ack_o tells the host half. A
 // frame ends two clocks after its last bit: its result first, then the bank switch. With AGS = 1
 // INSTR sets the CDM of the frames that come by themselves (mb4_frame_request) and stays; only
-// with FREQAGS = AGSINFINITE it asks for one as well. In this version INIT runs with REGVERS = 1,
-// and control communication is not there yet: its INSTR codes clear themselves without a frame.
+// with FREQAGS = AGSINFINITE it asks for one as well. INIT runs with REGVERS = 1 only in this
+// version, and so does control communication: INSTR 100 and 111 clear themselves without a frame.
 // Misuse: SL low when a frame is due: no frame, nAGSERR = 0, or with FREQAGS = AGSMIN waiting for
 // SL = 1 (decision 3). A frame due while HOLDBANK holds back a switch: no frame, SWBANKFAIL = 1,
 // nAGSERR = 0 (decision 15). INSTR written with the value that is running does not ask for another
 // frame. INIT waits for the slaves' timeout of the frame before, but not for ever: see INIT_WAIT.
-// Datasheet: pages 31..33, Tables 44..49; decisions 1, 3, 8, 15, 19, 25, 26.
+// Datasheet: pages 31..33, Tables 44..49; decisions 1, 3, 8, 14, 15, 19, 23, 25, 26.
 
 `include "mb4_check.svh"
 
@@ -45,10 +45,9 @@ module mb4_sequencer (
   // lines, {2, 1} each
   output logic       start_o,
   output logic       init_o,
-  output logic       cdm_o,
+  output logic       reduced_o,       // this frame, from start_o to its end
   output logic       abort_o,
   input  logic       tick_i,
-  input  logic       cdssel_i,
   input  logic [1:0] idle_i,
   input  logic [1:0] timeout_i,
   input  logic [1:0] sl_i,
@@ -59,7 +58,8 @@ module mb4_sequencer (
   input  logic [1:0] init_fail_i,
   // banks
   input  logic       bank_pending_i,
-  output logic       bank_end_o,      // a frame is complete
+  output logic       frame_end_o,     // a frame is complete
+  output logic       bank_end_o,      // ... with sensor data
   output logic       holdbank_o,
   output logic       swbank_pulse_o,
   // status
@@ -70,7 +70,10 @@ module mb4_sequencer (
   output logic       ags_error_o,
   output logic       bank_fail_o,
   output logic       init_clear_o,    // INIT begins
-  output logic       frame_cdm_o      // CDM of the frame that ends with bank_end_o
+  // control communication
+  output logic       control_begin_o, // INSTR asks for it; stays until a frame takes it
+  input  logic       control_active_i,
+  input  logic       control_end_i
 );
 
   typedef enum logic [2:0] {
@@ -93,18 +96,18 @@ module mb4_sequencer (
   logic [1:0]       done_q;
   logic             bad_d;
   logic             bad_q;
-  logic             cdm_d;
-  logic             cdm_q;         // CDM of the running frame
-  logic             ack_q;
+  logic             reduced_d;
+  logic             reduced_q;     // the running frame ends behind CDS
+  logic [1:0]       ack_q;         // a clock later than new_q: REGEND has fallen by then
   logic [10:0]      wait_d;
   logic [10:0]      wait_q;        // half MA periods left for SL to return to 1
   logic             written;
   logic             toggle_level;
   logic             all_idle;
   logic             sl_low;
+  logic             is_control;
   logic             is_frame;
   logic             by_instr;      // INSTR asks for a frame
-  logic             word_bad;
 
   // INIT does not test SL (page 33), yet slaves need their timeout before and after it: SL gets
   // 1024 MA periods to return. The longest timeout in the field is 40 us, 400 periods at 10 MHz.
@@ -120,19 +123,16 @@ module mb4_sequencer (
 
   assign all_idle = (use_i & ~idle_i) == 2'b00;
   assign sl_low   = (use_i & (idle_i | timeout_i) & ~sl_i) != 2'b00;
-  assign is_frame = held_q.instr == mb4_regs_pkg::INSTR_CDM1 ||
-                    held_q.instr == mb4_regs_pkg::INSTR_CDM0 ||
-                    held_q.instr == mb4_regs_pkg::INSTR_CDM_NOT_CDSSEL;
+  assign is_control = held_q.instr == mb4_regs_pkg::INSTR_CONTROL ||
+                      held_q.instr == mb4_regs_pkg::INSTR_CONTROL_REDUCED;
+  assign is_frame = (is_control && regvers_i) || (held_q.instr != 3'b000 && !held_q.instr[2]);
   assign by_instr = new_q && is_frame && use_i != 2'b00 && (!held_q.ags || infinite_i);
-  assign word_bad = (word_done_i & ~word_ok_i) != 2'b00;
 
-  always_comb begin
-    unique case (held_q.instr)
-      mb4_regs_pkg::INSTR_CDM1:           cdm_o = 1'b1;
-      mb4_regs_pkg::INSTR_CDM_NOT_CDSSEL: cdm_o = !cdssel_i;
-      default:                            cdm_o = 1'b0;
-    endcase
-  end
+  assign control_begin_o = new_q && is_control && regvers_i && use_i != 2'b00 && !held_q.init &&
+                           state_q != INIT && state_q != INIT_TIMEOUT;
+  assign reduced_d = start_o ? control_active_i &&
+                               held_q.instr == mb4_regs_pkg::INSTR_CONTROL_REDUCED
+                             : reduced_q;
 
   always_comb begin
     state_d        = state_q;
@@ -141,12 +141,11 @@ module mb4_sequencer (
     use_d          = use_q;
     done_d         = done_q;
     bad_d          = bad_q;
-    cdm_d          = cdm_q;
     wait_d         = (tick_i && wait_q != 11'd0) ? wait_q - 11'd1 : wait_q;
     start_o        = 1'b0;
     init_o         = 1'b0;
     abort_o        = 1'b0;
-    bank_end_o     = 1'b0;
+    frame_end_o    = 1'b0;
     swbank_pulse_o = 1'b0;
     clear_flags_o  = 1'b0;
     init_clear_o   = 1'b0;
@@ -191,7 +190,6 @@ module mb4_sequencer (
             use_d   = use_i;
             done_d  = ~use_i;
             bad_d   = 1'b0;
-            cdm_d   = cdm_o;
             state_d = FRAME;
           end
           if (taken_o) new_d = 1'b0;
@@ -200,17 +198,17 @@ module mb4_sequencer (
       end
       FRAME: begin
         // Lines of different length end one frame together.
-        bad_d  = bad_q || word_bad;
+        bad_d  = bad_q || (word_done_i & ~word_ok_i) != 2'b00;
         done_d = done_q | frame_end_i;
         if (done_d == 2'b11) begin
           state_d  = FRAME_DONE;
-          scd_en_o = 1'b1;
+          scd_en_o = !reduced_q;
         end
       end
       FRAME_DONE: begin
-        state_d    = IDLE;
-        bank_end_o = 1'b1;
-        wait_d     = INIT_WAIT;
+        state_d     = IDLE;
+        frame_end_o = 1'b1;
+        wait_d      = INIT_WAIT;
         if (!held_q.ags && !new_q) held_d.instr = 3'b000;
       end
       INIT: begin
@@ -228,6 +226,8 @@ module mb4_sequencer (
       default: state_d = IDLE;
     endcase
 
+    // With AGS = 1 the instruction ends with the control communication.
+    if (control_end_i && is_control && !new_q) held_d.instr = 3'b000;
     if (missed_i) ags_error_o = 1'b1;
     if (ags_error_o && ags_clear_i) held_d.ags = 1'b0;
 
@@ -245,7 +245,7 @@ module mb4_sequencer (
         abort_o       = 1'b1;
         break_o       = 1'b1;
         start_o       = 1'b0;
-        bank_end_o    = 1'b0;
+        frame_end_o   = 1'b0;
         scd_en_o      = 1'b0;
         state_d       = IDLE;
         new_d         = written_i.instr != 3'b000;
@@ -266,9 +266,9 @@ module mb4_sequencer (
       use_q      <= '0;
       done_q     <= '0;
       bad_q      <= 1'b0;
-      cdm_q      <= 1'b0;
+      reduced_q  <= 1'b0;
       wait_q     <= '0;
-      ack_q      <= 1'b0;
+      ack_q      <= '0;
     end else begin
       state_q    <= state_d;
       held_q     <= held_d;
@@ -276,17 +276,18 @@ module mb4_sequencer (
       use_q      <= use_d;
       done_q     <= done_d;
       bad_q      <= bad_d;
-      cdm_q      <= cdm_d;
+      reduced_q  <= reduced_d;
       wait_q     <= wait_d;
-      if (!written) ack_q <= toggle_level;
+      ack_q      <= {ack_q[0], written ? ack_q[0] : toggle_level};
     end
   end
 
-  assign ack_o       = ack_q;
+  assign ack_o       = ack_q[1];
   assign held_o      = held_q;
   assign holdbank_o  = held_q.holdbank;
   assign scd_bad_o   = bad_d;
-  assign frame_cdm_o = cdm_q;
+  assign reduced_o   = reduced_d;
+  assign bank_end_o  = frame_end_o && !reduced_q;
   assign running_o    = state_q != IDLE;
   assign lines_idle_o = all_idle;
   assign busy_o      = state_d != IDLE || new_d || held_d.init;

@@ -7,7 +7,8 @@
 // period of MA high, then the first falling edge. MA changes at ticks only, so that no pulse is
 // shorter than half a period. After the last needed rising edge MA takes the inverted CDM and
 // keeps it through the slaves' timeout. MA edges: 5 + processing clocks + data and CRC bits, or as
-// many as had been sent when the start bit came back over a long line (decision 17). frame_end_o:
+// many as had been sent when the start bit came back over a long line (decision 17), or CDS if CDM
+// depends on it. reduced_i: the frame ends behind CDS (decision 14). frame_end_o:
 // the last data bit has been taken; cds_o is valid from the next clock on. idle_o: the slaves'
 // timeout is over as well. init_i makes the two-pulse initialisation instead; init_done_o when the
 // acknowledge has come, init_fail_o after 255 quarter periods without it.
@@ -24,7 +25,9 @@ module mb4_frame_biss (
   input  logic       start_i,
   input  logic       use_i,
   input  logic       init_i,
-  input  logic       cdm_i,
+  input  logic       cdm0_i,       // CDM to send if CDS of this frame is 0
+  input  logic       cdm1_i,       // ... 1
+  input  logic       reduced_i,
   input  logic       hold_cdm_i,
   input  logic       abort_i,
   // time base
@@ -48,6 +51,7 @@ module mb4_frame_biss (
   output logic       word_bit_o,
   // results
   output logic       cds_o,
+  output logic       cdm_o,        // as sent
   output logic       frame_end_o,
   output logic       init_done_o,
   output logic       init_fail_o,
@@ -72,8 +76,10 @@ module mb4_frame_biss (
   logic               ma_q;
   logic               clocking_d;
   logic               clocking_q;
-  logic               cdm_d;
-  logic               cdm_q;
+  logic [1:0]         cdm_d;
+  logic [1:0]         cdm_q;       // for CDS = 1, 0
+  logic               reduced_d;
+  logic               reduced_q;
   logic               hold_d;
   logic               hold_q;
   logic               init_d;
@@ -92,9 +98,15 @@ module mb4_frame_biss (
   logic               rise;
   logic               begin_frame;
   logic               waited;      // one more processing clock
+  logic               cdm;
+  logic               cdm_known;
 
   assign begin_frame = start_i && use_i && state_q == IDLE;
-  assign enough      = init_q ? rises_q == 2'd2 : started_q && need_q <= 11'sd0;
+  // A CDM that depends on CDS has to wait for it; MA goes on meanwhile.
+  assign cdm         = cds_q ? cdm_q[1] : cdm_q[0];
+  assign cdm_known   = cdm_q[1] == cdm_q[0] || state_q == DATA || state_q == STOP ||
+                       state_q == TIMEOUT;
+  assign enough      = init_q ? rises_q == 2'd2 : started_q && need_q <= 11'sd0 && cdm_known;
 
   // MA at the ticks.
   always_comb begin
@@ -108,9 +120,9 @@ module mb4_frame_biss (
       clocking_d = 1'b0;
     end else if (tick_i && clocking_q) begin
       if (!half_next_i) begin
-        ma_d       = enough ? !cdm_q : 1'b0;
+        ma_d       = enough ? !cdm : 1'b0;
         clocking_d = !enough;
-      end else if (enough && cdm_q) begin
+      end else if (enough && cdm) begin
         clocking_d = 1'b0;
       end else begin
         ma_d = 1'b1;
@@ -130,7 +142,7 @@ module mb4_frame_biss (
       need_d  = 11'sd5;
     end else if (state_q != IDLE) begin
       if (rise && rises_q != 2'd2) rises_d = rises_q + 2'd1;
-      need_d = need_q + (len_valid_i ? signed'({4'h0, len_i}) : 11'sd0)
+      need_d = need_q + ((len_valid_i && !reduced_q) ? signed'({4'h0, len_i}) : 11'sd0)
                       + (waited ? 11'sd1 : 11'sd0)
                       - ((rise && !need_q[10]) ? 11'sd1 : 11'sd0);
     end
@@ -140,6 +152,7 @@ module mb4_frame_biss (
   always_comb begin
     state_d     = state_q;
     cdm_d       = cdm_q;
+    reduced_d   = reduced_q;
     hold_d      = hold_q;
     init_d      = init_q;
     started_d   = started_q;
@@ -155,7 +168,8 @@ module mb4_frame_biss (
       IDLE: begin
         if (begin_frame) begin
           state_d   = REQUEST;
-          cdm_d     = cdm_i && !init_i;
+          cdm_d     = init_i ? 2'b00 : {cdm1_i, cdm0_i};
+          reduced_d = reduced_i && !init_i;
           hold_d    = hold_cdm_i;
           init_d    = init_i;
           started_d = 1'b0;
@@ -176,9 +190,9 @@ module mb4_frame_biss (
       CDS: begin
         if (bit_valid_i) begin
           cds_d       = bit_i;
-          load_d      = any_word_i;
-          frame_end_o = !any_word_i;
-          state_d     = any_word_i ? DATA : STOP;
+          load_d      = any_word_i && !reduced_q;
+          frame_end_o = !load_d;
+          state_d     = load_d ? DATA : STOP;
         end
       end
       DATA: begin
@@ -211,7 +225,8 @@ module mb4_frame_biss (
       state_q    <= IDLE;
       ma_q       <= 1'b1;
       clocking_q <= 1'b0;
-      cdm_q      <= 1'b0;
+      cdm_q      <= '0;
+      reduced_q  <= 1'b0;
       hold_q     <= 1'b0;
       init_q     <= 1'b0;
       started_q  <= 1'b0;
@@ -224,6 +239,7 @@ module mb4_frame_biss (
       ma_q       <= ma_d;
       clocking_q <= clocking_d;
       cdm_q      <= cdm_d;
+      reduced_q  <= reduced_d;
       hold_q     <= hold_d;
       init_q     <= init_d;
       started_q  <= started_d;
@@ -238,6 +254,7 @@ module mb4_frame_biss (
   assign armed_b_o   = rises_d == 2'd2;
   assign word_load_o = load_q;
   assign cds_o       = cds_q;
+  assign cdm_o       = cdm;
   assign idle_o      = state_q == IDLE;
   assign timeout_o   = state_q == TIMEOUT;
   assign ma_o        = ma_q;

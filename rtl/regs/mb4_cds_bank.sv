@@ -4,8 +4,10 @@
 // CDS bits of both lines, in two banks that switch with those of SCDATA.
 //
 // Clock domain: core. A frame's end writes the engine's bank; the outputs show the host's bank, one
-// clock later, without glitches. With one bank the host sees the engine's value at once; the
-// datasheet calls it valid with two banks only.
+// clock later, without glitches. A reduced frame switches these bits alone: it writes the bank that
+// the host sees (decision 14), or with HOLDBANK the other one, to be seen after the next frame.
+// With one bank the host sees the engine's value at once; the datasheet calls it valid with two
+// banks only.
 // Datasheet: page 35, Tables 65, 66 and the note below them.
 
 module mb4_cds_bank (
@@ -14,6 +16,8 @@ module mb4_cds_bank (
   input  logic       host_bank_i,
   input  logic       eng_bank_i,
   input  logic       frame_end_i,
+  input  logic       reduced_i,
+  input  logic       holdbank_i,
   input  logic [1:0] cds_i,        // of lines {2, 1}
   output logic [1:0] cds_o
 );
@@ -21,6 +25,9 @@ module mb4_cds_bank (
   logic [1:0] bank0_q;
   logic [1:0] bank1_q;
   logic [1:0] host_q;
+  logic       bank;
+
+  assign bank = (reduced_i && !holdbank_i) ? host_bank_i : eng_bank_i;
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
@@ -28,8 +35,8 @@ module mb4_cds_bank (
       bank1_q <= '0;
       host_q  <= '0;
     end else begin
-      if (frame_end_i && !eng_bank_i) bank0_q <= cds_i;
-      if (frame_end_i && eng_bank_i)  bank1_q <= cds_i;
+      if (frame_end_i && !bank) bank0_q <= cds_i;
+      if (frame_end_i && bank)  bank1_q <= cds_i;
       host_q <= host_bank_i ? bank1_q : bank0_q;
     end
   end

@@ -24,6 +24,7 @@ module mb4_host_read (
   input  logic [7:0] cfg_data_i,     // combinational from rd_addr_i
   input  logic [7:0] instr_data_i,
   input  logic       instr_pending_i,
+  input  logic       control_pending_i,
   input  mb4_pkg::status_t status_i,
   input  logic [7:0] svalid_i,       // of the bank that the host owns
   input  logic [1:0] revision_sel_i
@@ -65,7 +66,8 @@ module mb4_host_read (
         reg_d = mb4_regs_pkg::RESET_VERSION;
       mb4_regs_pkg::ADDR_STATUS0:
         reg_d = {status_i.n_err, status_i.n_agserr, status_i.n_delayerr, status_i.n_scderr,
-                 status_i.n_regerr, status_i.regend, 1'b1, status_i.eot && !instr_pending_i};
+                 status_i.n_regerr, status_i.regend && !control_pending_i, 1'b1,
+                 status_i.eot && !instr_pending_i};
       mb4_regs_pkg::ADDR_SVALID_LO:
         reg_d = {svalid_i[3], 1'b0, svalid_i[2], 1'b0,
                  svalid_i[1], 1'b0, svalid_i[0], 1'b0};

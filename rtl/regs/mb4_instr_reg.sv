@@ -5,8 +5,8 @@
 //
 // Clock domain: host (hclk_i). The byte is held from the write on; toggle_o tells the core, which
 // answers with ack_i = toggle after it has acted. Until then the register reads as written, and
-// pending_o keeps EOT at 0, so that the first status read after an instruction sees it
-// (decisions 25, 26). BREAK never reads 1.
+// pending_o keeps EOT at 0, and with INSTR 100 or 111 REGEND as well, so that the first status read
+// after an instruction sees it (decisions 25, 26). BREAK never reads 1.
 // Misuse: two writes within three core clocks are taken as one (the later byte, or none if the core
 // clock stands still and the number of writes is even).
 // Datasheet: pages 32, 33, Tables 44..49.
@@ -20,6 +20,7 @@ module mb4_instr_reg (
   input  logic [7:0] wr_data_i,
   output logic [7:0] rd_data_o,
   output logic       pending_o,
+  output logic       pending_control_o,  // ... and the byte asks for control communication
   // to and from the core domain
   output mb4_pkg::instr_t written_o,
   output logic            toggle_o,
@@ -43,6 +44,7 @@ module mb4_instr_reg (
   assign written_o = byte_q;
   assign toggle_o  = toggle_q;
   assign pending_o = toggle_q ^ ack_i;
+  assign pending_control_o = pending_o && byte_q[3];
   assign rd_data_o = pending_o ? {1'b0, byte_q[6:0]} : held_i;
 
 endmodule

@@ -36,11 +36,19 @@ module mb4_reg_file (
   output logic       mem_busy_o,
   input  logic       holdbank_i,
   input  logic       swbank_pulse_i,
-  input  logic       bank_end_i,
+  input  logic       frame_end_i,
+  input  logic       reduced_i,      // it was a reduced frame: only CDS bits switch
+  input  logic       bank_end_i,     // it was none
   input  logic [1:0] cds_i,
   output logic [1:0] cds_o,          // of the host's bank
   output logic       bank_pending_o,
   output logic       bank_swapped_o,
+  // control communication
+  input  logic       rdata_rd_en_i,
+  input  logic [5:0] rdata_addr_i,
+  output logic [7:0] rdata_o,
+  input  logic       rdata_wr_en_i,
+  input  logic [7:0] rdata_wr_data_i,
   // received bytes and words of lines {2, 1}
   input  logic [1:0]  wr_line_i,
   input  logic [5:0]  wr_byte_i,
@@ -55,20 +63,16 @@ module mb4_reg_file (
 
   logic [7:0]  cfg_data;
   logic [7:0]  instr_data;
-  logic        instr_pending;
+  logic        instr_pending, control_pending;
   logic        clear_busy;
   logic [5:0]  clear_addr;
   logic        clear_busy_h;
   logic        post_wr;
   logic        post_valid, post_ready;
   logic [15:0] post_data;
-  logic        post_lo, post_hi, post_rdata, post_svalid_lo, post_svalid_hi;
-  logic        ready_lo, ready_hi, ready_rdata;
+  logic        post_rdata, ready_scd, ready_rdata;
   logic [7:0]  scd_lo_data, scd_hi_data, rdata_data;
   logic        host_bank, host_bank_h, eng_bank;
-  logic        lo_wr_en, hi_wr_en;
-  logic [5:0]  lo_wr_addr, hi_wr_addr;
-  logic [7:0]  lo_wr_data, hi_wr_data;
   logic [7:0]  svalid;
 
   // ---- registers ----------------------------------------------------------------------------
@@ -93,6 +97,7 @@ module mb4_reg_file (
     .wr_data_i,
     .rd_data_o (instr_data),
     .pending_o (instr_pending),
+    .pending_control_o (control_pending),
     .written_o,
     .toggle_o,
     .ack_i,
@@ -112,6 +117,7 @@ module mb4_reg_file (
     .cfg_data_i      (cfg_data),
     .instr_data_i    (instr_data),
     .instr_pending_i (instr_pending),
+    .control_pending_i (control_pending),
     .status_i,
     .svalid_i        (svalid),
     .revision_sel_i
@@ -151,13 +157,8 @@ module mb4_reg_file (
     .ready_i   (post_ready)
   );
 
-  assign post_lo        = post_valid && post_data[15:13] == 3'b000;
-  assign post_hi        = post_valid && post_data[15:13] == 3'b001;
-  assign post_rdata     = post_valid && post_data[15:14] == 2'b10;
-  assign post_svalid_lo = post_valid && post_data[15:8] == mb4_regs_pkg::ADDR_SVALID_LO;
-  assign post_svalid_hi = post_valid && post_data[15:8] == mb4_regs_pkg::ADDR_SVALID_HI;
-  assign post_ready     = (ready_lo || !post_lo) && (ready_hi || !post_hi) &&
-                          (ready_rdata || !post_rdata);
+  assign post_rdata = post_valid && post_data[15:14] == 2'b10;
+  assign post_ready = ready_scd && (ready_rdata || !post_rdata);
 
   assign mem_busy_o = clear_busy;
   mb4_ram_clear u_clear (
@@ -167,48 +168,44 @@ module mb4_reg_file (
     .addr_o (clear_addr)
   );
 
-  mb4_scd_bank u_scd_lo (
+  mb4_scd_store u_scd (
     .clk_i,
-    .clear_i        (clear_busy),
-    .clear_addr_i   (clear_addr),
-    .eng_wr_en_i    (lo_wr_en),
-    .eng_wr_addr_i  (lo_wr_addr),
-    .eng_wr_data_i  (lo_wr_data),
-    .host_wr_en_i   (post_lo),
-    .host_wr_addr_i ({host_bank, post_data[12:8]}),
-    .host_wr_data_i (post_data[7:0]),
-    .host_ready_o   (ready_lo),
+    .rst_ni,
+    .slaveloc5_i  (cfg_o.slaveloc5),
+    .host_bank_i  (host_bank),
+    .eng_bank_i   (eng_bank),
+    .clear_i      (clear_busy),
+    .clear_addr_i (clear_addr),
+    .post_valid_i (post_valid),
+    .post_i       (post_data),
+    .post_ready_o (ready_scd),
     .hclk_i,
     .rd_en_i,
-    .rd_addr_i      ({host_bank_h, rd_addr_i[4:0]}),
-    .rd_data_o      (scd_lo_data)
+    .rd_bank_i    (host_bank_h),
+    .rd_addr_i    (rd_addr_i[4:0]),
+    .rd_lo_data_o (scd_lo_data),
+    .rd_hi_data_o (scd_hi_data),
+    .svalid_o     (svalid),
+    .wr_line_i,
+    .wr_byte_i,
+    .wr_line_data_i,
+    .slave_i,
+    .word_begin_i,
+    .word_done_i,
+    .word_ok_i,
+    .delay_en_i,
+    .delay_i
   );
 
-  mb4_scd_bank u_scd_hi (
+  mb4_rdata_buf u_rdata (
     .clk_i,
     .clear_i        (clear_busy),
     .clear_addr_i   (clear_addr),
-    .eng_wr_en_i    (hi_wr_en),
-    .eng_wr_addr_i  (hi_wr_addr),
-    .eng_wr_data_i  (hi_wr_data),
-    .host_wr_en_i   (post_hi),
-    .host_wr_addr_i ({host_bank, post_data[12:8]}),
-    .host_wr_data_i (post_data[7:0]),
-    .host_ready_o   (ready_hi),
-    .hclk_i,
-    .rd_en_i,
-    .rd_addr_i      ({host_bank_h, rd_addr_i[4:0]}),
-    .rd_data_o      (scd_hi_data)
-  );
-
-  // RDATA has one bank and, until control communication exists, one writer: the host.
-  mb4_scd_bank u_rdata (
-    .clk_i,
-    .clear_i        (clear_busy),
-    .clear_addr_i   (clear_addr),
-    .eng_wr_en_i    (1'b0),
-    .eng_wr_addr_i  (6'd0),
-    .eng_wr_data_i  (8'd0),
+    .eng_wr_en_i    (rdata_wr_en_i),
+    .eng_addr_i     (rdata_addr_i),
+    .eng_wr_data_i  (rdata_wr_data_i),
+    .eng_rd_en_i    (rdata_rd_en_i),
+    .eng_rd_data_o  (rdata_o),
     .host_wr_en_i   (post_rdata),
     .host_wr_addr_i (post_data[13:8]),
     .host_wr_data_i (post_data[7:0]),
@@ -237,64 +234,11 @@ module mb4_reg_file (
     .rst_ni,
     .host_bank_i (host_bank),
     .eng_bank_i  (eng_bank),
-    .frame_end_i (bank_end_i),
+    .frame_end_i,
+    .reduced_i,
+    .holdbank_i,
     .cds_i,
     .cds_o
-  );
-
-  // Validity flags of the lower and the upper four data channels.
-  mb4_svalid u_svalid_lo (
-    .clk_i,
-    .rst_ni,
-    .host_bank_i (host_bank),
-    .eng_bank_i  (eng_bank),
-    .begin_i     (word_begin_i[0] && !slave_i[2]),
-    .set_en_i    (word_done_i[0] && !slave_i[2]),
-    .set_slave_i (slave_i[1:0]),
-    .set_valid_i (word_ok_i[0]),
-    .keep_en_i   (post_svalid_lo),
-    .keep_i      ({post_data[7], post_data[5], post_data[3], post_data[1]}),
-    .svalid_o    (svalid[3:0])
-  );
-
-  mb4_svalid u_svalid_hi (
-    .clk_i,
-    .rst_ni,
-    .host_bank_i (host_bank),
-    .eng_bank_i  (eng_bank),
-    .begin_i     (cfg_o.slaveloc5 ? word_begin_i[1] && slave_i[5] : word_begin_i[0] && slave_i[2]),
-    .set_en_i    (cfg_o.slaveloc5 ? word_done_i[1] && slave_i[5] : word_done_i[0] && slave_i[2]),
-    .set_slave_i (cfg_o.slaveloc5 ? slave_i[4:3] : slave_i[1:0]),
-    .set_valid_i (cfg_o.slaveloc5 ? word_ok_i[1] : word_ok_i[0]),
-    .keep_en_i   (post_svalid_hi),
-    .keep_i      ({post_data[7], post_data[5], post_data[3], post_data[1]}),
-    .svalid_o    (svalid[7:4])
-  );
-
-  // ---- received data ----------------------------------------------------------------------
-
-  mb4_rx_router u_router (
-    .slaveloc5_i    (cfg_o.slaveloc5),
-    .host_bank_i    (host_bank),
-    .eng_bank_i     (eng_bank),
-    .ch1_slave_i    (slave_i[2:0]),
-    .ch1_wr_en_i    (wr_line_i[0]),
-    .ch1_wr_byte_i  (wr_byte_i[2:0]),
-    .ch1_wr_data_i  (wr_line_data_i[7:0]),
-    .ch1_delay_en_i (delay_en_i[0]),
-    .ch1_delay_i    (delay_i[7:0]),
-    .ch2_slave_i    (slave_i[5:3]),
-    .ch2_wr_en_i    (wr_line_i[1]),
-    .ch2_wr_byte_i  (wr_byte_i[5:3]),
-    .ch2_wr_data_i  (wr_line_data_i[15:8]),
-    .ch2_delay_en_i (delay_en_i[1]),
-    .ch2_delay_i    (delay_i[15:8]),
-    .lo_wr_en_o     (lo_wr_en),
-    .lo_wr_addr_o   (lo_wr_addr),
-    .lo_wr_data_o   (lo_wr_data),
-    .hi_wr_en_o     (hi_wr_en),
-    .hi_wr_addr_o   (hi_wr_addr),
-    .hi_wr_data_o   (hi_wr_data)
   );
 
 endmodule

@@ -3,10 +3,8 @@
 //
 // Single-cycle data of four slaves in two banks: 2 x 32 bytes (SCDATA1..4 or SCDATA5..8).
 //
-// Clock domains: writes in the core clock, host reads in hclk_i (data valid after the edge with
-// rd_en_i). Write priority: clearing after reset, then the line engine, then the host; host_ready_o
-// tells that the host's posted byte is taken in this clock. The line engine writes at most every
-// second clock, so the host waits one clock at most.
+// Clock domains: writes in the core clock (see mb4_write_port), host reads in hclk_i (data valid
+// after the edge with rd_en_i).
 // Datasheet: page 26, Table 20.
 
 module mb4_scd_bank (
@@ -34,23 +32,20 @@ module mb4_scd_bank (
   logic [5:0] wr_addr;
   logic [7:0] wr_data;
 
-  always_comb begin
-    wr_en        = host_wr_en_i;
-    wr_addr      = host_wr_addr_i;
-    wr_data      = host_wr_data_i;
-    host_ready_o = 1'b1;
-    if (clear_i) begin
-      wr_en        = 1'b1;
-      wr_addr      = clear_addr_i;
-      wr_data      = 8'h00;
-      host_ready_o = 1'b0;
-    end else if (eng_wr_en_i) begin
-      wr_en        = 1'b1;
-      wr_addr      = eng_wr_addr_i;
-      wr_data      = eng_wr_data_i;
-      host_ready_o = 1'b0;
-    end
-  end
+  mb4_write_port u_port (
+    .clear_i,
+    .clear_addr_i,
+    .eng_wr_en_i,
+    .eng_wr_addr_i,
+    .eng_wr_data_i,
+    .host_wr_en_i,
+    .host_wr_addr_i,
+    .host_wr_data_i,
+    .host_ready_o,
+    .wr_en_o   (wr_en),
+    .wr_addr_o (wr_addr),
+    .wr_data_o (wr_data)
+  );
 
   mb4_ram #(.Width(8), .AddrW(6)) u_ram (
     .wclk_i    (clk_i),

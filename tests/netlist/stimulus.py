@@ -96,7 +96,7 @@ def host(*names):
 
 
 def instruction_byte(steps):
-    return steps.rng.choice([0x02, 0x04, 0x06, 0x03, 0x12, 0x80, 0x40, 0x20, 0x60]) \
+    return steps.rng.choice([0x02, 0x04, 0x06, 0x03, 0x08, 0x09, 0x0E, 0x12, 0x80, 0x40, 0x20, 0x60]) \
         if steps.chance(0.8) else steps.rng.getrandbits(8)
 
 
@@ -197,6 +197,43 @@ def rx_word(steps):
             steps.clock("clk_i")
 
 
+def control_crc(value):
+    """Data byte and the inverted CRC behind it, x^4 + x + 1, as bits."""
+    crc = 0
+    bits = [value >> i & 1 for i in range(7, -1, -1)]
+    for bit in bits:
+        crc = (crc << 1 & 0xF) ^ (3 if bit ^ crc >> 3 else 0)
+    return bits + [~crc >> i & 1 for i in range(3, -1, -1)]
+
+
+def control_frame(steps):
+    """Register accesses of many bytes with a slave that answers right, then anything."""
+    steps.reset(["rst_ni"])
+    for number in range(4):
+        write, value, count = number & 1, steps.rng.getrandbits(8), steps.rng.randint(33, 64)
+        steps.step(cts_i=1, wnr_i=write, regadr_i=steps.rng.getrandbits(7), regnum_i=count - 1,
+                   slaveid_i=steps.rng.getrandbits(3), select_i=1 + (number >> 1), rdata_i=value,
+                   cdm_timeout_i=1, begin_i=1)
+        steps.clock("clk_i")
+        steps.step(begin_i=0, expired_i=0)
+        answers = [0] * 17 + [1 - write, write] + ([0, 1] + control_crc(value) + [0]) * count
+        for cds in answers:
+            steps.step(start_i=1)
+            steps.clock("clk_i")
+            steps.step(start_i=0, frame_end_i=1, cds_i=3 * cds)
+            steps.clock("clk_i")
+            steps.step(frame_end_i=0)
+    play(steps, ["clk_i"], ["rst_ni"], 24000, {
+        "begin_i": 0.3, "abort_i": 0.0005, "start_i": 0.7, "frame_end_i": 0.7,
+        "cdm_timeout_i": 0.9, "expired_i": 0.02, "running_i": 0.5,
+        "select_i": rarely("select_i", 0.01, lambda s: s.rng.choice([1, 1, 2, 3])),
+        "cts_i": rarely("cts_i", 0.003), "wnr_i": rarely("wnr_i", 0.003),
+        "regadr_i": rarely("regadr_i", 0.003), "regnum_i": rarely(
+            "regnum_i", 0.003, lambda s: s.rng.choice([0, 1, 2])),
+        "slaveid_i": rarely("slaveid_i", 0.003), "ida_invert_i": rarely("ida_invert_i", 0.003),
+        "rdata_i": rarely("rdata_i", 0.003, lambda s: s.rng.choice([0, 0x80, 0xC0, 0x5A]))})
+
+
 def core(steps):
     """Whole chip without pins: a host that configures, starts frames and reads, noisy slaves."""
     rng = steps.rng
@@ -232,6 +269,8 @@ def core(steps):
         steps.step(quirks_i=rng.getrandbits(6), ner_i=rng.getrandbits(1))
         write(0xED, 5 if both else rng.choice([5, 15, 1]))
         write(0xEC, 0x10 if both else 0x00)
+        write(0xE2, rng.getrandbits(8), rng.getrandbits(1), rng.choice([0, 1, 2, 3]),
+              0x40 | rng.getrandbits(8))
         write(0xE6, rng.choice([0, 0, 1, 2]))
         write(0xF5, rng.getrandbits(8))
         write(0xE8, rng.choice([0x7C, 0x7F, 0x01, 0x00]))
@@ -289,6 +328,7 @@ MODULES = {
     "mb4_cdm_timeout": simple(*CORE, 4000, {"cdm_i": 0.02, "clear_i": 0.01}),
     "mb4_status_flags": simple(*CORE, 4000, {
         "clear_i": 0.05, "scd_bad_i": 0.2, "ags_error_i": 0.05, "bank_fail_i": 0.1}),
+    "mb4_control_frame": control_frame,
     "mb4_cds_bank": simple(*CORE, 3000),
     "mb4_timebase": timebase,
     "mb4_sl_sampler": simple(*CORE, 12000, {

@@ -44,6 +44,7 @@ module frame_top (
   logic       last_word;
   logic       sl_sync;
   logic       word_begin;
+  logic       cdm_sent;
   mb4_pkg::word_cfg_t word;
 
   mb4_freqs_dec u_freqs (
@@ -87,7 +88,9 @@ module frame_top (
     .start_i,
     .use_i       (1'b1),
     .init_i,
-    .cdm_i,
+    .cdm0_i      (cdm_i),
+    .cdm1_i      (cdm_i),
+    .reduced_i   (1'b0),
     .hold_cdm_i,
     .abort_i,
     .tick_i      (tick),
@@ -108,6 +111,7 @@ module frame_top (
     .word_done_o,
     .word_ok_o,
     .cds_o,
+    .cdm_o       (cdm_sent),
     .frame_end_o,
     .init_done_o,
     .init_fail_o,
@@ -120,6 +124,6 @@ module frame_top (
   );
 
   logic unused;
-  assign unused = sl_sync ^ word_begin;
+  assign unused = sl_sync ^ word_begin ^ cdm_sent;
 
 endmodule

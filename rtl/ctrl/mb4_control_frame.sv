@@ -1,0 +1,297 @@
+// SPDX-FileCopyrightText: 2026 The openmb4 authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// BiSS C control frame, master side: register read and write, commands. One CDM and one CDS bit a
+// frame; the slot is the number of frames since the start bit S (slot numbers: mb4_pkg).
+//
+// Clock domain: core. begin_i starts a control communication (ignored while active_o). Frames that
+// start from then on carry it: cdm0_o and cdm1_o are the CDM to send if the frame's own CDS is 0
+// or 1, one bit a line; step_i at their end takes CDS. Slot 0 lasts until 14 zeros have been sent
+// (cdm_timeout_i), slot 19 until the slave's start bit. CDS of a slot answers CDM of the slot
+// before. end_o comes one clock after the step that finished or failed.
+// Misuse: register access needs one line in select_i; configuration must be stable while active_o.
+// A slave that does not answer: nREGERR = 0 (no echo of R and W) or, with expired_i, nDELAYERR = 0.
+// Datasheet: pages 27..29, 34, 35, Figures 20..22; decisions 5, 12, 20, 22..24, 31.
+
+`include "mb4_check.svh"
+
+module mb4_control_frame (
+  input  logic       clk_i,
+  input  logic       rst_ni,
+  // configuration
+  input  logic       cts_i,
+  input  logic       wnr_i,
+  input  logic [6:0] regadr_i,
+  input  logic [5:0] regnum_i,
+  input  logic [2:0] slaveid_i,      // or CMD(1:0), IDA_TEST
+  input  logic       ida_invert_i,   // IDA_TEST has the other polarity
+  input  logic [1:0] select_i,       // lines {2, 1} that carry the control frame
+  // RDATA: byte rdata_addr_o is valid one clock after its address
+  output logic [5:0] rdata_addr_o,
+  input  logic [7:0] rdata_i,
+  output logic       rdata_wr_en_o,
+  output logic [7:0] rdata_wr_data_o,
+  // frames
+  input  logic       begin_i,
+  input  logic       abort_i,        // BREAK, INIT
+  input  logic       start_i,        // a frame starts
+  input  logic       frame_end_i,    // it has ended
+  input  logic [1:0] cds_i,          // its CDS, lines {2, 1}
+  input  logic       cdm_timeout_i,  // at least 14 frames with CDM = 0 before this one
+  input  logic       expired_i,      // no start bit for too long
+  input  logic       running_i,      // a frame runs
+  output logic       active_o,
+  output logic       in_body_o,       // the frame that ends belongs to slots before the stop bit
+  output logic       wait_o,         // waiting for the slave's start bit
+  output logic [1:0] cdm0_o,
+  output logic [1:0] cdm1_o,
+  // result
+  output logic       begin_o,
+  output logic       end_o,
+  output logic       reg_error_o,    // with end_o
+  output logic       delay_error_o,  // with end_o
+  output logic [5:0] good_bytes_o
+);
+
+  logic       active_q;
+  logic       active_d;
+  logic       carries_q;    // the running frame carries a bit of the control frame
+  logic       carries_d;
+  logic [5:0] slot_q;
+  logic [5:0] slot_d;
+  logic [9:0] bits_q;       // header fields, IDS and CMD, or data byte; first bit on top
+  logic [9:0] bits_d;
+  logic [3:0] crc_q;
+  logic [3:0] crc_d;
+  logic [5:0] index_q;      // bytes done
+  logic [5:0] index_d;
+  logic       last_q;       // the last byte is done
+  logic       last_d;
+  logic       sent_q;       // CDM of the slot before
+  logic       sent_d;
+  logic [1:0] ida_bad_q;    // lines whose IDA differs from IDS
+  logic [1:0] ida_bad_d;
+  logic       end_q, reg_error_q, delay_error_q;
+  logic       end_d, reg_error_d, delay_error_d;
+
+  logic       step;
+  logic       broadcast;
+  logic       tested;
+  logic       cds;          // of the selected line
+  logic       cdm0;
+  logic       cdm1;
+  logic       sent;
+  logic       top;
+  logic       crc_feed;
+  logic       crc_shift;
+  logic       crc_bit;
+  logic       by_ida;       // CDM depends on the line's own IDA
+  logic       stay;
+  logic       fail;
+  logic       finish;
+  logic       header, echo, ida;
+  logic       data;         // slots of data bits, CDM or CDS by direction
+  logic       data_crc;
+
+  assign step      = carries_q && frame_end_i;
+  assign broadcast = rdata_i == 8'h00;
+  assign tested    = (slaveid_i[0] ^ ida_invert_i) && !broadcast;
+  assign cds       = (cds_i & select_i) != 2'b00;
+  assign top       = bits_q[9];
+
+  // ---- slots --------------------------------------------------------------------------------
+
+  assign header   = slot_q >= mb4_pkg::SLOT_HEADER && slot_q < mb4_pkg::SLOT_CRC;
+  assign echo     = cts_i && slot_q > mb4_pkg::SLOT_WAIT && slot_q <= mb4_pkg::SLOT_STOP;
+  assign ida      = !cts_i && !broadcast && slot_q >= mb4_pkg::SLOT_IDA &&
+                    slot_q <= mb4_pkg::SLOT_EX_TESTED;
+  // CDS of a read comes one slot after CDM of a write.
+  assign data     = cts_i && (wnr_i
+                    ? (slot_q == mb4_pkg::SLOT_WAIT && cds) ||
+                      (slot_q > mb4_pkg::SLOT_WAIT && slot_q < mb4_pkg::SLOT_DATA_CRC)
+                    : slot_q > mb4_pkg::SLOT_WAIT && slot_q <= mb4_pkg::SLOT_DATA_CRC);
+  assign data_crc = echo && !data;
+
+  // ---- CDM ----------------------------------------------------------------------------------
+
+  always_comb begin
+    cdm0   = 1'b0;
+    by_ida = 1'b0;
+    unique case (slot_q)
+      mb4_pkg::SLOT_START: cdm0 = cdm_timeout_i;
+      mb4_pkg::SLOT_CTS:   cdm0 = cts_i;
+      6'd2, 6'd3, 6'd4, 6'd5, 6'd6, 6'd7, 6'd8, 6'd9, 6'd10, 6'd11:
+        cdm0 = top;
+      6'd12, 6'd13, 6'd14, 6'd15:
+        cdm0 = !crc_q[3];
+      mb4_pkg::SLOT_READ:  cdm0 = cts_i ? !wnr_i : !tested;   // EX at once
+      mb4_pkg::SLOT_WRITE: cdm0 = cts_i && wnr_i;
+      mb4_pkg::SLOT_BYTE:  cdm0 = cts_i;
+      mb4_pkg::SLOT_WAIT, 6'd20, 6'd21, 6'd22, 6'd23, 6'd25, 6'd26:
+        cdm0 = cts_i && wnr_i && top;
+      mb4_pkg::SLOT_EX_TESTED: begin
+        cdm0   = cts_i && wnr_i && top;
+        by_ida = !cts_i && tested;
+      end
+      6'd27, 6'd28, 6'd29, 6'd30:
+        cdm0 = wnr_i && !crc_q[3];
+      mb4_pkg::SLOT_NEXT:  cdm0 = !last_q;
+      default: cdm0 = 1'b0;
+    endcase
+    cdm1 = cdm0;
+    // S is repeated until the slave answers it.
+    if (cts_i && slot_q == mb4_pkg::SLOT_WAIT) cdm0 = 1'b1;
+  end
+
+  assign sent = cds ? cdm1 : cdm0;
+
+  for (genvar i = 0; i < 2; i++) begin : gen_line
+    assign cdm0_o[i] = select_i[i] && (by_ida ? !ida_bad_q[i] && !top : cdm0);
+    assign cdm1_o[i] = select_i[i] && (by_ida ? !ida_bad_q[i] && top : cdm1);
+  end
+
+  // ---- what a frame's end does ----------------------------------------------------------------
+
+  always_comb begin
+    stay      = 1'b0;
+    fail      = 1'b0;
+    finish    = 1'b0;
+    ida_bad_d = ida_bad_q;
+    unique case (slot_q)
+      mb4_pkg::SLOT_START: stay = !sent;
+      mb4_pkg::SLOT_WRITE: begin
+        fail   = cts_i && cds == wnr_i;
+        finish = !cts_i && broadcast;
+      end
+      mb4_pkg::SLOT_BYTE:  fail   = cts_i && cds != wnr_i;
+      mb4_pkg::SLOT_WAIT:  stay   = cts_i && !cds;
+      mb4_pkg::SLOT_STOP_TESTED: finish = !cts_i;
+      mb4_pkg::SLOT_NEXT:  finish = last_q;
+      default: ;
+    endcase
+    if (echo && wnr_i && cds != sent_q)        fail = 1'b1;
+    if (data_crc && !wnr_i && cds == crc_q[3]) fail = 1'b1;
+    if (ida) begin
+      ida_bad_d = ida_bad_q | (select_i & (cds_i ^ {2{top}}));
+      if (slot_q == mb4_pkg::SLOT_EX_TESTED && !tested) finish = 1'b1;
+    end
+  end
+
+  always_comb begin
+    crc_feed  = header || data;
+    crc_shift = (slot_q >= mb4_pkg::SLOT_CRC && slot_q < mb4_pkg::SLOT_READ) || data_crc;
+    crc_bit   = crc_q[3] ^ ((header || wnr_i) ? sent : cds);
+    crc_d     = crc_q;
+    if (crc_feed)       crc_d = {crc_q[2:0], 1'b0} ^ (crc_bit ? mb4_pkg::CONTROL_CRC_POLY : 4'h0);
+    else if (crc_shift) crc_d = {crc_q[2:0], 1'b0};
+    // The header's CRC does not cover S, the data's only the byte.
+    if (slot_q == mb4_pkg::SLOT_START || slot_q == mb4_pkg::SLOT_BYTE ||
+        slot_q == mb4_pkg::SLOT_NEXT) crc_d = 4'h0;
+  end
+
+  always_comb begin
+    bits_d = bits_q;
+    if (slot_q == mb4_pkg::SLOT_START)
+      bits_d = cts_i ? {slaveid_i, regadr_i} : {rdata_i, slaveid_i[2:1]};
+    else if (cts_i && (slot_q == mb4_pkg::SLOT_BYTE || slot_q == mb4_pkg::SLOT_NEXT))
+      bits_d = {rdata_i, 2'b00};
+    else if ((header && slot_q != mb4_pkg::SLOT_CTS) || data || ida)
+      bits_d = {bits_q[8:0], (data && !wnr_i) ? cds : top};
+  end
+
+  assign rdata_wr_en_o   = step && cts_i && !wnr_i && !fail && slot_q == mb4_pkg::SLOT_STOP;
+  assign rdata_wr_data_o = bits_q[7:0];
+  assign rdata_addr_o    = index_q;
+
+  always_comb begin
+    active_d      = active_q;
+    carries_d     = start_i ? active_o : carries_q && !frame_end_i;
+    slot_d        = slot_q;
+    index_d       = index_q;
+    last_d        = last_q;
+    sent_d        = sent_q;
+    end_d         = 1'b0;
+    reg_error_d   = 1'b0;
+    delay_error_d = 1'b0;
+
+    if (step) begin
+      sent_d = sent;
+      if (!stay) slot_d = (slot_q == mb4_pkg::SLOT_NEXT) ? mb4_pkg::SLOT_WAIT
+                                                             : slot_q + 6'd1;
+      if (slot_q == mb4_pkg::SLOT_STOP && !fail) begin
+        index_d = index_q + 6'd1;
+        last_d  = index_q == regnum_i;
+      end
+      if (fail || finish) begin
+        active_d    = 1'b0;
+        end_d       = 1'b1;
+        reg_error_d = fail || ida_bad_d != 2'b00;
+      end
+    end else if (wait_o && expired_i && !running_i) begin
+      active_d      = 1'b0;
+      end_d         = 1'b1;
+      delay_error_d = 1'b1;
+    end
+
+    if (begin_o) begin
+      active_d = 1'b1;
+      slot_d   = mb4_pkg::SLOT_START;
+      index_d  = 6'd0;
+      last_d   = 1'b0;
+    end
+    if (abort_i) begin
+      active_d  = 1'b0;
+      carries_d = 1'b0;
+      index_d   = 6'd0;
+      end_d     = 1'b0;
+    end
+  end
+
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      active_q      <= 1'b0;
+      carries_q     <= 1'b0;
+      slot_q        <= '0;
+      bits_q        <= '0;
+      crc_q         <= '0;
+      index_q       <= '0;
+      last_q        <= 1'b0;
+      sent_q        <= 1'b0;
+      ida_bad_q     <= '0;
+      end_q         <= 1'b0;
+      reg_error_q   <= 1'b0;
+      delay_error_q <= 1'b0;
+    end else begin
+      active_q      <= active_d;
+      carries_q     <= carries_d;
+      slot_q        <= slot_d;
+      index_q       <= index_d;
+      last_q        <= last_d;
+      sent_q        <= sent_d;
+      end_q         <= end_d;
+      reg_error_q   <= reg_error_d;
+      delay_error_q <= delay_error_d;
+      if (step) bits_q <= bits_d;
+      if (step) crc_q  <= crc_d;
+      if (begin_o)   ida_bad_q <= '0;
+      else if (step) ida_bad_q <= ida_bad_d;
+    end
+  end
+
+  assign begin_o       = begin_i && !active_q;
+  assign active_o      = active_q || begin_i;
+  assign wait_o        = active_q && cts_i && slot_q == mb4_pkg::SLOT_WAIT;
+  assign in_body_o      = carries_q && slot_q != mb4_pkg::SLOT_START &&
+                         (cts_i ? slot_q < mb4_pkg::SLOT_STOP
+                                : slot_q < (tested ? mb4_pkg::SLOT_STOP_TESTED
+                                                   : mb4_pkg::SLOT_STOP_COMMAND));
+  assign end_o         = end_q;
+  assign reg_error_o   = reg_error_q;
+  assign delay_error_o = delay_error_q;
+  assign good_bytes_o  = index_q;
+
+  `MB4_ASSERT(SlotInRange_A, clk_i, rst_ni, slot_q <= mb4_pkg::SLOT_NEXT)
+  `MB4_ASSERT_IF(NextIsForRegisters_A, clk_i, rst_ni, active_q && !cts_i,
+                 slot_q <= mb4_pkg::SLOT_STOP_TESTED)
+
+endmodule

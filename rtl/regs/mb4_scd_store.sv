@@ -1,0 +1,143 @@
+// SPDX-FileCopyrightText: 2026 The openmb4 authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Sensor data of all eight data channels with their validity flags: lower half SCDATA1..4, upper
+// half SCDATA5..8, two banks each (instances and address decoding only).
+//
+// Clock domains: core; host reads in hclk_i (data valid after the edge with rd_en_i). Bit i of a
+// vector {2, 1} belongs to line i + 1. Host writes and clears act on the host's bank.
+// Datasheet: pages 26, 35, Tables 20, 61.
+
+module mb4_scd_store (
+  input  logic       clk_i,
+  input  logic       rst_ni,
+  input  logic       slaveloc5_i,
+  input  logic       host_bank_i,
+  input  logic       eng_bank_i,
+  // clearing after reset
+  input  logic       clear_i,
+  input  logic [5:0] clear_addr_i,
+  // host, posted into the core domain: {address, data}
+  input  logic       post_valid_i,
+  input  logic [15:0] post_i,
+  output logic       post_ready_o,    // 1 as well if the byte is not for this module
+  // host read port
+  input  logic       hclk_i,
+  input  logic       rd_en_i,
+  input  logic       rd_bank_i,       // host_bank_i in hclk_i
+  input  logic [4:0] rd_addr_i,
+  output logic [7:0] rd_lo_data_o,
+  output logic [7:0] rd_hi_data_o,
+  output logic [7:0] svalid_o,        // of the host's bank
+  // received bytes and words of lines {2, 1}
+  input  logic [1:0]  wr_line_i,
+  input  logic [5:0]  wr_byte_i,
+  input  logic [15:0] wr_line_data_i,
+  input  logic [5:0]  slave_i,
+  input  logic [1:0]  word_begin_i,
+  input  logic [1:0]  word_done_i,
+  input  logic [1:0]  word_ok_i,
+  input  logic [1:0]  delay_en_i,
+  input  logic [15:0] delay_i
+);
+
+  logic       post_lo, post_hi, post_svalid_lo, post_svalid_hi;
+  logic       ready_lo, ready_hi;
+  logic       lo_wr_en, hi_wr_en;
+  logic [5:0] lo_wr_addr, hi_wr_addr;
+  logic [7:0] lo_wr_data, hi_wr_data;
+
+  assign post_lo        = post_valid_i && post_i[15:13] == 3'b000;
+  assign post_hi        = post_valid_i && post_i[15:13] == 3'b001;
+  assign post_svalid_lo = post_valid_i && post_i[15:8] == mb4_regs_pkg::ADDR_SVALID_LO;
+  assign post_svalid_hi = post_valid_i && post_i[15:8] == mb4_regs_pkg::ADDR_SVALID_HI;
+  assign post_ready_o   = (ready_lo || !post_lo) && (ready_hi || !post_hi);
+
+  mb4_rx_router u_router (
+    .slaveloc5_i,
+    .host_bank_i,
+    .eng_bank_i,
+    .ch1_slave_i    (slave_i[2:0]),
+    .ch1_wr_en_i    (wr_line_i[0]),
+    .ch1_wr_byte_i  (wr_byte_i[2:0]),
+    .ch1_wr_data_i  (wr_line_data_i[7:0]),
+    .ch1_delay_en_i (delay_en_i[0]),
+    .ch1_delay_i    (delay_i[7:0]),
+    .ch2_slave_i    (slave_i[5:3]),
+    .ch2_wr_en_i    (wr_line_i[1]),
+    .ch2_wr_byte_i  (wr_byte_i[5:3]),
+    .ch2_wr_data_i  (wr_line_data_i[15:8]),
+    .ch2_delay_en_i (delay_en_i[1]),
+    .ch2_delay_i    (delay_i[15:8]),
+    .lo_wr_en_o     (lo_wr_en),
+    .lo_wr_addr_o   (lo_wr_addr),
+    .lo_wr_data_o   (lo_wr_data),
+    .hi_wr_en_o     (hi_wr_en),
+    .hi_wr_addr_o   (hi_wr_addr),
+    .hi_wr_data_o   (hi_wr_data)
+  );
+
+  mb4_scd_bank u_scd_lo (
+    .clk_i,
+    .clear_i,
+    .clear_addr_i,
+    .eng_wr_en_i    (lo_wr_en),
+    .eng_wr_addr_i  (lo_wr_addr),
+    .eng_wr_data_i  (lo_wr_data),
+    .host_wr_en_i   (post_lo),
+    .host_wr_addr_i ({host_bank_i, post_i[12:8]}),
+    .host_wr_data_i (post_i[7:0]),
+    .host_ready_o   (ready_lo),
+    .hclk_i,
+    .rd_en_i,
+    .rd_addr_i      ({rd_bank_i, rd_addr_i}),
+    .rd_data_o      (rd_lo_data_o)
+  );
+
+  mb4_scd_bank u_scd_hi (
+    .clk_i,
+    .clear_i,
+    .clear_addr_i,
+    .eng_wr_en_i    (hi_wr_en),
+    .eng_wr_addr_i  (hi_wr_addr),
+    .eng_wr_data_i  (hi_wr_data),
+    .host_wr_en_i   (post_hi),
+    .host_wr_addr_i ({host_bank_i, post_i[12:8]}),
+    .host_wr_data_i (post_i[7:0]),
+    .host_ready_o   (ready_hi),
+    .hclk_i,
+    .rd_en_i,
+    .rd_addr_i      ({rd_bank_i, rd_addr_i}),
+    .rd_data_o      (rd_hi_data_o)
+  );
+
+  // Validity flags of the lower and the upper four data channels.
+  mb4_svalid u_svalid_lo (
+    .clk_i,
+    .rst_ni,
+    .host_bank_i,
+    .eng_bank_i,
+    .begin_i     (word_begin_i[0] && !slave_i[2]),
+    .set_en_i    (word_done_i[0] && !slave_i[2]),
+    .set_slave_i (slave_i[1:0]),
+    .set_valid_i (word_ok_i[0]),
+    .keep_en_i   (post_svalid_lo),
+    .keep_i      ({post_i[7], post_i[5], post_i[3], post_i[1]}),
+    .svalid_o    (svalid_o[3:0])
+  );
+
+  mb4_svalid u_svalid_hi (
+    .clk_i,
+    .rst_ni,
+    .host_bank_i,
+    .eng_bank_i,
+    .begin_i     (slaveloc5_i ? word_begin_i[1] && slave_i[5] : word_begin_i[0] && slave_i[2]),
+    .set_en_i    (slaveloc5_i ? word_done_i[1] && slave_i[5] : word_done_i[0] && slave_i[2]),
+    .set_slave_i (slaveloc5_i ? slave_i[4:3] : slave_i[1:0]),
+    .set_valid_i (slaveloc5_i ? word_ok_i[1] : word_ok_i[0]),
+    .keep_en_i   (post_svalid_hi),
+    .keep_i      ({post_i[7], post_i[5], post_i[3], post_i[1]}),
+    .svalid_o    (svalid_o[7:4])
+  );
+
+endmodule
