@@ -1,0 +1,258 @@
+// SPDX-FileCopyrightText: 2026 The openmb4 authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Status flags 0xF0..0xF3, 0xF8..0xFB and the pins EOT and NER: what sets each of them and what
+// clears it (pages 34..36, Tables 54, 55, 59..62, 64..67; decisions 8, 9, 20). The flags of control
+// communication have tests of their own.
+#include <gtest/gtest.h>
+
+#include "chip_fixture.hpp"
+
+namespace {
+
+using mb4test::Chip;
+using mb4test::one_slave;
+namespace sim = mb4::sim;
+
+const char kEncoder26[] = "data_bits = 28\ncrc = 0x43\ndata = 0xAAF37BF\ntimeout = \"adaptive\"";
+constexpr std::uint8_t kAgsmin = 0x7C;
+
+void frame(Chip& chip, std::uint8_t instruction = 0x04) {
+  chip.instruct(instruction);
+  ASSERT_TRUE(chip.wait_eot());
+}
+// Bit 1 on the wire is CDS: a slave of this version sends 0.
+void frame_with_cds(Chip& chip, unsigned line, std::uint8_t instruction = 0x04) {
+  chip.simulator.line(line)->faults().flip_next_frame({1});
+  frame(chip, instruction);
+}
+void frame_with_wrong_crc(Chip& chip) {
+  chip.simulator.line(1)->faults().flip_next_frame({7});
+  frame(chip);
+}
+// Two lines with a sensor of 28 bits each: data channels 1 and 5.
+std::string two_lines() {
+  return one_slave(kEncoder26) +
+         "[[channel]]\nnumber = 2\ndelay_ns = 60.0\n[[channel.slave]]\nprotocol = \"biss-c\"\n" +
+         kEncoder26 + "\n";
+}
+void configure_two_lines(Chip& chip) {
+  chip.configure_slave1(28, 0x06, 0x00, kAgsmin);
+  chip.write(0xD0, {0x40 | 27, 0x06, 0x00, 0x00});
+  chip.write(0xEC, {0x11, 0x05});
+}
+
+// Table 54 and page 34: 0 from the instruction to the end of the frame, the pin with it.
+TEST(ChipStatus, Eot_IsZeroDuringFramesAndInitAndEqualsThePin) {
+  Chip chip(one_slave(kEncoder26));
+  chip.simulator.spi().set_timing(sim::SpiTiming::for_frequency(50'000'000));
+  chip.configure_slave1(28, 0x06, 0x03, kAgsmin);
+  for (const unsigned instruction : {0x04U, 0x10U}) {
+    EXPECT_EQ(chip.status() & 0x01, 0x01);
+    EXPECT_TRUE(chip.simulator.pin(sim::Pin::kEot));
+    chip.instruct(static_cast<std::uint8_t>(instruction));
+    chip.simulator.advance(400 * sim::kPsPerNs);
+    unsigned reads = 0;
+    while (!chip.simulator.pin(sim::Pin::kEot)) {
+      const std::uint8_t flag = chip.status() & 0x01;
+      if (chip.simulator.pin(sim::Pin::kEot)) break;  // rose during the read
+      EXPECT_EQ(flag, 0x00);
+      ++reads;
+      ASSERT_LT(reads, 1000U);
+    }
+    EXPECT_GT(reads, 3U);
+    EXPECT_EQ(chip.status() & 0x01, 0x01);
+  }
+}
+
+// Table 55, decision 9: set by a wrong CRC; cleared by the next good frame, by INIT, by BREAK.
+TEST(ChipStatus, Nscderr_WrongCrcSetsItGoodFrameInitAndBreakClearIt) {
+  Chip chip(one_slave(kEncoder26));
+  chip.configure_slave1(28, 0x06, 0x00, kAgsmin);
+  for (const unsigned clear : {0x04U, 0x10U, 0x80U}) {
+    frame_with_wrong_crc(chip);
+    EXPECT_EQ(chip.status(), 0x6B) << "nERR = nSCDERR = 0";
+    EXPECT_FALSE(chip.simulator.pin(sim::Pin::kNer));
+    chip.advance_us(10);
+    EXPECT_EQ(chip.status(), 0x6B) << "stays until it is cleared";
+    frame(chip, static_cast<std::uint8_t>(clear));
+    EXPECT_EQ(chip.status(), 0xFB) << "cleared by " << clear;
+    EXPECT_TRUE(chip.simulator.pin(sim::Pin::kNer));
+  }
+}
+
+// Table 59, page 32: set when a frame cannot start (SL low); cleared by INIT and by BREAK, not by
+// the next good frame ("at least one").
+TEST(ChipStatus, Nagserr_MissedFrameSetsItInitAndBreakClearIt) {
+  Chip chip(one_slave(kEncoder26));
+  chip.configure_slave1(28, 0x06, 0x00, 0x00);
+  for (const unsigned clear : {0x10U, 0x80U}) {
+    chip.simulator.line(1)->faults().stick(false);
+    chip.simulator.refresh_lines();
+    chip.advance_us(1);
+    frame(chip);
+    EXPECT_EQ(chip.status(), 0x3B) << "nERR = nAGSERR = 0";
+    EXPECT_FALSE(chip.simulator.pin(sim::Pin::kNer));
+    chip.simulator.line(1)->faults().stick(std::nullopt);
+    chip.simulator.refresh_lines();
+    chip.advance_us(1);
+    frame(chip);
+    EXPECT_EQ(chip.read(0xF1), 0x02) << "the next frame is tried";
+    EXPECT_EQ(chip.status(), 0x3B);
+    chip.advance_us(10);
+    frame(chip, static_cast<std::uint8_t>(clear));
+    EXPECT_EQ(chip.status(), 0xFB) << "cleared by " << clear;
+    EXPECT_TRUE(chip.simulator.pin(sim::Pin::kNer));
+  }
+}
+
+// Table 60, page 34: NER is open drain: whoever pulls wins, nERR shows the pin, and an error of
+// another component touches no other flag.
+TEST(ChipStatus, NerPin_InternalAndExternalErrorsAreWiredOr) {
+  Chip chip(one_slave(kEncoder26));
+  chip.configure_slave1(28, 0x06, 0x00, kAgsmin);
+  for (const bool internal : {false, true}) {
+    for (const bool external : {false, true}) {
+      chip.simulator.set_pin(sim::Pin::kNer, !external);
+      if (internal) {
+        frame_with_wrong_crc(chip);
+      } else {
+        frame(chip);
+      }
+      const bool low = internal || external;
+      EXPECT_EQ(chip.simulator.pin(sim::Pin::kNer), !low);
+      EXPECT_EQ(chip.status(), (low ? 0x00 : 0x80) | (internal ? 0x6B : 0x7B));
+    }
+  }
+  chip.simulator.set_pin(sim::Pin::kNer, true);
+  EXPECT_FALSE(chip.simulator.pin(sim::Pin::kNer)) << "the chip still pulls";
+  frame(chip);
+  EXPECT_TRUE(chip.simulator.pin(sim::Pin::kNer));
+}
+
+// Table 61: each SVALIDx at its bit: a frame sets it, a wrong CRC of this slave alone clears it,
+// and so does writing 0 to it alone.
+TEST(ChipStatus, EverySvalid_HasItsOwnBit) {
+  std::string text = "[host]\nsclk_hz = 20_000_000\n[[channel]]\nnumber = 1\n";
+  for (int i = 0; i < 8; ++i) {
+    text +=
+        "[[channel.slave]]\nprotocol = \"biss-c\"\ndata_bits = 4\nflag_bits = 0\n"
+        "crc = 0x43\ndata = 9\n";
+  }
+  Chip chip(text);
+  for (unsigned x = 0; x < 8; ++x) {
+    chip.write(static_cast<std::uint8_t>(0xC0 + 4 * x), {0x43, 0x06, 0x00, 0x00});
+  }
+  chip.write(0xE5, {0x40, 0xA0, 0x00, kAgsmin});
+  chip.write(0xEC, {0x01, 0x0D});
+  for (unsigned x = 0; x < 8; ++x) {
+    const unsigned bit = 1U << (8 * (x / 4) + 2 * (x % 4) + 1);  // in F2:F1
+    const auto flags = [&] {
+      const auto bytes = chip.read(0xF1, 2);
+      return bytes[0] | (bytes[1] << 8U);
+    };
+    frame(chip);
+    EXPECT_EQ(flags(), 0xAAAA);
+    chip.simulator.line(1)->faults().flip_next_frame({2 + 10 * x + 5});
+    frame(chip);
+    EXPECT_EQ(flags(), 0xAAAA & ~bit) << "wrong CRC of slave " << x + 1;
+    frame(chip);
+    EXPECT_EQ(flags(), 0xAAAA);
+    chip.write(0xF1,
+               {static_cast<std::uint8_t>(~bit & 0xFFU), static_cast<std::uint8_t>(~bit >> 8U)});
+    chip.advance_us(1);
+    EXPECT_EQ(flags(), 0xAAAA & ~bit) << "written";
+  }
+}
+
+// Tables 65, 66: CDS of each line, CDSSEL of the line that CHSEL selects (00 means channel 1); they
+// switch with the banks.
+TEST(ChipStatus, CdsBits_FollowTheirLineAndChsel) {
+  Chip chip(two_lines());
+  configure_two_lines(chip);
+  for (const unsigned chsel : {0U, 1U, 2U}) {
+    chip.write(0xE4, {static_cast<std::uint8_t>(chsel)});
+    for (unsigned pattern = 0; pattern < 4; ++pattern) {
+      for (const unsigned line : {1U, 2U}) {
+        if (((pattern >> (line - 1)) & 1U) != 0) {
+          chip.simulator.line(line)->faults().flip_next_frame({1});
+        }
+      }
+      frame(chip);
+      const unsigned cds1 = pattern & 1U;
+      const unsigned cds2 = pattern >> 1U;
+      EXPECT_EQ(chip.read(0xF8), 0x55 | (cds1 << 1U) | (cds2 << 3U));
+      EXPECT_EQ(chip.read(0xF3) & 0x40, (chsel == 2 ? cds2 : cds1) << 6U) << chsel;
+      EXPECT_EQ(chip.read(0xF1, 2), (std::vector<std::uint8_t>{0x02, 0x02}));
+    }
+  }
+}
+
+TEST(ChipStatus, CdsUnderHoldBank_SwitchesWithTheBank) {
+  Chip chip(one_slave(kEncoder26));
+  chip.configure_slave1(28, 0x06, 0x00, kAgsmin);
+  frame(chip);
+  frame_with_cds(chip, 1, 0x44);
+  EXPECT_EQ(chip.read(0xF8), 0x55);
+  EXPECT_EQ(chip.read(0xF3) & 0x40, 0x00);
+  chip.instruct(0x00);
+  chip.advance_us(1);
+  EXPECT_EQ(chip.read(0xF8), 0x57);
+  EXPECT_EQ(chip.read(0xF3) & 0x40, 0x40);
+  frame(chip);
+  EXPECT_EQ(chip.read(0xF8), 0x55);
+}
+
+// Table 62: set when HOLDBANK has kept a frame from switching; cleared by the next switch only.
+TEST(ChipStatus, SwBankFail_PreventedSwitchSetsItTheNextSwitchClearsIt) {
+  Chip chip(one_slave(kEncoder26));
+  chip.configure_slave1(28, 0x06, 0x00, kAgsmin);
+  frame(chip, 0x44);
+  EXPECT_EQ(chip.read(0xFB), 0x00) << "held back, not lost";
+  frame(chip, 0x44);
+  EXPECT_EQ(chip.read(0xFB), 0x01);
+  frame(chip, 0x10 | 0x40);
+  EXPECT_EQ(chip.status(), 0xFB) << "INIT clears nAGSERR";
+  EXPECT_EQ(chip.read(0xFB), 0x01) << "but not this flag";
+  chip.instruct(0x00);
+  chip.advance_us(1);
+  EXPECT_EQ(chip.read(0xFB), 0x00);
+}
+
+// Table 45, 011: CDM = NOT CDSSEL, one frame with AGS = 0.
+TEST(ChipInstr, CdmNotCdssel_IsTheInverseOfTheLastCds) {
+  for (const unsigned chsel : {1U, 2U}) {
+    Chip chip(two_lines());
+    configure_two_lines(chip);
+    chip.write(0xE4, {static_cast<std::uint8_t>(chsel)});
+    for (const bool cds : {true, false, false, true, true}) {
+      if (cds) {
+        frame_with_cds(chip, chsel);
+      } else {
+        frame(chip);
+      }
+      chip.advance_us(10);
+      const auto frames = chip.simulator.slave(1)->frames();
+      frame(chip, 0x06);
+      EXPECT_EQ(chip.read(0xF4), 0x00);
+      chip.advance_us(10);
+      EXPECT_EQ(chip.simulator.slave(1)->frames(), frames + 1);
+      for (const unsigned slave : {1U, 5U}) {
+        EXPECT_EQ(chip.simulator.slave(slave)->last_cdm(), !cds) << "slave " << slave;
+      }
+    }
+  }
+}
+
+// Table 6: constants of the status block.
+TEST(ChipStatus, ConstantBits_ReadAsPrinted) {
+  Chip chip(one_slave(kEncoder26));
+  chip.configure_slave1(28, 0x06, 0x00, kAgsmin);
+  frame(chip);
+  EXPECT_EQ(chip.read(0xF0) & 0x02, 0x02);
+  EXPECT_EQ(chip.read(0xF1, 2), (std::vector<std::uint8_t>{0x02, 0x00})) << "even bits are 0";
+  EXPECT_EQ(chip.read(0xF8) & 0xF0, 0x50);
+  EXPECT_EQ(chip.read(0xF9), 0x55);
+}
+
+}  // namespace
