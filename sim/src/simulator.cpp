@@ -49,6 +49,7 @@ Simulator::Simulator(const Scenario& scenario, const SimulatorOptions& options)
       line->chain().add(make_slave(slave, derive_seed(seed_, number)));
       ++number;
     }
+    for (const auto& [frame, bits] : channel.flips) line->faults().flip_frame(frame, bits);
     lines_[index] = std::move(line);
   }
   chip_ = options.trace_path ? make_traced_chip(scenario_.chip, chip_seed, *options.trace_path)

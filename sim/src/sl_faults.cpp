@@ -3,11 +3,17 @@
 #include "mb4sim/sl_faults.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace mb4::sim {
 
 void SlFaults::flip_next_frame(std::vector<unsigned> bits) {
   pending_.insert(pending_.end(), bits.begin(), bits.end());
+}
+
+void SlFaults::flip_frame(std::uint64_t frame, std::vector<unsigned> bits) {
+  std::vector<unsigned>& planned = planned_[frame];
+  planned.insert(planned.end(), bits.begin(), bits.end());
 }
 
 void SlFaults::rising_edge() {
@@ -27,6 +33,11 @@ void SlFaults::levels(bool slo, bool idle) {
   } else if (!counting_ && slo) {
     counting_ = true;
     bit_ = 0;
+    ++frames_;
+    if (const auto found = planned_.find(frames_); found != planned_.end()) {
+      flip_next_frame(std::move(found->second));
+      planned_.erase(found);
+    }
     update();
   }
 }

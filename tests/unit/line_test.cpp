@@ -81,6 +81,20 @@ TEST(Line, FlippedBits_AreInvertedInOneFrameOnly) {
             "0");
 }
 
+TEST(Line, BitsPlannedByFrame_AreInvertedInThatFrame) {
+  LineBench bench(10'000);
+  bench.line.faults().flip_frame(3, {2});
+  bench.line.faults().flip_frame(2, {9});
+  bench.line.faults().flip_frame(2, {1});
+  bench.line.faults().flip_frame(4, {0});  // the start bit itself
+  const char* const expected[] = {"1010101001010", "1011101001000", "1010001001010",
+                                  "1000101001010", "1010101001010"};
+  for (unsigned frame = 0; frame < 5; ++frame) {
+    EXPECT_EQ(bench.frame(kStart + frame * 100 * kPeriod, 13, kPeriod / 2), expected[frame])
+        << "frame " << frame + 1;
+  }
+}
+
 TEST(Line, StuckLow_ThenReleased_FollowsTheSlaveAgain) {
   LineBench bench(0);
   bench.line.faults().stick(false);

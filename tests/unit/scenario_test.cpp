@@ -61,6 +61,13 @@ TEST(Scenario, CableLength_Is5Point3NanosecondsPerMetreEachWay) {
   EXPECT_EQ(scenario.channels[0].delay, 106'000U);
 }
 
+TEST(Scenario, Flips_AreListedByFrame) {
+  const Scenario scenario =
+      parse_scenario("[[channel]]\nnumber = 1\nflips = [[3, 2, 9], [5, 0], [3, 4]]\n", "s");
+  const std::map<std::uint64_t, std::vector<unsigned>> expected{{3, {2, 9, 4}}, {5, {0}}};
+  EXPECT_EQ(scenario.channels[0].flips, expected);
+}
+
 TEST(Scenario, Quirks_SetTheirBits) {
   const auto quirks = [](const std::string& keys) {
     return parse_scenario("[chip.quirks]\n" + keys, "s").chip.quirks;
@@ -155,6 +162,18 @@ INSTANTIATE_TEST_SUITE_P(
                     "s.toml:3:12: key 'delay_ns': nan is outside 0 to 1e+06"},
         BadScenario{"DelayAndCable", "[[channel]]\nnumber = 1\ndelay_ns = 1\ncable_m = 1\n",
                     "s.toml:4:11: key 'cable_m': cannot be given together with delay_ns"},
+        BadScenario{"Flips", "[[channel]]\nnumber = 1\nflips = 3\n",
+                    "s.toml:3:9: key 'flips': expected lists of a frame from 1 on and bits of 0 to "
+                    "4095"},
+        BadScenario{"FlipsWithoutBit", "[[channel]]\nnumber = 1\nflips = [[1, 2], [3]]\n",
+                    "s.toml:3:18: key 'flips': expected lists of a frame from 1 on and bits of 0 "
+                    "to 4095"},
+        BadScenario{"FlipsInFrame0", "[[channel]]\nnumber = 1\nflips = [[0, 2]]\n",
+                    "s.toml:3:11: key 'flips': expected lists of a frame from 1 on and bits of 0 "
+                    "to 4095"},
+        BadScenario{"FlipsOfANegativeBit", "[[channel]]\nnumber = 1\nflips = [[1, -2]]\n",
+                    "s.toml:3:14: key 'flips': expected lists of a frame from 1 on and bits of 0 "
+                    "to 4095"},
         BadScenario{"NoProtocol", "[[channel]]\nnumber = 1\n[[channel.slave]]\ndata_bits = 8\n",
                     "s.toml:3:1: key 'protocol': missing"},
         BadScenario{"Ssi", "[[channel]]\nnumber = 1\n[[channel.slave]]\nprotocol = \"ssi\"\n",

@@ -74,6 +74,8 @@ struct ChannelConfig {
   unsigned number = 1;              // 1 or 2
   Time delay = 0;                   // round trip, ps
   std::vector<SlaveConfig> slaves;  // first = next to SL
+  // Inverted bits by the number of the frame, as SlFaults::flip_frame() takes them.
+  std::map<std::uint64_t, std::vector<unsigned>> flips;
   TableSource source;
 };
 

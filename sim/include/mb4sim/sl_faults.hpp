@@ -5,6 +5,8 @@
 #ifndef MB4SIM_SL_FAULTS_HPP_
 #define MB4SIM_SL_FAULTS_HPP_
 
+#include <cstdint>
+#include <map>
 #include <optional>
 #include <vector>
 
@@ -16,6 +18,9 @@ class SlFaults {
   // in periods of MA: 0 = start bit, 1 = CDS, 2 = first data bit (MSB of slave 1), and so on
   // through the CRC and the slaves behind. Several calls add up.
   void flip_next_frame(std::vector<unsigned> bits);
+  // The same in frame number `frame` of the line, counted from 1 as Slave::frames() does. For
+  // frames to come only.
+  void flip_frame(std::uint64_t frame, std::vector<unsigned> bits);
   // Level of pin SL whatever the slaves say; without a value the line works again. Takes effect
   // with the next change on the line or with Simulator::refresh().
   void stick(std::optional<bool> level) { stuck_ = level; }
@@ -30,6 +35,8 @@ class SlFaults {
   void update();
 
   std::vector<unsigned> pending_;
+  std::map<std::uint64_t, std::vector<unsigned>> planned_;  // by frame
+  std::uint64_t frames_ = 0;                                // that have reached their start bit
   std::optional<bool> stuck_;
   bool acknowledged_ = false;
   bool counting_ = false;
