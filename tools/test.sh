@@ -3,8 +3,9 @@
 # SPDX-License-Identifier: Apache-2.0
 #
 # Installs missing packages, builds everything, runs every test through CTest.
-# Usage: tools/test.sh [--sanitize] [CTEST-ARGUMENT...]
+# Usage: tools/test.sh [--sanitize] [--nightly] [CTEST-ARGUMENT...]
 #   --sanitize   the same with AddressSanitizer and UBSan, in build-sanitize/
+#   --nightly    instead of the normal suite the long runs (label nightly) with their figures
 # JUnit report: build/junit.xml (build-sanitize/junit.xml).
 # MB4_DATASHEET=FILE names the datasheet's text for the register map comparison.
 set -euo pipefail
@@ -12,11 +13,19 @@ cd "$(dirname "$0")/.."
 
 preset=default
 build=build
-if [ "${1:-}" = --sanitize ]; then
-  preset=sanitize
-  build=build-sanitize
+nightly=no
+configuration=()
+while true; do
+  case "${1:-}" in
+    --sanitize)
+      preset=sanitize
+      build=build-sanitize
+      ;;
+    --nightly) nightly=yes ;;
+    *) break ;;
+  esac
   shift
-fi
+done
 
 tools/setup.sh test
 
@@ -33,6 +42,11 @@ fi
 echo "test: building" >&2
 cmake --build "$build" -- --quiet
 
+if [ "$nightly" = yes ]; then
+  configuration=(-C nightly)
+  set -- -C nightly -L nightly --verbose "$@"
+fi
+
 status=0
 ctest --test-dir "$build" --output-on-failure --no-tests=error -j "$(nproc)" \
   --output-junit junit.xml "$@" >"$build/ctest.log" 2>&1 || status=$?
@@ -40,13 +54,18 @@ ctest --test-dir "$build" --output-on-failure --no-tests=error -j "$(nproc)" \
 if [ "$status" -ne 0 ]; then
   grep -v -e ' Passed ' -e '^ *Start ' "$build/ctest.log" || true
 else
+  # What the long runs print besides gtest's own lines.
+  if [ "$nightly" = yes ]; then
+    sed -n -E '/^[0-9]+: (Running main|Note: |\[|Test |  *MB4_|Environment)/d; /^[0-9]+: ./p' \
+      "$build/ctest.log"
+  fi
   sed -n '/tests passed/,$p' "$build/ctest.log"
 fi
 if [ "$status" -ne 0 ]; then
   # "  12 - Name (Failed)", but not the skipped ones.
   sed -n '/tests FAILED/,$ s/^[[:space:]]*\([0-9]*\) - .* (.*)$/\1/p' "$build/ctest.log" |
     while read -r number; do
-      echo "repeat with: ctest --test-dir $build --output-on-failure -I $number,$number"
+      echo "repeat with: ctest --test-dir $build ${configuration[*]} --output-on-failure -I $number,$number"
     done
 fi
 exit "$status"
