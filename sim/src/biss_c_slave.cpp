@@ -7,8 +7,13 @@ namespace mb4::sim {
 BissCSlave::BissCSlave(const BissCSlaveConfig& config, std::uint64_t seed)
     : config_(config),
       random_(seed),
+      control_(config_.control, registers()),
       timeout_(config.timeout.adaptive() ? config.timeout.initial : config.timeout.fixed),
-      shift_(config.data_bits + config.crc.width(), 0) {}
+      shift_(config.data_bits + config.crc.width(), 0) {
+  registers().set_banks(config.control.banks);
+  registers().set_missing(config.control.missing);
+  registers().set_write_protected(config.control.write_protected);
+}
 
 bool BissCSlave::set_data(std::uint64_t raw) {
   if (config_.data_bits < 64 && (raw >> config_.data_bits) != 0) return false;
@@ -73,8 +78,8 @@ void BissCSlave::rising(Time now, bool sli) {
       }
       break;
     case State::kCds:
-      slo_ = !is_last_ && sli;  // own CDS is 0
-      state_ = State::kData;
+      slo_ = control_bit(!is_last_ && sli);
+      state_ = control_.data_active() ? State::kData : State::kPass;
       break;
     case State::kData:
       if (shift_loaded_) {
@@ -83,7 +88,16 @@ void BissCSlave::rising(Time now, bool sli) {
         load_shift_register();
       }
       break;
+    case State::kPass:
+      follow(sli);
+      break;
   }
+}
+
+// The CDS bit to send: that of the slaves behind, and the own one.
+bool BissCSlave::control_bit(bool sli) {
+  if (!config_.control.present) return sli;
+  return (control_.cds(sli) || sli) != control_.faults().flip_cds();
 }
 
 void BissCSlave::sli_changed(Time /*now*/, bool sli) {
@@ -98,6 +112,9 @@ void BissCSlave::follow(bool sli) {
     case State::kArmed:
     case State::kAckWait:
       slo_ = is_last_ || sli;
+      break;
+    case State::kPass:
+      slo_ = !is_last_ && sli;
       break;
     case State::kBusy:
     case State::kCds:
@@ -129,7 +146,10 @@ void BissCSlave::shift() {
 void BissCSlave::timer(Time now, bool sli) {
   if (now < deadline()) return;
   // Two pulses and a rest are no frame (INIT): a CDM belongs to a frame that got its start bit.
-  if (state_ == State::kCds || state_ == State::kData) take_cdm(!ma_);
+  if (state_ == State::kCds || state_ == State::kData || state_ == State::kPass) {
+    take_cdm(!ma_);
+    if (config_.control.present) control_.step(now, !ma_);
+  }
   state_ = State::kIdle;
   follow(sli);
 }

@@ -5,7 +5,8 @@
 // figures 11 and 12): on the first falling edge of MA it looks at SLI to learn whether it is the
 // last slave, latches on the first rising edge, acknowledges on the second, and after its busy
 // periods sends start bit, CDS, data and inverted CRC, MSB first. As part of a chain it is a shift
-// register of its own length. CDS is 0: control communication is not answered.
+// register of its own length, unless a command has switched its data channel off: then it passes
+// SLI on. CDS and CDM go to its ControlSlave.
 #ifndef MB4SIM_BISS_C_SLAVE_HPP_
 #define MB4SIM_BISS_C_SLAVE_HPP_
 
@@ -13,6 +14,7 @@
 #include <string>
 #include <vector>
 
+#include "mb4sim/control_slave.hpp"
 #include "mb4sim/crc.hpp"
 #include "mb4sim/data_source.hpp"
 #include "mb4sim/random.hpp"
@@ -43,6 +45,7 @@ struct BissCSlaveConfig {
   SlaveTimeout timeout;
   unsigned busy_periods = 0;  // periods of MA between acknowledge and start bit beyond one
   DataSource source;
+  ControlConfig control;
 };
 
 class BissCSlave final : public Slave {
@@ -59,6 +62,7 @@ class BissCSlave final : public Slave {
 
   unsigned data_bits() const override { return config_.data_bits; }
   bool set_data(std::uint64_t raw) override;
+  ControlSlave* control() override { return config_.control.present ? &control_ : nullptr; }
 
   const BissCSlaveConfig& config() const { return config_; }
   // Level found at SLI at the start of the last frame was 0.
@@ -69,15 +73,17 @@ class BissCSlave final : public Slave {
   Time timeout() const { return timeout_; }
 
  private:
-  enum class State { kIdle, kArmed, kAckWait, kBusy, kCds, kData };
+  enum class State { kIdle, kArmed, kAckWait, kBusy, kCds, kData, kPass };
 
   void rising(Time now, bool sli);
+  bool control_bit(bool sli);
   void follow(bool sli);
   void load_shift_register();
   void shift();
 
   BissCSlaveConfig config_;
   Random random_;
+  ControlSlave control_;
   State state_ = State::kIdle;
   bool ma_ = true;
   bool slo_ = true;

@@ -6,12 +6,14 @@
 #ifndef MB4SIM_SLAVE_HPP_
 #define MB4SIM_SLAVE_HPP_
 
-#include <array>
 #include <cstdint>
 
+#include "mb4sim/register_file.hpp"
 #include "mb4sim/time.hpp"
 
 namespace mb4::sim {
+
+class ControlSlave;
 
 class Slave {
  public:
@@ -47,9 +49,12 @@ class Slave {
   // timeout. False before the first.
   std::uint64_t cdm_count() const { return cdm_count_; }
   bool last_cdm() const { return last_cdm_; }
-  // The slave's own register file, every address valid.
-  std::uint8_t reg_read(std::uint8_t address) const { return registers_[address]; }
-  void reg_write(std::uint8_t address, std::uint8_t value) { registers_[address] = value; }
+  // The slave's own registers, every address valid; below 0x40 those of bank 0.
+  std::uint8_t reg_read(std::uint8_t address) const { return registers_.get(address); }
+  void reg_write(std::uint8_t address, std::uint8_t value) { registers_.set(address, value); }
+  RegisterFile& registers() { return registers_; }
+  // Control communication: counters, faults. Null if the device has none.
+  virtual ControlSlave* control() { return nullptr; }
 
  protected:
   void count_frame() { ++frames_; }
@@ -59,7 +64,7 @@ class Slave {
   }
 
  private:
-  std::array<std::uint8_t, 256> registers_{};
+  RegisterFile registers_;
   std::uint64_t frames_ = 0;
   std::uint64_t cdm_count_ = 0;
   bool last_cdm_ = false;

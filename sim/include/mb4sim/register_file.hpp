@@ -1,0 +1,68 @@
+// SPDX-FileCopyrightText: 2026 The openmb4 authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// The registers of a slave as the seven address bits of a BiSS register access reach them
+// (standard window of BiSS C slaves: 0x00-0x3F selected bank, 0x40 bank select, 0x41 EDS bank,
+// 0x42-0x43 profile, 0x44-0x47 serial number, 0x48-0x77 device, 0x78-0x7D device ID, 0x7E-0x7F
+// manufacturer). A device with several IDs has 128 registers an ID, one block behind the other.
+#ifndef MB4SIM_REGISTER_FILE_HPP_
+#define MB4SIM_REGISTER_FILE_HPP_
+
+#include <array>
+#include <bitset>
+#include <cstddef>
+#include <cstdint>
+#include <map>
+
+namespace mb4::sim {
+
+class RegisterFile {
+ public:
+  static constexpr unsigned kPerId = 128;
+  static constexpr unsigned kSize = 8 * kPerId;
+  static constexpr unsigned kBankSize = 64;
+  static constexpr unsigned kBankSelect = 0x40;
+  using Bank = std::array<std::uint8_t, kBankSize>;
+  using Banks = std::map<std::uint8_t, Bank>;
+  using Marks = std::bitset<kSize>;
+
+  // Back door: bank 0, all addresses below kSize valid, whatever is marked.
+  std::uint8_t get(std::size_t address) const { return bytes_[address]; }
+  void set(std::size_t address, std::uint8_t value) { bytes_[address] = value; }
+
+  // Banks 1 to 255 that exist; bank 0 is registers 0x00 to 0x3F. Without any, 0x40 is an ordinary
+  // register and bank 0 is always selected.
+  void set_banks(const Banks& banks) { banks_ = banks; }
+  const Banks& banks() const { return banks_; }
+  // Registers that do not exist, and those that take no write, by the address that the master
+  // sees; below 0x40 in every bank.
+  void set_missing(const Marks& missing) { missing_ = missing; }
+  void set_write_protected(const Marks& marks) { write_protected_ = marks; }
+
+  // Register access of BiSS, address below kSize.
+  bool exists(unsigned address) const {
+    return !missing_[address] && (!in_bank(address) || banks_.contains(selected()));
+  }
+  // Only if exists().
+  std::uint8_t read(unsigned address) const {
+    return in_bank(address) ? banks_.at(selected())[address] : bytes_[address];
+  }
+  // Only if exists(). False: the register is protected and keeps its value.
+  bool write(unsigned address, std::uint8_t value);
+
+ private:
+  std::uint8_t selected() const { return bytes_[kBankSelect]; }
+  // The address lies in a bank other than bank 0.
+  bool in_bank(unsigned address) const {
+    return address < kBankSize && !banks_.empty() && selected() != 0;
+  }
+
+  std::array<std::uint8_t, kSize> bytes_{};
+  Banks banks_;
+  Marks missing_;
+  Marks write_protected_;
+};
+
+}  // namespace mb4::sim
+
+#endif  // MB4SIM_REGISTER_FILE_HPP_

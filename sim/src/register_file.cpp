@@ -1,0 +1,13 @@
+// SPDX-FileCopyrightText: 2026 The openmb4 authors
+// SPDX-License-Identifier: Apache-2.0
+#include "mb4sim/register_file.hpp"
+
+namespace mb4::sim {
+
+bool RegisterFile::write(unsigned address, std::uint8_t value) {
+  if (write_protected_[address]) return false;
+  (in_bank(address) ? banks_.at(selected())[address] : bytes_[address]) = value;
+  return true;
+}
+
+}  // namespace mb4::sim
