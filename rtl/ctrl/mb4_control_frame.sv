@@ -233,15 +233,17 @@ module mb4_control_frame (
       delay_error_d = 1'b1;
     end
 
+    // A frame may start in the clock of begin_i: slot 0 is there already.
+    if (end_d) slot_d = mb4_pkg::SLOT_START;
     if (begin_o) begin
       active_d = 1'b1;
-      slot_d   = mb4_pkg::SLOT_START;
       index_d  = 6'd0;
       last_d   = 1'b0;
     end
     if (abort_i) begin
       active_d  = 1'b0;
       carries_d = 1'b0;
+      slot_d    = mb4_pkg::SLOT_START;
       index_d   = 6'd0;
       end_d     = 1'b0;
     end
@@ -271,8 +273,7 @@ module mb4_control_frame (
       end_q         <= end_d;
       reg_error_q   <= reg_error_d;
       delay_error_q <= delay_error_d;
-      if (step) bits_q <= bits_d;
-      if (step) crc_q  <= crc_d;
+      if (step) {bits_q, crc_q} <= {bits_d, crc_d};
       if (begin_o)   ida_bad_q <= '0;
       else if (step) ida_bad_q <= ida_bad_d;
     end
@@ -291,6 +292,7 @@ module mb4_control_frame (
   assign good_bytes_o  = index_q;
 
   `MB4_ASSERT(SlotInRange_A, clk_i, rst_ni, slot_q <= mb4_pkg::SLOT_NEXT)
+  `MB4_ASSERT_IF(IdleIsSlot0_A, clk_i, rst_ni, !active_q, slot_q == mb4_pkg::SLOT_START)
   `MB4_ASSERT_IF(NextIsForRegisters_A, clk_i, rst_ni, active_q && !cts_i,
                  slot_q <= mb4_pkg::SLOT_STOP_TESTED)
 

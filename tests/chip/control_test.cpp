@@ -1,0 +1,530 @@
+// SPDX-FileCopyrightText: 2026 The openmb4 authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Control communication of BiSS C through the registers: pages 27..29, 32, 34, 35; decisions 12,
+// 14, 20, 22..24, 31.
+#include <gtest/gtest.h>
+
+#include <array>
+#include <random>
+
+#include "control_host.hpp"
+#include "mb4sim/control_slave.hpp"
+
+namespace {
+
+using mb4test::Chip;
+using mb4test::ControlHost;
+using mb4test::kAgsmin;
+using mb4test::kAllGood;
+using mb4test::kNoAgsErr;
+using mb4test::kNoDelayErr;
+using mb4test::kNoRegErr;
+using mb4test::kNoScdErr;
+using mb4test::kRegend;
+using mb4test::one_slave;
+namespace sim = mb4::sim;
+
+const char kEncoder[] = "data_bits = 14\ncrc = 0x43\ndata = 0x1ABC";
+const char kTi[] = "preset = \"wachendorff-wdgf58m\"";
+
+// `count` slaves of 14 bits on channel 1.
+std::string chain(unsigned count) {
+  std::string text = one_slave(kEncoder);
+  for (unsigned i = 1; i < count; ++i) {
+    text += "[[channel.slave]]\nprotocol = \"biss-c\"\n" + std::string(kEncoder) + "\n";
+  }
+  return text;
+}
+std::string two_channels() {
+  return one_slave(kEncoder) +
+         "[[channel]]\nnumber = 2\n[[channel.slave]]\nprotocol = \"biss-c\"\n" + kEncoder + "\n";
+}
+void configure(Chip& chip, unsigned slaves = 1, std::uint8_t freqs = 0x00,
+               std::uint8_t freqags = kAgsmin) {
+  for (unsigned i = 0; i < slaves; ++i) {
+    chip.write(static_cast<std::uint8_t>(0xC0 + 4 * i), {0x40 | 13, 0x06, 0x00, 0x00});
+  }
+  chip.write(0xE5, {0x40, static_cast<std::uint8_t>(0xA0 | freqs), 0x00, freqags});
+  chip.write(0xEC, {0x01, 0x0D});
+}
+void configure_two(Chip& chip) {
+  configure(chip);
+  chip.write(0xD0, {0x40 | 13, 0x06, 0x00, 0x00});
+  chip.write(0xEC, {0x11, 0x05});
+}
+
+// TI TIDEP0022, Table 7 (slots 1..32 as bits 31..0) and Table 11.
+struct TiRow {
+  std::uint8_t address;
+  std::uint32_t cdm;
+  std::uint8_t value;
+};
+constexpr std::array kTiRows{
+    TiRow{0x44, 0x889B4000, 0x00}, TiRow{0x45, 0x88BD4000, 0xD9}, TiRow{0x46, 0x88D74000, 0x01},
+    TiRow{0x47, 0x88F14000, 0x32}, TiRow{0x60, 0x8C174000, 0x0B}, TiRow{0x67, 0x8CE54000, 0x5F},
+    TiRow{0x68, 0x8D014000, 0x00}, TiRow{0x78, 0x8F0B4000, 0x46}, TiRow{0x79, 0x8F2D4000, 0x3A},
+    TiRow{0x7A, 0x8F474000, 0xC0}, TiRow{0x7B, 0x8F614000, 0x0C}, TiRow{0x7C, 0x8F934000, 0x00},
+    TiRow{0x7D, 0x8FB54000, 0x01}};
+
+std::uint32_t slots_1_to_32(const std::vector<bool>& cdm, std::size_t start) {
+  std::uint32_t bits = 0;
+  for (std::size_t slot = 1; slot <= 32; ++slot) bits = bits << 1U | (cdm[start + slot] ? 1U : 0U);
+  return bits;
+}
+
+class ControlTi : public testing::TestWithParam<std::uint8_t> {};
+
+TEST_P(ControlTi, EveryReadRow_IsOnMaBitForBit) {
+  for (const TiRow& row : kTiRows) {
+    Chip chip(one_slave(kTi));
+    chip.configure_slave1(chip.simulator.slave(1)->data_bits(), 0x06, GetParam(), kAgsmin);
+    ControlHost host(chip);
+    host.set_read(0, row.address, 1);
+    ASSERT_EQ(host.run_single(60), 47U) << "14 zeros, 32 slots, one more for P";
+    for (std::size_t i = 0; i < 14; ++i) EXPECT_FALSE(host.cdm()[i]) << i;
+    EXPECT_TRUE(host.cdm()[14]) << "S";
+    EXPECT_EQ(slots_1_to_32(host.cdm(), 14), row.cdm) << std::hex << unsigned{row.address};
+    EXPECT_EQ(host.rdata(1)[0], row.value);
+    EXPECT_EQ(host.status(), kAllGood);
+  }
+}
+
+// The printed write row has a wrong header CRC; this is the frame that writes 0x06 to 0x60.
+TEST_P(ControlTi, Write0x06To0x60_IsTheConsistentFrame) {
+  Chip chip(one_slave(kTi));
+  chip.configure_slave1(chip.simulator.slave(1)->data_bits(), 0x06, GetParam(), kAgsmin);
+  ControlHost host(chip);
+  host.set_write(0, 0x60, {0x06});
+  ASSERT_EQ(host.run_single(60), 47U);
+  EXPECT_EQ(slots_1_to_32(host.cdm(), 14), 0x8C16C194U);
+  EXPECT_EQ(chip.simulator.slave(1)->reg_read(0x60), 0x06);
+  EXPECT_EQ(host.status(), kAllGood);
+}
+
+// 10, 5, 2 and 1 MHz.
+INSTANTIATE_TEST_SUITE_P(Freqs, ControlTi, testing::Values(0x00, 0x01, 0x04, 0x09));
+
+TEST(Control, SixtyFourBytes_Take929FramesAndComeBack) {
+  Chip chip(one_slave(kEncoder));
+  configure(chip);
+  ControlHost host(chip);
+  std::vector<std::uint8_t> bytes(64);
+  for (std::size_t i = 0; i < 64; ++i) bytes[i] = static_cast<std::uint8_t>(i * 37 + 11);
+  host.set_write(0, 0x00, bytes);
+  const unsigned frames = host.run_single(1000);
+  EXPECT_EQ(frames, 929U);
+  EXPECT_EQ(host.status(), kAllGood);
+  EXPECT_EQ(host.regbytes(), 0U);
+  for (std::size_t i = 0; i < 64; ++i) {
+    EXPECT_EQ(chip.simulator.slave(1)->reg_read(static_cast<std::uint8_t>(i)), bytes[i]) << i;
+  }
+  chip.spi(std::vector<std::uint8_t>(66, 0x80));                 // an unknown opcode, to be ignored
+  host.set_write(0, 0x00, std::vector<std::uint8_t>(64, 0x00));  // RDATA = 0
+  host.set_read(0, 0x00, 64);
+  chip.instruct(0x80);
+  // The zeros of the access before count from its stop bit on: 2 of 14.
+  EXPECT_EQ(host.run_single(1000), 929U - 2U);
+  EXPECT_EQ(host.rdata(64), bytes);
+  std::printf("64 bytes: %u frames\n", frames);
+}
+
+// Decision 12.
+TEST(Control, AddressPast0x7F_WrapsTo0x00) {
+  Chip chip(one_slave(kEncoder));
+  configure(chip);
+  ControlHost host(chip);
+  host.set_write(0, 0x7E, {0x11, 0x22, 0x33});
+  ASSERT_NE(host.run_single(100), 0U);
+  EXPECT_EQ(chip.simulator.slave(1)->reg_read(0x7E), 0x11);
+  EXPECT_EQ(chip.simulator.slave(1)->reg_read(0x7F), 0x22);
+  EXPECT_EQ(chip.simulator.slave(1)->reg_read(0x00), 0x33);
+}
+
+// Decision 23: with AGS = 1 one write is enough, INSTR reads 4 until the end; REGEND is 0 in the
+// first status read. Position data stay valid in every frame.
+TEST(Control, UnderAgs_OneWriteIsEnoughAndPositionsGoOn) {
+  Chip chip(one_slave(kEncoder));
+  configure(chip, 1, 0x00, 0x04);  // 5 us
+  ControlHost host(chip);
+  chip.simulator.slave(1)->reg_write(0x7E, 0x57);
+  chip.simulator.slave(1)->reg_write(0x7F, 0x41);
+  chip.instruct(0x01);
+  chip.advance_us(100);
+  for (int round = 0; round < 3; ++round) {
+    host.set_read(0, 0x7E, 2);
+    chip.instruct(0x09);
+    const auto frames = chip.simulator.slave(1)->frames();
+    EXPECT_EQ(host.status() & kRegend, 0);
+    EXPECT_EQ(chip.read(0xF4), 0x09);
+    unsigned polls = 0;
+    std::uint8_t f0 = 0;
+    do {
+      const auto rx = chip.spi({0x05, 0, 0});
+      f0 = rx[1];
+      EXPECT_EQ(f0 & (kNoScdErr | kNoAgsErr | kNoRegErr | kNoDelayErr), 0x78);
+      EXPECT_EQ(rx[2], 0x02) << "SVALID1";
+      ASSERT_LT(++polls, 1000U);
+    } while ((f0 & kRegend) == 0);
+    chip.advance_us(1);
+    EXPECT_EQ(chip.read(0xF4), 0x01);
+    EXPECT_EQ(host.rdata(2), (std::vector<std::uint8_t>{0x57, 0x41}));
+    // 33 + 14 frames and up to 14 zeros, one running frame, one until the poll has seen it.
+    const auto used = chip.simulator.slave(1)->frames() - frames;
+    EXPECT_GE(used, 47U);
+    EXPECT_LE(used, 47U + 14U + 4U);
+  }
+}
+
+// All CHSEL lines: the slave of channel 2, data channel 5.
+TEST(Control, Channel2_IsSelectedByChsel) {
+  Chip chip(two_channels());
+  configure_two(chip);
+  ControlHost host(chip);
+  chip.simulator.slave(1)->reg_write(0x10, 0x11);
+  chip.simulator.slave(5)->reg_write(0x10, 0x55);
+  for (const unsigned chsel : {0U, 1U, 2U}) {
+    host.select(static_cast<std::uint8_t>(chsel));
+    host.set_read(0, 0x10, 1);
+    const auto starts = chip.simulator.slave(chsel == 2 ? 1 : 5)->control()->counters().starts;
+    ASSERT_NE(host.run_single(60, 0x08, chsel == 2 ? 2 : 1), 0U);
+    EXPECT_EQ(host.status(), kAllGood);
+    EXPECT_EQ(host.rdata(1)[0], chsel == 2 ? 0x55 : 0x11);
+    EXPECT_EQ(chip.simulator.slave(chsel == 2 ? 1 : 5)->control()->counters().starts, starts)
+        << "the other line sends CDM = 0";
+  }
+}
+
+// IDs count from the far end: ID k is slave n - k.
+TEST(Control, Chains_EverySlaveHasItsId) {
+  for (unsigned count = 1; count <= 8; ++count) {
+    Chip chip(chain(count));
+    configure(chip, count);
+    ControlHost host(chip);
+    for (unsigned n = 1; n <= count; ++n) {
+      chip.simulator.slave(n)->reg_write(0x33, static_cast<std::uint8_t>(0x10 * n));
+    }
+    for (unsigned id = 0; id < count; ++id) {
+      host.set_read(id, 0x33, 1);
+      ASSERT_TRUE(host.run_ags(2000)) << count << " " << id;
+      EXPECT_EQ(host.status() & ~1U, 0xFE) << count << " " << id;
+      EXPECT_EQ(host.rdata(1)[0], 0x10 * (count - id));
+    }
+  }
+}
+
+// Decision 24, first half; page 34: "inverted R-bit". An ID that no slave has.
+TEST(Control, MissingId_SetsNRegErr) {
+  Chip chip(chain(2));
+  configure(chip, 2);
+  ControlHost host(chip);
+  host.set_read(2, 0x33, 1);
+  EXPECT_EQ(host.run_single(60), 14U + 18U) << "R echo is expected in slot 17";
+  EXPECT_EQ(host.status(), 0xFF & ~kNoRegErr & ~0x80);
+  EXPECT_FALSE(chip.simulator.pin(sim::Pin::kNer)) << "page 34: NER";
+  EXPECT_EQ(host.regbytes(), 0U);
+  host.set_write(2, 0x33, {0x12});
+  EXPECT_EQ(host.run_single(60), 14U + 19U) << "W echo is expected in slot 18";
+  EXPECT_EQ(host.status(), 0xFF & ~kNoRegErr & ~0x80);
+  host.set_read(1, 0x33, 1);
+  EXPECT_NE(host.run_single(60), 0U);
+  EXPECT_EQ(host.status(), kAllGood) << "the next one clears the flag";
+}
+
+// Decision 24, second half; Table 58: a register that does not exist. 4096 x 2^(FREQR + 1) periods.
+TEST(Control, MissingRegister_SetsNDelayErrAfterTheLimit) {
+  for (const unsigned freqr : {0U, 1U, 5U}) {
+    Chip chip(one_slave(kEncoder));
+    configure(chip);
+    chip.write(0xE6, {static_cast<std::uint8_t>(freqr << 5U)});
+    sim::RegisterFile::Marks missing;
+    missing[0x21] = true;
+    chip.simulator.slave(1)->registers().set_missing(missing);
+    ControlHost host(chip);
+    host.set_read(0, 0x20, 2);
+    const sim::Time start = chip.simulator.now();
+    ASSERT_TRUE(host.run_ags(40000)) << freqr;
+    const double us = static_cast<double>(chip.simulator.now() - start) / sim::kPsPerUs;
+    const double limit = 4096.0 * (2U << freqr) * 0.1;
+    EXPECT_GT(us, limit);
+    EXPECT_LT(us, limit * 1.1 + 400) << "half a period a frame, and 46 frames before";
+    EXPECT_EQ(host.status() & ~1U, 0xFE & ~kNoDelayErr & ~0x80);
+    EXPECT_EQ(host.regbytes(), 1U) << "Table 63: one byte was good";
+    std::printf("FREQR %u: nDELAYERR after %.0f us, limit %.0f us\n", freqr, us, limit);
+    host.set_read(0, 0x20, 1);
+    ASSERT_TRUE(host.run_ags(2000));
+    EXPECT_EQ(host.status() & ~1U, 0xFE);
+  }
+}
+
+// With AGS = 0 the limit passes between two frames as well.
+TEST(Control, MissingRegisterWithoutFrames_EndsByTime) {
+  Chip chip(one_slave(kEncoder));
+  configure(chip);
+  sim::RegisterFile::Marks missing;
+  missing[0x20] = true;
+  chip.simulator.slave(1)->registers().set_missing(missing);
+  ControlHost host(chip);
+  host.set_read(0, 0x20, 1);
+  EXPECT_EQ(host.run_single(40), 0U);
+  EXPECT_EQ(host.status() & kRegend, 0);
+  chip.advance_us(26300);
+  EXPECT_EQ(host.status(), 0xFF & ~kNoDelayErr & ~0x80);
+}
+
+// S is repeated while the slave is busy (facts 3.5); nothing is lost, whatever the time.
+TEST(Control, BusySlave_IsWaitedFor) {
+  for (const unsigned busy : {1U, 2U, 13U, 14U, 100U}) {
+    Chip chip(one_slave(std::string(kEncoder) + "\nread_busy_frames = " + std::to_string(busy) +
+                        "\nwrite_busy_frames = " + std::to_string(busy)));
+    configure(chip);
+    ControlHost host(chip);
+    host.set_write(0, 0x05, {0xA5, 0x5A});
+    EXPECT_EQ(host.run_single(1000), 14U + 18U + 28U + 1U + 2U * busy);
+    EXPECT_EQ(host.status(), kAllGood);
+    host.set_read(0, 0x05, 2);
+    EXPECT_EQ(host.run_single(1000), 12U + 18U + 28U + 1U + 2U * busy);
+    EXPECT_EQ(host.rdata(2), (std::vector<std::uint8_t>{0xA5, 0x5A}));
+  }
+}
+
+// BREAK and INIT end it: flags back, REGEND 0; the next access works.
+TEST(Control, BreakAndInit_EndItAnywhere) {
+  Chip chip(one_slave(kEncoder));
+  configure(chip);
+  ControlHost host(chip);
+  chip.simulator.slave(1)->reg_write(0x31, 0x77);
+  for (unsigned frames = 1; frames < 60; frames += 3) {
+    for (const unsigned instruction : {0x80U, 0x10U}) {
+      host.set_read(0, 0x30, 2);
+      EXPECT_EQ(host.run_single(frames), 0U);
+      chip.instruct(static_cast<std::uint8_t>(instruction));
+      ASSERT_TRUE(chip.wait_eot());
+      EXPECT_EQ(host.status(), 0xFB);
+      EXPECT_EQ(host.regbytes(), 0U);
+      EXPECT_EQ(chip.read(0xF4), 0x00);
+      host.set_read(0, 0x31, 1);
+      ASSERT_NE(host.run_single(60), 0U) << frames;
+      EXPECT_EQ(host.status(), kAllGood) << frames;
+      EXPECT_EQ(host.rdata(1)[0], 0x77);
+    }
+  }
+}
+
+// A host that reads positions with HOLDBANK writes 0xF4 meanwhile; the running control
+// communication goes on with every frame.
+TEST(Control, WritingInstrWithoutIt_DoesNotEndIt) {
+  Chip chip(one_slave(kEncoder));
+  configure(chip, 1, 0x00, 0x18);  // 25 us
+  ControlHost host(chip);
+  chip.simulator.slave(1)->reg_write(0x31, 0x77);
+  host.set_read(0, 0x31, 1);
+  chip.instruct(0x09);
+  for (int i = 0; i < 30; ++i) {
+    chip.advance_us(17);
+    chip.instruct(0x41);
+    chip.instruct(0x01);
+  }
+  chip.advance_us(2000);
+  EXPECT_EQ(host.status() & ~1U, 0xFE);
+  EXPECT_EQ(host.rdata(1)[0], 0x77);
+}
+
+// ---- commands
+// -------------------------------------------------------------------------------------
+
+// Worked headers of the facts file, 4: CTS IDS0..7 CMD1..0 and the inverted CRC.
+TEST(Command, Headers_AreAsWorkedOut) {
+  struct Row {
+    std::uint8_t ids;
+    unsigned code;
+    unsigned ncrc;
+  };
+  for (const Row row :
+       {Row{0x00, 0, 0xF}, Row{0x00, 1, 0xC}, Row{0x00, 2, 0x9}, Row{0x80, 0, 0x2},
+        Row{0x40, 0, 0x0}, Row{0xC0, 0, 0xD}, Row{0x01, 0, 0x3}, Row{0x80, 1, 0x1}}) {
+    Chip chip(chain(2));
+    configure(chip, 2);
+    ControlHost host(chip);
+    host.set_command(row.ids, row.code);
+    const unsigned frames = host.run_single(60);
+    // Broadcast: up to P in slot 17. Addressed: up to the last acknowledge in slot 24.
+    ASSERT_EQ(frames, row.ids == 0 ? 14U + 18U : 14U + 25U);
+    std::uint32_t sent = 0;
+    for (std::size_t slot = 1; slot <= 17; ++slot)
+      sent = sent << 1U | (host.cdm()[14 + slot] ? 1U : 0U);
+    const std::uint32_t header = static_cast<std::uint32_t>(row.ids) << 2U | row.code;
+    EXPECT_EQ(sent, ((header << 4U | row.ncrc) << 2U) | 2U) << "EX = 1 in slot 16, P = 0";
+  }
+}
+
+TEST(Command, Broadcast_ReachesAllWithoutAcknowledge) {
+  Chip chip(chain(3));
+  configure(chip, 3);
+  ControlHost host(chip);
+  host.set_command(0x00, 2);
+  ASSERT_TRUE(host.run_ags(2000));
+  EXPECT_EQ(host.status() & ~1U, 0xFE);
+  for (unsigned n = 1; n <= 3; ++n) {
+    EXPECT_EQ(chip.simulator.slave(n)->control()->counters().commands, 1U);
+    EXPECT_EQ(chip.simulator.slave(n)->control()->last_command().code, 2);
+  }
+}
+
+TEST(Command, Addressed_ReachesThoseAndIsAcknowledged) {
+  for (const bool tested : {false, true}) {
+    Chip chip(chain(3));
+    configure(chip, 3);
+    ControlHost host(chip);
+    host.set_command(0x80 | 0x20, 3, tested);  // IDs 0 and 2: slaves 3 and 1
+    EXPECT_EQ(host.run_single(60), tested ? 14U + 26U : 14U + 25U);
+    EXPECT_EQ(host.status(), kAllGood) << tested;
+    EXPECT_EQ(chip.simulator.slave(1)->control()->counters().commands, 1U);
+    EXPECT_EQ(chip.simulator.slave(2)->control()->counters().commands, 0U);
+    EXPECT_EQ(chip.simulator.slave(3)->control()->counters().commands, 1U);
+  }
+}
+
+// Table 34: the command is not executed if the test fails; without the test it is.
+TEST(Command, MissingId_IsExecutedOnlyWithoutTheTest) {
+  for (const bool tested : {false, true}) {
+    Chip chip(chain(2));
+    configure(chip, 2);
+    ControlHost host(chip);
+    host.set_command(0x80 | 0x04, 3, tested);  // ID 5 is nobody's
+    ASSERT_NE(host.run_single(60), 0U);
+    EXPECT_EQ(host.status(), 0xFF & ~kNoRegErr & ~0x80);
+    EXPECT_EQ(chip.simulator.slave(2)->control()->counters().commands, tested ? 0U : 1U);
+  }
+}
+
+// Decision 5: the other reading of the datasheets.
+TEST(Command, IdaTestInvertQuirk_SwapsThePolarity) {
+  Chip chip(one_slave(kEncoder, "", "quirks = { IDA_TEST_INVERT = true }"));
+  configure(chip);
+  ControlHost host(chip);
+  host.set_command(0x80, 3, false);
+  EXPECT_EQ(host.run_single(60), 14U + 26U) << "tested";
+  EXPECT_EQ(host.status(), kAllGood);
+}
+
+// Page 27: commands on both channels at once; each channel tests its own acknowledge.
+TEST(Command, BothChannels_GetIt) {
+  Chip chip(two_channels());
+  configure_two(chip);
+  ControlHost host(chip);
+  host.select(3);
+  host.set_command(0x80, 3, true);
+  ASSERT_NE(host.run_single(60), 0U);
+  EXPECT_EQ(host.status(), kAllGood);
+  EXPECT_EQ(chip.simulator.slave(1)->control()->counters().commands, 1U);
+  EXPECT_EQ(chip.simulator.slave(5)->control()->counters().commands, 1U);
+  chip.simulator.slave(5)->control()->faults().set_silent(true);
+  ASSERT_NE(host.run_single(60), 0U);
+  EXPECT_EQ(host.status() & kNoRegErr, 0);
+  EXPECT_EQ(chip.simulator.slave(1)->control()->counters().commands, 2U);
+  EXPECT_EQ(chip.simulator.slave(5)->control()->counters().commands, 1U);
+}
+
+// INSTR = 111 (decision 14): Ack, start, CDS, then the clock stops with the CDM level. HOLDCDM as
+// page 27 asks for frames that are not clocked out. SCDATA and SVALID stay.
+TEST(Command, ReducedFrames_CarryItAndLeaveSensorData) {
+  Chip chip(one_slave(std::string(kEncoder) + "\ntimeout = 5.0"));
+  configure(chip, 1, 0x00, 0x13);  // 20 us
+  ControlHost host(chip);
+  chip.instruct(0x04);
+  ASSERT_TRUE(chip.wait_eot());
+  const auto before = chip.read(0x00, 8);
+  ASSERT_EQ(chip.read(0xF1), 0x02);
+  chip.simulator.slave(1)->set_data(0x2FFF);
+  host.set_command(0x80, 3, true);
+  chip.write(0xE5, {0x40 | 3U << 4U | 8U | 1U});
+  chip.instruct(0x0F);
+  chip.advance_us(100);
+  EXPECT_EQ(chip.simulator.line(1)->monitor().last(chip.simulator.now()).rising, 5U);
+  chip.advance_us(2000);
+  EXPECT_EQ(chip.read(0xF4) & 0x0E, 0);
+  chip.instruct(0x00);
+  chip.advance_us(50);
+  EXPECT_EQ(host.status(), kAllGood);
+  EXPECT_EQ(chip.simulator.slave(1)->control()->counters().commands, 1U);
+}
+
+TEST(Command, ReducedFramesWithoutAgs_LeaveBothBanks) {
+  Chip chip(one_slave(std::string(kEncoder) + "\ntimeout = 5.0"));
+  configure(chip);
+  ControlHost host(chip);
+  chip.instruct(0x04);
+  ASSERT_TRUE(chip.wait_eot());
+  const auto before = chip.read(0x00, 8);
+  chip.simulator.slave(1)->set_data(0x2FFF);
+  host.set_command(0x80, 3);
+  chip.write(0xE5, {0x40 | 3U << 4U | 1U});
+  for (int frame = 0; frame < 38; ++frame) {
+    chip.instruct(0x0E);
+    ASSERT_TRUE(chip.wait_eot());
+    chip.advance_us(10);
+    EXPECT_EQ(chip.read(0x00, 8), before);
+    EXPECT_EQ(chip.read(0xF1), 0x02);
+    // One zero was sent before: S is in frame 13.
+    // The lone slave locks ID 0 in slot 1 and acknowledges in slot 17.
+    EXPECT_EQ(chip.read(0xF3) & 0x40, frame == 14 || frame == 30 ? 0x40 : 0x00) << frame;
+  }
+  EXPECT_EQ(host.status(), kAllGood);
+}
+
+// ---- by hand
+// --------------------------------------------------------------------------------------
+
+// Table 45: a host that sends every CDM itself; INSTR = 011 waits for the slave's start bit: CDM =
+// 1 until CDS is 1, 0 in that very frame (facts 3.5).
+TEST(ControlByHand, ReadOfABusySlave_Works) {
+  Chip chip(one_slave(std::string(kTi) + "\nread_busy_frames = 5"));
+  chip.configure_slave1(chip.simulator.slave(1)->data_bits(), 0x06, 0x00, kAgsmin);
+  const auto send = [&](std::uint8_t instruction) {
+    chip.instruct(instruction);
+    EXPECT_TRUE(chip.wait_eot());
+    return (chip.read(0xF3) & 0x40) != 0;  // CDSSEL
+  };
+  for (int i = 0; i < 13; ++i) send(0x04);
+  EXPECT_EQ(chip.read(0xF3) & 0x80, 0x00);
+  send(0x04);
+  EXPECT_EQ(chip.read(0xF3) & 0x80, 0x80) << "CDMTIMEOUT";
+  send(0x02);  // S
+  EXPECT_EQ(chip.read(0xF3) & 0x80, 0x00);
+  const std::uint32_t frame = 0x8CE54000;  // read 0x67, slots 1..
+  for (int slot = 1; slot <= 18; ++slot) send((frame >> (32 - slot)) & 1U ? 0x02 : 0x04);
+  unsigned waits = 0;
+  while (!send(0x06)) ASSERT_LT(++waits, 20U);
+  EXPECT_EQ(waits, 5U);
+  unsigned value = 0;
+  for (int bit = 0; bit < 12; ++bit) value = value << 1U | (send(0x04) ? 1U : 0U);
+  EXPECT_EQ(value, 0x5FU << 4U | 0xF) << "0x5F and its inverted CRC";
+  EXPECT_EQ(chip.simulator.slave(1)->control()->counters().protocol_errors, 0U);
+}
+
+// A CDM that depends on CDS also arrives over a long line and with the shortest frame.
+TEST(ControlByHand, CdmByCds_ComesRightAtAnyDelay) {
+  for (const char* delay : {"0.0", "30.0", "250.0", "1900.0"}) {
+    for (const unsigned cds : {0U, 1U}) {
+      for (const bool sensor : {false, true}) {
+        Chip chip(one_slave(std::string(kEncoder) + "\ntimeout = 12.5",
+                            std::string("delay_ns = ") + delay));
+        configure(chip);
+        if (!sensor) {
+          chip.write(0xC0, {0x00});
+          chip.write(0xE5, {0x41});  // HOLDCDM: the frame is not clocked out
+        }
+        if (cds == 1) chip.simulator.line(1)->faults().flip_next_frame({1});
+        const auto count = chip.simulator.slave(1)->cdm_count();
+        chip.instruct(0x06);
+        ASSERT_TRUE(chip.wait_eot());
+        chip.advance_us(40);
+        EXPECT_EQ(chip.simulator.slave(1)->cdm_count(), count + 1);
+        EXPECT_EQ(chip.simulator.slave(1)->last_cdm(), cds == 0) << delay << " " << sensor;
+      }
+    }
+  }
+}
+
+}  // namespace
