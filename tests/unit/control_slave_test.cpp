@@ -42,7 +42,7 @@ TEST_P(TiReads, Frame_IsAnsweredBitForBit) {
   add_preset(bench, "wachendorff-wdgf58m");
   bench.zeros();
   // Slot 0 is S; slots 1 to 32 are the 32 bits.
-  const std::string cds = bench.send(std::string("1") + binary(GetParam().frame, 32));
+  const std::string cds = bench.send(start_and(GetParam().frame));
   EXPECT_EQ(cds, std::string("01000000000000000101") + data_with_crc(GetParam().answer) + "0");
 }
 
@@ -78,8 +78,7 @@ TEST(ControlSlave, PrintedWriteFrame_IsNotAnswered) {
   BissCSlave& slave = bench.add_slave();
   slave.reg_write(0x60, 0x0B);
   bench.zeros();
-  EXPECT_EQ(bench.send(std::string("1") + binary(0x8C13C194, 32)),
-            std::string("0") + binary(0x80000000, 32));
+  EXPECT_EQ(bench.send(start_and(0x8C13C194)), std::string("0") + binary(0x80000000, 32));
   EXPECT_EQ(slave.reg_read(0x60), 0x0B);
   EXPECT_EQ(slave.control()->counters().header_errors, 1U);
 }
@@ -88,7 +87,7 @@ TEST(ControlSlave, WriteExample_IsEchoedAndStored) {
   ControlBench bench;
   BissCSlave& slave = bench.add_slave();
   bench.zeros();
-  EXPECT_EQ(bench.send(std::string("1") + binary(0x8C16C194, 32)),
+  EXPECT_EQ(bench.send(start_and(0x8C16C194)),
             "0"
             "1000000000000000"
             "011"
@@ -102,11 +101,11 @@ TEST(ControlSlave, WriteExample_IsEchoedAndStored) {
 TEST(ControlSlave, StartAfter13Zeros_IsIgnored) {
   ControlBench bench;
   BissCSlave& slave = bench.add_slave();
-  bench.send(std::string("1") + std::string(13, '0') + std::string("1") + binary(0x88BD4000, 32));
+  bench.send(std::string("1") + std::string(13, '0') + start_and(0x88BD4000));
   EXPECT_EQ(slave.control()->counters().starts, 0U);
   bench.send("1");  // one zero less than needed after the frame's own end: still idle
   bench.zeros(14);
-  EXPECT_EQ(bench.send(std::string("1") + binary(0x88BD4000, 32)).substr(1, 8), "10000000");
+  EXPECT_EQ(bench.send(start_and(0x88BD4000)).substr(1, 8), "10000000");
 }
 
 TEST(ControlSlave, FourteenZerosInside_EndTheControlFrame) {
