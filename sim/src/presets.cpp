@@ -17,21 +17,51 @@ BissCSlaveConfig encoder(std::string_view name, unsigned position_bits) {
   return config;
 }
 
+// An electronic data sheet (BiSS EDS, offsets as in iC-Haus and NXP drivers): the common page names
+// one data channel and the bank of its own page. Fields whose unit is not known here stay 0.
+constexpr std::uint8_t kEdsBank = 2;
+constexpr std::uint8_t kChannelBank = 3;
+
+void add_eds_sensor(BissCSlaveConfig& config) {
+  config.crc.polynomial = 0x25;  // profile BP0
+  RegisterFile::Bank& common = config.control.banks[kEdsBank];
+  common = {};
+  common[0x00] = 1;  // version
+  common[0x01] = 1;  // length in banks
+  common[0x10] = 1;  // data channels
+  common[0x11] = 1;  // slave IDs
+  common[0x14] = kChannelBank;
+  common[0x15] = static_cast<std::uint8_t>(config.data_bits);
+  common[0x16] = 0;     // sensor, right aligned, no stop bit
+  common[0x17] = 0x25;  // CRC
+  RegisterFile::Bank& channel = config.control.banks[kChannelBank];
+  channel = {};
+  channel[0x1F] = 0x25;  // CRC polynomial, 0x1C to 0x1F, high byte first
+  for (unsigned address = 0x41; address <= 0x47; ++address) {
+    config.control.write_protected.set(address);
+  }
+  for (unsigned address = 0x78; address <= 0x7F; ++address) {
+    config.control.write_protected.set(address);
+  }
+}
+
 std::vector<Preset> make_presets() {
   std::vector<Preset> list;
-  list.reserve(16);  // add() hands out references
+  list.reserve(24);  // add() hands out references
   const auto add = [&list](std::string_view name, std::string_view description,
                            unsigned position_bits,
                            std::vector<Preset::RegisterRun> registers = {}) -> Preset& {
     list.push_back({name, description, encoder(name, position_bits), std::move(registers)});
     return list.back();
   };
+  const auto unidirectional = [](Preset& preset) { preset.config.control.present = false; };
   // Renishaw L-9709-9005: 18, 26, 32 or 36 bits, unidirectional.
-  add("resolute-18", "Renishaw RESOLUTE, 18 bits", 18);
-  add("resolute-26", "Renishaw RESOLUTE, 26 bits", 26);
-  add("resolute-32", "Renishaw RESOLUTE, 32 bits", 32);
-  add("resolute-36", "Renishaw RESOLUTE, 36 bits", 36);
-  add("lma10", "RLS/Renishaw LMA10, 26 bits", 26);
+  unidirectional(add("resolute-18", "Renishaw RESOLUTE, 18 bits", 18));
+  unidirectional(add("resolute-26", "Renishaw RESOLUTE, 26 bits", 26));
+  unidirectional(add("resolute-32", "Renishaw RESOLUTE, 32 bits", 32));
+  unidirectional(add("resolute-36", "Renishaw RESOLUTE, 36 bits", 36));
+  // Nothing is published about registers.
+  unidirectional(add("lma10", "RLS/Renishaw LMA10, 26 bits", 26));
   // Lenz BISS-C interface sheet: acknowledge of four periods, timeout 12.6 to 13.2 us.
   Preset& lenz = add("lenz-irs", "Lenz IRS/SAB/SIB, 24 bits", 24);
   lenz.config.busy_periods = 3;
@@ -39,13 +69,18 @@ std::vector<Preset> make_presets() {
   add("lika-sma1", "Lika SMA1, 24 bits", 24,
       {{0x42, {0x28, 0x14}}, {0x55, {0x06}}, {0x78, {'S', 'M', 'A', '1'}}});
   // Lengths by order code or configuration: the scenario must give data_bits.
-  add("lika-amm36", "Lika AMM36, give data_bits", 0).config.data_bits = 0;
+  // 0x7C: type of timeout, 4 = adaptive.
+  add("lika-amm36", "Lika AMM36, give data_bits", 0, {{0x78, {'A', 'M', 'M', '3'}}, {0x7C, {0x04}}})
+      .config.data_bits = 0;
   add("ic-mu", "iC-MU, give data_bits", 0).config.data_bits = 0;
   // iC-NQC: 13 bits angle and 24 bits period counter, flags E1 and E0, timeout 20 us.
   Preset& nqc = add("ic-nqc", "iC-NQC, 24 bits period and 13 bits angle", 37);
   nqc.config.timeout.fixed = from_us(20);
-  add("ic-mr", "iC-MR, 24 bits single turn", 24);
-  add("ic-mr-mt", "iC-MR, 24 bits multiturn and 24 bits single turn", 48);
+  // iC-MR: up to 32 banks of 64 bytes.
+  for (Preset* mr : {&add("ic-mr", "iC-MR, 24 bits single turn", 24),
+                     &add("ic-mr-mt", "iC-MR, 24 bits multiturn and 24 bits single turn", 48)}) {
+    for (std::uint8_t bank = 1; bank < 32; ++bank) mr->config.control.banks[bank] = {};
+  }
   // TI TIDEP0022 design guide, test data: 12 bits single turn; register values of its
   // table 11.
   add("wachendorff-wdgf58m", "Wachendorff WDGF58M, 12 bits single turn", 12,
@@ -54,6 +89,13 @@ std::vector<Preset> make_presets() {
        {0x67, {0x5F}},
        {0x78, {0x46, 0x3A, 0xC0, 0x0C, 0x00, 0x01}},
        {0x7E, {0x57, 0x41}}});
+  add_eds_sensor(add("eds-sensor", "no product: profile BP0 with an EDS, 24 bits", 24,
+                     {{0x41, {kEdsBank}},
+                      {0x42, {26, 0x00}},  // BP0: length of the data in bits 12 to 8, sensor
+                      {0x44, {0x00, 0x00, 0x00, 0x01}},
+                      {0x78, {'M', 'B', '4', 'S', 'I', 'M'}},
+                      {0x7E, {'M', '4'}}})
+                     .config);
   return list;
 }
 

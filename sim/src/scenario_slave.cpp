@@ -4,12 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <set>
 #include <utility>
-#include <vector>
 
 #include "mb4sim/presets.hpp"
 #include "number_text.hpp"
+#include "scenario_registers.hpp"
 #include "text_file.hpp"
 #include "toml_reader.hpp"
 
@@ -142,48 +141,6 @@ void read_source(TomlReader& reader, BissCSlaveConfig& config, std::string& file
   }
 }
 
-std::string hex_byte(std::uint64_t value) {
-  constexpr std::string_view kDigits = "0123456789ABCDEF";
-  return std::string("0x") + kDigits[(value >> 4U) & 0xFU] + kDigits[value & 0xFU];
-}
-
-void read_registers(TomlReader& reader, std::map<std::uint8_t, std::uint8_t>& registers) {
-  const toml::table* table = reader.table("registers");
-  if (table == nullptr) return;
-  // The table is sorted by name; the user reads from top to bottom.
-  std::vector<std::pair<const toml::key*, const toml::node*>> entries;
-  for (auto&& [key, node] : *table) entries.emplace_back(&key, &node);
-  std::sort(entries.begin(), entries.end(), [](const auto& a, const auto& b) {
-    return a.first->source().begin < b.first->source().begin;
-  });
-  std::set<std::uint64_t> given;
-  for (const auto& [key_entry, node_entry] : entries) {
-    const toml::key& key = *key_entry;
-    const toml::node& node = *node_entry;
-    const auto address = parse_word(key.str());
-    if (!address || *address > 0xFF) {
-      reader.fail_at(key.source(), key.str(), "expected a register address of 0x00 to 0xFF");
-    }
-    std::uint64_t at = *address;
-    const auto put = [&](const toml::node& value) {
-      const auto* integer = value.as_integer();
-      if (integer == nullptr || integer->get() < 0 || integer->get() > 0xFF) {
-        reader.fail_at(value.source(), key.str(), "expected bytes of 0 to 255");
-      }
-      if (at > 0xFF) reader.fail_at(value.source(), key.str(), "runs past register 0xFF");
-      if (!given.insert(at).second) {
-        reader.fail_at(value.source(), key.str(), "register " + hex_byte(at) + " is given twice");
-      }
-      registers[static_cast<std::uint8_t>(at++)] = static_cast<std::uint8_t>(integer->get());
-    };
-    if (const auto* list = node.as_array()) {
-      for (const auto& value : *list) put(value);
-    } else {
-      put(node);
-    }
-  }
-}
-
 SlaveConfig read_biss_c(TomlReader& reader) {
   SlaveConfig slave;
   BissCSlaveConfig config;
@@ -217,6 +174,7 @@ SlaveConfig read_biss_c(TomlReader& reader) {
     config.busy_periods = static_cast<unsigned>(*busy);
   }
   read_source(reader, config, slave.file);
+  read_control(reader, config.control);
   slave.device = std::move(config);
   return slave;
 }

@@ -95,6 +95,39 @@ TEST(Scenario, EveryPreset_CanBeUsed) {
   }
 }
 
+TEST(Scenario, ControlKeys_AreReadCompletely) {
+  const Scenario scenario = parse_scenario(slave(R"(data_bits = 8
+ids = 2
+banks = { 1 = { 0x00 = [1, 2], 0x3F = 3 }, 0x20 = {} }
+missing = [0x50, "0x60-0x62"]
+write_protected = ["0x44"]
+read_busy_frames = 7
+write_busy_us = 12.5
+store_busy_frames = "forever")"),
+                                           "s");
+  const ControlConfig& control = biss_c(scenario).control;
+  EXPECT_TRUE(control.present);
+  EXPECT_EQ(control.ids, 2U);
+  ASSERT_EQ(control.banks.size(), 2U);
+  EXPECT_EQ(control.banks.at(1)[1], 2);
+  EXPECT_EQ(control.banks.at(1)[0x3F], 3);
+  EXPECT_EQ(control.missing.count(), 4U);
+  EXPECT_TRUE(control.missing[0x50] && control.missing[0x60] && control.missing[0x62]);
+  EXPECT_EQ(control.write_protected.count(), 1U);
+  EXPECT_TRUE(control.write_protected[0x44]);
+  EXPECT_EQ(control.read_busy.frames, 7U);
+  EXPECT_EQ(control.write_busy.time, from_us(12.5));
+  EXPECT_EQ(control.store_busy.frames, BusyTime::kForever);
+}
+
+TEST(Scenario, ControlOff_MakesAUnidirectionalSlave) {
+  EXPECT_FALSE(
+      biss_c(parse_scenario(slave("data_bits = 8\ncontrol = false"), "s")).control.present);
+  EXPECT_FALSE(biss_c(parse_scenario(slave("preset = \"resolute-26\""), "s")).control.present);
+  EXPECT_TRUE(biss_c(parse_scenario(slave("preset = \"resolute-26\"\ncontrol = true"), "s"))
+                  .control.present);
+}
+
 TEST(Scenario, SecondChannel_TakesSlaves5To8) {
   const Scenario scenario = parse_scenario(
       "[[channel]]\nnumber = 2\n[[channel.slave]]\nprotocol = \"biss-c\"\ndata_bits = 8\n", "s");
@@ -211,6 +244,43 @@ INSTANTIATE_TEST_SUITE_P(
         BadScenario{"RegistersOverlap",
                     slave("data_bits = 8\nregisters = { 0x44 = [1, 2], 0x43 = [3, 4] }"),
                     "s.toml:6:41: key '0x43': register 0x44 is given twice"},
+        BadScenario{"Control", slave("data_bits = 8\ncontrol = 1"),
+                    "s.toml:6:11: key 'control': expected true or false, found an integer"},
+        BadScenario{"IdsWithoutControl", slave("data_bits = 8\ncontrol = false\nids = 1"),
+                    "s.toml:7:7: key 'ids': needs control = true"},
+        BadScenario{"IdsOfUnidirectional", slave("preset = \"resolute-26\"\nids = 1"),
+                    "s.toml:6:7: key 'ids': needs control = true"},
+        BadScenario{"Ids", slave("data_bits = 8\nids = 9"),
+                    "s.toml:6:7: key 'ids': 9 is outside 1 to 8"},
+        BadScenario{"Bank", slave("data_bits = 8\nbanks = { 256 = { 0 = 1 } }"),
+                    "s.toml:6:11: key '256': expected a bank of 1 to 255"},
+        BadScenario{"Bank0", slave("data_bits = 8\nbanks = { 0 = { 0 = 1 } }"),
+                    "s.toml:6:11: key '0': bank 0 is registers 0x00 to 0x3F"},
+        BadScenario{"BankTwice", slave("data_bits = 8\nbanks = { 1 = { 0 = 1 }, 0x1 = { } }"),
+                    "s.toml:6:26: key '0x1': bank 1 is given twice"},
+        BadScenario{"BankNoTable", slave("data_bits = 8\nbanks = { 1 = 3 }"),
+                    "s.toml:6:15: key '1': expected a table of bytes by address"},
+        BadScenario{"BankAddress", slave("data_bits = 8\nbanks = { 1 = { 0x40 = 1 } }"),
+                    "s.toml:6:17: key '0x40': expected a register address of 0x00 to 0x3F"},
+        BadScenario{"BankPastEnd", slave("data_bits = 8\nbanks = { 1 = { 0x3F = [1, 2] } }"),
+                    "s.toml:6:28: key '0x3F': runs past register 0x3F"},
+        BadScenario{"Missing", slave("data_bits = 8\nmissing = 0x44"),
+                    "s.toml:6:11: key 'missing': expected a list of register addresses"},
+        BadScenario{"MissingAddress", slave("data_bits = 8\nmissing = [0x44, 0x100]"),
+                    "s.toml:6:18: key 'missing': expected an address of 0x00 to 0xFF or a range "
+                    "such as \"0x44-0x47\""},
+        BadScenario{"ProtectedRange", slave("data_bits = 8\nwrite_protected = [\"0x47-0x44\"]"),
+                    "s.toml:6:20: key 'write_protected': expected an address of 0x00 to 0xFF or a "
+                    "range such as \"0x44-0x47\""},
+        BadScenario{"ReadBusy", slave("data_bits = 8\nread_busy_frames = \"long\""),
+                    "s.toml:6:20: key 'read_busy_frames': expected \"forever\" or a number of "
+                    "frames"},
+        BadScenario{"WriteBusy", slave("data_bits = 8\nwrite_busy_frames = -1"),
+                    "s.toml:6:21: key 'write_busy_frames': -1 is outside 0 to 1000000"},
+        BadScenario{"StoreBusyTwice",
+                    slave("data_bits = 8\nstore_busy_frames = 1\nstore_busy_us = 2"),
+                    "s.toml:7:17: key 'store_busy_us': cannot be given together with "
+                    "store_busy_frames"},
         BadScenario{"SineOverflow",
                     slave("data_bits = 8\nsource = \"sine\"\noffset = -5e18\namplitude = 5e18\n"
                           "period_us = 1"),
