@@ -37,6 +37,14 @@ inline std::string word_on_line(std::uint64_t word, unsigned data_bits, mb4ref::
   return data + to_bits(~std::uint64_t{mb4ref::remainder(data, crc, start)}, crc.width);
 }
 
+// Whether data bits and CRC as received belong together.
+inline bool crc_fits(const std::string& received, unsigned data_bits, mb4ref::CrcChoice crc,
+                     std::uint16_t start) {
+  const std::string data = received.substr(0, data_bits);
+  return received.substr(data_bits) ==
+         to_bits(~std::uint64_t{mb4ref::remainder(data, crc, start)}, crc.width);
+}
+
 // Value of an environment variable, `fallback` if it is not set.
 inline std::uint64_t number_from(const char* variable, std::uint64_t fallback) {
   const char* text = std::getenv(variable);

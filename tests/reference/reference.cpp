@@ -118,7 +118,34 @@ void Reference::frame(const Registers& registers, const Lines& lines) {
       if (!good) scd_error_ = true;
     }
   }
-  if (!registers.singlebank) host_ = 1 - host_;
+  if (registers.singlebank) return;
+  if (held_) {
+    pending_ = true;
+  } else {
+    switch_banks();
+  }
+}
+
+void Reference::switch_banks() {
+  host_ = 1 - host_;
+  pending_ = false;
+  swbank_fail_ = false;
+}
+
+void Reference::hold(bool held) {
+  held_ = held;
+  if (!held && pending_) switch_banks();
+}
+
+void Reference::omitted_frame() {
+  ags_error_ = true;
+  swbank_fail_ = true;
+}
+
+void Reference::write_svalid(std::uint16_t value) {
+  for (unsigned x = 0; x < 8; ++x) {
+    if (((value >> (2 * x + 1)) & 1U) == 0) banks_[host_].valid[x] = false;
+  }
 }
 
 std::uint8_t Reference::spread(unsigned first) const {

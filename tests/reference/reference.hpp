@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // What an iC-MB4 shows its host after a BiSS C frame, computed from the registers the host wrote
-// and the bits that stood on the lines. Written from the datasheet (pages 23..26, 31, 34, 35) and
-// decisions 9, 28, 30; it shares no code with the RTL, the simulator or the driver.
+// and the bits that stood on the lines. Written from the datasheet (pages 23..26, 31, 33..35) and
+// decisions 8, 9, 15, 18, 28, 30; it shares no code with the RTL, the simulator or the driver.
 #ifndef MB4_TESTS_REFERENCE_REFERENCE_HPP_
 #define MB4_TESTS_REFERENCE_REFERENCE_HPP_
 
@@ -41,18 +41,30 @@ class Reference {
   // Bits that the enabled channels of line 1 or 2 take.
   static unsigned frame_bits(const Registers& registers, unsigned line);
 
-  // A complete frame; then the banks switch (SINGLEBANK = 0).
+  // A complete frame; then the banks switch (SINGLEBANK = 0), or with HOLDBANK wait to switch.
   void frame(const Registers& registers, const Lines& lines);
+  // Writing HOLDBANK: 0 makes up for the switch that it has held back (Table 48).
+  void hold(bool held);
+  // A frame falls due while a switch is held back: it is left out (page 33).
+  void omitted_frame();
+  // SWBANK changes its value (Table 49).
+  void swap_banks() { host_ = 1 - host_; }
+  // BREAK between two frames (decision 8).
+  void clear_errors() { scd_error_ = ags_error_ = false; }
 
   // What the host reads.
   std::uint8_t scdata(unsigned address) const { return banks_[host_].data.at(address); }
   std::uint8_t svalid_lo() const { return spread(0); }
   std::uint8_t svalid_hi() const { return spread(4); }
   bool scd_error() const { return scd_error_; }
+  bool ags_error() const { return ags_error_; }
+  bool swbank_fail() const { return swbank_fail_; }
   bool cds(unsigned line) const { return banks_[host_].cds.at(line - 1); }
 
   // A host write to SCDATA.
   void write(unsigned address, std::uint8_t value) { banks_[host_].data.at(address) = value; }
+  // A host write to SVALID, 0xF2 in the high byte: zeros clear (decision 18).
+  void write_svalid(std::uint16_t value);
 
  private:
   struct Bank {
@@ -62,12 +74,17 @@ class Reference {
   };
 
   std::uint8_t spread(unsigned first) const;
+  void switch_banks();
   // Takes channel `x` (0..7) from the front of `bits`; false if its CRC is wrong.
   bool word(const Registers& registers, unsigned x, std::string& bits, Bank& bank);
 
   std::array<Bank, 2> banks_{};
   unsigned host_ = 0;
   bool scd_error_ = false;
+  bool ags_error_ = false;
+  bool held_ = false;
+  bool pending_ = false;  // a switch is held back
+  bool swbank_fail_ = false;
 };
 
 }  // namespace mb4ref

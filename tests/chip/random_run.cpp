@@ -1,0 +1,319 @@
+// SPDX-FileCopyrightText: 2026 The openmb4 authors
+// SPDX-License-Identifier: Apache-2.0
+#include "random_run.hpp"
+
+#include <algorithm>
+
+#include "bits.hpp"
+
+namespace mb4test {
+namespace {
+
+namespace sim = mb4::sim;
+
+constexpr std::uint64_t kLimitNs = 200'000'000;
+constexpr unsigned kAgs = 0x01;
+constexpr unsigned kHoldBank = 0x40;
+constexpr unsigned kBreak = 0x80;
+constexpr unsigned kAgsMinCode = 0x7C;
+constexpr unsigned kAgsInfiniteCode = 0x7D;
+
+}  // namespace
+
+void RandomRun::expect(bool good, const std::string& what) {
+  if (good) return;
+  session_.comment("here: " + what);
+  throw Difference(what);
+}
+
+void RandomRun::set_freqags(unsigned code) {
+  session_.write(0xE8, {static_cast<std::uint8_t>(code)});
+}
+
+void RandomRun::wait_idle() {
+  session_.wait_ns(400);  // pin EOT falls two or three clocks after the instruction
+  auto& simulator = session_.simulator();
+  // SL alone may still show the last data bit.
+  const auto ended = [&](unsigned line, sim::Pin sl) {
+    return !case_.used[line - 1] || (simulator.line(line)->chain().idle() && simulator.pin(sl));
+  };
+  const bool idle = session_.wait_until(
+      [&] {
+        return simulator.pin(sim::Pin::kEot) && ended(1, sim::Pin::kSl1) &&
+               ended(2, sim::Pin::kSl2);
+      },
+      kLimitNs);
+  expect(idle, "the frame does not end");
+}
+
+std::uint64_t RandomRun::frames_seen() {
+  return session_.simulator().slave(case_.used[0] ? 1 : 5)->frames();
+}
+
+// How often did the CRC not see a fault?
+void RandomRun::count_faults(std::uint64_t frame) {
+  if (frame >= RandomCase::kFrames) return;
+  const mb4ref::Lines lines = case_.frame(frame);
+  for (unsigned line = 0; line < 2; ++line) {
+    if (!case_.used[line]) continue;
+    std::size_t at = 1;
+    for (const Sensor& sensor : case_.lines[line]) {
+      const std::string sent =
+          word_on_line(sensor.words[frame], sensor.bits, sensor.crc, sensor.start);
+      const std::string got = lines.bits[line].substr(at, sent.size());
+      at += sent.size();
+      ++counts_.words;
+      if (got == sent || sensor.crc.width == 0) continue;
+      ++counts_.faulty_words;
+      if (crc_fits(got, sensor.bits, sensor.crc, sensor.start)) ++counts_.undetected;
+    }
+  }
+}
+
+void RandomRun::take_frames(std::uint64_t up_to) {
+  for (; applied_ < up_to; ++applied_) {
+    reference_.frame(case_.registers, case_.frame(applied_));
+    ++counts_.frames;
+    count_faults(applied_);
+  }
+}
+
+void RandomRun::check() {
+  const auto status = session_.spi({0x05, 0, 0, 0, 0});
+  const bool error = reference_.scd_error() || reference_.ags_error();
+  const unsigned expected = (error ? 0x00U : 0x80U) | (reference_.ags_error() ? 0x00U : 0x40U) |
+                            (reference_.scd_error() ? 0x00U : 0x10U) | 0x01U;
+  const std::string frame = " after frame " + std::to_string(applied_);
+  expect((status[1] & 0xD1U) == expected, "status 0x" + to_bits(status[1], 8) + ", expected " +
+                                              to_bits(expected, 8) +
+                                              " in nERR, nAGSERR, nSCDERR, EOT" + frame);
+  expect(status[2] == reference_.svalid_lo() && status[3] == reference_.svalid_hi(),
+         "SVALID " + to_bits(status[3] * 256U + status[2], 16) + ", expected " +
+             to_bits(reference_.svalid_hi() * 256U + reference_.svalid_lo(), 16) + frame);
+  expect(session_.read(0xFB, 1)[0] == (reference_.swbank_fail() ? 1 : 0), "SWBANKFAIL" + frame);
+  std::vector<std::uint8_t> tx(65, 0);
+  tx[0] = 0x09;
+  const auto memory = session_.spi(tx);
+  for (unsigned address = 0; address < 64; ++address) {
+    expect(memory[address + 1] == reference_.scdata(address),
+           "SCDATA address " + std::to_string(address) + ": " +
+               std::to_string(memory[address + 1]) + ", expected " +
+               std::to_string(reference_.scdata(address)) + frame);
+  }
+}
+
+void RandomRun::fill_bank() {
+  std::vector<std::uint8_t> tx{0x0B};
+  for (unsigned address = 0; address < 64; ++address) {
+    const auto value = static_cast<std::uint8_t>(random_.below(256));
+    tx.push_back(value);
+    reference_.write(address, value);
+  }
+  session_.spi(tx);
+  session_.wait_ns(1000);
+}
+
+void RandomRun::configure() {
+  session_.wait_ns(10'000);  // the memories are cleared
+  session_.write(0xC0, {case_.registers.slave.begin(), case_.registers.slave.end()});
+  session_.write(0xE5, {0x40, static_cast<std::uint8_t>(0xA0 | case_.freqs),
+                        static_cast<std::uint8_t>((case_.registers.nocrc ? 2 : 0) |
+                                                  (case_.registers.singlebank ? 1 : 0)),
+                        kAgsMinCode});
+  session_.write(0xEC,
+                 {static_cast<std::uint8_t>(case_.registers.slaveloc5 ? 0x11 : 0x01), case_.cfgch});
+  // What no frame touches must stay: fill both banks.
+  fill_bank();
+  toggle_swbank();
+  fill_bank();
+}
+
+// One frame by INSTR, with HOLDBANK or without.
+void RandomRun::instr_frame(unsigned hold) {
+  set_freqags(kAgsMinCode);
+  const unsigned instr = 1 + random_.below(3);  // CDM = 1, CDM = 0, CDM = NOT CDSSEL = 1
+  const auto before = frames_seen();
+  const sim::Time start = session_.simulator().now();
+  reference_.hold(hold != 0);
+  session_.instruct(swbank_ | hold | instr << 1U);
+  wait_idle();
+  frame_ns_ = std::max(frame_ns_, (session_.simulator().now() - start) / sim::kPsPerNs);
+  expect(frames_seen() == before + 1, "INSTR does not make one frame");
+  take_frames(frames_seen());
+  session_.wait_ns(frame_ns_ / 4);  // also the farthest slave has ended
+  const auto* slave = session_.simulator().slave(case_.used[0] ? 1 : 5);
+  expect(slave->last_cdm() == (instr != 2), "CDM of the frame");
+  const unsigned held = swbank_ | hold;
+  expect(session_.read(0xF4, 1)[0] == held, "0xF4 after the frame");
+}
+
+unsigned RandomRun::rate_code() const {
+  const std::uint64_t needed_ns = frame_ns_ + frame_ns_ / 4 + 2000;
+  for (unsigned code = 0; code < 0x100; ++code) {
+    if (code >= kAgsMinCode && code < 0x80) continue;
+    if (period_ns(code) >= needed_ns) return code;
+  }
+  return kAgsMinCode;
+}
+
+// Table 37; a frame's own time for AGSMIN.
+std::uint64_t RandomRun::period_ns(unsigned code) const {
+  if (code == kAgsMinCode) return frame_ns_;
+  const std::uint64_t clocks = code < 0x80 ? 20ULL * (code + 1) : 625ULL * (code - 127);
+  return clocks * 1'000'000'000 / case_.f_clk_hz;
+}
+
+void RandomRun::pulse_getsens() {
+  session_.pin(sim::Pin::kGetsens, "GETSENS", true);
+  session_.wait_ns(100);
+  session_.pin(sim::Pin::kGetsens, "GETSENS", false);
+  wait_idle();
+  session_.wait_ns(frame_ns_ / 4);
+}
+
+void RandomRun::automatic(RandomCounts::Action action) {
+  const unsigned instr = random_.below(4);
+  const unsigned code = action == RandomCounts::kRate     ? rate_code()
+                        : action == RandomCounts::kAgsMin ? kAgsMinCode
+                                                          : kAgsInfiniteCode;
+  set_freqags(code);
+  const auto before = frames_seen();
+  const unsigned count = 2 + random_.below(3);
+  if (action == RandomCounts::kGetsens) {
+    session_.instruct(swbank_ | kAgs);  // with INSTR it would be one frame more
+    session_.wait_ns(1000);             // AGS must have come to the core before the first pulse
+    for (unsigned i = 0; i < count; ++i) pulse_getsens();
+    session_.instruct(swbank_);
+    wait_idle();
+    expect(frames_seen() == before + count, "GETSENS pulses and frames are not the same number");
+  } else {
+    session_.instruct(swbank_ | kAgs | instr << 1U);
+    session_.wait_ns(count * period_ns(code) + period_ns(code) / 2);
+    session_.instruct(swbank_);
+    wait_idle();
+    const auto frames = frames_seen() - before;
+    expect(frames >= count && (code == kAgsMinCode || frames <= count + 1),
+           std::to_string(frames) + " frames in " + std::to_string(count) + " periods");
+  }
+  take_frames(frames_seen());
+}
+
+// HOLDBANK and a frame, perhaps another one that must not run, then the switch that was held back.
+void RandomRun::held_frame() {
+  instr_frame(kHoldBank);
+  check();
+  if (random_.one_in(2) && !case_.registers.singlebank) {
+    const auto before = frames_seen();
+    session_.instruct(swbank_ | kHoldBank | 0x04);
+    wait_idle();
+    expect(frames_seen() == before, "a frame runs although the switch is held back");
+    reference_.omitted_frame();
+    check();
+  }
+  session_.instruct(swbank_);
+  session_.wait_ns(1000);
+  reference_.hold(false);
+}
+
+// HOLDBANK while frames come by themselves: one more frame whose switch waits, the next is left
+// out.
+void RandomRun::held_automatic() {
+  const unsigned code = random_.one_in(2) ? kAgsMinCode : rate_code();
+  set_freqags(code);
+  session_.instruct(swbank_ | kAgs);
+  session_.wait_ns(period_ns(code) * (8 + random_.below(16)) / 8);
+  session_.instruct(swbank_ | kAgs | kHoldBank);
+  session_.wait_ns(4 * std::max(period_ns(code), frame_ns_) + 2000);
+  if (!case_.registers.singlebank) {
+    const auto seen = frames_seen();
+    take_frames(seen - 1);
+    reference_.hold(true);
+    take_frames(seen);
+    reference_.omitted_frame();
+    check();
+  }
+  session_.instruct(swbank_);
+  wait_idle();
+  reference_.hold(false);
+  take_frames(frames_seen());
+}
+
+void RandomRun::toggle_swbank() {
+  swbank_ ^= 0x20;
+  session_.instruct(swbank_);
+  session_.wait_ns(1000);
+  reference_.swap_banks();
+}
+
+void RandomRun::write_scdata() {
+  const unsigned address = random_.below(64);
+  const unsigned count = 1 + random_.below(std::min(16U, 64 - address));
+  std::vector<std::uint8_t> bytes;
+  for (unsigned i = 0; i < count; ++i) {
+    bytes.push_back(static_cast<std::uint8_t>(random_.below(256)));
+    reference_.write(address + i, bytes.back());
+  }
+  session_.write(static_cast<std::uint8_t>(address), bytes);
+  session_.wait_ns(1000);
+}
+
+void RandomRun::write_svalid() {
+  const auto value = static_cast<std::uint16_t>(random_.word());
+  session_.write(0xF1, {static_cast<std::uint8_t>(value), static_cast<std::uint8_t>(value >> 8U)});
+  session_.wait_ns(1000);
+  reference_.write_svalid(value);
+}
+
+void RandomRun::break_if_error() {
+  if (!reference_.ags_error()) return;
+  session_.instruct(swbank_ | kBreak);
+  session_.wait_ns(1000);
+  reference_.clear_errors();
+  check();
+}
+
+void RandomRun::run(RandomCounts& counts) {
+  configure();
+  check();
+  instr_frame(0);
+  check();
+  const unsigned actions = 3 + random_.below(5);
+  for (unsigned i = 0; i < actions; ++i) {
+    const auto action = static_cast<RandomCounts::Action>(random_.below(9));
+    ++counts_.actions[action];
+    switch (action) {
+      case RandomCounts::kInstr:
+        instr_frame(0);
+        break;
+      case RandomCounts::kRate:
+      case RandomCounts::kAgsMin:
+      case RandomCounts::kGetsens:
+        automatic(action);
+        break;
+      case RandomCounts::kHold:
+        held_frame();
+        break;
+      case RandomCounts::kAgsHold:
+        held_automatic();
+        break;
+      case RandomCounts::kSwBank:
+        toggle_swbank();
+        break;
+      case RandomCounts::kWrite:
+        write_scdata();
+        break;
+      case RandomCounts::kSvalid:
+        write_svalid();
+        break;
+    }
+    check();
+    break_if_error();
+  }
+  counts.frames += counts_.frames;
+  counts.words += counts_.words;
+  counts.faulty_words += counts_.faulty_words;
+  counts.undetected += counts_.undetected;
+  for (std::size_t i = 0; i < counts.actions.size(); ++i) counts.actions[i] += counts_.actions[i];
+}
+
+}  // namespace mb4test
