@@ -55,6 +55,13 @@ Config changed(Change change) {
   return config;
 }
 
+Config periodic(std::uint32_t period_clk) {
+  return changed([=](Config& c) {
+    c.frame_start = mb4::FrameStart::kPeriodic;
+    c.frame_period_clk = period_clk;
+  });
+}
+
 const BadConfig kBadConfigs[] = {
     {"DefaultConfig", [] { return Config(); }, Error::kInvalidConfig, ConfigField::kMaHz, 0},
     {"NoSystemClock", [] { return changed([](Config& c) { c.f_clk_hz = 0; }); },
@@ -89,7 +96,7 @@ const BadConfig kBadConfigs[] = {
      },
      Error::kInvalidConfig, ConfigField::kLineInterface, 0},
     {"UnknownFrameStart",
-     [] { return changed([](Config& c) { c.frame_start = static_cast<mb4::FrameStart>(2); }); },
+     [] { return changed([](Config& c) { c.frame_start = static_cast<mb4::FrameStart>(3); }); },
      Error::kInvalidConfig, ConfigField::kFrameStart, 0},
     {"TimeoutTooLong", [] { return changed([](Config& c) { c.frame_timeout_us = 1'000'001; }); },
      Error::kInvalidConfig, ConfigField::kFrameTimeoutUs, 0},
@@ -107,19 +114,51 @@ const BadConfig kBadConfigs[] = {
        return changed([](Config& c) { c.channels[0].protocol = static_cast<mb4::Protocol>(4); });
      },
      Error::kInvalidConfig, ConfigField::kChannelProtocol, 1},
-    {"Channel2BissC",
+    {"Channel2BissCWithoutSlave",
      [] { return changed([](Config& c) { c.channels[1].protocol = mb4::Protocol::kBissC; }); },
+     Error::kInvalidConfig, ConfigField::kSlaveEnabled, 5},
+    {"Channel2Ssi",
+     [] { return changed([](Config& c) { c.channels[1].protocol = mb4::Protocol::kSsi; }); },
      Error::kUnsupported, ConfigField::kChannelProtocol, 2},
+    {"SlaveOnUnusedChannel1",
+     [] {
+       return changed([](Config& c) {
+         c.channels[0].protocol = mb4::Protocol::kUnused;
+         c.channels[1].protocol = mb4::Protocol::kBissC;
+         c.slaves[4] = c.slaves[0];
+       });
+     },
+     Error::kInvalidConfig, ConfigField::kSlaveEnabled, 1},
     {"Channel2UnknownProtocol",
      [] {
        return changed([](Config& c) { c.channels[1].protocol = static_cast<mb4::Protocol>(9); });
      },
      Error::kInvalidConfig, ConfigField::kChannelProtocol, 2},
     {"NoSlave", without_slave, Error::kInvalidConfig, ConfigField::kSlaveEnabled, 1},
-    {"Slave2Enabled", [] { return changed([](Config& c) { c.slaves[1].enabled = true; }); },
-     Error::kUnsupported, ConfigField::kSlaveEnabled, 2},
-    {"Slave8Enabled", [] { return changed([](Config& c) { c.slaves[7].enabled = true; }); },
-     Error::kUnsupported, ConfigField::kSlaveEnabled, 8},
+    {"Slave2WithoutLength", [] { return changed([](Config& c) { c.slaves[1].enabled = true; }); },
+     Error::kInvalidConfig, ConfigField::kDataBits, 2},
+    {"Slave8WithEvenPolynomial",
+     [] {
+       return changed([](Config& c) {
+         c.slaves[7] = c.slaves[0];
+         c.slaves[7].crc_polynomial = 0x42;
+       });
+     },
+     Error::kInvalidConfig, ConfigField::kCrcPolynomial, 8},
+    {"PeriodWithoutPeriodicFrames",
+     [] { return changed([](Config& c) { c.frame_period_clk = 1000; }); }, Error::kInvalidConfig,
+     ConfigField::kFramePeriodClk, 0},
+    {"PeriodicFramesWithoutPeriod",
+     [] { return changed([](Config& c) { c.frame_start = mb4::FrameStart::kPeriodic; }); },
+     Error::kInvalidConfig, ConfigField::kFramePeriodClk, 0},
+    {"PeriodNotInTable37", [] { return periodic(1010); }, Error::kInvalidConfig,
+     ConfigField::kFramePeriodClk, 0},
+    // 39 + 0.55 periods of 10 clocks are 395.5 clocks; 380 is in the table.
+    {"PeriodShorterThanFrame", [] { return periodic(380); }, Error::kInvalidConfig,
+     ConfigField::kFramePeriodClk, 0},
+    {"RegisterBusyTooLong",
+     [] { return changed([](Config& c) { c.register_busy_us = 10'000'001; }); },
+     Error::kInvalidConfig, ConfigField::kRegisterBusyUs, 0},
     {"NoDataBits", [] { return changed([](Config& c) { c.slaves[0].data_bits = 0; }); },
      Error::kInvalidConfig, ConfigField::kDataBits, 1},
     {"DataBits65", [] { return changed([](Config& c) { c.slaves[0].data_bits = 65; }); },
@@ -365,10 +404,10 @@ TEST(FrameTimeout, InternalClock_AllowsForItsSpread) {
 }
 
 TEST(Names, EveryErrorAndField_HasOne) {
-  for (std::uint8_t i = 0; i <= static_cast<std::uint8_t>(Error::kCorrupted); ++i) {
+  for (std::uint8_t i = 0; i <= static_cast<std::uint8_t>(Error::kBankSwitched); ++i) {
     EXPECT_STRNE(mb4::to_string(static_cast<Error>(i)), "unknown");
   }
-  for (std::uint8_t i = 0; i <= static_cast<std::uint8_t>(ConfigField::kCrcStart); ++i) {
+  for (std::uint8_t i = 0; i <= static_cast<std::uint8_t>(ConfigField::kRegisterBusyUs); ++i) {
     EXPECT_STRNE(mb4::to_string(static_cast<ConfigField>(i)), "unknown");
   }
   EXPECT_STREQ(mb4::to_string(static_cast<Error>(250)), "unknown");

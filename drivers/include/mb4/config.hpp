@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 
-// What the chip shall do, in real units, and its complete validation. Everything is constexpr:
+// The configuration, figures derived from it, and its complete validation. Everything is constexpr:
 //
 //   constexpr mb4::Config kConfig = make_config();
 //   static_assert(mb4::validate(kConfig).ok());
@@ -13,131 +13,13 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "mb4/config_data.hpp"
 #include "mb4/crc.hpp"
+#include "mb4/frequency.hpp"
 #include "mb4/result.hpp"
 #include "mb4_regs.hpp"
 
 namespace mb4 {
-
-inline constexpr std::size_t kSlaves = 8;
-inline constexpr std::size_t kChannels = 2;
-
-// CFGCHx, table 8, page 23.
-using Protocol = regs::Protocol;
-// CLKENI, table 7, page 23.
-using ClockSource = regs::ClockSource;
-// CFGIF, table 9, page 23.
-using LineInterface = regs::LineInterface;
-
-// What happens when a frame is requested while SL is low, as it is until the slaves' timeout after
-// the previous frame is over (page 32).
-enum class FrameStart : std::uint8_t {
-  // The chip waits for SL = 1 (FREQAGS = AGSMIN). Frames can be requested back to back.
-  kWaitForLine = 0,
-  // The chip refuses and sets nAGSERR = 0, read_frame() returns kLineError at once. The caller
-  // keeps frames apart by the slaves' timeout.
-  kRequireIdleLine = 1,
-};
-
-// Which of the data bits are not position.
-enum class Flags : std::uint8_t {
-  kNone = 0,
-  // The last two data bits are nE and nW: error and warning, both active low.
-  kErrorWarning = 1,
-};
-
-// One single-cycle data channel of the chip.
-struct SlaveConfig {
-  bool enabled = false;
-  // Data length on the line without CRC: position and flags. 1..64; with flags 3..64.
-  std::uint8_t data_bits = 0;
-  Flags flags = Flags::kErrorWarning;
-  // Full polynomial, 0x43 = x^6 + x + 1; 0 = no CRC. See encode_crc() for what the chip can do.
-  std::uint32_t crc_polynomial = 0x43;
-  // Start value; only as many low bits count as the CRC is wide. 0 when there is no CRC.
-  std::uint16_t crc_start = 0;
-};
-
-struct ChannelConfig {
-  Protocol protocol = Protocol::kUnused;
-};
-
-// Complete configuration of one chip. This driver version accepts one slave on channel 1, BiSS C;
-// other combinations are reported as kUnsupported.
-struct Config {
-  // System clock. Pin CLK: at most 25 MHz (D01, page 9). D01 states no minimum; validate() asks
-  // for 1 MHz, which is this driver's own choice. Internal: 10..25 MHz (D05), 20 MHz typical with a
-  // wide spread, so ma_hz and the timeout are then only as good as this figure. A slow system clock
-  // limits SCLK: <= 2 * f_clk_hz is always safe, see bus.hpp; the driver cannot check it.
-  std::uint32_t f_clk_hz = 20'000'000;
-  ClockSource clock_source = ClockSource::kExternal;
-
-  // Clock at pin MA. Must be one of the 31 frequencies of table 35 (page 30), in whole hertz,
-  // rounded down: use ma_hz_at_most() to choose. Each MA half period must be shorter than the
-  // shortest timeout of the slaves.
-  std::uint32_t ma_hz = 0;
-
-  LineInterface line_interface = LineInterface::kTtl;
-  FrameStart frame_start = FrameStart::kWaitForLine;
-
-  // True: the chip also stores the received CRC (NOCRC = 0). Then read_frame() fetches all 8 bytes
-  // of the slave, repeats the CRC check on what came over SPI, and returns the CRC. False: only the
-  // bytes that hold data are read.
-  bool store_crc = false;
-
-  // Longest time from the request of a frame to its end, 1..1'000'000 us. 0 = calculated, see
-  // frame_timeout_us().
-  std::uint32_t frame_timeout_us = 0;
-
-  std::array<ChannelConfig, kChannels> channels{};  // [0] is channel 1
-  std::array<SlaveConfig, kSlaves> slaves{};        // [0] is slave 1, next to SL, SCDATA1
-};
-
-inline constexpr std::uint32_t kMaxFrameTimeoutUs = 1'000'000;
-
-// ---- MA frequency: table 35, page 30 ------------------------------------------------------------
-
-inline constexpr std::uint8_t kFreqsCodes = 32;
-
-// f_CLK / f_MA for a FREQS code 0..31; 0 for code 0x10 (not permitted) and for codes above 31.
-[[nodiscard]] constexpr std::uint32_t ma_divider(std::uint8_t freqs_code) {
-  if (freqs_code < 0x10) {
-    return 2U * (freqs_code + 1U);
-  }
-  if (freqs_code > 0x10 && freqs_code < kFreqsCodes) {
-    return 20U * (freqs_code - 15U);
-  }
-  return 0;
-}
-
-// FREQS code whose frequency, rounded down to whole hertz, is `ma_hz`. kInvalidConfig (kMaHz) when
-// there is none.
-[[nodiscard]] constexpr Result<std::uint8_t> freqs_code(std::uint32_t f_clk_hz,
-                                                        std::uint32_t ma_hz) {
-  for (std::uint8_t code = 0; code < kFreqsCodes; ++code) {
-    const std::uint32_t divider = ma_divider(code);
-    if (divider != 0 && f_clk_hz / divider == ma_hz && ma_hz != 0) {
-      return code;
-    }
-  }
-  return ErrorInfo(Error::kInvalidConfig, ConfigField::kMaHz, 0);
-}
-
-// Highest frequency of table 35 that does not exceed `limit_hz`, in whole hertz, rounded down;
-// 0 when even f_CLK / 320 is too fast.
-[[nodiscard]] constexpr std::uint32_t ma_hz_at_most(std::uint32_t f_clk_hz,
-                                                    std::uint32_t limit_hz) {
-  std::uint32_t best_hz = 0;
-  for (std::uint8_t code = 0; code < kFreqsCodes; ++code) {
-    const std::uint32_t divider = ma_divider(code);
-    // The comparison is exact: f / divider <= limit, without the rounding.
-    if (divider != 0 && f_clk_hz <= std::uint64_t{limit_hz} * divider &&
-        f_clk_hz / divider > best_hz) {
-      best_hz = f_clk_hz / divider;
-    }
-  }
-  return best_hz;
-}
 
 // ---- Derived figures ----------------------------------------------------------------------------
 
@@ -153,6 +35,39 @@ inline constexpr std::uint8_t kFreqsCodes = 32;
   return config.store_crc && width_bits != 0 && data_bytes(slave) + (width_bits + 7U) / 8U <= 8U;
 }
 
+// Whether slaves 5 to 8 are on channel 2 (SLAVELOC5).
+[[nodiscard]] constexpr bool channels_are_split(const Config& config) {
+  return config.channels[1].protocol != Protocol::kUnused;
+}
+
+// Channel 1 or 2 of slave 1..8.
+[[nodiscard]] constexpr std::uint8_t channel_of(const Config& config, std::size_t slave) {
+  return channels_are_split(config) && slave > kSlaves / 2 ? 2 : 1;
+}
+
+// Enabled slaves; bit 0 is slave 1.
+[[nodiscard]] constexpr std::uint8_t enabled_slaves(const Config& config) {
+  unsigned mask = 0;
+  for (std::size_t i = 0; i < kSlaves; ++i) {
+    mask |= (config.slaves[i].enabled ? 1U : 0U) << i;
+  }
+  return static_cast<std::uint8_t>(mask);
+}
+
+// Rising edges of MA in a frame without processing time: acknowledge, start, CDS, data and CRC of
+// the longer channel.
+[[nodiscard]] constexpr std::uint32_t frame_periods(const Config& config) {
+  std::uint32_t periods[kChannels] = {5, 5};
+  for (std::size_t slave = 1; slave <= kSlaves; ++slave) {
+    const SlaveConfig& one = config.slaves[slave - 1];
+    if (one.enabled) {
+      periods[channel_of(config, slave) - 1] +=
+          std::uint32_t{one.data_bits} + encode_crc(one.crc_polynomial).width_bits;
+    }
+  }
+  return periods[0] > periods[1] ? periods[0] : periods[1];
+}
+
 // Allowance of the calculated timeout for everything that is not MA periods of the frame: a
 // previous slave timeout (up to 40 us), the slave's processing time, line delay, the SPI transfers.
 inline constexpr std::uint32_t kFrameMarginUs = 200;
@@ -163,12 +78,7 @@ inline constexpr std::uint32_t kFrameMarginUs = 200;
   if (config.frame_timeout_us != 0) {
     return config.frame_timeout_us;
   }
-  std::uint32_t periods = 5;
-  for (const SlaveConfig& slave : config.slaves) {
-    if (slave.enabled) {
-      periods += slave.data_bits + encode_crc(slave.crc_polynomial).width_bits;
-    }
-  }
+  std::uint32_t periods = frame_periods(config);
   // The internal oscillator may run at 10 MHz while f_clk_hz says 25 MHz (D05).
   if (config.clock_source == ClockSource::kInternal) {
     periods *= 3;
@@ -208,6 +118,27 @@ constexpr ErrorInfo check_clock(const Config& config) {
   return freqs_code(config.f_clk_hz, config.ma_hz).info();
 }
 
+// The period must be one of table 37 and hold a frame; it belongs to kPeriodic alone.
+constexpr ErrorInfo check_frame_start(const Config& config) {
+  switch (config.frame_start) {
+    case FrameStart::kWaitForLine:
+    case FrameStart::kRequireIdleLine:
+      return config.frame_period_clk == 0 ? ErrorInfo() : invalid(ConfigField::kFramePeriodClk);
+    case FrameStart::kPeriodic:
+      break;
+    default:
+      return invalid(ConfigField::kFrameStart);
+  }
+  if (const Result<std::uint8_t> code = freqags_code(config.frame_period_clk); !code) {
+    return code.info();
+  }
+  const std::uint32_t divider = ma_divider(freqs_code(config.f_clk_hz, config.ma_hz).value_or(0));
+  // In hundredths of a period of MA, which need not be whole.
+  return config.frame_period_clk * 100 >= (frame_periods(config) * 100 + 55) * divider
+             ? ErrorInfo()
+             : invalid(ConfigField::kFramePeriodClk);
+}
+
 constexpr ErrorInfo check_chip(const Config& config) {
   switch (config.line_interface) {
     case LineInterface::kTtl:
@@ -218,31 +149,57 @@ constexpr ErrorInfo check_chip(const Config& config) {
     default:
       return invalid(ConfigField::kLineInterface);
   }
-  switch (config.frame_start) {
-    case FrameStart::kWaitForLine:
-    case FrameStart::kRequireIdleLine:
-      break;
-    default:
-      return invalid(ConfigField::kFrameStart);
-  }
   if (config.frame_timeout_us > kMaxFrameTimeoutUs) {
     return invalid(ConfigField::kFrameTimeoutUs);
   }
-  return {};
+  return config.register_busy_us > kMaxRegisterBusyUs ? invalid(ConfigField::kRegisterBusyUs)
+                                                      : ErrorInfo();
+}
+
+constexpr bool channel_has_slave(const Config& config, std::size_t number) {
+  for (std::size_t slave = 1; slave <= kSlaves; ++slave) {
+    if (config.slaves[slave - 1].enabled && channel_of(config, slave) == number) {
+      return true;
+    }
+  }
+  return false;
 }
 
 constexpr ErrorInfo check_channel(const Config& config, std::size_t number) {
   switch (config.channels[number - 1].protocol) {
     case Protocol::kBissC:
-      return number == 1 ? ErrorInfo() : unsupported(ConfigField::kChannelProtocol, number);
     case Protocol::kUnused:
-      return number == 2 ? ErrorInfo() : invalid(ConfigField::kChannelProtocol, number);
+      return {};
     case Protocol::kBissB:
     case Protocol::kSsi:
       return unsupported(ConfigField::kChannelProtocol, number);
     default:
       return invalid(ConfigField::kChannelProtocol, number);
   }
+}
+
+// A channel in use and its slaves belong together.
+constexpr ErrorInfo check_occupation(const Config& config) {
+  bool any_used = false;
+  for (std::size_t number = 1; number <= kChannels; ++number) {
+    if (config.channels[number - 1].protocol == Protocol::kUnused) {
+      continue;
+    }
+    any_used = true;
+    if (!config.hold_cdm && !channel_has_slave(config, number)) {
+      return invalid(ConfigField::kSlaveEnabled, number == 1 ? 1 : kSlaves / 2 + 1);
+    }
+  }
+  if (!any_used) {
+    return invalid(ConfigField::kChannelProtocol, 1);
+  }
+  for (std::size_t slave = 1; slave <= kSlaves; ++slave) {
+    if (config.slaves[slave - 1].enabled &&
+        config.channels[channel_of(config, slave) - 1U].protocol == Protocol::kUnused) {
+      return invalid(ConfigField::kSlaveEnabled, slave);
+    }
+  }
+  return {};
 }
 
 constexpr ErrorInfo check_slave(const SlaveConfig& slave, std::size_t number) {
@@ -282,15 +239,17 @@ constexpr ErrorInfo check_slave(const SlaveConfig& slave, std::size_t number) {
   for (std::size_t number = 1; number <= kChannels && problem.code == Error::kNone; ++number) {
     problem = detail::check_channel(config, number);
   }
+  if (problem.code == Error::kNone) {
+    problem = detail::check_occupation(config);
+  }
   for (std::size_t number = 1; number <= kSlaves && problem.code == Error::kNone; ++number) {
-    const SlaveConfig& slave = config.slaves[number - 1];
-    if (slave.enabled) {
-      problem = number == 1 ? detail::check_slave(slave, number)
-                            : detail::unsupported(ConfigField::kSlaveEnabled, number);
+    if (config.slaves[number - 1].enabled) {
+      problem = detail::check_slave(config.slaves[number - 1], number);
     }
   }
-  if (problem.code == Error::kNone && !config.slaves[0].enabled) {
-    problem = detail::invalid(ConfigField::kSlaveEnabled, 1);
+  // Last, because it needs the length of a frame.
+  if (problem.code == Error::kNone) {
+    problem = detail::check_frame_start(config);
   }
   return problem;
 }

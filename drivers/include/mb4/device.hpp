@@ -12,8 +12,10 @@
 
 #include "mb4/acquisition.hpp"
 #include "mb4/bus.hpp"
+#include "mb4/chip.hpp"
 #include "mb4/config.hpp"
 #include "mb4/fields.hpp"
+#include "mb4/frame.hpp"
 #include "mb4/opcodes.hpp"
 #include "mb4/reading.hpp"
 #include "mb4/register_image.hpp"
@@ -33,7 +35,7 @@ struct Identity {
 // One iC-MB4 or compatible chip on an SPI bus.
 //
 // `Bus` and `Clock` obey the contracts in bus.hpp and outlive the Device. No heap, no global state:
-// any number of devices side by side. Size: a Config and two pointers.
+// any number of devices side by side. Size: a Config, two pointers and a few flags.
 //
 // Interrupt safety: no call may be interrupted by another call on the same Device, and all calls
 // of one Device belong in one context (main loop or one interrupt). Different devices are
@@ -42,15 +44,14 @@ struct Identity {
 template <typename Bus, typename Clock>
 class Device {
  public:
-  constexpr Device(Bus& bus, Clock& clock)
-      : opcodes_(bus), fields_(opcodes_), single_shot_(opcodes_, clock) {}
+  constexpr Device(Bus& bus, Clock& clock) : chip_(bus, clock), fields_(chip_.opcodes) {}
 
   // Reads VERSION and REVISION. One transfer, changes nothing.
   // kTransport; kNotDetected: VERSION is not 0x84 (an iC-MB3 says 0x83).
   Result<Identity> probe() {
     std::array<std::uint8_t, 2> bytes{};
     static_assert(regs::kAddrVersion == regs::kAddrRevision + 1);
-    if (const Result<void> read = opcodes_.read_registers(regs::kAddrRevision, bytes); !read) {
+    if (const Result<void> read = chip_.opcodes.read_registers(regs::kAddrRevision, bytes); !read) {
       return read.info();
     }
     if (bytes[1] != static_cast<std::uint8_t>(regs::DeviceVersion::kIcMb4)) {
@@ -74,22 +75,25 @@ class Device {
     if (const Result<void> valid = validate(config); !valid) {
       return valid;
     }
-    configured_ = false;
+    chip_.configured = false;
+    chip_.automatic = false;
+    chip_.control = {};
     const RegisterImage image = encode_registers(config);
     const std::array<std::uint8_t, 2> stop_and_interface{regs::BREAK::encode<1>(),
                                                          encode_interface(config)};
-    if (const Result<void> write = opcodes_.write_instruction(stop_and_interface); !write) {
+    if (const Result<void> write = chip_.opcodes.write_instruction(stop_and_interface); !write) {
       return write;
     }
-    if (const Result<void> write = opcodes_.write_registers(kImageFirst, image); !write) {
+    if (const Result<void> write = chip_.opcodes.write_registers(kImageFirst, image); !write) {
       return write;
     }
     if (const Result<void> same = verify(image, encode_interface(config)); !same) {
       return same;
     }
-    config_ = config;
-    configured_ = true;
-    single_shot_.on_flags_cleared();
+    chip_.config = config;
+    chip_.configured = true;
+    chip_.recover_first = false;
+    chip_.bad_frame_reported = false;
     return {};
   }
 
@@ -101,37 +105,52 @@ class Device {
   // bytes, and p is limited by frame_timeout_us(config): at most t + t/16 + 2 polls for t
   // microseconds even if the clock stands still. In order:
   //   0x07  BREAK, then 100 us for the slaves' timeout  (after a failed read)
-  //   0x02  SVALIDx = 0                                 (after a failed read)
+  //   0x02  SVALID of the enabled slaves = 0            (after a failed read)
   //   0x07  INSTR = 010
   //   0x05  0xF0..0xF4, repeated until EOT = 1 and INSTR = 0
   //   0x09  SCDATA1, 1..8 bytes (0x03 with its address for slaves 2 to 8)
-  //   0x02  SVALIDx = 0
+  //   0x02  SVALID of the enabled slaves = 0
   //
-  // kNotConfigured, kInvalidArgument (not touched); kTransport; kNotDetected (status cannot be
-  // that of an iC-MB4); kTimeout, kLineError (BREAK was sent); kCrc, kNoData, kCorrupted. A
-  // Reading is returned only for a good frame that began after this request; whether the slave
-  // itself trusts its position is Reading::error.
+  // kNotConfigured, kInvalidArgument, kWrongMode (automatic frames run), kBusy (not touched);
+  // kTransport; kNotDetected (status cannot be that of an iC-MB4); kTimeout, kLineError (BREAK was
+  // sent); kCrc, kNoData, kCorrupted. A Reading is returned only for a good frame that began after
+  // this request; whether the slave itself trusts its position is Reading::error.
   //
-  // Sets AGS, HOLDBANK and SWBANK to 0, as any single frame does.
+  // Sets HOLDBANK and SWBANK to 0, as any single frame does.
   Result<Reading> read_frame(std::uint8_t slave = 1) {
-    if (!configured_) {
-      return Error::kNotConfigured;
+    if (const ErrorInfo no = single_frame_allowed(); no.code != Error::kNone) {
+      return no;
     }
-    if (slave < 1 || slave > kSlaves || !config_.slaves[slave - 1U].enabled) {
+    if (slave < 1 || slave > kSlaves || !chip_.config.slaves[slave - 1U].enabled) {
       return Error::kInvalidArgument;
     }
-    return single_shot_.read(config_, slave);
+    return SingleShot<Bus, Clock>(chip_).read(slave);
   }
 
-  // Writes BREAK (page 33): aborts a frame at once, clock and AGS stop, MA returns to 1, the error
-  // flags return to 1. One transfer. kTransport. The configuration stays. A following read_frame()
-  // waits for the slaves' timeout, see FrameStart.
+  // The same for all enabled slaves with one frame. Transfers as for read_frame(), but 1..n for the
+  // data of n slaves: only the bytes that they need, in as few bursts as pays; none if no slave is
+  // good.
+  //
+  // Success means that the frame has ended; what became of each slave is in frame[slave]. Errors of
+  // the call are about the whole frame: those of read_frame() except kCrc, kNoData, kCorrupted. On
+  // error `frame` holds no Reading.
+  Result<void> read_all(Frame& frame) {
+    if (const ErrorInfo no = single_frame_allowed(); no.code != Error::kNone) {
+      return no;
+    }
+    return SingleShot<Bus, Clock>(chip_).read_all(frame);
+  }
+
+  // Writes BREAK (page 33): aborts a frame, a control communication and AGS at once, MA returns to
+  // 1, the error flags return to 1. One transfer. kTransport. The configuration stays. The next
+  // read gives the slaves 100 us for their timeout first.
   Result<void> break_transmission() {
-    return detail::write_instruction(opcodes_, regs::BREAK::encode<1>());
+    chip_.recover_first = true;
+    return chip_.write_break();
   }
 
   // 0xF0..0xF4 in one transfer; changes nothing. kTransport, kNotDetected.
-  Result<Status> read_status() { return detail::read_status(opcodes_); }
+  Result<Status> read_status() { return chip_.read_status(); }
 
   // Clears SVALIDx of `slave` (1..8) and nothing else. One transfer. kInvalidArgument (not
   // touched), kTransport.
@@ -139,23 +158,23 @@ class Device {
     if (slave < 1 || slave > kSlaves) {
       return Error::kInvalidArgument;
     }
-    return detail::clear_valid(opcodes_, slave);
+    return chip_.clear_valid(static_cast<std::uint8_t>(1U << (slave - 1U)));
   }
 
   // The lower layers, for what Device does not cover. See their headers for what they do not
   // protect from.
   [[nodiscard]] Fields<Bus>& fields() { return fields_; }
-  [[nodiscard]] Opcodes<Bus>& opcodes() { return opcodes_; }
+  [[nodiscard]] Opcodes<Bus>& opcodes() { return chip_.opcodes; }
 
   // True after a successful configure().
-  [[nodiscard]] bool configured() const { return configured_; }
+  [[nodiscard]] bool configured() const { return chip_.configured; }
   // The configuration in the chip; meaningful if configured().
-  [[nodiscard]] const Config& config() const { return config_; }
+  [[nodiscard]] const Config& config() const { return chip_.config; }
 
  private:
   Result<void> verify(const RegisterImage& image, std::uint8_t interface_byte) {
     std::array<std::uint8_t, regs::kAddrIface - kImageFirst + 1> bytes{};
-    if (const Result<void> read = opcodes_.read_registers(kImageFirst, bytes); !read) {
+    if (const Result<void> read = chip_.opcodes.read_registers(kImageFirst, bytes); !read) {
       return read;
     }
     // Asked first: with nothing on the bus every register is different, which says less.
@@ -181,11 +200,18 @@ class Device {
            address != regs::kAddrRevision && address != regs::kAddrVersion;
   }
 
-  Opcodes<Bus> opcodes_;
+  [[nodiscard]] ErrorInfo single_frame_allowed() const {
+    if (!chip_.configured) {
+      return Error::kNotConfigured;
+    }
+    if (chip_.control.kind != detail::ControlState::Kind::kNone) {
+      return Error::kBusy;
+    }
+    return chip_.automatic ? ErrorInfo(Error::kWrongMode) : ErrorInfo();
+  }
+
+  detail::Chip<Bus, Clock> chip_;
   Fields<Bus> fields_;
-  SingleShot<Bus, Clock> single_shot_;
-  Config config_{};
-  bool configured_ = false;
 };
 
 }  // namespace mb4

@@ -53,6 +53,17 @@ constexpr void put_slave(RegisterImage& image, const SlaveConfig& slave, std::si
   image[base + regs::kSlaveCfgCrcstartHiOffset] = static_cast<std::uint8_t>(slave.crc_start >> 8);
 }
 
+constexpr std::uint8_t encode_freqags(const Config& config) {
+  switch (config.frame_start) {
+    case FrameStart::kPeriodic:
+      return freqags_code(config.frame_period_clk).value_or(0);
+    case FrameStart::kRequireIdleLine:
+      return static_cast<std::uint8_t>(regs::AgsRate::kAgsInfinite);
+    default:
+      return static_cast<std::uint8_t>(regs::AgsRate::kAgsMin);
+  }
+}
+
 }  // namespace detail
 
 // Registers kImageFirst..kImageLast for a valid `config`. Registers of slaves that are not enabled,
@@ -70,13 +81,16 @@ constexpr void put_slave(RegisterImage& image, const SlaveConfig& slave, std::si
   detail::put<regs::FREQS>(image, freqs_code(config.f_clk_hz, config.ma_hz).value_or(0));
   detail::put<regs::NOCRC>(
       image, config.store_crc ? regs::CrcStorage::kStored : regs::CrcStorage::kDropped);
-  // Without AGS the rate only decides about SL = 0 at the start. AGSINFINITE is the other choice
-  // because nothing can then start by itself.
-  detail::put<regs::FREQAGS>(image, config.frame_start == FrameStart::kWaitForLine
-                                        ? regs::AgsRate::kAgsMin
-                                        : regs::AgsRate::kAgsInfinite);
+  detail::put<regs::SINGLEBANK>(
+      image, config.single_bank ? regs::BankMode::kOneBank : regs::BankMode::kTwoBanks);
+  detail::put<regs::HOLDCDM>(image,
+                             config.hold_cdm ? regs::CdmHold::kHold : regs::CdmHold::kRelease);
+  detail::put<regs::FREQAGS>(image, detail::encode_freqags(config));
   // Bit 0 of 0xEC is constant 1 (table 6); writing what it reads keeps the comparison simple.
   image[regs::kAddrSlaveloc5 - kImageFirst] = 0x01;
+  detail::put<regs::SLAVELOC5>(image, channels_are_split(config)
+                                          ? regs::SlaveLocation::kSplit
+                                          : regs::SlaveLocation::kAllOnChannel1);
   detail::put<regs::CFGCH1>(image, config.channels[0].protocol);
   detail::put<regs::CFGCH2>(image, config.channels[1].protocol);
   return image;

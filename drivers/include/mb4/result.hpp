@@ -55,6 +55,23 @@ enum class Error : std::uint8_t {
   // The chip called the frame good, but what came over SPI contradicts it: bits beyond the data
   // length are not 0, or the stored CRC does not match the data. Touched as for kCrc.
   kCorrupted = 12,
+  // A register access has failed (nREGERR = 0, page 34): no slave has this ID, or a CRC was wrong,
+  // or the slave did not repeat what was written. ErrorInfo::bytes registers were good. Touched:
+  // the access has ended, of a write leading registers may have changed.
+  kRegister = 13,
+  // The slave has not sent its start bit in time (nDELAYERR = 0, page 34): it does not have this
+  // register or takes too long. ErrorInfo::bytes and state as for kRegister.
+  kRegisterDelay = 14,
+  // A command was not acknowledged by the slaves that it addressed (nREGERR = 0, page 34). Touched:
+  // with IDA test it has not been executed, without it may have been.
+  kCommand = 15,
+  // A control communication is running; poll or abort it first. Not touched.
+  kBusy = 16,
+  // Automatic frames were asked for but do not run, or run where they must not. Not touched.
+  kWrongMode = 17,
+  // The banks were switched while data was read without HOLDBANK, beside a control communication.
+  // Touched: SVALID of one frame is cleared. Nothing is wrong; read again.
+  kBankSwitched = 18,
 };
 
 // The Config member that an error is about. Values are stable; new ones are added at the end.
@@ -72,6 +89,9 @@ enum class ConfigField : std::uint8_t {
   kFlags,            // Config::slaves[number - 1].flags
   kCrcPolynomial,    // Config::slaves[number - 1].crc_polynomial
   kCrcStart,         // Config::slaves[number - 1].crc_start
+  kFramePeriodClk,   // Config::frame_period_clk
+  kSingleBank,       // Config::single_bank
+  kRegisterBusyUs,   // Config::register_busy_us
 };
 
 // An error with the place it is about.
@@ -83,6 +103,9 @@ struct ErrorInfo {
   std::uint8_t number = 0;
   // Register address for kVerify; otherwise 0.
   std::uint8_t address = 0;
+  // For kRegister, kRegisterDelay and a timeout of a register access: registers that were
+  // transferred before the error, over all parts of a long access; otherwise 0.
+  std::uint8_t bytes = 0;
 
   constexpr ErrorInfo() = default;
   constexpr ErrorInfo(Error error) : code(error) {}
@@ -125,6 +148,18 @@ struct ErrorInfo {
       return "frame without data";
     case Error::kCorrupted:
       return "data corrupted on SPI";
+    case Error::kRegister:
+      return "register access failed";
+    case Error::kRegisterDelay:
+      return "slave does not have the register or is too slow";
+    case Error::kCommand:
+      return "command not acknowledged";
+    case Error::kBusy:
+      return "control communication running";
+    case Error::kWrongMode:
+      return "wrong mode for automatic frames";
+    case Error::kBankSwitched:
+      return "bank switched while reading";
   }
   return "unknown";
 }
@@ -157,6 +192,12 @@ struct ErrorInfo {
       return "crc_polynomial";
     case ConfigField::kCrcStart:
       return "crc_start";
+    case ConfigField::kFramePeriodClk:
+      return "frame_period_clk";
+    case ConfigField::kSingleBank:
+      return "single_bank";
+    case ConfigField::kRegisterBusyUs:
+      return "register_busy_us";
   }
   return "unknown";
 }

@@ -1,0 +1,185 @@
+// SPDX-FileCopyrightText: 2026 The openmb4 authors
+// SPDX-License-Identifier: Apache-2.0
+
+// What all calls on one chip share: bus, clock, configuration, and what the driver knows about the
+// chip's state. Not for direct use; see Device.
+
+#ifndef MB4_CHIP_HPP_
+#define MB4_CHIP_HPP_
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+#include "mb4/bus.hpp"
+#include "mb4/config.hpp"
+#include "mb4/opcodes.hpp"
+#include "mb4/result.hpp"
+#include "mb4/span.hpp"
+#include "mb4/status.hpp"
+#include "mb4_regs.hpp"
+
+namespace mb4::detail {
+
+// A polling loop's end: by time, and by count should the time source stand still.
+template <typename Clock>
+class Deadline {
+ public:
+  constexpr Deadline(Clock& clock, std::uint32_t timeout_us)
+      : clock_(clock),
+        start_us_(clock.now_us()),
+        timeout_us_(timeout_us),
+        // A poll is at least 6 bytes of 8 SCLK periods of >= 20 ns (I203, I204), 0.96 us. With a
+        // working clock time runs out first.
+        polls_left_(timeout_us + timeout_us / 16 + 2) {}
+
+  // Asked before each poll, so that the last poll is made when the time is already over: a task
+  // that was suspended does not report a timeout without having looked.
+  bool last_poll() {
+    --polls_left_;
+    return polls_left_ == 0 || clock_.now_us() - start_us_ >= timeout_us_;
+  }
+
+ private:
+  Clock& clock_;
+  std::uint32_t start_us_;
+  std::uint32_t timeout_us_;
+  std::uint32_t polls_left_;
+};
+
+// Lets time pass without a transfer. A time source that stands still ends it, too: even at 1 ns a
+// call the count is not reached before the time is over.
+template <typename Clock>
+void pause(Clock& clock, std::uint32_t time_us) {
+  const std::uint32_t start_us = clock.now_us();
+  std::uint32_t calls_left = time_us * 1000;
+  while (clock.now_us() - start_us < time_us && --calls_left != 0) {
+  }
+}
+
+// How long a slave that BREAK has cut off may need until it is ready again: its timeout, 12.5 to
+// 40 us are common.
+inline constexpr std::uint32_t kLineRecoveryUs = 100;
+
+// The control communication in progress.
+struct ControlState {
+  enum class Kind : std::uint8_t { kNone, kRead, kWrite, kCommand };
+
+  Kind kind = Kind::kNone;
+  std::uint8_t count = 0;  // registers of this part, 1..64
+  bool first_frame = false;
+  std::uint32_t start_us = 0;
+  std::uint32_t timeout_us = 0;
+  std::uint32_t polls_left = 0;
+};
+
+template <typename Bus, typename Clock>
+struct Chip {
+  static_assert(kIsClock<Clock>,
+                "mb4: the Clock type needs 'std::uint32_t now_us()'; see mb4/bus.hpp");
+
+  constexpr Chip(Bus& bus, Clock& the_clock) : opcodes(bus), clock(&the_clock) {}
+
+  Opcodes<Bus> opcodes;
+  Clock* clock;
+  Config config{};
+  bool configured = false;
+  // AGS = 1 was written, and nothing has stopped it.
+  bool automatic = false;
+  // A frame may still run and SVALID is unknown: BREAK and clearing come before the next request.
+  // Set by every error after the first transfer, whatever it is.
+  bool recover_first = true;
+  // Automatic::next() has reported a frame in which no slave was good; it may still be the last.
+  bool bad_frame_reported = false;
+  ControlState control{};
+
+  // One status snapshot. kTransport, kNotDetected.
+  Result<Status> read_status() {
+    std::array<std::uint8_t, Status::kBytes> bytes{};
+    if (const Result<void> read = opcodes.read_status(bytes); !read) {
+      return read.info();
+    }
+    const Status status(bytes);
+    if (!status.plausible()) {
+      return Error::kNotDetected;
+    }
+    return status;
+  }
+
+  // Writes 0xF4 alone. All other bits of it become 0, SWBANK too, which this driver never sets.
+  Result<void> write_instruction(std::uint8_t instruction) {
+    return opcodes.write_instruction(Span<const std::uint8_t>(&instruction, 1));
+  }
+
+  // BREAK: the chip is idle, AGS is off, MA is 1 and the error flags are 1 again.
+  Result<void> write_break() {
+    automatic = false;
+    control.kind = ControlState::Kind::kNone;
+    return write_instruction(regs::BREAK::encode<1>());
+  }
+
+  // Clears SVALIDx of the slaves in `mask` (bit 0 is slave 1) in the bank that the host reads: 0
+  // clears, 1 has no effect (page 35, "reset by writing to the SVALIDx register"), so no other
+  // slave's flag is touched. One transfer, or none without a slave.
+  Result<void> clear_valid(std::uint8_t mask) {
+    std::array<std::uint8_t, 2> keep{0xFF, 0xFF};
+    for (unsigned slave = 1; slave <= kSlaves; ++slave) {
+      if ((mask >> (slave - 1) & 1U) != 0) {
+        std::uint8_t& byte = keep[regs::kFamilySvalid.address(slave) - regs::kAddrSvalidLo];
+        byte = static_cast<std::uint8_t>(byte & ~unsigned{regs::kFamilySvalid.mask(slave)});
+      }
+    }
+    if (mask == 0) {
+      return {};
+    }
+    const Span<const std::uint8_t> both(keep);
+    if (keep[0] == 0xFF) {
+      return opcodes.write_registers(regs::kAddrSvalidHi, Span<const std::uint8_t>(&keep[1], 1));
+    }
+    return opcodes.write_registers(regs::kAddrSvalidLo, both.first(keep[1] == 0xFF ? 1 : 2));
+  }
+
+  // Ends what runs, lets the slaves' timeout pass, and clears the flags of frames that ran.
+  Result<void> recover() {
+    if (const Result<void> stopped = write_break(); !stopped) {
+      return stopped;
+    }
+    pause(*clock, kLineRecoveryUs);
+    return clear_valid(enabled_slaves(config));
+  }
+
+  // Sends BREAK. Returns `cause`, or the failure of the transfer, which is then the more urgent
+  // news.
+  ErrorInfo stop_frame(ErrorInfo cause) {
+    const Result<void> stopped = write_break();
+    return stopped ? cause : stopped.info();
+  }
+
+  // After BREAK has ended a frame that did not end by itself: does SL of all channels in use return
+  // to 1, as it does once the slaves' timeout is over? Then no slave has answered (kTimeout),
+  // otherwise a line is stuck low (kLineError).
+  ErrorInfo diagnose_line() {
+    Deadline<Clock> deadline(*clock, kLineRecoveryUs);
+    for (bool last = false; !last;) {
+      last = deadline.last_poll();
+      std::array<std::uint8_t, regs::SL1::kAddress - regs::kAddrStatus0 + 1> bytes{};
+      if (const Result<void> read = opcodes.read_status(bytes); !read) {
+        return read.info();
+      }
+      if (lines_are_high(bytes[bytes.size() - 1])) {
+        return Error::kTimeout;
+      }
+    }
+    return Error::kLineError;
+  }
+
+ private:
+  [[nodiscard]] bool lines_are_high(std::uint8_t line_status) const {
+    return (config.channels[0].protocol == Protocol::kUnused || regs::SL1::get(line_status) == 1) &&
+           (config.channels[1].protocol == Protocol::kUnused || regs::SL2::get(line_status) == 1);
+  }
+};
+
+}  // namespace mb4::detail
+
+#endif  // MB4_CHIP_HPP_

@@ -1,0 +1,125 @@
+// SPDX-FileCopyrightText: 2026 The openmb4 authors
+// SPDX-License-Identifier: Apache-2.0
+
+// What the chip shall do, in real units. Checked by validate() in config.hpp.
+
+#ifndef MB4_CONFIG_DATA_HPP_
+#define MB4_CONFIG_DATA_HPP_
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+#include "mb4_regs.hpp"
+
+namespace mb4 {
+
+inline constexpr std::size_t kSlaves = 8;
+inline constexpr std::size_t kChannels = 2;
+
+// CFGCHx, table 8, page 23.
+using Protocol = regs::Protocol;
+// CLKENI, table 7, page 23.
+using ClockSource = regs::ClockSource;
+// CFGIF, table 9, page 23.
+using LineInterface = regs::LineInterface;
+
+// How frames start: FREQAGS (table 37, pages 30 to 32). One register decides about both kinds.
+//
+//                      single frames (read_frame, read_all)   automatic frames (Automatic)
+//   kWaitForLine       wait for SL = 1, back to back          back to back (AGSMIN)
+//   kRequireIdleLine   refused while SL is low                one per pulse at pin GETSENS
+//   kPeriodic          refused while SL is low                every Config::frame_period_clk
+//
+// SL is low until the slaves' timeout after the previous frame is over (page 32). Refused: the chip
+// sets nAGSERR = 0 and the call returns kLineError at once.
+enum class FrameStart : std::uint8_t {
+  kWaitForLine = 0,
+  kRequireIdleLine = 1,
+  kPeriodic = 2,
+  // The same by what they mean for automatic frames.
+  kBackToBack = kWaitForLine,
+  kOnPin = kRequireIdleLine,
+};
+
+// Which of the data bits are not position.
+enum class Flags : std::uint8_t {
+  kNone = 0,
+  // The last two data bits are nE and nW: error and warning, both active low.
+  kErrorWarning = 1,
+};
+
+// One single-cycle data channel of the chip.
+struct SlaveConfig {
+  bool enabled = false;
+  // Data length on the line without CRC: position and flags. 1..64; with flags 3..64.
+  std::uint8_t data_bits = 0;
+  Flags flags = Flags::kErrorWarning;
+  // Full polynomial, 0x43 = x^6 + x + 1; 0 = no CRC. See encode_crc() for what the chip can do.
+  std::uint32_t crc_polynomial = 0x43;
+  // Start value; only as many low bits count as the CRC is wide. 0 when there is no CRC.
+  std::uint16_t crc_start = 0;
+};
+
+struct ChannelConfig {
+  // CFGCHx. A channel that is kUnused takes no part in frames.
+  Protocol protocol = Protocol::kUnused;
+};
+
+// Complete configuration of one chip: up to eight slaves, all on channel 1, or, if channel 2 is in
+// use, slaves 1 to 4 on channel 1 and 5 to 8 on channel 2 (SLAVELOC5). A slave that is not enabled
+// has no data in the frame; slaves may be left out. BiSS C; SSI and BiSS B are kUnsupported.
+struct Config {
+  // System clock. Pin CLK: at most 25 MHz (D01, page 9). D01 states no minimum; validate() asks
+  // for 1 MHz, which is this driver's own choice. Internal: 10..25 MHz (D05), 20 MHz typical with a
+  // wide spread, so ma_hz and the timeout are then only as good as this figure. A slow system clock
+  // limits SCLK: <= 2 * f_clk_hz is always safe, see bus.hpp; the driver cannot check it.
+  std::uint32_t f_clk_hz = 20'000'000;
+  ClockSource clock_source = ClockSource::kExternal;
+
+  // Clock at pin MA. Must be one of the 31 frequencies of table 35 (page 30), in whole hertz,
+  // rounded down: use ma_hz_at_most() to choose. Each MA half period must be shorter than the
+  // shortest timeout of the slaves.
+  std::uint32_t ma_hz = 0;
+
+  LineInterface line_interface = LineInterface::kTtl;
+  FrameStart frame_start = FrameStart::kWaitForLine;
+  // System clocks from frame to frame, for FrameStart::kPeriodic only, else 0: use
+  // frame_period_clk_at_least(). Must hold a frame: N + 5 periods of MA and the shortest timeout,
+  // 0.55 of a period (I306); whether line delay, processing time and the real timeout fit as well,
+  // validate() cannot know (page 30).
+  std::uint32_t frame_period_clk = 0;
+
+  // SINGLEBANK (table 38). True: no second bank; automatic frames are then kUnsupported, because
+  // nothing keeps a new frame from overwriting what is being read.
+  bool single_bank = false;
+
+  // HOLDCDM (table 25). True: MA keeps its level from the end of a frame to the next one, so that
+  // slaves see CDM although their data is not clocked out completely. Only then a used channel may
+  // have no enabled slave, as for control communication with slaves that are not known yet.
+  bool hold_cdm = false;
+
+  // True: the chip also stores the received CRC (NOCRC = 0). Then read_frame() fetches all 8 bytes
+  // of the slave, repeats the CRC check on what came over SPI, and returns the CRC. False: only the
+  // bytes that hold data are read.
+  bool store_crc = false;
+
+  // Longest time from the request of a frame to its end, 1..1'000'000 us. 0 = calculated, see
+  // frame_timeout_us().
+  std::uint32_t frame_timeout_us = 0;
+
+  // Longest time that a slave may take for one register access beyond the frames it needs, up to
+  // 10'000'000 us. 0 = the chip's own limit of 4096 * 64 periods of MA (page 34), after which
+  // it reports kRegisterDelay itself; a shorter one ends in kTimeout and BREAK.
+  std::uint32_t register_busy_us = 0;
+
+  std::array<ChannelConfig, kChannels> channels{};  // [0] is channel 1
+  std::array<SlaveConfig, kSlaves> slaves{};        // [0] is slave 1, next to SL, SCDATA1
+};
+
+inline constexpr std::uint32_t kMaxFrameTimeoutUs = 1'000'000;
+inline constexpr std::uint32_t kMaxRegisterBusyUs = 10'000'000;
+
+}  // namespace mb4
+
+#endif  // MB4_CONFIG_DATA_HPP_
