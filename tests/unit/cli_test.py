@@ -113,15 +113,18 @@ class Cli(unittest.TestCase):
 
     def test_what_the_driver_cannot_do_is_named_with_place_and_key(self):
         good = "data_bits = 28"
-        two = slave(good) + "[[channel.slave]]\nprotocol = \"biss-c\"\n" + good
+        second = "[[channel.slave]]\nprotocol = \"biss-c\"\n" + good + "\n"
+        channel2 = "[[channel]]\nnumber = 2\n"
         for text, message in (
                 ("[chip]\nf_clk_hz = 25_000_001\n" + slave(good), r":2:12: key 'f_clk_hz': "),
                 ("[chip]\nf_clk_hz = 999_999\n" + slave(good), r":2:12: key 'f_clk_hz': "),
                 (slave(good + "\ncrc = 0x101"), r":6:7: key 'crc': .*0x101"),
                 (slave(good + "\ncrc = 0\ncrc_start = 1"), r":7:13: key 'crc_start': "),
-                (two, r":6:1: key 'slave': .*in this version"),
-                (slave(good) + "[[channel]]\nnumber = 2\n", r":7:10: key 'number': .*channel 2"),
-                ("[[channel]]\nnumber = 2\n", r":2:10: key 'number': .*channel 2"),
+                (slave(good) + second + "crc = 0x11D", r":9:7: key 'crc': .*0x11D"),
+                (slave(good) + channel2 + second + "crc = 0\ncrc_start = 2",
+                 r":12:13: key 'crc_start': "),
+                (slave(good) + channel2, r":6:1: key 'slave': missing"),
+                (channel2, r":1:1: key 'slave': missing"),
                 ("[[channel]]\nnumber = 1\n", r":1:1: key 'slave': "),
                 ("[chip]\n", r":1:1: key 'channel': ")):
             with self.subTest(text):
@@ -285,6 +288,41 @@ class Cli(unittest.TestCase):
         self.assertEqual(document["summary"]["good"], 4)
         self.assertEqual(os.listdir(self.folder.name), ["out.csv"])
 
+    def test_run_reads_all_slaves_of_both_channels(self):
+        table = self.path("out.csv")
+        arguments = ("run", os.path.join(EXAMPLES, "two-channels.toml"), "--frames", "3")
+        result = run(*arguments, "--csv", table)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        lines = result.stdout.splitlines()
+        # One row per slave and frame, then one line per slave and the sum.
+        self.assertEqual(len(lines), 1 + 3 * 3 + 3 + 1)
+        self.assertEqual([line.split()[::2][:2] for line in lines[1:10]],
+                         [[str(frame), str(number)] for frame in (1, 2, 3) for number in (1, 2, 5)])
+        crc16 = crc(0x190D9, 16, 0x1234, 0xABCDEF, 24)
+        self.assertEqual(lines[3].split()[2:],
+                         ["5", "0xABCDEF", str(0xABCDEF), "-", "-", f"0x{crc16:04X}", "ok"])
+        self.assertEqual(lines[10:13], [f"slave {n}: good 3, bad 0" for n in (1, 2, 5)])
+        self.assertRegex(lines[13], r"^frames good 9, bad 0; ")
+        with open(table, encoding="utf-8", newline="") as file:
+            rows = list(csv.DictReader(file))
+        document = json.loads(run(*arguments, "--json").stdout)
+        self.assertEqual([(int(r["slave"]), int(r["position"])) for r in rows],
+                         [(f["slave"], f["position"]) for f in document["frames"]])
+        self.assertEqual([int(r["position"]) for r in rows if r["slave"] == "1"], [0, 1000, 2000])
+        self.assertEqual(document["summary"]["slaves"],
+                         [{"slave": n, "good": 3, "bad": 0} for n in (1, 2, 5)])
+
+    def test_run_counts_the_bad_frames_of_each_slave(self):
+        # Frame 2: one bit of slave 2, behind start bit, CDS and the 28 + 6 bits of slave 1.
+        two = ("[[channel]]\nnumber = 1\nflips = [[2, 37]]\n" + 2 *
+               "[[channel.slave]]\nprotocol = \"biss-c\"\ndata_bits = 28\n")
+        result = run("run", self.path("x.toml", two), "--frames", "3")
+        self.assertEqual(result.returncode, 1, result.stderr)
+        states = [line.split()[-1] for line in result.stdout.splitlines()[1:7]]
+        self.assertEqual(states, ["ok", "ok", "ok", "error", "ok", "ok"])
+        self.assertIn("slave 1: good 3, bad 0\nslave 2: good 2, bad 1\nframes good 5, bad 1;",
+                      result.stdout)
+
     def test_run_with_bad_frames_is_status_1(self):
         # A recording whose CRC is wrong in one bit.
         with open(os.path.join(EXAMPLES, "ti-tidep0022.edges"), encoding="utf-8") as file:
@@ -362,13 +400,19 @@ class Cli(unittest.TestCase):
         self.assertEqual(document["registers"][0xEB], 0x84)
 
 
-def crc6(data, bits):
-    """CRC6 0x43, start 0, bit by bit."""
-    register = 0
+def crc(polynomial, width, start, data, bits):
+    """CRC bit by bit, most significant bit first."""
+    register = start
     for index in reversed(range(bits)):
-        feedback = ((data >> index) & 1) ^ (register >> 5)
-        register = ((register << 1) & 0x3F) ^ (0x03 if feedback else 0)
+        feedback = ((data >> index) & 1) ^ (register >> (width - 1))
+        register = (register << 1) & ((1 << width) - 1)
+        register ^= polynomial & ((1 << width) - 1) if feedback else 0
     return register
+
+
+def crc6(data, bits):
+    """CRC6 0x43, start 0."""
+    return crc(0x43, 6, 0, data, bits)
 
 
 if __name__ == "__main__":

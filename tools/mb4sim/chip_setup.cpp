@@ -14,23 +14,27 @@ namespace {
 constexpr std::uint32_t kMaxFrameTimeoutPeriods = 100;  // of margin, beyond what is known
 
 // Longest time from request to end: the driver's own figure does not know what the scenario says
-// about processing times, cable and timeouts.
-std::uint32_t frame_timeout(const sim::Scenario& scenario, const sim::ChannelConfig& channel) {
+// about processing times, cables and timeouts. The channels run at the same time.
+std::uint32_t frame_timeout(const sim::Scenario& scenario) {
   const double period_us = 1e6 / static_cast<double>(scenario.host.ma_hz);
-  double periods = kMaxFrameTimeoutPeriods;
-  double slave_us = 0;
-  for (const sim::SlaveConfig& slave : channel.slaves) {
-    periods += slave.data_bits() + slave.crc().width();
-    if (const auto* biss_c = std::get_if<sim::BissCSlaveConfig>(&slave.device)) {
-      periods += biss_c->busy_periods;
-      slave_us = std::max(slave_us, sim::to_us(biss_c->timeout.fixed));
-    } else if (const auto* replay = std::get_if<sim::ReplaySlaveConfig>(&slave.device)) {
-      slave_us = std::max(slave_us, sim::to_us(replay->recording.edges.back().time));
+  double longest_us = 0;
+  for (const sim::ChannelConfig& channel : scenario.channels) {
+    double periods = kMaxFrameTimeoutPeriods;
+    double slave_us = 0;
+    for (const sim::SlaveConfig& slave : channel.slaves) {
+      periods += slave.data_bits() + slave.crc().width();
+      if (const auto* biss_c = std::get_if<sim::BissCSlaveConfig>(&slave.device)) {
+        periods += biss_c->busy_periods;
+        slave_us = std::max(slave_us, sim::to_us(biss_c->timeout.fixed));
+      } else if (const auto* replay = std::get_if<sim::ReplaySlaveConfig>(&slave.device)) {
+        slave_us = std::max(slave_us, sim::to_us(replay->recording.edges.back().time));
+      }
     }
+    longest_us =
+        std::max(longest_us, periods * period_us + 2 * slave_us + 2 * sim::to_us(channel.delay));
   }
-  const double us =
-      periods * period_us + 2 * slave_us + 2 * sim::to_us(channel.delay) + kFrameMarginUs;
-  return static_cast<std::uint32_t>(std::min<double>(us, kMaxFrameTimeoutUs));
+  return static_cast<std::uint32_t>(
+      std::min<double>(longest_us + kFrameMarginUs, kMaxFrameTimeoutUs));
 }
 
 [[noreturn]] void fail(const sim::Scenario& scenario, const sim::TableSource& source,
@@ -40,9 +44,11 @@ std::uint32_t frame_timeout(const sim::Scenario& scenario, const sim::ChannelCon
 
 // What the driver refuses, with the key of the scenario that causes it.
 [[noreturn]] void refuse(const sim::Scenario& scenario, const ErrorInfo& error) {
-  const std::vector<sim::SlaveConfig>& slaves = scenario.channel(1)->slaves;
-  const bool of_slave = error.number >= 1 && error.number <= slaves.size();
-  const sim::SlaveConfig& slave = slaves[of_slave ? error.number - 1U : 0U];
+  const std::vector<ConnectedSlave> slaves = connected_slaves(scenario);
+  const auto of_slave = std::find_if(slaves.begin(), slaves.end(), [&](const ConnectedSlave& one) {
+    return one.number == error.number;
+  });
+  const sim::SlaveConfig& slave = *(of_slave != slaves.end() ? *of_slave : slaves.front()).config;
   switch (error.field) {
     case ConfigField::kClkHz:
       fail(scenario, scenario.chip.source, scenario.chip.f_clk_hz != 0 ? "f_clk_hz" : "f_osc_hz",
@@ -51,8 +57,6 @@ std::uint32_t frame_timeout(const sim::Scenario& scenario, const sim::ChannelCon
     case ConfigField::kMaHz:
       fail(scenario, scenario.host.source, "ma_hz",
            fmt::format("the chip cannot make {} Hz", scenario.host.ma_hz));
-    case ConfigField::kSlaveEnabled:
-      fail(scenario, slave.source, "slave", "the driver reads one slave in this version");
     case ConfigField::kDataBits:
       fail(scenario, slave.source, "data_bits",
            fmt::format("the chip cannot take {}", slave.data_bits()));
@@ -73,27 +77,39 @@ std::uint32_t frame_timeout(const sim::Scenario& scenario, const sim::ChannelCon
 
 }  // namespace
 
-Config make_config(const sim::Scenario& scenario) {
-  if (const sim::ChannelConfig* second = scenario.channel(2)) {
-    fail(scenario, second->source, "number",
-         "the driver does not support channel 2 in this version");
+std::vector<ConnectedSlave> connected_slaves(const sim::Scenario& scenario) {
+  constexpr unsigned kFirstOfChannel2 = 5;
+  std::vector<ConnectedSlave> found;
+  for (unsigned number = 1; number <= kChannels; ++number) {
+    const sim::ChannelConfig* channel = scenario.channel(number);
+    if (channel == nullptr) continue;
+    unsigned slave = number == 1 ? 1 : kFirstOfChannel2;
+    for (const sim::SlaveConfig& config : channel->slaves) found.push_back({slave++, &config});
   }
-  const sim::ChannelConfig* channel = scenario.channel(1);
-  if (channel == nullptr)
+  return found;
+}
+
+Config make_config(const sim::Scenario& scenario) {
+  if (scenario.channels.empty()) {
     fail(scenario, scenario.source, "channel", "missing: there is no slave to read");
-  if (channel->slaves.empty())
-    fail(scenario, channel->source, "slave", "missing: there is no slave to read");
+  }
+  for (const sim::ChannelConfig& channel : scenario.channels) {
+    if (channel.slaves.empty())
+      fail(scenario, channel.source, "slave", "missing: there is no slave to read");
+  }
   Config config;
   config.f_clk_hz = static_cast<std::uint32_t>(scenario.chip.system_hz());
   config.clock_source =
       scenario.chip.f_clk_hz != 0 ? ClockSource::kExternal : ClockSource::kInternal;
   config.ma_hz = static_cast<std::uint32_t>(scenario.host.ma_hz);
   config.store_crc = true;
-  config.frame_timeout_us = frame_timeout(scenario, *channel);
-  config.channels[0].protocol = Protocol::kBissC;
-  for (std::size_t i = 0; i < channel->slaves.size(); ++i) {
-    const sim::SlaveConfig& slave = channel->slaves[i];
-    SlaveConfig& target = config.slaves[i];
+  config.frame_timeout_us = frame_timeout(scenario);
+  for (const sim::ChannelConfig& channel : scenario.channels) {
+    config.channels[channel.number - 1].protocol = Protocol::kBissC;
+  }
+  for (const ConnectedSlave& connected : connected_slaves(scenario)) {
+    const sim::SlaveConfig& slave = *connected.config;
+    SlaveConfig& target = config.slaves[connected.number - 1];
     target.enabled = true;
     target.data_bits = static_cast<std::uint8_t>(slave.data_bits());
     target.flags =

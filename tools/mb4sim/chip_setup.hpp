@@ -6,6 +6,7 @@
 #define MB4SIM_TOOL_CHIP_SETUP_HPP_
 
 #include <string>
+#include <vector>
 
 #include "mb4/config.hpp"
 #include "mb4/result.hpp"
@@ -13,7 +14,16 @@
 
 namespace mb4::tool {
 
-// Configuration that reads all slaves of channel 1. Throws sim::ScenarioError with
+// A slave of the scenario and its number in the chip, 1..8 as in SCDATAx.
+struct ConnectedSlave {
+  unsigned number;
+  const sim::SlaveConfig* config;  // part of the scenario
+};
+
+// All slaves of a scenario, in the order of their numbers.
+std::vector<ConnectedSlave> connected_slaves(const sim::Scenario& scenario);
+
+// Configuration that reads all slaves. Throws sim::ScenarioError with
 // the key of the scenario that chip or driver cannot follow.
 Config make_config(const sim::Scenario& scenario);
 

@@ -6,8 +6,6 @@
 
 #include <algorithm>
 
-#include "chip_setup.hpp"
-
 namespace mb4::tool {
 namespace {
 
@@ -52,7 +50,10 @@ FrameReport::Cells FrameReport::cells(const FrameRow& row) const {
   Cells cells;
   if (!row.reading) return cells;
   const Reading& reading = *row.reading;
-  const sim::SlaveConfig& slave = channel_.slaves[row.slave - 1];
+  const auto of_slave =
+      std::find_if(slaves_.begin(), slaves_.end(),
+                   [&](const ConnectedSlave& one) { return one.number == row.slave; });
+  const sim::SlaveConfig& slave = *of_slave->config;
   const unsigned flags = slave.flag_bits();
   cells.raw = fmt::format("0x{:0{}X}", reading.raw, (slave.data_bits() + 3) / 4);
   cells.position = fmt::format("{}", flags >= 64 ? 0 : reading.raw >> flags);
@@ -64,6 +65,22 @@ FrameReport::Cells FrameReport::cells(const FrameRow& row) const {
   return cells;
 }
 
+FrameReport::FrameReport(const sim::Scenario& scenario) : slaves_(connected_slaves(scenario)) {
+  for (const ConnectedSlave& one : slaves_) counts_.push_back({one.number, 0, 0});
+}
+
+std::uint64_t FrameReport::good() const {
+  std::uint64_t sum = 0;
+  for (const SlaveCount& count : counts_) sum += count.good;
+  return sum;
+}
+
+std::uint64_t FrameReport::bad() const {
+  std::uint64_t sum = 0;
+  for (const SlaveCount& count : counts_) sum += count.bad;
+  return sum;
+}
+
 void FrameReport::add(std::uint64_t frame, sim::Time time, unsigned slave,
                       const Result<Reading>& result) {
   FrameRow row;
@@ -73,6 +90,9 @@ void FrameReport::add(std::uint64_t frame, sim::Time time, unsigned slave,
   if (result) row.reading = *result;
   row.state = state_of(result);
   rows_.push_back(std::move(row));
+  for (SlaveCount& count : counts_) {
+    if (count.slave == slave) ++(result ? count.good : count.bad);
+  }
 }
 
 std::string FrameReport::table_header() const {
@@ -89,10 +109,18 @@ std::string FrameReport::table_row() const {
                      dash(c.crc), row.state);
 }
 
-std::string FrameReport::table_summary(const RunSummary& summary) {
-  return fmt::format(
-      "frames good {}, bad {}; simulated time {:.3f} us, simulated clocks {}; seed {}\n",
-      summary.good, summary.bad, sim::to_us(summary.time), summary.clocks, summary.seed);
+std::string FrameReport::table_summary(const RunSummary& summary) const {
+  std::string out;
+  // With one slave the sum says it all.
+  if (counts_.size() > 1) {
+    for (const SlaveCount& count : counts_) {
+      out += fmt::format("slave {}: good {}, bad {}\n", count.slave, count.good, count.bad);
+    }
+  }
+  return out + fmt::format(
+                   "frames good {}, bad {}; simulated time {:.3f} us, simulated clocks {}; seed "
+                   "{}\n",
+                   good(), bad(), sim::to_us(summary.time), summary.clocks, summary.seed);
 }
 
 std::string FrameReport::csv() const {
@@ -126,8 +154,14 @@ std::string FrameReport::json(const std::string& scenario, const RunSummary& sum
         &row == &rows_.back() ? "" : ",");
   }
   out += fmt::format(
-      "], \"summary\": {{\"good\": {}, \"bad\": {}, \"time_us\": {:.3f}, \"clocks\": {}}}}}\n",
-      summary.good, summary.bad, sim::to_us(summary.time), summary.clocks);
+      "], \"summary\": {{\"good\": {}, \"bad\": {}, \"time_us\": {:.3f}, \"clocks\": {}, "
+      "\"slaves\": [",
+      good(), bad(), sim::to_us(summary.time), summary.clocks);
+  for (const SlaveCount& count : counts_) {
+    out += fmt::format("{}{{\"slave\": {}, \"good\": {}, \"bad\": {}}}",
+                       &count == &counts_.front() ? "" : ", ", count.slave, count.good, count.bad);
+  }
+  out += "]}}\n";
   return out;
 }
 

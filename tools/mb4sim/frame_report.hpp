@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "chip_setup.hpp"
 #include "mb4/reading.hpp"
 #include "mb4/result.hpp"
 #include "mb4sim/scenario.hpp"
@@ -27,23 +28,31 @@ struct FrameRow {
 };
 
 struct RunSummary {
-  std::uint64_t good = 0;
-  std::uint64_t bad = 0;
   sim::Time time = 0;
   std::uint64_t clocks = 0;
   std::uint64_t seed = 0;
 };
 
+// What became of the frames of one slave.
+struct SlaveCount {
+  unsigned slave = 1;
+  std::uint64_t good = 0;
+  std::uint64_t bad = 0;
+};
+
 class FrameReport {
  public:
-  explicit FrameReport(const sim::ChannelConfig& channel) : channel_(channel) {}
+  // The scenario must outlive the report.
+  explicit FrameReport(const sim::Scenario& scenario);
 
   void add(std::uint64_t frame, sim::Time time, unsigned slave, const Result<Reading>& result);
-  bool last_is_good() const { return rows_.back().reading.has_value(); }
+  // Sums over all slaves.
+  std::uint64_t good() const;
+  std::uint64_t bad() const;
 
   std::string table_header() const;
   std::string table_row() const;  // the row added last
-  static std::string table_summary(const RunSummary& summary);
+  std::string table_summary(const RunSummary& summary) const;
   std::string csv() const;
   std::string json(const std::string& scenario, const RunSummary& summary) const;
 
@@ -51,7 +60,8 @@ class FrameReport {
   struct Cells;
   Cells cells(const FrameRow& row) const;
 
-  const sim::ChannelConfig& channel_;
+  std::vector<ConnectedSlave> slaves_;
+  std::vector<SlaveCount> counts_;  // as slaves_
   std::vector<FrameRow> rows_;
 };
 

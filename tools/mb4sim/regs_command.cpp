@@ -107,8 +107,13 @@ int regs_command(const RegsOptions& options) {
       good = false;
     }
     for (std::uint64_t frame = 1; good && frame <= options.frames; ++frame) {
-      if (const Result<Reading> reading = device.read_frame(); !reading) {
-        fmt::print(stderr, "mb4sim: frame {}: {}\n", frame, describe(reading.info()));
+      Frame result;
+      Error error = device.read_all(result).error();
+      for (const ConnectedSlave& slave : connected_slaves(scenario)) {
+        if (error == Error::kNone) error = result[slave.number].error();
+      }
+      if (error != Error::kNone) {
+        fmt::print(stderr, "mb4sim: frame {}: {}\n", frame, describe(error));
         good = false;
       }
     }

@@ -58,7 +58,6 @@ void check_outputs(const RunOptions& options, const sim::Scenario& scenario) {
 int run_command(const RunOptions& options) {
   const sim::Scenario scenario = sim::load_scenario(options.scenario);
   const Config config = make_config(scenario);
-  const sim::ChannelConfig& channel = *scenario.channel(1);
   // Everything is checked before the first file is touched.
   check_outputs(options, scenario);
   std::unique_ptr<OutputFile> csv;
@@ -72,7 +71,7 @@ int run_command(const RunOptions& options) {
     sim_options.trace_path = link_target(options.trace);
   }
 
-  FrameReport report(channel);
+  FrameReport report(scenario);
   RunSummary summary;
   Result<void> configured;
   // The waveform file is complete when the simulator has gone, also after an assertion.
@@ -87,11 +86,13 @@ int run_command(const RunOptions& options) {
     Device device(bus, clock);
     configured = device.configure(config);
     if (configured && !options.json) fmt::print("{}", report.table_header());
-    for (std::uint64_t frame = 1; configured && frame <= options.frames; ++frame) {
-      for (unsigned slave = 1; slave <= channel.slaves.size(); ++slave) {
-        const Result<Reading> result = device.read_frame(static_cast<std::uint8_t>(slave));
-        report.add(frame, simulator.now(), slave, result);
-        ++(result ? summary.good : summary.bad);
+    for (std::uint64_t number = 1; configured && number <= options.frames; ++number) {
+      Frame frame;
+      const Result<void> read = device.read_all(frame);
+      for (const ConnectedSlave& slave : connected_slaves(scenario)) {
+        // What is wrong with the whole frame is wrong with each slave.
+        report.add(number, simulator.now(), slave.number,
+                   read ? frame[slave.number] : Result<Reading>(read.info()));
         if (!options.json) fmt::print("{}", report.table_row());
       }
     }
@@ -109,10 +110,10 @@ int run_command(const RunOptions& options) {
   if (options.json) {
     fmt::print("{}", report.json(options.scenario, summary));
   } else {
-    fmt::print("{}", FrameReport::table_summary(summary));
+    fmt::print("{}", report.table_summary(summary));
   }
   if (csv != nullptr) csv->commit(report.csv());
-  return summary.bad == 0 ? kGood : kBad;
+  return report.bad() == 0 ? kGood : kBad;
 }
 
 }  // namespace mb4::tool
