@@ -74,7 +74,7 @@ std::string channel_text(Random& random, const RandomCase& result, unsigned line
   }
   text << "]\n";
   for (const Sensor& sensor : result.lines[line]) {
-    text << "[[channel.slave]]\nprotocol = \"biss-c\"\nflag_bits = 0\ndata_bits = " << sensor.bits
+    text << "[[channel.slave]]\nprotocol = \"biss-c\"\ncontrol = false\nflag_bits = 0\ndata_bits = " << sensor.bits
          << "\ncrc = " << sensor.crc.polynomial
          << "\ncrc_start = " << (sensor.start & ((1U << sensor.crc.width) - 1U))
          << "\nbusy_periods = " << (random.one_in(3) ? random.below(20) : 0) << "\n";
@@ -115,6 +115,7 @@ RandomCase make_case(Random& random) {
   const unsigned unused = registers.slaveloc5 && random.one_in(4) ? 1 + random.below(2) : 0;
   result.used = {unused != 1, registers.slaveloc5 && unused != 2};
   result.cfgch = static_cast<std::uint8_t>((result.used[0] ? 1 : 3) | (result.used[1] ? 4 : 12));
+  result.chsel = static_cast<std::uint8_t>(random.below(4));
   std::string text =
       "[chip]\nf_clk_hz = " + std::to_string(result.f_clk_hz) + "\n[host]\nsclk_hz = 20_000_000\n";
   for (unsigned line = 0; line < (registers.slaveloc5 ? 2U : 1U); ++line) {

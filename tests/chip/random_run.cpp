@@ -116,7 +116,7 @@ void RandomRun::fill_bank() {
 void RandomRun::configure() {
   session_.wait_ns(10'000);  // the memories are cleared
   session_.write(0xC0, {case_.registers.slave.begin(), case_.registers.slave.end()});
-  session_.write(0xE5, {0x40, static_cast<std::uint8_t>(0xA0 | case_.freqs),
+  session_.write(0xE4, {case_.chsel, 0x40, static_cast<std::uint8_t>(0xA0 | case_.freqs),
                         static_cast<std::uint8_t>((case_.registers.nocrc ? 2 : 0) |
                                                   (case_.registers.singlebank ? 1 : 0)),
                         kAgsMinCode});
@@ -141,8 +141,13 @@ void RandomRun::instr_frame(unsigned hold) {
   expect(frames_seen() == before + 1, "INSTR does not make one frame");
   take_frames(frames_seen());
   session_.wait_ns(frame_ns_ / 4);  // also the farthest slave has ended
-  const auto* slave = session_.simulator().slave(case_.used[0] ? 1 : 5);
-  expect(slave->last_cdm() == (instr != 2), "CDM of the frame");
+  // Table 23: the lines that CHSEL selects, line 1 without any.
+  const unsigned lines = case_.chsel == 0 ? 1 : case_.chsel;
+  for (const unsigned line : {0U, 1U}) {
+    if (!case_.used[line]) continue;
+    const bool cdm = instr != 2 && ((lines >> line) & 1U) != 0;
+    expect(session_.simulator().slave(line == 0 ? 1 : 5)->last_cdm() == cdm, "CDM of the frame");
+  }
   const unsigned held = swbank_ | hold;
   expect(session_.read(0xF4, 1)[0] == held, "0xF4 after the frame");
 }

@@ -219,27 +219,27 @@ TEST(ChipStatus, SwBankFail_PreventedSwitchSetsItTheNextSwitchClearsIt) {
   EXPECT_EQ(chip.read(0xFB), 0x00);
 }
 
-// Table 45, 011: CDM = NOT CDSSEL, one frame with AGS = 0.
-TEST(ChipInstr, CdmNotCdssel_IsTheInverseOfTheLastCds) {
-  for (const unsigned chsel : {1U, 2U}) {
+// Table 45, 011: CDM = NOT CDSSEL, one frame with AGS = 0; Table 23: on the selected line, 0 on the
+// other. CDS comes before CDM in a frame, and a host that waits for a slave's start bit needs the
+// answer in the frame that brings it: CDSSEL is the CDS of this frame (docs/choices.md).
+TEST(ChipInstr, CdmNotCdssel_IsTheInverseOfTheCdsOfTheFrame) {
+  for (const unsigned chsel : {0U, 1U, 2U, 3U}) {
     Chip chip(two_lines());
     configure_two_lines(chip);
     chip.write(0xE4, {static_cast<std::uint8_t>(chsel)});
     for (const bool cds : {true, false, false, true, true}) {
-      if (cds) {
-        frame_with_cds(chip, chsel);
-      } else {
-        frame(chip);
-      }
-      chip.advance_us(10);
       const auto frames = chip.simulator.slave(1)->frames();
-      frame(chip, 0x06);
+      if (cds) {
+        frame_with_cds(chip, chsel == 2 ? 2 : 1, 0x06);
+      } else {
+        frame(chip, 0x06);
+      }
       EXPECT_EQ(chip.read(0xF4), 0x00);
+      EXPECT_EQ((chip.read(0xF3) & 0x40) != 0, cds) << "CDSSEL";
       chip.advance_us(10);
       EXPECT_EQ(chip.simulator.slave(1)->frames(), frames + 1);
-      for (const unsigned slave : {1U, 5U}) {
-        EXPECT_EQ(chip.simulator.slave(slave)->last_cdm(), !cds) << "slave " << slave;
-      }
+      EXPECT_EQ(chip.simulator.slave(1)->last_cdm(), chsel != 2 && !cds) << chsel;
+      EXPECT_EQ(chip.simulator.slave(5)->last_cdm(), chsel == 3 || (chsel == 2 && !cds)) << chsel;
     }
   }
 }
