@@ -74,8 +74,8 @@ std::string channel_text(Random& random, const RandomCase& result, unsigned line
   }
   text << "]\n";
   for (const Sensor& sensor : result.lines[line]) {
-    text << "[[channel.slave]]\nprotocol = \"biss-c\"\ncontrol = false\nflag_bits = 0\ndata_bits = " << sensor.bits
-         << "\ncrc = " << sensor.crc.polynomial
+    text << "[[channel.slave]]\nprotocol = \"biss-c\"\ncontrol = false\nflag_bits = 0\ndata_bits = "
+         << sensor.bits << "\ncrc = " << sensor.crc.polynomial
          << "\ncrc_start = " << (sensor.start & ((1U << sensor.crc.width) - 1U))
          << "\nbusy_periods = " << (random.one_in(3) ? random.below(20) : 0) << "\n";
     text << timeout_key(random) << WordScenario::source_keys(sensor.slave);
