@@ -48,6 +48,10 @@ class ChipModel {
   virtual unsigned db_enable() const = 0;
   // Rising edges of the selected system clock so far.
   virtual std::uint64_t cycles() const = 0;
+  // Half a period of MA in system clocks, as the running or last frame took it from FREQS.
+  virtual unsigned half_clocks() const = 0;
+  // Shortest period that the system clock can have had so far, ps; 0 = unknown.
+  virtual Time min_clock() const = 0;
   // Levels outside the chip for the waveform: MA at the slaves (bit n = channel n + 1), SLO and
   // idle of the slaves (bit n = slave n + 1). No effect without a trace.
   virtual void set_probes(Time now, unsigned ma, unsigned slo, unsigned idle) = 0;

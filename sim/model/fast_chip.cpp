@@ -9,15 +9,20 @@
 namespace mb4::sim {
 namespace {
 
-struct OscSelect {
+struct Inside {
   // Made visible by public.vlt.
-  static bool get(const Vmb4_chip& model) { return model.rootp->mb4_chip__DOT__clkeni != 0; }
+  static bool osc_selected(const Vmb4_chip& model) {
+    return model.rootp->mb4_chip__DOT__clkeni != 0;
+  }
+  static unsigned half_clocks(const Vmb4_chip& model) {
+    return model.rootp->mb4_chip__DOT__u_core__DOT__u_lines__DOT__u_timebase__DOT__len_q;
+  }
 };
 
 }  // namespace
 
 std::unique_ptr<ChipModel> make_fast_chip(const ChipConfig& config, std::uint64_t seed) {
-  return std::make_unique<VerilatedChip<Vmb4_chip, NoTrace, OscSelect>>(config, seed, "");
+  return std::make_unique<VerilatedChip<Vmb4_chip, NoTrace, Inside>>(config, seed, "");
 }
 
 }  // namespace mb4::sim

@@ -16,10 +16,14 @@
 namespace mb4::sim {
 namespace {
 
-struct OscSelect {
+struct Inside {
   // Made visible by public.vlt.
-  static bool get(const Vmb4_chip_trace& model) {
+  static bool osc_selected(const Vmb4_chip_trace& model) {
     return model.rootp->mb4sim_trace_top__DOT__u_chip__DOT__clkeni != 0;
+  }
+  static unsigned half_clocks(const Vmb4_chip_trace& model) {
+    return model.rootp
+        ->mb4sim_trace_top__DOT__u_chip__DOT__u_core__DOT__u_lines__DOT__u_timebase__DOT__len_q;
   }
 };
 
@@ -65,8 +69,7 @@ class FstTrace {
 
 std::unique_ptr<ChipModel> make_traced_chip(const ChipConfig& config, std::uint64_t seed,
                                             const std::string& fst_path) {
-  return std::make_unique<VerilatedChip<Vmb4_chip_trace, FstTrace, OscSelect>>(config, seed,
-                                                                               fst_path);
+  return std::make_unique<VerilatedChip<Vmb4_chip_trace, FstTrace, Inside>>(config, seed, fst_path);
 }
 
 }  // namespace mb4::sim

@@ -25,15 +25,18 @@ struct NoTrace {
   void flush() {}
 };
 
-// `OscSelect` tells from the model whether the internal oscillator is selected (CLKENI).
-template <typename Model, typename Trace, typename OscSelect>
+// `Inside` looks into the model (public.vlt): whether the internal oscillator is selected (CLKENI)
+// and half a period of MA in clocks.
+template <typename Model, typename Trace, typename Inside>
 class VerilatedChip final : public ChipModel {
  public:
   VerilatedChip(const ChipConfig& config, std::uint64_t seed, const std::string& trace_path)
       : context_(std::make_unique<VerilatedContext>()),
         pin_clock_(config.f_clk_hz),
         oscillator_(config.f_osc_hz),
-        pin_clock_connected_(config.f_clk_hz != 0) {
+        pin_clock_connected_(config.f_clk_hz != 0),
+        osc_period_(kPsPerSecond / config.f_osc_hz),
+        min_clock_(config.f_clk_hz == 0 ? 0 : kPsPerSecond / config.f_clk_hz) {
     // The default makes idle worker threads.
     context_->threads(1);
     // Flops and memories without reset get random values at power-on; 31 bits, not 0, as
@@ -61,10 +64,17 @@ class VerilatedChip final : public ChipModel {
     model_->sl1_i = 1;
     model_->sl2_i = 1;
     model_->quirks_i = static_cast<CData>(config.quirks);
-    evaluate(0);
     // NRES and NCS reset flops asynchronously: by their level in a chip, but only by their edge in
     // a Verilated model. Without these edges flops whose clock stands still would keep their random
-    // values.
+    // values. The synchronised reset of the core has no edge if it came up asserted: a few clocks
+    // before the reset let it go. Random values are no state that an assertion could judge.
+    context_->assertOn(false);
+    for (unsigned i = 0; i < kConditioningEdges; ++i) {
+      model_->clk_i = model_->osc_i = (i % 2 == 0) ? 1 : 0;
+      model_->eval();
+    }
+    context_->assertOn(true);
+    evaluate(0);
     model_->nres_i = 0;
     model_->ncs_i = 1;
     evaluate(0);
@@ -129,6 +139,8 @@ class VerilatedChip final : public ChipModel {
         if (!pin_clock_connected_) {
           cycles_ += value != 0 && model_->clk_i == 0 && !osc_running_ ? 1U : 0U;
           model_->clk_i = value;
+          pin_driven_ = true;
+          min_clock_ = 0;
         }
         break;
       case Pin::kGetsens:
@@ -161,6 +173,8 @@ class VerilatedChip final : public ChipModel {
   unsigned db_out() const override { return model_->db_o; }
   unsigned db_enable() const override { return model_->db_oe_o; }
   std::uint64_t cycles() const override { return cycles_; }
+  unsigned half_clocks() const override { return Inside::half_clocks(*model_); }
+  Time min_clock() const override { return min_clock_; }
   void set_probes(Time now, unsigned ma, unsigned slo, unsigned idle) override {
     if constexpr (kTraced) {
       model_->slaves_ma_i = static_cast<CData>(ma);
@@ -176,6 +190,8 @@ class VerilatedChip final : public ChipModel {
   // Periods of the oscillator that still run after it has been deselected, so that the clock
   // switch inside the chip gets the edges it waits for.
   static constexpr unsigned kOscTail = 8;
+  // Enough for the clock switch to settle from any state and for the reset synchroniser.
+  static constexpr unsigned kConditioningEdges = 32;
 
   void evaluate(Time now) {
     context_->time(now);
@@ -192,10 +208,13 @@ class VerilatedChip final : public ChipModel {
 
   // CLKENI is a register of the host's clock domain: it changes with host pins or reset only.
   void follow_oscillator(Time now) {
-    const bool selected = OscSelect::get(*model_);
+    const bool selected = Inside::osc_selected(*model_);
     if (selected == osc_selected_) return;
     osc_selected_ = selected;
     osc_tail_ = kOscTail;
+    if (selected && !pin_driven_) {
+      min_clock_ = min_clock_ == 0 ? osc_period_ : std::min(min_clock_, osc_period_);
+    }
     if (selected && !osc_running_) {
       oscillator_.skip_to(now + 1);
       osc_running_ = true;
@@ -232,6 +251,9 @@ class VerilatedChip final : public ChipModel {
   ClockSource pin_clock_;
   ClockSource oscillator_;
   bool pin_clock_connected_;
+  bool pin_driven_ = false;  // CLK was moved by hand: at any speed
+  Time osc_period_;
+  Time min_clock_;
   bool osc_selected_ = false;
   bool osc_running_ = false;
   unsigned osc_tail_ = 0;

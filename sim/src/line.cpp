@@ -2,28 +2,93 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "mb4sim/line.hpp"
 
-namespace mb4::sim {
+#include <optional>
 
-Line::Line(EventQueue& queue, Time round_trip, Output output, void* receiver)
-    : out_(queue, round_trip / 2, &Line::at_slaves, this),
-      back_(queue, round_trip - round_trip / 2, &Line::at_master, this),
+#include "mb4sim/random.hpp"
+
+namespace mb4::sim {
+namespace {
+
+constexpr std::uint64_t kMaPart = 1;  // part numbers of derive_seed()
+constexpr std::uint64_t kSlPart = 2;
+
+}  // namespace
+
+Line::Line(EventQueue& queue, Time round_trip, Output output, void* receiver,
+           const CableConfig& cable, std::uint64_t seed)
+    : out_(queue, round_trip / 2, cable.ma, derive_seed(seed, kMaPart), kMa, &Line::at_slaves,
+           this),
+      back_(queue, round_trip - round_trip / 2, cable.sl, derive_seed(seed, kSlPart), 1U,
+            &Line::at_master, this),
       chain_(queue, &Line::slo_changed, this),
       output_(output),
-      receiver_(receiver) {}
+      receiver_(receiver),
+      open_level_(cable.open_level) {
+  for (const CableEvent& event : cable.events) {
+    queue.post(event.time, &Line::on_event, this, static_cast<std::uint64_t>(event.action));
+  }
+}
 
 void Line::drive(Time now, bool ma, bool mo) {
   monitor_.edge(now, ma);
   out_.drive(now, (ma ? kMa : 0U) | (mo ? kMo : 0U));
 }
 
+void Line::set_round_trip(Time round_trip) {
+  out_.set_delay(round_trip / 2);
+  back_.set_delay(round_trip - round_trip / 2);
+}
+
+void Line::set_faults(const WireFaults& ma, const WireFaults& sl) {
+  out_.set_faults(ma);
+  back_.set_faults(sl);
+}
+
+void Line::on_event(Time now, void* receiver, std::uint64_t action) {
+  static_cast<Line*>(receiver)->act(now, static_cast<CableEvent::Action>(action));
+}
+
+void Line::act(Time now, CableEvent::Action action) {
+  switch (action) {
+    case CableEvent::Action::kUnplug:
+    case CableEvent::Action::kPlug:
+      plugged_ = action == CableEvent::Action::kPlug;
+      to_slaves(now);
+      break;
+    case CableEvent::Action::kSlLow:
+    case CableEvent::Action::kSlHigh:
+      faults_.stick(action == CableEvent::Action::kSlHigh);
+      refresh(now);
+      break;
+    case CableEvent::Action::kSlFree:
+      faults_.stick(std::nullopt);
+      refresh(now);
+      break;
+    case CableEvent::Action::kMaLow:
+    case CableEvent::Action::kMaHigh:
+      out_.stick(now, action == CableEvent::Action::kMaHigh);
+      break;
+    case CableEvent::Action::kMaFree:
+      out_.stick(now, std::nullopt);
+      break;
+  }
+}
+
 void Line::at_slaves(Time now, void* receiver, unsigned levels) {
   auto* line = static_cast<Line*>(receiver);
+  line->arrived_ = levels;
+  line->to_slaves(now);
+}
+
+// Slaves that are not plugged in see a resting line: they end their frame by timeout and are idle.
+void Line::to_slaves(Time now) {
+  const unsigned levels = plugged_ ? arrived_ : kMa;
   const bool ma = (levels & kMa) != 0;
-  if (ma && !line->chain_.ma()) line->faults_.rising_edge();
-  line->driving_ = true;
-  line->chain_.drive(now, ma, (levels & kMo) != 0);
-  line->driving_ = false;
-  line->send_back(now);
+  if (ma && !chain_.ma()) faults_.rising_edge();
+  driving_ = true;
+  chain_.drive(now, ma, (levels & kMo) != 0);
+  driving_ = false;
+  send_back(now);
 }
 
 void Line::slo_changed(Time now, void* receiver, bool /*slo*/) {
@@ -34,7 +99,7 @@ void Line::slo_changed(Time now, void* receiver, bool /*slo*/) {
 void Line::send_back(Time now) {
   if (probe_ != nullptr) probe_(now, probe_receiver_);
   faults_.levels(chain_.slo(), chain_.idle());
-  const bool level = faults_.wire(chain_.slo());
+  const bool level = plugged_ ? faults_.wire(chain_.slo()) : open_level_;
   if (level == sent_) return;
   sent_ = level;
   back_.drive(now, level ? 1U : 0U);

@@ -11,7 +11,7 @@
 
 #include "mb4sim/ma_frequency.hpp"
 #include "number_text.hpp"
-#include "scenario_slave.hpp"
+#include "scenario_channel.hpp"
 #include "text_file.hpp"
 #include "toml_reader.hpp"
 
@@ -24,10 +24,6 @@ constexpr std::int64_t kMinOscHz = 12'500'000;
 constexpr std::int64_t kMaxOscHz = 25'000'000;
 constexpr std::int64_t kMinSclkHz = 1'000;
 constexpr std::int64_t kMaxSclkHz = 50'000'000;  // I203, I204: 10 ns each
-constexpr double kMaxDelayNs = 1e6;
-constexpr double kNsPerMetre = 5.3;  // each way
-constexpr double kMaxCableM = 10'000;
-constexpr std::int64_t kMaxFlipBit = 4095;
 constexpr unsigned kSlavesOfOneOfTwoChannels = 4;
 constexpr const char* kNotSupported = " is not supported in this version";
 
@@ -102,62 +98,6 @@ HostConfig read_host(const toml::table& table, const std::string& file, const Ch
   reader.finish();
   host.source = reader.source();
   return host;
-}
-
-// flips = [[frame, bit, ...], ...]
-void read_flips(TomlReader& reader, ChannelConfig& channel) {
-  const toml::node* node = reader.node("flips");
-  if (node == nullptr) return;
-  const std::string wanted = "expected lists of a frame from 1 on and bits of 0 to 4095";
-  const toml::array* frames = node->as_array();
-  if (frames == nullptr) reader.fail("flips", wanted);
-  for (const toml::node& each : *frames) {
-    const toml::array* list = each.as_array();
-    if (list == nullptr || list->size() < 2) reader.fail_at(each.source(), "flips", wanted);
-    std::vector<std::int64_t> numbers;
-    for (const toml::node& item : *list) {
-      const auto* number = item.as_integer();
-      const bool is_frame = numbers.empty();
-      if (number == nullptr || number->get() < (is_frame ? 1 : 0) ||
-          (!is_frame && number->get() > kMaxFlipBit)) {
-        reader.fail_at(item.source(), "flips", wanted);
-      }
-      numbers.push_back(number->get());
-    }
-    auto& bits = channel.flips[static_cast<std::uint64_t>(numbers[0])];
-    for (std::size_t i = 1; i < numbers.size(); ++i) {
-      bits.push_back(static_cast<unsigned>(numbers[i]));
-    }
-  }
-}
-
-ChannelConfig read_channel(const toml::table& table, const std::string& file) {
-  TomlReader reader(table, file);
-  ChannelConfig channel;
-  const auto number = reader.integer("number", 1, 2);
-  if (!number) reader.fail("number", "missing");
-  channel.number = static_cast<unsigned>(*number);
-  const auto delay = reader.number("delay_ns", 0, kMaxDelayNs);
-  const auto cable = reader.number("cable_m", 0, kMaxCableM);
-  if (delay && cable) reader.fail("cable_m", "cannot be given together with delay_ns");
-  if (delay) channel.delay = from_ns(*delay);
-  if (cable) channel.delay = 2 * from_ns(*cable * kNsPerMetre);
-  read_flips(reader, channel);
-  if (const auto* slaves = reader.tables("slave")) {
-    for (const auto& node : *slaves) {
-      if (channel.slaves.size() == kMaxSlaves) {
-        reader.fail_at(node.source(), "slave", "more than 8 slaves on a channel");
-      }
-      channel.slaves.push_back(read_slave(*node.as_table(), file));
-      const bool replay = std::holds_alternative<ReplaySlaveConfig>(channel.slaves.back().device);
-      if (slaves->size() > 1 && replay) {
-        reader.fail_at(node.source(), "protocol", "a replay slave must be alone on its channel");
-      }
-    }
-  }
-  reader.finish();
-  channel.source = reader.source();
-  return channel;
 }
 
 void read_channels(TomlReader& top, Scenario& scenario) {

@@ -16,6 +16,7 @@ namespace {
 
 constexpr unsigned kChannel2FirstSlave = 5;
 constexpr std::uint64_t kChipSeed = 0;  // part numbers of derive_seed(); slaves use 1 to 8
+constexpr std::uint64_t kFirstLineSeed = 9;
 
 std::unique_ptr<Slave> make_slave(const SlaveConfig& config, std::uint64_t seed) {
   std::unique_ptr<Slave> slave;
@@ -43,7 +44,8 @@ Simulator::Simulator(const Scenario& scenario, const SimulatorOptions& options)
   }
   for (const ChannelConfig& channel : scenario_.channels) {
     const std::size_t index = channel.number - 1;
-    auto line = std::make_unique<Line>(queue_, channel.delay, &Simulator::on_sl, &sl_pins_[index]);
+    auto line = std::make_unique<Line>(queue_, channel.delay, &Simulator::on_sl, &sl_pins_[index],
+                                       channel.cable, derive_seed(seed_, kFirstLineSeed + index));
     unsigned number = channel.number == 1 ? 1 : kChannel2FirstSlave;
     for (const SlaveConfig& slave : channel.slaves) {
       line->chain().add(make_slave(slave, derive_seed(seed_, number)));
@@ -127,6 +129,12 @@ void Simulator::drive_chip(Pin pin, bool level) {
   settle();
 }
 
+void Simulator::check_ma(std::size_t index, bool level) {
+  const auto violation = ma_checks_[index].edge(now_, level, chip_->cycles(), chip_->half_clocks(),
+                                                chip_->min_clock());
+  if (violation) throw ModelStopped("MA" + std::to_string(index + 1) + ": " + *violation);
+}
+
 // Acts upon outputs that have changed. What it does may change inputs, which comes back here.
 void Simulator::settle() {
   if (settling_) return;
@@ -143,6 +151,7 @@ void Simulator::settle() {
     seen_ = outputs;
     for (std::size_t i = 0; i < lines_.size(); ++i) {
       const auto [ma, mo] = kLineBits[i];
+      if ((changed & ma) != 0) check_ma(i, (outputs & ma) != 0);
       if ((changed & (ma | mo)) != 0 && lines_[i] != nullptr) {
         lines_[i]->drive(now_, (outputs & ma) != 0, (outputs & mo) != 0);
       }

@@ -6,12 +6,15 @@
 #ifndef MB4SIM_LINE_HPP_
 #define MB4SIM_LINE_HPP_
 
-#include "mb4sim/delay_line.hpp"
+#include <cstdint>
+
+#include "mb4sim/cable.hpp"
 #include "mb4sim/event_queue.hpp"
 #include "mb4sim/ma_monitor.hpp"
 #include "mb4sim/sl_faults.hpp"
 #include "mb4sim/slave_chain.hpp"
 #include "mb4sim/time.hpp"
+#include "mb4sim/wire.hpp"
 
 namespace mb4::sim {
 
@@ -24,8 +27,10 @@ class Line {
   using Probe = void (*)(Time now, void* receiver);
 
   // `round_trip` is the delay from pin MA to the slaves and back to pin SL in ps: half of it each
-  // way, an odd picosecond on the way back.
-  Line(EventQueue& queue, Time round_trip, Output output, void* receiver);
+  // way, an odd picosecond on the way back. `cable`: what happens beside that, random with `seed`;
+  // its events are posted at once.
+  Line(EventQueue& queue, Time round_trip, Output output, void* receiver,
+       const CableConfig& cable = {}, std::uint64_t seed = 0);
   Line(const Line&) = delete;
   Line& operator=(const Line&) = delete;
 
@@ -33,6 +38,15 @@ class Line {
   void drive(Time now, bool ma, bool mo);
   // Applies a changed SlFaults::stick().
   void refresh(Time now) { set_pin(now, received_); }
+
+  // --- the cable, for edges that leave from now on --------------------------------------------
+  Time round_trip() const { return out_.delay() + back_.delay(); }
+  void set_round_trip(Time round_trip);
+  // Jitter and skew of either direction (the rate of glitches stays as it was constructed).
+  void set_faults(const WireFaults& ma, const WireFaults& sl);
+  // One of the things that can happen to a cable, now.
+  void act(Time now, CableEvent::Action action);
+  bool plugged() const { return plugged_; }
 
   // For waveforms; at most one.
   void set_probe(Probe probe, void* receiver) {
@@ -45,7 +59,6 @@ class Line {
   const SlaveChain& chain() const { return chain_; }
   MaMonitor& monitor() { return monitor_; }
   SlFaults& faults() { return faults_; }
-  Time round_trip() const { return out_.delay() + back_.delay(); }
 
  private:
   static constexpr unsigned kMa = 1;
@@ -54,11 +67,13 @@ class Line {
   static void at_slaves(Time now, void* receiver, unsigned levels);
   static void slo_changed(Time now, void* receiver, bool slo);
   static void at_master(Time now, void* receiver, unsigned levels);
+  static void on_event(Time now, void* receiver, std::uint64_t action);
+  void to_slaves(Time now);
   void send_back(Time now);
   void set_pin(Time now, bool level);
 
-  DelayLine out_;
-  DelayLine back_;
+  Wire out_;
+  Wire back_;
   SlaveChain chain_;
   MaMonitor monitor_;
   SlFaults faults_;
@@ -66,9 +81,12 @@ class Line {
   void* receiver_;
   Probe probe_ = nullptr;
   void* probe_receiver_ = nullptr;
-  bool driving_ = false;  // inside SlaveChain::drive(): SLO is sent when it has settled
-  bool sent_ = true;      // level put into the way back
-  bool received_ = true;  // level that came out of it
+  bool open_level_;
+  bool plugged_ = true;
+  unsigned arrived_ = kMa;  // MA and MO at the slaves' end of the cable
+  bool driving_ = false;    // inside SlaveChain::drive(): SLO is sent when it has settled
+  bool sent_ = true;        // level put into the way back
+  bool received_ = true;    // level that came out of it
   bool pin_ = true;
 };
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The error that ends a simulation when an assertion in the RTL fails.
+// The error that ends a simulation when an assertion in the RTL or a guard at its pins fails.
 #ifndef MB4SIM_MODEL_STOPPED_HPP_
 #define MB4SIM_MODEL_STOPPED_HPP_
 
@@ -15,6 +15,8 @@ namespace mb4::sim {
 class ModelStopped : public std::runtime_error {
  public:
   ModelStopped(const char* file, int line, const char* hierarchy);
+  // A check of the simulator's own; `what` is one line.
+  explicit ModelStopped(const std::string& what) : std::runtime_error(what) {}
 };
 
 }  // namespace mb4::sim

@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "mb4sim/biss_c_slave.hpp"
+#include "mb4sim/cable.hpp"
 #include "mb4sim/one_line.hpp"
 #include "mb4sim/replay_slave.hpp"
 #include "mb4sim/time.hpp"
@@ -71,8 +72,9 @@ struct SlaveConfig {
 };
 
 struct ChannelConfig {
-  unsigned number = 1;              // 1 or 2
-  Time delay = 0;                   // round trip, ps
+  unsigned number = 1;  // 1 or 2
+  Time delay = 0;       // round trip with transceivers, ps
+  CableConfig cable;
   std::vector<SlaveConfig> slaves;  // first = next to SL
   // Inverted bits by the number of the frame, as SlFaults::flip_frame() takes them.
   std::map<std::uint64_t, std::vector<unsigned>> flips;

@@ -17,6 +17,7 @@
 #include "mb4sim/event_queue.hpp"
 #include "mb4sim/host_pins.hpp"
 #include "mb4sim/line.hpp"
+#include "mb4sim/ma_pulse_check.hpp"
 #include "mb4sim/model_stopped.hpp"
 #include "mb4sim/pins.hpp"
 #include "mb4sim/scenario.hpp"
@@ -48,8 +49,9 @@ class Simulator final : public HostPins {
   // --- time ----------------------------------------------------------------------------------
   Time now() const override { return now_; }
   // Runs up to and including `time`; nothing if it has passed. Everything that lets time pass or
-  // moves a pin throws ModelStopped when an assertion in the RTL fails, and again at every later
-  // call. Not to be called from inside a callback.
+  // moves a pin throws ModelStopped when an assertion in the RTL fails or a pulse at an MA pin is
+  // too short (MaPulseCheck), and again at every later call. Not to be called from inside a
+  // callback.
   void run_until(Time time) override;
   // Not beyond kEndOfTime.
   void advance(Time duration);
@@ -79,6 +81,8 @@ class Simulator final : public HostPins {
   // there is none.
   Slave* slave(unsigned number);
   const Slave* slave(unsigned number) const;
+  // Guard of pin MA of a channel (1 or 2), whether or not the scenario has that channel.
+  MaPulseCheck& ma_check(unsigned channel) { return ma_checks_.at(channel - 1); }
   // Applies changed line faults (SlFaults::stick) to the SL pins now.
   void refresh_lines();
 
@@ -98,6 +102,7 @@ class Simulator final : public HostPins {
   bool step(Time limit);
   void drive_chip(Pin pin, bool level);
   void settle();
+  void check_ma(std::size_t index, bool level);
   void check_alive() const;
 
   Scenario scenario_;
@@ -106,6 +111,7 @@ class Simulator final : public HostPins {
   std::unique_ptr<ChipModel> chip_;
   std::array<SlPin, 2> sl_pins_;
   std::array<std::unique_ptr<Line>, 2> lines_;
+  std::array<MaPulseCheck, 2> ma_checks_;
   SpiHost spi_;
   Time now_ = 0;
   unsigned seen_ = 0;  // watched outputs that have been acted upon
