@@ -7,7 +7,8 @@
 // that the level on the wire is decided outside. SPI uses ALE = SCLK, DB0 = MOSI, DB1 = MISO with
 // CFGSPI = 1. In this version CFGSPI = 0 (parallel bus), SPI2 (NWR_E = 0) and MO are not
 // there yet: the data bus stays in high impedance, MO stays low.
-// Clock domains: SCLK; the system clock, from CLK or the internal oscillator (CLKENI).
+// Clock domains: SCLK; the system clock, from CLK or the internal oscillator (CLKENI). NRES stops
+// it at any phase and selects CLK: MA that was low stays so until the selected clock runs again.
 // Datasheet: pages 3, 17, 23.
 
 module mb4_chip (
@@ -15,6 +16,7 @@ module mb4_chip (
   input  logic       clk_i,       // pin CLK
   input  logic       osc_i,       // internal oscillator
   input  logic       nres_i,      // pin NRES
+  input  logic       npor_i,      // internal power-on reset, low together with NRES
   // straps
   input  logic       cfgspi_i,    // pin CFGSPI
   input  logic       int_nmot_i,  // pin INT_NMOT
@@ -62,6 +64,7 @@ module mb4_chip (
   mb4_core u_core (
     .clk_i     (clk),
     .rst_ni    (nres_i),
+    .por_ni    (npor_i),
     .sclk_i    (ale_i),
     .cs_ni     (cs_n),
     .mosi_i    (db_i[0]),

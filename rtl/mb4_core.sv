@@ -7,13 +7,16 @@
 // Clock domains: sclk_i (host) and clk_i (core). Registers 0xC0..0xFB are written and read with no
 // core clock; frames, data memories and instructions need it. rst_ni is asynchronous: it reaches
 // the host domain as it is, because SCLK stands still while a reset ends, and the core
-// synchronised. In this version a line takes part in frames if its CFGCH is BiSS C, line 2 only
-// with SLAVELOC5 = 1; other protocols, MO and the MA force bits are not there yet.
+// synchronised. por_ni resets MA and its time base at power-on: with rst_ni alone MA ends the level
+// that it has; with both tied together every reset sets MA to 1 at once.
+// In this version a line takes part in frames if its CFGCH is BiSS C, line 2 only with
+// SLAVELOC5 = 1; other protocols, MO and the MA force bits are not there yet.
 // Datasheet: pages 15..36. Crossings: docs/crossings.md.
 
 module mb4_core (
   input  logic       clk_i,
   input  logic       rst_ni,
+  input  logic       por_ni,      // power-on reset; asserted together with rst_ni
   // SPI
   input  logic       sclk_i,
   input  logic       cs_ni,
@@ -36,6 +39,7 @@ module mb4_core (
 );
 
   logic       rst_core_n;
+  logic       por_core_n;
 
   // host byte bus
   logic       wr_en;
@@ -91,6 +95,12 @@ module mb4_core (
     .clk_i,
     .rst_ni,
     .rst_sync_no (rst_core_n)
+  );
+
+  mb4_reset_sync u_por (
+    .clk_i,
+    .rst_ni      (por_ni),
+    .rst_sync_no (por_core_n)
   );
 
   // ---- host ---------------------------------------------------------------------------------
@@ -241,6 +251,7 @@ module mb4_core (
   mb4_lines u_lines (
     .clk_i,
     .rst_ni       (rst_core_n),
+    .por_ni       (por_core_n),
     .half_len_i   (half_len),
     .start_i      (start),
     .use_i        (in_use),

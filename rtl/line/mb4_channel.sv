@@ -8,6 +8,7 @@
 module mb4_channel (
   input  logic       clk_i,
   input  logic       rst_ni,
+  input  logic       por_ni,
   // control
   input  logic       start_i,
   input  logic       use_i,
@@ -62,6 +63,7 @@ module mb4_channel (
   mb4_frame_biss u_frame (
     .clk_i,
     .rst_ni,
+    .por_ni,
     .start_i,
     .use_i,
     .init_i,

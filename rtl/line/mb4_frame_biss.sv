@@ -13,7 +13,8 @@
 // timeout is over as well. init_i makes the two-pulse initialisation instead; init_done_o when the
 // acknowledge has come, init_fail_o after 255 quarter periods without it.
 // Misuse: start_i while idle_o is low is ignored. A slave that never answers keeps the frame
-// running until abort_i (decision 4); after it MA returns to 1 with the next tick.
+// running until abort_i (decision 4); after it MA returns to 1 with the next tick. The same holds
+// after a reset: only por_ni resets the flop of MA, so that a reset cuts no low pulse short.
 // Datasheet: pages 12, 15, 16, 27, 32, 33, Figures 8, 11, 13.
 
 `include "mb4_check.svh"
@@ -21,6 +22,7 @@
 module mb4_frame_biss (
   input  logic       clk_i,
   input  logic       rst_ni,
+  input  logic       por_ni,       // power-on: MA itself
   // control
   input  logic       start_i,
   input  logic       use_i,
@@ -222,8 +224,7 @@ module mb4_frame_biss (
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
-      state_q    <= IDLE;
-      ma_q       <= 1'b1;
+      state_q    <= RELEASE;
       clocking_q <= 1'b0;
       cdm_q      <= '0;
       reduced_q  <= 1'b0;
@@ -236,7 +237,6 @@ module mb4_frame_biss (
       load_q     <= 1'b0;
     end else begin
       state_q    <= state_d;
-      ma_q       <= ma_d;
       clocking_q <= clocking_d;
       cdm_q      <= cdm_d;
       reduced_q  <= reduced_d;
@@ -248,6 +248,11 @@ module mb4_frame_biss (
       cds_q      <= cds_d;
       load_q     <= load_d;
     end
+  end
+
+  always_ff @(posedge clk_i or negedge por_ni) begin
+    if (!por_ni) ma_q <= 1'b1;
+    else         ma_q <= ma_d;
   end
 
   assign armed_a_o   = rises_q == 2'd2;

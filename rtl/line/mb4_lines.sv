@@ -4,11 +4,13 @@
 // Both physical channels and the time base they share (instances only): one frame start, the same
 // MA phase on both. Bit i of a vector {2, 1} belongs to line i + 1, wider fields are slices.
 //
-// Clock domain: core. See mb4_timebase and mb4_channel.
+// Clock domain: core. See mb4_timebase and mb4_channel. por_ni is asserted together with rst_ni at
+// power-on; with a reset alone MA, if it was low, stays so to the end of its half period.
 
 module mb4_lines (
   input  logic       clk_i,
   input  logic       rst_ni,
+  input  logic       por_ni,
   // control
   input  logic [7:0] half_len_i,
   input  logic       start_i,
@@ -57,9 +59,10 @@ module mb4_lines (
   logic smp_half;
   logic smp_b_neg;
 
+  // The time base lives through a reset: it ends a low level of MA in its time.
   mb4_timebase u_timebase (
     .clk_i,
-    .rst_ni,
+    .rst_ni      (por_ni),
     .half_len_i,
     .run_i       (idle_o != 2'b11 || time_i),
     .restart_i   (start_i),
@@ -75,6 +78,7 @@ module mb4_lines (
     mb4_channel u_channel (
       .clk_i,
       .rst_ni,
+      .por_ni,
       .start_i,
       .use_i        (use_i[i]),
       .init_i,

@@ -25,8 +25,8 @@ struct NoTrace {
   void flush() {}
 };
 
-// `Inside` looks into the model (public.vlt): whether the internal oscillator is selected (CLKENI)
-// and half a period of MA in clocks.
+// `Inside` looks into the model (public.vlt): whether the internal oscillator is selected (CLKENI),
+// the system clock, and half a period of MA in clocks.
 template <typename Model, typename Trace, typename Inside>
 class VerilatedChip final : public ChipModel {
  public:
@@ -52,6 +52,7 @@ class VerilatedChip final : public ChipModel {
     model_->clk_i = 0;
     model_->osc_i = 0;
     model_->nres_i = 1;
+    model_->npor_i = 1;
     model_->cfgspi_i = 1;
     model_->int_nmot_i = 0;
     model_->ncs_i = 0;
@@ -76,7 +77,11 @@ class VerilatedChip final : public ChipModel {
     context_->assertOn(true);
     evaluate(0);
     model_->nres_i = 0;
+    model_->npor_i = 0;
     model_->ncs_i = 1;
+    evaluate(0);
+    // The end of power-on; NRES goes on.
+    model_->npor_i = 1;
     evaluate(0);
     watched_ = pack();
   }
@@ -227,15 +232,16 @@ class VerilatedChip final : public ChipModel {
       if (pin_clock_.next() == now) {
         const bool level = pin_clock_.edge();
         model_->clk_i = level;
-        cycles_ += level && !osc_selected_ ? 1U : 0U;
       }
       if (osc_running_ && oscillator_.next() == now) {
         const bool level = oscillator_.edge();
         model_->osc_i = level;
-        cycles_ += level && osc_selected_ ? 1U : 0U;
         if (!osc_selected_ && !level && --osc_tail_ == 0) osc_running_ = false;
       }
+      // The switch inside the chip takes its time: what counts is the clock behind it.
+      const bool before = Inside::clk(*model_);
       evaluate(now);
+      cycles_ += Inside::clk(*model_) && !before ? 1U : 0U;
       if (const unsigned outputs = pack(); outputs != watched_) {
         watched_ = outputs;
         return now;

@@ -238,14 +238,14 @@ def core(steps):
     """Whole chip without pins: a host that configures, starts frames and reads, noisy slaves."""
     rng = steps.rng
     # Selected and with clocks before, so that the derived resets have an edge.
-    steps.step(sl1_i=1, sl2_i=1, ner_i=1, quirks_i=4, rst_ni=1)
+    steps.step(sl1_i=1, sl2_i=1, ner_i=1, quirks_i=4, rst_ni=1, por_ni=1)
     for _ in range(3):
         steps.clock("clk_i")
-    steps.reset(["rst_ni"])
+    steps.reset(["rst_ni", "por_ni"])
     steps.step(cs_ni=1)
 
     # Pins that this table does not know get random levels, so that a new one is not forgotten.
-    driven = {"clk_i", "rst_ni", "sclk_i", "cs_ni", "mosi_i", "sl1_i", "sl2_i", "quirks_i", "ner_i"}
+    driven = {"clk_i", "rst_ni", "por_ni", "sclk_i", "cs_ni", "mosi_i", "sl1_i", "sl2_i", "quirks_i", "ner_i"}
     others = [port for port in steps.widths if port not in driven]
 
     def between(steps):
@@ -288,6 +288,9 @@ def core(steps):
         write(0xF1, rng.getrandbits(8), rng.getrandbits(8))
         if steps.chance(0.2):
             steps.step(rst_ni=0)
+            if steps.chance(0.5):
+                steps.step(por_ni=0)
+                steps.step(por_ni=1)
             steps.step(rst_ni=1)
 
 
@@ -339,7 +342,7 @@ MODULES = {
         "load_i": 0.02, "shift_i": 0.8, "feed_i": 0.8, "poly_i": rarely("poly_i", 0.02),
         "top_i": rarely("top_i", 0.02, lambda s: 1 << s.rng.randrange(16))}),
     "mb4_rx_word": rx_word,
-    "mb4_frame_biss": simple(*CORE, 12000, {
+    "mb4_frame_biss": simple(["clk_i"], ["rst_ni", "por_ni"], 12000, {
         "start_i": 0.1, "use_i": 0.95, "init_i": 0.1, "abort_i": 0.003, "bit_valid_i": 0.3,
         "tick_i": 0.5, "len_valid_i": 0.01, "len_i": rarely("len_i", 0.5, lambda s:
                                                             s.rng.choice([1, 7, 30, 80])),

@@ -85,6 +85,7 @@ module frame_top (
   mb4_channel u_channel (
     .clk_i,
     .rst_ni,
+    .por_ni      (rst_ni),
     .start_i,
     .use_i       (1'b1),
     .init_i,
