@@ -8,8 +8,7 @@
 // core clock; frames, data memories and instructions need it. rst_ni is asynchronous: it reaches
 // the host domain as it is, because SCLK stands still while a reset ends, and the core
 // synchronised. por_ni resets MA and its time base at power-on: with rst_ni alone MA ends the level
-// that it has; with both tied together every reset sets MA to 1 at once.
-// In this version a line takes part in frames if its CFGCH is BiSS C, line 2 only with
+// that it has. In this version a line takes part in frames if its CFGCH is BiSS C, line 2 only with
 // SLAVELOC5 = 1; other protocols, MO and the MA force bits are not there yet.
 // Datasheet: pages 15..36. Crossings: docs/crossings.md.
 
