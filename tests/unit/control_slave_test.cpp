@@ -10,7 +10,7 @@
 #include <random>
 
 #include "control_bench.hpp"
-#include "mb4sim/presets.hpp"
+#include "preset_slave.hpp"
 
 namespace mb4::sim {
 namespace {
@@ -19,16 +19,6 @@ using Result = ControlBench::Result;
 using Bytes = std::vector<std::uint8_t>;
 
 constexpr const char* kZeros14 = "00000000000000";
-
-BissCSlave& add_preset(ControlBench& bench, std::string_view name) {
-  const Preset* preset = preset_by_name(name);
-  BissCSlave& slave = bench.add(preset->config);
-  for (const auto& run : preset->registers) {
-    std::uint8_t address = run.address;
-    for (const std::uint8_t value : run.values) slave.reg_write(address++, value);
-  }
-  return slave;
-}
 
 // Table 7 of TIDEP0022: the frame from CTS on, bit 31 first; table 11: the answer.
 struct TiRead {

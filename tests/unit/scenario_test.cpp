@@ -244,7 +244,7 @@ INSTANTIATE_TEST_SUITE_P(
         BadScenario{"RegistersOverlap",
                     slave("data_bits = 8\nregisters = { 0x44 = [1, 2], 0x43 = [3, 4] }"),
                     "s.toml:6:41: key '0x43': register 0x44 is given twice"},
-        BadScenario{"Control", slave("data_bits = 8\ncontrol = 1"),
+        BadScenario{"Control", slave("data_bits = 8\ncontrol = 2"),
                     "s.toml:6:11: key 'control': expected true or false, found an integer"},
         BadScenario{"IdsWithoutControl", slave("data_bits = 8\ncontrol = false\nids = 1"),
                     "s.toml:7:7: key 'ids': needs control = true"},

@@ -1,0 +1,26 @@
+// SPDX-FileCopyrightText: 2026 The openmb4 authors
+// SPDX-License-Identifier: Apache-2.0
+#ifndef MB4_TESTS_UNIT_PRESET_SLAVE_HPP_
+#define MB4_TESTS_UNIT_PRESET_SLAVE_HPP_
+
+#include <string_view>
+
+#include "control_bench.hpp"
+#include "mb4sim/presets.hpp"
+
+namespace mb4::sim {
+
+// A slave as the preset of this name describes it, registers included.
+inline BissCSlave& add_preset(ControlBench& bench, std::string_view name) {
+  const Preset* preset = preset_by_name(name);
+  BissCSlave& slave = bench.add(preset->config);
+  for (const auto& run : preset->registers) {
+    std::uint8_t address = run.address;
+    for (const std::uint8_t value : run.values) slave.reg_write(address++, value);
+  }
+  return slave;
+}
+
+}  // namespace mb4::sim
+
+#endif  // MB4_TESTS_UNIT_PRESET_SLAVE_HPP_
