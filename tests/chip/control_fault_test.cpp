@@ -1,0 +1,335 @@
+// SPDX-FileCopyrightText: 2026 The openmb4 authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Each bit of a control frame inverted in turn, on the way to the slaves (CDM) and back (CDS): what
+// is reported as good was done, flags are those of pages 34 and 35, the next access works. Where
+// the protocol itself cannot tell (no acknowledge after the bit), the test says so.
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+#include "control_host.hpp"
+#include "mb4sim/control_slave.hpp"
+
+namespace {
+
+using mb4test::Chip;
+using mb4test::ControlHost;
+using mb4test::kAgsmin;
+using mb4test::kNoDelayErr;
+using mb4test::kNoRegErr;
+using mb4test::kRegend;
+using mb4test::one_slave;
+using Bytes = std::vector<std::uint8_t>;
+
+// Line bits: 10100101 0100 and 00000110 0101 (TI TIDEP0022 and CRC4 of the protocol).
+const Bytes kBytes{0xA5, 0x06};
+constexpr unsigned kAddress = 0x30;
+constexpr unsigned kLastSlot = 46;  // end mark of two bytes
+
+enum class Way { kCdm, kCds };
+enum class Flag { kNone, kRegErr, kDelayErr };
+
+struct Expected {
+  Flag flag = Flag::kNone;
+  unsigned good_bytes = 0;  // REGBYTES, with a flag
+  bool operator==(const Expected&) const = default;
+};
+void PrintTo(const Expected& expected, std::ostream* out) {
+  *out << "flag " << static_cast<int>(expected.flag) << ", REGBYTES " << expected.good_bytes;
+}
+
+constexpr Expected kGood{};
+constexpr Expected reg_error(unsigned good) { return {Flag::kRegErr, good}; }
+constexpr Expected delay_error(unsigned good) { return {Flag::kDelayErr, good}; }
+
+// Two slaves; accesses go to ID 0, the far one, commands to both. FREQR = 0: short nDELAYERR limit.
+class FaultBench {
+ public:
+  FaultBench(Way way, unsigned slot, const std::string& keys = "")
+      : chip(scenario(keys)), host(chip), near(control(1)), far(control(2)) {
+    for (const std::uint8_t address : {std::uint8_t{0xC0}, std::uint8_t{0xC4}}) {
+      chip.write(address, {0x40 | 13, 0x06, 0x00, 0x00});
+    }
+    chip.write(0xE5, {0x40, 0x00, 0x00, kAgsmin});
+    chip.write(0xEC, {0x01, 0x0D});
+    if (way == Way::kCdm) {
+      near.faults().flip_cdm_in_slot(slot);  // a fault of the line hits all slaves
+      far.faults().flip_cdm_in_slot(slot);
+    } else {
+      near.faults().flip_cds_in_slot(slot);  // at the master's end of the chain
+    }
+  }
+
+  // Runs what the host has set up, to its end.
+  Expected run() {
+    EXPECT_TRUE(host.run_ags(4000)) << "it never ends";
+    const std::uint8_t status = host.status();
+    EXPECT_NE(status & kRegend, 0);
+    const bool reg = (status & kNoRegErr) == 0;
+    const bool delay = (status & kNoDelayErr) == 0;
+    EXPECT_FALSE(reg && delay);
+    EXPECT_EQ((status & 0x80) == 0, reg || delay) << "page 34: NER";
+    const unsigned good = host.regbytes();
+    // The slaves see 14 zeros, also after a fault in the zeros themselves.
+    chip.advance_us(150);
+    EXPECT_FALSE(near.faults().pending() || far.faults().pending()) << "the fault was not reached";
+    EXPECT_TRUE(reg || delay || good == 0) << "Table 63";
+    return {reg ? Flag::kRegErr : delay ? Flag::kDelayErr : Flag::kNone, good};
+  }
+  // Register access and commands work.
+  void check_next() {
+    const Bytes out{0x3C, 0xC3};
+    host.set_write(0, 0x50, out);
+    EXPECT_EQ(run(), kGood);
+    EXPECT_EQ(reg(0x50), 0x3C);
+    EXPECT_EQ(reg(0x51), 0xC3);
+    host.set_read(0, 0x50, 2);
+    EXPECT_EQ(run(), kGood);
+    EXPECT_EQ(host.rdata(2), out);
+    const auto commands = near.counters().commands;
+    host.set_command(0xC0, 3, true);
+    EXPECT_EQ(run(), kGood);
+    EXPECT_EQ(near.counters().commands, commands + 1);
+  }
+  std::uint8_t reg(unsigned address) {
+    return chip.simulator.slave(2)->reg_read(static_cast<std::uint8_t>(address));
+  }
+  void set_reg(unsigned address, std::uint8_t value) {
+    chip.simulator.slave(2)->reg_write(static_cast<std::uint8_t>(address), value);
+  }
+  // Nothing but `allowed` addresses has been written, in neither slave.
+  void check_untouched(unsigned first_allowed, unsigned count) {
+    for (unsigned address = 0; address < 128; ++address) {
+      if (address >= first_allowed && address < first_allowed + count) continue;
+      EXPECT_EQ(reg(address), 0) << address;
+    }
+    for (unsigned address = 0; address < 128; ++address) {
+      EXPECT_EQ(chip.simulator.slave(1)->reg_read(static_cast<std::uint8_t>(address)), 0);
+    }
+  }
+
+  Chip chip;
+  ControlHost host;
+  mb4::sim::ControlSlave& near;
+  mb4::sim::ControlSlave& far;
+
+ private:
+  static std::string scenario(const std::string& keys) {
+    const std::string slave = "data_bits = 14\ncrc = 0x43\n" + keys + "\n";
+    return one_slave(slave) + "[[channel.slave]]\nprotocol = \"biss-c\"\n" + slave;
+  }
+  mb4::sim::ControlSlave& control(unsigned number) {
+    return *chip.simulator.slave(number)->control();
+  }
+};
+
+// ---- read: two bytes ------------------------------------------------------------------------
+
+Expected of_read(Way way, unsigned slot) {
+  if (way == Way::kCdm) {
+    if (slot <= 17) return reg_error(0);  // header, R, W: not confirmed
+    if (slot == 18) return delay_error(0);
+    // The slave sends zeros from the next bit on: the last two CRC bits of 0xA5 are zeros.
+    if (slot <= 28) return reg_error(0);
+    if (slot <= 31) return delay_error(1);  // no start bit for the second byte
+    // Slot 32 is the 14th zero: the slaves take the repeated S for the start of a control frame,
+    // and the master their IDL bits for the second byte. Its CRC does not fit.
+    if (slot <= 44) return reg_error(1);
+    return kGood;  // P and end mark: everything has been read
+  }
+  if (slot <= 16) return kGood;  // IDL and zeros: not for the master
+  if (slot <= 18) return reg_error(0);
+  if (slot == 19) return delay_error(0);  // the repeated S makes the slave fall silent
+  if (slot <= 31) return reg_error(0);
+  if (slot == 32) return kGood;
+  if (slot == 33) return delay_error(1);
+  if (slot <= 45) return reg_error(1);
+  return kGood;
+}
+
+struct Fault {
+  Way way;
+  unsigned slot;
+};
+std::string name_of(const Fault& fault) {
+  return (fault.way == Way::kCdm ? "Cdm" : "Cds") + std::to_string(fault.slot);
+}
+void PrintTo(const Fault& fault, std::ostream* out) { *out << name_of(fault); }
+
+class ControlFaults : public testing::TestWithParam<Fault> {};
+
+TEST_P(ControlFaults, Read_GivesGoodBytesOnly) {
+  const auto [way, slot] = GetParam();
+  FaultBench bench(way, slot);
+  bench.set_reg(kAddress, kBytes[0]);
+  bench.set_reg(kAddress + 1, kBytes[1]);
+  bench.host.set_read(0, kAddress, 2);
+  const Expected result = bench.run();
+  EXPECT_EQ(result, of_read(way, slot));
+  const unsigned good = result.flag == Flag::kNone ? 2 : result.good_bytes;
+  const Bytes data = bench.host.rdata(2);
+  for (unsigned i = 0; i < good; ++i) EXPECT_EQ(data[i], kBytes[i]);
+  EXPECT_EQ(bench.near.counters().commands + bench.far.counters().commands, 0U);
+  bench.check_next();
+}
+
+// ---- write: two bytes -----------------------------------------------------------------------
+
+Expected of_write(Way way, unsigned slot) {
+  if (way == Way::kCdm) {
+    if (slot <= 17) return reg_error(0);
+    if (slot == 18) return delay_error(0);
+    if (slot <= 30) return reg_error(0);  // repeated CDS differs
+    if (slot <= 32) return delay_error(1);
+    if (slot <= 44) return reg_error(1);
+    return kGood;
+  }
+  if (slot <= 16) return kGood;
+  if (slot <= 18) return reg_error(0);
+  // The slave takes the repeated S for D7 and echoes it: see LostStartBit below.
+  if (slot == 19) return delay_error(1);
+  if (slot <= 31) return reg_error(0);
+  if (slot == 32) return kGood;
+  return slot <= 45 ? reg_error(1) : kGood;
+}
+
+TEST_P(ControlFaults, Write_ReportsGoodOnlyWhatIsWritten) {
+  const auto [way, slot] = GetParam();
+  FaultBench bench(way, slot);
+  bench.host.set_write(0, kAddress, kBytes);
+  const Expected result = bench.run();
+  EXPECT_EQ(result, of_write(way, slot));
+  const unsigned good = result.flag == Flag::kNone ? 2 : result.good_bytes;
+  for (unsigned i = 0; i < 2; ++i) {
+    const unsigned value = bench.reg(kAddress + i);
+    EXPECT_TRUE(value == 0 || value == kBytes[i]) << "a value that nobody has sent";
+    if (i < good && !(way == Way::kCds && slot == 19)) {
+      EXPECT_EQ(value, kBytes[i]);
+    }
+  }
+  bench.check_untouched(kAddress, 2);
+  bench.check_next();
+}
+
+std::vector<Fault> all_faults() {
+  std::vector<Fault> faults;
+  for (unsigned slot = 0; slot <= kLastSlot; ++slot) faults.push_back({Way::kCdm, slot});
+  for (unsigned slot = 1; slot <= kLastSlot; ++slot) faults.push_back({Way::kCds, slot});
+  return faults;
+}
+INSTANTIATE_TEST_SUITE_P(EachSlot, ControlFaults, testing::ValuesIn(all_faults()),
+                         [](const auto& info) { return name_of(info.param); });
+
+// ---- commands -------------------------------------------------------------------------------
+
+struct CommandCase {
+  std::uint8_t ids;
+  bool tested;
+  unsigned last_slot;  // that the command has
+};
+constexpr CommandCase kBroadcast{0x00, false, 17};
+constexpr CommandCase kImmediate{0xC0, false, 24};
+constexpr CommandCase kTested{0xC0, true, 25};
+
+// `ex`: its slot, the only one behind the header that decides about execution. The slaves confirm
+// before they see it (or are not asked), so that nobody can report its loss.
+void command_matrix(const CommandCase& command, unsigned ex) {
+  const bool addressed = command.ids != 0;
+  for (const Way way : {Way::kCdm, Way::kCds}) {
+    for (unsigned slot = way == Way::kCdm ? 0 : 1; slot <= command.last_slot; ++slot) {
+      SCOPED_TRACE((way == Way::kCdm ? "CDM " : "CDS ") + std::to_string(slot));
+      FaultBench bench(way, slot);
+      bench.host.set_command(command.ids, 3, command.tested);
+      const bool header = way == Way::kCdm && slot <= 15;
+      const bool ida = way == Way::kCds && slot >= 17 && slot <= 24;
+      const Flag flag = addressed && (header || ida) ? Flag::kRegErr : Flag::kNone;
+      EXPECT_EQ(bench.run().flag, flag);
+      const bool executed =
+          !header && !(way == Way::kCdm && slot == ex) && !(ida && command.tested);  // Table 34
+      EXPECT_EQ(bench.near.counters().commands, executed ? 1U : 0U);
+      EXPECT_EQ(bench.far.counters().commands, executed ? 1U : 0U);
+      bench.check_untouched(0, 0);
+      bench.check_next();
+    }
+  }
+}
+
+TEST(ControlFaultMatrix, Broadcast_IsDoneOrNotButNeverReported) { command_matrix(kBroadcast, 16); }
+TEST(ControlFaultMatrix, AddressedAtOnce_IsReportedByIda) { command_matrix(kImmediate, 16); }
+TEST(ControlFaultMatrix, AddressedTested_IsNotDoneAfterAnIdaError) { command_matrix(kTested, 24); }
+
+// One of two addressed slaves misses the command: the test of IDA keeps the other from it, too.
+TEST(ControlFaultMatrix, OneSlaveMissesTheHeader_TestedCommandIsDoneByNone) {
+  for (const bool tested : {false, true}) {
+    for (unsigned slot = 0; slot <= 15; ++slot) {
+      FaultBench bench(Way::kCdm, slot);
+      bench.near.faults() = {};
+      bench.host.set_command(0xC0, 3, tested);
+      EXPECT_EQ(bench.run().flag, Flag::kRegErr) << slot;
+      EXPECT_EQ(bench.near.counters().commands, tested ? 0U : 1U) << slot;
+      EXPECT_EQ(bench.far.counters().commands, 0U) << slot;
+      bench.check_next();
+    }
+  }
+}
+
+// ---- a slave that takes its time ------------------------------------------------------------
+
+// A start bit on the line that the busy slave has not sent: no data follow.
+TEST(ControlFaultMatrix, FalseStartBitWhileBusy_IsAnError) {
+  for (const bool reading : {true, false}) {
+    for (unsigned slot = 19; slot <= 22; ++slot) {
+      FaultBench bench(Way::kCds, slot, "read_busy_frames = 4\nwrite_busy_frames = 4");
+      bench.set_reg(kAddress, kBytes[0]);
+      if (reading) {
+        bench.host.set_read(0, kAddress, 1);
+      } else {
+        bench.host.set_write(0, kAddress, {0x06});
+      }
+      EXPECT_EQ(bench.run(), reg_error(0)) << slot;
+      EXPECT_EQ(bench.reg(kAddress), kBytes[0]);
+      bench.check_next();
+    }
+  }
+}
+
+TEST(ControlFaultMatrix, SilentSlaveAndWrongCrc_AreReported) {
+  FaultBench bench(Way::kCds, 1);
+  bench.set_reg(kAddress, 0x11);
+  bench.host.set_read(0, kAddress, 1);
+  bench.far.faults().set_wrong_data_crc(true);
+  EXPECT_EQ(bench.run(), reg_error(0));
+  bench.far.faults().set_wrong_data_crc(false);
+  bench.far.faults().set_silent(true);
+  EXPECT_EQ(bench.run(), reg_error(0));
+  bench.host.set_write(0, kAddress, {0x22});
+  EXPECT_EQ(bench.run(), reg_error(0));
+  bench.host.set_command(0x80, 3);
+  EXPECT_EQ(bench.run().flag, Flag::kRegErr);
+  bench.far.faults().set_silent(false);
+  EXPECT_EQ(bench.reg(kAddress), 0x11);
+  bench.check_next();
+}
+
+// The weak place of the protocol: the slave's start bit of a write is lost. The master repeats S,
+// the slave takes it for D7, and its echo for the master looks like the start bit; all echoes
+// fit, one frame late. The slave's CRC stops the write. Only a last CRC bit of 1 shows: the slave
+// has it where P belongs. So a host that must be sure reads back.
+TEST(ControlFaultMatrix, LostStartBitOfAWrite_IsSeenByTheLastCrcBitOnly) {
+  for (unsigned value = 0; value < 256; ++value) {
+    FaultBench bench(Way::kCds, 19);
+    bench.host.set_write(0, kAddress, {static_cast<std::uint8_t>(value)});
+    const Expected result = bench.run();
+    // Lowest CRC bit as the XOR of the data bits that reach it (x^4 + x + 1), inverted on the line.
+    bool crc0 = false;
+    for (const unsigned bit : {0U, 3U, 4U, 6U}) crc0 ^= ((value >> bit) & 1U) != 0;
+    const bool line_bit = !crc0;
+    EXPECT_EQ(result, line_bit ? reg_error(0) : kGood) << value;
+    EXPECT_EQ(bench.far.counters().writes, 0U) << value;
+    EXPECT_EQ(bench.reg(kAddress), 0) << value;
+  }
+}
+
+}  // namespace
