@@ -220,7 +220,7 @@ std::vector<Fault> all_faults() {
   return faults;
 }
 INSTANTIATE_TEST_SUITE_P(EachSlot, ControlFaults, testing::ValuesIn(all_faults()),
-                         [](const auto& info) { return name_of(info.param); });
+                         [](const auto& tested) { return name_of(tested.param); });
 
 // ---- commands -------------------------------------------------------------------------------
 
