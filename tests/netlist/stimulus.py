@@ -225,7 +225,7 @@ def control_frame(steps):
             steps.step(frame_end_i=0)
     play(steps, ["clk_i"], ["rst_ni"], 24000, {
         "begin_i": 0.3, "abort_i": 0.0005, "start_i": 0.7, "frame_end_i": 0.7,
-        "cdm_timeout_i": 0.9, "expired_i": 0.02, "running_i": 0.5,
+        "cdm_timeout_i": 0.9, "expired_i": 0.4, "running_i": 0.5,
         "select_i": rarely("select_i", 0.01, lambda s: s.rng.choice([1, 1, 2, 3])),
         "cts_i": rarely("cts_i", 0.003), "wnr_i": rarely("wnr_i", 0.003),
         "regadr_i": rarely("regadr_i", 0.003), "regnum_i": rarely(
