@@ -35,6 +35,18 @@ struct RegsOptions {
 };
 int regs_command(const RegsOptions& options);
 
+struct SweepOptions {
+  std::string scenario;
+  std::string delays = "0:400:20";  // ns, number_list()
+  std::string jitters = "0:50:5";   // % of T_MA, peak to peak
+  std::string freqs;                // codes, "all", or empty: as the scenario says
+  std::uint64_t frames = 20;        // at each point
+  std::string csv;                  // empty: none
+  std::string svg;                  // empty: none
+  std::optional<std::uint64_t> seed;
+};
+int sweep_command(const SweepOptions& options);
+
 }  // namespace mb4::tool
 
 #endif  // MB4SIM_TOOL_COMMANDS_HPP_

@@ -26,6 +26,7 @@ namespace {
 using mb4::tool::RegsOptions;
 using mb4::tool::RunOptions;
 using mb4::tool::SpiOptions;
+using mb4::tool::SweepOptions;
 
 constexpr std::uint64_t kMaxFrames = 1'000'000'000;
 
@@ -103,6 +104,42 @@ int run(int argc, char** argv) {
       "  # comment\n"
       "Example: echo '03 EA 00 00' | mb4sim spi examples/resolute-26.toml");
   spi_app->callback([&] { command = [&] { return mb4::tool::spi_command(spi_options); }; });
+
+  SweepOptions sweep_options;
+  CLI::App* sweep_app = app.add_subcommand(
+      "sweep", "Count bad frames over line delay, jitter and FREQS (eye margin)");
+  add_scenario(*sweep_app, sweep_options.scenario);
+  sweep_app
+      ->add_option("--delays", sweep_options.delays,
+                   "Round-trip delays in ns, on all channels (default 0:400:20)")
+      ->type_name("LIST");
+  sweep_app
+      ->add_option("--jitters", sweep_options.jitters,
+                   "Jitter of SL in % of T_MA, peak to peak (default 0:50:5)")
+      ->type_name("LIST");
+  sweep_app
+      ->add_option("--freqs", sweep_options.freqs,
+                   "FREQS codes, or all (default: the scenario's ma_hz)")
+      ->type_name("LIST");
+  sweep_app->add_option("--frames", sweep_options.frames, "Frames at each point (default 20)")
+      ->type_name("N")
+      ->transform(whole_number(1, kMaxFrames));
+  sweep_app->add_option("--csv", sweep_options.csv, "Also write one line a point")
+      ->type_name("F")
+      ->check(file_name());
+  sweep_app->add_option("--svg", sweep_options.svg, "Also draw the eye margin")
+      ->type_name("F.svg")
+      ->check(file_name());
+  sweep_app->add_option("--seed", sweep_options.seed, "Seed of every random choice (default 1)")
+      ->type_name("S")
+      ->transform(whole_number(0, std::numeric_limits<std::uint64_t>::max()));
+  sweep_app->footer(
+      "LIST is A, A,B,C or FROM:TO:STEP. The rest of the cable is as the scenario says. Exit "
+      "status "
+      "1 if a word was bad with jitter up to 25 % (I305).
+      "
+      "Example: mb4sim sweep examples/resolute-26.toml --jitters 0:60:5 --freqs 0,3 --svg eye.svg");
+  sweep_app->callback([&] { command = [&] { return mb4::tool::sweep_command(sweep_options); }; });
 
   RegsOptions regs_options;
   CLI::App* regs_app = app.add_subcommand("regs", "Print the chip's registers, decoded");

@@ -1,0 +1,59 @@
+// SPDX-FileCopyrightText: 2026 The openmb4 authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// What a sweep over delay, jitter and FREQS has found: as text, CSV and picture.
+#ifndef MB4SIM_TOOL_SWEEP_REPORT_HPP_
+#define MB4SIM_TOOL_SWEEP_REPORT_HPP_
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace mb4::tool {
+
+// Words read at one delay and jitter: one of each slave a frame.
+struct SweepPoint {
+  std::uint64_t words = 0;
+  std::uint64_t flagged = 0;  // the driver reported an error
+  std::uint64_t wrong = 0;    // delivered as good, but not what the slave had sent
+
+  std::uint64_t bad() const { return flagged + wrong; }
+};
+
+// One FREQS code; points[delay][jitter].
+struct SweepPlane {
+  unsigned freqs = 0;
+  std::uint64_t ma_hz = 0;
+  std::vector<std::vector<SweepPoint>> points;
+};
+
+struct Sweep {
+  std::string scenario;
+  std::uint64_t seed = 0;
+  std::uint64_t frames = 0;          // per point
+  std::vector<long long> delays_ps;  // round trip
+  // Peak to peak, thousandths of a percent of T_MA.
+  std::vector<long long> jitters_mpercent;
+  std::vector<SweepPlane> planes;
+
+  // Every word was good wherever the jitter is within item I305 (25 % of T_MA).
+  bool within_i305() const;
+};
+
+// Item I305 in the unit of Sweep::jitters_mpercent.
+inline constexpr long long kI305 = 25'000;
+
+// A table of bad words for each plane, and a summary.
+std::string sweep_text(const Sweep& sweep);
+// One line a point, with a header.
+std::string sweep_csv(const Sweep& sweep);
+// Eye margin: the share of bad words over delay and jitter, one panel for each plane.
+std::string sweep_svg(const Sweep& sweep);
+
+// "12.5": thousandths as a decimal number without trailing zeros.
+std::string thousandths(long long value);
+
+}  // namespace mb4::tool
+
+#endif  // MB4SIM_TOOL_SWEEP_REPORT_HPP_
