@@ -15,6 +15,7 @@ import subprocess
 import sys
 import tempfile
 import unittest
+import xml.etree.ElementTree
 
 MB4SIM, EXAMPLES = sys.argv[1:3]
 RESOLUTE = os.path.join(EXAMPLES, "resolute-26.toml")
@@ -69,7 +70,8 @@ class Cli(unittest.TestCase):
                 self.assertEqual(result.stdout, "")
 
     def test_help_and_version_are_status_0(self):
-        for arguments in (["--help"], ["run", "--help"], ["spi", "--help"], ["regs", "--help"]):
+        for arguments in (["--help"], ["run", "--help"], ["spi", "--help"], ["regs", "--help"],
+                          ["sweep", "--help"]):
             result = run(*arguments)
             self.assertEqual(result.returncode, 0)
             self.assertIn("Example", result.stdout)
@@ -413,6 +415,81 @@ def crc(polynomial, width, start, data, bits):
 def crc6(data, bits):
     """CRC6 0x43, start 0."""
     return crc(0x43, 6, 0, data, bits)
+
+
+    # --- sweep -------------------------------------------------------------------------------
+
+    def test_sweep_wrong_use_is_status_2_and_one_line(self):
+        for arguments, pattern in (
+                ([], "scenario"), (["--delays", ""], "--delays: '': expected a number"),
+                (["--delays", "1:2"], "three parts"), (["--delays", "2:1:1"], "ends before"),
+                (["--delays", "0:1:0"], "step must be above 0"),
+                (["--delays", "-1"], "expected a number of 0 to 1"),
+                (["--delays", "0:1000000:1"], "more than 2000 values"),
+                (["--delays", "0.0001"], "expected a number"),
+                (["--jitters", "10%"], "--jitters: '10%'"), (["--jitters", "1,,2"], "expected"),
+                (["--jitters", "nan"], "expected a number"),
+                (["--freqs", "32"], "whole number of 0 to 31"), (["--freqs", "1.5"], "whole"),
+                (["--freqs", "16"], "does not permit code 16"), (["--frames", "0"], "--frames"),
+                (["--delays", "0:1999:1", "--jitters", "0:999:1"], "points are more than"),
+                (["--svg", ""], "file name"), (["--svg", "/no/such/a.svg"], "cannot write"),
+                (["--svg", RESOLUTE], "would replace the input"), (["--fast"], "--fast"),
+                (["--csv", self.path("x"), "--svg", self.path("x")], "is the same file")):
+            with self.subTest(arguments):
+                result = run("sweep", *([RESOLUTE] if arguments else []), *arguments)
+                self.assert_one_line(result, 2, pattern)
+                self.assertEqual(result.stdout, "")
+        self.assertEqual(os.listdir(self.folder.name), [])
+        bad = self.path("bad.toml", slave("data_bits = 28") + "x = 1\n")
+        self.assert_one_line(run("sweep", bad), 2, r":6:1: key 'x': unknown key")
+        slow = self.path("slow.toml", "[chip]\nf_clk_hz = 25_000_001\n" + slave("data_bits = 28"))
+        self.assert_one_line(run("sweep", slow), 2, r":2:12: key 'f_clk_hz': ")
+
+    def test_sweep_shows_the_margin_as_text_csv_and_picture(self):
+        def sweep(*arguments):
+            return run("sweep", RESOLUTE, "--delays", "0:90:30", "--jitters", "0,25,100",
+                       "--freqs", "0,1", "--frames", "12", "--csv", self.path("a.csv"), "--svg",
+                       self.path("a.svg"), *arguments)
+        result = sweep()
+        self.assertEqual((result.returncode, result.stderr), (0, ""))
+        self.assertIn("jitter up to 25 % (I305): all good; seed 1\n", result.stdout)
+        with open(self.path("a.csv"), encoding="utf-8") as file:
+            content = file.read()
+        rows = list(csv.DictReader(content.splitlines()))
+        self.assertEqual([(row["freqs"], row["ma_hz"], row["delay_ns"], row["jitter_percent"])
+                          for row in rows],
+                         [(freqs, ma, delay, jitter)
+                          for freqs, ma in (("0", "10000000"), ("1", "5000000"))
+                          for delay in ("0", "30", "60", "90") for jitter in ("0", "25", "100")])
+        for row in rows:
+            self.assertEqual(row["words"], "12")
+            bad = int(row["flagged"]) + int(row["wrong"])
+            self.assertEqual(bad != 0, row["jitter_percent"] == "100", row)
+        total = sum(int(row["flagged"]) for row in rows)
+        self.assertIn(f"words 288, flagged {total}, ", result.stdout)
+        picture = xml.etree.ElementTree.parse(self.path("a.svg")).getroot()
+        self.assertEqual(picture.tag, "{http://www.w3.org/2000/svg}svg")
+        colours = [node.get("fill") for node in picture.iter("{http://www.w3.org/2000/svg}rect")]
+        # Two thirds of 24 cells are green, and one field of the legend.
+        self.assertEqual(colours.count("#4caf50"), 16 + 1)
+        self.assertEqual(colours.count("none"), 2)
+        # The same seed repeats all of it, another does not.
+        self.assertEqual(sweep().stdout, result.stdout)
+        with open(self.path("a.csv"), encoding="utf-8") as file:
+            self.assertEqual(file.read(), content)
+        self.assertNotEqual(sweep("--seed", "2").stdout, result.stdout)
+        self.assertEqual(sorted(os.listdir(self.folder.name)), ["a.csv", "a.svg"])
+
+    def test_sweep_is_status_1_when_a_frame_within_i305_is_bad(self):
+        # Rising edges 40 % of T_MA late at every jitter.
+        skewed = self.path("skew.toml", "[[channel]]\nnumber = 1\nskew_ns = -40\n"
+                           "[[channel.slave]]\nprotocol = \"biss-c\"\ndata_bits = 28\n")
+        result = run("sweep", skewed, "--delays", "20", "--jitters", "0", "--frames", "3")
+        self.assertEqual(result.returncode, 1, result.stdout)
+        self.assertIn("jitter up to 25 % (I305): BAD", result.stdout)
+        result = run("sweep", RESOLUTE, "--delays", "0", "--jitters", "80", "--frames", "5")
+        self.assertEqual(result.returncode, 0)
+        self.assertIn("not tried", result.stdout)
 
 
 if __name__ == "__main__":

@@ -136,8 +136,7 @@ int run(int argc, char** argv) {
   sweep_app->footer(
       "LIST is A, A,B,C or FROM:TO:STEP. The rest of the cable is as the scenario says. Exit "
       "status "
-      "1 if a word was bad with jitter up to 25 % (I305).
-      "
+      "1 if a word was bad with jitter up to 25 % (I305).\n"
       "Example: mb4sim sweep examples/resolute-26.toml --jitters 0:60:5 --freqs 0,3 --svg eye.svg");
   sweep_app->callback([&] { command = [&] { return mb4::tool::sweep_command(sweep_options); }; });
 

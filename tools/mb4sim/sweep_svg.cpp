@@ -117,7 +117,8 @@ std::string panel(const Sweep& sweep, const SweepPlane& plane, double top) {
   const Axis y{rows.front(), rows.back(), top + kPlotHeight, top};
   std::string out =
       text(kLeft, top - 8, "head",
-           fmt::format("FREQS 0x{:02X}: MA {} Hz, T_MA {} ns", plane.freqs, plane.ma_hz,
+           fmt::format("FREQS 0x{:02X}: MA {} kHz, T_MA {} ns", plane.freqs,
+                       thousandths(static_cast<long long>(plane.ma_hz)),
                        thousandths(std::llround(1e12 / static_cast<double>(plane.ma_hz)))));
   for (std::size_t d = 0; d < delays.size(); ++d) {
     for (std::size_t j = 0; j < jitters.size(); ++j) {
@@ -185,7 +186,8 @@ std::string sweep_svg(const Sweep& sweep) {
       "viewBox=\"0 0 {0} {1}\">\n"
       "<style>text {{ font: 12px sans-serif; fill: #222 }} .title {{ font-size: 15px; font-weight: "
       "bold }} .head {{ font-weight: bold }} .mid {{ text-anchor: middle }} .end {{ text-anchor: "
-      "end }} .small {{ font-size: 11px }}</style>\n"
+      "end }} .small {{ font-size: 11px }} rect {{ shape-rendering: "
+      "crispEdges }}</style>\n"
       "<rect width=\"100%\" height=\"100%\" fill=\"#fff\"/>\n",
       width, height);
   out += text(kLeft, 24, "title",
