@@ -3,7 +3,7 @@
 //
 // No pulse at MA is shorter than half of the configured period (I302, I303), whatever cuts a frame.
 // The guard at the MA pins ends a simulation that breaks this: see MaGuard and MaPulseCheck in
-// tests/unit. The MA force bits (page 23) are not implemented in this version.
+// tests/unit. The MA force bits (page 33) are not implemented in this version.
 #include <gtest/gtest.h>
 
 #include <string>
