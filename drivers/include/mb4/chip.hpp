@@ -61,16 +61,18 @@ void pause(Clock& clock, std::uint32_t time_us) {
 // 40 us are common.
 inline constexpr std::uint32_t kLineRecoveryUs = 100;
 
-// The control communication in progress.
+// The control communication in progress, and what is left of the last one.
 struct ControlState {
   enum class Kind : std::uint8_t { kNone, kRead, kWrite, kCommand };
 
   Kind kind = Kind::kNone;
-  std::uint8_t count = 0;  // registers of this part, 1..64
-  bool first_frame = false;
-  std::uint32_t start_us = 0;
+  std::uint8_t readable = 0;   // registers that a finished read has left in RDATA
+  std::uint8_t count = 0;      // registers of this access, 1..64
+  bool first_frame = false;    // REGEND may still be the one of the last access
+  std::uint32_t start_us = 0;  // of this frame, or with automatic frames of the access
   std::uint32_t timeout_us = 0;
-  std::uint32_t polls_left = 0;
+  std::uint32_t frames_left = 0;  // without automatic frames
+  std::uint32_t polls_left = 0;   // should the time source stand still
 };
 
 template <typename Bus, typename Clock>
@@ -89,8 +91,8 @@ struct Chip {
   // A frame may still run and SVALID is unknown: BREAK and clearing come before the next request.
   // Set by every error after the first transfer, whatever it is.
   bool recover_first = true;
-  // Automatic::next() has reported a frame in which no slave was good; it may still be the last.
-  bool bad_frame_reported = false;
+  // Automatic frames are wanted, but need BREAK and a new start before (Table 69).
+  bool restart = false;
   ControlState control{};
 
   // One status snapshot. kTransport, kNotDetected.

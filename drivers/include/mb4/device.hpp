@@ -11,9 +11,11 @@
 #include <cstdint>
 
 #include "mb4/acquisition.hpp"
+#include "mb4/automatic.hpp"
 #include "mb4/bus.hpp"
 #include "mb4/chip.hpp"
 #include "mb4/config.hpp"
+#include "mb4/control.hpp"
 #include "mb4/fields.hpp"
 #include "mb4/frame.hpp"
 #include "mb4/opcodes.hpp"
@@ -77,6 +79,7 @@ class Device {
     }
     chip_.configured = false;
     chip_.automatic = false;
+    chip_.restart = false;
     chip_.control = {};
     const RegisterImage image = encode_registers(config);
     const std::array<std::uint8_t, 2> stop_and_interface{regs::BREAK::encode<1>(),
@@ -93,7 +96,6 @@ class Device {
     chip_.config = config;
     chip_.configured = true;
     chip_.recover_first = false;
-    chip_.bad_frame_reported = false;
     return {};
   }
 
@@ -146,6 +148,7 @@ class Device {
   // read gives the slaves 100 us for their timeout first.
   Result<void> break_transmission() {
     chip_.recover_first = true;
+    chip_.restart = false;
     return chip_.write_break();
   }
 
@@ -160,6 +163,11 @@ class Device {
     }
     return chip_.clear_valid(static_cast<std::uint8_t>(1U << (slave - 1U)));
   }
+
+  // Frames that come by themselves; see automatic.hpp. Cheap to make, keeps nothing itself.
+  [[nodiscard]] Automatic<Bus, Clock> automatic() { return Automatic<Bus, Clock>(chip_); }
+  // Registers of the slaves and commands; see control.hpp. Cheap to make, keeps nothing itself.
+  [[nodiscard]] Control<Bus, Clock> control() { return Control<Bus, Clock>(chip_); }
 
   // The lower layers, for what Device does not cover. See their headers for what they do not
   // protect from.

@@ -8,10 +8,14 @@
 #define MB4_MB4_HPP_
 
 #include "mb4/acquisition.hpp"
+#include "mb4/automatic.hpp"
 #include "mb4/bus.hpp"
 #include "mb4/chip.hpp"
 #include "mb4/config.hpp"
 #include "mb4/config_data.hpp"
+#include "mb4/control.hpp"
+#include "mb4/control_data.hpp"
+#include "mb4/control_steps.hpp"
 #include "mb4/crc.hpp"
 #include "mb4/device.hpp"
 #include "mb4/fields.hpp"
@@ -21,6 +25,7 @@
 #include "mb4/reading.hpp"
 #include "mb4/register_image.hpp"
 #include "mb4/result.hpp"
+#include "mb4/scan.hpp"
 #include "mb4/span.hpp"
 #include "mb4/status.hpp"
 #include "mb4/version.hpp"

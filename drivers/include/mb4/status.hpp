@@ -40,6 +40,11 @@ class Status {
   [[nodiscard]] constexpr bool start_error() const { return get<regs::nAGSERR>() == 0; }
   // A CRC of the last frame was wrong (nSCDERR = 0).
   [[nodiscard]] constexpr bool scd_error() const { return get<regs::nSCDERR>() == 0; }
+  // Control communication: ended (REGEND = 1), with or without success.
+  [[nodiscard]] constexpr bool control_ended() const { return get<regs::REGEND>() == 1; }
+  // The last one has failed (nREGERR = 0); the slave's start bit did not come (nDELAYERR = 0).
+  [[nodiscard]] constexpr bool control_error() const { return get<regs::nREGERR>() == 0; }
+  [[nodiscard]] constexpr bool delay_error() const { return get<regs::nDELAYERR>() == 0; }
   // NER is low (nERR = 0): one of the chip's errors, or another device on that pin.
   [[nodiscard]] constexpr bool ner_low() const { return get<regs::nERR>() == 0; }
   // SVALIDx of slave 1..8, of the bank that the host reads.

@@ -1,0 +1,105 @@
+// SPDX-FileCopyrightText: 2026 The openmb4 authors
+// SPDX-License-Identifier: Apache-2.0
+
+// Layer 4: control communication of BiSS C: registers of the slaves and commands.
+
+#ifndef MB4_CONTROL_HPP_
+#define MB4_CONTROL_HPP_
+
+#include <cstddef>
+#include <cstdint>
+
+#include "mb4/chip.hpp"
+#include "mb4/control_data.hpp"
+#include "mb4/control_steps.hpp"
+#include "mb4/result.hpp"
+#include "mb4/span.hpp"
+
+namespace mb4 {
+
+// The calls of ControlSteps, and their blocking forms:
+//
+//   device.control().read_registers({1, 0}, 0x78, id);       // channel 1, ID 0
+//
+// A call ends within the time that ControlSteps::poll() allows, whatever chip and slave do.
+template <typename Bus, typename Clock>
+class Control : public ControlSteps<Bus, Clock> {
+  using Steps = ControlSteps<Bus, Clock>;
+
+ public:
+  using Steps::Steps;
+
+  // Reads out.size() (1..128) registers from `address`, in parts of 64; address + size <= 128.
+  // Errors of begin_read() and poll(); after kTransport and kNotDetected BREAK has been tried.
+  // ErrorInfo::bytes counts over all parts; only as many bytes of `out` mean anything.
+  Result<void> read_registers(SlaveAddress slave, std::uint8_t address, Span<std::uint8_t> out) {
+    return in_parts(address, out.size(),
+                    [&](std::uint8_t from, std::size_t done, std::size_t count) -> Result<void> {
+                      Result<void> result = Steps::begin_read(slave, from, count);
+                      if (result) {
+                        result = wait();
+                      }
+                      return result ? Steps::take(Span<std::uint8_t>(out.data() + done, count))
+                                    : result;
+                    });
+  }
+
+  // Writes data.size() (1..128) registers from `address`, in parts of 64. Errors as of
+  // read_registers(); registers before ErrorInfo::bytes are written, the next may be.
+  Result<void> write_registers(SlaveAddress slave, std::uint8_t address,
+                               Span<const std::uint8_t> data) {
+    return in_parts(address, data.size(),
+                    [&](std::uint8_t from, std::size_t done, std::size_t count) -> Result<void> {
+                      Result<void> result = Steps::begin_write(
+                          slave, from, Span<const std::uint8_t>(data.data() + done, count));
+                      return result ? wait() : result;
+                    });
+  }
+
+  // Sends a command and waits for its end. Errors of begin_command() and poll().
+  Result<void> send(const Command& command) {
+    const Result<void> begun = Steps::begin_command(command);
+    return begun ? wait() : begun;
+  }
+
+ private:
+  Result<void> wait() {
+    for (;;) {
+      const Result<bool> ended = Steps::poll();
+      if (!ended) {
+        if (Steps::running()) {
+          // The first error is the news, whatever becomes of BREAK.
+          static_cast<void>(Steps::abort());
+        }
+        return ended.info();
+      }
+      if (*ended) {
+        return {};
+      }
+    }
+  }
+
+  template <typename Part>
+  Result<void> in_parts(std::uint8_t address, std::size_t size, Part part) {
+    if (size > kSlaveRegisters || address + size > kSlaveRegisters) {
+      return Error::kInvalidArgument;
+    }
+    std::size_t done = 0;
+    do {
+      const std::size_t left = size - done;
+      const std::size_t count = left < kMaxRegistersPerAccess ? left : kMaxRegistersPerAccess;
+      if (const Result<void> result = part(static_cast<std::uint8_t>(address + done), done, count);
+          !result) {
+        ErrorInfo error = result.info();
+        error.bytes = static_cast<std::uint8_t>(error.bytes + done);
+        return error;
+      }
+      done += count;
+    } while (done < size);
+    return {};
+  }
+};
+
+}  // namespace mb4
+
+#endif  // MB4_CONTROL_HPP_

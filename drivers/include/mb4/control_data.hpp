@@ -1,0 +1,105 @@
+// SPDX-FileCopyrightText: 2026 The openmb4 authors
+// SPDX-License-Identifier: Apache-2.0
+
+// Whom a control communication addresses, and how long it may take.
+
+#ifndef MB4_CONTROL_DATA_HPP_
+#define MB4_CONTROL_DATA_HPP_
+
+#include <cstddef>
+#include <cstdint>
+
+#include "mb4/config.hpp"
+
+namespace mb4 {
+
+// Registers of a slave that one access can transfer (REGNUM, table 30), and that a slave has as
+// seen through the 7-bit address (table 28).
+inline constexpr std::size_t kMaxRegistersPerAccess = 64;
+inline constexpr std::size_t kSlaveRegisters = 128;
+inline constexpr std::uint8_t kSlaveIds = 8;
+
+// Whose registers: channel 1 or 2, and slave ID 0..7. ID 0 is the last slave of the channel, the
+// one farthest from SL; see slave_address().
+struct SlaveAddress {
+  std::uint8_t channel = 1;
+  std::uint8_t id = 0;
+};
+
+// The address of slave `slave` (1..8, enabled, as in SCDATAx) on a channel where every device has
+// one data channel and one ID. IDs count from the far end: of n slaves on the channel, the one next
+// to SL has ID n - 1.
+[[nodiscard]] constexpr SlaveAddress slave_address(const Config& config, std::uint8_t slave) {
+  SlaveAddress address;
+  address.channel = channel_of(config, slave);
+  for (std::size_t other = slave + 1U; other <= kSlaves; ++other) {
+    if (config.slaves[other - 1].enabled && channel_of(config, other) == address.channel) {
+      ++address.id;
+    }
+  }
+  return address;
+}
+
+// A BiSS command (page 29).
+struct Command {
+  // CHSEL: bit 0 = channel 1, bit 1 = channel 2; both at once are allowed.
+  std::uint8_t channels = 1;
+  // Addressed slaves: bit n = ID n. 0 = broadcast, which no slave acknowledges.
+  std::uint8_t ids = 0;
+  // CMD, 0..3. Broadcast 3 is reserved. What the codes mean is the protocol's and the device's
+  // business; broadcast 0 ends the single-cycle data of all slaves, for instance.
+  std::uint8_t code = 0;
+  // IDA_TEST: the slaves execute only if exactly those addressed have acknowledged. Not with
+  // broadcast.
+  bool test_acknowledge = false;
+};
+
+namespace detail {
+
+// Frames of an access to `count` registers without busy time: 14 with CDM = 0, 18 of the header, 14
+// for each register, one for the last CDS; and two to spare. A command needs less than a register.
+constexpr std::uint32_t control_frames(std::uint8_t count) {
+  return 14U + 18U + 14U * count + 1U + 2U;
+}
+
+// Time that a slave may take beyond that. The chip's own limit, after which it reports nDELAYERR,
+// is 4096 periods of the register clock, 64 MA periods each with FREQR = 5 (pages 30, 34); a
+// quarter is added, so that the chip comes first.
+constexpr std::uint32_t register_busy_us(const Config& config) {
+  if (config.register_busy_us != 0) {
+    return config.register_busy_us;
+  }
+  constexpr std::uint64_t kPeriods = std::uint64_t{4096} * 64 * 5 / 4;
+  const std::uint64_t us = kPeriods * 1'000'000 / config.ma_hz + 1;
+  // D05: the internal oscillator may be slower than stated.
+  return static_cast<std::uint32_t>(config.clock_source == ClockSource::kInternal ? 3 * us : us);
+}
+
+// Microseconds from one automatic frame to the next, at most. With FrameStart::kOnPin the caller
+// decides; there it is what a frame may take.
+constexpr std::uint32_t frame_pitch_us(const Config& config) {
+  if (config.frame_start != FrameStart::kPeriodic) {
+    return frame_timeout_us(config);
+  }
+  const std::uint32_t us = config.frame_period_clk / (config.f_clk_hz / 1'000'000U) + 1U;
+  return config.clock_source == ClockSource::kInternal ? 3 * us : us;
+}
+
+// Longest access under automatic frames. At most 930 * 1 s + 13 s, which 32 bits hold.
+constexpr std::uint32_t control_timeout_us(const Config& config, std::uint8_t count) {
+  return control_frames(count) * frame_pitch_us(config) + register_busy_us(config) + kFrameMarginUs;
+}
+
+// Without automatic frames the host sets the pace, so frames are counted instead: a busy slave
+// takes as many as fit into its time, each at least as long as its MA periods.
+constexpr std::uint32_t control_frame_limit(const Config& config, std::uint8_t count) {
+  const std::uint64_t busy_periods =
+      std::uint64_t{register_busy_us(config)} * config.ma_hz / 1'000'000;
+  return control_frames(count) + static_cast<std::uint32_t>(busy_periods / frame_periods(config)) +
+         1U;
+}
+
+}  // namespace detail
+}  // namespace mb4
+
+#endif  // MB4_CONTROL_DATA_HPP_

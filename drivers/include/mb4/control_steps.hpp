@@ -1,0 +1,286 @@
+// SPDX-FileCopyrightText: 2026 The openmb4 authors
+// SPDX-License-Identifier: Apache-2.0
+
+// Control communication of BiSS C step by step (datasheet pages 27 to 29, 34, 35): registers of the
+// slaves and commands, with and without automatic frames. Used through Control.
+
+#ifndef MB4_CONTROL_STEPS_HPP_
+#define MB4_CONTROL_STEPS_HPP_
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+#include "mb4/chip.hpp"
+#include "mb4/config.hpp"
+#include "mb4/control_data.hpp"
+#include "mb4/result.hpp"
+#include "mb4/span.hpp"
+#include "mb4/status.hpp"
+#include "mb4_regs.hpp"
+
+namespace mb4 {
+
+// One access at a time, so that the caller does something else between the frames:
+//
+//   device.control().begin_read({1, 0}, 0x78, 8);
+//   while (!*device.control().poll()) { ... }                // errors left out here
+//   device.control().take(id);
+//
+// With automatic frames (Automatic) the access runs beside them, 47 frames for one register; poll()
+// only looks. Without them each poll() that finds a frame ended starts the next one. The frames are
+// complete ones; what the slaves deliver in them without AGS is dropped.
+//
+// Errors of all begin calls, which touch nothing unless said: kNotConfigured; kBusy (one is
+// running); kInvalidArgument; kUnsupported with kFrameStart (without automatic frames
+// FrameStart::kWaitForLine is needed, because the frames follow each other at once); kTransport
+// (touched: parts of the request are in the chip, the access may or may not run; abort() it).
+template <typename Bus, typename Clock>
+class ControlSteps {
+ public:
+  explicit constexpr ControlSteps(detail::Chip<Bus, Clock>& chip) : chip_(chip) {}
+
+  // Begins to read `count` (1..64) registers from `address`; address + count <= 128. Two transfers.
+  Result<void> begin_read(SlaveAddress slave, std::uint8_t address, std::size_t count) {
+    if (const ErrorInfo no = check_access(slave, address, count); no.code != Error::kNone) {
+      return no;
+    }
+    return begin_access(slave, regs::REGADR::insert(0, address), count, Kind::kRead);
+  }
+
+  // Begins to write data.size() (1..64) registers; the data is in the chip when the call returns.
+  // Three transfers.
+  Result<void> begin_write(SlaveAddress slave, std::uint8_t address,
+                           Span<const std::uint8_t> data) {
+    if (const ErrorInfo no = check_access(slave, address, data.size()); no.code != Error::kNone) {
+      return no;
+    }
+    if (const Result<void> filled = chip_.opcodes.write_registers(regs::kAddrRdata, data);
+        !filled) {
+      return filled;
+    }
+    return begin_access(slave, regs::WNR::insert(regs::REGADR::insert(0, address), 1), data.size(),
+                        Kind::kWrite);
+  }
+
+  // Begins a command. Three transfers.
+  Result<void> begin_command(const Command& command) {
+    if (const ErrorInfo no = check_free(); no.code != Error::kNone) {
+      return no;
+    }
+    const bool broadcast = command.ids == 0;
+    if (!channels_used(command.channels) || command.code > regs::CMD::kMax ||
+        (broadcast && (command.test_acknowledge || command.code == regs::CMD::kMax))) {
+      return Error::kInvalidArgument;
+    }
+    const std::uint8_t ids = reversed(command.ids);  // IDS0 is bit 7 (table 32)
+    if (const Result<void> addressed =
+            chip_.opcodes.write_registers(regs::kAddrIds, Span<const std::uint8_t>(&ids, 1));
+        !addressed) {
+      return addressed;
+    }
+    std::uint8_t control = regs::CMD::insert(control_byte(), command.code);
+    control = regs::IDA_TEST::insert(control, command.test_acknowledge ? 1 : 0);
+    const std::array<std::uint8_t, 2> bytes{command.channels, control};
+    if (const Result<void> set = chip_.opcodes.write_registers(regs::kAddrChsel, bytes); !set) {
+      return set;
+    }
+    return begin(Kind::kCommand, 1);
+  }
+
+  // One look at what was begun; never waits. At most three transfers: status; then, without
+  // automatic frames, the next frame's instruction, or at the end SVALID = 0. Call it until it
+  // returns true or an error.
+  //
+  // False: still running. True: ended well; after a read take() the registers.
+  // kRegister, kRegisterDelay (with ErrorInfo::bytes), kCommand: ended, the chip is ready for the
+  // next one. kTimeout: BREAK was sent. kTransport, kNotDetected: still running, as far as one can
+  // tell; poll again or abort(). kWrongMode: nothing was begun.
+  //
+  // Time: register_busy_us and the frames needed, by the clock with automatic frames; without them
+  // frame_timeout_us() for each frame, and their number is limited.
+  Result<bool> poll() {
+    if (chip_.control.kind == Kind::kNone) {
+      return Error::kWrongMode;
+    }
+    detail::ControlState& state = chip_.control;
+    // Looked at before the status: who was suspended does not report a timeout without a look.
+    const bool late =
+        --state.polls_left == 0 || chip_.clock->now_us() - state.start_us >= state.timeout_us;
+    const Result<Status> status = chip_.read_status();
+    if (!status) {
+      state.polls_left += state.polls_left == 0 ? 1 : 0;
+      return status.info();
+    }
+    const bool frame_over = status->instruction_done() && (chip_.automatic || status->idle());
+    // An access needs more than one frame; REGEND = 1 after the first is left from the last one.
+    const bool stale = !chip_.automatic && state.first_frame;
+    if (frame_over && status->control_ended() && !stale) {
+      return finish(*status);
+    }
+    if (late) {
+      return give_up();
+    }
+    if (chip_.automatic || !frame_over) {
+      return false;
+    }
+    state.first_frame = false;
+    if (--state.frames_left == 0) {
+      return give_up();
+    }
+    restart_time(frame_timeout_us(chip_.config));
+    if (const Result<void> next = chip_.write_instruction(kFrame); !next) {
+      return next.info();
+    }
+    return false;
+  }
+
+  // The registers that the last read has fetched; out.size() 1 up to their number. One transfer.
+  // kInvalidArgument (not touched): more than there are, or the last access was no good read, or
+  // something else was begun since. kTransport.
+  Result<void> take(Span<std::uint8_t> out) {
+    if (out.empty() || out.size() > chip_.control.readable) {
+      return Error::kInvalidArgument;
+    }
+    return chip_.opcodes.read_registers(regs::kAddrRdata, out);
+  }
+
+  // BREAK: ends an access at once, whatever it has done so far in the slave. Automatic frames stop
+  // as well; Automatic::next() or restart() sets them going again. One transfer. kTransport.
+  Result<void> abort() {
+    const bool restart = chip_.automatic || chip_.restart;
+    chip_.recover_first = true;
+    const Result<void> stopped = chip_.write_break();
+    chip_.restart = restart;
+    return stopped;
+  }
+
+ protected:
+  // Something was begun and has not ended.
+  [[nodiscard]] bool running() const { return chip_.control.kind != Kind::kNone; }
+
+ private:
+  using Kind = detail::ControlState::Kind;
+
+  static constexpr std::uint8_t kFrame =
+      regs::INSTR::encode<static_cast<std::uint8_t>(regs::Instr::kControl)>();
+
+  static constexpr std::uint8_t reversed(std::uint8_t bits) {
+    unsigned out = 0;
+    for (unsigned bit = 0; bit < 8; ++bit) {
+      out |= (bits >> bit & 1U) << (7 - bit);
+    }
+    return static_cast<std::uint8_t>(out);
+  }
+
+  [[nodiscard]] bool channels_used(std::uint8_t channels) const {
+    return channels >= 1 && channels <= 3 &&
+           ((channels & 1) == 0 || chip_.config.channels[0].protocol != Protocol::kUnused) &&
+           ((channels & 2) == 0 || chip_.config.channels[1].protocol != Protocol::kUnused);
+  }
+
+  [[nodiscard]] ErrorInfo check_free() const {
+    if (!chip_.configured) {
+      return Error::kNotConfigured;
+    }
+    if (chip_.control.kind != Kind::kNone) {
+      return Error::kBusy;
+    }
+    if (!chip_.automatic && chip_.config.frame_start != FrameStart::kWaitForLine) {
+      return ErrorInfo(Error::kUnsupported, ConfigField::kFrameStart, 0);
+    }
+    return {};
+  }
+
+  [[nodiscard]] ErrorInfo check_access(SlaveAddress slave, std::uint8_t address,
+                                       std::size_t count) const {
+    if (const ErrorInfo no = check_free(); no.code != Error::kNone) {
+      return no;
+    }
+    const bool good = (slave.channel == 1 || slave.channel == 2) && channels_used(slave.channel) &&
+                      slave.id < kSlaveIds && count >= 1 && count <= kMaxRegistersPerAccess &&
+                      address + count <= kSlaveRegisters;
+    return good ? ErrorInfo() : ErrorInfo(Error::kInvalidArgument);
+  }
+
+  // 0xE5 without CTS and address: what frames need of it stays as configured.
+  [[nodiscard]] std::uint8_t control_byte() const {
+    const std::uint8_t byte = regs::REGVERS::insert(0, 1);
+    return regs::HOLDCDM::insert(byte, chip_.config.hold_cdm ? 1 : 0);
+  }
+
+  Result<void> begin_access(SlaveAddress slave, std::uint8_t regadr, std::size_t count, Kind kind) {
+    std::uint8_t control = regs::CTS::insert(control_byte(), 1);
+    control = regs::SLAVEID::insert(control, slave.id);
+    // CHSEL is one-hot: 1 and 2 are the codes of the channels.
+    const std::array<std::uint8_t, 4> bytes{regadr, static_cast<std::uint8_t>(count - 1),
+                                            slave.channel, control};
+    if (const Result<void> set = chip_.opcodes.write_registers(regs::kAddrRegadr, bytes); !set) {
+      return set;
+    }
+    return begin(kind, count);
+  }
+
+  Result<void> begin(Kind kind, std::size_t count) {
+    detail::ControlState& state = chip_.control;
+    // A frame of a failed single read may still run; it would take the instruction for the next.
+    if (!chip_.automatic && chip_.recover_first) {
+      if (const Result<void> recovered = chip_.recover(); !recovered) {
+        return recovered;
+      }
+    }
+    chip_.recover_first = true;
+    const std::uint8_t registers = static_cast<std::uint8_t>(count);
+    state.readable = 0;
+    state.kind = kind;
+    state.count = registers;
+    state.first_frame = true;
+    state.frames_left = detail::control_frame_limit(chip_.config, registers);
+    restart_time(chip_.automatic ? detail::control_timeout_us(chip_.config, registers)
+                                 : frame_timeout_us(chip_.config));
+    return chip_.write_instruction(
+        chip_.automatic ? static_cast<std::uint8_t>(kFrame | regs::AGS::encode<1>()) : kFrame);
+  }
+
+  void restart_time(std::uint32_t timeout_us) {
+    chip_.control.start_us = chip_.clock->now_us();
+    chip_.control.timeout_us = timeout_us;
+    chip_.control.polls_left = timeout_us + timeout_us / 16 + 2;  // as of detail::Deadline
+  }
+
+  Result<bool> finish(const Status& status) {
+    detail::ControlState& state = chip_.control;
+    const Kind kind = state.kind;
+    state.kind = Kind::kNone;
+    // Without AGS the frames have set SVALID, and the next single frame wants it clear. Otherwise
+    // the flags belong to Automatic.
+    if (!chip_.automatic) {
+      if (const Result<void> clear = chip_.clear_valid(enabled_slaves(chip_.config)); clear) {
+        chip_.recover_first = false;
+      }
+    }
+    ErrorInfo error;
+    if (status.delay_error() && kind != Kind::kCommand) {
+      error = Error::kRegisterDelay;
+    } else if (status.control_error()) {
+      error = kind == Kind::kCommand ? Error::kCommand : Error::kRegister;
+    }
+    if (error.code != Error::kNone) {
+      error.bytes = kind == Kind::kCommand ? std::uint8_t{0} : status.get<regs::REGBYTES>();
+      return error;
+    }
+    state.readable = kind == Kind::kRead ? state.count : std::uint8_t{0};
+    return true;
+  }
+
+  Result<bool> give_up() {
+    const Result<void> stopped = abort();
+    return stopped ? ErrorInfo(Error::kTimeout) : stopped.info();
+  }
+
+  detail::Chip<Bus, Clock>& chip_;
+};
+
+}  // namespace mb4
+
+#endif  // MB4_CONTROL_STEPS_HPP_
