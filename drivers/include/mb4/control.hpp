@@ -35,10 +35,7 @@ class Control : public ControlSteps<Bus, Clock> {
   Result<void> read_registers(SlaveAddress slave, std::uint8_t address, Span<std::uint8_t> out) {
     return in_parts(address, out.size(),
                     [&](std::uint8_t from, std::size_t done, std::size_t count) -> Result<void> {
-                      Result<void> result = Steps::begin_read(slave, from, count);
-                      if (result) {
-                        result = wait();
-                      }
+                      const Result<void> result = wait(Steps::begin_read(slave, from, count));
                       return result ? Steps::take(Span<std::uint8_t>(out.data() + done, count))
                                     : result;
                     });
@@ -50,33 +47,29 @@ class Control : public ControlSteps<Bus, Clock> {
                                Span<const std::uint8_t> data) {
     return in_parts(address, data.size(),
                     [&](std::uint8_t from, std::size_t done, std::size_t count) -> Result<void> {
-                      Result<void> result = Steps::begin_write(
-                          slave, from, Span<const std::uint8_t>(data.data() + done, count));
-                      return result ? wait() : result;
+                      return wait(Steps::begin_write(
+                          slave, from, Span<const std::uint8_t>(data.data() + done, count)));
                     });
   }
 
   // Sends a command and waits for its end. Errors of begin_command() and poll().
-  Result<void> send(const Command& command) {
-    const Result<void> begun = Steps::begin_command(command);
-    return begun ? wait() : begun;
-  }
+  Result<void> send(const Command& command) { return wait(Steps::begin_command(command)); }
 
  private:
-  Result<void> wait() {
-    for (;;) {
-      const Result<bool> ended = Steps::poll();
-      if (!ended) {
-        if (Steps::running()) {
-          // The first error is the news, whatever becomes of BREAK.
-          static_cast<void>(Steps::abort());
-        }
-        return ended.info();
-      }
-      if (*ended) {
-        return {};
-      }
+  // `begun` as a begin call has returned it. Leaves nothing running behind an error; the first
+  // error is the news, whatever becomes of BREAK.
+  Result<void> wait(const Result<void>& begun) {
+    if (!begun && begun.error() != Error::kTransport) {
+      return begun;
     }
+    Result<bool> ended = begun ? Result<bool>(false) : Result<bool>(begun.info());
+    while (ended && !*ended) {
+      ended = Steps::poll();
+    }
+    if (Steps::running()) {
+      static_cast<void>(Steps::abort());
+    }
+    return ended ? Result<void>() : Result<void>(ended.info());
   }
 
   template <typename Part>
