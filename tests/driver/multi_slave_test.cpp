@@ -85,13 +85,19 @@ TEST(MultiSlaveConfig, TwoChannels_FrameIsTheLongerOne) {
   EXPECT_EQ(mb4::channel_of(mb4_test::encoder26(), 5), 1);
 }
 
-// Page 27: with HOLDCDM the master need not be configured according to the slaves.
-TEST(MultiSlaveConfig, ChannelWithoutSlave_NeedsHoldCdm) {
+// Page 27: with HOLDCDM the master need not be configured according to the slaves; page 30: AGSMIN
+// needs complete frames all the same.
+TEST(MultiSlaveConfig, ChannelWithoutSlave_NeedsHoldCdmAndNoWaitForLine) {
   Config config = mb4_test::encoder26();
   config.slaves[0].enabled = false;
   EXPECT_EQ(mb4::validate(config).info().field, mb4::ConfigField::kSlaveEnabled);
   config.hold_cdm = true;
+  EXPECT_EQ(mb4::validate(config).info().field, mb4::ConfigField::kSlaveEnabled);
+  config.frame_start = mb4::FrameStart::kPeriodic;
+  config.frame_period_clk = 2000;
   EXPECT_TRUE(mb4::validate(config).ok());
+  config.hold_cdm = false;
+  EXPECT_EQ(mb4::validate(config).info().field, mb4::ConfigField::kSlaveEnabled);
 }
 
 TEST(MultiSlaveConfig, OnlyChannel2_IsValid) {

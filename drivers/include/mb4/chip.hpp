@@ -66,13 +66,14 @@ struct ControlState {
   enum class Kind : std::uint8_t { kNone, kRead, kWrite, kCommand };
 
   Kind kind = Kind::kNone;
-  std::uint8_t readable = 0;   // registers that a finished read has left in RDATA
-  std::uint8_t count = 0;      // registers of this access, 1..64
-  bool first_frame = false;    // REGEND may still be the one of the last access
-  std::uint32_t start_us = 0;  // of this frame, or with automatic frames of the access
+  std::uint8_t readable = 0;    // registers that a finished read has left in RDATA
+  std::uint8_t count = 0;       // registers of this access, 1..64
+  bool first_frame = false;     // REGEND may still be the one of the last access
+  std::uint32_t start_us = 0;   // of this frame, or with automatic frames of the access
+  std::uint32_t access_us = 0;  // start of the access
   std::uint32_t timeout_us = 0;
-  std::uint32_t frames_left = 0;  // without automatic frames
-  std::uint32_t polls_left = 0;   // should the time source stand still
+  std::uint32_t frames = 0;      // begun so far, without automatic frames
+  std::uint32_t polls_left = 0;  // should the time source stand still
 };
 
 template <typename Bus, typename Clock>

@@ -186,7 +186,9 @@ constexpr ErrorInfo check_occupation(const Config& config) {
       continue;
     }
     any_used = true;
-    if (!config.hold_cdm && !channel_has_slave(config, number)) {
+    // Such frames are not clocked out, so SL = 1 does not mean that the slave is ready (page 30).
+    const bool without_data = config.hold_cdm && config.frame_start != FrameStart::kWaitForLine;
+    if (!without_data && !channel_has_slave(config, number)) {
       return invalid(ConfigField::kSlaveEnabled, number == 1 ? 1 : kSlaves / 2 + 1);
     }
   }

@@ -95,8 +95,9 @@ struct Config {
   bool single_bank = false;
 
   // HOLDCDM (table 25). True: MA keeps its level from the end of a frame to the next one, so that
-  // slaves see CDM although their data is not clocked out completely. Only then a used channel may
-  // have no enabled slave, as for control communication with slaves that are not known yet.
+  // slaves see CDM although their data is not clocked out completely. Then, unless frame_start is
+  // kWaitForLine, a used channel may have no enabled slave, as for control communication with
+  // slaves that are not known yet.
   bool hold_cdm = false;
 
   // True: the chip also stores the received CRC (NOCRC = 0). Then read_frame() fetches all 8 bytes

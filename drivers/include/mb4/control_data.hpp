@@ -85,7 +85,7 @@ constexpr std::uint32_t frame_pitch_us(const Config& config) {
   return config.clock_source == ClockSource::kInternal ? 3 * us : us;
 }
 
-// Longest access under automatic frames. At most 930 * 1 s + 13 s, which 32 bits hold.
+// Longest access. At most 930 * 1 s + 13 s, which 32 bits hold.
 constexpr std::uint32_t control_timeout_us(const Config& config, std::uint8_t count) {
   return control_frames(count) * frame_pitch_us(config) + register_busy_us(config) + kFrameMarginUs;
 }

@@ -98,7 +98,7 @@ class ControlSteps {
   // tell; poll again or abort(). kWrongMode: nothing was begun.
   //
   // Time: register_busy_us and the frames needed, by the clock with automatic frames; without them
-  // frame_timeout_us() for each frame, and their number is limited.
+  // frame_timeout_us() for each frame, and when all frames needed have run register_busy_us.
   Result<bool> poll() {
     if (chip_.control.kind == Kind::kNone) {
       return Error::kWrongMode;
@@ -125,9 +125,10 @@ class ControlSteps {
       return false;
     }
     state.first_frame = false;
-    if (--state.frames_left == 0) {
+    if (enough_frames()) {
       return give_up();
     }
+    ++state.frames;
     restart_time(frame_timeout_us(chip_.config));
     if (const Result<void> next = chip_.write_instruction(kFrame); !next) {
       return next.info();
@@ -235,11 +236,22 @@ class ControlSteps {
     state.kind = kind;
     state.count = registers;
     state.first_frame = true;
-    state.frames_left = detail::control_frame_limit(chip_.config, registers);
+    state.frames = 1;
+    state.access_us = chip_.clock->now_us();
     restart_time(chip_.automatic ? detail::control_timeout_us(chip_.config, registers)
                                  : frame_timeout_us(chip_.config));
     return chip_.write_instruction(
         chip_.automatic ? static_cast<std::uint8_t>(kFrame | regs::AGS::encode<1>()) : kFrame);
+  }
+
+  // Without automatic frames the host sets the pace: an access is over for good when the frames it
+  // needs and the time of a busy slave have gone, and after as many frames as fit into that time.
+  [[nodiscard]] bool enough_frames() {
+    const detail::ControlState& state = chip_.control;
+    return state.frames >= detail::control_frame_limit(chip_.config, state.count) ||
+           (state.frames >= detail::control_frames(state.count) &&
+            chip_.clock->now_us() - state.access_us >=
+                detail::control_timeout_us(chip_.config, state.count));
   }
 
   void restart_time(std::uint32_t timeout_us) {

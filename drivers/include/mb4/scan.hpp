@@ -47,8 +47,9 @@ Result<void> read_twice(Device& device, SlaveAddress slave, std::uint8_t address
 // Asks ID 0, 1, ... of `channel` (1 or 2) until one does not answer (IDs have no gaps), and stores
 // what up to out.size() of them say. Returns how many answered, 0..8. A device with several IDs
 // counts as often. Works with any Config of that channel whose length settings are right, or with
-// none and Config::hold_cdm. Two register accesses a slave, two more for the end; a register that a
-// slave does not have costs the chip's limit, about 26 ms at f_MA = 10 MHz.
+// no slave enabled, Config::hold_cdm and automatic frames of FrameStart::kPeriodic, whose period is
+// longer than the slaves' timeout. Two register accesses a slave, two more for the end; a register
+// that a slave does not have costs the chip's limit, about 26 ms at f_MA = 10 MHz.
 //
 // Errors of Control::read_registers(), but kRegister only if a slave answered and did so wrongly
 // twice, and kRegisterDelay never.
