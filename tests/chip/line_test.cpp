@@ -8,6 +8,7 @@
 #include <string>
 
 #include "chip_fixture.hpp"
+#include "control_host.hpp"
 #include "mb4sim/ma_frequency.hpp"
 
 namespace {
@@ -175,6 +176,41 @@ TEST(ChipInit, EveryFreqsCode_MeasuresTheDelayToTheQuarter) {
     EXPECT_EQ(chip.status() & 0x41, 0x01) << code;
     EXPECT_EQ(chip.read(0xF4), 0x00);
   }
+}
+
+// Page 32: INIT sets nSCDERR, nREGERR, nDELAYERR, nAGSERR to 1 and REGEND to 0. Each is brought to
+// the other level before.
+TEST(ChipInit, AfterErrors_SetsTheFlagsAndResetsRegend) {
+  Chip chip(one_slave(kEncoder));
+  chip.configure_slave1(28, 0x06, 0x00);
+  mb4test::ControlHost host(chip);
+  host.select(0x01);
+  const auto expect_init_resets = [&](std::uint8_t flag, bool level) {
+    EXPECT_EQ((chip.status() & flag) != 0, level) << unsigned{flag};
+    chip.advance_us(50);
+    chip.instruct(0x10);
+    ASSERT_TRUE(chip.wait_eot());
+    EXPECT_EQ(chip.status(), 0xFB) << unsigned{flag};
+    EXPECT_TRUE(chip.simulator.pin(sim::Pin::kNer));
+  };
+  chip.simulator.line(1)->faults().flip_next_frame({5});
+  chip.instruct(0x04);
+  ASSERT_TRUE(chip.wait_eot());
+  expect_init_resets(0x10, false);  // nSCDERR
+
+  chip.simulator.line(1)->set_round_trip(10 * sim::kPsPerUs);
+  chip.instruct(0x10);
+  ASSERT_TRUE(chip.wait_eot());
+  chip.simulator.line(1)->set_round_trip(0);
+  expect_init_resets(0x40, false);  // nAGSERR
+
+  host.set_read(0, 0x44, 1);
+  ASSERT_NE(host.run_single(200), 0U);
+  expect_init_resets(0x04, true);  // REGEND
+
+  host.set_read(5, 0x44, 1);  // no slave of this ID
+  ASSERT_NE(host.run_single(200), 0U);
+  expect_init_resets(0x08, false);  // nREGERR
 }
 
 // TI TIDEP0022, Table 10: line delay in MA clocks for lengths and frequencies, 12 filled rows at 1,
