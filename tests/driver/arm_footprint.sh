@@ -5,13 +5,15 @@
 # Builds and links a small firmware for Cortex-M0+, prints what it takes, and rejects every symbol
 # that a driver without heap, exceptions and static constructors cannot need.
 #
-#   arm_footprint.sh FILE FLAGS...
+#   arm_footprint.sh FILE LIMIT FLAGS...
 #
-# FLAGS are the include options. Exit status 77: compiler or its C++ headers are missing.
+# LIMIT: most bytes of code and constants in the linked program. FLAGS are the include options and
+# definitions. Exit status 77: compiler or its C++ headers are missing.
 
 set -u
 file=$1
-shift
+limit=$2
+shift 2
 prefix=arm-none-eabi-
 
 if ! command -v ${prefix}g++ > /dev/null 2>&1; then
@@ -55,5 +57,10 @@ fi
 data=$(${prefix}size "$work/unit.o" | awk 'NR == 2 { print $2 }')
 if [ "$data" != 0 ]; then
   echo "the driver must have no initialised static data, but has $data bytes"
+  exit 1
+fi
+text=$(${prefix}size "$work/unit.elf" | awk 'NR == 2 { print $1 }')
+if [ "$text" -gt "$limit" ]; then
+  echo "code and constants take $text bytes, more than the limit of $limit"
   exit 1
 fi

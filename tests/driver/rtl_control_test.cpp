@@ -192,11 +192,11 @@ INSTANTIATE_TEST_SUITE_P(Ags, DriverControl, testing::Bool(),
 // Page 27: with HOLDCDM and no data channel at all, unknown slaves can be asked.
 TEST(DriverControlUnknown, NoDataChannel_ScanWorks) {
   Chip chip(kBus);
-  Config config = config26(2'500'000);
+  Config config = config26(10'000'000);
   config.slaves[0].enabled = false;
   config.hold_cdm = true;
   config.frame_start = mb4::FrameStart::kPeriodic;
-  config.frame_period_clk = 2000;  // 100 us, longer than any timeout
+  config.frame_period_clk = 800;  // 40 us, longer than the timeout
   ASSERT_TRUE(chip.device.configure(config).ok());
   ASSERT_TRUE(chip.device.automatic().start().ok());
   std::array<mb4::SlaveIdentity, 2> found{};
