@@ -137,7 +137,7 @@ module mb4_sequencer (
   always_comb begin
     state_d        = state_q;
     held_d         = held_q;
-    new_d          = new_q;
+    new_d          = new_q && (by_instr || state_q != IDLE || held_q.init);
     use_d          = use_q;
     done_d         = done_q;
     bad_d          = bad_q;
@@ -157,6 +157,8 @@ module mb4_sequencer (
 
     unique case (state_q)
       IDLE: begin
+        // An INSTR that asks for no frame keeps none waiting that is due by itself.
+        if (new_q && !new_d && (!is_frame || !held_q.ags)) held_d.instr = 3'b000;
         if (held_q.init && !mem_busy_i) begin
           if (!regvers_i || use_i == 2'b00) begin
             held_d.init   = 1'b0;
@@ -173,9 +175,6 @@ module mb4_sequencer (
           end else if (wait_q == 11'd0) begin
             abort_o = 1'b1;
           end
-        end else if (new_q && !by_instr) begin
-          new_d = 1'b0;
-          if (!is_frame || !held_q.ags) held_d.instr = 3'b000;
         end else if ((by_instr || request_i) && !mem_busy_i && use_i != 2'b00) begin
           if (bank_pending_i && held_q.holdbank && agserr_on_hold_i) begin
             taken_o     = 1'b1;
@@ -232,9 +231,11 @@ module mb4_sequencer (
     if (ags_error_o && ags_clear_i) held_d.ags = 1'b0;
 
     if (written) begin
-      // An INIT that has not come to its end is not lost; AGS waits for it.
+      // The code whose frame runs is no new request, from its first clock to the one before its
+      // end. An INIT that has not come to its end is not lost; AGS waits for it.
       new_d           = written_i.instr != 3'b000 &&
-                        (new_d || state_q == IDLE || written_i.instr != held_q.instr);
+                        (new_d || (state_q != FRAME && state_d != FRAME) ||
+                         written_i.instr != held_q.instr);
       held_d.holdbank = written_i.holdbank;
       held_d.swbank   = written_i.swbank;
       held_d.ags      = written_i.ags;
