@@ -7,6 +7,8 @@
 #ifndef MB4_TESTS_BLOCK_FRAME_BENCH_HPP_
 #define MB4_TESTS_BLOCK_FRAME_BENCH_HPP_
 
+#include <gtest/gtest.h>
+
 #include <cstdint>
 #include <deque>
 #include <memory>
@@ -14,6 +16,7 @@
 #include <vector>
 
 #include "Vframe_top.h"
+#include "mb4sim/ma_pulse_check.hpp"
 #include "model_context.hpp"
 
 namespace mb4test {
@@ -180,13 +183,21 @@ class FrameBench {
       }
     }
     if (level == 1 && recording_) sample();
+    if (level == 1) ++clocks_;
     model->clk_i = static_cast<std::uint8_t>(level);
     model->eval();
     if (model->ma_o != last_ma_) {
       last_ma_ = model->ma_o;
+      const auto complaint = ma_check_.edge(time_, last_ma_ != 0, clocks_, half_clocks(), kSub);
+      if (complaint) ADD_FAILURE() << *complaint << " (16 steps a clock)";
       if (recording_) (last_ma_ != 0 ? result_.rises : result_.falls).push_back(time_);
       if (slave_ != nullptr) to_slave_.push_back({time_ + delay_out_, last_ma_ != 0});
     }
+  }
+
+  // Table 35 (0x10 is not permitted).
+  unsigned half_clocks() {
+    return model->freqs_i < 0x10 ? model->freqs_i + 1U : 10U * (model->freqs_i - 15U);
   }
 
   // Outputs are combinational: taken just before the rising edge, as the registers do.
@@ -218,6 +229,8 @@ class FrameBench {
   bool slave_ma_ = true;
   bool last_out_ = true;
   std::uint8_t last_ma_ = 1;
+  std::uint64_t clocks_ = 0;
+  mb4::sim::MaPulseCheck ma_check_;
   bool recording_ = false;
   Result result_{};
 };

@@ -197,17 +197,25 @@ TEST(ChipChain, LargestConfiguration_OneLineAndTwo) {
   }
 }
 
-// One sensor of one bit without CRC: six edges.
+// One sensor of one bit without CRC, on one line and on each of two: six edges at f_CLK / 2.
 TEST(ChipChain, SmallestConfiguration_OneBit) {
-  for (const char* bit : {"0", "1"}) {
-    ChainBench bench(sim::parse_scenario(
-        std::string("[[channel]]\nnumber = 1\n[[channel.slave]]\nprotocol = \"biss-c\"\n"
-                    "data_bits = 1\nflag_bits = 0\ncrc = 0\ndata = ") +
-            bit + "\n",
-        "smallest.toml"));
-    for (std::uint64_t frame = 0; frame < 4; ++frame) {
-      bench.check_frame(frame);
-      EXPECT_EQ(bench.simulator.line(1)->monitor().last(bench.simulator.now()).rising, 6U);
+  for (const bool two : {false, true}) {
+    for (const char* bit : {"0", "1"}) {
+      std::string text;
+      for (const char* number : {"1", "2"}) {
+        text += std::string("[[channel]]\nnumber = ") + number +
+                "\n[[channel.slave]]\nprotocol = \"biss-c\"\ndata_bits = 1\nflag_bits = 0\n"
+                "crc = 0\ndata = " +
+                bit + "\n";
+        if (!two) break;
+      }
+      ChainBench bench(sim::parse_scenario(text, "smallest.toml"));
+      for (std::uint64_t frame = 0; frame < 4; ++frame) {
+        bench.check_frame(frame);
+        for (const unsigned line : {1U, two ? 2U : 1U}) {
+          EXPECT_EQ(bench.simulator.line(line)->monitor().last(bench.simulator.now()).rising, 6U);
+        }
+      }
     }
   }
 }

@@ -250,10 +250,17 @@ TEST(Control, MissingRegister_SetsNDelayErrAfterTheLimit) {
     EXPECT_LT(us, limit * 1.1 + 400) << "half a period a frame, and 46 frames before";
     EXPECT_EQ(host.status() & ~1U, 0xFE & ~kNoDelayErr & ~0x80);
     EXPECT_EQ(host.regbytes(), 1U) << "Table 63: one byte was good";
+    if (freqr == 0) {
+      chip.instruct(0x10);
+      ASSERT_TRUE(chip.wait_eot());
+      EXPECT_EQ(host.status(), 0xFB) << "INIT";
+      EXPECT_EQ(host.regbytes(), 0U) << "Table 63: INIT resets it";
+    }
     std::printf("FREQR %u: nDELAYERR after %.0f us, limit %.0f us\n", freqr, us, limit);
     host.set_read(0, 0x20, 1);
     ASSERT_TRUE(host.run_ags(2000));
     EXPECT_EQ(host.status() & ~1U, 0xFE);
+    EXPECT_EQ(host.regbytes(), 0U) << "Table 63: so does a new control communication";
   }
 }
 
@@ -270,6 +277,11 @@ TEST(Control, MissingRegisterWithoutFrames_EndsByTime) {
   EXPECT_EQ(host.status() & kRegend, 0);
   chip.advance_us(26300);
   EXPECT_EQ(host.status(), 0xFF & ~kNoDelayErr & ~0x80);
+  EXPECT_FALSE(chip.simulator.pin(sim::Pin::kNer)) << "page 34: NER";
+  chip.instruct(0x80);
+  chip.advance_us(1);
+  EXPECT_EQ(host.status(), 0xFB) << "BREAK";
+  EXPECT_TRUE(chip.simulator.pin(sim::Pin::kNer));
 }
 
 // S is repeated while the slave is busy (facts 3.5); nothing is lost, whatever the time.

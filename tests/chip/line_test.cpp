@@ -32,8 +32,8 @@ std::vector<unsigned> all_codes() {
 sim::Time period_of(unsigned code) { return sim::ma_divider(code) * kClock; }
 
 // Frame by hand; true if SVALID1 = 1, nSCDERR = 1 and the position is right.
-bool good_frame(Chip& chip, std::uint64_t limit_us = 5000) {
-  chip.instruct(0x04);
+bool good_frame(Chip& chip, std::uint64_t limit_us = 5000, std::uint8_t instruction = 0x04) {
+  chip.instruct(instruction);
   if (!chip.wait_eot(limit_us)) return false;
   const auto status = chip.spi({0x05, 0, 0});
   return (status[1] & 0x11) == 0x11 && (status[2] & 0x02) != 0 &&
@@ -56,6 +56,32 @@ TEST(ChipLine, DelayOf10To1000Periods_NormalFramesWork) {
         chip.simulator.advance(3 * periods * period_of(code));
         EXPECT_TRUE(chip.simulator.slave(1)->idle());
       }
+    }
+  }
+}
+
+// I306: a slave may end its frame after MA has rested for 55 % of a period. Then SL is low behind
+// the last bit for no longer than that, and the slave has taken CDM before the master can know.
+TEST(ChipLine, SlaveTimeoutOf55Percent_FramesAndCdmAreRight) {
+  for (const unsigned code : all_codes()) {
+    const auto period = period_of(code);
+    for (const unsigned percent : {0U, 60U, 230U}) {
+      const double us = static_cast<double>(period) * 0.55 / sim::kPsPerUs;
+      Chip chip(one_slave(std::string(kEncoder) + "\ntimeout = " + std::to_string(us)));
+      chip.configure_slave1(28, 0x06, static_cast<std::uint8_t>(code), 0x7C);
+      chip.simulator.line(1)->set_round_trip(period / 100 * percent);
+      for (const unsigned hold : {0U, 1U}) {
+        chip.write(0xE5, {static_cast<std::uint8_t>(0x40 | hold)});
+        for (const unsigned instr : {0x02U, 0x04U, 0x02U}) {
+          ASSERT_TRUE(good_frame(chip, 5000, static_cast<std::uint8_t>(instr)))
+              << code << " " << percent << " " << hold << " " << instr;
+          chip.simulator.advance(5 * period);
+          EXPECT_TRUE(chip.simulator.slave(1)->idle());
+          EXPECT_EQ(chip.simulator.slave(1)->last_cdm(), instr == 0x02) << code << " " << percent;
+          EXPECT_EQ(chip.simulator.pin(sim::Pin::kMa1), hold == 0 || instr == 0x04);
+        }
+      }
+      EXPECT_EQ(chip.status(), 0xFB);
     }
   }
 }
