@@ -6,9 +6,12 @@
 #include <sstream>
 
 #include "bits.hpp"
+#include "mb4sim/ma_frequency.hpp"
 
 namespace mb4test {
 namespace {
+
+namespace sim = mb4::sim;
 
 std::uint64_t data_word(Random& random, unsigned bits) {
   const std::uint64_t value = random.one_in(8) ? 0 : random.one_in(8) ? ~0ULL : random.word();
@@ -63,8 +66,12 @@ std::vector<unsigned> make_flips(Random& random, unsigned length) {
 
 std::string channel_text(Random& random, const RandomCase& result, unsigned line) {
   const unsigned delay = random.one_in(3) ? 0 : random.below(random.one_in(10) ? 20'000 : 900);
+  // I305: any two edges may deviate by 25 % of T_MA; rounded down.
+  const std::uint64_t period_ns = sim::ma_divider(result.freqs) * 1'000'000'000 / result.f_clk_hz;
+  const auto jitter = random.one_in(3) ? random.below(static_cast<unsigned>(period_ns / 4) + 1) : 0;
   std::ostringstream text;
-  text << "[[channel]]\nnumber = " << line + 1 << "\ndelay_ns = " << delay << ".0\nflips = [";
+  text << "[[channel]]\nnumber = " << line + 1 << "\ndelay_ns = " << delay
+       << ".0\njitter_ns = " << jitter << "\nflips = [";
   for (unsigned frame = 0; frame < RandomCase::kFrames; ++frame) {
     if (result.flips[line][frame].empty()) continue;
     text << "[" << frame + 1;
@@ -135,7 +142,8 @@ RandomCase make_case(Random& random) {
     for (auto& flips : result.flips[line]) flips = make_flips(random, length);
     text += channel_text(random, result, line);
   }
-  result.scenario.text = text;
+  result.scenario.text = "[sim]\nseed = " + std::to_string(random.below(1000)) + "\n" + text;
+  result.hold_cdm = random.one_in(4);
   return result;
 }
 

@@ -36,6 +36,7 @@ struct RandomCase {
   std::array<std::array<std::vector<unsigned>, kFrames>, 2> flips;  // bits behind the start bit
   std::uint8_t cfgch = 0;
   std::uint8_t chsel = 0;  // lines that CDM is sent on, 0 = line 1
+  bool hold_cdm = false;   // HOLDCDM
   unsigned freqs = 0;
   std::uint64_t f_clk_hz = 0;
   WordScenario scenario;

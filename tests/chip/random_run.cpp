@@ -116,7 +116,8 @@ void RandomRun::fill_bank() {
 void RandomRun::configure() {
   session_.wait_ns(10'000);  // the memories are cleared
   session_.write(0xC0, {case_.registers.slave.begin(), case_.registers.slave.end()});
-  session_.write(0xE4, {case_.chsel, 0x40, static_cast<std::uint8_t>(0xA0 | case_.freqs),
+  session_.write(0xE4, {case_.chsel, static_cast<std::uint8_t>(case_.hold_cdm ? 0x41 : 0x40),
+                        static_cast<std::uint8_t>(0xA0 | case_.freqs),
                         static_cast<std::uint8_t>((case_.registers.nocrc ? 2 : 0) |
                                                   (case_.registers.singlebank ? 1 : 0)),
                         kAgsMinCode});
