@@ -480,6 +480,28 @@ def crc6(data, bits):
         self.assertNotEqual(sweep("--seed", "2").stdout, result.stdout)
         self.assertEqual(sorted(os.listdir(self.folder.name)), ["a.csv", "a.svg"])
 
+    def test_sweep_picture_has_room_for_its_labels(self):
+        name = "x" * 50 + "\u00e9" * 39 + ".toml"  # cut inside of a character
+        scenario = self.path(name, slave("data_bits = 28"))
+        svg = "{http://www.w3.org/2000/svg}"
+        for delays, expected in (("0,10,500", ["0", "100", "200", "300", "400", "500"]),
+                                 ("0:1200:10", ["0", "200", "400", "600", "800", "1000", "1200"]),
+                                 ("17", ["17"])):
+            result = run("sweep", scenario, "--delays", delays, "--jitters", "0", "--frames", "1",
+                         "--svg", self.path("a.svg"))
+            self.assertEqual((result.returncode, result.stderr), (0, ""))
+            self.assertIn(": 1 frame at each point", result.stdout)
+            self.assertIn("\nFREQS 0x00: MA 10000 kHz, T_MA 100 ns; bad words", result.stdout)
+            texts = list(xml.etree.ElementTree.parse(self.path("a.svg")).getroot().iter(svg + "text"))
+            labels = [t for t in texts if t.get("class") == "mid" and t.text.isdigit()]
+            self.assertEqual([t.text for t in labels], expected)
+            places = [float(t.get("x")) for t in labels]
+            for left, right in zip(places, places[1:]):
+                self.assertGreater(right - left, 40)
+            title = next(t.text for t in texts if t.get("class") == "title")
+            self.assertLess(len(title), 90)
+            self.assertIn("\u00e9.toml, 1 frame at each point, seed 1", title)
+
     def test_sweep_is_status_1_when_a_frame_within_i305_is_bad(self):
         # Rising edges 40 % of T_MA late at every jitter.
         skewed = self.path("skew.toml", "[[channel]]\nnumber = 1\nskew_ns = -40\n"

@@ -5,6 +5,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace mb4::tool {
 namespace {
@@ -24,8 +25,8 @@ std::string plane_text(const Sweep& sweep, const SweepPlane& plane) {
   for (const long long jitter : sweep.jitters_mpercent) {
     width = std::max(width, thousandths(jitter).size() + 2);
   }
-  std::string out = fmt::format("\nFREQS 0x{:02X}, MA {} Hz: bad words by delay and jitter\n{:>{}}",
-                                plane.freqs, plane.ma_hz, "delay/ns", kFirstColumn);
+  std::string out = fmt::format("\n{}; bad words by delay and jitter\n{:>{}}", plane_title(plane),
+                                "delay/ns", kFirstColumn);
   for (const long long jitter : sweep.jitters_mpercent) {
     out += fmt::format("{:>{}}", thousandths(jitter) + "%", width);
   }
@@ -49,6 +50,16 @@ std::string thousandths(long long value) {
   return text;
 }
 
+std::string plane_title(const SweepPlane& plane) {
+  return fmt::format("FREQS 0x{:02X}: MA {} kHz, T_MA {} ns", plane.freqs,
+                     thousandths(static_cast<long long>(plane.ma_hz)),
+                     thousandths(std::llround(1e12 / static_cast<double>(plane.ma_hz))));
+}
+
+std::string frames_text(const Sweep& sweep) {
+  return fmt::format("{} frame{} at each point", sweep.frames, sweep.frames == 1 ? "" : "s");
+}
+
 bool Sweep::within_i305() const {
   for (const SweepPlane& plane : planes) {
     for (const auto& row : plane.points) {
@@ -61,8 +72,8 @@ bool Sweep::within_i305() const {
 }
 
 std::string sweep_text(const Sweep& sweep) {
-  std::string out = fmt::format("{}: {} frames at each point, jitter peak to peak in % of T_MA\n",
-                                sweep.scenario, sweep.frames);
+  std::string out =
+      fmt::format("{}: {}, jitter peak to peak in % of T_MA\n", sweep.scenario, frames_text(sweep));
   SweepPoint sum;
   for (const SweepPlane& plane : sweep.planes) {
     out += plane_text(sweep, plane);

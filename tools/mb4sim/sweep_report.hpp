@@ -51,6 +51,12 @@ std::string sweep_csv(const Sweep& sweep);
 // Eye margin: the share of bad words over delay and jitter, one panel for each plane.
 std::string sweep_svg(const Sweep& sweep);
 
+// "FREQS 0x00: MA 10000 kHz, T_MA 100 ns".
+std::string plane_title(const SweepPlane& plane);
+
+// "20 frames at each point".
+std::string frames_text(const Sweep& sweep);
+
 // "12.5": thousandths as a decimal number without trailing zeros.
 std::string thousandths(long long value);
 

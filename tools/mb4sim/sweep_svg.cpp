@@ -18,7 +18,7 @@ constexpr double kTop = 78;       // of the first panel: title and legend above 
 constexpr double kPanelGap = 92;  // axis and heading of the next panel
 constexpr double kRight = 40;
 constexpr double kBottom = 64;
-constexpr unsigned kMaxLabels = 9;
+constexpr long long kMaxLabels = 10;
 
 std::string escaped(const std::string& text) {
   std::string out;
@@ -87,6 +87,20 @@ struct Axis {
   }
 };
 
+// Round values for the labels of an axis: multiples of 1, 2 or 5 times a power of ten.
+std::vector<long long> ticks(const std::vector<long long>& values) {
+  long long step = 1;
+  for (unsigned i = 0; (values.back() - values.front()) / step >= kMaxLabels; ++i) {
+    step = i % 3 == 1 ? step / 2 * 5 : step * 2;
+  }
+  std::vector<long long> result;
+  for (long long value = (values.front() + step - 1) / step * step; value <= values.back();
+       value += step) {
+    result.push_back(value);
+  }
+  return result;
+}
+
 // Ascending values and, beside them, where they stand in the sweep.
 std::vector<std::size_t> order_of(const std::vector<long long>& values) {
   std::vector<std::size_t> order(values.size());
@@ -115,11 +129,7 @@ std::string panel(const Sweep& sweep, const SweepPlane& plane, double top) {
   const auto rows = borders(jitters);
   const Axis x{columns.front(), columns.back(), kLeft, kLeft + kPlotWidth};
   const Axis y{rows.front(), rows.back(), top + kPlotHeight, top};
-  std::string out =
-      text(kLeft, top - 8, "head",
-           fmt::format("FREQS 0x{:02X}: MA {} kHz, T_MA {} ns", plane.freqs,
-                       thousandths(static_cast<long long>(plane.ma_hz)),
-                       thousandths(std::llround(1e12 / static_cast<double>(plane.ma_hz)))));
+  std::string out = text(kLeft, top - 8, "head", plane_title(plane));
   for (std::size_t d = 0; d < delays.size(); ++d) {
     for (std::size_t j = 0; j < jitters.size(); ++j) {
       out +=
@@ -138,13 +148,11 @@ std::string panel(const Sweep& sweep, const SweepPlane& plane, double top) {
         kLeft, y(i305), kLeft + kPlotWidth, y(i305));
     out += text(kLeft + kPlotWidth + 4, y(i305) + 4, "small", "I305");
   }
-  const auto step = [](std::size_t count) { return (count + kMaxLabels - 1) / kMaxLabels; };
-  for (std::size_t d = 0; d < delays.size(); d += step(delays.size())) {
-    out += text(x(static_cast<double>(delays[d])), top + kPlotHeight + 16, "mid",
-                thousandths(delays[d]));
+  for (const long long delay : ticks(delays)) {
+    out += text(x(static_cast<double>(delay)), top + kPlotHeight + 16, "mid", thousandths(delay));
   }
-  for (std::size_t j = 0; j < jitters.size(); j += step(jitters.size())) {
-    out += text(kLeft - 6, y(static_cast<double>(jitters[j])) + 4, "end", thousandths(jitters[j]));
+  for (const long long jitter : ticks(jitters)) {
+    out += text(kLeft - 6, y(static_cast<double>(jitter)) + 4, "end", thousandths(jitter));
   }
   out += text(kLeft + kPlotWidth / 2, top + kPlotHeight + 36, "mid", "round-trip delay / ns");
   out += fmt::format(
@@ -152,6 +160,16 @@ std::string panel(const Sweep& sweep, const SweepPlane& plane, double top) {
       "/ % of T_MA</text>\n",
       kLeft - 48, top + kPlotHeight / 2);
   return out;
+}
+
+// The title has room for a file's name, not for its folder.
+std::string file_name(const std::string& path) {
+  constexpr std::size_t kLongest = 40;
+  const std::string name = path.substr(path.find_last_of('/') + 1);
+  if (name.size() <= kLongest) return name;
+  std::size_t from = name.size() - kLongest;
+  while ((static_cast<unsigned char>(name[from]) & 0xC0U) == 0x80) ++from;  // inside a character
+  return "..." + name.substr(from);
 }
 
 std::string legend() {
@@ -191,8 +209,8 @@ std::string sweep_svg(const Sweep& sweep) {
       "<rect width=\"100%\" height=\"100%\" fill=\"#fff\"/>\n",
       width, height);
   out += text(kLeft, 24, "title",
-              fmt::format("Eye margin: {}, {} frames a point, seed {}", sweep.scenario,
-                          sweep.frames, sweep.seed));
+              fmt::format("Eye margin: {}, {}, seed {}", file_name(sweep.scenario),
+                          frames_text(sweep), sweep.seed));
   out += legend();
   double top = kTop;
   for (const SweepPlane& plane : sweep.planes) {
