@@ -127,7 +127,6 @@ module mb4_sequencer (
                       held_q.instr == mb4_regs_pkg::INSTR_CONTROL_REDUCED;
   assign is_frame = (is_control && regvers_i) || (held_q.instr != 3'b000 && !held_q.instr[2]);
   assign by_instr = new_q && is_frame && use_i != 2'b00 && (!held_q.ags || infinite_i);
-
   assign control_begin_o = new_q && is_control && regvers_i && use_i != 2'b00 && !held_q.init &&
                            state_q != INIT && state_q != INIT_TIMEOUT;
   assign reduced_d = start_o ? control_active_i &&
@@ -291,7 +290,8 @@ module mb4_sequencer (
   assign bank_end_o  = frame_end_o && !reduced_q;
   assign running_o    = state_q != IDLE;
   assign lines_idle_o = all_idle;
-  assign busy_o      = state_d != IDLE || new_d || held_d.init;
+  // With AGS = 1 INSTR alone makes no frame, unless FREQAGS is AGSINFINITE.
+  assign busy_o      = state_d != IDLE || (new_d && (!held_d.ags || infinite_i)) || held_d.init;
 
   `MB4_ASSERT(StateInRange_A, clk_i, rst_ni, state_q <= INIT_TIMEOUT)
   `MB4_ASSERT(BreakIsNotKept_A, clk_i, rst_ni, !held_q.brk)

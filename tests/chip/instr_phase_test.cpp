@@ -45,6 +45,27 @@ TEST(ChipInstrPhase, ChangedUnderAgs_ShiftsNoFrame) {
   EXPECT_EQ(chip.status(), 0xFB);
 }
 
+// Table 54: EOT = 0 is a frame. Between two of them INSTR may change without it.
+TEST(ChipInstrPhase, ChangedUnderAgs_LeavesPinEotHigh) {
+  Chip chip(one_slave(kEncoder26));
+  chip.configure_slave1(28, 0x06, 0x00, 0x63);  // 100 us
+  chip.instruct(0x01);
+  const auto eot_is = [&](bool level, sim::Time us) {
+    return chip.simulator.run_while_waiting(
+        [&] { return chip.simulator.pin(sim::Pin::kEot) == level; },
+        chip.simulator.now() + us * sim::kPsPerUs);
+  };
+  ASSERT_TRUE(eot_is(false, 110));
+  ASSERT_TRUE(eot_is(true, 10));
+  for (unsigned i = 0; i < 20; ++i) {
+    const std::uint8_t bytes[] = {0x05, 0x03, 0x43, 0x01, 0x07};
+    chip.instruct(bytes[i % 5]);
+    EXPECT_FALSE(eot_is(false, 2)) << i;
+    chip.simulator.advance(kStep);
+  }
+  EXPECT_TRUE(eot_is(false, 110)) << "the next frame";
+}
+
 // INSTR written again around the end of its frame: before it asks for nothing, from then on for
 // another frame. It clears itself in either case.
 TEST(ChipInstrPhase, SameCodeAtTheEndOfItsFrame_IsOneFrameMoreOrNone) {
