@@ -69,7 +69,7 @@ module mb4_control (
   logic agsmin, infinite, request, missed, taken, lines_idle, running, brk;
   logic busy, clear_flags, scd_en, scd_bad, ags_error, bank_fail, init_clear;
   logic control_want, control_active, control_begin, control_end, reg_error, delay_error, expired;
-  logic in_body, sent;
+  logic in_body, sent, waiting, moved, live, stalled;
   logic [1:0] select, control0, control1;
   logic [5:0] good_bytes;
 
@@ -121,7 +121,8 @@ module mb4_control (
     .init_clear_o      (init_clear),
     .control_begin_o   (control_want),
     .control_active_i  (control_active),
-    .control_end_i     (control_end)
+    .control_end_i     (control_end),
+    .control_stalled_i (stalled)
   );
 
   mb4_frame_request u_request (
@@ -186,10 +187,11 @@ module mb4_control (
     .cds_i           (cds_i & use_i),
     .cdm_timeout_i   (cdm_timeout_o),
     .expired_i       (expired),
-    .running_i       (running),
+    .stalled_i       (stalled),
     .active_o        (control_active),
     .in_body_o       (in_body),
-    .wait_o          (time_o),
+    .wait_o          (waiting),
+    .moved_o         (moved),
     .cdm0_o          (control0),
     .cdm1_o          (control1),
     .begin_o         (control_begin),
@@ -215,13 +217,21 @@ module mb4_control (
     .cdm1_o
   );
 
+  // Frames run, or are bound to come. The host may take its time with those that it asks for, or
+  // keep with HOLDBANK.
+  assign live   = !eot_o || (held_o.ags && !infinite && !holdbank_o);
+  assign time_o = waiting || (control_active && live);
+
   mb4_reg_watchdog u_watchdog (
     .clk_i,
     .rst_ni,
     .freqr_i   (cfg_i.freqr),
-    .wait_i    (time_o),
+    .watch_i   (time_o),
+    .clear_i   (moved),
+    .live_i    (live),
     .tick_i,
-    .expired_o (expired)
+    .expired_o (expired),
+    .stalled_o (stalled)
   );
 
   // Zeros inside a control frame do not count; its stop bit is the first that does.

@@ -10,7 +10,8 @@
 // (cdm_timeout_i), slot 19 until the slave's start bit. CDS of a slot answers CDM of the slot
 // before. end_o comes one clock after the step that finished or failed.
 // Misuse: register access needs one line in select_i; configuration must be stable while active_o.
-// A slave that does not answer: nREGERR = 0 (no echo of R and W) or, with expired_i, nDELAYERR = 0.
+// A slave that does not answer: nREGERR = 0 (no echo of R and W) or, in the first frame that ends
+// with expired_i, nDELAYERR = 0. Frames that do not come to their end (stalled_i) end it as well.
 // Datasheet: pages 27..29, 34, 35, Figures 20..22; decisions 5, 12, 20, 22..24, 31.
 
 `include "mb4_check.svh"
@@ -39,10 +40,11 @@ module mb4_control_frame (
   input  logic [1:0] cds_i,          // its CDS, lines {2, 1}
   input  logic       cdm_timeout_i,  // at least 14 frames with CDM = 0 before this one
   input  logic       expired_i,      // no start bit for too long
-  input  logic       running_i,      // a frame runs
+  input  logic       stalled_i,      // no frame has ended for too long
   output logic       active_o,
-  output logic       in_body_o,       // the frame that ends belongs to slots before the stop bit
+  output logic       in_body_o,      // the frame that ends belongs to slots before the stop bit
   output logic       wait_o,         // waiting for the slave's start bit
+  output logic       moved_o,        // a frame has ended, and not in vain
   output logic [1:0] cdm0_o,
   output logic [1:0] cdm1_o,
   // result
@@ -78,17 +80,10 @@ module mb4_control_frame (
   logic       broadcast;
   logic       tested;
   logic       cds;          // of the selected line
-  logic       cdm0;
-  logic       cdm1;
-  logic       sent;
-  logic       top;
-  logic       crc_feed;
-  logic       crc_shift;
-  logic       crc_bit;
+  logic       cdm0, cdm1, sent;
+  logic       top, crc_feed, crc_shift, crc_bit;
   logic       by_ida;       // CDM depends on the line's own IDA
-  logic       stay;
-  logic       fail;
-  logic       finish;
+  logic       stay, fail, late, finish;
   logic       header, echo, ida;
   logic       data;         // slots of data bits, CDM or CDS by direction
   logic       data_crc;
@@ -222,19 +217,21 @@ module mb4_control_frame (
         index_d = index_q + 6'd1;
         last_d  = index_q == regnum_i;
       end
-      if (fail || finish) begin
-        active_d    = 1'b0;
-        end_d       = 1'b1;
-        reg_error_d = fail || ida_bad_d != 2'b00;
-      end
-    end else if (wait_o && expired_i && !running_i) begin
-      active_d      = 1'b0;
+      end_d         = fail || finish || late;
+      reg_error_d   = fail || (finish && ida_bad_d != 2'b00);
+      delay_error_d = late;
+    end else if (active_q && stalled_i) begin
       end_d         = 1'b1;
-      delay_error_d = 1'b1;
+      reg_error_d   = !wait_o;
+      delay_error_d = wait_o;
     end
 
     // A frame may start in the clock of begin_i: slot 0 is there already.
-    if (end_d) slot_d = mb4_pkg::SLOT_START;
+    if (end_d) begin
+      active_d  = 1'b0;
+      carries_d = 1'b0;
+      slot_d    = mb4_pkg::SLOT_START;
+    end
     if (begin_o) begin
       active_d = 1'b1;
       index_d  = 6'd0;
@@ -279,10 +276,13 @@ module mb4_control_frame (
     end
   end
 
-  assign begin_o       = begin_i && !active_q;
+  // The instruction that waits for a frame which never comes is not a new one.
+  assign begin_o       = begin_i && !active_q && !stalled_i;
   assign active_o      = active_q || begin_i;
   assign wait_o        = active_q && cts_i && slot_q == mb4_pkg::SLOT_WAIT;
-  assign in_body_o      = carries_q && slot_q != mb4_pkg::SLOT_START &&
+  assign late          = wait_o && stay && expired_i;
+  assign moved_o       = step && !(wait_o && stay);
+  assign in_body_o     = carries_q && slot_q != mb4_pkg::SLOT_START &&
                          (cts_i ? slot_q < mb4_pkg::SLOT_STOP
                                 : slot_q < (tested ? mb4_pkg::SLOT_STOP_TESTED
                                                    : mb4_pkg::SLOT_STOP_COMMAND));

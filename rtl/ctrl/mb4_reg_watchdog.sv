@@ -1,34 +1,42 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Limit for the slave's start bit in a register access: 4096 register clocks, each 2^(FREQR+1) MA
-// periods.
+// Limits of a control communication: 4096 register clocks, each 2^(FREQR+1) MA periods, for the
+// slave's start bit (expired_o), an eighth more for a frame that does not end (stalled_o).
 //
-// Clock domain: core. Counts half MA periods while wait_i is high; expired_o then stays until
-// wait_i falls. A frame's start restarts the time base, so each frame may add half a period.
+// Clock domain: core. Counts half MA periods while watch_i is high; clear_i starts anew. Both stay
+// until watch_i falls. Without live_i (no frame runs or comes by itself) it stops at the first
+// limit: what the host has not asked for does not stall. A frame's start restarts the time base, so
+// each frame may add half a period.
 // Datasheet: page 34, Table 58; decision 24.
 
 module mb4_reg_watchdog (
   input  logic       clk_i,
   input  logic       rst_ni,
   input  logic [2:0] freqr_i,
-  input  logic       wait_i,
+  input  logic       watch_i,
+  input  logic       clear_i,
+  input  logic       live_i,
   input  logic       tick_i,     // half an MA period
-  output logic       expired_o
+  output logic       expired_o,
+  output logic       stalled_o
 );
 
   localparam int unsigned BASE = 14;  // 4096 x 2 x 2 half periods at FREQR = 0
 
   logic [BASE+7:0] count_q;
   logic [7:0]      high;
+  logic [7:0]      eighth;
 
   assign high      = count_q[BASE+7:BASE];
+  assign eighth    = count_q[BASE+4:BASE-3];
   assign expired_o = high[freqr_i];
+  assign stalled_o = expired_o && eighth[freqr_i];
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
-    if (!rst_ni)                    count_q <= '0;
-    else if (!wait_i)               count_q <= '0;
-    else if (tick_i && !expired_o)  count_q <= count_q + 22'd1;
+    if (!rst_ni)                     count_q <= '0;
+    else if (!watch_i || clear_i)    count_q <= '0;
+    else if (tick_i && !stalled_o && (live_i || !expired_o)) count_q <= count_q + 22'd1;
   end
 
 endmodule

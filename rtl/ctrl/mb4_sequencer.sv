@@ -73,7 +73,8 @@ module mb4_sequencer (
   // control communication
   output logic       control_begin_o, // INSTR asks for it; stays until a frame takes it
   input  logic       control_active_i,
-  input  logic       control_end_i
+  input  logic       control_end_i,
+  input  logic       control_stalled_i // ... for want of frames
 );
 
   typedef enum logic [2:0] {
@@ -225,7 +226,7 @@ module mb4_sequencer (
     endcase
 
     // With AGS = 1 the instruction ends with the control communication.
-    if (control_end_i && is_control && !new_q) held_d.instr = 3'b000;
+    if (control_end_i && is_control && (!new_q || control_stalled_i)) held_d.instr = 3'b000;
     if (missed_i) ags_error_o = 1'b1;
     if (ags_error_o && ags_clear_i) held_d.ags = 1'b0;
 

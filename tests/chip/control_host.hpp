@@ -47,12 +47,13 @@ class ControlHost {
   // was not enough. Every frame's CDM as MA showed it goes to cdm().
   unsigned run_single(unsigned limit, std::uint8_t instruction = 0x08, unsigned line = 1) {
     cdm_.clear();
+    const sim::Slave& near = *chip_.simulator.slave(line == 1 ? 1 : 5);
     for (unsigned frame = 1; frame <= limit; ++frame) {
       chip_.instruct(instruction);
       if (!chip_.wait_eot(200000)) return 0;
       const std::uint8_t status = chip_.status();
       // Past the slaves' timeout: the level of MA behind the frame is the inverted CDM.
-      chip_.simulator.run_while_waiting([&] { return chip_.simulator.slave(1)->idle(); },
+      chip_.simulator.run_while_waiting([&] { return near.idle(); },
                                         chip_.simulator.now() + 100 * sim::kPsPerUs);
       cdm_.push_back(!chip_.simulator.line(line)->monitor().last(chip_.simulator.now()).rest_level);
       if ((status & kRegend) != 0) return frame;

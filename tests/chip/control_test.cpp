@@ -264,8 +264,9 @@ TEST(Control, MissingRegister_SetsNDelayErrAfterTheLimit) {
   }
 }
 
-// With AGS = 0 the limit passes between two frames as well.
-TEST(Control, MissingRegisterWithoutFrames_EndsByTime) {
+// With AGS = 0 the limit passes between two frames as well, but the end comes with a frame: a host
+// that has looked just before would otherwise begin anew (decision 23).
+TEST(Control, MissingRegisterWithoutFrames_EndsWithTheNextFrame) {
   Chip chip(one_slave(kEncoder));
   configure(chip);
   sim::RegisterFile::Marks missing;
@@ -275,7 +276,9 @@ TEST(Control, MissingRegisterWithoutFrames_EndsByTime) {
   host.set_read(0, 0x20, 1);
   EXPECT_EQ(host.run_single(40), 0U);
   EXPECT_EQ(host.status() & kRegend, 0);
-  chip.advance_us(26300);
+  chip.advance_us(60000);
+  EXPECT_EQ(host.status() & kRegend, 0);
+  EXPECT_EQ(host.run_single(2), 1U);
   EXPECT_EQ(host.status(), 0xFF & ~kNoDelayErr & ~0x80);
   EXPECT_FALSE(chip.simulator.pin(sim::Pin::kNer)) << "page 34: NER";
   chip.instruct(0x80);

@@ -1,0 +1,253 @@
+// SPDX-FileCopyrightText: 2026 The openmb4 authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Slaves that are not there, fall silent, or are unplugged in the middle of a control
+// communication: it ends by itself with the flag of pages 34 and 35 (decision 24), in every mode of
+// frames.
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "control_host.hpp"
+#include "mb4sim/control_slave.hpp"
+
+namespace {
+
+using mb4test::Chip;
+using mb4test::ControlHost;
+using mb4test::kAgsmin;
+using mb4test::kAllGood;
+using mb4test::kNoDelayErr;
+using mb4test::kNoRegErr;
+using mb4test::kRegend;
+using mb4test::one_slave;
+namespace sim = mb4::sim;
+
+enum class Frames { kRate, kMin, kSingle };
+struct Mode {
+  Frames frames;
+  unsigned open_level;
+};
+std::string name_of(const Mode& mode) {
+  const char* const names[] = {"Rate", "Agsmin", "Single"};
+  return std::string(names[static_cast<unsigned>(mode.frames)]) + "_SlOpenIs" +
+         std::to_string(mode.open_level);
+}
+void PrintTo(const Mode& mode, std::ostream* out) { *out << name_of(mode); }
+
+// Table 58 at FREQR = 0, f_MA = 10 MHz: 4096 x 2 periods; an eighth more for frames that hang.
+constexpr double kLimitUs = 4096 * 2 * 0.1;
+
+class ControlAbsent : public testing::TestWithParam<Mode> {
+ protected:
+  void SetUp() override {
+    chip.write(0xC0, {0x40 | 13, 0x06, 0x00, 0x00});
+    const bool rate = GetParam().frames == Frames::kRate;
+    chip.write(0xE5, {0x40, 0x00, 0x00, rate ? std::uint8_t{0x18} : kAgsmin});  // 25 us
+    chip.write(0xEC, {0x01, 0x0D});
+    if (GetParam().frames != Frames::kSingle) chip.instruct(0x01);
+    chip.advance_us(60);
+  }
+  // Lets the control communication that is set up run until its CDM of `slot` has been taken, and
+  // the slave is idle again.
+  void run_to_slot(unsigned slot) {
+    const sim::Slave& slave = *chip.simulator.slave(1);
+    const auto& counters = chip.simulator.slave(1)->control()->counters();
+    if (GetParam().frames != Frames::kSingle) chip.instruct(0x09);
+    const auto next = [&] {
+      if (GetParam().frames == Frames::kSingle) chip.instruct(0x08);
+      const auto count = slave.cdm_count();
+      ASSERT_TRUE(chip.simulator.run_while_waiting([&] { return slave.cdm_count() != count; },
+                                                   chip.simulator.now() + 100 * sim::kPsPerUs));
+    };
+    const auto starts = counters.starts;
+    for (unsigned i = 0; i < 20 && counters.starts == starts; ++i) next();
+    ASSERT_EQ(counters.starts, starts + 1);
+    for (unsigned i = 0; i < slot; ++i) next();
+    chip.simulator.advance(200 * sim::kPsPerNs);  // SL = 1 has come through
+  }
+  void unplug() {
+    chip.simulator.line(1)->act(chip.simulator.now(), sim::CableEvent::Action::kUnplug);
+  }
+  // What 0xF0 says when REGEND = 1; 0 if it never does. The host does nothing but look, once it has
+  // asked for the frame that then hangs.
+  std::uint8_t end_of_it() {
+    if (GetParam().frames == Frames::kSingle) chip.instruct(0x08);
+    const sim::Time start = chip.simulator.now();
+    while (chip.simulator.now() - start < 5000 * sim::kPsPerUs) {
+      const std::uint8_t status = host.status();
+      if ((status & kRegend) != 0) {
+        took_us = static_cast<double>(chip.simulator.now() - start) / sim::kPsPerUs;
+        return status;
+      }
+      chip.advance_us(5);
+    }
+    return 0;
+  }
+  void expect_end(std::uint8_t flag, double limit_us) {
+    const std::uint8_t status = end_of_it();
+    ASSERT_NE(status & kRegend, 0) << "it never ends";
+    EXPECT_LT(took_us, limit_us + 60);
+    EXPECT_EQ(status & (kNoRegErr | kNoDelayErr), (kNoRegErr | kNoDelayErr) & ~flag);
+    EXPECT_EQ(status & 0x80, 0) << "page 34: NER";
+    EXPECT_EQ(chip.read(0xF4) & 0x0E, 0) << "INSTR";
+    EXPECT_EQ(host.regbytes(), 0U);
+  }
+  // BREAK, and everything works again.
+  void plug_and_check() {
+    chip.simulator.line(1)->act(chip.simulator.now(), sim::CableEvent::Action::kPlug);
+    chip.simulator.slave(1)->reg_write(0x31, 0x77);
+    chip.instruct(0x80);
+    chip.advance_us(50);
+    host.set_read(0, 0x31, 1);
+    ASSERT_NE(host.run_single(60), 0U);
+    EXPECT_EQ(host.status(), kAllGood);
+    EXPECT_EQ(host.rdata(1)[0], 0x77);
+  }
+
+  Chip chip{one_slave("data_bits = 14\nread_busy_frames = 5",
+                      "open_level = " + std::to_string(GetParam().open_level))};
+  ControlHost host{chip};
+  double took_us = 0;
+};
+
+TEST_P(ControlAbsent, BeforeTheAccess_IsNRegErr) {
+  unplug();
+  host.set_read(0, 0x31, 1);
+  if (GetParam().frames != Frames::kSingle) chip.instruct(0x09);
+  expect_end(kNoRegErr, kLimitUs * 9 / 8);
+  plug_and_check();
+}
+
+TEST_P(ControlAbsent, BeforeACommand_IsNRegErr) {
+  unplug();
+  host.set_command(0x00, 2);
+  if (GetParam().frames != Frames::kSingle) chip.instruct(0x09);
+  expect_end(kNoRegErr, kLimitUs * 9 / 8);
+  plug_and_check();
+}
+
+TEST_P(ControlAbsent, UnpluggedInTheHeader_IsNRegErr) {
+  host.set_write(0, 0x31, {0x12});
+  run_to_slot(8);
+  unplug();
+  expect_end(kNoRegErr, kLimitUs * 9 / 8);
+  plug_and_check();
+}
+
+// The slave has confirmed, its start bit is missing: Table 58.
+TEST_P(ControlAbsent, UnpluggedWhileBusy_IsNDelayErr) {
+  host.set_read(0, 0x31, 1);
+  run_to_slot(22);
+  unplug();
+  expect_end(kNoDelayErr, kLimitUs * 9 / 8);
+  plug_and_check();
+}
+
+TEST_P(ControlAbsent, UnpluggedInTheData_IsNRegErr) {
+  host.set_read(0, 0x31, 2);
+  run_to_slot(19 + 5 + 6);
+  unplug();
+  expect_end(kNoRegErr, kLimitUs * 9 / 8);
+  plug_and_check();
+}
+
+// The slave is there, but says no more.
+TEST_P(ControlAbsent, SilentSlave_IsNRegErrInTheSlotOfTheEcho) {
+  chip.simulator.slave(1)->control()->faults().set_silent(true);
+  host.set_read(0, 0x31, 1);
+  const auto before = chip.simulator.slave(1)->cdm_count();
+  if (GetParam().frames == Frames::kSingle) {
+    EXPECT_EQ(host.run_single(60), 14U - 0U + 18U);
+  } else {
+    chip.instruct(0x09);
+    EXPECT_NE(end_of_it() & kRegend, 0);
+    EXPECT_LE(chip.simulator.slave(1)->cdm_count() - before, 14U + 18U + 2U);
+  }
+  EXPECT_EQ(host.status() & (kNoRegErr | kNoDelayErr), kNoDelayErr);
+  chip.simulator.slave(1)->control()->faults().set_silent(false);
+  plug_and_check();
+}
+
+INSTANTIATE_TEST_SUITE_P(Modes, ControlAbsent,
+                         testing::Values(Mode{Frames::kRate, 1}, Mode{Frames::kRate, 0},
+                                         Mode{Frames::kMin, 1}, Mode{Frames::kMin, 0},
+                                         Mode{Frames::kSingle, 1}, Mode{Frames::kSingle, 0}),
+                         [](const auto& tested) { return name_of(tested.param); });
+
+// A cable that comes back before the limit costs nothing but time. Scenario keys of the cable.
+TEST(ControlPlug, PluggedInAgainInTime_AccessGoesOn) {
+  Chip chip(one_slave("data_bits = 14\nread_busy_frames = 40",
+                      "open_level = 0\n[[channel.event]]\n"
+                      "at_us = 1400\naction = \"unplug\"\n[[channel.event]]\nat_us = 1900\n"
+                      "action = \"plug\""));
+  chip.write(0xC0, {0x40 | 13, 0x06, 0x00, 0x00});
+  chip.write(0xE5, {0x40, 0x20, 0x00, 0x18});  // FREQR = 1: 1638 us
+  chip.write(0xEC, {0x01, 0x0D});
+  ControlHost host(chip);
+  chip.simulator.slave(1)->reg_write(0x31, 0x77);
+  host.set_read(0, 0x31, 1);
+  ASSERT_TRUE(host.run_ags(8000));
+  EXPECT_EQ(host.status() & (kRegend | kNoRegErr | kNoDelayErr), kRegend | kNoRegErr | kNoDelayErr);
+  EXPECT_EQ(host.rdata(1)[0], 0x77);
+  EXPECT_GT(chip.simulator.now(), 2000 * sim::kPsPerUs);
+}
+
+// One instruction a frame, and a host that takes its time between looking and writing: the end
+// comes with a frame and is never missed. Between frames nothing ends.
+TEST(ControlSingle, HostOfAnyPace_SeesNDelayErr) {
+  for (unsigned pause_us = 0; pause_us < 400; pause_us += 13) {
+    Chip chip(one_slave("data_bits = 14\nmissing = [0x20]"));
+    chip.write(0xC0, {0x40 | 13, 0x06, 0x00, 0x00});
+    chip.write(0xE5, {0x40, 0x00, 0x00, kAgsmin});
+    chip.write(0xEC, {0x01, 0x0D});
+    ControlHost host(chip);
+    host.set_read(0, 0x20, 1);
+    unsigned frames = 0;
+    std::uint8_t status = 0;
+    while ((status & kRegend) == 0 && frames < 500) {
+      chip.advance_us(frames < 14 + 18 ? 3 : pause_us);
+      chip.instruct(0x08);
+      ++frames;
+      ASSERT_TRUE(chip.wait_eot());
+      status = host.status();
+    }
+    ASSERT_EQ(status, 0xFF & ~kNoDelayErr & ~0x80) << pause_us;
+    const std::uint64_t starts = chip.simulator.slave(1)->control()->counters().starts;
+    EXPECT_EQ(starts, 1U) << "the access was begun again, pause " << pause_us;
+  }
+}
+
+// Table 58, decision 24: the last start bit in time and the first that is late.
+TEST(ControlBusy, StartBitAtTheLimit_LastInTimeIsGood) {
+  // 25 us a frame; the limit is 32.77 frames after the one that carried the S that was not
+  // answered.
+  for (const unsigned busy : {0U, 1U, 31U, 32U, 33U, 40U}) {
+    for (const bool reading : {true, false}) {
+      Chip chip(one_slave("data_bits = 14\nread_busy_frames = " + std::to_string(busy) +
+                          "\nwrite_busy_frames = " + std::to_string(busy)));
+      chip.write(0xC0, {0x40 | 13, 0x06, 0x00, 0x00});
+      chip.write(0xE5, {0x40, 0x00, 0x00, 0x18});
+      chip.write(0xEC, {0x01, 0x0D});
+      ControlHost host(chip);
+      chip.simulator.slave(1)->reg_write(0x31, 0x77);
+      if (reading) {
+        host.set_read(0, 0x31, 1);
+      } else {
+        host.set_write(0, 0x31, {0x55});
+      }
+      ASSERT_TRUE(host.run_ags(8000)) << busy;
+      const std::uint8_t flags = host.status() & (kNoRegErr | kNoDelayErr);
+      const bool in_time = busy <= 32;
+      EXPECT_EQ(flags, in_time ? kNoRegErr | kNoDelayErr : kNoRegErr) << busy;
+      if (reading && in_time) {
+        EXPECT_EQ(host.rdata(1)[0], 0x77);
+      }
+      if (!reading) {
+        EXPECT_EQ(chip.simulator.slave(1)->reg_read(0x31), in_time ? 0x55 : 0x77) << busy;
+      }
+    }
+  }
+}
+
+}  // namespace
