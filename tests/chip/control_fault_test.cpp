@@ -9,121 +9,23 @@
 #include <string>
 #include <vector>
 
-#include "control_host.hpp"
-#include "mb4sim/control_slave.hpp"
+#include "control_fault_bench.hpp"
 
 namespace {
 
-using mb4test::Chip;
-using mb4test::ControlHost;
-using mb4test::kAgsmin;
-using mb4test::kNoDelayErr;
-using mb4test::kNoRegErr;
-using mb4test::kRegend;
-using mb4test::one_slave;
+using mb4test::delay_error;
+using mb4test::Expected;
+using mb4test::FaultBench;
+using mb4test::Flag;
+using mb4test::kGood;
+using mb4test::reg_error;
+using mb4test::Way;
 using Bytes = std::vector<std::uint8_t>;
 
 // Line bits: 10100101 0100 and 00000110 0101 (TI TIDEP0022 and CRC4 of the protocol).
 const Bytes kBytes{0xA5, 0x06};
 constexpr unsigned kAddress = 0x30;
 constexpr unsigned kLastSlot = 46;  // end mark of two bytes
-
-enum class Way { kCdm, kCds };
-enum class Flag { kNone, kRegErr, kDelayErr };
-
-struct Expected {
-  Flag flag = Flag::kNone;
-  unsigned good_bytes = 0;  // REGBYTES, with a flag
-  bool operator==(const Expected&) const = default;
-};
-void PrintTo(const Expected& expected, std::ostream* out) {
-  *out << "flag " << static_cast<int>(expected.flag) << ", REGBYTES " << expected.good_bytes;
-}
-
-constexpr Expected kGood{};
-constexpr Expected reg_error(unsigned good) { return {Flag::kRegErr, good}; }
-constexpr Expected delay_error(unsigned good) { return {Flag::kDelayErr, good}; }
-
-// Two slaves; accesses go to ID 0, the far one, commands to both. FREQR = 0: short nDELAYERR limit.
-class FaultBench {
- public:
-  FaultBench(Way way, unsigned slot, const std::string& keys = "")
-      : chip(scenario(keys)), host(chip), near(control(1)), far(control(2)) {
-    for (const std::uint8_t address : {std::uint8_t{0xC0}, std::uint8_t{0xC4}}) {
-      chip.write(address, {0x40 | 13, 0x06, 0x00, 0x00});
-    }
-    chip.write(0xE5, {0x40, 0x00, 0x00, kAgsmin});
-    chip.write(0xEC, {0x01, 0x0D});
-    if (way == Way::kCdm) {
-      near.faults().flip_cdm_in_slot(slot);  // a fault of the line hits all slaves
-      far.faults().flip_cdm_in_slot(slot);
-    } else {
-      near.faults().flip_cds_in_slot(slot);  // at the master's end of the chain
-    }
-  }
-
-  // Runs what the host has set up, to its end.
-  Expected run() {
-    EXPECT_TRUE(host.run_ags(4000)) << "it never ends";
-    const std::uint8_t status = host.status();
-    EXPECT_NE(status & kRegend, 0);
-    const bool reg = (status & kNoRegErr) == 0;
-    const bool delay = (status & kNoDelayErr) == 0;
-    EXPECT_FALSE(reg && delay);
-    EXPECT_EQ((status & 0x80) == 0, reg || delay) << "page 34: NER";
-    const unsigned good = host.regbytes();
-    // The slaves see 14 zeros, also after a fault in the zeros themselves.
-    chip.advance_us(150);
-    EXPECT_FALSE(near.faults().pending() || far.faults().pending()) << "the fault was not reached";
-    EXPECT_TRUE(reg || delay || good == 0) << "Table 63";
-    return {reg ? Flag::kRegErr : delay ? Flag::kDelayErr : Flag::kNone, good};
-  }
-  // Register access and commands work.
-  void check_next() {
-    const Bytes out{0x3C, 0xC3};
-    host.set_write(0, 0x50, out);
-    EXPECT_EQ(run(), kGood);
-    EXPECT_EQ(reg(0x50), 0x3C);
-    EXPECT_EQ(reg(0x51), 0xC3);
-    host.set_read(0, 0x50, 2);
-    EXPECT_EQ(run(), kGood);
-    EXPECT_EQ(host.rdata(2), out);
-    const auto commands = near.counters().commands;
-    host.set_command(0xC0, 3, true);
-    EXPECT_EQ(run(), kGood);
-    EXPECT_EQ(near.counters().commands, commands + 1);
-  }
-  std::uint8_t reg(unsigned address) {
-    return chip.simulator.slave(2)->reg_read(static_cast<std::uint8_t>(address));
-  }
-  void set_reg(unsigned address, std::uint8_t value) {
-    chip.simulator.slave(2)->reg_write(static_cast<std::uint8_t>(address), value);
-  }
-  // Nothing but `allowed` addresses has been written, in neither slave.
-  void check_untouched(unsigned first_allowed, unsigned count) {
-    for (unsigned address = 0; address < 128; ++address) {
-      if (address >= first_allowed && address < first_allowed + count) continue;
-      EXPECT_EQ(reg(address), 0) << address;
-    }
-    for (unsigned address = 0; address < 128; ++address) {
-      EXPECT_EQ(chip.simulator.slave(1)->reg_read(static_cast<std::uint8_t>(address)), 0);
-    }
-  }
-
-  Chip chip;
-  ControlHost host;
-  mb4::sim::ControlSlave& near;
-  mb4::sim::ControlSlave& far;
-
- private:
-  static std::string scenario(const std::string& keys) {
-    const std::string slave = "data_bits = 14\ncrc = 0x43\n" + keys + "\n";
-    return one_slave(slave) + "[[channel.slave]]\nprotocol = \"biss-c\"\n" + slave;
-  }
-  mb4::sim::ControlSlave& control(unsigned number) {
-    return *chip.simulator.slave(number)->control();
-  }
-};
 
 // ---- read: two bytes ------------------------------------------------------------------------
 
@@ -311,25 +213,6 @@ TEST(ControlFaultMatrix, SilentSlaveAndWrongCrc_AreReported) {
   bench.far.faults().set_silent(false);
   EXPECT_EQ(bench.reg(kAddress), 0x11);
   bench.check_next();
-}
-
-// The weak place of the protocol: the slave's start bit of a write is lost. The master repeats S,
-// the slave takes it for D7, and its echo for the master looks like the start bit; all echoes
-// fit, one frame late. The slave's CRC stops the write. Only a last CRC bit of 1 shows: the slave
-// has it where P belongs. So a host that must be sure reads back.
-TEST(ControlFaultMatrix, LostStartBitOfAWrite_IsSeenByTheLastCrcBitOnly) {
-  for (unsigned value = 0; value < 256; ++value) {
-    FaultBench bench(Way::kCds, 19);
-    bench.host.set_write(0, kAddress, {static_cast<std::uint8_t>(value)});
-    const Expected result = bench.run();
-    // Lowest CRC bit as the XOR of the data bits that reach it (x^4 + x + 1), inverted on the line.
-    bool crc0 = false;
-    for (const unsigned bit : {0U, 3U, 4U, 6U}) crc0 ^= ((value >> bit) & 1U) != 0;
-    const bool line_bit = !crc0;
-    EXPECT_EQ(result, line_bit ? reg_error(0) : kGood) << value;
-    EXPECT_EQ(bench.far.counters().writes, 0U) << value;
-    EXPECT_EQ(bench.reg(kAddress), 0) << value;
-  }
 }
 
 }  // namespace
