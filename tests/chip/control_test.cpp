@@ -90,6 +90,35 @@ TEST_P(ControlTi, EveryReadRow_IsOnMaBitForBit) {
   }
 }
 
+// All of Table 11: values that the design guide has read back, at 1, 2, 5 and 10 MHz; also of
+// 0x7E and 0x7F, for which Table 7 has no row.
+TEST_P(ControlTi, EveryValueOfTable11_IsReadBack) {
+  constexpr std::array<std::pair<unsigned, unsigned>, 15> kTable11{{{0x44, 0x00},
+                                                                    {0x45, 0xD9},
+                                                                    {0x46, 0x01},
+                                                                    {0x47, 0x32},
+                                                                    {0x60, 0x0B},
+                                                                    {0x67, 0x5F},
+                                                                    {0x68, 0x00},
+                                                                    {0x78, 0x46},
+                                                                    {0x79, 0x3A},
+                                                                    {0x7A, 0xC0},
+                                                                    {0x7B, 0x0C},
+                                                                    {0x7C, 0x00},
+                                                                    {0x7D, 0x01},
+                                                                    {0x7E, 0x57},
+                                                                    {0x7F, 0x41}}};
+  Chip chip(one_slave(kTi));
+  chip.configure_slave1(chip.simulator.slave(1)->data_bits(), 0x06, GetParam(), kAgsmin);
+  ControlHost host(chip);
+  for (const auto& [address, value] : kTable11) {
+    host.set_read(0, address, 1);
+    ASSERT_NE(host.run_single(60), 0U);
+    EXPECT_EQ(host.rdata(1)[0], value) << std::hex << address;
+    EXPECT_EQ(host.status(), kAllGood);
+  }
+}
+
 // The printed write row has a wrong header CRC; this is the frame that writes 0x06 to 0x60.
 TEST_P(ControlTi, Write0x06To0x60_IsTheConsistentFrame) {
   Chip chip(one_slave(kTi));

@@ -56,8 +56,9 @@ enum class Error : std::uint8_t {
   // length are not 0, or the stored CRC does not match the data. Touched as for kCrc.
   kCorrupted = 12,
   // A register access has failed (nREGERR = 0, page 34): no slave has this ID, or a CRC was wrong,
-  // or the slave did not repeat what was written. ErrorInfo::bytes registers were good. Touched:
-  // the access has ended, of a write leading registers may have changed.
+  // or the slave did not repeat what was written; or frames hang, because nobody is on the line.
+  // ErrorInfo::bytes registers were good. Touched: the access has ended, of a write leading
+  // registers may have changed, the one after ErrorInfo::bytes even to a third value.
   kRegister = 13,
   // The slave has not sent its start bit in time (nDELAYERR = 0, page 34): it does not have this
   // register or takes too long. ErrorInfo::bytes and state as for kRegister.
