@@ -5,8 +5,8 @@
 //
 // Every pin that can be driven from both sides is split into input, output and output enable, so
 // that the level on the wire is decided outside. SPI uses ALE = SCLK, DB0 = MOSI, DB1 = MISO with
-// CFGSPI = 1. In this version CFGSPI = 0 (parallel bus), SPI2 (NWR_E = 0) and MO are not
-// there yet: the data bus stays in high impedance, MO stays low.
+// CFGSPI = 1. In this version CFGSPI = 0 (parallel bus) and SPI2 (NWR_E = 0) are not there yet:
+// the data bus stays in high impedance.
 // Clock domains: SCLK; the system clock, from CLK or the internal oscillator (CLKENI). NRES stops
 // it at any phase and selects CLK: MA that was low stays so until the selected clock runs again.
 // Datasheet: pages 3, 17, 23.
@@ -77,15 +77,15 @@ module mb4_chip (
     .getsens_i,
     .ma1_o,
     .sl1_i,
+    .mo1_o,
     .ma2_o,
     .sl2_i,
+    .mo2_o,
     .quirks_i
   );
 
   assign db_o    = {6'b000000, miso, 1'b0};
   assign db_oe_o = {6'b000000, miso_oe, 1'b0};
-  assign mo1_o   = 1'b0;
-  assign mo2_o   = 1'b0;
 
   // Pins of functions that this version does not have.
   logic unused;

@@ -58,9 +58,12 @@ package mb4_pkg;
     logic [15:0] crc_top;    // one-hot: highest bit of the remainder
     logic [15:0] crc_start;
     logic        crc_store;  // received CRC goes to the top byte(s)
+    logic        gray;       // data bits are Gray coded
+    logic        actuator;   // sent on MO; what SL shows meanwhile is not looked at
+    logic        stop;       // a stop bit precedes the data of the actuator
   } word_cfg_t;
 
-  localparam int unsigned WORD_CFG_W = 60;
+  localparam int unsigned WORD_CFG_W = 63;
 
   // What 0xF4 holds (datasheet Tables 44..49), bit 7 first.
   typedef struct packed {

@@ -36,10 +36,18 @@ module mb4_control (
   output logic       rdata_wr_en_o,
   output logic [7:0] rdata_wr_data_o,
   // lines
-  input  logic [1:0] use_i,
   output logic [7:0] half_len_o,
+  output logic [1:0] ssi_o,
   output logic       start_o,
+  output logic [1:0] use_o,           // with start_o
   output logic       init_o,
+  output logic       register_o,      // with start_o
+  output logic       register_ma_o,
+  output logic       register_end_o,
+  output logic       register_mo_o,   // MO is low
+  output logic [1:0] force_o,
+  output logic [1:0] force_level_o,
+  output logic       force_change_o,
   output logic [1:0] cdm0_o,
   output logic [1:0] cdm1_o,
   output logic       abort_o,
@@ -68,10 +76,27 @@ module mb4_control (
 
   logic agsmin, infinite, request, missed, taken, lines_idle, running, brk;
   logic busy, clear_flags, scd_en, scd_bad, ags_error, bank_fail, init_clear;
-  logic control_want, control_active, control_begin, control_end, reg_error, delay_error, expired;
-  logic in_body, sent, waiting, moved, live, stalled;
-  logic [1:0] select, control0, control1;
+  logic control_want, control_active, is_frame, is_control, is_register;
+  logic reg_begin, reg_end, reg_error, delay_error, reg_ags_error;
+  logic live, stalled;
+  logic [1:0] in_use, frame_use, init_use, select;
   logic [5:0] good_bytes;
+
+  mb4_frame_kind u_kind (
+    .instr_i       (held_o.instr),
+    .regvers_i     (cfg_i.regvers),
+    .slaveloc5_i   (cfg_i.slaveloc5),
+    .cfgch1_i      (cfg_i.cfgch1),
+    .cfgch2_i      (cfg_i.cfgch2),
+    .select_i      (select),
+    .use_o         (in_use),
+    .ssi_o,
+    .frame_use_o   (frame_use),
+    .init_use_o    (init_use),
+    .is_frame_o    (is_frame),
+    .is_control_o  (is_control),
+    .is_register_o (is_register)
+  );
 
   mb4_sequencer u_sequencer (
     .clk_i,
@@ -84,18 +109,25 @@ module mb4_control (
     .agsmin_i          (agsmin),
     .infinite_i        (infinite),
     .regvers_i         (cfg_i.regvers),
-    .use_i,
+    .use_i             (in_use),
+    .frame_use_i       (frame_use),
+    .init_use_i        (init_use),
+    .is_frame_i        (is_frame),
+    .is_control_i      (is_control),
+    .is_register_i     (is_register),
     .agserr_on_hold_i  (quirks_i[mb4_pkg::QUIRK_AGSERR_ON_HOLDBANK]),
     .agserr_on_write_i (quirks_i[mb4_pkg::QUIRK_AGSERR_ON_INSTR_WR]),
     .ags_clear_i       (quirks_i[mb4_pkg::QUIRK_AGS_CLEARED_ON_ERROR]),
     .request_i         (request),
-    .missed_i          (missed),
+    .missed_i          (missed || reg_ags_error),
     .taken_o           (taken),
     .lines_idle_o      (lines_idle),
     .running_o         (running),
     .break_o           (brk),
     .start_o,
+    .start_use_o       (use_o),
     .init_o,
+    .register_o,
     .reduced_o,
     .abort_o,
     .tick_i,
@@ -110,7 +142,6 @@ module mb4_control (
     .bank_pending_i,
     .frame_end_o,
     .bank_end_o,
-    .holdbank_o,
     .swbank_pulse_o,
     .busy_o            (busy),
     .clear_flags_o     (clear_flags),
@@ -121,7 +152,7 @@ module mb4_control (
     .init_clear_o      (init_clear),
     .control_begin_o   (control_want),
     .control_active_i  (control_active),
-    .control_end_i     (control_end),
+    .control_end_i     (reg_end),
     .control_stalled_i (stalled)
   );
 
@@ -152,8 +183,8 @@ module mb4_control (
     .ags_error_i    (ags_error),
     .bank_fail_i    (bank_fail),
     .bank_swapped_i,
-    .reg_begin_i    (control_begin),
-    .reg_end_i      (control_end),
+    .reg_begin_i    (reg_begin),
+    .reg_end_i      (reg_end),
     .reg_error_i    (reg_error),
     .delay_error_i  (delay_error),
     .eot_o,
@@ -166,84 +197,70 @@ module mb4_control (
     .ner_low_o
   );
 
-  mb4_control_frame u_frame (
+  mb4_control_comm u_comm (
     .clk_i,
     .rst_ni,
-    .cts_i           (cfg_i.cts),
-    .wnr_i           (cfg_i.wnr),
-    .regadr_i        (cfg_i.regadr),
-    .regnum_i        (cfg_i.regnum),
-    .slaveid_i       (cfg_i.slaveid),
-    .ida_invert_i    (quirks_i[mb4_pkg::QUIRK_IDA_TEST_INVERT]),
-    .select_i        (select),
+    .cfg_i,
+    .instr_i       (held_o.instr),
+    .ida_invert_i  (quirks_i[mb4_pkg::QUIRK_IDA_TEST_INVERT]),
+    .in_use_i      (in_use),
+    .ssi_i         (ssi_o),
+    .select_o      (select),
+    .rdata_rd_en_o,
     .rdata_addr_o,
     .rdata_i,
     .rdata_wr_en_o,
     .rdata_wr_data_o,
-    .begin_i         (control_want),
-    .abort_i         (brk || init_clear),
-    .start_i         (start_o && !init_o),
-    .frame_end_i     (frame_end_o),
-    .cds_i           (cds_i & use_i),
-    .cdm_timeout_i   (cdm_timeout_o),
-    .expired_i       (expired),
-    .stalled_i       (stalled),
-    .active_o        (control_active),
-    .in_body_o       (in_body),
-    .wait_o          (waiting),
-    .moved_o         (moved),
-    .cdm0_o          (control0),
-    .cdm1_o          (control1),
-    .begin_o         (control_begin),
-    .end_o           (control_end),
-    .reg_error_o     (reg_error),
-    .delay_error_o   (delay_error),
-    .good_bytes_o    (good_bytes)
+    .begin_i       (control_want),
+    .abort_i       (abort_o),
+    .clear_i       (brk || init_clear),
+    .init_clear_i  (init_clear),
+    .start_i       (start_o),
+    .use_i         (use_o),
+    .init_i        (init_o),
+    .register_i    (register_o),
+    .frame_end_i   (frame_end_o),
+    .live_i        (live),
+    .tick_i,
+    .sl_i,
+    .cds_i,
+    .cdm_i,
+    .active_o      (control_active),
+    .time_o,
+    .stalled_o     (stalled),
+    .cdm0_o,
+    .cdm1_o,
+    .cdm_timeout_o,
+    .register_ma_o,
+    .register_end_o,
+    .register_mo_o,
+    .reg_begin_o   (reg_begin),
+    .reg_end_o     (reg_end),
+    .reg_error_o   (reg_error),
+    .delay_error_o (delay_error),
+    .ags_error_o   (reg_ags_error),
+    .good_bytes_o  (good_bytes)
   );
 
   // Only an error tells how many bytes were good (Table 63).
-  assign regbytes_o    = (n_regerr_o && n_delayerr_o) ? 6'd0 : good_bytes;
-  assign rdata_rd_en_o = control_active;
-
-  mb4_cdm_select u_cdm (
-    .chsel_i    (cfg_i.chsel),
-    .cts_i      (cfg_i.cts),
-    .instr_i    (held_o.instr),
-    .active_i   (control_active),
-    .control0_i (control0),
-    .control1_i (control1),
-    .select_o   (select),
-    .cdm0_o,
-    .cdm1_o
-  );
+  assign regbytes_o = (n_regerr_o && n_delayerr_o) ? 6'd0 : good_bytes;
+  assign holdbank_o = held_o.holdbank;
 
   // Frames run, or are bound to come. The host may take its time with those that it asks for, or
   // keep with HOLDBANK.
-  assign live   = !eot_o || (held_o.ags && !infinite && !holdbank_o);
-  assign time_o = waiting || (control_active && live);
+  assign live = !eot_o || (held_o.ags && !infinite && !holdbank_o);
 
-  mb4_reg_watchdog u_watchdog (
+  mb4_ma_force u_force (
     .clk_i,
     .rst_ni,
-    .freqr_i   (cfg_i.freqr),
-    .watch_i   (time_o),
-    .clear_i   (moved),
-    .live_i    (live),
-    .tick_i,
-    .expired_o (expired),
-    .stalled_o (stalled)
-  );
-
-  // Zeros inside a control frame do not count; its stop bit is the first that does.
-  assign sent = (cdm_i & use_i) != 2'b00;
-
-  mb4_cdm_timeout u_cdm_timeout (
-    .clk_i,
-    .rst_ni,
-    .frame_end_i (frame_end_o),
-    .cdm_i       (sent || in_body),
-    .clear_i     (init_clear),
-    .timeout_o   (cdm_timeout_o)
+    .mafs_i   (cfg_i.mafs),
+    .mavs_i   (cfg_i.mavs),
+    .mafo_i   (cfg_i.mafo),
+    .mavo_i   (cfg_i.mavo),
+    .chsel_i  (cfg_i.chsel),
+    .force_o,
+    .level_o  (force_level_o),
+    .change_o (force_change_o)
   );
 
   mb4_freqs_dec u_freqs (

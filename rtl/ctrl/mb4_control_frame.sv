@@ -27,6 +27,7 @@ module mb4_control_frame (
   input  logic [2:0] slaveid_i,      // or CMD(1:0), IDA_TEST
   input  logic       ida_invert_i,   // IDA_TEST has the other polarity
   input  logic [1:0] select_i,       // lines {2, 1} that carry the control frame
+  input  logic       blind_i,        // SSI: no CDS, answers to a write are taken for granted
   // RDATA: byte rdata_addr_o is valid one clock after its address
   output logic [5:0] rdata_addr_o,
   input  logic [7:0] rdata_i,
@@ -91,7 +92,7 @@ module mb4_control_frame (
   assign step      = carries_q && frame_end_i;
   assign broadcast = rdata_i == 8'h00;
   assign tested    = (slaveid_i[0] ^ ida_invert_i) && !broadcast;
-  assign cds       = (cds_i & select_i) != 2'b00;
+  assign cds       = (blind_i && cts_i) ? sent_q : (cds_i & select_i) != 2'b00;
   assign top       = bits_q[9];
 
   // ---- slots --------------------------------------------------------------------------------
@@ -135,7 +136,7 @@ module mb4_control_frame (
     endcase
     cdm1 = cdm0;
     // S is repeated until the slave answers it.
-    if (cts_i && slot_q == mb4_pkg::SLOT_WAIT) cdm0 = 1'b1;
+    if (cts_i && !blind_i && slot_q == mb4_pkg::SLOT_WAIT) cdm0 = 1'b1;
   end
 
   assign sent = cds ? cdm1 : cdm0;
@@ -155,7 +156,7 @@ module mb4_control_frame (
     unique case (slot_q)
       mb4_pkg::SLOT_START: stay = !sent;
       mb4_pkg::SLOT_WRITE: begin
-        fail   = cts_i && cds == wnr_i;
+        fail   = cts_i && (cds == wnr_i || (blind_i && !wnr_i));
         finish = !cts_i && broadcast;
       end
       mb4_pkg::SLOT_BYTE:  fail   = cts_i && cds != wnr_i;

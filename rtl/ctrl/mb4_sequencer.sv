@@ -8,8 +8,8 @@
 // starts with the next clock at the earliest. busy_o comes before ack_o tells the host half. A
 // frame ends two clocks after its last bit: its result first, then the bank switch. With AGS = 1
 // INSTR sets the CDM of the frames that come by themselves (mb4_frame_request) and stays; only
-// with FREQAGS = AGSINFINITE it asks for one as well. INIT runs with REGVERS = 1 only in this
-// version, and so does control communication: INSTR 100 and 111 clear themselves without a frame.
+// with FREQAGS = AGSINFINITE it asks for one as well. A BiSS B register access (register_o) takes
+// the place of a frame. BiSS B INIT is the hand-over of such an access alone.
 // Misuse: SL low when a frame is due: no frame, nAGSERR = 0, or with FREQAGS = AGSMIN waiting for
 // SL = 1 (decision 3). A frame due while HOLDBANK holds back a switch: no frame, SWBANKFAIL = 1,
 // nAGSERR = 0 (decision 15). INSTR written with the value that is running does not ask for another
@@ -32,6 +32,11 @@ module mb4_sequencer (
   input  logic       infinite_i,
   input  logic       regvers_i,
   input  logic [1:0] use_i,           // lines in use: {2, 1}
+  input  logic [1:0] frame_use_i,     // ... of them by what INSTR asks for
+  input  logic [1:0] init_use_i,      // ... by INIT
+  input  logic       is_frame_i,      // INSTR asks for a frame (mb4_frame_kind)
+  input  logic       is_control_i,
+  input  logic       is_register_i,
   input  logic       agserr_on_hold_i,
   input  logic       agserr_on_write_i,
   input  logic       ags_clear_i,     // an AGS error clears AGS
@@ -44,7 +49,9 @@ module mb4_sequencer (
   output logic       break_o,
   // lines, {2, 1} each
   output logic       start_o,
+  output logic [1:0] start_use_o,     // lines that start_o is for
   output logic       init_o,
+  output logic       register_o,      // with start_o: BiSS B register access or hand-over
   output logic       reduced_o,       // this frame, from start_o to its end
   output logic       abort_o,
   input  logic       tick_i,
@@ -60,7 +67,6 @@ module mb4_sequencer (
   input  logic       bank_pending_i,
   output logic       frame_end_o,     // a frame is complete
   output logic       bank_end_o,      // ... with sensor data
-  output logic       holdbank_o,
   output logic       swbank_pulse_o,
   // status
   output logic       busy_o,
@@ -87,16 +93,12 @@ module mb4_sequencer (
 
   state_e           state_d;
   state_e           state_q;
-  mb4_pkg::instr_t  held_d;
-  mb4_pkg::instr_t  held_q;
+  mb4_pkg::instr_t  held_d, held_q;
   logic             new_d;
   logic             new_q;         // INSTR was written and has not started yet
-  logic [1:0]       use_d;
-  logic [1:0]       use_q;
-  logic [1:0]       done_d;
-  logic [1:0]       done_q;
-  logic             bad_d;
-  logic             bad_q;
+  logic [1:0]       use_d, use_q;
+  logic [1:0]       done_d, done_q;
+  logic             bad_d, bad_q;
   logic             reduced_d;
   logic             reduced_q;     // the running frame ends behind CDS
   logic [1:0]       ack_q;         // a clock later than new_q: REGEND has fallen by then
@@ -104,14 +106,12 @@ module mb4_sequencer (
   logic [10:0]      wait_q;        // half MA periods left for SL to return to 1
   logic             written;
   logic             toggle_level;
-  logic             all_idle;
-  logic             sl_low;
-  logic             is_control;
-  logic             is_frame;
+  logic             all_idle, sl_low;
   logic             by_instr;      // INSTR asks for a frame
+  logic             register_d, register_q;  // no frame but a BiSS B register access
 
-  // INIT does not test SL (page 33), yet slaves need their timeout before and after it: SL gets
-  // 1024 MA periods to return. The longest timeout in the field is 40 us, 400 periods at 10 MHz.
+  // INIT does not test SL (page 33), yet slaves need their timeout around it: 1024 MA periods for
+  // SL to return. The longest timeout in the field is 40 us, 400 periods at 10 MHz.
   localparam logic [10:0] INIT_WAIT = 11'h7FF;
 
   mb4_toggle_rx u_written (
@@ -124,15 +124,15 @@ module mb4_sequencer (
 
   assign all_idle = (use_i & ~idle_i) == 2'b00;
   assign sl_low   = (use_i & (idle_i | timeout_i) & ~sl_i) != 2'b00;
-  assign is_control = held_q.instr == mb4_regs_pkg::INSTR_CONTROL ||
-                      held_q.instr == mb4_regs_pkg::INSTR_CONTROL_REDUCED;
-  assign is_frame = (is_control && regvers_i) || (held_q.instr != 3'b000 && !held_q.instr[2]);
-  assign by_instr = new_q && is_frame && use_i != 2'b00 && (!held_q.ags || infinite_i);
-  assign control_begin_o = new_q && is_control && regvers_i && use_i != 2'b00 && !held_q.init &&
+  assign by_instr = new_q && is_frame_i && use_i != 2'b00 && (!held_q.ags || infinite_i);
+  assign control_begin_o = new_q && is_control_i && use_i != 2'b00 && !held_q.init &&
                            state_q != INIT && state_q != INIT_TIMEOUT;
-  assign reduced_d = start_o ? control_active_i &&
-                               held_q.instr == mb4_regs_pkg::INSTR_CONTROL_REDUCED
-                             : reduced_q;
+  assign register_o  = init_o ? !regvers_i : is_register_i;
+  assign register_d  = start_o ? register_o : register_q;
+  assign start_use_o = init_o ? init_use_i : frame_use_i;
+  assign reduced_d   = start_o ? control_active_i &&
+                                 held_q.instr == mb4_regs_pkg::INSTR_CONTROL_REDUCED
+                               : reduced_q;
 
   always_comb begin
     state_d        = state_q;
@@ -147,7 +147,6 @@ module mb4_sequencer (
     abort_o        = 1'b0;
     frame_end_o    = 1'b0;
     swbank_pulse_o = 1'b0;
-    clear_flags_o  = 1'b0;
     init_clear_o   = 1'b0;
     scd_en_o       = 1'b0;
     ags_error_o    = 1'b0;
@@ -158,19 +157,17 @@ module mb4_sequencer (
     unique case (state_q)
       IDLE: begin
         // An INSTR that asks for no frame keeps none waiting that is due by itself.
-        if (new_q && !new_d && (!is_frame || !held_q.ags)) held_d.instr = 3'b000;
+        if (new_q && !new_d && (!is_frame_i || !held_q.ags)) held_d.instr = 3'b000;
         if (held_q.init && !mem_busy_i) begin
-          if (!regvers_i || use_i == 2'b00) begin
+          if (init_use_i == 2'b00) begin
             held_d.init   = 1'b0;
-            clear_flags_o = 1'b1;
             init_clear_o  = 1'b1;
           end else if (all_idle) begin
             start_o       = 1'b1;
             init_o        = 1'b1;
-            clear_flags_o = 1'b1;
             init_clear_o  = 1'b1;
-            use_d         = use_i;
-            done_d        = ~use_i;
+            use_d         = init_use_i;
+            done_d        = ~init_use_i;
             state_d       = INIT;
           end else if (wait_q == 11'd0) begin
             abort_o = 1'b1;
@@ -186,8 +183,8 @@ module mb4_sequencer (
           end else if (all_idle && !sl_low) begin
             taken_o = 1'b1;
             start_o = 1'b1;
-            use_d   = use_i;
-            done_d  = ~use_i;
+            use_d   = frame_use_i;
+            done_d  = ~frame_use_i;
             bad_d   = 1'b0;
             state_d = FRAME;
           end
@@ -201,17 +198,17 @@ module mb4_sequencer (
         done_d = done_q | frame_end_i;
         if (done_d == 2'b11) begin
           state_d  = FRAME_DONE;
-          scd_en_o = !reduced_q;
+          scd_en_o = !reduced_q && !register_q;
         end
       end
       FRAME_DONE: begin
         state_d     = IDLE;
-        frame_end_o = 1'b1;
+        frame_end_o = !register_q;
         wait_d      = INIT_WAIT;
         if (!held_q.ags && !new_q) held_d.instr = 3'b000;
       end
       INIT: begin
-        done_d      = done_q | init_done_i | init_fail_i;
+        done_d      = done_q | init_done_i | init_fail_i | frame_end_i;
         ags_error_o = (init_fail_i & use_q) != 2'b00;
         wait_d      = INIT_WAIT;
         if (done_d == 2'b11) state_d = INIT_TIMEOUT;
@@ -226,7 +223,9 @@ module mb4_sequencer (
     endcase
 
     // With AGS = 1 the instruction ends with the control communication.
-    if (control_end_i && is_control && (!new_q || control_stalled_i)) held_d.instr = 3'b000;
+    if (control_end_i && (is_control_i || is_register_i) && (!new_q || control_stalled_i)) begin
+      held_d.instr = 3'b000;
+    end
     if (missed_i) ags_error_o = 1'b1;
     if (ags_error_o && ags_clear_i) held_d.ags = 1'b0;
 
@@ -251,12 +250,12 @@ module mb4_sequencer (
         state_d       = IDLE;
         new_d         = written_i.instr != 3'b000;
         held_d.init   = written_i.init;
-        clear_flags_o = 1'b1;
         ags_error_o   = 1'b0;
         wait_d        = INIT_WAIT;
       end
       if (agserr_on_write_i) ags_error_o = 1'b1;
     end
+    clear_flags_o = init_clear_o || break_o;
   end
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
@@ -268,6 +267,7 @@ module mb4_sequencer (
       done_q     <= '0;
       bad_q      <= 1'b0;
       reduced_q  <= 1'b0;
+      register_q <= 1'b0;
       wait_q     <= '0;
       ack_q      <= '0;
     end else begin
@@ -278,6 +278,7 @@ module mb4_sequencer (
       done_q     <= done_d;
       bad_q      <= bad_d;
       reduced_q  <= reduced_d;
+      register_q <= register_d;
       wait_q     <= wait_d;
       ack_q      <= {ack_q[0], written ? ack_q[0] : toggle_level};
     end
@@ -285,7 +286,6 @@ module mb4_sequencer (
 
   assign ack_o       = ack_q[1];
   assign held_o      = held_q;
-  assign holdbank_o  = held_q.holdbank;
   assign scd_bad_o   = bad_d;
   assign reduced_o   = reduced_d;
   assign bank_end_o  = frame_end_o && !reduced_q;
@@ -294,7 +294,6 @@ module mb4_sequencer (
   // With AGS = 1 INSTR alone makes no frame, unless FREQAGS is AGSINFINITE.
   assign busy_o      = state_d != IDLE || (new_d && (!held_d.ags || infinite_i)) || held_d.init;
 
-  `MB4_ASSERT(StateInRange_A, clk_i, rst_ni, state_q <= INIT_TIMEOUT)
   `MB4_ASSERT(BreakIsNotKept_A, clk_i, rst_ni, !held_q.brk)
   `MB4_ASSERT_IF(StartOnIdleLines_A, clk_i, rst_ni, start_o, all_idle)
 

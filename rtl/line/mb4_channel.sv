@@ -1,14 +1,19 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// One physical channel: frame engine, sampler and word assembly (instances only).
+// One physical channel: frame engine, sampler, word assembly and MO (instances only).
 //
-// Clock domain: core. See mb4_frame_biss, mb4_sl_sampler and mb4_rx_word.
+// Clock domain: core. See mb4_frame, mb4_sl_sampler, mb4_rx_word and mb4_mo_tx. word_begin_o and
+// word_done_o tell of sensors' words only, rx_next_o of every word that has ended.
 
 module mb4_channel (
   input  logic       clk_i,
   input  logic       rst_ni,
   input  logic       por_ni,
+  // configuration
+  input  logic [1:0] protocol_i,
+  input  logic       en_mo_i,
+  input  logic [7:0] mo_busy_i,
   // control
   input  logic       start_i,
   input  logic       use_i,
@@ -18,6 +23,12 @@ module mb4_channel (
   input  logic       reduced_i,
   input  logic       hold_cdm_i,
   input  logic       abort_i,
+  input  logic       register_i,
+  input  logic       register_ma_i,
+  input  logic       register_end_i,
+  input  logic       register_mo_i,
+  input  logic       force_i,
+  input  logic       force_level_i,
   // time base
   input  logic       tick_i,
   input  logic       half_next_i,
@@ -25,12 +36,21 @@ module mb4_channel (
   input  logic       smp_b_i,
   input  logic       smp_half_i,
   input  logic       smp_b_neg_i,
-  // words
+  // words on SL
   input  logic       len_valid_i,
   input  logic [6:0] len_i,
-  input  logic       any_word_i,
-  input  logic       last_word_i,
-  input  mb4_pkg::word_cfg_t word_i,
+  input  logic       rx_any_i,
+  input  logic       rx_last_i,
+  input  mb4_pkg::word_cfg_t rx_word_i,
+  output logic       rx_next_o,
+  // words on MO
+  input  logic       mo_any_i,
+  input  logic       mo_last_i,
+  input  logic [2:0] mo_slave_i,
+  input  mb4_pkg::word_cfg_t mo_word_i,
+  output logic       mo_next_o,
+  output logic [5:0] mo_addr_o,
+  input  logic [7:0] mo_data_i,
   // received bytes and words
   output logic       wr_en_o,
   output logic [2:0] wr_byte_o,
@@ -50,6 +70,7 @@ module mb4_channel (
   output logic       sl_o,
   // pins
   output logic       ma_o,
+  output logic       mo_o,
   input  logic       sl_i
 );
 
@@ -59,11 +80,17 @@ module mb4_channel (
   logic bit_valid;
   logic sl_bit;
   logic word_bit;
+  logic word_begin;
+  logic rise;
+  logic ssi;
 
-  mb4_frame_biss u_frame (
+  assign ssi = protocol_i == mb4_regs_pkg::PROTOCOL_SSI;
+
+  mb4_frame u_frame (
     .clk_i,
     .rst_ni,
     .por_ni,
+    .protocol_i,
     .start_i,
     .use_i,
     .init_i,
@@ -72,6 +99,11 @@ module mb4_channel (
     .reduced_i,
     .hold_cdm_i,
     .abort_i,
+    .register_i,
+    .register_ma_i,
+    .register_end_i,
+    .force_i,
+    .force_level_i,
     .tick_i,
     .half_next_i,
     .armed_a_o   (armed_a),
@@ -83,11 +115,12 @@ module mb4_channel (
     .bit_i       (sl_bit),
     .len_valid_i,
     .len_i,
-    .any_word_i,
-    .last_word_i,
-    .word_done_i (word_done_o),
-    .word_load_o (word_begin_o),
+    .any_word_i  (rx_any_i),
+    .last_word_i (rx_last_i),
+    .word_done_i (rx_next_o),
+    .word_load_o (word_begin),
     .word_bit_o  (word_bit),
+    .rise_o      (rise),
     .cds_o,
     .cdm_o,
     .frame_end_o,
@@ -107,6 +140,7 @@ module mb4_channel (
     .smp_half_i,
     .smp_b_neg_i,
     .clear_i     (start_i),
+    .ssi_i       (ssi),
     .armed_a_i   (armed_a),
     .armed_b_i   (armed_b),
     .sl_o,
@@ -119,15 +153,39 @@ module mb4_channel (
   mb4_rx_word u_word (
     .clk_i,
     .rst_ni,
-    .word_i,
-    .load_i      (word_begin_o),
+    .word_i      (rx_word_i),
+    .load_i      (word_begin),
     .bit_valid_i (word_bit),
     .bit_i       (sl_bit),
     .wr_en_o,
     .wr_byte_o,
     .wr_data_o,
-    .done_o      (word_done_o),
+    .done_o      (rx_next_o),
     .ok_o        (word_ok_o)
+  );
+
+  assign word_begin_o = word_begin && !rx_word_i.actuator;
+  assign word_done_o  = rx_next_o && !rx_word_i.actuator;
+
+  mb4_mo_tx u_mo (
+    .clk_i,
+    .rst_ni,
+    .enable_i    (en_mo_i),
+    .low_i       (register_mo_i),
+    .begin_i     (start_i && use_i && !init_i && !register_i && !ssi),
+    .biss_c_i    (protocol_i == mb4_regs_pkg::PROTOCOL_BISS_C),
+    .reduced_i,
+    .busy_i      (mo_busy_i),
+    .rise_i      (rise),
+    .line_idle_i (idle_o),
+    .any_word_i  (mo_any_i),
+    .last_word_i (mo_last_i),
+    .slave_i     (mo_slave_i),
+    .word_i      (mo_word_i),
+    .next_o      (mo_next_o),
+    .mem_addr_o  (mo_addr_o),
+    .mem_data_i  (mo_data_i),
+    .mo_o
   );
 
 endmodule

@@ -11,8 +11,12 @@ module mb4_lines (
   input  logic       clk_i,
   input  logic       rst_ni,
   input  logic       por_ni,
-  // control
+  // configuration
   input  logic [7:0] half_len_i,
+  input  logic [3:0] protocol_i,
+  input  logic       en_mo_i,
+  input  logic [7:0] mo_busy_i,
+  // control
   input  logic       start_i,
   input  logic [1:0] use_i,
   input  logic       init_i,
@@ -23,12 +27,29 @@ module mb4_lines (
   input  logic       abort_i,
   input  logic       time_i,         // the time base runs between frames as well
   output logic       tick_o,
-  // words
+  // BiSS B register access; MA force bits
+  input  logic       register_i,     // with start_i
+  input  logic       register_ma_i,
+  input  logic       register_end_i,
+  input  logic       register_mo_i,
+  input  logic [1:0] force_i,
+  input  logic [1:0] force_level_i,
+  input  logic       force_change_i,
+  // words on SL
   input  logic [1:0]  len_valid_i,
   input  logic [13:0] len_i,
-  input  logic [1:0]  any_word_i,
-  input  logic [1:0]  last_word_i,
-  input  logic [2*mb4_pkg::WORD_CFG_W-1:0] word_i,
+  input  logic [1:0]  rx_any_i,
+  input  logic [1:0]  rx_last_i,
+  input  logic [2*mb4_pkg::WORD_CFG_W-1:0] rx_word_i,
+  output logic [1:0]  rx_next_o,
+  // words on MO
+  input  logic [1:0]  mo_any_i,
+  input  logic [1:0]  mo_last_i,
+  input  logic [5:0]  mo_slave_i,
+  input  logic [2*mb4_pkg::WORD_CFG_W-1:0] mo_word_i,
+  output logic [1:0]  mo_next_o,
+  output logic [11:0] mo_addr_o,
+  input  logic [15:0] mo_data_i,
   // received bytes and words
   output logic [1:0]  wr_en_o,
   output logic [5:0]  wr_byte_o,
@@ -48,6 +69,7 @@ module mb4_lines (
   output logic [1:0]  sl_o,
   // pins
   output logic [1:0]  ma_o,
+  output logic [1:0]  mo_o,
   input  logic [1:0]  sl_i
 );
 
@@ -59,13 +81,19 @@ module mb4_lines (
   logic smp_half;
   logic smp_b_neg;
 
+  logic idle;
+  logic [1:0] register_use_q;
+
+  assign idle = idle_o == 2'b11;
+
+  // Forced levels last whole half periods as well: the time base runs for them, anew from a change.
   // The time base lives through a reset: it ends a low level of MA in its time.
   mb4_timebase u_timebase (
     .clk_i,
     .rst_ni      (por_ni),
     .half_len_i,
-    .run_i       (idle_o != 2'b11 || time_i),
-    .restart_i   (start_i),
+    .run_i       (!idle || time_i || force_i != 2'b00),
+    .restart_i   (start_i || (force_change_i && idle)),
     .tick_o,
     .half_next_o (half_next),
     .smp_a_o     (smp_a),
@@ -74,11 +102,20 @@ module mb4_lines (
     .smp_b_neg_o (smp_b_neg)
   );
 
+  // Lines of the register access keep MO low.
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni)                    register_use_q <= '0;
+    else if (start_i && register_i) register_use_q <= use_i;
+  end
+
   for (genvar i = 0; i < 2; i++) begin : gen_line
     mb4_channel u_channel (
       .clk_i,
       .rst_ni,
       .por_ni,
+      .protocol_i    (protocol_i[i*2 +: 2]),
+      .en_mo_i,
+      .mo_busy_i,
       .start_i,
       .use_i        (use_i[i]),
       .init_i,
@@ -87,6 +124,12 @@ module mb4_lines (
       .reduced_i,
       .hold_cdm_i,
       .abort_i,
+      .register_i,
+      .register_ma_i,
+      .register_end_i,
+      .register_mo_i (register_mo_i && register_use_q[i]),
+      .force_i       (force_i[i]),
+      .force_level_i (force_level_i[i]),
       .tick_i       (tick_o),
       .half_next_i  (half_next),
       .smp_a_i      (smp_a),
@@ -95,9 +138,17 @@ module mb4_lines (
       .smp_b_neg_i  (smp_b_neg),
       .len_valid_i  (len_valid_i[i]),
       .len_i        (len_i[i*7 +: 7]),
-      .any_word_i   (any_word_i[i]),
-      .last_word_i  (last_word_i[i]),
-      .word_i       (word_i[i*WORD_W +: WORD_W]),
+      .rx_any_i     (rx_any_i[i]),
+      .rx_last_i    (rx_last_i[i]),
+      .rx_word_i    (rx_word_i[i*WORD_W +: WORD_W]),
+      .rx_next_o    (rx_next_o[i]),
+      .mo_any_i     (mo_any_i[i]),
+      .mo_last_i    (mo_last_i[i]),
+      .mo_slave_i   (mo_slave_i[i*3 +: 3]),
+      .mo_word_i    (mo_word_i[i*WORD_W +: WORD_W]),
+      .mo_next_o    (mo_next_o[i]),
+      .mo_addr_o    (mo_addr_o[i*6 +: 6]),
+      .mo_data_i    (mo_data_i[i*8 +: 8]),
       .wr_en_o      (wr_en_o[i]),
       .wr_byte_o    (wr_byte_o[i*3 +: 3]),
       .wr_data_o    (wr_data_o[i*8 +: 8]),
@@ -114,6 +165,7 @@ module mb4_lines (
       .timeout_o    (timeout_o[i]),
       .sl_o         (sl_o[i]),
       .ma_o         (ma_o[i]),
+      .mo_o         (mo_o[i]),
       .sl_i         (sl_i[i])
     );
   end

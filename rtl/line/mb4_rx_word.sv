@@ -7,10 +7,11 @@
 // Clock domain: core. load_i prepares for the word described by word_i, which stays until done_o.
 // Each bit_valid_i takes one bit. A byte is offered for one clock when its lowest bit has come:
 // data from the top used byte down to byte 0, unused bits of a written byte 0, then the
-// re-inverted CRC right aligned in byte 7 (a 16-bit CRC in bytes 7 and 6). done_o comes with the
-// last bit; ok_o tells the CRC's result with it.
+// re-inverted CRC right aligned in byte 7 (a 16-bit CRC in bytes 7 and 6). Gray coded data are
+// decoded on the way; the CRC covers them as sent. done_o comes with the last bit; ok_o tells the
+// CRC's result with it. The slot of an actuator is only counted: no bytes, ok_o = 1.
 // Misuse: bits without a load continue the old word.
-// Datasheet: page 26, Tables 20..22; decision 28.
+// Datasheet: page 26, Tables 19..22; decisions 11, 28, 29.
 
 module mb4_rx_word (
   input  logic       clk_i,
@@ -32,6 +33,9 @@ module mb4_rx_word (
   logic [5:0] left_q;    // bits of the current part that follow this one
   logic [6:0] part_d;
   logic [6:0] part_q;
+  logic       skip_d;
+  logic       skip_q;    // the stop bit of an actuator comes first
+  logic       bin_q;     // the data bit before, decoded
   logic       good_d;
   logic       good_q;
   logic       crc_top;
@@ -45,17 +49,18 @@ module mb4_rx_word (
     .top_i   (word_i.crc_top),
     .start_i (word_i.crc_start),
     .load_i,
-    .shift_i (bit_valid_i),
+    .shift_i (bit_valid_i && !skip_q),
     .feed_i  (!in_crc_q),
     .bit_i,
     .top_o   (crc_top)
   );
 
   // CRC bits are sent inverted.
-  assign value    = bit_i ^ in_crc_q;
-  assign crc_fits = good_q && value == crc_top;
+  assign value    = bit_i ^ (in_crc_q || (word_i.gray && bin_q));
+  assign crc_fits = (good_q && value == crc_top) || word_i.actuator;
 
   always_comb begin
+    skip_d    = skip_q;
     in_crc_d  = in_crc_q;
     left_d    = left_q;
     part_d    = part_q;
@@ -67,15 +72,18 @@ module mb4_rx_word (
     ok_o      = 1'b1;
 
     if (load_i) begin
+      skip_d   = word_i.stop;
       in_crc_d = 1'b0;
       left_d   = word_i.data_last;
       part_d   = '0;
       good_d   = 1'b1;
+    end else if (bit_valid_i && skip_q) begin
+      skip_d = 1'b0;
     end else if (bit_valid_i) begin
       left_d = left_q - 6'd1;
       part_d = (left_q[2:0] == 3'd0) ? 7'h00 : {part_q[5:0], value};
       if (!in_crc_q) begin
-        wr_en_o = left_q[2:0] == 3'd0;
+        wr_en_o = left_q[2:0] == 3'd0 && !word_i.actuator;
         if (left_q == 6'd0) begin
           in_crc_d = 1'b1;
           left_d   = 6'(word_i.crc_len) - 6'd1;
@@ -85,7 +93,7 @@ module mb4_rx_word (
         good_d    = crc_fits;
         ok_o      = crc_fits;
         done_o    = left_q == 6'd0;
-        wr_en_o   = word_i.crc_store && left_q[2:0] == 3'd0;
+        wr_en_o   = word_i.crc_store && !word_i.actuator && left_q[2:0] == 3'd0;
         wr_byte_o = (word_i.crc_len[4] && left_q == 6'd0) ? 3'd6 : 3'd7;
       end
     end
@@ -93,11 +101,16 @@ module mb4_rx_word (
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
+      skip_q   <= 1'b0;
+      bin_q    <= 1'b0;
       in_crc_q <= 1'b0;
       left_q   <= '0;
       part_q   <= '0;
       good_q   <= 1'b0;
     end else begin
+      skip_q   <= skip_d;
+      if (load_i)           bin_q <= 1'b0;
+      else if (bit_valid_i) bin_q <= value;
       in_crc_q <= in_crc_d;
       left_q   <= left_d;
       part_q   <= part_d;

@@ -8,9 +8,11 @@
 // it was taken. From the second rising MA edge on the sampling points are counted up to and
 // including the first that reads 0 (the acknowledge): quarters_o. Every bit is then taken one
 // sampling point after that phase, mid-bit: with no delay at the falling MA edge. bit_valid_o is
-// high for one clock a bit, the first time in the period after the acknowledge.
+// high for one clock a bit, the first time in the period after the acknowledge. In SSI there is no
+// acknowledge: bits are taken at the rising MA edges, the first one at the second edge.
 // Misuse: SL already low when armed gives 1; quarters_o stops at 255.
-// Datasheet: page 12 (I304, I305, four sampling points); decisions 2, 17.
+// Datasheet: page 12 (I304, I305, four sampling points), page 14 (I504, I505);
+// decisions 2, 17.
 
 `include "mb4_check.svh"
 
@@ -25,6 +27,7 @@ module mb4_sl_sampler (
   input  logic       smp_b_neg_i,
   // frame engine: points a and b after the second rising MA edge, not yet delayed
   input  logic       clear_i,
+  input  logic       ssi_i,
   input  logic       armed_a_i,
   input  logic       armed_b_i,
   // results
@@ -55,6 +58,7 @@ module mb4_sl_sampler (
   logic       skip_d;
   logic [7:0] quarters_q;
   logic [7:0] quarters_d;
+  logic       phase_known;
   logic       at_phase;
 
   always_ff @(negedge clk_i or negedge rst_ni) begin
@@ -80,22 +84,25 @@ module mb4_sl_sampler (
 
   assign value_a = pos2_q;
   assign value_b = smp_b_neg_i ? neg2_q : pos2_q;
-  assign look_a  = smp_a_i && armed_a_q[1] && !found_q;
-  assign look_b  = smp_b_i && armed_b_q[1] && !found_q;
+  assign look_a  = smp_a_i && armed_a_q[1] && !found_q && !ssi_i;
+  assign look_b  = smp_b_i && armed_b_q[1] && !found_q && !ssi_i;
   assign hit_a   = look_a && !value_a;
   assign hit_b   = look_b && !value_b && !hit_a;
 
+  assign phase_known = ssi_i ? armed_b_q[1] : found_q;
+
   always_comb begin
-    at_phase   = found_q && smp_half_i != phase_q[1] && (phase_q[0] ? smp_b_i : smp_a_i);
+    at_phase   = phase_known && smp_half_i != phase_q[1] && (phase_q[0] ? smp_b_i : smp_a_i);
     found_d    = found_q;
     phase_d    = phase_q;
     skip_d     = skip_q && !at_phase;
     quarters_d = quarters_q;
     if (clear_i) begin
       found_d    = 1'b0;
+      phase_d    = 2'b00;
       skip_d     = 1'b0;
       quarters_d = 8'd0;
-    end else if (!found_q) begin
+    end else if (!found_q && !ssi_i) begin
       // Point a comes before point b; both in one clock at the highest MA frequency.
       if (look_a && quarters_d != 8'hFF)           quarters_d = quarters_d + 8'd1;
       if (look_b && !hit_a && quarters_d != 8'hFF) quarters_d = quarters_d + 8'd1;

@@ -58,7 +58,11 @@ module mb4_reg_file (
   input  logic [1:0]  word_done_i,
   input  logic [1:0]  word_ok_i,
   input  logic [1:0]  delay_en_i,
-  input  logic [15:0] delay_i
+  input  logic [15:0] delay_i,
+  // actuator data for MO of lines {2, 1}
+  input  logic        mo_rd_en_i,
+  input  logic [11:0] mo_addr_i,
+  output logic [15:0] mo_data_o
 );
 
   logic [7:0]  cfg_data;
@@ -194,7 +198,10 @@ module mb4_reg_file (
     .word_done_i,
     .word_ok_i,
     .delay_en_i,
-    .delay_i
+    .delay_i,
+    .mo_rd_en_i,
+    .mo_addr_i,
+    .mo_data_o
   );
 
   mb4_rdata_buf u_rdata (

@@ -1,10 +1,11 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Single-cycle data of four slaves in two banks: 2 x 32 bytes (SCDATA1..4 or SCDATA5..8).
+// Single-cycle data of four slaves in two banks: 2 x 32 bytes (SCDATA1..4 or SCDATA5..8). Two
+// copies with the same contents, one read by the host, one by MO (actuator data).
 //
 // Clock domains: writes in the core clock (see mb4_write_port), host reads in hclk_i (data valid
-// after the edge with rd_en_i).
+// after the edge with rd_en_i), MO's in the core clock (data valid one clock after the address).
 // Datasheet: page 26, Table 20.
 
 module mb4_scd_bank (
@@ -16,6 +17,9 @@ module mb4_scd_bank (
   input  logic       eng_wr_en_i,
   input  logic [5:0] eng_wr_addr_i,
   input  logic [7:0] eng_wr_data_i,
+  input  logic       eng_rd_en_i,
+  input  logic [5:0] eng_rd_addr_i,
+  output logic [7:0] eng_rd_data_o,
   // host, posted into the core domain
   input  logic       host_wr_en_i,
   input  logic [5:0] host_wr_addr_i,
@@ -56,6 +60,17 @@ module mb4_scd_bank (
     .rd_en_i,
     .rd_addr_i,
     .rd_data_o
+  );
+
+  mb4_ram #(.Width(8), .AddrW(6)) u_mo (
+    .wclk_i    (clk_i),
+    .wr_en_i   (wr_en),
+    .wr_addr_i (wr_addr),
+    .wr_data_i (wr_data),
+    .rclk_i    (clk_i),
+    .rd_en_i   (eng_rd_en_i),
+    .rd_addr_i (eng_rd_addr_i),
+    .rd_data_o (eng_rd_data_o)
   );
 
 endmodule

@@ -29,6 +29,10 @@ module mb4_scd_store (
   output logic [7:0] rd_lo_data_o,
   output logic [7:0] rd_hi_data_o,
   output logic [7:0] svalid_o,        // of the host's bank
+  // actuator data for MO of lines {2, 1}: slave and byte, data one clock later
+  input  logic        mo_rd_en_i,
+  input  logic [11:0] mo_addr_i,
+  output logic [15:0] mo_data_o,
   // received bytes and words of lines {2, 1}
   input  logic [1:0]  wr_line_i,
   input  logic [5:0]  wr_byte_i,
@@ -46,6 +50,8 @@ module mb4_scd_store (
   logic       lo_wr_en, hi_wr_en;
   logic [5:0] lo_wr_addr, hi_wr_addr;
   logic [7:0] lo_wr_data, hi_wr_data;
+  logic [4:0] hi_mo_addr;
+  logic [7:0] lo_mo_data, hi_mo_data;
 
   assign post_lo        = post_valid_i && post_i[15:13] == 3'b000;
   assign post_hi        = post_valid_i && post_i[15:13] == 3'b001;
@@ -84,6 +90,9 @@ module mb4_scd_store (
     .eng_wr_en_i    (lo_wr_en),
     .eng_wr_addr_i  (lo_wr_addr),
     .eng_wr_data_i  (lo_wr_data),
+    .eng_rd_en_i    (mo_rd_en_i),
+    .eng_rd_addr_i  ({eng_bank_i, mo_addr_i[4:0]}),
+    .eng_rd_data_o  (lo_mo_data),
     .host_wr_en_i   (post_lo),
     .host_wr_addr_i ({host_bank_i, post_i[12:8]}),
     .host_wr_data_i (post_i[7:0]),
@@ -101,6 +110,9 @@ module mb4_scd_store (
     .eng_wr_en_i    (hi_wr_en),
     .eng_wr_addr_i  (hi_wr_addr),
     .eng_wr_data_i  (hi_wr_data),
+    .eng_rd_en_i    (mo_rd_en_i),
+    .eng_rd_addr_i  ({eng_bank_i, hi_mo_addr}),
+    .eng_rd_data_o  (hi_mo_data),
     .host_wr_en_i   (post_hi),
     .host_wr_addr_i ({host_bank_i, post_i[12:8]}),
     .host_wr_data_i (post_i[7:0]),
@@ -110,6 +122,10 @@ module mb4_scd_store (
     .rd_addr_i      ({rd_bank_i, rd_addr_i}),
     .rd_data_o      (rd_hi_data_o)
   );
+
+  // The upper half belongs to one line at a time: to line 2 if it has words there.
+  assign hi_mo_addr = mo_addr_i[11] ? mo_addr_i[10:6] : mo_addr_i[4:0];
+  assign mo_data_o  = {hi_mo_data, mo_addr_i[5] ? hi_mo_data : lo_mo_data};
 
   // Validity flags of the lower and the upper four data channels.
   mb4_svalid u_svalid_lo (

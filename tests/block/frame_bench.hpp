@@ -101,6 +101,7 @@ class FrameBench {
     model->nocrc_i = 0;
     model->start_i = 0;
     model->init_i = 0;
+    model->protocol_i = 1;  // BiSS C
     model->cdm_i = 0;
     model->hold_cdm_i = 0;
     model->abort_i = 0;

@@ -170,11 +170,13 @@ def scd_bank(steps):
     for address in range(64):
         steps.step(clear_addr_i=address)
         steps.clock("clk_i")
-    steps.step(clear_i=0, rd_en_i=1)
+    steps.step(clear_i=0, rd_en_i=1, eng_rd_en_i=1)
     steps.clock("hclk_i")
+    steps.clock("clk_i")
     steps.compare_from = len(steps.steps)
     few = {port: rarely(port, 0.6, lambda s: s.rng.getrandbits(3) * 9) for port in
-           ("clear_addr_i", "eng_wr_addr_i", "host_wr_addr_i", "rd_addr_i")}
+           ("clear_addr_i", "eng_wr_addr_i", "host_wr_addr_i", "rd_addr_i",
+            "eng_rd_addr_i")}
     # A write and a read of one address never share a clock edge: which byte is read is left open.
     play(steps, ["clk_i", "hclk_i"], [], 6000, dict(few, clear_i=0.05), one_clock=True)
 
@@ -183,11 +185,12 @@ def rx_word(steps):
     steps.reset(["rst_ni"])
     for _ in range(120):
         crc = steps.rng.choice([0, 0, 1, 3, 5, 6, 7, 8, 16])
-        word = steps.rng.getrandbits(6)  # data_last, then crc_len .. crc_store of mb4_pkg
+        word = steps.rng.getrandbits(6)  # data_last, then crc_len .. stop of mb4_pkg
         top = 1 << (crc - 1) if crc else 0
         poly = steps.rng.getrandbits(16) & (2 * top - 1 if top else 0)
         for value, width in ((crc, 5), (poly, 16), (top, 16), (steps.rng.getrandbits(16), 16),
-                             (steps.rng.getrandbits(1), 1)):
+                             (steps.rng.getrandbits(1), 1), (steps.rng.getrandbits(1), 1),
+                             (int(steps.chance(0.2)), 1), (int(steps.chance(0.2)), 1)):
             word = word << width | value
         steps.step(word_i=word, load_i=1, bit_valid_i=0)
         steps.clock("clk_i")
@@ -232,6 +235,67 @@ def control_frame(steps):
             "regnum_i", 0.003, lambda s: s.rng.choice([0, 1, 2])),
         "slaveid_i": rarely("slaveid_i", 0.003), "ida_invert_i": rarely("ida_invert_i", 0.003),
         "rdata_i": rarely("rdata_i", 0.003, lambda s: s.rng.choice([0, 0x80, 0xC0, 0x5A]))})
+
+
+def mo_tx(steps):
+    """Frames of a few words; a rising MA edge every second clock at most."""
+    steps.reset(["rst_ni"])
+    for _ in range(60):
+        steps.step(enable_i=int(steps.chance(0.9)), low_i=int(steps.chance(0.1)), begin_i=1,
+                   biss_c_i=steps.rng.getrandbits(1), reduced_i=int(steps.chance(0.1)),
+                   busy_i=steps.rng.choice([0, 0, 1, 5]), line_idle_i=0, rise_i=0)
+        steps.clock("clk_i")
+        steps.step(begin_i=0)
+        for _ in range(steps.rng.randint(10, 150)):
+            if steps.chance(0.03):
+                crc = steps.rng.choice([0, 3, 5, 6, 8, 16])
+                top = 1 << (crc - 1) if crc else 0
+                word = steps.rng.getrandbits(6)
+                poly = steps.rng.getrandbits(16) & (2 * top - 1 if top else 0)
+                for value, width in ((crc, 5), (poly, 16), (top, 16),
+                                     (steps.rng.getrandbits(16), 16), (0, 2),
+                                     (int(steps.chance(0.8)), 1),
+                                     (steps.rng.getrandbits(1), 1)):
+                    word = word << width | value
+                steps.step(word_i=word)
+            steps.step(any_word_i=int(steps.chance(0.9)), last_word_i=int(steps.chance(0.3)),
+                       slave_i=any_value(steps, "slave_i"), rise_i=1,
+                       mem_data_i=any_value(steps, "mem_data_i"),
+                       line_idle_i=int(steps.chance(0.005)))
+            steps.clock("clk_i")
+            steps.step(rise_i=0)
+            steps.clock("clk_i")
+
+
+def biss_b(steps):
+    """Register accesses with a slave that answers right, then anything."""
+    steps.reset(["rst_ni"])
+    for number in range(6):
+        write, value, count = number & 1, steps.rng.getrandbits(8), steps.rng.choice([3, 64, 64])
+        steps.step(freqr_i=0, wnr_i=write, regadr_i=steps.rng.getrandbits(7), regnum_i=count - 1,
+                   slaveid_i=steps.rng.getrandbits(3), mo_i=number >> 1 & 1, use_i=1 + number % 3,
+                   rdata_i=value, init_i=0, start_i=1, sl_i=3, tick_i=1, expired_i=0)
+        steps.clock("clk_i")
+        steps.step(start_i=0, sl_i=0)
+        # A clock of the register access lasts four ticks of one clock each; the slave answers in
+        # the middle of it.
+        answers = [0] * (19 - 2 * write) + ([1] + control_crc(value) + [0]) * count
+        for bit in answers:
+            for _ in range(4):
+                steps.clock("clk_i")
+            steps.step(sl_i=3 * bit)
+        play(steps, ["clk_i"], [], 40, {"tick_i": 0.9, "start_i": 0, "abort_i": 0.1})
+        steps.step(abort_i=1)
+        steps.clock("clk_i")
+        steps.step(abort_i=0)
+    play(steps, ["clk_i"], ["rst_ni"], 12000, {
+        "start_i": 0.3, "abort_i": 0.0005, "tick_i": 0.9, "expired_i": 0.3, "init_i": 0.1,
+        "freqr_i": rarely("freqr_i", 0.003, lambda s: s.rng.choice([0, 0, 1])),
+        "wnr_i": rarely("wnr_i", 0.003), "mo_i": rarely("mo_i", 0.01),
+        "regadr_i": rarely("regadr_i", 0.003), "regnum_i": rarely(
+            "regnum_i", 0.003, lambda s: s.rng.choice([0, 1])),
+        "slaveid_i": rarely("slaveid_i", 0.003), "use_i": rarely("use_i", 0.003),
+        "rdata_i": rarely("rdata_i", 0.003)})
 
 
 def core(steps):
@@ -318,6 +382,8 @@ MODULES = {
         "mem_busy_i": 0.02, "idle_i": rarely("idle_i", 0.3, lambda s: s.rng.choice([3, 3, 3, 1])),
         "sl_i": rarely("sl_i", 0.2, lambda s: s.rng.choice([3, 3, 3, 1])), "tick_i": 0.9,
         "use_i": rarely("use_i", 0.02), "regvers_i": rarely("regvers_i", 0.02),
+        "frame_use_i": rarely("frame_use_i", 0.02), "init_use_i": rarely("init_use_i", 0.02),
+        "is_frame_i": 0.9, "is_control_i": 0.3, "is_register_i": 0.2,
         "frame_end_i": rarely("frame_end_i", 0.9, lambda s: s.rng.choice([0, 1, 2, 3])),
         "init_done_i": rarely("init_done_i", 0.9, lambda s: s.rng.choice([0, 1, 2, 3])),
         "init_fail_i": rarely("init_fail_i", 0.9, lambda s: s.rng.choice([0] * 9 + [1, 2])),
@@ -335,20 +401,27 @@ MODULES = {
     "mb4_cds_bank": simple(*CORE, 3000),
     "mb4_timebase": timebase,
     "mb4_sl_sampler": simple(*CORE, 12000, {
-        "clear_i": 0.002, "smp_a_i": 0.4, "smp_b_i": 0.4, "sl_i": rarely("sl_i", 0.3, lambda s:
+        "ssi_i": rarely("ssi_i", 0.002), "clear_i": 0.002, "smp_a_i": 0.4, "smp_b_i": 0.4, "sl_i": rarely("sl_i", 0.3, lambda s:
                                                                         int(s.chance(0.99))),
         "armed_a_i": 0.95, "armed_b_i": 0.95}, reset_rate=0.0005),
     "mb4_crc": simple(*CORE, 4000, {
         "load_i": 0.02, "shift_i": 0.8, "feed_i": 0.8, "poly_i": rarely("poly_i", 0.02),
         "top_i": rarely("top_i", 0.02, lambda s: 1 << s.rng.randrange(16))}),
     "mb4_rx_word": rx_word,
-    "mb4_frame_biss": simple(["clk_i"], ["rst_ni", "por_ni"], 12000, {
+    "mb4_frame": simple(["clk_i"], ["rst_ni", "por_ni"], 12000, {
         "start_i": 0.1, "use_i": 0.95, "init_i": 0.1, "abort_i": 0.003, "bit_valid_i": 0.3,
         "tick_i": 0.5, "len_valid_i": 0.01, "len_i": rarely("len_i", 0.5, lambda s:
                                                             s.rng.choice([1, 7, 30, 80])),
         "last_word_i": 0.3, "word_done_i": 0.2, "sl_i": 0.7,
+        "protocol_i": rarely("protocol_i", 0.002), "register_i": 0.1, "register_end_i": 0.05,
+        "force_i": rarely("force_i", 0.002),
         "ack_i": 0.2, "hold_cdm_i": 0.2, "quarters_i": rarely("quarters_i", 0.1, lambda s:
                                                              s.rng.choice([3, 254, 255]))}),
+    "mb4_ma_drive": simple(["clk_i"], ["rst_ni", "por_ni"], 4000, {
+        "begin_i": 0.05, "stop_i": 0.01, "tick_i": 0.6, "enough_i": 0.1,
+        "force_i": rarely("force_i", 0.02)}),
+    "mb4_mo_tx": mo_tx,
+    "mb4_biss_b": biss_b,
     "mb4_core": core,
     "struct_in_block": simple(*CORE, 500),
 }
@@ -358,6 +431,6 @@ POLY = [14, 13, 11, 10, 9, 8]
 TOP = [14, 13, 12, 11, 10, 9, 8]
 CONSTANT = {
     "mb4_crc_decode": [f"crc_poly_o[{i}]" for i in POLY] + [f"crc_top_o[{i}]" for i in TOP],
-    "mb4_word_list": [f"word_o[{33 + i}]" for i in POLY] + [f"word_o[{17 + i}]" for i in TOP],
+    "mb4_word_list": [f"word_o[{36 + i}]" for i in POLY] + [f"word_o[{20 + i}]" for i in TOP],
     "mb4_sequencer": ["held_o[7]"],  # BREAK never reads 1
 }

@@ -11,6 +11,7 @@ module frame_top (
   input  logic         nocrc_i,
   input  logic         start_i,
   input  logic         init_i,
+  input  logic [1:0]   protocol_i,
   input  logic         cdm_i,
   input  logic         hold_cdm_i,
   input  logic         abort_i,
@@ -42,6 +43,13 @@ module frame_top (
   logic [6:0] len;
   logic       any_word;
   logic       last_word;
+  logic       next;
+  logic       mo_any, mo_last, mo_next, mo, ssi;
+  logic [2:0] mo_slave;
+  logic [5:0] mo_addr;
+  logic       rx_len_valid;
+  logic [6:0] rx_len;
+  mb4_pkg::word_cfg_t mo_word;
   logic       sl_sync;
   logic       word_begin;
   logic       cdm_sent;
@@ -66,26 +74,51 @@ module frame_top (
     .smp_b_neg_o (smp_b_neg)
   );
 
-  mb4_word_list u_words (
+  assign ssi = protocol_i == mb4_regs_pkg::PROTOCOL_SSI;
+
+  mb4_word_list #(.Sum(1'b0)) u_words (
     .clk_i,
     .rst_ni,
     .slave_cfg_i,
+    .actnsens_i  (8'h00),
     .mine_i      (8'hFF),
+    .ssi_i       (ssi),
     .nocrc_i,
     .start_i,
-    .next_i      (word_done_o),
-    .len_valid_o (len_valid),
-    .len_o       (len),
+    .next_i      (next),
+    .len_valid_o (rx_len_valid),
+    .len_o       (rx_len),
     .any_o       (any_word),
     .last_o      (last_word),
     .slave_o,
     .word_o      (word)
   );
 
+  mb4_word_list u_mo_words (
+    .clk_i,
+    .rst_ni,
+    .slave_cfg_i,
+    .actnsens_i  (8'h00),
+    .mine_i      (8'hFF),
+    .ssi_i       (ssi),
+    .nocrc_i,
+    .start_i,
+    .next_i      (mo_next),
+    .len_valid_o (len_valid),
+    .len_o       (len),
+    .any_o       (mo_any),
+    .last_o      (mo_last),
+    .slave_o     (mo_slave),
+    .word_o      (mo_word)
+  );
+
   mb4_channel u_channel (
     .clk_i,
     .rst_ni,
     .por_ni      (rst_ni),
+    .protocol_i,
+    .en_mo_i     (1'b0),
+    .mo_busy_i   (8'h00),
     .start_i,
     .use_i       (1'b1),
     .init_i,
@@ -94,6 +127,12 @@ module frame_top (
     .reduced_i   (1'b0),
     .hold_cdm_i,
     .abort_i,
+    .register_i  (1'b0),
+    .register_ma_i  (1'b1),
+    .register_end_i (1'b0),
+    .register_mo_i  (1'b0),
+    .force_i     (1'b0),
+    .force_level_i  (1'b0),
     .tick_i      (tick),
     .half_next_i (half_next),
     .smp_a_i     (smp_a),
@@ -102,9 +141,17 @@ module frame_top (
     .smp_b_neg_i (smp_b_neg),
     .len_valid_i (len_valid),
     .len_i       (len),
-    .any_word_i  (any_word),
-    .last_word_i (last_word),
-    .word_i      (word),
+    .rx_any_i    (any_word),
+    .rx_last_i   (last_word),
+    .rx_word_i   (word),
+    .rx_next_o   (next),
+    .mo_any_i    (mo_any),
+    .mo_last_i   (mo_last),
+    .mo_slave_i  (mo_slave),
+    .mo_word_i   (mo_word),
+    .mo_next_o   (mo_next),
+    .mo_addr_o   (mo_addr),
+    .mo_data_i   (8'h00),
     .wr_en_o,
     .wr_byte_o,
     .wr_data_o,
@@ -121,10 +168,11 @@ module frame_top (
     .timeout_o,
     .sl_o        (sl_sync),
     .ma_o,
+    .mo_o        (mo),
     .sl_i
   );
 
   logic unused;
-  assign unused = sl_sync ^ word_begin ^ cdm_sent;
+  assign unused = ^{sl_sync, word_begin, cdm_sent, mo, mo_addr, rx_len_valid, rx_len};
 
 endmodule

@@ -1,29 +1,31 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// BiSS C frame on one line: drives MA, follows the slaves from the request to their timeout.
+// Frame on one line, BiSS C, BiSS B or SSI: follows the slaves from the request to their timeout.
 //
 // Clock domain: core. start_i (with use_i) begins a frame at a restart of the time base: half a
-// period of MA high, then the first falling edge. MA changes at ticks only, so that no pulse is
-// shorter than half a period. After the last needed rising edge MA takes the inverted CDM and
-// keeps it through the slaves' timeout. MA edges: 5 + processing clocks + data and CRC bits, or as
-// many as had been sent when the start bit came back over a long line (decision 17), or CDS if CDM
-// depends on it. reduced_i: the frame ends behind CDS (decision 14). frame_end_o:
-// the last data bit has been taken; cds_o is valid from the next clock on. idle_o: the slaves'
-// timeout is over as well. init_i makes the two-pulse initialisation instead; init_done_o when the
-// acknowledge has come, init_fail_o after 255 quarter periods without it.
+// period of MA high, then the first falling edge. After the last needed rising edge MA takes the
+// inverted CDM and keeps it through the slaves' timeout. Rising MA edges: BiSS C 5, BiSS B 4, and
+// processing clocks; SSI 1; and data and CRC bits; or as many as had been sent when the start bit
+// came back over a long line (decision 17), or CDS if CDM depends on it. reduced_i: the frame ends
+// behind CDS (decision 14). frame_end_o: the last data bit has been taken; cds_o is valid from the
+// next clock on (0 in BiSS B and SSI). idle_o: the slaves' timeout is over as well. init_i makes
+// the two-pulse initialisation instead; init_done_o when the acknowledge has come, init_fail_o
+// after 255 quarter periods without it. With register_i MA belongs to the BiSS B register access
+// (mb4_biss_b) until register_end_i; frame_end_o then.
 // Misuse: start_i while idle_o is low is ignored. A slave that never answers keeps the frame
-// running until abort_i (decision 4); after it MA returns to 1 with the next tick. The same holds
-// after a reset: only por_ni resets the flop of MA, so that a reset cuts no low pulse short.
-// Datasheet: pages 12, 15, 16, 27, 32, 33, Figures 8, 11, 13.
+// running until abort_i (decision 4); after it MA returns to 1 with the next tick, and so it does
+// after a reset.
+// Datasheet: pages 12..16, 27, 32, 33, Figures 8..16.
 
 `include "mb4_check.svh"
 
-module mb4_frame_biss (
+module mb4_frame (
   input  logic       clk_i,
   input  logic       rst_ni,
   input  logic       por_ni,       // power-on: MA itself
   // control
+  input  logic [1:0] protocol_i,   // CFGCHx
   input  logic       start_i,
   input  logic       use_i,
   input  logic       init_i,
@@ -32,6 +34,13 @@ module mb4_frame_biss (
   input  logic       reduced_i,
   input  logic       hold_cdm_i,
   input  logic       abort_i,
+  // BiSS B register access
+  input  logic       register_i,   // with start_i
+  input  logic       register_ma_i,
+  input  logic       register_end_i,
+  // MA force bits
+  input  logic       force_i,
+  input  logic       force_level_i,
   // time base
   input  logic       tick_i,
   input  logic       half_next_i,
@@ -52,6 +61,7 @@ module mb4_frame_biss (
   output logic       word_load_o,  // the word's first bit comes next
   output logic       word_bit_o,
   // results
+  output logic       rise_o,       // a rising MA edge of a frame
   output logic       cds_o,
   output logic       cdm_o,        // as sent
   output logic       frame_end_o,
@@ -69,15 +79,12 @@ module mb4_frame_biss (
     DATA,
     STOP,
     TIMEOUT,
-    RELEASE
+    RELEASE,
+    REGISTER
   } state_e;
 
   state_e             state_d;
   state_e             state_q;
-  logic               ma_d;
-  logic               ma_q;
-  logic               clocking_d;
-  logic               clocking_q;
   logic [1:0]         cdm_d;
   logic [1:0]         cdm_q;       // for CDS = 1, 0
   logic               reduced_d;
@@ -98,42 +105,46 @@ module mb4_frame_biss (
   logic               load_q;
   logic               enough;
   logic               rise;
+  logic               ma_clocks;
+  logic               released;
   logic               begin_frame;
   logic               waited;      // one more processing clock
   logic               cdm;
   logic               cdm_known;
+  logic               biss_c;
+  logic               ssi;
 
+  assign biss_c      = protocol_i == mb4_regs_pkg::PROTOCOL_BISS_C;
+  assign ssi         = protocol_i == mb4_regs_pkg::PROTOCOL_SSI;
   assign begin_frame = start_i && use_i && state_q == IDLE;
   // A CDM that depends on CDS has to wait for it; MA goes on meanwhile.
   assign cdm         = cds_q ? cdm_q[1] : cdm_q[0];
   assign cdm_known   = cdm_q[1] == cdm_q[0] || state_q == DATA || state_q == STOP ||
                        state_q == TIMEOUT;
-  assign enough      = init_q ? rises_q == 2'd2 : started_q && need_q <= 11'sd0 && cdm_known;
+  assign enough      = init_q ? rises_q == 2'd2
+                              : started_q && need_q <= 11'sd0 && cdm_known && !len_valid_i;
 
-  // MA at the ticks.
-  always_comb begin
-    ma_d       = ma_q;
-    clocking_d = clocking_q;
-    rise       = 1'b0;
-    if (begin_frame) begin
-      ma_d       = 1'b1;
-      clocking_d = 1'b1;
-    end else if (abort_i && state_q != RELEASE) begin
-      clocking_d = 1'b0;
-    end else if (tick_i && clocking_q) begin
-      if (!half_next_i) begin
-        ma_d       = enough ? !cdm : 1'b0;
-        clocking_d = !enough;
-      end else if (enough && cdm) begin
-        clocking_d = 1'b0;
-      end else begin
-        ma_d = 1'b1;
-        rise = 1'b1;
-      end
-    end else if (tick_i && (state_q == RELEASE || (state_q == TIMEOUT && sl_i && !hold_q))) begin
-      ma_d = 1'b1;
-    end
-  end
+  mb4_ma_drive u_ma (
+    .clk_i,
+    .rst_ni,
+    .por_ni,
+    .tick_i,
+    .half_next_i,
+    .begin_i       (begin_frame),
+    .clocked_i     (!register_i),
+    .stop_i        (abort_i && state_q != RELEASE),
+    .enough_i      (enough),
+    .cdm_i         (cdm),
+    .high_i        (state_q == RELEASE || (state_q == TIMEOUT && sl_i && !hold_q)),
+    .register_i    (state_q == REGISTER),
+    .register_ma_i,
+    .force_i,
+    .force_level_i,
+    .released_o    (released),
+    .rise_o        (rise),
+    .clocking_o    (ma_clocks),
+    .ma_o
+  );
 
   // Edges sent and needed.
   always_comb begin
@@ -141,7 +152,7 @@ module mb4_frame_biss (
     need_d  = need_q;
     if (begin_frame) begin
       rises_d = 2'd0;
-      need_d  = 11'sd5;
+      need_d  = biss_c ? 11'sd5 : ssi ? 11'sd1 : 11'sd4;
     end else if (state_q != IDLE) begin
       if (rise && rises_q != 2'd2) rises_d = rises_q + 2'd1;
       need_d = need_q + ((len_valid_i && !reduced_q) ? signed'({4'h0, len_i}) : 11'sd0)
@@ -169,12 +180,15 @@ module mb4_frame_biss (
     unique case (state_q)
       IDLE: begin
         if (begin_frame) begin
-          state_d   = REQUEST;
-          cdm_d     = init_i ? 2'b00 : {cdm1_i, cdm0_i};
+          state_d   = register_i ? REGISTER : REQUEST;
+          cdm_d     = (init_i || !(biss_c || ssi)) ? 2'b00 : {cdm1_i, cdm0_i};
+          cds_d     = 1'b0;
           reduced_d = reduced_i && !init_i;
           hold_d    = hold_cdm_i;
-          init_d    = init_i;
-          started_d = 1'b0;
+          init_d    = init_i && !register_i;
+          started_d = ssi;
+        end else if (released) begin
+          state_d = RELEASE;
         end
       end
       REQUEST: begin
@@ -183,10 +197,18 @@ module mb4_frame_biss (
           init_done_o = ack_i;
           init_fail_o = !ack_i && quarters_i == 8'hFF;
           if (init_done_o || init_fail_o) state_d = TIMEOUT;
-        end else if (bit_valid_i) begin
+        end else if (bit_valid_i && biss_c) begin
           waited    = !bit_i;
           started_d = bit_i;
           if (bit_i) state_d = CDS;
+        end else if (ssi || bit_valid_i) begin
+          waited = !ssi && !bit_i;
+          if (!waited) begin
+            started_d   = 1'b1;
+            load_d      = any_word_i && !reduced_q;
+            frame_end_o = !load_d;
+            state_d     = load_d ? DATA : ssi ? TIMEOUT : STOP;
+          end
         end
       end
       CDS: begin
@@ -209,8 +231,12 @@ module mb4_frame_biss (
         // SL shows the last data bit up to here.
         if (bit_valid_i) state_d = TIMEOUT;
       end
+      REGISTER: begin
+        frame_end_o = register_end_i;
+        if (register_end_i) state_d = TIMEOUT;
+      end
       TIMEOUT: begin
-        if (tick_i && sl_i && !clocking_q) state_d = IDLE;
+        if (tick_i && sl_i && !ma_clocks) state_d = IDLE;
       end
       RELEASE: begin
         if (tick_i) state_d = IDLE;
@@ -219,13 +245,12 @@ module mb4_frame_biss (
     endcase
 
     // MA low while idle: HOLDCDM.
-    if (abort_i && (state_q == IDLE ? !ma_q : state_q != RELEASE)) state_d = RELEASE;
+    if (abort_i && (state_q == IDLE ? !ma_o : state_q != RELEASE)) state_d = RELEASE;
   end
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
       state_q    <= RELEASE;
-      clocking_q <= 1'b0;
       cdm_q      <= '0;
       reduced_q  <= 1'b0;
       hold_q     <= 1'b0;
@@ -237,7 +262,6 @@ module mb4_frame_biss (
       load_q     <= 1'b0;
     end else begin
       state_q    <= state_d;
-      clocking_q <= clocking_d;
       cdm_q      <= cdm_d;
       reduced_q  <= reduced_d;
       hold_q     <= hold_d;
@@ -250,22 +274,16 @@ module mb4_frame_biss (
     end
   end
 
-  always_ff @(posedge clk_i or negedge por_ni) begin
-    if (!por_ni) ma_q <= 1'b1;
-    else         ma_q <= ma_d;
-  end
-
   assign armed_a_o   = rises_q == 2'd2;
   assign armed_b_o   = rises_d == 2'd2;
   assign word_load_o = load_q;
+  assign rise_o      = rise;
   assign cds_o       = cds_q;
   assign cdm_o       = cdm;
-  assign idle_o      = state_q == IDLE;
+  assign idle_o      = state_q == IDLE && !released;
   assign timeout_o   = state_q == TIMEOUT;
-  assign ma_o        = ma_q;
 
-  `MB4_ASSERT(StateInRange_A, clk_i, rst_ni, state_q <= RELEASE)
-  `MB4_ASSERT_IF(IdleDoesNotClock_A, clk_i, rst_ni, state_q == IDLE, !clocking_q)
+  `MB4_ASSERT_IF(IdleDoesNotClock_A, clk_i, rst_ni, state_q == IDLE, !ma_clocks)
   `MB4_ASSERT(NeedInRange_A, clk_i, rst_ni, need_q >= -11'sd1 && need_q <= 11'sd700)
 
 endmodule

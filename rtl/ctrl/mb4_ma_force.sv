@@ -1,0 +1,52 @@
+// SPDX-FileCopyrightText: 2026 The openmb4 authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// MA force bits: from the configuration registers to the lines, bit i of a vector {2, 1} for line
+// i + 1.
+//
+// Clock domain: core. The bits may be written at any time: they pass two flops and are taken
+// together once they are the same for two clocks (4 clocks after the write at most), with
+// change_o. MA follows with the next tick (mb4_ma_drive).
+// Misuse: none.
+// Datasheet: page 33, Tables 50..53; CHSEL page 27, Table 23.
+
+module mb4_ma_force (
+  input  logic       clk_i,
+  input  logic       rst_ni,
+  // configuration, host domain
+  input  logic       mafs_i,     // the selected line is forced
+  input  logic       mavs_i,     // ... to this level
+  input  logic       mafo_i,     // the other line is forced
+  input  logic       mavo_i,
+  input  logic [1:0] chsel_i,
+  output logic [1:0] force_o,
+  output logic [1:0] level_o,
+  output logic       change_o
+);
+
+  logic [5:0] meta_q;
+  logic [5:0] sync_q;
+  logic [5:0] last_q;
+  logic [5:0] held_q;
+  logic [1:0] selected;
+
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      meta_q <= '0;
+      sync_q <= '0;
+      last_q <= '0;
+      held_q <= '0;
+    end else begin
+      meta_q <= {mafs_i, mavs_i, mafo_i, mavo_i, chsel_i};
+      sync_q <= meta_q;
+      last_q <= sync_q;
+      if (sync_q == last_q) held_q <= sync_q;
+    end
+  end
+
+  assign selected = held_q[1:0] == 2'b00 ? 2'b01 : held_q[1:0];
+  assign force_o  = ({2{held_q[5]}} & selected) | ({2{held_q[3]}} & ~selected);
+  assign level_o  = ({2{held_q[4]}} & selected) | ({2{held_q[2]}} & ~selected);
+  assign change_o = sync_q == last_q && held_q != sync_q;
+
+endmodule

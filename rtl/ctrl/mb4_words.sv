@@ -1,0 +1,88 @@
+// SPDX-FileCopyrightText: 2026 The openmb4 authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Word lists of both lines: one for what comes on SL, one for what goes out on MO, which also
+// counts the bits of the frame (instances only). Bit i of a vector {2, 1} belongs to line i + 1,
+// wider fields are slices.
+//
+// Clock domain: core. See mb4_word_list. With SLAVELOC5 = 1 line 2 has data channels 5..8.
+// Datasheet: pages 23..26, Tables 10, 17.
+
+module mb4_words (
+  input  logic        clk_i,
+  input  logic        rst_ni,
+  // configuration
+  input  logic [mb4_pkg::NUM_SLAVES*mb4_pkg::SLAVE_CFG_W-1:0] slave_cfg_i,
+  input  logic [7:0]  actnsens_i,
+  input  logic        slaveloc5_i,
+  input  logic        nocrc_i,
+  input  logic [1:0]  ssi_i,
+  input  logic        start_i,
+  // frame length
+  output logic [1:0]  len_valid_o,
+  output logic [13:0] len_o,
+  // SL
+  input  logic [1:0]  rx_next_i,
+  output logic [1:0]  rx_any_o,
+  output logic [1:0]  rx_last_o,
+  output logic [5:0]  rx_slave_o,
+  output logic [2*mb4_pkg::WORD_CFG_W-1:0] rx_word_o,
+  // MO
+  input  logic [1:0]  mo_next_i,
+  output logic [1:0]  mo_any_o,
+  output logic [1:0]  mo_last_o,
+  output logic [5:0]  mo_slave_o,
+  output logic [2*mb4_pkg::WORD_CFG_W-1:0] mo_word_o
+);
+
+  localparam int unsigned W = mb4_pkg::WORD_CFG_W;
+
+  logic [15:0] mine;
+  logic [1:0]  rx_len_valid;
+  logic [13:0] rx_len;
+  logic        unused;
+
+  assign mine = slaveloc5_i ? 16'hF00F : 16'h00FF;
+
+  for (genvar i = 0; i < 2; i++) begin : gen_line
+    mb4_word_list #(.Sum(1'b0)) u_rx (
+      .clk_i,
+      .rst_ni,
+      .slave_cfg_i,
+      .actnsens_i,
+      .mine_i      (mine[i*8 +: 8]),
+      .ssi_i       (ssi_i[i]),
+      .nocrc_i,
+      .start_i,
+      .next_i      (rx_next_i[i]),
+      .len_valid_o (rx_len_valid[i]),
+      .len_o       (rx_len[i*7 +: 7]),
+      .any_o       (rx_any_o[i]),
+      .last_o      (rx_last_o[i]),
+      .slave_o     (rx_slave_o[i*3 +: 3]),
+      .word_o      (rx_word_o[i*W +: W])
+    );
+
+    mb4_word_list u_mo (
+      .clk_i,
+      .rst_ni,
+      .slave_cfg_i,
+      .actnsens_i,
+      .mine_i      (mine[i*8 +: 8]),
+      .ssi_i       (ssi_i[i]),
+      .nocrc_i,
+      .start_i,
+      .next_i      (mo_next_i[i]),
+      .len_valid_o (len_valid_o[i]),
+      .len_o       (len_o[i*7 +: 7]),
+      .any_o       (mo_any_o[i]),
+      .last_o      (mo_last_o[i]),
+      .slave_o     (mo_slave_o[i*3 +: 3]),
+      .word_o      (mo_word_o[i*W +: W])
+    );
+  end
+
+  // Only one of the two lists counts.
+  assign unused = ^{rx_len_valid, rx_len};
+
+endmodule

@@ -1,0 +1,271 @@
+// SPDX-FileCopyrightText: 2026 The openmb4 authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// The chip without a host interface: registers, control, two lines (instances and glue only). The
+// host is a byte bus with a clock of its own (mb4_core: SPI).
+//
+// Clock domains: hclk_i (host) and clk_i (core). Registers 0xC0..0xFB are written and read with no
+// core clock; frames, data memories and instructions need it. rst_ni is asynchronous: it reaches
+// the host domain as it is, because hclk_i stands still while a reset ends, and the core
+// synchronised. por_ni resets MA and its time base at power-on: with rst_ni alone MA ends the level
+// that it has.
+// Datasheet: pages 15..36. Crossings: docs/crossings.md.
+
+module mb4_engine (
+  input  logic       clk_i,
+  input  logic       rst_ni,
+  input  logic       por_ni,      // power-on reset; asserted together with rst_ni
+  // host byte bus, sampled at the rising edge of hclk_i
+  input  logic       hclk_i,
+  input  logic       wr_en_i,
+  input  logic [7:0] wr_addr_i,
+  input  logic [7:0] wr_data_i,
+  input  logic       rd_en_i,
+  input  logic [7:0] rd_addr_i,
+  output logic [7:0] rd_data_o,   // valid after the edge with rd_en_i
+  // status
+  output logic       eot_o,
+  output logic       ner_low_o,   // an error flag is set: pull NER low
+  input  logic       ner_i,       // level at NER
+  output logic       clkeni_o,    // 1 = internal oscillator
+  input  logic       getsens_i,
+  // lines
+  output logic       ma1_o,
+  input  logic       sl1_i,
+  output logic       mo1_o,
+  output logic       ma2_o,
+  input  logic       sl2_i,
+  output logic       mo2_o,
+  // constants
+  input  logic [mb4_pkg::QUIRKS_W-1:0] quirks_i
+);
+
+  logic       rst_core_n;
+  logic       por_core_n;
+
+  // registers
+  logic [mb4_pkg::NUM_SLAVES*mb4_pkg::SLAVE_CFG_W-1:0] slave_cfg;
+  mb4_pkg::cfg_t    cfg;
+  mb4_pkg::instr_t  written;
+  mb4_pkg::instr_t  held;
+  mb4_pkg::status_t status;
+  logic       instr_toggle;
+  logic       instr_ack;
+
+  // memories and banks
+  logic mem_busy;
+  logic bank_pending, bank_swapped, frame_done, reduced, bank_end, holdbank;
+  logic swbank_pulse;
+  logic       rdata_rd_en, rdata_wr_en;
+  logic [5:0] rdata_addr;
+  logic [7:0] rdata, rdata_wr_data;
+
+  // control
+  logic [7:0] half_len;
+  logic       tick;
+  logic       start, init, abort, keep_time;
+  logic       register_start, register_ma, register_end, register_mo;
+  logic [1:0] start_use;
+  logic [1:0] ma_force, ma_force_level;
+  logic       ma_force_change;
+  logic [1:0] idle, timeout, sl;
+  logic [1:0] frame_end;
+  logic [1:0] word_begin, word_done, word_ok;
+  logic [1:0] init_done, init_fail;
+  logic [1:0] cds, cds_host, cdm0, cdm1, cdm;
+
+  // words of the two lines; slices of flat vectors, one slice a line
+  logic [1:0]  ssi, line_wr_en;
+  logic [5:0]  slave, line_wr_byte;
+  logic [15:0] line_wr_data;
+  logic [15:0] quarters;
+  logic [11:0] mo_addr;
+  logic [15:0] mo_data;
+
+  mb4_reset_sync u_reset (
+    .clk_i,
+    .rst_ni,
+    .rst_sync_no (rst_core_n)
+  );
+
+  mb4_reset_sync u_por (
+    .clk_i,
+    .rst_ni      (por_ni),
+    .rst_sync_no (por_core_n)
+  );
+
+  // ---- registers ----------------------------------------------------------------------------
+
+  mb4_reg_file u_regs (
+    .clk_i,
+    .rst_ni         (rst_core_n),
+    .hclk_i,
+    .hrst_ni        (rst_ni),
+    .wr_en_i,
+    .wr_addr_i,
+    .wr_data_i,
+    .rd_en_i,
+    .rd_addr_i,
+    .rd_data_o,
+    .slave_cfg_o    (slave_cfg),
+    .cfg_o          (cfg),
+    .written_o      (written),
+    .toggle_o       (instr_toggle),
+    .ack_i          (instr_ack),
+    .held_i         (held),
+    .status_i       (status),
+    .revision_sel_i (quirks_i[mb4_pkg::QUIRK_REVISION_LSB +: 2]),
+    .mem_busy_o     (mem_busy),
+    .holdbank_i     (holdbank),
+    .swbank_pulse_i (swbank_pulse),
+    .frame_end_i    (frame_done),
+    .reduced_i      (reduced),
+    .bank_end_i     (bank_end),
+    .cds_i          (cds),
+    .cds_o          (cds_host),
+    .bank_pending_o (bank_pending),
+    .bank_swapped_o (bank_swapped),
+    .rdata_rd_en_i  (rdata_rd_en),
+    .rdata_addr_i   (rdata_addr),
+    .rdata_o        (rdata),
+    .rdata_wr_en_i  (rdata_wr_en),
+    .rdata_wr_data_i (rdata_wr_data),
+    .wr_line_i      (line_wr_en),
+    .wr_byte_i      (line_wr_byte),
+    .wr_line_data_i (line_wr_data),
+    .slave_i        (slave),
+    .word_begin_i   (word_begin),
+    .word_done_i    (word_done),
+    .word_ok_i      (word_ok),
+    .delay_en_i     (init_done),
+    .delay_i        (quarters),
+    .mo_rd_en_i     (cfg.en_mo),
+    .mo_addr_i      (mo_addr),
+    .mo_data_o      (mo_data)
+  );
+
+  // ---- control ------------------------------------------------------------------------------
+
+  mb4_control u_control (
+    .clk_i,
+    .rst_ni         (rst_core_n),
+    .written_i      (written),
+    .toggle_i       (instr_toggle),
+    .ack_o          (instr_ack),
+    .held_o         (held),
+    .cfg_i          (cfg),
+    .quirks_i,
+    .getsens_i,
+    .eot_o,
+    .ner_low_o,
+    .mem_busy_i     (mem_busy),
+    .bank_pending_i (bank_pending),
+    .bank_swapped_i (bank_swapped),
+    .frame_end_o    (frame_done),
+    .bank_end_o     (bank_end),
+    .reduced_o      (reduced),
+    .holdbank_o     (holdbank),
+    .swbank_pulse_o (swbank_pulse),
+    .rdata_rd_en_o  (rdata_rd_en),
+    .rdata_addr_o   (rdata_addr),
+    .rdata_i        (rdata),
+    .rdata_wr_en_o  (rdata_wr_en),
+    .rdata_wr_data_o (rdata_wr_data),
+    .half_len_o     (half_len),
+    .ssi_o          (ssi),
+    .start_o        (start),
+    .use_o          (start_use),
+    .init_o         (init),
+    .register_o     (register_start),
+    .register_ma_o  (register_ma),
+    .register_end_o (register_end),
+    .register_mo_o  (register_mo),
+    .force_o        (ma_force),
+    .force_level_o  (ma_force_level),
+    .force_change_o (ma_force_change),
+    .cdm0_o         (cdm0),
+    .cdm1_o         (cdm1),
+    .abort_o        (abort),
+    .time_o         (keep_time),
+    .tick_i         (tick),
+    .cds_i          (cds),
+    .cdm_i          (cdm),
+    .idle_i         (idle),
+    .timeout_i      (timeout),
+    .sl_i           (sl),
+    .line_end_i     (frame_end),
+    .word_done_i    (word_done),
+    .word_ok_i      (word_ok),
+    .init_done_i    (init_done),
+    .init_fail_i    (init_fail),
+    .n_scderr_o     (status.n_scderr),
+    .n_agserr_o     (status.n_agserr),
+    .n_regerr_o     (status.n_regerr),
+    .n_delayerr_o   (status.n_delayerr),
+    .regend_o       (status.regend),
+    .regbytes_o     (status.regbytes),
+    .swbank_fail_o  (status.swbank_fail),
+    .cdm_timeout_o  (status.cdm_timeout)
+  );
+
+  // ---- lines --------------------------------------------------------------------------------
+
+  mb4_channels u_channels (
+    .clk_i,
+    .rst_ni         (rst_core_n),
+    .por_ni         (por_core_n),
+    .slave_cfg_i    (slave_cfg),
+    .cfg_i          (cfg),
+    .half_len_i     (half_len),
+    .ssi_i          (ssi),
+    .start_i        (start),
+    .use_i          (start_use),
+    .init_i         (init),
+    .register_i     (register_start),
+    .register_ma_i  (register_ma),
+    .register_end_i (register_end),
+    .register_mo_i  (register_mo),
+    .force_i        (ma_force),
+    .force_level_i  (ma_force_level),
+    .force_change_i (ma_force_change),
+    .cdm0_i         (cdm0),
+    .cdm1_i         (cdm1),
+    .reduced_i      (reduced),
+    .abort_i        (abort),
+    .time_i         (keep_time),
+    .tick_o         (tick),
+    .slave_o        (slave),
+    .mo_addr_o      (mo_addr),
+    .mo_data_i      (mo_data),
+    .wr_en_o        (line_wr_en),
+    .wr_byte_o      (line_wr_byte),
+    .wr_data_o      (line_wr_data),
+    .word_begin_o   (word_begin),
+    .word_done_o    (word_done),
+    .word_ok_o      (word_ok),
+    .cds_o          (cds),
+    .cdm_o          (cdm),
+    .frame_end_o    (frame_end),
+    .init_done_o    (init_done),
+    .init_fail_o    (init_fail),
+    .quarters_o     (quarters),
+    .idle_o         (idle),
+    .timeout_o      (timeout),
+    .sl_o           (sl),
+    .ma_o           ({ma2_o, ma1_o}),
+    .mo_o           ({mo2_o, mo1_o}),
+    .sl_i           ({sl2_i, sl1_i})
+  );
+
+  // ---- status -------------------------------------------------------------------------------
+
+  assign status.eot         = eot_o;
+  assign status.n_err       = ner_i && !ner_low_o;
+  assign status.cdssel      = (cfg.chsel == 2'b10) ? cds_host[1] : cds_host[0];
+  assign status.cds1        = cds_host[0];
+  assign status.cds2        = cds_host[1];
+  assign status.sl1         = sl1_i;
+  assign status.sl2         = sl2_i;
+  assign clkeni_o           = cfg.clkeni;
+
+endmodule
