@@ -212,6 +212,30 @@ TEST(ChipBanks, SwBankDuringAFrame_ActsAtOnce) {
   EXPECT_EQ(chip.read(0x08), 0x22) << "and its end swaps again";
 }
 
+// Page 33, decision 19: SWBANK acts at once, HOLDBANK or not; a switch that HOLDBANK keeps back is
+// not lost by it and still comes with the release.
+TEST(ChipBanks, SwBankUnderHoldBank_SwapsAndThePendingSwitchStays) {
+  Chip chip(one_slave(kEncoder26));
+  chip.configure_slave1(28, 0x06, 0x00, 0x7C);
+  const auto expect = [&](std::uint8_t instruction, std::uint8_t byte, std::uint8_t svalid) {
+    chip.instruct(instruction);
+    ASSERT_TRUE(chip.wait_eot());
+    EXPECT_EQ(chip.read(0x08), byte) << unsigned{instruction};
+    EXPECT_EQ(chip.read(0xF1), svalid) << unsigned{instruction};
+  };
+  chip.write(0x08, {0x11});
+  expect(0x20, 0x00, 0x00);
+  chip.write(0x08, {0x22});
+  expect(0x60, 0x22, 0x00);
+  expect(0x40, 0x11, 0x00);
+  expect(0x60, 0x22, 0x00);
+  expect(0x64, 0x22, 0x00);  // the frame's switch is kept back
+  expect(0x40, 0x11, 0x02);  // its bank, by SWBANK
+  expect(0x60, 0x22, 0x00);
+  expect(0x20, 0x11, 0x02);  // released
+  EXPECT_EQ(chip.status(), 0xFB);
+}
+
 class Polynomial : public testing::TestWithParam<unsigned> {};
 
 // Table 15: every SCRCPOLY stands for code & '1'; good words are valid, an inverted bit is not.
