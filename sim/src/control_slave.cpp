@@ -22,13 +22,16 @@ bool crc_fits(unsigned bits, unsigned data_bits) {
 
 }  // namespace
 
-bool ControlSlave::cds(bool sli) {
-  if (cds_ != Cds::kLock) return cds_ == Cds::kOne;
+// A slave that has an ID to lock sends 1 in any case: its own, or that of a slave behind it.
+bool ControlSlave::cds() const {
+  return cds_ == Cds::kOne || (cds_ == Cds::kLock && may_lock());
+}
+
+void ControlSlave::end_cds(bool sli) {
   // The first free ID: the slaves behind have put their 1 into the bits of their own.
-  if (sli || locked_ == config_.ids || !control_active_) return false;
+  if (cds_ != Cds::kLock || sli || !may_lock()) return;
   ids_ |= 1U << slot_;  // slot 1 + k carries ID k; slot_ is that of the frame before
   ++locked_;
-  return true;
 }
 
 void ControlSlave::step(Time now, bool cdm) {

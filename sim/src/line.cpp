@@ -18,12 +18,14 @@ Line::Line(EventQueue& queue, Time round_trip, Output output, void* receiver,
            const CableConfig& cable, std::uint64_t seed)
     : out_(queue, round_trip / 2, cable.ma, derive_seed(seed, kMaPart), kMa, &Line::at_slaves,
            this),
+      mo_late_(queue, cable.mo_late, {}, 0, 0U, &Line::mo_at_slaves, this),
       back_(queue, round_trip - round_trip / 2, cable.sl, derive_seed(seed, kSlPart), 1U,
             &Line::at_master, this),
       chain_(queue, &Line::slo_changed, this),
       output_(output),
       receiver_(receiver),
-      open_level_(cable.open_level) {
+      open_level_(cable.open_level),
+      mo_wired_(cable.mo) {
   for (const CableEvent& event : cable.events) {
     queue.post(event.time, &Line::on_event, this, static_cast<std::uint64_t>(event.action));
   }
@@ -31,7 +33,7 @@ Line::Line(EventQueue& queue, Time round_trip, Output output, void* receiver,
 
 void Line::drive(Time now, bool ma, bool mo) {
   monitor_.edge(now, ma);
-  out_.drive(now, (ma ? kMa : 0U) | (mo ? kMo : 0U));
+  out_.drive(now, (ma ? kMa : 0U) | (mo && mo_wired_ ? kMo : 0U));
 }
 
 void Line::set_round_trip(Time round_trip) {
@@ -76,17 +78,27 @@ void Line::act(Time now, CableEvent::Action action) {
 
 void Line::at_slaves(Time now, void* receiver, unsigned levels) {
   auto* line = static_cast<Line*>(receiver);
-  line->arrived_ = levels;
+  line->ma_arrived_ = (levels & kMa) != 0;
+  const bool mo = (levels & kMo) != 0;
+  const bool mo_changes = mo != line->mo_leaving_;
+  line->mo_leaving_ = mo;
+  if (line->mo_late_.delay() == 0) line->mo_arrived_ = mo;
+  line->to_slaves(now);
+  if (mo_changes && line->mo_late_.delay() != 0) line->mo_late_.drive(now, mo ? 1U : 0U);
+}
+
+void Line::mo_at_slaves(Time now, void* receiver, unsigned levels) {
+  auto* line = static_cast<Line*>(receiver);
+  line->mo_arrived_ = levels != 0;
   line->to_slaves(now);
 }
 
 // Slaves that are not plugged in see a resting line: they end their frame by timeout and are idle.
 void Line::to_slaves(Time now) {
-  const unsigned levels = plugged_ ? arrived_ : kMa;
-  const bool ma = (levels & kMa) != 0;
+  const bool ma = !plugged_ || ma_arrived_;
   if (ma && !chain_.ma()) faults_.rising_edge();
   driving_ = true;
-  chain_.drive(now, ma, (levels & kMo) != 0);
+  chain_.drive(now, ma, plugged_ && mo_arrived_);
   driving_ = false;
   send_back(now);
 }

@@ -45,16 +45,56 @@ void add_eds_sensor(BissCSlaveConfig& config) {
   }
 }
 
+using Runs = std::vector<Preset::RegisterRun>;
+
+// iC-NQ Rev D1: BiSS B, lengths as iC-NQC; timeouts of 16 us (sensor) and 256 us (register) are two
+// of those that can be set.
+BissBSlaveConfig ic_nq() {
+  BissBSlaveConfig config;
+  config.data_bits = 39;
+  config.timeout.fixed = from_us(16);
+  config.register_timeout = from_us(256);
+  return config;
+}
+
+// Presets of BiSS B and SSI.
+void add_others(std::vector<Preset>& list) {
+  const auto add = [&list](std::string_view name, std::string_view description, auto config,
+                           Runs registers = {}) {
+    config.name = std::string(name);
+    list.push_back({name, description, std::move(config), std::move(registers)});
+  };
+  add("ic-nq", "iC-NQ, BiSS B, 24 bits period and 13 bits angle", ic_nq());
+  BissBSlaveConfig lika;
+  lika.data_bits = 26;
+  add("lika-sma1-b", "Lika SMA1 in BiSS B, 24 bits", lika,
+      {{0x42, {0x28, 0x14}}, {0x55, {0x06}}, {0x78, {'S', 'M', 'A', '1'}}});
+  // Hengstler: two IDs widen the register address to eight bits.
+  BissBSlaveConfig acuro;
+  acuro.data_bits = 0;
+  acuro.access.ids = 2;
+  add("acuro", "Hengstler ACURO, BiSS B, give data_bits", acuro);
+  // Posital, SSI page: 25 bits, multiple transmission in a raster of 26 clocks.
+  SsiSlaveConfig posital;
+  posital.data_bits = 25;
+  posital.ring = true;
+  add("posital-ssi-25", "Posital, SSI, 25 bits, multiple transmission", posital);
+  // TR-Electronic: the old word again below 20 us, a new one above 30 us.
+  SsiSlaveConfig tr;
+  tr.data_bits = 0;
+  tr.monoflop = from_us(25);
+  add("tr-ce-65", "TR-Electronic CE-65, SSI, give data_bits", tr);
+}
+
 std::vector<Preset> make_presets() {
   std::vector<Preset> list;
   list.reserve(24);  // add() hands out references
   const auto add = [&list](std::string_view name, std::string_view description,
-                           unsigned position_bits,
-                           std::vector<Preset::RegisterRun> registers = {}) -> Preset& {
+                           unsigned position_bits, Runs registers = {}) -> BissCSlaveConfig& {
     list.push_back({name, description, encoder(name, position_bits), std::move(registers)});
-    return list.back();
+    return std::get<BissCSlaveConfig>(list.back().device);
   };
-  const auto unidirectional = [](Preset& preset) { preset.config.control.present = false; };
+  const auto unidirectional = [](BissCSlaveConfig& config) { config.control.present = false; };
   // Renishaw L-9709-9005: 18, 26, 32 or 36 bits, unidirectional.
   unidirectional(add("resolute-18", "Renishaw RESOLUTE, 18 bits", 18));
   unidirectional(add("resolute-26", "Renishaw RESOLUTE, 26 bits", 26));
@@ -63,23 +103,24 @@ std::vector<Preset> make_presets() {
   // Nothing is published about registers.
   unidirectional(add("lma10", "RLS/Renishaw LMA10, 26 bits", 26));
   // Lenz BISS-C interface sheet: acknowledge of four periods, timeout 12.6 to 13.2 us.
-  Preset& lenz = add("lenz-irs", "Lenz IRS/SAB/SIB, 24 bits", 24);
-  lenz.config.busy_periods = 3;
-  lenz.config.timeout.fixed = from_us(12.9);
+  BissCSlaveConfig& lenz = add("lenz-irs", "Lenz IRS/SAB/SIB, 24 bits", 24);
+  lenz.busy_periods = 3;
+  lenz.timeout.fixed = from_us(12.9);
   add("lika-sma1", "Lika SMA1, 24 bits", 24,
       {{0x42, {0x28, 0x14}}, {0x55, {0x06}}, {0x78, {'S', 'M', 'A', '1'}}});
   // Lengths by order code or configuration: the scenario must give data_bits.
   // 0x7C: type of timeout, 4 = adaptive.
   add("lika-amm36", "Lika AMM36, give data_bits", 0, {{0x78, {'A', 'M', 'M', '3'}}, {0x7C, {0x04}}})
-      .config.data_bits = 0;
-  add("ic-mu", "iC-MU, give data_bits", 0).config.data_bits = 0;
+      .data_bits = 0;
+  add("ic-mu", "iC-MU, give data_bits", 0).data_bits = 0;
   // iC-NQC: 13 bits angle and 24 bits period counter, flags E1 and E0, timeout 20 us.
-  Preset& nqc = add("ic-nqc", "iC-NQC, 24 bits period and 13 bits angle", 37);
-  nqc.config.timeout.fixed = from_us(20);
+  BissCSlaveConfig& nqc = add("ic-nqc", "iC-NQC, 24 bits period and 13 bits angle", 37);
+  nqc.timeout.fixed = from_us(20);
   // iC-MR: up to 32 banks of 64 bytes.
-  for (Preset* mr : {&add("ic-mr", "iC-MR, 24 bits single turn", 24),
-                     &add("ic-mr-mt", "iC-MR, 24 bits multiturn and 24 bits single turn", 48)}) {
-    for (std::uint8_t bank = 1; bank < 32; ++bank) mr->config.control.banks[bank] = {};
+  for (BissCSlaveConfig* mr :
+       {&add("ic-mr", "iC-MR, 24 bits single turn", 24),
+        &add("ic-mr-mt", "iC-MR, 24 bits multiturn and 24 bits single turn", 48)}) {
+    for (std::uint8_t bank = 1; bank < 32; ++bank) mr->control.banks[bank] = {};
   }
   // TI TIDEP0022 design guide, test data: 12 bits single turn; register values of its
   // table 11.
@@ -94,8 +135,8 @@ std::vector<Preset> make_presets() {
                       {0x42, {26, 0x00}},  // BP0: length of the data in bits 12 to 8, sensor
                       {0x44, {0x00, 0x00, 0x00, 0x01}},
                       {0x78, {'M', 'B', '4', 'S', 'I', 'M'}},
-                      {0x7E, {'M', '4'}}})
-                     .config);
+                      {0x7E, {'M', '4'}}}));
+  add_others(list);
   return list;
 }
 

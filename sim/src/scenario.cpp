@@ -137,6 +137,15 @@ const Crc& SlaveConfig::crc() const {
   return std::visit([](const auto& d) -> const Crc& { return d.crc; }, device);
 }
 
+LineProtocol SlaveConfig::protocol() const {
+  if (std::holds_alternative<BissBSlaveConfig>(device)) return LineProtocol::kBissB;
+  return std::holds_alternative<SsiSlaveConfig>(device) ? LineProtocol::kSsi : LineProtocol::kBissC;
+}
+
+LineProtocol ChannelConfig::protocol() const {
+  return slaves.empty() ? LineProtocol::kBissC : slaves.front().protocol();
+}
+
 SourcePos TableSource::of(std::string_view key) const {
   const auto found = keys.find(key);
   return found == keys.end() ? table : found->second;

@@ -8,6 +8,7 @@
 #include <variant>
 #include <vector>
 
+#include "number_text.hpp"
 #include "scenario_slave.hpp"
 #include "toml_reader.hpp"
 
@@ -111,12 +112,60 @@ CableConfig read_cable(TomlReader& reader, const std::string& file) {
     cable.sl.glitch_width = cable.ma.glitch_width = from_ns(*ns);
   }
   cable.open_level = reader.integer("open_level", 0, 1).value_or(1) != 0;
+  cable.mo = reader.boolean("mo").value_or(false);
   if (const auto* events = reader.tables("event")) {
     for (const auto& node : *events) {
       cable.events.push_back(read_event(*node.as_table(), file));
     }
   }
   return cable;
+}
+
+// One way; the simulator wants to know how much later MO is than MA.
+void read_mo_delay(TomlReader& reader, ChannelConfig& channel) {
+  const auto ns = reader.number("mo_delay_ns", 0, kMaxDelayNs);
+  if (!ns) return;
+  if (!channel.cable.mo) reader.fail("mo_delay_ns", "only together with mo = true");
+  const Time ma = channel.delay / 2;
+  if (from_ns(*ns) < ma) {
+    reader.fail("mo_delay_ns",
+                "MO must not overtake MA, which takes " + plain(to_ns(ma)) + " ns one way");
+  }
+  channel.cable.mo_late = from_ns(*ns) - ma;
+}
+
+// What the newest slave of a channel may be beside the others.
+void check_slave(const TomlReader& reader, const ChannelConfig& channel,
+                 const toml::source_region& where) {
+  const SlaveConfig& slave = channel.slaves.back();
+  if (channel.slaves.size() > 1) {
+    for (const SlaveConfig* each : {&slave, &channel.slaves.front()}) {
+      if (std::holds_alternative<ReplaySlaveConfig>(each->device)) {
+        reader.fail_at(where, "protocol", "a replay slave must be alone on its channel");
+      }
+      if (each->protocol() == LineProtocol::kSsi) {
+        reader.fail_at(where, "protocol", "an SSI encoder must be alone on its channel");
+      }
+    }
+    if (slave.protocol() != channel.slaves.front().protocol()) {
+      reader.fail_at(where, "protocol", "all slaves of a channel must have the same protocol");
+    }
+  }
+  const auto* biss_c = std::get_if<BissCSlaveConfig>(&slave.device);
+  if (biss_c != nullptr && biss_c->actuator && !channel.cable.mo) {
+    reader.fail_at(where, "actuator", "an actuator needs mo = true on its channel");
+  }
+}
+
+// IDs of BiSS B slaves count from the last slave.
+void set_ids(ChannelConfig& channel) {
+  unsigned id = 0;
+  for (auto slave = channel.slaves.rbegin(); slave != channel.slaves.rend(); ++slave) {
+    auto* biss_b = std::get_if<BissBSlaveConfig>(&slave->device);
+    if (biss_b == nullptr) return;
+    biss_b->access.first_id = id;
+    id += biss_b->access.ids;
+  }
 }
 
 }  // namespace
@@ -130,18 +179,17 @@ ChannelConfig read_channel(const toml::table& table, const std::string& file) {
   channel.delay = read_delay(reader);
   channel.cable = read_cable(reader, file);
   read_flips(reader, channel);
+  read_mo_delay(reader, channel);
   if (const auto* slaves = reader.tables("slave")) {
     for (const auto& node : *slaves) {
       if (channel.slaves.size() == kMaxSlaves) {
         reader.fail_at(node.source(), "slave", "more than 8 slaves on a channel");
       }
       channel.slaves.push_back(read_slave(*node.as_table(), file));
-      const bool replay = std::holds_alternative<ReplaySlaveConfig>(channel.slaves.back().device);
-      if (slaves->size() > 1 && replay) {
-        reader.fail_at(node.source(), "protocol", "a replay slave must be alone on its channel");
-      }
+      check_slave(reader, channel, node.source());
     }
   }
+  set_ids(channel);
   reader.finish();
   channel.source = reader.source();
   return channel;

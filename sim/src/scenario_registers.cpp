@@ -3,6 +3,7 @@
 #include "scenario_registers.hpp"
 
 #include <algorithm>
+#include <initializer_list>
 #include <set>
 #include <string>
 #include <string_view>
@@ -125,7 +126,17 @@ void read_marks(TomlReader& reader, std::string_view key, RegisterFile::Marks& m
   }
 }
 
-// `frames_key`: number of frames or "forever"; `us_key`: microseconds.
+// Key `control`; without it none of `keys` may be given.
+bool read_present(TomlReader& reader, bool& present, std::initializer_list<std::string_view> keys) {
+  if (const auto given = reader.boolean("control")) present = *given;
+  if (present) return true;
+  for (const std::string_view key : keys) {
+    if (reader.has(key)) reader.fail(key, "needs control = true");
+  }
+  return false;
+}
+
+// `frames_key`: number of frames or clocks, or "forever"; `us_key`: microseconds.
 void read_busy(TomlReader& reader, std::string_view frames_key, std::string_view us_key,
                BusyTime& busy) {
   const toml::node* node = reader.node(frames_key);
@@ -155,13 +166,10 @@ void read_registers(TomlReader& reader, std::map<std::uint8_t, std::uint8_t>& re
 }
 
 void read_control(TomlReader& reader, ControlConfig& control) {
-  if (const auto present = reader.boolean("control")) control.present = *present;
-  if (!control.present) {
-    for (const std::string_view key :
-         {"ids", "banks", "missing", "write_protected", "read_busy_frames", "read_busy_us",
-          "write_busy_frames", "write_busy_us", "store_busy_frames", "store_busy_us"}) {
-      if (reader.has(key)) reader.fail(key, "needs control = true");
-    }
+  if (!read_present(
+          reader, control.present,
+          {"ids", "banks", "missing", "write_protected", "read_busy_frames", "read_busy_us",
+           "write_busy_frames", "write_busy_us", "store_busy_frames", "store_busy_us"})) {
     return;
   }
   if (const auto ids = reader.integer("ids", 1, kMaxIds)) {
@@ -173,6 +181,24 @@ void read_control(TomlReader& reader, ControlConfig& control) {
   read_busy(reader, "read_busy_frames", "read_busy_us", control.read_busy);
   read_busy(reader, "write_busy_frames", "write_busy_us", control.write_busy);
   read_busy(reader, "store_busy_frames", "store_busy_us", control.store_busy);
+}
+
+void read_access(TomlReader& reader, BissBRegisterConfig& access) {
+  if (!read_present(reader, access.present,
+                    {"ids", "banks", "missing", "write_protected", "read_busy_clocks",
+                     "read_busy_us", "store_busy_us"})) {
+    return;
+  }
+  if (const auto ids = reader.integer("ids", 1, kMaxIds)) {
+    access.ids = static_cast<unsigned>(*ids);
+  }
+  read_banks(reader, access.banks);
+  read_marks(reader, "missing", access.missing);
+  read_marks(reader, "write_protected", access.write_protected);
+  read_busy(reader, "read_busy_clocks", "read_busy_us", access.read_busy);
+  if (const auto us = reader.number("store_busy_us", 0, kMaxBusyUs)) {
+    access.store_busy = {0, from_us(*us)};
+  }
 }
 
 }  // namespace mb4::sim

@@ -2,178 +2,109 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scenario_slave.hpp"
 
-#include <algorithm>
-#include <cmath>
 #include <utility>
+#include <variant>
 
 #include "mb4sim/presets.hpp"
-#include "number_text.hpp"
 #include "scenario_registers.hpp"
+#include "scenario_sensor.hpp"
 #include "text_file.hpp"
 #include "toml_reader.hpp"
 
 namespace mb4::sim {
 namespace {
 
-constexpr std::int64_t kMaxBits = 64;
-constexpr std::int64_t kMaxPolynomial = 0x1FFFF;  // degree 16
 constexpr std::int64_t kMaxBusy = 1'000'000;
-constexpr double kMinTimeoutUs = 0.05;
-constexpr double kMaxTimeoutUs = 1e6;
-constexpr double kMaxSampleNs = 1e5;
+constexpr double kMaxResponseNs = 1e5;
 constexpr unsigned kFlagsOfEncoders = 2;
 
-bool fits(std::uint64_t value, unsigned bits) { return bits >= 64 || (value >> bits) == 0; }
-
-void read_crc(TomlReader& reader, Crc& crc) {
-  if (const auto polynomial = reader.integer("crc", 0, kMaxPolynomial)) {
-    if (*polynomial != 0 && (*polynomial < 3 || *polynomial % 2 == 0)) {
-      reader.fail("crc", "not a full polynomial such as 0x43 (0 = no CRC)");
-    }
-    crc.polynomial = static_cast<std::uint32_t>(*polynomial);
+// What the presets that are made for this protocol start from; without the key a default whose
+// data_bits have to be given.
+template <typename Config>
+Config read_preset(TomlReader& reader, SlaveConfig& slave) {
+  const auto name = reader.text("preset");
+  if (!name) {
+    Config config;
+    config.data_bits = 0;
+    return config;
   }
-  if (const auto start = reader.integer("crc_start", 0, 0xFFFF)) {
-    crc.start = static_cast<std::uint32_t>(*start);
+  const Preset* preset = preset_by_name(*name);
+  if (preset == nullptr || !std::holds_alternative<Config>(preset->device)) {
+    std::string list;
+    for (const Preset& each : presets()) {
+      if (!std::holds_alternative<Config>(each.device)) continue;
+      list += (list.empty() ? "" : ", ") + std::string(each.name);
+    }
+    reader.fail("preset", (preset == nullptr ? "unknown preset '" + *name + "'"
+                                             : "'" + *name + "' speaks another protocol") +
+                              ", expected one of: " + list);
+  }
+  for (const auto& run : preset->registers) {
+    std::uint8_t address = run.address;
+    for (const std::uint8_t value : run.values) slave.registers[address++] = value;
+  }
+  return std::get<Config>(preset->device);
+}
+
+void read_busy_periods(TomlReader& reader, unsigned& periods) {
+  if (const auto busy = reader.integer("busy_periods", 0, kMaxBusy)) {
+    periods = static_cast<unsigned>(*busy);
   }
 }
 
-void read_timeout(TomlReader& reader, SlaveTimeout& timeout) {
-  const toml::node* node = reader.node("timeout");
-  if (node != nullptr && node->is_string()) {
-    if (node->as_string()->get() != "adaptive") {
-      reader.fail("timeout", "expected \"adaptive\" or a number of microseconds");
-    }
-    timeout.fixed = 0;
-  } else if (const auto us = reader.number("timeout", kMinTimeoutUs, kMaxTimeoutUs)) {
-    timeout.fixed = from_us(*us);
+void read_actuator(TomlReader& reader, BissCSlaveConfig& config) {
+  config.actuator = reader.boolean("actuator").value_or(false);
+  if (const auto stop_bit = reader.boolean("stop_bit")) {
+    if (!config.actuator) reader.fail("stop_bit", "only an actuator has it");
+    config.stop_bit = *stop_bit;
   }
-  if (const auto ns = reader.number("t_sample_ns", 0, kMaxSampleNs)) {
-    timeout.sample_period = from_ns(*ns);
-    if (!timeout.adaptive() && *ns != 0) {
-      reader.fail("t_sample_ns", "only an adaptive timeout has it");
-    }
-  }
-}
-
-// data_bits, flag_bits: `data_bits` of 0 means that the key is required.
-void read_lengths(TomlReader& reader, unsigned& data_bits, unsigned& flag_bits) {
-  if (const auto bits = reader.integer("data_bits", 1, kMaxBits)) {
-    data_bits = static_cast<unsigned>(*bits);
-  }
-  if (data_bits == 0) reader.fail("data_bits", "missing");
-  if (const auto flags = reader.integer("flag_bits", 0, kMaxBits)) {
-    flag_bits = static_cast<unsigned>(*flags);
-    if (flag_bits > data_bits) {
-      reader.fail("flag_bits", std::to_string(flag_bits) + " is more than data_bits");
-    }
-  } else {
-    flag_bits = data_bits > kFlagsOfEncoders ? kFlagsOfEncoders : 0;
-  }
-}
-
-// Returns the path of the file.
-std::string read_words(TomlReader& reader, unsigned data_bits, DataSource& source) {
-  const auto name = reader.file_name("file");
-  if (!name) reader.fail("file", "missing: source \"file\" needs it");
-  const std::string path = beside(reader.file(), *name);
-  std::string text;
-  try {
-    text = read_text_file(path);
-  } catch (const ScenarioError& error) {
-    reader.fail("file", error.what());
-  }
-  unsigned number = 0;
-  for (std::size_t at = 0; at < text.size();) {
-    ++number;
-    const std::size_t end = std::min(text.find('\n', at), text.size());
-    std::string line = text.substr(at, end - at);
-    at = end + 1;
-    line.resize(std::min(line.find('#'), line.size()));
-    const auto first = line.find_first_not_of(" \t\r");
-    if (first == std::string::npos) continue;
-    line = line.substr(first, line.find_last_not_of(" \t\r") - first + 1);
-    const auto value = parse_word(line);
-    if (!value || !fits(*value, data_bits)) {
-      throw ScenarioError(path + ":" + std::to_string(number) + ": '" + line +
-                          "' is no number of " + std::to_string(data_bits) + " bits");
-    }
-    source.words.push_back(*value);
-  }
-  if (source.words.empty()) reader.fail("file", path + " holds no words");
-  source.repeat = reader.boolean("repeat").value_or(true);
-  return path;
-}
-
-void read_source(TomlReader& reader, BissCSlaveConfig& config, std::string& file) {
-  DataSource& source = config.source;
-  const auto kind = reader.choice("source", {"ramp", "sine", "file"});
-  if (const auto word = reader.word("data")) {
-    if (kind) reader.fail("data", "cannot be given together with source");
-    if (!fits(*word, config.data_bits)) {
-      reader.fail("data", "does not fit into " + std::to_string(config.data_bits) + " bits");
-    }
-    source.constant = *word;
-  } else if (!kind) {
-    // A sensor at position 0 without error or warning.
-    source.constant = config.flags;
-  }
-  if (!kind) return;
-  if (*kind == 0) {
-    source.kind = DataSource::Kind::kRamp;
-    source.start = reader.integer("start", INT64_MIN, INT64_MAX).value_or(0);
-    source.step = reader.integer("step", INT64_MIN, INT64_MAX).value_or(1);
-  } else if (*kind == 1) {
-    source.kind = DataSource::Kind::kSine;
-    constexpr double kMaxPosition = 9e18;
-    source.offset = reader.number("offset", -kMaxPosition, kMaxPosition).value_or(0);
-    const auto amplitude = reader.number("amplitude", 0, kMaxPosition);
-    if (!amplitude) reader.fail("amplitude", "missing: source \"sine\" needs it");
-    source.amplitude = *amplitude;
-    if (const double most = kMaxPosition - std::abs(source.offset); source.amplitude > most) {
-      reader.fail("amplitude", "with offset " + plain(source.offset) + " at most " + plain(most));
-    }
-    const auto period = reader.number("period_us", 0.001, 1e12);
-    if (!period) reader.fail("period_us", "missing: source \"sine\" needs it");
-    source.period = from_us(*period);
-  } else {
-    source.kind = DataSource::Kind::kList;
-    file = read_words(reader, config.data_bits, source);
+  if (config.actuator && reader.has("source")) {
+    reader.fail("source", "an actuator has none; data is the word that it holds at first");
   }
 }
 
 SlaveConfig read_biss_c(TomlReader& reader) {
   SlaveConfig slave;
-  BissCSlaveConfig config;
-  config.data_bits = 0;
-  if (const auto name = reader.text("preset")) {
-    const Preset* preset = preset_by_name(*name);
-    if (preset == nullptr) {
-      std::string list;
-      for (const Preset& each : presets()) {
-        list += (list.empty() ? "" : ", ") + std::string(each.name);
-      }
-      reader.fail("preset", "unknown preset '" + *name + "', expected one of: " + list);
-    }
-    config = preset->config;
-    for (const auto& run : preset->registers) {
-      std::uint8_t address = run.address;
-      for (const std::uint8_t value : run.values) slave.registers[address++] = value;
-    }
-  }
-  read_lengths(reader, config.data_bits, config.flag_bits);
-  config.flags = fits(0b11, config.flag_bits) ? 0b11U : (1U << config.flag_bits) - 1U;
-  if (const auto flags = reader.word("flags")) {
-    if (!fits(*flags, config.flag_bits)) {
-      reader.fail("flags", "does not fit into flag_bits = " + std::to_string(config.flag_bits));
-    }
-    config.flags = *flags;
-  }
-  read_crc(reader, config.crc);
+  auto config = read_preset<BissCSlaveConfig>(reader, slave);
+  read_actuator(reader, config);
+  read_sensor(reader, config, config.actuator ? 0 : kFlagsOfEncoders, slave.file);
   read_timeout(reader, config.timeout);
-  if (const auto busy = reader.integer("busy_periods", 0, kMaxBusy)) {
-    config.busy_periods = static_cast<unsigned>(*busy);
+  read_busy_periods(reader, config.busy_periods);
+  read_control(reader, config.control);
+  slave.device = std::move(config);
+  return slave;
+}
+
+SlaveConfig read_biss_b(TomlReader& reader) {
+  SlaveConfig slave;
+  auto config = read_preset<BissBSlaveConfig>(reader, slave);
+  read_sensor(reader, config, kFlagsOfEncoders, slave.file);
+  read_timeout(reader, config.timeout);
+  const toml::node* node = reader.node("register_timeout");
+  if (node != nullptr && node->is_string()) {
+    if (node->as_string()->get() != "adaptive") {
+      reader.fail("register_timeout", "expected \"adaptive\" or a number of microseconds");
+    }
+    config.register_timeout = 0;
+  } else {
+    read_timeout_us(reader, "register_timeout", config.register_timeout);
   }
-  read_source(reader, config, slave.file);
+  read_busy_periods(reader, config.busy_periods);
+  read_access(reader, config.access);
+  slave.device = std::move(config);
+  return slave;
+}
+
+SlaveConfig read_ssi(TomlReader& reader) {
+  SlaveConfig slave;
+  auto config = read_preset<SsiSlaveConfig>(reader, slave);
+  read_sensor(reader, config, 0, slave.file);
+  read_timeout_us(reader, "timeout", config.monoflop);
+  config.gray = reader.boolean("gray").value_or(config.gray);
+  config.ring = reader.boolean("ring").value_or(config.ring);
+  if (const auto ns = reader.number("response_ns", 0, kMaxResponseNs)) {
+    config.response = from_ns(*ns);
+  }
   read_control(reader, config.control);
   slave.device = std::move(config);
   return slave;
@@ -182,7 +113,7 @@ SlaveConfig read_biss_c(TomlReader& reader) {
 SlaveConfig read_replay(TomlReader& reader) {
   ReplaySlaveConfig config;
   config.data_bits = 0;
-  read_lengths(reader, config.data_bits, config.flag_bits);
+  read_lengths(reader, config.data_bits, config.flag_bits, kFlagsOfEncoders);
   config.crc = Crc{0x43, 0};
   read_crc(reader, config.crc);
   if (reader.choice("play", {"time", "clock"}).value_or(0) == 1) {
@@ -217,10 +148,9 @@ SlaveConfig read_slave(const toml::table& table, const std::string& file) {
   TomlReader reader(table, file);
   const auto protocol = reader.choice("protocol", {"biss-c", "replay", "biss-b", "ssi"});
   if (!protocol) reader.fail("protocol", "missing");
-  if (*protocol > 1) {
-    reader.fail("protocol", *reader.text("protocol") + " is not supported in this version");
-  }
-  SlaveConfig slave = *protocol == 0 ? read_biss_c(reader) : read_replay(reader);
+  constexpr SlaveConfig (*kReaders[])(TomlReader&) = {read_biss_c, read_replay, read_biss_b,
+                                                      read_ssi};
+  SlaveConfig slave = kReaders[*protocol](reader);
   read_registers(reader, slave.registers);
   reader.finish();
   slave.source = reader.source();

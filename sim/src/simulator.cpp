@@ -5,11 +5,10 @@
 #include <algorithm>
 #include <cassert>
 #include <utility>
+#include <variant>
 
 #include "chip_model.hpp"
-#include "mb4sim/biss_c_slave.hpp"
 #include "mb4sim/random.hpp"
-#include "mb4sim/replay_slave.hpp"
 
 namespace mb4::sim {
 namespace {
@@ -18,13 +17,24 @@ constexpr unsigned kChannel2FirstSlave = 5;
 constexpr std::uint64_t kChipSeed = 0;  // part numbers of derive_seed(); slaves use 1 to 8
 constexpr std::uint64_t kFirstLineSeed = 9;
 
-std::unique_ptr<Slave> make_slave(const SlaveConfig& config, std::uint64_t seed) {
-  std::unique_ptr<Slave> slave;
-  if (const auto* biss_c = std::get_if<BissCSlaveConfig>(&config.device)) {
-    slave = std::make_unique<BissCSlave>(*biss_c, seed);
-  } else {
-    slave = std::make_unique<ReplaySlave>(std::get<ReplaySlaveConfig>(config.device));
+struct MakeSlave {
+  std::uint64_t seed;
+  std::unique_ptr<Slave> operator()(const BissCSlaveConfig& config) const {
+    return std::make_unique<BissCSlave>(config, seed);
   }
+  std::unique_ptr<Slave> operator()(const BissBSlaveConfig& config) const {
+    return std::make_unique<BissBSlave>(config, seed);
+  }
+  std::unique_ptr<Slave> operator()(const SsiSlaveConfig& config) const {
+    return std::make_unique<SsiSlave>(config);
+  }
+  std::unique_ptr<Slave> operator()(const ReplaySlaveConfig& config) const {
+    return std::make_unique<ReplaySlave>(config);
+  }
+};
+
+std::unique_ptr<Slave> make_slave(const SlaveConfig& config, std::uint64_t seed) {
+  std::unique_ptr<Slave> slave = std::visit(MakeSlave{seed}, config.device);
   for (const auto& [address, value] : config.registers) slave->reg_write(address, value);
   return slave;
 }
@@ -51,6 +61,7 @@ Simulator::Simulator(const Scenario& scenario, const SimulatorOptions& options)
       line->chain().add(make_slave(slave, derive_seed(seed_, number)));
       ++number;
     }
+    if (channel.protocol() == LineProtocol::kSsi) line->faults().set_ssi();
     for (const auto& [frame, bits] : channel.flips) line->faults().flip_frame(frame, bits);
     lines_[index] = std::move(line);
   }

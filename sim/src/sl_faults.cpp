@@ -17,9 +17,12 @@ void SlFaults::flip_frame(std::uint64_t frame, std::vector<unsigned> bits) {
 }
 
 void SlFaults::rising_edge() {
-  if (!counting_) return;
-  ++bit_;
-  update();
+  if (counting_) {
+    ++bit_;
+    update();
+  } else if (ssi_ && acknowledged_) {
+    begin_frame();
+  }
 }
 
 void SlFaults::levels(bool slo, bool idle) {
@@ -29,17 +32,21 @@ void SlFaults::levels(bool slo, bool idle) {
     counting_ = false;
     flip_now_ = false;
   } else if (!acknowledged_) {
-    acknowledged_ = !slo;
-  } else if (!counting_ && slo) {
-    counting_ = true;
-    bit_ = 0;
-    ++frames_;
-    if (const auto found = planned_.find(frames_); found != planned_.end()) {
-      flip_next_frame(std::move(found->second));
-      planned_.erase(found);
-    }
-    update();
+    acknowledged_ = ssi_ || !slo;
+  } else if (!counting_ && slo && !ssi_) {
+    begin_frame();
   }
+}
+
+void SlFaults::begin_frame() {
+  counting_ = true;
+  bit_ = 0;
+  ++frames_;
+  if (const auto found = planned_.find(frames_); found != planned_.end()) {
+    flip_next_frame(std::move(found->second));
+    planned_.erase(found);
+  }
+  update();
 }
 
 void SlFaults::update() {

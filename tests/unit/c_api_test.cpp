@@ -159,6 +159,26 @@ TEST(CApiOpen, ShortBuffer_IsCutAndTerminated) {
   EXPECT_EQ(mb4sim_open(nullptr, error, sizeof error), nullptr);
 }
 
+// BiSS B and SSI behind the same calls.
+TEST(CApiOpen, OtherProtocols_HaveDataAndRegisters) {
+  char error[200];
+  mb4sim* sim = mb4sim_open(
+      "[[channel]]\nnumber = 1\n[[channel.slave]]\nprotocol = \"biss-b\"\ndata_bits = 12\n"
+      "registers = { 0x44 = 0x5A }\n[[channel]]\nnumber = 2\n[[channel.slave]]\n"
+      "protocol = \"ssi\"\ndata_bits = 25\ngray = true\n",
+      error, sizeof error);
+  ASSERT_NE(sim, nullptr) << error;
+  uint8_t value = 0;
+  EXPECT_EQ(mb4sim_slave_reg_read(sim, 1, 0x44, &value), 0);
+  EXPECT_EQ(value, 0x5A);
+  EXPECT_EQ(mb4sim_slave_set_data(sim, 1, 0xFFF), 0);
+  EXPECT_EQ(mb4sim_slave_set_data(sim, 1, 0x1000), MB4SIM_ERROR_VALUE);
+  EXPECT_EQ(mb4sim_slave_set_data(sim, 5, 0x1FFFFFF), 0);
+  EXPECT_EQ(mb4sim_slave_set_data(sim, 5, 0x2000000), MB4SIM_ERROR_VALUE);
+  EXPECT_EQ(mb4sim_slave_frames(sim, 5), 0U);
+  mb4sim_close(sim);
+}
+
 TEST(CApiOpen, File_FindsItsEdgeFileBesideIt) {
   char error[200];
   mb4sim* sim = mb4sim_open_file(MB4_EXAMPLES "/ti-tidep0022.toml", error, sizeof error);

@@ -22,9 +22,12 @@ class ChainBench {
 
   ChainBench() : chain(queue, &ChainBench::record, this) {}
 
-  BissCSlave& add(const BissCSlaveConfig& config) {
-    auto slave = std::make_unique<BissCSlave>(config, 1);
-    BissCSlave& reference = *slave;
+  BissCSlave& add(const BissCSlaveConfig& config) { return put<BissCSlave>(config, 1); }
+  // A slave of any kind from what its constructor takes.
+  template <typename Kind, typename... Arguments>
+  Kind& put(const Arguments&... arguments) {
+    auto slave = std::make_unique<Kind>(arguments...);
+    Kind& reference = *slave;
     chain.add(std::move(slave));
     return reference;
   }

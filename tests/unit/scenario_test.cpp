@@ -7,8 +7,6 @@
 #include <ostream>
 #include <string>
 
-#include "mb4sim/presets.hpp"
-
 namespace mb4::sim {
 namespace {
 
@@ -85,14 +83,6 @@ TEST(Scenario, Word64Bits_IsWrittenAsString) {
   const Scenario scenario =
       parse_scenario(slave("data_bits = 64\ndata = \"0xFFFF_FFFF_FFFF_FFFF\""), "s");
   EXPECT_EQ(biss_c(scenario).source.constant, UINT64_MAX);
-}
-
-TEST(Scenario, EveryPreset_CanBeUsed) {
-  for (const Preset& preset : presets()) {
-    std::string keys = "preset = \"" + std::string(preset.name) + "\"";
-    if (preset.config.data_bits == 0) keys += "\ndata_bits = 20";
-    EXPECT_NO_THROW(parse_scenario(slave(keys), "s")) << preset.name;
-  }
 }
 
 TEST(Scenario, ControlKeys_AreReadCompletely) {
@@ -209,10 +199,6 @@ INSTANTIATE_TEST_SUITE_P(
                     "to 4095"},
         BadScenario{"NoProtocol", "[[channel]]\nnumber = 1\n[[channel.slave]]\ndata_bits = 8\n",
                     "s.toml:3:1: key 'protocol': missing"},
-        BadScenario{"Ssi", "[[channel]]\nnumber = 1\n[[channel.slave]]\nprotocol = \"ssi\"\n",
-                    "s.toml:4:12: key 'protocol': ssi is not supported in this version"},
-        BadScenario{"BissB", "[[channel]]\nnumber = 1\n[[channel.slave]]\nprotocol = \"biss-b\"\n",
-                    "s.toml:4:12: key 'protocol': biss-b is not supported in this version"},
         BadScenario{"NoLength", slave(""), "s.toml:3:1: key 'data_bits': missing"},
         BadScenario{"Length", slave("data_bits = 65"),
                     "s.toml:5:13: key 'data_bits': 65 is outside 1 to 64"},

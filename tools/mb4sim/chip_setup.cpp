@@ -26,6 +26,11 @@ std::uint32_t frame_timeout(const sim::Scenario& scenario) {
       if (const auto* biss_c = std::get_if<sim::BissCSlaveConfig>(&slave.device)) {
         periods += biss_c->busy_periods;
         slave_us = std::max(slave_us, sim::to_us(biss_c->timeout.fixed));
+      } else if (const auto* biss_b = std::get_if<sim::BissBSlaveConfig>(&slave.device)) {
+        periods += biss_b->busy_periods;
+        slave_us = std::max(slave_us, sim::to_us(biss_b->timeout.fixed));
+      } else if (const auto* ssi = std::get_if<sim::SsiSlaveConfig>(&slave.device)) {
+        slave_us = std::max(slave_us, sim::to_us(ssi->monoflop));
       } else if (const auto* replay = std::get_if<sim::ReplaySlaveConfig>(&slave.device)) {
         slave_us = std::max(slave_us, sim::to_us(replay->recording.edges.back().time));
       }
@@ -35,6 +40,18 @@ std::uint32_t frame_timeout(const sim::Scenario& scenario) {
   }
   return static_cast<std::uint32_t>(
       std::min<double>(longest_us + kFrameMarginUs, kMaxFrameTimeoutUs));
+}
+
+Protocol protocol_of(sim::LineProtocol protocol) {
+  switch (protocol) {
+    case sim::LineProtocol::kBissB:
+      return Protocol::kBissB;
+    case sim::LineProtocol::kSsi:
+      return Protocol::kSsi;
+    case sim::LineProtocol::kBissC:
+      break;
+  }
+  return Protocol::kBissC;
 }
 
 [[noreturn]] void fail(const sim::Scenario& scenario, const sim::TableSource& source,
@@ -50,6 +67,12 @@ std::uint32_t frame_timeout(const sim::Scenario& scenario) {
   });
   const sim::SlaveConfig& slave = *(of_slave != slaves.end() ? *of_slave : slaves.front()).config;
   switch (error.field) {
+    case ConfigField::kChannelProtocol:
+      if (const sim::ChannelConfig* channel = scenario.channel(error.number)) {
+        fail(scenario, channel->slaves.front().source, "protocol",
+             "the driver does not support it in this version");
+      }
+      break;
     case ConfigField::kClkHz:
       fail(scenario, scenario.chip.source, scenario.chip.f_clk_hz != 0 ? "f_clk_hz" : "f_osc_hz",
            fmt::format("{} is outside what the driver takes, 1 to 25 MHz (internal: 10 to 25 MHz)",
@@ -105,7 +128,7 @@ Config make_config(const sim::Scenario& scenario) {
   config.store_crc = true;
   config.frame_timeout_us = frame_timeout(scenario);
   for (const sim::ChannelConfig& channel : scenario.channels) {
-    config.channels[channel.number - 1].protocol = Protocol::kBissC;
+    config.channels[channel.number - 1].protocol = protocol_of(channel.protocol());
   }
   for (const ConnectedSlave& connected : connected_slaves(scenario)) {
     const sim::SlaveConfig& slave = *connected.config;

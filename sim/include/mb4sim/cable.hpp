@@ -48,6 +48,9 @@ struct CableConfig {
   WireFaults sl;           // slaves to chip
   bool open_level = true;  // what the chip's receiver makes of an open SL pair
   std::vector<CableEvent> events;
+  // Bus connection: MO is wired to SLI of the last slave, which else is tied to 0.
+  bool mo = false;
+  Time mo_late = 0;  // edges of MO arrive at the slaves this much later than those of MA, ps
 };
 
 }  // namespace mb4::sim

@@ -51,9 +51,11 @@ class ControlSlave {
   ControlSlave(const ControlConfig& config, RegisterFile& registers)
       : config_(config), registers_(registers) {}
 
-  // The device's CDS bit of this frame, called once a frame; `sli` is the CDS bit that comes from
-  // the slave behind. To be ORed to it by the caller.
-  bool cds(bool sli);
+  // The device's CDS bit of this frame, to be ORed by the caller to the one that comes from the
+  // slave behind.
+  bool cds() const;
+  // End of the CDS bit, called once a frame; `sli` is what came from the slave behind.
+  void end_cds(bool sli);
   // End of a frame: the CDM bit it carried.
   void step(Time now, bool cdm);
 
@@ -94,6 +96,7 @@ class ControlSlave {
   void command_slot(bool cdm);
   void execute();
   void break_off();
+  bool may_lock() const { return locked_ < config_.ids && control_active_; }
   // Between the header of a command and EX, where zeros do not count.
   bool before_ex() const { return state_ == State::kCommand && ex_slot_ == 0; }
   static Cds bit(bool level) { return level ? Cds::kOne : Cds::kZero; }

@@ -34,7 +34,7 @@ class Line {
   Line(const Line&) = delete;
   Line& operator=(const Line&) = delete;
 
-  // Levels of the chip's MA and MO pins.
+  // Levels of the chip's MA and MO pins; MO counts only in a bus connection.
   void drive(Time now, bool ma, bool mo);
   // Applies a changed SlFaults::stick().
   void refresh(Time now) { set_pin(now, received_); }
@@ -65,6 +65,7 @@ class Line {
   static constexpr unsigned kMo = 2;
 
   static void at_slaves(Time now, void* receiver, unsigned levels);
+  static void mo_at_slaves(Time now, void* receiver, unsigned levels);
   static void slo_changed(Time now, void* receiver, bool slo);
   static void at_master(Time now, void* receiver, unsigned levels);
   static void on_event(Time now, void* receiver, std::uint64_t action);
@@ -72,7 +73,8 @@ class Line {
   void send_back(Time now);
   void set_pin(Time now, bool level);
 
-  Wire out_;
+  Wire out_;      // bit 0 is MA; MO rides along, so that no fault lets it overtake MA
+  Wire mo_late_;  // how much later MO is
   Wire back_;
   SlaveChain chain_;
   MaMonitor monitor_;
@@ -82,11 +84,14 @@ class Line {
   Probe probe_ = nullptr;
   void* probe_receiver_ = nullptr;
   bool open_level_;
+  bool mo_wired_;
   bool plugged_ = true;
-  unsigned arrived_ = kMa;  // MA and MO at the slaves' end of the cable
-  bool driving_ = false;    // inside SlaveChain::drive(): SLO is sent when it has settled
-  bool sent_ = true;        // level put into the way back
-  bool received_ = true;    // level that came out of it
+  bool ma_arrived_ = true;  // levels at the slaves' end of the cable
+  bool mo_arrived_ = false;
+  bool mo_leaving_ = false;  // level of MO put into mo_late_
+  bool driving_ = false;     // inside SlaveChain::drive(): SLO is sent when it has settled
+  bool sent_ = true;         // level put into the way back
+  bool received_ = true;     // level that came out of it
   bool pin_ = true;
 };
 

@@ -8,9 +8,12 @@
 #include <cstdint>
 #include <span>
 #include <string_view>
+#include <variant>
 #include <vector>
 
+#include "mb4sim/biss_b_slave.hpp"
 #include "mb4sim/biss_c_slave.hpp"
+#include "mb4sim/ssi_slave.hpp"
 
 namespace mb4::sim {
 
@@ -21,7 +24,8 @@ struct Preset {
   };
   std::string_view name;
   std::string_view description;
-  BissCSlaveConfig config;  // data_bits = 0: the user has to give the length
+  // data_bits = 0: the user has to give the length.
+  std::variant<BissCSlaveConfig, BissBSlaveConfig, SsiSlaveConfig> device;
   std::vector<RegisterRun> registers;
 };
 

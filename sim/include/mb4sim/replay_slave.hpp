@@ -11,10 +11,10 @@
 #include <string>
 #include <vector>
 
-#include "mb4sim/biss_c_slave.hpp"
 #include "mb4sim/crc.hpp"
 #include "mb4sim/replay_recording.hpp"
 #include "mb4sim/slave.hpp"
+#include "mb4sim/slave_timeout.hpp"
 #include "mb4sim/time.hpp"
 
 namespace mb4::sim {

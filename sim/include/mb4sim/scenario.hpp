@@ -15,10 +15,12 @@
 #include <variant>
 #include <vector>
 
+#include "mb4sim/biss_b_slave.hpp"
 #include "mb4sim/biss_c_slave.hpp"
 #include "mb4sim/cable.hpp"
 #include "mb4sim/one_line.hpp"
 #include "mb4sim/replay_slave.hpp"
+#include "mb4sim/ssi_slave.hpp"
 #include "mb4sim/time.hpp"
 
 namespace mb4::sim {
@@ -59,8 +61,11 @@ struct HostConfig {
   TableSource source;
 };
 
+// What the slaves of a line speak; a replay of a BiSS C frame counts as BiSS C.
+enum class LineProtocol { kBissB, kBissC, kSsi };
+
 struct SlaveConfig {
-  std::variant<BissCSlaveConfig, ReplaySlaveConfig> device;
+  std::variant<BissCSlaveConfig, BissBSlaveConfig, SsiSlaveConfig, ReplaySlaveConfig> device;
   std::map<std::uint8_t, std::uint8_t> registers;
   std::string file;  // words or edges were read from it; empty: none
   TableSource source;
@@ -69,6 +74,7 @@ struct SlaveConfig {
   unsigned data_bits() const;
   unsigned flag_bits() const;
   const Crc& crc() const;
+  LineProtocol protocol() const;
 };
 
 struct ChannelConfig {
@@ -79,6 +85,9 @@ struct ChannelConfig {
   // Inverted bits by the number of the frame, as SlFaults::flip_frame() takes them.
   std::map<std::uint64_t, std::vector<unsigned>> flips;
   TableSource source;
+
+  // Of all its slaves; kBissC without any.
+  LineProtocol protocol() const;
 };
 
 struct Scenario {

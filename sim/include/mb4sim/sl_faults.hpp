@@ -16,7 +16,8 @@ class SlFaults {
  public:
   // Inverts these bits of the next frame that reaches its start bit. Bits are counted on the wire
   // in periods of MA: 0 = start bit, 1 = CDS, 2 = first data bit (MSB of slave 1), and so on
-  // through the CRC and the slaves behind. Several calls add up.
+  // through the CRC and the slaves behind. Several calls add up. BiSS B has no CDS: 1 = first data
+  // bit; a register access counts as a frame. SSI has no start bit either: 0 = first data bit.
   void flip_next_frame(std::vector<unsigned> bits);
   // The same in frame number `frame` of the line, counted from 1 as Slave::frames() does. For
   // frames to come only.
@@ -26,14 +27,19 @@ class SlFaults {
   void stick(std::optional<bool> level) { stuck_ = level; }
   std::optional<bool> stuck() const { return stuck_; }
 
+  // The line carries SSI: a frame begins with the first rising edge of MA.
+  void set_ssi() { ssi_ = true; }
+
   // --- used by Line --------------------------------------------------------------------------
   void rising_edge();                // MA rises at the slaves
   void levels(bool slo, bool idle);  // after each change at the slaves
   bool wire(bool slo) const { return slo != flip_now_; }
 
  private:
+  void begin_frame();
   void update();
 
+  bool ssi_ = false;
   std::vector<unsigned> pending_;
   std::map<std::uint64_t, std::vector<unsigned>> planned_;  // by frame
   std::uint64_t frames_ = 0;                                // that have reached their start bit

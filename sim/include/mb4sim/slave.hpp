@@ -13,6 +13,7 @@
 
 namespace mb4::sim {
 
+class Actuator;
 class ControlSlave;
 
 class Slave {
@@ -55,6 +56,8 @@ class Slave {
   RegisterFile& registers() { return registers_; }
   // Control communication: counters, faults. Null if the device has none.
   virtual ControlSlave* control() { return nullptr; }
+  // Words received over MO. Null if the device is no actuator.
+  virtual const Actuator* actuator() const { return nullptr; }
 
  protected:
   void count_frame() { ++frames_; }

@@ -1,0 +1,92 @@
+// SPDX-FileCopyrightText: 2026 The openmb4 authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// A BiSS B sensor (iC-MB4 Rev D2, pages 12, 13, 16). Its frame is that of BiSS C without CDS and
+// CDM. MA that stays low behind the first falling edge until the sensor timeout selects register
+// mode, which the slave confirms with SLO = 0; on a bus, so does MO if it falls just before the
+// first falling edge. Register mode ends when MA has rested for the register timeout.
+#ifndef MB4SIM_BISS_B_SLAVE_HPP_
+#define MB4SIM_BISS_B_SLAVE_HPP_
+
+#include <cstdint>
+
+#include "mb4sim/biss_b_registers.hpp"
+#include "mb4sim/sensor_config.hpp"
+#include "mb4sim/shift_register.hpp"
+#include "mb4sim/slave.hpp"
+#include "mb4sim/slave_timeout.hpp"
+#include "mb4sim/time.hpp"
+
+namespace mb4::sim {
+
+struct BissBSlaveConfig : SensorConfig {
+  BissBSlaveConfig() {
+    name = "biss-b";
+    timeout.fixed = 16 * kPsPerUs;
+  }
+
+  SlaveTimeout timeout;  // of sensor mode
+  // Of register mode; 0: 1.5 periods of the register clock, measured in the start bit, until then
+  // `register_initial`.
+  Time register_timeout = 0;
+  Time register_initial = 1000 * kPsPerUs;
+  unsigned busy_periods = 0;  // periods of MA between acknowledge and start bit beyond one
+  BissBRegisterConfig access;
+};
+
+class BissBSlave final : public Slave {
+ public:
+  BissBSlave(const BissBSlaveConfig& config, std::uint64_t seed);
+
+  void sample(bool sli) override { sli_before_ = sli; }
+  void ma_edge(Time now, bool ma, bool sli) override;
+  void sli_changed(Time now, bool sli) override;
+  Time deadline() const override;
+  void timer(Time now, bool sli) override;
+  bool slo() const override { return slo_; }
+  bool idle() const override { return state_ == State::kIdle; }
+
+  unsigned data_bits() const override { return config_.data_bits; }
+  bool set_data(std::uint64_t raw) override { return config_.hold(raw); }
+
+  const BissBSlaveConfig& config() const { return config_; }
+  bool is_last() const { return is_last_; }
+  bool in_register_mode() const { return state_ == State::kRegister; }
+  // Times register mode was selected by the timeout, and by MO.
+  std::uint64_t handshakes() const { return handshakes_; }
+  std::uint64_t mo_selections() const { return mo_selections_; }
+  BissBRegisters& access() { return access_; }
+
+ private:
+  enum class State { kIdle, kArmed, kAckWait, kBusy, kStart, kData, kRegister };
+
+  void rising(Time now, bool sli);
+  void first_falling(Time now, bool sli);
+  void load();
+  void follow(Time now, bool sli);
+  Time register_timeout() const;
+
+  BissBSlaveConfig config_;
+  BissBRegisters access_;
+  State state_ = State::kIdle;
+  bool ma_ = true;
+  bool slo_ = true;
+  bool is_last_ = true;
+  bool sli_ = false;
+  bool sli_before_ = false;
+  bool sli_was_low_ = false;  // since the acknowledge
+  Time sli_fell_ = kNever;    // kNever: has not yet
+  std::uint64_t word_ = 0;
+  unsigned busy_left_ = 0;
+  Time last_edge_ = 0;
+  Time first_cell_ = 0;       // beginning of the first cell of register mode
+  Time register_period_ = 0;  // its length; 0: not measured yet
+  TimeoutClock timeout_;
+  ShiftRegister shift_;
+  std::uint64_t handshakes_ = 0;
+  std::uint64_t mo_selections_ = 0;
+};
+
+}  // namespace mb4::sim
+
+#endif  // MB4SIM_BISS_B_SLAVE_HPP_

@@ -1,0 +1,88 @@
+// SPDX-FileCopyrightText: 2026 The openmb4 authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// An SSI encoder. The first falling edge of MA latches the word and starts a monoflop that every
+// further falling edge triggers again; each rising edge shows the next bit, MSB first; behind the
+// word the line is 0 until the monoflop has run out. With multiple transmission (ring) the same
+// word comes again behind one 0. Extended SSI: the level of MA when the monoflop runs out is a CDM
+// bit, by which registers can be written as in BiSS C, without an answer (iC-MB4 Rev D2, pages 14,
+// 16).
+#ifndef MB4SIM_SSI_SLAVE_HPP_
+#define MB4SIM_SSI_SLAVE_HPP_
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "mb4sim/control_slave.hpp"
+#include "mb4sim/sensor_config.hpp"
+#include "mb4sim/slave.hpp"
+#include "mb4sim/time.hpp"
+
+namespace mb4::sim {
+
+struct SsiSlaveConfig : SensorConfig {
+  SsiSlaveConfig() {
+    name = "ssi";
+    flag_bits = 0;
+    flags = 0;
+    crc = {};
+    control.present = false;
+  }
+
+  bool gray = false;  // the position is sent in Gray code, flags behind it are not
+  bool ring = false;  // multiple transmission
+  Time monoflop = 20 * kPsPerUs;
+  Time response = 0;      // from a rising edge of MA to the bit at SLO, ps
+  ControlConfig control;  // present: extended SSI
+};
+
+class SsiSlave final : public Slave {
+ public:
+  explicit SsiSlave(const SsiSlaveConfig& config);
+
+  void sample(bool /*sli*/) override {}
+  void ma_edge(Time now, bool ma, bool sli) override;
+  void sli_changed(Time /*now*/, bool /*sli*/) override {}
+  Time deadline() const override;
+  void timer(Time now, bool sli) override;
+  bool slo() const override { return slo_; }
+  bool idle() const override { return !active_; }
+
+  unsigned data_bits() const override { return config_.data_bits; }
+  // The word before it is turned into Gray code.
+  bool set_data(std::uint64_t raw) override { return config_.hold(raw); }
+  ControlSlave* control() override { return config_.control.present ? &control_ : nullptr; }
+
+  const SsiSlaveConfig& config() const { return config_; }
+  // What stands on the line for the word `raw`: data bits without CRC.
+  std::uint64_t line_word(std::uint64_t raw) const;
+
+ private:
+  struct Change {
+    Time time;
+    bool level;
+  };
+
+  void begin(Time now);
+  void end(Time now);
+  bool bit(std::uint64_t index) const;
+  void show(Time now, bool level);
+
+  SsiSlaveConfig config_;
+  ControlSlave control_;
+  bool active_ = false;
+  bool ma_ = true;
+  bool slo_ = true;
+  std::uint64_t data_ = 0;    // of the running frame, as on the line
+  std::uint32_t crc_ = 0;     // behind it
+  std::uint64_t rising_ = 0;  // rising edges of the running frame
+  Time last_falling_ = 0;
+  // Bits on their way to SLO, from next_change_ on; empty most of the time.
+  std::vector<Change> changes_;
+  std::size_t next_change_ = 0;
+};
+
+}  // namespace mb4::sim
+
+#endif  // MB4SIM_SSI_SLAVE_HPP_

@@ -1,0 +1,148 @@
+// SPDX-FileCopyrightText: 2026 The openmb4 authors
+// SPDX-License-Identifier: Apache-2.0
+#include "mb4sim/biss_b_slave.hpp"
+
+namespace mb4::sim {
+
+BissBSlave::BissBSlave(const BissBSlaveConfig& config, std::uint64_t seed)
+    : config_(config),
+      access_(config_.access, registers()),
+      timeout_(config.timeout, seed),
+      shift_(config.word_bits()) {
+  registers().set_banks(config.access.banks);
+  registers().set_missing(config.access.missing);
+  registers().set_write_protected(config.access.write_protected);
+}
+
+Time BissBSlave::register_timeout() const {
+  if (config_.register_timeout != 0) return config_.register_timeout;
+  return register_period_ != 0 ? 3 * register_period_ / 2 : config_.register_initial;
+}
+
+Time BissBSlave::deadline() const {
+  if (state_ == State::kIdle) return kNever;
+  if (state_ != State::kRegister) return last_edge_ + timeout_.value();
+  // The master may take its time between the hand-over and its start bit.
+  return access_.cells() == 0 ? kNever : last_edge_ + register_timeout();
+}
+
+void BissBSlave::ma_edge(Time now, bool ma, bool sli) {
+  ma_ = ma;
+  if (state_ == State::kRegister) {
+    if (ma && access_.cells() == 0) first_cell_ = now;
+    if (ma && access_.cells() == 1) register_period_ = now - first_cell_;
+    access_.ma_edge(now, ma);
+  } else if (ma) {
+    rising(now, sli);
+  } else if (state_ == State::kIdle) {
+    first_falling(now, sli);
+  }
+  last_edge_ = now;
+  follow(now, sli);
+}
+
+void BissBSlave::first_falling(Time now, bool sli) {
+  timeout_.begin(now);
+  // SLI = 0 that was 1 a moment ago is MO; that of the last slave has always been 0.
+  const bool fell = !sli && (sli_ || (sli_fell_ != kNever && now - sli_fell_ <= timeout_.value()));
+  is_last_ = !sli && !fell;
+  state_ = State::kArmed;
+  if (!fell) return;
+  ++mo_selections_;
+  register_period_ = 0;
+  access_.begin(true);
+  state_ = State::kRegister;
+}
+
+void BissBSlave::rising(Time now, bool sli) {
+  switch (state_) {
+    case State::kArmed:
+      word_ = config_.word(now, frames());
+      state_ = State::kAckWait;
+      break;
+    case State::kAckWait:
+      timeout_.measure(now);
+      busy_left_ = config_.busy_periods;
+      sli_was_low_ = !sli;
+      state_ = State::kBusy;
+      slo_ = false;
+      break;
+    case State::kBusy:
+      if (!is_last_) {
+        if (!sli_was_low_ || !sli_before_) break;
+        count_frame();
+        load();
+      } else if (busy_left_ > 0) {
+        --busy_left_;
+      } else {
+        slo_ = true;
+        state_ = State::kStart;
+        count_frame();
+      }
+      break;
+    case State::kStart:
+      load();
+      break;
+    case State::kData:
+      shift_.shift(sli_before_ && !is_last_);
+      slo_ = shift_.out();
+      break;
+    case State::kIdle:
+    case State::kRegister:
+      break;
+  }
+}
+
+void BissBSlave::load() {
+  shift_.load(word_, config_.data_bits, config_.crc);
+  slo_ = shift_.out();
+  state_ = State::kData;
+}
+
+void BissBSlave::sli_changed(Time now, bool sli) { follow(now, sli); }
+
+void BissBSlave::follow(Time now, bool sli) {
+  if (sli_ && !sli) sli_fell_ = now;
+  sli_ = sli;
+  switch (state_) {
+    case State::kArmed:
+      // All slaves of a chain have to confirm register mode before the master sees it.
+      slo_ = true;
+      break;
+    case State::kIdle:
+    case State::kAckWait:
+      slo_ = is_last_ || sli;
+      break;
+    case State::kBusy:
+      // MO may be late with its acknowledge: its 1 is the start bit only after a 0.
+      if (is_last_) break;
+      if (!sli) sli_was_low_ = true;
+      slo_ = sli && sli_was_low_;
+      break;
+    case State::kRegister:
+      // SL is 0 for the master when all slaves have confirmed; later one of them speaks.
+      slo_ = access_.out() || (!is_last_ && sli);
+      break;
+    case State::kStart:
+    case State::kData:
+      break;
+  }
+}
+
+void BissBSlave::timer(Time now, bool sli) {
+  if (now < deadline()) return;
+  if (state_ == State::kRegister) {
+    access_.end();
+    state_ = State::kIdle;
+  } else if (state_ == State::kArmed) {
+    ++handshakes_;
+    register_period_ = 0;
+    access_.begin(false);
+    state_ = State::kRegister;
+  } else {
+    state_ = State::kIdle;
+  }
+  follow(now, sli);
+}
+
+}  // namespace mb4::sim
