@@ -56,10 +56,14 @@ void RandomRun::count_faults(std::uint64_t frame) {
   const mb4ref::Lines lines = case_.frame(frame);
   for (unsigned line = 0; line < 2; ++line) {
     if (!case_.used[line]) continue;
-    std::size_t at = 1;
+    std::size_t at = case_.cds_bits(line);
     for (const Sensor& sensor : case_.lines[line]) {
+      if (sensor.actuator) {
+        at += sensor.slot_bits();
+        continue;
+      }
       const std::string sent =
-          word_on_line(sensor.words[frame], sensor.bits, sensor.crc, sensor.start);
+          word_on_line(sensor.sent(frame), sensor.bits, sensor.crc, sensor.start);
       const std::string got = lines.bits[line].substr(at, sent.size());
       at += sent.size();
       ++counts_.words;
@@ -72,13 +76,40 @@ void RandomRun::count_faults(std::uint64_t frame) {
 
 void RandomRun::take_frames(std::uint64_t up_to) {
   for (; applied_ < up_to; ++applied_) {
+    for (unsigned line = 0; line < 2; ++line)
+      mo_[line] = reference_.mo_bits(case_.registers, line + 1);
     reference_.frame(case_.registers, case_.frame(applied_));
     ++counts_.frames;
     count_faults(applied_);
   }
 }
 
+// Each actuator has taken every frame, the last one's word is what MO had to bring.
+void RandomRun::check_actuators() {
+  for (unsigned line = 0; line < 2; ++line) {
+    std::size_t at = 0;
+    for (const Sensor& sensor : case_.lines[line]) {
+      const std::size_t slot = at;
+      at += sensor.slot_bits();
+      if (!sensor.actuator || !case_.used[line] || applied_ == 0) continue;
+      const sim::Actuator& actuator = *session_.simulator().slave(sensor.slave)->actuator();
+      const std::uint64_t word =
+          from_bits(mo_[line].substr(slot + (sensor.stop_bit ? 1 : 0), sensor.bits));
+      const std::string which = "actuator " + std::to_string(sensor.slave) + ": ";
+      expect(
+          actuator.words() == applied_ && actuator.crc_errors() == 0 && actuator.stop_errors() == 0,
+          which + std::to_string(actuator.words()) + " good words, " +
+              std::to_string(actuator.crc_errors()) + " wrong CRCs, " +
+              std::to_string(actuator.stop_errors()) + " wrong stop bits in " +
+              std::to_string(applied_) + " frames");
+      expect(actuator.word() == word, which + to_bits(actuator.word(), sensor.bits) +
+                                          ", expected " + to_bits(word, sensor.bits));
+    }
+  }
+}
+
 void RandomRun::check() {
+  check_actuators();
   const auto status = session_.spi({0x05, 0, 0, 0, 0});
   const bool error = reference_.scd_error() || reference_.ags_error();
   const unsigned expected = (error ? 0x00U : 0x80U) | (reference_.ags_error() ? 0x00U : 0x40U) |
@@ -116,13 +147,15 @@ void RandomRun::fill_bank() {
 void RandomRun::configure() {
   session_.wait_ns(10'000);  // the memories are cleared
   session_.write(0xC0, {case_.registers.slave.begin(), case_.registers.slave.end()});
-  session_.write(0xE4, {case_.chsel, static_cast<std::uint8_t>(case_.hold_cdm ? 0x41 : 0x40),
-                        static_cast<std::uint8_t>(0xA0 | case_.freqs),
-                        static_cast<std::uint8_t>((case_.registers.nocrc ? 2 : 0) |
-                                                  (case_.registers.singlebank ? 1 : 0)),
-                        kAgsMinCode});
-  session_.write(0xEC,
-                 {static_cast<std::uint8_t>(case_.registers.slaveloc5 ? 0x11 : 0x01), case_.cfgch});
+  session_.write(
+      0xE4, {case_.chsel,
+             static_cast<std::uint8_t>(0x40 | (case_.en_mo ? 2 : 0) | (case_.hold_cdm ? 1 : 0)),
+             static_cast<std::uint8_t>(0xA0 | case_.freqs),
+             static_cast<std::uint8_t>((case_.registers.nocrc ? 2 : 0) |
+                                       (case_.registers.singlebank ? 1 : 0)),
+             kAgsMinCode, case_.mo_busy});
+  session_.write(0xEC, {static_cast<std::uint8_t>(case_.registers.slaveloc5 ? 0x11 : 0x01),
+                        case_.cfgch, 0x00, case_.registers.actnsens});
   // What no frame touches must stay: fill both banks.
   fill_bank();
   toggle_swbank();
@@ -145,7 +178,8 @@ void RandomRun::instr_frame(unsigned hold) {
   // Table 23: the lines that CHSEL selects, line 1 without any.
   const unsigned lines = case_.chsel == 0 ? 1 : case_.chsel;
   for (const unsigned line : {0U, 1U}) {
-    if (!case_.used[line]) continue;
+    // BiSS B has no CDM.
+    if (!case_.used[line] || case_.protocol(line) == mb4ref::Protocol::kBissB) continue;
     const bool cdm = instr != 2 && ((lines >> line) & 1U) != 0;
     expect(session_.simulator().slave(line == 0 ? 1 : 5)->last_cdm() == cdm, "CDM of the frame");
   }

@@ -55,6 +55,7 @@ class RandomRun {
 
   void expect(bool good, const std::string& what);
   void check();
+  void check_actuators();
   void set_freqags(unsigned code);
   // EOT = 1, all slaves have timed out and SL = 1 on the lines in use.
   void wait_idle();
@@ -70,9 +71,10 @@ class RandomRun {
   Session session_;
   mb4ref::Reference reference_;
   RandomCounts counts_;
-  std::uint64_t applied_ = 0;   // frames that the reference has seen
-  std::uint64_t frame_ns_ = 0;  // of one frame with its timeout
-  unsigned swbank_ = 0;         // bit of 0xF4 as written last
+  std::uint64_t applied_ = 0;      // frames that the reference has seen
+  std::uint64_t frame_ns_ = 0;     // of one frame with its timeout
+  unsigned swbank_ = 0;            // bit of 0xF4 as written last
+  std::array<std::string, 2> mo_;  // bits that the last frame had to send
 };
 
 }  // namespace mb4test

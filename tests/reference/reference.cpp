@@ -21,6 +21,31 @@ unsigned data_bits(const Registers& registers, unsigned x) {
   return (registers.slave[4 * x] & 0x3FU) + 1;
 }
 
+bool is_actuator(const Registers& registers, unsigned x) {
+  return ((registers.actnsens >> x) & 1U) != 0;
+}
+
+// Bits of channel `x` on the line. LSTOPx is bit 7 of the same register, for actuators only.
+unsigned slot_bits(const Registers& registers, unsigned x) {
+  const bool stop = is_actuator(registers, x) && (registers.slave[4 * x] & 0x80) != 0;
+  return data_bits(registers, x) + crc_choice(registers.slave[4 * x + 1]).width + (stop ? 1 : 0);
+}
+
+std::uint16_t crc_start(const Registers& registers, unsigned x) {
+  return static_cast<std::uint16_t>(registers.slave[4 * x + 2] | (registers.slave[4 * x + 3] << 8));
+}
+
+// Each binary digit is the sum of all Gray digits up to it.
+std::string binary_of_gray(const std::string& gray) {
+  std::string binary;
+  bool digit = false;
+  for (const char bit : gray) {
+    digit = digit != (bit == '1');
+    binary += digit ? '1' : '0';
+  }
+  return binary;
+}
+
 }  // namespace
 
 CrcChoice crc_choice(std::uint8_t register_c1) {
@@ -64,9 +89,32 @@ std::uint32_t remainder(const std::string& data, CrcChoice crc, std::uint16_t st
 unsigned Reference::frame_bits(const Registers& registers, unsigned line) {
   unsigned bits = 0;
   for (unsigned x = 0; x < 8; ++x) {
-    if (enabled(registers, x) && on_line(registers, x, line)) {
-      bits += data_bits(registers, x) + crc_choice(registers.slave[4 * x + 1]).width;
-    }
+    if (enabled(registers, x) && on_line(registers, x, line)) bits += slot_bits(registers, x);
+  }
+  return bits;
+}
+
+std::string Reference::actuator_slot(const Registers& registers, unsigned x) const {
+  const Bank& bank = engine_bank(registers);
+  const unsigned length = data_bits(registers, x);
+  std::string data;
+  for (unsigned weight = length; weight-- > 0;) {
+    data += ((bank.data[8 * x + weight / 8] >> (weight % 8)) & 1U) != 0 ? '1' : '0';
+  }
+  const CrcChoice crc = crc_choice(registers.slave[4 * x + 1]);
+  const std::uint32_t check = remainder(data, crc, crc_start(registers, x));
+  std::string slot = slot_bits(registers, x) > length + crc.width ? "0" : "";
+  slot += data;
+  for (unsigned i = crc.width; i-- > 0;) slot += ((check >> i) & 1U) != 0 ? '0' : '1';
+  return slot;
+}
+
+std::string Reference::mo_bits(const Registers& registers, unsigned line) const {
+  std::string bits;
+  for (unsigned x = 0; x < 8; ++x) {
+    if (!enabled(registers, x) || !on_line(registers, x, line)) continue;
+    bits += is_actuator(registers, x) ? actuator_slot(registers, x)
+                                      : std::string(slot_bits(registers, x), '0');
   }
   return bits;
 }
@@ -74,12 +122,16 @@ unsigned Reference::frame_bits(const Registers& registers, unsigned line) {
 bool Reference::word(const Registers& registers, unsigned x, std::string& bits, Bank& bank) {
   const unsigned length = data_bits(registers, x);
   const CrcChoice crc = crc_choice(registers.slave[4 * x + 1]);
-  const auto start =
-      static_cast<std::uint16_t>(registers.slave[4 * x + 2] | (registers.slave[4 * x + 3] << 8));
+  const std::uint16_t start = crc_start(registers, x);
   if (bits.size() < length + crc.width) throw std::logic_error("reference: too few bits");
   const std::string data = bits.substr(0, length);
   const std::string sent = bits.substr(length, crc.width);
   bits.erase(0, length + crc.width);
+  // Table 19 and decision 29: Gray code counts on an SSI line; the CRC is over what was sent.
+  const unsigned line = registers.slaveloc5 && x >= 4 ? 1 : 0;
+  const bool gray =
+      registers.protocol[line] == Protocol::kSsi && (registers.slave[4 * x] & 0x80) != 0;
+  const std::string value_bits = gray ? binary_of_gray(data) : data;
 
   // Page 26: byte by byte from the least significant end, unused bits of a touched byte are zero.
   const unsigned bytes = (length + 7) / 8;
@@ -87,7 +139,7 @@ bool Reference::word(const Registers& registers, unsigned x, std::string& bits, 
     unsigned value = 0;
     for (unsigned bit = 0; bit < 8; ++bit) {
       const unsigned weight = byte * 8 + bit;
-      if (weight < length && data[length - 1 - weight] == '1') value |= 1U << bit;
+      if (weight < length && value_bits[length - 1 - weight] == '1') value |= 1U << bit;
     }
     bank.data[8 * x + byte] = static_cast<std::uint8_t>(value);
   }
@@ -109,10 +161,16 @@ void Reference::frame(const Registers& registers, const Lines& lines) {
   for (unsigned line = 1; line <= 2; ++line) {
     std::string bits = lines.bits[line - 1];
     if (bits.empty()) continue;  // takes no part
-    bank.cds[line - 1] = bits[0] == '1';
-    bits.erase(0, 1);
+    // Page 15: CDS is BiSS C's alone.
+    const bool biss_c = registers.protocol[line - 1] == Protocol::kBissC;
+    bank.cds[line - 1] = biss_c && bits[0] == '1';
+    if (biss_c) bits.erase(0, 1);
     for (unsigned x = 0; x < 8; ++x) {
       if (!enabled(registers, x) || !on_line(registers, x, line)) continue;
+      if (is_actuator(registers, x)) {
+        bits.erase(0, slot_bits(registers, x));  // decision 11
+        continue;
+      }
       const bool good = word(registers, x, bits, bank);
       bank.valid[x] = good;
       if (!good) scd_error_ = true;

@@ -1,9 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What an iC-MB4 shows its host after a BiSS C frame, computed from the registers the host wrote
-// and the bits that stood on the lines. Written from the datasheet (pages 23..26, 31, 33..35) and
-// decisions 8, 9, 15, 18, 28, 30; it shares no code with the RTL, the simulator or the driver.
+// What an iC-MB4 shows its host after a frame, and what it sends on MO, computed from the registers
+// the host wrote and the bits that stood on the lines. Written from the datasheet (pages 14..16,
+// 23..26, 31, 33..35) and decisions 8, 9, 11, 15, 18, 28, 29, 30; it shares no code with the RTL,
+// the simulator or the driver.
 #ifndef MB4_TESTS_REFERENCE_REFERENCE_HPP_
 #define MB4_TESTS_REFERENCE_REFERENCE_HPP_
 
@@ -13,15 +14,21 @@
 
 namespace mb4ref {
 
+// CFGCHx (Table 8).
+enum class Protocol : std::uint8_t { kBissB = 0, kBissC = 1, kSsi = 2, kUnused = 3 };
+
 // Registers 0xC0..0xDF and the few others that shape a frame.
 struct Registers {
   std::array<std::uint8_t, 32> slave{};
+  std::array<Protocol, 2> protocol{Protocol::kBissC, Protocol::kBissC};
+  std::uint8_t actnsens = 0;
   bool slaveloc5 = false;
   bool nocrc = false;
   bool singlebank = false;
 };
 
-// Bits of one line behind the start bit as '0' and '1': CDS first, then all words.
+// Bits of one line behind the start bit as '0' and '1': in BiSS C CDS first, then all words in the
+// order of their channels. In SSI from the second rising edge on.
 struct Lines {
   std::array<std::string, 2> bits;
 };
@@ -38,7 +45,7 @@ std::uint32_t remainder(const std::string& data, CrcChoice crc, std::uint16_t st
 
 class Reference {
  public:
-  // Bits that the enabled channels of line 1 or 2 take.
+  // Bits that the enabled channels of line 1 or 2 take, stop bits of actuators included.
   static unsigned frame_bits(const Registers& registers, unsigned line);
 
   // A complete frame; then the banks switch (SINGLEBANK = 0), or with HOLDBANK wait to switch.
@@ -51,6 +58,12 @@ class Reference {
   void swap_banks() { host_ = 1 - host_; }
   // BREAK between two frames (decision 8).
   void clear_errors() { scd_error_ = ags_error_ = false; }
+
+  // What the next frame sends on MO for channel `x` (0..7), an actuator: stop bit if LSTOPx, data
+  // of the bank on the BiSS side, inverted CRC (pages 25, 31).
+  std::string actuator_slot(const Registers& registers, unsigned x) const;
+  // All slots of MO of a line, sensors as zeros.
+  std::string mo_bits(const Registers& registers, unsigned line) const;
 
   // What the host reads.
   std::uint8_t scdata(unsigned address) const { return banks_[host_].data.at(address); }
@@ -73,6 +86,9 @@ class Reference {
     std::array<bool, 2> cds{};
   };
 
+  const Bank& engine_bank(const Registers& registers) const {
+    return banks_[registers.singlebank ? host_ : 1 - host_];
+  }
   std::uint8_t spread(unsigned first) const;
   void switch_banks();
   // Takes channel `x` (0..7) from the front of `bits`; false if its CRC is wrong.
