@@ -86,14 +86,14 @@ module mb4_lines (
 
   assign idle = idle_o == 2'b11;
 
-  // Forced levels last whole half periods as well: the time base runs for them, anew from a change.
+  // Forced levels last whole half periods as well: the time base runs for them, anew from the first.
   // The time base lives through a reset: it ends a low level of MA in its time.
   mb4_timebase u_timebase (
     .clk_i,
     .rst_ni      (por_ni),
     .half_len_i,
     .run_i       (!idle || time_i || force_i != 2'b00),
-    .restart_i   (start_i || (force_change_i && idle)),
+    .restart_i   (start_i || (force_change_i && idle && force_i == 2'b00)),
     .tick_o,
     .half_next_o (half_next),
     .smp_a_o     (smp_a),

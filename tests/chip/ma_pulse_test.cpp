@@ -3,7 +3,7 @@
 //
 // No pulse at MA is shorter than half of the configured period (I302, I303), whatever cuts a frame.
 // The guard at the MA pins ends a simulation that breaks this: see MaGuard and MaPulseCheck in
-// tests/unit. The MA force bits (page 33) are not implemented in this version.
+// tests/unit. The MA force bits: ma_force_test.cpp.
 #include <gtest/gtest.h>
 
 #include <string>
@@ -103,6 +103,19 @@ TEST_P(MaPulse, ClockSwitchAtAnyPhase_CutsNothingShort) {
       chip.write(0xF5, {0x01});
       chip.instruct(0x80);
       chip.advance_us(300);
+    });
+  }
+}
+
+// The MA force bits in the middle of a frame, and released again.
+TEST_P(MaPulse, ForcedAtAnyPhase_CutsNothingShort) {
+  for (const unsigned level : {0x00U, 0x20U}) {
+    at_every_phase("", 50, [level](Chip& chip) {
+      chip.write(0xF5, {static_cast<std::uint8_t>(0x10U | level)});
+      chip.advance_us(20);
+      chip.write(0xF5, {0x00});
+      chip.instruct(0x80);
+      chip.advance_us(200);
     });
   }
 }
