@@ -13,7 +13,9 @@ demo_packages=(
 )
 test_packages=(
   clang git iverilog yosys
+  clang-tidy gcovr
   gcc-arm-none-eabi libnewlib-arm-none-eabi libstdc++-arm-none-eabi-newlib linux-libc-dev
+  gcc-riscv64-unknown-elf picolibc-riscv64-unknown-elf qemu-system-arm
 )
 
 case "${1:-demo}" in

@@ -358,7 +358,7 @@ TEST(ChipDriver, LengthsAndCrcs_RoundTrip) {
       config.slaves[0].flags = mb4::Flags::kNone;
       config.slaves[0].crc_polynomial = polynomial;
       config.slaves[0].crc_start = polynomial == 0 ? 0 : 5;
-      config.store_crc = bits % 2 == 0;
+      config.spi_check = bits % 2 == 0 ? mb4::SpiCheck::kFull : mb4::SpiCheck::kOff;
       ASSERT_TRUE(chip.device.configure(config).ok()) << bits;
       for (int i = 0; i < 2; ++i) {
         seed ^= seed << 13;

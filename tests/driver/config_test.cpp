@@ -350,7 +350,7 @@ TEST(RegisterImage, CrcStart_IsLowByteFirst) {
 // Table 21: NOCRC is bit 1 of 0xE7.
 TEST(RegisterImage, StoreCrc_ClearsNocrc) {
   Config config = encoder26();
-  config.store_crc = true;
+  config.spi_check = mb4::SpiCheck::kCrc;
   EXPECT_EQ(image_byte(config, 0xE7), 0x00);
 }
 

@@ -143,7 +143,7 @@ TEST_F(Registers, Write70_SecondPartContinues) {
   expect_frames(status(0x77, 0x00, 0x03));  // nREGERR = 0 after 3
   const ErrorInfo info = device.control().write_registers({1, 0}, 0x10, data).info();
   EXPECT_EQ(info.code, Error::kRegister);
-  EXPECT_EQ(info.bytes, 67);
+  EXPECT_EQ(info.bytes(), 67);
 }
 
 // Table 57: nREGERR; table 63: REGBYTES.
@@ -154,7 +154,7 @@ TEST_F(Registers, RegisterError_NamesGoodBytes) {
   std::array<std::uint8_t, 8> bytes{};
   const ErrorInfo info = device.control().read_registers({1, 0}, 0x10, bytes).info();
   EXPECT_EQ(info.code, Error::kRegister);
-  EXPECT_EQ(info.bytes, 5);
+  EXPECT_EQ(info.bytes(), 5);
 }
 
 // Table 58: nDELAYERR, bit 5.

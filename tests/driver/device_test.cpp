@@ -126,7 +126,7 @@ TEST(ConfigureFailure, AnyWrongBit_IsVerifyWithItsAddress) {
         EXPECT_EQ(info.code, Error::kNone) << address;
       } else {
         EXPECT_EQ(info.code, Error::kVerify) << address;
-        EXPECT_EQ(info.address, address);
+        EXPECT_EQ(info.address(), address);
         EXPECT_FALSE(device.configured());
       }
     }

@@ -17,6 +17,7 @@ constexpr mb4::Config encoder26() {
   mb4::Config config;
   config.f_clk_hz = 20'000'000;
   config.ma_hz = 2'000'000;
+  config.spi_check = mb4::SpiCheck::kOff;
   config.channels[0].protocol = mb4::Protocol::kBissC;
   config.slaves[0].enabled = true;
   config.slaves[0].data_bits = 28;

@@ -115,7 +115,7 @@ TEST_F(ReadFrame, InstructionStillPending_IsNotTheEnd) {
 // Table 22: with NOCRC = 0 the CRC is in byte 7; all eight bytes are read.
 TEST_F(ReadFrame, StoredCrc_IsReadAndReturned) {
   mb4::Config config = encoder26();
-  config.store_crc = true;
+  config.spi_check = mb4::SpiCheck::kCrc;
   bus.expect_write({0x07, 0x80, 0x00});
   Bytes image = mb4_test::configuration();
   image[0xE7 - 0xC0] = 0x00;

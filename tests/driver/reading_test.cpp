@@ -85,7 +85,7 @@ TEST(Reading, UnusedBitSet_IsCorrupted) {
 
 Config with_stored_crc(std::uint8_t data_bits, std::uint32_t polynomial) {
   Config config = mb4_test::encoder26();
-  config.store_crc = true;
+  config.spi_check = mb4::SpiCheck::kCrc;
   config.slaves[0].data_bits = data_bits;
   config.slaves[0].crc_polynomial = polynomial;
   return config;

@@ -82,7 +82,7 @@ class DriverControlAbsent : public testing::TestWithParam<Mode> {
   // Automatic frames: the chip itself reports. Single ones: the frame that hangs comes first.
   void expect_error(const ErrorInfo& info, Error automatic) {
     EXPECT_EQ(info.code, GetParam().ags ? automatic : Error::kTimeout) << mb4::to_string(info.code);
-    EXPECT_EQ(info.bytes, 0);
+    EXPECT_EQ(info.bytes(), 0);
   }
 
   Config config = config26(10'000'000);

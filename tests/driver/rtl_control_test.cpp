@@ -113,7 +113,7 @@ TEST_P(DriverControl, NoSlaveWithThisId_IsRegisterErrorWithoutByte) {
   std::array<std::uint8_t, 1> bytes{};
   const mb4::ErrorInfo info = chip.device.control().read_registers({1, 2}, 0x60, bytes).info();
   EXPECT_EQ(info.code, Error::kRegister);
-  EXPECT_EQ(info.bytes, 0);
+  EXPECT_EQ(info.bytes(), 0);
 }
 
 TEST_P(DriverControl, MissingRegister_IsRegisterDelay) {
@@ -127,7 +127,7 @@ TEST_P(DriverControl, MissingRegisterInTheMiddle_NamesGoodBytes) {
   std::array<std::uint8_t, 4> bytes{};
   const mb4::ErrorInfo info = chip.device.control().read_registers({1, 0}, 0x4E, bytes).info();
   EXPECT_EQ(info.code, Error::kRegisterDelay);
-  EXPECT_EQ(info.bytes, 2);
+  EXPECT_EQ(info.bytes(), 2);
 }
 
 TEST_P(DriverControl, Commands_ReachWhomTheyAddress) {

@@ -125,7 +125,7 @@ Config make_config(const sim::Scenario& scenario) {
   config.clock_source =
       scenario.chip.f_clk_hz != 0 ? ClockSource::kExternal : ClockSource::kInternal;
   config.ma_hz = static_cast<std::uint32_t>(scenario.host.ma_hz);
-  config.store_crc = true;
+  config.spi_check = SpiCheck::kCrc;
   config.frame_timeout_us = frame_timeout(scenario);
   for (const sim::ChannelConfig& channel : scenario.channels) {
     config.channels[channel.number - 1].protocol = protocol_of(channel.protocol());
@@ -148,7 +148,9 @@ std::string describe(const ErrorInfo& error) {
   std::string text = to_string(error.code);
   if (error.field != ConfigField::kNone) text += fmt::format(": {}", to_string(error.field));
   if (error.number != 0) text += fmt::format(" of {}", error.number);
-  if (error.address != 0) text += fmt::format(" at register 0x{:02X}", error.address);
+  if (error.address() != 0) {
+    text += fmt::format(" at register 0x{:02X}", error.address());
+  }
   return text;
 }
 

@@ -50,12 +50,12 @@ class SingleShot {
     if (const Error bad = detail::judge(chip_.config, slave, *status); bad != Error::kNone) {
       return bad == Error::kLineError ? chip_.stop_frame(bad) : ErrorInfo(bad);
     }
-    detail::DataImage image{};
-    if (const Result<void> fetched = fetch(static_cast<std::uint8_t>(1U << (slave - 1U)), image);
+    detail::FetchedData data;
+    if (const Result<void> fetched = fetch(static_cast<std::uint8_t>(1U << (slave - 1U)), data);
         !fetched) {
       return fetched.info();
     }
-    const Result<Reading> reading = detail::decode(chip_.config, slave, image);
+    const Result<Reading> reading = detail::decode(chip_.config, slave, data);
     // kCorrupted casts doubt on the status that came over the same SPI.
     chip_.recover_first = !reading;
     return reading;
@@ -85,13 +85,13 @@ class SingleShot {
     if (enabled != 0 && good == 0 && status->start_error() && !status->scd_error()) {
       return chip_.stop_frame(Error::kLineError);
     }
-    detail::DataImage image{};
-    if (const Result<void> fetched = fetch(static_cast<std::uint8_t>(good), image); !fetched) {
+    detail::FetchedData data;
+    if (const Result<void> fetched = fetch(static_cast<std::uint8_t>(good), data); !fetched) {
       return fetched;
     }
     for (std::uint8_t slave = 1; slave <= kSlaves; ++slave) {
       if ((good >> (slave - 1U) & 1U) != 0) {
-        frame.set(slave, detail::decode(chip_.config, slave, image));
+        frame.set(slave, detail::decode(chip_.config, slave, data));
       }
     }
     chip_.recover_first = !frame.good(enabled);
@@ -127,7 +127,8 @@ class SingleShot {
       // EOT alone is also 1 before the chip has taken the instruction. A refused frame resets
       // INSTR, too; nAGSERR proves nothing yet, see judge().
       if (status->idle() && status->instruction_done()) {
-        return status;
+        // Another instruction than the one that was sent may do something else meanwhile.
+        return chip_.checks_all() && status->instruction() != 0 ? Error::kCorrupted : status;
       }
     }
     const ErrorInfo stopped = chip_.stop_frame(Error::kTimeout);
@@ -135,12 +136,21 @@ class SingleShot {
   }
 
   // The data of the slaves in `mask`; then SVALID of all is cleared.
-  Result<void> fetch(std::uint8_t mask, detail::DataImage& image) {
-    if (const Result<void> data = detail::read_data(chip_.opcodes, chip_.config, mask, image);
-        !data) {
-      return data;
+  Result<void> fetch(std::uint8_t mask, detail::FetchedData& data) {
+    if (const Result<void> read = detail::fetch_data(chip_.opcodes, chip_.config, mask, data);
+        !read) {
+      return read;
     }
-    return chip_.clear_valid(enabled_slaves(chip_.config));
+    if (chip_.checks_all()) {
+      const Result<Status> after = chip_.read_status();
+      if (!after) {
+        return after.info();
+      }
+      if (!after->idle() || (detail::valid_slaves(chip_.config, *after) & mask) != mask) {
+        return Error::kCorrupted;
+      }
+    }
+    return chip_.clear_valid_checked(enabled_slaves(chip_.config));
   }
 
   detail::Chip<Bus, Clock>& chip_;

@@ -13,6 +13,8 @@
 #include "mb4/config.hpp"
 #include "mb4/control_data.hpp"
 #include "mb4/frame.hpp"
+#include "mb4/frame_poll.hpp"
+#include "mb4/position_poll.hpp"
 #include "mb4/result.hpp"
 #include "mb4/status.hpp"
 #include "mb4_regs.hpp"
@@ -98,7 +100,8 @@ class Automatic {
   [[nodiscard]] bool running() const { return chip_.automatic; }
 
   // Fetches the last complete frame if it has not been fetched yet. Never waits: at most 5 + n
-  // transfers for n enabled slaves, 3 when nothing is new, whatever the chip answers:
+  // transfers for n enabled slaves, 3 when nothing is new, whatever the chip answers, without
+  // SpiCheck::kFull:
   //   0x07        HOLDBANK = 1, AGS = 1
   //   0x05        0xF0..0xF4: new at all? And time for HOLDBANK to take effect
   //   0x09, 0x03  SCDATA of the enabled slaves, 1..n bursts; only the bytes that they need
@@ -106,6 +109,8 @@ class Automatic {
   //   0x02        SVALID of the enabled slaves = 0
   //   0x07        HOLDBANK = 0, AGS = 1; also after a failed transfer
   // While a control communication runs (at most 3 + n): 0x05, 0x02, data, 0x05.
+  // SpiCheck::kFull: n + 2 more: data again, where a stored CRC does not prove it, and one or two
+  // 0x05 behind the 0x02; beside a control communication n + 1 more.
   //
   // May be used in an interrupt; no other call on the same Device may be interrupted by it.
   //
@@ -113,20 +118,19 @@ class Automatic {
   // slave; frame.status tells of omitted frames (nAGSERR). The datasheet asks for restart() when
   // SVALID is 0 although a frame must have come (table 69); this call leaves that to the caller,
   // who knows how often frames come. next() does it by itself.
-  // kWrongMode (not running: not touched); kTransport, kNotDetected, kBankSwitched. On error
-  // `frame` holds no Reading.
+  // kWrongMode (not running: not touched); kTransport, kNotDetected, kBankSwitched; kCorrupted with
+  // SpiCheck::kFull. On error `frame` holds no Reading.
   Result<void> poll(Frame& frame) {
     frame = Frame();
     if (!chip_.automatic) {
       return Error::kWrongMode;
     }
     if (control_runs()) {
-      return poll_beside_control(frame);
+      return FramePoll<Bus, Clock>(chip_).read_beside_control(frame);
     }
-    constexpr std::uint8_t kHold = kAgs | regs::HOLDBANK::encode<1>();
-    Result<void> read = chip_.write_instruction(kHold);
+    Result<void> read = chip_.write_instruction(detail::kHoldAndAgs);
     if (read) {
-      read = read_held(frame);
+      read = FramePoll<Bus, Clock>(chip_).read_held(frame);
     }
     const Result<void> released = chip_.write_instruction(kAgs);
     if (read && !released) {
@@ -136,6 +140,23 @@ class Automatic {
       frame = Frame();
     }
     return read;
+  }
+
+  // The same for one slave, 1..8: its position, in at most kMaxPollSlaveTransfers transfers
+  // (kMaxPollSlaveTransfersChecked with SpiCheck::kFull), 3 when nothing is new. Small and quick:
+  // made for a control loop's interrupt. SVALID of other slaves is left alone.
+  //
+  // kInvalidArgument (not enabled), kWrongMode (not running): not touched. kNoData: no frame has
+  // ended since the last call; kCrc: and the last one was bad. kCorrupted, kTransport,
+  // kNotDetected, kBankSwitched as for poll().
+  Result<Reading> poll_slave(std::uint8_t slave) {
+    if (slave < 1 || slave > kSlaves || !chip_.config.slaves[slave - 1U].enabled) {
+      return Error::kInvalidArgument;
+    }
+    if (!chip_.automatic) {
+      return Error::kWrongMode;
+    }
+    return PositionPoll<Bus, Clock>(chip_, slave).read(control_runs());
   }
 
   // Waits for the next new frame, at most frame_timeout_us() and one frame period, and fetches it
@@ -172,81 +193,6 @@ class Automatic {
 
   [[nodiscard]] bool control_runs() const {
     return chip_.control.kind != detail::ControlState::Kind::kNone;
-  }
-
-  // HOLDBANK is set.
-  Result<void> read_held(Frame& frame) {
-    const Result<Status> before = chip_.read_status();
-    if (!before) {
-      return before.info();
-    }
-    const std::uint8_t fresh = detail::valid_slaves(chip_.config, *before);
-    if (fresh == 0) {
-      return store(frame, *before, 0, nullptr);
-    }
-    detail::DataImage image{};
-    if (const Result<void> data =
-            detail::read_data(chip_.opcodes, chip_.config, enabled_slaves(chip_.config), image);
-        !data) {
-      return data;
-    }
-    const Result<Status> after = chip_.read_status();
-    if (!after) {
-      return after.info();
-    }
-    if (const Result<void> clear = chip_.clear_valid(enabled_slaves(chip_.config)); !clear) {
-      return clear;
-    }
-    const unsigned good = fresh & detail::valid_slaves(chip_.config, *after);
-    return store(frame, *after, static_cast<std::uint8_t>(good), &image);
-  }
-
-  // No HOLDBANK. Proof that the data belongs together: SVALID of all is 0 after it has been read,
-  // so no good frame has ended since it was cleared; nSCDERR = 1, so the last frame was not a bad
-  // one either. Proof that it is good: that last frame is the one that was read.
-  Result<void> poll_beside_control(Frame& frame) {
-    const Result<Status> before = chip_.read_status();
-    if (!before) {
-      return before.info();
-    }
-    const std::uint8_t fresh = detail::valid_slaves(chip_.config, *before);
-    if (fresh == 0) {
-      return store(frame, *before, 0, nullptr);
-    }
-    if (const Result<void> clear = chip_.clear_valid(enabled_slaves(chip_.config)); !clear) {
-      return clear;
-    }
-    detail::DataImage image{};
-    if (const Result<void> data =
-            detail::read_data(chip_.opcodes, chip_.config, enabled_slaves(chip_.config), image);
-        !data) {
-      return data;
-    }
-    const Result<Status> after = chip_.read_status();
-    if (!after) {
-      return after.info();
-    }
-    if (after->scd_error() || detail::valid_slaves(chip_.config, *after) != 0) {
-      return Error::kBankSwitched;
-    }
-    return store(frame, *after, fresh, &image);
-  }
-
-  // nSCDERR is about the last frame on the line, which may be later than the bank that was read. A
-  // slave without SVALID beside one with it was bad in any case.
-  Result<void> store(Frame& frame, const Status& status, std::uint8_t good,
-                     detail::DataImage* image) {
-    frame.status = status;
-    const std::uint8_t enabled = enabled_slaves(chip_.config);
-    for (std::uint8_t slave = 1; slave <= kSlaves; ++slave) {
-      const unsigned bit = 1U << (slave - 1U);
-      if ((good & bit) != 0) {
-        frame.set(slave, detail::decode(chip_.config, slave, *image));
-      } else if ((enabled & bit) != 0) {
-        frame.set(slave, good != 0 || status.scd_error() ? Error::kCrc : Error::kNoData);
-      }
-    }
-    return {};
   }
 
   // Polls until a frame is there, good or bad.

@@ -14,6 +14,7 @@
 #include "mb4/bus.hpp"
 #include "mb4/config.hpp"
 #include "mb4/opcodes.hpp"
+#include "mb4/register_image.hpp"
 #include "mb4/result.hpp"
 #include "mb4/span.hpp"
 #include "mb4/status.hpp"
@@ -142,9 +143,40 @@ struct Chip {
     return opcodes.write_registers(regs::kAddrSvalidLo, both.first(keep[1] == 0xFF ? 1 : 2));
   }
 
-  // Ends what runs, lets the slaves' timeout pass, and clears the flags of frames that ran.
+  [[nodiscard]] bool checks_all() const { return config.spi_check == SpiCheck::kFull; }
+
+  // The same, and with SpiCheck::kFull one status more, or two, to see that the flags are 0. The
+  // chip takes some system clocks to clear them. kCorrupted: they are not.
+  Result<void> clear_valid_checked(std::uint8_t mask) {
+    if (const Result<void> cleared = clear_valid(mask); !cleared || !checks_all()) {
+      return cleared;
+    }
+    for (unsigned look = 0; look < 2; ++look) {
+      const Result<Status> status = read_status();
+      if (!status) {
+        return status.info();
+      }
+      bool all_clear = true;
+      for (std::uint8_t slave = 1; slave <= kSlaves; ++slave) {
+        all_clear = all_clear && !((mask >> (slave - 1U) & 1U) != 0 && status->valid(slave));
+      }
+      if (all_clear) {
+        return {};
+      }
+    }
+    return Error::kCorrupted;
+  }
+
+  // Ends what runs, lets the slaves' timeout pass, and clears the flags of frames that ran. With
+  // SpiCheck::kFull 0xF5 is written as well: it lies next to 0xF4, and what has failed may be a
+  // read of the status that came to the chip as a write.
   Result<void> recover() {
-    if (const Result<void> stopped = write_break(); !stopped) {
+    automatic = false;
+    control.kind = ControlState::Kind::kNone;
+    const std::array<std::uint8_t, 2> bytes{regs::BREAK::encode<1>(), encode_interface(config)};
+    const Span<const std::uint8_t> both(bytes);
+    if (const Result<void> stopped = opcodes.write_instruction(both.first(checks_all() ? 2 : 1));
+        !stopped) {
       return stopped;
     }
     pause(*clock, kLineRecoveryUs);

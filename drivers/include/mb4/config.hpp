@@ -29,10 +29,11 @@ namespace mb4 {
 }
 
 // Whether the chip stores this slave's CRC: it takes the top byte of SCDATAx, CRC16 the two top
-// bytes, if data leaves them free (page 26).
+// bytes, if data leaves them free (page 26). For a valid `config`.
 [[nodiscard]] constexpr bool crc_is_stored(const Config& config, const SlaveConfig& slave) {
-  const std::uint8_t width_bits = encode_crc(slave.crc_polynomial).width_bits;
-  return config.store_crc && width_bits != 0 && data_bytes(slave) + (width_bits + 7U) / 8U <= 8U;
+  const std::uint8_t width_bits = crc_width_bits(slave.crc_polynomial);
+  return config.spi_check != SpiCheck::kOff && width_bits != 0 &&
+         data_bytes(slave) + (width_bits + 7U) / 8U <= 8U;
 }
 
 // Whether slaves 5 to 8 are on channel 2 (SLAVELOC5).
@@ -148,6 +149,10 @@ constexpr ErrorInfo check_chip(const Config& config) {
       break;
     default:
       return invalid(ConfigField::kLineInterface);
+  }
+  if (config.spi_check != SpiCheck::kOff && config.spi_check != SpiCheck::kCrc &&
+      config.spi_check != SpiCheck::kFull) {
+    return invalid(ConfigField::kSpiCheck);
   }
   if (config.frame_timeout_us > kMaxFrameTimeoutUs) {
     return invalid(ConfigField::kFrameTimeoutUs);

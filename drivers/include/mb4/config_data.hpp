@@ -49,6 +49,22 @@ enum class Flags : std::uint8_t {
   kErrorWarning = 1,
 };
 
+// How data is protected on its way over SPI, which has no check of its own.
+enum class SpiCheck : std::uint8_t {
+  // Only the bytes that hold data are read, once; only impossible values are noticed.
+  kOff = 0,
+  // The chip also stores the received CRC (NOCRC = 0). It is read along, checked again and
+  // returned.
+  kCrc = 1,
+  // kCrc, and a position is returned only if no single disturbed transfer, in either direction, and
+  // no line that is stuck from some moment on can have made it or made it old:
+  //  * data without a stored CRC, and data of all zeros or all ones, is read twice;
+  //  * the status is read again behind the data, and once more behind the clearing of SVALID;
+  //  * what was written to 0xF4, and what starts a register access, is read back;
+  //  * registers of slaves are read twice out of the chip.
+  kFull = 2,
+};
+
 // One single-cycle data channel of the chip.
 struct SlaveConfig {
   bool enabled = false;
@@ -100,10 +116,8 @@ struct Config {
   // slaves that are not known yet.
   bool hold_cdm = false;
 
-  // True: the chip also stores the received CRC (NOCRC = 0). Then read_frame() fetches all 8 bytes
-  // of the slave, repeats the CRC check on what came over SPI, and returns the CRC. False: only the
-  // bytes that hold data are read.
-  bool store_crc = false;
+  // What is spent on faults of the SPI bus. kOff is fast; kFull costs two short transfers a read.
+  SpiCheck spi_check = SpiCheck::kFull;
 
   // Longest time from the request of a frame to its end, 1..1'000'000 us. 0 = calculated, see
   // frame_timeout_us().

@@ -84,7 +84,7 @@ class Control : public ControlSteps<Bus, Clock> {
       if (const Result<void> result = part(static_cast<std::uint8_t>(address + done), done, count);
           !result) {
         ErrorInfo error = result.info();
-        error.bytes = static_cast<std::uint8_t>(error.bytes + done);
+        error.detail = static_cast<std::uint8_t>(error.bytes() + done);
         return error;
       }
       done += count;

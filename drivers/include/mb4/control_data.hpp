@@ -56,6 +56,15 @@ struct Command {
 
 namespace detail {
 
+// Bit 0 becomes bit 7.
+constexpr std::uint8_t reversed(std::uint8_t bits) {
+  unsigned out = 0;
+  for (unsigned bit = 0; bit < 8; ++bit) {
+    out |= (bits >> bit & 1U) << (7 - bit);
+  }
+  return static_cast<std::uint8_t>(out);
+}
+
 // Frames of an access to `count` registers without busy time: 14 with CDM = 0, 18 of the header, 14
 // for each register, one for the last CDS; and two to spare. A command needs less than a register.
 constexpr std::uint32_t control_frames(std::uint8_t count) {
@@ -69,10 +78,11 @@ constexpr std::uint32_t register_busy_us(const Config& config) {
   if (config.register_busy_us != 0) {
     return config.register_busy_us;
   }
-  constexpr std::uint64_t kPeriods = std::uint64_t{4096} * 64 * 5 / 4;
-  const std::uint64_t us = kPeriods * 1'000'000 / config.ma_hz + 1;
+  constexpr std::uint32_t kPeriods = 4096U * 64U * 5U / 4U;
+  // In kHz, rounded down, so that 32 bits do: a division of 64 bits costs 1 KB on a small core.
+  const std::uint32_t us = kPeriods * 1000U / (config.ma_hz / 1000U) + 1U;
   // D05: the internal oscillator may be slower than stated.
-  return static_cast<std::uint32_t>(config.clock_source == ClockSource::kInternal ? 3 * us : us);
+  return config.clock_source == ClockSource::kInternal ? 3 * us : us;
 }
 
 // Microseconds from one automatic frame to the next, at most. With FrameStart::kOnPin the caller
@@ -93,10 +103,14 @@ constexpr std::uint32_t control_timeout_us(const Config& config, std::uint8_t co
 // Without automatic frames the host sets the pace, so frames are counted instead: a busy slave
 // takes as many as fit into its time, each at least as long as its MA periods.
 constexpr std::uint32_t control_frame_limit(const Config& config, std::uint8_t count) {
-  const std::uint64_t busy_periods =
-      std::uint64_t{register_busy_us(config)} * config.ma_hz / 1'000'000;
-  return control_frames(count) + static_cast<std::uint32_t>(busy_periods / frame_periods(config)) +
-         1U;
+  // In 32 bits, rounded up: kHz, and of long times ms; at most 327'681 ms at 3 kHz or 10'000 ms at
+  // 12'500 kHz.
+  constexpr std::uint32_t kShortUs = 340'000;
+  const std::uint32_t busy_us = register_busy_us(config);
+  const std::uint32_t ma_khz = config.ma_hz / 1000U + 1U;
+  const std::uint32_t busy_periods =
+      busy_us <= kShortUs ? busy_us * ma_khz / 1000U + 1U : (busy_us / 1000U + 1U) * ma_khz;
+  return control_frames(count) + busy_periods / frame_periods(config) + 1U;
 }
 
 }  // namespace detail

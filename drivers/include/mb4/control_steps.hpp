@@ -11,6 +11,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "mb4/checked_registers.hpp"
 #include "mb4/chip.hpp"
 #include "mb4/config.hpp"
 #include "mb4/control_data.hpp"
@@ -34,7 +35,9 @@ namespace mb4 {
 // Errors of all begin calls, which touch nothing unless said: kNotConfigured; kBusy (one is
 // running); kInvalidArgument; kUnsupported with kFrameStart (without automatic frames
 // FrameStart::kWaitForLine is needed, because the frames follow each other at once); kTransport
-// (touched: parts of the request are in the chip, the access may or may not run; abort() it).
+// (touched: parts of the request are in the chip, the access may or may not run; abort() it);
+// with SpiCheck::kFull, which reads back what it has written by as many transfers, kCorrupted
+// (touched: the access does not run).
 template <typename Bus, typename Clock>
 class ControlSteps {
  public:
@@ -55,8 +58,7 @@ class ControlSteps {
     if (const ErrorInfo no = check_access(slave, address, data.size()); no.code != Error::kNone) {
       return no;
     }
-    if (const Result<void> filled = chip_.opcodes.write_registers(regs::kAddrRdata, data);
-        !filled) {
+    if (const Result<void> filled = detail::write_checked(chip_, regs::kAddrRdata, data); !filled) {
       return filled;
     }
     return begin_access(slave, regs::WNR::insert(regs::REGADR::insert(0, address), 1), data.size(),
@@ -73,16 +75,16 @@ class ControlSteps {
         (broadcast && (command.test_acknowledge || command.code == regs::CMD::kMax))) {
       return Error::kInvalidArgument;
     }
-    const std::uint8_t ids = reversed(command.ids);  // IDS0 is bit 7 (table 32)
+    const std::uint8_t ids = detail::reversed(command.ids);  // IDS0 is bit 7 (table 32)
     if (const Result<void> addressed =
-            chip_.opcodes.write_registers(regs::kAddrIds, Span<const std::uint8_t>(&ids, 1));
+            detail::write_checked(chip_, regs::kAddrIds, Span<const std::uint8_t>(&ids, 1));
         !addressed) {
       return addressed;
     }
     std::uint8_t control = regs::CMD::insert(control_byte(), command.code);
     control = regs::IDA_TEST::insert(control, command.test_acknowledge ? 1 : 0);
     const std::array<std::uint8_t, 2> bytes{command.channels, control};
-    if (const Result<void> set = chip_.opcodes.write_registers(regs::kAddrChsel, bytes); !set) {
+    if (const Result<void> set = set_up(regs::kAddrChsel, bytes); !set) {
       return set;
     }
     return begin(Kind::kCommand, 1);
@@ -138,12 +140,13 @@ class ControlSteps {
 
   // The registers that the last read has fetched; out.size() 1 up to their number. One transfer.
   // kInvalidArgument (not touched): more than there are, or the last access was no good read, or
-  // something else was begun since. kTransport.
+  // something else was begun since. kTransport; kCorrupted: read twice (SpiCheck::kFull) and not
+  // the same.
   Result<void> take(Span<std::uint8_t> out) {
     if (out.empty() || out.size() > chip_.control.readable) {
       return Error::kInvalidArgument;
     }
-    return chip_.opcodes.read_registers(regs::kAddrRdata, out);
+    return detail::read_checked(chip_, regs::kAddrRdata, out);
   }
 
   // BREAK: ends an access at once, whatever it has done so far in the slave. Automatic frames stop
@@ -165,14 +168,6 @@ class ControlSteps {
 
   static constexpr std::uint8_t kFrame =
       regs::INSTR::encode<static_cast<std::uint8_t>(regs::Instr::kControl)>();
-
-  static constexpr std::uint8_t reversed(std::uint8_t bits) {
-    unsigned out = 0;
-    for (unsigned bit = 0; bit < 8; ++bit) {
-      out |= (bits >> bit & 1U) << (7 - bit);
-    }
-    return static_cast<std::uint8_t>(out);
-  }
 
   [[nodiscard]] bool channels_used(std::uint8_t channels) const {
     return channels >= 1 && channels <= 3 &&
@@ -210,13 +205,17 @@ class ControlSteps {
     return regs::HOLDCDM::insert(byte, chip_.config.hold_cdm ? 1 : 0);
   }
 
+  Result<void> set_up(std::uint8_t address, Span<const std::uint8_t> bytes) {
+    return detail::write_checked(chip_, address, bytes);
+  }
+
   Result<void> begin_access(SlaveAddress slave, std::uint8_t regadr, std::size_t count, Kind kind) {
     std::uint8_t control = regs::CTS::insert(control_byte(), 1);
     control = regs::SLAVEID::insert(control, slave.id);
     // CHSEL is one-hot: 1 and 2 are the codes of the channels.
     const std::array<std::uint8_t, 4> bytes{regadr, static_cast<std::uint8_t>(count - 1),
                                             slave.channel, control};
-    if (const Result<void> set = chip_.opcodes.write_registers(regs::kAddrRegadr, bytes); !set) {
+    if (const Result<void> set = set_up(regs::kAddrRegadr, bytes); !set) {
       return set;
     }
     return begin(kind, count);
@@ -278,7 +277,7 @@ class ControlSteps {
       error = kind == Kind::kCommand ? Error::kCommand : Error::kRegister;
     }
     if (error.code != Error::kNone) {
-      error.bytes = kind == Kind::kCommand ? std::uint8_t{0} : status.get<regs::REGBYTES>();
+      error.detail = kind == Kind::kCommand ? std::uint8_t{0} : status.get<regs::REGBYTES>();
       return error;
     }
     state.readable = kind == Kind::kRead ? state.count : std::uint8_t{0};

@@ -18,6 +18,7 @@
 #include "mb4/control.hpp"
 #include "mb4/fields.hpp"
 #include "mb4/frame.hpp"
+#include "mb4/initialization.hpp"
 #include "mb4/opcodes.hpp"
 #include "mb4/reading.hpp"
 #include "mb4/register_image.hpp"
@@ -77,21 +78,11 @@ class Device {
     if (const Result<void> valid = validate(config); !valid) {
       return valid;
     }
-    chip_.configured = false;
-    chip_.automatic = false;
-    chip_.restart = false;
-    chip_.control = {};
-    const RegisterImage image = encode_registers(config);
-    const std::array<std::uint8_t, 2> stop_and_interface{regs::BREAK::encode<1>(),
-                                                         encode_interface(config)};
-    if (const Result<void> write = chip_.opcodes.write_instruction(stop_and_interface); !write) {
-      return write;
-    }
-    if (const Result<void> write = chip_.opcodes.write_registers(kImageFirst, image); !write) {
-      return write;
-    }
-    if (const Result<void> same = verify(image, encode_interface(config)); !same) {
-      return same;
+    forget();
+    if (const Result<void> written =
+            write_image(encode_registers(config), encode_interface(config));
+        !written) {
+      return written;
     }
     chip_.config = config;
     chip_.configured = true;
@@ -99,10 +90,57 @@ class Device {
     return {};
   }
 
+  // Reads the configuration back and compares it, as configure() does: has a disturbed transfer or
+  // a supply dip changed it? One transfer (0x03 from 0xC0, 56 bytes), changes nothing. Registers of
+  // control communications are not compared. kNotConfigured (not touched), kTransport;
+  // kNotDetected, kVerify: the Device counts as not configured from now on, configure() again.
+  Result<void> verify() {
+    if (!chip_.configured) {
+      return Error::kNotConfigured;
+    }
+    const Result<void> same =
+        compare(encode_registers(chip_.config), encode_interface(chip_.config), Compare::kRunning);
+    if (same.error() == Error::kNotDetected || same.error() == Error::kVerify) {
+      chip_.configured = false;
+    }
+    return same;
+  }
+
+  // BREAK, then all registers of the configuration as after power-on (page 21: all 0), compared.
+  // Three transfers, as configure(). The data memories keep their contents. kTransport,
+  // kNotDetected, kVerify (touched). The Device counts as not configured, whatever comes of it.
+  Result<void> reset() {
+    forget();
+    RegisterImage image{};
+    image[regs::kAddrSlaveloc5 - kImageFirst] = kSlaveloc5Constant;
+    return write_image(image, 0);
+  }
+
+  // INIT of BiSS C (page 33): two pulses at MA on the channels in use, waits until the slaves are
+  // ready, and returns the delay of the lines. For start-up and after errors: slaves that are in
+  // an undefined state become ready. All error flags return to 1, SVALID to 0. No automatic frames
+  // and no control communication may run.
+  //
+  // Transfers: 0x02 twice (SCDATA1, SCDATA5 = 0), 0x07, 0x05 until INIT = 0 and EOT = 1 within 1343
+  // periods of MA and 200 us, 0x05 until SL is 1, 0x03 for each channel in use (twice with
+  // SpiCheck::kFull), 0x02 (SVALID).
+  //
+  // kNotConfigured, kWrongMode, kBusy (not touched); kTransport, kNotDetected; kTimeout (BREAK was
+  // sent); kLineDelay: beyond 255 quarters of a period; kLineError: SL is stuck low; kNoData:
+  // nothing was measured, there is no system clock; kCorrupted.
+  Result<LineDelay> initialize() {
+    if (const ErrorInfo no = single_frame_allowed(); no.code != Error::kNone) {
+      return no;
+    }
+    return Initialization<Bus, Clock>(chip_).run();
+  }
+
   // Requests one frame with CDM = 0, waits for its end and returns the data of `slave` (1..8, must
   // be enabled in the configuration).
   //
-  // Transfers of a good read: 3 + p, where p >= 1 is the number of status polls; 2 more and 100 us
+  // Transfers of a good read: 3 + p, where p >= 1 is the number of status polls, with
+  // SpiCheck::kFull at most 4 more (1 for data again where no stored CRC proves it, 1 status behind
+  // the data, 1 or 2 behind the clearing of SVALID); 2 more and 100 us
   // after a failed read that has made a transfer, because its frame may still run. Each poll is 6
   // bytes, and p is limited by frame_timeout_us(config): at most t + t/16 + 2 polls for t
   // microseconds even if the clock stands still. In order:
@@ -130,8 +168,8 @@ class Device {
   }
 
   // The same for all enabled slaves with one frame. Transfers as for read_frame(), but 1..n for the
-  // data of n slaves: only the bytes that they need, in as few bursts as pays; none if no slave is
-  // good.
+  // data of n slaves (once more as many with SpiCheck::kFull): only the bytes that they need, in as
+  // few bursts as pays; none if no slave is good.
   //
   // Success means that the frame has ended; what became of each slave is in frame[slave]. Errors of
   // the call are about the whole frame: those of read_frame() except kCrc, kNoData, kCorrupted. On
@@ -180,7 +218,27 @@ class Device {
   [[nodiscard]] const Config& config() const { return chip_.config; }
 
  private:
-  Result<void> verify(const RegisterImage& image, std::uint8_t interface_byte) {
+  enum class Compare : std::uint8_t { kIdle, kRunning };
+
+  void forget() {
+    chip_.configured = false;
+    chip_.automatic = false;
+    chip_.restart = false;
+    chip_.control = {};
+  }
+
+  Result<void> write_image(const RegisterImage& image, std::uint8_t interface_byte) {
+    const std::array<std::uint8_t, 2> stop_and_interface{regs::BREAK::encode<1>(), interface_byte};
+    if (const Result<void> write = chip_.opcodes.write_instruction(stop_and_interface); !write) {
+      return write;
+    }
+    if (const Result<void> write = chip_.opcodes.write_registers(kImageFirst, image); !write) {
+      return write;
+    }
+    return compare(image, interface_byte, Compare::kIdle);
+  }
+
+  Result<void> compare(const RegisterImage& image, std::uint8_t interface_byte, Compare state) {
     std::array<std::uint8_t, regs::kAddrIface - kImageFirst + 1> bytes{};
     if (const Result<void> read = chip_.opcodes.read_registers(kImageFirst, bytes); !read) {
       return read;
@@ -191,7 +249,8 @@ class Device {
       return Error::kNotDetected;
     }
     for (unsigned address = kImageFirst; address < regs::kAddrStatus0; ++address) {
-      if (is_compared(address) && bytes[address - kImageFirst] != image[address - kImageFirst]) {
+      if (is_compared(address, state) &&
+          bytes[address - kImageFirst] != image[address - kImageFirst]) {
         return ErrorInfo::at_register(Error::kVerify, static_cast<std::uint8_t>(address));
       }
     }
@@ -202,10 +261,11 @@ class Device {
   }
 
   // REVISION and VERSION are constant; 0xE0, 0xE1 and 0xEE are reserved, what they read is not
-  // promised.
-  static constexpr bool is_compared(unsigned address) {
-    return (address < 0xE0 || address > 0xE1) && address != 0xEE &&
-           address != regs::kAddrRevision && address != regs::kAddrVersion;
+  // promised. 0xE2..0xE5 belong to the control communication of the moment.
+  static constexpr bool is_compared(unsigned address, Compare state) {
+    const bool control = address >= regs::kAddrRegadr && address <= regs::kAddrCtrl;
+    return !(control && state == Compare::kRunning) && (address < 0xE0 || address > 0xE1) &&
+           address != 0xEE && address != regs::kAddrRevision && address != regs::kAddrVersion;
   }
 
   [[nodiscard]] ErrorInfo single_frame_allowed() const {

@@ -54,13 +54,19 @@ namespace detail {
 // SCDATA1 to 8 as fetched; bytes that no slave needs stay 0.
 using DataImage = std::array<std::uint8_t, kSlaves * regs::kScdataStride>;
 
+// What MOSI carries while data is read, with SpiCheck::kFull: should a disturbed bit turn the read
+// into a write, then not into one of zeros, which pass for data with a CRC.
+inline constexpr std::uint8_t kDataFiller = 0x5A;
+
 // Reads bytes `begin` to `end - 1` of SCDATA. From 0x00 upwards opcode 0x09 is one byte shorter
 // than 0x03 and needs no stretched clock (I204).
 template <typename Bus>
-Result<void> read_run(Opcodes<Bus>& opcodes, DataImage& image, std::size_t begin, std::size_t end) {
+Result<void> read_run(Opcodes<Bus>& opcodes, const Config& config, DataImage& image,
+                      std::size_t begin, std::size_t end) {
   const Span<std::uint8_t> bytes(&image[begin], end - begin);
-  return begin == 0 ? opcodes.read_registers0(bytes)
-                    : opcodes.read_registers(static_cast<std::uint8_t>(begin), bytes);
+  const std::uint8_t filler = config.spi_check == SpiCheck::kFull ? kDataFiller : 0;
+  return begin == 0 ? opcodes.read_registers0(bytes, filler)
+                    : opcodes.read_registers(static_cast<std::uint8_t>(begin), bytes, filler);
 }
 
 // Fetches just the bytes that the slaves of `mask` need: at least one transfer, at most one a
@@ -78,7 +84,7 @@ Result<void> read_data(Opcodes<Bus>& opcodes, const Config& config, std::uint8_t
     }
     const std::size_t from = regs::scdata_address(static_cast<unsigned>(slave));
     if (end != 0 && from - end > kHeaderBytes) {
-      if (const Result<void> read = read_run(opcodes, image, begin, end); !read) {
+      if (const Result<void> read = read_run(opcodes, config, image, begin, end); !read) {
         return read;
       }
       end = 0;
@@ -88,14 +94,74 @@ Result<void> read_data(Opcodes<Bus>& opcodes, const Config& config, std::uint8_t
     }
     end = from + reading_bytes(config, static_cast<std::uint8_t>(slave));
   }
-  return end == 0 ? Result<void>() : read_run(opcodes, image, begin, end);
+  return end == 0 ? Result<void>() : read_run(opcodes, config, image, begin, end);
 }
 
-// Decodes slave 1..8 out of the image.
-inline Result<Reading> decode(const Config& config, std::uint8_t slave, DataImage& image) {
-  return decode_reading(
-      config, slave,
-      Span<const std::uint8_t>(&image[regs::scdata_address(slave)], reading_bytes(config, slave)));
+// Data as fetched, and which slaves' bytes were the same when they were read again.
+struct FetchedData {
+  DataImage image{};
+  std::uint8_t stable = 0xFF;  // bit 0 is slave 1
+};
+
+// SpiCheck::kFull: data that nothing else proves. Without a stored CRC that is any data. All zeros
+// and all ones, a line that was stuck for a moment, may pass with one.
+[[nodiscard]] constexpr bool needs_second_reading(const Config& config, std::uint8_t slave,
+                                                  Span<const std::uint8_t> bytes) {
+  const SlaveConfig& slave_config = config.slaves[slave - 1U];
+  if (!crc_is_stored(config, slave_config)) {
+    return true;
+  }
+  std::uint8_t all_and = 0xFF;
+  std::uint8_t all_or = 0;
+  for (std::size_t i = 0; i < data_bytes(slave_config); ++i) {
+    all_and = static_cast<std::uint8_t>(all_and & bytes[i]);
+    all_or = static_cast<std::uint8_t>(all_or | bytes[i]);
+  }
+  return all_or == 0 || all_and == 0xFF;
+}
+
+// read_data(), and with SpiCheck::kFull as many transfers again for what needs it.
+template <typename Bus>
+Result<void> fetch_data(Opcodes<Bus>& opcodes, const Config& config, std::uint8_t mask,
+                        FetchedData& data) {
+  const Result<void> first = read_data(opcodes, config, mask, data.image);
+  if (!first || config.spi_check != SpiCheck::kFull) {
+    return first;
+  }
+  unsigned again = 0;
+  for (std::uint8_t slave = 1; slave <= kSlaves; ++slave) {
+    const Span<const std::uint8_t> bytes(&data.image[regs::scdata_address(slave)],
+                                         regs::kScdataStride);
+    if ((mask >> (slave - 1U) & 1U) != 0 && needs_second_reading(config, slave, bytes)) {
+      again |= 1U << (slave - 1U);
+    }
+  }
+  DataImage second{};
+  if (const Result<void> read =
+          read_data(opcodes, config, static_cast<std::uint8_t>(again), second);
+      !read) {
+    return read;
+  }
+  for (std::uint8_t slave = 1; slave <= kSlaves; ++slave) {
+    const std::size_t from = regs::scdata_address(slave);
+    for (std::size_t i = 0; i < regs::kScdataStride; ++i) {
+      if ((again >> (slave - 1U) & 1U) != 0 && i < reading_bytes(config, slave) &&
+          data.image[from + i] != second[from + i]) {
+        data.stable = static_cast<std::uint8_t>(data.stable & ~(1U << (slave - 1U)));
+      }
+    }
+  }
+  return {};
+}
+
+// Decodes slave 1..8 out of the data.
+inline Result<Reading> decode(const Config& config, std::uint8_t slave, const FetchedData& data) {
+  if ((data.stable >> (slave - 1U) & 1U) == 0) {
+    return Error::kCorrupted;
+  }
+  return decode_reading(config, slave,
+                        Span<const std::uint8_t>(&data.image[regs::scdata_address(slave)],
+                                                 reading_bytes(config, slave)));
 }
 
 // SVALIDx of the enabled slaves; bit 0 is slave 1.

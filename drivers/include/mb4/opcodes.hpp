@@ -44,21 +44,23 @@ class Opcodes {
   Result<void> write_registers(std::uint8_t address, Span<const std::uint8_t> data) {
     return write(regs::SpiOpcode::kWriteRegisters, true, address, data);
   }
-  // 0x03: reads from `address` upwards. The bus keeps I204, see bus.hpp.
-  Result<void> read_registers(std::uint8_t address, Span<std::uint8_t> data) {
-    return read(regs::SpiOpcode::kReadRegisters, true, address, data);
+  // 0x03: reads from `address` upwards. The bus keeps I204, see bus.hpp. `filler` is what MOSI
+  // carries meanwhile: one disturbed bit makes a write of the opcode, and then that is written.
+  Result<void> read_registers(std::uint8_t address, Span<std::uint8_t> data,
+                              std::uint8_t filler = 0) {
+    return read(regs::SpiOpcode::kReadRegisters, true, address, data, filler);
   }
   // 0x05: reads from 0xF0 upwards.
   Result<void> read_status(Span<std::uint8_t> data) {
-    return read(regs::SpiOpcode::kReadStatus, false, regs::kAddrStatus0, data);
+    return read(regs::SpiOpcode::kReadStatus, false, regs::kAddrStatus0, data, 0);
   }
   // 0x07: writes from 0xF4 upwards.
   Result<void> write_instruction(Span<const std::uint8_t> data) {
     return write(regs::SpiOpcode::kWriteInstruction, false, regs::kAddrInstr, data);
   }
-  // 0x09: reads from 0x00 upwards.
-  Result<void> read_registers0(Span<std::uint8_t> data) {
-    return read(regs::SpiOpcode::kReadRegisters0, false, 0, data);
+  // 0x09: reads from 0x00 upwards. `filler` as for read_registers().
+  Result<void> read_registers0(Span<std::uint8_t> data, std::uint8_t filler = 0) {
+    return read(regs::SpiOpcode::kReadRegisters0, false, 0, data, filler);
   }
   // 0x0B: writes from 0x00 upwards.
   Result<void> write_registers0(Span<const std::uint8_t> data) {
@@ -98,7 +100,7 @@ class Opcodes {
   }
 
   Result<void> read(regs::SpiOpcode opcode, bool send_address, std::uint8_t address,
-                    Span<std::uint8_t> data) {
+                    Span<std::uint8_t> data, std::uint8_t filler) {
     if (!burst_fits(address, data.size())) {
       return Error::kInvalidArgument;
     }
@@ -107,7 +109,7 @@ class Opcodes {
     const std::size_t header = begin(tx, opcode, send_address, address);
     const std::size_t size = header + data.size();
     for (std::size_t i = header; i < size; ++i) {
-      tx[i] = 0;
+      tx[i] = filler;
     }
     // A bus that claims success without writing rx must not turn stack contents into data.
     for (std::size_t i = 0; i < size; ++i) {

@@ -25,7 +25,7 @@ struct Reading {
   std::uint64_t position = 0;
   // CRC as stored by the chip (not inverted); 0 unless crc_stored.
   std::uint16_t crc = 0;
-  // Config::store_crc was set and the chip had room for the CRC.
+  // Config::spi_check is not kOff and the chip had room for the CRC.
   bool crc_stored = false;
   // The slave reports an error (nE = 0): the position is not to be trusted. False without flags.
   bool error = false;
@@ -55,7 +55,7 @@ struct Reading {
     return Error::kCorrupted;
   }
   if (crc_is_stored(config, slave_config)) {
-    const std::uint8_t width_bits = encode_crc(slave_config.crc_polynomial).width_bits;
+    const std::uint8_t width_bits = crc_width_bits(slave_config.crc_polynomial);
     reading.crc_stored = true;
     reading.crc = bytes[7];
     if (width_bits > 8) {

@@ -24,6 +24,8 @@ inline constexpr std::uint8_t kImageFirst = regs::kAddrSlaveCfg;
 inline constexpr std::uint8_t kImageLast = regs::kAddrSvalidHi;
 inline constexpr std::size_t kImageBytes = kImageLast - kImageFirst + 1;
 
+inline constexpr std::uint8_t kSlaveloc5Constant = 0x01;
+
 using RegisterImage = std::array<std::uint8_t, kImageBytes>;
 
 namespace detail {
@@ -79,15 +81,15 @@ constexpr std::uint8_t encode_freqags(const Config& config) {
   // Table 36: FREQR = 5 must be set for BiSS C.
   detail::put<regs::FREQR>(image, std::uint8_t{5});
   detail::put<regs::FREQS>(image, freqs_code(config.f_clk_hz, config.ma_hz).value_or(0));
-  detail::put<regs::NOCRC>(
-      image, config.store_crc ? regs::CrcStorage::kStored : regs::CrcStorage::kDropped);
+  detail::put<regs::NOCRC>(image, config.spi_check == SpiCheck::kOff ? regs::CrcStorage::kDropped
+                                                                     : regs::CrcStorage::kStored);
   detail::put<regs::SINGLEBANK>(
       image, config.single_bank ? regs::BankMode::kOneBank : regs::BankMode::kTwoBanks);
   detail::put<regs::HOLDCDM>(image,
                              config.hold_cdm ? regs::CdmHold::kHold : regs::CdmHold::kRelease);
   detail::put<regs::FREQAGS>(image, detail::encode_freqags(config));
   // Bit 0 of 0xEC is constant 1 (table 6); writing what it reads keeps the comparison simple.
-  image[regs::kAddrSlaveloc5 - kImageFirst] = 0x01;
+  image[regs::kAddrSlaveloc5 - kImageFirst] = kSlaveloc5Constant;
   detail::put<regs::SLAVELOC5>(image, channels_are_split(config)
                                           ? regs::SlaveLocation::kSplit
                                           : regs::SlaveLocation::kAllOnChannel1);

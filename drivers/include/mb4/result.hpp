@@ -34,7 +34,7 @@ enum class Error : std::uint8_t {
   // the register map (datasheet pages 21, 22) read otherwise. MISO stuck at 0 or at 1, a wrong SPI
   // mode and a missing chip look like this. Read only for probe(); touched for other calls.
   kNotDetected = 6,
-  // Configuration reads back differently; ErrorInfo::address is the first such register. Touched:
+  // Configuration reads back differently; ErrorInfo::address() is the first such register. Touched:
   // the configuration in the chip must not be used.
   kVerify = 7,
   // The frame has not ended in time and SL is not stuck: the slave does not answer or takes longer
@@ -53,15 +53,16 @@ enum class Error : std::uint8_t {
   // Touched: one frame has run, the chip is idle.
   kNoData = 11,
   // The chip called the frame good, but what came over SPI contradicts it: bits beyond the data
-  // length are not 0, or the stored CRC does not match the data. Touched as for kCrc.
+  // length are not 0, the stored CRC does not match the data, or (SpiCheck::kFull) reading again
+  // shows something else. Touched as for kCrc.
   kCorrupted = 12,
   // A register access has failed (nREGERR = 0, page 34): no slave has this ID, or a CRC was wrong,
   // or the slave did not repeat what was written; or frames hang, because nobody is on the line.
-  // ErrorInfo::bytes registers were good. Touched: the access has ended, of a write leading
-  // registers may have changed, the one after ErrorInfo::bytes even to a third value.
+  // ErrorInfo::bytes() registers were good. Touched: the access has ended, of a write leading
+  // registers may have changed, the one after ErrorInfo::bytes() even to a third value.
   kRegister = 13,
   // The slave has not sent its start bit in time (nDELAYERR = 0, page 34): it does not have this
-  // register or takes too long. ErrorInfo::bytes and state as for kRegister.
+  // register or takes too long. ErrorInfo::bytes() and state as for kRegister.
   kRegisterDelay = 14,
   // A command was not acknowledged by the slaves that it addressed (nREGERR = 0, page 34). Touched:
   // with IDA test it has not been executed, without it may have been.
@@ -73,6 +74,11 @@ enum class Error : std::uint8_t {
   // The banks were switched while data was read without HOLDBANK, beside a control communication.
   // Touched: SVALID of one frame is cleared. Nothing is wrong; read again.
   kBankSwitched = 18,
+  // INIT: the line delay is beyond 255 quarters of a period of MA (nAGSERR = 0, page 33). Touched:
+  // INIT has ended, the chip is idle.
+  kLineDelay = 19,
+  // PositionTracker: the position has moved further than it can have; no chip is involved.
+  kJump = 20,
 };
 
 // The Config member that an error is about. Values are stable; new ones are added at the end.
@@ -93,20 +99,18 @@ enum class ConfigField : std::uint8_t {
   kFramePeriodClk,   // Config::frame_period_clk
   kSingleBank,       // Config::single_bank
   kRegisterBusyUs,   // Config::register_busy_us
+  kSpiCheck,         // Config::spi_check
 };
 
-// An error with the place it is about.
-struct ErrorInfo {
+// An error with the place it is about. Four bytes, so that it fits a register.
+struct alignas(4) ErrorInfo {
   Error code = Error::kNone;
   // For kInvalidConfig and kUnsupported; otherwise kNone.
   ConfigField field = ConfigField::kNone;
   // Slave 1..8 or channel 1..2 that `field` belongs to; 0 for the whole chip.
   std::uint8_t number = 0;
-  // Register address for kVerify; otherwise 0.
-  std::uint8_t address = 0;
-  // For kRegister, kRegisterDelay and a timeout of a register access: registers that were
-  // transferred before the error, over all parts of a long access; otherwise 0.
-  std::uint8_t bytes = 0;
+  // See address() and bytes().
+  std::uint8_t detail = 0;
 
   constexpr ErrorInfo() = default;
   constexpr ErrorInfo(Error error) : code(error) {}
@@ -115,8 +119,18 @@ struct ErrorInfo {
 
   [[nodiscard]] static constexpr ErrorInfo at_register(Error error, std::uint8_t register_address) {
     ErrorInfo info(error);
-    info.address = register_address;
+    info.detail = register_address;
     return info;
+  }
+
+  // Register address for kVerify; otherwise 0.
+  [[nodiscard]] constexpr std::uint8_t address() const {
+    return code == Error::kVerify ? detail : std::uint8_t{0};
+  }
+  // For kRegister, kRegisterDelay and a timeout of a register access: registers that were
+  // transferred before the error, over all parts of a long access; otherwise 0.
+  [[nodiscard]] constexpr std::uint8_t bytes() const {
+    return code == Error::kVerify ? std::uint8_t{0} : detail;
   }
 };
 
@@ -161,6 +175,10 @@ struct ErrorInfo {
       return "wrong mode for automatic frames";
     case Error::kBankSwitched:
       return "bank switched while reading";
+    case Error::kLineDelay:
+      return "line delay too long";
+    case Error::kJump:
+      return "position jumped";
   }
   return "unknown";
 }
@@ -199,6 +217,8 @@ struct ErrorInfo {
       return "single_bank";
     case ConfigField::kRegisterBusyUs:
       return "register_busy_us";
+    case ConfigField::kSpiCheck:
+      return "spi_check";
   }
   return "unknown";
 }

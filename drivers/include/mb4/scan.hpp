@@ -60,7 +60,7 @@ Result<std::uint8_t> scan_bus(Device& device, std::uint8_t channel, Span<SlaveId
     SlaveIdentity identity;
     std::array<std::uint8_t, 8> bytes{};
     const Result<void> named = detail::read_twice(device, slave, kRegisterDeviceId, bytes);
-    if (named.error() == Error::kRegister && named.info().bytes == 0) {
+    if (named.error() == Error::kRegister && named.info().bytes() == 0) {
       return id;
     }
     if (!named && named.error() != Error::kRegisterDelay) {

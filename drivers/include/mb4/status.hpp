@@ -63,6 +63,9 @@ class Status {
            (bytes_[regs::kAddrSvalidHi - regs::kAddrStatus0] & kSvalidZeros) == 0;
   }
 
+  // 0xF4 as a whole: what is left of the instruction, HOLDBANK, AGS.
+  [[nodiscard]] constexpr std::uint8_t instruction() const { return bytes_[kBytes - 1]; }
+
   [[nodiscard]] constexpr const std::array<std::uint8_t, kBytes>& bytes() const { return bytes_; }
 
  private:

@@ -1,0 +1,167 @@
+#!/usr/bin/env python3
+# SPDX-FileCopyrightText: 2026 The openmb4 authors
+# SPDX-License-Identifier: Apache-2.0
+"""Builds driver code for a microcontroller, prints what it takes, compares with budget.toml.
+
+  footprint.py TARGET PROGRAM INCLUDE_DIR...     TARGET: cortex-m0plus cortex-m4 rv32imc
+                                                 PROGRAM: position single whole
+  footprint.py self-test                         the checks of stack and budget can fail
+
+Rejects every symbol that a driver without heap, exceptions and static constructors cannot need.
+Exit status 77: compiler or its C++ headers are missing.
+"""
+
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+import tomllib
+from pathlib import Path
+
+HERE = Path(__file__).resolve().parent
+SKIPPED = 77
+TARGETS = {
+    "cortex-m0plus": ("arm-none-eabi-", ["-mcpu=cortex-m0plus", "-mthumb"], "--specs=nano.specs"),
+    "cortex-m4": ("arm-none-eabi-", ["-mcpu=cortex-m4", "-mthumb"], "--specs=nano.specs"),
+    "rv32imc": ("riscv64-unknown-elf-", ["-march=rv32imc", "-mabi=ilp32"],
+                "--specs=picolibc.specs"),
+}
+FLAGS = ("-std=c++17 -ffreestanding -fno-exceptions -fno-rtti -fno-threadsafe-statics -Os "
+         "-ffunction-sections -fdata-sections -fcallgraph-info=su "
+         "-Wall -Wextra -Wpedantic -Wconversion -Wshadow -Werror").split()
+FORBIDDEN = re.compile(r"malloc|calloc|realloc| free$|_Znw|_Zna|_Zdl|_Zda|"
+                       r"__cxa_|__aeabi_atexit|_Unwind|_GLOBAL__sub_I|__gxx_")
+
+
+def skip(reason):
+    print(f"skipped: {reason}")
+    sys.exit(SKIPPED)
+
+
+def run(command):
+    done = subprocess.run([str(part) for part in command], capture_output=True, text=True)
+    if done.returncode != 0:
+        sys.exit(f"{done.stderr}{' '.join(map(str, command))}: exit {done.returncode}")
+    return done.stdout
+
+
+def library_headers(prefix):
+    """Debian has no C++ library for riscv64-unknown-elf. The headers of the same GCC version for ARM
+    are the same files; what the driver uses of them needs no library."""
+    if prefix.startswith("arm"):
+        return []
+    if not shutil.which("arm-none-eabi-g++"):
+        skip("the C++ headers come with arm-none-eabi-g++, which is not installed")
+    listing = subprocess.run(["arm-none-eabi-g++", "-E", "-v", "-x", "c++", "/dev/null"],
+                             capture_output=True, text=True).stderr
+    folders = [line.strip() for line in listing.splitlines()
+               if line.startswith(" /") and "/c++/" in line]
+    return [part for folder in folders for part in ("-isystem", folder)]
+
+
+def call_graph(text):
+    """(stack of each function, callees of each function) from GCC's -fcallgraph-info=su."""
+    stack, calls = {}, {}
+    for name, label in re.findall(r'node: \{ title: "([^"]*)" label: "([^"]*)"', text):
+        size = re.search(r"(\d+) bytes \((\w+)", label)
+        stack[name] = int(size.group(1)) if size else None  # None: from outside
+        if size and size.group(2) == "dynamic":
+            raise ValueError(f"{name}: stack size is not known")
+    for caller, callee in re.findall(
+            r'edge: \{ sourcename: "([^"]*)" targetname: "([^"]*)"', text):
+        calls.setdefault(caller, set()).add(callee)
+    return stack, calls
+
+
+def deepest(stack, calls, entry):
+    """(bytes, chain) of the deepest call chain; functions from outside count as 0."""
+    known = {}
+
+    def depth(name, above):
+        if name in above:
+            raise ValueError(f"recursion through {name}")
+        if name not in known:
+            below = [depth(callee, above | {name}) for callee in calls.get(name, ())]
+            size, chain = max(below, key=lambda item: item[0], default=(0, []))
+            known[name] = ((stack.get(name) or 0) + size, [name] + chain)
+        return known[name]
+
+    return depth(entry, frozenset())
+
+
+def over(budget, figures):
+    return [f"{what}: {figures[what]} bytes, more than the budget of {limit}"
+            for what, limit in budget.items() if figures[what] > limit]
+
+
+def sizes(prefix, path):
+    fields = run([prefix + "size", path]).splitlines()[1].split()
+    return [int(field) for field in fields[:3]]
+
+
+def measure(target, program, includes):
+    prefix, cpu, specs = TARGETS[target]
+    if not shutil.which(prefix + "g++"):
+        skip(f"{prefix}g++ is not installed")
+    base = [prefix + "g++", *cpu, specs, *library_headers(prefix)]
+    probe = subprocess.run([*base, "-std=c++17", "-ffreestanding", "-x", "c++", "-fsyntax-only",
+                            "-"], input="#include <array>\n", capture_output=True, text=True)
+    if probe.returncode != 0:
+        skip(f"C or C++ headers of {prefix}g++ are missing")
+    with tempfile.TemporaryDirectory() as folder:
+        work = Path(folder)
+        for unit in (program, "board"):
+            run([*base, *FLAGS, *[f"-I{path}" for path in includes], "-c", HERE / f"{unit}.cpp",
+                 "-o", work / f"{unit}.o"])
+        elf = work / "unit.elf"
+        # Without start files and C++ runtime: all but libgcc arithmetic and memcpy is the driver's.
+        run([prefix + "gcc", *cpu, specs, "-nostartfiles", "-Wl,--gc-sections", "-Wl,-e,firmware",
+             "-Wl,--undefined=firmware", work / f"{program}.o", work / "board.o", "-o", elf])
+        symbols = run([prefix + "nm", work / f"{program}.o", elf])
+        object_data = sizes(prefix, work / f"{program}.o")[1:]
+        board = run([prefix + "nm", "-S", elf])
+        board_bytes = sum(int(line.split()[1], 16) for line in board.splitlines()
+                          if re.search(r" [Tt] board_", line))
+        text = sizes(prefix, elf)[0]
+        stack, chain = deepest(*call_graph((work / f"{program}.ci").read_text()), "firmware")
+    bad = [line for line in symbols.splitlines() if FORBIDDEN.search(line)]
+    figures = {"flash": text - board_bytes, "ram": sum(object_data), "stack": stack}
+    print(f"{target} {program}: flash {figures['flash']} bytes, static RAM {figures['ram']}, "
+          f"stack {figures['stack']}")
+    shown = [re.sub(r".*/(\w+\.hpp):", r"\1:", name) for name in chain]
+    print("deepest call chain: " + " > ".join(name.split(":")[-1] for name in shown))
+    budget = tomllib.loads((HERE / "budget.toml").read_text())[program][target]
+    findings = [f"forbidden symbol: {line}" for line in bad] + over(budget, figures)
+    for finding in findings:
+        print(finding)
+    return 1 if findings else 0
+
+
+def self_test():
+    graph = ('node: { title: "a" label: "a\\nx.cpp:1\\n16 bytes (static)" }\n'
+             'node: { title: "b" label: "b\\nx.cpp:2\\n40 bytes (static)" }\n'
+             'node: { title: "c" label: "c\\nx.cpp:3\\n8 bytes (static)" }\n'
+             'node: { title: "memcpy" label: "memcpy" shape : ellipse }\n'
+             'edge: { sourcename: "a" targetname: "b" }\nedge: { sourcename: "a" targetname: "c" }\n'
+             'edge: { sourcename: "c" targetname: "memcpy" }\n')
+    assert deepest(*call_graph(graph), "a") == (56, ["a", "b"])
+    try:
+        deepest(*call_graph(graph + 'edge: { sourcename: "b" targetname: "a" }\n'), "a")
+        raise AssertionError("recursion was not noticed")
+    except ValueError:
+        pass
+    assert over({"flash": 10, "ram": 0}, {"flash": 11, "ram": 0}) != []
+    assert over({"flash": 10, "ram": 0}, {"flash": 10, "ram": 0}) == []
+    assert FORBIDDEN.search("00000000 T _Znwj") and not FORBIDDEN.search("00000000 T firmware")
+    print("stack, budget and symbol checks can fail")
+
+
+if __name__ == "__main__":
+    if sys.argv[1:] == ["self-test"]:
+        self_test()
+        sys.exit(0)
+    if len(sys.argv) < 3 or sys.argv[1] not in TARGETS:
+        print(__doc__, file=sys.stderr)
+        sys.exit(2)
+    sys.exit(measure(sys.argv[1], sys.argv[2], sys.argv[3:]))
