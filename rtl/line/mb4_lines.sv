@@ -86,7 +86,7 @@ module mb4_lines (
 
   assign idle = idle_o == 2'b11;
 
-  // Forced levels last whole half periods as well: the time base runs for them, anew from the first.
+  // Forced levels last whole half periods as well: the time base runs for them, anew at first.
   // The time base lives through a reset: it ends a low level of MA in its time.
   mb4_timebase u_timebase (
     .clk_i,
