@@ -45,6 +45,24 @@ TEST(ChipInstrPhase, ChangedUnderAgs_ShiftsNoFrame) {
   EXPECT_EQ(chip.status(), 0xFB);
 }
 
+// docs/choices.md: after BREAK and AGS in one byte the first frame is due a whole period later, so
+// that a slave that was left in a frame has time to end it.
+TEST(ChipInstrPhase, BreakWithAgs_NextFrameIsAPeriodLater) {
+  Chip chip(one_slave(kEncoder26));
+  chip.configure_slave1(28, 0x06, 0x00, 0x63);
+  chip.instruct(0x01);
+  auto& monitor = chip.simulator.line(1)->monitor();
+  chip.advance_us(350);
+  const sim::Time before = monitor.last(chip.simulator.now()).start;
+  instruct_at(chip, 0x81, before + 160 * sim::kPsPerUs);
+  const sim::Time byte = before + 160 * sim::kPsPerUs;
+  chip.advance_us(110);
+  const sim::Time after = monitor.last(chip.simulator.now()).start;
+  // And the way of the byte and of MA: ChipInstrTiming and half a period.
+  EXPECT_GE(after, byte + 2000 * kClk);
+  EXPECT_LE(after, byte + 2006 * kClk);
+}
+
 // Table 54: EOT = 0 is a frame. Between two of them INSTR may change without it.
 TEST(ChipInstrPhase, ChangedUnderAgs_LeavesPinEotHigh) {
   Chip chip(one_slave(kEncoder26));

@@ -203,6 +203,25 @@ TEST(ChipStatus, CdsUnderHoldBank_SwitchesWithTheBank) {
   EXPECT_EQ(chip.read(0xF8), 0x55);
 }
 
+// Decision 14: of a reduced frame only the CDS bits change, and at once. Not so under HOLDBANK:
+// what the host holds stays as it is, the other bank gets them.
+TEST(ChipStatus, CdsOfReducedFrames_ShowsAtOnceButNotUnderHoldBank) {
+  for (const bool hold : {false, true}) {
+    Chip chip(one_slave(kEncoder26));
+    chip.configure_slave1(28, 0x06, 0x00, kAgsmin);
+    chip.write(0xE5, {0x41});  // a command; HOLDCDM for frames that are not clocked out
+    frame(chip);
+    frame_with_cds(chip, 1, hold ? 0x4E : 0x0E);
+    chip.advance_us(10);
+    EXPECT_EQ(chip.read(0xF3) & 0x40, hold ? 0x00 : 0x40);
+    EXPECT_EQ(chip.read(0xF8), hold ? 0x55 : 0x57);
+    EXPECT_EQ(chip.read(0xF1), 0x02);
+    chip.instruct(hold ? 0x60 : 0x20);
+    chip.advance_us(1);
+    EXPECT_EQ(chip.read(0xF3) & 0x40, hold ? 0x40 : 0x00) << "the other bank";
+  }
+}
+
 // Table 62: set when HOLDBANK has kept a frame from switching; cleared by the next switch only.
 TEST(ChipStatus, SwBankFail_PreventedSwitchSetsItTheNextSwitchClearsIt) {
   Chip chip(one_slave(kEncoder26));
