@@ -1,0 +1,305 @@
+// SPDX-FileCopyrightText: 2026 The openmb4 authors
+// SPDX-License-Identifier: Apache-2.0
+
+// The C binding of mb4.h.
+
+#include "mb4.h"
+#include "mb4/mb4.hpp"
+
+namespace {
+
+struct Opened {
+  Opened(mb4_transfer transfer, void* transfer_context, mb4_now_us now_us, void* clock_context)
+      : bus(transfer, transfer_context), clock(now_us, clock_context), device(bus, clock) {}
+
+  mb4::FunctionBus bus;
+  mb4::FunctionClock clock;
+  mb4::Device<mb4::FunctionBus, mb4::FunctionClock> device;
+};
+
+static_assert(sizeof(Opened) <= sizeof(mb4_device), "mb4: mb4_device in mb4.h is too small");
+static_assert(alignof(Opened) <= alignof(mb4_device));
+static_assert(sizeof(mb4::PositionTracker) <= sizeof(mb4_tracker));
+static_assert(std::is_trivially_destructible_v<Opened>);
+static_assert(static_cast<int>(mb4::Error::kJump) == MB4_JUMP);
+static_assert(static_cast<int>(mb4::Protocol::kUnused) == MB4_PROTOCOL_UNUSED);
+static_assert(static_cast<int>(mb4::LineInterface::kLvds) == MB4_LINE_LVDS);
+static_assert(static_cast<int>(mb4::ClockSource::kInternal) == MB4_CLOCK_INTERNAL);
+static_assert(static_cast<int>(mb4::FrameStart::kPeriodic) == MB4_START_PERIODIC);
+static_assert(static_cast<int>(mb4::SpiCheck::kFull) == MB4_SPI_CHECK_FULL);
+
+mb4::Device<mb4::FunctionBus, mb4::FunctionClock>& of(mb4_device* device) {
+  return reinterpret_cast<Opened*>(device->opaque)->device;
+}
+
+mb4_result to_c(const mb4::ErrorInfo& info) {
+  return {static_cast<std::uint8_t>(info.code), static_cast<std::uint8_t>(info.field), info.number,
+          info.detail};
+}
+template <typename T>
+mb4_result to_c(const mb4::Result<T>& result) {
+  return to_c(result.info());
+}
+
+mb4_reading to_c(const mb4::Reading& reading) {
+  return {reading.raw,   reading.position, reading.crc,  reading.crc_stored,
+          reading.error, reading.warning,  reading.slave};
+}
+
+mb4_result store(const mb4::Result<mb4::Reading>& result, mb4_reading* reading) {
+  if (result) {
+    *reading = to_c(*result);
+  }
+  return to_c(result);
+}
+
+mb4_result store(const mb4::Result<void>& result, const mb4::Frame& frame, mb4_frame* out) {
+  *out = mb4_frame{};
+  for (std::size_t slave = 1; slave <= mb4::kSlaves; ++slave) {
+    out->code[slave - 1] = static_cast<std::uint8_t>(frame[slave].error());
+    if (frame[slave]) {
+      out->reading[slave - 1] = to_c(*frame[slave]);
+    }
+  }
+  for (std::size_t i = 0; i < mb4::Status::kBytes; ++i) {
+    out->status[i] = frame.status.bytes()[i];
+  }
+  return to_c(result);
+}
+
+mb4::Config from_c(const mb4_config& config) {
+  mb4::Config out;
+  out.f_clk_hz = config.f_clk_hz;
+  out.ma_hz = config.ma_hz;
+  out.frame_period_clk = config.frame_period_clk;
+  out.frame_timeout_us = config.frame_timeout_us;
+  out.register_busy_us = config.register_busy_us;
+  out.clock_source = static_cast<mb4::ClockSource>(config.clock_source);
+  out.line_interface = static_cast<mb4::LineInterface>(config.line_interface);
+  out.frame_start = static_cast<mb4::FrameStart>(config.frame_start);
+  out.spi_check = static_cast<mb4::SpiCheck>(config.spi_check);
+  out.single_bank = config.single_bank;
+  out.hold_cdm = config.hold_cdm;
+  for (std::size_t i = 0; i < mb4::kChannels; ++i) {
+    out.channels[i].protocol = static_cast<mb4::Protocol>(config.protocol[i]);
+  }
+  for (std::size_t i = 0; i < mb4::kSlaves; ++i) {
+    out.slaves[i].enabled = config.slaves[i].enabled;
+    out.slaves[i].data_bits = config.slaves[i].data_bits;
+    out.slaves[i].flags = static_cast<mb4::Flags>(config.slaves[i].flags);
+    out.slaves[i].crc_start = config.slaves[i].crc_start;
+    out.slaves[i].crc_polynomial = config.slaves[i].crc_polynomial;
+  }
+  return out;
+}
+
+mb4::Command from_c(const mb4_command& command) {
+  mb4::Command out;
+  out.channels = command.channels;
+  out.ids = command.ids;
+  out.code = command.code;
+  out.test_acknowledge = command.test_acknowledge;
+  return out;
+}
+
+mb4::Span<const std::uint8_t> bytes(const std::uint8_t* data, std::size_t size) {
+  return mb4::Span<const std::uint8_t>(data, size);
+}
+mb4::Span<std::uint8_t> bytes(std::uint8_t* data, std::size_t size) {
+  return mb4::Span<std::uint8_t>(data, size);
+}
+
+// Objects in the caller's memory; <new> need not exist on a small target.
+struct Place {
+  void* memory;
+};
+
+}  // namespace
+
+// NOLINTNEXTLINE(cert-dcl54-cpp): placement into memory that is never deleted
+inline void* operator new(std::size_t /*size*/, Place place) noexcept { return place.memory; }
+
+extern "C" {
+
+void mb4_open(mb4_device* device, mb4_transfer transfer, void* transfer_context, mb4_now_us now_us,
+              void* clock_context) {
+  ::new (Place{device->opaque}) Opened(transfer, transfer_context, now_us, clock_context);
+}
+
+mb4_config mb4_config_default(void) {
+  const mb4::Config from;
+  mb4_config config = {};
+  config.f_clk_hz = from.f_clk_hz;
+  config.frame_start = static_cast<std::uint8_t>(from.frame_start);
+  config.spi_check = static_cast<std::uint8_t>(from.spi_check);
+  for (std::size_t i = 0; i < mb4::kChannels; ++i) {
+    config.protocol[i] = static_cast<std::uint8_t>(from.channels[i].protocol);
+  }
+  for (std::size_t i = 0; i < mb4::kSlaves; ++i) {
+    config.slaves[i].flags = static_cast<std::uint8_t>(from.slaves[i].flags);
+    config.slaves[i].crc_polynomial = from.slaves[i].crc_polynomial;
+  }
+  return config;
+}
+
+uint32_t mb4_ma_hz_at_most(uint32_t f_clk_hz, uint32_t limit_hz) {
+  return mb4::ma_hz_at_most(f_clk_hz, limit_hz);
+}
+uint32_t mb4_frame_period_clk_at_least(uint32_t f_clk_hz, uint32_t period_ns) {
+  return mb4::frame_period_clk_at_least(f_clk_hz, period_ns);
+}
+mb4_result mb4_validate(const mb4_config* config) { return to_c(mb4::validate(from_c(*config))); }
+
+mb4_result mb4_probe(mb4_device* device, uint8_t* version, uint8_t* revision) {
+  const mb4::Result<mb4::Identity> identity = of(device).probe();
+  if (identity) {
+    *version = identity->version;
+    *revision = identity->revision;
+  }
+  return to_c(identity);
+}
+mb4_result mb4_configure(mb4_device* device, const mb4_config* config) {
+  return to_c(of(device).configure(from_c(*config)));
+}
+mb4_result mb4_verify(mb4_device* device) { return to_c(of(device).verify()); }
+mb4_result mb4_reset(mb4_device* device) { return to_c(of(device).reset()); }
+mb4_result mb4_initialize(mb4_device* device, uint8_t quarters[MB4_CHANNELS]) {
+  const mb4::Result<mb4::LineDelay> delay = of(device).initialize();
+  for (std::size_t i = 0; delay && i < mb4::kChannels; ++i) {
+    quarters[i] = delay->quarters[i];
+  }
+  return to_c(delay);
+}
+mb4_result mb4_read_frame(mb4_device* device, uint8_t slave, mb4_reading* reading) {
+  return store(of(device).read_frame(slave), reading);
+}
+mb4_result mb4_read_all(mb4_device* device, mb4_frame* frame) {
+  mb4::Frame read;
+  const mb4::Result<void> done = of(device).read_all(read);
+  return store(done, read, frame);
+}
+mb4_result mb4_break_transmission(mb4_device* device) {
+  return to_c(of(device).break_transmission());
+}
+mb4_result mb4_read_status(mb4_device* device, uint8_t status[MB4_STATUS_BYTES]) {
+  const mb4::Result<mb4::Status> read = of(device).read_status();
+  for (std::size_t i = 0; read && i < mb4::Status::kBytes; ++i) {
+    status[i] = read->bytes()[i];
+  }
+  return to_c(read);
+}
+mb4_result mb4_clear_valid(mb4_device* device, uint8_t slave) {
+  return to_c(of(device).clear_valid(slave));
+}
+
+mb4_result mb4_automatic_start(mb4_device* device) { return to_c(of(device).automatic().start()); }
+mb4_result mb4_automatic_stop(mb4_device* device) { return to_c(of(device).automatic().stop()); }
+mb4_result mb4_automatic_restart(mb4_device* device) {
+  return to_c(of(device).automatic().restart());
+}
+mb4_result mb4_automatic_poll(mb4_device* device, mb4_frame* frame) {
+  mb4::Frame read;
+  const mb4::Result<void> done = of(device).automatic().poll(read);
+  return store(done, read, frame);
+}
+mb4_result mb4_automatic_poll_slave(mb4_device* device, uint8_t slave, mb4_reading* reading) {
+  return store(of(device).automatic().poll_slave(slave), reading);
+}
+mb4_result mb4_automatic_next(mb4_device* device, mb4_frame* frame) {
+  mb4::Frame read;
+  const mb4::Result<void> done = of(device).automatic().next(read);
+  return store(done, read, frame);
+}
+
+mb4_result mb4_slave_read(mb4_device* device, uint8_t channel, uint8_t id, uint8_t address,
+                          uint8_t* data, size_t size) {
+  return to_c(of(device).control().read_registers({channel, id}, address, bytes(data, size)));
+}
+mb4_result mb4_slave_write(mb4_device* device, uint8_t channel, uint8_t id, uint8_t address,
+                           const uint8_t* data, size_t size) {
+  return to_c(of(device).control().write_registers({channel, id}, address, bytes(data, size)));
+}
+mb4_result mb4_slave_command(mb4_device* device, const mb4_command* command) {
+  return to_c(of(device).control().send(from_c(*command)));
+}
+mb4_result mb4_slave_begin_read(mb4_device* device, uint8_t channel, uint8_t id, uint8_t address,
+                                size_t size) {
+  return to_c(of(device).control().begin_read({channel, id}, address, size));
+}
+mb4_result mb4_slave_begin_write(mb4_device* device, uint8_t channel, uint8_t id, uint8_t address,
+                                 const uint8_t* data, size_t size) {
+  return to_c(of(device).control().begin_write({channel, id}, address, bytes(data, size)));
+}
+mb4_result mb4_slave_begin_command(mb4_device* device, const mb4_command* command) {
+  return to_c(of(device).control().begin_command(from_c(*command)));
+}
+mb4_result mb4_slave_poll(mb4_device* device, bool* ended) {
+  const mb4::Result<bool> result = of(device).control().poll();
+  *ended = result.value_or(false);
+  return to_c(result);
+}
+mb4_result mb4_slave_take(mb4_device* device, uint8_t* data, size_t size) {
+  return to_c(of(device).control().take(bytes(data, size)));
+}
+mb4_result mb4_slave_abort(mb4_device* device) { return to_c(of(device).control().abort()); }
+
+mb4_result mb4_scan(mb4_device* device, uint8_t channel, mb4_identity* identities, size_t size,
+                    uint8_t* count) {
+  std::array<mb4::SlaveIdentity, mb4::kSlaveIds> found{};
+  const mb4::Result<std::uint8_t> result = mb4::scan_bus(of(device), channel, found);
+  *count = result.value_or(0);
+  for (std::size_t i = 0; i < *count && i < size; ++i) {
+    const mb4::SlaveIdentity& from = found[i];
+    mb4_identity& to = identities[i];
+    for (std::size_t byte = 0; byte < from.device_id.size(); ++byte) {
+      to.device_id[byte] = from.device_id[byte];
+    }
+    for (std::size_t byte = 0; byte < from.manufacturer.size(); ++byte) {
+      to.manufacturer[byte] = from.manufacturer[byte];
+    }
+    to.eds_bank = from.eds_bank;
+    to.has_identity = from.has_identity;
+    to.has_eds = from.has_eds;
+  }
+  return to_c(result);
+}
+
+mb4_result mb4_write_registers(mb4_device* device, uint8_t address, const uint8_t* data,
+                               size_t size) {
+  return to_c(of(device).opcodes().write_registers(address, bytes(data, size)));
+}
+mb4_result mb4_read_registers(mb4_device* device, uint8_t address, uint8_t* data, size_t size) {
+  return to_c(of(device).opcodes().read_registers(address, bytes(data, size)));
+}
+
+const char* mb4_error_text(uint8_t code) { return mb4::to_string(static_cast<mb4::Error>(code)); }
+const char* mb4_field_text(uint8_t field) {
+  return mb4::to_string(static_cast<mb4::ConfigField>(field));
+}
+
+int64_t mb4_to_signed(uint64_t position, uint8_t bits) { return mb4::to_signed(position, bits); }
+uint64_t mb4_gray_to_binary(uint64_t gray) { return mb4::gray_to_binary(gray); }
+uint64_t mb4_binary_to_gray(uint64_t binary) { return mb4::binary_to_gray(binary); }
+mb4_result mb4_split_turns(uint64_t position, uint8_t multi_bits, uint8_t single_bits,
+                           uint64_t* multi, uint64_t* single) {
+  const mb4::Result<mb4::Turns> turns = mb4::split_turns(position, multi_bits, single_bits);
+  if (turns) {
+    *multi = turns->multi;
+    *single = turns->single;
+  }
+  return to_c(turns);
+}
+
+void mb4_tracker_begin(mb4_tracker* tracker, uint8_t bits, uint64_t max_step) {
+  ::new (Place{tracker->opaque}) mb4::PositionTracker(bits, max_step);
+}
+mb4_result mb4_tracker_update(mb4_tracker* tracker, uint64_t position, int64_t* total) {
+  const mb4::Result<std::int64_t> result =
+      reinterpret_cast<mb4::PositionTracker*>(tracker->opaque)->update(position);
+  if (result) {
+    *total = *result;
+  }
+  return to_c(result);
+}
+
+}  // extern "C"

@@ -1,0 +1,211 @@
+/* SPDX-FileCopyrightText: 2026 The openmb4 authors
+ * SPDX-License-Identifier: Apache-2.0
+ *
+ * The driver for C99: the same code as mb4/mb4.hpp, compiled once in c/mb4_c.cpp. No heap, no static
+ * data. What a call does, how many transfers it makes and what its errors mean is said at the C++
+ * call of the same name (mb4/device.hpp, automatic.hpp, control_steps.hpp, control.hpp, scan.hpp,
+ * position.hpp); errors in mb4/result.hpp and docs/driver.md.
+ */
+#ifndef MB4_H_
+#define MB4_H_
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+enum {
+  MB4_SLAVES = 8,
+  MB4_CHANNELS = 2,
+  MB4_STATUS_BYTES = 5 /* 0xF0..0xF4 */
+};
+
+/* Values of mb4_result.code: mb4::Error. */
+enum {
+  MB4_OK = 0,
+  MB4_INVALID_ARGUMENT = 1,
+  MB4_INVALID_CONFIG = 2,
+  MB4_UNSUPPORTED = 3,
+  MB4_NOT_CONFIGURED = 4,
+  MB4_TRANSPORT = 5,
+  MB4_NOT_DETECTED = 6,
+  MB4_VERIFY = 7,
+  MB4_TIMEOUT = 8,
+  MB4_LINE_ERROR = 9,
+  MB4_CRC = 10,
+  MB4_NO_DATA = 11,
+  MB4_CORRUPTED = 12,
+  MB4_REGISTER = 13,
+  MB4_REGISTER_DELAY = 14,
+  MB4_COMMAND = 15,
+  MB4_BUSY = 16,
+  MB4_WRONG_MODE = 17,
+  MB4_BANK_SWITCHED = 18,
+  MB4_LINE_DELAY = 19,
+  MB4_JUMP = 20
+};
+
+/* Outcome of a call: mb4::ErrorInfo. */
+typedef struct {
+  uint8_t code;   /* MB4_OK or an error */
+  uint8_t field;  /* for MB4_INVALID_CONFIG, MB4_UNSUPPORTED: see mb4_field_text() */
+  uint8_t number; /* slave 1..8 or channel 1..2 that the field belongs to */
+  uint8_t detail; /* MB4_VERIFY: register address; register accesses: good bytes */
+} mb4_result;
+
+enum { MB4_PROTOCOL_BISS_B, MB4_PROTOCOL_BISS_C, MB4_PROTOCOL_SSI, MB4_PROTOCOL_UNUSED };
+enum { MB4_CLOCK_EXTERNAL, MB4_CLOCK_INTERNAL };
+enum { MB4_LINE_TTL, MB4_LINE_CMOS, MB4_LINE_RS422, MB4_LINE_LVDS };
+enum { MB4_START_BACK_TO_BACK, MB4_START_ON_PIN, MB4_START_PERIODIC };
+enum { MB4_FLAGS_NONE, MB4_FLAGS_ERROR_WARNING };
+enum { MB4_SPI_CHECK_OFF, MB4_SPI_CHECK_CRC, MB4_SPI_CHECK_FULL };
+
+/* mb4::SlaveConfig. */
+typedef struct {
+  bool enabled;
+  uint8_t data_bits; /* 1..64 without CRC, with flags */
+  uint8_t flags;     /* MB4_FLAGS_... */
+  uint16_t crc_start;
+  uint32_t crc_polynomial; /* in full: 0x43; 0 = none */
+} mb4_slave_config;
+
+/* mb4::Config; begin with mb4_config_default(). */
+typedef struct {
+  uint32_t f_clk_hz;
+  uint32_t ma_hz;
+  uint32_t frame_period_clk;
+  uint32_t frame_timeout_us;
+  uint32_t register_busy_us;
+  uint8_t clock_source;   /* MB4_CLOCK_... */
+  uint8_t line_interface; /* MB4_LINE_... */
+  uint8_t frame_start;    /* MB4_START_... */
+  uint8_t spi_check;      /* MB4_SPI_CHECK_... */
+  bool single_bank;
+  bool hold_cdm;
+  uint8_t protocol[MB4_CHANNELS];      /* MB4_PROTOCOL_...; [0] is channel 1 */
+  mb4_slave_config slaves[MB4_SLAVES]; /* [0] is slave 1 */
+} mb4_config;
+
+/* mb4::Reading. */
+typedef struct {
+  uint64_t raw;
+  uint64_t position;
+  uint16_t crc;
+  bool crc_stored;
+  bool error;   /* the encoder's own complaint: do not trust the position */
+  bool warning;
+  uint8_t slave;
+} mb4_reading;
+
+/* mb4::Frame: reading[i] means something where code[i] is MB4_OK. [0] is slave 1. */
+typedef struct {
+  mb4_reading reading[MB4_SLAVES];
+  uint8_t code[MB4_SLAVES];
+  uint8_t status[MB4_STATUS_BYTES];
+} mb4_frame;
+
+/* mb4::Command. */
+typedef struct {
+  uint8_t channels; /* bit 0 channel 1, bit 1 channel 2 */
+  uint8_t ids;      /* bit 0 is ID 0; 0 = broadcast */
+  uint8_t code;     /* 0..3 */
+  bool test_acknowledge;
+} mb4_command;
+
+/* mb4::SlaveIdentity. */
+typedef struct {
+  uint8_t device_id[6];
+  uint8_t manufacturer[2];
+  uint8_t eds_bank;
+  bool has_identity;
+  bool has_eds;
+} mb4_identity;
+
+/* One SPI frame: NCS low, `size` bytes, NCS high; rx may be null. The contract is that of Bus in
+ * mb4/bus.hpp. True when it was exchanged. */
+typedef bool (*mb4_transfer)(void *context, const uint8_t *tx, uint8_t *rx, size_t size);
+/* Microseconds, wrapping at 2^32. */
+typedef uint32_t (*mb4_now_us)(void *context);
+
+/* One chip; the caller provides the memory. What is in it is not for use. */
+typedef struct {
+  uint64_t opaque[52];
+} mb4_device;
+
+/* Before every other call. Makes no transfer. The functions must not be null. */
+void mb4_open(mb4_device *device, mb4_transfer transfer, void *transfer_context, mb4_now_us now_us,
+              void *clock_context);
+
+mb4_config mb4_config_default(void);
+/* Largest frequency of table 35 that is at most `limit_hz`; 0 if there is none. */
+uint32_t mb4_ma_hz_at_most(uint32_t f_clk_hz, uint32_t limit_hz);
+/* Shortest frame period of table 37 that is at least `period_ns`, in clocks; 0 if there is none. */
+uint32_t mb4_frame_period_clk_at_least(uint32_t f_clk_hz, uint32_t period_ns);
+mb4_result mb4_validate(const mb4_config *config);
+
+mb4_result mb4_probe(mb4_device *device, uint8_t *version, uint8_t *revision);
+mb4_result mb4_configure(mb4_device *device, const mb4_config *config);
+mb4_result mb4_verify(mb4_device *device);
+mb4_result mb4_reset(mb4_device *device);
+/* Line delay of channel 1 and 2 in quarters of a period of MA. */
+mb4_result mb4_initialize(mb4_device *device, uint8_t quarters[MB4_CHANNELS]);
+mb4_result mb4_read_frame(mb4_device *device, uint8_t slave, mb4_reading *reading);
+mb4_result mb4_read_all(mb4_device *device, mb4_frame *frame);
+mb4_result mb4_break_transmission(mb4_device *device);
+mb4_result mb4_read_status(mb4_device *device, uint8_t status[MB4_STATUS_BYTES]);
+mb4_result mb4_clear_valid(mb4_device *device, uint8_t slave);
+
+mb4_result mb4_automatic_start(mb4_device *device);
+mb4_result mb4_automatic_stop(mb4_device *device);
+mb4_result mb4_automatic_restart(mb4_device *device);
+mb4_result mb4_automatic_poll(mb4_device *device, mb4_frame *frame);
+mb4_result mb4_automatic_poll_slave(mb4_device *device, uint8_t slave, mb4_reading *reading);
+mb4_result mb4_automatic_next(mb4_device *device, mb4_frame *frame);
+
+mb4_result mb4_slave_read(mb4_device *device, uint8_t channel, uint8_t id, uint8_t address,
+                          uint8_t *data, size_t size);
+mb4_result mb4_slave_write(mb4_device *device, uint8_t channel, uint8_t id, uint8_t address,
+                           const uint8_t *data, size_t size);
+mb4_result mb4_slave_command(mb4_device *device, const mb4_command *command);
+mb4_result mb4_slave_begin_read(mb4_device *device, uint8_t channel, uint8_t id, uint8_t address,
+                                size_t size);
+mb4_result mb4_slave_begin_write(mb4_device *device, uint8_t channel, uint8_t id, uint8_t address,
+                                 const uint8_t *data, size_t size);
+mb4_result mb4_slave_begin_command(mb4_device *device, const mb4_command *command);
+/* `ended` is true when what was begun has ended well. */
+mb4_result mb4_slave_poll(mb4_device *device, bool *ended);
+mb4_result mb4_slave_take(mb4_device *device, uint8_t *data, size_t size);
+mb4_result mb4_slave_abort(mb4_device *device);
+/* Identities of up to `size` IDs; `count` is how many have answered. */
+mb4_result mb4_scan(mb4_device *device, uint8_t channel, mb4_identity *identities, size_t size,
+                    uint8_t *count);
+
+/* Opcodes 0x02 and 0x03 alone; they protect nothing. */
+mb4_result mb4_write_registers(mb4_device *device, uint8_t address, const uint8_t *data,
+                               size_t size);
+mb4_result mb4_read_registers(mb4_device *device, uint8_t address, uint8_t *data, size_t size);
+
+const char *mb4_error_text(uint8_t code);
+const char *mb4_field_text(uint8_t field);
+
+int64_t mb4_to_signed(uint64_t position, uint8_t bits);
+uint64_t mb4_gray_to_binary(uint64_t gray);
+uint64_t mb4_binary_to_gray(uint64_t binary);
+mb4_result mb4_split_turns(uint64_t position, uint8_t multi_bits, uint8_t single_bits,
+                           uint64_t *multi, uint64_t *single);
+
+/* mb4::PositionTracker. */
+typedef struct {
+  uint64_t opaque[4];
+} mb4_tracker;
+void mb4_tracker_begin(mb4_tracker *tracker, uint8_t bits, uint64_t max_step);
+mb4_result mb4_tracker_update(mb4_tracker *tracker, uint64_t position, int64_t *total);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif /* MB4_H_ */

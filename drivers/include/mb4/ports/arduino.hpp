@@ -1,0 +1,65 @@
+// SPDX-FileCopyrightText: 2026 The openmb4 authors
+// SPDX-License-Identifier: Apache-2.0
+
+// Port: byte interfaces as Arduino's SPI library has them. Knows no Arduino header: the types are
+// template parameters.
+
+#ifndef MB4_PORTS_ARDUINO_HPP_
+#define MB4_PORTS_ARDUINO_HPP_
+
+#include <cstddef>
+#include <cstdint>
+
+#include "mb4/span.hpp"
+
+namespace mb4::ports {
+
+// `Spi` has beginTransaction(settings), endTransaction() and `uint8_t transfer(uint8_t)`; `Select`
+// is called with true to pull NCS low and with false to release it:
+//
+//   mb4::ports::ByteBus bus(SPI, SPISettings(5'000'000, MSBFIRST, SPI_MODE0),
+//                           [](bool active) { digitalWrite(10, active ? LOW : HIGH); });
+//
+// The bytes of one frame may be apart as long as they like. The pin has to be an output at HIGH,
+// and SPI.begin() called, before the first transfer. Never fails.
+template <typename Spi, typename Settings, typename Select>
+class ByteBus {
+ public:
+  constexpr ByteBus(Spi& spi, Settings settings, Select select)
+      : spi_(spi), settings_(settings), select_(select) {}
+
+  bool transfer(Span<const std::uint8_t> tx, Span<std::uint8_t> rx) {
+    spi_.beginTransaction(settings_);
+    select_(true);
+    for (std::size_t i = 0; i < tx.size(); ++i) {
+      const std::uint8_t received = spi_.transfer(tx[i]);
+      if (!rx.empty()) {
+        rx[i] = received;
+      }
+    }
+    select_(false);
+    spi_.endTransaction();
+    return true;
+  }
+
+ private:
+  Spi& spi_;
+  Settings settings_;
+  Select select_;
+};
+
+// A clock out of a function such as micros().
+template <typename Micros>
+class MicrosClock {
+ public:
+  explicit constexpr MicrosClock(Micros micros) : micros_(micros) {}
+
+  std::uint32_t now_us() { return static_cast<std::uint32_t>(micros_()); }
+
+ private:
+  Micros micros_;
+};
+
+}  // namespace mb4::ports
+
+#endif  // MB4_PORTS_ARDUINO_HPP_

@@ -1,0 +1,202 @@
+/* SPDX-FileCopyrightText: 2026 The openmb4 authors
+ * SPDX-License-Identifier: Apache-2.0
+ *
+ * Every call of mb4.h, from C99, on the Verilated chip: success, and that errors come through.
+ */
+#include <stdio.h>
+#include <string.h>
+
+#include "mb4.h"
+#include "mb4sim.h"
+
+static unsigned failures;
+
+static void check(int good, const char *what, int line) {
+  if (!good) {
+    printf("line %d: %s\n", line, what);
+    ++failures;
+  }
+}
+#define CHECK(condition) check((condition), #condition, __LINE__)
+#define OK(call) check((call).code == MB4_OK, #call, __LINE__)
+#define FAILS(call, error) check((call).code == (error), #call " is not " #error, __LINE__)
+
+static const char kScenario[] =
+    "[[channel]]\nnumber = 1\ndelay_ns = 500\n[[channel.slave]]\nprotocol = \"biss-c\"\n"
+    "data_bits = 28\ndata = 0xAAF37BF\ncontrol = true\n"
+    "registers = { 0x44 = [0x00, 0xD9, 0x01, 0x32] }\n";
+
+/* A bus that refuses when `broken` is set. */
+typedef struct {
+  mb4sim *simulator;
+  bool broken;
+} bus_t;
+
+static bool transfer(void *context, const uint8_t *tx, uint8_t *rx, size_t size) {
+  bus_t *bus = context;
+  return !bus->broken && mb4sim_spi_transfer(bus->simulator, tx, rx, size) == 0;
+}
+
+static uint32_t now_us(void *context) {
+  bus_t *bus = context;
+  mb4sim_advance_ns(bus->simulator, 100);
+  return (uint32_t)(mb4sim_time_ns(bus->simulator) / 1000);
+}
+
+static mb4_config encoder(void) {
+  mb4_config config = mb4_config_default();
+  config.ma_hz = mb4_ma_hz_at_most(config.f_clk_hz, 5000000);
+  config.protocol[0] = MB4_PROTOCOL_BISS_C;
+  config.slaves[0].enabled = true;
+  config.slaves[0].data_bits = 28;
+  config.slaves[0].crc_polynomial = 0x43;
+  return config;
+}
+
+static void test_configuration(void) {
+  mb4_config config = encoder();
+  CHECK(config.ma_hz == 5000000);
+  CHECK(mb4_frame_period_clk_at_least(20000000, 100000) == 2000);
+  OK(mb4_validate(&config));
+  config.slaves[0].data_bits = 65;
+  const mb4_result wrong = mb4_validate(&config);
+  CHECK(wrong.code == MB4_INVALID_CONFIG && wrong.number == 1);
+  CHECK(strcmp(mb4_field_text(wrong.field), "data_bits") == 0);
+  CHECK(strcmp(mb4_error_text(wrong.code), "invalid configuration") == 0);
+}
+
+static void test_single(mb4_device *device) {
+  uint8_t version = 0;
+  uint8_t revision = 0;
+  uint8_t quarters[MB4_CHANNELS] = {0, 0};
+  uint8_t status[MB4_STATUS_BYTES];
+  const mb4_config config = encoder();
+  mb4_reading reading;
+  mb4_frame frame;
+  FAILS(mb4_read_frame(device, 1, &reading), MB4_NOT_CONFIGURED);
+  OK(mb4_probe(device, &version, &revision));
+  CHECK(version == 0x84 && revision == 0x20);
+  OK(mb4_configure(device, &config));
+  OK(mb4_verify(device));
+  OK(mb4_initialize(device, quarters));
+  CHECK(quarters[0] >= 10 && quarters[0] <= 12 && quarters[1] == 0);
+  OK(mb4_read_frame(device, 1, &reading));
+  CHECK(reading.position == 0x2ABCDEF && reading.raw == 0xAAF37BF && reading.slave == 1);
+  CHECK(!reading.error && !reading.warning && reading.crc_stored && reading.crc == 0x18);
+  FAILS(mb4_read_frame(device, 2, &reading), MB4_INVALID_ARGUMENT);
+  OK(mb4_read_all(device, &frame));
+  CHECK(frame.code[0] == MB4_OK && frame.reading[0].position == 0x2ABCDEF);
+  CHECK(frame.code[1] == MB4_INVALID_ARGUMENT && (frame.status[0] & 1) == 1);
+  OK(mb4_read_status(device, status));
+  CHECK(status[0] == 0xFB);
+  OK(mb4_clear_valid(device, 1));
+  FAILS(mb4_clear_valid(device, 9), MB4_INVALID_ARGUMENT);
+  OK(mb4_break_transmission(device));
+}
+
+static void test_slave_registers(mb4_device *device) {
+  const uint8_t written[2] = {0x12, 0x34};
+  const uint8_t serial[4] = {0x00, 0xD9, 0x01, 0x32};
+  const mb4_command activate = {1, 1, 0, true};
+  uint8_t data[4];
+  bool ended = false;
+  mb4_identity identity;
+  uint8_t count = 0;
+  OK(mb4_slave_write(device, 1, 0, 0x60, written, 2));
+  OK(mb4_slave_read(device, 1, 0, 0x60, data, 2));
+  CHECK(memcmp(data, written, 2) == 0);
+  OK(mb4_slave_begin_read(device, 1, 0, 0x44, 4));
+  FAILS(mb4_slave_begin_write(device, 1, 0, 0x60, written, 2), MB4_BUSY);
+  while (!ended) {
+    const mb4_result polled = mb4_slave_poll(device, &ended);
+    OK(polled);
+    if (polled.code != MB4_OK) {
+      break;
+    }
+  }
+  OK(mb4_slave_take(device, data, 4));
+  CHECK(memcmp(data, serial, 4) == 0);
+  OK(mb4_slave_begin_write(device, 1, 0, 0x60, written, 2));
+  OK(mb4_slave_abort(device));
+  OK(mb4_slave_begin_command(device, &activate));
+  OK(mb4_slave_abort(device));
+  OK(mb4_slave_command(device, &activate));
+  const mb4_result missing = mb4_slave_read(device, 1, 5, 0x44, data, 1);
+  CHECK(missing.code == MB4_REGISTER && missing.detail == 0);
+  OK(mb4_scan(device, 1, &identity, 1, &count));
+  CHECK(count == 1);
+}
+
+static void test_automatic(mb4_device *device, mb4sim *simulator) {
+  mb4_config config = encoder();
+  mb4_frame frame;
+  mb4_reading reading;
+  config.frame_start = MB4_START_PERIODIC;
+  config.frame_period_clk = mb4_frame_period_clk_at_least(config.f_clk_hz, 100000);
+  OK(mb4_configure(device, &config));
+  FAILS(mb4_automatic_poll(device, &frame), MB4_WRONG_MODE);
+  OK(mb4_automatic_start(device));
+  OK(mb4_automatic_next(device, &frame));
+  CHECK(frame.code[0] == MB4_OK && frame.reading[0].position == 0x2ABCDEF);
+  OK(mb4_automatic_restart(device));
+  mb4sim_advance_ns(simulator, 150000);
+  OK(mb4_automatic_poll(device, &frame));
+  CHECK(frame.code[0] == MB4_OK);
+  mb4sim_advance_ns(simulator, 150000);
+  OK(mb4_automatic_poll_slave(device, 1, &reading));
+  CHECK(reading.position == 0x2ABCDEF);
+  FAILS(mb4_automatic_poll_slave(device, 1, &reading), MB4_NO_DATA);
+  OK(mb4_automatic_stop(device));
+}
+
+static void test_raw_and_reset(mb4_device *device, bus_t *bus) {
+  const uint8_t byte = 0x5A;
+  uint8_t data[2];
+  OK(mb4_write_registers(device, 0x80, &byte, 1));
+  OK(mb4_read_registers(device, 0x80, data, 1));
+  CHECK(data[0] == 0x5A);
+  OK(mb4_reset(device));
+  OK(mb4_read_registers(device, 0xED, data, 1));
+  CHECK(data[0] == 0);
+  bus->broken = true;
+  FAILS(mb4_probe(device, &data[0], &data[1]), MB4_TRANSPORT);
+  FAILS(mb4_reset(device), MB4_TRANSPORT);
+  bus->broken = false;
+}
+
+static void test_positions(void) {
+  uint64_t multi = 0;
+  uint64_t single = 0;
+  int64_t total = 0;
+  mb4_tracker tracker;
+  CHECK(mb4_to_signed(0x3FF, 10) == -1);
+  CHECK(mb4_gray_to_binary(mb4_binary_to_gray(1234)) == 1234);
+  OK(mb4_split_turns(0x12345, 4, 16, &multi, &single));
+  CHECK(multi == 1 && single == 0x2345);
+  FAILS(mb4_split_turns(0, 0, 0, &multi, &single), MB4_INVALID_ARGUMENT);
+  mb4_tracker_begin(&tracker, 12, 0);
+  OK(mb4_tracker_update(&tracker, 4090, &total));
+  OK(mb4_tracker_update(&tracker, 5, &total));
+  CHECK(total == 4101);
+  FAILS(mb4_tracker_update(&tracker, 5 + 2048, &total), MB4_JUMP);
+}
+
+int main(void) {
+  char error[200];
+  bus_t bus = {mb4sim_open(kScenario, error, sizeof error), false};
+  mb4_device device;
+  if (bus.simulator == NULL) {
+    printf("%s\n", error);
+    return 1;
+  }
+  mb4_open(&device, transfer, &bus, now_us, &bus);
+  test_configuration();
+  test_single(&device);
+  test_slave_registers(&device);
+  test_automatic(&device, bus.simulator);
+  test_raw_and_reset(&device, &bus);
+  test_positions();
+  mb4sim_close(bus.simulator);
+  printf("%u failures\n", failures);
+  return failures != 0;
+}

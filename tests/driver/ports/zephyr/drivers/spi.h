@@ -1,0 +1,33 @@
+/* SPDX-FileCopyrightText: 2026 The openmb4 authors
+ * SPDX-License-Identifier: Apache-2.0
+ *
+ * As much of Zephyr's drivers/spi.h as the port uses; names and types as in Zephyr. */
+#ifndef ZEPHYR_DRIVERS_SPI_H_
+#define ZEPHYR_DRIVERS_SPI_H_
+
+#include <stddef.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+struct spi_buf {
+  void* buf;
+  size_t len;
+};
+struct spi_buf_set {
+  const struct spi_buf* buffers;
+  size_t count;
+};
+struct spi_dt_spec {
+  const void* bus;
+};
+
+int spi_transceive_dt(const struct spi_dt_spec* spec, const struct spi_buf_set* tx_bufs,
+                      const struct spi_buf_set* rx_bufs);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif
