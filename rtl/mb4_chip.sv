@@ -1,15 +1,17 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The 28-pin device around mb4_core: straps, shared pins, oscillator choice.
+// The 28-pin device around mb4_engine: straps, shared pins, oscillator choice, differential pins.
 //
 // Every pin that can be driven from both sides is split into input, output and output enable, so
-// that the level on the wire is decided outside. SPI uses ALE = SCLK, DB0 = MOSI, DB1 = MISO with
-// CFGSPI = 1. In this version CFGSPI = 0 (parallel bus) and SPI2 (NWR_E = 0) are not there yet:
-// the data bus stays in high impedance.
-// Clock domains: SCLK; the system clock, from CLK or the internal oscillator (CLKENI). NRES stops
-// it at any phase and selects CLK: MA that was low stays so until the selected clock runs again.
-// Datasheet: pages 3, 17, 23.
+// that the level on the wire is decided outside. With CFGIF = 10 or 11 (RS422, LVDS) the pins of
+// line 2 are the inverse ones of line 1: MA2_NMA1 and MO2_NMO1 send the inverse of MA1 and MO1, the
+// difference between SL1 and SL2_NSL1 is what SL1 says, and line 2 sees an open input, 1.
+// Clock domains: the host's pins (mb4_host); the system clock, from CLK or the internal oscillator
+// (CLKENI). NRES stops it at any phase and selects CLK: MA that was low stays so until the selected
+// clock runs again. NRES needs 250 ns (E08), which let the core's reset reach every flop; a shorter
+// pulse resets as well if it is an edge for the flops.
+// Datasheet: pages 3, 8, 17..19, 23, Tables 1, 2, 4, 7, 9.
 
 module mb4_chip (
   // clocks and reset
@@ -24,9 +26,9 @@ module mb4_chip (
   input  logic       ncs_i,       // pin NCS
   input  logic       ale_i,       // pin ALE: SCLK with CFGSPI = 1
   input  logic       nrd_rnw_i,   // pin NRD_RNW
-  input  logic       nwr_e_i,     // pin NWR_E
-  input  logic [7:0] db_i,        // pins DB7..DB0: DB0 = MOSI
-  output logic [7:0] db_o,        // DB1 = MISO
+  input  logic       nwr_e_i,     // pin NWR_E: 0 = SPI2 with CFGSPI = 1
+  input  logic [7:0] db_i,        // pins DB7..DB0: 0 MOSI; SPI2: 4 NCS, 5 SCLK, 6 MOSI
+  output logic [7:0] db_o,        // 1 MISO; 7 MISO of SPI2
   output logic [7:0] db_oe_o,     // 1 = pin is driven
   // status and frame control
   output logic       eot_o,       // pin EOT
@@ -46,12 +48,12 @@ module mb4_chip (
 
   logic clk;
   logic clkeni;
-  logic cs_n;
-  logic miso;
-  logic miso_oe;
+  logic paired;
+  logic ma2, mo2;
 
-  // Not SPI: the serial interface never sees a selection.
-  assign cs_n = ncs_i || !cfgspi_i;
+  logic       wr_clk, wr_en, rd_clk, rd_en, rd2_clk, rd2_en;
+  logic [7:0] wr_addr, wr_data, rd_addr, rd_data, rd2_data;
+  logic [4:0] rd2_addr;
 
   mb4_clk_mux u_clk_mux (
     .clk0_i (clk_i),
@@ -61,34 +63,63 @@ module mb4_chip (
     .clk_o  (clk)
   );
 
-  mb4_core u_core (
-    .clk_i     (clk),
-    .rst_ni    (nres_i),
-    .por_ni    (npor_i),
-    .sclk_i    (ale_i),
-    .cs_ni     (cs_n),
-    .mosi_i    (db_i[0]),
-    .miso_o    (miso),
-    .miso_oe_o (miso_oe),
+  mb4_host u_host (
+    .rst_ni     (nres_i),
+    .cfgspi_i,
+    .int_nmot_i,
+    .ncs_i,
+    .ale_i,
+    .nrd_rnw_i,
+    .nwr_e_i,
+    .db_i,
+    .db_o,
+    .db_oe_o,
+    .wr_clk_o   (wr_clk),
+    .wr_en_o    (wr_en),
+    .wr_addr_o  (wr_addr),
+    .wr_data_o  (wr_data),
+    .rd_clk_o   (rd_clk),
+    .rd_en_o    (rd_en),
+    .rd_addr_o  (rd_addr),
+    .rd_data_i  (rd_data),
+    .rd2_clk_o  (rd2_clk),
+    .rd2_en_o   (rd2_en),
+    .rd2_addr_o (rd2_addr),
+    .rd2_data_i (rd2_data)
+  );
+
+  mb4_engine #(.Port2(1'b1)) u_engine (
+    .clk_i      (clk),
+    .rst_ni     (nres_i),
+    .por_ni     (npor_i),
+    .wr_clk_i   (wr_clk),
+    .wr_en_i    (wr_en),
+    .wr_addr_i  (wr_addr),
+    .wr_data_i  (wr_data),
+    .rd_clk_i   (rd_clk),
+    .rd_en_i    (rd_en),
+    .rd_addr_i  (rd_addr),
+    .rd_data_o  (rd_data),
+    .rd2_clk_i  (rd2_clk),
+    .rd2_en_i   (rd2_en),
+    .rd2_addr_i (rd2_addr),
+    .rd2_data_o (rd2_data),
     .eot_o,
     .ner_low_o,
     .ner_i,
-    .clkeni_o  (clkeni),
+    .clkeni_o   (clkeni),
+    .paired_o   (paired),
     .getsens_i,
     .ma1_o,
     .sl1_i,
     .mo1_o,
-    .ma2_o,
-    .sl2_i,
-    .mo2_o,
+    .ma2_o      (ma2),
+    .sl2_i      (sl2_i || paired),
+    .mo2_o      (mo2),
     .quirks_i
   );
 
-  assign db_o    = {6'b000000, miso, 1'b0};
-  assign db_oe_o = {6'b000000, miso_oe, 1'b0};
-
-  // Pins of functions that this version does not have.
-  logic unused;
-  assign unused = ^{int_nmot_i, nrd_rnw_i, nwr_e_i, db_i[7:1]};
+  assign ma2_o = paired ? !ma1_o : ma2;
+  assign mo2_o = paired ? !mo1_o : mo2;
 
 endmodule

@@ -23,6 +23,7 @@ module mb4_core (
   output logic       ner_low_o,   // an error flag is set: pull NER low
   input  logic       ner_i,       // level at NER
   output logic       clkeni_o,    // 1 = internal oscillator
+  output logic       paired_o,    // CFGIF: line 1 is differential and takes the pins of line 2
   input  logic       getsens_i,
   // lines
   output logic       ma1_o,
@@ -53,21 +54,32 @@ module mb4_core (
     .rd_data_i (rd_data)
   );
 
+  // No second reader.
+  logic [7:0] rd2_data;
+  logic       unused;
+  assign unused = ^rd2_data;
+
   mb4_engine u_engine (
     .clk_i,
     .rst_ni,
     .por_ni,
-    .hclk_i    (sclk_i),
-    .wr_en_i   (wr_en),
-    .wr_addr_i (wr_addr),
-    .wr_data_i (wr_data),
-    .rd_en_i   (rd_en),
-    .rd_addr_i (rd_addr),
-    .rd_data_o (rd_data),
+    .wr_clk_i   (sclk_i),
+    .wr_en_i    (wr_en),
+    .wr_addr_i  (wr_addr),
+    .wr_data_i  (wr_data),
+    .rd_clk_i   (sclk_i),
+    .rd_en_i    (rd_en),
+    .rd_addr_i  (rd_addr),
+    .rd_data_o  (rd_data),
+    .rd2_clk_i  (1'b0),
+    .rd2_en_i   (1'b0),
+    .rd2_addr_i ('0),
+    .rd2_data_o (rd2_data),
     .eot_o,
     .ner_low_o,
     .ner_i,
     .clkeni_o,
+    .paired_o,
     .getsens_i,
     .ma1_o,
     .sl1_i,

@@ -1,33 +1,45 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The chip without a host interface: registers, control, two lines (instances and glue only). The
-// host is a byte bus with a clock of its own (mb4_core: SPI).
+// The chip behind its host interface: registers, control, two lines (instances and glue only). The
+// host is a byte bus with clocks of its own, so that any interface fits: mb4_core puts SPI before
+// it, mb4_chip all hosts of the 28-pin device.
 //
-// Clock domains: hclk_i (host) and clk_i (core). Registers 0xC0..0xFB are written and read with no
-// core clock; frames, data memories and instructions need it. rst_ni is asynchronous: it reaches
-// the host domain as it is, because hclk_i stands still while a reset ends, and the core
-// synchronised. por_ni resets MA and its time base at power-on: with rst_ni alone MA ends the level
-// that it has.
+// Clock domains: wr_clk_i and rd_clk_i (host), rd2_clk_i (second reader, with Port2) and clk_i
+// (core). Registers 0xC0..0xFB are written and read with no core clock; frames, data memories and
+// instructions need it. A read or write is sampled at a rising edge of its clock; read data are
+// valid after that edge until the next one. One clock may serve both; two must not move at once.
+// rst_ni is asynchronous: it reaches the host domain as it is, because the host's clocks stand
+// still while a reset ends, and the core synchronised. por_ni resets MA and its time base at
+// power-on: with rst_ni alone MA ends the level that it has.
 // Datasheet: pages 15..36. Crossings: docs/crossings.md.
 
-module mb4_engine (
+module mb4_engine #(
+  parameter bit Port2 = 1'b0     // second read port: SCDATA5..8
+) (
   input  logic       clk_i,
   input  logic       rst_ni,
   input  logic       por_ni,      // power-on reset; asserted together with rst_ni
-  // host byte bus, sampled at the rising edge of hclk_i
-  input  logic       hclk_i,
+  // host byte bus
+  input  logic       wr_clk_i,
   input  logic       wr_en_i,
   input  logic [7:0] wr_addr_i,
   input  logic [7:0] wr_data_i,
+  input  logic       rd_clk_i,
   input  logic       rd_en_i,
   input  logic [7:0] rd_addr_i,
-  output logic [7:0] rd_data_o,   // valid after the edge with rd_en_i
+  output logic [7:0] rd_data_o,
+  // second read port, address in 0x20..0x3F without its upper bits
+  input  logic       rd2_clk_i,
+  input  logic       rd2_en_i,
+  input  logic [4:0] rd2_addr_i,
+  output logic [7:0] rd2_data_o,
   // status
   output logic       eot_o,
   output logic       ner_low_o,   // an error flag is set: pull NER low
   input  logic       ner_i,       // level at NER
   output logic       clkeni_o,    // 1 = internal oscillator
+  output logic       paired_o,    // CFGIF: line 1 is differential and takes the pins of line 2
   input  logic       getsens_i,
   // lines
   output logic       ma1_o,
@@ -96,17 +108,22 @@ module mb4_engine (
 
   // ---- registers ----------------------------------------------------------------------------
 
-  mb4_reg_file u_regs (
+  mb4_reg_file #(.Port2(Port2)) u_regs (
     .clk_i,
     .rst_ni         (rst_core_n),
-    .hclk_i,
     .hrst_ni        (rst_ni),
+    .hclk_i         (wr_clk_i),
     .wr_en_i,
     .wr_addr_i,
     .wr_data_i,
+    .rclk_i         (rd_clk_i),
     .rd_en_i,
     .rd_addr_i,
     .rd_data_o,
+    .rd2_clk_i,
+    .rd2_en_i,
+    .rd2_addr_i,
+    .rd2_data_o,
     .slave_cfg_o    (slave_cfg),
     .cfg_o          (cfg),
     .written_o      (written),
@@ -267,5 +284,6 @@ module mb4_engine (
   assign status.sl1         = sl1_i;
   assign status.sl2         = sl2_i;
   assign clkeni_o           = cfg.clkeni;
+  assign paired_o           = cfg.cfgif[1];
 
 endmodule

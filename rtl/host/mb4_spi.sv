@@ -3,10 +3,14 @@
 //
 // SPI host interface: pins to the host byte bus (instances only).
 //
-// Clock domain: SCLK. See mb4_spi_shift and mb4_spi_cmd for timing and misuse.
+// Clock domain: SCLK. See mb4_spi_shift and mb4_spi_cmd for timing and misuse. After a reset the
+// first falling edge of NCS opens the interface: what runs while NRES rises is no frame.
 // Datasheet: pages 11, 17..19.
 
-module mb4_spi (
+module mb4_spi #(
+  parameter bit         ReadOnly   = 1'b0,                       // only opcodes 0x03 and 0x09
+  parameter logic [7:0] Registers0 = mb4_regs_pkg::ADDR_SCDATA   // where 0x09 and 0x0B begin
+) (
   input  logic       rst_ni,
   // pins
   input  logic       sclk_i,
@@ -27,8 +31,14 @@ module mb4_spi (
   logic       byte_valid;
   logic [7:0] rx_byte;
   logic       tx_en;
+  logic       open_q;  // a frame has begun since the reset
 
-  assign frame_rst_n = rst_ni && !cs_ni;
+  always_ff @(negedge cs_ni or negedge rst_ni) begin
+    if (!rst_ni) open_q <= 1'b0;
+    else         open_q <= 1'b1;
+  end
+
+  assign frame_rst_n = open_q && !cs_ni;
 
   mb4_spi_shift u_shift (
     .sclk_i,
@@ -41,7 +51,7 @@ module mb4_spi (
     .tx_byte_i    (rd_data_i)
   );
 
-  mb4_spi_cmd u_cmd (
+  mb4_spi_cmd #(.ReadOnly(ReadOnly), .Registers0(Registers0)) u_cmd (
     .sclk_i,
     .frame_rst_ni (frame_rst_n),
     .byte_valid_i (byte_valid),

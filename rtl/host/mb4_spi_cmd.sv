@@ -6,11 +6,14 @@
 // Clock domain: SCLK. A write takes effect at the 8th rising edge of its byte. Read data must be in
 // tx_byte of the shifter after the edge at which rd_en_o is high.
 // Misuse: an unknown opcode is ignored until NCS rises; the address wraps from 0xFF to 0x00
-// (decision 13).
+// (decision 13). With ReadOnly only the opcodes 0x03 and 0x09 are known (SPI2).
 
 `include "mb4_check.svh"
 
-module mb4_spi_cmd (
+module mb4_spi_cmd #(
+  parameter bit         ReadOnly   = 1'b0,
+  parameter logic [7:0] Registers0 = mb4_regs_pkg::ADDR_SCDATA
+) (
   input  logic       sclk_i,
   input  logic       frame_rst_ni,
   // from the shifter
@@ -38,6 +41,11 @@ module mb4_spi_cmd (
   state_e     state_q;
   logic [7:0] addr_d;
   logic [7:0] addr_q;
+  logic [7:0] opcode;
+
+  // 0x00 is no opcode.
+  assign opcode = (ReadOnly && byte_i != mb4_regs_pkg::SPI_OPCODE_READ_REGISTERS &&
+                   byte_i != mb4_regs_pkg::SPI_OPCODE_READ_REGISTERS0) ? 8'h00 : byte_i;
 
   always_comb begin
     state_d   = state_q;
@@ -50,7 +58,7 @@ module mb4_spi_cmd (
       unique case (state_q)
         OPCODE: begin
           // The opcodes without an address read or write from their fixed place at once.
-          unique case (byte_i)
+          unique case (opcode)
             mb4_regs_pkg::SPI_OPCODE_WRITE_REGISTERS: state_d = ADDR_WRITE;
             mb4_regs_pkg::SPI_OPCODE_READ_REGISTERS:  state_d = ADDR_READ;
             mb4_regs_pkg::SPI_OPCODE_READ_STATUS: begin
@@ -61,7 +69,7 @@ module mb4_spi_cmd (
             mb4_regs_pkg::SPI_OPCODE_READ_REGISTERS0: begin
               state_d   = READ;
               rd_en_o   = 1'b1;
-              rd_addr_o = mb4_regs_pkg::ADDR_SCDATA;
+              rd_addr_o = Registers0;
             end
             mb4_regs_pkg::SPI_OPCODE_WRITE_INSTRUCTION: begin
               state_d = WRITE;
@@ -69,7 +77,7 @@ module mb4_spi_cmd (
             end
             mb4_regs_pkg::SPI_OPCODE_WRITE_REGISTERS0: begin
               state_d = WRITE;
-              addr_d  = mb4_regs_pkg::ADDR_SCDATA;
+              addr_d  = Registers0;
             end
             default: state_d = IGNORE;
           endcase

@@ -4,8 +4,10 @@
 // Which bank belongs to the host and which to the line engine.
 //
 // Clock domain: core. A frame's end swaps the banks, unless HOLDBANK is set: then the swap stays
-// pending and happens when HOLDBANK is cleared. A change of SWBANK swaps once, held or not.
-// With SINGLEBANK both sides use the host's bank and nothing swaps at a frame's end.
+// pending and happens when HOLDBANK is cleared. A change of SWBANK swaps once, held or not. With
+// SINGLEBANK both sides use the host's bank and nothing swaps at a frame's end. HOLDBANK arrives
+// some clocks after the host has written it. If a frame's end has swapped the banks meanwhile, that
+// swap is taken back and stays pending: the host has gone on with its bank.
 // Datasheet: pages 26, 31, 33, Tables 38, 48, 49; decision 15.
 
 module mb4_bank_ctrl (
@@ -13,6 +15,7 @@ module mb4_bank_ctrl (
   input  logic rst_ni,
   input  logic singlebank_i,
   input  logic holdbank_i,
+  input  logic kept_i,          // bank that the host had when it wrote 0xF4
   input  logic swbank_pulse_i,  // SWBANK has changed its value
   input  logic frame_end_i,
   output logic pending_o,
@@ -23,19 +26,27 @@ module mb4_bank_ctrl (
 
   logic host_q;
   logic pending_q;
+  logic hold_q;
+  logic swbank_q;
   logic want;
   logic swap;
+  logic undo;
 
   assign want = (pending_q || frame_end_i) && !singlebank_i;
   assign swap = want && !holdbank_i;
+  assign undo = holdbank_i && !hold_q && host_q != (kept_i ^ swbank_q);
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
       host_q    <= 1'b0;
       pending_q <= 1'b0;
+      hold_q    <= 1'b0;
+      swbank_q  <= 1'b0;
     end else begin
-      host_q    <= host_q ^ swap ^ swbank_pulse_i;
-      pending_q <= want && holdbank_i;
+      host_q    <= host_q ^ swap ^ swbank_pulse_i ^ undo;
+      pending_q <= (want && holdbank_i) || undo;
+      hold_q    <= holdbank_i;
+      swbank_q  <= swbank_pulse_i;
     end
   end
 

@@ -3,30 +3,33 @@
 //
 // Host read side: chooses the source of every address and holds the byte for the host interface.
 //
-// Clock domain: host (hclk_i). rd_data_o is valid after the edge with rd_en_i and stays until the
-// next one. Core status bits are asynchronous here: each is sampled by one flop of its own (the
-// read register) half an SCLK period before the first of them reaches MISO.
+// Clock domain: host reads (rclk_i). rd_data_o is valid after the edge with rd_en_i and stays until
+// the next one. Core status bits are asynchronous here, and so is the bank that the host owns: each
+// is sampled by one flop of its own (the read register) half an SCLK period before the first of
+// them reaches MISO, or 23 ns before the data bus must be stable. Data and SVALID of both banks are
+// taken with it and chosen behind it, so that a byte is of one bank, whole.
 // Misuse: reserved addresses read 0 (decision 13).
 // Datasheet: pages 21, 22, 34..36, Tables 6, 41, 42, 54..67.
 
 module mb4_host_read (
-  input  logic       hclk_i,
+  input  logic       rclk_i,
   input  logic       rst_ni,
   // host byte bus
   input  logic       rd_en_i,
   input  logic [7:0] rd_addr_i,
   output logic [7:0] rd_data_o,
   // sources
-  input  logic       ram_ready_i,    // core: memories are cleared
-  input  logic [7:0] scd_lo_data_i,  // read registers of the memories, same edge as rd_en_i
-  input  logic [7:0] scd_hi_data_i,
+  input  logic        ram_ready_i,   // core: memories are cleared
+  input  logic        bank_i,        // that the host reads
+  input  logic [15:0] scd_lo_data_i, // read registers of the memories, same edge as rd_en_i;
+  input  logic [15:0] scd_hi_data_i, // bank 1 in the upper byte
   input  logic [7:0] rdata_data_i,
   input  logic [7:0] cfg_data_i,     // combinational from rd_addr_i
   input  logic [7:0] instr_data_i,
   input  logic       instr_pending_i,
   input  logic       control_pending_i,
   input  mb4_pkg::status_t status_i,
-  input  logic [7:0] svalid_i,       // of the bank that the host owns
+  input  logic [15:0] svalid_i,      // bank 1 in the upper byte
   input  logic [1:0] revision_sel_i
 );
 
@@ -41,17 +44,19 @@ module mb4_host_read (
   source_e    source_q;
   logic [7:0] reg_d;
   logic [7:0] reg_q;
+  logic [3:0] flags_d;   // bits 7, 5, 3, 1 of the same register, of bank 1
+  logic [3:0] flags_q;
+  logic       bank_q;
+  logic       ready_q;
 
   always_comb begin
     source_d = REGISTER;
-    if (ram_ready_i) begin
-      unique casez (rd_addr_i)
-        8'b000?????: source_d = SCD_LO;
-        8'b001?????: source_d = SCD_HI;
-        8'b10??????: source_d = RDATA;
-        default:     source_d = REGISTER;
-      endcase
-    end
+    unique casez (rd_addr_i)
+      8'b000?????: source_d = SCD_LO;
+      8'b001?????: source_d = SCD_HI;
+      8'b10??????: source_d = RDATA;
+      default:     source_d = REGISTER;
+    endcase
   end
 
   always_comb begin
@@ -89,23 +94,44 @@ module mb4_host_read (
     endcase
   end
 
-  always_ff @(posedge hclk_i or negedge rst_ni) begin
+  always_comb begin
+    unique case (rd_addr_i)
+      mb4_regs_pkg::ADDR_SVALID_LO: flags_d = svalid_i[11:8];
+      mb4_regs_pkg::ADDR_SVALID_HI: flags_d = svalid_i[15:12];
+      default:                      flags_d = {reg_d[7], reg_d[5], reg_d[3], reg_d[1]};
+    endcase
+  end
+
+  always_ff @(posedge rclk_i or negedge rst_ni) begin
     if (!rst_ni) begin
       source_q <= REGISTER;
       reg_q    <= '0;
+      flags_q  <= '0;
+      bank_q   <= 1'b0;
+      ready_q  <= 1'b0;
     end else if (rd_en_i) begin
       source_q <= source_d;
       reg_q    <= reg_d;
+      flags_q  <= flags_d;
+      bank_q   <= bank_i;
+      ready_q  <= ram_ready_i;
     end
   end
 
   always_comb begin
-    unique case (source_q)
-      SCD_LO:  rd_data_o = scd_lo_data_i;
-      SCD_HI:  rd_data_o = scd_hi_data_i;
-      RDATA:   rd_data_o = rdata_data_i;
-      default: rd_data_o = reg_q;
-    endcase
+    rd_data_o = reg_q;
+    if (bank_q) begin
+      rd_data_o = {flags_q[3], reg_q[6], flags_q[2], reg_q[4],
+                   flags_q[1], reg_q[2], flags_q[0], reg_q[0]};
+    end
+    if (ready_q) begin
+      unique case (source_q)
+        SCD_LO:  rd_data_o = bank_q ? scd_lo_data_i[15:8] : scd_lo_data_i[7:0];
+        SCD_HI:  rd_data_o = bank_q ? scd_hi_data_i[15:8] : scd_hi_data_i[7:0];
+        RDATA:   rd_data_o = rdata_data_i;
+        default: ;  // registers
+      endcase
+    end
   end
 
 endmodule

@@ -4,8 +4,7 @@
 // Clears the data memories after reset, one address of every memory a clock, 64 clocks.
 //
 // Clock domain: core. busy_o is high from reset until the last address is cleared; meanwhile the
-// host reads 0 and no frame starts. Posted host writes wait, but only four of them can: a longer
-// burst within 64 clocks of a reset loses bytes (docs/choices.md).
+// host reads 0 and no frame starts. Posted host writes wait.
 // Datasheet: page 22 (all RAM registers are reset to 0).
 
 module mb4_ram_clear (

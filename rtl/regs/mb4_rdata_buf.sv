@@ -4,7 +4,7 @@
 // RDATA1..64: data of register communication, one bank. Two copies with the same contents, one read
 // by the host, one by the control communication.
 //
-// Clock domains: writes and the engine's reads in the core clock, the host's reads in hclk_i. Data
+// Clock domains: writes and the engine's reads in the core clock, the host's reads in rclk_i. Data
 // are valid one edge after their address. Writing: see mb4_write_port.
 // Misuse: the host may use it only while no control communication runs (page 28).
 // Datasheet: page 28, Table 27.
@@ -25,7 +25,7 @@ module mb4_rdata_buf (
   input  logic [7:0] host_wr_data_i,
   output logic       host_ready_o,
   // host read port
-  input  logic       hclk_i,
+  input  logic       rclk_i,
   input  logic       rd_en_i,
   input  logic [5:0] rd_addr_i,
   output logic [7:0] rd_data_o
@@ -55,7 +55,7 @@ module mb4_rdata_buf (
     .wr_en_i   (wr_en),
     .wr_addr_i (wr_addr),
     .wr_data_i (wr_data),
-    .rclk_i    (hclk_i),
+    .rclk_i,
     .rd_en_i,
     .rd_addr_i,
     .rd_data_o

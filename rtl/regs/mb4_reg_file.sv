@@ -4,23 +4,33 @@
 // Everything that has an address: configuration, instruction register, data memories with their
 // banks, validity flags, and the read side (instances and glue only).
 //
-// Clock domains: host (hclk_i) and core (clk_i). SCDATA, RDATA and SVALID live in the core domain:
-// host writes to them are posted and need a running core clock; everything else works without it.
+// Clock domains: host (hclk_i writes, rclk_i reads: one clock, or two strobes of which one rests
+// while the other moves) and core (clk_i). SCDATA, RDATA and SVALID live in the core domain: host
+// writes to them are posted and wait for a running core clock; everything else works without it.
+// With Port2 there is one more read port for SCDATA5..8 in a clock of its own (rd2_clk_i).
 // Bit i of a vector {2, 1} belongs to line i + 1.
 // Datasheet: pages 21..36. Crossings: docs/crossings.md.
 
-module mb4_reg_file (
+module mb4_reg_file #(
+  parameter bit Port2 = 1'b0
+) (
   input  logic       clk_i,
   input  logic       rst_ni,          // core domain
-  input  logic       hclk_i,
   input  logic       hrst_ni,         // host domain
-  // host byte bus, sampled at the rising edge of hclk_i
+  // host byte bus, sampled at the rising edge of hclk_i and rclk_i
+  input  logic       hclk_i,
   input  logic       wr_en_i,
   input  logic [7:0] wr_addr_i,
   input  logic [7:0] wr_data_i,
+  input  logic       rclk_i,
   input  logic       rd_en_i,
   input  logic [7:0] rd_addr_i,
   output logic [7:0] rd_data_o,
+  // second read port
+  input  logic       rd2_clk_i,
+  input  logic       rd2_en_i,
+  input  logic [4:0] rd2_addr_i,
+  output logic [7:0] rd2_data_o,
   // configuration, host domain, quasi-static
   output logic [mb4_pkg::NUM_SLAVES*mb4_pkg::SLAVE_CFG_W-1:0] slave_cfg_o,
   output mb4_pkg::cfg_t    cfg_o,
@@ -70,14 +80,14 @@ module mb4_reg_file (
   logic        instr_pending, control_pending;
   logic        clear_busy;
   logic [5:0]  clear_addr;
-  logic        clear_busy_h;
   logic        post_wr;
   logic        post_valid, post_ready;
   logic [15:0] post_data;
   logic        post_rdata, ready_scd, ready_rdata;
-  logic [7:0]  scd_lo_data, scd_hi_data, rdata_data;
-  logic        host_bank, host_bank_h, eng_bank;
-  logic [7:0]  svalid;
+  logic [7:0]  rdata_data;
+  logic [15:0] scd_lo_data, scd_hi_data, scd2_data, svalid;
+  logic        host_bank, eng_bank;
+  logic        bank_seen, bank_kept;  // by the host
 
   // ---- registers ----------------------------------------------------------------------------
 
@@ -105,16 +115,20 @@ module mb4_reg_file (
     .written_o,
     .toggle_o,
     .ack_i,
-    .held_i
+    .held_i,
+    .host_bank_i (host_bank),
+    .bank_o      (bank_seen),
+    .bank_kept_o (bank_kept)
   );
 
   mb4_host_read u_read (
-    .hclk_i,
+    .rclk_i,
     .rst_ni (hrst_ni),
     .rd_en_i,
     .rd_addr_i,
     .rd_data_o,
-    .ram_ready_i     (!clear_busy_h),
+    .ram_ready_i     (!clear_busy),
+    .bank_i          (bank_seen),
     .scd_lo_data_i   (scd_lo_data),
     .scd_hi_data_i   (scd_hi_data),
     .rdata_data_i    (rdata_data),
@@ -127,18 +141,14 @@ module mb4_reg_file (
     .revision_sel_i
   );
 
-  mb4_sync_bit #(.ResetValue(1'b1)) u_clear_busy_sync (
-    .clk_i  (hclk_i),
-    .rst_ni (hrst_ni),
-    .data_i (clear_busy),
-    .data_o (clear_busy_h)
-  );
-
-  mb4_sync_bit u_host_bank_sync (
-    .clk_i  (hclk_i),
-    .rst_ni (hrst_ni),
-    .data_i (host_bank),
-    .data_o (host_bank_h)
+  mb4_read_port2 u_read2 (
+    .rclk_i      (rd2_clk_i),
+    .rst_ni      (hrst_ni),
+    .rd_en_i     (rd2_en_i),
+    .rd_data_o   (rd2_data_o),
+    .ram_ready_i (!clear_busy && Port2),
+    .bank_i      (bank_seen),
+    .data_i      (scd2_data)
   );
 
   // ---- memories -----------------------------------------------------------------------------
@@ -172,7 +182,7 @@ module mb4_reg_file (
     .addr_o (clear_addr)
   );
 
-  mb4_scd_store u_scd (
+  mb4_scd_store #(.Port2(Port2)) u_scd (
     .clk_i,
     .rst_ni,
     .slaveloc5_i  (cfg_o.slaveloc5),
@@ -183,12 +193,15 @@ module mb4_reg_file (
     .post_valid_i (post_valid),
     .post_i       (post_data),
     .post_ready_o (ready_scd),
-    .hclk_i,
+    .rclk_i,
     .rd_en_i,
-    .rd_bank_i    (host_bank_h),
     .rd_addr_i    (rd_addr_i[4:0]),
     .rd_lo_data_o (scd_lo_data),
     .rd_hi_data_o (scd_hi_data),
+    .rd2_clk_i,
+    .rd2_en_i,
+    .rd2_addr_i,
+    .rd2_data_o   (scd2_data),
     .svalid_o     (svalid),
     .wr_line_i,
     .wr_byte_i,
@@ -217,7 +230,7 @@ module mb4_reg_file (
     .host_wr_addr_i (post_data[13:8]),
     .host_wr_data_i (post_data[7:0]),
     .host_ready_o   (ready_rdata),
-    .hclk_i,
+    .rclk_i,
     .rd_en_i,
     .rd_addr_i      (rd_addr_i[5:0]),
     .rd_data_o      (rdata_data)
@@ -228,6 +241,7 @@ module mb4_reg_file (
     .rst_ni,
     .singlebank_i   (cfg_o.singlebank),
     .holdbank_i,
+    .kept_i         (bank_kept),
     .swbank_pulse_i,
     .frame_end_i    (bank_end_i),
     .pending_o      (bank_pending_o),

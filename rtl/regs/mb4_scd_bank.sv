@@ -4,11 +4,15 @@
 // Single-cycle data of four slaves in two banks: 2 x 32 bytes (SCDATA1..4 or SCDATA5..8). Two
 // copies with the same contents, one read by the host, one by MO (actuator data).
 //
-// Clock domains: writes in the core clock (see mb4_write_port), host reads in hclk_i (data valid
-// after the edge with rd_en_i), MO's in the core clock (data valid one clock after the address).
+// Clock domains: writes in the core clock (see mb4_write_port), host reads in rclk_i (data valid
+// after the edge with rd_en_i): the bytes of both banks, so that no address depends on which one
+// the host owns. MO reads in the core clock (data valid one clock after the address). With Port2
+// there is one more copy for a second host reader with its own clock.
 // Datasheet: page 26, Table 20.
 
-module mb4_scd_bank (
+module mb4_scd_bank #(
+  parameter bit Port2 = 1'b0
+) (
   input  logic       clk_i,
   // clearing after reset
   input  logic       clear_i,
@@ -26,10 +30,15 @@ module mb4_scd_bank (
   input  logic [7:0] host_wr_data_i,
   output logic       host_ready_o,
   // host read port
-  input  logic       hclk_i,
-  input  logic       rd_en_i,
-  input  logic [5:0] rd_addr_i,
-  output logic [7:0] rd_data_o
+  input  logic        rclk_i,
+  input  logic        rd_en_i,
+  input  logic [4:0]  rd_addr_i,
+  output logic [15:0] rd_data_o,     // bank 1 in the upper byte
+  // second read port
+  input  logic        rd2_clk_i,
+  input  logic        rd2_en_i,
+  input  logic [4:0]  rd2_addr_i,
+  output logic [15:0] rd2_data_o
 );
 
   logic       wr_en;
@@ -51,12 +60,13 @@ module mb4_scd_bank (
     .wr_data_o (wr_data)
   );
 
-  mb4_ram #(.Width(8), .AddrW(6)) u_ram (
+  mb4_ram_pair #(.AddrW(5)) u_ram (
     .wclk_i    (clk_i),
     .wr_en_i   (wr_en),
-    .wr_addr_i (wr_addr),
+    .wr_side_i (wr_addr[5]),
+    .wr_addr_i (wr_addr[4:0]),
     .wr_data_i (wr_data),
-    .rclk_i    (hclk_i),
+    .rclk_i,
     .rd_en_i,
     .rd_addr_i,
     .rd_data_o
@@ -72,5 +82,23 @@ module mb4_scd_bank (
     .rd_addr_i (eng_rd_addr_i),
     .rd_data_o (eng_rd_data_o)
   );
+
+  if (Port2) begin : gen_port2
+    mb4_ram_pair #(.AddrW(5)) u_ram (
+      .wclk_i    (clk_i),
+      .wr_en_i   (wr_en),
+      .wr_side_i (wr_addr[5]),
+      .wr_addr_i (wr_addr[4:0]),
+      .wr_data_i (wr_data),
+      .rclk_i    (rd2_clk_i),
+      .rd_en_i   (rd2_en_i),
+      .rd_addr_i (rd2_addr_i),
+      .rd_data_o (rd2_data_o)
+    );
+  end else begin : gen_no_port2
+    logic unused;
+    assign unused     = ^{rd2_clk_i, rd2_en_i, rd2_addr_i};
+    assign rd2_data_o = '0;
+  end
 
 endmodule

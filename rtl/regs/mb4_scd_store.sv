@@ -4,11 +4,15 @@
 // Sensor data of all eight data channels with their validity flags: lower half SCDATA1..4, upper
 // half SCDATA5..8, two banks each (instances and address decoding only).
 //
-// Clock domains: core; host reads in hclk_i (data valid after the edge with rd_en_i). Bit i of a
-// vector {2, 1} belongs to line i + 1. Host writes and clears act on the host's bank.
+// Clock domains: core; host reads in rclk_i (data valid after the edge with rd_en_i), those of the
+// second port (SCDATA5..8, only with Port2) in rd2_clk_i. Reads give the bytes and flags of both
+// banks, bank 1 above bank 0. Bit i of a vector {2, 1} belongs to line i + 1. Host writes and
+// clears act on the host's bank.
 // Datasheet: pages 26, 35, Tables 20, 61.
 
-module mb4_scd_store (
+module mb4_scd_store #(
+  parameter bit Port2 = 1'b0
+) (
   input  logic       clk_i,
   input  logic       rst_ni,
   input  logic       slaveloc5_i,
@@ -22,13 +26,17 @@ module mb4_scd_store (
   input  logic [15:0] post_i,
   output logic       post_ready_o,    // 1 as well if the byte is not for this module
   // host read port
-  input  logic       hclk_i,
-  input  logic       rd_en_i,
-  input  logic       rd_bank_i,       // host_bank_i in hclk_i
-  input  logic [4:0] rd_addr_i,
-  output logic [7:0] rd_lo_data_o,
-  output logic [7:0] rd_hi_data_o,
-  output logic [7:0] svalid_o,        // of the host's bank
+  input  logic        rclk_i,
+  input  logic        rd_en_i,
+  input  logic [4:0]  rd_addr_i,
+  output logic [15:0] rd_lo_data_o,
+  output logic [15:0] rd_hi_data_o,
+  output logic [15:0] svalid_o,
+  // second host read port
+  input  logic        rd2_clk_i,
+  input  logic        rd2_en_i,
+  input  logic [4:0]  rd2_addr_i,
+  output logic [15:0] rd2_data_o,
   // actuator data for MO of lines {2, 1}: slave and byte, data one clock later
   input  logic        mo_rd_en_i,
   input  logic [11:0] mo_addr_i,
@@ -52,6 +60,8 @@ module mb4_scd_store (
   logic [7:0] lo_wr_data, hi_wr_data;
   logic [4:0] hi_mo_addr;
   logic [7:0] lo_mo_data, hi_mo_data;
+  logic [7:0] svalid_lo, svalid_hi;
+  logic [15:0] rd2_lo_data;
 
   assign post_lo        = post_valid_i && post_i[15:13] == 3'b000;
   assign post_hi        = post_valid_i && post_i[15:13] == 3'b001;
@@ -97,13 +107,17 @@ module mb4_scd_store (
     .host_wr_addr_i ({host_bank_i, post_i[12:8]}),
     .host_wr_data_i (post_i[7:0]),
     .host_ready_o   (ready_lo),
-    .hclk_i,
+    .rclk_i,
     .rd_en_i,
-    .rd_addr_i      ({rd_bank_i, rd_addr_i}),
-    .rd_data_o      (rd_lo_data_o)
+    .rd_addr_i,
+    .rd_data_o      (rd_lo_data_o),
+    .rd2_clk_i      (1'b0),
+    .rd2_en_i       (1'b0),
+    .rd2_addr_i     ('0),
+    .rd2_data_o     (rd2_lo_data)
   );
 
-  mb4_scd_bank u_scd_hi (
+  mb4_scd_bank #(.Port2(Port2)) u_scd_hi (
     .clk_i,
     .clear_i,
     .clear_addr_i,
@@ -117,10 +131,14 @@ module mb4_scd_store (
     .host_wr_addr_i ({host_bank_i, post_i[12:8]}),
     .host_wr_data_i (post_i[7:0]),
     .host_ready_o   (ready_hi),
-    .hclk_i,
+    .rclk_i,
     .rd_en_i,
-    .rd_addr_i      ({rd_bank_i, rd_addr_i}),
-    .rd_data_o      (rd_hi_data_o)
+    .rd_addr_i,
+    .rd_data_o      (rd_hi_data_o),
+    .rd2_clk_i,
+    .rd2_en_i,
+    .rd2_addr_i,
+    .rd2_data_o
   );
 
   // The upper half belongs to one line at a time: to line 2 if it has words there.
@@ -139,7 +157,7 @@ module mb4_scd_store (
     .set_valid_i (word_ok_i[0]),
     .keep_en_i   (post_svalid_lo),
     .keep_i      ({post_i[7], post_i[5], post_i[3], post_i[1]}),
-    .svalid_o    (svalid_o[3:0])
+    .svalid_o    (svalid_lo)
   );
 
   mb4_svalid u_svalid_hi (
@@ -153,7 +171,13 @@ module mb4_scd_store (
     .set_valid_i (slaveloc5_i ? word_ok_i[1] : word_ok_i[0]),
     .keep_en_i   (post_svalid_hi),
     .keep_i      ({post_i[7], post_i[5], post_i[3], post_i[1]}),
-    .svalid_o    (svalid_o[7:4])
+    .svalid_o    (svalid_hi)
   );
+
+  assign svalid_o = {svalid_hi[7:4], svalid_lo[7:4], svalid_hi[3:0], svalid_lo[3:0]};
+
+  // The lower half has no second reader.
+  logic unused;
+  assign unused = ^rd2_lo_data;
 
 endmodule

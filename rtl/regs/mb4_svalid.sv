@@ -6,8 +6,8 @@
 // Clock domain: core. The line engine writes the flag of its bank, the host clears flags of its
 // own bank: writing 0 clears, 1 has no effect (decision 18). A flag falls when the first bit of a
 // new word arrives, so that half-written data are never called valid. With one bank both act on
-// the same flags; the engine wins if both meet in one clock. The output follows one clock later,
-// without glitches.
+// the same flags; the engine wins if both meet in one clock. The outputs are flops; which bank the
+// host sees is decided where it reads.
 // Datasheet: page 35, Table 61.
 
 module mb4_svalid (
@@ -23,14 +23,13 @@ module mb4_svalid (
   // host: bits that are 0 clear
   input  logic       keep_en_i,
   input  logic [3:0] keep_i,
-  output logic [3:0] svalid_o
+  output logic [7:0] svalid_o    // bank 1 in the upper half
 );
 
   logic [3:0] bank0_q;
   logic [3:0] bank1_q;
   logic [3:0] bank0_d;
   logic [3:0] bank1_d;
-  logic [3:0] host_q;
 
   always_comb begin
     bank0_d = bank0_q;
@@ -49,14 +48,12 @@ module mb4_svalid (
     if (!rst_ni) begin
       bank0_q <= '0;
       bank1_q <= '0;
-      host_q  <= '0;
     end else begin
       bank0_q <= bank0_d;
       bank1_q <= bank1_d;
-      host_q  <= host_bank_i ? bank1_q : bank0_q;
     end
   end
 
-  assign svalid_o = host_q;
+  assign svalid_o = {bank1_q, bank0_q};
 
 endmodule

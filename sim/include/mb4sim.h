@@ -9,8 +9,8 @@
  * then on, mb4sim_spi_transfer() and mb4sim_pin_write() return MB4SIM_ERROR_STOPPED,
  * mb4sim_spi_byte() returns 0. The same with MB4SIM_ERROR_FAILED, also from
  * mb4sim_slave_set_data() and mb4sim_slave_reg_write(), when a call runs out of memory or fails in
- * another unforeseen way. One exception: the TOML parser ends the process when memory runs out while
- * a scenario is opened.
+ * another unforeseen way. One exception: the TOML parser ends the process when memory runs out
+ * while a scenario is opened.
  */
 #ifndef MB4SIM_H_
 #define MB4SIM_H_
@@ -36,7 +36,8 @@ enum {
   MB4SIM_ERROR_VALUE = -2,   /* level not 0 or 1; word longer than the slave's data */
   MB4SIM_ERROR_DRIVEN = -3,  /* the pin is an output or driven by the simulation */
   MB4SIM_ERROR_STOPPED = -4, /* an assertion in the chip's RTL has failed */
-  MB4SIM_ERROR_FAILED = -5   /* out of memory or another failure; only closing is left */
+  MB4SIM_ERROR_FAILED = -5,  /* out of memory or another failure; only closing is left */
+  MB4SIM_ERROR_HOST = -6     /* SPI with a scenario whose host is on the parallel bus */
 };
 
 /* Opens a simulator from the TOML text of a scenario (sim/README.md). Files that it names are
@@ -53,8 +54,8 @@ MB4SIM_API mb4sim *mb4sim_open_file(const char *path, char *error, size_t error_
 MB4SIM_API void mb4sim_close(mb4sim *sim);
 
 /* One SPI frame: NCS low, n bytes full duplex at the scenario's sclk_hz, NCS high. rx may be NULL.
- * Simulated time advances by its real duration. While NCS is low after mb4sim_spi_select(sim, 1) the
- * n bytes continue that frame, and it ends with them. 0 or a negative error. */
+ * Simulated time advances by its real duration. While NCS is low after mb4sim_spi_select(sim, 1)
+ * the n bytes continue that frame, and it ends with them. 0 or a negative error. */
 MB4SIM_API int mb4sim_spi_transfer(mb4sim *sim, const uint8_t *tx, uint8_t *rx, size_t n);
 
 /* The same byte by byte: active != 0 pulls NCS low. */

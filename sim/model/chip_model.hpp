@@ -52,6 +52,8 @@ class ChipModel {
   virtual unsigned half_clocks() const = 0;
   // Shortest period that the system clock can have had so far, ps; 0 = unknown.
   virtual Time min_clock() const = 0;
+  // CFGIF makes the pins of line 2 the inverse ones of line 1.
+  virtual bool paired() const = 0;
   // Levels outside the chip for the waveform: MA at the slaves (bit n = channel n + 1), SLO and
   // idle of the slaves (bit n = slave n + 1). No effect without a trace.
   virtual void set_probes(Time now, unsigned ma, unsigned slo, unsigned idle) = 0;

@@ -15,8 +15,9 @@ struct Inside {
     return model.rootp->mb4_chip__DOT__clkeni != 0;
   }
   static bool clk(const Vmb4_chip& model) { return model.rootp->mb4_chip__DOT__clk != 0; }
+  static bool paired(const Vmb4_chip& model) { return model.rootp->mb4_chip__DOT__paired != 0; }
   static unsigned half_clocks(const Vmb4_chip& model) {
-    return model.rootp->mb4_chip__DOT__u_core__DOT__u_engine__DOT__u_channels__DOT__u_lines__DOT__u_timebase__DOT__len_q;
+    return model.rootp->mb4_chip__DOT__u_engine__DOT__u_channels__DOT__u_lines__DOT__u_timebase__DOT__len_q;
   }
 };
 

@@ -24,9 +24,12 @@ struct Inside {
   static bool clk(const Vmb4_chip_trace& model) {
     return model.rootp->mb4sim_trace_top__DOT__u_chip__DOT__clk != 0;
   }
+  static bool paired(const Vmb4_chip_trace& model) {
+    return model.rootp->mb4sim_trace_top__DOT__u_chip__DOT__paired != 0;
+  }
   static unsigned half_clocks(const Vmb4_chip_trace& model) {
     return model.rootp
-        ->mb4sim_trace_top__DOT__u_chip__DOT__u_core__DOT__u_engine__DOT__u_channels__DOT__u_lines__DOT__u_timebase__DOT__len_q;
+        ->mb4sim_trace_top__DOT__u_chip__DOT__u_engine__DOT__u_channels__DOT__u_lines__DOT__u_timebase__DOT__len_q;
   }
 };
 

@@ -26,7 +26,7 @@ struct NoTrace {
 };
 
 // `Inside` looks into the model (public.vlt): whether the internal oscillator is selected (CLKENI),
-// the system clock, and half a period of MA in clocks.
+// the system clock, half a period of MA in clocks, and whether the pins of the lines are paired.
 template <typename Model, typename Trace, typename Inside>
 class VerilatedChip final : public ChipModel {
  public:
@@ -70,6 +70,13 @@ class VerilatedChip final : public ChipModel {
     // values. The synchronised reset of the core has no edge if it came up asserted: a few clocks
     // before the reset let it go. Random values are no state that an assertion could judge.
     context_->assertOn(false);
+    // Both serial interfaces selected, after an edge of their NCS: they have a reset of their own.
+    model_->nwr_e_i = 0;
+    for (const bool selected : {false, true}) {
+      model_->ncs_i = selected ? 0 : 1;
+      model_->db_i = selected ? 0x00 : kNcs2;
+      model_->eval();
+    }
     for (unsigned i = 0; i < kConditioningEdges; ++i) {
       model_->clk_i = model_->osc_i = (i % 2 == 0) ? 1 : 0;
       model_->eval();
@@ -78,6 +85,8 @@ class VerilatedChip final : public ChipModel {
     evaluate(0);
     model_->nres_i = 0;
     model_->npor_i = 0;
+    evaluate(0);
+    model_->nwr_e_i = 1;
     model_->ncs_i = 1;
     evaluate(0);
     // The end of power-on; NRES goes on.
@@ -180,6 +189,7 @@ class VerilatedChip final : public ChipModel {
   std::uint64_t cycles() const override { return cycles_; }
   unsigned half_clocks() const override { return Inside::half_clocks(*model_); }
   Time min_clock() const override { return min_clock_; }
+  bool paired() const override { return Inside::paired(*model_); }
   void set_probes(Time now, unsigned ma, unsigned slo, unsigned idle) override {
     if constexpr (kTraced) {
       model_->slaves_ma_i = static_cast<CData>(ma);
@@ -197,6 +207,7 @@ class VerilatedChip final : public ChipModel {
   static constexpr unsigned kOscTail = 8;
   // Enough for the clock switch to settle from any state and for the reset synchroniser.
   static constexpr unsigned kConditioningEdges = 32;
+  static constexpr CData kNcs2 = 0x10;  // DB4
 
   void evaluate(Time now) {
     context_->time(now);

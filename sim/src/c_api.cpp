@@ -87,6 +87,7 @@ void mb4sim_close(mb4sim* sim) { delete sim; }
 int mb4sim_spi_transfer(mb4sim* sim, const uint8_t* tx, uint8_t* rx, size_t n) {
   if (tx == nullptr && n != 0) return MB4SIM_ERROR_UNKNOWN;
   return guarded(sim, [&](Simulator& simulator) {
+    if (simulator.scenario().host.parallel()) return int{MB4SIM_ERROR_HOST};
     simulator.spi().transfer(std::span(tx, n), std::span(rx, rx == nullptr ? 0 : n));
     return 0;
   });

@@ -25,7 +25,8 @@ constexpr std::int64_t kMaxOscHz = 25'000'000;
 constexpr std::int64_t kMinSclkHz = 1'000;
 constexpr std::int64_t kMaxSclkHz = 50'000'000;  // I203, I204: 10 ns each
 constexpr unsigned kSlavesOfOneOfTwoChannels = 4;
-constexpr const char* kNotSupported = " is not supported in this version";
+constexpr std::int64_t kMinCycleNs = 110;  // 15 + 15 + 54 + 25 ns of a read
+constexpr std::int64_t kMaxCycleNs = 1'000'000;
 
 // Bits of quirks_i, as in mb4_pkg.
 constexpr std::pair<const char*, unsigned> kQuirkBits[] = {{"IDA_TEST_INVERT", 0},
@@ -74,12 +75,17 @@ ChipConfig read_chip(const toml::table& table, const std::string& file) {
 HostConfig read_host(const toml::table& table, const std::string& file, const ChipConfig& chip) {
   TomlReader reader(table, file);
   HostConfig host;
-  if (const auto which = reader.choice("interface", {"spi", "intel", "motorola"});
-      which.value_or(0) != 0) {
-    reader.fail("interface", *reader.text("interface") + kNotSupported);
+  if (const auto which = reader.choice("interface", {"spi", "spi2", "intel", "motorola"})) {
+    host.interface = static_cast<HostInterface>(*which);
   }
   if (const auto hz = reader.integer("sclk_hz", kMinSclkHz, kMaxSclkHz)) {
-    host.sclk_hz = static_cast<std::uint64_t>(*hz);
+    host.sclk_hz = host.sclk2_hz = static_cast<std::uint64_t>(*hz);
+  }
+  if (const auto hz = reader.integer("sclk2_hz", kMinSclkHz, kMaxSclkHz)) {
+    host.sclk2_hz = static_cast<std::uint64_t>(*hz);
+  }
+  if (const auto ns = reader.integer("cycle_ns", kMinCycleNs, kMaxCycleNs)) {
+    host.cycle = static_cast<Time>(*ns) * kPsPerNs;
   }
   host.ma_hz = default_ma_frequency(chip.system_hz());
   if (const auto hz = reader.integer("ma_hz", 1, kMaxClkHz)) {

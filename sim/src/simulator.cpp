@@ -47,10 +47,16 @@ Simulator::Simulator(const Scenario& scenario, const SimulatorOptions& options)
     : scenario_(scenario),
       seed_(options.seed.value_or(scenario.seed)),
       sl_pins_{SlPin{this, Pin::kSl1}, SlPin{this, Pin::kSl2}},
-      spi_(*this, SpiTiming::for_frequency(scenario.host.sclk_hz)) {
+      spi_(*this, SpiTiming::for_frequency(scenario.host.sclk_hz)),
+      spi2_(*this, SpiTiming::for_frequency(scenario.host.sclk2_hz), kSpi2Pins),
+      bus_(*this,
+           scenario.host.interface == HostInterface::kMotorola ? ParallelMode::kMotorola
+                                                               : ParallelMode::kIntel,
+           ParallelTiming::for_cycle(scenario.host.cycle)) {
   const std::uint64_t chip_seed = derive_seed(seed_, kChipSeed);
   for (const Pin pin : {Pin::kNcs, Pin::kNrdRnw, Pin::kNwrE, Pin::kCfgspi, Pin::kSl1, Pin::kSl2}) {
     levels_[index_of(pin)] = true;
+    host_check_.edge(0, pin, true);
   }
   for (const ChannelConfig& channel : scenario_.channels) {
     const std::size_t index = channel.number - 1;
@@ -76,12 +82,22 @@ Simulator::Simulator(const Scenario& scenario, const SimulatorOptions& options)
   // MA and MO rest at 1 and 0 for the lines; whatever else the chip says now is a change.
   seen_ = ChipModel::kMa1 | ChipModel::kMa2;
   settle();
+  set_straps();
   run_until(kResetLow);
   set_pin(Pin::kNres, true);
   run_until(kReady);
 }
 
 Simulator::~Simulator() = default;
+
+void Simulator::set_straps() {
+  if (scenario_.host.parallel()) {
+    bus_.rest();
+  } else if (scenario_.host.interface == HostInterface::kSpi2) {
+    set_pin(Pin::kDb4, true);  // NCS of SPI2
+    set_pin(Pin::kNwrE, false);
+  }
+}
 
 void Simulator::check_alive() const {
   if (stopped_) throw ModelStopped(*stopped_);
@@ -141,6 +157,14 @@ void Simulator::drive_chip(Pin pin, bool level) {
 }
 
 void Simulator::check_ma(std::size_t index, bool level) {
+  // A pin that follows MA1 has no pulses of its own, nor has the change from or to it.
+  if (index == 1) {
+    const bool was_paired = std::exchange(paired_, chip_->paired());
+    if (paired_ || was_paired) {
+      ma_checks_[index].restart(level);
+      return;
+    }
+  }
   const auto violation = ma_checks_[index].edge(now_, level, chip_->cycles(), chip_->half_clocks(),
                                                 chip_->min_clock());
   if (violation) throw ModelStopped("MA" + std::to_string(index + 1) + ": " + *violation);
@@ -213,6 +237,7 @@ void Simulator::set_pin(Pin pin, bool level) {
     }
     if (levels_[index_of(pin)] == level) return;
     levels_[index_of(pin)] = level;
+    host_check_.edge(now_, pin, level);
     drive_chip(pin, level);
   } catch (const ModelStopped& error) {
     stopped_ = error;

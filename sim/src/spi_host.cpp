@@ -33,11 +33,11 @@ void SpiHost::select(bool active) {
     }
     bytes_in_frame_ = 0;
     last_falling_ = pins_.now();
-    pins_.set_pin(Pin::kNcs, false);
+    pins_.set_pin(wires_.ncs, false);
   } else {
     pins_.run_until(std::max(pins_.now(), last_falling_ + timing_.ncs_hold));
-    pins_.set_pin(Pin::kNcs, true);
-    pins_.set_pin(Pin::kDb0, false);
+    pins_.set_pin(wires_.ncs, true);
+    pins_.set_pin(wires_.mosi, false);
     deselected_at_ = pins_.now();
     deselected_once_ = true;
   }
@@ -51,13 +51,13 @@ std::uint8_t SpiHost::byte(std::uint8_t mosi) {
   for (unsigned bit = 8; bit-- > 0;) {
     // MOSI changes after the falling edge of SCLK; the chip takes it, and the host takes MISO, at
     // the rising edge.
-    pins_.set_pin(Pin::kDb0, ((mosi >> bit) & 1U) != 0);
+    pins_.set_pin(wires_.mosi, ((mosi >> bit) & 1U) != 0);
     const bool first = bytes_in_frame_ == 0 && bit == 7;
     wait(first ? std::max(timing_.sclk_low, timing_.ncs_setup) : timing_.sclk_low);
-    miso = (miso << 1U) | (pins_.pin(Pin::kDb1) ? 1U : 0U);
-    pins_.set_pin(Pin::kAle, true);
+    miso = (miso << 1U) | (pins_.pin(wires_.miso) ? 1U : 0U);
+    pins_.set_pin(wires_.sclk, true);
     wait(stretch && bit == 0 ? timing_.sclk_high_address : timing_.sclk_high);
-    pins_.set_pin(Pin::kAle, false);
+    pins_.set_pin(wires_.sclk, false);
   }
   last_falling_ = pins_.now();
   ++bytes_in_frame_;

@@ -74,6 +74,45 @@ TEST(PostedBlock, HostBytesOf160nsAndAnyCoreClock_NoneIsLostOrDoubled) {
   }
 }
 
+// The queue holds 128 bytes while the core clock stands still; they come in order when it runs.
+TEST(PostedBlock, CoreClockStandsStill_128BytesWaitAndNoneIsLost) {
+  mb4test::Owned<Vmb4_posted> owner;
+  Vmb4_posted& posted = *owner;
+  posted.hclk_i = posted.clk_i = 0;
+  posted.wr_en_i = 0;
+  posted.ready_i = 1;
+  for (const int level : {1, 0, 1}) {
+    posted.hrst_ni = posted.rst_ni = static_cast<std::uint8_t>(level);
+    posted.eval();
+  }
+  std::vector<std::uint16_t> sent, received;
+  const auto core_clock = [&] {
+    posted.eval();
+    if (posted.valid_o != 0 && posted.ready_i != 0) received.push_back(posted.data_o);
+    posted.clk_i = 1;
+    posted.eval();
+    posted.clk_i = 0;
+    posted.eval();
+  };
+  for (unsigned round = 0; round < 5; ++round) {
+    for (unsigned i = 0; i < 128; ++i) {
+      posted.wr_en_i = 1;
+      posted.wr_data_i = static_cast<std::uint16_t>(round * 1000 + i);
+      sent.push_back(posted.wr_data_i);
+      posted.hclk_i = 1;
+      posted.eval();
+      posted.hclk_i = 0;
+      posted.wr_en_i = 0;
+      posted.eval();
+    }
+    for (unsigned i = 0; i < 400; ++i) {
+      posted.ready_i = i % 3 != 0;  // the engine takes its turn
+      core_clock();
+    }
+    ASSERT_EQ(received, sent) << "round " << round;
+  }
+}
+
 // Page 23, decision 32: no pulse shorter than half a period of the clock it belongs to.
 TEST(ClockMuxBlock, SwitchingAtAnyPhase_NoShortPulse) {
   const std::uint64_t half0 = 25'000;
@@ -131,6 +170,57 @@ TEST(ClockMuxBlock, FirstClockNeverToggles_SecondCanBeChosen) {
     if (mux.clk_o != 0 && before == 0) ++rises;
   }
   EXPECT_GE(rises, 16U);
+}
+
+// A pin CLK that stops after it has run, low or high, is given up; when it comes back it can be
+// chosen again, and no pulse is short.
+TEST(ClockMuxBlock, FirstClockStopsAfterItHasRun_SecondCanBeChosen) {
+  for (const int rest : {0, 1}) {
+    mb4test::Owned<Vmb4_clk_mux> owner;
+    Vmb4_clk_mux& mux = *owner;
+    mux.clk0_i = mux.clk1_i = 0;
+    mux.sel_i = 0;
+    reset(mux);
+    std::uint64_t now = 0, last_change = 0;
+    unsigned rises = 0;
+    int level = 0;
+    const auto eval = [&] {
+      mux.eval();
+      if (mux.clk_o == level) return;
+      if (rises > 0) {
+        EXPECT_GE(now - last_change, 20'000U) << now << " rest " << rest;
+      }
+      level = mux.clk_o;
+      last_change = now;
+      rises += level != 0 ? 1U : 0U;
+    };
+    // Half periods: 25 ns of the pin, 20 ns of the oscillator, which runs all the time.
+    const auto run = [&](std::uint64_t until, bool pin_runs) {
+      while (now < until) {
+        now += 5'000;
+        if (now % 20'000 == 0) mux.clk1_i = !mux.clk1_i;
+        if (pin_runs && now % 25'000 == 0) mux.clk0_i = !mux.clk0_i;
+        eval();
+      }
+    };
+    run(2'000'000, true);
+    EXPECT_GE(rises, 35U);
+    while (mux.clk0_i != rest) run(now + 5'000, true);
+    run(now + 1'000'000, false);
+    const unsigned before = rises;
+    mux.sel_i = 1;
+    run(now + 20'000'000, false);
+    EXPECT_EQ(rises, before) << "the pin may only be slow";
+    run(now + 60'000'000, false);
+    EXPECT_GE(rises, before + 300U) << "rest " << rest;
+    mux.sel_i = 0;
+    run(now + 1'000'000, false);
+    const unsigned stopped = rises;
+    run(now + 1'000'000, false);
+    EXPECT_EQ(rises, stopped);
+    run(now + 1'000'000, true);
+    EXPECT_GE(rises, stopped + 15U) << "the pin is back";
+  }
 }
 
 }  // namespace

@@ -61,7 +61,8 @@ std::uint64_t word_of(const sim::BissCSlaveConfig& config, std::uint64_t frame, 
 // A chip with these channels' slaves set up by hand; FREQAGS = AGSMIN.
 class ChainBench {
  public:
-  explicit ChainBench(const sim::Scenario& scenario) : simulator(scenario), scenario_(scenario) {
+  explicit ChainBench(const sim::Scenario& scenario)
+      : simulator(mb4test::with_test_host(scenario)), scenario_(scenario) {
     const bool two = scenario.channel(2) != nullptr;
     for (const sim::ChannelConfig& channel : scenario.channels) {
       unsigned x = channel.number == 1 ? 0 : 4;
@@ -80,7 +81,7 @@ class ChainBench {
 
   std::vector<std::uint8_t> spi(const std::vector<std::uint8_t>& tx) {
     std::vector<std::uint8_t> rx(tx.size());
-    simulator.spi().transfer(tx, rx);
+    bus.transfer({tx.data(), tx.size()}, {rx.data(), rx.size()});
     return rx;
   }
 
@@ -131,6 +132,7 @@ class ChainBench {
   }
 
   sim::Simulator simulator;
+  mb4::tool::SimBus bus{simulator};
 
  private:
   sim::Scenario scenario_;

@@ -2,9 +2,11 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Whole-chip tests: the Verilated chip behind its pins, a scenario of slaves, the driver over the
-// simulated SPI port.
+// simulated SPI port or parallel bus (test_host.hpp).
 #ifndef MB4_TESTS_CHIP_CHIP_FIXTURE_HPP_
 #define MB4_TESTS_CHIP_CHIP_FIXTURE_HPP_
+
+#include <gtest/gtest.h>
 
 #include <cstdint>
 #include <initializer_list>
@@ -16,24 +18,32 @@
 #include "mb4sim/scenario.hpp"
 #include "mb4sim/simulator.hpp"
 #include "sim_bus.hpp"
+#include "test_host.hpp"
 
 namespace mb4test {
 
 namespace sim = mb4::sim;
 
-// A chip with whatever scenario text says, and raw register access over SPI.
+// A chip with whatever scenario text says, and raw register access over its host.
 class Chip {
  public:
   explicit Chip(const std::string& scenario)
-      : simulator(sim::parse_scenario(scenario, "test.toml")),
+      : simulator(with_test_host(sim::parse_scenario(scenario, "test.toml"))),
         bus(simulator),
         clock(simulator),
         device(bus, clock) {}
 
-  // One SPI frame; returns the MISO bytes.
+  // No host model breaks the datasheet's timing.
+  ~Chip() {
+    for (const auto& violation : simulator.host_check().violations()) {
+      ADD_FAILURE() << violation.text;
+    }
+  }
+
+  // One SPI frame, or bus cycles that do the same; returns the MISO bytes.
   std::vector<std::uint8_t> spi(std::vector<std::uint8_t> tx) {
     std::vector<std::uint8_t> rx(tx.size());
-    simulator.spi().transfer(tx, rx);
+    bus.transfer({tx.data(), tx.size()}, {rx.data(), rx.size()});
     return rx;
   }
   void write(std::uint8_t address, std::initializer_list<std::uint8_t> bytes) {

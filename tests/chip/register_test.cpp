@@ -72,6 +72,7 @@ TEST(ChipRegisters, AfterReset_EveryAddressReadsItsResetValue) {
 
 TEST(ChipRegisters, WrittenBits_ReadBackAndReservedOnesReadZero) {
   Chip chip("");
+  chip.advance_us(4);  // the memories are cleared
   for (unsigned address = 0; address < 256; ++address) {
     if (address == 0xF4 || address == 0xF5) continue;  // instructions and clock: tests of their own
     for (const int pattern : {0xFF, 0x5A, 0xA5, 0x00}) {
@@ -291,6 +292,7 @@ TEST(ChipBanks, TwoLines_UnequalLengthsEndTogether) {
 // Table 49: each change of SWBANK swaps once; the same value again does nothing.
 TEST(ChipBanks, SwBank_EveryChangeSwapsOnce) {
   Chip chip("");
+  chip.advance_us(4);  // the memories are cleared
   chip.write(0x00, {0xAA});
   chip.instruct(0x20);
   chip.advance_us(1);
@@ -331,12 +333,12 @@ TEST(ChipReset, NresInAFrame_EverythingReadsItsResetValue) {
   chip.advance_us(2);
   chip.simulator.set_pin(sim::Pin::kNres, false);
   chip.simulator.advance(250 * sim::kPsPerNs);
-  EXPECT_TRUE(chip.simulator.pin(sim::Pin::kMa1));
   EXPECT_TRUE(chip.simulator.pin(sim::Pin::kEot));
   chip.simulator.set_pin(sim::Pin::kNres, true);
   // At once: the memories are still being cleared, the host reads 0 all the same.
   EXPECT_EQ(chip.spi({0x09, 0, 0, 0, 0}), (std::vector<std::uint8_t>{0, 0, 0, 0, 0}));
   chip.advance_us(40);
+  EXPECT_TRUE(chip.simulator.pin(sim::Pin::kMa1));
   const auto values = chip.read(0x00, 256);
   for (unsigned address = 0; address < 256; ++address) {
     EXPECT_EQ(values[address], table6(address).fixed) << std::hex << address;

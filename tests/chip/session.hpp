@@ -14,6 +14,8 @@
 
 #include "mb4sim/scenario.hpp"
 #include "mb4sim/simulator.hpp"
+#include "sim_bus.hpp"
+#include "test_host.hpp"
 
 namespace mb4test {
 
@@ -39,7 +41,7 @@ class Session {
   // --- what a line of the script can do -------------------------------------------------------
   std::vector<std::uint8_t> spi(const std::vector<std::uint8_t>& tx) {
     std::vector<std::uint8_t> rx(tx.size());
-    simulator_.spi().transfer(tx, rx);
+    bus_.transfer({tx.data(), tx.size()}, {rx.data(), rx.size()});
     script_ << hex(tx) << "\n";
     answers_ += hex(rx) + "\n";
     return rx;
@@ -100,7 +102,7 @@ class Session {
       for (const std::uint64_t word : words) file << "0x" << std::hex << word << "\n";
     }
     const auto path = folder / "scenario.toml";
-    std::ofstream(path) << scenario.text;
+    std::ofstream(path) << with_test_host(scenario.text);
     return mb4::sim::load_scenario(path.string());
   }
   static std::string hex(const std::vector<std::uint8_t>& bytes) {
@@ -116,6 +118,7 @@ class Session {
 
   std::filesystem::path folder_;
   mb4::sim::Simulator simulator_;
+  mb4::tool::SimBus bus_{simulator_};
   std::ostringstream script_;
   std::string answers_;
 };

@@ -46,6 +46,7 @@ void configure_two_lines(Chip& chip) {
 TEST(ChipStatus, Eot_IsZeroDuringFramesAndInitAndEqualsThePin) {
   Chip chip(one_slave(kEncoder26));
   chip.simulator.spi().set_timing(sim::SpiTiming::for_frequency(50'000'000));
+  chip.simulator.bus().set_timing({});
   chip.configure_slave1(28, 0x06, 0x03, kAgsmin);
   for (const unsigned instruction : {0x04U, 0x10U}) {
     EXPECT_EQ(chip.status() & 0x01, 0x01);

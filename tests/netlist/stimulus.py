@@ -134,8 +134,16 @@ def spi_bytes(steps, values, between=lambda steps: None):
     steps.step(cs_ni=1)
 
 
+def select(steps):
+    """NCS falls after the last reset, so that the frame's own reset has an edge in the next."""
+    steps.step(rst_ni=0, cs_ni=1)
+    steps.step(rst_ni=1)
+    steps.step(cs_ni=0)
+
+
 def spi(steps):
-    steps.reset(["rst_ni"])  # selected, so that the frame's reset has an edge
+    select(steps)
+    steps.reset(["rst_ni"])
     steps.step(cs_ni=1)
 
     def between(steps):
@@ -171,14 +179,28 @@ def scd_bank(steps):
         steps.step(clear_addr_i=address)
         steps.clock("clk_i")
     steps.step(clear_i=0, rd_en_i=1, eng_rd_en_i=1)
-    steps.clock("hclk_i")
+    steps.clock("rclk_i")
     steps.clock("clk_i")
     steps.compare_from = len(steps.steps)
     few = {port: rarely(port, 0.6, lambda s: s.rng.getrandbits(3) * 9) for port in
            ("clear_addr_i", "eng_wr_addr_i", "host_wr_addr_i", "rd_addr_i",
             "eng_rd_addr_i")}
+    few["rd_addr_i"] = rarely("rd_addr_i", 0.6, lambda s: s.rng.getrandbits(2) * 9)
     # A write and a read of one address never share a clock edge: which byte is read is left open.
-    play(steps, ["clk_i", "hclk_i"], [], 6000, dict(few, clear_i=0.05), one_clock=True)
+    play(steps, ["clk_i", "rclk_i"], [], 6000, dict(few, clear_i=0.05), one_clock=True)
+
+
+def posted(steps):
+    """The data output is unknown until the first byte has come."""
+    steps.reset(["hrst_ni", "rst_ni"])
+    steps.step(wr_en_i=1, wr_data_i=0x1234)
+    steps.clock("hclk_i")
+    steps.step(wr_en_i=0)
+    for _ in range(5):
+        steps.clock("clk_i")
+    steps.compare_from = len(steps.steps)
+    play(steps, ["hclk_i", "clk_i"], ["hrst_ni", "rst_ni"], 6000, {"wr_en_i": 0.2},
+         reset_rate=0.0, one_clock=True)
 
 
 def rx_word(steps):
@@ -303,6 +325,7 @@ def core(steps):
     rng = steps.rng
     # Selected and with clocks before, so that the derived resets have an edge.
     steps.step(sl1_i=1, sl2_i=1, ner_i=1, quirks_i=4, rst_ni=1, por_ni=1)
+    select(steps)
     for _ in range(3):
         steps.clock("clk_i")
     steps.reset(["rst_ni", "por_ni"])
@@ -364,13 +387,17 @@ HOST = (["hclk_i"], ["rst_ni"])
 MODULES = {
     "mb4_clk_mux": simple(["clk0_i", "clk1_i"], ["rst_ni"], 4000,
                           {"sel_i": rarely("sel_i", 0.02)}),
-    "mb4_posted": simple(["hclk_i", "clk_i"], ["hrst_ni", "rst_ni"], 6000, {"wr_en_i": 0.2}),
+    "mb4_posted": posted,
     "mb4_scd_bank": scd_bank,
     "mb4_spi": spi,
+    "mb4_spi2": spi,
+    "mb4_par_bus": simple(["ale_i", "nrd_rnw_i", "nwr_e_i"], ["rst_ni"], 4000, {
+        "enable_i": rarely("enable_i", 0.02), "int_nmot_i": rarely("int_nmot_i", 0.02),
+        "cs_ni": 0.2}),
     "mb4_cfg_regs": simple(*HOST, 6000, host("wr_addr_i", "rd_addr_i"), hold=0.2),
     "mb4_instr_reg": simple(*HOST, 4000, {"wr_addr_i": rarely("wr_addr_i", 0.5,
                             lambda s: 0xF4 ^ (int(s.chance(0.3)) << s.rng.randrange(8)))}),
-    "mb4_host_read": simple(*HOST, 6000, host("rd_addr_i")),
+    "mb4_host_read": simple(["rclk_i"], ["rst_ni"], 6000, host("rd_addr_i")),
     "mb4_bank_ctrl": simple(*CORE, 4000, {"frame_end_i": 0.2, "swbank_pulse_i": 0.1}),
     "mb4_crc_decode": crc_decode,
     "mb4_word_list": simple(*CORE, 6000, {
@@ -433,4 +460,5 @@ CONSTANT = {
     "mb4_crc_decode": [f"crc_poly_o[{i}]" for i in POLY] + [f"crc_top_o[{i}]" for i in TOP],
     "mb4_word_list": [f"word_o[{36 + i}]" for i in POLY] + [f"word_o[{20 + i}]" for i in TOP],
     "mb4_sequencer": ["held_o[7]"],  # BREAK never reads 1
+    "mb4_scd_bank": [f"rd2_data_o[{i}]" for i in range(16)],  # Port2 = 0
 }

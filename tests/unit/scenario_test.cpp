@@ -54,6 +54,21 @@ registers = { 0x44 = [0x00, 0xD9, 0x01, 0x32] }
   EXPECT_EQ(scenario.channels[0].slaves[0].registers.at(0x47), 0x32);
 }
 
+TEST(Scenario, HostInterfaces_AreReadWithTheirKeys) {
+  const auto host = [](const std::string& keys) {
+    return parse_scenario("[host]\n" + keys, "s").host;
+  };
+  EXPECT_EQ(host("").interface, HostInterface::kSpi);
+  EXPECT_EQ(host("interface = \"spi2\"\nsclk_hz = 5_000_000").interface, HostInterface::kSpi2);
+  EXPECT_EQ(host("sclk_hz = 5_000_000").sclk2_hz, 5'000'000U);
+  EXPECT_EQ(host("sclk_hz = 5_000_000\nsclk2_hz = 20_000_000").sclk2_hz, 20'000'000U);
+  EXPECT_EQ(host("interface = \"intel\"").interface, HostInterface::kIntel);
+  EXPECT_EQ(host("interface = \"intel\"").cycle, 1000 * kPsPerNs);
+  EXPECT_EQ(host("interface = \"motorola\"\ncycle_ns = 110").cycle, 110 * kPsPerNs);
+  EXPECT_TRUE(host("interface = \"motorola\"").parallel());
+  EXPECT_FALSE(host("interface = \"spi2\"").parallel());
+}
+
 TEST(Scenario, CableLength_Is5Point3NanosecondsPerMetreEachWay) {
   const Scenario scenario = parse_scenario("[[channel]]\nnumber = 1\ncable_m = 10.0\n", "s");
   EXPECT_EQ(scenario.channels[0].delay, 106'000U);
@@ -164,11 +179,11 @@ INSTANTIATE_TEST_SUITE_P(
                     "s.toml:2:19: key 'IDA_TEST_INVERT': expected true or false, found an integer"},
         BadScenario{"Revision", "[chip.quirks]\nREVISION = 0x21\n",
                     "s.toml:2:12: key 'REVISION': expected 0x20 (Y), 0x10 (Z) or 0x11 (Z1)"},
-        BadScenario{"Intel", "[host]\ninterface = \"intel\"\n",
-                    "s.toml:2:13: key 'interface': intel is not supported in this version"},
+        BadScenario{"CycleNs", "[host]\ncycle_ns = 109\n",
+                    "s.toml:2:12: key 'cycle_ns': 109 is outside 110 to 1000000"},
         BadScenario{"Interface", "[host]\ninterface = \"i2c\"\n",
                     "s.toml:2:13: key 'interface': unknown value 'i2c', expected one of: spi, "
-                    "intel, motorola"},
+                    "spi2, intel, motorola"},
         BadScenario{"Sclk", "[host]\nsclk_hz = 60_000_000\n",
                     "s.toml:2:11: key 'sclk_hz': 60000000 is outside 1000 to 50000000"},
         BadScenario{"Ma", "[host]\nma_hz = 4_000_000\n",
@@ -274,7 +289,7 @@ INSTANTIATE_TEST_SUITE_P(
         BadScenario{
             "ControlCharacters", "[host]\ninterface = \"\\u001B\\u0000\\u0085\\r\"\n",
             "s.toml:2:13: key 'interface': unknown value '\\x1b\\x00\\x85\\r', expected one "
-            "of: spi, intel, motorola"},
+            "of: spi, spi2, intel, motorola"},
         BadScenario{"ControlCharactersInKey", "\"a\\n\\u0007\" = 1\n",
                     "s.toml:1:1: key 'a\\n\\x07': unknown key"},
         BadScenario{"NulInFileName",

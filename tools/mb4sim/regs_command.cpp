@@ -25,7 +25,7 @@ using Dump = std::array<std::uint8_t, kRegisters>;
 Dump read_all(sim::Simulator& simulator) {
   std::array<std::uint8_t, kRegisters + 2> tx{0x03, 0x00};
   std::array<std::uint8_t, kRegisters + 2> rx{};
-  simulator.spi().transfer(tx, rx);
+  SimBus(simulator).transfer(tx, rx);
   Dump dump{};
   std::copy(rx.begin() + 2, rx.end(), dump.begin());
   return dump;

@@ -5,25 +5,72 @@
 #ifndef MB4SIM_TOOL_SIM_BUS_HPP_
 #define MB4SIM_TOOL_SIM_BUS_HPP_
 
+#include <algorithm>
 #include <cstdint>
 #include <span>
 
+#include "mb4/parallel_bus.hpp"
 #include "mb4/span.hpp"
+#include "mb4_regs.hpp"
 #include "mb4sim/simulator.hpp"
 
 namespace mb4::tool {
 
-class SimBus {
+// Bus cycles of the simulated processor.
+class SimPort {
  public:
-  explicit SimBus(sim::Simulator& simulator) : simulator_(simulator) {}
+  explicit SimPort(sim::Simulator& simulator) : simulator_(simulator) {}
 
-  bool transfer(Span<const std::uint8_t> tx, Span<std::uint8_t> rx) {
-    simulator_.spi().transfer(std::span(tx.data(), tx.size()), std::span(rx.data(), rx.size()));
+  bool write(std::uint8_t address, std::uint8_t value) {
+    const bool instruction = address == regs::kAddrInstr;
+    if (instruction) simulator_.run_until(next_instruction_);
+    simulator_.bus().write(address, value);
+    if (instruction) next_instruction_ = simulator_.now() + gap();
+    return true;
+  }
+  bool read(std::uint8_t address, std::uint8_t& value) {
+    value = simulator_.bus().read(address);
     return true;
   }
 
  private:
+  // Five clocks of the slower clock: CLKENI may choose either.
+  sim::Time gap() const {
+    const sim::ChipConfig& chip = simulator_.scenario().chip;
+    const std::uint64_t pin_hz = chip.f_clk_hz != 0 ? chip.f_clk_hz : chip.f_osc_hz;
+    return 5 * sim::kPsPerSecond / std::min(pin_hz, chip.f_osc_hz);
+  }
+
   sim::Simulator& simulator_;
+  sim::Time next_instruction_ = 0;
+};
+
+// SPI frames over whatever the scenario's interface is: SPI; with "spi2" reads of SCDATA5..8
+// through SPI2; with "intel" and "motorola" as bus cycles.
+class SimBus {
+ public:
+  explicit SimBus(sim::Simulator& simulator)
+      : simulator_(simulator), port_(simulator), parallel_(port_) {}
+
+  bool transfer(Span<const std::uint8_t> tx, Span<std::uint8_t> rx) {
+    if (simulator_.scenario().host.parallel()) return parallel_.transfer(tx, rx);
+    sim::SpiHost& host = through_spi2(tx) ? simulator_.spi2() : simulator_.spi();
+    host.transfer(std::span(tx.data(), tx.size()), std::span(rx.data(), rx.size()));
+    return true;
+  }
+
+ private:
+  bool through_spi2(Span<const std::uint8_t> tx) const {
+    constexpr std::size_t kBegin = 0x20;
+    constexpr std::size_t kEnd = 0x40;
+    return simulator_.scenario().host.interface == sim::HostInterface::kSpi2 && tx.size() > 2 &&
+           tx[0] == static_cast<std::uint8_t>(regs::SpiOpcode::kReadRegisters) && tx[1] >= kBegin &&
+           tx[1] + tx.size() - 2 <= kEnd;
+  }
+
+  sim::Simulator& simulator_;
+  SimPort port_;
+  ParallelBus<SimPort> parallel_;
 };
 
 // Looking at the clock takes time, as it does on a processor: a driver that waits by the clock

@@ -13,6 +13,7 @@
 #include "exit_status.hpp"
 #include "mb4sim/scenario.hpp"
 #include "mb4sim/simulator.hpp"
+#include "sim_bus.hpp"
 
 namespace mb4::tool {
 namespace {
@@ -39,7 +40,7 @@ bool parse(std::string_view word, T& value, int base) {
 }
 
 // One line of standard input; throws UseError without the place.
-void execute(sim::Simulator& simulator, const std::vector<std::string_view>& words) {
+void execute(sim::Simulator& simulator, SimBus& bus, const std::vector<std::string_view>& words) {
   if (words[0].starts_with('+')) {
     std::uint64_t ns = 0;
     if (words.size() != 1 || !parse(words[0].substr(1), ns, 10) || ns > kMaxAdvanceNs) {
@@ -70,7 +71,7 @@ void execute(sim::Simulator& simulator, const std::vector<std::string_view>& wor
     tx.push_back(byte);
   }
   std::vector<std::uint8_t> rx(tx.size());
-  simulator.spi().transfer(tx, rx);
+  bus.transfer({tx.data(), tx.size()}, {rx.data(), rx.size()});
   std::string answer;
   for (const std::uint8_t byte : rx)
     answer += fmt::format("{}{:02X}", answer.empty() ? "" : " ", byte);
@@ -82,16 +83,21 @@ void execute(sim::Simulator& simulator, const std::vector<std::string_view>& wor
 int spi_command(const SpiOptions& options) {
   const sim::Scenario scenario = sim::load_scenario(options.scenario);
   sim::Simulator simulator(scenario);
+  SimBus bus(simulator);
   std::string line;
   for (unsigned number = 1; std::getline(std::cin, line); ++number) {
     const auto words = words_of(line);
     if (words.empty()) continue;
     try {
-      execute(simulator, words);
+      execute(simulator, bus, words);
     } catch (const UseError& error) {
       throw UseError(fmt::format("standard input:{}: {}", number, error.what()));
     }
     if (std::fflush(stdout) != 0) throw UseError("cannot write to standard output");
+  }
+  if (const auto& check = simulator.host_check(); check.count() != 0) {
+    fmt::print(stderr, "host timing: {} violation(s), first: {}\n", check.count(),
+               check.violations().front().text);
   }
   return kGood;
 }

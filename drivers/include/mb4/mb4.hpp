@@ -25,6 +25,7 @@
 #include "mb4/frequency.hpp"
 #include "mb4/initialization.hpp"
 #include "mb4/opcodes.hpp"
+#include "mb4/parallel_bus.hpp"
 #include "mb4/position.hpp"
 #include "mb4/position_poll.hpp"
 #include "mb4/reading.hpp"

@@ -29,6 +29,12 @@ class MaPulseCheck {
   std::optional<std::string> edge(Time now, bool level, std::uint64_t clocks, unsigned half_clocks,
                                   Time min_clock);
 
+  // MA has this level for another reason than a pulse: the level's beginning is not known.
+  void restart(bool level) {
+    level_ = level;
+    started_ = false;
+  }
+
   // A limit beside it from now on: no level shorter than `minimum` ps, say what the encoders on the
   // line can follow. 0 = none.
   void require(Time minimum) { required_ = minimum; }

@@ -54,8 +54,18 @@ struct ChipConfig {
   std::uint64_t system_hz() const { return f_clk_hz != 0 ? f_clk_hz : f_osc_hz; }
 };
 
+// How the host is connected. kSpi2: SPI, and the second serial interface is enabled beside it.
+enum class HostInterface { kSpi, kSpi2, kIntel, kMotorola };
+
 struct HostConfig {
-  std::uint64_t sclk_hz = 10'000'000;
+  HostInterface interface = HostInterface::kSpi;
+  std::uint64_t sclk_hz = 10'000'000;   // SPI
+  std::uint64_t sclk2_hz = 10'000'000;  // SPI2
+  Time cycle = 1000 * kPsPerNs;         // of the parallel bus, ps
+
+  bool parallel() const {
+    return interface == HostInterface::kIntel || interface == HostInterface::kMotorola;
+  }
   // MA frequency that `mb4sim run` sets up; always one the chip can make.
   std::uint64_t ma_hz = 10'000'000;
   TableSource source;

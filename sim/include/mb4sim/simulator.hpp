@@ -15,10 +15,12 @@
 #include <string_view>
 
 #include "mb4sim/event_queue.hpp"
+#include "mb4sim/host_check.hpp"
 #include "mb4sim/host_pins.hpp"
 #include "mb4sim/line.hpp"
 #include "mb4sim/ma_pulse_check.hpp"
 #include "mb4sim/model_stopped.hpp"
+#include "mb4sim/parallel_host.hpp"
 #include "mb4sim/pins.hpp"
 #include "mb4sim/scenario.hpp"
 #include "mb4sim/slave.hpp"
@@ -74,7 +76,14 @@ class Simulator final : public HostPins {
   bool can_set(Pin pin) const;
 
   // --- hosts, lines, slaves ------------------------------------------------------------------
+  // Hosts on the chip's pins. Which of them the chip listens to is a matter of the straps, which
+  // the scenario's interface has set: spi() with CFGSPI = 1, spi2() beside it with NWR_E = 0, bus()
+  // with CFGSPI = 0.
   SpiHost& spi() { return spi_; }
+  SpiHost& spi2() { return spi2_; }
+  ParallelHost& bus() { return bus_; }
+  // What the host pins have done against the datasheet's limits so far.
+  HostCheck& host_check() { return host_check_; }
   // Null if the scenario has no such channel (1 or 2).
   Line* line(unsigned channel);
   // Slave by the number of its SCDATAx, 1 to 8: channel 1 counts from 1; channel 2 from 5. Null if
@@ -99,6 +108,7 @@ class Simulator final : public HostPins {
   static void on_probe(Time now, void* receiver);
   static void on_sl(Time now, void* receiver, bool level);
 
+  void set_straps();
   bool step(Time limit);
   void drive_chip(Pin pin, bool level);
   void settle();
@@ -113,9 +123,13 @@ class Simulator final : public HostPins {
   std::array<std::unique_ptr<Line>, 2> lines_;
   std::array<MaPulseCheck, 2> ma_checks_;
   SpiHost spi_;
+  SpiHost spi2_;
+  ParallelHost bus_;
+  HostCheck host_check_;
   Time now_ = 0;
   unsigned seen_ = 0;  // watched outputs that have been acted upon
   bool settling_ = false;
+  bool paired_ = false;            // MA2 was the inverse of MA1 at its last edge
   bool ner_pulled_ = false;        // by something outside
   std::array<bool, 32> levels_{};  // of input pins, by Pin
   std::optional<ModelStopped> stopped_;

@@ -27,9 +27,19 @@ struct SpiTiming {
   static SpiTiming for_frequency(std::uint64_t sclk_hz);
 };
 
+// Which pins of the chip a host is connected to (page 3).
+struct SpiPins {
+  Pin ncs = Pin::kNcs;
+  Pin sclk = Pin::kAle;
+  Pin mosi = Pin::kDb0;
+  Pin miso = Pin::kDb1;
+};
+inline constexpr SpiPins kSpi2Pins{Pin::kDb4, Pin::kDb5, Pin::kDb6, Pin::kDb7};
+
 class SpiHost {
  public:
-  SpiHost(HostPins& pins, const SpiTiming& timing) : pins_(pins), timing_(timing) {}
+  SpiHost(HostPins& pins, const SpiTiming& timing, const SpiPins& wires = {})
+      : pins_(pins), wires_(wires), timing_(timing) {}
 
   // One frame: NCS low, all bytes, NCS high. rx takes as many bytes as it has room for, at most
   // tx.size(). Returns at the time of the rising edge of NCS.
@@ -48,6 +58,7 @@ class SpiHost {
   void wait(Time duration) { pins_.run_until(pins_.now() + duration); }
 
   HostPins& pins_;
+  SpiPins wires_;
   SpiTiming timing_;
   bool selected_ = false;
   bool deselected_once_ = false;

@@ -1,0 +1,66 @@
+// SPDX-FileCopyrightText: 2026 The openmb4 authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// A processor on the parallel bus, every edge at its own time. Limits: iC-MB4 Rev D2, items I001 to
+// I016 (Intel 8051) and I101 to I114 (Motorola 68HC11).
+#ifndef MB4SIM_PARALLEL_HOST_HPP_
+#define MB4SIM_PARALLEL_HOST_HPP_
+
+#include <cstdint>
+
+#include "mb4sim/host_pins.hpp"
+#include "mb4sim/time.hpp"
+
+namespace mb4::sim {
+
+enum class ParallelMode { kIntel, kMotorola };
+
+// Phases of a bus cycle in the order in which they follow each other, ps. The defaults are the
+// shortest that the datasheet allows.
+struct ParallelTiming {
+  Time ale_high = 15'000;  // I002, I102; address, NCS and ALE begin together (I001, I004: 10 ns)
+  Time address_hold = 15'000;   // I003, I103, from ALE falling
+  Time ale_to_strobe = 15'000;  // I005, I011, I105, I107, from ALE falling, not below address_hold
+  Time read_strobe = 54'000;    // I007, I109; the host samples at its end (I008, I110: 54 ns)
+  Time write_strobe = 15'000;   // I013, I109; data begin with it (I014, I112)
+  Time data_hold = 15'000;      // I015, I113
+  Time hold = 10'000;           // I006, I010, I012, I016, I106, I108, I114, from the strobe's end
+  Time release = 25'000;        // I009, I111: the chip lets go of the data bus after a read
+
+  // A bus whose cycles follow each other every `cycle` ps (not below the shortest read): what is
+  // left goes to the address phase and to the strobe, half each.
+  static ParallelTiming for_cycle(Time cycle);
+  Time read_cycle() const;
+  Time write_cycle() const;
+};
+
+class ParallelHost {
+ public:
+  ParallelHost(HostPins& pins, ParallelMode mode, const ParallelTiming& timing)
+      : pins_(pins), mode_(mode), timing_(timing) {}
+
+  // One bus cycle each; returns when NCS is high again and the next cycle may begin.
+  void write(std::uint8_t address, std::uint8_t value);
+  std::uint8_t read(std::uint8_t address);
+
+  // Levels between cycles; the straps too.
+  void rest();
+
+  ParallelMode mode() const { return mode_; }
+  void set_timing(const ParallelTiming& timing) { timing_ = timing; }
+  const ParallelTiming& timing() const { return timing_; }
+
+ private:
+  void wait(Time duration) { pins_.run_until(pins_.now() + duration); }
+  void drive(unsigned byte);
+  void latch(std::uint8_t address);
+  void strobe(bool read, bool active);
+
+  HostPins& pins_;
+  ParallelMode mode_;
+  ParallelTiming timing_;
+};
+
+}  // namespace mb4::sim
+
+#endif  // MB4SIM_PARALLEL_HOST_HPP_

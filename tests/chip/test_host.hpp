@@ -1,0 +1,51 @@
+// SPDX-FileCopyrightText: 2026 The openmb4 authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Which host the whole-chip tests use. They run once for each of them (tests/chip/CMakeLists.txt
+// sets MB4_HOST); a scenario that names another interface than SPI keeps it.
+#ifndef MB4_TESTS_CHIP_TEST_HOST_HPP_
+#define MB4_TESTS_CHIP_TEST_HOST_HPP_
+
+#include <cstdlib>
+#include <stdexcept>
+#include <string>
+
+#include "mb4sim/scenario.hpp"
+
+namespace mb4test {
+
+// "spi", "intel" or "motorola".
+inline std::string test_host() {
+  const char* const name = std::getenv("MB4_HOST");
+  return name == nullptr ? "spi" : name;
+}
+
+// Tests look at the flags right after an instruction, as SPI lets them: 5 T must pass meanwhile.
+// What the shortest cycles do is shown in host_test.cpp.
+inline constexpr mb4::sim::Time kTestCycle = 1000 * mb4::sim::kPsPerNs;
+
+// The same for a scenario's text, whose table [host] names no interface.
+inline std::string with_test_host(std::string text) {
+  const std::string table = "[host]\n";
+  return text.replace(text.find(table), table.size(),
+                      table + "interface = \"" + test_host() + "\"\ncycle_ns = 1000\n");
+}
+
+inline mb4::sim::Scenario with_test_host(mb4::sim::Scenario scenario) {
+  using mb4::sim::HostInterface;
+  if (scenario.host.interface != HostInterface::kSpi) return scenario;
+  const std::string name = test_host();
+  scenario.host.cycle = kTestCycle;
+  if (name == "intel") {
+    scenario.host.interface = HostInterface::kIntel;
+  } else if (name == "motorola") {
+    scenario.host.interface = HostInterface::kMotorola;
+  } else if (name != "spi") {
+    throw std::invalid_argument("MB4_HOST: spi, intel or motorola, not " + name);
+  }
+  return scenario;
+}
+
+}  // namespace mb4test
+
+#endif  // MB4_TESTS_CHIP_TEST_HOST_HPP_
