@@ -54,6 +54,7 @@ module mb4_engine #(
 
   logic       rst_core_n;
   logic       por_core_n;
+  logic [mb4_pkg::QUIRKS_W-1:0] quirks_q;
 
   // registers
   logic [mb4_pkg::NUM_SLAVES*mb4_pkg::SLAVE_CFG_W-1:0] slave_cfg;
@@ -93,6 +94,10 @@ module mb4_engine #(
   logic [15:0] quarters;
   logic [11:0] mo_addr;
   logic [15:0] mo_data;
+
+  // A static input. Registered, it is no part of the logic that follows the pins, which matters for
+  // timing and for the speed of simulation.
+  always_ff @(posedge clk_i) quirks_q <= quirks_i;
 
   mb4_reset_sync u_reset (
     .clk_i,
@@ -171,7 +176,7 @@ module mb4_engine #(
     .ack_o          (instr_ack),
     .held_o         (held),
     .cfg_i          (cfg),
-    .quirks_i,
+    .quirks_i       (quirks_q),
     .getsens_i,
     .eot_o,
     .ner_low_o,
