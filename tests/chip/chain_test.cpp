@@ -222,4 +222,13 @@ TEST(ChipChain, SmallestConfiguration_OneBit) {
   }
 }
 
+// Table 10: without SLAVELOC5 all data channels are on line 1; line 2 rests, whatever CFGCH2 says.
+TEST(ChipChain, NoSlaveloc5_Line2Rests) {
+  ChainBench bench(chain_of_eight());
+  bench.spi({0x02, 0xEC, 0x01, 0x05});
+  for (std::uint64_t frame = 0; frame < 4; ++frame) bench.check_frame(frame);
+  EXPECT_EQ(bench.simulator.ma_check(2).pulses(), 0U);
+  EXPECT_TRUE(bench.simulator.pin(sim::Pin::kMa2));
+}
+
 }  // namespace

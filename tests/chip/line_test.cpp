@@ -60,6 +60,28 @@ TEST(ChipLine, DelayOf10To1000Periods_NormalFramesWork) {
   }
 }
 
+// Decision 17, docs/timing.md: on a long line MA stops as soon as the start bit is known: with CDM
+// = 1 it keeps a low level that it has then, only CDM = 0 takes the rising edge that ends it.
+TEST(ChipLine, LongLine_CdmOneSendsNoEdgeTooMany) {
+  std::uint64_t kept = 0;
+  for (unsigned eighths = 0; eighths < 16; ++eighths) {
+    std::uint64_t rising[2] = {};
+    for (const unsigned cdm : {0U, 1U}) {
+      Chip chip(one_slave(kEncoder));
+      chip.configure_slave1(28, 0x06, 0x03, 0x7C);
+      chip.simulator.line(1)->set_round_trip(50 * period_of(3) + eighths * period_of(3) / 8);
+      ASSERT_TRUE(good_frame(chip, 5000, cdm == 0 ? 0x04 : 0x02));
+      chip.simulator.advance(60 * period_of(3));
+      EXPECT_EQ(chip.simulator.slave(1)->last_cdm(), cdm == 1);
+      rising[cdm] = chip.simulator.line(1)->monitor().last(chip.simulator.now()).rising;
+    }
+    EXPECT_GE(rising[0], rising[1]);
+    EXPECT_LE(rising[0], rising[1] + 1);
+    kept += rising[0] - rising[1];
+  }
+  EXPECT_EQ(kept, 8U) << "in every second half period MA is low";
+}
+
 // I306: a slave may end its frame after MA has rested for 55 % of a period. Then SL is low behind
 // the last bit for no longer than that, and the slave has taken CDM before the master can know.
 TEST(ChipLine, SlaveTimeoutOf55Percent_FramesAndCdmAreRight) {

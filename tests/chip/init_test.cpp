@@ -1,0 +1,111 @@
+// SPDX-FileCopyrightText: 2026 The openmb4 authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// BiSS C INIT beside what else happens: other writes of 0xF4, BREAK, the slaves' timeout, frames
+// that are due (pages 32..34; decisions 3, 8, 19, 25).
+#include <gtest/gtest.h>
+
+#include "chip_fixture.hpp"
+
+namespace {
+
+using mb4test::Chip;
+using mb4test::one_slave;
+namespace sim = mb4::sim;
+
+const char kAdaptive[] = "data_bits = 28\ncrc = 0x43\ndata = 0xAAF37BF\ntimeout = \"adaptive\"";
+const char k20us[] = "data_bits = 28\ncrc = 0x43\ndata = 0xAAF37BF\ntimeout = 20.0";
+
+// Decisions 19, 25: INIT that waits for a frame, or runs, is not lost by another write of 0xF4 and
+// reads back 1 until its end.
+TEST(ChipInit, OtherWritesMeanwhile_DoNotEndIt) {
+  for (const unsigned byte : {0x00U, 0x01U, 0x40U, 0x20U}) {
+    Chip chip(one_slave(kAdaptive, "delay_ns = 1000.0"));
+    chip.configure_slave1(28, 0x06, 0x04, 0x7F);
+    chip.instruct(0x04);
+    chip.instruct(0x10);
+    for (int i = 0; i < 40; ++i) {
+      chip.instruct(static_cast<std::uint8_t>(byte));
+      const unsigned value = chip.read(0xF4);
+      if (chip.simulator.pin(sim::Pin::kEot)) break;  // it has ended
+      EXPECT_EQ(value, 0x10 | byte);
+    }
+    ASSERT_TRUE(chip.wait_eot());
+    EXPECT_EQ(chip.read(0xF4), byte);
+    EXPECT_EQ(chip.status(), 0xFB);
+    EXPECT_EQ(chip.simulator.slave(1)->frames(), 1U);
+    EXPECT_EQ(chip.simulator.line(1)->monitor().frames(), 2U) << "the frame and the INIT";
+    EXPECT_EQ(chip.simulator.line(1)->monitor().last(chip.simulator.now()).rising, 2U);
+    EXPECT_EQ(chip.read(0x00), 9) << "1000 ns, a quarter of 500 ns";
+  }
+}
+
+// Page 16: the slave answers "with a rising edge at SL after the BiSS timeout"; INIT and EOT = 0
+// last until then, so that the next frame finds SL = 1.
+TEST(ChipInit, LastsUntilTheSlavesTimeout) {
+  Chip chip(one_slave(k20us));
+  chip.configure_slave1(28, 0x06, 0x00, 0x00);
+  const sim::Time start = chip.simulator.now();
+  chip.instruct(0x10);
+  ASSERT_TRUE(chip.wait_eot());
+  EXPECT_GT(chip.simulator.now() - start, 20 * sim::kPsPerUs);
+  EXPECT_TRUE(chip.simulator.pin(sim::Pin::kSl1));
+  chip.instruct(0x04);
+  ASSERT_TRUE(chip.wait_eot());
+  EXPECT_EQ(chip.status(), 0xFB) << "no nAGSERR";
+  EXPECT_EQ(chip.read(0xF1), 0x02);
+}
+
+// Page 33: BREAK ends all current actions: INIT does not begin again.
+TEST(ChipInit, Break_EndsIt) {
+  for (unsigned phase = 0; phase < 30; ++phase) {
+    Chip chip(one_slave(k20us));
+    chip.configure_slave1(28, 0x06, 0x04, 0x7C);
+    chip.instruct(0x10);
+    chip.simulator.advance(phase * 173 * sim::kPsPerNs);
+    chip.instruct(0x80);
+    chip.advance_us(1);
+    EXPECT_TRUE(chip.simulator.pin(sim::Pin::kEot)) << phase;
+    EXPECT_EQ(chip.read(0xF4), 0x00) << phase;
+    const auto frames = chip.simulator.line(1)->monitor().frames();
+    chip.advance_us(100);
+    EXPECT_EQ(chip.simulator.line(1)->monitor().frames(), frames) << phase;
+    EXPECT_TRUE(chip.simulator.pin(sim::Pin::kMa1));
+    EXPECT_EQ(chip.status(), 0xFB);
+  }
+}
+
+// Page 32, decision 3: a frame asked for in the slaves' timeout finds SL low.
+TEST(ChipInstr, AskedForInTheSlavesTimeout_NoFrameAndAgsError) {
+  Chip chip(one_slave(k20us));
+  chip.configure_slave1(28, 0x06, 0x00, 0x00);
+  chip.instruct(0x04);
+  ASSERT_TRUE(chip.wait_eot());
+  chip.instruct(0x04);
+  chip.advance_us(50);
+  EXPECT_EQ(chip.status(), 0x3B) << "nERR = nAGSERR = 0";
+  EXPECT_EQ(chip.read(0xF4), 0x00);
+  EXPECT_EQ(chip.simulator.line(1)->monitor().frames(), 1U);
+}
+
+// Page 34: a frame that is due while INIT runs is left out, with nAGSERR = 0; it does not come
+// later, and the following ones keep their time.
+TEST(ChipAgs, DueDuringInit_IsOmittedAndTheNextIsInTime) {
+  Chip chip(one_slave(kAdaptive, "delay_ns = 20000.0"));
+  chip.configure_slave1(28, 0x06, 0x03, 0x63);  // T_MA 400 ns; 100 us
+  chip.instruct(0x01);
+  auto& monitor = chip.simulator.line(1)->monitor();
+  chip.advance_us(350);
+  const sim::Time third = monitor.last(chip.simulator.now()).start;
+  const sim::Time period = 100 * sim::kPsPerUs;
+  chip.simulator.run_until(third + period - 10 * sim::kPsPerUs);
+  chip.instruct(0x11);
+  chip.simulator.run_until(third + period + 60 * sim::kPsPerUs);
+  EXPECT_EQ(chip.status(), 0x3B);
+  EXPECT_LT(monitor.last(chip.simulator.now()).start, third + period) << "the INIT was the last";
+  chip.simulator.run_until(third + 2 * period + 80 * sim::kPsPerUs);
+  EXPECT_EQ(monitor.last(chip.simulator.now()).start, third + 2 * period);
+  EXPECT_EQ(chip.read(0xF1), 0x02);
+}
+
+}  // namespace
