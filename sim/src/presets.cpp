@@ -116,6 +116,10 @@ std::vector<Preset> make_presets() {
   // iC-NQC: 13 bits angle and 24 bits period counter, flags E1 and E0, timeout 20 us.
   BissCSlaveConfig& nqc = add("ic-nqc", "iC-NQC, 24 bits period and 13 bits angle", 37);
   nqc.timeout.fixed = from_us(20);
+  // iC-PVS Rev A2: absolute data, commands 00 and 01; adaptive timeout or 20 us.
+  add("ic-pvs", "iC-PVS, give data_bits", 0).data_bits = 0;
+  // Festo SFC-LAC: motor encoder of 12 bits cycle counter and 11 bits angle, flags E1 and E0.
+  add("festo-sfc-lac", "Festo SFC-LAC motor encoder, 12 bits cycles and 11 bits angle", 23);
   // iC-MR: up to 32 banks of 64 bytes.
   for (BissCSlaveConfig* mr :
        {&add("ic-mr", "iC-MR, 24 bits single turn", 24),
