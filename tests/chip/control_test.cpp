@@ -124,14 +124,15 @@ TEST(Control, UnderAgs_OneWriteIsEnoughAndPositionsGoOn) {
   }
 }
 
-// All CHSEL lines: the slave of channel 2, data channel 5.
+// All CHSEL lines: the slave of channel 2, data channel 5. Page 27: registers of one channel at a
+// time, so 11 is channel 1.
 TEST(Control, Channel2_IsSelectedByChsel) {
   Chip chip(two_channels());
   configure_two(chip);
   ControlHost host(chip);
   chip.simulator.slave(1)->reg_write(0x10, 0x11);
   chip.simulator.slave(5)->reg_write(0x10, 0x55);
-  for (const unsigned chsel : {0U, 1U, 2U}) {
+  for (const unsigned chsel : {0U, 1U, 2U, 3U}) {
     host.select(static_cast<std::uint8_t>(chsel));
     host.set_read(0, 0x10, 1);
     const auto starts = chip.simulator.slave(chsel == 2 ? 1 : 5)->control()->counters().starts;
