@@ -162,6 +162,9 @@ TEST_P(DriverFault, EveryFault_NeverAWrongOrOldPosition) {
     Drive run(GetParam());
     run.chip.bus.plan(fault);
     unnoticed += run.read().has_value() ? 1 : 0;
+    if (GetParam().way == Way::kPollSlave || GetParam().way == Way::kPollBeside) {
+      EXPECT_LE(run.chip.bus.count(), mb4::kMaxPollSlaveTransfersChecked);
+    }
     if (fault.last == kForEver) {
       run.read();
       run.read();
