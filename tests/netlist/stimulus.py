@@ -182,9 +182,9 @@ def scd_bank(steps):
     steps.clock("rclk_i")
     steps.clock("clk_i")
     steps.compare_from = len(steps.steps)
-    few = {port: rarely(port, 0.6, lambda s: s.rng.getrandbits(3) * 9) for port in
-           ("clear_addr_i", "eng_wr_addr_i", "host_wr_addr_i", "rd_addr_i",
-            "eng_rd_addr_i")}
+    # Few bytes, the same in both banks.
+    few = {port: rarely(port, 0.6, lambda s: s.rng.getrandbits(1) << 5 | s.rng.getrandbits(2) * 9)
+           for port in ("clear_addr_i", "eng_wr_addr_i", "host_wr_addr_i", "eng_rd_addr_i")}
     few["rd_addr_i"] = rarely("rd_addr_i", 0.6, lambda s: s.rng.getrandbits(2) * 9)
     # A write and a read of one address never share a clock edge: which byte is read is left open.
     play(steps, ["clk_i", "rclk_i"], [], 6000, dict(few, clear_i=0.05), one_clock=True)
