@@ -61,7 +61,7 @@ module mb4_channels (
 
   localparam int unsigned WORD_W = mb4_pkg::WORD_CFG_W;
 
-  logic [1:0]          len_valid;
+  logic [1:0]          len_valid, actuator;
   logic [13:0]         len;
   logic [1:0]          rx_any, rx_last, rx_next, mo_any, mo_last, mo_next;
   logic [5:0]          mo_slave;
@@ -76,6 +76,7 @@ module mb4_channels (
     .nocrc_i     (cfg_i.nocrc),
     .ssi_i,
     .start_i,
+    .actuator_o  (actuator),
     .len_valid_o (len_valid),
     .len_o       (len),
     .rx_next_i   (rx_next),
@@ -98,6 +99,7 @@ module mb4_channels (
     .protocol_i   ({cfg_i.cfgch2, cfg_i.cfgch1}),
     .en_mo_i      (cfg_i.en_mo),
     .mo_busy_i    (cfg_i.mo_busy),
+    .bus_i        (actuator & {2{cfg_i.en_mo}}),
     .start_i,
     .use_i,
     .init_i,

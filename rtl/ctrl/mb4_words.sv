@@ -6,6 +6,7 @@
 // wider fields are slices.
 //
 // Clock domain: core. See mb4_word_list. With SLAVELOC5 = 1 line 2 has data channels 5..8.
+// actuator_o: there is an actuator among the words of the line.
 // Datasheet: pages 23..26, Tables 10, 17.
 
 module mb4_words (
@@ -18,6 +19,7 @@ module mb4_words (
   input  logic        nocrc_i,
   input  logic [1:0]  ssi_i,
   input  logic        start_i,
+  output logic [1:0]  actuator_o,
   // frame length
   output logic [1:0]  len_valid_o,
   output logic [13:0] len_o,
@@ -38,11 +40,22 @@ module mb4_words (
   localparam int unsigned W = mb4_pkg::WORD_CFG_W;
 
   logic [15:0] mine;
+  logic [7:0]  actuators;
   logic [1:0]  rx_len_valid;
   logic [13:0] rx_len;
   logic        unused;
 
   assign mine = slaveloc5_i ? 16'hF00F : 16'h00FF;
+
+  always_comb begin
+    for (int i = 0; i < 8; i++) begin
+      // ENSCDx is bit 6 of the data channel's first byte.
+      actuators[i] = slave_cfg_i[i*mb4_pkg::SLAVE_CFG_W + 6] && actnsens_i[i];
+    end
+  end
+
+  assign actuator_o[0] = !ssi_i[0] && (actuators & mine[7:0]) != 8'h00;
+  assign actuator_o[1] = !ssi_i[1] && (actuators & mine[15:8]) != 8'h00;
 
   for (genvar i = 0; i < 2; i++) begin : gen_line
     mb4_word_list #(.Sum(1'b0)) u_rx (

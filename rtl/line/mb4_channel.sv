@@ -14,6 +14,7 @@ module mb4_channel (
   input  logic [1:0] protocol_i,
   input  logic       en_mo_i,
   input  logic [7:0] mo_busy_i,
+  input  logic       bus_i,        // MO has words for actuators
   // control
   input  logic       start_i,
   input  logic       use_i,
@@ -91,6 +92,8 @@ module mb4_channel (
     .rst_ni,
     .por_ni,
     .protocol_i,
+    .bus_i,
+    .mo_busy_i,
     .start_i,
     .use_i,
     .init_i,

@@ -7,7 +7,9 @@
 // period of MA high, then the first falling edge. After the last needed rising edge MA takes the
 // inverted CDM and keeps it through the slaves' timeout. Rising MA edges: BiSS C 5, BiSS B 4, and
 // processing clocks; SSI 1; and data and CRC bits; or as many as had been sent when the start bit
-// came back over a long line (decision 17), or CDS if CDM depends on it. reduced_i: the frame ends
+// came back over a long line (decision 17), or CDS if CDM depends on it. With bus_i actuators hang
+// on MO: more edges would move their words on, so MO_BUSY is taken for the processing clocks and MA
+// does not wait for the start bit. reduced_i: the frame ends
 // behind CDS (decision 14). frame_end_o: the last data bit has been taken; cds_o is valid from the
 // next clock on (0 in BiSS B and SSI). idle_o: the slaves' timeout is over as well. init_i makes
 // the two-pulse initialisation instead; init_done_o when the acknowledge has come, init_fail_o
@@ -26,6 +28,8 @@ module mb4_frame (
   input  logic       por_ni,       // power-on: MA itself
   // control
   input  logic [1:0] protocol_i,   // CFGCHx
+  input  logic       bus_i,
+  input  logic [7:0] mo_busy_i,
   input  logic       start_i,
   input  logic       use_i,
   input  logic       init_i,
@@ -122,7 +126,8 @@ module mb4_frame (
   assign cdm_known   = cdm_q[1] == cdm_q[0] || state_q == DATA || state_q == STOP ||
                        state_q == TIMEOUT;
   assign enough      = init_q ? rises_q == 2'd2
-                              : started_q && need_q <= 11'sd0 && cdm_known && !len_valid_i;
+                              : (started_q || bus_i) && need_q <= 11'sd0 && cdm_known &&
+                                !len_valid_i;
 
   mb4_ma_drive u_ma (
     .clk_i,
@@ -152,11 +157,12 @@ module mb4_frame (
     need_d  = need_q;
     if (begin_frame) begin
       rises_d = 2'd0;
-      need_d  = biss_c ? 11'sd5 : ssi ? 11'sd1 : 11'sd4;
+      need_d  = (biss_c ? 11'sd5 : ssi ? 11'sd1 : 11'sd4) +
+                (bus_i ? signed'({3'b000, mo_busy_i}) : 11'sd0);
     end else if (state_q != IDLE) begin
       if (rise && rises_q != 2'd2) rises_d = rises_q + 2'd1;
       need_d = need_q + ((len_valid_i && !reduced_q) ? signed'({4'h0, len_i}) : 11'sd0)
-                      + (waited ? 11'sd1 : 11'sd0)
+                      + ((waited && !bus_i) ? 11'sd1 : 11'sd0)
                       - ((rise && !need_q[10]) ? 11'sd1 : 11'sd0);
     end
   end
@@ -284,6 +290,6 @@ module mb4_frame (
   assign timeout_o   = state_q == TIMEOUT;
 
   `MB4_ASSERT_IF(IdleDoesNotClock_A, clk_i, rst_ni, state_q == IDLE, !ma_clocks)
-  `MB4_ASSERT(NeedInRange_A, clk_i, rst_ni, need_q >= -11'sd1 && need_q <= 11'sd700)
+  `MB4_ASSERT(NeedInRange_A, clk_i, rst_ni, need_q >= -11'sd1 && need_q <= 11'sd920)
 
 endmodule

@@ -16,6 +16,7 @@ module mb4_lines (
   input  logic [3:0] protocol_i,
   input  logic       en_mo_i,
   input  logic [7:0] mo_busy_i,
+  input  logic [1:0] bus_i,
   // control
   input  logic       start_i,
   input  logic [1:0] use_i,
@@ -116,6 +117,7 @@ module mb4_lines (
       .protocol_i    (protocol_i[i*2 +: 2]),
       .en_mo_i,
       .mo_busy_i,
+      .bus_i        (bus_i[i]),
       .start_i,
       .use_i        (use_i[i]),
       .init_i,

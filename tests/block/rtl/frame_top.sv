@@ -119,6 +119,7 @@ module frame_top (
     .protocol_i,
     .en_mo_i     (1'b0),
     .mo_busy_i   (8'h00),
+    .bus_i       (1'b0),
     .start_i,
     .use_i       (1'b1),
     .init_i,
