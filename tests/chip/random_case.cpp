@@ -29,9 +29,7 @@ struct LinePlan {
   bool actuators = false;  // some slaves may be actuators
 };
 
-// `first`: slave 1 of its chain, whose slot is the first on MO.
-Sensor make_sensor(Random& random, RandomCase& result, const LinePlan& plan, unsigned channel,
-                   bool first) {
+Sensor make_sensor(Random& random, RandomCase& result, const LinePlan& plan, unsigned channel) {
   mb4ref::Registers& registers = result.registers;
   Sensor sensor;
   sensor.channel = channel;
@@ -48,9 +46,9 @@ Sensor make_sensor(Random& random, RandomCase& result, const LinePlan& plan, uns
   if (plan.actuators) sensor.actuator = random.one_in(2);
   if (sensor.actuator) {
     registers.actnsens = static_cast<std::uint8_t>(registers.actnsens | 1U << channel);
-    // The first bit on MO ends the frame on SL: it has to be 0 (page 25).
-    if (first || random.one_in(2)) bit7 = true;
-    sensor.stop_bit = bit7;
+    // The first bit of its slot is what an actuator shows on SLO until its timeout. If it were 1,
+    // SL would look like the end of the timeout (docs/choices.md, LSTOPx).
+    sensor.stop_bit = bit7 = true;
   }
   if (plan.protocol == Protocol::kSsi) sensor.gray = bit7;
   const unsigned gray = bit7 ? 0x80 : 0x00;
@@ -123,21 +121,25 @@ std::string slave_text(Random& random, const Sensor& sensor, const LinePlan& pla
   return text.str();
 }
 
-std::string channel_text(Random& random, const RandomCase& result, const LinePlan& plan,
-                         unsigned line) {
+std::string channel_text(Random& random, RandomCase& result, const LinePlan& plan, unsigned line,
+                         unsigned length) {
   double delay = random.one_in(3) ? 0 : random.below(random.one_in(10) ? 20'000 : 900);
   // I305: any two edges may deviate by 25 % of T_MA; rounded down.
   const auto most = static_cast<unsigned>(ma_period_ns(result) / 4);
   const unsigned jitter = random.one_in(3) ? random.below(most + 1) : 0;
   std::string slaves;
   for (const Sensor& sensor : result.lines[line]) slaves += slave_text(random, sensor, plan);
+  // CDS has been taken three periods after its edge came back, the last edge is N periods later.
+  if (plan.actuators && delay > ma_period_ns(result) * (static_cast<int>(length) - 4)) {
+    result.late_cds = true;
+  }
   if (plan.protocol == Protocol::kSsi) slaves += ssi_text(random, result, jitter, delay);
   std::ostringstream text;
   text << std::fixed << "[[channel]]\nnumber = " << line + 1 << "\ndelay_ns = " << delay
        << "\njitter_ns = " << jitter << "\n";
   if (plan.bus) {
-    // Less than a period of MA later than MA; the simulator takes it from the middle of the cable.
-    const double late = random.one_in(2) ? 0 : ma_period_ns(result) * random.below(900) / 1000;
+    // Later than MA by what jitter leaves of I305: the start bit passes the slaves as MO brings it.
+    const double late = random.one_in(2) ? 0 : (most - jitter) * random.below(1000) / 1000.0;
     text << "mo = true\nmo_delay_ns = " << delay / 2 + late + 0.001 << "\n";
   }
   text << "flips = [";
@@ -225,15 +227,14 @@ RandomCase make_case(Random& random, bool all_protocols) {
     unsigned length = plans[line].protocol == Protocol::kBissC ? 1 : 0;
     for (unsigned x = 0; x < room; ++x) {
       if (((mask >> x) & 1U) == 0) continue;
-      Sensor sensor =
-          make_sensor(random, result, plans[line], line * 4 + x, result.lines[line].empty());
+      Sensor sensor = make_sensor(random, result, plans[line], line * 4 + x);
       sensor.slave = static_cast<unsigned>(4 * line + result.lines[line].size() + 1);
       length += sensor.slot_bits();
       if (!sensor.actuator) result.scenario.words.emplace_back(sensor.slave, sensor.words);
       result.lines[line].push_back(std::move(sensor));
     }
     for (auto& flips : result.flips[line]) flips = make_flips(random, length);
-    text += channel_text(random, result, plans[line], line);
+    text += channel_text(random, result, plans[line], line, length);
   }
   result.scenario.text = "[sim]\nseed = " + std::to_string(random.below(1000)) + "\n" + text;
   result.hold_cdm = random.one_in(4);

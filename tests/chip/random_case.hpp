@@ -47,6 +47,9 @@ struct RandomCase {
   std::uint8_t cfgch = 0;
   std::uint8_t chsel = 0;  // lines that CDM is sent on, 0 = line 1
   bool hold_cdm = false;   // HOLDCDM
+  // A line with actuators is so long that CDS comes behind the frame: a CDM that depends on it
+  // would cost an actuator's word (docs/choices.md).
+  bool late_cds = false;
   bool en_mo = false;
   std::uint8_t mo_busy = 0;
   unsigned freqs = 0;

@@ -165,7 +165,8 @@ void RandomRun::configure() {
 // One frame by INSTR, with HOLDBANK or without.
 void RandomRun::instr_frame(unsigned hold) {
   set_freqags(kAgsMinCode);
-  const unsigned instr = 1 + random_.below(3);  // CDM = 1, CDM = 0, CDM = NOT CDSSEL = 1
+  const unsigned instr =
+      1 + random_.below(case_.late_cds ? 2 : 3);  // CDM = 1, CDM = 0, CDM = NOT CDSSEL = 1
   const auto before = frames_seen();
   const sim::Time start = session_.simulator().now();
   reference_.hold(hold != 0);
@@ -212,7 +213,7 @@ void RandomRun::pulse_getsens() {
 }
 
 void RandomRun::automatic(RandomCounts::Action action) {
-  const unsigned instr = random_.below(4);
+  const unsigned instr = random_.below(case_.late_cds ? 3 : 4);
   const unsigned code = action == RandomCounts::kRate     ? rate_code()
                         : action == RandomCounts::kAgsMin ? kAgsMinCode
                                                           : kAgsInfiniteCode;

@@ -1,0 +1,234 @@
+// SPDX-FileCopyrightText: 2026 The openmb4 authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// The bus connection on the whole chip: pages 15, 25 (Tables 17, 18), 31 (Tables 39, 40).
+#include <gtest/gtest.h>
+
+#include "bits.hpp"
+#include "protocol_chip.hpp"
+
+namespace {
+
+using mb4test::ChipPlan;
+using mb4test::ProtocolChip;
+using mb4test::to_bits;
+namespace sim = mb4::sim;
+
+constexpr const char* kBus = "mo = true\n";
+
+std::string channel(unsigned number, const std::string& keys = kBus) {
+  return "[[channel]]\nnumber = " + std::to_string(number) + "\n" + keys;
+}
+std::string sensor(unsigned bits, std::uint64_t word, const std::string& keys = "") {
+  return "[[channel.slave]]\nprotocol = \"biss-c\"\nflag_bits = 0\ndata_bits = " +
+         std::to_string(bits) + "\ndata = " + std::to_string(word) + "\n" + keys;
+}
+std::string actuator(unsigned bits, bool stop_bit = true, const std::string& keys = "") {
+  return "[[channel.slave]]\nprotocol = \"biss-c\"\nactuator = true\ndata_bits = " +
+         std::to_string(bits) + "\nstop_bit = " + (stop_bit ? "true" : "false") + "\n" + keys;
+}
+
+// One actuator slot: stop bit, data, inverted CRC of x^6 + x + 1 (long division in bits.hpp).
+std::string slot(std::uint64_t word, unsigned bits, bool stop_bit) {
+  return (stop_bit ? "0" : "") + mb4test::word_on_line(word, bits, {6, 0x43}, 0);
+}
+
+// Level of MO behind each rising edge of MA, from the first on.
+std::string mo_by_slot(const ProtocolChip& chip, unsigned line, bool before) {
+  std::string text;
+  std::size_t next = 0;
+  bool level = before;
+  for (const auto& edge : chip.ma[line]) {
+    if (!edge.level) continue;
+    while (next < chip.mo[line].size() && chip.mo[line][next].time <= edge.time) {
+      level = chip.mo[line][next++].level;
+    }
+    text += level ? '1' : '0';
+  }
+  return text;
+}
+
+void write_both_banks(ProtocolChip& chip, unsigned x, std::uint64_t word) {
+  chip.write_scdata(x, word);
+  chip.instruct(0x20);  // SWBANK
+  chip.advance_us(1);
+  chip.write_scdata(x, word);
+  chip.instruct(0x00);
+  chip.advance_us(1);
+}
+
+// Page 31: the waveform of MO, slot by slot.
+TEST(ChipMo, Waveform_IsAcknowledgeBusyStartCdsWords) {
+  for (const unsigned busy : {0U, 1U, 2U, 15U, 16U, 255U}) {
+    ProtocolChip chip(channel(1) + actuator(12) + sensor(9, 0x155) + actuator(8, false),
+                      {.freqs = 4, .en_mo = true, .mo_busy = busy});
+    write_both_banks(chip, 1, 0xA5C);
+    write_both_banks(chip, 3, 0xE7);
+    EXPECT_TRUE(chip.simulator.pin(sim::Pin::kMo1));
+    ASSERT_TRUE(chip.frame());
+    // Behind rising edge 1 still idle, 2 acknowledge, 3 + MO_BUSY start bit, CDS 0, words, then 1.
+    EXPECT_EQ(mo_by_slot(chip, 0, true), "1" + std::string(1 + busy, '0') + "10" +
+                                             slot(0xA5C, 12, true) + std::string(15, '0') +
+                                             slot(0xE7, 8, false) + "1");
+    // MO changes with rising edges of MA only.
+    for (const auto& mo : chip.mo[0]) {
+      bool with_edge = false;
+      for (const auto& ma : chip.ma[0]) with_edge = with_edge || (ma.level && ma.time == mo.time);
+      EXPECT_TRUE(with_edge) << mo.time;
+    }
+    EXPECT_EQ(chip.scdata(2, 9), 0x155U);
+    EXPECT_EQ(chip.svalid(), 0x08U);
+    EXPECT_EQ(chip.simulator.slave(1)->actuator()->word(), 0xA5CU);
+    EXPECT_EQ(chip.simulator.slave(3)->actuator()->word(), 0xE7U);
+  }
+}
+
+TEST(ChipMo, EnMoOff_HoldsMoLow) {
+  ProtocolChip chip(channel(1) + sensor(12, 0xA5C), {.freqs = 4, .mo_busy = 7});
+  ASSERT_TRUE(chip.frame());
+  EXPECT_TRUE(chip.mo[0].empty());
+  EXPECT_FALSE(chip.simulator.pin(sim::Pin::kMo1));
+  EXPECT_FALSE(chip.simulator.pin(sim::Pin::kMo2));
+  EXPECT_EQ(chip.scdata(1, 12), 0xA5CU);
+  EXPECT_EQ(chip.simulator.line(1)->monitor().last(chip.simulator.now()).rising, 12U + 6 + 5);
+}
+
+// Every position in chains of 1 to 8, beside sensors and among actuators, without and with a cable
+// whose MO is late.
+class MoChains : public testing::TestWithParam<std::tuple<unsigned, bool>> {};
+
+TEST_P(MoChains, EveryPosition_GetsExactlyWhatTheHostWrote) {
+  const auto [length, cable] = GetParam();
+  for (unsigned position = 0; position <= length; ++position) {  // length: all are actuators
+    std::string text = channel(1, cable ? "mo = true\ndelay_ns = 730\nmo_delay_ns = 385\n" : kBus);
+    for (unsigned i = 0; i < length; ++i) {
+      const bool is_actuator = position == length || i == position;
+      text += is_actuator ? actuator(3 + 7 * i, i == 0 || i % 2 == 1) : sensor(5 + 6 * i, 9 + i);
+    }
+    ProtocolChip chip(text, {.freqs = 0, .en_mo = true, .mo_busy = length});
+    std::uint64_t seed = 0x9E3779B97F4A7C15ULL;
+    for (unsigned frame = 1; frame <= 4; ++frame) {
+      for (unsigned i = 0; i < length; ++i) {
+        if (position == length || i == position) write_both_banks(chip, i + 1, seed + i * frame);
+      }
+      ASSERT_TRUE(chip.frame());
+      unsigned valid = 0;
+      for (unsigned i = 0; i < length; ++i) {
+        const auto* received = chip.simulator.slave(i + 1)->actuator();
+        if (received != nullptr) {
+          const unsigned bits = 3 + 7 * i;
+          EXPECT_EQ(received->word(), (seed + i * frame) & ((1ULL << bits) - 1)) << position;
+          EXPECT_EQ(received->words(), frame);
+          EXPECT_EQ(received->crc_errors() + received->stop_errors(), 0U);
+        } else {
+          valid |= 2U << (2 * i);
+          EXPECT_EQ(chip.scdata(i + 1, 5 + 6 * i), 9U + i) << position;
+        }
+      }
+      EXPECT_EQ(chip.svalid(), valid) << position;
+      EXPECT_EQ(chip.status(), 0xFB);
+      seed = seed * 6364136223846793005ULL + 1442695040888963407ULL;
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Length, MoChains,
+                         testing::Combine(testing::Range(1U, 9U), testing::Bool()),
+                         [](const auto& entry) {
+                           return std::to_string(std::get<0>(entry.param)) +
+                                  (std::get<1>(entry.param) ? "SlavesCable" : "Slaves");
+                         });
+
+// Every length, CRC and start value of one actuator.
+TEST(ChipMo, EveryLengthAndCrc_ArrivesWithTheRightCrc) {
+  constexpr std::uint32_t kPolynomials[] = {0, 0xB, 0x13, 0x25, 0x43, 0x89, 0x12F, 0x190D9, 0x97};
+  unsigned turn = 0;
+  for (unsigned bits = 1; bits <= 64; ++bits) {
+    const std::uint32_t polynomial = kPolynomials[turn++ % std::size(kPolynomials)];
+    const unsigned start = polynomial == 0 ? 0 : (turn * 0x2B5U) & 0xFFFF;
+    ProtocolChip chip(channel(1) + actuator(bits, true,
+                                            "crc = " + std::to_string(polynomial) +
+                                                "\ncrc_start = " + std::to_string(start) + "\n"),
+                      {.freqs = 1, .en_mo = true});
+    const std::uint64_t word = 0xA5C396F05A3C69E1ULL >> (64 - bits);
+    write_both_banks(chip, 1, word);
+    ASSERT_TRUE(chip.frame());
+    EXPECT_EQ(chip.simulator.slave(1)->actuator()->word(), word) << bits << " " << polynomial;
+    EXPECT_EQ(chip.simulator.slave(1)->actuator()->words(), 1U) << bits << " " << polynomial;
+  }
+}
+
+// The design review of an older revision: both channels with different lengths and either CDM.
+TEST(ChipMo, BothChannelsWithDifferentLengths_AndBothCdm) {
+  for (const bool cdm : {false, true}) {
+    ProtocolChip chip(channel(1) + actuator(8) + sensor(24, 0xC0FFEE) + channel(2) +
+                          sensor(40, 0x123456789A) + actuator(48, true),
+                      {.freqs = 3, .en_mo = true, .mo_busy = 3});
+    for (unsigned frame = 1; frame <= 5; ++frame) {
+      write_both_banks(chip, 1, 0x30 + frame);
+      write_both_banks(chip, 6, 0xA1B2C3D4E5F6ULL * frame);
+      ASSERT_TRUE(chip.frame(cdm ? 0x02 : 0x04));
+      EXPECT_EQ(chip.simulator.slave(1)->actuator()->word(), 0x30U + frame);
+      EXPECT_EQ(chip.simulator.slave(6)->actuator()->word(),
+                (0xA1B2C3D4E5F6ULL * frame) & 0xFFFFFFFFFFFFULL);
+      EXPECT_EQ(chip.scdata(2, 24), 0xC0FFEEU);
+      EXPECT_EQ(chip.scdata(5, 40), 0x123456789AULL);
+      EXPECT_EQ(chip.simulator.slave(1)->last_cdm(), cdm);
+      EXPECT_EQ(chip.status(), 0xFB);
+    }
+  }
+}
+
+// Page 25: what the host writes goes out in the frame after the next switch of the banks.
+TEST(ChipMo, HostWritesItsBank_TheNextSwitchHandsItOver) {
+  ProtocolChip chip(channel(1) + actuator(16), {.freqs = 3, .en_mo = true});
+  const auto* received = chip.simulator.slave(1)->actuator();
+  chip.write_scdata(1, 0x1111);
+  ASSERT_TRUE(chip.frame());
+  EXPECT_EQ(received->word(), 0U);
+  chip.write_scdata(1, 0x2222);
+  ASSERT_TRUE(chip.frame());
+  EXPECT_EQ(received->word(), 0x1111U);
+  ASSERT_TRUE(chip.frame());
+  EXPECT_EQ(received->word(), 0x2222U);
+  chip.write(0xE7, {0x01});  // SINGLEBANK
+  chip.write_scdata(1, 0x3333);
+  ASSERT_TRUE(chip.frame());
+  EXPECT_EQ(received->word(), 0x3333U);
+}
+
+// A cable longer than the frame: MA has to stop with the last bit of MO all the same.
+TEST(ChipMo, CableLongerThanTheFrame_WordArrives) {
+  for (const double delay_ns : {900.0, 2500.0, 10'000.0}) {
+    ProtocolChip chip(channel(1, "mo = true\ndelay_ns = " + std::to_string(delay_ns) + "\n") +
+                          sensor(8, 0x5A) + actuator(8),
+                      {.freqs = 0, .en_mo = true});
+    write_both_banks(chip, 2, 0xC3);
+    ASSERT_TRUE(chip.frame());
+    EXPECT_EQ(chip.simulator.slave(2)->actuator()->word(), 0xC3U) << delay_ns;
+    EXPECT_EQ(chip.simulator.slave(2)->actuator()->words(), 1U) << delay_ns;
+    EXPECT_EQ(chip.scdata(1, 8), 0x5AU) << delay_ns;
+    EXPECT_EQ(chip.simulator.line(1)->monitor().last(chip.simulator.now()).rising,
+              8U + 6 + 1 + 8 + 6 + 5)
+        << delay_ns;
+  }
+}
+
+// Control communication works on a bus: slave N has ID 0 (page 27).
+TEST(ChipMo, RegisterAccessOnABus) {
+  ProtocolChip chip(channel(1) + sensor(8, 0x5A, "registers = { 0x44 = 0x11 }\n") +
+                        actuator(8, true, "registers = { 0x44 = 0x22 }\n"),
+                    {.freqs = 0, .en_mo = true, .mo_busy = 2});
+  mb4test::ControlHost host(chip);
+  for (const unsigned id : {0U, 1U}) {
+    host.set_read(id, 0x44, 1);
+    chip.write(0xE5, {static_cast<std::uint8_t>(0xC2 | id << 3U)});
+    ASSERT_TRUE(host.run_ags(100'000));
+    EXPECT_EQ(host.rdata(1)[0], id == 0 ? 0x22 : 0x11);
+    EXPECT_EQ(host.status() & 0x7CU, 0x7CU);
+    chip.instruct(0x00);
+    chip.advance_us(100);
+  }
+}
+
+}  // namespace
