@@ -15,8 +15,9 @@ namespace mb4::tool {
 struct RunOptions {
   std::string scenario;
   std::uint64_t frames = 10;
-  std::string trace;  // empty: none
-  std::string csv;    // empty: none
+  std::string trace;    // empty: none
+  std::string csv;      // empty: none
+  std::string bus_log;  // empty: none
   bool json = false;
   std::optional<std::uint64_t> seed;
 };

@@ -86,6 +86,9 @@ int run(int argc, char** argv) {
   run_app->add_option("--csv", run_options.csv, "Also write the table as CSV")
       ->type_name("F")
       ->check(file_name());
+  run_app->add_option("--bus-log", run_options.bus_log, "Write what the driver sends and receives")
+      ->type_name("F")
+      ->check(file_name());
   run_app->add_flag("--json", run_options.json, "Print JSON instead of the table");
   run_app->add_option("--seed", run_options.seed, "Seed of every random choice (default 1)")
       ->type_name("S")

@@ -42,6 +42,10 @@ void check_outputs(const RunOptions& options, const sim::Scenario& scenario) {
     outputs.push_back({"--csv", options.csv});
     outputs.push_back({"--csv", partial_path(options.csv)});
   }
+  if (!options.bus_log.empty()) {
+    outputs.push_back({"--bus-log", options.bus_log});
+    outputs.push_back({"--bus-log", partial_path(options.bus_log)});
+  }
   if (!options.trace.empty()) {
     // The FST writer keeps a second file while it works.
     const std::string work = link_target(options.trace) + ".hier";
@@ -62,6 +66,9 @@ int run_command(const RunOptions& options) {
   check_outputs(options, scenario);
   std::unique_ptr<OutputFile> csv;
   if (!options.csv.empty()) csv = std::make_unique<OutputFile>(options.csv);
+  std::unique_ptr<OutputFile> bus_log;
+  if (!options.bus_log.empty()) bus_log = std::make_unique<OutputFile>(options.bus_log);
+  std::string bus_lines;
   sim::SimulatorOptions sim_options;
   sim_options.seed = options.seed;
   if (!options.trace.empty()) {
@@ -81,7 +88,7 @@ int run_command(const RunOptions& options) {
   try {
     sim::Simulator simulator(scenario, sim_options);
     summary.seed = simulator.seed();
-    SimBus bus(simulator);
+    SimBus bus(simulator, bus_log != nullptr ? &bus_lines : nullptr);
     SimClock clock(simulator);
     Device device(bus, clock);
     configured = device.configure(config);
@@ -112,6 +119,7 @@ int run_command(const RunOptions& options) {
   } else {
     fmt::print("{}", report.table_summary(summary));
   }
+  if (bus_log != nullptr) bus_log->commit(bus_lines);
   if (csv != nullptr) csv->commit(report.csv());
   return report.bad() == 0 ? kGood : kBad;
 }

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <span>
+#include <string>
 
 #include "mb4/parallel_bus.hpp"
 #include "mb4/span.hpp"
@@ -49,17 +50,42 @@ class SimPort {
 // through SPI2; with "intel" and "motorola" as bus cycles.
 class SimBus {
  public:
-  explicit SimBus(sim::Simulator& simulator)
-      : simulator_(simulator), port_(simulator), parallel_(port_) {}
+  // `log`: takes one line for each frame, "bytes sent > bytes received" in hex, where they are
+  // wanted by the caller.
+  explicit SimBus(sim::Simulator& simulator, std::string* log = nullptr)
+      : simulator_(simulator), port_(simulator), parallel_(port_), log_(log) {}
 
   bool transfer(Span<const std::uint8_t> tx, Span<std::uint8_t> rx) {
+    const bool done = exchange(tx, rx);
+    if (log_ != nullptr) write_log(tx, rx);
+    return done;
+  }
+
+ private:
+  bool exchange(Span<const std::uint8_t> tx, Span<std::uint8_t> rx) {
     if (simulator_.scenario().host.parallel()) return parallel_.transfer(tx, rx);
     sim::SpiHost& host = through_spi2(tx) ? simulator_.spi2() : simulator_.spi();
     host.transfer(std::span(tx.data(), tx.size()), std::span(rx.data(), rx.size()));
     return true;
   }
 
- private:
+  void write_log(Span<const std::uint8_t> tx, Span<const std::uint8_t> rx) {
+    static constexpr char kDigits[] = "0123456789ABCDEF";
+    const auto put = [this](std::uint8_t byte) {
+      *log_ += kDigits[byte >> 4U];
+      *log_ += kDigits[byte & 15U];
+      *log_ += ' ';
+    };
+    for (const std::uint8_t byte : tx) put(byte);
+    *log_ += '>';
+    for (const std::uint8_t byte : rx) {
+      *log_ += ' ';
+      put(byte);
+      log_->pop_back();
+    }
+    *log_ += '\n';
+  }
+
   bool through_spi2(Span<const std::uint8_t> tx) const {
     constexpr std::size_t kBegin = 0x20;
     constexpr std::size_t kEnd = 0x40;
@@ -71,6 +97,7 @@ class SimBus {
   sim::Simulator& simulator_;
   SimPort port_;
   ParallelBus<SimPort> parallel_;
+  std::string* log_;
 };
 
 // Looking at the clock takes time, as it does on a processor: a driver that waits by the clock
