@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "encoder26.hpp"
+#include "mb4/control_data.hpp"
 #include "mb4/device.hpp"
 #include "mb4/register_image.hpp"
 #include "strict_bus.hpp"
@@ -403,11 +404,24 @@ TEST(FrameTimeout, InternalClock_AllowsForItsSpread) {
   EXPECT_EQ(mb4::frame_timeout_us(config), 59U + mb4::kFrameMarginUs);
 }
 
+// IDs count from the far end, on each channel for itself.
+TEST(SlaveAddress, ThreeOnChannel1AndOneOnChannel2_CountFromTheFarEnd) {
+  Config config = encoder26();
+  config.slaves[1] = config.slaves[2] = config.slaves[4] = config.slaves[0];
+  config.channels[1].protocol = mb4::Protocol::kBissC;
+  for (std::uint8_t slave = 1; slave <= 3; ++slave) {
+    EXPECT_EQ(mb4::slave_address(config, slave).channel, 1);
+    EXPECT_EQ(mb4::slave_address(config, slave).id, 3 - slave);
+  }
+  EXPECT_EQ(mb4::slave_address(config, 5).channel, 2);
+  EXPECT_EQ(mb4::slave_address(config, 5).id, 0);
+}
+
 TEST(Names, EveryErrorAndField_HasOne) {
-  for (std::uint8_t i = 0; i <= static_cast<std::uint8_t>(Error::kBankSwitched); ++i) {
+  for (std::uint8_t i = 0; i <= static_cast<std::uint8_t>(Error::kJump); ++i) {
     EXPECT_STRNE(mb4::to_string(static_cast<Error>(i)), "unknown");
   }
-  for (std::uint8_t i = 0; i <= static_cast<std::uint8_t>(ConfigField::kRegisterBusyUs); ++i) {
+  for (std::uint8_t i = 0; i <= static_cast<std::uint8_t>(ConfigField::kSpiCheck); ++i) {
     EXPECT_STRNE(mb4::to_string(static_cast<ConfigField>(i)), "unknown");
   }
   EXPECT_STREQ(mb4::to_string(static_cast<Error>(250)), "unknown");
