@@ -83,6 +83,8 @@ module mb4_channel (
   logic word_bit;
   logic word_begin;
   logic rise;
+  logic final_rise;
+  logic ma_clocks;
   logic ssi;
 
   assign ssi = protocol_i == mb4_regs_pkg::PROTOCOL_SSI;
@@ -124,6 +126,8 @@ module mb4_channel (
     .word_load_o (word_begin),
     .word_bit_o  (word_bit),
     .rise_o      (rise),
+    .final_o     (final_rise),
+    .clocks_o    (ma_clocks),
     .cds_o,
     .cdm_o,
     .frame_end_o,
@@ -180,6 +184,8 @@ module mb4_channel (
     .reduced_i,
     .busy_i      (mo_busy_i),
     .rise_i      (rise),
+    .final_i     (final_rise),
+    .clocks_i    (ma_clocks),
     .line_idle_i (idle_o),
     .any_word_i  (mo_any_i),
     .last_word_i (mo_last_i),

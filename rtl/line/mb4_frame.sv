@@ -66,6 +66,8 @@ module mb4_frame (
   output logic       word_bit_o,
   // results
   output logic       rise_o,       // a rising MA edge of a frame
+  output logic       final_o,      // ... the last one, as far as is known by then
+  output logic       clocks_o,     // MA is clocking
   output logic       cds_o,
   output logic       cdm_o,        // as sent
   output logic       frame_end_o,
@@ -284,6 +286,8 @@ module mb4_frame (
   assign armed_b_o   = rises_d == 2'd2;
   assign word_load_o = load_q;
   assign rise_o      = rise;
+  assign final_o     = rise && (started_q || bus_i) && need_q <= 11'sd1 && cdm_known;
+  assign clocks_o    = ma_clocks;
   assign cds_o       = cds_q;
   assign cdm_o       = cdm;
   assign idle_o      = state_q == IDLE && !released;

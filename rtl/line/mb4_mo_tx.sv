@@ -24,6 +24,8 @@ module mb4_mo_tx (
   input  logic       reduced_i,
   input  logic [7:0] busy_i,        // MO_BUSY
   input  logic       rise_i,
+  input  logic       final_i,       // ... the last one of the frame
+  input  logic       clocks_i,      // MA is clocking
   input  logic       line_idle_i,
   // words
   input  logic       any_word_i,
@@ -155,7 +157,9 @@ module mb4_mo_tx (
         end
       end
       STOP: begin
-        if (rise_i) state_d = IDLE;
+        // On a line longer than the frame MA goes on: a 1 would pass through the slaves.
+        if (rise_i) mo_d = 1'b0;
+        if (final_i || !clocks_i) state_d = IDLE;
       end
       default: state_d = IDLE;
     endcase

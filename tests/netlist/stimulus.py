@@ -283,9 +283,10 @@ def mo_tx(steps):
             steps.step(any_word_i=int(steps.chance(0.9)), last_word_i=int(steps.chance(0.3)),
                        slave_i=any_value(steps, "slave_i"), rise_i=1,
                        mem_data_i=any_value(steps, "mem_data_i"),
-                       line_idle_i=int(steps.chance(0.005)))
+                       line_idle_i=int(steps.chance(0.005)), final_i=int(steps.chance(0.3)),
+                       clocks_i=int(steps.chance(0.95)))
             steps.clock("clk_i")
-            steps.step(rise_i=0)
+            steps.step(rise_i=0, final_i=0)
             steps.clock("clk_i")
 
 
