@@ -441,8 +441,9 @@ MODULES = {
         "tick_i": 0.5, "len_valid_i": 0.01, "len_i": rarely("len_i", 0.5, lambda s:
                                                             s.rng.choice([1, 7, 30, 80])),
         "last_word_i": 0.3, "word_done_i": 0.2, "sl_i": 0.7,
-        "protocol_i": rarely("protocol_i", 0.002), "register_i": 0.1, "register_end_i": 0.05,
-        "force_i": rarely("force_i", 0.002),
+        "protocol_i": rarely("protocol_i", 0.01, lambda s: s.rng.choice([1, 1, 1, 0, 2, 3])),
+        "register_i": 0.1, "register_end_i": 0.05, "force_i": rarely("force_i", 0.002),
+        "bus_i": rarely("bus_i", 0.01), "mo_busy_i": rarely("mo_busy_i", 0.01),
         "ack_i": 0.2, "hold_cdm_i": 0.2, "quarters_i": rarely("quarters_i", 0.1, lambda s:
                                                              s.rng.choice([3, 254, 255]))}),
     "mb4_ma_drive": simple(["clk_i"], ["rst_ni", "por_ni"], 4000, {
