@@ -23,7 +23,7 @@ module mb4_channels (
   input  logic        register_i,
   input  logic        register_ma_i,
   input  logic        register_end_i,
-  input  logic        register_mo_i,
+  input  logic [1:0]  register_mo_i,
   input  logic [1:0]  force_i,
   input  logic [1:0]  force_level_i,
   input  logic        force_change_i,

@@ -67,7 +67,7 @@ module mb4_engine #(
 
   // memories and banks
   logic mem_busy;
-  logic bank_pending, bank_swapped, frame_done, reduced, bank_end, holdbank;
+  logic bank_pending, bank_swapped, frame_done, reduced, bank_end;
   logic swbank_pulse;
   logic       rdata_rd_en, rdata_wr_en;
   logic [5:0] rdata_addr;
@@ -77,8 +77,8 @@ module mb4_engine #(
   logic [7:0] half_len;
   logic       tick;
   logic       start, init, abort, keep_time;
-  logic       register_start, register_ma, register_end, register_mo;
-  logic [1:0] start_use;
+  logic       register_start, register_ma, register_end;
+  logic [1:0] start_use, register_mo;
   logic [1:0] ma_force, ma_force_level;
   logic       ma_force_change;
   logic [1:0] idle, timeout, sl;
@@ -138,7 +138,7 @@ module mb4_engine #(
     .status_i       (status),
     .revision_sel_i (quirks_i[mb4_pkg::QUIRK_REVISION_LSB +: 2]),
     .mem_busy_o     (mem_busy),
-    .holdbank_i     (holdbank),
+    .holdbank_i     (held.holdbank),
     .swbank_pulse_i (swbank_pulse),
     .frame_end_i    (frame_done),
     .reduced_i      (reduced),
@@ -186,7 +186,6 @@ module mb4_engine #(
     .frame_end_o    (frame_done),
     .bank_end_o     (bank_end),
     .reduced_o      (reduced),
-    .holdbank_o     (holdbank),
     .swbank_pulse_o (swbank_pulse),
     .rdata_rd_en_o  (rdata_rd_en),
     .rdata_addr_o   (rdata_addr),

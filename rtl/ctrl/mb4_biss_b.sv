@@ -36,6 +36,7 @@ module mb4_biss_b (
   output logic       wait_o,
   output logic       active_o,
   output logic       init_o,         // it is the initialisation
+  output logic [1:0] use_o,          // its lines
   // lines
   input  logic [1:0] sl_i,           // synchronised
   output logic       ma_o,
@@ -270,6 +271,7 @@ module mb4_biss_b (
   end
 
   assign init_o          = init_q;
+  assign use_o           = use_q;
   assign active_o        = state_q != IDLE;
   assign wait_o          = (state_q == HAND_OVER && (init_q || !mo_i)) ||
                            (state_q == READ && cell_q == 5'd0);

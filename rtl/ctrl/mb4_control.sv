@@ -27,7 +27,6 @@ module mb4_control (
   output logic       frame_end_o,
   output logic       bank_end_o,
   output logic       reduced_o,
-  output logic       holdbank_o,
   output logic       swbank_pulse_o,
   // RDATA
   output logic       rdata_rd_en_o,
@@ -44,7 +43,7 @@ module mb4_control (
   output logic       register_o,      // with start_o
   output logic       register_ma_o,
   output logic       register_end_o,
-  output logic       register_mo_o,   // MO is low
+  output logic [1:0] register_mo_o,   // MO is low
   output logic [1:0] force_o,
   output logic [1:0] force_level_o,
   output logic       force_change_o,
@@ -244,11 +243,10 @@ module mb4_control (
 
   // Only an error tells how many bytes were good (Table 63).
   assign regbytes_o = (n_regerr_o && n_delayerr_o) ? 6'd0 : good_bytes;
-  assign holdbank_o = held_o.holdbank;
 
   // Frames run, or are bound to come. The host may take its time with those that it asks for, or
   // keep with HOLDBANK.
-  assign live = !eot_o || (held_o.ags && !infinite && !holdbank_o);
+  assign live = !eot_o || (held_o.ags && !infinite && !held_o.holdbank);
 
   mb4_ma_force u_force (
     .clk_i,

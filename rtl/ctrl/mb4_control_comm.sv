@@ -45,7 +45,7 @@ module mb4_control_comm (
   // BiSS B register access
   output logic       register_ma_o,
   output logic       register_end_o,
-  output logic       register_mo_o,    // MO is low
+  output logic [1:0] register_mo_o,    // MO is low
   // results
   output logic       reg_begin_o,
   output logic       reg_end_o,
@@ -59,7 +59,7 @@ module mb4_control_comm (
   logic control_begin, control_end, control_error, control_delay, in_body, expired, sent;
   logic register_start, register_active, register_wait, register_init, register_error;
   logic register_delay, register_end;
-  logic [1:0] control0, control1;
+  logic [1:0] control0, control1, register_use;
   logic       control_wr_en, register_wr_en;
   logic [5:0] control_addr, control_bytes, register_addr, register_bytes;
   logic [7:0] control_data, register_data;
@@ -124,6 +124,7 @@ module mb4_control_comm (
     .wait_o          (register_wait),
     .active_o        (register_active),
     .init_o          (register_init),
+    .use_o           (register_use),
     .sl_i,
     .ma_o            (register_ma_o),
     .rdata_addr_o    (register_addr),
@@ -138,7 +139,7 @@ module mb4_control_comm (
   );
 
   assign register_end    = register_end_o && !register_init;
-  assign register_mo_o   = register_active && !register_init;
+  assign register_mo_o   = register_use & {2{register_active && !register_init}};
   assign rdata_rd_en_o   = active_o || register_active;
   assign rdata_addr_o    = register_active ? register_addr : control_addr;
   assign rdata_wr_en_o   = control_wr_en || register_wr_en;

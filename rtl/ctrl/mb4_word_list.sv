@@ -25,6 +25,7 @@ module mb4_word_list #(
   // control
   input  logic       start_i,
   input  logic       next_i,      // the current word is complete
+  output logic       actuator_o,  // there is an actuator on this line
   // frame length
   output logic       len_valid_o,
   output logic [6:0] len_o,
@@ -104,6 +105,8 @@ module mb4_word_list #(
       sum_q  <= sum_d;
     end
   end
+
+  assign actuator_o = (enabled & actnsens_i) != 8'h00 && !ssi_i;
 
   assign actuator = actnsens_i[slave] && !ssi_i;
   assign stop     = actuator && cfg.gray_lstop;

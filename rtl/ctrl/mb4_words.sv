@@ -40,22 +40,12 @@ module mb4_words (
   localparam int unsigned W = mb4_pkg::WORD_CFG_W;
 
   logic [15:0] mine;
-  logic [7:0]  actuators;
+  logic [1:0]  rx_actuator;
   logic [1:0]  rx_len_valid;
   logic [13:0] rx_len;
   logic        unused;
 
   assign mine = slaveloc5_i ? 16'hF00F : 16'h00FF;
-
-  always_comb begin
-    for (int i = 0; i < 8; i++) begin
-      // ENSCDx is bit 6 of the data channel's first byte.
-      actuators[i] = slave_cfg_i[i*mb4_pkg::SLAVE_CFG_W + 6] && actnsens_i[i];
-    end
-  end
-
-  assign actuator_o[0] = !ssi_i[0] && (actuators & mine[7:0]) != 8'h00;
-  assign actuator_o[1] = !ssi_i[1] && (actuators & mine[15:8]) != 8'h00;
 
   for (genvar i = 0; i < 2; i++) begin : gen_line
     mb4_word_list #(.Sum(1'b0)) u_rx (
@@ -68,6 +58,7 @@ module mb4_words (
       .nocrc_i,
       .start_i,
       .next_i      (rx_next_i[i]),
+      .actuator_o  (rx_actuator[i]),
       .len_valid_o (rx_len_valid[i]),
       .len_o       (rx_len[i*7 +: 7]),
       .any_o       (rx_any_o[i]),
@@ -86,6 +77,7 @@ module mb4_words (
       .nocrc_i,
       .start_i,
       .next_i      (mo_next_i[i]),
+      .actuator_o  (actuator_o[i]),
       .len_valid_o (len_valid_o[i]),
       .len_o       (len_o[i*7 +: 7]),
       .any_o       (mo_any_o[i]),
@@ -96,6 +88,6 @@ module mb4_words (
   end
 
   // Only one of the two lists counts.
-  assign unused = ^{rx_len_valid, rx_len};
+  assign unused = ^{rx_actuator, rx_len_valid, rx_len};
 
 endmodule

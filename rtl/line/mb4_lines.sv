@@ -32,7 +32,7 @@ module mb4_lines (
   input  logic       register_i,     // with start_i
   input  logic       register_ma_i,
   input  logic       register_end_i,
-  input  logic       register_mo_i,
+  input  logic [1:0] register_mo_i,
   input  logic [1:0] force_i,
   input  logic [1:0] force_level_i,
   input  logic       force_change_i,
@@ -83,7 +83,6 @@ module mb4_lines (
   logic smp_b_neg;
 
   logic idle;
-  logic [1:0] register_use_q;
 
   assign idle = idle_o == 2'b11;
 
@@ -102,12 +101,6 @@ module mb4_lines (
     .smp_half_o  (smp_half),
     .smp_b_neg_o (smp_b_neg)
   );
-
-  // Lines of the register access keep MO low.
-  always_ff @(posedge clk_i or negedge rst_ni) begin
-    if (!rst_ni)                    register_use_q <= '0;
-    else if (start_i && register_i) register_use_q <= use_i;
-  end
 
   for (genvar i = 0; i < 2; i++) begin : gen_line
     mb4_channel u_channel (
@@ -129,7 +122,7 @@ module mb4_lines (
       .register_i,
       .register_ma_i,
       .register_end_i,
-      .register_mo_i (register_mo_i && register_use_q[i]),
+      .register_mo_i (register_mo_i[i]),
       .force_i       (force_i[i]),
       .force_level_i (force_level_i[i]),
       .tick_i       (tick_o),

@@ -47,7 +47,7 @@ module frame_top (
   logic       mo_any, mo_last, mo_next, mo, ssi;
   logic [2:0] mo_slave;
   logic [5:0] mo_addr;
-  logic       rx_len_valid;
+  logic       rx_len_valid, rx_actuator, mo_actuator;
   logic [6:0] rx_len;
   mb4_pkg::word_cfg_t mo_word;
   logic       sl_sync;
@@ -86,6 +86,7 @@ module frame_top (
     .nocrc_i,
     .start_i,
     .next_i      (next),
+    .actuator_o  (rx_actuator),
     .len_valid_o (rx_len_valid),
     .len_o       (rx_len),
     .any_o       (any_word),
@@ -104,6 +105,7 @@ module frame_top (
     .nocrc_i,
     .start_i,
     .next_i      (mo_next),
+    .actuator_o  (mo_actuator),
     .len_valid_o (len_valid),
     .len_o       (len),
     .any_o       (mo_any),
@@ -174,6 +176,7 @@ module frame_top (
   );
 
   logic unused;
-  assign unused = ^{sl_sync, word_begin, cdm_sent, mo, mo_addr, rx_len_valid, rx_len};
+  assign unused = ^{sl_sync, word_begin, cdm_sent, mo, mo_addr, rx_len_valid, rx_len,
+                    rx_actuator, mo_actuator};
 
 endmodule
