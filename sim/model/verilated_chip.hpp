@@ -37,8 +37,6 @@ class VerilatedChip final : public ChipModel {
         pin_clock_connected_(config.f_clk_hz != 0),
         osc_period_(kPsPerSecond / config.f_osc_hz),
         min_clock_(config.f_clk_hz == 0 ? 0 : kPsPerSecond / config.f_clk_hz) {
-    // The default makes idle worker threads.
-    context_->threads(1);
     // Flops and memories without reset get random values at power-on; 31 bits, not 0, as
     // randSeed() demands.
     context_->randReset(2);

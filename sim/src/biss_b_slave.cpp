@@ -9,9 +9,7 @@ BissBSlave::BissBSlave(const BissBSlaveConfig& config, std::uint64_t seed)
       access_(config_.access, registers()),
       timeout_(config.timeout, seed),
       shift_(config.word_bits()) {
-  registers().set_banks(config.access.banks);
-  registers().set_missing(config.access.missing);
-  registers().set_write_protected(config.access.write_protected);
+  registers().set_layout(config.access);
 }
 
 Time BissBSlave::register_timeout() const {

@@ -9,9 +9,7 @@ BissCSlave::BissCSlave(const BissCSlaveConfig& config, std::uint64_t seed)
       control_(config_.control, registers()),
       timeout_(config.timeout, seed),
       shift_(config.channel_bits()) {
-  registers().set_banks(config.control.banks);
-  registers().set_missing(config.control.missing);
-  registers().set_write_protected(config.control.write_protected);
+  registers().set_layout(config.control);
   actuator_.preset(config_.word(0, 0));
 }
 

@@ -5,8 +5,8 @@
 namespace mb4::sim {
 
 bool RegisterFile::write(unsigned address, std::uint8_t value) {
-  if (write_protected_[address]) return false;
-  (in_bank(address) ? banks_.at(selected())[address] : bytes_[address]) = value;
+  if (layout_.write_protected[address]) return false;
+  (in_bank(address) ? layout_.banks.at(selected())[address] : bytes_[address]) = value;
   return true;
 }
 

@@ -126,6 +126,12 @@ void read_marks(TomlReader& reader, std::string_view key, RegisterFile::Marks& m
   }
 }
 
+void read_layout(TomlReader& reader, RegisterFile::Layout& layout) {
+  read_banks(reader, layout.banks);
+  read_marks(reader, "missing", layout.missing);
+  read_marks(reader, "write_protected", layout.write_protected);
+}
+
 // Key `control`; without it none of `keys` may be given.
 bool read_present(TomlReader& reader, bool& present, std::initializer_list<std::string_view> keys) {
   if (const auto given = reader.boolean("control")) present = *given;
@@ -175,9 +181,7 @@ void read_control(TomlReader& reader, ControlConfig& control) {
   if (const auto ids = reader.integer("ids", 1, kMaxIds)) {
     control.ids = static_cast<unsigned>(*ids);
   }
-  read_banks(reader, control.banks);
-  read_marks(reader, "missing", control.missing);
-  read_marks(reader, "write_protected", control.write_protected);
+  read_layout(reader, control);
   read_busy(reader, "read_busy_frames", "read_busy_us", control.read_busy);
   read_busy(reader, "write_busy_frames", "write_busy_us", control.write_busy);
   read_busy(reader, "store_busy_frames", "store_busy_us", control.store_busy);
@@ -192,9 +196,7 @@ void read_access(TomlReader& reader, BissBRegisterConfig& access) {
   if (const auto ids = reader.integer("ids", 1, kMaxIds)) {
     access.ids = static_cast<unsigned>(*ids);
   }
-  read_banks(reader, access.banks);
-  read_marks(reader, "missing", access.missing);
-  read_marks(reader, "write_protected", access.write_protected);
+  read_layout(reader, access);
   read_busy(reader, "read_busy_clocks", "read_busy_us", access.read_busy);
   if (const auto us = reader.number("store_busy_us", 0, kMaxBusyUs)) {
     access.store_busy = {0, from_us(*us)};

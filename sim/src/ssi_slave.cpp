@@ -8,9 +8,7 @@ namespace mb4::sim {
 
 SsiSlave::SsiSlave(const SsiSlaveConfig& config)
     : config_(config), control_(config_.control, registers()) {
-  registers().set_banks(config.control.banks);
-  registers().set_missing(config.control.missing);
-  registers().set_write_protected(config.control.write_protected);
+  registers().set_layout(config.control);
 }
 
 std::uint64_t SsiSlave::line_word(std::uint64_t raw) const {

@@ -20,7 +20,8 @@
 
 namespace mb4::sim {
 
-struct BissBRegisterConfig {
+// A missing register is never answered.
+struct BissBRegisterConfig : RegisterFile::Layout {
   bool present = true;  // false: the device has no registers and answers nothing
   unsigned ids = 1;     // 1 to 8 slave IDs in a row
   // First ID in a point-to-point connection: number of IDs behind the slave, which is 0 for the
@@ -28,9 +29,6 @@ struct BissBRegisterConfig {
   unsigned first_id = 0;
   BusyTime read_busy;   // before the start bit of each byte read, in periods of the register clock
   BusyTime store_busy;  // after each byte written; a write that comes too early is not answered
-  RegisterFile::Banks banks;
-  RegisterFile::Marks missing;  // never answered
-  RegisterFile::Marks write_protected;
 };
 
 class BissBRegisters {

@@ -17,15 +17,12 @@
 
 namespace mb4::sim {
 
-struct ControlConfig {
+struct ControlConfig : RegisterFile::Layout {
   bool present = true;  // false: unidirectional device, adds nothing to CDS
   unsigned ids = 1;     // 1 to 8 slave IDs that the device locks
   BusyTime read_busy;   // before the data of each read
   BusyTime write_busy;  // before the data of each write
   BusyTime store_busy;  // after each write: the next access has to wait for it
-  RegisterFile::Banks banks;
-  RegisterFile::Marks missing;
-  RegisterFile::Marks write_protected;
 };
 
 // What arrived, for tests.

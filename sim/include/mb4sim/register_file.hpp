@@ -26,26 +26,32 @@ class RegisterFile {
   using Banks = std::map<std::uint8_t, Bank>;
   using Marks = std::bitset<kSize>;
 
+  // What a device is made with.
+  struct Layout {
+    // Banks 1 to 255 that exist; bank 0 is registers 0x00 to 0x3F. Without any, 0x40 is an ordinary
+    // register and bank 0 is always selected.
+    Banks banks;
+    // Registers that do not exist, and those that take no write, by the address that the master
+    // sees; below 0x40 in every bank.
+    Marks missing;
+    Marks write_protected;
+  };
+
   // Back door: bank 0, all addresses below kSize valid, whatever is marked.
   std::uint8_t get(std::size_t address) const { return bytes_[address]; }
   void set(std::size_t address, std::uint8_t value) { bytes_[address] = value; }
 
-  // Banks 1 to 255 that exist; bank 0 is registers 0x00 to 0x3F. Without any, 0x40 is an ordinary
-  // register and bank 0 is always selected.
-  void set_banks(const Banks& banks) { banks_ = banks; }
-  const Banks& banks() const { return banks_; }
-  // Registers that do not exist, and those that take no write, by the address that the master
-  // sees; below 0x40 in every bank.
-  void set_missing(const Marks& missing) { missing_ = missing; }
-  void set_write_protected(const Marks& marks) { write_protected_ = marks; }
+  void set_layout(const Layout& layout) { layout_ = layout; }
+  void set_missing(const Marks& missing) { layout_.missing = missing; }
+  const Banks& banks() const { return layout_.banks; }
 
   // Register access of BiSS, address below kSize.
   bool exists(unsigned address) const {
-    return !missing_[address] && (!in_bank(address) || banks_.contains(selected()));
+    return !layout_.missing[address] && (!in_bank(address) || banks().contains(selected()));
   }
   // Only if exists().
   std::uint8_t read(unsigned address) const {
-    return in_bank(address) ? banks_.at(selected())[address] : bytes_[address];
+    return in_bank(address) ? banks().at(selected())[address] : bytes_[address];
   }
   // Only if exists(). False: the register is protected and keeps its value.
   bool write(unsigned address, std::uint8_t value);
@@ -54,13 +60,11 @@ class RegisterFile {
   std::uint8_t selected() const { return bytes_[kBankSelect]; }
   // The address lies in a bank other than bank 0.
   bool in_bank(unsigned address) const {
-    return address < kBankSize && !banks_.empty() && selected() != 0;
+    return address < kBankSize && !banks().empty() && selected() != 0;
   }
 
   std::array<std::uint8_t, kSize> bytes_{};
-  Banks banks_;
-  Marks missing_;
-  Marks write_protected_;
+  Layout layout_;
 };
 
 }  // namespace mb4::sim
