@@ -6,8 +6,11 @@
 #ifndef MB4_TESTS_CHIP_BITS_HPP_
 #define MB4_TESTS_CHIP_BITS_HPP_
 
+#include <gtest/gtest.h>
+
 #include <cstdint>
 #include <cstdlib>
+#include <filesystem>
 #include <string>
 
 #include "reference.hpp"
@@ -49,6 +52,13 @@ inline bool crc_fits(const std::string& received, unsigned data_bits, mb4ref::Cr
 inline std::uint64_t number_from(const char* variable, std::uint64_t fallback) {
   const char* text = std::getenv(variable);
   return text == nullptr ? fallback : std::strtoull(text, nullptr, 0);
+}
+
+// Folder or file `name` that a failed random run leaves behind: below MB4_FAILURES, or among the
+// temporary files.
+inline std::filesystem::path failure_path(const std::string& name) {
+  const char* const chosen = std::getenv("MB4_FAILURES");
+  return std::filesystem::path(chosen != nullptr ? chosen : testing::TempDir()) / name;
 }
 
 }  // namespace mb4test

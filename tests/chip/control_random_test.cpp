@@ -26,10 +26,8 @@ constexpr unsigned kAccessesOfOneChip = 40;
 
 // Scenario and accesses up to the failure, in one file.
 std::string save(const ControlRun& run, std::uint64_t seed) {
-  const char* const chosen = std::getenv("MB4_FAILURES");
-  const std::filesystem::path base = chosen != nullptr ? chosen : testing::TempDir();
-  std::filesystem::create_directories(base);
-  const auto path = base / ("mb4-control-" + std::to_string(seed) + ".toml");
+  const auto path = mb4test::failure_path("mb4-control-" + std::to_string(seed) + ".toml");
+  std::filesystem::create_directories(path.parent_path());
   std::ofstream out(path);
   std::string line;
   for (const char c : run.log()) line += c == '\n' ? std::string("\n# ") : std::string(1, c);

@@ -25,9 +25,7 @@ using mb4test::RandomCounts;
 using mb4test::RandomRun;
 
 std::filesystem::path folder_of(std::uint64_t seed) {
-  const char* const chosen = std::getenv("MB4_FAILURES");
-  const std::filesystem::path base = chosen != nullptr ? chosen : testing::TempDir();
-  return base / ("mb4-random-" + std::to_string(seed));
+  return mb4test::failure_path("mb4-random-" + std::to_string(seed));
 }
 
 // 0: BiSS C sensors only, 1: all protocols, MO and actuators, else by turns.

@@ -95,13 +95,7 @@ TEST_F(Start, WrongUse_IsAnErrorWithoutTransfer) {
 TEST_F(Start, SingleBank_IsUnsupported) {
   mb4::Config config = encoder26();
   config.single_bank = true;
-  bus.expect_write({0x07, 0x80, 0x00});
-  Bytes image = mb4_test::configuration();
-  image[0xE7 - 0xC0] = 0x03;
-  bus.expect_write(join({{0x02, 0xC0}, image, zeros(3)}));
-  Bytes answer = mb4_test::read_back();
-  answer[0xE7 - 0xC0] = 0x03;
-  bus.expect_read(join({{0x03, 0xC0}, zeros(54)}), join({zeros(2), answer}));
+  mb4_test::expect_configure(bus, 0xE7, 0x03);
   ASSERT_TRUE(device.configure(config).ok());
   const mb4::ErrorInfo info = device.automatic().start().info();
   EXPECT_EQ(info.code, Error::kUnsupported);
@@ -336,13 +330,7 @@ TEST_F(Next, TransportFailureWhileWaiting_RestartsNextTime) {
 TEST_F(Next, NoPulseAtGetsens_IsNoDataAndChangesNothing) {
   mb4::Config config = encoder26();
   config.frame_start = mb4::FrameStart::kOnPin;
-  bus.expect_write({0x07, 0x80, 0x00});
-  Bytes image = mb4_test::configuration();
-  image[0xE8 - 0xC0] = 0x7D;
-  bus.expect_write(join({{0x02, 0xC0}, image, zeros(3)}));
-  Bytes answer = mb4_test::read_back();
-  answer[0xE8 - 0xC0] = 0x7D;
-  bus.expect_read(join({{0x03, 0xC0}, zeros(54)}), join({zeros(2), answer}));
+  mb4_test::expect_configure(bus, 0xE8, 0x7D);
   bus.expect_write(kAgs);
   ASSERT_TRUE(device.configure(config).ok());
   ASSERT_TRUE(device.automatic().start().ok());

@@ -283,13 +283,7 @@ TEST(ControlConfig, FramesThatDoNotWait_AreUnsupported) {
   mb4::Device<StrictBus, FakeClock> device(bus, clock);
   mb4::Config config = encoder26();
   config.frame_start = mb4::FrameStart::kRequireIdleLine;
-  bus.expect_write({0x07, 0x80, 0x00});
-  Bytes image = mb4_test::configuration();
-  image[0xE8 - 0xC0] = 0x7D;
-  bus.expect_write(join({{0x02, 0xC0}, image, zeros(3)}));
-  Bytes answer = mb4_test::read_back();
-  answer[0xE8 - 0xC0] = 0x7D;
-  bus.expect_read(join({{0x03, 0xC0}, zeros(54)}), join({zeros(2), answer}));
+  mb4_test::expect_configure(bus, 0xE8, 0x7D);
   ASSERT_TRUE(device.configure(config).ok());
   const ErrorInfo info = device.control().begin_read({1, 0}, 0, 1).info();
   EXPECT_EQ(info.code, Error::kUnsupported);

@@ -59,15 +59,21 @@ inline Bytes read_back(std::uint8_t interface_byte = 0x00) {
   return join({configuration({0x20, 0x84}), {0xFB, 0x00, 0x00, 0x00, 0x00}, {interface_byte}});
 }
 
-// The three transfers of configure(encoder26()).
-inline void expect_configure(StrictBus& bus) {
+// The three transfers of configure(encoder26()), or of a configuration that differs from it in the
+// register at `address` alone.
+inline void expect_configure(StrictBus& bus, std::uint8_t address, std::uint8_t value) {
+  Bytes image = configuration();
+  Bytes answer = read_back();
+  image[address - 0xC0U] = value;
+  answer[address - 0xC0U] = value;
   // Opcode 0x07 (page 18): BREAK = 1 to 0xF4 (table 47), CLKENI = 0 and CFGIF = TTL to 0xF5.
   bus.expect_write({0x07, 0x80, 0x00});
   // Opcode 0x02 (page 18): 0xC0..0xEF, then 0xF0 (read-only) and SVALID 1 to 8 cleared (table 61).
-  bus.expect_write(join({{0x02, 0xC0}, configuration(), {0x00, 0x00, 0x00}}));
+  bus.expect_write(join({{0x02, 0xC0}, image, {0x00, 0x00, 0x00}}));
   // Opcode 0x03 (page 18): data follows the address without a dummy byte.
-  bus.expect_read(join({{0x03, 0xC0}, zeros(54)}), join({zeros(2), read_back()}));
+  bus.expect_read(join({{0x03, 0xC0}, zeros(54)}), join({zeros(2), answer}));
 }
+inline void expect_configure(StrictBus& bus) { expect_configure(bus, 0xC0, configuration()[0]); }
 
 // Status bytes 0xF0..0xF4 behind the MISO byte of the opcode, as opcode 0x05 delivers them.
 inline Bytes status(std::uint8_t f0, std::uint8_t f1, std::uint8_t f4 = 0x00) {

@@ -116,13 +116,7 @@ TEST_F(ReadFrame, InstructionStillPending_IsNotTheEnd) {
 TEST_F(ReadFrame, StoredCrc_IsReadAndReturned) {
   mb4::Config config = encoder26();
   config.spi_check = mb4::SpiCheck::kCrc;
-  bus.expect_write({0x07, 0x80, 0x00});
-  Bytes image = mb4_test::configuration();
-  image[0xE7 - 0xC0] = 0x00;
-  bus.expect_write(join({{0x02, 0xC0}, image, {0x00, 0x00, 0x00}}));
-  Bytes answer = mb4_test::read_back();
-  answer[0xE7 - 0xC0] = 0x00;
-  bus.expect_read(join({{0x03, 0xC0}, zeros(54)}), join({zeros(2), answer}));
+  mb4_test::expect_configure(bus, 0xE7, 0x00);
   ASSERT_TRUE(device.configure(config).ok());
   bus.expect_write(kStartFrame);
   bus.expect_read(kReadStatus, kGoodFrame);
