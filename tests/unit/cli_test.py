@@ -71,7 +71,7 @@ class Cli(unittest.TestCase):
 
     def test_help_and_version_are_status_0(self):
         for arguments in (["--help"], ["run", "--help"], ["spi", "--help"], ["regs", "--help"],
-                          ["sweep", "--help"]):
+                          ["sweep", "--help"], ["bench", "--help"]):
             result = run(*arguments)
             self.assertEqual(result.returncode, 0)
             self.assertIn("Example", result.stdout)
@@ -243,6 +243,37 @@ class Cli(unittest.TestCase):
                                         stderr=subprocess.PIPE, text=True, timeout=120,
                                         check=False)
                 self.assert_one_line(result, 2, r"^mb4sim: cannot write to ")
+
+    # --- bench -------------------------------------------------------------------------------
+
+    def test_bench_measures_work_that_was_done(self):
+        result = run("bench", "--json", "--repeats", "2", "--ms", "5")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        report = json.loads(result.stdout)
+        rates = {rate["workload"]: rate for rate in report["rates"]}
+        self.assertEqual(list(rates), ["A", "B", "C", "D"])
+        for rate in rates.values():
+            self.assertGreater(rate["clk_per_s"], 10_000)
+            self.assertLessEqual(rate["slowest"], rate["clk_per_s"])
+            self.assertLessEqual(rate["clk_per_s"], rate["fastest"])
+        time_us = {letter: rates[letter]["clocks"] / 20 for letter in rates}
+        # A: 40 periods of MA at 10 MHz and the slave's timeout. B: 141 periods, 8 slaves a frame.
+        # C: a frame a millisecond.
+        self.assertAlmostEqual(rates["A"]["frames"] * 4.3 / time_us["A"], 1, delta=0.15)
+        self.assertAlmostEqual(rates["B"]["frames"] / 8 * 14.4 / time_us["B"], 1, delta=0.15)
+        self.assertAlmostEqual(rates["C"]["frames"], time_us["C"] / 1000, delta=1.5)
+        self.assertEqual(rates["D"]["frames"], 0)
+        self.assertGreater(rates["D"]["spi_bytes"] * 0.8, 0.9 * (time_us["D"] - 200))
+        self.assertGreater(len(report["compiler"]), 3)
+
+    def test_bench_text_has_a_line_for_each_workload_asked_for(self):
+        result = run("bench", "--workload", "dA", "--repeats", "1", "--ms", "1")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertEqual([line[0] for line in result.stdout.splitlines()[-2:]], ["D", "A"])
+        for word in ("machine", "compiler", "model"):
+            self.assertRegex(result.stdout, rf"(?m)^{word} +\S")
+        self.assert_one_line(run("bench", "--workload", "AX"), 2, "no workload 'X'")
+        self.assert_one_line(run("bench", "--workload", ","), 2, "names no workload")
 
     # --- run ---------------------------------------------------------------------------------
 

@@ -48,6 +48,14 @@ struct SweepOptions {
 };
 int sweep_command(const SweepOptions& options);
 
+struct BenchOptions {
+  std::string workloads;  // letters; empty: all
+  std::uint64_t repeats = 5;
+  std::uint64_t milliseconds = 200;  // processor time of each repeat, at least
+  bool json = false;
+};
+int bench_command(const BenchOptions& options);
+
 }  // namespace mb4::tool
 
 #endif  // MB4SIM_TOOL_COMMANDS_HPP_

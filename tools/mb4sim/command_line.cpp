@@ -1,0 +1,62 @@
+// SPDX-FileCopyrightText: 2026 The openmb4 authors
+// SPDX-License-Identifier: Apache-2.0
+#include "command_line.hpp"
+
+#include <fmt/core.h>
+
+#include <charconv>
+#include <string>
+#include <system_error>
+
+#include "mb4sim/version.hpp"
+
+namespace mb4::tool {
+
+// What goes on to CLI11 is decimal without leading zeros: left alone it reads octal, wraps negative
+// numbers and cuts long ones.
+CLI::Validator whole_number(std::uint64_t minimum, std::uint64_t maximum) {
+  const auto check = [=](std::string& text) {
+    const bool hex = text.starts_with("0x") || text.starts_with("0X");
+    const char* const begin = text.data() + (hex ? 2 : 0);
+    const char* const end = text.data() + text.size();
+    std::uint64_t value = 0;
+    const auto [stop, error] = std::from_chars(begin, end, value, hex ? 16 : 10);
+    if (error != std::errc() || stop != end || value < minimum || value > maximum) {
+      return fmt::format("'{}' is no whole number of {} to {}", text, minimum, maximum);
+    }
+    text = fmt::format("{}", value);
+    return std::string();
+  };
+  return CLI::Validator(check, "");
+}
+
+CLI::Validator file_name() {
+  return CLI::Validator(
+      [](const std::string& text) {
+        return text.empty() ? std::string("a file name is needed") : std::string();
+      },
+      "");
+}
+
+void add_scenario(CLI::App& command, std::string& target) {
+  command.add_option("scenario", target, "Scenario file (TOML)")
+      ->required()
+      ->type_name("SCENARIO")
+      ->check(file_name());
+}
+
+std::unique_ptr<CLI::App> make_command_line(Action& action) {
+  auto app = std::make_unique<CLI::App>(
+      "Simulator of an iC-MB4-compatible BiSS/SSI master with cables and encoders.");
+  app->name("mb4sim");
+  app->set_version_flag("--version", std::string("mb4sim ") + sim::version());
+  app->require_subcommand(1);
+  app->footer(
+      "Exit status: 0 good, 1 a check failed or a frame was bad, 2 wrong use or input, 3 the model "
+      "stopped on an assertion.\nExample: mb4sim run examples/resolute-26.toml --frames 5");
+  add_scenario_commands(*app, action);
+  add_other_commands(*app, action);
+  return app;
+}
+
+}  // namespace mb4::tool

@@ -1,0 +1,47 @@
+// SPDX-FileCopyrightText: 2026 The openmb4 authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// The commands, options and help texts of mb4sim.
+#ifndef MB4SIM_TOOL_COMMAND_LINE_HPP_
+#define MB4SIM_TOOL_COMMAND_LINE_HPP_
+
+#include <CLI/CLI.hpp>
+#include <cstdint>
+#include <functional>
+#include <memory>
+
+namespace mb4::tool {
+
+// What a command does once the command line has been understood: returns an exit status.
+using Action = std::function<int()>;
+
+// The whole command line. Parsing sets `action` to the command that was asked for.
+std::unique_ptr<CLI::App> make_command_line(Action& action);
+
+// --- for those who add commands ------------------------------------------------------------
+
+// Commands that run a scenario: run, spi, regs, sweep, scan.
+void add_scenario_commands(CLI::App& app, Action& action);
+// Commands that do not: presets, bench.
+void add_other_commands(CLI::App& app, Action& action);
+
+// Whole number, decimal or 0x.
+CLI::Validator whole_number(std::uint64_t minimum, std::uint64_t maximum);
+// Anything but an empty text.
+CLI::Validator file_name();
+// The argument SCENARIO.
+void add_scenario(CLI::App& command, std::string& target);
+
+// A command whose options live as long as the command line; `run` gets them.
+template <typename Options>
+CLI::App* add_command(CLI::App& app, Action& action, const char* name, const char* description,
+                      int (*run)(const Options&), std::shared_ptr<Options>& options) {
+  options = std::make_shared<Options>();
+  CLI::App* command = app.add_subcommand(name, description);
+  command->callback([&action, run, options] { action = [run, options] { return run(*options); }; });
+  return command;
+}
+
+}  // namespace mb4::tool
+
+#endif  // MB4SIM_TOOL_COMMAND_LINE_HPP_

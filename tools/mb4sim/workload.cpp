@@ -1,0 +1,189 @@
+// SPDX-FileCopyrightText: 2026 The openmb4 authors
+// SPDX-License-Identifier: Apache-2.0
+#include "workload.hpp"
+
+#include <array>
+#include <cstddef>
+#include <stdexcept>
+#include <string>
+
+#include "chip_setup.hpp"
+#include "mb4/device.hpp"
+#include "mb4/opcodes.hpp"
+#include "mb4sim/scenario.hpp"
+#include "mb4sim/simulator.hpp"
+#include "sim_bus.hpp"
+
+namespace mb4::tool {
+namespace {
+
+constexpr sim::Time kPoll = 100 * sim::kPsPerUs;    // between two looks at a register access
+constexpr sim::Time kStart = 3000 * sim::kPsPerUs;  // until frames run, those of C too
+constexpr std::uint8_t kFirstRegister = 0x40;
+
+constexpr const char* kChannel = "[[channel]]\nnumber = ";
+constexpr const char* kSlave =
+    "\n[[channel.slave]]\nprotocol = \"biss-c\"\ndata_bits = 28\nsource = \"ramp\"\n";
+
+std::string channel_of(char number, unsigned slaves) {
+  std::string text = std::string(kChannel) + number + '\n';
+  for (unsigned i = 0; i < slaves; ++i) text += kSlave;
+  return text;
+}
+
+template <typename T>
+void require(const Result<T>& result, const char* what) {
+  if (!result) {
+    throw std::runtime_error(std::string("workload: ") + what + ": " + describe(result.info()));
+  }
+}
+
+// A chip with a driver, configured; frames run by themselves unless `frame_period_clk` is kNone.
+class Bench : public Workload {
+ public:
+  static constexpr std::uint32_t kNone = UINT32_MAX;
+  static constexpr std::uint32_t kBackToBack = 0;
+
+  Bench(const std::string& scenario, std::uint32_t frame_period_clk)
+      : scenario_(sim::parse_scenario(scenario, "workload")),
+        simulator_(scenario_),
+        bus_(simulator_),
+        clock_(simulator_),
+        device_(bus_, clock_) {
+    Config config = make_config(scenario_);
+    if (frame_period_clk != kNone && frame_period_clk != kBackToBack) {
+      config.frame_start = FrameStart::kPeriodic;
+      config.frame_period_clk = frame_period_clk;
+    }
+    require(device_.configure(config), "configuration");
+    if (frame_period_clk == kNone) return;
+    require(device_.automatic().start(), "automatic frames");
+    simulator_.advance(kStart);
+    if (count().frames == 0) throw std::runtime_error("workload: there are no frames");
+  }
+
+  void run(sim::Time duration) override { simulator_.advance(duration); }
+
+  WorkCount count() const override {
+    WorkCount count;
+    count.clocks = simulator_.clk_cycles();
+    count.time = simulator_.now();
+    for (unsigned number = 1; number <= sim::kMaxSlaves; ++number) {
+      const sim::Slave* slave = simulator_.slave(number);
+      if (slave != nullptr) count.frames += slave->frames();
+    }
+    return count;
+  }
+
+ protected:
+  const sim::Scenario scenario_;
+  sim::Simulator simulator_;
+  SimBus bus_;
+  SimClock clock_;
+  Device<SimBus, SimClock> device_;
+};
+
+// The host looks after the access every 100 us and begins the next one, with the next slave.
+class RegisterAccess final : public Bench {
+ public:
+  RegisterAccess() : Bench(channel_of('1', 4) + channel_of('2', 4), kBackToBack) {}
+
+  void run(sim::Time duration) override {
+    const sim::Time end = simulator_.now() + duration;
+    while (simulator_.now() < end) {
+      if (!running_) begin();
+      simulator_.advance(kPoll);
+      const Result<bool> ended = device_.control().poll();
+      require(ended, "register access");
+      if (*ended) take();
+    }
+  }
+
+  WorkCount count() const override {
+    WorkCount count = Bench::count();
+    count.accesses = accesses_;
+    return count;
+  }
+
+ private:
+  static constexpr unsigned kSlavesPerChannel = 4;
+
+  void begin() {
+    const SlaveAddress slave{static_cast<std::uint8_t>(1 + (accesses_ & 1U)),
+                             static_cast<std::uint8_t>((accesses_ / 2) % kSlavesPerChannel)};
+    require(device_.control().begin_read(slave, kFirstRegister, kMaxRegistersPerAccess),
+            "register access");
+    running_ = true;
+  }
+
+  void take() {
+    std::array<std::uint8_t, kMaxRegistersPerAccess> values{};
+    require(device_.control().take(values), "register access");
+    running_ = false;
+    ++accesses_;
+  }
+
+  std::uint64_t accesses_ = 0;
+  bool running_ = false;
+};
+
+// One burst over the registers behind the other, written and read in turn.
+class SpiTraffic final : public Bench {
+ public:
+  SpiTraffic() : Bench(channel_of('1', 1), kNone) {}
+
+  void run(sim::Time duration) override {
+    const sim::Time end = simulator_.now() + duration;
+    while (simulator_.now() < end) {
+      ++bursts_;
+      for (std::size_t i = 2; i < write_.size(); ++i) {
+        write_[i] = static_cast<std::uint8_t>(bursts_ + i);
+      }
+      bus_.transfer(write_, {});
+      bus_.transfer(read_, back_);
+      for (std::size_t i = 2; i < write_.size(); ++i) {
+        if (back_[i] != write_[i]) throw std::runtime_error("workload: SPI: not read as written");
+      }
+    }
+  }
+
+  WorkCount count() const override {
+    WorkCount count = Bench::count();
+    count.spi_bytes = bursts_ * 2 * write_.size();
+    return count;
+  }
+
+ private:
+  static constexpr std::size_t kBurst = 66;  // opcode, address and RDATA1 to RDATA64
+  static constexpr std::uint8_t kRdata = 0x80;
+
+  std::uint64_t bursts_ = 0;
+  std::array<std::uint8_t, kBurst> write_{
+      static_cast<std::uint8_t>(regs::SpiOpcode::kWriteRegisters), kRdata};
+  std::array<std::uint8_t, kBurst> read_{static_cast<std::uint8_t>(regs::SpiOpcode::kReadRegisters),
+                                         kRdata};
+  std::array<std::uint8_t, kBurst> back_{};
+};
+
+constexpr std::uint32_t kMillisecondClk = 20'000;
+
+constexpr WorkloadInfo kWorkloads[] = {
+    {'A', "1 slave of 26 bits, AGSMIN, MA 10 MHz",
+     []() -> std::unique_ptr<Workload> {
+       return std::make_unique<Bench>(channel_of('1', 1), Bench::kBackToBack);
+     }},
+    {'B', "8 slaves on 2 channels, AGSMIN, register access running",
+     []() -> std::unique_ptr<Workload> { return std::make_unique<RegisterAccess>(); }},
+    {'C', "1 slave, 1000 frames/s, idle in between",
+     []() -> std::unique_ptr<Workload> {
+       return std::make_unique<Bench>(channel_of('1', 1), kMillisecondClk);
+     }},
+    {'D', "SPI traffic only, SCLK 10 MHz",
+     []() -> std::unique_ptr<Workload> { return std::make_unique<SpiTraffic>(); }},
+};
+
+}  // namespace
+
+std::span<const WorkloadInfo> workloads() { return kWorkloads; }
+
+}  // namespace mb4::tool

@@ -1,0 +1,54 @@
+// SPDX-FileCopyrightText: 2026 The openmb4 authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// The workloads whose speed is measured, by `mb4sim bench` and by tests/bench.
+#ifndef MB4SIM_TOOL_WORKLOAD_HPP_
+#define MB4SIM_TOOL_WORKLOAD_HPP_
+
+#include <cstdint>
+#include <memory>
+#include <span>
+
+#include "mb4sim/time.hpp"
+
+namespace mb4::tool {
+
+// What a workload has done since it was made.
+struct WorkCount {
+  std::uint64_t clocks = 0;    // system clocks of the chip
+  std::uint64_t frames = 0;    // of all slaves: eight slaves in one frame count eight
+  std::uint64_t accesses = 0;  // register accesses ended well, 64 registers each
+  std::uint64_t spi_bytes = 0;
+  sim::Time time = 0;  // simulated
+};
+
+class Workload {
+ public:
+  Workload() = default;
+  Workload(const Workload&) = delete;
+  Workload& operator=(const Workload&) = delete;
+  virtual ~Workload() = default;
+
+  // Lets `duration` of simulated time pass, or a little more. Throws std::runtime_error if the chip
+  // does not do what the workload is about, sim::ModelStopped.
+  virtual void run(sim::Time duration) = 0;
+  virtual WorkCount count() const = 0;
+};
+
+struct WorkloadInfo {
+  char letter;
+  const char* description;
+  // A configured chip with the workload running. Throws std::runtime_error, sim::ModelStopped.
+  std::unique_ptr<Workload> (*make)();
+};
+
+// A: 1 slave of 26 bits, automatic frames back to back (FREQAGS = AGSMIN) at f_MA = 10 MHz.
+// B: 8 slaves on both channels, AGSMIN, one register access behind the other.
+// C: 1 slave, 1000 frames a second, idle in between; nobody reads the data.
+// D: SPI traffic only, no frames.
+// All with f_CLK = 20 MHz.
+std::span<const WorkloadInfo> workloads();
+
+}  // namespace mb4::tool
+
+#endif  // MB4SIM_TOOL_WORKLOAD_HPP_
