@@ -9,6 +9,7 @@ common/mb4_sync_bit.sv
 common/mb4_toggle_rx.sv
 common/mb4_ram.sv
 common/mb4_ram_pair.sv
+common/mb4_ram_row.sv
 common/mb4_posted.sv
 common/mb4_clk_mux.sv
 host/mb4_spi_shift.sv
@@ -18,6 +19,7 @@ host/mb4_spi2.sv
 host/mb4_par_bus.sv
 host/mb4_host.sv
 regs/mb4_cfg_regs.sv
+regs/mb4_slave_cfg.sv
 regs/mb4_instr_reg.sv
 regs/mb4_host_read.sv
 regs/mb4_read_port2.sv

@@ -12,7 +12,10 @@ module mb4_channels (
   input  logic        rst_ni,
   input  logic        por_ni,
   // configuration
-  input  logic [mb4_pkg::NUM_SLAVES*mb4_pkg::SLAVE_CFG_W-1:0] slave_cfg_i,
+  input  logic [7:0]  enscd_i,
+  output logic [3:0]  cfg_en_o,    // lists {MO 2, MO 1, SL 2, SL 1}
+  output logic [11:0] cfg_slave_o,
+  input  logic [4*mb4_pkg::SLAVE_CFG_W-1:0] slave_cfg_i,
   input  mb4_pkg::cfg_t cfg_i,
   input  logic [7:0]  half_len_i,
   input  logic [1:0]  ssi_i,
@@ -70,6 +73,9 @@ module mb4_channels (
   mb4_words u_words (
     .clk_i,
     .rst_ni,
+    .enscd_i,
+    .cfg_en_o,
+    .cfg_slave_o,
     .slave_cfg_i,
     .actnsens_i  (cfg_i.actnsens),
     .slaveloc5_i (cfg_i.slaveloc5),

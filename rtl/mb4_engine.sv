@@ -57,7 +57,9 @@ module mb4_engine #(
   logic [mb4_pkg::QUIRKS_W-1:0] quirks_q;
 
   // registers
-  logic [mb4_pkg::NUM_SLAVES*mb4_pkg::SLAVE_CFG_W-1:0] slave_cfg;
+  logic [3:0]       cfg_en;       // word lists
+  logic [11:0]      cfg_slave;
+  logic [4*mb4_pkg::SLAVE_CFG_W-1:0] slave_cfg;
   mb4_pkg::cfg_t    cfg;
   mb4_pkg::instr_t  written;
   mb4_pkg::instr_t  held;
@@ -66,15 +68,14 @@ module mb4_engine #(
   logic       instr_ack;
 
   // memories and banks
-  logic mem_busy;
+  logic mem_busy, swbank_pulse;
   logic bank_pending, bank_swapped, frame_done, reduced, bank_end;
-  logic swbank_pulse;
   logic       rdata_rd_en, rdata_wr_en;
   logic [5:0] rdata_addr;
   logic [7:0] rdata, rdata_wr_data;
 
   // control
-  logic [7:0] half_len;
+  logic [7:0] half_len, enscd;
   logic       tick;
   logic       start, init, abort, keep_time;
   logic       register_start, register_ma, register_end;
@@ -129,6 +130,9 @@ module mb4_engine #(
     .rd2_en_i,
     .rd2_addr_i,
     .rd2_data_o,
+    .enscd_o        (enscd),
+    .cfg_en_i       (cfg_en),
+    .cfg_slave_i    (cfg_slave),
     .slave_cfg_o    (slave_cfg),
     .cfg_o          (cfg),
     .written_o      (written),
@@ -235,6 +239,9 @@ module mb4_engine #(
     .clk_i,
     .rst_ni         (rst_core_n),
     .por_ni         (por_core_n),
+    .enscd_i        (enscd),
+    .cfg_en_o       (cfg_en),
+    .cfg_slave_o    (cfg_slave),
     .slave_cfg_i    (slave_cfg),
     .cfg_i          (cfg),
     .half_len_i     (half_len),

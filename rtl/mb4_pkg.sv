@@ -54,8 +54,8 @@ package mb4_pkg;
   typedef struct packed {
     logic [5:0]  data_last;  // data bits minus 1
     logic [4:0]  crc_len;    // 0, 1..8 or 16
-    logic [15:0] crc_poly;   // without the highest power, right aligned
-    logic [15:0] crc_top;    // one-hot: highest bit of the remainder
+    logic [7:0]  crc_poly;   // without the highest power; 16-bit CRC: its lower half
+    logic [7:0]  crc_top;    // one-hot: highest bit of the remainder; 16-bit CRC: 0
     logic [15:0] crc_start;
     logic        crc_store;  // received CRC goes to the top byte(s)
     logic        gray;       // data bits are Gray coded
@@ -63,7 +63,7 @@ package mb4_pkg;
     logic        stop;       // a stop bit precedes the data of the actuator
   } word_cfg_t;
 
-  localparam int unsigned WORD_CFG_W = 63;
+  localparam int unsigned WORD_CFG_W = 47;
 
   // What 0xF4 holds (datasheet Tables 44..49), bit 7 first.
   typedef struct packed {

@@ -17,7 +17,7 @@ module mb4_word_list #(
   input  logic       clk_i,
   input  logic       rst_ni,
   // configuration
-  input  logic [mb4_pkg::NUM_SLAVES*mb4_pkg::SLAVE_CFG_W-1:0] slave_cfg_i,
+  input  logic [7:0] enscd_i,
   input  logic [7:0] actnsens_i,
   input  logic [7:0] mine_i,      // data channels that this line carries
   input  logic       ssi_i,
@@ -25,6 +25,9 @@ module mb4_word_list #(
   // control
   input  logic       start_i,
   input  logic       next_i,      // the current word is complete
+  output logic       cfg_en_o,
+  output logic [2:0] cfg_slave_o, // configuration wanted ...
+  input  mb4_pkg::slave_cfg_t cfg_i,  // ... one clock later
   output logic       actuator_o,  // there is an actuator on this line
   // frame length
   output logic       len_valid_o,
@@ -39,46 +42,31 @@ module mb4_word_list #(
   logic [7:0]  enabled;
   logic [7:0]  todo_d;
   logic [7:0]  todo_q;
+  logic [7:0]  rest;       // behind the current word
   logic [7:0]  sum_d;
   logic [7:0]  sum_q;     // words whose length has not been offered
   logic        summing;
   logic [2:0]  first;
   logic [2:0]  last;
-  logic [2:0]  slave;
+  logic [2:0]  slave_d;
+  logic [2:0]  slave_q;
   logic [4:0]  crc_len;
-  logic [15:0] crc_poly;
-  logic [15:0] crc_top;
+  logic [7:0]  crc_poly;
+  logic [7:0]  crc_top;
   logic        actuator;
   logic        stop;
   logic        crc_room;
-  mb4_pkg::slave_cfg_t cfg;
   logic        unused;
 
-  always_comb begin
-    for (int i = 0; i < 8; i++) begin
-      // ENSCDx is bit 6 of the data channel's first byte.
-      enabled[i] = slave_cfg_i[i*mb4_pkg::SLAVE_CFG_W + 6] && mine_i[i];
-    end
-  end
-
-  always_comb begin
-    first = 3'd0;
-    last  = 3'd0;
-    for (int i = 0; i < 8; i++) begin
-      if (todo_q[7-i]) first = 3'(7 - i);
-      if (sum_q[i])    last  = 3'(i);
-    end
-  end
-
-  // Bits that the list itself has used.
-  assign unused  = cfg.enscd;
+  assign enabled = enscd_i & mine_i;
+  assign rest    = todo_q & (todo_q - 8'd1);
   assign summing = Sum && sum_q != 8'h00;
-  assign slave   = summing ? last : first;
-  assign cfg     = slave_cfg_i[slave*mb4_pkg::SLAVE_CFG_W +: mb4_pkg::SLAVE_CFG_W];
+  // Known from enscd_i.
+  assign unused  = cfg_i.enscd;
 
   mb4_crc_decode u_decode (
-    .selcrc_i   (cfg.selcrc),
-    .crc_code_i (cfg.crc_code),
+    .selcrc_i   (cfg_i.selcrc),
+    .crc_code_i (cfg_i.crc_code),
     .crc_len_o  (crc_len),
     .crc_poly_o (crc_poly),
     .crc_top_o  (crc_top)
@@ -91,38 +79,54 @@ module mb4_word_list #(
       todo_d = enabled;
       sum_d  = Sum ? enabled : 8'h00;
     end else begin
-      if (summing) sum_d[last] = 1'b0;
-      if (next_i)  todo_d = todo_q & (todo_q - 8'd1);
+      if (summing) sum_d[slave_q] = 1'b0;
+      if (next_i)  todo_d = rest;
     end
   end
 
+  // The data channel of the next clock, so that its configuration is there with it.
+  always_comb begin
+    first = 3'd0;
+    last  = 3'd0;
+    for (int i = 0; i < 8; i++) begin
+      if (todo_d[7-i]) first = 3'(7 - i);
+      if (sum_d[i])    last  = 3'(i);
+    end
+  end
+
+  assign slave_d     = (Sum && sum_d != 8'h00) ? last : first;
+  assign cfg_en_o    = start_i || next_i || summing;
+  assign cfg_slave_o = slave_d;
+
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
-      todo_q <= 8'h00;
-      sum_q  <= 8'h00;
-    end else begin
-      todo_q <= todo_d;
-      sum_q  <= sum_d;
+      todo_q  <= 8'h00;
+      sum_q   <= 8'h00;
+      slave_q <= 3'd0;
+    end else if (cfg_en_o) begin
+      todo_q  <= todo_d;
+      sum_q   <= sum_d;
+      slave_q <= slave_d;
     end
   end
 
   assign actuator_o = (enabled & actnsens_i) != 8'h00 && !ssi_i;
 
-  assign actuator = actnsens_i[slave] && !ssi_i;
-  assign stop     = actuator && cfg.gray_lstop;
+  assign actuator = actnsens_i[slave_q] && !ssi_i;
+  assign stop     = actuator && cfg_i.gray_lstop;
 
   assign len_valid_o = summing;
-  assign len_o       = 7'(cfg.scdlen) + 7'd1 + 7'(crc_len) + 7'(stop);
+  assign len_o       = 7'(cfg_i.scdlen) + 7'd1 + 7'(crc_len) + 7'(stop);
 
   assign any_o   = todo_q != 8'h00;
-  assign last_o  = (todo_q & (todo_q - 8'd1)) == 8'h00;
-  assign slave_o = slave;
+  assign last_o  = rest == 8'h00;
+  assign slave_o = slave_q;
 
   // The CRC is stored only if the data leave its byte(s) free (page 26).
-  assign crc_room = crc_len[4] ? cfg.scdlen < 6'd48 : cfg.scdlen < 6'd56;
+  assign crc_room = crc_len[4] ? cfg_i.scdlen < 6'd48 : cfg_i.scdlen < 6'd56;
 
-  assign word_o = {cfg.scdlen, crc_len, crc_poly, crc_top, cfg.crc_start,
-                   crc_room && !nocrc_i && crc_len != 5'd0, ssi_i && cfg.gray_lstop, actuator,
+  assign word_o = {cfg_i.scdlen, crc_len, crc_poly, crc_top, cfg_i.crc_start,
+                   crc_room && !nocrc_i && crc_len != 5'd0, ssi_i && cfg_i.gray_lstop, actuator,
                    stop};
 
 endmodule

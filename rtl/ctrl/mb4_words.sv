@@ -5,7 +5,8 @@
 // counts the bits of the frame (instances only). Bit i of a vector {2, 1} belongs to line i + 1,
 // wider fields are slices.
 //
-// Clock domain: core. See mb4_word_list. With SLAVELOC5 = 1 line 2 has data channels 5..8.
+// Clock domain: core. See mb4_word_list. The lists get the configuration of their data channel on
+// ports of their own. With SLAVELOC5 = 1 line 2 has data channels 5..8.
 // actuator_o: there is an actuator among the words of the line.
 // Datasheet: pages 23..26, Tables 10, 17.
 
@@ -13,7 +14,10 @@ module mb4_words (
   input  logic        clk_i,
   input  logic        rst_ni,
   // configuration
-  input  logic [mb4_pkg::NUM_SLAVES*mb4_pkg::SLAVE_CFG_W-1:0] slave_cfg_i,
+  input  logic [7:0]  enscd_i,
+  output logic [3:0]  cfg_en_o,    // lists {MO 2, MO 1, SL 2, SL 1}
+  output logic [11:0] cfg_slave_o,
+  input  logic [4*mb4_pkg::SLAVE_CFG_W-1:0] slave_cfg_i,
   input  logic [7:0]  actnsens_i,
   input  logic        slaveloc5_i,
   input  logic        nocrc_i,
@@ -37,6 +41,7 @@ module mb4_words (
   output logic [2*mb4_pkg::WORD_CFG_W-1:0] mo_word_o
 );
 
+  localparam int unsigned C = mb4_pkg::SLAVE_CFG_W;
   localparam int unsigned W = mb4_pkg::WORD_CFG_W;
 
   logic [15:0] mine;
@@ -51,13 +56,16 @@ module mb4_words (
     mb4_word_list #(.Sum(1'b0)) u_rx (
       .clk_i,
       .rst_ni,
-      .slave_cfg_i,
+      .enscd_i,
       .actnsens_i,
       .mine_i      (mine[i*8 +: 8]),
       .ssi_i       (ssi_i[i]),
       .nocrc_i,
       .start_i,
       .next_i      (rx_next_i[i]),
+      .cfg_en_o    (cfg_en_o[i]),
+      .cfg_slave_o (cfg_slave_o[i*3 +: 3]),
+      .cfg_i       (slave_cfg_i[i*C +: C]),
       .actuator_o  (rx_actuator[i]),
       .len_valid_o (rx_len_valid[i]),
       .len_o       (rx_len[i*7 +: 7]),
@@ -70,13 +78,16 @@ module mb4_words (
     mb4_word_list u_mo (
       .clk_i,
       .rst_ni,
-      .slave_cfg_i,
+      .enscd_i,
       .actnsens_i,
       .mine_i      (mine[i*8 +: 8]),
       .ssi_i       (ssi_i[i]),
       .nocrc_i,
       .start_i,
       .next_i      (mo_next_i[i]),
+      .cfg_en_o    (cfg_en_o[2 + i]),
+      .cfg_slave_o (cfg_slave_o[(2 + i)*3 +: 3]),
+      .cfg_i       (slave_cfg_i[(2 + i)*C +: C]),
       .actuator_o  (actuator_o[i]),
       .len_valid_o (len_valid_o[i]),
       .len_o       (len_o[i*7 +: 7]),

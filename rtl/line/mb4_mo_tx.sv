@@ -78,6 +78,7 @@ module mb4_mo_tx (
   mb4_crc u_crc (
     .clk_i,
     .rst_ni,
+    .crc16_i (word_i.crc_len[4]),
     .poly_i  (word_i.crc_poly),
     .top_i   (word_i.crc_top),
     .start_i (word_i.crc_start),

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Configuration registers 0xC0..0xDF, 0xE2..0xE9, 0xEC..0xEF and 0xF5.
+// Configuration registers 0xE2..0xE9, 0xEC..0xEF and 0xF5; those of the data channels are in
+// mb4_slave_cfg.
 //
 // Clock domain: host (hclk_i: SCLK or bus strobe); works with no system clock. Written at the
 // hclk_i edge with wr_en_i; rd_data_o is combinational from rd_addr_i. The outputs are
@@ -21,13 +22,9 @@ module mb4_cfg_regs (
   input  logic [7:0] rd_addr_i,
   output logic [7:0] rd_data_o,
   // configuration
-  output logic [mb4_pkg::NUM_SLAVES*mb4_pkg::SLAVE_CFG_W-1:0] slave_cfg_o,
-  output mb4_pkg::cfg_t                                       cfg_o
+  output mb4_pkg::cfg_t cfg_o
 );
 
-  localparam int unsigned SLAVE_BYTES = mb4_pkg::NUM_SLAVES * 4;
-
-  logic [7:0] slave_q [0:SLAVE_BYTES-1];
   logic [7:0] regadr_q;
   logic [5:0] regnum_q;
   logic [1:0] chsel_q;
@@ -40,14 +37,6 @@ module mb4_cfg_regs (
   logic [3:0] cfgch_q;
   logic [7:0] actnsens_q;
   logic [7:0] iface_q;
-
-  always_ff @(posedge hclk_i or negedge rst_ni) begin
-    if (!rst_ni) begin
-      for (int i = 0; i < SLAVE_BYTES; i++) slave_q[i] <= 8'h00;
-    end else if (wr_en_i && wr_addr_i[7:5] == mb4_regs_pkg::ADDR_SLAVE_CFG[7:5]) begin
-      slave_q[wr_addr_i[4:0]] <= wr_data_i;
-    end
-  end
 
   always_ff @(posedge hclk_i or negedge rst_ni) begin
     if (!rst_ni) begin
@@ -83,30 +72,21 @@ module mb4_cfg_regs (
   end
 
   always_comb begin
-    rd_data_o = 8'h00;
-    if (rd_addr_i[7:5] == mb4_regs_pkg::ADDR_SLAVE_CFG[7:5]) begin
-      rd_data_o = slave_q[rd_addr_i[4:0]];
-    end else begin
-      unique case (rd_addr_i)
-        mb4_regs_pkg::ADDR_REGADR:    rd_data_o = regadr_q;
-        mb4_regs_pkg::ADDR_REGNUM:    rd_data_o = {2'b00, regnum_q};
-        mb4_regs_pkg::ADDR_CHSEL:     rd_data_o = {6'b000000, chsel_q};
-        mb4_regs_pkg::ADDR_CTRL:      rd_data_o = ctrl_q;
-        mb4_regs_pkg::ADDR_FREQ:      rd_data_o = freq_q;
-        mb4_regs_pkg::ADDR_BANKCFG:   rd_data_o = {6'b000000, bankcfg_q};
-        mb4_regs_pkg::ADDR_FREQAGS:   rd_data_o = freqags_q;
-        mb4_regs_pkg::ADDR_MO_BUSY:   rd_data_o = mo_busy_q;
-        mb4_regs_pkg::ADDR_SLAVELOC5: rd_data_o = {3'b000, slaveloc5_q, 4'b0001};
-        mb4_regs_pkg::ADDR_CFGCH:     rd_data_o = {4'b0000, cfgch_q};
-        mb4_regs_pkg::ADDR_ACTNSENS:  rd_data_o = actnsens_q;
-        mb4_regs_pkg::ADDR_IFACE:     rd_data_o = iface_q;
-        default:                      rd_data_o = 8'h00;
-      endcase
-    end
-  end
-
-  for (genvar i = 0; i < SLAVE_BYTES; i++) begin : gen_slave_cfg
-    assign slave_cfg_o[i*8 +: 8] = slave_q[i];
+    unique case (rd_addr_i)
+      mb4_regs_pkg::ADDR_REGADR:    rd_data_o = regadr_q;
+      mb4_regs_pkg::ADDR_REGNUM:    rd_data_o = {2'b00, regnum_q};
+      mb4_regs_pkg::ADDR_CHSEL:     rd_data_o = {6'b000000, chsel_q};
+      mb4_regs_pkg::ADDR_CTRL:      rd_data_o = ctrl_q;
+      mb4_regs_pkg::ADDR_FREQ:      rd_data_o = freq_q;
+      mb4_regs_pkg::ADDR_BANKCFG:   rd_data_o = {6'b000000, bankcfg_q};
+      mb4_regs_pkg::ADDR_FREQAGS:   rd_data_o = freqags_q;
+      mb4_regs_pkg::ADDR_MO_BUSY:   rd_data_o = mo_busy_q;
+      mb4_regs_pkg::ADDR_SLAVELOC5: rd_data_o = {3'b000, slaveloc5_q, 4'b0001};
+      mb4_regs_pkg::ADDR_CFGCH:     rd_data_o = {4'b0000, cfgch_q};
+      mb4_regs_pkg::ADDR_ACTNSENS:  rd_data_o = actnsens_q;
+      mb4_regs_pkg::ADDR_IFACE:     rd_data_o = iface_q;
+      default:                      rd_data_o = 8'h00;
+    endcase
   end
 
   assign cfg_o = {regadr_q, regnum_q, chsel_q, ctrl_q[7:3], ctrl_q[1:0], freq_q, bankcfg_q,

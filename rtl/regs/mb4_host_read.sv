@@ -24,6 +24,7 @@ module mb4_host_read (
   input  logic [15:0] scd_lo_data_i, // read registers of the memories, same edge as rd_en_i;
   input  logic [15:0] scd_hi_data_i, // bank 1 in the upper byte
   input  logic [7:0] rdata_data_i,
+  input  logic [7:0] slave_data_i,   // configuration of the data channels, same edge
   input  logic [7:0] cfg_data_i,     // combinational from rd_addr_i
   input  logic [7:0] instr_data_i,
   input  logic       instr_pending_i,
@@ -33,8 +34,9 @@ module mb4_host_read (
   input  logic [1:0] revision_sel_i
 );
 
-  typedef enum logic [1:0] {
+  typedef enum logic [2:0] {
     REGISTER,
+    SLAVE_CFG,
     SCD_LO,
     SCD_HI,
     RDATA
@@ -55,6 +57,7 @@ module mb4_host_read (
       8'b000?????: source_d = SCD_LO;
       8'b001?????: source_d = SCD_HI;
       8'b10??????: source_d = RDATA;
+      8'b110?????: source_d = SLAVE_CFG;
       default:     source_d = REGISTER;
     endcase
   end
@@ -124,6 +127,7 @@ module mb4_host_read (
       rd_data_o = {flags_q[3], reg_q[6], flags_q[2], reg_q[4],
                    flags_q[1], reg_q[2], flags_q[0], reg_q[0]};
     end
+    if (source_q == SLAVE_CFG) rd_data_o = slave_data_i;
     if (ready_q) begin
       unique case (source_q)
         SCD_LO:  rd_data_o = bank_q ? scd_lo_data_i[15:8] : scd_lo_data_i[7:0];

@@ -32,8 +32,12 @@ module mb4_reg_file #(
   input  logic [4:0] rd2_addr_i,
   output logic [7:0] rd2_data_o,
   // configuration, host domain, quasi-static
-  output logic [mb4_pkg::NUM_SLAVES*mb4_pkg::SLAVE_CFG_W-1:0] slave_cfg_o,
   output mb4_pkg::cfg_t    cfg_o,
+  output logic [7:0]       enscd_o,
+  // data channels' configuration, read by four word lists in the core clock
+  input  logic [3:0]       cfg_en_i,
+  input  logic [11:0]      cfg_slave_i,
+  output logic [4*mb4_pkg::SLAVE_CFG_W-1:0] slave_cfg_o,
   // instruction register
   output mb4_pkg::instr_t  written_o,
   output logic             toggle_o,
@@ -76,6 +80,7 @@ module mb4_reg_file #(
 );
 
   logic [7:0]  cfg_data;
+  logic [7:0]  slave_data;
   logic [7:0]  instr_data;
   logic        instr_pending, control_pending;
   logic        clear_busy;
@@ -99,8 +104,24 @@ module mb4_reg_file #(
     .wr_data_i,
     .rd_addr_i,
     .rd_data_o   (cfg_data),
-    .slave_cfg_o,
     .cfg_o
+  );
+
+  mb4_slave_cfg u_slave_cfg (
+    .hclk_i,
+    .rst_ni       (hrst_ni),
+    .wr_en_i      (wr_en_i && wr_addr_i[7:5] == mb4_regs_pkg::ADDR_SLAVE_CFG[7:5]),
+    .wr_addr_i    (wr_addr_i[4:0]),
+    .wr_data_i,
+    .rclk_i,
+    .rd_en_i,
+    .rd_addr_i    (rd_addr_i[4:0]),
+    .rd_data_o    (slave_data),
+    .clk_i,
+    .enscd_o,
+    .list_en_i    (cfg_en_i),
+    .list_slave_i (cfg_slave_i),
+    .list_cfg_o   (slave_cfg_o)
   );
 
   mb4_instr_reg u_instr (
@@ -132,6 +153,7 @@ module mb4_reg_file #(
     .scd_lo_data_i   (scd_lo_data),
     .scd_hi_data_i   (scd_hi_data),
     .rdata_data_i    (rdata_data),
+    .slave_data_i    (slave_data),
     .cfg_data_i      (cfg_data),
     .instr_data_i    (instr_data),
     .instr_pending_i (instr_pending),

@@ -27,7 +27,7 @@ NEEDED_PAIRS = {"mb4_pkg::SLAVE_CFG_W", "mb4_pkg::WORD_CFG_W"}
 
 # Yosys 0.23 makes the first too narrow without a message (struct: wrong hardware of tool-limits).
 PLANTED = {
-    "array_of_struct": ("mb4_pkg::word_cfg_t [3:0]", 4 * 63),
+    "array_of_struct": ("mb4_pkg::word_cfg_t [3:0]", 4 * 47),
     "array_of_vector": ("nib_t [7:0]", 8 * 4),
 }
 

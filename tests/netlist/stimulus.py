@@ -113,12 +113,9 @@ def crc_decode(steps):
 
 
 def slave_cfg(steps):
-    """Eight data channels, most of them with a CRC that the chip knows."""
-    value = 0
-    for _ in range(8):
-        crc = steps.rng.choice(CRC_CODES) if steps.chance(0.8) else steps.rng.getrandbits(8)
-        value = value << 32 | steps.rng.getrandbits(16) << 16 | crc << 8 | steps.rng.getrandbits(8)
-    return value
+    """A data channel, mostly with a CRC that the chip knows."""
+    crc = steps.rng.choice(CRC_CODES) if steps.chance(0.8) else steps.rng.getrandbits(8)
+    return steps.rng.getrandbits(16) << 16 | crc << 8 | steps.rng.getrandbits(8)
 
 
 def spi_bytes(steps, values, between=lambda steps: None):
@@ -172,6 +169,21 @@ def timebase(steps):
           "run_i": 0.98, "restart_i": 0.02})
 
 
+def slave_cfg_store(steps):
+    """Memory contents are unknown until written: write every row, then read once."""
+    steps.reset(["rst_ni"])
+    for address in range(32):
+        steps.step(wr_en_i=1, wr_addr_i=address, wr_data_i=any_value(steps, "wr_data_i"))
+        steps.clock("hclk_i")
+    steps.step(wr_en_i=0, rd_en_i=1, list_en_i=0xF)
+    steps.clock("rclk_i")
+    steps.clock("clk_i")
+    steps.compare_from = len(steps.steps)
+    # A write and a read of one row never share a clock edge: which byte is read is left open.
+    play(steps, ["hclk_i", "rclk_i", "clk_i"], ["rst_ni"], 12000,
+         {"rd_en_i": 0.9}, one_clock=True)
+
+
 def scd_bank(steps):
     """Memory contents are unknown until written: clear all, then read once."""
     steps.step(clear_i=1)
@@ -203,17 +215,22 @@ def posted(steps):
          reset_rate=0.0, one_clock=True)
 
 
+def word_cfg(steps, crc, store_gray, actuator, stop):
+    """word_cfg_t of mb4_pkg, data_last first, with a polynomial and start value of any kind."""
+    word = steps.rng.getrandbits(6)
+    for value, width in ((crc, 5), (steps.rng.getrandbits(8), 8),
+                         (1 << crc - 1 if 1 <= crc <= 8 else 0, 8),
+                         (steps.rng.getrandbits(16), 16), (store_gray, 2),
+                         (int(actuator), 1), (int(stop), 1)):
+        word = word << width | value
+    return word
+
+
 def rx_word(steps):
     steps.reset(["rst_ni"])
     for _ in range(120):
         crc = steps.rng.choice([0, 0, 1, 3, 5, 6, 7, 8, 16])
-        word = steps.rng.getrandbits(6)  # data_last, then crc_len .. stop of mb4_pkg
-        top = 1 << (crc - 1) if crc else 0
-        poly = steps.rng.getrandbits(16) & (2 * top - 1 if top else 0)
-        for value, width in ((crc, 5), (poly, 16), (top, 16), (steps.rng.getrandbits(16), 16),
-                             (steps.rng.getrandbits(1), 1), (steps.rng.getrandbits(1), 1),
-                             (int(steps.chance(0.2)), 1), (int(steps.chance(0.2)), 1)):
-            word = word << width | value
+        word = word_cfg(steps, crc, steps.rng.getrandbits(2), steps.chance(0.2), steps.chance(0.2))
         steps.step(word_i=word, load_i=1, bit_valid_i=0)
         steps.clock("clk_i")
         steps.step(load_i=0)
@@ -270,16 +287,8 @@ def mo_tx(steps):
         steps.step(begin_i=0)
         for _ in range(steps.rng.randint(10, 150)):
             if steps.chance(0.03):
-                crc = steps.rng.choice([0, 3, 5, 6, 8, 16])
-                top = 1 << (crc - 1) if crc else 0
-                word = steps.rng.getrandbits(6)
-                poly = steps.rng.getrandbits(16) & (2 * top - 1 if top else 0)
-                for value, width in ((crc, 5), (poly, 16), (top, 16),
-                                     (steps.rng.getrandbits(16), 16), (0, 2),
-                                     (int(steps.chance(0.8)), 1),
-                                     (steps.rng.getrandbits(1), 1)):
-                    word = word << width | value
-                steps.step(word_i=word)
+                steps.step(word_i=word_cfg(steps, steps.rng.choice([0, 3, 5, 6, 8, 16]), 0,
+                                           steps.chance(0.8), steps.rng.getrandbits(1)))
             steps.step(any_word_i=int(steps.chance(0.9)), last_word_i=int(steps.chance(0.3)),
                        slave_i=any_value(steps, "slave_i"), rise_i=1,
                        mem_data_i=any_value(steps, "mem_data_i"),
@@ -396,6 +405,7 @@ MODULES = {
         "enable_i": rarely("enable_i", 0.02), "int_nmot_i": rarely("int_nmot_i", 0.02),
         "cs_ni": 0.2}),
     "mb4_cfg_regs": simple(*HOST, 6000, host("wr_addr_i", "rd_addr_i"), hold=0.2),
+    "mb4_slave_cfg": slave_cfg_store,
     "mb4_instr_reg": simple(*HOST, 4000, {"wr_addr_i": rarely("wr_addr_i", 0.5,
                             lambda s: 0xF4 ^ (int(s.chance(0.3)) << s.rng.randrange(8)))}),
     "mb4_host_read": simple(["rclk_i"], ["rst_ni"], 6000, host("rd_addr_i")),
@@ -403,7 +413,7 @@ MODULES = {
     "mb4_crc_decode": crc_decode,
     "mb4_word_list": simple(*CORE, 6000, {
         "start_i": 0.02, "next_i": 0.2, "mine_i": rarely("mine_i", 0.01),
-        "slave_cfg_i": rarely("slave_cfg_i", 0.02, slave_cfg)}),
+        "enscd_i": rarely("enscd_i", 0.02), "cfg_i": rarely("cfg_i", 0.5, slave_cfg)}),
     "mb4_sequencer": simple(*CORE, 12000, {
         "written_i": rarely("written_i", 0.1, instruction_byte),
         "toggle_i": rarely("toggle_i", 0.1),
@@ -434,7 +444,7 @@ MODULES = {
         "armed_a_i": 0.95, "armed_b_i": 0.95}, reset_rate=0.0005),
     "mb4_crc": simple(*CORE, 4000, {
         "load_i": 0.02, "shift_i": 0.8, "feed_i": 0.8, "poly_i": rarely("poly_i", 0.02),
-        "top_i": rarely("top_i", 0.02, lambda s: 1 << s.rng.randrange(16))}),
+        "top_i": rarely("top_i", 0.02, lambda s: (1 << s.rng.randrange(8)))}),
     "mb4_rx_word": rx_word,
     "mb4_frame": simple(["clk_i"], ["rst_ni", "por_ni"], 12000, {
         "start_i": 0.1, "use_i": 0.95, "init_i": 0.1, "abort_i": 0.003, "bit_valid_i": 0.3,
@@ -455,12 +465,10 @@ MODULES = {
     "struct_in_block": simple(*CORE, 500),
 }
 
-# Output bits that no input can change: of the polynomials only the 16-bit one uses the upper byte.
-POLY = [14, 13, 11, 10, 9, 8]
-TOP = [14, 13, 12, 11, 10, 9, 8]
+# Output bits that no input can change.
 CONSTANT = {
-    "mb4_crc_decode": [f"crc_poly_o[{i}]" for i in POLY] + [f"crc_top_o[{i}]" for i in TOP],
-    "mb4_word_list": [f"word_o[{36 + i}]" for i in POLY] + [f"word_o[{20 + i}]" for i in TOP],
+    "mb4_crc_decode": ["crc_poly_o[0]"],  # every polynomial ends in 1
+    "mb4_word_list": ["word_o[28]"],
     "mb4_sequencer": ["held_o[7]"],  # BREAK never reads 1
     "mb4_scd_bank": [f"rd2_data_o[{i}]" for i in range(16)],  # Port2 = 0
 }

@@ -54,6 +54,10 @@ module frame_top (
   logic       word_begin;
   logic       cdm_sent;
   mb4_pkg::word_cfg_t word;
+  logic [7:0]  enscd;
+  logic        rx_cfg_en, mo_cfg_en;
+  logic [2:0]  rx_cfg_slave, mo_cfg_slave;
+  logic [31:0] rx_cfg_q, mo_cfg_q;
 
   mb4_freqs_dec u_freqs (
     .freqs_i,
@@ -76,16 +80,29 @@ module frame_top (
 
   assign ssi = protocol_i == mb4_regs_pkg::PROTOCOL_SSI;
 
+  // The configuration store of the chip: a clock from the data channel's number to its bytes.
+  always_comb begin
+    for (int i = 0; i < 8; i++) enscd[i] = slave_cfg_i[32*i + 6];
+  end
+
+  always_ff @(posedge clk_i) begin
+    if (rx_cfg_en) rx_cfg_q <= slave_cfg_i[32*rx_cfg_slave +: 32];
+    if (mo_cfg_en) mo_cfg_q <= slave_cfg_i[32*mo_cfg_slave +: 32];
+  end
+
   mb4_word_list #(.Sum(1'b0)) u_words (
     .clk_i,
     .rst_ni,
-    .slave_cfg_i,
+    .enscd_i     (enscd),
     .actnsens_i  (8'h00),
     .mine_i      (8'hFF),
     .ssi_i       (ssi),
     .nocrc_i,
     .start_i,
     .next_i      (next),
+    .cfg_en_o    (rx_cfg_en),
+    .cfg_slave_o (rx_cfg_slave),
+    .cfg_i       (rx_cfg_q),
     .actuator_o  (rx_actuator),
     .len_valid_o (rx_len_valid),
     .len_o       (rx_len),
@@ -98,13 +115,16 @@ module frame_top (
   mb4_word_list u_mo_words (
     .clk_i,
     .rst_ni,
-    .slave_cfg_i,
+    .enscd_i     (enscd),
     .actnsens_i  (8'h00),
     .mine_i      (8'hFF),
     .ssi_i       (ssi),
     .nocrc_i,
     .start_i,
     .next_i      (mo_next),
+    .cfg_en_o    (mo_cfg_en),
+    .cfg_slave_o (mo_cfg_slave),
+    .cfg_i       (mo_cfg_q),
     .actuator_o  (mo_actuator),
     .len_valid_o (len_valid),
     .len_o       (len),

@@ -1,0 +1,110 @@
+// SPDX-FileCopyrightText: 2026 The openmb4 authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Configuration of the eight data channels, 0xC0..0xDF: a row of four bytes each. One copy is read
+// by the host, one by each word list.
+//
+// Clock domains: host (hclk_i writes, rclk_i reads); each word list reads in the core clock. All
+// works with no core clock but the word lists. Read data are valid after the edge with the enable
+// until the next one. No memory can be reset: rows_q tells which rows have been written since, and
+// the first byte written to a row clears its other three. A word list looks at rows whose ENSCDx
+// is set, so at no other ones. Quasi-static for the core, as mb4_cfg_regs.
+// Datasheet: pages 23..26, Tables 10..18.
+
+module mb4_slave_cfg #(
+  parameter int unsigned Lists = 4
+) (
+  // host
+  input  logic        hclk_i,
+  input  logic        rst_ni,
+  input  logic        wr_en_i,
+  input  logic [4:0]  wr_addr_i,
+  input  logic [7:0]  wr_data_i,
+  input  logic        rclk_i,
+  input  logic        rd_en_i,
+  input  logic [4:0]  rd_addr_i,
+  output logic [7:0]  rd_data_o,
+  // word lists, a slice each
+  input  logic        clk_i,
+  output logic [mb4_pkg::NUM_SLAVES-1:0]        enscd_o,
+  input  logic [Lists-1:0]                      list_en_i,
+  input  logic [3*Lists-1:0]                    list_slave_i,
+  output logic [mb4_pkg::SLAVE_CFG_W*Lists-1:0] list_cfg_o
+);
+
+  logic [7:0]  rows_q;
+  logic [7:0]  enscd_q;
+  logic [2:0]  row;
+  logic [3:0]  byte_en;
+  logic [3:0]  wr_en;
+  logic [31:0] wr_data;
+  logic [31:0] rd_data;
+  logic [1:0]  byte_q;
+  logic        known_q;   // the host's row has been written
+
+  assign row     = wr_addr_i[4:2];
+  assign byte_en = 4'b0001 << wr_addr_i[1:0];
+  assign wr_en   = wr_en_i ? byte_en | {4{!rows_q[row]}} : 4'b0000;
+  assign wr_data = {wr_data_i & {8{byte_en[3]}}, wr_data_i & {8{byte_en[2]}},
+                    wr_data_i & {8{byte_en[1]}}, wr_data_i & {8{byte_en[0]}}};
+
+  always_ff @(posedge hclk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      rows_q  <= '0;
+      enscd_q <= '0;
+    end else if (wr_en_i) begin
+      rows_q[row] <= 1'b1;
+      // ENSCDx is bit 6 of the row's first byte.
+      if (byte_en[0]) enscd_q[row] <= wr_data_i[6];
+    end
+  end
+
+  mb4_ram_row u_host (
+    .wclk_i    (hclk_i),
+    .wr_en_i   (wr_en),
+    .wr_addr_i (row),
+    .wr_data_i (wr_data),
+    .rclk_i,
+    .rd_en_i,
+    .rd_addr_i (rd_addr_i[4:2]),
+    .rd_data_o (rd_data)
+  );
+
+  always_ff @(posedge rclk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      byte_q  <= '0;
+      known_q <= 1'b0;
+    end else if (rd_en_i) begin
+      byte_q  <= rd_addr_i[1:0];
+      known_q <= rows_q[rd_addr_i[4:2]];
+    end
+  end
+
+  always_comb begin
+    rd_data_o = 8'h00;
+    if (known_q) begin
+      unique case (byte_q)
+        2'd0:    rd_data_o = rd_data[7:0];
+        2'd1:    rd_data_o = rd_data[15:8];
+        2'd2:    rd_data_o = rd_data[23:16];
+        default: rd_data_o = rd_data[31:24];
+      endcase
+    end
+  end
+
+  for (genvar i = 0; i < Lists; i++) begin : gen_list
+    mb4_ram_row u_list (
+      .wclk_i    (hclk_i),
+      .wr_en_i   (wr_en),
+      .wr_addr_i (row),
+      .wr_data_i (wr_data),
+      .rclk_i    (clk_i),
+      .rd_en_i   (list_en_i[i]),
+      .rd_addr_i (list_slave_i[3*i +: 3]),
+      .rd_data_o (list_cfg_o[mb4_pkg::SLAVE_CFG_W*i +: mb4_pkg::SLAVE_CFG_W])
+    );
+  end
+
+  assign enscd_o = enscd_q;
+
+endmodule
