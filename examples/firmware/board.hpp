@@ -2,11 +2,12 @@
 // SPDX-License-Identifier: Apache-2.0
 
 // The board: an ARM MPS2 (Cortex-M3 or M4) as QEMU emulates it. The chip is at the other end of
-// UART 0, behind `mb4sim spi`, which takes a line of hex bytes for each SPI frame.
+// UART 0, behind `mb4sim bridge` (docs/bridge.md).
 
 #ifndef MB4_EXAMPLES_FIRMWARE_BOARD_HPP_
 #define MB4_EXAMPLES_FIRMWARE_BOARD_HPP_
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 
@@ -23,62 +24,71 @@ struct Uart {
     at(0x10) = 16;  // BAUDDIV
     at(0x08) = 3;   // CTRL: transmitter and receiver on
   }
-  static void put(char character) {
+  static void put(std::uint8_t byte) {
     while ((at(0x04) & 1U) != 0) {  // STATE: transmit buffer full
     }
-    at(0x00) = static_cast<std::uint8_t>(character);
+    at(0x00) = byte;
   }
-  static char get() {
+  static std::uint8_t get() {
     while ((at(0x04) & 2U) == 0) {  // STATE: receive buffer full
     }
-    return static_cast<char>(at(0x00));
+    return static_cast<std::uint8_t>(at(0x00));
   }
 };
 
-inline char hex_digit(unsigned value) {
-  return static_cast<char>(value < 10 ? '0' + value : 'A' + (value - 10));
-}
-// Value of a hex digit; 16 for anything else.
-inline unsigned hex_value(char digit) {
-  if (digit >= '0' && digit <= '9') {
-    return static_cast<unsigned>(digit - '0');
+// Requests of the bridge: kind, length, payload; answers: status, length, payload.
+struct Bridge {
+  static void begin(char kind, std::size_t length) {
+    Uart::put(static_cast<std::uint8_t>(kind));
+    Uart::put(static_cast<std::uint8_t>(length));
+    Uart::put(static_cast<std::uint8_t>(length >> 8U));
   }
-  return digit >= 'A' && digit <= 'F' ? static_cast<unsigned>(digit - 'A') + 10 : 16;
-}
+  // Takes an answer; as many bytes as there are go to `payload`. False if it is not a good one of
+  // `length` bytes.
+  static bool end(std::size_t length, mb4::Span<std::uint8_t> payload) {
+    const bool good = Uart::get() == 0;
+    std::size_t left = Uart::get();
+    left |= static_cast<std::size_t>(Uart::get()) << 8U;
+    const bool whole = left == length;
+    for (std::size_t i = 0; left > 0; ++i, --left) {
+      const std::uint8_t byte = Uart::get();
+      if (i < payload.size()) {
+        payload[i] = byte;
+      }
+    }
+    return good && whole;
+  }
+};
 
-// The driver's bus: "02 ED 01\n" out, "00 00 00\n" in.
+// The driver's bus.
 struct Bus {
   bool transfer(mb4::Span<const std::uint8_t> tx, mb4::Span<std::uint8_t> rx) {
+    Bridge::begin('T', tx.size());
     for (const std::uint8_t byte : tx) {
-      Uart::put(hex_digit(byte >> 4U));
-      Uart::put(hex_digit(byte & 15U));
-      Uart::put(' ');
+      Uart::put(byte);
     }
-    Uart::put('\n');
-    for (std::size_t i = 0; i < tx.size(); ++i) {
-      const unsigned high = hex_value(Uart::get());
-      const unsigned low = hex_value(Uart::get());
-      const char end = i + 1 < tx.size() ? ' ' : '\n';
-      if (high > 15 || low > 15 || Uart::get() != end) {
-        return false;
-      }
-      if (!rx.empty()) {
-        rx[i] = static_cast<std::uint8_t>(high << 4U | low);
-      }
-    }
-    return true;
+    return Bridge::end(tx.size(), rx);
   }
 };
 
 // The driver's clock. The time that counts is the simulator's: each look lets 1 us of it pass.
 struct Clock {
-  std::uint32_t time_us = 0;
-
   std::uint32_t now_us() {
-    for (const char character : {'+', '1', '0', '0', '0', '\n'}) {
-      Uart::put(character);
+    constexpr std::size_t kTime = 8;
+    constexpr std::uint32_t kLookNs = 1000;
+    Bridge::begin('W', kTime);
+    for (unsigned i = 0; i < kTime; ++i) {
+      Uart::put(static_cast<std::uint8_t>(i < 4 ? kLookNs >> (8 * i) : 0));
     }
-    return ++time_us;
+    std::array<std::uint8_t, kTime> answer{};
+    if (!Bridge::end(kTime, answer)) {
+      return 0;
+    }
+    std::uint64_t ns = 0;
+    for (unsigned i = 0; i < kTime; ++i) {
+      ns |= static_cast<std::uint64_t>(answer[i]) << (8 * i);
+    }
+    return static_cast<std::uint32_t>(ns / kLookNs);
   }
 };
 
@@ -93,7 +103,7 @@ inline void print(const char* text) { semihost(0x04, text); }
 inline void print_hex(std::uint64_t value, unsigned digits) {
   char text[17] = {};
   for (unsigned i = 0; i < digits; ++i) {
-    text[digits - 1 - i] = hex_digit(static_cast<unsigned>(value >> (4 * i)) & 15U);
+    text[digits - 1 - i] = "0123456789ABCDEF"[static_cast<unsigned>(value >> (4 * i)) & 15U];
   }
   print(text);
 }

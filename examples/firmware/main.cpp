@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 
 // Firmware for a Cortex-M that reads an encoder: single frames, automatic frames as an interrupt
-// would take them, registers of the slave. Runs in QEMU against `mb4sim spi`.
+// would take them, registers of the slave. Runs in QEMU against
+// `mb4sim bridge`.
 
 #include "board.hpp"
 #include "mb4/mb4.hpp"

@@ -31,11 +31,12 @@ void SpiHost::select(bool active) {
     if (deselected_once_) {
       pins_.run_until(std::max(pins_.now(), deselected_at_ + timing_.ncs_high));
     }
-    bytes_in_frame_ = 0;
-    last_falling_ = pins_.now();
+    bits_in_frame_ = 0;
+    opcode_ = 0;
+    last_edge_ = pins_.now();
     pins_.set_pin(wires_.ncs, false);
   } else {
-    pins_.run_until(std::max(pins_.now(), last_falling_ + timing_.ncs_hold));
+    pins_.run_until(std::max(pins_.now(), last_edge_ + timing_.ncs_hold));
     pins_.set_pin(wires_.ncs, true);
     pins_.set_pin(wires_.mosi, false);
     deselected_at_ = pins_.now();
@@ -44,25 +45,56 @@ void SpiHost::select(bool active) {
   selected_ = active;
 }
 
-std::uint8_t SpiHost::byte(std::uint8_t mosi) {
-  if (bytes_in_frame_ == 0) opcode_ = mosi;
-  const bool stretch = bytes_in_frame_ == 1 && opcode_ == kOpcodeRead;
-  unsigned miso = 0;
-  for (unsigned bit = 8; bit-- > 0;) {
-    // MOSI changes after the falling edge of SCLK; the chip takes it, and the host takes MISO, at
-    // the rising edge.
-    pins_.set_pin(wires_.mosi, ((mosi >> bit) & 1U) != 0);
-    const bool first = bytes_in_frame_ == 0 && bit == 7;
-    wait(first ? std::max(timing_.sclk_low, timing_.ncs_setup) : timing_.sclk_low);
-    miso = (miso << 1U) | (pins_.pin(wires_.miso) ? 1U : 0U);
-    pins_.set_pin(wires_.sclk, true);
-    wait(stretch && bit == 0 ? timing_.sclk_high_address : timing_.sclk_high);
-    pins_.set_pin(wires_.sclk, false);
-  }
-  last_falling_ = pins_.now();
-  ++bytes_in_frame_;
-  return static_cast<std::uint8_t>(miso);
+void SpiHost::set_mode(const SpiMode& mode) {
+  mode_ = mode;
+  pins_.set_pin(wires_.sclk, mode_.cpol);
 }
+
+// One clock: with CPHA = 0 MOSI changes with the end of the clock before, and chip and host take
+// data at the first edge; with CPHA = 1 MOSI changes with the first edge and the second one takes.
+bool SpiHost::clock_bit(bool mosi) {
+  constexpr std::size_t kOpcodeBits = 8;
+  constexpr std::size_t kLastAddressBit = 15;
+  const bool stretch = bits_in_frame_ == kLastAddressBit && opcode_ == kOpcodeRead;
+  const Time high = stretch ? timing_.sclk_high_address : timing_.sclk_high;
+  const Time rest = mode_.cpol ? high : timing_.sclk_low;
+  const Time pulse = mode_.cpol ? timing_.sclk_low : high;
+  const bool first = bits_in_frame_ == 0;
+  bool miso = false;
+  if (mode_.cpha) {
+    if (first) wait(timing_.ncs_setup);
+    // MOSI follows the edge: whoever takes it at this one gets the bit before.
+    pins_.set_pin(wires_.sclk, !mode_.cpol);
+    pins_.set_pin(wires_.mosi, mosi);
+    wait(pulse);
+    miso = pins_.pin(wires_.miso);
+    pins_.set_pin(wires_.sclk, mode_.cpol);
+    wait(rest);
+  } else {
+    pins_.set_pin(wires_.mosi, mosi);
+    wait(first ? std::max(rest, timing_.ncs_setup) : rest);
+    miso = pins_.pin(wires_.miso);
+    pins_.set_pin(wires_.sclk, !mode_.cpol);
+    wait(pulse);
+    pins_.set_pin(wires_.sclk, mode_.cpol);
+  }
+  if (bits_in_frame_ < kOpcodeBits) {
+    opcode_ = static_cast<std::uint8_t>((opcode_ << 1U) | (mosi ? 1U : 0U));
+  }
+  ++bits_in_frame_;
+  return miso;
+}
+
+std::uint32_t SpiHost::word(std::uint32_t mosi, unsigned bits) {
+  std::uint32_t miso = 0;
+  for (unsigned bit = bits; bit-- > 0;) {
+    miso = (miso << 1U) | (clock_bit(((mosi >> bit) & 1U) != 0) ? 1U : 0U);
+  }
+  last_edge_ = pins_.now();
+  return miso;
+}
+
+std::uint8_t SpiHost::byte(std::uint8_t mosi) { return static_cast<std::uint8_t>(word(mosi, 8)); }
 
 void SpiHost::transfer(std::span<const std::uint8_t> tx, std::span<std::uint8_t> rx) {
   select(true);

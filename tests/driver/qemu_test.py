@@ -2,7 +2,7 @@
 # SPDX-FileCopyrightText: 2026 The openmb4 authors
 # SPDX-License-Identifier: Apache-2.0
 """Machine code of a Cortex-M against the RTL: examples/firmware in qemu-system-arm, its UART joined to
-`mb4sim spi`.
+`mb4sim bridge`.
 
   qemu_test.py MACHINE CPU MB4SIM ROOT     MACHINE: of QEMU; CPU: of the compiler
 
@@ -36,20 +36,23 @@ registers = { 0x44 = [0x00, 0xD9, 0x01, 0x32] }
 
 def run_firmware(machine, image, mb4sim, scenario):
     """(exit status of QEMU, of mb4sim, what the firmware has printed)"""
-    simulator = subprocess.Popen([mb4sim, "spi", scenario], stdin=subprocess.PIPE,
-                                 stdout=subprocess.PIPE)
-    emulator = subprocess.Popen(
-        ["qemu-system-arm", "-M", machine, "-display", "none", "-monitor", "none", "-serial",
-         "stdio", "-semihosting", "-kernel", image],
-        stdin=simulator.stdout, stdout=simulator.stdin, stderr=subprocess.PIPE, text=True)
-    # Theirs alone: each sees the other's end.
-    simulator.stdin.close()
-    simulator.stdout.close()
+    path = str(Path(scenario).with_name("bridge"))
+    simulator = subprocess.Popen([mb4sim, "bridge", scenario, "--unix", path, "--once"],
+                                 stdout=subprocess.PIPE, text=True)
+    emulator = None
     try:
+        if simulator.stdout.readline() != f"listening on unix:{path}\n":
+            return None, simulator.wait(timeout=10), "mb4sim does not listen"
+        emulator = subprocess.Popen(
+            ["qemu-system-arm", "-M", machine, "-display", "none", "-monitor", "none",
+             "-chardev", f"socket,id=chip,path={path}", "-serial", "chardev:chip",
+             "-semihosting", "-kernel", image],
+            stdin=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
         printed = emulator.communicate(timeout=100)[1]
         return emulator.returncode, simulator.wait(timeout=10), printed
     finally:
-        emulator.kill()
+        if emulator is not None:
+            emulator.kill()
         simulator.kill()
 
 

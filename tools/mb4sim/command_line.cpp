@@ -55,6 +55,7 @@ std::unique_ptr<CLI::App> make_command_line(Action& action) {
       "Exit status: 0 good, 1 a check failed or a frame was bad, 2 wrong use or input, 3 the model "
       "stopped on an assertion.\nExample: mb4sim run examples/resolute-26.toml --frames 5");
   add_scenario_commands(*app, action);
+  add_dropin_commands(*app, action);
   add_other_commands(*app, action);
   return app;
 }

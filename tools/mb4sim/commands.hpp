@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace mb4::tool {
 
@@ -55,6 +56,28 @@ struct BenchOptions {
   bool json = false;
 };
 int bench_command(const BenchOptions& options);
+
+struct SpidevOptions {
+  std::string scenario;  // empty: one encoder
+  std::string device = "/dev/spidev0.0";
+  bool simulated_time = false;
+  std::string library;  // empty: the one beside the command
+  std::string trace;    // empty: none
+  std::optional<std::uint64_t> seed;
+  std::vector<std::string> program;  // with its arguments
+};
+int spidev_command(const SpidevOptions& options);
+
+struct BridgeOptions {
+  std::string scenario;
+  std::string unix_path;  // this or `tcp`
+  std::string tcp;
+  bool once = false;
+  bool wall = false;
+  std::string trace;  // empty: none
+  std::optional<std::uint64_t> seed;
+};
+int bridge_command(const BridgeOptions& options);
 
 }  // namespace mb4::tool
 

@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// An SPI master with the timing of a real one: mode 0, MSB first, every edge at its own time.
-// Limits: iC-MB4 Rev D2, items I201 to I209.
+// An SPI master with the timing of a real one: MSB first, every edge at its own time. The chip
+// wants mode 0; the other modes are there to show what a wrongly configured host gets. Limits:
+// iC-MB4 Rev D2, items I201 to I209.
 #ifndef MB4SIM_SPI_HOST_HPP_
 #define MB4SIM_SPI_HOST_HPP_
 
@@ -25,6 +26,13 @@ struct SpiTiming {
 
   // The timing of a host whose SCLK runs at `sclk_hz` (1 Hz to 50 MHz), never faster.
   static SpiTiming for_frequency(std::uint64_t sclk_hz);
+};
+
+// Level of SCLK at rest (CPOL), and whether data are taken at the second edge of a clock (CPHA = 1)
+// instead of the first.
+struct SpiMode {
+  bool cpol = false;
+  bool cpha = false;
 };
 
 // Which pins of the chip a host is connected to (page 3).
@@ -50,22 +58,28 @@ class SpiHost {
   // the chip does not listen.
   void select(bool active);
   std::uint8_t byte(std::uint8_t mosi);
+  // The low `bits` (1 to 32) of `mosi`, MSB first; what MISO has shown.
+  std::uint32_t word(std::uint32_t mosi, unsigned bits);
 
+  // SCLK takes its new rest level at once. Not inside a frame.
+  void set_mode(const SpiMode& mode);
   void set_timing(const SpiTiming& timing) { timing_ = timing; }
   const SpiTiming& timing() const { return timing_; }
 
  private:
   void wait(Time duration) { pins_.run_until(pins_.now() + duration); }
+  bool clock_bit(bool mosi);
 
   HostPins& pins_;
   SpiPins wires_;
   SpiTiming timing_;
+  SpiMode mode_;
   bool selected_ = false;
   bool deselected_once_ = false;
   Time deselected_at_ = 0;
-  Time last_falling_ = 0;
-  std::size_t bytes_in_frame_ = 0;
-  std::uint8_t opcode_ = 0;
+  Time last_edge_ = 0;
+  std::size_t bits_in_frame_ = 0;
+  std::uint8_t opcode_ = 0;  // the first eight bits
 };
 
 }  // namespace mb4::sim

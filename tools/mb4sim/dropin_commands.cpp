@@ -1,0 +1,86 @@
+// SPDX-FileCopyrightText: 2026 The openmb4 authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Options and help of the commands that put the chip in place of a real one.
+#include <limits>
+#include <memory>
+
+#include "command_line.hpp"
+#include "commands.hpp"
+
+namespace mb4::tool {
+namespace {
+
+void add_seed_and_trace(CLI::App& command, std::optional<std::uint64_t>& seed, std::string& trace) {
+  command.add_option("--trace", trace, "Write a waveform, and a .gtkw view beside it")
+      ->type_name("F.fst")
+      ->check(file_name());
+  command.add_option("--seed", seed, "Seed of every random choice (default 1)")
+      ->type_name("S")
+      ->transform(whole_number(0, std::numeric_limits<std::uint64_t>::max()));
+}
+
+void add_spidev(CLI::App& app, Action& action) {
+  std::shared_ptr<SpidevOptions> options;
+  CLI::App& spidev = *add_command(app, action, "spidev",
+                                  "Run a Linux program with the chip in place of its SPI device",
+                                  &spidev_command, options);
+  spidev
+      .add_option("--scenario", options->scenario,
+                  "Scenario file (TOML; default one encoder of 26 bits)")
+      ->type_name("F")
+      ->check(file_name());
+  spidev.add_option("--device", options->device, "Node to take (default /dev/spidev0.0)")
+      ->type_name("PATH")
+      ->check(file_name());
+  spidev.add_flag("--simulated-time", options->simulated_time,
+                  "Sleeps of the program pass in the simulation, at once");
+  spidev.add_option("--library", options->library, "Preload library (default: the one installed)")
+      ->type_name("F.so")
+      ->check(file_name());
+  add_seed_and_trace(spidev, options->seed, options->trace);
+  // Behind "--" words that look like options are the program's.
+  spidev.add_option("program", options->program, "Program and its arguments, behind --")
+      ->required()
+      ->type_name("PROGRAM");
+  spidev.footer(
+      "Exit status: the program's; 128 + n if signal n has ended it, 127 if there is none, 2 wrong "
+      "use or\ninput, 3 the model stopped.\n"
+      "Example: printf '\\x03\\xEB\\0' | mb4sim spidev -- spi-pipe -d /dev/spidev0.0 -b 3 -n 1 | "
+      "xxd");
+}
+
+void add_bridge(CLI::App& app, Action& action) {
+  std::shared_ptr<BridgeOptions> options;
+  CLI::App& bridge =
+      *add_command(app, action, "bridge", "Serve the chip to emulators on a Unix or TCP socket",
+                   &bridge_command, options);
+  add_scenario(bridge, options->scenario);
+  CLI::Option* unix = bridge.add_option("--unix", options->unix_path, "Listen on a Unix socket")
+                          ->type_name("PATH")
+                          ->check(file_name());
+  bridge
+      .add_option("--tcp", options->tcp,
+                  "Listen on a TCP port (without HOST of this machine only; port 0: any free one)")
+      ->type_name("[HOST:]PORT")
+      ->check(file_name())
+      ->excludes(unix);
+  bridge.add_flag("--once", options->once, "End when the last client has gone");
+  bridge.add_flag("--wall-time", options->wall,
+                  "Real time between requests passes in the simulation too");
+  add_seed_and_trace(bridge, options->seed, options->trace);
+  bridge.footer(
+      "Prints 'listening on unix:PATH' or 'listening on tcp:HOST:PORT', then serves until SIGINT "
+      "or "
+      "SIGTERM.\nThe protocol: docs/bridge.md.\n"
+      "Example: mb4sim bridge examples/resolute-26.toml --tcp 5555");
+}
+
+}  // namespace
+
+void add_dropin_commands(CLI::App& app, Action& action) {
+  add_spidev(app, action);
+  add_bridge(app, action);
+}
+
+}  // namespace mb4::tool
