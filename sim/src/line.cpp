@@ -33,6 +33,10 @@ Line::Line(EventQueue& queue, Time round_trip, Output output, void* receiver,
 
 void Line::drive(Time now, bool ma, bool mo) {
   monitor_.edge(now, ma);
+  if (tap_ != nullptr) {
+    tap_(now, tap_receiver_, Signal::kMa, ma);
+    tap_(now, tap_receiver_, Signal::kMo, mo);
+  }
   out_.drive(now, (ma ? kMa : 0U) | (mo && mo_wired_ ? kMo : 0U));
 }
 
@@ -127,6 +131,7 @@ void Line::set_pin(Time now, bool level) {
   const bool value = faults_.stuck().value_or(level);
   if (value == pin_) return;
   pin_ = value;
+  if (tap_ != nullptr) tap_(now, tap_receiver_, Signal::kSl, value);
   output_(now, receiver_, value);
 }
 

@@ -24,7 +24,7 @@ std::unique_ptr<CLI::App> make_command_line(Action& action);
 void add_scenario_commands(CLI::App& app, Action& action);
 // Commands that do not: presets, bench.
 void add_other_commands(CLI::App& app, Action& action);
-// The chip in place of a real one: spidev, bridge.
+// The chip in place of a real one, and pictures of it: spidev, bridge, plot.
 void add_dropin_commands(CLI::App& app, Action& action);
 
 // Whole number, decimal or 0x.

@@ -76,11 +76,54 @@ void add_bridge(CLI::App& app, Action& action) {
       "Example: mb4sim bridge examples/resolute-26.toml --tcp 5555");
 }
 
+void add_plot(CLI::App& app, Action& action) {
+  constexpr unsigned kMaxFrames = 10'000;
+  std::shared_ptr<PlotOptions> options;
+  CLI::App& plot =
+      *add_command(app, action, "plot", "Draw a frame or a control frame as a timing diagram (SVG)",
+                   &plot_command, options);
+  add_scenario(plot, options->scenario);
+  plot.add_option("--channel", options->channel, "Channel (default 1)")
+      ->type_name("1|2")
+      ->transform(whole_number(1, 2));
+  plot.add_option("--frame", options->frame, "Which frame (default 1, the first)")
+      ->type_name("N")
+      ->transform(whole_number(1, kMaxFrames));
+  plot.add_option("--read", options->read, "Instead of a frame: a register access that reads")
+      ->type_name("ADDRESS[:COUNT]")
+      ->check(file_name());
+  plot.add_option("--write", options->write, "Instead of a frame: one that writes")
+      ->type_name("ADDRESS:BYTE,...")
+      ->check(file_name());
+  plot.add_option("--command", options->command,
+                  "Instead of a frame: a command (without ID to all)")
+      ->type_name("CODE[:ID,...]")
+      ->check(file_name());
+  plot.add_option("--id", options->id, "Slave for --read and --write (default 0, the last one)")
+      ->type_name("ID")
+      ->transform(whole_number(0, 7));
+  plot.add_option("--title", options->title, "Heading of the picture")->type_name("TEXT");
+  plot.add_option("--svg", options->svg, "Write the picture to a file (default standard output)")
+      ->type_name("F.svg")
+      ->check(file_name());
+  plot.add_option("--vcd", options->vcd, "Write MA, MO and SL of the whole run, for sigrok")
+      ->type_name("F.vcd")
+      ->check(file_name());
+  plot.add_option("--seed", options->seed, "Seed of every random choice (default 1)")
+      ->type_name("S")
+      ->transform(whole_number(0, std::numeric_limits<std::uint64_t>::max()));
+  plot.footer(
+      "Exit status 1 if the frame is bad.\n"
+      "Examples: mb4sim plot examples/resolute-26.toml --svg frame.svg\n"
+      "          mb4sim plot examples/control-bus.toml --read 0x44:2 --id 2 --svg read.svg");
+}
+
 }  // namespace
 
 void add_dropin_commands(CLI::App& app, Action& action) {
   add_spidev(app, action);
   add_bridge(app, action);
+  add_plot(app, action);
 }
 
 }  // namespace mb4::tool

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <iterator>
 
+#include "svg.hpp"
 #include "sweep_report.hpp"
 
 namespace mb4::tool {
@@ -20,31 +21,7 @@ constexpr double kRight = 40;
 constexpr double kBottom = 64;
 constexpr long long kMaxLabels = 10;
 
-std::string escaped(const std::string& text) {
-  std::string out;
-  for (const char c : text) {
-    switch (c) {
-      case '&':
-        out += "&amp;";
-        break;
-      case '<':
-        out += "&lt;";
-        break;
-      case '>':
-        out += "&gt;";
-        break;
-      default:
-        // Control characters are not allowed in XML.
-        out += static_cast<unsigned char>(c) < 0x20 ? '?' : c;
-    }
-  }
-  return out;
-}
-
-std::string text(double x, double y, const char* style, const std::string& content) {
-  return fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" class=\"{}\">{}</text>\n", x, y, style,
-                     escaped(content));
-}
+using svg::text;
 
 std::string box(double x, double y, double width, double height, const std::string& fill) {
   return fmt::format(

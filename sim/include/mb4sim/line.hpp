@@ -23,6 +23,10 @@ class Line {
   // Called when the level of the chip's SL pin changes.
   using Output = void (*)(Time now, void* receiver, bool sl);
 
+  // Called when a pin of the chip on this line changes.
+  enum class Signal { kMa, kMo, kSl };
+  using Tap = void (*)(Time now, void* receiver, Signal signal, bool level);
+
   // Called after any change at the slaves' end of the cable.
   using Probe = void (*)(Time now, void* receiver);
 
@@ -54,6 +58,12 @@ class Line {
     probe_receiver_ = receiver;
   }
 
+  // For recordings; at most one. MA and MO are called when either may have changed.
+  void set_tap(Tap tap, void* receiver) {
+    tap_ = tap;
+    tap_receiver_ = receiver;
+  }
+
   bool sl() const { return pin_; }
   SlaveChain& chain() { return chain_; }
   const SlaveChain& chain() const { return chain_; }
@@ -83,6 +93,8 @@ class Line {
   void* receiver_;
   Probe probe_ = nullptr;
   void* probe_receiver_ = nullptr;
+  Tap tap_ = nullptr;
+  void* tap_receiver_ = nullptr;
   bool open_level_;
   bool mo_wired_;
   bool plugged_ = true;

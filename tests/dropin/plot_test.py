@@ -1,0 +1,186 @@
+#!/usr/bin/env python3
+# SPDX-FileCopyrightText: 2026 The openmb4 authors
+# SPDX-License-Identifier: Apache-2.0
+"""Pictures of `mb4sim plot`: what they show against golden vectors, that their labels can be read, and
+that those of the manual are what the command draws.
+
+  plot_test.py MB4SIM ROOT [--write]      --write: draws the manual's pictures again
+"""
+
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+import unittest
+import xml.etree.ElementTree
+from pathlib import Path
+
+MB4SIM, ROOT = sys.argv[1], Path(sys.argv[2])
+PICTURES = ROOT / "docs" / "pictures"
+GOLDEN = str(ROOT / "tests" / "dropin" / "golden.toml")
+SVG = "{http://www.w3.org/2000/svg}"
+# Worked examples: read 0x67 of ID 0, which holds 0x5F; write 0x06 to 0x60. Slots 0 to 32.
+READ_CDM = "1 1000 1100111 0010 101 00000000 0000 0 0"
+READ_CDS = "0 10000000 00000000 10 1 01011111 1111 0"
+WRITE_CDM = "1 1000 1100000 1011 011 00000110 0101 0 0"
+WRITE_CDS = "0 10000000 00000000 01 1 00000110 0101 0"
+
+
+def plot(*arguments):
+    return subprocess.run([MB4SIM, "plot", *arguments], capture_output=True, text=True, timeout=60,
+                          cwd=ROOT, check=False)
+
+
+def listed():
+    """(file, arguments) of the manual's pictures."""
+    for line in (PICTURES / "list.txt").read_text(encoding="ascii").splitlines():
+        if line and not line.startswith("#"):
+            name, arguments, title = (part.strip() for part in line.split("|"))
+            yield name, [*arguments.split(), "--title", title]
+
+
+class Picture:
+    def __init__(self, svg):
+        self.root = xml.etree.ElementTree.fromstring(svg)
+        self.texts = [(float(t.get("x")), float(t.get("y")), t.get("class"), t.text)
+                      for t in self.root.iter(SVG + "text")]
+
+    def labels(self):
+        return [text for _, _, kind, text in self.texts if kind in ("field", "tight") and text]
+
+    def rows(self):
+        """Texts by height, from left to right."""
+        rows = {}
+        for x, y, kind, text in self.texts:
+            if text:
+                rows.setdefault(y, []).append((x, kind, text))
+        return {y: sorted(row) for y, row in sorted(rows.items())}
+
+    def bits(self):
+        """Rows of nothing but 0 and 1, as strings, from top to bottom."""
+        return ["".join(text for _, _, text in row) for row in self.rows().values()
+                if all(kind == "digit" and text in "01" for _, kind, text in row)]
+
+
+def width(kind, text):
+    """Of the widest usual font, DejaVu Sans: 0.6 of its size a character, measured generously."""
+    size = {"title": 15, "note": 12, "name": 12, "digit": 9, "unit": 9, "tight": 9}.get(kind, 10)
+    return sum(0.35 if c in "fijlt.,:;|' 1I" else 0.6 for c in text) * size
+
+
+class Plot(unittest.TestCase):
+    def picture(self, *arguments, status=0):
+        result = plot(*arguments)
+        self.assertEqual(result.returncode, status, result.stderr)
+        return Picture(result.stdout)
+
+    def test_frame_shows_the_golden_word(self):
+        picture = self.picture(GOLDEN)
+        self.assertEqual(picture.labels(), ["CDM = 0", "Ack", "start", "CDS",
+                                            "position 0x2ABCDEF (26 bits)", "nE", "nW",
+                                            "CRC 0x18 good", "timeout"])
+        # Acknowledge, start bit, CDS; data; the inverted CRC 0x27.
+        self.assertEqual(picture.bits(), ["010" + "1010101011110011011110111111" + "100111"])
+        # N + 5 rising edges.
+        numbers = [row for row in picture.rows().values() if row[-1][2] == "39"]
+        self.assertEqual([text for _, _, text in numbers[0]],
+                         ["1", "2", "3", "5", "10", "15", "20", "25", "30", "35", "39"])
+        self.assertIn("39 rising edges", " ".join(t[3] for t in picture.texts))
+
+    def control(self, arguments, cdm, cds):
+        picture = self.picture(str(PICTURES / "registers.toml"), *arguments)
+        bits = picture.bits()
+        self.assertEqual(len(bits), 2)
+        # Four cells of zeros stand in front.
+        self.assertEqual(bits[0], "0000" + cdm.replace(" ", ""))
+        self.assertEqual(bits[1], "0000" + cds.replace(" ", ""))
+        return picture.labels()
+
+    def test_register_access_shows_the_worked_examples(self):
+        labels = self.control(["--read", "0x67"], READ_CDM, READ_CDS)
+        for label in ("ID 0", "address 0x67", "CRC 0xD good", "data 0x5F", "CRC 0x0 good"):
+            self.assertIn(label, labels)
+        labels = self.control(["--write", "0x60:6"], WRITE_CDM, WRITE_CDS)
+        for label in ("address 0x60", "CRC 0x4 good", "data 0x06", "CRC 0xA good", "echo 0x06"):
+            self.assertIn(label, labels)
+
+    def test_a_disturbed_frame_is_bad(self):
+        picture = self.picture(str(PICTURES / "bad-crc.toml"), status=1)
+        self.assertIn("wrong", " ".join(picture.labels()))
+        self.assertIn("#f6b9b4", [r.get("fill") for r in picture.root.iter(SVG + "rect")])
+
+    def test_the_manual_shows_what_the_command_draws(self):
+        names = set()
+        for name, arguments in listed():
+            with self.subTest(name=name):
+                names.add(name)
+                drawn = plot(*arguments)
+                self.assertEqual(drawn.stdout, (PICTURES / name).read_text(encoding="utf-8"))
+                self.assertEqual(drawn.returncode, 1 if "bad" in name else 0, drawn.stderr)
+        self.assertEqual(names, {path.name for path in PICTURES.glob("*.svg")})
+
+    def test_no_label_overlaps_another_or_leaves_the_picture(self):
+        extra = [[GOLDEN], ["examples/two-channels.toml", "--channel", "2"],
+                 ["examples/control-bus.toml"],
+                 ["docs/pictures/registers.toml", "--read", "0x78:6"]]
+        for arguments in [arguments for _, arguments in listed()] + extra:
+            with self.subTest(arguments=arguments):
+                self.readable(Picture(plot(*arguments).stdout))
+
+    def readable(self, picture):
+        right = float(picture.root.get("width"))
+        for row in picture.rows().values():
+            last = 0.0
+            for x, kind, text in row:
+                half = width(kind, text) / 2
+                left = x if kind in ("title", "note") else x - 2 * half if kind in ("name", "unit") \
+                    else x - half
+                self.assertGreaterEqual(left + 0.5, last, text)
+                last = left + 2 * half
+            self.assertLessEqual(last, right, row)
+        for rect in picture.root.iter(SVG + "rect"):
+            if rect.get("x") and rect.get("class") is None:
+                self.assertLessEqual(float(rect.get("x")) + float(rect.get("width")), right)
+
+    def test_vcd_has_the_edges(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = Path(folder, "line.vcd")
+            self.assertEqual(plot(GOLDEN, "--vcd", str(path)).returncode, 0)
+            vcd = path.read_text(encoding="ascii")
+        codes = dict(re.findall(r"\$var wire 1 (\S) (\S+) \$end", vcd))
+        self.assertEqual(sorted(codes.values()), ["MA1", "MO1", "SL1"])
+        ma = next(code for code, name in codes.items() if name == "MA1")
+        body = vcd.split("$enddefinitions $end\n#0\n", 1)[1]
+        self.assertEqual(body.count(f"\n0{ma}\n"), 39)
+
+    def test_wrong_use(self):
+        registers = "docs/pictures/registers.toml"
+        for arguments in ([], ["nothing.toml"], [GOLDEN, "--frame", "0"], [GOLDEN, "--channel", "2"],
+                          [registers, "--read", "0x80"], [registers, "--read", "1:65"],
+                          [registers, "--read", "1:"], [registers, "--write", "1"],
+                          [registers, "--write", "1:256"], [registers, "--command", "4"],
+                          [registers, "--command", "0:9"],
+                          [registers, "--read", "1", "--write", "1:1"],
+                          [GOLDEN, "--svg", GOLDEN], [GOLDEN, "--svg", "/no/folder/x.svg"]):
+            with self.subTest(arguments=arguments):
+                result = plot(*arguments)
+                self.assertEqual(result.returncode, 2)
+                self.assertEqual(len(result.stderr.splitlines()), 1, result.stderr)
+                self.assertEqual(result.stdout, "")
+
+    def test_a_printer_can_draw_them(self):
+        if shutil.which("rsvg-convert") is None:
+            self.skipTest("rsvg-convert (librsvg2-bin) is not installed")
+        for name, _ in listed():
+            done = subprocess.run(["rsvg-convert", "-f", "pdf", str(PICTURES / name)],
+                                  capture_output=True, timeout=60, check=False)
+            self.assertEqual((done.returncode, done.stdout[:4]), (0, b"%PDF"), name)
+
+
+if __name__ == "__main__":
+    if sys.argv[3:] == ["--write"]:
+        for file, command in listed():
+            (PICTURES / file).write_text(plot(*command).stdout, encoding="utf-8")
+    else:
+        unittest.main(argv=sys.argv[:1])

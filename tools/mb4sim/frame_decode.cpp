@@ -1,0 +1,170 @@
+// SPDX-FileCopyrightText: 2026 The openmb4 authors
+// SPDX-License-Identifier: Apache-2.0
+#include "frame_decode.hpp"
+
+#include <fmt/core.h>
+
+#include <variant>
+
+namespace mb4::tool {
+namespace {
+
+class Decoder {
+ public:
+  Decoder(const LineRecording& recording, const FrameTrace& trace,
+          const sim::ChannelConfig& channel)
+      : sl_(recording.sl()), channel_(channel) {
+    frame_.trace = trace;
+    period_ = trace.period();
+  }
+
+  DecodedFrame run() {
+    const bool ssi = channel_.protocol() == sim::LineProtocol::kSsi;
+    if (frame_.trace.rising.size() < 2) return frame_;
+    if (ssi ? begin_ssi() : begin_biss()) {
+      frame_.good = true;
+      for (std::size_t i = 0; i < channel_.slaves.size(); ++i) word(channel_.slaves[i], i);
+      frame_.complete = true;
+    }
+    add_rest(ssi);
+    return frame_;
+  }
+
+ private:
+  sim::Time bit_at(unsigned index) const { return first_ + index * period_; }
+
+  // The level in the middle of bit `index`.
+  bool level(unsigned index) const { return sl_.at(bit_at(index) + period_ / 2); }
+
+  void field(unsigned bits, FieldKind kind, std::vector<std::string> labels, bool bad = false) {
+    frame_.sl.push_back({bit_at(next_), bit_at(next_ + bits), kind, std::move(labels), bad});
+    for (unsigned i = 0; i < bits; ++i) frame_.bits.push_back(bit_at(next_ + i));
+    next_ += bits;
+  }
+
+  std::uint64_t peek(unsigned bits) const {
+    std::uint64_t value = 0;
+    for (unsigned i = 0; i < bits; ++i) value = (value << 1U) | (level(next_ + i) ? 1U : 0U);
+    return value;
+  }
+
+  // The first bit of SSI comes with the first rising edge.
+  bool begin_ssi() {
+    first_ = frame_.trace.rising[0];
+    // Of the response all edges show the same; without one it is not known.
+    for (const Edge& edge : sl_.edges) {
+      if (edge.time < first_ || edge.time >= frame_.trace.clock_end) continue;
+      frame_.delay = (edge.time - first_) % period_;
+      break;
+    }
+    first_ += frame_.delay;
+    return true;
+  }
+
+  // Acknowledge, start bit and, in BiSS C, CDS. False: there was no answer.
+  bool begin_biss() {
+    sim::Time ack = 0;
+    for (const Edge& edge : sl_.edges) {
+      if (edge.time >= frame_.trace.rising[1] && edge.time < frame_.trace.end && !edge.level) {
+        ack = edge.time;
+        break;
+      }
+    }
+    if (ack == 0) return false;
+    frame_.delay = ack - frame_.trace.rising[1];
+    first_ = ack;
+    unsigned low = 1;
+    while (!level(low)) {
+      if (bit_at(++low) >= frame_.trace.end) return false;
+    }
+    field(low, FieldKind::kFraming,
+          low > 1 ? std::vector<std::string>{fmt::format("Ack, processing {} T_MA", low - 1), "Ack"}
+                  : std::vector<std::string>{"Ack"});
+    field(1, FieldKind::kFraming, {"start"});
+    if (channel_.protocol() == sim::LineProtocol::kBissC) {
+      frame_.cds = level(next_);
+      field(1, FieldKind::kControl, {"CDS"});
+    }
+    return true;
+  }
+
+  void word(const sim::SlaveConfig& slave, std::size_t index) {
+    const std::string who = channel_.slaves.size() > 1 ? fmt::format("{}: ", index + 1) : "";
+    const auto* biss_c = std::get_if<sim::BissCSlaveConfig>(&slave.device);
+    const auto* ssi = std::get_if<sim::SsiSlaveConfig>(&slave.device);
+    if (biss_c != nullptr && biss_c->actuator && biss_c->stop_bit) {
+      field(1, FieldKind::kFraming, {"stop"});
+    }
+    const unsigned data_bits = slave.data_bits();
+    const unsigned flag_bits = slave.flag_bits();
+    const std::uint64_t raw = peek(data_bits);
+    frame_.words.push_back(raw);
+    const char* const what = biss_c != nullptr && biss_c->actuator ? "data"
+                             : ssi != nullptr && ssi->gray         ? "Gray code"
+                                                                   : "position";
+    const std::string value = fmt::format("0x{:0{}X}", flag_bits < 64 ? raw >> flag_bits : 0,
+                                          (data_bits - flag_bits + 3) / 4);
+    if (data_bits > flag_bits) {
+      field(data_bits - flag_bits, FieldKind::kData,
+            {fmt::format("{}{} {} ({} bits)", who, what, value, data_bits - flag_bits),
+             fmt::format("{}{} {}", who, what, value), who + value, value});
+    }
+    for (unsigned i = flag_bits; i-- > 0;) {
+      const bool named = flag_bits == 2 && ssi == nullptr;
+      field(1, FieldKind::kFlag, {named ? (i == 1 ? "nE" : "nW") : fmt::format("f{}", i)});
+    }
+    const sim::Crc& crc = slave.crc();
+    if (crc.width() == 0) return;
+    const auto line = static_cast<std::uint32_t>(peek(crc.width()));
+    const std::uint32_t mask = (1U << crc.width()) - 1;
+    const bool bad = line != crc.line_bits(raw, data_bits);
+    frame_.good = frame_.good && !bad;
+    field(crc.width(), FieldKind::kCrc,
+          {fmt::format("{}CRC 0x{:0{}X} {}", who, ~line & mask, (crc.width() + 3) / 4,
+                       bad ? "wrong" : "good"),
+           fmt::format("CRC 0x{:0{}X}", ~line & mask, (crc.width() + 3) / 4), "CRC"},
+          bad);
+  }
+
+  void add_rest(bool ssi) {
+    const sim::Time from = std::max(frame_.sl.empty() ? frame_.trace.clock_end : bit_at(next_),
+                                    frame_.trace.clock_end);
+    // Both began half the delay earlier, at the slave.
+    const sim::Time begun = frame_.trace.clock_end + frame_.delay;
+    const std::string us =
+        fmt::format("{:.3g} us", sim::to_us(frame_.trace.end - std::min(frame_.trace.end, begun)));
+    if (frame_.trace.end > from) {
+      const char* const what = ssi ? "monoflop" : "timeout";
+      const sim::Time begin = frame_.sl.empty() ? from : std::min(from, bit_at(next_));
+      frame_.sl.push_back({begin,
+                           frame_.trace.end,
+                           FieldKind::kRest,
+                           {fmt::format("{} {}", what, us), what},
+                           false});
+    }
+    if (ssi || channel_.protocol() != sim::LineProtocol::kBissC) return;
+    frame_.cdm = !frame_.trace.rest;
+    frame_.ma.push_back(
+        {frame_.trace.clock_end,
+         frame_.trace.end,
+         FieldKind::kControl,
+         {fmt::format("CDM = {}", frame_.cdm ? 1 : 0), fmt::format("CDM {}", frame_.cdm ? 1 : 0)},
+         false});
+  }
+
+  const Wave& sl_;
+  const sim::ChannelConfig& channel_;
+  DecodedFrame frame_;
+  sim::Time period_ = 0;
+  sim::Time first_ = 0;  // where bit 0 begins on SL
+  unsigned next_ = 0;
+};
+
+}  // namespace
+
+DecodedFrame decode_frame(const LineRecording& recording, const FrameTrace& trace,
+                          const sim::ChannelConfig& channel) {
+  return Decoder(recording, trace, channel).run();
+}
+
+}  // namespace mb4::tool

@@ -1,0 +1,67 @@
+// SPDX-FileCopyrightText: 2026 The openmb4 authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// What the pins of a line do, written down edge by edge, and where its frames begin and end.
+#ifndef MB4SIM_TOOL_LINE_RECORDING_HPP_
+#define MB4SIM_TOOL_LINE_RECORDING_HPP_
+
+#include <vector>
+
+#include "mb4sim/line.hpp"
+#include "mb4sim/time.hpp"
+
+namespace mb4::tool {
+
+struct Edge {
+  sim::Time time;
+  bool level;
+};
+
+// One signal: its level before the first edge and its edges.
+struct Wave {
+  bool idle = true;
+  std::vector<Edge> edges;
+
+  void edge(sim::Time time, bool level);
+  bool at(sim::Time time) const;  // an edge counts from its own time on
+  bool last() const { return edges.empty() ? idle : edges.back().level; }
+  Wave between(sim::Time from, sim::Time to) const;
+};
+
+// A frame as it is on the line, without knowledge of what it means.
+struct FrameTrace {
+  sim::Time begin = 0;            // first falling edge of MA
+  sim::Time clock_end = 0;        // last edge of MA
+  sim::Time end = 0;              // SL is 1 again behind it, or the next frame begins
+  std::vector<sim::Time> rising;  // edges of MA
+  bool rest = true;               // level of MA behind the last edge
+
+  sim::Time period() const { return rising.size() < 2 ? 0 : rising[1] - rising[0]; }
+};
+
+class LineRecording {
+ public:
+  // Records `line` from now on; both stay where they are.
+  explicit LineRecording(sim::Line& line);
+  LineRecording(const LineRecording&) = delete;
+  LineRecording& operator=(const LineRecording&) = delete;
+
+  void clear();
+  const Wave& ma() const { return ma_; }
+  const Wave& mo() const { return mo_; }
+  const Wave& sl() const { return sl_; }
+  // Frames that have been clocked to their end until `now`: a rest of MA of more than a period and
+  // a half ends one.
+  std::vector<FrameTrace> frames(sim::Time now) const;
+
+ private:
+  static void on_edge(sim::Time now, void* receiver, sim::Line::Signal signal, bool level);
+
+  Wave ma_;
+  Wave mo_{false, {}};
+  Wave sl_;
+};
+
+}  // namespace mb4::tool
+
+#endif  // MB4SIM_TOOL_LINE_RECORDING_HPP_
