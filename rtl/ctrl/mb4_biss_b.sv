@@ -8,9 +8,12 @@
 // mo_i at once after half a register clock). A cell is a register clock, 2^(FREQR+1) MA periods; it
 // begins with a rising edge and is high for a quarter (0), three quarters (1) or a half (read-out).
 // ma_o is the level from the next tick on. SL is taken at the rising edges: in a write it shows the
-// bit of two cells ago, in a read the slave's bits. end_o: the edge behind the last bit has been
-// made, MA stays 1; with ags_error_o (no hand-over), reg_error_o (CRC, or a bit came back
-// differently), delay_error_o (no start bit). good_bytes_o counts bytes without error.
+// bit of two cells ago, in a read the slave's bits. The edge of the last stop bit leaves MA at 1;
+// end_o two register clocks later, when SL shows that bit over any cable (I405), so that the next 1
+// on SL is the slave's timeout. A bit that fails ends the access as well, behind a stop bit of its
+// own in a write, with the byte in a read. With end_o: ags_error_o (no hand-over), reg_error_o
+// (CRC, or a bit came back differently), delay_error_o (no start bit). good_bytes_o counts bytes
+// without error. mo_low_o: MO is low, in an access from before the first edge, in INIT with it.
 // Misuse: configuration must be stable while active_o.
 // Datasheet: pages 13, 16, 30, 34, Figures 9, 14..16, Table 36; decisions 6, 7.
 
@@ -40,6 +43,7 @@ module mb4_biss_b (
   // lines
   input  logic [1:0] sl_i,           // synchronised
   output logic       ma_o,
+  output logic       mo_low_o,
   // RDATA: byte rdata_addr_o is valid one clock after its address
   output logic [5:0] rdata_addr_o,
   input  logic [7:0] rdata_i,
@@ -59,13 +63,15 @@ module mb4_biss_b (
     HAND_OVER,     // MA low
     ADDRESS,
     WRITE,
-    READ
+    READ,
+    SETTLE         // MA high
   } state_e;
 
   // Cells of the parts: start, fields, CRC, stop.
   localparam logic [4:0] ADDRESS_CRC  = 5'd12;
   localparam logic [4:0] ADDRESS_STOP = 5'd16;
   localparam logic [4:0] BYTE_CRC     = 5'd9;
+  localparam logic [4:0] BYTE_LAST    = 5'd12;   // last bit of the CRC
   localparam logic [4:0] BYTE_STOP    = 5'd13;
 
   state_e      state_d;
@@ -85,7 +91,7 @@ module mb4_biss_b (
   logic [5:0]  index_d;
   logic [5:0]  index_q;     // good bytes
   logic        fail_d;
-  logic        fail_q;      // a bit came back differently: end with this cell
+  logic        fail_q;      // a bit came back differently, or the CRC is wrong
   logic [1:0]  sent_q;      // bits of the last two cells
   logic [1:0]  check_q;     // ... which have to come back
   logic [1:0]  sample_q;    // a rising edge, two clocks late like sl_i
@@ -172,20 +178,15 @@ module mb4_biss_b (
       end
       WRITE: begin
         if (boundary) begin
-          cell_d = cell_q == BYTE_STOP ? 5'd0 : cell_q + 5'd1;
+          cell_d = cell_q == BYTE_STOP ? 5'd0 : fail_q ? BYTE_STOP : cell_q + 5'd1;
           bits_d = cell_q == 5'd0 ? {rdata_i, 3'b000} : {bits_q[9:0], 1'b0};
-          if (fail_q) begin
-            state_d     = IDLE;
-            reg_error_o = 1'b1;
-          end
         end
-        if (sample && check_q[1]) begin
-          fail_d = fail_q || sl != sent_q[1];
+        if (sample) begin
+          fail_d = fail_q || (check_q[1] && sl != sent_q[1]);
           // The last CRC bit of the byte before has come back.
-          if (cell_q == 5'd0) begin
-            if (fail_d || last) state_d = IDLE;
+          if (cell_q == 5'd0 && (check_q[1] || fail_q)) begin
+            if (fail_d || last) state_d = SETTLE;
             if (!fail_d) index_d = index_q + 6'd1;
-            reg_error_o = fail_d;
           end
         end
       end
@@ -193,20 +194,24 @@ module mb4_biss_b (
         if (sample && !fresh_q) begin
           if (cell_q != 5'd0 || sl) cell_d = cell_q + 5'd1;
           if (in_fields) bits_d = {bits_q[9:0], sl};
-          if (in_crc && sl == crc_q[3]) begin
-            state_d     = IDLE;
-            reg_error_o = 1'b1;
+          if (in_crc && sl == crc_q[3]) fail_d = 1'b1;
+          if (cell_q == BYTE_LAST) begin
+            rdata_wr_en_o = !fail_d;
+            if (!fail_d) index_d = index_q + 6'd1;
+            if (fail_d || last) state_d = SETTLE;
           end
-          if (cell_q == BYTE_STOP) begin
-            rdata_wr_en_o = 1'b1;
-            cell_d        = 5'd0;
-            index_d       = index_q + 6'd1;
-            if (last) state_d = IDLE;
-          end
+          if (cell_q == BYTE_STOP || state_d == SETTLE) cell_d = 5'd0;
         end
         if (boundary && cell_q == 5'd0 && expired_i) begin
           state_d       = IDLE;
           delay_error_o = 1'b1;
+        end
+      end
+      SETTLE: begin
+        if (sample) cell_d = 5'd1;
+        if (sample && cell_q != 5'd0) begin
+          state_d     = IDLE;
+          reg_error_o = fail_q;
         end
       end
       default: state_d = IDLE;
@@ -224,7 +229,7 @@ module mb4_biss_b (
     ma_o = 1'b1;
     if (state_d == HAND_OVER) begin
       ma_o = 1'b0;
-    end else if (state_q != HAND_OVER && state_d != IDLE) begin
+    end else if (state_q != HAND_OVER && state_d != SETTLE && state_d != IDLE) begin
       if (phase_next == 2'd1) ma_o = out || state_q == READ;
       if (phase_next == 2'd2) ma_o = out && state_q != READ;
       if (phase_next == 2'd3) ma_o = 1'b0;
@@ -270,6 +275,7 @@ module mb4_biss_b (
     end
   end
 
+  assign mo_low_o        = init_q ? state_q == HAND_OVER : state_q != IDLE;
   assign init_o          = init_q;
   assign use_o           = use_q;
   assign active_o        = state_q != IDLE;
@@ -279,7 +285,7 @@ module mb4_biss_b (
   assign rdata_wr_data_o = bits_q[7:0];
   assign good_bytes_o    = index_q;
 
-  `MB4_ASSERT(StateInRange_A, clk_i, rst_ni, state_q <= READ)
+  `MB4_ASSERT(StateInRange_A, clk_i, rst_ni, state_q <= SETTLE)
   `MB4_ASSERT(CellInRange_A, clk_i, rst_ni, cell_q <= ADDRESS_STOP)
 
 endmodule

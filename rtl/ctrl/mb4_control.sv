@@ -75,7 +75,7 @@ module mb4_control (
 
   logic agsmin, infinite, request, missed, taken, lines_idle, running, brk;
   logic busy, clear_flags, scd_en, scd_bad, ags_error, bank_fail, init_clear;
-  logic control_want, control_active, is_frame, is_control, is_register;
+  logic control_want, register_want, control_active, is_frame, is_control, is_register;
   logic reg_begin, reg_end, reg_error, delay_error, reg_ags_error;
   logic live, stalled;
   logic [1:0] in_use, frame_use, init_use, select;
@@ -150,6 +150,7 @@ module mb4_control (
     .bank_fail_o       (bank_fail),
     .init_clear_o      (init_clear),
     .control_begin_o   (control_want),
+    .register_begin_o  (register_want),
     .control_active_i  (control_active),
     .control_end_i     (reg_end),
     .control_stalled_i (stalled)
@@ -211,6 +212,7 @@ module mb4_control (
     .rdata_wr_en_o,
     .rdata_wr_data_o,
     .begin_i       (control_want),
+    .register_want_i (register_want),
     .abort_i       (abort_o),
     .clear_i       (brk || init_clear),
     .init_clear_i  (init_clear),

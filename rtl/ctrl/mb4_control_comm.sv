@@ -23,6 +23,7 @@ module mb4_control_comm (
   output logic [7:0] rdata_wr_data_o,
   // frames
   input  logic       begin_i,          // of a BiSS C control communication
+  input  logic       register_want_i,  // INSTR asks for a BiSS B register access
   input  logic       abort_i,
   input  logic       clear_i,          // BREAK, INIT
   input  logic       init_clear_i,     // INIT begins
@@ -58,7 +59,7 @@ module mb4_control_comm (
   logic waiting, moved;
   logic control_begin, control_end, control_error, control_delay, in_body, expired, sent;
   logic register_start, register_active, register_wait, register_init, register_error;
-  logic register_delay, register_end;
+  logic register_delay, register_end, register_mo;
   logic [1:0] control0, control1, register_use;
   logic       control_wr_en, register_wr_en;
   logic [5:0] control_addr, control_bytes, register_addr, register_bytes;
@@ -127,6 +128,7 @@ module mb4_control_comm (
     .use_o           (register_use),
     .sl_i,
     .ma_o            (register_ma_o),
+    .mo_low_o        (register_mo),
     .rdata_addr_o    (register_addr),
     .rdata_i,
     .rdata_wr_en_o   (register_wr_en),
@@ -139,7 +141,7 @@ module mb4_control_comm (
   );
 
   assign register_end    = register_end_o && !register_init;
-  assign register_mo_o   = register_use & {2{register_active && !register_init}};
+  assign register_mo_o   = register_use & {2{register_mo}};
   assign rdata_rd_en_o   = active_o || register_active;
   assign rdata_addr_o    = register_active ? register_addr : control_addr;
   assign rdata_wr_en_o   = control_wr_en || register_wr_en;
@@ -185,7 +187,8 @@ module mb4_control_comm (
 
   // ---- results ------------------------------------------------------------------------------
 
-  assign reg_begin_o   = control_begin || (register_start && !init_i);
+  // REGEND falls with the instruction, not first with the frame that has its turn.
+  assign reg_begin_o   = control_begin || register_want_i;
   assign reg_end_o     = control_end || register_end;
   assign reg_error_o   = control_end ? control_error : register_error;
   assign delay_error_o = control_end ? control_delay : register_delay;

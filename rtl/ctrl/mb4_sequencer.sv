@@ -78,6 +78,7 @@ module mb4_sequencer (
   output logic       init_clear_o,    // INIT begins
   // control communication
   output logic       control_begin_o, // INSTR asks for it; stays until a frame takes it
+  output logic       register_begin_o, // ... for a BiSS B register access
   input  logic       control_active_i,
   input  logic       control_end_i,
   input  logic       control_stalled_i // ... for want of frames
@@ -94,8 +95,7 @@ module mb4_sequencer (
   state_e           state_d;
   state_e           state_q;
   mb4_pkg::instr_t  held_d, held_q;
-  logic             new_d;
-  logic             new_q;         // INSTR was written and has not started yet
+  logic             new_d, new_q;  // INSTR was written and has not started yet
   logic [1:0]       use_d, use_q;
   logic [1:0]       done_d, done_q;
   logic             bad_d, bad_q;
@@ -104,10 +104,9 @@ module mb4_sequencer (
   logic [1:0]       ack_q;         // a clock later than new_q: REGEND has fallen by then
   logic [10:0]      wait_d;
   logic [10:0]      wait_q;        // half MA periods left for SL to return to 1
-  logic             written;
-  logic             toggle_level;
+  logic             written, toggle_level;
   logic             all_idle, sl_low;
-  logic             by_instr;      // INSTR asks for a frame
+  logic             by_instr, begins;  // INSTR asks for a frame, ... a control communication
   logic             register_d, register_q;  // no frame but a BiSS B register access
 
   // INIT does not test SL (page 33), yet slaves need their timeout around it: 1024 MA periods for
@@ -125,8 +124,9 @@ module mb4_sequencer (
   assign all_idle = (use_i & ~idle_i) == 2'b00;
   assign sl_low   = (use_i & (idle_i | timeout_i) & ~sl_i) != 2'b00;
   assign by_instr = new_q && is_frame_i && use_i != 2'b00 && (!held_q.ags || infinite_i);
-  assign control_begin_o = new_q && is_control_i && use_i != 2'b00 && !held_q.init &&
-                           state_q != INIT && state_q != INIT_TIMEOUT;
+  assign begins   = new_q && use_i != 2'b00 && !held_q.init && state_q != INIT_TIMEOUT;
+  assign control_begin_o  = begins && is_control_i && state_q != INIT;
+  assign register_begin_o = begins && is_register_i;
   assign register_o  = init_o ? !regvers_i : is_register_i;
   assign register_d  = start_o ? register_o : register_q;
   assign start_use_o = init_o ? init_use_i : frame_use_i;
@@ -173,7 +173,7 @@ module mb4_sequencer (
             abort_o = 1'b1;
           end
         end else if ((by_instr || request_i) && !mem_busy_i && use_i != 2'b00) begin
-          if (bank_pending_i && held_q.holdbank && agserr_on_hold_i) begin
+          if (bank_pending_i && held_q.holdbank && agserr_on_hold_i && !is_register_i) begin
             taken_o     = 1'b1;
             ags_error_o = 1'b1;
             bank_fail_o = 1'b1;

@@ -214,6 +214,45 @@ TEST(ChipMo, CableLongerThanTheFrame_WordArrives) {
   }
 }
 
+// Sensors alone on such a cable: MA goes on until the start bit is back (decision 17), and MO has
+// to stay 0 meanwhile. A 1 would run through the slaves behind the data and look like their
+// timeout.
+TEST(ChipMo, SensorsOnACableLongerThanTheFrame_SeeNoOneBehindTheirSlots) {
+  for (const double delay_ns : {900.0, 2500.0, 10'000.0}) {
+    for (const bool cdm : {false, true}) {
+      ProtocolChip chip(channel(1, "mo = true\ndelay_ns = " + std::to_string(delay_ns) + "\n") +
+                            sensor(8, 0x5A) + sensor(5, 0x15),
+                        {.freqs = 0, .en_mo = true, .mo_busy = 1});
+      for (unsigned frame = 1; frame <= 3; ++frame) {
+        ASSERT_TRUE(chip.frame(cdm ? 0x02 : 0x04));
+        EXPECT_EQ(chip.scdata(1, 8), 0x5AU) << delay_ns;
+        EXPECT_EQ(chip.scdata(2, 5), 0x15U) << delay_ns;
+        EXPECT_EQ(chip.status(), 0xFB) << delay_ns;
+        EXPECT_EQ(chip.simulator.slave(1)->last_cdm(), cdm) << delay_ns;
+        EXPECT_EQ(chip.simulator.slave(2)->last_cdm(), cdm) << delay_ns;
+        EXPECT_EQ(chip.simulator.slave(1)->cdm_count(), frame) << delay_ns;
+        // 0 with the acknowledge, the start bit, 0 up to the last rising edge at least.
+        ASSERT_EQ(chip.mo[0].size(), 4U) << delay_ns;
+        const auto& ma = chip.ma[0];
+        sim::Time last_rise = 0;
+        for (std::size_t i = 0; i < ma.size(); ++i) {
+          const bool clock = i == 0 || ma[i].time - ma[i - 1].time == chip.t_ma / 2;
+          if (ma[i].level && clock) last_rise = ma[i].time;
+        }
+        EXPECT_GE(chip.mo[0][3].time, last_rise) << delay_ns;
+        EXPECT_GT(last_rise, chip.mo[0][2].time + (8 + 6 + 5 + 6) * chip.t_ma / 2) << delay_ns;
+      }
+      // Frame after frame: no timeout is seen that is none.
+      chip.instruct(0x01);
+      chip.advance_us(400);
+      EXPECT_EQ(chip.svalid(), 0x0AU) << delay_ns;
+      EXPECT_EQ(chip.status() & 0xFEU, 0xFAU) << delay_ns;
+      EXPECT_EQ(chip.simulator.slave(1)->frames(), chip.simulator.slave(2)->frames());
+      EXPECT_GT(chip.simulator.slave(1)->frames(), 8U) << delay_ns;
+    }
+  }
+}
+
 // Control communication works on a bus: slave N has ID 0 (page 27).
 TEST(ChipMo, RegisterAccessOnABus) {
   ProtocolChip chip(channel(1) + sensor(8, 0x5A, "registers = { 0x44 = 0x11 }\n") +

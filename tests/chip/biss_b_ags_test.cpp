@@ -1,0 +1,147 @@
+// SPDX-FileCopyrightText: 2026 The openmb4 authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// BiSS B register access among the frames of AGS, and on a bus: pages 13, 16, 28, 32 to 34.
+#include <gtest/gtest.h>
+
+#include "protocol_chip.hpp"
+
+namespace {
+
+using mb4test::ProtocolChip;
+namespace sim = mb4::sim;
+
+constexpr std::uint8_t kAgs = 0x01;
+constexpr std::uint8_t kRegister = 0x08;  // INSTR = 100
+
+std::string bus(const std::string& channel_keys, const std::string& slave_keys) {
+  return "[[channel]]\nnumber = 1\n" + channel_keys +
+         "[[channel.slave]]\nprotocol = \"biss-b\"\ndata_bits = 16\ndata = 0x1234\n" + slave_keys;
+}
+
+sim::BissBSlave& slave(ProtocolChip& chip) {
+  return dynamic_cast<sim::BissBSlave&>(*chip.simulator.slave(1));
+}
+
+// Behind a register access the slave has its register timeout before the next frame begins, also
+// if what comes back over the cable last, or what the slave would go on with, is 1. On a bus the
+// slaves pass on MO = 1.
+class BissBUnderAgsmin : public testing::TestWithParam<std::tuple<double, unsigned, bool>> {};
+
+TEST_P(BissBUnderAgsmin, FramesGoOnBehindTheRegisterTimeout) {
+  const auto [cable_ns, freqr, by_mo] = GetParam();
+  const double t_mar_ns = 100.0 * (2U << freqr);
+  if (cable_ns > t_mar_ns - 30) return;  // I405
+  ProtocolChip chip(bus("delay_ns = " + std::to_string(cable_ns) + (by_mo ? "\nmo = true\n" : "\n"),
+                        "timeout = 2\nregister_timeout = " +
+                            std::to_string((by_mo ? 0.0015 : 0.0008) * t_mar_ns) + "\n"),
+                    {.freqs = 0, .freqr = freqr, .biss_c_registers = false, .en_mo = by_mo});
+  const auto& counters = slave(chip).access().counters();
+  chip.instruct(kAgs);
+  for (unsigned value = 0; value < 16; ++value) {
+    for (const bool write : {true, false}) {
+      chip.write_rdata({static_cast<std::uint8_t>(write ? value : 0xFF)});
+      chip.set_access(by_mo ? 1 : 0, 0x20, 1, write);
+      chip.instruct(kAgs | kRegister);
+      ASSERT_TRUE(chip.simulator.run_while_waiting(
+          [&] {
+            return !slave(chip).in_register_mode() && chip.simulator.line(1)->sl() &&
+                   (write ? counters.writes : counters.reads) == value + 1;
+          },
+          chip.simulator.now() + 2000 * sim::kPsPerUs))
+          << value;
+      const auto frames = slave(chip).frames();
+      chip.advance_us(60);
+      EXPECT_GT(slave(chip).frames(), frames + 5) << value;
+      EXPECT_EQ(counters.protocol_errors, 0U) << value;
+      EXPECT_EQ(counters.aborts, 0U) << value;
+      EXPECT_EQ(chip.status() & 0xFCU, 0xFCU) << value;
+      EXPECT_EQ(chip.read(0xF4), kAgs) << value;
+      EXPECT_EQ(chip.read(0x80), value) << write;
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Cables, BissBUnderAgsmin,
+                         testing::Combine(testing::Values(0.0, 60.0, 190.0, 370.0),
+                                          testing::Values(0U, 1U, 3U, 5U), testing::Bool()));
+
+// The same if the access ends with an error: a wrong echo, a wrong CRC of the slave.
+TEST(ChipBissBAgs, AccessWithAnError_FramesGoOnBehindTheRegisterTimeout) {
+  for (unsigned value = 0; value < 16; ++value) {
+    for (const bool write : {true, false}) {
+      ProtocolChip chip(bus("", "timeout = 2\nregister_timeout = 1.2\n"),
+                        {.freqs = 0, .freqr = 3, .biss_c_registers = false});
+      slave(chip).access().set_wrong_data_crc(!write);
+      slave(chip).reg_write(0x20, static_cast<std::uint8_t>(value));
+      chip.write_rdata({static_cast<std::uint8_t>(0x10 * value)});
+      chip.set_access(0, 0x20, 1, write);
+      chip.instruct(kAgs | kRegister);
+      if (write) {
+        // The echo of one data bit is wrong.
+        ASSERT_TRUE(chip.simulator.run_while_waiting([&] { return slave(chip).in_register_mode(); },
+                                                     chip.simulator.now() + 100 * sim::kPsPerUs));
+        chip.simulator.advance((20 + value / 2) * chip.t_mar);
+        chip.simulator.line(1)->faults().stick(!chip.simulator.line(1)->sl());
+        chip.simulator.refresh_lines();
+        chip.simulator.advance(chip.t_mar);
+        chip.simulator.line(1)->faults().stick(std::nullopt);
+        chip.simulator.refresh_lines();
+      }
+      ASSERT_TRUE(chip.simulator.run_while_waiting([&] { return (chip.status() & 0x04U) != 0; },
+                                                   chip.simulator.now() + 200 * sim::kPsPerUs));
+      EXPECT_EQ(chip.status() & 0x0CU, 0x04U) << value << write;
+      chip.advance_us(10);
+      const auto frames = slave(chip).frames();
+      chip.advance_us(60);
+      EXPECT_GT(slave(chip).frames(), frames + 5) << value << write;
+      EXPECT_EQ(slave(chip).access().counters().protocol_errors, 0U) << value << write;
+      EXPECT_EQ(chip.status() & 0x50U, 0x50U) << value << write;
+    }
+  }
+}
+
+// Table 56: REGEND = 0 from the instruction on, although the access has to wait for its turn.
+TEST(ChipBissBAgs, SecondAccess_RegendFallsWithTheInstruction) {
+  ProtocolChip chip(bus("", "timeout = 2\nregisters = { 0x10 = 0x5A, 0x11 = 0xA5 }\n"),
+                    {.freqs = 0, .freqr = 1, .biss_c_registers = false, .freqags = 0xFF});
+  chip.instruct(kAgs);  // one frame every 4 ms
+  for (const unsigned address : {0x10U, 0x11U}) {
+    chip.set_access(0, address, 1, false);
+    chip.instruct(kAgs | kRegister);
+    EXPECT_EQ(chip.status() & 0x0CU, 0x08U) << address;
+    ASSERT_TRUE(chip.simulator.run_while_waiting([&] { return (chip.status() & 0x04U) != 0; },
+                                                 chip.simulator.now() + 10'000 * sim::kPsPerUs));
+    EXPECT_EQ(chip.read(0x80), address == 0x10 ? 0x5A : 0xA5);
+    EXPECT_EQ(chip.read(0xF4), kAgs);
+  }
+}
+
+// Figure 16 on a bus.
+TEST(ChipBissBAgs, InitOnABus_EndsWithTheHandOver) {
+  ProtocolChip chip(bus("mo = true\n", "timeout = 2\n"),
+                    {.freqs = 0, .freqr = 1, .biss_c_registers = false, .en_mo = true});
+  for (unsigned i = 0; i < 2; ++i) {
+    ASSERT_TRUE(chip.frame(0x10));
+    EXPECT_EQ(chip.ma[0].size(), 2U);
+    EXPECT_EQ(chip.status(), 0xFB);
+    ASSERT_TRUE(chip.frame());
+    EXPECT_EQ(chip.scdata(1, 16), 0x1234U);
+    EXPECT_EQ(chip.status(), 0xFB);
+  }
+}
+
+// HOLDBANK is about the banks of SCDATA (page 33); a register access has none.
+TEST(ChipBissBAgs, HeldSwitch_DoesNotKeepARegisterAccess) {
+  ProtocolChip chip(bus("", "timeout = 2\nregisters = { 0x10 = 0x5A }\n"),
+                    {.freqs = 0, .freqr = 1, .biss_c_registers = false});
+  ASSERT_TRUE(chip.run(0x44, 1000));
+  chip.advance_us(50);
+  chip.set_access(0, 0x10, 1, false);
+  ASSERT_TRUE(chip.run(0x40 | kRegister, 1000));
+  EXPECT_EQ(chip.read(0x80), 0x5A);
+  EXPECT_EQ(chip.status(), 0xFF);
+  EXPECT_EQ(chip.read(0xFB), 0x00);
+}
+
+}  // namespace
