@@ -345,4 +345,41 @@ TEST(ChipReset, NresInAFrame_EverythingReadsItsResetValue) {
   }
 }
 
+// The data channels' configuration lies in memories, which no reset clears: what was there before
+// must show neither to the host nor in a frame.
+TEST(ChipReset, OneByteOfAChannelWritten_TheOthersAreZero) {
+  for (unsigned byte = 0; byte < 4; ++byte) {
+    Chip chip("");
+    for (unsigned address = 0xC0; address < 0xE0; ++address) {
+      chip.write(static_cast<std::uint8_t>(address), {0xFF});
+    }
+    chip.simulator.set_pin(sim::Pin::kNres, false);
+    chip.advance_us(1);
+    chip.simulator.set_pin(sim::Pin::kNres, true);
+    chip.advance_us(1);
+    chip.write(static_cast<std::uint8_t>(0xC8 + byte), {0xA5});
+    const auto values = chip.read(0xC0, 32);
+    for (unsigned i = 0; i < 32; ++i) EXPECT_EQ(values[i], i == 8 + byte ? 0xA5 : 0x00) << i;
+  }
+}
+
+TEST(ChipReset, OnlyLengthWritten_TheFrameHasNoCrc) {
+  Chip chip(one_slave("data_bits = 28\ncrc = 0\ndata = 0x1234567"));
+  chip.configure_slave1(28, 0x06, 0x00);
+  chip.write(0xC1, {0x86, 0xFF, 0xFF});
+  chip.simulator.set_pin(sim::Pin::kNres, false);
+  chip.advance_us(1);
+  chip.simulator.set_pin(sim::Pin::kNres, true);
+  chip.advance_us(4);
+  chip.write(0xC0, {0x40 | 27});
+  chip.write(0xED, {0x0D});
+  chip.instruct(0x08);  // INIT
+  ASSERT_TRUE(chip.wait_eot());
+  chip.advance_us(40);
+  chip.instruct(0x02);
+  ASSERT_TRUE(chip.wait_eot());
+  EXPECT_EQ(chip.read(0x00, 8), (std::vector<std::uint8_t>{0x67, 0x45, 0x23, 0x01, 0, 0, 0, 0}));
+  EXPECT_EQ(chip.read(0xF1), 0x02);
+}
+
 }  // namespace
