@@ -279,7 +279,7 @@ module mb4_control_frame (
 
   // The instruction that waits for a frame which never comes is not a new one.
   assign begin_o       = begin_i && !active_q && !stalled_i;
-  assign active_o      = active_q || begin_i;
+  assign active_o      = active_q || begin_o;
   assign wait_o        = active_q && cts_i && slot_q == mb4_pkg::SLOT_WAIT;
   assign late          = wait_o && stay && expired_i;
   assign moved_o       = step && !(wait_o && stay);

@@ -1,0 +1,200 @@
+#!/usr/bin/env python3
+# SPDX-FileCopyrightText: 2026 The openmb4 authors
+# SPDX-License-Identifier: Apache-2.0
+"""Proofs of single blocks: Yosys, yosys-smtbmc and z3; bounded search, cover points, induction.
+
+  prove.py NAME FOLDER [--bounds|--mutations]   one proof; FOLDER is for what the tools leave
+  prove.py table [--check FILE]                 the table of docs/proofs.md, or: FILE holds it
+
+A proof is NAME.sv here: a bench `proof` around the block, with lines `// key: value` in its header; a line
+that begins with `//   ` goes on with the one before:
+  claim      what is proved, in a line
+  clocks     one: a step is a clock; many: a step is any instant, clocks are inputs like others
+  depth      steps that the bounded proof looks at, from reset
+  cover      steps within which each cover point must be reached, so that nothing holds by being
+             impossible
+  unbounded  "induction K": K-step induction; or "no: REASON"
+  checks     there: the block's own checks depend on more than the bench, and are left out
+  look       WIRE = PATH: the bench's undriven WIRE shows a signal inside the block
+  keep       FILE | OLD | NEW: a smaller size for the proof; OLD occurs once
+  mutation   FILE | OLD | NEW: with this change of the RTL (OLD occurs once) the proof fails
+"""
+
+import re
+import shutil
+import sys
+import time
+from pathlib import Path
+
+HERE = Path(__file__).resolve().parent
+sys.path.insert(0, str(HERE.parents[1] / "tools" / "synth"))
+
+import project  # noqa: E402
+import yosys  # noqa: E402
+
+KEYS = {"checks", "claim", "clocks", "depth", "cover", "unbounded", "look", "keep", "mutation"}
+SOLVER = "z3"
+STEPS = 10
+PACKAGE = {"z3": "z3", "yosys-smtbmc": "yosys"}
+
+
+class Proof:
+    def __init__(self, name):
+        self.name = name
+        self.path = HERE / f"{name}.sv"
+        self.values = {}
+        head = self.path.read_text(encoding="utf-8").split("\nmodule ")[0]
+        head = re.sub(r"\n//   ", " ", head)
+        for key, value in re.findall(r"^// (\w+): (.*)$", head, re.M):
+            if key in KEYS:
+                self.values.setdefault(key, []).append(value.strip())
+        for key in ("claim", "clocks", "depth", "cover", "unbounded", "mutation"):
+            if key not in self.values:
+                raise SystemExit(f"{self.path.name}: no line '// {key}: ...'")
+
+    def one(self, key):
+        return self.values[key][0]
+
+    def changes(self, key):
+        return [tuple(part.strip() for part in value.split(" | "))
+                for value in self.values.get(key, [])]
+
+
+def apply(change, sources, where):
+    """Replaces OLD, which must occur once, in the file FILE of {relative name: text}."""
+    file, old, new = change
+    if sources[file].count(old) != 1:
+        raise SystemExit(f"{where}: '{old}' occurs {sources[file].count(old)} times in {file}")
+    sources[file] = sources[file].replace(old, new)
+
+
+def model(proof, folder, mutation=None):
+    """Writes the model of a proof, with one mutation or none."""
+    if folder.exists():
+        shutil.rmtree(folder)
+    folder.mkdir(parents=True)
+    sources = {}
+    for path in project.rtl_files():
+        name = path.name if project.RTL not in path.parents else str(path.relative_to(project.RTL))
+        sources[name] = path.read_text(encoding="utf-8")
+    for change in proof.changes("keep") + ([mutation] if mutation else []):
+        apply(change, sources, proof.path.name)
+    files = []
+    for name, text in sources.items():
+        target = folder / "rtl" / name
+        target.parent.mkdir(parents=True, exist_ok=True)
+        target.write_text(text, encoding="utf-8")
+        files.append(target)
+    formal = "" if "checks" in proof.values else "-formal"
+    looks = [value.split(" = ") for value in proof.values.get("look", [])]
+    commands = [f"read_verilog -sv {formal} -I{project.RTL} " + " ".join(str(f) for f in files),
+                f"read_verilog -sv -formal {proof.path}",
+                "hierarchy -check -top proof", "proc", "flatten", "cd proof",
+                *[f"connect -nounset -set {wire} {path}" for wire, path in looks], "cd",
+                "opt_clean", "check",
+                "memory -nomap", "opt -full",
+                "clk2fflogic" if proof.one("clocks") == "many" else "async2sync",
+                "dffunmap", "opt_clean", "check", "write_smt2 -wires model.smt2"]
+    status, text = yosys.execute(commands, folder, "model")
+    if status != 0:
+        raise SystemExit(text)
+    drivers = [line for line in text.splitlines() if "no driver" in line]
+    if drivers:
+        raise SystemExit("\n".join(drivers))
+
+
+def smtbmc(folder, *arguments):
+    return project.run([project.tool("yosys-smtbmc"), "-s", SOLVER, "--noprogress", "--noincr",
+                        "--unroll", *arguments, "model.smt2"], cwd=folder)
+
+
+def bounded(proof, folder):
+    # Several steps in one question: the solver starts anew for each.
+    status, text = smtbmc(folder, "-t", f"0:{STEPS}:{proof.one('depth')}",
+                          "--dump-vcd", "trace.vcd")
+    return status == 0 and "Status: PASSED" in text, text
+
+
+def unbounded(proof, folder):
+    how = proof.one("unbounded").split()
+    if how[0] == "induction":
+        status, text = smtbmc(folder, "-i", "-t", how[1])
+        return status == 0 and "Status: PASSED" in text, text
+    return True, ""
+
+
+def cover(proof, folder):
+    status, text = smtbmc(folder, "-c", "-t", proof.one("cover"))
+    reached = len(re.findall(r"Reached cover", text))
+    return status == 0 and reached > 0 and "Unreached" not in text, text
+
+
+def mutated(proof, folder, number, mutation):
+    folder = folder / f"mutation{number}"
+    model(proof, folder, mutation)
+    good, text = bounded(proof, folder)
+    if good:
+        good, text = unbounded(proof, folder)
+    failed = re.search(r"Assert failed in \S+: (.*)", text)
+    where = failed.group(1) if failed else ""
+    if good or not failed:
+        return [f"{proof.name}: this change of the RTL goes unnoticed: {' | '.join(mutation)}\n"
+                f"{text[-2000:]}"]
+    print(f"  mutation {number} of {mutation[0]} fails in {where}", flush=True)
+    return []
+
+
+def timed(what, function, *arguments):
+    begin = time.monotonic()
+    good, text = function(*arguments)
+    print(f"  {what}: {'ok' if good else 'FAILED'}, {time.monotonic() - begin:.1f} s", flush=True)
+    return [] if good else [f"{what} failed:\n{text[-4000:]}"]
+
+
+def prove(name, folder, part):
+    for program in (SOLVER, "yosys", "yosys-smtbmc"):
+        if shutil.which(program) is None:
+            print(f"skipped: {program} is not installed (package {PACKAGE.get(program, program)}; "
+                  f"tools/setup.sh test installs it)")
+            sys.exit(project.SKIPPED)
+    proof = Proof(name)
+    print(f"{name}: {proof.one('claim')}", flush=True)
+    findings = []
+    if part != "--mutations":
+        model(proof, folder / "rtl_model")
+        findings += timed(f"bounded, {proof.one('depth')} steps", bounded, proof,
+                          folder / "rtl_model")
+        findings += timed("cover points", cover, proof, folder / "rtl_model")
+        findings += timed(f"unbounded: {proof.one('unbounded')}", unbounded, proof,
+                          folder / "rtl_model")
+    if part != "--bounds":
+        for number, mutation in enumerate(proof.changes("mutation"), 1):
+            findings += mutated(proof, folder, number, mutation)
+    project.finish(findings, f"{name}: proved, and every mutation is found")
+
+
+def table():
+    lines = ["| proof | claim | bounded, steps | unbounded | mutations |", "|---|---|---|---|---|"]
+    for path in sorted(HERE.glob("*.sv")):
+        proof = Proof(path.stem)
+        step = "instants" if proof.one("clocks") == "many" else "clocks"
+        how = proof.one("unbounded")
+        how = re.sub(r"induction (\d+)", r"yes, \1-step induction", how)
+        lines.append(f"| [`{proof.name}`](../tests/formal/{path.name}) | {proof.one('claim')} | "
+                     f"{proof.one('depth')} {step} | {how} | {len(proof.changes('mutation'))} |")
+    return "\n".join(lines)
+
+
+def main():
+    if sys.argv[1] == "table":
+        text = table()
+        if len(sys.argv) > 2:
+            held = text in Path(sys.argv[3]).read_text(encoding="utf-8")
+            project.finish([] if held else [f"{sys.argv[3]} does not hold this table:\n{text}"],
+                           "the table is that of the proofs")
+        print(text)
+        return
+    prove(sys.argv[1], Path(sys.argv[2]), sys.argv[3] if len(sys.argv) > 3 else "")
+
+
+main()

@@ -1,0 +1,105 @@
+// SPDX-FileCopyrightText: 2026 The openmb4 authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// No dead state: from every state of the sequencer, those that it never reaches too, BREAK leads to
+// idle within three clocks of the host's write, and a reset at once. INIT gives up waiting. The
+// state is arbitrary at first: what holds here needs no history.
+//
+// claim: BREAK ends in idle within 3 clocks from any state, reachable or not; reset at once
+// clocks: one
+// depth: 8
+// cover: 9
+// unbounded: induction 5
+// look: dut_state = u_dut.state_q
+// look: dut_wait = u_dut.wait_q
+// look: dut_seen = u_dut.u_written.seen_q
+// look: dut_sync = u_dut.u_written.u_sync.sync_q
+// mutation: ctrl/mb4_sequencer.sv | if (written_i.brk) begin
+//   | if (written_i.brk && state_q != INIT_TIMEOUT) begin
+// mutation: ctrl/mb4_sequencer.sv | if ((use_q & ~idle_i) == 2'b00 || wait_q == 11'd0) begin
+//   | if ((use_q & ~idle_i) == 2'b00) begin
+// mutation: ctrl/mb4_sequencer.sv | default: state_d = IDLE; | default: state_d = state_q;
+
+module proof (
+  input logic clk_i, rst_ni, toggle_i,
+  input logic check_i,   // free: at which clocks the checks look
+  input mb4_pkg::instr_t written_i,
+  input logic mem_busy_i, agsmin_i, infinite_i, regvers_i, is_frame_i, is_control_i, is_register_i,
+  input logic [1:0] use_i, frame_use_i, init_use_i, idle_i, timeout_i, sl_i, frame_end_i,
+  input logic [1:0] word_done_i, word_ok_i, init_done_i, init_fail_i,
+  input logic [2:0] quirk_i,
+  input logic request_i, missed_i, tick_i, bank_pending_i,
+  input logic control_active_i, control_end_i, control_stalled_i
+);
+
+  logic running, start, abort, ags_error;
+
+  mb4_sequencer u_dut (
+    .clk_i, .rst_ni, .written_i, .toggle_i, .mem_busy_i, .agsmin_i, .infinite_i, .regvers_i,
+    .use_i, .frame_use_i, .init_use_i, .is_frame_i, .is_control_i, .is_register_i,
+    .agserr_on_hold_i(quirk_i[0]), .agserr_on_write_i(quirk_i[1]), .ags_clear_i(quirk_i[2]),
+    .request_i, .missed_i, .tick_i, .idle_i, .timeout_i, .sl_i, .frame_end_i, .word_done_i,
+    .word_ok_i, .init_done_i, .init_fail_i, .bank_pending_i, .control_active_i, .control_end_i,
+    .control_stalled_i, .running_o(running), .start_o(start), .abort_o(abort),
+    .ags_error_o(ags_error)
+  );
+
+  logic started = 1'b0;
+  always @(posedge clk_i) started <= 1'b1;
+
+  // The host's side: a toggle with its byte, held for five clocks at least.
+  logic [2:0] age_q = 3'd7;   // clocks since the toggle
+  logic       toggle_q = 1'b0;
+  mb4_pkg::instr_t byte_q;
+  always @(posedge clk_i) begin
+    age_q    <= toggle_i != toggle_q ? 3'd1 : age_q == 3'd7 ? 3'd7 : age_q + 3'd1;
+    toggle_q <= toggle_i;
+    byte_q   <= written_i;
+    if (!rst_ni) age_q <= 3'd7;
+  end
+  always @* begin
+    if (!started) assume (!rst_ni && !toggle_i);
+    if (!rst_ni) assume (toggle_i == 1'b0);
+    if (age_q < 3'd5) assume (toggle_i == toggle_q && written_i == byte_q);
+  end
+
+  wire [2:0] dut_state;
+  wire [10:0] dut_wait;
+  wire       dut_seen;
+  wire [1:0] dut_sync;
+
+  // The toggle on its way, for the induction.
+  always @* if (started && rst_ni) begin
+    Way1_A: assert (dut_sync == {toggle_q ^ (age_q == 3'd1), toggle_q});
+    Way2_A: assert (dut_seen == (toggle_q ^ (age_q <= 3'd2)));
+    Counted_A: assert (age_q != 3'd0);
+  end
+
+  logic [2:0]  state_q;
+  logic        live_q, abort_q;
+  logic        gave_up_q;  // INIT has waited for SL long enough
+  always @(posedge clk_i) begin
+    state_q  <= dut_state;
+    live_q   <= rst_ni;
+    abort_q  <= abort;
+    gave_up_q <= dut_state == 3'd4 && dut_wait == 11'd0;
+  end
+
+  // check_i keeps the induction from assuming that the checks held before, so that the state before
+  // is any of the eight codes with any counters.
+  always @* if (check_i) begin
+    StartOrAbort_A: assert (!(start && abort));
+    if (start) StartOnIdle_A: assert ((use_i & ~idle_i) == 2'b00);
+    if (!rst_ni) ResetIdles_A: assert (!running);
+    if (started && rst_ni && age_q == 3'd3 && byte_q.brk) BreakIdles_A: assert (!running);
+    if (started && live_q && state_q > 3'd4) NoStray_A: assert (!running);
+    if (started && live_q && gave_up_q) InitGivesUp_A: assert (!running);
+  end
+
+  always @(posedge clk_i) if (rst_ni) begin
+    Frame_C: cover (dut_state == 3'd1 && age_q == 3'd5);
+    Broken_C: cover (state_q == 3'd1 && !running && abort_q);
+    Init_C: cover (dut_state == 3'd3);
+  end
+
+endmodule

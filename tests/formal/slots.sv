@@ -1,0 +1,139 @@
+// SPDX-FileCopyrightText: 2026 The openmb4 authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Slots of a control frame: one frame moves it by one slot or leaves it in those that wait (S until
+// 14 zeros have gone, the slave's start bit), nothing else moves it; it carries the bits of
+// datasheet pages 27..29, Figures 20..22 at their places; a register access does REGNUM + 1 bytes;
+// BREAK and INIT end it.
+//
+// claim: slot = number of frames since S, bits at their places, bytes counted, ends in rest
+// clocks: one
+// depth: 9
+// cover: 12
+// unbounded: induction 2
+// look: dut_slot = u_dut.slot_q
+// look: dut_carries = u_dut.carries_q
+// look: dut_active = u_dut.active_q
+// look: dut_last = u_dut.last_q
+// mutation: ctrl/mb4_control_frame.sv | if (!stay) slot_d
+//   | if (!stay || slot_q == mb4_pkg::SLOT_WAIT) slot_d
+// mutation: ctrl/mb4_control_frame.sv | start_i ? active_o : carries_q && !frame_end_i
+//   | start_i ? active_o : carries_q
+// mutation: ctrl/mb4_control_frame.sv | last_d  = index_q == regnum_i;
+//   | last_d  = index_d == regnum_i;
+// mutation: ctrl/mb4_control_frame.sv | mb4_pkg::SLOT_START: cdm0 = cdm_timeout_i;
+//   | mb4_pkg::SLOT_START: cdm0 = 1'b1;
+
+module proof (
+  input logic clk_i, rst_ni,
+  input logic begin_i, abort_i, start_i, frame_end_i, cdm_timeout_i, expired_i, stalled_i,
+  input logic [1:0] cds_i,
+  input logic [7:0] rdata_i
+);
+
+  (* anyconst *) logic       cts, wnr, ida_invert, blind;
+  (* anyconst *) logic [6:0] regadr;
+  (* anyconst *) logic [5:0] regnum;
+  (* anyconst *) logic [2:0] slaveid;
+  (* anyconst *) logic [1:0] select;
+
+  logic active, body, waits, moved, begins, ends, reg_error, delay_error, wr_en;
+  logic [1:0] cdm0, cdm1;
+  logic [5:0] good, addr;
+
+  mb4_control_frame u_dut (
+    .clk_i, .rst_ni, .cts_i(cts), .wnr_i(wnr), .regadr_i(regadr), .regnum_i(regnum),
+    .slaveid_i(slaveid), .ida_invert_i(ida_invert), .select_i(select), .blind_i(blind),
+    .rdata_addr_o(addr), .rdata_i, .rdata_wr_en_o(wr_en), .begin_i, .abort_i, .start_i,
+    .frame_end_i, .cds_i, .cdm_timeout_i, .expired_i, .stalled_i, .active_o(active),
+    .in_body_o(body), .wait_o(waits), .moved_o(moved), .cdm0_o(cdm0), .cdm1_o(cdm1),
+    .begin_o(begins), .end_o(ends), .reg_error_o(reg_error), .delay_error_o(delay_error),
+    .good_bytes_o(good)
+  );
+
+  logic started = 1'b0;
+  always @(posedge clk_i) started <= 1'b1;
+  always @* begin
+    if (!started) assume (!rst_ni);
+    assume (cts ? select == 2'b01 || select == 2'b10 : select != 2'b00);
+    // A frame starts after the one before has ended; frames that start carry what begins with them.
+    if (start_i) assume (!frame_end_i && !running_q);
+    if (frame_end_i) assume (running_q);
+  end
+
+  logic running_q;   // a frame runs
+  always @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni)           running_q <= 1'b0;
+    else if (start_i)      running_q <= 1'b1;
+    else if (frame_end_i || abort_i)  running_q <= 1'b0;
+  end
+
+  wire [5:0] dut_slot;
+  wire       dut_carries, dut_active, dut_last;
+
+  // A step: the frame that ends had begun while the control communication was active.
+  logic       mine_q;
+  logic [5:0] slot_q, good_q;
+  logic       active_q, step_q, abort_q, live_q, wait_q, begin_q, stalled_q, zeros_q;
+  logic [1:0] cds_q;
+  always @(posedge clk_i) begin
+    slot_q    <= dut_slot;
+    good_q    <= good;
+    active_q  <= dut_active;
+    live_q    <= rst_ni;
+    step_q    <= mine_q && frame_end_i;
+    abort_q   <= abort_i;
+    begin_q   <= begins;
+    stalled_q <= stalled_i;
+    wait_q    <= waits;
+    zeros_q   <= cdm_timeout_i;
+    cds_q     <= cds_i;
+  end
+  always @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni)                                     mine_q <= 1'b0;
+    else if (abort_i)                                mine_q <= 1'b0;
+    else if (start_i && !ending)                     mine_q <= dut_active || begins;
+    else if (frame_end_i || ending)                  mine_q <= 1'b0;
+  end
+  logic ending;    // stalled: it ends without a frame
+  assign ending = dut_active && stalled_i && !(mine_q && frame_end_i);
+
+  logic [1:0] sent;
+  assign sent = cdm0 | cdm1;
+
+  always @* if (started) begin
+    Range_A: assert (dut_slot <= 6'd32 && (cts || dut_slot <= 6'd25));
+    SameFrame_A: assert (dut_carries == mine_q);
+    if (!dut_active) Rest_A: assert (dut_slot == 6'd0 && !dut_carries);
+    if (rst_ni && live_q) begin
+      if (abort_q) Abort_A: assert (!dut_active && dut_slot == 6'd0);
+      if (!step_q && dut_slot != slot_q)
+        OnlyFrames_A: assert (dut_slot == 6'd0 && (abort_q || ends));
+      if (step_q && dut_active && !begin_q && !abort_q && !ends)
+        ByOne_A: assert (dut_slot == slot_q + 6'd1 || (slot_q == 6'd32 && dut_slot == 6'd19) ||
+                         (dut_slot == slot_q && (slot_q == 6'd0 || (cts && slot_q == 6'd19))));
+      if (step_q && slot_q == 6'd0 && dut_slot == 6'd1) AfterZeros_A: assert (zeros_q);
+      if (step_q && slot_q == 6'd19 && dut_slot == 6'd20 && cts && !blind)
+        AfterStartBit_A: assert ((cds_q & select) != 2'b00);
+      if (ends) EndIsRest_A: assert (dut_slot == 6'd0 && (!dut_active || begin_q || abort_q));
+      if (dut_last && dut_active) Bytes_A: assert (good == regnum + 6'd1);
+      if (good != good_q && !abort_q && !begin_q)
+        ByteByByte_A: assert (good == good_q + 6'd1 && step_q && slot_q == 6'd31);
+    end
+    // Bits at their places.
+    if ((dut_active || begins) && dut_slot == 6'd0)
+      StartAfterZeros_A: assert (sent == (cdm_timeout_i ? select : 2'b00));
+    if (dut_active && dut_slot == 6'd1) Cts_A: assert (sent == (cts ? select : 2'b00));
+    if (dut_active && (dut_slot == 6'd31 || (cts && dut_slot == 6'd16 && wnr) ||
+                       (!cts && dut_slot == 6'd25)))
+      Zero_A: assert (sent == 2'b00);
+    if (dut_active && cts && dut_slot == 6'd16) Read_A: assert (sent == (wnr ? 2'b00 : select));
+    if (dut_active && cts && dut_slot == 6'd17) Write_A: assert (sent == (wnr ? select : 2'b00));
+    OnlySelected_A: assert ((sent & ~select) == 2'b00);
+  end
+  always @(posedge clk_i) begin
+    Header_C: cover (rst_ni && dut_slot == 6'd2);
+    Stalled_C: cover (rst_ni && ends && delay_error == 1'b0 && reg_error);
+  end
+
+endmodule
