@@ -1,30 +1,32 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Check macros in three flavours: concurrent assertions for Verilator (run with --assert),
-// immediate ones for formal tools (FORMAL defined), nothing for synthesis.
+// Check macros for Verilator (run with --assert) and formal tools (FORMAL defined); nothing for
+// synthesis.
 //   MB4_ASSERT(What_A, clk, rst_n, expression)               always true
 //   MB4_ASSERT_IF(What_A, clk, rst_n, condition, expression)  true whenever condition holds
 //   MB4_ASSERT_NEXT(What_A, clk, rst_n, condition, expression) true one clock after condition
+// Immediate assertions in a clocked process: they see the values before the edge as a concurrent
+// one would, and Verilator need not copy every signal in them at each evaluation.
 
 `ifndef MB4_CHECK_SVH
 `define MB4_CHECK_SVH
 
 `ifdef VERILATOR
-  `define MB4_ASSERT(name, clk, rst_n, expression) \
-    name: assert property (@(posedge clk) disable iff (!(rst_n)) (expression));
-  `define MB4_ASSERT_IF(name, clk, rst_n, condition, expression) \
-    name: assert property (@(posedge clk) disable iff (!(rst_n)) (condition) |-> (expression));
-  `define MB4_ASSERT_NEXT(name, clk, rst_n, condition, expression) \
-    name: assert property (@(posedge clk) disable iff (!(rst_n)) (condition) |=> (expression));
+  `define MB4_CHECKED
 `elsif FORMAL
+  `define MB4_CHECKED
+`endif
+
+`ifdef MB4_CHECKED
   `define MB4_ASSERT(name, clk, rst_n, expression) \
     always @(posedge clk) if (rst_n) name: assert (expression);
   `define MB4_ASSERT_IF(name, clk, rst_n, condition, expression) \
     always @(posedge clk) if ((rst_n) && (condition)) name: assert (expression);
   `define MB4_ASSERT_NEXT(name, clk, rst_n, condition, expression) \
-    always @(posedge clk) if ((rst_n) && $past(rst_n) && $past(condition)) \
-      name: assert (expression);
+    logic name``_before_q; \
+    always @(posedge clk) name``_before_q <= (rst_n) && (condition); \
+    always @(posedge clk) if ((rst_n) && name``_before_q) name: assert (expression);
 `else
   `define MB4_ASSERT(name, clk, rst_n, expression)
   `define MB4_ASSERT_IF(name, clk, rst_n, condition, expression)

@@ -31,9 +31,7 @@ module mb4_frame_request (
 
   logic       timed;
   logic       getsens;
-  logic [9:0] pre_d;
   logic [9:0] pre_q;      // clocks of the current step
-  logic [6:0] step_d;
   logic [6:0] step_q;     // steps of the current period
   logic       pre_end;
   logic       due;
@@ -57,19 +55,9 @@ module mb4_frame_request (
   assign due     = timed && !restart_i && pre_end && step_q == freqags_i[6:0];
 
   always_comb begin
-    pre_d     = pre_q;
-    step_d    = step_q;
-    pending_d = pending_q;
     armed_d   = (armed_q || !getsens) && !taken_i;
-    if (!timed || restart_i) begin
-      pre_d     = 10'd0;
-      step_d    = 7'd0;
-      pending_d = 1'b0;
-    end else begin
-      pre_d = pre_end ? 10'd0 : pre_q + 10'd1;
-      if (pre_end) step_d = due ? 7'd0 : step_q + 7'd1;
-      pending_d = (pending_q && !taken_i) || (due && !busy_i);
-    end
+    pending_d = (pending_q && !taken_i) || (due && !busy_i);
+    if (!timed || restart_i) pending_d = 1'b0;
   end
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
@@ -79,8 +67,13 @@ module mb4_frame_request (
       pending_q <= 1'b0;
       armed_q   <= 1'b1;
     end else begin
-      pre_q     <= pre_d;
-      step_q    <= step_d;
+      if (!timed || restart_i) begin
+        pre_q  <= 10'd0;
+        step_q <= 7'd0;
+      end else begin
+        pre_q <= pre_end ? 10'd0 : pre_q + 10'd1;
+        if (pre_end) step_q <= due ? 7'd0 : step_q + 7'd1;
+      end
       pending_q <= pending_d;
       armed_q   <= armed_d;
     end
