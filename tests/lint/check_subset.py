@@ -197,6 +197,19 @@ def check_connections(file):
             file.report(match.start(1), "port connected by position")
 
 
+# Falling edges of clocks: SL is sampled twice a clock, clocks are switched while they are low, SPI
+# sends behind them, the bus latches the address. Everything else takes the rising edge.
+FALLING = {"mb4_sl_sampler.sv", "mb4_clk_mux.sv", "mb4_spi_shift.sv", "mb4_spi.sv",
+           "mb4_par_bus.sv"}
+
+
+def check_falling_edges(file):
+    """The first event of a process; resets come behind it."""
+    for match in file.matches(r"@\s*\(\s*negedge\b"):
+        if file.name not in FALLING:
+            file.report(match.start(), "falling edge of a clock")
+
+
 def check_packages(file):
     package = re.search(r"\bpackage\s+(\w+)", file.code)
     if package:
@@ -241,6 +254,7 @@ def check(path, name=None, generated=False):
     check_enum_methods(file)
     check_ports(file)
     check_connections(file)
+    check_falling_edges(file)
     check_packages(file)
     check_style(file, generated)
     return sorted(file.findings)
@@ -300,6 +314,7 @@ BAD_BODIES = [
     ("wildcard", "assign a = b ==? 4'b1xx0;"),
     ("type, string", "parameter type T = logic;"),
     ("plain always", "always @* y_o = a;"),
+    ("falling edge", "always_ff @(negedge clk_i or negedge rst_ni) y_q <= a;"),
     ("parameter connected", "mb4_y #(8) u_y (.clk_i);"),
     ("port connected", "mb4_y #(.W(8)) u_y (clk_i);"),
     ("port connected", "mb4_y u_y (.clk_i, a);"),
