@@ -48,6 +48,8 @@ class ChipModel {
   virtual unsigned db_enable() const = 0;
   // Rising edges of the selected system clock so far.
   virtual std::uint64_t cycles() const = 0;
+  // Those of them that were left out because the chip was at rest.
+  virtual std::uint64_t left_out() const = 0;
   // Half a period of MA in system clocks, as the running or last frame took it from FREQS.
   virtual unsigned half_clocks() const = 0;
   // Shortest period that the system clock can have had so far, ps; 0 = unknown.
@@ -61,9 +63,11 @@ class ChipModel {
   virtual void finish_trace() = 0;
 };
 
-// The two models that are built: one without any tracing code, one that writes an FST file.
+// The two models that are built: one without any tracing code, one that writes an FST file. The
+// first one can be evaluated with as little work as possible or in Verilator's plain way.
 // All inputs are at their defaults (pins.hpp) with NRES low, evaluated at time 0.
 std::unique_ptr<ChipModel> make_fast_chip(const ChipConfig& config, std::uint64_t seed);
+std::unique_ptr<ChipModel> make_plain_chip(const ChipConfig& config, std::uint64_t seed);
 std::unique_ptr<ChipModel> make_traced_chip(const ChipConfig& config, std::uint64_t seed,
                                             const std::string& fst_path);
 

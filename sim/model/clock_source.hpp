@@ -40,15 +40,24 @@ class ClockSource {
   // clock that was not looked at for a while.
   void skip_to(Time now) {
     if (denominator_ == 0 || next_ >= now) return;
-    const Time period = 2 * whole_ + (2 * rest_) / denominator_;
-    const std::uint64_t periods = (now - next_) / (period + 1);
-    const auto parts = static_cast<Wide>(2 * periods) * rest_ + rest_sum_;
-    next_ += 2 * periods * whole_ + static_cast<Time>(parts / denominator_);
-    rest_sum_ = static_cast<std::uint64_t>(parts % denominator_);
+    skip(whole_periods(now));
     while (next_ < now) {
       step();
       step();
     }
+  }
+
+  // Periods that can be left out with certainty if the next edge is not to come after `limit`, nor
+  // the one behind it.
+  std::uint64_t whole_periods(Time limit) const {
+    if (denominator_ == 0 || limit <= next_) return 0;
+    const Time period = 2 * whole_ + (2 * rest_) / denominator_;
+    return (limit - next_) / (period + 1);
+  }
+  void skip(std::uint64_t periods) {
+    const auto parts = static_cast<Wide>(2 * periods) * rest_ + rest_sum_;
+    next_ += 2 * periods * whole_ + static_cast<Time>(parts / denominator_);
+    rest_sum_ = static_cast<std::uint64_t>(parts % denominator_);
   }
 
  private:

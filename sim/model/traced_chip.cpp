@@ -11,6 +11,7 @@
 #include <string>
 #include <system_error>
 
+#include "plain_steps.hpp"
 #include "verilated_chip.hpp"
 
 namespace mb4::sim {
@@ -75,7 +76,8 @@ class FstTrace {
 
 std::unique_ptr<ChipModel> make_traced_chip(const ChipConfig& config, std::uint64_t seed,
                                             const std::string& fst_path) {
-  return std::make_unique<VerilatedChip<Vmb4_chip_trace, FstTrace, Inside>>(config, seed, fst_path);
+  using Chip = VerilatedChip<Vmb4_chip_trace, FstTrace, Inside, PlainSteps<Vmb4_chip_trace>>;
+  return std::make_unique<Chip>(config, seed, fst_path);
 }
 
 }  // namespace mb4::sim

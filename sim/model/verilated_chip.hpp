@@ -27,7 +27,8 @@ struct NoTrace {
 
 // `Inside` looks into the model (public.vlt): whether the internal oscillator is selected (CLKENI),
 // the system clock, half a period of MA in clocks, and whether the pins of the lines are paired.
-template <typename Model, typename Trace, typename Inside>
+// `Steps` evaluates it (plain_steps.hpp).
+template <typename Model, typename Trace, typename Inside, typename Steps>
 class VerilatedChip final : public ChipModel {
  public:
   VerilatedChip(const ChipConfig& config, std::uint64_t seed, const std::string& trace_path)
@@ -107,13 +108,16 @@ class VerilatedChip final : public ChipModel {
     while (pin_clock_.next() <= limit) {
       const Time now = pin_clock_.next();
       const bool level = pin_clock_.edge();
-      model.clk_i = level;
       cycles_ += level ? 1U : 0U;
-      evaluate(now);
+      context_->time(now);
+      steps_.clk(model, level);
+      trace_.dump(now);
       if (const unsigned outputs = pack(); outputs != watched_) {
         watched_ = outputs;
+        stirred();
         return now;
       }
+      if (!level) leave_out_rest(limit);
     }
     return kNever;
   }
@@ -163,10 +167,10 @@ class VerilatedChip final : public ChipModel {
         break;
       case Pin::kSl1:
         model_->sl1_i = value;
-        break;
+        return sl_changed(now);
       case Pin::kSl2:
         model_->sl2_i = value;
-        break;
+        return sl_changed(now);
       default: {
         const auto bit = static_cast<unsigned>(pin) - static_cast<unsigned>(Pin::kDb0);
         if (bit > 7) return;
@@ -185,6 +189,7 @@ class VerilatedChip final : public ChipModel {
   unsigned db_out() const override { return model_->db_o; }
   unsigned db_enable() const override { return model_->db_oe_o; }
   std::uint64_t cycles() const override { return cycles_; }
+  std::uint64_t left_out() const override { return left_out_; }
   unsigned half_clocks() const override { return Inside::half_clocks(*model_); }
   Time min_clock() const override { return min_clock_; }
   bool paired() const override { return Inside::paired(*model_); }
@@ -206,10 +211,49 @@ class VerilatedChip final : public ChipModel {
   // Enough for the clock switch to settle from any state and for the reset synchroniser.
   static constexpr unsigned kConditioningEdges = 32;
   static constexpr CData kNcs2 = 0x10;  // DB4
+  // Clocks after which the chip may be at rest, and between looks if it is not.
+  static constexpr unsigned kQuiet = 16;
+  static constexpr unsigned kRarest = 1024;
+
+  // Behind a falling edge of CLK. After a while without a change at any pin it is worth looking
+  // whether the chip is at rest: then all periods up to `limit` can be left out. If it is not, the
+  // next look comes after twice the time.
+  void leave_out_rest(Time limit) {
+    ++quiet_;
+    if (quiet_ == look_at_) {
+      steps_.mark(*model_);
+    } else if (quiet_ > look_at_) {
+      const std::uint64_t clocks =
+          std::min(steps_.at_rest(*model_), pin_clock_.whole_periods(limit));
+      if (clocks == 0) {
+        quiet_ = 0;
+        look_at_ = std::min(2 * look_at_, kRarest);
+        return;
+      }
+      const std::uint64_t passed = steps_.leave_out(*model_, clocks);
+      pin_clock_.skip(passed);
+      cycles_ += passed;
+      left_out_ += passed;
+      stirred();
+    }
+  }
+  void stirred() {
+    quiet_ = 0;
+    look_at_ = kQuiet;
+  }
 
   void evaluate(Time now) {
+    stirred();
     context_->time(now);
-    model_->eval();
+    steps_.inputs(*model_);
+    trace_.dump(now);
+  }
+
+  // No watched output follows SL before a clock edge.
+  void sl_changed(Time now) {
+    stirred();
+    context_->time(now);
+    steps_.sl(*model_);
     trace_.dump(now);
   }
 
@@ -262,6 +306,7 @@ class VerilatedChip final : public ChipModel {
 
   std::unique_ptr<VerilatedContext> context_;  // outlives the model
   std::unique_ptr<Model> model_;
+  Steps steps_;
   Trace trace_;
   ClockSource pin_clock_;
   ClockSource oscillator_;
@@ -273,7 +318,10 @@ class VerilatedChip final : public ChipModel {
   bool osc_running_ = false;
   unsigned osc_tail_ = 0;
   unsigned watched_ = 0;
+  unsigned quiet_ = 0;  // clocks since any pin changed, or since the last look
+  unsigned look_at_ = kQuiet;
   std::uint64_t cycles_ = 0;
+  std::uint64_t left_out_ = 0;
 };
 
 }  // namespace mb4::sim

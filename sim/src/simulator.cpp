@@ -72,7 +72,8 @@ Simulator::Simulator(const Scenario& scenario, const SimulatorOptions& options)
     lines_[index] = std::move(line);
   }
   chip_ = options.trace_path ? make_traced_chip(scenario_.chip, chip_seed, *options.trace_path)
-                             : make_fast_chip(scenario_.chip, chip_seed);
+          : options.plain_evaluation ? make_plain_chip(scenario_.chip, chip_seed)
+                                     : make_fast_chip(scenario_.chip, chip_seed);
   if (options.trace_path) {
     for (const auto& line : lines_) {
       if (line != nullptr) line->set_probe(&Simulator::on_probe, this);
@@ -150,6 +151,7 @@ bool Simulator::run_while_waiting(const std::function<bool()>& done, Time limit)
 }
 
 std::uint64_t Simulator::clk_cycles() const { return chip_->cycles(); }
+std::uint64_t Simulator::clk_cycles_left_out() const { return chip_->left_out(); }
 
 void Simulator::drive_chip(Pin pin, bool level) {
   chip_->set_input(now_, pin, level);

@@ -35,8 +35,9 @@ struct WordScenario {
 class Session {
  public:
   // Writes scenario and word files into `folder` and loads them from there.
-  Session(const WordScenario& scenario, const std::filesystem::path& folder)
-      : folder_(folder), simulator_(load(scenario, folder)) {}
+  Session(const WordScenario& scenario, const std::filesystem::path& folder,
+          const mb4::sim::SimulatorOptions& options = {})
+      : folder_(folder), simulator_(load(scenario, folder), options) {}
 
   // --- what a line of the script can do -------------------------------------------------------
   std::vector<std::uint8_t> spi(const std::vector<std::uint8_t>& tx) {

@@ -34,6 +34,8 @@ class ChipModel;
 struct SimulatorOptions {
   std::optional<std::uint64_t> seed;      // instead of the scenario's
   std::optional<std::string> trace_path;  // FST waveform file
+  // Evaluates every clock edge by Verilator's eval(), leaves out nothing: slower, same results.
+  bool plain_evaluation = false;
 };
 
 class Simulator final : public HostPins {
@@ -64,6 +66,8 @@ class Simulator final : public HostPins {
   void at(Time time, std::function<void()> callback) { queue_.post(time, std::move(callback)); }
   // Rising edges of the chip's system clock: pin CLK or, with CLKENI = 1, the oscillator.
   std::uint64_t clk_cycles() const;
+  // Those among them in which the chip was at rest and which were not simulated one by one.
+  std::uint64_t clk_cycles_left_out() const;
 
   // --- pins ----------------------------------------------------------------------------------
   // Drives a pin from outside. It stays so until the next call. No effect on output pins, on SL of

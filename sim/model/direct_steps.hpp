@@ -1,0 +1,184 @@
+// SPDX-FileCopyrightText: 2026 The openmb4 authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// How VerilatedChip evaluates the model without tracing: the same as PlainSteps with less work.
+//
+// eval() of Verilator 5 spends more time on finding out what has changed than the chip's logic
+// takes for a clock: it computes all logic behind the inputs, looks for edges of every clock and
+// reset of the chip three times or more, and does so at falling edges of CLK too, where all but a
+// few flops rest. Here what has changed is known: an edge of CLK. So the parts of eval() that such
+// an edge needs are called directly, and a falling edge that finds those flops unchanged costs
+// nothing.
+//
+// A chip at rest is one that a clock leaves as it was, every bit of it: then any number of clocks
+// does. The one thing that may move is the time to the next frame (AGS), which is set forward.
+//
+// This relies on names that Verilator 5.006 gives to the parts (Debian 12's version); with another
+// version fast_chip.cpp falls back to PlainSteps. tests/chip/lockstep_test.cpp compares both.
+#ifndef MB4SIM_MODEL_DIRECT_STEPS_HPP_
+#define MB4SIM_MODEL_DIRECT_STEPS_HPP_
+
+#include <Vmb4_chip.h>
+#include <Vmb4_chip___024root.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <limits>
+#include <vector>
+
+// Parts of Vmb4_chip's eval(), as generated.
+void Vmb4_chip___024root___eval_ico(Vmb4_chip___024root* root);
+void Vmb4_chip___024root___eval_triggers__act(Vmb4_chip___024root* root);
+void Vmb4_chip___024root___eval_act(Vmb4_chip___024root* root);
+void Vmb4_chip___024root___eval_nba(Vmb4_chip___024root* root);
+
+namespace mb4::sim {
+
+class DirectSteps {
+ public:
+  // Any inputs have changed.
+  void inputs(Vmb4_chip& model) {
+    model.eval();
+    late_ = false;
+  }
+  // SL1 or SL2 has changed, no other input. SL is no clock and reaches no output before the next
+  // clock edge: it waits for that.
+  void sl(Vmb4_chip& /*model*/) { late_ = true; }
+
+  // CLK rises or falls, no other input changes.
+  void clk(Vmb4_chip& model, bool level) {
+    Root& root = *model.rootp;
+    root.clk_i = level;
+    if (root.mb4_chip__DOT__u_clk_mux__DOT__en0_q == 0 ||
+        root.mb4_chip__DOT__u_clk_mux__DOT__en1_q != 0) {
+      inputs(model);  // the chip runs on another clock, or changes to one
+      return;
+    }
+    if (late_) {
+      late_ = false;
+      root.__VicoTriggered.at(0) = true;
+      Vmb4_chip___024root___eval_ico(&root);
+    }
+    root.mb4_chip__DOT__clk = level;
+    if (level) {
+      edge(root, rise_);
+    } else if (fall_matters(root)) {
+      edge(root, fall_);
+    }
+    // No edge may be left for the next search to find.
+    root.__Vtrigrprev__TOP__clk_i = level;
+    root.__Vtrigrprev__TOP__mb4_chip__DOT__clk = level;
+  }
+
+  // Remembers the chip, CLK low.
+  void mark(const Vmb4_chip& model) {
+    before_.resize(sizeof(Root));
+    std::memcpy(before_.data(), bytes(*model.rootp), sizeof(Root));
+  }
+  // Asked one clock after mark() with no input changed since: how many clocks more would change
+  // nothing but the time to the next frame, and that not to its end.
+  std::uint64_t at_rest(const Vmb4_chip& model) {
+    const Root& root = *model.rootp;
+    counting_ = moved(root, root.*kPre) || moved(root, root.*kStep);
+    ignore(root, root.*kPre);
+    ignore(root, root.*kStep);
+    if (std::memcmp(before_.data(), bytes(root), sizeof(Root)) != 0) return 0;
+    if (!counting_) return std::numeric_limits<std::uint64_t>::max();
+    // A rate changed on the way may have left a count that goes to its very end.
+    const unsigned last_step = (root.*kFreqags) & 0x7FU;
+    if (root.*kPre >= step_clocks(root) || root.*kStep > last_step) return 0;
+    const std::uint64_t last = (last_step + 1) * step_clocks(root) - kMargin;
+    return std::max(elapsed(root), last) - elapsed(root);
+  }
+  // Makes that many clocks pass, or a few less; returns how many.
+  std::uint64_t leave_out(Vmb4_chip& model, std::uint64_t clocks) {
+    Root& root = *model.rootp;
+    if (!counting_) return clocks;
+    // The end of a step changes more than a count: what follows from it may have been computed.
+    if ((elapsed(root) + clocks) % step_clocks(root) > step_clocks(root) - kMargin) {
+      clocks -= std::min<std::uint64_t>(clocks, kMargin);
+    }
+    const std::uint64_t after = elapsed(root) + clocks;
+    root.*kStep = static_cast<CData>(after / step_clocks(root));
+    root.*kPre = static_cast<SData>(after % step_clocks(root));
+    return clocks;
+  }
+
+ private:
+  using Root = Vmb4_chip___024root;
+  using Triggers = decltype(Root::__VnbaTriggered);
+
+  static constexpr std::uint64_t kMargin = 4;
+
+  static constexpr auto kSampled1 =
+      &Root::
+          mb4_chip__DOT__u_engine__DOT__u_channels__DOT__u_lines__DOT__gen_line__BRA__0__KET____DOT__u_channel__DOT__u_sampler__DOT__neg1_q;
+  static constexpr auto kSampled2 =
+      &Root::
+          mb4_chip__DOT__u_engine__DOT__u_channels__DOT__u_lines__DOT__gen_line__BRA__1__KET____DOT__u_channel__DOT__u_sampler__DOT__neg1_q;
+  // The time to the next frame: clocks of the current step, steps; its rate.
+  static constexpr auto kPre =
+      &Root::mb4_chip__DOT__u_engine__DOT__u_control__DOT__u_request__DOT__pre_q;
+  static constexpr auto kStep =
+      &Root::mb4_chip__DOT__u_engine__DOT__u_control__DOT__u_request__DOT__step_q;
+  static constexpr auto kFreqags =
+      &Root::mb4_chip__DOT__u_engine__DOT__u_regs__DOT__u_cfg__DOT__freqags_q;
+
+  // Which processes an edge of CLK starts: always the same ones, found once.
+  struct Edge {
+    Triggers triggers;
+    bool known = false;
+  };
+
+  static void edge(Root& root, Edge& edge) {
+    if (!edge.known) {
+      Vmb4_chip___024root___eval_triggers__act(&root);
+      edge.triggers = root.__VactTriggered;
+      edge.known = true;
+    }
+    root.__VnbaTriggered = edge.triggers;
+    Vmb4_chip___024root___eval_act(&root);
+    Vmb4_chip___024root___eval_nba(&root);
+  }
+
+  // Whether a flop of the falling edge would change. They are in the clock switch and in the
+  // samplers of SL (mb4_clk_mux, mb4_sl_sampler); a lint test knows that there are no others.
+  static bool fall_matters(const Root& root) {
+    const unsigned sl2 = root.sl2_i | root.mb4_chip__DOT__paired;
+    return root.mb4_chip__DOT__u_clk_mux__DOT__want0_q == 0 || root.*kSampled1 != root.sl1_i ||
+           root.*kSampled2 != sl2;
+  }
+
+  static std::uint64_t step_clocks(const Root& r) {
+    return ((r.*kFreqags) & 0x80U) != 0 ? 625 : 20;
+  }
+  static std::uint64_t elapsed(const Root& r) { return r.*kStep * step_clocks(r) + r.*kPre; }
+
+  static const std::byte* bytes(const Root& root) {
+    return reinterpret_cast<const std::byte*>(&root);
+  }
+  template <typename Member>
+  std::byte* then(const Root& root, const Member& member) {
+    return before_.data() + (reinterpret_cast<const std::byte*>(&member) - bytes(root));
+  }
+  template <typename Member>
+  bool moved(const Root& root, const Member& member) {
+    return std::memcmp(then(root, member), &member, sizeof member) != 0;
+  }
+  template <typename Member>
+  void ignore(const Root& root, const Member& member) {
+    std::memcpy(then(root, member), &member, sizeof member);
+  }
+
+  Edge rise_;
+  Edge fall_;
+  bool late_ = false;  // SL has changed
+  bool counting_ = false;
+  std::vector<std::byte> before_;
+};
+
+}  // namespace mb4::sim
+
+#endif  // MB4SIM_MODEL_DIRECT_STEPS_HPP_

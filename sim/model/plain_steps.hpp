@@ -1,0 +1,32 @@
+// SPDX-FileCopyrightText: 2026 The openmb4 authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// How VerilatedChip evaluates a model: by eval() alone, whatever has changed.
+#ifndef MB4SIM_MODEL_PLAIN_STEPS_HPP_
+#define MB4SIM_MODEL_PLAIN_STEPS_HPP_
+
+#include <cstdint>
+
+namespace mb4::sim {
+
+template <typename Model>
+class PlainSteps {
+ public:
+  // Any inputs have changed.
+  void inputs(Model& model) { model.eval(); }
+  // SL1 or SL2 has changed, no other input.
+  void sl(Model& model) { model.eval(); }
+  // CLK rises or falls, no other input changes.
+  void clk(Model& model, bool level) {
+    model.clk_i = level;
+    model.eval();
+  }
+  // Clocks at rest are not left out.
+  void mark(const Model& /*model*/) {}
+  std::uint64_t at_rest(const Model& /*model*/) const { return 0; }
+  std::uint64_t leave_out(Model& /*model*/, std::uint64_t clocks) { return clocks; }
+};
+
+}  // namespace mb4::sim
+
+#endif  // MB4SIM_MODEL_PLAIN_STEPS_HPP_
