@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-FileCopyrightText: 2026 The openmb4 authors
 # SPDX-License-Identifier: Apache-2.0
-"""Pictures of `mb4sim plot`: what they show against golden vectors, that their labels can be read, and
-that those of the manual are what the command draws.
+"""Pictures of `mb4sim plot`: what they show against golden vectors, that their labels can be read,
+and that those of the manual are what the command draws.
 
   plot_test.py MB4SIM ROOT [--write]      --write: draws the manual's pictures again
 """
@@ -92,9 +92,9 @@ class Plot(unittest.TestCase):
         picture = self.picture(str(PICTURES / "registers.toml"), *arguments)
         bits = picture.bits()
         self.assertEqual(len(bits), 2)
-        # Four cells of zeros stand in front.
-        self.assertEqual(bits[0], "0000" + cdm.replace(" ", ""))
-        self.assertEqual(bits[1], "0000" + cds.replace(" ", ""))
+        # Four cells of zeros stand in front, one behind.
+        self.assertEqual(bits[0], "0000" + cdm.replace(" ", "") + "0")
+        self.assertEqual(bits[1], "0000" + cds.replace(" ", "") + "0")
         return picture.labels()
 
     def test_register_access_shows_the_worked_examples(self):
@@ -134,8 +134,11 @@ class Plot(unittest.TestCase):
             last = 0.0
             for x, kind, text in row:
                 half = width(kind, text) / 2
-                left = x if kind in ("title", "note") else x - 2 * half if kind in ("name", "unit") \
-                    else x - half
+                left = x - half
+                if kind in ("title", "note"):
+                    left = x
+                elif kind in ("name", "unit"):
+                    left = x - 2 * half
                 self.assertGreaterEqual(left + 0.5, last, text)
                 last = left + 2 * half
             self.assertLessEqual(last, right, row)
@@ -156,7 +159,8 @@ class Plot(unittest.TestCase):
 
     def test_wrong_use(self):
         registers = "docs/pictures/registers.toml"
-        for arguments in ([], ["nothing.toml"], [GOLDEN, "--frame", "0"], [GOLDEN, "--channel", "2"],
+        for arguments in ([], ["nothing.toml"], [GOLDEN, "--frame", "0"],
+                          [GOLDEN, "--channel", "2"],
                           [registers, "--read", "0x80"], [registers, "--read", "1:65"],
                           [registers, "--read", "1:"], [registers, "--write", "1"],
                           [registers, "--write", "1:256"], [registers, "--command", "4"],

@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-FileCopyrightText: 2026 The openmb4 authors
 # SPDX-License-Identifier: Apache-2.0
-"""Debian's spi-tools, unmodified, on the simulated chip: spi-config and spi-pipe bring an encoder into
-operation and read it. Register values: datasheet Rev D2.
+"""Debian's spi-tools, unmodified, on the simulated chip: spi-config and spi-pipe bring an encoder
+into operation and read it. Register values: datasheet Rev D2.
 
   spi_tools_test.py MB4SIM SCENARIO
 

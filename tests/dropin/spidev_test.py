@@ -118,7 +118,7 @@ class Spidev(unittest.TestCase):
         self.assertEqual(values[0], values[1])
 
     def test_sclk_too_fast_for_the_address_is_reported(self):
-        # I204: 100 ns behind the address of 0x03. A Linux host cannot stretch, so 5 MHz is its limit.
+        # I204: 100 ns behind the address of 0x03. Linux hosts cannot stretch: 5 MHz is the limit.
         for hz, seen in ((5_000_000, False), (10_000_000, True)):
             with tempfile.TemporaryDirectory() as folder:
                 path = Path(folder, "fast.toml")

@@ -27,6 +27,7 @@ namespace mb4::tool {
 namespace {
 
 constexpr std::size_t kMaxEdges = 1000;  // of a frame that can be drawn
+constexpr unsigned kFramesBehind = 15;   // a control frame
 constexpr sim::Time kLongestEnd = sim::kPsPerSecond;
 
 // --- what is asked for -------------------------------------------------------------------------
@@ -213,10 +214,12 @@ int plot_command(const PlotOptions& options) {
   SimClock clock(simulator);
   TheDevice device(bus, clock);
   Result<void> done = device.configure(config);
+  Frame frame;
   if (done && is_control(options)) {
     done = access(options, device);
+    // As a host goes on: without control communication, so that the end of it can be seen.
+    for (unsigned i = 0; i < kFramesBehind; ++i) static_cast<void>(device.read_all(frame));
   } else {
-    Frame frame;
     for (unsigned i = 0; done && i < options.frame; ++i) done = device.read_all(frame);
   }
   finish(simulator, *simulator.line(options.channel));
