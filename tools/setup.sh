@@ -12,11 +12,7 @@ demo_packages=(
   ninja-build python3 verilator zlib1g-dev
 )
 test_packages=(
-<<<<<<< HEAD
-  clang git gtkwave libbenchmark-dev iverilog librsvg2-bin sigrok-cli spi-tools yosys
-=======
-  clang git gtkwave iverilog sigrok-cli yosys z3
->>>>>>> 6508f12 (tests/formal: proofs of single blocks)
+  clang git gtkwave libbenchmark-dev iverilog librsvg2-bin sigrok-cli spi-tools yosys z3
   clang-tidy gcovr
   gcc-arm-none-eabi libnewlib-arm-none-eabi libstdc++-arm-none-eabi-newlib linux-libc-dev
   gcc-riscv64-unknown-elf picolibc-riscv64-unknown-elf qemu-system-arm

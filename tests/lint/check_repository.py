@@ -7,6 +7,7 @@
   check_repository.py paths       no path of somebody's machine
   check_repository.py verilator   every call of Verilator goes through tools/cmake/mb4.cmake or
                                   carries -fno-const-bit-op-tree
+  check_repository.py merged      no marks of an unfinished merge
   check_repository.py self-test   planted faults are reported
 """
 
@@ -74,6 +75,15 @@ def path_findings(files):
     return findings
 
 
+def merge_findings(files):
+    findings = []
+    for name, text in files.items():
+        for number, line in enumerate((text or "").splitlines(), 1):
+            if re.match(r"(?:<{7}|>{7}|\|{7})(?: |$)", line):
+                findings.append(f"{name}:{number}: mark of a merge: {line[:40]}")
+    return findings
+
+
 def statement(text, position):
     """The call around a position: up to the lines with neither continuation nor open bracket. As an
     approximation the lines of the same paragraph."""
@@ -119,6 +129,11 @@ def self_test():
                  "read/" "work", "mktemp -d /" "tmp", "${dir}/" "tmp/x"):
         expect(0, path_findings({"a.md": path}), path)
 
+    for mark in ("<" * 7 + " HEAD", ">" * 7 + " 0123abc (subject)", "|" * 7 + " base"):
+        expect(1, merge_findings({"a.sh": f"x\n{mark}\n"}), mark)
+    for text in ("=" * 7, "a " + "<" * 7 + " b", ">" * 8):
+        expect(0, merge_findings({"a.md": text}), text)
+
     helper = {HELPER: f"verilate(x VERILATOR_ARGS {FLAG})"}
     expect(0, verilator_findings(helper), "helper")
     bare = {HELPER: "verilate(x VERILATOR_ARGS -Wall)"}
@@ -136,7 +151,7 @@ def self_test():
 def main():
     if sys.argv[1] == "self-test":
         self_test()
-    check = {"licences": licence_findings, "paths": path_findings,
+    check = {"licences": licence_findings, "paths": path_findings, "merged": merge_findings,
              "verilator": verilator_findings}[sys.argv[1]]
     files = tracked()
     project.finish(check(files), f"{len(files)} tracked files")
