@@ -16,6 +16,13 @@
 
 namespace mb4::sim {
 
+// Where a waveform goes and which part of the run it shows.
+struct TraceFile {
+  std::string path;
+  Time from = 0;
+  Time to = kNever;
+};
+
 class ChipModel {
  public:
   // Bits of watched(): outputs whose change stops run_clocks().
@@ -40,6 +47,9 @@ class ChipModel {
   virtual Time next_edge() const = 0;
   // Drives an input pin (no output pin) and evaluates the chip at time `now`.
   virtual void set_input(Time now, Pin pin, bool level) = 0;
+  // Another frequency at pin CLK from `now` on; 0: it stands still. Nothing if the scenario has no
+  // clock there.
+  virtual void set_clock(Time now, std::uint64_t hz) = 0;
   virtual unsigned watched() const = 0;
   // Level of pin CLK.
   virtual bool clk() const = 0;
@@ -69,7 +79,7 @@ class ChipModel {
 std::unique_ptr<ChipModel> make_fast_chip(const ChipConfig& config, std::uint64_t seed);
 std::unique_ptr<ChipModel> make_plain_chip(const ChipConfig& config, std::uint64_t seed);
 std::unique_ptr<ChipModel> make_traced_chip(const ChipConfig& config, std::uint64_t seed,
-                                            const std::string& fst_path);
+                                            const TraceFile& trace);
 
 }  // namespace mb4::sim
 

@@ -29,6 +29,21 @@ class ClockSource {
   Time next() const { return next_; }  // time of the next edge
   bool level() const { return level_; }
 
+  // Another frequency from `now` on, which is not before the last edge: the next edge comes half a
+  // period later. 0: the clock stands still at its level.
+  void retune(std::uint64_t frequency_hz, Time now) {
+    denominator_ = 2 * frequency_hz;
+    rest_sum_ = 0;
+    if (denominator_ == 0) {
+      next_ = kNever;
+      return;
+    }
+    whole_ = kPsPerSecond / denominator_;
+    rest_ = kPsPerSecond % denominator_;
+    next_ = now;
+    step();
+  }
+
   // Makes the next edge happen.
   bool edge() {
     level_ = !level_;

@@ -36,12 +36,13 @@ using Steps = PlainSteps<Vmb4_chip>;
 }  // namespace
 
 std::unique_ptr<ChipModel> make_fast_chip(const ChipConfig& config, std::uint64_t seed) {
-  return std::make_unique<VerilatedChip<Vmb4_chip, NoTrace, Inside, Steps>>(config, seed, "");
+  return std::make_unique<VerilatedChip<Vmb4_chip, NoTrace, Inside, Steps>>(config, seed,
+                                                                            TraceFile{});
 }
 
 std::unique_ptr<ChipModel> make_plain_chip(const ChipConfig& config, std::uint64_t seed) {
   using Chip = VerilatedChip<Vmb4_chip, NoTrace, Inside, PlainSteps<Vmb4_chip>>;
-  return std::make_unique<Chip>(config, seed, "");
+  return std::make_unique<Chip>(config, seed, TraceFile{});
 }
 
 }  // namespace mb4::sim

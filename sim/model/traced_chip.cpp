@@ -44,10 +44,13 @@ class FstTrace {
   }
 
   template <typename Model>
-  void open(VerilatedContext& /*context*/, Model& model, const std::string& path) {
+  void open(VerilatedContext& /*context*/, Model& model, const TraceFile& trace) {
     constexpr int kAllLevels = 99;
     // The FST writer removes whatever is there, a device node too.
     std::error_code ignored;
+    const std::string& path = trace.path;
+    from_ = trace.from;
+    to_ = trace.to;
     const auto status = std::filesystem::status(path, ignored);
     if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status)) {
       throw ScenarioError(path + ": cannot write the waveform: not a regular file");
@@ -60,6 +63,7 @@ class FstTrace {
   // Several evaluations at one time (a slave that answers without delay) become visible one
   // picosecond after the other: a file takes only one set of values per time.
   void dump(Time now) {
+    if (now < from_ || now > to_) return;
     next_ = std::max(now, next_);
     file_->dump(next_++);
   }
@@ -70,14 +74,16 @@ class FstTrace {
  private:
   std::unique_ptr<VerilatedFstC> file_;
   Time next_ = 0;
+  Time from_ = 0;
+  Time to_ = kNever;
 };
 
 }  // namespace
 
 std::unique_ptr<ChipModel> make_traced_chip(const ChipConfig& config, std::uint64_t seed,
-                                            const std::string& fst_path) {
+                                            const TraceFile& trace) {
   using Chip = VerilatedChip<Vmb4_chip_trace, FstTrace, Inside, PlainSteps<Vmb4_chip_trace>>;
-  return std::make_unique<Chip>(config, seed, fst_path);
+  return std::make_unique<Chip>(config, seed, trace);
 }
 
 }  // namespace mb4::sim

@@ -20,7 +20,7 @@ namespace mb4::sim {
 // Trace policy of a model without tracing.
 struct NoTrace {
   template <typename Model>
-  void open(VerilatedContext& /*context*/, Model& /*model*/, const std::string& /*path*/) {}
+  void open(VerilatedContext& /*context*/, Model& /*model*/, const TraceFile& /*file*/) {}
   void dump(Time /*now*/) {}
   void flush() {}
 };
@@ -31,7 +31,7 @@ struct NoTrace {
 template <typename Model, typename Trace, typename Inside, typename Steps>
 class VerilatedChip final : public ChipModel {
  public:
-  VerilatedChip(const ChipConfig& config, std::uint64_t seed, const std::string& trace_path)
+  VerilatedChip(const ChipConfig& config, std::uint64_t seed, const TraceFile& trace)
       : context_(std::make_unique<VerilatedContext>()),
         pin_clock_(config.f_clk_hz),
         oscillator_(config.f_osc_hz),
@@ -47,7 +47,7 @@ class VerilatedChip final : public ChipModel {
     context_->timeprecision(-12);
     if constexpr (kTraced) context_->traceEverOn(true);
     model_ = std::make_unique<Model>(context_.get(), "mb4");
-    trace_.open(*context_, *model_, trace_path);
+    trace_.open(*context_, *model_, trace);
     model_->clk_i = 0;
     model_->osc_i = 0;
     model_->nres_i = 1;
@@ -184,6 +184,12 @@ class VerilatedChip final : public ChipModel {
     follow_oscillator(now);
   }
 
+  void set_clock(Time now, std::uint64_t hz) override {
+    if (!pin_clock_connected_) return;
+    stirred();
+    pin_clock_.retune(hz, now);
+    if (hz != 0 && min_clock_ != 0) min_clock_ = std::min(min_clock_, kPsPerSecond / hz);
+  }
   unsigned watched() const override { return watched_; }
   bool clk() const override { return model_->clk_i != 0; }
   unsigned db_out() const override { return model_->db_o; }

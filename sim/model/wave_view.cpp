@@ -10,9 +10,11 @@
 #include <filesystem>
 #include <fstream>
 #include <memory>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace mb4::sim {
@@ -22,6 +24,7 @@ struct Signal {
   std::string path;  // below the top module
   std::string full;  // as GTKWave wants it
   bool vector = false;
+  bool enumerated = false;  // the file names its values
 };
 
 // A group of the view: pins of the chip by the start of their name, and what lies inside the chip
@@ -73,23 +76,31 @@ struct CloseReader {
 
 struct Waveform {
   std::vector<Signal> signals;
-  std::uint64_t end = 0;  // ps
+  std::uint64_t begin = 0;  // ps
+  std::uint64_t end = 0;
 };
 
 Waveform read_waveform(const std::string& fst_path) {
   const std::unique_ptr<void, CloseReader> reader(fstReaderOpen(fst_path.c_str()));
   if (reader == nullptr) throw std::runtime_error(fst_path + ": cannot read the waveform");
   Waveform waveform;
+  waveform.begin = fstReaderGetStartTime(reader.get());
   waveform.end = fstReaderGetEndTime(reader.get());
   std::vector<Signal>& signals = waveform.signals;
   std::vector<std::string> scopes;
+  bool enumerated = false;
   while (const fstHier* entry = fstReaderIterateHier(reader.get())) {
     if (entry->htyp == FST_HT_SCOPE) {
       scopes.emplace_back(entry->u.scope.name);
     } else if (entry->htyp == FST_HT_UPSCOPE && !scopes.empty()) {
       scopes.pop_back();
+    } else if (entry->htyp == FST_HT_ATTRBEGIN) {
+      // Without a name it refers to a table; the signal follows.
+      enumerated = entry->u.attr.typ == FST_AT_MISC && entry->u.attr.subtype == FST_MT_ENUMTABLE &&
+                   entry->u.attr.name_length == 0;
     } else if (entry->htyp == FST_HT_VAR) {
       Signal signal;
+      signal.enumerated = std::exchange(enumerated, false);
       for (std::size_t i = 0; i < scopes.size(); ++i) {
         signal.full += scopes[i] + ".";
         if (i > 1) signal.path += scopes[i] + ".";
@@ -107,24 +118,30 @@ Waveform read_waveform(const std::string& fst_path) {
 }
 
 void write_signal(std::ostream& out, const Signal& signal) {
-  out << (signal.vector ? "@22\n" : "@28\n") << signal.full << '\n';
+  // Flags of GTKWave: right justified, with hexadecimal or binary digits, or the names of an enum.
+  const char* format = signal.enumerated ? "@100000028\n" : signal.vector ? "@22\n" : "@28\n";
+  out << format << signal.full << '\n';
 }
 
 }  // namespace
 
-void write_wave_view(const std::string& fst_path, const std::string& view_path) {
+void write_wave_view(const std::string& fst_path, const std::string& view_path,
+                     std::optional<Time> marker) {
   constexpr double kWindowPs = 150e6;    // configuration and the first frames of a usual scenario
   constexpr double kWindowPixels = 900;  // of an ordinary screen
   constexpr double kZoomUnit = 200;      // GTKWave: a pixel is 2^zoom / 200 time units
   const Waveform waveform = read_waveform(fst_path);
-  const double shown = std::clamp(static_cast<double>(waveform.end), 1.0, kWindowPs);
+  const double shown =
+      std::clamp(static_cast<double>(waveform.end - waveform.begin), 1.0, kWindowPs);
   std::ofstream out(view_path);
   out << "[*] View of an openmb4 waveform\n"
       << "[dumpfile] \"" << std::filesystem::path(fst_path).filename().string() << "\"\n"
       << "[savefile] \"" << std::filesystem::path(view_path).filename().string() << "\"\n"
-      << "[timestart] 0\n[size] 1400 900\n[signals_width] 230\n[sst_expanded] 0\n"
-      << "*-" << std::log2(shown / kWindowPixels * kZoomUnit) << " 0";
-  for (int marker = 0; marker < 26; ++marker) out << " -1";
+      << "[timestart] " << waveform.begin
+      << "\n[size] 1400 900\n[signals_width] 230\n[sst_expanded] 0\n"
+      << "*-" << std::log2(shown / kWindowPixels * kZoomUnit) << ' '
+      << marker.value_or(waveform.begin);
+  for (int letter = 0; letter < 26; ++letter) out << " -1";
   out << '\n';
   for (const Group& group : groups()) {
     out << (group.open ? "@800200\n-" : "@c00200\n-") << group.name << '\n';

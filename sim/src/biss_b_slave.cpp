@@ -67,12 +67,12 @@ void BissBSlave::rising(Time now, bool sli) {
       break;
     case State::kBusy:
       if (!is_last_) {
-        if (!sli_was_low_ || !sli_before_) break;
+        if (!sli_was_low_ || !sli_before_ || faults().busy) break;
         count_frame();
         load();
       } else if (busy_left_ > 0) {
         --busy_left_;
-      } else {
+      } else if (!faults().busy) {
         slo_ = true;
         state_ = State::kStart;
         count_frame();
@@ -92,7 +92,7 @@ void BissBSlave::rising(Time now, bool sli) {
 }
 
 void BissBSlave::load() {
-  shift_.load(word_, config_.data_bits, config_.crc);
+  shift_.load(word_, config_.data_bits, config_.crc, faults().wrong_crc);
   slo_ = shift_.out();
   state_ = State::kData;
 }
@@ -115,7 +115,7 @@ void BissBSlave::follow(Time now, bool sli) {
       // MO may be late with its acknowledge: its 1 is the start bit only after a 0.
       if (is_last_) break;
       if (!sli) sli_was_low_ = true;
-      slo_ = sli && sli_was_low_;
+      slo_ = sli && sli_was_low_ && !faults().busy;
       break;
     case State::kRegister:
       // SL is 0 for the master when all slaves have confirmed; later one of them speaks.

@@ -61,14 +61,14 @@ void BissCSlave::rising(Time now, bool sli) {
     case State::kBusy:
       if (!is_last_) {
         // The start bit has passed already, between the edges.
-        if (sli_was_low_ && sli_before_) {
+        if (sli_was_low_ && sli_before_ && !faults().busy) {
           begin_cds(sli);
         } else {
           follow(sli);
         }
       } else if (busy_left_ > 0) {
         --busy_left_;
-      } else {
+      } else if (!faults().busy) {
         slo_ = true;
         state_ = State::kStart;
         count_frame();
@@ -80,7 +80,7 @@ void BissCSlave::rising(Time now, bool sli) {
     case State::kCds:
       end_cds(sli_before_);
       if (control_.data_active()) {
-        shift_.load(word_, config_.data_bits, config_.crc);
+        shift_.load(word_, config_.data_bits, config_.crc, faults().wrong_crc);
         slo_ = shift_.out();
         state_ = State::kData;
       } else {
@@ -124,7 +124,7 @@ void BissCSlave::follow(bool sli) {
       // MO may be late with its acknowledge: its 1 is the start bit only after a 0.
       if (is_last_) break;
       if (!sli) sli_was_low_ = true;
-      slo_ = sli && sli_was_low_;
+      slo_ = sli && sli_was_low_ && !faults().busy;
       break;
     case State::kCds: {
       const bool own = config_.control.present && control_.cds();

@@ -23,9 +23,7 @@ bool crc_fits(unsigned bits, unsigned data_bits) {
 }  // namespace
 
 // A slave that has an ID to lock sends 1 in any case: its own, or that of a slave behind it.
-bool ControlSlave::cds() const {
-  return cds_ == Cds::kOne || (cds_ == Cds::kLock && may_lock());
-}
+bool ControlSlave::cds() const { return cds_ == Cds::kOne || (cds_ == Cds::kLock && may_lock()); }
 
 void ControlSlave::end_cds(bool sli) {
   // The first free ID: the slaves behind have put their 1 into the bits of their own.
@@ -147,13 +145,18 @@ void ControlSlave::header_done() {
     return;
   }
   const unsigned id = (header >> 7U) & 7U;
-  if (((ids_ >> id) & 1U) == 0 || faults_.silent()) return;
+  const unsigned own = answered_ids();
+  if (((own >> id) & 1U) == 0 || faults_.silent()) return;
   // Own IDs lie in a row: the first one has the first 128 registers, and so on.
   unsigned block = 0;
-  for (unsigned k = 0; k < id; ++k) block += (ids_ >> k) & 1U;
+  for (unsigned k = 0; k < id; ++k) block += (own >> k) & 1U;
   block_ = block * RegisterFile::kPerId;
   address_ = header & 0x7FU;
   state_ = State::kRead;
+}
+
+unsigned ControlSlave::answered_ids() const {
+  return faults_.wrong_id() ? (ids_ << 1U) & ((1U << slot::kIds) - 1U) : ids_;
 }
 
 void ControlSlave::begin_access(Time now, bool cdm) {
@@ -223,7 +226,7 @@ void ControlSlave::command_slot(bool cdm) {
     // IDA of ID k; bit 7 of IDS is ID 0.
     const unsigned k = slot_ + 1 - slot::kIda;
     const bool addressed = ((pending_.ids >> (7U - k)) & 1U) != 0;
-    cds_ = bit(addressed && ((ids_ >> k) & 1U) != 0 && !faults_.silent());
+    cds_ = bit(addressed && ((answered_ids() >> k) & 1U) != 0 && !faults_.silent());
   } else if (ex_slot_ != 0 && slot_ > ex_slot_) {
     state_ = State::kIdle;
   }
@@ -235,7 +238,7 @@ void ControlSlave::execute() {
   if (!broadcast) {
     unsigned addressed = 0;
     for (unsigned k = 0; k < slot::kIds; ++k) addressed |= ((pending_.ids >> (7U - k)) & 1U) << k;
-    if ((addressed & ids_) == 0 || faults_.silent()) return;
+    if ((addressed & answered_ids()) == 0 || faults_.silent()) return;
   }
   ++counters_.commands;
   command_ = pending_;

@@ -12,6 +12,7 @@
 #include "mb4sim/ma_frequency.hpp"
 #include "number_text.hpp"
 #include "scenario_channel.hpp"
+#include "scenario_fault.hpp"
 #include "text_file.hpp"
 #include "toml_reader.hpp"
 
@@ -196,6 +197,11 @@ Scenario parse_scenario(std::string_view text, const std::string& name) {
     sim_reader.finish();
   }
   read_channels(reader, scenario);
+  if (const auto* faults = reader.tables("fault")) {
+    for (const auto& node : *faults) {
+      scenario.faults.push_back(read_fault(*node.as_table(), scenario));
+    }
+  }
   reader.finish();
   scenario.source = reader.source();
   return scenario;

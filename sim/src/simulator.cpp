@@ -16,6 +16,7 @@ namespace {
 constexpr unsigned kChannel2FirstSlave = 5;
 constexpr std::uint64_t kChipSeed = 0;  // part numbers of derive_seed(); slaves use 1 to 8
 constexpr std::uint64_t kFirstLineSeed = 9;
+constexpr std::uint64_t kFaultSeed = 11;
 
 struct MakeSlave {
   std::uint64_t seed;
@@ -71,7 +72,8 @@ Simulator::Simulator(const Scenario& scenario, const SimulatorOptions& options)
     for (const auto& [frame, bits] : channel.flips) line->faults().flip_frame(frame, bits);
     lines_[index] = std::move(line);
   }
-  chip_ = options.trace_path ? make_traced_chip(scenario_.chip, chip_seed, *options.trace_path)
+  const TraceFile trace{options.trace_path.value_or(""), options.trace_from, options.trace_to};
+  chip_ = options.trace_path         ? make_traced_chip(scenario_.chip, chip_seed, trace)
           : options.plain_evaluation ? make_plain_chip(scenario_.chip, chip_seed)
                                      : make_fast_chip(scenario_.chip, chip_seed);
   if (options.trace_path) {
@@ -80,6 +82,8 @@ Simulator::Simulator(const Scenario& scenario, const SimulatorOptions& options)
     }
     on_probe(0, this);
   }
+  injector_ = std::make_unique<FaultInjector>(*this, queue_, *chip_, scenario_.faults,
+                                              derive_seed(seed_, kFaultSeed));
   // MA and MO rest at 1 and 0 for the lines; whatever else the chip says now is a change.
   seen_ = ChipModel::kMa1 | ChipModel::kMa2;
   settle();

@@ -15,14 +15,31 @@ bool SlaveChain::idle() const {
 
 void SlaveChain::drive(Time now, bool ma, bool mo) {
   if (ma != ma_) {
-    for (std::size_t i = 0; i < slaves_.size(); ++i) slaves_[i]->sample(sli_of(i));
+    const std::size_t count = attached();
+    for (std::size_t i = 0; i < count; ++i) slaves_[i]->sample(sli_of(i));
     ma_ = ma;
     mo_ = mo;
-    for (std::size_t i = slaves_.size(); i-- > 0;) slaves_[i]->ma_edge(now, ma, sli_of(i));
+    for (std::size_t i = count; i-- > 0;) slaves_[i]->ma_edge(now, ma, sli_of(i));
   } else if (mo != mo_) {
     mo_ = mo;
     settle_sli(now);
   }
+  finish(now);
+}
+
+void SlaveChain::detach(Time now, std::size_t index) {
+  const std::size_t before = attached();
+  attached_ = index < slaves_.size() ? index : SIZE_MAX;
+  // MA = 0 goes away for those that leave, and comes for those that come back.
+  for (std::size_t i = slaves_.size(); !ma_ && i-- > std::min(before, attached());) {
+    slaves_[i]->sample(sli_of(i));
+    slaves_[i]->ma_edge(now, i >= attached(), sli_of(i));
+  }
+  refresh(now);
+}
+
+void SlaveChain::refresh(Time now) {
+  settle_sli(now);
   finish(now);
 }
 

@@ -97,10 +97,28 @@ std::uint32_t SpiHost::word(std::uint32_t mosi, unsigned bits) {
 std::uint8_t SpiHost::byte(std::uint8_t mosi) { return static_cast<std::uint8_t>(word(mosi, 8)); }
 
 void SpiHost::transfer(std::span<const std::uint8_t> tx, std::span<std::uint8_t> rx) {
+  if (abort_bits_ != 0 && !tx.empty()) {
+    abort(tx, rx);
+    return;
+  }
   select(true);
   for (std::size_t i = 0; i < tx.size(); ++i) {
     const std::uint8_t value = byte(tx[i]);
     if (i < rx.size()) rx[i] = value;
+  }
+  select(false);
+}
+
+void SpiHost::abort(std::span<const std::uint8_t> tx, std::span<std::uint8_t> rx) {
+  const std::uint64_t bits = std::min<std::uint64_t>(abort_bits_, 8 * tx.size() - 1);
+  abort_bits_ = 0;
+  ++aborted_;
+  std::fill(rx.begin(), rx.end(), std::uint8_t{0});
+  select(true);
+  for (std::size_t i = 0; 8 * i < bits; ++i) {
+    const auto count = static_cast<unsigned>(std::min<std::uint64_t>(bits - 8 * i, 8));
+    const std::uint32_t value = word(std::uint32_t{tx[i]} >> (8 - count), count);
+    if (i < rx.size()) rx[i] = static_cast<std::uint8_t>(value << (8 - count));
   }
   select(false);
 }

@@ -40,8 +40,9 @@ void SsiSlave::ma_edge(Time now, bool ma, bool /*sli*/) {
 void SsiSlave::begin(Time now) {
   active_ = true;
   rising_ = 0;
-  data_ = line_word(config_.word(now, frames()));
-  crc_ = config_.crc.line_bits(data_, config_.data_bits);
+  raw_ = config_.word(now, frames());
+  data_ = line_word(raw_);
+  crc_ = config_.crc.line_bits(data_, config_.data_bits) ^ (faults().wrong_crc ? 1U : 0U);
 }
 
 bool SsiSlave::bit(std::uint64_t index) const {

@@ -67,7 +67,8 @@ void Wire::deliver(Time now, unsigned levels) {
 }
 
 void Wire::emit(Time now) {
-  unsigned levels = arrived_ ^ (glitch_ ? kFaulty : 0U);
+  const bool inverted = glitch_ != (single_glitches_ % 2 != 0);
+  unsigned levels = arrived_ ^ (inverted ? kFaulty : 0U);
   if (stuck_) levels = (levels & ~kFaulty) | (*stuck_ ? kFaulty : 0U);
   if (levels == shown_) return;
   shown_ = levels;
@@ -77,6 +78,18 @@ void Wire::emit(Time now) {
 void Wire::stick(Time now, std::optional<bool> level) {
   stuck_ = level;
   emit(now);
+}
+
+void Wire::glitch(Time now, Time width) {
+  ++single_glitches_;
+  queue_.post(now + width, &Wire::end_single_glitch, this);
+  emit(now);
+}
+
+void Wire::end_single_glitch(Time now, void* receiver, std::uint64_t /*word*/) {
+  auto* wire = static_cast<Wire*>(receiver);
+  --wire->single_glitches_;
+  wire->emit(now);
 }
 
 // Distances between two glitches are spread evenly over 0 to twice their mean.

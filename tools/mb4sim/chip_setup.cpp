@@ -107,7 +107,8 @@ std::vector<ConnectedSlave> connected_slaves(const sim::Scenario& scenario) {
     const sim::ChannelConfig* channel = scenario.channel(number);
     if (channel == nullptr) continue;
     unsigned slave = number == 1 ? 1 : kFirstOfChannel2;
-    for (const sim::SlaveConfig& config : channel->slaves) found.push_back({slave++, &config});
+    for (const sim::SlaveConfig& config : channel->slaves)
+      found.push_back({slave++, number, &config});
   }
   return found;
 }

@@ -17,6 +17,7 @@ namespace mb4::tool {
 // A slave of the scenario and its number in the chip, 1..8 as in SCDATAx.
 struct ConnectedSlave {
   unsigned number;
+  unsigned channel;
   const sim::SlaveConfig* config;  // part of the scenario
 };
 

@@ -30,6 +30,20 @@ CLI::Validator whole_number(std::uint64_t minimum, std::uint64_t maximum) {
   return CLI::Validator(check, "");
 }
 
+CLI::Validator microseconds() {
+  const auto check = [](const std::string& text) {
+    constexpr double kMaxUs = 1e9;
+    double value = 0;
+    const char* const end = text.data() + text.size();
+    const auto [stop, error] = std::from_chars(text.data(), end, value, std::chars_format::fixed);
+    if (error != std::errc() || stop != end || !(value >= 0 && value <= kMaxUs)) {
+      return fmt::format("'{}' is no time of 0 to 1000000000 us", text);
+    }
+    return std::string();
+  };
+  return CLI::Validator(check, "");
+}
+
 CLI::Validator file_name() {
   return CLI::Validator(
       [](const std::string& text) {

@@ -29,6 +29,8 @@ void add_dropin_commands(CLI::App& app, Action& action);
 
 // Whole number, decimal or 0x.
 CLI::Validator whole_number(std::uint64_t minimum, std::uint64_t maximum);
+// Microseconds of 0 to 10^9, decimals allowed.
+CLI::Validator microseconds();
 // Anything but an empty text.
 CLI::Validator file_name();
 // The argument SCENARIO.

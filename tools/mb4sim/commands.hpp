@@ -16,9 +16,12 @@ namespace mb4::tool {
 struct RunOptions {
   std::string scenario;
   std::uint64_t frames = 10;
-  std::string trace;    // empty: none
-  std::string csv;      // empty: none
-  std::string bus_log;  // empty: none
+  std::string trace;  // empty: none
+  std::optional<double> trace_from_us;
+  std::optional<double> trace_to_us;
+  std::optional<double> trace_error_us;  // only around the first bad frame
+  std::string csv;                       // empty: none
+  std::string bus_log;                   // empty: none
   bool json = false;
   std::optional<std::uint64_t> seed;
 };
@@ -48,6 +51,28 @@ struct SweepOptions {
   std::optional<std::uint64_t> seed;
 };
 int sweep_command(const SweepOptions& options);
+
+struct ScanOptions {
+  std::string scenario;
+  bool eds = false;
+  bool json = false;
+};
+int scan_command(const ScanOptions& options);
+
+struct RegressOptions {
+  std::vector<std::string> scenarios;
+  std::uint64_t seeds = 1;
+  std::uint64_t first_seed = 1;
+  std::uint64_t frames = 100;
+  std::uint64_t jobs = 1;
+};
+int regress_command(const RegressOptions& options);
+
+struct PresetsOptions {
+  std::string name;  // empty: all
+  bool json = false;
+};
+int presets_command(const PresetsOptions& options);
 
 struct BenchOptions {
   std::string workloads;  // letters; empty: all

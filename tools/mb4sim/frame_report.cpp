@@ -11,6 +11,8 @@ namespace {
 
 constexpr const char* kTableRow = "{:>5}  {:>12}  {:>5}  {:>{}}  {:>{}}  {:>2}  {:>2}  {:>6}  {}\n";
 
+constexpr const char* kWrongData = "wrong data, not what the slave sent";
+
 std::string state_of(const Result<Reading>& result) {
   if (!result) return describe(result.info());
   if (result->error && result->warning) return "ok (encoder error, warning)";
@@ -81,18 +83,26 @@ std::uint64_t FrameReport::bad() const {
   return sum;
 }
 
-void FrameReport::add(std::uint64_t frame, sim::Time time, unsigned slave,
-                      const Result<Reading>& result) {
-  FrameRow row;
-  row.frame = frame;
-  row.time = time;
-  row.slave = slave;
-  if (result) row.reading = *result;
-  row.state = state_of(result);
-  rows_.push_back(std::move(row));
-  for (SlaveCount& count : counts_) {
-    if (count.slave == slave) ++(result ? count.good : count.bad);
+const FrameRow& FrameReport::add(std::uint64_t frame, sim::Time time, unsigned slave,
+                                 const Result<Reading>& result, std::optional<std::uint64_t> sent) {
+  any_ = any_ || row_.frame != 0;
+  row_ = {frame, time, slave, std::nullopt, false, state_of(result)};
+  if (result) {
+    row_.reading = *result;
+    row_.wrong = sent && *sent != result->raw;
+    if (row_.wrong) row_.state = kWrongData;
   }
+  for (SlaveCount& count : counts_) {
+    if (count.slave == slave) ++(row_.good() ? count.good : count.bad);
+  }
+  if (!row_.good()) ++errors_[row_.state];
+  return row_;
+}
+
+std::string FrameReport::worst_error() const {
+  const auto worst = std::max_element(errors_.begin(), errors_.end(),
+                                      [](auto& a, auto& b) { return a.second < b.second; });
+  return worst == errors_.end() ? "" : worst->first;
 }
 
 std::string FrameReport::table_header() const {
@@ -101,16 +111,21 @@ std::string FrameReport::table_header() const {
 }
 
 std::string FrameReport::table_row() const {
-  const FrameRow& row = rows_.back();
-  const Cells c = cells(row);
+  const Cells c = cells(row_);
   const auto dash = [](const std::string& text) { return text.empty() ? std::string("-") : text; };
-  return fmt::format(kTableRow, row.frame, fmt::format("{:.3f}", sim::to_us(row.time)), row.slave,
-                     dash(c.raw), 18, dash(c.position), 20, dash(c.error), dash(c.warning),
-                     dash(c.crc), row.state);
+  return fmt::format(kTableRow, row_.frame, fmt::format("{:.3f}", sim::to_us(row_.time)),
+                     row_.slave, dash(c.raw), 18, dash(c.position), 20, dash(c.error),
+                     dash(c.warning), dash(c.crc), row_.state);
 }
 
 std::string FrameReport::table_summary(const RunSummary& summary) const {
   std::string out;
+  const char* separator = "errors: ";
+  for (const auto& [error, number] : errors_) {
+    out += fmt::format("{}{} {}", separator, error, number);
+    separator = ", ";
+  }
+  if (!errors_.empty()) out += '\n';
   // With one slave the sum says it all.
   if (counts_.size() > 1) {
     for (const SlaveCount& count : counts_) {
@@ -123,46 +138,53 @@ std::string FrameReport::table_summary(const RunSummary& summary) const {
                    good(), bad(), sim::to_us(summary.time), summary.clocks, summary.seed);
 }
 
-std::string FrameReport::csv() const {
-  std::string out = "frame,time_us,slave,raw,position,nE,nW,crc,state\n";
-  for (const FrameRow& row : rows_) {
-    const Cells c = cells(row);
-    std::string state = row.state;
-    if (state.find(',') != std::string::npos) state = fmt::format("\"{}\"", state);
-    out += fmt::format("{},{:.3f},{},{},{},{},{},{},{}\n", row.frame, sim::to_us(row.time),
-                       row.slave, c.raw, c.position, c.error, c.warning, c.crc, state);
-  }
-  return out;
+std::string FrameReport::csv_header() const {
+  return "frame,time_us,slave,raw,position,nE,nW,crc,state\n";
 }
 
-std::string FrameReport::json(const std::string& scenario, const RunSummary& summary) const {
-  std::string out = fmt::format("{{\"scenario\": {}, \"seed\": {}, \"frames\": [\n",
-                                json_text(scenario), summary.seed);
+std::string FrameReport::csv_row() const {
+  const Cells c = cells(row_);
+  std::string state = row_.state;
+  if (state.find(',') != std::string::npos) state = fmt::format("\"{}\"", state);
+  return fmt::format("{},{:.3f},{},{},{},{},{},{},{}\n", row_.frame, sim::to_us(row_.time),
+                     row_.slave, c.raw, c.position, c.error, c.warning, c.crc, state);
+}
+
+std::string FrameReport::json_header(const std::string& scenario, std::uint64_t seed) const {
+  return fmt::format("{{\"scenario\": {}, \"seed\": {}, \"frames\": [", json_text(scenario), seed);
+}
+
+std::string FrameReport::json_row() const {
   const auto number = [](const std::string& text) {
     return text.empty() ? std::string("null") : text;
   };
   const auto quoted = [](const std::string& text) {
     return text.empty() ? std::string("null") : json_text(text);
   };
-  for (const FrameRow& row : rows_) {
-    const Cells c = cells(row);
-    out += fmt::format(
-        "  {{\"frame\": {}, \"time_us\": {:.3f}, \"slave\": {}, \"good\": {}, \"raw\": {}, "
-        "\"position\": {}, \"nE\": {}, \"nW\": {}, \"crc\": {}, \"state\": {}}}{}\n",
-        row.frame, sim::to_us(row.time), row.slave, row.reading.has_value(), quoted(c.raw),
-        number(c.position), number(c.error), number(c.warning), quoted(c.crc), json_text(row.state),
-        &row == &rows_.back() ? "" : ",");
-  }
-  out += fmt::format(
-      "], \"summary\": {{\"good\": {}, \"bad\": {}, \"time_us\": {:.3f}, \"clocks\": {}, "
+  const Cells c = cells(row_);
+  return fmt::format(
+      "{}\n  {{\"frame\": {}, \"time_us\": {:.3f}, \"slave\": {}, \"good\": {}, \"raw\": {}, "
+      "\"position\": {}, \"nE\": {}, \"nW\": {}, \"crc\": {}, \"state\": {}}}",
+      any_ ? "," : "", row_.frame, sim::to_us(row_.time), row_.slave, row_.good(), quoted(c.raw),
+      number(c.position), number(c.error), number(c.warning), quoted(c.crc), json_text(row_.state));
+}
+
+std::string FrameReport::json_summary(const RunSummary& summary, const std::string& more) const {
+  std::string out = fmt::format(
+      "\n], \"summary\": {{\"good\": {}, \"bad\": {}, \"time_us\": {:.3f}, \"clocks\": {}, "
       "\"slaves\": [",
       good(), bad(), sim::to_us(summary.time), summary.clocks);
   for (const SlaveCount& count : counts_) {
     out += fmt::format("{}{{\"slave\": {}, \"good\": {}, \"bad\": {}}}",
                        &count == &counts_.front() ? "" : ", ", count.slave, count.good, count.bad);
   }
-  out += "]}}\n";
-  return out;
+  out += "], \"errors\": {";
+  const char* separator = "";
+  for (const auto& [error, number] : errors_) {
+    out += fmt::format("{}{}: {}", separator, json_text(error), number);
+    separator = ", ";
+  }
+  return out + "}}" + more + "}\n";
 }
 
 }  // namespace mb4::tool

@@ -1,11 +1,12 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What `mb4sim run` prints: a table, CSV and JSON of the same rows.
+// What `mb4sim run` prints: a table, CSV and JSON of the same rows, row by row.
 #ifndef MB4SIM_TOOL_FRAME_REPORT_HPP_
 #define MB4SIM_TOOL_FRAME_REPORT_HPP_
 
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -24,7 +25,11 @@ struct FrameRow {
   sim::Time time = 0;       // when the host had the result
   unsigned slave = 1;
   std::optional<Reading> reading;  // absent: bad frame
-  std::string state;               // "ok", "encoder error", "CRC error", ...
+  // Delivered as good, but not the word that the slave has sent.
+  bool wrong = false;
+  std::string state;  // "ok", "encoder error", "CRC error", ...
+
+  bool good() const { return reading.has_value() && !wrong; }
 };
 
 struct RunSummary {
@@ -45,24 +50,37 @@ class FrameReport {
   // The scenario must outlive the report.
   explicit FrameReport(const sim::Scenario& scenario);
 
-  void add(std::uint64_t frame, sim::Time time, unsigned slave, const Result<Reading>& result);
+  // `sent`: the slave's word, where it is known.
+  const FrameRow& add(std::uint64_t frame, sim::Time time, unsigned slave,
+                      const Result<Reading>& result, std::optional<std::uint64_t> sent = {});
   // Sums over all slaves.
   std::uint64_t good() const;
   std::uint64_t bad() const;
 
+  // What was wrong most often; empty if nothing was.
+  std::string worst_error() const;
+
   std::string table_header() const;
-  std::string table_row() const;  // the row added last
   std::string table_summary(const RunSummary& summary) const;
-  std::string csv() const;
-  std::string json(const std::string& scenario, const RunSummary& summary) const;
+  std::string csv_header() const;
+  // Opens the object and its array "frames"; rows follow, then json_summary() closes both.
+  // `more`: further members, each with ", " before it.
+  std::string json_header(const std::string& scenario, std::uint64_t seed) const;
+  std::string json_summary(const RunSummary& summary, const std::string& more) const;
+  // The row added last.
+  std::string table_row() const;
+  std::string csv_row() const;
+  std::string json_row() const;
 
  private:
   struct Cells;
   Cells cells(const FrameRow& row) const;
 
   std::vector<ConnectedSlave> slaves_;
-  std::vector<SlaveCount> counts_;  // as slaves_
-  std::vector<FrameRow> rows_;
+  std::vector<SlaveCount> counts_;               // as slaves_
+  std::map<std::string, std::uint64_t> errors_;  // bad results by what was wrong
+  FrameRow row_;                                 // added last
+  bool any_ = false;
 };
 
 // A string as JSON, quotes included.

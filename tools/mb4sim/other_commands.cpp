@@ -2,11 +2,15 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Options and help of the commands that need no scenario.
+#include <fmt/core.h>
+
 #include <memory>
 #include <string>
 
 #include "command_line.hpp"
 #include "commands.hpp"
+#include "exit_status.hpp"
+#include "help_pages.hpp"
 #include "workload.hpp"
 
 namespace mb4::tool {
@@ -36,8 +40,57 @@ void add_bench(CLI::App& app, Action& action) {
   bench.footer(about + "Example: mb4sim bench --workload B --repeats 9");
 }
 
+void add_presets(CLI::App& app, Action& action) {
+  std::shared_ptr<PresetsOptions> options;
+  CLI::App& presets =
+      *add_command(app, action, "presets", "List the encoders that are known by name",
+                   &presets_command, options);
+  presets.add_option("preset", options->name, "Print a scenario with this encoder instead")
+      ->type_name("NAME");
+  presets.add_flag("--json", options->json, "Print JSON instead of the table");
+  presets.footer(
+      "bits: position and flags, - = the scenario has to say (data_bits). registers: yes = reached "
+      "through BiSS.\n"
+      "Example: mb4sim presets resolute-26 > my.toml");
+}
+
+void add_completion(CLI::App& app, Action& action) {
+  const auto shell = std::make_shared<std::string>();
+  CLI::App& completion =
+      *app.add_subcommand("completion", "Print the completion script of a shell");
+  completion.add_option("shell", *shell, "bash or zsh")
+      ->required()
+      ->type_name("SHELL")
+      ->check([](const std::string& text) {
+        return text == "bash" || text == "zsh" ? "" : "'" + text + "' is neither bash nor zsh";
+      });
+  completion.footer("Example: source <(mb4sim completion bash)");
+  completion.callback([&app, &action, shell] {
+    action = [&app, shell] {
+      fmt::print("{}", *shell == "bash" ? bash_completion(app) : zsh_completion(app));
+      return kGood;
+    };
+  });
+}
+
+void add_man(CLI::App& app, Action& action) {
+  CLI::App& man = *app.add_subcommand("man", "Print the manual page");
+  man.footer("Example: mb4sim man | man -l -");
+  man.callback([&app, &action] {
+    action = [&app] {
+      fmt::print("{}", man_page(app));
+      return kGood;
+    };
+  });
+}
+
 }  // namespace
 
-void add_other_commands(CLI::App& app, Action& action) { add_bench(app, action); }
+void add_other_commands(CLI::App& app, Action& action) {
+  add_presets(app, action);
+  add_bench(app, action);
+  add_completion(app, action);
+  add_man(app, action);
+}
 
 }  // namespace mb4::tool

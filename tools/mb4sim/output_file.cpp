@@ -8,7 +8,6 @@
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
-#include <fstream>
 #include <utility>
 
 #include "exit_status.hpp"
@@ -91,7 +90,8 @@ OutputFile::OutputFile(std::string path) : path_(std::move(path)), partial_(part
   if (partial_ == path_) return;
   require_regular(partial_);
   errno = 0;
-  if (!std::ofstream(partial_, std::ios::binary)) fail(path_);
+  out_.open(partial_, std::ios::binary);
+  if (!out_) fail(path_);
 }
 
 OutputFile::~OutputFile() {
@@ -99,12 +99,18 @@ OutputFile::~OutputFile() {
   if (!committed_ && partial_ != path_) fs::remove(partial_, ignored);
 }
 
-void OutputFile::commit(std::string_view content) {
+// A pipe is opened when there is something to write: opening it waits for its reader.
+void OutputFile::append(std::string_view content) {
   errno = 0;
-  std::ofstream out(partial_, std::ios::binary);
-  out.write(content.data(), static_cast<std::streamsize>(content.size()));
-  out.close();
-  if (!out) fail(path_);
+  if (!out_.is_open()) out_.open(partial_, std::ios::binary);
+  out_.write(content.data(), static_cast<std::streamsize>(content.size()));
+  if (!out_) fail(path_);
+}
+
+void OutputFile::commit() {
+  append("");
+  out_.close();
+  if (!out_) fail(path_);
   if (partial_ != path_) {
     std::error_code error;
     fs::rename(partial_, path_, error);

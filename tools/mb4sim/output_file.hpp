@@ -5,6 +5,7 @@
 #ifndef MB4SIM_TOOL_OUTPUT_FILE_HPP_
 #define MB4SIM_TOOL_OUTPUT_FILE_HPP_
 
+#include <fstream>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -20,12 +21,19 @@ class OutputFile {
   OutputFile& operator=(const OutputFile&) = delete;
   ~OutputFile();
 
+  // Adds to what commit() will give the file. Throws UseError.
+  void append(std::string_view content);
   // Gives the file its content. Throws UseError.
-  void commit(std::string_view content);
+  void commit();
+  void commit(std::string_view content) {
+    append(content);
+    commit();
+  }
 
  private:
   std::string path_;
   std::string partial_;  // written first, then renamed; equals path_ for devices and pipes
+  std::ofstream out_;
   bool committed_ = false;
 };
 

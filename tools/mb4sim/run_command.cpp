@@ -3,125 +3,169 @@
 #include <fmt/core.h>
 
 #include <cstdio>
+#include <functional>
 #include <memory>
+#include <optional>
 #include <string>
-#include <string_view>
-#include <vector>
+#include <utility>
 
-#include "chip_setup.hpp"
 #include "commands.hpp"
 #include "exit_status.hpp"
+#include "fault_report.hpp"
 #include "frame_report.hpp"
-#include "mb4/device.hpp"
 #include "mb4sim/scenario.hpp"
 #include "mb4sim/simulator.hpp"
 #include "mb4sim/wave_view.hpp"
 #include "output_file.hpp"
-#include "sim_bus.hpp"
+#include "progress.hpp"
+#include "run_outputs.hpp"
+#include "session.hpp"
 
 namespace mb4::tool {
 namespace {
 
-// "x.fst" -> "x.gtkw"; other names get the ending added.
-std::string view_path(const std::string& trace) {
-  constexpr std::string_view kEnding = ".fst";
-  const bool fst = trace.ends_with(kEnding);
-  return trace.substr(0, trace.size() - (fst ? kEnding.size() : 0)) + ".gtkw";
+// Prints and writes what a session brings.
+class RunPrinter {
+ public:
+  RunPrinter(const RunOptions& options, const sim::Scenario& scenario, RunOutputs& outputs)
+      : options_(options), outputs_(outputs), frames_(scenario), progress_(options.frames) {}
+
+  void begin(Session& session) {
+    faults_.emplace(session.simulator().scenario(), session.simulator().faults());
+    if (options_.json) {
+      fmt::print("{}", frames_.json_header(options_.scenario, session.simulator().seed()));
+    } else {
+      fmt::print("{}", frames_.table_header());
+    }
+    if (outputs_.csv != nullptr) outputs_.csv->append(frames_.csv_header());
+  }
+
+  void frame(const SessionFrame& frame, Session& session) {
+    faults_->frame(frame.number, frame.begin, frame.outcomes(session.slaves()));
+    if (const unsigned slave = faults_->unchecked_id(); slave != 0) {
+      faults_->id_checked(slave, session.check_id(slave));
+    }
+    progress_.clear();
+    if (!options_.json) fmt::print("{}", faults_->new_lines());
+    for (std::size_t i = 0; i < session.slaves().size(); ++i) {
+      frames_.add(frame.number, frame.end, session.slaves()[i].number, frame.results[i],
+                  frame.sent[i]);
+      fmt::print("{}", options_.json ? frames_.json_row() : frames_.table_row());
+      if (outputs_.csv != nullptr) outputs_.csv->append(frames_.csv_row());
+    }
+    if (outputs_.bus_log != nullptr) outputs_.bus_log->append(session.take_bus_log());
+    progress_.update(frame.number);
+  }
+
+  // Returns whether everything was good.
+  bool end(Session& session) {
+    progress_.clear();
+    faults_->finish();
+    const RunSummary summary = session.summary();
+    if (options_.json) {
+      const std::string faults = faults_->any() ? ", \"faults\": " + faults_->json() : "";
+      fmt::print("{}", frames_.json_summary(summary, faults));
+    } else {
+      fmt::print("{}{}{}", faults_->new_lines(), faults_->summary(),
+                 frames_.table_summary(summary));
+    }
+    return frames_.bad() == 0 && faults_->ids_good();
+  }
+
+ private:
+  const RunOptions& options_;
+  RunOutputs& outputs_;
+  FrameReport frames_;
+  std::optional<FaultReport> faults_;
+  Progress progress_;
+};
+
+sim::SimulatorOptions simulator_options(const RunOptions& options) {
+  sim::SimulatorOptions sim_options;
+  sim_options.seed = options.seed;
+  if (!options.trace.empty() && !options.trace_error_us) {
+    sim_options.trace_path = trace_target(options);
+    if (options.trace_from_us) sim_options.trace_from = sim::from_us(*options.trace_from_us);
+    if (options.trace_to_us) sim_options.trace_to = sim::from_us(*options.trace_to_us);
+  }
+  return sim_options;
 }
 
-// Refuses outputs that would overwrite something they must not, before anything is written.
-void check_outputs(const RunOptions& options, const sim::Scenario& scenario) {
-  std::vector<std::string> inputs{options.scenario};
-  for (const sim::ChannelConfig& channel : scenario.channels) {
-    for (const sim::SlaveConfig& slave : channel.slaves) {
-      if (!slave.file.empty()) inputs.push_back(slave.file);
+// The same run once more, up to a little behind its first bad frame, with a waveform around it.
+void trace_around(const RunOptions& options, const sim::Scenario& scenario,
+                  const SessionFrame& bad) {
+  const sim::Time margin = sim::from_us(*options.trace_error_us);
+  sim::SimulatorOptions sim_options = simulator_options(options);
+  sim_options.trace_path = trace_target(options);
+  sim_options.trace_from = bad.begin > margin ? bad.begin - margin : 0;
+  sim_options.trace_to = bad.end + margin;
+  Session session(scenario, sim_options);
+  if (!session.configure()) return;
+  // Identity checks belong to the course of events.
+  std::optional<FaultReport> faults;
+  faults.emplace(session.simulator().scenario(), session.simulator().faults());
+  for (std::uint64_t number = 1; number <= bad.number; ++number) {
+    const SessionFrame frame = session.read(number);
+    faults->frame(number, frame.begin, frame.outcomes(session.slaves()));
+    if (number == bad.number) break;
+    if (const unsigned slave = faults->unchecked_id(); slave != 0) {
+      faults->id_checked(slave, session.check_id(slave));
     }
   }
-  std::vector<Output> outputs;
-  if (!options.csv.empty()) {
-    outputs.push_back({"--csv", options.csv});
-    outputs.push_back({"--csv", partial_path(options.csv)});
-  }
-  if (!options.bus_log.empty()) {
-    outputs.push_back({"--bus-log", options.bus_log});
-    outputs.push_back({"--bus-log", partial_path(options.bus_log)});
-  }
-  if (!options.trace.empty()) {
-    // The FST writer keeps a second file while it works.
-    const std::string work = link_target(options.trace) + ".hier";
-    for (const std::string& path : {options.trace, work, view_path(options.trace)}) {
-      require_regular(path);
-      outputs.push_back({"--trace", path});
-    }
-  }
-  require_distinct(outputs, inputs);
+  session.simulator().run_until(sim_options.trace_to);
+}
+
+void write_view(const RunOptions& options, std::optional<sim::Time> marker = {}) {
+  sim::write_wave_view(options.trace, view_path(options.trace), marker);
 }
 
 }  // namespace
 
 int run_command(const RunOptions& options) {
   const sim::Scenario scenario = sim::load_scenario(options.scenario);
-  const Config config = make_config(scenario);
+  make_config(scenario);
   // Everything is checked before the first file is touched.
-  check_outputs(options, scenario);
-  std::unique_ptr<OutputFile> csv;
-  if (!options.csv.empty()) csv = std::make_unique<OutputFile>(options.csv);
-  std::unique_ptr<OutputFile> bus_log;
-  if (!options.bus_log.empty()) bus_log = std::make_unique<OutputFile>(options.bus_log);
-  std::string bus_lines;
-  sim::SimulatorOptions sim_options;
-  sim_options.seed = options.seed;
-  if (!options.trace.empty()) {
-    require_writable(options.trace);
-    require_writable(view_path(options.trace));
-    // The FST writer would replace a link instead of following it.
-    sim_options.trace_path = link_target(options.trace);
-  }
-
-  FrameReport report(scenario);
-  RunSummary summary;
-  Result<void> configured;
-  // The waveform file is complete when the simulator has gone, also after an assertion.
-  const auto write_view = [&] {
-    if (!options.trace.empty()) sim::write_wave_view(options.trace, view_path(options.trace));
-  };
+  RunOutputs outputs = open_outputs(options, scenario);
+  std::optional<SessionFrame> first_bad;
+  bool good = false;
+  const bool traced = !options.trace.empty() && !options.trace_error_us;
   try {
-    sim::Simulator simulator(scenario, sim_options);
-    summary.seed = simulator.seed();
-    SimBus bus(simulator, bus_log != nullptr ? &bus_lines : nullptr);
-    SimClock clock(simulator);
-    Device device(bus, clock);
-    configured = device.configure(config);
-    if (configured && !options.json) fmt::print("{}", report.table_header());
-    for (std::uint64_t number = 1; configured && number <= options.frames; ++number) {
-      Frame frame;
-      const Result<void> read = device.read_all(frame);
-      for (const ConnectedSlave& slave : connected_slaves(scenario)) {
-        // What is wrong with the whole frame is wrong with each slave.
-        report.add(number, simulator.now(), slave.number,
-                   read ? frame[slave.number] : Result<Reading>(read.info()));
-        if (!options.json) fmt::print("{}", report.table_row());
+    Session session(scenario, simulator_options(options), outputs.bus_log != nullptr);
+    if (const Result<void> configured = session.configure(); !configured) {
+      fmt::print(stderr, "mb4sim: cannot configure the chip: {}\n", describe(configured.info()));
+      good = false;
+      if (traced) session.simulator().flush_trace();
+      outputs.csv.reset();
+      outputs.bus_log.reset();
+    } else {
+      RunPrinter printer(options, scenario, outputs);
+      printer.begin(session);
+      for (std::uint64_t number = 1; number <= options.frames; ++number) {
+        SessionFrame frame = session.read(number);
+        printer.frame(frame, session);
+        if (!first_bad && frame.bad()) first_bad = std::move(frame);
       }
+      good = printer.end(session);
     }
-    summary.time = simulator.now();
-    summary.clocks = simulator.clk_cycles();
   } catch (const sim::ModelStopped&) {
-    write_view();
+    // The waveform file is complete when the simulator has gone.
+    if (traced) write_view(options);
     throw;
   }
-  write_view();
-  if (!configured) {
-    fmt::print(stderr, "mb4sim: cannot configure the chip: {}\n", describe(configured.info()));
-    return kBad;
+  if (traced) write_view(options);
+  if (options.trace_error_us) {
+    if (first_bad) {
+      trace_around(options, scenario, *first_bad);
+      write_view(options, first_bad->begin);
+      fmt::print(stderr, "mb4sim: {} shows frame {}, the first bad one\n", options.trace,
+                 first_bad->number);
+    } else {
+      fmt::print(stderr, "mb4sim: no bad frame, so {} was not written\n", options.trace);
+    }
   }
-  if (options.json) {
-    fmt::print("{}", report.json(options.scenario, summary));
-  } else {
-    fmt::print("{}", report.table_summary(summary));
-  }
-  if (bus_log != nullptr) bus_log->commit(bus_lines);
-  if (csv != nullptr) csv->commit(report.csv());
-  return report.bad() == 0 ? kGood : kBad;
+  if (outputs.bus_log != nullptr) outputs.bus_log->commit();
+  if (outputs.csv != nullptr) outputs.csv->commit();
+  return good ? kGood : kBad;
 }
 
 }  // namespace mb4::tool

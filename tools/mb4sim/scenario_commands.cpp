@@ -32,6 +32,11 @@ void add_output(CLI::App& command, const char* option, std::string& path, const 
   command.add_option(option, path, description)->type_name(type_name)->check(file_name());
 }
 
+void add_time(CLI::App& command, const char* option, std::optional<double>& us,
+              const char* description) {
+  command.add_option(option, us, description)->type_name("US")->check(microseconds());
+}
+
 void add_run(CLI::App& app, Action& action) {
   std::shared_ptr<RunOptions> options;
   CLI::App& run =
@@ -41,11 +46,19 @@ void add_run(CLI::App& app, Action& action) {
   add_frames(run, options->frames, "Frames to read (default 10)", 1);
   add_output(run, "--trace", options->trace, "Write a waveform, and a .gtkw view beside it",
              "F.fst");
+  add_time(run, "--trace-from", options->trace_from_us, "Waveform from this time on");
+  add_time(run, "--trace-to", options->trace_to_us, "Waveform up to this time");
+  add_time(run, "--trace-error", options->trace_error_us,
+           "Waveform of the first bad frame only, and so much before and behind it");
   add_output(run, "--csv", options->csv, "Also write the table as CSV");
   add_output(run, "--bus-log", options->bus_log, "Write what the driver sends and receives");
   run.add_flag("--json", options->json, "Print JSON instead of the table");
   add_seed(run, options->seed);
-  run.footer("Example: mb4sim run examples/resolute-26.toml --frames 5 --trace run.fst");
+  run.footer(
+      "Times (US) are microseconds since power-on, decimals allowed. View a waveform with: gtkwave "
+      "run.gtkw\n"
+      "Exit status 1: a frame was bad, that is, not delivered or not what the slave had sent.\n"
+      "Example: mb4sim run examples/resolute-26.toml --frames 5 --trace run.fst");
 }
 
 void add_spi(CLI::App& app, Action& action) {
@@ -98,13 +111,59 @@ void add_regs(CLI::App& app, Action& action) {
   regs.footer("Example: mb4sim regs examples/resolute-26.toml --frames 1");
 }
 
+void add_scan(CLI::App& app, Action& action) {
+  std::shared_ptr<ScanOptions> options;
+  CLI::App& scan = *add_command(app, action, "scan", "Ask a bus who is there, through the driver",
+                                &scan_command, options);
+  add_scenario(scan, options->scenario);
+  scan.add_flag("--eds", options->eds, "Also read the electronic data sheets (EDS)");
+  scan.add_flag("--json", options->json, "Print JSON instead of the table");
+  scan.footer(
+      "Each channel is asked by a chip that knows nothing of its slaves. BiSS C only; slaves "
+      "without "
+      "control communication do not answer. IDs count from the far end: ID 0 is the slave farthest "
+      "from SL.\n"
+      "Example: mb4sim scan examples/control-bus.toml --eds");
+}
+
+void add_regress(CLI::App& app, Action& action) {
+  constexpr std::uint64_t kMaxJobs = 256;
+  std::shared_ptr<RegressOptions> options;
+  CLI::App& regress = *add_command(app, action, "regress", "Run scenarios with many seeds",
+                                   &regress_command, options);
+  regress.add_option("scenarios", options->scenarios, "Scenario files (TOML)")
+      ->required()
+      ->type_name("SCENARIO")
+      ->check(file_name());
+  add_frames(regress, options->frames, "Frames of each run (default 100)", 1);
+  regress
+      .add_option("--seeds", options->seeds,
+                  "Runs of each scenario, each with its own seed (default 1)")
+      ->type_name("N")
+      ->transform(whole_number(1, kMaxFrames));
+  regress.add_option("--first-seed", options->first_seed, "Seed of the first of them (default 1)")
+      ->type_name("S")
+      ->transform(whole_number(0, std::numeric_limits<std::uint64_t>::max()));
+  regress.add_option("--jobs", options->jobs, "Processes that work at the same time (default 1)")
+      ->type_name("N")
+      ->transform(whole_number(1, kMaxJobs));
+  regress.footer(
+      "The output does not depend on --jobs. Look at a failed run with: mb4sim run SCENARIO --seed "
+      "S "
+      "--frames N\n"
+      "Example: mb4sim regress examples/resolute-26.toml examples/two-channels.toml --seeds 20 "
+      "--jobs 2");
+}
+
 }  // namespace
 
 void add_scenario_commands(CLI::App& app, Action& action) {
   add_run(app, action);
   add_spi(app, action);
   add_regs(app, action);
+  add_scan(app, action);
   add_sweep(app, action);
+  add_regress(app, action);
 }
 
 }  // namespace mb4::tool

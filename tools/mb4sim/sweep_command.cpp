@@ -4,7 +4,6 @@
 
 #include <cstdint>
 #include <memory>
-#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -20,6 +19,7 @@
 #include "mb4sim/simulator.hpp"
 #include "number_list.hpp"
 #include "output_file.hpp"
+#include "run_outputs.hpp"
 #include "sim_bus.hpp"
 #include "sweep_report.hpp"
 
@@ -52,13 +52,6 @@ std::vector<unsigned> freqs_codes(const std::string& text, const sim::Scenario& 
   return codes;
 }
 
-// The word that a slave sent in its last frame; nothing for a recording.
-std::optional<std::uint64_t> sent_word(const sim::Simulator& simulator, unsigned number) {
-  const auto* slave = dynamic_cast<const sim::BissCSlave*>(simulator.slave(number));
-  if (slave == nullptr) return std::nullopt;
-  return slave->latched();
-}
-
 SweepPoint measure(const sim::Scenario& scenario, const Config& config, std::uint64_t frames,
                    std::uint64_t seed) {
   sim::SimulatorOptions options;
@@ -79,7 +72,7 @@ SweepPoint measure(const sim::Scenario& scenario, const Config& config, std::uin
     for (const ConnectedSlave& slave : slaves) {
       if (!read || !frame[slave.number]) {
         ++point.flagged;
-      } else if (const auto sent = sent_word(simulator, slave.number);
+      } else if (const auto sent = std::as_const(simulator).slave(slave.number)->sent_word();
                  sent && *sent != frame[slave.number]->raw) {
         ++point.wrong;
       }
@@ -113,16 +106,6 @@ SweepPlane sweep_plane(sim::Scenario scenario, unsigned freqs, const Sweep& swee
   return plane;
 }
 
-std::vector<std::string> inputs_of(const SweepOptions& options, const sim::Scenario& scenario) {
-  std::vector<std::string> inputs{options.scenario};
-  for (const sim::ChannelConfig& channel : scenario.channels) {
-    for (const sim::SlaveConfig& slave : channel.slaves) {
-      if (!slave.file.empty()) inputs.push_back(slave.file);
-    }
-  }
-  return inputs;
-}
-
 }  // namespace
 
 int sweep_command(const SweepOptions& options) {
@@ -150,7 +133,7 @@ int sweep_command(const SweepOptions& options) {
     outputs.push_back({name, path});
     outputs.push_back({name, partial_path(path)});
   }
-  require_distinct(outputs, inputs_of(options, scenario));
+  require_distinct(outputs, input_files(options.scenario, scenario));
   std::unique_ptr<OutputFile> csv;
   std::unique_ptr<OutputFile> svg;
   if (!options.csv.empty()) csv = std::make_unique<OutputFile>(options.csv);

@@ -49,6 +49,8 @@ class BissBSlave final : public Slave {
   unsigned data_bits() const override { return config_.data_bits; }
   bool set_data(std::uint64_t raw) override { return config_.hold(raw); }
 
+  std::optional<std::uint64_t> sent_word() const override { return word_; }
+
   const BissBSlaveConfig& config() const { return config_; }
   bool is_last() const { return is_last_; }
   bool in_register_mode() const { return state_ == State::kRegister; }

@@ -53,6 +53,7 @@ class BissCSlave final : public Slave {
   unsigned data_bits() const override { return config_.data_bits; }
   bool set_data(std::uint64_t raw) override;
   ControlSlave* control() override { return config_.control.present ? &control_ : nullptr; }
+  std::optional<std::uint64_t> sent_word() const override { return word_; }
   const Actuator* actuator() const override { return config_.actuator ? &actuator_ : nullptr; }
 
   const BissCSlaveConfig& config() const { return config_; }

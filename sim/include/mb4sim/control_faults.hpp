@@ -35,6 +35,9 @@ class ControlFaults {
   // The CRC of data read is wrong by one bit.
   void set_wrong_data_crc(bool wrong) { wrong_data_crc_ = wrong; }
   bool wrong_data_crc() const { return wrong_data_crc_; }
+  // The slave answers accesses and commands to the ID behind each of its own instead of these.
+  void set_wrong_id(bool wrong) { wrong_id_ = wrong; }
+  bool wrong_id() const { return wrong_id_; }
   // False once every slot fault has happened.
   bool pending() const { return flip_frame_ != 0 || flip_cdm_slot_ || flip_cds_slot_; }
 
@@ -55,6 +58,7 @@ class ControlFaults {
   unsigned zeros_ = 0;            // CDM = 0 in a row on the line
   bool silent_ = false;
   bool wrong_data_crc_ = false;
+  bool wrong_id_ = false;
 };
 
 inline bool ControlFaults::take_cdm(bool cdm) {

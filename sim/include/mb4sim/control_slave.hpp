@@ -93,6 +93,7 @@ class ControlSlave {
   void command_slot(bool cdm);
   void execute();
   void break_off();
+  unsigned answered_ids() const;
   bool may_lock() const { return locked_ < config_.ids && control_active_; }
   // Between the header of a command and EX, where zeros do not count.
   bool before_ex() const { return state_ == State::kCommand && ex_slot_ == 0; }

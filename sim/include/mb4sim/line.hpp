@@ -48,6 +48,11 @@ class Line {
   void set_round_trip(Time round_trip);
   // Jitter and skew of either direction (the rate of glitches stays as it was constructed).
   void set_faults(const WireFaults& ma, const WireFaults& sl);
+  const WireFaults& ma_faults() const { return out_.faults(); }
+  const WireFaults& sl_faults() const { return back_.faults(); }
+  // One glitch of `width` ps at the slaves' MA or at the chip's SL.
+  void glitch_ma(Time now, Time width) { out_.glitch(now, width); }
+  void glitch_sl(Time now, Time width) { back_.glitch(now, width); }
   // One of the things that can happen to a cable, now.
   void act(Time now, CableEvent::Action action);
   bool plugged() const { return plugged_; }

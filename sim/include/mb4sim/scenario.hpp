@@ -18,6 +18,7 @@
 #include "mb4sim/biss_b_slave.hpp"
 #include "mb4sim/biss_c_slave.hpp"
 #include "mb4sim/cable.hpp"
+#include "mb4sim/fault.hpp"
 #include "mb4sim/one_line.hpp"
 #include "mb4sim/replay_slave.hpp"
 #include "mb4sim/ssi_slave.hpp"
@@ -105,6 +106,7 @@ struct Scenario {
   ChipConfig chip;
   HostConfig host;
   std::vector<ChannelConfig> channels;  // each number at most once
+  std::vector<FaultConfig> faults;
   std::uint64_t seed = 1;
   TableSource source;  // of the whole file
 

@@ -20,12 +20,12 @@ class ShiftRegister {
   explicit ShiftRegister(std::size_t bits) : bits_(bits, 0) {}
 
   // Fills it with the low `data_bits` bits of `word`, MSB first, and their inverted CRC, behind a
-  // stop bit (0) if it is longer by that one bit.
-  void load(std::uint64_t word, unsigned data_bits, const Crc& crc) {
+  // stop bit (0) if it is longer by that one bit. `wrong_crc`: the last bit of the CRC is wrong.
+  void load(std::uint64_t word, unsigned data_bits, const Crc& crc, bool wrong_crc = false) {
     std::size_t i = 0;
     if (bits_.size() > data_bits + crc.width()) bits_[i++] = 0;
     for (unsigned bit = data_bits; bit-- > 0;) bits_[i++] = (word >> bit) & 1U ? 1 : 0;
-    const std::uint32_t check = crc.line_bits(word, data_bits);
+    const std::uint32_t check = crc.line_bits(word, data_bits) ^ (wrong_crc ? 1U : 0U);
     for (unsigned bit = crc.width(); bit-- > 0;) bits_[i++] = (check >> bit) & 1U ? 1 : 0;
     head_ = 0;
     shifts_ = 0;

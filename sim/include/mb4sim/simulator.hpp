@@ -15,6 +15,7 @@
 #include <string_view>
 
 #include "mb4sim/event_queue.hpp"
+#include "mb4sim/fault_injector.hpp"
 #include "mb4sim/host_check.hpp"
 #include "mb4sim/host_pins.hpp"
 #include "mb4sim/line.hpp"
@@ -34,6 +35,9 @@ class ChipModel;
 struct SimulatorOptions {
   std::optional<std::uint64_t> seed;      // instead of the scenario's
   std::optional<std::string> trace_path;  // FST waveform file
+  // The waveform holds only what is between these times, both included; the rest costs little.
+  Time trace_from = 0;
+  Time trace_to = kNever;
   // Evaluates every clock edge by Verilator's eval(), leaves out nothing: slower, same results.
   bool plain_evaluation = false;
 };
@@ -99,6 +103,9 @@ class Simulator final : public HostPins {
   // Applies changed line faults (SlFaults::stick) to the SL pins now.
   void refresh_lines();
 
+  // Faults of the scenario that have happened so far.
+  const std::vector<FaultRecord>& faults() const { return injector_->records(); }
+
   const Scenario& scenario() const { return scenario_; }
   std::uint64_t seed() const { return seed_; }
   // Completes the waveform file as far as time has gone.
@@ -130,6 +137,7 @@ class Simulator final : public HostPins {
   SpiHost spi2_;
   ParallelHost bus_;
   HostCheck host_check_;
+  std::unique_ptr<FaultInjector> injector_;
   Time now_ = 0;
   unsigned seen_ = 0;  // watched outputs that have been acted upon
   bool settling_ = false;

@@ -22,6 +22,8 @@ class SlFaults {
   // The same in frame number `frame` of the line, counted from 1 as Slave::frames() does. For
   // frames to come only.
   void flip_frame(std::uint64_t frame, std::vector<unsigned> bits);
+  // Frames of the line that have reached their start bit.
+  std::uint64_t frames() const { return frames_; }
   // Level of pin SL whatever the slaves say; without a value the line works again. Takes effect
   // with the next change on the line or with Simulator::refresh().
   void stick(std::optional<bool> level) { stuck_ = level; }

@@ -7,6 +7,7 @@
 #define MB4SIM_SLAVE_HPP_
 
 #include <cstdint>
+#include <optional>
 
 #include "mb4sim/register_file.hpp"
 #include "mb4sim/time.hpp"
@@ -15,6 +16,14 @@ namespace mb4::sim {
 
 class Actuator;
 class ControlSlave;
+
+// What can be wrong with a slave; true for as long as it lasts. See also SlaveChain::detach() and
+// ControlFaults.
+struct SlaveFaults {
+  bool silent = false;     // SLO is 1 whatever the slave does
+  bool busy = false;       // BiSS: the acknowledge does not end
+  bool wrong_crc = false;  // the last bit of the CRC behind the data is inverted
+};
 
 class Slave {
  public:
@@ -44,6 +53,12 @@ class Slave {
   // Raw word that is latched from now on. False if it does not fit into data_bits() or the slave
   // has no data of its own (replay).
   virtual bool set_data(std::uint64_t raw) = 0;
+  // The raw word sent in the current or last frame; nothing if the device does not know it
+  // (replay).
+  virtual std::optional<std::uint64_t> sent_word() const { return std::nullopt; }
+  // SlaveChain::refresh() makes a changed `silent` seen; the others count from the next frame on.
+  SlaveFaults& faults() { return faults_; }
+  const SlaveFaults& faults() const { return faults_; }
   // Frames seen: those in which the slave has sent its start bit.
   std::uint64_t frames() const { return frames_; }
   // CDM bits taken so far, and the last of them: the inverted level of MA at the end of the
@@ -68,6 +83,7 @@ class Slave {
 
  private:
   RegisterFile registers_;
+  SlaveFaults faults_;
   std::uint64_t frames_ = 0;
   std::uint64_t cdm_count_ = 0;
   bool last_cdm_ = false;

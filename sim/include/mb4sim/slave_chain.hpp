@@ -7,6 +7,7 @@
 #define MB4SIM_SLAVE_CHAIN_HPP_
 
 #include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <vector>
 
@@ -31,13 +32,18 @@ class SlaveChain {
 
   // Levels of MA and MO as they arrive at the slaves, both at once.
   void drive(Time now, bool ma, bool mo);
+  // Slave `index` (0 = slave 1) and those behind it are unplugged: they see MA = 1, time out and
+  // idle; the last one left sees SLI = 1. size(): all are plugged in.
+  void detach(Time now, std::size_t index);
+  // Looks again at SlaveFaults.
+  void refresh(Time now);
 
   std::size_t size() const { return slaves_.size(); }
   // index 0 = slave 1.
   Slave& slave(std::size_t index) { return *slaves_[index]; }
   const Slave& slave(std::size_t index) const { return *slaves_[index]; }
   // Level of SLO of slave 1; without slaves the pull-up's 1.
-  bool slo() const { return slaves_.empty() || slaves_.front()->slo(); }
+  bool slo() const { return attached() == 0 || slo_of(0); }
   bool ma() const { return ma_; }
   bool mo() const { return mo_; }
   // All slaves have timed out.
@@ -45,8 +51,13 @@ class SlaveChain {
 
  private:
   static void on_timer(Time now, void* receiver, std::uint64_t word);
+  std::size_t attached() const { return attached_ < slaves_.size() ? attached_ : slaves_.size(); }
+  bool slo_of(std::size_t index) const {
+    return slaves_[index]->slo() || slaves_[index]->faults().silent;
+  }
   bool sli_of(std::size_t index) const {
-    return index + 1 < slaves_.size() ? slaves_[index + 1]->slo() : mo_;
+    if (index + 1 == attached_) return true;
+    return index + 1 < slaves_.size() ? slo_of(index + 1) : mo_;
   }
   void settle_sli(Time now);
   void finish(Time now);
@@ -55,6 +66,7 @@ class SlaveChain {
   Output output_;
   void* receiver_;
   std::vector<std::unique_ptr<Slave>> slaves_;
+  std::size_t attached_ = SIZE_MAX;  // slaves from here on are unplugged
   bool ma_ = true;
   bool mo_ = false;
   bool reported_ = true;

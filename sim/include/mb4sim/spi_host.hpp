@@ -63,10 +63,16 @@ class SpiHost {
 
   // SCLK takes its new rest level at once. Not inside a frame.
   void set_mode(const SpiMode& mode);
+  // A fault of the host: the next transfer() ends behind `bits` (1 or more) clocks, at the latest
+  // one before its end; what is left of rx becomes 0. The caller of transfer() is not told.
+  void abort_next(std::uint64_t bits) { abort_bits_ = bits; }
+  std::uint64_t aborted() const { return aborted_; }  // transfers so far
+
   void set_timing(const SpiTiming& timing) { timing_ = timing; }
   const SpiTiming& timing() const { return timing_; }
 
  private:
+  void abort(std::span<const std::uint8_t> tx, std::span<std::uint8_t> rx);
   void wait(Time duration) { pins_.run_until(pins_.now() + duration); }
   bool clock_bit(bool mosi);
 
@@ -79,7 +85,9 @@ class SpiHost {
   Time deselected_at_ = 0;
   Time last_edge_ = 0;
   std::size_t bits_in_frame_ = 0;
-  std::uint8_t opcode_ = 0;  // the first eight bits
+  std::uint8_t opcode_ = 0;       // the first eight bits
+  std::uint64_t abort_bits_ = 0;  // 0: the next transfer is not aborted
+  std::uint64_t aborted_ = 0;
 };
 
 }  // namespace mb4::sim

@@ -52,6 +52,7 @@ class SsiSlave final : public Slave {
   unsigned data_bits() const override { return config_.data_bits; }
   // The word before it is turned into Gray code.
   bool set_data(std::uint64_t raw) override { return config_.hold(raw); }
+  std::optional<std::uint64_t> sent_word() const override { return raw_; }
   ControlSlave* control() override { return config_.control.present ? &control_ : nullptr; }
 
   const SsiSlaveConfig& config() const { return config_; }
@@ -74,7 +75,8 @@ class SsiSlave final : public Slave {
   bool active_ = false;
   bool ma_ = true;
   bool slo_ = true;
-  std::uint64_t data_ = 0;    // of the running frame, as on the line
+  std::uint64_t raw_ = 0;     // word of the running frame
+  std::uint64_t data_ = 0;    // the same as on the line
   std::uint32_t crc_ = 0;     // behind it
   std::uint64_t rising_ = 0;  // rising edges of the running frame
   Time last_falling_ = 0;

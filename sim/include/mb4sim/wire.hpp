@@ -39,6 +39,8 @@ class Wire {
   // Jitter, skew and glitch width for edges from now on; the rate of glitches stays.
   void set_faults(const WireFaults& faults);
 
+  // One glitch now: the level at the far end is inverted for `width` ps (1 or more).
+  void glitch(Time now, Time width);
   // Level of bit 0 at the far end whatever arrives; without a value the wire works again.
   void stick(Time now, std::optional<bool> level);
 
@@ -48,6 +50,7 @@ class Wire {
   static void arrive(Time now, void* receiver, std::uint64_t levels);
   static void begin_glitch(Time now, void* receiver, std::uint64_t word);
   static void end_glitch(Time now, void* receiver, std::uint64_t word);
+  static void end_single_glitch(Time now, void* receiver, std::uint64_t word);
   void post_glitch(Time after);
   Time extra(bool rising);
   void deliver(Time now, unsigned levels);
@@ -62,6 +65,7 @@ class Wire {
   void* receiver_;
   std::optional<bool> stuck_;
   bool glitch_ = false;
+  unsigned single_glitches_ = 0;  // that are going on
   unsigned in_flight_ = 0;
   unsigned sent_;
   unsigned arrived_;

@@ -1,0 +1,69 @@
+// SPDX-FileCopyrightText: 2026 The openmb4 authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Faults that a scenario asks for ([[fault]]), and the record of those that have happened.
+#ifndef MB4SIM_FAULT_HPP_
+#define MB4SIM_FAULT_HPP_
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "mb4sim/time.hpp"
+
+namespace mb4::sim {
+
+enum class FaultKind {
+  kBitFlip,  // line: bits of the next frame
+  kGlitch,
+  kStuck,
+  kJitter,
+  kSilent,  // slave
+  kBusy,
+  kWrongCrc,
+  kWrongId,
+  kUnplug,
+  kAbort,           // host: an SPI frame ends early
+  kClockFrequency,  // pin CLK
+  kClockStop,
+};
+
+// As in the scenario: "bit-flip", ...
+std::string_view to_string(FaultKind kind);
+// Happens at once and is over; the others last.
+bool is_momentary(FaultKind kind);
+
+struct FaultConfig {
+  FaultKind kind = FaultKind::kGlitch;
+  unsigned channel = 0;  // 1 or 2; of slaves as well; 0: host and clock
+  unsigned slave = 0;    // as in SCDATAx; 0: none
+  bool on_ma = false;    // glitch, stuck, jitter: MA at the slaves instead of SL at the chip
+  bool level = false;    // stuck
+  Time width = 0;        // glitch, jitter, ps
+  std::uint64_t hz = 0;  // clock-frequency
+  // bit-flip: bits of the frame as in SlFaults; abort: one number, clocks of SCLK. Empty: random.
+  std::vector<unsigned> bits;
+  unsigned frame_bits = 1;  // random bits of bit-flip are below it
+
+  std::vector<Time> at;    // since power-on; empty: random
+  double per_s = 0;        // random: mean rate
+  Time from = 0;           // random: not before
+  Time to = kNever;        // random: not behind
+  Time duration = kNever;  // kNever: to the end
+
+  unsigned line = 0;  // of the scenario file
+};
+
+// A fault that has happened.
+struct FaultRecord {
+  std::size_t config = 0;  // index into Scenario::faults
+  Time begin = 0;
+  Time end = kNever;  // of one that lasts: kNever until it is over
+  std::string what;   // "glitch of 10 ns on SL of channel 1"
+};
+
+}  // namespace mb4::sim
+
+#endif  // MB4SIM_FAULT_HPP_

@@ -1,0 +1,68 @@
+// SPDX-FileCopyrightText: 2026 The openmb4 authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Makes the faults of a scenario happen, at their times or at random, and keeps a record of each.
+// Overlapping faults of one table last until the last is over; of two tables at one place the first
+// end counts.
+#ifndef MB4SIM_FAULT_INJECTOR_HPP_
+#define MB4SIM_FAULT_INJECTOR_HPP_
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "mb4sim/cable.hpp"
+#include "mb4sim/event_queue.hpp"
+#include "mb4sim/fault.hpp"
+#include "mb4sim/random.hpp"
+#include "mb4sim/time.hpp"
+
+namespace mb4::sim {
+
+class ChipModel;
+class Line;
+class Simulator;
+
+class FaultInjector {
+ public:
+  // Posts the first event of each fault. All references outlive the injector; it has to exist
+  // before time begins.
+  FaultInjector(Simulator& simulator, EventQueue& queue, ChipModel& chip,
+                const std::vector<FaultConfig>& faults, std::uint64_t seed);
+  FaultInjector(const FaultInjector&) = delete;
+  FaultInjector& operator=(const FaultInjector&) = delete;
+
+  // In the order of their beginning.
+  const std::vector<FaultRecord>& records() const { return records_; }
+
+ private:
+  struct Source {
+    FaultInjector* injector;
+    std::size_t config;
+    Random random;
+    std::vector<std::size_t> lasting;  // records that are not over
+    WireFaults ma_before;              // jitter: what the cable is like without it
+    WireFaults sl_before;
+  };
+
+  static void begin(Time now, void* receiver, std::uint64_t word);
+  static void end(Time now, void* receiver, std::uint64_t record);
+  void post_random(Source& source, Time after);
+  std::string inject(Time now, Source& source);
+  std::string flip_bits(Source& source);
+  std::string abort_frame(Source& source);
+  void set(Time now, Source& source, bool on);
+  void set_slave(Time now, const FaultConfig& fault, bool on);
+  void set_jitter(Source& source, bool on);
+
+  Simulator& simulator_;
+  EventQueue& queue_;
+  ChipModel& chip_;
+  const std::vector<FaultConfig>& faults_;
+  std::vector<std::unique_ptr<Source>> sources_;
+  std::vector<FaultRecord> records_;
+};
+
+}  // namespace mb4::sim
+
+#endif  // MB4SIM_FAULT_INJECTOR_HPP_

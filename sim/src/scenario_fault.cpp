@@ -1,0 +1,204 @@
+// SPDX-FileCopyrightText: 2026 The openmb4 authors
+// SPDX-License-Identifier: Apache-2.0
+#include "scenario_fault.hpp"
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "number_text.hpp"
+#include "toml_reader.hpp"
+
+namespace mb4::sim {
+namespace {
+
+constexpr double kMaxTimeUs = 1e9;
+constexpr double kMaxWidthNs = 1e5;
+constexpr double kMinWidthNs = 0.001;
+constexpr double kMinPerS = 1e-6;
+constexpr double kMaxPerS = 1e7;
+constexpr std::int64_t kMinClkHz = 1'000;
+constexpr std::int64_t kMaxClkHz = 200'000'000;
+constexpr std::int64_t kMaxBit = 4095;
+constexpr unsigned kFirstOfChannel2 = 5;
+
+bool is_line(FaultKind kind) {
+  return kind == FaultKind::kBitFlip || kind == FaultKind::kGlitch || kind == FaultKind::kStuck ||
+         kind == FaultKind::kJitter;
+}
+
+bool is_slave(FaultKind kind) {
+  return kind == FaultKind::kSilent || kind == FaultKind::kBusy || kind == FaultKind::kWrongCrc ||
+         kind == FaultKind::kWrongId || kind == FaultKind::kUnplug;
+}
+
+const SlaveConfig* find_slave(const Scenario& scenario, unsigned number, unsigned& channel) {
+  channel = scenario.channel(2) != nullptr && number >= kFirstOfChannel2 ? 2 : 1;
+  const ChannelConfig* found = scenario.channel(channel);
+  const unsigned index = number - (channel == 2 ? kFirstOfChannel2 : 1);
+  return found != nullptr && index < found->slaves.size() ? &found->slaves[index] : nullptr;
+}
+
+// Bits of a frame that a random bit-flip may hit: start bit, CDS, data and CRC of all slaves.
+unsigned frame_bits(const ChannelConfig& channel) {
+  const LineProtocol protocol = channel.protocol();
+  unsigned bits = protocol == LineProtocol::kBissC ? 2 : protocol == LineProtocol::kBissB ? 1 : 0;
+  for (const SlaveConfig& slave : channel.slaves) bits += slave.data_bits() + slave.crc().width();
+  return std::max(bits, 1U);
+}
+
+// Only where the kind has it.
+void refuse(TomlReader& reader, FaultKind kind, const char* key) {
+  if (!reader.has(key)) return;
+  reader.fail(key, "a fault of kind '" + std::string(to_string(kind)) + "' has no such key");
+}
+
+std::vector<unsigned> read_bits(TomlReader& reader, const char* key, std::int64_t minimum) {
+  std::vector<unsigned> bits;
+  const toml::node* node = reader.node(key);
+  if (node == nullptr) return bits;
+  const std::string wanted = "expected a list of " + std::to_string(minimum) + " to 4095";
+  const toml::array* list = node->as_array();
+  if (list == nullptr || list->empty()) reader.fail(key, wanted);
+  for (const toml::node& item : *list) {
+    const auto* number = item.as_integer();
+    if (number == nullptr || number->get() < minimum || number->get() > kMaxBit) {
+      reader.fail_at(item.source(), key, wanted);
+    }
+    bits.push_back(static_cast<unsigned>(number->get()));
+  }
+  return bits;
+}
+
+void read_line(TomlReader& reader, const Scenario& scenario, FaultConfig& fault) {
+  const auto number = reader.integer("channel", 1, 2);
+  if (!number && scenario.channels.size() > 1) reader.fail("channel", "missing: there are two");
+  if (!number && scenario.channels.empty()) reader.fail("channel", "the scenario has none");
+  fault.channel = number ? static_cast<unsigned>(*number) : scenario.channels.front().number;
+  const ChannelConfig* channel = scenario.channel(fault.channel);
+  if (channel == nullptr) {
+    reader.fail("channel", "the scenario has no channel " + std::to_string(fault.channel));
+  }
+  if (fault.kind == FaultKind::kBitFlip) {
+    fault.bits = read_bits(reader, "bits", 0);
+    fault.frame_bits = frame_bits(*channel);
+  } else {
+    fault.on_ma = reader.choice("on", {"sl", "ma"}).value_or(0) == 1;
+  }
+  if (fault.kind == FaultKind::kStuck) {
+    const auto level = reader.integer("level", 0, 1);
+    if (!level) reader.fail("level", "missing");
+    fault.level = *level == 1;
+  }
+  if (fault.kind == FaultKind::kGlitch || fault.kind == FaultKind::kJitter) {
+    const char* const key = fault.kind == FaultKind::kGlitch ? "width_ns" : "jitter_ns";
+    const auto width = reader.number(key, kMinWidthNs, kMaxWidthNs);
+    if (!width) reader.fail(key, "missing");
+    fault.width = from_ns(*width);
+  }
+}
+
+void read_slave_fault(TomlReader& reader, const Scenario& scenario, FaultConfig& fault) {
+  const auto number = reader.integer("slave", 1, kMaxSlaves);
+  if (!number) reader.fail("slave", "missing");
+  fault.slave = static_cast<unsigned>(*number);
+  const SlaveConfig* slave = find_slave(scenario, fault.slave, fault.channel);
+  if (slave == nullptr) {
+    reader.fail("slave", "the scenario has no slave " + std::to_string(fault.slave));
+  }
+  const bool replay = std::holds_alternative<ReplaySlaveConfig>(slave->device);
+  if (fault.kind == FaultKind::kWrongCrc && (replay || slave->crc().width() == 0)) {
+    reader.fail("slave", replay ? "a recording cannot be changed" : "this slave sends no CRC");
+  }
+  if (fault.kind == FaultKind::kBusy && (replay || slave->protocol() == LineProtocol::kSsi)) {
+    reader.fail("slave", "only BiSS slaves have a busy time");
+  }
+  const auto* biss_c = std::get_if<BissCSlaveConfig>(&slave->device);
+  if (fault.kind == FaultKind::kWrongId && (biss_c == nullptr || !biss_c->control.present)) {
+    reader.fail("slave", "only a BiSS C slave with control communication has an ID");
+  }
+}
+
+void read_device(TomlReader& reader, const Scenario& scenario, FaultConfig& fault) {
+  if (is_line(fault.kind)) {
+    read_line(reader, scenario, fault);
+  } else if (is_slave(fault.kind)) {
+    read_slave_fault(reader, scenario, fault);
+  } else if (fault.kind == FaultKind::kAbort) {
+    if (scenario.host.parallel()) reader.fail("kind", "only an SPI host aborts frames");
+    if (const auto bits = reader.integer("after_clocks", 1, kMaxBit)) {
+      fault.bits.push_back(static_cast<unsigned>(*bits));
+    }
+  } else {
+    if (scenario.chip.f_clk_hz == 0) reader.fail("kind", "there is no clock at pin CLK");
+    if (fault.kind != FaultKind::kClockFrequency) return;
+    const auto hz = reader.integer("hz", kMinClkHz, kMaxClkHz);
+    if (!hz) reader.fail("hz", "missing");
+    fault.hz = static_cast<std::uint64_t>(*hz);
+  }
+}
+
+// A time or a list of times.
+void read_at(TomlReader& reader, FaultConfig& fault) {
+  const toml::node* node = reader.node("at_us");
+  const auto add = [&](const toml::node& item) {
+    const auto value = item.value<double>();
+    if (!item.is_number() || !(*value >= 0 && *value <= kMaxTimeUs)) {
+      reader.fail_at(item.source(), "at_us",
+                     "expected microseconds of 0 to " + plain(kMaxTimeUs) + ", or a list of them");
+    }
+    fault.at.push_back(from_us(*value));
+  };
+  if (const toml::array* list = node->as_array()) {
+    if (list->empty()) reader.fail("at_us", "the list is empty");
+    for (const toml::node& item : *list) add(item);
+  } else {
+    add(*node);
+  }
+}
+
+void read_when(TomlReader& reader, FaultConfig& fault) {
+  if (reader.has("at_us") == reader.has("per_s")) {
+    reader.fail("at_us", "one of at_us (fixed times) and per_s (random) is needed");
+  }
+  if (reader.has("at_us")) {
+    read_at(reader, fault);
+    for (const char* key : {"from_us", "to_us"}) {
+      if (reader.has(key)) reader.fail(key, "only together with per_s");
+    }
+  } else {
+    fault.per_s = *reader.number("per_s", kMinPerS, kMaxPerS);
+    fault.from = from_us(reader.number("from_us", 0, kMaxTimeUs).value_or(0));
+    if (const auto to = reader.number("to_us", 0, kMaxTimeUs)) fault.to = from_us(*to);
+    if (fault.to < fault.from) reader.fail("to_us", "is before from_us");
+  }
+  if (is_momentary(fault.kind)) {
+    refuse(reader, fault.kind, "for_us");
+    return;
+  }
+  if (const auto us = reader.number("for_us", 0.001, kMaxTimeUs)) {
+    fault.duration = from_us(*us);
+  } else if (fault.at.empty()) {
+    reader.fail("for_us", "missing: how long does each of them last?");
+  }
+}
+
+}  // namespace
+
+FaultConfig read_fault(const toml::table& table, const Scenario& scenario) {
+  TomlReader reader(table, scenario.name);
+  FaultConfig fault;
+  // In the order of FaultKind.
+  const auto kind =
+      reader.choice("kind", {"bit-flip", "glitch", "stuck", "jitter", "silent", "busy", "wrong-crc",
+                             "wrong-id", "unplug", "abort", "clock-frequency", "clock-stop"});
+  if (!kind) reader.fail("kind", "missing");
+  fault.kind = static_cast<FaultKind>(*kind);
+  read_device(reader, scenario, fault);
+  read_when(reader, fault);
+  reader.finish();
+  fault.line = reader.source().table.line;
+  return fault;
+}
+
+}  // namespace mb4::sim

@@ -1,0 +1,77 @@
+// SPDX-FileCopyrightText: 2026 The openmb4 authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// What became of the faults of a scenario: how each was detected by chip and driver.
+#ifndef MB4SIM_TOOL_FAULT_REPORT_HPP_
+#define MB4SIM_TOOL_FAULT_REPORT_HPP_
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "mb4sim/fault.hpp"
+#include "mb4sim/scenario.hpp"
+#include "mb4sim/time.hpp"
+
+namespace mb4::tool {
+
+// What a frame brought for one slave.
+struct SlaveOutcome {
+  enum class Kind { kRight, kFlagged, kWrong };  // kWrong: as good, but not what was sent
+  unsigned slave = 1;
+  unsigned channel = 1;
+  Kind kind = Kind::kRight;
+  std::string state;  // "CRC error", ...
+};
+
+// A fault counts as detected by the first bad result of its channel (host and clock: any) in a
+// frame that ends behind its beginning, up to the first frame that begins behind its end. If all
+// these frames are good and right, it had no effect. If one delivered a wrong word as good, it was
+// missed.
+class FaultReport {
+ public:
+  enum class Fate { kOpen, kNoEffect, kDetected, kMissed };
+  struct Entry {
+    Fate fate = Fate::kOpen;
+    std::string by;           // "frame 3, slave 1: CRC error"; empty: not detected
+    std::string error;        // "CRC error"
+    bool id_checked = false;  // wrong-id: a register access has been tried
+  };
+
+  // Both outlive the report.
+  FaultReport(const sim::Scenario& scenario, const std::vector<sim::FaultRecord>& records);
+
+  // A frame that the host asked for at `begin` and had at `end`.
+  void frame(std::uint64_t number, sim::Time begin, const std::vector<SlaveOutcome>& outcomes);
+  // A fault of kind wrong-id that nobody has looked at: its slave, or 0.
+  unsigned unchecked_id() const;
+  // What a register access to this slave has shown: an error, or empty.
+  void id_checked(unsigned slave, const std::string& error);
+  // No register access was refused or answered by the wrong slave.
+  bool ids_good() const { return ids_good_; }
+  std::uint64_t count(Fate fate) const;
+  // The end of the run: what is open had no effect.
+  void finish();
+
+  // One line for each fault since the last call: "fault 3 at 250.000 us: glitch ...".
+  std::string new_lines();
+  // Counts and, for each kind, by what they were detected. Empty without faults in the scenario.
+  std::string summary() const;
+  // A JSON array.
+  std::string json() const;
+  bool any() const { return !scenario_.faults.empty(); }
+
+ private:
+  void add_new();
+
+  const sim::Scenario& scenario_;
+  const std::vector<sim::FaultRecord>& records_;
+  std::vector<Entry> entries_;  // as records_
+  std::size_t first_open_ = 0;
+  std::size_t printed_ = 0;
+  bool ids_good_ = true;
+};
+
+}  // namespace mb4::tool
+
+#endif  // MB4SIM_TOOL_FAULT_REPORT_HPP_

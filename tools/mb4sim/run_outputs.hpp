@@ -1,0 +1,40 @@
+// SPDX-FileCopyrightText: 2026 The openmb4 authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// The files that `mb4sim run` writes.
+#ifndef MB4SIM_TOOL_RUN_OUTPUTS_HPP_
+#define MB4SIM_TOOL_RUN_OUTPUTS_HPP_
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "commands.hpp"
+#include "mb4sim/scenario.hpp"
+#include "output_file.hpp"
+
+namespace mb4::tool {
+
+// Null where no such file is wanted.
+struct RunOutputs {
+  std::unique_ptr<OutputFile> csv;
+  std::unique_ptr<OutputFile> bus_log;
+};
+
+// Opens them, and checks that the waveform and its view can be written. Throws UseError if the
+// options do not fit together or an output would overwrite something it must not; nothing has been
+// written then.
+RunOutputs open_outputs(const RunOptions& options, const sim::Scenario& scenario);
+
+// The file behind options.trace: the FST writer would replace a link instead of following it.
+std::string trace_target(const RunOptions& options);
+
+// "x.fst" -> "x.gtkw"; other names get the ending added.
+std::string view_path(const std::string& trace);
+
+// Files that a scenario reads, itself included.
+std::vector<std::string> input_files(const std::string& path, const sim::Scenario& scenario);
+
+}  // namespace mb4::tool
+
+#endif  // MB4SIM_TOOL_RUN_OUTPUTS_HPP_

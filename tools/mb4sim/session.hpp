@@ -1,0 +1,68 @@
+// SPDX-FileCopyrightText: 2026 The openmb4 authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// A scenario with a host that reads all its slaves through the driver, frame by frame: what `run`
+// and `regress` have in common.
+#ifndef MB4SIM_TOOL_SESSION_HPP_
+#define MB4SIM_TOOL_SESSION_HPP_
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "chip_setup.hpp"
+#include "fault_report.hpp"
+#include "frame_report.hpp"
+#include "mb4/device.hpp"
+#include "mb4sim/scenario.hpp"
+#include "mb4sim/simulator.hpp"
+#include "sim_bus.hpp"
+
+namespace mb4::tool {
+
+struct SessionFrame {
+  std::uint64_t number = 1;
+  sim::Time begin = 0;  // when the host asked for it
+  sim::Time end = 0;    // when the host had the results
+  // By slave, in the order of Session::slaves().
+  std::vector<Result<Reading>> results;
+  std::vector<std::optional<std::uint64_t>> sent;  // the slave's word, where it is known
+
+  SlaveOutcome::Kind kind(std::size_t index) const;
+  bool bad() const;
+  std::vector<SlaveOutcome> outcomes(const std::vector<ConnectedSlave>& slaves) const;
+};
+
+class Session {
+ public:
+  // Throws sim::ScenarioError, sim::ModelStopped, as every call.
+  Session(const sim::Scenario& scenario, const sim::SimulatorOptions& options,
+          bool bus_log = false);
+
+  Result<void> configure() { return device_.configure(config_); }
+  SessionFrame read(std::uint64_t number);
+  // Reads the first ID register of a BiSS C slave and compares it with the slave's own: what went
+  // wrong, or empty.
+  std::string check_id(unsigned slave);
+
+  const std::vector<ConnectedSlave>& slaves() const { return slaves_; }
+  sim::Simulator& simulator() { return simulator_; }
+  RunSummary summary() const;
+  // What the driver has sent and received since the last call.
+  std::string take_bus_log() { return std::exchange(bus_log_, {}); }
+
+ private:
+  Config config_;
+  sim::Simulator simulator_;
+  std::vector<ConnectedSlave> slaves_;
+  std::string bus_log_;
+  SimBus bus_;
+  SimClock clock_;
+  Device<SimBus, SimClock> device_;
+};
+
+}  // namespace mb4::tool
+
+#endif  // MB4SIM_TOOL_SESSION_HPP_

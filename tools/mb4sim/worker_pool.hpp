@@ -1,0 +1,24 @@
+// SPDX-FileCopyrightText: 2026 The openmb4 authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Jobs in worker processes. Processes and not threads: a job that brings its process down is one
+// failed job, and nothing is shared that could make a result depend on its neighbours.
+#ifndef MB4SIM_TOOL_WORKER_POOL_HPP_
+#define MB4SIM_TOOL_WORKER_POOL_HPP_
+
+#include <cstdint>
+#include <functional>
+#include <string>
+
+namespace mb4::tool {
+
+// Runs `job` for 0 to count - 1 in at most `workers` (1 or more) processes at a time and hands what
+// they return to `result`, in the order of their numbers; an empty text if a worker has died.
+// Throws UseError if no process can be started.
+void run_jobs(std::uint64_t count, unsigned workers,
+              const std::function<std::string(std::uint64_t)>& job,
+              const std::function<void(const std::string&)>& result);
+
+}  // namespace mb4::tool
+
+#endif  // MB4SIM_TOOL_WORKER_POOL_HPP_
