@@ -135,12 +135,15 @@ class Spidev(unittest.TestCase):
         result = spidev("bash", "-c", code)
         self.assertIn(b"does not see", result.stderr)
 
-    def test_sigterm_ends_the_program_first(self):
-        run = subprocess.Popen([MB4SIM, "spidev", "--", "sleep", "60"], stderr=subprocess.PIPE,
-                               start_new_session=True)
-        os.killpg(run.pid, signal.SIGTERM)
-        run.communicate(timeout=20)
-        self.assertNotEqual(run.returncode, 0)
+    def test_sigterm_ends_the_program_and_leaves_nothing(self):
+        with tempfile.TemporaryDirectory() as folder:
+            run = subprocess.Popen([MB4SIM, "spidev", "--", "sh", "-c", "echo ready; exec sleep 60"],
+                                   stdout=subprocess.PIPE, env=dict(os.environ, TMPDIR=folder))
+            self.assertEqual(run.stdout.readline(), b"ready\n")
+            run.send_signal(signal.SIGTERM)
+            self.assertEqual(run.stdout.read(), b"")  # nobody has it open any more
+            self.assertEqual(run.wait(20), 128 + signal.SIGTERM)
+            self.assertEqual(os.listdir(folder), [])
 
 
 if __name__ == "__main__":

@@ -123,21 +123,34 @@ int status_of(pid_t program) {
   return WIFSIGNALED(status) ? kSignalled + WTERMSIG(status) : WEXITSTATUS(status);
 }
 
-// Keys typed at the terminal are for the program; this process lives as long as it.
-class IgnoredKeys {
+volatile std::sig_atomic_t g_program = 0;  // where signals go on to
+
+void pass_on(int signal) {
+  if (g_program > 0) ::kill(static_cast<pid_t>(g_program), signal);
+}
+
+// Signals meant for the program. Keys typed at the terminal reach it without help; what is sent to
+// this process goes on to it. Either way this process lives as long as the program.
+class ProgramSignals {
  public:
-  IgnoredKeys() : interrupt_(std::signal(SIGINT, SIG_IGN)), quit_(std::signal(SIGQUIT, SIG_IGN)) {}
-  IgnoredKeys(const IgnoredKeys&) = delete;
-  IgnoredKeys& operator=(const IgnoredKeys&) = delete;
-  ~IgnoredKeys() { restore(); }
+  ProgramSignals()
+      : before_{std::signal(SIGINT, SIG_IGN), std::signal(SIGQUIT, SIG_IGN),
+                std::signal(SIGTERM, &pass_on), std::signal(SIGHUP, &pass_on)} {}
+  ProgramSignals(const ProgramSignals&) = delete;
+  ProgramSignals& operator=(const ProgramSignals&) = delete;
+  ~ProgramSignals() {
+    restore();
+    g_program = 0;
+  }
   void restore() const {
-    std::signal(SIGINT, interrupt_);
-    std::signal(SIGQUIT, quit_);
+    std::signal(SIGINT, before_[0]);
+    std::signal(SIGQUIT, before_[1]);
+    std::signal(SIGTERM, before_[2]);
+    std::signal(SIGHUP, before_[3]);
   }
 
  private:
-  void (*interrupt_)(int);
-  void (*quit_)(int);
+  void (*before_[4])(int);
 };
 
 void report(const sim::HostCheck& check, const Folder& folder) {
@@ -175,13 +188,14 @@ int spidev_command(const SpidevOptions& options) {
     sim::Simulator simulator(scenario, sim_options);
     BridgeServer server(simulator, options.simulated_time ? Pace::kGaps : Pace::kWall);
     server.listen_unix(folder.socket());
-    const IgnoredKeys keys;
+    const ProgramSignals signals;
     const pid_t program = ::fork();
     if (program < 0) throw UseError(fmt::format("cannot fork: {}", std::strerror(errno)));
     if (program == 0) {
-      keys.restore();
+      signals.restore();
       become(options, folder, library);
     }
+    g_program = program;
     const FileDescriptor ended(static_cast<int>(::syscall(SYS_pidfd_open, program, 0U)));
     if (!ended) throw UseError(fmt::format("pidfd_open: {}", std::strerror(errno)));
     server.serve(ended.get(), false);
