@@ -30,6 +30,27 @@ time.sleep(0.02)
 os.write(fd, bytes([0x07, 0x00]))
 print(time.monotonic() - began)
 """
+# Positions before and after 50 ms of AGS with a frame each millisecond.
+POSITIONS = """
+import fcntl, os, time
+fd = os.open("/dev/spidev0.0", os.O_RDWR)
+for frame in ([0x02, 0xC0, 0x5B, 0x06, 0, 0], [0x02, 0xED, 0x01], [0x02, 0xE5, 0x40, 0xA0],
+              [0x02, 0xE8, 0x9F], [0x07, 0x01]):
+    os.write(fd, bytes(frame))
+def position():
+    os.write(fd, bytes([0x07, 0x41]))  # HOLDBANK: one frame's bytes
+    import array, struct
+    tx = array.array("B", [0x03, 0x00, 0, 0, 0, 0])
+    rx = array.array("B", bytes(6))
+    fcntl.ioctl(fd, 0x40206B00, struct.pack("<QQIIHBBBBBB", tx.buffer_info()[0],
+                                            rx.buffer_info()[0], 6, 0, 0, 0, 0, 0, 0, 0, 0))
+    os.write(fd, bytes([0x07, 0x01]))
+    return int.from_bytes(bytes(rx[2:]), "little") >> 2
+time.sleep(0.01)
+first = position()
+time.sleep(0.05)
+print(first, position())
+"""
 
 
 def spidev(*command, options=(), data=b"", environment=None, timeout=60):
@@ -43,7 +64,8 @@ class Spidev(unittest.TestCase):
         self.assertEqual(result.returncode, 0, result.stderr.decode())
 
     def test_a_program_finds_all_that_spidev_offers(self):
-        result = spidev(PROGRAM, options=["--scenario", SCENARIO])
+        # Simulated time: how busy the machine is makes no difference.
+        result = spidev(PROGRAM, options=["--scenario", SCENARIO, "--simulated-time"])
         self.assert_good(result)
         self.assertEqual(result.stdout, b"all good\n")
 
@@ -117,6 +139,18 @@ class Spidev(unittest.TestCase):
         self.assertGreater(len(values[0]), 10000)
         self.assertEqual(values[0], values[1])
 
+    def test_real_time_passes_in_the_simulation(self):
+        # Frames go on while the program sleeps: a ramp has moved by one a millisecond.
+        text = Path(SCENARIO).read_text(encoding="ascii")
+        text = text.replace("data = 0xAAF37BF", 'source = "ramp"\nstart = 0\nstep = 1\n#')
+        with tempfile.TemporaryDirectory() as folder:
+            path = Path(folder, "ramp.toml")
+            path.write_text(text, encoding="ascii")
+            result = spidev(sys.executable, "-c", POSITIONS, options=["--scenario", str(path)])
+        self.assert_good(result)
+        first, second = (int(word) for word in result.stdout.split())
+        self.assertGreaterEqual(second - first, 50)
+
     def test_sclk_too_fast_for_the_address_is_reported(self):
         # I204: 100 ns behind the address of 0x03. Linux hosts cannot stretch: 5 MHz is the limit.
         for hz, seen in ((5_000_000, False), (10_000_000, True)):
@@ -142,6 +176,7 @@ class Spidev(unittest.TestCase):
             self.assertEqual(run.stdout.readline(), b"ready\n")
             run.send_signal(signal.SIGTERM)
             self.assertEqual(run.stdout.read(), b"")  # nobody has it open any more
+            run.stdout.close()
             self.assertEqual(run.wait(20), 128 + signal.SIGTERM)
             self.assertEqual(os.listdir(folder), [])
 
