@@ -1,0 +1,159 @@
+#!/usr/bin/env python3
+# SPDX-FileCopyrightText: 2026 The openmb4 authors
+# SPDX-License-Identifier: Apache-2.0
+"""The RTL with bench.sv in Icarus Verilog.
+
+  run_icarus.py FOLDER              the checks of bench.sv
+  run_icarus.py FOLDER --break      with faults in the RTL; each must be reported
+  run_icarus.py FOLDER --speed N    workload A (one encoder, 26 bits, AGSMIN, 10 MHz), N clocks:
+                                    clocks per second
+
+Icarus 11 does not read all of the RTL's SystemVerilog. What it cannot read is spelled differently,
+by text and without any tool that knows the language: constants and types of the packages become
+global names (mb4_pkg::x is mb4_pkg_x), `int unsigned` is int, `unique case` is case, signed'(x) is
+$signed(x), an enum is a vector with constants, always_comb has a list of what it reads."""
+
+import re
+import sys
+import time
+from pathlib import Path
+
+HERE = Path(__file__).resolve().parent
+sys.path.insert(0, str(HERE.parents[1] / "tools" / "synth"))
+
+import project  # noqa: E402
+
+# File, text, replacement: what the bench must notice.
+FAULTS = [
+    ("mb4_spi_shift", "bit_q + 3'd1", "bit_q + 3'd3"),
+    ("mb4_crc", "feed_i & (bit_i ^ top)", "feed_i & bit_i"),
+    ("mb4_frame", "11'sd5", "11'sd4"),
+    ("mb4_control_frame", "slot_q + 6'd1", "slot_q + 6'd2"),
+    ("mb4_posted", "rd_q + (AddrW+1)'(1)", "rd_q"),
+]
+# Sensitivity to more than what is read; '0 at a port is taken for one bit and padded with zeros.
+HARMLESS = (r".*sorry: constant selects in always_\* processes are not currently supported.*"
+            r"|.*Port \d+ \(rd2_addr_i\) of \w+ expects 5 bits, got 1\.|.*: Padding 4 high bits.*")
+
+
+def package_names(text):
+    names = set(re.findall(r"\blocalparam\b[^;=]*?(\w+)\s*=", text))
+    return names | set(re.findall(r"\}\s*(\w+)\s*;", text))
+
+
+def plain_enum(match):
+    """An enum as a vector and constants."""
+    base, members, name = match.groups()
+    members = [m.strip() for m in re.sub(r"//[^\n]*", "", members).split(",")]
+    values = ", ".join(f"{member} = {number}" for number, member in enumerate(members))
+    return f"typedef {base} {name}; localparam {base} {values};"
+
+
+
+WORDS = {"begin", "end", "if", "else", "for", "int", "case", "casez", "endcase", "default",
+         "unique", "signed"}
+
+
+def type_of(name, text):
+    """The declared type of a variable."""
+    found = re.search(rf"\b(logic(?:\s+signed)?(?:\s*\[[^\]]*\])?|(?:\w+::)?\w+_[te])"
+                      rf"\s+(?:\w+\s*,\s*)*{name}\b", text)
+    return found and found.group(1)
+
+
+def explicit_sensitivity(text):
+    """always_comb runs at first and whenever one of the signals changes that it reads and does not
+    write, and shows what it has computed at its end. (Icarus 11 also runs it when it has written a
+    part of a vector, and others when it only passes a default: both may go on for ever.)"""
+    position = 0
+    while (start := text.find("always_comb begin", position)) >= 0:
+        depth, end = 0, start
+        for word in re.finditer(r"\b(begin|end)\b", text[start:]):
+            depth += 1 if word.group() == "begin" else -1
+            if depth == 0:
+                end = start + word.end()
+                break
+        body = text[start + len("always_comb "):end]
+        code = re.sub(r"\w*'[hbd][0-9a-fA-F_?]+", "", body)
+        written = set(re.findall(r"(?:^|;|\)|:|\b(?:begin|end|endcase|else))"
+                                 r"\s*(\w+)(?:\.\w+|\[[^]=]*\])*\s*=(?!=)", code))
+        written |= set(re.findall(r"\{([\w, ]+)\}\s*=(?!=)", code))
+        written |= {name.strip() for group in written for name in group.split(",")}
+        read = set(re.findall(r"(?<![.$\w'])([a-z]\w+)\b(?!\s*')(?!::)", code)) - WORDS - written
+        read = sorted(name for name in read if not name.startswith(("mb4_pkg", "mb4_regs_pkg")))
+        written = sorted(name for name in written if type_of(name, text))
+        shadows = " ".join(f"{type_of(name, text)} {name}_shadow;" for name in written)
+        shown = " ".join(f"{name} = {name}_shadow;" for name in written)
+        for name in written:
+            body = re.sub(rf"(?<![.\w]){name}\b", f"{name}_shadow", body)
+        text = (f"{text[:start]}{shadows} always begin {body} {shown} "
+                f"@({' or '.join(read)}); end{text[end:]}")
+        position = start + len(shadows) + 12
+    return text
+
+
+def translate(path, packages):
+    text = re.sub(r"//[^\n]*", "", path.read_text(encoding="utf-8"))
+    if path.stem in packages:
+        text = re.sub(r"^\s*(?:package\s.*|endpackage.*)$", "", text, flags=re.M)
+        names = "|".join(sorted(packages[path.stem], key=len, reverse=True))
+        text = re.sub(rf"\b({names})\b", rf"{path.stem}_\1", text)
+    text = explicit_sensitivity(text)
+    text = re.sub(r"\b(mb4_\w*pkg)::(\w+)", r"\1_\2", text)
+    text = re.sub(r"\btypedef enum (logic \[[^]]*\])\s*\{([^}]*)\}\s*(\w+)\s*;",
+                  plain_enum, text)
+    text = re.sub(r"\bint unsigned\b", "int", text)
+    text = re.sub(r"\bunique0?\s+(case[xz]?)\b", r"\1", text)
+    return re.sub(r"\bsigned'\(", "$signed(", text)
+
+
+def build(folder, fault=None):
+    folder.mkdir(parents=True, exist_ok=True)
+    packages = {p.stem: package_names(p.read_text(encoding="utf-8"))
+                for p in project.rtl_packages()}
+    files = []
+    for path in project.rtl_files():
+        text = translate(path, packages)
+        if fault and path.stem == fault[0]:
+            if text.count(fault[1]) != 1:
+                raise SystemExit(f"{path.stem}: '{fault[1]}' occurs {text.count(fault[1])} times")
+            text = text.replace(fault[1], fault[2])
+        files.append(folder / path.name)
+        files[-1].write_text(text, encoding="utf-8")
+    program = folder / "bench.vvp"
+    status, text = project.run([project.tool("iverilog"), "-g2012", f"-I{project.RTL}",
+                                "-o", program, "-s", "bench", *files, HERE / "bench.sv"])
+    messages = [line for line in text.splitlines() if not re.fullmatch(HARMLESS, line)]
+    if status != 0 or messages:
+        raise SystemExit("\n".join(messages) or text)
+    return program
+
+
+def play(program, *arguments):
+    status, text = project.run([project.tool("vvp"), "-n", program, *arguments])
+    return status == 0 and re.search(r"^passed", text, re.M) and "FAILED" not in text, text
+
+
+def main():
+    folder = Path(sys.argv[1])
+    project.tool("iverilog")
+    if "--break" in sys.argv:
+        findings = []
+        for fault in FAULTS:
+            good, _ = play(build(folder / fault[0], fault))
+            if good:
+                findings.append(f"not noticed: {' | '.join(fault)}")
+        project.finish(findings, f"{len(FAULTS)} faults, all reported")
+    program = build(folder)
+    if "--speed" in sys.argv:
+        clocks = int(sys.argv[sys.argv.index("--speed") + 1])
+        begin = time.monotonic()
+        good, text = play(program, f"+speed={clocks}")
+        seconds = time.monotonic() - begin
+        project.finish([] if good else [text],
+                       f"{clocks / seconds:.0f} clocks per second (Icarus, workload A)")
+    good, text = play(program)
+    project.finish([] if good else [text], text.strip())
+
+
+main()

@@ -1,0 +1,182 @@
+#!/usr/bin/env python3
+# SPDX-FileCopyrightText: 2026 The openmb4 authors
+# SPDX-License-Identifier: Apache-2.0
+"""Synthesis for iCE40 (placed, routed, packed), ECP5 and Xilinx 7 (area): docs/resources.md.
+
+  report.py FOLDER [--check]   writes docs/resources.md; FOLDER is for what the tools leave.
+                               --check: no file, but fails if mb4_core does not reach MIN_MHZ on
+                               the HX8K with one seed
+"""
+
+import json
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+HERE = Path(__file__).resolve().parent
+sys.path.insert(0, str(HERE))
+
+import project  # noqa: E402
+import yosys  # noqa: E402
+
+MIN_MHZ = 50  # twice the chip's highest clock
+SEEDS = (1, 2, 3)
+TOPS = {"mb4_core": "SPI host", "mb4_parallel": "parallel host", "mb4_chip": "28-pin device"}
+DEVICES = {"HX8K": ["--hx8k", "--package", "ct256"], "UP5K": ["--up5k", "--package", "sg48"]}
+FAMILIES = {
+    "ECP5": ("synth_ecp5", r"LUT4$", r"TRELLIS_FF$", r"DP16KD$|TRELLIS_DPR16X4$", "CCU2C"),
+    "Xilinx 7": ("synth_xilinx -family xc7", r"LUT\d$", r"FD[CPRS]E(_1)?$", r"RAMB\d+E1$|RAM\d+M$",
+                 "CARRY4"),
+}
+
+
+def files():
+    return project.rtl_files() + [HERE / "tops" / "mb4_parallel.sv"]
+
+
+def synthesise(command, top, folder, extra):
+    run(yosys.read(files()) + [f"{command} -top {top} {extra}", "check -assert",
+                               "tee -q -o stat.json stat -json"], folder)
+    return json.loads((folder / "stat.json").read_text(encoding="utf-8"))
+
+
+def run(commands, folder):
+    status, text = yosys.execute(commands, folder, "synth")
+    if status != 0:
+        raise SystemExit(text)
+    return text
+
+
+def count(cells, pattern):
+    return sum(number for cell, number in cells.items() if re.search(pattern, cell))
+
+
+def route(top, folder, device, seed):
+    """(MHz of clk, MHz of the host's clock), None where it does not fit."""
+    name = f"{device.lower()}_{seed}"
+    status, text = project.run(
+        [project.tool("nextpnr-ice40"), *DEVICES[device], "--json", "top.json", "--seed", str(seed),
+         "--freq", "50", "--pcf-allow-unconstrained", "--timing-allow-fail", "--asc", f"{name}.asc",
+         "--report", f"{name}.json", "--quiet"], cwd=folder)
+    if status != 0:
+        if re.search(r"[Uu]nable to place|no BELs remaining|Unable to find|IO.*exceed", text):
+            return None
+        raise SystemExit(f"{top} {device}: {text[-2000:]}")
+    clocks = json.loads((folder / f"{name}.json").read_text(encoding="utf-8"))["fmax"]
+    found = {"core": 0.0, "host": 0.0}
+    for clock, value in clocks.items():
+        kind = "host" if re.search(r"sclk|ale|strobe|wr_clk|rd_clk|db_i", clock) else "core"
+        found[kind] = min(found[kind] or 1e9, value["achieved"])
+    status, text = project.run([project.tool("icepack"), f"{name}.asc", f"{name}.bin"], cwd=folder)
+    if status != 0:
+        raise SystemExit(text)
+    return found
+
+
+def instances(netlist, top):
+    """{module: number of instances below and including top}."""
+    counted = {}
+
+    def walk(module, times):
+        counted[module] = counted.get(module, 0) + times
+        for cell in netlist["modules"][module]["cells"].values():
+            if cell["type"] in netlist["modules"] and "blackbox" not in netlist["modules"][
+                    cell["type"]]["attributes"]:
+                walk(cell["type"], times)
+
+    walk(top, 1)
+    return counted
+
+
+def breakdown(top, folder):
+    """Rows (module, instances, LUT4 of all, flops of all), largest first; hierarchy is kept."""
+    run(yosys.read(files()) + [f"synth_ice40 -noflatten -top {top}", "write_json tree.json"],
+        folder)
+    netlist = json.loads((folder / "tree.json").read_text(encoding="utf-8"))
+    rows = {}
+    for module, times in instances(netlist, top).items():
+        data = netlist["modules"][module]
+        cells = [cell["type"] for cell in data["cells"].values()]
+        name = data["attributes"].get("hdlname", module).lstrip("\\")
+        name = re.sub(r"^\$paramod\S*?\\(mb4_\w+).*", r"\1", name)
+        row = rows.setdefault(name, [0, 0, 0, 0])
+        row[0] += times
+        row[1] += times * cells.count("SB_LUT4")
+        row[2] += times * sum(cell.startswith("SB_DFF") for cell in cells)
+        row[3] += times * sum(cell.startswith("SB_RAM40") for cell in cells)
+    return sorted(((name, *row) for name, row in rows.items()), key=lambda r: -r[2])
+
+
+def ice40(top, folder, seeds):
+    stat = synthesise("synth_ice40", top, folder, "-json top.json")
+    cells = stat["design"]["num_cells_by_type"]
+    area = (cells.get("SB_LUT4", 0), count(cells, "^SB_DFF"), count(cells, "^SB_RAM40"),
+            cells.get("SB_CARRY", 0))
+    return area, {d: [route(top, folder, d, s) for s in seeds] for d in DEVICES}
+
+
+def mhz(runs, kind):
+    values = [r[kind] for r in runs if r is not None]
+    return f"{min(values):.0f}..{max(values):.0f}" if values else "does not fit"
+
+
+def version(command):
+    done = subprocess.run(command, capture_output=True, text=True, check=False)
+    return (done.stdout or done.stderr).splitlines()[0]
+
+
+def page(folder):
+    lines = ["<!--", "SPDX-FileCopyrightText: 2026 The openmb4 authors",
+             "SPDX-License-Identifier: Apache-2.0", "-->", "", "# Resources", "",
+             "Made by `tools/synth/report.py build/synth` with Debian's tools; do not edit. "
+             "fmax over seeds " + ", ".join(map(str, SEEDS)) + ", worst to best, after routing, "
+             "slowest corner, no constraint that helps. How to use the design on a device: "
+             "[integration](integration.md).", "",
+             "## iCE40, placed and routed", "",
+             "| top | LUT4 | flops | block RAM | HX8K clk / MHz | HX8K host clock | "
+             "UP5K clk / MHz | UP5K host clock |", "|---|---|---|---|---|---|---|---|"]
+    for top, what in TOPS.items():
+        (luts, flops, rams, _), fmax = ice40(top, folder / "ice40" / top, SEEDS)
+        cells = [mhz(fmax[d], k) for d in ("HX8K", "UP5K") for k in ("core", "host")]
+        lines.append(f"| `{top}`, {what} | {luts} | {flops} | {rams} | " + " | ".join(cells) + " |")
+        print(lines[-1], flush=True)
+    lines += ["", "HX8K: 7680 LUT4, 32 block RAMs of 4 kbit; UP5K: 5280 and 30.", "",
+              "## ECP5 and Xilinx 7, synthesis", "",
+              "| top | family | LUT | flops | RAM blocks | carry |", "|---|---|---|---|---|---|"]
+    for top in TOPS:
+        for family, (command, lut, flop, ram, carry) in FAMILIES.items():
+            stat = synthesise(command, top, folder / family.replace(" ", "_") / top, "-flatten"
+                              if "xilinx" in command else "")
+            cells = stat["design"]["num_cells_by_type"]
+            lines.append(f"| `{top}` | {family} | {count(cells, lut)} | {count(cells, flop)} | "
+                         f"{count(cells, ram)} | {cells.get(carry, 0)} |")
+            print(lines[-1], flush=True)
+    lines += ["", "## What takes the space", "",
+              "`mb4_core` on iCE40 with hierarchy kept, so the sum is larger than above; all "
+              "instances of a module together, without what is inside other modules.", "",
+              "| module | instances | LUT4 | flops | block RAM |", "|---|---|---|---|---|"]
+    lines += [f"| `{name}` | {n} | {luts} | {flops} | {rams} |"
+              for name, n, luts, flops, rams in breakdown("mb4_core", folder / "tree")
+              if luts + flops + rams]
+    lines += ["", "## Tools", ""]
+    lines += [f"* {version(c)}" for c in (["yosys", "-V"], ["nextpnr-ice40", "--version"])]
+    return "\n".join(lines) + "\n"
+
+
+def main():
+    folder = Path(sys.argv[1]).resolve()
+    for program in ("yosys", "nextpnr-ice40", "icepack"):
+        project.tool(program)
+    if "--check" in sys.argv:
+        _, fmax = ice40("mb4_core", folder / "check", SEEDS[:1])
+        hx8k = fmax["HX8K"][0]
+        good = hx8k is not None and hx8k["core"] >= MIN_MHZ and fmax["UP5K"][0] is not None
+        project.finish([] if good else [f"mb4_core: {fmax}, wanted {MIN_MHZ} MHz on the HX8K and "
+                                        f"a fit on the UP5K"],
+                       f"mb4_core: {hx8k['core']:.1f} MHz on the HX8K, fits the UP5K")
+    text = page(folder)
+    (project.ROOT / "docs" / "resources.md").write_text(text, encoding="utf-8")
+
+
+main()
