@@ -18,7 +18,7 @@ from cli import EXAMPLES, MB4SIM, RESOLUTE, CliTest, run, slave
 
 BUS = os.path.join(EXAMPLES, "control-bus.toml")
 COMMANDS = ("run", "spi", "regs", "scan", "sweep", "regress", "presets", "bench", "completion",
-            "man")
+            "man", "spidev", "bridge", "plot")
 FLIP = "[[fault]]\nkind = \"bit-flip\"\nbits = [4]\nat_us = 1000\n"
 
 
@@ -248,13 +248,13 @@ class Help(CliTest):
         for command in listed:
             result = run(command, "--help")
             self.assertEqual((result.returncode, result.stderr), (0, ""))
-            self.assertRegex(result.stdout, rf"(?m)^Example: .*mb4sim {command}\b")
+            self.assertRegex(result.stdout, rf"(?m)^Examples?: .*mb4sim {command}\b")
 
     def test_manual_page_says_what_help_says(self):
         page = run("man").stdout.replace("\\-", "-")
         for command in COMMANDS:
             part = page.split(f".SS {command}\n")[1].split(".SS ")[0]
-            self.assertEqual(set(re.findall(r"(?m)^\.B (?:-h,)?(--[\w-]+)", part)),
+            self.assertEqual(set(re.findall(r"(?m)^\.BI? (?:-h,)?(--[\w-]+)", part)),
                              long_options(command), command)
         if shutil.which("groff") is None:
             self.skipTest("groff is not installed")

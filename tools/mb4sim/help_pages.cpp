@@ -42,16 +42,16 @@ std::string roff(std::string_view text) {
   return out;
 }
 
-// Words of a usage line: positionals and [options].
+// A usage line: [options] and positionals.
 std::string usage(const CLI::App& command) {
-  std::string line = fmt::format("mb4sim {}", command.get_name());
+  std::string line = fmt::format("mb4sim {} [options]", command.get_name());
   for (const CLI::Option* option : options(command)) {
     if (!option->get_positional()) continue;
     std::string word = option->get_type_name();
     if (option->get_items_expected_max() > 1) word += "...";
     line += option->get_required() ? " " + word : " [" + word + "]";
   }
-  return line + " [options]";
+  return line;
 }
 
 void add_option(std::string& out, const CLI::Option& option) {
@@ -60,8 +60,8 @@ void add_option(std::string& out, const CLI::Option& option) {
                        roff(option.get_description()));
     return;
   }
-  out += fmt::format(".TP\n.B {}", roff(option.get_name()));
-  if (takes_value(option)) out += fmt::format("\n.RI \"\" {}", roff(option.get_type_name()));
+  out += fmt::format(".TP\n.B{} {}", takes_value(option) ? "I" : "", roff(option.get_name()));
+  if (takes_value(option)) out += fmt::format(" \" {}\"", roff(option.get_type_name()));
   out += fmt::format("\n{}\n", roff(option.get_description()));
 }
 
@@ -69,10 +69,10 @@ void add_option(std::string& out, const CLI::Option& option) {
 void add_footer(std::string& out, const std::string& footer) {
   std::istringstream lines(footer);
   for (std::string line; std::getline(lines, line);) {
-    constexpr std::string_view kExample = "Example: ";
-    if (line.starts_with(kExample)) {
-      out += fmt::format(".PP\nExample:\n.PP\n.nf\n.RS\n{}\n.RE\n.fi\n",
-                         roff(line.substr(kExample.size())));
+    const std::size_t colon = line.find(": ");
+    const std::string_view head = std::string_view(line).substr(0, colon);
+    if (head == "Example" || head == "Examples") {
+      out += fmt::format(".PP\n{}:\n.PP\n.nf\n{}\n.fi\n", head, roff(line.substr(colon + 2)));
     } else if (line.starts_with("  ")) {
       out += fmt::format(".nf\n{}\n.fi\n", roff(line));
     } else {

@@ -133,7 +133,8 @@ void require_writable(const std::string& path) {
   const bool existed = fs::exists(path, ignored);
   errno = 0;
   if (!std::ofstream(path, std::ios::binary | std::ios::app)) fail(path);
-  if (!existed) fs::remove(path, ignored);
+  // A link to a file that was not there stays.
+  if (!existed) fs::remove(link_target(path), ignored);
 }
 
 }  // namespace mb4::tool

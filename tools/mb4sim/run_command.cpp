@@ -15,7 +15,6 @@
 #include "frame_report.hpp"
 #include "mb4sim/scenario.hpp"
 #include "mb4sim/simulator.hpp"
-#include "mb4sim/wave_view.hpp"
 #include "output_file.hpp"
 #include "progress.hpp"
 #include "run_outputs.hpp"
@@ -80,11 +79,11 @@ class RunPrinter {
   Progress progress_;
 };
 
-sim::SimulatorOptions simulator_options(const RunOptions& options) {
+sim::SimulatorOptions simulator_options(const RunOptions& options, const RunOutputs& outputs) {
   sim::SimulatorOptions sim_options;
   sim_options.seed = options.seed;
   if (!options.trace.empty() && !options.trace_error_us) {
-    sim_options.trace_path = trace_target(options);
+    sim_options.trace_path = outputs.trace.path();
     if (options.trace_from_us) sim_options.trace_from = sim::from_us(*options.trace_from_us);
     if (options.trace_to_us) sim_options.trace_to = sim::from_us(*options.trace_to_us);
   }
@@ -93,10 +92,10 @@ sim::SimulatorOptions simulator_options(const RunOptions& options) {
 
 // The same run once more, up to a little behind its first bad frame, with a waveform around it.
 void trace_around(const RunOptions& options, const sim::Scenario& scenario,
-                  const SessionFrame& bad) {
+                  const RunOutputs& outputs, const SessionFrame& bad) {
   const sim::Time margin = sim::from_us(*options.trace_error_us);
-  sim::SimulatorOptions sim_options = simulator_options(options);
-  sim_options.trace_path = trace_target(options);
+  sim::SimulatorOptions sim_options = simulator_options(options, outputs);
+  sim_options.trace_path = outputs.trace.path();
   sim_options.trace_from = bad.begin > margin ? bad.begin - margin : 0;
   sim_options.trace_to = bad.end + margin;
   Session session(scenario, sim_options);
@@ -115,10 +114,6 @@ void trace_around(const RunOptions& options, const sim::Scenario& scenario,
   session.simulator().run_until(sim_options.trace_to);
 }
 
-void write_view(const RunOptions& options, std::optional<sim::Time> marker = {}) {
-  sim::write_wave_view(options.trace, view_path(options.trace), marker);
-}
-
 }  // namespace
 
 int run_command(const RunOptions& options) {
@@ -130,7 +125,7 @@ int run_command(const RunOptions& options) {
   bool good = false;
   const bool traced = !options.trace.empty() && !options.trace_error_us;
   try {
-    Session session(scenario, simulator_options(options), outputs.bus_log != nullptr);
+    Session session(scenario, simulator_options(options, outputs), outputs.bus_log != nullptr);
     if (const Result<void> configured = session.configure(); !configured) {
       fmt::print(stderr, "mb4sim: cannot configure the chip: {}\n", describe(configured.info()));
       good = false;
@@ -149,14 +144,14 @@ int run_command(const RunOptions& options) {
     }
   } catch (const sim::ModelStopped&) {
     // The waveform file is complete when the simulator has gone.
-    if (traced) write_view(options);
+    if (traced) outputs.trace.write_view();
     throw;
   }
-  if (traced) write_view(options);
+  if (traced) outputs.trace.write_view();
   if (options.trace_error_us) {
     if (first_bad) {
-      trace_around(options, scenario, *first_bad);
-      write_view(options, first_bad->begin);
+      trace_around(options, scenario, outputs, *first_bad);
+      outputs.trace.write_view(first_bad->begin);
       fmt::print(stderr, "mb4sim: {} shows frame {}, the first bad one\n", options.trace,
                  first_bad->number);
     } else {

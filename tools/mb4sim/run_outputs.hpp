@@ -6,17 +6,17 @@
 #define MB4SIM_TOOL_RUN_OUTPUTS_HPP_
 
 #include <memory>
-#include <string>
-#include <vector>
 
 #include "commands.hpp"
 #include "mb4sim/scenario.hpp"
 #include "output_file.hpp"
+#include "trace_file.hpp"
 
 namespace mb4::tool {
 
 // Null where no such file is wanted.
 struct RunOutputs {
+  TraceFile trace;
   std::unique_ptr<OutputFile> csv;
   std::unique_ptr<OutputFile> bus_log;
 };
@@ -25,15 +25,6 @@ struct RunOutputs {
 // options do not fit together or an output would overwrite something it must not; nothing has been
 // written then.
 RunOutputs open_outputs(const RunOptions& options, const sim::Scenario& scenario);
-
-// The file behind options.trace: the FST writer would replace a link instead of following it.
-std::string trace_target(const RunOptions& options);
-
-// "x.fst" -> "x.gtkw"; other names get the ending added.
-std::string view_path(const std::string& trace);
-
-// Files that a scenario reads, itself included.
-std::vector<std::string> input_files(const std::string& path, const sim::Scenario& scenario);
 
 }  // namespace mb4::tool
 

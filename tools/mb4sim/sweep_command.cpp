@@ -19,9 +19,9 @@
 #include "mb4sim/simulator.hpp"
 #include "number_list.hpp"
 #include "output_file.hpp"
-#include "run_outputs.hpp"
 #include "sim_bus.hpp"
 #include "sweep_report.hpp"
+#include "trace_file.hpp"
 
 namespace mb4::tool {
 namespace {
@@ -133,7 +133,7 @@ int sweep_command(const SweepOptions& options) {
     outputs.push_back({name, path});
     outputs.push_back({name, partial_path(path)});
   }
-  require_distinct(outputs, input_files(options.scenario, scenario));
+  require_distinct(outputs, inputs_of(options.scenario, scenario));
   std::unique_ptr<OutputFile> csv;
   std::unique_ptr<OutputFile> svg;
   if (!options.csv.empty()) csv = std::make_unique<OutputFile>(options.csv);

@@ -49,8 +49,8 @@ std::optional<std::string> TraceFile::path() const {
   return link_target(path_);
 }
 
-void TraceFile::write_view() const {
-  if (!path_.empty()) sim::write_wave_view(path_, view_path(path_));
+void TraceFile::write_view(std::optional<sim::Time> marker) const {
+  if (!path_.empty()) sim::write_wave_view(path_, view_path(path_), marker);
 }
 
 }  // namespace mb4::tool

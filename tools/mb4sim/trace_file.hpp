@@ -29,7 +29,8 @@ class TraceFile {
   // What the file takes, for require_distinct().
   const std::vector<Output>& outputs() const { return outputs_; }
   // Writes the view. The simulator must have gone: then the waveform is complete.
-  void write_view() const;
+  // `marker`: where GTKWave's marker stands, else at the beginning.
+  void write_view(std::optional<sim::Time> marker = {}) const;
 
  private:
   std::string path_;

@@ -1,0 +1,59 @@
+# SPDX-FileCopyrightText: 2026 The openmb4 authors
+# SPDX-License-Identifier: Apache-2.0
+"""The FuseSoC core file.
+
+  check_core.py lists   openmb4.core names the files of rtl/mb4.f in their order, and the version of
+                        the project
+  check_core.py run     runs its targets; skipped without fusesoc (PyPI)
+"""
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[2]
+SKIPPED = 77
+
+
+def listed():
+    files = []
+    for line in (ROOT / "rtl" / "mb4.f").read_text().splitlines():
+        line = line.strip()
+        if line and not line.startswith(("//", "+", "-")):
+            files.append((ROOT / "rtl" / line).resolve().relative_to(ROOT).as_posix())
+    return files
+
+
+def lists():
+    core = (ROOT / "openmb4.core").read_text()
+    assert core.startswith("CAPI=2:"), "a core file begins with CAPI=2:"
+    named = re.findall(r"(?m)^ +- (\S+\.sv)$", core)
+    assert named == listed(), sorted(set(named) ^ set(listed())) or "another order"
+    for name in re.findall(r"(?m)^ +- ([\w./]+)", core):
+        assert (ROOT / name).is_file(), name
+    version = re.search(r"project\(openmb4 VERSION ([\d.]+)",
+                        (ROOT / "CMakeLists.txt").read_text()).group(1)
+    assert f"name: openmb4:ip:mb4:{version}\n" in core, version
+    print(f"{len(named)} files")
+
+
+def run():
+    fusesoc = shutil.which("fusesoc")
+    if fusesoc is None:
+        print("skipped: fusesoc is not installed (PyPI: fusesoc)")
+        sys.exit(SKIPPED)
+    with tempfile.TemporaryDirectory() as folder:
+        for target, expected in (("lint", ""), ("sim", "revision 0x20, version 0x84"),
+                                 ("synth", "")):
+            done = subprocess.run(
+                [fusesoc, "--cores-root", str(ROOT), "run", "--build-root",
+                 str(Path(folder) / target), "--target", target, "openmb4:ip:mb4"],
+                cwd=folder, capture_output=True, text=True, timeout=380, check=False)
+            output = done.stdout + done.stderr
+            assert done.returncode == 0 and expected in output, f"{target}:\n{output[-3000:]}"
+            print(f"{target}: good")
+
+
+{"lists": lists, "run": run}[sys.argv[1]]()

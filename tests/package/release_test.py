@@ -1,0 +1,57 @@
+# SPDX-FileCopyrightText: 2026 The openmb4 authors
+# SPDX-License-Identifier: Apache-2.0
+"""The release archive: the committed files and no others, the same bytes each time."""
+import hashlib
+import re
+import subprocess
+import sys
+import tarfile
+import tempfile
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[2]
+SKIPPED = 77
+
+
+def git(*arguments, cwd):
+    safe = f"safe.directory={ROOT}"
+    return subprocess.run(["git", "-c", safe, "-c", f"safe.directory={cwd}", *arguments], cwd=cwd,
+                          capture_output=True, text=True, timeout=100, check=True).stdout
+
+
+def main():
+    if not (ROOT / ".git").exists():
+        print("skipped: not a git checkout")
+        sys.exit(SKIPPED)
+    version = re.search(r"project\(openmb4 VERSION ([\d.]+)",
+                        (ROOT / "CMakeLists.txt").read_text()).group(1)
+    with tempfile.TemporaryDirectory() as folder:
+        # A clone: the working tree at hand may be in the middle of something.
+        clone = Path(folder) / "clone"
+        git("clone", "-q", "--no-hardlinks", str(ROOT), str(clone), cwd=folder)
+        script = clone / "tools" / "release.sh"
+        if not script.exists():
+            script.write_bytes((ROOT / "tools" / "release.sh").read_bytes())
+            script.chmod(0o755)
+        sums = []
+        for name in ("a", "b"):
+            out = Path(folder) / name
+            done = subprocess.run([script, out], capture_output=True, text=True, timeout=100,
+                                  check=True)
+            archive = Path(done.stdout.strip())
+            assert archive == out / f"openmb4-{version}.tar.gz", archive
+            sums.append(hashlib.sha256(archive.read_bytes()).hexdigest())
+            assert (out / (archive.name + ".sha256")).read_text().split() == [sums[-1], archive.name]
+        assert sums[0] == sums[1], "two archives of one commit differ"
+        tracked = set(git("ls-files", cwd=clone).splitlines())
+        with tarfile.open(archive) as tar:
+            packed = {member.name for member in tar.getmembers() if not member.isdir()}
+        assert packed == {f"openmb4-{version}/{name}" for name in tracked}, "other files"
+        (clone / "README.md").write_text("changed")
+        done = subprocess.run([script, Path(folder) / "c"], capture_output=True, text=True,
+                              timeout=100, check=False)
+        assert done.returncode == 1 and "not committed" in done.stderr, done
+    print(f"{len(tracked)} files")
+
+
+main()

@@ -1,0 +1,68 @@
+# SPDX-FileCopyrightText: 2026 The openmb4 authors
+# SPDX-License-Identifier: Apache-2.0
+#
+# `cmake --install`: command, shared library with its C interface, header-only driver, RTL, manual
+# page, shell completions, pkg-config files, CMake package openmb4 (targets mb4::mb4sim, mb4::driver,
+# mb4::regs). Only for openmb4 as the top project. Everything is found relative to where it lies, so
+# that the tree can be moved.
+
+include(GNUInstallDirs)
+include(CMakePackageConfigHelpers)
+
+set(headers ${CMAKE_INSTALL_INCLUDEDIR}/openmb4)
+set(data ${CMAKE_INSTALL_DATADIR}/openmb4)
+set(package ${CMAKE_INSTALL_LIBDIR}/cmake/openmb4)
+
+target_include_directories(mb4_driver INTERFACE $<INSTALL_INTERFACE:${headers}>)
+target_include_directories(mb4_regs INTERFACE $<INSTALL_INTERFACE:${headers}>)
+set_target_properties(mb4_driver PROPERTIES EXPORT_NAME driver)
+set_target_properties(mb4_regs PROPERTIES EXPORT_NAME regs)
+set_target_properties(mb4sim_shared PROPERTIES EXPORT_NAME mb4sim)
+
+install(TARGETS mb4_driver mb4_regs mb4sim_shared EXPORT openmb4
+  INCLUDES DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
+install(TARGETS mb4sim)
+# Where `mb4sim spidev` looks for it.
+install(TARGETS mb4sim_spidev DESTINATION ${CMAKE_INSTALL_LIBDIR})
+install(FILES ${MB4_ROOT}/sim/include/mb4sim.h DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
+install(DIRECTORY ${MB4_ROOT}/drivers/include/ DESTINATION ${headers})
+install(FILES ${MB4_ROOT}/regmap/generated/mb4_regs.hpp ${MB4_ROOT}/regmap/generated/mb4_regs.h
+  DESTINATION ${headers})
+
+# The RTL in the folders of the repository, because mb4.f names its files relative to itself.
+install(DIRECTORY ${MB4_ROOT}/rtl DESTINATION ${data}
+  FILES_MATCHING PATTERN "*.sv" PATTERN "*.svh" PATTERN "*.f" PATTERN "*.vlt")
+install(FILES ${MB4_ROOT}/regmap/generated/mb4_regs_pkg.sv DESTINATION ${data}/regmap/generated)
+install(DIRECTORY ${MB4_ROOT}/examples DESTINATION ${data}
+  FILES_MATCHING PATTERN "*.toml" PATTERN "*.edges" PATTERN "*.c" PATTERN "firmware" EXCLUDE)
+install(FILES ${MB4_ROOT}/LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})
+
+# Manual page and completions are what the command prints.
+set(pages ${CMAKE_BINARY_DIR}/pages)
+add_custom_command(
+  OUTPUT ${pages}/mb4sim.1 ${pages}/mb4sim ${pages}/_mb4sim
+  COMMAND ${CMAKE_COMMAND} -E make_directory ${pages}
+  COMMAND mb4sim man > ${pages}/mb4sim.1
+  COMMAND mb4sim completion bash > ${pages}/mb4sim
+  COMMAND mb4sim completion zsh > ${pages}/_mb4sim
+  DEPENDS mb4sim VERBATIM)
+add_custom_target(mb4sim_pages ALL DEPENDS ${pages}/mb4sim.1)
+install(FILES ${pages}/mb4sim.1 DESTINATION ${CMAKE_INSTALL_MANDIR}/man1)
+install(FILES ${pages}/mb4sim DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions)
+install(FILES ${pages}/_mb4sim DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/site-functions)
+
+file(RELATIVE_PATH prefix_from_pkgconfig
+  ${CMAKE_INSTALL_FULL_LIBDIR}/pkgconfig ${CMAKE_INSTALL_PREFIX})
+foreach(name mb4sim mb4driver)
+  configure_file(${MB4_ROOT}/tools/cmake/${name}.pc.in ${CMAKE_BINARY_DIR}/package/${name}.pc @ONLY)
+  install(FILES ${CMAKE_BINARY_DIR}/package/${name}.pc
+    DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
+endforeach()
+
+configure_package_config_file(${MB4_ROOT}/tools/cmake/openmb4Config.cmake.in
+  ${CMAKE_BINARY_DIR}/package/openmb4Config.cmake INSTALL_DESTINATION ${package} PATH_VARS data)
+write_basic_package_version_file(${CMAKE_BINARY_DIR}/package/openmb4ConfigVersion.cmake
+  COMPATIBILITY SameMinorVersion)
+install(FILES ${CMAKE_BINARY_DIR}/package/openmb4Config.cmake
+              ${CMAKE_BINARY_DIR}/package/openmb4ConfigVersion.cmake DESTINATION ${package})
+install(EXPORT openmb4 NAMESPACE mb4:: DESTINATION ${package} FILE openmb4Targets.cmake)

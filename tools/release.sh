@@ -1,0 +1,26 @@
+#!/usr/bin/env bash
+# SPDX-FileCopyrightText: 2026 The openmb4 authors
+# SPDX-License-Identifier: Apache-2.0
+#
+# Packs the committed tree as openmb4-VERSION.tar.gz with its checksum beside it; the same commit
+# gives the same bytes. Usage: tools/release.sh [FOLDER]   (default build/)
+set -euo pipefail
+cd "$(dirname "$0")/.."
+
+if [ $# -gt 1 ]; then
+  echo "usage: tools/release.sh [FOLDER]" >&2
+  exit 2
+fi
+folder=${1:-build}
+version=$(sed -n 's/^project(openmb4 VERSION \([0-9.]*\).*/\1/p' CMakeLists.txt)
+if [ -n "$(git status --porcelain --untracked-files=no)" ]; then
+  echo "release: there are changes that are not committed" >&2
+  exit 1
+fi
+mkdir -p "$folder"
+name=openmb4-$version
+archive=$folder/$name.tar.gz
+git archive --format=tar --prefix="$name/" HEAD | gzip -9n >"$archive.partial"
+mv "$archive.partial" "$archive"
+(cd "$folder" && sha256sum "$name.tar.gz" >"$name.tar.gz.sha256")
+echo "$archive"
