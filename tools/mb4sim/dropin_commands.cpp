@@ -114,8 +114,8 @@ void add_plot(CLI::App& app, Action& action) {
       ->transform(whole_number(0, std::numeric_limits<std::uint64_t>::max()));
   plot.footer(
       "Exit status 1 if the frame is bad.\n"
-      "Examples: mb4sim plot examples/resolute-26.toml --svg frame.svg\n"
-      "          mb4sim plot examples/control-bus.toml --read 0x44:2 --id 2 --svg read.svg");
+      "Example: mb4sim plot examples/resolute-26.toml --svg frame.svg\n"
+      "Example: mb4sim plot examples/control-bus.toml --read 0x44:2 --id 2 --svg read.svg");
 }
 
 }  // namespace

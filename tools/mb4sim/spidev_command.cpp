@@ -6,6 +6,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <array>
 #include <cerrno>
 #include <csignal>
 #include <cstdlib>
@@ -133,24 +134,45 @@ void pass_on(int signal) {
 // this process goes on to it. Either way this process lives as long as the program.
 class ProgramSignals {
  public:
-  ProgramSignals()
-      : before_{std::signal(SIGINT, SIG_IGN), std::signal(SIGQUIT, SIG_IGN),
-                std::signal(SIGTERM, &pass_on), std::signal(SIGHUP, &pass_on)} {}
+  // Signals wait until the program is known.
+  ProgramSignals() {
+    sigset_t passed;
+    ::sigemptyset(&passed);
+    ::sigaddset(&passed, SIGTERM);
+    ::sigaddset(&passed, SIGHUP);
+    ::sigprocmask(SIG_BLOCK, &passed, &mask_);
+    for (std::size_t i = 0; i < kCount; ++i) {
+      before_[i] = std::signal(kSignals[i].number, kSignals[i].handler);
+    }
+  }
   ProgramSignals(const ProgramSignals&) = delete;
   ProgramSignals& operator=(const ProgramSignals&) = delete;
   ~ProgramSignals() {
     restore();
     g_program = 0;
   }
+
+  void pass_to(pid_t program) const {
+    g_program = program;
+    ::sigprocmask(SIG_SETMASK, &mask_, nullptr);
+  }
+  // As they were before.
   void restore() const {
-    std::signal(SIGINT, before_[0]);
-    std::signal(SIGQUIT, before_[1]);
-    std::signal(SIGTERM, before_[2]);
-    std::signal(SIGHUP, before_[3]);
+    for (std::size_t i = 0; i < kCount; ++i) std::signal(kSignals[i].number, before_[i]);
+    ::sigprocmask(SIG_SETMASK, &mask_, nullptr);
   }
 
  private:
-  void (*before_[4])(int);
+  struct Handled {
+    int number;
+    void (*handler)(int);
+  };
+  static constexpr std::size_t kCount = 4;
+  static inline const std::array<Handled, kCount> kSignals{
+      {{SIGINT, SIG_IGN}, {SIGQUIT, SIG_IGN}, {SIGTERM, &pass_on}, {SIGHUP, &pass_on}}};
+
+  sigset_t mask_{};
+  std::array<void (*)(int), kCount> before_{};
 };
 
 void report(const sim::HostCheck& check, const Folder& folder) {
@@ -195,7 +217,7 @@ int spidev_command(const SpidevOptions& options) {
       signals.restore();
       become(options, folder, library);
     }
-    g_program = program;
+    signals.pass_to(program);
     const FileDescriptor ended(static_cast<int>(::syscall(SYS_pidfd_open, program, 0U)));
     if (!ended) throw UseError(fmt::format("pidfd_open: {}", std::strerror(errno)));
     server.serve(ended.get(), false);
