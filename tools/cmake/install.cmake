@@ -35,6 +35,7 @@ install(DIRECTORY ${MB4_ROOT}/rtl DESTINATION ${data}
 install(FILES ${MB4_ROOT}/regmap/generated/mb4_regs_pkg.sv DESTINATION ${data}/regmap/generated)
 install(DIRECTORY ${MB4_ROOT}/examples DESTINATION ${data}
   FILES_MATCHING PATTERN "*.toml" PATTERN "*.edges" PATTERN "*.c" PATTERN "firmware" EXCLUDE)
+install(DIRECTORY ${MB4_ROOT}/tools/sigrok DESTINATION ${data} PATTERN __pycache__ EXCLUDE)
 install(FILES ${MB4_ROOT}/LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})
 
 # Manual page and completions are what the command prints.
