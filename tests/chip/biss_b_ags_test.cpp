@@ -91,6 +91,8 @@ TEST(ChipBissBAgs, AccessWithAnError_FramesGoOnBehindTheRegisterTimeout) {
       ASSERT_TRUE(chip.simulator.run_while_waiting([&] { return (chip.status() & 0x04U) != 0; },
                                                    chip.simulator.now() + 200 * sim::kPsPerUs));
       EXPECT_EQ(chip.status() & 0x0CU, 0x04U) << value << write;
+      // The rest of the byte has not gone out: the slave does not take it.
+      EXPECT_EQ(slave(chip).reg_read(0x20), value) << write;
       chip.advance_us(10);
       const auto frames = slave(chip).frames();
       chip.advance_us(60);
@@ -98,6 +100,38 @@ TEST(ChipBissBAgs, AccessWithAnError_FramesGoOnBehindTheRegisterTimeout) {
       EXPECT_EQ(slave(chip).access().counters().protocol_errors, 0U) << value << write;
       EXPECT_EQ(chip.status() & 0x50U, 0x50U) << value << write;
     }
+  }
+}
+
+// What SL shows during the address part says nothing: a slave may send it back.
+TEST(ChipBissBAgs, SlInTheAddressPart_IsNotLookedAt) {
+  for (const bool write : {true, false}) {
+    ProtocolChip chip(bus("", "timeout = 2\nregisters = { 0x10 = 0x5A }\n"),
+                      {.freqs = 0, .freqr = 3, .biss_c_registers = false});
+    chip.write_rdata({0xC3});
+    chip.set_access(0, 0x10, 1, write);
+    chip.instruct(kRegister);
+    unsigned rising = 0;
+    bool ma = true;
+    ASSERT_TRUE(chip.simulator.run_while_waiting(
+        [&] {
+          const bool level = chip.simulator.pin(sim::Pin::kMa1);
+          if (level && !ma) ++rising;
+          ma = level;
+          return rising == 2;
+        },
+        chip.simulator.now() + 100 * sim::kPsPerUs));
+    chip.simulator.line(1)->faults().stick(true);
+    chip.simulator.refresh_lines();
+    // 17 cells; up to an eighth behind the first edge of the byte.
+    chip.simulator.advance(16 * chip.t_mar + chip.t_mar / 8);
+    chip.simulator.line(1)->faults().stick(std::nullopt);
+    chip.simulator.refresh_lines();
+    ASSERT_TRUE(chip.simulator.run_while_waiting([&] { return (chip.status() & 0x04U) != 0; },
+                                                 chip.simulator.now() + 200 * sim::kPsPerUs));
+    EXPECT_EQ(chip.status(), 0xFF) << write;
+    EXPECT_EQ(chip.read(0x80), write ? 0xC3 : 0x5A);
+    EXPECT_EQ(slave(chip).reg_read(0x10), write ? 0xC3 : 0x5A);
   }
 }
 

@@ -110,6 +110,9 @@ TEST_P(BissBClocks, EveryFreqr_WritesAndReadsWithExactCells) {
       EXPECT_EQ(chip.read(0xF3) & 0x3FU, 0U) << what;  // REGBYTES: after an error only
       EXPECT_EQ(biss_b(chip).access().counters().protocol_errors, 0U) << what;
       EXPECT_EQ(chip.simulator.slave(1)->reg_read(static_cast<std::uint8_t>(address)), value);
+      if (by_mo) {
+        EXPECT_EQ(chip.ma[0][1].time - chip.ma[0][0].time, chip.t_mar / 2) << what;
+      }
       // I401 to I404, from the first rising edge on.
       bool exact = false;
       std::string header(1, '1');

@@ -276,6 +276,19 @@ TEST_F(Spi2, NotEnabledOrNotSelected_MisoIsHighImpedance) {
   EXPECT_EQ(read2(0x21, 2), values(0x21, 2));
 }
 
+// Page 22: SCDATA reads 0 from the end of a reset on, although its memory is cleared byte by byte.
+TEST_F(Spi2, RightAfterAReset_ReadsZero) {
+  auto& simulator = chip.simulator;
+  simulator.spi2().set_timing(sim::SpiTiming::for_frequency(50'000'000));
+  EXPECT_EQ(read2(0x20, 32), values(0x20, 32));
+  simulator.set_pin(Pin::kNres, false);
+  simulator.advance(250 * sim::kPsPerNs);
+  simulator.set_pin(Pin::kNres, true);
+  simulator.advance(20'000);
+  EXPECT_EQ(read2(0x20, 32), Bytes(32, 0));
+  EXPECT_EQ(read2(0x20, 32), Bytes(32, 0));
+}
+
 // At the same time as SPI, at unrelated frequencies and phases, both at full speed.
 TEST_F(Spi2, BesideSpi_NeitherDisturbsTheOther) {
   auto& simulator = chip.simulator;

@@ -179,22 +179,30 @@ TEST(ChipMo, BothChannelsWithDifferentLengths_AndBothCdm) {
   }
 }
 
-// Page 25: what the host writes goes out in the frame after the next switch of the banks.
+// Page 25: what the host writes goes out in the frame after the next switch of the banks, for the
+// actuators of both halves of the memory and of both lines.
 TEST(ChipMo, HostWritesItsBank_TheNextSwitchHandsItOver) {
-  ProtocolChip chip(channel(1) + actuator(16), {.freqs = 3, .en_mo = true});
-  const auto* received = chip.simulator.slave(1)->actuator();
-  chip.write_scdata(1, 0x1111);
-  ASSERT_TRUE(chip.frame());
-  EXPECT_EQ(received->word(), 0U);
-  chip.write_scdata(1, 0x2222);
-  ASSERT_TRUE(chip.frame());
-  EXPECT_EQ(received->word(), 0x1111U);
-  ASSERT_TRUE(chip.frame());
-  EXPECT_EQ(received->word(), 0x2222U);
-  chip.write(0xE7, {0x01});  // SINGLEBANK
-  chip.write_scdata(1, 0x3333);
-  ASSERT_TRUE(chip.frame());
-  EXPECT_EQ(received->word(), 0x3333U);
+  for (const unsigned x : {1U, 4U, 5U, 8U, 15U}) {  // 15: slave 5 on line 2
+    std::string text = channel(1);
+    for (unsigned i = 1; i < (x == 15 ? 4 : x); ++i) text += sensor(2, 1);
+    if (x < 9) text += actuator(16);
+    if (x == 15) text += channel(2) + actuator(16);
+    ProtocolChip chip(text, {.freqs = 3, .en_mo = true});
+    const unsigned channel_number = x == 15 ? 5 : x;
+    const auto* received = chip.simulator.slave(channel_number)->actuator();
+    chip.write_scdata(channel_number, 0x1111);
+    ASSERT_TRUE(chip.frame());
+    EXPECT_EQ(received->word(), 0U) << x;
+    chip.write_scdata(channel_number, 0x2222);
+    ASSERT_TRUE(chip.frame());
+    EXPECT_EQ(received->word(), 0x1111U) << x;
+    ASSERT_TRUE(chip.frame());
+    EXPECT_EQ(received->word(), 0x2222U) << x;
+    chip.write(0xE7, {0x01});  // SINGLEBANK
+    chip.write_scdata(channel_number, 0x3333);
+    ASSERT_TRUE(chip.frame());
+    EXPECT_EQ(received->word(), 0x3333U) << x;
+  }
 }
 
 // A cable longer than the frame: MA has to stop with the last bit of MO all the same.
