@@ -99,12 +99,18 @@ class Decoder {
     const unsigned flag_bits = slave.flag_bits();
     const std::uint64_t raw = peek(data_bits);
     frame_.words.push_back(raw);
-    const char* const what = biss_c != nullptr && biss_c->actuator ? "data"
-                             : ssi != nullptr && ssi->gray         ? "Gray code"
-                                                                   : "position";
+    const char* const what = biss_c != nullptr && biss_c->actuator ? "data" : "position";
     const std::string value = fmt::format("0x{:0{}X}", flag_bits < 64 ? raw >> flag_bits : 0,
                                           (data_bits - flag_bits + 3) / 4);
-    if (data_bits > flag_bits) {
+    if (ssi != nullptr && ssi->gray) {
+      // Binary: each bit is the parity of the Gray bits from the MSB to it.
+      std::uint64_t binary = flag_bits < 64 ? raw >> flag_bits : 0;
+      for (unsigned shift = 1; shift < 64; shift *= 2) binary ^= binary >> shift;
+      field(data_bits - flag_bits, FieldKind::kData,
+            {fmt::format("Gray code {} = 0x{:0{}X} ({} bits)", value, binary,
+                         (data_bits - flag_bits + 3) / 4, data_bits - flag_bits),
+             fmt::format("Gray code {}", value), value});
+    } else if (data_bits > flag_bits) {
       field(data_bits - flag_bits, FieldKind::kData,
             {fmt::format("{}{} {} ({} bits)", who, what, value, data_bits - flag_bits),
              fmt::format("{}{} {}", who, what, value), who + value, value});
@@ -129,8 +135,10 @@ class Decoder {
   void add_rest(bool ssi) {
     const sim::Time from = std::max(frame_.sl.empty() ? frame_.trace.clock_end : bit_at(next_),
                                     frame_.trace.clock_end);
-    // Both began half the delay earlier, at the slave.
-    const sim::Time begun = frame_.trace.clock_end + frame_.delay;
+    // It begins at the last edge, the monoflop at the last falling one, as the slave sees it; its
+    // end is seen half a delay late.
+    const sim::Time edge = ssi ? frame_.trace.last_falling : frame_.trace.clock_end;
+    const sim::Time begun = edge + frame_.delay;
     const std::string us =
         fmt::format("{:.3g} us", sim::to_us(frame_.trace.end - std::min(frame_.trace.end, begun)));
     if (frame_.trace.end > from) {

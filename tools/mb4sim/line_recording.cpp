@@ -66,7 +66,11 @@ std::vector<FrameTrace> LineRecording::frames(sim::Time now) const {
     FrameTrace& frame = frames.back();
     frame.clock_end = edge.time;
     frame.rest = edge.level;
-    if (edge.level) frame.rising.push_back(edge.time);
+    if (edge.level) {
+      frame.rising.push_back(edge.time);
+    } else {
+      frame.last_falling = edge.time;
+    }
   }
   for (std::size_t i = 0; i < frames.size(); ++i) {
     FrameTrace& frame = frames[i];

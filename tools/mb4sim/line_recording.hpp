@@ -32,6 +32,7 @@ struct Wave {
 struct FrameTrace {
   sim::Time begin = 0;            // first falling edge of MA
   sim::Time clock_end = 0;        // last edge of MA
+  sim::Time last_falling = 0;     // last falling edge of MA
   sim::Time end = 0;              // SL is 1 again behind it, or the next frame begins
   std::vector<sim::Time> rising;  // edges of MA
   bool rest = true;               // level of MA behind the last edge
