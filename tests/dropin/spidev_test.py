@@ -112,6 +112,15 @@ class Spidev(unittest.TestCase):
         result = spidev("sh", "-c", "echo $LD_PRELOAD", environment={"LD_PRELOAD": "libm.so.6"})
         self.assertTrue(result.stdout.endswith(b"libmb4sim_spidev.so:libm.so.6\n"), result.stdout)
 
+    def test_a_library_in_a_folder_with_blanks(self):
+        listed = spidev("sh", "-c", "echo $LD_PRELOAD").stdout.decode().strip()
+        with tempfile.TemporaryDirectory() as folder:
+            path = Path(folder, "with blanks: and colons")
+            path.mkdir()
+            library = shutil.copy(listed, path)
+            result = spidev("test", "-c", "/dev/spidev0.0", options=["--library", library])
+        self.assert_good(result)
+
     def test_the_node_looks_like_one(self):
         self.assert_good(spidev("test", "-c", "/dev/spidev0.0"))
         self.assert_good(spidev("sh", "-c", "test -r /dev/spidev0.0 -a -w /dev/spidev0.0"))

@@ -92,6 +92,16 @@ std::string library_path(const std::string& option) {
   throw UseError(fmt::format("{}: the preload library is not there", places.front().string()));
 }
 
+// The loader splits the list of libraries at blanks and colons: such a path goes by a link.
+std::string loadable(const std::string& library, const Folder& folder) {
+  if (library.find_first_of(" :") == std::string::npos) return library;
+  const fs::path link = fs::path(folder.path()) / fs::path("libmb4sim_spidev.so");
+  std::error_code error;
+  fs::create_symlink(library, link, error);
+  if (error) throw UseError(fmt::format("{}: cannot create: {}", link.string(), error.message()));
+  return link.string();
+}
+
 void set_environment(const SpidevOptions& options, const Folder& folder,
                      const std::string& library) {
   const char* const before = std::getenv("LD_PRELOAD");
@@ -199,12 +209,13 @@ int spidev_command(const SpidevOptions& options) {
     throw sim::ScenarioError(scenario.name, scenario.host.source.of("interface"), "interface",
                              "spidev needs a host on SPI");
   }
-  const std::string library = library_path(options.library);
   const TraceFile trace(options.trace, options.scenario, scenario);
   sim::SimulatorOptions sim_options;
   sim_options.seed = options.seed;
   sim_options.trace_path = trace.path();
+  const std::string found = library_path(options.library);
   const Folder folder;
+  const std::string library = loadable(found, folder);
   int status = kGood;
   {
     sim::Simulator simulator(scenario, sim_options);
