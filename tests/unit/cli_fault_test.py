@@ -150,6 +150,15 @@ class Faults(CliTest):
         self.assertAlmostEqual((injected - 1) / (time_us * 0.002), 1, delta=0.5)
         self.assertRegex(result.stdout, r"(?m)^  bit-flip +injected \d+, detected \d+")
 
+    def test_other_commands_log_on_standard_error(self):
+        scenario = self.path("x.toml", slave("preset = \"lika-sma1\"") +
+                             "[[fault]]\nkind = \"wrong-id\"\nslave = 1\nat_us = 5\n")
+        line = "  fault 1 at 5.000 us: slave 1 answers to a wrong ID\n"
+        result = run("spi", scenario, text="03 EB 00\n+9000\n")
+        self.assertEqual((result.stdout, result.stderr), ("00 00 84\n", line))
+        for command in ("regs", "scan"):
+            self.assertEqual(run(command, scenario).stderr, line)
+
     def test_same_seed_same_faults(self):
         fault = "kind = \"bit-flip\"\nper_s = 3000"
         first, _ = self.report(fault, 100)

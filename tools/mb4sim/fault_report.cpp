@@ -44,6 +44,15 @@ std::uint64_t of(const KindCount& kind, Fate fate) {
 
 }  // namespace
 
+std::string fault_lines(const std::vector<sim::FaultRecord>& records, std::size_t from) {
+  std::string out;
+  for (std::size_t i = from; i < records.size(); ++i) {
+    out += fmt::format("  fault {} at {:.3f} us: {}\n", i + 1, sim::to_us(records[i].begin),
+                       records[i].what);
+  }
+  return out;
+}
+
 FaultReport::FaultReport(const sim::Scenario& scenario,
                          const std::vector<sim::FaultRecord>& records)
     : scenario_(scenario), records_(records) {}
@@ -117,11 +126,8 @@ void FaultReport::finish() {
 }
 
 std::string FaultReport::new_lines() {
-  std::string out;
-  for (; printed_ < records_.size(); ++printed_) {
-    out += fmt::format("  fault {} at {:.3f} us: {}\n", printed_ + 1,
-                       sim::to_us(records_[printed_].begin), records_[printed_].what);
-  }
+  std::string out = fault_lines(records_, printed_);
+  printed_ = records_.size();
   return out;
 }
 

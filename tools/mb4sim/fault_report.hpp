@@ -24,6 +24,10 @@ struct SlaveOutcome {
   std::string state;  // "CRC error", ...
 };
 
+// One line for each record from number `from` (0 = first) on: "  fault 3 at 250.000 us: glitch
+// ...".
+std::string fault_lines(const std::vector<sim::FaultRecord>& records, std::size_t from);
+
 // A fault counts as detected by the first bad result of its channel (host and clock: any) in a
 // frame that ends behind its beginning, up to the first frame that begins behind its end. If all
 // these frames are good and right, it had no effect. If one delivered a wrong word as good, it was
@@ -53,7 +57,7 @@ class FaultReport {
   // The end of the run: what is open had no effect.
   void finish();
 
-  // One line for each fault since the last call: "fault 3 at 250.000 us: glitch ...".
+  // One line for each fault since the last call.
   std::string new_lines();
   // Counts and, for each kind, by what they were detected. Empty without faults in the scenario.
   std::string summary() const;

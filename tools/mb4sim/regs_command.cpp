@@ -10,6 +10,7 @@
 #include "chip_setup.hpp"
 #include "commands.hpp"
 #include "exit_status.hpp"
+#include "fault_report.hpp"
 #include "mb4/device.hpp"
 #include "mb4_regs_table.hpp"
 #include "mb4sim/scenario.hpp"
@@ -119,6 +120,7 @@ int regs_command(const RegsOptions& options) {
     }
   }
   const Dump dump = read_all(simulator);
+  fmt::print(stderr, "{}", fault_lines(simulator.faults(), 0));
   if (options.json) {
     print_json(dump);
   } else {

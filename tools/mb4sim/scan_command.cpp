@@ -11,6 +11,7 @@
 #include "chip_setup.hpp"
 #include "commands.hpp"
 #include "exit_status.hpp"
+#include "fault_report.hpp"
 #include "frame_report.hpp"
 #include "mb4/device.hpp"
 #include "mb4/scan.hpp"
@@ -89,6 +90,7 @@ Result<std::vector<Found>> scan(const sim::Scenario& scenario, unsigned channel,
   std::array<SlaveIdentity, kSlaveIds> identities{};
   const Result<std::uint8_t> count =
       scan_bus(device, static_cast<std::uint8_t>(channel), identities);
+  fmt::print(stderr, "{}", fault_lines(simulator.faults(), 0));
   if (!count) return count.info();
   std::vector<Found> list;
   for (unsigned id = 0; id < *count; ++id) {

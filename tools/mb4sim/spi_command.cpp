@@ -11,6 +11,7 @@
 
 #include "commands.hpp"
 #include "exit_status.hpp"
+#include "fault_report.hpp"
 #include "mb4sim/scenario.hpp"
 #include "mb4sim/simulator.hpp"
 #include "sim_bus.hpp"
@@ -85,6 +86,7 @@ int spi_command(const SpiOptions& options) {
   sim::Simulator simulator(scenario);
   SimBus bus(simulator);
   std::string line;
+  std::size_t faults = 0;  // that have been logged
   for (unsigned number = 1; std::getline(std::cin, line); ++number) {
     const auto words = words_of(line);
     if (words.empty()) continue;
@@ -93,6 +95,8 @@ int spi_command(const SpiOptions& options) {
     } catch (const UseError& error) {
       throw UseError(fmt::format("standard input:{}: {}", number, error.what()));
     }
+    fmt::print(stderr, "{}", fault_lines(simulator.faults(), faults));
+    faults = simulator.faults().size();
     if (std::fflush(stdout) != 0) throw UseError("cannot write to standard output");
   }
   if (const auto& check = simulator.host_check(); check.count() != 0) {
