@@ -80,6 +80,10 @@ mb4::Config from_c(const mb4_config& config) {
   out.spi_check = static_cast<mb4::SpiCheck>(config.spi_check);
   out.single_bank = config.single_bank;
   out.hold_cdm = config.hold_cdm;
+  out.mo = config.mo;
+  out.mo_busy = config.mo_busy;
+  out.register_divider = config.register_divider;
+  out.register_timeout_us = config.register_timeout_us;
   for (std::size_t i = 0; i < mb4::kChannels; ++i) {
     out.channels[i].protocol = static_cast<mb4::Protocol>(config.protocol[i]);
   }
@@ -89,6 +93,9 @@ mb4::Config from_c(const mb4_config& config) {
     out.slaves[i].flags = static_cast<mb4::Flags>(config.slaves[i].flags);
     out.slaves[i].crc_start = config.slaves[i].crc_start;
     out.slaves[i].crc_polynomial = config.slaves[i].crc_polynomial;
+    out.slaves[i].gray = config.slaves[i].gray;
+    out.slaves[i].actuator = config.slaves[i].actuator;
+    out.slaves[i].stop_bit = config.slaves[i].stop_bit;
   }
   return out;
 }
@@ -132,12 +139,15 @@ mb4_config mb4_config_default(void) {
   config.f_clk_hz = from.f_clk_hz;
   config.frame_start = static_cast<std::uint8_t>(from.frame_start);
   config.spi_check = static_cast<std::uint8_t>(from.spi_check);
+  config.register_divider = from.register_divider;
+  config.register_timeout_us = from.register_timeout_us;
   for (std::size_t i = 0; i < mb4::kChannels; ++i) {
     config.protocol[i] = static_cast<std::uint8_t>(from.channels[i].protocol);
   }
   for (std::size_t i = 0; i < mb4::kSlaves; ++i) {
     config.slaves[i].flags = static_cast<std::uint8_t>(from.slaves[i].flags);
     config.slaves[i].crc_polynomial = from.slaves[i].crc_polynomial;
+    config.slaves[i].stop_bit = from.slaves[i].stop_bit;
   }
   return config;
 }
@@ -178,6 +188,9 @@ mb4_result mb4_read_all(mb4_device* device, mb4_frame* frame) {
   const mb4::Result<void> done = of(device).read_all(read);
   return store(done, read, frame);
 }
+mb4_result mb4_write_actuator(mb4_device* device, uint8_t slave, uint64_t word) {
+  return to_c(of(device).write_actuator(slave, word));
+}
 mb4_result mb4_break_transmission(mb4_device* device) {
   return to_c(of(device).break_transmission());
 }
@@ -204,6 +217,9 @@ mb4_result mb4_automatic_poll(mb4_device* device, mb4_frame* frame) {
 }
 mb4_result mb4_automatic_poll_slave(mb4_device* device, uint8_t slave, mb4_reading* reading) {
   return store(of(device).automatic().poll_slave(slave), reading);
+}
+mb4_result mb4_automatic_write_actuator(mb4_device* device, uint8_t slave, uint64_t word) {
+  return to_c(of(device).automatic().write_actuator(slave, word));
 }
 mb4_result mb4_automatic_next(mb4_device* device, mb4_frame* frame) {
   mb4::Frame read;

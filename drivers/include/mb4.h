@@ -70,6 +70,9 @@ typedef struct {
   uint8_t flags;     /* MB4_FLAGS_... */
   uint16_t crc_start;
   uint32_t crc_polynomial; /* in full: 0x43; 0 = none */
+  bool gray;               /* SSI: the encoder sends Gray code */
+  bool actuator;           /* takes a word: mb4_write_actuator() */
+  bool stop_bit;           /* before an actuator's word */
 } mb4_slave_config;
 
 /* mb4::Config; begin with mb4_config_default(). */
@@ -85,6 +88,10 @@ typedef struct {
   uint8_t spi_check;      /* MB4_SPI_CHECK_... */
   bool single_bank;
   bool hold_cdm;
+  bool mo;                      /* MO is wired */
+  uint8_t mo_busy;              /* periods of MA */
+  uint16_t register_divider;    /* f_MA / register clock of BiSS B: 2..256 */
+  uint32_t register_timeout_us; /* of BiSS B slaves */
   uint8_t protocol[MB4_CHANNELS];      /* MB4_PROTOCOL_...; [0] is channel 1 */
   mb4_slave_config slaves[MB4_SLAVES]; /* [0] is slave 1 */
 } mb4_config;
@@ -154,6 +161,8 @@ mb4_result mb4_reset(mb4_device *device);
 mb4_result mb4_initialize(mb4_device *device, uint8_t quarters[MB4_CHANNELS]);
 mb4_result mb4_read_frame(mb4_device *device, uint8_t slave, mb4_reading *reading);
 mb4_result mb4_read_all(mb4_device *device, mb4_frame *frame);
+/* The low data_bits of `word` for the actuator `slave`. */
+mb4_result mb4_write_actuator(mb4_device *device, uint8_t slave, uint64_t word);
 mb4_result mb4_break_transmission(mb4_device *device);
 mb4_result mb4_read_status(mb4_device *device, uint8_t status[MB4_STATUS_BYTES]);
 mb4_result mb4_clear_valid(mb4_device *device, uint8_t slave);
@@ -163,6 +172,7 @@ mb4_result mb4_automatic_stop(mb4_device *device);
 mb4_result mb4_automatic_restart(mb4_device *device);
 mb4_result mb4_automatic_poll(mb4_device *device, mb4_frame *frame);
 mb4_result mb4_automatic_poll_slave(mb4_device *device, uint8_t slave, mb4_reading *reading);
+mb4_result mb4_automatic_write_actuator(mb4_device *device, uint8_t slave, uint64_t word);
 mb4_result mb4_automatic_next(mb4_device *device, mb4_frame *frame);
 
 mb4_result mb4_slave_read(mb4_device *device, uint8_t channel, uint8_t id, uint8_t address,

@@ -101,7 +101,7 @@ def self_test():
 def main():
     if sys.argv[1] == "self-test":
         return self_test()
-    errors = error_names((HEADERS / "result.hpp").read_text())
+    errors = error_names((HEADERS / "error.hpp").read_text())
     calls = {}
     for name, header in CLASSES.items():
         calls.update(public_calls(name, (HEADERS / header).read_text(), errors))

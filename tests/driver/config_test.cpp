@@ -63,6 +63,13 @@ Config periodic(std::uint32_t period_clk) {
   });
 }
 
+Config biss_b(std::uint16_t register_divider) {
+  return changed([=](Config& c) {
+    c.channels[0].protocol = mb4::Protocol::kBissB;
+    c.register_divider = register_divider;
+  });
+}
+
 const BadConfig kBadConfigs[] = {
     {"DefaultConfig", [] { return Config(); }, Error::kInvalidConfig, ConfigField::kMaHz, 0},
     {"NoSystemClock", [] { return changed([](Config& c) { c.f_clk_hz = 0; }); },
@@ -104,12 +111,6 @@ const BadConfig kBadConfigs[] = {
     {"Channel1Unused",
      [] { return changed([](Config& c) { c.channels[0].protocol = mb4::Protocol::kUnused; }); },
      Error::kInvalidConfig, ConfigField::kChannelProtocol, 1},
-    {"Channel1BissB",
-     [] { return changed([](Config& c) { c.channels[0].protocol = mb4::Protocol::kBissB; }); },
-     Error::kUnsupported, ConfigField::kChannelProtocol, 1},
-    {"Channel1Ssi",
-     [] { return changed([](Config& c) { c.channels[0].protocol = mb4::Protocol::kSsi; }); },
-     Error::kUnsupported, ConfigField::kChannelProtocol, 1},
     {"Channel1UnknownProtocol",
      [] {
        return changed([](Config& c) { c.channels[0].protocol = static_cast<mb4::Protocol>(4); });
@@ -118,9 +119,9 @@ const BadConfig kBadConfigs[] = {
     {"Channel2BissCWithoutSlave",
      [] { return changed([](Config& c) { c.channels[1].protocol = mb4::Protocol::kBissC; }); },
      Error::kInvalidConfig, ConfigField::kSlaveEnabled, 5},
-    {"Channel2Ssi",
+    {"Channel2SsiWithoutSlave",
      [] { return changed([](Config& c) { c.channels[1].protocol = mb4::Protocol::kSsi; }); },
-     Error::kUnsupported, ConfigField::kChannelProtocol, 2},
+     Error::kInvalidConfig, ConfigField::kSlaveEnabled, 5},
     {"SlaveOnUnusedChannel1",
      [] {
        return changed([](Config& c) {
@@ -181,6 +182,38 @@ const BadConfig kBadConfigs[] = {
     {"CrcPolynomialOfDegree16",
      [] { return changed([](Config& c) { c.slaves[0].crc_polynomial = 0x18005; }); },
      Error::kInvalidConfig, ConfigField::kCrcPolynomial, 1},
+    {"UnknownSpiCheck",
+     [] { return changed([](Config& c) { c.spi_check = static_cast<mb4::SpiCheck>(3); }); },
+     Error::kInvalidConfig, ConfigField::kSpiCheck, 0},
+    // Table 19: an SSI encoder's.
+    {"GrayWithBissC", [] { return changed([](Config& c) { c.slaves[0].gray = true; }); },
+     Error::kInvalidConfig, ConfigField::kGray, 1},
+    {"ActuatorWithoutMo", [] { return changed([](Config& c) { c.slaves[0].actuator = true; }); },
+     Error::kInvalidConfig, ConfigField::kActuator, 1},
+    {"ActuatorOnSsi",
+     [] {
+       return changed([](Config& c) {
+         c.mo = true;
+         c.channels[0].protocol = mb4::Protocol::kSsi;
+         c.slaves[0].actuator = true;
+       });
+     },
+     Error::kInvalidConfig, ConfigField::kActuator, 1},
+    {"MoBusyWithoutMo", [] { return changed([](Config& c) { c.mo_busy = 1; }); },
+     Error::kInvalidConfig, ConfigField::kMoBusy, 0},
+    {"RegisterTimeoutTooLong",
+     [] { return changed([](Config& c) { c.register_timeout_us = 1'000'001; }); },
+     Error::kInvalidConfig, ConfigField::kRegisterTimeoutUs, 0},
+    // Table 36: 2 to 256 in powers of two, FREQR = 5 with BiSS C.
+    {"RegisterDividerOne", [] { return biss_b(1); }, Error::kInvalidConfig,
+     ConfigField::kRegisterDivider, 0},
+    {"RegisterDivider48", [] { return biss_b(48); }, Error::kInvalidConfig,
+     ConfigField::kRegisterDivider, 0},
+    {"RegisterDivider512", [] { return biss_b(512); }, Error::kInvalidConfig,
+     ConfigField::kRegisterDivider, 0},
+    {"RegisterDivider32WithBissC",
+     [] { return changed([](Config& c) { c.register_divider = 32; }); }, Error::kInvalidConfig,
+     ConfigField::kRegisterDivider, 0},
     {"CrcStartWithoutCrc",
      [] {
        return changed([](Config& c) {
@@ -355,6 +388,62 @@ TEST(RegisterImage, StoreCrc_ClearsNocrc) {
   EXPECT_EQ(image_byte(config, 0xE7), 0x00);
 }
 
+// Table 8: CFGCH1 in bits 1:0, CFGCH2 in 3:2 of 0xED; table 26: REGVERS, bit 6 of 0xE5, is 0 for
+// BiSS B registers; table 36: FREQR in bits 7:5 of 0xE6.
+TEST(RegisterImage, Protocols_AreCfgchRegversFreqr) {
+  const struct {
+    mb4::Protocol first, second;
+    unsigned cfgch, ctrl;
+  } cases[] = {{mb4::Protocol::kBissB, mb4::Protocol::kUnused, 0x0C, 0x00},
+               {mb4::Protocol::kSsi, mb4::Protocol::kUnused, 0x0E, 0x40},
+               {mb4::Protocol::kSsi, mb4::Protocol::kBissB, 0x02, 0x00},
+               {mb4::Protocol::kBissB, mb4::Protocol::kBissC, 0x04, 0x40}};
+  for (const auto& one : cases) {
+    Config config = encoder26();
+    config.channels[0].protocol = one.first;
+    config.channels[1].protocol = one.second;
+    config.slaves[4] = config.slaves[0];
+    config.slaves[4].enabled = one.second != mb4::Protocol::kUnused;
+    ASSERT_TRUE(mb4::validate(config).ok());
+    EXPECT_EQ(image_byte(config, 0xED), one.cfgch);
+    EXPECT_EQ(image_byte(config, 0xE5), one.ctrl);
+  }
+  for (unsigned freqr = 0; freqr < 8; ++freqr) {
+    const Config config = biss_b(static_cast<std::uint16_t>(2U << freqr));
+    ASSERT_TRUE(mb4::validate(config).ok());
+    EXPECT_EQ(image_byte(config, 0xE6), freqr << 5 | 4);
+  }
+}
+
+// Table 19: GRAYS1 is bit 7 of 0xC0.
+TEST(RegisterImage, Gray_IsBit7) {
+  Config config = encoder26();
+  config.channels[0].protocol = mb4::Protocol::kSsi;
+  EXPECT_EQ(image_byte(config, 0xC0), 0x5B);
+  config.slaves[0].gray = true;
+  ASSERT_TRUE(mb4::validate(config).ok());
+  EXPECT_EQ(image_byte(config, 0xC0), 0xDB);
+}
+
+// Tables 17, 18, 39, 40: ACTnSENS in 0xEF, LSTOPx bit 7 of 0xC0 + 4 (x - 1), EN_MO bit 1 of 0xE5,
+// MO_BUSY in 0xE9.
+TEST(RegisterImage, Actuators_AreActnsensLstopEnmoMobusy) {
+  Config config = encoder26();
+  config.mo = true;
+  config.mo_busy = 0xA5;
+  config.slaves[3] = config.slaves[2] = config.slaves[0];
+  config.slaves[2].actuator = config.slaves[3].actuator = true;
+  config.slaves[3].stop_bit = false;
+  ASSERT_TRUE(mb4::validate(config).ok());
+  EXPECT_EQ(image_byte(config, 0xEF), 0x0C);
+  EXPECT_EQ(image_byte(config, 0xC0), 0x5B);
+  EXPECT_EQ(image_byte(config, 0xC8), 0xDB);
+  EXPECT_EQ(image_byte(config, 0xCC), 0x5B);
+  EXPECT_EQ(image_byte(config, 0xE5), 0x42);
+  EXPECT_EQ(image_byte(config, 0xE9), 0xA5);
+  EXPECT_EQ(mb4::sensors(config), 0x01);
+}
+
 // Page 32: AGSMIN (0x7C) waits for SL; any other FREQAGS makes SL = 0 an error.
 TEST(RegisterImage, RequireIdleLine_IsNotAgsMin) {
   Config config = encoder26();
@@ -397,6 +486,20 @@ TEST(FrameTimeout, LongestSlowestFrame_IsCovered) {
   EXPECT_EQ(mb4::frame_timeout_us(config), 1361U + mb4::kFrameMarginUs);
 }
 
+// BiSS B has no CDS, SSI L + 1 edges; an actuator's stop bit and MO_BUSY count.
+TEST(FrameTimeout, EveryProtocol_HasItsPeriods) {
+  Config config = encoder26();
+  EXPECT_EQ(mb4::frame_periods(config), 39U);
+  config.channels[0].protocol = mb4::Protocol::kBissB;
+  EXPECT_EQ(mb4::frame_periods(config), 38U);
+  config.channels[0].protocol = mb4::Protocol::kSsi;
+  EXPECT_EQ(mb4::frame_periods(config), 35U);
+  config.channels[0].protocol = mb4::Protocol::kBissC;
+  config.mo = config.slaves[0].actuator = true;
+  config.mo_busy = 20;
+  EXPECT_EQ(mb4::frame_periods(config), 60U);
+}
+
 // D05: the oscillator may be 2.5 times slower than stated.
 TEST(FrameTimeout, InternalClock_AllowsForItsSpread) {
   Config config = encoder26();
@@ -421,7 +524,7 @@ TEST(Names, EveryErrorAndField_HasOne) {
   for (std::uint8_t i = 0; i <= static_cast<std::uint8_t>(Error::kJump); ++i) {
     EXPECT_STRNE(mb4::to_string(static_cast<Error>(i)), "unknown");
   }
-  for (std::uint8_t i = 0; i <= static_cast<std::uint8_t>(ConfigField::kSpiCheck); ++i) {
+  for (std::uint8_t i = 0; i <= static_cast<std::uint8_t>(ConfigField::kRegisterTimeoutUs); ++i) {
     EXPECT_STRNE(mb4::to_string(static_cast<ConfigField>(i)), "unknown");
   }
   EXPECT_STREQ(mb4::to_string(static_cast<Error>(250)), "unknown");

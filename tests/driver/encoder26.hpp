@@ -85,7 +85,7 @@ inline const Bytes kRunning = status(0xFA, 0x00, 0x04);  // EOT = 0, INSTR = 010
 inline const Bytes kGoodFrame = status(0xFB, 0x02);      // EOT = 1, SVALID1 = 1 (bit 1 of 0xF1)
 inline const Bytes kStartFrame{0x07, 0x04};              // INSTR = 010: bits 3:1 of 0xF4 (table 45)
 inline const Bytes kBreak{0x07, 0x80};                   // BREAK: bit 7 of 0xF4 (table 47)
-inline const Bytes kClearValid1{0x02, 0xF1, 0xFD};       // only SVALID1, bit 1, is written 0
+inline const Bytes kClearValid1{0x02, 0xF1, 0xFD, 0xFF};  // only SVALID1, bit 1, is written 0
 inline const Bytes kReadData4{0x09, 0x00, 0x00, 0x00, 0x00};
 inline const Bytes kData4{0x00, 0xBF, 0x37, 0xAF, 0x0A};  // 0x0AAF37BF, low byte first (table 20)
 

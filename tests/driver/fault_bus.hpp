@@ -16,6 +16,7 @@
 #include "mb4sim/scenario.hpp"
 #include "mb4sim/simulator.hpp"
 #include "sim_bus.hpp"
+#include "test_host.hpp"
 
 namespace mb4_test {
 
@@ -97,10 +98,10 @@ class FaultBus {
 
 inline constexpr std::size_t kForEver = std::numeric_limits<std::size_t>::max();
 
-// A chip whose bus can fail.
+// A chip whose bus can fail, behind the host that MB4_HOST names.
 struct FaultyChip {
   explicit FaultyChip(const std::string& scenario)
-      : simulator(mb4::sim::parse_scenario(scenario, "test.toml")),
+      : simulator(mb4test::with_test_host(mb4::sim::parse_scenario(scenario, "test.toml"))),
         bus(simulator),
         clock(simulator),
         device(bus, clock) {}

@@ -18,14 +18,9 @@ namespace {
 
 using namespace mb4_test;  // NOLINT: the states and names of rtl_calls.hpp
 
-TEST(DriverCallErrors, NotBuiltYet_IsUnsupported) {
+TEST(DriverCallErrors, AutomaticFramesOnOneBank_AreUnsupported) {
   FaultyChip chip(kEncoder);
-  chip.bus.plan({});
   Config config = encoder(false);
-  config.channels[1].protocol = mb4::Protocol::kBissB;
-  EXPECT_EQ(chip.device.configure(config).error(), Error::kUnsupported);
-  EXPECT_EQ(chip.bus.count(), 0U);
-  config = encoder(false);
   config.single_bank = true;
   ASSERT_TRUE(chip.device.configure(config).ok());
   EXPECT_EQ(chip.device.automatic().start().error(), Error::kUnsupported);

@@ -6,6 +6,7 @@ Usage: cli_test.py MB4SIM EXAMPLES
 """
 import contextlib
 import csv
+import itertools
 import json
 import os
 import re
@@ -67,14 +68,55 @@ class Cli(CliTest):
                                  r"/no/such\.toml: cannot read: No such file")
         self.assert_one_line(run("run", self.folder.name), 2, "is a directory")
 
-    def test_unsupported_parts_are_named(self):
-        channel = "[[channel]]\nnumber = 1\n[[channel.slave]]\n"
-        # The chip can be driven by hand, but not by the driver yet.
-        for protocol in ("ssi", "biss-b"):
-            text = channel + f"protocol = \"{protocol}\"\ndata_bits = 13\n"
-            result = run("run", self.path("x.toml", text))
-            self.assert_one_line(result, 2, r":4:\d+: key 'protocol': the driver does not support")
-            self.assertEqual(run("spi", self.path("x.toml", text), text="09 00\n").returncode, 0)
+    def test_run_shows_positions_of_every_protocol(self):
+        keys = {"ssi": "gray = true\n", "biss-b": "crc = 0x25\n", "biss-c": "crc = 0x43\n"}
+        for first, second in itertools.product(keys, keys):
+            text = "".join(f"[[channel]]\nnumber = {number}\n[[channel.slave]]\nprotocol = "
+                           f"\"{protocol}\"\ndata_bits = 20\nflag_bits = 0\nsource = \"ramp\"\n"
+                           f"start = {1000 * number}\nstep = {number}\n{keys[protocol]}"
+                           for number, protocol in ((1, first), (2, second)))
+            with self.subTest(text):
+                result = run("run", self.path("x.toml", text), "--frames", "4", "--json")
+                self.assertEqual((result.returncode, result.stderr), (0, ""))
+                rows = [(row["slave"], row["position"]) for row in json.loads(result.stdout)["frames"]]
+                self.assertEqual(rows, [(slave, number * 1000 + number * frame)
+                                        for frame in range(4) for slave, number in ((1, 1), (5, 2))])
+
+    def test_run_shows_flags_behind_gray_code(self):
+        for flags in range(4):
+            text = ("[[channel]]\nnumber = 1\n[[channel.slave]]\nprotocol = \"ssi\"\ndata_bits = 27\n"
+                    f"flag_bits = 2\nflags = {flags}\ngray = true\nsource = \"ramp\"\nstart = 99\n")
+            result = run("run", self.path("x.toml", text), "--frames", "1", "--json")
+            self.assertEqual(result.returncode, 0)
+            row = json.loads(result.stdout)["frames"][0]
+            self.assertEqual((row["position"], row["nE"], row["nW"]), (99, flags >> 1, flags & 1))
+        # One flag is the chip's to convert; the position is right all the same.
+        text = text.replace("flag_bits = 2\nflags = 3", "flag_bits = 1\nflags = 1")
+        result = run("run", self.path("x.toml", text), "--frames", "1", "--json")
+        self.assertEqual(result.returncode, 0)
+        self.assertEqual(json.loads(result.stdout)["frames"][0]["position"], 99)
+
+    def test_run_writes_actuators_and_shows_what_they_have_taken(self):
+        slave = "[[channel.slave]]\nprotocol = \"biss-c\"\n"
+        text = ("[[channel]]\nnumber = 1\nmo = true\n" +
+                slave + "data_bits = 8\nactuator = true\ndata = 254\n" +
+                slave + "data_bits = 12\nflag_bits = 0\ndata = 0xABC\nbusy_periods = 7\n" +
+                slave + "data_bits = 64\nactuator = true\ndata = 5\n")
+        result = run("run", self.path("x.toml", text), "--frames", "3", "--json")
+        self.assertEqual((result.returncode, result.stderr), (0, ""))
+        words = [row["position"] for row in json.loads(result.stdout)["frames"]]
+        self.assertEqual(words, [255, 0xABC, 6, 0, 0xABC, 7, 1, 0xABC, 8])
+        # MO is shorted: no word arrives, and that is no good frame.
+        broken = text.replace("mo = true\n", "mo = true\ndelay_ns = 40_000\nmo_delay_ns = 900_000\n")
+        self.assertEqual(run("run", self.path("x.toml", broken), "--frames", "3").returncode, 1)
+
+    def test_regs_shows_each_protocol(self):
+        for protocol, code in (("biss-b", "0xC"), ("ssi", "0xE")):
+            text = ("[[channel]]\nnumber = 1\n[[channel.slave]]\n"
+                    f"protocol = \"{protocol}\"\ndata_bits = 13\n")
+            result = run("regs", self.path("x.toml", text))
+            self.assertEqual((result.returncode, result.stderr), (0, ""))
+            self.assertIn(code[2], result.stdout)
 
     def test_nothing_is_written_before_everything_is_valid(self):
         bad = self.path("bad.toml", "x = 1\n")

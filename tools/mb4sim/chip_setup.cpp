@@ -59,6 +59,24 @@ Protocol protocol_of(sim::LineProtocol protocol) {
   throw sim::ScenarioError(scenario.name, source.of(key), key, message);
 }
 
+// What is special about the slave's protocol.
+void add_protocol(const sim::SlaveConfig& slave, SlaveConfig& target, Config& config) {
+  constexpr unsigned kMostBusy = 255;
+  unsigned busy = 0;
+  if (const auto* biss_c = std::get_if<sim::BissCSlaveConfig>(&slave.device)) {
+    target.actuator = biss_c->actuator;
+    target.stop_bit = biss_c->stop_bit;
+    busy = static_cast<unsigned>(std::min<std::uint64_t>(biss_c->busy_periods, kMostBusy));
+  } else if (const auto* biss_b = std::get_if<sim::BissBSlaveConfig>(&slave.device)) {
+    busy = static_cast<unsigned>(std::min<std::uint64_t>(biss_b->busy_periods, kMostBusy));
+  } else if (const auto* ssi = std::get_if<sim::SsiSlaveConfig>(&slave.device)) {
+    target.gray = ssi->gray;
+  }
+  // With MO in use the start bit comes from the chip.
+  if (config.mo)
+    config.mo_busy = static_cast<std::uint8_t>(std::max<unsigned>(config.mo_busy, busy));
+}
+
 // What the driver refuses, with the key of the scenario that causes it.
 [[noreturn]] void refuse(const sim::Scenario& scenario, const ErrorInfo& error) {
   const std::vector<ConnectedSlave> slaves = connected_slaves(scenario);
@@ -67,12 +85,6 @@ Protocol protocol_of(sim::LineProtocol protocol) {
   });
   const sim::SlaveConfig& slave = *(of_slave != slaves.end() ? *of_slave : slaves.front()).config;
   switch (error.field) {
-    case ConfigField::kChannelProtocol:
-      if (const sim::ChannelConfig* channel = scenario.channel(error.number)) {
-        fail(scenario, channel->slaves.front().source, "protocol",
-             "the driver does not support it in this version");
-      }
-      break;
     case ConfigField::kClkHz:
       fail(scenario, scenario.chip.source, scenario.chip.f_clk_hz != 0 ? "f_clk_hz" : "f_osc_hz",
            fmt::format("{} is outside what the driver takes, 1 to 25 MHz (internal: 10 to 25 MHz)",
@@ -130,6 +142,7 @@ Config make_config(const sim::Scenario& scenario) {
   config.frame_timeout_us = frame_timeout(scenario);
   for (const sim::ChannelConfig& channel : scenario.channels) {
     config.channels[channel.number - 1].protocol = protocol_of(channel.protocol());
+    config.mo = config.mo || channel.cable.mo;
   }
   for (const ConnectedSlave& connected : connected_slaves(scenario)) {
     const sim::SlaveConfig& slave = *connected.config;
@@ -140,6 +153,7 @@ Config make_config(const sim::Scenario& scenario) {
         slave.flag_bits() == 2 && slave.data_bits() > 2 ? Flags::kErrorWarning : Flags::kNone;
     target.crc_polynomial = slave.crc().polynomial;
     target.crc_start = static_cast<std::uint16_t>(slave.crc().start);
+    add_protocol(slave, target, config);
   }
   if (const Result<void> valid = validate(config); !valid) refuse(scenario, valid.info());
   return config;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "mb4/position.hpp"
 #include "mb4/scan.hpp"
 
 namespace mb4::tool {
@@ -17,6 +18,16 @@ Config session_config(const sim::Scenario& scenario) {
                   [](const sim::FaultConfig& f) { return f.kind == sim::FaultKind::kAbort; });
   if (host_faults) config.spi_check = SpiCheck::kFull;
   return config;
+}
+
+// What the chip makes of an SSI encoder's word: it takes flags for a part of the Gray code. The
+// driver mends two of them, nE and nW.
+std::uint64_t as_stored(const sim::SlaveConfig& slave, std::uint64_t word) {
+  const auto* ssi = std::get_if<sim::SsiSlaveConfig>(&slave.device);
+  const unsigned flags = slave.flag_bits();
+  if (ssi == nullptr || !ssi->gray || flags == 0 || flags == 2 || flags >= 64) return word;
+  const std::uint64_t position = binary_to_gray(word >> flags) << flags;
+  return gray_to_binary(position | (word & ((std::uint64_t{1} << flags) - 1)));
 }
 
 }  // namespace
@@ -62,15 +73,52 @@ SessionFrame Session::read(std::uint64_t number) {
   out.number = number;
   out.begin = simulator_.now();
   Frame frame;
-  const Result<void> read = device_.read_all(frame);
+  Result<void> read = write_actuators();
+  if (read) read = device_.read_all(frame);
   out.end = simulator_.now();
+  if (read) wait_for_actuators();
   for (const ConnectedSlave& slave : slaves_) {
     // What is wrong with the whole frame is wrong with each slave.
     out.results.push_back(read ? frame[slave.number] : Result<Reading>(read.info()));
     const sim::Slave* device = simulator_.slave(slave.number);
     out.sent.push_back(device != nullptr ? device->sent_word() : std::nullopt);
+    if (out.sent.back()) out.sent.back() = as_stored(*slave.config, *out.sent.back());
+    if (device == nullptr || device->actuator() == nullptr) continue;
+    // What it has got against what the host has written.
+    out.sent.back() = set_points_[slave.number];
+    if (!read) continue;
+    Reading taken;
+    taken.slave = static_cast<std::uint8_t>(slave.number);
+    taken.raw = taken.position = device->actuator()->word();
+    out.results.back() = taken;
   }
   return out;
+}
+
+// Each actuator counts up from its first word.
+Result<void> Session::write_actuators() {
+  for (const ConnectedSlave& slave : slaves_) {
+    const sim::Slave* device = simulator_.slave(slave.number);
+    if (device == nullptr || device->actuator() == nullptr) continue;
+    const unsigned bits = slave.config->data_bits();
+    const std::uint64_t mask = bits < 64 ? (std::uint64_t{1} << bits) - 1 : ~std::uint64_t{0};
+    std::uint64_t& word = set_points_[slave.number];
+    word = (device->actuator()->word() + 1) & mask;
+    const Result<void> written =
+        device_.write_actuator(static_cast<std::uint8_t>(slave.number), word);
+    if (!written) return written;
+  }
+  return {};
+}
+
+// They take their words when MA has rested for their timeout.
+void Session::wait_for_actuators() {
+  for (const ConnectedSlave& slave : slaves_) {
+    const sim::Slave* device = simulator_.slave(slave.number);
+    if (device == nullptr || device->actuator() == nullptr) continue;
+    simulator_.run_while_waiting([&] { return simulator_.line(slave.channel)->chain().idle(); },
+                                 simulator_.now() + sim::kPsPerSecond);
+  }
 }
 
 std::string Session::check_id(unsigned slave) {

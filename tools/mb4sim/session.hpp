@@ -6,6 +6,7 @@
 #ifndef MB4SIM_TOOL_SESSION_HPP_
 #define MB4SIM_TOOL_SESSION_HPP_
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -54,9 +55,13 @@ class Session {
   std::string take_bus_log() { return std::exchange(bus_log_, {}); }
 
  private:
+  Result<void> write_actuators();
+  void wait_for_actuators();
+
   Config config_;
   sim::Simulator simulator_;
   std::vector<ConnectedSlave> slaves_;
+  std::array<std::uint64_t, kSlaves + 1> set_points_{};  // of actuators, by slave
   std::string bus_log_;
   SimBus bus_;
   SimClock clock_;

@@ -60,7 +60,10 @@ SweepPoint measure(const sim::Scenario& scenario, const Config& config, std::uin
   SimBus bus(simulator);
   SimClock clock(simulator);
   Device device(bus, clock);
-  const std::vector<ConnectedSlave> slaves = connected_slaves(scenario);
+  std::vector<ConnectedSlave> slaves = connected_slaves(scenario);
+  std::erase_if(slaves, [&](const ConnectedSlave& slave) {
+    return !is_in(sensors(config), static_cast<std::uint8_t>(slave.number));
+  });
   SweepPoint point;
   point.words = frames * slaves.size();
   if (const Result<void> configured = device.configure(config); !configured) {

@@ -41,21 +41,19 @@ class SingleShot {
  public:
   explicit constexpr SingleShot(detail::Chip<Bus, Clock>& chip) : chip_(chip) {}
 
-  // The chip is configured and `slave` 1..8 is enabled.
+  // The chip is configured and `slave` 1..8 delivers data.
   Result<Reading> read(std::uint8_t slave) {
-    const Result<Status> status = run_frame();
-    if (!status) {
-      return status.info();
-    }
-    if (const Error bad = detail::judge(chip_.config, slave, *status); bad != Error::kNone) {
-      return bad == Error::kLineError ? chip_.stop_frame(bad) : ErrorInfo(bad);
-    }
+    detail::Outcome outcome;
     detail::FetchedData data;
-    if (const Result<void> fetched = fetch(static_cast<std::uint8_t>(1U << (slave - 1U)), data);
-        !fetched) {
-      return fetched.info();
+    if (const Result<void> done = run(static_cast<std::uint8_t>(1U << (slave - 1U)), outcome, data);
+        !done) {
+      return done.failure();
     }
-    const Result<Reading> reading = detail::decode(chip_.config, slave, data);
+    if (outcome.good == 0) {
+      return missing(outcome);
+    }
+    const Result<Reading> reading = detail::decode(
+        chip_.config, slave, &data.image[regs::scdata_address(slave)], is_in(data.stable, slave));
     // kCorrupted casts doubt on the status that came over the same SPI.
     chip_.recover_first = !reading;
     return reading;
@@ -63,94 +61,85 @@ class SingleShot {
 
   // The chip is configured.
   Result<void> read_all(Frame& frame) {
-    frame = Frame();
-    const Result<Status> status = run_frame();
-    if (!status) {
-      return status.info();
-    }
-    frame.status = *status;
-    const std::uint8_t enabled = enabled_slaves(chip_.config);
-    unsigned good = 0;
-    for (std::uint8_t slave = 1; slave <= kSlaves; ++slave) {
-      if ((enabled >> (slave - 1U) & 1U) != 0) {
-        const Error bad = detail::judge(chip_.config, slave, *status);
-        if (bad == Error::kNone) {
-          good |= 1U << (slave - 1U);
-        } else {
-          // kLineError is about the whole frame; it cannot be if another slave's data is new.
-          frame.set(slave, bad == Error::kLineError ? Error::kNoData : bad);
-        }
-      }
-    }
-    if (enabled != 0 && good == 0 && status->start_error() && !status->scd_error()) {
-      return chip_.stop_frame(Error::kLineError);
-    }
+    frame.clear();
+    detail::Outcome outcome;
     detail::FetchedData data;
-    if (const Result<void> fetched = fetch(static_cast<std::uint8_t>(good), data); !fetched) {
-      return fetched;
+    const Result<void> done = run(chip_.sensors, outcome, data);
+    if (done) {
+      detail::decode_all(chip_.config, chip_.sensors, outcome, data, missing(outcome), frame);
+      chip_.recover_first = !frame.good(chip_.sensors);
     }
-    for (std::uint8_t slave = 1; slave <= kSlaves; ++slave) {
-      if ((good >> (slave - 1U) & 1U) != 0) {
-        frame.set(slave, detail::decode(chip_.config, slave, data));
-      }
-    }
-    chip_.recover_first = !frame.good(enabled);
-    return {};
+    return done;
   }
 
  private:
-  // From the request to the status after the end.
-  Result<Status> run_frame() {
+  static Error missing(const detail::Outcome& outcome) {
+    return outcome.status.scd_error() ? Error::kCrc : Error::kNoData;
+  }
+
+  // One frame, and the data of those slaves of `mask` that are good.
+  //
+  // SVALIDx was cleared before the request, so 1 proves that the requested frame ran, whatever
+  // nAGSERR says. A chip may set nAGSERR = 0 at each write of 0xF4 (page 34 can be read so;
+  // AGSERR_ON_INSTR_WRITE = 1). nAGSERR only tells why there is no data, and only after nSCDERR,
+  // which is 0 when a frame ran. On a chip as above kNoData shows as kLineError.
+  Result<void> run(std::uint8_t mask, detail::Outcome& out, detail::FetchedData& data) {
+    Status& status = out.status;
+    if (const Result<void> ended = run_frame(status); !ended) {
+      return ended;
+    }
+    const unsigned valid = status.valid_mask() & unsigned{chip_.sensors};
+    // With nSCDERR = 0 some slave's CRC was wrong; SVALIDx identifies it (page 34). If all are 1
+    // the chip contradicts itself and nothing of it is believed.
+    if (!status.scd_error() || valid != chip_.sensors) {
+      out.good = static_cast<std::uint8_t>(valid & mask);
+    }
+    if (out.good == 0) {
+      // Without a sensor nAGSERR is all there is; such a frame is not refused if it may wait.
+      const bool refusable = mask != 0 || chip_.config.frame_start != FrameStart::kWaitForLine;
+      return refusable && status.start_error() && !status.scd_error()
+                 ? chip_.stop_frame(Error::kLineError)
+                 : Result<void>();
+    }
+    Result<void> done = detail::fetch_data(chip_.opcodes, chip_.config, out.good, data);
+    if (done && chip_.checks_all()) {
+      Status after;
+      done = chip_.look(after);
+      if (done && (!after.idle() || (out.good & ~unsigned{after.valid_mask()}) != 0)) {
+        return Error::kCorrupted;
+      }
+    }
+    return done ? chip_.clear_valid_checked(chip_.sensors) : done;
+  }
+
+  // From the request to the status after the end: until the frame has ended or was refused; stops
+  // it when it does not end.
+  Result<void> run_frame(Status& status) {
     if (chip_.recover_first) {
       if (const Result<void> recovered = chip_.recover(); !recovered) {
-        return recovered.info();
+        return recovered;
       }
     }
     chip_.recover_first = true;
     constexpr std::uint8_t kOneFrame =
         regs::INSTR::encode<static_cast<std::uint8_t>(regs::Instr::kCdm0)>();
     if (const Result<void> start = chip_.write_instruction(kOneFrame); !start) {
-      return start.info();
+      return start;
     }
-    return wait_for_end(frame_timeout_us(chip_.config));
-  }
-
-  // Polls until the frame has ended or was refused; stops it when it does not end.
-  Result<Status> wait_for_end(std::uint32_t timeout_us) {
-    detail::Deadline<Clock> deadline(*chip_.clock, timeout_us);
+    detail::Deadline<Clock> deadline(*chip_.clock, frame_timeout_us(chip_.config));
     for (bool last = false; !last;) {
       last = deadline.last_poll();
-      const Result<Status> status = chip_.read_status();
-      if (!status) {
-        return status;
+      if (const Result<void> look = chip_.look(status); !look) {
+        return look;
       }
       // EOT alone is also 1 before the chip has taken the instruction. A refused frame resets
-      // INSTR, too; nAGSERR proves nothing yet, see judge().
-      if (status->idle() && status->instruction_done()) {
+      // INSTR, too; nAGSERR proves nothing yet, see run().
+      if (status.idle() && status.instruction_done()) {
         // Another instruction than the one that was sent may do something else meanwhile.
-        return chip_.checks_all() && status->instruction() != 0 ? Error::kCorrupted : status;
+        return chip_.checks_all() && status.instruction() != 0 ? Error::kCorrupted : Error::kNone;
       }
     }
-    const ErrorInfo stopped = chip_.stop_frame(Error::kTimeout);
-    return stopped.code == Error::kTimeout ? chip_.diagnose_line() : stopped;
-  }
-
-  // The data of the slaves in `mask`; then SVALID of all is cleared.
-  Result<void> fetch(std::uint8_t mask, detail::FetchedData& data) {
-    if (const Result<void> read = detail::fetch_data(chip_.opcodes, chip_.config, mask, data);
-        !read) {
-      return read;
-    }
-    if (chip_.checks_all()) {
-      const Result<Status> after = chip_.read_status();
-      if (!after) {
-        return after.info();
-      }
-      if (!after->idle() || (detail::valid_slaves(chip_.config, *after) & mask) != mask) {
-        return Error::kCorrupted;
-      }
-    }
-    return chip_.clear_valid_checked(enabled_slaves(chip_.config));
+    return chip_.stop_and_diagnose();
   }
 
   detail::Chip<Bus, Clock>& chip_;

@@ -9,12 +9,12 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "mb4/actuator.hpp"
 #include "mb4/chip.hpp"
 #include "mb4/config.hpp"
 #include "mb4/control_data.hpp"
 #include "mb4/frame.hpp"
 #include "mb4/frame_poll.hpp"
-#include "mb4/position_poll.hpp"
 #include "mb4/result.hpp"
 #include "mb4/status.hpp"
 #include "mb4_regs.hpp"
@@ -121,23 +121,20 @@ class Automatic {
   // kWrongMode (not running: not touched); kTransport, kNotDetected, kBankSwitched; kCorrupted with
   // SpiCheck::kFull. On error `frame` holds no Reading.
   Result<void> poll(Frame& frame) {
-    frame = Frame();
+    frame.clear();
     if (!chip_.automatic) {
       return Error::kWrongMode;
     }
-    if (control_runs()) {
-      return FramePoll<Bus, Clock>(chip_).read_beside_control(frame);
-    }
-    Result<void> read = chip_.write_instruction(detail::kHoldAndAgs);
+    detail::Outcome outcome;
+    detail::FetchedData data;
+    const Result<void> read =
+        FramePoll<Bus, Clock>(chip_).read(chip_.sensors, control_runs(), outcome, fetch_all, &data);
     if (read) {
-      read = FramePoll<Bus, Clock>(chip_).read_held(frame);
-    }
-    const Result<void> released = chip_.write_instruction(kAgs);
-    if (read && !released) {
-      read = released;
-    }
-    if (!read) {
-      frame = Frame();
+      // nSCDERR is about the last frame on the line, which may be later than the bank that was
+      // read. A slave without SVALID beside one with it was bad in any case.
+      detail::decode_all(
+          chip_.config, chip_.sensors, outcome, data,
+          outcome.good != 0 || outcome.status.scd_error() ? Error::kCrc : Error::kNoData, frame);
     }
     return read;
   }
@@ -150,13 +147,42 @@ class Automatic {
   // ended since the last call; kCrc: and the last one was bad. kCorrupted, kTransport,
   // kNotDetected, kBankSwitched as for poll().
   Result<Reading> poll_slave(std::uint8_t slave) {
-    if (slave < 1 || slave > kSlaves || !chip_.config.slaves[slave - 1U].enabled) {
+    if (!is_in(chip_.sensors, slave)) {
       return Error::kInvalidArgument;
     }
     if (!chip_.automatic) {
       return Error::kWrongMode;
     }
-    return PositionPoll<Bus, Clock>(chip_, slave).read(control_runs());
+    detail::Outcome outcome;
+    detail::FetchedSlave data;
+    data.slave = slave;
+    if (const Result<void> read =
+            FramePoll<Bus, Clock>(chip_).read(static_cast<std::uint8_t>(1U << (slave - 1U)),
+                                              control_runs(), outcome, fetch_one, &data);
+        !read) {
+      return read.failure();
+    }
+    if (outcome.good == 0) {
+      return outcome.status.scd_error() ? Error::kCrc : Error::kNoData;
+    }
+    return detail::decode(chip_.config, slave, data.bytes.data(), data.stable);
+  }
+
+  // Device::write_actuator() for a control loop that writes a word each frame: never waits, three
+  // transfers (five with SpiCheck::kFull). The word goes out with the frame after the one that
+  // runs. Only one of the two banks gets it, so without another call before the frame after that
+  // the previous word follows it.
+  //
+  // kWrongMode (not running), kBusy, kInvalidArgument (not touched); kTransport, kNotDetected,
+  // kCorrupted as for Device::write_actuator().
+  Result<void> write_actuator(std::uint8_t slave, std::uint64_t word) {
+    if (!chip_.automatic) {
+      return Error::kWrongMode;
+    }
+    if (control_runs()) {
+      return Error::kBusy;
+    }
+    return ActuatorWrite<Bus, Clock>(chip_).write(slave, word, false);
   }
 
   // Waits for the next new frame, at most frame_timeout_us() and one frame period, and fetches it
@@ -167,7 +193,7 @@ class Automatic {
   // ended in time, BREAK was sent, a control communication with it. kNoData: no pulse at pin
   // GETSENS in that time (FrameStart::kOnPin); nothing is changed.
   Result<void> next(Frame& frame) {
-    frame = Frame();
+    frame.clear();
     if (!chip_.automatic && !chip_.restart) {
       return Error::kWrongMode;
     }
@@ -183,13 +209,21 @@ class Automatic {
     }
     const Result<void> read = poll(frame);
     // kBankSwitched is harmless.
-    chip_.restart =
-        read ? !frame.good(enabled_slaves(chip_.config)) : read.error() != Error::kBankSwitched;
+    chip_.restart = read ? !frame.good(chip_.sensors) : read.error() != Error::kBankSwitched;
     return read;
   }
 
  private:
   static constexpr std::uint8_t kAgs = regs::AGS::encode<1>();
+
+  static Result<void> fetch_all(detail::Chip<Bus, Clock>& chip, void* data) {
+    return detail::fetch_data(chip.opcodes, chip.config, chip.sensors,
+                              *static_cast<detail::FetchedData*>(data));
+  }
+  static Result<void> fetch_one(detail::Chip<Bus, Clock>& chip, void* data) {
+    return detail::fetch_slave(chip.opcodes, chip.config,
+                               *static_cast<detail::FetchedSlave*>(data));
+  }
 
   [[nodiscard]] bool control_runs() const {
     return chip_.control.kind != detail::ControlState::Kind::kNone;
@@ -202,23 +236,23 @@ class Automatic {
     bool idle = false;
     for (bool last = false; !last;) {
       last = deadline.last_poll();
-      const Result<Status> status = chip_.read_status();
-      if (!status) {
+      Status status;
+      if (const Result<void> look = chip_.look(status); !look) {
         chip_.restart = true;
-        return status.info();
+        return look;
       }
-      idle = status->idle();
+      idle = status.idle();
       // A frame that was bad throughout shows in nSCDERR alone; BREAK of the restart sets it to 1.
-      if (detail::valid_slaves(chip_.config, *status) != 0 || status->scd_error()) {
+      if ((status.valid_mask() & chip_.sensors) != 0 || status.scd_error()) {
         return {};
       }
     }
     if (idle && chip_.config.frame_start == FrameStart::kOnPin) {
       return Error::kNoData;
     }
-    const ErrorInfo stopped = chip_.stop_frame(Error::kTimeout);
+    const Result<void> stopped = chip_.stop_and_diagnose();
     chip_.restart = true;
-    return stopped.code == Error::kTimeout ? chip_.diagnose_line() : stopped;
+    return stopped;
   }
 
   detail::Chip<Bus, Clock>& chip_;

@@ -26,7 +26,7 @@ namespace mb4::detail {
 template <typename Clock>
 class Deadline {
  public:
-  constexpr Deadline(Clock& clock, std::uint32_t timeout_us)
+  [[gnu::noinline]] constexpr Deadline(Clock& clock, std::uint32_t timeout_us)
       : clock_(clock),
         start_us_(clock.now_us()),
         timeout_us_(timeout_us),
@@ -69,7 +69,8 @@ struct ControlState {
   Kind kind = Kind::kNone;
   std::uint8_t readable = 0;    // registers that a finished read has left in RDATA
   std::uint8_t count = 0;       // registers of this access, 1..64
-  bool first_frame = false;     // REGEND may still be the one of the last access
+  bool biss_b = false;          // one instruction, and no frames, to the end
+  bool first_frame = false;     // REGEND may still be the one of the last access; BiSS B: not ended
   std::uint32_t start_us = 0;   // of this frame, or with automatic frames of the access
   std::uint32_t access_us = 0;  // start of the access
   std::uint32_t timeout_us = 0;
@@ -87,6 +88,8 @@ struct Chip {
   Opcodes<Bus> opcodes;
   Clock* clock;
   Config config{};
+  std::uint8_t sensors = 0;    // of `config`: slaves that deliver data, ...
+  std::uint8_t actuators = 0;  // ... and that take it; bit 0 is slave 1
   bool configured = false;
   // AGS = 1 was written, and nothing has stopped it.
   bool automatic = false;
@@ -98,16 +101,11 @@ struct Chip {
   ControlState control{};
 
   // One status snapshot. kTransport, kNotDetected.
-  Result<Status> read_status() {
+  Result<void> look(Status& status) {
     std::array<std::uint8_t, Status::kBytes> bytes{};
-    if (const Result<void> read = opcodes.read_status(bytes); !read) {
-      return read.info();
-    }
-    const Status status(bytes);
-    if (!status.plausible()) {
-      return Error::kNotDetected;
-    }
-    return status;
+    const Result<void> read = opcodes.read_status(bytes);
+    status = Status(bytes);
+    return read && !status.plausible() ? Error::kNotDetected : read;
   }
 
   // Writes 0xF4 alone. All other bits of it become 0, SWBANK too, which this driver never sets.
@@ -126,21 +124,10 @@ struct Chip {
   // clears, 1 has no effect (page 35, "reset by writing to the SVALIDx register"), so no other
   // slave's flag is touched. One transfer, or none without a slave.
   Result<void> clear_valid(std::uint8_t mask) {
-    std::array<std::uint8_t, 2> keep{0xFF, 0xFF};
-    for (unsigned slave = 1; slave <= kSlaves; ++slave) {
-      if ((mask >> (slave - 1) & 1U) != 0) {
-        std::uint8_t& byte = keep[regs::kFamilySvalid.address(slave) - regs::kAddrSvalidLo];
-        byte = static_cast<std::uint8_t>(byte & ~unsigned{regs::kFamilySvalid.mask(slave)});
-      }
-    }
-    if (mask == 0) {
-      return {};
-    }
-    const Span<const std::uint8_t> both(keep);
-    if (keep[0] == 0xFF) {
-      return opcodes.write_registers(regs::kAddrSvalidHi, Span<const std::uint8_t>(&keep[1], 1));
-    }
-    return opcodes.write_registers(regs::kAddrSvalidLo, both.first(keep[1] == 0xFF ? 1 : 2));
+    const unsigned keep = ~unsigned{Status::valid_registers(mask)};
+    const std::array<std::uint8_t, 2> both{static_cast<std::uint8_t>(keep),
+                                           static_cast<std::uint8_t>(keep >> 8U)};
+    return mask == 0 ? Result<void>() : opcodes.write_registers(regs::kAddrSvalidLo, both);
   }
 
   [[nodiscard]] bool checks_all() const { return config.spi_check == SpiCheck::kFull; }
@@ -151,17 +138,11 @@ struct Chip {
     if (const Result<void> cleared = clear_valid(mask); !cleared || !checks_all()) {
       return cleared;
     }
-    for (unsigned look = 0; look < 2; ++look) {
-      const Result<Status> status = read_status();
-      if (!status) {
-        return status.info();
-      }
-      bool all_clear = true;
-      for (std::uint8_t slave = 1; slave <= kSlaves; ++slave) {
-        all_clear = all_clear && !((mask >> (slave - 1U) & 1U) != 0 && status->valid(slave));
-      }
-      if (all_clear) {
-        return {};
+    for (unsigned looks = 2; looks > 0; --looks) {
+      Status status;
+      const Result<void> read = look(status);
+      if (!read || (status.valid_mask() & mask) == 0) {
+        return read;
       }
     }
     return Error::kCorrupted;
@@ -179,33 +160,56 @@ struct Chip {
         !stopped) {
       return stopped;
     }
-    pause(*clock, kLineRecoveryUs);
-    return clear_valid(enabled_slaves(config));
+    pause(*clock, recovery_us());
+    return clear_valid(sensors);
   }
 
-  // Sends BREAK. Returns `cause`, or the failure of the transfer, which is then the more urgent
+  // SpiCheck::kFull: is `want` what 0xF4 holds? AGS, which an error may have ended, is not looked
+  // at. One transfer, or none. kCorrupted: it is not; kTransport, kNotDetected.
+  Result<void> confirm_instruction(std::uint8_t want) {
+    if (!checks_all()) {
+      return {};
+    }
+    Status status;
+    const Result<void> read = look(status);
+    constexpr std::uint8_t kAgs = regs::AGS::encode<1>();
+    return read && (status.instruction() | kAgs) != (want | kAgs) ? Error::kCorrupted : read;
+  }
+
+  // BREAK behind `cause`: returns it, or the failure of the transfer, which is then the more urgent
   // news.
-  ErrorInfo stop_frame(ErrorInfo cause) {
+  Result<void> stop_frame(Error cause) {
     const Result<void> stopped = write_break();
-    return stopped ? cause : stopped.info();
+    return stopped ? Result<void>(cause) : stopped;
+  }
+
+  // BREAK, and what has kept a frame from ending: kTimeout or kLineError.
+  Result<void> stop_and_diagnose() {
+    const Result<void> stopped = write_break();
+    const Result<void> line = stopped ? diagnose_line() : stopped;
+    return line ? Error::kTimeout : line;
   }
 
   // After BREAK has ended a frame that did not end by itself: does SL of all channels in use return
-  // to 1, as it does once the slaves' timeout is over? Then no slave has answered (kTimeout),
-  // otherwise a line is stuck low (kLineError).
-  ErrorInfo diagnose_line() {
+  // to 1, as it does once the slaves' timeout is over? Then no slave has answered, otherwise a line
+  // is stuck low (kLineError).
+  Result<void> diagnose_line() {
     Deadline<Clock> deadline(*clock, kLineRecoveryUs);
     for (bool last = false; !last;) {
       last = deadline.last_poll();
       std::array<std::uint8_t, regs::SL1::kAddress - regs::kAddrStatus0 + 1> bytes{};
-      if (const Result<void> read = opcodes.read_status(bytes); !read) {
-        return read.info();
-      }
-      if (lines_are_high(bytes[bytes.size() - 1])) {
-        return Error::kTimeout;
+      const Result<void> read = opcodes.read_status(bytes);
+      if (!read || lines_are_high(bytes[bytes.size() - 1])) {
+        return read;
       }
     }
     return Error::kLineError;
+  }
+
+  // Slaves of BiSS B may be in register mode.
+  [[nodiscard]] std::uint32_t recovery_us() const {
+    return any_channel_is(config, Protocol::kBissB) ? kLineRecoveryUs + config.register_timeout_us
+                                                    : kLineRecoveryUs;
   }
 
  private:

@@ -75,16 +75,24 @@ struct SlaveConfig {
   std::uint32_t crc_polynomial = 0x43;
   // Start value; only as many low bits count as the CRC is wide. 0 when there is no CRC.
   std::uint16_t crc_start = 0;
+  // GRAYSx (table 19), SSI only: the encoder sends Gray code, the chip converts it.
+  bool gray = false;
+  // ACTnSENSx (table 17): takes a word from the host, Device::write_actuator(), and delivers none.
+  // BiSS only, needs Config::mo. `flags` mean nothing for it.
+  bool actuator = false;
+  // LSTOPx (table 18): a stop bit before the actuator's word. Nothing for sensors.
+  bool stop_bit = true;
 };
 
 struct ChannelConfig {
-  // CFGCHx. A channel that is kUnused takes no part in frames.
+  // CFGCHx: kBissC, kBissB, kSsi; two channels may differ. A channel that is kUnused takes no part
+  // in frames.
   Protocol protocol = Protocol::kUnused;
 };
 
 // Complete configuration of one chip: up to eight slaves, all on channel 1, or, if channel 2 is in
 // use, slaves 1 to 4 on channel 1 and 5 to 8 on channel 2 (SLAVELOC5). A slave that is not enabled
-// has no data in the frame; slaves may be left out. BiSS C; SSI and BiSS B are kUnsupported.
+// has no data in the frame; slaves may be left out.
 struct Config {
   // System clock. Pin CLK: at most 25 MHz (D01, page 9). D01 states no minimum; validate() asks
   // for 1 MHz, which is this driver's own choice. Internal: 10..25 MHz (D05), 20 MHz typical with a
@@ -116,6 +124,20 @@ struct Config {
   // slaves that are not known yet.
   bool hold_cdm = false;
 
+  // EN_MO (table 39): pin MO is wired to SLI of the last slave, for actuators, for MO_BUSY, or to
+  // select the register mode of BiSS B; slave ID 0 of BiSS B is then unused (page 16).
+  bool mo = false;
+  // MO_BUSY (table 40): periods of MA by which MO delays the start bit, for the slowest slave's
+  // processing time. 0 without `mo`.
+  std::uint8_t mo_busy = 0;
+
+  // f_MA / register clock of BiSS B: 2, 4, 8, ... 256 (FREQR, table 36). 64 (FREQR = 5) is what the
+  // datasheet asks for where a channel is BiSS C, which also counts its time limit with it.
+  std::uint16_t register_divider = 64;
+  // Longest timeout by which slaves of BiSS B leave register mode, up to 1'000'000 us; 1.5 register
+  // clocks to 1 ms are common. Nothing can be seen of it on the line, so every access ends with it.
+  std::uint32_t register_timeout_us = 2000;
+
   // What is spent on faults of the SPI bus. kOff is fast; kFull costs two short transfers a read.
   SpiCheck spi_check = SpiCheck::kFull;
 
@@ -124,7 +146,7 @@ struct Config {
   std::uint32_t frame_timeout_us = 0;
 
   // Longest time that a slave may take for one register access beyond the frames it needs, up to
-  // 10'000'000 us. 0 = the chip's own limit of 4096 * 64 periods of MA (page 34), after which
+  // 10'000'000 us. 0 = the chip's own limit of 4096 register clocks (page 34), after which
   // it reports kRegisterDelay itself; a shorter one ends in kTimeout and BREAK.
   std::uint32_t register_busy_us = 0;
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Layer 4: control communication of BiSS C: registers of the slaves and commands.
+// Layer 4: control communication: registers of the slaves and commands.
 
 #ifndef MB4_CONTROL_HPP_
 #define MB4_CONTROL_HPP_
@@ -33,23 +33,14 @@ class Control : public ControlSteps<Bus, Clock> {
   // Errors of begin_read() and poll(); after kTransport and kNotDetected BREAK has been tried.
   // ErrorInfo::bytes counts over all parts; only as many bytes of `out` mean anything.
   Result<void> read_registers(SlaveAddress slave, std::uint8_t address, Span<std::uint8_t> out) {
-    return in_parts(address, out.size(),
-                    [&](std::uint8_t from, std::size_t done, std::size_t count) -> Result<void> {
-                      const Result<void> result = wait(Steps::begin_read(slave, from, count));
-                      return result ? Steps::take(Span<std::uint8_t>(out.data() + done, count))
-                                    : result;
-                    });
+    return in_parts(slave, address, out, Span<const std::uint8_t>(nullptr, out.size()));
   }
 
   // Writes data.size() (1..128) registers from `address`, in parts of 64. Errors as of
   // read_registers(); registers before ErrorInfo::bytes are written, the next may be.
   Result<void> write_registers(SlaveAddress slave, std::uint8_t address,
                                Span<const std::uint8_t> data) {
-    return in_parts(address, data.size(),
-                    [&](std::uint8_t from, std::size_t done, std::size_t count) -> Result<void> {
-                      return wait(Steps::begin_write(
-                          slave, from, Span<const std::uint8_t>(data.data() + done, count)));
-                    });
+    return in_parts(slave, address, Span<std::uint8_t>(), data);
   }
 
   // Sends a command and waits for its end. Errors of begin_command() and poll().
@@ -62,18 +53,20 @@ class Control : public ControlSteps<Bus, Clock> {
     if (!begun && begun.error() != Error::kTransport) {
       return begun;
     }
-    Result<bool> ended = begun ? Result<bool>(false) : Result<bool>(begun.info());
+    Result<bool> ended = begun ? Result<bool>(false) : Result<bool>(begun.failure());
     while (ended && !*ended) {
       ended = Steps::poll();
     }
     if (Steps::running()) {
       static_cast<void>(Steps::abort());
     }
-    return ended ? Result<void>() : Result<void>(ended.info());
+    return ended ? Result<void>() : Result<void>(ended.failure());
   }
 
-  template <typename Part>
-  Result<void> in_parts(std::uint8_t address, std::size_t size, Part part) {
+  // Reads into `out`, or, if that is empty, writes `data`; as many as `data` has.
+  Result<void> in_parts(SlaveAddress slave, std::uint8_t address, Span<std::uint8_t> out,
+                        Span<const std::uint8_t> data) {
+    const std::size_t size = data.size();
     if (size > kSlaveRegisters || address + size > kSlaveRegisters) {
       return Error::kInvalidArgument;
     }
@@ -81,8 +74,15 @@ class Control : public ControlSteps<Bus, Clock> {
     do {
       const std::size_t left = size - done;
       const std::size_t count = left < kMaxRegistersPerAccess ? left : kMaxRegistersPerAccess;
-      if (const Result<void> result = part(static_cast<std::uint8_t>(address + done), done, count);
-          !result) {
+      const std::uint8_t from = static_cast<std::uint8_t>(address + done);
+      Result<void> result =
+          wait(out.empty() ? Steps::begin_write(slave, from,
+                                                Span<const std::uint8_t>(data.data() + done, count))
+                           : Steps::begin_read(slave, from, count));
+      if (result && !out.empty()) {
+        result = Steps::take(Span<std::uint8_t>(out.data() + done, count));
+      }
+      if (!result) {
         ErrorInfo error = result.info();
         error.detail = static_cast<std::uint8_t>(error.bytes() + done);
         return error;

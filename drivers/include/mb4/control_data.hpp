@@ -28,10 +28,11 @@ struct SlaveAddress {
 
 // The address of slave `slave` (1..8, enabled, as in SCDATAx) on a channel where every device has
 // one data channel and one ID. IDs count from the far end: of n slaves on the channel, the one next
-// to SL has ID n - 1.
+// to SL has ID n - 1. BiSS B counts from 1 where MO is in use (page 16).
 [[nodiscard]] constexpr SlaveAddress slave_address(const Config& config, std::uint8_t slave) {
   SlaveAddress address;
   address.channel = channel_of(config, slave);
+  address.id = config.mo && protocol_of(config, slave) == Protocol::kBissB ? 1 : 0;
   for (std::size_t other = slave + 1U; other <= kSlaves; ++other) {
     if (config.slaves[other - 1].enabled && channel_of(config, other) == address.channel) {
       ++address.id;
@@ -71,33 +72,38 @@ constexpr std::uint32_t control_frames(std::uint8_t count) {
   return 14U + 18U + 14U * count + 1U + 2U;
 }
 
-// Time that a slave may take beyond that. The chip's own limit, after which it reports nDELAYERR,
-// is 4096 periods of the register clock, 64 MA periods each with FREQR = 5 (pages 30, 34); a
-// quarter is added, so that the chip comes first.
+// The chip's limit for what a slave answers: 4096 register clocks (pages 30, 34).
+constexpr std::uint32_t register_limit_us(const Config& config) {
+  return periods_us(config, 4096U * config.register_divider);
+}
+
+// Time that a slave may take beyond that. The chip's own limit, after which it reports nDELAYERR;
+// a quarter is added, so that the chip comes first.
 constexpr std::uint32_t register_busy_us(const Config& config) {
-  if (config.register_busy_us != 0) {
-    return config.register_busy_us;
-  }
-  constexpr std::uint32_t kPeriods = 4096U * 64U * 5U / 4U;
-  // In kHz, rounded down, so that 32 bits do: a division of 64 bits costs 1 KB on a small core.
-  const std::uint32_t us = kPeriods * 1000U / (config.ma_hz / 1000U) + 1U;
-  // D05: the internal oscillator may be slower than stated.
-  return config.clock_source == ClockSource::kInternal ? 3 * us : us;
+  return config.register_busy_us != 0
+             ? config.register_busy_us
+             : with_spread(config, periods_us(config, 5120U * config.register_divider));
 }
 
 // Microseconds from one automatic frame to the next, at most. With FrameStart::kOnPin the caller
 // decides; there it is what a frame may take.
 constexpr std::uint32_t frame_pitch_us(const Config& config) {
-  if (config.frame_start != FrameStart::kPeriodic) {
-    return frame_timeout_us(config);
-  }
-  const std::uint32_t us = config.frame_period_clk / (config.f_clk_hz / 1'000'000U) + 1U;
-  return config.clock_source == ClockSource::kInternal ? 3 * us : us;
+  return config.frame_start != FrameStart::kPeriodic
+             ? frame_timeout_us(config)
+             : with_spread(config, config.frame_period_clk / (config.f_clk_hz / 1'000'000U) + 1U);
 }
 
 // Longest access. At most 930 * 1 s + 13 s, which 32 bits hold.
 constexpr std::uint32_t control_timeout_us(const Config& config, std::uint8_t count) {
   return control_frames(count) * frame_pitch_us(config) + register_busy_us(config) + kFrameMarginUs;
+}
+
+// The same for BiSS B, which needs no frames: hand-over, 18 register clocks of the address part, 14
+// for each register.
+constexpr std::uint32_t biss_b_timeout_us(const Config& config, std::uint8_t count) {
+  const std::uint32_t clocks = 5120U + 18U + 14U * count;
+  return with_spread(config, periods_us(config, clocks * config.register_divider)) +
+         register_busy_us(config) + kFrameMarginUs;
 }
 
 // Without automatic frames the host sets the pace, so frames are counted instead: a busy slave

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Control communication of BiSS C step by step (datasheet pages 27 to 29, 34, 35): registers of the
+// Control communication step by step (datasheet pages 16, 27 to 29, 34, 35): registers of the
 // slaves and commands, with and without automatic frames. Used through Control.
 
 #ifndef MB4_CONTROL_STEPS_HPP_
@@ -14,7 +14,9 @@
 #include "mb4/checked_registers.hpp"
 #include "mb4/chip.hpp"
 #include "mb4/config.hpp"
+#include "mb4/control_checks.hpp"
 #include "mb4/control_data.hpp"
+#include "mb4/register_image.hpp"
 #include "mb4/result.hpp"
 #include "mb4/span.hpp"
 #include "mb4/status.hpp"
@@ -28,25 +30,35 @@ namespace mb4 {
 //   while (!*device.control().poll()) { ... }                // errors left out here
 //   device.control().take(id);
 //
-// With automatic frames (Automatic) the access runs beside them, 47 frames for one register; poll()
-// only looks. Without them each poll() that finds a frame ended starts the next one. The frames are
-// complete ones; what the slaves deliver in them without AGS is dropped.
+// With automatic frames the access runs beside them, 47 frames for one register; poll() only looks.
+// Without them each poll() that finds a frame ended starts the next one; its data is dropped.
+//
+// The channel's protocol decides what the chip does with the same calls:
+//  * BiSS C: as above.
+//  * BiSS B: in register mode no frame runs, on either channel, so automatic frames must be stopped
+//    (kWrongMode); left out, they would hide a failed hand-over, as both show in nAGSERR. Begins
+//    with BREAK, 100 us and register_timeout_us, and ends register_timeout_us behind the last bit.
+//    Slave ID 0 is unused with Config::mo. No commands.
+//  * SSI (extended): register writes and broadcasts, blind: the encoder has no means to answer, so
+//    success says only that everything was sent. Reading is kUnsupported.
 //
 // Errors of all begin calls, which touch nothing unless said: kNotConfigured; kBusy (one is
 // running); kInvalidArgument; kUnsupported with kFrameStart (without automatic frames
-// FrameStart::kWaitForLine is needed, because the frames follow each other at once); kTransport
-// (touched: parts of the request are in the chip, the access may or may not run; abort() it);
+// FrameStart::kWaitForLine is needed, because the frames follow each other at once) or with
+// kChannelProtocol (the protocol has no such access); kWrongMode (BiSS B beside automatic frames);
+// kTransport (touched: parts of the request are in the chip, the access may run; abort() it);
 // with SpiCheck::kFull, which reads back what it has written by as many transfers, kCorrupted
 // (touched: the access does not run).
 template <typename Bus, typename Clock>
-class ControlSteps {
+class ControlSteps : private ControlChecks<Bus, Clock> {
  public:
-  explicit constexpr ControlSteps(detail::Chip<Bus, Clock>& chip) : chip_(chip) {}
+  using ControlChecks<Bus, Clock>::ControlChecks;
 
   // Begins to read `count` (1..64) registers from `address`; address + count <= 128. Two transfers.
   Result<void> begin_read(SlaveAddress slave, std::uint8_t address, std::size_t count) {
-    if (const ErrorInfo no = check_access(slave, address, count); no.code != Error::kNone) {
-      return no;
+    if (const Result<void> possible = Checks::check_access(slave, address, count, Protocol::kSsi);
+        !possible) {
+      return possible;
     }
     return begin_access(slave, regs::REGADR::insert(0, address), count, Kind::kRead);
   }
@@ -55,8 +67,10 @@ class ControlSteps {
   // Three transfers.
   Result<void> begin_write(SlaveAddress slave, std::uint8_t address,
                            Span<const std::uint8_t> data) {
-    if (const ErrorInfo no = check_access(slave, address, data.size()); no.code != Error::kNone) {
-      return no;
+    if (const Result<void> possible =
+            Checks::check_access(slave, address, data.size(), Protocol::kUnused);
+        !possible) {
+      return possible;
     }
     if (const Result<void> filled = detail::write_checked(chip_, regs::kAddrRdata, data); !filled) {
       return filled;
@@ -67,13 +81,21 @@ class ControlSteps {
 
   // Begins a command. Three transfers.
   Result<void> begin_command(const Command& command) {
-    if (const ErrorInfo no = check_free(); no.code != Error::kNone) {
-      return no;
+    if (const Result<void> free = Checks::check_free(); !free) {
+      return free;
     }
     const bool broadcast = command.ids == 0;
-    if (!channels_used(command.channels) || command.code > regs::CMD::kMax ||
+    if (command.channels < 1 || command.channels > 3 || command.code > regs::CMD::kMax ||
         (broadcast && (command.test_acknowledge || command.code == regs::CMD::kMax))) {
       return Error::kInvalidArgument;
+    }
+    for (std::uint8_t channel = 1; channel <= kChannels; ++channel) {
+      const Result<void> possible = (command.channels & channel) == 0
+                                        ? Result<void>()
+                                        : Checks::check_protocol(channel, Protocol::kBissB);
+      if (!possible) {
+        return possible;
+      }
     }
     const std::uint8_t ids = detail::reversed(command.ids);  // IDS0 is bit 7 (table 32)
     if (const Result<void> addressed =
@@ -81,13 +103,14 @@ class ControlSteps {
         !addressed) {
       return addressed;
     }
-    std::uint8_t control = regs::CMD::insert(control_byte(), command.code);
+    std::uint8_t control =
+        regs::CMD::insert(detail::encode_ctrl(chip_.config, false), command.code);
     control = regs::IDA_TEST::insert(control, command.test_acknowledge ? 1 : 0);
     const std::array<std::uint8_t, 2> bytes{command.channels, control};
-    if (const Result<void> set = set_up(regs::kAddrChsel, bytes); !set) {
+    if (const Result<void> set = detail::write_checked(chip_, regs::kAddrChsel, bytes); !set) {
       return set;
     }
-    return begin(Kind::kCommand, 1);
+    return begin(Kind::kCommand, 1, false);
   }
 
   // One look at what was begun; never waits. At most three transfers: status; then, without
@@ -109,21 +132,32 @@ class ControlSteps {
     // Looked at before the status: who was suspended does not report a timeout without a look.
     const bool late =
         --state.polls_left == 0 || chip_.clock->now_us() - state.start_us >= state.timeout_us;
-    const Result<Status> status = chip_.read_status();
-    if (!status) {
+    Status status;
+    if (const Result<void> look = chip_.look(status); !look) {
       state.polls_left += state.polls_left == 0 ? 1 : 0;
-      return status.info();
+      return look.failure();
     }
-    const bool frame_over = status->instruction_done() && (chip_.automatic || status->idle());
-    // An access needs more than one frame; REGEND = 1 after the first is left from the last one.
-    const bool stale = !chip_.automatic && state.first_frame;
-    if (frame_over && status->control_ended() && !stale) {
-      return finish(*status);
+    const bool frame_over = status.instruction_done() && (chip_.automatic || status.idle());
+    // REGEND = 1 after the first of several frames is the last access's. In BiSS B BREAK has reset
+    // it.
+    const bool alone = chip_.automatic || state.biss_b;
+    const bool stale = !alone && state.first_frame;
+    if (frame_over && status.control_ended() && !stale) {
+      // The slaves' register timeout, which the line does not show.
+      if (state.biss_b && state.first_frame) {
+        state.first_frame = false;
+        restart_time(chip_.config.register_timeout_us);
+        return false;
+      }
+      if (state.biss_b && !late) {
+        return false;
+      }
+      return finish(status);
     }
     if (late) {
       return give_up();
     }
-    if (chip_.automatic || !frame_over) {
+    if (alone || !frame_over) {
       return false;
     }
     state.first_frame = false;
@@ -133,7 +167,7 @@ class ControlSteps {
     ++state.frames;
     restart_time(frame_timeout_us(chip_.config));
     if (const Result<void> next = chip_.write_instruction(kFrame); !next) {
-      return next.info();
+      return next.failure();
     }
     return false;
   }
@@ -164,67 +198,31 @@ class ControlSteps {
   [[nodiscard]] bool running() const { return chip_.control.kind != Kind::kNone; }
 
  private:
+  using Checks = ControlChecks<Bus, Clock>;
+  using Checks::chip_;
   using Kind = detail::ControlState::Kind;
 
   static constexpr std::uint8_t kFrame =
       regs::INSTR::encode<static_cast<std::uint8_t>(regs::Instr::kControl)>();
 
-  [[nodiscard]] bool channels_used(std::uint8_t channels) const {
-    return channels >= 1 && channels <= 3 &&
-           ((channels & 1) == 0 || chip_.config.channels[0].protocol != Protocol::kUnused) &&
-           ((channels & 2) == 0 || chip_.config.channels[1].protocol != Protocol::kUnused);
-  }
-
-  [[nodiscard]] ErrorInfo check_free() const {
-    if (!chip_.configured) {
-      return Error::kNotConfigured;
-    }
-    if (chip_.control.kind != Kind::kNone) {
-      return Error::kBusy;
-    }
-    if (!chip_.automatic && chip_.config.frame_start != FrameStart::kWaitForLine) {
-      return ErrorInfo(Error::kUnsupported, ConfigField::kFrameStart, 0);
-    }
-    return {};
-  }
-
-  [[nodiscard]] ErrorInfo check_access(SlaveAddress slave, std::uint8_t address,
-                                       std::size_t count) const {
-    if (const ErrorInfo no = check_free(); no.code != Error::kNone) {
-      return no;
-    }
-    const bool good = (slave.channel == 1 || slave.channel == 2) && channels_used(slave.channel) &&
-                      slave.id < kSlaveIds && count >= 1 && count <= kMaxRegistersPerAccess &&
-                      address + count <= kSlaveRegisters;
-    return good ? ErrorInfo() : ErrorInfo(Error::kInvalidArgument);
-  }
-
-  // 0xE5 without CTS and address: what frames need of it stays as configured.
-  [[nodiscard]] std::uint8_t control_byte() const {
-    const std::uint8_t byte = regs::REGVERS::insert(0, 1);
-    return regs::HOLDCDM::insert(byte, chip_.config.hold_cdm ? 1 : 0);
-  }
-
-  Result<void> set_up(std::uint8_t address, Span<const std::uint8_t> bytes) {
-    return detail::write_checked(chip_, address, bytes);
-  }
-
   Result<void> begin_access(SlaveAddress slave, std::uint8_t regadr, std::size_t count, Kind kind) {
-    std::uint8_t control = regs::CTS::insert(control_byte(), 1);
-    control = regs::SLAVEID::insert(control, slave.id);
+    const bool biss_b = Checks::is_biss_b(slave.channel);
+    const std::uint8_t control = regs::CTS::insert(
+        regs::SLAVEID::insert(detail::encode_ctrl(chip_.config, biss_b), slave.id), 1);
     // CHSEL is one-hot: 1 and 2 are the codes of the channels.
     const std::array<std::uint8_t, 4> bytes{regadr, static_cast<std::uint8_t>(count - 1),
                                             slave.channel, control};
-    if (const Result<void> set = set_up(regs::kAddrRegadr, bytes); !set) {
+    if (const Result<void> set = detail::write_checked(chip_, regs::kAddrRegadr, bytes); !set) {
       return set;
     }
-    return begin(kind, count);
+    return begin(kind, count, biss_b);
   }
 
-  Result<void> begin(Kind kind, std::size_t count) {
+  Result<void> begin(Kind kind, std::size_t count, bool biss_b) {
     detail::ControlState& state = chip_.control;
-    // A frame of a failed single read may still run; it would take the instruction for the next.
-    if (!chip_.automatic && chip_.recover_first) {
+    // A frame of a failed read may still run and take the instruction for the next. BiSS B: REGEND
+    // and nAGSERR shall be about this access.
+    if (biss_b || (!chip_.automatic && chip_.recover_first)) {
       if (const Result<void> recovered = chip_.recover(); !recovered) {
         return recovered;
       }
@@ -234,11 +232,17 @@ class ControlSteps {
     state.readable = 0;
     state.kind = kind;
     state.count = registers;
+    state.biss_b = biss_b;
     state.first_frame = true;
     state.frames = 1;
     state.access_us = chip_.clock->now_us();
-    restart_time(chip_.automatic ? detail::control_timeout_us(chip_.config, registers)
-                                 : frame_timeout_us(chip_.config));
+    std::uint32_t timeout_us = frame_timeout_us(chip_.config);
+    if (biss_b) {
+      timeout_us = detail::biss_b_timeout_us(chip_.config, registers);
+    } else if (chip_.automatic) {
+      timeout_us = detail::control_timeout_us(chip_.config, registers);
+    }
+    restart_time(timeout_us);
     return chip_.write_instruction(
         chip_.automatic ? static_cast<std::uint8_t>(kFrame | regs::AGS::encode<1>()) : kFrame);
   }
@@ -266,11 +270,17 @@ class ControlSteps {
     // Without AGS the frames have set SVALID, and the next single frame wants it clear. Otherwise
     // the flags belong to Automatic.
     if (!chip_.automatic) {
-      if (const Result<void> clear = chip_.clear_valid(enabled_slaves(chip_.config)); clear) {
+      if (const Result<void> clear = chip_.clear_valid(chip_.sensors); clear) {
         chip_.recover_first = false;
       }
     }
     ErrorInfo error;
+    // Nobody has taken part in the hand-over, which ends at the chip's limit. The time tells from
+    // nAGSERR = 0 at each write of 0xF4 (page 34 can be read so); a quarter because of D05.
+    if (state.biss_b && status.start_error() &&
+        chip_.clock->now_us() - state.access_us >= detail::register_limit_us(chip_.config) / 4) {
+      return Error::kRegister;
+    }
     if (status.delay_error() && kind != Kind::kCommand) {
       error = Error::kRegisterDelay;
     } else if (status.control_error()) {
@@ -286,10 +296,8 @@ class ControlSteps {
 
   Result<bool> give_up() {
     const Result<void> stopped = abort();
-    return stopped ? ErrorInfo(Error::kTimeout) : stopped.info();
+    return stopped ? Result<bool>(Error::kTimeout) : Result<bool>(stopped.failure());
   }
-
-  detail::Chip<Bus, Clock>& chip_;
 };
 
 }  // namespace mb4

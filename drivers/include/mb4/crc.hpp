@@ -37,53 +37,62 @@ struct CrcCode {
 // The predefined ones (3 to 8 and 16 bits) are selected by length; any other one of degree 1..7
 // with lowest bit 1 is stored individually. Everything else is not valid.
 [[nodiscard]] constexpr CrcCode encode_crc(std::uint32_t polynomial) {
-  switch (polynomial) {
-    case 0:
-      return {true, false, 0x00, 0};
-    case 0xB:
-      return {true, false, 0x03, 3};
-    case 0x13:
-      return {true, false, 0x04, 4};
-    case 0x25:
-      return {true, false, 0x05, 5};
-    case 0x43:
-      return {true, false, 0x06, 6};
-    case 0x89:
-      return {true, false, 0x07, 7};
-    case 0x12F:
-      return {true, false, 0x08, 8};
-    case 0x190D9:
-      return {true, false, 0x10, 16};
-    default:
-      break;
+  // Table 14 without the highest bit of 3 to 8 bits: 0xB, 0x13, 0x25, 0x43, 0x89, 0x12F.
+  constexpr std::uint8_t kPredefined[] = {0x03, 0x03, 0x05, 0x03, 0x09, 0x2F};
+  CrcCode code{true, false, crc_width_bits(polynomial), crc_width_bits(polynomial)};
+  const unsigned index = code.width_bits - 3U;
+  if (polynomial == 0 || polynomial == 0x190D9 ||
+      (index < sizeof kPredefined && polynomial == (8U << index | kPredefined[index]))) {
+    return code;
   }
   // SCRCPOLYx holds bits 7..1; bit 0 is always 1, so an even polynomial cannot be expressed.
   if (polynomial < 0x3 || polynomial > 0xFF || (polynomial & 1U) == 0) {
     return {};
   }
-  return {true, true, static_cast<std::uint8_t>(polynomial >> 1), crc_width_bits(polynomial)};
+  code.by_polynomial = true;
+  code.code = static_cast<std::uint8_t>(polynomial >> 1);
+  return code;
 }
 
-// CRC of the low `data_bits` (0..64) bits of `data`, most significant first, as BiSS defines it:
-// not inverted, as stored in SCDATAx (the line carries the inverse). `polynomial` in full, degree
-// 1..16, otherwise the result is 0. Of `start` only as many low bits count as the CRC is wide.
+// One CRC at work, bit by bit, most significant first, as BiSS defines it: not inverted, as stored
+// in SCDATAx (the line carries the inverse).
+class CrcShift {
+ public:
+  // `polynomial` in full, degree 1..16. Of `start` only as many low bits count as the CRC is wide.
+  constexpr CrcShift(std::uint32_t polynomial, std::uint16_t start)
+      : polynomial_(polynomial),
+        top_(std::uint32_t{1} << crc_width_bits(polynomial)),
+        remainder_(start & (top_ - 1)) {}
+  // The next data bit, 0 or 1.
+  constexpr void shift(unsigned bit) {
+    remainder_ <<= 1;
+    if (((remainder_ & top_) != 0) != (bit != 0)) {
+      remainder_ ^= polynomial_;
+    }
+    remainder_ &= top_ - 1;
+  }
+  [[nodiscard]] constexpr std::uint16_t value() const {
+    return static_cast<std::uint16_t>(remainder_);
+  }
+
+ private:
+  std::uint32_t polynomial_;
+  std::uint32_t top_;
+  std::uint32_t remainder_;
+};
+
+// CRC of the low `data_bits` (0..64) bits of `data`. `polynomial` in full, degree 1..16, otherwise
+// the result is 0.
 [[nodiscard]] constexpr std::uint16_t crc(std::uint32_t polynomial, std::uint16_t start,
                                           std::uint64_t data, std::uint8_t data_bits) {
-  const std::uint8_t width_bits = crc_width_bits(polynomial);
-  if (width_bits == 0) {
+  if (crc_width_bits(polynomial) == 0) {
     return 0;
   }
-  const std::uint32_t mask = (std::uint32_t{1} << width_bits) - 1;
-  std::uint32_t remainder = start & mask;
+  CrcShift shift(polynomial, start);
   for (std::uint8_t bit = data_bits; bit > 0; --bit) {
-    const std::uint32_t data_bit = static_cast<std::uint32_t>(data >> (bit - 1)) & 1U;
-    const std::uint32_t top_bit = (remainder >> (width_bits - 1)) & 1U;
-    remainder = (remainder << 1) & mask;
-    if (data_bit != top_bit) {
-      remainder ^= polynomial & mask;
-    }
+    shift.shift(static_cast<unsigned>(data >> (bit - 1)) & 1U);
   }
-  return static_cast<std::uint16_t>(remainder);
+  return shift.value();
 }
 
 }  // namespace mb4

@@ -11,10 +11,12 @@
 #include <cstdint>
 
 #include "mb4/acquisition.hpp"
+#include "mb4/actuator.hpp"
 #include "mb4/automatic.hpp"
 #include "mb4/bus.hpp"
 #include "mb4/chip.hpp"
 #include "mb4/config.hpp"
+#include "mb4/configuration.hpp"
 #include "mb4/control.hpp"
 #include "mb4/fields.hpp"
 #include "mb4/frame.hpp"
@@ -55,7 +57,7 @@ class Device {
     std::array<std::uint8_t, 2> bytes{};
     static_assert(regs::kAddrVersion == regs::kAddrRevision + 1);
     if (const Result<void> read = chip_.opcodes.read_registers(regs::kAddrRevision, bytes); !read) {
-      return read.info();
+      return read.failure();
     }
     if (bytes[1] != static_cast<std::uint8_t>(regs::DeviceVersion::kIcMb4)) {
       return Error::kNotDetected;
@@ -71,7 +73,7 @@ class Device {
   //   0x07  0xF4, 0xF5   BREAK, clock source and interface
   //   0x02  0xC0..0xF2   everything else; clears SVALID 1 to 8
   //   0x03  0xC0..0xF5   comparison of all bits that can be written, and of VERSION
-  // kInvalidConfig, kUnsupported (not touched); kTransport, kNotDetected, kVerify (touched, the
+  // kInvalidConfig (not touched); kTransport, kNotDetected, kVerify (touched, the
   // Device counts as not configured). The configuration must not be changed while an encoder frame
   // is wanted: call it at start-up or between frames. No frame runs here.
   Result<void> configure(const Config& config) {
@@ -79,12 +81,14 @@ class Device {
       return valid;
     }
     forget();
-    if (const Result<void> written =
-            write_image(encode_registers(config), encode_interface(config));
+    if (const Result<void> written = Configuration<Bus, Clock>(chip_).write(
+            encode_registers(config), encode_interface(config));
         !written) {
       return written;
     }
     chip_.config = config;
+    chip_.sensors = sensors(config);
+    chip_.actuators = actuators(config);
     chip_.configured = true;
     chip_.recover_first = false;
     return {};
@@ -98,8 +102,8 @@ class Device {
     if (!chip_.configured) {
       return Error::kNotConfigured;
     }
-    const Result<void> same =
-        compare(encode_registers(chip_.config), encode_interface(chip_.config), Compare::kRunning);
+    const Result<void> same = Configuration<Bus, Clock>(chip_).compare(
+        encode_registers(chip_.config), encode_interface(chip_.config), true);
     if (same.error() == Error::kNotDetected || same.error() == Error::kVerify) {
       chip_.configured = false;
     }
@@ -113,30 +117,38 @@ class Device {
     forget();
     RegisterImage image{};
     image[regs::kAddrSlaveloc5 - kImageFirst] = kSlaveloc5Constant;
-    return write_image(image, 0);
+    return Configuration<Bus, Clock>(chip_).write(image, 0);
   }
 
-  // INIT of BiSS C (page 33): two pulses at MA on the channels in use, waits until the slaves are
-  // ready, and returns the delay of the lines. For start-up and after errors: slaves that are in
-  // an undefined state become ready. All error flags return to 1, SVALID to 0. No automatic frames
-  // and no control communication may run.
+  // INIT (page 33), in BiSS C two pulses at MA: waits until the slaves are ready, and returns the
+  // delay of the lines. Without a channel of BiSS C it is the hand-over of BiSS B, with SSI alone
+  // it resets flags only; nothing is measured then. For start-up and after errors: slaves that are
+  // in an undefined state become ready. All error flags return to 1, SVALID to 0. No automatic
+  // frames and no control communication may run.
   //
-  // Transfers: 0x02 twice (SCDATA1, SCDATA5 = 0), 0x07, 0x05 until INIT = 0 and EOT = 1 within 1343
-  // periods of MA and 200 us, 0x05 until SL is 1, 0x03 for each channel in use (twice with
-  // SpiCheck::kFull), 0x02 (SVALID).
+  // Transfers: 0x02 twice (SCDATA1, SCDATA5 = 0), with BiSS B 0x02 (0xE5), 0x07, 0x05 until INIT =
+  // 0 and EOT = 1 within 1343 periods of MA (BiSS B alone: 4096 register clocks) and 200 us, 0x05
+  // until SL is 1, 0x03 for each channel that is measured, 0x02 (SVALID); with SpiCheck::kFull some
+  // are read again.
   //
-  // kNotConfigured, kWrongMode, kBusy (not touched); kTransport, kNotDetected; kTimeout (BREAK was
-  // sent); kLineDelay: beyond 255 quarters of a period; kLineError: SL is stuck low; kNoData:
-  // nothing was measured, there is no system clock; kCorrupted.
+  // kNotConfigured, kWrongMode, kBusy, kUnsupported with kMo (BiSS B alone: MO = 1 keeps the slaves
+  // from confirming; not touched); kTransport, kNotDetected; kTimeout (BREAK was sent); kLineDelay:
+  // beyond 255 quarters of a period; kLineError: SL is stuck low, or in BiSS B no slave has
+  // answered; kNoData: nothing was measured, there is no system clock; kCorrupted.
   Result<LineDelay> initialize() {
-    if (const ErrorInfo no = single_frame_allowed(); no.code != Error::kNone) {
-      return no;
+    if (const Result<void> allowed = single_frame_allowed(); !allowed) {
+      return allowed.failure();
     }
-    return Initialization<Bus, Clock>(chip_).run();
+    if (chip_.config.mo && only_biss_b(chip_.config)) {
+      return ErrorInfo(Error::kUnsupported, ConfigField::kMo, 0);
+    }
+    LineDelay delay;
+    const Result<void> done = Initialization<Bus, Clock>(chip_).run(delay);
+    return done ? Result<LineDelay>(delay) : Result<LineDelay>(done.failure());
   }
 
   // Requests one frame with CDM = 0, waits for its end and returns the data of `slave` (1..8, must
-  // be enabled in the configuration).
+  // be an enabled sensor of the configuration).
   //
   // Transfers of a good read: 3 + p, where p >= 1 is the number of status polls, with
   // SpiCheck::kFull at most 4 more (1 for data again where no stored CRC proves it, 1 status behind
@@ -158,10 +170,10 @@ class Device {
   //
   // Sets HOLDBANK and SWBANK to 0, as any single frame does.
   Result<Reading> read_frame(std::uint8_t slave = 1) {
-    if (const ErrorInfo no = single_frame_allowed(); no.code != Error::kNone) {
-      return no;
+    if (const Result<void> allowed = single_frame_allowed(); !allowed) {
+      return allowed.failure();
     }
-    if (slave < 1 || slave > kSlaves || !chip_.config.slaves[slave - 1U].enabled) {
+    if (!is_in(chip_.sensors, slave)) {
       return Error::kInvalidArgument;
     }
     return SingleShot<Bus, Clock>(chip_).read(slave);
@@ -175,10 +187,26 @@ class Device {
   // the call are about the whole frame: those of read_frame() except kCrc, kNoData, kCorrupted. On
   // error `frame` holds no Reading.
   Result<void> read_all(Frame& frame) {
-    if (const ErrorInfo no = single_frame_allowed(); no.code != Error::kNone) {
-      return no;
+    if (const Result<void> allowed = single_frame_allowed(); !allowed) {
+      return allowed.failure();
     }
     return SingleShot<Bus, Clock>(chip_).read_all(frame);
+  }
+
+  // Gives the actuator `slave` (1..8) the word that it takes with each frame from the next one on:
+  // its low data_bits; the chip adds stop bit and CRC. Transfers: 0x02, 0x07, 0x02, 0x07, with
+  // single_bank only 0x02; with automatic frames 0x07, 0x02, 0x07 for one bank, 0x03 until the end
+  // of a frame has switched, at most for one frame's time and its timeout, and the same for the
+  // other bank. With SpiCheck::kFull all writes are read back.
+  //
+  // kNotConfigured, kBusy, kInvalidArgument (no actuator, or the word has more bits; not touched);
+  // kTransport, kNotDetected, kCorrupted (touched: the word may go out or not; write it again).
+  Result<void> write_actuator(std::uint8_t slave, std::uint64_t word) {
+    if (const Result<void> allowed = single_frame_allowed();
+        !allowed && allowed.error() != Error::kWrongMode) {
+      return allowed;
+    }
+    return ActuatorWrite<Bus, Clock>(chip_).write(slave, word, true);
   }
 
   // Writes BREAK (page 33): aborts a frame, a control communication and AGS at once, MA returns to
@@ -191,12 +219,16 @@ class Device {
   }
 
   // 0xF0..0xF4 in one transfer; changes nothing. kTransport, kNotDetected.
-  Result<Status> read_status() { return chip_.read_status(); }
+  Result<Status> read_status() {
+    Status status;
+    const Result<void> read = chip_.look(status);
+    return read ? Result<Status>(status) : Result<Status>(read.failure());
+  }
 
   // Clears SVALIDx of `slave` (1..8) and nothing else. One transfer. kInvalidArgument (not
   // touched), kTransport.
   Result<void> clear_valid(std::uint8_t slave) {
-    if (slave < 1 || slave > kSlaves) {
+    if (!is_in(0xFF, slave)) {
       return Error::kInvalidArgument;
     }
     return chip_.clear_valid(static_cast<std::uint8_t>(1U << (slave - 1U)));
@@ -218,8 +250,6 @@ class Device {
   [[nodiscard]] const Config& config() const { return chip_.config; }
 
  private:
-  enum class Compare : std::uint8_t { kIdle, kRunning };
-
   void forget() {
     chip_.configured = false;
     chip_.automatic = false;
@@ -227,55 +257,14 @@ class Device {
     chip_.control = {};
   }
 
-  Result<void> write_image(const RegisterImage& image, std::uint8_t interface_byte) {
-    const std::array<std::uint8_t, 2> stop_and_interface{regs::BREAK::encode<1>(), interface_byte};
-    if (const Result<void> write = chip_.opcodes.write_instruction(stop_and_interface); !write) {
-      return write;
-    }
-    if (const Result<void> write = chip_.opcodes.write_registers(kImageFirst, image); !write) {
-      return write;
-    }
-    return compare(image, interface_byte, Compare::kIdle);
-  }
-
-  Result<void> compare(const RegisterImage& image, std::uint8_t interface_byte, Compare state) {
-    std::array<std::uint8_t, regs::kAddrIface - kImageFirst + 1> bytes{};
-    if (const Result<void> read = chip_.opcodes.read_registers(kImageFirst, bytes); !read) {
-      return read;
-    }
-    // Asked first: with nothing on the bus every register is different, which says less.
-    if (bytes[regs::kAddrVersion - kImageFirst] !=
-        static_cast<std::uint8_t>(regs::DeviceVersion::kIcMb4)) {
-      return Error::kNotDetected;
-    }
-    for (unsigned address = kImageFirst; address < regs::kAddrStatus0; ++address) {
-      if (is_compared(address, state) &&
-          bytes[address - kImageFirst] != image[address - kImageFirst]) {
-        return ErrorInfo::at_register(Error::kVerify, static_cast<std::uint8_t>(address));
-      }
-    }
-    if (bytes[regs::kAddrIface - kImageFirst] != interface_byte) {
-      return ErrorInfo::at_register(Error::kVerify, regs::kAddrIface);
-    }
-    return {};
-  }
-
-  // REVISION and VERSION are constant; 0xE0, 0xE1 and 0xEE are reserved, what they read is not
-  // promised. 0xE2..0xE5 belong to the control communication of the moment.
-  static constexpr bool is_compared(unsigned address, Compare state) {
-    const bool control = address >= regs::kAddrRegadr && address <= regs::kAddrCtrl;
-    return !(control && state == Compare::kRunning) && (address < 0xE0 || address > 0xE1) &&
-           address != 0xEE && address != regs::kAddrRevision && address != regs::kAddrVersion;
-  }
-
-  [[nodiscard]] ErrorInfo single_frame_allowed() const {
+  [[nodiscard]] Result<void> single_frame_allowed() const {
     if (!chip_.configured) {
       return Error::kNotConfigured;
     }
     if (chip_.control.kind != detail::ControlState::Kind::kNone) {
       return Error::kBusy;
     }
-    return chip_.automatic ? ErrorInfo(Error::kWrongMode) : ErrorInfo();
+    return chip_.automatic ? Error::kWrongMode : Error::kNone;
   }
 
   detail::Chip<Bus, Clock> chip_;

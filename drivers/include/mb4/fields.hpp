@@ -38,7 +38,7 @@ class Fields {
   Result<std::uint8_t> get() {
     std::uint8_t value = 0;
     if (const Result<void> read = opcodes_.read_registers(Field::kAddress, one(value)); !read) {
-      return read.info();
+      return read.failure();
     }
     return Field::get(value);
   }

@@ -24,16 +24,24 @@ namespace mb4 {
 class Frame {
  public:
   // The result of slave 1..8: a Reading, or what is wrong with it: kCrc, kNoData (no new frame
-  // since the last read, or none for this slave), kCorrupted. kInvalidArgument: not enabled.
+  // since the last read, or none for this slave), kCorrupted. kInvalidArgument: not enabled, or an
+  // actuator.
   [[nodiscard]] const Result<Reading>& operator[](std::size_t slave) const {
     return results_[slave - 1];
+  }
+  // As new.
+  void clear() {
+    for (Result<Reading>& result : results_) {
+      result = kNone;
+    }
+    status = Status();
   }
   void set(std::size_t slave, const Result<Reading>& result) { results_[slave - 1] = result; }
 
   // Every slave of `mask` (bit 0 is slave 1) has a Reading.
   [[nodiscard]] bool good(std::uint8_t mask) const {
     for (std::size_t slave = 1; slave <= kSlaves; ++slave) {
-      if ((mask >> (slave - 1) & 1U) != 0 && !results_[slave - 1]) {
+      if (is_in(mask, static_cast<std::uint8_t>(slave)) && !results_[slave - 1]) {
         return false;
       }
     }
@@ -58,15 +66,14 @@ using DataImage = std::array<std::uint8_t, kSlaves * regs::kScdataStride>;
 // into a write, then not into one of zeros, which pass for data with a CRC.
 inline constexpr std::uint8_t kDataFiller = 0x5A;
 
-// Reads bytes `begin` to `end - 1` of SCDATA. From 0x00 upwards opcode 0x09 is one byte shorter
-// than 0x03 and needs no stretched clock (I204).
+// Reads SCDATA from `begin` upwards. From 0x00 on opcode 0x09 is one byte shorter than 0x03 and
+// needs no stretched clock (I204).
 template <typename Bus>
-Result<void> read_run(Opcodes<Bus>& opcodes, const Config& config, DataImage& image,
-                      std::size_t begin, std::size_t end) {
-  const Span<std::uint8_t> bytes(&image[begin], end - begin);
+Result<void> read_run(Opcodes<Bus>& opcodes, const Config& config, Span<std::uint8_t> bytes,
+                      std::uint8_t begin) {
   const std::uint8_t filler = config.spi_check == SpiCheck::kFull ? kDataFiller : 0;
   return begin == 0 ? opcodes.read_registers0(bytes, filler)
-                    : opcodes.read_registers(static_cast<std::uint8_t>(begin), bytes, filler);
+                    : opcodes.read_registers(begin, bytes, filler);
 }
 
 // Fetches just the bytes that the slaves of `mask` need: at least one transfer, at most one a
@@ -76,25 +83,30 @@ template <typename Bus>
 Result<void> read_data(Opcodes<Bus>& opcodes, const Config& config, std::uint8_t mask,
                        DataImage& image) {
   constexpr std::size_t kHeaderBytes = 2;
+  constexpr std::size_t kOutOfReach = 0x100;
   std::size_t begin = 0;
   std::size_t end = 0;
-  for (std::size_t slave = 1; slave <= kSlaves; ++slave) {
-    if ((mask >> (slave - 1) & 1U) == 0) {
+  // Behind the last slave comes one that is out of reach, so that the last run is read.
+  for (std::uint8_t slave = 1; slave <= kSlaves + 1; ++slave) {
+    if (slave <= kSlaves && !is_in(mask, slave)) {
       continue;
     }
-    const std::size_t from = regs::scdata_address(static_cast<unsigned>(slave));
+    const std::size_t from = slave <= kSlaves ? regs::scdata_address(slave) : kOutOfReach;
     if (end != 0 && from - end > kHeaderBytes) {
-      if (const Result<void> read = read_run(opcodes, config, image, begin, end); !read) {
+      const Result<void> read =
+          read_run(opcodes, config, Span<std::uint8_t>(&image[begin], end - begin),
+                   static_cast<std::uint8_t>(begin));
+      if (!read) {
         return read;
       }
       end = 0;
     }
-    if (end == 0) {
-      begin = from;
+    if (slave <= kSlaves) {
+      begin = end == 0 ? from : begin;
+      end = from + reading_bytes(config, slave);
     }
-    end = from + reading_bytes(config, static_cast<std::uint8_t>(slave));
   }
-  return end == 0 ? Result<void>() : read_run(opcodes, config, image, begin, end);
+  return {};
 }
 
 // Data as fetched, and which slaves' bytes were the same when they were read again.
@@ -128,69 +140,77 @@ Result<void> fetch_data(Opcodes<Bus>& opcodes, const Config& config, std::uint8_
   if (!first || config.spi_check != SpiCheck::kFull) {
     return first;
   }
-  unsigned again = 0;
+  // Bytes that are read once more are the same in both images, the others are in neither run.
+  DataImage second = data.image;
+  std::uint8_t again = 0;
   for (std::uint8_t slave = 1; slave <= kSlaves; ++slave) {
     const Span<const std::uint8_t> bytes(&data.image[regs::scdata_address(slave)],
                                          regs::kScdataStride);
-    if ((mask >> (slave - 1U) & 1U) != 0 && needs_second_reading(config, slave, bytes)) {
-      again |= 1U << (slave - 1U);
+    if (is_in(mask, slave) && needs_second_reading(config, slave, bytes)) {
+      again = static_cast<std::uint8_t>(again | 1U << (slave - 1U));
     }
   }
-  DataImage second{};
-  if (const Result<void> read =
-          read_data(opcodes, config, static_cast<std::uint8_t>(again), second);
-      !read) {
-    return read;
+  const Result<void> read = read_data(opcodes, config, again, second);
+  for (std::size_t i = 0; i < second.size(); ++i) {
+    if (data.image[i] != second[i]) {
+      data.stable = static_cast<std::uint8_t>(data.stable & ~(1U << i / regs::kScdataStride));
+    }
   }
+  return read;
+}
+
+// The same for one slave, for an interrupt: smaller.
+struct FetchedSlave {
+  std::array<std::uint8_t, regs::kScdataStride> bytes{};
+  std::uint8_t slave = 1;
+  bool stable = true;
+};
+
+template <typename Bus>
+Result<void> fetch_slave(Opcodes<Bus>& opcodes, const Config& config, FetchedSlave& data) {
+  const std::size_t size = reading_bytes(config, data.slave);
+  const std::uint8_t from = regs::scdata_address(data.slave);
+  const Result<void> first =
+      read_run(opcodes, config, Span<std::uint8_t>(data.bytes.data(), size), from);
+  if (!first || config.spi_check != SpiCheck::kFull ||
+      !needs_second_reading(config, data.slave, data.bytes)) {
+    return first;
+  }
+  std::array<std::uint8_t, regs::kScdataStride> second{};
+  const Result<void> read =
+      read_run(opcodes, config, Span<std::uint8_t>(second.data(), size), from);
+  for (std::size_t i = 0; i < size; ++i) {
+    data.stable = data.stable && data.bytes[i] == second[i];
+  }
+  return read;
+}
+
+// What came of one frame.
+struct Outcome {
+  Status status;          // after the data
+  std::uint8_t good = 0;  // slaves whose data is new and good; bit 0 is slave 1
+};
+
+// The data of one slave: the eight bytes of SCDATAx, and whether they came twice the same.
+inline Result<Reading> decode(const Config& config, std::uint8_t slave, const std::uint8_t* bytes,
+                              bool stable) {
+  return stable ? decode_reading(config, slave,
+                                 Span<const std::uint8_t>(bytes, reading_bytes(config, slave)))
+                : Result<Reading>(Error::kCorrupted);
+}
+
+// All `slaves` of a frame. `missing`: what is wrong with one that is not good.
+inline void decode_all(const Config& config, std::uint8_t slaves, const Outcome& outcome,
+                       const FetchedData& data, Error missing, Frame& frame) {
+  frame.status = outcome.status;
   for (std::uint8_t slave = 1; slave <= kSlaves; ++slave) {
-    const std::size_t from = regs::scdata_address(slave);
-    for (std::size_t i = 0; i < regs::kScdataStride; ++i) {
-      if ((again >> (slave - 1U) & 1U) != 0 && i < reading_bytes(config, slave) &&
-          data.image[from + i] != second[from + i]) {
-        data.stable = static_cast<std::uint8_t>(data.stable & ~(1U << (slave - 1U)));
-      }
+    if (is_in(outcome.good, slave)) {
+      frame.set(slave, decode(config, slave, &data.image[regs::scdata_address(slave)],
+                              is_in(data.stable, slave)));
+    } else if (is_in(slaves, slave)) {
+      frame.set(slave, missing);
     }
   }
-  return {};
-}
-
-// Decodes slave 1..8 out of the data.
-inline Result<Reading> decode(const Config& config, std::uint8_t slave, const FetchedData& data) {
-  if ((data.stable >> (slave - 1U) & 1U) == 0) {
-    return Error::kCorrupted;
-  }
-  return decode_reading(config, slave,
-                        Span<const std::uint8_t>(&data.image[regs::scdata_address(slave)],
-                                                 reading_bytes(config, slave)));
-}
-
-// SVALIDx of the enabled slaves; bit 0 is slave 1.
-inline std::uint8_t valid_slaves(const Config& config, const Status& status) {
-  unsigned mask = 0;
-  for (unsigned slave = 1; slave <= kSlaves; ++slave) {
-    mask |= (status.valid(static_cast<std::uint8_t>(slave)) ? 1U : 0U) << (slave - 1);
-  }
-  return static_cast<std::uint8_t>(mask & enabled_slaves(config));
-}
-
-// What the status after a frame (EOT = 1, INSTR = 0) says about one slave.
-//
-// SVALIDx comes first: it was cleared before the request, so 1 proves that the requested frame
-// ran, whatever nAGSERR says. A chip may set nAGSERR = 0 at each write of 0xF4 (page 34 can be
-// read so; AGSERR_ON_INSTR_WRITE = 1). nAGSERR only tells why there is no data, and only after
-// nSCDERR, which is 0 when a frame ran. On a chip as above kNoData shows as kLineError.
-inline Error judge(const Config& config, std::uint8_t slave, const Status& status) {
-  if (!status.valid(slave)) {
-    if (status.scd_error()) {
-      return Error::kCrc;
-    }
-    return status.start_error() ? Error::kLineError : Error::kNoData;
-  }
-  // With nSCDERR = 0 some slave's CRC was wrong; SVALIDx identifies it (page 34). If another
-  // slave's flag is 0 it is that one, and this slave's data is good. If all are 1 the chip
-  // contradicts itself and nothing of it is believed.
-  const bool all_valid = valid_slaves(config, status) == enabled_slaves(config);
-  return status.scd_error() && all_valid ? Error::kCrc : Error::kNone;
 }
 
 }  // namespace detail

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Layer 4: all slaves out of automatic frames, held by HOLDBANK or beside a control communication.
+// Layer 4: one slave or all out of automatic frames, held by HOLDBANK or beside a control
+// communication.
 
 #ifndef MB4_FRAME_POLL_HPP_
 #define MB4_FRAME_POLL_HPP_
@@ -17,6 +18,11 @@
 
 namespace mb4 {
 
+// Most SPI transfers of one Automatic::poll_slave(), whatever the chip answers.
+inline constexpr unsigned kMaxPollSlaveTransfers = 6;
+// The same with SpiCheck::kFull.
+inline constexpr unsigned kMaxPollSlaveTransfersChecked = 9;
+
 namespace detail {
 
 // 0xF4 while a bank is held.
@@ -24,100 +30,73 @@ inline constexpr std::uint8_t kHoldAndAgs = regs::AGS::encode<1>() | regs::HOLDB
 
 }  // namespace detail
 
-// Used through Automatic::poll(), which documents order and errors.
+// Used through Automatic::poll() and poll_slave(), which document order and errors. How data is
+// fetched is handed over as a function, so that an interrupt that reads one slave does not link
+// what reads all, and a program with both has the procedure once.
 template <typename Bus, typename Clock>
 class FramePoll {
  public:
   explicit constexpr FramePoll(detail::Chip<Bus, Clock>& chip) : chip_(chip) {}
 
-  // HOLDBANK is set.
-  Result<void> read_held(Frame& frame) {
-    const Result<Status> before = chip_.read_status();
-    if (!before) {
-      return before.info();
-    }
-    // Without HOLDBANK data may be torn, with SWBANK or INIT it is another one.
-    if (chip_.checks_all() &&
-        (before->instruction() | regs::AGS::encode<1>()) != detail::kHoldAndAgs) {
-      return Error::kCorrupted;
-    }
-    const std::uint8_t fresh = detail::valid_slaves(chip_.config, *before);
-    if (fresh == 0) {
-      return store(frame, *before, 0, nullptr);
-    }
-    detail::FetchedData data;
-    if (const Result<void> fetched =
-            detail::fetch_data(chip_.opcodes, chip_.config, enabled_slaves(chip_.config), data);
-        !fetched) {
-      return fetched;
-    }
-    const Result<Status> after = chip_.read_status();
-    if (!after) {
-      return after.info();
-    }
-    if (const Result<void> clear = chip_.clear_valid_checked(enabled_slaves(chip_.config));
-        !clear) {
-      return clear;
-    }
-    const unsigned good = fresh & detail::valid_slaves(chip_.config, *after);
-    return store(frame, *after, static_cast<std::uint8_t>(good), &data);
-  }
+  using Fetch = Result<void> (*)(detail::Chip<Bus, Clock>& chip, void* data);
 
-  // No HOLDBANK. Proof that the data belongs together: SVALID of all is 0 after it has been read,
-  // so no good frame has ended since it was cleared; nSCDERR = 1, so the last frame was not a bad
-  // one either. Proof that it is good: that last frame is the one that was read.
-  Result<void> read_beside_control(Frame& frame) {
-    const Result<Status> before = chip_.read_status();
-    if (!before) {
-      return before.info();
+  // The slaves of `mask`, which deliver data; `fetch` puts it to `data`. `beside_control`: 0xF4
+  // must not be written.
+  Result<void> read(std::uint8_t mask, bool beside_control, detail::Outcome& out, Fetch fetch,
+                    void* data) {
+    if (beside_control) {
+      return run(mask, true, out, fetch, data);
     }
-    std::uint8_t fresh = detail::valid_slaves(chip_.config, *before);
-    if (fresh != 0 && chip_.checks_all()) {
-      // The flags are cleared before the data is read: this is the only other look at them.
-      const Result<Status> again = chip_.read_status();
-      if (!again) {
-        return again.info();
-      }
-      fresh = static_cast<std::uint8_t>(fresh & detail::valid_slaves(chip_.config, *again));
+    constexpr std::uint8_t kAgs = regs::AGS::encode<1>();
+    Result<void> done = chip_.write_instruction(detail::kHoldAndAgs);
+    if (done) {
+      done = run(mask, false, out, fetch, data);
     }
-    if (fresh == 0) {
-      return store(frame, *before, 0, nullptr);
-    }
-    if (const Result<void> clear = chip_.clear_valid(enabled_slaves(chip_.config)); !clear) {
-      return clear;
-    }
-    detail::FetchedData data;
-    if (const Result<void> fetched =
-            detail::fetch_data(chip_.opcodes, chip_.config, enabled_slaves(chip_.config), data);
-        !fetched) {
-      return fetched;
-    }
-    const Result<Status> after = chip_.read_status();
-    if (!after) {
-      return after.info();
-    }
-    if (after->scd_error() || detail::valid_slaves(chip_.config, *after) != 0) {
-      return Error::kBankSwitched;
-    }
-    return store(frame, *after, fresh, &data);
+    const Result<void> released = chip_.write_instruction(kAgs);
+    return done ? released : done;
   }
 
  private:
-  // nSCDERR is about the last frame on the line, which may be later than the bank that was read. A
-  // slave without SVALID beside one with it was bad in any case.
-  Result<void> store(Frame& frame, const Status& status, std::uint8_t good,
-                     const detail::FetchedData* data) {
-    frame.status = status;
-    const std::uint8_t enabled = enabled_slaves(chip_.config);
-    for (std::uint8_t slave = 1; slave <= kSlaves; ++slave) {
-      const unsigned bit = 1U << (slave - 1U);
-      if ((good & bit) != 0) {
-        frame.set(slave, detail::decode(chip_.config, slave, *data));
-      } else if ((enabled & bit) != 0) {
-        frame.set(slave, good != 0 || status.scd_error() ? Error::kCrc : Error::kNoData);
+  // Beside a control communication the bank is not held. Proof that the data belongs together:
+  // SVALID of all is cleared before the data is read and still 0 afterwards, so no good frame has
+  // ended meanwhile; nSCDERR = 1, so no bad one either. Proof that it is good: that last frame is
+  // the one that was read. The first status is then the only look at SVALID, so that it is taken
+  // twice with SpiCheck::kFull.
+  Result<void> run(std::uint8_t mask, bool beside_control, detail::Outcome& out, Fetch fetch,
+                   void* data) {
+    Status& status = out.status;
+    std::uint8_t fresh = mask;
+    for (unsigned looks = beside_control && chip_.checks_all() ? 2 : 1; looks > 0; --looks) {
+      if (const Result<void> look = chip_.look(status); !look) {
+        return look;
+      }
+      // Without HOLDBANK data may be torn, with SWBANK or INIT it is another one.
+      if (!beside_control && chip_.checks_all() &&
+          (status.instruction() | regs::AGS::encode<1>()) != detail::kHoldAndAgs) {
+        return Error::kCorrupted;
+      }
+      fresh = static_cast<std::uint8_t>(fresh & status.valid_mask());
+      if (fresh == 0) {
+        return {};
       }
     }
-    return {};
+    Result<void> done = beside_control ? chip_.clear_valid(mask) : Result<void>();
+    if (done) {
+      done = fetch(chip_, data);
+    }
+    if (done) {
+      done = chip_.look(status);
+    }
+    if (!done) {
+      return done;
+    }
+    const unsigned still = status.valid_mask() & unsigned{mask};
+    if (beside_control) {
+      out.good = fresh;
+      return status.scd_error() || still != 0 ? Error::kBankSwitched : Error::kNone;
+    }
+    out.good = static_cast<std::uint8_t>(fresh & still);
+    return chip_.clear_valid_checked(mask);
   }
 
   detail::Chip<Bus, Clock>& chip_;

@@ -48,10 +48,14 @@ inline constexpr std::uint8_t kFreqsCodes = 32;
   std::uint32_t best_hz = 0;
   for (std::uint8_t code = 0; code < kFreqsCodes; ++code) {
     const std::uint32_t divider = ma_divider(code);
+    if (divider == 0) {
+      continue;
+    }
+    const std::uint32_t ma_hz = f_clk_hz / divider;
     // The comparison is exact: f / divider <= limit, without the rounding.
-    if (divider != 0 && f_clk_hz <= std::uint64_t{limit_hz} * divider &&
-        f_clk_hz / divider > best_hz) {
-      best_hz = f_clk_hz / divider;
+    const std::uint32_t rounded_up = ma_hz + (f_clk_hz % divider != 0 ? 1U : 0U);
+    if (rounded_up <= limit_hz && ma_hz > best_hz) {
+      best_hz = ma_hz;
     }
   }
   return best_hz;

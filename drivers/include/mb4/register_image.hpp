@@ -46,8 +46,10 @@ constexpr void put_slave(RegisterImage& image, const SlaveConfig& slave, std::si
   // All slaves have the same layout: the fields of slave 1 at the address of slave `number`.
   const std::size_t base =
       regs::slave_cfg_address(static_cast<unsigned>(number)) - std::size_t{kImageFirst};
+  // Bit 7 is GRAYSx of a sensor, LSTOPx of an actuator.
+  const bool bit7 = slave.actuator ? slave.stop_bit : slave.gray;
   image[base + regs::kSlaveCfgLengthOffset] = static_cast<std::uint8_t>(
-      regs::ENSCD<1>::encode<1>() |
+      regs::ENSCD<1>::encode<1>() | regs::GRAYS<1>::insert(0, bit7 ? 1 : 0) |
       regs::SCDLEN<1>::insert(0, static_cast<std::uint8_t>(slave.data_bits - 1U)));
   image[base + regs::kSlaveCfgCrcOffset] =
       regs::SELCRCS<1>::insert(crc_code.code, crc_code.by_polynomial ? 1 : 0);
@@ -66,10 +68,22 @@ constexpr std::uint8_t encode_freqags(const Config& config) {
   }
 }
 
+// FREQR of Config::register_divider.
+constexpr std::uint8_t encode_freqr(const Config& config) {
+  return static_cast<std::uint8_t>(crc_width_bits(config.register_divider) - 1);
+}
+
+// 0xE5 at rest: what frames and INIT need of it.
+constexpr std::uint8_t encode_ctrl(const Config& config, bool biss_b) {
+  return static_cast<std::uint8_t>(regs::REGVERS::insert(0, biss_b ? 0 : 1) |
+                                   regs::EN_MO::insert(0, config.mo ? 1 : 0) |
+                                   regs::HOLDCDM::insert(0, config.hold_cdm ? 1 : 0));
+}
+
 }  // namespace detail
 
-// Registers kImageFirst..kImageLast for a valid `config`. Registers of slaves that are not enabled,
-// reserved registers and everything this driver version does not use are 0.
+// Registers kImageFirst..kImageLast for a valid `config`. Registers of slaves that are not enabled
+// and reserved registers are 0.
 [[nodiscard]] constexpr RegisterImage encode_registers(const Config& config) {
   RegisterImage image{};
   for (std::size_t number = 1; number <= kSlaves; ++number) {
@@ -77,17 +91,16 @@ constexpr std::uint8_t encode_freqags(const Config& config) {
       detail::put_slave(image, config.slaves[number - 1], number);
     }
   }
-  detail::put<regs::REGVERS>(image, regs::RegisterProtocol::kBissC);
-  // Table 36: FREQR = 5 must be set for BiSS C.
-  detail::put<regs::FREQR>(image, std::uint8_t{5});
+  image[regs::kAddrCtrl - kImageFirst] = detail::encode_ctrl(config, only_biss_b(config));
+  detail::put<regs::FREQR>(image, detail::encode_freqr(config));
   detail::put<regs::FREQS>(image, freqs_code(config.f_clk_hz, config.ma_hz).value_or(0));
   detail::put<regs::NOCRC>(image, config.spi_check == SpiCheck::kOff ? regs::CrcStorage::kDropped
                                                                      : regs::CrcStorage::kStored);
   detail::put<regs::SINGLEBANK>(
       image, config.single_bank ? regs::BankMode::kOneBank : regs::BankMode::kTwoBanks);
-  detail::put<regs::HOLDCDM>(image,
-                             config.hold_cdm ? regs::CdmHold::kHold : regs::CdmHold::kRelease);
   detail::put<regs::FREQAGS>(image, detail::encode_freqags(config));
+  image[regs::kAddrMoBusy - kImageFirst] = config.mo_busy;
+  image[regs::kAddrActnsens - kImageFirst] = actuators(config);
   // Bit 0 of 0xEC is constant 1 (table 6); writing what it reads keeps the comparison simple.
   image[regs::kAddrSlaveloc5 - kImageFirst] = kSlaveloc5Constant;
   detail::put<regs::SLAVELOC5>(image, channels_are_split(config)

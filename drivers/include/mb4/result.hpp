@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 
-// The driver's errors and `Result<T>`, which carries either a value or an error.
+// `Result<T>`, which carries either a value or an error.
 
 #ifndef MB4_RESULT_HPP_
 #define MB4_RESULT_HPP_
@@ -10,218 +10,32 @@
 #include <type_traits>
 #include <utility>
 
+#include "mb4/error.hpp"
+
 namespace mb4 {
 
-// Why a call failed. Three groups, by what has happened to the chip:
-//  * "not touched": no SPI transfer was made;
-//  * "read only": the chip was read, nothing in it was changed;
-//  * "touched": something was written, the text says in which state the chip is left.
-enum class Error : std::uint8_t {
-  // Success; a Result that holds a value reports this.
-  kNone = 0,
-  // An argument is out of its documented range. Not touched.
-  kInvalidArgument = 1,
-  // A Config member has an impossible value; ErrorInfo::field and ::number name it. Not touched.
-  kInvalidConfig = 2,
-  // A Config asks for something that the chip can do but this driver version cannot; ErrorInfo
-  // names the member. Not touched.
-  kUnsupported = 3,
-  // A frame was requested before configure() has succeeded. Not touched.
-  kNotConfigured = 4,
-  // Bus::transfer() returned false. Touched: that transfer may have reached the chip in part.
-  kTransport = 5,
-  // What was read cannot come from an iC-MB4: VERSION is not 0x84, or bits that are constant in
-  // the register map (datasheet pages 21, 22) read otherwise. MISO stuck at 0 or at 1, a wrong SPI
-  // mode and a missing chip look like this. Read only for probe(); touched for other calls.
-  kNotDetected = 6,
-  // Configuration reads back differently; ErrorInfo::address() is the first such register. Touched:
-  // the configuration in the chip must not be used.
-  kVerify = 7,
-  // The frame has not ended in time and SL is not stuck: the slave does not answer or takes longer
-  // than the timeout, or the chip has no system clock. Touched: BREAK has been sent, the chip is
-  // idle.
-  kTimeout = 8,
-  // SL is low where it must be high. Either the chip refused to start the frame (nAGSERR = 0 and no
-  // new data, datasheet pages 32, 34), or the frame did not end and SL is still low well after
-  // BREAK: broken or shorted line, slave without supply. Touched: BREAK has been sent, the chip is
-  // idle.
-  kLineError = 9,
-  // The frame came with a wrong CRC: nSCDERR = 0 or SVALIDx = 0 (datasheet pages 34, 35). Touched:
-  // one frame has run, the chip is idle and the next frame may be requested.
-  kCrc = 10,
-  // The frame ended without an error flag but holds no new data of this slave (SVALIDx = 0).
-  // Touched: one frame has run, the chip is idle.
-  kNoData = 11,
-  // The chip called the frame good, but what came over SPI contradicts it: bits beyond the data
-  // length are not 0, the stored CRC does not match the data, or (SpiCheck::kFull) reading again
-  // shows something else. Touched as for kCrc.
-  kCorrupted = 12,
-  // A register access has failed (nREGERR = 0, page 34): no slave has this ID, or a CRC was wrong,
-  // or the slave did not repeat what was written; or frames hang, because nobody is on the line.
-  // ErrorInfo::bytes() registers were good. Touched: the access has ended, of a write leading
-  // registers may have changed, the one after ErrorInfo::bytes() even to a third value.
-  kRegister = 13,
-  // The slave has not sent its start bit in time (nDELAYERR = 0, page 34): it does not have this
-  // register or takes too long. ErrorInfo::bytes() and state as for kRegister.
-  kRegisterDelay = 14,
-  // A command was not acknowledged by the slaves that it addressed (nREGERR = 0, page 34). Touched:
-  // with IDA test it has not been executed, without it may have been.
-  kCommand = 15,
-  // A control communication is running; poll or abort it first. Not touched.
-  kBusy = 16,
-  // Automatic frames were asked for but do not run, or run where they must not. Not touched.
-  kWrongMode = 17,
-  // The banks were switched while data was read without HOLDBANK, beside a control communication.
-  // Touched: SVALID of one frame is cleared. Nothing is wrong; read again.
-  kBankSwitched = 18,
-  // INIT: the line delay is beyond 255 quarters of a period of MA (nAGSERR = 0, page 33). Touched:
-  // INIT has ended, the chip is idle.
-  kLineDelay = 19,
-  // PositionTracker: the position has moved further than it can have; no chip is involved.
-  kJump = 20,
-};
+namespace detail {
 
-// The Config member that an error is about. Values are stable; new ones are added at the end.
-enum class ConfigField : std::uint8_t {
-  kNone = 0,
-  kClkHz,            // Config::f_clk_hz
-  kClockSource,      // Config::clock_source
-  kMaHz,             // Config::ma_hz
-  kLineInterface,    // Config::line_interface
-  kFrameStart,       // Config::frame_start
-  kFrameTimeoutUs,   // Config::frame_timeout_us
-  kChannelProtocol,  // Config::channels[number - 1].protocol
-  kSlaveEnabled,     // Config::slaves[number - 1].enabled
-  kDataBits,         // Config::slaves[number - 1].data_bits
-  kFlags,            // Config::slaves[number - 1].flags
-  kCrcPolynomial,    // Config::slaves[number - 1].crc_polynomial
-  kCrcStart,         // Config::slaves[number - 1].crc_start
-  kFramePeriodClk,   // Config::frame_period_clk
-  kSingleBank,       // Config::single_bank
-  kRegisterBusyUs,   // Config::register_busy_us
-  kSpiCheck,         // Config::spi_check
-};
-
-// An error with the place it is about. Four bytes, so that it fits a register.
-struct alignas(4) ErrorInfo {
-  Error code = Error::kNone;
-  // For kInvalidConfig and kUnsupported; otherwise kNone.
-  ConfigField field = ConfigField::kNone;
-  // Slave 1..8 or channel 1..2 that `field` belongs to; 0 for the whole chip.
-  std::uint8_t number = 0;
-  // See address() and bytes().
-  std::uint8_t detail = 0;
-
-  constexpr ErrorInfo() = default;
-  constexpr ErrorInfo(Error error) : code(error) {}
-  constexpr ErrorInfo(Error error, ConfigField which, std::uint8_t which_number)
-      : code(error), field(which), number(which_number) {}
-
-  [[nodiscard]] static constexpr ErrorInfo at_register(Error error, std::uint8_t register_address) {
-    ErrorInfo info(error);
-    info.detail = register_address;
-    return info;
-  }
-
-  // Register address for kVerify; otherwise 0.
-  [[nodiscard]] constexpr std::uint8_t address() const {
-    return code == Error::kVerify ? detail : std::uint8_t{0};
-  }
-  // For kRegister, kRegisterDelay and a timeout of a register access: registers that were
-  // transferred before the error, over all parts of a long access; otherwise 0.
-  [[nodiscard]] constexpr std::uint8_t bytes() const {
-    return code == Error::kVerify ? std::uint8_t{0} : detail;
-  }
-};
-
-// Short stable names for messages; they cost program memory only where they are used.
-[[nodiscard]] constexpr const char* to_string(Error error) {
-  switch (error) {
-    case Error::kNone:
-      return "none";
-    case Error::kInvalidArgument:
-      return "invalid argument";
-    case Error::kInvalidConfig:
-      return "invalid configuration";
-    case Error::kUnsupported:
-      return "unsupported configuration";
-    case Error::kNotConfigured:
-      return "not configured";
-    case Error::kTransport:
-      return "SPI transfer failed";
-    case Error::kNotDetected:
-      return "no iC-MB4 detected";
-    case Error::kVerify:
-      return "configuration reads back differently";
-    case Error::kTimeout:
-      return "frame did not end in time";
-    case Error::kLineError:
-      return "SL low at the start of the frame";
-    case Error::kCrc:
-      return "CRC error";
-    case Error::kNoData:
-      return "frame without data";
-    case Error::kCorrupted:
-      return "data corrupted on SPI";
-    case Error::kRegister:
-      return "register access failed";
-    case Error::kRegisterDelay:
-      return "slave does not have the register or is too slow";
-    case Error::kCommand:
-      return "command not acknowledged";
-    case Error::kBusy:
-      return "control communication running";
-    case Error::kWrongMode:
-      return "wrong mode for automatic frames";
-    case Error::kBankSwitched:
-      return "bank switched while reading";
-    case Error::kLineDelay:
-      return "line delay too long";
-    case Error::kJump:
-      return "position jumped";
-  }
-  return "unknown";
+// An ErrorInfo in one word: compilers take four members apart and put them together again at every
+// return, which made a tenth of the driver's size.
+constexpr std::uint32_t pack(ErrorInfo info) {
+  return static_cast<std::uint32_t>(info.code) | static_cast<std::uint32_t>(info.field) << 8U |
+         std::uint32_t{info.number} << 16U | std::uint32_t{info.detail} << 24U;
+}
+constexpr Error code_of(std::uint32_t packed) { return static_cast<Error>(packed & 0xFFU); }
+constexpr ErrorInfo unpack(std::uint32_t packed) {
+  ErrorInfo info(code_of(packed), static_cast<ConfigField>(packed >> 8U & 0xFFU),
+                 static_cast<std::uint8_t>(packed >> 16U));
+  info.detail = static_cast<std::uint8_t>(packed >> 24U);
+  return info;
 }
 
-[[nodiscard]] constexpr const char* to_string(ConfigField field) {
-  switch (field) {
-    case ConfigField::kNone:
-      return "none";
-    case ConfigField::kClkHz:
-      return "f_clk_hz";
-    case ConfigField::kClockSource:
-      return "clock_source";
-    case ConfigField::kMaHz:
-      return "ma_hz";
-    case ConfigField::kLineInterface:
-      return "line_interface";
-    case ConfigField::kFrameStart:
-      return "frame_start";
-    case ConfigField::kFrameTimeoutUs:
-      return "frame_timeout_us";
-    case ConfigField::kChannelProtocol:
-      return "protocol";
-    case ConfigField::kSlaveEnabled:
-      return "enabled";
-    case ConfigField::kDataBits:
-      return "data_bits";
-    case ConfigField::kFlags:
-      return "flags";
-    case ConfigField::kCrcPolynomial:
-      return "crc_polynomial";
-    case ConfigField::kCrcStart:
-      return "crc_start";
-    case ConfigField::kFramePeriodClk:
-      return "frame_period_clk";
-    case ConfigField::kSingleBank:
-      return "single_bank";
-    case ConfigField::kRegisterBusyUs:
-      return "register_busy_us";
-    case ConfigField::kSpiCheck:
-      return "spi_check";
-  }
-  return "unknown";
-}
+}  // namespace detail
+
+// The error of one Result on its way to be that of another.
+struct Failure {
+  std::uint32_t packed;
+};
 
 // Either a value or an error, never both. Test it (`if (result)`) before value().
 template <typename T>
@@ -229,13 +43,17 @@ class [[nodiscard]] Result {
  public:
   constexpr Result(T value) : value_(std::move(value)) {}
   // `error.code` must not be kNone: that would claim a value that does not exist.
-  constexpr Result(ErrorInfo error) : error_(error) { require(error.code != Error::kNone); }
+  constexpr Result(ErrorInfo error) : packed_(detail::pack(error)) {
+    require(error.code != Error::kNone);
+  }
   constexpr Result(Error error) : Result(ErrorInfo(error)) {}
+  constexpr Result(Failure failure) : packed_(failure.packed) { require(error() != Error::kNone); }
 
-  [[nodiscard]] constexpr bool ok() const { return error_.code == Error::kNone; }
+  [[nodiscard]] constexpr bool ok() const { return error() == Error::kNone; }
   [[nodiscard]] constexpr explicit operator bool() const { return ok(); }
-  [[nodiscard]] constexpr Error error() const { return error_.code; }
-  [[nodiscard]] constexpr const ErrorInfo& info() const { return error_; }
+  [[nodiscard]] constexpr Error error() const { return detail::code_of(packed_); }
+  [[nodiscard]] constexpr ErrorInfo info() const { return detail::unpack(packed_); }
+  [[nodiscard]] constexpr Failure failure() const { return {packed_}; }
 
   // The value. Calling it on an error is a programming mistake; it stops the program (trap
   // instruction) instead of handing out a position that was never read.
@@ -257,7 +75,7 @@ class [[nodiscard]] Result {
   }
 
   T value_{};
-  ErrorInfo error_{};
+  std::uint32_t packed_ = 0;
 };
 
 // Success without a value, or an error.
@@ -266,16 +84,18 @@ class [[nodiscard]] Result<void> {
  public:
   constexpr Result() = default;
   // An ErrorInfo with kNone means success, so that a check's outcome can be returned as it is.
-  constexpr Result(ErrorInfo error) : error_(error) {}
-  constexpr Result(Error error) : error_(error) {}
+  constexpr Result(ErrorInfo error) : packed_(detail::pack(error)) {}
+  constexpr Result(Error error) : packed_(static_cast<std::uint32_t>(error)) {}
+  constexpr Result(Failure failure) : packed_(failure.packed) {}
 
-  [[nodiscard]] constexpr bool ok() const { return error_.code == Error::kNone; }
+  [[nodiscard]] constexpr bool ok() const { return error() == Error::kNone; }
   [[nodiscard]] constexpr explicit operator bool() const { return ok(); }
-  [[nodiscard]] constexpr Error error() const { return error_.code; }
-  [[nodiscard]] constexpr const ErrorInfo& info() const { return error_; }
+  [[nodiscard]] constexpr Error error() const { return detail::code_of(packed_); }
+  [[nodiscard]] constexpr ErrorInfo info() const { return detail::unpack(packed_); }
+  [[nodiscard]] constexpr Failure failure() const { return {packed_}; }
 
  private:
-  ErrorInfo error_{};
+  std::uint32_t packed_ = 0;
 };
 
 }  // namespace mb4

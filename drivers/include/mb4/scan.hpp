@@ -10,6 +10,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "mb4/config.hpp"
 #include "mb4/control_data.hpp"
 #include "mb4/result.hpp"
 #include "mb4/span.hpp"
@@ -52,9 +53,14 @@ Result<void> read_twice(Device& device, SlaveAddress slave, std::uint8_t address
 // that a slave does not have costs the chip's limit, about 26 ms at f_MA = 10 MHz.
 //
 // Errors of Control::read_registers(), but kRegister only if a slave answered and did so wrongly
-// twice, and kRegisterDelay never.
+// twice, and kRegisterDelay never. BiSS B is kUnsupported as well: there a slave that is missing
+// looks like one without the register.
 template <typename Device>
 Result<std::uint8_t> scan_bus(Device& device, std::uint8_t channel, Span<SlaveIdentity> out) {
+  if (channel >= 1 && channel <= kChannels &&
+      device.config().channels[channel - 1U].protocol == Protocol::kBissB) {
+    return ErrorInfo(Error::kUnsupported, ConfigField::kChannelProtocol, channel);
+  }
   for (std::uint8_t id = 0; id < kSlaveIds; ++id) {
     const SlaveAddress slave{channel, id};
     SlaveIdentity identity;
@@ -64,18 +70,20 @@ Result<std::uint8_t> scan_bus(Device& device, std::uint8_t channel, Span<SlaveId
       return id;
     }
     if (!named && named.error() != Error::kRegisterDelay) {
-      return named.info();
+      return named.failure();
     }
     identity.has_identity = named.ok();
-    for (std::size_t i = 0; identity.has_identity && i < bytes.size(); ++i) {
-      (i < identity.device_id.size() ? identity.device_id[i]
-                                     : identity.manufacturer[i - identity.device_id.size()]) =
-          bytes[i];
+    // Zeros if it has not been read.
+    for (std::size_t i = 0; i < identity.device_id.size(); ++i) {
+      identity.device_id[i] = bytes[i];
+    }
+    for (std::size_t i = 0; i < identity.manufacturer.size(); ++i) {
+      identity.manufacturer[i] = bytes[identity.device_id.size() + i];
     }
     const Result<void> eds = detail::read_twice(device, slave, kRegisterEdsBank,
                                                 Span<std::uint8_t>(&identity.eds_bank, 1));
     if (!eds && eds.error() != Error::kRegisterDelay) {
-      return eds.info();
+      return eds.failure();
     }
     identity.has_eds = eds.ok() && identity.eds_bank != 0x00 && identity.eds_bank != 0xFF;
     if (id < out.size()) {

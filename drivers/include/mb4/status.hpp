@@ -53,6 +53,22 @@ class Status {
             regs::kFamilySvalid.mask(slave)) != 0;
   }
 
+  // SVALIDx of all slaves; bit 0 is slave 1.
+  [[nodiscard]] constexpr std::uint8_t valid_mask() const {
+    // Bits 7, 5, 3, 1 of each register.
+    unsigned bits = (bytes_[1] | bytes_[2] << 8U) >> 1U;
+    bits = (bits & 0x1111U) | (bits & 0x4444U) >> 1U;
+    bits = (bits & 0x0303U) | (bits & 0x3030U) >> 2U;
+    return static_cast<std::uint8_t>((bits & 0x0FU) | (bits & 0x0F00U) >> 4U);
+  }
+  // The other way round: 0xF2 and 0xF1 (high and low byte) for a mask of slaves.
+  [[nodiscard]] static constexpr std::uint16_t valid_registers(std::uint8_t mask) {
+    unsigned bits = (mask & 0x0FU) | (mask & 0xF0U) << 4U;
+    bits = (bits & 0x0303U) | (bits & 0x0C0CU) << 2U;
+    bits = (bits & 0x1111U) | (bits & 0x2222U) << 1U;
+    return static_cast<std::uint16_t>(bits << 1U);
+  }
+
   // The constant bits (table 6, page 22) read as they must: bit 1 of 0xF0 is 1, bits 0, 2, 4, 6 of
   // 0xF1 and 0xF2 are 0. False for MISO stuck at 0 or at 1.
   [[nodiscard]] constexpr bool plausible() const {

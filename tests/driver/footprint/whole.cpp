@@ -1,41 +1,46 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 
-// The whole driver: eight slaves on two channels, INIT, single and automatic frames, registers,
-// commands, the scan, turns.
+// The whole driver: every call of Device, Automatic, Control and the scan. Device, configuration
+// and arguments come from elsewhere, so that the compiler knows nothing of them in advance.
 
 #include "board.hpp"
 
-extern "C" int firmware() {
-  BoardBus bus;
-  BoardClock clock;
-  BoardDevice device(bus, clock);
-
-  mb4::Config config;
-  config.ma_hz = mb4::ma_hz_at_most(config.f_clk_hz, 2'000'000);
-  config.channels[0].protocol = mb4::Protocol::kBissC;
-  config.channels[1].protocol = mb4::Protocol::kBissC;
-  for (mb4::SlaveConfig& slave : config.slaves) {
-    slave.enabled = true;
-    slave.data_bits = 28;
-  }
-  mb4::Frame frame;
-  if (!device.probe() || !device.reset() || !device.configure(config) || !device.initialize() ||
-      !device.read_frame(2) || !device.read_all(frame) || !device.verify() ||
-      !device.break_transmission()) {
-    return 1;
-  }
-  std::array<mb4::SlaveIdentity, 2> found{};
+struct Work {
+  const mb4::Config& config;
+  mb4::Frame& frame;
   mb4::Command command;
-  command.ids = 1;
-  const std::array<std::uint8_t, 1> data{1};
-  if (!mb4::scan_bus(device, 1, found) || !device.control().send(command) ||
-      !device.control().write_registers({1, 0}, 0x60, data) || !device.automatic().start() ||
-      !device.automatic().next(frame) || !device.automatic().poll(frame)) {
-    return 2;
+  mb4::SlaveAddress address;
+  mb4::Span<std::uint8_t> bytes;
+  mb4::Span<mb4::SlaveIdentity> identities;
+  mb4::PositionTracker& tracker;
+  std::uint64_t word;
+  std::uint32_t hz_or_ns;
+  std::uint8_t slave;
+};
+
+extern "C" bool firmware(BoardDevice& device, Work& work) {
+  mb4::Automatic<BoardBus, BoardClock> automatic = device.automatic();
+  mb4::Control<BoardBus, BoardClock> control = device.control();
+  bool good = device.probe() && device.reset() && device.configure(work.config) &&
+              device.verify() && device.read_all(work.frame) && device.read_status() &&
+              device.clear_valid(work.slave) && device.break_transmission() &&
+              device.write_actuator(work.slave, work.word);
+  if (const mb4::Result<mb4::LineDelay> delay = device.initialize(); delay) {
+    work.hz_or_ns = mb4::line_delay_ns(device.config(), delay->quarters[0]);
   }
-  const mb4::Result<mb4::Reading> reading = device.automatic().poll_slave(1);
-  mb4::PositionTracker tracker(26);
-  const mb4::Result<std::int64_t> total = tracker.update(reading ? reading->position : 0);
-  return device.automatic().stop() && total ? static_cast<int>(*total) : 3;
+  good = good && device.read_frame(work.slave) && automatic.start() && automatic.next(work.frame) &&
+         automatic.poll(work.frame) && automatic.write_actuator(work.slave, work.word) &&
+         automatic.restart() && automatic.stop();
+  if (const mb4::Result<mb4::Reading> reading = automatic.poll_slave(work.slave); reading) {
+    good = good && work.tracker.update(reading->position);
+  }
+  good = good && mb4::scan_bus(device, work.slave, work.identities) && control.send(work.command) &&
+         control.read_registers(work.address, work.slave, work.bytes) &&
+         control.write_registers(work.address, work.slave, work.bytes) &&
+         control.begin_read(work.address, work.slave, work.bytes.size()) && control.poll() &&
+         control.take(work.bytes) && control.begin_write(work.address, work.slave, work.bytes) &&
+         control.begin_command(work.command) && control.abort();
+  work.hz_or_ns = mb4::ma_hz_at_most(work.config.f_clk_hz, work.hz_or_ns);
+  return good;
 }

@@ -1,0 +1,124 @@
+// SPDX-FileCopyrightText: 2026 The openmb4 authors
+// SPDX-License-Identifier: Apache-2.0
+
+// Layer 4: words for actuators (pages 15, 25, 31).
+
+#ifndef MB4_ACTUATOR_HPP_
+#define MB4_ACTUATOR_HPP_
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+#include "mb4/checked_registers.hpp"
+#include "mb4/chip.hpp"
+#include "mb4/config.hpp"
+#include "mb4/control_data.hpp"
+#include "mb4/frame_poll.hpp"
+#include "mb4/result.hpp"
+#include "mb4/span.hpp"
+#include "mb4_regs.hpp"
+
+namespace mb4 {
+
+// Used through Device::write_actuator() and Automatic::write_actuator(), which document the errors.
+//
+// A frame sends what is in the chip's bank; the host writes into the other one, and each end of a
+// frame switches them. So a word that shall stay goes into both:
+//  * Without automatic frames nothing switches meanwhile; SWBANK does it.
+//  * With automatic frames each bank is written under HOLDBANK, so that no frame sends half a word,
+//    and the second one when the end of a frame has switched, which shows in what can be read back.
+template <typename Bus, typename Clock>
+class ActuatorWrite {
+ public:
+  explicit constexpr ActuatorWrite(detail::Chip<Bus, Clock>& chip) : chip_(chip) {}
+
+  // The chip is configured and no control communication runs. `both_banks` false: with automatic
+  // frames the host's bank alone.
+  Result<void> write(std::uint8_t slave, std::uint64_t word, bool both_banks) {
+    if (!is_in(chip_.actuators, slave)) {
+      return Error::kInvalidArgument;
+    }
+    std::array<std::uint8_t, regs::kScdataStride> bytes{};
+    unsigned bits_left = chip_.config.slaves[slave - 1U].data_bits;
+    for (std::uint8_t& byte : bytes) {
+      byte = static_cast<std::uint8_t>(word);
+      word >>= 8;
+      if (bits_left < 8 && byte >> bits_left != 0) {
+        return Error::kInvalidArgument;
+      }
+      bits_left -= bits_left < 8 ? bits_left : 8;
+    }
+    const Span<const std::uint8_t> used(bytes.data(), data_bytes(chip_.config.slaves[slave - 1U]));
+    const std::uint8_t address = regs::scdata_address(slave);
+    if (!chip_.automatic) {
+      return write_both(address, used);
+    }
+    const Result<void> written = write_held(address, used);
+    return written && both_banks ? write_other(address, used) : written;
+  }
+
+ private:
+  static constexpr std::uint8_t kAgs = regs::AGS::encode<1>();
+
+  Result<void> write_held(std::uint8_t address, Span<const std::uint8_t> bytes) {
+    Result<void> written = instruct(detail::kHoldAndAgs);
+    if (written) {
+      written = detail::write_checked(chip_, address, bytes);
+    }
+    const Result<void> released = chip_.write_instruction(kAgs);
+    return written ? released : written;
+  }
+
+  // Until something else is read: that is the other bank. If it does not come the word is in both.
+  Result<void> write_other(std::uint8_t address, Span<const std::uint8_t> bytes) {
+    detail::Deadline<Clock> deadline(
+        *chip_.clock, frame_timeout_us(chip_.config) + detail::frame_pitch_us(chip_.config));
+    for (bool last = false; !last;) {
+      last = deadline.last_poll();
+      const Result<void> same = detail::compare_registers(chip_, address, bytes);
+      if (!same) {
+        return same.error() == Error::kCorrupted ? write_held(address, bytes) : same;
+      }
+    }
+    return {};
+  }
+
+  Result<void> write_both(std::uint8_t address, Span<const std::uint8_t> bytes) {
+    if (chip_.recover_first) {
+      if (const Result<void> recovered = chip_.recover(); !recovered) {
+        return recovered;
+      }
+    }
+    chip_.recover_first = true;
+    // Each change of SWBANK switches (page 33); it ends as it was.
+    for (const std::uint8_t next : {regs::SWBANK::encode<1>(), std::uint8_t{0}}) {
+      Result<void> done = detail::write_checked(chip_, address, bytes);
+      if (chip_.config.single_bank) {
+        chip_.recover_first = !done;
+        return done;
+      }
+      done = done ? instruct(next) : done;
+      if (!done) {
+        return done;
+      }
+      // Until it has taken effect: some clocks of 1 us at most.
+      detail::pause(*chip_.clock, kSwitchUs);
+    }
+    chip_.recover_first = false;
+    return {};
+  }
+
+  Result<void> instruct(std::uint8_t instruction) {
+    const Result<void> written = chip_.write_instruction(instruction);
+    return written ? chip_.confirm_instruction(instruction) : written;
+  }
+
+  static constexpr std::uint32_t kSwitchUs = 10;
+
+  detail::Chip<Bus, Clock>& chip_;
+};
+
+}  // namespace mb4
+
+#endif  // MB4_ACTUATOR_HPP_

@@ -1,0 +1,73 @@
+// SPDX-FileCopyrightText: 2026 The openmb4 authors
+// SPDX-License-Identifier: Apache-2.0
+
+// Layer 3: the registers of a configuration, written and compared. Not for direct use; see Device.
+
+#ifndef MB4_CONFIGURATION_HPP_
+#define MB4_CONFIGURATION_HPP_
+
+#include <array>
+#include <cstdint>
+
+#include "mb4/chip.hpp"
+#include "mb4/register_image.hpp"
+#include "mb4/result.hpp"
+#include "mb4_regs.hpp"
+
+namespace mb4 {
+
+template <typename Bus, typename Clock>
+class Configuration {
+ public:
+  explicit constexpr Configuration(detail::Chip<Bus, Clock>& chip) : chip_(chip) {}
+
+  // Three transfers: BREAK, all registers, comparison.
+  Result<void> write(const RegisterImage& image, std::uint8_t interface_byte) {
+    const std::array<std::uint8_t, 2> stop_and_interface{regs::BREAK::encode<1>(), interface_byte};
+    if (const Result<void> write = chip_.opcodes.write_instruction(stop_and_interface); !write) {
+      return write;
+    }
+    if (const Result<void> write = chip_.opcodes.write_registers(kImageFirst, image); !write) {
+      return write;
+    }
+    return compare(image, interface_byte, false);
+  }
+
+  [[gnu::noinline]] Result<void> compare(const RegisterImage& image, std::uint8_t interface_byte,
+                                         bool running) {
+    std::array<std::uint8_t, regs::kAddrIface - kImageFirst + 1> bytes{};
+    if (const Result<void> read = chip_.opcodes.read_registers(kImageFirst, bytes); !read) {
+      return read;
+    }
+    // Asked first: with nothing on the bus every register is different, which says less.
+    if (bytes[regs::kAddrVersion - kImageFirst] !=
+        static_cast<std::uint8_t>(regs::DeviceVersion::kIcMb4)) {
+      return Error::kNotDetected;
+    }
+    for (unsigned address = kImageFirst; address < regs::kAddrStatus0; ++address) {
+      if (is_compared(address, running) &&
+          bytes[address - kImageFirst] != image[address - kImageFirst]) {
+        return ErrorInfo::at_register(Error::kVerify, static_cast<std::uint8_t>(address));
+      }
+    }
+    if (bytes[regs::kAddrIface - kImageFirst] != interface_byte) {
+      return ErrorInfo::at_register(Error::kVerify, regs::kAddrIface);
+    }
+    return {};
+  }
+
+ private:
+  // REVISION and VERSION are constant; 0xE0, 0xE1 and 0xEE are reserved, what they read is not
+  // promised. 0xE2..0xE5 belong to the control communication of the moment.
+  static constexpr bool is_compared(unsigned address, bool running) {
+    const bool control = address >= regs::kAddrRegadr && address <= regs::kAddrCtrl;
+    return !(control && running) && (address < 0xE0 || address > 0xE1) && address != 0xEE &&
+           address != regs::kAddrRevision && address != regs::kAddrVersion;
+  }
+
+  detail::Chip<Bus, Clock>& chip_;
+};
+
+}  // namespace mb4
+
+#endif  // MB4_CONFIGURATION_HPP_

@@ -1,0 +1,80 @@
+// SPDX-FileCopyrightText: 2026 The openmb4 authors
+// SPDX-License-Identifier: Apache-2.0
+
+// What must be so before a control communication begins. Not for direct use; see ControlSteps.
+
+#ifndef MB4_CONTROL_CHECKS_HPP_
+#define MB4_CONTROL_CHECKS_HPP_
+
+#include <cstddef>
+#include <cstdint>
+
+#include "mb4/chip.hpp"
+#include "mb4/config.hpp"
+#include "mb4/control_data.hpp"
+#include "mb4/result.hpp"
+#include "mb4_regs.hpp"
+
+namespace mb4 {
+
+template <typename Bus, typename Clock>
+class ControlChecks {
+ public:
+  explicit constexpr ControlChecks(detail::Chip<Bus, Clock>& chip) : chip_(chip) {}
+
+ protected:
+  // `without`: the protocol that does not have this kind of access.
+  [[nodiscard]] Result<void> check_protocol(std::uint8_t channel, Protocol without) const {
+    const Protocol protocol = chip_.config.channels[channel - 1U].protocol;
+    if (protocol == Protocol::kUnused) {
+      return Error::kInvalidArgument;
+    }
+    if (protocol == without) {
+      return ErrorInfo(Error::kUnsupported, ConfigField::kChannelProtocol, channel);
+    }
+    return {};
+  }
+
+  [[nodiscard]] bool is_biss_b(std::uint8_t channel) const {
+    return chip_.config.channels[channel - 1U].protocol == Protocol::kBissB;
+  }
+
+  [[nodiscard]] Result<void> check_free() const {
+    if (!chip_.configured) {
+      return Error::kNotConfigured;
+    }
+    if (chip_.control.kind != detail::ControlState::Kind::kNone) {
+      return Error::kBusy;
+    }
+    if (!chip_.automatic && chip_.config.frame_start != FrameStart::kWaitForLine) {
+      return ErrorInfo(Error::kUnsupported, ConfigField::kFrameStart, 0);
+    }
+    return {};
+  }
+
+  [[nodiscard]] Result<void> check_access(SlaveAddress slave, std::uint8_t address,
+                                          std::size_t count, Protocol without) const {
+    if (const Result<void> free = check_free(); !free) {
+      return free;
+    }
+    if (slave.channel < 1 || slave.channel > kChannels || slave.id >= kSlaveIds || count < 1 ||
+        count > kMaxRegistersPerAccess || address + count > kSlaveRegisters) {
+      return Error::kInvalidArgument;
+    }
+    if (is_biss_b(slave.channel)) {
+      if (chip_.config.mo && slave.id == 0) {
+        return Error::kInvalidArgument;
+      }
+      if (chip_.automatic) {
+        return Error::kWrongMode;
+      }
+    }
+    return check_protocol(slave.channel, without);
+  }
+
+  detail::Chip<Bus, Clock>& chip_;
+};
+
+}  // namespace mb4
+
+#endif  // MB4_CONTROL_CHECKS_HPP_
