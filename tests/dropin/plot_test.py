@@ -105,6 +105,19 @@ class Plot(unittest.TestCase):
         for label in ("address 0x60", "CRC 0x4 good", "data 0x06", "CRC 0xA good", "echo 0x06"):
             self.assertIn(label, labels)
 
+    def test_ssi_in_gray_code(self):
+        # 0x1357 is 0x1AFC in Gray code; monoflop 20 us.
+        picture = self.picture(str(PICTURES / "ssi.toml"))
+        self.assertEqual(picture.labels(), ["Gray code 0x1AFC = 0x1357 (13 bits)", "monoflop 20 us"])
+        self.assertEqual(picture.bits(), [f"{0x1AFC:013b}"])
+
+    def test_biss_b_has_no_cds_and_no_cdm(self):
+        # Golden vector: 21 bits 0x15A5A5 have the CRC 0x27, 0x18 on the line.
+        picture = self.picture(str(PICTURES / "biss-b.toml"))
+        self.assertEqual(picture.labels()[1:], ["start", "position 0x56969 (19 bits)", "nE", "nW",
+                                                "CRC 0x27 good", "timeout 16 us"])
+        self.assertEqual(picture.bits(), ["0000" + "1" + f"{0x15A5A5:021b}" + f"{0x18:06b}"])
+
     def test_a_disturbed_frame_is_bad(self):
         picture = self.picture(str(PICTURES / "bad-crc.toml"), status=1)
         self.assertIn("wrong", " ".join(picture.labels()))
