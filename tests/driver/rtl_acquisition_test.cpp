@@ -223,7 +223,8 @@ TEST(DriverAutomaticNext, BadFrame_IsCrcAndTheNextIsGood) {
   unsigned bad = 0;
   for (unsigned i = 0; i < 10; ++i) {
     Frame frame;
-    ASSERT_TRUE(chip.device.automatic().next(frame).ok());
+    const mb4::Result<void> next = chip.device.automatic().next(frame);
+    ASSERT_TRUE(next.ok()) << i << " " << mb4::to_string(next.error());
     if (frame[1]) {
       EXPECT_EQ(frame[1]->raw, (frame[1]->raw & 0xFF) * kStep);
     } else {

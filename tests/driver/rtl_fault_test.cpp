@@ -38,14 +38,18 @@ struct Setup {
   unsigned data_bits;
   std::uint32_t crc;
   std::uint8_t slave;  // 1, or 2 behind another one
+  mb4::Protocol protocol = mb4::Protocol::kBissC;
 };
 
 std::string scenario(const Setup& setup) {
   const std::string first =
       "[[channel.slave]]\nprotocol = \"biss-c\"\ndata_bits = 9\nflag_bits = 0\ndata = 0x155\n";
+  std::string keys = "biss-c\"\ncontrol = true";
+  if (setup.protocol == mb4::Protocol::kBissB) keys = "biss-b\"\ntimeout = 2";
+  if (setup.protocol == mb4::Protocol::kSsi) keys = "ssi\"\ntimeout = 2\ngray = true";
   return "[[channel]]\nnumber = 1\n" + (setup.slave == 2 ? first : std::string()) +
-         "[[channel.slave]]\nprotocol = \"biss-c\"\nflag_bits = 0\nsource = \"ramp\"\n"
-         "start = 0\nstep = 1\ncontrol = true\ndata_bits = " +
+         "[[channel.slave]]\nprotocol = \"" + keys +
+         "\nflag_bits = 0\nsource = \"ramp\"\nstart = 0\nstep = 1\ndata_bits = " +
          std::to_string(setup.data_bits) + "\ncrc = " + std::to_string(setup.crc) + "\n";
 }
 
@@ -60,6 +64,8 @@ Config config(const Setup& setup) {
   slave.data_bits = static_cast<std::uint8_t>(setup.data_bits);
   slave.flags = mb4::Flags::kNone;
   slave.crc_polynomial = setup.crc;
+  slave.gray = setup.protocol == mb4::Protocol::kSsi;
+  config.channels[0].protocol = setup.protocol;
   if (setup.way != Way::kSingle && setup.way != Way::kAll) {
     config.frame_start = mb4::FrameStart::kPeriodic;
     config.frame_period_clk = 1000;  // 50 us
@@ -194,17 +200,21 @@ TEST_P(DriverFault, EveryFault_NeverAWrongOrOldPosition) {
               GetParam().name.c_str(), bits.size(), faults.size(), unnoticed, recovered);
 }
 
-INSTANTIATE_TEST_SUITE_P(Ways, DriverFault,
-                         testing::Values(Setup{"Single26Crc6", Way::kSingle, 26, 0x43, 1},
-                                         Setup{"Single40NoCrc", Way::kSingle, 40, 0, 1},
-                                         Setup{"Single64Crc16", Way::kSingle, 64, 0x190D9, 1},
-                                         Setup{"All26Crc6", Way::kAll, 26, 0x43, 2},
-                                         Setup{"Poll26Crc6", Way::kPoll, 26, 0x43, 1},
-                                         Setup{"Next26Crc6", Way::kNext, 26, 0x43, 1},
-                                         Setup{"PollSlave26Crc6", Way::kPollSlave, 26, 0x43, 1},
-                                         Setup{"PollSlave64Crc16Slave2", Way::kPollSlave, 64,
-                                               0x190D9, 2},
-                                         Setup{"PollSlave26Beside", Way::kPollBeside, 26, 0x43, 1}),
-                         [](const auto& test) { return test.param.name; });
+INSTANTIATE_TEST_SUITE_P(
+    Ways, DriverFault,
+    testing::Values(Setup{"Single26Crc6", Way::kSingle, 26, 0x43, 1},
+                    Setup{"Single40NoCrc", Way::kSingle, 40, 0, 1},
+                    Setup{"Single64Crc16", Way::kSingle, 64, 0x190D9, 1},
+                    Setup{"All26Crc6", Way::kAll, 26, 0x43, 2},
+                    Setup{"Poll26Crc6", Way::kPoll, 26, 0x43, 1},
+                    Setup{"Next26Crc6", Way::kNext, 26, 0x43, 1},
+                    Setup{"PollSlave26Crc6", Way::kPollSlave, 26, 0x43, 1},
+                    Setup{"PollSlave64Crc16Slave2", Way::kPollSlave, 64, 0x190D9, 2},
+                    Setup{"PollSlave26Beside", Way::kPollBeside, 26, 0x43, 1},
+                    Setup{"SingleBissB", Way::kSingle, 26, 0x43, 1, mb4::Protocol::kBissB},
+                    Setup{"PollSlaveBissB", Way::kPollSlave, 26, 0x43, 1, mb4::Protocol::kBissB},
+                    Setup{"SingleSsi", Way::kSingle, 25, 0, 1, mb4::Protocol::kSsi},
+                    Setup{"PollSlaveSsi", Way::kPollSlave, 25, 0x43, 1, mb4::Protocol::kSsi}),
+    [](const auto& test) { return test.param.name; });
 
 }  // namespace
