@@ -66,7 +66,7 @@ def route(top, folder, device, seed):
     clocks = json.loads((folder / f"{name}.json").read_text(encoding="utf-8"))["fmax"]
     found = {"core": 0.0, "host": 0.0}
     for clock, value in clocks.items():
-        kind = "host" if re.search(r"sclk|ale|strobe|wr_clk|rd_clk|db_i", clock) else "core"
+        kind = "core" if re.match(r"(u_clk_mux\.)?(clk|osc)", clock) else "host"
         found[kind] = min(found[kind] or 1e9, value["achieved"])
     status, text = project.run([project.tool("icepack"), f"{name}.asc", f"{name}.bin"], cwd=folder)
     if status != 0:
@@ -118,6 +118,8 @@ def ice40(top, folder, seeds):
 
 def mhz(runs, kind):
     values = [r[kind] for r in runs if r is not None]
+    if values and max(values) == 0:
+        return "strobes"  # no path from flop to flop
     return f"{min(values):.0f}..{max(values):.0f}" if values else "does not fit"
 
 

@@ -1,0 +1,42 @@
+#!/usr/bin/env python3
+# SPDX-FileCopyrightText: 2026 The openmb4 authors
+# SPDX-License-Identifier: Apache-2.0
+"""Makes the Verilated iCE40 netlist of mb4_chip: FOLDER/Vmb4_gate__ALL.a.
+
+  gate_model.py FOLDER
+"""
+
+import sys
+from pathlib import Path
+
+HERE = Path(__file__).resolve().parent
+TOOLS = HERE.parents[1] / "tools" / "synth"
+sys.path.insert(0, str(TOOLS))
+
+import project  # noqa: E402
+
+# Netlists have signals that are not used, and cells that are not, too.
+QUIET = ["-Wno-DECLFILENAME", "-Wno-UNDRIVEN", "-Wno-UNUSEDSIGNAL", "-Wno-UNUSEDPARAM"]
+
+
+def cells():
+    """The vendor's cell models of Yosys."""
+    return Path(project.tool("yosys")).parents[1] / "share" / "yosys" / "ice40" / "cells_sim.v"
+
+
+def main():
+    folder = Path(sys.argv[1]).resolve()
+    status, text = project.run([sys.executable, "-B", TOOLS / "gate_netlist.py", folder])
+    if status == 0:
+        # The cells' default values of inputs are more than Verilator reads.
+        status, text = project.run(
+            [project.tool("verilator"), "--cc", "--build", "-j", "2", "-fno-const-bit-op-tree",
+             *project.verilator_flags(), *QUIET, "-DNO_ICE40_DEFAULT_ASSIGNMENTS", "-O3",
+             "-CFLAGS", "-O1 -std=c++20 -DVL_USER_STOP", "--top-module", "mb4_gate_top",
+             "--prefix", "Vmb4_gate", "--Mdir", folder, cells(), folder / "gates.v",
+             folder / "mb4_gate_top.sv"], cwd=folder)
+    if status != 0:
+        raise SystemExit(text)
+
+
+main()

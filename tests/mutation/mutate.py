@@ -1,0 +1,128 @@
+#!/usr/bin/env python3
+# SPDX-FileCopyrightText: 2026 The openmb4 authors
+# SPDX-License-Identifier: Apache-2.0
+"""Random faults in the RTL, all in one model: each is asleep until its number is chosen.
+
+  mutate.py FOLDER [--count N] [--seed S]   writes the changed RTL and mutants.txt to FOLDER
+
+Kinds: constant (a literal is another one), operator (== is !=, ! is nothing, one side of && or ||
+is left out), stuck net (an assigned net is 0 or 1), stuck flop (it keeps its value)."""
+
+import random
+import re
+import sys
+from pathlib import Path
+
+HERE = Path(__file__).resolve().parent
+sys.path.insert(0, str(HERE.parents[1] / "tools" / "synth"))
+
+import project  # noqa: E402
+
+LITERAL = re.compile(r"(?<![\w)\]])(\d+)'([bdh])([0-9a-fA-F]+)\b")
+NOT = re.compile(r"(?<=[(=?:,&|] )!(?=[\w(])|(?<=\()!(?=[\w(])")
+
+
+def blank_comments(text):
+    return re.sub(r"//[^\n]*", lambda m: " " * len(m.group()), text)
+
+
+def operand_end(code, start):
+    """Where the right operand of an operator at `start` ends."""
+    depth = 0
+    for match in re.compile(r"[({\[]|[)}\]]|&&|\|\||::|[?:;,]").finditer(code, start):
+        token = match.group()
+        if token in "({[":
+            depth += 1
+        elif token in ")}]" and depth:
+            depth -= 1
+        elif depth == 0 and token != "::":
+            return match.start()
+    raise ValueError("no end of an operand")
+
+
+def logic_lines(code):
+    """(start, end) of text in which expressions may change: behind the ports, outside parameters,
+    case labels, generates, checks and sensitivity lists."""
+    body = code.index("\n);\n") + 4
+    for match in re.compile(r"[^\n]+\n").finditer(code, body):
+        line = match.group()
+        if re.search(r"localparam|parameter|`|\bfor\b|\bgenerate\b|always_ff|\$error|typedef|#\(|"
+                     r"^\s*\.\w+|if \(!\w*rst|if \(!\w*por|if \(!alive|\bcase|begin : ", line):
+            continue
+        yield match.start(), match.end()
+
+
+def sites(code):
+    """(kind, start, end, replacement with M for 'this fault is awake')."""
+    found = []
+    for start, end in logic_lines(code):
+        line = code[start:end]
+        label = re.match(r"\s*(?:[\w':, ?]+|default)\s*:(?!:)", line)
+        first = start + (label.end() if label and "?" not in label.group() else 0)
+        if label and "::" in line[:label.end() + 1]:
+            continue
+        for m in LITERAL.finditer(code, first, end):
+            width, base = int(m.group(1)), {"b": 2, "d": 10, "h": 16}[m.group(2)]
+            other = (int(m.group(3), base) ^ 1) % (1 << width)
+            if code[m.end():m.end() + 2].strip().startswith(":"):
+                continue
+            found.append(("constant", m.start(), m.end(),
+                          f"(M ? {width}'d{other} : {m.group()})"))
+        for m in NOT.finditer(code, first, end):
+            found.append(("operator", m.start(), m.end(), "(M) ^ !"))
+        for m in re.compile(r"[!=]=").finditer(code, first, end):
+            stop = operand_end(code, m.end())
+            found.append(("operator", stop, stop, " ^ (M)"))
+        for m in re.compile(r"&&|\|\|").finditer(code, first, end):
+            stop = operand_end(code, m.end())
+            right = code[m.end():stop].strip()
+            part = f" ({right} || M)" if m.group() == "&&" else f" ({right} && !(M))"
+            found.append(("operator", m.end(), stop, part))
+    for m in re.compile(r"\bassign (\w+)\s*=\s*([^;]*);").finditer(code):
+        if "'{" not in m.group(2):
+            for value in ("'0", "'1"):
+                found.append(("stuck net", m.start(2), m.end(2), f"(M) ? {value} : ({m.group(2)})"))
+    for m in re.compile(r"\b(\w+_q)\s*<=\s*(\w+_d);").finditer(code):
+        found.append(("stuck flop", m.start(2), m.end(2), f"(M) ? {m.group(1)} : {m.group(2)}"))
+    return found
+
+
+def main():
+    folder = Path(sys.argv[1])
+    options = dict(zip(sys.argv[2::2], sys.argv[3::2]))
+    chance = random.Random(int(options.get("--seed", 20260101)))
+    pool = []
+    for module, path in project.rtl_modules().items():
+        code = blank_comments(path.read_text(encoding="utf-8"))
+        pool += [(module, *site) for site in sites(code)]
+    chance.shuffle(pool)
+    chosen = []
+    for site in pool:
+        if len(chosen) == int(options.get("--count", 150)):
+            break
+        # Two faults in the same text cannot live side by side.
+        if all(site[0] != c[0] or site[3] < c[2] or site[2] > c[3] for c in chosen):
+            chosen.append(site)
+    folder.mkdir(parents=True, exist_ok=True)
+    listing = []
+    for path in project.rtl_files():
+        code = path.read_text(encoding="utf-8")
+        mine = [(number, c) for number, c in enumerate(chosen, 1) if c[0] == path.stem]
+        whole = code
+        for number, (_, kind, start, end, new) in sorted(mine, key=lambda c: -c[1][2]):
+            line = whole.count("\n", 0, start) + 1
+            text = whole[whole.rfind("\n", 0, start) + 1:whole.index("\n", end)].strip()
+            change = f"{whole[start:end].strip()} -> {new.strip()}"
+            listing.append((number, f"{path.stem}:{line}: {kind}: {change} in: {text}"))
+            code = code[:start] + re.sub(r"\bM\b", f"(mutant == {number})", new) + code[end:]
+        if mine:
+            at = code.index("\n);\n") + 4
+            code = (code[:at] + "  int mutant;\n  initial mutant = $c(\"mb4_mutant()\");\n"
+                    + code[at:])
+        (folder / path.name).write_text(code, encoding="utf-8")
+    (folder / "mutants.txt").write_text("".join(f"{n} {text}\n" for n, text in sorted(listing)),
+                                        encoding="utf-8")
+    print(f"{len(chosen)} of {len(pool)} possible faults")
+
+
+main()
