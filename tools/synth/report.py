@@ -74,38 +74,17 @@ def route(top, folder, device, seed):
     return found
 
 
-def instances(netlist, top):
-    """{module: number of instances below and including top}."""
-    counted = {}
-
-    def walk(module, times):
-        counted[module] = counted.get(module, 0) + times
-        for cell in netlist["modules"][module]["cells"].values():
-            if cell["type"] in netlist["modules"] and "blackbox" not in netlist["modules"][
-                    cell["type"]]["attributes"]:
-                walk(cell["type"], times)
-
-    walk(top, 1)
-    return counted
-
-
-def breakdown(top, folder):
-    """Rows (module, instances, LUT4 of all, flops of all), largest first; hierarchy is kept."""
-    run(yosys.read(files()) + [f"synth_ice40 -noflatten -top {top}", "write_json tree.json"],
-        folder)
-    netlist = json.loads((folder / "tree.json").read_text(encoding="utf-8"))
+def breakdown(folder, depth=3):
+    """Rows (instance, LUT4, flops, RAM) by the names of cells in the flat netlist, largest first."""
+    netlist = json.loads((folder / "top.json").read_text(encoding="utf-8"))
+    top = next(m for m in netlist["modules"].values() if m["attributes"].get("top"))
     rows = {}
-    for module, times in instances(netlist, top).items():
-        data = netlist["modules"][module]
-        cells = [cell["type"] for cell in data["cells"].values()]
-        name = data["attributes"].get("hdlname", module).lstrip("\\")
-        name = re.sub(r"^\$paramod\S*?\\(mb4_\w+).*", r"\1", name)
-        row = rows.setdefault(name, [0, 0, 0, 0])
-        row[0] += times
-        row[1] += times * cells.count("SB_LUT4")
-        row[2] += times * sum(cell.startswith("SB_DFF") for cell in cells)
-        row[3] += times * sum(cell.startswith("SB_RAM40") for cell in cells)
-    return sorted(((name, *row) for name, row in rows.items()), key=lambda r: -r[2])
+    for name, cell in top["cells"].items():
+        path = [part for part in name.split(".")[:-1] if re.match(r"u_|gen_", part)]
+        row = rows.setdefault(".".join(path[:depth]) or "(top)", [0, 0, 0])
+        for place, kind in enumerate(("SB_LUT4", "SB_DFF", "SB_RAM40")):
+            row[place] += cell["type"].startswith(kind)
+    return sorted(((name, *row) for name, row in rows.items()), key=lambda r: -r[1])
 
 
 def ice40(top, folder, seeds):
@@ -120,7 +99,7 @@ def mhz(runs, kind):
     values = [r[kind] for r in runs if r is not None]
     if values and max(values) == 0:
         return "strobes"  # no path from flop to flop
-    return f"{min(values):.0f}..{max(values):.0f}" if values else "does not fit"
+    return f"{min(values):.0f}..{max(values):.0f}" if values else "too many pins"
 
 
 def version(command):
@@ -155,12 +134,11 @@ def page(folder):
                          f"{count(cells, ram)} | {cells.get(carry, 0)} |")
             print(lines[-1], flush=True)
     lines += ["", "## What takes the space", "",
-              "`mb4_core` on iCE40 with hierarchy kept, so the sum is larger than above; all "
-              "instances of a module together, without what is inside other modules.", "",
-              "| module | instances | LUT4 | flops | block RAM |", "|---|---|---|---|---|"]
-    lines += [f"| `{name}` | {n} | {luts} | {flops} | {rams} |"
-              for name, n, luts, flops, rams in breakdown("mb4_core", folder / "tree")
-              if luts + flops + rams]
+              "`mb4_core` on iCE40, by the names of the cells behind optimisation: a LUT that serves "
+              "two modules counts for the one that names it.", "",
+              "| instance | LUT4 | flops | block RAM |", "|---|---|---|---|"]
+    lines += [f"| `{name}` | {luts} | {flops} | {rams} |"
+              for name, luts, flops, rams in breakdown(folder / "ice40" / "mb4_core")]
     lines += ["", "## Tools", ""]
     lines += [f"* {version(c)}" for c in (["yosys", "-V"], ["nextpnr-ice40", "--version"])]
     return "\n".join(lines) + "\n"
