@@ -130,6 +130,12 @@ class Faults(CliTest):
         report, status = self.report("kind = \"glitch\"\nwidth_ns = 50\nat_us = 20")
         self.assertEqual((self.only(report)["fate"], status), ("no effect", 0))
 
+    def test_later_errors_are_not_laid_at_an_old_fault(self):
+        report, _ = self.report("kind = \"glitch\"\nwidth_ns = 50\nat_us = 20\n"
+                                "[[fault]]\nkind = \"bit-flip\"\nbits = [2]\nat_us = 900")
+        self.assertEqual([fault["fate"] for fault in report["faults"]],
+                         ["no effect", "detected"])
+
     def test_text_logs_every_fault_and_sums_up(self):
         path = self.path("x.toml", ENCODER + "[[fault]]\nkind = \"bit-flip\"\nbits = [7]\nper_s = 2000\n"
                          "[[fault]]\nkind = \"silent\"\nslave = 1\nat_us = 900\nfor_us = 100\n")
