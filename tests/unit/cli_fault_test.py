@@ -75,8 +75,8 @@ class Faults(CliTest):
 
     def test_unplugged_slave_takes_those_behind_it_along(self):
         chain = ENCODER + "[[channel.slave]]\nprotocol = \"biss-c\"\ndata_bits = 28\ndata = 7\n"
-        report, status = self.report("kind = \"unplug\"\nslave = 2\nat_us = 700\nfor_us = 300",
-                                     40, chain)
+        report, status = self.report("kind = \"unplug\"\nslave = 2\nat_us = 700\nfor_us = 900",
+                                     60, chain)
         self.assertEqual(self.only(report)["fate"], "detected")
         self.assertEqual(status, 1)
         self.assertTrue(report["frames"][-1]["good"])
