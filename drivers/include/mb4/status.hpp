@@ -56,7 +56,7 @@ class Status {
   // SVALIDx of all slaves; bit 0 is slave 1.
   [[nodiscard]] constexpr std::uint8_t valid_mask() const {
     // Bits 7, 5, 3, 1 of each register.
-    unsigned bits = (bytes_[1] | bytes_[2] << 8U) >> 1U;
+    unsigned bits = (unsigned{bytes_[1]} | unsigned{bytes_[2]} << 8U) >> 1U;
     bits = (bits & 0x1111U) | (bits & 0x4444U) >> 1U;
     bits = (bits & 0x0303U) | (bits & 0x3030U) >> 2U;
     return static_cast<std::uint8_t>((bits & 0x0FU) | (bits & 0x0F00U) >> 4U);
