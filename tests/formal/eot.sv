@@ -7,7 +7,7 @@
 // claim: EOT = 0 from the clock after the start to three clocks behind the end, and never else
 // clocks: one
 // depth: 10
-// cover: 9
+// cover: 10
 // unbounded: induction 5
 // mutation: ctrl/mb4_status_flags.sv | (quiet_q == 2'b11) && !busy_i | quiet_q == 2'b11
 // mutation: ctrl/mb4_sequencer.sv | assign busy_o      = state_d != IDLE
