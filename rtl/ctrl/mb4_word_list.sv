@@ -46,8 +46,12 @@ module mb4_word_list #(
   logic [7:0]  sum_d;
   logic [7:0]  sum_q;     // words whose length has not been offered
   logic        summing;
-  logic [2:0]  first;
-  logic [2:0]  last;
+  logic [7:0]  sum_left;   // ... behind the one that is being offered
+  logic [2:0]  first_new;
+  logic [2:0]  first_todo;
+  logic [2:0]  first_rest;
+  logic [2:0]  last_new;
+  logic [2:0]  last_left;
   logic [2:0]  slave_d;
   logic [2:0]  slave_q;
   logic [4:0]  crc_len;
@@ -79,22 +83,37 @@ module mb4_word_list #(
       todo_d = enabled;
       sum_d  = Sum ? enabled : 8'h00;
     end else begin
-      if (summing) sum_d[slave_q] = 1'b0;
+      if (summing) sum_d = sum_left;
       if (next_i)  todo_d = rest;
     end
   end
 
-  // The data channel of the next clock, so that its configuration is there with it.
+  // The data channel of the next clock, so that its configuration is there with it. start_i and
+  // next_i come late: each case is known before, and they only choose.
+  assign sum_left = sum_q & ~(8'h01 << slave_q);
+
   always_comb begin
-    first = 3'd0;
-    last  = 3'd0;
+    first_new  = 3'd0;
+    first_todo = 3'd0;
+    first_rest = 3'd0;
+    last_new   = 3'd0;
+    last_left  = 3'd0;
     for (int i = 0; i < 8; i++) begin
-      if (todo_d[7-i]) first = 3'(7 - i);
-      if (sum_d[i])    last  = 3'(i);
+      if (enabled[7-i]) first_new  = 3'(7 - i);
+      if (todo_q[7-i])  first_todo = 3'(7 - i);
+      if (rest[7-i])    first_rest = 3'(7 - i);
+      if (enabled[i])   last_new   = 3'(i);
+      if (sum_left[i])  last_left  = 3'(i);
     end
   end
 
-  assign slave_d     = (Sum && sum_d != 8'h00) ? last : first;
+  always_comb begin
+    if (start_i)                            slave_d = Sum ? last_new : first_new;
+    else if (summing && sum_left != 8'h00)  slave_d = last_left;
+    else if (next_i)                        slave_d = first_rest;
+    else                                    slave_d = first_todo;
+  end
+
   assign cfg_en_o    = start_i || next_i || summing;
   assign cfg_slave_o = slave_d;
 

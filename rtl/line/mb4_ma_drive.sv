@@ -46,7 +46,6 @@ module mb4_ma_drive (
   always_comb begin
     ma_d       = ma_q;
     clocking_d = clocking_q;
-    rise_o     = 1'b0;
     if (begin_i) begin
       ma_d       = 1'b1;
       clocking_d = clocked_i;
@@ -61,8 +60,7 @@ module mb4_ma_drive (
       end else if (enough_i && cdm_i) begin
         clocking_d = 1'b0;
       end else begin
-        ma_d   = 1'b1;
-        rise_o = 1'b1;
+        ma_d = 1'b1;
       end
     end else if (tick_i && high_i) begin
       ma_d = 1'b1;
@@ -84,6 +82,10 @@ module mb4_ma_drive (
     if (!por_ni) ma_q <= 1'b1;
     else         ma_q <= ma_d;
   end
+
+  // Of the same cases; begin_i, which comes late, finds a line at rest.
+  assign rise_o = tick_i && clocking_q && half_next_i && !register_i && !stop_i &&
+                  !(enough_i && cdm_i);
 
   assign released_o = force_q && !force_i;
   assign clocking_o = clocking_q;
