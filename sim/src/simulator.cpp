@@ -159,17 +159,19 @@ std::uint64_t Simulator::clk_cycles_left_out() const { return chip_->left_out();
 
 void Simulator::drive_chip(Pin pin, bool level) {
   chip_->set_input(now_, pin, level);
+  // CFGIF changes with host pins and reset: from then on MA2 is another pin's inverse, or its own.
+  if (pin != Pin::kSl1 && pin != Pin::kSl2 && chip_->paired() != paired_) {
+    paired_ = !paired_;
+    ma_checks_[1].restart((chip_->watched() & ChipModel::kMa2) != 0);
+  }
   settle();
 }
 
 void Simulator::check_ma(std::size_t index, bool level) {
-  // A pin that follows MA1 has no pulses of its own, nor has the change from or to it.
-  if (index == 1) {
-    const bool was_paired = std::exchange(paired_, chip_->paired());
-    if (paired_ || was_paired) {
-      ma_checks_[index].restart(level);
-      return;
-    }
+  // A pin that follows MA1 has no pulses of its own.
+  if (index == 1 && paired_) {
+    ma_checks_[index].restart(level);
+    return;
   }
   const auto violation = ma_checks_[index].edge(now_, level, chip_->cycles(), chip_->half_clocks(),
                                                 chip_->min_clock());

@@ -141,7 +141,7 @@ class Simulator final : public HostPins {
   Time now_ = 0;
   unsigned seen_ = 0;  // watched outputs that have been acted upon
   bool settling_ = false;
-  bool paired_ = false;            // MA2 was the inverse of MA1 at its last edge
+  bool paired_ = false;            // MA2 is the inverse of MA1 (CFGIF)
   bool ner_pulled_ = false;        // by something outside
   std::array<bool, 32> levels_{};  // of input pins, by Pin
   std::optional<ModelStopped> stopped_;
