@@ -14,24 +14,12 @@
 #include <string>
 #include <utility>
 
+#include "chip_signals.hpp"
 #include "plain_steps.hpp"
 #include "verilated_chip.hpp"
 
 namespace mb4::sim {
 namespace {
-
-struct Inside {
-  // Made visible by public.vlt.
-  static bool osc_selected(const Vmb4_cover& model) {
-    return model.rootp->mb4_chip__DOT__clkeni != 0;
-  }
-  static bool clk(const Vmb4_cover& model) { return model.rootp->mb4_chip__DOT__clk != 0; }
-  static bool paired(const Vmb4_cover& model) { return model.rootp->mb4_chip__DOT__paired != 0; }
-  static unsigned half_clocks(const Vmb4_cover& model) {
-    return model.rootp
-        ->mb4_chip__DOT__u_engine__DOT__u_channels__DOT__u_lines__DOT__u_timebase__DOT__len_q;
-  }
-};
 
 // Counts of all chips so far by point.
 class Sum {
@@ -95,7 +83,8 @@ class CoveredChip final : public ChipModel {
 
 std::unique_ptr<ChipModel> make_fast_chip(const ChipConfig& config, std::uint64_t seed) {
   return std::make_unique<CoveredChip>(
-      std::make_unique<VerilatedChip<Vmb4_cover, NoTrace, Inside, PlainSteps<Vmb4_cover>>>(
+      std::make_unique<
+          VerilatedChip<Vmb4_cover, NoTrace, ChipSignals<Vmb4_cover>, PlainSteps<Vmb4_cover>>>(
           config, seed, TraceFile{}));
 }
 
