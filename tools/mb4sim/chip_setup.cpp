@@ -125,6 +125,15 @@ std::vector<ConnectedSlave> connected_slaves(const sim::Scenario& scenario) {
   return found;
 }
 
+Config clock_config(const sim::Scenario& scenario) {
+  Config config;
+  config.f_clk_hz = static_cast<std::uint32_t>(scenario.chip.system_hz());
+  config.clock_source =
+      scenario.chip.f_clk_hz != 0 ? ClockSource::kExternal : ClockSource::kInternal;
+  config.ma_hz = static_cast<std::uint32_t>(scenario.host.ma_hz);
+  return config;
+}
+
 Config make_config(const sim::Scenario& scenario) {
   if (scenario.channels.empty()) {
     fail(scenario, scenario.source, "channel", "missing: there is no slave to read");
@@ -133,11 +142,7 @@ Config make_config(const sim::Scenario& scenario) {
     if (channel.slaves.empty())
       fail(scenario, channel.source, "slave", "missing: there is no slave to read");
   }
-  Config config;
-  config.f_clk_hz = static_cast<std::uint32_t>(scenario.chip.system_hz());
-  config.clock_source =
-      scenario.chip.f_clk_hz != 0 ? ClockSource::kExternal : ClockSource::kInternal;
-  config.ma_hz = static_cast<std::uint32_t>(scenario.host.ma_hz);
+  Config config = clock_config(scenario);
   config.spi_check = SpiCheck::kCrc;
   config.frame_timeout_us = frame_timeout(scenario);
   for (const sim::ChannelConfig& channel : scenario.channels) {

@@ -24,6 +24,9 @@ struct ConnectedSlave {
 // All slaves of a scenario, in the order of their numbers.
 std::vector<ConnectedSlave> connected_slaves(const sim::Scenario& scenario);
 
+// Clocks of the scenario, nothing else.
+Config clock_config(const sim::Scenario& scenario);
+
 // Configuration that reads all slaves. Throws sim::ScenarioError with
 // the key of the scenario that chip or driver cannot follow.
 Config make_config(const sim::Scenario& scenario);

@@ -5,6 +5,7 @@
 #include <fmt/core.h>
 
 #include <charconv>
+#include <limits>
 #include <string>
 #include <system_error>
 
@@ -57,6 +58,21 @@ void add_scenario(CLI::App& command, std::string& target) {
       ->required()
       ->type_name("SCENARIO")
       ->check(file_name());
+}
+
+void add_seed(CLI::App& command, std::optional<std::uint64_t>& seed) {
+  command.add_option("--seed", seed, "Seed of every random choice (default 1)")
+      ->type_name("S")
+      ->transform(whole_number(0, std::numeric_limits<std::uint64_t>::max()));
+}
+
+void add_output(CLI::App& command, const char* option, std::string& path, const char* description,
+                const char* type_name) {
+  command.add_option(option, path, description)->type_name(type_name)->check(file_name());
+}
+
+void add_trace(CLI::App& command, std::string& path) {
+  add_output(command, "--trace", path, "Write a waveform, and a .gtkw view beside it", "F.fst");
 }
 
 std::unique_ptr<CLI::App> make_command_line(Action& action) {

@@ -9,6 +9,8 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
+#include <string>
 
 namespace mb4::tool {
 
@@ -35,6 +37,13 @@ CLI::Validator microseconds();
 CLI::Validator file_name();
 // The argument SCENARIO.
 void add_scenario(CLI::App& command, std::string& target);
+// --seed.
+void add_seed(CLI::App& command, std::optional<std::uint64_t>& seed);
+// An option with the name of a file.
+void add_output(CLI::App& command, const char* option, std::string& path, const char* description,
+                const char* type_name = "F");
+// --trace of a waveform.
+void add_trace(CLI::App& command, std::string& path);
 
 // A command whose options live as long as the command line; `run` gets them.
 template <typename Options>

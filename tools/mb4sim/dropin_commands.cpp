@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Options and help of the commands that put the chip in place of a real one.
-#include <limits>
 #include <memory>
 
 #include "command_line.hpp"
@@ -10,15 +9,6 @@
 
 namespace mb4::tool {
 namespace {
-
-void add_seed_and_trace(CLI::App& command, std::optional<std::uint64_t>& seed, std::string& trace) {
-  command.add_option("--trace", trace, "Write a waveform, and a .gtkw view beside it")
-      ->type_name("F.fst")
-      ->check(file_name());
-  command.add_option("--seed", seed, "Seed of every random choice (default 1)")
-      ->type_name("S")
-      ->transform(whole_number(0, std::numeric_limits<std::uint64_t>::max()));
-}
 
 void add_spidev(CLI::App& app, Action& action) {
   std::shared_ptr<SpidevOptions> options;
@@ -38,7 +28,8 @@ void add_spidev(CLI::App& app, Action& action) {
   spidev.add_option("--library", options->library, "Preload library (default: the one installed)")
       ->type_name("F.so")
       ->check(file_name());
-  add_seed_and_trace(spidev, options->seed, options->trace);
+  add_trace(spidev, options->trace);
+  add_seed(spidev, options->seed);
   // Behind "--" words that look like options are the program's.
   spidev.add_option("program", options->program, "Program and its arguments, behind --")
       ->required()
@@ -68,7 +59,8 @@ void add_bridge(CLI::App& app, Action& action) {
   bridge.add_flag("--once", options->once, "End when the last client has gone");
   bridge.add_flag("--wall-time", options->wall,
                   "Real time between requests passes in the simulation too");
-  add_seed_and_trace(bridge, options->seed, options->trace);
+  add_trace(bridge, options->trace);
+  add_seed(bridge, options->seed);
   bridge.footer(
       "Prints 'listening on unix:PATH' or 'listening on tcp:HOST:PORT', then serves until SIGINT "
       "or "
@@ -103,15 +95,11 @@ void add_plot(CLI::App& app, Action& action) {
       ->type_name("ID")
       ->transform(whole_number(0, 7));
   plot.add_option("--title", options->title, "Heading of the picture")->type_name("TEXT");
-  plot.add_option("--svg", options->svg, "Write the picture to a file (default standard output)")
-      ->type_name("F.svg")
-      ->check(file_name());
-  plot.add_option("--vcd", options->vcd, "Write MA, MO and SL of the whole run, for sigrok")
-      ->type_name("F.vcd")
-      ->check(file_name());
-  plot.add_option("--seed", options->seed, "Seed of every random choice (default 1)")
-      ->type_name("S")
-      ->transform(whole_number(0, std::numeric_limits<std::uint64_t>::max()));
+  add_output(plot, "--svg", options->svg, "Write the picture to a file (default standard output)",
+             "F.svg");
+  add_output(plot, "--vcd", options->vcd, "Write MA, MO and SL of the whole run, for sigrok",
+             "F.vcd");
+  add_seed(plot, options->seed);
   plot.footer(
       "Exit status 1 if the frame is bad.\n"
       "Example: mb4sim plot examples/resolute-26.toml --svg frame.svg\n"

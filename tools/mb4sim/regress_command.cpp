@@ -46,10 +46,7 @@ std::string run_one(const std::string& path, const sim::Scenario& scenario, std:
       for (std::size_t i = 0; i < session.slaves().size(); ++i) {
         report.add(number, frame.end, session.slaves()[i].number, frame.results[i], frame.sent[i]);
       }
-      fault_report.frame(number, frame.begin, frame.outcomes(session.slaves()));
-      if (const unsigned slave = fault_report.unchecked_id(); slave != 0) {
-        fault_report.id_checked(slave, session.check_id(slave));
-      }
+      session.report(frame, fault_report);
     }
     fault_report.finish();
     faults = session.simulator().faults().size();

@@ -40,10 +40,7 @@ class RunPrinter {
   }
 
   void frame(const SessionFrame& frame, Session& session) {
-    faults_->frame(frame.number, frame.begin, frame.outcomes(session.slaves()));
-    if (const unsigned slave = faults_->unchecked_id(); slave != 0) {
-      faults_->id_checked(slave, session.check_id(slave));
-    }
+    session.report(frame, *faults_);
     progress_.clear();
     if (!options_.json) fmt::print("{}", faults_->new_lines());
     for (std::size_t i = 0; i < session.slaves().size(); ++i) {
@@ -100,17 +97,12 @@ void trace_around(const RunOptions& options, const sim::Scenario& scenario,
   sim_options.trace_to = bad.end + margin;
   Session session(scenario, sim_options);
   if (!session.configure()) return;
-  // Identity checks belong to the course of events.
-  std::optional<FaultReport> faults;
-  faults.emplace(session.simulator().scenario(), session.simulator().faults());
-  for (std::uint64_t number = 1; number <= bad.number; ++number) {
-    const SessionFrame frame = session.read(number);
-    faults->frame(number, frame.begin, frame.outcomes(session.slaves()));
-    if (number == bad.number) break;
-    if (const unsigned slave = faults->unchecked_id(); slave != 0) {
-      faults->id_checked(slave, session.check_id(slave));
-    }
+  // The register accesses that faults ask for belong to the course of events.
+  FaultReport faults(session.simulator().scenario(), session.simulator().faults());
+  for (std::uint64_t number = 1; number < bad.number; ++number) {
+    session.report(session.read(number), faults);
   }
+  session.read(bad.number);
   session.simulator().run_until(sim_options.trace_to);
 }
 
@@ -128,7 +120,6 @@ int run_command(const RunOptions& options) {
     Session session(scenario, simulator_options(options, outputs), outputs.bus_log != nullptr);
     if (const Result<void> configured = session.configure(); !configured) {
       fmt::print(stderr, "mb4sim: cannot configure the chip: {}\n", describe(configured.info()));
-      good = false;
       if (traced) session.simulator().flush_trace();
       outputs.csv.reset();
       outputs.bus_log.reset();

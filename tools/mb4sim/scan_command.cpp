@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
-#include <fmt/core.h>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
@@ -38,11 +38,7 @@ struct Found {
 // every timeout. (Page 27 of the datasheet.)
 Config scan_config(const sim::Scenario& scenario, unsigned channel) {
   constexpr std::uint32_t kPitchNs = 60'000;
-  Config config;
-  config.f_clk_hz = static_cast<std::uint32_t>(scenario.chip.system_hz());
-  config.clock_source =
-      scenario.chip.f_clk_hz != 0 ? ClockSource::kExternal : ClockSource::kInternal;
-  config.ma_hz = static_cast<std::uint32_t>(scenario.host.ma_hz);
+  Config config = clock_config(scenario);
   for (ChannelConfig& each : config.channels) each.protocol = Protocol::kUnused;
   config.channels[channel - 1].protocol = Protocol::kBissC;
   for (SlaveConfig& slave : config.slaves) slave.enabled = false;
@@ -53,10 +49,7 @@ Config scan_config(const sim::Scenario& scenario, unsigned channel) {
 }
 
 std::string hex(std::span<const std::uint8_t> bytes) {
-  std::string out;
-  for (const std::uint8_t byte : bytes)
-    out += fmt::format("{}{:02X}", out.empty() ? "" : " ", byte);
-  return out;
+  return fmt::format("{:02X}", fmt::join(bytes, " "));
 }
 
 // ASCII by custom; a dot for what cannot be printed.

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Options and help of the commands that run a scenario.
-#include <limits>
 #include <memory>
 #include <string>
 
@@ -14,22 +13,11 @@ namespace {
 
 constexpr std::uint64_t kMaxFrames = 1'000'000'000;
 
-void add_seed(CLI::App& command, std::optional<std::uint64_t>& seed) {
-  command.add_option("--seed", seed, "Seed of every random choice (default 1)")
-      ->type_name("S")
-      ->transform(whole_number(0, std::numeric_limits<std::uint64_t>::max()));
-}
-
 void add_frames(CLI::App& command, std::uint64_t& frames, const char* description,
                 std::uint64_t minimum) {
   command.add_option("--frames", frames, description)
       ->type_name("N")
       ->transform(whole_number(minimum, kMaxFrames));
-}
-
-void add_output(CLI::App& command, const char* option, std::string& path, const char* description,
-                const char* type_name = "F") {
-  command.add_option(option, path, description)->type_name(type_name)->check(file_name());
 }
 
 void add_time(CLI::App& command, const char* option, std::optional<double>& us,
@@ -44,8 +32,7 @@ void add_run(CLI::App& app, Action& action) {
                    &run_command, options);
   add_scenario(run, options->scenario);
   add_frames(run, options->frames, "Frames to read (default 10)", 1);
-  add_output(run, "--trace", options->trace, "Write a waveform, and a .gtkw view beside it",
-             "F.fst");
+  add_trace(run, options->trace);
   add_time(run, "--trace-from", options->trace_from_us, "Waveform from this time on");
   add_time(run, "--trace-to", options->trace_to_us, "Waveform up to this time");
   add_time(run, "--trace-error", options->trace_error_us,

@@ -83,27 +83,33 @@ SessionFrame Session::read(std::uint64_t number) {
     const sim::Slave* device = simulator_.slave(slave.number);
     out.sent.push_back(device != nullptr ? device->sent_word() : std::nullopt);
     if (out.sent.back()) out.sent.back() = as_stored(*slave.config, *out.sent.back());
-    if (device == nullptr || device->actuator() == nullptr) continue;
+    const sim::Actuator* const target = actuator(slave);
+    if (target == nullptr) continue;
     // What it has got against what the host has written.
     out.sent.back() = set_points_[slave.number];
     if (!read) continue;
     Reading taken;
     taken.slave = static_cast<std::uint8_t>(slave.number);
-    taken.raw = taken.position = device->actuator()->word();
+    taken.raw = taken.position = target->word();
     out.results.back() = taken;
   }
   return out;
 }
 
+const sim::Actuator* Session::actuator(const ConnectedSlave& slave) const {
+  const sim::Slave* device = simulator_.slave(slave.number);
+  return device != nullptr ? device->actuator() : nullptr;
+}
+
 // Each actuator counts up from its first word.
 Result<void> Session::write_actuators() {
   for (const ConnectedSlave& slave : slaves_) {
-    const sim::Slave* device = simulator_.slave(slave.number);
-    if (device == nullptr || device->actuator() == nullptr) continue;
+    const sim::Actuator* const target = actuator(slave);
+    if (target == nullptr) continue;
     const unsigned bits = slave.config->data_bits();
     const std::uint64_t mask = bits < 64 ? (std::uint64_t{1} << bits) - 1 : ~std::uint64_t{0};
     std::uint64_t& word = set_points_[slave.number];
-    word = (device->actuator()->word() + 1) & mask;
+    word = (target->word() + 1) & mask;
     const Result<void> written =
         device_.write_actuator(static_cast<std::uint8_t>(slave.number), word);
     if (!written) return written;
@@ -114,13 +120,21 @@ Result<void> Session::write_actuators() {
 // They take their words when MA has rested for their timeout.
 void Session::wait_for_actuators() {
   for (const ConnectedSlave& slave : slaves_) {
-    const sim::Slave* device = simulator_.slave(slave.number);
-    if (device == nullptr || device->actuator() == nullptr) continue;
+    if (actuator(slave) == nullptr) continue;
     simulator_.run_while_waiting([&] { return simulator_.line(slave.channel)->chain().idle(); },
                                  simulator_.now() + sim::kPsPerSecond);
   }
 }
 
+void Session::report(const SessionFrame& frame, FaultReport& faults) {
+  faults.frame(frame.number, frame.begin, frame.outcomes(slaves_));
+  if (const unsigned slave = faults.unchecked_id(); slave != 0) {
+    faults.id_checked(slave, check_id(slave));
+  }
+}
+
+// Reads the first ID register of a BiSS C slave and compares it with the slave's own: what went
+// wrong, or empty.
 std::string Session::check_id(unsigned slave) {
   const SlaveAddress address = slave_address(config_, static_cast<std::uint8_t>(slave));
   std::uint8_t value = 0;

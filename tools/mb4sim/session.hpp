@@ -44,9 +44,8 @@ class Session {
 
   Result<void> configure() { return device_.configure(config_); }
   SessionFrame read(std::uint64_t number);
-  // Reads the first ID register of a BiSS C slave and compares it with the slave's own: what went
-  // wrong, or empty.
-  std::string check_id(unsigned slave);
+  // Tells the report of a frame, and makes the register access that a fault of an ID asks for.
+  void report(const SessionFrame& frame, FaultReport& faults);
 
   const std::vector<ConnectedSlave>& slaves() const { return slaves_; }
   sim::Simulator& simulator() { return simulator_; }
@@ -55,6 +54,9 @@ class Session {
   std::string take_bus_log() { return std::exchange(bus_log_, {}); }
 
  private:
+  std::string check_id(unsigned slave);
+  // nullptr: the slave is a sensor.
+  const sim::Actuator* actuator(const ConnectedSlave& slave) const;
   Result<void> write_actuators();
   void wait_for_actuators();
 

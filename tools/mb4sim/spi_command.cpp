@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
-#include <fmt/core.h>
+#include <fmt/format.h>
 
 #include <charconv>
 #include <cstdio>
@@ -73,10 +73,7 @@ void execute(sim::Simulator& simulator, SimBus& bus, const std::vector<std::stri
   }
   std::vector<std::uint8_t> rx(tx.size());
   bus.transfer({tx.data(), tx.size()}, {rx.data(), rx.size()});
-  std::string answer;
-  for (const std::uint8_t byte : rx)
-    answer += fmt::format("{}{:02X}", answer.empty() ? "" : " ", byte);
-  fmt::print("{}\n", answer);
+  fmt::print("{:02X}\n", fmt::join(rx, " "));
 }
 
 }  // namespace

@@ -63,9 +63,12 @@ void SpiPort::select(bool active) {
   if ((settings_.mode & SpiSettings::kNoCs) == 0) simulator_.spi().select(active);
 }
 
+unsigned SpiPort::bits_of(const SpiTransfer& transfer) const {
+  return transfer.bits_per_word != 0 ? transfer.bits_per_word : settings_.bits_per_word;
+}
+
 void SpiPort::check(const SpiTransfer& transfer) const {
-  const unsigned bits =
-      transfer.bits_per_word != 0 ? transfer.bits_per_word : settings_.bits_per_word;
+  const unsigned bits = bits_of(transfer);
   if (bits > SpiSettings::kMaxBits) {
     throw RefusedValue(fmt::format("{} bits per word, only 1 to 32 are supported", bits));
   }
@@ -80,8 +83,7 @@ void SpiPort::check(const SpiTransfer& transfer) const {
 
 void SpiPort::run(const SpiTransfer& transfer, std::vector<std::uint8_t>& rx) {
   sim::SpiHost& host = simulator_.spi();
-  const unsigned bits =
-      transfer.bits_per_word != 0 ? transfer.bits_per_word : settings_.bits_per_word;
+  const unsigned bits = bits_of(transfer);
   const unsigned bytes = bytes_of(bits);
   const bool lsb_first = (settings_.mode & SpiSettings::kLsbFirst) != 0;
   for (std::size_t at = 0; at < transfer.length; at += bytes) {

@@ -68,6 +68,7 @@ class SpiPort {
   void release();
 
  private:
+  unsigned bits_of(const SpiTransfer& transfer) const;  // in a word
   void check(const SpiTransfer& transfer) const;
   void run(const SpiTransfer& transfer, std::vector<std::uint8_t>& rx);
   void select(bool active);
