@@ -199,14 +199,13 @@ void FaultInjector::set_slave(Time now, const FaultConfig& fault, bool on) {
       slave.control()->faults().set_wrong_id(on);
       break;
     case FaultKind::kUnplug: {
-      const unsigned first = line.chain().size() != 0 && &line.chain().slave(0) == &slave;
-      if (first) {
-        line.act(now, on ? CableEvent::Action::kUnplug : CableEvent::Action::kPlug);
-        break;
-      }
       std::size_t index = 0;
       while (&line.chain().slave(index) != &slave) ++index;
-      line.chain().detach(now, on ? index : line.chain().size());
+      if (index == 0) {
+        line.act(now, on ? CableEvent::Action::kUnplug : CableEvent::Action::kPlug);
+      } else {
+        line.chain().detach(now, on ? index : line.chain().size());
+      }
       break;
     }
     default:

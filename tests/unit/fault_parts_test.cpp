@@ -12,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "arrivals.hpp"
 #include "clock_source.hpp"
 #include "mb4sim/biss_c_slave.hpp"
 #include "mb4sim/simulator.hpp"
@@ -21,12 +22,6 @@
 
 namespace mb4::sim {
 namespace {
-
-using Arrivals = std::vector<std::pair<Time, unsigned>>;
-
-void record(Time now, void* receiver, unsigned levels) {
-  static_cast<Arrivals*>(receiver)->emplace_back(now, levels);
-}
 
 TEST(FaultParts, Glitch_InvertsTheLevelForItsWidth) {
   EventQueue queue;

@@ -9,14 +9,10 @@
 #include <utility>
 #include <vector>
 
+#include "arrivals.hpp"
+
 namespace mb4::sim {
 namespace {
-
-using Arrivals = std::vector<std::pair<Time, unsigned>>;
-
-void record(Time now, void* receiver, unsigned levels) {
-  static_cast<Arrivals*>(receiver)->emplace_back(now, levels);
-}
 
 TEST(Wire, DelayLongerThanEdgeDistance_AllEdgesArrive) {
   EventQueue queue;

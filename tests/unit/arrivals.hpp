@@ -1,0 +1,23 @@
+// SPDX-FileCopyrightText: 2026 The openmb4 authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// What arrives at the end of a wire.
+#ifndef MB4_TESTS_UNIT_ARRIVALS_HPP_
+#define MB4_TESTS_UNIT_ARRIVALS_HPP_
+
+#include <utility>
+#include <vector>
+
+#include "mb4sim/time.hpp"
+
+namespace mb4::sim {
+
+using Arrivals = std::vector<std::pair<Time, unsigned>>;
+
+inline void record(Time now, void* receiver, unsigned levels) {
+  static_cast<Arrivals*>(receiver)->emplace_back(now, levels);
+}
+
+}  // namespace mb4::sim
+
+#endif  // MB4_TESTS_UNIT_ARRIVALS_HPP_
