@@ -65,6 +65,14 @@ function(mb4_verilate target)
     set(ARG_PREFIX V${ARG_TOP})
   endif()
   mb4_rtl_sources(sources)
+  # Verilator also finds modules by the names of their files: without it a build tree made before a
+  # file was added cannot come as far as reading the new list.
+  set(folders ${MB4_ROOT}/rtl)
+  foreach(source IN LISTS sources)
+    cmake_path(GET source PARENT_PATH folder)
+    list(APPEND folders ${folder})
+  endforeach()
+  list(REMOVE_DUPLICATES folders)
   set(trace)
   if(ARG_TRACE)
     set(trace TRACE_FST)
@@ -72,7 +80,7 @@ function(mb4_verilate target)
   verilate(${target} ${trace}
     TOP_MODULE ${ARG_TOP} PREFIX ${ARG_PREFIX}
     SOURCES ${MB4_ROOT}/rtl/mb4.vlt ${sources} ${ARG_SOURCES}
-    INCLUDE_DIRS ${MB4_ROOT}/rtl
+    INCLUDE_DIRS ${folders}
     VERILATOR_ARGS -Wall --assert --x-assign unique --x-initial unique -fno-const-bit-op-tree
                    --no-timing ${ARG_ARGS})
 endfunction()
