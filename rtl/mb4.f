@@ -53,6 +53,7 @@ line/mb4_timebase.sv
 line/mb4_sl_sampler.sv
 line/mb4_crc.sv
 line/mb4_rx_word.sv
+line/mb4_edge_count.sv
 line/mb4_ma_drive.sv
 line/mb4_frame.sv
 line/mb4_mo_tx.sv

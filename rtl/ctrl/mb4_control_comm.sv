@@ -56,6 +56,7 @@ module mb4_control_comm (
   output logic [5:0] good_bytes_o
 );
 
+  logic       time_d, time_q;
   logic waiting, moved;
   logic control_begin, control_end, control_error, control_delay, in_body, expired, sent;
   logic register_start, register_active, register_wait, register_init, register_error;
@@ -159,13 +160,21 @@ module mb4_control_comm (
     .cdm1_o
   );
 
-  assign time_o = waiting || (active_o && live_i);
+  // A clock late: much hangs on the end of a half period, and a frame begins the time anew.
+  assign time_d = waiting || (active_o && live_i);
+
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) time_q <= 1'b0;
+    else         time_q <= time_d;
+  end
+
+  assign time_o = time_q;
 
   mb4_reg_watchdog u_watchdog (
     .clk_i,
     .rst_ni,
     .freqr_i   (cfg_i.freqr),
-    .watch_i   (time_o || register_wait),
+    .watch_i   (time_d || register_wait),
     .clear_i   (moved),
     .live_i    (live_i || register_wait),
     .tick_i,

@@ -25,7 +25,7 @@ module mb4_spi_shift (
   logic [2:0] bit_q;
   logic [6:0] shift_q;
   logic       miso_q;
-  logic       miso_d;
+  logic [6:0] out_q;     // bits that follow
 
   always_ff @(posedge sclk_i or negedge frame_rst_ni) begin
     if (!frame_rst_ni) begin
@@ -40,12 +40,12 @@ module mb4_spi_shift (
   assign byte_valid_o = bit_q == 3'd7;
   assign byte_o       = {shift_q, mosi_i};
 
-  // After k rising edges of a byte the falling edge puts out bit 7 - k.
-  assign miso_d = tx_en_i && tx_byte_i[~bit_q];
-
+  // After k rising edges of a byte the falling edge puts out bit 7 - k. The byte is taken with its
+  // first bit, whole: it comes late, and from a shift register the others have a short way.
   always_ff @(negedge sclk_i or negedge frame_rst_ni) begin
-    if (!frame_rst_ni) miso_q <= 1'b0;
-    else               miso_q <= miso_d;
+    if (!frame_rst_ni)      {miso_q, out_q} <= 8'h00;
+    else if (bit_q == 3'd0) {miso_q, out_q} <= tx_byte_i & {8{tx_en_i}};
+    else                    {miso_q, out_q} <= {out_q, 1'b0};
   end
 
   assign miso_o = miso_q;

@@ -101,10 +101,8 @@ module mb4_frame (
   logic               init_q;
   logic               started_d;
   logic               started_q;   // the start bit has come
-  logic [1:0]         rises_d;
-  logic [1:0]         rises_q;     // rising edges up to 2
-  logic signed [10:0] need_d;
-  logic signed [10:0] need_q;      // rising edges still needed; -1: more were sent
+  logic               none_left;   // MA edges still needed
+  logic               one_left;    // ... or none
   logic               cds_d;
   logic               cds_q;
   logic               load_d;
@@ -127,9 +125,8 @@ module mb4_frame (
   assign cdm         = cds_q ? cdm_q[1] : cdm_q[0];
   assign cdm_known   = cdm_q[1] == cdm_q[0] || state_q == DATA || state_q == STOP ||
                        state_q == TIMEOUT;
-  assign enough      = init_q ? rises_q == 2'd2
-                              : (started_q || bus_i) && need_q <= 11'sd0 && cdm_known &&
-                                !len_valid_i;
+  assign enough      = init_q ? armed_a_o
+                              : (started_q || bus_i) && none_left && cdm_known && !len_valid_i;
 
   mb4_ma_drive u_ma (
     .clk_i,
@@ -153,21 +150,24 @@ module mb4_frame (
     .ma_o
   );
 
-  // Edges sent and needed.
-  always_comb begin
-    rises_d = rises_q;
-    need_d  = need_q;
-    if (begin_frame) begin
-      rises_d = 2'd0;
-      need_d  = (biss_c ? 11'sd5 : ssi ? 11'sd1 : 11'sd4) +
-                (bus_i ? signed'({3'b000, mo_busy_i}) : 11'sd0);
-    end else if (state_q != IDLE) begin
-      if (rise && rises_q != 2'd2) rises_d = rises_q + 2'd1;
-      need_d = need_q + ((len_valid_i && !reduced_q) ? signed'({4'h0, len_i}) : 11'sd0)
-                      + ((waited && !bus_i) ? 11'sd1 : 11'sd0)
-                      - ((rise && !need_q[10]) ? 11'sd1 : 11'sd0);
-    end
-  end
+  mb4_edge_count u_edges (
+    .clk_i,
+    .rst_ni,
+    .biss_c_i    (biss_c),
+    .ssi_i       (ssi),
+    .bus_i,
+    .mo_busy_i,
+    .begin_i     (begin_frame),
+    .run_i       (state_q != IDLE),
+    .len_valid_i (len_valid_i && !reduced_q),
+    .len_i,
+    .wait_i      (waited && !bus_i),
+    .rise_i      (rise),
+    .two_o       (armed_a_o),
+    .two_next_o  (armed_b_o),
+    .none_left_o (none_left),
+    .one_left_o  (one_left)
+  );
 
   // The frame.
   always_comb begin
@@ -264,8 +264,6 @@ module mb4_frame (
       hold_q     <= 1'b0;
       init_q     <= 1'b0;
       started_q  <= 1'b0;
-      rises_q    <= '0;
-      need_q     <= '0;
       cds_q      <= 1'b0;
       load_q     <= 1'b0;
     end else begin
@@ -275,18 +273,14 @@ module mb4_frame (
       hold_q     <= hold_d;
       init_q     <= init_d;
       started_q  <= started_d;
-      rises_q    <= rises_d;
-      need_q     <= need_d;
       cds_q      <= cds_d;
       load_q     <= load_d;
     end
   end
 
-  assign armed_a_o   = rises_q == 2'd2;
-  assign armed_b_o   = rises_d == 2'd2;
   assign word_load_o = load_q;
   assign rise_o      = rise;
-  assign final_o     = rise && (started_q || bus_i) && need_q <= 11'sd1 && cdm_known;
+  assign final_o     = rise && (started_q || bus_i) && one_left && cdm_known;
   assign clocks_o    = ma_clocks;
   assign cds_o       = cds_q;
   assign cdm_o       = cdm;
@@ -294,6 +288,5 @@ module mb4_frame (
   assign timeout_o   = state_q == TIMEOUT;
 
   `MB4_ASSERT_IF(IdleDoesNotClock_A, clk_i, rst_ni, state_q == IDLE, !ma_clocks)
-  `MB4_ASSERT(NeedInRange_A, clk_i, rst_ni, need_q >= -11'sd1 && need_q <= 11'sd920)
 
 endmodule

@@ -32,6 +32,8 @@ module mb4_timebase (
   logic [7:0] len_q;
   logic [7:0] cnt_d;
   logic [7:0] cnt_q;
+  logic       last_d;
+  logic       last_q;      // the last clock of a half period
   logic       half_d;
   logic       half_q;
   logic       tick;
@@ -40,20 +42,25 @@ module mb4_timebase (
   logic [1:0] b_q;
   logic [1:0] h_q;
 
-  assign tick   = run_i && cnt_q == len_q - 8'd1;
+  // What ends a half period decides much in the same clock, so it is known a clock before.
+  assign tick   = run_i && last_q;
   assign middle = (len_q == 8'd1) ? tick : run_i && cnt_q == {1'b0, len_q[7:1]} - 8'd1;
 
   always_comb begin
     cnt_d  = cnt_q;
+    last_d = last_q;
     half_d = half_q;
     if (restart_i) begin
       cnt_d  = 8'd0;
+      last_d = half_len_i == 8'd1;
       half_d = 1'b1;
     end else if (tick) begin
       cnt_d  = 8'd0;
+      last_d = len_q == 8'd1;
       half_d = !half_q;
     end else if (run_i) begin
       cnt_d  = cnt_q + 8'd1;
+      last_d = cnt_q + 8'd2 == len_q;
     end
   end
 
@@ -61,6 +68,7 @@ module mb4_timebase (
     if (!rst_ni) begin
       len_q  <= 8'd1;
       cnt_q  <= '0;
+      last_q <= 1'b1;
       half_q <= 1'b1;
       a_q    <= '0;
       b_q    <= '0;
@@ -68,6 +76,7 @@ module mb4_timebase (
     end else begin
       if (restart_i) len_q <= half_len_i;
       cnt_q  <= cnt_d;
+      last_q <= last_d;
       half_q <= half_d;
       // Points of the time before a restart belong to nobody.
       a_q    <= restart_i ? 2'b00 : {a_q[0], tick};
@@ -85,5 +94,6 @@ module mb4_timebase (
 
   `MB4_ASSERT(HalfLength_A, clk_i, rst_ni, len_q != 8'd0)
   `MB4_ASSERT_IF(CountInRange_A, clk_i, rst_ni, run_i, cnt_q < len_q)
+  `MB4_ASSERT(LastOfHalf_A, clk_i, rst_ni, last_q == (cnt_q == len_q - 8'd1))
 
 endmodule

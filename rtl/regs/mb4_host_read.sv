@@ -34,16 +34,14 @@ module mb4_host_read (
   input  logic [1:0] revision_sel_i
 );
 
-  typedef enum logic [2:0] {
-    REGISTER,
-    SLAVE_CFG,
-    SCD_LO,
-    SCD_HI,
-    RDATA
-  } source_e;
-
-  source_e    source_d;
-  source_e    source_q;
+  // One bit a source; none of the three memories until they are cleared.
+  logic       reg_sel_d, reg_sel_q;
+  logic       slave_sel_d, slave_sel_q;
+  logic       lo_sel_d, lo_sel_q;
+  logic       hi_sel_d, hi_sel_q;
+  logic       rdata_sel_d, rdata_sel_q;
+  logic [7:0] reg_data;
+  logic [7:0] ram_data;
   logic [7:0] reg_d;
   logic [7:0] reg_q;
   logic [3:0] flags_d;   // bits 7, 5, 3, 1 of the same register, of bank 1
@@ -51,16 +49,11 @@ module mb4_host_read (
   logic       bank_q;
   logic       ready_q;
 
-  always_comb begin
-    source_d = REGISTER;
-    unique casez (rd_addr_i)
-      8'b000?????: source_d = SCD_LO;
-      8'b001?????: source_d = SCD_HI;
-      8'b10??????: source_d = RDATA;
-      8'b110?????: source_d = SLAVE_CFG;
-      default:     source_d = REGISTER;
-    endcase
-  end
+  assign lo_sel_d    = rd_addr_i[7:5] == mb4_regs_pkg::ADDR_SCDATA[7:5];
+  assign hi_sel_d    = rd_addr_i[7:5] == mb4_regs_pkg::ADDR_SCDATA[7:5] + 3'd1;
+  assign rdata_sel_d = rd_addr_i[7:6] == mb4_regs_pkg::ADDR_RDATA[7:6];
+  assign slave_sel_d = rd_addr_i[7:5] == mb4_regs_pkg::ADDR_SLAVE_CFG[7:5];
+  assign reg_sel_d   = !(lo_sel_d || hi_sel_d || rdata_sel_d || slave_sel_d);
 
   always_comb begin
     unique case (rd_addr_i)
@@ -107,13 +100,21 @@ module mb4_host_read (
 
   always_ff @(posedge rclk_i or negedge rst_ni) begin
     if (!rst_ni) begin
-      source_q <= REGISTER;
+      reg_sel_q   <= 1'b0;
+      slave_sel_q <= 1'b0;
+      lo_sel_q    <= 1'b0;
+      hi_sel_q    <= 1'b0;
+      rdata_sel_q <= 1'b0;
       reg_q    <= '0;
       flags_q  <= '0;
       bank_q   <= 1'b0;
       ready_q  <= 1'b0;
     end else if (rd_en_i) begin
-      source_q <= source_d;
+      reg_sel_q   <= reg_sel_d;
+      slave_sel_q <= slave_sel_d;
+      lo_sel_q    <= lo_sel_d;
+      hi_sel_q    <= hi_sel_d;
+      rdata_sel_q <= rdata_sel_d;
       reg_q    <= reg_d;
       flags_q  <= flags_d;
       bank_q   <= bank_i;
@@ -121,21 +122,16 @@ module mb4_host_read (
     end
   end
 
-  always_comb begin
-    rd_data_o = reg_q;
-    if (bank_q) begin
-      rd_data_o = {flags_q[3], reg_q[6], flags_q[2], reg_q[4],
-                   flags_q[1], reg_q[2], flags_q[0], reg_q[0]};
-    end
-    if (source_q == SLAVE_CFG) rd_data_o = slave_data_i;
-    if (ready_q) begin
-      unique case (source_q)
-        SCD_LO:  rd_data_o = bank_q ? scd_lo_data_i[15:8] : scd_lo_data_i[7:0];
-        SCD_HI:  rd_data_o = bank_q ? scd_hi_data_i[15:8] : scd_hi_data_i[7:0];
-        RDATA:   rd_data_o = rdata_data_i;
-        default: ;  // registers
-      endcase
-    end
-  end
+  assign reg_data = bank_q ? {flags_q[3], reg_q[6], flags_q[2], reg_q[4],
+                              flags_q[1], reg_q[2], flags_q[0], reg_q[0]} : reg_q;
+
+  // Sums of products: half an SCLK period is left for the way to MISO.
+  assign ram_data =
+      ((bank_q ? scd_lo_data_i[15:8] : scd_lo_data_i[7:0]) & {8{lo_sel_q}}) |
+      ((bank_q ? scd_hi_data_i[15:8] : scd_hi_data_i[7:0]) & {8{hi_sel_q}}) |
+      (rdata_data_i & {8{rdata_sel_q}});
+
+  assign rd_data_o = (ram_data & {8{ready_q}}) | (slave_data_i & {8{slave_sel_q}}) |
+                     (reg_data & {8{reg_sel_q}});
 
 endmodule

@@ -39,8 +39,7 @@ module mb4_slave_cfg #(
   logic [3:0]  wr_en;
   logic [31:0] wr_data;
   logic [31:0] rd_data;
-  logic [1:0]  byte_q;
-  logic        known_q;   // the host's row has been written
+  logic [3:0]  sel_q;     // byte of the host's row; none if it has not been written
 
   assign row     = wr_addr_i[4:2];
   assign byte_en = 4'b0001 << wr_addr_i[1:0];
@@ -70,27 +69,14 @@ module mb4_slave_cfg #(
     .rd_data_o (rd_data)
   );
 
+  // Half an SCLK period is left for the way to MISO.
   always_ff @(posedge rclk_i or negedge rst_ni) begin
-    if (!rst_ni) begin
-      byte_q  <= '0;
-      known_q <= 1'b0;
-    end else if (rd_en_i) begin
-      byte_q  <= rd_addr_i[1:0];
-      known_q <= rows_q[rd_addr_i[4:2]];
-    end
+    if (!rst_ni)      sel_q <= '0;
+    else if (rd_en_i) sel_q <= {4{rows_q[rd_addr_i[4:2]]}} & (4'b0001 << rd_addr_i[1:0]);
   end
 
-  always_comb begin
-    rd_data_o = 8'h00;
-    if (known_q) begin
-      unique case (byte_q)
-        2'd0:    rd_data_o = rd_data[7:0];
-        2'd1:    rd_data_o = rd_data[15:8];
-        2'd2:    rd_data_o = rd_data[23:16];
-        default: rd_data_o = rd_data[31:24];
-      endcase
-    end
-  end
+  assign rd_data_o = (rd_data[7:0]   & {8{sel_q[0]}}) | (rd_data[15:8]  & {8{sel_q[1]}}) |
+                     (rd_data[23:16] & {8{sel_q[2]}}) | (rd_data[31:24] & {8{sel_q[3]}});
 
   for (genvar i = 0; i < Lists; i++) begin : gen_list
     mb4_ram_row u_list (

@@ -13,6 +13,7 @@
 // checks: those of the bench alone
 // look: dut_len = u_timebase.len_q
 // look: dut_cnt = u_timebase.cnt_q
+// look: dut_last = u_timebase.last_q
 // look: dut_state = u_frame.state_q
 // look: dut_force = u_frame.u_ma.force_q
 // look: dut_clocking = u_frame.u_ma.clocking_q
@@ -75,7 +76,7 @@ module proof (
 
   wire [7:0] dut_len, dut_cnt;
   wire [2:0] dut_state;
-  wire       dut_force, dut_clocking;
+  wire       dut_last, dut_force, dut_clocking;
   logic [7:0] len_q;
   always @(posedge clk_i) len_q <= dut_len;
 
@@ -85,6 +86,7 @@ module proof (
     // that has lasted may be left.
     Younger_A: assert (age > dut_cnt || age == 8'hFF);
     Count_A: assert (dut_cnt < dut_len && dut_len <= 8'd160 && dut_len != 8'd0);
+    Last_A: assert (dut_last == (dut_cnt == dut_len - 8'd1));
     if (dut_state == 3'd0 || dut_state >= 3'd6) RestIsNoClock_A: assert (!dut_clocking);
     if (dut_state == 3'd0 && !ma && !dut_force) Rest_A: assert (age > dut_len);
     Length_A: assert (dut_len == half_len || dut_len == 8'd1);

@@ -12,12 +12,13 @@
 // unbounded: induction 3
 // look: dut_bit = u_dut.u_shift.bit_q
 // look: dut_shift = u_dut.u_shift.shift_q
+// look: dut_out = u_dut.u_shift.out_q
 // look: dut_state = u_dut.u_cmd.state_q
 // look: dut_addr = u_dut.u_cmd.addr_q
 // look: dut_open = u_dut.open_q
 // mutation: host/mb4_spi_shift.sv | bit_q + 3'd1 | bit_q + 3'd1 + {2'b00, &bit_q}
 // mutation: host/mb4_spi.sv | assign miso_oe_o = !cs_ni; | assign miso_oe_o = open_q;
-// mutation: host/mb4_spi_shift.sv | tx_byte_i[~bit_q] | tx_byte_i[bit_q]
+// mutation: host/mb4_spi_shift.sv | {out_q, 1'b0} | {miso_q, out_q}
 // mutation: host/mb4_spi_cmd.sv | addr_d  = addr_q + 8'd1; | addr_d  = addr_q;
 
 module proof (
@@ -155,7 +156,7 @@ module proof (
                          READ = 3'd4, IGNORE = 3'd5;
 
   wire [2:0] dut_bit, dut_state;
-  wire [6:0] dut_shift;
+  wire [6:0] dut_shift, dut_out;
   wire [7:0] dut_addr;
   wire       dut_open;
   logic [2:0] state;
@@ -178,7 +179,9 @@ module proof (
     if (state == READ) SameReadAddr_A: assert (dut_addr == rd_addr_exp);
     if (state == READ) SameByte_A: assert (rd_data_q == out_q);
     if (state != READ) NoByte_A: assert (out_q == 8'h00);
-    if (selected && !sclk_i) NextMiso_A: assert (miso == out_q[3'd7 - bits_q]);
+    if (selected && !sclk_i) NextMiso_A: assert ({miso, dut_out} == out_q << bits_q);
+    if (selected && sclk_i && bits_q != 3'd0)
+      Following_A: assert ({miso, dut_out} == out_q << (bits_q - 3'd1));
     if (!selected) AtRest_A: assert (bits_q == 3'd0 && !second_q && !miso);
   end
 

@@ -456,6 +456,10 @@ MODULES = {
         "bus_i": rarely("bus_i", 0.01), "mo_busy_i": rarely("mo_busy_i", 0.01),
         "ack_i": 0.2, "hold_cdm_i": 0.2, "quarters_i": rarely("quarters_i", 0.1, lambda s:
                                                              s.rng.choice([3, 254, 255]))}),
+    "mb4_edge_count": simple(*CORE, 6000, {
+        "begin_i": 0.05, "run_i": 0.95, "rise_i": 0.5, "len_valid_i": 0.03, "wait_i": 0.05,
+        "len_i": rarely("len_i", 0.5, lambda s: s.rng.choice([1, 2, 7, 80])),
+        "mo_busy_i": rarely("mo_busy_i", 0.1, lambda s: s.rng.choice([0, 1, 5]))}),
     "mb4_ma_drive": simple(["clk_i"], ["rst_ni", "por_ni"], 4000, {
         "begin_i": 0.05, "stop_i": 0.01, "tick_i": 0.6, "enough_i": 0.1,
         "force_i": rarely("force_i", 0.02)}),
