@@ -52,11 +52,17 @@ void SlaveChain::on_timer(Time now, void* receiver, std::uint64_t /*word*/) {
   if (now != chain->armed_at_) return;
   chain->armed_at_ = kNever;
   auto& slaves = chain->slaves_;
+  const bool running = !chain->idle();
+  const bool level = chain->reported_;
   for (std::size_t i = slaves.size(); i-- > 0;) {
     if (slaves[i]->deadline() <= now) slaves[i]->timer(now, chain->sli_of(i));
   }
   chain->settle_sli(now);
   chain->finish(now);
+  // A frame that was cut off in a bit of 1 ends without an edge.
+  if (running && level && chain->reported_ && chain->idle()) {
+    chain->output_(now, chain->receiver_, level);
+  }
 }
 
 // Reports a new level of SLO and keeps one timer event at or before the next deadline. Deadlines

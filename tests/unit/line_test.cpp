@@ -81,6 +81,19 @@ TEST(Line, FlippedBits_AreInvertedInOneFrameOnly) {
             "0");
 }
 
+// MA stops in an inverted bit, as BREAK may have it; the slave times out with SLO = 1 as it was.
+TEST(Line, FrameCutOffInAFlippedBit_RestsHighAfterTheTimeout) {
+  LineBench bench(20);
+  bench.line.faults().flip_next_frame({2});
+  EXPECT_EQ(bench.frame(kStart, 5, kPeriod / 2), "10100");
+  bench.run_until(kStart + 1000 * kPeriod);
+  EXPECT_TRUE(bench.line.sl());
+  EXPECT_EQ(bench.frame(kStart + 1000 * kPeriod, 13, kPeriod / 2),
+            "1010"
+            "10100101"
+            "0");
+}
+
 TEST(Line, BitsPlannedByFrame_AreInvertedInThatFrame) {
   LineBench bench(10'000);
   bench.line.faults().flip_frame(3, {2});

@@ -19,7 +19,7 @@ namespace mb4::sim {
 
 class SlaveChain {
  public:
-  // Called when SLO of slave 1 changes.
+  // Called when SLO of slave 1 changes, and when the last slave times out with SLO = 1 as before.
   using Output = void (*)(Time now, void* receiver, bool slo);
 
   SlaveChain(EventQueue& queue, Output output, void* receiver)
