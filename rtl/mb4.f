@@ -50,6 +50,7 @@ ctrl/mb4_control_comm.sv
 ctrl/mb4_ma_force.sv
 ctrl/mb4_control.sv
 line/mb4_timebase.sv
+line/mb4_sl_capture.sv
 line/mb4_sl_sampler.sv
 line/mb4_crc.sv
 line/mb4_rx_word.sv

@@ -7,7 +7,9 @@
 // Clock domain: core. See mb4_words and mb4_lines. slave_o is the data channel that SL is at.
 // Datasheet: pages 15, 16, 23..26.
 
-module mb4_channels (
+module mb4_channels #(
+  parameter logic [1:0] SlCells = mb4_pkg::SL_FLOPS
+) (
   input  logic        clk_i,
   input  logic        rst_ni,
   input  logic        por_ni,
@@ -97,7 +99,7 @@ module mb4_channels (
     .mo_word_o   (mo_word)
   );
 
-  mb4_lines u_lines (
+  mb4_lines #(.SlCells(SlCells)) u_lines (
     .clk_i,
     .rst_ni,
     .por_ni,

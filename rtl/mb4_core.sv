@@ -8,7 +8,9 @@
 // asynchronous; por_ni is for power-on and asserted together with it.
 // Datasheet: pages 15..36. Crossings: docs/crossings.md.
 
-module mb4_core (
+module mb4_core #(
+  parameter logic [1:0] SlCells = mb4_pkg::SL_FLOPS   // SL: flops or DDR cells (mb4_sl_capture)
+) (
   input  logic       clk_i,
   input  logic       rst_ni,
   input  logic       por_ni,      // power-on reset; asserted together with rst_ni
@@ -59,7 +61,7 @@ module mb4_core (
   logic       unused;
   assign unused = ^rd2_data;
 
-  mb4_engine u_engine (
+  mb4_engine #(.SlCells(SlCells)) u_engine (
     .clk_i,
     .rst_ni,
     .por_ni,

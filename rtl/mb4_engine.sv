@@ -15,7 +15,8 @@
 // Datasheet: pages 15..36. Crossings: docs/crossings.md.
 
 module mb4_engine #(
-  parameter bit Port2 = 1'b0     // second read port: SCDATA5..8
+  parameter bit Port2 = 1'b0,    // second read port: SCDATA5..8
+  parameter logic [1:0] SlCells = mb4_pkg::SL_FLOPS  // SL: flops or DDR cells (mb4_sl_capture)
 ) (
   input  logic       clk_i,
   input  logic       rst_ni,
@@ -82,8 +83,7 @@ module mb4_engine #(
   logic [1:0] start_use, register_mo;
   logic [1:0] ma_force, ma_force_level;
   logic       ma_force_change;
-  logic [1:0] idle, timeout, sl;
-  logic [1:0] frame_end;
+  logic [1:0] idle, timeout, sl, frame_end;
   logic [1:0] word_begin, word_done, word_ok;
   logic [1:0] init_done, init_fail;
   logic [1:0] cds, cds_host, cdm0, cdm1, cdm;
@@ -235,7 +235,7 @@ module mb4_engine #(
 
   // ---- lines --------------------------------------------------------------------------------
 
-  mb4_channels u_channels (
+  mb4_channels #(.SlCells(SlCells)) u_channels (
     .clk_i,
     .rst_ni         (rst_core_n),
     .por_ni         (por_core_n),
@@ -292,8 +292,8 @@ module mb4_engine #(
   assign status.cdssel      = (cfg.chsel == 2'b10) ? cds_host[1] : cds_host[0];
   assign status.cds1        = cds_host[0];
   assign status.cds2        = cds_host[1];
-  assign status.sl1         = sl1_i;
-  assign status.sl2         = sl2_i;
+  // An iCE40's DDR cell leaves no way from the pin to elsewhere.
+  assign {status.sl2, status.sl1} = SlCells == mb4_pkg::SL_ICE40 ? sl : {sl2_i, sl1_i};
   assign clkeni_o           = cfg.clkeni;
   assign paired_o           = cfg.cfgif[1];
 

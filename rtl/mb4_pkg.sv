@@ -11,6 +11,12 @@ package mb4_pkg;
   localparam int unsigned NUM_SLAVES  = 8;
   localparam int unsigned SLAVE_CFG_W = 32;
 
+  // What captures SL on both clock edges (mb4_sl_capture): flops, or the pin's DDR cell.
+  localparam logic [1:0] SL_FLOPS   = 2'd0;
+  localparam logic [1:0] SL_ICE40   = 2'd1;
+  localparam logic [1:0] SL_ECP5    = 2'd2;
+  localparam logic [1:0] SL_XILINX7 = 2'd3;
+
   typedef struct packed {
     logic [15:0] crc_start;  // SCRCSTARTx
     logic        selcrc;     // SELCRCSx: 1 = crc_code is the polynomial without its last 1

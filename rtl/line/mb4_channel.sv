@@ -6,7 +6,9 @@
 // Clock domain: core. See mb4_frame, mb4_sl_sampler, mb4_rx_word and mb4_mo_tx. word_begin_o and
 // word_done_o tell of sensors' words only, rx_next_o of every word that has ended.
 
-module mb4_channel (
+module mb4_channel #(
+  parameter logic [1:0] SlCells = mb4_pkg::SL_FLOPS
+) (
   input  logic       clk_i,
   input  logic       rst_ni,
   input  logic       por_ni,
@@ -138,7 +140,7 @@ module mb4_channel (
     .ma_o
   );
 
-  mb4_sl_sampler u_sampler (
+  mb4_sl_sampler #(.SlCells(SlCells)) u_sampler (
     .clk_i,
     .rst_ni,
     .sl_i,

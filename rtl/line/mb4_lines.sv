@@ -7,7 +7,9 @@
 // Clock domain: core. See mb4_timebase and mb4_channel. por_ni is asserted together with rst_ni at
 // power-on; with a reset alone MA, if it was low, stays so to the end of its half period.
 
-module mb4_lines (
+module mb4_lines #(
+  parameter logic [1:0] SlCells = mb4_pkg::SL_FLOPS
+) (
   input  logic       clk_i,
   input  logic       rst_ni,
   input  logic       por_ni,
@@ -103,7 +105,7 @@ module mb4_lines (
   );
 
   for (genvar i = 0; i < 2; i++) begin : gen_line
-    mb4_channel u_channel (
+    mb4_channel #(.SlCells(SlCells)) u_channel (
       .clk_i,
       .rst_ni,
       .por_ni,

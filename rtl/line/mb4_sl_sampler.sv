@@ -3,20 +3,22 @@
 //
 // SL input of one line: synchroniser for both clock edges, line-delay measurement, bit sampling.
 //
-// Clock domain: core; SL is asynchronous, captured by a flop on each clock edge (the only falling
-// edge use in the chip) and by a second one on the rising edge: a sample is used two clocks after
-// it was taken. From the second rising MA edge on the sampling points are counted up to and
-// including the first that reads 0 (the acknowledge): quarters_o. Every bit is then taken one
-// sampling point after that phase, mid-bit: with no delay at the falling MA edge. bit_valid_o is
-// high for one clock a bit, the first time in the period after the acknowledge. In SSI there is no
-// acknowledge: bits are taken at the rising MA edges, the first one at the second edge.
+// Clock domain: core; SL is asynchronous, captured on both clock edges by mb4_sl_capture: a sample
+// is used two clocks after it was taken. From the second rising MA edge on the sampling points are
+// counted up to and including the first that reads 0 (the acknowledge): quarters_o. Every bit is
+// then taken one sampling point after that phase, mid-bit: with no delay at the falling MA edge.
+// bit_valid_o is high for one clock a bit, the first time in the period after the acknowledge. In
+// SSI there is no acknowledge: bits are taken at the rising MA edges, the first one at the second
+// edge.
 // Misuse: SL already low when armed gives 1; quarters_o stops at 255.
 // Datasheet: page 12 (I304, I305, four sampling points), page 14 (I504, I505);
 // decisions 2, 17.
 
 `include "mb4_check.svh"
 
-module mb4_sl_sampler (
+module mb4_sl_sampler #(
+  parameter logic [1:0] SlCells = mb4_pkg::SL_FLOPS
+) (
   input  logic       clk_i,
   input  logic       rst_ni,
   input  logic       sl_i,         // pin
@@ -38,10 +40,8 @@ module mb4_sl_sampler (
   output logic       bit_o
 );
 
-  logic       pos1_q;
-  logic       pos2_q;
-  logic       neg1_q;
-  logic       neg2_q;
+  logic       pos;
+  logic       neg;
   logic [1:0] armed_a_q;
   logic [1:0] armed_b_q;
   logic       value_a;
@@ -61,29 +61,26 @@ module mb4_sl_sampler (
   logic       phase_known;
   logic       at_phase;
 
-  always_ff @(negedge clk_i or negedge rst_ni) begin
-    if (!rst_ni) neg1_q <= 1'b1;
-    else         neg1_q <= sl_i;
-  end
+  mb4_sl_capture #(.SlCells(SlCells)) u_capture (
+    .clk_i,
+    .rst_ni,
+    .sl_i,
+    .pos_o (pos),
+    .neg_o (neg)
+  );
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
-      pos1_q    <= 1'b1;
-      pos2_q    <= 1'b1;
-      neg2_q    <= 1'b1;
       armed_a_q <= '0;
       armed_b_q <= '0;
     end else begin
-      pos1_q    <= sl_i;
-      pos2_q    <= pos1_q;
-      neg2_q    <= neg1_q;
       armed_a_q <= clear_i ? 2'b00 : {armed_a_q[0], armed_a_i};
       armed_b_q <= clear_i ? 2'b00 : {armed_b_q[0], armed_b_i};
     end
   end
 
-  assign value_a = pos2_q;
-  assign value_b = smp_b_neg_i ? neg2_q : pos2_q;
+  assign value_a = pos;
+  assign value_b = smp_b_neg_i ? neg : pos;
   assign look_a  = smp_a_i && armed_a_q[1] && !found_q && !ssi_i;
   assign look_b  = smp_b_i && armed_b_q[1] && !found_q && !ssi_i;
   assign hit_a   = look_a && !value_a;
@@ -133,7 +130,7 @@ module mb4_sl_sampler (
     end
   end
 
-  assign sl_o        = pos2_q;
+  assign sl_o        = pos;
   assign ack_o       = found_q;
   assign quarters_o  = quarters_q;
   assign bit_valid_o = at_phase && !skip_q;

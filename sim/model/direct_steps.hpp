@@ -114,10 +114,10 @@ class DirectSteps {
 
   static constexpr auto kSampled1 =
       &Root::
-          mb4_chip__DOT__u_engine__DOT__u_channels__DOT__u_lines__DOT__gen_line__BRA__0__KET____DOT__u_channel__DOT__u_sampler__DOT__neg1_q;
+          mb4_chip__DOT__u_engine__DOT__u_channels__DOT__u_lines__DOT__gen_line__BRA__0__KET____DOT__u_channel__DOT__u_sampler__DOT__u_capture__DOT__neg1_q;
   static constexpr auto kSampled2 =
       &Root::
-          mb4_chip__DOT__u_engine__DOT__u_channels__DOT__u_lines__DOT__gen_line__BRA__1__KET____DOT__u_channel__DOT__u_sampler__DOT__neg1_q;
+          mb4_chip__DOT__u_engine__DOT__u_channels__DOT__u_lines__DOT__gen_line__BRA__1__KET____DOT__u_channel__DOT__u_sampler__DOT__u_capture__DOT__neg1_q;
   // The time to the next frame: clocks of the current step, steps; its rate.
   static constexpr auto kPre =
       &Root::mb4_chip__DOT__u_engine__DOT__u_control__DOT__u_request__DOT__pre_q;
@@ -144,7 +144,7 @@ class DirectSteps {
   }
 
   // Whether a flop of the falling edge would change. They are in the clock switch and in the
-  // samplers of SL (mb4_clk_mux, mb4_sl_sampler); a lint test knows that there are no others.
+  // samplers of SL (mb4_clk_mux, mb4_sl_capture); a lint test knows that there are no others.
   static bool fall_matters(const Root& root) {
     const unsigned sl2 = root.sl2_i | root.mb4_chip__DOT__paired;
     return root.mb4_chip__DOT__u_clk_mux__DOT__want0_q == 0 || root.*kSampled1 != root.sl1_i ||

@@ -32,7 +32,8 @@ module icebreaker (
   always_ff @(posedge clk_i) if (por_q != 4'd15) por_q <= por_q + 4'd1;
   assign por_n = por_q == 4'd15;
 
-  mb4_core u_core (
+  // SL is taken in the I/O cells: both edges see the same delay from the pin.
+  mb4_core #(.SlCells(mb4_pkg::SL_ICE40)) u_core (
     .clk_i,
     .rst_ni    (por_n && button_ni),
     .por_ni    (por_n),

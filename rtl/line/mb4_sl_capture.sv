@@ -1,0 +1,85 @@
+// SPDX-FileCopyrightText: 2026 The openmb4 authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// First flops of one SL input, on both clock edges: ordinary flops, or the DDR input cell of the
+// pin. Outputs are the levels at the rising edge before the last one and at the falling edge
+// between the two, the same for every choice; all of them have passed two flops.
+//
+// Clock domain: core; SL is asynchronous. Latency: one clock behind the first flops. The DDR cells
+// have no reset to 1: they show the line before mb4_reset_sync releases what follows. sl_i comes
+// straight from a pin then; on iCE40 nothing else can read that pin. Misuse: a cell of another
+// family is an unknown module in synthesis.
+// Cells: SB_IO (Lattice FPGA-TN-02026), IDDRX1F (Lattice FPGA-TN-02035), IDDR (Xilinx UG471).
+
+module mb4_sl_capture #(
+  parameter logic [1:0] SlCells = mb4_pkg::SL_FLOPS
+) (
+  input  logic clk_i,
+  input  logic rst_ni,
+  input  logic sl_i,    // pin
+  output logic pos_o,
+  output logic neg_o
+);
+
+  logic pos1_q;
+  logic neg1_q;
+
+  if (SlCells == mb4_pkg::SL_ICE40) begin : gen_ice40
+    SB_IO #(.PIN_TYPE(6'b0000_00)) u_cell (
+      .PACKAGE_PIN  (sl_i),
+      .CLOCK_ENABLE (1'b1),
+      .INPUT_CLK    (clk_i),
+      .D_IN_0       (pos1_q),
+      .D_IN_1       (neg1_q)
+    );
+  end else if (SlCells == mb4_pkg::SL_ECP5) begin : gen_ecp5
+    IDDRX1F u_cell (
+      .D    (sl_i),
+      .SCLK (clk_i),
+      .RST  (1'b0),
+      .Q0   (pos1_q),
+      .Q1   (neg1_q)
+    );
+  end else if (SlCells == mb4_pkg::SL_XILINX7) begin : gen_xilinx7
+    IDDR #(.DDR_CLK_EDGE("OPPOSITE_EDGE"), .INIT_Q1(1'b1), .INIT_Q2(1'b1)) u_cell (
+      .D  (sl_i),
+      .C  (clk_i),
+      .CE (1'b1),
+      .R  (1'b0),
+      .S  (1'b0),
+      .Q1 (pos1_q),
+      .Q2 (neg1_q)
+    );
+  end else begin : gen_flops
+    always_ff @(negedge clk_i or negedge rst_ni) begin
+      if (!rst_ni) neg1_q <= 1'b1;
+      else         neg1_q <= sl_i;
+    end
+    always_ff @(posedge clk_i or negedge rst_ni) begin
+      if (!rst_ni) pos1_q <= 1'b1;
+      else         pos1_q <= sl_i;
+    end
+  end
+
+  if (SlCells == mb4_pkg::SL_ECP5) begin : gen_cell_has_both
+    assign pos_o = pos1_q;
+    assign neg_o = neg1_q;
+  end else begin : gen_second
+    logic pos2_q;
+    logic neg2_q;
+
+    always_ff @(posedge clk_i or negedge rst_ni) begin
+      if (!rst_ni) begin
+        pos2_q <= 1'b1;
+        neg2_q <= 1'b1;
+      end else begin
+        pos2_q <= pos1_q;
+        neg2_q <= neg1_q;
+      end
+    end
+
+    assign pos_o = pos2_q;
+    assign neg_o = neg2_q;
+  end
+
+endmodule
