@@ -25,7 +25,9 @@
     always @(posedge clk) if ((rst_n) && (condition)) name: assert (expression);
   `define MB4_ASSERT_NEXT(name, clk, rst_n, condition, expression) \
     logic name``_before_q; \
-    always @(posedge clk) name``_before_q <= (rst_n) && (condition); \
+    always @(posedge clk or negedge rst_n) \
+      if (!rst_n) name``_before_q <= 1'b0; \
+      else        name``_before_q <= (condition); \
     always @(posedge clk) if ((rst_n) && name``_before_q) name: assert (expression);
 `else
   `define MB4_ASSERT(name, clk, rst_n, expression)

@@ -21,6 +21,7 @@ class Block {
     if constexpr (requires { model.clk_i; }) {
       model.clk_i = 0;
       model.rst_ni = 0;
+      model.eval();  // what the first call finds is no edge
     }
   }
   void reset() {
