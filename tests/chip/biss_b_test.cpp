@@ -88,6 +88,32 @@ TEST(ChipBissB, LineDelay_IsCompensatedInFrames) {
   }
 }
 
+// Pages 26, 33: banks and nSCDERR belong to sensor frames; a register access is none.
+TEST(ChipBissB, RegisterAccess_LeavesDataAndErrorOfTheFrameBefore) {
+  ProtocolChip chip(channel() + slave(0, 0, "data_bits = 28\n"),
+                    {.freqs = 0, .freqr = 0, .biss_c_registers = false});
+  for (const unsigned data : {0x1111111U, 0x2222222U, 0x3333333U}) {
+    for (const bool bad : {false, true}) {
+      chip.simulator.slave(1)->set_data(data);
+      ASSERT_TRUE(chip.frame());
+      if (bad) {
+        chip.write(0xC1, {mb4test::crc_register(0x12F)});  // not the slave's CRC
+        ASSERT_TRUE(chip.frame());
+        chip.write(0xC1, {mb4test::crc_register(0x43)});
+      }
+      const unsigned flags = chip.status();
+      EXPECT_EQ(flags & 0x10U, bad ? 0U : 0x10U) << "nSCDERR";
+      const std::uint64_t before = chip.scdata(1, 28);
+      chip.write_rdata({0xA6});
+      chip.set_access(0, 0x21, 1, true);
+      ASSERT_TRUE(chip.frame(kRegister));
+      EXPECT_EQ(chip.status(), flags | 0x04U) << "REGEND";
+      EXPECT_EQ(chip.scdata(1, 28), before);
+      EXPECT_EQ(before, data);
+    }
+  }
+}
+
 // Both entries, every FREQS with every FREQR (below 500 kHz, unless MB4_BISSB_LENGTHS=1, up to 3):
 // one register written and read back.
 class BissBClocks : public testing::TestWithParam<std::tuple<unsigned, bool>> {};
