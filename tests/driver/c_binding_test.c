@@ -127,6 +127,41 @@ static void test_slave_registers(mb4_device *device) {
   CHECK(count == 1);
 }
 
+/* An actuator of 16 bits. */
+static void test_actuator(void) {
+  static const char scenario[] =
+      "[[channel]]\nnumber = 1\nmo = true\n[[channel.slave]]\nprotocol = \"biss-c\"\n"
+      "data_bits = 16\nactuator = true\n";
+  char error[200];
+  uint8_t word[2] = {0, 0};
+  bus_t bus = {mb4sim_open(scenario, error, sizeof error), false};
+  mb4_device device;
+  mb4_config config = encoder();
+  config.mo = true;
+  config.frame_start = MB4_START_PERIODIC;
+  config.frame_period_clk = 2000;
+  config.slaves[0].data_bits = 16;
+  config.slaves[0].actuator = true;
+  if (bus.simulator == NULL) {
+    check(0, error, __LINE__);
+    return;
+  }
+  mb4_open(&device, transfer, &bus, now_us, &bus);
+  OK(mb4_configure(&device, &config));
+  OK(mb4_write_actuator(&device, 1, 0x1234));
+  OK(mb4_read_registers(&device, 0x00, word, 2));
+  CHECK(word[0] == 0x34 && word[1] == 0x12);
+  FAILS(mb4_write_actuator(&device, 1, 0x10000), MB4_INVALID_ARGUMENT);
+  FAILS(mb4_write_actuator(&device, 2, 1), MB4_INVALID_ARGUMENT);
+  FAILS(mb4_automatic_write_actuator(&device, 1, 1), MB4_WRONG_MODE);
+  OK(mb4_automatic_start(&device));
+  OK(mb4_automatic_write_actuator(&device, 1, 0x5678));
+  OK(mb4_automatic_stop(&device));
+  bus.broken = true;
+  FAILS(mb4_write_actuator(&device, 1, 1), MB4_TRANSPORT);
+  mb4sim_close(bus.simulator);
+}
+
 static void test_automatic(mb4_device *device, mb4sim *simulator) {
   mb4_config config = encoder();
   mb4_frame frame;
@@ -196,6 +231,7 @@ int main(void) {
   test_automatic(&device, bus.simulator);
   test_raw_and_reset(&device, &bus);
   test_positions();
+  test_actuator();
   mb4sim_close(bus.simulator);
   printf("%u failures\n", failures);
   return failures != 0;

@@ -203,19 +203,24 @@ TEST_P(DriverBissB, EachTransferLost_NeverOldRegisters) {
   }
 }
 
-// The slave is still in register mode when the last byte has come, and after a read SL does not
-// show it: what follows waits.
-TEST(DriverBissBInit, SlowRegisterTimeout_WhatFollowsAnAccessWaits) {
-  FaultyChip chip(on_channel(1) +
+// The slave is still in register mode when the last byte has come, and behind INIT, and after a
+// read SL does not show it, with MO not at all: what follows waits.
+class DriverBissBInit : public DriverBissB {};
+
+INSTANTIATE_TEST_SUITE_P(Entry, DriverBissBInit, testing::Bool(),
+                         [](const auto& test) { return test.param ? "Mo" : "HandOver"; });
+
+TEST_P(DriverBissBInit, SlowRegisterTimeout_WhatFollowsAnAccessWaits) {
+  FaultyChip chip(on_channel(1, GetParam() ? "mo = true\n" : "") +
                   device("biss-b", 28, "timeout = 2\nregister_timeout = 1000\nflag_bits = 0"));
-  Config config = biss_b_config(false);
+  Config config = biss_b_config(GetParam());
   config.register_timeout_us = 1050;
   ASSERT_TRUE(chip.device.configure(config).ok());
   std::array<std::uint8_t, 1> byte{0x5A};
   for (const bool read : {false, true, true}) {
     for (const bool init : {false, true}) {
-      ASSERT_TRUE((read ? chip.device.control().read_registers({1, 0}, 0x30, byte)
-                        : chip.device.control().write_registers({1, 0}, 0x30, byte))
+      ASSERT_TRUE((read ? chip.device.control().read_registers(slave(), 0x30, byte)
+                        : chip.device.control().write_registers(slave(), 0x30, byte))
                       .ok());
       EXPECT_EQ(byte[0], 0x5A);
       if (init) {
@@ -226,21 +231,21 @@ TEST(DriverBissBInit, SlowRegisterTimeout_WhatFollowsAnAccessWaits) {
       ASSERT_TRUE(chip.device.read_frame().ok());
     }
   }
+}
+
+// SL = 0 is the hand-over itself, but never ends; SL = 1 is no hand-over.
+TEST_P(DriverBissBInit, LineStuck_IsLineErrorAndComesBack) {
+  FaultyChip chip(biss_b_bus(GetParam()));
+  configure(chip);
   for (const bool level : {false, true}) {
     chip.simulator.line(1)->faults().stick(level);
     chip.simulator.refresh_lines();
     EXPECT_EQ(chip.device.initialize().error(), Error::kLineError) << level;
   }
-}
-
-TEST(DriverBissBInit, WithMo_IsUnsupported) {
-  FaultyChip chip(biss_b_bus(true));
-  ASSERT_TRUE(chip.device.configure(biss_b_config(true)).ok());
-  chip.bus.plan({});
-  const mb4::Result<mb4::LineDelay> delay = chip.device.initialize();
-  EXPECT_EQ(delay.error(), Error::kUnsupported);
-  EXPECT_EQ(delay.info().field, mb4::ConfigField::kMo);
-  EXPECT_EQ(chip.bus.count(), 0U);
+  chip.simulator.line(1)->faults().stick(std::nullopt);
+  chip.simulator.refresh_lines();
+  EXPECT_TRUE(chip.device.initialize().ok());
+  EXPECT_TRUE(chip.device.read_frame().ok());
 }
 
 // Step by step, with other work between.

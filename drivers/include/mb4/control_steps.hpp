@@ -16,6 +16,7 @@
 #include "mb4/config.hpp"
 #include "mb4/control_checks.hpp"
 #include "mb4/control_data.hpp"
+#include "mb4/control_pace.hpp"
 #include "mb4/register_image.hpp"
 #include "mb4/result.hpp"
 #include "mb4/span.hpp"
@@ -146,7 +147,7 @@ class ControlSteps : private ControlChecks<Bus, Clock> {
       // The slaves' register timeout, which the line does not show.
       if (state.biss_b && state.first_frame) {
         state.first_frame = false;
-        restart_time(chip_.config.register_timeout_us);
+        detail::restart_time(chip_, chip_.config.register_timeout_us);
         return false;
       }
       if (state.biss_b && !late) {
@@ -161,11 +162,11 @@ class ControlSteps : private ControlChecks<Bus, Clock> {
       return false;
     }
     state.first_frame = false;
-    if (enough_frames()) {
+    if (detail::enough_frames(chip_)) {
       return give_up();
     }
     ++state.frames;
-    restart_time(frame_timeout_us(chip_.config));
+    detail::restart_time(chip_, frame_timeout_us(chip_.config));
     if (const Result<void> next = chip_.write_instruction(kFrame); !next) {
       return next.failure();
     }
@@ -242,25 +243,9 @@ class ControlSteps : private ControlChecks<Bus, Clock> {
     } else if (chip_.automatic) {
       timeout_us = detail::control_timeout_us(chip_.config, registers);
     }
-    restart_time(timeout_us);
+    detail::restart_time(chip_, timeout_us);
     return chip_.write_instruction(
         chip_.automatic ? static_cast<std::uint8_t>(kFrame | regs::AGS::encode<1>()) : kFrame);
-  }
-
-  // Without automatic frames the host sets the pace: an access is over for good when the frames it
-  // needs and the time of a busy slave have gone, and after as many frames as fit into that time.
-  [[nodiscard]] bool enough_frames() {
-    const detail::ControlState& state = chip_.control;
-    return state.frames >= detail::control_frame_limit(chip_.config, state.count) ||
-           (state.frames >= detail::control_frames(state.count) &&
-            chip_.clock->now_us() - state.access_us >=
-                detail::control_timeout_us(chip_.config, state.count));
-  }
-
-  void restart_time(std::uint32_t timeout_us) {
-    chip_.control.start_us = chip_.clock->now_us();
-    chip_.control.timeout_us = timeout_us;
-    chip_.control.polls_left = timeout_us + timeout_us / 16 + 2;  // as of detail::Deadline
   }
 
   Result<bool> finish(const Status& status) {

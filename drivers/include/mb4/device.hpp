@@ -131,16 +131,12 @@ class Device {
   // until SL is 1, 0x03 for each channel that is measured, 0x02 (SVALID); with SpiCheck::kFull some
   // are read again.
   //
-  // kNotConfigured, kWrongMode, kBusy, kUnsupported with kMo (BiSS B alone: MO = 1 keeps the slaves
-  // from confirming; not touched); kTransport, kNotDetected; kTimeout (BREAK was sent); kLineDelay:
-  // beyond 255 quarters of a period; kLineError: SL is stuck low, or in BiSS B no slave has
-  // answered; kNoData: nothing was measured, there is no system clock; kCorrupted.
+  // kNotConfigured, kWrongMode, kBusy (not touched); kTransport, kNotDetected; kTimeout (BREAK was
+  // sent); kLineDelay: beyond 255 quarters of a period; kLineError: SL is stuck low, or in BiSS B
+  // no slave has answered; kNoData: nothing was measured, there is no system clock; kCorrupted.
   Result<LineDelay> initialize() {
     if (const Result<void> allowed = single_frame_allowed(); !allowed) {
       return allowed.failure();
-    }
-    if (chip_.config.mo && only_biss_b(chip_.config)) {
-      return ErrorInfo(Error::kUnsupported, ConfigField::kMo, 0);
     }
     LineDelay delay;
     const Result<void> done = Initialization<Bus, Clock>(chip_).run(delay);

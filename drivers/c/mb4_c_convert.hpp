@@ -1,0 +1,110 @@
+// SPDX-FileCopyrightText: 2026 The openmb4 authors
+// SPDX-License-Identifier: Apache-2.0
+
+// Between the types of mb4.h and those of the driver. A part of mb4_c.cpp, not for others.
+
+#ifndef MB4_C_CONVERT_HPP_
+#define MB4_C_CONVERT_HPP_
+
+#include <cstddef>
+#include <cstdint>
+
+#include "mb4.h"
+#include "mb4/mb4.hpp"
+
+namespace mb4_c {
+
+static_assert(static_cast<int>(mb4::Error::kJump) == MB4_JUMP);
+static_assert(static_cast<int>(mb4::Protocol::kUnused) == MB4_PROTOCOL_UNUSED);
+static_assert(static_cast<int>(mb4::LineInterface::kLvds) == MB4_LINE_LVDS);
+static_assert(static_cast<int>(mb4::ClockSource::kInternal) == MB4_CLOCK_INTERNAL);
+static_assert(static_cast<int>(mb4::FrameStart::kPeriodic) == MB4_START_PERIODIC);
+static_assert(static_cast<int>(mb4::SpiCheck::kFull) == MB4_SPI_CHECK_FULL);
+
+inline mb4_result to_c(const mb4::ErrorInfo& info) {
+  return {static_cast<std::uint8_t>(info.code), static_cast<std::uint8_t>(info.field), info.number,
+          info.detail};
+}
+template <typename T>
+mb4_result to_c(const mb4::Result<T>& result) {
+  return to_c(result.info());
+}
+
+inline mb4_reading to_c(const mb4::Reading& reading) {
+  return {reading.raw,   reading.position, reading.crc,  reading.crc_stored,
+          reading.error, reading.warning,  reading.slave};
+}
+
+inline mb4_result store(const mb4::Result<mb4::Reading>& result, mb4_reading* reading) {
+  if (result) {
+    *reading = to_c(*result);
+  }
+  return to_c(result);
+}
+
+inline mb4_result store(const mb4::Result<void>& result, const mb4::Frame& frame, mb4_frame* out) {
+  *out = mb4_frame{};
+  for (std::size_t slave = 1; slave <= mb4::kSlaves; ++slave) {
+    out->code[slave - 1] = static_cast<std::uint8_t>(frame[slave].error());
+    if (frame[slave]) {
+      out->reading[slave - 1] = to_c(*frame[slave]);
+    }
+  }
+  for (std::size_t i = 0; i < mb4::Status::kBytes; ++i) {
+    out->status[i] = frame.status.bytes()[i];
+  }
+  return to_c(result);
+}
+
+inline mb4::Config from_c(const mb4_config& config) {
+  mb4::Config out;
+  out.f_clk_hz = config.f_clk_hz;
+  out.ma_hz = config.ma_hz;
+  out.frame_period_clk = config.frame_period_clk;
+  out.frame_timeout_us = config.frame_timeout_us;
+  out.register_busy_us = config.register_busy_us;
+  out.clock_source = static_cast<mb4::ClockSource>(config.clock_source);
+  out.line_interface = static_cast<mb4::LineInterface>(config.line_interface);
+  out.frame_start = static_cast<mb4::FrameStart>(config.frame_start);
+  out.spi_check = static_cast<mb4::SpiCheck>(config.spi_check);
+  out.single_bank = config.single_bank;
+  out.hold_cdm = config.hold_cdm;
+  out.mo = config.mo;
+  out.mo_busy = config.mo_busy;
+  out.register_divider = config.register_divider;
+  out.register_timeout_us = config.register_timeout_us;
+  for (std::size_t i = 0; i < mb4::kChannels; ++i) {
+    out.channels[i].protocol = static_cast<mb4::Protocol>(config.protocol[i]);
+  }
+  for (std::size_t i = 0; i < mb4::kSlaves; ++i) {
+    out.slaves[i].enabled = config.slaves[i].enabled;
+    out.slaves[i].data_bits = config.slaves[i].data_bits;
+    out.slaves[i].flags = static_cast<mb4::Flags>(config.slaves[i].flags);
+    out.slaves[i].crc_start = config.slaves[i].crc_start;
+    out.slaves[i].crc_polynomial = config.slaves[i].crc_polynomial;
+    out.slaves[i].gray = config.slaves[i].gray;
+    out.slaves[i].actuator = config.slaves[i].actuator;
+    out.slaves[i].stop_bit = config.slaves[i].stop_bit;
+  }
+  return out;
+}
+
+inline mb4::Command from_c(const mb4_command& command) {
+  mb4::Command out;
+  out.channels = command.channels;
+  out.ids = command.ids;
+  out.code = command.code;
+  out.test_acknowledge = command.test_acknowledge;
+  return out;
+}
+
+inline mb4::Span<const std::uint8_t> bytes(const std::uint8_t* data, std::size_t size) {
+  return mb4::Span<const std::uint8_t>(data, size);
+}
+inline mb4::Span<std::uint8_t> bytes(std::uint8_t* data, std::size_t size) {
+  return mb4::Span<std::uint8_t>(data, size);
+}
+
+}  // namespace mb4_c
+
+#endif  // MB4_C_CONVERT_HPP_
