@@ -7,8 +7,8 @@
 #define MB4_TESTS_CHIP_TEST_HOST_HPP_
 
 #include <algorithm>
+#include <cstdio>
 #include <cstdlib>
-#include <stdexcept>
 #include <string>
 
 #include "mb4sim/scenario.hpp"
@@ -42,7 +42,8 @@ inline mb4::sim::Scenario with_test_host(mb4::sim::Scenario scenario) {
   } else if (name == "motorola") {
     scenario.host.interface = HostInterface::kMotorola;
   } else if (name != "spi") {
-    throw std::invalid_argument("MB4_HOST: spi, intel or motorola, not " + name);
+    std::fprintf(stderr, "MB4_HOST: spi, intel or motorola, not %s\n", name.c_str());
+    std::exit(EXIT_FAILURE);
   }
   return scenario;
 }
