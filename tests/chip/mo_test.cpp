@@ -83,6 +83,29 @@ TEST(ChipMo, Waveform_IsAcknowledgeBusyStartCdsWords) {
   }
 }
 
+// The same in BiSS B, which has no CDS; what the slave makes of the word does not matter here.
+TEST(ChipMo, WaveformInBissB_IsAcknowledgeBusyStartWords) {
+  for (const bool acts : {false, true}) {
+    for (const unsigned busy : {0U, 3U}) {
+      ProtocolChip chip(channel(1) + "[[channel.slave]]\nprotocol = \"biss-b\"\ndata_bits = 9\n",
+                        {.freqs = 4, .biss_c_registers = false, .en_mo = true, .mo_busy = busy});
+      if (acts) {
+        chip.write(0xEF, {0x01});  // ACTnSENS1
+        write_both_banks(chip, 1, 0x155);
+      }
+      std::string slots(1, '1');
+      slots += std::string(1 + busy, '0');
+      slots += '1';
+      slots += acts ? slot(0x155, 9, false) : std::string(15, '0');
+      slots += '1';
+      for (unsigned i = 0; i < 3; ++i) {
+        ASSERT_TRUE(chip.frame());
+        EXPECT_EQ(mo_by_slot(chip, 0, true), slots);
+      }
+    }
+  }
+}
+
 TEST(ChipMo, EnMoOff_HoldsMoLow) {
   ProtocolChip chip(channel(1) + sensor(12, 0xA5C), {.freqs = 4, .mo_busy = 7});
   ASSERT_TRUE(chip.frame());

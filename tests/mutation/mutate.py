@@ -4,6 +4,7 @@
 """Random faults in the RTL, all in one model: each is asleep until its number is chosen.
 
   mutate.py FOLDER [--count N] [--seed S]   writes the changed RTL and mutants.txt to FOLDER
+                                            (120 faults by default)
 
 Kinds: constant (a literal is another one), operator (== is !=, ! is nothing, one side of && or ||
 is left out), stuck net (an assigned net is 0 or 1), stuck flop (it keeps its value)."""
@@ -79,7 +80,7 @@ def sites(code):
             part = f" ({right} || M)" if m.group() == "&&" else f" ({right} && !(M))"
             found.append(("operator", m.end(), stop, part))
     for m in re.compile(r"\bassign (\w+)\s*=\s*([^;]*);").finditer(code):
-        if "'{" not in m.group(2):
+        if "'{" not in m.group(2) and m.group(1) != "unused":
             for value in ("'0", "'1"):
                 found.append(("stuck net", m.start(2), m.end(2), f"(M) ? {value} : ({m.group(2)})"))
     for m in re.compile(r"\b(\w+_q)\s*<=\s*(\w+_d);").finditer(code):
@@ -90,7 +91,8 @@ def sites(code):
 def main():
     folder = Path(sys.argv[1])
     options = dict(zip(sys.argv[2::2], sys.argv[3::2]))
-    chance = random.Random(int(options.get("--seed", 20260101)))
+    seed = int(options.get("--seed", 20260102))
+    chance = random.Random(seed)
     pool = []
     for module, path in project.rtl_modules().items():
         code = blank_comments(path.read_text(encoding="utf-8"))
@@ -98,7 +100,7 @@ def main():
     chance.shuffle(pool)
     chosen = []
     for site in pool:
-        if len(chosen) == int(options.get("--count", 150)):
+        if len(chosen) == int(options.get("--count", 120)):
             break
         # Two faults in the same text cannot live side by side.
         if all(site[0] != c[0] or site[3] < c[2] or site[2] > c[3] for c in chosen):
@@ -111,18 +113,20 @@ def main():
         whole = code
         for number, (_, kind, start, end, new) in sorted(mine, key=lambda c: -c[1][2]):
             line = whole.count("\n", 0, start) + 1
-            text = whole[whole.rfind("\n", 0, start) + 1:whole.index("\n", end)].strip()
+            text = whole[whole.rfind("\n", 0, start) + 1:whole.index("\n", end)]
             change = f"{whole[start:end].strip()} -> {new.strip()}"
-            listing.append((number, f"{path.stem}:{line}: {kind}: {change} in: {text}"))
+            listing.append((number, " ".join(
+                f"{path.stem}:{line}: {kind}: {change} in: {text}".split())))
             code = code[:start] + re.sub(r"\bM\b", f"(mutant == {number})", new) + code[end:]
         if mine:
             at = code.index("\n);\n") + 4
             code = (code[:at] + "  int mutant;\n  initial mutant = $c(\"mb4_mutant()\");\n"
                     + code[at:])
         (folder / path.name).write_text(code, encoding="utf-8")
-    (folder / "mutants.txt").write_text("".join(f"{n} {text}\n" for n, text in sorted(listing)),
-                                        encoding="utf-8")
-    print(f"{len(chosen)} of {len(pool)} possible faults")
+    head = f"# seed {seed}: {len(chosen)} of {len(pool)} possible faults\n"
+    (folder / "mutants.txt").write_text(
+        head + "".join(f"{n} {text}\n" for n, text in sorted(listing)), encoding="utf-8")
+    print(head.strip())
 
 
 main()
