@@ -180,7 +180,13 @@ TEST(DriverCallErrors, MisoStuckInAnAccess_IsNotDetected) {
 TEST(DriverCallErrors, ScanOnABrokenBus_IsTransport) {
   FaultyChip chip(kEncoder);
   prepare(chip, State::kConfigured);
-  for (const std::size_t transfer : {0U, 5U, 200U}) {
+  chip.bus.plan({});
+  ASSERT_TRUE(mb4::scan_bus(chip.device, 1, {}).ok());
+  const std::size_t transfers = chip.bus.count();
+  ASSERT_GT(transfers, 100U);
+  // From anywhere on: in the identity of a slave, in its EDS, in the search for the next one.
+  for (std::size_t part = 0; part < 16; ++part) {
+    const std::size_t transfer = transfers * part / 16;
     chip.bus.plan({FaultKind::kRefused, transfer, kForEver, 0});
     EXPECT_EQ(mb4::scan_bus(chip.device, 1, {}).error(), Error::kTransport) << transfer;
   }

@@ -206,6 +206,28 @@ TEST(DriverControlUnknown, NoDataChannel_ScanWorks) {
   EXPECT_EQ(found[1].eds_bank, 2);
 }
 
+// As many as there can be. The slave next to SL (the first one) has the highest ID.
+TEST(DriverControlUnknown, EightSlaves_ScanFindsAll) {
+  std::string bus = "[[channel]]\nnumber = 1\n";
+  for (unsigned slave_number = 0; slave_number < 8; ++slave_number) {
+    bus += slave("registers = { 0x78 = [0x4F, 0x4E, 0x45, 1, 2, " + std::to_string(slave_number) +
+                 ", 0x69, 0x43], 0x41 = 2 }");
+  }
+  Chip chip(bus);
+  Config config = config26(10'000'000);
+  config.slaves[0].enabled = false;
+  config.hold_cdm = true;
+  config.frame_start = mb4::FrameStart::kPeriodic;
+  config.frame_period_clk = 800;
+  ASSERT_TRUE(chip.device.configure(config).ok());
+  ASSERT_TRUE(chip.device.automatic().start().ok());
+  std::array<mb4::SlaveIdentity, 8> found{};
+  const mb4::Result<std::uint8_t> count = mb4::scan_bus(chip.device, 1, found);
+  ASSERT_TRUE(count.ok()) << mb4::to_string(count.error());
+  EXPECT_EQ(*count, 8);
+  for (std::uint8_t id = 0; id < 8; ++id) EXPECT_EQ(found[id].device_id[5], 7 - id);
+}
+
 // Position data goes on while registers are written, and no access is started twice.
 TEST(DriverControlBeside, AutomaticFrames_ArePolledWholeAndInOrder) {
   constexpr std::uint64_t kStep = 0x010101;
