@@ -180,9 +180,8 @@ module mb4_control_frame (
     crc_d     = crc_q;
     if (crc_feed)       crc_d = {crc_q[2:0], 1'b0} ^ (crc_bit ? mb4_pkg::CONTROL_CRC_POLY : 4'h0);
     else if (crc_shift) crc_d = {crc_q[2:0], 1'b0};
-    // The header's CRC does not cover S, the data's only the byte.
-    if (slot_q == mb4_pkg::SLOT_START || slot_q == mb4_pkg::SLOT_BYTE ||
-        slot_q == mb4_pkg::SLOT_NEXT) crc_d = 4'h0;
+    // The header's CRC does not cover S. A CRC that has been sent leaves zeros for the next one.
+    if (slot_q == mb4_pkg::SLOT_START) crc_d = 4'h0;
   end
 
   always_comb begin
@@ -294,6 +293,8 @@ module mb4_control_frame (
 
   `MB4_ASSERT(SlotInRange_A, clk_i, rst_ni, slot_q <= mb4_pkg::SLOT_NEXT)
   `MB4_ASSERT_IF(IdleIsSlot0_A, clk_i, rst_ni, !active_q, slot_q == mb4_pkg::SLOT_START)
+  `MB4_ASSERT_IF(DataCrcStartsAtZero_A, clk_i, rst_ni,
+                 slot_q == mb4_pkg::SLOT_BYTE || slot_q == mb4_pkg::SLOT_NEXT, crc_q == 4'h0)
   `MB4_ASSERT_IF(NextIsForRegisters_A, clk_i, rst_ni, active_q && !cts_i,
                  slot_q <= mb4_pkg::SLOT_STOP_TESTED)
 

@@ -44,7 +44,6 @@ module mb4_sl_sampler #(
   logic       neg;
   logic [1:0] armed_a_q;
   logic [1:0] armed_b_q;
-  logic       value_a;
   logic       value_b;
   logic       look_a;
   logic       look_b;
@@ -79,11 +78,10 @@ module mb4_sl_sampler #(
     end
   end
 
-  assign value_a = pos;
   assign value_b = smp_b_neg_i ? neg : pos;
   assign look_a  = smp_a_i && armed_a_q[1] && !found_q && !ssi_i;
   assign look_b  = smp_b_i && armed_b_q[1] && !found_q && !ssi_i;
-  assign hit_a   = look_a && !value_a;
+  assign hit_a   = look_a && !pos;
   assign hit_b   = look_b && !value_b && !hit_a;
 
   assign phase_known = ssi_i ? armed_b_q[1] : found_q;
@@ -134,7 +132,7 @@ module mb4_sl_sampler #(
   assign ack_o       = found_q;
   assign quarters_o  = quarters_q;
   assign bit_valid_o = at_phase && !skip_q;
-  assign bit_o       = phase_q[0] ? value_b : value_a;
+  assign bit_o       = phase_q[0] ? value_b : pos;
 
   `MB4_ASSERT_NEXT(AckIsKept_A, clk_i, rst_ni, found_q && !clear_i, found_q)
 

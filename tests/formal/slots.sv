@@ -15,6 +15,7 @@
 // look: dut_carries = u_dut.carries_q
 // look: dut_active = u_dut.active_q
 // look: dut_last = u_dut.last_q
+// look: dut_crc = u_dut.crc_q
 // mutation: ctrl/mb4_control_frame.sv | if (!stay) slot_d
 //   | if (!stay || slot_q == mb4_pkg::SLOT_WAIT) slot_d
 // mutation: ctrl/mb4_control_frame.sv | start_i ? active_o : carries_q && !frame_end_i
@@ -70,6 +71,7 @@ module proof (
 
   wire [5:0] dut_slot;
   wire       dut_carries, dut_active, dut_last;
+  wire [3:0] dut_crc;
 
   // A step: the frame that ends had begun while the control communication was active.
   logic       mine_q;
@@ -120,6 +122,12 @@ module proof (
       if (good != good_q && !abort_q && !begin_q)
         ByteByByte_A: assert (good == good_q + 6'd1 && step_q && slot_q == 6'd31);
     end
+    // A CRC leaves zeros behind it, bit by bit: the next one starts at zero.
+    if (dut_slot == 6'd13 || dut_slot == 6'd29) Zeros1_A: assert (!dut_crc[0]);
+    if (dut_slot == 6'd14 || dut_slot == 6'd30) Zeros2_A: assert (dut_crc[1:0] == 2'b00);
+    if (dut_slot == 6'd15 || dut_slot == 6'd31) Zeros3_A: assert (dut_crc[2:0] == 3'b000);
+    if ((dut_slot >= 6'd16 && dut_slot <= 6'd18) || dut_slot == 6'd32)
+      Zeros4_A: assert (dut_crc == 4'h0);
     // Bits at their places.
     if ((dut_active || begins) && dut_slot == 6'd0)
       StartAfterZeros_A: assert (sent == (cdm_timeout_i ? select : 2'b00));
