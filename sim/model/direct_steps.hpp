@@ -6,33 +6,29 @@
 // eval() of Verilator 5 spends more time on finding out what has changed than the chip's logic
 // takes for a clock: it computes all logic behind the inputs, looks for edges of every clock and
 // reset of the chip three times or more, and does so at falling edges of CLK too, where all but a
-// few flops rest. Here what has changed is known: an edge of CLK. So the parts of eval() that such
-// an edge needs are called directly, and a falling edge that finds those flops unchanged costs
-// nothing.
+// few flops rest. Here what has changed is known: an edge of CLK. So only those statements of the
+// model run that such an edge starts and that read something that has changed (split_edge.py), and
+// a falling edge that finds its flops unchanged costs nothing.
 //
 // A chip at rest is one that a clock leaves as it was, every bit of it: then any number of clocks
 // does. The one thing that may move is the time to the next frame (AGS), which is set forward.
 //
-// This relies on names that Verilator 5.006 gives to the parts (Debian 12's version); with another
-// version fast_chip.cpp falls back to PlainSteps. tests/chip/lockstep_test.cpp compares both.
+// This relies on how Verilator 5.006 writes a model (Debian 12's version); with another version
+// fast_chip.cpp falls back to PlainSteps. tests/chip/lockstep_test.cpp compares both.
 #ifndef MB4SIM_MODEL_DIRECT_STEPS_HPP_
 #define MB4SIM_MODEL_DIRECT_STEPS_HPP_
 
 #include <Vmb4_chip.h>
 #include <Vmb4_chip___024root.h>
+#include <Vmb4_chip_edge.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
 #include <limits>
 #include <vector>
-
-// Parts of Vmb4_chip's eval(), as generated.
-void Vmb4_chip___024root___eval_ico(Vmb4_chip___024root* root);
-void Vmb4_chip___024root___eval_triggers__act(Vmb4_chip___024root* root);
-void Vmb4_chip___024root___eval_act(Vmb4_chip___024root* root);
-void Vmb4_chip___024root___eval_nba(Vmb4_chip___024root* root);
 
 namespace mb4::sim {
 
@@ -40,36 +36,48 @@ class DirectSteps {
  public:
   // Any inputs have changed.
   void inputs(Vmb4_chip& model) {
+    const Root& root = *model.rootp;
+    const auto before = clocks_and_resets(root);
+    const edge::Host host(root);
     model.eval();
     late_ = false;
+    // With its clock and its resets as they were, the chip has seen an edge of a host pin.
+    if (on_clk(root) && before == clocks_and_resets(root)) {
+      host.compare(root, kept_);
+    } else {
+      kept_.all();
+    }
   }
   // SL1 or SL2 has changed, no other input. SL is no clock and reaches no output before the next
   // clock edge: it waits for that.
   void sl(Vmb4_chip& /*model*/) { late_ = true; }
 
-  // CLK rises or falls, no other input changes.
-  void clk(Vmb4_chip& model, bool level) {
+  // CLK rises or falls, no other input changes. Returns false if nothing follows from it.
+  bool clk(Vmb4_chip& model, bool level) {
     Root& root = *model.rootp;
     root.clk_i = level;
-    if (root.mb4_chip__DOT__u_clk_mux__DOT__en0_q == 0 ||
-        root.mb4_chip__DOT__u_clk_mux__DOT__en1_q != 0) {
-      inputs(model);  // the chip runs on another clock, or changes to one
-      return;
+    if (!on_clk(root)) {  // the chip runs on another clock, or changes to one
+      inputs(model);
+      return true;
     }
-    if (late_) {
-      late_ = false;
-      root.__VicoTriggered.at(0) = true;
-      Vmb4_chip___024root___eval_ico(&root);
-    }
+    const bool matters = level || fall_matters(root);
     root.mb4_chip__DOT__clk = level;
-    if (level) {
-      edge(root, rise_);
-    } else if (fall_matters(root)) {
-      edge(root, fall_);
+    if (matters) {
+      if (late_) {
+        late_ = false;
+        edge::follow_sl(&root, kept_);
+        edge::sl_has_changed(kept_);
+      }
+      if (level) {
+        edge::rise(&root, kept_);
+      } else {
+        edge::fall(&root, kept_);
+      }
     }
     // No edge may be left for the next search to find.
     root.__Vtrigrprev__TOP__clk_i = level;
     root.__Vtrigrprev__TOP__mb4_chip__DOT__clk = level;
+    return matters;
   }
 
   // Remembers the chip, CLK low.
@@ -103,12 +111,12 @@ class DirectSteps {
     const std::uint64_t after = elapsed(root) + clocks;
     root.*kStep = static_cast<CData>(after / step_clocks(root));
     root.*kPre = static_cast<SData>(after % step_clocks(root));
+    edge::time_has_changed(kept_);
     return clocks;
   }
 
  private:
   using Root = Vmb4_chip___024root;
-  using Triggers = decltype(Root::__VnbaTriggered);
 
   static constexpr std::uint64_t kMargin = 4;
 
@@ -126,21 +134,19 @@ class DirectSteps {
   static constexpr auto kFreqags =
       &Root::mb4_chip__DOT__u_engine__DOT__u_regs__DOT__u_cfg__DOT__freqags_q;
 
-  // Which processes an edge of CLK starts: always the same ones, found once.
-  struct Edge {
-    Triggers triggers;
-    bool known = false;
-  };
-
-  static void edge(Root& root, Edge& edge) {
-    if (!edge.known) {
-      Vmb4_chip___024root___eval_triggers__act(&root);
-      edge.triggers = root.__VactTriggered;
-      edge.known = true;
-    }
-    root.__VnbaTriggered = edge.triggers;
-    Vmb4_chip___024root___eval_act(&root);
-    Vmb4_chip___024root___eval_nba(&root);
+  // The system clock is CLK.
+  static bool on_clk(const Root& root) {
+    return root.mb4_chip__DOT__u_clk_mux__DOT__en0_q != 0 &&
+           root.mb4_chip__DOT__u_clk_mux__DOT__en1_q == 0;
+  }
+  static std::array<unsigned, 7> clocks_and_resets(const Root& root) {
+    return {root.mb4_chip__DOT__clk,
+            root.mb4_chip__DOT__u_clk_mux__DOT__en0_q,
+            root.mb4_chip__DOT__u_clk_mux__DOT__en1_q,
+            root.nres_i,
+            root.npor_i,
+            root.mb4_chip__DOT__u_engine__DOT__rst_core_n,
+            root.mb4_chip__DOT__u_engine__DOT__por_core_n};
   }
 
   // Whether a flop of the falling edge would change. They are in the clock switch and in the
@@ -172,8 +178,7 @@ class DirectSteps {
     std::memcpy(then(root, member), &member, sizeof member);
   }
 
-  Edge rise_;
-  Edge fall_;
+  edge::Kept kept_;
   bool late_ = false;  // SL has changed
   bool counting_ = false;
   std::vector<std::byte> before_;

@@ -9,13 +9,17 @@
 #include "verilated_chip.hpp"
 
 #if VERILATOR_VERSION_INTEGER == 5006000
+#include <Vmb4_chip_edge.hpp>
+#ifndef MB4_EDGE_NOT_SPLIT
+#define MB4_DIRECT_STEPS
 #include "direct_steps.hpp"
+#endif
 #endif
 
 namespace mb4::sim {
 namespace {
 
-#if VERILATOR_VERSION_INTEGER == 5006000
+#ifdef MB4_DIRECT_STEPS
 using Steps = DirectSteps;
 #else
 using Steps = PlainSteps<Vmb4_chip>;

@@ -16,10 +16,11 @@ class PlainSteps {
   void inputs(Model& model) { model.eval(); }
   // SL1 or SL2 has changed, no other input.
   void sl(Model& model) { model.eval(); }
-  // CLK rises or falls, no other input changes.
-  void clk(Model& model, bool level) {
+  // CLK rises or falls, no other input changes. Returns false if nothing follows from it.
+  bool clk(Model& model, bool level) {
     model.clk_i = level;
     model.eval();
+    return true;
   }
   // Clocks at rest are not left out.
   void mark(const Model& /*model*/) {}

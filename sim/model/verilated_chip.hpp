@@ -110,12 +110,13 @@ class VerilatedChip final : public ChipModel {
       const bool level = pin_clock_.edge();
       cycles_ += level ? 1U : 0U;
       context_->time(now);
-      steps_.clk(model, level);
-      trace_.dump(now);
-      if (const unsigned outputs = pack(); outputs != watched_) {
-        watched_ = outputs;
-        stirred();
-        return now;
+      if (steps_.clk(model, level)) {
+        trace_.dump(now);
+        if (const unsigned outputs = pack(); outputs != watched_) {
+          watched_ = outputs;
+          stirred();
+          return now;
+        }
       }
       if (!level) leave_out_rest(limit);
     }
@@ -217,9 +218,10 @@ class VerilatedChip final : public ChipModel {
   // Enough for the clock switch to settle from any state and for the reset synchroniser.
   static constexpr unsigned kConditioningEdges = 32;
   static constexpr CData kNcs2 = 0x10;  // DB4
-  // Clocks after which the chip may be at rest, and between looks if it is not.
-  static constexpr unsigned kQuiet = 16;
-  static constexpr unsigned kRarest = 1024;
+  // Clocks without a change at a pin after which a look for rest is worth its price: few if the last
+  // one found it, more and more if not (MA of a low frequency).
+  static constexpr unsigned kQuiet = 4;
+  static constexpr unsigned kRarest = 64;
 
   // Behind a falling edge of CLK. After a while without a change at any pin it is worth looking
   // whether the chip is at rest: then all periods up to `limit` can be left out. If it is not, the
@@ -236,6 +238,7 @@ class VerilatedChip final : public ChipModel {
         look_at_ = std::min(2 * look_at_, kRarest);
         return;
       }
+      look_at_ = kQuiet;
       const std::uint64_t passed = steps_.leave_out(*model_, clocks);
       pin_clock_.skip(passed);
       cycles_ += passed;
@@ -243,10 +246,7 @@ class VerilatedChip final : public ChipModel {
       stirred();
     }
   }
-  void stirred() {
-    quiet_ = 0;
-    look_at_ = kQuiet;
-  }
+  void stirred() { quiet_ = 0; }
 
   void evaluate(Time now) {
     stirred();

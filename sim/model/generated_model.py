@@ -1,0 +1,205 @@
+# SPDX-FileCopyrightText: 2026 The openmb4 authors
+# SPDX-License-Identifier: Apache-2.0
+"""Statements of the C++ that Verilator 5.006 writes for a model, with what they read and write.
+
+Only what Verilator writes for this chip is understood: functions of assignments and conditionals
+without loops, over members of the model (vlSelf->NAME) and local variables. Anything else raises
+NotUnderstood."""
+
+import re
+from collections import defaultdict
+from dataclasses import dataclass, field
+
+TYPE = re.compile(r"^(CData|SData|IData|QData|VlWide<\d+>)/\*\d+:\d+\*/ (\w+);$")
+STRING = re.compile(r'"(?:\\.|[^"\\])*"')
+NAME = re.compile(r"vlSelf->([A-Za-z_]\w*)|(?<![\w>.])([A-Za-z_]\w*)")
+# These change no variable, and what they give depends on their arguments alone (of up to 64 bits).
+PURE = re.compile(r"VL_(?:WRITEF|STOP_MT|UNLIKELY|LIKELY|TIME_UNITED_Q|REDXOR_\w+|"
+                  r"(?:ONEHOT0?|COUNTONES|SHIFT\w+|[GL]TE?S?|EXTENDS?)_[IQ]+)$|"
+                  r"\w+__ConstPool__\w+$")
+KNOWN = {"if", "else", "U", "IData", "QData", "CData", "SData", "vlSelf", "vlSymsp", "Verilated"}
+LONG = 1500  # characters of a conditional that is worth taking apart
+
+
+class NotUnderstood(Exception):
+    pass
+
+
+@dataclass
+class Statement:
+    text: str
+    function: str
+    reads: set = field(default_factory=set)
+    writes: set = field(default_factory=set)
+    defines: set = field(default_factory=set)  # written whole, whatever has been there
+    arrays: set = field(default_factory=set)  # written, but only some elements
+
+
+def functions(folder, prefix):
+    """{name: body} of all functions of the model that have no arguments."""
+    pattern = re.compile(rf"^(?:VL_INLINE_OPT )?void {prefix}___024root___(\w+)"
+                         rf"\({prefix}___024root\* vlSelf\) \{{\n(.*?)^\}}", re.M | re.S)
+    found = {}
+    for path in sorted(folder.glob(f"{prefix}___024root__DepSet_*.cpp")):
+        if not path.name.endswith("__Slow.cpp"):
+            found.update(pattern.findall(path.read_text(encoding="utf-8")))
+    return found
+
+
+def constants(folder, prefix):
+    """Declarations of the model's tables."""
+    pattern = re.compile(r"^extern const [^;]*__ConstPool__\w+;$", re.M)
+    return sorted({line for path in folder.glob(f"{prefix}___024root__DepSet_*.cpp")
+                   for line in pattern.findall(path.read_text(encoding="utf-8"))})
+
+
+def triggers(folder, prefix):
+    """{index: [events]} of the model, as in its debug output."""
+    pattern = re.compile(r"'act' region trigger index (\d+) is active: @\((.*?)\)\\n")
+    return {int(index): events.split(" or ")
+            for path in sorted(folder.glob(f"{prefix}*__Slow.cpp"))
+            for index, events in pattern.findall(path.read_text(encoding="utf-8"))}
+
+
+def after_string(text, at):
+    return STRING.match(text, at).end()
+
+
+def closing(text, at):
+    """Place of the bracket that closes the one at `at`."""
+    depth = 0
+    while True:
+        if text[at] == '"':
+            at = after_string(text, at)
+            continue
+        depth += (text[at] in "({[") - (text[at] in ")}]")
+        if depth == 0:
+            return at
+        at += 1
+
+
+def split(body):
+    """The statements of a body, one after the other."""
+    at = 0
+    skip = re.compile(r"(?:\s+|//[^\n]*\n)+")
+    otherwise = re.compile(r"\s*else\b")
+    while True:
+        blank = skip.match(body, at)
+        at = blank.end() if blank else at
+        if at >= len(body):
+            return
+        start = at
+        while True:
+            if body[at] == '"':
+                at = after_string(body, at)
+            elif body.startswith("/*", at):
+                at = body.index("*/", at) + 2
+            elif body.startswith("//", at):
+                at = body.index("\n", at)
+            elif body[at] in "([{":
+                block = body[at] == "{"
+                at = closing(body, at) + 1
+                more = otherwise.match(body, at)
+                if block and not more:
+                    break
+                at = more.end() if block else at
+            elif body[at] == ";":
+                at += 1
+                break
+            else:
+                at += 1
+        yield body[start:at]
+
+
+def branches(text):
+    """(condition, statements, statements otherwise) of a conditional, else None."""
+    if not text.startswith("if ("):
+        return None
+    end = closing(text, 3)
+    opening = text.index("{", end)
+    close = closing(text, opening)
+    rest = text[close + 1:].strip()
+    if rest:
+        rest = rest.removeprefix("else").strip()
+        if rest.startswith("{"):
+            rest = rest[1:-1]
+    return text[3:end + 1], text[opening + 1:close], rest
+
+
+def subscripts_end(text, at):
+    """(place behind the subscripts that follow a name, whether there are any)."""
+    some = False
+    while True:
+        found = re.compile(r"\s*(?:\[|\.at\()").match(text, at)
+        if not found:
+            return at, some
+        at = closing(text, found.end() - 1) + 1
+        some = True
+
+
+def analyse(text, function, local):
+    """The statement with its names; those of local variables as FUNCTION.NAME."""
+    statement = Statement(text, function)
+    bare = re.sub(r"/\*.*?\*/|//[^\n]*", "", STRING.sub('""', text))
+    for found in NAME.finditer(bare):
+        member, word = found.groups()
+        if member is None and word not in local:
+            if word not in KNOWN and not PURE.match(word):
+                raise NotUnderstood(f"{function}: {word}")
+            continue
+        name = member or f"{function}.{word}"
+        end, some = subscripts_end(bare, found.end())
+        if re.compile(r"\s*=(?!=)").match(bare, end):
+            statement.writes.add(name)
+            if some:
+                statement.arrays.add(name)
+            if not some and found.start() == 0:
+                statement.defines.add(name)
+        else:
+            if re.compile(r"\s*(?:[-+*/%&|^]=|\+\+|--|<<=|>>=)").match(bare, end):
+                raise NotUnderstood(f"{function}: {bare[found.start():end + 4]}")
+            statement.reads.add(name)
+    return statement
+
+
+def apart(text, function, local):
+    """A long conditional as several ones, of which none depends on another."""
+    parts = branches(text) if len(text) > LONG and "VL_WRITEF" not in text else None
+    if not parts:
+        return [text]
+    condition, *sides = parts
+    rows = [(side, piece, analyse(piece, function, local)) for side, body in enumerate(sides)
+            for inner in split(body) for piece in apart(inner, function, local)]
+    if analyse(f"if {condition} {{}}", function, local).reads & {
+            name for _, _, row in rows for name in row.writes}:
+        return [text]
+    kind = list(range(len(rows)))
+    for i, (side, _, one) in enumerate(rows):
+        for j in range(i):
+            other = rows[j][2]
+            linked = one.writes & other.writes
+            if rows[j][0] == side:
+                linked = linked or one.writes & other.reads or one.reads & other.writes
+            if linked:
+                kind = [kind[i] if k == kind[j] else k for k in kind]
+    classes = defaultdict(lambda: ("", ""))
+    for k, (side, piece, _) in zip(kind, rows):
+        both = list(classes[k])
+        both[side] += piece + "\n"
+        classes[k] = tuple(both)
+    return [f"if {condition} {{ {yes} }}" + (f" else {{ {no} }}" if no else "")
+            for yes, no in classes.values()]
+
+
+def statements(name, body):
+    """({local variable: type}, [statements]) of a function."""
+    head, body = body.split("// Body\n", 1)
+    local = {row[2]: row[1] for row in map(TYPE.match, map(str.strip, head.splitlines())) if row}
+    found = [analyse(piece, name, local) for text in split(body)
+             for piece in apart(text, name, local)]
+    # Local variables start at zero: only if they are read or written in part first does it count.
+    for variable in local:
+        first = next((row for row in found if f"{name}.{variable}" in row.reads | row.writes), None)
+        if first and f"{name}.{variable}" not in first.defines - first.reads:
+            found.insert(0, analyse(f"{variable} = 0;", name, local))
+    return {f"{name}.{key}": kind for key, kind in local.items()}, found
