@@ -7,7 +7,7 @@
 // takes for a clock: it computes all logic behind the inputs, looks for edges of every clock and
 // reset of the chip three times or more, and does so at falling edges of CLK too, where all but a
 // few flops rest. Here what has changed is known: an edge of CLK. So only those statements of the
-// model run that such an edge starts and that read something that has changed (split_edge.py), and
+// model run that such an edge starts and that read something that has changed (edge/split_edge.py), and
 // a falling edge that finds its flops unchanged costs nothing.
 //
 // A chip at rest is one that a clock leaves as it was, every bit of it: then any number of clocks
@@ -28,6 +28,7 @@
 #include <cstdint>
 #include <cstring>
 #include <limits>
+#include <utility>
 #include <vector>
 
 namespace mb4::sim {
@@ -37,12 +38,12 @@ class DirectSteps {
   // Any inputs have changed.
   void inputs(Vmb4_chip& model) {
     const Root& root = *model.rootp;
-    const auto before = clocks_and_resets(root);
     const edge::Host host(root);
     model.eval();
     late_ = false;
     // With its clock and its resets as they were, the chip has seen an edge of a host pin.
-    if (on_clk(root) && before == clocks_and_resets(root)) {
+    const auto before = std::exchange(clocks_and_resets_, clocks_and_resets(root));
+    if (on_clk(root) && before == clocks_and_resets_) {
       host.compare(root, kept_);
     } else {
       kept_.all();
@@ -139,9 +140,8 @@ class DirectSteps {
     return root.mb4_chip__DOT__u_clk_mux__DOT__en0_q != 0 &&
            root.mb4_chip__DOT__u_clk_mux__DOT__en1_q == 0;
   }
-  static std::array<unsigned, 7> clocks_and_resets(const Root& root) {
-    return {root.mb4_chip__DOT__clk,
-            root.mb4_chip__DOT__u_clk_mux__DOT__en0_q,
+  static std::array<unsigned, 6> clocks_and_resets(const Root& root) {
+    return {root.mb4_chip__DOT__u_clk_mux__DOT__en0_q,
             root.mb4_chip__DOT__u_clk_mux__DOT__en1_q,
             root.nres_i,
             root.npor_i,
@@ -179,6 +179,7 @@ class DirectSteps {
   }
 
   edge::Kept kept_;
+  std::array<unsigned, 6> clocks_and_resets_{};
   bool late_ = false;  // SL has changed
   bool counting_ = false;
   std::vector<std::byte> before_;

@@ -1,0 +1,146 @@
+# SPDX-FileCopyrightText: 2026 The openmb4 authors
+# SPDX-License-Identifier: Apache-2.0
+"""The header for direct_steps.hpp: functions for the edges of CLK, flags of their parts."""
+
+import re
+from collections import defaultdict
+
+from generated_model import NotUnderstood
+
+PREFIX = "Vmb4_chip"
+ROOT = f"{PREFIX}___024root"
+PIN = re.compile(r"(?!.*__)\w+_i$")
+# Changed from outside between edges: function name of the header, variables.
+OUTSIDE = {
+    "sl_has_changed": ["sl1_i", "sl2_i"],
+    "time_has_changed": ["mb4_chip__DOT__u_engine__DOT__u_control__DOT__u_request__DOT__pre_q",
+                         "mb4_chip__DOT__u_engine__DOT__u_control__DOT__u_request__DOT__step_q"]}
+
+
+class Writer:
+    """The header: rise() with its parts, fall(), follow_sl(), marks for what changes outside."""
+
+    def __init__(self, types, tables, arrays, by_host, lists):
+        self.types, self.tables, self.arrays = types, tables, arrays
+        self.by_host, self.lists = by_host, lists
+        self.readers = defaultdict(set)
+        for part in lists["rise"]:
+            if part.flag is not None:
+                for name in part.reads:
+                    self.readers[name].add(part.flag)
+        users = defaultdict(list)
+        for parts in lists.values():
+            for part in parts:
+                for name in (set().union(*(row.reads for row in part.rows)) | part.writes):
+                    if name in types:
+                        users[name].append(part)
+        # Local variables that keep their value from part to part, or from edge to edge.
+        self.kept = {name for name, many in users.items()
+                     if len(many) > 1 or any(name in part.reads for part in many)}
+        self.lines = []
+
+    def variable(self, name):
+        if name not in self.types:
+            return f"vlSelf->{name}"
+        return ("kept." if name in self.kept else "") + name.replace(".", "__")
+
+    def text(self, row):
+        """The statement as it stands in the header; who writes into an array tells at once."""
+        text = row.text
+        for name in sorted(row.writes - row.defines):
+            marks = self.marks([name])
+            if marks and name in row.arrays:
+                text, found = re.subn(rf"(vlSelf->{name}\s*\[[^;]*?\]\s*=(?!=)[^;]*;)",
+                                      rf"\1 {marks}", text)
+                if found == 0:
+                    raise NotUnderstood(f"{name}: an array written in an unknown way")
+        for name in sorted((row.reads | row.writes) & self.types.keys(), key=len, reverse=True):
+            text = re.sub(rf"(?<![\w>.]){re.escape(name.split('.', 1)[1])}\b",
+                          lambda _, name=name: self.variable(name), text)
+        return text
+
+    def marks(self, names):
+        masks = defaultdict(int)
+        for name in names:
+            for flag in self.readers[name]:
+                masks[flag // 64] |= 1 << (flag % 64)
+        return " ".join(f"kept.changed[{k}] |= {mask:#x}ULL;" for k, mask in sorted(masks.items()))
+
+    def compare(self, names, test):
+        """Marks what reads those that have changed; one test for all that have the same readers."""
+        alike = defaultdict(list)
+        for k, name in enumerate(names):
+            alike[self.marks([name])].append(test(k, name))
+        self.lines += [f"if ({' | '.join(tests)}) {{ {marks} }}" for marks, tests in alike.items()]
+
+    def part(self, part, count):
+        for name in sorted({name for row in part.rows for name in row.reads | row.writes}
+                           & self.types.keys() - self.kept):
+            self.lines.append(f"{self.types[name]} {self.variable(name)} = 0;")
+        arrays = set().union(*(row.arrays for row in part.rows))
+        told = sorted(name for name in part.writes - arrays if self.marks([name]))
+        for k, name in enumerate(told):
+            self.lines.append(f"const auto before{k} = {self.variable(name)};")
+        if count and part.flag is not None:
+            self.lines.append(f"++counts.runs[{part.flag}];")
+        self.lines += [self.text(row) for row in part.rows]
+        self.compare(told, lambda k, name: f"(before{k} != {self.variable(name)})")
+
+    def function(self, name, parts, count):
+        self.lines += [f"inline void {name}({ROOT}* __restrict vlSelf, Kept& __restrict kept) {{",
+                       f"{PREFIX}__Syms* const __restrict vlSymsp = vlSelf->vlSymsp;",
+                       "(void)vlSymsp;"]
+        for part in parts:
+            if part.flag is None:
+                self.lines.append("{")
+            else:
+                word, mask = f"kept.changed[{part.flag // 64}]", f"{1 << part.flag % 64:#x}ULL"
+                self.lines += [f"if (__builtin_expect({word} & {mask}, 0)) {{",
+                               f"{word} &= ~{mask};"]
+            self.part(part, count)
+            self.lines.append("}")
+        self.lines.append("}")
+
+    def counts(self, flags):
+        self.lines += ["inline struct Counts {", f"std::uint64_t runs[{flags}] = {{}};",
+                       f"static constexpr const char* kNames[{flags}] = {{",
+                       *(f'"{part.name}",' for part in self.lists["rise"]), "};",
+                       "~Counts() {", f"for (int k = 0; k < {flags}; ++k)",
+                       'std::fprintf(stderr, "%llu %s\\n", '
+                       "static_cast<unsigned long long>(runs[k]), kNames[k]);", "}", "} counts;"]
+
+    def host(self):
+        """What the host's pins can change: values to compare with."""
+        # A pin has changed before anybody looks; an array is too long to look at.
+        at_once = {name for name in self.by_host if name in self.arrays or PIN.match(name)}
+        watched = sorted(name for name in self.by_host - at_once if name not in self.types
+                         and self.marks([name]))
+        self.lines += ["struct Host {"]
+        self.lines += [f"decltype({ROOT}::{name}) v{k};" for k, name in enumerate(watched)]
+        self.lines += [f"explicit Host(const {ROOT}& root) :"]
+        self.lines += [", ".join(f"v{k}(root.{name})" for k, name in enumerate(watched)), "{}",
+                       f"void compare(const {ROOT}& root, Kept& kept) const {{",
+                       self.marks(at_once)]
+        self.compare(watched, lambda k, name: f"(v{k} != root.{name})")
+        self.lines += ["}", "};"]
+
+    def header(self, flags, count):
+        words = flags // 64 + 1
+        self.lines = [
+            "// Made from the model by split_edge.py.", "#pragma once",
+            "#include <cstdint>", "#include <cstdio>",
+            f"#include <{PREFIX}__Syms.h>", *self.tables,
+            "namespace mb4::sim::edge {",
+            "struct Kept {", f"std::uint64_t changed[{words}];",
+            "Kept() { all(); }",
+            "void all() { for (auto& word : changed) word = ~std::uint64_t{0}; }",
+            *(f"{self.types[name]} {name.replace('.', '__')}{{}};" for name in sorted(self.kept)),
+            "};"]
+        if count:
+            self.counts(flags)
+        for name, parts in self.lists.items():
+            self.function(name, parts, count)
+        for name, changed in OUTSIDE.items():
+            self.lines.append(f"inline void {name}(Kept& kept) {{ {self.marks(changed)} }}")
+        self.host()
+        return "\n".join([*self.lines, "}", ""])

@@ -1,0 +1,106 @@
+#!/usr/bin/env python3
+# SPDX-FileCopyrightText: 2026 The openmb4 authors
+# SPDX-License-Identifier: Apache-2.0
+"""The rising edge of CLK in parts, of which only those run whose inputs have changed.
+
+  split_edge.py FOLDER BUSY_TXT OUTPUT [--count]
+     FOLDER    what Verilator has made of mb4_chip
+     BUSY_TXT  which groups run `always`, and which `often`, by a variable that they write; a name
+               that is not there costs speed, nothing else
+     OUTPUT    a header for direct_steps.hpp; MB4_EDGE_NOT_SPLIT if the model is not understood
+     --count   each group is a part and counts how often it runs: what find_busy.py reads
+
+Verilator computes all that hangs on a clock at each of its edges. Here its statements, unchanged,
+are put into groups (a register with the statements that write it), in an order that keeps what
+depends on each other. Groups that nearly always have something to do stand alone (busy); all others
+are bundled, behind a flag that is set when a variable which they read gets another value."""
+
+import re
+import sys
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).resolve().parent))
+
+from generated_model import (NotUnderstood, constants, functions, statements,  # noqa: E402
+                             triggers)
+from groups import Group, Part, groups_of, parts_of  # noqa: E402
+from header import PIN, PREFIX, ROOT, Writer  # noqa: E402
+
+CLOCKS = {"clk_i", "mb4_chip__DOT__clk"}
+EDGES = {"rise": {"posedge clk_i", "posedge mb4_chip.clk"},
+         "fall": {"negedge clk_i", "negedge mb4_chip.clk"}}
+
+
+def started(bodies, names):
+    """[(function, the events that start it)] in the order of eval_nba()."""
+    calls = re.findall(rf"if \(([^{{]*)\) \{{\s*{ROOT}___(\w+)\(vlSelf\);", bodies["eval_nba"])
+    return [(function, {event for k in re.findall(r"\.at\((\w+?)U\)", condition)
+                        for event in names[int(k, 0)]})
+            for condition, function in calls]
+
+
+def behind(rows, names):
+    """Those statements that depend on any of these variables, and what they need for it."""
+    taken = set()
+    while True:
+        size = len(taken)
+        touched = set(names).union(*(rows[i].writes for i in taken))
+        needed = {name for i in taken for name in rows[i].reads if "." in name}
+        taken |= {i for i, row in enumerate(rows) if row.reads & touched or row.writes & needed}
+        if len(taken) == size:
+            return [rows[i] for i in sorted(taken)]
+
+
+def by_host(functions_of, rows_of):
+    """What an edge of a host pin can change, while no clock and no reset does."""
+    clocks = EDGES["rise"] | EDGES["fall"]
+    other = [row for function, events in functions_of for row in rows_of[function]
+             if not (function.startswith("nba_sequent") and events & clocks)]
+    first = {name for function, events in functions_of for row in rows_of[function]
+             for name in row.writes if function.startswith("nba_sequent") and not events & clocks}
+    rows = rows_of["ico_sequent__TOP__0"] + other
+    pins = {name for many in rows_of.values() for row in many for name in row.reads
+            if PIN.match(name)} - CLOCKS
+    return pins | first | {name for row in behind(rows, pins | first) for name in row.writes}
+
+
+def made(folder, busy, count):
+    bodies, names = functions(folder, PREFIX), triggers(folder, PREFIX)
+    if not {"eval_nba", "ico_sequent__TOP__0"} <= bodies.keys():
+        raise NotUnderstood("no functions of the model found")
+    functions_of = started(bodies, names)
+    types, rows_of = {}, {}
+    for function in ["ico_sequent__TOP__0", *(name for name, _ in functions_of)]:
+        local, rows_of[function] = statements(function, bodies[function])
+        types |= local
+    rise, fall = ([row for function, events in functions_of if events & EDGES[kind]
+                   for row in rows_of[function]] for kind in ("rise", "fall"))
+    if not rise or not fall:
+        raise NotUnderstood("no edges of CLK found")
+    for row in rise:
+        if (row.reads | row.writes) & CLOCKS or "__Vtrig" in row.text:
+            raise NotUnderstood(f"depends on CLK itself: {row.text[:80]}")
+    parts, flags = parts_of(groups_of(rise), busy, count)
+    behind_sl = Group(behind(rows_of["ico_sequent__TOP__0"], ["sl1_i", "sl2_i"]))
+    arrays = {name for rows in rows_of.values() for row in rows for name in row.arrays}
+    return Writer(types, constants(folder, PREFIX), arrays, by_host(functions_of, rows_of), {
+        "rise": parts, "fall": [Part([Group(fall)], None)],
+        "follow_sl": [Part([behind_sl], None)]}).header(flags, count)
+
+
+def main():
+    arguments = [value for value in sys.argv[1:] if value != "--count"]
+    folder, listing, output = map(Path, arguments)
+    busy = {} if "--count" in sys.argv else {
+        name: often for often, name in
+        (line.split() for line in listing.read_text(encoding="utf-8").splitlines()
+         if line and not line.startswith("#"))}
+    try:
+        text = made(folder, busy, "--count" in sys.argv)
+    except NotUnderstood as error:
+        print(f"split_edge.py: the model runs whole, at a third of its speed: {error}")
+        text = "#define MB4_EDGE_NOT_SPLIT\n"
+    output.write_text(text, encoding="utf-8")
+
+
+main()
