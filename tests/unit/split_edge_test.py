@@ -1,0 +1,118 @@
+# SPDX-FileCopyrightText: 2026 The openmb4 authors
+# SPDX-License-Identifier: Apache-2.0
+"""Parts of an edge of CLK (sim/model/edge): split_edge_test.py FOLDER HEADER
+
+FOLDER has the modules, HEADER is what was made of the chip. That the parts compute what the whole
+does is shown by tests/chip/lockstep_test.cpp; here are the rules, with statements made by hand."""
+
+import sys
+import unittest
+from pathlib import Path
+
+FOLDER, HEADER = sys.argv[1:3]
+sys.path.insert(0, FOLDER)
+
+from generated_model import NotUnderstood, analyse, apart, split, statements  # noqa: E402
+from groups import groups_of, inputs, parts_of  # noqa: E402
+
+
+def rows(*texts, local=()):
+    return [analyse(text, "f", set(local)) for text in texts]
+
+
+def order(parts):
+    return [row.text for part in parts for row in part.rows]
+
+
+class Statements(unittest.TestCase):
+    def test_names(self):
+        row, = rows("vlSelf->a = ((IData)(vlSelf->b) + x);", local={"x"})
+        self.assertEqual((row.reads, row.writes, row.defines), ({"b", "f.x"}, {"a"}, {"a"}))
+
+    def test_conditional_write_keeps_the_rest(self):
+        row, = rows("if (vlSelf->c) { vlSelf->a = 1U; }")
+        self.assertEqual((row.writes, row.defines, inputs([row])), ({"a"}, set(), {"a", "c"}))
+
+    def test_element_of_an_array_keeps_the_rest(self):
+        row, = rows("vlSelf->m[(IData)(vlSelf->i)] = vlSelf->m[0U];")
+        self.assertEqual((row.reads, row.writes, row.defines, row.arrays),
+                         ({"i", "m"}, {"m"}, set(), {"m"}))
+
+    def test_comparison_is_no_write(self):
+        row, = rows("vlSelf->a = (vlSelf->b == vlSelf->c);")
+        self.assertEqual(row.writes, {"a"})
+
+    def test_text_and_comments_have_no_names(self):
+        row, = rows('VL_WRITEF("vlSelf->a = %d; {\\n", vlSelf->b/*7:0*/);')
+        self.assertEqual((row.reads, row.writes), ({"b"}, set()))
+
+    def test_unknown_is_refused(self):
+        for text in ("vlSelf->a = vl_random();", "VL_ASSIGN_W(70, vlSelf->a, vlSelf->b);",
+                     "vlSelf->a += 1U;", "for (;;) { vlSelf->a = 1U; }", "other(vlSelf);"):
+            with self.assertRaises(NotUnderstood, msg=text):
+                rows(text)
+
+    def test_bodies_are_split_at_their_statements(self):
+        body = 'vlSelf->a = 1U;\nif (vlSelf->b) {\n x = "};"; } else { y = 1U; }\n// c\nz = 2U;'
+        self.assertEqual([" ".join(text.split()) for text in split(body)],
+                         ["vlSelf->a = 1U;", 'if (vlSelf->b) { x = "};"; } else { y = 1U; }',
+                          "z = 2U;"])
+
+    def test_local_variable_read_before_it_is_written_is_zero(self):
+        head = "    // Init\n    CData/*0:0*/ x;\n    x = 0;\n    // Body\n"
+        _, kept = statements("f", head + "if (vlSelf->a) { x = 1U; }\nvlSelf->b = x;")
+        self.assertEqual(kept[0].text, "x = 0;")
+        _, kept = statements("f", head + "x = vlSelf->a;\nvlSelf->b = x;")
+        self.assertEqual(len(kept), 2)
+
+
+class LongConditionals(unittest.TestCase):
+    PAD = "/*" + 1500 * "-" + "*/"
+
+    def pieces(self, text):
+        return apart(self.PAD.join(["if (vlSelf->c", text]), "f", set())
+
+    def test_independent_statements_part(self):
+        self.assertEqual(len(self.pieces(") { vlSelf->a = 1U; vlSelf->b = 2U; }"
+                                         " else { vlSelf->b = 3U; vlSelf->a = 4U; }")), 2)
+
+    def test_dependent_statements_stay_together_in_their_order(self):
+        found = self.pieces(") { vlSelf->a = 1U; } else { vlSelf->p = 2U; vlSelf->a = vlSelf->p; }")
+        self.assertEqual(len(found), 1)
+        self.assertLess(found[0].index("vlSelf->p = 2U"), found[0].index("vlSelf->a = vlSelf->p"))
+
+    def test_condition_that_is_written_stays_whole(self):
+        self.assertEqual(len(self.pieces(") { vlSelf->c = 1U; vlSelf->b = 2U; }")), 1)
+
+
+class Parts(unittest.TestCase):
+    def test_a_register_has_its_statements_in_one_group(self):
+        groups = groups_of(rows("vlSelf->d = vlSelf->q;", "vlSelf->d = vlSelf->e;",
+                                "vlSelf->x = vlSelf->y;"))
+        self.assertEqual(sorted(len(group.rows) for group in groups), [1, 2])
+
+    def test_circles_are_one_group(self):
+        groups = groups_of(rows("vlSelf->a = vlSelf->q;", "vlSelf->b = vlSelf->a;",
+                                "if (vlSelf->b) { vlSelf->a = 1U; }"))
+        self.assertEqual(len(groups), 1)
+
+    def test_old_values_are_read_before_they_change(self):
+        texts = ["vlSelf->m__DOT__s = vlSelf->m__DOT__r;", "vlSelf->m__DOT__r = vlSelf->m__DOT__d;",
+                 "vlSelf->m__DOT__d = vlSelf->m__DOT__s;"]
+        for busy in ({}, {"m__DOT__d": "always"}, {"m__DOT__r": "often"}, {"m__DOT__s": "always"}):
+            self.assertEqual(order(parts_of(groups_of(rows(*texts)), busy, False)[0]), texts)
+
+    def test_busy_groups_have_no_flag(self):
+        parts, flags = parts_of(groups_of(rows("vlSelf->a = vlSelf->b;", "vlSelf->c = vlSelf->d;")),
+                                {"a": "always"}, False)
+        self.assertEqual(([part.flag for part in parts], flags), ([None, 0], 1))
+
+
+class Chip(unittest.TestCase):
+    def test_the_chip_is_split(self):
+        text = Path(HEADER).read_text(encoding="utf-8")
+        self.assertNotIn("MB4_EDGE_NOT_SPLIT", text)
+        self.assertGreater(text.count("__builtin_expect"), 20)
+
+
+unittest.main(argv=sys.argv[:1])
