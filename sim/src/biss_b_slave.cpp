@@ -17,26 +17,32 @@ Time BissBSlave::register_timeout() const {
   return register_period_ != 0 ? 3 * register_period_ / 2 : config_.register_initial;
 }
 
-Time BissBSlave::deadline() const {
-  if (state_ == State::kIdle) return kNever;
-  if (state_ != State::kRegister) return last_edge_ + timeout_.value();
-  // The master may take its time between the hand-over and its start bit.
-  return access_.cells() == 0 ? kNever : last_edge_ + register_timeout();
+void BissBSlave::wait() {
+  set_idle(state_ == State::kIdle);
+  if (state_ == State::kIdle) {
+    set_deadline(kNever);
+  } else if (state_ != State::kRegister) {
+    set_deadline(last_edge_ + timeout_.value());
+  } else {
+    // The master may take its time between the hand-over and its start bit.
+    set_deadline(access_.cells() == 0 ? kNever : last_edge_ + register_timeout());
+  }
 }
 
-void BissBSlave::ma_edge(Time now, bool ma, bool sli) {
+void BissBSlave::ma_edge(Time now, bool ma, bool sli_before, bool sli) {
   ma_ = ma;
   if (state_ == State::kRegister) {
     if (ma && access_.cells() == 0) first_cell_ = now;
     if (ma && access_.cells() == 1) register_period_ = now - first_cell_;
     access_.ma_edge(now, ma);
   } else if (ma) {
-    rising(now, sli);
+    rising(now, sli_before, sli);
   } else if (state_ == State::kIdle) {
     first_falling(now, sli);
   }
   last_edge_ = now;
   follow(now, sli);
+  wait();
 }
 
 void BissBSlave::first_falling(Time now, bool sli) {
@@ -52,7 +58,7 @@ void BissBSlave::first_falling(Time now, bool sli) {
   state_ = State::kRegister;
 }
 
-void BissBSlave::rising(Time now, bool sli) {
+void BissBSlave::rising(Time now, bool sli_before, bool sli) {
   switch (state_) {
     case State::kArmed:
       word_ = config_.word(now, frames());
@@ -63,17 +69,17 @@ void BissBSlave::rising(Time now, bool sli) {
       busy_left_ = config_.busy_periods;
       sli_was_low_ = !sli;
       state_ = State::kBusy;
-      slo_ = false;
+      set_slo(false);
       break;
     case State::kBusy:
       if (!is_last_) {
-        if (!sli_was_low_ || !sli_before_ || faults().busy) break;
+        if (!sli_was_low_ || !sli_before || faults().busy) break;
         count_frame();
         load();
       } else if (busy_left_ > 0) {
         --busy_left_;
       } else if (!faults().busy) {
-        slo_ = true;
+        set_slo(true);
         state_ = State::kStart;
         count_frame();
       }
@@ -82,8 +88,8 @@ void BissBSlave::rising(Time now, bool sli) {
       load();
       break;
     case State::kData:
-      shift_.shift(sli_before_ && !is_last_);
-      slo_ = shift_.out();
+      shift_.shift(sli_before && !is_last_);
+      set_slo(shift_.out());
       break;
     case State::kIdle:
     case State::kRegister:
@@ -93,7 +99,7 @@ void BissBSlave::rising(Time now, bool sli) {
 
 void BissBSlave::load() {
   shift_.load(word_, config_.data_bits, config_.crc, faults().wrong_crc);
-  slo_ = shift_.out();
+  set_slo(shift_.out());
   state_ = State::kData;
 }
 
@@ -105,21 +111,21 @@ void BissBSlave::follow(Time now, bool sli) {
   switch (state_) {
     case State::kArmed:
       // All slaves of a chain have to confirm register mode before the master sees it.
-      slo_ = true;
+      set_slo(true);
       break;
     case State::kIdle:
     case State::kAckWait:
-      slo_ = is_last_ || sli;
+      set_slo(is_last_ || sli);
       break;
     case State::kBusy:
       // MO may be late with its acknowledge: its 1 is the start bit only after a 0.
       if (is_last_) break;
       if (!sli) sli_was_low_ = true;
-      slo_ = sli && sli_was_low_ && !faults().busy;
+      set_slo(sli && sli_was_low_ && !faults().busy);
       break;
     case State::kRegister:
       // SL is 0 for the master when all slaves have confirmed; later one of them speaks.
-      slo_ = access_.out() || (!is_last_ && sli);
+      set_slo(access_.out() || (!is_last_ && sli));
       break;
     case State::kStart:
     case State::kData:
@@ -141,6 +147,7 @@ void BissBSlave::timer(Time now, bool sli) {
     state_ = State::kIdle;
   }
   follow(now, sli);
+  wait();
 }
 
 }  // namespace mb4::sim

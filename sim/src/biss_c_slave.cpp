@@ -19,28 +19,25 @@ bool BissCSlave::set_data(std::uint64_t raw) {
   return true;
 }
 
-Time BissCSlave::deadline() const {
-  return state_ == State::kIdle ? kNever : last_edge_ + timeout_.value();
-}
-
-void BissCSlave::ma_edge(Time now, bool ma, bool sli) {
+void BissCSlave::ma_edge(Time now, bool ma, bool sli_before, bool sli) {
   ma_ = ma;
-  last_edge_ = now;
   if (ma) {
-    rising(now, sli);
+    rising(now, sli_before, sli);
   } else if (state_ == State::kIdle) {
     // Rising edges in idle are no part of a frame: MA may have rested low (HOLDCDM).
     is_last_ = !sli;
     timeout_.begin(now);
     state_ = State::kArmed;
+    set_idle(false);
     follow(sli);
   } else {
     follow(sli);
   }
+  if (state_ != State::kIdle) set_deadline(now + timeout_.value());
 }
 
-// SLI is sampled with the edge: sli_before_ is what it was in the period of MA that ends here.
-void BissCSlave::rising(Time now, bool sli) {
+// SLI is sampled with the edge: sli_before is what it was in the period of MA that ends here.
+void BissCSlave::rising(Time now, bool sli_before, bool sli) {
   switch (state_) {
     case State::kIdle:
       follow(sli);
@@ -55,13 +52,13 @@ void BissCSlave::rising(Time now, bool sli) {
       busy_left_ = config_.busy_periods;
       sli_was_low_ = false;
       state_ = State::kBusy;
-      slo_ = false;
+      set_slo(false);
       follow(sli);
       break;
     case State::kBusy:
       if (!is_last_) {
         // The start bit has passed already, between the edges.
-        if (sli_was_low_ && sli_before_ && !faults().busy) {
+        if (sli_was_low_ && sli_before && !faults().busy) {
           begin_cds(sli);
         } else {
           follow(sli);
@@ -69,7 +66,7 @@ void BissCSlave::rising(Time now, bool sli) {
       } else if (busy_left_ > 0) {
         --busy_left_;
       } else if (!faults().busy) {
-        slo_ = true;
+        set_slo(true);
         state_ = State::kStart;
         count_frame();
       }
@@ -78,10 +75,10 @@ void BissCSlave::rising(Time now, bool sli) {
       begin_cds(sli);
       break;
     case State::kCds:
-      end_cds(sli_before_);
+      end_cds(sli_before);
       if (control_.data_active()) {
         shift_.load(word_, config_.data_bits, config_.crc, faults().wrong_crc);
-        slo_ = shift_.out();
+        set_slo(shift_.out());
         state_ = State::kData;
       } else {
         state_ = State::kPass;
@@ -89,8 +86,8 @@ void BissCSlave::rising(Time now, bool sli) {
       }
       break;
     case State::kData:
-      shift_.shift(sli_before_ && !is_last_);
-      slo_ = shift_.out();
+      shift_.shift(sli_before && !is_last_);
+      set_slo(shift_.out());
       break;
     case State::kPass:
       follow(sli);
@@ -118,21 +115,21 @@ void BissCSlave::follow(bool sli) {
     case State::kIdle:
     case State::kArmed:
     case State::kAckWait:
-      slo_ = is_last_ || sli;
+      set_slo(is_last_ || sli);
       break;
     case State::kBusy:
       // MO may be late with its acknowledge: its 1 is the start bit only after a 0.
       if (is_last_) break;
       if (!sli) sli_was_low_ = true;
-      slo_ = sli && sli_was_low_ && !faults().busy;
+      set_slo(sli && sli_was_low_ && !faults().busy);
       break;
     case State::kCds: {
       const bool own = config_.control.present && control_.cds();
-      slo_ = (own || (!is_last_ && sli)) != cds_flip_;
+      set_slo((own || (!is_last_ && sli)) != cds_flip_);
       break;
     }
     case State::kPass:
-      slo_ = !is_last_ && sli;
+      set_slo(!is_last_ && sli);
       break;
     case State::kStart:
     case State::kData:
@@ -153,6 +150,8 @@ void BissCSlave::timer(Time now, bool sli) {
     if (config_.control.present) control_.step(now, !ma_);
   }
   state_ = State::kIdle;
+  set_idle(true);
+  set_deadline(kNever);
   follow(sli);
 }
 

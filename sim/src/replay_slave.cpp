@@ -10,7 +10,7 @@ ReplaySlave::ReplaySlave(const ReplaySlaveConfig& config)
     : config_(config),
       timeout_(config.timeout.adaptive() ? config.timeout.initial : config.timeout.fixed) {}
 
-void ReplaySlave::ma_edge(Time now, bool ma, bool /*sli*/) {
+void ReplaySlave::ma_edge(Time now, bool ma, bool /*sli_before*/, bool /*sli*/) {
   ma_ = ma;
   last_edge_ = now;
   if (!active_) {
@@ -26,6 +26,7 @@ void ReplaySlave::ma_edge(Time now, bool ma, bool /*sli*/) {
     if (risings_.size() == 3) count_frame();
   }
   play_due(now);
+  wait();
 }
 
 ReplaySlave::Place ReplaySlave::place(std::size_t index) const {
@@ -48,14 +49,14 @@ Time ReplaySlave::next_edge() const {
   return (at.rising == 0 ? first_falling_ : risings_[at.rising - 1]) + at.after;
 }
 
-Time ReplaySlave::deadline() const {
-  if (!active_) return kNever;
+void ReplaySlave::wait() {
   const Time end = config_.play == ReplaySlaveConfig::Play::kTime ? kNever : last_edge_ + timeout_;
-  return std::min(next_edge(), end);
+  set_deadline(active_ ? std::min(next_edge(), end) : kNever);
+  set_idle(!active_);
 }
 
 void ReplaySlave::play_due(Time now) {
-  while (next_edge() <= now) slo_ = config_.recording.edges[next_++].level;
+  while (next_edge() <= now) set_slo(config_.recording.edges[next_++].level);
 }
 
 void ReplaySlave::timer(Time now, bool /*sli*/) {
@@ -63,10 +64,12 @@ void ReplaySlave::timer(Time now, bool /*sli*/) {
   const bool time_mode = config_.play == ReplaySlaveConfig::Play::kTime;
   const bool over =
       time_mode ? next_ == config_.recording.edges.size() : now >= last_edge_ + timeout_;
-  if (!over) return;
-  if (risings_.size() >= 3) take_cdm(!ma_);
-  active_ = false;
-  slo_ = true;
+  if (over) {
+    if (risings_.size() >= 3) take_cdm(!ma_);
+    active_ = false;
+    set_slo(true);
+  }
+  wait();
 }
 
 }  // namespace mb4::sim

@@ -20,12 +20,13 @@ std::uint64_t SsiSlave::line_word(std::uint64_t raw) const {
   return (position ^ (position >> 1U)) << flag_bits | flags;
 }
 
-Time SsiSlave::deadline() const {
+void SsiSlave::wait() {
   const Time end = active_ ? last_falling_ + config_.monoflop : kNever;
-  return next_change_ < changes_.size() ? std::min(end, changes_[next_change_].time) : end;
+  set_deadline(next_change_ < changes_.size() ? std::min(end, changes_[next_change_].time) : end);
+  set_idle(!active_);
 }
 
-void SsiSlave::ma_edge(Time now, bool ma, bool /*sli*/) {
+void SsiSlave::ma_edge(Time now, bool ma, bool /*sli_before*/, bool /*sli*/) {
   ma_ = ma;
   if (!ma) {
     last_falling_ = now;
@@ -35,6 +36,7 @@ void SsiSlave::ma_edge(Time now, bool ma, bool /*sli*/) {
     if (rising_ == 0) count_frame();
     show(now, bit(rising_++));
   }
+  wait();
 }
 
 void SsiSlave::begin(Time now) {
@@ -55,7 +57,7 @@ bool SsiSlave::bit(std::uint64_t index) const {
 
 void SsiSlave::show(Time now, bool level) {
   if (config_.response == 0) {
-    slo_ = level;
+    set_slo(level);
   } else {
     changes_.push_back({now + config_.response, level});
   }
@@ -63,18 +65,19 @@ void SsiSlave::show(Time now, bool level) {
 
 void SsiSlave::timer(Time now, bool /*sli*/) {
   while (next_change_ < changes_.size() && changes_[next_change_].time <= now) {
-    slo_ = changes_[next_change_++].level;
+    set_slo(changes_[next_change_++].level);
   }
   if (next_change_ == changes_.size()) {
     changes_.clear();
     next_change_ = 0;
   }
   if (active_ && now >= last_falling_ + config_.monoflop) end(now);
+  wait();
 }
 
 void SsiSlave::end(Time now) {
   active_ = false;
-  slo_ = true;
+  set_slo(true);
   changes_.clear();
   next_change_ = 0;
   if (rising_ == 0) return;

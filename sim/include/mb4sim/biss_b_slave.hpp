@@ -38,13 +38,9 @@ class BissBSlave final : public Slave {
  public:
   BissBSlave(const BissBSlaveConfig& config, std::uint64_t seed);
 
-  void sample(bool sli) override { sli_before_ = sli; }
-  void ma_edge(Time now, bool ma, bool sli) override;
+  void ma_edge(Time now, bool ma, bool sli_before, bool sli) override;
   void sli_changed(Time now, bool sli) override;
-  Time deadline() const override;
   void timer(Time now, bool sli) override;
-  bool slo() const override { return slo_; }
-  bool idle() const override { return state_ == State::kIdle; }
 
   unsigned data_bits() const override { return config_.data_bits; }
   bool set_data(std::uint64_t raw) override { return config_.hold(raw); }
@@ -62,20 +58,19 @@ class BissBSlave final : public Slave {
  private:
   enum class State { kIdle, kArmed, kAckWait, kBusy, kStart, kData, kRegister };
 
-  void rising(Time now, bool sli);
+  void rising(Time now, bool sli_before, bool sli);
   void first_falling(Time now, bool sli);
   void load();
   void follow(Time now, bool sli);
   Time register_timeout() const;
+  void wait();
 
   BissBSlaveConfig config_;
   BissBRegisters access_;
   State state_ = State::kIdle;
   bool ma_ = true;
-  bool slo_ = true;
   bool is_last_ = true;
   bool sli_ = false;
-  bool sli_before_ = false;
   bool sli_was_low_ = false;  // since the acknowledge
   Time sli_fell_ = kNever;    // kNever: has not yet
   std::uint64_t word_ = 0;

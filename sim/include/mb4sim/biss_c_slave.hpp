@@ -42,13 +42,9 @@ class BissCSlave final : public Slave {
  public:
   BissCSlave(const BissCSlaveConfig& config, std::uint64_t seed);
 
-  void sample(bool sli) override { sli_before_ = sli; }
-  void ma_edge(Time now, bool ma, bool sli) override;
+  void ma_edge(Time now, bool ma, bool sli_before, bool sli) override;
   void sli_changed(Time now, bool sli) override;
-  Time deadline() const override;
   void timer(Time now, bool sli) override;
-  bool slo() const override { return slo_; }
-  bool idle() const override { return state_ == State::kIdle; }
 
   unsigned data_bits() const override { return config_.data_bits; }
   bool set_data(std::uint64_t raw) override;
@@ -67,7 +63,7 @@ class BissCSlave final : public Slave {
  private:
   enum class State { kIdle, kArmed, kAckWait, kBusy, kStart, kCds, kData, kPass };
 
-  void rising(Time now, bool sli);
+  void rising(Time now, bool sli_before, bool sli);
   void begin_cds(bool sli);
   void end_cds(bool sli);
   void follow(bool sli);
@@ -77,14 +73,11 @@ class BissCSlave final : public Slave {
   Actuator actuator_;
   State state_ = State::kIdle;
   bool ma_ = true;
-  bool slo_ = true;
   bool is_last_ = true;
-  bool sli_before_ = false;
   bool sli_was_low_ = false;  // since the acknowledge
   bool cds_flip_ = false;
   std::uint64_t word_ = 0;
   unsigned busy_left_ = 0;
-  Time last_edge_ = 0;
   TimeoutClock timeout_;
   ShiftRegister shift_;
 };

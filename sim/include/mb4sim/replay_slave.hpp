@@ -40,13 +40,9 @@ class ReplaySlave final : public Slave {
  public:
   explicit ReplaySlave(const ReplaySlaveConfig& config);
 
-  void sample(bool /*sli*/) override {}
-  void ma_edge(Time now, bool ma, bool sli) override;
+  void ma_edge(Time now, bool ma, bool sli_before, bool sli) override;
   void sli_changed(Time /*now*/, bool /*sli*/) override {}
-  Time deadline() const override;
   void timer(Time now, bool sli) override;
-  bool slo() const override { return slo_; }
-  bool idle() const override { return !active_; }
 
   unsigned data_bits() const override { return config_.data_bits; }
   bool set_data(std::uint64_t /*raw*/) override { return false; }
@@ -62,11 +58,11 @@ class ReplaySlave final : public Slave {
   Place place(std::size_t index) const;
   Time next_edge() const;
   void play_due(Time now);
+  void wait();
 
   ReplaySlaveConfig config_;
   bool active_ = false;
   bool ma_ = true;
-  bool slo_ = true;
   std::size_t next_ = 0;
   std::vector<Time> risings_;  // of the running frame
   Time first_falling_ = 0;

@@ -33,19 +33,19 @@ class Slave {
   virtual ~Slave() = default;
 
   // --- line side, called by SlaveChain -------------------------------------------------------
-  // A change of MA goes to all slaves of a chain at once: first sample() on each with the levels
-  // before the edge, then ma_edge() from the far slave to the near one with the new levels.
-  virtual void sample(bool sli) = 0;
-  virtual void ma_edge(Time now, bool ma, bool sli) = 0;
+  // A change of MA goes to all slaves of a chain at once, from the far one to the near one.
+  // `sli_before`: SLI as it was before the edge; `sli`: as the slaves behind have left it.
+  virtual void ma_edge(Time now, bool ma, bool sli_before, bool sli) = 0;
   // SLI changed without an edge of MA.
   virtual void sli_changed(Time now, bool sli) = 0;
-  // Next time the slave wants timer() to be called if nothing happens before; kNever if none.
-  virtual Time deadline() const = 0;
   virtual void timer(Time now, bool sli) = 0;
+  // The chain asks these at every edge of MA: no virtual calls.
+  // Next time the slave wants timer() to be called if nothing happens before; kNever if none.
+  Time deadline() const { return deadline_; }
   // Level of pin SLO.
-  virtual bool slo() const = 0;
+  bool slo() const { return slo_; }
   // True between two frames: the timeout has elapsed.
-  virtual bool idle() const = 0;
+  bool idle() const { return idle_; }
 
   // --- back door -----------------------------------------------------------------------------
   // Length of the process data in bits, without CRC.
@@ -75,6 +75,9 @@ class Slave {
   virtual const Actuator* actuator() const { return nullptr; }
 
  protected:
+  void set_slo(bool level) { slo_ = level; }
+  void set_idle(bool idle) { idle_ = idle; }
+  void set_deadline(Time deadline) { deadline_ = deadline; }
   void count_frame() { ++frames_; }
   void take_cdm(bool cdm) {
     last_cdm_ = cdm;
@@ -82,8 +85,11 @@ class Slave {
   }
 
  private:
-  RegisterFile registers_;
+  Time deadline_ = kNever;
+  bool slo_ = true;
+  bool idle_ = true;
   SlaveFaults faults_;
+  RegisterFile registers_;
   std::uint64_t frames_ = 0;
   std::uint64_t cdm_count_ = 0;
   bool last_cdm_ = false;

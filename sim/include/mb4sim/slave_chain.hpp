@@ -43,22 +43,24 @@ class SlaveChain {
   Slave& slave(std::size_t index) { return *slaves_[index]; }
   const Slave& slave(std::size_t index) const { return *slaves_[index]; }
   // Level of SLO of slave 1; without slaves the pull-up's 1.
-  bool slo() const { return attached() == 0 || slo_of(0); }
+  bool slo() const { return attached_ == 0 || slo_of(0); }
   bool ma() const { return ma_; }
   bool mo() const { return mo_; }
   // All slaves have timed out.
-  bool idle() const;
+  bool idle() const { return idle_; }
 
  private:
   static void on_timer(Time now, void* receiver, std::uint64_t word);
-  std::size_t attached() const { return attached_ < slaves_.size() ? attached_ : slaves_.size(); }
   bool slo_of(std::size_t index) const {
     return slaves_[index]->slo() || slaves_[index]->faults().silent;
   }
   bool sli_of(std::size_t index) const {
-    if (index + 1 == attached_) return true;
+    if (index + 1 == attached_) return end_level(mo_);
     return index + 1 < slaves_.size() ? slo_of(index + 1) : mo_;
   }
+  // SLI of the last slave that is plugged in.
+  bool end_level(bool mo) const { return mo || attached_ < slaves_.size(); }
+  void drive_slaves(Time now, bool ma, bool mo);
   void settle_sli(Time now);
   void finish(Time now);
 
@@ -66,9 +68,10 @@ class SlaveChain {
   Output output_;
   void* receiver_;
   std::vector<std::unique_ptr<Slave>> slaves_;
-  std::size_t attached_ = SIZE_MAX;  // slaves from here on are unplugged
+  std::size_t attached_ = 0;  // slaves from here on are unplugged
   bool ma_ = true;
   bool mo_ = false;
+  bool idle_ = true;
   bool reported_ = true;
   Time armed_at_ = kNever;  // time of the timer event that counts; later ones are stale
 };

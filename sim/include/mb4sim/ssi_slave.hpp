@@ -41,13 +41,9 @@ class SsiSlave final : public Slave {
  public:
   explicit SsiSlave(const SsiSlaveConfig& config);
 
-  void sample(bool /*sli*/) override {}
-  void ma_edge(Time now, bool ma, bool sli) override;
+  void ma_edge(Time now, bool ma, bool sli_before, bool sli) override;
   void sli_changed(Time /*now*/, bool /*sli*/) override {}
-  Time deadline() const override;
   void timer(Time now, bool sli) override;
-  bool slo() const override { return slo_; }
-  bool idle() const override { return !active_; }
 
   unsigned data_bits() const override { return config_.data_bits; }
   // The word before it is turned into Gray code.
@@ -65,6 +61,7 @@ class SsiSlave final : public Slave {
     bool level;
   };
 
+  void wait();
   void begin(Time now);
   void end(Time now);
   bool bit(std::uint64_t index) const;
@@ -74,7 +71,6 @@ class SsiSlave final : public Slave {
   ControlSlave control_;
   bool active_ = false;
   bool ma_ = true;
-  bool slo_ = true;
   std::uint64_t raw_ = 0;     // word of the running frame
   std::uint64_t data_ = 0;    // the same as on the line
   std::uint32_t crc_ = 0;     // behind it
