@@ -9,8 +9,33 @@
 namespace mb4::sim {
 
 void EventQueue::post(Time time, Handler handler, void* receiver, std::uint64_t word) {
-  heap_.push_back({time, sequence_++, handler, receiver, word});
+  const Event event{time, sequence_++, handler, receiver, word};
+  if (few_size_ < kFew) {
+    insert(event);
+  } else if (time >= few_[0].time) {
+    to_heap(event);
+  } else {
+    to_heap(few_[0]);
+    std::move(few_.begin() + 1, few_.end(), few_.begin());
+    --few_size_;
+    insert(event);
+  }
+}
+
+// It is the latest to be posted: events of the same time come before it.
+void EventQueue::insert(const Event& event) {
+  std::size_t at = few_size_++;
+  for (; at > 0 && few_[at - 1].time <= event.time; --at) few_[at] = few_[at - 1];
+  few_[at] = event;
+}
+
+void EventQueue::to_heap(const Event& event) {
+  heap_.push_back(event);
   std::push_heap(heap_.begin(), heap_.end(), Later{});
+}
+
+bool EventQueue::few_is_next() const {
+  return heap_.empty() || (few_size_ != 0 && Later{}(heap_.front(), few_[few_size_ - 1]));
 }
 
 void EventQueue::post(Time time, std::function<void()> callback) {
@@ -26,7 +51,12 @@ void EventQueue::post(Time time, std::function<void()> callback) {
 }
 
 void EventQueue::run_next() {
-  assert(!heap_.empty());
+  assert(!empty());
+  if (few_is_next()) {
+    const Event event = few_[--few_size_];
+    event.handler(event.time, event.receiver, event.word);
+    return;
+  }
   std::pop_heap(heap_.begin(), heap_.end(), Later{});
   const Event event = heap_.back();
   heap_.pop_back();

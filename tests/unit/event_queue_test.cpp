@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <utility>
 #include <vector>
 
 namespace mb4::sim {
@@ -39,6 +41,24 @@ TEST(EventQueue, HandlerPostsAtItsOwnTime_RunsAfterThoseAlreadyThere) {
   queue.post(5, [&] { order.push_back(2); });
   while (!queue.empty()) queue.run_next();
   EXPECT_EQ(order, (std::vector<int>{1, 2, 3}));
+}
+
+// More than stand in the row, in every order, each time twice.
+TEST(EventQueue, ManyEvents_RunInOrderOfTimeAndPosting) {
+  EventQueue queue;
+  std::vector<std::pair<Time, unsigned>> order;
+  constexpr unsigned kEvents = 200;
+  for (unsigned i = 0; i < kEvents; ++i) {
+    const Time time = 10 + i * 37 % 100;
+    queue.post(time, [&order, time, i] { order.emplace_back(time, i); });
+    if (i == kEvents / 2) queue.run_next();
+  }
+  EXPECT_EQ(queue.size(), kEvents - 1);
+  while (!queue.empty()) queue.run_next();
+  ASSERT_EQ(order.size(), kEvents);
+  // The one that ran early was the first at 10; the second one at 10 came behind it.
+  EXPECT_EQ(order.front(), std::make_pair(Time{10}, 0U));
+  EXPECT_TRUE(std::is_sorted(order.begin(), order.end()));
 }
 
 TEST(EventQueue, PlainHandler_GetsTimeReceiverAndWord) {

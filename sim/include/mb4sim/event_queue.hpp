@@ -6,6 +6,7 @@
 #ifndef MB4SIM_EVENT_QUEUE_HPP_
 #define MB4SIM_EVENT_QUEUE_HPP_
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -27,10 +28,13 @@ class EventQueue {
   // The convenient form for tests and scripts.
   void post(Time time, std::function<void()> callback);
 
-  bool empty() const { return heap_.empty(); }
-  std::size_t size() const { return heap_.size(); }
+  bool empty() const { return size() == 0; }
+  std::size_t size() const { return few_size_ + heap_.size(); }
   // Time of the earliest event, kNever if there is none.
-  Time next_time() const { return heap_.empty() ? kNever : heap_.front().time; }
+  Time next_time() const {
+    const Time few = few_size_ == 0 ? kNever : few_[few_size_ - 1].time;
+    return heap_.empty() || few < heap_.front().time ? few : heap_.front().time;
+  }
   // Removes and runs the earliest event. The queue must not be empty. The handler may post.
   void run_next();
 
@@ -47,8 +51,16 @@ class EventQueue {
       return a.time != b.time ? a.time > b.time : a.sequence > b.sequence;
     }
   };
+  static constexpr std::size_t kFew = 16;
+  bool few_is_next() const;
+  void insert(const Event& event);
+  void to_heap(const Event& event);
   static void run_callback(Time now, void* receiver, std::uint64_t slot);
 
+  // Most of the time there are a few events, and new ones come soon: these stand in a row, the
+  // earliest last. Whatever finds no room there goes into the heap.
+  std::array<Event, kFew> few_;
+  std::size_t few_size_ = 0;
   std::vector<Event> heap_;
   std::uint64_t sequence_ = 0;
   std::vector<std::function<void()>> callbacks_;  // by slot; free slots hold nothing
