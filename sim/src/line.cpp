@@ -50,6 +50,27 @@ void Line::set_faults(const WireFaults& ma, const WireFaults& sl) {
   back_.set_faults(sl);
 }
 
+// Once an edge and more: these two have their place before their callers.
+inline void Line::send_back(Time now) {
+  if (probe_ != nullptr) probe_(now, probe_receiver_);
+  const bool slo = chain_.slo();
+  faults_.levels(slo, chain_.idle());
+  const bool level = plugged_ ? faults_.wire(slo) : open_level_;
+  if (level == sent_) return;
+  sent_ = level;
+  back_.drive(now, level ? 1U : 0U);
+}
+
+// Slaves that are not plugged in see a resting line: they end their frame by timeout and are idle.
+inline void Line::to_slaves(Time now) {
+  const bool ma = !plugged_ || ma_arrived_;
+  if (ma && !chain_.ma()) faults_.rising_edge();
+  driving_ = true;
+  chain_.drive(now, ma, plugged_ && mo_arrived_);
+  driving_ = false;
+  send_back(now);
+}
+
 void Line::on_event(Time now, void* receiver, std::uint64_t action) {
   static_cast<Line*>(receiver)->act(now, static_cast<CableEvent::Action>(action));
 }
@@ -85,10 +106,11 @@ void Line::at_slaves(Time now, void* receiver, unsigned levels) {
   line->ma_arrived_ = (levels & kMa) != 0;
   const bool mo = (levels & kMo) != 0;
   const bool mo_changes = mo != line->mo_leaving_;
+  const bool late = line->mo_late_.delay() != 0;
   line->mo_leaving_ = mo;
-  if (line->mo_late_.delay() == 0) line->mo_arrived_ = mo;
+  if (mo_changes && !late) line->mo_arrived_ = mo;
   line->to_slaves(now);
-  if (mo_changes && line->mo_late_.delay() != 0) line->mo_late_.drive(now, mo ? 1U : 0U);
+  if (mo_changes && late) line->mo_late_.drive(now, mo ? 1U : 0U);
 }
 
 void Line::mo_at_slaves(Time now, void* receiver, unsigned levels) {
@@ -97,28 +119,9 @@ void Line::mo_at_slaves(Time now, void* receiver, unsigned levels) {
   line->to_slaves(now);
 }
 
-// Slaves that are not plugged in see a resting line: they end their frame by timeout and are idle.
-void Line::to_slaves(Time now) {
-  const bool ma = !plugged_ || ma_arrived_;
-  if (ma && !chain_.ma()) faults_.rising_edge();
-  driving_ = true;
-  chain_.drive(now, ma, plugged_ && mo_arrived_);
-  driving_ = false;
-  send_back(now);
-}
-
 void Line::slo_changed(Time now, void* receiver, bool /*slo*/) {
   auto* line = static_cast<Line*>(receiver);
   if (!line->driving_) line->send_back(now);
-}
-
-void Line::send_back(Time now) {
-  if (probe_ != nullptr) probe_(now, probe_receiver_);
-  faults_.levels(chain_.slo(), chain_.idle());
-  const bool level = plugged_ ? faults_.wire(chain_.slo()) : open_level_;
-  if (level == sent_) return;
-  sent_ = level;
-  back_.drive(now, level ? 1U : 0U);
 }
 
 void Line::at_master(Time now, void* receiver, unsigned levels) {

@@ -40,6 +40,10 @@ std::unique_ptr<Slave> make_slave(const SlaveConfig& config, std::uint64_t seed)
   return slave;
 }
 
+[[noreturn]] void stop_for_pulse(std::size_t index, const std::string& violation) {
+  throw ModelStopped("MA" + std::to_string(index + 1) + ": " + violation);
+}
+
 constexpr std::size_t index_of(Pin pin) { return static_cast<std::size_t>(pin); }
 
 }  // namespace
@@ -167,15 +171,23 @@ void Simulator::drive_chip(Pin pin, bool level) {
   settle();
 }
 
-void Simulator::check_ma(std::size_t index, bool level) {
+inline void Simulator::check_ma(std::size_t index, bool level) {
   // A pin that follows MA1 has no pulses of its own.
   if (index == 1 && paired_) {
     ma_checks_[index].restart(level);
     return;
   }
-  const auto violation = ma_checks_[index].edge(now_, level, chip_->cycles(), chip_->half_clocks(),
-                                                chip_->min_clock());
-  if (violation) throw ModelStopped("MA" + std::to_string(index + 1) + ": " + *violation);
+  const std::string* violation = ma_checks_[index].edge(now_, level, chip_->cycles(),
+                                                        chip_->half_clocks(), chip_->min_clock());
+  if (violation != nullptr) stop_for_pulse(index, *violation);
+}
+
+// `ma`, `mo`: bits of the line's pins.
+inline void Simulator::drive_line(std::size_t index, unsigned changed, unsigned outputs,
+                                  unsigned ma, unsigned mo) {
+  if ((changed & ma) != 0) check_ma(index, (outputs & ma) != 0);
+  if ((changed & (ma | mo)) == 0 || lines_[index] == nullptr) return;
+  lines_[index]->drive(now_, (outputs & ma) != 0, (outputs & mo) != 0);
 }
 
 // Acts upon outputs that have changed. What it does may change inputs, which comes back here.
@@ -186,19 +198,11 @@ void Simulator::settle() {
     bool& flag;
     ~Leave() { flag = false; }
   } leave{settling_};
-  constexpr std::pair<unsigned, unsigned> kLineBits[] = {{ChipModel::kMa1, ChipModel::kMo1},
-                                                         {ChipModel::kMa2, ChipModel::kMo2}};
-  while (chip_->watched() != seen_) {
-    const unsigned outputs = chip_->watched();
-    const unsigned changed = outputs ^ seen_;
-    seen_ = outputs;
-    for (std::size_t i = 0; i < lines_.size(); ++i) {
-      const auto [ma, mo] = kLineBits[i];
-      if ((changed & ma) != 0) check_ma(i, (outputs & ma) != 0);
-      if ((changed & (ma | mo)) != 0 && lines_[i] != nullptr) {
-        lines_[i]->drive(now_, (outputs & ma) != 0, (outputs & mo) != 0);
-      }
-    }
+  for (unsigned now = chip_->watched(); now != seen_; now = chip_->watched()) {
+    const unsigned changed = now ^ seen_;
+    seen_ = now;
+    drive_line(0, changed, now, ChipModel::kMa1, ChipModel::kMo1);
+    drive_line(1, changed, now, ChipModel::kMa2, ChipModel::kMo2);
     if ((changed & ChipModel::kNerLow) != 0) chip_->set_input(now_, Pin::kNer, pin(Pin::kNer));
   }
 }

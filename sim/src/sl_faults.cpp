@@ -16,26 +16,11 @@ void SlFaults::flip_frame(std::uint64_t frame, std::vector<unsigned> bits) {
   planned.insert(planned.end(), bits.begin(), bits.end());
 }
 
-void SlFaults::rising_edge() {
-  if (counting_) {
-    ++bit_;
-    update();
-  } else if (ssi_ && acknowledged_) {
-    begin_frame();
-  }
-}
-
-void SlFaults::levels(bool slo, bool idle) {
-  if (idle) {
-    if (counting_) pending_.clear();
-    acknowledged_ = false;
-    counting_ = false;
-    flip_now_ = false;
-  } else if (!acknowledged_) {
-    acknowledged_ = ssi_ || !slo;
-  } else if (!counting_ && slo && !ssi_) {
-    begin_frame();
-  }
+void SlFaults::end_frame() {
+  if (counting_) pending_.clear();
+  acknowledged_ = false;
+  counting_ = false;
+  flip_now_ = false;
 }
 
 void SlFaults::begin_frame() {
@@ -49,8 +34,8 @@ void SlFaults::begin_frame() {
   update();
 }
 
-void SlFaults::update() {
-  flip_now_ = std::find(pending_.begin(), pending_.end(), bit_) != pending_.end();
+bool SlFaults::is_pending(unsigned bit) const {
+  return std::find(pending_.begin(), pending_.end(), bit) != pending_.end();
 }
 
 }  // namespace mb4::sim

@@ -22,6 +22,7 @@ Wire::Wire(EventQueue& queue, Time delay, const WireFaults& faults, std::uint64_
       glitch_random_(derive_seed(seed, kGlitchPart)),
       output_(output),
       receiver_(receiver),
+      uneven_(faults.jitter != 0 || faults.skew != 0),
       sent_(idle),
       arrived_(idle),
       shown_(idle) {
@@ -31,9 +32,10 @@ Wire::Wire(EventQueue& queue, Time delay, const WireFaults& faults, std::uint64_
 void Wire::set_faults(const WireFaults& faults) {
   assert(faults.glitches_per_s == faults_.glitches_per_s);
   faults_ = faults;
+  uneven_ = faults.jitter != 0 || faults.skew != 0;
 }
 
-void Wire::drive(Time now, unsigned levels) {
+void Wire::send(Time now, unsigned levels) {
   Time at = now + delay_;
   if (((levels ^ sent_) & kFaulty) != 0) at += extra((levels & kFaulty) != 0);
   sent_ = levels;
@@ -59,20 +61,6 @@ void Wire::arrive(Time now, void* receiver, std::uint64_t levels) {
   auto* wire = static_cast<Wire*>(receiver);
   --wire->in_flight_;
   wire->deliver(now, static_cast<unsigned>(levels));
-}
-
-void Wire::deliver(Time now, unsigned levels) {
-  arrived_ = levels;
-  emit(now);
-}
-
-void Wire::emit(Time now) {
-  const bool inverted = glitch_ != (single_glitches_ % 2 != 0);
-  unsigned levels = arrived_ ^ (inverted ? kFaulty : 0U);
-  if (stuck_) levels = (levels & ~kFaulty) | (*stuck_ ? kFaulty : 0U);
-  if (levels == shown_) return;
-  shown_ = levels;
-  output_(now, receiver_, levels);
 }
 
 void Wire::stick(Time now, std::optional<bool> level) {

@@ -17,13 +17,14 @@ std::string run(const std::vector<std::uint64_t>& widths, unsigned half_clocks) 
   MaPulseCheck check;
   std::uint64_t clock = 100;
   bool level = false;
-  auto complaint = check.edge(clock * kClock, level, clock, half_clocks, kClock);
+  const std::string* complaint = check.edge(clock * kClock, level, clock, half_clocks, kClock);
   for (const std::uint64_t width : widths) {
     clock += width;
     level = !level;
-    if (!complaint) complaint = check.edge(clock * kClock, level, clock, half_clocks, kClock);
+    if (complaint != nullptr) break;
+    complaint = check.edge(clock * kClock, level, clock, half_clocks, kClock);
   }
-  return complaint.value_or("");
+  return complaint != nullptr ? *complaint : "";
 }
 
 TEST(MaPulseCheck, HalfPeriodsAndLonger_AreGood) {

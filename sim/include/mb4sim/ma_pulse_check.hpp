@@ -8,7 +8,6 @@
 #define MB4SIM_MA_PULSE_CHECK_HPP_
 
 #include <cstdint>
-#include <optional>
 #include <string>
 
 #include "mb4sim/time.hpp"
@@ -25,9 +24,28 @@ class MaPulseCheck {
   // it is not known (pin CLK driven by hand), then only clocks are counted. A frame takes its
   // configuration before its first falling edge: a low pulse is held against what was configured
   // when it began, a high one against what is configured when it ends.
-  // Returns one line that says what is wrong, or nothing.
-  std::optional<std::string> edge(Time now, bool level, std::uint64_t clocks, unsigned half_clocks,
-                                  Time min_clock);
+  // Returns one line that says what is wrong, kept until the next call; null if nothing is.
+  const std::string* edge(Time now, bool level, std::uint64_t clocks, unsigned half_clocks,
+                          Time min_clock) {
+    if (level == level_) return nullptr;
+    const Time width = now - since_;
+    const std::uint64_t width_clocks = clocks - since_clocks_;
+    // Of a high level what is configured now, of a low one what was when it began.
+    const unsigned needed = level ? half_clocks_ : half_clocks;
+    const bool first = !started_;
+    level_ = level;
+    started_ = true;
+    since_ = now;
+    since_clocks_ = clocks;
+    half_clocks_ = half_clocks;
+    if (first) return nullptr;
+    ++pulses_;
+    shortest_ = width < shortest_ ? width : shortest_;
+    // Clock edges are rounded down to a picosecond: two of them may be one closer.
+    const Time needed_ps = needed * min_clock < required_ ? required_ : needed * min_clock;
+    if (width_clocks >= needed && width + 1 >= needed_ps) return nullptr;
+    return describe(width, width_clocks, needed, needed_ps);
+  }
 
   // MA has this level for another reason than a pulse: the level's beginning is not known.
   void restart(bool level) {
@@ -45,6 +63,8 @@ class MaPulseCheck {
   std::uint64_t pulses() const { return pulses_; }
 
  private:
+  const std::string* describe(Time width, std::uint64_t clocks, unsigned needed, Time needed_ps);
+
   bool level_ = true;
   bool started_ = false;  // there was an edge
   Time since_ = 0;
@@ -53,6 +73,7 @@ class MaPulseCheck {
   Time required_ = 0;
   Time shortest_ = kNever;
   std::uint64_t pulses_ = 0;
+  std::string violation_;
 };
 
 }  // namespace mb4::sim

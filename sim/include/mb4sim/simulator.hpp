@@ -123,6 +123,7 @@ class Simulator final : public HostPins {
   bool step(Time limit);
   void drive_chip(Pin pin, bool level);
   void settle();
+  void drive_line(std::size_t index, unsigned changed, unsigned outputs, unsigned ma, unsigned mo);
   void check_ma(std::size_t index, bool level);
   void check_alive() const;
 

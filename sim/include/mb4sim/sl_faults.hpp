@@ -33,13 +33,32 @@ class SlFaults {
   void set_ssi() { ssi_ = true; }
 
   // --- used by Line --------------------------------------------------------------------------
-  void rising_edge();                // MA rises at the slaves
-  void levels(bool slo, bool idle);  // after each change at the slaves
+  // MA rises at the slaves.
+  void rising_edge() {
+    if (counting_) {
+      ++bit_;
+      update();
+    } else if (ssi_ && acknowledged_) {
+      begin_frame();
+    }
+  }
+  // After each change at the slaves.
+  void levels(bool slo, bool idle) {
+    if (idle) {
+      if (acknowledged_) end_frame();
+    } else if (!acknowledged_) {
+      acknowledged_ = ssi_ || !slo;
+    } else if (!counting_ && slo && !ssi_) {
+      begin_frame();
+    }
+  }
   bool wire(bool slo) const { return slo != flip_now_; }
 
  private:
   void begin_frame();
-  void update();
+  void end_frame();
+  void update() { flip_now_ = !pending_.empty() && is_pending(bit_); }
+  bool is_pending(unsigned bit) const;
 
   bool ssi_ = false;
   std::vector<unsigned> pending_;

@@ -31,7 +31,14 @@ class Wire {
   Wire& operator=(const Wire&) = delete;
 
   // Puts a set of levels (one bit a wire) into the near end at time `now`.
-  void drive(Time now, unsigned levels);
+  void drive(Time now, unsigned levels) {
+    if (delay_ == 0 && !uneven_ && in_flight_ == 0) {
+      sent_ = levels;
+      deliver(now, levels);
+    } else {
+      send(now, levels);
+    }
+  }
   Time delay() const { return delay_; }
   // For edges driven from now on.
   void set_delay(Time delay) { delay_ = delay; }
@@ -52,9 +59,20 @@ class Wire {
   static void end_glitch(Time now, void* receiver, std::uint64_t word);
   static void end_single_glitch(Time now, void* receiver, std::uint64_t word);
   void post_glitch(Time after);
+  void send(Time now, unsigned levels);
   Time extra(bool rising);
-  void deliver(Time now, unsigned levels);
-  void emit(Time now);
+  void deliver(Time now, unsigned levels) {
+    arrived_ = levels;
+    emit(now);
+  }
+  void emit(Time now) {
+    unsigned levels = arrived_ ^ (inverted() ? kFaulty : 0U);
+    if (stuck_) levels = (levels & ~kFaulty) | (*stuck_ ? kFaulty : 0U);
+    if (levels == shown_) return;
+    shown_ = levels;
+    output_(now, receiver_, levels);
+  }
+  bool inverted() const { return glitch_ != (single_glitches_ % 2 != 0); }
 
   EventQueue& queue_;
   Time delay_;
@@ -64,6 +82,7 @@ class Wire {
   Output output_;
   void* receiver_;
   std::optional<bool> stuck_;
+  bool uneven_;  // edges take more time than delay_: jitter or skew
   bool glitch_ = false;
   unsigned single_glitches_ = 0;  // that are going on
   unsigned in_flight_ = 0;
