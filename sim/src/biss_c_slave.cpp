@@ -80,19 +80,24 @@ void BissCSlave::rising(Time now, bool sli_before, bool sli) {
         shift_.load(word_, config_.data_bits, config_.crc, faults().wrong_crc);
         set_slo(shift_.out());
         state_ = State::kData;
+        set_shifting(&shift_, !is_last_);
       } else {
         state_ = State::kPass;
         follow(sli);
       }
       break;
     case State::kData:
-      shift_.shift(sli_before && !is_last_);
-      set_slo(shift_.out());
+      shift(sli_before);
       break;
     case State::kPass:
       follow(sli);
       break;
   }
+}
+
+void BissCSlave::last_edge(Time edge, bool ma) {
+  ma_ = ma;
+  set_deadline(edge + timeout_.value());
 }
 
 void BissCSlave::begin_cds(bool sli) {
@@ -151,6 +156,7 @@ void BissCSlave::timer(Time now, bool sli) {
   }
   state_ = State::kIdle;
   set_idle(true);
+  set_shifting(nullptr, false);
   set_deadline(kNever);
   follow(sli);
 }

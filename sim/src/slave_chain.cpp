@@ -14,30 +14,69 @@ void SlaveChain::add(std::unique_ptr<Slave> slave) {
 
 void SlaveChain::drive(Time now, bool ma, bool mo) {
   if (ma != ma_) {
-    drive_slaves(now, ma, mo);
+    if (shifting_) {
+      shift(now, ma, mo);
+      report(now);
+      return;
+    }
+    const Standing standing = drive_slaves(now, ma, mo);
+    shifting_ = standing.shifting && !standing.idle && attached_ == slaves_.size();
+    timeout_ = standing.deadline - now;
+    last_edge_ = now;
+    finish(now, standing);
   } else if (mo != mo_) {
+    catch_up();
     mo_ = mo;
-    settle_sli(now);
+    finish(now, settle_sli(now));
+  } else {
+    report(now);
   }
-  finish(now);
 }
 
 // One pass from the far slave to the near one: SLI of each before the edge is what the slave behind
 // it sent until it was called.
-void SlaveChain::drive_slaves(Time now, bool ma, bool mo) {
+SlaveChain::Standing SlaveChain::drive_slaves(Time now, bool ma, bool mo) {
+  Standing standing;
   bool sli_before = end_level(mo_);
   bool sli = end_level(mo);
   ma_ = ma;
   mo_ = mo;
+  for (std::size_t i = slaves_.size(); i-- > attached_;) standing.add(*slaves_[i]);
   for (std::size_t i = attached_; i-- > 0;) {
+    Slave& slave = *slaves_[i];
     const bool slo_before = slo_of(i);
-    slaves_[i]->ma_edge(now, ma, sli_before, sli);
+    slave.ma_edge(now, ma, sli_before, sli);
     sli_before = slo_before;
     sli = slo_of(i);
+    standing.add(slave);
+  }
+  return standing;
+}
+
+// The same in the data of a frame, which is most of it.
+void SlaveChain::shift(Time now, bool ma, bool mo) {
+  last_edge_ = now;
+  deadline_ = now + timeout_;
+  bool sli_before = mo_;
+  ma_ = ma;
+  mo_ = mo;
+  if (!ma) return;
+  for (std::size_t i = attached_; i-- > 0;) {
+    const bool slo_before = slo_of(i);
+    slaves_[i]->shift(sli_before);
+    sli_before = slo_before;
   }
 }
 
+// Ends the short way until the next edge of MA.
+void SlaveChain::catch_up() {
+  if (!shifting_) return;
+  shifting_ = false;
+  for (const auto& slave : slaves_) slave->last_edge(last_edge_, ma_);
+}
+
 void SlaveChain::detach(Time now, std::size_t index) {
+  catch_up();
   const std::size_t before = attached_;
   attached_ = std::min(index, slaves_.size());
   // MA = 0 goes away for those that leave, and comes for those that come back.
@@ -48,49 +87,61 @@ void SlaveChain::detach(Time now, std::size_t index) {
 }
 
 void SlaveChain::refresh(Time now) {
-  settle_sli(now);
-  finish(now);
+  catch_up();
+  finish(now, settle_sli(now));
 }
 
-void SlaveChain::settle_sli(Time now) {
-  for (std::size_t i = slaves_.size(); i-- > 0;) slaves_[i]->sli_changed(now, sli_of(i));
+SlaveChain::Standing SlaveChain::settle_sli(Time now) {
+  Standing standing;
+  for (std::size_t i = slaves_.size(); i-- > 0;) {
+    slaves_[i]->sli_changed(now, sli_of(i));
+    standing.add(*slaves_[i]);
+  }
+  return standing;
 }
 
 void SlaveChain::on_timer(Time now, void* receiver, std::uint64_t /*word*/) {
   auto* chain = static_cast<SlaveChain*>(receiver);
   if (now != chain->armed_at_) return;
   chain->armed_at_ = kNever;
+  if (chain->shifting_ && now < chain->deadline_) {
+    chain->arm();
+    chain->report(now);
+    return;
+  }
+  chain->catch_up();
   auto& slaves = chain->slaves_;
   const bool running = !chain->idle_;
   const bool level = chain->reported_;
   for (std::size_t i = slaves.size(); i-- > 0;) {
     if (slaves[i]->deadline() <= now) slaves[i]->timer(now, chain->sli_of(i));
   }
-  chain->settle_sli(now);
-  chain->finish(now);
+  chain->finish(now, chain->settle_sli(now));
   // A frame that was cut off in a bit of 1 ends without an edge.
   if (running && level && chain->reported_ && chain->idle_) {
     chain->output_(now, chain->receiver_, level);
   }
 }
 
-// Reports a new level of SLO and keeps one timer event at or before the next deadline. Deadlines
-// move away with every edge of MA; the event stays and is posted anew when it turns out too early.
-void SlaveChain::finish(Time now) {
-  Time next = kNever;
-  idle_ = true;
-  for (const auto& slave : slaves_) {
-    next = std::min(next, slave->deadline());
-    idle_ = idle_ && slave->idle();
-  }
-  if (next < armed_at_) {
-    armed_at_ = next;
-    queue_.post(next, &SlaveChain::on_timer, this);
-  }
-  if (slo() != reported_) {
-    reported_ = slo();
-    output_(now, receiver_, reported_);
-  }
+void SlaveChain::finish(Time now, const Standing& standing) {
+  idle_ = standing.idle;
+  deadline_ = standing.deadline;
+  arm();
+  report(now);
+}
+
+// Keeps one timer event at or before the next deadline. Deadlines move away with every edge of MA;
+// the event stays and is posted anew when it turns out too early.
+void SlaveChain::arm() {
+  if (deadline_ >= armed_at_) return;
+  armed_at_ = deadline_;
+  queue_.post(deadline_, &SlaveChain::on_timer, this);
+}
+
+void SlaveChain::report(Time now) {
+  if (slo() == reported_) return;
+  reported_ = !reported_;
+  output_(now, receiver_, reported_);
 }
 
 }  // namespace mb4::sim

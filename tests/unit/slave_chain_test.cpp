@@ -75,6 +75,30 @@ TEST(SlaveChain, DifferentTimeouts_SlRisesWithTheLongest) {
   }
 }
 
+// In the data of a frame the chain keeps falling edges to itself: each slave still counts its own
+// timeout from the last one, and knows the level of MA.
+TEST(SlaveChain, MaRestsInTheData_EachSlaveTimesOutFromTheLastEdge) {
+  for (const bool rest : {true, false}) {
+    ChainBench bench;
+    BissCSlaveConfig config = constant_slave(8, 0x5A, 0);
+    config.timeout.fixed = from_us(10);
+    const BissCSlave& near = bench.add(config);
+    config.timeout.fixed = from_us(20);
+    const BissCSlave& far = bench.add(config);
+    bench.frame(kStart, kPeriod, 12, rest);
+    const Time last = kStart + 12 * kPeriod - (rest ? kPeriod / 2 : 0);
+    bench.run_until(last + from_us(10) - 1);
+    EXPECT_EQ(near.cdm_count(), 0U);
+    bench.run_until(last + from_us(20) - 1);
+    EXPECT_EQ(near.cdm_count(), 1U);
+    EXPECT_EQ(far.cdm_count(), 0U);
+    bench.run_until(last + from_us(20));
+    EXPECT_EQ(far.cdm_count(), 1U);
+    EXPECT_EQ(near.last_cdm(), !rest);
+    EXPECT_EQ(far.last_cdm(), !rest);
+  }
+}
+
 TEST(SlaveChain, OnlyTheFarSlaveIsLast) {
   ChainBench bench;
   const BissCSlave& near = bench.add(constant_slave(8, 0, 0));

@@ -43,6 +43,7 @@ class BissCSlave final : public Slave {
   BissCSlave(const BissCSlaveConfig& config, std::uint64_t seed);
 
   void ma_edge(Time now, bool ma, bool sli_before, bool sli) override;
+  void last_edge(Time edge, bool ma) override;
   void sli_changed(Time now, bool sli) override;
   void timer(Time now, bool sli) override;
 

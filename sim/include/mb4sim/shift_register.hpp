@@ -6,9 +6,9 @@
 #ifndef MB4SIM_SHIFT_REGISTER_HPP_
 #define MB4SIM_SHIFT_REGISTER_HPP_
 
+#include <cassert>
 #include <cstddef>
 #include <cstdint>
-#include <vector>
 
 #include "mb4sim/crc.hpp"
 
@@ -16,37 +16,46 @@ namespace mb4::sim {
 
 class ShiftRegister {
  public:
-  // At least one bit.
-  explicit ShiftRegister(std::size_t bits) : bits_(bits, 0) {}
+  // A stop bit, 64 bits of data and a CRC of 16 are the most there is.
+  static constexpr std::size_t kMaxBits = 128;
+
+  // 1 to kMaxBits bits.
+  explicit ShiftRegister(std::size_t bits) : size_(bits), in_(place(bits - 1)) {
+    assert(bits >= 1 && bits <= kMaxBits);
+  }
 
   // Fills it with the low `data_bits` bits of `word`, MSB first, and their inverted CRC, behind a
   // stop bit (0) if it is longer by that one bit. `wrong_crc`: the last bit of the CRC is wrong.
   void load(std::uint64_t word, unsigned data_bits, const Crc& crc, bool wrong_crc = false) {
-    std::size_t i = 0;
-    if (bits_.size() > data_bits + crc.width()) bits_[i++] = 0;
-    for (unsigned bit = data_bits; bit-- > 0;) bits_[i++] = (word >> bit) & 1U ? 1 : 0;
+    bits_ = 0;
+    std::size_t i = size_ - data_bits - crc.width();
+    for (unsigned bit = data_bits; bit-- > 0; ++i) bits_ |= (word >> bit) & 1U ? place(i) : 0;
     const std::uint32_t check = crc.line_bits(word, data_bits) ^ (wrong_crc ? 1U : 0U);
-    for (unsigned bit = crc.width(); bit-- > 0;) bits_[i++] = (check >> bit) & 1U ? 1 : 0;
-    head_ = 0;
+    for (unsigned bit = crc.width(); bit-- > 0; ++i) bits_ |= (check >> bit) & 1U ? place(i) : 0;
     shifts_ = 0;
   }
   // The bit that leaves now.
-  bool out() const { return bits_[head_] != 0; }
+  bool out() const { return at(0); }
   void shift(bool in) {
-    bits_[head_] = in ? 1 : 0;
-    if (++head_ == bits_.size()) head_ = 0;
+    bits_ = bits_ << 1U | (in ? in_ : 0);
     ++shifts_;
   }
 
-  std::size_t size() const { return bits_.size(); }
+  std::size_t size() const { return size_; }
   // Bit `i` in the order in which they leave.
-  bool at(std::size_t i) const { return bits_[(head_ + i) % bits_.size()] != 0; }
+  bool at(std::size_t i) const { return (bits_ & place(i)) != 0; }
   // Everything that it holds came in at SLI.
-  bool filled() const { return shifts_ >= bits_.size(); }
+  bool filled() const { return shifts_ >= size_; }
 
  private:
-  std::vector<std::uint8_t> bits_;
-  std::size_t head_ = 0;
+  __extension__ using Bits = unsigned __int128;
+
+  // The bit that leaves first is the highest.
+  static constexpr Bits place(std::size_t i) { return Bits{1} << (kMaxBits - 1 - i); }
+
+  Bits bits_ = 0;
+  std::size_t size_;
+  Bits in_;                 // where the bit from SLI comes in
   std::size_t shifts_ = 0;  // since load()
 };
 

@@ -10,6 +10,7 @@
 #include <optional>
 
 #include "mb4sim/register_file.hpp"
+#include "mb4sim/shift_register.hpp"
 #include "mb4sim/time.hpp"
 
 namespace mb4::sim {
@@ -46,6 +47,16 @@ class Slave {
   bool slo() const { return slo_; }
   // True between two frames: the timeout has elapsed.
   bool idle() const { return idle_; }
+  // True in the data of a frame, where a rising edge of MA shifts and nothing else happens before
+  // the timeout. Instead of ma_edge() the chain then may call shift() at rising edges, and
+  // last_edge() before anything else.
+  bool shifting() const { return shifting_ != nullptr; }
+  void shift(bool sli_before) {
+    shifting_->shift(sli_before && takes_sli_);
+    slo_ = shifting_->out();
+  }
+  // The last edge of MA was `edge`, and `ma` is its level since then.
+  virtual void last_edge(Time /*edge*/, bool /*ma*/) {}
 
   // --- back door -----------------------------------------------------------------------------
   // Length of the process data in bits, without CRC.
@@ -77,6 +88,11 @@ class Slave {
  protected:
   void set_slo(bool level) { slo_ = level; }
   void set_idle(bool idle) { idle_ = idle; }
+  // Null: not shifting. `takes_sli`: else zeros come in.
+  void set_shifting(ShiftRegister* data, bool takes_sli) {
+    shifting_ = data;
+    takes_sli_ = takes_sli;
+  }
   void set_deadline(Time deadline) { deadline_ = deadline; }
   void count_frame() { ++frames_; }
   void take_cdm(bool cdm) {
@@ -88,6 +104,8 @@ class Slave {
   Time deadline_ = kNever;
   bool slo_ = true;
   bool idle_ = true;
+  bool takes_sli_ = false;
+  ShiftRegister* shifting_ = nullptr;
   SlaveFaults faults_;
   RegisterFile registers_;
   std::uint64_t frames_ = 0;

@@ -60,9 +60,24 @@ class SlaveChain {
   }
   // SLI of the last slave that is plugged in.
   bool end_level(bool mo) const { return mo || attached_ < slaves_.size(); }
-  void drive_slaves(Time now, bool ma, bool mo);
-  void settle_sli(Time now);
-  void finish(Time now);
+  // Where the slaves stand, all of them together.
+  struct Standing {
+    Time deadline = kNever;  // the earliest
+    bool idle = true;
+    bool shifting = true;
+    void add(const Slave& slave) {
+      deadline = slave.deadline() < deadline ? slave.deadline() : deadline;
+      idle = idle && slave.idle();
+      shifting = shifting && slave.shifting();
+    }
+  };
+  Standing drive_slaves(Time now, bool ma, bool mo);
+  void shift(Time now, bool ma, bool mo);
+  void catch_up();
+  Standing settle_sli(Time now);
+  void finish(Time now, const Standing& standing);
+  void arm();
+  void report(Time now);
 
   EventQueue& queue_;
   Output output_;
@@ -72,8 +87,12 @@ class SlaveChain {
   bool ma_ = true;
   bool mo_ = false;
   bool idle_ = true;
-  bool reported_ = true;
+  Time deadline_ = kNever;  // the earliest of the slaves
   Time armed_at_ = kNever;  // time of the timer event that counts; later ones are stale
+  bool shifting_ = false;   // all slaves are, and plugged in: they have to be told last_edge_
+  Time timeout_ = 0;        // shifting: the shortest one, from each edge of MA on
+  Time last_edge_ = 0;      // shifting: of MA
+  bool reported_ = true;
 };
 
 }  // namespace mb4::sim
