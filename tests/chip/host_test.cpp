@@ -107,6 +107,40 @@ TEST_P(ParallelHostChip, DataBus_IsDrivenInReadStrobesOnlyAndStandsStill) {
   simulator.host_check().clear();  // the last one was illegal
 }
 
+// Figures 7 and 8: a byte is written at the end of the strobe; what the bus shows before does not
+// count (I110: setup before the end).
+TEST_P(ParallelHostChip, ByteIsTakenAtTheEndOfTheWriteStrobe) {
+  Chip chip(host(GetParam()));
+  auto& simulator = chip.simulator;
+  const bool intel = simulator.bus().mode() == sim::ParallelMode::kIntel;
+  const auto set = [&](Pin pin, bool level) {
+    simulator.set_pin(pin, level);
+    simulator.advance(50'000);
+  };
+  const auto drive = [&](unsigned value) {
+    for (unsigned bit = 0; bit < 8; ++bit) {
+      simulator.set_pin(static_cast<Pin>(static_cast<unsigned>(Pin::kDb0) + bit),
+                        ((value >> bit) & 1U) != 0);
+    }
+    simulator.advance(50'000);
+  };
+  set(Pin::kNcs, false);
+  set(Pin::kAle, true);
+  drive(0xC0);
+  set(Pin::kAle, false);
+  drive(0x3C);
+  if (!intel) set(Pin::kNrdRnw, false);
+  set(Pin::kNwrE, !intel);
+  drive(0xC3);
+  drive(0x5A);
+  set(Pin::kNwrE, intel);
+  drive(0xFF);
+  if (!intel) set(Pin::kNrdRnw, true);
+  set(Pin::kNcs, true);
+  EXPECT_EQ(chip.read(0xC0), 0x5A);
+  simulator.host_check().clear();
+}
+
 // Table 1: the serial interface is not there with CFGSPI = 0, nor the parallel one with 1.
 TEST_P(ParallelHostChip, SpiFramesOnTheParallelStraps_ChangeNothing) {
   Chip chip(host(GetParam()));

@@ -88,6 +88,28 @@ TEST(ChipInit, SlStaysLowAfterAFrame_WaitsFor1024PeriodsOnly) {
   }
 }
 
+// docs/choices.md: INIT looks for the acknowledge at 255 sampling points. After one without an
+// answer the line is free for the next one, and for frames.
+TEST(ChipInit, NoSlaveAnswers_TheLineIsFreeForWhatFollows) {
+  Chip chip(one_slave(kAdaptive));
+  chip.configure_slave1(28, 0x06, 0x00, 0x7C);
+  auto& line = *chip.simulator.line(1);
+  line.faults().stick(true);
+  chip.instruct(0x10);
+  ASSERT_TRUE(chip.wait_eot(60)) << "SL is high: no timeout to wait for";
+  EXPECT_EQ(chip.status(), 0x3B) << "nERR = nAGSERR = 0";
+  EXPECT_EQ(chip.read(0xF4), 0x00);
+  line.faults().stick(std::nullopt);
+  chip.advance_us(50);
+  chip.instruct(0x10);
+  ASSERT_TRUE(chip.wait_eot(20)) << "nothing to wait for";
+  EXPECT_EQ(line.monitor().frames(), 2U);
+  EXPECT_EQ(line.monitor().last(chip.simulator.now()).rising, 2U) << "answered at once";
+  chip.instruct(0x04);
+  ASSERT_TRUE(chip.wait_eot());
+  EXPECT_EQ(chip.read(0xF1), 0x02);
+}
+
 // Page 33: BREAK ends all current actions: INIT does not begin again.
 TEST(ChipInit, Break_EndsIt) {
   for (unsigned phase = 0; phase < 30; ++phase) {

@@ -77,6 +77,21 @@ TEST(ProtocolLines, BissBRegistersOnBothLines_WaitForBothHandOvers) {
   EXPECT_EQ(chip.simulator.slave(5)->reg_read(0x20), 0x77);
 }
 
+// Decision 14: frames without sensor data are so on both lines, whatever the other one speaks.
+TEST(ProtocolLines, ReducedFrames_ClockOutNoWordOnTheOtherLine) {
+  for (const char* other : {"biss-b", "ssi"}) {
+    ProtocolChip chip(channel(1, "biss-c") + channel(2, other), {.freqs = 4});
+    ASSERT_TRUE(chip.frame());
+    EXPECT_EQ(chip.scdata(5, 16), 0x2221U);
+    chip.advance_us(100);
+    chip.simulator.slave(5)->set_data(0x1234);
+    ASSERT_TRUE(chip.frame(0x0E));  // INSTR = 111
+    EXPECT_LT(chip.ma[1].size(), 16U) << other;
+    EXPECT_EQ(chip.scdata(5, 16), 0x2221U) << other;
+    EXPECT_EQ(chip.svalid(), 0x202U) << other;
+  }
+}
+
 // Page 28: a BiSS B access needs a BiSS B line; INSTR clears itself without one.
 TEST(ProtocolLines, BissBAccess_LeavesTheOtherProtocolAlone) {
   for (const char* other : {"biss-c", "ssi"}) {

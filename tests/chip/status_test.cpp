@@ -42,6 +42,20 @@ void configure_two_lines(Chip& chip) {
   chip.write(0xEC, {0x11, 0x05});
 }
 
+// Table 54: nothing runs after a reset, and the pin says so from its first moment on.
+TEST(ChipStatus, EotAfterReset_StaysHigh) {
+  Chip chip(one_slave(kEncoder26));
+  auto& simulator = chip.simulator;
+  simulator.set_pin(sim::Pin::kNres, false);
+  simulator.advance(500 * sim::kPsPerNs);
+  EXPECT_TRUE(simulator.pin(sim::Pin::kEot));
+  simulator.set_pin(sim::Pin::kNres, true);
+  for (unsigned step = 0; step < 100; ++step) {
+    simulator.advance(25 * sim::kPsPerNs);
+    EXPECT_TRUE(simulator.pin(sim::Pin::kEot)) << step;
+  }
+}
+
 // Table 54 and page 34: 0 from the instruction to the end of the frame, the pin with it.
 TEST(ChipStatus, Eot_IsZeroDuringFramesAndInitAndEqualsThePin) {
   Chip chip(one_slave(kEncoder26));
