@@ -96,7 +96,6 @@ module mb4_control_frame (
   assign top       = bits_q[9];
 
   // ---- slots --------------------------------------------------------------------------------
-
   assign header   = slot_q >= mb4_pkg::SLOT_HEADER && slot_q < mb4_pkg::SLOT_CRC;
   assign echo     = cts_i && slot_q > mb4_pkg::SLOT_WAIT && slot_q <= mb4_pkg::SLOT_STOP;
   assign ida      = !cts_i && !broadcast && slot_q >= mb4_pkg::SLOT_IDA &&
@@ -293,7 +292,8 @@ module mb4_control_frame (
 
   `MB4_ASSERT(SlotInRange_A, clk_i, rst_ni, slot_q <= mb4_pkg::SLOT_NEXT)
   `MB4_ASSERT_IF(IdleIsSlot0_A, clk_i, rst_ni, !active_q, slot_q == mb4_pkg::SLOT_START)
-  `MB4_ASSERT_IF(CrcStartsAtZero_A, clk_i, rst_ni, slot_q == mb4_pkg::SLOT_NEXT, crc_q == 4'h0)
+  `MB4_ASSERT_IF(DataCrcStartsAtZero_A, clk_i, rst_ni,
+                 slot_q == mb4_pkg::SLOT_BYTE || slot_q == mb4_pkg::SLOT_NEXT, crc_q == 4'h0)
   `MB4_ASSERT_IF(NextIsForRegisters_A, clk_i, rst_ni, active_q && !cts_i,
                  slot_q <= mb4_pkg::SLOT_STOP_TESTED)
 

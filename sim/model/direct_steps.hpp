@@ -7,8 +7,8 @@
 // takes for a clock: it computes all logic behind the inputs, looks for edges of every clock and
 // reset of the chip three times or more, and does so at falling edges of CLK too, where all but a
 // few flops rest. Here what has changed is known: an edge of CLK. So only those statements of the
-// model run that such an edge starts and that read something that has changed (edge/split_edge.py), and
-// a falling edge that finds its flops unchanged costs nothing.
+// model run that such an edge starts and that read something that has changed
+// (edge/split_edge.py), and a falling edge that finds its flops unchanged costs nothing.
 //
 // A chip at rest is one that a clock leaves as it was, every bit of it: then any number of clocks
 // does. The one thing that may move is the time to the next frame (AGS), which is set forward.
@@ -20,8 +20,8 @@
 
 #include <Vmb4_chip.h>
 #include <Vmb4_chip___024root.h>
-#include <Vmb4_chip_edge.hpp>
 
+#include <Vmb4_chip_edge.hpp>
 #include <algorithm>
 #include <array>
 #include <cstddef>

@@ -218,8 +218,8 @@ class VerilatedChip final : public ChipModel {
   // Enough for the clock switch to settle from any state and for the reset synchroniser.
   static constexpr unsigned kConditioningEdges = 32;
   static constexpr CData kNcs2 = 0x10;  // DB4
-  // Clocks without a change at a pin after which a look for rest is worth its price: few if the last
-  // one found it, more and more if not (MA of a low frequency).
+  // Clocks without a change at a pin after which a look for rest is worth its price: few if the
+  // last one found it, more and more if not (MA of a low frequency).
   static constexpr unsigned kQuiet = 4;
   static constexpr unsigned kRarest = 64;
 
