@@ -26,9 +26,11 @@ void operator delete(void* memory, std::size_t /*size*/) noexcept { std::free(me
 
 namespace {
 
+// A cable so long that more edges are on their way than the event queue keeps without memory.
 constexpr const char* kScenario = R"(
 [[channel]]
 number = 1
+delay_ns = 20000.0
 [[channel.slave]]
 protocol = "biss-c"
 preset = "resolute-26"
@@ -44,7 +46,7 @@ TEST(CApiMemory, OutOfMemory_IsAnErrorAndStaysOne) {
   send({0x02, 0xC0, 0x5B, 0x06, 0, 0});
   send({0x02, 0xE5, 0x40, 0xA0, 0x00, 0x7C});
   send({0x02, 0xED, 0x0D});
-  memory_is_out = true;  // queue, monitor and slave of the first frame need memory
+  memory_is_out = true;
   int status = send({0x07, 0x04});
   for (int i = 0; i < 100 && status == 0; ++i) status = send({0x05, 0x00});
   memory_is_out = false;
