@@ -200,4 +200,65 @@ TEST(Lockstep, LessWork_ChangesNothing) {
 }
 
 }  // namespace
+// CLKENI set and cleared between two rising edges of CLK: the oscillator starts and runs on for a
+// while, but the clock switch has not moved. The edges of CLK in that time count as any others.
+TEST(Lockstep, ClkeniShorterThanAClock_ChangesNothing) {
+  const sim::Scenario scenario = sim::parse_scenario(
+      "[chip]\nf_clk_hz = 10_000_000\n[host]\ninterface = \"intel\"\n[[channel]]\nnumber = 1\n"
+      "[[channel.slave]]\nprotocol = \"biss-c\"\npreset = \"resolute-26\"\n",
+      "clkeni");
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    Random random(seed);
+    sim::Simulator fast(scenario);
+    sim::Simulator plain(scenario, plain_options());
+    const auto both = [&](const auto& action) {
+      action(fast);
+      action(plain);
+    };
+    const auto write = [&](std::uint8_t address, std::uint8_t value) {
+      both([&](sim::Simulator& chip) {
+        chip.bus().write(address, value);
+        chip.advance(600 * sim::kPsPerNs);
+      });
+    };
+    both([](sim::Simulator& chip) {
+      chip.advance(10 * sim::kPsPerUs);
+      chip.bus().set_timing({});
+    });
+    for (const auto& [address, value] : {std::pair{0xC0, 0x5B},
+                                         {0xC1, 0xA1},
+                                         {0xE4, 0x01},
+                                         {0xE5, 0x40},
+                                         {0xE6, 0x23},
+                                         {0xE8, 0x7C},
+                                         {0xEC, 0x01},
+                                         {0xED, 0x01}}) {
+      write(static_cast<std::uint8_t>(address), static_cast<std::uint8_t>(value));
+    }
+    for (unsigned step = 0; step < 400; ++step) {
+      if (random.one_in(4)) {
+        write(0xE2, static_cast<std::uint8_t>(random.below(256)));
+        write(0xF4, static_cast<std::uint8_t>(2 * random.below(8) | 1U));
+      } else if (random.one_in(3)) {
+        write(0xF4, 0x80);
+      }
+      const sim::Time pause = (1 + random.below(30'000)) * sim::kPsPerNs;
+      ASSERT_EQ(advance(fast, pause), advance(plain, pause)) << seed << " " << step;
+      // Rising edges of CLK are 100 ns apart.
+      constexpr sim::Time kPeriod = 100 * sim::kPsPerNs;
+      const sim::Time edge = (fast.now() / kPeriod + 2) * kPeriod + 13 * sim::kPsPerNs;
+      if (random.one_in(2)) {
+        both([&](sim::Simulator& chip) {
+          chip.run_until(edge);
+          chip.bus().write(0xF5, 0x01);
+          chip.bus().write(0xF5, 0x00);
+        });
+      }
+      ASSERT_EQ(advance(fast, 3 * sim::kPsPerUs), advance(plain, 3 * sim::kPsPerUs))
+          << seed << " " << step;
+      ASSERT_EQ(fast.clk_cycles(), plain.clk_cycles()) << seed << " " << step;
+    }
+  }
+}
+
 }  // namespace mb4test

@@ -48,7 +48,8 @@ class Statements(unittest.TestCase):
 
     def test_unknown_is_refused(self):
         for text in ("vlSelf->a = vl_random();", "VL_ASSIGN_W(70, vlSelf->a, vlSelf->b);",
-                     "vlSelf->a += 1U;", "for (;;) { vlSelf->a = 1U; }", "other(vlSelf);"):
+                     "vlSelf->a += 1U;", "for (;;) { vlSelf->a = 1U; }", "other(vlSelf);",
+                     "vlSelf->a = vlSymsp->TOP__x.y;"):
             with self.assertRaises(NotUnderstood, msg=text):
                 rows(text)
 

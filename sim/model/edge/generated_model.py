@@ -141,6 +141,8 @@ def analyse(text, function, local):
     """The statement with its names; those of local variables as FUNCTION.NAME."""
     statement = Statement(text, function)
     bare = re.sub(r"/\*.*?\*/|//[^\n]*", "", STRING.sub('""', text))
+    if re.search(r"vlSymsp->(?!_vm_contextp__|name\(\))", bare):
+        raise NotUnderstood(f"{function}: another scope: {bare[:80]}")
     for found in NAME.finditer(bare):
         member, word = found.groups()
         if member is None and word not in local:

@@ -69,6 +69,10 @@ def made(folder, busy, count):
     if not {"eval_nba", "ico_sequent__TOP__0"} <= bodies.keys():
         raise NotUnderstood("no functions of the model found")
     functions_of = started(bodies, names)
+    # Long functions may be split, modules kept apart: then there are calls of another form.
+    if len(functions_of) != bodies["eval_nba"].count("___nba_") or \
+            bodies.get("eval_ico", "").count("___ico_") != 1:
+        raise NotUnderstood("calls in eval_nba() or eval_ico()")
     types, rows_of = {}, {}
     for function in ["ico_sequent__TOP__0", *(name for name, _ in functions_of)]:
         local, rows_of[function] = statements(function, bodies[function])
@@ -97,7 +101,7 @@ def main():
          if line and not line.startswith("#"))}
     try:
         text = made(folder, busy, "--count" in sys.argv)
-    except NotUnderstood as error:
+    except (NotUnderstood, LookupError, ValueError) as error:
         print(f"split_edge.py: the model runs whole, at a third of its speed: {error}")
         text = "#define MB4_EDGE_NOT_SPLIT\n"
     output.write_text(text, encoding="utf-8")
