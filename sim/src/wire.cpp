@@ -22,7 +22,6 @@ Wire::Wire(EventQueue& queue, Time delay, const WireFaults& faults, std::uint64_
       glitch_random_(derive_seed(seed, kGlitchPart)),
       output_(output),
       receiver_(receiver),
-      uneven_(faults.jitter != 0 || faults.skew != 0),
       sent_(idle),
       arrived_(idle),
       shown_(idle) {
@@ -32,7 +31,6 @@ Wire::Wire(EventQueue& queue, Time delay, const WireFaults& faults, std::uint64_
 void Wire::set_faults(const WireFaults& faults) {
   assert(faults.glitches_per_s == faults_.glitches_per_s);
   faults_ = faults;
-  uneven_ = faults.jitter != 0 || faults.skew != 0;
 }
 
 void Wire::send(Time now, unsigned levels) {

@@ -33,6 +33,14 @@ std::string host(const std::string& name, const std::string& more = "") {
   return more + "\n[host]\ninterface = \"" + name + "\"\ncycle_ns = 110\n";
 }
 
+// The host drives the eight data pins.
+void drive_bus(sim::Simulator& simulator, unsigned value) {
+  for (unsigned bit = 0; bit < 8; ++bit) {
+    simulator.set_pin(static_cast<Pin>(static_cast<unsigned>(Pin::kDb0) + bit),
+                      ((value >> bit) & 1U) != 0);
+  }
+}
+
 class ParallelHostChip : public testing::TestWithParam<const char*> {};
 
 // Figures 3 to 6 at the datasheet's shortest times.
@@ -69,10 +77,7 @@ TEST_P(ParallelHostChip, DataBus_IsDrivenInReadStrobesOnlyAndStandsStill) {
     return value;
   };
   const auto drive = [&](unsigned value) {
-    for (unsigned bit = 0; bit < 8; ++bit) {
-      simulator.set_pin(static_cast<Pin>(static_cast<unsigned>(Pin::kDb0) + bit),
-                        ((value >> bit) & 1U) != 0);
-    }
+    drive_bus(simulator, value);
     simulator.advance(20'000);
   };
   const auto set = [&](Pin pin, bool level) {
@@ -118,10 +123,7 @@ TEST_P(ParallelHostChip, ByteIsTakenAtTheEndOfTheWriteStrobe) {
     simulator.advance(50'000);
   };
   const auto drive = [&](unsigned value) {
-    for (unsigned bit = 0; bit < 8; ++bit) {
-      simulator.set_pin(static_cast<Pin>(static_cast<unsigned>(Pin::kDb0) + bit),
-                        ((value >> bit) & 1U) != 0);
-    }
+    drive_bus(simulator, value);
     simulator.advance(50'000);
   };
   set(Pin::kNcs, false);

@@ -199,7 +199,6 @@ TEST(Lockstep, LessWork_ChangesNothing) {
   std::cout << cases << " cases, " << clocks << " clocks, " << left_out << " of them left out\n";
 }
 
-}  // namespace
 // CLKENI set and cleared between two rising edges of CLK: the oscillator starts and runs on for a
 // while, but the clock switch has not moved. The edges of CLK in that time count as any others.
 TEST(Lockstep, ClkeniShorterThanAClock_ChangesNothing) {
@@ -261,4 +260,5 @@ TEST(Lockstep, ClkeniShorterThanAClock_ChangesNothing) {
   }
 }
 
+}  // namespace
 }  // namespace mb4test

@@ -32,7 +32,7 @@ class Wire {
 
   // Puts a set of levels (one bit a wire) into the near end at time `now`.
   void drive(Time now, unsigned levels) {
-    if (delay_ == 0 && !uneven_ && in_flight_ == 0) {
+    if (delay_ == 0 && !uneven() && in_flight_ == 0) {
       sent_ = levels;
       deliver(now, levels);
     } else {
@@ -72,6 +72,8 @@ class Wire {
     shown_ = levels;
     output_(now, receiver_, levels);
   }
+  // Edges take more time than delay_.
+  bool uneven() const { return faults_.jitter != 0 || faults_.skew != 0; }
   bool inverted() const { return glitch_ != (single_glitches_ % 2 != 0); }
 
   EventQueue& queue_;
@@ -82,7 +84,6 @@ class Wire {
   Output output_;
   void* receiver_;
   std::optional<bool> stuck_;
-  bool uneven_;  // edges take more time than delay_: jitter or skew
   bool glitch_ = false;
   unsigned single_glitches_ = 0;  // that are going on
   unsigned in_flight_ = 0;
