@@ -4,12 +4,16 @@
 // Glitch-free choice between two unrelated clocks: 0 may stand still (a pin), 1 always runs when it
 // is selected (the oscillator).
 //
-// Clock domains: each enable lives in its own clock and changes while that clock is low. The new
-// clock starts after the old one has been stopped; between them clk_o is low for 1..3 periods of
-// each. A clock 0 that never toggled since reset does not block the change to clock 1. One that
+// Clock domains: the flops of a clock have its number; an enable changes while its clock is low.
+// A clock first raises its claim and only then looks at the other one's; the claim stays until the
+// enable has fallen. So one clock at most is enabled, whenever the choice changes, and back.
+// Latency: at most three periods of the old clock and two of the new one, clk_o low in between.
+// Of a clock 0 that runs after a reset the fourth rising edge is the first that passes.
+// A clock 0 that never toggled since reset does not block the change to clock 1. One that
 // stopped after it has run is given up after 2^TimeoutW - 1 periods of clock 1: it is standing
 // still, so that cutting it off makes no pulse; clk_o falls then if it stood high.
-// Misuse: a clock 0 slower than that time-out may be cut inside a pulse by the change to clock 1.
+// Misuse: a clock 0 slower than that time-out may be cut inside a pulse by the change to clock 1. A
+// clock 1 that stops within five periods after it has been deselected keeps clock 0 from starting.
 // Datasheet: page 23, Table 7 (CLKENI).
 // Constraint: both clocks and clk_o are declared as clocks; sel_i and dead_q are false paths.
 
@@ -23,47 +27,65 @@ module mb4_clk_mux #(
   output logic clk_o
 );
 
-  logic want0_q;
-  logic want1_q;
+  logic sel0_q;
+  logic sel1_q;
+  logic claim0_q;
+  logic claim1_q;
+  logic ready0_q;
+  logic ready1_q;
   logic en0_q;
   logic en1_q;
   logic alive_n;
   logic dead_q;
-  logic [1:0] en0_sync_q;
+  logic [1:0] claim0_sync_q;
   logic [TimeoutW-1:0] wait_q;
 
   assign alive_n = rst_ni && !dead_q;
 
   always_ff @(posedge clk0_i or negedge alive_n) begin
-    if (!alive_n) want0_q <= 1'b0;
-    else          want0_q <= !sel_i && !en1_q;
+    if (!alive_n) begin
+      sel0_q   <= 1'b0;
+      claim0_q <= 1'b0;
+      ready0_q <= 1'b0;
+    end else begin
+      sel0_q   <= !sel_i;
+      claim0_q <= sel0_q || en0_q;
+      ready0_q <= sel0_q && claim0_q && !claim1_q;
+    end
   end
 
   always_ff @(negedge clk0_i or negedge alive_n) begin
     if (!alive_n) en0_q <= 1'b0;
-    else          en0_q <= want0_q;
+    else          en0_q <= ready0_q;
   end
 
   always_ff @(posedge clk1_i or negedge rst_ni) begin
-    if (!rst_ni) want1_q <= 1'b0;
-    else         want1_q <= sel_i && !en0_q;
+    if (!rst_ni) begin
+      sel1_q   <= 1'b0;
+      claim1_q <= 1'b0;
+      ready1_q <= 1'b0;
+    end else begin
+      sel1_q   <= sel_i;
+      claim1_q <= sel1_q || en1_q;
+      ready1_q <= sel1_q && claim1_q && !claim0_q;
+    end
   end
 
   always_ff @(negedge clk1_i or negedge rst_ni) begin
     if (!rst_ni) en1_q <= 1'b0;
-    else         en1_q <= want1_q;
+    else         en1_q <= ready1_q;
   end
 
   // Clock 1 waits for clock 0 to let go.
   always_ff @(posedge clk1_i or negedge rst_ni) begin
     if (!rst_ni) begin
-      en0_sync_q <= 2'b00;
-      wait_q     <= '0;
-      dead_q     <= 1'b0;
+      claim0_sync_q <= 2'b00;
+      wait_q        <= '0;
+      dead_q        <= 1'b0;
     end else begin
-      en0_sync_q <= {en0_sync_q[0], sel_i && en0_q};
-      wait_q     <= en0_sync_q[1] ? wait_q + TimeoutW'(1) : '0;
-      dead_q     <= wait_q == '1;
+      claim0_sync_q <= {claim0_sync_q[0], sel1_q && claim0_q};
+      wait_q        <= claim0_sync_q[1] ? wait_q + TimeoutW'(1) : '0;
+      dead_q        <= wait_q == '1;
     end
   end
 

@@ -155,7 +155,7 @@ class DirectSteps {
   // samplers of SL (mb4_clk_mux, mb4_sl_capture); a lint test knows that there are no others.
   static bool fall_matters(const Root& root) {
     const unsigned sl2 = root.sl2_i | root.mb4_chip__DOT__paired;
-    return root.mb4_chip__DOT__u_clk_mux__DOT__want0_q == 0 || root.*kSampled1 != root.sl1_i ||
+    return root.mb4_chip__DOT__u_clk_mux__DOT__ready0_q == 0 || root.*kSampled1 != root.sl1_i ||
            root.*kSampled2 != sl2;
   }
 

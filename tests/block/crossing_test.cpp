@@ -113,45 +113,57 @@ TEST(PostedBlock, CoreClockStandsStill_128BytesWaitAndNoneIsLost) {
   }
 }
 
-// Page 23, decision 32: no pulse shorter than half a period of the clock it belongs to.
-TEST(ClockMuxBlock, SwitchingAtAnyPhase_NoShortPulse) {
-  const std::uint64_t half0 = 25'000;
-  for (const std::uint64_t half1 : {20'000ULL, 25'100ULL, 40'000ULL, 7'000ULL}) {
-    mb4test::Owned<Vmb4_clk_mux> owner;
-    Vmb4_clk_mux& mux = *owner;
-    mux.clk0_i = mux.clk1_i = 0;
-    mux.sel_i = 0;
-    reset(mux);
-    std::mt19937_64 random(11);
-    std::uint64_t now = 0, next0 = half0, next1 = half1, next_sel = 1'000'000;
-    std::uint64_t last_change = 0;
-    std::uint64_t edges = 0;
-    int level = 0;
-    while (now < 400'000'000) {
-      now = std::min({next0, next1, next_sel});
-      if (now == next0) {
-        mux.clk0_i = !mux.clk0_i;
-        next0 += half0;
-      }
-      if (now == next1) {
-        mux.clk1_i = !mux.clk1_i;
-        next1 += half1;
-      }
-      if (now == next_sel) {
-        mux.sel_i = !mux.sel_i;
-        next_sel += 400'000 + random() % 700'000;
-      }
-      mux.eval();
-      if (mux.clk_o != level) {
-        if (level == 1 || edges > 0) {
-          EXPECT_GE(now - last_change, std::min(half0, half1)) << now;
-        }
-        level = mux.clk_o;
-        last_change = now;
-        ++edges;
-      }
+// Page 23, decision 32: no pulse shorter than half a period of the clock it belongs to. The choice
+// is changed at times between `shortest` and `shortest` + `spread`; returns how often clk_o moved.
+std::uint64_t no_short_pulse(std::uint64_t half0, std::uint64_t half1, std::uint64_t shortest,
+                             std::uint64_t spread) {
+  mb4test::Owned<Vmb4_clk_mux> owner;
+  Vmb4_clk_mux& mux = *owner;
+  mux.clk0_i = mux.clk1_i = 0;
+  mux.sel_i = 0;
+  reset(mux);
+  std::mt19937_64 random(11);
+  std::uint64_t now = 0, next0 = half0, next1 = half1, next_sel = 1'000'000;
+  std::uint64_t last_change = 0;
+  std::uint64_t edges = 0;
+  int level = 0;
+  while (now < 400'000'000) {
+    now = std::min({next0, next1, next_sel});
+    if (now == next0) {
+      mux.clk0_i = !mux.clk0_i;
+      next0 += half0;
     }
-    EXPECT_GT(edges, 4000U);
+    if (now == next1) {
+      mux.clk1_i = !mux.clk1_i;
+      next1 += half1;
+    }
+    if (now == next_sel) {
+      mux.sel_i = !mux.sel_i;
+      next_sel += shortest + random() % spread;
+    }
+    mux.eval();
+    if (mux.clk_o != level) {
+      if (level == 1 || edges > 0) {
+        EXPECT_GE(now - last_change, std::min(half0, half1)) << now;
+      }
+      level = mux.clk_o;
+      last_change = now;
+      ++edges;
+    }
+  }
+  return edges;
+}
+
+TEST(ClockMuxBlock, SwitchingAtAnyPhase_NoShortPulse) {
+  for (const std::uint64_t half1 : {20'000ULL, 25'100ULL, 40'000ULL, 7'000ULL}) {
+    EXPECT_GT(no_short_pulse(25'000, half1, 400'000, 700'000), 4000U);
+  }
+}
+
+// CLKENI set and cleared again before the switch has come to an end.
+TEST(ClockMuxBlock, ChoiceTakenBackAtAnyTime_NoShortPulse) {
+  for (const std::uint64_t half1 : {20'000ULL, 25'100ULL, 40'000ULL, 7'000ULL}) {
+    EXPECT_GT(no_short_pulse(25'000, half1, 10'000, 300'000), 1000U);
   }
 }
 

@@ -57,6 +57,7 @@ TEST(Simulator, NoClockAtPin_StandsStillUntilOscillatorIsSelected) {
   simulator.advance(10 * kPsPerUs);
   EXPECT_EQ(simulator.clk_cycles(), 0U);
   exchange(simulator, {0x02, 0xF5, 0x01});  // CLKENI
+  simulator.advance(kPsPerUs);              // the clock switch takes two periods
   const std::uint64_t before = simulator.clk_cycles();
   simulator.advance(100 * kPsPerUs);
   EXPECT_EQ(simulator.clk_cycles() - before, 2000U);
