@@ -13,7 +13,8 @@ FOLDER, HEADER = sys.argv[1:3]
 sys.path.insert(0, FOLDER)
 
 from generated_model import NotUnderstood, analyse, apart, split, statements  # noqa: E402
-from groups import groups_of, inputs, parts_of  # noqa: E402
+from groups import Kinds, groups_of, inputs, looks, parts_of  # noqa: E402
+from header import Writer  # noqa: E402
 
 
 def rows(*texts, local=()):
@@ -41,6 +42,19 @@ class Statements(unittest.TestCase):
     def test_comparison_is_no_write(self):
         row, = rows("vlSelf->a = (vlSelf->b == vlSelf->c);")
         self.assertEqual(row.writes, {"a"})
+
+    def test_what_is_only_compared_with_numbers_has_these(self):
+        row, = rows("vlSelf->a = ((0U != (IData)(vlSelf->b)) & (0x1fU == vlSelf->c));")
+        self.assertEqual((row.reads, row.looks), ({"b", "c"}, {("b", 0), ("c", 31)}))
+        found = looks(rows("vlSelf->a = (0U == (IData)(vlSelf->b));", "vlSelf->d = vlSelf->b;"))
+        self.assertEqual(found, {("b", None)})
+
+    def test_comparisons_of_another_form_are_reads(self):
+        for text in ("(0U < (IData)(vlSelf->b))", "(0U == (vlSelf->b & 3U))",
+                     "(0U == (IData)(vlSelf->b[1U]))", "(0U == vlSelf->b + 1U)",
+                     "(vlSelf->c == (IData)(vlSelf->b))"):
+            row, = rows(f"vlSelf->a = {text};")
+            self.assertIn(("b", None), row.looks, msg=text)
 
     def test_text_and_comments_have_no_names(self):
         row, = rows('VL_WRITEF("vlSelf->a = %d; {\\n", vlSelf->b/*7:0*/);')
@@ -100,13 +114,55 @@ class Parts(unittest.TestCase):
     def test_old_values_are_read_before_they_change(self):
         texts = ["vlSelf->m__DOT__s = vlSelf->m__DOT__r;", "vlSelf->m__DOT__r = vlSelf->m__DOT__d;",
                  "vlSelf->m__DOT__d = vlSelf->m__DOT__s;"]
-        for busy in ({}, {"m__DOT__d": "always"}, {"m__DOT__r": "often"}, {"m__DOT__s": "always"}):
-            self.assertEqual(order(parts_of(groups_of(rows(*texts)), busy, False)[0]), texts)
+        for name in "srd":
+            for kind in ("fast", "often"):
+                self.assertEqual(order(self.parts(texts, [(kind, f"m__DOT__{name}")])), texts)
 
-    def test_busy_groups_have_no_flag(self):
-        parts, flags = parts_of(groups_of(rows("vlSelf->a = vlSelf->b;", "vlSelf->c = vlSelf->d;")),
-                                {"a": "always"}, False)
-        self.assertEqual(([part.flag for part in parts], flags), ([None, 0], 1))
+    def parts(self, texts, busy, widths=None):
+        widths = widths or {f"m__DOT__{name}": 1 for name in "srd"}
+        return parts_of(groups_of(rows(*texts)), Kinds(busy, widths), False)[0]
+
+    def test_who_writes_a_fast_variable_runs_always(self):
+        parts = self.parts(["vlSelf->a = vlSelf->b;", "vlSelf->c = vlSelf->d;"], [("fast", "a")])
+        self.assertEqual([(part.flag, part.bits) for part in parts], [(0, 0), (0, 1)])
+
+    def test_who_reads_fast_variables_has_a_flag_for_each_of_their_values(self):
+        texts = ["vlSelf->a = (vlSelf->b & vlSelf->c);"]
+        part, = self.parts(texts, [("fast", "b")], {"b": 2})
+        self.assertEqual((part.key, part.bits, part.looks), (("b",), 4, {("c", None)}))
+        part, = self.parts(texts, [("fast", "b"), ("fast", "c")], {"b": 2, "c": 1})
+        self.assertEqual((part.key, part.bits, part.looks), (("b", "c"), 8, set()))
+
+    def test_wide_or_unknown_keys_and_arrays_run_always(self):
+        for text, widths in (("vlSelf->a = vlSelf->b;", {"b": 4}), ("vlSelf->a = vlSelf->b;", {}),
+                             ("vlSelf->a[0U] = vlSelf->b;", {"b": 1})):
+            part, = self.parts([text], [("fast", "b")], widths)
+            self.assertEqual((part.bits, part.key), (0, ()))
+
+    def test_flags_of_a_key_stay_in_a_word(self):
+        texts = [f"vlSelf->m{i}__DOT__a = vlSelf->k{i % 8};" for i in range(30)]
+        parts = self.parts(texts, [("fast", f"k{i}") for i in range(8)],
+                           {f"k{i}": 3 for i in range(8)})
+        self.assertEqual(len(parts), 30)
+        for part in parts:
+            self.assertEqual(part.flag // 64, (part.flag + part.bits - 1) // 64)
+        self.assertEqual(len({part.flag + i for part in parts for i in range(part.bits)}), 240)
+
+    def header(self, texts, busy, widths):
+        lists = {"rise": self.parts(texts, busy, widths)}
+        return Writer({}, widths, [], set(), set(), lists).header(64, False)
+
+    def test_other_values_of_a_key_are_looked_at_again(self):
+        text = self.header(["vlSelf->a = (vlSelf->b & vlSelf->c);", "vlSelf->c = vlSelf->d;"],
+                           [("fast", "b")], {"b": 2})
+        self.assertIn("<< (0 + (static_cast<unsigned>(vlSelf->b) << 0))", text)
+        self.assertIn("if ((before0 != vlSelf->a)) { kept.changed[0] |= 0xfULL & ~here; }", text)
+        self.assertIn("if ((before0 != vlSelf->c)) { kept.changed[0] |= 0xfULL; }", text)
+
+    def test_a_comparison_counts_when_it_changes(self):
+        text = self.header(["vlSelf->a = (2U == (IData)(vlSelf->b));", "vlSelf->b = vlSelf->c;"],
+                           [("fast", "b")], {"b": 8})
+        self.assertIn("if (((before0 == 2U) != (vlSelf->b == 2U))) {", text)
 
 
 class Chip(unittest.TestCase):

@@ -3,32 +3,39 @@
 # SPDX-License-Identifier: Apache-2.0
 """Writes busy.txt: find_busy.py PROGRAM BUSY_TXT, PROGRAM being mb4sim_count (target mb4sim_busy).
 
-A group that runs at most clocks is better run without asking; of the others those that run at one
-clock in twenty or more are kept apart from the rare ones, module by module."""
+Variables that change at a third of the clocks or more are fast. Groups are kept with those that
+have something to do about as often: what runs with a part's busiest group costs time."""
 
 import subprocess
 import sys
 from pathlib import Path
 
-ALWAYS, OFTEN = 0.7, 0.05
+FAST = 0.3
+RATES = (("often", 0.05), ("seldom", 0.012), ("rarely", 0.0005))  # the rest: hardly ever
 HEAD = """# SPDX-FileCopyrightText: 2026 The openmb4 authors
 # SPDX-License-Identifier: Apache-2.0
 #
-# How often groups of statements of the model run in workload B, by a variable that they write;
-# what is not listed runs at less than one clock in twenty. Made by the target mb4sim_busy.
+# Workload B: the variables of the model that change at a third of the clocks or more (==N: whether
+# they are N), and how often groups of statements, each by a variable that it writes, have something
+# to do. Made by the target mb4sim_busy.
 """
 
 
 def main():
     told = subprocess.run([sys.argv[1]], capture_output=True, text=True, check=True).stderr
-    runs = {}
-    for count, name in map(str.split, told.splitlines()):
-        runs[name] = max(int(count), runs.get(name, 0))
+    counts = {"runs": {}, "moves": {}}
+    for kind, count, name in map(str.split, told.splitlines()):
+        if kind == "moves":
+            name = name.rsplit(".", 1)[-1]  # a local variable has its function before it
+        counts[kind][name] = max(int(count), counts[kind].get(name, 0))
     # All groups run after an edge of a host pin: that says nothing about them.
-    least, most = min(runs.values()), max(runs.values())
-    share = {name: (count - least) / (most - least) for name, count in sorted(runs.items())}
-    rows = [f"{'always' if value >= ALWAYS else 'often'} {name}\n"
-            for name, value in share.items() if value >= OFTEN]
+    runs = counts["runs"].values()
+    least, clocks = min(runs), max(runs) - min(runs)
+    rows = [f"fast {name}\n" for name, count in sorted(counts["moves"].items())
+            if count / clocks >= FAST]
+    for name, count in sorted(counts["runs"].items()):
+        share = (count - least) / clocks
+        rows += [f"{rate} {name}\n" for rate, limit in RATES if share >= limit][:1]
     Path(sys.argv[2]).write_text(HEAD + "".join(rows), encoding="utf-8")
 
 

@@ -10,13 +10,14 @@ import re
 from collections import defaultdict
 from dataclasses import dataclass, field
 
-TYPE = re.compile(r"^(CData|SData|IData|QData|VlWide<\d+>)/\*\d+:\d+\*/ (\w+);$")
+TYPE = re.compile(r"^(CData|SData|IData|QData|VlWide<\d+>)/\*(\d+):\d+\*/ (\w+);$")
 STRING = re.compile(r'"(?:\\.|[^"\\])*"')
 NAME = re.compile(r"vlSelf->([A-Za-z_]\w*)|(?<![\w>.])([A-Za-z_]\w*)")
 # These change no variable, and what they give depends on their arguments alone (of up to 64 bits).
 PURE = re.compile(r"VL_(?:WRITEF|STOP_MT|UNLIKELY|LIKELY|TIME_UNITED_Q|REDXOR_\w+|"
                   r"(?:ONEHOT0?|COUNTONES|SHIFT\w+|[GL]TE?S?|EXTENDS?)_[IQ]+)$|"
                   r"\w+__ConstPool__\w+$")
+COMPARED = re.compile(r"\((0x[0-9a-f]+|\d+)U\s*[!=]=\s*(?:\(IData\)\(vlSelf->(\w+)\)|vlSelf->(\w+))\)")
 KNOWN = {"if", "else", "U", "IData", "QData", "CData", "SData", "vlSelf", "vlSymsp", "Verilated"}
 LONG = 1500  # characters of a conditional that is worth taking apart
 
@@ -30,6 +31,7 @@ class Statement:
     text: str
     function: str
     reads: set = field(default_factory=set)
+    looks: set = field(default_factory=set)  # (what it reads, None or the number it is compared with)
     writes: set = field(default_factory=set)
     defines: set = field(default_factory=set)  # written whole, whatever has been there
     arrays: set = field(default_factory=set)  # written, but only some elements
@@ -59,6 +61,17 @@ def triggers(folder, prefix):
     return {int(index): events.split(" or ")
             for path in sorted(folder.glob(f"{prefix}*__Slow.cpp"))
             for index, events in pattern.findall(path.read_text(encoding="utf-8"))}
+
+
+def widths(folder, prefix, bodies):
+    """{name: bits} of the model's variables and the local ones."""
+    text = (folder / f"{prefix}___024root.h").read_text(encoding="utf-8")
+    rows = [("", row) for row in text.splitlines()]
+    rows += [(f"{name}.", row) for name, body in bodies.items() for row in body.splitlines()]
+    found = {scope + row[3]: int(row[2]) + 1
+             for scope, row in ((scope, TYPE.match(row.strip())) for scope, row in rows) if row}
+    return found | {name: int(bits) + 1 for name, bits in
+                    re.findall(r"^\s+VL_(?:IN|OUT)(?:8|16)?\((\w+),(\d+),0\);", text, re.M)}
 
 
 def after_string(text, at):
@@ -143,6 +156,8 @@ def analyse(text, function, local):
     bare = re.sub(r"/\*.*?\*/|//[^\n]*", "", STRING.sub('""', text))
     if re.search(r"vlSymsp->(?!_vm_contextp__|name\(\))", bare):
         raise NotUnderstood(f"{function}: another scope: {bare[:80]}")
+    numbers = {found.start(found.lastindex) - len("vlSelf->"): int(found[1], 0)
+               for found in COMPARED.finditer(bare)}
     for found in NAME.finditer(bare):
         member, word = found.groups()
         if member is None and word not in local:
@@ -161,6 +176,7 @@ def analyse(text, function, local):
             if re.compile(r"\s*(?:[-+*/%&|^]=|\+\+|--|<<=|>>=)").match(bare, end):
                 raise NotUnderstood(f"{function}: {bare[found.start():end + 4]}")
             statement.reads.add(name)
+            statement.looks.add((name, numbers.get(found.start())))
     return statement
 
 
@@ -196,7 +212,7 @@ def apart(text, function, local):
 def statements(name, body):
     """({local variable: type}, [statements]) of a function."""
     head, body = body.split("// Body\n", 1)
-    local = {row[2]: row[1] for row in map(TYPE.match, map(str.strip, head.splitlines())) if row}
+    local = {row[3]: row[1] for row in map(TYPE.match, map(str.strip, head.splitlines())) if row}
     found = [analyse(piece, name, local) for text in split(body)
              for piece in apart(text, name, local)]
     # Local variables start at zero: only if they are read or written in part first does it count.

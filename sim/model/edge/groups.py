@@ -9,6 +9,7 @@ from collections import defaultdict
 from generated_model import NotUnderstood
 
 BUNDLE = 8000  # characters of C++ behind one flag
+KEY_BITS = 3
 
 
 class Group:
@@ -17,6 +18,8 @@ class Group:
     def __init__(self, rows):
         self.rows = rows
         self.reads, self.writes = inputs(rows), set().union(*(row.writes for row in rows))
+        self.looks = looks(rows)
+        self.arrays = set().union(*(row.arrays for row in rows))
         self.size = sum(len(row.text) for row in rows)
         names = sorted(name.rsplit(".", 1)[-1] for name in self.writes)
         self.name = re.sub(r"^__Vdly(?:v\w+?)?__", "", names[0]) if names else message(rows[0])
@@ -33,21 +36,32 @@ def message(row):
 
 
 class Part:
-    def __init__(self, groups, flag):
+    """Groups that run together: always (bits 0), or behind a flag, or behind one for each value of
+    the variables in `key`, which are 2 ** len(key) flags from `flag` on."""
+
+    def __init__(self, groups, flag=0, bits=0, key=()):
         self.rows = [row for group in groups for row in group.rows]
         self.name = groups[0].name if groups else ""
-        self.flag = flag  # None: runs always
+        self.flag, self.bits, self.key = flag, bits, key
         self.reads = inputs(self.rows)
+        self.looks = {look for look in looks(self.rows) if look[0] not in key}
         self.writes = set().union(*(row.writes for row in self.rows))
 
 
 def inputs(rows):
     """What statements read that they have not written before, or keep if they do not write it."""
+    return {name for name, _ in looks(rows)}
+
+
+def looks(rows):
+    """The same, each with None or, if it is only compared with numbers, each of these."""
     found, written = set(), set()
     for row in rows:
-        found |= (row.reads | (row.writes - row.defines)) - written
+        found |= {look for look in row.looks | {(name, None) for name in row.writes - row.defines}
+                  if look[0] not in written}
         written |= row.defines
-    return found
+    return {(name, number) for name, number in found
+            if number is None or (name, None) not in found}
 
 
 def order_of(rows):
@@ -168,28 +182,53 @@ class Schedule:
         return len(found)
 
 
-def parts_of(groups, busy, count):
-    """Parts of the edge in their order."""
+def plain(name, number=None):
+    """As in busy.txt: without the function of a local variable."""
+    return name.rsplit(".", 1)[-1] + ("" if number is None else f"=={number}")
+
+
+class Kinds:
+    """What kind of part a group belongs to: with those that read the same fast variables, or with
+    those that have something to do about as often."""
+
+    def __init__(self, busy, widths):
+        self.rate = {name: kind for kind, name in busy if kind != "fast"}
+        self.fast = {name for kind, name in busy if kind == "fast"}
+        self.widths = widths
+
+    def __call__(self, group):
+        """None: runs always. Else the variables of its key, and the name of its part."""
+        if {plain(name) for name in group.writes} & self.fast:
+            return None
+        key = sorted({name for name, number in group.looks if plain(name, number) in self.fast})
+        if not key:
+            rate = self.rate.get(group.name, "")
+            return (), group.module if rate == "often" else rate
+        if sum(self.widths.get(name, KEY_BITS + 1) for name in key) > KEY_BITS or group.arrays:
+            return None
+        return tuple(key), group.module
+
+
+def parts_of(groups, kinds, count):
+    """(parts of the edge in their order, number of flags)."""
     schedule = Schedule(groups)
     found, flags = [], 0
-
-    def of(group):
-        often = busy.get(group.name, "")
-        return None if often == "always" else group.module if often else ""
-
     while schedule.open:
-        run = schedule.run(None, of)
+        run = schedule.run(None, kinds)
         if run:
-            found.append(Part(run, None))
+            found.append(Part(run))
             continue
-        kind = max(sorted({of(group) for group in schedule.open}),
-                   key=lambda k: schedule.reach(k, of))
+        kind = max(sorted({kinds(group) for group in schedule.open}),
+                   key=lambda k: schedule.reach(k, kinds))
+        bits = 1 << sum(kinds.widths[name] for name in kind[0])
         bundle = []
-        for group in schedule.run(kind, of) + [None]:
+        for group in schedule.run(kind, kinds) + [None]:
             if bundle and (group is None or count or
                            sum(one.size for one in bundle) + group.size > BUNDLE):
-                found.append(Part(bundle, flags))
-                flags += 1
+                if flags % 64 + bits > 64:
+                    flags += 64 - flags % 64
+                found.append(Part(bundle, flags, bits, kind[0]))
+                flags += bits
                 bundle = []
             bundle.append(group)
     return found, flags

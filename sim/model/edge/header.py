@@ -17,17 +17,29 @@ OUTSIDE = {
                          "mb4_chip__DOT__u_engine__DOT__u_control__DOT__u_request__DOT__step_q"]}
 
 
+def mask_of(part):
+    return ((1 << part.bits) - 1) << part.flag % 64
+
+
+def marked(parts):
+    masks = defaultdict(int)
+    for part in parts:
+        masks[part.flag // 64] |= mask_of(part)
+    return " ".join(f"kept.changed[{k}] |= {mask:#x}ULL;" for k, mask in sorted(masks.items()))
+
+
 class Writer:
     """The header: rise() with its parts, fall(), follow_sl(), marks for what changes outside."""
 
-    def __init__(self, types, tables, arrays, by_host, lists):
-        self.types, self.tables, self.arrays = types, tables, arrays
+    def __init__(self, types, widths, tables, arrays, by_host, lists):
+        self.types, self.widths, self.tables, self.arrays = types, widths, tables, arrays
         self.by_host, self.lists = by_host, lists
-        self.readers = defaultdict(set)
+        self.readers = defaultdict(lambda: defaultdict(set))  # {name: {number or None: parts}}
         for part in lists["rise"]:
-            if part.flag is not None:
-                for name in part.reads:
-                    self.readers[name].add(part.flag)
+            if part.bits:
+                for name, number in part.looks:
+                    self.readers[name][number].add(part)
+        self.moves = []
         users = defaultdict(list)
         for parts in lists.values():
             for part in parts:
@@ -60,54 +72,81 @@ class Writer:
         return text
 
     def marks(self, names):
-        masks = defaultdict(int)
-        for name in names:
-            for flag in self.readers[name]:
-                masks[flag // 64] |= 1 << (flag % 64)
-        return " ".join(f"kept.changed[{k}] |= {mask:#x}ULL;" for k, mask in sorted(masks.items()))
+        """All that reads them in any way is to run."""
+        return marked(part for name in names for many in self.readers[name].values()
+                      for part in many)
 
-    def compare(self, names, test):
+    def compare(self, names, before, now, count=False):
         """Marks what reads those that have changed; one test for all that have the same readers."""
         alike = defaultdict(list)
         for k, name in enumerate(names):
-            alike[self.marks([name])].append(test(k, name))
+            for number, parts in sorted(self.readers[name].items(), key=str):
+                old, new = before(k), now(name)
+                test = f"({old} != {new})" if number is None else \
+                    f"(({old} == {number}U) != ({new} == {number}U))"
+                alike[marked(parts)].append(test)
+                if count:
+                    self.lines.append(f"counts.moves[{len(self.moves)}] += {test};")
+                    self.moves.append(name if number is None else f"{name}=={number}")
         self.lines += [f"if ({' | '.join(tests)}) {{ {marks} }}" for marks, tests in alike.items()]
+
+    def key(self, part):
+        """Place of the flag for the values that the part's key has now."""
+        terms, at = [str(part.flag % 64)], 0
+        for name in part.key:
+            terms.append(f"(static_cast<unsigned>({self.variable(name)}) << {at})")
+            at += self.widths[name]
+        return " + ".join(terms)
 
     def part(self, part, count):
         for name in sorted({name for row in part.rows for name in row.reads | row.writes}
                            & self.types.keys() - self.kept):
             self.lines.append(f"{self.types[name]} {self.variable(name)} = 0;")
         arrays = set().union(*(row.arrays for row in part.rows))
-        told = sorted(name for name in part.writes - arrays if self.marks([name]))
+        lasting = part.writes - arrays - (self.types.keys() - self.kept)
+        told = sorted(name for name in lasting if part.key or self.marks([name]))
         for k, name in enumerate(told):
             self.lines.append(f"const auto before{k} = {self.variable(name)};")
-        if count and part.flag is not None:
+        if count and part.bits:
             self.lines.append(f"++counts.runs[{part.flag}];")
         self.lines += [self.text(row) for row in part.rows]
-        self.compare(told, lambda k, name: f"(before{k} != {self.variable(name)})")
+        if part.key:
+            # What it computes has changed: for other values of the key that is not known.
+            word, mask = f"kept.changed[{part.flag // 64}]", mask_of(part)
+            tests = " | ".join(f"(before{k} != {self.variable(name)})"
+                               for k, name in enumerate(told))
+            self.lines.append(f"if ({tests or 'false'}) {{ {word} |= {mask:#x}ULL & ~here; }}")
+        self.compare(told, lambda k: f"before{k}", self.variable, count)
 
     def function(self, name, parts, count):
         self.lines += [f"inline void {name}({ROOT}* __restrict vlSelf, Kept& __restrict kept) {{",
                        f"{PREFIX}__Syms* const __restrict vlSymsp = vlSelf->vlSymsp;",
                        "(void)vlSymsp;"]
         for part in parts:
-            if part.flag is None:
+            if not part.bits:
                 self.lines.append("{")
             else:
-                word, mask = f"kept.changed[{part.flag // 64}]", f"{1 << part.flag % 64:#x}ULL"
-                self.lines += [f"if (__builtin_expect({word} & {mask}, 0)) {{",
-                               f"{word} &= ~{mask};"]
+                word = f"kept.changed[{part.flag // 64}]"
+                self.lines += [f"if (const auto here = std::uint64_t{{1}} << ({self.key(part)});",
+                               f"__builtin_expect(({word} & here) != 0, 0)) {{",
+                               f"{word} &= ~here;"]
             self.part(part, count)
             self.lines.append("}")
         self.lines.append("}")
 
-    def counts(self, flags):
-        self.lines += ["inline struct Counts {", f"std::uint64_t runs[{flags}] = {{}};",
-                       f"static constexpr const char* kNames[{flags}] = {{",
-                       *(f'"{part.name}",' for part in self.lists["rise"]), "};",
-                       "~Counts() {", f"for (int k = 0; k < {flags}; ++k)",
-                       'std::fprintf(stderr, "%llu %s\\n", '
-                       "static_cast<unsigned long long>(runs[k]), kNames[k]);", "}", "} counts;"]
+    def counts(self):
+        names = [part.name for part in self.lists["rise"]]
+        self.lines += ["inline struct Counts {"]
+        for kind, many in (("runs", names), ("moves", self.moves)):
+            self.lines += [f"std::uint64_t {kind}[{len(many)}] = {{}};",
+                           f"static constexpr const char* k_{kind}[{len(many)}] = {{",
+                           *(f'"{name}",' for name in many), "};"]
+        self.lines.append("~Counts() {")
+        for kind, many in (("runs", names), ("moves", self.moves)):
+            self.lines += [f"for (int k = 0; k < {len(many)}; ++k)",
+                           f'std::fprintf(stderr, "{kind} %llu %s\\n", '
+                           f"static_cast<unsigned long long>({kind}[k]), k_{kind}[k]);"]
+        self.lines += ["}", "} counts;"]
 
     def host(self):
         """What the host's pins can change: values to compare with."""
@@ -121,7 +160,7 @@ class Writer:
         self.lines += [", ".join(f"v{k}(root.{name})" for k, name in enumerate(watched)), "{}",
                        f"void compare(const {ROOT}& root, Kept& kept) const {{",
                        self.marks(at_once)]
-        self.compare(watched, lambda k, name: f"(v{k} != root.{name})")
+        self.compare(watched, lambda k: f"v{k}", lambda name: f"root.{name}")
         self.lines += ["}", "};"]
 
     def header(self, flags, count):
@@ -136,10 +175,13 @@ class Writer:
             "void all() { for (auto& word : changed) word = ~std::uint64_t{0}; }",
             *(f"{self.types[name]} {name.replace('.', '__')}{{}};" for name in sorted(self.kept)),
             "};"]
-        if count:
-            self.counts(flags)
+        head, self.lines = self.lines, []
         for name, parts in self.lists.items():
             self.function(name, parts, count)
+        body, self.lines = self.lines, head
+        if count:
+            self.counts()
+        self.lines += body
         for name, changed in OUTSIDE.items():
             self.lines.append(f"inline void {name}(Kept& kept) {{ {self.marks(changed)} }}")
         self.host()

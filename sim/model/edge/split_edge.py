@@ -5,15 +5,23 @@
 
   split_edge.py FOLDER BUSY_TXT OUTPUT [--count]
      FOLDER    what Verilator has made of mb4_chip
-     BUSY_TXT  which groups run `always`, and which `often`, by a variable that they write; a name
-               that is not there costs speed, nothing else
+     BUSY_TXT  fast variables, and how often groups have something to do, each by a variable that
+               it writes (find_busy.py); a wrong entry costs speed, nothing else
      OUTPUT    a header for direct_steps.hpp; MB4_EDGE_NOT_SPLIT if the model is not understood
      --count   each group is a part and counts how often it runs: what find_busy.py reads
 
 Verilator computes all that hangs on a clock at each of its edges. Here its statements, unchanged,
 are put into groups (a register with the statements that write it), in an order that keeps what
-depends on each other. Groups that nearly always have something to do stand alone (busy); all others
-are bundled, behind a flag that is set when a variable which they read gets another value."""
+depends on each other. A group that writes a fast variable, one that changes at nearly every clock,
+runs always. All others are bundled:
+
+* behind a flag, set when a variable which they read gets another value;
+* or, if they read fast variables of a few bits, the key, behind a flag for each value of the key.
+  The flags are set when any other variable which they read gets another value, and those of the
+  other values of the key when what they compute comes out different. So if a flag is not set,
+  then with this value of the key they would compute what is there.
+
+A variable that is only compared with numbers counts as changed when one of the comparisons does."""
 
 import re
 import sys
@@ -22,8 +30,8 @@ from pathlib import Path
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 
 from generated_model import (NotUnderstood, constants, functions, statements,  # noqa: E402
-                             triggers)
-from groups import Group, Part, groups_of, parts_of  # noqa: E402
+                             triggers, widths)
+from groups import Group, Kinds, Part, groups_of, parts_of  # noqa: E402
 from header import PIN, PREFIX, ROOT, Writer  # noqa: E402
 
 CLOCKS = {"clk_i", "mb4_chip__DOT__clk"}
@@ -84,21 +92,21 @@ def made(folder, busy, count):
     for row in rise:
         if (row.reads | row.writes) & CLOCKS or "__Vtrig" in row.text:
             raise NotUnderstood(f"depends on CLK itself: {row.text[:80]}")
-    parts, flags = parts_of(groups_of(rise), busy, count)
+    bits = widths(folder, PREFIX, bodies)
+    parts, flags = parts_of(groups_of(rise), Kinds(busy, bits), count)
     behind_sl = Group(behind(rows_of["ico_sequent__TOP__0"], ["sl1_i", "sl2_i"]))
     arrays = {name for rows in rows_of.values() for row in rows for name in row.arrays}
-    return Writer(types, constants(folder, PREFIX), arrays, by_host(functions_of, rows_of), {
-        "rise": parts, "fall": [Part([Group(fall)], None)],
-        "follow_sl": [Part([behind_sl], None)]}).header(flags, count)
+    return Writer(types, bits, constants(folder, PREFIX), arrays, by_host(functions_of, rows_of), {
+        "rise": parts, "fall": [Part([Group(fall)])],
+        "follow_sl": [Part([behind_sl])]}).header(flags, count)
 
 
 def main():
     arguments = [value for value in sys.argv[1:] if value != "--count"]
     folder, listing, output = map(Path, arguments)
-    busy = {} if "--count" in sys.argv else {
-        name: often for often, name in
-        (line.split() for line in listing.read_text(encoding="utf-8").splitlines()
-         if line and not line.startswith("#"))}
+    busy = [] if "--count" in sys.argv else [
+        line.split() for line in listing.read_text(encoding="utf-8").splitlines()
+        if line and not line.startswith("#")]
     try:
         text = made(folder, busy, "--count" in sys.argv)
     except (NotUnderstood, LookupError, ValueError) as error:
