@@ -17,7 +17,8 @@ NAME = re.compile(r"vlSelf->([A-Za-z_]\w*)|(?<![\w>.])([A-Za-z_]\w*)")
 PURE = re.compile(r"VL_(?:WRITEF|STOP_MT|UNLIKELY|LIKELY|TIME_UNITED_Q|REDXOR_\w+|"
                   r"(?:ONEHOT0?|COUNTONES|SHIFT\w+|[GL]TE?S?|EXTENDS?)_[IQ]+)$|"
                   r"\w+__ConstPool__\w+$")
-COMPARED = re.compile(r"\((0x[0-9a-f]+|\d+)U\s*[!=]=\s*(?:\(IData\)\(vlSelf->(\w+)\)|vlSelf->(\w+))\)")
+COMPARED = re.compile(r"\((0x[0-9a-f]+|\d+)U\s*[!=]=\s*"
+                      r"(?:\(IData\)\(vlSelf->(\w+)\)|vlSelf->(\w+))\)")
 KNOWN = {"if", "else", "U", "IData", "QData", "CData", "SData", "vlSelf", "vlSymsp", "Verilated"}
 LONG = 1500  # characters of a conditional that is worth taking apart
 
@@ -31,7 +32,7 @@ class Statement:
     text: str
     function: str
     reads: set = field(default_factory=set)
-    looks: set = field(default_factory=set)  # (what it reads, None or the number it is compared with)
+    looks: set = field(default_factory=set)  # (what it reads, None or a number to compare with)
     writes: set = field(default_factory=set)
     defines: set = field(default_factory=set)  # written whole, whatever has been there
     arrays: set = field(default_factory=set)  # written, but only some elements
