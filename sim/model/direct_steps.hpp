@@ -38,15 +38,17 @@ class DirectSteps {
   // Any inputs have changed.
   void inputs(Vmb4_chip& model) {
     const Root& root = *model.rootp;
-    const edge::Host host(root);
     // Beside a running oscillator the edges of CLK come here as well.
-    const bool clk = root.clk_i != root.__Vtrigrprev__TOP__clk_i;
+    const bool host = on_clk(root) && root.clk_i == root.__Vtrigrprev__TOP__clk_i;
+    if (host) host_.take(root);
     model.eval();
+    if (late_) edge::sl_has_changed(kept_);
     late_ = false;
+    pins_.compare(root, kept_);
     // With its clock and its resets as they were, the chip has seen an edge of a host pin.
     const auto before = std::exchange(clocks_and_resets_, clocks_and_resets(root));
-    if (!clk && on_clk(root) && before == clocks_and_resets_) {
-      host.compare(root, kept_);
+    if (host && on_clk(root) && before == clocks_and_resets_) {
+      host_.compare(root, kept_);
     } else {
       kept_.all();
     }
@@ -181,6 +183,8 @@ class DirectSteps {
   }
 
   edge::Kept kept_;
+  edge::Pins pins_;
+  edge::Host host_;
   std::array<unsigned, 6> clocks_and_resets_{};
   bool late_ = false;  // SL has changed
   bool counting_ = false;

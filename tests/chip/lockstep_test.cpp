@@ -260,5 +260,47 @@ TEST(Lockstep, ClkeniShorterThanAClock_ChangesNothing) {
   }
 }
 
+// SL and a pin of the host change one after the other, between two edges of CLK.
+TEST(Lockstep, SlBesideAHostPin_ChangesNothing) {
+  const sim::Scenario scenario =
+      sim::parse_scenario("[chip]\nf_clk_hz = 20_000_000\n[host]\ninterface = \"intel\"\n", "sl");
+  for (std::uint64_t seed = 1; seed <= 10; ++seed) {
+    Random random(seed);
+    sim::Simulator fast(scenario);
+    sim::Simulator plain(scenario, plain_options());
+    const auto both = [&](const auto& action) {
+      action(fast);
+      action(plain);
+    };
+    both([](sim::Simulator& chip) {
+      chip.advance(10 * sim::kPsPerUs);
+      for (const auto& [address, value] : {std::pair{0xC0, 0x5B},
+                                           {0xC1, 0xA1},
+                                           {0xE6, 0x00},
+                                           {0xE8, 0x7C},
+                                           {0xED, 0x01},
+                                           {0xF4, 0x01}}) {
+        chip.bus().write(static_cast<std::uint8_t>(address), static_cast<std::uint8_t>(value));
+        chip.advance(600 * sim::kPsPerNs);
+      }
+    });
+    for (unsigned step = 0; step < 2'000; ++step) {
+      const sim::Time before = 1 + random.below(60'000);
+      const sim::Time between = 1 + random.below(10'000);
+      const bool sl = random.one_in(2);
+      const sim::Pin pin = random.one_in(2) ? sim::Pin::kGetsens : sim::Pin::kNer;
+      const bool level = random.one_in(2);
+      ASSERT_EQ(advance(fast, before), advance(plain, before)) << seed << " " << step;
+      both([&](sim::Simulator& chip) { chip.set_pin(sim::Pin::kSl1, sl); });
+      ASSERT_EQ(advance(fast, between), advance(plain, between)) << seed << " " << step;
+      both([&](sim::Simulator& chip) { chip.set_pin(pin, level); });
+    }
+    for (unsigned address = 0; address < 256; ++address) {
+      const auto byte = static_cast<std::uint8_t>(address);
+      ASSERT_EQ(fast.bus().read(byte), plain.bus().read(byte)) << seed << " " << address;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace mb4test

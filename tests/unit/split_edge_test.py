@@ -150,7 +150,7 @@ class Parts(unittest.TestCase):
 
     def header(self, texts, busy, widths):
         lists = {"rise": self.parts(texts, busy, widths)}
-        return Writer({}, widths, [], set(), set(), lists).header(64, False)
+        return Writer({}, widths, {}, [], set(), set(), lists).header(64, False)
 
     def test_other_values_of_a_key_are_looked_at_again(self):
         text = self.header(["vlSelf->a = (vlSelf->b & vlSelf->c);", "vlSelf->c = vlSelf->d;"],

@@ -75,6 +75,13 @@ def widths(folder, prefix, bodies):
                     re.findall(r"^\s+VL_(?:IN|OUT)(?:8|16)?\((\w+),(\d+),0\);", text, re.M)}
 
 
+def places(folder, prefix):
+    """{name: place} of the model's variables in the order in which they are declared."""
+    text = (folder / f"{prefix}___024root.h").read_text(encoding="utf-8")
+    names = re.findall(r"^\s+(?:VL_(?:IN|OUT)\w*\((\w+),\d+,\d+\)|\S.* (\w+));$", text, re.M)
+    return {pin or name: place for place, (pin, name) in enumerate(names)}
+
+
 def after_string(text, at):
     return STRING.match(text, at).end()
 

@@ -11,10 +11,31 @@ PREFIX = "Vmb4_chip"
 ROOT = f"{PREFIX}___024root"
 PIN = re.compile(r"(?!.*__)\w+_i$")
 # Changed from outside between edges: function name of the header, variables.
+SL = ["sl1_i", "sl2_i"]
+BLOCK = 48  # variables that are compared at once, as memory
 OUTSIDE = {
-    "sl_has_changed": ["sl1_i", "sl2_i"],
+    "sl_has_changed": SL,
     "time_has_changed": ["mb4_chip__DOT__u_engine__DOT__u_control__DOT__u_request__DOT__pre_q",
                          "mb4_chip__DOT__u_engine__DOT__u_control__DOT__u_request__DOT__step_q"]}
+HOST = """private:
+static const std::byte* bytes(const void* p) { return static_cast<const std::byte*>(p); }
+template <typename F, typename L>
+void copy(const ROOT& root, const F& first, const L& last) {
+std::memcpy(copy_ + (bytes(&first) - bytes(&root)), &first,
+static_cast<std::size_t>(bytes(&last + 1) - bytes(&first)));
+}
+template <typename F, typename L>
+bool same(const ROOT& root, const F& first, const L& last) const {
+return std::memcmp(copy_ + (bytes(&first) - bytes(&root)), &first,
+static_cast<std::size_t>(bytes(&last + 1) - bytes(&first))) == 0;
+}
+template <typename T>
+T then(const ROOT& root, const T& member) const {
+T value;
+std::memcpy(&value, copy_ + (bytes(&member) - bytes(&root)), sizeof value);
+return value;
+}
+std::byte copy_[sizeof(ROOT)];"""
 
 
 def mask_of(part):
@@ -31,8 +52,9 @@ def marked(parts):
 class Writer:
     """The header: rise() with its parts, fall(), follow_sl(), marks for what changes outside."""
 
-    def __init__(self, types, widths, tables, arrays, by_host, lists):
-        self.types, self.widths, self.tables, self.arrays = types, widths, tables, arrays
+    def __init__(self, types, widths, places, tables, arrays, by_host, lists):
+        self.types, self.widths, self.places = types, widths, places
+        self.tables, self.arrays = tables, arrays
         self.by_host, self.lists = by_host, lists
         self.readers = defaultdict(lambda: defaultdict(set))  # {name: {number or None: parts}}
         for part in lists["rise"]:
@@ -148,26 +170,46 @@ class Writer:
                            f"static_cast<unsigned long long>({kind}[k]), k_{kind}[k]);"]
         self.lines += ["}", "} counts;"]
 
+    def pins(self):
+        """Marks for the host's pins: they have changed before anybody looks."""
+        names = sorted(name for name in self.by_host
+                       if PIN.match(name) and name not in SL and self.marks([name]))
+        self.lines += ["struct Pins {",
+                       *(f"decltype({ROOT}::{name}) {name}{{}};" for name in names), f"void compare(const {ROOT}& root, Kept& kept) {{"]
+        self.compare(names, names.__getitem__, lambda name: f"root.{name}")
+        self.lines += [*(f"{name} = root.{name};" for name in names), "}", "};"]
+
     def host(self):
         """What the host's pins can change: values to compare with."""
-        # A pin has changed before anybody looks; an array is too long to look at.
-        at_once = {name for name in self.by_host if name in self.arrays or PIN.match(name)}
-        watched = sorted(name for name in self.by_host - at_once if name not in self.types
-                         and self.marks([name]))
-        self.lines += ["struct Host {"]
-        self.lines += [f"decltype({ROOT}::{name}) v{k};" for k, name in enumerate(watched)]
-        self.lines += [f"explicit Host(const {ROOT}& root) :"]
-        self.lines += [", ".join(f"v{k}(root.{name})" for k, name in enumerate(watched)), "{}",
-                       f"void compare(const {ROOT}& root, Kept& kept) const {{",
-                       self.marks(at_once)]
-        self.compare(watched, lambda k: f"v{k}", lambda name: f"root.{name}")
-        self.lines += ["}", "};"]
+        watched = sorted((name for name in self.by_host if not PIN.match(name)
+                          and name not in self.types and self.marks([name])),
+                         key=lambda name: self.places[name])
+        blocks = []
+        for name in watched:
+            if not blocks or self.places[name] - self.places[blocks[-1][0]] >= BLOCK or \
+                    name in self.arrays or blocks[-1][0] in self.arrays:
+                blocks.append([])
+            blocks[-1].append(name)
+        self.lines += [
+            "class Host {", "public:", f"void take(const {ROOT}& root) {{",
+            *(f"copy(root, root.{block[0]}, root.{block[-1]});" for block in blocks), "}",
+            f"void compare(const {ROOT}& root, Kept& kept) const {{"]
+        for block in blocks:
+            self.lines.append(f"if (!same(root, root.{block[0]}, root.{block[-1]})) {{")
+            if block[0] in self.arrays:
+                self.lines.append(self.marks(block))
+            else:
+                self.lines += [f"const auto before{k} = then(root, root.{name});"
+                               for k, name in enumerate(block)]
+                self.compare(block, lambda k: f"before{k}", lambda name: f"root.{name}")
+            self.lines.append("}")
+        self.lines += ["}", HOST.replace("ROOT", ROOT), "};"]
 
     def header(self, flags, count):
         words = flags // 64 + 1
         self.lines = [
             "// Made from the model by split_edge.py.", "#pragma once",
-            "#include <cstdint>", "#include <cstdio>",
+            "#include <cstddef>", "#include <cstdint>", "#include <cstdio>", "#include <cstring>",
             f"#include <{PREFIX}__Syms.h>", *self.tables,
             "namespace mb4::sim::edge {",
             "struct Kept {", f"std::uint64_t changed[{words}];",
@@ -184,5 +226,6 @@ class Writer:
         self.lines += body
         for name, changed in OUTSIDE.items():
             self.lines.append(f"inline void {name}(Kept& kept) {{ {self.marks(changed)} }}")
+        self.pins()
         self.host()
         return "\n".join([*self.lines, "}", ""])

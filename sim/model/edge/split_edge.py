@@ -29,8 +29,8 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 
-from generated_model import (NotUnderstood, constants, functions, statements,  # noqa: E402
-                             triggers, widths)
+from generated_model import (NotUnderstood, constants, functions, places,  # noqa: E402
+                             statements, triggers, widths)
 from groups import Group, Kinds, Part, groups_of, parts_of  # noqa: E402
 from header import PIN, PREFIX, ROOT, Writer  # noqa: E402
 
@@ -96,7 +96,8 @@ def made(folder, busy, count):
     parts, flags = parts_of(groups_of(rise), Kinds(busy, bits), count)
     behind_sl = Group(behind(rows_of["ico_sequent__TOP__0"], ["sl1_i", "sl2_i"]))
     arrays = {name for rows in rows_of.values() for row in rows for name in row.arrays}
-    return Writer(types, bits, constants(folder, PREFIX), arrays, by_host(functions_of, rows_of), {
+    return Writer(types, bits, places(folder, PREFIX), constants(folder, PREFIX), arrays,
+                  by_host(functions_of, rows_of), {
         "rise": parts, "fall": [Part([Group(fall)])],
         "follow_sl": [Part([behind_sl])]}).header(flags, count)
 
