@@ -90,27 +90,32 @@ class DirectSteps {
     before_.resize(sizeof(Root));
     std::memcpy(before_.data(), bytes(*model.rootp), sizeof(Root));
   }
-  // Asked one clock after mark() with no input changed since: how many clocks more would change
-  // nothing but the time to the next frame, and that not to its end.
-  std::uint64_t at_rest(const Vmb4_chip& model) {
+  // Asked one clock after mark() with no input changed since: whether nothing has changed but the
+  // time to the next frame. That holds on for rest_left() clocks if no input changes.
+  bool at_rest(const Vmb4_chip& model) {
     const Root& root = *model.rootp;
     counting_ = moved(root, root.*kPre) || moved(root, root.*kStep);
     ignore(root, root.*kPre);
     ignore(root, root.*kStep);
-    if (std::memcmp(before_.data(), bytes(root), sizeof(Root)) != 0) return 0;
-    if (!counting_) return std::numeric_limits<std::uint64_t>::max();
+    if (std::memcmp(before_.data(), bytes(root), sizeof(Root)) != 0) return false;
     // A rate changed on the way may have left a count that goes to its very end.
-    const unsigned last_step = (root.*kFreqags) & 0x7FU;
-    if (root.*kPre >= step_clocks(root) || root.*kStep > last_step) return 0;
-    const std::uint64_t last = (last_step + 1) * step_clocks(root) - kMargin;
+    return !counting_ || (root.*kPre < step_clocks(root) && root.*kStep <= last_step(root));
+  }
+  std::uint64_t rest_left(const Vmb4_chip& model) const {
+    const Root& root = *model.rootp;
+    if (!counting_) return std::numeric_limits<std::uint64_t>::max();
+    const std::uint64_t last = (last_step(root) + 1) * step_clocks(root) - kMargin;
     return std::max(elapsed(root), last) - elapsed(root);
   }
-  // Makes that many clocks pass, or a few less; returns how many.
+  // Makes that many clocks pass, or a few less; returns how many. The end of a step changes more
+  // than a count, and what follows from it has been computed shortly before: no clock near it is
+  // left out.
   std::uint64_t leave_out(Vmb4_chip& model, std::uint64_t clocks) {
     Root& root = *model.rootp;
     if (!counting_) return clocks;
-    // The end of a step changes more than a count: what follows from it may have been computed.
-    if ((elapsed(root) + clocks) % step_clocks(root) > step_clocks(root) - kMargin) {
+    const std::uint64_t latest = step_clocks(root) - kMargin;
+    if (root.*kPre > latest) return 0;
+    if ((elapsed(root) + clocks) % step_clocks(root) > latest) {
       clocks -= std::min<std::uint64_t>(clocks, kMargin);
     }
     const std::uint64_t after = elapsed(root) + clocks;
@@ -161,6 +166,7 @@ class DirectSteps {
            root.*kSampled2 != sl2;
   }
 
+  static unsigned last_step(const Root& r) { return (r.*kFreqags) & 0x7FU; }
   static std::uint64_t step_clocks(const Root& r) {
     return ((r.*kFreqags) & 0x80U) != 0 ? 625 : 20;
   }

@@ -24,7 +24,8 @@ class PlainSteps {
   }
   // Clocks at rest are not left out.
   void mark(const Model& /*model*/) {}
-  std::uint64_t at_rest(const Model& /*model*/) const { return 0; }
+  bool at_rest(const Model& /*model*/) const { return false; }
+  std::uint64_t rest_left(const Model& /*model*/) const { return 0; }
   std::uint64_t leave_out(Model& /*model*/, std::uint64_t clocks) { return clocks; }
 };
 

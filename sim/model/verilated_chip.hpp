@@ -8,6 +8,8 @@
 #include <verilated.h>
 
 #include <algorithm>
+#include <cstddef>
+#include <iterator>
 #include <memory>
 #include <string>
 #include <type_traits>
@@ -218,35 +220,39 @@ class VerilatedChip final : public ChipModel {
   // Enough for the clock switch to settle from any state and for the reset synchroniser.
   static constexpr unsigned kConditioningEdges = 32;
   static constexpr CData kNcs2 = 0x10;  // DB4
-  // Clocks without a change at a pin after which a look for rest is worth its price: few if the
-  // last one found it, more and more if not (MA of a low frequency).
-  static constexpr unsigned kQuiet = 4;
-  static constexpr unsigned kRarest = 64;
+  // Clocks without a change at a pin, or since the last look, after which a look for rest is worth
+  // its price: soon behind the end of a frame, more and more seldom if there is none (MA of a low
+  // frequency).
+  static constexpr unsigned kLooks[] = {4, 2, 8, 16, 32, 64};
 
   // Behind a falling edge of CLK. After a while without a change at any pin it is worth looking
-  // whether the chip is at rest: then all periods up to `limit` can be left out. If it is not, the
-  // next look comes after twice the time.
+  // whether the chip is at rest: then all periods up to `limit` can be left out, and later ones
+  // until something comes from outside.
   void leave_out_rest(Time limit) {
-    ++quiet_;
-    if (quiet_ == look_at_) {
-      steps_.mark(*model_);
-    } else if (quiet_ > look_at_) {
-      const std::uint64_t clocks =
-          std::min(steps_.at_rest(*model_), pin_clock_.whole_periods(limit));
-      if (clocks == 0) {
+    if (!resting_) {
+      ++quiet_;
+      if (quiet_ == kLooks[looks_]) {
+        steps_.mark(*model_);
+      } else if (quiet_ > kLooks[looks_]) {
         quiet_ = 0;
-        look_at_ = std::min(2 * look_at_, kRarest);
-        return;
+        resting_ = steps_.at_rest(*model_);
+        looks_ = resting_ ? 0 : std::min(looks_ + 1, std::size(kLooks) - 1);
       }
-      look_at_ = kQuiet;
-      const std::uint64_t passed = steps_.leave_out(*model_, clocks);
-      pin_clock_.skip(passed);
-      cycles_ += passed;
-      left_out_ += passed;
-      stirred();
+      if (!resting_) return;
     }
+    const std::uint64_t left = steps_.rest_left(*model_);
+    resting_ = left != 0;
+    const std::uint64_t clocks = std::min(left, pin_clock_.whole_periods(limit));
+    if (clocks == 0) return;
+    const std::uint64_t passed = steps_.leave_out(*model_, clocks);
+    pin_clock_.skip(passed);
+    cycles_ += passed;
+    left_out_ += passed;
   }
-  void stirred() { quiet_ = 0; }
+  void stirred() {
+    quiet_ = 0;
+    resting_ = false;
+  }
 
   void evaluate(Time now) {
     stirred();
@@ -324,8 +330,9 @@ class VerilatedChip final : public ChipModel {
   bool osc_running_ = false;
   unsigned osc_tail_ = 0;
   unsigned watched_ = 0;
-  unsigned quiet_ = 0;  // clocks since any pin changed, or since the last look
-  unsigned look_at_ = kQuiet;
+  unsigned quiet_ = 0;     // clocks since any pin changed, or since the last look
+  std::size_t looks_ = 0;  // in vain, one after the other
+  bool resting_ = false;   // nothing but the time to the next frame changes, and no input has
   std::uint64_t cycles_ = 0;
   std::uint64_t left_out_ = 0;
 };

@@ -155,7 +155,7 @@ class Parts(unittest.TestCase):
     def test_other_values_of_a_key_are_looked_at_again(self):
         text = self.header(["vlSelf->a = (vlSelf->b & vlSelf->c);", "vlSelf->c = vlSelf->d;"],
                            [("fast", "b")], {"b": 2})
-        self.assertIn("<< (0 + (static_cast<unsigned>(vlSelf->b) << 0))", text)
+        self.assertIn("at = 0 + (static_cast<unsigned>(vlSelf->b) << 0);", text)
         self.assertIn("if ((before0 != vlSelf->a)) { kept.changed[0] |= 0xfULL & ~here; }", text)
         self.assertIn("if ((before0 != vlSelf->c)) { kept.changed[0] |= 0xfULL; }", text)
 

@@ -149,9 +149,9 @@ class Writer:
                 self.lines.append("{")
             else:
                 word = f"kept.changed[{part.flag // 64}]"
-                self.lines += [f"if (const auto here = std::uint64_t{{1}} << ({self.key(part)});",
-                               f"__builtin_expect(({word} & here) != 0, 0)) {{",
-                               f"{word} &= ~here;"]
+                self.lines += [f"if (const unsigned at = {self.key(part)};",
+                               f"__builtin_expect(({word} >> at & 1) != 0, 0)) {{",
+                               "const auto here = std::uint64_t{1} << at;", f"{word} &= ~here;"]
             self.part(part, count)
             self.lines.append("}")
         self.lines.append("}")
