@@ -50,20 +50,20 @@ class ChipModel {
   // Another frequency at pin CLK from `now` on; 0: it stands still. Nothing if the scenario has no
   // clock there.
   virtual void set_clock(Time now, std::uint64_t hz) = 0;
-  virtual unsigned watched() const = 0;
+  unsigned watched() const { return watched_; }
   // Level of pin CLK.
   virtual bool clk() const = 0;
   // Data bus as the chip drives it: DB0 in bit 0.
   virtual unsigned db_out() const = 0;
   virtual unsigned db_enable() const = 0;
   // Rising edges of the selected system clock so far.
-  virtual std::uint64_t cycles() const = 0;
+  std::uint64_t cycles() const { return cycles_; }
   // Those of them that were left out because the chip was at rest.
   virtual std::uint64_t left_out() const = 0;
   // Half a period of MA in system clocks, as the running or last frame took it from FREQS.
   virtual unsigned half_clocks() const = 0;
   // Shortest period that the system clock can have had so far, ps; 0 = unknown.
-  virtual Time min_clock() const = 0;
+  Time min_clock() const { return min_clock_; }
   // CFGIF makes the pins of line 2 the inverse ones of line 1.
   virtual bool paired() const = 0;
   // Levels outside the chip for the waveform: MA at the slaves (bit n = channel n + 1), SLO and
@@ -71,6 +71,12 @@ class ChipModel {
   virtual void set_probes(Time now, unsigned ma, unsigned slo, unsigned idle) = 0;
   // Writes what the trace still holds. No effect without a trace.
   virtual void finish_trace() = 0;
+
+ protected:
+  // Asked at every edge of MA: no virtual calls.
+  unsigned watched_ = 0;
+  std::uint64_t cycles_ = 0;
+  Time min_clock_ = 0;
 };
 
 // The two models that are built: one without any tracing code, one that writes an FST file. The

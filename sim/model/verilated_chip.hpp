@@ -38,8 +38,8 @@ class VerilatedChip final : public ChipModel {
         pin_clock_(config.f_clk_hz),
         oscillator_(config.f_osc_hz),
         pin_clock_connected_(config.f_clk_hz != 0),
-        osc_period_(kPsPerSecond / config.f_osc_hz),
-        min_clock_(config.f_clk_hz == 0 ? 0 : kPsPerSecond / config.f_clk_hz) {
+        osc_period_(kPsPerSecond / config.f_osc_hz) {
+    min_clock_ = config.f_clk_hz == 0 ? 0 : kPsPerSecond / config.f_clk_hz;
     // Flops and memories without reset get random values at power-on; 31 bits, not 0, as
     // randSeed() demands.
     context_->randReset(2);
@@ -193,14 +193,11 @@ class VerilatedChip final : public ChipModel {
     pin_clock_.retune(hz, now);
     if (hz != 0 && min_clock_ != 0) min_clock_ = std::min(min_clock_, kPsPerSecond / hz);
   }
-  unsigned watched() const override { return watched_; }
   bool clk() const override { return model_->clk_i != 0; }
   unsigned db_out() const override { return model_->db_o; }
   unsigned db_enable() const override { return model_->db_oe_o; }
-  std::uint64_t cycles() const override { return cycles_; }
   std::uint64_t left_out() const override { return left_out_; }
   unsigned half_clocks() const override { return Inside::half_clocks(*model_); }
-  Time min_clock() const override { return min_clock_; }
   bool paired() const override { return Inside::paired(*model_); }
   void set_probes(Time now, unsigned ma, unsigned slo, unsigned idle) override {
     if constexpr (kTraced) {
@@ -325,15 +322,12 @@ class VerilatedChip final : public ChipModel {
   bool pin_clock_connected_;
   bool pin_driven_ = false;  // CLK was moved by hand: at any speed
   Time osc_period_;
-  Time min_clock_;
   bool osc_selected_ = false;
   bool osc_running_ = false;
   unsigned osc_tail_ = 0;
-  unsigned watched_ = 0;
   unsigned quiet_ = 0;     // clocks since any pin changed, or since the last look
   std::size_t looks_ = 0;  // in vain, one after the other
   bool resting_ = false;   // nothing but the time to the next frame changes, and no input has
-  std::uint64_t cycles_ = 0;
   std::uint64_t left_out_ = 0;
 };
 

@@ -7,6 +7,7 @@
 #ifndef MB4SIM_MA_MONITOR_HPP_
 #define MB4SIM_MA_MONITOR_HPP_
 
+#include <algorithm>
 #include <cstdint>
 
 #include "mb4sim/time.hpp"
@@ -33,7 +34,25 @@ class MaMonitor {
   // Rest that ends a frame which has not reached its second rising edge.
   static constexpr Time kUnmeasuredRest = 40 * kPsPerUs;
 
-  void edge(Time now, bool level);
+  // Inline: it is called at every edge.
+  void edge(Time now, bool level) {
+    if (level == level_) return;
+    level_ = level;
+    if (active_ && now >= current_.last_edge + rest_limit()) end(now, level);
+    if (!active_) {
+      if (!level) begin(now);  // else MA returns to 1 between two frames
+      return;
+    }
+    const Time width = now - current_.last_edge;
+    current_.last_edge = now;
+    if (level) {
+      widen(width, current_.min_low, current_.max_low);
+      if (++current_.rising == 2) rest_limit_ = now - current_.start;
+    } else {
+      widen(width, current_.min_high, current_.max_high);
+      ++current_.falling;
+    }
+  }
 
   // Frames that have started.
   std::uint64_t frames() const { return frames_; }
@@ -43,6 +62,12 @@ class MaMonitor {
   MaFrame last(Time now) const;
 
  private:
+  static void widen(Time width, Time& minimum, Time& maximum) {
+    minimum = minimum == 0 ? width : std::min(minimum, width);
+    maximum = std::max(maximum, width);
+  }
+  void begin(Time now);
+  void end(Time now, bool level);
   Time rest_limit() const { return rest_limit_ == 0 ? kUnmeasuredRest : rest_limit_; }
 
   std::uint64_t frames_ = 0;
