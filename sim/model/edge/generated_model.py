@@ -38,12 +38,19 @@ class Statement:
     arrays: set = field(default_factory=set)  # written, but only some elements
 
 
+def sources(folder, prefix):
+    """The model's files of functions: those that Verilator has named last, no older ones."""
+    named = (folder / f"{prefix}.cmake").read_text(encoding="utf-8")
+    return [folder / name for name in sorted(set(
+        re.findall(rf'/({prefix}___024root__DepSet_\w+\.cpp)"', named)))]
+
+
 def functions(folder, prefix):
     """{name: body} of all functions of the model that have no arguments."""
     pattern = re.compile(rf"^(?:VL_INLINE_OPT )?void {prefix}___024root___(\w+)"
                          rf"\({prefix}___024root\* vlSelf\) \{{\n(.*?)^\}}", re.M | re.S)
     found = {}
-    for path in sorted(folder.glob(f"{prefix}___024root__DepSet_*.cpp")):
+    for path in sources(folder, prefix):
         if not path.name.endswith("__Slow.cpp"):
             found.update(pattern.findall(path.read_text(encoding="utf-8")))
     return found
@@ -52,16 +59,20 @@ def functions(folder, prefix):
 def constants(folder, prefix):
     """Declarations of the model's tables."""
     pattern = re.compile(r"^extern const [^;]*__ConstPool__\w+;$", re.M)
-    return sorted({line for path in folder.glob(f"{prefix}___024root__DepSet_*.cpp")
+    return sorted({line for path in sources(folder, prefix)
                    for line in pattern.findall(path.read_text(encoding="utf-8"))})
 
 
 def triggers(folder, prefix):
     """{index: [events]} of the model, as in its debug output."""
     pattern = re.compile(r"'act' region trigger index (\d+) is active: @\((.*?)\)\\n")
-    return {int(index): events.split(" or ")
-            for path in sorted(folder.glob(f"{prefix}*__Slow.cpp"))
-            for index, events in pattern.findall(path.read_text(encoding="utf-8"))}
+    found = {int(index): events.split(" or ")
+             for path in sources(folder, prefix) if path.name.endswith("__Slow.cpp")
+             for index, events in pattern.findall(path.read_text(encoding="utf-8"))}
+    for event in sum(found.values(), []):
+        if not re.match(r"(?:pos|neg)edge [\w.]+$", event):
+            raise NotUnderstood(f"event {event}")
+    return found
 
 
 def widths(folder, prefix, bodies):

@@ -175,7 +175,8 @@ class Writer:
         names = sorted(name for name in self.by_host
                        if PIN.match(name) and name not in SL and self.marks([name]))
         self.lines += ["struct Pins {",
-                       *(f"decltype({ROOT}::{name}) {name}{{}};" for name in names), f"void compare(const {ROOT}& root, Kept& kept) {{"]
+                       *(f"decltype({ROOT}::{name}) {name}{{}};" for name in names),
+                       f"void compare(const {ROOT}& root, Kept& kept) {{"]
         self.compare(names, names.__getitem__, lambda name: f"root.{name}")
         self.lines += [*(f"{name} = root.{name};" for name in names), "}", "};"]
 
