@@ -102,7 +102,7 @@ class Trace(CliTest):
 
 class Run(CliTest):
     def test_progress_is_for_terminals_only(self):
-        arguments = ["run", RESOLUTE, "--frames", "3000"]
+        arguments = ["run", RESOLUTE, "--frames", "12000"]
         master, terminal = pty.openpty()
         with subprocess.Popen([MB4SIM, *arguments], stdout=subprocess.DEVNULL, stderr=terminal,
                               stdin=subprocess.DEVNULL) as process:
@@ -118,7 +118,7 @@ class Run(CliTest):
                 seen += part
             self.assertEqual(process.wait(timeout=60), 0)
         os.close(master)
-        self.assertRegex(seen.decode(), r"\[#+ *\] +\d+ %  \d+ of 3000, \d+ s left")
+        self.assertRegex(seen.decode(), r"\[#+ *\] +\d+ %  \d+ of 12000, \d+ s left")
         # Nothing of it stays behind.
         self.assertTrue(seen.endswith(b"\r\x1b[K"), seen[-80:])
 
