@@ -3,19 +3,19 @@
 # SPDX-License-Identifier: Apache-2.0
 """Writes busy.txt: find_busy.py PROGRAM BUSY_TXT, PROGRAM being mb4sim_count (target mb4sim_busy).
 
-Variables that change at a third of the clocks or more are fast. Groups are kept with those that
+Variables that change at 45 % of the clocks or more are fast. Groups are kept with those that
 have something to do about as often: what runs with a part's busiest group costs time."""
 
 import subprocess
 import sys
 from pathlib import Path
 
-FAST = 0.3
+FAST = 0.45
 RATES = (("often", 0.05), ("seldom", 0.012), ("rarely", 0.0005))  # the rest: hardly ever
 HEAD = """# SPDX-FileCopyrightText: 2026 The openmb4 authors
 # SPDX-License-Identifier: Apache-2.0
 #
-# Workload B: the variables of the model that change at a third of the clocks or more (==N: whether
+# Workload B: the variables of the model that change at 45 % of the clocks or more (==N: whether
 # they are N), and how often groups of statements, each by a variable that it writes, have something
 # to do. Made by the target mb4sim_busy.
 """
