@@ -7,13 +7,16 @@
 // Clock domains: the flops of a clock have its number; an enable changes while its clock is low.
 // A clock first raises its claim and only then looks at the other one's; the claim stays until the
 // enable has fallen. So one clock at most is enabled, whenever the choice changes, and back.
-// Latency: at most three periods of the old clock and two of the new one, clk_o low in between.
+// Latency: three periods of the old clock and two of the new one, or four of the new one if that is
+// longer; clk_o low in between. A clock whose first flop settles late needs a period more.
 // Of a clock 0 that runs after a reset the fourth rising edge is the first that passes.
 // A clock 0 that never toggled since reset does not block the change to clock 1. One that
 // stopped after it has run is given up after 2^TimeoutW - 1 periods of clock 1: it is standing
-// still, so that cutting it off makes no pulse; clk_o falls then if it stood high.
-// Misuse: a clock 0 slower than that time-out may be cut inside a pulse by the change to clock 1. A
-// clock 1 that stops within five periods after it has been deselected keeps clock 0 from starting.
+// still, so that cutting it off makes no pulse; clk_o falls then if it stood high. A claim of
+// clock 0 (it comes back, a choice that clock 1 has not seen) makes clock 1 pause for a while.
+// Misuse: a clock 0 slower than that time-out, or one that comes back in the clocks in which it is
+// given up, may be cut inside a pulse. A clock 1 that stops within five periods after it has been
+// deselected keeps clock 0 from starting.
 // Datasheet: page 23, Table 7 (CLKENI).
 // Constraint: both clocks and clk_o are declared as clocks; sel_i and dead_q are false paths.
 

@@ -159,6 +159,19 @@ class Parts(unittest.TestCase):
         self.assertIn("if ((before0 != vlSelf->a)) { kept.changed[0] |= 0xfULL & ~here; }", text)
         self.assertIn("if ((before0 != vlSelf->c)) { kept.changed[0] |= 0xfULL; }", text)
 
+    def test_behind_eval_writers_run_as_readers_do(self):
+        texts = ["vlSelf->y = (vlSelf->k & vlSelf->x);", "vlSelf->z = (1U == vlSelf->y);"]
+        lists = {"rise": self.parts(texts, [("fast", "k")], {"k": 1})}
+        places = {"x": 0, "y": 1}
+        text = Writer({}, {"k": 1}, places, [], set(), set(places), lists).header(64, False)
+        keyed = [part for part in lists["rise"] if part.key]
+        plain = [part for part in lists["rise"] if not part.key]
+        both = 0b11 << keyed[0].flag
+        self.assertIn("if (then(root, root.x) != root.x) \n"
+                      f"{{ kept.changed[0] |= {both:#x}ULL; }}", text)
+        self.assertIn("if (then(root, root.y) != root.y) \n"
+                      f"{{ kept.changed[0] |= {both | 1 << plain[0].flag:#x}ULL; }}", text)
+
     def test_a_comparison_counts_when_it_changes(self):
         text = self.header(["vlSelf->a = (2U == (IData)(vlSelf->b));", "vlSelf->b = vlSelf->c;"],
                            [("fast", "b")], {"b": 8})

@@ -61,6 +61,11 @@ class Writer:
             if part.bits:
                 for name, number in part.looks:
                     self.readers[name][number].add(part)
+        self.writers = defaultdict(set)  # {name: parts that write it}
+        for part in lists["rise"]:
+            if part.bits:
+                for name in part.writes:
+                    self.writers[name].add(part)
         self.moves = []
         users = defaultdict(list)
         for parts in lists.values():
@@ -97,6 +102,13 @@ class Writer:
         """All that reads them in any way is to run."""
         return marked(part for name in names for many in self.readers[name].values()
                       for part in many)
+
+    def marks_behind_eval(self, name):
+        """Behind eval(): who reads a variable that has changed is to run, and who writes it too, as
+        what it has computed is no longer there. (eval() has local variables of its own: what has
+        changed may follow from one whose value the parts never see.)"""
+        return marked({part for many in self.readers[name].values() for part in many}
+                      | self.writers[name])
 
     def compare(self, names, before, now, count=False):
         """Marks what reads those that have changed; one test for all that have the same readers."""
@@ -183,7 +195,7 @@ class Writer:
     def host(self):
         """What the host's pins can change: values to compare with."""
         watched = sorted((name for name in self.by_host if not PIN.match(name)
-                          and name not in self.types and self.marks([name])),
+                          and name not in self.types and self.marks_behind_eval(name)),
                          key=lambda name: self.places[name])
         blocks = []
         for name in watched:
@@ -197,12 +209,10 @@ class Writer:
             f"void compare(const {ROOT}& root, Kept& kept) const {{"]
         for block in blocks:
             self.lines.append(f"if (!same(root, root.{block[0]}, root.{block[-1]})) {{")
-            if block[0] in self.arrays:
-                self.lines.append(self.marks(block))
-            else:
-                self.lines += [f"const auto before{k} = then(root, root.{name});"
-                               for k, name in enumerate(block)]
-                self.compare(block, lambda k: f"before{k}", lambda name: f"root.{name}")
+            for name in block:
+                changed = f"if (then(root, root.{name}) != root.{name}) "
+                self.lines.append("" if name in self.arrays else changed)
+                self.lines.append(f"{{ {self.marks_behind_eval(name)} }}")
             self.lines.append("}")
         self.lines += ["}", HOST.replace("ROOT", ROOT), "};"]
 
