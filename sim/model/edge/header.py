@@ -12,6 +12,7 @@ ROOT = f"{PREFIX}___024root"
 PIN = re.compile(r"(?!.*__)\w+_i$")
 # Changed from outside between edges: function name of the header, variables.
 SL = ["sl1_i", "sl2_i"]
+CHECKED = 13  # one rise in so many, with a check
 BLOCK = 48  # variables that are compared at once, as memory
 OUTSIDE = {
     "sl_has_changed": SL,
@@ -133,9 +134,7 @@ class Writer:
         return " + ".join(terms)
 
     def part(self, part, count):
-        for name in sorted({name for row in part.rows for name in row.reads | row.writes}
-                           & self.types.keys() - self.kept):
-            self.lines.append(f"{self.types[name]} {self.variable(name)} = 0;")
+        self.declare(part)
         arrays = set().union(*(row.arrays for row in part.rows))
         lasting = part.writes - arrays - (self.types.keys() - self.kept)
         told = sorted(name for name in lasting if part.key or self.marks([name]))
@@ -152,6 +151,12 @@ class Writer:
             self.lines.append(f"if ({tests or 'false'}) {{ {word} |= {mask:#x}ULL & ~here; }}")
         self.compare(told, lambda k: f"before{k}", self.variable, count)
 
+    def declare(self, part):
+        """Local variables that live in a part."""
+        for name in sorted({name for row in part.rows for name in row.reads | row.writes}
+                           & self.types.keys() - self.kept):
+            self.lines.append(f"{self.types[name]} {self.variable(name)} = 0;")
+
     def function(self, name, parts, count):
         self.lines += [f"inline void {name}({ROOT}* __restrict vlSelf, Kept& __restrict kept) {{",
                        f"{PREFIX}__Syms* const __restrict vlSymsp = vlSelf->vlSymsp;",
@@ -166,6 +171,8 @@ class Writer:
                                "const auto here = std::uint64_t{1} << at;", f"{word} &= ~here;"]
             self.part(part, count)
             self.lines.append("}")
+        if self.checked and name == "rise":
+            self.lines.append(f"if (++kept.rises % {CHECKED} == 0) check(vlSelf, kept);")
         self.lines.append("}")
 
     def counts(self):
@@ -216,7 +223,9 @@ class Writer:
             self.lines.append("}")
         self.lines += ["}", HOST.replace("ROOT", ROOT), "};"]
 
-    def header(self, flags, count):
+    def header(self, flags, count, check=()):
+        """`check`: lines of a function check(), called behind some of the edges."""
+        self.checked = bool(check)
         words = flags // 64 + 1
         self.lines = [
             "// Made from the model by split_edge.py.", "#pragma once",
@@ -227,7 +236,7 @@ class Writer:
             "Kept() { all(); }",
             "void all() { for (auto& word : changed) word = ~std::uint64_t{0}; }",
             *(f"{self.types[name]} {name.replace('.', '__')}{{}};" for name in sorted(self.kept)),
-            "};"]
+            *(["std::uint64_t rises = 0;"] if check else []), "};", *check]
         head, self.lines = self.lines, []
         for name, parts in self.lists.items():
             self.function(name, parts, count)

@@ -3,11 +3,13 @@
 # SPDX-License-Identifier: Apache-2.0
 """The rising edge of CLK in parts, of which only those run whose inputs have changed.
 
-  split_edge.py FOLDER BUSY_TXT OUTPUT [--count]
+  split_edge.py FOLDER BUSY_TXT OUTPUT [--count|--check]
      FOLDER    what Verilator has made of mb4_chip
      BUSY_TXT  fast variables, and how often groups have something to do, each by a variable that
                it writes (find_busy.py); a wrong entry costs speed, nothing else
      OUTPUT    a header for direct_steps.hpp; MB4_EDGE_NOT_SPLIT if the model is not understood
+     --check   now and then the parts whose flags are not set are computed as well: the program ends
+               if one of them would change anything
      --count   each group is a part and counts how often it runs: what find_busy.py reads
 
 Verilator computes all that hangs on a clock at each of its edges. Here its statements, unchanged,
@@ -33,6 +35,7 @@ from generated_model import (NotUnderstood, constants, functions, places,  # noq
                              statements, triggers, widths)
 from groups import Group, Kinds, Part, groups_of, parts_of  # noqa: E402
 from header import PIN, PREFIX, ROOT, Writer  # noqa: E402
+from self_check import check  # noqa: E402
 
 CLOCKS = {"clk_i", "mb4_chip__DOT__clk"}
 RELEASED = {f"mb4_chip__DOT__u_engine__DOT__{name}_core_n" for name in ("rst", "por")}
@@ -73,7 +76,7 @@ def by_host(functions_of, rows_of):
     return pins | first | {name for row in behind(rows, pins | first) for name in row.writes}
 
 
-def made(folder, busy, count):
+def made(folder, busy, count, checked):
     bodies, names = functions(folder, PREFIX), triggers(folder, PREFIX)
     if not {"eval_nba", "ico_sequent__TOP__0"} <= bodies.keys():
         raise NotUnderstood("no functions of the model found")
@@ -103,20 +106,21 @@ def made(folder, busy, count):
     parts, flags = parts_of(groups_of(rise), Kinds(busy, bits), count)
     behind_sl = Group(behind(rows_of["ico_sequent__TOP__0"], ["sl1_i", "sl2_i"]))
     arrays = {name for rows in rows_of.values() for row in rows for name in row.arrays}
-    return Writer(types, bits, places(folder, PREFIX), constants(folder, PREFIX), arrays,
-                  by_host(functions_of, rows_of), {
-        "rise": parts, "fall": [Part([Group(fall)])],
-        "follow_sl": [Part([behind_sl])]}).header(flags, count)
+    writer = Writer(types, bits, places(folder, PREFIX), constants(folder, PREFIX), arrays,
+                    by_host(functions_of, rows_of), {
+                        "rise": parts, "fall": [Part([Group(fall)])],
+                        "follow_sl": [Part([behind_sl])]})
+    return writer.header(flags, count, check(writer) if checked else ())
 
 
 def main():
-    arguments = [value for value in sys.argv[1:] if value != "--count"]
+    arguments = [value for value in sys.argv[1:] if not value.startswith("--")]
     folder, listing, output = map(Path, arguments)
     busy = [] if "--count" in sys.argv else [
         line.split() for line in listing.read_text(encoding="utf-8").splitlines()
         if line and not line.startswith("#")]
     try:
-        text = made(folder, busy, "--count" in sys.argv)
+        text = made(folder, busy, "--count" in sys.argv, "--check" in sys.argv)
     except (NotUnderstood, LookupError, ValueError) as error:
         print(f"split_edge.py: the model runs whole, at a third of its speed: {error}")
         text = "#define MB4_EDGE_NOT_SPLIT\n"
