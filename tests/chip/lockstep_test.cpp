@@ -55,6 +55,30 @@ sim::SimulatorOptions plain_options() {
   return options;
 }
 
+// Two bare chips on the parallel bus, without slaves' words and a script to write down.
+struct Pair {
+  explicit Pair(const sim::Scenario& scenario) : fast(scenario), plain(scenario, plain_options()) {
+    both([](sim::Simulator& chip) { chip.advance(10 * sim::kPsPerUs); });
+  }
+  template <typename Action>
+  void both(const Action& action) {
+    action(fast);
+    action(plain);
+  }
+  void write(std::uint8_t address, std::uint8_t value) {
+    both([&](sim::Simulator& chip) {
+      chip.bus().write(address, value);
+      chip.advance(600 * sim::kPsPerNs);
+    });
+  }
+  void configure(const std::vector<std::pair<std::uint8_t, std::uint8_t>>& registers) {
+    for (const auto& [address, value] : registers) write(address, value);
+  }
+
+  sim::Simulator fast;
+  sim::Simulator plain;
+};
+
 class Lockstep {
  public:
   Lockstep(const RandomCase& random_case, const std::filesystem::path& folder)
@@ -208,54 +232,38 @@ TEST(Lockstep, ClkeniShorterThanAClock_ChangesNothing) {
       "clkeni");
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     Random random(seed);
-    sim::Simulator fast(scenario);
-    sim::Simulator plain(scenario, plain_options());
-    const auto both = [&](const auto& action) {
-      action(fast);
-      action(plain);
-    };
-    const auto write = [&](std::uint8_t address, std::uint8_t value) {
-      both([&](sim::Simulator& chip) {
-        chip.bus().write(address, value);
-        chip.advance(600 * sim::kPsPerNs);
-      });
-    };
-    both([](sim::Simulator& chip) {
-      chip.advance(10 * sim::kPsPerUs);
-      chip.bus().set_timing({});
-    });
-    for (const auto& [address, value] : {std::pair{0xC0, 0x5B},
-                                         {0xC1, 0xA1},
-                                         {0xE4, 0x01},
-                                         {0xE5, 0x40},
-                                         {0xE6, 0x23},
-                                         {0xE8, 0x7C},
-                                         {0xEC, 0x01},
-                                         {0xED, 0x01}}) {
-      write(static_cast<std::uint8_t>(address), static_cast<std::uint8_t>(value));
-    }
+    Pair chips(scenario);
+    chips.both([](sim::Simulator& chip) { chip.bus().set_timing({}); });
+    chips.configure({{0xC0, 0x5B},
+                     {0xC1, 0xA1},
+                     {0xE4, 0x01},
+                     {0xE5, 0x40},
+                     {0xE6, 0x23},
+                     {0xE8, 0x7C},
+                     {0xEC, 0x01},
+                     {0xED, 0x01}});
     for (unsigned step = 0; step < 400; ++step) {
       if (random.one_in(4)) {
-        write(0xE2, static_cast<std::uint8_t>(random.below(256)));
-        write(0xF4, static_cast<std::uint8_t>(2 * random.below(8) | 1U));
+        chips.write(0xE2, static_cast<std::uint8_t>(random.below(256)));
+        chips.write(0xF4, static_cast<std::uint8_t>(2 * random.below(8) | 1U));
       } else if (random.one_in(3)) {
-        write(0xF4, 0x80);
+        chips.write(0xF4, 0x80);
       }
       const sim::Time pause = (1 + random.below(30'000)) * sim::kPsPerNs;
-      ASSERT_EQ(advance(fast, pause), advance(plain, pause)) << seed << " " << step;
+      ASSERT_EQ(advance(chips.fast, pause), advance(chips.plain, pause)) << seed << " " << step;
       // Rising edges of CLK are 100 ns apart.
       constexpr sim::Time kPeriod = 100 * sim::kPsPerNs;
-      const sim::Time edge = (fast.now() / kPeriod + 2) * kPeriod + 13 * sim::kPsPerNs;
+      const sim::Time edge = (chips.fast.now() / kPeriod + 2) * kPeriod + 13 * sim::kPsPerNs;
       if (random.one_in(2)) {
-        both([&](sim::Simulator& chip) {
+        chips.both([&](sim::Simulator& chip) {
           chip.run_until(edge);
           chip.bus().write(0xF5, 0x01);
           chip.bus().write(0xF5, 0x00);
         });
       }
-      ASSERT_EQ(advance(fast, 3 * sim::kPsPerUs), advance(plain, 3 * sim::kPsPerUs))
+      ASSERT_EQ(advance(chips.fast, 3 * sim::kPsPerUs), advance(chips.plain, 3 * sim::kPsPerUs))
           << seed << " " << step;
-      ASSERT_EQ(fast.clk_cycles(), plain.clk_cycles()) << seed << " " << step;
+      ASSERT_EQ(chips.fast.clk_cycles(), chips.plain.clk_cycles()) << seed << " " << step;
     }
   }
 }
@@ -266,38 +274,24 @@ TEST(Lockstep, SlBesideAHostPin_ChangesNothing) {
       sim::parse_scenario("[chip]\nf_clk_hz = 20_000_000\n[host]\ninterface = \"intel\"\n", "sl");
   for (std::uint64_t seed = 1; seed <= 10; ++seed) {
     Random random(seed);
-    sim::Simulator fast(scenario);
-    sim::Simulator plain(scenario, plain_options());
-    const auto both = [&](const auto& action) {
-      action(fast);
-      action(plain);
-    };
-    both([](sim::Simulator& chip) {
-      chip.advance(10 * sim::kPsPerUs);
-      for (const auto& [address, value] : {std::pair{0xC0, 0x5B},
-                                           {0xC1, 0xA1},
-                                           {0xE6, 0x00},
-                                           {0xE8, 0x7C},
-                                           {0xED, 0x01},
-                                           {0xF4, 0x01}}) {
-        chip.bus().write(static_cast<std::uint8_t>(address), static_cast<std::uint8_t>(value));
-        chip.advance(600 * sim::kPsPerNs);
-      }
-    });
+    Pair chips(scenario);
+    chips.configure(
+        {{0xC0, 0x5B}, {0xC1, 0xA1}, {0xE6, 0x00}, {0xE8, 0x7C}, {0xED, 0x01}, {0xF4, 0x01}});
     for (unsigned step = 0; step < 2'000; ++step) {
       const sim::Time before = 1 + random.below(60'000);
       const sim::Time between = 1 + random.below(10'000);
       const bool sl = random.one_in(2);
       const sim::Pin pin = random.one_in(2) ? sim::Pin::kGetsens : sim::Pin::kNer;
       const bool level = random.one_in(2);
-      ASSERT_EQ(advance(fast, before), advance(plain, before)) << seed << " " << step;
-      both([&](sim::Simulator& chip) { chip.set_pin(sim::Pin::kSl1, sl); });
-      ASSERT_EQ(advance(fast, between), advance(plain, between)) << seed << " " << step;
-      both([&](sim::Simulator& chip) { chip.set_pin(pin, level); });
+      ASSERT_EQ(advance(chips.fast, before), advance(chips.plain, before)) << seed << " " << step;
+      chips.both([&](sim::Simulator& chip) { chip.set_pin(sim::Pin::kSl1, sl); });
+      ASSERT_EQ(advance(chips.fast, between), advance(chips.plain, between)) << seed << " " << step;
+      chips.both([&](sim::Simulator& chip) { chip.set_pin(pin, level); });
     }
     for (unsigned address = 0; address < 256; ++address) {
       const auto byte = static_cast<std::uint8_t>(address);
-      ASSERT_EQ(fast.bus().read(byte), plain.bus().read(byte)) << seed << " " << address;
+      ASSERT_EQ(chips.fast.bus().read(byte), chips.plain.bus().read(byte))
+          << seed << " " << address;
     }
   }
 }

@@ -17,7 +17,7 @@ class Group:
 
     def __init__(self, rows):
         self.rows = rows
-        self.reads, self.writes = inputs(rows), set().union(*(row.writes for row in rows))
+        self.writes = set().union(*(row.writes for row in rows))
         self.looks = looks(rows)
         self.arrays = set().union(*(row.arrays for row in rows))
         self.size = sum(len(row.text) for row in rows)
@@ -37,7 +37,7 @@ def message(row):
 
 class Part:
     """Groups that run together: always (bits 0), or behind a flag, or behind one for each value of
-    the variables in `key`, which are 2 ** len(key) flags from `flag` on."""
+    the variables in `key`: `bits` flags from `flag` on."""
 
     def __init__(self, groups, flag=0, bits=0, key=()):
         self.rows = [row for group in groups for row in group.rows]
@@ -46,6 +46,7 @@ class Part:
         self.reads = inputs(self.rows)
         self.looks = {look for look in looks(self.rows) if look[0] not in key}
         self.writes = set().union(*(row.writes for row in self.rows))
+        self.arrays = set().union(*(row.arrays for row in self.rows))
 
 
 def inputs(rows):

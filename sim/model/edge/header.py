@@ -10,10 +10,10 @@ from generated_model import NotUnderstood
 PREFIX = "Vmb4_chip"
 ROOT = f"{PREFIX}___024root"
 PIN = re.compile(r"(?!.*__)\w+_i$")
-# Changed from outside between edges: function name of the header, variables.
-SL = ["sl1_i", "sl2_i"]
 CHECKED = 13  # one rise in so many, with a check
 BLOCK = 48  # variables that are compared at once, as memory
+SL = ["sl1_i", "sl2_i"]
+# Changed from outside between edges: function name of the header, variables.
 OUTSIDE = {
     "sl_has_changed": SL,
     "time_has_changed": ["mb4_chip__DOT__u_engine__DOT__u_control__DOT__u_request__DOT__pre_q",
@@ -50,6 +50,12 @@ def marked(parts):
     return " ".join(f"kept.changed[{k}] |= {mask:#x}ULL;" for k, mask in sorted(masks.items()))
 
 
+def opening(name):
+    """Of a function with statements of the model in it."""
+    return [f"inline void {name}({ROOT}* __restrict vlSelf, Kept& __restrict kept) {{",
+            f"{PREFIX}__Syms* const __restrict vlSymsp = vlSelf->vlSymsp;", "(void)vlSymsp;"]
+
+
 class Writer:
     """The header: rise() with its parts, fall(), follow_sl(), marks for what changes outside."""
 
@@ -58,13 +64,11 @@ class Writer:
         self.tables, self.arrays = tables, arrays
         self.by_host, self.lists = by_host, lists
         self.readers = defaultdict(lambda: defaultdict(set))  # {name: {number or None: parts}}
+        self.writers = defaultdict(set)  # {name: parts that write it}
         for part in lists["rise"]:
             if part.bits:
                 for name, number in part.looks:
                     self.readers[name][number].add(part)
-        self.writers = defaultdict(set)  # {name: parts that write it}
-        for part in lists["rise"]:
-            if part.bits:
                 for name in part.writes:
                     self.writers[name].add(part)
         self.moves = []
@@ -99,17 +103,19 @@ class Writer:
                           lambda _, name=name: self.variable(name), text)
         return text
 
+    def reading(self, name):
+        """The parts that read it in any way."""
+        return set().union(*self.readers[name].values())
+
     def marks(self, names):
-        """All that reads them in any way is to run."""
-        return marked(part for name in names for many in self.readers[name].values()
-                      for part in many)
+        """All that reads them is to run."""
+        return marked(set().union(*(self.reading(name) for name in names)))
 
     def marks_behind_eval(self, name):
         """Behind eval(): who reads a variable that has changed is to run, and who writes it too, as
         what it has computed is no longer there. (eval() has local variables of its own: what has
         changed may follow from one whose value the parts never see.)"""
-        return marked({part for many in self.readers[name].values() for part in many}
-                      | self.writers[name])
+        return marked(self.reading(name) | self.writers[name])
 
     def compare(self, names, before, now, count=False):
         """Marks what reads those that have changed; one test for all that have the same readers."""
@@ -125,19 +131,32 @@ class Writer:
                     self.moves.append(name if number is None else f"{name}=={number}")
         self.lines += [f"if ({' | '.join(tests)}) {{ {marks} }}" for marks, tests in alike.items()]
 
+    def bits_of(self, part):
+        """(variable of the part's key, place of its bits in the key's value), one by one."""
+        at = 0
+        for name in part.key:
+            yield name, at
+            at += self.widths[name]
+
     def key(self, part):
         """Place of the flag for the values that the part's key has now."""
-        terms, at = [str(part.flag % 64)], 0
-        for name in part.key:
-            terms.append(f"(static_cast<unsigned>({self.variable(name)}) << {at})")
-            at += self.widths[name]
-        return " + ".join(terms)
+        return " + ".join([str(part.flag % 64),
+                           *(f"(static_cast<unsigned>({self.variable(name)}) << {at})"
+                             for name, at in self.bits_of(part))])
+
+    def lasting(self, part):
+        """What a part writes that is there afterwards, arrays left out."""
+        return sorted(part.writes - part.arrays - (self.types.keys() - self.kept))
+
+    def declared(self, part):
+        """Lines for the local variables that live in a part."""
+        return [f"{self.types[name]} {self.variable(name)} = 0;"
+                for name in sorted({name for row in part.rows for name in row.reads | row.writes}
+                                   & self.types.keys() - self.kept)]
 
     def part(self, part, count):
-        self.declare(part)
-        arrays = set().union(*(row.arrays for row in part.rows))
-        lasting = part.writes - arrays - (self.types.keys() - self.kept)
-        told = sorted(name for name in lasting if part.key or self.marks([name]))
+        self.lines += self.declared(part)
+        told = [name for name in self.lasting(part) if part.key or self.marks([name])]
         for k, name in enumerate(told):
             self.lines.append(f"const auto before{k} = {self.variable(name)};")
         if count and part.bits:
@@ -151,16 +170,8 @@ class Writer:
             self.lines.append(f"if ({tests or 'false'}) {{ {word} |= {mask:#x}ULL & ~here; }}")
         self.compare(told, lambda k: f"before{k}", self.variable, count)
 
-    def declare(self, part):
-        """Local variables that live in a part."""
-        for name in sorted({name for row in part.rows for name in row.reads | row.writes}
-                           & self.types.keys() - self.kept):
-            self.lines.append(f"{self.types[name]} {self.variable(name)} = 0;")
-
     def function(self, name, parts, count):
-        self.lines += [f"inline void {name}({ROOT}* __restrict vlSelf, Kept& __restrict kept) {{",
-                       f"{PREFIX}__Syms* const __restrict vlSymsp = vlSelf->vlSymsp;",
-                       "(void)vlSymsp;"]
+        self.lines += opening(name)
         for part in parts:
             if not part.bits:
                 self.lines.append("{")

@@ -2,46 +2,39 @@
 # SPDX-License-Identifier: Apache-2.0
 """check() for the header: what the parts rest upon, looked at while the model runs."""
 
-from header import PREFIX, ROOT
+from header import opening
 
-HEAD = f"""#include <cstdlib>
+HEAD = """#include <cstdlib>
 #include <type_traits>
-inline void differs(const char* name, unsigned value) {{
+inline void differs(const char* name, unsigned value) {
 std::fprintf(stderr, "edge: %s would change, key %u, but no flag says so\\n", name, value);
 std::abort();
-}}
-inline void check({ROOT}* __restrict vlSelf, Kept& __restrict kept) {{
-{PREFIX}__Syms* const __restrict vlSymsp = vlSelf->vlSymsp;
-(void)vlSymsp;"""
+}"""
 
 
 def check(writer):
     """Lines of check(): computes each part whose flag is not set, with any value of its key, and
     ends the program if that changes anything. Left out: parts that write arrays, messages."""
-    lines = [HEAD]
+    lines = [HEAD, *opening("check")]
     for part in writer.lists["rise"]:
-        if part.bits and not part.writes & writer.arrays:
+        if part.bits and not part.arrays:
             lines += one(writer, part)
     return [*lines, "}"]
 
 
 def one(writer, part):
-    lasting = sorted(part.writes - (writer.types.keys() - writer.kept))
-    written, writer.lines = writer.lines, []
-    writer.declare(part)
-    lines, writer.lines = ["{", *writer.lines], written
+    lasting = writer.lasting(part)
+    lines = ["{", *writer.declared(part)]
     for kind, names in (("was", lasting), ("key", part.key)):
         lines += [f"const auto {kind}{k} = {writer.variable(name)};"
                   for k, name in enumerate(names)]
     lines += [f"for (unsigned value = 0; value < {part.bits}; ++value) {{",
               f"if ((kept.changed[{part.flag // 64}] >> ({part.flag % 64} + value) & 1) != 0)",
               "continue;"]
-    at = 0
-    for k, name in enumerate(part.key):
+    for k, (name, at) in enumerate(writer.bits_of(part)):
         mask = (1 << writer.widths[name]) - 1
         lines.append(f"{writer.variable(name)} = "
                      f"static_cast<std::remove_cv_t<decltype(key{k})>>(value >> {at} & {mask});")
-        at += writer.widths[name]
     lines += [writer.text(row) for row in part.rows if "VL_WRITEF" not in row.text]
     lines += [f'if (was{k} != {writer.variable(name)}) differs("{name}", value);'
               for k, name in enumerate(lasting)]
