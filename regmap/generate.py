@@ -495,7 +495,9 @@ def json_text(model):
 
 def write_ipxact(tops, path):
     """The PeakRDL exporter's file plus a second memory map for the second meanings."""
-    exporter = IPXACTExporter(vendor="openmb4", library="openmb4", version="1.0")
+    cmake = (HERE.parent / "CMakeLists.txt").read_text(encoding="utf-8")
+    version = re.search(r"project\(openmb4 VERSION ([\d.]+)", cmake)[1]
+    exporter = IPXACTExporter(vendor="openmb4", library="openmb4", version=version)
     with tempfile.TemporaryDirectory() as scratch:
         exporter.export(tops[0], str(Path(scratch) / "unused.xml"))
     doc = exporter.doc

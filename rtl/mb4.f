@@ -1,12 +1,12 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The only list of RTL files: paths relative to this folder, packages first.
+// The only list of the RTL files. Paths are relative to this folder; packages come first.
 mb4_pkg.sv
 ../regmap/generated/mb4_regs_pkg.sv
 common/mb4_reset_sync.sv
 common/mb4_sync_bit.sv
-common/mb4_toggle_rx.sv
+common/mb4_count_rx.sv
 common/mb4_ram.sv
 common/mb4_ram_pair.sv
 common/mb4_ram_row.sv
@@ -19,8 +19,10 @@ host/mb4_spi2.sv
 host/mb4_par_bus.sv
 host/mb4_host.sv
 regs/mb4_cfg_regs.sv
+regs/mb4_crc_code.sv
 regs/mb4_slave_cfg.sv
 regs/mb4_instr_reg.sv
+regs/mb4_recent.sv
 regs/mb4_host_read.sv
 regs/mb4_read_port2.sv
 regs/mb4_ram_clear.sv
@@ -28,6 +30,7 @@ regs/mb4_write_port.sv
 regs/mb4_scd_bank.sv
 regs/mb4_svalid.sv
 regs/mb4_bank_ctrl.sv
+regs/mb4_word_split.sv
 regs/mb4_cds_bank.sv
 regs/mb4_rx_router.sv
 regs/mb4_scd_store.sv

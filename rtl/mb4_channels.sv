@@ -1,10 +1,12 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Both lines bound to the register map: word lists by the configuration (instances only). Bit i of
-// a vector {2, 1} belongs to line i + 1, wider fields are slices.
+// Both lines with their word lists: takes what the lines need from the configuration and binds it
+// to them.
 //
-// Clock domain: core. See mb4_words and mb4_lines. slave_o is the data channel that SL is at.
+// Clock domain: core. Timing and misuse: mb4_words and mb4_lines.
+// Vectors: bit i of a vector {2, 1} is for line i + 1; wider fields are slices. slave_o is the data
+// channel whose word is on SL.
 // Datasheet: pages 15, 16, 23..26.
 
 module mb4_channels #(
@@ -25,6 +27,7 @@ module mb4_channels #(
   input  logic        start_i,
   input  logic [1:0]  use_i,
   input  logic        init_i,
+  input  logic        mo_return_i,
   input  logic        register_i,
   input  logic        register_ma_i,
   input  logic        register_end_i,
@@ -46,6 +49,7 @@ module mb4_channels #(
   output logic [5:0]  wr_byte_o,
   output logic [15:0] wr_data_o,
   output logic [1:0]  word_begin_o,
+  output logic [1:0]  word_open_o,
   output logic [1:0]  word_done_o,
   output logic [1:0]  word_ok_o,
   // results
@@ -104,13 +108,14 @@ module mb4_channels #(
     .rst_ni,
     .por_ni,
     .half_len_i,
-    .protocol_i   ({cfg_i.cfgch2, cfg_i.cfgch1}),
+    .protocol_i   ({cfg_i.cfgch2 | {2{!cfg_i.slaveloc5}}, cfg_i.cfgch1}),
     .en_mo_i      (cfg_i.en_mo),
     .mo_busy_i    (cfg_i.mo_busy),
     .bus_i        (actuator & {2{cfg_i.en_mo}}),
     .start_i,
     .use_i,
     .init_i,
+    .mo_return_i,
     .register_i,
     .register_ma_i,
     .register_end_i,
@@ -142,6 +147,7 @@ module mb4_channels #(
     .wr_byte_o,
     .wr_data_o,
     .word_begin_o,
+    .word_open_o,
     .word_done_o,
     .word_ok_o,
     .cds_o,

@@ -1,13 +1,13 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Check macros for Verilator (run with --assert) and formal tools (FORMAL defined); nothing for
-// synthesis.
-//   MB4_ASSERT(What_A, clk, rst_n, expression)               always true
-//   MB4_ASSERT_IF(What_A, clk, rst_n, condition, expression)  true whenever condition holds
-//   MB4_ASSERT_NEXT(What_A, clk, rst_n, condition, expression) true one clock after condition
-// Immediate assertions in a clocked process: they see the values before the edge as a concurrent
-// one would, and Verilator need not copy every signal in them at each evaluation.
+// Check macros. They are active in Verilator (run it with --assert) and in formal tools (FORMAL
+// defined), and empty in synthesis.
+//   MB4_ASSERT(What_A, clk, rst_n, expression)                 always true
+//   MB4_ASSERT_IF(What_A, clk, rst_n, condition, expression)   true while the condition holds
+//   MB4_ASSERT_NEXT(What_A, clk, rst_n, condition, expression) true one clock after the condition
+// The macros are immediate assertions in a clocked process. They see the values before the edge, as
+// concurrent assertions do, but Verilator does not have to copy their signals at each evaluation.
 
 `ifndef MB4_CHECK_SVH
 `define MB4_CHECK_SVH

@@ -1,16 +1,21 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The 28-pin device around mb4_engine: straps, shared pins, oscillator choice, differential pins.
+// The 28-pin device around mb4_engine: straps, shared pins, clock choice, differential pins.
 //
-// Every pin that can be driven from both sides is split into input, output and output enable, so
-// that the level on the wire is decided outside. With CFGIF = 10 or 11 (RS422, LVDS) the pins of
-// line 2 are the inverse ones of line 1: MA2_NMA1 and MO2_NMO1 send the inverse of MA1 and MO1, the
-// difference between SL1 and SL2_NSL1 is what SL1 says, and line 2 sees an open input, 1.
-// Clock domains: the host's pins (mb4_host); the system clock, from CLK or the internal oscillator
-// (CLKENI). NRES stops it at any phase and selects CLK: MA that was low stays so until the selected
-// clock runs again. NRES needs 250 ns (E08), which let the core's reset reach every flop; a shorter
-// pulse resets as well if it is an edge for the flops.
+// Pins: a pin that both sides can drive is split into input, output and output enable. The level on
+// the wire is decided outside.
+//
+// Differential lines: with CFGIF = 10 or 11 (RS422, LVDS) the pins of line 2 carry the inverse
+// signals of line 1. MA2_NMA1 and MO2_NMO1 send the inverse of MA1 and MO1. SL of line 1 is the
+// difference of the pair: 0 with SL1 = 0 and SL2_NSL1 = 1, and 1 with the opposite levels. Equal
+// levels are no difference and read 1, as an open cable does. Line 2 sees an open input, 1.
+//
+// Clock domains: the clocks of the host pins (mb4_host), and the system clock from pin CLK or the
+// internal oscillator (CLKENI).
+// Reset: NRES stops the system clock at any phase and selects CLK. If MA is low then, it stays low
+// until the selected clock runs again. NRES must be low for 250 ns (E08), so that the reset reaches
+// every flop of the core. A shorter pulse resets too, if the flops see its edge.
 // Datasheet: pages 3, 8, 17..19, 23, Tables 1, 2, 4, 7, 9.
 
 module mb4_chip (
@@ -111,7 +116,7 @@ module mb4_chip (
     .paired_o   (paired),
     .getsens_i,
     .ma1_o,
-    .sl1_i,
+    .sl1_i      (sl1_i || (paired && !sl2_i)),
     .mo1_o,
     .ma2_o      (ma2),
     .sl2_i      (sl2_i || paired),

@@ -1,11 +1,12 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The chip without pins: SPI host and engine (instances only). This is what an FPGA design with an
-// SPI host instantiates; a design with a bus of its own takes mb4_engine, whose host is a byte bus.
+// The chip without its pins: an SPI host interface and mb4_engine. An FPGA design with an SPI host
+// instantiates this module. A design with its own bus takes mb4_engine, whose host side is a byte
+// bus.
 //
-// Clock domains: sclk_i (host) and clk_i (core); see mb4_spi and mb4_engine. rst_ni is
-// asynchronous; por_ni is for power-on and asserted together with it.
+// Clock domains: sclk_i (host) and clk_i (core). Timing and misuse: mb4_spi and mb4_engine.
+// Reset: rst_ni is asynchronous; por_ni is the power-on reset and is asserted together with it.
 // Datasheet: pages 15..36. Crossings: docs/crossings.md.
 
 module mb4_core #(
@@ -56,7 +57,7 @@ module mb4_core #(
     .rd_data_i (rd_data)
   );
 
-  // No second reader.
+  // The core has no second read port.
   logic [7:0] rd2_data;
   logic       unused;
   assign unused = ^rd2_data;

@@ -1,17 +1,21 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The chip behind its host interface: registers, control, two lines (instances and glue only). The
-// host is a byte bus with clocks of its own, so that any interface fits: mb4_core puts SPI before
-// it, mb4_chip all hosts of the 28-pin device.
+// The chip behind its host interface: registers, control, two lines. Its host side is a byte bus
+// with its own clocks, so that any interface fits: mb4_core puts SPI in front of it, mb4_chip puts
+// all host interfaces of the 28-pin device in front of it.
 //
 // Clock domains: wr_clk_i and rd_clk_i (host), rd2_clk_i (second reader, with Port2) and clk_i
-// (core). Registers 0xC0..0xFB are written and read with no core clock; frames, data memories and
-// instructions need it. A read or write is sampled at a rising edge of its clock; read data are
-// valid after that edge until the next one. One clock may serve both; two must not move at once.
-// rst_ni is asynchronous: it reaches the host domain as it is, because the host's clocks stand
-// still while a reset ends, and the core synchronised. por_ni resets MA and its time base at
-// power-on: with rst_ni alone MA ends the level that it has.
+// (core). The host can write and read the registers 0xC0..0xFB while the core clock stands still.
+// Frames, data memories and instructions need the core clock.
+// Latency: a rising edge of wr_clk_i or rd_clk_i samples an access. Read data are valid after this
+// edge until the next read.
+// Reset: rst_ni is asynchronous. It goes unchanged to the host domain, because the host clocks
+// stand still while a reset ends, and synchronised to the core. por_ni resets MA and its time base
+// at power-on. With rst_ni alone MA first ends its present level.
+//
+// Misuse: wr_clk_i and rd_clk_i may be one clock. If they are two clocks, one must stand still
+// while the other has edges; otherwise the data of a read are undefined.
 // Datasheet: pages 15..36. Crossings: docs/crossings.md.
 
 module mb4_engine #(
@@ -58,37 +62,37 @@ module mb4_engine #(
   logic [mb4_pkg::QUIRKS_W-1:0] quirks_q;
 
   // registers
-  logic [3:0]       cfg_en;       // word lists
+  logic [3:0]       cfg_en;       // read ports of the word lists
   logic [11:0]      cfg_slave;
   logic [4*mb4_pkg::SLAVE_CFG_W-1:0] slave_cfg;
   mb4_pkg::cfg_t    cfg;
   mb4_pkg::instr_t  written;
   mb4_pkg::instr_t  held;
   mb4_pkg::status_t status;
-  logic       instr_toggle;
-  logic       instr_ack;
+  logic [1:0] instr_count, instr_ack;
 
   // memories and banks
-  logic mem_busy, swbank_pulse;
-  logic bank_pending, bank_swapped, frame_done, reduced, bank_end;
-  logic       rdata_rd_en, rdata_wr_en;
+  logic mem_busy, swbank_pulse, svalid_clear;
+  logic bank_pending, bank_swapped, bank_lost, bank_run, frame_done, reduced, bank_end;
+  logic       rdata_rd_en, rdata_wr_en, post_busy;
   logic [5:0] rdata_addr;
   logic [7:0] rdata, rdata_wr_data;
 
   // control
   logic [7:0] half_len, enscd;
   logic       tick;
-  logic       start, init, abort, keep_time;
+  logic       start, init, mo_return, abort, keep_time;
   logic       register_start, register_ma, register_end;
   logic [1:0] start_use, register_mo;
   logic [1:0] ma_force, ma_force_level;
   logic       ma_force_change;
   logic [1:0] idle, timeout, sl, frame_end;
-  logic [1:0] word_begin, word_done, word_ok;
+  logic [1:0] word_begin, word_open, word_done, word_ok;
+  logic [1:0] crc_ok;
   logic [1:0] init_done, init_fail;
   logic [1:0] cds, cds_host, cdm0, cdm1, cdm;
 
-  // words of the two lines; slices of flat vectors, one slice a line
+  // words of the two lines: flat vectors with one slice for each line
   logic [1:0]  ssi, line_wr_en;
   logic [5:0]  slave, line_wr_byte;
   logic [15:0] line_wr_data;
@@ -96,8 +100,8 @@ module mb4_engine #(
   logic [11:0] mo_addr;
   logic [15:0] mo_data;
 
-  // A static input. Registered, it is no part of the logic that follows the pins, which matters for
-  // timing and for the speed of simulation.
+  // quirks_i is static. The flops keep it out of the combinational logic behind the pins. This
+  // shortens paths and makes the simulation faster.
   always_ff @(posedge clk_i) quirks_q <= quirks_i;
 
   mb4_reset_sync u_reset (
@@ -136,7 +140,7 @@ module mb4_engine #(
     .slave_cfg_o    (slave_cfg),
     .cfg_o          (cfg),
     .written_o      (written),
-    .toggle_o       (instr_toggle),
+    .count_o        (instr_count),
     .ack_i          (instr_ack),
     .held_i         (held),
     .status_i       (status),
@@ -144,6 +148,7 @@ module mb4_engine #(
     .mem_busy_o     (mem_busy),
     .holdbank_i     (held.holdbank),
     .swbank_pulse_i (swbank_pulse),
+    .bank_run_i     (bank_run),
     .frame_end_i    (frame_done),
     .reduced_i      (reduced),
     .bank_end_i     (bank_end),
@@ -151,9 +156,11 @@ module mb4_engine #(
     .cds_o          (cds_host),
     .bank_pending_o (bank_pending),
     .bank_swapped_o (bank_swapped),
+    .bank_lost_o    (bank_lost),
     .rdata_rd_en_i  (rdata_rd_en),
     .rdata_addr_i   (rdata_addr),
     .rdata_o        (rdata),
+    .post_busy_o    (post_busy),
     .rdata_wr_en_i  (rdata_wr_en),
     .rdata_wr_data_i (rdata_wr_data),
     .wr_line_i      (line_wr_en),
@@ -161,8 +168,11 @@ module mb4_engine #(
     .wr_line_data_i (line_wr_data),
     .slave_i        (slave),
     .word_begin_i   (word_begin),
+    .word_open_i    (word_open),
     .word_done_i    (word_done),
-    .word_ok_i      (word_ok),
+    .word_ok_i      (crc_ok),
+    .word_ok_o      (word_ok),
+    .svalid_clear_i (svalid_clear),
     .delay_en_i     (init_done),
     .delay_i        (quarters),
     .mo_rd_en_i     (cfg.en_mo),
@@ -176,7 +186,7 @@ module mb4_engine #(
     .clk_i,
     .rst_ni         (rst_core_n),
     .written_i      (written),
-    .toggle_i       (instr_toggle),
+    .count_i        (instr_count),
     .ack_o          (instr_ack),
     .held_o         (held),
     .cfg_i          (cfg),
@@ -187,6 +197,9 @@ module mb4_engine #(
     .mem_busy_i     (mem_busy),
     .bank_pending_i (bank_pending),
     .bank_swapped_i (bank_swapped),
+    .bank_lost_i    (bank_lost),
+    .bank_run_o     (bank_run),
+    .svalid_clear_o (svalid_clear),
     .frame_end_o    (frame_done),
     .bank_end_o     (bank_end),
     .reduced_o      (reduced),
@@ -194,6 +207,7 @@ module mb4_engine #(
     .rdata_rd_en_o  (rdata_rd_en),
     .rdata_addr_o   (rdata_addr),
     .rdata_i        (rdata),
+    .post_busy_i    (post_busy),
     .rdata_wr_en_o  (rdata_wr_en),
     .rdata_wr_data_o (rdata_wr_data),
     .half_len_o     (half_len),
@@ -201,6 +215,7 @@ module mb4_engine #(
     .start_o        (start),
     .use_o          (start_use),
     .init_o         (init),
+    .mo_return_o    (mo_return),
     .register_o     (register_start),
     .register_ma_o  (register_ma),
     .register_end_o (register_end),
@@ -249,6 +264,7 @@ module mb4_engine #(
     .start_i        (start),
     .use_i          (start_use),
     .init_i         (init),
+    .mo_return_i    (mo_return),
     .register_i     (register_start),
     .register_ma_i  (register_ma),
     .register_end_i (register_end),
@@ -269,8 +285,9 @@ module mb4_engine #(
     .wr_byte_o      (line_wr_byte),
     .wr_data_o      (line_wr_data),
     .word_begin_o   (word_begin),
+    .word_open_o    (word_open),
     .word_done_o    (word_done),
-    .word_ok_o      (word_ok),
+    .word_ok_o      (crc_ok),
     .cds_o          (cds),
     .cdm_o          (cdm),
     .frame_end_o    (frame_end),
@@ -292,7 +309,7 @@ module mb4_engine #(
   assign status.cdssel      = (cfg.chsel == 2'b10) ? cds_host[1] : cds_host[0];
   assign status.cds1        = cds_host[0];
   assign status.cds2        = cds_host[1];
-  // An iCE40's DDR cell leaves no way from the pin to elsewhere.
+  // With the DDR cell of an iCE40 no other logic can read the pin.
   assign {status.sl2, status.sl1} = SlCells == mb4_pkg::SL_ICE40 ? sl : {sl2_i, sl1_i};
   assign clkeni_o           = cfg.clkeni;
   assign paired_o           = cfg.cfgif[1];

@@ -12,7 +12,8 @@ out=$build/coverage
 mkdir -p "$out"
 
 cmake --build "$build" --target coverage_programs -- --quiet
-# Statistics over many frames reach nothing new, and take most of the time.
+# Tests that repeat many frames for statistics are shortened or left out: they reach no new code and
+# take most of the time.
 export MB4_RANDOM_CONFIGS=100 MB4_HOST_FRAMES=300
 skipped='Lockstep.*:HostFuzz.*:ChipFaults.*:ControlWeak.*:Table37Slow/*:Percent/*:*HundredThousand*'
 for program in chip_test protocol_test chip_host_test; do

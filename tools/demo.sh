@@ -3,7 +3,7 @@
 # SPDX-License-Identifier: Apache-2.0
 #
 # From a bare Debian 12 to positions of a simulated encoder: installs missing packages, builds the
-# simulator, runs the examples. Quick the second time.
+# simulator, runs the examples. The second run is quick.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 

@@ -2,7 +2,8 @@
 # SPDX-FileCopyrightText: 2026 The openmb4 authors
 # SPDX-License-Identifier: Apache-2.0
 #
-# Line and branch coverage of the driver (headers, ports, C binding) by its own tests, against limits.
+# Line and branch coverage of the driver (headers, ports, C binding) by its own tests, against
+# limits.
 # Usage: tools/driver_coverage.sh [BUILD [LINES_PERCENT [BRANCHES_PERCENT]]]
 #   BUILD was configured before (default build). Default limits: 100 and 90.
 # Prints gcovr's table; BUILD/driver-coverage/ keeps it with what is not covered (lines.txt,
@@ -25,7 +26,7 @@ rm -f -- *.gcda *.gcno *.o
 
 launcher=$(command -v ccache || true)
 tests=$root/tests/driver
-# Without exceptions, as the driver is used: no branch is one that an exception takes.
+# Built without exceptions, as users build the driver: then no branch belongs to an exception.
 export FLAGS="-O0 --coverage -fno-inline -DMB4_EXAMPLES=\"$root/examples\" -I$root/drivers/include \
   -I$root/regmap/generated -I$root/sim/include -I$root/tools/mb4sim -I$root/tests/chip \
   -I$tests -I$tests/ports"
@@ -54,12 +55,12 @@ g++ --coverage c_binding_test.c.o mb4_c.cpp.o -L"$build/lib" -lmb4sim \
 ./unit_tests --gtest_brief=1
 ./ports_tests --gtest_brief=1
 ./c_tests
-# Without the faults that take minutes: they repeat what others show.
+# Left out: fault tests that take minutes. Other tests reach the same branches.
 ./rtl_tests --gtest_brief=1 --gtest_filter=-Ways/DriverFault.*
 # A parallel bus, with what needs the least time.
 MB4_HOST=intel ./rtl_tests --gtest_brief=1 --gtest_filter=*DriverCall*:-*EachTransferFails*
 
-# Branches that only an exception takes are the test programs', not the driver's.
+# Branches that only an exception takes belong to the test programs and not to the driver.
 report() {
   gcovr --root "$root" --filter "$root/drivers/" --exclude-throw-branches \
     --exclude-unreachable-branches --object-directory "$work" "$work" "$@"

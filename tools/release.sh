@@ -2,8 +2,9 @@
 # SPDX-FileCopyrightText: 2026 The openmb4 authors
 # SPDX-License-Identifier: Apache-2.0
 #
-# Packs the committed tree as openmb4-VERSION.tar.gz with its checksum beside it; the same commit
-# gives the same bytes. Usage: tools/release.sh [FOLDER]   (default build/)
+# Packs the committed tree as openmb4-VERSION.tar.gz with its checksum beside it; the same commit and
+# the same Yosys give the same bytes. In its folder verilog/ is plain Verilog of each top
+# (tools/synth/plain_verilog.py). Usage: tools/release.sh [FOLDER]   (default build/)
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
@@ -17,10 +18,24 @@ if [ -n "$(git status --porcelain --untracked-files=no)" ]; then
   echo "release: there are changes that are not committed" >&2
   exit 1
 fi
+if ! command -v yosys >/dev/null; then
+  echo "release: yosys is not installed, which makes the plain Verilog" >&2
+  exit 1
+fi
 mkdir -p "$folder"
+plain=$(mktemp -d)
+trap 'rm -rf "$plain"' EXIT
+added=()
+while read -r file; do
+  added+=("--add-file=$file")
+done < <(python3 -B tools/synth/plain_verilog.py "$plain")
+if [ "${#added[@]}" -ne 3 ]; then
+  echo "release: the plain Verilog could not be made" >&2
+  exit 1
+fi
 name=openmb4-$version
 archive=$folder/$name.tar.gz
-git archive --format=tar --prefix="$name/" HEAD | gzip -9n >"$archive.partial"
+git archive --format=tar --prefix="$name/verilog/" "${added[@]}" --prefix="$name/" HEAD | gzip -9n >"$archive.partial"
 mv "$archive.partial" "$archive"
 (cd "$folder" && sha256sum "$name.tar.gz" >"$name.tar.gz.sha256")
 echo "$archive"

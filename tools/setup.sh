@@ -12,7 +12,7 @@ demo_packages=(
   ninja-build python3 verilator zlib1g-dev
 )
 test_packages=(
-  clang git groff gtkwave libbenchmark-dev iverilog librsvg2-bin pkg-config
+  clang git groff gtkwave libbenchmark-dev iverilog liblz4-dev librsvg2-bin pkg-config
   sigrok-cli spi-tools yosys z3 zsh
   clang-tidy gcovr
   gcc-arm-none-eabi libnewlib-arm-none-eabi libstdc++-arm-none-eabi-newlib linux-libc-dev

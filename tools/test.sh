@@ -6,7 +6,7 @@
 # Usage: tools/test.sh [--sanitize] [--nightly] [CTEST-ARGUMENT...]
 #   --sanitize   the same with AddressSanitizer and UBSan, in build-sanitize/
 #   --nightly    instead of the normal suite the long runs (label nightly) with their figures
-# JUnit report: build/junit.xml (build-sanitize/junit.xml).
+# JUnit report: build/junit.xml (build-sanitize/junit.xml); time of each part: times.txt beside it.
 # MB4_DATASHEET=FILE names the datasheet's text for the register map comparison.
 set -euo pipefail
 cd "$(dirname "$0")/.."
@@ -27,20 +27,32 @@ while true; do
   shift
 done
 
+mkdir -p "$build"
+times=$build/times.txt
+: >"$times"
+part_began=$SECONDS
+# Writes the time since the end of the previous part.
+part_done() {
+  printf '%-15s %-10s %5d s\n' "$build" "$1" "$((SECONDS - part_began))" >>"$times"
+  part_began=$SECONDS
+}
+
 tools/setup.sh test
+part_done packages
 
 for tool in "cmake --version" "g++ --version" "verilator --version" "yosys -V" "iverilog -V"; do
   $tool 2>/dev/null | sed -n 1p
 done
 
-mkdir -p "$build"
 echo "test: configuring $build/" >&2
 if ! cmake --preset "$preset" >"$build/configure.log" 2>&1; then
   cat "$build/configure.log" >&2
   exit 1
 fi
+part_done configure
 echo "test: building" >&2
 cmake --build "$build" -- --quiet
+part_done build
 
 if [ "$nightly" = yes ]; then
   configuration=(-C nightly)
@@ -50,7 +62,14 @@ fi
 status=0
 ctest --test-dir "$build" --output-on-failure --no-tests=error -j "$(nproc)" \
   --output-junit junit.xml "$@" >"$build/ctest.log" 2>&1 || status=$?
-# The passed tests are many: show what failed with its output, and the summary.
+part_done tests
+# The suites that took longest, one after the other.
+sed -nE 's/^ *[0-9]+\/[0-9]+ Test +#[0-9]+: ([^ ]+)[.][^. ]+ .* ([0-9.]+) sec.*/\1 \2/p' \
+  "$build/ctest.log" |
+  awk -v build="$build" '{ sum[$1] += $2 }
+    END { for (suite in sum) printf "%-15s   %-40s %5d s\n", build, suite, sum[suite] }' |
+  sort -k3,3nr | sed -n 1,12p >>"$times"
+# Most tests pass: show only the failed ones with their output, and the summary.
 if [ "$status" -ne 0 ]; then
   grep -v -e ' Passed ' -e '^ *Start ' "$build/ctest.log" || true
 else

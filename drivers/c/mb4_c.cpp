@@ -37,7 +37,8 @@ mb4::Device<mb4::FunctionBus, mb4::FunctionClock>& of(mb4_device* device) {
   return reinterpret_cast<Opened*>(device->opaque)->device;
 }
 
-// Objects in the caller's memory; <new> need not exist on a small target.
+// The memory of an object that the caller provides. A small target may have no header <new>, so
+// this file has its own placement operator.
 struct Place {
   void* memory;
 };

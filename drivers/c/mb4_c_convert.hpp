@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Between the types of mb4.h and those of the driver. A part of mb4_c.cpp, not for others.
+// Converts between the types of mb4.h and those of the driver. Only mb4_c.cpp includes it.
 
 #ifndef MB4_C_CONVERT_HPP_
 #define MB4_C_CONVERT_HPP_

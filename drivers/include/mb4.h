@@ -1,10 +1,13 @@
 /* SPDX-FileCopyrightText: 2026 The openmb4 authors
  * SPDX-License-Identifier: Apache-2.0
  *
- * The driver for C99: the same code as mb4/mb4.hpp, compiled once in c/mb4_c.cpp. No heap, no static
- * data. What a call does, how many transfers it makes and what its errors mean is said at the C++
- * call of the same name (mb4/device.hpp, automatic.hpp, control_steps.hpp, control.hpp, scan.hpp,
- * position.hpp); errors in mb4/result.hpp and docs/driver.md.
+ * The driver for C99: the same code as mb4/mb4.hpp, compiled once in c/mb4_c.cpp. It uses no heap
+ * and no static data.
+ *
+ * The comment of the C++ call with the same name states what a call does, its transfers, ranges and
+ * errors: mb4/device.hpp, automatic.hpp, control_steps.hpp, control.hpp, scan.hpp, position.hpp.
+ * mb4/error.hpp and docs/driver.md describe the errors. No pointer may be null unless its comment
+ * allows it. Outputs are valid only on success unless the comment says otherwise.
  */
 #ifndef MB4_H_
 #define MB4_H_
@@ -48,11 +51,11 @@ enum {
   MB4_JUMP = 20
 };
 
-/* Outcome of a call: mb4::ErrorInfo. */
+/* Result of a call: mb4::ErrorInfo. */
 typedef struct {
   uint8_t code;   /* MB4_OK or an error */
   uint8_t field;  /* for MB4_INVALID_CONFIG, MB4_UNSUPPORTED: see mb4_field_text() */
-  uint8_t number; /* slave 1..8 or channel 1..2 that the field belongs to */
+  uint8_t number; /* slave 1..8 or channel 1..2 that the field belongs to; 0 = whole chip */
   uint8_t detail; /* MB4_VERIFY: register address; register accesses: good bytes */
 } mb4_result;
 
@@ -63,66 +66,68 @@ enum { MB4_START_BACK_TO_BACK, MB4_START_ON_PIN, MB4_START_PERIODIC };
 enum { MB4_FLAGS_NONE, MB4_FLAGS_ERROR_WARNING };
 enum { MB4_SPI_CHECK_OFF, MB4_SPI_CHECK_CRC, MB4_SPI_CHECK_FULL };
 
-/* mb4::SlaveConfig. */
+/* mb4::SlaveConfig in mb4/config_data.hpp, which states the ranges. */
 typedef struct {
   bool enabled;
-  uint8_t data_bits; /* 1..64 without CRC, with flags */
-  uint8_t flags;     /* MB4_FLAGS_... */
-  uint16_t crc_start;
-  uint32_t crc_polynomial; /* in full: 0x43; 0 = none */
+  uint8_t data_bits;       /* 1..64: position and flags, without CRC */
+  uint8_t flags;           /* MB4_FLAGS_... */
+  uint16_t crc_start;      /* only the low bits, as many as the CRC has, are used */
+  uint32_t crc_polynomial; /* with the highest bit: 0x43 = x^6 + x + 1; 0 = no CRC */
   bool gray;               /* SSI: the encoder sends Gray code */
   bool actuator;           /* takes a word: mb4_write_actuator() */
-  bool stop_bit;           /* before an actuator's word */
+  bool stop_bit;           /* actuators: a stop bit comes before the word */
 } mb4_slave_config;
 
-/* mb4::Config; begin with mb4_config_default(). */
+/* mb4::Config in mb4/config_data.hpp, which states ranges and meaning. Begin with
+ * mb4_config_default(). */
 typedef struct {
-  uint32_t f_clk_hz;
-  uint32_t ma_hz;
-  uint32_t frame_period_clk;
-  uint32_t frame_timeout_us;
-  uint32_t register_busy_us;
+  uint32_t f_clk_hz;         /* 1'000'000..25'000'000; internal clock from 10'000'000 */
+  uint32_t ma_hz;            /* from mb4_ma_hz_at_most() */
+  uint32_t frame_period_clk; /* MB4_START_PERIODIC: mb4_frame_period_clk_at_least(), else 0 */
+  uint32_t frame_timeout_us; /* 1..1'000'000; 0 = calculated */
+  uint32_t register_busy_us; /* 1..10'000'000; 0 = the chip's own limit */
   uint8_t clock_source;   /* MB4_CLOCK_... */
   uint8_t line_interface; /* MB4_LINE_... */
   uint8_t frame_start;    /* MB4_START_... */
   uint8_t spi_check;      /* MB4_SPI_CHECK_... */
   bool single_bank;
   bool hold_cdm;
-  bool mo;                      /* MO is wired */
-  uint8_t mo_busy;              /* periods of MA */
-  uint16_t register_divider;    /* f_MA / register clock of BiSS B: 2..256 */
-  uint32_t register_timeout_us; /* of BiSS B slaves */
+  bool mo;                      /* pin MO is wired to SLI of the last slave */
+  uint8_t mo_busy;              /* periods of MA; 0 without mo */
+  uint16_t register_divider;    /* f_MA / register clock of BiSS B: 2, 4, 8 ... 256 */
+  uint32_t register_timeout_us; /* longest timeout of the BiSS B slaves, up to 1'000'000 */
   uint8_t protocol[MB4_CHANNELS];      /* MB4_PROTOCOL_...; [0] is channel 1 */
   mb4_slave_config slaves[MB4_SLAVES]; /* [0] is slave 1 */
 } mb4_config;
 
-/* mb4::Reading. */
+/* mb4::Reading in mb4/reading.hpp. */
 typedef struct {
-  uint64_t raw;
-  uint64_t position;
-  uint16_t crc;
+  uint64_t raw;      /* all data bits, right aligned */
+  uint64_t position; /* the data bits without flags, right aligned */
+  uint16_t crc;      /* not inverted; 0 unless crc_stored */
   bool crc_stored;
-  bool error;   /* the encoder's own complaint: do not trust the position */
-  bool warning;
-  uint8_t slave;
+  bool error;    /* the encoder reports an error: do not trust the position */
+  bool warning;  /* the encoder reports a warning */
+  uint8_t slave; /* 1..8 */
 } mb4_reading;
 
-/* mb4::Frame: reading[i] means something where code[i] is MB4_OK. [0] is slave 1. */
+/* mb4::Frame: reading[i] is valid where code[i] is MB4_OK. [0] is slave 1. A call that takes a
+ * mb4_frame always writes it. */
 typedef struct {
   mb4_reading reading[MB4_SLAVES];
   uint8_t code[MB4_SLAVES];
   uint8_t status[MB4_STATUS_BYTES];
 } mb4_frame;
 
-/* mb4::Command. */
+/* mb4::Command in mb4/control_data.hpp. */
 typedef struct {
   uint8_t channels; /* bit 0 channel 1, bit 1 channel 2 */
   uint8_t ids;      /* bit 0 is ID 0; 0 = broadcast */
   uint8_t code;     /* 0..3 */
-  bool test_acknowledge;
+  bool test_acknowledge; /* IDA test; not with broadcast */
 } mb4_command;
 
-/* mb4::SlaveIdentity. */
+/* mb4::SlaveIdentity in mb4/scan.hpp. */
 typedef struct {
   uint8_t device_id[6];
   uint8_t manufacturer[2];
@@ -131,21 +136,23 @@ typedef struct {
   bool has_eds;
 } mb4_identity;
 
-/* One SPI frame: NCS low, `size` bytes, NCS high; rx may be null. The contract is that of Bus in
- * mb4/bus.hpp. True when it was exchanged. */
+/* Makes one SPI frame: NCS low, `size` bytes, NCS high. rx may be null. The contract is that of Bus
+ * in mb4/bus.hpp. Returns true when all bytes were exchanged. */
 typedef bool (*mb4_transfer)(void *context, const uint8_t *tx, uint8_t *rx, size_t size);
-/* Microseconds, wrapping at 2^32. */
+/* Returns the time in microseconds; it wraps at 2^32. */
 typedef uint32_t (*mb4_now_us)(void *context);
 
-/* One chip; the caller provides the memory. What is in it is not for use. */
+/* One chip. The caller provides the memory and does not use its contents. */
 typedef struct {
   uint64_t opaque[52];
 } mb4_device;
 
-/* Before every other call. Makes no transfer. The functions must not be null. */
+/* Call it before every other call on `device`. It makes no transfer. The functions must not be
+ * null; the contexts may be. */
 void mb4_open(mb4_device *device, mb4_transfer transfer, void *transfer_context, mb4_now_us now_us,
               void *clock_context);
 
+/* The default values of mb4::Config. ma_hz, the protocols and the slaves are still to be set. */
 mb4_config mb4_config_default(void);
 /* Largest frequency of table 35 that is at most `limit_hz`; 0 if there is none. */
 uint32_t mb4_ma_hz_at_most(uint32_t f_clk_hz, uint32_t limit_hz);
@@ -157,11 +164,11 @@ mb4_result mb4_probe(mb4_device *device, uint8_t *version, uint8_t *revision);
 mb4_result mb4_configure(mb4_device *device, const mb4_config *config);
 mb4_result mb4_verify(mb4_device *device);
 mb4_result mb4_reset(mb4_device *device);
-/* Line delay of channel 1 and 2 in quarters of a period of MA. */
+/* quarters: line delay of channels 1 and 2 in quarters of a period of MA, 0..255. */
 mb4_result mb4_initialize(mb4_device *device, uint8_t quarters[MB4_CHANNELS]);
 mb4_result mb4_read_frame(mb4_device *device, uint8_t slave, mb4_reading *reading);
 mb4_result mb4_read_all(mb4_device *device, mb4_frame *frame);
-/* The low data_bits of `word` for the actuator `slave`. */
+/* `word` for the actuator `slave` (1..8): at most data_bits bits. */
 mb4_result mb4_write_actuator(mb4_device *device, uint8_t slave, uint64_t word);
 mb4_result mb4_break_transmission(mb4_device *device);
 mb4_result mb4_read_status(mb4_device *device, uint8_t status[MB4_STATUS_BYTES]);
@@ -185,29 +192,32 @@ mb4_result mb4_slave_begin_read(mb4_device *device, uint8_t channel, uint8_t id,
 mb4_result mb4_slave_begin_write(mb4_device *device, uint8_t channel, uint8_t id, uint8_t address,
                                  const uint8_t *data, size_t size);
 mb4_result mb4_slave_begin_command(mb4_device *device, const mb4_command *command);
-/* `ended` is true when what was begun has ended well. */
+/* `ended` becomes true when the access has ended without error, otherwise false. */
 mb4_result mb4_slave_poll(mb4_device *device, bool *ended);
 mb4_result mb4_slave_take(mb4_device *device, uint8_t *data, size_t size);
 mb4_result mb4_slave_abort(mb4_device *device);
-/* Identities of up to `size` IDs; `count` is how many have answered. */
+/* Stores the identities of up to `size` IDs; `count` becomes the number of IDs that have answered,
+ * 0 on error. */
 mb4_result mb4_scan(mb4_device *device, uint8_t channel, mb4_identity *identities, size_t size,
                     uint8_t *count);
 
-/* Opcodes 0x02 and 0x03 alone; they protect nothing. */
+/* SPI opcodes 0x02 and 0x03 without any protection of bits; size 1..64. */
 mb4_result mb4_write_registers(mb4_device *device, uint8_t address, const uint8_t *data,
                                size_t size);
 mb4_result mb4_read_registers(mb4_device *device, uint8_t address, uint8_t *data, size_t size);
 
+/* Text of mb4_result.code and mb4_result.field; never null. */
 const char *mb4_error_text(uint8_t code);
 const char *mb4_field_text(uint8_t field);
 
+/* Arithmetic on positions; see mb4/position.hpp for the ranges. */
 int64_t mb4_to_signed(uint64_t position, uint8_t bits);
 uint64_t mb4_gray_to_binary(uint64_t gray);
 uint64_t mb4_binary_to_gray(uint64_t binary);
 mb4_result mb4_split_turns(uint64_t position, uint8_t multi_bits, uint8_t single_bits,
                            uint64_t *multi, uint64_t *single);
 
-/* mb4::PositionTracker. */
+/* mb4::PositionTracker in mb4/position.hpp. Call mb4_tracker_begin() first. */
 typedef struct {
   uint64_t opaque[4];
 } mb4_tracker;

@@ -1,8 +1,10 @@
 /* SPDX-FileCopyrightText: 2026 The openmb4 authors
  * SPDX-License-Identifier: Apache-2.0
  *
- * The simulated chip behind a function of the usual form. Build: cc transfer.c $(pkg-config --cflags
- * --libs mb4sim) */
+ * The simulated chip behind a function of the usual form; prints its revision.
+ *
+ *   cc transfer.c $(pkg-config --cflags --libs mb4sim) && ./a.out
+ */
 #include <mb4sim.h>
 #include <stdio.h>
 

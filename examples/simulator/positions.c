@@ -4,7 +4,7 @@
  * The driver on the simulator, from C99: what runs here runs on a board, but for transfer() and
  * now_us(). An SSI encoder on channel 1, a BiSS C encoder and an actuator on channel 2.
  *
- *   cc positions.c -lmb4_c -lmb4sim && ./a.out         positions and what the actuator has taken
+ *   cc positions.c $(pkg-config --cflags --libs mb4_c mb4sim) && ./a.out
  */
 #include <inttypes.h>
 #include <stdio.h>

@@ -1,22 +1,29 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Glitch-free choice between two unrelated clocks: 0 may stand still (a pin), 1 always runs when it
-// is selected (the oscillator).
+// Glitch-free choice between two unrelated clocks. Clock 0 may stand still (a pin). Clock 1 always
+// runs while it is selected (the oscillator).
 //
-// Clock domains: the flops of a clock have its number; an enable changes while its clock is low.
-// A clock first raises its claim and only then looks at the other one's; the claim stays until the
-// enable has fallen. So one clock at most is enabled, whenever the choice changes, and back.
-// Latency: three periods of the old clock and two of the new one, or four of the new one if that is
-// longer; clk_o low in between. A clock whose first flop settles late needs a period more.
-// Of a clock 0 that runs after a reset the fourth rising edge is the first that passes.
-// A clock 0 that never toggled since reset does not block the change to clock 1. One that
-// stopped after it has run is given up after 2^TimeoutW - 1 periods of clock 1: it is standing
-// still, so that cutting it off makes no pulse; clk_o falls then if it stood high. A claim of
-// clock 0 (it comes back, a choice that clock 1 has not seen) makes clock 1 pause for a while.
-// Misuse: a clock 0 slower than that time-out, or one that comes back in the clocks in which it is
-// given up, may be cut inside a pulse. A clock 1 that stops within five periods after it has been
-// deselected keeps clock 0 from starting.
+// Clock domains: sel*_q, claim*_q, ready*_q and en*_q run on the clock of their number; the other
+// flops run on clock 1. An enable changes while its clock is low. A clock first raises its claim
+// and then looks at the claim of the other clock. The claim stays until the enable has fallen. So
+// at most one clock is enabled, whenever the choice changes, and also when it changes back.
+//
+// Latency of a change: three periods of the old clock plus two of the new one, or four periods of
+// the new one if that is longer. clk_o is low in between. A clock whose first flop settles late
+// needs one period more. If clock 0 runs after a reset, its fourth rising edge is the first one on
+// clk_o.
+//
+// A stopped clock 0: one that has not toggled since the reset does not block the change to clock 1.
+// One that stopped after it had run is given up after 2^TimeoutW - 1 periods of clock 1. It stands
+// still then, so its end makes no short pulse; if clk_o stood high, it falls.
+//
+// A claim of clock 0 makes clock 1 pause for a few periods. It occurs when clock 0 comes back after
+// a stop, and when only clock 0 has seen a short change of sel_i.
+//
+// Misuse: the change may cut a pulse of a clock 0 that is slower than the time-out, or that comes
+// back in the clocks in which it is given up. If clock 1 stops within five periods after it was
+// deselected, clock 0 does not start.
 // Datasheet: page 23, Table 7 (CLKENI).
 // Constraint: both clocks and clk_o are declared as clocks; sel_i and dead_q are false paths.
 
@@ -79,7 +86,7 @@ module mb4_clk_mux #(
     else         en1_q <= ready1_q;
   end
 
-  // Clock 1 waits for clock 0 to let go.
+  // Time-out: how long clock 1 has waited for the claim of clock 0 to end.
   always_ff @(posedge clk1_i or negedge rst_ni) begin
     if (!rst_ni) begin
       claim0_sync_q <= 2'b00;

@@ -1,11 +1,12 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Memory with one write port and one read port, each with its own clock; maps to block RAM.
+// Memory with one write port and one read port, each with its own clock. It maps to block RAM.
 //
-// Clock domains: wclk_i writes, rclk_i reads. Read data are valid after the rclk_i edge at which
-// rd_en_i and rd_addr_i were sampled. Contents are undefined until written: the owner clears it.
-// Misuse: reading an address at the edge at which it is written gives the old or the new byte.
+// Clock domains: wclk_i writes, rclk_i reads.
+// Latency: read data are valid after the rclk_i edge that samples rd_en_i and rd_addr_i.
+// Misuse: the contents are undefined until they are written; the owner clears them. A read of an
+// address at the edge that writes it gives the old or the new byte.
 
 module mb4_ram #(
   parameter int unsigned Width = 8,

@@ -1,12 +1,13 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Two memories of bytes side by side, written one at a time, read together; maps to block RAM with
-// byte enables.
+// Two byte memories side by side: a write changes one byte, a read gives both. It maps to block RAM
+// with byte enables.
 //
-// Clock domains: wclk_i writes, rclk_i reads. Read data are valid after the rclk_i edge at which
-// rd_en_i and rd_addr_i were sampled. Contents are undefined until written: the owner clears it.
-// Misuse: reading a byte at the edge at which it is written gives the old or the new one.
+// Clock domains: wclk_i writes, rclk_i reads.
+// Latency: read data are valid after the rclk_i edge that samples rd_en_i and rd_addr_i.
+// Misuse: the contents are undefined until they are written; the owner clears them. A read of a
+// byte at the edge that writes it gives the old or the new byte.
 
 module mb4_ram_pair #(
   parameter int unsigned AddrW = 5

@@ -1,18 +1,19 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Memory of rows of four bytes, written by bytes, read by rows; maps to block RAM with byte
-// enables.
+// Memory of rows of four bytes: each byte has its own write enable, a read gives the whole row. It
+// maps to block RAM with byte enables.
 //
-// Clock domains: wclk_i writes, rclk_i reads. Read data are valid after the rclk_i edge at which
-// rd_en_i and rd_addr_i were sampled. Contents are undefined until written: the owner clears it.
-// Misuse: reading a byte at the edge at which it is written gives the old or the new one.
+// Clock domains: wclk_i writes, rclk_i reads.
+// Latency: read data are valid after the rclk_i edge that samples rd_en_i and rd_addr_i.
+// Misuse: the contents are undefined until they are written; the owner clears them. A read of a
+// byte at the edge that writes it gives the old or the new byte.
 
 module mb4_ram_row #(
   parameter int unsigned AddrW = 3
 ) (
   input  logic             wclk_i,
-  input  logic [3:0]       wr_en_i,    // one a byte
+  input  logic [3:0]       wr_en_i,    // one bit for each byte
   input  logic [AddrW-1:0] wr_addr_i,
   input  logic [31:0]      wr_data_i,
   input  logic             rclk_i,

@@ -1,9 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Reset synchroniser: asserts at once, releases with the second rising clock edge.
+// Reset synchroniser: asserts at once, releases at the second rising clock edge.
 //
-// Clock domain: clk_i. With the clock stopped the reset stays asserted.
+// Clock domain: clk_i; rst_ni is asynchronous. While the clock stands still the reset stays
+// asserted.
 // Constraint: false path from rst_ni to the asynchronous clear of both flops.
 
 module mb4_reset_sync (

@@ -1,10 +1,11 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Two-flop synchroniser for one slow or independent bit.
+// Two-flop synchroniser for one bit.
 //
-// Clock domain: clk_i; data_i is asynchronous. Latency 1..2 clocks.
-// Misuse: bits that must be read together must not cross through several of these.
+// Clock domain: clk_i; data_i is asynchronous. Latency: 1..2 clocks.
+// Misuse: bits that belong together must not cross through several of these modules; they may
+// arrive in different clocks. A level shorter than one clock may be missed.
 // Constraint: false path (or maximum delay of one clk_i period) to the first flop.
 
 module mb4_sync_bit #(

@@ -1,20 +1,26 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// BiSS B register access and initialisation, master side: hand-over, pulse width modulated cells on
-// MA, read-out, CRC. One module for all lines; it drives those that were chosen at start_i.
+// BiSS B register access and initialisation, master side. One module serves all lines; it drives
+// the lines that use_i names with start_i.
 //
-// Clock domain: core. start_i begins: MA high, then low until all slaves answer with SL = 0 (with
-// mo_i at once after half a register clock). A cell is a register clock, 2^(FREQR+1) MA periods; it
-// begins with a rising edge and is high for a quarter (0), three quarters (1) or a half (read-out).
-// ma_o is the level from the next tick on. SL is taken at the rising edges: in a write it shows the
-// bit of two cells ago, in a read the slave's bits. The edge of the last stop bit leaves MA at 1;
-// end_o two register clocks later, when SL shows that bit over any cable (I405), so that the next 1
-// on SL is the slave's timeout. A bit that fails ends the access as well, behind a stop bit of its
-// own in a write, with the byte in a read. With end_o: ags_error_o (no hand-over), reg_error_o
-// (CRC, or a bit came back differently), delay_error_o (no start bit). good_bytes_o counts bytes
-// without error. mo_low_o: MO is low, in an access from before the first edge, in INIT with it.
-// Misuse: configuration must be stable while active_o.
+// Clock domain: core. ma_o is the level of MA from the next tick on. The parts of an access:
+//
+// - Hand-over: MA is high, then low until all slaves answer with SL = 0. In an access with mo_i
+//   (EN_MO) MA is low for half a register clock instead, with any SL. INIT ends here.
+// - Cells: a cell lasts one register clock, 2^(FREQR+1) MA periods, and begins with a rising edge.
+//   MA is high for a quarter of it (bit 0), three quarters (bit 1) or a half (read-out).
+// - SL is taken at the rising edges. In a write it repeats the bit of two cells before; in a read
+//   it brings the bits of the slave.
+// - End: after the last stop bit MA stays at 1. end_o comes two register clocks later: by then SL
+//   has shown the stop bit over any cable (I405), so the next 1 on SL is the slave's timeout.
+// - A wrong bit ends the access too: in a write after a stop bit, in a read at the end of the byte.
+//
+// Results with end_o: ags_error_o (no hand-over), reg_error_o (wrong CRC or wrong echo),
+// delay_error_o (no start bit). good_bytes_o counts the bytes without error. mo_low_o asks for MO =
+// 0: in an access from its first clock on, in INIT from the falling edge of MA on.
+//
+// Misuse: the configuration must be stable while active_o is high.
 // Datasheet: pages 13, 16, 30, 34, Figures 9, 14..16, Table 36; decisions 6, 7.
 
 `include "mb4_check.svh"
@@ -31,15 +37,15 @@ module mb4_biss_b (
   input  logic       mo_i,           // EN_MO
   // control
   input  logic       start_i,
-  input  logic [1:0] use_i,          // with start_i: lines {2, 1}; the lower one is read
+  input  logic [1:0] use_i,          // with start_i: lines {2, 1}; SL of the lower one is read
   input  logic       init_i,         // with start_i: hand-over only
   input  logic       abort_i,
   input  logic       tick_i,
-  input  logic       expired_i,      // waiting for too long
+  input  logic       expired_i,      // the wait for SL has lasted too long
   output logic       wait_o,
   output logic       active_o,
-  output logic       init_o,         // it is the initialisation
-  output logic [1:0] use_o,          // its lines
+  output logic       init_o,         // the access is an initialisation
+  output logic [1:0] use_o,          // lines of the access
   // lines
   input  logic [1:0] sl_i,           // synchronised
   output logic       ma_o,
@@ -67,7 +73,7 @@ module mb4_biss_b (
     SETTLE         // MA high
   } state_e;
 
-  // Cells of the parts: start, fields, CRC, stop.
+  // Cell numbers in a part: start bit (0), fields, CRC, stop bit.
   localparam logic [4:0] ADDRESS_CRC  = 5'd12;
   localparam logic [4:0] ADDRESS_STOP = 5'd16;
   localparam logic [4:0] BYTE_CRC     = 5'd9;
@@ -78,14 +84,15 @@ module mb4_biss_b (
   state_e      state_q;
   logic        init_q;
   logic [1:0]  use_q;
+  logic        mo_q;
   logic        sl;          // the line that is read
   logic [6:0]  pre_q;       // ticks left in the quarter
   logic [1:0]  phase_q;     // quarter of the cell
-  logic [1:0]  phase_next;  // ... that follows the tick
+  logic [1:0]  phase_next;  // quarter after this clock
   logic [4:0]  cell_d;
-  logic [4:0]  cell_q;      // cell of the part; 0 in a read: waiting for the start bit
+  logic [4:0]  cell_q;      // cell of the part; a read waits in cell 0 for the start bit
   logic [10:0] bits_d;
-  logic [10:0] bits_q;      // next bit on top; in a read what has come
+  logic [10:0] bits_q;      // next bit on top; in a read: the bits received
   logic [3:0]  crc_d;
   logic [3:0]  crc_q;
   logic [5:0]  index_d;
@@ -93,9 +100,9 @@ module mb4_biss_b (
   logic        fail_d;
   logic        fail_q;      // a bit came back differently, or the CRC is wrong
   logic [1:0]  sent_q;      // bits of the last two cells
-  logic [1:0]  check_q;     // ... which have to come back
-  logic [1:0]  sample_q;    // a rising edge, two clocks late like sl_i
-  logic        fresh_q;     // the slave has not been clocked in the read yet
+  logic [1:0]  check_q;     // ... must come back on SL
+  logic [1:0]  sample_q;    // rising edge of MA, delayed two clocks as sl_i is
+  logic        fresh_q;     // the read has not clocked the slave yet
   logic        quarter;
   logic        boundary;    // the next cell begins
   logic        in_fields;
@@ -118,7 +125,7 @@ module mb4_biss_b (
   assign sample     = sample_q[1];
   assign last       = index_q == regnum_i;
 
-  // CRC over the fields: cell by cell what is sent, sample by sample what comes.
+  // CRC over the fields: bits that are sent count cell by cell, received bits sample by sample.
   assign feed   = in_fields && (state_q == READ ? sample : boundary);
   assign divide = feed && (crc_q[3] ^ (state_q == READ ? sl : bits_q[10]));
 
@@ -143,6 +150,7 @@ module mb4_biss_b (
 
     unique case (state_q)
       IDLE: begin
+        // No access. MA belongs to the frame engine.
         cell_d  = 5'd0;
         fail_d  = 1'b0;
         if (start_i) begin
@@ -151,12 +159,14 @@ module mb4_biss_b (
         end
       end
       REQUEST: begin
+        // MA is high up to the next tick.
         bits_d = {slaveid_i, regadr_i, wnr_i};
         if (tick_i) state_d = HAND_OVER;
       end
       HAND_OVER: begin
+        // MA is low. The slaves change to register mode and answer with SL = 0.
         if (quarter) begin
-          if (mo_i && !init_q) begin
+          if (mo_q && !init_q) begin
             if (phase_q == 2'd1) state_d = ADDRESS;
           end else if ((use_q & sl_i) == 2'b00) begin
             state_d = init_q ? IDLE : ADDRESS;
@@ -167,6 +177,7 @@ module mb4_biss_b (
         end
       end
       ADDRESS: begin
+        // MA sends start bit, slave ID, address, direction, CRC and stop bit.
         if (boundary) begin
           cell_d = cell_q + 5'd1;
           if (in_fields) bits_d = {bits_q[9:0], 1'b0};
@@ -177,13 +188,14 @@ module mb4_biss_b (
         end
       end
       WRITE: begin
+        // MA sends start bit, data, CRC and stop bit of each byte. SL repeats them.
         if (boundary) begin
           cell_d = cell_q == BYTE_STOP ? 5'd0 : fail_q ? BYTE_STOP : cell_q + 5'd1;
           bits_d = cell_q == 5'd0 ? {rdata_i, 3'b000} : {bits_q[9:0], 1'b0};
         end
         if (sample) begin
           fail_d = fail_q || (check_q[1] && sl != sent_q[1]);
-          // The last CRC bit of the byte before has come back.
+          // The last CRC bit of the previous byte has come back.
           if (cell_q == 5'd0 && (check_q[1] || fail_q)) begin
             if (fail_d || last) state_d = SETTLE;
             if (!fail_d) index_d = index_q + 6'd1;
@@ -191,6 +203,7 @@ module mb4_biss_b (
         end
       end
       READ: begin
+        // MA clocks. SL brings start bit, data, CRC and stop bit of each byte.
         if (sample && !fresh_q) begin
           if (cell_q != 5'd0 || sl) cell_d = cell_q + 5'd1;
           if (in_fields) bits_d = {bits_q[9:0], sl};
@@ -208,6 +221,7 @@ module mb4_biss_b (
         end
       end
       SETTLE: begin
+        // MA stays high while the last stop bit travels to SL.
         if (sample) cell_d = 5'd1;
         if (sample && cell_q != 5'd0) begin
           state_d     = IDLE;
@@ -241,6 +255,7 @@ module mb4_biss_b (
       state_q  <= IDLE;
       init_q   <= 1'b0;
       use_q    <= '0;
+      mo_q     <= 1'b0;
       pre_q    <= '0;
       phase_q  <= '0;
       cell_q   <= '0;
@@ -260,7 +275,7 @@ module mb4_biss_b (
       index_q  <= index_d;
       fail_q   <= fail_d;
       sample_q <= {sample_q[0], boundary};
-      if (start_i && state_q == IDLE) {use_q, init_q} <= {use_i, init_i};
+      if (start_i && state_q == IDLE) {use_q, init_q, mo_q} <= {use_i, init_i, mo_i};
       if (state_q == IDLE || state_q == REQUEST || quarter) pre_q <= (7'd1 << freqr_i) - 7'd1;
       else if (tick_i)                                      pre_q <= pre_q - 7'd1;
       if (state_q == IDLE || state_q == REQUEST || (state_q == HAND_OVER && state_d == ADDRESS))
@@ -279,7 +294,7 @@ module mb4_biss_b (
   assign init_o          = init_q;
   assign use_o           = use_q;
   assign active_o        = state_q != IDLE;
-  assign wait_o          = (state_q == HAND_OVER && (init_q || !mo_i)) ||
+  assign wait_o          = (state_q == HAND_OVER && (init_q || !mo_q)) ||
                            (state_q == READ && cell_q == 5'd0);
   assign rdata_addr_o    = index_q;
   assign rdata_wr_data_o = bits_q[7:0];

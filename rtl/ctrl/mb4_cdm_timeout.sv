@@ -1,9 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// CDMTIMEOUT: at least 14 frames with CDM = 0 and none with CDM = 1 have been sent.
+// CDMTIMEOUT: at least 14 frames with CDM = 0 have been sent in a row.
 //
-// Clock domain: core. Counts at the end of each frame; 14 and more read 1.
+// Clock domain: core. The end of each frame counts. The output is 1 from 14 frames on; a frame with
+// CDM = 1 or INIT sets it back to 0.
 // Datasheet: page 35, Table 64; decision 20.
 
 module mb4_cdm_timeout (

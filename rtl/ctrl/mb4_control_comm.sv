@@ -1,29 +1,36 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Control communication: BiSS C control frames, BiSS B register access, CDM of every frame, limits
-// (instances and glue only). Bit i of a vector {2, 1} belongs to line i + 1.
+// Control communication: BiSS C control frames, BiSS B register access, the CDM bit of every frame,
+// and the time limits.
 //
-// Clock domain: core. Misuse and datasheet sections: see the modules.
+// Clock domain: core. Latency, misuse and datasheet sections: see the modules.
+// Vectors: bit i of a vector {2, 1} is for line i + 1.
 
 module mb4_control_comm (
   input  logic       clk_i,
   input  logic       rst_ni,
-  input  mb4_pkg::cfg_t cfg_i,
+  input  mb4_pkg::access_t access_i,   // stable while run_o
+  input  logic [2:0] freqr_i,
+  input  logic       en_mo_i,
   input  logic [2:0] instr_i,
   input  logic       ida_invert_i,
   input  logic [1:0] in_use_i,
   input  logic [1:0] ssi_i,
-  output logic [1:0] select_o,         // lines that CHSEL selects
+  input  logic [1:0] manual_i,         // lines that CHSEL names
+  input  logic [1:0] select_i,         // lines of the access: CHSEL names them, protocol fits
   // RDATA
   output logic       rdata_rd_en_o,
   output logic [5:0] rdata_addr_o,
   input  logic [7:0] rdata_i,
+  input  logic       post_busy_i,
   output logic       rdata_wr_en_o,
   output logic [7:0] rdata_wr_data_o,
   // frames
-  input  logic       begin_i,          // of a BiSS C control communication
-  input  logic       register_want_i,  // INSTR asks for a BiSS B register access
+  input  logic       begin_i,          // a BiSS C control communication begins
+  input  logic       register_want_i,  // INSTR asks for BiSS B, or for what cannot run
+  input  logic       void_i,           // an access that cannot run ends
+  input  logic       refused_i,        // SL is low: no frame for INSTR
   input  logic       abort_i,
   input  logic       clear_i,          // BREAK, INIT
   input  logic       init_clear_i,     // INIT begins
@@ -32,13 +39,14 @@ module mb4_control_comm (
   input  logic       init_i,
   input  logic       register_i,       // start_i is for a BiSS B register access
   input  logic       frame_end_i,
-  input  logic       live_i,           // frames run, or are bound to come
+  input  logic       live_i,           // frames run, or will come by themselves
   input  logic       tick_i,
   input  logic [1:0] sl_i,
   input  logic [1:0] cds_i,
   input  logic [1:0] cdm_i,            // as sent
   output logic       active_o,
-  output logic       time_o,           // the time base is needed between frames as well
+  output logic       run_o,            // an access runs
+  output logic       time_o,           // the time base must run between frames too
   output logic       stalled_o,        // no frame has ended for too long
   output logic [1:0] cdm0_o,
   output logic [1:0] cdm1_o,
@@ -57,6 +65,11 @@ module mb4_control_comm (
 );
 
   logic       time_d, time_q;
+  logic       refused_d, refused_q;    // SL was low: no frame since the last request
+  logic       counted;                 // the watchdog's limit has been reached
+  logic       void_q;                  // void_i one clock late, as all ends come
+  logic       register_q;              // the results are those of BiSS B
+  logic       unused;
   logic waiting, moved;
   logic control_begin, control_end, control_error, control_delay, in_body, expired, sent;
   logic register_start, register_active, register_wait, register_init, register_error;
@@ -71,20 +84,21 @@ module mb4_control_comm (
   mb4_control_frame u_frame (
     .clk_i,
     .rst_ni,
-    .cts_i           (cfg_i.cts),
-    .wnr_i           (cfg_i.wnr),
-    .regadr_i        (cfg_i.regadr),
-    .regnum_i        (cfg_i.regnum),
-    .slaveid_i       (cfg_i.slaveid),
+    .cts_i           (access_i.cts),
+    .wnr_i           (access_i.wnr),
+    .regadr_i        (access_i.regadr),
+    .regnum_i        (access_i.regnum),
+    .slaveid_i       (access_i.slaveid),
     .ida_invert_i,
-    .select_i        (select_o),
-    .blind_i         ((select_o & ssi_i) != 2'b00),
+    .select_i,
+    .blind_i         ((select_i & ssi_i) != 2'b00),
     .rdata_addr_o    (control_addr),
     .rdata_i,
+    .post_busy_i,
     .rdata_wr_en_o   (control_wr_en),
     .rdata_wr_data_o (control_data),
     .begin_i,
-    .abort_i         (clear_i),
+    .abort_i         (clear_i || void_i),
     .start_i         (start_i && !init_i && !register_i),
     .frame_end_i,
     .cds_i           (cds_i & in_use_i),
@@ -111,12 +125,12 @@ module mb4_control_comm (
   mb4_biss_b u_biss_b (
     .clk_i,
     .rst_ni,
-    .freqr_i         (cfg_i.freqr),
-    .wnr_i           (cfg_i.wnr),
-    .regadr_i        (cfg_i.regadr),
-    .regnum_i        (cfg_i.regnum),
-    .slaveid_i       (cfg_i.slaveid),
-    .mo_i            (cfg_i.en_mo),
+    .freqr_i,
+    .wnr_i           (access_i.wnr),
+    .regadr_i        (access_i.regadr),
+    .regnum_i        (access_i.regnum),
+    .slaveid_i       (access_i.slaveid),
+    .mo_i            (en_mo_i),
     .start_i         (register_start),
     .use_i,
     .init_i,
@@ -149,23 +163,32 @@ module mb4_control_comm (
   assign rdata_wr_data_o = register_active ? register_data : control_data;
 
   mb4_cdm_select u_cdm (
-    .chsel_i    (cfg_i.chsel),
-    .cts_i      (cfg_i.cts),
+    .manual_i,
     .instr_i,
     .active_i   (active_o),
     .control0_i (control0),
     .control1_i (control1),
-    .select_o,
     .cdm0_o,
     .cdm1_o
   );
 
-  // A clock late: much hangs on the end of a half period, and a frame begins the time anew.
-  assign time_d = waiting || (active_o && live_i);
+  // After an access that cannot run, the byte count is that of BiSS C, which void_i has cleared.
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni)                                        register_q <= 1'b0;
+    else if (register_start || control_begin || void_i) register_q <= register_start;
+  end
+
+  // A flop delays time_o by one clock. This keeps it out of the long paths that begin at the end of
+  // a half period. The delay does no harm, because the start of a frame restarts the time base.
+  assign time_d = waiting || (active_o && (live_i || refused_q));
+
+  // The frame of the last request could not start. The watchdog then counts the time up to the next
+  // request.
+  assign refused_d = active_o && !start_i && (refused_i || refused_q);
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
-    if (!rst_ni) time_q <= 1'b0;
-    else         time_q <= time_d;
+    if (!rst_ni) {time_q, refused_q, void_q} <= '0;
+    else         {time_q, refused_q, void_q} <= {time_d, refused_d, void_i};
   end
 
   assign time_o = time_q;
@@ -173,16 +196,19 @@ module mb4_control_comm (
   mb4_reg_watchdog u_watchdog (
     .clk_i,
     .rst_ni,
-    .freqr_i   (cfg_i.freqr),
+    .freqr_i,
     .watch_i   (time_d || register_wait),
-    .clear_i   (moved),
-    .live_i    (live_i || register_wait),
+    .clear_i   (moved || (start_i && refused_q)),
+    .live_i    (live_i || register_wait || refused_q),
     .tick_i,
     .expired_o (expired),
-    .stalled_o
+    .stalled_o (counted)
   );
 
-  // Zeros inside a control frame do not count; its stop bit is the first that does.
+  assign stalled_o = counted && (!refused_q || refused_i);
+  assign run_o     = active_o || register_active || register_start;
+
+  // Zeros within a control frame do not count. The stop bit is the first zero that counts.
   assign sent = (cdm_i & in_use_i) != 2'b00;
 
   mb4_cdm_timeout u_cdm_timeout (
@@ -196,11 +222,13 @@ module mb4_control_comm (
 
   // ---- results ------------------------------------------------------------------------------
 
-  // REGEND falls with the instruction, not first with the frame that has its turn.
+  // REGEND falls with the instruction. It does not wait for the frame of the access.
   assign reg_begin_o   = control_begin || register_want_i;
-  assign reg_end_o     = control_end || register_end;
-  assign reg_error_o   = control_end ? control_error : register_error;
+  assign reg_end_o     = control_end || register_end || void_q;
+  assign reg_error_o   = void_q || (control_end ? control_error : register_error);
   assign delay_error_o = control_end ? control_delay : register_delay;
-  assign good_bytes_o  = cfg_i.regvers ? control_bytes : register_bytes;
+  // Not needed: begin_i and register_want_i tell the kind of access.
+  assign unused        = access_i.regvers;
+  assign good_bytes_o  = register_q ? register_bytes : control_bytes;
 
 endmodule

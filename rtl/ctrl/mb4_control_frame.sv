@@ -1,17 +1,26 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// BiSS C control frame, master side: register read and write, commands. One CDM and one CDS bit a
-// frame; the slot is the number of frames since the start bit S (slot numbers: mb4_pkg).
+// BiSS C control frame, master side: register read, register write, commands. Each frame carries
+// one CDM bit and one CDS bit. The slot is the number of frames since the start bit S (slot
+// numbers: mb4_pkg).
 //
-// Clock domain: core. begin_i starts a control communication (ignored while active_o). Frames that
-// start from then on carry it: cdm0_o and cdm1_o are the CDM to send if the frame's own CDS is 0
-// or 1, one bit a line; step_i at their end takes CDS. Slot 0 lasts until 14 zeros have been sent
-// (cdm_timeout_i), slot 19 until the slave's start bit. CDS of a slot answers CDM of the slot
-// before. end_o comes one clock after the step that finished or failed.
-// Misuse: register access needs one line in select_i; configuration must be stable while active_o.
-// A slave that does not answer: nREGERR = 0 (no echo of R and W) or, in the first frame that ends
-// with expired_i, nDELAYERR = 0. Frames that do not come to their end (stalled_i) end it as well.
+// Clock domain: core. begin_i starts a control communication; it is ignored while active_o is high.
+// Each frame that starts from then on carries one bit:
+//
+// - cdm0_o and cdm1_o are the CDM to send if CDS of the same frame is 0 or 1, one bit for each
+//   line.
+// - frame_end_i takes CDS. CDS of a slot answers CDM of the slot before.
+// - Slot 0 lasts until 14 zeros have been sent (cdm_timeout_i). Slot 19 lasts until the start bit
+//   of the slave.
+// - IDS is the first byte of RDATA. It is taken when the bytes have arrived that the host wrote
+//   before begin_i.
+//
+// Latency: end_o comes one clock after the step that finished or failed.
+// Misuse: a register access needs exactly one line in select_i. The configuration must be stable
+// while active_o is high.
+// Silent slave: without echo of R and W nREGERR = 0. Without start bit nDELAYERR = 0 with the first
+// frame that ends with expired_i. Frames that do not end (stalled_i) also end the control frame.
 // Datasheet: pages 27..29, 34, 35, Figures 20..22; decisions 5, 12, 20, 22..24, 31.
 
 `include "mb4_check.svh"
@@ -25,27 +34,28 @@ module mb4_control_frame (
   input  logic [6:0] regadr_i,
   input  logic [5:0] regnum_i,
   input  logic [2:0] slaveid_i,      // or CMD(1:0), IDA_TEST
-  input  logic       ida_invert_i,   // IDA_TEST has the other polarity
+  input  logic       ida_invert_i,   // quirk: IDA_TEST has the opposite polarity
   input  logic [1:0] select_i,       // lines {2, 1} that carry the control frame
-  input  logic       blind_i,        // SSI: no CDS, answers to a write are taken for granted
+  input  logic       blind_i,        // SSI: no CDS, every answer to a write counts as right
   // RDATA: byte rdata_addr_o is valid one clock after its address
   output logic [5:0] rdata_addr_o,
   input  logic [7:0] rdata_i,
+  input  logic       post_busy_i,    // bytes of the host are on their way to RDATA
   output logic       rdata_wr_en_o,
   output logic [7:0] rdata_wr_data_o,
   // frames
   input  logic       begin_i,
   input  logic       abort_i,        // BREAK, INIT
   input  logic       start_i,        // a frame starts
-  input  logic       frame_end_i,    // it has ended
-  input  logic [1:0] cds_i,          // its CDS, lines {2, 1}
+  input  logic       frame_end_i,    // the frame has ended
+  input  logic [1:0] cds_i,          // CDS of the frame, lines {2, 1}
   input  logic       cdm_timeout_i,  // at least 14 frames with CDM = 0 before this one
   input  logic       expired_i,      // no start bit for too long
   input  logic       stalled_i,      // no frame has ended for too long
   output logic       active_o,
-  output logic       in_body_o,      // the frame that ends belongs to slots before the stop bit
+  output logic       in_body_o,      // the slot is between S and the stop bit
   output logic       wait_o,         // waiting for the slave's start bit
-  output logic       moved_o,        // a frame has ended, and not in vain
+  output logic       moved_o,        // a frame ends, but not while S is awaited
   output logic [1:0] cdm0_o,
   output logic [1:0] cdm1_o,
   // result
@@ -58,11 +68,13 @@ module mb4_control_frame (
 
   logic       active_q;
   logic       active_d;
+  logic [1:0] fresh_q;      // the fields have not been taken yet
+  logic       broadcast_q;
   logic       carries_q;    // the running frame carries a bit of the control frame
   logic       carries_d;
   logic [5:0] slot_q;
   logic [5:0] slot_d;
-  logic [9:0] bits_q;       // header fields, IDS and CMD, or data byte; first bit on top
+  logic [9:0] bits_q;       // header fields, IDS and CMD, or data byte; next bit on top
   logic [9:0] bits_d;
   logic [3:0] crc_q;
   logic [3:0] crc_d;
@@ -78,27 +90,27 @@ module mb4_control_frame (
   logic       end_d, reg_error_d, delay_error_d;
 
   logic       step;
-  logic       broadcast;
+  logic       take;
   logic       tested;
   logic       cds;          // of the selected line
   logic       cdm0, cdm1, sent;
   logic       top, crc_feed, crc_shift, crc_bit;
-  logic       by_ida;       // CDM depends on the line's own IDA
+  logic       by_ida;       // CDM depends on the IDA of the line
   logic       stay, fail, late, finish;
   logic       header, echo, ida;
-  logic       data;         // slots of data bits, CDM or CDS by direction
+  logic       data;         // slot of a data bit, on CDM (write) or CDS (read)
   logic       data_crc;
 
   assign step      = carries_q && frame_end_i;
-  assign broadcast = rdata_i == 8'h00;
-  assign tested    = (slaveid_i[0] ^ ida_invert_i) && !broadcast;
+  assign take      = fresh_q[1] && !post_busy_i;
+  assign tested    = (slaveid_i[0] ^ ida_invert_i) && !broadcast_q;
   assign cds       = (blind_i && cts_i) ? sent_q : (cds_i & select_i) != 2'b00;
   assign top       = bits_q[9];
 
   // ---- slots --------------------------------------------------------------------------------
   assign header   = slot_q >= mb4_pkg::SLOT_HEADER && slot_q < mb4_pkg::SLOT_CRC;
   assign echo     = cts_i && slot_q > mb4_pkg::SLOT_WAIT && slot_q <= mb4_pkg::SLOT_STOP;
-  assign ida      = !cts_i && !broadcast && slot_q >= mb4_pkg::SLOT_IDA &&
+  assign ida      = !cts_i && !broadcast_q && slot_q >= mb4_pkg::SLOT_IDA &&
                     slot_q <= mb4_pkg::SLOT_EX_TESTED;
   // CDS of a read comes one slot after CDM of a write.
   assign data     = cts_i && (wnr_i
@@ -156,7 +168,7 @@ module mb4_control_frame (
       mb4_pkg::SLOT_START: stay = !sent;
       mb4_pkg::SLOT_WRITE: begin
         fail   = cts_i && (cds == wnr_i || (blind_i && !wnr_i));
-        finish = !cts_i && broadcast;
+        finish = !cts_i && broadcast_q;
       end
       mb4_pkg::SLOT_BYTE:  fail   = cts_i && cds != wnr_i;
       mb4_pkg::SLOT_WAIT:  stay   = cts_i && !cds;
@@ -179,13 +191,13 @@ module mb4_control_frame (
     crc_d     = crc_q;
     if (crc_feed)       crc_d = {crc_q[2:0], 1'b0} ^ (crc_bit ? mb4_pkg::CONTROL_CRC_POLY : 4'h0);
     else if (crc_shift) crc_d = {crc_q[2:0], 1'b0};
-    // The header's CRC does not cover S. A CRC that has been sent leaves zeros for the next one.
+    // The CRC of the header does not cover S. After a CRC has been sent, crc_q is 0 again.
     if (slot_q == mb4_pkg::SLOT_START) crc_d = 4'h0;
   end
 
   always_comb begin
     bits_d = bits_q;
-    if (slot_q == mb4_pkg::SLOT_START)
+    if (take)
       bits_d = cts_i ? {slaveid_i, regadr_i} : {rdata_i, slaveid_i[2:1]};
     else if (cts_i && (slot_q == mb4_pkg::SLOT_BYTE || slot_q == mb4_pkg::SLOT_NEXT))
       bits_d = {rdata_i, 2'b00};
@@ -225,7 +237,7 @@ module mb4_control_frame (
       delay_error_d = wait_o;
     end
 
-    // A frame may start in the clock of begin_i: slot 0 is there already.
+    // A frame may start in the clock of begin_i, so slot_q is 0 whenever no control frame runs.
     if (end_d) begin
       active_d  = 1'b0;
       carries_d = 1'b0;
@@ -249,6 +261,8 @@ module mb4_control_frame (
     if (!rst_ni) begin
       active_q      <= 1'b0;
       carries_q     <= 1'b0;
+      fresh_q       <= '0;
+      broadcast_q   <= 1'b0;
       slot_q        <= '0;
       bits_q        <= '0;
       crc_q         <= '0;
@@ -262,6 +276,7 @@ module mb4_control_frame (
     end else begin
       active_q      <= active_d;
       carries_q     <= carries_d;
+      fresh_q       <= begin_o ? 2'b01 : take ? 2'b00 : {fresh_q[0], fresh_q[0]};
       slot_q        <= slot_d;
       index_q       <= index_d;
       last_q        <= last_d;
@@ -269,13 +284,16 @@ module mb4_control_frame (
       end_q         <= end_d;
       reg_error_q   <= reg_error_d;
       delay_error_q <= delay_error_d;
-      if (step) {bits_q, crc_q} <= {bits_d, crc_d};
+      if (take) broadcast_q <= rdata_i == 8'h00;
+      if (take || step) bits_q <= bits_d;
+      if (step) crc_q <= crc_d;
       if (begin_o)   ida_bad_q <= '0;
       else if (step) ida_bad_q <= ida_bad_d;
     end
   end
 
-  // The instruction that waits for a frame which never comes is not a new one.
+  // begin_i stays high until a frame takes the instruction. After a stall it is still the old
+  // instruction, so it does not begin a control frame.
   assign begin_o       = begin_i && !active_q && !stalled_i;
   assign active_o      = active_q || begin_o;
   assign wait_o        = active_q && cts_i && slot_q == mb4_pkg::SLOT_WAIT;

@@ -1,45 +1,62 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What INSTR asks for, and which lines take part in it.
+// Tells what INSTR asks for, and which lines take part.
 //
-// Combinational; the configuration must be stable while frames run. A line is in use unless CFGCHx
-// is 11, line 2 only with SLAVELOC5 = 1. Bit i of a vector {2, 1} belongs to line i + 1.
-// Misuse: INSTR 100 and 111 with REGVERS = 0 and no BiSS B line selected: no frame at all.
-// Datasheet: pages 23, 27, 28, 32, Tables 8, 10, 23, 45, 46.
+// Combinational; the configuration must be stable while frames run. Bit i of a vector {2, 1} is for
+// line i + 1.
+//
+// - A line is in use unless CFGCHx is 11. Line 2 also needs SLAVELOC5 = 1.
+// - Control communication runs on the lines that CHSEL names and whose protocol fits: BiSS B with
+//   REGVERS = 0, BiSS C or SSI with REGVERS = 1.
+// - If both lines fit, a BiSS C register access runs on line 1 alone. A command runs on both lines,
+//   and so does a BiSS B access (mb4_biss_b reads line 1).
+//
+// Misuse: INSTR 100 or 111 without a line that fits asks for nothing (is_void_o; decision 37).
+// Datasheet: pages 23, 27, 28, 32, Tables 8, 10, 23, 45, 46; decision 43.
 
 module mb4_frame_kind (
   input  logic [2:0] instr_i,
+  input  logic [1:0] chsel_i,
+  input  logic       cts_i,
   input  logic       regvers_i,
   input  logic       slaveloc5_i,
   input  logic [1:0] cfgch1_i,
   input  logic [1:0] cfgch2_i,
-  input  logic [1:0] select_i,       // by CHSEL
   output logic [1:0] use_o,
   output logic [1:0] ssi_o,
+  output logic [1:0] manual_o,       // lines that CHSEL names
+  output logic [1:0] select_o,       // lines of the control communication
   output logic [1:0] frame_use_o,    // lines of the frame that INSTR asks for
   output logic [1:0] init_use_o,     // lines of INIT
   output logic       is_frame_o,
   output logic       is_control_o,   // BiSS C control communication
-  output logic       is_register_o   // BiSS B register access
+  output logic       is_register_o,  // BiSS B register access
+  output logic       is_void_o       // control communication without a line that fits
 );
 
   logic [1:0] biss_b;
+  logic [1:0] fits;
   logic       control;
 
   assign use_o  = {cfgch2_i != mb4_regs_pkg::PROTOCOL_UNUSED && slaveloc5_i,
                    cfgch1_i != mb4_regs_pkg::PROTOCOL_UNUSED};
   assign ssi_o  = {cfgch2_i == mb4_regs_pkg::PROTOCOL_SSI, cfgch1_i == mb4_regs_pkg::PROTOCOL_SSI};
   assign biss_b = {cfgch2_i == mb4_regs_pkg::PROTOCOL_BISS_B,
-                   cfgch1_i == mb4_regs_pkg::PROTOCOL_BISS_B} & use_o;
+                   cfgch1_i == mb4_regs_pkg::PROTOCOL_BISS_B};
+
+  assign manual_o = chsel_i == 2'b00 ? 2'b01 : chsel_i;
+  assign fits     = manual_o & use_o & (regvers_i ? ~biss_b : biss_b);
+  assign select_o = {fits[1] && !(fits[0] && cts_i && regvers_i), fits[0]};
 
   assign control = instr_i == mb4_regs_pkg::INSTR_CONTROL ||
                    instr_i == mb4_regs_pkg::INSTR_CONTROL_REDUCED;
 
-  assign is_control_o  = control && regvers_i;
-  assign is_register_o = control && !regvers_i && (biss_b & select_i) != 2'b00;
+  assign is_void_o     = control && fits == 2'b00;
+  assign is_control_o  = control && fits != 2'b00 && regvers_i;
+  assign is_register_o = control && fits != 2'b00 && !regvers_i;
   assign is_frame_o    = is_control_o || is_register_o || (instr_i != 3'b000 && !instr_i[2]);
-  assign frame_use_o   = is_register_o ? biss_b & select_i : use_o;
+  assign frame_use_o   = is_register_o ? select_o : use_o;
   assign init_use_o    = use_o & ~ssi_o;
 
 endmodule

@@ -1,15 +1,20 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// When a frame is due by itself (AGS = 1): at the rate of FREQAGS, at once (AGSMIN), or by pin
-// GETSENS (AGSINFINITE).
+// Requests automatic frames (AGS = 1): at the rate of FREQAGS, at once (AGSMIN), or by pin GETSENS
+// (AGSINFINITE).
 //
-// Clock domain: core; GETSENS is asynchronous. With a rate the first frame is due one period after
-// AGS was set, then every 20 (FREQAGS + 1) or 625 (FREQAGS - 127) clocks, whatever the frames do:
-// writing AGS = 1 again shifts nothing, BREAK starts anew. request_o stays until taken_i.
-// missed_o: a frame is due while the last one has not finished; it is left out. GETSENS high is a
-// request whenever the lines are idle; with hold_cdm_i each pulse gives one frame. From GETSENS to
-// the start of a frame 2 clocks; half an MA period later MA falls.
+// Clock domain: core; GETSENS is asynchronous.
+//
+// - Rate: the first frame is due one period after AGS was set. Then one is due every 20 (FREQAGS +
+//   1) or 625 (FREQAGS - 127) clocks, whatever the frames do. Writing AGS = 1 again does not move
+//   these times; BREAK starts them again. request_o stays until taken_i.
+// - missed_o: a frame is due while the one before has not ended. The new frame is left out.
+// - GETSENS = 1 is a request whenever the lines are idle. With hold_cdm_i each pulse gives one
+//   frame.
+//
+// Latency: 2 clocks from GETSENS to the start of a frame; MA falls half an MA period later.
+// Misuse: a GETSENS pulse that begins and ends while a frame runs is not remembered.
 // Datasheet: pages 30..32, Tables 37, 44, item C08; decision 19.
 
 module mb4_frame_request (
@@ -23,7 +28,7 @@ module mb4_frame_request (
   input  logic       busy_i,       // a frame runs
   input  logic       lines_idle_i,
   input  logic       taken_i,
-  output logic       agsmin_o,     // FREQAGS is AGSMIN, AGS set or not
+  output logic       agsmin_o,     // FREQAGS is AGSMIN, with AGS = 1 or 0
   output logic       infinite_o,   // FREQAGS is AGSINFINITE
   output logic       request_o,
   output logic       missed_o

@@ -1,10 +1,11 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// FREQS code to the length of half an MA period in clocks (datasheet page 30, Table 35).
+// Decodes FREQS: gives the length of half an MA period in clocks.
 //
-// Combinational. Codes 0x00..0x0F: code + 1; 0x11..0x1F: 10 (code - 15).
-// Misuse: code 0x10 is not permitted by the datasheet; the same formula gives f_MA = f_CLK / 20.
+// Combinational. Codes 0x00..0x0F: code + 1. Codes 0x11..0x1F: 10 (code - 15).
+// Misuse: the datasheet does not permit code 0x10; the same formula gives f_MA = f_CLK / 20.
+// Datasheet: page 30, Table 35.
 
 module mb4_freqs_dec (
   input  logic [4:0] freqs_i,

@@ -1,14 +1,14 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// MA force bits: from the configuration registers to the lines, bit i of a vector {2, 1} for line
-// i + 1.
+// MA force bits: brings them from the configuration registers to the lines. Bit i of a vector {2,
+// 1} is for line i + 1.
 //
-// Clock domain: core. The bits may be written at any time: they pass two flops and are taken
-// together once they are the same for two clocks (4 clocks after the write at most), with
-// change_o. MA follows with the next tick (mb4_ma_drive).
+// Clock domain: core. The host may write the bits at any time. They pass two flops. They are taken
+// together when they have been equal for two clocks, at most 4 clocks after the write; change_o is
+// high then. MA follows with the next tick (mb4_ma_drive).
 // Misuse: none.
-// Datasheet: page 33, Tables 50..53; CHSEL page 27, Table 23.
+// Datasheet: page 33, Tables 50..53; CHSEL: page 27, Table 23.
 
 module mb4_ma_force (
   input  logic       clk_i,

@@ -1,13 +1,14 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Limits of a control communication: 4096 register clocks, each 2^(FREQR+1) MA periods, for the
-// slave's start bit (expired_o), an eighth more for a frame that does not end (stalled_o).
+// Time limits of a control communication. expired_o: the start bit of the slave has not come within
+// 4096 register clocks, each of 2^(FREQR+1) MA periods. stalled_o: an eighth of this time more has
+// passed, for a frame that does not end.
 //
-// Clock domain: core. Counts half MA periods while watch_i is high; clear_i starts anew. Both stay
-// until watch_i falls. Without live_i (no frame runs or comes by itself) it stops at the first
-// limit: what the host has not asked for does not stall. A frame's start restarts the time base, so
-// each frame may add half a period.
+// Clock domain: core. The module counts half MA periods while watch_i is high; clear_i starts
+// again. Both outputs stay until watch_i falls or clear_i comes. While live_i is low (no frame runs
+// or comes by itself) the count stops at the first limit: a frame that the host has not asked for
+// is no stall. The start of a frame restarts the time base, so each frame may add half a period.
 // Datasheet: page 34, Table 58; decision 24.
 
 module mb4_reg_watchdog (

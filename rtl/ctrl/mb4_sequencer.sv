@@ -1,19 +1,30 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Instruction register 0xF4, core half, and the order of events: which frame runs when, and when
-// the instruction clears itself.
+// Core half of the instruction register 0xF4, and the order of events: it decides which frame runs
+// when, and when an instruction clears itself.
 //
-// Clock domain: core. A written byte arrives 2..3 clocks after its last bit; the frame it asks for
-// starts with the next clock at the earliest. busy_o comes before ack_o tells the host half. A
-// frame ends two clocks after its last bit: its result first, then the bank switch. With AGS = 1
-// INSTR sets the CDM of the frames that come by themselves (mb4_frame_request) and stays; only
-// with FREQAGS = AGSINFINITE it asks for one as well. A BiSS B register access (register_o) takes
-// the place of a frame. BiSS B INIT is the hand-over of such an access alone.
-// Misuse: SL low when a frame is due: no frame, nAGSERR = 0, or with FREQAGS = AGSMIN waiting for
-// SL = 1 (decision 3). A frame due while HOLDBANK holds back a switch: no frame, SWBANKFAIL = 1,
-// nAGSERR = 0 (decision 15). INSTR written with the value that is running does not ask for another
-// frame. INIT waits for the slaves' timeout of the frame before, but not for ever: see INIT_WAIT.
+// Clock domain: core.
+// Latency: a written byte arrives 2..3 clocks after its last bit. The frame that it asks for starts
+// one clock later at the earliest. busy_o rises before ack_o reaches the host half. A frame ends
+// two clocks after its last bit: first its result, then the bank switch.
+//
+// - With AGS = 1 INSTR sets the CDM of the automatic frames (mb4_frame_request) and stays. Only
+//   with FREQAGS = AGSINFINITE it also asks for a frame.
+// - A BiSS B register access (register_o) takes the place of a frame. INIT of BiSS B is only the
+//   hand-over of such an access.
+// - INIT waits for the slaves' timeout of the frame before it, but not without limit (INIT_WAIT).
+//
+// Misuse and errors:
+//
+// - SL is low when a frame is due: no frame, nAGSERR = 0. With FREQAGS = AGSMIN the frame waits for
+//   SL = 1 instead (decision 3).
+// - A frame is due while HOLDBANK holds back a switch: the frame runs into the other bank and the
+//   switch is lost (mb4_bank_ctrl). With agserr_on_hold_i there is no frame, SWBANKFAIL = 1 and
+//   nAGSERR = 0 (decision 15).
+// - A control communication that cannot run ends at once (decision 37).
+// - INSTR written with the code whose frame runs does not ask for another frame.
+//
 // Datasheet: pages 31..33, Tables 44..49; decisions 1, 3, 8, 14, 15, 19, 23, 25, 26.
 
 `include "mb4_check.svh"
@@ -23,8 +34,8 @@ module mb4_sequencer (
   input  logic       rst_ni,
   // instruction register, host half
   input  mb4_pkg::instr_t written_i,
-  input  logic       toggle_i,
-  output logic       ack_o,
+  input  logic [1:0] count_i,         // one step for each write
+  output logic [1:0] ack_o,           // steps taken
   output mb4_pkg::instr_t held_o,
   // configuration
   input  logic       mem_busy_i,
@@ -32,15 +43,16 @@ module mb4_sequencer (
   input  logic       infinite_i,
   input  logic       regvers_i,
   input  logic [1:0] use_i,           // lines in use: {2, 1}
-  input  logic [1:0] frame_use_i,     // ... of them by what INSTR asks for
-  input  logic [1:0] init_use_i,      // ... by INIT
+  input  logic [1:0] frame_use_i,     // lines of the frame that INSTR asks for
+  input  logic [1:0] init_use_i,      // lines of INIT
   input  logic       is_frame_i,      // INSTR asks for a frame (mb4_frame_kind)
   input  logic       is_control_i,
   input  logic       is_register_i,
+  input  logic       is_void_i,       // INSTR asks for what cannot run
   input  logic       agserr_on_hold_i,
   input  logic       agserr_on_write_i,
   input  logic       ags_clear_i,     // an AGS error clears AGS
-  // frames due by themselves
+  // automatic frames
   input  logic       request_i,
   input  logic       missed_i,
   output logic       taken_o,
@@ -51,6 +63,7 @@ module mb4_sequencer (
   output logic       start_o,
   output logic [1:0] start_use_o,     // lines that start_o is for
   output logic       init_o,
+  output logic       mo_return_o,     // INIT: MO returns to 1
   output logic       register_o,      // with start_o: BiSS B register access or hand-over
   output logic       reduced_o,       // this frame, from start_o to its end
   output logic       abort_o,
@@ -67,6 +80,7 @@ module mb4_sequencer (
   input  logic       bank_pending_i,
   output logic       frame_end_o,     // a frame is complete
   output logic       bank_end_o,      // ... with sensor data
+  output logic       bank_run_o,      // a frame with sensor data runs
   output logic       swbank_pulse_o,
   // status
   output logic       busy_o,
@@ -77,11 +91,13 @@ module mb4_sequencer (
   output logic       bank_fail_o,
   output logic       init_clear_o,    // INIT begins
   // control communication
-  output logic       control_begin_o, // INSTR asks for it; stays until a frame takes it
-  output logic       register_begin_o, // ... for a BiSS B register access
+  output logic       control_begin_o, // INSTR asks for BiSS C; stays until a frame takes it
+  output logic       register_begin_o, // INSTR asks for BiSS B, or for what cannot run
+  output logic       void_o,          // INSTR asks for what cannot run, and ends
+  output logic       refused_o,       // SL is low: no frame for INSTR
   input  logic       control_active_i,
   input  logic       control_end_i,
-  input  logic       control_stalled_i // ... for want of frames
+  input  logic       control_stalled_i // because no frame ends
 );
 
   typedef enum logic [2:0] {
@@ -95,38 +111,39 @@ module mb4_sequencer (
   state_e           state_d;
   state_e           state_q;
   mb4_pkg::instr_t  held_d, held_q;
-  logic             new_d, new_q;  // INSTR was written and has not started yet
+  logic             new_d, new_q;  // INSTR was written, its frame has not started
   logic [1:0]       use_d, use_q;
   logic [1:0]       done_d, done_q;
   logic             bad_d, bad_q;
   logic             reduced_d;
-  logic             reduced_q;     // the running frame ends behind CDS
-  logic [1:0]       ack_q;         // a clock later than new_q: REGEND has fallen by then
+  logic             reduced_q;     // the running frame ends after CDS
   logic [10:0]      wait_d;
-  logic [10:0]      wait_q;        // half MA periods left for SL to return to 1
-  logic             written, toggle_level;
+  logic [10:0]      wait_q;        // half MA periods left for the return of SL to 1
+  logic             written;
   logic             all_idle, sl_low;
-  logic             by_instr, begins;  // INSTR asks for a frame, ... a control communication
-  logic             register_d, register_q;  // no frame but a BiSS B register access
+  logic             by_instr, begins;  // INSTR asks for a frame, for a control communication
+  logic             register_d, register_q;  // a BiSS B register access runs, not a frame
 
-  // INIT does not test SL (page 33), yet slaves need their timeout around it: 1024 MA periods for
-  // SL to return. The longest timeout in the field is 40 us, 400 periods at 10 MHz.
+  // INIT does not test SL (page 33), but the slaves need their timeout before and after it. So SL
+  // has 1024 MA periods to return to 1. The longest timeout in the field is 40 us: 400 MA periods
+  // at 10 MHz.
   localparam logic [10:0] INIT_WAIT = 11'h7FF;
 
-  mb4_toggle_rx u_written (
+  // ack_o comes one clock after new_q. REGEND has fallen by then.
+  mb4_count_rx u_written (
     .clk_i,
     .rst_ni,
-    .toggle_i,
+    .count_i,
     .pulse_o (written),
-    .level_o (toggle_level)
+    .ack_o
   );
 
-  assign all_idle = (use_i & ~idle_i) == 2'b00;
+  assign all_idle = idle_i == 2'b11;   // also lines out of use: they share the time base
   assign sl_low   = (use_i & (idle_i | timeout_i) & ~sl_i) != 2'b00;
   assign by_instr = new_q && is_frame_i && use_i != 2'b00 && (!held_q.ags || infinite_i);
   assign begins   = new_q && use_i != 2'b00 && !held_q.init && state_q != INIT_TIMEOUT;
   assign control_begin_o  = begins && is_control_i && state_q != INIT;
-  assign register_begin_o = begins && is_register_i;
+  assign register_begin_o = (begins && is_register_i) || (new_q && is_void_i && !void_o);
   assign register_o  = init_o ? !regvers_i : is_register_i;
   assign register_d  = start_o ? register_o : register_q;
   assign start_use_o = init_o ? init_use_i : frame_use_i;
@@ -153,11 +170,17 @@ module mb4_sequencer (
     bank_fail_o    = 1'b0;
     taken_o        = 1'b0;
     break_o        = 1'b0;
+    void_o         = 1'b0;
+    refused_o      = 1'b0;
 
     unique case (state_q)
       IDLE: begin
-        // An INSTR that asks for no frame keeps none waiting that is due by itself.
-        if (new_q && !new_d && (!is_frame_i || !held_q.ags)) held_d.instr = 3'b000;
+        // The host sees EOT = 1, unless a request waits. An INSTR that asks for no frame ends here;
+        // it does not delay an automatic frame.
+        if (new_q && !new_d && (!is_frame_i || !held_q.ags)) begin
+          held_d.instr = 3'b000;
+          void_o       = is_void_i;
+        end
         if (held_q.init && !mem_busy_i) begin
           if (init_use_i == 2'b00) begin
             held_d.init   = 1'b0;
@@ -180,6 +203,7 @@ module mb4_sequencer (
           end else if (sl_low && !agsmin_i) begin
             taken_o     = 1'b1;
             ags_error_o = 1'b1;
+            refused_o   = by_instr;
           end else if (all_idle && !sl_low) begin
             taken_o = 1'b1;
             start_o = 1'b1;
@@ -193,7 +217,7 @@ module mb4_sequencer (
         end
       end
       FRAME: begin
-        // Lines of different length end one frame together.
+        // A frame or a register access runs. It ends when the last of its lines has ended.
         bad_d  = bad_q || (word_done_i & ~word_ok_i) != 2'b00;
         done_d = done_q | frame_end_i;
         if (done_d == 2'b11) begin
@@ -202,18 +226,22 @@ module mb4_sequencer (
         end
       end
       FRAME_DONE: begin
+        // All lines have brought their last bit. The banks switch now.
         state_d     = IDLE;
         frame_end_o = !register_q;
         wait_d      = INIT_WAIT;
         if (!held_q.ags && !new_q) held_d.instr = 3'b000;
       end
       INIT: begin
+        // INIT runs: MA makes its two pulses and the line delay is measured (BiSS C), or MA does
+        // the hand-over (BiSS B).
         done_d      = done_q | init_done_i | init_fail_i | frame_end_i;
         ags_error_o = (init_fail_i & use_q) != 2'b00;
         wait_d      = INIT_WAIT;
         if (done_d == 2'b11) state_d = INIT_TIMEOUT;
       end
       INIT_TIMEOUT: begin
+        // The slaves are in their timeout. The host still reads INIT = 1.
         if ((use_q & ~idle_i) == 2'b00 || wait_q == 11'd0) begin
           state_d     = IDLE;
           held_d.init = 1'b0;
@@ -223,15 +251,15 @@ module mb4_sequencer (
     endcase
 
     // With AGS = 1 the instruction ends with the control communication.
-    if (control_end_i && (is_control_i || is_register_i) && (!new_q || control_stalled_i)) begin
+    if (control_end_i && held_q.instr[2] && (!new_q || control_stalled_i)) begin
       held_d.instr = 3'b000;
     end
     if (missed_i) ags_error_o = 1'b1;
     if (ags_error_o && ags_clear_i) held_d.ags = 1'b0;
 
     if (written) begin
-      // The code whose frame runs is no new request, from its first clock to the one before its
-      // end. An INIT that has not come to its end is not lost; AGS waits for it.
+      // INSTR written with the code whose frame runs is no new request. A frame runs from its first
+      // clock to the one before its end. A write does not cancel an INIT; AGS waits for its end.
       new_d           = written_i.instr != 3'b000 &&
                         (new_d || (state_q != FRAME && state_d != FRAME) ||
                          written_i.instr != held_q.instr);
@@ -269,7 +297,6 @@ module mb4_sequencer (
       reduced_q  <= 1'b0;
       register_q <= 1'b0;
       wait_q     <= '0;
-      ack_q      <= '0;
     end else begin
       state_q    <= state_d;
       held_q     <= held_d;
@@ -280,18 +307,20 @@ module mb4_sequencer (
       reduced_q  <= reduced_d;
       register_q <= register_d;
       wait_q     <= wait_d;
-      ack_q      <= {ack_q[0], written ? ack_q[0] : toggle_level};
     end
   end
 
-  assign ack_o       = ack_q[1];
+  // Slaves that pass MO on do not show their timeout on SL. So MO stays low for half of INIT_WAIT,
+  // which covers the timeout, and SL has the other half to follow MO (decision 39).
+  assign mo_return_o = state_q == INIT_TIMEOUT && !wait_q[10];
   assign held_o      = held_q;
   assign scd_bad_o   = bad_d;
   assign reduced_o   = reduced_d;
   assign bank_end_o  = frame_end_o && !reduced_q;
+  assign bank_run_o  = state_q == FRAME && !reduced_q && !register_q;
   assign running_o    = state_q != IDLE;
   assign lines_idle_o = all_idle;
-  // With AGS = 1 INSTR alone makes no frame, unless FREQAGS is AGSINFINITE.
+  // With AGS = 1 INSTR asks for no frame, unless FREQAGS is AGSINFINITE.
   assign busy_o      = state_d != IDLE || (new_d && (!held_d.ags || infinite_i)) || held_d.init;
 
   `MB4_ASSERT(BreakIsNotKept_A, clk_i, rst_ni, !held_q.brk)

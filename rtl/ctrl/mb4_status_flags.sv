@@ -3,25 +3,26 @@
 //
 // Status flags with their set and clear conditions; EOT and the NER output.
 //
-// Clock domain: core. EOT falls in the clock after busy_i and rises three clocks after it ends,
-// when the other flags, SVALID and the banks have settled: a host that reads EOT = 1 reads their
-// new values with it. Of a set and a clear in the same clock the set wins.
+// Clock domain: core.
+// Latency: EOT falls one clock after busy_i rises. It rises three clocks after busy_i falls, when
+// the other flags, SVALID and the banks have settled. So a host that reads EOT = 1 also reads their
+// new values. If a set and a clear come in one clock, the set wins.
 // Datasheet: pages 33..35, Tables 54..60, 62; decisions 1, 8, 9, 15, 24, 26.
 
 module mb4_status_flags (
   input  logic clk_i,
   input  logic rst_ni,
-  input  logic busy_i,         // a frame or INIT runs or is about to
+  input  logic busy_i,         // a frame or INIT runs or is requested
   input  logic clear_i,        // INIT, BREAK
-  input  logic scd_en_i,       // a frame is complete: its result
+  input  logic scd_en_i,       // a frame is complete: scd_bad_i is its result
   input  logic scd_bad_i,
   input  logic ags_error_i,    // a frame could not start
   input  logic bank_fail_i,    // a bank switch was prevented
   input  logic bank_swapped_i,
-  input  logic reg_begin_i,    // control communication begins
-  input  logic reg_end_i,      // it has ended
+  input  logic reg_begin_i,    // a control communication begins
+  input  logic reg_end_i,      // the control communication has ended
   input  logic reg_error_i,    // ... with an error
-  input  logic delay_error_i,  // ... for want of a start bit
+  input  logic delay_error_i,  // ... because no start bit came
   output logic eot_o,
   output logic n_scderr_o,
   output logic n_agserr_o,

@@ -1,13 +1,13 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Word lists of both lines: one for what comes on SL, one for what goes out on MO, which also
-// counts the bits of the frame (instances only). Bit i of a vector {2, 1} belongs to line i + 1,
-// wider fields are slices.
+// Word lists of both lines. Each line has one list for the words on SL and one for the words on MO;
+// the MO list also counts the bits of the frame.
 //
-// Clock domain: core. See mb4_word_list. The lists get the configuration of their data channel on
-// ports of their own. With SLAVELOC5 = 1 line 2 has data channels 5..8.
-// actuator_o: there is an actuator among the words of the line.
+// Clock domain: core. Timing and misuse: mb4_word_list. Each list reads the configuration of its
+// data channel on its own port. With SLAVELOC5 = 1 line 2 has the data channels 5..8, otherwise
+// line 1 has all eight. actuator_o: the line has an actuator among its words.
+// Vectors: bit i of a vector {2, 1} is for line i + 1; wider fields are slices.
 // Datasheet: pages 23..26, Tables 10, 17.
 
 module mb4_words (
@@ -98,7 +98,7 @@ module mb4_words (
     );
   end
 
-  // Only one of the two lists counts.
+  // Only the MO list counts the bits.
   assign unused = ^{rx_actuator, rx_len_valid, rx_len};
 
 endmodule

@@ -1,12 +1,12 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The host pins of the 28-pin device: SPI with SPI2 beside it, or the parallel bus, chosen by
-// straps; all of them onto one host byte bus and one more read port.
+// The host pins of the 28-pin device. The straps choose SPI, with SPI2 beside it, or the parallel
+// bus. All of them use one host byte bus; SPI2 has a read port of its own.
 //
-// Clock domains: wr_clk_o and rd_clk_o are SCLK with SPI, the strobes with the parallel bus; the
-// straps choose and do not move, so that the multiplexers in the clocks see no edge of theirs.
-// Misuse: a strap that moves may make a clock edge, that is an access to some address.
+// Clock domains: wr_clk_o and rd_clk_o are SCLK with SPI, and the strobes with the parallel bus.
+// The straps are constant, so the multiplexers in the clock paths make no edge.
+// Misuse: a strap that changes may make a clock edge, and with it an access to some address.
 // Datasheet: pages 3, 17..19, Tables 1, 2, 4.
 
 module mb4_host (
@@ -18,7 +18,7 @@ module mb4_host (
   input  logic       ncs_i,
   input  logic       ale_i,       // SCLK
   input  logic       nrd_rnw_i,
-  input  logic       nwr_e_i,     // with SPI: 0 = SPI2 is there too
+  input  logic       nwr_e_i,     // with SPI: 0 = SPI2 is in use
   input  logic [7:0] db_i,        // 0 MOSI; 4 NCS, 5 SCLK, 6 MOSI of SPI2
   output logic [7:0] db_o,        // 1 MISO; 7 MISO of SPI2
   output logic [7:0] db_oe_o,

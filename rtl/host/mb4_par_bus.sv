@@ -1,15 +1,20 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Parallel host bus, Intel 8051 and Motorola 68HC11: pins to the host byte bus.
+// Parallel host bus, Intel 8051 or Motorola 68HC11: connects the pins with the host byte bus.
 //
-// Clock domains: the strobes are the clocks. ALE falling stores the address; rd_clk_o rises with
-// the start of a read (NRD falling, E rising), so that the byte is taken once and stands still
-// while the strobe lasts; wr_clk_o rises with the end of a write (NWR rising, E falling), when the
-// data are stable (I014, I112). The address stays for any number of accesses.
-// Misuse: without NCS nothing happens; NRD and NWR low together are a write. NCS or a strobe that
-// moves at the wrong time may end an access early; no state is left behind but the address. NRES
-// must rise while the strobes rest: a strobe that ends after it writes.
+// Clock domains: the strobes are the clocks.
+//
+// - The falling edge of ALE stores the address. It stays for any number of accesses.
+// - rd_clk_o rises at the start of a read (NRD falls, E rises). The byte is taken once and is
+// stable
+//   while the strobe lasts.
+// - wr_clk_o rises at the end of a write (NWR rises, E falls). The data are stable then (I014,
+// I112).
+//
+// Misuse: with NCS high nothing happens. NRD and NWR low together are a write. NCS or a strobe that
+// changes at the wrong time may end an access early; no state but the address stays behind. NRES
+// must rise while the strobes rest: a strobe that ends after NRES has risen writes.
 // Datasheet: pages 9, 10, 17, Table 2.
 
 module mb4_par_bus (

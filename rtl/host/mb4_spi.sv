@@ -1,15 +1,16 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// SPI host interface: pins to the host byte bus (instances only).
+// SPI host interface: connects the pins with the host byte bus.
 //
-// Clock domain: SCLK. See mb4_spi_shift and mb4_spi_cmd for timing and misuse. After a reset the
-// first falling edge of NCS opens the interface: what runs while NRES rises is no frame.
+// Clock domain: SCLK. mb4_spi_shift and mb4_spi_cmd describe timing and misuse.
+// Reset: after a reset the first falling edge of NCS opens the interface. An SPI frame that runs
+// while NRES rises is ignored.
 // Datasheet: pages 11, 17..19.
 
 module mb4_spi #(
   parameter bit         ReadOnly   = 1'b0,                       // only opcodes 0x03 and 0x09
-  parameter logic [7:0] Registers0 = mb4_regs_pkg::ADDR_SCDATA   // where 0x09 and 0x0B begin
+  parameter logic [7:0] Registers0 = mb4_regs_pkg::ADDR_SCDATA   // first address of 0x09 and 0x0B
 ) (
   input  logic       rst_ni,
   // pins
@@ -31,7 +32,7 @@ module mb4_spi #(
   logic       byte_valid;
   logic [7:0] rx_byte;
   logic       tx_en;
-  logic       open_q;  // a frame has begun since the reset
+  logic       open_q;  // an SPI frame has begun since the reset
 
   always_ff @(negedge cs_ni or negedge rst_ni) begin
     if (!rst_ni) open_q <= 1'b0;

@@ -1,10 +1,11 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Second serial interface: reads SCDATA5..8 (0x20..0x3F) beside the first one, nothing else.
+// Second serial interface (SPI2). It reads SCDATA5..8 (0x20..0x3F) beside the first interface and
+// does nothing else.
 //
-// Clock domain: its own SCLK. Opcodes 0x03 and 0x09 (from 0x20); all others are ignored until NCS
-// rises. The shifter, the timing and the address counter are those of mb4_spi.
+// Clock domain: its own SCLK. It knows the opcodes 0x03 and 0x09 (from 0x20); it ignores all others
+// until NCS rises. mb4_spi contains the shifter, the address counter and the timing.
 // Misuse: other addresses read 0.
 // Datasheet: page 19, Tables 4, 5.
 
@@ -24,7 +25,7 @@ module mb4_spi2 (
 
   logic       rd_en;
   logic [7:0] rd_addr;
-  logic       inside_q;          // the last read was one of 0x20..0x3F
+  logic       inside_q;          // the last read was within 0x20..0x3F
   logic       wr_en;
   logic [7:0] wr_addr, wr_data;
 
@@ -51,7 +52,7 @@ module mb4_spi2 (
   assign rd_en_o   = rd_en;
   assign rd_addr_o = rd_addr[4:0];
 
-  // A read-only interface has no use for them.
+  // A read-only interface does not use the write signals.
   logic unused;
   assign unused = ^{wr_en, wr_addr, wr_data};
 

@@ -1,12 +1,14 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// SPI command decoder: opcode, address, data with auto-increment (datasheet pages 17..19, Table 3).
+// SPI command decoder: opcode, address, data with auto-increment.
 //
-// Clock domain: SCLK. A write takes effect at the 8th rising edge of its byte. Read data must be in
-// tx_byte of the shifter after the edge at which rd_en_o is high.
-// Misuse: an unknown opcode is ignored until NCS rises; the address wraps from 0xFF to 0x00
+// Clock domain: SCLK.
+// Latency: a write takes effect at the 8th rising edge of its byte. Read data must be in tx_byte_i
+// of the shifter after the edge at which rd_en_o is high.
+// Misuse: an unknown opcode is ignored until NCS rises. The address wraps from 0xFF to 0x00
 // (decision 13). With ReadOnly only the opcodes 0x03 and 0x09 are known (SPI2).
+// Datasheet: pages 17..19, Table 3.
 
 `include "mb4_check.svh"
 
@@ -43,7 +45,7 @@ module mb4_spi_cmd #(
   logic [7:0] addr_q;
   logic [7:0] opcode;
 
-  // 0x00 is no opcode.
+  // No opcode has the value 0x00.
   assign opcode = (ReadOnly && byte_i != mb4_regs_pkg::SPI_OPCODE_READ_REGISTERS &&
                    byte_i != mb4_regs_pkg::SPI_OPCODE_READ_REGISTERS0) ? 8'h00 : byte_i;
 
@@ -57,7 +59,8 @@ module mb4_spi_cmd #(
     if (byte_valid_i) begin
       unique case (state_q)
         OPCODE: begin
-          // The opcodes without an address read or write from their fixed place at once.
+          // The host sends the opcode. An opcode without an address byte has a fixed address, and
+          // its read begins at once.
           unique case (opcode)
             mb4_regs_pkg::SPI_OPCODE_WRITE_REGISTERS: state_d = ADDR_WRITE;
             mb4_regs_pkg::SPI_OPCODE_READ_REGISTERS:  state_d = ADDR_READ;
@@ -83,24 +86,28 @@ module mb4_spi_cmd #(
           endcase
         end
         ADDR_WRITE: begin
+          // The host sends the address of a write.
           state_d = WRITE;
           addr_d  = byte_i;
         end
         ADDR_READ: begin
-          // The first data bit leaves with the next falling edge.
+          // The host sends the address of a read. The first data bit leaves with the next falling
+          // edge.
           state_d   = READ;
           rd_en_o   = 1'b1;
           rd_addr_o = byte_i;
         end
         WRITE: begin
+          // The host sends bytes. Each one is written, then the address counts up.
           wr_en_o = 1'b1;
           addr_d  = addr_q + 8'd1;
         end
         READ: begin
+          // The host clocks bytes out. At the end of each byte the next address is read.
           rd_en_o = 1'b1;
         end
         IGNORE: begin
-          // Until NCS rises.
+          // Nothing is read or written until NCS rises.
         end
         default: state_d = IGNORE;
       endcase

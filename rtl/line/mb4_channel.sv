@@ -1,10 +1,13 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// One physical channel: frame engine, sampler, word assembly and MO (instances only).
+// One line: frame engine, sampler, word assembly and MO.
 //
-// Clock domain: core. See mb4_frame, mb4_sl_sampler, mb4_rx_word and mb4_mo_tx. word_begin_o and
-// word_done_o tell of sensors' words only, rx_next_o of every word that has ended.
+// Clock domain: core. Latency, misuse and datasheet sections: mb4_frame, mb4_sl_sampler,
+// mb4_rx_word and mb4_mo_tx.
+//
+// word_begin_o (first bit), word_open_o (bits have come, more follow) and word_done_o (last bit)
+// tell only of the words of sensors. rx_next_o tells of every word that has ended.
 
 module mb4_channel #(
   parameter logic [1:0] SlCells = mb4_pkg::SL_FLOPS
@@ -21,6 +24,7 @@ module mb4_channel #(
   input  logic       start_i,
   input  logic       use_i,
   input  logic       init_i,
+  input  logic       mo_return_i,
   input  logic       cdm0_i,
   input  logic       cdm1_i,
   input  logic       reduced_i,
@@ -59,6 +63,7 @@ module mb4_channel #(
   output logic [2:0] wr_byte_o,
   output logic [7:0] wr_data_o,
   output logic       word_begin_o,
+  output logic       word_open_o,
   output logic       word_done_o,
   output logic       word_ok_o,
   // results
@@ -83,13 +88,15 @@ module mb4_channel #(
   logic bit_valid;
   logic sl_bit;
   logic word_bit;
+  logic word_load;
   logic word_begin;
+  logic word_open;
+  logic word_run;
   logic rise;
   logic final_rise;
   logic ma_clocks;
+  logic biss_c;
   logic ssi;
-
-  assign ssi = protocol_i == mb4_regs_pkg::PROTOCOL_SSI;
 
   mb4_frame u_frame (
     .clk_i,
@@ -125,8 +132,11 @@ module mb4_channel #(
     .any_word_i  (rx_any_i),
     .last_word_i (rx_last_i),
     .word_done_i (rx_next_o),
-    .word_load_o (word_begin),
+    .word_load_o (word_load),
     .word_bit_o  (word_bit),
+    .word_run_o  (word_run),
+    .biss_c_o    (biss_c),
+    .ssi_o       (ssi),
     .rise_o      (rise),
     .final_o     (final_rise),
     .clocks_o    (ma_clocks),
@@ -163,17 +173,21 @@ module mb4_channel #(
     .clk_i,
     .rst_ni,
     .word_i      (rx_word_i),
-    .load_i      (word_begin),
+    .run_i       (word_run),
+    .load_i      (word_load),
     .bit_valid_i (word_bit),
     .bit_i       (sl_bit),
     .wr_en_o,
     .wr_byte_o,
     .wr_data_o,
+    .begin_o     (word_begin),
+    .open_o      (word_open),
     .done_o      (rx_next_o),
     .ok_o        (word_ok_o)
   );
 
   assign word_begin_o = word_begin && !rx_word_i.actuator;
+  assign word_open_o  = word_open && !rx_word_i.actuator;
   assign word_done_o  = rx_next_o && !rx_word_i.actuator;
 
   mb4_mo_tx u_mo (
@@ -181,14 +195,15 @@ module mb4_channel #(
     .rst_ni,
     .enable_i    (en_mo_i),
     .low_i       (register_mo_i),
-    .begin_i     (start_i && use_i && !init_i && !register_i && !ssi),
-    .biss_c_i    (protocol_i == mb4_regs_pkg::PROTOCOL_BISS_C),
+    .begin_i     (start_i && use_i && !register_i && !ssi),
+    .biss_c_i    (biss_c),
     .reduced_i,
     .busy_i      (mo_busy_i),
     .rise_i      (rise),
     .final_i     (final_rise),
     .clocks_i    (ma_clocks),
     .line_idle_i (idle_o),
+    .return_i    (mo_return_i),
     .any_word_i  (mo_any_i),
     .last_word_i (mo_last_i),
     .slave_i     (mo_slave_i),

@@ -1,20 +1,21 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Serial CRC of one word, right aligned: any polynomial up to degree 8, and that of BiSS Safety,
-// 0x190D9 (crc16_i).
+// Serial CRC of one word, right aligned: any polynomial up to degree 8, and with crc16_i the
+// polynomial of BiSS Safety, 0x190D9.
 //
 // Clock domain: core. load_i sets the start value. shift_i takes one bit: with feed_i the data bit
-// goes into the division, without it the remainder is shifted out. top_o is the remainder's highest
-// bit. Bits above the polynomial's degree hold rubbish and are never looked at, which is why the
-// upper half of the division may always be that of degree 16.
+// goes into the division, without feed_i the remainder is shifted out. top_o is the highest bit of
+// the remainder. The bits above the degree of the polynomial have no meaning, and nothing looks at
+// them. So the upper half of the division can always use the polynomial of degree 16.
+// Misuse: with shift_i and no load_i before it the division continues the word before.
 // Datasheet: pages 24, 25; algorithm and vectors: docs/theory.md.
 
 module mb4_crc (
   input  logic        clk_i,
   input  logic        rst_ni,
   input  logic        crc16_i,
-  input  logic [7:0]  poly_i,    // without the highest power; the lower half of degree 16
+  input  logic [7:0]  poly_i,    // without the highest power; degree 16: the lower half
   input  logic [7:0]  top_i,     // highest bit of the remainder, one-hot; 0 with crc16_i
   input  logic [15:0] start_i,
   input  logic        load_i,

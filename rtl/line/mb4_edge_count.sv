@@ -1,13 +1,22 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Rising MA edges of a frame on one line: sent (up to two) and still needed.
+// Counts the rising MA edges of a frame on one line: edges sent (up to two) and edges still needed.
 //
-// Clock domain: core. begin_i sets the need to that of the protocol (BiSS C 5, BiSS B 4, SSI 1) and
-// MO_BUSY on a line with actuators; then len_valid_i adds a word, wait_i a processing clock, and
-// rise_i takes one away. A word counts from the second clock after len_valid_i on, and until then
-// none is the last edge. All outputs but two_next_o are ready early: they decide what MA does next.
-// Misuse: one edge too many is remembered, for a word that is told late; more are not.
+// Clock domain: core.
+//
+//   begin_i      sets the need to that of the protocol (BiSS C 5, BiSS B 4, SSI 1), plus MO_BUSY on
+//                a line with actuators
+//   len_valid_i  adds the length of a word
+//   wait_i       adds a processing clock
+//   rise_i       takes one edge away
+//
+// Latency: a word counts from the second clock after len_valid_i. Until then no edge is the last
+// one. All outputs except two_next_o are ready early in the clock, because they decide what MA does
+// next.
+//
+// Misuse: MA may make one edge more than needed before a word is told. The count keeps this edge
+// (-1) and subtracts it from the word. The count does not keep further surplus edges.
 // Datasheet: pages 12..16, Figures 8..16.
 
 `include "mb4_check.svh"
@@ -26,16 +35,16 @@ module mb4_edge_count (
   input  logic       wait_i,
   input  logic       rise_i,
   output logic       two_o,        // two edges have been sent
-  output logic       two_next_o,   // ... with this one
+  output logic       two_next_o,   // two edges with the one of this clock
   output logic       none_left_o,
-  output logic       one_left_o    // or none
+  output logic       one_left_o    // one edge is left, or none
 );
 
   logic [1:0]         rises_d;
   logic [1:0]         rises_q;
-  logic signed [10:0] more;        // needed, but for rise_i
+  logic signed [10:0] more;        // edges needed, without rise_i
   logic signed [10:0] need_d;
-  logic signed [10:0] need_q;      // -1: more were sent
+  logic signed [10:0] need_q;      // edges needed; -1: one too many was sent
   logic               len_valid_q;
   logic [6:0]         len_q;
   logic               take;
@@ -48,7 +57,7 @@ module mb4_edge_count (
                        + (wait_i ? 11'sd1 : 11'sd0);
   assign take = rise_i && !need_q[10];
 
-  // rise_i comes late: both cases are known before.
+  // rise_i comes late, so the results for both of its values are prepared.
   always_comb begin
     rises_d = rises_q;
     need_d  = need_q;

@@ -3,21 +3,33 @@
 //
 // Frame on one line, BiSS C, BiSS B or SSI: follows the slaves from the request to their timeout.
 //
-// Clock domain: core. start_i (with use_i) begins a frame at a restart of the time base: half a
-// period of MA high, then the first falling edge. After the last needed rising edge MA takes the
-// inverted CDM and keeps it through the slaves' timeout. Rising MA edges: BiSS C 5, BiSS B 4, and
-// processing clocks; SSI 1; and data and CRC bits; or as many as had been sent when the start bit
-// came back over a long line (decision 17), or CDS if CDM depends on it. With bus_i actuators hang
-// on MO: more edges would move their words on, so MO_BUSY is taken for the processing clocks and MA
-// does not wait for the start bit. reduced_i: the frame ends
-// behind CDS (decision 14). frame_end_o: the last data bit has been taken; cds_o is valid from the
-// next clock on (0 in BiSS B and SSI). idle_o: the slaves' timeout is over as well. init_i makes
-// the two-pulse initialisation instead; init_done_o when the acknowledge has come, init_fail_o
-// after 255 quarter periods without it. With register_i MA belongs to the BiSS B register access
-// (mb4_biss_b) until register_end_i; frame_end_o then.
-// Misuse: start_i while idle_o is low is ignored. A slave that never answers keeps the frame
-// running until abort_i (decision 4); after it MA returns to 1 with the next tick, and so it does
-// after a reset.
+// Clock domain: core. start_i with use_i begins a frame when the time base restarts: MA is high for
+// half a period, then it falls. After the last needed rising edge MA takes the inverted CDM and
+// keeps it through the slaves' timeout. The number of rising edges of MA is the largest of these:
+//
+// - the edges that the slaves need: BiSS C 5 plus processing clocks, BiSS B 4 plus processing
+//   clocks, SSI 1, each plus all data and CRC bits,
+// - the edges already sent when the start bit comes back over a long line (decision 17),
+// - the edges already sent when CDS comes back, if CDM depends on it.
+//
+// With bus_i actuators are on MO, and more edges would shift their words. So MO_BUSY counts as the
+// number of processing clocks, and MA does not wait for the start bit.
+//
+//   reduced_i     the frame ends after CDS (decision 14)
+//   frame_end_o   the last data bit has been taken; cds_o is valid from the next clock on (0 in
+//                 BiSS B and SSI)
+//   idle_o        the slaves' timeout has ended too
+//   init_i        the line makes the two-pulse initialisation instead of a frame: init_done_o comes
+//                 with the acknowledge, init_fail_o after 255 quarter periods without it
+//   register_i    MA belongs to the BiSS B register access (mb4_biss_b) until register_end_i, which
+//                 makes frame_end_o
+//
+// Changes of protocol and bus_i count from the next start on. A line that is taken out of use
+// (protocol 11) does not wait for SL in its timeout.
+//
+// Misuse: start_i is ignored while idle_o is low. A slave that never answers keeps the frame
+// running until abort_i (decision 4). After abort_i, and after a reset, MA returns to 1 with the
+// next tick.
 // Datasheet: pages 12..16, 27, 32, 33, Figures 8..16.
 
 `include "mb4_check.svh"
@@ -25,7 +37,7 @@
 module mb4_frame (
   input  logic       clk_i,
   input  logic       rst_ni,
-  input  logic       por_ni,       // power-on: MA itself
+  input  logic       por_ni,       // power-on reset of MA
   // control
   input  logic [1:0] protocol_i,   // CFGCHx
   input  logic       bus_i,
@@ -34,7 +46,7 @@ module mb4_frame (
   input  logic       use_i,
   input  logic       init_i,
   input  logic       cdm0_i,       // CDM to send if CDS of this frame is 0
-  input  logic       cdm1_i,       // ... 1
+  input  logic       cdm1_i,       // CDM to send if CDS of this frame is 1
   input  logic       reduced_i,
   input  logic       hold_cdm_i,
   input  logic       abort_i,
@@ -62,14 +74,17 @@ module mb4_frame (
   input  logic       any_word_i,
   input  logic       last_word_i,
   input  logic       word_done_i,
-  output logic       word_load_o,  // the word's first bit comes next
+  output logic       word_load_o,  // the next bit is the first of a word
   output logic       word_bit_o,
+  output logic       word_run_o,   // a word is on SL
   // results
+  output logic       biss_c_o,     // protocol of this frame
+  output logic       ssi_o,
   output logic       rise_o,       // a rising MA edge of a frame
-  output logic       final_o,      // ... the last one, as far as is known by then
+  output logic       final_o,      // ... the last one, as far as it is known
   output logic       clocks_o,     // MA is clocking
   output logic       cds_o,
-  output logic       cdm_o,        // as sent
+  output logic       cdm_o,        // CDM as sent
   output logic       frame_end_o,
   output logic       init_done_o,
   output logic       init_fail_o,
@@ -101,8 +116,8 @@ module mb4_frame (
   logic               init_q;
   logic               started_d;
   logic               started_q;   // the start bit has come
-  logic               none_left;   // MA edges still needed
-  logic               one_left;    // ... or none
+  logic               none_left;   // no more MA edges needed
+  logic               one_left;    // one more needed, or none
   logic               cds_d;
   logic               cds_q;
   logic               load_d;
@@ -117,16 +132,34 @@ module mb4_frame (
   logic               cdm_known;
   logic               biss_c;
   logic               ssi;
+  logic               rests;       // no frame: the configuration may change
+  logic [1:0]         protocol;
+  logic [1:0]         protocol_q;
+  logic               bus;
+  logic               bus_q;
+  logic               unused;      // the line is out of use
+  logic               sl_high;     // the slaves' timeout has ended, or no longer counts
 
-  assign biss_c      = protocol_i == mb4_regs_pkg::PROTOCOL_BISS_C;
-  assign ssi         = protocol_i == mb4_regs_pkg::PROTOCOL_SSI;
+  mb4_sync_bit u_unused (
+    .clk_i,
+    .rst_ni,
+    .data_i (protocol_i == mb4_regs_pkg::PROTOCOL_UNUSED),
+    .data_o (unused)
+  );
+
+  assign rests       = state_q == IDLE || state_q == TIMEOUT || state_q == RELEASE;
+  assign protocol    = rests ? protocol_i : protocol_q;
+  assign bus         = rests ? bus_i : bus_q;
+  assign biss_c      = protocol == mb4_regs_pkg::PROTOCOL_BISS_C;
+  assign ssi         = protocol == mb4_regs_pkg::PROTOCOL_SSI;
+  assign sl_high     = sl_i || unused;
   assign begin_frame = start_i && use_i && state_q == IDLE;
-  // A CDM that depends on CDS has to wait for it; MA goes on meanwhile.
+  // If CDM depends on CDS, it is known when CDS has come. Until then MA goes on.
   assign cdm         = cds_q ? cdm_q[1] : cdm_q[0];
   assign cdm_known   = cdm_q[1] == cdm_q[0] || state_q == DATA || state_q == STOP ||
                        state_q == TIMEOUT;
   assign enough      = init_q ? armed_a_o
-                              : (started_q || bus_i) && none_left && cdm_known && !len_valid_i;
+                              : (started_q || bus) && none_left && cdm_known && !len_valid_i;
 
   mb4_ma_drive u_ma (
     .clk_i,
@@ -134,12 +167,13 @@ module mb4_frame (
     .por_ni,
     .tick_i,
     .half_next_i,
+    .start_i,
     .begin_i       (begin_frame),
     .clocked_i     (!register_i),
     .stop_i        (abort_i && state_q != RELEASE),
     .enough_i      (enough),
     .cdm_i         (cdm),
-    .high_i        (state_q == RELEASE || (state_q == TIMEOUT && sl_i && !hold_q)),
+    .high_i        (state_q == RELEASE || (state_q == TIMEOUT && sl_high && !hold_q)),
     .register_i    (state_q == REGISTER),
     .register_ma_i,
     .force_i,
@@ -155,13 +189,13 @@ module mb4_frame (
     .rst_ni,
     .biss_c_i    (biss_c),
     .ssi_i       (ssi),
-    .bus_i,
+    .bus_i       (bus),
     .mo_busy_i,
     .begin_i     (begin_frame),
     .run_i       (state_q != IDLE),
     .len_valid_i (len_valid_i && !reduced_q),
     .len_i,
-    .wait_i      (waited && !bus_i),
+    .wait_i      (waited && !bus),
     .rise_i      (rise),
     .two_o       (armed_a_o),
     .two_next_o  (armed_b_o),
@@ -169,7 +203,7 @@ module mb4_frame (
     .one_left_o  (one_left)
   );
 
-  // The frame.
+  // What SL brings moves the frame on.
   always_comb begin
     state_d     = state_q;
     cdm_d       = cdm_q;
@@ -187,6 +221,7 @@ module mb4_frame (
 
     unique case (state_q)
       IDLE: begin
+        // The line rests; MA is high, or keeps its level with HOLDCDM.
         if (begin_frame) begin
           state_d   = register_i ? REGISTER : REQUEST;
           cdm_d     = (init_i || !(biss_c || ssi)) ? 2'b00 : {cdm1_i, cdm0_i};
@@ -200,10 +235,11 @@ module mb4_frame (
         end
       end
       REQUEST: begin
-        // Acknowledge and processing time, up to the start bit.
+        // The slaves acknowledge and process, up to the start bit. With SSI the first word follows
+        // at once; with INIT only the acknowledge counts.
         if (init_q) begin
           init_done_o = ack_i;
-          init_fail_o = !ack_i && quarters_i == 8'hFF;
+          init_fail_o = !ack_i && (quarters_i == 8'hFF || ssi);
           if (init_done_o || init_fail_o) state_d = TIMEOUT;
         end else if (bit_valid_i && biss_c) begin
           waited    = !bit_i;
@@ -220,6 +256,7 @@ module mb4_frame (
         end
       end
       CDS: begin
+        // The bit after the start bit is CDS (BiSS C).
         if (bit_valid_i) begin
           cds_d       = bit_i;
           load_d      = any_word_i && !reduced_q;
@@ -228,6 +265,7 @@ module mb4_frame (
         end
       end
       DATA: begin
+        // SL brings the words.
         word_bit_o = bit_valid_i;
         if (word_done_i) begin
           load_d      = !last_word_i;
@@ -236,23 +274,26 @@ module mb4_frame (
         end
       end
       STOP: begin
-        // SL shows the last data bit up to here.
+        // SL shows the last bit of the frame up to the next sampling point.
         if (bit_valid_i) state_d = TIMEOUT;
       end
       REGISTER: begin
+        // The BiSS B register access drives MA.
         frame_end_o = register_end_i;
         if (register_end_i) state_d = TIMEOUT;
       end
       TIMEOUT: begin
-        if (tick_i && sl_i && !ma_clocks) state_d = IDLE;
+        // The slaves are in their timeout. It ends with SL = 1.
+        if (tick_i && sl_high && !ma_clocks) state_d = IDLE;
       end
       RELEASE: begin
+        // After an abort, a reset or a forced level MA goes to 1 with the next tick.
         if (tick_i) state_d = IDLE;
       end
       default: state_d = RELEASE;
     endcase
 
-    // MA low while idle: HOLDCDM.
+    // MA may be low in IDLE, because of HOLDCDM.
     if (abort_i && (state_q == IDLE ? !ma_o : state_q != RELEASE)) state_d = RELEASE;
   end
 
@@ -266,6 +307,8 @@ module mb4_frame (
       started_q  <= 1'b0;
       cds_q      <= 1'b0;
       load_q     <= 1'b0;
+      protocol_q <= '0;
+      bus_q      <= 1'b0;
     end else begin
       state_q    <= state_d;
       cdm_q      <= cdm_d;
@@ -275,12 +318,18 @@ module mb4_frame (
       started_q  <= started_d;
       cds_q      <= cds_d;
       load_q     <= load_d;
+      // A frame keeps the configuration with which it begins.
+      protocol_q <= protocol;
+      bus_q      <= bus;
     end
   end
 
   assign word_load_o = load_q;
+  assign word_run_o  = state_q == DATA && !abort_i;
+  assign biss_c_o    = biss_c;
+  assign ssi_o       = ssi;
   assign rise_o      = rise;
-  assign final_o     = rise && (started_q || bus_i) && one_left && cdm_known;
+  assign final_o     = rise && (started_q || bus) && one_left && cdm_known;
   assign clocks_o    = ma_clocks;
   assign cds_o       = cds_q;
   assign cdm_o       = cdm;

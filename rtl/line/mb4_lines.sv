@@ -1,11 +1,12 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Both physical channels and the time base they share (instances only): one frame start, the same
-// MA phase on both. Bit i of a vector {2, 1} belongs to line i + 1, wider fields are slices.
+// Both lines and the time base that they share: one frame start, and the same phase of MA on both.
 //
-// Clock domain: core. See mb4_timebase and mb4_channel. por_ni is asserted together with rst_ni at
-// power-on; with a reset alone MA, if it was low, stays so to the end of its half period.
+// Clock domain: core. Latency, misuse and datasheet sections: mb4_timebase and mb4_channel.
+// Reset: por_ni is asserted together with rst_ni at power-on. With rst_ni alone, an MA that is low
+// stays low to the end of its half period.
+// Vectors: bit i of a vector {2, 1} is for line i + 1; wider fields are slices.
 
 module mb4_lines #(
   parameter logic [1:0] SlCells = mb4_pkg::SL_FLOPS
@@ -23,12 +24,13 @@ module mb4_lines #(
   input  logic       start_i,
   input  logic [1:0] use_i,
   input  logic       init_i,
+  input  logic       mo_return_i,
   input  logic [1:0] cdm0_i,
   input  logic [1:0] cdm1_i,
   input  logic       reduced_i,
   input  logic       hold_cdm_i,
   input  logic       abort_i,
-  input  logic       time_i,         // the time base runs between frames as well
+  input  logic       time_i,         // the time base runs between frames too
   output logic       tick_o,
   // BiSS B register access; MA force bits
   input  logic       register_i,     // with start_i
@@ -58,6 +60,7 @@ module mb4_lines #(
   output logic [5:0]  wr_byte_o,
   output logic [15:0] wr_data_o,
   output logic [1:0]  word_begin_o,
+  output logic [1:0]  word_open_o,
   output logic [1:0]  word_done_o,
   output logic [1:0]  word_ok_o,
   // results
@@ -85,17 +88,24 @@ module mb4_lines #(
   logic smp_b_neg;
 
   logic idle;
+  logic time_q;
 
   assign idle = idle_o == 2'b11;
 
-  // Forced levels last whole half periods as well: the time base runs for them, anew at first.
-  // The time base lives through a reset: it ends a low level of MA in its time.
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) time_q <= 1'b0;
+    else         time_q <= time_i;
+  end
+
+  // The time base also runs between frames, for forced levels, which last whole half periods, and
+  // for time limits. It restarts when they begin. Only por_ni resets it, so that after a reset a
+  // low level of MA ends at its normal time.
   mb4_timebase u_timebase (
     .clk_i,
     .rst_ni      (por_ni),
     .half_len_i,
     .run_i       (!idle || time_i || force_i != 2'b00),
-    .restart_i   (start_i || (force_change_i && idle && force_i == 2'b00)),
+    .restart_i   (start_i || (idle && force_i == 2'b00 && (force_change_i || (time_i && !time_q)))),
     .tick_o,
     .half_next_o (half_next),
     .smp_a_o     (smp_a),
@@ -116,6 +126,7 @@ module mb4_lines #(
       .start_i,
       .use_i        (use_i[i]),
       .init_i,
+      .mo_return_i,
       .cdm0_i       (cdm0_i[i]),
       .cdm1_i       (cdm1_i[i]),
       .reduced_i,
@@ -150,6 +161,7 @@ module mb4_lines #(
       .wr_byte_o    (wr_byte_o[i*3 +: 3]),
       .wr_data_o    (wr_data_o[i*8 +: 8]),
       .word_begin_o (word_begin_o[i]),
+      .word_open_o  (word_open_o[i]),
       .word_done_o  (word_done_o[i]),
       .word_ok_o    (word_ok_o[i]),
       .cds_o        (cds_o[i]),

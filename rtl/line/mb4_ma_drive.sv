@@ -1,32 +1,37 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Drives MA of one line: clock of a frame, inverted CDM behind it, BiSS B register cells, force
+// Drives MA of one line: clock of a frame, inverted CDM after it, BiSS B register cells, force
 // bits.
 //
-// Clock domain: core. MA changes at ticks (end of a half MA period) only, and with begin_i to 1, so
-// that no pulse is shorter than half a period. clocking_o from begin_i until enough_i was seen at
-// the end of a high level; rise_o in the clock of a tick that makes a rising edge. Forced, MA has
-// the level force_level_i from the next tick on, whatever the frame does; released_o follows the
-// end of it for one clock.
+// Clock domain: core. MA changes only at ticks (ends of half MA periods). begin_i also sets it to
+// 1. So no pulse is shorter than half a period.
+//
+//   clocking_o  high from begin_i until enough_i was seen at the end of a high level
+//   rise_o      high in the clock of a tick that makes a rising edge
+//   force_i     from the next tick on MA has the level force_level_i, whatever the frame does
+//   released_o  high for one clock: the line must rest until the next tick, because force_i has
+//               ended or has made MA fall
+//
 // Misuse: enough_i must not fall before the next begin_i.
-// Only por_ni resets the flop of MA, so that a reset cuts no low pulse short.
+// Reset: only por_ni resets the flop of MA, so a reset does not cut a low pulse short.
 // Datasheet: pages 12..16, 33, Figures 8..16, Tables 50..53.
 
 module mb4_ma_drive (
   input  logic clk_i,
   input  logic rst_ni,
-  input  logic por_ni,         // power-on: MA itself
+  input  logic por_ni,         // power-on reset of MA
   input  logic tick_i,
   input  logic half_next_i,
+  input  logic start_i,        // the time base restarts
   // frame engine
   input  logic begin_i,
-  input  logic clocked_i,      // with begin_i: a frame with clock, not a register access
-  input  logic stop_i,         // no clock any more
-  input  logic enough_i,       // the slaves have had all edges that they need
+  input  logic clocked_i,      // with begin_i: MA clocks (no register access)
+  input  logic stop_i,         // MA stops clocking
+  input  logic enough_i,       // the slaves have had all edges they need
   input  logic cdm_i,
-  input  logic high_i,         // back to 1 with the next tick
-  input  logic register_i,     // MA is that of the register access
+  input  logic high_i,         // MA returns to 1 with the next tick
+  input  logic register_i,     // MA belongs to the register access
   input  logic register_ma_i,
   // MA force bits
   input  logic force_i,
@@ -42,6 +47,7 @@ module mb4_ma_drive (
   logic clocking_d;
   logic clocking_q;
   logic force_q;
+  logic fell_q;     // force_i has made MA fall
 
   always_comb begin
     ma_d       = ma_q;
@@ -65,16 +71,18 @@ module mb4_ma_drive (
     end else if (tick_i && high_i) begin
       ma_d = 1'b1;
     end
-    if (force_i) ma_d = tick_i ? force_level_i : ma_q;
+    if (force_i) ma_d = (tick_i && !start_i) ? force_level_i : ma_q;
   end
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
       clocking_q <= 1'b0;
       force_q    <= 1'b0;
+      fell_q     <= 1'b0;
     end else begin
       clocking_q <= clocking_d;
       force_q    <= force_i;
+      fell_q     <= force_i && tick_i && ma_q && !force_level_i;
     end
   end
 
@@ -83,11 +91,12 @@ module mb4_ma_drive (
     else         ma_q <= ma_d;
   end
 
-  // Of the same cases; begin_i, which comes late, finds a line at rest.
+  // rise_o follows the cases above, without begin_i. begin_i comes late, and clocking_q is 0 then,
+  // so rise_o is 0 in any case.
   assign rise_o = tick_i && clocking_q && half_next_i && !register_i && !stop_i &&
                   !(enough_i && cdm_i);
 
-  assign released_o = force_q && !force_i;
+  assign released_o = (force_q && !force_i) || fell_q;
   assign clocking_o = clocking_q;
   assign ma_o       = ma_q;
 

@@ -1,16 +1,19 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Drives MO of one line: the master as one more slave ahead of the chain. It acknowledges with the
-// slaves, sends the start bit after busy_i more periods and then a slot for each word: the word of
-// an actuator (stop bit if wanted, data, inverted CRC), zeros for a sensor.
+// Drives MO of one line: the master acts as one more slave in front of the chain. It acknowledges
+// with the slaves, sends the start bit after busy_i more periods, and then a slot for each word:
+// the word of an actuator (stop bit if configured, data, inverted CRC), or zeros for a sensor.
 //
-// Clock domain: core. MO changes with the rising MA edges of a frame (rise_i), otherwise with
-// enable_i. begin_i starts a frame; from then on the list of words (next_o, word_i one clock later)
-// is this module's. mem_addr_o is the byte needed next: its data one clock later.
-// Misuse: a frame that ends before the last slot (MO not connected to the slaves, busy_i above
-// theirs) ends it here as well (line_idle_i). Eight words of BiSS B at f_CLK / 2 with busy_i = 0
-// are one too many: the first slot comes before the list is ready, its contents are not defined.
+// Clock domain: core. In a frame MO changes with the rising MA edges (rise_i), otherwise with
+// enable_i. INIT is a frame that ends before the start bit (line_idle_i, return_i; decision 39).
+// begin_i starts a frame. From then on this module steps the word list: word_i follows next_o by
+// one clock. mem_addr_o is the byte that is needed next; its data follow one clock later.
+//
+// Misuse: a frame may end before the last slot (MO is not connected to the slaves, or busy_i is
+// larger than theirs). Then it ends here too (line_idle_i). Eight words of BiSS B at f_CLK / 2 with
+// busy_i = 0 are one too many: the first slot comes before the list is ready, and its contents are
+// undefined.
 // Datasheet: pages 15, 25, 31, Figure 12, Tables 17, 18, 39, 40; protocol of the chain.
 
 module mb4_mo_tx (
@@ -18,8 +21,8 @@ module mb4_mo_tx (
   input  logic       rst_ni,
   // control
   input  logic       enable_i,      // EN_MO
-  input  logic       low_i,         // BiSS B register access
-  input  logic       begin_i,       // a BiSS frame begins
+  input  logic       low_i,         // MO is 0: BiSS B register access
+  input  logic       begin_i,       // a BiSS frame or INIT begins
   input  logic       biss_c_i,
   input  logic       reduced_i,
   input  logic [7:0] busy_i,        // MO_BUSY
@@ -27,6 +30,7 @@ module mb4_mo_tx (
   input  logic       final_i,       // ... the last one of the frame
   input  logic       clocks_i,      // MA is clocking
   input  logic       line_idle_i,
+  input  logic       return_i,      // INIT: the time for the slaves has ended
   // words
   input  logic       any_word_i,
   input  logic       last_word_i,
@@ -53,7 +57,7 @@ module mb4_mo_tx (
   logic       mo_d;
   logic       mo_q;
   logic       second_d;
-  logic       second_q;   // the first rising edge has been
+  logic       second_q;   // the first rising edge has come
   logic [7:0] busy_d;
   logic [7:0] busy_q;     // processing clocks left
   logic       load_d;
@@ -64,7 +68,7 @@ module mb4_mo_tx (
   logic       in_crc_q;
   logic [5:0] left_d;
   logic [5:0] left_q;     // bits of the current part that follow this one
-  logic [2:0] byte_now;   // needed next
+  logic [2:0] byte_now;   // byte needed next
   logic       data_bit;
   logic       crc_top;
   logic       shift;
@@ -78,7 +82,7 @@ module mb4_mo_tx (
   mb4_crc u_crc (
     .clk_i,
     .rst_ni,
-    .crc16_i (word_i.crc_len[4]),
+    .crc16_i (word_i.crc_last[3]),
     .poly_i  (word_i.crc_poly),
     .top_i   (word_i.crc_top),
     .start_i (word_i.crc_start),
@@ -108,11 +112,13 @@ module mb4_mo_tx (
 
     unique case (state_q)
       IDLE: begin
+        // No frame. MO is enable_i, but 0 in a BiSS B register access.
         mo_d     = 1'b1;
         second_d = 1'b0;
         if (begin_i && enable_i) state_d = REQUEST;
       end
       REQUEST: begin
+        // MO is 1 up to the second rising edge; with it MO falls, as the acknowledge of the slaves.
         busy_d = busy_i;
         if (rise_i) begin
           second_d = 1'b1;
@@ -123,6 +129,7 @@ module mb4_mo_tx (
         end
       end
       WAIT: begin
+        // MO is 0 for busy_i periods, then it sends the start bit.
         if (rise_i) begin
           busy_d = busy_q - 8'd1;
           mo_d   = busy_q == 8'd0;
@@ -133,6 +140,7 @@ module mb4_mo_tx (
         end
       end
       CDS: begin
+        // The start bit is on MO; the CDS slot, a 0, follows.
         if (rise_i) begin
           mo_d    = 1'b0;
           load_d  = !none;
@@ -140,6 +148,7 @@ module mb4_mo_tx (
         end
       end
       DATA: begin
+        // MO sends the slots of the words.
         if (rise_i) begin
           stop_d = 1'b0;
           mo_d   = !stop_q && word_i.actuator && (in_crc_q ? !crc_top : data_bit);
@@ -147,8 +156,8 @@ module mb4_mo_tx (
             left_d = left_q - 6'd1;
             if (left_q == 6'd0) begin
               in_crc_d = 1'b1;
-              left_d   = 6'(word_i.crc_len) - 6'd1;
-              if (in_crc_q || word_i.crc_len == 5'd0) begin
+              left_d   = 6'(word_i.crc_last);
+              if (in_crc_q || !word_i.crc_on) begin
                 next_o = 1'b1;
                 load_d = !last_word_i;
                 if (last_word_i) state_d = STOP;
@@ -158,14 +167,15 @@ module mb4_mo_tx (
         end
       end
       STOP: begin
-        // On a line longer than the frame MA goes on: a 1 would pass through the slaves.
+        // The last bit is on MO. On a line that is longer than the frame MA goes on, and a 1 would
+        // pass through the slaves: MO sends zeros.
         if (rise_i) mo_d = 1'b0;
         if (final_i || !clocks_i) state_d = IDLE;
       end
       default: state_d = IDLE;
     endcase
 
-    if (state_q != IDLE && line_idle_i) state_d = IDLE;
+    if (state_q != IDLE && (line_idle_i || return_i)) state_d = IDLE;
     if (state_d == IDLE) mo_d = enable_i && !low_i;
   end
 

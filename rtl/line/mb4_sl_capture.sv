@@ -2,13 +2,16 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // First flops of one SL input, on both clock edges: ordinary flops, or the DDR input cell of the
-// pin. Outputs are the levels at the rising edge before the last one and at the falling edge
-// between the two, the same for every choice; all of them have passed two flops.
+// pin. The outputs are the same for every choice: pos_o is the level at the rising edge before the
+// last one, neg_o the level at the falling edge between these two. Both have passed two flops.
 //
-// Clock domain: core; SL is asynchronous. Latency: one clock behind the first flops. The DDR cells
-// have no reset to 1: they show the line before mb4_reset_sync releases what follows. sl_i comes
-// straight from a pin then; on iCE40 nothing else can read that pin. Misuse: a cell of another
-// family is an unknown module in synthesis.
+// Clock domain: core; SL is asynchronous.
+// Latency: one clock after the first flops.
+// Reset: the DDR cells have no reset to 1. They show the line before mb4_reset_sync releases the
+// logic behind them.
+//
+// Misuse: with a DDR cell sl_i must come directly from a pin; on an iCE40 no other logic can read
+// that pin. A cell of another FPGA family is an unknown module in synthesis.
 // Cells: SB_IO (Lattice FPGA-TN-02026), IDDRX1F (Lattice FPGA-TN-02035), IDDR (Xilinx UG471).
 
 module mb4_sl_capture #(

@@ -1,18 +1,22 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// SL input of one line: synchroniser for both clock edges, line-delay measurement, bit sampling.
+// SL input of one line: synchroniser for both clock edges, measurement of the line delay, sampling
+// of the bits.
 //
-// Clock domain: core; SL is asynchronous, captured on both clock edges by mb4_sl_capture: a sample
-// is used two clocks after it was taken. From the second rising MA edge on the sampling points are
-// counted up to and including the first that reads 0 (the acknowledge): quarters_o. Every bit is
-// then taken one sampling point after that phase, mid-bit: with no delay at the falling MA edge.
-// bit_valid_o is high for one clock a bit, the first time in the period after the acknowledge. In
-// SSI there is no acknowledge: bits are taken at the rising MA edges, the first one at the second
-// edge.
-// Misuse: SL already low when armed gives 1; quarters_o stops at 255.
-// Datasheet: page 12 (I304, I305, four sampling points), page 14 (I504, I505);
-// decisions 2, 17.
+// Clock domain: core; SL is asynchronous. mb4_sl_capture takes it on both clock edges. A sample is
+// used two clocks after it was taken.
+//
+// - Delay: from the second rising MA edge on, quarters_o counts the sampling points up to and
+//   including the first point that reads 0 (the acknowledge).
+// - Bits: every bit is taken one sampling point after that phase, in the middle of the bit. Without
+//   line delay this is the falling MA edge. bit_valid_o is high for one clock for each bit, first
+//   in the period after the acknowledge.
+// - SSI has no acknowledge: bits are taken at the rising MA edges, the first bit at the second
+//   edge.
+//
+// Misuse: if SL is already low at the first point, quarters_o is 1. quarters_o stops at 255.
+// Datasheet: page 12 (I304, I305, four sampling points), page 14 (I504, I505); decisions 2, 17.
 
 `include "mb4_check.svh"
 
@@ -27,14 +31,14 @@ module mb4_sl_sampler #(
   input  logic       smp_b_i,
   input  logic       smp_half_i,
   input  logic       smp_b_neg_i,
-  // frame engine: points a and b after the second rising MA edge, not yet delayed
+  // frame engine: the second rising MA edge has come, for points a and b; not delayed yet
   input  logic       clear_i,
   input  logic       ssi_i,
   input  logic       armed_a_i,
   input  logic       armed_b_i,
   // results
   output logic       sl_o,         // synchronised level
-  output logic       ack_o,        // line delay is known
+  output logic       ack_o,        // the line delay is known
   output logic [7:0] quarters_o,
   output logic       bit_valid_o,
   output logic       bit_o
@@ -98,12 +102,12 @@ module mb4_sl_sampler #(
       skip_d     = 1'b0;
       quarters_d = 8'd0;
     end else if (!found_q && !ssi_i) begin
-      // Point a comes before point b; both in one clock at the highest MA frequency.
+      // Point a comes before point b. At the highest MA frequency both come in one clock.
       if (look_a && quarters_d != 8'hFF)           quarters_d = quarters_d + 8'd1;
       if (look_b && !hit_a && quarters_d != 8'hFF) quarters_d = quarters_d + 8'd1;
       found_d = hit_a || hit_b;
-      // The point after the one that read 0. It still lies in the acknowledge: left out, if it has
-      // not gone by in this very clock.
+      // The phase of the bits is the point after the one that read 0. This point still lies in the
+      // acknowledge, so it is skipped, unless it comes in this same clock.
       if (hit_a) begin
         phase_d = {!smp_half_i, 1'b1};
         skip_d  = !smp_b_i;

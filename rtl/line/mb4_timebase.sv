@@ -1,16 +1,18 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Time base of all lines: half MA periods and the four sampling points of each MA period.
+// Time base of all lines: half MA periods, and the four sampling points of each MA period.
 //
-// Clock domain: core, rising edge. restart_i takes half_len_i for all that follows and begins a
-// half period in which MA is high. tick_o is high in the last clock of each half period;
-// half_next_o is MA's level in the one that follows. smp_*_o mark the sampling points, two clocks
-// late to meet SL behind its synchroniser: smp_a_o at the half period's beginning, smp_b_o at its
-// middle (both in the same clock if the half period is one clock). With an odd half period the
-// middle lies on a falling clock edge: smp_b_neg_o.
-// Misuse: half_len_i of 0 is not possible (mb4_freqs_dec). It comes from the host domain and is
-// looked at with restart_i only; FREQS may be written while slaves are still in their timeout.
+// Clock domain: core, rising edge. restart_i takes half_len_i for everything that follows and
+// begins a half period in which MA is high. tick_o is high in the last clock of each half period;
+// half_next_o is the level of MA in the next half period.
+//
+// The sampling points are smp_a_o (beginning of a half period) and smp_b_o (middle of it). Both
+// come two clocks late, to match SL after its synchroniser. If the half period is one clock, both
+// come in the same clock. In an odd half period the middle is at a falling clock edge: smp_b_neg_o.
+//
+// Misuse: half_len_i = 0 is not possible (mb4_freqs_dec). half_len_i comes from the host domain and
+// is read only with restart_i, so the host may write FREQS while slaves are still in their timeout.
 // Datasheet: page 12 (I301..I303 and sampling points), page 30.
 
 `include "mb4_check.svh"
@@ -25,7 +27,7 @@ module mb4_timebase (
   output logic       half_next_o,
   output logic       smp_a_o,
   output logic       smp_b_o,
-  output logic       smp_half_o,   // MA level of the half period the points belong to
+  output logic       smp_half_o,   // MA level of the half period of the points
   output logic       smp_b_neg_o
 );
 
@@ -42,7 +44,7 @@ module mb4_timebase (
   logic [1:0] b_q;
   logic [1:0] h_q;
 
-  // What ends a half period decides much in the same clock, so it is known a clock before.
+  // Much logic depends on tick in the same clock, so last_q is prepared one clock before.
   assign tick   = run_i && last_q;
   assign middle = (len_q == 8'd1) ? tick : run_i && cnt_q == {1'b0, len_q[7:1]} - 8'd1;
 
@@ -78,7 +80,7 @@ module mb4_timebase (
       cnt_q  <= cnt_d;
       last_q <= last_d;
       half_q <= half_d;
-      // Points of the time before a restart belong to nobody.
+      // A restart drops the sampling points that are still in the delay.
       a_q    <= restart_i ? 2'b00 : {a_q[0], tick};
       b_q    <= restart_i ? 2'b00 : {b_q[0], middle};
       h_q    <= {h_q[0], half_d};

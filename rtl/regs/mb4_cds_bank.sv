@@ -1,13 +1,17 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// CDS bits of both lines, in two banks that switch with those of SCDATA.
+// CDS bits of both lines, in two banks that switch with the banks of SCDATA.
 //
-// Clock domain: core. A frame's end writes the engine's bank; the outputs show the host's bank, one
-// clock later, without glitches. A reduced frame switches these bits alone: it writes the bank that
-// the host sees (decision 14), or with HOLDBANK the other one, to be seen after the next frame.
-// With one bank the host sees the engine's value at once; the datasheet calls it valid with two
-// banks only.
+// Clock domain: core.
+// Latency: the end of a frame writes the engine's bank. The outputs show the host's bank one clock
+// later, without glitches.
+//
+// - A reduced frame switches only the CDS bits: it writes the bank that the host sees (decision
+//   14). With HOLDBANK it writes the other bank, and the host sees the bits after the next frame.
+// - With one bank the host sees the engine's value at once. The datasheet calls it valid only with
+//   two banks.
+//
 // Datasheet: page 35, Tables 65, 66 and the note below them.
 
 module mb4_cds_bank (

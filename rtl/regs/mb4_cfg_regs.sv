@@ -1,15 +1,16 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Configuration registers 0xE2..0xE9, 0xEC..0xEF and 0xF5; those of the data channels are in
-// mb4_slave_cfg.
+// Configuration registers 0xE2..0xE9, 0xEC..0xEF and 0xF5. The registers of the data channels are
+// in mb4_slave_cfg.
 //
-// Clock domain: host (hclk_i: SCLK or bus strobe); works with no system clock. Written at the
-// hclk_i edge with wr_en_i; rd_data_o is combinational from rd_addr_i. The outputs are
-// quasi-static for the core: the datasheet (page 28) wants them stable while frames run, and an
-// instruction written after them crosses later than they settle (docs/crossings.md).
-// Misuse: reserved bits and addresses accept writes and read 0 (decision 13). FREQS code 0x10 is
-// not permitted by Table 35; it gives f_CLK / 20.
+// Clock domain: host (hclk_i: SCLK or bus strobe); no system clock is needed. An edge of hclk_i
+// with wr_en_i writes; rd_data_o is combinational from rd_addr_i. The outputs are quasi-static for
+// the core: the datasheet (page 28) asks the host to keep them stable while frames run. An
+// instruction that the host writes after them reaches the core when they have settled
+// (docs/crossings.md).
+// Misuse: reserved bits and addresses accept writes and read 0 (decision 13). Table 35 does not
+// permit FREQS code 0x10; it gives f_CLK / 20.
 // Datasheet: pages 21..31, Tables 6..43.
 
 module mb4_cfg_regs (
@@ -89,7 +90,7 @@ module mb4_cfg_regs (
     endcase
   end
 
-  assign cfg_o = {regadr_q, regnum_q, chsel_q, ctrl_q[7:3], ctrl_q[1:0], freq_q, bankcfg_q,
+  assign cfg_o = {regadr_q, regnum_q, ctrl_q[7:3], chsel_q, ctrl_q[1:0], freq_q, bankcfg_q,
                   freqags_q, mo_busy_q, slaveloc5_q, cfgch_q, actnsens_q, iface_q};
 
 endmodule

@@ -3,11 +3,14 @@
 //
 // Host read side: chooses the source of every address and holds the byte for the host interface.
 //
-// Clock domain: host reads (rclk_i). rd_data_o is valid after the edge with rd_en_i and stays until
-// the next one. Core status bits are asynchronous here, and so is the bank that the host owns: each
-// is sampled by one flop of its own (the read register) half an SCLK period before the first of
-// them reaches MISO, or 23 ns before the data bus must be stable. Data and SVALID of both banks are
-// taken with it and chosen behind it, so that a byte is of one bank, whole.
+// Clock domain: host reads (rclk_i).
+// Latency: rd_data_o is valid after the edge with rd_en_i, until the next read.
+//
+// The status bits of the core and the bank that the host owns are asynchronous here. One flop (the
+// read register) samples each of them. It does so half an SCLK period before the first of them
+// reaches MISO, or 23 ns before the data bus must be stable. The same edge takes data and SVALID of
+// both banks. The choice between the banks comes after the flops, so all bits of a byte are of one
+// bank.
 // Misuse: reserved addresses read 0 (decision 13).
 // Datasheet: pages 21, 22, 34..36, Tables 6, 41, 42, 54..67.
 
@@ -19,11 +22,13 @@ module mb4_host_read (
   input  logic [7:0] rd_addr_i,
   output logic [7:0] rd_data_o,
   // sources
-  input  logic        ram_ready_i,   // core: memories are cleared
-  input  logic        bank_i,        // that the host reads
-  input  logic [15:0] scd_lo_data_i, // read registers of the memories, same edge as rd_en_i;
-  input  logic [15:0] scd_hi_data_i, // bank 1 in the upper byte
+  input  logic        ram_ready_i,   // core: the memories are cleared
+  input  logic        bank_i,        // bank that the host reads
+  input  logic [15:0] scd_lo_data_i, // read registers of the memories, of the edge
+  input  logic [15:0] scd_hi_data_i, // with rd_en_i; bank 1 in the upper byte
   input  logic [7:0] rdata_data_i,
+  input  logic       recent_hit_i,   // same edge: the byte of the host is still on its way
+  input  logic [7:0] recent_data_i,
   input  logic [7:0] slave_data_i,   // configuration of the data channels, same edge
   input  logic [7:0] cfg_data_i,     // combinational from rd_addr_i
   input  logic [7:0] instr_data_i,
@@ -34,7 +39,7 @@ module mb4_host_read (
   input  logic [1:0] revision_sel_i
 );
 
-  // One bit a source; none of the three memories until they are cleared.
+  // One select bit for each source. The three memories read 0 until they are cleared.
   logic       reg_sel_d, reg_sel_q;
   logic       slave_sel_d, slave_sel_q;
   logic       lo_sel_d, lo_sel_q;
@@ -44,7 +49,7 @@ module mb4_host_read (
   logic [7:0] ram_data;
   logic [7:0] reg_d;
   logic [7:0] reg_q;
-  logic [3:0] flags_d;   // bits 7, 5, 3, 1 of the same register, of bank 1
+  logic [3:0] flags_d;   // bits 7, 5, 3, 1 of the register, from bank 1
   logic [3:0] flags_q;
   logic       bank_q;
   logic       ready_q;
@@ -125,13 +130,14 @@ module mb4_host_read (
   assign reg_data = bank_q ? {flags_q[3], reg_q[6], flags_q[2], reg_q[4],
                               flags_q[1], reg_q[2], flags_q[0], reg_q[0]} : reg_q;
 
-  // Sums of products: half an SCLK period is left for the way to MISO.
+  // An AND-OR choice is short: half an SCLK period is left for the path to MISO.
   assign ram_data =
       ((bank_q ? scd_lo_data_i[15:8] : scd_lo_data_i[7:0]) & {8{lo_sel_q}}) |
       ((bank_q ? scd_hi_data_i[15:8] : scd_hi_data_i[7:0]) & {8{hi_sel_q}}) |
       (rdata_data_i & {8{rdata_sel_q}});
 
-  assign rd_data_o = (ram_data & {8{ready_q}}) | (slave_data_i & {8{slave_sel_q}}) |
-                     (reg_data & {8{reg_sel_q}});
+  assign rd_data_o = (ram_data & {8{ready_q && !recent_hit_i}}) |
+                     (recent_data_i & {8{recent_hit_i}}) |
+                     (slave_data_i & {8{slave_sel_q}}) | (reg_data & {8{reg_sel_q}});
 
 endmodule

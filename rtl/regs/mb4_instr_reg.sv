@@ -1,17 +1,25 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Instruction register 0xF4, host half: keeps the written byte for the core and reads back.
+// Instruction register 0xF4, host half: keeps the written byte for the core and reads it back.
 //
-// Clock domain: host (hclk_i). The byte is held from the write on; toggle_o tells the core, which
-// answers with ack_i = toggle after it has acted. Until then the register reads as written, and
-// pending_o keeps EOT at 0, and with INSTR 100 or 111 REGEND as well, so that the first status read
-// after an instruction sees it (decisions 25, 26). BREAK never reads 1.
-// HOLDBANK works from its own write on: until the core has acted the host goes on with the bank
-// that it had then, and bank_kept_o tells the core which that is (mb4_bank_ctrl).
-// Misuse: two writes within three core clocks are taken as one (the later byte, or none if the core
-// clock stands still and the number of writes is even); pending_o needs five between them.
-// Datasheet: pages 32, 33, Tables 44..49.
+// Clock domain: host (hclk_i). count_o, a Gray count, tells the core of a write. The core acts once
+// for each step and answers with its own count, ack_i. Until both counts are equal:
+//
+// - the register reads as written (BREAK never reads 1),
+// - pending_o keeps EOT at 0; with INSTR 100 or 111 it keeps REGEND at 0 as well. So the first
+//   status read after an instruction already sees it (decisions 25, 26).
+//
+// Writes that are closer than the core can take: the count runs at most two steps ahead, and the
+// last step comes with the last byte. A BREAK among these writes stays in the byte until the core
+// has acted.
+//
+// HOLDBANK works from its own write on: until the core has acted, the host keeps the bank that it
+// had at the write. bank_kept_o tells the core which bank that is (mb4_bank_ctrl).
+//
+// Misuse: a write at the moment in which the core takes the previous one. The core may then take
+// some bits of the older byte; it takes the later byte three clocks later.
+// Datasheet: pages 32, 33, Tables 44..49; decision 41.
 
 module mb4_instr_reg (
   input  logic       hclk_i,
@@ -22,37 +30,37 @@ module mb4_instr_reg (
   input  logic [7:0] wr_data_i,
   output logic [7:0] rd_data_o,
   output logic       pending_o,
-  output logic       pending_control_o,  // ... and the byte asks for control communication
+  output logic       pending_control_o,  // ... for a byte that asks for control communication
   // to and from the core domain
   output mb4_pkg::instr_t written_o,
-  output logic            toggle_o,
-  input  logic            ack_i,
+  output logic [1:0]      count_o,
+  input  logic [1:0]      ack_i,
   input  mb4_pkg::instr_t held_i,
   // banks
   input  logic            host_bank_i,  // core domain
-  output logic            bank_o,       // that the host reads
-  output logic            bank_kept_o   // ... when it wrote 0xF4
+  output logic            bank_o,       // bank that the host reads
+  output logic            bank_kept_o   // bank that it had when it wrote 0xF4
 );
 
   logic [7:0] byte_q;
-  logic       toggle_q;
+  logic [1:0] count_q;
   logic       bank_q;
 
   always_ff @(posedge hclk_i or negedge rst_ni) begin
     if (!rst_ni) begin
-      byte_q   <= '0;
-      toggle_q <= 1'b0;
-      bank_q   <= 1'b0;
+      byte_q  <= '0;
+      count_q <= '0;
+      bank_q  <= 1'b0;
     end else if (wr_en_i && wr_addr_i == mb4_regs_pkg::ADDR_INSTR) begin
-      byte_q   <= wr_data_i;
-      toggle_q <= !toggle_q;
-      bank_q   <= bank_o;
+      byte_q  <= {wr_data_i[7] || (byte_q[7] && pending_o), wr_data_i[6:0]};
+      if (count_q != ~ack_i) count_q <= {count_q[0], !count_q[1]};
+      bank_q  <= bank_o;
     end
   end
 
   assign written_o = byte_q;
-  assign toggle_o  = toggle_q;
-  assign pending_o = toggle_q ^ ack_i;
+  assign count_o   = count_q;
+  assign pending_o = count_q != ack_i;
   assign pending_control_o = pending_o && byte_q[3];
   assign bank_o      = (pending_o && byte_q[6]) ? bank_q : host_bank_i;
   assign bank_kept_o = bank_q;

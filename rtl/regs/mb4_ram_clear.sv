@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Clears the data memories after reset, one address of every memory a clock, 64 clocks.
+// Clears the data memories after a reset: one address of every memory in each clock, 64 clocks.
 //
-// Clock domain: core. busy_o is high from reset until the last address is cleared; meanwhile the
-// host reads 0 and no frame starts. Posted host writes wait.
+// Clock domain: core. busy_o is high from the reset until the last address is cleared. While it is
+// high the host reads 0, no frame starts, and posted host writes wait.
 // Datasheet: page 22 (all RAM registers are reset to 0).
 
 module mb4_ram_clear (

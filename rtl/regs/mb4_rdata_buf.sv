@@ -1,12 +1,13 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// RDATA1..64: data of register communication, one bank. Two copies with the same contents, one read
-// by the host, one by the control communication.
+// RDATA1..64: data of register communication, one bank. Two copies have the same contents: the host
+// reads one, the control communication reads the other.
 //
-// Clock domains: writes and the engine's reads in the core clock, the host's reads in rclk_i. Data
-// are valid one edge after their address. Writing: see mb4_write_port.
-// Misuse: the host may use it only while no control communication runs (page 28).
+// Clock domains: the core clock for writes and for the reads of the control communication, rclk_i
+// for the reads of the host. mb4_write_port orders the writes.
+// Latency: data are valid one edge after their address.
+// Misuse: the host may use RDATA only while no control communication runs (page 28).
 // Datasheet: page 28, Table 27.
 
 module mb4_rdata_buf (

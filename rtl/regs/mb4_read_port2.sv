@@ -3,8 +3,9 @@
 //
 // Second host read port: chooses the byte of the host's bank, as mb4_host_read does.
 //
-// Clock domain: rclk_i of its own. The bank and "memories are cleared" are asynchronous here: one
-// flop each, at the edge that reads the memory.
+// Clock domain: its own rclk_i. bank_i and ram_ready_i are asynchronous here; one flop each samples
+// them at the edge that reads the memory.
+// Until the memories are cleared the port reads 0.
 // Datasheet: page 19.
 
 module mb4_read_port2 (

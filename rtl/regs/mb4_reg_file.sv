@@ -2,13 +2,15 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Everything that has an address: configuration, instruction register, data memories with their
-// banks, validity flags, and the read side (instances and glue only).
+// banks, validity flags, and the read side. The file connects these modules and decodes the
+// addresses of posted writes; it has no flops of its own.
 //
-// Clock domains: host (hclk_i writes, rclk_i reads: one clock, or two strobes of which one rests
-// while the other moves) and core (clk_i). SCDATA, RDATA and SVALID live in the core domain: host
-// writes to them are posted and wait for a running core clock; everything else works without it.
-// With Port2 there is one more read port for SCDATA5..8 in a clock of its own (rd2_clk_i).
-// Bit i of a vector {2, 1} belongs to line i + 1.
+// Clock domains: host (hclk_i writes, rclk_i reads) and core (clk_i). hclk_i and rclk_i are one
+// clock, or two strobes of which one rests while the other has edges. SCDATA, RDATA and SVALID are
+// in the core domain: host writes to them are posted and wait for a running core clock. All other
+// registers work without it. With Port2 there is one more read port for SCDATA5..8 with its own
+// clock (rd2_clk_i).
+// Vectors: bit i of a vector {2, 1} is for line i + 1.
 // Datasheet: pages 21..36. Crossings: docs/crossings.md.
 
 module mb4_reg_file #(
@@ -40,8 +42,8 @@ module mb4_reg_file #(
   output logic [4*mb4_pkg::SLAVE_CFG_W-1:0] slave_cfg_o,
   // instruction register
   output mb4_pkg::instr_t  written_o,
-  output logic             toggle_o,
-  input  logic             ack_i,
+  output logic [1:0]       count_o,
+  input  logic [1:0]       ack_i,
   input  mb4_pkg::instr_t  held_i,
   // status, core domain, without SVALID
   input  mb4_pkg::status_t status_i,
@@ -50,17 +52,20 @@ module mb4_reg_file #(
   output logic       mem_busy_o,
   input  logic       holdbank_i,
   input  logic       swbank_pulse_i,
+  input  logic       bank_run_i,     // a frame runs that writes to a bank
   input  logic       frame_end_i,
-  input  logic       reduced_i,      // it was a reduced frame: only CDS bits switch
-  input  logic       bank_end_i,     // it was none
+  input  logic       reduced_i,      // the frame was reduced: only the CDS bits switch
+  input  logic       bank_end_i,     // end of a frame that was not reduced
   input  logic [1:0] cds_i,
   output logic [1:0] cds_o,          // of the host's bank
   output logic       bank_pending_o,
   output logic       bank_swapped_o,
+  output logic       bank_lost_o,
   // control communication
   input  logic       rdata_rd_en_i,
   input  logic [5:0] rdata_addr_i,
   output logic [7:0] rdata_o,
+  output logic       post_busy_o,    // bytes from the host are on their way to the memories
   input  logic       rdata_wr_en_i,
   input  logic [7:0] rdata_wr_data_i,
   // received bytes and words of lines {2, 1}
@@ -69,8 +74,11 @@ module mb4_reg_file #(
   input  logic [15:0] wr_line_data_i,
   input  logic [5:0]  slave_i,
   input  logic [1:0]  word_begin_i,
+  input  logic [1:0]  word_open_i,
   input  logic [1:0]  word_done_i,
-  input  logic [1:0]  word_ok_i,
+  input  logic [1:0]  word_ok_i,       // CRC
+  output logic [1:0]  word_ok_o,       // CRC is good and all of the word is in one bank
+  input  logic        svalid_clear_i,  // INIT of BiSS C begins
   input  logic [1:0]  delay_en_i,
   input  logic [15:0] delay_i,
   // actuator data for MO of lines {2, 1}
@@ -88,11 +96,14 @@ module mb4_reg_file #(
   logic        post_wr;
   logic        post_valid, post_ready;
   logic [15:0] post_data;
+  logic        post_empty, mark, marked, recent_hit;
+  logic [7:0]  recent_data;
   logic        post_rdata, ready_scd, ready_rdata;
   logic [7:0]  rdata_data;
   logic [15:0] scd_lo_data, scd_hi_data, scd2_data, svalid;
   logic        host_bank, eng_bank;
-  logic        bank_seen, bank_kept;  // by the host
+  logic        bank_seen, bank_kept;  // by the host: bank it reads, bank it had
+  logic [1:0]  word_split;
 
   // ---- registers ----------------------------------------------------------------------------
 
@@ -134,7 +145,7 @@ module mb4_reg_file #(
     .pending_o (instr_pending),
     .pending_control_o (control_pending),
     .written_o,
-    .toggle_o,
+    .count_o,
     .ack_i,
     .held_i,
     .host_bank_i (host_bank),
@@ -153,6 +164,8 @@ module mb4_reg_file #(
     .scd_lo_data_i   (scd_lo_data),
     .scd_hi_data_i   (scd_hi_data),
     .rdata_data_i    (rdata_data),
+    .recent_hit_i    (recent_hit),
+    .recent_data_i   (recent_data),
     .slave_data_i    (slave_data),
     .cfg_data_i      (cfg_data),
     .instr_data_i    (instr_data),
@@ -175,9 +188,9 @@ module mb4_reg_file #(
 
   // ---- memories -----------------------------------------------------------------------------
 
-  // SCDATA, RDATA and SVALID live in the core domain; writes to them are posted.
-  assign post_wr = wr_en_i && (wr_addr_i < 8'h40 ||
-                             wr_addr_i[7:6] == mb4_regs_pkg::ADDR_RDATA[7:6] ||
+  // SCDATA, RDATA and SVALID are in the core domain; writes to them are posted. Only addresses of
+  // SCDATA and RDATA have bit 6 = 0.
+  assign post_wr = wr_en_i && (!wr_addr_i[6] ||
                              wr_addr_i == mb4_regs_pkg::ADDR_SVALID_LO ||
                              wr_addr_i == mb4_regs_pkg::ADDR_SVALID_HI);
 
@@ -190,7 +203,29 @@ module mb4_reg_file #(
     .rst_ni,
     .valid_o   (post_valid),
     .data_o    (post_data),
-    .ready_i   (post_ready)
+    .ready_i   (post_ready),
+    .busy_o    (post_busy_o),
+    .empty_o   (post_empty),
+    .mark_i    (mark),
+    .mark_o    (marked)
+  );
+
+  // Until posted bytes of SCDATA and RDATA have arrived, reads of them are answered here.
+  mb4_recent u_recent (
+    .hclk_i,
+    .rst_ni    (hrst_ni),
+    .wr_en_i   (wr_en_i && !wr_addr_i[6]),
+    .wr_addr_i ({wr_addr_i[7], wr_addr_i[5:0]}),
+    .wr_data_i,
+    .rclk_i,
+    .rd_en_i,
+    .rd_addr_i ({rd_addr_i[7], rd_addr_i[5:0]}),
+    .rd_mem_i  (!rd_addr_i[6]),
+    .hit_o     (recent_hit),
+    .data_o    (recent_data),
+    .empty_i   (post_empty),
+    .mark_o    (mark),
+    .marked_i  (marked)
   );
 
   assign post_rdata = post_valid && post_data[15:14] == 2'b10;
@@ -231,7 +266,9 @@ module mb4_reg_file #(
     .slave_i,
     .word_begin_i,
     .word_done_i,
-    .word_ok_i,
+    .word_ok_i    (word_ok_o),
+    .word_split_i (word_split),
+    .svalid_clear_i,
     .delay_en_i,
     .delay_i,
     .mo_rd_en_i,
@@ -266,10 +303,22 @@ module mb4_reg_file #(
     .kept_i         (bank_kept),
     .swbank_pulse_i,
     .frame_end_i    (bank_end_i),
+    .frame_run_i    (bank_run_i),
     .pending_o      (bank_pending_o),
     .swapped_o      (bank_swapped_o),
+    .lost_o         (bank_lost_o),
     .host_bank_o    (host_bank),
     .eng_bank_o     (eng_bank)
+  );
+
+  mb4_word_split u_split (
+    .clk_i,
+    .rst_ni,
+    .swap_i      (swbank_pulse_i),
+    .word_open_i,
+    .word_ok_i,
+    .split_o     (word_split),
+    .word_ok_o
   );
 
   mb4_cds_bank u_cds (

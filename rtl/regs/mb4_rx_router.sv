@@ -3,8 +3,8 @@
 //
 // Brings the received bytes and words of both lines to the two halves of the data memory:
 // SCDATA1..4 (lo) and SCDATA5..8 (hi). With SLAVELOC5 = 1 line 2 owns the upper half, otherwise
-// line 1 fills both. The line delay measured by INIT goes to byte 0 of the half of its line, into
-// the bank that the host reads (decision 16).
+// line 1 fills both halves. The line delay that INIT measures goes to byte 0 of the half of its
+// line, into the bank that the host reads (decision 16).
 //
 // Clock domain: core; combinational.
 // Datasheet: pages 23, 26, 32, 33, Tables 10, 20.
@@ -27,7 +27,7 @@ module mb4_rx_router (
   input  logic [7:0] ch2_wr_data_i,
   input  logic       ch2_delay_en_i,
   input  logic [7:0] ch2_delay_i,
-  // memories: address is {bank, slave of the four, byte}
+  // memories: the address is {bank, data channel within the half, byte}
   output logic       lo_wr_en_o,
   output logic [5:0] lo_wr_addr_o,
   output logic [7:0] lo_wr_data_o,

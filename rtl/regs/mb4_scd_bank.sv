@@ -1,13 +1,14 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Single-cycle data of four slaves in two banks: 2 x 32 bytes (SCDATA1..4 or SCDATA5..8). Two
-// copies with the same contents, one read by the host, one by MO (actuator data).
+// Single-cycle data of four data channels in two banks: 2 x 32 bytes (SCDATA1..4 or SCDATA5..8).
+// Two copies have the same contents: the host reads one, MO reads the other (actuator data).
 //
-// Clock domains: writes in the core clock (see mb4_write_port), host reads in rclk_i (data valid
-// after the edge with rd_en_i): the bytes of both banks, so that no address depends on which one
-// the host owns. MO reads in the core clock (data valid one clock after the address). With Port2
-// there is one more copy for a second host reader with its own clock.
+// Clock domains: the core clock for writes (mb4_write_port orders them) and for the reads of MO,
+// rclk_i for the reads of the host. With Port2 there is one more copy for a second host reader with
+// its own clock.
+// Latency: data are valid one edge after their address. A host read gives the bytes of both banks,
+// so that its address does not depend on the bank that the host owns.
 // Datasheet: page 26, Table 20.
 
 module mb4_scd_bank #(
@@ -17,7 +18,7 @@ module mb4_scd_bank #(
   // clearing after reset
   input  logic       clear_i,
   input  logic [5:0] clear_addr_i,
-  // line engine: bank, slave within the four, byte
+  // line engine: the address is {bank, data channel within the half, byte}
   input  logic       eng_wr_en_i,
   input  logic [5:0] eng_wr_addr_i,
   input  logic [7:0] eng_wr_data_i,

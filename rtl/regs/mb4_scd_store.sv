@@ -1,13 +1,16 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Sensor data of all eight data channels with their validity flags: lower half SCDATA1..4, upper
-// half SCDATA5..8, two banks each (instances and address decoding only).
+// Sensor data of all eight data channels with their validity flags. The lower half holds
+// SCDATA1..4, the upper half SCDATA5..8; each half has two banks. The file connects the halves and
+// decodes addresses; it has no flops of its own.
 //
-// Clock domains: core; host reads in rclk_i (data valid after the edge with rd_en_i), those of the
-// second port (SCDATA5..8, only with Port2) in rd2_clk_i. Reads give the bytes and flags of both
-// banks, bank 1 above bank 0. Bit i of a vector {2, 1} belongs to line i + 1. Host writes and
-// clears act on the host's bank.
+// Clock domains: core; rclk_i for the reads of the host; rd2_clk_i for the second read port
+// (SCDATA5..8, only with Port2).
+// Latency: read data are valid after the edge with the enable. A read gives the bytes and flags of
+// both banks, bank 1 above bank 0.
+// Vectors: bit i of a vector {2, 1} is for line i + 1. Host writes and clears act on the host's
+// bank.
 // Datasheet: pages 26, 35, Tables 20, 61.
 
 module mb4_scd_store #(
@@ -24,7 +27,7 @@ module mb4_scd_store #(
   // host, posted into the core domain: {address, data}
   input  logic       post_valid_i,
   input  logic [15:0] post_i,
-  output logic       post_ready_o,    // 1 as well if the byte is not for this module
+  output logic       post_ready_o,    // also 1 if the byte is not for this module
   // host read port
   input  logic        rclk_i,
   input  logic        rd_en_i,
@@ -37,7 +40,7 @@ module mb4_scd_store #(
   input  logic        rd2_en_i,
   input  logic [4:0]  rd2_addr_i,
   output logic [15:0] rd2_data_o,
-  // actuator data for MO of lines {2, 1}: slave and byte, data one clock later
+  // actuator data for MO of lines {2, 1}: address is {data channel, byte}; data one clock later
   input  logic        mo_rd_en_i,
   input  logic [11:0] mo_addr_i,
   output logic [15:0] mo_data_o,
@@ -49,6 +52,8 @@ module mb4_scd_store #(
   input  logic [1:0]  word_begin_i,
   input  logic [1:0]  word_done_i,
   input  logic [1:0]  word_ok_i,
+  input  logic [1:0]  word_split_i,
+  input  logic        svalid_clear_i,  // INIT of BiSS C begins
   input  logic [1:0]  delay_en_i,
   input  logic [15:0] delay_i
 );
@@ -141,7 +146,7 @@ module mb4_scd_store #(
     .rd2_data_o
   );
 
-  // The upper half belongs to one line at a time: to line 2 if it has words there.
+  // One line at a time uses the upper half: line 2 if its word is there, else line 1.
   assign hi_mo_addr = mo_addr_i[11] ? mo_addr_i[10:6] : mo_addr_i[4:0];
   assign mo_data_o  = {hi_mo_data, mo_addr_i[5] ? hi_mo_data : lo_mo_data};
 
@@ -155,6 +160,8 @@ module mb4_scd_store #(
     .set_en_i    (word_done_i[0] && !slave_i[2]),
     .set_slave_i (slave_i[1:0]),
     .set_valid_i (word_ok_i[0]),
+    .split_i     (word_split_i[0] && !slave_i[2]),
+    .clear_i     (svalid_clear_i),
     .keep_en_i   (post_svalid_lo),
     .keep_i      ({post_i[7], post_i[5], post_i[3], post_i[1]}),
     .svalid_o    (svalid_lo)
@@ -169,6 +176,8 @@ module mb4_scd_store #(
     .set_en_i    (slaveloc5_i ? word_done_i[1] && slave_i[5] : word_done_i[0] && slave_i[2]),
     .set_slave_i (slaveloc5_i ? slave_i[4:3] : slave_i[1:0]),
     .set_valid_i (slaveloc5_i ? word_ok_i[1] : word_ok_i[0]),
+    .split_i     (slaveloc5_i ? word_split_i[1] && slave_i[5] : word_split_i[0] && slave_i[2]),
+    .clear_i     (svalid_clear_i),
     .keep_en_i   (post_svalid_hi),
     .keep_i      ({post_i[7], post_i[5], post_i[3], post_i[1]}),
     .svalid_o    (svalid_hi)
@@ -176,7 +185,7 @@ module mb4_scd_store #(
 
   assign svalid_o = {svalid_hi[7:4], svalid_lo[7:4], svalid_hi[3:0], svalid_lo[3:0]};
 
-  // The lower half has no second reader.
+  // The lower half has no second read port.
   logic unused;
   assign unused = ^rd2_lo_data;
 

@@ -1,14 +1,18 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Configuration of the eight data channels, 0xC0..0xDF: a row of four bytes each. One copy is read
-// by the host, one by each word list.
+// Configuration of the eight data channels, 0xC0..0xDF, in rows of four bytes. The host reads one
+// copy of it. Each word list reads a copy of its own, in which the CRC choice has one form
+// (mb4_crc_code).
 //
-// Clock domains: host (hclk_i writes, rclk_i reads); each word list reads in the core clock. All
-// works with no core clock but the word lists. Read data are valid after the edge with the enable
-// until the next one. No memory can be reset: rows_q tells which rows have been written since, and
-// the first byte written to a row clears its other three. A word list looks at rows whose ENSCDx
-// is set, so at no other ones. Quasi-static for the core, as mb4_cfg_regs.
+// Clock domains: host (hclk_i writes, rclk_i reads); the word lists read in the core clock. Only
+// the word lists need the core clock.
+// Latency: read data are valid after the edge with the enable, until the next read.
+//
+// A reset does not clear a memory. rows_q tells which rows have been written since the reset; the
+// first byte that is written to a row clears the other three. A word list reads only rows whose
+// ENSCDx is set, so it never uses a row that has not been written. Like mb4_cfg_regs the rows are
+// quasi-static for the core.
 // Datasheet: pages 23..26, Tables 10..18.
 
 module mb4_slave_cfg #(
@@ -24,7 +28,7 @@ module mb4_slave_cfg #(
   input  logic        rd_en_i,
   input  logic [4:0]  rd_addr_i,
   output logic [7:0]  rd_data_o,
-  // word lists, a slice each
+  // word lists, one slice for each
   input  logic        clk_i,
   output logic [mb4_pkg::NUM_SLAVES-1:0]        enscd_o,
   input  logic [Lists-1:0]                      list_en_i,
@@ -39,7 +43,8 @@ module mb4_slave_cfg #(
   logic [3:0]  wr_en;
   logic [31:0] wr_data;
   logic [31:0] rd_data;
-  logic [3:0]  sel_q;     // byte of the host's row; none if it has not been written
+  logic [7:0]  crc_poly;  // of a row's second byte
+  logic [3:0]  sel_q;     // byte of the row that the host reads; 0: row not written
 
   assign row     = wr_addr_i[4:2];
   assign byte_en = 4'b0001 << wr_addr_i[1:0];
@@ -58,6 +63,12 @@ module mb4_slave_cfg #(
     end
   end
 
+  mb4_crc_code u_code (
+    .selcrc_i (wr_data[15]),
+    .code_i   (wr_data[14:8]),
+    .poly_o   (crc_poly)
+  );
+
   mb4_ram_row u_host (
     .wclk_i    (hclk_i),
     .wr_en_i   (wr_en),
@@ -69,7 +80,7 @@ module mb4_slave_cfg #(
     .rd_data_o (rd_data)
   );
 
-  // Half an SCLK period is left for the way to MISO.
+  // One select bit for each byte: half an SCLK period is left for the path to MISO.
   always_ff @(posedge rclk_i or negedge rst_ni) begin
     if (!rst_ni)      sel_q <= '0;
     else if (rd_en_i) sel_q <= {4{rows_q[rd_addr_i[4:2]]}} & (4'b0001 << rd_addr_i[1:0]);
@@ -83,7 +94,7 @@ module mb4_slave_cfg #(
       .wclk_i    (hclk_i),
       .wr_en_i   (wr_en),
       .wr_addr_i (row),
-      .wr_data_i (wr_data),
+      .wr_data_i ({wr_data[31:16], crc_poly, wr_data[7:0]}),
       .rclk_i    (clk_i),
       .rd_en_i   (list_en_i[i]),
       .rd_addr_i (list_slave_i[3*i +: 3]),

@@ -3,11 +3,15 @@
 //
 // Validity flags SVALIDx of four data channels (1..4 or 5..8) in both banks.
 //
-// Clock domain: core. The line engine writes the flag of its bank, the host clears flags of its
-// own bank: writing 0 clears, 1 has no effect (decision 18). A flag falls when the first bit of a
-// new word arrives, so that half-written data are never called valid. With one bank both act on
-// the same flags; the engine wins if both meet in one clock. The outputs are flops; which bank the
-// host sees is decided where it reads.
+// Clock domain: core. The outputs are flops; mb4_host_read chooses the bank that the host sees.
+//
+// - The line engine writes the flag in its own bank. The flag falls with the first bit of a new
+//   word, so a half-written word is never called valid.
+// - The host clears flags in its own bank: writing 0 clears, writing 1 has no effect (decision 18).
+// - A word that SWBANK splits loses its flag in both banks (decision 34).
+// - INIT of BiSS C clears all flags (decision 35).
+// - With one bank both sides act on the same flags. If they do so in one clock, the engine wins.
+//
 // Datasheet: page 35, Table 61.
 
 module mb4_svalid (
@@ -18,9 +22,11 @@ module mb4_svalid (
   // line engine
   input  logic       begin_i,      // a word begins
   input  logic       set_en_i,     // a word is complete
-  input  logic [1:0] set_slave_i,  // within the four
+  input  logic [1:0] set_slave_i,  // data channel within the four
   input  logic       set_valid_i,
-  // host: bits that are 0 clear
+  input  logic       split_i,      // SWBANK moves the rest of this word to the other bank
+  input  logic       clear_i,
+  // host: a 0 clears the flag
   input  logic       keep_en_i,
   input  logic [3:0] keep_i,
   output logic [7:0] svalid_o    // bank 1 in the upper half
@@ -41,6 +47,14 @@ module mb4_svalid (
     if (set_en_i || begin_i) begin
       if (eng_bank_i) bank1_d[set_slave_i] = set_en_i && set_valid_i;
       else            bank0_d[set_slave_i] = set_en_i && set_valid_i;
+    end
+    if (split_i) begin
+      bank0_d[set_slave_i] = 1'b0;
+      bank1_d[set_slave_i] = 1'b0;
+    end
+    if (clear_i) begin
+      bank0_d = '0;
+      bank1_d = '0;
     end
   end
 

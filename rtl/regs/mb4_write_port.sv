@@ -1,10 +1,12 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The one write port of a data memory: clearing after reset, then the engine, then the host.
+// The single write port of a data memory. Clearing after a reset goes first, then the engine, then
+// the host.
 //
-// Clock domain: core; combinational. host_ready_o tells that the host's posted byte is taken in
-// this clock. The engine writes at most every second clock, so the host waits one clock at most.
+// Clock domain: core; combinational. host_ready_o is high in the clock in which the posted byte of
+// the host is taken. The engine writes at most every second clock, so the host waits at most one
+// clock for it.
 
 module mb4_write_port (
   input  logic       clear_i,

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The Verilated chip behind an interface without Verilator types. One virtual call runs as many
-// clock edges as there are between two outside events; nothing virtual happens per clock.
+// The Verilated chip behind an interface without Verilator types. One virtual call runs all clock
+// edges between two outside events, so there is no virtual call per clock.
 #ifndef MB4SIM_MODEL_CHIP_MODEL_HPP_
 #define MB4SIM_MODEL_CHIP_MODEL_HPP_
 
@@ -16,7 +16,7 @@
 
 namespace mb4::sim {
 
-// Where a waveform goes and which part of the run it shows.
+// The file of a waveform, and the part of the run that it shows.
 struct TraceFile {
   std::string path;
   Time from = 0;
@@ -25,7 +25,7 @@ struct TraceFile {
 
 class ChipModel {
  public:
-  // Bits of watched(): outputs whose change stops run_clocks().
+  // Bits of watched(). run_clocks() stops when one of these outputs changes.
   enum Watched : unsigned {
     kMa1 = 1U << 0U,
     kMa2 = 1U << 1U,
@@ -40,48 +40,49 @@ class ChipModel {
   ChipModel& operator=(const ChipModel&) = delete;
   virtual ~ChipModel() = default;
 
-  // Runs all clock edges up to and including `limit`, but stops behind the first one that changes
-  // a watched output. Returns the time of that edge, or kNever if none has changed.
+  // Runs all clock edges up to and including `limit`. Stops after the first edge that changes a
+  // watched output. Returns the time of that edge, or kNever if no watched output has changed.
   virtual Time run_clocks(Time limit) = 0;
-  // Time of the next clock edge, kNever without a clock.
+  // Time of the next clock edge; kNever without a clock.
   virtual Time next_edge() const = 0;
-  // Drives an input pin (no output pin) and evaluates the chip at time `now`.
+  // Drives an input pin and evaluates the chip at time `now`. `pin` must not be an output.
   virtual void set_input(Time now, Pin pin, bool level) = 0;
-  // Another frequency at pin CLK from `now` on; 0: it stands still. Nothing if the scenario has no
-  // clock there.
+  // Changes the frequency of pin CLK from `now` on; with 0 it stands still. Does nothing if the
+  // scenario has no clock there.
   virtual void set_clock(Time now, std::uint64_t hz) = 0;
   unsigned watched() const { return watched_; }
   // Level of pin CLK.
   virtual bool clk() const = 0;
-  // Data bus as the chip drives it: DB0 in bit 0.
+  // Levels of the data bus that the chip drives, and which of them it drives. DB0 is bit 0.
   virtual unsigned db_out() const = 0;
   virtual unsigned db_enable() const = 0;
-  // Rising edges of the selected system clock so far.
+  // Number of rising edges of the selected system clock so far.
   std::uint64_t cycles() const { return cycles_; }
-  // Those of them that were left out because the chip was at rest.
+  // Number of those edges that were left out because the chip was at rest.
   virtual std::uint64_t left_out() const = 0;
   // Half a period of MA in system clocks, as the running or last frame took it from FREQS.
   virtual unsigned half_clocks() const = 0;
   // Shortest period that the system clock can have had so far, ps; 0 = unknown.
   Time min_clock() const { return min_clock_; }
-  // CFGIF makes the pins of line 2 the inverse ones of line 1.
+  // True if CFGIF makes the pins of line 2 the inverse of those of line 1.
   virtual bool paired() const = 0;
-  // Levels outside the chip for the waveform: MA at the slaves (bit n = channel n + 1), SLO and
-  // idle of the slaves (bit n = slave n + 1). No effect without a trace.
+  // Levels outside the chip, for the waveform: MA at the slaves (bit n = channel n + 1), SLO and
+  // idle of the slaves (bit n = slave n + 1). They have no effect without a trace.
   virtual void set_probes(Time now, unsigned ma, unsigned slo, unsigned idle) = 0;
-  // Writes what the trace still holds. No effect without a trace.
+  // Writes the rest of the trace to its file. Has no effect without a trace.
   virtual void finish_trace() = 0;
 
  protected:
-  // Asked at every edge of MA: no virtual calls.
+  // These are read at every edge of MA, so they are not virtual.
   unsigned watched_ = 0;
   std::uint64_t cycles_ = 0;
   Time min_clock_ = 0;
 };
 
-// The two models that are built: one without any tracing code, one that writes an FST file. The
-// first one can be evaluated with as little work as possible or in Verilator's plain way.
-// All inputs are at their defaults (pins.hpp) with NRES low, evaluated at time 0.
+// The two models that are built: one without tracing code, one that writes an FST file. The model
+// without tracing can be evaluated with as little work as possible (fast) or by Verilator's eval()
+// alone (plain). On return all inputs are at their defaults (pins.hpp), NRES is low, and the chip
+// has been evaluated at time 0.
 std::unique_ptr<ChipModel> make_fast_chip(const ChipConfig& config, std::uint64_t seed);
 std::unique_ptr<ChipModel> make_plain_chip(const ChipConfig& config, std::uint64_t seed);
 std::unique_ptr<ChipModel> make_traced_chip(const ChipConfig& config, std::uint64_t seed,

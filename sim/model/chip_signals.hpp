@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What VerilatedChip looks at inside a model whose top is mb4_chip, made visible by public.vlt.
+// The signals that VerilatedChip reads inside a model whose top is mb4_chip. public.vlt makes them
+// visible.
 #ifndef MB4SIM_MODEL_CHIP_SIGNALS_HPP_
 #define MB4SIM_MODEL_CHIP_SIGNALS_HPP_
 

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// A clock whose edges lie at exact rational times: edge k at k / (2 f), rounded down to a whole
-// picosecond, without drift. Inline: it is asked once per half period.
+// A clock without drift: edge k is at k / (2 f), rounded down to a whole picosecond. The functions
+// are inline because they are called once per half period.
 #ifndef MB4SIM_MODEL_CLOCK_SOURCE_HPP_
 #define MB4SIM_MODEL_CLOCK_SOURCE_HPP_
 
@@ -29,8 +29,8 @@ class ClockSource {
   Time next() const { return next_; }  // time of the next edge
   bool level() const { return level_; }
 
-  // Another frequency from `now` on, which is not before the last edge: the next edge comes half a
-  // period later. 0: the clock stands still at its level.
+  // Changes the frequency from `now` on, which must not be before the last edge. The next edge
+  // comes half a period later. With 0 the clock keeps its level.
   void retune(std::uint64_t frequency_hz, Time now) {
     denominator_ = 2 * frequency_hz;
     rest_sum_ = 0;
@@ -44,15 +44,15 @@ class ClockSource {
     step();
   }
 
-  // Makes the next edge happen.
+  // Makes the next edge happen. Returns the new level.
   bool edge() {
     level_ = !level_;
     step();
     return level_;
   }
 
-  // Leaves out whole periods so that the next edge is not before `now`; the level stays. For a
-  // clock that was not looked at for a while.
+  // Leaves out whole periods until the next edge is not before `now`. The level stays. For a clock
+  // that was not used for a while.
   void skip_to(Time now) {
     if (denominator_ == 0 || next_ >= now) return;
     skip(whole_periods(now));
@@ -62,8 +62,8 @@ class ClockSource {
     }
   }
 
-  // Periods that can be left out with certainty if the next edge is not to come after `limit`, nor
-  // the one behind it.
+  // Returns a number of whole periods that can be left out: the edge after them is certainly not
+  // later than `limit`.
   std::uint64_t whole_periods(Time limit) const {
     if (denominator_ == 0 || limit <= next_) return 0;
     const Time period = 2 * whole_ + (2 * rest_) / denominator_;

@@ -1,20 +1,21 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// How VerilatedChip evaluates the model without tracing: the same as PlainSteps with less work.
+// Evaluates the model without tracing for VerilatedChip. The result is that of PlainSteps, with
+// less work.
 //
-// eval() of Verilator 5 spends more time on finding out what has changed than the chip's logic
-// takes for a clock: it computes all logic behind the inputs, looks for edges of every clock and
-// reset of the chip three times or more, and does so at falling edges of CLK too, where all but a
-// few flops rest. Here what has changed is known: an edge of CLK. So only those statements of the
-// model run that such an edge starts and that read something that has changed
-// (edge/split_edge.py), and a falling edge that finds its flops unchanged costs nothing.
+// For one clock, eval() of Verilator 5 needs more time to find out what has changed than to compute
+// the chip's logic. It computes all logic that depends on the inputs. It looks for edges of every
+// clock and reset of the chip three times or more. It does the same at falling edges of CLK, where
+// only a few flops act. Here the change is known: an edge of CLK. So only those statements of the
+// model run that such an edge starts and that read something that has changed (edge/split_edge.py).
+// A falling edge costs nothing if it would leave its flops unchanged.
 //
-// A chip at rest is one that a clock leaves as it was, every bit of it: then any number of clocks
-// does. The one thing that may move is the time to the next frame (AGS), which is set forward.
+// A chip is at rest if a clock leaves every bit of it unchanged. Then any number of clocks leaves
+// it unchanged. Only the time to the next frame (AGS) may move, and this class advances it.
 //
-// This relies on how Verilator 5.006 writes a model (Debian 12's version); with another version
-// fast_chip.cpp falls back to PlainSteps. tests/chip/lockstep_test.cpp compares both.
+// This relies on how Verilator 5.006 (Debian 12) writes a model. With another version fast_chip.cpp
+// uses PlainSteps. tests/chip/lockstep_test.cpp compares both.
 #ifndef MB4SIM_MODEL_DIRECT_STEPS_HPP_
 #define MB4SIM_MODEL_DIRECT_STEPS_HPP_
 
@@ -38,14 +39,14 @@ class DirectSteps {
   // Any inputs have changed.
   void inputs(Vmb4_chip& model) {
     const Root& root = *model.rootp;
-    // Beside a running oscillator the edges of CLK come here as well.
+    // While the oscillator runs, the edges of CLK come here as well.
     const bool host = on_clk(root) && root.clk_i == root.__Vtrigrprev__TOP__clk_i;
     if (host) host_.take(root);
     model.eval();
     if (late_) edge::sl_has_changed(kept_);
     late_ = false;
     pins_.compare(root, kept_);
-    // With its clock and its resets as they were, the chip has seen an edge of a host pin.
+    // If its clock and its resets are unchanged, the chip has seen an edge of a host pin.
     const auto before = std::exchange(clocks_and_resets_, clocks_and_resets(root));
     if (host && on_clk(root) && before == clocks_and_resets_) {
       host_.compare(root, kept_);
@@ -53,15 +54,15 @@ class DirectSteps {
       kept_.all();
     }
   }
-  // SL1 or SL2 has changed, no other input. SL is no clock and reaches no output before the next
-  // clock edge: it waits for that.
+  // SL1 or SL2 has changed and no other input. SL is not a clock, and no output depends on it
+  // before the next clock edge. So the change waits for that edge.
   void sl(Vmb4_chip& /*model*/) { late_ = true; }
 
-  // CLK rises or falls, no other input changes. Returns false if nothing follows from it.
+  // CLK rises or falls and no other input changes. Returns false if the edge changes nothing.
   bool clk(Vmb4_chip& model, bool level) {
     Root& root = *model.rootp;
     root.clk_i = level;
-    if (!on_clk(root)) {  // the chip runs on another clock, or changes to one
+    if (!on_clk(root)) {  // the chip runs on another clock, or is changing to one
       inputs(model);
       return true;
     }
@@ -79,26 +80,26 @@ class DirectSteps {
         edge::fall(&root, kept_);
       }
     }
-    // No edge may be left for the next search to find.
+    // The next eval() must not find an edge that has already been handled.
     root.__Vtrigrprev__TOP__clk_i = level;
     root.__Vtrigrprev__TOP__mb4_chip__DOT__clk = level;
     return matters;
   }
 
-  // Remembers the chip, CLK low.
+  // Stores the state of the chip while CLK is low.
   void mark(const Vmb4_chip& model) {
     before_.resize(sizeof(Root));
     std::memcpy(before_.data(), bytes(*model.rootp), sizeof(Root));
   }
-  // Asked one clock after mark() with no input changed since: whether nothing has changed but the
-  // time to the next frame. That holds on for rest_left() clocks if no input changes.
+  // Called one clock after mark(), with no input changed since. Returns true if nothing has changed
+  // except the time to the next frame. This stays true for rest_left() clocks if no input changes.
   bool at_rest(const Vmb4_chip& model) {
     const Root& root = *model.rootp;
     counting_ = moved(root, root.*kPre) || moved(root, root.*kStep);
     ignore(root, root.*kPre);
     ignore(root, root.*kStep);
     if (std::memcmp(before_.data(), bytes(root), sizeof(Root)) != 0) return false;
-    // A rate changed on the way may have left a count that goes to its very end.
+    // After a change of the rate the count may be past its new end; then it runs to its very end.
     return !counting_ || (root.*kPre < step_clocks(root) && root.*kStep <= last_step(root));
   }
   std::uint64_t rest_left(const Vmb4_chip& model) const {
@@ -107,9 +108,9 @@ class DirectSteps {
     const std::uint64_t last = (last_step(root) + 1) * step_clocks(root) - kMargin;
     return std::max(elapsed(root), last) - elapsed(root);
   }
-  // Makes that many clocks pass, or a few less; returns how many. The end of a step changes more
-  // than a count, and what follows from it has been computed shortly before: no clock near it is
-  // left out.
+  // Makes `clocks` clocks pass, or a few less. Returns their number. The end of a step changes more
+  // than a count, and the logic that depends on it is computed shortly before. So no clock near
+  // that end is left out.
   std::uint64_t leave_out(Vmb4_chip& model, std::uint64_t clocks) {
     Root& root = *model.rootp;
     if (!counting_) return clocks;
@@ -136,7 +137,7 @@ class DirectSteps {
   static constexpr auto kSampled2 =
       &Root::
           mb4_chip__DOT__u_engine__DOT__u_channels__DOT__u_lines__DOT__gen_line__BRA__1__KET____DOT__u_channel__DOT__u_sampler__DOT__u_capture__DOT__neg1_q;
-  // The time to the next frame: clocks of the current step, steps; its rate.
+  // The time to the next frame: the clocks of the current step, the steps, and its rate.
   static constexpr auto kPre =
       &Root::mb4_chip__DOT__u_engine__DOT__u_control__DOT__u_request__DOT__pre_q;
   static constexpr auto kStep =
@@ -144,7 +145,7 @@ class DirectSteps {
   static constexpr auto kFreqags =
       &Root::mb4_chip__DOT__u_engine__DOT__u_regs__DOT__u_cfg__DOT__freqags_q;
 
-  // The system clock is CLK.
+  // True if CLK is the system clock.
   static bool on_clk(const Root& root) {
     return root.mb4_chip__DOT__u_clk_mux__DOT__en0_q != 0 &&
            root.mb4_chip__DOT__u_clk_mux__DOT__en1_q == 0;
@@ -158,11 +159,13 @@ class DirectSteps {
             root.mb4_chip__DOT__u_engine__DOT__por_core_n};
   }
 
-  // Whether a flop of the falling edge would change. They are in the clock switch and in the
-  // samplers of SL (mb4_clk_mux, mb4_sl_capture); a lint test knows that there are no others.
+  // True if a falling edge would change a flop. Such flops are in the clock switch and in the
+  // samplers of SL (mb4_clk_mux, mb4_sl_capture). A lint test checks that there are no others.
   static bool fall_matters(const Root& root) {
-    const unsigned sl2 = root.sl2_i | root.mb4_chip__DOT__paired;
-    return root.mb4_chip__DOT__u_clk_mux__DOT__ready0_q == 0 || root.*kSampled1 != root.sl1_i ||
+    const unsigned paired = root.mb4_chip__DOT__paired;
+    const unsigned sl1 = root.sl1_i | (paired & (root.sl2_i ^ 1U));
+    const unsigned sl2 = root.sl2_i | paired;
+    return root.mb4_chip__DOT__u_clk_mux__DOT__ready0_q == 0 || root.*kSampled1 != sl1 ||
            root.*kSampled2 != sl2;
   }
 

@@ -8,7 +8,8 @@
 #include "plain_steps.hpp"
 #include "verilated_chip.hpp"
 
-#if VERILATOR_VERSION_INTEGER == 5006000
+// Some packages of Verilator leave this number empty.
+#if VERILATOR_VERSION_INTEGER + 0 == 5006000
 #include <Vmb4_chip_edge.hpp>
 #ifndef MB4_EDGE_NOT_SPLIT
 #define MB4_DIRECT_STEPS

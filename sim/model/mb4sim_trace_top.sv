@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Top of the traced model: the chip and, beside it, levels outside the chip that a waveform should
-// show too. The simulator drives the probe inputs; nothing reads them.
+// Top of the traced model: the chip, and beside it levels outside the chip for the waveform. The
+// simulator drives the probe inputs. No logic reads them.
 
 module mb4sim_trace_top (
   input  logic       clk_i,
@@ -29,7 +29,7 @@ module mb4sim_trace_top (
   input  logic       sl1_i,
   input  logic       sl2_i,
   input  logic [mb4_pkg::QUIRKS_W-1:0] quirks_i,
-  // Probes are made to be seen, not used.
+  // The probes are for the waveform only.
   /* verilator lint_off UNUSEDSIGNAL */
   input  logic [1:0] slaves_ma_i,   // MA as it arrives at the slaves of channel 1, 2
   input  logic [7:0] slaves_slo_i,  // SLO of slave 1 to 8

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// How VerilatedChip evaluates a model: by eval() alone, whatever has changed.
+// Evaluates a model for VerilatedChip by eval() alone, whatever has changed.
 #ifndef MB4SIM_MODEL_PLAIN_STEPS_HPP_
 #define MB4SIM_MODEL_PLAIN_STEPS_HPP_
 
@@ -14,15 +14,15 @@ class PlainSteps {
  public:
   // Any inputs have changed.
   void inputs(Model& model) { model.eval(); }
-  // SL1 or SL2 has changed, no other input.
+  // SL1 or SL2 has changed and no other input.
   void sl(Model& model) { model.eval(); }
-  // CLK rises or falls, no other input changes. Returns false if nothing follows from it.
+  // CLK rises or falls and no other input changes. Returns false if the edge changes nothing.
   bool clk(Model& model, bool level) {
     model.clk_i = level;
     model.eval();
     return true;
   }
-  // Clocks at rest are not left out.
+  // This class leaves out no clocks at rest.
   void mark(const Model& /*model*/) {}
   bool at_rest(const Model& /*model*/) const { return false; }
   std::uint64_t rest_left(const Model& /*model*/) const { return 0; }

@@ -18,7 +18,7 @@ namespace mb4::sim {
 namespace {
 
 struct Inside {
-  // Made visible by public.vlt.
+  // public.vlt makes this signal visible.
   static bool osc_selected(const Vmb4_chip_trace& model) {
     return model.rootp->mb4sim_trace_top__DOT__u_chip__DOT__clkeni != 0;
   }
@@ -46,7 +46,7 @@ class FstTrace {
   template <typename Model>
   void open(VerilatedContext& /*context*/, Model& model, const TraceFile& trace) {
     constexpr int kAllLevels = 99;
-    // The FST writer removes whatever is there, a device node too.
+    // The FST writer removes any existing file of this name, also a device node.
     std::error_code ignored;
     const std::string& path = trace.path;
     from_ = trace.from;
@@ -60,8 +60,8 @@ class FstTrace {
     file_->open(path.c_str());
     if (!file_->isOpen()) throw ScenarioError(path + ": cannot write the waveform");
   }
-  // Several evaluations at one time (a slave that answers without delay) become visible one
-  // picosecond after the other: a file takes only one set of values per time.
+  // Several evaluations can have the same time, for example if a slave answers without delay. The
+  // file takes only one set of values per time. So they appear one picosecond after the other.
   void dump(Time now) {
     if (now < from_ || now > to_) return;
     next_ = std::max(now, next_);

@@ -21,7 +21,8 @@ ModelStopped::ModelStopped(const char* file, int line, const char* hierarchy)
 
 }  // namespace mb4::sim
 
-// Declared by verilated.h; called for $stop and for failing assertions because VL_USER_STOP is set.
+// Declared by verilated.h. VL_USER_STOP is set, so Verilator calls it for $stop and for failing
+// assertions.
 void vl_stop(const char* filename, int linenum, const char* hier) {
   throw mb4::sim::ModelStopped(filename, linenum, hier);
 }

@@ -1,13 +1,14 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What every Verilated model is compiled with: its messages go to standard error (standard output
-// carries data), and a failing assertion throws mb4::sim::ModelStopped instead of ending the
-// process.
+// Every Verilated model is compiled with this header. The model then prints its messages to
+// standard error, because standard output carries data. A failing assertion throws
+// mb4::sim::ModelStopped and does not end the process.
 #ifndef MB4_SIM_MODEL_VERILATED_HOOKS_H_
 #define MB4_SIM_MODEL_VERILATED_HOOKS_H_
 
-// By path, so that any library with Verilated models can use it without an include directory.
+// Included by path, so that any library with Verilated models can use it without an include
+// directory.
 #include "../include/mb4sim/model_stopped.hpp"
 
 // Replaces printf inside Verilator's runtime ($display, assertion texts).

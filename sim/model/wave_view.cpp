@@ -2,13 +2,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "mb4sim/wave_view.hpp"
 
+#if __has_include(<gtkwave/fstapi.h>)
 #include <gtkwave/fstapi.h>
+#define MB4_FST_READER
+#endif
 
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
+#include <initializer_list>
 #include <memory>
 #include <optional>
 #include <stdexcept>
@@ -22,44 +26,85 @@ namespace {
 
 struct Signal {
   std::string path;  // below the top module
-  std::string full;  // as GTKWave wants it
+  std::string full;  // name for GTKWave
+  unsigned bits = 1;
   bool vector = false;
-  bool enumerated = false;  // the file names its values
+  bool enumerated = false;  // the file has names for its values
 };
 
-// A group of the view: pins of the chip by the start of their name, and what lies inside the chip
-// by a scope of its path.
+// A signal of the top module, shown under the name of a pin.
+struct PinName {
+  std::string_view name;    // empty: the signal's name
+  std::string_view signal;  // without the range of a vector
+  int bit = -1;             // bit of a vector; -1: all of it
+};
+
+// A group of the view: pins of the chip, and signals inside the chip whose path contains a scope.
 struct Group {
   std::string_view name;
   bool open;  // unfolded when the view is loaded
-  std::vector<std::string_view> pins;
+  std::vector<PinName> pins;
   std::vector<std::string_view> scopes;
 };
 
-// In the order in which they stand in the view: first what a user of the chip sees.
-const std::vector<Group>& groups() {
-  static const std::vector<Group> list = {
-      {"host", true, {"nres_i", "ncs_i", "ale_i", "db_", "eot_o", "ner_"}, {".u_spi.u_cmd."}},
-      {"line", true, {"ma1_o", "sl1_i", "ma2_o", "sl2_i"}, {}},
-      {"slaves", true, {"slaves_"}, {}},
-      {"control", false, {"clk_i"}, {".u_control.", ".u_timebase."}},
-      {"line engine", false, {"mo"}, {".gen_line[", ".u_line."}},
+Group host_group(HostInterface interface) {
+  Group group{"host", true, {{"NRES", "nres_i"}, {"NCS", "ncs_i"}}, {}};
+  const auto add = [&](std::initializer_list<PinName> pins) {
+    group.pins.insert(group.pins.end(), pins);
+  };
+  switch (interface) {
+    case HostInterface::kSpi:
+    case HostInterface::kSpi2:
+      add({{"SCLK", "ale_i"}, {"MOSI", "db_i", 0}, {"MISO", "db_o", 1}, {"MISO on", "db_oe_o", 1}});
+      group.scopes = {".u_host.u_spi.u_cmd."};
+      break;
+    case HostInterface::kIntel:
+      add({{"ALE", "ale_i"}, {"NRD", "nrd_rnw_i"}, {"NWR", "nwr_e_i"}});
+      break;
+    case HostInterface::kMotorola:
+      add({{"ALE", "ale_i"}, {"RNW", "nrd_rnw_i"}, {"E", "nwr_e_i"}});
+      break;
+  }
+  if (interface == HostInterface::kSpi2) {
+    add({{"NCS of SPI2", "db_i", 4},
+         {"SCLK of SPI2", "db_i", 5},
+         {"MOSI of SPI2", "db_i", 6},
+         {"MISO of SPI2", "db_o", 7},
+         {"MISO of SPI2 on", "db_oe_o", 7}});
+    group.scopes.push_back(".u_spi2.u_spi.u_cmd.");
+  }
+  if (interface == HostInterface::kIntel || interface == HostInterface::kMotorola) {
+    add({{"DB in", "db_i"}, {"DB out", "db_o"}, {"DB on", "db_oe_o"}});
+    group.scopes = {".u_par_bus."};
+  }
+  add({{"EOT", "eot_o"}, {"NER", "ner_i"}, {"NER pulled", "ner_low_o"}});
+  return group;
+}
+
+// The groups in the order of the view. The first ones are those that a user of the chip sees.
+std::vector<Group> groups(HostInterface interface) {
+  return {
+      host_group(interface),
+      {"line", true, {{"MA1", "ma1_o"}, {"SL1", "sl1_i"}, {"MA2", "ma2_o"}, {"SL2", "sl2_i"}}, {}},
+      {"slaves", true, {{"", "slaves_ma_i"}, {"", "slaves_slo_i"}, {"", "slaves_idle_i"}}, {}},
+      {"control", false, {{"CLK", "clk_i"}}, {".u_control.", ".u_timebase."}},
+      {"line engine", false, {{"MO1", "mo1_o"}, {"MO2", "mo2_o"}}, {".gen_line[", ".u_line."}},
       {"registers", false, {}, {".u_regs."}},
       {"straps",
        false,
-       {"osc_i", "cfgspi_i", "int_nmot_i", "nrd_rnw_i", "nwr_e_i", "getsens_i"},
+       {{"CFGSPI", "cfgspi_i"},
+        {"INT_NMOT", "int_nmot_i"},
+        {"NRD_RNW", "nrd_rnw_i"},
+        {"NWR_E", "nwr_e_i"},
+        {"GETSENS", "getsens_i"},
+        {"oscillator", "osc_i"}},
        {}},
   };
-  return list;
 }
 
 bool belongs(const Group& group, const Signal& signal) {
-  const bool pin = signal.path.find('.') == std::string::npos;
-  if (pin) {
-    return std::any_of(group.pins.begin(), group.pins.end(),
-                       [&](std::string_view word) { return signal.path.starts_with(word); });
-  }
-  // Of the inside only registers and outputs; the rest follows from them and is in the file.
+  // Inside the chip the view has registers and outputs only. The other signals follow from them and
+  // are in the file.
   const std::string name = signal.path.substr(0, signal.path.find('[', signal.path.rfind('.')));
   if (!name.ends_with("_q") && !name.ends_with("_o")) return false;
   for (const std::string_view detail : {"_sync.", "sync.", ".u_ram."}) {
@@ -70,14 +115,15 @@ bool belongs(const Group& group, const Signal& signal) {
   });
 }
 
-struct CloseReader {
-  void operator()(void* reader) const { fstReaderClose(reader); }
-};
-
 struct Waveform {
   std::vector<Signal> signals;
   std::uint64_t begin = 0;  // ps
   std::uint64_t end = 0;
+};
+
+#ifdef MB4_FST_READER
+struct CloseReader {
+  void operator()(void* reader) const { fstReaderClose(reader); }
 };
 
 Waveform read_waveform(const std::string& fst_path) {
@@ -95,7 +141,7 @@ Waveform read_waveform(const std::string& fst_path) {
     } else if (entry->htyp == FST_HT_UPSCOPE && !scopes.empty()) {
       scopes.pop_back();
     } else if (entry->htyp == FST_HT_ATTRBEGIN) {
-      // Without a name it refers to a table; the signal follows.
+      // An attribute without a name refers to a table, and the signal follows.
       enumerated = entry->u.attr.typ == FST_AT_MISC && entry->u.attr.subtype == FST_MT_ENUMTABLE &&
                    entry->u.attr.name_length == 0;
     } else if (entry->htyp == FST_HT_VAR) {
@@ -109,16 +155,34 @@ Waveform read_waveform(const std::string& fst_path) {
       name.erase(std::remove(name.begin(), name.end(), ' '), name.end());
       signal.full += name;
       signal.path += name;
-      signal.vector = entry->u.var.length > 1;
-      // Verilator lists the ports of the top above it once more.
+      signal.bits = entry->u.var.length;
+      signal.vector = signal.bits > 1;
+      // Verilator lists the ports of the top a second time above it.
       if (scopes.size() > 1) signals.push_back(std::move(signal));
     }
   }
   return waveform;
 }
+#else
+// This Verilator has no reader for FST files: the view has its groups, but no signals.
+Waveform read_waveform(const std::string& /*fst_path*/) { return {}; }
+#endif
+
+// Writes a pin. Writes nothing if the file has no such signal.
+void write_pin(std::ostream& out, const PinName& pin, const std::vector<Signal>& signals) {
+  for (const Signal& signal : signals) {
+    if (signal.path.substr(0, signal.path.find('[')) != pin.signal) continue;
+    out << (signal.vector && pin.bit < 0 ? "@22\n" : "@28\n");
+    if (!pin.name.empty()) out << "+{" << pin.name << "} ";
+    // GTKWave counts the bits from the left.
+    if (pin.bit >= 0) out << '(' << static_cast<int>(signal.bits) - 1 - pin.bit << ')';
+    out << signal.full << '\n';
+    return;
+  }
+}
 
 void write_signal(std::ostream& out, const Signal& signal) {
-  // Flags of GTKWave: right justified, with hexadecimal or binary digits, or the names of an enum.
+  // Flags of GTKWave: right justified, with hexadecimal or binary digits or the names of an enum.
   const char* format = signal.enumerated ? "@100000028\n" : signal.vector ? "@22\n" : "@28\n";
   out << format << signal.full << '\n';
 }
@@ -126,9 +190,9 @@ void write_signal(std::ostream& out, const Signal& signal) {
 }  // namespace
 
 void write_wave_view(const std::string& fst_path, const std::string& view_path,
-                     std::optional<Time> marker) {
+                     HostInterface interface, std::optional<Time> marker) {
   constexpr double kWindowPs = 150e6;    // configuration and the first frames of a usual scenario
-  constexpr double kWindowPixels = 900;  // of an ordinary screen
+  constexpr double kWindowPixels = 900;  // width on an ordinary screen
   constexpr double kZoomUnit = 200;      // GTKWave: a pixel is 2^zoom / 200 time units
   const Waveform waveform = read_waveform(fst_path);
   const double shown =
@@ -143,8 +207,9 @@ void write_wave_view(const std::string& fst_path, const std::string& view_path,
       << marker.value_or(waveform.begin);
   for (int letter = 0; letter < 26; ++letter) out << " -1";
   out << '\n';
-  for (const Group& group : groups()) {
+  for (const Group& group : groups(interface)) {
     out << (group.open ? "@800200\n-" : "@c00200\n-") << group.name << '\n';
+    for (const PinName& pin : group.pins) write_pin(out, pin, waveform.signals);
     for (const Signal& signal : waveform.signals) {
       if (belongs(group, signal)) write_signal(out, signal);
     }

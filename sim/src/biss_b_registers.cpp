@@ -67,7 +67,7 @@ void BissBRegisters::rising(Time now) {
   }
 }
 
-// A bit of the master has ended.
+// A bit of the master has ended. `bit` is its value.
 void BissBRegisters::take(Time now, bool bit) {
   switch (state_) {
     case State::kStart:
@@ -153,7 +153,7 @@ void BissBRegisters::write_bit(Time now, bool bit) {
   const unsigned address = block_ + address_;
   switch (state_) {
     case State::kWriteStart:
-      if (!bit) break;  // the master may take its time
+      if (!bit) break;  // the master may wait any time
       if (!registers_.exists(address) || !store_busy_.over(now)) {
         state_ = State::kOff;
         out_ = false;
@@ -169,7 +169,7 @@ void BissBRegisters::write_bit(Time now, bool bit) {
       if (crc_fits(bits_, kDataBits)) {
         registers_.write(address, static_cast<std::uint8_t>(bits_ >> kCrcBits));
         ++counters_.writes;
-        store_busy_.start(now, config_.store_busy, 2);  // stop bit and the next start bit
+        store_busy_.start(now, config_.store_busy, 2);  // for the stop bit and the next start bit
       } else {
         ++counters_.data_errors;
       }

@@ -24,7 +24,7 @@ void BissBSlave::wait() {
   } else if (state_ != State::kRegister) {
     set_deadline(last_edge_ + timeout_.value());
   } else {
-    // The master may take its time between the hand-over and its start bit.
+    // The master may wait any time between the change to register mode and its start bit.
     set_deadline(access_.cells() == 0 ? kNever : last_edge_ + register_timeout());
   }
 }
@@ -47,7 +47,7 @@ void BissBSlave::ma_edge(Time now, bool ma, bool sli_before, bool sli) {
 
 void BissBSlave::first_falling(Time now, bool sli) {
   timeout_.begin(now);
-  // SLI = 0 that was 1 a moment ago is MO; that of the last slave has always been 0.
+  // SLI = 0 that was 1 shortly before comes from MO. SLI of the last slave has always been 0.
   const bool fell = !sli && (sli_ || (sli_fell_ != kNever && now - sli_fell_ <= timeout_.value()));
   is_last_ = !sli && !fell;
   state_ = State::kArmed;
@@ -110,7 +110,7 @@ void BissBSlave::follow(Time now, bool sli) {
   sli_ = sli;
   switch (state_) {
     case State::kArmed:
-      // All slaves of a chain have to confirm register mode before the master sees it.
+      // The master sees register mode only after all slaves of the chain have confirmed it.
       set_slo(true);
       break;
     case State::kIdle:
@@ -118,13 +118,13 @@ void BissBSlave::follow(Time now, bool sli) {
       set_slo(is_last_ || sli);
       break;
     case State::kBusy:
-      // MO may be late with its acknowledge: its 1 is the start bit only after a 0.
+      // The acknowledge of MO may come late. So a 1 is the start bit only after a 0.
       if (is_last_) break;
       if (!sli) sli_was_low_ = true;
-      set_slo(sli && sli_was_low_ && !faults().busy);
+      set_slo(sli && (sli_was_low_ ? !faults().busy : config_.passes_acknowledge));
       break;
     case State::kRegister:
-      // SL is 0 for the master when all slaves have confirmed; later one of them speaks.
+      // The master sees SL = 0 when all slaves have confirmed. Later one of them sends.
       set_slo(access_.out() || (!is_last_ && sli));
       break;
     case State::kStart:

@@ -24,7 +24,7 @@ void BissCSlave::ma_edge(Time now, bool ma, bool sli_before, bool sli) {
   if (ma) {
     rising(now, sli_before, sli);
   } else if (state_ == State::kIdle) {
-    // Rising edges in idle are no part of a frame: MA may have rested low (HOLDCDM).
+    // A rising edge in idle is not part of a frame: MA may have rested low (HOLDCDM).
     is_last_ = !sli;
     timeout_.begin(now);
     state_ = State::kArmed;
@@ -36,7 +36,7 @@ void BissCSlave::ma_edge(Time now, bool ma, bool sli_before, bool sli) {
   if (state_ != State::kIdle) set_deadline(now + timeout_.value());
 }
 
-// SLI is sampled with the edge: sli_before is what it was in the period of MA that ends here.
+// The slave samples SLI with the edge: `sli_before` is SLI in the period of MA that ends here.
 void BissCSlave::rising(Time now, bool sli_before, bool sli) {
   switch (state_) {
     case State::kIdle:
@@ -57,7 +57,7 @@ void BissCSlave::rising(Time now, bool sli_before, bool sli) {
       break;
     case State::kBusy:
       if (!is_last_) {
-        // The start bit has passed already, between the edges.
+        // The start bit has already passed between the edges.
         if (sli_was_low_ && sli_before && !faults().busy) {
           begin_cds(sli);
         } else {
@@ -113,7 +113,7 @@ void BissCSlave::end_cds(bool sli) {
 
 void BissCSlave::sli_changed(Time /*now*/, bool sli) { follow(sli); }
 
-// Outside the data phase a slave passes SLI on, between the edges of MA as well; the last one has
+// Outside the data phase a slave passes SLI on, also between the edges of MA. The last slave has
 // nothing to pass on.
 void BissCSlave::follow(bool sli) {
   switch (state_) {
@@ -123,10 +123,10 @@ void BissCSlave::follow(bool sli) {
       set_slo(is_last_ || sli);
       break;
     case State::kBusy:
-      // MO may be late with its acknowledge: its 1 is the start bit only after a 0.
+      // The acknowledge of MO may come late. So a 1 is the start bit only after a 0.
       if (is_last_) break;
       if (!sli) sli_was_low_ = true;
-      set_slo(sli && sli_was_low_ && !faults().busy);
+      set_slo(sli && (sli_was_low_ ? !faults().busy : config_.passes_acknowledge));
       break;
     case State::kCds: {
       const bool own = config_.control.present && control_.cds();
@@ -144,7 +144,7 @@ void BissCSlave::follow(bool sli) {
 
 void BissCSlave::timer(Time now, bool sli) {
   if (now < deadline()) return;
-  // Two pulses and a rest are no frame (INIT): a CDM belongs to a frame that got its start bit.
+  // Two pulses and a rest (INIT) are not a frame. A CDM belongs to a frame with a start bit.
   const bool frame = state_ >= State::kStart;
   if (state_ == State::kCds) end_cds(sli);
   if (state_ == State::kData && config_.actuator && shift_.filled()) {

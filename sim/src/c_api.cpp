@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The C interface: translates names, numbers and exceptions, nothing else.
+// The C interface. It translates names, numbers and exceptions and does nothing else.
 #include <algorithm>
 #include <cstring>
 #include <exception>
@@ -21,7 +21,7 @@ using mb4::sim::Simulator;
 struct mb4sim {
   explicit mb4sim(const Scenario& scenario) : simulator(scenario) {}
   Simulator simulator;
-  bool failed = false;  // by something that leaves the simulator half done
+  bool failed = false;  // by an exception that leaves the simulator in an unknown state
 };
 
 namespace {
@@ -48,7 +48,7 @@ mb4sim* open(Load load, char* error, size_t error_size) {
   }
 }
 
-// Runs `call` on the simulator; every exception becomes a negative error.
+// Runs `call` on the simulator. Every exception becomes a negative error.
 template <typename Call>
 int guarded(mb4sim* sim, Call call) {
   if (sim == nullptr) return MB4SIM_ERROR_UNKNOWN;

@@ -15,20 +15,20 @@ constexpr unsigned kCrcBits = 4;
 constexpr unsigned kHeaderBits = slot::kHeaderEnd - slot::kCts + 1;
 constexpr unsigned kDataBits = slot::kAccessBits - kCrcBits;
 
-// The CRC of the value above the lowest four bits stands in these four, inverted.
+// Returns true if the lowest four bits are the inverted CRC of the bits above them.
 bool crc_fits(unsigned bits, unsigned data_bits) {
   return kControlCrc.line_bits(bits >> kCrcBits, data_bits) == (bits & 0xFU);
 }
 
 }  // namespace
 
-// A slave that has an ID to lock sends 1 in any case: its own, or that of a slave behind it.
+// A slave that has an ID to lock always sends 1: its own 1, or that of a slave behind it.
 bool ControlSlave::cds() const { return cds_ == Cds::kOne || (cds_ == Cds::kLock && may_lock()); }
 
 void ControlSlave::end_cds(bool sli) {
-  // The first free ID: the slaves behind have put their 1 into the bits of their own.
+  // The slave takes the first free ID: slaves behind it have sent 1 in the slots of their IDs.
   if (cds_ != Cds::kLock || sli || !may_lock()) return;
-  ids_ |= 1U << slot_;  // slot 1 + k carries ID k; slot_ is that of the frame before
+  ids_ |= 1U << slot_;  // slot 1 + k carries ID k; slot_ is the slot of the frame before
   ++locked_;
 }
 
@@ -77,7 +77,7 @@ void ControlSlave::advance(Time now, bool cdm, unsigned zeros_before) {
       begin_access(now, cdm);
       break;
     case State::kBusy:
-      // The master has to repeat S until it sees the slave's.
+      // The master must repeat S until it sees the S of the slave.
       if (cdm) {
         answer_when_ready(now);
       } else {
@@ -137,7 +137,7 @@ void ControlSlave::header_done() {
   }
   const unsigned header = bits_ >> kCrcBits;
   if ((header >> (kHeaderBits - 1)) == 0) {
-    // All slaves follow a command, so that none takes a late EX for a start bit.
+    // All slaves follow a command, so that no slave takes a late EX for a start bit.
     pending_.ids = static_cast<std::uint8_t>(header >> 2U);
     pending_.code = static_cast<std::uint8_t>(header & 3U);
     ex_slot_ = 0;
@@ -147,7 +147,7 @@ void ControlSlave::header_done() {
   const unsigned id = (header >> 7U) & 7U;
   const unsigned own = answered_ids();
   if (((own >> id) & 1U) == 0 || faults_.silent()) return;
-  // Own IDs lie in a row: the first one has the first 128 registers, and so on.
+  // The slave's own IDs are in a row. The first one has the first 128 registers, and so on.
   unsigned block = 0;
   for (unsigned k = 0; k < id; ++k) block += (own >> k) & 1U;
   block_ = block * RegisterFile::kPerId;
@@ -202,13 +202,13 @@ void ControlSlave::data_bit(Time now, bool cdm) {
   } else if (crc_fits(bits_, kDataBits)) {
     registers_.write(block_ + address_, static_cast<std::uint8_t>(bits_ >> kCrcBits));
     ++counters_.writes;
-    store_busy_.start(now, config_.store_busy, 2);  // P and the next S
+    store_busy_.start(now, config_.store_busy, 2);  // for P and the next S
   } else {
     ++counters_.data_errors;
   }
 }
 
-// The slave does not know whether the master tests IDA: EX comes in either of two slots, P behind.
+// The slave does not know whether the master tests IDA. So EX comes in one of two slots; P follows.
 void ControlSlave::command_slot(bool cdm) {
   if (slot_ == slot::kExImmediate && cdm) {
     ex_slot_ = slot::kExImmediate;
@@ -216,14 +216,14 @@ void ControlSlave::command_slot(bool cdm) {
     if (cdm) {
       ex_slot_ = slot::kExTested;
     } else {
-      state_ = State::kIdle;  // the master has refused it
+      state_ = State::kIdle;  // the master has cancelled the command
     }
   } else if (ex_slot_ != 0 && slot_ == ex_slot_ + 1) {
     execute();
     if (cdm) ++counters_.protocol_errors;
   }
   if (slot_ < slot::kIda + slot::kIds - 1) {
-    // IDA of ID k; bit 7 of IDS is ID 0.
+    // The slot of IDA of ID k. Bit 7 of IDS is ID 0.
     const unsigned k = slot_ + 1 - slot::kIda;
     const bool addressed = ((pending_.ids >> (7U - k)) & 1U) != 0;
     cds_ = bit(addressed && ((answered_ids() >> k) & 1U) != 0 && !faults_.silent());
@@ -232,7 +232,7 @@ void ControlSlave::command_slot(bool cdm) {
   }
 }
 
-// Takes effect when P has arrived.
+// The command takes effect when P has arrived.
 void ControlSlave::execute() {
   const bool broadcast = pending_.ids == 0;
   if (!broadcast) {
@@ -252,7 +252,7 @@ void ControlSlave::execute() {
     case 2:
       coupler_on_line_ = !broadcast;
       break;
-    default:  // reserved, or the device's own
+    default:  // reserved, or specific to the device
       break;
   }
 }

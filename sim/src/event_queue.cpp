@@ -22,7 +22,7 @@ void EventQueue::post(Time time, Handler handler, void* receiver, std::uint64_t 
   }
 }
 
-// It is the latest to be posted: events of the same time come before it.
+// `event` has been posted last, so events of the same time run before it.
 void EventQueue::insert(const Event& event) {
   std::size_t at = few_size_++;
   for (; at > 0 && few_[at - 1].time <= event.time; --at) few_[at] = few_[at - 1];

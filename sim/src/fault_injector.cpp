@@ -13,7 +13,7 @@
 namespace mb4::sim {
 namespace {
 
-constexpr std::uint64_t kMaxAbortBits = 80;  // of a random one: most frames of the driver are short
+constexpr std::uint64_t kMaxAbortBits = 80;  // of a random abort: the driver's frames are short
 
 std::string on_wire(const FaultConfig& fault) {
   return std::string(fault.on_ma ? "MA" : "SL") + " of channel " + std::to_string(fault.channel);
@@ -76,7 +76,7 @@ FaultInjector::FaultInjector(Simulator& simulator, EventQueue& queue, ChipModel&
   }
 }
 
-// Distances between two of them are spread evenly over 0 to twice their mean, as those of glitches.
+// The distance between two faults is spread evenly over 0 to twice the mean, as with glitches.
 void FaultInjector::post_random(Source& source, Time after) {
   const FaultConfig& fault = faults_[source.config];
   const auto mean = static_cast<Time>(static_cast<double>(kPsPerSecond) / fault.per_s);
@@ -105,7 +105,7 @@ void FaultInjector::begin(Time now, void* receiver, std::uint64_t /*word*/) {
   if (fault.at.empty()) self.post_random(source, now);
 }
 
-// With overlapping ones the fault goes on until the last is over.
+// If several faults of one table overlap, the effect continues until the last of them is over.
 void FaultInjector::end(Time now, void* receiver, std::uint64_t record) {
   auto& source = *static_cast<Source*>(receiver);
   source.injector->records_[record].end = now;
@@ -143,7 +143,7 @@ std::string FaultInjector::flip_bits(Source& source) {
   }
   std::string list;
   for (const unsigned bit : bits) list += (list.empty() ? "" : ", ") + std::to_string(bit);
-  // The running frame may be past these bits.
+  // The running frame may be past these bits, so they are inverted in the next one.
   line.flip_frame(line.frames() + 1, bits);
   return "bit " + list + " of frame " + std::to_string(line.frames() + 1) + " inverted, channel " +
          std::to_string(fault.channel);

@@ -32,7 +32,8 @@ void HostCheck::clear() {
   count_ = 0;
 }
 
-// `since`: when what must last began; kNever if it never did.
+// Records a violation if a level has lasted for less than `minimum`. `since` is the time at which
+// it began; kNever if it never did.
 void HostCheck::need(Time now, const char* item, const char* what, Time since, Time minimum) {
   if (since == kNever || now - since >= minimum) return;
   ++count_;

@@ -50,7 +50,8 @@ void Line::set_faults(const WireFaults& ma, const WireFaults& sl) {
   back_.set_faults(sl);
 }
 
-// Once an edge and more: these two have their place before their callers.
+// send_back() and to_slaves() run at least once at every edge. They stand before their callers so
+// that the compiler can inline them.
 inline void Line::send_back(Time now) {
   if (probe_ != nullptr) probe_(now, probe_receiver_);
   const bool slo = chain_.slo();
@@ -61,7 +62,8 @@ inline void Line::send_back(Time now) {
   back_.drive(now, level ? 1U : 0U);
 }
 
-// Slaves that are not plugged in see a resting line: they end their frame by timeout and are idle.
+// Slaves that are not plugged in see a resting line. So they end their frame by timeout and become
+// idle.
 inline void Line::to_slaves(Time now) {
   const bool ma = !plugged_ || ma_arrived_;
   if (ma && !chain_.ma()) faults_.rising_edge();

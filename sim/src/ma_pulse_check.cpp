@@ -4,7 +4,7 @@
 
 namespace mb4::sim {
 
-// Of the pulse that the level of now has ended.
+// Describes the pulse that has just ended.
 const std::string* MaPulseCheck::describe(Time width, std::uint64_t clocks, unsigned needed,
                                           Time needed_ps) {
   violation_ = std::string("short MA pulse: ") + (level_ ? "low" : "high") + " for " +

@@ -6,7 +6,7 @@ namespace mb4::sim {
 
 std::string one_line(std::string_view text) {
   constexpr std::string_view kDigits = "0123456789abcdef";
-  constexpr unsigned kC1Lead = 0xC2;  // of U+0080 to U+00BF in UTF-8
+  constexpr unsigned kC1Lead = 0xC2;  // first UTF-8 byte of U+0080 to U+00BF
   std::string out;
   for (std::size_t i = 0; i < text.size(); ++i) {
     unsigned code = static_cast<unsigned char>(text[i]);

@@ -79,7 +79,7 @@ void ParallelHost::write(std::uint8_t address, std::uint8_t value) {
 std::uint8_t ParallelHost::read(std::uint8_t address) {
   latch(address);
   wait(std::max(timing_.address_hold, timing_.ale_to_strobe));
-  drive(0);  // lets go of the bus: pull-downs (A06)
+  drive(0);  // pull-downs (A06) hold the released bus at 0
   strobe(true, true);
   wait(timing_.read_strobe);
   unsigned value = 0;

@@ -17,8 +17,8 @@ BissCSlaveConfig encoder(std::string_view name, unsigned position_bits) {
   return config;
 }
 
-// An electronic data sheet (BiSS EDS, offsets as in iC-Haus and NXP drivers): the common page names
-// one data channel and the bank of its own page. Fields whose unit is not known here stay 0.
+// An electronic data sheet (BiSS EDS, offsets as in iC-Haus and NXP drivers). The common page names
+// one data channel and the bank of the channel's page. Fields whose unit is not known here are 0.
 constexpr std::uint8_t kEdsBank = 2;
 constexpr std::uint8_t kChannelBank = 3;
 
@@ -28,8 +28,8 @@ void add_eds_sensor(BissCSlaveConfig& config) {
   common = {};
   common[0x00] = 1;  // version
   common[0x01] = 1;  // length in banks
-  common[0x10] = 1;  // data channels
-  common[0x11] = 1;  // slave IDs
+  common[0x10] = 1;  // number of data channels
+  common[0x11] = 1;  // number of slave IDs
   common[0x14] = kChannelBank;
   common[0x15] = static_cast<std::uint8_t>(config.data_bits);
   common[0x16] = 0;     // sensor, right aligned, no stop bit
@@ -47,8 +47,8 @@ void add_eds_sensor(BissCSlaveConfig& config) {
 
 using Runs = std::vector<Preset::RegisterRun>;
 
-// iC-NQ Rev D1: BiSS B, lengths as iC-NQC; timeouts of 16 us (sensor) and 256 us (register) are two
-// of those that can be set.
+// iC-NQ Rev D1: BiSS B, lengths as iC-NQC. The timeouts of 16 us (sensor) and 256 us (register) are
+// two of the values that can be set.
 BissBSlaveConfig ic_nq() {
   BissBSlaveConfig config;
   config.data_bits = 39;
@@ -74,12 +74,12 @@ void add_others(std::vector<Preset>& list) {
   acuro.data_bits = 0;
   acuro.access.ids = 2;
   add("acuro", "Hengstler ACURO, BiSS B, give data_bits", acuro);
-  // Posital, SSI page: 25 bits, multiple transmission in a raster of 26 clocks.
+  // Posital, SSI page: 25 bits, multiple transmission with 26 clocks for each word.
   SsiSlaveConfig posital;
   posital.data_bits = 25;
   posital.ring = true;
   add("posital-ssi-25", "Posital, SSI, 25 bits, multiple transmission", posital);
-  // TR-Electronic: the old word again below 20 us, a new one above 30 us.
+  // TR-Electronic: below 20 us the old word comes again, above 30 us a new one.
   SsiSlaveConfig tr;
   tr.data_bits = 0;
   tr.monoflop = from_us(25);
@@ -88,7 +88,7 @@ void add_others(std::vector<Preset>& list) {
 
 std::vector<Preset> make_presets() {
   std::vector<Preset> list;
-  list.reserve(24);  // add() hands out references
+  list.reserve(24);  // add() returns references into the list
   const auto add = [&list](std::string_view name, std::string_view description,
                            unsigned position_bits, Runs registers = {}) -> BissCSlaveConfig& {
     list.push_back({name, description, encoder(name, position_bits), std::move(registers)});
@@ -100,7 +100,7 @@ std::vector<Preset> make_presets() {
   unidirectional(add("resolute-26", "Renishaw RESOLUTE, 26 bits", 26));
   unidirectional(add("resolute-32", "Renishaw RESOLUTE, 32 bits", 32));
   unidirectional(add("resolute-36", "Renishaw RESOLUTE, 36 bits", 36));
-  // Nothing is published about registers.
+  // The makers publish nothing about registers.
   unidirectional(add("lma10", "RLS/Renishaw LMA10, 26 bits", 26));
   // Lenz BISS-C interface sheet: acknowledge of four periods, timeout 12.6 to 13.2 us.
   BissCSlaveConfig& lenz = add("lenz-irs", "Lenz IRS/SAB/SIB, 24 bits", 24);
@@ -108,7 +108,7 @@ std::vector<Preset> make_presets() {
   lenz.timeout.fixed = from_us(12.9);
   add("lika-sma1", "Lika SMA1, 24 bits", 24,
       {{0x42, {0x28, 0x14}}, {0x55, {0x06}}, {0x78, {'S', 'M', 'A', '1'}}});
-  // Lengths by order code or configuration: the scenario must give data_bits.
+  // Order code or configuration sets the length, so the scenario must give data_bits.
   // 0x7C: type of timeout, 4 = adaptive.
   add("lika-amm36", "Lika AMM36, give data_bits", 0, {{0x78, {'A', 'M', 'M', '3'}}, {0x7C, {0x04}}})
       .data_bits = 0;

@@ -32,13 +32,13 @@ void ReplaySlave::ma_edge(Time now, bool ma, bool /*sli_before*/, bool /*sli*/) 
 ReplaySlave::Place ReplaySlave::place(std::size_t index) const {
   const Time time = config_.recording.edges[index].time;
   const Time period = kPsPerSecond / config_.recording.ma_hz;
-  // Rising edge n came (n - 1/2) periods after the first falling edge.
+  // Rising edge n comes (n - 1/2) periods after the first falling edge.
   const std::uint64_t rising = (time + period / 2) / period;
   if (rising == 0) return {0, time};
   return {rising, time - (rising * period - period / 2)};
 }
 
-// Time of the next recorded edge as far as it is known, else kNever.
+// Time of the next recorded edge if it is known, else kNever.
 Time ReplaySlave::next_edge() const {
   if (next_ >= config_.recording.edges.size()) return kNever;
   if (config_.play == ReplaySlaveConfig::Play::kTime) {

@@ -21,7 +21,7 @@ namespace {
 
 constexpr std::int64_t kMinClkHz = 1'000;
 constexpr std::int64_t kMaxClkHz = 200'000'000;
-constexpr std::int64_t kMinOscHz = 12'500'000;
+constexpr std::int64_t kMinOscHz = 10'000'000;
 constexpr std::int64_t kMaxOscHz = 25'000'000;
 constexpr std::int64_t kMinSclkHz = 1'000;
 constexpr std::int64_t kMaxSclkHz = 50'000'000;  // I203, I204: 10 ns each
@@ -37,7 +37,7 @@ constexpr std::pair<const char*, unsigned> kQuirkBits[] = {{"IDA_TEST_INVERT", 0
 constexpr unsigned kQuirkRevisionBit = 4;
 constexpr std::pair<std::int64_t, unsigned> kRevisions[] = {{0x20, 0}, {0x10, 1}, {0x11, 2}};
 
-void read_quirks(const toml::table& table, const std::string& file, ChipConfig& chip) {
+void read_quirks(const toml::table& table, TomlFile& file, ChipConfig& chip) {
   TomlReader reader(table, file);
   for (const auto& [name, bit] : kQuirkBits) {
     if (const auto on = reader.boolean(name)) {
@@ -55,7 +55,7 @@ void read_quirks(const toml::table& table, const std::string& file, ChipConfig& 
   reader.finish();
 }
 
-ChipConfig read_chip(const toml::table& table, const std::string& file) {
+ChipConfig read_chip(const toml::table& table, TomlFile& file) {
   TomlReader reader(table, file);
   ChipConfig chip;
   if (const auto hz = reader.integer("f_clk_hz", 0, kMaxClkHz)) {
@@ -73,7 +73,7 @@ ChipConfig read_chip(const toml::table& table, const std::string& file) {
   return chip;
 }
 
-HostConfig read_host(const toml::table& table, const std::string& file, const ChipConfig& chip) {
+HostConfig read_host(const toml::table& table, TomlFile& file, const ChipConfig& chip) {
   TomlReader reader(table, file);
   HostConfig host;
   if (const auto which = reader.choice("interface", {"spi", "spi2", "intel", "motorola"})) {
@@ -107,18 +107,16 @@ HostConfig read_host(const toml::table& table, const std::string& file, const Ch
   return host;
 }
 
-void read_channels(TomlReader& top, Scenario& scenario) {
-  const auto* channels = top.tables("channel");
-  if (channels == nullptr) return;
-  for (const auto& node : *channels) {
+void read_channels(const toml::array& channels, TomlFile& file, Scenario& scenario) {
+  for (const auto& node : channels) {
     const toml::table& table = *node.as_table();
-    ChannelConfig channel = read_channel(table, top.file());
-    const TomlReader reader(table, top.file());
+    ChannelConfig channel = read_channel(table, file);
+    const TomlReader reader(table, file);
     if (scenario.channel(channel.number) != nullptr) {
       reader.fail("number", "channel " + std::to_string(channel.number) + " is given twice");
     }
     scenario.channels.push_back(std::move(channel));
-    // Two channels: SLAVELOC5 gives slaves 1 to 4 to channel 1 and 5 to 8 to channel 2.
+    // With two channels SLAVELOC5 gives slaves 1 to 4 to channel 1 and 5 to 8 to channel 2.
     if (scenario.channel(2) != nullptr) {
       for (const ChannelConfig& each : scenario.channels) {
         if (each.slaves.size() > kSlavesOfOneOfTwoChannels) {
@@ -186,23 +184,29 @@ Scenario parse_scenario(std::string_view text, const std::string& name) {
     throw ScenarioError(name + ":" + std::to_string(where.line) + ":" +
                         std::to_string(where.column) + ": not valid TOML: " + description);
   }
-  TomlReader reader(root, name);
-  if (const auto* chip = reader.table("chip")) scenario.chip = read_chip(*chip, name);
-  const toml::table none;
+  TomlFile file{name, std::nullopt};
+  TomlReader reader(root, file);
+  const auto* chip = reader.table("chip");
   const auto* host = reader.table("host");
-  scenario.host = read_host(host != nullptr ? *host : none, name, scenario.chip);
-  if (const auto* sim = reader.table("sim")) {
-    TomlReader sim_reader(*sim, name);
+  const auto* sim = reader.table("sim");
+  const auto* channels = reader.tables("channel");
+  const auto* faults = reader.tables("fault");
+  reader.finish();
+  if (chip != nullptr) scenario.chip = read_chip(*chip, file);
+  const toml::table none;
+  scenario.host = read_host(host != nullptr ? *host : none, file, scenario.chip);
+  if (sim != nullptr) {
+    TomlReader sim_reader(*sim, file);
     scenario.seed = sim_reader.word("seed").value_or(scenario.seed);
     sim_reader.finish();
   }
-  read_channels(reader, scenario);
-  if (const auto* faults = reader.tables("fault")) {
+  if (channels != nullptr) read_channels(*channels, file, scenario);
+  if (faults != nullptr) {
     for (const auto& node : *faults) {
-      scenario.faults.push_back(read_fault(*node.as_table(), scenario));
+      scenario.faults.push_back(read_fault(*node.as_table(), scenario, file));
     }
   }
-  reader.finish();
+  TomlReader::throw_missing(file);
   scenario.source = reader.source();
   return scenario;
 }

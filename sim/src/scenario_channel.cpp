@@ -43,7 +43,7 @@ Time read_delay(TomlReader& reader) {
 
 std::int64_t signed_ps(double ns) { return std::llround(ns * 1e3); }
 
-// Keys of the way out begin with "ma_", those of the way back have no prefix.
+// Keys of the way out begin with "ma_". Keys of the way back have no prefix.
 WireFaults read_faults(TomlReader& reader, const std::string& prefix) {
   WireFaults faults;
   if (const auto ns = reader.number(prefix + "jitter_ns", 0, kMaxEdgeNs)) {
@@ -86,22 +86,22 @@ void read_flips(TomlReader& reader, ChannelConfig& channel) {
   }
 }
 
-CableEvent read_event(const toml::table& table, const std::string& file) {
+CableEvent read_event(const toml::table& table, TomlFile& file) {
   TomlReader reader(table, file);
   CableEvent event;
   const auto at = reader.number("at_us", 0, kMaxEventUs);
-  if (!at) reader.fail("at_us", "missing");
-  event.time = from_us(*at);
-  // In the order of CableEvent::Action.
+  if (!at) reader.missing("at_us");
+  event.time = from_us(at.value_or(0));
+  // The order is that of CableEvent::Action.
   const auto action = reader.choice(
       "action", {"unplug", "plug", "sl-low", "sl-high", "sl-free", "ma-low", "ma-high", "ma-free"});
-  if (!action) reader.fail("action", "missing");
-  event.action = static_cast<CableEvent::Action>(*action);
+  if (!action) reader.missing("action");
+  event.action = static_cast<CableEvent::Action>(action.value_or(0));
   reader.finish();
   return event;
 }
 
-CableConfig read_cable(TomlReader& reader, const std::string& file) {
+CableConfig read_cable(TomlReader& reader) {
   CableConfig cable;
   cable.sl = read_faults(reader, "");
   cable.ma = read_faults(reader, "ma_");
@@ -115,13 +115,13 @@ CableConfig read_cable(TomlReader& reader, const std::string& file) {
   cable.mo = reader.boolean("mo").value_or(false);
   if (const auto* events = reader.tables("event")) {
     for (const auto& node : *events) {
-      cable.events.push_back(read_event(*node.as_table(), file));
+      cable.events.push_back(read_event(*node.as_table(), reader.file()));
     }
   }
   return cable;
 }
 
-// One way; the simulator wants to know how much later MO is than MA.
+// The key states the delay of one way. The simulator needs how much later MO is than MA.
 void read_mo_delay(TomlReader& reader, ChannelConfig& channel) {
   const auto ns = reader.number("mo_delay_ns", 0, kMaxDelayNs);
   if (!ns) return;
@@ -134,7 +134,7 @@ void read_mo_delay(TomlReader& reader, ChannelConfig& channel) {
   channel.cable.mo_late = from_ns(*ns) - ma;
 }
 
-// What the newest slave of a channel may be beside the others.
+// Checks whether the newest slave of a channel fits the others.
 void check_slave(const TomlReader& reader, const ChannelConfig& channel,
                  const toml::source_region& where) {
   const SlaveConfig& slave = channel.slaves.back();
@@ -170,14 +170,14 @@ void set_ids(ChannelConfig& channel) {
 
 }  // namespace
 
-ChannelConfig read_channel(const toml::table& table, const std::string& file) {
+ChannelConfig read_channel(const toml::table& table, TomlFile& file) {
   TomlReader reader(table, file);
   ChannelConfig channel;
   const auto number = reader.integer("number", 1, 2);
-  if (!number) reader.fail("number", "missing");
-  channel.number = static_cast<unsigned>(*number);
+  if (!number) reader.missing("number");
+  channel.number = static_cast<unsigned>(number.value_or(1));
   channel.delay = read_delay(reader);
-  channel.cable = read_cable(reader, file);
+  channel.cable = read_cable(reader);
   read_flips(reader, channel);
   read_mo_delay(reader, channel);
   if (const auto* slaves = reader.tables("slave")) {

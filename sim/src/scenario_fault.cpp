@@ -39,7 +39,8 @@ const SlaveConfig* find_slave(const Scenario& scenario, unsigned number, unsigne
   return found != nullptr && index < found->slaves.size() ? &found->slaves[index] : nullptr;
 }
 
-// Bits of a frame that a random bit-flip may hit: start bit, CDS, data and CRC of all slaves.
+// Number of bits of a frame that a random bit-flip may hit: start bit, CDS, data and CRC of all
+// slaves.
 unsigned frame_bits(const ChannelConfig& channel) {
   const LineProtocol protocol = channel.protocol();
   unsigned bits = protocol == LineProtocol::kBissC ? 2 : protocol == LineProtocol::kBissB ? 1 : 0;
@@ -47,7 +48,7 @@ unsigned frame_bits(const ChannelConfig& channel) {
   return std::max(bits, 1U);
 }
 
-// Only where the kind has it.
+// Refuses a key that only other kinds of fault have.
 void refuse(TomlReader& reader, FaultKind kind, const char* key) {
   if (!reader.has(key)) return;
   reader.fail(key, "a fault of kind '" + std::string(to_string(kind)) + "' has no such key");
@@ -72,7 +73,7 @@ std::vector<unsigned> read_bits(TomlReader& reader, const char* key, std::int64_
 
 void read_line(TomlReader& reader, const Scenario& scenario, FaultConfig& fault) {
   const auto number = reader.integer("channel", 1, 2);
-  if (!number && scenario.channels.size() > 1) reader.fail("channel", "missing: there are two");
+  if (!number && scenario.channels.size() > 1) reader.missing("channel", "missing: there are two");
   if (!number && scenario.channels.empty()) reader.fail("channel", "the scenario has none");
   fault.channel = number ? static_cast<unsigned>(*number) : scenario.channels.front().number;
   const ChannelConfig* channel = scenario.channel(fault.channel);
@@ -87,20 +88,20 @@ void read_line(TomlReader& reader, const Scenario& scenario, FaultConfig& fault)
   }
   if (fault.kind == FaultKind::kStuck) {
     const auto level = reader.integer("level", 0, 1);
-    if (!level) reader.fail("level", "missing");
-    fault.level = *level == 1;
+    if (!level) reader.missing("level");
+    fault.level = level == 1;
   }
   if (fault.kind == FaultKind::kGlitch || fault.kind == FaultKind::kJitter) {
     const char* const key = fault.kind == FaultKind::kGlitch ? "width_ns" : "jitter_ns";
     const auto width = reader.number(key, kMinWidthNs, kMaxWidthNs);
-    if (!width) reader.fail(key, "missing");
-    fault.width = from_ns(*width);
+    if (!width) reader.missing(key);
+    fault.width = from_ns(width.value_or(1));
   }
 }
 
 void read_slave_fault(TomlReader& reader, const Scenario& scenario, FaultConfig& fault) {
   const auto number = reader.integer("slave", 1, kMaxSlaves);
-  if (!number) reader.fail("slave", "missing");
+  if (!number) return reader.missing("slave");
   fault.slave = static_cast<unsigned>(*number);
   const SlaveConfig* slave = find_slave(scenario, fault.slave, fault.channel);
   if (slave == nullptr) {
@@ -133,12 +134,12 @@ void read_device(TomlReader& reader, const Scenario& scenario, FaultConfig& faul
     if (scenario.chip.f_clk_hz == 0) reader.fail("kind", "there is no clock at pin CLK");
     if (fault.kind != FaultKind::kClockFrequency) return;
     const auto hz = reader.integer("hz", kMinClkHz, kMaxClkHz);
-    if (!hz) reader.fail("hz", "missing");
-    fault.hz = static_cast<std::uint64_t>(*hz);
+    if (!hz) reader.missing("hz");
+    fault.hz = static_cast<std::uint64_t>(hz.value_or(kMinClkHz));
   }
 }
 
-// A time or a list of times.
+// Reads a time or a list of times.
 void read_at(TomlReader& reader, FaultConfig& fault) {
   const toml::node* node = reader.node("at_us");
   const auto add = [&](const toml::node& item) {
@@ -158,10 +159,12 @@ void read_at(TomlReader& reader, FaultConfig& fault) {
 }
 
 void read_when(TomlReader& reader, FaultConfig& fault) {
-  if (reader.has("at_us") == reader.has("per_s")) {
-    reader.fail("at_us", "one of at_us (fixed times) and per_s (random) is needed");
-  }
-  if (reader.has("at_us")) {
+  const char* const one = "one of at_us (fixed times) and per_s (random) is needed";
+  if (reader.has("at_us") && reader.has("per_s")) reader.fail("at_us", one);
+  if (!reader.has("at_us") && !reader.has("per_s")) {
+    reader.missing("at_us", one);
+    reader.know({"per_s", "from_us", "to_us"});
+  } else if (reader.has("at_us")) {
     read_at(reader, fault);
     for (const char* key : {"from_us", "to_us"}) {
       if (reader.has(key)) reader.fail(key, "only together with per_s");
@@ -179,20 +182,26 @@ void read_when(TomlReader& reader, FaultConfig& fault) {
   if (const auto us = reader.number("for_us", 0.001, kMaxTimeUs)) {
     fault.duration = from_us(*us);
   } else if (fault.at.empty()) {
-    reader.fail("for_us", "missing: how long does each of them last?");
+    reader.missing("for_us", "missing: how long does each of them last?");
   }
 }
 
 }  // namespace
 
-FaultConfig read_fault(const toml::table& table, const Scenario& scenario) {
-  TomlReader reader(table, scenario.name);
+FaultConfig read_fault(const toml::table& table, const Scenario& scenario, TomlFile& file) {
+  TomlReader reader(table, file);
   FaultConfig fault;
-  // In the order of FaultKind.
+  // The order is that of FaultKind.
   const auto kind =
       reader.choice("kind", {"bit-flip", "glitch", "stuck", "jitter", "silent", "busy", "wrong-crc",
                              "wrong-id", "unplug", "abort", "clock-frequency", "clock-stop"});
-  if (!kind) reader.fail("kind", "missing");
+  if (!kind) {
+    reader.missing("kind");
+    reader.know({"channel", "bits", "on", "level", "width_ns", "jitter_ns", "slave", "after_clocks",
+                 "hz", "at_us", "per_s", "from_us", "to_us", "for_us"});
+    reader.finish();
+    return fault;
+  }
   fault.kind = static_cast<FaultKind>(*kind);
   read_device(reader, scenario, fault);
   read_when(reader, fault);

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The [[fault]] part of a scenario.
+// Reads the [[fault]] part of a scenario.
 #ifndef MB4SIM_SRC_SCENARIO_FAULT_HPP_
 #define MB4SIM_SRC_SCENARIO_FAULT_HPP_
 
@@ -9,11 +9,12 @@
 
 #include "mb4sim/fault.hpp"
 #include "mb4sim/scenario.hpp"
+#include "toml_reader.hpp"
 
 namespace mb4::sim {
 
-// `scenario` is complete but for its faults. Throws ScenarioError.
-FaultConfig read_fault(const toml::table& table, const Scenario& scenario);
+// Reads one fault. `scenario` must be complete except for its faults. Throws ScenarioError.
+FaultConfig read_fault(const toml::table& table, const Scenario& scenario, TomlFile& file);
 
 }  // namespace mb4::sim
 

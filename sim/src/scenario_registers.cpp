@@ -26,7 +26,7 @@ std::string hex_byte(std::uint64_t value) {
   return std::string("0x") + kDigits[(value >> 4U) & 0xFU] + kDigits[value & 0xFU];
 }
 
-// The entries from top to bottom as the user reads them; the table itself is sorted by name.
+// Returns the entries from top to bottom, as the user reads them. The table is sorted by name.
 std::vector<std::pair<const toml::key*, const toml::node*>> in_order(const toml::table& table) {
   std::vector<std::pair<const toml::key*, const toml::node*>> entries;
   for (auto&& [key, node] : table) entries.emplace_back(&key, &node);
@@ -36,7 +36,8 @@ std::vector<std::pair<const toml::key*, const toml::node*>> in_order(const toml:
   return entries;
 }
 
-// A byte or a list of bytes by address, 0 to `last`; calls put(address, value) for each byte.
+// Reads a byte or a list of bytes for each address, 0 to `last`. Calls put(address, value) for each
+// byte.
 template <typename Put>
 void read_bytes(const TomlReader& reader, const toml::table& table, std::uint64_t last, Put put) {
   std::set<std::uint64_t> given;
@@ -93,7 +94,7 @@ void read_banks(TomlReader& reader, RegisterFile::Banks& banks) {
   }
 }
 
-// "0x44-0x47" or "0x44".
+// Marks the registers of a text such as "0x44-0x47" or "0x44". Returns false if the text is wrong.
 bool mark_text(std::string_view text, RegisterFile::Marks& marks) {
   const auto dash = text.find('-');
   const auto first = parse_word(text.substr(0, dash));
@@ -132,7 +133,7 @@ void read_layout(TomlReader& reader, RegisterFile::Layout& layout) {
   read_marks(reader, "write_protected", layout.write_protected);
 }
 
-// Key `control`; without it none of `keys` may be given.
+// Reads the key `control`. If the device has no control communication, none of `keys` may be given.
 bool read_present(TomlReader& reader, bool& present, std::initializer_list<std::string_view> keys) {
   if (const auto given = reader.boolean("control")) present = *given;
   if (present) return true;
@@ -142,7 +143,8 @@ bool read_present(TomlReader& reader, bool& present, std::initializer_list<std::
   return false;
 }
 
-// `frames_key`: number of frames or clocks, or "forever"; `us_key`: microseconds.
+// Reads a busy time. `frames_key`: number of frames or clocks, or "forever". `us_key`:
+// microseconds.
 void read_busy(TomlReader& reader, std::string_view frames_key, std::string_view us_key,
                BusyTime& busy) {
   const toml::node* node = reader.node(frames_key);

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The keys of a scenario's slave that are about registers and control communication.
+// Reads the keys of a scenario's slave for registers and control communication. All functions throw
+// ScenarioError.
 #ifndef MB4SIM_SRC_SCENARIO_REGISTERS_HPP_
 #define MB4SIM_SRC_SCENARIO_REGISTERS_HPP_
 
@@ -14,14 +15,14 @@
 
 namespace mb4::sim {
 
-// Key `registers`. Throws ScenarioError, as does read_control().
+// Reads the key `registers`.
 void read_registers(TomlReader& reader, std::map<std::uint8_t, std::uint8_t>& registers);
 
-// Keys of control communication of a BiSS C or extended SSI slave; `control` comes with the values
-// of its preset.
+// Reads the keys of control communication of a BiSS C or extended SSI slave. On entry `control`
+// holds the values of the preset.
 void read_control(TomlReader& reader, ControlConfig& control);
 
-// Keys of the register mode of a BiSS B slave.
+// Reads the keys of the register mode of a BiSS B slave.
 void read_access(TomlReader& reader, BissBRegisterConfig& access);
 
 }  // namespace mb4::sim

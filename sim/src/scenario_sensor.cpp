@@ -19,11 +19,15 @@ constexpr double kMaxSampleNs = 1e5;
 
 bool fits(std::uint64_t value, unsigned bits) { return bits >= 64 || (value >> bits) == 0; }
 
-// Returns the path of the file.
+// Reads the words of a file into `source`. Returns the path of the file.
 std::string read_words(TomlReader& reader, unsigned data_bits, DataSource& source) {
   const auto name = reader.file_name("file");
-  if (!name) reader.fail("file", "missing: source \"file\" needs it");
-  const std::string path = beside(reader.file(), *name);
+  source.repeat = reader.boolean("repeat").value_or(true);
+  if (!name) {
+    reader.missing("file", "missing: source \"file\" needs it");
+    return "";
+  }
+  const std::string path = beside(reader.file().name, *name);
   std::string text;
   try {
     text = read_text_file(path);
@@ -48,7 +52,6 @@ std::string read_words(TomlReader& reader, unsigned data_bits, DataSource& sourc
     source.words.push_back(*value);
   }
   if (source.words.empty()) reader.fail("file", path + " holds no words");
-  source.repeat = reader.boolean("repeat").value_or(true);
   return path;
 }
 
@@ -62,7 +65,7 @@ void read_source(TomlReader& reader, SensorConfig& config, std::string& file) {
     }
     source.constant = *word;
   } else if (!kind) {
-    // A sensor at position 0 without error or warning.
+    // A sensor at position 0 without an error or a warning.
     source.constant = config.flags;
   }
   if (!kind) return;
@@ -75,14 +78,14 @@ void read_source(TomlReader& reader, SensorConfig& config, std::string& file) {
     constexpr double kMaxPosition = 9e18;
     source.offset = reader.number("offset", -kMaxPosition, kMaxPosition).value_or(0);
     const auto amplitude = reader.number("amplitude", 0, kMaxPosition);
-    if (!amplitude) reader.fail("amplitude", "missing: source \"sine\" needs it");
-    source.amplitude = *amplitude;
+    if (!amplitude) reader.missing("amplitude", "missing: source \"sine\" needs it");
+    source.amplitude = amplitude.value_or(0);
     if (const double most = kMaxPosition - std::abs(source.offset); source.amplitude > most) {
       reader.fail("amplitude", "with offset " + plain(source.offset) + " at most " + plain(most));
     }
     const auto period = reader.number("period_us", 0.001, 1e12);
-    if (!period) reader.fail("period_us", "missing: source \"sine\" needs it");
-    source.period = from_us(*period);
+    if (!period) reader.missing("period_us", "missing: source \"sine\" needs it");
+    source.period = from_us(period.value_or(1));
   } else {
     source.kind = DataSource::Kind::kList;
     file = read_words(reader, config.data_bits, source);
@@ -130,7 +133,10 @@ void read_lengths(TomlReader& reader, unsigned& data_bits, unsigned& flag_bits,
   if (const auto bits = reader.integer("data_bits", 1, kMaxBits)) {
     data_bits = static_cast<unsigned>(*bits);
   }
-  if (data_bits == 0) reader.fail("data_bits", "missing");
+  if (data_bits == 0) {
+    reader.missing("data_bits");
+    data_bits = kMaxBits;
+  }
   if (const auto flags = reader.integer("flag_bits", 0, kMaxBits)) {
     flag_bits = static_cast<unsigned>(*flags);
     if (flag_bits > data_bits) {

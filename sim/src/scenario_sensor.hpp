@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The keys that slaves of several protocols share: lengths, CRC, timeout, source of the data.
+// Reads the keys that slaves of several protocols share: lengths, CRC, timeout, source of the data.
 #ifndef MB4SIM_SRC_SCENARIO_SENSOR_HPP_
 #define MB4SIM_SRC_SCENARIO_SENSOR_HPP_
 
@@ -15,18 +15,18 @@
 
 namespace mb4::sim {
 
-// All throw ScenarioError.
+// All functions throw ScenarioError.
 
-// data_bits, flag_bits: `data_bits` of 0 means that the key is required, `default_flags` is what
-// longer words have.
+// Reads data_bits and flag_bits. If `data_bits` is 0 on entry, the key is required. Without its key
+// `flag_bits` becomes `default_flags`, or 0 if the word is not longer than that.
 void read_lengths(TomlReader& reader, unsigned& data_bits, unsigned& flag_bits,
                   unsigned default_flags);
 void read_crc(TomlReader& reader, Crc& crc);
 void read_timeout(TomlReader& reader, SlaveTimeout& timeout);
-// Key `name`: microseconds. `value` stays if it is not there.
+// Reads the key `name` in microseconds. `value` stays as it is if the key is not there.
 void read_timeout_us(TomlReader& reader, std::string_view name, Time& value);
-// Lengths, flags, CRC and source of a sensor; `config` comes with the values of its preset. `file`
-// is set if a file of words was read.
+// Reads lengths, flags, CRC and source of a sensor. On entry `config` holds the values of the
+// preset. `file` becomes the path of the file of words, if there is one.
 void read_sensor(TomlReader& reader, SensorConfig& config, unsigned default_flags,
                  std::string& file);
 

@@ -18,8 +18,8 @@ constexpr std::int64_t kMaxBusy = 1'000'000;
 constexpr double kMaxResponseNs = 1e5;
 constexpr unsigned kFlagsOfEncoders = 2;
 
-// What the presets that are made for this protocol start from; without the key a default whose
-// data_bits have to be given.
+// Returns the preset that the scenario names, which must be one of this protocol. Without the key
+// it returns a default whose data_bits must be given.
 template <typename Config>
 Config read_preset(TomlReader& reader, SlaveConfig& slave) {
   const auto name = reader.text("preset");
@@ -46,9 +46,13 @@ Config read_preset(TomlReader& reader, SlaveConfig& slave) {
   return std::get<Config>(preset->device);
 }
 
-void read_busy_periods(TomlReader& reader, unsigned& periods) {
+// Reads the keys for acknowledge and processing time.
+template <typename Config>
+void read_request(TomlReader& reader, Config& config) {
+  config.passes_acknowledge =
+      reader.choice("acknowledge", {"latched", "passed-on"}).value_or(0) == 1;
   if (const auto busy = reader.integer("busy_periods", 0, kMaxBusy)) {
-    periods = static_cast<unsigned>(*busy);
+    config.busy_periods = static_cast<unsigned>(*busy);
   }
 }
 
@@ -69,7 +73,7 @@ SlaveConfig read_biss_c(TomlReader& reader) {
   read_actuator(reader, config);
   read_sensor(reader, config, config.actuator ? 0 : kFlagsOfEncoders, slave.file);
   read_timeout(reader, config.timeout);
-  read_busy_periods(reader, config.busy_periods);
+  read_request(reader, config);
   read_control(reader, config.control);
   slave.device = std::move(config);
   return slave;
@@ -89,7 +93,7 @@ SlaveConfig read_biss_b(TomlReader& reader) {
   } else {
     read_timeout_us(reader, "register_timeout", config.register_timeout);
   }
-  read_busy_periods(reader, config.busy_periods);
+  read_request(reader, config);
   read_access(reader, config.access);
   slave.device = std::move(config);
   return slave;
@@ -123,8 +127,13 @@ SlaveConfig read_replay(TomlReader& reader) {
     reader.fail("timeout", "only with play = \"clock\": the recording holds the timeout");
   }
   const auto name = reader.file_name("edges");
-  if (!name) reader.fail("edges", "missing: protocol \"replay\" needs a file of edges");
-  const std::string path = beside(reader.file(), *name);
+  SlaveConfig slave;
+  if (!name) {
+    reader.missing("edges", "missing: protocol \"replay\" needs a file of edges");
+    slave.device = std::move(config);
+    return slave;
+  }
+  const std::string path = beside(reader.file().name, *name);
   std::string text;
   try {
     text = read_text_file(path);
@@ -136,18 +145,34 @@ SlaveConfig read_replay(TomlReader& reader) {
   } catch (const RecordingError& error) {
     throw ScenarioError(error.what());
   }
-  SlaveConfig slave;
   slave.device = std::move(config);
   slave.file = path;
   return slave;
 }
 
+// Lists the keys that a slave of any protocol can have.
+void know_any_protocol(TomlReader& reader) {
+  reader.know({"preset", "data_bits", "flag_bits", "flags", "crc", "crc_start", "registers"});
+  reader.know({"data", "source", "start", "step", "amplitude", "period_us", "offset", "file"});
+  reader.know(
+      {"repeat", "timeout", "t_sample_ns", "busy_periods", "acknowledge", "actuator", "stop_bit"});
+  reader.know({"control", "ids", "banks", "missing", "write_protected", "register_timeout"});
+  reader.know({"read_busy_frames", "read_busy_us", "write_busy_frames", "write_busy_us"});
+  reader.know({"store_busy_frames", "store_busy_us", "read_busy_clocks"});
+  reader.know({"gray", "ring", "response_ns", "edges", "play"});
+}
+
 }  // namespace
 
-SlaveConfig read_slave(const toml::table& table, const std::string& file) {
+SlaveConfig read_slave(const toml::table& table, TomlFile& file) {
   TomlReader reader(table, file);
   const auto protocol = reader.choice("protocol", {"biss-c", "replay", "biss-b", "ssi"});
-  if (!protocol) reader.fail("protocol", "missing");
+  if (!protocol) {
+    reader.missing("protocol");
+    know_any_protocol(reader);
+    reader.finish();
+    return {};
+  }
   constexpr SlaveConfig (*kReaders[])(TomlReader&) = {read_biss_c, read_replay, read_biss_b,
                                                       read_ssi};
   SlaveConfig slave = kReaders[*protocol](reader);

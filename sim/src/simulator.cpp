@@ -59,9 +59,10 @@ Simulator::Simulator(const Scenario& scenario, const SimulatorOptions& options)
                                                                : ParallelMode::kIntel,
            ParallelTiming::for_cycle(scenario.host.cycle)) {
   const std::uint64_t chip_seed = derive_seed(seed_, kChipSeed);
-  for (const Pin pin : {Pin::kNcs, Pin::kNrdRnw, Pin::kNwrE, Pin::kCfgspi, Pin::kSl1, Pin::kSl2}) {
-    levels_[index_of(pin)] = true;
-    host_check_.edge(0, pin, true);
+  for (std::size_t index = 0; index < index_of(Pin::kEot); ++index) {
+    const Pin pin = static_cast<Pin>(index);
+    levels_[index] = pulled_up(pin) || pin == Pin::kCfgspi;  // CFGSPI is a strap
+    if (levels_[index]) host_check_.edge(0, pin, true);
   }
   for (const ChannelConfig& channel : scenario_.channels) {
     const std::size_t index = channel.number - 1;
@@ -88,7 +89,7 @@ Simulator::Simulator(const Scenario& scenario, const SimulatorOptions& options)
   }
   injector_ = std::make_unique<FaultInjector>(*this, queue_, *chip_, scenario_.faults,
                                               derive_seed(seed_, kFaultSeed));
-  // MA and MO rest at 1 and 0 for the lines; whatever else the chip says now is a change.
+  // For the lines MA rests at 1 and MO at 0. Any other level of the chip is now a change.
   seen_ = ChipModel::kMa1 | ChipModel::kMa2;
   settle();
   set_straps();
@@ -163,10 +164,11 @@ std::uint64_t Simulator::clk_cycles_left_out() const { return chip_->left_out();
 
 void Simulator::drive_chip(Pin pin, bool level) {
   chip_->set_input(now_, pin, level);
-  // CFGIF changes with host pins and reset: from then on MA2 is another pin's inverse, or its own.
+  // Host pins and reset change CFGIF. It decides whether MA2 is the inverse of another pin.
   if (pin != Pin::kSl1 && pin != Pin::kSl2 && chip_->paired() != paired_) {
     paired_ = !paired_;
     ma_checks_[1].restart((chip_->watched() & ChipModel::kMa2) != 0);
+    if (lines_[1] == nullptr) drive_sl(Pin::kSl2, !(drives_pair() && this->pin(Pin::kSl1)));
   }
   settle();
 }
@@ -182,7 +184,7 @@ inline void Simulator::check_ma(std::size_t index, bool level) {
   if (violation != nullptr) stop_for_pulse(index, *violation);
 }
 
-// `ma`, `mo`: bits of the line's pins.
+// `ma`, `mo`: the bits of the line's pins in `changed` and `outputs`.
 inline void Simulator::drive_line(std::size_t index, unsigned changed, unsigned outputs,
                                   unsigned ma, unsigned mo) {
   if ((changed & ma) != 0) check_ma(index, (outputs & ma) != 0);
@@ -190,7 +192,8 @@ inline void Simulator::drive_line(std::size_t index, unsigned changed, unsigned 
   lines_[index]->drive(now_, (outputs & ma) != 0, (outputs & mo) != 0);
 }
 
-// Acts upon outputs that have changed. What it does may change inputs, which comes back here.
+// Handles outputs that have changed. This may change inputs, which calls settle() again; that inner
+// call returns at once and the loop here sees its changes.
 void Simulator::settle() {
   if (settling_) return;
   settling_ = true;
@@ -209,8 +212,13 @@ void Simulator::settle() {
 
 void Simulator::on_sl(Time /*now*/, void* receiver, bool level) {
   const auto* sl = static_cast<SlPin*>(receiver);
-  sl->simulator->levels_[index_of(sl->pin)] = level;
-  sl->simulator->drive_chip(sl->pin, level);
+  sl->simulator->drive_sl(sl->pin, level);
+  if (sl->simulator->drives_pair()) sl->simulator->drive_sl(Pin::kSl2, !level);
+}
+
+void Simulator::drive_sl(Pin pin, bool level) {
+  levels_[index_of(pin)] = level;
+  drive_chip(pin, level);
 }
 
 void Simulator::on_probe(Time now, void* receiver) {
@@ -233,7 +241,7 @@ void Simulator::on_probe(Time now, void* receiver) {
 bool Simulator::can_set(Pin pin) const {
   if (is_output(pin)) return false;
   if (pin == Pin::kSl1) return lines_[0] == nullptr;
-  if (pin == Pin::kSl2) return lines_[1] == nullptr;
+  if (pin == Pin::kSl2) return lines_[1] == nullptr && !drives_pair();
   if (pin == Pin::kClk) return scenario_.chip.f_clk_hz == 0;
   return true;
 }

@@ -33,8 +33,8 @@ void SlaveChain::drive(Time now, bool ma, bool mo) {
   }
 }
 
-// One pass from the far slave to the near one: SLI of each before the edge is what the slave behind
-// it sent until it was called.
+// One pass from the far slave to the near one. SLI of each slave before the edge is what the slave
+// behind it sent until its call.
 SlaveChain::Standing SlaveChain::drive_slaves(Time now, bool ma, bool mo) {
   Standing standing;
   bool sli_before = end_level(mo_);
@@ -53,7 +53,7 @@ SlaveChain::Standing SlaveChain::drive_slaves(Time now, bool ma, bool mo) {
   return standing;
 }
 
-// The same in the data of a frame, which is most of it.
+// The same in the data of a frame, which is the longest part of a frame.
 void SlaveChain::shift(Time now, bool ma, bool mo) {
   last_edge_ = now;
   deadline_ = now + timeout_;
@@ -68,7 +68,8 @@ void SlaveChain::shift(Time now, bool ma, bool mo) {
   }
 }
 
-// Ends the short way until the next edge of MA.
+// Ends the short way of shift() until the next edge of MA. The slaves learn the time of the last
+// edge.
 void SlaveChain::catch_up() {
   if (!shifting_) return;
   shifting_ = false;
@@ -79,7 +80,7 @@ void SlaveChain::detach(Time now, std::size_t index) {
   catch_up();
   const std::size_t before = attached_;
   attached_ = std::min(index, slaves_.size());
-  // MA = 0 goes away for those that leave, and comes for those that come back.
+  // If MA is 0, slaves that leave see it rise, and slaves that come back see it fall.
   for (std::size_t i = slaves_.size(); !ma_ && i-- > std::min(before, attached_);) {
     slaves_[i]->ma_edge(now, i >= attached_, sli_of(i), sli_of(i));
   }
@@ -117,7 +118,7 @@ void SlaveChain::on_timer(Time now, void* receiver, std::uint64_t /*word*/) {
     if (slaves[i]->deadline() <= now) slaves[i]->timer(now, chain->sli_of(i));
   }
   chain->finish(now, chain->settle_sli(now));
-  // A frame that was cut off in a bit of 1 ends without an edge.
+  // A frame that ends in a bit of 1 has no edge at its end.
   if (running && level && chain->reported_ && chain->idle_) {
     chain->output_(now, chain->receiver_, level);
   }
@@ -130,8 +131,8 @@ void SlaveChain::finish(Time now, const Standing& standing) {
   report(now);
 }
 
-// Keeps one timer event at or before the next deadline. Deadlines move away with every edge of MA;
-// the event stays and is posted anew when it turns out too early.
+// Keeps one timer event at or before the next deadline. Every edge of MA moves the deadline to a
+// later time. The event stays, and on_timer() posts a new one if it came too early.
 void SlaveChain::arm() {
   if (deadline_ >= armed_at_) return;
   armed_at_ = deadline_;

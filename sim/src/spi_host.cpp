@@ -50,8 +50,9 @@ void SpiHost::set_mode(const SpiMode& mode) {
   pins_.set_pin(wires_.sclk, mode_.cpol);
 }
 
-// One clock: with CPHA = 0 MOSI changes with the end of the clock before, and chip and host take
-// data at the first edge; with CPHA = 1 MOSI changes with the first edge and the second one takes.
+// Makes one clock. With CPHA = 0 MOSI changes at the end of the clock before, and chip and host
+// take data at the first edge. With CPHA = 1 MOSI changes at the first edge, and both take data at
+// the second one.
 bool SpiHost::clock_bit(bool mosi) {
   constexpr std::size_t kOpcodeBits = 8;
   constexpr std::size_t kLastAddressBit = 15;
@@ -63,7 +64,7 @@ bool SpiHost::clock_bit(bool mosi) {
   bool miso = false;
   if (mode_.cpha) {
     if (first) wait(timing_.ncs_setup);
-    // MOSI follows the edge: whoever takes it at this one gets the bit before.
+    // MOSI changes after the edge: a chip that takes data at this edge gets the bit before.
     pins_.set_pin(wires_.sclk, !mode_.cpol);
     pins_.set_pin(wires_.mosi, mosi);
     wait(pulse);

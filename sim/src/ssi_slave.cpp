@@ -32,7 +32,7 @@ void SsiSlave::ma_edge(Time now, bool ma, bool /*sli_before*/, bool /*sli*/) {
     last_falling_ = now;
     if (!active_) begin(now);
   } else if (active_) {
-    // Rising edges in idle are no part of a frame: MA may have rested low (CDM).
+    // A rising edge in idle is not part of a frame: MA may have rested low (CDM).
     if (rising_ == 0) count_frame();
     show(now, bit(rising_++));
   }
@@ -83,7 +83,7 @@ void SsiSlave::end(Time now) {
   if (rising_ == 0) return;
   take_cdm(!ma_);
   if (!config_.control.present) return;
-  control_.end_cds(false);  // nobody is behind it, and nobody sees its CDS
+  control_.end_cds(false);  // no slave is behind it, and its CDS goes nowhere
   control_.step(now, !ma_);
 }
 

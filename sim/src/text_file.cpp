@@ -6,7 +6,6 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
-#include <sstream>
 
 #include "mb4sim/scenario.hpp"
 
@@ -17,13 +16,20 @@ std::string read_text_file(const std::string& path) {
   if (std::filesystem::is_directory(path, ignored)) {
     throw ScenarioError(path + ": cannot read: it is a directory");
   }
+  constexpr std::size_t kMaxSize = std::size_t{16} << 20U;  // a device may have no end
   errno = 0;
   std::ifstream in(path, std::ios::binary);
-  std::ostringstream text;
-  if (!in || (in.peek() != std::ifstream::traits_type::eof() && !(text << in.rdbuf()))) {
+  std::string text;
+  char part[65536];
+  while (in && text.size() <= kMaxSize) {
+    in.read(part, sizeof part);
+    text.append(part, static_cast<std::size_t>(in.gcount()));
+  }
+  if (text.size() > kMaxSize) throw ScenarioError(path + ": cannot read: more than 16 MiB");
+  if (!in.eof()) {
     throw ScenarioError(path + ": cannot read: " + std::strerror(errno != 0 ? errno : EIO));
   }
-  return text.str();
+  return text;
 }
 
 std::string beside(const std::string& scenario, const std::string& file) {

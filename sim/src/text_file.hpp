@@ -9,10 +9,10 @@
 
 namespace mb4::sim {
 
-// The whole file. Throws ScenarioError "path: cannot read: reason".
+// Returns the whole file, up to 16 MiB. Throws ScenarioError "path: cannot read: reason".
 std::string read_text_file(const std::string& path);
 
-// `file` as named inside scenario `scenario`: relative to the scenario's folder.
+// Returns the path of `file`, which scenario `scenario` names relative to its own folder.
 std::string beside(const std::string& scenario, const std::string& file);
 
 }  // namespace mb4::sim

@@ -34,9 +34,20 @@ SourcePos position(const toml::source_region& where) {
 
 }  // namespace
 
+void TomlReader::missing(std::string_view key, const std::string& message) {
+  known_.emplace(key);
+  if (file_.missing) return;
+  file_.missing.emplace(file_.name, position(table_.source()), key, message);
+}
+
+void TomlReader::throw_missing(const TomlFile& file) {
+  if (file.missing) throw ScenarioError(*file.missing);
+}
+
 void TomlReader::fail_at(const toml::source_region& where, std::string_view key,
                          const std::string& message) const {
-  throw ScenarioError(file_, position(where), key, message);
+  throw_missing(file_);
+  throw ScenarioError(file_.name, position(where), key, message);
 }
 
 void TomlReader::fail(std::string_view key, const std::string& message) const {
@@ -157,10 +168,11 @@ void TomlReader::finish() const {
   const toml::key* first = nullptr;
   for (auto&& [key, value] : table_) {
     if (known_.contains(key.str())) continue;
-    // The table is sorted by name; the user reads from top to bottom.
+    // The table is sorted by name, but the user reads from top to bottom.
     if (first == nullptr || key.source().begin < first->source().begin) first = &key;
   }
-  if (first != nullptr) fail_at(first->source(), first->str(), "unknown key");
+  if (first == nullptr) return;
+  throw ScenarioError(file_.name, position(first->source()), first->str(), "unknown key");
 }
 
 }  // namespace mb4::sim

@@ -78,7 +78,7 @@ void Wire::end_single_glitch(Time now, void* receiver, std::uint64_t /*word*/) {
   wire->emit(now);
 }
 
-// Distances between two glitches are spread evenly over 0 to twice their mean.
+// The distance between two glitches is spread evenly over 0 to twice the mean.
 void Wire::post_glitch(Time after) {
   const Time mean = kPsPerSecond / faults_.glitches_per_s;
   queue_.post(after + 1 + glitch_random_.up_to(2 * mean), &Wire::begin_glitch, this);

@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Drives frame_top (one line without registers) and plays a BiSS C slave behind a delay. The slave
-// here is a few lines of its own, written from the edge table of the protocol, so that the frame
-// engine is not judged by the simulator's slave model.
+// Drives frame_top (one line without registers) and acts as a BiSS C slave behind a line delay.
+// This slave has its own few lines, written from the edge table of the protocol, so that the test
+// of the frame engine does not depend on the simulator's slave model.
 #ifndef MB4_TESTS_BLOCK_FRAME_BENCH_HPP_
 #define MB4_TESTS_BLOCK_FRAME_BENCH_HPP_
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Parts of a line one by one: CRC, divider and time base, sampler.
+// The parts of a line, each alone: CRC, divider and time base, sampler.
 #include <gtest/gtest.h>
 
 #include <string>

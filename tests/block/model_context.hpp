@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// A Verilated model with the context it lives in.
+// A Verilated model together with its context.
 #ifndef MB4_TESTS_BLOCK_MODEL_CONTEXT_HPP_
 #define MB4_TESTS_BLOCK_MODEL_CONTEXT_HPP_
 

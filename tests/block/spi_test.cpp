@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// SPI host interface alone, behind it a plain byte memory: datasheet pages 17..19.
+// The SPI host interface alone, with a plain byte memory behind it: datasheet pages 17..19.
 #include <gtest/gtest.h>
 
 #include <array>

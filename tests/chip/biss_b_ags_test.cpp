@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// BiSS B register access among the frames of AGS, and on a bus: pages 13, 16, 28, 32 to 34.
+// BiSS B register access between automatic frames, and with MO: pages 13, 16, 28, 32 to 34.
 #include <gtest/gtest.h>
 
 #include "protocol_chip.hpp"
@@ -123,7 +123,7 @@ TEST(ChipBissBAgs, SlInTheAddressPart_IsNotLookedAt) {
         chip.simulator.now() + 100 * sim::kPsPerUs));
     chip.simulator.line(1)->faults().stick(true);
     chip.simulator.refresh_lines();
-    // 17 cells; up to an eighth behind the first edge of the byte.
+    // 17 cells; up to an eighth after the first edge of the byte.
     chip.simulator.advance(16 * chip.t_mar + chip.t_mar / 8);
     chip.simulator.line(1)->faults().stick(std::nullopt);
     chip.simulator.refresh_lines();

@@ -160,7 +160,7 @@ TEST_P(BissBClocks, EveryFreqr_WritesAndReadsWithExactCells) {
     EXPECT_EQ(chip.read(0x80), value) << what;
     EXPECT_EQ(biss_b(chip).handshakes(), by_mo ? 0U : 2U);
     EXPECT_EQ(biss_b(chip).mo_selections(), by_mo ? 2U : 0U);
-    // And a sensor frame behind it.
+    // And a sensor frame after it.
     chip.simulator.slave(1)->set_data(0x1234);
     ASSERT_TRUE(chip.frame()) << what;
     EXPECT_EQ(chip.scdata(1, 16), 0x1234U) << what;
@@ -270,10 +270,13 @@ TEST(ChipBissB, MissingRegister_EndsAfter4096Clocks) {
 TEST(ChipBissB, WrongCrcAndSilentSlave_AreReported) {
   ProtocolChip chip(channel() + slave(0, 0), {.freqs = 0, .freqr = 0, .biss_c_registers = false});
   biss_b(chip).access().set_wrong_data_crc(true);
+  const std::vector<std::uint8_t> before{0xE1, 0xE2, 0xE3};
+  chip.write_rdata(before);
   chip.set_access(0, 0x10, 2, false);
   ASSERT_TRUE(chip.frame(kRegister));
   EXPECT_EQ(chip.status() & 0x0CU, 0x04U);
   EXPECT_EQ(chip.read(0xF3) & 0x3FU, 0U);
+  EXPECT_EQ(chip.read(0x80, 3), before) << "page 28: stored after success only";
   biss_b(chip).access().set_wrong_data_crc(false);
   biss_b(chip).access().set_silent(true);
   chip.write_rdata({0x12});
@@ -300,6 +303,56 @@ TEST(ChipBissB, NoHandOver_IsAnAgsError) {
   chip.simulator.slave(1)->set_data(0x1234);
   ASSERT_TRUE(chip.frame());
   EXPECT_EQ(chip.scdata(1, 16), 0x1234U);
+}
+
+// Page 33: BREAK anywhere in an access, in its hand-over and in every cell: idle at once, MA and MO
+// at rest, all flags good, no byte that the host or the slave has not sent; the next one works.
+TEST(ChipBissB, BreakInAnyCell_EndsItAndTheNextAccessWorks) {
+  for (const bool by_mo : {false, true}) {
+    for (const bool writing : {false, true}) {
+      unsigned in_cells = 0;
+      ProtocolChip chip(channel(1, by_mo ? "mo = true\n" : "") +
+                            slave(0, 1, "data_bits = 16\nregisters = { 0x10 = [0x51, 0x52] }\n"),
+                        {.freqs = 0, .freqr = 1, .biss_c_registers = false, .en_mo = by_mo});
+      const unsigned id = by_mo ? 1 : 0;
+      const std::vector<std::uint8_t> host_bytes{0xE1, 0xE2};
+      const std::vector<std::uint8_t> slave_bytes{0x51, 0x52};
+      // 17 cells of address, 14 of each byte, 400 ns each; steps that meet every quarter of a cell.
+      for (unsigned phase = 0; phase < 220; ++phase) {
+        for (unsigned i = 0; i < 2; ++i) {
+          chip.simulator.slave(1)->reg_write(static_cast<std::uint8_t>(0x10 + i), slave_bytes[i]);
+        }
+        chip.write_rdata(host_bytes);
+        chip.set_access(id, 0x10, 2, writing);
+        chip.instruct(kRegister);
+        chip.simulator.advance(phase * 93 * sim::kPsPerNs);
+        if (!chip.simulator.pin(sim::Pin::kEot)) ++in_cells;
+        chip.instruct(0x80);
+        chip.advance_us(1);
+        EXPECT_TRUE(chip.simulator.pin(sim::Pin::kEot)) << phase;
+        EXPECT_TRUE(chip.simulator.pin(sim::Pin::kMa1)) << phase;
+        EXPECT_EQ(chip.simulator.pin(sim::Pin::kMo1), by_mo) << phase;
+        EXPECT_EQ(chip.read(0xF4), 0x00) << phase;
+        EXPECT_EQ(chip.status(), 0xFB) << phase;
+        EXPECT_EQ(chip.read(0xF3) & 0x3FU, 0U) << phase;
+        const auto rdata = chip.read(0x80, 2);
+        for (unsigned i = 0; i < 2; ++i) {
+          const auto reg = chip.simulator.slave(1)->reg_read(static_cast<std::uint8_t>(0x10 + i));
+          EXPECT_TRUE(rdata[i] == host_bytes[i] || (!writing && rdata[i] == slave_bytes[i]))
+              << phase;
+          EXPECT_TRUE(reg == slave_bytes[i] || (writing && reg == host_bytes[i])) << phase;
+        }
+        chip.advance_us(5);  // the slave's register timeout
+        ASSERT_TRUE(chip.frame(kRegister)) << phase;
+        EXPECT_EQ(chip.status(), 0xFF) << phase;
+        EXPECT_EQ(chip.read(0x80, 2), writing ? host_bytes : slave_bytes) << phase;
+        if (!writing) continue;
+        EXPECT_EQ(chip.simulator.slave(1)->reg_read(0x10), host_bytes[0]) << phase;
+        EXPECT_EQ(chip.simulator.slave(1)->reg_read(0x11), host_bytes[1]) << phase;
+      }
+      EXPECT_GT(in_cells, 150U);
+    }
+  }
 }
 
 // Page 32, Table 46; page 16, figure 16: the first falling edge and the hand-over only.

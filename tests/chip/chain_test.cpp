@@ -222,7 +222,7 @@ TEST(ChipChain, SmallestConfiguration_OneBit) {
   }
 }
 
-// Table 10: without SLAVELOC5 all data channels are on line 1; line 2 rests, whatever CFGCH2 says.
+// Table 10: without SLAVELOC5 all data channels are on line 1; line 2 rests for any CFGCH2.
 TEST(ChipChain, NoSlaveloc5_Line2Rests) {
   ChainBench bench(chain_of_eight());
   bench.spi({0x02, 0xEC, 0x01, 0x05});

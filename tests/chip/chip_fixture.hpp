@@ -24,7 +24,7 @@ namespace mb4test {
 
 namespace sim = mb4::sim;
 
-// A chip with whatever scenario text says, and raw register access over its host.
+// A chip with any scenario text, and raw register access over its host.
 class Chip {
  public:
   explicit Chip(const std::string& scenario)

@@ -1,9 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Each bit of a control frame inverted in turn, on the way to the slaves (CDM) and back (CDS): what
-// is reported as good was done, flags are those of pages 34 and 35, the next access works. Where
-// the protocol itself cannot tell (no acknowledge after the bit), the test says so.
+// The tests invert one bit of a control frame after another, to the slaves (CDM) and back (CDS). An
+// access reported as good must be done, flags must be those of pages 34 and 35, and the next access
+// must work. Where the protocol cannot detect the fault (no acknowledge after the bit), the test
+// says so.
 #include <gtest/gtest.h>
 
 #include <string>
@@ -139,7 +140,7 @@ constexpr CommandCase kImmediate{0xC0, false, 24};
 constexpr CommandCase kTested{0xC0, true, 25};
 
 // `ex`: its slot, the only one behind the header that decides about execution. The slaves confirm
-// before they see it (or are not asked), so that nobody can report its loss.
+// before they see it (or are not asked), so no slave can report its loss.
 void command_matrix(const CommandCase& command, unsigned ex) {
   const bool addressed = command.ids != 0;
   for (const Way way : {Way::kCdm, Way::kCds}) {

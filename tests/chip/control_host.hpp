@@ -52,7 +52,7 @@ class ControlHost {
       chip_.instruct(instruction);
       if (!chip_.wait_eot(200000)) return 0;
       const std::uint8_t status = chip_.status();
-      // Past the slaves' timeout: the level of MA behind the frame is the inverted CDM.
+      // Past the slaves' timeout: the level of MA after the frame is the inverted CDM.
       chip_.simulator.run_while_waiting([&] { return near.idle(); },
                                         chip_.simulator.now() + 100 * sim::kPsPerUs);
       cdm_.push_back(!chip_.simulator.line(line)->monitor().last(chip_.simulator.now()).rest_level);

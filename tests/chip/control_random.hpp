@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Random control communication on random chains: registers written and read back, commands, busy
-// slaves, one fault an access. What the chip reports is held against a model of the slaves'
-// registers and against the weak places of the protocol that docs/choices.md names.
+// slaves, one fault an access. The reports of the chip are compared with a model of the
+// slaves' registers and with the weak places of the protocol that docs/choices.md names.
 #ifndef MB4_TESTS_CHIP_CONTROL_RANDOM_HPP_
 #define MB4_TESTS_CHIP_CONTROL_RANDOM_HPP_
 
@@ -49,7 +49,7 @@ struct ControlTally {
   std::uint64_t reads = 0, writes = 0, commands = 0, bytes = 0;
   std::uint64_t faults[ControlFault::kKinds] = {};
   std::uint64_t reg_errors = 0, delay_errors = 0;
-  std::uint64_t missing = 0;     // ID or register that nobody has
+  std::uint64_t missing = 0;     // ID or register that no slave has
   std::uint64_t cut_writes = 0;  // reported as errors, but the slave has written part of a byte
   // Reported as good, and known not to be: the weak places.
   std::uint64_t lost_start = 0, early_start = 0, lost_execution = 0, lost_broadcast = 0,

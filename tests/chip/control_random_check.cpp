@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What the chip has reported against what the slaves have done.
+// Compares the reports of the chip with the actions of the slaves.
 #include <algorithm>
 #include <sstream>
 
@@ -96,7 +96,7 @@ std::optional<ControlRun::CutByte> ControlRun::cut_byte(const ControlAccess& acc
   if ((!back && !out) || by_time_) return {};
   const std::vector<unsigned> slots = starts(access);
   for (unsigned i = 0; i < slots.size(); ++i) {
-    // An echo stands one slot behind its bit.
+    // An echo comes one slot after its bit.
     const unsigned first = slots[i] + (back ? 1 : 0);
     if (fault.slot < first || fault.slot >= first + kWordBits) continue;
     const unsigned bit = fault.slot - first;

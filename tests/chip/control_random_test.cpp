@@ -2,10 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Random register accesses and commands with busy slaves and faults, written registers read back
-// (pages 27..29, 34, 35): nothing is reported as good that was not done, except at the weak places
-// of docs/choices.md, which the model knows beforehand. MB4_CONTROL_ACCESSES sets the number of
-// accesses (default 500; nightly 10,000), MB4_SEED the first seed. A failure prints the seed and
-// leaves scenario and accesses in the folder MB4_FAILURES (default: the temporary folder).
+// (pages 27..29, 34, 35). The chip must not report an access as good that was not done, except at
+// the weak places of docs/choices.md, which the model predicts. MB4_CONTROL_ACCESSES sets the
+// number of accesses (default 500; nightly 10,000), MB4_SEED the first seed. A failure prints the
+// seed and leaves scenario and accesses in the folder MB4_FAILURES (default: the temporary folder).
 #include "control_random.hpp"
 
 #include <gtest/gtest.h>

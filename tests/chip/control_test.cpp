@@ -294,6 +294,148 @@ TEST(Control, WritingInstrWithoutIt_DoesNotEndIt) {
   EXPECT_EQ(host.rdata(1)[0], 0x77);
 }
 
+// Page 32: within a running control communication CDM is that of the access, whatever INSTR says;
+// otherwise it is INSTR's.
+TEST(Control, OtherInstrWithinAnAccess_CdmIsTheAccesssAndThenInstrs) {
+  const auto run = [](Chip& chip, ControlHost& host, std::initializer_list<unsigned> codes) {
+    configure(chip);
+    chip.simulator.slave(1)->reg_write(0x31, 0x77);
+    host.set_read(0, 0x31, 1);
+    std::vector<bool> cdm;
+    while (cdm.size() < 60 && (host.status() & kRegend) == 0) {
+      const unsigned code = cdm.empty() ? 0b100U : codes.begin()[cdm.size() % codes.size()];
+      host.run_single(1, static_cast<std::uint8_t>(code << 1U));
+      EXPECT_EQ(chip.read(0xF4), 0x00);
+      cdm.push_back(host.cdm().at(0));
+    }
+    EXPECT_EQ(host.status(), kAllGood);
+    EXPECT_EQ(host.rdata(1)[0], 0x77);
+    return cdm;
+  };
+  Chip plain(one_slave(kEncoder));
+  ControlHost plain_host(plain);
+  const auto expected = run(plain, plain_host, {0b100});
+  EXPECT_EQ(expected.size(), 14U + 18U + 15U);
+  Chip chip(one_slave(kEncoder));
+  ControlHost host(chip);
+  EXPECT_EQ(run(chip, host, {0b001, 0b010, 0b011, 0b100, 0b001}), expected);
+  for (const bool cdm : {true, false, true}) {
+    host.run_single(1, cdm ? 0x02 : 0x04);
+    EXPECT_EQ(host.cdm().at(0), cdm) << "behind it";
+  }
+}
+
+TEST(Control, OtherInstrWithinAnAccessUnderAgs_CountsBehindIt) {
+  for (const bool cdm : {true, false}) {
+    Chip chip(one_slave(kEncoder));
+    configure(chip, 1, 0x00, 0x18);  // 25 us
+    ControlHost host(chip);
+    chip.simulator.slave(1)->reg_write(0x31, 0x77);
+    host.set_read(0, 0x31, 1);
+    chip.instruct(0x09);
+    chip.advance_us(40);
+    chip.instruct(cdm ? 0x03 : 0x05);
+    sim::Slave& slave = *chip.simulator.slave(1);
+    unsigned looks = 0;
+    while ((host.status() & kRegend) == 0) {
+      ASSERT_LT(++looks, 300U);
+      chip.advance_us(5);
+    }
+    EXPECT_EQ(host.status() & ~1U, 0xFE);
+    EXPECT_EQ(host.rdata(1)[0], 0x77);
+    EXPECT_EQ(slave.control()->counters().starts, 1U);
+    chip.advance_us(100);
+    EXPECT_EQ(chip.read(0xF4), cdm ? 0x03 : 0x05);
+    for (unsigned frame = 0; frame < 5; ++frame) {
+      chip.advance_us(25);
+      EXPECT_EQ(slave.last_cdm(), cdm) << frame;
+    }
+  }
+}
+
+// Page 34: "In case of an error the transmission of data is terminated." The second of four bytes
+// is disturbed on its way back; nothing follows, and CDM is 0 from then on.
+TEST(Control, ErrorInTheSecondByte_TheOthersAreNotSent) {
+  for (const bool reading : {false, true}) {
+    Chip chip(one_slave(kEncoder));
+    configure(chip, 1, 0x00, 0x13);  // 20 us
+    ControlHost host(chip);
+    sim::Slave& slave = *chip.simulator.slave(1);
+    const std::vector<std::uint8_t> bytes{0x11, 0x22, 0x33, 0x44};
+    const std::vector<std::uint8_t> before{0xE1, 0xE2, 0xE3, 0xE4};
+    if (reading) {
+      for (unsigned i = 0; i < 4; ++i) slave.reg_write(static_cast<std::uint8_t>(i), bytes[i]);
+      chip.spi({0x02, 0x80, 0xE1, 0xE2, 0xE3, 0xE4});
+      host.set_read(0, 0x00, 4);
+    } else {
+      host.set_write(0, 0x00, bytes);
+    }
+    // Slot 19 is S of the first byte, 33 of the second: bit D5 of it.
+    slave.control()->faults().flip_cds_in_slot(36);
+    const auto count = slave.cdm_count();
+    chip.instruct(0x09);
+    unsigned looks = 0;
+    while ((host.status() & kRegend) == 0) {
+      ASSERT_LT(++looks, 500U);
+      chip.advance_us(5);
+    }
+    // Up to slot 36 for an echo, to the second byte's CRC for a read; all four take up to slot 75.
+    EXPECT_LE(slave.cdm_count() - count, 14U + 1U + (reading ? 46U : 37U));
+    EXPECT_EQ(host.status() & (kNoRegErr | kNoDelayErr), kNoDelayErr);
+    EXPECT_EQ(host.regbytes(), 1U);
+    for (unsigned frame = 0; frame < 40; ++frame) {
+      chip.advance_us(20);
+      EXPECT_FALSE(slave.last_cdm()) << frame;
+    }
+    EXPECT_EQ(slave.control()->counters().starts, 1U);
+    EXPECT_EQ(chip.read(0xF4), 0x01);
+    if (reading) {
+      EXPECT_EQ(host.rdata(4), (std::vector<std::uint8_t>{0x11, 0xE2, 0xE3, 0xE4})) << "page 28";
+    } else {
+      EXPECT_EQ(slave.reg_read(0), 0x11);
+      for (unsigned i = 1; i < 4; ++i) EXPECT_EQ(slave.reg_read(static_cast<std::uint8_t>(i)), 0);
+    }
+  }
+}
+
+// Page 27: with HOLDCDM = 1 control communication works "even if the master is not configured
+// according to the data channel(s) of the connected BiSS slave(s)". Without it SL = 1 behind the
+// clocks looks as if the slave's timeout were over, and MA returns to 1 too early for a CDM of 1.
+TEST(Control, HoldCdm_WorksWithAWrongOrAbsentDataChannel) {
+  // ENSCD, SCDLEN; no CRC: no channel at all, bits that are too few and too many.
+  for (const unsigned channel : {0x00U, 0x40U | 4U, 0x40U | 39U}) {
+    for (const bool ags : {false, true}) {
+      for (const bool hold : {true, false}) {
+        Chip chip(one_slave("data_bits = 14\ncrc = 0x43\ndata = 0x3FFF\ntimeout = 5.0"));
+        configure(chip, 1, 0x00, ags ? 0x31 : 0x00);  // 50 us
+        chip.write(0xC0, {static_cast<std::uint8_t>(channel), 0x00});
+        ControlHost host(chip);
+        chip.simulator.slave(1)->reg_write(0x31, 0x77);
+        host.set_read(0, 0x31, 1);
+        chip.write(0xE5, {static_cast<std::uint8_t>(hold ? 0xC1 : 0xC0)});
+        bool ended = false;
+        if (ags) {
+          ended = host.run_ags(10'000);
+        } else {
+          for (unsigned frame = 0; frame < 60 && !ended; ++frame) {
+            chip.instruct(0x08);
+            ASSERT_TRUE(chip.wait_eot());
+            ended = (host.status() & kRegend) != 0;
+            chip.advance_us(20);
+          }
+        }
+        const bool good = ended && (host.status() & (kRegend | kNoRegErr | kNoDelayErr)) ==
+                                       (kRegend | kNoRegErr | kNoDelayErr);
+        // Clocked out and beyond: SL is 0, and HOLDCDM makes no difference.
+        EXPECT_EQ(good, hold || channel == (0x40U | 39U)) << channel << " " << ags;
+        if (good) {
+          EXPECT_EQ(host.rdata(1)[0], 0x77) << channel << " " << ags;
+        }
+      }
+    }
+  }
+}
+
 // ---- commands
 // -------------------------------------------------------------------------------------
 
@@ -364,30 +506,44 @@ TEST(Command, MissingId_IsExecutedOnlyWithoutTheTest) {
 
 // Decision 5: the other reading of the datasheets.
 TEST(Command, IdaTestInvertQuirk_SwapsThePolarity) {
-  Chip chip(one_slave(kEncoder, "", "quirks = { IDA_TEST_INVERT = true }"));
-  configure(chip);
-  ControlHost host(chip);
-  host.set_command(0x80, 3, false);
-  EXPECT_EQ(host.run_single(60), 14U + 26U) << "tested";
-  EXPECT_EQ(host.status(), kAllGood);
+  for (const bool invert : {false, true}) {
+    for (const bool ida_test : {false, true}) {
+      Chip chip(one_slave(kEncoder, "", invert ? "quirks = { IDA_TEST_INVERT = true }" : ""));
+      configure(chip);
+      ControlHost host(chip);
+      const bool tested = ida_test != invert;
+      host.set_command(0x80, 3, ida_test);
+      EXPECT_EQ(host.run_single(60), tested ? 14U + 26U : 14U + 25U) << invert << ida_test;
+      EXPECT_EQ(host.status(), kAllGood);
+      EXPECT_EQ(chip.simulator.slave(1)->control()->counters().commands, 1U);
+      host.set_command(0x80 | 0x04, 3, ida_test);  // ID 5 is nobody's
+      ASSERT_NE(host.run_single(60), 0U);
+      EXPECT_EQ(host.status(), 0xFF & ~kNoRegErr & ~0x80);
+      EXPECT_EQ(chip.simulator.slave(1)->control()->counters().commands, tested ? 1U : 2U);
+    }
+  }
 }
 
 // Page 27: commands on both channels at once; each channel tests its own acknowledge.
 TEST(Command, BothChannels_GetIt) {
-  Chip chip(two_channels());
-  configure_two(chip);
-  ControlHost host(chip);
-  host.select(3);
-  host.set_command(0x80, 3, true);
-  ASSERT_NE(host.run_single(60), 0U);
-  EXPECT_EQ(host.status(), kAllGood);
-  EXPECT_EQ(chip.simulator.slave(1)->control()->counters().commands, 1U);
-  EXPECT_EQ(chip.simulator.slave(5)->control()->counters().commands, 1U);
-  chip.simulator.slave(5)->control()->faults().set_silent(true);
-  ASSERT_NE(host.run_single(60), 0U);
-  EXPECT_EQ(host.status() & kNoRegErr, 0);
-  EXPECT_EQ(chip.simulator.slave(1)->control()->counters().commands, 2U);
-  EXPECT_EQ(chip.simulator.slave(5)->control()->counters().commands, 1U);
+  for (const unsigned silent : {1U, 5U}) {
+    Chip chip(two_channels());
+    configure_two(chip);
+    ControlHost host(chip);
+    host.select(3);
+    host.set_command(0x80, 3, true);
+    ASSERT_NE(host.run_single(60), 0U);
+    EXPECT_EQ(host.status(), kAllGood);
+    for (const unsigned slave : {1U, 5U}) {
+      EXPECT_EQ(chip.simulator.slave(slave)->control()->counters().commands, 1U) << slave;
+      EXPECT_EQ(chip.simulator.slave(slave)->control()->last_command().code, 3) << slave;
+    }
+    chip.simulator.slave(silent)->control()->faults().set_silent(true);
+    ASSERT_NE(host.run_single(60), 0U);
+    EXPECT_EQ(host.status(), 0xFF & ~kNoRegErr & ~0x80) << "silent: slave " << silent;
+    EXPECT_EQ(chip.simulator.slave(6 - silent)->control()->counters().commands, 2U) << silent;
+    EXPECT_EQ(chip.simulator.slave(silent)->control()->counters().commands, 1U) << silent;
+  }
 }
 
 // INSTR = 111 (decision 14): Ack, start, CDS, then the clock stops with the CDM level. HOLDCDM as
@@ -399,19 +555,39 @@ TEST(Command, ReducedFrames_CarryItAndLeaveSensorData) {
   chip.instruct(0x04);
   ASSERT_TRUE(chip.wait_eot());
   const auto before = chip.read(0x00, 8);
+  ASSERT_EQ(before[0], 0xBC);
   ASSERT_EQ(chip.read(0xF1), 0x02);
   chip.simulator.slave(1)->set_data(0x2FFF);
   host.set_command(0x80, 3, true);
   chip.write(0xE5, {0x40 | 3U << 4U | 8U | 1U});
   chip.instruct(0x0F);
   chip.advance_us(100);
-  EXPECT_EQ(chip.simulator.line(1)->monitor().last(chip.simulator.now()).rising, 5U);
-  chip.advance_us(2000);
-  EXPECT_EQ(chip.read(0xF4) & 0x0E, 0);
+  unsigned looks = 0;
+  for (;; ++looks) {
+    ASSERT_LT(looks, 200U) << "it never ends";
+    const auto now = chip.read(0x00, 8);
+    const auto svalid = chip.read(0xF1);
+    const auto rising = chip.simulator.line(1)->monitor().last(chip.simulator.now()).rising;
+    const auto commands = chip.simulator.slave(1)->control()->counters().commands;
+    const bool regend = (host.status() & kRegend) != 0;
+    // As long as INSTR is 111, what was read before came with reduced frames only.
+    if (chip.read(0xF4) != 0x0F) break;
+    EXPECT_EQ(now, before) << looks;
+    EXPECT_EQ(svalid, 0x02) << looks;
+    EXPECT_EQ(rising, 5U) << looks;
+    EXPECT_FALSE(regend) << looks;
+    EXPECT_EQ(commands, 0U) << looks;
+  }
+  EXPECT_GT(looks, 10U);
+  EXPECT_EQ(chip.read(0xF4), 0x01);
+  chip.advance_us(50);
+  EXPECT_EQ(chip.read(0x00, 2), (std::vector<std::uint8_t>{0xFF, 0x2F})) << "whole frames again";
   chip.instruct(0x00);
   chip.advance_us(50);
   EXPECT_EQ(host.status(), kAllGood);
   EXPECT_EQ(chip.simulator.slave(1)->control()->counters().commands, 1U);
+  EXPECT_EQ(chip.simulator.slave(1)->control()->last_command().ids, 0x80);
+  EXPECT_EQ(chip.simulator.slave(1)->control()->last_command().code, 3);
 }
 
 TEST(Command, ReducedFramesWithoutAgs_LeaveBothBanks) {
@@ -420,21 +596,39 @@ TEST(Command, ReducedFramesWithoutAgs_LeaveBothBanks) {
   ControlHost host(chip);
   chip.instruct(0x04);
   ASSERT_TRUE(chip.wait_eot());
+  const auto other = chip.read(0x00, 8);
+  chip.simulator.slave(1)->set_data(0x0123);
+  chip.advance_us(10);
+  chip.instruct(0x04);
+  ASSERT_TRUE(chip.wait_eot());
   const auto before = chip.read(0x00, 8);
+  ASSERT_NE(before, other);
+  chip.advance_us(10);
   chip.simulator.slave(1)->set_data(0x2FFF);
   host.set_command(0x80, 3);
   chip.write(0xE5, {0x40 | 3U << 4U | 1U});
-  for (int frame = 0; frame < 38; ++frame) {
+  // Two zeros were sent before: S is in frame 12, the last acknowledge in frame 36.
+  for (int frame = 0; frame < 37; ++frame) {
     chip.instruct(0x0E);
     ASSERT_TRUE(chip.wait_eot());
+    EXPECT_EQ(chip.read(0xF4), 0x00) << frame;
+    EXPECT_EQ(host.status() & kRegend, frame == 36 ? kRegend : 0) << frame;
     chip.advance_us(10);
+    EXPECT_EQ(chip.simulator.line(1)->monitor().last(chip.simulator.now()).rising, 5U) << frame;
     EXPECT_EQ(chip.read(0x00, 8), before);
     EXPECT_EQ(chip.read(0xF1), 0x02);
-    // One zero was sent before: S is in frame 13.
     // The lone slave locks ID 0 in slot 1 and acknowledges in slot 17.
-    EXPECT_EQ(chip.read(0xF3) & 0x40, frame == 14 || frame == 30 ? 0x40 : 0x00) << frame;
+    EXPECT_EQ(chip.read(0xF3) & 0x40, frame == 13 || frame == 29 ? 0x40 : 0x00) << frame;
+    // Executed at once: EX is in slot 16, its stop bit in slot 17.
+    EXPECT_EQ(chip.simulator.slave(1)->control()->counters().commands, frame < 29 ? 0U : 1U);
   }
   EXPECT_EQ(host.status(), kAllGood);
+  EXPECT_EQ(chip.simulator.slave(1)->control()->last_command().ids, 0x80);
+  EXPECT_EQ(chip.simulator.slave(1)->control()->last_command().code, 3);
+  chip.instruct(0x20);
+  chip.advance_us(1);
+  EXPECT_EQ(chip.read(0x00, 8), other);
+  EXPECT_EQ(chip.read(0xF1), 0x02);
 }
 
 // ---- by hand

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Control frames that a maker of masters has printed (TI TIDEP0022, Tables 7 and 11), by the chip
-// itself and by hand.
+// Control frames published by TI (TIDEP0022, Tables 7 and 11): the chip sends them itself, and the
+// test makes them by hand.
 #include <gtest/gtest.h>
 
 #include <array>

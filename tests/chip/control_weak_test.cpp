@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // The weak places of control communication, each named in docs/choices.md: one inverted bit that
-// nobody can notice, because nothing acknowledges it or four CRC bits happen to fit.
+// no side can detect, because no acknowledge covers it or the four CRC bits fit by chance.
 #include <string>
 
 #include "bits.hpp"

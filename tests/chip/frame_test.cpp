@@ -310,14 +310,31 @@ TEST(ChipDriver, ReadFailsInTheMiddle_NextReadReturnsANewPosition) {
   }
 }
 
-// Page 34 read literally (decision 8): each write of 0xF4 sets nAGSERR to 0; good frames stay good.
+// Page 34 read literally (decision 8): each write of 0xF4, BREAK as well, sets nAGSERR to 0, and an
+// INIT that begins sets it to 1 again; good frames stay good. Without the quirk no write does.
 TEST(ChipDriver, QuirkAgserrOnInstrWrite_GoodFramesAreRead) {
-  Chip chip(one_slave(kEncoder26, "", "[chip.quirks]\nAGSERR_ON_INSTR_WRITE = true"));
-  ASSERT_TRUE(chip.device.configure(config26(10'000'000)).ok());
-  for (int i = 0; i < 3; ++i) {
-    const auto reading = chip.device.read_frame();
-    ASSERT_TRUE(reading.ok());
-    EXPECT_EQ(reading.value().raw, 0xAAF37BFU);
+  for (const bool quirk : {false, true}) {
+    Chip chip(
+        one_slave(kEncoder26, "", quirk ? "[chip.quirks]\nAGSERR_ON_INSTR_WRITE = true" : ""));
+    ASSERT_TRUE(chip.device.configure(config26(10'000'000)).ok());
+    for (int i = 0; i < 3; ++i) {
+      const auto reading = chip.device.read_frame();
+      ASSERT_TRUE(reading.ok());
+      EXPECT_EQ(reading.value().raw, 0xAAF37BFU);
+      EXPECT_EQ(chip.status(), quirk ? 0x3B : 0xFB) << "nERR, nAGSERR";
+      EXPECT_EQ(chip.simulator.pin(sim::Pin::kNer), !quirk);
+    }
+    for (const unsigned byte : {0x00U, 0x80U, 0x40U, 0x20U, 0x04U}) {
+      chip.instruct(0x10);
+      ASSERT_TRUE(chip.wait_eot());
+      EXPECT_EQ(chip.status(), 0xFB) << "INIT";
+      chip.write(0xF3, {static_cast<std::uint8_t>(byte)});
+      EXPECT_EQ(chip.status(), 0xFB) << "another register";
+      chip.write(0xF4, {static_cast<std::uint8_t>(byte)});
+      ASSERT_TRUE(chip.wait_eot());
+      EXPECT_EQ(chip.status(), quirk ? 0x3B : 0xFB) << byte;
+      chip.advance_us(20);
+    }
   }
 }
 

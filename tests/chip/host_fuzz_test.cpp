@@ -5,7 +5,7 @@
 // assertion in the RTL fails, no pulse at MA is short, and after a clean reset every access works.
 // A case is a string of bytes; each is made from a seed, or a mutation of one that was kept.
 // MB4_FUZZ_CASES sets the number (default 300), MB4_FUZZ_SECONDS a time instead, MB4_SEED the first
-// seed. A failure prints its seed and bytes.
+// seed. A failure prints its seed and bytes. The chip has one of four kinds of slaves on its lines.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -15,7 +15,8 @@
 #include <random>
 
 #include "bits.hpp"
-#include "chip_fixture.hpp"
+#include "control_host.hpp"
+#include "mb4sim/control_slave.hpp"
 
 namespace {
 
@@ -31,6 +32,7 @@ struct FuzzCounts {
   std::uint64_t cases = 0;
   std::uint64_t operations = 0;
   std::uint64_t frames = 0;
+  std::uint64_t accesses = 0;
   sim::Time time = 0;
 };
 
@@ -115,6 +117,17 @@ void operate(mb4test::Chip& chip, Reader& reader) {
     case 15:
       if (reader.next() % 4 == 0) {
         rest(simulator, kInterfaces[reader.next() % 4]);  // straps that move
+      } else if (chip.simulator.slave(1)->control() != nullptr && reader.next() % 2 == 0) {
+        // Registers or a command, one line or two, in frames whole, reduced or of BiSS B.
+        chip.configure_slave1(28, 0x06, static_cast<std::uint8_t>(reader.next() % 4),
+                              static_cast<std::uint8_t>(reader.next() % 2 == 0 ? 0x7C : 0x09));
+        chip.write(0xD0, {0x40 | 15, 0x06, 0x00, 0x00});
+        chip.write(0xEC, {0x11, static_cast<std::uint8_t>(0x01U | (reader.next() & 0x0CU))});
+        chip.write(0xE2, {static_cast<std::uint8_t>(reader.next()),
+                          static_cast<std::uint8_t>(reader.next() % 3),
+                          static_cast<std::uint8_t>(reader.next())});
+        chip.write(0xE5, {static_cast<std::uint8_t>(reader.next())});
+        chip.instruct(static_cast<std::uint8_t>(0x08U | (reader.next() & 0x07U)));
       } else {
         // A frame of the encoder, one after the other, or control communication.
         chip.configure_slave1(28, 0x06, static_cast<std::uint8_t>(reader.next() % 4), 0x7C);
@@ -122,6 +135,19 @@ void operate(mb4test::Chip& chip, Reader& reader) {
       }
       break;
   }
+}
+
+// Registers of the encoder are written and read back.
+void check_control(mb4test::Chip& chip) {
+  mb4test::ControlHost host(chip);
+  host.set_write(0, 0x31, {0x6B});
+  ASSERT_NE(host.run_single(100), 0U);
+  ASSERT_EQ(chip.status(), 0xFF);
+  ASSERT_EQ(chip.simulator.slave(1)->reg_read(0x31), 0x6B);
+  host.set_read(0, 0x31, 1);
+  ASSERT_NE(host.run_single(100), 0U);
+  ASSERT_EQ(chip.status(), 0xFF);
+  ASSERT_EQ(host.rdata(1)[0], 0x6B);
 }
 
 // A clean reset with straps for `interface`; then registers, memories and a frame must work.
@@ -151,6 +177,7 @@ void check_after_reset(mb4test::Chip& chip, sim::HostInterface interface) {
   ASSERT_TRUE(chip.wait_eot(500));
   ASSERT_EQ(chip.read(0x00, 4), (Bytes{0xBF, 0x37, 0xAF, 0x0A}));
   ASSERT_EQ(chip.status(), 0xFB);
+  if (chip.simulator.slave(1)->control() != nullptr) check_control(chip);
 }
 
 std::string hex(const Bytes& bytes) {
@@ -171,14 +198,24 @@ Bytes from_hex(const std::string& text) {
   return bytes;
 }
 
-void run_case(const Bytes& bytes, std::uint64_t seed, FuzzCounts& counts) {
+// What is on the lines: one encoder without control communication (the kept cases are made for it)
+// or with it, beside it on line 2 one of each protocol.
+std::string slaves(std::uint64_t kind) {
+  const std::string encoder =
+      "[[channel]]\nnumber = 1\n[[channel.slave]]\nprotocol = \"biss-c\"\n"
+      "data_bits = 28\ncrc = 0x43\ndata = 0xAAF37BF\n";
+  if (kind == 0) return encoder + "control = false\n";
+  const char* const kProtocols[] = {"biss-c", "biss-b", "ssi"};
+  return encoder + "[[channel]]\nnumber = 2\ndelay_ns = 150.0\n[[channel.slave]]\nprotocol = \"" +
+         kProtocols[kind - 1] + "\"\ndata_bits = 16\ndata = 0x1234\n";
+}
+
+void run_case(const Bytes& bytes, std::uint64_t seed, FuzzCounts& counts, std::uint64_t kind) {
   const char* const kNames[] = {"spi", "spi2", "intel", "motorola"};
   Reader reader(bytes);
   const unsigned which = reader.next() % 4;
   mb4test::Chip chip(std::string("[sim]\nseed = ") + std::to_string(seed) +
-                     "\n[host]\ninterface = \"" + kNames[which] +
-                     "\"\n[[channel]]\nnumber = 1\n[[channel.slave]]\nprotocol = \"biss-c\"\n"
-                     "data_bits = 28\ncrc = 0x43\ndata = 0xAAF37BF\ncontrol = false\n");
+                     "\n[host]\ninterface = \"" + kNames[which] + "\"\n" + slaves(kind));
   try {
     while (reader.more()) {
       operate(chip, reader);
@@ -190,6 +227,9 @@ void run_case(const Bytes& bytes, std::uint64_t seed, FuzzCounts& counts) {
   }
   counts.time += chip.simulator.now();
   counts.frames += chip.simulator.slave(1)->frames();
+  if (const auto* const control = chip.simulator.slave(1)->control()) {
+    counts.accesses += control->counters().starts;
+  }
   ++counts.cases;
   chip.simulator.host_check().clear();  // illegal on purpose
 }
@@ -243,7 +283,7 @@ constexpr KeptCase kKept[] = {
 
 TEST(HostFuzz, KeptCases_StayGood) {
   FuzzCounts counts;
-  for (const KeptCase& kept : kKept) run_case(from_hex(kept.bytes), kept.seed, counts);
+  for (const KeptCase& kept : kKept) run_case(from_hex(kept.bytes), kept.seed, counts, 0);
 }
 
 TEST(HostFuzz, AnyPinActivity_NoAssertionAndACleanResetHelps) {
@@ -259,24 +299,27 @@ TEST(HostFuzz, AnyPinActivity_NoAssertionAndACleanResetHelps) {
   };
   // One case again, as a failure has printed it.
   if (const char* const repeated = std::getenv("MB4_FUZZ_BYTES"); repeated != nullptr) {
-    run_case(from_hex(repeated), first, counts);
+    run_case(from_hex(repeated), first, counts, first % 4);
     return;
   }
   while (seconds != 0 ? elapsed() < static_cast<double>(seconds) : counts.cases < cases) {
     const Bytes bytes = make_case(random, kept);
     const std::uint64_t frames = counts.frames;
-    run_case(bytes, first + counts.cases, counts);
+    run_case(bytes, first + counts.cases, counts, (first + counts.cases) % 4);
     if (testing::Test::HasFailure()) {
       FAIL() << "MB4_SEED=" << first + counts.cases - 1 << " MB4_FUZZ_BYTES=" << hex(bytes);
     }
     // Worth keeping: frames ran beside the one of the check.
     if (counts.frames > frames + 3 && kept.size() < 500) kept.push_back(bytes);
   }
-  std::printf("%llu cases, %llu operations, %llu frames, %.1f ms simulated, %.1f s, kept %zu\n",
-              static_cast<unsigned long long>(counts.cases),
-              static_cast<unsigned long long>(counts.operations),
-              static_cast<unsigned long long>(counts.frames),
-              static_cast<double>(counts.time) * 1e-9, elapsed(), kept.size());
+  std::printf(
+      "%llu cases, %llu operations, %llu frames, %llu accesses, %.1f ms simulated, %.1f s, "
+      "kept %zu\n",
+      static_cast<unsigned long long>(counts.cases),
+      static_cast<unsigned long long>(counts.operations),
+      static_cast<unsigned long long>(counts.frames),
+      static_cast<unsigned long long>(counts.accesses), static_cast<double>(counts.time) * 1e-9,
+      elapsed(), kept.size());
 }
 
 }  // namespace

@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// A host that accesses every address without a pause while frames run with AGSMIN and registers of
-// the encoder are read: no frame is disturbed, no value is wrong. MB4_HOST_FRAMES sets the number
-// of frames (default 3,000; nightly 100,000).
+// A host accesses every address without a pause while frames run with AGSMIN and the encoder's
+// registers are read. No frame may be disturbed and no value may be wrong. MB4_HOST_FRAMES sets the
+// number of frames (default 3,000; nightly 100,000).
 #include <gtest/gtest.h>
 
 #include <array>

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Hosts on single pins, for what the host models of the simulator do not do.
+// Hosts that drive single pins, for accesses that the simulator's host models do not make.
 #ifndef MB4_TESTS_CHIP_HOST_PINS_HPP_
 #define MB4_TESTS_CHIP_HOST_PINS_HPP_
 

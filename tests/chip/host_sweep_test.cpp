@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// SCLK, CLK and the phase between them: what a host writes and reads at every point (I203, I204:
-// SCLK up to 50 MHz; D01, D05: CLK 12.5 to 25 MHz, here also 1 MHz and stopped).
+// Writes and reads of a host for each SCLK, CLK and phase between them (I203, I204:
+// SCLK up to 50 MHz; D01, D05: CLK 10 to 25 MHz, here also 1 MHz and stopped).
 #include <gtest/gtest.h>
 
 #include <array>
@@ -90,7 +90,7 @@ TEST_P(HostSweep, EveryPhase_WritesAndReadsAreRightAndNoWordIsTorn) {
 
 // 6 x 9 x 42 = 2,268 points.
 INSTANTIATE_TEST_SUITE_P(Clk, HostSweep,
-                         testing::Values(0U, 1'000'000U, 12'500'000U, 16'777'000U, 20'000'000U,
+                         testing::Values(0U, 1'000'000U, 10'000'000U, 16'777'000U, 20'000'000U,
                                          25'000'000U));
 
 }  // namespace

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// BiSS C INIT beside what else happens: other writes of 0xF4, BREAK, the slaves' timeout, frames
+// BiSS C INIT together with other events: other writes of 0xF4, BREAK, the slaves' timeout, frames
 // that are due (pages 32..34; decisions 3, 8, 19, 25).
 #include <gtest/gtest.h>
 
@@ -37,6 +37,40 @@ TEST(ChipInit, OtherWritesMeanwhile_DoNotEndIt) {
     EXPECT_EQ(chip.simulator.line(1)->monitor().frames(), 2U) << "the frame and the INIT";
     EXPECT_EQ(chip.simulator.line(1)->monitor().last(chip.simulator.now()).rising, 2U);
     EXPECT_EQ(chip.read(0x00), 9) << "1000 ns, a quarter of 500 ns";
+  }
+}
+
+// Decision 35: SCDATA1 and SCDATA5 hold line delays behind INIT, so all SVALID are 0, without an
+// error; the next frame sets those of its words.
+TEST(ChipInit, AllSvalid_AreZeroBehindIt) {
+  for (const unsigned freqs : {0x00U, 0x04U}) {
+    Chip chip(one_slave(kAdaptive, "delay_ns = 150.0") +
+              "[[channel.slave]]\nprotocol = \"biss-c\"\ndata_bits = 14\ncrc = 0x43\n"
+              "[[channel]]\nnumber = 2\n[[channel.slave]]\nprotocol = \"biss-c\"\n" +
+              kAdaptive + "\n");
+    chip.configure_slave1(28, 0x06, static_cast<std::uint8_t>(freqs), 0x7C);
+    chip.write(0xC4, {0x40 | 13, 0x06, 0x00, 0x00});
+    chip.write(0xD0, {0x40 | 27, 0x06, 0x00, 0x00});
+    chip.write(0xEC, {0x11, 0x05});
+    const std::vector<std::uint8_t> all{0x0A, 0x02};
+    const std::vector<std::uint8_t> none{0x00, 0x00};
+    for (int frame = 0; frame < 2; ++frame) {  // a word in each bank
+      chip.instruct(0x04);
+      ASSERT_TRUE(chip.wait_eot());
+      EXPECT_EQ(chip.read(0xF1, 2), all);
+      chip.advance_us(20);
+    }
+    chip.instruct(0x10);
+    ASSERT_TRUE(chip.wait_eot());
+    EXPECT_EQ(chip.status(), 0xFB);
+    EXPECT_TRUE(chip.simulator.pin(sim::Pin::kNer));
+    EXPECT_EQ(chip.read(0xF1, 2), none);
+    EXPECT_EQ(chip.read(0x00), freqs == 0 ? 7 : 2) << "150 ns in quarters of 100 and 500 ns";
+    EXPECT_EQ(chip.read(0x20), 1);
+    chip.instruct(0x04);
+    ASSERT_TRUE(chip.wait_eot());
+    EXPECT_EQ(chip.read(0xF1, 2), all);
+    EXPECT_EQ(chip.status(), 0xFB);
   }
 }
 
@@ -129,7 +163,7 @@ TEST(ChipInit, Break_EndsIt) {
   }
 }
 
-// Page 32, decision 3: a frame asked for in the slaves' timeout finds SL low.
+// Page 32, decision 3: a frame that is requested in the slaves' timeout finds SL low.
 TEST(ChipInstr, AskedForInTheSlavesTimeout_NoFrameAndAgsError) {
   Chip chip(one_slave(k20us));
   chip.configure_slave1(28, 0x06, 0x00, 0x00);

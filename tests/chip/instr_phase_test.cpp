@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// 0xF4 written at every phase of the moments that decide what it means: a frame's start, its end
-// and the time at which a frame is due (pages 30, 32, Tables 37, 45; decision 19).
+// The host writes 0xF4 at every phase around the moments that decide its effect: the start of a
+// frame, its end, and the time at which a frame is due (pages 30, 32, Tables 37, 45; decision 19).
 #include <gtest/gtest.h>
 
 #include "chip_fixture.hpp"
@@ -26,7 +26,7 @@ void instruct_at(Chip& chip, std::uint8_t byte, sim::Time when) {
   chip.instruct(byte);
 }
 
-// Table 37: frames come at their clock, whatever INSTR is changed to and when.
+// Table 37: frames come at their clock, for any change of INSTR at any time.
 TEST(ChipInstrPhase, ChangedUnderAgs_ShiftsNoFrame) {
   Chip chip(one_slave(kEncoder26));
   chip.simulator.spi().set_timing(sim::SpiTiming::for_frequency(50'000'000));

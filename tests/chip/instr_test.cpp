@@ -48,7 +48,7 @@ TEST(ChipInstrTiming, LastSclkEdgeToMa_ThreeToFourClocksAndHalfAPeriod) {
   }
 }
 
-// Table 44, AGS = 0: nothing runs by itself, whatever FREQAGS and GETSENS say.
+// Table 44, AGS = 0: no frame starts by itself, for any FREQAGS and GETSENS.
 TEST(ChipInstr, NoAgs_NothingRunsByItself) {
   for (const unsigned freqags : {0x00U, 0x31U, 0x7CU, 0x7DU, 0x80U, 0xFFU}) {
     Chip chip(one_slave(kEncoder26));
@@ -82,8 +82,33 @@ TEST(ChipInstr, AgsCleared_TheRunningFrameEndsAndNoneFollows) {
   }
 }
 
-// Table 45 does not list 101 and 110: no frame, they clear themselves (docs/choices.md).
+// Table 45 does not list 101 and 110: no frame, they clear themselves (docs/choices.md). With
+// AGS = 1 the frames that come by themselves go on, with CDM = 0.
 TEST(ChipInstr, CodesNotListed_ClearThemselvesWithoutAFrame) {
+  for (const unsigned freqags : {0x31U, 0x7CU, 0x7DU}) {  // 50 us, AGSMIN, AGSINFINITE
+    for (const unsigned code : {0b101U, 0b110U}) {
+      Chip ags(one_slave(kEncoder26));
+      ags.configure_slave1(28, 0x06, 0x00, static_cast<std::uint8_t>(freqags));
+      const sim::Slave& slave = *ags.simulator.slave(1);
+      if (freqags != 0x7D) {
+        ags.instruct(0x03);
+        ags.advance_us(120);
+        EXPECT_TRUE(slave.last_cdm());
+      }
+      ags.instruct(static_cast<std::uint8_t>(code << 1U | 1U));
+      const auto frames = slave.frames();
+      ags.advance_us(120);
+      EXPECT_EQ(ags.read(0xF4), 0x01) << code;
+      EXPECT_EQ(ags.status() & 0xFE, 0xFA) << code;
+      EXPECT_FALSE(slave.last_cdm()) << code;
+      if (freqags == 0x7D) {
+        EXPECT_EQ(slave.frames(), 0U) << code;
+      } else {
+        EXPECT_GE(slave.frames(), frames + (freqags == 0x31 ? 2U : 20U)) << code;
+        EXPECT_LE(slave.frames(), frames + (freqags == 0x31 ? 3U : 35U)) << code;
+      }
+    }
+  }
   Chip chip(one_slave(kEncoder26));
   chip.configure_slave1(28, 0x06, 0x00, 0x00);
   for (const unsigned code : {0b101U, 0b110U}) {
@@ -194,23 +219,51 @@ TEST(ChipInit, LineDelay_IsInTheHostsBank) {
   }
 }
 
-// Decision 19, docs/choices.md: SWBANK in the middle of a frame swaps at once.
+// Decisions 19, 34: SWBANK in the middle of a frame swaps at once. Bytes that have come are in the
+// one bank, the rest goes to the other; the word is valid in neither, although both held a valid
+// one, and the frame ends with nSCDERR = 0.
 TEST(ChipBanks, SwBankDuringAFrame_ActsAtOnce) {
   Chip chip(one_slave(kEncoder26));
-  chip.configure_slave1(28, 0x06, 0x1F, 0x7C);  // 62.5 kHz: the frame takes 600 us
-  chip.write(0x08, {0x11});
+  chip.configure_slave1(28, 0x06, 0x00, 0x7C);
+  for (int frame = 0; frame < 2; ++frame) {
+    chip.instruct(0x04);
+    ASSERT_TRUE(chip.wait_eot());
+    chip.advance_us(10);
+  }
+  using Bytes = std::vector<std::uint8_t>;
+  const Bytes ones(8, 0x11);
+  chip.spi({0x0B, 0x22, 0x22, 0x22, 0x22, 0x22, 0x22, 0x22, 0x22});
   chip.instruct(0x20);
   chip.advance_us(1);
-  chip.write(0x08, {0x22});
+  chip.spi({0x0B, 0x11, 0x11, 0x11, 0x11, 0x11, 0x11, 0x11, 0x11});
+  chip.advance_us(1);
+  ASSERT_EQ(chip.read(0xF1), 0x02);
+  chip.write(0xE6, {0xBF});  // 62.5 kHz: the frame takes 600 us
   chip.instruct(0x24);
-  chip.advance_us(50);
-  EXPECT_EQ(chip.read(0x08), 0x22);
+  // 4 + 12 of 28 bits, 16 us each, behind four periods: bytes 3 and 2 have come.
+  chip.advance_us(345);
+  EXPECT_EQ(chip.read(0x00, 8), ones) << "the host's bank";
+  EXPECT_EQ(chip.read(0xF1), 0x02);
   chip.instruct(0x04);
   EXPECT_EQ(chip.status() & 0x01, 0x00) << "the frame still runs";
-  EXPECT_EQ(chip.read(0x08), 0x11);
+  EXPECT_EQ(chip.read(0x00, 8), (Bytes{0x22, 0x22, 0xAF, 0x0A, 0x22, 0x22, 0x22, 0x22}));
+  EXPECT_EQ(chip.read(0xF1), 0x00);
   ASSERT_TRUE(chip.wait_eot());
-  EXPECT_EQ(chip.simulator.slave(1)->frames(), 1U);
-  EXPECT_EQ(chip.read(0x08), 0x22) << "and its end swaps again";
+  EXPECT_EQ(chip.simulator.slave(1)->frames(), 3U);
+  EXPECT_EQ(chip.status(), 0x6B) << "nERR = nSCDERR = 0";
+  // Its end swaps again.
+  EXPECT_EQ(chip.read(0x00, 8), (Bytes{0xBF, 0x37, 0x11, 0x11, 0x11, 0x11, 0x11, 0x18}));
+  EXPECT_EQ(chip.read(0xF1), 0x00);
+  chip.instruct(0x20);
+  chip.advance_us(1);
+  EXPECT_EQ(chip.read(0x00, 8), (Bytes{0x22, 0x22, 0xAF, 0x0A, 0x22, 0x22, 0x22, 0x22}));
+  EXPECT_EQ(chip.read(0xF1), 0x00);
+  chip.advance_us(100);
+  chip.instruct(0x24);
+  ASSERT_TRUE(chip.wait_eot());
+  EXPECT_EQ(chip.status(), 0xFB);
+  EXPECT_EQ(chip.read(0x00, 4), (Bytes{0xBF, 0x37, 0xAF, 0x0A}));
+  EXPECT_EQ(chip.read(0xF1), 0x02);
 }
 
 // Page 33, decision 19: SWBANK acts at once, HOLDBANK or not; a switch that HOLDBANK keeps back is

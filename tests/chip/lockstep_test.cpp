@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The simulator evaluates the chip with as little work as it can and leaves out clocks in which the
+// The simulator evaluates the chip with as little work as possible, and omits clocks in which the
 // chip is at rest (sim/model/direct_steps.hpp). Two of them run side by side through random
 // sessions, one as usual and one with Verilator's eval() at every edge: all pins at every time, all
 // registers and all slaves must be the same.
@@ -217,8 +217,10 @@ TEST(Lockstep, LessWork_ChangesNothing) {
     left_out += chips.fast().clk_cycles_left_out();
     std::filesystem::remove_all(folder);
   }
+#ifdef MB4_EDGE_IN_PARTS
   // Otherwise there was little to compare.
   EXPECT_GT(left_out, clocks / 4);
+#endif
   EXPECT_GT(clocks - left_out, 1000 * cases);
   std::cout << cases << " cases, " << clocks << " clocks, " << left_out << " of them left out\n";
 }

@@ -1,14 +1,17 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// No pulse at MA is shorter than half of the configured period (I302, I303), whatever cuts a frame.
-// The guard at the MA pins ends a simulation that breaks this: see MaGuard and MaPulseCheck in
+// No pulse at MA is shorter than half of the configured period (I302, I303), even if a frame is
+// cut. The guard at the MA pins ends a simulation that breaks this: see MaGuard and MaPulseCheck in
 // tests/unit. The MA force bits: ma_force_test.cpp.
 #include <gtest/gtest.h>
 
+#include <array>
 #include <string>
+#include <vector>
 
 #include "chip_fixture.hpp"
+#include "mb4sim/random.hpp"
 
 namespace {
 
@@ -33,6 +36,8 @@ void expect_good_frame(Chip& chip, std::uint8_t freqs, const std::string& what) 
   EXPECT_EQ(chip.read(0xF1) & 0x02, 0x02) << what;
   EXPECT_EQ(chip.read(0x00, 4), (std::vector<std::uint8_t>{0xBF, 0x37, 0xAF, 0x0A})) << what;
 }
+
+constexpr std::uint8_t byte(unsigned value) { return static_cast<std::uint8_t>(value); }
 
 struct Cut {
   std::uint8_t freqs;
@@ -94,9 +99,9 @@ TEST_P(MaPulse, ResetOnTheOscillator_CutsNothingShort) {
   });
 }
 
-// CLKENI in the middle of a frame: the frame goes on with the other clock.
+// CLKENI in the middle of a frame: the frame continues with the other clock.
 TEST_P(MaPulse, ClockSwitchAtAnyPhase_CutsNothingShort) {
-  for (const unsigned osc : {12'500'000U, 25'000'000U}) {
+  for (const unsigned osc : {10'000'000U, 25'000'000U}) {
     at_every_phase("f_osc_hz = " + std::to_string(osc) + "\n", 50, [](Chip& chip) {
       chip.write(0xF5, {0x00});
       chip.advance_us(20);
@@ -132,13 +137,216 @@ TEST_P(MaPulse, BreakAndNewFrameAtOnce_CutNothingShort) {
   });
 }
 
+// FREQS changes and line 1 goes out of use, and line 2 starts in its place: before BREAK, after it,
+// and without one (decision 40).
+TEST_P(MaPulse, LineTakenOutOfUseAtAnyPhase_CutsNothingShort) {
+  for (const unsigned order : {0U, 1U, 2U}) {
+    for (const std::uint8_t next : std::array<std::uint8_t, 3>{0x00, 0x04, 0x1F}) {
+      at_every_phase("", 50, [order, next](Chip& chip) {
+        chip.simulator.spi().set_timing(sim::SpiTiming::for_frequency(50'000'000));
+        if (order == 0) chip.instruct(0x80);
+        chip.write(0xE6, {next});
+        chip.write(0xEC, {0x10, 0x07});  // BiSS C on line 2 only
+        chip.instruct(order == 1 ? 0x84 : 0x04);
+        chip.advance_us(20);
+        chip.instruct(0x80);
+        chip.advance_us(200);
+      });
+    }
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(Cuts, MaPulse,
                          testing::Values(Cut{0x00, 0x04}, Cut{0x00, 0x02}, Cut{0x01, 0x04},
                                          Cut{0x04, 0x02}, Cut{0x09, 0x04}, Cut{0x09, 0x10},
-                                         Cut{0x11, 0x02}),
+                                         Cut{0x11, 0x02}, Cut{0x1F, 0x04}, Cut{0x1F, 0x02}),
                          [](const auto& entry) {
                            return "Freqs" + std::to_string(entry.param.freqs) + "_Instr" +
                                   std::to_string(entry.param.instr);
                          });
+
+// ---- two lines ----------------------------------------------------------------------------------
+
+std::string two_lines(const char* line1 = "biss-c") {
+  std::string text = "[chip]\n[host]\ninterface = \"spi\"\nsclk_hz = 20_000_000\n";
+  for (unsigned line = 1; line <= 2; ++line) {
+    text += "[[channel]]\nnumber = ";
+    text += std::to_string(line);
+    text += "\n[[channel.slave]]\nprotocol = \"";
+    text += line == 1 ? line1 : "biss-c";
+    text += "\"\ndata_bits = 26\ncrc = 0x43\ndata = 0x0AAAAAA\ntimeout = 20\n";
+  }
+  return text;
+}
+
+// After any earlier events both lines deliver data.
+void expect_good_frames(Chip& chip, const std::string& what, std::uint8_t cfgch = 0x05) {
+  chip.instruct(0x80);
+  chip.write(0xF5, {0x00});
+  for (unsigned slave = 0xC0; slave < 0xE0; slave += 4) {
+    const bool used = slave == 0xC0 || slave == 0xD0;
+    chip.write(byte(slave), {byte(used ? 0x59 : 0x00), 0x06, 0x00, 0x00});
+  }
+  chip.write(0xE4, {0x00, 0x40, 0x01, 0x00, 0x00, 0x00});
+  chip.write(0xEC, {0x10, cfgch});
+  chip.write(0xEF, {0x00});
+  chip.advance_us(1000);
+  chip.instruct(0x04);
+  ASSERT_TRUE(chip.wait_eot()) << what;
+  EXPECT_EQ(chip.read(0xF1, 2), (std::vector<std::uint8_t>{0x02, 0x02})) << what;
+  const std::vector<std::uint8_t> word{0xAA, 0xAA, 0xAA, 0x00};
+  EXPECT_EQ(chip.read(0x00, 4), word) << what;
+  EXPECT_EQ(chip.read(0x20, 4), word) << what;
+}
+
+// Every phase of the last half period, in steps of a clock. The half period is 8 us long; its line
+// goes out of use, and the other line starts with half periods of a tenth of it or less. The limits
+// of both lines follow from their own FREQS, not from the chip's status.
+TEST(MaPulseTwoLines, LastHalfPeriodOfALineOutOfUse_EndsInItsTime) {
+  struct Way {
+    bool break_first;
+    bool by_slaveloc5;   // line 2 goes out of use instead of line 1
+    std::uint8_t freqs;  // of the line that starts
+    sim::Time half;      // ns
+  };
+  for (const Way way : {Way{true, false, 0x04, 250}, Way{false, false, 0x04, 250},
+                        Way{true, false, 0x00, 50}, Way{false, false, 0x0F, 800},
+                        Way{true, true, 0x04, 250}, Way{false, true, 0x00, 50}}) {
+    for (sim::Time d = 0; d <= 9400; d += 50) {
+      Chip chip(two_lines());
+      const unsigned old_line = way.by_slaveloc5 ? 2 : 1;
+      // 1 ns for clock edges that are rounded to picoseconds.
+      chip.simulator.ma_check(old_line).require(8'000 * sim::kPsPerNs - sim::kPsPerNs);
+      chip.simulator.ma_check(3 - old_line).require(way.half * sim::kPsPerNs - sim::kPsPerNs);
+      chip.write(0xC0, {0x59, 0x06, 0x00, 0x00});
+      chip.write(0xD0, {0x59, 0x06, 0x00, 0x00});
+      chip.write(0xE5, {0x40, 0x1F, 0x00, 0x7C});
+      chip.write(0xEC, {0x10, byte(way.by_slaveloc5 ? 0x07 : 0x0D)});
+      chip.instruct(0x04);
+      chip.simulator.advance(d * sim::kPsPerNs);
+      const std::string what = "D " + std::to_string(d) + " ns, FREQS " +
+                               std::to_string(way.freqs) + (way.break_first ? ", BREAK first" : "");
+      ASSERT_NO_THROW({
+        if (way.break_first) chip.instruct(0x80);
+        chip.write(0xE6, {way.freqs});
+        chip.write(0xEC, {byte(way.by_slaveloc5 ? 0x00 : 0x10),
+                          byte(way.by_slaveloc5 ? 0x0D : 0x07)});
+        chip.instruct(way.break_first ? 0x04 : 0x84);
+        chip.advance_us(90);
+      }) << what;
+      EXPECT_GE(chip.simulator.ma_check(3 - old_line).pulses(), 2U * (26U + 6U + 4U)) << what;
+    }
+  }
+}
+
+// A line that waits for SL = 1 when it goes out of use keeps the other one waiting for half a
+// period at most.
+TEST(MaPulseTwoLines, LineOutOfUseWithSlLow_StartsTheOther) {
+  for (const std::uint8_t instr : std::array<std::uint8_t, 3>{0x04, 0x02, 0x10}) {
+    Chip chip(two_lines());
+    chip.write(0xC0, {0x59, 0x06, 0x00, 0x00});
+    chip.write(0xD0, {0x59, 0x06, 0x00, 0x00});
+    chip.write(0xE5, {0x40, 0x01, 0x00, 0x00});
+    chip.write(0xEC, {0x10, 0x05});
+    chip.instruct(instr);
+    chip.advance_us(5);
+    chip.simulator.line(1)->faults().stick(false);
+    chip.simulator.refresh_lines();
+    ASSERT_TRUE(chip.wait_eot());
+    chip.advance_us(40);
+    chip.write(0xED, {0x07});
+    chip.instruct(0x04);
+    ASSERT_TRUE(chip.wait_eot(100));
+    EXPECT_EQ(chip.read(0xF2), 0x02) << "INSTR byte " << unsigned{instr};
+    EXPECT_TRUE(chip.simulator.pin(sim::Pin::kMa1));
+  }
+}
+
+// A line that is forced low ends that half period as well: whatever line starts with a shorter one,
+// and whatever ends the force. The other way round: a longer one.
+TEST(MaPulseTwoLines, ForcedLineOtherFreqs_CutsNothingShort) {
+  for (unsigned way = 0; way < 8; ++way) {
+    std::uint64_t pulses = 0;
+    const bool slower = (way & 1U) != 0;
+    for (sim::Time d = 0; d < 5000; d += 50) {
+      Chip chip(two_lines());
+      chip.write(0xE4, {0x02});
+      chip.write(0xE6, {byte(slower ? 0x00 : 0x18)});
+      chip.write(0xF5, {0x40});  // line 1 low
+      chip.simulator.advance(8'000 * sim::kPsPerNs + d * sim::kPsPerNs);
+      ASSERT_NO_THROW({
+        chip.write(0xE5, {0xC0, byte(slower ? 0x18 : 0x00)});
+        chip.write(0xE4, {0x00});  // line 2 low, line 1 released
+        chip.instruct((way & 2U) != 0 ? 0x84 : 0x90);
+        chip.simulator.advance((d % 7) * 211 * sim::kPsPerNs);
+        if ((way & 4U) != 0) {
+          chip.write(0xF5, {0x00});
+        } else {
+          chip.simulator.set_pin(sim::Pin::kNres, false);
+          chip.simulator.advance(100 * sim::kPsPerNs);
+          chip.simulator.set_pin(sim::Pin::kNres, true);
+        }
+        chip.advance_us(100);
+      }) << "way " << way << ", D " << d << " ns";
+      EXPECT_TRUE(chip.simulator.pin(sim::Pin::kMa2));
+      pulses += chip.simulator.ma_check(2).pulses();
+    }
+    EXPECT_GE(pulses, 20U) << "way " << way;
+  }
+}
+
+// ---- settings in the middle of a frame (decision 38) --------------------------------------------
+
+// A frame whose MA was forced away from the slave, then released, while EN_MO and ACTNSENS make the
+// line one with actuators and back again.
+TEST(SettingsInAFrame, EnMoAndForceChange_FrameGoesOnWithWhatItBeganWith) {
+  Chip chip(two_lines("biss-b"));
+  chip.write(0xF5, {0x10});
+  chip.instruct(0x04);
+  chip.write(0xD4, {0x40});
+  chip.write(0xE5, {0x02});
+  chip.write(0xEF, {0x20});
+  chip.write(0xF5, {0x00});
+  chip.write(0xE5, {0x00, 0xA0});
+  ASSERT_NO_THROW(chip.advance_us(300));
+  ASSERT_NO_FATAL_FAILURE(expect_good_frames(chip, "", 0x04));
+}
+
+// A healthy line's frame ends, whatever is configured behind its first clock, for any protocol.
+TEST(SettingsInAFrame, AnyConfigurationRegister_FrameEnds) {
+  const std::array<const char*, 3> protocols{"biss-b", "biss-c", "ssi"};
+  for (unsigned session = 0; session < 600; ++session) {
+    sim::Random random(session);
+    const auto below = [&random](unsigned n) {
+      return static_cast<std::uint8_t>(random.next() % n);
+    };
+    const unsigned protocol = session % 3;
+    Chip chip(two_lines(protocols.at(protocol)));
+    const auto cfgch = static_cast<std::uint8_t>(0x04U | protocol);
+    chip.write(0xC0, {0x59, 0x06, 0x00, 0x00});
+    chip.write(0xD0, {0x59, 0x06, 0x00, 0x00});
+    chip.write(0xE5, {0x40, 0x14, 0x00, 0x7C});
+    chip.write(0xEC, {0x10, cfgch});
+    if (below(3) == 0) chip.write(0xE5, {0x42});
+    if (below(3) == 0) chip.write(0xEF, {below(256)});
+    chip.advance_us(50);
+    const bool init = session % 5 == 0;
+    chip.instruct(init ? 0x10 : session % 2 == 0 ? 0x04 : 0x02);
+    chip.simulator.advance(sim::Time{10U + below(100)} * (init ? 50 : 1000) * sim::kPsPerNs);
+    ASSERT_FALSE(chip.simulator.pin(sim::Pin::kEot)) << session;
+    std::string what = "session " + std::to_string(session) + ":";
+    for (unsigned count = 1U + below(4); count > 0; --count) {
+      static constexpr std::array<std::uint8_t, 11> kMore{0xE2, 0xE4, 0xE5, 0xE6, 0xE7, 0xE8,
+                                                          0xE9, 0xEC, 0xED, 0xEF, 0xED};
+      const std::uint8_t address = below(3) == 0 ? static_cast<std::uint8_t>(0xC0U + below(32))
+                                                 : kMore.at(below(kMore.size()));
+      const std::uint8_t value = below(256);
+      what.append(" ").append(std::to_string(address)).append("=").append(std::to_string(value));
+      ASSERT_NO_THROW(chip.write(address, {value})) << what;
+    }
+    ASSERT_NO_THROW(ASSERT_TRUE(chip.wait_eot(30'000)) << what) << what;
+    ASSERT_NO_FATAL_FAILURE(expect_good_frames(chip, what, cfgch));
+  }
+}
 
 }  // namespace

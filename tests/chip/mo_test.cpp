@@ -284,6 +284,184 @@ TEST(ChipMo, SensorsOnACableLongerThanTheFrame_SeeNoOneBehindTheirSlots) {
   }
 }
 
+// --- INIT in BiSS C (decision 39) -------------------------------------------------------------
+
+constexpr sim::Time kSlaveTimeout = 40 * sim::kPsPerUs;  // the longest in the field
+const char* const kKinds[] = {"latched", "passed-on"};
+
+std::string sensors(unsigned count, const std::string& kind, const std::string& timeout) {
+  std::string text;
+  for (unsigned i = 0; i < count; ++i) {
+    text += sensor(9 + i, 0x155 + i, "acknowledge = \"" + kind + "\"\ntimeout = " + timeout + "\n");
+  }
+  return text;
+}
+
+// Decision 2: sampling points after the second rising edge, up to the first that reads 0, which SL
+// reaches `delay` after that edge.
+unsigned quarters(sim::Time delay, sim::Time t_ma) {
+  return static_cast<unsigned>(delay / (t_ma / 4) + 1);
+}
+
+// Frames right after INIT, without a pause: the first one together with it.
+void check_init_and_frames(ProtocolChip& chip, unsigned lines, unsigned count, sim::Time delay,
+                           const std::string& trace) {
+  SCOPED_TRACE(trace);
+  ASSERT_TRUE(chip.run(0x14));  // INIT, then a frame with CDM = 0
+  for (unsigned i = 0; i < lines; ++i) {
+    ASSERT_GE(chip.ma[i].size(), 4U);
+    const sim::Time second = chip.ma[i][3].time;
+    const sim::Time frame = chip.ma[i][4].time;
+    ASSERT_GE(chip.mo[i].size(), 2U);
+    EXPECT_EQ(chip.mo[i][0].time, second) << "falls with rising edge 2";
+    EXPECT_TRUE(chip.mo[i][1].level);
+    EXPECT_GE(chip.mo[i][1].time, second + kSlaveTimeout) << "all slaves have timed out";
+    EXPECT_LT(chip.mo[i][1].time, frame) << "1 again before the next frame";
+    EXPECT_LT(frame - second, 1024 * chip.t_ma) << "SL ends INIT, not the limit";
+    for (unsigned x = 1; x <= count; ++x) {
+      EXPECT_EQ(chip.scdata(4 * i + x, 8 + x), 0x154U + x);
+      EXPECT_EQ(chip.simulator.slave(4 * i + x)->frames(), 1U);
+    }
+  }
+  EXPECT_EQ(chip.status(), 0xFB);
+  chip.simulator.advance(kSlaveTimeout + delay);
+  ASSERT_TRUE(chip.run(0x10));
+  for (unsigned i = 0; i < lines; ++i) {
+    EXPECT_EQ(chip.scdata(4 * i + 1, 8), quarters(delay, chip.t_ma));
+    EXPECT_TRUE(chip.simulator.pin(i == 0 ? sim::Pin::kMo1 : sim::Pin::kMo2));
+    EXPECT_TRUE(chip.simulator.pin(i == 0 ? sim::Pin::kSl1 : sim::Pin::kSl2));
+  }
+  EXPECT_EQ(chip.svalid(), 0U) << "decision 35";
+  EXPECT_EQ(chip.status(), 0xFB);
+}
+
+// Both kinds of slaves acknowledge, at every delay in steps of one clock.
+TEST(ChipMoInit, EveryDelay_AcknowledgeCountAndFramesBehindIt) {
+  for (const char* kind : kKinds) {
+    for (const unsigned count : {1U, 3U}) {
+      for (const unsigned freqs : {0U, 2U}) {
+        for (unsigned step = 0; step <= 2 * mb4test::ma_clocks(freqs) + 3; ++step) {
+          const sim::Time delay = step * ProtocolChip::kClk;
+          std::string text;
+          for (unsigned line = 1; line <= 2; ++line) {
+            text += channel(line, "mo = true\ndelay_ns = " + std::to_string(50 * step) + "\n") +
+                    sensors(count, kind, "40.0");
+          }
+          ProtocolChip chip(text, {.freqs = freqs, .en_mo = true, .freqags = 0x7F});
+          check_init_and_frames(chip, 2, count, delay,
+                                std::string(kind) + " " + std::to_string(count) + " freqs " +
+                                    std::to_string(freqs) + " step " + std::to_string(step));
+        }
+      }
+    }
+  }
+}
+
+// MO later than MA, in steps of one clock up to a period: slaves that pass it on acknowledge when
+// it falls, the others do not wait for it.
+TEST(ChipMoInit, MoLaterThanMa_CountIsThatOfTheSlavesKind) {
+  for (const char* kind : kKinds) {
+    for (unsigned step = 0; step <= 10; ++step) {
+      const unsigned mo_ns = 100 + 50 * step;
+      ProtocolChip chip(
+          channel(1, "mo = true\ndelay_ns = 200\nmo_delay_ns = " + std::to_string(mo_ns) + "\n") +
+              sensors(3, kind, "\"adaptive\""),
+          {.freqs = 4, .en_mo = true, .freqags = 0x7F});
+      ASSERT_TRUE(chip.run(0x10));
+      const unsigned ns = (kind == kKinds[1] ? mo_ns : 100) + 100;
+      EXPECT_EQ(chip.scdata(1, 8), quarters(ns * sim::kPsPerNs, chip.t_ma)) << kind << " " << mo_ns;
+      EXPECT_EQ(chip.status(), 0xFB);
+    }
+  }
+}
+
+// A frame at every phase after INIT's end, in steps of one clock.
+TEST(ChipMoInit, FrameAtEveryPhaseAfterIt) {
+  for (const char* kind : kKinds) {
+    ProtocolChip chip(channel(1, "mo = true\ndelay_ns = 730\n") + sensors(3, kind, "40.0"),
+                      {.freqs = 1, .en_mo = true, .freqags = 0x7F});
+    for (unsigned phase = 0; phase < 40; ++phase) {
+      ASSERT_TRUE(chip.run(0x10)) << kind << " " << phase;
+      chip.simulator.advance(phase * ProtocolChip::kClk);
+      ASSERT_TRUE(chip.frame()) << kind << " " << phase;
+      EXPECT_EQ(chip.svalid(), 0x2AU) << kind << " " << phase;
+      for (unsigned x = 1; x <= 3; ++x) EXPECT_EQ(chip.scdata(x, 8 + x), 0x154U + x);
+      EXPECT_EQ(chip.status(), 0xFB) << kind << " " << phase;
+    }
+  }
+}
+
+// Page 33: BREAK at every clock of INIT. MO is 1 again, and what follows works.
+TEST(ChipMoInit, BreakAtEveryPhase_ReturnsMo) {
+  for (const char* kind : kKinds) {
+    ProtocolChip chip(channel(1) + sensors(3, kind, "\"adaptive\""),
+                      {.freqs = 1, .en_mo = true, .freqags = 0x7F});
+    for (unsigned phase = 0; phase < 60; ++phase) {
+      chip.instruct(0x10);
+      chip.simulator.advance(phase * ProtocolChip::kClk);
+      chip.instruct(0x80);
+      chip.advance_us(45);
+      EXPECT_TRUE(chip.simulator.pin(sim::Pin::kMo1)) << kind << " " << phase;
+      ASSERT_TRUE(chip.frame(0x14)) << kind << " " << phase;
+      EXPECT_EQ(chip.svalid(), 0x2AU) << kind << " " << phase;
+      EXPECT_EQ(chip.status(), 0xFB) << kind << " " << phase;
+    }
+  }
+}
+
+// EN_MO = 0, or a chain that is not wired to MO: the last slave shows the timeout, INIT ends with
+// it.
+TEST(ChipMoInit, MoNotInUse_EndsWithTheSlavesTimeout) {
+  for (const char* kind : kKinds) {
+    for (const bool en_mo : {false, true}) {
+      for (const bool wired : {false, true}) {
+        if (en_mo && wired) continue;
+        for (unsigned step = 0; step < 20; ++step) {
+          const sim::Time delay = step * ProtocolChip::kClk;
+          ProtocolChip chip(channel(1, std::string("mo = ") + (wired ? "true" : "false") +
+                                           "\ndelay_ns = " + std::to_string(50 * step) + "\n") +
+                                sensors(3, kind, "20.0"),
+                            {.freqs = 1, .en_mo = en_mo, .freqags = 0x7F});
+          ASSERT_TRUE(chip.run(0x10));
+          const sim::Time second = chip.ma[0].at(3).time;
+          const sim::Time end = second + 20 * sim::kPsPerUs + delay;
+          EXPECT_GE(chip.simulator.now(), end);
+          EXPECT_LE(chip.simulator.now(), end + 3 * chip.t_ma) << kind << " " << step;
+          EXPECT_EQ(chip.scdata(1, 8), quarters(delay, chip.t_ma)) << kind << " " << step;
+          EXPECT_EQ(chip.mo[0].size(), en_mo ? 2U : 0U);
+          EXPECT_EQ(chip.simulator.pin(sim::Pin::kMo1), en_mo);
+          ASSERT_TRUE(chip.frame());
+          EXPECT_EQ(chip.svalid(), 0x2AU) << kind << " " << step;
+          EXPECT_EQ(chip.status(), 0xFB);
+        }
+      }
+    }
+  }
+}
+
+// Frames with either kind, and with both in one chain, at every delay in steps of one clock.
+TEST(ChipMo, FramesWithBothKindsOfAcknowledge) {
+  for (const unsigned kinds : {0U, 7U, 2U, 5U}) {
+    for (unsigned step = 0; step < 20; ++step) {
+      std::string text = channel(1, "mo = true\ndelay_ns = " + std::to_string(50 * step) + "\n");
+      const auto kind = [&](unsigned i) {
+        return std::string("acknowledge = \"") + kKinds[kinds >> i & 1U] + "\"\n";
+      };
+      text += sensor(9, 0x155, kind(0)) + actuator(8, true, kind(1)) + sensor(12, 0xABC, kind(2));
+      ProtocolChip chip(text, {.freqs = 1, .en_mo = true, .mo_busy = step % 4});
+      for (unsigned frame = 1; frame <= 3; ++frame) {
+        write_both_banks(chip, 2, 0x30 + frame);
+        ASSERT_TRUE(chip.frame()) << kinds << " " << step;
+        EXPECT_EQ(chip.simulator.slave(2)->actuator()->word(), 0x30U + frame);
+        EXPECT_EQ(chip.scdata(1, 9), 0x155U) << kinds << " " << step;
+        EXPECT_EQ(chip.scdata(3, 12), 0xABCU) << kinds << " " << step;
+        EXPECT_EQ(chip.svalid(), 0x22U) << kinds << " " << step;
+        EXPECT_EQ(chip.status(), 0xFB) << kinds << " " << step;
+      }
+    }
+  }
+}
+
 // Control communication works on a bus: slave N has ID 0 (page 27).
 TEST(ChipMo, RegisterAccessOnABus) {
   ProtocolChip chip(channel(1) + sensor(8, 0x5A, "registers = { 0x44 = 0x11 }\n") +
@@ -298,6 +476,34 @@ TEST(ChipMo, RegisterAccessOnABus) {
     EXPECT_EQ(host.status() & 0x7CU, 0x7CU);
     chip.instruct(0x00);
     chip.advance_us(100);
+  }
+}
+
+// Page 16, figure 13, decision 39: INIT of BiSS C with EN_MO = 1 asks for the acknowledge as a
+// frame does: MO falls with rising edge 2 of MA and is 1 again at the end of INIT.
+TEST(ChipMo, Init_MoFallsWithTheSecondRisingEdge) {
+  for (const unsigned freqs : {0U, 4U, 0x13U}) {
+    for (const bool two_lines : {false, true}) {
+      ProtocolChip chip(channel(1, "mo = true\ndelay_ns = 260.0\n") + sensor(8, 0x5A) +
+                            actuator(8) + (two_lines ? channel(2) + actuator(12) : ""),
+                        {.freqs = freqs, .en_mo = true, .mo_busy = 3});
+      const unsigned lines = two_lines ? 2 : 1;
+      for (int round = 0; round < 2; ++round) {
+        ASSERT_TRUE(chip.frame(0x10)) << freqs;
+        EXPECT_EQ(chip.status(), 0xFB) << freqs;
+        EXPECT_EQ(chip.read(0x00), 1 + 260'000 * 4 / chip.t_ma) << freqs;
+        for (unsigned line = 0; line < lines; ++line) {
+          ASSERT_EQ(chip.ma[line].size(), 4U) << freqs;
+          ASSERT_EQ(chip.mo[line].size(), 2U) << freqs;
+          EXPECT_FALSE(chip.mo[line][0].level);
+          EXPECT_EQ(chip.mo[line][0].time, chip.ma[line][3].time) << freqs;
+          EXPECT_TRUE(chip.mo[line][1].level);
+          EXPECT_GT(chip.mo[line][1].time, chip.ma[line][3].time + chip.t_ma / 4) << freqs;
+        }
+        ASSERT_TRUE(chip.frame()) << freqs;
+        EXPECT_EQ(chip.scdata(1, 8), 0x5AU);
+      }
+    }
   }
 }
 

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// A chip whose registers are set up by hand for the slaves of a scenario, whatever they speak
-// (Tables 8 to 19, 35, 36, 39, 40), and a record of what its line pins do.
+// A chip whose registers the test sets directly for the slaves of a scenario, for any protocol
+// (Tables 8 to 19, 35, 36, 39, 40), and a record of its line pins.
 #ifndef MB4_TESTS_CHIP_PROTOCOL_CHIP_HPP_
 #define MB4_TESTS_CHIP_PROTOCOL_CHIP_HPP_
 

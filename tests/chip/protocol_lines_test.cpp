@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Which line does what when both are in use and speak different protocols: pages 16, 23, 25, 27
+// The behaviour of each line when both are in use with different protocols: pages 16, 23, 25, 27
 // (Table 23), 28, 32 (Table 46).
 #include <gtest/gtest.h>
 
@@ -92,23 +92,33 @@ TEST(ProtocolLines, ReducedFrames_ClockOutNoWordOnTheOtherLine) {
   }
 }
 
-// Page 28: a BiSS B access needs a BiSS B line; INSTR clears itself without one.
+// Page 28, decision 37: a BiSS B access needs a selected BiSS B line. Without one it ends at once
+// with an error, and RDATA is what it was; with one of two it runs on that one.
 TEST(ProtocolLines, BissBAccess_LeavesTheOtherProtocolAlone) {
   for (const char* other : {"biss-c", "ssi"}) {
-    ProtocolChip chip(channel(1, "biss-b", "registers = { 0x10 = 0x51 }") + channel(2, other),
-                      {.freqs = 4, .freqr = 1, .biss_c_registers = false});
-    chip.set_access(0, 0x10, 1, false);
-    for (const unsigned chsel : {0U, 1U, 2U, 3U}) {
-      chip.write(0xE4, {static_cast<std::uint8_t>(chsel)});
-      ASSERT_TRUE(chip.frame(kRegister)) << chsel;
-      EXPECT_EQ(chip.read(0xF4), 0x00) << chsel;
-      EXPECT_EQ(chip.ma[0].empty(), chsel == 2) << chsel;
-      EXPECT_TRUE(chip.ma[1].empty()) << chsel;
-      EXPECT_EQ(chip.status(), 0xFF) << chsel;
-      EXPECT_EQ(chip.read(0x80), 0x51);
+    for (const unsigned line : {1U, 2U}) {  // of the BiSS B slave
+      const std::string biss_b_keys = "registers = { 0x10 = 0x51 }";
+      ProtocolChip chip(line == 1 ? channel(1, "biss-b", biss_b_keys) + channel(2, other)
+                                  : channel(1, other) + channel(2, "biss-b", biss_b_keys),
+                        {.freqs = 4, .freqr = 1, .biss_c_registers = false});
+      chip.set_access(0, 0x10, 1, false);
+      for (const unsigned chsel : {0U, 1U, 2U, 3U}) {
+        const bool fits = ((chsel == 0 ? 1U : chsel) & line) != 0;
+        const std::string what = std::string(other) + ", BiSS B on " + std::to_string(line) +
+                                 ", CHSEL " + std::to_string(chsel);
+        chip.write(0xE4, {static_cast<std::uint8_t>(chsel)});
+        const auto stale = static_cast<std::uint8_t>(0xE0 + chsel);
+        chip.write_rdata({stale});
+        ASSERT_TRUE(fits ? chip.frame(kRegister) : chip.run(kRegister, 5)) << what;
+        EXPECT_EQ(chip.read(0xF4), 0x00) << what;
+        EXPECT_EQ(chip.ma[line - 1].empty(), !fits) << what;
+        EXPECT_TRUE(chip.ma[2 - line].empty()) << what;
+        EXPECT_EQ(chip.status(), fits ? 0xFF : 0x77) << what;
+        EXPECT_EQ(chip.read(0x80), fits ? 0x51 : stale) << what;
+      }
+      ASSERT_TRUE(chip.frame());
+      EXPECT_EQ(chip.svalid(), 0x202U);
     }
-    ASSERT_TRUE(chip.frame());
-    EXPECT_EQ(chip.svalid(), 0x202U);
   }
 }
 

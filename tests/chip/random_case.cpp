@@ -210,7 +210,7 @@ RandomCase make_case(Random& random, bool all_protocols) {
   result.freqs = random.one_in(3)    ? 0
                  : random.one_in(12) ? 0x11 + random.below(2)
                                      : random.below(6);
-  result.f_clk_hz = random.one_in(2) ? 20'000'000 : random.one_in(2) ? 25'000'000 : 12'500'000;
+  result.f_clk_hz = random.one_in(2) ? 20'000'000 : random.one_in(2) ? 25'000'000 : 10'000'000;
   // With SLAVELOC5 = 1 sometimes one of the two lines is not used although slaves hang on it.
   const unsigned unused = registers.slaveloc5 && random.one_in(4) ? 1 + random.below(2) : 0;
   result.used = {unused != 1, registers.slaveloc5 && unused != 2};
@@ -238,6 +238,8 @@ RandomCase make_case(Random& random, bool all_protocols) {
   }
   result.scenario.text = "[sim]\nseed = " + std::to_string(random.below(1000)) + "\n" + text;
   result.hold_cdm = random.one_in(4);
+  result.omits = random.one_in(2);
+  if (result.omits) result.scenario.text += "[chip.quirks]\nAGSERR_ON_HOLDBANK = true\n";
   return result;
 }
 

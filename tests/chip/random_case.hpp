@@ -42,11 +42,12 @@ struct RandomCase {
   mb4ref::Registers registers;
   std::array<bool, 2> used{};                // CFGCH: the line takes part
   std::array<std::vector<Sensor>, 2> lines;  // in chain order, next to SL first
-  // Bits behind the start bit; of SSI, from the first data bit on.
+  // Bits after the start bit; for SSI, from the first data bit on.
   std::array<std::array<std::vector<unsigned>, kFrames>, 2> flips;
   std::uint8_t cfgch = 0;
   std::uint8_t chsel = 0;  // lines that CDM is sent on, 0 = line 1
   bool hold_cdm = false;   // HOLDCDM
+  bool omits = false;      // AGSERR_ON_HOLDBANK: no frame while a switch is held back
   // A line with actuators is so long that CDS comes behind the frame: a CDM that depends on it
   // would cost an actuator's word (docs/choices.md).
   bool late_cds = false;

@@ -239,11 +239,17 @@ void RandomRun::automatic(RandomCounts::Action action) {
   take_frames(frames_seen());
 }
 
-// HOLDBANK and a frame, perhaps another one that must not run, then the switch that was held back.
+// HOLDBANK and a frame, perhaps another one that must not run or writes over the first, then the
+// switch that was held back.
 void RandomRun::held_frame() {
   instr_frame(kHoldBank);
   check();
-  if (random_.one_in(2) && !case_.registers.singlebank) {
+  if (!case_.omits) {
+    for (unsigned more = random_.below(3); more > 0; --more) {
+      instr_frame(kHoldBank);
+      check();
+    }
+  } else if (random_.one_in(2) && !case_.registers.singlebank) {
     const auto before = frames_seen();
     session_.instruct(swbank_ | kHoldBank | 0x04);
     wait_idle();
@@ -256,8 +262,8 @@ void RandomRun::held_frame() {
   reference_.hold(false);
 }
 
-// HOLDBANK while frames come by themselves: one more frame whose switch waits, the next is left
-// out.
+// HOLDBANK while frames come by themselves, with AGSERR_ON_HOLDBANK: one more frame whose switch
+// waits, the next is left out.
 void RandomRun::held_automatic() {
   const unsigned code = random_.one_in(2) ? kAgsMinCode : rate_code();
   set_freqags(code);
@@ -335,7 +341,11 @@ void RandomRun::run(RandomCounts& counts) {
         held_frame();
         break;
       case RandomCounts::kAgsHold:
-        held_automatic();
+        if (case_.omits) {
+          held_automatic();
+        } else {
+          held_frame();
+        }
         break;
       case RandomCounts::kSwBank:
         toggle_swbank();

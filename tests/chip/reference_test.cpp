@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The reference itself, on examples worked by hand (protocol facts, sections 6 to 8).
+// Tests the reference itself with examples calculated by hand (protocol facts, sections 6 to 8).
 #include "reference.hpp"
 
 #include <gtest/gtest.h>

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
+#include <functional>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -22,6 +23,7 @@ namespace mb4test {
 // A scenario whose slaves send listed words, one a frame: `words` by SCDATAx (1..8).
 struct WordScenario {
   std::string text;  // each slave with the line that word_file() gives
+  bool any_host = true;  // MB4_HOST chooses the host; false: `text` names it
   std::vector<std::pair<unsigned, std::vector<std::uint64_t>>> words;
 
   static std::string word_file(unsigned slave) {
@@ -54,6 +56,17 @@ class Session {
   void pin(mb4::sim::Pin pin, const char* name, bool level) {
     simulator_.set_pin(pin, level);
     script_ << "pin " << name << " " << level << "\n";
+  }
+  // Waits; `see` is called after every event and every change of an output.
+  void watch_ns(std::uint64_t ns, const std::function<void()>& see) {
+    const mb4::sim::Time end = simulator_.now() + ns * mb4::sim::kPsPerNs;
+    simulator_.run_while_waiting(
+        [&] {
+          see();
+          return false;
+        },
+        end);
+    script_ << "+" << ns << "\n";
   }
   void comment(const std::string& text) { script_ << "# " << text << "\n"; }
 
@@ -103,7 +116,7 @@ class Session {
       for (const std::uint64_t word : words) file << "0x" << std::hex << word << "\n";
     }
     const auto path = folder / "scenario.toml";
-    std::ofstream(path) << with_test_host(scenario.text);
+    std::ofstream(path) << (scenario.any_host ? with_test_host(scenario.text) : scenario.text);
     return mb4::sim::load_scenario(path.string());
   }
   static std::string hex(const std::vector<std::uint8_t>& bytes) {

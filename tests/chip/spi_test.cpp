@@ -82,15 +82,17 @@ TEST(ChipSpi, WriteInstruction_StartsAt0xF4) {
   EXPECT_EQ(chip.simulator.slave(1)->frames(), 2U);
 }
 
-// SCLK, CLK and a starting phase: 50 MHz SCLK is I203, I204 (10 ns each); CLK 12.5..25 MHz is D01,
-// D05. All opcodes at once.
-class SpiAtRatio : public testing::TestWithParam<std::tuple<unsigned, unsigned, unsigned>> {};
+// SCLK, system clock and a starting phase: 50 MHz SCLK is I203, I204 (10 ns each); 10..25 MHz is
+// D01, D05, from the pin or from the oscillator. All opcodes at once.
+class SpiAtRatio : public testing::TestWithParam<std::tuple<unsigned, unsigned, bool>> {};
 
 TEST_P(SpiAtRatio, AllOpcodes_WorkAtEveryPhase) {
-  const auto [sclk_khz, clk_khz, phases] = GetParam();
+  const auto [sclk_khz, clk_khz, oscillator] = GetParam();
+  const std::string hz = std::to_string(clk_khz * 1000);
   Chip chip(one_slave("data_bits = 28\ncrc = 0x43\ndata = 0xAAF37BF", "delay_ns = 20.0",
-                      "f_clk_hz = " + std::to_string(clk_khz * 1000)));
+                      oscillator ? "f_clk_hz = 0\nf_osc_hz = " + hz : "f_clk_hz = " + hz));
   chip.simulator.spi().set_timing(sim::SpiTiming::for_frequency(sclk_khz * 1000ULL));
+  if (oscillator) chip.write(0xF5, {0x01});
   // A slow host needs a slow frame to see it run.
   chip.configure_slave1(28, 0x06, sclk_khz >= 33'333 ? 0x00 : 0x1F, 0x7C);
   std::uint64_t random = 1;
@@ -98,7 +100,7 @@ TEST_P(SpiAtRatio, AllOpcodes_WorkAtEveryPhase) {
     random = random * 6364136223846793005ULL + 1442695040888963407ULL;
     chip.simulator.advance((random >> 33) % 200'000);
   };
-  for (unsigned i = 0; i < phases; ++i) {
+  for (unsigned i = 0; i < 25; ++i) {
     const auto b = [&](unsigned k) { return static_cast<std::uint8_t>(i * 29 + k * 17 + 3); };
     phase();
     chip.write(0xC4, {b(0), b(1), b(2), b(3)});  // 0x02
@@ -136,17 +138,35 @@ TEST_P(SpiAtRatio, AllOpcodes_WorkAtEveryPhase) {
     chip.advance_us(1);
     ASSERT_EQ(chip.read(0xF1), 0x00);
   }
+  // Two writes of 0xF4 as close as SPI can be: none is taken for the end of the other.
+  for (unsigned i = 0; i < 25; ++i) {
+    const std::uint64_t before = chip.simulator.slave(1)->frames();
+    chip.advance_us(100);  // the slave's timeout: BREAK ends no frame
+    phase();
+    chip.instruct(0x80);
+    chip.instruct(0x04);
+    ASSERT_TRUE(chip.wait_eot()) << i;
+    ASSERT_EQ(chip.simulator.slave(1)->frames(), before + 1) << i;
+  }
 }
 
 std::string ratio_name(const testing::TestParamInfo<SpiAtRatio::ParamType>& info) {
   return "Sclk" + std::to_string(std::get<0>(info.param)) + "kHz_Clk" +
-         std::to_string(std::get<1>(info.param)) + "kHz";
+         std::to_string(std::get<1>(info.param)) + "kHz" +
+         (std::get<2>(info.param) ? "_Oscillator" : "");
 }
 
 INSTANTIATE_TEST_SUITE_P(Ratios, SpiAtRatio,
                          testing::Combine(testing::Values(50'000U, 33'333U, 10'000U, 1'000U),
-                                          testing::Values(20'000U, 25'000U, 12'500U, 16'777U),
-                                          testing::Values(25U)),
+                                          testing::Values(20'000U, 25'000U, 10'000U, 12'500U,
+                                                          16'777U),
+                                          testing::Values(false)),
+                         ratio_name);
+
+INSTANTIATE_TEST_SUITE_P(RatiosOscillator, SpiAtRatio,
+                         testing::Combine(testing::Values(50'000U, 10'000U),
+                                          testing::Values(10'000U, 25'000U),
+                                          testing::Values(true)),
                          ratio_name);
 
 // Two chips in one process do not know of each other.

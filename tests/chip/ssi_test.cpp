@@ -134,7 +134,7 @@ TEST(ChipSsi, GraysOff_LeavesTheCode) {
   EXPECT_EQ(chip.scdata(1, 13), 0x1234U ^ (0x1234U >> 1U));
 }
 
-// A CRC behind the word, right and wrong.
+// A CRC after the word, right and wrong.
 TEST(ChipSsi, WithCrc_IsChecked) {
   ProtocolChip chip(encoder(24, "crc = 0x43\ndata = 0xC0FFEE"), {.freqs = 9});
   ASSERT_TRUE(chip.frame());
@@ -177,7 +177,7 @@ TEST(ChipSsi, Ring_SecondChannelReadsTheSameWord) {
   EXPECT_EQ(chip.svalid(), 0x0AU);
 }
 
-// Page 16: CDM goes out as the inverted level of MA behind the frame.
+// Page 16: CDM goes out as the inverted level of MA after the frame.
 TEST(ChipSsi, ExtendedSsi_SendsCdmBehindTheFrame) {
   ProtocolChip chip(encoder(13, "control = true\ndata = 0x1234"), {.freqs = 9});
   unsigned count = 0;
@@ -212,9 +212,15 @@ TEST(ChipSsi, ExtendedSsi_WritesRegistersBlind) {
 TEST(ChipSsi, ExtendedSsi_CannotRead) {
   ProtocolChip chip(encoder(13, "control = true\ntimeout = 5"), {.freqs = 9});
   ControlHost host(chip);
-  host.set_read(0, 0x30, 1);
+  chip.simulator.slave(1)->reg_write(0x30, 0x5A);
+  chip.simulator.slave(1)->reg_write(0x31, 0xA5);
+  const std::vector<std::uint8_t> before{0xE1, 0xE2, 0xE3};
+  chip.write_rdata(before);
+  host.set_read(0, 0x30, 2);
   EXPECT_TRUE(host.run_ags(1'000'000));
   EXPECT_EQ(host.status() & 0x0CU, 0x04U);  // REGEND, nREGERR = 0
+  EXPECT_EQ(host.regbytes(), 0U);
+  EXPECT_EQ(host.rdata(3), before) << "page 28: stored after success only";
 }
 
 // Page 30: a line that is low is not ready.

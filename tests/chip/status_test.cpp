@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Status flags 0xF0..0xF3, 0xF8..0xFB and the pins EOT and NER: what sets each of them and what
-// clears it (pages 34..36, Tables 54, 55, 59..62, 64..67; decisions 8, 9, 20). The flags of control
-// communication have tests of their own.
+// Status flags 0xF0..0xF3, 0xF8..0xFB and the pins EOT and NER: the events that set and clear
+// each of them (pages 34..36, Tables 54, 55, 59..62, 64..67; decisions 8, 9, 20). The flags of
+// control communication have tests of their own.
 #include <gtest/gtest.h>
 
 #include "chip_fixture.hpp"

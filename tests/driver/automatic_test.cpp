@@ -192,7 +192,7 @@ TEST_F(Poll, ValidFlagGoneAfterReading_IsNotBelieved) {
   EXPECT_EQ(frame[1].error(), Error::kNoData);
 }
 
-// HOLDBANK must not stay: it is released after every failure, too.
+// HOLDBANK must not stay 1: the driver releases it after every failure too.
 TEST(PollFailure, TransportAtEachTransfer_ReleasesTheBank) {
   for (std::size_t index = 0; index < 6; ++index) {
     StrictBus bus;

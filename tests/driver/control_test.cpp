@@ -328,7 +328,7 @@ TEST_F(Steps, Abort_BreaksAndFreesTheChip) {
   bus.expect_write(kBreak);
   EXPECT_TRUE(device.control().abort().ok());
   EXPECT_EQ(device.control().poll().error(), Error::kWrongMode);
-  // What was cut off may still run: BREAK and the slaves' timeout come first.
+  // The aborted access may still run: BREAK and the slaves' timeout come first.
   bus.expect_write({0x02, 0xE2, 0x11, 0x00, 0x01, 0xC0});
   bus.expect_write(kBreak);
   bus.expect_write(kClearValid1);

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 
-// The encoder of most driver tests and the bytes that the datasheet asks for it, worked out by hand
-// from its tables: 26 bits of position, nE, nW, CRC6 0x43 with start value 0, BiSS C on channel 1,
+// The encoder of most driver tests and its configuration bytes, worked out by hand from the tables
+// of the datasheet: 26 bits of position, nE, nW, CRC6 0x43 with start value 0, BiSS C on channel 1,
 // 20 MHz at pin CLK, MA 2 MHz.
 
 #ifndef MB4_TESTS_DRIVER_ENCODER26_HPP_
@@ -75,7 +75,7 @@ inline void expect_configure(StrictBus& bus, std::uint8_t address, std::uint8_t 
 }
 inline void expect_configure(StrictBus& bus) { expect_configure(bus, 0xC0, configuration()[0]); }
 
-// Status bytes 0xF0..0xF4 behind the MISO byte of the opcode, as opcode 0x05 delivers them.
+// Status bytes 0xF0..0xF4 after the MISO byte of the opcode, as opcode 0x05 delivers them.
 inline Bytes status(std::uint8_t f0, std::uint8_t f1, std::uint8_t f4 = 0x00) {
   return {0x00, f0, f1, 0x00, 0x00, f4};
 }

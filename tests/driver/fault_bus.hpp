@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 
-// The Verilated chip behind an SPI bus that goes wrong where a test wants it.
+// The Verilated chip on an SPI bus that fails where a test orders it.
 
 #ifndef MB4_TESTS_DRIVER_FAULT_BUS_HPP_
 #define MB4_TESTS_DRIVER_FAULT_BUS_HPP_
@@ -98,7 +98,7 @@ class FaultBus {
 
 inline constexpr std::size_t kForEver = std::numeric_limits<std::size_t>::max();
 
-// A chip whose bus can fail, behind the host that MB4_HOST names.
+// A chip whose bus can fail, on the host interface that MB4_HOST names.
 struct FaultyChip {
   explicit FaultyChip(const std::string& scenario)
       : simulator(mb4test::with_test_host(mb4::sim::parse_scenario(scenario, "test.toml"))),

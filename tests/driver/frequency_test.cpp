@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 
-// FREQAGS, table 37 on page 30; what a Config makes of it.
+// FREQAGS, table 37 on page 30, and its encoding from a Config.
 
 #include "mb4/frequency.hpp"
 

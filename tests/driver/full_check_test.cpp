@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 
-// SpiCheck::kFull, transfer by transfer: what is looked at a second time, and what a difference
-// becomes.
+// SpiCheck::kFull, transfer by transfer: the second readings, and the error that a difference
+// causes.
 
 #include <gtest/gtest.h>
 
@@ -100,7 +100,7 @@ TEST_F(FullCheck, InstructionNotDone_IsCorrupted) {
   EXPECT_TRUE(device.read_frame().ok());
 }
 
-// Behind the data: SVALID has gone, or a frame runs that nobody has asked for.
+// In the status after the data: SVALID is 0, or a frame runs that the driver has not requested.
 TEST_F(FullCheck, StatusBehindTheData_HasToBeTheSame) {
   for (const Bytes& after : {kIdleStatus, status(0xFA, 0x02)}) {
     bus.expect_write(kStartFrame);

@@ -133,7 +133,7 @@ TEST(Opcodes, FailedWrite_IsTransport) {
   EXPECT_EQ(opcodes.write_registers(0x80, data).error(), Error::kTransport);
 }
 
-// A plain function and a context are a bus, too.
+// A plain function and a context make a bus too.
 struct CContext {
   Bytes seen;
   bool rx_was_null = false;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Sign, Gray code, turns, and counting on over the roll-over.
+// Sign, Gray code, turns, and the total position across the roll-over.
 
 #include "mb4/position.hpp"
 

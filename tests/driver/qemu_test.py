@@ -2,58 +2,36 @@
 # SPDX-FileCopyrightText: 2026 The openmb4 authors
 # SPDX-License-Identifier: Apache-2.0
 """Machine code of a Cortex-M against the RTL: examples/firmware in qemu-system-arm, its UART joined to
-`mb4sim bridge`.
+`mb4sim bridge`, by the commands of docs/bridge.md.
 
   qemu_test.py MACHINE CPU MB4SIM ROOT     MACHINE: of QEMU; CPU: of the compiler
 
-The encoder is a ramp, so that old or torn positions show. Exit status 77: a tool is missing.
+Exit status 77: a tool is missing.
 """
 
 import shutil
-import subprocess
 import sys
-import tempfile
 from pathlib import Path
 
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "docs"))
+
+import pages  # noqa: E402
+
 SKIPPED = 77
-FLAGS = ("-std=c++17 -ffreestanding -fno-exceptions -fno-rtti -fno-threadsafe-statics -Os -mthumb "
-         "-ffunction-sections -fdata-sections -Wall -Wextra -Wpedantic -Wconversion -Wshadow "
-         "-Werror -nostartfiles --specs=nano.specs -Wl,--gc-sections").split()
-SCENARIO = """\
-[[channel]]
-number = 1
-cable_m = 10.0
-[[channel.slave]]
-protocol = "biss-c"
-data_bits = 28
-source = "ramp"
-start = 0x100000
-step = 1
-control = true
-registers = { 0x44 = [0x00, 0xD9, 0x01, 0x32] }
-"""
+WARNINGS = "-Wall -Wextra -Wpedantic -Wconversion -Wshadow -Werror"
 
 
-def run_firmware(machine, image, mb4sim, scenario):
-    """(exit status of QEMU, of mb4sim, what the firmware has printed)"""
-    path = str(Path(scenario).with_name("bridge"))
-    simulator = subprocess.Popen([mb4sim, "bridge", scenario, "--unix", path, "--once"],
-                                 stdout=subprocess.PIPE, text=True)
-    emulator = None
-    try:
-        if simulator.stdout.readline() != f"listening on unix:{path}\n":
-            return None, simulator.wait(timeout=10), "mb4sim does not listen"
-        emulator = subprocess.Popen(
-            ["qemu-system-arm", "-M", machine, "-display", "none", "-monitor", "none",
-             "-chardev", f"socket,id=chip,path={path}", "-serial", "chardev:chip",
-             "-semihosting", "-kernel", image],
-            stdin=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
-        printed = emulator.communicate(timeout=100)[1]
-        return emulator.returncode, simulator.wait(timeout=10), printed
-    finally:
-        if emulator is not None:
-            emulator.kill()
-        simulator.kill()
+def commands_of(manual, machine, cpu):
+    """The page's commands, for another machine and compiler, with warnings."""
+    found = [block.text for block in pages.blocks(manual.read_text(encoding="utf-8"))
+             if block.language == "sh" and "qemu-system-arm" in block.text]
+    if len(found) != 1:
+        raise SystemExit(f"{manual}: {len(found)} blocks of commands for QEMU")
+    for old, new in (("mps2-an385", machine), ("-mcpu=cortex-m3", f"-mcpu={cpu} {WARNINGS}")):
+        if found[0].count(old) != 1:
+            raise SystemExit(f"{manual}: '{old}' occurs {found[0].count(old)} times")
+        found[0] = found[0].replace(old, new)
+    return found[0]
 
 
 def findings(printed):
@@ -86,23 +64,13 @@ def main():
     if not list(findings("single 0100000\nsingle 0100000\n")):
         print("the check does not notice old positions")
         return 1
-    folder = Path(root) / "examples" / "firmware"
-    with tempfile.TemporaryDirectory() as work:
-        scenario = Path(work) / "ramp.toml"
-        scenario.write_text(SCENARIO)
-        image = Path(work) / "firmware.elf"
-        built = subprocess.run(
-            ["arm-none-eabi-g++", f"-mcpu={cpu}", *FLAGS, f"-I{root}/drivers/include",
-             f"-I{root}/regmap/generated", "-T", folder / "mps2.ld", folder / "startup.cpp",
-             folder / "main.cpp", "-o", image], capture_output=True, text=True)
-        if built.returncode != 0:
-            print(built.stderr)
-            return 1
-        status, simulator, printed = run_firmware(machine, image, mb4sim, scenario)
+    with pages.workspace(root, mb4sim) as folder:
+        status, printed = pages.shell(
+            commands_of(folder / "docs" / "bridge.md", machine, cpu), folder)
     print(printed)
     found = list(findings(printed))
-    if status != 0 or simulator != 0:
-        found.append(f"QEMU ended with {status}, mb4sim with {simulator}")
+    if status != 0:
+        found.append(f"the commands ended with {status}")
     for line in found:
         print(line)
     return 1 if found else 0

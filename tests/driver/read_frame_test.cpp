@@ -37,7 +37,7 @@ using mb4_test::status;
 using mb4_test::StrictBus;
 using mb4_test::zeros;
 
-// Status with 0xF0..0xF8, as asked for after a timeout; bit 0 of 0xF8 is SL1 (table 67).
+// Status with 0xF0..0xF8, as the driver reads it after a timeout; bit 0 of 0xF8 is SL1 (table 67).
 const Bytes kReadLine = join({{0x05}, zeros(9)});
 Bytes line_level(unsigned sl1) {
   return {0x00, 0xFB, 0x00, 0x00, 0x00,

@@ -154,7 +154,8 @@ TEST_P(DriverAutomatic, PollAtEveryPhase_NeverTornNeverOld) {
       last = number;
       ++fresh;
     }
-    EXPECT_GT(fresh, 30U) << period;
+    // Frames run on while the bank is held (decision 15): at 1 MHz few polls see 200 frames pass.
+    EXPECT_GT(fresh, ratio.sclk_hz > 1'000'000 ? 30U : 4U) << period;
   }
 }
 

@@ -129,7 +129,7 @@ TEST_P(DriverBissB, NobodyHasThisId_IsAnError) {
   EXPECT_TRUE(chip.device.read_frame().ok());
 }
 
-// With a line that is stuck high nobody takes part in the hand-over, and nobody answers; BREAK and
+// With a line that is stuck high no slave takes part in the hand-over or answers; BREAK and
 // the next access work again.
 TEST_P(DriverBissB, LineStuck_IsAnErrorAndComesBack) {
   FaultyChip chip(biss_b_bus(GetParam(), "registers = { 0x30 = 7 }"));

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Errors of the public calls on the Verilated chip that a disturbed bus or an awkward moment
-// causes.
+// Errors of the public calls on the Verilated chip that a disturbed bus causes, or a call at an
+// unusual moment.
 
 #include <gtest/gtest.h>
 
@@ -51,7 +51,7 @@ TEST(DriverCallErrors, MissedFrames_AreNoData) {
   EXPECT_EQ(frame[1].error(), Error::kNoData);
 }
 
-// Bit 12 of the transfer is in the first byte of data. It is the transfer behind the last status.
+// Bit 12 of the transfer is in the first byte of data. It is the transfer after the last status.
 TEST(DriverCallErrors, FlippedDataBit_IsCorrupted) {
   FaultyChip chip(kEncoder);
   prepare(chip, State::kConfigured);

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 
-// The chip in the states in which calls are tried out.
+// The chip in the states in which the tests make their calls.
 
 #ifndef MB4_TESTS_DRIVER_RTL_CALLS_HPP_
 #define MB4_TESTS_DRIVER_RTL_CALLS_HPP_

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 
-// The driver's control communication when nobody answers: no slave at all, one that falls silent,
+// The driver's control communication without an answer: no slave at all, one that stops answering,
 // one that is unplugged meanwhile. A typed error within the time that the driver promises.
 
 #include <gtest/gtest.h>

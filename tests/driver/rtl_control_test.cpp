@@ -139,7 +139,7 @@ TEST_P(DriverControl, Commands_ReachWhomTheyAddress) {
   EXPECT_EQ(counters(2).commands, 1U);
   EXPECT_EQ(counters(1).commands, 0U);
   EXPECT_EQ(chip.simulator.slave(2)->control()->last_command().code, 3);
-  command.ids = 0x08;  // ID 3: nobody
+  command.ids = 0x08;  // ID 3: no slave
   EXPECT_EQ(chip.device.control().send(command).error(), Error::kCommand);
   command.ids = 0;  // all slaves of both channels
   command.channels = 3;
@@ -228,7 +228,7 @@ TEST(DriverControlUnknown, EightSlaves_ScanFindsAll) {
   for (std::uint8_t id = 0; id < 8; ++id) EXPECT_EQ(found[id].device_id[5], 7 - id);
 }
 
-// Position data goes on while registers are written, and no access is started twice.
+// Position data continues while registers are written, and no access starts twice.
 TEST(DriverControlBeside, AutomaticFrames_ArePolledWholeAndInOrder) {
   constexpr std::uint64_t kStep = 0x010101;
   constexpr std::uint64_t kInverse = 0xFFFF01;

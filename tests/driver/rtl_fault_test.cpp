@@ -103,7 +103,8 @@ class Drive {
     EXPECT_LT(word, frames());
     if (automatic()) {
       EXPECT_TRUE(!last_ || word > *last_) << "old: " << word << " after " << *last_;
-      EXPECT_LE(frames() - word, 4U) << "old: " << word << " of " << frames();
+      // Frames run on while the bank is held (decision 15), up to the end of a call with faults.
+      EXPECT_LE(frames() - word, 8U) << "old: " << word << " of " << frames();
     } else {
       EXPECT_GE(word, before) << "older than the request";
     }

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Every BiSS C preset behind the chip: its position, and its registers as the driver reads them.
+// Every BiSS C preset connected to the chip: the driver reads its position and its registers.
 
 #include <gtest/gtest.h>
 

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 
-// A bus that knows what has to come: every transfer is compared byte by byte, in order, with a list
-// that reads like the log of a logic analyser. And a clock under the test's control.
+// A bus with a list of expected transfers: it compares every transfer byte by byte, in order, with
+// this list, which reads like the log of a logic analyser. And a clock under the test's control.
 
 #ifndef MB4_TESTS_DRIVER_STRICT_BUS_HPP_
 #define MB4_TESTS_DRIVER_STRICT_BUS_HPP_

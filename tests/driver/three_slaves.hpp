@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Three slaves on two channels and the bytes that the datasheet asks for them, worked out by hand:
-// the encoder of encoder26.hpp and one with 14 bits and CRC5 on channel 1, one with 24 bits and
-// CRC16 with start value 0x1234 on channel 2 (much like the example of page 26).
+// Three slaves on two channels and their configuration bytes, worked out by hand from the
+// datasheet: the encoder of encoder26.hpp and one with 14 bits and CRC5 on channel 1, one with 24
+// bits and CRC16 with start value 0x1234 on channel 2 (much like the example of page 26).
 
 #ifndef MB4_TESTS_DRIVER_THREE_SLAVES_HPP_
 #define MB4_TESTS_DRIVER_THREE_SLAVES_HPP_

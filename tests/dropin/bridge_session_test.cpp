@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The bridge's protocol without sockets: requests cut at every place, and what it does to a chip
-// whose model has stopped.
+// The bridge's protocol without sockets: requests cut at every place, and answers of a chip whose
+// model has stopped.
 #include "bridge_session.hpp"
 
 #include <gtest/gtest.h>

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Control frames from worked examples (headers and CRCs of the protocol's documents), with mistakes
-// planted in them.
+// Control frames from worked examples (headers and CRCs of the protocol's documents), some with
+// mistakes added.
 #include "control_decode.hpp"
 
 #include <gtest/gtest.h>

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Frames read from the edges at the pins against what the encoders were told to send and what the
-// chip has stored, for every protocol, with random lengths, CRCs and delays.
+// Compares frames decoded from the edges at the pins with the words set in the encoders and what
+// the chip has stored, for every protocol, with random lengths, CRCs and delays.
 #include "frame_decode.hpp"
 
 #include <gtest/gtest.h>

@@ -63,6 +63,33 @@ class Picture:
                 if all(kind == "digit" and text in "01" for _, kind, text in row)]
 
 
+    def marks(self, kind):
+        """Places of the paths of a class: M x y."""
+        found = []
+        for path in self.root.iter(SVG + "path"):
+            place = re.match(r"M([\d.]+) ([\d.]+)", path.get("d"))
+            if path.get("class") == kind:
+                found.append((float(place.group(1)), float(place.group(2)), path.get("d")))
+        return found
+
+    def ticks(self):
+        """(x, value) of the axis, from left to right; pictures of one line only."""
+        row = list(self.rows().values())[-1]
+        return [(x, float(text)) for x, kind, text in row if kind == "digit"]
+
+
+CELL = 28  # pixels of a period of MA
+
+
+def crc6(data, bits):
+    """0x43, bit by bit."""
+    register = 0
+    for index in reversed(range(bits)):
+        feedback = (data >> index & 1) ^ (register >> 5)
+        register = (register << 1 ^ (0x43 if feedback else 0)) & 0x3F
+    return register
+
+
 def width(kind, text):
     """Of the widest usual font, DejaVu Sans: 0.6 of its size a character, measured generously."""
     size = {"title": 15, "note": 12, "name": 12, "digit": 9, "unit": 9, "tight": 9}.get(kind, 10)
@@ -108,7 +135,7 @@ class Plot(unittest.TestCase):
     def test_ssi_in_gray_code(self):
         # 0x1357 is 0x1AFC in Gray code; monoflop 20 us.
         picture = self.picture(str(PICTURES / "ssi.toml"))
-        self.assertEqual(picture.labels(), ["Gray code 0x1AFC = 0x1357 (13 bits)", "monoflop 20 us"])
+        self.assertEqual(picture.labels(), ["monoflop 20 us", "Gray code 0x1AFC = 0x1357 (13 bits)"])
         self.assertEqual(picture.bits(), [f"{0x1AFC:013b}"])
 
     def test_biss_b_has_no_cds_and_no_cdm(self):
@@ -120,8 +147,52 @@ class Plot(unittest.TestCase):
 
     def test_a_disturbed_frame_is_bad(self):
         picture = self.picture(str(PICTURES / "bad-crc.toml"), status=1)
-        self.assertIn("wrong", " ".join(picture.labels()))
+        data = 0xAB5A3 ^ 1 << 20 - 1 - 7  # resolute-18: 20 bits, the eighth is inverted
+        both = f"CRC 0x{crc6(0xAB5A3, 20):02X} wrong, 0x{crc6(data, 20):02X} right"
+        self.assertIn(both, picture.labels())
+        self.assertIn(both, " ".join(text for _, _, kind, text in picture.texts if kind == "note"))
         self.assertIn("#f6b9b4", [r.get("fill") for r in picture.root.iter(SVG + "rect")])
+
+    def test_a_wrong_crc_shows_both_values_in_narrow_fields_too(self):
+        for bits, polynomial in ((1, 0x3), (3, 0xB), (4, 0x13), (5, 0x25)):
+            with self.subTest(bits=bits), tempfile.TemporaryDirectory() as folder:
+                path = Path(folder, "x.toml")
+                path.write_text("[[channel]]\nnumber = 1\nflips = [[1, 2]]\n[[channel.slave]]\n"
+                                f"protocol = \"biss-c\"\ndata_bits = 8\ncrc = {polynomial}\n"
+                                "data = 0x5A\n", encoding="ascii")
+                picture = self.picture(str(path), status=1)
+                notes = " ".join(text for _, _, kind, text in picture.texts if kind == "note")
+                got, right = re.search(r"CRC 0x(\w+) wrong, 0x(\w+) right", notes).groups()
+                self.assertNotEqual(got, right)
+                if bits >= 3:
+                    self.assertTrue([label for label in picture.labels()
+                                     if f"0x{got}" in label and f"0x{right}" in label])
+                self.readable(picture)
+
+    def test_the_monoflop_begins_with_the_last_falling_edge(self):
+        picture = self.picture(str(PICTURES / "ssi.toml"))
+        ma = picture.marks("wave")[0]
+        low = max(float(y) for y in re.findall(r"V([\d.]+)", ma[2]))
+        last = [float(x) for x, y in re.findall(r"H([\d.]+)V([\d.]+)", ma[2]) if float(y) == low][-1]
+        box = next(r for r in picture.root.iter(SVG + "rect") if r.get("stroke-dasharray"))
+        self.assertAlmostEqual(float(box.get("x")), last, delta=0.2)
+
+    def test_a_rest_is_true_to_scale_up_to_its_cut_and_behind_it(self):
+        for name, period in (("ssi", 1.0), ("biss-b", 0.4)):
+            picture = self.picture(str(PICTURES / f"{name}.toml"))
+            cut = picture.marks("cutline")[0][0] + 2.5  # the middle of what is left white
+            ticks = picture.ticks()
+            before = [tick for tick in ticks if tick[0] < cut]
+            for x, t in before:
+                self.assertAlmostEqual(x - before[0][0], t / period * CELL, delta=0.2)
+            # Three periods before the cut the last bit begins or MA has its last edge, three behind
+            # it is the end.
+            edges = [float(x) for x in re.findall(r"H([\d.]+)V", picture.marks("wave")[0][2])]
+            self.assertAlmostEqual(cut - edges[-1], 3 * CELL, delta=CELL)
+            notes = " ".join(text for _, _, kind, text in picture.texts if kind == "note")
+            end = float(re.search(r"MA, ([\d.]+) us", notes).group(1))
+            self.assertEqual([t for x, t in ticks if x > cut], [end])
+            self.assertAlmostEqual(ticks[-1][0] - cut, 3 * CELL, delta=0.2)
 
     def test_the_manual_shows_what_the_command_draws(self):
         names = set()
@@ -131,30 +202,51 @@ class Plot(unittest.TestCase):
                 drawn = plot(*arguments)
                 self.assertEqual(drawn.stdout, (PICTURES / name).read_text(encoding="utf-8"))
                 self.assertEqual(drawn.returncode, 1 if "bad" in name else 0, drawn.stderr)
-        self.assertEqual(names, {path.name for path in PICTURES.glob("*.svg")})
+        # `sweep` draws the eye; CONTRIBUTING's commands compare it.
+        self.assertEqual(names | {"eye.svg"}, {path.name for path in PICTURES.glob("*.svg")})
 
     def test_no_label_overlaps_another_or_leaves_the_picture(self):
         extra = [[GOLDEN], ["examples/two-channels.toml", "--channel", "2"],
                  ["examples/control-bus.toml"],
-                 ["docs/pictures/registers.toml", "--read", "0x78:6"]]
+                 ["docs/pictures/registers.toml", "--read", "0x78:6"],
+                 ["docs/pictures/registers.toml", "--read", "0:64"],
+                 ["docs/pictures/registers.toml", "--write", "0:" + ",".join(["0xA5"] * 64)],
+                 [GOLDEN, "--title", 9 * "A title that is far longer than the picture. "]]
         for arguments in [arguments for _, arguments in listed()] + extra:
             with self.subTest(arguments=arguments):
                 self.readable(Picture(plot(*arguments).stdout))
 
+    def test_the_axis_keeps_its_title_free_of_ticks(self):
+        """Also where a line of the picture begins with a tick."""
+        with tempfile.TemporaryDirectory() as folder:
+            path = Path(folder, "x.toml")
+            for bits in range(40, 65):
+                # A period is 2/11 us: long numbers.
+                path.write_text("[chip]\nf_clk_hz = 11_000_000\n[[channel]]\nnumber = 1\n"
+                                "[[channel.slave]]\nprotocol = \"biss-c\"\n"
+                                f"data_bits = {bits}\n", encoding="ascii")
+                with self.subTest(bits=bits):
+                    self.readable(self.picture(str(path)))
+
     def readable(self, picture):
         right = float(picture.root.get("width"))
-        for row in picture.rows().values():
-            last = 0.0
-            for x, kind, text in row:
-                half = width(kind, text) / 2
-                left = x - half
-                if kind in ("title", "note"):
-                    left = x
-                elif kind in ("name", "unit"):
-                    left = x - 2 * half
-                self.assertGreaterEqual(left + 0.5, last, text)
-                last = left + 2 * half
-            self.assertLessEqual(last, right, row)
+        boxes = []
+        for x, y, kind, text in picture.texts:
+            if not text:
+                continue
+            wide = width(kind, text)
+            left = {"title": x, "note": x, "name": x - wide, "unit": x - wide}.get(kind, x - wide / 2)
+            high = {"title": 15, "note": 12, "name": 12}.get(kind, 9)
+            self.assertGreaterEqual(left + 0.5, 0, text)
+            self.assertLessEqual(left + wide, right, text)
+            # Letters reach from three quarters of the font's size above the line to a quarter below.
+            boxes.append((left, left + wide, y - 0.75 * high, y + 0.25 * high, text))
+        boxes.sort()
+        for i, (_, end, top, bottom, text) in enumerate(boxes):
+            for left, _, other_top, other_bottom, other in boxes[i + 1:]:
+                if left + 0.5 >= end:
+                    break
+                self.assertFalse(top < other_bottom and other_top < bottom, f"{text} / {other}")
         for rect in picture.root.iter(SVG + "rect"):
             if rect.get("x") and rect.get("class") is None:
                 self.assertLessEqual(float(rect.get("x")) + float(rect.get("width")), right)

@@ -12,26 +12,19 @@ import sys
 import tempfile
 from pathlib import Path
 
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "docs"))
+
+import pages  # noqa: E402
+
 MB4SIM, ROOT, COMPILER = sys.argv[1], Path(sys.argv[2]), sys.argv[3]
 POSITION = 0x2ABCDEF  # of golden.toml
 
 
-def cpp_of(text):
-    """The cpp blocks of a Markdown text."""
-    inside, lines = False, []
-    for line in text.splitlines():
-        if line == "```cpp":
-            inside = True
-        elif line == "```":
-            inside = False
-        elif inside:
-            lines.append(line)
-    return "\n".join(lines) + "\n"
-
-
 def run(manual, work):
+    blocks = pages.blocks(manual.read_text(encoding="utf-8"))
     source, program = work / "unit.cpp", work / "unit"
-    source.write_text(cpp_of(manual.read_text(encoding="utf-8")), encoding="utf-8")
+    source.write_text("".join(block.text for block in blocks if block.language == "cpp"),
+                      encoding="utf-8")
     subprocess.run([COMPILER, "-std=c++17", "-O2", f"-I{ROOT}/drivers/include",
                     f"-I{ROOT}/regmap/generated", str(source), "-o", str(program)], check=True,
                    timeout=120)

@@ -19,8 +19,11 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/ioctl.h>
+#include <sys/mman.h>
+#include <sys/stat.h>
 #include <sys/uio.h>
 #include <sys/wait.h>
+#include <time.h>
 #include <unistd.h>
 
 static const char *device = "/dev/spidev0.0";
@@ -186,12 +189,174 @@ static void errors(int fd) {
   struct spi_ioc_transfer wide = transfer(big, NULL, 2);
   wide.tx_nbits = 4;
   CHECK_ERROR(ioctl(fd, SPI_IOC_MESSAGE(1), &wide), EINVAL);
-  CHECK_ERROR(lseek(fd, 0, SEEK_SET), ESPIPE);
+  CHECK(ioctl(fd, FIOCLEX) == 0 && (fcntl(fd, F_GETFD) & FD_CLOEXEC) != 0);
   const int read_only = open(device, O_RDONLY);
   CHECK(read_only >= 0);
   CHECK_ERROR(write(read_only, big, 1), EBADF);
   close(read_only);
   identify(fd);
+}
+
+/* A page that can be used and one behind it that cannot; `edge` points to `room` bytes before it.
+ */
+static long page;
+static uint8_t *edge(unsigned room) {
+  static uint8_t *base;
+  if (base == NULL) {
+    page = sysconf(_SC_PAGESIZE);
+    base = mmap(NULL, 2 * (size_t)page, PROT_NONE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+    if (mprotect(base, (size_t)page, PROT_READ | PROT_WRITE) != 0) exit(2);
+  }
+  return base + page - room;
+}
+
+/* The register RDATA1 holds what was written to it. */
+static void set_rdata(int fd, uint8_t value) {
+  const uint8_t frame[] = {0x02, 0x80, value};
+  CHECK(write(fd, frame, sizeof frame) == sizeof frame);
+}
+static int rdata(int fd) {
+  uint8_t value = 0;
+  CHECK(read_registers(fd, 0x80, &value, 1) == 3);
+  return value;
+}
+
+/* Memory that is not the program's. */
+static void bad_pointers(int fd) {
+  void *const nowhere = edge(0);
+  void *volatile null = NULL; /* unknown to the compiler */
+  volatile int count = -1;
+  struct spi_ioc_transfer two[2];
+  uint8_t frame[3] = {0x02, 0x80, 0x22}, answer[3] = {0xFF, 0xFF, 0xFF};
+  set_rdata(fd, 0x11);
+  /* What was received for as much as fits; nothing is sent of what cannot be read in full. */
+  CHECK_ERROR(read(fd, null, 4), EFAULT);
+  CHECK_ERROR(read(fd, nowhere, 4), EFAULT);
+  CHECK(read(fd, edge(2), 4) == 2);
+  CHECK(read(fd, null, 0) == 0);
+  CHECK_ERROR(read(fd, nowhere, 4097), EMSGSIZE);
+  CHECK_ERROR(write(fd, null, 4), EFAULT);
+  memcpy(edge(3), frame, 3);
+  CHECK_ERROR(write(fd, edge(3), 4), EFAULT);
+  CHECK(rdata(fd) == 0x11);
+
+  CHECK_ERROR(ioctl(fd, SPI_IOC_MESSAGE(1), NULL), EFAULT);
+  CHECK_ERROR(ioctl(fd, SPI_IOC_MESSAGE(2), edge(sizeof two[0])), EFAULT);
+  CHECK_ERROR(ioctl(fd, _IOW(SPI_IOC_MAGIC, 77, uint8_t), nowhere), ENOTTY);
+  two[0] = transfer(edge(3), NULL, 4);
+  two[1] = transfer(frame, NULL, 5000);
+  CHECK_ERROR(ioctl(fd, SPI_IOC_MESSAGE(2), two), EFAULT); /* in the order of the transfers */
+  two[0] = transfer(frame, NULL, 3);
+  CHECK_ERROR(ioctl(fd, SPI_IOC_MESSAGE(2), two), EMSGSIZE);
+  two[1] = transfer(edge(3), NULL, 4);
+  CHECK_ERROR(ioctl(fd, SPI_IOC_MESSAGE(2), two), EFAULT);
+  two[1].rx_nbits = 4; /* the controller is asked last */
+  CHECK_ERROR(ioctl(fd, SPI_IOC_MESSAGE(2), two), EFAULT);
+  CHECK(rdata(fd) == 0x11);
+  /* An answer that cannot be stored: the message has been sent, and what came before is there. */
+  two[0] = transfer(frame, answer, 3);
+  two[1] = transfer(NULL, nowhere, 1);
+  CHECK_ERROR(ioctl(fd, SPI_IOC_MESSAGE(2), two), EFAULT);
+  CHECK(memcmp(answer, "\0\0\0", 3) == 0 && rdata(fd) == 0x22);
+  /* Memory that can be read only. */
+  CHECK_ERROR(read(fd, (void *)(uintptr_t) "constant", 4), EFAULT);
+  CHECK(write(fd, "\2\200\63", 3) == 3 && rdata(fd) == 0x33);
+
+  static const unsigned long kSettings[] = {SPI_IOC_RD_MODE,          SPI_IOC_RD_MODE32,
+                                            SPI_IOC_RD_LSB_FIRST,     SPI_IOC_RD_BITS_PER_WORD,
+                                            SPI_IOC_RD_MAX_SPEED_HZ,  SPI_IOC_WR_MODE,
+                                            SPI_IOC_WR_MODE32,        SPI_IOC_WR_LSB_FIRST,
+                                            SPI_IOC_WR_BITS_PER_WORD, SPI_IOC_WR_MAX_SPEED_HZ};
+  for (size_t i = 0; i < sizeof kSettings / sizeof *kSettings; ++i) {
+    CHECK_ERROR(ioctl(fd, kSettings[i], NULL), EFAULT);
+    CHECK_ERROR(ioctl(fd, kSettings[i], nowhere), EFAULT);
+  }
+  CHECK_ERROR(ioctl(fd, SPI_IOC_WR_MAX_SPEED_HZ, edge(3)), EFAULT);
+
+  const struct iovec parts[] = {{answer, 2}, {edge(1), 2}, {answer, 3}};
+  CHECK_ERROR(readv(fd, nowhere, 1), EFAULT);
+  CHECK_ERROR(readv(fd, parts, count), EINVAL);
+  count = 1025;
+  CHECK_ERROR(writev(fd, parts, count), EINVAL);
+  CHECK(readv(fd, parts, 3) == 3);  /* up to the part that does not fit */
+  CHECK(writev(fd, parts, 3) == 2); /* up to the part that cannot be read */
+  CHECK(readv(fd, parts, 0) == 0);
+
+  /* Also where the library has to look at what others are asked for. */
+  char *const path = (char *)edge(8);
+  struct stat status;
+  struct timespec time;
+  memcpy(path, device, 8);
+  CHECK_ERROR(open(nowhere, O_RDWR), EFAULT);
+  CHECK_ERROR(open(path, O_RDWR), EFAULT);
+  CHECK_ERROR(stat(path, &status), EFAULT);
+  CHECK_ERROR(access(path, R_OK), EFAULT);
+  CHECK_ERROR(stat(device, nowhere), EFAULT);
+  CHECK_ERROR(fstat(fd, nowhere), EFAULT);
+  CHECK_ERROR(statx(fd, "", AT_EMPTY_PATH, STATX_TYPE, nowhere), EFAULT);
+  CHECK_ERROR(nanosleep(nowhere, &time), EFAULT);
+  CHECK(clock_nanosleep(CLOCK_MONOTONIC, 0, nowhere, &time) == EFAULT);
+}
+
+/* A character device, by its name and by its descriptor. */
+static void looks(int fd) {
+  struct stat by_name, status;
+  struct stat64 status64;
+  struct statx extended;
+  CHECK(stat(device, &by_name) == 0 && S_ISCHR(by_name.st_mode));
+  CHECK(fstat(fd, &status) == 0 && S_ISCHR(status.st_mode));
+  CHECK(status.st_rdev == by_name.st_rdev && status.st_ino == by_name.st_ino &&
+        status.st_dev == by_name.st_dev && status.st_size == 0);
+  CHECK(fstat64(fd, &status64) == 0 && S_ISCHR(status64.st_mode));
+  CHECK(fstatat(AT_FDCWD, device, &status, 0) == 0 && S_ISCHR(status.st_mode));
+  CHECK(fstatat(fd, "", &status, AT_EMPTY_PATH) == 0 && S_ISCHR(status.st_mode));
+  CHECK(statx(fd, "", AT_EMPTY_PATH, STATX_TYPE, &extended) == 0 && S_ISCHR(extended.stx_mode));
+  CHECK(statx(AT_FDCWD, device, 0, STATX_TYPE, &extended) == 0 && S_ISCHR(extended.stx_mode));
+  /* Others are what they are. */
+  CHECK(fstat(STDERR_FILENO, &status) == 0 && status.st_rdev != by_name.st_rdev);
+  CHECK(fstatat(AT_FDCWD, "/", &status, 0) == 0 && S_ISDIR(status.st_mode));
+}
+
+/* It has no positions and no memory, and nothing to be cut or stored. */
+static void is_no_file(int fd) {
+  uint8_t byte = 0;
+  const struct iovec part = {&byte, 1};
+  const int whence[] = {SEEK_SET, SEEK_CUR, SEEK_END};
+  for (int i = 0; i < 3; ++i) {
+    CHECK_ERROR(lseek(fd, 0, whence[i]), ESPIPE);
+    CHECK_ERROR(lseek64(fd, 0, whence[i]), ESPIPE);
+  }
+  CHECK_ERROR(lseek(fd, 0, 99), EINVAL);
+  CHECK_ERROR(pread(fd, &byte, 1, 0), ESPIPE);
+  CHECK_ERROR(pwrite(fd, &byte, 1, 0), ESPIPE);
+  CHECK_ERROR(pread64(fd, &byte, 1, 0), ESPIPE);
+  CHECK_ERROR(pwrite64(fd, &byte, 1, 0), ESPIPE);
+  CHECK_ERROR(preadv(fd, &part, 1, 0), ESPIPE);
+  CHECK_ERROR(pwritev(fd, &part, 1, 0), ESPIPE);
+  CHECK_ERROR(pread(fd, &byte, 1, -1), EINVAL);
+  CHECK_ERROR(fsync(fd), EINVAL);
+  CHECK_ERROR(fdatasync(fd), EINVAL);
+  CHECK_ERROR(ftruncate(fd, 0), EINVAL);
+
+#define CHECK_NO_MAP(map, error) \
+  errno = 0;                     \
+  CHECK((map) == MAP_FAILED && errno == (error))
+  const size_t size = (size_t)page;
+  CHECK_NO_MAP(mmap(NULL, size, PROT_READ, MAP_SHARED, fd, 0), ENODEV);
+  CHECK_NO_MAP(mmap(NULL, size, PROT_READ | PROT_WRITE, MAP_PRIVATE, fd, 0), ENODEV);
+  CHECK_NO_MAP(mmap64(NULL, size, PROT_READ, MAP_SHARED, fd, 0), ENODEV);
+  CHECK_NO_MAP(mmap(NULL, 0, PROT_READ, MAP_SHARED, fd, 0), EINVAL);
+  CHECK_NO_MAP(mmap(NULL, size, PROT_READ, MAP_SHARED, fd, 1), EINVAL);
+  CHECK_NO_MAP(mmap(NULL, size, PROT_READ, 0, fd, 0), EINVAL);
+  const int read_only = open(device, O_RDONLY);
+  CHECK_NO_MAP(mmap(NULL, size, PROT_WRITE, MAP_SHARED, read_only, 0), EACCES);
+  close(read_only);
+  /* What was in the place stays. */
+  *edge(1) = 0x5A;
+  CHECK_NO_MAP(mmap(edge((unsigned)page), size, PROT_READ, MAP_SHARED | MAP_FIXED, fd, 0), ENODEV);
+  CHECK(*edge(1) == 0x5A);
+  void *const own = mmap(NULL, size, PROT_READ, MAP_PRIVATE | MAP_ANONYMOUS, fd, 0);
+  CHECK(own != MAP_FAILED && munmap(own, size) == 0);
 }
 
 /* Descriptors go the ways that all descriptors go; a closed one is nobody's. */
@@ -272,6 +437,9 @@ int main(int argc, char **argv) {
   wrong_mode(fd);
   words_and_bit_order(fd);
   errors(fd);
+  bad_pointers(fd);
+  looks(fd);
+  is_no_file(fd);
   copies(fd);
   everybody_at_once();
   close(fd);

@@ -13,8 +13,8 @@
 // look: dut_rem = u_dut.rem_q
 // mutation: line/mb4_crc.sv | feed_i & (bit_i ^ top) | feed_i & bit_i
 // mutation: line/mb4_crc.sv | if (load_i) rem_d = start_i; | if (load_i) rem_d = {start_i[15:1], 1'b0};
-// mutation: ctrl/mb4_crc_decode.sv | crc_poly_o = 8'hD9; | crc_poly_o = 8'hD8;
-// mutation: ctrl/mb4_crc_decode.sv | own_len = 5'(i) + 5'd1; | own_len = 5'(i);
+// mutation: regs/mb4_crc_code.sv | poly_o = 8'hEC; | poly_o = 8'hED;
+// mutation: ctrl/mb4_crc_decode.sv | top = 8'h01 << i; | top = 8'h02 << i;
 
 module proof (
   input logic clk_i,
@@ -29,14 +29,21 @@ module proof (
   (* anyconst *) logic [6:0]  code;
   (* anyconst *) logic [15:0] start;
 
-  logic [4:0] len;
-  logic [7:0] poly, top;
+  logic       on;
+  logic [3:0] last;
+  logic [7:0] choice, poly, top;
   logic       out;
 
+  mb4_crc_code u_code (
+    .selcrc_i (selcrc),
+    .code_i   (code),
+    .poly_o   (choice)
+  );
+
   mb4_crc_decode u_decode (
-    .selcrc_i   (selcrc),
-    .crc_code_i (code),
-    .crc_len_o  (len),
+    .poly_i     (choice),
+    .crc_on_o   (on),
+    .crc_last_o (last),
     .crc_poly_o (poly),
     .crc_top_o  (top)
   );
@@ -44,7 +51,7 @@ module proof (
   mb4_crc u_dut (
     .clk_i,
     .rst_ni,
-    .crc16_i (len[4]),
+    .crc16_i (last[3]),
     .poly_i  (poly),
     .top_i   (top),
     .start_i (start),
@@ -82,7 +89,7 @@ module proof (
   end
 
   always @* begin
-    Degree_A: assert (len == n);
+    Degree_A: assert (n == 5'd0 ? !on && last == 4'd0 : on && last == 4'(n - 5'd1));
     if (n != 5'd0) Polynomial_A: assert (((poly ^ p[7:0]) & mask[7:0]) == 8'd0);
     assume (n != 5'd0);
   end

@@ -15,9 +15,11 @@
 // mutation: ctrl/mb4_status_flags.sv | eot_q        <= 1'b1; | eot_q        <= 1'b0;
 
 module proof (
-  input logic clk_i, rst_ni, toggle_i,
+  input logic clk_i, rst_ni,
+  input logic [1:0] count_i,
   input mb4_pkg::instr_t written_i,
   input logic mem_busy_i, agsmin_i, infinite_i, regvers_i, is_frame_i, is_control_i, is_register_i,
+  input logic is_void_i,
   input logic [1:0] use_i, frame_use_i, init_use_i, idle_i, timeout_i, sl_i, frame_end_i,
   input logic [1:0] word_done_i, word_ok_i, init_done_i, init_fail_i,
   input logic request_i, missed_i, tick_i, bank_pending_i,
@@ -28,8 +30,8 @@ module proof (
   mb4_pkg::instr_t held;
 
   mb4_sequencer u_sequencer (
-    .clk_i, .rst_ni, .written_i, .toggle_i, .mem_busy_i, .agsmin_i, .infinite_i, .regvers_i,
-    .use_i, .frame_use_i, .init_use_i, .is_frame_i, .is_control_i, .is_register_i,
+    .clk_i, .rst_ni, .written_i, .count_i, .mem_busy_i, .agsmin_i, .infinite_i, .regvers_i,
+    .use_i, .frame_use_i, .init_use_i, .is_frame_i, .is_control_i, .is_register_i, .is_void_i,
     .agserr_on_hold_i(1'b1), .agserr_on_write_i(1'b0), .ags_clear_i(1'b0),
     .request_i, .missed_i, .tick_i, .idle_i, .timeout_i, .sl_i, .frame_end_i, .word_done_i,
     .word_ok_i, .init_done_i, .init_fail_i, .bank_pending_i, .control_active_i, .control_end_i,

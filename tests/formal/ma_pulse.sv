@@ -1,102 +1,153 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// MA of a line never shows a pulse, high or low, shorter than half a period of MA, whatever frames,
-// BREAK, resets, register access and force bits do and whatever the line answers (datasheet page
-// 12: I301..I303). Frame engine and time base as in mb4_lines.
+// MA of either line never shows a pulse, high or low, shorter than half a period of MA, whatever
+// frames, BREAK, resets, register access and force bits do, whatever the lines answer, and whenever
+// the host changes FREQS, the protocol or the use of a line (datasheet page 12: I301..I303;
+// decision 40). A low level lasts half a period of the FREQS with which it began; a high one of
+// that with which it ends. Both lines as in the chip.
 //
-// claim: every level of MA lasts half a period at least, whatever happens
+// claim: every level of MA on two lines lasts half a period at least, whatever happens
 // clocks: one
-// depth: 14
-// cover: 14
+// depth: 8
+// cover: 12
 // unbounded: induction 2
 // checks: those of the bench alone
-// look: dut_len = u_timebase.len_q
-// look: dut_cnt = u_timebase.cnt_q
-// look: dut_last = u_timebase.last_q
-// look: dut_state = u_frame.state_q
-// look: dut_force = u_frame.u_ma.force_q
-// look: dut_clocking = u_frame.u_ma.clocking_q
+// look: dut_len = u_lines.u_timebase.len_q
+// look: dut_cnt = u_lines.u_timebase.cnt_q
+// look: dut_last = u_lines.u_timebase.last_q
+// look: dut_state1 = u_lines.gen_line[0].u_channel.u_frame.state_q
+// look: dut_state2 = u_lines.gen_line[1].u_channel.u_frame.state_q
+// look: dut_clock1 = u_lines.gen_line[0].u_channel.u_frame.u_ma.clocking_q
+// look: dut_clock2 = u_lines.gen_line[1].u_channel.u_frame.u_ma.clocking_q
 // mutation: line/mb4_ma_drive.sv | end else if (stop_i) begin
 //   | end else if (stop_i) begin ma_d = 1'b1;
-// mutation: line/mb4_ma_drive.sv | if (force_i) ma_d = tick_i ? force_level_i : ma_q;
+// mutation: line/mb4_ma_drive.sv | if (force_i) ma_d = (tick_i && !start_i) ? force_level_i : ma_q;
 //   | if (force_i) ma_d = force_level_i;
-// mutation: line/mb4_frame.sv | if (tick_i && sl_i && !ma_clocks) state_d = IDLE;
-//   | if (sl_i) state_d = IDLE;
+// mutation: line/mb4_ma_drive.sv | if (force_i) ma_d = (tick_i && !start_i) ? force_level_i : ma_q;
+//   | if (force_i) ma_d = tick_i ? force_level_i : ma_q;
+// mutation: line/mb4_ma_drive.sv | || fell_q; | ;
+// mutation: line/mb4_frame.sv | if (tick_i && sl_high && !ma_clocks) state_d = IDLE;
+//   | if (sl_high) state_d = IDLE;
+// mutation: line/mb4_frame.sv | if (tick_i) state_d = IDLE; | state_d = IDLE;
+// mutation: line/mb4_timebase.sv | if (restart_i) len_q <= half_len_i; | len_q <= half_len_i;
 
 module proof (
   input logic clk_i, rst_ni, por_ni,
-  input logic [1:0] protocol_i,
-  input logic bus_i, start_i, use_i, init_i, cdm0_i, cdm1_i, reduced_i, hold_cdm_i, abort_i,
-  input logic register_i, register_ma_i, register_end_i, force_i, force_level_i, force_change_i,
-  input logic other_busy_i, ack_i, sl_i, bit_valid_i, bit_i, len_valid_i, any_word_i, last_word_i,
-  input logic word_done_i,
-  input logic [7:0] mo_busy_i, quarters_i,
-  input logic [6:0] len_i
+  input logic [7:0] half_len_i, mo_busy_i,
+  input logic [3:0] protocol_i,
+  input logic [1:0] bus_i, use_i, cdm0_i, cdm1_i, register_mo_i, force_i, force_level_i,
+  input logic en_mo_i, start_i, init_i, mo_return_i, reduced_i, hold_cdm_i, abort_i, time_i,
+  input logic register_i, register_ma_i, register_end_i, force_change_i,
+  input logic [1:0] len_valid_i, rx_any_i, rx_last_i, mo_any_i, mo_last_i, sl_i,
+  input logic [13:0] len_i,
+  input logic [5:0] mo_slave_i,
+  input logic [2*mb4_pkg::WORD_CFG_W-1:0] rx_word_i, mo_word_i,
+  input logic [15:0] mo_data_i
 );
 
-  (* anyconst *) logic [7:0] half_len;
-  logic tick, half_next, idle, ma, restart;
+  logic [1:0] idle, ma;
 
-  mb4_timebase u_timebase (
-    .clk_i, .rst_ni(por_ni), .half_len_i(half_len),
-    .run_i(!idle || other_busy_i || force_i), .restart_i(restart), .tick_o(tick),
-    .half_next_o(half_next)
+  mb4_lines u_lines (
+    .clk_i, .rst_ni, .por_ni, .half_len_i, .protocol_i, .en_mo_i, .mo_busy_i, .bus_i, .start_i,
+    .use_i, .init_i, .mo_return_i, .cdm0_i, .cdm1_i, .reduced_i, .hold_cdm_i, .abort_i, .time_i,
+    .register_i, .register_ma_i, .register_end_i, .register_mo_i, .force_i, .force_level_i,
+    .force_change_i, .len_valid_i, .len_i, .rx_any_i, .rx_last_i, .rx_word_i, .mo_any_i, .mo_last_i,
+    .mo_slave_i, .mo_word_i, .mo_data_i, .sl_i, .idle_o(idle), .ma_o(ma)
   );
-  mb4_frame u_frame (
-    .clk_i, .rst_ni, .por_ni, .protocol_i, .bus_i, .mo_busy_i, .start_i, .use_i, .init_i, .cdm0_i,
-    .cdm1_i, .reduced_i, .hold_cdm_i, .abort_i, .register_i, .register_ma_i, .register_end_i,
-    .force_i, .force_level_i, .tick_i(tick), .half_next_i(half_next), .ack_i, .quarters_i, .sl_i,
-    .bit_valid_i, .bit_i, .len_valid_i, .len_i, .any_word_i, .last_word_i, .word_done_i,
-    .idle_o(idle), .ma_o(ma)
-  );
-
-  assign restart = start_i || force_change_i;
 
   logic started = 1'b0;
   always @(posedge clk_i) started <= 1'b1;
   always @* begin
     if (!started) assume (!rst_ni && !por_ni);
     if (started)  assume (por_ni);
-    assume (half_len != 8'd0 && half_len <= 8'd160);
-    // What mb4_sequencer and mb4_lines see to.
-    if (start_i) assume (idle && !abort_i);   // proof sequencer
-    if (force_change_i) assume (idle && !force_i);
-  end
-
-  // Clocks that MA has had its level, the current one included.
-  logic [7:0] age_q;
-  logic       ma_q, live_q;
-  logic [7:0] age;
-  assign age = ma != ma_q ? 8'd1 : age_q == 8'hFF ? 8'hFF : age_q + 8'd1;
-  always @(posedge clk_i or negedge por_ni) begin
-    if (!por_ni) {age_q, ma_q, live_q} <= {8'hFF, 1'b1, 1'b0};
-    else         {age_q, ma_q, live_q} <= {age, ma, 1'b1};
+    assume (half_len_i != 8'd0 && half_len_i <= 8'd160);   // mb4_freqs_dec
+    // Which lines start_i is for, and whether they are in use, is free.
+    if (start_i) assume (idle == 2'b11 && !abort_i);       // proof sequencer
   end
 
   wire [7:0] dut_len, dut_cnt;
-  wire [2:0] dut_state;
-  wire       dut_last, dut_force, dut_clocking;
+  wire       dut_last, dut_clock1, dut_clock2;
+  wire [2:0] dut_state1, dut_state2;
+
   logic [7:0] len_q;
-  always @(posedge clk_i) len_q <= dut_len;
+  logic       live_q;
+  always @(posedge clk_i or negedge por_ni) begin
+    if (!por_ni) {len_q, live_q} <= {8'd1, 1'b0};
+    else         {len_q, live_q} <= {dut_len, 1'b1};
+  end
 
   always @* if (started && live_q) begin
-    if (ma != ma_q) LongEnough_A: assert (age_q >= len_q);
-    // For the induction: MA is never younger than the running half, and at rest only a level
-    // that has lasted may be left.
-    Younger_A: assert (age > dut_cnt || age == 8'hFF);
     Count_A: assert (dut_cnt < dut_len && dut_len <= 8'd160 && dut_len != 8'd0);
-    Last_A: assert (dut_last == (dut_cnt == dut_len - 8'd1));
-    if (dut_state == 3'd0 || dut_state >= 3'd6) RestIsNoClock_A: assert (!dut_clocking);
-    if (dut_state == 3'd0 && !ma && !dut_force) Rest_A: assert (age > dut_len);
-    Length_A: assert (dut_len == half_len || dut_len == 8'd1);
-    // 1 until the first frame or force.
-    if (dut_state != 3'd6 && (dut_state != 3'd0 || (!ma && !dut_force)))
-      Taken_A: assert (dut_len == half_len);
+    Last_A:  assert (dut_last == (dut_cnt == dut_len - 8'd1));
   end
-  always @(posedge clk_i) begin
-    Clock_C: cover (rst_ni && ma && !ma_q && half_len == 8'd2 && dut_state == 3'd1 && dut_clocking);
-    Broken_C: cover (rst_ni && ma && !ma_q && dut_state == 3'd0 && half_len == 8'd2 && !dut_force);
+
+  logic [1:0] rise;
+  line_proof #(.Covers(1'b1)) u_line1 (
+    .clk_i, .por_ni, .live_i(started && live_q), .reset_i(!rst_ni), .len_i(dut_len),
+    .len_q_i(len_q), .cnt_i(dut_cnt), .ma_i(ma[0]), .idle_i(idle[0]), .force_i(force_i[0]),
+    .state_i(dut_state1), .clocking_i(dut_clock1), .other_i(dut_state2),
+    .other_rise_i(rise[1]), .rise_o(rise[0])
+  );
+  line_proof u_line2 (
+    .clk_i, .por_ni, .live_i(started && live_q), .reset_i(!rst_ni), .len_i(dut_len),
+    .len_q_i(len_q), .cnt_i(dut_cnt), .ma_i(ma[1]), .idle_i(idle[1]), .force_i(force_i[1]),
+    .state_i(dut_state2), .clocking_i(dut_clock2), .other_i(dut_state1),
+    .other_rise_i(rise[0]), .rise_o(rise[1])
+  );
+
+endmodule
+
+// One line: what has to hold, and what the induction needs.
+module line_proof #(
+  parameter logic Covers = 1'b0   // the cover points, once for both lines
+) (
+  input logic       clk_i, por_ni, live_i, reset_i,
+  input logic [7:0] len_i, len_q_i, cnt_i,   // half period, now and a clock before; clocks of it
+  input logic       ma_i, idle_i, force_i, clocking_i,
+  input logic [2:0] state_i, other_i,        // of the frame, and of that on the other line
+  input logic       other_rise_i,            // MA of the other line rises
+  output logic      rise_o
+);
+
+  localparam logic [2:0] IDLE = 3'd0, REQUEST = 3'd1, RELEASE = 3'd6;
+
+  logic [7:0] age, age_q;   // clocks that MA has had its level, the current one included
+  logic [7:0] low, low_q;   // half period with which the last low level began
+  logic       ma_q;
+  logic       rise, fall;
+  assign rise = ma_i && !ma_q;
+  assign rise_o = rise;
+  assign fall = !ma_i && ma_q;
+  assign age = rise || fall ? 8'd1 : age_q == 8'hFF ? 8'hFF : age_q + 8'd1;
+  assign low = fall ? len_i : low_q;
+  always @(posedge clk_i or negedge por_ni) begin
+    if (!por_ni) {age_q, low_q, ma_q} <= {8'hFF, 8'd1, 1'b1};
+    else         {age_q, low_q, ma_q} <= {age, low, ma_i};
+  end
+
+  always @* if (live_i) begin
+    if (rise) LowLasts_A: assert (age_q >= low_q);
+    if (fall) HighLasts_A: assert (age_q >= len_q_i && age_q >= len_i);
+    // For the induction: a high level is older than the running half period. A low one has lasted,
+    // or is older than the running half period, which is its own, and keeps the line busy.
+    if (ma_i)  High_A: assert (age > cnt_i || age == 8'hFF);
+    if (!ma_i) Low_A:  assert (age >= low || (age > cnt_i && low == len_i && !idle_i));
+    Range_A: assert (low <= 8'd160);
+    if (state_i == IDLE || state_i >= RELEASE) RestIsNoClock_A: assert (!clocking_i);
+  end
+
+  if (Covers) begin : gen_covers
+    always @(posedge clk_i) if (live_i && !reset_i) begin
+      // Both lines at once.
+      Clock_C:  cover (rise && other_rise_i && len_i == 8'd2 && state_i == REQUEST &&
+                       other_i == REQUEST && clocking_i);
+      Broken_C: cover (rise && other_rise_i && len_i == 8'd2 && state_i == IDLE &&
+                       other_i == IDLE && !force_i);
+      // The other line has just started with a shorter half period: this one had ended before.
+      Other_C:  cover (rise && low_q == 8'd2 && len_i == 8'd1 && other_i == REQUEST);
+      Forced_C: cover (fall && force_i && other_i == REQUEST);
+    end
   end
 
 endmodule

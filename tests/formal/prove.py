@@ -87,7 +87,8 @@ def model(proof, folder, mutation=None):
         files.append(target)
     formal = "" if "checks" in proof.values else "-formal"
     looks = [value.split(" = ") for value in proof.values.get("look", [])]
-    commands = [f"read_verilog -sv {formal} -I{project.RTL} " + " ".join(str(f) for f in files),
+    commands = [f"read_verilog -defer -sv {formal} -I{project.RTL} " +
+                " ".join(str(f) for f in files),
                 f"read_verilog -sv -formal {proof.path}",
                 "hierarchy -check -top proof", "proc", "flatten", "cd proof",
                 *[f"connect -nounset -set {wire} {path}" for wire, path in looks], "cd",
@@ -194,7 +195,7 @@ def main():
                            "the table is that of the proofs")
         print(text)
         return
-    prove(sys.argv[1], Path(sys.argv[2]), sys.argv[3] if len(sys.argv) > 3 else "")
+    prove(sys.argv[1], Path(sys.argv[2]).resolve(), sys.argv[3] if len(sys.argv) > 3 else "")
 
 
 main()

@@ -12,8 +12,11 @@
 // unbounded: induction 5
 // look: dut_state = u_dut.state_q
 // look: dut_wait = u_dut.wait_q
-// look: dut_seen = u_dut.u_written.seen_q
-// look: dut_sync = u_dut.u_written.u_sync.sync_q
+// look: dut_sync0 = u_dut.u_written.gen_bit[0].u_sync.sync_q
+// look: dut_sync1 = u_dut.u_written.gen_bit[1].u_sync.sync_q
+// look: dut_taken = u_dut.u_written.taken_q
+// look: dut_late = u_dut.u_written.late_q
+// look: dut_ack = u_dut.u_written.ack_q
 // mutation: ctrl/mb4_sequencer.sv | if (written_i.brk) begin
 //   | if (written_i.brk && state_q != INIT_TIMEOUT) begin
 // mutation: ctrl/mb4_sequencer.sv | if ((use_q & ~idle_i) == 2'b00 || wait_q == 11'd0) begin
@@ -21,10 +24,12 @@
 // mutation: ctrl/mb4_sequencer.sv | default: state_d = IDLE; | default: state_d = state_q;
 
 module proof (
-  input logic clk_i, rst_ni, toggle_i,
+  input logic clk_i, rst_ni,
+  input logic [1:0] count_i,
   input logic check_i,   // free: at which clocks the checks look
   input mb4_pkg::instr_t written_i,
   input logic mem_busy_i, agsmin_i, infinite_i, regvers_i, is_frame_i, is_control_i, is_register_i,
+  input logic is_void_i,
   input logic [1:0] use_i, frame_use_i, init_use_i, idle_i, timeout_i, sl_i, frame_end_i,
   input logic [1:0] word_done_i, word_ok_i, init_done_i, init_fail_i,
   input logic [2:0] quirk_i,
@@ -35,8 +40,8 @@ module proof (
   logic running, start, abort, ags_error;
 
   mb4_sequencer u_dut (
-    .clk_i, .rst_ni, .written_i, .toggle_i, .mem_busy_i, .agsmin_i, .infinite_i, .regvers_i,
-    .use_i, .frame_use_i, .init_use_i, .is_frame_i, .is_control_i, .is_register_i,
+    .clk_i, .rst_ni, .written_i, .count_i, .mem_busy_i, .agsmin_i, .infinite_i, .regvers_i,
+    .use_i, .frame_use_i, .init_use_i, .is_frame_i, .is_control_i, .is_register_i, .is_void_i,
     .agserr_on_hold_i(quirk_i[0]), .agserr_on_write_i(quirk_i[1]), .ags_clear_i(quirk_i[2]),
     .request_i, .missed_i, .tick_i, .idle_i, .timeout_i, .sl_i, .frame_end_i, .word_done_i,
     .word_ok_i, .init_done_i, .init_fail_i, .bank_pending_i, .control_active_i, .control_end_i,
@@ -47,31 +52,38 @@ module proof (
   logic started = 1'b0;
   always @(posedge clk_i) started <= 1'b1;
 
-  // The host's side: a toggle with its byte, held for five clocks at least.
-  logic [2:0] age_q = 3'd7;   // clocks since the toggle
-  logic       toggle_q = 1'b0;
+  // The host's side: a Gray count that steps once with each byte, held for five clocks at least.
+  logic [2:0] age_q = 3'd7;   // clocks since the step
+  logic [1:0] count_q = 2'd0;
+  logic [1:0] before;         // the count before the last step
   mb4_pkg::instr_t byte_q;
+  assign before = {!count_q[0], count_q[1]};
   always @(posedge clk_i) begin
-    age_q    <= toggle_i != toggle_q ? 3'd1 : age_q == 3'd7 ? 3'd7 : age_q + 3'd1;
-    toggle_q <= toggle_i;
-    byte_q   <= written_i;
+    age_q   <= count_i != count_q ? 3'd1 : age_q == 3'd7 ? 3'd7 : age_q + 3'd1;
+    count_q <= count_i;
+    byte_q  <= written_i;
     if (!rst_ni) age_q <= 3'd7;
   end
   always @* begin
-    if (!started) assume (!rst_ni && !toggle_i);
-    if (!rst_ni) assume (toggle_i == 1'b0);
-    if (age_q < 3'd5) assume (toggle_i == toggle_q && written_i == byte_q);
+    if (!started) assume (!rst_ni);
+    if (!rst_ni) assume (count_i == 2'd0);
+    else begin
+      assume (count_i == count_q || count_i == {count_q[0], !count_q[1]});
+      if (age_q < 3'd5) assume (count_i == count_q && written_i == byte_q);
+    end
   end
 
   wire [2:0] dut_state;
   wire [10:0] dut_wait;
-  wire       dut_seen;
-  wire [1:0] dut_sync;
+  wire [1:0] dut_sync0, dut_sync1, dut_taken, dut_late, dut_ack;
 
-  // The toggle on its way, for the induction.
+  // The count on its way, for the induction.
   always @* if (started && rst_ni) begin
-    Way1_A: assert (dut_sync == {toggle_q ^ (age_q == 3'd1), toggle_q});
-    Way2_A: assert (dut_seen == (toggle_q ^ (age_q <= 3'd2)));
+    Way1_A: assert ({dut_sync1[0], dut_sync0[0]} == count_q);
+    Way2_A: assert ({dut_sync1[1], dut_sync0[1]} == (age_q == 3'd1 ? before : count_q));
+    Way3_A: assert (dut_taken == (age_q <= 3'd2 ? before : count_q));
+    Way4_A: assert (dut_late == (age_q <= 3'd3 ? before : count_q));
+    Way5_A: assert (dut_ack == (age_q <= 3'd4 ? before : count_q));
     Counted_A: assert (age_q != 3'd0);
   end
 
@@ -89,7 +101,7 @@ module proof (
   // is any of the eight codes with any counters.
   always @* if (check_i) begin
     StartOrAbort_A: assert (!(start && abort));
-    if (start) StartOnIdle_A: assert ((use_i & ~idle_i) == 2'b00);
+    if (start) StartOnIdle_A: assert (idle_i == 2'b11);
     if (!rst_ni) ResetIdles_A: assert (!running);
     if (started && rst_ni && age_q == 3'd3 && byte_q.brk) BreakIdles_A: assert (!running);
     if (started && live_q && state_q > 3'd4) NoStray_A: assert (!running);

@@ -4,7 +4,8 @@
 // Slots of a control frame: one frame moves it by one slot or leaves it in those that wait (S until
 // 14 zeros have gone, the slave's start bit), nothing else moves it; it carries the bits of
 // datasheet pages 27..29, Figures 20..22 at their places; a register access does REGNUM + 1 bytes;
-// BREAK and INIT end it.
+// a command to IDS = 0 has no IDA; BREAK and INIT end it. Header, IDS and CMD are those of the
+// first clock from the second one after begin on in which no posted byte is on its way.
 //
 // claim: slot = number of frames since S, bits at their places, bytes counted, ends in rest
 // clocks: one
@@ -16,6 +17,9 @@
 // look: dut_active = u_dut.active_q
 // look: dut_last = u_dut.last_q
 // look: dut_crc = u_dut.crc_q
+// look: dut_fresh = u_dut.fresh_q
+// look: dut_bits = u_dut.bits_q
+// look: dut_broadcast = u_dut.broadcast_q
 // mutation: ctrl/mb4_control_frame.sv | if (!stay) slot_d
 //   | if (!stay || slot_q == mb4_pkg::SLOT_WAIT) slot_d
 // mutation: ctrl/mb4_control_frame.sv | start_i ? active_o : carries_q && !frame_end_i
@@ -24,10 +28,14 @@
 //   | last_d  = index_d == regnum_i;
 // mutation: ctrl/mb4_control_frame.sv | mb4_pkg::SLOT_START: cdm0 = cdm_timeout_i;
 //   | mb4_pkg::SLOT_START: cdm0 = 1'b1;
+// mutation: ctrl/mb4_control_frame.sv | fresh_q[1] && !post_busy_i; | fresh_q[1];
+// mutation: ctrl/mb4_control_frame.sv | if (take) broadcast_q | if (step) broadcast_q
+// mutation: ctrl/mb4_control_frame.sv | if (take || step) bits_q | if (step) bits_q
 
 module proof (
   input logic clk_i, rst_ni,
   input logic begin_i, abort_i, start_i, frame_end_i, cdm_timeout_i, expired_i, stalled_i,
+  input logic post_busy_i,
   input logic [1:0] cds_i,
   input logic [7:0] rdata_i
 );
@@ -45,8 +53,8 @@ module proof (
   mb4_control_frame u_dut (
     .clk_i, .rst_ni, .cts_i(cts), .wnr_i(wnr), .regadr_i(regadr), .regnum_i(regnum),
     .slaveid_i(slaveid), .ida_invert_i(ida_invert), .select_i(select), .blind_i(blind),
-    .rdata_addr_o(addr), .rdata_i, .rdata_wr_en_o(wr_en), .begin_i, .abort_i, .start_i,
-    .frame_end_i, .cds_i, .cdm_timeout_i, .expired_i, .stalled_i, .active_o(active),
+    .rdata_addr_o(addr), .rdata_i, .post_busy_i, .rdata_wr_en_o(wr_en), .begin_i, .abort_i,
+    .start_i, .frame_end_i, .cds_i, .cdm_timeout_i, .expired_i, .stalled_i, .active_o(active),
     .in_body_o(body), .wait_o(waits), .moved_o(moved), .cdm0_o(cdm0), .cdm1_o(cdm1),
     .begin_o(begins), .end_o(ends), .reg_error_o(reg_error), .delay_error_o(delay_error),
     .good_bytes_o(good)
@@ -60,7 +68,26 @@ module proof (
     // A frame starts after the one before has ended; frames that start carry what begins with them.
     if (start_i) assume (!frame_end_i && !running_q);
     if (frame_end_i) assume (running_q);
+    // post_busy_i ends: the fields are there before the frame behind that of S ends.
+    if (frame_end_i && mine_q && dut_slot != 6'd0) assume (taken_q);
   end
+
+  // The fields: when they are taken, and what they were then.
+  logic       taken_q, due;
+  logic [1:0] since_q;   // clocks since begin
+  logic [9:0] fields_q;
+  assign due = !taken_q && since_q == 2'd2 && !post_busy_i;
+  always @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni)                          {taken_q, since_q} <= {1'b1, 2'd0};
+    else if (begins)                      {taken_q, since_q} <= {1'b0, 2'd1};
+    else begin
+      if (due)                            taken_q <= 1'b1;
+      if (!taken_q && since_q != 2'd2)    since_q <= since_q + 2'd1;
+    end
+  end
+  always @(posedge clk_i) if (due) fields_q <= cts ? {slaveid, regadr} : {rdata_i, slaveid[2:1]};
+  logic to_all;   // IDS = 0
+  assign to_all = fields_q[9:2] == 8'h00;
 
   logic running_q;   // a frame runs
   always @(posedge clk_i or negedge rst_ni) begin
@@ -70,8 +97,10 @@ module proof (
   end
 
   wire [5:0] dut_slot;
-  wire       dut_carries, dut_active, dut_last;
+  wire       dut_carries, dut_active, dut_last, dut_broadcast;
+  wire [1:0] dut_fresh;
   wire [3:0] dut_crc;
+  wire [9:0] dut_bits;
 
   // A step: the frame that ends had begun while the control communication was active.
   logic       mine_q;
@@ -102,6 +131,8 @@ module proof (
 
   logic [1:0] sent;
   assign sent = cdm0 | cdm1;
+  logic [19:0] rotated;
+  assign rotated = {2{fields_q}} << (dut_slot - 6'd2);
 
   always @* if (started) begin
     Range_A: assert (dut_slot <= 6'd32 && (cts || dut_slot <= 6'd25));
@@ -122,6 +153,20 @@ module proof (
       if (good != good_q && !abort_q && !begin_q)
         ByteByByte_A: assert (good == good_q + 6'd1 && step_q && slot_q == 6'd31);
     end
+    // The fields, on their way and at their places.
+    Fresh_A: assert (dut_fresh == (taken_q ? 2'b00 : {since_q == 2'd2, 1'b1}));
+    if (!taken_q) NotYet_A: assert (dut_slot <= 6'd1 && since_q != 2'd0 && since_q != 2'd3);
+    if (dut_active && taken_q) begin
+      if (!cts) Broadcast_A: assert (dut_broadcast == to_all);
+      if (dut_slot <= 6'd1) Fields_A: assert (dut_bits == fields_q);
+      if (dut_slot >= 6'd2 && dut_slot <= 6'd11) begin
+        Way_A: assert (dut_bits == rotated[19:10]);
+        Header_A: assert (sent == (fields_q[6'd11 - dut_slot] ? select : 2'b00));
+      end
+      if (!cts && to_all) NoIda_A: assert (dut_slot <= 6'd17);
+    end
+    if (rst_ni && live_q && step_q && !abort_q && !cts && slot_q <= 6'd17)
+      CommandEnds_A: assert (ends == (slot_q == 6'd17 && to_all));
     // A CRC leaves zeros behind it, bit by bit: the next one starts at zero.
     if (dut_slot == 6'd13 || dut_slot == 6'd29) Zeros1_A: assert (!dut_crc[0]);
     if (dut_slot == 6'd14 || dut_slot == 6'd30) Zeros2_A: assert (dut_crc[1:0] == 2'b00);
@@ -141,6 +186,7 @@ module proof (
   end
   always @(posedge clk_i) begin
     Header_C: cover (rst_ni && dut_slot == 6'd2);
+    Late_C: cover (rst_ni && dut_slot == 6'd1 && !taken_q && since_q == 2'd2);
     Stalled_C: cover (rst_ni && ends && delay_error == 1'b0 && reg_error);
   end
 

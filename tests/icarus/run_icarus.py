@@ -5,6 +5,8 @@
 
   run_icarus.py FOLDER              the checks of bench.sv
   run_icarus.py FOLDER --break      with faults in the RTL; each must be reported
+  run_icarus.py FOLDER --plain      the checks with the plain Verilog of each top, and of mb4_core
+                                    with a fault, which must be reported
   run_icarus.py FOLDER --speed N [MB4SIM]
                                     workload A (one encoder, 26 bits, AGSMIN, 10 MHz), N clocks:
                                     clocks per second of processor time; with MB4SIM, the program,
@@ -26,6 +28,7 @@ from pathlib import Path
 HERE = Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE.parents[1] / "tools" / "synth"))
 
+import plain_verilog  # noqa: E402
 import project  # noqa: E402
 
 # File, text, replacement: what the bench must notice.
@@ -112,17 +115,31 @@ def translate(path, packages):
     return re.sub(r"\bsigned'\(", "$signed(", text)
 
 
+def with_fault(path, text, fault):
+    """The text, with the fault if it belongs to this file."""
+    if not fault or path.stem != fault[0]:
+        return text
+    if text.count(fault[1]) != 1:
+        raise SystemExit(f"{path.stem}: '{fault[1]}' occurs {text.count(fault[1])} times")
+    return text.replace(fault[1], fault[2])
+
+
+def changed(path, fault, folder):
+    """The file itself, or a copy of it with the fault."""
+    if path.stem != fault[0]:
+        return path
+    copy = folder / path.name
+    copy.write_text(with_fault(path, path.read_text(encoding="utf-8"), fault), encoding="utf-8")
+    return copy
+
+
 def build(folder, fault=None):
     folder.mkdir(parents=True, exist_ok=True)
     packages = {p.stem: package_names(p.read_text(encoding="utf-8"))
                 for p in project.rtl_packages()}
     files = []
     for path in project.rtl_files():
-        text = translate(path, packages)
-        if fault and path.stem == fault[0]:
-            if text.count(fault[1]) != 1:
-                raise SystemExit(f"{path.stem}: '{fault[1]}' occurs {text.count(fault[1])} times")
-            text = text.replace(fault[1], fault[2])
+        text = with_fault(path, translate(path, packages), fault)
         files.append(folder / path.name)
         files[-1].write_text(text, encoding="utf-8")
     program = folder / "bench.vvp"
@@ -137,6 +154,39 @@ def build(folder, fault=None):
 def play(program, *arguments):
     status, text = project.run([project.tool("vvp"), "-n", program, *arguments])
     return status == 0 and re.search(r"^passed", text, re.M) and "FAILED" not in text, text
+
+
+def compiled(folder, top, files):
+    """bench.sv with these files, each read as Verilog 2005 first, without a message."""
+    define = top.removeprefix("mb4_").upper()
+    if top != "mb4_core":
+        files = [*files, HERE / "plain_tops.v"]
+    options = [project.tool("iverilog"), f"-D{define}"]
+    program = folder / f"{top}.vvp"
+    for more in (["-g2005", "-Wall", "-t", "null", "-s", "mb4_core", *files],
+                 ["-g2012", "-o", program, "-s", "bench", *files, HERE / "bench.sv"]):
+        status, text = project.run([*options, *more])
+        if status != 0 or text:
+            raise SystemExit(f"{top}: {text}")
+    return program
+
+
+def plain(folder):
+    """(findings, sentence) of the plain Verilog."""
+    findings, texts = [], []
+    for top in plain_verilog.TOPS:
+        extra = [plain_verilog.write("mb4_spi", folder)] if top == "mb4_engine" else []
+        good, text = play(compiled(folder, top, [plain_verilog.write(top, folder), *extra]))
+        texts.append(f"{top} {text.strip()}")
+        if not good:
+            findings.append(texts[-1])
+    broken = folder / "broken"
+    broken.mkdir(exist_ok=True)
+    files = [changed(path, FAULTS[1], broken) for path in project.rtl_files()]
+    good, _ = play(compiled(broken, "mb4_core", [plain_verilog.write("mb4_core", broken, files)]))
+    if good:
+        findings.append(f"not noticed: {' | '.join(FAULTS[1])}")
+    return findings, ", ".join(texts)
 
 
 def processor_time():
@@ -167,6 +217,8 @@ def speed(program, arguments, turns=3):
 def main():
     folder = Path(sys.argv[1])
     project.tool("iverilog")
+    if "--plain" in sys.argv:
+        project.finish(*plain(folder))
     if "--break" in sys.argv:
         findings = []
         for fault in FAULTS:

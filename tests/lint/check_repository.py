@@ -8,11 +8,15 @@
   check_repository.py verilator   every call of Verilator goes through tools/cmake/mb4.cmake or
                                   carries -fno-const-bit-op-tree
   check_repository.py merged      no marks of an unfinished merge
+  check_repository.py runnable    scripts with "#!" have their run bit, nothing else has it
+  check_repository.py version     the version stands in project() of CMakeLists.txt; the files that must
+                                  repeat it say the same, no other file does
+  check_repository.py rooms       README.md names every folder of rtl/, tests/ and tools/, docs/README.md
+                                  every page of docs/
   check_repository.py self-test   planted faults are reported
 """
 
 import re
-import subprocess
 import sys
 from pathlib import Path
 
@@ -34,19 +38,27 @@ MACHINE_PATH = re.compile(
 # A mode option says that a line calls Verilator; --version or a mere mention does not.
 MODE = re.compile(r"(?<![\w-])--(?:cc|sc|binary|lint-only|xml-only|dpi-hdr-only)\b")
 
+# CMake takes the version from its line (mb4sim --version, libmb4sim, pkg-config, openmb4Config.cmake),
+# and so do tools/release.sh and regmap/generate.py. These cannot: FuseSoC reads the core file as it
+# stands, the driver works as a copied folder, and the register map's files are checked in.
+VERSION_FILE = "CMakeLists.txt"
+VERSION_LINE = r"(?m)^project\(openmb4 VERSION (\d+)\.(\d+)\.(\d+)\b"
+VERSION_COPIES = {
+    "openmb4.core": r"(?m)^name: openmb4:ip:mb4:(\d+)\.(\d+)\.(\d+)$",
+    "drivers/include/mb4/version.hpp":
+        r"VersionMajor = (\d+);[^;]*VersionMinor = (\d+);[^;]*VersionPatch = (\d+);",
+    "regmap/generated/mb4.ipxact.xml": r"<ipxact:version>(\d+)\.(\d+)\.(\d+)</ipxact:version>",
+}
+# The newest release; a tree before its first release has none.
+RELEASE = {"CHANGELOG.md": r"(?m)^## \[(\d+)\.(\d+)\.(\d+)\]"}
+
 
 def tracked():
     """Tracked files as {relative name: text or None}."""
-    git = project.tool("git")
-    if not (project.ROOT / ".git").exists():
-        print("skipped: not a git checkout, tracked files are unknown")
-        sys.exit(project.SKIPPED)
-    done = subprocess.run([git, "-c", f"safe.directory={project.ROOT}", "ls-files", "-z"],
-                          cwd=project.ROOT, capture_output=True, check=True)
     files = {}
-    for name in done.stdout.decode("utf-8").split("\0"):
+    for name in project.tracked():
         path = project.ROOT / name
-        if name and path.is_file():
+        if path.is_file():
             try:
                 files[name] = path.read_bytes().decode("utf-8")
             except UnicodeDecodeError:
@@ -84,6 +96,20 @@ def merge_findings(files):
     return findings
 
 
+def has_run_bit(name):
+    return (project.ROOT / name).stat().st_mode & 0o111 != 0
+
+
+def runnable_findings(files, run_bit=has_run_bit):
+    findings = []
+    for name, text in files.items():
+        script = (text or "").startswith("#!")
+        if script != run_bit(name):
+            findings.append(f"{name}:1: " + ('"#!" and no run bit' if script else
+                                             'run bit and no "#!"'))
+    return findings
+
+
 def statement(text, position):
     """The call around a position: up to the lines with neither continuation nor open bracket. As an
     approximation the lines of the same paragraph."""
@@ -110,6 +136,43 @@ def verilator_findings(files):
     return findings
 
 
+def version_findings(files):
+    line = re.search(VERSION_LINE, files.get(VERSION_FILE) or "")
+    if not line:
+        return [f"{VERSION_FILE}:1: no line project(openmb4 VERSION x.y.z"]
+    version = ".".join(line.groups())
+    findings = []
+    for name, pattern in {**VERSION_COPIES, **RELEASE}.items():
+        copy = re.search(pattern, files.get(name) or "")
+        if copy is None and name in RELEASE:
+            continue
+        if copy is None or copy.groups() != line.groups():
+            said = "none" if copy is None else ".".join(copy.groups())
+            findings.append(f"{name}:1: version {said}; {VERSION_FILE} says {version}")
+    # "==1.2.3" is the version of somebody else's package.
+    literal = re.compile(rf"(?<![\w.=]){re.escape(version)}(?!\w|\.\d)")
+    for name in files.keys() - {VERSION_FILE, *VERSION_COPIES, *RELEASE}:
+        for number, row in enumerate((files[name] or "").splitlines(), 1):
+            if literal.search(row):
+                findings.append(f"{name}:{number}: repeats the version {version} of {VERSION_FILE}")
+    return findings
+
+
+def room_findings(files):
+    findings = set()
+    for name in files:
+        room, *inside = name.split("/")
+        if room in ("rtl", "tests", "tools") and len(inside) > 1:
+            page, mention = "README.md", f"`{inside[0]}/`"
+        elif room == "docs" and len(inside) == 1 and name.endswith(".md") and name != "docs/README.md":
+            page, mention = "docs/README.md", f"({inside[0]})"
+        else:
+            continue
+        if mention not in (files.get(page) or ""):
+            findings.add(f"{page}:1: does not name {mention} of {room}/")
+    return sorted(findings)
+
+
 def self_test():
     findings = []
 
@@ -134,6 +197,31 @@ def self_test():
     for text in ("=" * 7, "a " + "<" * 7 + " b", ">" * 8):
         expect(0, merge_findings({"a.md": text}), text)
 
+    for text, bit, count in (("#!/bin/sh\n", True, 0), ("#!/bin/sh\n", False, 1), ("x\n", True, 1),
+                             ("x\n", False, 0), (None, True, 1)):
+        expect(count, runnable_findings({"a": text}, lambda _, bit=bit: bit), f"run bit of {text}")
+
+    core, header, ipxact, changelog = *VERSION_COPIES, *RELEASE
+    good = {VERSION_FILE: "project(openmb4 VERSION 1.2.3 LANGUAGES C)\n",
+            core: "name: openmb4:ip:mb4:1.2.3\n",
+            header: "kVersionMajor = 1;\nint kVersionMinor = 2;\nint kVersionPatch = 3;\n",
+            ipxact: "<ipxact:version>1.2.3</ipxact:version>\n",
+            changelog: "## [Unreleased]\n\n## [1.2.3] - 2026-01-01\n\n## [1.2.2] - 2025-01-01\n",
+            "a.txt": "package==1.2.3 11.2.3 1.2.34 1.2.3.4\n", "b.bin": None}
+    expect(0, version_findings(good), "versions")
+    expect(0, version_findings({**good, changelog: "## [Unreleased]\n"}), "no release yet")
+    for name, text in ((VERSION_FILE, "project(openmb4)"), (core, ""), (header, ""), (ipxact, ""),
+                       ("a.txt", "Version 1.2.3."), ("a.h", '"1.2.3"'),
+                       *((name, good[name].replace("3", "4", 1))
+                         for name in (core, header, ipxact, changelog))):
+        expect(1, version_findings({**good, name: text}), f"version in {name}: {text}")
+
+    rooms = {"README.md": "`unit/`", "docs/README.md": "[speed](speed.md)", "tests/unit/a.py": "",
+             "tests/CMakeLists.txt": "", "docs/speed.md": "", "docs/pictures/a.svg": ""}
+    expect(0, room_findings(rooms), "rooms")
+    expect(1, room_findings({**rooms, "tests/chip/a.cpp": "", "tests/chip/b.cpp": ""}), "a new room")
+    expect(1, room_findings({**rooms, "docs/new.md": ""}), "a new page")
+
     helper = {HELPER: f"verilate(x VERILATOR_ARGS {FLAG})"}
     expect(0, verilator_findings(helper), "helper")
     bare = {HELPER: "verilate(x VERILATOR_ARGS -Wall)"}
@@ -152,7 +240,9 @@ def main():
     if sys.argv[1] == "self-test":
         self_test()
     check = {"licences": licence_findings, "paths": path_findings, "merged": merge_findings,
-             "verilator": verilator_findings}[sys.argv[1]]
+             "runnable": runnable_findings,
+             "verilator": verilator_findings, "version": version_findings,
+             "rooms": room_findings}[sys.argv[1]]
     files = tracked()
     project.finish(check(files), f"{len(files)} tracked files")
 

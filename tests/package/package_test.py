@@ -5,6 +5,7 @@
 Usage: package_test.py BUILD CMAKE CC
 """
 import os
+import re
 import shutil
 import subprocess
 import sys
@@ -26,6 +27,17 @@ if(NOT EXISTS ${openmb4_RTL_DIR}/mb4.f)
   message(FATAL_ERROR "no RTL in ${openmb4_RTL_DIR}")
 endif()
 """
+
+# A program in C needs no C++ compiler.
+C_PROJECT = """
+cmake_minimum_required(VERSION 3.25)
+project(foreign LANGUAGES C)
+find_package(openmb4 0.1 REQUIRED)
+add_executable(positions positions.c)
+target_link_libraries(positions PRIVATE mb4::c mb4::mb4sim)
+"""
+# What the scenario of examples/simulator/positions.c sends: ramps from 1000 by 3 and from 500.
+POSITIONS = "".join(f"SSI {1000 + 3 * i}, BiSS C {500 + i}\n" for i in range(3))
 
 # The driver on the simulator, joined by the C interface.
 POSITION = r"""
@@ -128,6 +140,26 @@ class Package(unittest.TestCase):
                     self.assertNotIn(BUILD, text, name)
                     self.assertNotIn(os.path.join(self.folder.name, "first"), text, name)
 
+    def test_documents_are_there_and_their_links_lead_somewhere(self):
+        root = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..")
+        documents = self.path("share/doc/openmb4")
+        pages = ["docs/" + name for name in os.listdir(os.path.join(root, "docs"))
+                 if name.endswith(".md")]
+        self.assertGreater(len(pages), 10)
+        for name in ["README.md", "CHANGELOG.md", "LICENSE", *pages]:
+            self.assertTrue(os.path.isfile(os.path.join(documents, name)), name)
+        links = 0
+        for folder, _, names in os.walk(documents):
+            for name in names:
+                if not name.endswith(".md"):
+                    continue
+                with open(os.path.join(folder, name), encoding="utf-8") as file:
+                    for link in re.findall(r"\]\(([^)#:]+\.(?:md|svg))", file.read()):
+                        self.assertTrue(os.path.isfile(os.path.join(folder, link)),
+                                        f"{name}: {link}")
+                        links += 1
+        self.assertGreater(links, 30)
+
     def test_command_runs_from_there(self):
         command = self.path("bin/mb4sim")
         example = self.path("share/openmb4/examples/resolute-26.toml")
@@ -151,6 +183,17 @@ class Package(unittest.TestCase):
         # 0x2ABCDEF without its two flags.
         self.assertEqual(call(os.path.join(build, "position")), f"position {0x2ABCDEF >> 2}\n")
 
+    def test_find_package_from_c(self):
+        folder = self.work("cmake_c")
+        with open(os.path.join(folder, "CMakeLists.txt"), "w", encoding="utf-8") as file:
+            file.write(C_PROJECT)
+        shutil.copy(self.path("share/openmb4/examples/simulator/positions.c"), folder)
+        build = os.path.join(folder, "build")
+        call(CMAKE, "-S", folder, "-B", build, f"-DCMAKE_PREFIX_PATH={self.prefix}",
+             env=dict(os.environ, CXX="/no/such/compiler"))
+        call(CMAKE, "--build", build)
+        self.assertEqual(call(os.path.join(build, "positions")), POSITIONS)
+
     def test_other_minor_version_is_refused(self):
         folder = self.work("version")
         with open(os.path.join(folder, "CMakeLists.txt"), "w", encoding="utf-8") as file:
@@ -161,21 +204,50 @@ class Package(unittest.TestCase):
                  f"-DCMAKE_PREFIX_PATH={self.prefix}")
         self.assertRegex(str(caught.exception), r"not accepted:\s+\S*openmb4Config.cmake, version: 0")
 
-    def test_pkg_config_builds_the_c_example(self):
+    def pkg_config(self):
+        """The environment in which pkg-config and the loader find the tree."""
         if shutil.which("pkg-config") is None:
             self.skipTest("pkg-config is not installed")
-        folder = self.work("pkg")
-        environment = dict(os.environ, PKG_CONFIG_PATH=os.path.join(self.lib, "pkgconfig"),
-                           LD_LIBRARY_PATH=self.lib)
-        self.assertEqual(call("pkg-config", "--modversion", "mb4sim", env=environment).strip(),
-                         call(self.path("bin/mb4sim"), "--version").split()[1])
-        flags = call("pkg-config", "--cflags", "--libs", "mb4sim", env=environment).split()
-        program = os.path.join(folder, "transfer")
-        call(CC, "-std=c99", "-Wall", "-Wextra", "-Werror", "-o", program,
-             self.path("share/openmb4/examples/c/transfer.c"), *flags)
-        self.assertEqual(call(program, env=environment), CHIP)
-        driver = call("pkg-config", "--cflags", "mb4driver", env=environment).strip()
-        self.assertTrue(os.path.isfile(os.path.join(driver.removeprefix("-I"), "mb4/device.hpp")))
+        return dict(os.environ, PKG_CONFIG_PATH=os.path.join(self.lib, "pkgconfig"),
+                    LD_LIBRARY_PATH=self.lib)
+
+    def test_pkg_config_knows_every_part(self):
+        environment = self.pkg_config()
+        version = call(self.path("bin/mb4sim"), "--version").split()[1]
+        for name, header in (("mb4sim", "mb4sim.h"), ("mb4_c", "mb4.h"),
+                             ("mb4driver", "mb4/device.hpp")):
+            with self.subTest(name=name):
+                self.assertEqual(call("pkg-config", "--modversion", name, env=environment).strip(),
+                                 version)
+                folder = call("pkg-config", "--cflags", name, env=environment).strip()
+                self.assertTrue(os.path.isfile(os.path.join(folder.removeprefix("-I"), header)))
+
+    def test_examples_build_as_their_headers_say(self):
+        environment = self.pkg_config()
+        expected = {"transfer.c": CHIP, "positions.c": POSITIONS}
+        found = [os.path.join(path, name)
+                 for path, _, names in os.walk(self.path("share/openmb4/examples"))
+                 for name in names if name.endswith((".c", ".cpp"))]
+        self.assertEqual({os.path.basename(example) for example in found}, set(expected))
+        for example in found:
+            name = os.path.basename(example)
+            with self.subTest(example=name), open(example, encoding="utf-8") as file:
+                commands = re.findall(r"^ \* {3}(cc .*)$", file.read(), re.MULTILINE)
+                self.assertEqual(len(commands), 1, "the header names one command")
+                folder = self.work(name)
+                shutil.copy(example, folder)
+                # cc is this build's compiler, and says nothing.
+                os.symlink(shutil.which(CC), os.path.join(folder, "cc"))
+                done = subprocess.run(
+                    commands[0], shell=True, cwd=folder, capture_output=True, text=True,
+                    timeout=200, check=False,
+                    env=dict(environment, PATH=folder + os.pathsep + environment["PATH"]))
+                self.assertEqual((done.returncode, done.stdout, done.stderr),
+                                 (0, expected[name], ""), commands[0])
+                # In C99 without a warning.
+                flags = call("pkg-config", "--cflags", "mb4sim", "mb4_c", env=environment).split()
+                call(CC, "-std=c99", "-Wall", "-Wextra", "-Wpedantic", "-Werror", "-fsyntax-only",
+                     example, *flags)
 
 
 if __name__ == "__main__":

@@ -1,8 +1,10 @@
 # SPDX-FileCopyrightText: 2026 The openmb4 authors
 # SPDX-License-Identifier: Apache-2.0
-"""The release archive: the committed files and no others, the same bytes each time."""
+"""The release archive: the committed files and plain Verilog of the tops, no others; the same bytes
+each time."""
 import hashlib
 import re
+import shutil
 import subprocess
 import sys
 import tarfile
@@ -23,6 +25,9 @@ def main():
     if not (ROOT / ".git").exists():
         print("skipped: not a git checkout")
         sys.exit(SKIPPED)
+    if shutil.which("yosys") is None:
+        print("skipped: yosys is not installed")
+        sys.exit(SKIPPED)
     version = re.search(r"project\(openmb4 VERSION ([\d.]+)",
                         (ROOT / "CMakeLists.txt").read_text()).group(1)
     with tempfile.TemporaryDirectory() as folder:
@@ -36,7 +41,7 @@ def main():
         sums = []
         for name in ("a", "b"):
             out = Path(folder) / name
-            done = subprocess.run([script, out], capture_output=True, text=True, timeout=100,
+            done = subprocess.run([script, out], capture_output=True, text=True, timeout=300,
                                   check=True)
             archive = Path(done.stdout.strip())
             assert archive == out / f"openmb4-{version}.tar.gz", archive
@@ -46,7 +51,11 @@ def main():
         tracked = set(git("ls-files", cwd=clone).splitlines())
         with tarfile.open(archive) as tar:
             packed = {member.name for member in tar.getmembers() if not member.isdir()}
+            plain = tar.extractfile(f"openmb4-{version}/verilog/mb4_chip.v").read().decode()
+        tracked |= {f"verilog/{top}.v" for top in ("mb4_core", "mb4_engine", "mb4_chip")}
         assert packed == {f"openmb4-{version}/{name}" for name in tracked}, "other files"
+        # What it does is shown by tests/icarus.
+        assert "`timescale" in plain and len(re.findall(r"^module ", plain, re.M)) == 1, plain[:500]
         (clone / "README.md").write_text("changed")
         done = subprocess.run([script, Path(folder) / "c"], capture_output=True, text=True,
                               timeout=100, check=False)

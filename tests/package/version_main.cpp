@@ -45,7 +45,7 @@ int main(int argc, char** argv) {
   core->ner_i = 1;
   core->sl1_i = 1;
   core->sl2_i = 1;
-  core->quirks_i = 4;  // as the simulator: AGSERR_ON_HOLDBANK
+  core->quirks_i = 0;  // as the simulator
   // Asynchronous resets need an edge.
   context.assertOn(false);
   for (const int level : {1, 0}) {

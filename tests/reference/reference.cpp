@@ -119,7 +119,8 @@ std::string Reference::mo_bits(const Registers& registers, unsigned line) const 
   return bits;
 }
 
-bool Reference::word(const Registers& registers, unsigned x, std::string& bits, Bank& bank) {
+bool Reference::word(const Registers& registers, unsigned x, std::string& bits,
+                     const std::function<Bank&(unsigned)>& bank_at) {
   const unsigned length = data_bits(registers, x);
   const CrcChoice crc = crc_choice(registers.slave[4 * x + 1]);
   const std::uint16_t start = crc_start(registers, x);
@@ -141,7 +142,7 @@ bool Reference::word(const Registers& registers, unsigned x, std::string& bits, 
       const unsigned weight = byte * 8 + bit;
       if (weight < length && value_bits[length - 1 - weight] == '1') value |= 1U << bit;
     }
-    bank.data[8 * x + byte] = static_cast<std::uint8_t>(value);
+    bank_at(length - 8 * byte).data[8 * x + byte] = static_cast<std::uint8_t>(value);
   }
   if (crc.width == 0) return true;
 
@@ -149,21 +150,34 @@ bool Reference::word(const Registers& registers, unsigned x, std::string& bits, 
   for (const char bit : sent) received = received * 2 + (bit == '0' ? 1U : 0U);  // sent inverted
   const unsigned crc_bytes = crc.width > 8 ? 2 : 1;
   if (!registers.nocrc && bytes + crc_bytes <= 8) {
-    bank.data[8 * x + 7] = static_cast<std::uint8_t>(crc_bytes == 2 ? received >> 8 : received);
-    if (crc_bytes == 2) bank.data[8 * x + 6] = static_cast<std::uint8_t>(received & 0xFF);
+    const unsigned top = length + (crc_bytes == 2 ? 8 : crc.width);
+    bank_at(top).data[8 * x + 7] =
+        static_cast<std::uint8_t>(crc_bytes == 2 ? received >> 8 : received);
+    if (crc_bytes == 2) {
+      bank_at(top + 8).data[8 * x + 6] = static_cast<std::uint8_t>(received & 0xFF);
+    }
   }
   return received == remainder(data, crc, start);
 }
 
 void Reference::frame(const Registers& registers, const Lines& lines) {
-  Bank& bank = registers.singlebank ? banks_[host_] : banks_[1 - host_];
   scd_error_ = false;
+  // Decision 15: the frame writes over the bank whose switch is held back.
+  if (pending_) swbank_fail_ = true;
+  pending_ = false;
   for (unsigned line = 1; line <= 2; ++line) {
     std::string bits = lines.bits[line - 1];
     if (bits.empty()) continue;  // takes no part
+    const std::vector<unsigned> swaps = line == 1 ? lines.swaps : std::vector<unsigned>{};
+    std::size_t done = 0;  // inversions so far
+    const std::size_t all = bits.size();
+    const auto taken = [&] { return static_cast<unsigned>(all - bits.size()); };
+    const auto swap_up_to = [&](unsigned position) {
+      for (; done < swaps.size() && swaps[done] <= position; ++done) swap_banks();
+    };
     // Page 15: CDS is BiSS C's alone.
     const bool biss_c = registers.protocol[line - 1] == Protocol::kBissC;
-    bank.cds[line - 1] = biss_c && bits[0] == '1';
+    const bool cds = biss_c && bits[0] == '1';
     if (biss_c) bits.erase(0, 1);
     for (unsigned x = 0; x < 8; ++x) {
       if (!enabled(registers, x) || !on_line(registers, x, line)) continue;
@@ -171,10 +185,24 @@ void Reference::frame(const Registers& registers, const Lines& lines) {
         bits.erase(0, slot_bits(registers, x));  // decision 11
         continue;
       }
-      const bool good = word(registers, x, bits, bank);
-      bank.valid[x] = good;
+      const unsigned first = taken();
+      swap_up_to(first);
+      const std::size_t before = done;
+      std::vector<Bank*> banks;  // by bit of the word: the one that it goes to
+      for (unsigned bit = 0; bit < slot_bits(registers, x); ++bit) {
+        swap_up_to(first + bit);
+        banks.push_back(&engine_bank(registers));
+      }
+      const bool split = done != before;  // decision 34
+      const bool good =
+          word(registers, x, bits, [&](unsigned bit) -> Bank& { return *banks.at(bit - 1); }) &&
+          !split;
+      if (split) banks_[0].valid[x] = banks_[1].valid[x] = false;
+      engine_bank(registers).valid[x] = good;
       if (!good) scd_error_ = true;
     }
+    swap_up_to(~0U);
+    engine_bank(registers).cds[line - 1] = cds;
   }
   if (registers.singlebank) return;
   if (held_) {
@@ -198,6 +226,26 @@ void Reference::hold(bool held) {
 void Reference::omitted_frame() {
   ags_error_ = true;
   swbank_fail_ = true;
+}
+
+void Reference::init(const std::array<std::optional<std::uint8_t>, 2>& quarters) {
+  for (Bank& bank : banks_) bank.valid.fill(false);
+  for (unsigned line = 0; line < 2; ++line) {
+    if (quarters[line]) banks_[host_].data[32 * line] = *quarters[line];
+  }
+  clear_errors();
+}
+
+unsigned Reference::access_lines(const std::array<std::optional<Protocol>, 2>& protocol,
+                                 bool regvers, unsigned chsel, bool cts) {
+  const unsigned named = chsel == 0 ? 1 : chsel;
+  unsigned lines = 0;
+  for (unsigned line = 0; line < 2; ++line) {
+    if (((named >> line) & 1U) == 0 || !protocol[line]) continue;
+    if ((*protocol[line] != Protocol::kBissB) == regvers) lines |= 1U << line;
+  }
+  // One line at a time carries registers of BiSS C (page 27); CTS is BiSS C's (decision 43).
+  return lines == 3 && cts && regvers ? 1 : lines;
 }
 
 void Reference::write_svalid(std::uint16_t value) {

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What an iC-MB4 shows its host after a frame, and what it sends on MO, computed from the registers
-// the host wrote and the bits that stood on the lines. Written from the datasheet (pages 14..16,
+// Computes what an iC-MB4 shows its host after a frame, and what it sends on MO, from the registers
+// that the host wrote and the bits on the lines. The source is the datasheet (pages 14..16,
 // 23..26, 31, 33..35) and decisions 8, 9, 11, 15, 18, 28, 29, 30; it shares no code with the RTL,
 // the simulator or the driver.
 #ifndef MB4_TESTS_REFERENCE_REFERENCE_HPP_
@@ -10,7 +10,10 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
+#include <optional>
 #include <string>
+#include <vector>
 
 namespace mb4ref {
 
@@ -31,6 +34,8 @@ struct Registers {
 // order of their channels. In SSI from the second rising edge on.
 struct Lines {
   std::array<std::string, 2> bits;
+  // SWBANK is inverted when so many bits of line 1 have been taken, in ascending order.
+  std::vector<unsigned> swaps{};
 };
 
 // One data channel's choice of CRC (Tables 13..15).
@@ -52,10 +57,17 @@ class Reference {
   void frame(const Registers& registers, const Lines& lines);
   // Writing HOLDBANK: 0 makes up for the switch that it has held back (Table 48).
   void hold(bool held);
-  // A frame falls due while a switch is held back: it is left out (page 33).
+  // A frame falls due while a switch is held back: with AGSERR_ON_HOLDBANK it is left out (page
+  // 33).
   void omitted_frame();
   // SWBANK changes its value (Table 49).
   void swap_banks() { host_ = 1 - host_; }
+  // INIT of BiSS C (decisions 16, 35): line delays of the lines in use, else nothing.
+  void init(const std::array<std::optional<std::uint8_t>, 2>& quarters);
+  // Lines (bit 0 = line 1) on which INSTR 100 runs by REGVERS, CHSEL, CTS and the protocols of the
+  // lines, none if not in use (decisions 37, 43). 0: it ends at once with nREGERR = 0.
+  static unsigned access_lines(const std::array<std::optional<Protocol>, 2>& protocol, bool regvers,
+                               unsigned chsel, bool cts);
   // BREAK between two frames (decision 8).
   void clear_errors() { scd_error_ = ags_error_ = false; }
 
@@ -91,8 +103,13 @@ class Reference {
   }
   std::uint8_t spread(unsigned first) const;
   void switch_banks();
-  // Takes channel `x` (0..7) from the front of `bits`; false if its CRC is wrong.
-  bool word(const Registers& registers, unsigned x, std::string& bits, Bank& bank);
+  Bank& engine_bank(const Registers& registers) {
+    return banks_[registers.singlebank ? host_ : 1 - host_];
+  }
+  // Takes channel `x` (0..7) from the front of `bits`; false if its CRC is wrong. `bank_at(n)` is
+  // the bank that gets what the word's bit n (from 1) completes.
+  bool word(const Registers& registers, unsigned x, std::string& bits,
+            const std::function<Bank&(unsigned)>& bank_at);
 
   std::array<Bank, 2> banks_{};
   unsigned host_ = 0;

@@ -3,7 +3,7 @@
 //
 // A bus with MO (datasheet pages 15, 25, 31; protocol facts section 8): the master is one more
 // slave at the far end. It acknowledges with rising edge 2, sends its start bit MO_BUSY periods
-// later than a slave could, CDS = 0, then the words, that of slave 1 first, then 1.
+// later than a slave could, then CDS = 0, then the words (slave 1 first), then 1.
 #include "mb4sim/actuator.hpp"
 
 #include <gtest/gtest.h>
@@ -199,7 +199,7 @@ TEST(Actuator, CdmOnABus_IsTaken) {
   EXPECT_EQ(slave.cdm_count(), 2U);
 }
 
-// Without a bus connection SLI of the last slave is 0 whatever pin MO does.
+// Without a bus connection SLI of the last slave is 0 for any level of pin MO.
 TEST(Actuator, MoNotConnected_LeavesSliAtZero) {
   EventQueue queue;
   Line line(

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What arrives at the end of a wire.
+// Records the edges that arrive at the end of a wire.
 #ifndef MB4_TESTS_UNIT_ARRIVALS_HPP_
 #define MB4_TESTS_UNIT_ARRIVALS_HPP_
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Cables of a scenario: keys, what happens at given times, one seed for all of it.
+// Cables of a scenario: keys, events at given times, and one seed for all random choices.
 #include "mb4sim/cable.hpp"
 
 #include <gtest/gtest.h>

@@ -18,7 +18,7 @@ from cli import EXAMPLES, MB4SIM, RESOLUTE, CliTest, run, slave
 
 BUS = os.path.join(EXAMPLES, "control-bus.toml")
 COMMANDS = ("run", "spi", "regs", "scan", "sweep", "regress", "presets", "bench", "completion",
-            "man", "spidev", "bridge", "plot")
+            "man", "spidev", "bridge", "plot", "help")
 FLIP = "[[fault]]\nkind = \"bit-flip\"\nbits = [4]\nat_us = 1000\n"
 
 
@@ -58,6 +58,40 @@ class Trace(CliTest):
         named = [lines[i + 1] for i, line in enumerate(lines) if line == "@100000028"]
         self.assertTrue(any(name.endswith(".state_q[2:0]") for name in named), named)
         self.assertFalse([name for name in named if "addr" in name or "data" in name])
+
+    def test_pins_have_the_names_of_the_interface_in_use(self):
+        top = "mb4.mb4sim_trace_top."
+        # Page 3. Bits count from the left: (7) is bit 0.
+        spi = {"NCS": "ncs_i", "SCLK": "ale_i", "MOSI": "(7)db_i[7:0]", "MISO": "(6)db_o[7:0]"}
+        second = {"NCS of SPI2": "(3)db_i[7:0]", "SCLK of SPI2": "(2)db_i[7:0]",
+                  "MOSI of SPI2": "(1)db_i[7:0]", "MISO of SPI2": "(0)db_o[7:0]"}
+        bus = {"NCS": "ncs_i", "ALE": "ale_i", "DB in": "db_i[7:0]", "DB out": "db_o[7:0]"}
+        intel = {**bus, "NWR": "nwr_e_i", "NRD": "nrd_rnw_i"}
+        motorola = {**bus, "E": "nwr_e_i", "RNW": "nrd_rnw_i"}
+        for interface, own, others in (("spi", spi, {**second, **intel, **motorola}),
+                                       ("spi2", {**spi, **second}, {**intel, **motorola}),
+                                       ("intel", intel, {**spi, **second, **motorola}),
+                                       ("motorola", motorola, {**spi, **second, **intel})):
+            with self.subTest(interface):
+                scenario = self.path("x.toml", f"[host]\ninterface = \"{interface}\"\n" +
+                                     slave("data_bits = 28"))
+                trace = ["--trace", self.path("a.fst"), "--frames", "1"]
+                self.assertEqual(run("run", scenario, *trace).returncode, 0)
+                with open(self.path("a.gtkw"), encoding="utf-8") as file:
+                    view = file.read()
+                host = view.split("\n-host\n")[1]
+                named = dict(re.findall(r"(?m)^\+\{([^}]*)\} (.*)$", host))
+                for name, signal in {**own, "NRES": "nres_i", "EOT": "eot_o"}.items():
+                    self.assertEqual(named.get(name), re.sub(r"^(\(\d\))?", r"\1" + top, signal, 1))
+                self.assertEqual(set(named) & (set(others) - set(own)), set())
+                inside = [line for line in host.splitlines() if ".u_host." in line]
+                self.assertTrue(inside)
+                self.assertEqual(any(".u_par_bus." in line for line in inside),
+                                 interface in ("intel", "motorola"))
+                self.assertEqual(any(".u_spi2." in line for line in inside), interface == "spi2")
+                lines = view.split("\n-line\n")[1]
+                for name, signal in (("MA1", "ma1_o"), ("SL1", "sl1_i")):
+                    self.assertIn(f"+{{{name}}} {top}{signal}\n", lines)
 
     def test_window_around_the_first_error(self):
         scenario = self.path("x.toml", slave("data_bits = 28") + FLIP)
@@ -278,6 +312,20 @@ class Help(CliTest):
             self.assertEqual(self.complete(script, ["mb4sim", command, "--"]),
                              long_options(command), command)
         self.assertEqual(self.complete(script, ["mb4sim", "run", "my"]), {"my.toml"})
+
+    def test_names_that_a_command_takes_complete(self):
+        bash = self.path("mb4sim.bash", run("completion", "bash").stdout)
+        zsh = run("completion", "zsh").stdout
+        self.path("resolute-x.toml", "")
+        names = [one["preset"] for one in json.loads(run("presets", "--json").stdout)]
+        for command, known, word, found in (
+                ("presets", names, "resolute", {n for n in names if n.startswith("resolute")}),
+                ("help", COMMANDS, "sp", {"spi", "spidev"}),
+                ("completion", ("bash", "zsh"), "z", {"zsh"})):
+            self.assertEqual(self.complete(bash, ["mb4sim", command, word]), found)
+            part = zsh.split(f"  {command})\n")[1].split(";;")[0]
+            offered = re.search(r"'1:word:\(([^)]*)\)'", part).group(1).split()
+            self.assertEqual(set(offered), set(known))
 
     def test_zsh_script_names_every_option(self):
         script = run("completion", "zsh").stdout

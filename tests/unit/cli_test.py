@@ -20,6 +20,21 @@ import xml.etree.ElementTree
 from cli import EXAMPLES, MB4SIM, RESOLUTE, CliTest, run, slave
 
 
+def crc(polynomial, width, start, data, bits):
+    """CRC bit by bit, most significant bit first."""
+    register = start
+    for index in reversed(range(bits)):
+        feedback = ((data >> index) & 1) ^ (register >> (width - 1))
+        register = (register << 1) & ((1 << width) - 1)
+        register ^= polynomial & ((1 << width) - 1) if feedback else 0
+    return register
+
+
+def crc6(data, bits):
+    """CRC6 0x43, start 0."""
+    return crc(0x43, 6, 0, data, bits)
+
+
 class Cli(CliTest):
     # --- wrong use ---------------------------------------------------------------------------
 
@@ -447,22 +462,6 @@ class Cli(CliTest):
         self.assertEqual(document["registers"][0xC0:0xE8], [0] * 0x28)
         self.assertEqual(document["registers"][0xEB], 0x84)
 
-
-def crc(polynomial, width, start, data, bits):
-    """CRC bit by bit, most significant bit first."""
-    register = start
-    for index in reversed(range(bits)):
-        feedback = ((data >> index) & 1) ^ (register >> (width - 1))
-        register = (register << 1) & ((1 << width) - 1)
-        register ^= polynomial & ((1 << width) - 1) if feedback else 0
-    return register
-
-
-def crc6(data, bits):
-    """CRC6 0x43, start 0."""
-    return crc(0x43, 6, 0, data, bits)
-
-
     # --- sweep -------------------------------------------------------------------------------
 
     def test_sweep_wrong_use_is_status_2_and_one_line(self):
@@ -547,6 +546,17 @@ def crc6(data, bits):
             title = next(t.text for t in texts if t.get("class") == "title")
             self.assertLess(len(title), 90)
             self.assertIn("\u00e9.toml, 1 frame at each point, seed 1", title)
+        # The turned title of the other axis has room beside long numbers.
+        result = run("sweep", scenario, "--delays", "0", "--jitters", "12.345,12.349", "--frames",
+                     "1", "--svg", self.path("a.svg"))
+        self.assertEqual((result.returncode, result.stderr), (0, ""))
+        texts = list(xml.etree.ElementTree.parse(self.path("a.svg")).getroot().iter(svg + "text"))
+        turned = next(t.get("transform") for t in texts if t.get("transform"))
+        title = float(re.match(r"translate\(([\d.]+)", turned).group(1))
+        ends = [t for t in texts if t.get("class") == "end"]
+        self.assertIn("12.346", [t.text for t in ends])
+        for label in ends:
+            self.assertGreater(float(label.get("x")) - 7.7 * len(label.text), title + 3)
 
     def test_sweep_is_status_1_when_a_frame_within_i305_is_bad(self):
         # Rising edges 40 % of T_MA late at every jitter.

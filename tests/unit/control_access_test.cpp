@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What a register access meets in a slave: busy times, missing and protected registers, banks, and
-// the faults that a test can order.
+// Conditions in a slave during a register access: busy times, missing and protected registers,
+// banks, and the faults that a test can order.
 #include <gtest/gtest.h>
 
 #include "control_bench.hpp"

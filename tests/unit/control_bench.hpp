@@ -39,7 +39,7 @@ inline std::string command_header(unsigned ids, unsigned code) {
 }
 inline std::string data_with_crc(unsigned byte) { return binary(byte, 8) + crc4(binary(byte, 8)); }
 
-// S and the 32 bits behind it.
+// S and the 32 bits after it.
 inline std::string start_and(std::uint32_t frame) {
   return std::string(1, '1').append(binary(frame, 32));
 }

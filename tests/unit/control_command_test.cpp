@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// BiSS commands in slaves: iC-MB4 Rev D2 page 29; slots and effects as docs/choices.md has them.
+// BiSS commands in slaves: iC-MB4 Rev D2 page 29; slots and effects as in docs/choices.md.
 #include <gtest/gtest.h>
 
 #include "control_bench.hpp"

@@ -56,7 +56,7 @@ TEST(EventQueue, ManyEvents_RunInOrderOfTimeAndPosting) {
   EXPECT_EQ(queue.size(), kEvents - 1);
   while (!queue.empty()) queue.run_next();
   ASSERT_EQ(order.size(), kEvents);
-  // The one that ran early was the first at 10; the second one at 10 came behind it.
+  // The event that ran early was the first at 10; the second one at 10 came after it.
   EXPECT_EQ(order.front(), std::make_pair(Time{10}, 0U));
   EXPECT_TRUE(std::is_sorted(order.begin(), order.end()));
 }

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What [[fault]] tables are made of: glitches, aborted SPI frames, unplugged slaves, clocks; the
-// whole is in cli_fault_test.py.
+// The parts of [[fault]] tables: glitches, aborted SPI frames, unplugged slaves, clocks.
+// cli_fault_test.py tests the whole.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The watch over the host's timing, and the host models against it: datasheet pages 9 to 11.
+// The check of the host's timing, and the host models under this check: datasheet pages 9 to 11.
 #include "mb4sim/host_check.hpp"
 
 #include <gtest/gtest.h>
@@ -153,7 +153,7 @@ TEST(HostCheck, MosiChangesWhileSclkIsHigh_HoldTimeIsReported) {
       "I206: MOSI stable after SCLK has risen for 7.499 ns at 1114.999 ns, at least 7.500 ns");
 }
 
-// Short pulses on wires of an interface that is not selected, or in a reset, are nobody's.
+// Short pulses on wires of an interface that is not selected, or in a reset, have no effect.
 TEST(HostCheck, NotSelectedOrInReset_NothingIsReported) {
   WatchedPins pins;
   for (unsigned i = 0; i < 10; ++i) {

@@ -55,17 +55,19 @@ TEST(ScenarioProtocols, SsiDefaults_AreThoseOfThePage) {
 
 TEST(ScenarioProtocols, BissB_IsReadCompletely) {
   const Scenario scenario = parse_scenario(
-      channel("", slave("biss-b",
-                        "data_bits = 15\ntimeout = 4\nregister_timeout = 32\n"
-                        "busy_periods = 2\nids = 2\nread_busy_clocks = 7\n"
-                        "store_busy_us = 4000\nmissing = [0x50]\n"
-                        "registers = { 0x44 = [1, 2] }") +
-                      slave("biss-b", "data_bits = 8\nids = 3\nregister_timeout = \"adaptive\"")),
+      channel("",
+              slave("biss-b",
+                    "data_bits = 15\ntimeout = 4\nregister_timeout = 32\n"
+                    "busy_periods = 2\nacknowledge = \"passed-on\"\nids = 2\nread_busy_clocks = 7\n"
+                    "store_busy_us = 4000\nmissing = [0x50]\n"
+                    "registers = { 0x44 = [1, 2] }") +
+                  slave("biss-b", "data_bits = 8\nids = 3\nregister_timeout = \"adaptive\"")),
       "s");
   const auto& near = config_of<BissBSlaveConfig>(scenario);
   EXPECT_EQ(near.timeout.fixed, from_us(4));
   EXPECT_EQ(near.register_timeout, from_us(32));
   EXPECT_EQ(near.busy_periods, 2U);
+  EXPECT_TRUE(near.passes_acknowledge);
   EXPECT_EQ(near.access.ids, 2U);
   EXPECT_EQ(near.access.read_busy.frames, 7U);
   EXPECT_EQ(near.access.store_busy.time, from_us(4000));
@@ -76,6 +78,7 @@ TEST(ScenarioProtocols, BissB_IsReadCompletely) {
   const auto& far = config_of<BissBSlaveConfig>(scenario, 1);
   EXPECT_EQ(far.access.first_id, 0U);
   EXPECT_EQ(far.register_timeout, 0U);
+  EXPECT_FALSE(far.passes_acknowledge);
   EXPECT_EQ(far.timeout.fixed, from_us(16));
   EXPECT_EQ(scenario.channels[0].protocol(), LineProtocol::kBissB);
 }
@@ -83,8 +86,10 @@ TEST(ScenarioProtocols, BissB_IsReadCompletely) {
 TEST(ScenarioProtocols, ActuatorAndMo_AreReadCompletely) {
   const Scenario scenario = parse_scenario(
       channel("delay_ns = 100\nmo = true\nmo_delay_ns = 80\n",
-              slave("biss-c", "actuator = true\ndata_bits = 16\nstop_bit = false\ndata = 0x1234") +
-                  slave("biss-c", "actuator = true\ndata_bits = 8")),
+              slave("biss-c",
+                    "actuator = true\ndata_bits = 16\nstop_bit = false\ndata = 0x1234\n"
+                    "acknowledge = \"passed-on\"") +
+                  slave("biss-c", "actuator = true\ndata_bits = 8\nacknowledge = \"latched\"")),
       "s");
   EXPECT_TRUE(scenario.channels[0].cable.mo);
   EXPECT_EQ(scenario.channels[0].cable.mo_late, from_ns(30));  // 80 ns less half the round trip
@@ -93,8 +98,10 @@ TEST(ScenarioProtocols, ActuatorAndMo_AreReadCompletely) {
   EXPECT_FALSE(near.stop_bit);
   EXPECT_EQ(near.source.constant, 0x1234U);
   EXPECT_EQ(near.channel_bits(), 22U);
+  EXPECT_TRUE(near.passes_acknowledge);
   const auto& far = config_of<BissCSlaveConfig>(scenario, 1);
   EXPECT_TRUE(far.stop_bit);
+  EXPECT_FALSE(far.passes_acknowledge);
   EXPECT_EQ(far.flag_bits, 0U);
   EXPECT_EQ(far.channel_bits(), 15U);
 }
@@ -154,6 +161,13 @@ INSTANTIATE_TEST_SUITE_P(
                 "s.toml:6:15: key 'response_ns': -1 is outside 0 to 100000"},
         BadKeys{"GrayOfBissC", channel("", slave("biss-c", "data_bits = 8\ngray = true")),
                 "s.toml:6:1: key 'gray': unknown key"},
+        BadKeys{"Acknowledge",
+                channel("", slave("biss-c", "data_bits = 8\nacknowledge = \"late\"")),
+                "s.toml:6:15: key 'acknowledge': unknown value 'late', expected one of: latched, "
+                "passed-on"},
+        BadKeys{"SsiAcknowledge",
+                channel("", slave("ssi", "data_bits = 8\nacknowledge = \"latched\"")),
+                "s.toml:6:1: key 'acknowledge': unknown key"},
         BadKeys{"RegisterTimeout",
                 channel("", slave("biss-b", "data_bits = 8\nregister_timeout = \"long\"")),
                 "s.toml:6:20: key 'register_timeout': expected \"adaptive\" or a number of "

@@ -4,8 +4,12 @@
 
 #include <gtest/gtest.h>
 
+#include <fstream>
+#include <iterator>
 #include <ostream>
+#include <set>
 #include <string>
+#include <vector>
 
 namespace mb4::sim {
 namespace {
@@ -43,7 +47,7 @@ registers = { 0x44 = [0x00, 0xD9, 0x01, 0x32] }
 )",
                                            "design.toml");
   EXPECT_EQ(scenario.chip.f_clk_hz, 20'000'000U);
-  EXPECT_EQ(scenario.chip.quirks, 0b000100U);
+  EXPECT_EQ(scenario.chip.quirks, 0U);
   EXPECT_EQ(scenario.host.sclk_hz, 10'000'000U);
   EXPECT_EQ(scenario.host.ma_hz, 10'000'000U);
   EXPECT_EQ(biss_c(scenario).data_bits, 28U);
@@ -52,6 +56,68 @@ registers = { 0x44 = [0x00, 0xD9, 0x01, 0x32] }
   EXPECT_TRUE(biss_c(scenario).timeout.adaptive());
   EXPECT_EQ(scenario.channels[0].slaves[0].registers.at(0x45), 0xD9);
   EXPECT_EQ(scenario.channels[0].slaves[0].registers.at(0x47), 0x32);
+}
+
+// A slave without protocol and a fault without kind may have what some protocol or kind has: there
+// a key is unknown only if it is unknown to all of them.
+TEST(Scenario, KeysOfAnyKind_AreKnownWithoutTheKind) {
+  std::ifstream file(MB4_EXAMPLES "/../sim/README.md");
+  const std::string manual{std::istreambuf_iterator<char>(file), {}};
+  std::set<std::string> words;  // what stands alone between two backticks
+  for (std::size_t at = 0; (at = manual.find('`', at)) != std::string::npos; ++at) {
+    const std::size_t end =
+        manual.find_first_not_of("abcdefghijklmnopqrstuvwxyz0123456789_", at + 1);
+    if (end != std::string::npos && manual[end] == '`') {
+      words.insert(manual.substr(at + 1, end - at - 1));
+    }
+  }
+  const std::string channel = "[[channel]]\nnumber = 1\n[[channel.slave]]\n";
+  const std::string fault = slave("data_bits = 8") + "[[fault]]\n";
+  struct Table {
+    std::string head;
+    std::string key;
+    std::vector<std::string> kinds;
+    unsigned expected;  // keys at least
+  };
+  const auto sources = [](std::vector<std::string> kinds) {
+    for (const char* source : {"ramp", "sine", "file"}) {
+      kinds.push_back(std::string("\"biss-c\"\ndata_bits = 8\nsource = \"") + source + '"');
+    }
+    return kinds;
+  };
+  for (const Table& table :
+       {Table{channel, "protocol",
+              sources({"\"biss-c\"", "\"biss-c\"\nactuator = true\ndata_bits = 8", "\"biss-b\"",
+                       "\"ssi\"", "\"ssi\"\ncontrol = true\ndata_bits = 8", "\"replay\"",
+                       "\"replay\"\nplay = \"clock\"\ndata_bits = 8"}),
+              39},
+        Table{fault,
+              "kind",
+              {"\"bit-flip\"", "\"glitch\"", "\"stuck\"", "\"jitter\"", "\"silent\"", "\"abort\"",
+               "\"clock-frequency\"", "\"silent\"\nslave = 1\nper_s = 1"},
+              14}}) {
+    const auto unknown = [&](const std::string& line, const std::string& word) {
+      try {
+        parse_scenario(table.head + line + word + " = [[[]]]\n", "s");  // right nowhere
+      } catch (const ScenarioError& error) {
+        return std::string(error.what()).find("'" + word + "': unknown key") != std::string::npos;
+      }
+      return false;
+    };
+    unsigned known = 0;
+    for (const std::string& word : words) {
+      if (word == table.key) continue;
+      bool taken = false;
+      for (const std::string& kind : table.kinds) {
+        const std::string line = table.key + " = " + kind + '\n';
+        if (line.find('\n' + word + " =") != std::string::npos) continue;
+        taken = taken || !unknown(line, word);
+      }
+      EXPECT_EQ(unknown("", word), !taken) << table.key << ' ' << word;
+      known += taken ? 1 : 0;
+    }
+    EXPECT_GE(known, table.expected) << table.key;
+  }
 }
 
 TEST(Scenario, HostInterfaces_AreReadWithTheirKeys) {
@@ -85,13 +151,13 @@ TEST(Scenario, Quirks_SetTheirBits) {
   const auto quirks = [](const std::string& keys) {
     return parse_scenario("[chip.quirks]\n" + keys, "s").chip.quirks;
   };
-  EXPECT_EQ(quirks("IDA_TEST_INVERT = true"), 0b000101U);
-  EXPECT_EQ(quirks("AGSERR_ON_INSTR_WRITE = true"), 0b000110U);
-  EXPECT_EQ(quirks("AGSERR_ON_HOLDBANK = false"), 0b000000U);
-  EXPECT_EQ(quirks("AGS_CLEARED_ON_ERROR = true"), 0b001100U);
-  EXPECT_EQ(quirks("REVISION = 0x20"), 0b000100U);
-  EXPECT_EQ(quirks("REVISION = 0x10"), 0b010100U);
-  EXPECT_EQ(quirks("REVISION = 0x11"), 0b100100U);
+  EXPECT_EQ(quirks("IDA_TEST_INVERT = true"), 0b000001U);
+  EXPECT_EQ(quirks("AGSERR_ON_INSTR_WRITE = true"), 0b000010U);
+  EXPECT_EQ(quirks("AGSERR_ON_HOLDBANK = true"), 0b000100U);
+  EXPECT_EQ(quirks("AGS_CLEARED_ON_ERROR = true"), 0b001000U);
+  EXPECT_EQ(quirks("REVISION = 0x20"), 0b000000U);
+  EXPECT_EQ(quirks("REVISION = 0x10"), 0b010000U);
+  EXPECT_EQ(quirks("REVISION = 0x11"), 0b100000U);
 }
 
 TEST(Scenario, Word64Bits_IsWrittenAsString) {
@@ -172,7 +238,9 @@ INSTANTIATE_TEST_SUITE_P(
         BadScenario{"TooSlow", "[chip]\nf_clk_hz = 10\n",
                     "s.toml:2:12: key 'f_clk_hz': 10 is below 1000 (0 = not connected)"},
         BadScenario{"Oscillator", "[chip]\nf_osc_hz = 30_000_000\n",
-                    "s.toml:2:12: key 'f_osc_hz': 30000000 is outside 12500000 to 25000000"},
+                    "s.toml:2:12: key 'f_osc_hz': 30000000 is outside 10000000 to 25000000"},
+        BadScenario{"SlowOscillator", "[chip]\nf_osc_hz = 9_999_999\n",
+                    "s.toml:2:12: key 'f_osc_hz': 9999999 is outside 10000000 to 25000000"},
         BadScenario{"Quirk", "[chip.quirks]\nNO_SUCH = true\n",
                     "s.toml:2:1: key 'NO_SUCH': unknown key"},
         BadScenario{"QuirkType", "[chip.quirks]\nIDA_TEST_INVERT = 2\n",

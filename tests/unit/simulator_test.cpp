@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The whole simulator with the Verilated chip, as far as the simulator itself is concerned.
+// The whole simulator with the Verilated chip: tests of the simulator itself.
 #include "mb4sim/simulator.hpp"
 
 #include <gtest/gtest.h>
@@ -28,7 +28,7 @@ TEST(Simulator, ChipAfterReset_AnswersOverSpi) {
   EXPECT_EQ(rx[3], 0x84);
 }
 
-// Datasheet page 21: RAM registers reset to 0, whatever the power-on values of the flops were.
+// Datasheet page 21: RAM registers reset to 0, for any power-on values of the flops.
 TEST(Simulator, AnySeed_ConfigurationIsZeroAfterReset) {
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     SimulatorOptions options;
@@ -113,17 +113,58 @@ TEST(Simulator, SameSeed_GivesTheSameRun) {
   EXPECT_NE(run(7), run(8));
 }
 
-// Pins nobody drives: datasheet page 3 and electrical characteristics.
+// Pins that no device drives, by the items of the electrical characteristics. The simulator drives
+// NRES (high, after its reset) and CFGSPI (the scenario's host) against their pull-downs.
 TEST(Simulator, UndrivenPins_RestAtTheirPulls) {
-  Simulator simulator(load("/resolute-26.toml"));
-  for (const Pin pin : {Pin::kNcs, Pin::kNrdRnw, Pin::kNwrE, Pin::kNer, Pin::kSl1, Pin::kSl2,
-                        Pin::kCfgspi, Pin::kMa1, Pin::kEot, Pin::kNres}) {
-    EXPECT_TRUE(simulator.pin(pin)) << static_cast<int>(pin);
+  struct Row {
+    const char* item;
+    bool up;
+    std::vector<Pin> pins;
+  };
+  const std::vector<Row> rows = {
+      {"A06",
+       false,
+       {Pin::kCfgspi, Pin::kIntNmot, Pin::kAle, Pin::kDb0, Pin::kDb1, Pin::kDb2, Pin::kDb3,
+        Pin::kDb4, Pin::kDb5, Pin::kDb6, Pin::kDb7}},
+      {"A07", true, {Pin::kNcs, Pin::kNrdRnw, Pin::kNwrE}},
+      {"B01", true, {Pin::kSl1, Pin::kSl2}},
+      {"C06", false, {Pin::kGetsens}},
+      {"C07", true, {Pin::kNer}},
+      {"D06", false, {Pin::kClk}},
+      {"E07", false, {Pin::kNres}},
+  };
+  const Simulator simulator(parse_scenario("[chip]\nf_clk_hz = 0\n", "open.toml"));
+  for (const Row& row : rows) {
+    for (const Pin pin : row.pins) {
+      EXPECT_EQ(pulled_up(pin), row.up) << row.item << " " << static_cast<int>(pin);
+      const bool driven = pin == Pin::kNres || pin == Pin::kCfgspi;
+      EXPECT_EQ(simulator.pin(pin), driven || row.up) << row.item << " " << static_cast<int>(pin);
+    }
   }
-  for (const Pin pin :
-       {Pin::kAle, Pin::kGetsens, Pin::kDb0, Pin::kDb1, Pin::kDb7, Pin::kIntNmot, Pin::kMo1}) {
-    EXPECT_FALSE(simulator.pin(pin)) << static_cast<int>(pin);
+  EXPECT_TRUE(simulator.pin(Pin::kMa1));
+  EXPECT_TRUE(simulator.pin(Pin::kEot));
+  EXPECT_FALSE(simulator.pin(Pin::kMo1));
+}
+
+// A06: nobody drives the data bus between two cycles; an open GETSENS (C06) asks for no frame, an
+// open SL (B01) is ready for one.
+TEST(Simulator, BusLetGo_ReturnsToItsPullDowns) {
+  Simulator simulator(parse_scenario("[host]\ninterface = \"intel\"\n", "open.toml"));
+  simulator.bus().write(0xC1, 0xFF);
+  EXPECT_EQ(simulator.bus().read(0xC1), 0xFF);
+  for (unsigned bit = 0; bit < 8; ++bit) {
+    EXPECT_FALSE(simulator.pin(static_cast<Pin>(bit))) << bit;
   }
+  simulator.bus().write(0xED, 0x05);
+  simulator.bus().write(0xE8, 0x7D);  // AGSINFINITE
+  simulator.bus().write(0xF4, 0x01);
+  simulator.advance(100 * kPsPerUs);
+  EXPECT_TRUE(simulator.pin(Pin::kMa1));
+  EXPECT_TRUE(simulator.pin(Pin::kEot));
+  EXPECT_EQ(simulator.bus().read(0xF0), 0xFB);
+  simulator.set_pin(Pin::kGetsens, true);
+  EXPECT_TRUE(simulator.run_while_waiting([&] { return !simulator.pin(Pin::kMa1); },
+                                          simulator.now() + 100 * kPsPerUs));
 }
 
 TEST(Simulator, NerPulledOutside_ReadsLowUntilReleased) {

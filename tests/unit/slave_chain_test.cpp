@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "chain_bench.hpp"
+#include "mb4sim/biss_b_slave.hpp"
 
 namespace mb4::sim {
 namespace {
@@ -111,24 +112,130 @@ TEST(SlaveChain, OnlyTheFarSlaveIsLast) {
 // Bus configuration (datasheet page 15, figure 12): with MO the master makes the start bit and no
 // slave is the last one.
 TEST(SlaveChain, MoHigh_StartBitComesFromMo) {
-  ChainBench bench;
-  const BissCSlave& slave = bench.add(constant_slave(8, 0xA5, 0));
-  bench.mo = true;
-  bench.chain.drive(0, true, true);
-  bench.ma(kStart, false);
-  std::string bits;
-  // MO: acknowledge with rising edge 2, start bit with rising edge 5, then 0.
-  for (unsigned i = 1; i <= 16; ++i) {
-    bench.mo = i == 1 || i == 5;
-    bench.ma(kStart + i * kPeriod - kPeriod / 2, true);
-    bits += bench.chain.slo() ? '1' : '0';
-    bench.ma(kStart + i * kPeriod, false);
+  for (const bool passes : {false, true}) {
+    ChainBench bench;
+    BissCSlaveConfig config = constant_slave(8, 0xA5, 0);
+    config.passes_acknowledge = passes;
+    const BissCSlave& slave = bench.add(config);
+    bench.mo = true;
+    bench.chain.drive(0, true, true);
+    bench.ma(kStart, false);
+    std::string bits;
+    // MO: acknowledge with rising edge 2, start bit with rising edge 5, then 0.
+    for (unsigned i = 1; i <= 16; ++i) {
+      bench.mo = i == 1 || i == 5;
+      bench.ma(kStart + i * kPeriod - kPeriod / 2, true);
+      bits += bench.chain.slo() ? '1' : '0';
+      bench.ma(kStart + i * kPeriod, false);
+    }
+    EXPECT_FALSE(slave.is_last());
+    EXPECT_EQ(bits,
+              "1000"
+              "10" +
+                  binary(0xA5, 8) + "00");
   }
-  EXPECT_FALSE(slave.is_last());
-  EXPECT_EQ(bits,
-            "1000"
-            "10" +
-                binary(0xA5, 8) + "00");
+}
+
+// Decision 10: slaves that connect SLI to SLO from the request to the start bit acknowledge when MO
+// falls; others at the second rising edge. Two pulses at MA (page 16, figure 13), MO falls `late`
+// after the second one's end, or not at all.
+template <typename Slave, typename Config>
+void expect_acknowledge(const Config& base) {
+  for (const bool passes : {false, true}) {
+    for (const unsigned slaves : {1U, 3U}) {
+      for (const Time late : {Time{0}, kPsPerNs, kPeriod / 2, 5 * kPeriod, kNever}) {
+        ChainBench bench;
+        Config config = base;
+        config.passes_acknowledge = passes;
+        config.timeout.fixed = from_us(10);
+        for (unsigned i = 0; i < slaves; ++i) bench.put<Slave>(config, 1);
+        bench.mo = true;
+        bench.chain.drive(0, true, true);
+        bench.ma(kStart, false);
+        bench.ma(kStart + kPeriod / 2, true);
+        bench.ma(kStart + kPeriod, false);
+        const Time second = kStart + 3 * kPeriod / 2;
+        bench.mo = late != 0;
+        bench.ma(second, true);
+        if (late != 0 && late != kNever) {
+          bench.run_until(second + late);
+          bench.mo = false;
+          bench.chain.drive(second + late, true, false);
+        }
+        bench.run_until(second + from_us(20));
+        ChainBench::Edges expected;
+        if (!passes || late != kNever)
+          expected.emplace_back(passes ? second + late : second, false);
+        // MO has stayed 1: the slaves pass it on after their timeout, which the chain reports.
+        if (late == kNever) expected.emplace_back(second + from_us(10), true);
+        EXPECT_EQ(bench.slo, expected) << passes << " " << slaves << " " << late;
+        EXPECT_TRUE(bench.chain.idle());
+      }
+    }
+  }
+}
+
+TEST(SlaveChain, PassedOnAcknowledge_ComesWithMo) {
+  expect_acknowledge<BissCSlave>(constant_slave(8, 0xA5, 0));
+  BissBSlaveConfig config;
+  config.data_bits = 8;
+  expect_acknowledge<BissBSlave>(config);
+}
+
+// One slave of the other kind among three: a 0 comes from it at once, and runs through those nearer
+// to the master.
+TEST(SlaveChain, MixedKinds_AcknowledgeWithTheFirstOfThem) {
+  for (unsigned latched = 0; latched < 3; ++latched) {
+    ChainBench bench;
+    for (unsigned i = 0; i < 3; ++i) {
+      BissCSlaveConfig config = constant_slave(8, 0xA5, 0);
+      config.passes_acknowledge = i != latched;
+      bench.add(config);
+    }
+    bench.mo = true;
+    bench.chain.drive(0, true, true);
+    bench.frame(kStart, kPeriod, 2);
+    ASSERT_EQ(bench.slo.size(), 1U) << latched;
+    EXPECT_EQ(bench.slo[0], std::make_pair(kStart + 3 * kPeriod / 2, false)) << latched;
+  }
+}
+
+// Without MO the last slave acknowledges, with and without passes_acknowledge; the others pass it
+// on.
+TEST(SlaveChain, PassedOnAcknowledgeWithoutMo_ComesFromTheLastSlave) {
+  for (const bool passes : {false, true}) {
+    ChainBench bench;
+    for (const std::uint64_t word : {0x12U, 0x34U, 0x56U}) {
+      BissCSlaveConfig config = constant_slave(8, word, 0x43);
+      config.passes_acknowledge = passes;
+      config.busy_periods = 2;
+      bench.add(config);
+    }
+    const std::string data =
+        line_word(0x12, 8, 0x43) + line_word(0x34, 8, 0x43) + line_word(0x56, 8, 0x43);
+    EXPECT_EQ(bench.frame(kStart, kPeriod, static_cast<unsigned>(data.size()) + 5 + 2),
+              "100010" + data + "0");
+    EXPECT_EQ(bench.slo[0], std::make_pair(kStart + 3 * kPeriod / 2, false));
+  }
+}
+
+// "The acknowledge does not end", of either kind: it begins as always, and MO's start bit is kept.
+TEST(SlaveChain, BusyFault_KeepsMosStartBit) {
+  for (const bool passes : {false, true}) {
+    ChainBench bench;
+    BissCSlaveConfig config = constant_slave(8, 0xA5, 0);
+    config.passes_acknowledge = passes;
+    bench.add(config).faults().busy = true;
+    bench.mo = true;
+    bench.chain.drive(0, true, true);
+    bench.ma(kStart, false);
+    for (unsigned i = 1; i <= 8; ++i) {
+      bench.mo = i == 1 || i == 4;
+      bench.ma(kStart + i * kPeriod - kPeriod / 2, true);
+      EXPECT_EQ(bench.chain.slo(), i == 1) << passes << " " << i;
+      bench.ma(kStart + i * kPeriod, false);
+    }
+  }
 }
 
 TEST(SlaveChain, NoSlaves_LineRestsHigh) {

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Timing of the SPI host against items I201 to I209 (datasheet page 11), with pins that record.
+// Timing of the SPI host against items I201 to I209 (datasheet page 11), with pins that record
+// their edges.
 #include "mb4sim/spi_host.hpp"
 
 #include <gtest/gtest.h>

@@ -5,7 +5,9 @@
 FOLDER has the modules, HEADER is what was made of the chip. That the parts compute what the whole
 does is shown by tests/chip/lockstep_test.cpp; here are the rules, with statements made by hand."""
 
+import subprocess
 import sys
+import tempfile
 import unittest
 from pathlib import Path
 
@@ -176,6 +178,24 @@ class Parts(unittest.TestCase):
         text = self.header(["vlSelf->a = (2U == (IData)(vlSelf->b));", "vlSelf->b = vlSelf->c;"],
                            [("fast", "b")], {"b": 8})
         self.assertIn("if (((before0 == 2U) != (vlSelf->b == 2U))) {", text)
+
+
+class Fallback(unittest.TestCase):
+    def header(self, folder):
+        output = Path(folder, "edge.hpp")
+        subprocess.run([sys.executable, "-B", Path(FOLDER, "split_edge.py"), folder,
+                        Path(FOLDER, "busy.txt"), output], check=True, capture_output=True)
+        return output.read_text(encoding="utf-8")
+
+    def test_no_model_of_this_kind_runs_whole(self):
+        with tempfile.TemporaryDirectory() as folder:
+            self.assertEqual(self.header(folder), "#define MB4_EDGE_NOT_SPLIT\n")
+            # Files of that name, but not text; then a folder in the place of one.
+            Path(folder, "Vmb4_chip.cmake").write_bytes(b"\xff\xfe\x00")
+            self.assertEqual(self.header(folder), "#define MB4_EDGE_NOT_SPLIT\n")
+            Path(folder, "Vmb4_chip.cmake").unlink()
+            Path(folder, "Vmb4_chip.cmake").mkdir()
+            self.assertEqual(self.header(folder), "#define MB4_EDGE_NOT_SPLIT\n")
 
 
 class Chip(unittest.TestCase):

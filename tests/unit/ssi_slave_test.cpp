@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Expected edges come from what makers say about SSI (Posital, TR-Electronic, National Instruments:
-// protocol facts, section 6) and from the datasheet's SSI chapter (pages 14, 16).
+// Expected edges come from the SSI documents of makers (Posital, TR-Electronic, National
+// Instruments: protocol facts, section 6) and from the datasheet's SSI chapter (pages 14, 16).
 #include "mb4sim/ssi_slave.hpp"
 
 #include <gtest/gtest.h>
@@ -25,7 +25,7 @@ SsiSlaveConfig encoder(unsigned data_bits, std::uint64_t word) {
 // Rising edge #n of the frame.
 constexpr Time rising(unsigned n) { return kStart + n * kPeriod - kPeriod / 2; }
 
-// The MSB appears with the first rising edge; behind the last bit the line is 0.
+// The MSB appears with the first rising edge; after the last bit the line is 0.
 TEST(SsiSlave, BinaryWord_AppearsFromTheFirstRisingEdgeOn) {
   ChainBench bench;
   auto& slave = bench.put<SsiSlave>(encoder(13, 0x1A5B & 0x1FFF));

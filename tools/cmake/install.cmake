@@ -1,9 +1,9 @@
 # SPDX-FileCopyrightText: 2026 The openmb4 authors
 # SPDX-License-Identifier: Apache-2.0
 #
-# `cmake --install`: command, shared library with its C interface, header-only driver, RTL, manual
-# page, shell completions, pkg-config files, CMake package openmb4 (targets mb4::mb4sim, mb4::driver,
-# mb4::regs). Only for openmb4 as the top project. Everything is found relative to where it lies, so
+# `cmake --install`: command, shared library with its C interface, header-only driver and its C
+# binding, RTL, manual page, shell completions, pkg-config files, CMake package openmb4 (targets
+# mb4::mb4sim, mb4::driver, mb4::c, mb4::regs). Only for openmb4 as the top project. Everything is found relative to where it lies, so
 # that the tree can be moved.
 
 include(GNUInstallDirs)
@@ -15,11 +15,13 @@ set(package ${CMAKE_INSTALL_LIBDIR}/cmake/openmb4)
 
 target_include_directories(mb4_driver INTERFACE $<INSTALL_INTERFACE:${headers}>)
 target_include_directories(mb4_regs INTERFACE $<INSTALL_INTERFACE:${headers}>)
+target_include_directories(mb4_driver_c INTERFACE $<INSTALL_INTERFACE:${headers}>)
 set_target_properties(mb4_driver PROPERTIES EXPORT_NAME driver)
+set_target_properties(mb4_driver_c PROPERTIES EXPORT_NAME c EXCLUDE_FROM_ALL OFF)
 set_target_properties(mb4_regs PROPERTIES EXPORT_NAME regs)
 set_target_properties(mb4sim_shared PROPERTIES EXPORT_NAME mb4sim)
 
-install(TARGETS mb4_driver mb4_regs mb4sim_shared EXPORT openmb4
+install(TARGETS mb4_driver mb4_driver_c mb4_regs mb4sim_shared EXPORT openmb4
   INCLUDES DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
 install(TARGETS mb4sim)
 # Where `mb4sim spidev` looks for it.
@@ -36,7 +38,16 @@ install(FILES ${MB4_ROOT}/regmap/generated/mb4_regs_pkg.sv DESTINATION ${data}/r
 install(DIRECTORY ${MB4_ROOT}/examples DESTINATION ${data}
   FILES_MATCHING PATTERN "*.toml" PATTERN "*.edges" PATTERN "*.c" PATTERN "firmware" EXCLUDE)
 install(DIRECTORY ${MB4_ROOT}/tools/sigrok DESTINATION ${data} PATTERN __pycache__ EXCLUDE)
-install(FILES ${MB4_ROOT}/LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})
+
+# The documents in the folders of the repository, because they refer to each other.
+install(FILES ${MB4_ROOT}/LICENSE ${MB4_ROOT}/README.md ${MB4_ROOT}/CHANGELOG.md
+              ${MB4_ROOT}/CONTRIBUTING.md
+  DESTINATION ${CMAKE_INSTALL_DOCDIR})
+install(DIRECTORY ${MB4_ROOT}/docs DESTINATION ${CMAKE_INSTALL_DOCDIR})
+foreach(folder sim drivers regmap/generated)
+  file(GLOB pages CONFIGURE_DEPENDS ${MB4_ROOT}/${folder}/*.md)
+  install(FILES ${pages} DESTINATION ${CMAKE_INSTALL_DOCDIR}/${folder})
+endforeach()
 
 # Manual page and completions are what the command prints.
 set(pages ${CMAKE_BINARY_DIR}/pages)
@@ -54,7 +65,7 @@ install(FILES ${pages}/_mb4sim DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/site-fun
 
 file(RELATIVE_PATH prefix_from_pkgconfig
   ${CMAKE_INSTALL_FULL_LIBDIR}/pkgconfig ${CMAKE_INSTALL_PREFIX})
-foreach(name mb4sim mb4driver)
+foreach(name mb4sim mb4driver mb4_c)
   configure_file(${MB4_ROOT}/tools/cmake/${name}.pc.in ${CMAKE_BINARY_DIR}/package/${name}.pc @ONLY)
   install(FILES ${CMAKE_BINARY_DIR}/package/${name}.pc
     DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)

@@ -14,7 +14,7 @@
 #include "build_info.hpp"
 #include "commands.hpp"
 #include "exit_status.hpp"
-#include "frame_report.hpp"
+#include "messages.hpp"
 #include "workload.hpp"
 
 namespace mb4::tool {
@@ -56,7 +56,7 @@ double median(std::vector<double> values) {
 
 Rate measure(const WorkloadInfo& info, const BenchOptions& options) {
   const std::unique_ptr<Workload> workload = info.make();
-  workload->run(kSlice);  // caches and branch predictors get to know it
+  workload->run(kSlice);  // fills caches and branch predictors
   std::vector<double> rates;
   std::vector<double> real_times;
   for (std::uint64_t repeat = 0; repeat < options.repeats; ++repeat) {

@@ -20,7 +20,7 @@
 namespace mb4::tool {
 namespace {
 
-// Can be read when somebody wants the process to end.
+// A descriptor that becomes readable when a signal asks the process to end.
 FileDescriptor make_stop_signals() {
   sigset_t set;
   ::sigemptyset(&set);

@@ -26,7 +26,7 @@ namespace {
 
 constexpr int kBacklog = 16;
 constexpr std::size_t kReadSize = 65536;
-constexpr std::size_t kMaxUnsent = 1U << 20U;  // then a client has to read first
+constexpr std::size_t kMaxUnsent = 1U << 20U;  // above this a client must read answers first
 
 [[noreturn]] void fail(const std::string& where, const std::string& what) {
   throw UseError(fmt::format("{}: cannot listen: {}", where, what));
@@ -46,7 +46,7 @@ sockaddr_un unix_address(const std::string& path) {
   return address;
 }
 
-// Removes a socket that a server has left behind; true if there was one.
+// Removes a socket that an ended server has left; true if there was one.
 bool remove_stale(const std::string& path, const sockaddr_un& address) {
   struct stat status {};
   if (::lstat(path.c_str(), &status) != 0 || !S_ISSOCK(status.st_mode)) return false;
@@ -162,8 +162,8 @@ void BridgeServer::serve(int stop_fd, bool once) {
 
 void BridgeServer::accept() {
   FileDescriptor socket(::accept4(listener_.get(), nullptr, nullptr, SOCK_CLOEXEC | SOCK_NONBLOCK));
-  if (!socket) return;  // it has gone already
-  // Answers are small and waited for. No effect on a Unix socket.
+  if (!socket) return;  // the client has closed it already
+  // Answers are small and the client waits for them. No effect on a Unix socket.
   const int on = 1;
   ::setsockopt(socket.get(), IPPROTO_TCP, TCP_NODELAY, &on, sizeof on);
   clients_.push_back(std::make_unique<Client>(Client{std::move(socket), BridgeSession(chip_), {}}));

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The bridge's sockets: any number of connections to one chip, served in one thread, one request
-// after the other.
+// The bridge's sockets: any number of connections to one chip. One thread serves them, one request
+// after another.
 #ifndef MB4SIM_TOOL_BRIDGE_SERVER_HPP_
 #define MB4SIM_TOOL_BRIDGE_SERVER_HPP_
 
@@ -26,14 +26,14 @@ class BridgeServer {
   BridgeServer& operator=(const BridgeServer&) = delete;
   ~BridgeServer();
 
-  // Where it can be reached, "unix:PATH". A socket at `path` that nobody serves is replaced. Throws
+  // Returns the address, "unix:PATH". Replaces a socket at `path` that no process serves. Throws
   // UseError.
   std::string listen_unix(const std::string& path);
   // "PORT" (of the loopback interface), "HOST:PORT" or "[HOST]:PORT"; port 0: any free one. Returns
   // "tcp:HOST:PORT". Throws UseError.
   std::string listen_tcp(const std::string& address);
 
-  // Serves until `stop_fd` can be read or, with `once`, the last connection has gone.
+  // Serves until `stop_fd` is readable or, with `once`, until the last connection is closed.
   void serve(int stop_fd, bool once);
 
   // The text of the assertion that has ended the simulation.
@@ -47,7 +47,7 @@ class BridgeServer {
   };
 
   void accept();
-  // False: the connection has gone.
+  // False: the client has closed the connection.
   bool receive(Client& client);
   static bool send(Client& client);
 

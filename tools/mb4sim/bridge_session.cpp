@@ -47,7 +47,7 @@ sim::Pin pin_of(std::span<const std::uint8_t> name) {
   return *pin;
 }
 
-// One transfer of request M at the front of `payload`, which loses it.
+// Reads one transfer of request M from the front of `payload` and removes it there.
 SpiTransfer take_transfer(std::span<const std::uint8_t>& payload) {
   constexpr std::size_t kDescription = 11;
   constexpr std::uint8_t kCsChange = 1;
@@ -78,7 +78,8 @@ BridgeChip::BridgeChip(sim::Simulator& simulator, Pace pace)
       pace_(pace),
       bus_(simulator),
       port_(simulator),
-      last_answer_(std::chrono::steady_clock::now()) {}
+      last_answer_(std::chrono::steady_clock::now()),
+      pairs_(simulator) {}
 
 void BridgeChip::keep_pace() {
   if (pace_ == Pace::kGaps) simulator_.advance(kRequestGap);

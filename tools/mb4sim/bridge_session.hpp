@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The bridge's protocol (docs/bridge.md) on one connection: bytes of requests in, bytes of answers
-// out. It knows nothing of sockets: bytes may come in any portions.
+// The bridge's protocol (docs/bridge.md) on one connection: it takes bytes of requests and returns
+// bytes of answers. It does not use sockets; bytes may come in portions of any size.
 #ifndef MB4SIM_TOOL_BRIDGE_SESSION_HPP_
 #define MB4SIM_TOOL_BRIDGE_SESSION_HPP_
 
@@ -15,28 +15,32 @@
 #include <vector>
 
 #include "mb4sim/simulator.hpp"
+#include "pair_warning.hpp"
 #include "sim_bus.hpp"
 #include "spi_port.hpp"
 
 namespace mb4::tool {
 
-// How simulated time passes beside what the requests take.
+// How simulated time passes in addition to the time of the requests.
 enum class Pace {
   kRequests,  // not at all
   kGaps,      // kRequestGap with each request, as a system call would take
   kWall,      // as the program's real time: from each answer to the next request
 };
 
-// The chip as all connections share it.
+// The chip that all connections share.
 class BridgeChip {
  public:
   static constexpr sim::Time kRequestGap = 10 * sim::kPsPerUs;
 
   BridgeChip(sim::Simulator& simulator, Pace pace);
 
-  // Lets pass what `pace` asks for before a request.
+  // Lets the time of `pace` pass before a request.
   void keep_pace();
-  void answered() { last_answer_ = std::chrono::steady_clock::now(); }
+  void answered() {
+    last_answer_ = std::chrono::steady_clock::now();
+    pairs_.look();
+  }
 
   sim::Simulator& simulator() { return simulator_; }
   SimBus& bus() { return bus_; }
@@ -53,6 +57,7 @@ class BridgeChip {
   SpiPort port_;
   std::chrono::steady_clock::time_point last_answer_;
   std::optional<std::string> stopped_;
+  PairWarning pairs_;
 };
 
 class BridgeSession {
@@ -60,7 +65,7 @@ class BridgeSession {
   enum class Status : std::uint8_t {
     kGood = 0,
     kMalformed = 1,  // unknown request or wrong length
-    kRefused = 2,    // a value that cannot be
+    kRefused = 2,    // a value that is not possible
     kStopped = 3,    // an assertion in the RTL has ended the simulation
   };
   static constexpr std::size_t kHeader = 3;  // request or status, length, low byte first
@@ -71,7 +76,7 @@ class BridgeSession {
 
   // Takes bytes and carries out every request that is complete. Returns the answers.
   std::vector<std::uint8_t> feed(std::span<const std::uint8_t> bytes);
-  // The connection has gone: ends a frame that it has left open.
+  // After the connection was closed: ends a frame that it has left open.
   void close();
 
  private:

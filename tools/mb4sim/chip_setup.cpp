@@ -11,10 +11,10 @@
 namespace mb4::tool {
 namespace {
 
-constexpr std::uint32_t kMaxFrameTimeoutPeriods = 100;  // of margin, beyond what is known
+constexpr std::uint32_t kMaxFrameTimeoutPeriods = 100;  // margin beyond the known time
 
-// Longest time from request to end: the driver's own figure does not know what the scenario says
-// about processing times, cables and timeouts. The channels run at the same time.
+// Longest time from request to end. The driver's own value does not include the scenario's
+// processing times, cables and timeouts. The channels run at the same time.
 std::uint32_t frame_timeout(const sim::Scenario& scenario) {
   const double period_us = 1e6 / static_cast<double>(scenario.host.ma_hz);
   double longest_us = 0;
@@ -59,7 +59,7 @@ Protocol protocol_of(sim::LineProtocol protocol) {
   throw sim::ScenarioError(scenario.name, source.of(key), key, message);
 }
 
-// What is special about the slave's protocol.
+// Sets the members that depend on the slave's protocol.
 void add_protocol(const sim::SlaveConfig& slave, SlaveConfig& target, Config& config) {
   constexpr unsigned kMostBusy = 255;
   unsigned busy = 0;
@@ -77,7 +77,7 @@ void add_protocol(const sim::SlaveConfig& slave, SlaveConfig& target, Config& co
     config.mo_busy = static_cast<std::uint8_t>(std::max<unsigned>(config.mo_busy, busy));
 }
 
-// What the driver refuses, with the key of the scenario that causes it.
+// Throws for a configuration that the driver refuses; names the scenario's key that causes it.
 [[noreturn]] void refuse(const sim::Scenario& scenario, const ErrorInfo& error) {
   const std::vector<ConnectedSlave> slaves = connected_slaves(scenario);
   const auto of_slave = std::find_if(slaves.begin(), slaves.end(), [&](const ConnectedSlave& one) {

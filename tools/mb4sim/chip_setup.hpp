@@ -24,11 +24,11 @@ struct ConnectedSlave {
 // All slaves of a scenario, in the order of their numbers.
 std::vector<ConnectedSlave> connected_slaves(const sim::Scenario& scenario);
 
-// Clocks of the scenario, nothing else.
+// A configuration with only the clocks of the scenario.
 Config clock_config(const sim::Scenario& scenario);
 
-// Configuration that reads all slaves. Throws sim::ScenarioError with
-// the key of the scenario that chip or driver cannot follow.
+// Configuration that reads all slaves. Throws sim::ScenarioError with the scenario's key that chip
+// or driver does not support.
 Config make_config(const sim::Scenario& scenario);
 
 // "no iC-MB4 detected", "invalid configuration: data_bits of slave 1", ...

@@ -4,17 +4,20 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <charconv>
 #include <limits>
 #include <string>
 #include <system_error>
+#include <vector>
 
 #include "mb4sim/version.hpp"
+#include "suggestion.hpp"
 
 namespace mb4::tool {
 
-// What goes on to CLI11 is decimal without leading zeros: left alone it reads octal, wraps negative
-// numbers and cuts long ones.
+// Passes decimal text without leading zeros to CLI11. CLI11 itself reads leading zeros as octal,
+// wraps negative numbers and cuts long ones.
 CLI::Validator whole_number(std::uint64_t minimum, std::uint64_t maximum) {
   const auto check = [=](std::string& text) {
     const bool hex = text.starts_with("0x") || text.starts_with("0X");
@@ -79,7 +82,7 @@ std::unique_ptr<CLI::App> make_command_line(Action& action) {
   auto app = std::make_unique<CLI::App>(
       "Simulator of an iC-MB4-compatible BiSS/SSI master with cables and encoders.");
   app->name("mb4sim");
-  app->set_version_flag("--version", std::string("mb4sim ") + sim::version());
+  app->set_version_flag("-V,--version", std::string("mb4sim ") + sim::version());
   app->require_subcommand(1);
   app->footer(
       "Exit status: 0 good, 1 a check failed or a frame was bad, 2 wrong use or input, 3 the model "
@@ -88,6 +91,48 @@ std::unique_ptr<CLI::App> make_command_line(Action& action) {
   add_dropin_commands(*app, action);
   add_other_commands(*app, action);
   return app;
+}
+
+namespace {
+
+std::vector<std::string> long_names(const CLI::App& command) {
+  std::vector<std::string> names;
+  for (const CLI::Option* option : command.get_options([](const CLI::Option*) { return true; })) {
+    for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+  }
+  return names;
+}
+
+}  // namespace
+
+std::vector<std::string> command_names(const CLI::App& app) {
+  std::vector<std::string> names;
+  for (const CLI::App* each : app.get_subcommands([](const CLI::App*) { return true; })) {
+    names.push_back(each->get_name());
+  }
+  return names;
+}
+
+std::string mistake(const CLI::App& app, const CLI::ParseError& error) {
+  const std::vector<CLI::App*> parsed = app.get_subcommands();
+  const CLI::App& command = parsed.empty() ? app : *parsed.front();
+  const std::vector<std::string> options = long_names(command);
+  // An unknown word is most often the reason why another word is missing.
+  std::string unknown;
+  for (const std::string& word : app.remaining(true)) {
+    if (word == "--") continue;
+    unknown += fmt::format("{}'{}'", unknown.empty() ? "unknown: " : ", ", word);
+    const std::string name = word.substr(0, word.find('='));
+    if (word.starts_with('-')) {
+      const bool early = std::find(options.begin(), options.end(), name) != options.end();
+      unknown += early ? ", which goes behind the command" : suggestion(name, options);
+    } else if (parsed.empty()) {
+      unknown += suggestion(word, command_names(app));
+      break;  // the next words belong to the intended command
+    }
+  }
+  return fmt::format("{} (see mb4sim {}--help)", unknown.empty() ? error.what() : unknown,
+                     parsed.empty() ? "" : command.get_name() + " ");
 }
 
 }  // namespace mb4::tool

@@ -11,22 +11,29 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace mb4::tool {
 
-// What a command does once the command line has been understood: returns an exit status.
+// Runs a command after the command line is parsed; returns the exit status.
 using Action = std::function<int()>;
 
 // The whole command line. Parsing sets `action` to the command that was asked for.
 std::unique_ptr<CLI::App> make_command_line(Action& action);
 
+// Describes the mistake in a command line that caused `error`: unknown words and options first, in
+// the order in which they were typed.
+std::string mistake(const CLI::App& app, const CLI::ParseError& error);
+
+std::vector<std::string> command_names(const CLI::App& app);
+
 // --- for those who add commands ------------------------------------------------------------
 
 // Commands that run a scenario: run, spi, regs, sweep, scan.
 void add_scenario_commands(CLI::App& app, Action& action);
-// Commands that do not: presets, bench.
+// Commands without a scenario: presets, bench, completion, man, help.
 void add_other_commands(CLI::App& app, Action& action);
-// The chip in place of a real one, and pictures of it: spidev, bridge, plot.
+// The simulated chip in place of a real chip, and pictures of its lines: spidev, bridge, plot.
 void add_dropin_commands(CLI::App& app, Action& action);
 
 // Whole number, decimal or 0x.

@@ -62,13 +62,17 @@ class Decoder {
     reach(to);
   }
 
-  // Four bits of CRC behind `bits` bits of data; true if they fit.
+  // Checks the four CRC bits after `bits` bits of data; true if they are right.
   static bool fits(unsigned data, unsigned bits, unsigned line) {
     return kControlCrc.line_bits(data, bits) == line;
   }
-  static std::vector<std::string> crc_labels(unsigned line, bool good) {
-    return {fmt::format("CRC 0x{:X} {}", ~line & 0xFU, good ? "good" : "wrong"),
-            fmt::format("CRC 0x{:X}", ~line & 0xFU), "CRC"};
+  std::vector<std::string> crc_labels(unsigned data, unsigned bits, unsigned line) {
+    const std::string got = fmt::format("CRC 0x{:X}", ~line & 0xFU);
+    if (fits(data, bits, line)) return {got + " good", got, "CRC"};
+    const std::vector<std::string> labels =
+        wrong_crc(~line & 0xFU, ~kControlCrc.line_bits(data, bits) & 0xFU, kCrcBits);
+    frame_.mistakes += (frame_.mistakes.empty() ? "" : "; ") + labels.front();
+    return labels;
   }
 
   void header() {
@@ -88,8 +92,9 @@ class Decoder {
              {fmt::format("CMD {}", cdm_number(10, 2)), fmt::format("{:02b}", cdm_number(10, 2))});
     }
     const unsigned line = cdm_number(kHeaderCrc, kCrcBits);
-    const bool good = fits(cdm_number(1, 11), 11, line);
-    master(kHeaderCrc, kHeaderEnd, FieldKind::kCrc, crc_labels(line, good), !good);
+    const unsigned head = cdm_number(1, 11);
+    master(kHeaderCrc, kHeaderEnd, FieldKind::kCrc, crc_labels(head, 11, line),
+           !fits(head, 11, line));
     const unsigned locked = cds_number(1, 8);
     slave(1, 9, FieldKind::kControl, {"IDL: " + ids_text(locked, "none"), "IDL"});
   }
@@ -121,12 +126,12 @@ class Decoder {
     std::size_t at = 18;
     while (cdm(at)) {
       if (!data(at, read)) return false;
-      // Behind the stop bit either the next S or the end.
+      // After the stop bit comes the next S or the end.
     }
     return true;
   }
 
-  // One byte; `at` is the slot of its S on CDM, then that of the next.
+  // Decodes one byte. `at` is the slot of its S on CDM; it moves to the slot of the next S.
   bool data(std::size_t& at, bool read) {
     std::size_t answer = at + 1;
     while (there(answer) && !cds(answer)) ++answer;
@@ -146,15 +151,20 @@ class Decoder {
     if (read) {
       master(answer, answer + 12, FieldKind::kRest, {"0"}, sent != 0 || sent_crc != 0);
       slave(answer + 1, answer + 9, FieldKind::kData, {"data " + value});
-      const bool good = fits(got, 8, got_crc);
-      slave(answer + 9, answer + 13, FieldKind::kCrc, crc_labels(got_crc, good), !good);
+      slave(answer + 9, answer + 13, FieldKind::kCrc, crc_labels(got, 8, got_crc),
+            !fits(got, 8, got_crc));
     } else {
-      const bool good = fits(sent, 8, sent_crc);
       master(answer, answer + 8, FieldKind::kData, {"data " + value});
-      master(answer + 8, answer + 12, FieldKind::kCrc, crc_labels(sent_crc, good), !good);
+      master(answer + 8, answer + 12, FieldKind::kCrc, crc_labels(sent, 8, sent_crc),
+             !fits(sent, 8, sent_crc));
       slave(answer + 1, answer + 9, FieldKind::kData, {fmt::format("echo 0x{:02X}", got)},
             got != sent);
-      slave(answer + 9, answer + 13, FieldKind::kCrc, {"echo of CRC", "CRC"}, got_crc != sent_crc);
+      const bool same = got_crc == sent_crc;
+      slave(answer + 9, answer + 13, FieldKind::kCrc,
+            {same ? "echo of CRC"
+                  : fmt::format("echo 0x{:X}, not 0x{:X}", ~got_crc & 0xFU, ~sent_crc & 0xFU),
+             "CRC"},
+            !same);
     }
     master(answer + 12, answer + 13, FieldKind::kFraming, {"P"}, cdm(answer + 12));
     slave(answer + 13, answer + 14, FieldKind::kFraming, {"P"}, cds(answer + 13));

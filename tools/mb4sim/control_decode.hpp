@@ -15,7 +15,7 @@
 
 namespace mb4::tool {
 
-// What one frame contributes. CDS answers the CDM of the frame before.
+// The control bits of one frame. CDS answers the CDM of the frame before.
 struct ControlBits {
   bool cdm;
   bool cds;
@@ -31,17 +31,18 @@ struct SlotField {
 };
 
 struct ControlFrame {
-  std::size_t start = 0;  // index of slot 0 in what was decoded
+  std::size_t start = 0;  // index of slot 0 in the decoded bits
   std::size_t slots = 0;
   std::vector<SlotField> cdm;
   std::vector<SlotField> cds;
   std::string text;  // "read ID 0, 0x44: 00 D9", "command ..."
   bool complete = false;
-  bool good = false;  // complete, and every CRC and echo is right
+  bool good = false;     // complete, and every CRC and echo is right
+  std::string mistakes;  // the CRCs that are wrong, with both values
 };
 
-// The first control frame of `bits` from `from` on: S is the first CDM = 1 behind 14 or more frames
-// with CDM = 0. Without one slots is 0.
+// The first control frame of `bits` from index `from` on. S is the first CDM = 1 after 14 or more
+// frames with CDM = 0. `slots` is 0 if there is no control frame.
 ControlFrame decode_control(const std::vector<ControlBits>& bits, std::size_t from = 0);
 
 }  // namespace mb4::tool

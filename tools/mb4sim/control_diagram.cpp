@@ -9,7 +9,7 @@
 namespace mb4::tool {
 namespace {
 
-constexpr std::size_t kBefore = 4;  // cells in front of S: the end of the zeros
+constexpr std::size_t kBefore = 4;  // cells before S: the last zeros
 constexpr std::size_t kBehind = 1;
 
 DiagramRow row(DiagramRow::Type type, std::string name = "") {
@@ -41,7 +41,8 @@ Diagram control_diagram(const std::vector<ControlBits>& bits, const ControlFrame
                         const std::string& title) {
   Diagram diagram;
   diagram.title = title;
-  diagram.notes.push_back(frame.text + (frame.good ? "" : " (not good)"));
+  diagram.notes.push_back(frame.text + (frame.good ? "" : " (not good)") +
+                          (frame.mistakes.empty() ? "" : "; " + frame.mistakes));
   diagram.notes.emplace_back(
       "One cell for each frame. CDM: level of MA behind the frame, inverted.");
   diagram.notes.emplace_back(

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The picture of a control frame: a cell for each frame that carries a bit of it.
+// The picture of a control frame. Each cell is a frame on the line, which carries one bit.
 #ifndef MB4SIM_TOOL_CONTROL_DIAGRAM_HPP_
 #define MB4SIM_TOOL_CONTROL_DIAGRAM_HPP_
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Options and help of the commands that put the chip in place of a real one.
+// Options and help of the commands that put the simulated chip in place of a real chip.
 #include <memory>
 
 #include "command_line.hpp"
@@ -30,7 +30,7 @@ void add_spidev(CLI::App& app, Action& action) {
       ->check(file_name());
   add_trace(spidev, options->trace);
   add_seed(spidev, options->seed);
-  // Behind "--" words that look like options are the program's.
+  // After "--" all words belong to the program, even if they look like options.
   spidev.add_option("program", options->program, "Program and its arguments, behind --")
       ->required()
       ->type_name("PROGRAM");

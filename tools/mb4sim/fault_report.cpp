@@ -8,7 +8,7 @@
 #include <array>
 #include <map>
 
-#include "frame_report.hpp"
+#include "messages.hpp"
 
 namespace mb4::tool {
 namespace {
@@ -42,15 +42,26 @@ std::uint64_t of(const KindCount& kind, Fate fate) {
   return kind.fates[static_cast<std::size_t>(fate)];
 }
 
+std::string fault_text(const std::vector<sim::FaultRecord>& records, std::size_t index) {
+  return fmt::format("fault {} at {:.3f} us: {}", index + 1, sim::to_us(records[index].begin),
+                     records[index].what);
+}
+
 }  // namespace
 
 std::string fault_lines(const std::vector<sim::FaultRecord>& records, std::size_t from) {
   std::string out;
   for (std::size_t i = from; i < records.size(); ++i) {
-    out += fmt::format("  fault {} at {:.3f} us: {}\n", i + 1, sim::to_us(records[i].begin),
-                       records[i].what);
+    out += fmt::format("  {}\n", fault_text(records, i));
   }
   return out;
+}
+
+void print_faults(bool json, const std::vector<sim::FaultRecord>& records, std::size_t from) {
+  if (!json) fmt::print(stderr, "{}", fault_lines(records, from));
+  for (std::size_t i = from; json && i < records.size(); ++i) {
+    print_note(json, fault_text(records, i));
+  }
 }
 
 FaultReport::FaultReport(const sim::Scenario& scenario,

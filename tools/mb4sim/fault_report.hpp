@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What became of the faults of a scenario: how each was detected by chip and driver.
+// Reports for each fault of a scenario how chip and driver detected it.
 #ifndef MB4SIM_TOOL_FAULT_REPORT_HPP_
 #define MB4SIM_TOOL_FAULT_REPORT_HPP_
 
@@ -15,9 +15,9 @@
 
 namespace mb4::tool {
 
-// What a frame brought for one slave.
+// The result of a frame for one slave.
 struct SlaveOutcome {
-  enum class Kind { kRight, kFlagged, kWrong };  // kWrong: as good, but not what was sent
+  enum class Kind { kRight, kFlagged, kWrong };  // kWrong: as good, but not the word sent
   unsigned slave = 1;
   unsigned channel = 1;
   Kind kind = Kind::kRight;
@@ -28,10 +28,13 @@ struct SlaveOutcome {
 // ...".
 std::string fault_lines(const std::vector<sim::FaultRecord>& records, std::size_t from);
 
-// A fault counts as detected by the first bad result of its channel (host and clock: any) in a
-// frame that ends behind its beginning, up to the first frame that begins behind its end. If all
-// these frames are good and right, it had no effect. If one delivered a wrong word as good, it was
-// missed.
+// The same on standard error; with `json` notes as print_note() writes them.
+void print_faults(bool json, const std::vector<sim::FaultRecord>& records, std::size_t from = 0);
+
+// The frames of a fault are those that end after the fault begins, up to the first frame that
+// begins after the fault ends. The first bad result of its channel in these frames detects the
+// fault; for faults of host and clock any channel counts. If all these frames are good and right,
+// the fault had no effect. If one of them delivered a wrong word as good, the fault was missed.
 class FaultReport {
  public:
   enum class Fate { kOpen, kNoEffect, kDetected, kMissed };
@@ -45,21 +48,22 @@ class FaultReport {
   // Both outlive the report.
   FaultReport(const sim::Scenario& scenario, const std::vector<sim::FaultRecord>& records);
 
-  // A frame that the host asked for at `begin` and had at `end`.
+  // A frame that the host requested at `begin` and received at `end`.
   void frame(std::uint64_t number, sim::Time begin, const std::vector<SlaveOutcome>& outcomes);
-  // A fault of kind wrong-id that nobody has looked at: its slave, or 0.
+  // The slave of a wrong-id fault that no register access has checked yet, or 0.
   unsigned unchecked_id() const;
-  // What a register access to this slave has shown: an error, or empty.
+  // Takes the result of a register access to this slave: an error, or empty.
   void id_checked(unsigned slave, const std::string& error);
   // No register access was refused or answered by the wrong slave.
   bool ids_good() const { return ids_good_; }
   std::uint64_t count(Fate fate) const;
-  // The end of the run: what is open had no effect.
+  // The end of the run: faults without a result had no effect.
   void finish();
 
   // One line for each fault since the last call.
   std::string new_lines();
-  // Counts and, for each kind, by what they were detected. Empty without faults in the scenario.
+  // The counts and, for each kind of fault, the errors that detected it. Empty without faults in
+  // the scenario.
   std::string summary() const;
   // A JSON array.
   std::string json() const;

@@ -51,7 +51,8 @@ class Decoder {
   // The first bit of SSI comes with the first rising edge.
   bool begin_ssi() {
     first_ = frame_.trace.rising[0];
-    // Of the response all edges show the same; without one it is not known.
+    // Every edge of the response gives the same delay, so the first one is used. Without a response
+    // the delay is not known.
     for (const Edge& edge : sl_.edges) {
       if (edge.time < first_ || edge.time >= frame_.trace.clock_end) continue;
       frame_.delay = (edge.time - first_) % period_;
@@ -123,34 +124,41 @@ class Decoder {
     if (crc.width() == 0) return;
     const auto line = static_cast<std::uint32_t>(peek(crc.width()));
     const std::uint32_t mask = (1U << crc.width()) - 1;
-    const bool bad = line != crc.line_bits(raw, data_bits);
-    frame_.good = frame_.good && !bad;
-    field(crc.width(), FieldKind::kCrc,
-          {fmt::format("{}CRC 0x{:0{}X} {}", who, ~line & mask, (crc.width() + 3) / 4,
-                       bad ? "wrong" : "good"),
-           fmt::format("CRC 0x{:0{}X}", ~line & mask, (crc.width() + 3) / 4), "CRC"},
-          bad);
+    const std::uint32_t right = crc.line_bits(raw, data_bits);
+    if (line != right) {
+      frame_.good = false;
+      std::vector<std::string> labels = wrong_crc(~line & mask, ~right & mask, crc.width());
+      labels.insert(labels.begin(), who + labels.front());
+      frame_.mistakes += (frame_.mistakes.empty() ? "" : "; ") + labels.front();
+      field(crc.width(), FieldKind::kCrc, labels, true);
+      return;
+    }
+    const std::string good = fmt::format("CRC 0x{:0{}X}", ~line & mask, (crc.width() + 3) / 4);
+    field(crc.width(), FieldKind::kCrc, {who + good + " good", good, "CRC"});
   }
 
+  // The time until SL is 1 again. It begins at the last edge of MA at the slave; the monoflop's
+  // time begins at the last falling edge. The master sees its end half a delay later.
   void add_rest(bool ssi) {
-    const sim::Time from = std::max(frame_.sl.empty() ? frame_.trace.clock_end : bit_at(next_),
-                                    frame_.trace.clock_end);
-    // It begins at the last edge, the monoflop at the last falling one, as the slave sees it; its
-    // end is seen half a delay late.
     const sim::Time edge = ssi ? frame_.trace.last_falling : frame_.trace.clock_end;
     const sim::Time begun = edge + frame_.delay;
     const std::string us =
         fmt::format("{:.3g} us", sim::to_us(frame_.trace.end - std::min(frame_.trace.end, begun)));
-    if (frame_.trace.end > from) {
-      const char* const what = ssi ? "monoflop" : "timeout";
-      const sim::Time begin = frame_.sl.empty() ? from : std::min(from, bit_at(next_));
-      frame_.sl.push_back({begin,
-                           frame_.trace.end,
-                           FieldKind::kRest,
-                           {fmt::format("{} {}", what, us), what},
-                           false});
+    const auto rest = [&](const char* what, sim::Time from, sim::Time to) {
+      return Field{from, to, FieldKind::kRest, {fmt::format("{} {}", what, us), what}, false};
+    };
+    if (ssi) {
+      // The last bit has not ended on SL. The field is drawn below MA, without the delay.
+      if (frame_.trace.end > begun) {
+        frame_.ma.push_back(rest("monoflop", edge, frame_.trace.end - frame_.delay));
+      }
+      return;
     }
-    if (ssi || channel_.protocol() != sim::LineProtocol::kBissC) return;
+    const sim::Time from = frame_.sl.empty() ? edge : bit_at(next_);
+    if (frame_.trace.end > std::max(from, edge)) {
+      frame_.sl.push_back(rest("timeout", from, frame_.trace.end));
+    }
+    if (channel_.protocol() != sim::LineProtocol::kBissC) return;
     frame_.cdm = !frame_.trace.rest;
     frame_.ma.push_back(
         {frame_.trace.clock_end,
@@ -169,6 +177,14 @@ class Decoder {
 };
 
 }  // namespace
+
+std::vector<std::string> wrong_crc(std::uint32_t got, std::uint32_t right, unsigned bits) {
+  const unsigned digits = (bits + 3) / 4;
+  const std::string a = fmt::format("0x{:0{}X}", got, digits);
+  const std::string b = fmt::format("0x{:0{}X}", right, digits);
+  return {fmt::format("CRC {} wrong, {} right", a, b), fmt::format("{} wrong, {} right", a, b),
+          fmt::format("{}, not {}", a, b), fmt::format("{}/{}", a, b), "CRC"};
+}
 
 DecodedFrame decode_frame(const LineRecording& recording, const FrameTrace& trace,
                           const sim::ChannelConfig& channel) {

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The meaning of a frame on the line, found from its edges and from what the scenario says about
-// the slaves: without the chip.
+// Decodes a frame on the line from its edges and the scenario's data of the slaves. It does not use
+// the chip.
 #ifndef MB4SIM_TOOL_FRAME_DECODE_HPP_
 #define MB4SIM_TOOL_FRAME_DECODE_HPP_
 
@@ -27,6 +27,9 @@ struct Field {
   bool bad = false;                 // the check has failed
 };
 
+// Labels for a wrong CRC: the received value and the right one, in more and in fewer words.
+std::vector<std::string> wrong_crc(std::uint32_t got, std::uint32_t right, unsigned bits);
+
 struct DecodedFrame {
   FrameTrace trace;
   sim::Time delay = 0;          // of SL against MA
@@ -37,6 +40,7 @@ struct DecodedFrame {
   bool cdm = false;
   bool complete = false;  // all fields have been found
   bool good = false;      // and every CRC is right
+  std::string mistakes;   // the CRCs that are wrong, with both values
   std::vector<std::uint64_t> words;
 };
 

@@ -15,7 +15,7 @@ constexpr double kLongestRest = 6;
 constexpr double kBefore = 1;  // shown in front of the first edge
 constexpr double kBehind = 1;
 
-// Time to position: cells are periods of MA, but long rests are shortened.
+// Converts time to position. A cell is a period of MA. The middle of a long rest is cut out.
 class Axis {
  public:
   Axis(const DecodedFrame& frame, const std::vector<const Wave*>& waves)
@@ -27,14 +27,19 @@ class Axis {
           times.push_back(edge.time);
       }
     }
-    // Where bits are read nothing is cut, whatever their level is.
+    // Nothing is cut where bits are read, even if their level does not change.
     times.insert(times.end(), frame.bits.begin(), frame.bits.end());
     std::sort(times.begin(), times.end());
     double position = kBefore;
     points_.push_back({times.front(), position});
     for (std::size_t i = 1; i < times.size(); ++i) {
       const double cells = static_cast<double>(times[i] - times[i - 1]) / period_;
-      if (cells > kLongestRest) cuts_.push_back(position + kLongestRest / 2);
+      if (cells > kLongestRest) {
+        const auto half = static_cast<sim::Time>(kLongestRest / 2 * period_);
+        cuts_.push_back(position + kLongestRest / 2);
+        points_.push_back({times[i - 1] + half, cuts_.back()});
+        points_.push_back({times[i] - half, cuts_.back()});
+      }
       position += std::min(cells, kLongestRest);
       points_.push_back({times[i], position});
     }
@@ -53,6 +58,11 @@ class Axis {
     const Point& a = *std::prev(next);
     return a.position + (next->position - a.position) * static_cast<double>(time - a.time) /
                             static_cast<double>(next->time - a.time);
+  }
+  // False for a time that is cut out.
+  bool shown(sim::Time time) const {
+    const double at = (*this)(time);
+    return std::find(cuts_.begin(), cuts_.end(), at) == cuts_.end();
   }
   double length() const { return length_; }
   const std::vector<double>& cuts() const { return cuts_; }
@@ -115,14 +125,20 @@ DiagramRow bit_row(const Wave& sl, const DecodedFrame& frame, const Axis& axis) 
 }
 
 void add_ticks(const DecodedFrame& frame, const Axis& axis, Diagram& diagram) {
+  constexpr double kApart = 2;  // cells
+  const auto add = [&](sim::Time t) {
+    diagram.ticks.push_back({axis(frame.trace.begin + t), fmt::format("{:.4g}", sim::to_us(t))});
+  };
   // Every fifth period, as time since the first falling edge.
   const sim::Time step = 5 * frame.trace.period();
-  double last = -10;
-  for (sim::Time t = 0; t <= frame.trace.end - frame.trace.begin; t += step) {
-    const double at = axis(frame.trace.begin + t);
-    if (at - last < 2) continue;
-    last = at;
-    diagram.ticks.push_back({at, fmt::format("{:.4g}", sim::to_us(t))});
+  const sim::Time end = frame.trace.end - frame.trace.begin;
+  for (sim::Time t = 0; t <= end; t += step) {
+    if (axis.shown(frame.trace.begin + t)) add(t);
+  }
+  // After a cut the end has its own number, because no other number may stand there.
+  if (!axis.cuts().empty()) {
+    while (axis(frame.trace.end) - diagram.ticks.back().at < kApart) diagram.ticks.pop_back();
+    add(end);
   }
   diagram.axis = "t / us";
 }
@@ -153,9 +169,9 @@ Diagram frame_diagram(const LineRecording& recording, const DecodedFrame& frame,
                   protocol_text(channel.protocol()),
                   1e6 / static_cast<double>(frame.trace.period()), frame.trace.rising.size(),
                   sim::to_ns(frame.delay), sim::to_us(frame.trace.end - frame.trace.begin),
-                  !frame.complete ? "; no answer"
-                  : frame.good    ? ""
-                                  : "; a CRC is wrong"));
+                  !frame.complete ? std::string("; no answer")
+                  : frame.good    ? std::string()
+                                  : "; " + frame.mistakes));
   diagram.rows.push_back(edge_numbers(frame, axis));
   diagram.rows.push_back(wave_row("MA", recording.ma(), frame, axis));
   if (!frame.ma.empty()) diagram.rows.push_back(field_row(frame.ma, axis));

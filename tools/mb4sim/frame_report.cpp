@@ -6,6 +6,8 @@
 
 #include <algorithm>
 
+#include "messages.hpp"
+
 namespace mb4::tool {
 namespace {
 
@@ -23,23 +25,7 @@ std::string state_of(const Result<Reading>& result) {
 
 }  // namespace
 
-std::string json_text(const std::string& text) {
-  std::string out(1, '"');
-  for (const char c : text) {
-    if (c == '"' || c == '\\') {
-      out += '\\';
-      out += c;
-    } else if (static_cast<unsigned char>(c) < 0x20) {
-      out += fmt::format("\\u{:04x}", static_cast<unsigned>(c));
-    } else {
-      out += c;
-    }
-  }
-  out += '"';
-  return out;
-}
-
-// The values of one row as text; empty where there is none.
+// The values of one row as text; a missing value is empty.
 struct FrameReport::Cells {
   std::string raw;
   std::string position;
@@ -126,7 +112,7 @@ std::string FrameReport::table_summary(const RunSummary& summary) const {
     separator = ", ";
   }
   if (!errors_.empty()) out += '\n';
-  // With one slave the sum says it all.
+  // With one slave the sum is enough.
   if (counts_.size() > 1) {
     for (const SlaveCount& count : counts_) {
       out += fmt::format("slave {}: good {}, bad {}\n", count.slave, count.good, count.bad);

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What `mb4sim run` prints: a table, CSV and JSON of the same rows, row by row.
+// The output of `mb4sim run`: table, CSV and JSON of the same rows, row by row.
 #ifndef MB4SIM_TOOL_FRAME_REPORT_HPP_
 #define MB4SIM_TOOL_FRAME_REPORT_HPP_
 
@@ -38,7 +38,7 @@ struct RunSummary {
   std::uint64_t seed = 0;
 };
 
-// What became of the frames of one slave.
+// The counts of the frames of one slave by result.
 struct SlaveCount {
   unsigned slave = 1;
   std::uint64_t good = 0;
@@ -57,7 +57,7 @@ class FrameReport {
   std::uint64_t good() const;
   std::uint64_t bad() const;
 
-  // What was wrong most often; empty if nothing was.
+  // The most frequent error; empty if there was none.
   std::string worst_error() const;
 
   std::string table_header() const;
@@ -82,9 +82,6 @@ class FrameReport {
   FrameRow row_;                                 // added last
   bool any_ = false;
 };
-
-// A string as JSON, quotes included.
-std::string json_text(const std::string& text);
 
 }  // namespace mb4::tool
 

@@ -2,12 +2,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "help_pages.hpp"
 
-#include <fmt/core.h>
+#include <fmt/format.h>
 
 #include <sstream>
 #include <string_view>
 #include <vector>
 
+#include "command_line.hpp"
+#include "mb4sim/presets.hpp"
 #include "mb4sim/version.hpp"
 
 namespace mb4::tool {
@@ -94,10 +96,14 @@ std::string option_words(const CLI::App& command) {
   return words;
 }
 
-std::string command_words(const CLI::App& app) {
+// The words that the positional argument of a command may be; empty: files.
+std::string argument_words(const CLI::App& app, const CLI::App& command) {
+  if (command.get_name() == "help") return fmt::format("{}", fmt::join(command_names(app), " "));
+  if (command.get_name() == "completion") return "bash zsh";
   std::string words;
-  for (const CLI::App* command : commands(app)) {
-    words += (words.empty() ? "" : " ") + command->get_name();
+  if (command.get_name() != "presets") return words;
+  for (const sim::Preset& preset : sim::presets()) {
+    words += (words.empty() ? "" : " ") + std::string(preset.name);
   }
   return words;
 }
@@ -147,21 +153,24 @@ std::string bash_completion(const CLI::App& app) {
   std::string out = fmt::format(
       "# Completion of mb4sim for bash.\n"
       "_mb4sim() {{\n"
-      "  local word=${{COMP_WORDS[COMP_CWORD]}} command=${{COMP_WORDS[1]}} options\n"
+      "  local word=${{COMP_WORDS[COMP_CWORD]}} command=${{COMP_WORDS[1]}} options words\n"
       "  COMPREPLY=()\n"
       "  if [ \"$COMP_CWORD\" -eq 1 ]; then\n"
-      "    COMPREPLY=($(compgen -W '{} --help --version' -- \"$word\"))\n"
+      "    COMPREPLY=($(compgen -W '{} --help --version -V' -- \"$word\"))\n"
       "    return\n"
       "  fi\n"
       "  case $command in\n",
-      command_words(app));
+      fmt::join(command_names(app), " "));
   for (const CLI::App* command : commands(app)) {
-    out += fmt::format("    {}) options='{}' ;;\n", command->get_name(), option_words(*command));
+    out += fmt::format("    {}) options='{}' words='{}' ;;\n", command->get_name(),
+                       option_words(*command), argument_words(app, *command));
   }
   return out +
          "  esac\n"
          "  if [[ $word == -* ]]; then\n"
          "    COMPREPLY=($(compgen -W \"$options\" -- \"$word\"))\n"
+         "  elif [ -n \"$words\" ]; then\n"
+         "    COMPREPLY=($(compgen -W \"$words\" -- \"$word\"))\n"
          "  else\n"
          "    compopt -o filenames 2>/dev/null\n"
          "    COMPREPLY=($(compgen -f -- \"$word\"))\n"
@@ -189,7 +198,9 @@ std::string zsh_completion(const CLI::App& app) {
                                : "");
       }
     }
-    out += " \\\n      '*:file:_files'\n    ;;\n";
+    const std::string words = argument_words(app, *command);
+    out += words.empty() ? " \\\n      '*:file:_files'\n    ;;\n"
+                         : fmt::format(" \\\n      '1:word:({})'\n    ;;\n", words);
   }
   return out + "esac\n";
 }

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Manual page and shell completions, made from the commands themselves so that they cannot tell
-// something else than --help.
+// Manual page and shell completions. They are made from the commands themselves, so that they
+// always agree with --help.
 #ifndef MB4SIM_TOOL_HELP_PAGES_HPP_
 #define MB4SIM_TOOL_HELP_PAGES_HPP_
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What the pins of a line do, written down edge by edge, and where its frames begin and end.
+// Records the pins of a line edge by edge, and finds where its frames begin and end.
 #ifndef MB4SIM_TOOL_LINE_RECORDING_HPP_
 #define MB4SIM_TOOL_LINE_RECORDING_HPP_
 
@@ -28,14 +28,14 @@ struct Wave {
   Wave between(sim::Time from, sim::Time to) const;
 };
 
-// A frame as it is on the line, without knowledge of what it means.
+// The edges of one frame on the line, not decoded.
 struct FrameTrace {
   sim::Time begin = 0;            // first falling edge of MA
   sim::Time clock_end = 0;        // last edge of MA
   sim::Time last_falling = 0;     // last falling edge of MA
-  sim::Time end = 0;              // SL is 1 again behind it, or the next frame begins
+  sim::Time end = 0;              // SL is 1 again after the frame, or the next frame begins
   std::vector<sim::Time> rising;  // edges of MA
-  bool rest = true;               // level of MA behind the last edge
+  bool rest = true;               // level of MA after the last edge
 
   sim::Time period() const { return rising.size() < 2 ? 0 : rising[1] - rising[0]; }
 };

@@ -3,47 +3,72 @@
 //
 // mb4sim: the openmb4 simulator on the command line. Data goes to standard output, messages to
 // standard error.
-#include <fmt/core.h>
-
+#include <algorithm>
+#include <csignal>
 #include <cstdio>
 #include <exception>
+#include <string>
+#include <string_view>
 
 #include "command_line.hpp"
 #include "exit_status.hpp"
+#include "interrupts.hpp"
 #include "mb4sim/model_stopped.hpp"
-#include "mb4sim/one_line.hpp"
+#include "messages.hpp"
 
+namespace mb4::tool {
 namespace {
 
-int run(int argc, char** argv) {
-  mb4::tool::Action action;
-  const auto app = mb4::tool::make_command_line(action);
+// Works also for a command line with mistakes. Words after "--" belong to a program.
+bool wants_json(int argc, char** argv) {
+  char** const end = std::find(argv, argv + argc, std::string_view("--"));
+  return std::find(argv, end, std::string_view("--json")) != end;
+}
+
+int run(int argc, char** argv, bool json) {
+  Action action;
+  const auto app = make_command_line(action);
   try {
     app->parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) return app->exit(error);  // --help, --version
-    fmt::print(stderr, "mb4sim: {} (see mb4sim --help)\n", mb4::sim::one_line(error.what()));
-    return mb4::tool::kWrongUse;
+    print_error(json, mistake(*app, error), kWrongUse);
+    return kWrongUse;
   }
   return action();
 }
 
+// Ends the process by the signal, as a shell expects it of an interrupted program.
+void die_by(int signal) {
+  std::signal(signal, SIG_DFL);
+  std::raise(signal);
+}
+
 }  // namespace
+}  // namespace mb4::tool
 
 int main(int argc, char** argv) {
-  int status = mb4::tool::kWrongUse;
+  using namespace mb4::tool;
+  const bool json = wants_json(argc, argv);
+  int status = kWrongUse;
+  int signal = 0;
   try {
-    status = run(argc, argv);
+    status = run(argc, argv, json);
   } catch (const mb4::sim::ModelStopped& error) {
-    fmt::print(stderr, "mb4sim: the model stopped: {}\n", error.what());
-    status = mb4::tool::kModelStopped;
+    status = kModelStopped;
+    print_error(json, std::string("the model stopped: ") + error.what(), status);
+  } catch (const Interrupted& error) {
+    signal = error.signal();
+    status = kSignalled + signal;
+    print_error(json, error.what(), status);
   } catch (const std::exception& error) {
-    fmt::print(stderr, "mb4sim: {}\n", mb4::sim::one_line(error.what()));
+    print_error(json, error.what(), status);
   }
   const bool written = std::fflush(stdout) == 0 && std::ferror(stdout) == 0;
-  if (!written && (status == mb4::tool::kGood || status == mb4::tool::kBad)) {
-    fmt::print(stderr, "mb4sim: cannot write to standard output\n");
-    status = mb4::tool::kWrongUse;
+  if (!written && (status == kGood || status == kBad)) {
+    status = kWrongUse;
+    print_error(json, "cannot write to standard output", status);
   }
+  if (signal != 0) die_by(signal);
   return status;
 }

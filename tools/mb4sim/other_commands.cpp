@@ -4,13 +4,16 @@
 // Options and help of the commands that need no scenario.
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "command_line.hpp"
 #include "commands.hpp"
 #include "exit_status.hpp"
 #include "help_pages.hpp"
+#include "suggestion.hpp"
 #include "workload.hpp"
 
 namespace mb4::tool {
@@ -84,6 +87,30 @@ void add_man(CLI::App& app, Action& action) {
   });
 }
 
+void add_help(CLI::App& app, Action& action) {
+  const auto name = std::make_shared<std::string>();
+  CLI::App& help = *app.add_subcommand("help", "Print the help of mb4sim or of a command");
+  help.add_option("command", *name, "Which command (default: the list of all)")
+      ->type_name("COMMAND");
+  help.footer("Example: mb4sim help run");
+  help.callback([&app, &action, name] {
+    action = [&app, name] {
+      const std::vector<std::string> known = command_names(app);
+      if (name->empty()) {
+        app.clear();  // else it would be the help of `help`
+        fmt::print("{}", app.help());
+      } else if (std::find(known.begin(), known.end(), *name) != known.end()) {
+        fmt::print("{}", app.get_subcommand(*name)->help(app.get_name()));
+      } else {
+        const std::string meant = suggestion(*name, known);
+        throw UseError(fmt::format("there is no command '{}'{}", *name,
+                                   meant.empty() ? "; 'mb4sim help' lists them" : meant));
+      }
+      return kGood;
+    };
+  });
+}
+
 }  // namespace
 
 void add_other_commands(CLI::App& app, Action& action) {
@@ -91,6 +118,7 @@ void add_other_commands(CLI::App& app, Action& action) {
   add_bench(app, action);
   add_completion(app, action);
   add_man(app, action);
+  add_help(app, action);
 }
 
 }  // namespace mb4::tool

@@ -126,7 +126,7 @@ void require_writable(const std::string& path) {
     fail(path);
   }
   if (is_special(path)) {
-    // Opening a pipe only to try it would end it for its reader.
+    // To open and close a pipe for a test would show its reader the end of the data.
     if (::access(path.c_str(), W_OK) != 0) fail(path);
     return;
   }

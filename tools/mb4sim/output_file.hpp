@@ -14,14 +14,14 @@ namespace mb4::tool {
 
 class OutputFile {
  public:
-  // Throws UseError at once if `path` cannot be written. Nothing of an existing file is lost until
+  // Throws UseError at once if `path` cannot be written. An existing file keeps its content until
   // commit().
   explicit OutputFile(std::string path);
   OutputFile(const OutputFile&) = delete;
   OutputFile& operator=(const OutputFile&) = delete;
   ~OutputFile();
 
-  // Adds to what commit() will give the file. Throws UseError.
+  // Appends to the content that commit() writes. Throws UseError.
   void append(std::string_view content);
   // Gives the file its content. Throws UseError.
   void commit();
@@ -55,8 +55,8 @@ std::string link_target(const std::string& path);
 // Name under which an OutputFile is written before it is complete.
 std::string partial_path(const std::string& path);
 
-// Throws UseError if a file of this name cannot be created or overwritten. Leaves no file behind
-// that was not there.
+// Throws UseError if a file of this name cannot be created or overwritten. A file that did not
+// exist before does not exist after the call.
 void require_writable(const std::string& path);
 
 }  // namespace mb4::tool

@@ -4,13 +4,15 @@
 
 #include <string>
 #include <variant>
+#include <vector>
 
 #include "commands.hpp"
 #include "exit_status.hpp"
-#include "frame_report.hpp"
 #include "mb4sim/one_line.hpp"
 #include "mb4sim/presets.hpp"
 #include "mb4sim/sensor_config.hpp"
+#include "messages.hpp"
+#include "suggestion.hpp"
 
 namespace mb4::tool {
 namespace {
@@ -100,8 +102,11 @@ int presets_command(const PresetsOptions& options) {
   if (!options.name.empty()) {
     const sim::Preset* preset = sim::preset_by_name(options.name);
     if (preset == nullptr) {
-      throw UseError(fmt::format("there is no preset '{}'; 'mb4sim presets' lists them",
-                                 sim::one_line(options.name)));
+      std::vector<std::string> names;
+      for (const sim::Preset& each : sim::presets()) names.emplace_back(each.name);
+      const std::string meant = suggestion(options.name, names);
+      throw UseError(fmt::format("there is no preset '{}'{}", sim::one_line(options.name),
+                                 meant.empty() ? "; 'mb4sim presets' lists them" : meant));
     }
     print_scenario(*preset);
   } else if (options.json) {

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// A progress bar on standard error, on a terminal only and only once something takes long.
+// A progress bar on standard error. It appears only on a terminal and only during long work.
 #ifndef MB4SIM_TOOL_PROGRESS_HPP_
 #define MB4SIM_TOOL_PROGRESS_HPP_
 

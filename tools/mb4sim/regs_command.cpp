@@ -15,6 +15,7 @@
 #include "mb4_regs_table.hpp"
 #include "mb4sim/scenario.hpp"
 #include "mb4sim/simulator.hpp"
+#include "messages.hpp"
 #include "sim_bus.hpp"
 
 namespace mb4::tool {
@@ -104,7 +105,7 @@ int regs_command(const RegsOptions& options) {
     SimClock clock(simulator);
     Device device(bus, clock);
     if (const Result<void> done = device.configure(config); !done) {
-      fmt::print(stderr, "mb4sim: cannot configure the chip: {}\n", describe(done.info()));
+      print_error(options.json, "cannot configure the chip: " + describe(done.info()), kBad);
       good = false;
     }
     for (std::uint64_t frame = 1; good && frame <= options.frames; ++frame) {
@@ -114,13 +115,13 @@ int regs_command(const RegsOptions& options) {
         if (error == Error::kNone) error = result[slave.number].error();
       }
       if (error != Error::kNone) {
-        fmt::print(stderr, "mb4sim: frame {}: {}\n", frame, describe(error));
+        print_error(options.json, fmt::format("frame {}: {}", frame, describe(error)), kBad);
         good = false;
       }
     }
   }
   const Dump dump = read_all(simulator);
-  fmt::print(stderr, "{}", fault_lines(simulator.faults(), 0));
+  print_faults(options.json, simulator.faults());
   if (options.json) {
     print_json(dump);
   } else {

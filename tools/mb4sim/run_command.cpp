@@ -6,6 +6,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <utility>
 
@@ -13,8 +14,10 @@
 #include "exit_status.hpp"
 #include "fault_report.hpp"
 #include "frame_report.hpp"
+#include "interrupts.hpp"
 #include "mb4sim/scenario.hpp"
 #include "mb4sim/simulator.hpp"
+#include "messages.hpp"
 #include "output_file.hpp"
 #include "progress.hpp"
 #include "run_outputs.hpp"
@@ -53,14 +56,15 @@ class RunPrinter {
     progress_.update(frame.number);
   }
 
-  // Returns whether everything was good.
-  bool end(Session& session) {
+  // `error`: what has kept the run from its end. Returns whether everything was good.
+  bool end(const Session& session, const std::string& error = "") {
     progress_.clear();
     faults_->finish();
     const RunSummary summary = session.summary();
     if (options_.json) {
-      const std::string faults = faults_->any() ? ", \"faults\": " + faults_->json() : "";
-      fmt::print("{}", frames_.json_summary(summary, faults));
+      std::string more = faults_->any() ? ", \"faults\": " + faults_->json() : "";
+      if (!error.empty()) more += ", \"error\": " + json_text(error);
+      fmt::print("{}", frames_.json_summary(summary, more));
     } else {
       fmt::print("{}{}{}", faults_->new_lines(), faults_->summary(),
                  frames_.table_summary(summary));
@@ -87,9 +91,10 @@ sim::SimulatorOptions simulator_options(const RunOptions& options, const RunOutp
   return sim_options;
 }
 
-// The same run once more, up to a little behind its first bad frame, with a waveform around it.
+// Repeats the run until a little after its first bad frame, with a waveform around that frame.
 void trace_around(const RunOptions& options, const sim::Scenario& scenario,
-                  const RunOutputs& outputs, const SessionFrame& bad) {
+                  const Interrupts& interrupts, const RunOutputs& outputs,
+                  const SessionFrame& bad) {
   const sim::Time margin = sim::from_us(*options.trace_error_us);
   sim::SimulatorOptions sim_options = simulator_options(options, outputs);
   sim_options.trace_path = outputs.trace.path();
@@ -100,10 +105,31 @@ void trace_around(const RunOptions& options, const sim::Scenario& scenario,
   // The register accesses that faults ask for belong to the course of events.
   FaultReport faults(session.simulator().scenario(), session.simulator().faults());
   for (std::uint64_t number = 1; number < bad.number; ++number) {
+    interrupts.check();
     session.report(session.read(number), faults);
   }
   session.read(bad.number);
   session.simulator().run_until(sim_options.trace_to);
+}
+
+// Reads all frames; returns the first bad one. What is printed ends properly whatever happens.
+std::optional<SessionFrame> read_frames(const RunOptions& options, const Interrupts& interrupts,
+                                        Session& session, RunPrinter& printer, bool& good) {
+  std::optional<SessionFrame> first_bad;
+  printer.begin(session);
+  try {
+    for (std::uint64_t number = 1; number <= options.frames; ++number) {
+      interrupts.check();
+      SessionFrame frame = session.read(number);
+      printer.frame(frame, session);
+      if (!first_bad && frame.bad()) first_bad = std::move(frame);
+    }
+  } catch (const std::runtime_error& error) {  // sim::ModelStopped, Interrupted, UseError
+    printer.end(session, error.what());
+    throw;
+  }
+  good = printer.end(session);
+  return first_bad;
 }
 
 }  // namespace
@@ -113,40 +139,44 @@ int run_command(const RunOptions& options) {
   make_config(scenario);
   // Everything is checked before the first file is touched.
   RunOutputs outputs = open_outputs(options, scenario);
+  const Interrupts interrupts;
   std::optional<SessionFrame> first_bad;
   bool good = false;
   const bool traced = !options.trace.empty() && !options.trace_error_us;
   try {
     Session session(scenario, simulator_options(options, outputs), outputs.bus_log != nullptr);
     if (const Result<void> configured = session.configure(); !configured) {
-      fmt::print(stderr, "mb4sim: cannot configure the chip: {}\n", describe(configured.info()));
+      const std::string error = "cannot configure the chip: " + describe(configured.info());
+      print_error(options.json, error, kBad);
       if (traced) session.simulator().flush_trace();
       outputs.csv.reset();
       outputs.bus_log.reset();
+      if (options.json) {
+        RunPrinter printer(options, scenario, outputs);
+        printer.begin(session);
+        printer.end(session, error);
+      }
     } else {
       RunPrinter printer(options, scenario, outputs);
-      printer.begin(session);
-      for (std::uint64_t number = 1; number <= options.frames; ++number) {
-        SessionFrame frame = session.read(number);
-        printer.frame(frame, session);
-        if (!first_bad && frame.bad()) first_bad = std::move(frame);
-      }
-      good = printer.end(session);
+      first_bad = read_frames(options, interrupts, session, printer, good);
     }
   } catch (const sim::ModelStopped&) {
     // The waveform file is complete when the simulator has gone.
+    if (traced) outputs.trace.write_view();
+    throw;
+  } catch (const Interrupted&) {
     if (traced) outputs.trace.write_view();
     throw;
   }
   if (traced) outputs.trace.write_view();
   if (options.trace_error_us) {
     if (first_bad) {
-      trace_around(options, scenario, outputs, *first_bad);
+      trace_around(options, scenario, interrupts, outputs, *first_bad);
       outputs.trace.write_view(first_bad->begin);
-      fmt::print(stderr, "mb4sim: {} shows frame {}, the first bad one\n", options.trace,
-                 first_bad->number);
+      print_note(options.json, fmt::format("{} shows frame {}, the first bad one", options.trace,
+                                           first_bad->number));
     } else {
-      fmt::print(stderr, "mb4sim: no bad frame, so {} was not written\n", options.trace);
+      print_note(options.json, fmt::format("no bad frame, so {} was not written", options.trace));
     }
   }
   if (outputs.bus_log != nullptr) outputs.bus_log->commit();

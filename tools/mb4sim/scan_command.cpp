@@ -12,11 +12,11 @@
 #include "commands.hpp"
 #include "exit_status.hpp"
 #include "fault_report.hpp"
-#include "frame_report.hpp"
 #include "mb4/device.hpp"
 #include "mb4/scan.hpp"
 #include "mb4sim/scenario.hpp"
 #include "mb4sim/simulator.hpp"
+#include "messages.hpp"
 #include "sim_bus.hpp"
 
 namespace mb4::tool {
@@ -71,7 +71,8 @@ std::optional<Page> read_eds(SimDevice& device, const Found& found) {
   return page;
 }
 
-Result<std::vector<Found>> scan(const sim::Scenario& scenario, unsigned channel, bool with_eds) {
+Result<std::vector<Found>> scan(const sim::Scenario& scenario, unsigned channel,
+                                const ScanOptions& options) {
   sim::Simulator simulator(scenario);
   SimBus bus(simulator);
   SimClock clock(simulator);
@@ -83,12 +84,12 @@ Result<std::vector<Found>> scan(const sim::Scenario& scenario, unsigned channel,
   std::array<SlaveIdentity, kSlaveIds> identities{};
   const Result<std::uint8_t> count =
       scan_bus(device, static_cast<std::uint8_t>(channel), identities);
-  fmt::print(stderr, "{}", fault_lines(simulator.faults(), 0));
+  print_faults(options.json, simulator.faults());
   if (!count) return count.info();
   std::vector<Found> list;
   for (unsigned id = 0; id < *count; ++id) {
     Found found{channel, id, identities[id], std::nullopt};
-    if (with_eds && found.identity.has_eds) found.eds = read_eds(device, found);
+    if (options.eds && found.identity.has_eds) found.eds = read_eds(device, found);
     list.push_back(found);
   }
   return list;
@@ -167,9 +168,10 @@ int scan_command(const ScanOptions& options) {
       notes += fmt::format("channel {}: not scanned, only BiSS C slaves can be asked\n", number);
       continue;
     }
-    const Result<std::vector<Found>> found = scan(scenario, number, options.eds);
+    const Result<std::vector<Found>> found = scan(scenario, number, options);
     if (!found) {
-      fmt::print(stderr, "mb4sim: channel {}: {}\n", number, describe(found.info()));
+      print_error(options.json, fmt::format("channel {}: {}", number, describe(found.info())),
+                  kBad);
       good = false;
       continue;
     }

@@ -20,8 +20,8 @@ Config session_config(const sim::Scenario& scenario) {
   return config;
 }
 
-// What the chip makes of an SSI encoder's word: it takes flags for a part of the Gray code. The
-// driver mends two of them, nE and nW.
+// The word as the chip stores it for an SSI encoder with Gray code. The chip converts the flags
+// like a part of the Gray code. The driver restores two of them, nE and nW.
 std::uint64_t as_stored(const sim::SlaveConfig& slave, std::uint64_t word) {
   const auto* ssi = std::get_if<sim::SsiSlaveConfig>(&slave.device);
   const unsigned flags = slave.flag_bits();
@@ -78,7 +78,7 @@ SessionFrame Session::read(std::uint64_t number) {
   out.end = simulator_.now();
   if (read) wait_for_actuators();
   for (const ConnectedSlave& slave : slaves_) {
-    // What is wrong with the whole frame is wrong with each slave.
+    // An error of the whole frame is an error of each slave.
     out.results.push_back(read ? frame[slave.number] : Result<Reading>(read.info()));
     const sim::Slave* device = simulator_.slave(slave.number);
     out.sent.push_back(device != nullptr ? device->sent_word() : std::nullopt);
@@ -133,8 +133,8 @@ void Session::report(const SessionFrame& frame, FaultReport& faults) {
   }
 }
 
-// Reads the first ID register of a BiSS C slave and compares it with the slave's own: what went
-// wrong, or empty.
+// Reads the first ID register of a BiSS C slave and compares it with the slave's own value. Returns
+// the error, or empty.
 std::string Session::check_id(unsigned slave) {
   const SlaveAddress address = slave_address(config_, static_cast<std::uint8_t>(slave));
   std::uint8_t value = 0;

@@ -44,7 +44,7 @@ class Session {
 
   Result<void> configure() { return device_.configure(config_); }
   SessionFrame read(std::uint64_t number);
-  // Tells the report of a frame, and makes the register access that a fault of an ID asks for.
+  // Adds a frame to the report, and makes the register access that a fault of an ID needs.
   void report(const SessionFrame& frame, FaultReport& faults);
 
   const std::vector<ConnectedSlave>& slaves() const { return slaves_; }

@@ -100,8 +100,8 @@ class SimBus {
   std::string* log_;
 };
 
-// Looking at the clock takes time, as it does on a processor: a driver that waits by the clock
-// alone would wait for ever otherwise.
+// Each reading of the clock takes simulated time, as on a processor. Otherwise a driver that only
+// reads the clock while it waits would wait for ever.
 class SimClock {
  public:
   explicit SimClock(sim::Simulator& simulator) : simulator_(simulator) {}

@@ -4,7 +4,6 @@
 
 #include <charconv>
 #include <cstdio>
-#include <iostream>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -14,6 +13,7 @@
 #include "fault_report.hpp"
 #include "mb4sim/scenario.hpp"
 #include "mb4sim/simulator.hpp"
+#include "pair_warning.hpp"
 #include "sim_bus.hpp"
 
 namespace mb4::tool {
@@ -31,6 +31,20 @@ std::vector<std::string_view> words_of(std::string_view line) {
     at = line.find_first_not_of(kBlank, end);
   }
   return words;
+}
+
+// False at the end of standard input. Line by line, so that a program can converse with the chip.
+bool read_line(std::string& line, unsigned number) {
+  constexpr std::size_t kMaxLine = std::size_t{1} << 20U;
+  line.clear();
+  for (int c = std::getchar(); c != EOF; c = std::getchar()) {
+    if (c == '\n') return true;
+    if (line.size() == kMaxLine) {
+      throw UseError(fmt::format("standard input:{}: the line is longer than 1 MiB", number));
+    }
+    line += static_cast<char>(c);
+  }
+  return !line.empty();
 }
 
 template <typename T>
@@ -83,8 +97,9 @@ int spi_command(const SpiOptions& options) {
   sim::Simulator simulator(scenario);
   SimBus bus(simulator);
   std::string line;
+  PairWarning pairs(simulator);
   std::size_t faults = 0;  // that have been logged
-  for (unsigned number = 1; std::getline(std::cin, line); ++number) {
+  for (unsigned number = 1; read_line(line, number); ++number) {
     const auto words = words_of(line);
     if (words.empty()) continue;
     try {
@@ -92,7 +107,8 @@ int spi_command(const SpiOptions& options) {
     } catch (const UseError& error) {
       throw UseError(fmt::format("standard input:{}: {}", number, error.what()));
     }
-    fmt::print(stderr, "{}", fault_lines(simulator.faults(), faults));
+    print_faults(false, simulator.faults(), faults);
+    pairs.look();
     faults = simulator.faults().size();
     if (std::fflush(stdout) != 0) throw UseError("cannot write to standard output");
   }

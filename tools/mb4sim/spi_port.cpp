@@ -11,7 +11,7 @@
 namespace mb4::tool {
 namespace {
 
-// Linux waits so long between the frames of a message that cs_change separates.
+// The pause that Linux makes between two frames of a message when cs_change separates them.
 constexpr sim::Time kFrameGap = 10 * sim::kPsPerUs;
 
 unsigned bytes_of(unsigned bits) { return bits <= 8 ? 1 : bits <= 16 ? 2 : 4; }

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The simulated chip as a device on an SPI controller with an operating system above it: settings
-// that stay, messages of several transfers. What values mean is as Linux has it for spidev
+// The simulated chip as a device on the SPI controller of an operating system: the settings stay,
+// and a message has several transfers. Values have the meaning of Linux's spidev
 // (Documentation/spi/spidev.rst, include/uapi/linux/spi/spi.h).
 #ifndef MB4SIM_TOOL_SPI_PORT_HPP_
 #define MB4SIM_TOOL_SPI_PORT_HPP_
@@ -18,8 +18,8 @@
 
 namespace mb4::tool {
 
-// A value that the controller or the simulation does not take; nothing has been changed. what() is
-// one line.
+// The controller or the simulation does not accept a value; nothing has changed. what() is one
+// line.
 class RefusedValue : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
@@ -44,10 +44,10 @@ struct SpiTransfer {
   std::size_t length = 0;            // bytes; a word takes 1, 2 or 4 of them, little-endian
   std::span<const std::uint8_t> tx;  // length bytes, or empty: zeros are sent
   std::uint32_t speed_hz = 0;        // 0: as the settings say
-  std::uint16_t delay_us = 0;        // behind the transfer, before NCS may change
-  std::uint8_t word_delay_us = 0;    // behind every word
+  std::uint16_t delay_us = 0;        // after the transfer, before NCS may change
+  std::uint8_t word_delay_us = 0;    // after every word
   std::uint8_t bits_per_word = 0;    // 0: as the settings say
-  bool cs_change = false;            // NCS high behind it; behind the last one: NCS stays low
+  bool cs_change = false;            // NCS high after it; after the last one: NCS stays low
 };
 
 class SpiPort {

@@ -31,7 +31,6 @@ namespace fs = std::filesystem;
 
 constexpr int kNotFound = 127;       // as shells have it: there is no such program,
 constexpr int kNotExecutable = 126;  // it cannot be started,
-constexpr int kSignalled = 128;      // it was ended by a signal (this plus its number)
 
 // One encoder of 26 bits on 10 m of cable: examples/resolute-26.toml.
 constexpr const char* kDefaultScenario = R"(
@@ -92,7 +91,8 @@ std::string library_path(const std::string& option) {
   throw UseError(fmt::format("{}: the preload library is not there", places.front().string()));
 }
 
-// The loader splits the list of libraries at blanks and colons: such a path goes by a link.
+// The loader splits the list of libraries at blanks and colons. A path with such a character is
+// replaced by a link.
 std::string loadable(const std::string& library, const Folder& folder) {
   if (library.find_first_of(" :") == std::string::npos) return library;
   const fs::path link = fs::path(folder.path()) / fs::path("libmb4sim_spidev.so");
@@ -134,14 +134,14 @@ int status_of(pid_t program) {
   return WIFSIGNALED(status) ? kSignalled + WTERMSIG(status) : WEXITSTATUS(status);
 }
 
-volatile std::sig_atomic_t g_program = 0;  // where signals go on to
+volatile std::sig_atomic_t g_program = 0;  // process that receives the signals
 
 void pass_on(int signal) {
   if (g_program > 0) ::kill(static_cast<pid_t>(g_program), signal);
 }
 
-// Signals meant for the program. Keys typed at the terminal reach it without help; what is sent to
-// this process goes on to it. Either way this process lives as long as the program.
+// Signals for the program. Signals of the terminal reach it directly. This process passes on the
+// signals that are sent to itself. In both cases this process lives as long as the program.
 class ProgramSignals {
  public:
   // Signals wait until the program is known.

@@ -53,4 +53,23 @@ std::string fitting(const std::vector<std::string>& labels, double width, double
   return "";
 }
 
+std::vector<std::string> wrapped(std::string_view content, double width, double font_size) {
+  std::vector<std::string> lines;
+  while (text_width(content, font_size) > width) {
+    std::size_t end = 1;
+    std::size_t blank = 0;
+    while (text_width(content.substr(0, end + 1), font_size) <= width) {
+      if (content[end] == ' ') blank = end;
+      ++end;
+    }
+    // Not inside of a character of UTF-8.
+    while (end > 1 && (static_cast<unsigned char>(content[end]) & 0xC0U) == 0x80) --end;
+    if (content[end] == ' ') blank = end;
+    lines.emplace_back(content.substr(0, blank != 0 ? blank : end));
+    content.remove_prefix(blank != 0 ? blank + 1 : end);
+  }
+  lines.emplace_back(content);
+  return lines;
+}
+
 }  // namespace mb4::tool::svg

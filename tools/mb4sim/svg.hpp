@@ -21,6 +21,9 @@ double text_width(std::string_view content, double font_size);
 // The first of `labels` that fits into `width`; empty if none does.
 std::string fitting(const std::vector<std::string>& labels, double width, double font_size);
 
+// `content` on as many lines as it needs, cut at blanks, or inside of words longer than a line.
+std::vector<std::string> wrapped(std::string_view content, double width, double font_size);
+
 }  // namespace mb4::tool::svg
 
 #endif  // MB4SIM_TOOL_SVG_HPP_

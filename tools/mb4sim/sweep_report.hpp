@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What a sweep over delay, jitter and FREQS has found: as text, CSV and picture.
+// The results of a sweep over delay, jitter and FREQS: as text, CSV and picture.
 #ifndef MB4SIM_TOOL_SWEEP_REPORT_HPP_
 #define MB4SIM_TOOL_SWEEP_REPORT_HPP_
 

@@ -29,8 +29,8 @@ std::string box(double x, double y, double width, double height, const std::stri
       width, height, fill);
 }
 
-// Green: no bad word. From pale yellow to red: share of bad words, on a scale of roots, so that few
-// can be told from none. Violet: a wrong word was delivered.
+// Green: no bad word. Pale yellow to red: share of bad words, on a square root scale, so that few
+// bad words differ from none. Violet: a wrong word was delivered.
 std::string colour(const SweepPoint& point) {
   if (point.wrong != 0) return "#6a1b9a";
   if (point.bad() == 0) return "#4caf50";
@@ -135,7 +135,7 @@ std::string panel(const Sweep& sweep, const SweepPlane& plane, double top) {
   out += fmt::format(
       "<text class=\"mid\" transform=\"translate({:.1f},{:.1f}) rotate(-90)\">jitter peak to peak "
       "/ % of T_MA</text>\n",
-      kLeft - 48, top + kPlotHeight / 2);
+      kLeft - 60, top + kPlotHeight / 2);
   return out;
 }
 

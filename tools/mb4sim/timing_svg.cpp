@@ -27,6 +27,8 @@ constexpr double kAxis = 30;
 constexpr double kLineGap = 20;
 constexpr double kFont = 10;
 constexpr double kSmall = 9;
+constexpr double kNoteFont = 12;
+constexpr double kTitleFont = 16;  // 15, bold
 
 const char* fill(FieldKind kind) {
   switch (kind) {
@@ -126,7 +128,7 @@ class Line {
           "<rect x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.1f}\" height=\"{}\" fill=\"{}\"{}/>\n",
           x(from), y, (to - from) * kCell, kFields, field.bad ? "#f6b9b4" : fill(field.kind),
           field.kind == FieldKind::kRest ? " stroke-dasharray=\"3 2\"" : "");
-      // The label stands in the longest piece of what is spread over lines.
+      // A field that spans several lines has its label in its longest piece.
       const double whole = field.span.to - field.span.from;
       if (to - from < whole / 2 && !is_longest(field, to - from)) continue;
       const double width = (to - from) * kCell;
@@ -152,11 +154,12 @@ class Line {
       out += fmt::format("<path d=\"M{:.1f} {:.1f}v4\" class=\"axis\"/>\n", x(tick.at), y);
       out += svg::text(x(tick.at), y + 15, "digit", tick.text);
     }
-    out += svg::text(kLeft - 8, y + 15, "unit", diagram.axis);
+    // Beside the axis itself: the first number may stand at its very beginning.
+    out += svg::text(kLeft - 8, y + 3, "unit", diagram.axis);
     return out;
   }
 
-  // Takes a piece out of what has been drawn from `top` on.
+  // Draws the cuts over the lines that begin at `top`.
   std::string cuts(const Diagram& diagram, double top, double height) const {
     std::string out;
     for (const double cut : diagram.cuts) {
@@ -191,8 +194,15 @@ std::string timing_svg(const Diagram& diagram) {
   const double cells = std::ceil(diagram.length / lines);
   double line_height = kAxis;
   for (const DiagramRow& row : diagram.rows) line_height += height_of(row) + kRowGap;
-  const double head = kTop + kTitle + kNote * static_cast<double>(diagram.notes.size()) + 8;
   const double width = kLeft + cells * kCell + kRight;
+  const double room = width - kLeft - 4;
+  const std::vector<std::string> titles = svg::wrapped(diagram.title, room, kTitleFont);
+  std::vector<std::string> notes;
+  for (const std::string& note : diagram.notes) {
+    for (std::string& line : svg::wrapped(note, room, kNoteFont)) notes.push_back(std::move(line));
+  }
+  const double head = kTop + kTitle * static_cast<double>(titles.size()) +
+                      kNote * static_cast<double>(notes.size()) + 8;
   const double height = head + lines * line_height + (lines - 1) * kLineGap;
   std::string out = fmt::format(
       "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
@@ -202,9 +212,12 @@ std::string timing_svg(const Diagram& diagram) {
       "viewBox=\"0 0 {0:.0f} {1:.0f}\">\n<style>{2}</style>\n"
       "<rect width=\"100%\" height=\"100%\" fill=\"#fff\" style=\"stroke:none\"/>\n",
       width, height, kStyle);
-  out += svg::text(kLeft, kTop + 8, "title", diagram.title);
-  double y = kTop + kTitle;
-  for (const std::string& note : diagram.notes) {
+  double y = kTop;
+  for (const std::string& title : titles) {
+    out += svg::text(kLeft, y + 8, "title", title);
+    y += kTitle;
+  }
+  for (const std::string& note : notes) {
     out += svg::text(kLeft, y + 6, "note", note);
     y += kNote;
   }

@@ -2,12 +2,22 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "trace_file.hpp"
 
+#include <algorithm>
+#include <cctype>
 #include <string_view>
 
+#include "exit_status.hpp"
 #include "mb4sim/wave_view.hpp"
 
 namespace mb4::tool {
 namespace {
+
+bool is_vcd(const std::string& name) {
+  std::string ending = name.substr(name.size() - std::min<std::size_t>(name.size(), 4));
+  std::transform(ending.begin(), ending.end(), ending.begin(),
+                 [](unsigned char c) { return std::tolower(c); });
+  return ending == ".vcd";
+}
 
 // "x.fst" -> "x.gtkw"; other names get the ending added.
 std::string view_path(const std::string& trace) {
@@ -31,8 +41,13 @@ std::vector<std::string> inputs_of(const std::string& path, const sim::Scenario&
 
 TraceFile::TraceFile(const std::string& option, const std::string& scenario_path,
                      const sim::Scenario& scenario)
-    : path_(option) {
+    : path_(option), interface_(scenario.host.interface) {
   if (path_.empty()) return;
+  if (is_vcd(path_)) {
+    throw UseError(
+        "--trace: " + path_ +
+        ": a waveform is written as FST, call it .fst (fst2vcd of GTKWave makes VCD of it)");
+  }
   // The FST writer keeps a second file while it works.
   for (const std::string& file : {path_, link_target(path_) + ".hier", view_path(path_)}) {
     require_regular(file);
@@ -50,7 +65,7 @@ std::optional<std::string> TraceFile::path() const {
 }
 
 void TraceFile::write_view(std::optional<sim::Time> marker) const {
-  if (!path_.empty()) sim::write_wave_view(path_, view_path(path_), marker);
+  if (!path_.empty()) sim::write_wave_view(path_, view_path(path_), interface_, marker);
 }
 
 }  // namespace mb4::tool

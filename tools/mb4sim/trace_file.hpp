@@ -26,14 +26,15 @@ class TraceFile {
 
   // For SimulatorOptions::trace_path.
   std::optional<std::string> path() const;
-  // What the file takes, for require_distinct().
+  // The files that are written, for require_distinct().
   const std::vector<Output>& outputs() const { return outputs_; }
-  // Writes the view. The simulator must have gone: then the waveform is complete.
+  // Writes the view. Destroy the simulator first: only then is the waveform complete.
   // `marker`: where GTKWave's marker stands, else at the beginning.
   void write_view(std::optional<sim::Time> marker = {}) const;
 
  private:
   std::string path_;
+  sim::HostInterface interface_;
   std::vector<Output> outputs_;
 };
 

@@ -127,7 +127,7 @@ class RegisterAccess final : public Bench {
   bool running_ = false;
 };
 
-// One burst over the registers behind the other, written and read in turn.
+// Bursts over the registers without a pause, written and read in turn.
 class SpiTraffic final : public Bench {
  public:
   SpiTraffic() : Bench(channel_of('1', 1), kNone) {}

@@ -30,7 +30,7 @@ class Workload {
   virtual ~Workload() = default;
 
   // Lets `duration` of simulated time pass, or a little more. Throws std::runtime_error if the chip
-  // does not do what the workload is about, sim::ModelStopped.
+  // does not do the work of this workload, sim::ModelStopped.
   virtual void run(sim::Time duration) = 0;
   virtual WorkCount count() const = 0;
 };
@@ -43,8 +43,8 @@ struct WorkloadInfo {
 };
 
 // A: 1 slave of 26 bits, automatic frames back to back (FREQAGS = AGSMIN) at f_MA = 10 MHz.
-// B: 8 slaves on both channels, AGSMIN, one register access behind the other.
-// C: 1 slave, 1000 frames a second, idle in between; nobody reads the data.
+// B: 8 slaves on both channels, AGSMIN, one register access after another.
+// C: 1 slave, 1000 frames a second, idle in between; the host does not read the data.
 // D: SPI traffic only, no frames.
 // All with f_CLK = 20 MHz.
 std::span<const WorkloadInfo> workloads();

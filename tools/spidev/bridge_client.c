@@ -23,7 +23,7 @@ static pthread_mutex_t mutex = PTHREAD_MUTEX_INITIALIZER;
 static pthread_once_t once = PTHREAD_ONCE_INIT;
 static struct sockaddr_un address = {.sun_family = AF_UNIX};
 static int connection = -1;
-static struct stat identity; /* of the connection: a program may close what it does not know */
+static struct stat identity; /* of the connection, because a program may close it */
 
 void bridge_set_path(const char *path) {
   snprintf(address.sun_path, sizeof address.sun_path, "%s", path);
@@ -32,7 +32,7 @@ void bridge_set_path(const char *path) {
 static void lock(void) { pthread_mutex_lock(&mutex); }
 static void unlock(void) { pthread_mutex_unlock(&mutex); }
 
-/* The parent goes on using the connection; requests of both would mix. */
+/* The parent still uses the connection; the requests of both processes would mix. */
 static void forget(void) {
   if (connection >= 0) syscall(SYS_close, connection);
   connection = -1;
@@ -52,7 +52,7 @@ static int connect_bridge(void) {
   connection = -1;
   const int low = socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0);
   if (low < 0) return -1;
-  /* Out of the way of programs that count on low numbers. */
+  /* Takes a high number, because some programs expect that low numbers are free. */
   int fd = fcntl(low, F_DUPFD_CLOEXEC, FIRST_FD);
   if (fd < 0) fd = low;
   if (fd != low) syscall(SYS_close, low);
@@ -104,7 +104,7 @@ static long exchange(char request, const uint8_t *payload, size_t length, uint8_
       receive_all(status, HEADER) != 0) {
     return -1;
   }
-  uint8_t text[256]; /* a complaint, read only to get past it */
+  uint8_t text[256]; /* the text of an error, read only to reach the next answer */
   size_t left = (size_t)(status[1] | status[2] << 8);
   if (status[0] == STATUS_GOOD && left <= size) {
     return receive_all(answer, left) == 0 ? (long)left : -1;

@@ -12,7 +12,7 @@
 
 enum { BRIDGE_MAX_PAYLOAD = 0xFFFF };
 
-/* What the library is told by mb4sim: where the simulator listens. */
+/* Sets the place at which the simulator listens; mb4sim tells it to the library. */
 void bridge_set_path(const char *path);
 
 /* Carries out one request. The answer's payload, at most `size` bytes, goes to `answer` and its

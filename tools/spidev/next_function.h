@@ -1,7 +1,7 @@
 /* SPDX-FileCopyrightText: 2026 The openmb4 authors
  * SPDX-License-Identifier: Apache-2.0
  *
- * The function that a preloaded one hides.
+ * Finds the function that a preloaded function hides.
  */
 #ifndef MB4_TOOLS_SPIDEV_NEXT_FUNCTION_H_
 #define MB4_TOOLS_SPIDEV_NEXT_FUNCTION_H_

@@ -14,6 +14,7 @@
 #include <unistd.h>
 
 #include "bridge_client.h"
+#include "caller_memory.h"
 #include "next_function.h"
 
 enum { CLOCKS = 16 };
@@ -66,7 +67,7 @@ EXPORT int clock_gettime(clockid_t clock, struct timespec *time) {
   if (simulated < 0) return 0;
   int64_t offset = 0;
   if (atomic_compare_exchange_strong(&offsets[clock], &offset, to_ns(time) - simulated)) {
-    return 0; /* the first look: simulated time goes on from here */
+    return 0; /* the first reading: simulated time continues from here */
   }
   time->tv_sec = (time_t)((offset + simulated) / NS_PER_S);
   time->tv_nsec = (long)((offset + simulated) % NS_PER_S);
@@ -82,17 +83,23 @@ EXPORT int gettimeofday(struct timeval *restrict time, void *restrict zone) {
   return 0;
 }
 
+/* True if the requested time is readable and valid; otherwise the C library answers. */
+static int is_valid(const struct timespec *wanted, struct timespec *copy) {
+  return read_caller(copy, wanted, sizeof *copy) == sizeof *copy && copy->tv_sec >= 0 &&
+         copy->tv_nsec >= 0 && copy->tv_nsec < NS_PER_S;
+}
+
 EXPORT int nanosleep(const struct timespec *wanted, struct timespec *left) {
-  const int valid = wanted->tv_sec >= 0 && wanted->tv_nsec >= 0 && wanted->tv_nsec < NS_PER_S;
-  if (on && valid && sleep_there(to_ns(wanted)) == 0) return 0;
+  struct timespec time;
+  if (on && is_valid(wanted, &time) && sleep_there(to_ns(&time)) == 0) return 0;
   return NEXT(nanosleep)(wanted, left);
 }
 
 EXPORT int clock_nanosleep(clockid_t clock, int flags, const struct timespec *wanted,
                            struct timespec *left) {
-  if (on && wanted->tv_nsec >= 0 && wanted->tv_nsec < NS_PER_S) {
-    int64_t ns = to_ns(wanted);
-    struct timespec now;
+  struct timespec time, now;
+  if (on && is_valid(wanted, &time)) {
+    int64_t ns = to_ns(&time);
     if ((flags & TIMER_ABSTIME) != 0 && clock_gettime(clock, &now) == 0) ns -= to_ns(&now);
     if (sleep_there(ns) == 0) return 0;
   }

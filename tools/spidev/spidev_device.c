@@ -10,10 +10,10 @@
 #include <linux/spi/spidev.h>
 #include <stdint.h>
 #include <stdlib.h>
-#include <string.h>
 #include <sys/ioctl.h>
 
 #include "bridge_client.h"
+#include "caller_memory.h"
 
 enum {
   BUFFER_SIZE = 4096, /* module parameter bufsiz of spidev */
@@ -54,6 +54,7 @@ static int set(uint8_t setting, uint32_t value) {
   return bridge_request('C', payload, sizeof payload, NULL, 0) < 0 ? -1 : 0;
 }
 
+/* Appends a transfer and its data; NULL and EFAULT if they cannot be read. */
 static uint8_t *put_transfer(uint8_t *to, const struct spi_ioc_transfer *transfer) {
   const void *data = (const void *)(uintptr_t)transfer->tx_buf;
   put(&to, transfer->len, 2);
@@ -64,52 +65,73 @@ static uint8_t *put_transfer(uint8_t *to, const struct spi_ioc_transfer *transfe
   *to++ = (uint8_t)((transfer->cs_change != 0 ? FLAG_CS_CHANGE : 0) |
                     (data != NULL ? FLAG_HAS_DATA : 0));
   if (data == NULL) return to;
-  memcpy(to, data, transfer->len);
-  return to + transfer->len;
+  return get_from_caller(to, data, transfer->len) == 0 ? to + transfer->len : NULL;
 }
 
-/* The sum of all lengths, or -1 and errno. */
-static long check(const struct spi_ioc_transfer *transfers, size_t count) {
-  uint64_t total = 0, sent = 0, received = 0;
+/* Writes the request for a message and returns its end, or NULL and errno; `total` is the sum of
+ * all lengths. The kernel looks at one transfer after the other, and then asks the controller. */
+static uint8_t *put_message(uint8_t *end, const struct spi_ioc_transfer *transfers, size_t count,
+                            size_t *total) {
+  size_t sent = 0, received = 0;
+  int wide = 0;
+  *total = 0;
   for (size_t i = 0; i < count; ++i) {
-    total += transfers[i].len;
+    *total += transfers[i].len;
     if (transfers[i].tx_buf != 0) sent += transfers[i].len;
     if (transfers[i].rx_buf != 0) received += transfers[i].len;
-    /* More than one data line: the controller has no such mode. */
-    if (transfers[i].tx_nbits > 1 || transfers[i].rx_nbits > 1) {
-      errno = EINVAL;
-      return -1;
+    if (sent > BUFFER_SIZE || received > BUFFER_SIZE || *total > BRIDGE_MAX_PAYLOAD) {
+      errno = EMSGSIZE;
+      return NULL;
     }
+    end = put_transfer(end, &transfers[i]);
+    if (end == NULL) return NULL;
+    if (transfers[i].tx_nbits > 1 || transfers[i].rx_nbits > 1) wide = 1;
   }
-  if (sent > BUFFER_SIZE || received > BUFFER_SIZE || total > BRIDGE_MAX_PAYLOAD) {
-    errno = EMSGSIZE;
-    return -1;
+  if (wide) { /* more than one data line: the controller has no such mode */
+    errno = EINVAL;
+    return NULL;
   }
-  return (long)total;
+  return end;
 }
 
-static long message(const struct spi_ioc_transfer *transfers, size_t count) {
-  const long total = check(transfers, count);
-  if (total < 0) return -1;
-  uint8_t *request = calloc(1, count * TRANSFER_HEAD + BUFFER_SIZE + (size_t)total);
+/* Sends a message. What has come in all its transfers goes to `answer`, which has room for `size`
+ * bytes. Returns the number of bytes, or -1 and errno. */
+static long message(const struct spi_ioc_transfer *transfers, size_t count, uint8_t *answer,
+                    size_t size) {
+  uint8_t *const request = malloc(count * TRANSFER_HEAD + BUFFER_SIZE);
   if (request == NULL) return -1;
-  uint8_t *end = request;
-  for (size_t i = 0; i < count; ++i) end = put_transfer(end, &transfers[i]);
-  uint8_t *answer = end;
-  const long got = bridge_request('M', request, (size_t)(end - request), answer, (size_t)total);
-  if (got == total) {
-    const uint8_t *from = answer;
-    for (size_t i = 0; i < count; from += transfers[i++].len) {
-      void *const to = (void *)(uintptr_t)transfers[i].rx_buf;
-      if (to != NULL) memcpy(to, from, transfers[i].len);
+  size_t total;
+  long got = -1;
+  const uint8_t *const end = put_message(request, transfers, count, &total);
+  if (end != NULL) {
+    got = bridge_request('M', request, (size_t)(end - request), answer, size);
+    if (got >= 0 && (size_t)got != total) {
+      errno = EIO;
+      got = -1;
     }
-  } else if (got >= 0) {
-    errno = EIO;
   }
   const int error = errno;
   free(request);
   errno = error;
-  return got == total ? total : -1;
+  return got;
+}
+
+static int ioctl_message(const void *argument, size_t count) {
+  const size_t size = count * sizeof(struct spi_ioc_transfer);
+  struct spi_ioc_transfer *const transfers = malloc(size + BRIDGE_MAX_PAYLOAD);
+  if (transfers == NULL) return -1;
+  uint8_t *const answer = (uint8_t *)(transfers + count);
+  long result = get_from_caller(transfers, argument, size);
+  if (result == 0) result = message(transfers, count, answer, BRIDGE_MAX_PAYLOAD);
+  const uint8_t *from = answer;
+  for (size_t i = 0; result >= 0 && i < count; from += transfers[i++].len) {
+    void *const to = (void *)(uintptr_t)transfers[i].rx_buf;
+    if (to != NULL && give_to_caller(to, from, transfers[i].len) != 0) result = -1;
+  }
+  const int error = errno;
+  free(transfers);
+  errno = error;
+  return (int)result;
 }
 
 ssize_t spidev_read(void *buffer, size_t size) {
@@ -117,8 +139,13 @@ ssize_t spidev_read(void *buffer, size_t size) {
     errno = EMSGSIZE;
     return -1;
   }
-  const struct spi_ioc_transfer transfer = {.rx_buf = (uintptr_t)buffer, .len = (uint32_t)size};
-  return message(&transfer, 1);
+  uint8_t answer[BUFFER_SIZE];
+  const struct spi_ioc_transfer transfer = {.len = (uint32_t)size};
+  if (message(&transfer, 1, answer, sizeof answer) < 0) return -1;
+  const size_t stored = write_caller(buffer, answer, size);
+  if (stored > 0 || size == 0) return (ssize_t)stored;
+  errno = EFAULT;
+  return -1;
 }
 
 ssize_t spidev_write(const void *buffer, size_t size) {
@@ -126,43 +153,48 @@ ssize_t spidev_write(const void *buffer, size_t size) {
     errno = EMSGSIZE;
     return -1;
   }
-  const struct spi_ioc_transfer transfer = {.tx_buf = (uintptr_t)buffer, .len = (uint32_t)size};
-  return message(&transfer, 1);
+  uint8_t data[BUFFER_SIZE];
+  if (get_from_caller(data, buffer, size) != 0) return -1;
+  const struct spi_ioc_transfer transfer = {.tx_buf = (uintptr_t)data, .len = (uint32_t)size};
+  return message(&transfer, 1, data, sizeof data);
 }
-
-static int write_mode(uint32_t mode) { return set(SETTING_MODE, mode); }
 
 static int write_lsb_first(int lsb_first) {
   struct settings now;
   if (get_settings(&now) != 0) return -1;
-  return write_mode(lsb_first ? now.mode | SPI_LSB_FIRST : now.mode & ~(uint32_t)SPI_LSB_FIRST);
+  return set(SETTING_MODE,
+             lsb_first ? now.mode | SPI_LSB_FIRST : now.mode & ~(uint32_t)SPI_LSB_FIRST);
 }
 
+/* SPI_IOC_RD_...: one byte or four, as the request says. */
 static int read_setting(unsigned long request, void *argument) {
   struct settings now;
   if (get_settings(&now) != 0) return -1;
-  switch (request) {
-    case SPI_IOC_RD_MODE:
-      *(uint8_t *)argument = (uint8_t)now.mode;
-      return 0;
-    case SPI_IOC_RD_MODE32:
-      memcpy(argument, &now.mode, sizeof now.mode);
-      return 0;
-    case SPI_IOC_RD_LSB_FIRST:
-      *(uint8_t *)argument = (now.mode & SPI_LSB_FIRST) != 0 ? 1 : 0;
-      return 0;
-    case SPI_IOC_RD_BITS_PER_WORD:
-      *(uint8_t *)argument = (uint8_t)now.bits;
-      return 0;
-    default:
-      memcpy(argument, &now.speed_hz, sizeof now.speed_hz);
-      return 0;
+  uint32_t word = now.speed_hz;
+  if (request == SPI_IOC_RD_MODE || request == SPI_IOC_RD_MODE32) word = now.mode;
+  if (request == SPI_IOC_RD_LSB_FIRST) word = (now.mode & SPI_LSB_FIRST) != 0 ? 1 : 0;
+  if (request == SPI_IOC_RD_BITS_PER_WORD) word = now.bits;
+  const uint8_t byte = (uint8_t)word;
+  return _IOC_SIZE(request) == 1 ? give_to_caller(argument, &byte, 1)
+                                 : give_to_caller(argument, &word, sizeof word);
+}
+
+static int write_setting(unsigned long request, const void *argument) {
+  uint32_t word;
+  uint8_t byte;
+  if (_IOC_SIZE(request) == 1) {
+    if (get_from_caller(&byte, argument, 1) != 0) return -1;
+    word = byte;
+  } else if (get_from_caller(&word, argument, sizeof word) != 0) {
+    return -1;
   }
+  if (request == SPI_IOC_WR_LSB_FIRST) return write_lsb_first(word != 0);
+  if (request == SPI_IOC_WR_BITS_PER_WORD) return set(SETTING_BITS, word);
+  return set(request == SPI_IOC_WR_MAX_SPEED_HZ ? SETTING_SPEED : SETTING_MODE, word);
 }
 
 int spidev_ioctl(unsigned long request, void *argument) {
   request &= UINT_MAX; /* of an int some callers extend the sign */
-  uint32_t word;
   switch (request) {
     case SPI_IOC_RD_MODE:
     case SPI_IOC_RD_MODE32:
@@ -171,17 +203,11 @@ int spidev_ioctl(unsigned long request, void *argument) {
     case SPI_IOC_RD_MAX_SPEED_HZ:
       return read_setting(request, argument);
     case SPI_IOC_WR_MODE:
-      return write_mode(*(const uint8_t *)argument);
     case SPI_IOC_WR_MODE32:
-      memcpy(&word, argument, sizeof word);
-      return write_mode(word);
     case SPI_IOC_WR_LSB_FIRST:
-      return write_lsb_first(*(const uint8_t *)argument != 0);
     case SPI_IOC_WR_BITS_PER_WORD:
-      return set(SETTING_BITS, *(const uint8_t *)argument);
     case SPI_IOC_WR_MAX_SPEED_HZ:
-      memcpy(&word, argument, sizeof word);
-      return set(SETTING_SPEED, word);
+      return write_setting(request, argument);
     default:
       break;
   }
@@ -195,5 +221,5 @@ int spidev_ioctl(unsigned long request, void *argument) {
     errno = EINVAL;
     return -1;
   }
-  return size == 0 ? 0 : (int)message(argument, size / sizeof(struct spi_ioc_transfer));
+  return size == 0 ? 0 : ioctl_message(argument, size / sizeof(struct spi_ioc_transfer));
 }

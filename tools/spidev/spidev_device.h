@@ -1,7 +1,7 @@
 /* SPDX-FileCopyrightText: 2026 The openmb4 authors
  * SPDX-License-Identifier: Apache-2.0
  *
- * What the kernel does behind an open /dev/spidevX.Y, done by the simulator instead
+ * Does in the simulator the work of the kernel for an open /dev/spidevX.Y
  * (Documentation/spi/spidev.rst; drivers/spi/spidev.c for the errors).
  */
 #ifndef MB4_TOOLS_SPIDEV_SPIDEV_DEVICE_H_

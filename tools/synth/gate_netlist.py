@@ -26,7 +26,9 @@ PROBES = {"clkeni": "clkeni", "clk": "clk", "paired": "paired",
 
 
 def main():
-    folder = Path(sys.argv[1]).resolve()
+    parser = project.Arguments(__doc__)
+    parser.add_argument("folder", type=parser.folder)
+    folder = parser.parse_args().folder
     commands = yosys.read() + [
         f"hierarchy -check -top {TOP}", "proc", "flatten",
         f"expose {' '.join(f'{TOP}/w:{name}' for name in PROBES)}",

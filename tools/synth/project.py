@@ -3,6 +3,7 @@
 """What the scripts under tests/netlist, tests/lint and tests/canary know about the project: the
 file list, Verilator's flags, and how a missing tool is reported."""
 
+import argparse
 import re
 import shutil
 import subprocess
@@ -12,6 +13,23 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[2]
 RTL = ROOT / "rtl"
 SKIPPED = 77
+
+
+class Arguments(argparse.ArgumentParser):
+    """Of a script with the text of its head as help; a wrong use ends with one line."""
+
+    def __init__(self, text):
+        super().__init__(description=text, allow_abbrev=False,
+                         formatter_class=argparse.RawDescriptionHelpFormatter)
+
+    def error(self, message):
+        self.exit(2, f"{self.prog}: {message}; --help tells more\n")
+
+    def folder(self, text):
+        path = Path(text).resolve()
+        if path.exists() and not path.is_dir():
+            raise argparse.ArgumentTypeError(f"{text} is no folder")
+        return path
 
 
 def rtl_files():
@@ -28,6 +46,17 @@ def rtl_modules():
 
 def rtl_packages():
     return [path for path in rtl_files() if path.stem.endswith("_pkg")]
+
+
+def tracked():
+    """The tracked files' names; ends as skipped where there is no git checkout."""
+    git = tool("git")
+    if not (ROOT / ".git").exists():
+        print("skipped: not a git checkout, tracked files are unknown")
+        sys.exit(SKIPPED)
+    done = subprocess.run([git, "-c", f"safe.directory={ROOT}", "ls-files", "-z"], cwd=ROOT,
+                          capture_output=True, check=True)
+    return [name for name in done.stdout.decode("utf-8").split("\0") if name]
 
 
 def verilator_flags():

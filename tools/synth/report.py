@@ -110,7 +110,8 @@ def version(command):
 def page(folder):
     lines = ["<!--", "SPDX-FileCopyrightText: 2026 The openmb4 authors",
              "SPDX-License-Identifier: Apache-2.0", "-->", "", "# Resources", "",
-             "Made by `tools/synth/report.py build/synth` with Debian's tools; do not edit. "
+             "Made by `tools/synth/report.py build/synth`<!-- not run: runs long --> with Debian's "
+             "tools; do not edit. "
              "fmax over seeds " + ", ".join(map(str, SEEDS)) + ", worst to best, after routing, "
              "slowest corner, no constraint that helps. How to use the design on a device: "
              "[integration](integration.md).", "",
@@ -145,10 +146,14 @@ def page(folder):
 
 
 def main():
-    folder = Path(sys.argv[1]).resolve()
+    parser = project.Arguments(__doc__)
+    parser.add_argument("folder", type=parser.folder)
+    parser.add_argument("--check", action="store_true")
+    arguments = parser.parse_args()
+    folder = arguments.folder
     for program in ("yosys", "nextpnr-ice40", "icepack"):
         project.tool(program)
-    if "--check" in sys.argv:
+    if arguments.check:
         _, fmax = ice40("mb4_core", folder / "check", SEEDS[:1])
         hx8k = fmax["HX8K"][0]
         good = hx8k is not None and hx8k["core"] >= MIN_MHZ and fmax["UP5K"][0] is not None

@@ -15,11 +15,15 @@ class WidthError(Exception):
     pass
 
 
+def without_comments(text):
+    """Source without comments; line breaks stay."""
+    text = re.sub(r"/\*.*?\*/", lambda m: "\n" * m.group(0).count("\n"), text, flags=re.S)
+    return re.sub(r"//[^\n]*", "", text)
+
+
 def strip_comments(text):
     """Source without comments and compiler directives; line breaks stay."""
-    text = re.sub(r"/\*.*?\*/", lambda m: "\n" * m.group(0).count("\n"), text, flags=re.S)
-    text = re.sub(r"//[^\n]*", "", text)
-    return re.sub(r"^\s*`[^\n]*", "", text, flags=re.M)
+    return re.sub(r"^\s*`[^\n]*", "", without_comments(text), flags=re.M)
 
 
 def clog2(value):

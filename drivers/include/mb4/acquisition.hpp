@@ -22,20 +22,20 @@ namespace mb4 {
 // Requests one frame by INSTR = 010 (CDM = 0) and fetches the result of one slave or of all. Used
 // through Device::read_frame() and read_all(), which document the errors.
 //
-// Why a value cannot be an old one:
-//  * No older frame runs when the new one is requested. The chip ignores an equal INSTR while a
-//    frame runs, and would deliver that frame. A good read has seen the end of its frame,
-//    configure() sends BREAK, and after a failed read BREAK comes first: its frame may still run,
-//    for instance if its first status poll has failed.
-//  * A slave that BREAK has cut off gets the time of its timeout before the request. Until then it
-//    would take the new frame's clock for the rest of the old frame, and waiting for SL = 1
-//    (FrameStart::kWaitForLine) is not enough, as SL may be 1 for a data bit.
+// Why a value is never old:
+//  * No older frame runs when the driver requests the new one. Otherwise the chip would ignore the
+//    equal INSTR and deliver the older frame. A good read has seen the end of its frame, and
+//    configure() sends BREAK. After a failed read the frame may still run, for example if the first
+//    status poll has failed; so the next read sends BREAK first.
+//  * After BREAK the driver waits for the slave's timeout before the request. Before its timeout
+//    ends, the slave would take the new frame's clock for the rest of the old frame. Waiting for
+//    SL = 1 (FrameStart::kWaitForLine) is not enough, because a data bit may also make SL = 1.
 //  * SVALID of every enabled slave is cleared before every frame: by the previous good read, by
 //    configure(), or after that BREAK.
-//  * The frame's end is recognised by EOT = 1 together with INSTR = 0, and only SVALIDx = 1 makes
-//    the data readable. With two banks the chip switches at the end of the frame (page 26), so that
-//    data and SVALIDx of this frame are what the host sees, and no later frame can replace them
-//    before the next request.
+//  * The frame has ended when EOT = 1 and INSTR = 0, and the driver uses data only with
+//    SVALIDx = 1. With two banks the chip switches them at the end of the frame (page 26). So the
+//    host sees data and SVALIDx of this frame, and no later frame replaces them before the next
+//    request.
 template <typename Bus, typename Clock>
 class SingleShot {
  public:
@@ -54,7 +54,7 @@ class SingleShot {
     }
     const Result<Reading> reading = detail::decode(
         chip_.config, slave, &data.image[regs::scdata_address(slave)], is_in(data.stable, slave));
-    // kCorrupted casts doubt on the status that came over the same SPI.
+    // After kCorrupted the status, which came over the same SPI, is doubtful too.
     chip_.recover_first = !reading;
     return reading;
   }
@@ -77,25 +77,26 @@ class SingleShot {
     return outcome.status.scd_error() ? Error::kCrc : Error::kNoData;
   }
 
-  // One frame, and the data of those slaves of `mask` that are good.
+  // Runs one frame and fetches the data of those slaves of `mask` that are good.
   //
-  // SVALIDx was cleared before the request, so 1 proves that the requested frame ran, whatever
-  // nAGSERR says. A chip may set nAGSERR = 0 at each write of 0xF4 (page 34 can be read so;
-  // AGSERR_ON_INSTR_WRITE = 1). nAGSERR only tells why there is no data, and only after nSCDERR,
-  // which is 0 when a frame ran. On a chip as above kNoData shows as kLineError.
+  // SVALIDx was cleared before the request, so SVALIDx = 1 proves that the requested frame ran,
+  // with any value of nAGSERR. A chip may set nAGSERR = 0 at each write of 0xF4 (page 34 can be
+  // read so; AGSERR_ON_INSTR_WRITE = 1). The driver looks at nAGSERR only if there is no data and
+  // nSCDERR = 1; nSCDERR = 0 shows that a frame ran. On such a chip kNoData appears as kLineError.
   Result<void> run(std::uint8_t mask, detail::Outcome& out, detail::FetchedData& data) {
     Status& status = out.status;
     if (const Result<void> ended = run_frame(status); !ended) {
       return ended;
     }
     const unsigned valid = status.valid_mask() & unsigned{chip_.sensors};
-    // With nSCDERR = 0 some slave's CRC was wrong; SVALIDx identifies it (page 34). If all are 1
-    // the chip contradicts itself and nothing of it is believed.
+    // nSCDERR = 0: the CRC of a slave was wrong, and SVALIDx = 0 identifies the slave (page 34). If
+    // every SVALIDx is 1, the chip contradicts itself and the driver uses no data.
     if (!status.scd_error() || valid != chip_.sensors) {
       out.good = static_cast<std::uint8_t>(valid & mask);
     }
     if (out.good == 0) {
-      // Without a sensor nAGSERR is all there is; such a frame is not refused if it may wait.
+      // Without a sensor only nAGSERR can show a refused frame. With kWaitForLine the chip refuses
+      // no frame.
       const bool refusable = mask != 0 || chip_.config.frame_start != FrameStart::kWaitForLine;
       return refusable && status.start_error() && !status.scd_error()
                  ? chip_.stop_frame(Error::kLineError)
@@ -112,8 +113,8 @@ class SingleShot {
     return done ? chip_.clear_valid_checked(chip_.sensors) : done;
   }
 
-  // From the request to the status after the end: until the frame has ended or was refused; stops
-  // it when it does not end.
+  // Requests a frame and polls until it has ended or was refused. Stops the frame if it does not
+  // end in time.
   Result<void> run_frame(Status& status) {
     if (chip_.recover_first) {
       if (const Result<void> recovered = chip_.recover(); !recovered) {
@@ -132,10 +133,10 @@ class SingleShot {
       if (const Result<void> look = chip_.look(status); !look) {
         return look;
       }
-      // EOT alone is also 1 before the chip has taken the instruction. A refused frame resets
-      // INSTR, too; nAGSERR proves nothing yet, see run().
+      // EOT = 1 alone does not show the end: EOT is also 1 before the chip has taken the
+      // instruction. A refused frame resets INSTR too; run() finds it.
       if (status.idle() && status.instruction_done()) {
-        // Another instruction than the one that was sent may do something else meanwhile.
+        // INSTR = 0, but another bit is 1: the chip received another byte than the one sent.
         return chip_.checks_all() && status.instruction() != 0 ? Error::kCorrupted : Error::kNone;
       }
     }

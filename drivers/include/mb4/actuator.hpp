@@ -23,18 +23,19 @@ namespace mb4 {
 
 // Used through Device::write_actuator() and Automatic::write_actuator(), which document the errors.
 //
-// A frame sends what is in the chip's bank; the host writes into the other one, and each end of a
-// frame switches them. So a word that shall stay goes into both:
-//  * Without automatic frames nothing switches meanwhile; SWBANK does it.
-//  * With automatic frames each bank is written under HOLDBANK, so that no frame sends half a word,
-//    and the second one when the end of a frame has switched, which shows in what can be read back.
+// A frame sends the word in the chip's bank. The host writes into the other bank, and each end of a
+// frame switches the banks. So a word that is to stay must be written to both banks:
+//  * Without automatic frames no frame switches the banks; the driver does it with SWBANK.
+//  * With automatic frames the driver writes each bank under HOLDBANK, so that no frame sends half
+//    a word. It writes the second bank when the end of a frame has switched the banks. It sees this
+//    when it reads another word than it has written.
 template <typename Bus, typename Clock>
 class ActuatorWrite {
  public:
   explicit constexpr ActuatorWrite(detail::Chip<Bus, Clock>& chip) : chip_(chip) {}
 
-  // The chip is configured and no control communication runs. `both_banks` false: with automatic
-  // frames the host's bank alone.
+  // The chip must be configured, and no control communication may run. `both_banks` = false: with
+  // automatic frames only the host's bank is written.
   Result<void> write(std::uint8_t slave, std::uint64_t word, bool both_banks) {
     if (!is_in(chip_.actuators, slave)) {
       return Error::kInvalidArgument;
@@ -70,7 +71,8 @@ class ActuatorWrite {
     return written ? released : written;
   }
 
-  // Until something else is read: that is the other bank. If it does not come the word is in both.
+  // Reads until the word differs, which shows the other bank, and writes this bank. If no reading
+  // differs, both banks hold the word.
   Result<void> write_other(std::uint8_t address, Span<const std::uint8_t> bytes) {
     detail::Deadline<Clock> deadline(
         *chip_.clock, frame_timeout_us(chip_.config) + detail::frame_pitch_us(chip_.config));
@@ -91,7 +93,7 @@ class ActuatorWrite {
       }
     }
     chip_.recover_first = true;
-    // Each change of SWBANK switches (page 33); it ends as it was.
+    // Each change of SWBANK switches the banks (page 33). After two changes SWBANK is 0 again.
     for (const std::uint8_t next : {regs::SWBANK::encode<1>(), std::uint8_t{0}}) {
       Result<void> done = detail::write_checked(chip_, address, bytes);
       if (chip_.config.single_bank) {
@@ -102,7 +104,7 @@ class ActuatorWrite {
       if (!done) {
         return done;
       }
-      // Until it has taken effect: some clocks of 1 us at most.
+      // The switch takes some system clocks, each at most 1 us.
       detail::pause(*chip_.clock, kSwitchUs);
     }
     chip_.recover_first = false;

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Layer 4: frames that come by themselves (AGS = 1) and how to read them without tearing.
+// Layer 4: automatic frames (AGS = 1). Reads them so that the bytes of one position always come
+// from one frame.
 
 #ifndef MB4_AUTOMATIC_HPP_
 #define MB4_AUTOMATIC_HPP_
@@ -27,24 +28,26 @@ namespace mb4 {
 //   device.automatic().poll(frame);    // in an interrupt: the last frame, if it is new
 //   device.automatic().next(frame);    // in a loop: waits for the next frame
 //
-// Why data is never torn: HOLDBANK keeps the bank while it is read (page 33, table 69). It takes
-// effect some system clocks after it was written, so that, with SCLK above 2 f_CLK, bytes read at
-// once might still belong to the old bank; the status that is read between HOLDBANK and the data
-// takes at least 48 SCLK periods. While a control communication runs, 0xF4 must not be written: its
-// INSTR = 100, written back at the wrong moment, would start the access again. The data is then
-// read without HOLDBANK, and dropped as kBankSwitched unless SVALID and nSCDERR prove that no bank
-// was switched.
+// Why the bytes of a position belong together:
+//  * HOLDBANK holds the bank while the driver reads it (page 33, table 69).
+//  * HOLDBANK takes effect some system clocks after the write. With SCLK above 2 f_CLK, bytes read
+//    at once could still come from the old bank. So the driver reads the status between HOLDBANK
+//    and the data, which takes at least 48 SCLK periods.
+//  * While a control communication runs, 0xF4 must not be written: INSTR = 100, written back at the
+//    wrong moment, would start the access again. The driver then reads without HOLDBANK. It drops
+//    the data and reports kBankSwitched unless SVALID and nSCDERR prove that no bank was switched.
 //
-// Why data is never old: SVALID of all enabled slaves is cleared after each read, so that 1 means a
-// frame that has ended since (note of table 61).
+// Why data is never old: the driver clears SVALID of all enabled slaves after each read. SVALID = 1
+// therefore means that a frame has ended since then (note of table 61).
 template <typename Bus, typename Clock>
 class Automatic {
  public:
   explicit constexpr Automatic(detail::Chip<Bus, Clock>& chip) : chip_(chip) {}
 
-  // Sets AGS = 1. One transfer; after a failed read 2 more and 100 us (BREAK, SVALID).
-  // kNotConfigured, kWrongMode (runs already), kBusy, kUnsupported with kSingleBank (not touched);
-  // kTransport (touched: AGS may be on; stop() or start() again).
+  // Sets AGS = 1. One transfer; after a failed read and after stop() 2 more and 100 us (BREAK,
+  // SVALID; BiSS B adds register_timeout_us).
+  // Not touched: kNotConfigured, kWrongMode (AGS is on already), kBusy, kUnsupported with
+  // kSingleBank. Touched: kTransport (AGS may be on; call stop() or start() again).
   Result<void> start() {
     if (!chip_.configured) {
       return Error::kNotConfigured;
@@ -63,7 +66,7 @@ class Automatic {
         return recovered;
       }
     }
-    // Single frames begin with BREAK afterwards, because this one may run on.
+    // The next single frame begins with BREAK, because an automatic frame may still run then.
     chip_.recover_first = true;
     if (const Result<void> on = chip_.write_instruction(kAgs); !on) {
       return on;
@@ -73,8 +76,9 @@ class Automatic {
     return {};
   }
 
-  // Sets AGS = 0: a running frame comes to its end, no other follows. One transfer. Does no harm
-  // when nothing runs. kBusy (not touched); kTransport (touched, AGS may be on or off).
+  // Sets AGS = 0: the running frame ends normally and no other frame follows. One transfer. The
+  // call is allowed when no frames run. kBusy (not touched); kTransport (touched, AGS may be on or
+  // off).
   Result<void> stop() {
     if (control_runs()) {
       return Error::kBusy;
@@ -85,8 +89,9 @@ class Automatic {
     return chip_.write_instruction(0);
   }
 
-  // BREAK, 100 us for the slaves' timeout, SVALID cleared, AGS = 1 (table 69). Three transfers, not
-  // for interrupts. Errors as of start(), but automatic frames may run.
+  // Starts automatic frames again (table 69): BREAK, 100 us for the slaves' timeout, SVALID = 0,
+  // AGS = 1. BiSS B adds register_timeout_us. Three transfers. Not for interrupts, because it
+  // waits. Errors as of start(), but AGS may be on.
   Result<void> restart() {
     if (control_runs()) {
       return Error::kBusy;
@@ -96,30 +101,30 @@ class Automatic {
     return start();
   }
 
-  // AGS = 1 is set.
+  // True when the driver has set AGS = 1 and nothing has stopped it.
   [[nodiscard]] bool running() const { return chip_.automatic; }
 
-  // Fetches the last complete frame if it has not been fetched yet. Never waits: at most 5 + n
-  // transfers for n enabled slaves, 3 when nothing is new, whatever the chip answers, without
-  // SpiCheck::kFull:
+  // Fetches the last complete frame if it has not been fetched yet. Never waits. Transfers without
+  // SpiCheck::kFull, whatever the chip answers: at most 5 + n for n enabled slaves, 3 when nothing
+  // is new. In order:
   //   0x07        HOLDBANK = 1, AGS = 1
-  //   0x05        0xF0..0xF4: new at all? And time for HOLDBANK to take effect
-  //   0x09, 0x03  SCDATA of the enabled slaves, 1..n bursts; only the bytes that they need
+  //   0x05        0xF0..0xF4: is a frame new? HOLDBANK takes effect meanwhile
+  //   0x09, 0x03  SCDATA of the enabled slaves, 1..n bursts; only the bytes that hold data
   //   0x05        0xF0..0xF4: SVALID after reading (table 69)
   //   0x02        SVALID of the enabled slaves = 0
   //   0x07        HOLDBANK = 0, AGS = 1; also after a failed transfer
-  // While a control communication runs (at most 3 + n): 0x05, 0x02, data, 0x05.
-  // SpiCheck::kFull: n + 2 more: data again, where a stored CRC does not prove it, and one or two
-  // 0x05 behind the 0x02; beside a control communication n + 1 more.
+  // While a control communication runs the order is 0x05, 0x02, data, 0x05: at most 3 + n.
+  // SpiCheck::kFull adds at most n + 2: data again where a stored CRC does not prove it, and one or
+  // two 0x05 after the 0x02. While a control communication runs it adds at most n + 1.
   //
-  // May be used in an interrupt; no other call on the same Device may be interrupted by it.
+  // An interrupt may call it, if it interrupts no other call on the same Device.
   //
   // Success: frame[slave] is a Reading, kNoData (nothing new), kCrc or kCorrupted for each enabled
-  // slave; frame.status tells of omitted frames (nAGSERR). The datasheet asks for restart() when
-  // SVALID is 0 although a frame must have come (table 69); this call leaves that to the caller,
-  // who knows how often frames come. next() does it by itself.
-  // kWrongMode (not running: not touched); kTransport, kNotDetected, kBankSwitched; kCorrupted with
-  // SpiCheck::kFull. On error `frame` holds no Reading.
+  // slave. frame.status shows omitted frames (nAGSERR). The datasheet asks for restart() when
+  // SVALID is 0 although a frame must have ended (table 69). This call does not restart, because
+  // only the caller knows how often frames come; next() does.
+  // Errors: kWrongMode (automatic frames do not run; not touched), kTransport, kNotDetected,
+  // kBankSwitched; kCorrupted with SpiCheck::kFull. On error `frame` holds no Reading.
   Result<void> poll(Frame& frame) {
     frame.clear();
     if (!chip_.automatic) {
@@ -130,8 +135,8 @@ class Automatic {
     const Result<void> read =
         FramePoll<Bus, Clock>(chip_).read(chip_.sensors, control_runs(), outcome, fetch_all, &data);
     if (read) {
-      // nSCDERR is about the last frame on the line, which may be later than the bank that was
-      // read. A slave without SVALID beside one with it was bad in any case.
+      // nSCDERR describes the last frame on the line, which may be later than the bank that was
+      // read. When one slave has SVALID = 1, each slave with SVALID = 0 was bad in that frame.
       detail::decode_all(
           chip_.config, chip_.sensors, outcome, data,
           outcome.good != 0 || outcome.status.scd_error() ? Error::kCrc : Error::kNoData, frame);
@@ -139,13 +144,14 @@ class Automatic {
     return read;
   }
 
-  // The same for one slave, 1..8: its position, in at most kMaxPollSlaveTransfers transfers
-  // (kMaxPollSlaveTransfersChecked with SpiCheck::kFull), 3 when nothing is new. Small and quick:
-  // made for a control loop's interrupt. SVALID of other slaves is left alone.
+  // As poll(), for one slave (1..8). At most kMaxPollSlaveTransfers transfers, with SpiCheck::kFull
+  // kMaxPollSlaveTransfersChecked; 3 when nothing is new. Its code is small and fast, for the
+  // interrupt of a control loop. It does not change SVALID of other slaves.
   //
-  // kInvalidArgument (not enabled), kWrongMode (not running): not touched. kNoData: no frame has
-  // ended since the last call; kCrc: and the last one was bad. kCorrupted, kTransport,
-  // kNotDetected, kBankSwitched as for poll().
+  // Not touched: kInvalidArgument (the slave is no enabled sensor), kWrongMode (automatic frames do
+  // not run). kNoData: no frame with data of this slave has ended since the last call. kCrc: the
+  // same, and the last frame had a wrong CRC. kCorrupted, kTransport, kNotDetected, kBankSwitched
+  // as for poll().
   Result<Reading> poll_slave(std::uint8_t slave) {
     if (!is_in(chip_.sensors, slave)) {
       return Error::kInvalidArgument;
@@ -168,13 +174,14 @@ class Automatic {
     return detail::decode(chip_.config, slave, data.bytes.data(), data.stable);
   }
 
-  // Device::write_actuator() for a control loop that writes a word each frame: never waits, three
-  // transfers (five with SpiCheck::kFull). The word goes out with the frame after the one that
-  // runs. Only one of the two banks gets it, so without another call before the frame after that
-  // the previous word follows it.
+  // Device::write_actuator() for a control loop that writes a word for each frame. Never waits;
+  // three transfers, five with SpiCheck::kFull. `word` has at most data_bits bits. The chip sends
+  // the word with the frame after the one that runs. Only one of the two banks gets the word: if
+  // the caller writes no other word before the frame after that, that frame sends the previous
+  // word.
   //
-  // kWrongMode (not running), kBusy, kInvalidArgument (not touched); kTransport, kNotDetected,
-  // kCorrupted as for Device::write_actuator().
+  // Not touched: kWrongMode (automatic frames do not run), kBusy, kInvalidArgument. kTransport,
+  // kNotDetected, kCorrupted as for Device::write_actuator().
   Result<void> write_actuator(std::uint8_t slave, std::uint64_t word) {
     if (!chip_.automatic) {
       return Error::kWrongMode;
@@ -185,13 +192,14 @@ class Automatic {
     return ActuatorWrite<Bus, Clock>(chip_).write(slave, word, false);
   }
 
-  // Waits for the next new frame, at most frame_timeout_us() and one frame period, and fetches it
+  // Waits for the next new frame, at most frame_timeout_us() plus one frame period, and fetches it
   // as poll() does. After an error, and after a frame in which a slave was not good (table 69), the
   // next call begins with restart(), unless a control communication runs.
   //
-  // kWrongMode (not running: not touched); the errors of poll(); kTimeout, kLineError: no frame has
-  // ended in time, BREAK was sent, a control communication with it. kNoData: no pulse at pin
-  // GETSENS in that time (FrameStart::kOnPin); nothing is changed.
+  // Errors: kWrongMode (automatic frames do not run; not touched) and those of poll(). kTimeout,
+  // kLineError: no frame has ended in time; BREAK was sent, which also ends a control
+  // communication. kNoData: no pulse at pin GETSENS in that time (FrameStart::kOnPin); nothing is
+  // changed.
   Result<void> next(Frame& frame) {
     frame.clear();
     if (!chip_.automatic && !chip_.restart) {
@@ -208,7 +216,7 @@ class Automatic {
       return waited;
     }
     const Result<void> read = poll(frame);
-    // kBankSwitched is harmless.
+    // kBankSwitched needs no restart.
     chip_.restart = read ? !frame.good(chip_.sensors) : read.error() != Error::kBankSwitched;
     return read;
   }
@@ -229,7 +237,7 @@ class Automatic {
     return chip_.control.kind != detail::ControlState::Kind::kNone;
   }
 
-  // Polls until a frame is there, good or bad.
+  // Polls until a frame has ended, good or bad.
   Result<void> wait() {
     detail::Deadline<Clock> deadline(
         *chip_.clock, frame_timeout_us(chip_.config) + detail::frame_pitch_us(chip_.config));
@@ -242,7 +250,8 @@ class Automatic {
         return look;
       }
       idle = status.idle();
-      // A frame that was bad throughout shows in nSCDERR alone; BREAK of the restart sets it to 1.
+      // A frame that was bad for all slaves shows only in nSCDERR. The BREAK of the restart sets
+      // nSCDERR to 1 again.
       if ((status.valid_mask() & chip_.sensors) != 0 || status.scd_error()) {
         return {};
       }

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 
-// What the caller supplies: an SPI bus and a clock. Both are template parameters; nothing here is
-// virtual. FunctionBus and FunctionClock adapt plain C functions.
+// The caller supplies an SPI bus and a clock. Both are template parameters, without virtual
+// functions. FunctionBus and FunctionClock adapt plain C functions.
 
 #ifndef MB4_BUS_HPP_
 #define MB4_BUS_HPP_
@@ -26,16 +26,16 @@ namespace mb4 {
 //   (datasheet page 17). SCLK high and low >= 10 ns (I203, I204).
 // * I204 (datasheet page 11): between the address byte of opcode 0x03 and the first data bit SCLK
 //   must be high for >= 100 ns. Run SCLK at <= 5 MHz, or stretch the 16th high phase of frames
-//   that begin with 0x03. All other opcodes may run at the full rate; read_frame() of slave 1 does
-//   not use 0x03, so only probe, configuration and other slaves are affected.
+//   that begin with 0x03. All other opcodes may run at the full rate. read_frame() of slave 1 does
+//   not use 0x03.
 // * The chip needs three system clocks between two writes of 0xF4, and between such a write and a
-//   status read that must see EOT = 0. SCLK <= 2 * f_CLK is always safe; it matters for a slow
-//   system clock: 2 MHz at f_CLK = 1 MHz. The driver cannot check SCLK.
+//   status read that must see EOT = 0. SCLK <= 2 * f_CLK is always safe. This limits SCLK only with
+//   a slow system clock: 2 MHz at f_CLK = 1 MHz. The driver cannot check SCLK.
 // * rx is either as long as tx (rx[i] is received while tx[i] is sent) or empty (discard MISO).
 //   tx and rx never overlap.
 // * 2 <= tx.size() <= kMaxTransferBytes (opcodes.hpp).
-// * Returns true when the frame was exchanged, false when it was not or only in part.
-// * Other devices on the same SPI bus are the bus's business: it locks as long as it must.
+// * It returns true when the whole frame was exchanged, and false when it was not or only in part.
+// * The bus itself keeps other devices on the same SPI bus away, for example by a lock.
 template <typename Bus, typename = void>
 inline constexpr bool kIsBus = false;
 
@@ -51,8 +51,8 @@ inline constexpr bool kIsBus<
 //
 //   std::uint32_t now_us();
 //
-// which counts microseconds upwards and wraps at 2^32. Only differences are used. A clock that
-// stands still cannot hang the driver: polls are also counted.
+// It counts microseconds upwards and wraps at 2^32. The driver uses differences only. The driver
+// also counts its polls, so a clock that stands still cannot block it for ever.
 template <typename Clock, typename = void>
 inline constexpr bool kIsClock = false;
 
@@ -60,7 +60,8 @@ template <typename Clock>
 inline constexpr bool kIsClock<Clock, std::void_t<decltype(std::declval<Clock&>().now_us())>> =
     std::is_same_v<decltype(std::declval<Clock&>().now_us()), std::uint32_t>;
 
-// A bus made of one plain function and a context pointer. `rx` is null when MISO is not wanted.
+// A bus made of one plain function and a context pointer. `rx` is null when the driver does not
+// need MISO.
 class FunctionBus {
  public:
   using Transfer = bool (*)(void* context, const std::uint8_t* tx, std::uint8_t* rx,

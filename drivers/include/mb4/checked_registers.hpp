@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Registers of the chip, written or read with the care that SpiCheck asks for. Not for direct use.
+// Writes and reads registers of the chip with the checks that SpiCheck selects. For the driver's
+// own use.
 
 #ifndef MB4_CHECKED_REGISTERS_HPP_
 #define MB4_CHECKED_REGISTERS_HPP_
@@ -17,8 +18,8 @@
 
 namespace mb4::detail {
 
-// Reads data.size() (1..64) registers and compares them. One transfer. kTransport; kCorrupted:
-// something else.
+// Reads data.size() (1..64) registers and compares them with `data`. One transfer. kTransport;
+// kCorrupted: they differ.
 template <typename Bus, typename Clock>
 Result<void> compare_registers(Chip<Bus, Clock>& chip, std::uint8_t address,
                                Span<const std::uint8_t> data) {
@@ -36,7 +37,7 @@ Result<void> compare_registers(Chip<Bus, Clock>& chip, std::uint8_t address,
   return {};
 }
 
-// Writes, and with SpiCheck::kFull reads back. kCorrupted: not what was written.
+// Writes registers; with SpiCheck::kFull it reads them back. kTransport; kCorrupted: they differ.
 template <typename Bus, typename Clock>
 Result<void> write_checked(Chip<Bus, Clock>& chip, std::uint8_t address,
                            Span<const std::uint8_t> data) {
@@ -44,7 +45,7 @@ Result<void> write_checked(Chip<Bus, Clock>& chip, std::uint8_t address,
   return written && chip.checks_all() ? compare_registers(chip, address, data) : written;
 }
 
-// Reads, and with SpiCheck::kFull reads again. kCorrupted: not the same.
+// Reads registers; with SpiCheck::kFull it reads them again. kTransport; kCorrupted: they differ.
 template <typename Bus, typename Clock>
 Result<void> read_checked(Chip<Bus, Clock>& chip, std::uint8_t address, Span<std::uint8_t> out) {
   const Result<void> read = chip.opcodes.read_registers(address, out);

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 
-// What all calls on one chip share: bus, clock, configuration, and what the driver knows about the
-// chip's state. Not for direct use; see Device.
+// The state that all calls on one chip share: bus, clock, configuration, and what the driver knows
+// about the chip. For the driver's own use; users call Device.
 
 #ifndef MB4_CHIP_HPP_
 #define MB4_CHIP_HPP_
@@ -22,7 +22,8 @@
 
 namespace mb4::detail {
 
-// A polling loop's end: by time, and by count should the time source stand still.
+// Ends a polling loop after `timeout_us`. It also counts the polls, so that the loop ends when the
+// time source stands still.
 template <typename Clock>
 class Deadline {
  public:
@@ -30,12 +31,12 @@ class Deadline {
       : clock_(clock),
         start_us_(clock.now_us()),
         timeout_us_(timeout_us),
-        // A poll is at least 6 bytes of 8 SCLK periods of >= 20 ns (I203, I204), 0.96 us. With a
-        // working clock time runs out first.
+        // A poll takes at least 0.96 us: 6 bytes of 8 SCLK periods of >= 20 ns (I203, I204). So
+        // with a working clock the time ends before the count.
         polls_left_(timeout_us + timeout_us / 16 + 2) {}
 
-  // Asked before each poll, so that the last poll is made when the time is already over: a task
-  // that was suspended does not report a timeout without having looked.
+  // Call it before each poll. The last poll is then made when the time is already over: a task that
+  // was suspended reads the status once more before it reports a timeout.
   bool last_poll() {
     --polls_left_;
     return polls_left_ == 0 || clock_.now_us() - start_us_ >= timeout_us_;
@@ -48,8 +49,8 @@ class Deadline {
   std::uint32_t polls_left_;
 };
 
-// Lets time pass without a transfer. A time source that stands still ends it, too: even at 1 ns a
-// call the count is not reached before the time is over.
+// Waits `time_us` (up to 4'294'967) without a transfer. A count of calls ends the wait when the
+// time source stands still. Even if a call takes only 1 ns, the count does not end before the time.
 template <typename Clock>
 void pause(Clock& clock, std::uint32_t time_us) {
   const std::uint32_t start_us = clock.now_us();
@@ -58,24 +59,24 @@ void pause(Clock& clock, std::uint32_t time_us) {
   }
 }
 
-// How long a slave that BREAK has cut off may need until it is ready again: its timeout, 12.5 to
-// 40 us are common.
+// Time for a slave whose frame BREAK has ended, until it is ready again. A slave needs its timeout
+// for this; 12.5 to 40 us are common.
 inline constexpr std::uint32_t kLineRecoveryUs = 100;
 
-// The control communication in progress, and what is left of the last one.
+// The control communication that is running, and the registers of the last read.
 struct ControlState {
   enum class Kind : std::uint8_t { kNone, kRead, kWrite, kCommand };
 
   Kind kind = Kind::kNone;
   std::uint8_t readable = 0;    // registers that a finished read has left in RDATA
   std::uint8_t count = 0;       // registers of this access, 1..64
-  bool biss_b = false;          // one instruction, and no frames, to the end
-  bool first_frame = false;     // REGEND may still be the one of the last access; BiSS B: not ended
-  std::uint32_t start_us = 0;   // of this frame, or with automatic frames of the access
+  bool biss_b = false;          // one instruction runs the whole access, without frames
+  bool first_frame = false;     // REGEND may belong to the access before; BiSS B: not ended yet
+  std::uint32_t start_us = 0;   // of this frame; with automatic frames of the access
   std::uint32_t access_us = 0;  // start of the access
   std::uint32_t timeout_us = 0;
   std::uint32_t frames = 0;      // begun so far, without automatic frames
-  std::uint32_t polls_left = 0;  // should the time source stand still
+  std::uint32_t polls_left = 0;  // limit for a time source that stands still
 };
 
 template <typename Bus, typename Clock>
@@ -88,19 +89,19 @@ struct Chip {
   Opcodes<Bus> opcodes;
   Clock* clock;
   Config config{};
-  std::uint8_t sensors = 0;    // of `config`: slaves that deliver data, ...
-  std::uint8_t actuators = 0;  // ... and that take it; bit 0 is slave 1
+  std::uint8_t sensors = 0;    // slaves of `config` that deliver data; bit 0 is slave 1
+  std::uint8_t actuators = 0;  // slaves of `config` that take words; bit 0 is slave 1
   bool configured = false;
   // AGS = 1 was written, and nothing has stopped it.
   bool automatic = false;
-  // A frame may still run and SVALID is unknown: BREAK and clearing come before the next request.
-  // Set by every error after the first transfer, whatever it is.
+  // A frame may still run and SVALID is unknown: recover() comes before the next request. Every
+  // error after the first transfer of a call sets this flag.
   bool recover_first = true;
-  // Automatic frames are wanted, but need BREAK and a new start before (Table 69).
+  // The caller wants automatic frames, but they need BREAK and a new start first (table 69).
   bool restart = false;
   ControlState control{};
 
-  // One status snapshot. kTransport, kNotDetected.
+  // Reads the status once. kTransport, kNotDetected.
   Result<void> look(Status& status) {
     std::array<std::uint8_t, Status::kBytes> bytes{};
     const Result<void> read = opcodes.read_status(bytes);
@@ -108,21 +109,21 @@ struct Chip {
     return read && !status.plausible() ? Error::kNotDetected : read;
   }
 
-  // Writes 0xF4 alone. All other bits of it become 0, SWBANK too, which this driver never sets.
+  // Writes 0xF4 and no other register. All bits that `instruction` does not set become 0.
   Result<void> write_instruction(std::uint8_t instruction) {
     return opcodes.write_instruction(Span<const std::uint8_t>(&instruction, 1));
   }
 
-  // BREAK: the chip is idle, AGS is off, MA is 1 and the error flags are 1 again.
+  // Sends BREAK. After it the chip is idle, AGS is off, MA is 1 and the error flags are 1.
   Result<void> write_break() {
     automatic = false;
     control.kind = ControlState::Kind::kNone;
     return write_instruction(regs::BREAK::encode<1>());
   }
 
-  // Clears SVALIDx of the slaves in `mask` (bit 0 is slave 1) in the bank that the host reads: 0
-  // clears, 1 has no effect (page 35, "reset by writing to the SVALIDx register"), so no other
-  // slave's flag is touched. One transfer, or none without a slave.
+  // Clears SVALIDx of the slaves in `mask` (bit 0 is slave 1) in the bank that the host reads.
+  // Writing 0 clears a flag and writing 1 has no effect (page 35, "reset by writing to the SVALIDx
+  // register"), so the flags of other slaves do not change. One transfer; none if `mask` is 0.
   Result<void> clear_valid(std::uint8_t mask) {
     const unsigned keep = ~unsigned{Status::valid_registers(mask)};
     const std::array<std::uint8_t, 2> both{static_cast<std::uint8_t>(keep),
@@ -132,8 +133,8 @@ struct Chip {
 
   [[nodiscard]] bool checks_all() const { return config.spi_check == SpiCheck::kFull; }
 
-  // The same, and with SpiCheck::kFull one status more, or two, to see that the flags are 0. The
-  // chip takes some system clocks to clear them. kCorrupted: they are not.
+  // As clear_valid(). With SpiCheck::kFull it then reads the status once or twice until the flags
+  // are 0: the chip takes some system clocks to clear them. kCorrupted: they are still 1.
   Result<void> clear_valid_checked(std::uint8_t mask) {
     if (const Result<void> cleared = clear_valid(mask); !cleared || !checks_all()) {
       return cleared;
@@ -148,9 +149,9 @@ struct Chip {
     return Error::kCorrupted;
   }
 
-  // Ends what runs, lets the slaves' timeout pass, and clears the flags of frames that ran. With
-  // SpiCheck::kFull 0xF5 is written as well: it lies next to 0xF4, and what has failed may be a
-  // read of the status that came to the chip as a write.
+  // Sends BREAK, waits for the slaves' timeout, and clears the flags of frames that ran. With
+  // SpiCheck::kFull it also writes 0xF5, the register after 0xF4: the failed transfer may have been
+  // a read of the status that reached the chip as a write.
   Result<void> recover() {
     automatic = false;
     control.kind = ControlState::Kind::kNone;
@@ -164,8 +165,8 @@ struct Chip {
     return clear_valid(sensors);
   }
 
-  // SpiCheck::kFull: is `want` what 0xF4 holds? AGS, which an error may have ended, is not looked
-  // at. One transfer, or none. kCorrupted: it is not; kTransport, kNotDetected.
+  // With SpiCheck::kFull: reads 0xF4 and compares it with `want`, except AGS, which an error may
+  // have ended. One transfer; otherwise none. kCorrupted: 0xF4 differs. kTransport, kNotDetected.
   Result<void> confirm_instruction(std::uint8_t want) {
     if (!checks_all()) {
       return {};
@@ -176,23 +177,22 @@ struct Chip {
     return read && (status.instruction() | kAgs) != (want | kAgs) ? Error::kCorrupted : read;
   }
 
-  // BREAK behind `cause`: returns it, or the failure of the transfer, which is then the more urgent
-  // news.
+  // Sends BREAK and returns `cause`. If the transfer fails it returns that failure instead.
   Result<void> stop_frame(Error cause) {
     const Result<void> stopped = write_break();
     return stopped ? Result<void>(cause) : stopped;
   }
 
-  // BREAK, and what has kept a frame from ending: kTimeout or kLineError.
+  // Sends BREAK and returns why the frame did not end: kTimeout or kLineError.
   Result<void> stop_and_diagnose() {
     const Result<void> stopped = write_break();
     const Result<void> line = stopped ? diagnose_line() : stopped;
     return line ? Error::kTimeout : line;
   }
 
-  // After BREAK has ended a frame that did not end by itself: does SL of all channels in use return
-  // to 1, as it does once the slaves' timeout is over? Then no slave has answered, otherwise a line
-  // is stuck low (kLineError).
+  // For a frame that did not end by itself, after BREAK: waits until SL of all channels in use is
+  // 1, which it must be when the slaves' timeout is over. Success: SL is 1, so no slave has
+  // answered. kLineError: a line is stuck low.
   Result<void> diagnose_line() {
     Deadline<Clock> deadline(*clock, kLineRecoveryUs);
     for (bool last = false; !last;) {
@@ -206,7 +206,8 @@ struct Chip {
     return Error::kLineError;
   }
 
-  // Slaves of BiSS B may be in register mode.
+  // Time from BREAK until all slaves are ready. Slaves of BiSS B may be in register mode and need
+  // longer.
   [[nodiscard]] std::uint32_t recovery_us() const {
     return any_channel_is(config, Protocol::kBissB) ? kLineRecoveryUs + config.register_timeout_us
                                                     : kLineRecoveryUs;

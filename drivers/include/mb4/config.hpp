@@ -23,13 +23,13 @@ namespace mb4 {
 
 namespace detail {
 
-// Codes that are out of their range are possible: a cast, or the C binding, can make them.
+// A cast or the C binding can make enumeration values that are out of range.
 template <typename Enumeration>
 constexpr bool is_code(Enumeration value, Enumeration last) {
   return static_cast<std::uint8_t>(value) <= static_cast<std::uint8_t>(last);
 }
 
-// kNone: nothing is wrong.
+// The ErrorInfo of an invalid `field`; success if `field` is kNone.
 [[gnu::noinline]] constexpr ErrorInfo invalid(ConfigField field, std::size_t number = 0) {
   return field == ConfigField::kNone
              ? ErrorInfo()
@@ -77,7 +77,7 @@ constexpr ConfigField wrong_in_chip(const Config& config) {
              : ConfigField::kRegisterDivider;
 }
 
-// The period must be one of table 37 and hold a frame; it belongs to kPeriodic alone.
+// The period must be one of table 37 and long enough for a frame. Only kPeriodic has a period.
 constexpr ConfigField wrong_in_frame_start(const Config& config) {
   if (!is_code(config.frame_start, FrameStart::kPeriodic)) {
     return ConfigField::kFrameStart;
@@ -146,9 +146,9 @@ constexpr ConfigField wrong_in_slave(const Config& config, std::size_t number) {
 
 }  // namespace detail
 
-// Checks everything there is to check before a transfer. kInvalidConfig: the chip cannot do it.
-// ErrorInfo names the first offending member. Members of a slave that is not enabled are not looked
-// at.
+// Checks the whole configuration; makes no transfer. kInvalidConfig: the chip does not allow a
+// value; ErrorInfo names the first such member. Members of a slave that is not enabled are not
+// checked.
 [[nodiscard]] constexpr Result<void> validate(const Config& config) {
   ConfigField wrong = detail::wrong_in_clock(config);
   if (wrong == ConfigField::kNone) {

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 
-// What the chip shall do, in real units. Checked by validate() in config.hpp.
+// The configuration of the chip in real units (Hz, us, bits). validate() in config.hpp checks it.
 
 #ifndef MB4_CONFIG_DATA_HPP_
 #define MB4_CONFIG_DATA_HPP_
@@ -24,44 +24,45 @@ using ClockSource = regs::ClockSource;
 // CFGIF, table 9, page 23.
 using LineInterface = regs::LineInterface;
 
-// How frames start: FREQAGS (table 37, pages 30 to 32). One register decides about both kinds.
+// How frames start: FREQAGS (table 37, pages 30 to 32). This register controls single and automatic
+// frames.
 //
 //                      single frames (read_frame, read_all)   automatic frames (Automatic)
 //   kWaitForLine       wait for SL = 1, back to back          back to back (AGSMIN)
 //   kRequireIdleLine   refused while SL is low                one per pulse at pin GETSENS
 //   kPeriodic          refused while SL is low                every Config::frame_period_clk
 //
-// SL is low until the slaves' timeout after the previous frame is over (page 32). Refused: the chip
-// sets nAGSERR = 0 and the call returns kLineError at once.
+// SL is low until the slaves' timeout after the previous frame is over (page 32). When the chip
+// refuses a frame it sets nAGSERR = 0, and the call returns kLineError at once.
 enum class FrameStart : std::uint8_t {
   kWaitForLine = 0,
   kRequireIdleLine = 1,
   kPeriodic = 2,
-  // The same by what they mean for automatic frames.
+  // Other names for the same values, for automatic frames.
   kBackToBack = kWaitForLine,
   kOnPin = kRequireIdleLine,
 };
 
-// Which of the data bits are not position.
+// The data bits that are not part of the position.
 enum class Flags : std::uint8_t {
   kNone = 0,
   // The last two data bits are nE and nW: error and warning, both active low.
   kErrorWarning = 1,
 };
 
-// How data is protected on its way over SPI, which has no check of its own.
+// How the driver checks data on SPI, which has no check of its own.
 enum class SpiCheck : std::uint8_t {
-  // Only the bytes that hold data are read, once; only impossible values are noticed.
+  // The driver reads only the bytes that hold data, once. It detects impossible values only.
   kOff = 0,
-  // The chip also stores the received CRC (NOCRC = 0). It is read along, checked again and
-  // returned.
+  // The chip also stores the received CRC (NOCRC = 0). The driver reads it with the data, checks it
+  // again and returns it.
   kCrc = 1,
-  // kCrc, and a position is returned only if no single disturbed transfer, in either direction, and
-  // no line that is stuck from some moment on can have made it or made it old:
+  // As kCrc, with more checks. One disturbed transfer, in either direction, or a line that becomes
+  // stuck, can then make neither a wrong nor an old position:
   //  * data without a stored CRC, and data of all zeros or all ones, is read twice;
-  //  * the status is read again behind the data, and once more behind the clearing of SVALID;
-  //  * what was written to 0xF4, and what starts a register access, is read back;
-  //  * registers of slaves are read twice out of the chip.
+  //  * the status is read again after the data, and once more after SVALID is cleared;
+  //  * 0xF4 and the registers that start a register access are read back after the write;
+  //  * registers of slaves are read twice from the chip.
   kFull = 2,
 };
 
@@ -73,14 +74,14 @@ struct SlaveConfig {
   Flags flags = Flags::kErrorWarning;
   // Full polynomial, 0x43 = x^6 + x + 1; 0 = no CRC. See encode_crc() for what the chip can do.
   std::uint32_t crc_polynomial = 0x43;
-  // Start value; only as many low bits count as the CRC is wide. 0 when there is no CRC.
+  // Start value of the CRC; only the low bits count, as many as the CRC has. 0 without CRC.
   std::uint16_t crc_start = 0;
   // GRAYSx (table 19), SSI only: the encoder sends Gray code, the chip converts it.
   bool gray = false;
-  // ACTnSENSx (table 17): takes a word from the host, Device::write_actuator(), and delivers none.
-  // BiSS only, needs Config::mo. `flags` mean nothing for it.
+  // ACTnSENSx (table 17): the slave takes a word from the host (Device::write_actuator()) and
+  // delivers none. BiSS only; it needs Config::mo. The driver ignores `flags` of an actuator.
   bool actuator = false;
-  // LSTOPx (table 18): a stop bit before the actuator's word. Nothing for sensors.
+  // LSTOPx (table 18): a stop bit before the actuator's word. Ignored for sensors.
   bool stop_bit = true;
 };
 
@@ -134,11 +135,13 @@ struct Config {
   // f_MA / register clock of BiSS B: 2, 4, 8, ... 256 (FREQR, table 36). 64 (FREQR = 5) is what the
   // datasheet asks for where a channel is BiSS C, which also counts its time limit with it.
   std::uint16_t register_divider = 64;
-  // Longest timeout by which slaves of BiSS B leave register mode, up to 1'000'000 us; 1.5 register
-  // clocks to 1 ms are common. Nothing can be seen of it on the line, so every access ends with it.
+  // Longest timeout after which slaves of BiSS B leave register mode, up to 1'000'000 us; 1.5
+  // register clocks to 1 ms are common. The line does not show its end, so every access ends with a
+  // pause of this length.
   std::uint32_t register_timeout_us = 2000;
 
-  // What is spent on faults of the SPI bus. kOff is fast; kFull costs two short transfers a read.
+  // Checks against faults of the SPI bus. kOff is fastest; kFull adds two short transfers or more
+  // to each read.
   SpiCheck spi_check = SpiCheck::kFull;
 
   // Longest time from the request of a frame to its end, 1..1'000'000 us. 0 = calculated, see
@@ -146,8 +149,8 @@ struct Config {
   std::uint32_t frame_timeout_us = 0;
 
   // Longest time that a slave may take for one register access beyond the frames it needs, up to
-  // 10'000'000 us. 0 = the chip's own limit of 4096 register clocks (page 34), after which
-  // it reports kRegisterDelay itself; a shorter one ends in kTimeout and BREAK.
+  // 10'000'000 us. 0 = the chip's own limit of 4096 register clocks (page 34); the chip then
+  // reports kRegisterDelay. If a shorter time ends, the driver sends BREAK and reports kTimeout.
   std::uint32_t register_busy_us = 0;
 
   std::array<ChannelConfig, kChannels> channels{};  // [0] is channel 1

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Figures that follow from a Config, all constexpr.
+// Values that follow from a Config. All functions are constexpr.
 
 #ifndef MB4_CONFIG_FIGURES_HPP_
 #define MB4_CONFIG_FIGURES_HPP_
@@ -20,16 +20,16 @@ namespace mb4 {
   return static_cast<std::uint8_t>((slave.data_bits + 7U) / 8U);
 }
 
-// Whether the chip stores this slave's CRC: it takes the top byte of SCDATAx, CRC16 the two top
-// bytes, if data leaves them free (page 26). For a valid `config`.
+// True if the chip stores this slave's CRC. The CRC takes the top byte of SCDATAx, a CRC of 16 bits
+// the two top bytes, if the data leaves them free (page 26). For a valid `config`.
 [[nodiscard]] constexpr bool crc_is_stored(const Config& config, const SlaveConfig& slave) {
-  // Of 0x12F, the longest with one byte.
+  // 0x12F is the longest polynomial whose CRC fits one byte.
   const unsigned crc_bytes = slave.crc_polynomial > 0x1FF ? 2 : 1;
   return config.spi_check != SpiCheck::kOff && slave.crc_polynomial != 0 &&
          data_bytes(slave) + crc_bytes <= 8;
 }
 
-// Whether slaves 5 to 8 are on channel 2 (SLAVELOC5).
+// True if slaves 5 to 8 are on channel 2 (SLAVELOC5).
 [[nodiscard]] constexpr bool channels_are_split(const Config& config) {
   return config.channels[1].protocol != Protocol::kUnused;
 }
@@ -45,12 +45,13 @@ namespace mb4 {
   return config.channels[channel_of(config, slave) - 1U].protocol;
 }
 
-// A channel speaks `protocol`.
+// True if a channel uses `protocol`.
 [[nodiscard]] constexpr bool any_channel_is(const Config& config, Protocol protocol) {
   return config.channels[0].protocol == protocol || config.channels[1].protocol == protocol;
 }
 
-// Protocol of INIT and of what 0xE5 says at rest: one BiSS C line makes it BiSS C (REGVERS).
+// True if BiSS B is in use and BiSS C is not. This is the protocol of INIT and of 0xE5 (REGVERS)
+// while no control communication runs: one BiSS C channel makes it BiSS C.
 [[nodiscard]] constexpr bool only_biss_b(const Config& config) {
   return any_channel_is(config, Protocol::kBissB) && !any_channel_is(config, Protocol::kBissC);
 }
@@ -78,14 +79,14 @@ namespace mb4 {
   return static_cast<std::uint8_t>(enabled_slaves(config) & ~unsigned{actuators(config)});
 }
 
-// `slave` is 1..8 and in `mask`.
+// True if `slave` is 1..8 and in `mask` (bit 0 is slave 1). Any `slave` is allowed.
 [[nodiscard]] constexpr bool is_in(std::uint8_t mask, std::uint8_t slave) {
   return (std::uint32_t{mask} << 1 >> (slave < 32 ? slave : 31) & 1U) != 0;
 }
 
-// Periods of MA in a frame without processing time, of the longer channel: in BiSS C acknowledge,
-// start and CDS, in BiSS B no CDS, in SSI one more than bits; then data and CRC, an actuator's stop
-// bit, and MO_BUSY.
+// Periods of MA in a frame without processing time, for the channel with the longer frame. A frame
+// has 5 periods in BiSS C (acknowledge, start, CDS), 4 in BiSS B (no CDS), 1 in SSI. Data, CRC and
+// an actuator's stop bit are added, and in BiSS MO_BUSY.
 [[nodiscard]] constexpr std::uint32_t frame_periods(const Config& config) {
   std::uint32_t longest = 0;
   for (std::uint8_t channel = 1; channel <= kChannels; ++channel) {
@@ -106,27 +107,29 @@ namespace mb4 {
   return longest;
 }
 
-// Allowance of the calculated timeout for everything that is not MA periods of the frame: a
-// previous slave timeout (up to 40 us), the slave's processing time, line delay, the SPI transfers.
+// The calculated timeout adds this time to the MA periods of the frame. It covers the slaves'
+// timeout of the previous frame (up to 40 us), the slave's processing time, the line delay and the
+// SPI transfers.
 inline constexpr std::uint32_t kFrameMarginUs = 200;
 
 namespace detail {
 
-// The internal oscillator may run at 10 MHz while f_clk_hz says 25 MHz (D05).
+// Adds the spread of the internal oscillator, which may run at 10 MHz while f_clk_hz says 25 MHz
+// (D05).
 [[gnu::noinline]] constexpr std::uint32_t with_spread(const Config& config, std::uint32_t time) {
   return config.clock_source == ClockSource::kInternal ? 3 * time : time;
 }
 
-// Up to 4 million periods of MA in microseconds, rounded up; without 64 bits, whose division costs
-// 1 KB on a small core.
+// Converts up to 4 million periods of MA to microseconds, rounded up. It does without a division of
+// 64 bits, which costs 1 KB on a small core.
 [[gnu::noinline]] constexpr std::uint32_t periods_us(const Config& config, std::uint32_t periods) {
   return periods * 1000U / (config.ma_hz / 1000U) + 1U;
 }
 
 }  // namespace detail
 
-// The timeout in force: the configured one, or the calculated one: the frame and kFrameMarginUs.
-// For a valid `config`.
+// The timeout of a frame in microseconds: Config::frame_timeout_us, or, if that is 0, the time of
+// the frame plus kFrameMarginUs. For a valid `config`.
 [[nodiscard]] constexpr std::uint32_t frame_timeout_us(const Config& config) {
   if (config.frame_timeout_us != 0) {
     return config.frame_timeout_us;

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Layer 3: the registers of a configuration, written and compared. Not for direct use; see Device.
+// Layer 3: writes and compares the registers of a configuration. For the driver's own use; users
+// call Device.
 
 #ifndef MB4_CONFIGURATION_HPP_
 #define MB4_CONFIGURATION_HPP_
@@ -39,7 +40,7 @@ class Configuration {
     if (const Result<void> read = chip_.opcodes.read_registers(kImageFirst, bytes); !read) {
       return read;
     }
-    // Asked first: with nothing on the bus every register is different, which says less.
+    // VERSION comes first: without a chip every register differs, and kVerify would say less.
     if (bytes[regs::kAddrVersion - kImageFirst] !=
         static_cast<std::uint8_t>(regs::DeviceVersion::kIcMb4)) {
       return Error::kNotDetected;
@@ -57,8 +58,8 @@ class Configuration {
   }
 
  private:
-  // REVISION and VERSION are constant; 0xE0, 0xE1 and 0xEE are reserved, what they read is not
-  // promised. 0xE2..0xE5 belong to the control communication of the moment.
+  // REVISION and VERSION are constant. 0xE0, 0xE1 and 0xEE are reserved, and the datasheet does not
+  // say what they read. 0xE2..0xE5 change with each control communication.
   static constexpr bool is_compared(unsigned address, bool running) {
     const bool control = address >= regs::kAddrRegadr && address <= regs::kAddrCtrl;
     return !(control && running) && (address < 0xE0 || address > 0xE1) && address != 0xEE &&

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Layer 4: control communication: registers of the slaves and commands.
+// Layer 4: control communication, which is registers of the slaves and commands.
 
 #ifndef MB4_CONTROL_HPP_
 #define MB4_CONTROL_HPP_
@@ -21,7 +21,7 @@ namespace mb4 {
 //
 //   device.control().read_registers({1, 0}, 0x78, id);       // channel 1, ID 0
 //
-// A call ends within the time that ControlSteps::poll() allows, whatever chip and slave do.
+// A call ends within the time limit of ControlSteps::poll(), whatever chip and slave do.
 template <typename Bus, typename Clock>
 class Control : public ControlSteps<Bus, Clock> {
   using Steps = ControlSteps<Bus, Clock>;
@@ -30,14 +30,16 @@ class Control : public ControlSteps<Bus, Clock> {
   using Steps::Steps;
 
   // Reads out.size() (1..128) registers from `address`, in parts of 64; address + size <= 128.
-  // Errors of begin_read() and poll(); after kTransport and kNotDetected BREAK has been tried.
-  // ErrorInfo::bytes counts over all parts; only as many bytes of `out` mean anything.
+  // Errors of begin_read(), poll() and take(). After kTransport and kNotDetected the call has tried
+  // to send BREAK. ErrorInfo::bytes counts over all parts; on error only that many bytes of `out`
+  // are valid.
   Result<void> read_registers(SlaveAddress slave, std::uint8_t address, Span<std::uint8_t> out) {
     return in_parts(slave, address, out, Span<const std::uint8_t>(nullptr, out.size()));
   }
 
-  // Writes data.size() (1..128) registers from `address`, in parts of 64. Errors as of
-  // read_registers(); registers before ErrorInfo::bytes are written, the next may be.
+  // Writes data.size() (1..128) registers from `address`, in parts of 64; address + size <= 128.
+  // Errors of begin_write() and poll(), as for read_registers(). On error the first
+  // ErrorInfo::bytes registers are written, and the next one may be.
   Result<void> write_registers(SlaveAddress slave, std::uint8_t address,
                                Span<const std::uint8_t> data) {
     return in_parts(slave, address, Span<std::uint8_t>(), data);
@@ -47,8 +49,8 @@ class Control : public ControlSteps<Bus, Clock> {
   Result<void> send(const Command& command) { return wait(Steps::begin_command(command)); }
 
  private:
-  // `begun` as a begin call has returned it. Leaves nothing running behind an error; the first
-  // error is the news, whatever becomes of BREAK.
+  // Waits for the end of what a begin call has begun; `begun` is the result of that call. After an
+  // error nothing runs. The first error is returned, even if BREAK fails after it.
   Result<void> wait(const Result<void>& begun) {
     if (!begun && begun.error() != Error::kTransport) {
       return begun;
@@ -63,7 +65,7 @@ class Control : public ControlSteps<Bus, Clock> {
     return ended ? Result<void>() : Result<void>(ended.failure());
   }
 
-  // Reads into `out`, or, if that is empty, writes `data`; as many as `data` has.
+  // Reads data.size() registers into `out`; if `out` is empty it writes `data`.
   Result<void> in_parts(SlaveAddress slave, std::uint8_t address, Span<std::uint8_t> out,
                         Span<const std::uint8_t> data) {
     const std::size_t size = data.size();

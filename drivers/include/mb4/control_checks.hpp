@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 
-// What must be so before a control communication begins. Not for direct use; see ControlSteps.
+// Checks the conditions for a control communication before it begins. For the driver's own use;
+// users call Control.
 
 #ifndef MB4_CONTROL_CHECKS_HPP_
 #define MB4_CONTROL_CHECKS_HPP_

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 
-// How long a control communication goes on. Not for direct use; see ControlSteps.
+// Time limits of a running control communication. For the driver's own use; users call Control.
 
 #ifndef MB4_CONTROL_PACE_HPP_
 #define MB4_CONTROL_PACE_HPP_
@@ -13,7 +13,7 @@
 
 namespace mb4::detail {
 
-// Time and polls for what begins now: the access, one of its frames, or the slaves' timeout.
+// Starts the time and the count of polls for an access, one of its frames, or the slaves' timeout.
 template <typename Bus, typename Clock>
 void restart_time(Chip<Bus, Clock>& chip, std::uint32_t timeout_us) {
   chip.control.start_us = chip.clock->now_us();
@@ -21,8 +21,9 @@ void restart_time(Chip<Bus, Clock>& chip, std::uint32_t timeout_us) {
   chip.control.polls_left = timeout_us + timeout_us / 16 + 2;  // as of Deadline
 }
 
-// Without automatic frames the host sets the pace: an access is over for good when the frames it
-// needs and the time of a busy slave have gone, and after as many frames as fit into that time.
+// For accesses without automatic frames, where the host sets the pace. True when the access cannot
+// end well any more: all frames that it needs have run and the time of a busy slave is over, or as
+// many frames have run as fit into that time.
 template <typename Bus, typename Clock>
 [[nodiscard]] bool enough_frames(Chip<Bus, Clock>& chip) {
   const ControlState& state = chip.control;

@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Control communication step by step (datasheet pages 16, 27 to 29, 34, 35): registers of the
-// slaves and commands, with and without automatic frames. Used through Control.
+// Control communication step by step: registers of the slaves, and commands, with and without
+// automatic frames. Use it through Control.
+// Source: datasheet pages 16, 27 to 29, 34, 35.
 
 #ifndef MB4_CONTROL_STEPS_HPP_
 #define MB4_CONTROL_STEPS_HPP_
@@ -25,37 +26,44 @@
 
 namespace mb4 {
 
-// One access at a time, so that the caller does something else between the frames:
+// One access at a time. The caller can do other work between the frames:
 //
 //   device.control().begin_read({1, 0}, 0x78, 8);
 //   while (!*device.control().poll()) { ... }                // errors left out here
 //   device.control().take(id);
 //
-// With automatic frames the access runs beside them, 47 frames for one register; poll() only looks.
-// Without them each poll() that finds a frame ended starts the next one; its data is dropped.
+// With automatic frames the access uses these frames: 47 frames for one register. poll() then only
+// reads the status. Without automatic frames the host requests each frame: each poll() that finds
+// the frame ended starts the next one. The driver drops the data of these frames.
 //
 // The channel's protocol decides what the chip does with the same calls:
 //  * BiSS C: as above.
-//  * BiSS B: in register mode no frame runs, on either channel, so automatic frames must be stopped
-//    (kWrongMode); left out, they would hide a failed hand-over, as both show in nAGSERR. Begins
-//    with BREAK, 100 us and register_timeout_us, and ends register_timeout_us behind the last bit.
-//    Slave ID 0 is unused with Config::mo. No commands.
-//  * SSI (extended): register writes and broadcasts, blind: the encoder has no means to answer, so
-//    success says only that everything was sent. Reading is kUnsupported.
+//  * BiSS B: in register mode no frame runs, on either channel. So automatic frames must be stopped
+//    (kWrongMode): an omitted frame would hide a failed hand-over, because both set nAGSERR = 0.
+//    The access begins with BREAK and a pause of 100 us + register_timeout_us. It ends
+//    register_timeout_us after the last bit. Slave ID 0 is unused with Config::mo. BiSS B has no
+//    commands.
+//  * SSI (extended): register writes and broadcasts only; reading is kUnsupported. The encoder
+//    cannot answer, so success says only that the chip has sent everything.
 //
-// Errors of all begin calls, which touch nothing unless said: kNotConfigured; kBusy (one is
-// running); kInvalidArgument; kUnsupported with kFrameStart (without automatic frames
-// FrameStart::kWaitForLine is needed, because the frames follow each other at once) or with
-// kChannelProtocol (the protocol has no such access); kWrongMode (BiSS B beside automatic frames);
-// kTransport (touched: parts of the request are in the chip, the access may run; abort() it);
-// with SpiCheck::kFull, which reads back what it has written by as many transfers, kCorrupted
-// (touched: the access does not run).
+// Errors of all begin calls. The chip is not touched unless the line says so.
+//   kNotConfigured, kInvalidArgument
+//   kBusy         an access or a command is running
+//   kUnsupported  with kFrameStart: without automatic frames FrameStart::kWaitForLine is needed,
+//                 because the frames follow each other at once. With kChannelProtocol: the protocol
+//                 has no such access
+//   kWrongMode    BiSS B while automatic frames run
+//   kTransport    touched: parts of the request are in the chip and the access may run; call
+//                 abort()
+//   kCorrupted    touched, the access does not run. Only with SpiCheck::kFull, which reads back
+//                 each write: one transfer more for each write of registers
 template <typename Bus, typename Clock>
 class ControlSteps : private ControlChecks<Bus, Clock> {
  public:
   using ControlChecks<Bus, Clock>::ControlChecks;
 
-  // Begins to read `count` (1..64) registers from `address`; address + count <= 128. Two transfers.
+  // Begins to read `count` (1..64) registers from `address`; address + count <= 128. `slave`:
+  // channel 1 or 2, ID 0..7. Two transfers.
   Result<void> begin_read(SlaveAddress slave, std::uint8_t address, std::size_t count) {
     if (const Result<void> possible = Checks::check_access(slave, address, count, Protocol::kSsi);
         !possible) {
@@ -64,8 +72,8 @@ class ControlSteps : private ControlChecks<Bus, Clock> {
     return begin_access(slave, regs::REGADR::insert(0, address), count, Kind::kRead);
   }
 
-  // Begins to write data.size() (1..64) registers; the data is in the chip when the call returns.
-  // Three transfers.
+  // Begins to write data.size() (1..64) registers from `address`; address + size <= 128. The data
+  // is in the chip when the call returns. Three transfers.
   Result<void> begin_write(SlaveAddress slave, std::uint8_t address,
                            Span<const std::uint8_t> data) {
     if (const Result<void> possible =
@@ -80,7 +88,7 @@ class ControlSteps : private ControlChecks<Bus, Clock> {
                         Kind::kWrite);
   }
 
-  // Begins a command. Three transfers.
+  // Begins a command; see Command for the ranges of its members. Three transfers.
   Result<void> begin_command(const Command& command) {
     if (const Result<void> free = Checks::check_free(); !free) {
       return free;
@@ -114,23 +122,30 @@ class ControlSteps : private ControlChecks<Bus, Clock> {
     return begin(Kind::kCommand, 1, false);
   }
 
-  // One look at what was begun; never waits. At most three transfers: status; then, without
-  // automatic frames, the next frame's instruction, or at the end SVALID = 0. Call it until it
-  // returns true or an error.
+  // Reads the status once and does the next step of what was begun; it never waits. At most three
+  // transfers: the status; then, without automatic frames, the next frame's instruction, or at the
+  // end SVALID = 0. Call it until it returns true or an error.
   //
-  // False: still running. True: ended well; after a read take() the registers.
-  // kRegister, kRegisterDelay (with ErrorInfo::bytes), kCommand: ended, the chip is ready for the
-  // next one. kTimeout: BREAK was sent. kTransport, kNotDetected: still running, as far as one can
-  // tell; poll again or abort(). kWrongMode: nothing was begun.
+  //   false                      the access is still running
+  //   true                       the access has ended without error; after a read call take()
+  //   kRegister, kRegisterDelay  the access has failed (ErrorInfo::bytes says how far it came); the
+  //                              chip is ready for the next one
+  //   kCommand                   the command was not acknowledged; the chip is ready for the next
+  //   kTimeout                   the access has not ended in time; BREAK was sent
+  //   kTransport, kNotDetected   the state is unknown, the access may still run; poll again or call
+  //                              abort()
+  //   kWrongMode                 nothing was begun
   //
-  // Time: register_busy_us and the frames needed, by the clock with automatic frames; without them
-  // frame_timeout_us() for each frame, and when all frames needed have run register_busy_us.
+  // Time limit. With automatic frames: the time of the frames needed, plus register_busy_us, by the
+  // clock. Without them: frame_timeout_us() for each frame; and register_busy_us when all frames
+  // needed have run.
   Result<bool> poll() {
     if (chip_.control.kind == Kind::kNone) {
       return Error::kWrongMode;
     }
     detail::ControlState& state = chip_.control;
-    // Looked at before the status: who was suspended does not report a timeout without a look.
+    // The time is taken before the status is read. A task that was suspended therefore reads the
+    // status once more before it reports a timeout.
     const bool late =
         --state.polls_left == 0 || chip_.clock->now_us() - state.start_us >= state.timeout_us;
     Status status;
@@ -139,12 +154,12 @@ class ControlSteps : private ControlChecks<Bus, Clock> {
       return look.failure();
     }
     const bool frame_over = status.instruction_done() && (chip_.automatic || status.idle());
-    // REGEND = 1 after the first of several frames is the last access's. In BiSS B BREAK has reset
-    // it.
+    // Where several frames follow each other, REGEND = 1 in the first one may still belong to the
+    // access before. In BiSS B the BREAK at the beginning has reset REGEND.
     const bool alone = chip_.automatic || state.biss_b;
     const bool stale = !alone && state.first_frame;
     if (frame_over && status.control_ended() && !stale) {
-      // The slaves' register timeout, which the line does not show.
+      // Now the slaves' register timeout runs. The line does not show its end.
       if (state.biss_b && state.first_frame) {
         state.first_frame = false;
         detail::restart_time(chip_, chip_.config.register_timeout_us);
@@ -173,10 +188,11 @@ class ControlSteps : private ControlChecks<Bus, Clock> {
     return false;
   }
 
-  // The registers that the last read has fetched; out.size() 1 up to their number. One transfer.
-  // kInvalidArgument (not touched): more than there are, or the last access was no good read, or
-  // something else was begun since. kTransport; kCorrupted: read twice (SpiCheck::kFull) and not
-  // the same.
+  // Copies the registers that the last read has fetched: out.size() is 1 up to their number. One
+  // transfer, two with SpiCheck::kFull; the chip is only read.
+  // kInvalidArgument (not touched): out.size() is out of range, the last access was no successful
+  // read, or another access has begun since. kTransport. kCorrupted: the second reading
+  // (SpiCheck::kFull) differs from the first.
   Result<void> take(Span<std::uint8_t> out) {
     if (out.empty() || out.size() > chip_.control.readable) {
       return Error::kInvalidArgument;
@@ -184,8 +200,9 @@ class ControlSteps : private ControlChecks<Bus, Clock> {
     return detail::read_checked(chip_, regs::kAddrRdata, out);
   }
 
-  // BREAK: ends an access at once, whatever it has done so far in the slave. Automatic frames stop
-  // as well; Automatic::next() or restart() sets them going again. One transfer. kTransport.
+  // Sends BREAK: the access ends at once. Registers of the slave may be changed already. Automatic
+  // frames stop as well; Automatic::next() or restart() starts them again. One transfer.
+  // kTransport.
   Result<void> abort() {
     const bool restart = chip_.automatic || chip_.restart;
     chip_.recover_first = true;
@@ -195,7 +212,7 @@ class ControlSteps : private ControlChecks<Bus, Clock> {
   }
 
  protected:
-  // Something was begun and has not ended.
+  // True while an access or a command that was begun has not ended.
   [[nodiscard]] bool running() const { return chip_.control.kind != Kind::kNone; }
 
  private:
@@ -210,7 +227,7 @@ class ControlSteps : private ControlChecks<Bus, Clock> {
     const bool biss_b = Checks::is_biss_b(slave.channel);
     const std::uint8_t control = regs::CTS::insert(
         regs::SLAVEID::insert(detail::encode_ctrl(chip_.config, biss_b), slave.id), 1);
-    // CHSEL is one-hot: 1 and 2 are the codes of the channels.
+    // CHSEL has one bit for each channel: the codes of channels 1 and 2 are 1 and 2.
     const std::array<std::uint8_t, 4> bytes{regadr, static_cast<std::uint8_t>(count - 1),
                                             slave.channel, control};
     if (const Result<void> set = detail::write_checked(chip_, regs::kAddrRegadr, bytes); !set) {
@@ -221,8 +238,8 @@ class ControlSteps : private ControlChecks<Bus, Clock> {
 
   Result<void> begin(Kind kind, std::size_t count, bool biss_b) {
     detail::ControlState& state = chip_.control;
-    // A frame of a failed read may still run and take the instruction for the next. BiSS B: REGEND
-    // and nAGSERR shall be about this access.
+    // After a failed read its frame may still run and would execute the new instruction. For BiSS B
+    // BREAK also resets REGEND and nAGSERR, so that both describe this access.
     if (biss_b || (!chip_.automatic && chip_.recover_first)) {
       if (const Result<void> recovered = chip_.recover(); !recovered) {
         return recovered;
@@ -252,16 +269,18 @@ class ControlSteps : private ControlChecks<Bus, Clock> {
     detail::ControlState& state = chip_.control;
     const Kind kind = state.kind;
     state.kind = Kind::kNone;
-    // Without AGS the frames have set SVALID, and the next single frame wants it clear. Otherwise
-    // the flags belong to Automatic.
+    // Without AGS the frames of the access have set SVALID, and the next single frame needs
+    // SVALID = 0. With AGS the class Automatic clears the flags.
     if (!chip_.automatic) {
       if (const Result<void> clear = chip_.clear_valid(chip_.sensors); clear) {
         chip_.recover_first = false;
       }
     }
     ErrorInfo error;
-    // Nobody has taken part in the hand-over, which ends at the chip's limit. The time tells from
-    // nAGSERR = 0 at each write of 0xF4 (page 34 can be read so); a quarter because of D05.
+    // nAGSERR = 0 has two possible causes. (1) No slave has taken part in the hand-over; then the
+    // access has lasted as long as the chip's limit. (2) The chip sets nAGSERR = 0 at each write of
+    // 0xF4 (page 34 can be read so); then the access was shorter. A quarter of the limit separates
+    // them, because the internal oscillator may be faster than f_clk_hz says (D05).
     if (state.biss_b && status.start_error() &&
         chip_.clock->now_us() - state.access_us >= detail::register_limit_us(chip_.config) / 4) {
       return Error::kRegister;

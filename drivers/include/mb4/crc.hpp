@@ -11,7 +11,7 @@
 
 namespace mb4 {
 
-// How the chip is told a polynomial.
+// The code of a polynomial in the chip's registers.
 struct CrcCode {
   // False: the chip cannot calculate this polynomial; the other members are 0.
   bool valid = false;
@@ -33,9 +33,9 @@ struct CrcCode {
   return degree;
 }
 
-// `polynomial` in full, highest and lowest bit included: 0x43 is x^6 + x + 1; 0 is no CRC.
-// The predefined ones (3 to 8 and 16 bits) are selected by length; any other one of degree 1..7
-// with lowest bit 1 is stored individually. Everything else is not valid.
+// Encodes `polynomial`, written with its highest and lowest bit: 0x43 is x^6 + x + 1; 0 is no CRC.
+// The length selects a predefined polynomial (3 to 8 and 16 bits). The register stores any other
+// polynomial of degree 1..7 whose lowest bit is 1. All others are not valid.
 [[nodiscard]] constexpr CrcCode encode_crc(std::uint32_t polynomial) {
   // Table 14 without the highest bit of 3 to 8 bits: 0xB, 0x13, 0x25, 0x43, 0x89, 0x12F.
   constexpr std::uint8_t kPredefined[] = {0x03, 0x03, 0x05, 0x03, 0x09, 0x2F};
@@ -54,11 +54,11 @@ struct CrcCode {
   return code;
 }
 
-// One CRC at work, bit by bit, most significant first, as BiSS defines it: not inverted, as stored
-// in SCDATAx (the line carries the inverse).
+// Calculates one CRC bit by bit, most significant bit first, as BiSS defines it. The result is not
+// inverted, as in SCDATAx; the line carries the inverse.
 class CrcShift {
  public:
-  // `polynomial` in full, degree 1..16. Of `start` only as many low bits count as the CRC is wide.
+  // `polynomial` in full, degree 1..16. Only the low bits of `start` count, as many as the CRC has.
   constexpr CrcShift(std::uint32_t polynomial, std::uint16_t start)
       : polynomial_(polynomial),
         top_(std::uint32_t{1} << crc_width_bits(polynomial)),

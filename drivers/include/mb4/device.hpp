@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Layer 3: one chip. The class that most users need.
+// Layer 3: one chip. Most users need only this class.
 
 #ifndef MB4_DEVICE_HPP_
 #define MB4_DEVICE_HPP_
@@ -31,21 +31,22 @@
 
 namespace mb4 {
 
-// What the chip says it is (tables 41, 42, page 31).
+// Identity of the chip (tables 41, 42, page 31).
 struct Identity {
   std::uint8_t version = 0;   // 0x84; a regs::DeviceVersion
-  std::uint8_t revision = 0;  // 0x10 Z, 0x11 Z1, 0x20 Y; others are reported as they are
+  std::uint8_t revision = 0;  // 0x10 Z, 0x11 Z1, 0x20 Y; probe() accepts every value
 };
 
 // One iC-MB4 or compatible chip on an SPI bus.
 //
-// `Bus` and `Clock` obey the contracts in bus.hpp and outlive the Device. No heap, no global state:
-// any number of devices side by side. Size: a Config, two pointers and a few flags.
+// `Bus` and `Clock` obey the contracts in bus.hpp and outlive the Device. A Device uses no heap and
+// no global state, so a program can have any number of them. Size: a Config, pointers and a few
+// flags.
 //
 // Interrupt safety: no call may be interrupted by another call on the same Device, and all calls
 // of one Device belong in one context (main loop or one interrupt). Different devices are
-// independent as far as their buses are. Calls block until their transfers are done; the number of
-// transfers is stated for each.
+// independent if their buses are. Calls block until their transfers are done; the comment of each
+// call states the number of transfers.
 template <typename Bus, typename Clock>
 class Device {
  public:
@@ -68,14 +69,14 @@ class Device {
     return identity;
   }
 
-  // Validates `config` completely, then stops whatever the chip is doing (BREAK, AGS off), writes
-  // all configuration registers, reads them back and compares. Three transfers:
+  // Validates `config` completely, then stops all activity of the chip (BREAK, AGS off), writes all
+  // configuration registers, reads them back and compares them. Three transfers:
   //   0x07  0xF4, 0xF5   BREAK, clock source and interface
-  //   0x02  0xC0..0xF2   everything else; clears SVALID 1 to 8
+  //   0x02  0xC0..0xF2   all other registers; clears SVALID 1 to 8
   //   0x03  0xC0..0xF5   comparison of all bits that can be written, and of VERSION
-  // kInvalidConfig (not touched); kTransport, kNotDetected, kVerify (touched, the
-  // Device counts as not configured). The configuration must not be changed while an encoder frame
-  // is wanted: call it at start-up or between frames. No frame runs here.
+  // Not touched: kInvalidConfig. Touched: kTransport, kNotDetected, kVerify; the Device then counts
+  // as not configured. The call ends a frame that runs and starts none: call it at start-up or
+  // between frames.
   Result<void> configure(const Config& config) {
     if (const Result<void> valid = validate(config); !valid) {
       return valid;
@@ -94,10 +95,11 @@ class Device {
     return {};
   }
 
-  // Reads the configuration back and compares it, as configure() does: has a disturbed transfer or
-  // a supply dip changed it? One transfer (0x03 from 0xC0, 56 bytes), changes nothing. Registers of
-  // control communications are not compared. kNotConfigured (not touched), kTransport;
-  // kNotDetected, kVerify: the Device counts as not configured from now on, configure() again.
+  // Reads the configuration back and compares it as configure() does. It finds a configuration that
+  // a disturbed transfer or a supply dip has changed. One transfer of 56 bytes (0x03 from 0xC0); it
+  // changes nothing in the chip. The registers of control communications are not compared.
+  // kNotConfigured (not touched), kTransport. kNotDetected, kVerify: the Device then counts as not
+  // configured; call configure() again.
   Result<void> verify() {
     if (!chip_.configured) {
       return Error::kNotConfigured;
@@ -110,9 +112,10 @@ class Device {
     return same;
   }
 
-  // BREAK, then all registers of the configuration as after power-on (page 21: all 0), compared.
-  // Three transfers, as configure(). The data memories keep their contents. kTransport,
-  // kNotDetected, kVerify (touched). The Device counts as not configured, whatever comes of it.
+  // Sends BREAK, then writes all registers of the configuration to their value after power-on
+  // (page 21: all 0) and compares them. Three transfers, as configure(). The data memories keep
+  // their contents. kTransport, kNotDetected, kVerify (touched). After the call, with or without
+  // error, the Device counts as not configured.
   Result<void> reset() {
     forget();
     RegisterImage image{};
@@ -120,20 +123,21 @@ class Device {
     return Configuration<Bus, Clock>(chip_).write(image, 0);
   }
 
-  // INIT (page 33), in BiSS C two pulses at MA: waits until the slaves are ready, and returns the
-  // delay of the lines. Without a channel of BiSS C it is the hand-over of BiSS B, with SSI alone
-  // it resets flags only; nothing is measured then. For start-up and after errors: slaves that are
-  // in an undefined state become ready. All error flags return to 1, SVALID to 0. No automatic
-  // frames and no control communication may run.
+  // Runs INIT (page 33): two pulses at MA in BiSS C. The call waits until the slaves are ready and
+  // returns the delay of the lines. Use it at start-up and after errors: slaves that are in an
+  // undefined state become ready. INIT sets all error flags to 1 and SVALID to 0. Without a BiSS C
+  // channel nothing is measured: in BiSS B INIT is the hand-over, with SSI alone it only resets
+  // flags. No automatic frames and no control communication may run.
   //
   // Transfers: 0x02 twice (SCDATA1, SCDATA5 = 0), with BiSS B 0x02 (0xE5), 0x07, 0x05 until INIT =
   // 0 and EOT = 1 within 1343 periods of MA (BiSS B alone: 4096 register clocks) and 200 us, 0x05
-  // until SL is 1, 0x03 for each channel that is measured, 0x02 (SVALID); with SpiCheck::kFull some
-  // are read again.
+  // until SL is 1, 0x03 for each channel that is measured, 0x02 (SVALID). SpiCheck::kFull reads
+  // some of them again.
   //
-  // kNotConfigured, kWrongMode, kBusy (not touched); kTransport, kNotDetected; kTimeout (BREAK was
-  // sent); kLineDelay: beyond 255 quarters of a period; kLineError: SL is stuck low, or in BiSS B
-  // no slave has answered; kNoData: nothing was measured, there is no system clock; kCorrupted.
+  // Not touched: kNotConfigured, kWrongMode, kBusy. Touched: kTransport, kNotDetected; kTimeout
+  // (BREAK was sent); kLineDelay: the delay is more than 255 quarters of a period of MA;
+  // kLineError: SL is stuck low, or in BiSS B no slave has answered; kNoData: nothing was measured,
+  // because the chip has no system clock; kCorrupted.
   Result<LineDelay> initialize() {
     if (const Result<void> allowed = single_frame_allowed(); !allowed) {
       return allowed.failure();
@@ -143,15 +147,17 @@ class Device {
     return done ? Result<LineDelay>(delay) : Result<LineDelay>(done.failure());
   }
 
-  // Requests one frame with CDM = 0, waits for its end and returns the data of `slave` (1..8, must
-  // be an enabled sensor of the configuration).
+  // Requests one frame with CDM = 0, waits for its end and returns the data of `slave` (1..8, an
+  // enabled sensor of the configuration).
   //
-  // Transfers of a good read: 3 + p, where p >= 1 is the number of status polls, with
-  // SpiCheck::kFull at most 4 more (1 for data again where no stored CRC proves it, 1 status behind
-  // the data, 1 or 2 behind the clearing of SVALID); 2 more and 100 us
-  // after a failed read that has made a transfer, because its frame may still run. Each poll is 6
-  // bytes, and p is limited by frame_timeout_us(config): at most t + t/16 + 2 polls for t
-  // microseconds even if the clock stands still. In order:
+  // Transfers of a good read: 3 + p, where p >= 1 is the number of status polls.
+  //  * SpiCheck::kFull adds at most 4: 1 for data again where no stored CRC proves it, 1 status
+  //    after the data, 1 or 2 after SVALID is cleared.
+  //  * After a failed read that has made a transfer, 2 more and 100 us, because its frame may still
+  //    run. BiSS B adds register_timeout_us.
+  //  * Each poll is 6 bytes. frame_timeout_us(config) limits p: at most t + t/16 + 2 polls for t
+  //    microseconds, even if the clock stands still.
+  // In order:
   //   0x07  BREAK, then 100 us for the slaves' timeout  (after a failed read)
   //   0x02  SVALID of the enabled slaves = 0            (after a failed read)
   //   0x07  INSTR = 010
@@ -159,10 +165,10 @@ class Device {
   //   0x09  SCDATA1, 1..8 bytes (0x03 with its address for slaves 2 to 8)
   //   0x02  SVALID of the enabled slaves = 0
   //
-  // kNotConfigured, kInvalidArgument, kWrongMode (automatic frames run), kBusy (not touched);
-  // kTransport; kNotDetected (status cannot be that of an iC-MB4); kTimeout, kLineError (BREAK was
-  // sent); kCrc, kNoData, kCorrupted. A Reading is returned only for a good frame that began after
-  // this request; whether the slave itself trusts its position is Reading::error.
+  // Not touched: kNotConfigured, kInvalidArgument, kWrongMode (automatic frames run), kBusy.
+  // Touched: kTransport; kNotDetected (the status cannot come from an iC-MB4); kTimeout, kLineError
+  // (BREAK was sent); kCrc, kNoData, kCorrupted. The call returns a Reading only for a good frame
+  // that began after this request. Reading::error tells whether the slave trusts its position.
   //
   // Sets HOLDBANK and SWBANK to 0, as any single frame does.
   Result<Reading> read_frame(std::uint8_t slave = 1) {
@@ -175,13 +181,13 @@ class Device {
     return SingleShot<Bus, Clock>(chip_).read(slave);
   }
 
-  // The same for all enabled slaves with one frame. Transfers as for read_frame(), but 1..n for the
-  // data of n slaves (once more as many with SpiCheck::kFull): only the bytes that they need, in as
-  // few bursts as pays; none if no slave is good.
+  // Reads all enabled slaves with one frame. Transfers as for read_frame(), but 1..n for the data
+  // of n slaves; SpiCheck::kFull adds up to n. Only bytes that hold data are read; slaves share a
+  // burst where this needs fewer bytes. No data is read if no slave is good.
   //
-  // Success means that the frame has ended; what became of each slave is in frame[slave]. Errors of
-  // the call are about the whole frame: those of read_frame() except kCrc, kNoData, kCorrupted. On
-  // error `frame` holds no Reading.
+  // Success means that the frame has ended; frame[slave] holds the result of each slave. Errors of
+  // the call concern the whole frame: those of read_frame() except kCrc and kNoData. On error
+  // `frame` holds no Reading.
   Result<void> read_all(Frame& frame) {
     if (const Result<void> allowed = single_frame_allowed(); !allowed) {
       return allowed.failure();
@@ -189,14 +195,19 @@ class Device {
     return SingleShot<Bus, Clock>(chip_).read_all(frame);
   }
 
-  // Gives the actuator `slave` (1..8) the word that it takes with each frame from the next one on:
-  // its low data_bits; the chip adds stop bit and CRC. Transfers: 0x02, 0x07, 0x02, 0x07, with
-  // single_bank only 0x02; with automatic frames 0x07, 0x02, 0x07 for one bank, 0x03 until the end
-  // of a frame has switched, at most for one frame's time and its timeout, and the same for the
-  // other bank. With SpiCheck::kFull all writes are read back.
+  // Writes the word that the chip sends to the actuator `slave` (1..8) with each frame, from the
+  // next frame on. `word` has at most data_bits bits; the chip adds stop bit and CRC.
   //
-  // kNotConfigured, kBusy, kInvalidArgument (no actuator, or the word has more bits; not touched);
-  // kTransport, kNotDetected, kCorrupted (touched: the word may go out or not; write it again).
+  // Transfers; SpiCheck::kFull reads back each write, except the last 0x07 of a bank with automatic
+  // frames, by one more:
+  //   without automatic frames  0x02, 0x07, 0x02, 0x07; with single_bank only 0x02
+  //   with automatic frames     0x07, 0x02, 0x07 for one bank; 0x03 until the end of a frame has
+  //                             switched the banks, at most frame_timeout_us() plus one frame
+  //                             period; 0x07, 0x02, 0x07 for the other bank
+  //
+  // Not touched: kNotConfigured, kBusy, kInvalidArgument (`slave` is no actuator, or the word has
+  // too many bits). Touched: kTransport, kNotDetected, kCorrupted; the chip may send the word or
+  // not, write it again.
   Result<void> write_actuator(std::uint8_t slave, std::uint64_t word) {
     if (const Result<void> allowed = single_frame_allowed();
         !allowed && allowed.error() != Error::kWrongMode) {
@@ -205,16 +216,16 @@ class Device {
     return ActuatorWrite<Bus, Clock>(chip_).write(slave, word, true);
   }
 
-  // Writes BREAK (page 33): aborts a frame, a control communication and AGS at once, MA returns to
-  // 1, the error flags return to 1. One transfer. kTransport. The configuration stays. The next
-  // read gives the slaves 100 us for their timeout first.
+  // Writes BREAK (page 33): it aborts a frame, a control communication and AGS at once; MA and the
+  // error flags return to 1. The configuration stays. One transfer. kTransport. The next read first
+  // waits 100 us for the slaves' timeout.
   Result<void> break_transmission() {
     chip_.recover_first = true;
     chip_.restart = false;
     return chip_.write_break();
   }
 
-  // 0xF0..0xF4 in one transfer; changes nothing. kTransport, kNotDetected.
+  // Reads 0xF0..0xF4 in one transfer; changes nothing. kTransport, kNotDetected.
   Result<Status> read_status() {
     Status status;
     const Result<void> read = chip_.look(status);
@@ -230,13 +241,13 @@ class Device {
     return chip_.clear_valid(static_cast<std::uint8_t>(1U << (slave - 1U)));
   }
 
-  // Frames that come by themselves; see automatic.hpp. Cheap to make, keeps nothing itself.
+  // Automatic frames; see automatic.hpp. The returned object holds only a reference to this Device.
   [[nodiscard]] Automatic<Bus, Clock> automatic() { return Automatic<Bus, Clock>(chip_); }
-  // Registers of the slaves and commands; see control.hpp. Cheap to make, keeps nothing itself.
+  // Registers of the slaves and commands; see control.hpp. The returned object holds only a
+  // reference to this Device.
   [[nodiscard]] Control<Bus, Clock> control() { return Control<Bus, Clock>(chip_); }
 
-  // The lower layers, for what Device does not cover. See their headers for what they do not
-  // protect from.
+  // The lower layers, for what Device does not cover. Their headers state what they do not protect.
   [[nodiscard]] Fields<Bus>& fields() { return fields_; }
   [[nodiscard]] Opcodes<Bus>& opcodes() { return chip_.opcodes; }
 

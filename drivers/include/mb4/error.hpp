@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 
-// The driver's errors, the Config members that they are about, and names for both.
+// The driver's errors, the Config members that they concern, and names for both.
 
 #ifndef MB4_ERROR_HPP_
 #define MB4_ERROR_HPP_
@@ -10,10 +10,10 @@
 
 namespace mb4 {
 
-// Why a call failed. Three groups, by what has happened to the chip:
-//  * "not touched": no SPI transfer was made;
-//  * "read only": the chip was read, nothing in it was changed;
-//  * "touched": something was written, the text says in which state the chip is left.
+// Why a call failed. There are three groups:
+//  * "not touched": the call made no SPI transfer;
+//  * "read only": the call read the chip and changed nothing in it;
+//  * "touched": the call wrote to the chip; the text says in which state the chip is left.
 enum class Error : std::uint8_t {
   // Success; a Result that holds a value reports this.
   kNone = 0,
@@ -21,7 +21,7 @@ enum class Error : std::uint8_t {
   kInvalidArgument = 1,
   // A Config member has an impossible value; ErrorInfo::field and ::number name it. Not touched.
   kInvalidConfig = 2,
-  // The configuration does not allow this call; ErrorInfo names the member that is in the way. Not
+  // The configuration does not allow this call; ErrorInfo names the member that forbids it. Not
   // touched.
   kUnsupported = 3,
   // A frame was requested before configure() has succeeded. Not touched.
@@ -32,8 +32,8 @@ enum class Error : std::uint8_t {
   // the register map (datasheet pages 21, 22) read otherwise. MISO stuck at 0 or at 1, a wrong SPI
   // mode and a missing chip look like this. Read only for probe(); touched for other calls.
   kNotDetected = 6,
-  // Configuration reads back differently; ErrorInfo::address() is the first such register. Touched:
-  // the configuration in the chip must not be used.
+  // The configuration reads back differently; ErrorInfo::address() is the first register that
+  // differs. Touched: the configuration in the chip must not be used.
   kVerify = 7,
   // The frame has not ended in time and SL is not stuck: the slave does not answer or takes longer
   // than the timeout, or the chip has no system clock. Touched: BREAK has been sent, the chip is
@@ -50,37 +50,39 @@ enum class Error : std::uint8_t {
   // The frame ended without an error flag but holds no new data of this slave (SVALIDx = 0).
   // Touched: one frame has run, the chip is idle.
   kNoData = 11,
-  // The chip called the frame good, but what came over SPI contradicts it: bits beyond the data
-  // length are not 0, the stored CRC does not match the data, or (SpiCheck::kFull) reading again
-  // shows something else. Touched as for kCrc.
+  // The chip reported a good frame, but the bytes read over SPI contradict it: bits above the data
+  // length are not 0, the stored CRC does not match the data, or (SpiCheck::kFull) a second reading
+  // differs. Touched as for kCrc.
   kCorrupted = 12,
-  // A register access has failed (nREGERR = 0, page 34): no slave has this ID, or a CRC was wrong,
-  // or the slave did not repeat what was written; or frames hang, because nobody is on the line; or
-  // no slave of BiSS B has entered register mode (nAGSERR = 0).
-  // ErrorInfo::bytes() registers were good. Touched: the access has ended, of a write leading
-  // registers may have changed, the one after ErrorInfo::bytes() even to a third value.
+  // A register access has failed (nREGERR = 0, page 34). Causes: no slave has this ID; a CRC was
+  // wrong; the slave did not repeat the written value; frames do not end because no slave is on the
+  // line; or no slave of BiSS B has entered register mode (nAGSERR = 0).
+  // ErrorInfo::bytes() registers were good. Touched: the access has ended. After a write the first
+  // registers may have changed; the one after ErrorInfo::bytes() may hold neither the old nor the
+  // new value.
   kRegister = 13,
   // The slave has not sent its start bit in time (nDELAYERR = 0, page 34): it does not have this
   // register or takes too long. ErrorInfo::bytes() and state as for kRegister.
   kRegisterDelay = 14,
-  // A command was not acknowledged by the slaves that it addressed (nREGERR = 0, page 34). Touched:
-  // with IDA test it has not been executed, without it may have been.
+  // The addressed slaves did not acknowledge a command (nREGERR = 0, page 34). Touched: with the
+  // IDA test the slaves have not executed it; without the test they may have.
   kCommand = 15,
   // A control communication is running; poll or abort it first. Not touched.
   kBusy = 16,
-  // Automatic frames were asked for but do not run, or run where they must not. Not touched.
+  // The call needs automatic frames and they do not run, or they run and the call forbids them; or
+  // ControlSteps::poll() finds nothing that was begun. Not touched.
   kWrongMode = 17,
-  // The banks were switched while data was read without HOLDBANK, beside a control communication.
-  // Touched: SVALID of one frame is cleared. Nothing is wrong; read again.
+  // During a control communication the driver reads without HOLDBANK, and the chip switched the
+  // banks meanwhile. Touched: SVALID of one frame is cleared. This is no fault; read again.
   kBankSwitched = 18,
-  // INIT: the line delay is beyond 255 quarters of a period of MA (nAGSERR = 0, page 33). Touched:
-  // INIT has ended, the chip is idle.
+  // INIT: the line delay is more than 255 quarters of a period of MA (nAGSERR = 0, page 33).
+  // Touched: INIT has ended, the chip is idle.
   kLineDelay = 19,
-  // PositionTracker: the position has moved further than it can have; no chip is involved.
+  // PositionTracker: the position has moved further than the allowed step. No chip is involved.
   kJump = 20,
 };
 
-// The Config member that an error is about. Values are stable; new ones are added at the end.
+// The Config member that an error concerns. Values are stable; new ones are added at the end.
 enum class ConfigField : std::uint8_t {
   kNone = 0,
   kClkHz,              // Config::f_clk_hz
@@ -107,7 +109,7 @@ enum class ConfigField : std::uint8_t {
   kRegisterTimeoutUs,  // Config::register_timeout_us
 };
 
-// An error with the place it is about. Four bytes, so that it fits a register.
+// An error with the place that it concerns. It has four bytes and fits a processor register.
 struct alignas(4) ErrorInfo {
   Error code = Error::kNone;
   // For kInvalidConfig and kUnsupported; otherwise kNone.

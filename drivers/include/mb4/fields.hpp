@@ -21,13 +21,13 @@ namespace mb4 {
 //   fields.get<mb4::regs::SL1>()
 //   fields.modify<mb4::regs::HOLDCDM, 1>()
 //
-// What must not be written by accident does not compile: read-only fields, values that do not fit
-// (where they are constants), and fields whose register also holds self-clearing or
-// write-zero-clears bits (0xF1, 0xF2, 0xF4), because writing such a register back would start, stop
-// or clear something. Those have calls of their own in Device. ENTEST must stay 0 (page 31).
+// These writes do not compile: read-only fields, constants that do not fit, and fields of 0xF1,
+// 0xF2 and 0xF4. Those registers hold bits that clear themselves or that a 0 clears. Writing such a
+// register back would start, stop or clear something; Device has its own calls for them. ENTEST
+// must stay 0 (page 31).
 //
-// Changes made here are not known to Device: whatever is a member of Config is changed with
-// Device::configure(), or readings would be decoded by the old configuration.
+// Device does not know about changes made here. Change the members of Config with
+// Device::configure(): otherwise Device decodes readings by the old configuration.
 template <typename Bus>
 class Fields {
  public:

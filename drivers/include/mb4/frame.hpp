@@ -23,13 +23,13 @@ namespace mb4 {
 // All slaves of one frame. The caller provides it; about 330 bytes.
 class Frame {
  public:
-  // The result of slave 1..8: a Reading, or what is wrong with it: kCrc, kNoData (no new frame
-  // since the last read, or none for this slave), kCorrupted. kInvalidArgument: not enabled, or an
-  // actuator.
+  // The result of slave 1..8; other numbers are not checked. It is a Reading or an error: kCrc,
+  // kNoData (no new frame since the last read, or none for this slave), kCorrupted.
+  // kInvalidArgument: the slave is not enabled, or it is an actuator.
   [[nodiscard]] const Result<Reading>& operator[](std::size_t slave) const {
     return results_[slave - 1];
   }
-  // As new.
+  // Sets everything to the state after construction.
   void clear() {
     for (Result<Reading>& result : results_) {
       result = kNone;
@@ -38,7 +38,7 @@ class Frame {
   }
   void set(std::size_t slave, const Result<Reading>& result) { results_[slave - 1] = result; }
 
-  // Every slave of `mask` (bit 0 is slave 1) has a Reading.
+  // True when every slave of `mask` (bit 0 is slave 1) has a Reading.
   [[nodiscard]] bool good(std::uint8_t mask) const {
     for (std::size_t slave = 1; slave <= kSlaves; ++slave) {
       if (is_in(mask, static_cast<std::uint8_t>(slave)) && !results_[slave - 1]) {
@@ -62,12 +62,12 @@ namespace detail {
 // SCDATA1 to 8 as fetched; bytes that no slave needs stay 0.
 using DataImage = std::array<std::uint8_t, kSlaves * regs::kScdataStride>;
 
-// What MOSI carries while data is read, with SpiCheck::kFull: should a disturbed bit turn the read
-// into a write, then not into one of zeros, which pass for data with a CRC.
+// The byte on MOSI while data is read with SpiCheck::kFull. A disturbed bit can turn the read into
+// a write. That write must not store zeros, because zeros can pass as data with a CRC.
 inline constexpr std::uint8_t kDataFiller = 0x5A;
 
-// Reads SCDATA from `begin` upwards. From 0x00 on opcode 0x09 is one byte shorter than 0x03 and
-// needs no stretched clock (I204).
+// Reads SCDATA from `begin` upwards. For address 0x00 it uses opcode 0x09, which is one byte
+// shorter than 0x03 and needs no stretched clock (I204).
 template <typename Bus>
 Result<void> read_run(Opcodes<Bus>& opcodes, const Config& config, Span<std::uint8_t> bytes,
                       std::uint8_t begin) {
@@ -76,9 +76,9 @@ Result<void> read_run(Opcodes<Bus>& opcodes, const Config& config, Span<std::uin
                     : opcodes.read_registers(begin, bytes, filler);
 }
 
-// Fetches just the bytes that the slaves of `mask` need: at least one transfer, at most one a
-// slave. Neighbours share a transfer when skipping the bytes between them costs no more than
-// another opcode and address.
+// Reads only the bytes that the slaves of `mask` need: at most one transfer for each slave, none if
+// `mask` is 0. Neighbours share a transfer when the bytes between them cost no more than another
+// opcode and address.
 template <typename Bus>
 Result<void> read_data(Opcodes<Bus>& opcodes, const Config& config, std::uint8_t mask,
                        DataImage& image) {
@@ -86,7 +86,7 @@ Result<void> read_data(Opcodes<Bus>& opcodes, const Config& config, std::uint8_t
   constexpr std::size_t kOutOfReach = 0x100;
   std::size_t begin = 0;
   std::size_t end = 0;
-  // Behind the last slave comes one that is out of reach, so that the last run is read.
+  // The loop ends with a slave number whose address is out of reach, so that the last run is read.
   for (std::uint8_t slave = 1; slave <= kSlaves + 1; ++slave) {
     if (slave <= kSlaves && !is_in(mask, slave)) {
       continue;
@@ -115,8 +115,9 @@ struct FetchedData {
   std::uint8_t stable = 0xFF;  // bit 0 is slave 1
 };
 
-// SpiCheck::kFull: data that nothing else proves. Without a stored CRC that is any data. All zeros
-// and all ones, a line that was stuck for a moment, may pass with one.
+// SpiCheck::kFull: true for data that only a second reading proves. Without a stored CRC this is
+// any data. With a CRC it is all zeros and all ones: a line that was stuck for a moment makes them,
+// and the CRC may accept them.
 [[nodiscard]] constexpr bool needs_second_reading(const Config& config, std::uint8_t slave,
                                                   Span<const std::uint8_t> bytes) {
   const SlaveConfig& slave_config = config.slaves[slave - 1U];
@@ -132,7 +133,7 @@ struct FetchedData {
   return all_or == 0 || all_and == 0xFF;
 }
 
-// read_data(), and with SpiCheck::kFull as many transfers again for what needs it.
+// Calls read_data(). With SpiCheck::kFull it reads the data that needs_second_reading() once more.
 template <typename Bus>
 Result<void> fetch_data(Opcodes<Bus>& opcodes, const Config& config, std::uint8_t mask,
                         FetchedData& data) {
@@ -140,7 +141,7 @@ Result<void> fetch_data(Opcodes<Bus>& opcodes, const Config& config, std::uint8_
   if (!first || config.spi_check != SpiCheck::kFull) {
     return first;
   }
-  // Bytes that are read once more are the same in both images, the others are in neither run.
+  // `second` begins as a copy, so bytes that are not read again are equal in both images.
   DataImage second = data.image;
   std::uint8_t again = 0;
   for (std::uint8_t slave = 1; slave <= kSlaves; ++slave) {
@@ -159,7 +160,7 @@ Result<void> fetch_data(Opcodes<Bus>& opcodes, const Config& config, std::uint8_
   return read;
 }
 
-// The same for one slave, for an interrupt: smaller.
+// As FetchedData, for one slave: it needs less memory and code in an interrupt.
 struct FetchedSlave {
   std::array<std::uint8_t, regs::kScdataStride> bytes{};
   std::uint8_t slave = 1;
@@ -185,13 +186,14 @@ Result<void> fetch_slave(Opcodes<Bus>& opcodes, const Config& config, FetchedSla
   return read;
 }
 
-// What came of one frame.
+// The result of one frame.
 struct Outcome {
-  Status status;          // after the data
+  Status status;          // as read after the data
   std::uint8_t good = 0;  // slaves whose data is new and good; bit 0 is slave 1
 };
 
-// The data of one slave: the eight bytes of SCDATAx, and whether they came twice the same.
+// Decodes the data of one slave. `bytes`: the eight bytes of SCDATAx. `stable`: a second reading,
+// if there was one, was equal.
 inline Result<Reading> decode(const Config& config, std::uint8_t slave, const std::uint8_t* bytes,
                               bool stable) {
   return stable ? decode_reading(config, slave,
@@ -199,7 +201,7 @@ inline Result<Reading> decode(const Config& config, std::uint8_t slave, const st
                 : Result<Reading>(Error::kCorrupted);
 }
 
-// All `slaves` of a frame. `missing`: what is wrong with one that is not good.
+// Decodes all `slaves` of a frame. `missing` is the error of a slave that is not good.
 inline void decode_all(const Config& config, std::uint8_t slaves, const Outcome& outcome,
                        const FetchedData& data, Error missing, Frame& frame) {
   frame.status = outcome.status;

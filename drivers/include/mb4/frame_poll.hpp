@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Layer 4: one slave or all out of automatic frames, held by HOLDBANK or beside a control
-// communication.
+// Layer 4: reads one slave or all slaves from automatic frames, with HOLDBANK, or without it while
+// a control communication runs.
 
 #ifndef MB4_FRAME_POLL_HPP_
 #define MB4_FRAME_POLL_HPP_
@@ -30,9 +30,9 @@ inline constexpr std::uint8_t kHoldAndAgs = regs::AGS::encode<1>() | regs::HOLDB
 
 }  // namespace detail
 
-// Used through Automatic::poll() and poll_slave(), which document order and errors. How data is
-// fetched is handed over as a function, so that an interrupt that reads one slave does not link
-// what reads all, and a program with both has the procedure once.
+// Used through Automatic::poll() and poll_slave(), which document order and errors. The caller
+// passes the function that fetches the data. So a program that reads one slave does not link the
+// code for all slaves, and a program with both has this procedure only once.
 template <typename Bus, typename Clock>
 class FramePoll {
  public:
@@ -40,8 +40,8 @@ class FramePoll {
 
   using Fetch = Result<void> (*)(detail::Chip<Bus, Clock>& chip, void* data);
 
-  // The slaves of `mask`, which deliver data; `fetch` puts it to `data`. `beside_control`: 0xF4
-  // must not be written.
+  // Reads the slaves of `mask`, all sensors; `fetch` stores their bytes in `data`.
+  // `beside_control`: a control communication runs, and 0xF4 must not be written.
   Result<void> read(std::uint8_t mask, bool beside_control, detail::Outcome& out, Fetch fetch,
                     void* data) {
     if (beside_control) {
@@ -57,11 +57,11 @@ class FramePoll {
   }
 
  private:
-  // Beside a control communication the bank is not held. Proof that the data belongs together:
-  // SVALID of all is cleared before the data is read and still 0 afterwards, so no good frame has
-  // ended meanwhile; nSCDERR = 1, so no bad one either. Proof that it is good: that last frame is
-  // the one that was read. The first status is then the only look at SVALID, so that it is taken
-  // twice with SpiCheck::kFull.
+  // While a control communication runs, the bank is not held. Two facts prove that the data belongs
+  // to one good frame. SVALID of all slaves is cleared before the data is read and still 0 after
+  // it, so no good frame has ended meanwhile. nSCDERR is 1, so no bad frame has ended either.
+  // SVALID is then seen only in the first status; with SpiCheck::kFull the driver reads that status
+  // twice.
   Result<void> run(std::uint8_t mask, bool beside_control, detail::Outcome& out, Fetch fetch,
                    void* data) {
     Status& status = out.status;
@@ -70,7 +70,8 @@ class FramePoll {
       if (const Result<void> look = chip_.look(status); !look) {
         return look;
       }
-      // Without HOLDBANK data may be torn, with SWBANK or INIT it is another one.
+      // The chip must hold exactly the byte that was written. Without HOLDBANK the bytes may come
+      // from two frames; with SWBANK or INIT they are other data.
       if (!beside_control && chip_.checks_all() &&
           (status.instruction() | regs::AGS::encode<1>()) != detail::kHoldAndAgs) {
         return Error::kCorrupted;

@@ -82,8 +82,8 @@ inline constexpr std::uint8_t kFreqsCodes = 32;
   return ErrorInfo(Error::kInvalidConfig, ConfigField::kFramePeriodClk, 0);
 }
 
-// Shortest period of table 37, in system clocks, that is not shorter than `period_ns`; 0 when even
-// 80'000 clocks are.
+// Shortest period of table 37, in system clocks, that is at least `period_ns`; 0 when 80'000 clocks
+// are shorter.
 [[nodiscard]] constexpr std::uint32_t frame_period_clk_at_least(std::uint32_t f_clk_hz,
                                                                 std::uint32_t period_ns) {
   std::uint32_t best_clk = 0;
@@ -98,7 +98,8 @@ inline constexpr std::uint8_t kFreqsCodes = 32;
   return best_clk;
 }
 
-// The same for a rate: shortest period whose rate does not exceed `limit_hz`; 0 when there is none.
+// Shortest period of table 37, in system clocks, whose rate does not exceed `limit_hz`; 0 when
+// there is none.
 [[nodiscard]] constexpr std::uint32_t frame_period_clk_at_most_hz(std::uint32_t f_clk_hz,
                                                                   std::uint32_t limit_hz) {
   std::uint32_t best_clk = 0;

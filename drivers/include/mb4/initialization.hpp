@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Layer 3: INIT, which makes the slaves ready and, in BiSS C, measures the lines (pages 32, 33).
+// Layer 3: INIT, which makes the slaves ready and measures the line delay in BiSS C (pages 32, 33).
 
 #ifndef MB4_INITIALIZATION_HPP_
 #define MB4_INITIALIZATION_HPP_
@@ -22,17 +22,18 @@
 
 namespace mb4 {
 
-// What INIT has measured: from the second rising edge of MA to the falling edge of SL, in quarters
-// of a period of MA (page 33). 0 for a channel that is not in use, for SSI, and where no channel
-// speaks BiSS C.
+// The delay that INIT measures, from the second rising edge of MA to the falling edge of SL, in
+// quarters of a period of MA (page 33). 0 for a channel that is not in use, for SSI, and if no
+// channel is BiSS C.
 struct LineDelay {
   std::array<std::uint8_t, kChannels> quarters{};  // [0] is channel 1
 };
 
-// The same in nanoseconds: 4 * ma_hz quarters are a second. The measurement is coarse: the delay is
-// at most this and more than one quarter less. For a valid `config`.
+// The measured delay in nanoseconds. 4 * ma_hz quarters are one second. The measurement has a
+// resolution of one quarter: the real delay is at most this value and more than this value minus
+// one quarter. For a valid `config`.
 [[nodiscard]] constexpr std::uint32_t line_delay_ns(const Config& config, std::uint8_t quarters) {
-  // By a sixteenth of both, so that 32 bits do: 255 * 250'000'000 does not fit.
+  // Both factors are divided by 16 to fit 32 bits: 255 * 250'000'000 does not fit.
   return quarters * 15'625'000U / (config.ma_hz / 16U);
 }
 
@@ -42,7 +43,7 @@ class Initialization {
  public:
   explicit constexpr Initialization(detail::Chip<Bus, Clock>& chip) : chip_(chip) {}
 
-  // The chip is configured, and nothing runs that may.
+  // The chip must be configured, and no frames and no control communication may run.
   Result<void> run(LineDelay& delay) {
     if (chip_.recover_first) {
       if (const Result<void> recovered = chip_.recover(); !recovered) {
@@ -50,7 +51,7 @@ class Initialization {
       }
     }
     chip_.recover_first = true;
-    // SCDATA1 and SCDATA5 = 0, so that an old figure cannot pass for a new one.
+    // SCDATA1 and SCDATA5 become 0, so that an old value cannot look like a new one.
     Result<void> done = write_zero(regs::scdata_address(1));
     if (done) {
       done = write_zero(regs::scdata_address(5));
@@ -105,8 +106,8 @@ class Initialization {
 
   [[nodiscard]] bool measures() const { return any_channel_is(chip_.config, Protocol::kBissC); }
 
-  // The limit of the delay, and of the slaves' timeout after it (docs/choices.md); without BiSS C
-  // that of the hand-over.
+  // Longest time of INIT: the limits of the delay and of the slaves' timeout (docs/choices.md), or,
+  // without BiSS C, the limit of the hand-over.
   [[nodiscard]] std::uint32_t timeout_us() const {
     constexpr std::uint32_t kPeriods = 255 + 64 + 1024;
     const Config& config = chip_.config;
@@ -128,8 +129,8 @@ class Initialization {
         if (status.start_error()) {
           return measures() ? Error::kLineDelay : Error::kLineError;
         }
-        // INIT goes by with a line that is stuck low, too (page 33).
-        // In BiSS B the slaves are in register mode now.
+        // INIT also ends with a line that is stuck low (page 33), so the line is checked here. In
+        // BiSS B the slaves are in register mode now and first need their timeout.
         if (!measures()) {
           detail::pause(*chip_.clock, chip_.recovery_us());
         }

@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 
-// The whole driver. Layers: opcodes (bytes) -> fields (typed bits) -> device (one chip) ->
-// acquisition (frames).
+// Includes the whole driver. Its layers: opcodes (bytes) -> fields (typed bits) -> device (one
+// chip)
+// -> acquisition (frames).
 
 #ifndef MB4_MB4_HPP_
 #define MB4_MB4_HPP_

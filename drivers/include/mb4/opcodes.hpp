@@ -21,14 +21,14 @@ inline constexpr std::size_t kMaxBurstBytes = 64;
 // Longest SPI frame that the bus sees: opcode, address, data.
 inline constexpr std::size_t kMaxTransferBytes = kMaxBurstBytes + 2;
 
-// Bytes in, bytes out; knows nothing of what the registers mean, so it protects no sticky or
+// Transfers bytes. It does not know the meaning of the registers, so it protects no sticky or
 // self-clearing bit. Every call makes exactly one bus transfer, or none when an argument is wrong:
 //   kInvalidArgument  no byte, more than kMaxBurstBytes, or the burst would pass address 0xFF;
 //                     not touched
-//   kTransport        the bus failed; of a write, leading bytes may have taken effect, and of a
-//                     read nothing has been stored to the caller
-// A burst counts the address up by one per byte. Uses up to 2 * kMaxTransferBytes of stack.
-// Not reentrant with another user of the same bus object.
+//   kTransport        the bus failed. The first bytes of a write may have taken effect; a read has
+//                     stored nothing
+// The address rises by one with each byte. A call uses up to 2 * kMaxTransferBytes of stack. No
+// other user of the same bus object may interrupt a call.
 template <typename Bus>
 class Opcodes {
   static_assert(kIsBus<Bus>,
@@ -44,8 +44,8 @@ class Opcodes {
   Result<void> write_registers(std::uint8_t address, Span<const std::uint8_t> data) {
     return write(regs::SpiOpcode::kWriteRegisters, true, address, data);
   }
-  // 0x03: reads from `address` upwards. The bus keeps I204, see bus.hpp. `filler` is what MOSI
-  // carries meanwhile: one disturbed bit makes a write of the opcode, and then that is written.
+  // 0x03: reads from `address` upwards. The bus must keep I204, see bus.hpp. `filler` is the byte
+  // on MOSI meanwhile: if a disturbed bit turns the opcode into a write, the chip stores this byte.
   Result<void> read_registers(std::uint8_t address, Span<std::uint8_t> data,
                               std::uint8_t filler = 0) {
     return read(regs::SpiOpcode::kReadRegisters, true, address, data, filler);

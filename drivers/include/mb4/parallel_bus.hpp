@@ -20,14 +20,13 @@ namespace mb4 {
 //   bool write(std::uint8_t address, std::uint8_t value);
 //   bool read(std::uint8_t address, std::uint8_t& value);
 //
-// * One call is one bus cycle with its address; true when it was made.
-// * The port waits at least five system clocks (0.4 us at 12.5 MHz) after a write to 0xF4 before
-// the
-//   next write to 0xF4: the chip takes two that are closer as one.
+// * One call is one bus cycle with its address. It returns true when the cycle was made.
+// * The port waits at least five system clocks (0.5 us at 10 MHz, the oscillator's lowest) after a
+//   write to 0xF4 before the next write to 0xF4. The chip takes two closer writes as one.
 // * On most processors a cycle is one access to memory that is mapped to the chip.
 //
-// Unknown opcodes do nothing, as on SPI; addresses wrap after 0xFF. A failed cycle ends the frame
-// with false: leading bytes of a write may have taken effect.
+// Unknown opcodes do nothing, as on SPI; addresses wrap after 0xFF. After a failed cycle transfer()
+// returns false at once: the first bytes of a write may have taken effect.
 template <typename Port>
 class ParallelBus {
  public:

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 
-// What to make of a position: sign, Gray code, turns. Plain arithmetic; no chip is involved.
+// Arithmetic on positions: sign, Gray code, turns. No function uses the chip.
 
 #ifndef MB4_POSITION_HPP_
 #define MB4_POSITION_HPP_
@@ -19,8 +19,8 @@ inline constexpr std::uint8_t kMaxPositionBits = 64;
   return bits == 0 ? 0 : ~std::uint64_t{0} >> (kMaxPositionBits - bits);
 }
 
-// A position of `bits` (1..64) bits as two's complement: -2^(bits-1) to 2^(bits-1) - 1. Bits above
-// do not matter. For encoders whose zero lies in the middle of their range.
+// A position of `bits` (1..64) bits as two's complement: -2^(bits-1) to 2^(bits-1) - 1. Higher bits
+// are ignored. For encoders whose zero is in the middle of their range.
 [[nodiscard]] constexpr std::int64_t to_signed(std::uint64_t position, std::uint8_t bits) {
   const std::uint64_t low = position & low_bits(bits);
   if (bits == kMaxPositionBits) {
@@ -51,8 +51,8 @@ struct Turns {
 };
 
 // Splits a position of an encoder that sends the turns first (BiSS profile BP3 and most others):
-// `single_bits` (0..63) low bits are the angle, `multi_bits` above them the turns, together 1..64;
-// bits above do not matter. kInvalidArgument for other figures.
+// `single_bits` (0..63) low bits are the angle, the next `multi_bits` are the turns, together
+// 1..64. Higher bits are ignored. kInvalidArgument for other numbers of bits.
 [[nodiscard]] constexpr Result<Turns> split_turns(std::uint64_t position, std::uint8_t multi_bits,
                                                   std::uint8_t single_bits) {
   if (single_bits >= kMaxPositionBits || multi_bits + single_bits < 1 ||
@@ -65,23 +65,25 @@ struct Turns {
   return turns;
 }
 
-// Counts on where the encoder rolls over: a 17-bit single-turn encoder becomes a position of any
-// number of turns, as long as it moves less than half its range between two calls. No heap, no
-// clock; one object per encoder.
+// Extends a position across the roll-over of the encoder: a 17-bit single-turn encoder gives a
+// position over any number of turns. The encoder must move less than half its range between two
+// calls. It uses no heap and no clock; one object serves one encoder.
 //
 //   mb4::PositionTracker tracker(26);
 //   const mb4::Result<std::int64_t> total = tracker.update(reading.position);
 class PositionTracker {
  public:
-  // `bits` of the position, 1..64, and the largest step to be believed, 1 to 2^(bits-1) - 1; 0
-  // means that largest one. A smaller one finds more jumps. update() reports wrong figures.
+  // `bits`: length of the position, 1..64. `max_step`: largest allowed step between two calls, 1 to
+  // 2^(bits-1) - 1; 0 = 2^(bits-1) - 1. A smaller value finds more jumps. update() reports values
+  // that are out of range.
   constexpr explicit PositionTracker(std::uint8_t bits, std::uint64_t max_step = 0)
       : max_step_(max_step), bits_(bits) {}
 
-  // Total since the first call, which returns the position itself (unsigned). kJump: moved further
-  // than max_step, or the total would leave 64 bits; the tracker stays where it was, so that one
-  // bad position does no harm. After a pause in which turns may have been lost use reset().
-  // kInvalidArgument: bits or max_step cannot be, or `position` has more than `bits` bits.
+  // Returns the total position. The first call returns `position` itself (unsigned). kJump: the
+  // position has moved more than max_step, or the total does not fit 64 bits. The tracker keeps its
+  // state on an error, so one bad position does no harm. Call reset() after a pause in which turns
+  // may be lost. kInvalidArgument: bits or max_step is out of range, or `position` has more than
+  // `bits` bits.
   [[nodiscard]] constexpr Result<std::int64_t> update(std::uint64_t position) {
     if (bits_ < 1 || bits_ > kMaxPositionBits || max_step_ > low_bits(bits_) / 2 ||
         (position & ~low_bits(bits_)) != 0) {
@@ -97,7 +99,7 @@ class PositionTracker {
     const std::uint64_t down = (last_ - position) & low_bits(bits_);
     const bool downward = down < up;
     const std::uint64_t step = downward ? down : up;
-    // Exactly half the range may be either way.
+    // Half the range exactly could be a step up or down, so it is a jump.
     const std::uint64_t limit = max_step_ != 0 ? max_step_ : low_bits(bits_) / 2;
     if (step > limit) {
       return Error::kJump;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 
-// What one frame delivered, and its decoding from the bytes of SCDATAx.
+// The data of one frame, and its decoding from the bytes of SCDATAx.
 
 #ifndef MB4_READING_HPP_
 #define MB4_READING_HPP_
@@ -19,8 +19,8 @@ namespace mb4 {
 // The data of one slave from one good frame. Exists only if the chip and the driver found the frame
 // good; a bad frame is an error, never a Reading.
 struct Reading {
-  // All data bits, right aligned: position, of Gray code as the chip has converted it, and flags as
-  // they were sent.
+  // All data bits, right aligned: the position (Gray code as the chip has converted it) and the
+  // flags as the slave sent them.
   std::uint64_t raw = 0;
   // The data bits without the flag bits, right aligned.
   std::uint64_t position = 0;
@@ -44,8 +44,8 @@ struct Reading {
 
 namespace detail {
 
-// CRC of the data bits as they were on the line, which is Gray code again where the chip has
-// converted it.
+// CRC of the data bits as they were on the line. Where the chip has converted Gray code, the bits
+// are converted back.
 constexpr std::uint16_t crc_on_line(const SlaveConfig& slave, Span<const std::uint8_t> bytes) {
   CrcShift shift(slave.crc_polynomial, slave.crc_start);
   unsigned above = 0;
@@ -89,7 +89,7 @@ constexpr std::uint16_t crc_on_line(const SlaveConfig& slave, Span<const std::ui
   }
   reading.position = reading.raw;
   if (slave_config.flags == Flags::kErrorWarning) {
-    // The chip converts flags along with a position in Gray code.
+    // With Gray code the chip converts the flags together with the position.
     const unsigned sent = slave_config.gray ? bytes[0] ^ (bytes[0] >> 1) : bytes[0];
     reading.error = (sent & 2U) == 0;
     reading.warning = (sent & 1U) == 0;

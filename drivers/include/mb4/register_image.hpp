@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 
-// A Config as the bytes that go into the chip. Used by Device; of use to others only for showing or
-// storing a register image.
+// Encodes a Config as the bytes of the chip's registers. Device uses it; others need it only to
+// show or to store a register image.
 
 #ifndef MB4_REGISTER_IMAGE_HPP_
 #define MB4_REGISTER_IMAGE_HPP_
@@ -17,9 +17,9 @@
 
 namespace mb4 {
 
-// First and last register of the configuration burst. The range includes the constant REVISION and
-// VERSION, and ends behind the SVALID flags: chip and datasheet ignore writes to read-only bits
-// (page 21), so one burst sets everything and also clears the flags of old data.
+// First and last register of the configuration burst. The range includes the constant registers
+// REVISION and VERSION, and it ends with the SVALID flags. The chip ignores writes to read-only
+// bits (page 21), so one burst sets all registers and also clears the flags of old data.
 inline constexpr std::uint8_t kImageFirst = regs::kAddrSlaveCfg;
 inline constexpr std::uint8_t kImageLast = regs::kAddrSvalidHi;
 inline constexpr std::size_t kImageBytes = kImageLast - kImageFirst + 1;
@@ -73,7 +73,7 @@ constexpr std::uint8_t encode_freqr(const Config& config) {
   return static_cast<std::uint8_t>(crc_width_bits(config.register_divider) - 1);
 }
 
-// 0xE5 at rest: what frames and INIT need of it.
+// 0xE5 while no control communication runs: the bits that frames and INIT need.
 constexpr std::uint8_t encode_ctrl(const Config& config, bool biss_b) {
   return static_cast<std::uint8_t>(regs::REGVERS::insert(0, biss_b ? 0 : 1) |
                                    regs::EN_MO::insert(0, config.mo ? 1 : 0) |
@@ -101,7 +101,8 @@ constexpr std::uint8_t encode_ctrl(const Config& config, bool biss_b) {
   detail::put<regs::FREQAGS>(image, detail::encode_freqags(config));
   image[regs::kAddrMoBusy - kImageFirst] = config.mo_busy;
   image[regs::kAddrActnsens - kImageFirst] = actuators(config);
-  // Bit 0 of 0xEC is constant 1 (table 6); writing what it reads keeps the comparison simple.
+  // Bit 0 of 0xEC is constant 1 (table 6). The image holds this 1, so that the comparison needs no
+  // exception.
   image[regs::kAddrSlaveloc5 - kImageFirst] = kSlaveloc5Constant;
   detail::put<regs::SLAVELOC5>(image, channels_are_split(config)
                                           ? regs::SlaveLocation::kSplit
@@ -111,7 +112,8 @@ constexpr std::uint8_t encode_ctrl(const Config& config, bool biss_b) {
   return image;
 }
 
-// Register 0xF5 for a valid `config`: clock source and interface; MA not forced, no factory test.
+// Register 0xF5 for a valid `config`: clock source and interface. MA is not forced and the factory
+// test is off.
 [[nodiscard]] constexpr std::uint8_t encode_interface(const Config& config) {
   const std::uint8_t byte =
       regs::CFGIF::insert(0, static_cast<std::uint8_t>(config.line_interface));

@@ -16,8 +16,8 @@ namespace mb4 {
 
 namespace detail {
 
-// An ErrorInfo in one word: compilers take four members apart and put them together again at every
-// return, which made a tenth of the driver's size.
+// An ErrorInfo in one word. With four members compilers split and join them at every return, which
+// was a tenth of the driver's size.
 constexpr std::uint32_t pack(ErrorInfo info) {
   return static_cast<std::uint32_t>(info.code) | static_cast<std::uint32_t>(info.field) << 8U |
          std::uint32_t{info.number} << 16U | std::uint32_t{info.detail} << 24U;
@@ -32,7 +32,7 @@ constexpr ErrorInfo unpack(std::uint32_t packed) {
 
 }  // namespace detail
 
-// The error of one Result on its way to be that of another.
+// The error of one Result, to be passed on in a Result of another type.
 struct Failure {
   std::uint32_t packed;
 };
@@ -42,7 +42,8 @@ template <typename T>
 class [[nodiscard]] Result {
  public:
   constexpr Result(T value) : value_(std::move(value)) {}
-  // `error.code` must not be kNone: that would claim a value that does not exist.
+  // `error.code` must not be kNone, because there is no value; the program stops (trap
+  // instruction).
   constexpr Result(ErrorInfo error) : packed_(detail::pack(error)) {
     require(error.code != Error::kNone);
   }

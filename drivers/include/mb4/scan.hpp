@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Who is on the bus: counts the slaves of a channel and reads what they say about themselves.
+// Scans a channel: counts its slaves and reads their identities.
 
 #ifndef MB4_SCAN_HPP_
 #define MB4_SCAN_HPP_
@@ -21,7 +21,7 @@ namespace mb4 {
 inline constexpr std::uint8_t kRegisterEdsBank = 0x41;
 inline constexpr std::uint8_t kRegisterDeviceId = 0x78;  // six bytes, then two of the manufacturer
 
-// What one slave ID answers. Raw bytes in the order of their addresses.
+// The identity registers of one slave ID: raw bytes in the order of their addresses.
 struct SlaveIdentity {
   std::array<std::uint8_t, 6> device_id{};     // 0x78..0x7D, ASCII by custom
   std::array<std::uint8_t, 2> manufacturer{};  // 0x7E, 0x7F
@@ -45,16 +45,20 @@ Result<void> read_twice(Device& device, SlaveAddress slave, std::uint8_t address
 
 }  // namespace detail
 
-// Asks ID 0, 1, ... of `channel` (1 or 2) until one does not answer (IDs have no gaps), and stores
-// what up to out.size() of them say. Returns how many answered, 0..8. A device with several IDs
-// counts as often. Works with any Config of that channel whose length settings are right, or with
-// no slave enabled, Config::hold_cdm and automatic frames of FrameStart::kPeriodic, whose period is
-// longer than the slaves' timeout. Two register accesses a slave, two more for the end; a register
-// that a slave does not have costs the chip's limit, about 26 ms at f_MA = 10 MHz.
+// Reads ID 0, 1, ... of `channel` (1 or 2) until an ID does not answer; IDs have no gaps. Stores
+// the identities of the first out.size() IDs. Returns how many have answered, 0..8. A device with
+// several IDs counts once for each ID.
 //
-// Errors of Control::read_registers(), but kRegister only if a slave answered and did so wrongly
-// twice, and kRegisterDelay never. BiSS B is kUnsupported as well: there a slave that is missing
-// looks like one without the register.
+// The Config of that channel must have the right data lengths. Or no slave is enabled, with
+// Config::hold_cdm and automatic frames of FrameStart::kPeriodic, whose period is longer than the
+// slaves' timeout.
+//
+// Two register accesses for each slave, two more for the end. A register that a slave does not have
+// takes the chip's time limit, about 26 ms at f_MA = 10 MHz.
+//
+// Errors of Control::read_registers(), except kRegisterDelay. kRegister: a slave has answered
+// wrongly twice. kUnsupported also for BiSS B, where a missing slave looks like a slave without the
+// register.
 template <typename Device>
 Result<std::uint8_t> scan_bus(Device& device, std::uint8_t channel, Span<SlaveIdentity> out) {
   if (channel >= 1 && channel <= kChannels &&
@@ -73,7 +77,7 @@ Result<std::uint8_t> scan_bus(Device& device, std::uint8_t channel, Span<SlaveId
       return named.failure();
     }
     identity.has_identity = named.ok();
-    // Zeros if it has not been read.
+    // `bytes` is all zeros if the read failed.
     for (std::size_t i = 0; i < identity.device_id.size(); ++i) {
       identity.device_id[i] = bytes[i];
     }

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 
-// A view of contiguous memory: pointer and length. C++17 has no std::span, and a freestanding
-// library need not have one.
+// A view of contiguous memory: pointer and length. C++17 and many freestanding libraries have no
+// std::span.
 
 #ifndef MB4_SPAN_HPP_
 #define MB4_SPAN_HPP_

@@ -14,8 +14,8 @@
 
 namespace mb4 {
 
-// 0xF0..0xF4 as read in one SPI frame. Flag names say the active meaning: `scd_error()` is true
-// when nSCDERR reads 0.
+// 0xF0..0xF4 as read in one SPI frame. The names state the active meaning: `scd_error()` is true
+// when nSCDERR is 0.
 class Status {
  public:
   static constexpr std::size_t kBytes = regs::kAddrInstr - regs::kAddrStatus0 + 1;
@@ -35,19 +35,20 @@ class Status {
   [[nodiscard]] constexpr bool idle() const { return get<regs::EOT>() == 1; }
   // No instruction waits for its frame or is being executed (INSTR = 0).
   [[nodiscard]] constexpr bool instruction_done() const { return get<regs::INSTR>() == 0; }
-  // A frame could not be started (nAGSERR = 0). On a chip that indicates each write of 0xF4 by
-  // nAGSERR (page 34 can be read so) this is true after every request, also of a good frame.
+  // A frame could not be started (nAGSERR = 0). Page 34 can be read so that a chip sets nAGSERR = 0
+  // at each write of 0xF4. On such a chip this is true after every request, also of a good frame.
   [[nodiscard]] constexpr bool start_error() const { return get<regs::nAGSERR>() == 0; }
   // A CRC of the last frame was wrong (nSCDERR = 0).
   [[nodiscard]] constexpr bool scd_error() const { return get<regs::nSCDERR>() == 0; }
-  // Control communication: ended (REGEND = 1), with or without success.
+  // The control communication has ended (REGEND = 1), with or without success.
   [[nodiscard]] constexpr bool control_ended() const { return get<regs::REGEND>() == 1; }
-  // The last one has failed (nREGERR = 0); the slave's start bit did not come (nDELAYERR = 0).
+  // control_error(): the last control communication has failed (nREGERR = 0). delay_error(): the
+  // slave's start bit did not come (nDELAYERR = 0).
   [[nodiscard]] constexpr bool control_error() const { return get<regs::nREGERR>() == 0; }
   [[nodiscard]] constexpr bool delay_error() const { return get<regs::nDELAYERR>() == 0; }
   // NER is low (nERR = 0): one of the chip's errors, or another device on that pin.
   [[nodiscard]] constexpr bool ner_low() const { return get<regs::nERR>() == 0; }
-  // SVALIDx of slave 1..8, of the bank that the host reads.
+  // SVALIDx of `slave` (1..8, not checked), of the bank that the host reads.
   [[nodiscard]] constexpr bool valid(std::uint8_t slave) const {
     return (bytes_[regs::kFamilySvalid.address(slave) - regs::kAddrStatus0] &
             regs::kFamilySvalid.mask(slave)) != 0;
@@ -61,7 +62,7 @@ class Status {
     bits = (bits & 0x0303U) | (bits & 0x3030U) >> 2U;
     return static_cast<std::uint8_t>((bits & 0x0FU) | (bits & 0x0F00U) >> 4U);
   }
-  // The other way round: 0xF2 and 0xF1 (high and low byte) for a mask of slaves.
+  // The reverse of valid_mask(): 0xF2 and 0xF1 (high and low byte) for a mask of slaves.
   [[nodiscard]] static constexpr std::uint16_t valid_registers(std::uint8_t mask) {
     unsigned bits = (mask & 0x0FU) | (mask & 0xF0U) << 4U;
     bits = (bits & 0x0303U) | (bits & 0x0C0CU) << 2U;
@@ -79,7 +80,7 @@ class Status {
            (bytes_[regs::kAddrSvalidHi - regs::kAddrStatus0] & kSvalidZeros) == 0;
   }
 
-  // 0xF4 as a whole: what is left of the instruction, HOLDBANK, AGS.
+  // The byte of 0xF4: the instruction bits that have not returned to 0, HOLDBANK, AGS.
   [[nodiscard]] constexpr std::uint8_t instruction() const { return bytes_[kBytes - 1]; }
 
   [[nodiscard]] constexpr const std::array<std::uint8_t, kBytes>& bytes() const { return bytes_; }

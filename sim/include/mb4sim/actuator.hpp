@@ -1,8 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The receiving half of an actuator on a bus with MO (iC-MB4 Rev D2, pages 15, 25, 31): what its
-// shift register holds when the frame has ended is its word, if the CRC says so.
+// The receiving half of an actuator on a bus with MO. When a frame ends, the word in the shift
+// register becomes the actuator's word if stop bit and CRC are right.
+//
+// Source: iC-MB4 Rev D2, pages 15, 25, 31.
 #ifndef MB4SIM_ACTUATOR_HPP_
 #define MB4SIM_ACTUATOR_HPP_
 
@@ -15,7 +17,8 @@ namespace mb4::sim {
 
 class Actuator {
  public:
-  // End of a frame; `data` holds stop bit (if it is longer by one bit), data and inverted CRC.
+  // A frame has ended. `data` holds data and inverted CRC. If it is one bit longer, it begins with
+  // the stop bit.
   void take(const ShiftRegister& data, unsigned data_bits, const Crc& crc) {
     const std::size_t first = data.size() - data_bits - crc.width();
     std::uint64_t word = 0;
@@ -34,16 +37,16 @@ class Actuator {
       ++words_;
     }
   }
-  // The word it has before the first one arrives.
+  // Sets the word that the actuator has before the first one arrives.
   void preset(std::uint64_t word) { word_ = word; }
 
-  // Last good word, and how many of them have come.
+  // The last good word, and the number of good words so far.
   std::uint64_t word() const { return word_; }
   std::uint64_t words() const { return words_; }
-  // Words with a wrong CRC, and such with a stop bit that is 1: not taken.
+  // Number of words that were not taken: with a wrong CRC, and with a stop bit of 1.
   std::uint64_t crc_errors() const { return crc_errors_; }
   std::uint64_t stop_errors() const { return stop_errors_; }
-  // CRC bits of the last word, good or bad, as they stood on the line.
+  // The CRC bits of the last word as they were on the line. The word may be good or bad.
   std::uint32_t line_crc() const { return line_crc_; }
 
  private:

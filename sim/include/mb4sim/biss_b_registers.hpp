@@ -1,13 +1,19 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Register mode of a BiSS B slave (iC-MB4 Rev D2, pages 13, 16, 30; docs/choices.md for what its
-// missing figures leave open). A bit cell of MA begins with its rising edge: high for 25 % of it is
-// 0, for 75 % is 1. The address part: start bit 1, ID, address, WNR, inverted CRC, stop bit 0. A
-// write goes on with start bit 1, data, inverted CRC, stop bit 0 for each byte, which the slave
-// sends back one cell later. For a read MA only clocks: the slave sends 0 while it is busy, then
-// the same fields. Addresses count up. Strict, as ControlSlave is: after a mistake of the master
-// the slave is silent until register mode ends.
+// Register mode of a BiSS B slave.
+//
+// A bit cell of MA begins with its rising edge. MA is high for 25 % of a 0 and for 75 % of a 1.
+//
+//   address part  start bit 1, ID, address, WNR, inverted CRC, stop bit 0
+//   write         for each byte start bit 1, data, inverted CRC, stop bit 0. The slave sends these
+//                 bits back one cell later.
+//   read          MA only clocks. The slave sends 0 while it is busy, then the same fields.
+//
+// Addresses count up. The slave is strict, as ControlSlave is: after a mistake of the master it is
+// silent until register mode ends.
+//
+// Source: iC-MB4 Rev D2, pages 13, 16, 30; docs/choices.md for figures that these pages leave open.
 #ifndef MB4SIM_BISS_B_REGISTERS_HPP_
 #define MB4SIM_BISS_B_REGISTERS_HPP_
 
@@ -20,15 +26,15 @@
 
 namespace mb4::sim {
 
-// A missing register is never answered.
+// Configuration of the register mode. The slave never answers an access to a missing register.
 struct BissBRegisterConfig : RegisterFile::Layout {
   bool present = true;  // false: the device has no registers and answers nothing
   unsigned ids = 1;     // 1 to 8 slave IDs in a row
-  // First ID in a point-to-point connection: number of IDs behind the slave, which is 0 for the
-  // last one. With MO the chip itself is ID 0 and all slaves come one later.
+  // First ID of the slave in a point-to-point connection: the number of IDs behind the slave, 0 for
+  // the last slave. With MO the chip itself is ID 0, so the IDs of all slaves are one higher.
   unsigned first_id = 0;
   BusyTime read_busy;   // before the start bit of each byte read, in periods of the register clock
-  BusyTime store_busy;  // after each byte written; a write that comes too early is not answered
+  BusyTime store_busy;  // after each byte written; an earlier write is not answered
 };
 
 class BissBRegisters {
@@ -36,24 +42,24 @@ class BissBRegisters {
   BissBRegisters(const BissBRegisterConfig& config, RegisterFile& registers)
       : config_(config), registers_(registers) {}
 
-  // Register mode begins, selected by MO or by the timeout.
+  // Register mode begins. `by_mo`: MO has selected it, else the timeout.
   void begin(bool by_mo);
   void ma_edge(Time now, bool ma);
-  // The timeout has ended it.
+  // The timeout has ended register mode.
   void end();
 
-  // What the slave itself puts on the line.
+  // Level that the slave itself puts on the line.
   bool out() const { return out_; }
-  // Rising edges of MA since begin().
+  // Number of rising edges of MA since begin().
   std::uint64_t cells() const { return cells_; }
   const ControlCounters& counters() const { return counters_; }
-  // One bit less in the CRC of data read: wrong. Makes no answer at all if silent.
+  // `wrong`: the last CRC bit of data read is inverted. `silent`: the slave does not answer at all.
   void set_wrong_data_crc(bool wrong) { wrong_data_crc_ = wrong; }
   void set_silent(bool silent) { silent_ = silent; }
 
  private:
   enum class State {
-    kOff,  // not addressed, or no longer taking part
+    kOff,  // not addressed, or no longer part of the access
     kStart,
     kHeader,
     kHeaderStop,

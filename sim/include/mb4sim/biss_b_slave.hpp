@@ -1,10 +1,14 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// A BiSS B sensor (iC-MB4 Rev D2, pages 12, 13, 16). Its frame is that of BiSS C without CDS and
-// CDM. MA that stays low behind the first falling edge until the sensor timeout selects register
-// mode, which the slave confirms with SLO = 0; on a bus, so does MO if it falls just before the
-// first falling edge. Register mode ends when MA has rested for the register timeout.
+// A BiSS B sensor. Its frame is that of BiSS C without CDS and CDM.
+//
+// Two events select register mode. If MA stays low after the first falling edge until the sensor
+// timeout, the slave confirms register mode with SLO = 0. On a bus MO selects it by a fall just
+// before the first falling edge of MA. Register mode ends when MA has rested for the register
+// timeout.
+//
+// Source: iC-MB4 Rev D2, pages 12, 13, 16.
 #ifndef MB4SIM_BISS_B_SLAVE_HPP_
 #define MB4SIM_BISS_B_SLAVE_HPP_
 
@@ -26,11 +30,12 @@ struct BissBSlaveConfig : SensorConfig {
   }
 
   SlaveTimeout timeout;  // of sensor mode
-  // Of register mode; 0: 1.5 periods of the register clock, measured in the start bit, until then
-  // `register_initial`.
+  // Timeout of register mode, ps. 0: 1.5 periods of the register clock, measured in the start bit;
+  // before that `register_initial`.
   Time register_timeout = 0;
   Time register_initial = 1000 * kPsPerUs;
-  unsigned busy_periods = 0;  // periods of MA between acknowledge and start bit beyond one
+  unsigned busy_periods = 0;        // periods of MA between acknowledge and start bit beyond one
+  bool passes_acknowledge = false;  // as in BissCSlaveConfig
   BissBRegisterConfig access;
 };
 
@@ -50,7 +55,7 @@ class BissBSlave final : public Slave {
   const BissBSlaveConfig& config() const { return config_; }
   bool is_last() const { return is_last_; }
   bool in_register_mode() const { return state_ == State::kRegister; }
-  // Times register mode was selected by the timeout, and by MO.
+  // How often the timeout has selected register mode, and how often MO has.
   std::uint64_t handshakes() const { return handshakes_; }
   std::uint64_t mo_selections() const { return mo_selections_; }
   BissBRegisters& access() { return access_; }
@@ -72,11 +77,11 @@ class BissBSlave final : public Slave {
   bool is_last_ = true;
   bool sli_ = false;
   bool sli_was_low_ = false;  // since the acknowledge
-  Time sli_fell_ = kNever;    // kNever: has not yet
+  Time sli_fell_ = kNever;    // kNever: it has not fallen yet
   std::uint64_t word_ = 0;
   unsigned busy_left_ = 0;
   Time last_edge_ = 0;
-  Time first_cell_ = 0;       // beginning of the first cell of register mode
+  Time first_cell_ = 0;       // start of the first cell of register mode
   Time register_period_ = 0;  // its length; 0: not measured yet
   TimeoutClock timeout_;
   ShiftRegister shift_;

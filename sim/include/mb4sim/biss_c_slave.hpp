@@ -1,13 +1,19 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// A BiSS C sensor or actuator. It follows the frame of the datasheet's BiSS C chapter (iC-MB4 Rev
-// D2, page 15, figures 11 and 12): on the first falling edge of MA it looks at SLI to learn whether
-// it is the last slave, latches on the first rising edge, acknowledges on the second, and after its
-// busy periods sends start bit, CDS, data and inverted CRC, MSB first. A slave that is not the last
-// one, because others or pin MO drive its SLI, passes the start bit on. As part of a chain it is a
-// shift register of its own length, unless a command has switched its data channel off: then it
-// passes SLI on. CDS and CDM go to its ControlSlave.
+// A BiSS C sensor or actuator. It follows the frame of the datasheet's BiSS C chapter:
+//
+//   first falling edge of MA   SLI = 0 tells the slave that it is the last one
+//   first rising edge          the slave latches its word
+//   second rising edge         the slave acknowledges
+//   after its busy periods     start bit, CDS, data and inverted CRC, MSB first
+//
+// SLI of a slave that is not the last one comes from another slave or from pin MO. Such a slave
+// passes the start bit on, and also the acknowledge if `passes_acknowledge` is set. In a chain the
+// slave is a shift register of its own length. If a command has switched its data channel off, it
+// passes SLI on instead. ControlSlave handles CDS and CDM.
+//
+// Source: iC-MB4 Rev D2, page 15, figures 11 and 12.
 #ifndef MB4SIM_BISS_C_SLAVE_HPP_
 #define MB4SIM_BISS_C_SLAVE_HPP_
 
@@ -28,13 +34,16 @@ struct BissCSlaveConfig : SensorConfig {
 
   SlaveTimeout timeout;
   unsigned busy_periods = 0;  // periods of MA between acknowledge and start bit beyond one
+  // true: SLO of a slave that is not the last one stays SLI from the request to the start bit.
+  // false: the second rising edge of MA makes SLO 0, whatever SLI is.
+  bool passes_acknowledge = false;
   ControlConfig control;
-  // An actuator: takes the word that MO brings for it and sends the one it had before. Its source
-  // is what it holds at first.
+  // An actuator takes the word that MO brings for it and sends the word that it had before.
+  // `source` gives the first of these.
   bool actuator = false;
   bool stop_bit = true;  // actuator: a 0 precedes its data (LSTOP)
 
-  // Length of the data channel on the line.
+  // Length of the data channel on the line, in bits.
   unsigned channel_bits() const { return word_bits() + (actuator && stop_bit ? 1U : 0U); }
 };
 
@@ -54,11 +63,11 @@ class BissCSlave final : public Slave {
   const Actuator* actuator() const override { return config_.actuator ? &actuator_ : nullptr; }
 
   const BissCSlaveConfig& config() const { return config_; }
-  // Level found at SLI at the start of the last frame was 0.
+  // SLI was 0 at the start of the last frame.
   bool is_last() const { return is_last_; }
-  // Word latched for the current or last frame.
+  // The word latched for the current or last frame.
   std::uint64_t latched() const { return word_; }
-  // Timeout that applies to the current or last frame, ps.
+  // The timeout of the current or last frame, ps.
   Time timeout() const { return timeout_.value(); }
 
  private:

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// How long a slave is busy with a register, in frames or in time, and the timer for it.
+// How long a slave is busy with a register, in frames and in time, and a timer for it.
 #ifndef MB4SIM_BUSY_TIME_HPP_
 #define MB4SIM_BUSY_TIME_HPP_
 
@@ -11,21 +11,21 @@
 
 namespace mb4::sim {
 
-// Frames and time both have to pass; kForever frames never do.
+// The slave is ready when both the frames and the time have passed. kForever frames never pass.
 struct BusyTime {
   static constexpr std::uint32_t kForever = UINT32_MAX;
   std::uint32_t frames = 0;
-  Time time = 0;
+  Time time = 0;  // ps
 };
 
 class BusyTimer {
  public:
-  // `extra` frames on top of those of `busy`.
+  // Starts to wait for `busy` and `extra` more frames. The time counts from `now`.
   void start(Time now, const BusyTime& busy, std::uint32_t extra = 0) {
     until_ = now + busy.time;
     left_ = busy.frames == BusyTime::kForever ? busy.frames : busy.frames + extra;
   }
-  // A frame has passed.
+  // One frame has passed.
   void frame() {
     if (left_ != 0 && left_ != BusyTime::kForever) --left_;
   }

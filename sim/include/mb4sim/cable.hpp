@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What a real cable with its transceivers does to the edges beside delaying them, and what happens
-// to it at given times. Plain data: Wire and Line act on it.
+// The imperfections of a real cable and its transceivers other than delay, and events at given
+// times. These are plain data: Wire and Line apply them.
 #ifndef MB4SIM_CABLE_HPP_
 #define MB4SIM_CABLE_HPP_
 
@@ -13,15 +13,16 @@
 
 namespace mb4::sim {
 
-// One direction. All zero: an ideal wire.
+// Faults of one direction. With all members 0 the wire is ideal.
 struct WireFaults {
-  // Peak to peak: every edge comes 0 to `jitter` ps later, evenly spread, each on its own. So two
-  // edges deviate from one another by at most `jitter`: the quantity of item I305.
+  // Jitter, peak to peak, ps: every edge comes 0 to `jitter` later, evenly spread, independent of
+  // the other edges. So two edges deviate from one another by at most `jitter`. This is the
+  // quantity of item I305.
   Time jitter = 0;
-  // Duty distortion: falling edges come this much later than rising ones; negative: rising later.
+  // Duty distortion, ps: falling edges come later by this. A negative value delays rising edges.
   std::int64_t skew = 0;
   // Glitches: the level is inverted for `glitch_width` ps, on average `glitches_per_s` times a
-  // second, whatever else is going on. 0 = none.
+  // second, independent of the edges. 0 = none.
   std::uint64_t glitches_per_s = 0;
   Time glitch_width = 0;
 
@@ -30,7 +31,7 @@ struct WireFaults {
 
 struct CableEvent {
   enum class Action {
-    kUnplug,  // both pairs open at the slaves' end: they see MA = 1, the chip sees `open_level`
+    kUnplug,  // both pairs open at the slaves' end: the slaves see MA = 1, the chip `open_level`
     kPlug,
     kSlLow,  // pin SL shorted
     kSlHigh,
@@ -39,18 +40,18 @@ struct CableEvent {
     kMaHigh,
     kMaFree,
   };
-  Time time = 0;
+  Time time = 0;  // since power-on, ps
   Action action = Action::kUnplug;
 };
 
 struct CableConfig {
   WireFaults ma;           // chip to slaves
   WireFaults sl;           // slaves to chip
-  bool open_level = true;  // what the chip's receiver makes of an open SL pair
+  bool open_level = true;  // level that the chip's receiver gives for an open SL pair
   std::vector<CableEvent> events;
-  // Bus connection: MO is wired to SLI of the last slave, which else is tied to 0.
+  // Bus connection: MO is wired to SLI of the last slave. Without it this SLI is tied to 0.
   bool mo = false;
-  Time mo_late = 0;  // edges of MO arrive at the slaves this much later than those of MA, ps
+  Time mo_late = 0;  // how much later than MA an edge of MO arrives at the slaves, ps
 };
 
 }  // namespace mb4::sim

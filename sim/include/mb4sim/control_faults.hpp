@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Faults of control communication in one slave. A faulty bit is inverted once. Slots count from the
-// start bit S (slot 0) that really was on the line, so a fault can hit S itself; see
-// control_slots.hpp.
+// start bit S that really was on the line (slot 0), so a fault can hit S itself. control_slots.hpp
+// lists the slots.
 #ifndef MB4SIM_CONTROL_FAULTS_HPP_
 #define MB4SIM_CONTROL_FAULTS_HPP_
 
@@ -16,15 +16,15 @@ namespace mb4::sim {
 
 class ControlFaults {
  public:
-  // The slave takes the CDM of the n-th frame from now inverted (1 = running or next frame).
+  // The slave takes the CDM of the n-th frame from now inverted. 1 = the running or next frame.
   void flip_cdm_of_frame(unsigned n) { flip_frame_ = n; }
   // The slave takes the CDM of this slot of the next control frame inverted.
   void flip_cdm_in_slot(unsigned slot) {
     flip_cdm_slot_ = slot;
     watch();
   }
-  // The slave sends the CDS of this slot (1 or more) of the next control frame inverted, its own
-  // bit and that of the slaves behind it.
+  // The slave sends the CDS of this slot (1 or more) of the next control frame inverted. This CDS
+  // is its own bit combined with those of the slaves behind it.
   void flip_cds_in_slot(unsigned slot) {
     flip_cds_slot_ = slot;
     watch();
@@ -35,27 +35,28 @@ class ControlFaults {
   // The CRC of data read is wrong by one bit.
   void set_wrong_data_crc(bool wrong) { wrong_data_crc_ = wrong; }
   bool wrong_data_crc() const { return wrong_data_crc_; }
-  // The slave answers accesses and commands to the ID behind each of its own instead of these.
+  // The slave answers accesses and commands to the ID that follows each of its own IDs, and not
+  // those to its own IDs.
   void set_wrong_id(bool wrong) { wrong_id_ = wrong; }
   bool wrong_id() const { return wrong_id_; }
-  // False once every slot fault has happened.
+  // False when every slot fault has happened.
   bool pending() const { return flip_frame_ != 0 || flip_cdm_slot_ || flip_cds_slot_; }
 
   // --- slave's side --------------------------------------------------------------------------
-  // The level of CDM that the slave takes instead of `cdm`.
+  // Returns the level of CDM that the slave takes instead of `cdm`.
   bool take_cdm(bool cdm);
-  // True if the CDS bit now sent has to be inverted.
+  // True if the CDS bit that is sent now must be inverted.
   bool flip_cds();
 
  private:
-  // Slots count from the next start bit on.
+  // The next start bit begins a new count of slots.
   void watch() { slot_.reset(); }
 
   unsigned flip_frame_ = 0;
   std::optional<unsigned> flip_cdm_slot_;
   std::optional<unsigned> flip_cds_slot_;
   std::optional<unsigned> slot_;  // of the last CDM
-  unsigned zeros_ = 0;            // CDM = 0 in a row on the line
+  unsigned zeros_ = 0;            // number of CDM = 0 in a row on the line
   bool silent_ = false;
   bool wrong_data_crc_ = false;
   bool wrong_id_ = false;

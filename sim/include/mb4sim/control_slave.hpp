@@ -1,10 +1,12 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The slave's side of BiSS C control communication (iC-MB4 Rev D2, pages 27 to 29): one CDM bit in
-// and one CDS bit out per frame. step() takes the CDM at the end of a frame and prepares the CDS of
-// the next one; cds() gives it when that frame asks for it. Strict on purpose: a master that breaks
-// the protocol gets no further answer in that control frame, and counters say so.
+// The slave's side of BiSS C control communication: one CDM bit in and one CDS bit out per frame.
+// step() takes the CDM at the end of a frame and prepares the CDS of the next frame. cds() returns
+// this CDS. The slave is strict on purpose: a master that breaks the protocol gets no further
+// answer in that control frame, and a counter shows the mistake.
+//
+// Source: iC-MB4 Rev D2, pages 27 to 29.
 #ifndef MB4SIM_CONTROL_SLAVE_HPP_
 #define MB4SIM_CONTROL_SLAVE_HPP_
 
@@ -22,10 +24,10 @@ struct ControlConfig : RegisterFile::Layout {
   unsigned ids = 1;     // 1 to 8 slave IDs that the device locks
   BusyTime read_busy;   // before the data of each read
   BusyTime write_busy;  // before the data of each write
-  BusyTime store_busy;  // after each write: the next access has to wait for it
+  BusyTime store_busy;  // after each write: the next access waits for it
 };
 
-// What arrived, for tests.
+// Counts of what has arrived, for tests.
 struct ControlCounters {
   std::uint64_t starts = 0;           // start bits after 14 zeros
   std::uint64_t reads = 0;            // registers read, last CRC bit sent
@@ -33,8 +35,8 @@ struct ControlCounters {
   std::uint64_t commands = 0;         // commands executed
   std::uint64_t aborts = 0;           // control frames ended by 14 zeros before their end
   std::uint64_t header_errors = 0;    // header CRC wrong
-  std::uint64_t data_errors = 0;      // CRC of written data wrong: not written
-  std::uint64_t protocol_errors = 0;  // a bit that has to be 0 or 1 was not
+  std::uint64_t data_errors = 0;      // CRC of written data wrong: the register keeps its value
+  std::uint64_t protocol_errors = 0;  // a bit that must be 0 or 1 had the other level
 };
 
 // An executed BiSS command.
@@ -48,21 +50,20 @@ class ControlSlave {
   ControlSlave(const ControlConfig& config, RegisterFile& registers)
       : config_(config), registers_(registers) {}
 
-  // The device's CDS bit of this frame, to be ORed by the caller to the one that comes from the
-  // slave behind.
+  // The device's CDS bit of this frame. The caller ORs it with the bit from the slave behind.
   bool cds() const;
-  // End of the CDS bit, called once a frame; `sli` is what came from the slave behind.
+  // The CDS bit ends. Called once a frame; `sli` is the bit from the slave behind.
   void end_cds(bool sli);
-  // End of a frame: the CDM bit it carried.
+  // A frame ends. `cdm` is the CDM bit that it carried.
   void step(Time now, bool cdm);
 
-  // Effects of commands. After power-on both are active.
+  // Effects of commands. Both are active after power-on.
   bool data_active() const { return data_active_; }
   bool control_active() const { return control_active_; }
-  // Bus coupler: recorded only.
+  // State of the bus coupler. It is recorded and has no effect.
   bool coupler_on_line() const { return coupler_on_line_; }
 
-  // IDs locked in the running or last control frame: bit k = ID k.
+  // The IDs that are locked in the running or last control frame: bit k = ID k.
   unsigned ids() const { return ids_; }
   const ControlCounters& counters() const { return counters_; }
   const BissCommand& last_command() const { return command_; }
@@ -70,12 +71,12 @@ class ControlSlave {
 
  private:
   enum class State {
-    kIdle,    // outside a control frame, or no longer taking part in it
+    kIdle,    // outside a control frame, or no longer part of it
     kHeader,  // up to the last CRC bit
     kRead,
     kWrite,
     kStart,  // S of the first byte
-    kBusy,   // S seen, own S not yet sent
+    kBusy,   // S seen, the slave's own S not yet sent
     kData,
     kStop,
     kNext,  // S of the next byte or the end
@@ -95,7 +96,7 @@ class ControlSlave {
   void break_off();
   unsigned answered_ids() const;
   bool may_lock() const { return locked_ < config_.ids && control_active_; }
-  // Between the header of a command and EX, where zeros do not count.
+  // True between the header of a command and EX, where zeros do not count.
   bool before_ex() const { return state_ == State::kCommand && ex_slot_ == 0; }
   static Cds bit(bool level) { return level ? Cds::kOne : Cds::kZero; }
 

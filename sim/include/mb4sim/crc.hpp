@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Cyclic redundancy check of a BiSS data channel. Bits go in MSB first; the start value is loaded
-// directly (16-bit register of the datasheet, low bits used); the line carries the inverted value.
+// Cyclic redundancy check of a BiSS data channel. Bits go in MSB first. The start value is loaded
+// directly: it is the datasheet's 16-bit register, of which the low bits count. The line carries
+// the inverted CRC.
 #ifndef MB4SIM_CRC_HPP_
 #define MB4SIM_CRC_HPP_
 
@@ -16,9 +17,9 @@ struct Crc {
 
   // Degree of the polynomial, 0 to 16; 0 without CRC.
   unsigned width() const;
-  // CRC of the low `bits` (1 to 64) bits of `data`, not inverted. 0 without CRC.
+  // Returns the CRC of the low `bits` (1 to 64) bits of `data`, not inverted. 0 without a CRC.
   std::uint32_t compute(std::uint64_t data, unsigned bits) const;
-  // What goes over the wire after the data: the CRC inverted, width() bits.
+  // Returns what the line carries after the data: the inverted CRC, width() bits.
   std::uint32_t line_bits(std::uint64_t data, unsigned bits) const;
 };
 

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The events of one simulator, in order of time. Events of the same time run in the order in which
-// they were posted, so a run never depends on addresses or on a hash.
+// The events of one simulator in order of time. Events of the same time run in the order in which
+// they were posted. So a run never depends on addresses or on a hash.
 #ifndef MB4SIM_EVENT_QUEUE_HPP_
 #define MB4SIM_EVENT_QUEUE_HPP_
 
@@ -18,10 +18,10 @@ namespace mb4::sim {
 
 class EventQueue {
  public:
-  // Called with the time of the event, the receiver and the word given to post().
+  // An event calls this with its time, and with the receiver and the word given to post().
   using Handler = void (*)(Time now, void* receiver, std::uint64_t word);
 
-  // The fast form: posts no allocation once the queue has grown. The receiver must outlive the
+  // The fast form. It allocates no memory once the queue has grown. The receiver must outlive the
   // event. A time in the past is an error of the caller (asserted).
   void post(Time time, Handler handler, void* receiver, std::uint64_t word = 0);
 
@@ -30,7 +30,7 @@ class EventQueue {
 
   bool empty() const { return size() == 0; }
   std::size_t size() const { return few_size_ + heap_.size(); }
-  // Time of the earliest event, kNever if there is none.
+  // Time of the earliest event, or kNever without an event.
   Time next_time() const {
     const Time few = few_size_ == 0 ? kNever : few_[few_size_ - 1].time;
     return heap_.empty() || few < heap_.front().time ? few : heap_.front().time;
@@ -57,8 +57,8 @@ class EventQueue {
   void to_heap(const Event& event);
   static void run_callback(Time now, void* receiver, std::uint64_t slot);
 
-  // Most of the time there are a few events, and new ones come soon: these stand in a row, the
-  // earliest last. Whatever finds no room there goes into the heap.
+  // Usually there are few events, and new ones are due soon. `few_` holds these in a sorted row,
+  // the earliest one last. An event that finds no room in it goes into the heap.
   std::array<Event, kFew> few_;
   std::size_t few_size_ = 0;
   std::vector<Event> heap_;

@@ -30,37 +30,37 @@ enum class FaultKind {
   kClockStop,
 };
 
-// As in the scenario: "bit-flip", ...
+// Name of a fault as in the scenario: "bit-flip", ...
 std::string_view to_string(FaultKind kind);
-// Happens at once and is over; the others last.
+// True for a fault that has no duration: bit-flip, glitch, abort.
 bool is_momentary(FaultKind kind);
 
 struct FaultConfig {
   FaultKind kind = FaultKind::kGlitch;
-  unsigned channel = 0;  // 1 or 2; of slaves as well; 0: host and clock
+  unsigned channel = 0;  // 1 or 2, also for a slave's fault; 0: host and clock
   unsigned slave = 0;    // as in SCDATAx; 0: none
   bool on_ma = false;    // glitch, stuck, jitter: MA at the slaves instead of SL at the chip
   bool level = false;    // stuck
   Time width = 0;        // glitch, jitter, ps
   std::uint64_t hz = 0;  // clock-frequency
-  // bit-flip: bits of the frame as in SlFaults; abort: one number, clocks of SCLK. Empty: random.
+  // bit-flip: bits of the frame as in SlFaults. abort: one number of SCLK clocks. Empty: random.
   std::vector<unsigned> bits;
-  unsigned frame_bits = 1;  // random bits of bit-flip are below it
+  unsigned frame_bits = 1;  // a random bit of bit-flip is below this number
 
-  std::vector<Time> at;    // since power-on; empty: random
-  double per_s = 0;        // random: mean rate
-  Time from = 0;           // random: not before
-  Time to = kNever;        // random: not behind
-  Time duration = kNever;  // kNever: to the end
+  std::vector<Time> at;    // times since power-on, ps; empty: random times
+  double per_s = 0;        // random: average number in a second
+  Time from = 0;           // random: no fault before this time
+  Time to = kNever;        // random: no fault after this time
+  Time duration = kNever;  // ps; kNever: to the end
 
-  unsigned line = 0;  // of the scenario file
+  unsigned line = 0;  // line of the table in the scenario file
 };
 
-// A fault that has happened.
+// A fault that has happened. Times are in ps since power-on.
 struct FaultRecord {
   std::size_t config = 0;  // index into Scenario::faults
   Time begin = 0;
-  Time end = kNever;  // of one that lasts: kNever until it is over
+  Time end = kNever;  // of a fault with a duration: kNever until it is over
   std::string what;   // "glitch of 10 ns on SL of channel 1"
 };
 

@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Makes the faults of a scenario happen, at their times or at random, and keeps a record of each.
-// Overlapping faults of one table last until the last is over; of two tables at one place the first
-// end counts.
+// Makes the faults of a scenario happen, at fixed or at random times, and keeps a record of each.
+// If faults of one table overlap, the fault lasts until the last of them is over. If faults of two
+// tables do the same at one place, the first end stops both.
 #ifndef MB4SIM_FAULT_INJECTOR_HPP_
 #define MB4SIM_FAULT_INJECTOR_HPP_
 
@@ -25,14 +25,14 @@ class Simulator;
 
 class FaultInjector {
  public:
-  // Posts the first event of each fault. All references outlive the injector; it has to exist
-  // before time begins.
+  // Posts the first event of each fault. All references must outlive the injector. The injector
+  // must exist before time begins.
   FaultInjector(Simulator& simulator, EventQueue& queue, ChipModel& chip,
                 const std::vector<FaultConfig>& faults, std::uint64_t seed);
   FaultInjector(const FaultInjector&) = delete;
   FaultInjector& operator=(const FaultInjector&) = delete;
 
-  // In the order of their beginning.
+  // The faults so far, in the order in which they began.
   const std::vector<FaultRecord>& records() const { return records_; }
 
  private:
@@ -41,7 +41,7 @@ class FaultInjector {
     std::size_t config;
     Random random;
     std::vector<std::size_t> lasting;  // records that are not over
-    WireFaults ma_before;              // jitter: what the cable is like without it
+    WireFaults ma_before;              // jitter: faults of the cable without this jitter
     WireFaults sl_before;
   };
 

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// One physical channel outside the chip: cable out (MA, MO), the slaves, cable back (SL), with a
-// monitor at the chip's MA pin and the faults of the line.
+// One physical channel outside the chip: the cable out (MA, MO), the slaves and the cable back
+// (SL). It has a monitor at the chip's MA pin and the faults of the line.
 #ifndef MB4SIM_LINE_HPP_
 #define MB4SIM_LINE_HPP_
 
@@ -30,45 +30,48 @@ class Line {
   // Called after any change at the slaves' end of the cable.
   using Probe = void (*)(Time now, void* receiver);
 
-  // `round_trip` is the delay from pin MA to the slaves and back to pin SL in ps: half of it each
-  // way, an odd picosecond on the way back. `cable`: what happens beside that, random with `seed`;
-  // its events are posted at once.
+  // `round_trip` is the delay in ps from pin MA to the slaves and back to pin SL. Each way takes
+  // half of it, and an odd picosecond is added on the way back. `cable` holds the faults of the
+  // cable; `seed` is the seed of their random values. The events of `cable` are posted at once.
   Line(EventQueue& queue, Time round_trip, Output output, void* receiver,
        const CableConfig& cable = {}, std::uint64_t seed = 0);
   Line(const Line&) = delete;
   Line& operator=(const Line&) = delete;
 
-  // Levels of the chip's MA and MO pins; MO counts only in a bus connection.
+  // Sets the levels of the chip's MA and MO pins. MO has an effect only in a bus connection.
   void drive(Time now, bool ma, bool mo);
   // Applies a changed SlFaults::stick().
   void refresh(Time now) { set_pin(now, received_); }
 
-  // --- the cable, for edges that leave from now on --------------------------------------------
+  // --- the cable; changes are valid for edges that leave from now on --------------------------
   Time round_trip() const { return out_.delay() + back_.delay(); }
+  // Round trip in ps, as in the constructor.
   void set_round_trip(Time round_trip);
-  // Jitter and skew of either direction (the rate of glitches stays as it was constructed).
+  // Jitter and skew of both directions. The rate of glitches keeps its constructed value.
   void set_faults(const WireFaults& ma, const WireFaults& sl);
   const WireFaults& ma_faults() const { return out_.faults(); }
   const WireFaults& sl_faults() const { return back_.faults(); }
   // One glitch of `width` ps at the slaves' MA or at the chip's SL.
   void glitch_ma(Time now, Time width) { out_.glitch(now, width); }
   void glitch_sl(Time now, Time width) { back_.glitch(now, width); }
-  // One of the things that can happen to a cable, now.
+  // Makes one cable event happen now.
   void act(Time now, CableEvent::Action action);
   bool plugged() const { return plugged_; }
 
-  // For waveforms; at most one.
+  // The probe is for waveforms. There is at most one.
   void set_probe(Probe probe, void* receiver) {
     probe_ = probe;
     probe_receiver_ = receiver;
   }
 
-  // For recordings; at most one. MA and MO are called when either may have changed.
+  // The tap is for recordings. There is at most one. It is called for MA and MO when either of them
+  // may have changed.
   void set_tap(Tap tap, void* receiver) {
     tap_ = tap;
     tap_receiver_ = receiver;
   }
 
+  // Level of the chip's SL pin.
   bool sl() const { return pin_; }
   SlaveChain& chain() { return chain_; }
   const SlaveChain& chain() const { return chain_; }
@@ -88,8 +91,8 @@ class Line {
   void send_back(Time now);
   void set_pin(Time now, bool level);
 
-  Wire out_;      // bit 0 is MA; MO rides along, so that no fault lets it overtake MA
-  Wire mo_late_;  // how much later MO is
+  Wire out_;      // bit 0 is MA; MO is another bit, so that no fault lets it overtake MA
+  Wire mo_late_;  // the extra delay of MO
   Wire back_;
   SlaveChain chain_;
   MaMonitor monitor_;
@@ -106,9 +109,9 @@ class Line {
   bool ma_arrived_ = true;  // levels at the slaves' end of the cable
   bool mo_arrived_ = false;
   bool mo_leaving_ = false;  // level of MO put into mo_late_
-  bool driving_ = false;     // inside SlaveChain::drive(): SLO is sent when it has settled
-  bool sent_ = true;         // level put into the way back
-  bool received_ = true;     // level that came out of it
+  bool driving_ = false;     // inside SlaveChain::drive(): SLO is sent after it has settled
+  bool sent_ = true;         // level sent into the way back
+  bool received_ = true;     // level that has come out of it
   bool pin_ = true;
 };
 

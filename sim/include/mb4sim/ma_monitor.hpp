@@ -1,9 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Watches MA of one line at the chip's pin: edges of each frame, widths of its levels and what MA
-// does in the timeout. It needs no knowledge of the slaves: a frame starts with a falling edge
-// after a rest, and a rest is 1.5 periods (falling #1 to rising #2 of the frame) without an edge.
+// Watches MA of one line at the chip's pin: the edges of each frame, the widths of its levels and
+// MA in the timeout. The monitor needs nothing from the slaves. A frame starts with a falling edge
+// after a rest. A rest is 1.5 periods without an edge. The monitor measures them in the frame, from
+// its first falling to its second rising edge.
 #ifndef MB4SIM_MA_MONITOR_HPP_
 #define MB4SIM_MA_MONITOR_HPP_
 
@@ -14,7 +15,8 @@
 
 namespace mb4::sim {
 
-// One frame as seen on MA. Widths are between two edges inside the frame; 0 if there was none.
+// One frame as seen on MA, times in ps. A width lies between two edges inside the frame; 0 if there
+// was no such level.
 struct MaFrame {
   Time start = 0;  // first falling edge
   Time last_edge = 0;
@@ -24,17 +26,17 @@ struct MaFrame {
   Time max_high = 0;
   Time min_low = 0;
   Time max_low = 0;
-  // Rest behind the frame: level and how long it has lasted (until the next edge, or until now).
+  // Rest after the frame: its level, and its duration until the next edge or until now.
   bool rest_level = true;
   Time rest = 0;
 };
 
 class MaMonitor {
  public:
-  // Rest that ends a frame which has not reached its second rising edge.
+  // Duration of the rest that ends a frame without a second rising edge, ps.
   static constexpr Time kUnmeasuredRest = 40 * kPsPerUs;
 
-  // Inline: it is called at every edge.
+  // This function is inline because it is called at every edge.
   void edge(Time now, bool level) {
     if (level == level_) return;
     level_ = level;
@@ -54,11 +56,11 @@ class MaMonitor {
     }
   }
 
-  // Frames that have started.
+  // Number of frames that have started.
   std::uint64_t frames() const { return frames_; }
   // True while a frame is being clocked.
   bool running(Time now) const { return active_ && now < current_.last_edge + rest_limit(); }
-  // The last frame whose clock has ended, or the running one if it is the first.
+  // The last frame whose clock has ended. If there is none yet, the running frame.
   MaFrame last(Time now) const;
 
  private:
@@ -71,7 +73,7 @@ class MaMonitor {
   Time rest_limit() const { return rest_limit_ == 0 ? kUnmeasuredRest : rest_limit_; }
 
   std::uint64_t frames_ = 0;
-  bool active_ = false;  // current_ has started and no rest was seen at an edge since
+  bool active_ = false;  // current_ has started, and since then no rest was seen at an edge
   bool level_ = true;
   Time rest_limit_ = 0;
   MaFrame current_;

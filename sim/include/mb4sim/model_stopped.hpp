@@ -10,12 +10,12 @@
 
 namespace mb4::sim {
 
-// Thrown out of any call that lets time pass. The chip must not be evaluated again: every later
-// call that would do so throws the same error.
+// Every call that lets time pass can throw this. After that the chip must not be evaluated again:
+// every later call that would do so throws the same error.
 class ModelStopped : public std::runtime_error {
  public:
   ModelStopped(const char* file, int line, const char* hierarchy);
-  // A check of the simulator's own; `what` is one line.
+  // For a check inside the simulator; `what` is one line.
   explicit ModelStopped(const std::string& what) : std::runtime_error(what) {}
 };
 

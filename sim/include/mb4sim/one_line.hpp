@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Text from files and users inside messages.
+// Makes text from files and users safe to print inside a message.
 #ifndef MB4SIM_ONE_LINE_HPP_
 #define MB4SIM_ONE_LINE_HPP_
 
@@ -10,7 +10,8 @@
 
 namespace mb4::sim {
 
-// `text` (UTF-8) with its control characters escaped: \n, \r, \t, else \x and two hex digits.
+// Returns `text` (UTF-8) with its control characters escaped: \n, \r, \t, else \x and two hex
+// digits.
 std::string one_line(std::string_view text);
 
 }  // namespace mb4::sim

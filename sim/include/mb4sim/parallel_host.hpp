@@ -1,8 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// A processor on the parallel bus, every edge at its own time. Limits: iC-MB4 Rev D2, items I001 to
-// I016 (Intel 8051) and I101 to I114 (Motorola 68HC11).
+// A processor on the parallel bus. Every edge has its own time.
+//
+// Source of the limits: iC-MB4 Rev D2, items I001 to I016 (Intel 8051), I101 to I114 (Motorola
+// 68HC11).
 #ifndef MB4SIM_PARALLEL_HOST_HPP_
 #define MB4SIM_PARALLEL_HOST_HPP_
 
@@ -15,8 +17,8 @@ namespace mb4::sim {
 
 enum class ParallelMode { kIntel, kMotorola };
 
-// Phases of a bus cycle in the order in which they follow each other, ps. The defaults are the
-// shortest that the datasheet allows.
+// Phases of a bus cycle in their order, ps. The defaults are the shortest times that the datasheet
+// allows.
 struct ParallelTiming {
   Time ale_high = 15'000;  // I002, I102; address, NCS and ALE begin together (I001, I004: 10 ns)
   Time address_hold = 15'000;   // I003, I103, from ALE falling
@@ -27,8 +29,8 @@ struct ParallelTiming {
   Time hold = 10'000;           // I006, I010, I012, I016, I106, I108, I114, from the strobe's end
   Time release = 25'000;        // I009, I111: the chip lets go of the data bus after a read
 
-  // A bus whose cycles follow each other every `cycle` ps (not below the shortest read): what is
-  // left goes to the address phase and to the strobe, half each.
+  // Timing of a bus that begins a cycle every `cycle` ps, which must not be below the shortest
+  // read. Half of the remaining time is added to the address phase, half to the strobe.
   static ParallelTiming for_cycle(Time cycle);
   Time read_cycle() const;
   Time write_cycle() const;
@@ -39,11 +41,11 @@ class ParallelHost {
   ParallelHost(HostPins& pins, ParallelMode mode, const ParallelTiming& timing)
       : pins_(pins), mode_(mode), timing_(timing) {}
 
-  // One bus cycle each; returns when NCS is high again and the next cycle may begin.
+  // One bus cycle each. The calls return when NCS is high again and the next cycle may begin.
   void write(std::uint8_t address, std::uint8_t value);
   std::uint8_t read(std::uint8_t address);
 
-  // Levels between cycles; the straps too.
+  // Sets the levels between cycles, and the straps.
   void rest();
 
   ParallelMode mode() const { return mode_; }

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The pins of the chip by their datasheet names (iC-MB4 Rev D2, page 3) and what the board does to
-// the ones nobody drives.
+// The pins of the chip by their datasheet names (iC-MB4 Rev D2, page 3), and the level of a pin
+// that nobody drives.
 #ifndef MB4SIM_PINS_HPP_
 #define MB4SIM_PINS_HPP_
 
@@ -23,7 +23,7 @@ enum class Pin {
   kNcs,
   kAle,
   kNrdRnw,
-  kNwrE,  // kAle is SCLK with SPI
+  kNwrE,  // with SPI, kAle is SCLK
   kCfgspi,
   kIntNmot,
   kNres,
@@ -39,10 +39,28 @@ enum class Pin {
   kMo2,  // outputs from here on
 };
 
-// "NCS", "ALE", "SL2_NSL1", ...; also "SCLK", "MOSI", "MISO" and the short "SL2", "MA2", "MO2".
+// Returns the pin of a name such as "NCS", "ALE", "SL2_NSL1". "SCLK", "MOSI", "MISO" and the short
+// "SL2", "MA2", "MO2" are names too. Nothing for any other name.
 std::optional<Pin> pin_by_name(std::string_view name);
 
 constexpr bool is_output(Pin pin) { return pin >= Pin::kEot; }
+
+// Level of an input that nobody drives. The chip pulls up NCS, NRD_RNW and NWR_E (A07), SL1 and
+// SL2_NSL1 (B01), and NER (C07). It pulls down CFGSPI, INT_NMOT, ALE and DB7..0 (A06), GETSENS
+// (C06), CLK (D06) and NRES (E07).
+constexpr bool pulled_up(Pin pin) {
+  switch (pin) {
+    case Pin::kNcs:
+    case Pin::kNrdRnw:
+    case Pin::kNwrE:
+    case Pin::kSl1:
+    case Pin::kSl2:
+    case Pin::kNer:
+      return true;
+    default:
+      return false;
+  }
+}
 
 }  // namespace mb4::sim
 

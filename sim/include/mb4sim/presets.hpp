@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Encoders by name: lengths, CRC and timing as their makers publish them.
+// Encoders by name, with lengths, CRC and timing as their makers publish them.
 #ifndef MB4SIM_PRESETS_HPP_
 #define MB4SIM_PRESETS_HPP_
 
@@ -24,7 +24,7 @@ struct Preset {
   };
   std::string_view name;
   std::string_view description;
-  // data_bits = 0: the user has to give the length.
+  // data_bits = 0: the user must give the length.
   std::variant<BissCSlaveConfig, BissBSlaveConfig, SsiSlaveConfig> device;
   std::vector<RegisterRun> registers;
 };
@@ -32,7 +32,7 @@ struct Preset {
 // All presets, in the order in which they are listed to the user.
 std::span<const Preset> presets();
 
-// Null if there is no preset of this name.
+// Returns null if there is no preset of this name.
 const Preset* preset_by_name(std::string_view name);
 
 }  // namespace mb4::sim

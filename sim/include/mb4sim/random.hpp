@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Random numbers from one seed (SplitMix64): the same on every machine, unlike the distributions
-// of the standard library.
+// Random numbers from one seed (SplitMix64). They are the same on every machine. The distributions
+// of the standard library are not.
 #ifndef MB4SIM_RANDOM_HPP_
 #define MB4SIM_RANDOM_HPP_
 
@@ -29,7 +29,7 @@ class Random {
   std::uint64_t state_;
 };
 
-// A seed of its own for part `part` of something that has seed `seed`.
+// Returns a separate seed for part `part` of something that has seed `seed`.
 inline std::uint64_t derive_seed(std::uint64_t seed, std::uint64_t part) {
   return Random(seed ^ (part * 0xD1B54A32D192ED03U)).next();
 }

@@ -1,10 +1,15 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The registers of a slave as the seven address bits of a BiSS register access reach them
-// (standard window of BiSS C slaves: 0x00-0x3F selected bank, 0x40 bank select, 0x41 EDS bank,
-// 0x42-0x43 profile, 0x44-0x47 serial number, 0x48-0x77 device, 0x78-0x7D device ID, 0x7E-0x7F
-// manufacturer). A device with several IDs has 128 registers an ID, one block behind the other.
+// The registers of a slave. The seven address bits of a BiSS register access reach a window of 128,
+// the standard window of BiSS C slaves:
+//
+//   0x00-0x3F  selected bank        0x44-0x47  serial number
+//   0x40       bank select          0x48-0x77  device
+//   0x41       EDS bank             0x78-0x7D  device ID
+//   0x42-0x43  profile              0x7E-0x7F  manufacturer
+//
+// A device with several IDs has 128 registers for each ID, in the order of the IDs.
 #ifndef MB4SIM_REGISTER_FILE_HPP_
 #define MB4SIM_REGISTER_FILE_HPP_
 
@@ -26,18 +31,18 @@ class RegisterFile {
   using Banks = std::map<std::uint8_t, Bank>;
   using Marks = std::bitset<kSize>;
 
-  // What a device is made with.
+  // What the user chooses for a device.
   struct Layout {
-    // Banks 1 to 255 that exist; bank 0 is registers 0x00 to 0x3F. Without any, 0x40 is an ordinary
-    // register and bank 0 is always selected.
+    // Banks 1 to 255 that exist. Bank 0 is registers 0x00 to 0x3F. If there are no other banks,
+    // 0x40 is an ordinary register and bank 0 is always selected.
     Banks banks;
-    // Registers that do not exist, and those that take no write, by the address that the master
-    // sees; below 0x40 in every bank.
+    // Registers that do not exist, and registers that take no write, by the address that the master
+    // sees. Below 0x40 a mark counts in every bank.
     Marks missing;
     Marks write_protected;
   };
 
-  // Back door: bank 0, all addresses below kSize valid, whatever is marked.
+  // Access from outside the bus: bank 0, every address below kSize. Marks have no effect.
   std::uint8_t get(std::size_t address) const { return bytes_[address]; }
   void set(std::size_t address, std::uint8_t value) { bytes_[address] = value; }
 
@@ -45,15 +50,16 @@ class RegisterFile {
   void set_missing(const Marks& missing) { layout_.missing = missing; }
   const Banks& banks() const { return layout_.banks; }
 
-  // Register access of BiSS, address below kSize.
+  // Register access of BiSS; `address` is below kSize.
   bool exists(unsigned address) const {
     return !layout_.missing[address] && (!in_bank(address) || banks().contains(selected()));
   }
-  // Only if exists().
+  // Reads a register for which exists() is true.
   std::uint8_t read(unsigned address) const {
     return in_bank(address) ? banks().at(selected())[address] : bytes_[address];
   }
-  // Only if exists(). False: the register is protected and keeps its value.
+  // Writes a register for which exists() is true. Returns false if the register is protected and
+  // keeps its value.
   bool write(unsigned address, std::uint8_t value);
 
  private:

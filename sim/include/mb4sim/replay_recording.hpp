@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// A recorded frame: the edges of SL after the first falling edge of MA. The text format is
-// described in sim/README.md.
+// A recorded frame: the edges of SL after the first falling edge of MA. sim/README.md describes the
+// text format.
 #ifndef MB4SIM_REPLAY_RECORDING_HPP_
 #define MB4SIM_REPLAY_RECORDING_HPP_
 
@@ -27,14 +27,14 @@ struct ReplayRecording {
                             // last to 1, because SL rests at 1
 };
 
-// A mistake in an edge file. what() is complete: "file:line: message", without
-// line if the file is empty.
+// A mistake in an edge file. what() is the complete message "file:line: message". For an empty file
+// it has no line.
 class RecordingError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
-// Reads an edge file. `name` is used in messages only. Throws RecordingError.
+// Reads an edge file. `name` is the file name for messages. Throws RecordingError.
 ReplayRecording parse_recording(std::string_view text, const std::string& name);
 
 }  // namespace mb4::sim

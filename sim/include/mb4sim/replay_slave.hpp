@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// A slave that plays a recorded frame whenever a frame starts. It does not know BiSS: it answers
-// the first falling edge of MA in idle with the recorded edges of SL.
+// A slave that plays a recorded frame whenever a frame starts. It does not know BiSS. In idle it
+// answers the first falling edge of MA with the recorded edges of SL.
 #ifndef MB4SIM_REPLAY_SLAVE_HPP_
 #define MB4SIM_REPLAY_SLAVE_HPP_
 
@@ -20,17 +20,17 @@
 namespace mb4::sim {
 
 struct ReplaySlaveConfig {
-  // kTime: each edge at its recorded time after the first falling edge of MA.
-  // kClock: each edge after the rising edge of MA it belonged to when recorded, with the recorded
-  // remainder, so the recording can be played at another frequency. Edges whose clock does not
-  // come are left out; SL goes to 1 when MA has been constant for the timeout.
+  // kTime: each edge comes at its recorded time after the first falling edge of MA.
+  // kClock: each edge comes after the rising edge of MA to which it belonged in the recording, with
+  // the recorded remainder. So the recording can be played at another frequency. Edges whose clock
+  // does not come are left out. SL goes to 1 when MA has been constant for the timeout.
   enum class Play { kTime, kClock };
 
   std::string name = "replay";
   ReplayRecording recording;
   Play play = Play::kTime;
   SlaveTimeout timeout;  // kClock only
-  // What the recording holds; the slave itself does not need them.
+  // Properties of the recorded data. The slave itself does not need them.
   unsigned data_bits = 1;
   unsigned flag_bits = 0;
   Crc crc;
@@ -50,7 +50,8 @@ class ReplaySlave final : public Slave {
   const ReplaySlaveConfig& config() const { return config_; }
 
  private:
-  // kClock: the recorded edge's rising edge of MA, counted from 1, and the time after it.
+  // kClock: the rising edge of MA to which a recorded edge belongs, counted from 1, and the time
+  // after it.
   struct Place {
     std::uint64_t rising;
     Time after;

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// A scenario: everything outside and around the chip, as read from a TOML file. sim/README.md lists
-// every key with unit, range and default.
+// A scenario: everything outside and around the chip. It is read from a TOML file. sim/README.md
+// lists every key with unit, range and default.
 #ifndef MB4SIM_SCENARIO_HPP_
 #define MB4SIM_SCENARIO_HPP_
 
@@ -26,36 +26,37 @@
 
 namespace mb4::sim {
 
-// Largest number of slaves of a chip (single-cycle data channels).
+// Largest number of slaves of a chip: it has as many single-cycle data channels.
 inline constexpr unsigned kMaxSlaves = 8;
 
-// Place in the scenario file, both counted from 1; 0 = unknown.
+// A place in the scenario file. Line and column count from 1; 0 = unknown.
 struct SourcePos {
   unsigned line = 0;
   unsigned column = 0;
 };
 
-// Where a table of the scenario and the values of its keys stand.
+// The place of a table in the scenario, and of the values of its keys.
 struct TableSource {
   SourcePos table;
   std::map<std::string, SourcePos, std::less<>> keys;
 
-  // Of the value if the key is there, else of the table.
+  // Returns the place of the value if the key is there, else that of the table.
   SourcePos of(std::string_view key) const;
 };
 
 struct ChipConfig {
-  std::uint64_t f_clk_hz = 20'000'000;  // pin CLK; 0 = not connected, pin stays 0
+  std::uint64_t f_clk_hz = 20'000'000;  // pin CLK; 0 = not connected, the pin stays 0
   std::uint64_t f_osc_hz = 20'000'000;  // internal oscillator
-  // quirks_i of the chip, bits as in mb4_pkg; the default sets AGSERR_ON_HOLDBANK only.
-  unsigned quirks = 0b000100;
+  // Port quirks_i of the chip; mb4_pkg names the bits.
+  unsigned quirks = 0;
   TableSource source;
 
-  // Frequency the chip is meant to run from: pin CLK if connected, else the oscillator.
+  // The frequency that the chip is meant to run from: pin CLK if it is connected, else the
+  // oscillator.
   std::uint64_t system_hz() const { return f_clk_hz != 0 ? f_clk_hz : f_osc_hz; }
 };
 
-// How the host is connected. kSpi2: SPI, and the second serial interface is enabled beside it.
+// The connection of the host. kSpi2: SPI with the second serial interface enabled.
 enum class HostInterface { kSpi, kSpi2, kIntel, kMotorola };
 
 struct HostConfig {
@@ -67,18 +68,18 @@ struct HostConfig {
   bool parallel() const {
     return interface == HostInterface::kIntel || interface == HostInterface::kMotorola;
   }
-  // MA frequency that `mb4sim run` sets up; always one the chip can make.
+  // MA frequency that `mb4sim run` sets up. The chip can always make it.
   std::uint64_t ma_hz = 10'000'000;
   TableSource source;
 };
 
-// What the slaves of a line speak; a replay of a BiSS C frame counts as BiSS C.
+// Protocol of the slaves of a line. A replay of a BiSS C frame counts as BiSS C.
 enum class LineProtocol { kBissB, kBissC, kSsi };
 
 struct SlaveConfig {
   std::variant<BissCSlaveConfig, BissBSlaveConfig, SsiSlaveConfig, ReplaySlaveConfig> device;
   std::map<std::uint8_t, std::uint8_t> registers;
-  std::string file;  // words or edges were read from it; empty: none
+  std::string file;  // file from which words or edges were read; empty: none
   TableSource source;
 
   const std::string& name() const;
@@ -92,17 +93,17 @@ struct ChannelConfig {
   unsigned number = 1;  // 1 or 2
   Time delay = 0;       // round trip with transceivers, ps
   CableConfig cable;
-  std::vector<SlaveConfig> slaves;  // first = next to SL
-  // Inverted bits by the number of the frame, as SlFaults::flip_frame() takes them.
+  std::vector<SlaveConfig> slaves;  // the first slave is next to SL
+  // The inverted bits of each frame by its number, as SlFaults::flip_frame() takes them.
   std::map<std::uint64_t, std::vector<unsigned>> flips;
   TableSource source;
 
-  // Of all its slaves; kBissC without any.
+  // Protocol of all its slaves; kBissC if it has no slaves.
   LineProtocol protocol() const;
 };
 
 struct Scenario {
-  std::string name = "scenario";  // file name as given, for messages
+  std::string name = "scenario";  // file name as given, used in messages
   ChipConfig chip;
   HostConfig host;
   std::vector<ChannelConfig> channels;  // each number at most once
@@ -113,8 +114,8 @@ struct Scenario {
   const ChannelConfig* channel(unsigned number) const;
 };
 
-// A mistake in a scenario or in a file it names. what() is one complete line:
-// "file:line:column: key 'x': message", without line and column where there is none. Control
+// A mistake in a scenario or in a file that it names. what() is one complete line:
+// "file:line:column: key 'x': message". Line and column are missing where there is none. Control
 // characters are escaped (one_line.hpp).
 class ScenarioError : public std::runtime_error {
  public:
@@ -123,11 +124,11 @@ class ScenarioError : public std::runtime_error {
                 const std::string& message);
 };
 
-// Reads a scenario from TOML text. `name` is used in messages and, up to its last slash, as the
+// Reads a scenario from TOML text. `name` is used in messages. Up to its last slash it is also the
 // folder to which file names inside the scenario are relative. Throws ScenarioError.
 Scenario parse_scenario(std::string_view text, const std::string& name);
 
-// The same from a file.
+// The same from a file. Throws ScenarioError also if the file cannot be read.
 Scenario load_scenario(const std::string& path);
 
 }  // namespace mb4::sim

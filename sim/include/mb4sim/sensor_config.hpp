@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What sensors of every protocol have in common: a word of some length, its CRC and its source.
+// The properties that sensors of every protocol have: a word of some length, its CRC and its
+// source.
 #ifndef MB4SIM_SENSOR_CONFIG_HPP_
 #define MB4SIM_SENSOR_CONFIG_HPP_
 
@@ -17,23 +18,23 @@ namespace mb4::sim {
 struct SensorConfig {
   std::string name;
   unsigned data_bits = 28;     // 1 to 64, position and flags
-  unsigned flag_bits = 2;      // the lowest bits of the word that are no position
-  std::uint64_t flags = 0b11;  // their level with source ramp or sine; nE = nW = 1: no error
+  unsigned flag_bits = 2;      // the lowest bits of the word that are not part of the position
+  std::uint64_t flags = 0b11;  // level of the flags with a ramp or sine; nE = nW = 1: no error
   Crc crc{0x43, 0};
   DataSource source;
 
-  // The word latched at `now` after `frames` frames.
+  // Returns the word that is latched at `now` after `frames` frames.
   std::uint64_t word(Time now, std::uint64_t frames) const {
     return source.word(now, frames, data_bits, flag_bits, flags);
   }
-  // From now on this constant word. False, and nothing changed, if it does not fit.
+  // Sets a constant word from now on. Returns false and changes nothing if the word does not fit.
   bool hold(std::uint64_t raw) {
     if (data_bits < 64 && (raw >> data_bits) != 0) return false;
     source.kind = DataSource::Kind::kConstant;
     source.constant = raw;
     return true;
   }
-  // Bits of data and CRC.
+  // Number of bits of data and CRC.
   unsigned word_bits() const { return data_bits + crc.width(); }
 };
 

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The data channel of a BiSS slave: a shift register of the channel's own length between SLI and
-// SLO. Its own bits leave first, then what came in.
+// The data channel of a BiSS slave: a shift register between SLI and SLO with the length of the
+// channel. Its own bits leave first, then the bits that came in.
 #ifndef MB4SIM_SHIFT_REGISTER_HPP_
 #define MB4SIM_SHIFT_REGISTER_HPP_
 
@@ -16,16 +16,17 @@ namespace mb4::sim {
 
 class ShiftRegister {
  public:
-  // A stop bit, 64 bits of data and a CRC of 16 are the most there is.
+  // A channel has at most a stop bit, 64 bits of data and a CRC of 16 bits.
   static constexpr std::size_t kMaxBits = 128;
 
-  // 1 to kMaxBits bits.
+  // `bits` is 1 to kMaxBits.
   explicit ShiftRegister(std::size_t bits) : size_(bits), in_(place(bits - 1)) {
     assert(bits >= 1 && bits <= kMaxBits);
   }
 
-  // Fills it with the low `data_bits` bits of `word`, MSB first, and their inverted CRC, behind a
-  // stop bit (0) if it is longer by that one bit. `wrong_crc`: the last bit of the CRC is wrong.
+  // Fills the register with the low `data_bits` bits of `word`, MSB first, and their inverted CRC.
+  // If the register is longer by one bit, a stop bit (0) comes first. `wrong_crc` inverts the last
+  // bit of the CRC.
   void load(std::uint64_t word, unsigned data_bits, const Crc& crc, bool wrong_crc = false) {
     bits_ = 0;
     std::size_t i = size_ - data_bits - crc.width();
@@ -34,7 +35,7 @@ class ShiftRegister {
     for (unsigned bit = crc.width(); bit-- > 0; ++i) bits_ |= (check >> bit) & 1U ? place(i) : 0;
     shifts_ = 0;
   }
-  // The bit that leaves now.
+  // The bit that leaves next.
   bool out() const { return at(0); }
   void shift(bool in) {
     bits_ = bits_ << 1U | (in ? in_ : 0);
@@ -42,9 +43,9 @@ class ShiftRegister {
   }
 
   std::size_t size() const { return size_; }
-  // Bit `i` in the order in which they leave.
+  // Bit `i` in the order in which the bits leave.
   bool at(std::size_t i) const { return (bits_ & place(i)) != 0; }
-  // Everything that it holds came in at SLI.
+  // True when all of its bits came in at SLI.
   bool filled() const { return shifts_ >= size_; }
 
  private:

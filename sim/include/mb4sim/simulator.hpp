@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// One chip with its clock, reset, host and lines: the whole simulation. A process may hold any
-// number of them, all used from one thread.
+// The whole simulation: one chip with its clock, reset, host and lines. A process may hold any
+// number of simulators. All of them are used from one thread.
 #ifndef MB4SIM_SIMULATOR_HPP_
 #define MB4SIM_SIMULATOR_HPP_
 
@@ -33,18 +33,19 @@ namespace mb4::sim {
 class ChipModel;
 
 struct SimulatorOptions {
-  std::optional<std::uint64_t> seed;      // instead of the scenario's
+  std::optional<std::uint64_t> seed;      // replaces the scenario's seed
   std::optional<std::string> trace_path;  // FST waveform file
-  // The waveform holds only what is between these times, both included; the rest costs little.
+  // The waveform holds only the time between these two, both included. The rest costs little.
   Time trace_from = 0;
   Time trace_to = kNever;
-  // Evaluates every clock edge by Verilator's eval(), leaves out nothing: slower, same results.
+  // true: Verilator's eval() evaluates every clock edge and nothing is left out. This is slower and
+  // gives the same results.
   bool plain_evaluation = false;
 };
 
 class Simulator final : public HostPins {
  public:
-  // Builds everything, resets the chip (NRES low for kResetLow) and returns at kReady.
+  // Builds everything, resets the chip (NRES low for kResetLow) and returns at time kReady.
   // Throws ScenarioError if the trace file cannot be written.
   explicit Simulator(const Scenario& scenario, const SimulatorOptions& options = {});
   ~Simulator();
@@ -55,52 +56,61 @@ class Simulator final : public HostPins {
   static constexpr Time kReady = 1000 * kPsPerNs;
 
   // --- time ----------------------------------------------------------------------------------
+  // Time since power-on, ps.
   Time now() const override { return now_; }
-  // Runs up to and including `time`; nothing if it has passed. Everything that lets time pass or
-  // moves a pin throws ModelStopped when an assertion in the RTL fails or a pulse at an MA pin is
-  // too short (MaPulseCheck), and again at every later call. Not to be called from inside a
-  // callback.
+  // Runs up to and including `time`. Does nothing if `time` has passed. Must not be called from
+  // inside a callback.
+  //
+  // Every call that lets time pass or moves a pin throws ModelStopped when an assertion in the RTL
+  // fails or a pulse at an MA pin is too short (MaPulseCheck). Every later such call throws it
+  // again.
   void run_until(Time time) override;
-  // Not beyond kEndOfTime.
+  // Lets `duration` ps pass, but not beyond kEndOfTime.
   void advance(Time duration);
-  // Runs until `done` returns true, asked after every event and every change of an output, but not
-  // beyond `limit`. Returns whether it became true.
+  // Runs until `done` returns true, at most up to `limit`. `done` is called after every event and
+  // every change of an output. Returns whether `done` became true.
   bool run_while_waiting(const std::function<bool()>& done, Time limit);
-  // Calls back at `time`, not before now().
+  // Calls `callback` at `time`, which must not be before now().
   void at(Time time, std::function<void()> callback) { queue_.post(time, std::move(callback)); }
-  // Rising edges of the chip's system clock: pin CLK or, with CLKENI = 1, the oscillator.
+  // Number of rising edges of the chip's system clock, which is pin CLK or, with CLKENI = 1, the
+  // oscillator.
   std::uint64_t clk_cycles() const;
-  // Those among them in which the chip was at rest and which were not simulated one by one.
+  // Number of those edges that were not simulated one by one because the chip was at rest.
   std::uint64_t clk_cycles_left_out() const;
 
   // --- pins ----------------------------------------------------------------------------------
-  // Drives a pin from outside. It stays so until the next call. No effect on output pins, on SL of
-  // a channel that the scenario has, and on CLK if it is connected. NER: false pulls it low, true
-  // leaves it to the pull-up.
+  // Drives a pin from outside. The pin keeps this level until the next call. The call has no effect
+  // on output pins, on SL of a channel that the scenario has, and on CLK if it is connected. At NER
+  // false pulls the pin low and true leaves it to the pull-up. With CFGIF = 10 or 11 channel 1 also
+  // drives SL2_NSL1 with the inverse of SL1, unless the scenario has channel 2.
   void set_pin(Pin pin, bool level) override;
-  // Level of any pin as a voltmeter would see it.
+  // Level of any pin as a voltmeter would show it.
   bool pin(Pin pin) const override;
+  // True if CFGIF makes the pins of line 2 the inverse of those of line 1. Then nothing of channel
+  // 2 is connected.
+  bool paired() const { return paired_; }
   // False for pins that set_pin() ignores.
   bool can_set(Pin pin) const;
 
   // --- hosts, lines, slaves ------------------------------------------------------------------
-  // Hosts on the chip's pins. Which of them the chip listens to is a matter of the straps, which
-  // the scenario's interface has set: spi() with CFGSPI = 1, spi2() beside it with NWR_E = 0, bus()
-  // with CFGSPI = 0.
+  // Hosts on the chip's pins. The straps, which the scenario's interface has set, decide which of
+  // them the chip listens to: spi() with CFGSPI = 1, spi2() in addition with NWR_E = 0, bus() with
+  // CFGSPI = 0.
   SpiHost& spi() { return spi_; }
   SpiHost& spi2() { return spi2_; }
   ParallelHost& bus() { return bus_; }
-  // What the host pins have done against the datasheet's limits so far.
+  // Violations of the datasheet's limits at the host pins so far.
   HostCheck& host_check() { return host_check_; }
-  // Null if the scenario has no such channel (1 or 2).
+  // The line of channel 1 or 2. Null if the scenario does not have this channel.
   Line* line(unsigned channel);
-  // Slave by the number of its SCDATAx, 1 to 8: channel 1 counts from 1; channel 2 from 5. Null if
-  // there is none.
+  // A slave by the number of its SCDATAx, 1 to 8. Channel 1 counts from 1, channel 2 from 5. Null
+  // if there is no such slave.
   Slave* slave(unsigned number);
   const Slave* slave(unsigned number) const;
-  // Guard of pin MA of a channel (1 or 2), whether or not the scenario has that channel.
+  // Guard of pin MA of a channel (1 or 2). It exists also for a channel that the scenario does not
+  // have.
   MaPulseCheck& ma_check(unsigned channel) { return ma_checks_.at(channel - 1); }
-  // Applies changed line faults (SlFaults::stick) to the SL pins now.
+  // Applies changed line faults (SlFaults::stick) to the SL pins at once.
   void refresh_lines();
 
   // Faults of the scenario that have happened so far.
@@ -108,7 +118,7 @@ class Simulator final : public HostPins {
 
   const Scenario& scenario() const { return scenario_; }
   std::uint64_t seed() const { return seed_; }
-  // Completes the waveform file as far as time has gone.
+  // Writes the waveform file completely up to the present time.
   void flush_trace();
 
  private:
@@ -118,6 +128,8 @@ class Simulator final : public HostPins {
   };
   static void on_probe(Time now, void* receiver);
   static void on_sl(Time now, void* receiver, bool level);
+  bool drives_pair() const { return paired_ && lines_[0] != nullptr && lines_[1] == nullptr; }
+  void drive_sl(Pin pin, bool level);
 
   void set_straps();
   bool step(Time limit);
@@ -140,11 +152,11 @@ class Simulator final : public HostPins {
   HostCheck host_check_;
   std::unique_ptr<FaultInjector> injector_;
   Time now_ = 0;
-  unsigned seen_ = 0;  // watched outputs that have been acted upon
+  unsigned seen_ = 0;  // watched outputs that have been handled
   bool settling_ = false;
   bool paired_ = false;            // MA2 is the inverse of MA1 (CFGIF)
   bool ner_pulled_ = false;        // by something outside
-  std::array<bool, 32> levels_{};  // of input pins, by Pin
+  std::array<bool, 32> levels_{};  // of input pins, index is Pin
   std::optional<ModelStopped> stopped_;
 };
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Faults of one line on purpose: inverted bits in the next frame, and a data line that is stuck.
+// Deliberate faults of one line: inverted bits in a frame, and a data line that is stuck.
 #ifndef MB4SIM_SL_FAULTS_HPP_
 #define MB4SIM_SL_FAULTS_HPP_
 
@@ -16,16 +16,16 @@ class SlFaults {
  public:
   // Inverts these bits of the next frame that reaches its start bit. Bits are counted on the wire
   // in periods of MA: 0 = start bit, 1 = CDS, 2 = first data bit (MSB of slave 1), and so on
-  // through the CRC and the slaves behind. Several calls add up. BiSS B has no CDS: 1 = first data
-  // bit; a register access counts as a frame. SSI has no start bit either: 0 = first data bit.
+  // through the CRC and the next slaves. Several calls add up. BiSS B has no CDS: 1 = first data
+  // bit, and a register access counts as a frame. SSI has no start bit either: 0 = first data bit.
   void flip_next_frame(std::vector<unsigned> bits);
-  // The same in frame number `frame` of the line, counted from 1 as Slave::frames() does. For
-  // frames to come only.
+  // The same in frame number `frame` of the line. Frames count from 1, as in Slave::frames(). The
+  // frame must not have come yet.
   void flip_frame(std::uint64_t frame, std::vector<unsigned> bits);
-  // Frames of the line that have reached their start bit.
+  // Number of frames of the line that have reached their start bit.
   std::uint64_t frames() const { return frames_; }
-  // Level of pin SL whatever the slaves say; without a value the line works again. Takes effect
-  // with the next change on the line or with Simulator::refresh().
+  // Sets the level of pin SL, whatever the slaves send. Without a value the line works again. The
+  // call takes effect at the next change on the line or with Simulator::refresh_lines().
   void stick(std::optional<bool> level) { stuck_ = level; }
   std::optional<bool> stuck() const { return stuck_; }
 
@@ -42,7 +42,7 @@ class SlFaults {
       begin_frame();
     }
   }
-  // After each change at the slaves.
+  // Called after each change at the slaves.
   void levels(bool slo, bool idle) {
     if (idle) {
       if (acknowledged_) end_frame();
@@ -62,7 +62,7 @@ class SlFaults {
 
   bool ssi_ = false;
   std::vector<unsigned> pending_;
-  std::map<std::uint64_t, std::vector<unsigned>> planned_;  // by frame
+  std::map<std::uint64_t, std::vector<unsigned>> planned_;  // key: frame
   std::uint64_t frames_ = 0;                                // that have reached their start bit
   std::optional<bool> stuck_;
   bool acknowledged_ = false;

@@ -1,9 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// An SPI master with the timing of a real one: MSB first, every edge at its own time. The chip
-// wants mode 0; the other modes are there to show what a wrongly configured host gets. Limits:
-// iC-MB4 Rev D2, items I201 to I209.
+// An SPI master with the timing of a real one: MSB first, and every edge has its own time. The chip
+// works in mode 0. The other modes show what a wrongly configured host gets.
+//
+// Source of the limits: iC-MB4 Rev D2, items I201 to I209.
 #ifndef MB4SIM_SPI_HOST_HPP_
 #define MB4SIM_SPI_HOST_HPP_
 
@@ -16,6 +17,7 @@
 
 namespace mb4::sim {
 
+// Times of an SPI frame, ps.
 struct SpiTiming {
   Time sclk_low = 50'000;            // I203, at least 10 ns
   Time sclk_high = 50'000;           // I204, at least 10 ns
@@ -24,18 +26,18 @@ struct SpiTiming {
   Time ncs_hold = 50'000;            // I202, last falling SCLK to NCS high, at least 10 ns
   Time ncs_high = 50'000;            // I209, at least 10 ns
 
-  // The timing of a host whose SCLK runs at `sclk_hz` (1 Hz to 50 MHz), never faster.
+  // Returns the timing of a host whose SCLK runs at `sclk_hz` (1 Hz to 50 MHz) or slower.
   static SpiTiming for_frequency(std::uint64_t sclk_hz);
 };
 
-// Level of SCLK at rest (CPOL), and whether data are taken at the second edge of a clock (CPHA = 1)
-// instead of the first.
+// CPOL is the level of SCLK at rest. With CPHA = 1 data are taken at the second edge of a clock,
+// with CPHA = 0 at the first.
 struct SpiMode {
   bool cpol = false;
   bool cpha = false;
 };
 
-// Which pins of the chip a host is connected to (page 3).
+// The pins of the chip to which a host is connected (page 3).
 struct SpiPins {
   Pin ncs = Pin::kNcs;
   Pin sclk = Pin::kAle;
@@ -49,24 +51,24 @@ class SpiHost {
   SpiHost(HostPins& pins, const SpiTiming& timing, const SpiPins& wires = {})
       : pins_(pins), wires_(wires), timing_(timing) {}
 
-  // One frame: NCS low, all bytes, NCS high. rx takes as many bytes as it has room for, at most
-  // tx.size(). Returns at the time of the rising edge of NCS.
+  // Sends one frame: NCS low, all bytes, NCS high. `rx` receives as many bytes as it has room for,
+  // at most tx.size(). Returns at the rising edge of NCS.
   void transfer(std::span<const std::uint8_t> tx, std::span<std::uint8_t> rx);
 
-  // The same step by step. select() returns when NCS has its new level; byte() after the falling
-  // edge of its last clock. A second select(true) does nothing. byte() without NCS low clocks, but
-  // the chip does not listen.
+  // The same step by step. select() returns when NCS has its new level. byte() returns after the
+  // falling edge of its last clock. A second select(true) does nothing. byte() without NCS low
+  // makes clocks, but the chip ignores them.
   void select(bool active);
   std::uint8_t byte(std::uint8_t mosi);
-  // The low `bits` (1 to 32) of `mosi`, MSB first; what MISO has shown.
+  // Sends the low `bits` (1 to 32) of `mosi`, MSB first. Returns the bits of MISO.
   std::uint32_t word(std::uint32_t mosi, unsigned bits);
 
-  // SCLK takes its new rest level at once. Not inside a frame.
+  // Changes the mode. SCLK takes its new rest level at once. Must not be called inside a frame.
   void set_mode(const SpiMode& mode);
-  // A fault of the host: the next transfer() ends behind `bits` (1 or more) clocks, at the latest
-  // one before its end; what is left of rx becomes 0. The caller of transfer() is not told.
+  // A fault of the host: the next transfer() ends after `bits` (1 or more) clocks, at the latest
+  // one clock before its end. The rest of `rx` becomes 0. The caller of transfer() is not told.
   void abort_next(std::uint64_t bits) { abort_bits_ = bits; }
-  std::uint64_t aborted() const { return aborted_; }  // transfers so far
+  std::uint64_t aborted() const { return aborted_; }  // transfers aborted so far
 
   void set_timing(const SpiTiming& timing) { timing_ = timing; }
   const SpiTiming& timing() const { return timing_; }

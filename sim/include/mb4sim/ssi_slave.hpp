@@ -1,12 +1,17 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// An SSI encoder. The first falling edge of MA latches the word and starts a monoflop that every
-// further falling edge triggers again; each rising edge shows the next bit, MSB first; behind the
-// word the line is 0 until the monoflop has run out. With multiple transmission (ring) the same
-// word comes again behind one 0. Extended SSI: the level of MA when the monoflop runs out is a CDM
-// bit, by which registers can be written as in BiSS C, without an answer (iC-MB4 Rev D2, pages 14,
-// 16).
+// An SSI encoder.
+//
+// - The first falling edge of MA latches the word and starts a monoflop. Every further falling edge
+//   starts the monoflop again.
+// - Each rising edge shows the next bit, MSB first. After the word the line is 0 until the monoflop
+//   has run out.
+// - With multiple transmission (ring) one 0 and the same word follow the word.
+// - Extended SSI: the level of MA when the monoflop runs out is a CDM bit. With these bits a master
+//   can write registers as in BiSS C, without an answer.
+//
+// Source: iC-MB4 Rev D2, pages 14, 16.
 #ifndef MB4SIM_SSI_SLAVE_HPP_
 #define MB4SIM_SSI_SLAVE_HPP_
 
@@ -30,8 +35,9 @@ struct SsiSlaveConfig : SensorConfig {
     control.present = false;
   }
 
-  bool gray = false;  // the position is sent in Gray code, flags behind it are not
+  bool gray = false;  // the position is sent in Gray code; the flags after it are not converted
   bool ring = false;  // multiple transmission
+  // Duration of the monoflop, ps.
   Time monoflop = 20 * kPsPerUs;
   Time response = 0;      // from a rising edge of MA to the bit at SLO, ps
   ControlConfig control;  // present: extended SSI
@@ -46,13 +52,13 @@ class SsiSlave final : public Slave {
   void timer(Time now, bool sli) override;
 
   unsigned data_bits() const override { return config_.data_bits; }
-  // The word before it is turned into Gray code.
+  // Sets the word before its conversion into Gray code.
   bool set_data(std::uint64_t raw) override { return config_.hold(raw); }
   std::optional<std::uint64_t> sent_word() const override { return raw_; }
   ControlSlave* control() override { return config_.control.present ? &control_ : nullptr; }
 
   const SsiSlaveConfig& config() const { return config_; }
-  // What stands on the line for the word `raw`: data bits without CRC.
+  // The data bits, without CRC, that the line carries for the word `raw`.
   std::uint64_t line_word(std::uint64_t raw) const;
 
  private:
@@ -72,11 +78,11 @@ class SsiSlave final : public Slave {
   bool active_ = false;
   bool ma_ = true;
   std::uint64_t raw_ = 0;     // word of the running frame
-  std::uint64_t data_ = 0;    // the same as on the line
-  std::uint32_t crc_ = 0;     // behind it
+  std::uint64_t data_ = 0;    // the same word as on the line
+  std::uint32_t crc_ = 0;     // CRC after this word
   std::uint64_t rising_ = 0;  // rising edges of the running frame
   Time last_falling_ = 0;
-  // Bits on their way to SLO, from next_change_ on; empty most of the time.
+  // Bits on their way to SLO, from next_change_ on. Usually there are none.
   std::vector<Change> changes_;
   std::size_t next_change_ = 0;
 };

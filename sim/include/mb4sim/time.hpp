@@ -13,13 +13,13 @@ namespace mb4::sim {
 using Time = std::uint64_t;  // ps
 
 inline constexpr Time kNever = std::numeric_limits<Time>::max();
-// No wait goes beyond it (106 days): what is added to it does not overflow.
+// End of time (106 days). No wait goes beyond it, so sums with it do not overflow.
 inline constexpr Time kEndOfTime = Time{1} << 63U;
 inline constexpr Time kPsPerNs = 1000;
 inline constexpr Time kPsPerUs = 1'000'000;
 inline constexpr Time kPsPerSecond = 1'000'000'000'000;
 
-// Rounds to the nearest picosecond. ns must not be negative.
+// Rounds to the nearest picosecond. `ns` must not be negative.
 constexpr Time from_ns(double ns) { return static_cast<Time>(ns * 1e3 + 0.5); }
 constexpr Time from_us(double us) { return static_cast<Time>(us * 1e6 + 0.5); }
 constexpr double to_ns(Time t) { return static_cast<double>(t) / 1e3; }

@@ -5,7 +5,8 @@
 
 namespace mb4::sim {
 
-// Version of the library, the project's version in the top-level CMakeLists.txt: "0.1.0".
+// Version of the library as "major.minor.patch". It is the project's version in the top-level
+// CMakeLists.txt.
 const char* version();
 
 }  // namespace mb4::sim

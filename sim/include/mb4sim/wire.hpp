@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// One direction of a cable: a transport delay (every edge arrives, however many are in flight) with
-// the faults of WireFaults. An ideal wire without delay passes an edge on at once, inside the call.
-// Bit 0 of the levels is the wire that has the faults; other bits ride along and arrive with the
-// edges they left with. Edges never overtake each other.
+// One direction of a cable: a transport delay with the faults of WireFaults. Every edge arrives,
+// even if several are on the way. An ideal wire without delay passes an edge on at once, inside the
+// call. Bit 0 of the levels is the wire with the faults. The other bits arrive together with the
+// edge with which they left. An edge never overtakes another one.
 #ifndef MB4SIM_WIRE_HPP_
 #define MB4SIM_WIRE_HPP_
 
@@ -23,14 +23,14 @@ class Wire {
   // Called with the time of arrival and the levels at the far end.
   using Output = void (*)(Time now, void* receiver, unsigned levels);
 
-  // `idle`: levels at both ends before the first drive(). With glitches an event is in the queue at
-  // all times, the first within two mean distances from time 0.
+  // `idle`: the levels at both ends before the first drive(). With glitches the queue always holds
+  // an event. The first one comes within two mean distances from time 0.
   Wire(EventQueue& queue, Time delay, const WireFaults& faults, std::uint64_t seed, unsigned idle,
        Output output, void* receiver);
   Wire(const Wire&) = delete;
   Wire& operator=(const Wire&) = delete;
 
-  // Puts a set of levels (one bit a wire) into the near end at time `now`.
+  // Sets the levels (one bit for each wire) at the near end at time `now`.
   void drive(Time now, unsigned levels) {
     if (delay_ == 0 && !uneven() && in_flight_ == 0) {
       sent_ = levels;
@@ -40,15 +40,15 @@ class Wire {
     }
   }
   Time delay() const { return delay_; }
-  // For edges driven from now on.
+  // Sets the delay in ps for edges that are driven from now on.
   void set_delay(Time delay) { delay_ = delay; }
   const WireFaults& faults() const { return faults_; }
-  // Jitter, skew and glitch width for edges from now on; the rate of glitches stays.
+  // Sets jitter, skew and glitch width for edges from now on. The rate of glitches stays.
   void set_faults(const WireFaults& faults);
 
-  // One glitch now: the level at the far end is inverted for `width` ps (1 or more).
+  // Makes one glitch now: the level at the far end is inverted for `width` ps (1 or more).
   void glitch(Time now, Time width);
-  // Level of bit 0 at the far end whatever arrives; without a value the wire works again.
+  // Sets the level of bit 0 at the far end, whatever arrives. Without a value the wire works again.
   void stick(Time now, std::optional<bool> level);
 
  private:
@@ -72,7 +72,7 @@ class Wire {
     shown_ = levels;
     output_(now, receiver_, levels);
   }
-  // Edges take more time than delay_.
+  // True if the travel time of an edge differs from delay_.
   bool uneven() const { return faults_.jitter != 0 || faults_.skew != 0; }
   bool inverted() const { return glitch_ != (single_glitches_ % 2 != 0); }
 
@@ -80,12 +80,12 @@ class Wire {
   Time delay_;
   WireFaults faults_;
   Random random_;         // jitter
-  Random glitch_random_;  // apart, so that jitter does not depend on how many glitches there were
+  Random glitch_random_;  // a separate one: jitter must not depend on the number of glitches
   Output output_;
   void* receiver_;
   std::optional<bool> stuck_;
   bool glitch_ = false;
-  unsigned single_glitches_ = 0;  // that are going on
+  unsigned single_glitches_ = 0;  // number of single glitches that have not ended
   unsigned in_flight_ = 0;
   unsigned sent_;
   unsigned arrived_;

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Runs the workload with most to do at each clock in a model that counts how often its parts run
-// (split_edge.py --count): the counts go to the error output when it ends.
+// Runs the workload with the most work per clock. Its model counts how often its parts run
+// (split_edge.py --count) and writes the counts to standard error when it ends.
 #include <fmt/format.h>
 
 #include <exception>

@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
 # SPDX-FileCopyrightText: 2026 The openmb4 authors
 # SPDX-License-Identifier: Apache-2.0
-"""Writes busy.txt: find_busy.py PROGRAM BUSY_TXT, PROGRAM being mb4sim_count (target mb4sim_busy).
+"""Writes busy.txt: find_busy.py PROGRAM BUSY_TXT. PROGRAM is mb4sim_count (target mb4sim_busy).
 
-Variables that change at 45 % of the clocks or more are fast. Groups are kept with those that
-have something to do about as often: what runs with a part's busiest group costs time."""
+A variable is fast if it changes at 45 % of the clocks or more. A part holds groups that have work
+about equally often, because all of them run when the busiest one has work."""
 
 import subprocess
 import sys
@@ -26,9 +26,9 @@ def main():
     counts = {"runs": {}, "moves": {}}
     for kind, count, name in map(str.split, told.splitlines()):
         if kind == "moves":
-            name = name.rsplit(".", 1)[-1]  # a local variable has its function before it
+            name = name.rsplit(".", 1)[-1]  # a local variable has its function's name before it
         counts[kind][name] = max(int(count), counts[kind].get(name, 0))
-    # All groups run after an edge of a host pin: that says nothing about them.
+    # All groups run after an edge of a host pin, so those runs are subtracted.
     runs = counts["runs"].values()
     least, clocks = min(runs), max(runs) - min(runs)
     rows = [f"fast {name}\n" for name, count in sorted(counts["moves"].items())

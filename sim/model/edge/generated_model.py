@@ -1,10 +1,11 @@
 # SPDX-FileCopyrightText: 2026 The openmb4 authors
 # SPDX-License-Identifier: Apache-2.0
-"""Statements of the C++ that Verilator 5.006 writes for a model, with what they read and write.
+"""Reads the C++ that Verilator 5.006 writes for a model: its statements, and what each of them
+reads and writes.
 
-Only what Verilator writes for this chip is understood: functions of assignments and conditionals
-without loops, over members of the model (vlSelf->NAME) and local variables. Anything else raises
-NotUnderstood."""
+This module understands only the forms that occur in this chip: functions of assignments and
+conditionals without loops, over members of the model (vlSelf->NAME) and local variables. Any other
+form raises NotUnderstood."""
 
 import re
 from collections import defaultdict
@@ -13,14 +14,14 @@ from dataclasses import dataclass, field
 TYPE = re.compile(r"^(CData|SData|IData|QData|VlWide<\d+>)/\*(\d+):\d+\*/ (\w+);$")
 STRING = re.compile(r'"(?:\\.|[^"\\])*"')
 NAME = re.compile(r"vlSelf->([A-Za-z_]\w*)|(?<![\w>.])([A-Za-z_]\w*)")
-# These change no variable, and what they give depends on their arguments alone (of up to 64 bits).
+# These functions change no variable. Their result depends on their arguments (up to 64 bits) alone.
 PURE = re.compile(r"VL_(?:WRITEF|STOP_MT|UNLIKELY|LIKELY|TIME_UNITED_Q|REDXOR_\w+|"
                   r"(?:ONEHOT0?|COUNTONES|SHIFT\w+|[GL]TE?S?|EXTENDS?)_[IQ]+)$|"
                   r"\w+__ConstPool__\w+$")
 COMPARED = re.compile(r"\((0x[0-9a-f]+|\d+)U\s*[!=]=\s*"
                       r"(?:\(IData\)\(vlSelf->(\w+)\)|vlSelf->(\w+))\)")
 KNOWN = {"if", "else", "U", "IData", "QData", "CData", "SData", "vlSelf", "vlSymsp", "Verilated"}
-LONG = 1500  # characters of a conditional that is worth taking apart
+LONG = 1500  # characters; a longer conditional is taken apart
 
 
 class NotUnderstood(Exception):
@@ -32,21 +33,21 @@ class Statement:
     text: str
     function: str
     reads: set = field(default_factory=set)
-    looks: set = field(default_factory=set)  # (what it reads, None or a number to compare with)
+    looks: set = field(default_factory=set)  # (name read, None or a number to compare with)
     writes: set = field(default_factory=set)
-    defines: set = field(default_factory=set)  # written whole, whatever has been there
-    arrays: set = field(default_factory=set)  # written, but only some elements
+    defines: set = field(default_factory=set)  # written completely in every case
+    arrays: set = field(default_factory=set)  # written, but only in some elements
 
 
 def sources(folder, prefix):
-    """The model's files of functions: those that Verilator has named last, no older ones."""
+    """The model's files of functions. Verilator's last list counts, so older files are left out."""
     named = (folder / f"{prefix}.cmake").read_text(encoding="utf-8")
     return [folder / name for name in sorted(set(
         re.findall(rf'/({prefix}___024root__DepSet_\w+\.cpp)"', named)))]
 
 
 def functions(folder, prefix):
-    """{name: body} of all functions of the model that have no arguments."""
+    """{name: body} of all functions of the model without arguments."""
     pattern = re.compile(rf"^(?:VL_INLINE_OPT )?void {prefix}___024root___(\w+)"
                          rf"\({prefix}___024root\* vlSelf\) \{{\n(.*?)^\}}", re.M | re.S)
     found = {}
@@ -64,7 +65,7 @@ def constants(folder, prefix):
 
 
 def triggers(folder, prefix):
-    """{index: [events]} of the model, as in its debug output."""
+    """{index: [events]} of the model, as its debug output lists them."""
     pattern = re.compile(r"'act' region trigger index (\d+) is active: @\((.*?)\)\\n")
     found = {int(index): events.split(" or ")
              for path in sources(folder, prefix) if path.name.endswith("__Slow.cpp")
@@ -76,7 +77,7 @@ def triggers(folder, prefix):
 
 
 def widths(folder, prefix, bodies):
-    """{name: bits} of the model's variables and the local ones."""
+    """{name: bits} of the model's variables and of the local ones."""
     text = (folder / f"{prefix}___024root.h").read_text(encoding="utf-8")
     rows = [("", row) for row in text.splitlines()]
     rows += [(f"{name}.", row) for name, body in bodies.items() for row in body.splitlines()]
@@ -87,7 +88,7 @@ def widths(folder, prefix, bodies):
 
 
 def places(folder, prefix):
-    """{name: place} of the model's variables in the order in which they are declared."""
+    """{name: place} of the model's variables in the order of their declarations."""
     text = (folder / f"{prefix}___024root.h").read_text(encoding="utf-8")
     names = re.findall(r"^\s+(?:VL_(?:IN|OUT)\w*\((\w+),\d+,\d+\)|\S.* (\w+));$", text, re.M)
     return {pin or name: place for place, (pin, name) in enumerate(names)}
@@ -144,7 +145,7 @@ def split(body):
 
 
 def branches(text):
-    """(condition, statements, statements otherwise) of a conditional, else None."""
+    """(condition, statements, statements of the else branch) of a conditional; None otherwise."""
     if not text.startswith("if ("):
         return None
     end = closing(text, 3)
@@ -159,7 +160,7 @@ def branches(text):
 
 
 def subscripts_end(text, at):
-    """(place behind the subscripts that follow a name, whether there are any)."""
+    """(place after the subscripts that follow a name, whether there are any)."""
     some = False
     while True:
         found = re.compile(r"\s*(?:\[|\.at\()").match(text, at)
@@ -170,7 +171,7 @@ def subscripts_end(text, at):
 
 
 def analyse(text, function, local):
-    """The statement with its names; those of local variables as FUNCTION.NAME."""
+    """The statement with its names. A local variable is FUNCTION.NAME."""
     statement = Statement(text, function)
     bare = re.sub(r"/\*.*?\*/|//[^\n]*", "", STRING.sub('""', text))
     if re.search(r"vlSymsp->(?!_vm_contextp__|name\(\))", bare):
@@ -200,7 +201,7 @@ def analyse(text, function, local):
 
 
 def apart(text, function, local):
-    """A long conditional as several ones, of which none depends on another."""
+    """Splits a long conditional into several ones that do not depend on each other."""
     parts = branches(text) if len(text) > LONG and "VL_WRITEF" not in text else None
     if not parts:
         return [text]
@@ -234,7 +235,7 @@ def statements(name, body):
     local = {row[3]: row[1] for row in map(TYPE.match, map(str.strip, head.splitlines())) if row}
     found = [analyse(piece, name, local) for text in split(body)
              for piece in apart(text, name, local)]
-    # Local variables start at zero: only if they are read or written in part first does it count.
+    # Local variables start at zero. This matters only if they are read, or written in part, first.
     for variable in local:
         first = next((row for row in found if f"{name}.{variable}" in row.reads | row.writes), None)
         if first and f"{name}.{variable}" not in first.defines - first.reads:

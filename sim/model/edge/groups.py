@@ -1,19 +1,19 @@
 # SPDX-FileCopyrightText: 2026 The openmb4 authors
 # SPDX-License-Identifier: Apache-2.0
-"""Groups of statements that stay together, and parts of an edge made of them, in an order that
-keeps what depends on each other."""
+"""Groups of statements that stay together, and the parts of an edge that are made of them. Their
+order keeps every dependency."""
 
 import re
 from collections import defaultdict
 
 from generated_model import NotUnderstood
 
-BUNDLE = 8000  # characters of C++ behind one flag
+BUNDLE = 8000  # characters of C++ that one flag controls
 KEY_BITS = 3
 
 
 class Group:
-    """Statements that stay together: all that write a variable."""
+    """Statements that stay together: all statements that write a variable."""
 
     def __init__(self, rows):
         self.rows = rows
@@ -28,7 +28,7 @@ class Group:
 
 
 def message(row):
-    """Where an assertion stands, and its name."""
+    """The place of an assertion, and its name."""
     found = re.search(r"%N([\w.\[\]]+)", row.text)
     if not found:
         raise NotUnderstood(f"neither assignment nor assertion: {row.text[:80]}")
@@ -36,8 +36,9 @@ def message(row):
 
 
 class Part:
-    """Groups that run together: always (bits 0), or behind a flag, or behind one for each value of
-    the variables in `key`: `bits` flags from `flag` on."""
+    """Groups that run together. There are three cases: they run always (`bits` is 0); one flag
+    controls them; or one flag for each value of the variables in `key` does, `bits` flags from
+    `flag` on."""
 
     def __init__(self, groups, flag=0, bits=0, key=()):
         self.rows = [row for group in groups for row in group.rows]
@@ -50,12 +51,14 @@ class Part:
 
 
 def inputs(rows):
-    """What statements read that they have not written before, or keep if they do not write it."""
+    """Variables that the statements read before they write them, or keep if they do not write
+    them."""
     return {name for name, _ in looks(rows)}
 
 
 def looks(rows):
-    """The same, each with None or, if it is only compared with numbers, each of these."""
+    """The same variables as (name, None), or as (name, number) for each number if a variable is
+    only compared with numbers."""
     found, written = set(), set()
     for row in rows:
         found |= {look for look in row.looks | {(name, None) for name in row.writes - row.defines}
@@ -66,7 +69,7 @@ def looks(rows):
 
 
 def order_of(rows):
-    """{statement: those that must come after it}, by their places."""
+    """{place of a statement: places of the statements that must come after it}."""
     after = defaultdict(set)
     writer, readers = {}, defaultdict(set)
     for i, row in enumerate(rows):
@@ -82,7 +85,8 @@ def order_of(rows):
 
 
 def joined(count, links, after):
-    """[group of each statement]: linked ones, and those that depend on each other in a circle."""
+    """[group of each statement]. Linked statements share a group, and so do statements that depend
+    on each other in a circle."""
     kind = list(range(count))
 
     def root(i):
@@ -146,7 +150,8 @@ def groups_of(rows):
 
 
 class Schedule:
-    """Groups in an order that keeps dependencies: runs of one kind as long as they can be."""
+    """Brings groups into an order that keeps every dependency. Runs of one kind are as long as
+    possible."""
 
     def __init__(self, groups):
         self.missing = {group: len(group.before) for group in groups}
@@ -161,7 +166,7 @@ class Schedule:
                 self.open.append(follower)
 
     def run(self, kind, of):
-        """All groups of a kind that can come now, one after the other."""
+        """Takes all groups of a kind that can come now, one after the other."""
         taken = []
         while True:
             fit = [group for group in self.open if of(group) == kind]
@@ -172,7 +177,7 @@ class Schedule:
             taken.append(group)
 
     def reach(self, kind, of):
-        """How many groups of a kind could come now."""
+        """Returns how many groups of a kind could come now."""
         missing = dict(self.missing)
         found = [group for group in self.open if of(group) == kind]
         for group in found:
@@ -184,13 +189,13 @@ class Schedule:
 
 
 def plain(name, number=None):
-    """As in busy.txt: without the function of a local variable."""
+    """The name as in busy.txt: a local variable without its function."""
     return name.rsplit(".", 1)[-1] + ("" if number is None else f"=={number}")
 
 
 class Kinds:
-    """What kind of part a group belongs to: with those that read the same fast variables, or with
-    those that have something to do about as often."""
+    """Decides the kind of part of a group. Groups of one kind read the same fast variables, or they
+    have work about equally often."""
 
     def __init__(self, busy, widths):
         self.rate = {name: kind for kind, name in busy if kind != "fast"}
@@ -198,7 +203,8 @@ class Kinds:
         self.widths = widths
 
     def __call__(self, group):
-        """None: runs always. Else the variables of its key, and the name of its part."""
+        """None: the group runs always. Otherwise the variables of its key and the name of its
+        part."""
         if {plain(name) for name in group.writes} & self.fast:
             return None
         key = sorted({name for name, number in group.looks if plain(name, number) in self.fast})
@@ -211,7 +217,7 @@ class Kinds:
 
 
 def parts_of(groups, kinds, count):
-    """(parts of the edge in their order, number of flags)."""
+    """(the parts of the edge in their order, number of flags)."""
     schedule = Schedule(groups)
     found, flags = [], 0
     while schedule.open:

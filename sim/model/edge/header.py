@@ -1,6 +1,7 @@
 # SPDX-FileCopyrightText: 2026 The openmb4 authors
 # SPDX-License-Identifier: Apache-2.0
-"""The header for direct_steps.hpp: functions for the edges of CLK, flags of their parts."""
+"""Writes the header for direct_steps.hpp: functions for the edges of CLK, and the flags of their
+parts."""
 
 import re
 from collections import defaultdict
@@ -10,10 +11,10 @@ from generated_model import NotUnderstood
 PREFIX = "Vmb4_chip"
 ROOT = f"{PREFIX}___024root"
 PIN = re.compile(r"(?!.*__)\w+_i$")
-CHECKED = 13  # one rise in so many, with a check
-BLOCK = 48  # variables that are compared at once, as memory
+CHECKED = 13  # one of so many rising edges has a check
+BLOCK = 48  # neighbouring variables that one comparison of memory covers
 SL = ["sl1_i", "sl2_i"]
-# Changed from outside between edges: function name of the header, variables.
+# Functions of the header for changes from outside between edges, with the variables that change.
 OUTSIDE = {
     "sl_has_changed": SL,
     "time_has_changed": ["mb4_chip__DOT__u_engine__DOT__u_control__DOT__u_request__DOT__pre_q",
@@ -51,13 +52,14 @@ def marked(parts):
 
 
 def opening(name):
-    """Of a function with statements of the model in it."""
+    """The first lines of a function that holds statements of the model."""
     return [f"inline void {name}({ROOT}* __restrict vlSelf, Kept& __restrict kept) {{",
             f"{PREFIX}__Syms* const __restrict vlSymsp = vlSelf->vlSymsp;", "(void)vlSymsp;"]
 
 
 class Writer:
-    """The header: rise() with its parts, fall(), follow_sl(), marks for what changes outside."""
+    """The header: rise() with its parts, fall(), follow_sl(), and marks for changes from
+    outside."""
 
     def __init__(self, types, widths, places, tables, arrays, by_host, lists):
         self.types, self.widths, self.places = types, widths, places
@@ -78,7 +80,7 @@ class Writer:
                 for name in (set().union(*(row.reads for row in part.rows)) | part.writes):
                     if name in types:
                         users[name].append(part)
-        # Local variables that keep their value from part to part, or from edge to edge.
+        # Local variables that keep their value from one part to the next or from edge to edge.
         self.kept = {name for name, many in users.items()
                      if len(many) > 1 or any(name in part.reads for part in many)}
         self.lines = []
@@ -89,7 +91,8 @@ class Writer:
         return ("kept." if name in self.kept else "") + name.replace(".", "__")
 
     def text(self, row):
-        """The statement as it stands in the header; who writes into an array tells at once."""
+        """The statement as it stands in the header. A write into an array sets its marks at
+        once."""
         text = row.text
         for name in sorted(row.writes - row.defines):
             marks = self.marks([name])
@@ -104,21 +107,23 @@ class Writer:
         return text
 
     def reading(self, name):
-        """The parts that read it in any way."""
+        """The parts that read the variable in any way."""
         return set().union(*self.readers[name].values())
 
     def marks(self, names):
-        """All that reads them is to run."""
+        """Code that makes all parts run that read one of the variables."""
         return marked(set().union(*(self.reading(name) for name in names)))
 
     def marks_behind_eval(self, name):
-        """Behind eval(): who reads a variable that has changed is to run, and who writes it too, as
-        what it has computed is no longer there. (eval() has local variables of its own: what has
-        changed may follow from one whose value the parts never see.)"""
+        """Code for a variable that eval() has changed. The parts that read it must run. The parts
+        that write it must run too, because their result is no longer there. (eval() has local
+        variables of its own. A variable may have changed because of one whose value the parts never
+        see.)"""
         return marked(self.reading(name) | self.writers[name])
 
     def compare(self, names, before, now, count=False):
-        """Marks what reads those that have changed; one test for all that have the same readers."""
+        """Sets the marks of the parts that read a changed variable. Variables with the same readers
+        share one test."""
         alike = defaultdict(list)
         for k, name in enumerate(names):
             for number, parts in sorted(self.readers[name].items(), key=str):
@@ -132,24 +137,25 @@ class Writer:
         self.lines += [f"if ({' | '.join(tests)}) {{ {marks} }}" for marks, tests in alike.items()]
 
     def bits_of(self, part):
-        """(variable of the part's key, place of its bits in the key's value), one by one."""
+        """(variable of the part's key, place of its bits in the key's value), one after the
+        other."""
         at = 0
         for name in part.key:
             yield name, at
             at += self.widths[name]
 
     def key(self, part):
-        """Place of the flag for the values that the part's key has now."""
+        """The place of the flag for the present value of the part's key."""
         return " + ".join([str(part.flag % 64),
                            *(f"(static_cast<unsigned>({self.variable(name)}) << {at})"
                              for name, at in self.bits_of(part))])
 
     def lasting(self, part):
-        """What a part writes that is there afterwards, arrays left out."""
+        """The variables that a part writes and that keep their value after it, without arrays."""
         return sorted(part.writes - part.arrays - (self.types.keys() - self.kept))
 
     def declared(self, part):
-        """Lines for the local variables that live in a part."""
+        """Lines for the local variables that exist only inside a part."""
         return [f"{self.types[name]} {self.variable(name)} = 0;"
                 for name in sorted({name for row in part.rows for name in row.reads | row.writes}
                                    & self.types.keys() - self.kept)]
@@ -163,7 +169,7 @@ class Writer:
             self.lines.append(f"++counts.runs[{part.flag}];")
         self.lines += [self.text(row) for row in part.rows]
         if part.key:
-            # What it computes has changed: for other values of the key that is not known.
+            # The result has changed, so it is not known for other values of the key.
             word, mask = f"kept.changed[{part.flag // 64}]", mask_of(part)
             tests = " | ".join(f"(before{k} != {self.variable(name)})"
                                for k, name in enumerate(told))
@@ -201,7 +207,8 @@ class Writer:
         self.lines += ["}", "} counts;"]
 
     def pins(self):
-        """Marks for the host's pins: they have changed before anybody looks."""
+        """Marks for the host's pins. A pin changes before the comparison, so Pins keeps its old
+        level."""
         names = sorted(name for name in self.by_host
                        if PIN.match(name) and name not in SL and self.marks([name]))
         self.lines += ["struct Pins {",
@@ -211,7 +218,7 @@ class Writer:
         self.lines += [*(f"{name} = root.{name};" for name in names), "}", "};"]
 
     def host(self):
-        """What the host's pins can change: values to compare with."""
+        """Copies of the variables that the host's pins can change, for a later comparison."""
         watched = sorted((name for name in self.by_host if not PIN.match(name)
                           and name not in self.types and self.marks_behind_eval(name)),
                          key=lambda name: self.places[name])
@@ -235,7 +242,7 @@ class Writer:
         self.lines += ["}", HOST.replace("ROOT", ROOT), "};"]
 
     def header(self, flags, count, check=()):
-        """`check`: lines of a function check(), called behind some of the edges."""
+        """`check`: lines of a function check(), called after some of the edges."""
         self.checked = bool(check)
         words = flags // 64 + 1
         self.lines = [

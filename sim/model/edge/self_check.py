@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 The openmb4 authors
 # SPDX-License-Identifier: Apache-2.0
-"""check() for the header: what the parts rest upon, looked at while the model runs."""
+"""Makes check() for the header. It tests the assumption of the parts while the model runs."""
 
 from header import opening
 
@@ -13,8 +13,9 @@ std::abort();
 
 
 def check(writer):
-    """Lines of check(): computes each part whose flag is not set, with any value of its key, and
-    ends the program if that changes anything. Left out: parts that write arrays, messages."""
+    """Lines of check(). It computes each part whose flag is not set, with every value of its key,
+    and ends the program if a variable changes. It leaves out parts that write arrays, and
+    messages."""
     lines = [HEAD, *opening("check")]
     for part in writer.lists["rise"]:
         if part.bits and not part.arrays:

@@ -1,29 +1,31 @@
 #!/usr/bin/env python3
 # SPDX-FileCopyrightText: 2026 The openmb4 authors
 # SPDX-License-Identifier: Apache-2.0
-"""The rising edge of CLK in parts, of which only those run whose inputs have changed.
+"""Splits the rising edge of CLK into parts. Only those parts run whose inputs have changed.
 
   split_edge.py FOLDER BUSY_TXT OUTPUT [--count|--check]
-     FOLDER    what Verilator has made of mb4_chip
-     BUSY_TXT  fast variables, and how often groups have something to do, each by a variable that
-               it writes (find_busy.py); a wrong entry costs speed, nothing else
-     OUTPUT    a header for direct_steps.hpp; MB4_EDGE_NOT_SPLIT if the model is not understood
-     --check   now and then the parts whose flags are not set are computed as well: the program ends
-               if one of them would change anything
-     --count   each group is a part and counts how often it runs: what find_busy.py reads
+     FOLDER    Verilator's output for mb4_chip
+     BUSY_TXT  lists the fast variables, and how often each group of statements has work; a variable
+               that the group writes is its name (find_busy.py). A wrong entry costs speed only
+     OUTPUT    a header for direct_steps.hpp; it defines MB4_EDGE_NOT_SPLIT if this program does not
+               understand the model
+     --check   at some edges the model also computes the parts whose flags are not set; the program
+               ends if one of them would change a variable
+     --count   each group is a part and counts how often it runs; find_busy.py reads the counts
 
-Verilator computes all that hangs on a clock at each of its edges. Here its statements, unchanged,
-are put into groups (a register with the statements that write it), in an order that keeps what
-depends on each other. A group that writes a fast variable, one that changes at nearly every clock,
-runs always. All others are bundled:
+Verilator computes all logic of a clock at each of its edges. This program puts Verilator's
+statements, unchanged, into groups: a register with the statements that write it. The order of the
+groups keeps every dependency. A fast variable is one that changes at nearly every clock. A group
+that writes one runs always. Other groups are put into bundles of two kinds:
 
-* behind a flag, set when a variable which they read gets another value;
-* or, if they read fast variables of a few bits, the key, behind a flag for each value of the key.
-  The flags are set when any other variable which they read gets another value, and those of the
-  other values of the key when what they compute comes out different. So if a flag is not set,
-  then with this value of the key they would compute what is there.
+* One flag controls the bundle. The flag is set when a variable that the bundle reads changes.
+* If the bundle reads fast variables of a few bits, these are its key, and each value of the key has
+  a flag. All flags are set when any other variable that the bundle reads changes. If the bundle
+  computes a different result, the flags of the other values of the key are set. So while a flag is
+  not set, the bundle would compute the present result with that value of the key.
 
-A variable that is only compared with numbers counts as changed when one of the comparisons does."""
+If a variable is only compared with numbers, it counts as changed when the result of a comparison
+changes."""
 
 import re
 import sys
@@ -52,7 +54,7 @@ def started(bodies, names):
 
 
 def behind(rows, names):
-    """Those statements that depend on any of these variables, and what they need for it."""
+    """Those statements that depend on any of these variables, and the statements that they need."""
     taken = set()
     while True:
         size = len(taken)
@@ -64,7 +66,7 @@ def behind(rows, names):
 
 
 def by_host(functions_of, rows_of):
-    """What an edge of a host pin can change, while no clock and no reset does."""
+    """The variables that an edge of a host pin can change while no clock and no reset does."""
     clocks = EDGES["rise"] | EDGES["fall"]
     other = [row for function, events in functions_of for row in rows_of[function]
              if not (function.startswith("nba_sequent") and events & clocks)]
@@ -81,7 +83,7 @@ def made(folder, busy, count, checked):
     if not {"eval_nba", "ico_sequent__TOP__0"} <= bodies.keys():
         raise NotUnderstood("no functions of the model found")
     functions_of = started(bodies, names)
-    # Long functions may be split, modules kept apart: then there are calls of another form.
+    # Verilator may split long functions or keep modules apart. Then the calls look different.
     if len(functions_of) != bodies["eval_nba"].count("___nba_") or \
             bodies.get("eval_ico", "").count("___ico_") != 1:
         raise NotUnderstood("calls in eval_nba() or eval_ico()")
@@ -93,7 +95,8 @@ def made(folder, busy, count, checked):
                    for row in rows_of[function]] for kind in ("rise", "fall"))
     if not rise or not fall:
         raise NotUnderstood("no edges of CLK found")
-    # Nobody looks for events behind an edge of CLK. The resets of the core only end there.
+    # No code looks for events after an edge of CLK. The core's resets may change, as they only end
+    # there.
     watched = {event.split()[1].replace(".", "__DOT__") for events in names.values()
                for event in events}
     moved = {name for row in rise + fall for name in row.writes} & watched - RELEASED - CLOCKS
@@ -121,8 +124,9 @@ def main():
         if line and not line.startswith("#")]
     try:
         text = made(folder, busy, "--count" in sys.argv, "--check" in sys.argv)
-    except (NotUnderstood, LookupError, ValueError) as error:
-        print(f"split_edge.py: the model runs whole, at a third of its speed: {error}")
+    except Exception as error:  # another Verilator: files are missing, unreadable or different
+        print("split_edge.py: the model runs whole, at a third of its speed: "
+              f"{type(error).__name__}: {error}")
         text = "#define MB4_EDGE_NOT_SPLIT\n"
     output.write_text(text, encoding="utf-8")
 

@@ -51,13 +51,14 @@ module frame_top (
   logic [6:0] rx_len;
   mb4_pkg::word_cfg_t mo_word;
   logic       sl_sync;
-  logic       word_begin;
+  logic       word_begin, word_open;
   logic       cdm_sent;
   mb4_pkg::word_cfg_t word;
   logic [7:0]  enscd;
   logic        rx_cfg_en, mo_cfg_en;
   logic [2:0]  rx_cfg_slave, mo_cfg_slave;
   logic [31:0] rx_cfg_q, mo_cfg_q;
+  logic [7:0]  rx_poly, mo_poly;
 
   mb4_freqs_dec u_freqs (
     .freqs_i,
@@ -85,6 +86,18 @@ module frame_top (
     for (int i = 0; i < 8; i++) enscd[i] = slave_cfg_i[32*i + 6];
   end
 
+  mb4_crc_code u_rx_code (
+    .selcrc_i (rx_cfg_q[15]),
+    .code_i   (rx_cfg_q[14:8]),
+    .poly_o   (rx_poly)
+  );
+
+  mb4_crc_code u_mo_code (
+    .selcrc_i (mo_cfg_q[15]),
+    .code_i   (mo_cfg_q[14:8]),
+    .poly_o   (mo_poly)
+  );
+
   always_ff @(posedge clk_i) begin
     if (rx_cfg_en) rx_cfg_q <= slave_cfg_i[32*rx_cfg_slave +: 32];
     if (mo_cfg_en) mo_cfg_q <= slave_cfg_i[32*mo_cfg_slave +: 32];
@@ -102,7 +115,7 @@ module frame_top (
     .next_i      (next),
     .cfg_en_o    (rx_cfg_en),
     .cfg_slave_o (rx_cfg_slave),
-    .cfg_i       (rx_cfg_q),
+    .cfg_i       ({rx_cfg_q[31:16], rx_poly, rx_cfg_q[7:0]}),
     .actuator_o  (rx_actuator),
     .len_valid_o (rx_len_valid),
     .len_o       (rx_len),
@@ -124,7 +137,7 @@ module frame_top (
     .next_i      (mo_next),
     .cfg_en_o    (mo_cfg_en),
     .cfg_slave_o (mo_cfg_slave),
-    .cfg_i       (mo_cfg_q),
+    .cfg_i       ({mo_cfg_q[31:16], mo_poly, mo_cfg_q[7:0]}),
     .actuator_o  (mo_actuator),
     .len_valid_o (len_valid),
     .len_o       (len),
@@ -154,6 +167,7 @@ module frame_top (
     .register_ma_i  (1'b1),
     .register_end_i (1'b0),
     .register_mo_i  (1'b0),
+    .mo_return_i    (1'b0),
     .force_i     (1'b0),
     .force_level_i  (1'b0),
     .tick_i      (tick),
@@ -179,6 +193,7 @@ module frame_top (
     .wr_byte_o,
     .wr_data_o,
     .word_begin_o (word_begin),
+    .word_open_o  (word_open),
     .word_done_o,
     .word_ok_o,
     .cds_o,
@@ -196,7 +211,7 @@ module frame_top (
   );
 
   logic unused;
-  assign unused = ^{sl_sync, word_begin, cdm_sent, mo, mo_addr, rx_len_valid, rx_len,
+  assign unused = ^{sl_sync, word_begin, word_open, cdm_sent, mo, mo_addr, rx_len_valid, rx_len,
                     rx_actuator, mo_actuator};
 
 endmodule

@@ -109,7 +109,7 @@ class Control:
             self.put(MASTER, 10, 11, f'CMD: {crc.number(self.cdm(10, 11))}', 'CMD')
         self.put(SLAVE, 1, 8, 'IDL: ' + ids(self.cds(1, 8), 'none'), 'IDL')
         good = self.put_crc(MASTER, 12, self.cdm(1, 11))
-        # With a wrong header the slaves say nothing: what follows has no meaning.
+        # After a wrong header the slaves do not answer: the following bits have no meaning.
         if good:
             yield from self.registers() if register else self.command()
 

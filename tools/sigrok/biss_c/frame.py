@@ -47,7 +47,7 @@ class Frame:
         '''Of MA in samples; None before the second rising edge.'''
         if len(self.rising) < 2:
             return None
-        # The shortest of the first ones: a master may pause.
+        # The shortest of the first periods, because a master may pause.
         return min(b - a for a, b in zip(self.rising[:4], self.rising[1:5]))
 
     # --- looking at them ---------------------------------------------------------------------

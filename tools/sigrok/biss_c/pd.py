@@ -14,7 +14,7 @@ OUTPUT_PYTHON format: packets [type, values]
 '''
 
 CONTROL_MASTER, CONTROL_SLAVE, TRANSACTION, WARNING = range(8, 12)
-UNMEASURED_REST_S = 40e-6  # ends what has not reached its second rising edge
+UNMEASURED_REST_S = 40e-6  # ends a frame that has no second rising edge yet
 
 
 class ChannelError(Exception):
@@ -204,7 +204,7 @@ class Decoder(srd.Decoder):
         if self.frame is not None:
             self.frame.ma_edge(now, level)
         elif not level:
-            # Behind a rest a falling edge begins a frame; a rising one ends the last CDM.
+            # After a rest a falling edge begins a frame; a rising edge ends the last CDM.
             self.frame = Frame(now, sl)
             self.data_end = None
 

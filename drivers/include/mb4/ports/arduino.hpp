@@ -20,8 +20,8 @@ namespace mb4::ports {
 //   mb4::ports::ByteBus bus(SPI, SPISettings(5'000'000, MSBFIRST, SPI_MODE0),
 //                           [](bool active) { digitalWrite(10, active ? LOW : HIGH); });
 //
-// The bytes of one frame may be apart as long as they like. The pin has to be an output at HIGH,
-// and SPI.begin() called, before the first transfer. Never fails.
+// There may be any pause between the bytes of one frame. Before the first transfer the pin must be
+// an output at HIGH, and SPI.begin() must have been called. transfer() never fails.
 template <typename Spi, typename Settings, typename Select>
 class ByteBus {
  public:
@@ -48,7 +48,7 @@ class ByteBus {
   Select select_;
 };
 
-// A clock out of a function such as micros().
+// A clock made from a function such as micros().
 template <typename Micros>
 class MicrosClock {
  public:

@@ -36,7 +36,8 @@ class SpidevBus {
     }
   }
 
-  // The file was opened and took mode 0; errno tells why not. Otherwise every transfer fails.
+  // True when the file was opened and SPI mode 0 was set. If false, errno tells the reason directly
+  // after the constructor, and every transfer fails.
   [[nodiscard]] bool ready() const { return ready_; }
 
   bool transfer(Span<const std::uint8_t> tx, Span<std::uint8_t> rx) {

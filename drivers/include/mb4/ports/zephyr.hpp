@@ -20,8 +20,8 @@ namespace mb4::ports {
 //   const spi_dt_spec spec = SPI_DT_SPEC_GET(DT_NODELABEL(mb4), SPI_WORD_SET(8) | SPI_TRANSFER_MSB,
 //   0); mb4::ports::ZephyrBus bus(spec);
 //
-// spi-max-frequency at most 5 MHz (I204). `spec` outlives the bus. Sleeps where the SPI driver
-// does, so calls from an interrupt need a SPI driver that does not.
+// spi-max-frequency is at most 5 MHz (I204). `spec` must outlive the bus. A transfer sleeps if the
+// SPI driver sleeps: calls from an interrupt need an SPI driver that does not.
 class ZephyrBus {
  public:
   explicit ZephyrBus(const spi_dt_spec& spec) : spec_(spec) {}

@@ -1,0 +1,39 @@
+// SPDX-FileCopyrightText: 2026 The openmb4 authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Brings the CRC choice of a data channel (SELCRCSx with SCRCLENx or SCRCPOLYx) into one form,
+// poly_o.
+//
+// poly_o is the polynomial without its last 1; its highest 1 is the highest power. 0 means no CRC.
+// The polynomial of degree 16 does not fit: 0xEC stands for it. The lower byte of that polynomial,
+// 0xD9, follows from 0xEC as from any other code, and no other code has both bit 7 and bit 6 set.
+//
+// SELCRCSx = 0: SCRCLENx names one of seven polynomials. SELCRCSx = 1: SCRCPOLYx is the polynomial
+// without its last 1, and its degree (1..7) is the CRC length.
+//
+// Clock domain: host; combinational. The conversion stands where the host writes, once for all
+// readers (mb4_crc_decode).
+// Misuse: SCRCLEN codes that Table 14 does not permit, and SCRCPOLY = 0, switch the CRC off.
+// Datasheet: pages 24, 25, Tables 13..15.
+
+module mb4_crc_code (
+  input  logic       selcrc_i,
+  input  logic [6:0] code_i,     // SCRCLENx, SCRCPOLYx
+  output logic [7:0] poly_o
+);
+
+  always_comb begin
+    unique case (code_i)
+      7'h03:   poly_o = 8'h05;  // 0x0B
+      7'h04:   poly_o = 8'h09;  // 0x13
+      7'h05:   poly_o = 8'h12;  // 0x25
+      7'h06:   poly_o = 8'h21;  // 0x43
+      7'h07:   poly_o = 8'h44;  // 0x89
+      7'h08:   poly_o = 8'h97;  // 0x12F
+      7'h10:   poly_o = 8'hEC;  // 0x190D9
+      default: poly_o = 8'h00;
+    endcase
+    if (selcrc_i) poly_o = {1'b0, code_i};
+  end
+
+endmodule

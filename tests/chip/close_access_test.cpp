@@ -1,0 +1,261 @@
+// SPDX-FileCopyrightText: 2026 The openmb4 authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Accesses of the host that follow each other faster than the core's clock: a byte read directly
+// after its write (decision 36), and writes of 0xF4 close together (decision 41). The tests run
+// with every host, every phase, and CLK from 10 to 25 MHz, slow, and stopped.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "mb4sim/parallel_host.hpp"
+#include "mb4sim/scenario.hpp"
+#include "mb4sim/simulator.hpp"
+#include "random_case.hpp"
+
+namespace {
+
+using mb4test::Random;
+namespace sim = mb4::sim;
+
+constexpr std::uint8_t kF4 = 0xF4;
+constexpr unsigned kPhases = 50;
+
+// A chip behind its fastest host: SPI at 50 MHz, or the shortest bus cycles.
+class FastHost {
+ public:
+  FastHost(const std::string& interface, double clk_mhz, const std::string& rest = "")
+      : simulator_(sim::parse_scenario(
+            "[chip]\nf_clk_hz = " + std::to_string(static_cast<unsigned>(clk_mhz * 1e6)) +
+                "\n[host]\ninterface = \"" + interface + "\"\nsclk_hz = 50_000_000\n" + rest,
+            "test.toml")),
+        spi_(interface == "spi") {
+    if (!spi_) simulator_.bus().set_timing({});
+  }
+  sim::Simulator& chip() { return simulator_; }
+
+  void write(std::uint8_t address, const std::vector<std::uint8_t>& bytes) {
+    if (spi_) {
+      std::vector<std::uint8_t> tx{0x02, address};
+      if (address == kF4) tx = {0x07};
+      tx.insert(tx.end(), bytes.begin(), bytes.end());
+      simulator_.spi().transfer(tx, {});
+    } else {
+      for (const auto byte : bytes) simulator_.bus().write(address++, byte);
+    }
+  }
+  std::uint8_t read(std::uint8_t address) {
+    if (!spi_) return simulator_.bus().read(address);
+    std::vector<std::uint8_t> tx{0x03, address, 0x00}, rx(3);
+    simulator_.spi().transfer(tx, rx);
+    return rx[2];
+  }
+  // Time passes up to phase `of` kPhases of a period of CLK.
+  void phase(sim::Time period, unsigned of) {
+    simulator_.run_until((simulator_.now() / period + 20) * period + period * of / kPhases);
+  }
+
+ private:
+  sim::Simulator simulator_;
+  bool spi_;
+};
+
+const std::string kSlave =
+    "[[channel]]\nnumber = 1\n[[channel.slave]]\nprotocol = \"biss-c\"\ndata_bits = 26\n"
+    "crc = 0x43\ndata = 0x0AAAAAA\n";
+
+class CloseAccess : public testing::TestWithParam<std::string> {};
+
+TEST_P(CloseAccess, ReadBehindAWrite_GivesWhatWasWritten) {
+  for (const double mhz : {10.0, 12.5, 16.0, 20.0, 25.0, 1.0, 0.1}) {
+    FastHost host(GetParam(), mhz);
+    const auto period = static_cast<sim::Time>(1e6 / mhz);
+    host.chip().advance(200 * period);
+    Random random(1);
+    for (unsigned phase = 0; phase < kPhases; ++phase) {
+      for (unsigned count = 1; count <= 4; ++count) {
+        for (const unsigned first : {0x00U, 0x1EU, 0x3CU, 0x80U, 0xBCU}) {
+          host.phase(period, phase);
+          std::vector<std::uint8_t> bytes(count);
+          for (auto& byte : bytes) byte = static_cast<std::uint8_t>(random.below(256));
+          host.write(static_cast<std::uint8_t>(first), bytes);
+          // The same address once more: its last byte counts.
+          bytes[0] = static_cast<std::uint8_t>(random.below(256));
+          host.write(static_cast<std::uint8_t>(first), {bytes[0]});
+          for (unsigned i = 0; i < count; ++i) {
+            ASSERT_EQ(host.read(static_cast<std::uint8_t>(first + i)), bytes[i])
+                << mhz << " MHz, phase " << phase << ", byte " << i << " of " << count;
+          }
+          for (unsigned i = 0; i < count; ++i) {
+            ASSERT_EQ(host.read(static_cast<std::uint8_t>(first + i)), bytes[i]) << "later";
+          }
+        }
+      }
+    }
+  }
+}
+
+// Bytes in a row as the host can write them, then all of them read back.
+TEST_P(CloseAccess, ManyBytesWithClock_AllReadBack) {
+  for (const double mhz : {10.0, 12.5, 20.0, 25.0}) {
+    FastHost host(GetParam(), mhz);
+    const auto period = static_cast<sim::Time>(1e6 / mhz);
+    host.chip().advance(200 * period);
+    // A bus cycle that a host can make of these phases: item I110 makes reads the longest.
+    if (GetParam() != "spi") host.chip().bus().set_timing(sim::ParallelTiming::for_cycle(110'000));
+    Random random(2);
+    for (unsigned phase = 0; phase < kPhases; ++phase) {
+      host.phase(period, phase);
+      const unsigned count = 5 + phase % 60;
+      std::vector<std::uint8_t> bytes(count);
+      for (auto& byte : bytes) byte = static_cast<std::uint8_t>(random.below(256));
+      host.write(0x80, bytes);
+      for (unsigned i = 0; i < count; ++i) {
+        ASSERT_EQ(host.read(static_cast<std::uint8_t>(0x80 + i)), bytes[i])
+            << mhz << " MHz, phase " << phase << ", byte " << i << " of " << count;
+      }
+    }
+  }
+}
+
+// Pin CLK is open: the last four different addresses answer, older ones as the memory holds them.
+TEST_P(CloseAccess, NoClock_TheLastFourAddressesAnswer) {
+  FastHost host(GetParam(), 0);
+  Random random(3);
+  std::vector<std::uint8_t> order;  // newest first
+  std::array<std::uint8_t, 256> value{};
+  for (unsigned write = 0; write < 100; ++write) {
+    const unsigned pick = random.below(6);
+    const std::uint8_t address =
+        static_cast<std::uint8_t>((pick & 1U) != 0 ? 0x80 + pick : pick * 9);
+    value[address] = static_cast<std::uint8_t>(random.below(256));
+    host.write(address, {value[address]});
+    std::erase(order, address);
+    order.insert(order.begin(), address);
+    for (unsigned i = 0; i < std::min<std::size_t>(4, order.size()); ++i) {
+      ASSERT_EQ(host.read(order[i]), value[order[i]]) << "write " << write << ", address " << i;
+    }
+  }
+}
+
+// From when the core has taken the bytes the memory answers: a bank that switches is seen, and so
+// is the word of a frame, even while the host goes on writing elsewhere.
+TEST_P(CloseAccess, CoreHasTakenTheByte_TheMemoryAnswers) {
+  for (const bool writes : {false, true}) {
+    FastHost host(GetParam(), 20, kSlave);
+    host.chip().advance(200 * 50'000);
+    host.write(0xC0, {0x59, 0x06, 0x00, 0x00});
+    host.write(0xE5, {0x40, 0xA0, 0x00, 0x7C});
+    host.write(0xEC, {0x01, 0x0D});
+    for (unsigned phase = 0; phase < 100; ++phase) {
+      host.chip().run_until((host.chip().now() / 50'000 + 200) * 50'000 + phase * 500);
+      host.write(0x00, {0x77, 0x66});
+      host.write(kF4, {0x04});
+      const auto end = host.chip().now() + 20'000'000;
+      while (host.chip().now() < end) {
+        if (writes) {
+          host.write(0x88, {static_cast<std::uint8_t>(phase)});
+        } else {
+          host.chip().advance(100'000);
+        }
+        // The flag first: it tells that the banks have switched.
+        if (host.read(0xF1) != 0x02) continue;
+        ASSERT_EQ(host.read(0x00), 0xAA) << phase;
+        ASSERT_EQ(host.read(0x01), 0xAA) << phase;
+      }
+      ASSERT_EQ(host.read(0x00), 0xAA) << phase;
+      host.write(0xF1, {0x00});
+    }
+  }
+}
+
+// Page 33, decision 41: a BREAK that is followed by another write at once ends the frame all the
+// same, and the later byte counts.
+TEST_P(CloseAccess, BreakBeforeAnotherWrite_IsDone) {
+  for (const double mhz : {10.0, 12.5, 20.0, 25.0}) {
+    const auto period = static_cast<sim::Time>(1e6 / mhz);
+    for (unsigned phase = 0; phase < kPhases; ++phase) {
+      for (unsigned more = 1; more <= 4; ++more) {
+        // The line never answers: the frame runs until BREAK.
+        FastHost host(GetParam(), mhz,
+                      kSlave + "[[channel.event]]\nat_us = 50\naction = \"sl-high\"\n");
+        host.chip().advance(100 * period);
+        host.write(0xC0, {0x59, 0x06, 0x00, 0x00});
+        host.write(0xE5, {0x40, 0xA1, 0x00, 0x31});
+        host.write(0xEC, {0x01, 0x0D});
+        host.chip().run_until(60'000'000);
+        host.write(kF4, {0x04});
+        host.chip().advance(20'000'000);
+        ASSERT_EQ(host.read(0xF0) & 0x01, 0x00);
+        host.phase(period, phase);
+        host.write(kF4, {0x80});
+        for (unsigned i = 1; i < more; ++i) host.write(kF4, {0x40});
+        host.write(kF4, {0x20});
+        host.chip().advance(10'000'000);
+        ASSERT_EQ(host.read(0xF0) & 0x01, 0x01) << mhz << " MHz, phase " << phase << ", " << more;
+        ASSERT_EQ(host.read(kF4), 0x20) << mhz << " MHz, phase " << phase << ", " << more;
+      }
+    }
+  }
+}
+
+// One to five writes of 0xF4 in a row: the last one is what the core holds in the end, and the
+// host's bank has changed if SWBANK has.
+void writes_in_a_row(FastHost& host, const std::function<void()>& before,
+                     const std::function<void()>& settle) {
+  host.write(0x00, {0x11});
+  settle();
+  Random random(4);
+  unsigned swbank = 0;
+  bool marked = true;  // the host's bank holds 0x11 at 0x00, the other one 0
+  for (unsigned round = 0; round < 4 * kPhases; ++round) {
+    before();
+    const unsigned count = 1 + random.below(5);
+    unsigned last = 0;
+    for (unsigned i = 0; i < count; ++i) {
+      last = random.below(4) << 5U;
+      host.write(kF4, {static_cast<std::uint8_t>(last)});
+    }
+    ASSERT_EQ(host.read(kF4), last) << "read back at once";
+    settle();
+    if ((last & 0x20U) != swbank) marked = !marked;
+    swbank = last & 0x20U;
+    ASSERT_EQ(host.read(kF4), last) << "round " << round;
+    ASSERT_EQ(host.read(0x00), marked ? 0x11 : 0x00) << "round " << round;
+  }
+}
+
+TEST_P(CloseAccess, WritesOf0xF4InARow_TheLastOneCounts) {
+  for (const double mhz : {10.0, 12.5, 20.0, 25.0}) {
+    SCOPED_TRACE(mhz);
+    FastHost host(GetParam(), mhz);
+    const auto period = static_cast<sim::Time>(1e6 / mhz);
+    host.chip().advance(200 * period);
+    unsigned phase = 0;
+    writes_in_a_row(
+        host, [&] { host.phase(period, phase++ % kPhases); },
+        [&] { host.chip().advance(20 * period); });
+  }
+}
+
+TEST_P(CloseAccess, WritesOf0xF4WithAStoppedClock_TheLastOneCountsWhenItRuns) {
+  FastHost host(GetParam(), 0);
+  const auto clocks = [&](unsigned count) {
+    for (unsigned i = 0; i < 2 * count; ++i) {
+      host.chip().set_pin(sim::Pin::kClk, i % 2 == 0);
+      host.chip().advance(25'000);
+    }
+  };
+  clocks(200);
+  writes_in_a_row(
+      host, [] {}, [&] { clocks(20); });
+}
+
+INSTANTIATE_TEST_SUITE_P(Hosts, CloseAccess, testing::Values("spi", "intel", "motorola"),
+                         [](const auto& host) { return host.param; });
+
+}  // namespace

@@ -1,0 +1,251 @@
+// SPDX-FileCopyrightText: 2026 The openmb4 authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// A host changes the configuration while the chip uses it (pages 23, 28: not allowed). Decision 38:
+// an access keeps the settings with which it was started. A frame or an access may fail and show it
+// in its flags, but it ends. After the configuration is written again everything works. No pulse of
+// MA is short: see the guard at the MA pins.
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "control_host.hpp"
+#include "mb4sim/control_slave.hpp"
+
+namespace {
+
+using mb4test::Chip;
+using mb4test::ControlHost;
+using mb4test::kAgsmin;
+using mb4test::kAllGood;
+using mb4test::kRegend;
+using mb4test::one_slave;
+namespace sim = mb4::sim;
+
+const char kEncoder[] = "data_bits = 14\ncrc = 0x43\ndata = 0x1ABC";
+
+std::string two_lines() {
+  return one_slave(kEncoder, "", "", "sclk_hz = 50_000_000") +
+         "[[channel]]\nnumber = 2\ndelay_ns = 60.0\n[[channel.slave]]\nprotocol = \"biss-c\"\n" +
+         kEncoder + "\n";
+}
+void configure(Chip& chip) {
+  chip.write(0xC0, {0x40 | 13, 0x06, 0x00, 0x00});
+  chip.write(0xC4, std::initializer_list<std::uint8_t>{0x00, 0x00, 0x00, 0x00});
+  chip.write(0xD0, {0x40 | 13, 0x06, 0x00, 0x00});
+  chip.write(0xE4, {0x00, 0x40, 0x01, 0x00, kAgsmin, 0x00});  // FREQR 0: a short limit
+  chip.write(0xEC, {0x11, 0x05, 0x00, 0x00});
+  chip.write(0xF5, {0x00});
+}
+void expect_all_works(Chip& chip, ControlHost& host, bool with_registers, const std::string& what) {
+  configure(chip);
+  chip.instruct(0x80);
+  chip.advance_us(100);
+  chip.instruct(0x10);
+  ASSERT_TRUE(chip.wait_eot()) << what;
+  chip.instruct(0x04);
+  ASSERT_TRUE(chip.wait_eot()) << what;
+  EXPECT_EQ(chip.status(), 0xFB) << what;
+  EXPECT_EQ(chip.read(0xF1) & 0x02, 0x02) << what;
+  EXPECT_EQ(chip.read(0xF2) & 0x02, 0x02) << what;
+  EXPECT_EQ(chip.read(0x00, 2), (std::vector<std::uint8_t>{0xBC, 0x1A})) << what;
+  EXPECT_EQ(chip.read(0x20, 2), (std::vector<std::uint8_t>{0xBC, 0x1A})) << what;
+  if (!with_registers) return;
+  host.set_read(0, 0x31, 1);
+  ASSERT_NE(host.run_single(80), 0U) << what;
+  EXPECT_EQ(host.status(), kAllGood) << what;
+  EXPECT_EQ(host.rdata(1)[0], 0x77) << what;
+}
+
+struct Change {
+  std::uint8_t address;
+  std::uint8_t value;
+};
+// Every configuration byte but CLKENI's, with fields at both ends of their range. FREQS = 0x1F
+// takes long; force bits are released again before the frame can end.
+constexpr Change kChanges[] = {
+    {0xC0, 0x00}, {0xC0, 0x40}, {0xC0, 0x7F}, {0xC0, 0xFF}, {0xC1, 0x00}, {0xC1, 0xFF},
+    {0xC2, 0xFF}, {0xC3, 0xFF}, {0xC4, 0x4D}, {0xC4, 0xFF}, {0xD0, 0x00}, {0xD0, 0x7F},
+    {0xD1, 0x08}, {0xE2, 0xFF}, {0xE2, 0x00}, {0xE3, 0x3F}, {0xE4, 0x01}, {0xE4, 0x02},
+    {0xE4, 0x03}, {0xE5, 0x40}, {0xE5, 0x00}, {0xE5, 0xC0}, {0xE5, 0xFB}, {0xE5, 0x42},
+    {0xE5, 0x41}, {0xE6, 0x00}, {0xE6, 0x09}, {0xE6, 0x10}, {0xE6, 0xE1}, {0xE7, 0x01},
+    {0xE7, 0x03}, {0xE8, 0x00}, {0xE8, 0x7D}, {0xE8, 0xFF}, {0xE9, 0xFF}, {0xEC, 0x01},
+    {0xED, 0x00}, {0xED, 0x0A}, {0xED, 0x0F}, {0xED, 0x07}, {0xED, 0x0D}, {0xEF, 0x01},
+    {0xEF, 0xFF}, {0xF5, 0x04}, {0xF5, 0x0C}, {0xF5, 0x02},
+};
+std::string name_of(const Change& change, unsigned phase) {
+  return std::to_string(change.address) + " <- " + std::to_string(change.value) + ", phase " +
+         std::to_string(phase);
+}
+
+// In a frame of about 6 us, at steps that meet each of its parts.
+// With AGS = 1 a request waits for a line. The frame that begins in the clock in which CFGCH names
+// the protocol is one of this protocol.
+TEST(ConfigChange, LineTakenIntoUseUnderAgs_FirstFrameIsRight) {
+  struct Kind {
+    const char* protocol;
+    std::uint8_t cfgch;  // Table 8
+  };
+  for (const Kind& kind : {Kind{"biss-b", 0x0C}, Kind{"biss-c", 0x0D}, Kind{"ssi", 0x0E}}) {
+    for (unsigned phase = 0; phase < 10; ++phase) {
+      const std::string what = std::string(kind.protocol) + ", phase " + std::to_string(phase);
+      std::string text = one_slave(kEncoder, "", "", "sclk_hz = 20_000_000");
+      text.replace(text.find("biss-c"), 6, kind.protocol);
+      Chip chip(text);
+      chip.write(0xC0, {0x40 | 13, 0x06, 0x00, 0x00});
+      chip.write(0xE5, {0x40, 0x01, 0x00, 0x64});  // 5 MHz, a request each 101 us
+      chip.write(0xED, {0x0F});
+      chip.instruct(0x01);
+      chip.simulator.advance((150'000 + 10 * phase) * sim::kPsPerNs);
+      EXPECT_EQ(chip.simulator.slave(1)->frames(), 0U) << what;
+      chip.write(0xED, {kind.cfgch});
+      chip.advance_us(40);  // the frame, and not the next one
+      EXPECT_EQ(chip.simulator.slave(1)->frames(), 1U) << what;
+      EXPECT_EQ(chip.status() & 0x10, 0x10) << what << ": nSCDERR";
+      EXPECT_EQ(chip.read(0xF1) & 0x02, 0x02) << what << ": SVALID1";
+      EXPECT_EQ(chip.read(0x00, 2), (std::vector<std::uint8_t>{0xBC, 0x1A})) << what;
+    }
+  }
+}
+
+TEST(ConfigChange, InAFrame_ItEndsAndEverythingWorksAgain) {
+  for (const unsigned instruction : {0x04U, 0x02U, 0x10U}) {
+    for (const Change& change : kChanges) {
+      Chip chip(two_lines());
+      ControlHost host(chip);
+      configure(chip);
+      chip.simulator.slave(1)->reg_write(0x31, 0x77);
+      for (unsigned phase = 0; phase < 12; ++phase) {
+        const std::string what = name_of(change, phase);
+        chip.instruct(static_cast<std::uint8_t>(instruction));
+        chip.simulator.advance(phase * 530 * sim::kPsPerNs);
+        ASSERT_NO_THROW(chip.write(change.address, {change.value})) << what;
+        // A slave that a longer frame still clocks sends zeros: the frame ends by its length.
+        // CFGIF takes SL2 away: a line that does not answer waits for BREAK (decision 4).
+        const bool takes_sl2 = change.address == 0xF5 && (change.value & 0x08) != 0;
+        ASSERT_TRUE(chip.wait_eot(400) || takes_sl2) << what;
+        ASSERT_NO_THROW(expect_all_works(chip, host, phase == 11, what)) << what;
+        if (testing::Test::HasFailure()) return;
+      }
+    }
+  }
+}
+
+// In an access, under AGS and with a request for each frame.
+TEST(ConfigChange, InAnAccess_ItEndsAndEverythingWorksAgain) {
+  for (const bool command : {false, true}) {
+    for (const bool ags : {false, true}) {
+      for (const Change& change : kChanges) {
+        Chip chip(two_lines());
+        ControlHost host(chip);
+        configure(chip);
+        chip.simulator.slave(1)->reg_write(0x31, 0x77);
+        for (unsigned phase = 0; phase < 4; ++phase) {
+          const std::string what = name_of(change, phase) + (ags ? ", AGS" : "");
+          if (command) {
+            host.set_command(0x80, 2, true);
+          } else {
+            host.set_read(0, 0x31, 2);
+          }
+          chip.instruct(ags ? 0x09 : 0x08);
+          // 14 zeros, the header, the data: up to frame 60 of 6 us each.
+          for (unsigned frame = 0; frame < 15 * phase + 5; ++frame) {
+            if (!ags) chip.instruct(0x08);
+            ASSERT_NO_THROW(chip.advance_us(8)) << what;
+          }
+          ASSERT_NO_THROW(chip.write(change.address, {change.value})) << what;
+          // AGSINFINITE: the frames of the access wait for GETSENS.
+          chip.simulator.set_pin(sim::Pin::kGetsens, true);
+          bool ended = false;
+          for (unsigned look = 0; look < 150 && !ended; ++look) {
+            if (!ags) chip.instruct(0x08);
+            ASSERT_NO_THROW(chip.advance_us(40)) << what;
+            ended = (host.status() & kRegend) != 0;
+          }
+          chip.simulator.set_pin(sim::Pin::kGetsens, false);
+          EXPECT_TRUE(ended) << what;
+          ASSERT_NO_THROW(expect_all_works(chip, host, phase == 3, what)) << what;
+          if (testing::Test::HasFailure()) return;
+        }
+      }
+    }
+  }
+}
+
+// CTS, REGADR, REGNUM, WNR, SLAVEID, CHSEL, CMD, REGVERS, IDA_TEST and IDS: the access goes on with
+// what it was started with.
+TEST(ConfigChange, FieldsOfAnAccess_CountAsItWasStarted) {
+  constexpr Change kFields[] = {
+      {0xE2, 0x7E}, {0xE2, 0xB0}, {0xE3, 0x00}, {0xE3, 0x3F}, {0xE4, 0x02}, {0xE4, 0x03},
+      {0xE5, 0x40}, {0xE5, 0x80}, {0xE5, 0xF8}, {0xE5, 0xC8}, {0xE5, 0x48}, {0xE5, 0x70},
+  };
+  for (const bool ags : {false, true}) {
+    for (const Change& change : kFields) {
+      for (unsigned frame = 1; frame < 58; frame += ags ? 6 : 1) {
+        const std::string what = name_of(change, frame) + (ags ? ", AGS" : "");
+        Chip chip(two_lines());
+        ControlHost host(chip);
+        configure(chip);
+        for (const unsigned slave : {1U, 5U}) {
+          chip.simulator.slave(slave)->reg_write(0x30, static_cast<std::uint8_t>(0x10 * slave + 1));
+          chip.simulator.slave(slave)->reg_write(0x31, static_cast<std::uint8_t>(0x10 * slave + 2));
+        }
+        chip.write(0x80, {0xE1, 0xE2, 0xE3});
+        host.set_read(0, 0x30, 2);
+        bool ended = false;
+        if (ags) {
+          chip.instruct(0x09);
+          chip.simulator.run_while_waiting(
+              [&] { return chip.simulator.slave(1)->cdm_count() >= frame; },
+              chip.simulator.now() + 1000 * sim::kPsPerUs);
+          ASSERT_NO_THROW(chip.write(change.address, {change.value})) << what;
+          for (unsigned look = 0; look < 200 && !ended; ++look) {
+            ASSERT_NO_THROW(chip.advance_us(10)) << what;
+            ended = (host.status() & kRegend) != 0;
+          }
+        } else {
+          ASSERT_EQ(host.run_single(frame), 0U) << what;
+          ASSERT_NO_THROW(chip.write(change.address, {change.value})) << what;
+          ASSERT_NO_THROW(ended = host.run_single(100) != 0) << what;
+        }
+        ASSERT_TRUE(ended) << what;
+        EXPECT_EQ(host.status() & 0xFE, 0xFE) << what;
+        EXPECT_EQ(host.rdata(3), (std::vector<std::uint8_t>{0x11, 0x12, 0xE3})) << what;
+        EXPECT_EQ(chip.simulator.slave(1)->control()->counters().starts, 1U) << what;
+        EXPECT_EQ(chip.simulator.slave(5)->control()->counters().starts, 0U) << what;
+        if (testing::Test::HasFailure()) return;
+      }
+    }
+  }
+}
+
+TEST(ConfigChange, FieldsOfACommand_CountAsItWasStarted) {
+  constexpr Change kFields[] = {{0x80, 0x40}, {0x80, 0x00}, {0xE4, 0x02}, {0xE4, 0x03},
+                                {0xE5, 0xC0}, {0xE5, 0x60}, {0xE5, 0x20}, {0xE5, 0x40},
+                                {0xE5, 0x58}, {0xE5, 0x68}};
+  for (const bool tested : {false, true}) {
+    for (const Change& change : kFields) {
+      for (unsigned frame = 1; frame < 14 + (tested ? 26U : 25U); ++frame) {
+        const std::string what = name_of(change, frame) + (tested ? ", tested" : "");
+        Chip chip(two_lines());
+        ControlHost host(chip);
+        configure(chip);
+        host.set_command(0x80, 2, tested);
+        ASSERT_EQ(host.run_single(frame), 0U) << what;
+        ASSERT_NO_THROW(chip.write(change.address, {change.value})) << what;
+        unsigned frames = 0;
+        ASSERT_NO_THROW(frames = host.run_single(100)) << what;
+        EXPECT_EQ(frame + frames, 14U + (tested ? 26U : 25U)) << what;
+        EXPECT_EQ(host.status(), kAllGood) << what;
+        const auto& control = *chip.simulator.slave(1)->control();
+        EXPECT_EQ(control.counters().commands, 1U) << what;
+        EXPECT_EQ(control.last_command().ids, 0x80) << what;
+        EXPECT_EQ(control.last_command().code, 2) << what;
+        EXPECT_EQ(chip.simulator.slave(5)->control()->counters().commands, 0U) << what;
+        if (testing::Test::HasFailure()) return;
+      }
+    }
+  }
+}
+
+}  // namespace

@@ -1,0 +1,158 @@
+#!/usr/bin/env python3
+# SPDX-FileCopyrightText: 2026 The openmb4 authors
+# SPDX-License-Identifier: Apache-2.0
+"""Who may use whom: the directions of includes and of module instances, in one table.
+
+  check_directions.py              every include of C++ and C, every instance and package of the RTL
+  check_directions.py --self-test  planted faults are reported
+"""
+
+import re
+import sys
+from pathlib import Path
+
+HERE = Path(__file__).resolve().parent
+sys.path.insert(0, str(HERE.parents[1] / "tools" / "synth"))
+
+import project  # noqa: E402
+import sv_widths  # noqa: E402
+
+# Room: the rooms that it may use besides itself. The longest name that a file begins with is its
+# room. Tests may use everything.
+MAY_USE = {
+    "regmap/": (),
+    "drivers/": ("regmap/",),
+    "sim/": ("rtl/",),
+    "tools/": ("sim/", "drivers/", "regmap/"),
+    "examples/": ("sim/", "drivers/"),
+    "rtl/mb4_pkg": (),
+    "rtl/common/": ("rtl/mb4_pkg",),
+    "rtl/line/": ("rtl/common/", "rtl/mb4_pkg"),
+    "rtl/host/": ("rtl/common/", "rtl/mb4_pkg", "regmap/"),
+    "rtl/regs/": ("rtl/common/", "rtl/mb4_pkg", "regmap/"),
+    "rtl/ctrl/": ("rtl/common/", "rtl/mb4_pkg", "regmap/"),
+    "rtl/mb4_": ("rtl/common/", "rtl/line/", "rtl/host/", "rtl/regs/", "rtl/ctrl/", "rtl/mb4_pkg",
+                 "regmap/"),
+}
+# What is not as the table says yet. Each must still be needed.
+STILL = {
+    ("rtl/line/mb4_frame.sv", "regmap/generated/mb4_regs_pkg.sv"): "the codes of the protocols",
+    ("sim/model/edge/count_parts.cpp", "tools/mb4sim/workload.hpp"): "the workloads of mb4sim bench",
+}
+# Folders in which an include in quotes or angle brackets is looked for, behind the file's own.
+INCLUDE_FOLDERS = ("sim/include/", "drivers/include/", "regmap/generated/", "sim/model/", "sim/src/",
+                   "tools/mb4sim/", "drivers/c/", "")
+CPP = (".cpp", ".hpp", ".c", ".h")
+
+
+def room(name):
+    return max((begin for begin in MAY_USE if name.startswith(begin)), key=len, default=None)
+
+
+def includes(name, text, names):
+    """The files of the project that a C++ or C file includes."""
+    for line in re.findall(r'^\s*#\s*include\s+["<]([^">]+)[">]', text, flags=re.M):
+        own = name.rpartition("/")[0] + "/"
+        for folder in (own, *INCLUDE_FOLDERS):
+            parts = []
+            for part in (folder + line).split("/"):
+                parts = parts[:-1] if part == ".." else parts + [part] * (part not in ("", "."))
+            if "/".join(parts) in names:
+                yield "/".join(parts)
+                break
+
+
+def instances(text, modules):
+    """The files of the modules and packages that an RTL file uses."""
+    text = sv_widths.without_comments(text)
+    for word in set(re.findall(r"^\s*(\w+)\s*(?:#\s*\(|u_\w+\s*\()", text, flags=re.M)
+                    + re.findall(r"(\w+_pkg)::", text)):
+        if word in modules:
+            yield modules[word]
+
+
+def uses(files):
+    """(file, file that it uses) of {name: text}."""
+    names = set(files)
+    modules = {name.rpartition("/")[2][:-3]: name for name in files if name.endswith(".sv")}
+    for name, text in files.items():
+        if name.endswith(CPP):
+            used = includes(name, text, names)
+        elif name.startswith("rtl/") and name.endswith(".sv"):
+            used = instances(text, modules)
+        else:
+            continue
+        for other in used:
+            if other != name:
+                yield name, other
+
+
+def findings_of(files, still):
+    findings = []
+    needed = set()
+    for name, other in uses(files):
+        here, there = room(name), room(other)
+        if here is None:
+            continue  # tests
+        if there != here and there not in MAY_USE[here]:
+            if (name, other) in still:
+                needed.add((name, other))
+            else:
+                findings.append(f"{name} uses {other}: {here} may use "
+                                f"{', '.join(MAY_USE[here]) or 'nothing'}")
+    findings += [f"{name} uses {other}: no longer so, take it out of STILL in {Path(__file__).name}"
+                 for name, other in still if (name, other) not in needed]
+    return findings
+
+
+def project_files():
+    files = {}
+    for folder in ("regmap", "drivers", "sim", "tools", "examples", "rtl", "tests"):
+        for path in sorted((project.ROOT / folder).rglob("*")):
+            if path.suffix in (*CPP, ".sv"):
+                files[str(path.relative_to(project.ROOT))] = path.read_text(encoding="utf-8")
+    return files
+
+
+def self_test():
+    files = {
+        "sim/include/mb4sim/a.hpp": "", "tools/mb4sim/t.hpp": "", "drivers/include/mb4/d.hpp": "",
+        "rtl/line/mb4_frame.sv": "  mb4_ram #(.Width(8)) u_a (\n", "rtl/common/mb4_ram.sv": "",
+        "rtl/regs/mb4_bank.sv": "", "regmap/generated/mb4_regs_pkg.sv": "",
+    }
+    cases = (
+        ("sim/src/a.cpp", '#include "mb4sim/a.hpp"\n', 0),
+        ("sim/src/a.cpp", '#include "t.hpp"\n', 1),
+        ("sim/src/a.cpp", '#include "mb4/d.hpp"\n', 1),
+        ("drivers/c/a.cpp", "#include <mb4sim/a.hpp>\n", 1),
+        ("drivers/c/a.cpp", "#include <vector>\n", 0),
+        ("tools/mb4sim/a.cpp", '#include "mb4sim/a.hpp"\n#include "mb4/d.hpp"\n', 0),
+        ("tests/unit/a.cpp", '#include "t.hpp"\n', 0),
+        ("rtl/common/mb4_a.sv", "  mb4_bank u_bank (\n", 1),
+        ("rtl/line/mb4_a.sv", "  mb4_ram #(\n", 0),
+        ("rtl/line/mb4_a.sv", "  assign a = b == mb4_regs_pkg::ADDR;\n", 1),
+        ("rtl/line/mb4_a.sv", "  // mb4_regs_pkg::ADDR, mb4_bank u_bank (\n", 0),
+        ("rtl/mb4_core.sv", "  mb4_bank u_bank (\n  mb4_frame u_frame (\n", 0),
+    )
+    findings = []
+    for name, text, expected in cases:
+        found = findings_of({**files, name: text}, {})
+        if len(found) != expected:
+            findings.append(f"{name}, {text!r}: expected {expected} finding(s), got {found}")
+    if len(findings_of(files, {("rtl/line/mb4_frame.sv", "rtl/regs/mb4_bank.sv"): ""})) != 1:
+        findings.append("an exception that is not needed: no finding")
+    return findings
+
+
+def main():
+    arguments = project.Arguments(__doc__)
+    arguments.add_argument("--self-test", action="store_true", dest="self_test")
+    if arguments.parse_args().self_test:
+        project.finish(self_test(), "planted faults are reported")
+    files = project_files()
+    if len(list(uses(files))) < 300:
+        project.finish(["fewer uses than there must be: is the tree whole?"], "")
+    project.finish(findings_of(files, STILL), "every include and instance follows the directions")
+
+
+main()

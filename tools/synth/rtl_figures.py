@@ -1,0 +1,61 @@
+#!/usr/bin/env python3
+# SPDX-FileCopyrightText: 2026 The openmb4 authors
+# SPDX-License-Identifier: Apache-2.0
+"""How much of the RTL is wiring, and how full the folders are.
+
+  rtl_figures.py    prints the share of code lines that are wiring, the modules with most ports, and
+                    the folders with most files
+
+A code line is one with more than comments. Wiring is a code line that declares a port, is a
+.name connection, or only copies a signal into or out of a struct (assign a.b = c; or assign c = a.b;).
+"""
+
+import re
+from collections import Counter
+
+import project
+import sv_widths
+
+COPY = re.compile(r"assign\s+(\w+(\[\w+\])?\.[\w.]+\s*=\s*[\w\[\]]+|[\w\[\]]+\s*=\s*\w+(\[\w+\])?\.[\w.]+)\s*;$")
+PORT = re.compile(r"(input|output|inout)\s")
+
+
+def wiring(text):
+    """(code lines, lines of wiring, {module: ports}) of one file."""
+    lines = [line.strip() for line in sv_widths.without_comments(text).splitlines() if line.strip()]
+    found = sum(1 for line in lines
+                if PORT.match(line) or re.match(r"\.\w+|\.\*", line) or COPY.match(line))
+    ports = Counter()
+    module = ""
+    for line in lines:
+        begin = re.match(r"module\s+(\w+)", line)
+        module = begin.group(1) if begin else module
+        if PORT.match(line):
+            # input logic a, b: the names after the type and its ranges.
+            names = re.sub(r"\[[^\]]*\]", "", line).rstrip(",);").split(",")
+            ports[module] += len([name for name in names if name.strip()])
+    return len(lines), found, ports
+
+
+def folders():
+    """Tracked files a folder, without what is generated and without pictures."""
+    return Counter(name.rpartition("/")[0] for name in project.tracked()
+                   if "generated/" not in name and not name.endswith((".svg", ".png")))
+
+
+def main():
+    project.Arguments(__doc__).parse_args()
+    lines = found = 0
+    ports = Counter()
+    for path in project.rtl_files():
+        if project.RTL not in path.parents:
+            continue  # generated
+        own, wires, own_ports = wiring(path.read_text(encoding="utf-8"))
+        lines, found = lines + own, found + wires
+        ports.update(own_ports)
+    print(f"wiring: {found} of {lines} code lines of the RTL, {100 * found / lines:.1f} %")
+    print("ports:  " + ", ".join(f"{name} {number}" for name, number in ports.most_common(5)))
+    print("files:  " + ", ".join(f"{name} {number}" for name, number in folders().most_common(6)))
+
+
+main()
