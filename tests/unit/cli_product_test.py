@@ -111,11 +111,17 @@ class Trace(CliTest):
         self.assert_one_line(result, 0, r"no bad frame, so .*a\.fst was not written")
         self.assertEqual(os.listdir(self.folder.name), [])
 
-    def test_hundred_frames_take_less_than_two_seconds(self):
-        begin = time.process_time(), os.times().children_user + os.times().children_system
-        run("run", RESOLUTE, "--frames", "100", "--trace", self.path("a.fst"))
-        used = os.times().children_user + os.times().children_system - begin[1]
-        self.assertLess(used, 2)
+    def test_waveform_costs_few_times_the_run(self):
+        def used(*arguments):
+            begin = os.times()
+            run("run", RESOLUTE, "--frames", "100", *arguments)
+            end = os.times()
+            return end.children_user + end.children_system - begin.children_user - begin.children_system
+
+        # A ratio in one run: the machine, its other work and sanitizers are in both.
+        plain = min(used() for _ in range(3))
+        traced = min(used("--trace", self.path("a.fst")) for _ in range(3))
+        self.assertLess(traced, 15 * plain)
 
     def test_wrong_windows(self):
         trace = ["--trace", self.path("a.fst")]
