@@ -8,7 +8,7 @@
 //   * every instruction and access ends, but for the waits that are counted, which BREAK ends,
 //   * a word shown as valid is one that its slave has sent, other than a CRC alias,
 //   * after configuration, BREAK and INIT a frame works.
-// The sessions are split into parts. MB4_CHIP_FUZZ_SESSIONS: sessions of all parts (default 2000),
+// The sessions are split into parts. MB4_CHIP_FUZZ_SESSIONS: sessions of all parts (default 1000),
 // MB4_SEED: seed of the first, MB4_CHIP_FUZZ_SECONDS: instead of a number, for each part. A failure
 // prints its seed and leaves a scenario and a script for `mb4sim spi` in the folder MB4_FAILURES.
 #include <gtest/gtest.h>
@@ -62,7 +62,7 @@ std::string run_session(std::uint64_t seed, FuzzCounts& counts, std::string& tex
 }
 
 TEST_P(ChipFuzz, AnySession_EndsAndRecovers) {
-  const std::uint64_t all = mb4test::number_from("MB4_CHIP_FUZZ_SESSIONS", 2000);
+  const std::uint64_t all = mb4test::number_from("MB4_CHIP_FUZZ_SESSIONS", 1000);
   const std::uint64_t seconds = mb4test::number_from("MB4_CHIP_FUZZ_SECONDS", 0);
   const std::uint64_t seed_of_all = mb4test::number_from("MB4_SEED", 1);
   const std::uint64_t share = (all + kParts - 1) / kParts;
