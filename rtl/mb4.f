@@ -3,6 +3,7 @@
 //
 // The only list of the RTL files. Paths are relative to this folder; packages come first.
 mb4_pkg.sv
+line/biss_pkg.sv
 ../regmap/generated/mb4_regs_pkg.sv
 common/mb4_reset_sync.sv
 common/mb4_sync_bit.sv
@@ -39,7 +40,6 @@ regs/mb4_reg_file.sv
 ctrl/mb4_freqs_dec.sv
 ctrl/mb4_crc_decode.sv
 ctrl/mb4_word_list.sv
-ctrl/mb4_words.sv
 ctrl/mb4_frame_request.sv
 ctrl/mb4_frame_kind.sv
 ctrl/mb4_sequencer.sv
@@ -61,9 +61,8 @@ line/mb4_edge_count.sv
 line/mb4_ma_drive.sv
 line/mb4_frame.sv
 line/mb4_mo_tx.sv
-line/mb4_channel.sv
-line/mb4_lines.sv
-mb4_channels.sv
+line/mb4_line.sv
+mb4_lines.sv
 mb4_engine.sv
 mb4_core.sv
 mb4_chip.sv

@@ -68,35 +68,26 @@ module mb4_engine #(
   mb4_pkg::cfg_t    cfg;
   mb4_pkg::instr_t  written;
   mb4_pkg::instr_t  held;
+  mb4_pkg::flags_t  flags;
   mb4_pkg::status_t status;
   logic [1:0] instr_count, instr_ack;
 
   // memories and banks
-  logic mem_busy, swbank_pulse, svalid_clear;
-  logic bank_pending, bank_swapped, bank_lost, bank_run, frame_done, reduced, bank_end;
-  logic       rdata_rd_en, rdata_wr_en, post_busy;
-  logic [5:0] rdata_addr;
-  logic [7:0] rdata, rdata_wr_data;
+  mb4_pkg::bank_cmd_t  bank;
+  mb4_pkg::rdata_cmd_t rdata_cmd;
+  logic mem_busy, bank_pending, bank_swapped, bank_lost, post_busy, svalid_clear;
+  logic [7:0] rdata;
 
-  // control
-  logic [7:0] half_len, enscd;
-  logic       tick;
-  logic       start, init, mo_return, abort, keep_time;
-  logic       register_start, register_ma, register_end;
-  logic [1:0] start_use, register_mo;
-  logic [1:0] ma_force, ma_force_level;
-  logic       ma_force_change;
-  logic [1:0] idle, timeout, sl, frame_end;
-  logic [1:0] word_begin, word_open, word_done, word_ok;
-  logic [1:0] crc_ok;
-  logic [1:0] init_done, init_fail;
-  logic [1:0] cds, cds_host, cdm0, cdm1, cdm;
-
-  // words of the two lines: flat vectors with one slice for each line
-  logic [1:0]  ssi, line_wr_en;
-  logic [5:0]  slave, line_wr_byte;
-  logic [15:0] line_wr_data;
-  logic [15:0] quarters;
+  // lines
+  logic [7:0]  enscd;
+  logic [1:0]  ssi, idle, sl, sl_pin, word_ok, cds;
+  logic        register_ma, register_end, time_run, time_restart, tick;
+  biss_pkg::line_go_t go;
+  logic [2*biss_pkg::LINE_START_W-1:0]  line_start;
+  logic [2*biss_pkg::LINE_CMD_W-1:0]    cmd;
+  logic [2*biss_pkg::LINE_STATUS_W-1:0] line_status;
+  logic [2*biss_pkg::LINE_EVENT_W-1:0]  line_event;
+  logic [2*biss_pkg::LINE_DATA_W-1:0]   line_data;
   logic [11:0] mo_addr;
   logic [15:0] mo_data;
 
@@ -147,34 +138,17 @@ module mb4_engine #(
     .revision_sel_i (quirks_i[mb4_pkg::QUIRK_REVISION_LSB +: 2]),
     .mem_busy_o     (mem_busy),
     .holdbank_i     (held.holdbank),
-    .swbank_pulse_i (swbank_pulse),
-    .bank_run_i     (bank_run),
-    .frame_end_i    (frame_done),
-    .reduced_i      (reduced),
-    .bank_end_i     (bank_end),
-    .cds_i          (cds),
-    .cds_o          (cds_host),
+    .bank_i         (bank),
+    .cds_o          (cds),
     .bank_pending_o (bank_pending),
     .bank_swapped_o (bank_swapped),
     .bank_lost_o    (bank_lost),
-    .rdata_rd_en_i  (rdata_rd_en),
-    .rdata_addr_i   (rdata_addr),
+    .rdata_i        (rdata_cmd),
     .rdata_o        (rdata),
     .post_busy_o    (post_busy),
-    .rdata_wr_en_i  (rdata_wr_en),
-    .rdata_wr_data_i (rdata_wr_data),
-    .wr_line_i      (line_wr_en),
-    .wr_byte_i      (line_wr_byte),
-    .wr_line_data_i (line_wr_data),
-    .slave_i        (slave),
-    .word_begin_i   (word_begin),
-    .word_open_i    (word_open),
-    .word_done_i    (word_done),
-    .word_ok_i      (crc_ok),
+    .data_i         (line_data),
     .word_ok_o      (word_ok),
     .svalid_clear_i (svalid_clear),
-    .delay_en_i     (init_done),
-    .delay_i        (quarters),
     .mo_rd_en_i     (cfg.en_mo),
     .mo_addr_i      (mo_addr),
     .mo_data_o      (mo_data)
@@ -192,126 +166,73 @@ module mb4_engine #(
     .cfg_i          (cfg),
     .quirks_i       (quirks_q),
     .getsens_i,
-    .eot_o,
-    .ner_low_o,
     .mem_busy_i     (mem_busy),
     .bank_pending_i (bank_pending),
     .bank_swapped_i (bank_swapped),
     .bank_lost_i    (bank_lost),
-    .bank_run_o     (bank_run),
+    .bank_o         (bank),
     .svalid_clear_o (svalid_clear),
-    .frame_end_o    (frame_done),
-    .bank_end_o     (bank_end),
-    .reduced_o      (reduced),
-    .swbank_pulse_o (swbank_pulse),
-    .rdata_rd_en_o  (rdata_rd_en),
-    .rdata_addr_o   (rdata_addr),
+    .rdata_o        (rdata_cmd),
     .rdata_i        (rdata),
     .post_busy_i    (post_busy),
-    .rdata_wr_en_o  (rdata_wr_en),
-    .rdata_wr_data_o (rdata_wr_data),
-    .half_len_o     (half_len),
     .ssi_o          (ssi),
-    .start_o        (start),
-    .use_o          (start_use),
-    .init_o         (init),
-    .mo_return_o    (mo_return),
-    .register_o     (register_start),
+    .cmd_o          (cmd),
+    .go_o           (go),
     .register_ma_o  (register_ma),
     .register_end_o (register_end),
-    .register_mo_o  (register_mo),
-    .force_o        (ma_force),
-    .force_level_o  (ma_force_level),
-    .force_change_o (ma_force_change),
-    .cdm0_o         (cdm0),
-    .cdm1_o         (cdm1),
-    .abort_o        (abort),
-    .time_o         (keep_time),
+    .start_o        (line_start),
+    .time_run_o     (time_run),
+    .time_restart_o (time_restart),
     .tick_i         (tick),
-    .cds_i          (cds),
-    .cdm_i          (cdm),
     .idle_i         (idle),
-    .timeout_i      (timeout),
+    .status_i       (line_status),
+    .event_i        (line_event),
     .sl_i           (sl),
-    .line_end_i     (frame_end),
-    .word_done_i    (word_done),
     .word_ok_i      (word_ok),
-    .init_done_i    (init_done),
-    .init_fail_i    (init_fail),
-    .n_scderr_o     (status.n_scderr),
-    .n_agserr_o     (status.n_agserr),
-    .n_regerr_o     (status.n_regerr),
-    .n_delayerr_o   (status.n_delayerr),
-    .regend_o       (status.regend),
-    .regbytes_o     (status.regbytes),
-    .swbank_fail_o  (status.swbank_fail),
-    .cdm_timeout_o  (status.cdm_timeout)
+    .flags_o        (flags),
+    .ner_low_o
   );
 
   // ---- lines --------------------------------------------------------------------------------
 
-  mb4_channels #(.SlCells(SlCells)) u_channels (
+  mb4_lines #(.SlCells(SlCells)) u_lines (
     .clk_i,
     .rst_ni         (rst_core_n),
     .por_ni         (por_core_n),
+    .cfg_i          (cfg),
     .enscd_i        (enscd),
     .cfg_en_o       (cfg_en),
     .cfg_slave_o    (cfg_slave),
     .slave_cfg_i    (slave_cfg),
-    .cfg_i          (cfg),
-    .half_len_i     (half_len),
     .ssi_i          (ssi),
-    .start_i        (start),
-    .use_i          (start_use),
-    .init_i         (init),
-    .mo_return_i    (mo_return),
-    .register_i     (register_start),
+    .cmd_i          (cmd),
+    .go_i           (go),
     .register_ma_i  (register_ma),
     .register_end_i (register_end),
-    .register_mo_i  (register_mo),
-    .force_i        (ma_force),
-    .force_level_i  (ma_force_level),
-    .force_change_i (ma_force_change),
-    .cdm0_i         (cdm0),
-    .cdm1_i         (cdm1),
-    .reduced_i      (reduced),
-    .abort_i        (abort),
-    .time_i         (keep_time),
+    .start_i        (line_start),
+    .time_run_i     (time_run),
+    .time_restart_i (time_restart),
     .tick_o         (tick),
-    .slave_o        (slave),
+    .idle_o         (idle),
+    .status_o       (line_status),
+    .event_o        (line_event),
+    .data_o         (line_data),
     .mo_addr_o      (mo_addr),
     .mo_data_i      (mo_data),
-    .wr_en_o        (line_wr_en),
-    .wr_byte_o      (line_wr_byte),
-    .wr_data_o      (line_wr_data),
-    .word_begin_o   (word_begin),
-    .word_open_o    (word_open),
-    .word_done_o    (word_done),
-    .word_ok_o      (crc_ok),
-    .cds_o          (cds),
-    .cdm_o          (cdm),
-    .frame_end_o    (frame_end),
-    .init_done_o    (init_done),
-    .init_fail_o    (init_fail),
-    .quarters_o     (quarters),
-    .idle_o         (idle),
-    .timeout_o      (timeout),
-    .sl_o           (sl),
     .ma_o           ({ma2_o, ma1_o}),
     .mo_o           ({mo2_o, mo1_o}),
-    .sl_i           ({sl2_i, sl1_i})
+    .sl_i           ({sl2_i, sl1_i}),
+    .sl_o           (sl)
   );
 
   // ---- status -------------------------------------------------------------------------------
 
-  assign status.eot         = eot_o;
-  assign status.n_err       = ner_i && !ner_low_o;
-  assign status.cdssel      = (cfg.chsel == 2'b10) ? cds_host[1] : cds_host[0];
-  assign status.cds1        = cds_host[0];
-  assign status.cds2        = cds_host[1];
+  assign eot_o  = flags.eot;
   // With the DDR cell of an iCE40 no other logic can read the pin.
-  assign {status.sl2, status.sl1} = SlCells == mb4_pkg::SL_ICE40 ? sl : {sl2_i, sl1_i};
-  assign clkeni_o           = cfg.clkeni;
-  assign paired_o           = cfg.cfgif[1];
+  assign sl_pin = SlCells == mb4_pkg::SL_ICE40 ? sl : {sl2_i, sl1_i};
+  assign status = {flags, ner_i && !ner_low_o, (cfg.chsel == 2'b10) ? cds[1] : cds[0],
+                   cds[1], sl_pin[1], cds[0], sl_pin[0]};
+  assign clkeni_o = cfg.clkeni;
+  assign paired_o = cfg.cfgif[1];
 
 endmodule

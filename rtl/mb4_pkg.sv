@@ -61,22 +61,6 @@ package mb4_pkg;
     logic       clkeni;
   } cfg_t;
 
-  // One data word as the line engine sees it: lengths and CRC are decoded, no register map in it.
-  typedef struct packed {
-    logic [5:0]  data_last;  // data bits minus 1
-    logic        crc_on;
-    logic [3:0]  crc_last;   // CRC bits minus 1: 0..7 or 15 (only 15 has bit 3 set)
-    logic [7:0]  crc_poly;   // without the highest power; 16-bit CRC: the lower half
-    logic [7:0]  crc_top;    // one-hot: highest bit of the remainder; 16-bit CRC: 0
-    logic [15:0] crc_start;
-    logic        crc_store;  // the received CRC goes to the top byte(s)
-    logic        gray;       // the data bits are Gray coded
-    logic        actuator;   // the word is sent on MO; SL is not looked at in its slot
-    logic        stop;       // a stop bit precedes the data of the actuator
-  } word_cfg_t;
-
-  localparam int unsigned WORD_CFG_W = 47;
-
   // Contents of 0xF4 (datasheet Tables 44..49), bit 7 first.
   typedef struct packed {
     logic       brk;
@@ -87,23 +71,66 @@ package mb4_pkg;
     logic       ags;
   } instr_t;
 
-  // Status bits of the core, one flop for each bit. SVALID is not here: it has two banks.
+  // What INSTR, CHSEL and CFGCH ask for (mb4_frame_kind). Vectors {line 2, line 1}.
   typedef struct packed {
-    logic       n_err;
+    logic [1:0] in_use;      // lines in use
+    logic [1:0] frame_use;   // lines of the frame that INSTR asks for
+    logic [1:0] init_use;    // lines of INIT
+    logic       is_frame;    // INSTR asks for a frame
+    logic       is_control;  // ... with a BiSS C control communication
+    logic       is_register; // ... that is a BiSS B register access
+    logic       is_void;     // INSTR asks for a control communication that no line can do
+  } kind_t;
+
+  // What the sequence of frames tells the flags.
+  typedef struct packed {
+    logic       busy;        // a frame or INIT runs or is requested
+    logic       clear;       // INIT, BREAK
+    logic       scd_en;      // a frame is complete: scd_bad is its result
+    logic       scd_bad;
+    logic       ags_error;   // a frame could not start
+    logic       bank_fail;   // a bank switch was prevented
+  } frame_flags_t;
+
+  // What the sequence of frames tells the banks.
+  typedef struct packed {
+    logic       run;         // a frame with sensor data runs
+    logic       frame_end;   // a frame is complete
+    logic       data_end;    // ... with sensor data
+    logic       reduced;     // the frame was reduced: only the CDS bits switch
+    logic       swap;        // SWBANK has changed its value
+  } bank_cmd_t;
+
+  // RDATA, for the control communication. A read byte comes one clock later.
+  typedef struct packed {
+    logic       rd_en;
+    logic [5:0] addr;
+    logic       wr_en;
+    logic [7:0] wr_data;
+  } rdata_cmd_t;
+
+  // Status bits that control makes, one flop for each bit.
+  typedef struct packed {
     logic       n_agserr;
     logic       n_delayerr;
     logic       n_scderr;
     logic       n_regerr;
     logic       regend;
     logic       eot;
+    logic       swbank_fail;
     logic       cdm_timeout;
-    logic       cdssel;
     logic [5:0] regbytes;
+  } flags_t;
+
+  // Status bits of the core. SVALID is not here: it has two banks.
+  typedef struct packed {
+    flags_t     flags;
+    logic       n_err;
+    logic       cdssel;
     logic       cds2;
     logic       sl2;
     logic       cds1;
     logic       sl1;
-    logic       swbank_fail;
   } status_t;
 
   // Slots of a BiSS C control frame: the number of frames since the start bit S (slot 0). A name

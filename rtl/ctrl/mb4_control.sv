@@ -17,78 +17,52 @@ module mb4_control (
   output mb4_pkg::instr_t held_o,
   input  mb4_pkg::cfg_t   cfg_i,
   input  logic [mb4_pkg::QUIRKS_W-1:0] quirks_i,
-  // pins
   input  logic       getsens_i,
-  output logic       eot_o,
-  output logic       ner_low_o,
   // memories and banks
   input  logic       mem_busy_i,
   input  logic       bank_pending_i,
   input  logic       bank_swapped_i,
   input  logic       bank_lost_i,
-  output logic       bank_run_o,
+  output mb4_pkg::bank_cmd_t bank_o,
   output logic       svalid_clear_o,
-  output logic       frame_end_o,
-  output logic       bank_end_o,
-  output logic       reduced_o,
-  output logic       swbank_pulse_o,
   // RDATA
-  output logic       rdata_rd_en_o,
-  output logic [5:0] rdata_addr_o,
+  output mb4_pkg::rdata_cmd_t rdata_o,
   input  logic [7:0] rdata_i,
   input  logic       post_busy_i,     // bytes of the host are on their way to RDATA
-  output logic       rdata_wr_en_o,
-  output logic [7:0] rdata_wr_data_o,
   // lines
-  output logic [7:0] half_len_o,
   output logic [1:0] ssi_o,
-  output logic       start_o,
-  output logic [1:0] use_o,           // with start_o
-  output logic       init_o,
-  output logic       mo_return_o,
-  output logic       register_o,      // with start_o
-  output logic       register_ma_o,
-  output logic       register_end_o,
-  output logic [1:0] register_mo_o,   // MO is low
-  output logic [1:0] force_o,
-  output logic [1:0] force_level_o,
-  output logic       force_change_o,
-  output logic [1:0] cdm0_o,
-  output logic [1:0] cdm1_o,
-  output logic       abort_o,
-  output logic       time_o,
+  output logic [2*biss_pkg::LINE_CMD_W-1:0] cmd_o,
+  output biss_pkg::line_go_t go_o,
+  output logic       register_ma_o,   // BiSS B register access: next level of MA
+  output logic       register_end_o,  // ... it ends
+  output logic [2*biss_pkg::LINE_START_W-1:0] start_o,
+  output logic       time_run_o,      // the time base runs between frames too
+  output logic       time_restart_o,  // ... and begins a half period, if no frame runs
   input  logic       tick_i,
-  input  logic [1:0] cds_i,
-  input  logic [1:0] cdm_i,
   input  logic [1:0] idle_i,
-  input  logic [1:0] timeout_i,
+  input  logic [2*biss_pkg::LINE_STATUS_W-1:0] status_i,
+  input  logic [2*biss_pkg::LINE_EVENT_W-1:0]  event_i,
   input  logic [1:0] sl_i,
-  input  logic [1:0] line_end_i,
-  input  logic [1:0] word_done_i,
-  input  logic [1:0] word_ok_i,
-  input  logic [1:0] init_done_i,
-  input  logic [1:0] init_fail_i,
+  input  logic [1:0] word_ok_i,       // with word_done of event_i
   // status
-  output logic       n_scderr_o,
-  output logic       n_agserr_o,
-  output logic       n_regerr_o,
-  output logic       n_delayerr_o,
-  output logic       regend_o,
-  output logic [5:0] regbytes_o,
-  output logic       swbank_fail_o,
-  output logic       cdm_timeout_o
+  output mb4_pkg::flags_t flags_o,
+  output logic       ner_low_o
 );
 
-  logic agsmin, infinite, request, missed, taken, lines_idle, running, brk;
-  logic busy, clear_flags, scd_en, scd_bad, ags_error, bank_fail, init_clear;
-  logic control_want, register_want, control_active, is_frame, is_control, is_register;
-  logic reg_begin, reg_end, reg_error, delay_error, reg_ags_error;
-  logic live, stalled;
-  logic [1:0] in_use, frame_use, init_use, manual, select;
-  logic is_void, void_end, refused, access_run;
+  mb4_pkg::kind_t        kind;
+  mb4_pkg::frame_flags_t frame_flags;
   mb4_pkg::access_t access_q;   // constant while an access runs
   logic [1:0] chsel_q;
+  logic agsmin, infinite, request, missed, taken, lines_idle, running, brk, init_clear;
+  logic control_want, register_want, control_active, void_end, refused, access_run, live, stalled;
+  logic reg_begin, reg_end, reg_error, delay_error, reg_ags_error;
+  logic [1:0] manual, select;
+  logic eot, n_scderr, n_agserr, n_regerr, n_delayerr, regend, swbank_fail, cdm_timeout;
   logic [5:0] good_bytes;
+  // lines
+  biss_pkg::line_status_t status1, status2;
+  logic [1:0] start_use, cdm0, cdm1, mo_low, forced, force_level;
+  logic force_change, keep_time, keep_time_q;
 
   mb4_frame_kind u_kind (
     .instr_i       (held_o.instr),
@@ -98,16 +72,10 @@ module mb4_control (
     .slaveloc5_i   (cfg_i.slaveloc5),
     .cfgch1_i      (cfg_i.cfgch1),
     .cfgch2_i      (cfg_i.cfgch2),
-    .use_o         (in_use),
+    .kind_o        (kind),
     .ssi_o,
     .manual_o      (manual),
-    .select_o      (select),
-    .frame_use_o   (frame_use),
-    .init_use_o    (init_use),
-    .is_frame_o    (is_frame),
-    .is_control_o  (is_control),
-    .is_register_o (is_register),
-    .is_void_o     (is_void)
+    .select_o      (select)
   );
 
   mb4_sequencer u_sequencer (
@@ -121,13 +89,7 @@ module mb4_control (
     .agsmin_i          (agsmin),
     .infinite_i        (infinite),
     .regvers_i         (cfg_i.access.regvers),
-    .use_i             (in_use),
-    .frame_use_i       (frame_use),
-    .init_use_i        (init_use),
-    .is_frame_i        (is_frame),
-    .is_control_i      (is_control),
-    .is_register_i     (is_register),
-    .is_void_i         (is_void),
+    .kind_i            (kind),
     .agserr_on_hold_i  (quirks_i[mb4_pkg::QUIRK_AGSERR_ON_HOLDBANK]),
     .agserr_on_write_i (quirks_i[mb4_pkg::QUIRK_AGSERR_ON_INSTR_WR]),
     .ags_clear_i       (quirks_i[mb4_pkg::QUIRK_AGS_CLEARED_ON_ERROR]),
@@ -137,33 +99,17 @@ module mb4_control (
     .lines_idle_o      (lines_idle),
     .running_o         (running),
     .break_o           (brk),
-    .start_o,
-    .start_use_o       (use_o),
-    .init_o,
-    .mo_return_o,
-    .register_o,
-    .reduced_o,
-    .abort_o,
+    .go_o,
+    .start_use_o       (start_use),
     .tick_i,
     .idle_i,
-    .timeout_i,
+    .timeout_i         ({status2.timeout, status1.timeout}),
     .sl_i,
-    .frame_end_i       (line_end_i),
-    .word_done_i,
+    .event_i,
     .word_ok_i,
-    .init_done_i,
-    .init_fail_i,
     .bank_pending_i,
-    .frame_end_o,
-    .bank_end_o,
-    .bank_run_o,
-    .swbank_pulse_o,
-    .busy_o            (busy),
-    .clear_flags_o     (clear_flags),
-    .scd_en_o          (scd_en),
-    .scd_bad_o         (scd_bad),
-    .ags_error_o       (ags_error),
-    .bank_fail_o       (bank_fail),
+    .bank_o,
+    .flags_o           (frame_flags),
     .init_clear_o      (init_clear),
     .control_begin_o   (control_want),
     .register_begin_o  (register_want),
@@ -194,24 +140,24 @@ module mb4_control (
   mb4_status_flags u_flags (
     .clk_i,
     .rst_ni,
-    .busy_i         (busy),
-    .clear_i        (clear_flags),
-    .scd_en_i       (scd_en),
-    .scd_bad_i      (scd_bad),
-    .ags_error_i    (ags_error),
-    .bank_fail_i    (bank_fail || bank_lost_i),
+    .busy_i         (frame_flags.busy),
+    .clear_i        (frame_flags.clear),
+    .scd_en_i       (frame_flags.scd_en),
+    .scd_bad_i      (frame_flags.scd_bad),
+    .ags_error_i    (frame_flags.ags_error),
+    .bank_fail_i    (frame_flags.bank_fail || bank_lost_i),
     .bank_swapped_i,
     .reg_begin_i    (reg_begin),
     .reg_end_i      (reg_end),
     .reg_error_i    (reg_error),
     .delay_error_i  (delay_error),
-    .eot_o,
-    .n_scderr_o,
-    .n_agserr_o,
-    .n_regerr_o,
-    .n_delayerr_o,
-    .regend_o,
-    .swbank_fail_o,
+    .eot_o          (eot),
+    .n_scderr_o     (n_scderr),
+    .n_agserr_o     (n_agserr),
+    .n_regerr_o     (n_regerr),
+    .n_delayerr_o   (n_delayerr),
+    .regend_o       (regend),
+    .swbank_fail_o  (swbank_fail),
     .ner_low_o
   );
 
@@ -223,43 +169,40 @@ module mb4_control (
     .en_mo_i       (cfg_i.en_mo),
     .instr_i       (held_o.instr),
     .ida_invert_i  (quirks_i[mb4_pkg::QUIRK_IDA_TEST_INVERT]),
-    .in_use_i      (in_use),
+    .in_use_i      (kind.in_use),
     .ssi_i         (ssi_o),
     .manual_i      (manual),
     .select_i      (select),
-    .rdata_rd_en_o,
-    .rdata_addr_o,
+    .rdata_o,
     .rdata_i,
     .post_busy_i,
-    .rdata_wr_en_o,
-    .rdata_wr_data_o,
     .begin_i       (control_want),
     .register_want_i (register_want),
     .void_i        (void_end),
     .refused_i     (refused),
-    .abort_i       (abort_o),
+    .abort_i       (go_o.stop),
     .clear_i       (brk || init_clear),
     .init_clear_i  (init_clear),
-    .start_i       (start_o),
-    .use_i         (use_o),
-    .init_i        (init_o),
-    .register_i    (register_o),
-    .frame_end_i   (frame_end_o),
+    .start_i       (go_o.start),
+    .use_i         (start_use),
+    .init_i        (go_o.init),
+    .register_i    (go_o.register_access),
+    .frame_end_i   (bank_o.frame_end),
     .live_i        (live),
     .tick_i,
     .sl_i,
-    .cds_i,
-    .cdm_i,
+    .cds_i         ({status2.cds, status1.cds}),
+    .cdm_i         ({status2.cdm, status1.cdm}),
     .active_o      (control_active),
     .run_o         (access_run),
-    .time_o,
+    .time_o        (keep_time),
     .stalled_o     (stalled),
-    .cdm0_o,
-    .cdm1_o,
-    .cdm_timeout_o,
+    .cdm0_o        (cdm0),
+    .cdm1_o        (cdm1),
+    .cdm_timeout_o (cdm_timeout),
     .register_ma_o,
     .register_end_o,
-    .register_mo_o,
+    .register_mo_o  (mo_low),
     .reg_begin_o   (reg_begin),
     .reg_end_o     (reg_end),
     .reg_error_o   (reg_error),
@@ -269,7 +212,8 @@ module mb4_control (
   );
 
   // REGBYTES tells the number of good bytes only after an error (Table 63).
-  assign regbytes_o = (n_regerr_o && n_delayerr_o) ? 6'd0 : good_bytes;
+  assign flags_o = {n_agserr, n_delayerr, n_scderr, n_regerr, regend, eot, swbank_fail, cdm_timeout,
+                    (n_regerr && n_delayerr) ? 6'd0 : good_bytes};
 
   // The host may configure the next access while one runs (decision 38).
   always_ff @(posedge clk_i or negedge rst_ni) begin
@@ -277,11 +221,11 @@ module mb4_control (
     else if (!access_run) {access_q, chsel_q} <= {cfg_i.access, cfg_i.chsel};
   end
 
-  assign svalid_clear_o = init_o && cfg_i.access.regvers;
+  assign svalid_clear_o = go_o.init && cfg_i.access.regvers;
 
   // Frames run, or will come by themselves. A frame that the host has to ask for, or that it holds
   // back with HOLDBANK, may come as late as the host likes.
-  assign live = !eot_o || (held_o.ags && !infinite &&
+  assign live = !eot || (held_o.ags && !infinite &&
                            !(held_o.holdbank && quirks_i[mb4_pkg::QUIRK_AGSERR_ON_HOLDBANK]));
 
   mb4_ma_force u_force (
@@ -292,14 +236,30 @@ module mb4_control (
     .mafo_i   (cfg_i.mafo),
     .mavo_i   (cfg_i.mavo),
     .chsel_i  (cfg_i.chsel),
-    .force_o,
-    .level_o  (force_level_o),
-    .change_o (force_change_o)
+    .force_o  (forced),
+    .level_o  (force_level),
+    .change_o (force_change)
   );
 
-  mb4_freqs_dec u_freqs (
-    .freqs_i    (cfg_i.freqs),
-    .half_len_o
-  );
+  // ---- lines --------------------------------------------------------------------------------
+
+  assign {status2, status1} = status_i;
+
+  // CFGCHx has the codes of biss_pkg::protocol_e. Line 2 is unused if SLAVELOC5 = 0.
+  assign cmd_o = {
+    cfg_i.cfgch2 | {2{!cfg_i.slaveloc5}}, cfg_i.en_mo, cfg_i.mo_busy,
+    cfg_i.holdcdm, forced[1], force_level[1], mo_low[1],
+    cfg_i.cfgch1, cfg_i.en_mo, cfg_i.mo_busy,
+    cfg_i.holdcdm, forced[0], force_level[0], mo_low[0]
+  };
+  assign start_o = {start_use[1], cdm0[1], cdm1[1], start_use[0], cdm0[0], cdm1[0]};
+
+  // A forced level lasts whole half periods, and a time limit counts them.
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) keep_time_q <= 1'b0;
+    else         keep_time_q <= keep_time;
+  end
+  assign time_run_o     = keep_time || forced != 2'b00;
+  assign time_restart_o = forced == 2'b00 && (force_change || (keep_time && !keep_time_q));
 
 endmodule

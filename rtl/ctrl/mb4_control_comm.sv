@@ -20,12 +20,9 @@ module mb4_control_comm (
   input  logic [1:0] manual_i,         // lines that CHSEL names
   input  logic [1:0] select_i,         // lines of the access: CHSEL names them, protocol fits
   // RDATA
-  output logic       rdata_rd_en_o,
-  output logic [5:0] rdata_addr_o,
+  output mb4_pkg::rdata_cmd_t rdata_o,
   input  logic [7:0] rdata_i,
   input  logic       post_busy_i,
-  output logic       rdata_wr_en_o,
-  output logic [7:0] rdata_wr_data_o,
   // frames
   input  logic       begin_i,          // a BiSS C control communication begins
   input  logic       register_want_i,  // INSTR asks for BiSS B, or for what cannot run
@@ -157,10 +154,10 @@ module mb4_control_comm (
 
   assign register_end    = register_end_o && !register_init;
   assign register_mo_o   = register_use & {2{register_mo}};
-  assign rdata_rd_en_o   = active_o || register_active;
-  assign rdata_addr_o    = register_active ? register_addr : control_addr;
-  assign rdata_wr_en_o   = control_wr_en || register_wr_en;
-  assign rdata_wr_data_o = register_active ? register_data : control_data;
+  assign rdata_o         = {active_o || register_active,
+                            register_active ? register_addr : control_addr,
+                            control_wr_en || register_wr_en,
+                            register_active ? register_data : control_data};
 
   mb4_cdm_select u_cdm (
     .manual_i,

@@ -23,40 +23,37 @@ module mb4_frame_kind (
   input  logic       slaveloc5_i,
   input  logic [1:0] cfgch1_i,
   input  logic [1:0] cfgch2_i,
-  output logic [1:0] use_o,
+  output mb4_pkg::kind_t kind_o,
   output logic [1:0] ssi_o,
   output logic [1:0] manual_o,       // lines that CHSEL names
-  output logic [1:0] select_o,       // lines of the control communication
-  output logic [1:0] frame_use_o,    // lines of the frame that INSTR asks for
-  output logic [1:0] init_use_o,     // lines of INIT
-  output logic       is_frame_o,
-  output logic       is_control_o,   // BiSS C control communication
-  output logic       is_register_o,  // BiSS B register access
-  output logic       is_void_o       // control communication without a line that fits
+  output logic [1:0] select_o        // lines of the control communication
 );
 
   logic [1:0] biss_b;
   logic [1:0] fits;
+  logic [1:0] in_use;
   logic       control;
+  logic       is_control;
+  logic       is_register;
+  logic       is_frame;
 
-  assign use_o  = {cfgch2_i != mb4_regs_pkg::PROTOCOL_UNUSED && slaveloc5_i,
+  assign in_use  = {cfgch2_i != mb4_regs_pkg::PROTOCOL_UNUSED && slaveloc5_i,
                    cfgch1_i != mb4_regs_pkg::PROTOCOL_UNUSED};
   assign ssi_o  = {cfgch2_i == mb4_regs_pkg::PROTOCOL_SSI, cfgch1_i == mb4_regs_pkg::PROTOCOL_SSI};
   assign biss_b = {cfgch2_i == mb4_regs_pkg::PROTOCOL_BISS_B,
                    cfgch1_i == mb4_regs_pkg::PROTOCOL_BISS_B};
 
   assign manual_o = chsel_i == 2'b00 ? 2'b01 : chsel_i;
-  assign fits     = manual_o & use_o & (regvers_i ? ~biss_b : biss_b);
+  assign fits     = manual_o & in_use & (regvers_i ? ~biss_b : biss_b);
   assign select_o = {fits[1] && !(fits[0] && cts_i && regvers_i), fits[0]};
 
   assign control = instr_i == mb4_regs_pkg::INSTR_CONTROL ||
                    instr_i == mb4_regs_pkg::INSTR_CONTROL_REDUCED;
 
-  assign is_void_o     = control && fits == 2'b00;
-  assign is_control_o  = control && fits != 2'b00 && regvers_i;
-  assign is_register_o = control && fits != 2'b00 && !regvers_i;
-  assign is_frame_o    = is_control_o || is_register_o || (instr_i != 3'b000 && !instr_i[2]);
-  assign frame_use_o   = is_register_o ? select_o : use_o;
-  assign init_use_o    = use_o & ~ssi_o;
+  assign is_register = control && fits != 2'b00 && !regvers_i;
+  assign is_control  = control && fits != 2'b00 && regvers_i;
+  assign is_frame    = is_control || is_register || (instr_i != 3'b000 && !instr_i[2]);
+  assign kind_o      = {in_use, is_register ? select_o : in_use, in_use & ~ssi_o, is_frame,
+                        is_control, is_register, control && fits == 2'b00};
 
 endmodule

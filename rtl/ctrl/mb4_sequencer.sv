@@ -42,13 +42,7 @@ module mb4_sequencer (
   input  logic       agsmin_i,
   input  logic       infinite_i,
   input  logic       regvers_i,
-  input  logic [1:0] use_i,           // lines in use: {2, 1}
-  input  logic [1:0] frame_use_i,     // lines of the frame that INSTR asks for
-  input  logic [1:0] init_use_i,      // lines of INIT
-  input  logic       is_frame_i,      // INSTR asks for a frame (mb4_frame_kind)
-  input  logic       is_control_i,
-  input  logic       is_register_i,
-  input  logic       is_void_i,       // INSTR asks for what cannot run
+  input  mb4_pkg::kind_t kind_i,
   input  logic       agserr_on_hold_i,
   input  logic       agserr_on_write_i,
   input  logic       ags_clear_i,     // an AGS error clears AGS
@@ -60,35 +54,19 @@ module mb4_sequencer (
   output logic       running_o,
   output logic       break_o,
   // lines, {2, 1} each
-  output logic       start_o,
-  output logic [1:0] start_use_o,     // lines that start_o is for
-  output logic       init_o,
-  output logic       mo_return_o,     // INIT: MO returns to 1
-  output logic       register_o,      // with start_o: BiSS B register access or hand-over
-  output logic       reduced_o,       // this frame, from start_o to its end
-  output logic       abort_o,
+  output biss_pkg::line_go_t go_o,
+  output logic [1:0] start_use_o,     // lines that go_o.start is for
   input  logic       tick_i,
   input  logic [1:0] idle_i,
   input  logic [1:0] timeout_i,
   input  logic [1:0] sl_i,
-  input  logic [1:0] frame_end_i,
-  input  logic [1:0] word_done_i,
-  input  logic [1:0] word_ok_i,
-  input  logic [1:0] init_done_i,
-  input  logic [1:0] init_fail_i,
+  input  logic [2*biss_pkg::LINE_EVENT_W-1:0] event_i,
+  input  logic [1:0] word_ok_i,       // with word_done of event_i
   // banks
   input  logic       bank_pending_i,
-  output logic       frame_end_o,     // a frame is complete
-  output logic       bank_end_o,      // ... with sensor data
-  output logic       bank_run_o,      // a frame with sensor data runs
-  output logic       swbank_pulse_o,
+  output mb4_pkg::bank_cmd_t bank_o,
   // status
-  output logic       busy_o,
-  output logic       clear_flags_o,
-  output logic       scd_en_o,
-  output logic       scd_bad_o,
-  output logic       ags_error_o,
-  output logic       bank_fail_o,
+  output mb4_pkg::frame_flags_t flags_o,
   output logic       init_clear_o,    // INIT begins
   // control communication
   output logic       control_begin_o, // INSTR asks for BiSS C; stays until a frame takes it
@@ -120,6 +98,11 @@ module mb4_sequencer (
   logic [10:0]      wait_d;
   logic [10:0]      wait_q;        // half MA periods left for the return of SL to 1
   logic             written;
+  biss_pkg::line_event_t event1, event2;
+  logic [1:0]       line_end, word_done, init_done, init_fail;
+  logic             start, init, register_access, mo_return, abort;
+  logic             frame_end, swap;
+  logic             busy, clear_flags, scd_en, ags_error, bank_fail;
   logic             all_idle, sl_low;
   logic             by_instr, begins;  // INSTR asks for a frame, for a control communication
   logic             register_d, register_q;  // a BiSS B register access runs, not a frame
@@ -138,16 +121,23 @@ module mb4_sequencer (
     .ack_o
   );
 
+  assign {event2, event1} = event_i;
+  assign line_end  = {event2.frame_end, event1.frame_end};
+  assign word_done = {event2.word_done, event1.word_done};
+  assign init_done = {event2.init_done, event1.init_done};
+  assign init_fail = {event2.init_fail, event1.init_fail};
+
   assign all_idle = idle_i == 2'b11;   // also lines out of use: they share the time base
-  assign sl_low   = (use_i & (idle_i | timeout_i) & ~sl_i) != 2'b00;
-  assign by_instr = new_q && is_frame_i && use_i != 2'b00 && (!held_q.ags || infinite_i);
-  assign begins   = new_q && use_i != 2'b00 && !held_q.init && state_q != INIT_TIMEOUT;
-  assign control_begin_o  = begins && is_control_i && state_q != INIT;
-  assign register_begin_o = (begins && is_register_i) || (new_q && is_void_i && !void_o);
-  assign register_o  = init_o ? !regvers_i : is_register_i;
-  assign register_d  = start_o ? register_o : register_q;
-  assign start_use_o = init_o ? init_use_i : frame_use_i;
-  assign reduced_d   = start_o ? control_active_i &&
+  assign sl_low   = (kind_i.in_use & (idle_i | timeout_i) & ~sl_i) != 2'b00;
+  assign by_instr = new_q && kind_i.is_frame && kind_i.in_use != 2'b00 &&
+                    (!held_q.ags || infinite_i);
+  assign begins   = new_q && kind_i.in_use != 2'b00 && !held_q.init && state_q != INIT_TIMEOUT;
+  assign control_begin_o  = begins && kind_i.is_control && state_q != INIT;
+  assign register_begin_o = (begins && kind_i.is_register) || (new_q && kind_i.is_void && !void_o);
+  assign register_access  = init ? !regvers_i : kind_i.is_register;
+  assign register_d  = start ? register_access : register_q;
+  assign start_use_o = init ? kind_i.init_use : kind_i.frame_use;
+  assign reduced_d   = start ? control_active_i &&
                                  held_q.instr == mb4_regs_pkg::INSTR_CONTROL_REDUCED
                                : reduced_q;
 
@@ -159,15 +149,15 @@ module mb4_sequencer (
     done_d         = done_q;
     bad_d          = bad_q;
     wait_d         = (tick_i && wait_q != 11'd0) ? wait_q - 11'd1 : wait_q;
-    start_o        = 1'b0;
-    init_o         = 1'b0;
-    abort_o        = 1'b0;
-    frame_end_o    = 1'b0;
-    swbank_pulse_o = 1'b0;
+    start          = 1'b0;
+    init           = 1'b0;
+    abort          = 1'b0;
+    frame_end      = 1'b0;
+    swap           = 1'b0;
     init_clear_o   = 1'b0;
-    scd_en_o       = 1'b0;
-    ags_error_o    = 1'b0;
-    bank_fail_o    = 1'b0;
+    scd_en         = 1'b0;
+    ags_error      = 1'b0;
+    bank_fail      = 1'b0;
     taken_o        = 1'b0;
     break_o        = 1'b0;
     void_o         = 1'b0;
@@ -177,66 +167,66 @@ module mb4_sequencer (
       IDLE: begin
         // The host sees EOT = 1, unless a request waits. An INSTR that asks for no frame ends here;
         // it does not delay an automatic frame.
-        if (new_q && !new_d && (!is_frame_i || !held_q.ags)) begin
+        if (new_q && !new_d && (!kind_i.is_frame || !held_q.ags)) begin
           held_d.instr = 3'b000;
-          void_o       = is_void_i;
+          void_o       = kind_i.is_void;
         end
         if (held_q.init && !mem_busy_i) begin
-          if (init_use_i == 2'b00) begin
+          if (kind_i.init_use == 2'b00) begin
             held_d.init   = 1'b0;
             init_clear_o  = 1'b1;
           end else if (all_idle) begin
-            start_o       = 1'b1;
-            init_o        = 1'b1;
+            start       = 1'b1;
+            init        = 1'b1;
             init_clear_o  = 1'b1;
-            use_d         = init_use_i;
-            done_d        = ~init_use_i;
+            use_d         = kind_i.init_use;
+            done_d        = ~kind_i.init_use;
             state_d       = INIT;
           end else if (wait_q == 11'd0) begin
-            abort_o = 1'b1;
+            abort = 1'b1;
           end
-        end else if ((by_instr || request_i) && !mem_busy_i && use_i != 2'b00) begin
-          if (bank_pending_i && held_q.holdbank && agserr_on_hold_i && !is_register_i) begin
+        end else if ((by_instr || request_i) && !mem_busy_i && kind_i.in_use != 2'b00) begin
+          if (bank_pending_i && held_q.holdbank && agserr_on_hold_i && !kind_i.is_register) begin
             taken_o     = 1'b1;
-            ags_error_o = 1'b1;
-            bank_fail_o = 1'b1;
+            ags_error = 1'b1;
+            bank_fail = 1'b1;
           end else if (sl_low && !agsmin_i) begin
             taken_o     = 1'b1;
-            ags_error_o = 1'b1;
+            ags_error = 1'b1;
             refused_o   = by_instr;
           end else if (all_idle && !sl_low) begin
             taken_o = 1'b1;
-            start_o = 1'b1;
-            use_d   = frame_use_i;
-            done_d  = ~frame_use_i;
+            start = 1'b1;
+            use_d   = kind_i.frame_use;
+            done_d  = ~kind_i.frame_use;
             bad_d   = 1'b0;
             state_d = FRAME;
           end
           if (taken_o) new_d = 1'b0;
-          if (ags_error_o && !held_q.ags) held_d.instr = 3'b000;
+          if (ags_error && !held_q.ags) held_d.instr = 3'b000;
         end
       end
       FRAME: begin
         // A frame or a register access runs. It ends when the last of its lines has ended.
-        bad_d  = bad_q || (word_done_i & ~word_ok_i) != 2'b00;
-        done_d = done_q | frame_end_i;
+        bad_d  = bad_q || (word_done & ~word_ok_i) != 2'b00;
+        done_d = done_q | line_end;
         if (done_d == 2'b11) begin
           state_d  = FRAME_DONE;
-          scd_en_o = !reduced_q && !register_q;
+          scd_en = !reduced_q && !register_q;
         end
       end
       FRAME_DONE: begin
         // All lines have brought their last bit. The banks switch now.
         state_d     = IDLE;
-        frame_end_o = !register_q;
+        frame_end = !register_q;
         wait_d      = INIT_WAIT;
         if (!held_q.ags && !new_q) held_d.instr = 3'b000;
       end
       INIT: begin
         // INIT runs: MA makes its two pulses and the line delay is measured (BiSS C), or MA does
         // the hand-over (BiSS B).
-        done_d      = done_q | init_done_i | init_fail_i | frame_end_i;
-        ags_error_o = (init_fail_i & use_q) != 2'b00;
+        done_d      = done_q | init_done | init_fail | line_end;
+        ags_error = (init_fail & use_q) != 2'b00;
         wait_d      = INIT_WAIT;
         if (done_d == 2'b11) state_d = INIT_TIMEOUT;
       end
@@ -254,8 +244,8 @@ module mb4_sequencer (
     if (control_end_i && held_q.instr[2] && (!new_q || control_stalled_i)) begin
       held_d.instr = 3'b000;
     end
-    if (missed_i) ags_error_o = 1'b1;
-    if (ags_error_o && ags_clear_i) held_d.ags = 1'b0;
+    if (missed_i) ags_error = 1'b1;
+    if (ags_error && ags_clear_i) held_d.ags = 1'b0;
 
     if (written) begin
       // INSTR written with the code whose frame runs is no new request. A frame runs from its first
@@ -268,22 +258,22 @@ module mb4_sequencer (
       held_d.ags      = written_i.ags;
       held_d.instr    = written_i.instr;
       held_d.init     = written_i.init || held_d.init;
-      swbank_pulse_o  = written_i.swbank != held_q.swbank;
+      swap  = written_i.swbank != held_q.swbank;
       if (written_i.brk) begin
-        abort_o       = 1'b1;
+        abort       = 1'b1;
         break_o       = 1'b1;
-        start_o       = 1'b0;
-        frame_end_o   = 1'b0;
-        scd_en_o      = 1'b0;
+        start       = 1'b0;
+        frame_end   = 1'b0;
+        scd_en      = 1'b0;
         state_d       = IDLE;
         new_d         = written_i.instr != 3'b000;
         held_d.init   = written_i.init;
-        ags_error_o   = 1'b0;
+        ags_error   = 1'b0;
         wait_d        = INIT_WAIT;
       end
-      if (agserr_on_write_i) ags_error_o = 1'b1;
+      if (agserr_on_write_i) ags_error = 1'b1;
     end
-    clear_flags_o = init_clear_o || break_o;
+    clear_flags = init_clear_o || break_o;
   end
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
@@ -312,18 +302,18 @@ module mb4_sequencer (
 
   // Slaves that pass MO on do not show their timeout on SL. So MO stays low for half of INIT_WAIT,
   // which covers the timeout, and SL has the other half to follow MO (decision 39).
-  assign mo_return_o = state_q == INIT_TIMEOUT && !wait_q[10];
+  assign mo_return = state_q == INIT_TIMEOUT && !wait_q[10];
   assign held_o      = held_q;
-  assign scd_bad_o   = bad_d;
-  assign reduced_o   = reduced_d;
-  assign bank_end_o  = frame_end_o && !reduced_q;
-  assign bank_run_o  = state_q == FRAME && !reduced_q && !register_q;
+  assign go_o        = {start, init, register_access, reduced_d, mo_return, abort};
+  assign bank_o      = {state_q == FRAME && !reduced_q && !register_q, frame_end,
+                        frame_end && !reduced_q, reduced_d, swap};
+  assign flags_o     = {busy, clear_flags, scd_en, bad_d, ags_error, bank_fail};
   assign running_o    = state_q != IDLE;
   assign lines_idle_o = all_idle;
   // With AGS = 1 INSTR asks for no frame, unless FREQAGS is AGSINFINITE.
-  assign busy_o      = state_d != IDLE || (new_d && (!held_d.ags || infinite_i)) || held_d.init;
+  assign busy        = state_d != IDLE || (new_d && (!held_d.ags || infinite_i)) || held_d.init;
 
   `MB4_ASSERT(BreakIsNotKept_A, clk_i, rst_ni, !held_q.brk)
-  `MB4_ASSERT_IF(StartOnIdleLines_A, clk_i, rst_ni, start_o, all_idle)
+  `MB4_ASSERT_IF(StartOnIdleLines_A, clk_i, rst_ni, start, all_idle)
 
 endmodule

@@ -5,9 +5,9 @@
 //
 // Clock domain: core. start_i takes the list of words: the enabled data channels of this line,
 // lowest first. The lowest is the slave next to SL.
-// Latency: word_o is the current word. It is valid one clock after start_i and one clock after
+// Latency: offer_o is the current word. It is valid one clock after start_i and one clock after
 // next_i. With Sum = 1 the module first walks through the list once: from the clock after start_i
-// on, len_o gives the bits of one word in each clock, with len_valid_o. word_o is the first word
+// on, len_o gives the bits of one word in each clock, with len_valid_o. offer_o is the first word
 // when len_valid_o has fallen.
 // Misuse: the configuration must not change between start_i and the end of the frame.
 // Datasheet: pages 23..26; order of the words: protocol of the chain, first slave first.
@@ -20,7 +20,7 @@ module mb4_word_list #(
   // configuration
   input  logic [7:0] enscd_i,
   input  logic [7:0] actnsens_i,
-  input  logic [7:0] mine_i,      // data channels of this line
+  input  logic [7:0] own_i,      // data channels of this line
   input  logic       ssi_i,
   input  logic       nocrc_i,
   // control
@@ -33,11 +33,7 @@ module mb4_word_list #(
   // frame length
   output logic       len_valid_o,
   output logic [6:0] len_o,
-  // current word
-  output logic       any_o,
-  output logic       last_o,
-  output logic [2:0] slave_o,
-  output mb4_pkg::word_cfg_t word_o
+  output biss_pkg::offer_t offer_o  // the current word
 );
 
   logic [7:0]  enabled;
@@ -58,9 +54,10 @@ module mb4_word_list #(
   logic        actuator;
   logic        stop;
   logic        crc_room;
+  logic        last;
   logic        unused;
 
-  assign enabled = enscd_i & mine_i;
+  assign enabled = enscd_i & own_i;
   assign rest    = todo_q & (todo_q - 8'd1);
   // Not needed: enscd_i tells the same.
   assign unused  = cfg_i.enscd;
@@ -73,7 +70,7 @@ module mb4_word_list #(
     .crc_top_o  (crc_top)
   );
 
-  assign begins = start_i || (summing_q && last_o);
+  assign begins = start_i || (summing_q && last);
 
   // Data channel of the next clock. Its configuration arrives together with it. start_i and next_i
   // come late, so both results are prepared and these inputs only choose.
@@ -89,7 +86,7 @@ module mb4_word_list #(
   always_comb begin
     todo_d    = begins ? enabled : rest;
     slave_d   = begins ? first_new : first_rest;
-    summing_d = Sum && (start_i ? enabled != 8'h00 : summing_q && !last_o);
+    summing_d = Sum && (start_i ? enabled != 8'h00 : summing_q && !last);
   end
 
   assign cfg_en_o    = start_i || next_i || summing_q;
@@ -115,15 +112,13 @@ module mb4_word_list #(
   assign len_valid_o = summing_q;
   assign len_o       = 7'(cfg_i.scdlen) + 7'd1 + 7'(crc_last) + 7'(crc_on) + 7'(stop);
 
-  assign any_o   = todo_q != 8'h00;
-  assign last_o  = rest == 8'h00;
-  assign slave_o = slave_q;
+  assign last = rest == 8'h00;
 
   // The CRC is stored only if the data leave the top byte(s) free (page 26).
   assign crc_room = crc_last[3] ? cfg_i.scdlen < 6'd48 : cfg_i.scdlen < 6'd56;
 
-  assign word_o = {cfg_i.scdlen, crc_on, crc_last, crc_poly, crc_top, cfg_i.crc_start,
-                   crc_room && !nocrc_i && crc_on, ssi_i && cfg_i.gray_lstop, actuator,
-                   stop};
+  assign offer_o = {todo_q != 8'h00, last, slave_q,
+                    cfg_i.scdlen, crc_on, crc_last, crc_poly, crc_top, cfg_i.crc_start,
+                    crc_room && !nocrc_i && crc_on, ssi_i && cfg_i.gray_lstop, actuator, stop};
 
 endmodule

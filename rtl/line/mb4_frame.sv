@@ -25,7 +25,7 @@
 //                 makes frame_end_o
 //
 // Changes of protocol and bus_i count from the next start on. A line that is taken out of use
-// (protocol 11) does not wait for SL in its timeout.
+// (UNUSED) does not wait for SL in its timeout.
 //
 // Misuse: start_i is ignored while idle_o is low. A slave that never answers keeps the frame
 // running until abort_i (decision 4). After abort_i, and after a reset, MA returns to 1 with the
@@ -39,7 +39,7 @@ module mb4_frame (
   input  logic       rst_ni,
   input  logic       por_ni,       // power-on reset of MA
   // control
-  input  logic [1:0] protocol_i,   // CFGCHx
+  input  logic [1:0] protocol_i,   // biss_pkg::protocol_e
   input  logic       bus_i,
   input  logic [7:0] mo_busy_i,
   input  logic       start_i,
@@ -143,15 +143,15 @@ module mb4_frame (
   mb4_sync_bit u_unused (
     .clk_i,
     .rst_ni,
-    .data_i (protocol_i == mb4_regs_pkg::PROTOCOL_UNUSED),
+    .data_i (protocol_i == biss_pkg::UNUSED),
     .data_o (unused)
   );
 
   assign rests       = state_q == IDLE || state_q == TIMEOUT || state_q == RELEASE;
   assign protocol    = rests ? protocol_i : protocol_q;
   assign bus         = rests ? bus_i : bus_q;
-  assign biss_c      = protocol == mb4_regs_pkg::PROTOCOL_BISS_C;
-  assign ssi         = protocol == mb4_regs_pkg::PROTOCOL_SSI;
+  assign biss_c      = protocol == biss_pkg::BISS_C;
+  assign ssi         = protocol == biss_pkg::SSI;
   assign sl_high     = sl_i || unused;
   assign begin_frame = start_i && use_i && state_q == IDLE;
   // If CDM depends on CDS, it is known when CDS has come. Until then MA goes on.

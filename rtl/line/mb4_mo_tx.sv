@@ -35,7 +35,7 @@ module mb4_mo_tx (
   input  logic       any_word_i,
   input  logic       last_word_i,
   input  logic [2:0] slave_i,
-  input  mb4_pkg::word_cfg_t word_i,
+  input  biss_pkg::word_t word_i,
   output logic       next_o,
   // data
   output logic [5:0] mem_addr_o,    // slave, byte

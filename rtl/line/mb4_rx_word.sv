@@ -21,7 +21,7 @@
 module mb4_rx_word (
   input  logic       clk_i,
   input  logic       rst_ni,
-  input  mb4_pkg::word_cfg_t word_i,
+  input  biss_pkg::word_t word_i,
   input  logic       run_i,        // a word is on SL
   input  logic       load_i,
   input  logic       bit_valid_i,

@@ -71,9 +71,10 @@ module mb4_host_read (
       mb4_regs_pkg::ADDR_VERSION:
         reg_d = mb4_regs_pkg::RESET_VERSION;
       mb4_regs_pkg::ADDR_STATUS0:
-        reg_d = {status_i.n_err, status_i.n_agserr, status_i.n_delayerr, status_i.n_scderr,
-                 status_i.n_regerr, status_i.regend && !control_pending_i, 1'b1,
-                 status_i.eot && !instr_pending_i};
+        reg_d = {status_i.n_err, status_i.flags.n_agserr, status_i.flags.n_delayerr,
+                 status_i.flags.n_scderr, status_i.flags.n_regerr,
+                 status_i.flags.regend && !control_pending_i, 1'b1,
+                 status_i.flags.eot && !instr_pending_i};
       mb4_regs_pkg::ADDR_SVALID_LO:
         reg_d = {svalid_i[3], 1'b0, svalid_i[2], 1'b0,
                  svalid_i[1], 1'b0, svalid_i[0], 1'b0};
@@ -81,7 +82,7 @@ module mb4_host_read (
         reg_d = {svalid_i[7], 1'b0, svalid_i[6], 1'b0,
                  svalid_i[5], 1'b0, svalid_i[4], 1'b0};
       mb4_regs_pkg::ADDR_STATUS3:
-        reg_d = {status_i.cdm_timeout, status_i.cdssel, status_i.regbytes};
+        reg_d = {status_i.flags.cdm_timeout, status_i.cdssel, status_i.flags.regbytes};
       mb4_regs_pkg::ADDR_INSTR:
         reg_d = instr_data_i;
       mb4_regs_pkg::ADDR_STATUS8:
@@ -89,7 +90,7 @@ module mb4_host_read (
       mb4_regs_pkg::ADDR_STATUS9:
         reg_d = mb4_regs_pkg::RESET_STATUS9;
       mb4_regs_pkg::ADDR_SWBANKFAIL:
-        reg_d = {7'b0000000, status_i.swbank_fail};
+        reg_d = {7'b0000000, status_i.flags.swbank_fail};
       default:
         reg_d = cfg_data_i;
     endcase

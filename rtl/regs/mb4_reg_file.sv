@@ -51,36 +51,19 @@ module mb4_reg_file #(
   // memories and banks
   output logic       mem_busy_o,
   input  logic       holdbank_i,
-  input  logic       swbank_pulse_i,
-  input  logic       bank_run_i,     // a frame runs that writes to a bank
-  input  logic       frame_end_i,
-  input  logic       reduced_i,      // the frame was reduced: only the CDS bits switch
-  input  logic       bank_end_i,     // end of a frame that was not reduced
-  input  logic [1:0] cds_i,
+  input  mb4_pkg::bank_cmd_t bank_i,
   output logic [1:0] cds_o,          // of the host's bank
   output logic       bank_pending_o,
   output logic       bank_swapped_o,
   output logic       bank_lost_o,
   // control communication
-  input  logic       rdata_rd_en_i,
-  input  logic [5:0] rdata_addr_i,
+  input  mb4_pkg::rdata_cmd_t rdata_i,
   output logic [7:0] rdata_o,
   output logic       post_busy_o,    // bytes from the host are on their way to the memories
-  input  logic       rdata_wr_en_i,
-  input  logic [7:0] rdata_wr_data_i,
   // received bytes and words of lines {2, 1}
-  input  logic [1:0]  wr_line_i,
-  input  logic [5:0]  wr_byte_i,
-  input  logic [15:0] wr_line_data_i,
-  input  logic [5:0]  slave_i,
-  input  logic [1:0]  word_begin_i,
-  input  logic [1:0]  word_open_i,
-  input  logic [1:0]  word_done_i,
-  input  logic [1:0]  word_ok_i,       // CRC
+  input  logic [2*biss_pkg::LINE_DATA_W-1:0] data_i,
   output logic [1:0]  word_ok_o,       // CRC is good and all of the word is in one bank
   input  logic        svalid_clear_i,  // INIT of BiSS C begins
-  input  logic [1:0]  delay_en_i,
-  input  logic [15:0] delay_i,
   // actuator data for MO of lines {2, 1}
   input  logic        mo_rd_en_i,
   input  logic [11:0] mo_addr_i,
@@ -104,6 +87,9 @@ module mb4_reg_file #(
   logic        host_bank, eng_bank;
   logic        bank_seen, bank_kept;  // by the host: bank it reads, bank it had
   logic [1:0]  word_split;
+  biss_pkg::line_data_t data1, data2;
+
+  assign {data2, data1} = data_i;
 
   // ---- registers ----------------------------------------------------------------------------
 
@@ -260,17 +246,17 @@ module mb4_reg_file #(
     .rd2_addr_i,
     .rd2_data_o   (scd2_data),
     .svalid_o     (svalid),
-    .wr_line_i,
-    .wr_byte_i,
-    .wr_line_data_i,
-    .slave_i,
-    .word_begin_i,
-    .word_done_i,
-    .word_ok_i    (word_ok_o),
-    .word_split_i (word_split),
+    .wr_line_i      ({data2.wr_en, data1.wr_en}),
+    .wr_byte_i      ({data2.wr_byte, data1.wr_byte}),
+    .wr_line_data_i ({data2.wr_data, data1.wr_data}),
+    .slave_i        ({data2.slave, data1.slave}),
+    .word_begin_i   ({data2.word_begin, data1.word_begin}),
+    .word_done_i    ({data2.word_done, data1.word_done}),
+    .word_ok_i      (word_ok_o),
+    .word_split_i   (word_split),
     .svalid_clear_i,
-    .delay_en_i,
-    .delay_i,
+    .delay_en_i     ({data2.delay_en, data1.delay_en}),
+    .delay_i        ({data2.delay, data1.delay}),
     .mo_rd_en_i,
     .mo_addr_i,
     .mo_data_o
@@ -280,10 +266,10 @@ module mb4_reg_file #(
     .clk_i,
     .clear_i        (clear_busy),
     .clear_addr_i   (clear_addr),
-    .eng_wr_en_i    (rdata_wr_en_i),
-    .eng_addr_i     (rdata_addr_i),
-    .eng_wr_data_i  (rdata_wr_data_i),
-    .eng_rd_en_i    (rdata_rd_en_i),
+    .eng_wr_en_i    (rdata_i.wr_en),
+    .eng_addr_i     (rdata_i.addr),
+    .eng_wr_data_i  (rdata_i.wr_data),
+    .eng_rd_en_i    (rdata_i.rd_en),
     .eng_rd_data_o  (rdata_o),
     .host_wr_en_i   (post_rdata),
     .host_wr_addr_i (post_data[13:8]),
@@ -301,9 +287,9 @@ module mb4_reg_file #(
     .singlebank_i   (cfg_o.singlebank),
     .holdbank_i,
     .kept_i         (bank_kept),
-    .swbank_pulse_i,
-    .frame_end_i    (bank_end_i),
-    .frame_run_i    (bank_run_i),
+    .swbank_pulse_i (bank_i.swap),
+    .frame_end_i    (bank_i.data_end),
+    .frame_run_i    (bank_i.run),
     .pending_o      (bank_pending_o),
     .swapped_o      (bank_swapped_o),
     .lost_o         (bank_lost_o),
@@ -314,9 +300,9 @@ module mb4_reg_file #(
   mb4_word_split u_split (
     .clk_i,
     .rst_ni,
-    .swap_i      (swbank_pulse_i),
-    .word_open_i,
-    .word_ok_i,
+    .swap_i      (bank_i.swap),
+    .word_open_i ({data2.word_open, data1.word_open}),
+    .word_ok_i   ({data2.word_ok, data1.word_ok}),
     .split_o     (word_split),
     .word_ok_o
   );
@@ -326,10 +312,10 @@ module mb4_reg_file #(
     .rst_ni,
     .host_bank_i (host_bank),
     .eng_bank_i  (eng_bank),
-    .frame_end_i,
-    .reduced_i,
+    .frame_end_i (bank_i.frame_end),
+    .reduced_i   (bank_i.reduced),
     .holdbank_i,
-    .cds_i,
+    .cds_i       ({data2.cds, data1.cds}),
     .cds_o
   );
 

@@ -15,7 +15,7 @@ struct ChipSignals {
   static bool paired(const Model& model) { return model.rootp->mb4_chip__DOT__paired != 0; }
   static unsigned half_clocks(const Model& model) {
     return model.rootp
-        ->mb4_chip__DOT__u_engine__DOT__u_channels__DOT__u_lines__DOT__u_timebase__DOT__len_q;
+        ->mb4_chip__DOT__u_engine__DOT__u_lines__DOT__u_timebase__DOT__len_q;
   }
 };
 

@@ -133,10 +133,10 @@ class DirectSteps {
 
   static constexpr auto kSampled1 =
       &Root::
-          mb4_chip__DOT__u_engine__DOT__u_channels__DOT__u_lines__DOT__gen_line__BRA__0__KET____DOT__u_channel__DOT__u_sampler__DOT__u_capture__DOT__neg1_q;
+          mb4_chip__DOT__u_engine__DOT__u_lines__DOT__gen_line__BRA__0__KET____DOT__u_line__DOT__u_sampler__DOT__u_capture__DOT__neg1_q;
   static constexpr auto kSampled2 =
       &Root::
-          mb4_chip__DOT__u_engine__DOT__u_channels__DOT__u_lines__DOT__gen_line__BRA__1__KET____DOT__u_channel__DOT__u_sampler__DOT__u_capture__DOT__neg1_q;
+          mb4_chip__DOT__u_engine__DOT__u_lines__DOT__gen_line__BRA__1__KET____DOT__u_line__DOT__u_sampler__DOT__u_capture__DOT__neg1_q;
   // The time to the next frame: the clocks of the current step, the steps, and its rate.
   static constexpr auto kPre =
       &Root::mb4_chip__DOT__u_engine__DOT__u_control__DOT__u_request__DOT__pre_q;

@@ -10,33 +10,37 @@
 // cover: 10
 // unbounded: induction 5
 // mutation: ctrl/mb4_status_flags.sv | (quiet_q == 2'b11) && !busy_i | quiet_q == 2'b11
-// mutation: ctrl/mb4_sequencer.sv | assign busy_o      = state_d != IDLE
-//   | assign busy_o      = (state_d != IDLE && state_d != INIT)
+// mutation: ctrl/mb4_sequencer.sv | assign busy        = state_d != IDLE
+//   | assign busy        = (state_d != IDLE && state_d != INIT)
 // mutation: ctrl/mb4_status_flags.sv | eot_q        <= 1'b1; | eot_q        <= 1'b0;
 
 module proof (
   input logic clk_i, rst_ni,
   input logic [1:0] count_i,
   input mb4_pkg::instr_t written_i,
-  input logic mem_busy_i, agsmin_i, infinite_i, regvers_i, is_frame_i, is_control_i, is_register_i,
-  input logic is_void_i,
-  input logic [1:0] use_i, frame_use_i, init_use_i, idle_i, timeout_i, sl_i, frame_end_i,
-  input logic [1:0] word_done_i, word_ok_i, init_done_i, init_fail_i,
+  input mb4_pkg::kind_t kind_i,
+  input logic mem_busy_i, agsmin_i, infinite_i, regvers_i,
+  input logic [1:0] idle_i, timeout_i, sl_i, word_ok_i,
+  input logic [2*biss_pkg::LINE_EVENT_W-1:0] event_i,
   input logic request_i, missed_i, tick_i, bank_pending_i,
   input logic control_active_i, control_end_i, control_stalled_i
 );
 
   logic busy, running, start, frame_end, eot;
   mb4_pkg::instr_t held;
+  biss_pkg::line_go_t    go;
+  mb4_pkg::bank_cmd_t    bank;
+  mb4_pkg::frame_flags_t flags;
+  assign start     = go.start;
+  assign frame_end = bank.frame_end;
+  assign busy      = flags.busy;
 
   mb4_sequencer u_sequencer (
     .clk_i, .rst_ni, .written_i, .count_i, .mem_busy_i, .agsmin_i, .infinite_i, .regvers_i,
-    .use_i, .frame_use_i, .init_use_i, .is_frame_i, .is_control_i, .is_register_i, .is_void_i,
-    .agserr_on_hold_i(1'b1), .agserr_on_write_i(1'b0), .ags_clear_i(1'b0),
-    .request_i, .missed_i, .tick_i, .idle_i, .timeout_i, .sl_i, .frame_end_i, .word_done_i,
-    .word_ok_i, .init_done_i, .init_fail_i, .bank_pending_i, .control_active_i, .control_end_i,
-    .control_stalled_i, .running_o(running), .start_o(start), .frame_end_o(frame_end),
-    .held_o(held), .busy_o(busy)
+    .kind_i, .agserr_on_hold_i(1'b1), .agserr_on_write_i(1'b0), .ags_clear_i(1'b0),
+    .request_i, .missed_i, .tick_i, .idle_i, .timeout_i, .sl_i, .event_i, .word_ok_i,
+    .bank_pending_i, .control_active_i, .control_end_i, .control_stalled_i, .running_o(running),
+    .go_o(go), .bank_o(bank), .held_o(held), .flags_o(flags)
   );
 
   mb4_status_flags u_flags (

@@ -43,6 +43,8 @@ module proof (
   mb4_pkg::instr_t written, held;
   logic [1:0] count, ack;
   logic pending, bank, kept, host_bank, eng_bank, swbank_pulse;
+  mb4_pkg::bank_cmd_t bank_cmd;
+  assign swbank_pulse = bank_cmd.swap;
   logic [7:0] rd_data;
   logic [2:0] end_q;     // core clocks since the last frame's end
   logic       frame_end;
@@ -56,13 +58,10 @@ module proof (
   );
   mb4_sequencer u_sequencer (
     .clk_i, .rst_ni, .written_i(written), .count_i(count), .ack_o(ack), .held_o(held),
-    .mem_busy_i(1'b0), .agsmin_i(1'b0), .infinite_i(1'b0), .regvers_i(1'b0), .use_i(2'b00),
-    .frame_use_i(2'b00), .init_use_i(2'b00), .is_frame_i(1'b0), .is_control_i(1'b0),
-    .is_register_i(1'b0), .is_void_i(1'b0), .agserr_on_hold_i(1'b0), .agserr_on_write_i(1'b0),
+    .mem_busy_i(1'b0), .agsmin_i(1'b0), .infinite_i(1'b0), .regvers_i(1'b0), .kind_i('0), .agserr_on_hold_i(1'b0), .agserr_on_write_i(1'b0),
     .ags_clear_i(1'b0), .request_i(1'b0), .missed_i(1'b0), .tick_i(1'b0), .idle_i(2'b11),
-    .timeout_i(2'b00), .sl_i(2'b11), .frame_end_i(2'b00), .word_done_i(2'b00), .word_ok_i(2'b00),
-    .init_done_i(2'b00), .init_fail_i(2'b00), .bank_pending_i(1'b0), .control_active_i(1'b0),
-    .control_end_i(1'b0), .control_stalled_i(1'b0), .swbank_pulse_o(swbank_pulse)
+    .timeout_i(2'b00), .sl_i(2'b11), .event_i('0), .word_ok_i(2'b00), .bank_pending_i(1'b0),
+    .control_active_i(1'b0), .control_end_i(1'b0), .control_stalled_i(1'b0), .bank_o(bank_cmd)
   );
   mb4_bank_ctrl u_bank (
     .clk_i, .rst_ni, .singlebank_i(1'b0), .holdbank_i(held.holdbank), .kept_i(kept),

@@ -16,10 +16,10 @@
 // look: dut_len = u_lines.u_timebase.len_q
 // look: dut_cnt = u_lines.u_timebase.cnt_q
 // look: dut_last = u_lines.u_timebase.last_q
-// look: dut_state1 = u_lines.gen_line[0].u_channel.u_frame.state_q
-// look: dut_state2 = u_lines.gen_line[1].u_channel.u_frame.state_q
-// look: dut_clock1 = u_lines.gen_line[0].u_channel.u_frame.u_ma.clocking_q
-// look: dut_clock2 = u_lines.gen_line[1].u_channel.u_frame.u_ma.clocking_q
+// look: dut_state1 = u_lines.gen_line[0].u_line.u_frame.state_q
+// look: dut_state2 = u_lines.gen_line[1].u_line.u_frame.state_q
+// look: dut_clock1 = u_lines.gen_line[0].u_line.u_frame.u_ma.clocking_q
+// look: dut_clock2 = u_lines.gen_line[1].u_line.u_frame.u_ma.clocking_q
 // mutation: line/mb4_ma_drive.sv | end else if (stop_i) begin
 //   | end else if (stop_i) begin ma_d = 1'b1;
 // mutation: line/mb4_ma_drive.sv | if (force_i) ma_d = (tick_i && !start_i) ? force_level_i : ma_q;
@@ -34,26 +34,26 @@
 
 module proof (
   input logic clk_i, rst_ni, por_ni,
-  input logic [7:0] half_len_i, mo_busy_i,
-  input logic [3:0] protocol_i,
-  input logic [1:0] bus_i, use_i, cdm0_i, cdm1_i, register_mo_i, force_i, force_level_i,
-  input logic en_mo_i, start_i, init_i, mo_return_i, reduced_i, hold_cdm_i, abort_i, time_i,
-  input logic register_i, register_ma_i, register_end_i, force_change_i,
-  input logic [1:0] len_valid_i, rx_any_i, rx_last_i, mo_any_i, mo_last_i, sl_i,
-  input logic [13:0] len_i,
-  input logic [5:0] mo_slave_i,
-  input logic [2*mb4_pkg::WORD_CFG_W-1:0] rx_word_i, mo_word_i,
+  input mb4_pkg::cfg_t cfg_i,
+  input logic [7:0] enscd_i,
+  input logic [4*mb4_pkg::SLAVE_CFG_W-1:0] slave_cfg_i,
+  input logic [1:0] ssi_i, sl_i,
+  input logic [2*biss_pkg::LINE_CMD_W-1:0] cmd_i,
+  input biss_pkg::line_go_t go_i,
+  input logic [2*biss_pkg::LINE_START_W-1:0] start_i,
+  input logic register_ma_i, register_end_i, time_run_i, time_restart_i,
   input logic [15:0] mo_data_i
 );
 
-  logic [1:0] idle, ma;
+  logic [1:0] idle, ma, forced;
+  biss_pkg::line_cmd_t cmd1, cmd2;
+  assign {cmd2, cmd1} = cmd_i;
+  assign forced = {cmd2.forced, cmd1.forced};
 
   mb4_lines u_lines (
-    .clk_i, .rst_ni, .por_ni, .half_len_i, .protocol_i, .en_mo_i, .mo_busy_i, .bus_i, .start_i,
-    .use_i, .init_i, .mo_return_i, .cdm0_i, .cdm1_i, .reduced_i, .hold_cdm_i, .abort_i, .time_i,
-    .register_i, .register_ma_i, .register_end_i, .register_mo_i, .force_i, .force_level_i,
-    .force_change_i, .len_valid_i, .len_i, .rx_any_i, .rx_last_i, .rx_word_i, .mo_any_i, .mo_last_i,
-    .mo_slave_i, .mo_word_i, .mo_data_i, .sl_i, .idle_o(idle), .ma_o(ma)
+    .clk_i, .rst_ni, .por_ni, .cfg_i, .enscd_i, .slave_cfg_i, .ssi_i, .cmd_i, .go_i, .start_i,
+    .register_ma_i, .register_end_i, .time_run_i, .time_restart_i, .mo_data_i, .sl_i, .idle_o(idle),
+    .ma_o(ma)
   );
 
   logic started = 1'b0;
@@ -61,9 +61,10 @@ module proof (
   always @* begin
     if (!started) assume (!rst_ni && !por_ni);
     if (started)  assume (por_ni);
-    assume (half_len_i != 8'd0 && half_len_i <= 8'd160);   // mb4_freqs_dec
-    // Which lines start_i is for, and whether they are in use, is free.
-    if (start_i) assume (idle == 2'b11 && !abort_i);       // proof sequencer
+    // Which lines a start is for, and whether they are in use, is free.
+    if (go_i.start) assume (idle == 2'b11 && !go_i.stop);  // proof sequencer
+    // mb4_control: a forced level counts half periods.
+    if (forced != 2'b00) assume (time_run_i && !time_restart_i);
   end
 
   wire [7:0] dut_len, dut_cnt;
@@ -85,13 +86,13 @@ module proof (
   logic [1:0] rise;
   line_proof #(.Covers(1'b1)) u_line1 (
     .clk_i, .por_ni, .live_i(started && live_q), .reset_i(!rst_ni), .len_i(dut_len),
-    .len_q_i(len_q), .cnt_i(dut_cnt), .ma_i(ma[0]), .idle_i(idle[0]), .force_i(force_i[0]),
+    .len_q_i(len_q), .cnt_i(dut_cnt), .ma_i(ma[0]), .idle_i(idle[0]), .force_i(forced[0]),
     .state_i(dut_state1), .clocking_i(dut_clock1), .other_i(dut_state2),
     .other_rise_i(rise[1]), .rise_o(rise[0])
   );
   line_proof u_line2 (
     .clk_i, .por_ni, .live_i(started && live_q), .reset_i(!rst_ni), .len_i(dut_len),
-    .len_q_i(len_q), .cnt_i(dut_cnt), .ma_i(ma[1]), .idle_i(idle[1]), .force_i(force_i[1]),
+    .len_q_i(len_q), .cnt_i(dut_cnt), .ma_i(ma[1]), .idle_i(idle[1]), .force_i(forced[1]),
     .state_i(dut_state2), .clocking_i(dut_clock2), .other_i(dut_state1),
     .other_rise_i(rise[0]), .rise_o(rise[1])
   );

@@ -28,25 +28,28 @@ module proof (
   input logic [1:0] count_i,
   input logic check_i,   // free: at which clocks the checks look
   input mb4_pkg::instr_t written_i,
-  input logic mem_busy_i, agsmin_i, infinite_i, regvers_i, is_frame_i, is_control_i, is_register_i,
-  input logic is_void_i,
-  input logic [1:0] use_i, frame_use_i, init_use_i, idle_i, timeout_i, sl_i, frame_end_i,
-  input logic [1:0] word_done_i, word_ok_i, init_done_i, init_fail_i,
+  input mb4_pkg::kind_t kind_i,
+  input logic mem_busy_i, agsmin_i, infinite_i, regvers_i,
+  input logic [1:0] idle_i, timeout_i, sl_i, word_ok_i,
+  input logic [2*biss_pkg::LINE_EVENT_W-1:0] event_i,
   input logic [2:0] quirk_i,
   input logic request_i, missed_i, tick_i, bank_pending_i,
   input logic control_active_i, control_end_i, control_stalled_i
 );
 
   logic running, start, abort, ags_error;
+  biss_pkg::line_go_t    go;
+  mb4_pkg::frame_flags_t flags;
+  assign start     = go.start;
+  assign abort     = go.stop;
+  assign ags_error = flags.ags_error;
 
   mb4_sequencer u_dut (
     .clk_i, .rst_ni, .written_i, .count_i, .mem_busy_i, .agsmin_i, .infinite_i, .regvers_i,
-    .use_i, .frame_use_i, .init_use_i, .is_frame_i, .is_control_i, .is_register_i, .is_void_i,
-    .agserr_on_hold_i(quirk_i[0]), .agserr_on_write_i(quirk_i[1]), .ags_clear_i(quirk_i[2]),
-    .request_i, .missed_i, .tick_i, .idle_i, .timeout_i, .sl_i, .frame_end_i, .word_done_i,
-    .word_ok_i, .init_done_i, .init_fail_i, .bank_pending_i, .control_active_i, .control_end_i,
-    .control_stalled_i, .running_o(running), .start_o(start), .abort_o(abort),
-    .ags_error_o(ags_error)
+    .kind_i, .agserr_on_hold_i(quirk_i[0]), .agserr_on_write_i(quirk_i[1]), .ags_clear_i(quirk_i[2]),
+    .request_i, .missed_i, .tick_i, .idle_i, .timeout_i, .sl_i, .event_i, .word_ok_i,
+    .bank_pending_i, .control_active_i, .control_end_i, .control_stalled_i, .running_o(running),
+    .go_o(go), .flags_o(flags)
   );
 
   logic started = 1'b0;

@@ -23,11 +23,11 @@ import verilator_ports  # noqa: E402
 import yosys  # noqa: E402
 
 # Pairs that must be there, so that the rule cannot become empty by a new name.
-NEEDED_PAIRS = {"mb4_pkg::SLAVE_CFG_W", "mb4_pkg::WORD_CFG_W"}
+NEEDED_PAIRS = {"mb4_pkg::SLAVE_CFG_W", "biss_pkg::WORD_W", "biss_pkg::LINE_DATA_W"}
 
 # Yosys 0.23 makes the first too narrow without a message (struct: wrong hardware of tool-limits).
 PLANTED = {
-    "array_of_struct": ("mb4_pkg::word_cfg_t [3:0]", 4 * 47),
+    "array_of_struct": ("biss_pkg::word_t [3:0]", 4 * 47),
     "array_of_vector": ("nib_t [7:0]", 8 * 4),
 }
 
@@ -98,7 +98,7 @@ def self_test(folder):
         source = folder / f"{name}.sv"
         source.write_text(f"module {name} (input {kind} a_i, output logic [{width - 1}:0] y_o);\n"
                           f"  assign y_o = a_i;\nendmodule\n", encoding="utf-8")
-        files = [project.RTL / "mb4_pkg.sv", trap, source]
+        files = [project.RTL / "line/biss_pkg.sv", trap, source]
         expected = sv_widths.module_ports(source, sv_widths.read_packages(files[:2]))
         if expected["a_i"] != ("input", width):
             findings.append(f"{name}: read as {expected['a_i']} from the source, not {width}")
@@ -116,7 +116,7 @@ def self_test(folder):
             print("\n".join(f"reported: {line}" for line in reported))
         else:
             print(f"refused by Yosys: {text.strip()}")
-    scope.values["mb4_pkg::WORD_CFG_W"] += 1
+    scope.values["biss_pkg::WORD_W"] += 1
     if len(wrong_constants(scope)) != 1:
         findings.append("a constant that is wrong by one was not reported")
     project.finish(findings, "planted traps, all reported")

@@ -216,8 +216,20 @@ def posted(steps):
          reset_rate=0.0, one_clock=True)
 
 
+def kind(steps):
+    """kind_t of mb4_pkg: three pairs of lines, is_frame, is_control, is_register, is_void."""
+    value = steps.rng.choice([1, 2, 3, 3, 3]) << 4 | steps.rng.getrandbits(4)
+    return (value << 4 | steps.chance(0.9) << 3 | steps.chance(0.3) << 2 | steps.chance(0.2) << 1 |
+            steps.chance(0.1))
+
+
+def line_event(steps):
+    """line_event_t of biss_pkg: frame_end, init_done, init_fail, word_done."""
+    return (steps.rng.getrandbits(2) << 2 | steps.chance(0.07) << 1 | steps.rng.getrandbits(1))
+
+
 def word_cfg(steps, crc, store_gray, actuator, stop):
-    """word_cfg_t of mb4_pkg, data_last first, with a polynomial and start value of any kind."""
+    """word_t of biss_pkg, data_last first, with a polynomial and start value of any kind."""
     word = steps.rng.getrandbits(6)
     for value, width in ((int(crc > 0), 1), (max(crc, 1) - 1, 4), (steps.rng.getrandbits(8), 8),
                          (1 << crc - 1 if 1 <= crc <= 8 else 0, 8),
@@ -424,19 +436,15 @@ MODULES = {
     "mb4_bank_ctrl": simple(*CORE, 4000, {"frame_end_i": 0.2, "swbank_pulse_i": 0.1}),
     "mb4_crc_decode": crc_decode,
     "mb4_word_list": simple(*CORE, 6000, {
-        "start_i": 0.02, "next_i": 0.2, "mine_i": rarely("mine_i", 0.01),
+        "start_i": 0.02, "next_i": 0.2, "own_i": rarely("own_i", 0.01),
         "enscd_i": rarely("enscd_i", 0.02), "cfg_i": rarely("cfg_i", 0.5, slave_cfg)}),
     "mb4_sequencer": simple(*CORE, 12000, {
         "written_i": rarely("written_i", 0.1, instruction_byte),
         "count_i": rarely("count_i", 0.1),
         "mem_busy_i": 0.02, "idle_i": rarely("idle_i", 0.3, lambda s: s.rng.choice([3, 3, 3, 1])),
         "sl_i": rarely("sl_i", 0.2, lambda s: s.rng.choice([3, 3, 3, 1])), "tick_i": 0.9,
-        "use_i": rarely("use_i", 0.02), "regvers_i": rarely("regvers_i", 0.02),
-        "frame_use_i": rarely("frame_use_i", 0.02), "init_use_i": rarely("init_use_i", 0.02),
-        "is_frame_i": 0.9, "is_control_i": 0.3, "is_register_i": 0.2,
-        "frame_end_i": rarely("frame_end_i", 0.9, lambda s: s.rng.choice([0, 1, 2, 3])),
-        "init_done_i": rarely("init_done_i", 0.9, lambda s: s.rng.choice([0, 1, 2, 3])),
-        "init_fail_i": rarely("init_fail_i", 0.9, lambda s: s.rng.choice([0] * 9 + [1, 2])),
+        "regvers_i": rarely("regvers_i", 0.02), "kind_i": rarely("kind_i", 0.3, kind),
+        "event_i": rarely("event_i", 0.9, lambda s: line_event(s) << 4 | line_event(s)),
         "agserr_on_write_i": rarely("agserr_on_write_i", 0.01),
     }),
     "mb4_frame_request": simple(*CORE, 12000, {
@@ -484,8 +492,8 @@ MODULES = {
 # Output bits that no input can change.
 CONSTANT = {
     "mb4_crc_decode": ["crc_poly_o[0]"],  # every polynomial ends in 1
-    "mb4_word_list": ["word_o[28]"],
+    "mb4_word_list": ["offer_o[28]"],
     # BREAK never reads 1; MO returns 1024 half periods after INIT's acknowledge
-    "mb4_sequencer": ["held_o[7]", "mo_return_o"],
+    "mb4_sequencer": ["held_o[7]", "go_o[1]"],
     "mb4_scd_bank": [f"rd2_data_o[{i}]" for i in range(16)],  # Port2 = 0
 }

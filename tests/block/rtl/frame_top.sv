@@ -41,19 +41,17 @@ module frame_top (
   logic       smp_b_neg;
   logic       len_valid;
   logic [6:0] len;
-  logic       any_word;
-  logic       last_word;
   logic       next;
-  logic       mo_any, mo_last, mo_next, mo, ssi;
-  logic [2:0] mo_slave;
+  logic       mo_next, mo, ssi;
   logic [5:0] mo_addr;
   logic       rx_len_valid, rx_actuator, mo_actuator;
   logic [6:0] rx_len;
-  mb4_pkg::word_cfg_t mo_word;
+  biss_pkg::offer_t     rx_offer, mo_offer;
+  biss_pkg::line_cmd_t  cmd;
+  biss_pkg::line_status_t status;
+  biss_pkg::line_event_t  ends;
+  biss_pkg::line_data_t   data;
   logic       sl_sync;
-  logic       word_begin, word_open;
-  logic       cdm_sent;
-  mb4_pkg::word_cfg_t word;
   logic [7:0]  enscd;
   logic        rx_cfg_en, mo_cfg_en;
   logic [2:0]  rx_cfg_slave, mo_cfg_slave;
@@ -79,7 +77,7 @@ module frame_top (
     .smp_b_neg_o (smp_b_neg)
   );
 
-  assign ssi = protocol_i == mb4_regs_pkg::PROTOCOL_SSI;
+  assign ssi = protocol_i == biss_pkg::SSI;
 
   // The configuration store of the chip: a clock from the data channel's number to its bytes.
   always_comb begin
@@ -108,7 +106,7 @@ module frame_top (
     .rst_ni,
     .enscd_i     (enscd),
     .actnsens_i  (8'h00),
-    .mine_i      (8'hFF),
+    .own_i       (8'hFF),
     .ssi_i       (ssi),
     .nocrc_i,
     .start_i,
@@ -119,10 +117,7 @@ module frame_top (
     .actuator_o  (rx_actuator),
     .len_valid_o (rx_len_valid),
     .len_o       (rx_len),
-    .any_o       (any_word),
-    .last_o      (last_word),
-    .slave_o,
-    .word_o      (word)
+    .offer_o     (rx_offer)
   );
 
   mb4_word_list u_mo_words (
@@ -130,7 +125,7 @@ module frame_top (
     .rst_ni,
     .enscd_i     (enscd),
     .actnsens_i  (8'h00),
-    .mine_i      (8'hFF),
+    .own_i       (8'hFF),
     .ssi_i       (ssi),
     .nocrc_i,
     .start_i,
@@ -141,35 +136,25 @@ module frame_top (
     .actuator_o  (mo_actuator),
     .len_valid_o (len_valid),
     .len_o       (len),
-    .any_o       (mo_any),
-    .last_o      (mo_last),
-    .slave_o     (mo_slave),
-    .word_o      (mo_word)
+    .offer_o     (mo_offer)
   );
 
-  mb4_channel u_channel (
+  // Without MO, force bits and register access.
+  assign cmd = {protocol_i, 1'b0, 8'h00, hold_cdm_i, 3'b000};
+
+  mb4_line u_line (
     .clk_i,
     .rst_ni,
     .por_ni      (rst_ni),
-    .protocol_i,
-    .en_mo_i     (1'b0),
-    .mo_busy_i   (8'h00),
-    .bus_i       (1'b0),
-    .start_i,
-    .use_i       (1'b1),
-    .init_i,
-    .cdm0_i      (cdm_i),
-    .cdm1_i      (cdm_i),
-    .reduced_i   (1'b0),
-    .hold_cdm_i,
-    .abort_i,
-    .register_i  (1'b0),
+    .cmd_i       (cmd),
+    .go_i        ({start_i, init_i, 3'b000, abort_i}),
+    .start_i     ({1'b1, cdm_i, cdm_i}),
     .register_ma_i  (1'b1),
     .register_end_i (1'b0),
-    .register_mo_i  (1'b0),
-    .mo_return_i    (1'b0),
-    .force_i     (1'b0),
-    .force_level_i  (1'b0),
+    .idle_o,
+    .status_o    (status),
+    .event_o     (ends),
+    .data_o      (data),
     .tick_i      (tick),
     .half_next_i (half_next),
     .smp_a_i     (smp_a),
@@ -178,40 +163,34 @@ module frame_top (
     .smp_b_neg_i (smp_b_neg),
     .len_valid_i (len_valid),
     .len_i       (len),
-    .rx_any_i    (any_word),
-    .rx_last_i   (last_word),
-    .rx_word_i   (word),
+    .rx_offer_i  (rx_offer),
     .rx_next_o   (next),
-    .mo_any_i    (mo_any),
-    .mo_last_i   (mo_last),
-    .mo_slave_i  (mo_slave),
-    .mo_word_i   (mo_word),
+    .mo_bus_i    (1'b0),
+    .mo_offer_i  (mo_offer),
     .mo_next_o   (mo_next),
     .mo_addr_o   (mo_addr),
     .mo_data_i   (8'h00),
-    .wr_en_o,
-    .wr_byte_o,
-    .wr_data_o,
-    .word_begin_o (word_begin),
-    .word_open_o  (word_open),
-    .word_done_o,
-    .word_ok_o,
-    .cds_o,
-    .cdm_o       (cdm_sent),
-    .frame_end_o,
-    .init_done_o,
-    .init_fail_o,
-    .quarters_o,
-    .idle_o,
-    .timeout_o,
-    .sl_o        (sl_sync),
     .ma_o,
     .mo_o        (mo),
-    .sl_i
+    .sl_i,
+    .sl_o        (sl_sync)
   );
 
+  assign wr_en_o     = data.wr_en;
+  assign wr_byte_o   = data.wr_byte;
+  assign wr_data_o   = data.wr_data;
+  assign slave_o     = data.slave;
+  assign word_done_o = data.word_done;
+  assign word_ok_o   = data.word_ok;
+  assign quarters_o  = data.delay;
+  assign cds_o       = status.cds;
+  assign timeout_o   = status.timeout;
+  assign frame_end_o = ends.frame_end;
+  assign init_done_o = ends.init_done;
+  assign init_fail_o = ends.init_fail;
+
   logic unused;
-  assign unused = ^{sl_sync, word_begin, word_open, cdm_sent, mo, mo_addr, rx_len_valid, rx_len,
-                    rx_actuator, mo_actuator};
+  assign unused = ^{sl_sync, status, ends, data, mo, mo_addr, rx_len_valid, rx_len, rx_actuator,
+                    mo_actuator};
 
 endmodule
