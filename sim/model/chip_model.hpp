@@ -10,8 +10,8 @@
 #include <memory>
 #include <string>
 
+#include "mb4sim/chip_config.hpp"
 #include "mb4sim/pins.hpp"
-#include "mb4sim/scenario.hpp"
 #include "mb4sim/time.hpp"
 
 namespace mb4::sim {

@@ -4,6 +4,23 @@
 
 namespace mb4::sim {
 
+std::unique_ptr<Slave> BissBSlaveConfig::make_slave(std::uint64_t seed) const {
+  return std::make_unique<BissBSlave>(*this, seed);
+}
+
+DeviceTraits BissBSlaveConfig::traits() const {
+  return {.protocol = {.key = "biss-b", .title = "BiSS B"},
+          .busy_periods = busy_periods,
+          .timeout = timeout.fixed,
+          .registers = access.present};
+}
+
+// IDs of BiSS B slaves count from the last slave.
+unsigned BissBSlaveConfig::set_ids_behind(unsigned ids) {
+  access.first_id = ids;
+  return access.ids;
+}
+
 BissBSlave::BissBSlave(const BissBSlaveConfig& config, std::uint64_t seed)
     : config_(config),
       access_(config_.access, registers()),

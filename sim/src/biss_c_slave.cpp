@@ -4,6 +4,24 @@
 
 namespace mb4::sim {
 
+std::unique_ptr<Slave> BissCSlaveConfig::make_slave(std::uint64_t seed) const {
+  return std::make_unique<BissCSlave>(*this, seed);
+}
+
+DeviceTraits BissCSlaveConfig::traits() const {
+  return {.protocol = {.key = "biss-c", .title = "BiSS C", .control = true},
+          .busy_periods = busy_periods,
+          .timeout = timeout.fixed,
+          .actuator = actuator,
+          .stop_bit = actuator && stop_bit,
+          .registers = control.present};
+}
+
+std::string_view BissCSlaveConfig::refuses(SlaveFault fault) const {
+  if (fault == SlaveFault::kWrongId && control.present) return "";
+  return BissSlaveConfig::refuses(fault);
+}
+
 BissCSlave::BissCSlave(const BissCSlaveConfig& config, std::uint64_t seed)
     : config_(config),
       control_(config_.control, registers()),

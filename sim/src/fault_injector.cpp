@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "chip_model.hpp"
+#include "mb4sim/control_slave.hpp"
 #include "mb4sim/simulator.hpp"
 #include "number_text.hpp"
 

@@ -6,6 +6,22 @@
 
 namespace mb4::sim {
 
+std::unique_ptr<Slave> ReplaySlaveConfig::make_slave(std::uint64_t /*seed*/) const {
+  return std::make_unique<ReplaySlave>(*this);
+}
+
+// It counts as the protocol that can be recorded, BiSS C.
+DeviceTraits ReplaySlaveConfig::traits() const {
+  return {.protocol = {.key = "biss-c", .title = "BiSS C", .control = true},
+          .timeout = recording.edges.empty() ? 0 : recording.edges.back().time,
+          .alone = "a replay slave"};
+}
+
+std::string_view ReplaySlaveConfig::refuses(SlaveFault fault) const {
+  return fault == SlaveFault::kWrongCrc ? "a recording cannot be changed"
+                                        : DeviceConfig::refuses(fault);
+}
+
 ReplaySlave::ReplaySlave(const ReplaySlaveConfig& config)
     : config_(config),
       timeout_(config.timeout.adaptive() ? config.timeout.initial : config.timeout.fixed) {}

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <string>
 #include <utility>
-#include <variant>
 #include <vector>
 
 #include "number_text.hpp"
@@ -137,43 +136,38 @@ void read_mo_delay(TomlReader& reader, ChannelConfig& channel) {
 // Checks whether the newest slave of a channel fits the others.
 void check_slave(const TomlReader& reader, const ChannelConfig& channel,
                  const toml::source_region& where) {
-  const SlaveConfig& slave = channel.slaves.back();
+  const DeviceTraits newest = channel.slaves.back().traits();
   if (channel.slaves.size() > 1) {
-    for (const SlaveConfig* each : {&slave, &channel.slaves.front()}) {
-      if (std::holds_alternative<ReplaySlaveConfig>(each->device)) {
-        reader.fail_at(where, "protocol", "a replay slave must be alone on its channel");
-      }
-      if (each->protocol() == LineProtocol::kSsi) {
-        reader.fail_at(where, "protocol", "an SSI encoder must be alone on its channel");
+    const DeviceTraits first = channel.slaves.front().traits();
+    for (const DeviceTraits& each : {newest, first}) {
+      if (!each.alone.empty()) {
+        reader.fail_at(where, "protocol",
+                       std::string(each.alone) + " must be alone on its channel");
       }
     }
-    if (slave.protocol() != channel.slaves.front().protocol()) {
+    if (newest.protocol != first.protocol) {
       reader.fail_at(where, "protocol", "all slaves of a channel must have the same protocol");
     }
   }
-  const auto* biss_c = std::get_if<BissCSlaveConfig>(&slave.device);
-  if (biss_c != nullptr && biss_c->actuator && !channel.cable.mo) {
+  if (newest.actuator && !channel.cable.mo) {
     reader.fail_at(where, "actuator", "an actuator needs mo = true on its channel");
   }
 }
 
-// IDs of BiSS B slaves count from the last slave.
+// Each slave learns how many IDs are behind it.
 void set_ids(ChannelConfig& channel) {
-  unsigned id = 0;
+  unsigned ids = 0;
   for (auto slave = channel.slaves.rbegin(); slave != channel.slaves.rend(); ++slave) {
-    auto* biss_b = std::get_if<BissBSlaveConfig>(&slave->device);
-    if (biss_b == nullptr) return;
-    biss_b->access.first_id = id;
-    id += biss_b->access.ids;
+    ids += slave->device->set_ids_behind(ids);
   }
 }
 
 }  // namespace
 
-ChannelConfig read_channel(const toml::table& table, TomlFile& file) {
+ChannelConfig read_channel(const toml::table& table, TomlFile& file, const Master& master) {
   TomlReader reader(table, file);
   ChannelConfig channel;
-  const auto number = reader.integer("number", 1, 2);
+  const auto number = reader.integer("number", 1, master.channels);
   if (!number) reader.missing("number");
   channel.number = static_cast<unsigned>(number.value_or(1));
   channel.delay = read_delay(reader);
@@ -182,8 +176,9 @@ ChannelConfig read_channel(const toml::table& table, TomlFile& file) {
   read_mo_delay(reader, channel);
   if (const auto* slaves = reader.tables("slave")) {
     for (const auto& node : *slaves) {
-      if (channel.slaves.size() == kMaxSlaves) {
-        reader.fail_at(node.source(), "slave", "more than 8 slaves on a channel");
+      if (channel.slaves.size() == master.slaves) {
+        reader.fail_at(node.source(), "slave",
+                       "more than " + std::to_string(master.slaves) + " slaves on a channel");
       }
       channel.slaves.push_back(read_slave(*node.as_table(), file));
       check_slave(reader, channel, node.source());

@@ -12,8 +12,8 @@
 
 namespace mb4::sim {
 
-// Reads one channel. Throws ScenarioError.
-ChannelConfig read_channel(const toml::table& table, TomlFile& file);
+// Reads one channel of this master. Throws ScenarioError.
+ChannelConfig read_channel(const toml::table& table, TomlFile& file, const Master& master);
 
 }  // namespace mb4::sim
 

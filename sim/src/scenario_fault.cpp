@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "number_text.hpp"
@@ -17,10 +18,7 @@ constexpr double kMaxWidthNs = 1e5;
 constexpr double kMinWidthNs = 0.001;
 constexpr double kMinPerS = 1e-6;
 constexpr double kMaxPerS = 1e7;
-constexpr std::int64_t kMinClkHz = 1'000;
-constexpr std::int64_t kMaxClkHz = 200'000'000;
 constexpr std::int64_t kMaxBit = 4095;
-constexpr unsigned kFirstOfChannel2 = 5;
 
 bool is_line(FaultKind kind) {
   return kind == FaultKind::kBitFlip || kind == FaultKind::kGlitch || kind == FaultKind::kStuck ||
@@ -32,18 +30,18 @@ bool is_slave(FaultKind kind) {
          kind == FaultKind::kWrongId || kind == FaultKind::kUnplug;
 }
 
-const SlaveConfig* find_slave(const Scenario& scenario, unsigned number, unsigned& channel) {
-  channel = scenario.channel(2) != nullptr && number >= kFirstOfChannel2 ? 2 : 1;
-  const ChannelConfig* found = scenario.channel(channel);
-  const unsigned index = number - (channel == 2 ? kFirstOfChannel2 : 1);
-  return found != nullptr && index < found->slaves.size() ? &found->slaves[index] : nullptr;
+// The fault of a slave of this kind, which is not kUnplug.
+SlaveFault slave_fault(FaultKind kind) {
+  return kind == FaultKind::kSilent     ? SlaveFault::kSilent
+         : kind == FaultKind::kBusy     ? SlaveFault::kBusy
+         : kind == FaultKind::kWrongCrc ? SlaveFault::kWrongCrc
+                                        : SlaveFault::kWrongId;
 }
 
 // Number of bits of a frame that a random bit-flip may hit: start bit, CDS, data and CRC of all
 // slaves.
 unsigned frame_bits(const ChannelConfig& channel) {
-  const LineProtocol protocol = channel.protocol();
-  unsigned bits = protocol == LineProtocol::kBissC ? 2 : protocol == LineProtocol::kBissB ? 1 : 0;
+  unsigned bits = channel.protocol().leading_bits();
   for (const SlaveConfig& slave : channel.slaves) bits += slave.data_bits() + slave.crc().width();
   return std::max(bits, 1U);
 }
@@ -72,7 +70,7 @@ std::vector<unsigned> read_bits(TomlReader& reader, const char* key, std::int64_
 }
 
 void read_line(TomlReader& reader, const Scenario& scenario, FaultConfig& fault) {
-  const auto number = reader.integer("channel", 1, 2);
+  const auto number = reader.integer("channel", 1, scenario.master->channels);
   if (!number && scenario.channels.size() > 1) reader.missing("channel", "missing: there are two");
   if (!number && scenario.channels.empty()) reader.fail("channel", "the scenario has none");
   fault.channel = number ? static_cast<unsigned>(*number) : scenario.channels.front().number;
@@ -100,24 +98,17 @@ void read_line(TomlReader& reader, const Scenario& scenario, FaultConfig& fault)
 }
 
 void read_slave_fault(TomlReader& reader, const Scenario& scenario, FaultConfig& fault) {
-  const auto number = reader.integer("slave", 1, kMaxSlaves);
+  const auto number = reader.integer("slave", 1, scenario.master->slaves);
   if (!number) return reader.missing("slave");
   fault.slave = static_cast<unsigned>(*number);
-  const SlaveConfig* slave = find_slave(scenario, fault.slave, fault.channel);
+  fault.channel = scenario.channel_of(fault.slave);
+  const SlaveConfig* slave = scenario.slave(fault.slave);
   if (slave == nullptr) {
     reader.fail("slave", "the scenario has no slave " + std::to_string(fault.slave));
   }
-  const bool replay = std::holds_alternative<ReplaySlaveConfig>(slave->device);
-  if (fault.kind == FaultKind::kWrongCrc && (replay || slave->crc().width() == 0)) {
-    reader.fail("slave", replay ? "a recording cannot be changed" : "this slave sends no CRC");
-  }
-  if (fault.kind == FaultKind::kBusy && (replay || slave->protocol() == LineProtocol::kSsi)) {
-    reader.fail("slave", "only BiSS slaves have a busy time");
-  }
-  const auto* biss_c = std::get_if<BissCSlaveConfig>(&slave->device);
-  if (fault.kind == FaultKind::kWrongId && (biss_c == nullptr || !biss_c->control.present)) {
-    reader.fail("slave", "only a BiSS C slave with control communication has an ID");
-  }
+  if (fault.kind == FaultKind::kUnplug) return;
+  const std::string_view refusal = slave->device->refuses(slave_fault(fault.kind));
+  if (!refusal.empty()) reader.fail("slave", std::string(refusal));
 }
 
 void read_device(TomlReader& reader, const Scenario& scenario, FaultConfig& fault) {
@@ -126,16 +117,17 @@ void read_device(TomlReader& reader, const Scenario& scenario, FaultConfig& faul
   } else if (is_slave(fault.kind)) {
     read_slave_fault(reader, scenario, fault);
   } else if (fault.kind == FaultKind::kAbort) {
-    if (scenario.host.parallel()) reader.fail("kind", "only an SPI host aborts frames");
+    const std::string_view refusal = host_kind(scenario.host.interface).refuses_abort;
+    if (!refusal.empty()) reader.fail("kind", std::string(refusal));
     if (const auto bits = reader.integer("after_clocks", 1, kMaxBit)) {
       fault.bits.push_back(static_cast<unsigned>(*bits));
     }
   } else {
     if (scenario.chip.f_clk_hz == 0) reader.fail("kind", "there is no clock at pin CLK");
     if (fault.kind != FaultKind::kClockFrequency) return;
-    const auto hz = reader.integer("hz", kMinClkHz, kMaxClkHz);
+    const auto hz = reader.integer("hz", scenario.master->min_clk_hz, scenario.master->max_clk_hz);
     if (!hz) reader.missing("hz");
-    fault.hz = static_cast<std::uint64_t>(hz.value_or(kMinClkHz));
+    fault.hz = static_cast<std::uint64_t>(hz.value_or(1));
   }
 }
 

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cassert>
 #include <utility>
-#include <variant>
 
 #include "chip_model.hpp"
 #include "mb4sim/random.hpp"
@@ -13,29 +12,12 @@
 namespace mb4::sim {
 namespace {
 
-constexpr unsigned kChannel2FirstSlave = 5;
 constexpr std::uint64_t kChipSeed = 0;  // part numbers of derive_seed(); slaves use 1 to 8
 constexpr std::uint64_t kFirstLineSeed = 9;
 constexpr std::uint64_t kFaultSeed = 11;
 
-struct MakeSlave {
-  std::uint64_t seed;
-  std::unique_ptr<Slave> operator()(const BissCSlaveConfig& config) const {
-    return std::make_unique<BissCSlave>(config, seed);
-  }
-  std::unique_ptr<Slave> operator()(const BissBSlaveConfig& config) const {
-    return std::make_unique<BissBSlave>(config, seed);
-  }
-  std::unique_ptr<Slave> operator()(const SsiSlaveConfig& config) const {
-    return std::make_unique<SsiSlave>(config);
-  }
-  std::unique_ptr<Slave> operator()(const ReplaySlaveConfig& config) const {
-    return std::make_unique<ReplaySlave>(config);
-  }
-};
-
 std::unique_ptr<Slave> make_slave(const SlaveConfig& config, std::uint64_t seed) {
-  std::unique_ptr<Slave> slave = std::visit(MakeSlave{seed}, config.device);
+  std::unique_ptr<Slave> slave = config.device->make_slave(seed);
   for (const auto& [address, value] : config.registers) slave->reg_write(address, value);
   return slave;
 }
@@ -68,12 +50,12 @@ Simulator::Simulator(const Scenario& scenario, const SimulatorOptions& options)
     const std::size_t index = channel.number - 1;
     auto line = std::make_unique<Line>(queue_, channel.delay, &Simulator::on_sl, &sl_pins_[index],
                                        channel.cable, derive_seed(seed_, kFirstLineSeed + index));
-    unsigned number = channel.number == 1 ? 1 : kChannel2FirstSlave;
+    unsigned number = scenario_.master->first_slave(channel.number);
     for (const SlaveConfig& slave : channel.slaves) {
       line->chain().add(make_slave(slave, derive_seed(seed_, number)));
       ++number;
     }
-    if (channel.protocol() == LineProtocol::kSsi) line->faults().set_ssi();
+    if (!channel.protocol().start_bit) line->faults().set_no_start_bit();
     for (const auto& [frame, bits] : channel.flips) line->faults().flip_frame(frame, bits);
     lines_[index] = std::move(line);
   }
@@ -230,7 +212,7 @@ void Simulator::on_probe(Time now, void* receiver) {
     const Line* line = simulator->lines_[channel - 1].get();
     if (line == nullptr || line->chain().ma()) ma |= 1U << (channel - 1);
   }
-  for (unsigned number = 1; number <= kMaxSlaves; ++number) {
+  for (unsigned number = 1; number <= simulator->scenario_.master->slaves; ++number) {
     const Slave* slave = simulator->slave(number);
     if (slave == nullptr || slave->slo()) slo |= 1U << (number - 1);
     if (slave == nullptr || slave->idle()) idle |= 1U << (number - 1);
@@ -298,9 +280,9 @@ Line* Simulator::line(unsigned channel) {
 
 const Slave* Simulator::slave(unsigned number) const {
   if (number == 0) return nullptr;
-  const bool second = lines_[1] != nullptr && number >= kChannel2FirstSlave;
-  const Line* line = lines_[second ? 1 : 0].get();
-  const unsigned index = number - (second ? kChannel2FirstSlave : 1);
+  const unsigned channel = scenario_.channel_of(number);
+  const Line* line = lines_[channel - 1].get();
+  const unsigned index = number - scenario_.master->first_slave(channel);
   return line != nullptr && index < line->chain().size() ? &line->chain().slave(index) : nullptr;
 }
 

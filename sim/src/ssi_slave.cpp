@@ -6,6 +6,18 @@
 
 namespace mb4::sim {
 
+std::unique_ptr<Slave> SsiSlaveConfig::make_slave(std::uint64_t /*seed*/) const {
+  return std::make_unique<SsiSlave>(*this);
+}
+
+DeviceTraits SsiSlaveConfig::traits() const {
+  return {.protocol = {.key = "ssi", .title = "SSI", .start_bit = false},
+          .timeout = monoflop,
+          .gray = gray,
+          .registers = control.present,
+          .alone = "an SSI encoder"};
+}
+
 SsiSlave::SsiSlave(const SsiSlaveConfig& config)
     : config_(config), control_(config_.control, registers()) {
   registers().set_layout(config.control);

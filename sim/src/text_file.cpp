@@ -7,7 +7,7 @@
 #include <filesystem>
 #include <fstream>
 
-#include "mb4sim/scenario.hpp"
+#include "mb4sim/scenario_error.hpp"
 
 namespace mb4::sim {
 

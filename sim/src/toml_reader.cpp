@@ -135,7 +135,7 @@ TableSource TomlReader::source() const {
 }
 
 std::optional<std::size_t> TomlReader::choice(std::string_view key,
-                                              std::initializer_list<std::string_view> choices) {
+                                              std::span<const std::string_view> choices) {
   const auto value = text(key);
   if (!value) return std::nullopt;
   std::string list;

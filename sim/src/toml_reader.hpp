@@ -13,10 +13,11 @@
 #include <initializer_list>
 #include <optional>
 #include <set>
+#include <span>
 #include <string>
 #include <string_view>
 
-#include "mb4sim/scenario.hpp"
+#include "mb4sim/scenario_error.hpp"
 
 namespace mb4::sim {
 
@@ -59,7 +60,11 @@ class TomlReader {
   std::optional<std::string> text(std::string_view key);
   // Returns the index of the value in `choices`.
   std::optional<std::size_t> choice(std::string_view key,
-                                    std::initializer_list<std::string_view> choices);
+                                    std::span<const std::string_view> choices);
+  std::optional<std::size_t> choice(std::string_view key,
+                                    std::initializer_list<std::string_view> choices) {
+    return choice(key, std::span(choices.begin(), choices.size()));
+  }
   // The name of a file: text without a NUL character.
   std::optional<std::string> file_name(std::string_view key);
   const toml::node* node(std::string_view key);

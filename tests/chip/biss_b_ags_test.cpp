@@ -4,6 +4,7 @@
 // BiSS B register access between automatic frames, and with MO: pages 13, 16, 28, 32 to 34.
 #include <gtest/gtest.h>
 
+#include "mb4sim/biss_b_slave.hpp"
 #include "protocol_chip.hpp"
 
 namespace {

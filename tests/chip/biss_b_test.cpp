@@ -7,6 +7,7 @@
 #include <algorithm>
 
 #include "bits.hpp"
+#include "mb4sim/biss_b_slave.hpp"
 #include "protocol_chip.hpp"
 
 namespace {

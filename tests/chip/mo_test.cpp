@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "bits.hpp"
+#include "mb4sim/actuator.hpp"
 #include "protocol_chip.hpp"
 
 namespace {

@@ -5,6 +5,7 @@
 // (Table 23), 28, 32 (Table 46).
 #include <gtest/gtest.h>
 
+#include "mb4sim/biss_b_slave.hpp"
 #include "protocol_chip.hpp"
 
 namespace {

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "bits.hpp"
+#include "mb4sim/actuator.hpp"
 
 namespace mb4test {
 namespace {

@@ -7,6 +7,7 @@
 #include <algorithm>
 
 #include "bits.hpp"
+#include "mb4sim/control_slave.hpp"
 #include "protocol_chip.hpp"
 
 namespace {

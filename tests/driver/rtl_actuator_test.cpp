@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <string>
 
+#include "mb4sim/actuator.hpp"
 #include "protocol_bus.hpp"
 
 namespace {

@@ -10,6 +10,7 @@
 #include <string>
 
 #include "chip_fixture.hpp"
+#include "mb4sim/control_slave.hpp"
 
 namespace {
 

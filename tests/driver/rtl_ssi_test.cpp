@@ -11,6 +11,7 @@
 #include <optional>
 #include <string>
 
+#include "mb4sim/control_slave.hpp"
 #include "protocol_bus.hpp"
 
 namespace {

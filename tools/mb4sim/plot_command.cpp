@@ -175,7 +175,7 @@ void check(const PlotOptions& options, const sim::Scenario& scenario) {
     throw UseError(
         fmt::format("{}: there is no slave on channel {}", options.scenario, options.channel));
   }
-  if (is_control(options) && channel->protocol() != sim::LineProtocol::kBissC) {
+  if (is_control(options) && !channel->protocol().control) {
     throw UseError("control frames are drawn of BiSS C only");
   }
   // Mistakes in numbers show before anything is written.

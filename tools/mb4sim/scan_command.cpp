@@ -164,7 +164,7 @@ int scan_command(const ScanOptions& options) {
   for (unsigned number = 1; number <= kChannels; ++number) {
     const sim::ChannelConfig* channel = scenario.channel(number);
     if (channel == nullptr) continue;
-    if (channel->protocol() != sim::LineProtocol::kBissC) {
+    if (!channel->protocol().control) {
       notes += fmt::format("channel {}: not scanned, only BiSS C slaves can be asked\n", number);
       continue;
     }

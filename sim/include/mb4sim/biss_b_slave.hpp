@@ -13,9 +13,10 @@
 #define MB4SIM_BISS_B_SLAVE_HPP_
 
 #include <cstdint>
+#include <memory>
 
 #include "mb4sim/biss_b_registers.hpp"
-#include "mb4sim/sensor_config.hpp"
+#include "mb4sim/biss_slave_config.hpp"
 #include "mb4sim/shift_register.hpp"
 #include "mb4sim/slave.hpp"
 #include "mb4sim/slave_timeout.hpp"
@@ -23,20 +24,21 @@
 
 namespace mb4::sim {
 
-struct BissBSlaveConfig : SensorConfig {
+struct BissBSlaveConfig : BissSlaveConfig {
   BissBSlaveConfig() {
     name = "biss-b";
     timeout.fixed = 16 * kPsPerUs;
   }
 
-  SlaveTimeout timeout;  // of sensor mode
   // Timeout of register mode, ps. 0: 1.5 periods of the register clock, measured in the start bit;
   // before that `register_initial`.
   Time register_timeout = 0;
   Time register_initial = 1000 * kPsPerUs;
-  unsigned busy_periods = 0;        // periods of MA between acknowledge and start bit beyond one
-  bool passes_acknowledge = false;  // as in BissCSlaveConfig
   BissBRegisterConfig access;
+
+  std::unique_ptr<Slave> make_slave(std::uint64_t seed) const override;
+  DeviceTraits traits() const override;
+  unsigned set_ids_behind(unsigned ids) override;
 };
 
 class BissBSlave final : public Slave {

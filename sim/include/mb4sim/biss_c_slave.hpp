@@ -18,10 +18,12 @@
 #define MB4SIM_BISS_C_SLAVE_HPP_
 
 #include <cstdint>
+#include <memory>
+#include <string_view>
 
 #include "mb4sim/actuator.hpp"
+#include "mb4sim/biss_slave_config.hpp"
 #include "mb4sim/control_slave.hpp"
-#include "mb4sim/sensor_config.hpp"
 #include "mb4sim/shift_register.hpp"
 #include "mb4sim/slave.hpp"
 #include "mb4sim/slave_timeout.hpp"
@@ -29,14 +31,9 @@
 
 namespace mb4::sim {
 
-struct BissCSlaveConfig : SensorConfig {
+struct BissCSlaveConfig : BissSlaveConfig {
   BissCSlaveConfig() { name = "biss-c"; }
 
-  SlaveTimeout timeout;
-  unsigned busy_periods = 0;  // periods of MA between acknowledge and start bit beyond one
-  // true: SLO of a slave that is not the last one stays SLI from the request to the start bit.
-  // false: the second rising edge of MA makes SLO 0, whatever SLI is.
-  bool passes_acknowledge = false;
   ControlConfig control;
   // An actuator takes the word that MO brings for it and sends the word that it had before.
   // `source` gives the first of these.
@@ -45,6 +42,10 @@ struct BissCSlaveConfig : SensorConfig {
 
   // Length of the data channel on the line, in bits.
   unsigned channel_bits() const { return word_bits() + (actuator && stop_bit ? 1U : 0U); }
+
+  std::unique_ptr<Slave> make_slave(std::uint64_t seed) const override;
+  DeviceTraits traits() const override;
+  std::string_view refuses(SlaveFault fault) const override;
 };
 
 class BissCSlave final : public Slave {

@@ -1,19 +1,17 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Encoders by name, with lengths, CRC and timing as their makers publish them.
+// Encoders by name, with lengths, CRC and timing as their makers publish them. The room of each
+// protocol has its own list.
 #ifndef MB4SIM_PRESETS_HPP_
 #define MB4SIM_PRESETS_HPP_
 
 #include <cstdint>
 #include <span>
 #include <string_view>
-#include <variant>
 #include <vector>
 
-#include "mb4sim/biss_b_slave.hpp"
-#include "mb4sim/biss_c_slave.hpp"
-#include "mb4sim/ssi_slave.hpp"
+#include "mb4sim/device.hpp"
 
 namespace mb4::sim {
 
@@ -24,8 +22,7 @@ struct Preset {
   };
   std::string_view name;
   std::string_view description;
-  // data_bits = 0: the user must give the length.
-  std::variant<BissCSlaveConfig, BissBSlaveConfig, SsiSlaveConfig> device;
+  Device device;  // data_bits = 0: the user must give the length
   std::vector<RegisterRun> registers;
 };
 

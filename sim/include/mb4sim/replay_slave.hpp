@@ -8,10 +8,11 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <string>
+#include <memory>
+#include <string_view>
 #include <vector>
 
-#include "mb4sim/crc.hpp"
+#include "mb4sim/device.hpp"
 #include "mb4sim/replay_recording.hpp"
 #include "mb4sim/slave.hpp"
 #include "mb4sim/slave_timeout.hpp"
@@ -19,21 +20,29 @@
 
 namespace mb4::sim {
 
-struct ReplaySlaveConfig {
+struct ReplaySlaveConfig : DeviceConfig {
   // kTime: each edge comes at its recorded time after the first falling edge of MA.
   // kClock: each edge comes after the rising edge of MA to which it belonged in the recording, with
   // the recorded remainder. So the recording can be played at another frequency. Edges whose clock
   // does not come are left out. SL goes to 1 when MA has been constant for the timeout.
   enum class Play { kTime, kClock };
 
-  std::string name = "replay";
+  // The other properties of DeviceConfig are those of the recorded data. The slave itself does not
+  // need them.
+  ReplaySlaveConfig() {
+    name = "replay";
+    data_bits = 1;
+    flag_bits = 0;
+    crc = {};
+  }
+
   ReplayRecording recording;
   Play play = Play::kTime;
   SlaveTimeout timeout;  // kClock only
-  // Properties of the recorded data. The slave itself does not need them.
-  unsigned data_bits = 1;
-  unsigned flag_bits = 0;
-  Crc crc;
+
+  std::unique_ptr<Slave> make_slave(std::uint64_t seed) const override;
+  DeviceTraits traits() const override;
+  std::string_view refuses(SlaveFault fault) const override;
 };
 
 class ReplaySlave final : public Slave {

@@ -7,90 +7,39 @@
 #define MB4SIM_SCENARIO_HPP_
 
 #include <cstdint>
-#include <functional>
 #include <map>
-#include <stdexcept>
 #include <string>
 #include <string_view>
-#include <variant>
 #include <vector>
 
-#include "mb4sim/biss_b_slave.hpp"
-#include "mb4sim/biss_c_slave.hpp"
 #include "mb4sim/cable.hpp"
+#include "mb4sim/chip_config.hpp"
+#include "mb4sim/device.hpp"
 #include "mb4sim/fault.hpp"
-#include "mb4sim/one_line.hpp"
-#include "mb4sim/replay_slave.hpp"
-#include "mb4sim/ssi_slave.hpp"
+#include "mb4sim/host_config.hpp"
+#include "mb4sim/master.hpp"
+#include "mb4sim/scenario_error.hpp"
 #include "mb4sim/time.hpp"
 
 namespace mb4::sim {
 
-// Largest number of slaves of a chip: it has as many single-cycle data channels.
-inline constexpr unsigned kMaxSlaves = 8;
-
-// A place in the scenario file. Line and column count from 1; 0 = unknown.
-struct SourcePos {
-  unsigned line = 0;
-  unsigned column = 0;
-};
-
-// The place of a table in the scenario, and of the values of its keys.
-struct TableSource {
-  SourcePos table;
-  std::map<std::string, SourcePos, std::less<>> keys;
-
-  // Returns the place of the value if the key is there, else that of the table.
-  SourcePos of(std::string_view key) const;
-};
-
-struct ChipConfig {
-  std::uint64_t f_clk_hz = 20'000'000;  // pin CLK; 0 = not connected, the pin stays 0
-  std::uint64_t f_osc_hz = 20'000'000;  // internal oscillator
-  // Port quirks_i of the chip; mb4_pkg names the bits.
-  unsigned quirks = 0;
-  TableSource source;
-
-  // The frequency that the chip is meant to run from: pin CLK if it is connected, else the
-  // oscillator.
-  std::uint64_t system_hz() const { return f_clk_hz != 0 ? f_clk_hz : f_osc_hz; }
-};
-
-// The connection of the host. kSpi2: SPI with the second serial interface enabled.
-enum class HostInterface { kSpi, kSpi2, kIntel, kMotorola };
-
-struct HostConfig {
-  HostInterface interface = HostInterface::kSpi;
-  std::uint64_t sclk_hz = 10'000'000;   // SPI
-  std::uint64_t sclk2_hz = 10'000'000;  // SPI2
-  Time cycle = 1000 * kPsPerNs;         // of the parallel bus, ps
-
-  bool parallel() const {
-    return interface == HostInterface::kIntel || interface == HostInterface::kMotorola;
-  }
-  // MA frequency that `mb4sim run` sets up. The chip can always make it.
-  std::uint64_t ma_hz = 10'000'000;
-  TableSource source;
-};
-
-// Protocol of the slaves of a line. A replay of a BiSS C frame counts as BiSS C.
-enum class LineProtocol { kBissB, kBissC, kSsi };
-
 struct SlaveConfig {
-  std::variant<BissCSlaveConfig, BissBSlaveConfig, SsiSlaveConfig, ReplaySlaveConfig> device;
+  Device device;
   std::map<std::uint8_t, std::uint8_t> registers;
   std::string file;  // file from which words or edges were read; empty: none
   TableSource source;
 
-  const std::string& name() const;
-  unsigned data_bits() const;
-  unsigned flag_bits() const;
-  const Crc& crc() const;
-  LineProtocol protocol() const;
+  const std::string& name() const { return device->name; }
+  unsigned data_bits() const { return device->data_bits; }
+  unsigned flag_bits() const { return device->flag_bits; }
+  const Crc& crc() const { return device->crc; }
+  DeviceTraits traits() const { return device->traits(); }
+  // A replay of a BiSS C frame counts as BiSS C.
+  LineProtocol protocol() const { return traits().protocol; }
 };
 
 struct ChannelConfig {
-  unsigned number = 1;  // 1 or 2
+  unsigned number = 1;  // from 1 on
   Time delay = 0;       // round trip with transceivers, ps
   CableConfig cable;
   std::vector<SlaveConfig> slaves;  // the first slave is next to SL
@@ -98,12 +47,15 @@ struct ChannelConfig {
   std::map<std::uint64_t, std::vector<unsigned>> flips;
   TableSource source;
 
-  // Protocol of all its slaves; kBissC if it has no slaves.
+  // Protocol of all its slaves. Without slaves it is the first one of protocols().
   LineProtocol protocol() const;
 };
 
 struct Scenario {
+  Scenario();
+
   std::string name = "scenario";  // file name as given, used in messages
+  const Master* master;
   ChipConfig chip;
   HostConfig host;
   std::vector<ChannelConfig> channels;  // each number at most once
@@ -111,17 +63,11 @@ struct Scenario {
   std::uint64_t seed = 1;
   TableSource source;  // of the whole file
 
+  // Null if the scenario does not have it.
   const ChannelConfig* channel(unsigned number) const;
-};
-
-// A mistake in a scenario or in a file that it names. what() is one complete line:
-// "file:line:column: key 'x': message". Line and column are missing where there is none. Control
-// characters are escaped (one_line.hpp).
-class ScenarioError : public std::runtime_error {
- public:
-  explicit ScenarioError(const std::string& message) : std::runtime_error(one_line(message)) {}
-  ScenarioError(const std::string& file, SourcePos where, std::string_view key,
-                const std::string& message);
+  const SlaveConfig* slave(unsigned number) const;
+  // The channel that a slave of this number would be on.
+  unsigned channel_of(unsigned slave) const;
 };
 
 // Reads a scenario from TOML text. `name` is used in messages. Up to its last slash it is also the

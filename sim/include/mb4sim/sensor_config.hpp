@@ -2,25 +2,20 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // The properties that sensors of every protocol have: a word of some length, its CRC and its
-// source.
+// source. Only a replay has none of its own.
 #ifndef MB4SIM_SENSOR_CONFIG_HPP_
 #define MB4SIM_SENSOR_CONFIG_HPP_
 
 #include <cstdint>
-#include <string>
 
-#include "mb4sim/crc.hpp"
 #include "mb4sim/data_source.hpp"
+#include "mb4sim/device.hpp"
 #include "mb4sim/time.hpp"
 
 namespace mb4::sim {
 
-struct SensorConfig {
-  std::string name;
-  unsigned data_bits = 28;     // 1 to 64, position and flags
-  unsigned flag_bits = 2;      // the lowest bits of the word that are not part of the position
+struct SensorConfig : DeviceConfig {
   std::uint64_t flags = 0b11;  // level of the flags with a ramp or sine; nE = nW = 1: no error
-  Crc crc{0x43, 0};
   DataSource source;
 
   // Returns the word that is latched at `now` after `frames` frames.

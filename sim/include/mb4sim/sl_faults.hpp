@@ -29,8 +29,8 @@ class SlFaults {
   void stick(std::optional<bool> level) { stuck_ = level; }
   std::optional<bool> stuck() const { return stuck_; }
 
-  // The line carries SSI: a frame begins with the first rising edge of MA.
-  void set_ssi() { ssi_ = true; }
+  // The line has no start bit (SSI): a frame begins with the first rising edge of MA.
+  void set_no_start_bit() { start_bit_ = false; }
 
   // --- used by Line --------------------------------------------------------------------------
   // MA rises at the slaves.
@@ -38,7 +38,7 @@ class SlFaults {
     if (counting_) {
       ++bit_;
       update();
-    } else if (ssi_ && acknowledged_) {
+    } else if (!start_bit_ && acknowledged_) {
       begin_frame();
     }
   }
@@ -47,8 +47,8 @@ class SlFaults {
     if (idle) {
       if (acknowledged_) end_frame();
     } else if (!acknowledged_) {
-      acknowledged_ = ssi_ || !slo;
-    } else if (!counting_ && slo && !ssi_) {
+      acknowledged_ = !start_bit_ || !slo;
+    } else if (!counting_ && slo && start_bit_) {
       begin_frame();
     }
   }
@@ -60,7 +60,7 @@ class SlFaults {
   void update() { flip_now_ = !pending_.empty() && is_pending(bit_); }
   bool is_pending(unsigned bit) const;
 
-  bool ssi_ = false;
+  bool start_bit_ = true;
   std::vector<unsigned> pending_;
   std::map<std::uint64_t, std::vector<unsigned>> planned_;  // key: frame
   std::uint64_t frames_ = 0;                                // that have reached their start bit

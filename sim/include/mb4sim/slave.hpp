@@ -18,6 +18,9 @@ namespace mb4::sim {
 class Actuator;
 class ControlSlave;
 
+// Faults that a scenario can ask of a slave.
+enum class SlaveFault { kSilent, kBusy, kWrongCrc, kWrongId };
+
 // Faults of a slave. A member is true as long as the fault lasts. SlaveChain::detach() and
 // ControlFaults make other faults.
 struct SlaveFaults {

@@ -17,6 +17,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "mb4sim/control_slave.hpp"
@@ -41,6 +42,9 @@ struct SsiSlaveConfig : SensorConfig {
   Time monoflop = 20 * kPsPerUs;
   Time response = 0;      // from a rising edge of MA to the bit at SLO, ps
   ControlConfig control;  // present: extended SSI
+
+  std::unique_ptr<Slave> make_slave(std::uint64_t seed) const override;
+  DeviceTraits traits() const override;
 };
 
 class SsiSlave final : public Slave {

@@ -8,7 +8,7 @@
 #include <optional>
 #include <string>
 
-#include "mb4sim/scenario.hpp"
+#include "mb4sim/host_config.hpp"
 #include "mb4sim/time.hpp"
 
 namespace mb4::sim {

@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
-#include "mb4sim/presets.hpp"
-
-#include <algorithm>
 #include <string>
 #include <utility>
+
+#include "biss_presets.hpp"
+#include "mb4sim/biss_c_slave.hpp"
 
 namespace mb4::sim {
 namespace {
@@ -47,52 +47,15 @@ void add_eds_sensor(BissCSlaveConfig& config) {
 
 using Runs = std::vector<Preset::RegisterRun>;
 
-// iC-NQ Rev D1: BiSS B, lengths as iC-NQC. The timeouts of 16 us (sensor) and 256 us (register) are
-// two of the values that can be set.
-BissBSlaveConfig ic_nq() {
-  BissBSlaveConfig config;
-  config.data_bits = 39;
-  config.timeout.fixed = from_us(16);
-  config.register_timeout = from_us(256);
-  return config;
-}
+}  // namespace
 
-// Presets of BiSS B and SSI.
-void add_others(std::vector<Preset>& list) {
-  const auto add = [&list](std::string_view name, std::string_view description, auto config,
-                           Runs registers = {}) {
-    config.name = std::string(name);
-    list.push_back({name, description, std::move(config), std::move(registers)});
-  };
-  add("ic-nq", "iC-NQ, BiSS B, 24 bits period and 13 bits angle", ic_nq());
-  BissBSlaveConfig lika;
-  lika.data_bits = 26;
-  add("lika-sma1-b", "Lika SMA1 in BiSS B, 24 bits", lika,
-      {{0x42, {0x28, 0x14}}, {0x55, {0x06}}, {0x78, {'S', 'M', 'A', '1'}}});
-  // Hengstler: two IDs widen the register address to eight bits.
-  BissBSlaveConfig acuro;
-  acuro.data_bits = 0;
-  acuro.access.ids = 2;
-  add("acuro", "Hengstler ACURO, BiSS B, give data_bits", acuro);
-  // Posital, SSI page: 25 bits, multiple transmission with 26 clocks for each word.
-  SsiSlaveConfig posital;
-  posital.data_bits = 25;
-  posital.ring = true;
-  add("posital-ssi-25", "Posital, SSI, 25 bits, multiple transmission", posital);
-  // TR-Electronic: below 20 us the old word comes again, above 30 us a new one.
-  SsiSlaveConfig tr;
-  tr.data_bits = 0;
-  tr.monoflop = from_us(25);
-  add("tr-ce-65", "TR-Electronic CE-65, SSI, give data_bits", tr);
-}
-
-std::vector<Preset> make_presets() {
+std::vector<Preset> biss_c_presets() {
   std::vector<Preset> list;
   list.reserve(24);  // add() returns references into the list
   const auto add = [&list](std::string_view name, std::string_view description,
                            unsigned position_bits, Runs registers = {}) -> BissCSlaveConfig& {
     list.push_back({name, description, encoder(name, position_bits), std::move(registers)});
-    return std::get<BissCSlaveConfig>(list.back().device);
+    return list.back().device.as<BissCSlaveConfig>();
   };
   const auto unidirectional = [](BissCSlaveConfig& config) { config.control.present = false; };
   // Renishaw L-9709-9005: 18, 26, 32 or 36 bits, unidirectional.
@@ -140,22 +103,7 @@ std::vector<Preset> make_presets() {
                       {0x44, {0x00, 0x00, 0x00, 0x01}},
                       {0x78, {'M', 'B', '4', 'S', 'I', 'M'}},
                       {0x7E, {'M', '4'}}}));
-  add_others(list);
   return list;
-}
-
-}  // namespace
-
-std::span<const Preset> presets() {
-  static const std::vector<Preset> list = make_presets();
-  return list;
-}
-
-const Preset* preset_by_name(std::string_view name) {
-  const auto all = presets();
-  const auto found =
-      std::find_if(all.begin(), all.end(), [&](const Preset& p) { return p.name == name; });
-  return found == all.end() ? nullptr : &*found;
 }
 
 }  // namespace mb4::sim

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
-#include "scenario_registers.hpp"
+#include "register_keys.hpp"
 
 #include <algorithm>
 #include <initializer_list>
@@ -127,13 +127,21 @@ void read_marks(TomlReader& reader, std::string_view key, RegisterFile::Marks& m
   }
 }
 
+}  // namespace
+
+void read_registers(TomlReader& reader, std::map<std::uint8_t, std::uint8_t>& registers) {
+  const toml::table* table = reader.table("registers");
+  if (table == nullptr) return;
+  read_bytes(reader, *table, kLastRegister,
+             [&](std::uint8_t address, std::uint8_t value) { registers[address] = value; });
+}
+
 void read_layout(TomlReader& reader, RegisterFile::Layout& layout) {
   read_banks(reader, layout.banks);
   read_marks(reader, "missing", layout.missing);
   read_marks(reader, "write_protected", layout.write_protected);
 }
 
-// Reads the key `control`. If the device has no control communication, none of `keys` may be given.
 bool read_present(TomlReader& reader, bool& present, std::initializer_list<std::string_view> keys) {
   if (const auto given = reader.boolean("control")) present = *given;
   if (present) return true;
@@ -143,8 +151,6 @@ bool read_present(TomlReader& reader, bool& present, std::initializer_list<std::
   return false;
 }
 
-// Reads a busy time. `frames_key`: number of frames or clocks, or "forever". `us_key`:
-// microseconds.
 void read_busy(TomlReader& reader, std::string_view frames_key, std::string_view us_key,
                BusyTime& busy) {
   const toml::node* node = reader.node(frames_key);
@@ -164,13 +170,12 @@ void read_busy(TomlReader& reader, std::string_view frames_key, std::string_view
   }
 }
 
-}  // namespace
+void read_busy_us(TomlReader& reader, std::string_view us_key, BusyTime& busy) {
+  if (const auto us = reader.number(us_key, 0, kMaxBusyUs)) busy = {0, from_us(*us)};
+}
 
-void read_registers(TomlReader& reader, std::map<std::uint8_t, std::uint8_t>& registers) {
-  const toml::table* table = reader.table("registers");
-  if (table == nullptr) return;
-  read_bytes(reader, *table, kLastRegister,
-             [&](std::uint8_t address, std::uint8_t value) { registers[address] = value; });
+void read_ids(TomlReader& reader, unsigned& ids) {
+  if (const auto given = reader.integer("ids", 1, kMaxIds)) ids = static_cast<unsigned>(*given);
 }
 
 void read_control(TomlReader& reader, ControlConfig& control) {
@@ -180,29 +185,17 @@ void read_control(TomlReader& reader, ControlConfig& control) {
            "write_busy_frames", "write_busy_us", "store_busy_frames", "store_busy_us"})) {
     return;
   }
-  if (const auto ids = reader.integer("ids", 1, kMaxIds)) {
-    control.ids = static_cast<unsigned>(*ids);
-  }
+  read_ids(reader, control.ids);
   read_layout(reader, control);
   read_busy(reader, "read_busy_frames", "read_busy_us", control.read_busy);
   read_busy(reader, "write_busy_frames", "write_busy_us", control.write_busy);
   read_busy(reader, "store_busy_frames", "store_busy_us", control.store_busy);
 }
 
-void read_access(TomlReader& reader, BissBRegisterConfig& access) {
-  if (!read_present(reader, access.present,
-                    {"ids", "banks", "missing", "write_protected", "read_busy_clocks",
-                     "read_busy_us", "store_busy_us"})) {
-    return;
-  }
-  if (const auto ids = reader.integer("ids", 1, kMaxIds)) {
-    access.ids = static_cast<unsigned>(*ids);
-  }
-  read_layout(reader, access);
-  read_busy(reader, "read_busy_clocks", "read_busy_us", access.read_busy);
-  if (const auto us = reader.number("store_busy_us", 0, kMaxBusyUs)) {
-    access.store_busy = {0, from_us(*us)};
-  }
+void know_control_keys(TomlReader& reader) {
+  reader.know({"control", "ids", "banks", "missing", "write_protected", "read_busy_frames",
+               "read_busy_us", "write_busy_frames", "write_busy_us", "store_busy_frames",
+               "store_busy_us"});
 }
 
 }  // namespace mb4::sim

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
-#include "scenario_sensor.hpp"
+#include "sensor_keys.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -159,6 +159,11 @@ void read_sensor(TomlReader& reader, SensorConfig& config, unsigned default_flag
   }
   read_crc(reader, config.crc);
   read_source(reader, config, file);
+}
+
+void know_sensor_keys(TomlReader& reader) {
+  reader.know({"data_bits", "flag_bits", "flags", "crc", "crc_start", "data", "source", "start",
+               "step", "amplitude", "period_us", "offset", "file", "repeat"});
 }
 
 }  // namespace mb4::sim

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Reads the keys that slaves of several protocols share: lengths, CRC, timeout, source of the data.
-#ifndef MB4SIM_SRC_SCENARIO_SENSOR_HPP_
-#define MB4SIM_SRC_SCENARIO_SENSOR_HPP_
+#ifndef MB4SIM_SRC_SENSOR_KEYS_HPP_
+#define MB4SIM_SRC_SENSOR_KEYS_HPP_
 
 #include <string>
 #include <string_view>
@@ -29,7 +29,9 @@ void read_timeout_us(TomlReader& reader, std::string_view name, Time& value);
 // preset. `file` becomes the path of the file of words, if there is one.
 void read_sensor(TomlReader& reader, SensorConfig& config, unsigned default_flags,
                  std::string& file);
+// Names the keys of read_sensor() to TomlReader::know().
+void know_sensor_keys(TomlReader& reader);
 
 }  // namespace mb4::sim
 
-#endif  // MB4SIM_SRC_SCENARIO_SENSOR_HPP_
+#endif  // MB4SIM_SRC_SENSOR_KEYS_HPP_
