@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "fault_types.hpp"
 #include "number_text.hpp"
 #include "toml_reader.hpp"
 
@@ -14,29 +15,8 @@ namespace mb4::sim {
 namespace {
 
 constexpr double kMaxTimeUs = 1e9;
-constexpr double kMaxWidthNs = 1e5;
-constexpr double kMinWidthNs = 0.001;
 constexpr double kMinPerS = 1e-6;
 constexpr double kMaxPerS = 1e7;
-constexpr std::int64_t kMaxBit = 4095;
-
-bool is_line(FaultKind kind) {
-  return kind == FaultKind::kBitFlip || kind == FaultKind::kGlitch || kind == FaultKind::kStuck ||
-         kind == FaultKind::kJitter;
-}
-
-bool is_slave(FaultKind kind) {
-  return kind == FaultKind::kSilent || kind == FaultKind::kBusy || kind == FaultKind::kWrongCrc ||
-         kind == FaultKind::kWrongId || kind == FaultKind::kUnplug;
-}
-
-// The fault of a slave of this kind, which is not kUnplug.
-SlaveFault slave_fault(FaultKind kind) {
-  return kind == FaultKind::kSilent     ? SlaveFault::kSilent
-         : kind == FaultKind::kBusy     ? SlaveFault::kBusy
-         : kind == FaultKind::kWrongCrc ? SlaveFault::kWrongCrc
-                                        : SlaveFault::kWrongId;
-}
 
 // Number of bits of a frame that a random bit-flip may hit: start bit, CDS, data and CRC of all
 // slaves.
@@ -52,23 +32,6 @@ void refuse(TomlReader& reader, FaultKind kind, const char* key) {
   reader.fail(key, "a fault of kind '" + std::string(to_string(kind)) + "' has no such key");
 }
 
-std::vector<unsigned> read_bits(TomlReader& reader, const char* key, std::int64_t minimum) {
-  std::vector<unsigned> bits;
-  const toml::node* node = reader.node(key);
-  if (node == nullptr) return bits;
-  const std::string wanted = "expected a list of " + std::to_string(minimum) + " to 4095";
-  const toml::array* list = node->as_array();
-  if (list == nullptr || list->empty()) reader.fail(key, wanted);
-  for (const toml::node& item : *list) {
-    const auto* number = item.as_integer();
-    if (number == nullptr || number->get() < minimum || number->get() > kMaxBit) {
-      reader.fail_at(item.source(), key, wanted);
-    }
-    bits.push_back(static_cast<unsigned>(number->get()));
-  }
-  return bits;
-}
-
 void read_line(TomlReader& reader, const Scenario& scenario, FaultConfig& fault) {
   const auto number = reader.integer("channel", 1, scenario.master->channels);
   if (!number && scenario.channels.size() > 1) reader.missing("channel", "missing: there are two");
@@ -78,23 +41,7 @@ void read_line(TomlReader& reader, const Scenario& scenario, FaultConfig& fault)
   if (channel == nullptr) {
     reader.fail("channel", "the scenario has no channel " + std::to_string(fault.channel));
   }
-  if (fault.kind == FaultKind::kBitFlip) {
-    fault.bits = read_bits(reader, "bits", 0);
-    fault.frame_bits = frame_bits(*channel);
-  } else {
-    fault.on_ma = reader.choice("on", {"sl", "ma"}).value_or(0) == 1;
-  }
-  if (fault.kind == FaultKind::kStuck) {
-    const auto level = reader.integer("level", 0, 1);
-    if (!level) reader.missing("level");
-    fault.level = level == 1;
-  }
-  if (fault.kind == FaultKind::kGlitch || fault.kind == FaultKind::kJitter) {
-    const char* const key = fault.kind == FaultKind::kGlitch ? "width_ns" : "jitter_ns";
-    const auto width = reader.number(key, kMinWidthNs, kMaxWidthNs);
-    if (!width) reader.missing(key);
-    fault.width = from_ns(width.value_or(1));
-  }
+  fault.frame_bits = frame_bits(*channel);
 }
 
 void read_slave_fault(TomlReader& reader, const Scenario& scenario, FaultConfig& fault) {
@@ -106,28 +53,26 @@ void read_slave_fault(TomlReader& reader, const Scenario& scenario, FaultConfig&
   if (slave == nullptr) {
     reader.fail("slave", "the scenario has no slave " + std::to_string(fault.slave));
   }
-  if (fault.kind == FaultKind::kUnplug) return;
-  const std::string_view refusal = slave->device->refuses(slave_fault(fault.kind));
+  const auto of_slave = fault_type(fault.kind).of_slave;
+  if (!of_slave) return;
+  const std::string_view refusal = slave->device->refuses(*of_slave);
   if (!refusal.empty()) reader.fail("slave", std::string(refusal));
 }
 
-void read_device(TomlReader& reader, const Scenario& scenario, FaultConfig& fault) {
-  if (is_line(fault.kind)) {
-    read_line(reader, scenario, fault);
-  } else if (is_slave(fault.kind)) {
-    read_slave_fault(reader, scenario, fault);
-  } else if (fault.kind == FaultKind::kAbort) {
-    const std::string_view refusal = host_kind(scenario.host.interface).refuses_abort;
-    if (!refusal.empty()) reader.fail("kind", std::string(refusal));
-    if (const auto bits = reader.integer("after_clocks", 1, kMaxBit)) {
-      fault.bits.push_back(static_cast<unsigned>(*bits));
+void read_place(TomlReader& reader, const Scenario& scenario, FaultConfig& fault) {
+  switch (fault_type(fault.kind).place) {
+    case FaultPlace::kLine:
+      return read_line(reader, scenario, fault);
+    case FaultPlace::kSlave:
+      return read_slave_fault(reader, scenario, fault);
+    case FaultPlace::kHost: {
+      const std::string_view refusal = host_kind(scenario.host.interface).refuses_abort;
+      if (!refusal.empty()) reader.fail("kind", std::string(refusal));
+      return;
     }
-  } else {
-    if (scenario.chip.f_clk_hz == 0) reader.fail("kind", "there is no clock at pin CLK");
-    if (fault.kind != FaultKind::kClockFrequency) return;
-    const auto hz = reader.integer("hz", scenario.master->min_clk_hz, scenario.master->max_clk_hz);
-    if (!hz) reader.missing("hz");
-    fault.hz = static_cast<std::uint64_t>(hz.value_or(1));
+    case FaultPlace::kClock:
+      if (scenario.chip.f_clk_hz == 0) reader.fail("kind", "there is no clock at pin CLK");
+      return;
   }
 }
 
@@ -183,10 +128,9 @@ void read_when(TomlReader& reader, FaultConfig& fault) {
 FaultConfig read_fault(const toml::table& table, const Scenario& scenario, TomlFile& file) {
   TomlReader reader(table, file);
   FaultConfig fault;
-  // The order is that of FaultKind.
-  const auto kind =
-      reader.choice("kind", {"bit-flip", "glitch", "stuck", "jitter", "silent", "busy", "wrong-crc",
-                             "wrong-id", "unplug", "abort", "clock-frequency", "clock-stop"});
+  std::vector<std::string_view> names;
+  for (const FaultType& type : fault_types()) names.push_back(type.name);
+  const auto kind = reader.choice("kind", names);
   if (!kind) {
     reader.missing("kind");
     reader.know({"channel", "bits", "on", "level", "width_ns", "jitter_ns", "slave", "after_clocks",
@@ -194,8 +138,10 @@ FaultConfig read_fault(const toml::table& table, const Scenario& scenario, TomlF
     reader.finish();
     return fault;
   }
-  fault.kind = static_cast<FaultKind>(*kind);
-  read_device(reader, scenario, fault);
+  const FaultType& type = fault_types()[*kind];
+  fault.kind = type.kind;
+  read_place(reader, scenario, fault);
+  type.read(reader, {scenario.master->min_clk_hz, scenario.master->max_clk_hz}, fault);
   read_when(reader, fault);
   reader.finish();
   fault.line = reader.source().table.line;

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "chip_model.hpp"
+#include "fault_target.hpp"
 #include "mb4sim/random.hpp"
 
 namespace mb4::sim {
@@ -29,6 +30,21 @@ std::unique_ptr<Slave> make_slave(const SlaveConfig& config, std::uint64_t seed)
 constexpr std::size_t index_of(Pin pin) { return static_cast<std::size_t>(pin); }
 
 }  // namespace
+
+// What faults can reach.
+class SimulatorFaults final : public FaultTarget {
+ public:
+  explicit SimulatorFaults(Simulator& simulator) : simulator_(simulator) {}
+  Line& line(unsigned channel) override { return *simulator_.line(channel); }
+  Slave& slave(unsigned number) override { return *simulator_.slave(number); }
+  void abort_transfer(std::uint64_t bits) override { simulator_.spi().abort_next(bits); }
+  void set_clock(Time now, std::optional<std::uint64_t> hz) override {
+    simulator_.chip_->set_clock(now, hz.value_or(simulator_.scenario().chip.f_clk_hz));
+  }
+
+ private:
+  Simulator& simulator_;
+};
 
 Simulator::Simulator(const Scenario& scenario, const SimulatorOptions& options)
     : scenario_(scenario),
@@ -69,7 +85,8 @@ Simulator::Simulator(const Scenario& scenario, const SimulatorOptions& options)
     }
     on_probe(0, this);
   }
-  injector_ = std::make_unique<FaultInjector>(*this, queue_, *chip_, scenario_.faults,
+  fault_target_ = std::make_unique<SimulatorFaults>(*this);
+  injector_ = std::make_unique<FaultInjector>(*fault_target_, queue_, scenario_.faults,
                                               derive_seed(seed_, kFaultSeed));
   // For the lines MA rests at 1 and MO at 0. Any other level of the chip is now a change.
   seen_ = ChipModel::kMa1 | ChipModel::kMa2;

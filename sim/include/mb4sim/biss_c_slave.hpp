@@ -61,6 +61,10 @@ class BissCSlave final : public Slave {
   bool set_data(std::uint64_t raw) override;
   ControlSlave* control() override { return config_.control.present ? &control_ : nullptr; }
   std::optional<std::uint64_t> sent_word() const override { return word_; }
+  void set_fault(SlaveFault fault, bool on) override {
+    if (fault == SlaveFault::kWrongId) control_.faults().set_wrong_id(on);
+    Slave::set_fault(fault, on);
+  }
   const Actuator* actuator() const override { return config_.actuator ? &actuator_ : nullptr; }
 
   const BissCSlaveConfig& config() const { return config_; }

@@ -19,16 +19,15 @@
 
 namespace mb4::sim {
 
-class ChipModel;
-class Line;
-class Simulator;
+class FaultTarget;
+struct FaultScene;
 
 class FaultInjector {
  public:
   // Posts the first event of each fault. All references must outlive the injector. The injector
   // must exist before time begins.
-  FaultInjector(Simulator& simulator, EventQueue& queue, ChipModel& chip,
-                const std::vector<FaultConfig>& faults, std::uint64_t seed);
+  FaultInjector(FaultTarget& target, EventQueue& queue, const std::vector<FaultConfig>& faults,
+                std::uint64_t seed);
   FaultInjector(const FaultInjector&) = delete;
   FaultInjector& operator=(const FaultInjector&) = delete;
 
@@ -41,23 +40,17 @@ class FaultInjector {
     std::size_t config;
     Random random;
     std::vector<std::size_t> lasting;  // records that are not over
-    WireFaults ma_before;              // jitter: faults of the cable without this jitter
-    WireFaults sl_before;
+    WireFaults ma_was;                 // line: faults of the cable without this one
+    WireFaults sl_was;
   };
 
   static void begin(Time now, void* receiver, std::uint64_t word);
   static void end(Time now, void* receiver, std::uint64_t record);
   void post_random(Source& source, Time after);
-  std::string inject(Time now, Source& source);
-  std::string flip_bits(Source& source);
-  std::string abort_frame(Source& source);
-  void set(Time now, Source& source, bool on);
-  void set_slave(Time now, const FaultConfig& fault, bool on);
-  void set_jitter(Source& source, bool on);
+  FaultScene scene(Time now, Source& source) const;
 
-  Simulator& simulator_;
+  FaultTarget& target_;
   EventQueue& queue_;
-  ChipModel& chip_;
   const std::vector<FaultConfig>& faults_;
   std::vector<std::unique_ptr<Source>> sources_;
   std::vector<FaultRecord> records_;

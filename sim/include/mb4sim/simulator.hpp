@@ -31,6 +31,7 @@
 namespace mb4::sim {
 
 class ChipModel;
+class SimulatorFaults;
 
 struct SimulatorOptions {
   std::optional<std::uint64_t> seed;      // replaces the scenario's seed
@@ -46,7 +47,7 @@ struct SimulatorOptions {
 class Simulator final : public HostPins {
  public:
   // Builds everything, resets the chip (NRES low for kResetLow) and returns at time kReady.
-  // Throws ScenarioError if the trace file cannot be written.
+  // Throws TraceError if the trace file cannot be written.
   explicit Simulator(const Scenario& scenario, const SimulatorOptions& options = {});
   ~Simulator();
   Simulator(const Simulator&) = delete;
@@ -122,6 +123,7 @@ class Simulator final : public HostPins {
   void flush_trace();
 
  private:
+  friend class SimulatorFaults;
   struct SlPin {
     Simulator* simulator;
     Pin pin;
@@ -150,6 +152,7 @@ class Simulator final : public HostPins {
   SpiHost spi2_;
   ParallelHost bus_;
   HostCheck host_check_;
+  std::unique_ptr<SimulatorFaults> fault_target_;
   std::unique_ptr<FaultInjector> injector_;
   Time now_ = 0;
   unsigned seen_ = 0;  // watched outputs that have been handled

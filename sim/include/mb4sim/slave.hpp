@@ -74,6 +74,12 @@ class Slave {
   // SlaveChain::refresh() applies a changed `silent`. The other faults are valid from the next
   // frame on.
   SlaveFaults& faults() { return faults_; }
+  // Begins or ends a fault that DeviceConfig::refuses() does not refuse.
+  virtual void set_fault(SlaveFault fault, bool on) {
+    if (fault == SlaveFault::kSilent) faults_.silent = on;
+    if (fault == SlaveFault::kBusy) faults_.busy = on;
+    if (fault == SlaveFault::kWrongCrc) faults_.wrong_crc = on;
+  }
   const SlaveFaults& faults() const { return faults_; }
   // Number of frames in which the slave has sent its start bit.
   std::uint64_t frames() const { return frames_; }
