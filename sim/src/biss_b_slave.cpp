@@ -21,11 +21,8 @@ unsigned BissBSlaveConfig::set_ids_behind(unsigned ids) {
   return access.ids;
 }
 
-BissBSlave::BissBSlave(const BissBSlaveConfig& config, std::uint64_t seed)
-    : config_(config),
-      access_(config_.access, registers()),
-      timeout_(config.timeout, seed),
-      shift_(config.word_bits()) {
+BissBSlave::BissBSlave(const BissBSlaveConfig &config, std::uint64_t seed)
+    : BissSlave(config, config.word_bits(), seed), access_(config_.access, registers()) {
   registers().set_layout(config.access);
 }
 
@@ -41,7 +38,8 @@ void BissBSlave::wait() {
   } else if (state_ != State::kRegister) {
     set_deadline(last_edge_ + timeout_.value());
   } else {
-    // The master may wait any time between the change to register mode and its start bit.
+    // The master may wait any time between the change to register mode and its
+    // start bit.
     set_deadline(access_.cells() == 0 ? kNever : last_edge_ + register_timeout());
   }
 }
@@ -64,7 +62,8 @@ void BissBSlave::ma_edge(Time now, bool ma, bool sli_before, bool sli) {
 
 void BissBSlave::first_falling(Time now, bool sli) {
   timeout_.begin(now);
-  // SLI = 0 that was 1 shortly before comes from MO. SLI of the last slave has always been 0.
+  // SLI = 0 that was 1 shortly before comes from MO. SLI of the last slave has
+  // always been 0.
   const bool fell = !sli && (sli_ || (sli_fell_ != kNever && now - sli_fell_ <= timeout_.value()));
   is_last_ = !sli && !fell;
   state_ = State::kArmed;
@@ -78,31 +77,12 @@ void BissBSlave::first_falling(Time now, bool sli) {
 void BissBSlave::rising(Time now, bool sli_before, bool sli) {
   switch (state_) {
     case State::kArmed:
-      word_ = config_.word(now, frames());
-      state_ = State::kAckWait;
+      latch(config_.word(now, frames()));
       break;
     case State::kAckWait:
-      timeout_.measure(now);
-      busy_left_ = config_.busy_periods;
-      sli_was_low_ = !sli;
-      state_ = State::kBusy;
-      set_slo(false);
-      break;
     case State::kBusy:
-      if (!is_last_) {
-        if (!sli_was_low_ || !sli_before || faults().busy) break;
-        count_frame();
-        load();
-      } else if (busy_left_ > 0) {
-        --busy_left_;
-      } else if (!faults().busy) {
-        set_slo(true);
-        state_ = State::kStart;
-        count_frame();
-      }
-      break;
     case State::kStart:
-      load();
+      if (rising_before_data(now, sli_before, sli)) load_data();
       break;
     case State::kData:
       shift_.shift(sli_before && !is_last_);
@@ -110,14 +90,10 @@ void BissBSlave::rising(Time now, bool sli_before, bool sli) {
       break;
     case State::kIdle:
     case State::kRegister:
+    case State::kCds:
+    case State::kPass:
       break;
   }
-}
-
-void BissBSlave::load() {
-  shift_.load(word_, config_.data_bits, config_.crc, faults().wrong_crc);
-  set_slo(shift_.out());
-  state_ = State::kData;
 }
 
 void BissBSlave::sli_changed(Time now, bool sli) { follow(now, sli); }
@@ -127,7 +103,8 @@ void BissBSlave::follow(Time now, bool sli) {
   sli_ = sli;
   switch (state_) {
     case State::kArmed:
-      // The master sees register mode only after all slaves of the chain have confirmed it.
+      // The master sees register mode only after all slaves of the chain have
+      // confirmed it.
       set_slo(true);
       break;
     case State::kIdle:
@@ -135,17 +112,17 @@ void BissBSlave::follow(Time now, bool sli) {
       set_slo(is_last_ || sli);
       break;
     case State::kBusy:
-      // The acknowledge of MO may come late. So a 1 is the start bit only after a 0.
-      if (is_last_) break;
-      if (!sli) sli_was_low_ = true;
-      set_slo(sli && (sli_was_low_ ? !faults().busy : config_.passes_acknowledge));
+      follow_busy(sli);
       break;
     case State::kRegister:
-      // The master sees SL = 0 when all slaves have confirmed. Later one of them sends.
+      // The master sees SL = 0 when all slaves have confirmed. Later one of them
+      // sends.
       set_slo(access_.out() || (!is_last_ && sli));
       break;
     case State::kStart:
     case State::kData:
+    case State::kCds:
+    case State::kPass:
       break;
   }
 }

@@ -3,10 +3,10 @@
 //
 // A BiSS B sensor. Its frame is that of BiSS C without CDS and CDM.
 //
-// Two events select register mode. If MA stays low after the first falling edge until the sensor
-// timeout, the slave confirms register mode with SLO = 0. On a bus MO selects it by a fall just
-// before the first falling edge of MA. Register mode ends when MA has rested for the register
-// timeout.
+// Two events select register mode. If MA stays low after the first falling edge
+// until the sensor timeout, the slave confirms register mode with SLO = 0. On a
+// bus MO selects it by a fall just before the first falling edge of MA.
+// Register mode ends when MA has rested for the register timeout.
 //
 // Source: iC-MB4 Rev D2, pages 12, 13, 16.
 #ifndef MB4SIM_BISS_B_SLAVE_HPP_
@@ -16,10 +16,9 @@
 #include <memory>
 
 #include "mb4sim/biss_b_registers.hpp"
+#include "mb4sim/biss_slave.hpp"
 #include "mb4sim/biss_slave_config.hpp"
-#include "mb4sim/shift_register.hpp"
 #include "mb4sim/slave.hpp"
-#include "mb4sim/slave_timeout.hpp"
 #include "mb4sim/time.hpp"
 
 namespace mb4::sim {
@@ -30,8 +29,8 @@ struct BissBSlaveConfig : BissSlaveConfig {
     timeout.fixed = 16 * kPsPerUs;
   }
 
-  // Timeout of register mode, ps. 0: 1.5 periods of the register clock, measured in the start bit;
-  // before that `register_initial`.
+  // Timeout of register mode, ps. 0: 1.5 periods of the register clock,
+  // measured in the start bit; before that `register_initial`.
   Time register_timeout = 0;
   Time register_initial = 1000 * kPsPerUs;
   BissBRegisterConfig access;
@@ -41,52 +40,35 @@ struct BissBSlaveConfig : BissSlaveConfig {
   unsigned set_ids_behind(unsigned ids) override;
 };
 
-class BissBSlave final : public Slave {
+class BissBSlave final : public BissSlave<BissBSlaveConfig> {
  public:
-  BissBSlave(const BissBSlaveConfig& config, std::uint64_t seed);
+  BissBSlave(const BissBSlaveConfig &config, std::uint64_t seed);
 
   void ma_edge(Time now, bool ma, bool sli_before, bool sli) override;
   void sli_changed(Time now, bool sli) override;
   void timer(Time now, bool sli) override;
 
-  unsigned data_bits() const override { return config_.data_bits; }
   bool set_data(std::uint64_t raw) override { return config_.hold(raw); }
 
-  std::optional<std::uint64_t> sent_word() const override { return word_; }
-
-  const BissBSlaveConfig& config() const { return config_; }
-  bool is_last() const { return is_last_; }
   bool in_register_mode() const { return state_ == State::kRegister; }
   // How often the timeout has selected register mode, and how often MO has.
   std::uint64_t handshakes() const { return handshakes_; }
   std::uint64_t mo_selections() const { return mo_selections_; }
-  BissBRegisters& access() { return access_; }
+  BissBRegisters &access() { return access_; }
 
  private:
-  enum class State { kIdle, kArmed, kAckWait, kBusy, kStart, kData, kRegister };
-
   void rising(Time now, bool sli_before, bool sli);
   void first_falling(Time now, bool sli);
-  void load();
   void follow(Time now, bool sli);
   Time register_timeout() const;
   void wait();
 
-  BissBSlaveConfig config_;
   BissBRegisters access_;
-  State state_ = State::kIdle;
-  bool ma_ = true;
-  bool is_last_ = true;
   bool sli_ = false;
-  bool sli_was_low_ = false;  // since the acknowledge
-  Time sli_fell_ = kNever;    // kNever: it has not fallen yet
-  std::uint64_t word_ = 0;
-  unsigned busy_left_ = 0;
+  Time sli_fell_ = kNever;  // kNever: it has not fallen yet
   Time last_edge_ = 0;
   Time first_cell_ = 0;       // start of the first cell of register mode
   Time register_period_ = 0;  // its length; 0: not measured yet
-  TimeoutClock timeout_;
-  ShiftRegister shift_;
   std::uint64_t handshakes_ = 0;
   std::uint64_t mo_selections_ = 0;
 };
