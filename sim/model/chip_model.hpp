@@ -12,7 +12,7 @@
 
 #include "mb4sim/chip_config.hpp"
 #include "mb4sim/pins.hpp"
-#include "mb4sim/time.hpp"
+#include "sim/core/time.hpp"
 
 namespace mb4::sim {
 

@@ -11,8 +11,8 @@
 #include <string>
 #include <system_error>
 
-#include "mb4sim/trace_error.hpp"
 #include "plain_steps.hpp"
+#include "sim/core/trace_error.hpp"
 #include "verilated_chip.hpp"
 
 namespace mb4::sim {

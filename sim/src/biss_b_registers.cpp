@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "mb4sim/biss_b_registers.hpp"
 
-#include "mb4sim/crc.hpp"
+#include "sim/core/crc.hpp"
 
 namespace mb4::sim {
 namespace {

@@ -11,7 +11,7 @@
 
 #include "mb4sim.h"
 #include "mb4sim/simulator.hpp"
-#include "mb4sim/version.hpp"
+#include "sim/core/version.hpp"
 
 using mb4::sim::ModelStopped;
 using mb4::sim::Scenario;

@@ -3,7 +3,7 @@
 #include "mb4sim/control_slave.hpp"
 
 #include "mb4sim/control_slots.hpp"
-#include "mb4sim/crc.hpp"
+#include "sim/core/crc.hpp"
 
 namespace mb4::sim {
 namespace {

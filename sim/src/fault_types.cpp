@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "mb4sim/line.hpp"
-#include "number_text.hpp"
+#include "sim/core/number_text.hpp"
 
 namespace mb4::sim {
 namespace {

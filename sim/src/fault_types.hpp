@@ -12,12 +12,12 @@
 #include <string_view>
 
 #include "fault_target.hpp"
-#include "mb4sim/cable.hpp"
 #include "mb4sim/fault.hpp"
-#include "mb4sim/random.hpp"
 #include "mb4sim/slave.hpp"
-#include "mb4sim/time.hpp"
-#include "toml_reader.hpp"
+#include "sim/core/cable.hpp"
+#include "sim/core/random.hpp"
+#include "sim/core/time.hpp"
+#include "sim/core/toml_reader.hpp"
 
 namespace mb4::sim {
 

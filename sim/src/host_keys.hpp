@@ -8,7 +8,7 @@
 #include <span>
 
 #include "mb4sim/host_config.hpp"
-#include "toml_reader.hpp"
+#include "sim/core/toml_reader.hpp"
 
 namespace mb4::sim {
 

@@ -4,7 +4,7 @@
 
 #include <optional>
 
-#include "mb4sim/random.hpp"
+#include "sim/core/random.hpp"
 
 namespace mb4::sim {
 namespace {

@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "mb4sim/ma_frequency.hpp"
-#include "toml_reader.hpp"
+#include "sim/core/toml_reader.hpp"
 
 namespace mb4::sim {
 namespace {

@@ -13,7 +13,7 @@
 
 #include "mb4sim/device.hpp"
 #include "mb4sim/presets.hpp"
-#include "toml_reader.hpp"
+#include "sim/core/toml_reader.hpp"
 
 namespace mb4::sim {
 

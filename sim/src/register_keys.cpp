@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "number_text.hpp"
+#include "sim/core/number_text.hpp"
 
 namespace mb4::sim {
 namespace {

@@ -14,7 +14,7 @@
 #include "mb4sim/busy_time.hpp"
 #include "mb4sim/control_slave.hpp"
 #include "mb4sim/register_file.hpp"
-#include "toml_reader.hpp"
+#include "sim/core/toml_reader.hpp"
 
 namespace mb4::sim {
 

@@ -4,7 +4,7 @@
 
 #include "mb4sim/replay_slave.hpp"
 #include "sensor_keys.hpp"
-#include "text_file.hpp"
+#include "sim/core/text_file.hpp"
 
 namespace mb4::sim {
 namespace {

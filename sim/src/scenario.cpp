@@ -12,8 +12,8 @@
 #include "protocols.hpp"
 #include "scenario_channel.hpp"
 #include "scenario_fault.hpp"
-#include "text_file.hpp"
-#include "toml_reader.hpp"
+#include "sim/core/text_file.hpp"
+#include "sim/core/toml_reader.hpp"
 
 namespace mb4::sim {
 namespace {

@@ -7,9 +7,9 @@
 #include <utility>
 #include <vector>
 
-#include "number_text.hpp"
 #include "scenario_slave.hpp"
-#include "toml_reader.hpp"
+#include "sim/core/number_text.hpp"
+#include "sim/core/toml_reader.hpp"
 
 namespace mb4::sim {
 namespace {

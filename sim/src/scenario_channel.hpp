@@ -8,7 +8,7 @@
 #include <toml++/toml.h>
 
 #include "mb4sim/scenario.hpp"
-#include "toml_reader.hpp"
+#include "sim/core/toml_reader.hpp"
 
 namespace mb4::sim {
 

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "fault_types.hpp"
-#include "number_text.hpp"
-#include "toml_reader.hpp"
+#include "sim/core/number_text.hpp"
+#include "sim/core/toml_reader.hpp"
 
 namespace mb4::sim {
 namespace {

@@ -9,7 +9,7 @@
 
 #include "mb4sim/fault.hpp"
 #include "mb4sim/scenario.hpp"
-#include "toml_reader.hpp"
+#include "sim/core/toml_reader.hpp"
 
 namespace mb4::sim {
 

@@ -11,7 +11,7 @@
 #include "mb4sim/presets.hpp"
 #include "protocols.hpp"
 #include "register_keys.hpp"
-#include "toml_reader.hpp"
+#include "sim/core/toml_reader.hpp"
 
 namespace mb4::sim {
 namespace {

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "number_text.hpp"
-#include "text_file.hpp"
+#include "sim/core/number_text.hpp"
+#include "sim/core/text_file.hpp"
 
 namespace mb4::sim {
 namespace {

@@ -8,10 +8,10 @@
 #include <string>
 #include <string_view>
 
-#include "mb4sim/crc.hpp"
 #include "mb4sim/sensor_config.hpp"
 #include "mb4sim/slave_timeout.hpp"
-#include "toml_reader.hpp"
+#include "sim/core/crc.hpp"
+#include "sim/core/toml_reader.hpp"
 
 namespace mb4::sim {
 

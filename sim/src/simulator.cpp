@@ -8,7 +8,7 @@
 
 #include "chip_model.hpp"
 #include "fault_target.hpp"
-#include "mb4sim/random.hpp"
+#include "sim/core/random.hpp"
 
 namespace mb4::sim {
 namespace {

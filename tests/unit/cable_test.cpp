@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Cables of a scenario: keys, events at given times, and one seed for all random choices.
-#include "mb4sim/cable.hpp"
+#include "sim/core/cable.hpp"
 
 #include <gtest/gtest.h>
 

@@ -18,7 +18,7 @@
 #include "mb4sim/simulator.hpp"
 #include "mb4sim/slave_chain.hpp"
 #include "mb4sim/spi_host.hpp"
-#include "mb4sim/wire.hpp"
+#include "sim/core/wire.hpp"
 
 namespace mb4::sim {
 namespace {

@@ -11,7 +11,7 @@
 
 #include "mb4sim/fault.hpp"
 #include "mb4sim/scenario.hpp"
-#include "mb4sim/time.hpp"
+#include "sim/core/time.hpp"
 
 namespace mb4::tool {
 

@@ -12,7 +12,7 @@
 
 #include "line_recording.hpp"
 #include "mb4sim/scenario.hpp"
-#include "mb4sim/time.hpp"
+#include "sim/core/time.hpp"
 
 namespace mb4::tool {
 

@@ -15,7 +15,7 @@
 #include "mb4/reading.hpp"
 #include "mb4/result.hpp"
 #include "mb4sim/scenario.hpp"
-#include "mb4sim/time.hpp"
+#include "sim/core/time.hpp"
 
 namespace mb4::tool {
 

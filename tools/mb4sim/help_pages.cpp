@@ -10,7 +10,7 @@
 
 #include "command_line.hpp"
 #include "mb4sim/presets.hpp"
-#include "mb4sim/version.hpp"
+#include "sim/core/version.hpp"
 
 namespace mb4::tool {
 namespace {

@@ -10,8 +10,8 @@
 
 #include <cstdint>
 
-#include "mb4sim/crc.hpp"
 #include "mb4sim/shift_register.hpp"
+#include "sim/core/crc.hpp"
 
 namespace mb4::sim {
 

@@ -22,7 +22,7 @@
 #include "mb4sim/busy_time.hpp"
 #include "mb4sim/control_slave.hpp"
 #include "mb4sim/register_file.hpp"
-#include "mb4sim/time.hpp"
+#include "sim/core/time.hpp"
 
 namespace mb4::sim {
 

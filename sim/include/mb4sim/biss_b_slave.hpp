@@ -19,7 +19,7 @@
 #include "mb4sim/biss_slave.hpp"
 #include "mb4sim/biss_slave_config.hpp"
 #include "mb4sim/slave.hpp"
-#include "mb4sim/time.hpp"
+#include "sim/core/time.hpp"
 
 namespace mb4::sim {
 

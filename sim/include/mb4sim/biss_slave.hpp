@@ -22,7 +22,7 @@
 #include "mb4sim/shift_register.hpp"
 #include "mb4sim/slave.hpp"
 #include "mb4sim/slave_timeout.hpp"
-#include "mb4sim/time.hpp"
+#include "sim/core/time.hpp"
 
 namespace mb4::sim {
 

@@ -7,7 +7,7 @@
 
 #include <cstdint>
 
-#include "mb4sim/scenario_error.hpp"
+#include "sim/core/scenario_error.hpp"
 
 namespace mb4::sim {
 

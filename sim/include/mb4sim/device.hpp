@@ -14,9 +14,9 @@
 #include <string_view>
 #include <utility>
 
-#include "mb4sim/crc.hpp"
 #include "mb4sim/slave.hpp"
-#include "mb4sim/time.hpp"
+#include "sim/core/crc.hpp"
+#include "sim/core/time.hpp"
 
 namespace mb4::sim {
 

@@ -15,7 +15,7 @@
 #include <vector>
 
 #include "mb4sim/pins.hpp"
-#include "mb4sim/time.hpp"
+#include "sim/core/time.hpp"
 
 namespace mb4::sim {
 

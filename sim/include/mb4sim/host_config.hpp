@@ -8,8 +8,8 @@
 #include <cstdint>
 #include <string_view>
 
-#include "mb4sim/scenario_error.hpp"
-#include "mb4sim/time.hpp"
+#include "sim/core/scenario_error.hpp"
+#include "sim/core/time.hpp"
 
 namespace mb4::sim {
 

@@ -7,7 +7,7 @@
 #define MB4SIM_HOST_PINS_HPP_
 
 #include "mb4sim/pins.hpp"
-#include "mb4sim/time.hpp"
+#include "sim/core/time.hpp"
 
 namespace mb4::sim {
 

@@ -8,13 +8,13 @@
 
 #include <cstdint>
 
-#include "mb4sim/cable.hpp"
-#include "mb4sim/event_queue.hpp"
 #include "mb4sim/ma_monitor.hpp"
 #include "mb4sim/sl_faults.hpp"
 #include "mb4sim/slave_chain.hpp"
-#include "mb4sim/time.hpp"
-#include "mb4sim/wire.hpp"
+#include "sim/core/cable.hpp"
+#include "sim/core/event_queue.hpp"
+#include "sim/core/time.hpp"
+#include "sim/core/wire.hpp"
 
 namespace mb4::sim {
 

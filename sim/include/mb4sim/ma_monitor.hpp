@@ -11,7 +11,7 @@
 #include <algorithm>
 #include <cstdint>
 
-#include "mb4sim/time.hpp"
+#include "sim/core/time.hpp"
 
 namespace mb4::sim {
 

@@ -12,7 +12,7 @@
 #include <cstdint>
 #include <string>
 
-#include "mb4sim/time.hpp"
+#include "sim/core/time.hpp"
 
 namespace mb4::sim {
 

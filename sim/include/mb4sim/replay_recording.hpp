@@ -12,7 +12,7 @@
 #include <string_view>
 #include <vector>
 
-#include "mb4sim/time.hpp"
+#include "sim/core/time.hpp"
 
 namespace mb4::sim {
 

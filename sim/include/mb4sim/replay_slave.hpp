@@ -16,7 +16,7 @@
 #include "mb4sim/replay_recording.hpp"
 #include "mb4sim/slave.hpp"
 #include "mb4sim/slave_timeout.hpp"
-#include "mb4sim/time.hpp"
+#include "sim/core/time.hpp"
 
 namespace mb4::sim {
 

@@ -12,14 +12,14 @@
 #include <string_view>
 #include <vector>
 
-#include "mb4sim/cable.hpp"
 #include "mb4sim/chip_config.hpp"
 #include "mb4sim/device.hpp"
 #include "mb4sim/fault.hpp"
 #include "mb4sim/host_config.hpp"
 #include "mb4sim/master.hpp"
-#include "mb4sim/scenario_error.hpp"
-#include "mb4sim/time.hpp"
+#include "sim/core/cable.hpp"
+#include "sim/core/scenario_error.hpp"
+#include "sim/core/time.hpp"
 
 namespace mb4::sim {
 

@@ -10,7 +10,7 @@
 
 #include "mb4sim/data_source.hpp"
 #include "mb4sim/device.hpp"
-#include "mb4sim/time.hpp"
+#include "sim/core/time.hpp"
 
 namespace mb4::sim {
 

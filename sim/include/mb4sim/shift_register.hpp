@@ -10,7 +10,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "mb4sim/crc.hpp"
+#include "sim/core/crc.hpp"
 
 namespace mb4::sim {
 

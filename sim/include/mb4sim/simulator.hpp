@@ -14,7 +14,6 @@
 #include <string>
 #include <string_view>
 
-#include "mb4sim/event_queue.hpp"
 #include "mb4sim/fault_injector.hpp"
 #include "mb4sim/host_check.hpp"
 #include "mb4sim/host_pins.hpp"
@@ -26,7 +25,8 @@
 #include "mb4sim/scenario.hpp"
 #include "mb4sim/slave.hpp"
 #include "mb4sim/spi_host.hpp"
-#include "mb4sim/time.hpp"
+#include "sim/core/event_queue.hpp"
+#include "sim/core/time.hpp"
 
 namespace mb4::sim {
 

@@ -11,7 +11,7 @@
 
 #include "mb4sim/register_file.hpp"
 #include "mb4sim/shift_register.hpp"
-#include "mb4sim/time.hpp"
+#include "sim/core/time.hpp"
 
 namespace mb4::sim {
 

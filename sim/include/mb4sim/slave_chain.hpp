@@ -12,9 +12,9 @@
 #include <memory>
 #include <vector>
 
-#include "mb4sim/event_queue.hpp"
 #include "mb4sim/slave.hpp"
-#include "mb4sim/time.hpp"
+#include "sim/core/event_queue.hpp"
+#include "sim/core/time.hpp"
 
 namespace mb4::sim {
 

@@ -8,8 +8,8 @@
 
 #include <cstdint>
 
-#include "mb4sim/random.hpp"
-#include "mb4sim/time.hpp"
+#include "sim/core/random.hpp"
+#include "sim/core/time.hpp"
 
 namespace mb4::sim {
 

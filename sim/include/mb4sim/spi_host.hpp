@@ -13,7 +13,7 @@
 #include <span>
 
 #include "mb4sim/host_pins.hpp"
-#include "mb4sim/time.hpp"
+#include "sim/core/time.hpp"
 
 namespace mb4::sim {
 

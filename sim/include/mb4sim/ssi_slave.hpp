@@ -23,7 +23,7 @@
 #include "mb4sim/control_slave.hpp"
 #include "mb4sim/sensor_config.hpp"
 #include "mb4sim/slave.hpp"
-#include "mb4sim/time.hpp"
+#include "sim/core/time.hpp"
 
 namespace mb4::sim {
 

@@ -9,7 +9,7 @@
 #include <string>
 
 #include "mb4sim/host_config.hpp"
-#include "mb4sim/time.hpp"
+#include "sim/core/time.hpp"
 
 namespace mb4::sim {
 

@@ -11,10 +11,10 @@
 #include <cstdint>
 #include <optional>
 
-#include "mb4sim/cable.hpp"
-#include "mb4sim/event_queue.hpp"
-#include "mb4sim/random.hpp"
-#include "mb4sim/time.hpp"
+#include "sim/core/cable.hpp"
+#include "sim/core/event_queue.hpp"
+#include "sim/core/random.hpp"
+#include "sim/core/time.hpp"
 
 namespace mb4::sim {
 

@@ -8,7 +8,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "mb4sim/one_line.hpp"
+#include "sim/core/one_line.hpp"
 
 namespace mb4::sim {
 

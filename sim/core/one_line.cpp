@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
-#include "mb4sim/one_line.hpp"
+#include "sim/core/one_line.hpp"
 
 namespace mb4::sim {
 

@@ -11,7 +11,7 @@
 #include <string>
 #include <string_view>
 
-#include "mb4sim/one_line.hpp"
+#include "sim/core/one_line.hpp"
 
 namespace mb4::sim {
 

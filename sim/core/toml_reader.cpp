@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
-#include "toml_reader.hpp"
+#include "sim/core/toml_reader.hpp"
 
 #include <cmath>
 
-#include "number_text.hpp"
+#include "sim/core/number_text.hpp"
 
 namespace mb4::sim {
 namespace {

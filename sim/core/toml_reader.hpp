@@ -17,7 +17,7 @@
 #include <string>
 #include <string_view>
 
-#include "mb4sim/scenario_error.hpp"
+#include "sim/core/scenario_error.hpp"
 
 namespace mb4::sim {
 

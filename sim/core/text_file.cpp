@@ -1,13 +1,13 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
-#include "text_file.hpp"
+#include "sim/core/text_file.hpp"
 
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
 
-#include "mb4sim/scenario_error.hpp"
+#include "sim/core/scenario_error.hpp"
 
 namespace mb4::sim {
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
-#include "number_text.hpp"
+#include "sim/core/number_text.hpp"
 
 #include <charconv>
 #include <sstream>
