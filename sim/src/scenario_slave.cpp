@@ -10,8 +10,8 @@
 
 #include "mb4sim/presets.hpp"
 #include "protocols.hpp"
-#include "register_keys.hpp"
 #include "sim/core/toml_reader.hpp"
+#include "sim/lines/registers/register_keys.hpp"
 
 namespace mb4::sim {
 namespace {

@@ -9,7 +9,7 @@
 #include "bits.hpp"
 #include "chip_fuzz_run.hpp"
 #include "mb4_regs.hpp"
-#include "mb4sim/control_slave.hpp"
+#include "sim/lines/registers/control_slave.hpp"
 
 namespace mb4test {
 namespace {

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "control_fault_bench.hpp"
-#include "mb4sim/control_slave.hpp"
+#include "sim/lines/registers/control_slave.hpp"
 
 namespace {
 

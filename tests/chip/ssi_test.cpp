@@ -7,8 +7,8 @@
 #include <algorithm>
 
 #include "bits.hpp"
-#include "mb4sim/control_slave.hpp"
 #include "protocol_chip.hpp"
+#include "sim/lines/registers/control_slave.hpp"
 
 namespace {
 

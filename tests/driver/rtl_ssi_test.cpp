@@ -11,8 +11,8 @@
 #include <optional>
 #include <string>
 
-#include "mb4sim/control_slave.hpp"
 #include "protocol_bus.hpp"
+#include "sim/lines/registers/control_slave.hpp"
 
 namespace {
 

@@ -19,10 +19,10 @@
 
 #include <cstdint>
 
-#include "mb4sim/busy_time.hpp"
-#include "mb4sim/control_slave.hpp"
-#include "mb4sim/register_file.hpp"
 #include "sim/core/time.hpp"
+#include "sim/lines/registers/busy_time.hpp"
+#include "sim/lines/registers/control_slave.hpp"
+#include "sim/lines/registers/register_file.hpp"
 
 namespace mb4::sim {
 

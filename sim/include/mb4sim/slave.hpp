@@ -9,9 +9,9 @@
 #include <cstdint>
 #include <optional>
 
-#include "mb4sim/register_file.hpp"
 #include "mb4sim/shift_register.hpp"
 #include "sim/core/time.hpp"
+#include "sim/lines/registers/register_file.hpp"
 
 namespace mb4::sim {
 

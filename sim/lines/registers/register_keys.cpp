@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
-#include "register_keys.hpp"
+#include "sim/lines/registers/register_keys.hpp"
 
 #include <algorithm>
 #include <initializer_list>

@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
-#include "mb4sim/control_slave.hpp"
+#include "sim/lines/registers/control_slave.hpp"
 
-#include "mb4sim/control_slots.hpp"
 #include "sim/core/crc.hpp"
+#include "sim/lines/registers/control_slots.hpp"
 
 namespace mb4::sim {
 namespace {

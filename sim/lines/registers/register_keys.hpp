@@ -11,10 +11,10 @@
 #include <map>
 #include <string_view>
 
-#include "mb4sim/busy_time.hpp"
-#include "mb4sim/control_slave.hpp"
-#include "mb4sim/register_file.hpp"
 #include "sim/core/toml_reader.hpp"
+#include "sim/lines/registers/busy_time.hpp"
+#include "sim/lines/registers/control_slave.hpp"
+#include "sim/lines/registers/register_file.hpp"
 
 namespace mb4::sim {
 

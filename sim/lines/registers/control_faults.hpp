@@ -10,7 +10,7 @@
 #include <cstdint>
 #include <optional>
 
-#include "mb4sim/control_slots.hpp"
+#include "sim/lines/registers/control_slots.hpp"
 
 namespace mb4::sim {
 
