@@ -7,7 +7,7 @@
 
 #include <vector>
 
-#include "mb4sim/presets.hpp"
+#include "sim/lines/presets.hpp"
 
 namespace mb4::sim {
 

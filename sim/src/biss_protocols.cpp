@@ -5,8 +5,8 @@
 #include "biss_presets.hpp"
 #include "mb4sim/biss_b_slave.hpp"
 #include "mb4sim/biss_c_slave.hpp"
-#include "sensor_keys.hpp"
 #include "sim/lines/registers/register_keys.hpp"
+#include "sim/lines/sensor_keys.hpp"
 
 namespace mb4::sim {
 namespace {

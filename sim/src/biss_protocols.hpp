@@ -5,7 +5,7 @@
 #ifndef MB4SIM_SRC_BISS_PROTOCOLS_HPP_
 #define MB4SIM_SRC_BISS_PROTOCOLS_HPP_
 
-#include "protocols.hpp"
+#include "sim/lines/protocols.hpp"
 
 namespace mb4::sim {
 

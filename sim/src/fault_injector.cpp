@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "fault_types.hpp"
-#include "mb4sim/line.hpp"
+#include "sim/lines/line.hpp"
 
 namespace mb4::sim {
 

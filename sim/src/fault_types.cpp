@@ -7,8 +7,8 @@
 #include <iterator>
 #include <vector>
 
-#include "mb4sim/line.hpp"
 #include "sim/core/number_text.hpp"
+#include "sim/lines/line.hpp"
 
 namespace mb4::sim {
 namespace {

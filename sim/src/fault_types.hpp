@@ -13,11 +13,11 @@
 
 #include "fault_target.hpp"
 #include "mb4sim/fault.hpp"
-#include "mb4sim/slave.hpp"
 #include "sim/core/cable.hpp"
 #include "sim/core/random.hpp"
 #include "sim/core/time.hpp"
 #include "sim/core/toml_reader.hpp"
+#include "sim/lines/slave.hpp"
 
 namespace mb4::sim {
 

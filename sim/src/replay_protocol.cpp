@@ -3,8 +3,8 @@
 #include "replay_protocol.hpp"
 
 #include "mb4sim/replay_slave.hpp"
-#include "sensor_keys.hpp"
 #include "sim/core/text_file.hpp"
+#include "sim/lines/sensor_keys.hpp"
 
 namespace mb4::sim {
 namespace {

@@ -9,11 +9,11 @@
 #include <vector>
 
 #include "host_keys.hpp"
-#include "protocols.hpp"
 #include "scenario_channel.hpp"
 #include "scenario_fault.hpp"
 #include "sim/core/text_file.hpp"
 #include "sim/core/toml_reader.hpp"
+#include "sim/lines/protocols.hpp"
 
 namespace mb4::sim {
 namespace {

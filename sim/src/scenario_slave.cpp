@@ -8,9 +8,9 @@
 #include <string_view>
 #include <vector>
 
-#include "mb4sim/presets.hpp"
-#include "protocols.hpp"
 #include "sim/core/toml_reader.hpp"
+#include "sim/lines/presets.hpp"
+#include "sim/lines/protocols.hpp"
 #include "sim/lines/registers/register_keys.hpp"
 
 namespace mb4::sim {

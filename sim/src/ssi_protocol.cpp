@@ -3,8 +3,8 @@
 #include "ssi_protocol.hpp"
 
 #include "mb4sim/ssi_slave.hpp"
-#include "sensor_keys.hpp"
 #include "sim/lines/registers/register_keys.hpp"
+#include "sim/lines/sensor_keys.hpp"
 
 namespace mb4::sim {
 namespace {

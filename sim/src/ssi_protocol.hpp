@@ -5,7 +5,7 @@
 #ifndef MB4SIM_SRC_SSI_PROTOCOL_HPP_
 #define MB4SIM_SRC_SSI_PROTOCOL_HPP_
 
-#include "protocols.hpp"
+#include "sim/lines/protocols.hpp"
 
 namespace mb4::sim {
 

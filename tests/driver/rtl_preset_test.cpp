@@ -13,7 +13,7 @@
 
 #include "chip_fixture.hpp"
 #include "mb4sim/biss_c_slave.hpp"
-#include "mb4sim/presets.hpp"
+#include "sim/lines/presets.hpp"
 
 namespace {
 

@@ -9,7 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "chain_bench.hpp"
-#include "mb4sim/line.hpp"
+#include "sim/lines/line.hpp"
 
 namespace mb4::sim {
 namespace {

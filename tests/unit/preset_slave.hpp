@@ -7,7 +7,7 @@
 
 #include "control_bench.hpp"
 #include "mb4sim/biss_c_slave.hpp"
-#include "mb4sim/presets.hpp"
+#include "sim/lines/presets.hpp"
 
 namespace mb4::sim {
 

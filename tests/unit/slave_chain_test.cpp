@@ -3,7 +3,7 @@
 //
 // Chains (protocol facts section 1.7): slave 1, next to the master, comes first; each slave is a
 // shift register of its own length.
-#include "mb4sim/slave_chain.hpp"
+#include "sim/lines/slave_chain.hpp"
 
 #include <gtest/gtest.h>
 

@@ -7,9 +7,9 @@
 
 #include "commands.hpp"
 #include "exit_status.hpp"
-#include "mb4sim/presets.hpp"
 #include "messages.hpp"
 #include "sim/core/one_line.hpp"
+#include "sim/lines/presets.hpp"
 #include "suggestion.hpp"
 
 namespace mb4::tool {

@@ -10,8 +10,8 @@
 
 #include <cstdint>
 
-#include "mb4sim/shift_register.hpp"
 #include "sim/core/crc.hpp"
+#include "sim/lines/shift_register.hpp"
 
 namespace mb4::sim {
 

@@ -18,8 +18,8 @@
 #include "mb4sim/biss_b_registers.hpp"
 #include "mb4sim/biss_slave.hpp"
 #include "mb4sim/biss_slave_config.hpp"
-#include "mb4sim/slave.hpp"
 #include "sim/core/time.hpp"
+#include "sim/lines/slave.hpp"
 
 namespace mb4::sim {
 

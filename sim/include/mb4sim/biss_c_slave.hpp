@@ -23,9 +23,9 @@
 #include "mb4sim/actuator.hpp"
 #include "mb4sim/biss_slave.hpp"
 #include "mb4sim/biss_slave_config.hpp"
-#include "mb4sim/slave.hpp"
 #include "sim/core/time.hpp"
 #include "sim/lines/registers/control_slave.hpp"
+#include "sim/lines/slave.hpp"
 
 namespace mb4::sim {
 

@@ -19,10 +19,10 @@
 #include <optional>
 
 #include "mb4sim/biss_slave_config.hpp"
-#include "mb4sim/shift_register.hpp"
-#include "mb4sim/slave.hpp"
-#include "mb4sim/slave_timeout.hpp"
 #include "sim/core/time.hpp"
+#include "sim/lines/shift_register.hpp"
+#include "sim/lines/slave.hpp"
+#include "sim/lines/slave_timeout.hpp"
 
 namespace mb4::sim {
 

@@ -7,8 +7,8 @@
 
 #include <string_view>
 
-#include "mb4sim/sensor_config.hpp"
-#include "mb4sim/slave_timeout.hpp"
+#include "sim/lines/sensor_config.hpp"
+#include "sim/lines/slave_timeout.hpp"
 
 namespace mb4::sim {
 

@@ -12,11 +12,11 @@
 #include <string_view>
 #include <vector>
 
-#include "mb4sim/device.hpp"
 #include "mb4sim/replay_recording.hpp"
-#include "mb4sim/slave.hpp"
-#include "mb4sim/slave_timeout.hpp"
 #include "sim/core/time.hpp"
+#include "sim/lines/device.hpp"
+#include "sim/lines/slave.hpp"
+#include "sim/lines/slave_timeout.hpp"
 
 namespace mb4::sim {
 

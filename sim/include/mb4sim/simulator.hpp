@@ -17,16 +17,16 @@
 #include "mb4sim/fault_injector.hpp"
 #include "mb4sim/host_check.hpp"
 #include "mb4sim/host_pins.hpp"
-#include "mb4sim/line.hpp"
-#include "mb4sim/ma_pulse_check.hpp"
 #include "mb4sim/model_stopped.hpp"
 #include "mb4sim/parallel_host.hpp"
 #include "mb4sim/pins.hpp"
 #include "mb4sim/scenario.hpp"
-#include "mb4sim/slave.hpp"
 #include "mb4sim/spi_host.hpp"
 #include "sim/core/event_queue.hpp"
 #include "sim/core/time.hpp"
+#include "sim/lines/line.hpp"
+#include "sim/lines/ma_pulse_check.hpp"
+#include "sim/lines/slave.hpp"
 
 namespace mb4::sim {
 

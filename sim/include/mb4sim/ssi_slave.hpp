@@ -20,10 +20,10 @@
 #include <memory>
 #include <vector>
 
-#include "mb4sim/sensor_config.hpp"
-#include "mb4sim/slave.hpp"
 #include "sim/core/time.hpp"
 #include "sim/lines/registers/control_slave.hpp"
+#include "sim/lines/sensor_config.hpp"
+#include "sim/lines/slave.hpp"
 
 namespace mb4::sim {
 

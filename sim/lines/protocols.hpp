@@ -11,9 +11,9 @@
 #include <string_view>
 #include <vector>
 
-#include "mb4sim/device.hpp"
-#include "mb4sim/presets.hpp"
 #include "sim/core/toml_reader.hpp"
+#include "sim/lines/device.hpp"
+#include "sim/lines/presets.hpp"
 
 namespace mb4::sim {
 

@@ -12,9 +12,9 @@
 #include <memory>
 #include <vector>
 
-#include "mb4sim/slave.hpp"
 #include "sim/core/event_queue.hpp"
 #include "sim/core/time.hpp"
+#include "sim/lines/slave.hpp"
 
 namespace mb4::sim {
 

@@ -8,10 +8,10 @@
 #include <string>
 #include <string_view>
 
-#include "mb4sim/sensor_config.hpp"
-#include "mb4sim/slave_timeout.hpp"
 #include "sim/core/crc.hpp"
 #include "sim/core/toml_reader.hpp"
+#include "sim/lines/sensor_config.hpp"
+#include "sim/lines/slave_timeout.hpp"
 
 namespace mb4::sim {
 

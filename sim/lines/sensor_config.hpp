@@ -8,9 +8,9 @@
 
 #include <cstdint>
 
-#include "mb4sim/data_source.hpp"
-#include "mb4sim/device.hpp"
 #include "sim/core/time.hpp"
+#include "sim/lines/data_source.hpp"
+#include "sim/lines/device.hpp"
 
 namespace mb4::sim {
 

@@ -9,9 +9,9 @@
 #include <cstdint>
 #include <optional>
 
-#include "mb4sim/shift_register.hpp"
 #include "sim/core/time.hpp"
 #include "sim/lines/registers/register_file.hpp"
+#include "sim/lines/shift_register.hpp"
 
 namespace mb4::sim {
 

@@ -8,13 +8,13 @@
 
 #include <cstdint>
 
-#include "mb4sim/ma_monitor.hpp"
-#include "mb4sim/sl_faults.hpp"
-#include "mb4sim/slave_chain.hpp"
 #include "sim/core/cable.hpp"
 #include "sim/core/event_queue.hpp"
 #include "sim/core/time.hpp"
 #include "sim/core/wire.hpp"
+#include "sim/lines/ma_monitor.hpp"
+#include "sim/lines/sl_faults.hpp"
+#include "sim/lines/slave_chain.hpp"
 
 namespace mb4::sim {
 

@@ -11,7 +11,7 @@
 #include <string_view>
 #include <vector>
 
-#include "mb4sim/device.hpp"
+#include "sim/lines/device.hpp"
 
 namespace mb4::sim {
 

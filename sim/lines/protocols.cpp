@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
-#include "protocols.hpp"
+#include "sim/lines/protocols.hpp"
 
 #include <algorithm>
 #include <iterator>

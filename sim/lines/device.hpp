@@ -14,9 +14,9 @@
 #include <string_view>
 #include <utility>
 
-#include "mb4sim/slave.hpp"
 #include "sim/core/crc.hpp"
 #include "sim/core/time.hpp"
+#include "sim/lines/slave.hpp"
 
 namespace mb4::sim {
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
-#include "sensor_keys.hpp"
+#include "sim/lines/sensor_keys.hpp"
 
 #include <algorithm>
 #include <cmath>
