@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <iterator>
 
-#include "biss_protocols.hpp"
 #include "replay_protocol.hpp"
+#include "sim/lines/biss/biss_protocols.hpp"
 #include "ssi_protocol.hpp"
 
 namespace mb4::sim {

@@ -4,8 +4,8 @@
 // BiSS B register access between automatic frames, and with MO: pages 13, 16, 28, 32 to 34.
 #include <gtest/gtest.h>
 
-#include "mb4sim/biss_b_slave.hpp"
 #include "protocol_chip.hpp"
+#include "sim/lines/biss/biss_b_slave.hpp"
 
 namespace {
 

@@ -7,8 +7,8 @@
 #include <algorithm>
 
 #include "bits.hpp"
-#include "mb4sim/biss_b_slave.hpp"
 #include "protocol_chip.hpp"
+#include "sim/lines/biss/biss_b_slave.hpp"
 
 namespace {
 

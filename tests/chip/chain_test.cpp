@@ -12,7 +12,7 @@
 
 #include "bits.hpp"
 #include "chip_fixture.hpp"
-#include "mb4sim/biss_c_slave.hpp"
+#include "sim/lines/biss/biss_c_slave.hpp"
 
 namespace {
 

@@ -5,8 +5,8 @@
 #include <gtest/gtest.h>
 
 #include "bits.hpp"
-#include "mb4sim/actuator.hpp"
 #include "protocol_chip.hpp"
+#include "sim/lines/biss/actuator.hpp"
 
 namespace {
 

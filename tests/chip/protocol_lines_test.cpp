@@ -5,8 +5,8 @@
 // (Table 23), 28, 32 (Table 46).
 #include <gtest/gtest.h>
 
-#include "mb4sim/biss_b_slave.hpp"
 #include "protocol_chip.hpp"
+#include "sim/lines/biss/biss_b_slave.hpp"
 
 namespace {
 

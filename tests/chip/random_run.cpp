@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "bits.hpp"
-#include "mb4sim/actuator.hpp"
+#include "sim/lines/biss/actuator.hpp"
 
 namespace mb4test {
 namespace {

@@ -8,8 +8,8 @@
 #include <cstdint>
 #include <string>
 
-#include "mb4sim/actuator.hpp"
 #include "protocol_bus.hpp"
+#include "sim/lines/biss/actuator.hpp"
 
 namespace {
 

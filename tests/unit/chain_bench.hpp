@@ -10,8 +10,8 @@
 #include <utility>
 #include <vector>
 
-#include "mb4sim/biss_c_slave.hpp"
 #include "sim/core/event_queue.hpp"
+#include "sim/lines/biss/biss_c_slave.hpp"
 #include "sim/lines/slave_chain.hpp"
 
 namespace mb4::sim {

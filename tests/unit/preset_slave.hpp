@@ -6,7 +6,7 @@
 #include <string_view>
 
 #include "control_bench.hpp"
-#include "mb4sim/biss_c_slave.hpp"
+#include "sim/lines/biss/biss_c_slave.hpp"
 #include "sim/lines/presets.hpp"
 
 namespace mb4::sim {

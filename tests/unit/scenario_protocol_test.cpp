@@ -7,10 +7,10 @@
 #include <ostream>
 #include <string>
 
-#include "mb4sim/biss_b_slave.hpp"
-#include "mb4sim/biss_c_slave.hpp"
 #include "mb4sim/scenario.hpp"
 #include "mb4sim/ssi_slave.hpp"
+#include "sim/lines/biss/biss_b_slave.hpp"
+#include "sim/lines/biss/biss_c_slave.hpp"
 #include "sim/lines/presets.hpp"
 
 namespace mb4::sim {

@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "mb4sim/biss_c_slave.hpp"
+#include "sim/lines/biss/biss_c_slave.hpp"
 
 namespace mb4::sim {
 namespace {

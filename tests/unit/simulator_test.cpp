@@ -9,7 +9,7 @@
 #include <array>
 #include <vector>
 
-#include "mb4sim/biss_c_slave.hpp"
+#include "sim/lines/biss/biss_c_slave.hpp"
 
 namespace mb4::sim {
 namespace {

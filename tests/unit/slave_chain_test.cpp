@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "chain_bench.hpp"
-#include "mb4sim/biss_b_slave.hpp"
+#include "sim/lines/biss/biss_b_slave.hpp"
 
 namespace mb4::sim {
 namespace {

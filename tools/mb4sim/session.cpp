@@ -6,7 +6,7 @@
 
 #include "mb4/position.hpp"
 #include "mb4/scan.hpp"
-#include "mb4sim/actuator.hpp"
+#include "sim/lines/biss/actuator.hpp"
 
 namespace mb4::tool {
 namespace {

@@ -20,10 +20,10 @@
 #include <memory>
 #include <string_view>
 
-#include "mb4sim/actuator.hpp"
-#include "mb4sim/biss_slave.hpp"
-#include "mb4sim/biss_slave_config.hpp"
 #include "sim/core/time.hpp"
+#include "sim/lines/biss/actuator.hpp"
+#include "sim/lines/biss/biss_slave.hpp"
+#include "sim/lines/biss/biss_slave_config.hpp"
 #include "sim/lines/registers/control_slave.hpp"
 #include "sim/lines/slave.hpp"
 

@@ -15,10 +15,10 @@
 #include <cstdint>
 #include <memory>
 
-#include "mb4sim/biss_b_registers.hpp"
-#include "mb4sim/biss_slave.hpp"
-#include "mb4sim/biss_slave_config.hpp"
 #include "sim/core/time.hpp"
+#include "sim/lines/biss/biss_b_registers.hpp"
+#include "sim/lines/biss/biss_slave.hpp"
+#include "sim/lines/biss/biss_slave_config.hpp"
 #include "sim/lines/slave.hpp"
 
 namespace mb4::sim {

@@ -18,8 +18,8 @@
 #include <cstdint>
 #include <optional>
 
-#include "mb4sim/biss_slave_config.hpp"
 #include "sim/core/time.hpp"
+#include "sim/lines/biss/biss_slave_config.hpp"
 #include "sim/lines/shift_register.hpp"
 #include "sim/lines/slave.hpp"
 #include "sim/lines/slave_timeout.hpp"

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
-#include "mb4sim/biss_b_registers.hpp"
+#include "sim/lines/biss/biss_b_registers.hpp"
 
 #include "sim/core/crc.hpp"
 

@@ -3,8 +3,8 @@
 #include <string>
 #include <utility>
 
-#include "biss_presets.hpp"
-#include "mb4sim/biss_b_slave.hpp"
+#include "sim/lines/biss/biss_b_slave.hpp"
+#include "sim/lines/biss/biss_presets.hpp"
 
 namespace mb4::sim {
 

@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
-#include "biss_protocols.hpp"
+#include "sim/lines/biss/biss_protocols.hpp"
 
-#include "biss_presets.hpp"
-#include "mb4sim/biss_b_slave.hpp"
-#include "mb4sim/biss_c_slave.hpp"
+#include "sim/lines/biss/biss_b_slave.hpp"
+#include "sim/lines/biss/biss_c_slave.hpp"
+#include "sim/lines/biss/biss_presets.hpp"
 #include "sim/lines/registers/register_keys.hpp"
 #include "sim/lines/sensor_keys.hpp"
 
