@@ -7,7 +7,7 @@
 
 #include "replay_protocol.hpp"
 #include "sim/lines/biss/biss_protocols.hpp"
-#include "ssi_protocol.hpp"
+#include "sim/lines/ssi/ssi_protocol.hpp"
 
 namespace mb4::sim {
 

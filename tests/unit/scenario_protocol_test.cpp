@@ -8,10 +8,10 @@
 #include <string>
 
 #include "mb4sim/scenario.hpp"
-#include "mb4sim/ssi_slave.hpp"
 #include "sim/lines/biss/biss_b_slave.hpp"
 #include "sim/lines/biss/biss_c_slave.hpp"
 #include "sim/lines/presets.hpp"
+#include "sim/lines/ssi/ssi_slave.hpp"
 
 namespace mb4::sim {
 namespace {

@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
-#include "ssi_protocol.hpp"
+#include "sim/lines/ssi/ssi_protocol.hpp"
 
-#include "mb4sim/ssi_slave.hpp"
 #include "sim/lines/registers/register_keys.hpp"
 #include "sim/lines/sensor_keys.hpp"
+#include "sim/lines/ssi/ssi_slave.hpp"
 
 namespace mb4::sim {
 namespace {
