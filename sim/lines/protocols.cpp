@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <iterator>
 
-#include "replay_protocol.hpp"
 #include "sim/lines/biss/biss_protocols.hpp"
+#include "sim/lines/replay/replay_protocol.hpp"
 #include "sim/lines/ssi/ssi_protocol.hpp"
 
 namespace mb4::sim {

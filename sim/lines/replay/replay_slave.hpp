@@ -12,9 +12,9 @@
 #include <string_view>
 #include <vector>
 
-#include "mb4sim/replay_recording.hpp"
 #include "sim/core/time.hpp"
 #include "sim/lines/device.hpp"
+#include "sim/lines/replay/replay_recording.hpp"
 #include "sim/lines/slave.hpp"
 #include "sim/lines/slave_timeout.hpp"
 

@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
-#include "replay_protocol.hpp"
+#include "sim/lines/replay/replay_protocol.hpp"
 
-#include "mb4sim/replay_slave.hpp"
 #include "sim/core/text_file.hpp"
+#include "sim/lines/replay/replay_slave.hpp"
 #include "sim/lines/sensor_keys.hpp"
 
 namespace mb4::sim {
