@@ -11,8 +11,8 @@
 #include <string>
 
 #include "mb4sim/chip_config.hpp"
-#include "mb4sim/pins.hpp"
 #include "sim/core/time.hpp"
+#include "sim/hosts/pins.hpp"
 
 namespace mb4::sim {
 

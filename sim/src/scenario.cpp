@@ -8,11 +8,11 @@
 #include <utility>
 #include <vector>
 
-#include "host_keys.hpp"
 #include "scenario_channel.hpp"
 #include "scenario_fault.hpp"
 #include "sim/core/text_file.hpp"
 #include "sim/core/toml_reader.hpp"
+#include "sim/hosts/host_keys.hpp"
 #include "sim/lines/protocols.hpp"
 
 namespace mb4::sim {

@@ -15,8 +15,8 @@
 #include "arrivals.hpp"
 #include "clock_source.hpp"
 #include "mb4sim/simulator.hpp"
-#include "mb4sim/spi_host.hpp"
 #include "sim/core/wire.hpp"
+#include "sim/hosts/spi_host.hpp"
 #include "sim/lines/biss/biss_c_slave.hpp"
 #include "sim/lines/slave_chain.hpp"
 

@@ -11,7 +11,7 @@
 #include <string_view>
 
 #include "mb4sim/chip_config.hpp"
-#include "mb4sim/host_config.hpp"
+#include "sim/hosts/host_config.hpp"
 
 namespace mb4::sim {
 

@@ -8,8 +8,8 @@
 #include <optional>
 #include <string>
 
-#include "mb4sim/host_config.hpp"
 #include "sim/core/time.hpp"
+#include "sim/hosts/host_config.hpp"
 
 namespace mb4::sim {
 

@@ -14,8 +14,8 @@
 #include <string>
 #include <vector>
 
-#include "mb4sim/pins.hpp"
 #include "sim/core/time.hpp"
+#include "sim/hosts/pins.hpp"
 
 namespace mb4::sim {
 

@@ -7,8 +7,8 @@
 
 #include <span>
 
-#include "mb4sim/host_config.hpp"
 #include "sim/core/toml_reader.hpp"
+#include "sim/hosts/host_config.hpp"
 
 namespace mb4::sim {
 

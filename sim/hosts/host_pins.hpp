@@ -6,8 +6,8 @@
 #ifndef MB4SIM_HOST_PINS_HPP_
 #define MB4SIM_HOST_PINS_HPP_
 
-#include "mb4sim/pins.hpp"
 #include "sim/core/time.hpp"
+#include "sim/hosts/pins.hpp"
 
 namespace mb4::sim {
 

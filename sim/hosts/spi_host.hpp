@@ -12,8 +12,8 @@
 #include <cstdint>
 #include <span>
 
-#include "mb4sim/host_pins.hpp"
 #include "sim/core/time.hpp"
+#include "sim/hosts/host_pins.hpp"
 
 namespace mb4::sim {
 

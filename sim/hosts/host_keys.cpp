@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
-#include "host_keys.hpp"
+#include "sim/hosts/host_keys.hpp"
 
 #include <algorithm>
 #include <cstdint>

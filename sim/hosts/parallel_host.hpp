@@ -10,8 +10,8 @@
 
 #include <cstdint>
 
-#include "mb4sim/host_pins.hpp"
 #include "sim/core/time.hpp"
+#include "sim/hosts/host_pins.hpp"
 
 namespace mb4::sim {
 
