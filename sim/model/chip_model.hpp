@@ -10,9 +10,9 @@
 #include <memory>
 #include <string>
 
-#include "mb4sim/chip_config.hpp"
 #include "sim/core/time.hpp"
 #include "sim/hosts/pins.hpp"
+#include "sim/masters/chip_config.hpp"
 
 namespace mb4::sim {
 

@@ -5,7 +5,7 @@
 #ifndef MB4SIM_SRC_MB4_MASTER_HPP_
 #define MB4SIM_SRC_MB4_MASTER_HPP_
 
-#include "mb4sim/master.hpp"
+#include "sim/masters/master.hpp"
 
 namespace mb4::sim {
 

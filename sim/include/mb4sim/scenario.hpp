@@ -12,14 +12,14 @@
 #include <string_view>
 #include <vector>
 
-#include "mb4sim/chip_config.hpp"
 #include "mb4sim/fault.hpp"
-#include "mb4sim/master.hpp"
 #include "sim/core/cable.hpp"
 #include "sim/core/scenario_error.hpp"
 #include "sim/core/time.hpp"
 #include "sim/hosts/host_config.hpp"
 #include "sim/lines/device.hpp"
+#include "sim/masters/chip_config.hpp"
+#include "sim/masters/master.hpp"
 
 namespace mb4::sim {
 

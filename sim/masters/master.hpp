@@ -10,8 +10,8 @@
 #include <span>
 #include <string_view>
 
-#include "mb4sim/chip_config.hpp"
 #include "sim/hosts/host_config.hpp"
+#include "sim/masters/chip_config.hpp"
 
 namespace mb4::sim {
 
