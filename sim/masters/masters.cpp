@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
-#include "mb4_master.hpp"
+#include "sim/masters/mb4/mb4_master.hpp"
 
 namespace mb4::sim {
 

@@ -1,14 +1,14 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
-#include "mb4_master.hpp"
+#include "sim/masters/mb4/mb4_master.hpp"
 
 #include <algorithm>
 #include <iterator>
 #include <string>
 #include <utility>
 
-#include "mb4sim/ma_frequency.hpp"
 #include "sim/core/toml_reader.hpp"
+#include "sim/masters/mb4/ma_frequency.hpp"
 
 namespace mb4::sim {
 namespace {
