@@ -7,9 +7,9 @@
 #include <string_view>
 #include <vector>
 
-#include "fault_types.hpp"
 #include "sim/core/number_text.hpp"
 #include "sim/core/toml_reader.hpp"
+#include "sim/faults/fault_types.hpp"
 
 namespace mb4::sim {
 namespace {

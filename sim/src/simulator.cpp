@@ -7,8 +7,8 @@
 #include <utility>
 
 #include "chip_model.hpp"
-#include "fault_target.hpp"
 #include "sim/core/random.hpp"
+#include "sim/faults/fault_target.hpp"
 
 namespace mb4::sim {
 namespace {

@@ -12,10 +12,10 @@
 #include <string_view>
 #include <vector>
 
-#include "mb4sim/fault.hpp"
 #include "sim/core/cable.hpp"
 #include "sim/core/scenario_error.hpp"
 #include "sim/core/time.hpp"
+#include "sim/faults/fault.hpp"
 #include "sim/hosts/host_config.hpp"
 #include "sim/lines/device.hpp"
 #include "sim/masters/chip_config.hpp"

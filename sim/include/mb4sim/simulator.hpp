@@ -14,11 +14,11 @@
 #include <string>
 #include <string_view>
 
-#include "mb4sim/fault_injector.hpp"
 #include "mb4sim/model_stopped.hpp"
 #include "mb4sim/scenario.hpp"
 #include "sim/core/event_queue.hpp"
 #include "sim/core/time.hpp"
+#include "sim/faults/fault_injector.hpp"
 #include "sim/hosts/host_check.hpp"
 #include "sim/hosts/host_pins.hpp"
 #include "sim/hosts/parallel_host.hpp"

@@ -11,11 +11,11 @@
 #include <memory>
 #include <vector>
 
-#include "mb4sim/fault.hpp"
 #include "sim/core/cable.hpp"
 #include "sim/core/event_queue.hpp"
 #include "sim/core/random.hpp"
 #include "sim/core/time.hpp"
+#include "sim/faults/fault.hpp"
 
 namespace mb4::sim {
 

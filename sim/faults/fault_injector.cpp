@@ -1,11 +1,11 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
-#include "mb4sim/fault_injector.hpp"
+#include "sim/faults/fault_injector.hpp"
 
 #include <string>
 #include <utility>
 
-#include "fault_types.hpp"
+#include "sim/faults/fault_types.hpp"
 #include "sim/lines/line.hpp"
 
 namespace mb4::sim {

@@ -11,12 +11,12 @@
 #include <string>
 #include <string_view>
 
-#include "fault_target.hpp"
-#include "mb4sim/fault.hpp"
 #include "sim/core/cable.hpp"
 #include "sim/core/random.hpp"
 #include "sim/core/time.hpp"
 #include "sim/core/toml_reader.hpp"
+#include "sim/faults/fault.hpp"
+#include "sim/faults/fault_target.hpp"
 #include "sim/lines/slave.hpp"
 
 namespace mb4::sim {

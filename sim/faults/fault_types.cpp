@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
-#include "fault_types.hpp"
+#include "sim/faults/fault_types.hpp"
 
 #include <algorithm>
 #include <cstddef>
