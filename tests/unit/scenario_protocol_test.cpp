@@ -7,11 +7,11 @@
 #include <ostream>
 #include <string>
 
-#include "mb4sim/scenario.hpp"
 #include "sim/lines/biss/biss_b_slave.hpp"
 #include "sim/lines/biss/biss_c_slave.hpp"
 #include "sim/lines/presets.hpp"
 #include "sim/lines/ssi/ssi_slave.hpp"
+#include "sim/scenario/scenario.hpp"
 
 namespace mb4::sim {
 namespace {

@@ -10,8 +10,8 @@
 #include "chip_setup.hpp"
 #include "mb4/device.hpp"
 #include "mb4/opcodes.hpp"
-#include "mb4sim/scenario.hpp"
 #include "mb4sim/simulator.hpp"
+#include "sim/scenario/scenario.hpp"
 #include "sim_bus.hpp"
 
 namespace mb4::tool {

@@ -15,7 +15,6 @@
 #include <string_view>
 
 #include "mb4sim/model_stopped.hpp"
-#include "mb4sim/scenario.hpp"
 #include "sim/core/event_queue.hpp"
 #include "sim/core/time.hpp"
 #include "sim/faults/fault_injector.hpp"
@@ -27,6 +26,7 @@
 #include "sim/lines/line.hpp"
 #include "sim/lines/ma_pulse_check.hpp"
 #include "sim/lines/slave.hpp"
+#include "sim/scenario/scenario.hpp"
 
 namespace mb4::sim {
 

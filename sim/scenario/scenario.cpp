@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
-#include "mb4sim/scenario.hpp"
+#include "sim/scenario/scenario.hpp"
 
 #include <algorithm>
 #include <string>
@@ -8,12 +8,12 @@
 #include <utility>
 #include <vector>
 
-#include "scenario_channel.hpp"
-#include "scenario_fault.hpp"
 #include "sim/core/text_file.hpp"
 #include "sim/core/toml_reader.hpp"
 #include "sim/hosts/host_keys.hpp"
 #include "sim/lines/protocols.hpp"
+#include "sim/scenario/scenario_channel.hpp"
+#include "sim/scenario/scenario_fault.hpp"
 
 namespace mb4::sim {
 namespace {

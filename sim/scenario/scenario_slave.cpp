@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
-#include "scenario_slave.hpp"
+#include "sim/scenario/scenario_slave.hpp"
 
 #include <cstdint>
 #include <map>

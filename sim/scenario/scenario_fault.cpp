@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
-#include "scenario_fault.hpp"
+#include "sim/scenario/scenario_fault.hpp"
 
 #include <algorithm>
 #include <string>

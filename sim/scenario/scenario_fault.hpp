@@ -7,9 +7,9 @@
 
 #include <toml++/toml.h>
 
-#include "mb4sim/scenario.hpp"
 #include "sim/core/toml_reader.hpp"
 #include "sim/faults/fault.hpp"
+#include "sim/scenario/scenario.hpp"
 
 namespace mb4::sim {
 

@@ -1,15 +1,15 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
-#include "scenario_channel.hpp"
+#include "sim/scenario/scenario_channel.hpp"
 
 #include <cmath>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include "scenario_slave.hpp"
 #include "sim/core/number_text.hpp"
 #include "sim/core/toml_reader.hpp"
+#include "sim/scenario/scenario_slave.hpp"
 
 namespace mb4::sim {
 namespace {
