@@ -10,9 +10,9 @@
 #include <memory>
 #include <string>
 
-#include "mb4sim/pins.hpp"
-#include "mb4sim/scenario.hpp"
-#include "mb4sim/time.hpp"
+#include "sim/core/time.hpp"
+#include "sim/hosts/pins.hpp"
+#include "sim/masters/chip_config.hpp"
 
 namespace mb4::sim {
 

@@ -8,7 +8,7 @@
 
 #include <cstdint>
 
-#include "mb4sim/time.hpp"
+#include "sim/core/time.hpp"
 
 namespace mb4::sim {
 

@@ -12,6 +12,7 @@
 #include <system_error>
 
 #include "plain_steps.hpp"
+#include "sim/core/trace_error.hpp"
 #include "verilated_chip.hpp"
 
 namespace mb4::sim {
@@ -53,12 +54,12 @@ class FstTrace {
     to_ = trace.to;
     const auto status = std::filesystem::status(path, ignored);
     if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status)) {
-      throw ScenarioError(path + ": cannot write the waveform: not a regular file");
+      throw TraceError(path + ": cannot write the waveform: not a regular file");
     }
     file_ = std::make_unique<VerilatedFstC>();
     model.trace(file_.get(), kAllLevels);
     file_->open(path.c_str());
-    if (!file_->isOpen()) throw ScenarioError(path + ": cannot write the waveform");
+    if (!file_->isOpen()) throw TraceError(path + ": cannot write the waveform");
   }
   // Several evaluations can have the same time, for example if a slave answers without delay. The
   // file takes only one set of values per time. So they appear one picosecond after the other.

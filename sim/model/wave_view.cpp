@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
-#include "mb4sim/wave_view.hpp"
+#include "wave_view.hpp"
 
 #if __has_include(<gtkwave/fstapi.h>)
 #include <gtkwave/fstapi.h>

@@ -16,8 +16,8 @@
 #include <vector>
 
 #include "Vframe_top.h"
-#include "mb4sim/ma_pulse_check.hpp"
 #include "model_context.hpp"
+#include "sim/lines/ma_pulse_check.hpp"
 
 namespace mb4test {
 

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "protocol_chip.hpp"
+#include "sim/lines/biss/biss_b_slave.hpp"
 
 namespace {
 

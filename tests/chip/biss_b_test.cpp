@@ -8,6 +8,7 @@
 
 #include "bits.hpp"
 #include "protocol_chip.hpp"
+#include "sim/lines/biss/biss_b_slave.hpp"
 
 namespace {
 

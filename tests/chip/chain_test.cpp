@@ -12,6 +12,7 @@
 
 #include "bits.hpp"
 #include "chip_fixture.hpp"
+#include "sim/lines/biss/biss_c_slave.hpp"
 
 namespace {
 
@@ -19,7 +20,7 @@ using mb4test::Chip;
 namespace sim = mb4::sim;
 
 const sim::BissCSlaveConfig& config_of(const sim::SlaveConfig& slave) {
-  return std::get<sim::BissCSlaveConfig>(slave.device);
+  return slave.device.as<sim::BissCSlaveConfig>();
 }
 
 // SELCRCS and SCRCLEN or SCRCPOLY (Tables 13..15) for a full polynomial.

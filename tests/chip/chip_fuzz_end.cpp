@@ -9,6 +9,7 @@
 #include "bits.hpp"
 #include "chip_fuzz_run.hpp"
 #include "mb4_regs.hpp"
+#include "sim/lines/registers/control_slave.hpp"
 
 namespace mb4test {
 namespace {
@@ -55,8 +56,7 @@ FuzzRun::End FuzzRun::wait_until(std::uint64_t bound, Done done) {
     const std::uint64_t before = host_.clocks();
     if (before - start > bound && looks % 4 == 0) return End::kWaits;
     if (before - start > most_clocks_) return End::kTooLong;
-    host_.session().watch_ns(step_ns,
-                             [&] { eot = eot || host_.simulator().pin(Pin::kEot); });
+    host_.session().watch_ns(step_ns, [&] { eot = eot || host_.simulator().pin(Pin::kEot); });
     if (host_.clocks() == before) ensure_clock();
     step_ns = std::min(step_ns * 2, 2 + bound / 8 * host_.clock_ns());
   }
@@ -67,8 +67,7 @@ FuzzRun::End FuzzRun::wait_until(std::uint64_t bound, Done done) {
 std::uint64_t FuzzRun::frame_bound() const {
   const Possible& possible = host_.possible();
   constexpr std::uint64_t kTimeoutPeriods = 3 * 1024;
-  std::uint64_t bound =
-      (2 * possible.frame_periods + kTimeoutPeriods) * possible.ma_clocks + 6000;
+  std::uint64_t bound = (2 * possible.frame_periods + kTimeoutPeriods) * possible.ma_clocks + 6000;
   if (possible.biss_b_control && possible.control_asked) {
     bound += (possible.bytes + 4) * possible.limit;
   }
@@ -79,8 +78,8 @@ std::uint64_t FuzzRun::frame_bound() const {
 std::uint64_t FuzzRun::access_bound() const {
   const Possible& possible = host_.possible();
   return (60 + 20 * possible.bytes) *
-             (2 * possible.ags_period +
-              std::uint64_t{possible.frame_periods} * possible.ma_clocks + 1500) +
+             (2 * possible.ags_period + std::uint64_t{possible.frame_periods} * possible.ma_clocks +
+              1500) +
          (possible.bytes + 3) * possible.limit * 9 / 8 + frame_bound();
 }
 
@@ -225,8 +224,8 @@ void FuzzRun::drive_on(bool by_getsens) {
       const bool low = (possible.used[0] && !host_.simulator().pin(Pin::kSl1)) ||
                        (possible.used[1] && !host_.simulator().pin(Pin::kSl2));
       if (by_getsens && low) return end_by_break(FuzzCounts::kWaitsSlLow);
-      fail("access", "does not end with " + std::to_string(requests) + " requests, 0xF0 to 0xF4 read" +
-                         hex(status_));
+      fail("access", "does not end with " + std::to_string(requests) +
+                         " requests, 0xF0 to 0xF4 read" + hex(status_));
     }
     if (host_.clocks() - start > most_clocks_) return end_by_break(FuzzCounts::kWaitsTooLong);
     if (requests > 100) host_.wait_clocks(most / 64);
@@ -317,9 +316,8 @@ void FuzzRun::check_ended() {
 // Until the slaves' timeouts are over and, behind INIT, SL is 1.
 void FuzzRun::wait_slaves(bool sl_high) {
   const auto idle = [&](unsigned line, Pin sl) {
-    return !chip_.lines[line].present ||
-           (host_.simulator().line(line + 1)->chain().idle() &&
-            (!sl_high || host_.simulator().pin(sl)));
+    return !chip_.lines[line].present || (host_.simulator().line(line + 1)->chain().idle() &&
+                                          (!sl_high || host_.simulator().pin(sl)));
   };
   if (!host_.session().wait_until([&] { return idle(0, Pin::kSl1) && idle(1, Pin::kSl2); },
                                   3'000'000, 1000)) {

@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "mb4_regs.hpp"
-#include "mb4sim/ma_frequency.hpp"
+#include "sim/masters/mb4/ma_frequency.hpp"
 
 namespace mb4test {
 namespace {
@@ -187,14 +187,17 @@ void FuzzHost::note_configuration() {
         possible_.biss[line] || (line_used(line) && protocol(line) != Protocol::kSsi);
   }
   possible_.biss_b_control |= (image_[regs::kAddrCtrl] & 0x40U) == 0;
-  possible_.control_asked |= is_control(image_[regs::kAddrInstr]) || (image_[regs::kAddrInstr] & kInit) != 0;
+  possible_.control_asked |=
+      is_control(image_[regs::kAddrInstr]) || (image_[regs::kAddrInstr] & kInit) != 0;
   const unsigned code = image_[regs::kAddrFreqags];
   possible_.agsmin |= code == kAgsMin;
   possible_.paired |= (image_[regs::kAddrIface] & 0x08U) != 0;
   possible_.ma_forced |= (image_[regs::kAddrIface] & kMaForced) != 0;
   possible_.ma_may_rest |=
       (image_[regs::kAddrCtrl] & 0x02U) != 0 && image_[regs::kAddrActnsens] != 0;
-  const std::uint64_t period = code < kAgsMin ? 20U * (code + 1U) : code < 0x80 ? 0 : 625U * (code - 127U);
+  const std::uint64_t period = code < kAgsMin ? 20U * (code + 1U)
+                               : code < 0x80  ? 0
+                                              : 625U * (code - 127U);
   possible_.ags_period = std::max(possible_.ags_period, period);
 }
 

@@ -11,7 +11,7 @@
 #include "bits.hpp"
 #include "chip_fuzz_run.hpp"
 #include "mb4_regs.hpp"
-#include "mb4sim/ma_frequency.hpp"
+#include "sim/masters/mb4/ma_frequency.hpp"
 
 namespace mb4test {
 namespace {
@@ -20,8 +20,8 @@ namespace regs = mb4::regs;
 namespace sim = mb4::sim;
 
 constexpr unsigned kSettleClocks = 30;
-constexpr unsigned kLeastCrc = 5;   // bits, of a channel whose words are looked at
-constexpr unsigned kSureCrc = 12;   // bits, with which an alias is no explanation
+constexpr unsigned kLeastCrc = 5;  // bits, of a channel whose words are looked at
+constexpr unsigned kSureCrc = 12;  // bits, with which an alias is no explanation
 
 bool valid(const std::vector<std::uint8_t>& svalid, unsigned channel) {
   return (svalid[channel / 4] >> (2 * (channel % 4) + 1) & 1U) != 0;
@@ -236,8 +236,7 @@ void FuzzRun::compare_word(unsigned line, const FuzzSlave& slave,
   for (unsigned i = data_bytes; i-- > 0;) word = word << 8U | data[i];
   std::uint32_t crc = slave.crc_of(word & slave.mask());
   const unsigned crc_bytes = (slave.crc.width + 7) / 8;
-  const bool stored =
-      (host_.written(regs::kAddrBankcfg) & 2U) == 0 && data_bytes + crc_bytes <= 8;
+  const bool stored = (host_.written(regs::kAddrBankcfg) & 2U) == 0 && data_bytes + crc_bytes <= 8;
   if (stored) crc = crc_bytes == 2 ? data[7] * 256U + data[6] : data[7];
   const bool fits = word <= slave.mask() && crc == slave.crc_of(word);
   const std::uint64_t frames = host_.simulator().slave(slave.number)->frames();

@@ -12,10 +12,10 @@
 #include <string>
 #include <vector>
 
-#include "mb4sim/parallel_host.hpp"
-#include "mb4sim/scenario.hpp"
 #include "mb4sim/simulator.hpp"
 #include "random_case.hpp"
+#include "sim/hosts/parallel_host.hpp"
+#include "sim/scenario/scenario.hpp"
 
 namespace {
 

@@ -9,7 +9,7 @@
 #include <string>
 
 #include "control_host.hpp"
-#include "mb4sim/control_slave.hpp"
+#include "sim/lines/registers/control_slave.hpp"
 
 namespace {
 

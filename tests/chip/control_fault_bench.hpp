@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "control_host.hpp"
-#include "mb4sim/control_slave.hpp"
+#include "sim/lines/registers/control_slave.hpp"
 
 namespace mb4test {
 

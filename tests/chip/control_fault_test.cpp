@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "control_fault_bench.hpp"
+#include "sim/lines/registers/control_slave.hpp"
 
 namespace {
 

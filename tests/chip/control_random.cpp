@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <sstream>
 
-#include "mb4sim/control_slave.hpp"
-#include "mb4sim/control_slots.hpp"
+#include "sim/lines/registers/control_slave.hpp"
+#include "sim/lines/registers/control_slots.hpp"
 
 namespace mb4test {
 namespace {

@@ -15,8 +15,8 @@
 #include <vector>
 
 #include "control_host.hpp"
-#include "mb4sim/random.hpp"
 #include "register_model.hpp"
+#include "sim/core/random.hpp"
 
 namespace mb4test {
 

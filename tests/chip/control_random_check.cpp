@@ -7,8 +7,8 @@
 
 #include "bits.hpp"
 #include "control_random.hpp"
-#include "mb4sim/control_slave.hpp"
-#include "mb4sim/control_slots.hpp"
+#include "sim/lines/registers/control_slave.hpp"
+#include "sim/lines/registers/control_slots.hpp"
 
 namespace mb4test {
 namespace {

@@ -16,7 +16,7 @@
 
 #include "bits.hpp"
 #include "control_host.hpp"
-#include "mb4sim/control_slave.hpp"
+#include "sim/lines/registers/control_slave.hpp"
 
 namespace {
 

@@ -13,6 +13,7 @@
 #include "bits.hpp"
 #include "chip_fixture.hpp"
 #include "control_host.hpp"
+#include "sim/lines/registers/control_slave.hpp"
 
 namespace {
 

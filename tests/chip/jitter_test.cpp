@@ -13,7 +13,7 @@
 
 #include "bits.hpp"
 #include "chip_fixture.hpp"
-#include "mb4sim/random.hpp"
+#include "sim/core/random.hpp"
 
 namespace {
 

@@ -9,7 +9,7 @@
 
 #include "chip_fixture.hpp"
 #include "control_host.hpp"
-#include "mb4sim/ma_frequency.hpp"
+#include "sim/masters/mb4/ma_frequency.hpp"
 
 namespace {
 

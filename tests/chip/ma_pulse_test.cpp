@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "chip_fixture.hpp"
-#include "mb4sim/random.hpp"
+#include "sim/core/random.hpp"
 
 namespace {
 
@@ -209,9 +209,9 @@ TEST(MaPulseTwoLines, LastHalfPeriodOfALineOutOfUse_EndsInItsTime) {
     std::uint8_t freqs;  // of the line that starts
     sim::Time half;      // ns
   };
-  for (const Way way : {Way{true, false, 0x04, 250}, Way{false, false, 0x04, 250},
-                        Way{true, false, 0x00, 50}, Way{false, false, 0x0F, 800},
-                        Way{true, true, 0x04, 250}, Way{false, true, 0x00, 50}}) {
+  for (const Way way :
+       {Way{true, false, 0x04, 250}, Way{false, false, 0x04, 250}, Way{true, false, 0x00, 50},
+        Way{false, false, 0x0F, 800}, Way{true, true, 0x04, 250}, Way{false, true, 0x00, 50}}) {
     for (sim::Time d = 0; d <= 9400; d += 50) {
       Chip chip(two_lines());
       const unsigned old_line = way.by_slaveloc5 ? 2 : 1;
@@ -229,8 +229,8 @@ TEST(MaPulseTwoLines, LastHalfPeriodOfALineOutOfUse_EndsInItsTime) {
       ASSERT_NO_THROW({
         if (way.break_first) chip.instruct(0x80);
         chip.write(0xE6, {way.freqs});
-        chip.write(0xEC, {byte(way.by_slaveloc5 ? 0x00 : 0x10),
-                          byte(way.by_slaveloc5 ? 0x0D : 0x07)});
+        chip.write(0xEC,
+                   {byte(way.by_slaveloc5 ? 0x00 : 0x10), byte(way.by_slaveloc5 ? 0x0D : 0x07)});
         chip.instruct(way.break_first ? 0x04 : 0x84);
         chip.advance_us(90);
       }) << what;
@@ -287,7 +287,8 @@ TEST(MaPulseTwoLines, ForcedLineOtherFreqs_CutsNothingShort) {
           chip.simulator.set_pin(sim::Pin::kNres, true);
         }
         chip.advance_us(100);
-      }) << "way " << way << ", D " << d << " ns";
+      }) << "way "
+         << way << ", D " << d << " ns";
       EXPECT_TRUE(chip.simulator.pin(sim::Pin::kMa2));
       pulses += chip.simulator.ma_check(2).pulses();
     }

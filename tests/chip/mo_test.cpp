@@ -6,6 +6,7 @@
 
 #include "bits.hpp"
 #include "protocol_chip.hpp"
+#include "sim/lines/biss/actuator.hpp"
 
 namespace {
 

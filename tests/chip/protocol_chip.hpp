@@ -58,12 +58,9 @@ class ProtocolChip : public Chip {
       unsigned x = channel.number == 1 ? 0 : 4;
       for (const sim::SlaveConfig& slave : channel.slaves) {
         bool bit7 = false;
-        if (const auto* biss_c = std::get_if<sim::BissCSlaveConfig>(&slave.device)) {
-          bit7 = biss_c->actuator && biss_c->stop_bit;
-          actnsens |= static_cast<unsigned>(biss_c->actuator) << x;
-        } else if (const auto* ssi = std::get_if<sim::SsiSlaveConfig>(&slave.device)) {
-          bit7 = ssi->gray;
-        }
+        const sim::DeviceTraits traits = slave.traits();
+        bit7 = traits.stop_bit || traits.gray;
+        actnsens |= static_cast<unsigned>(traits.actuator) << x;
         const sim::Crc& crc = slave.crc();
         write(static_cast<std::uint8_t>(0xC0 + 4 * x++),
               {static_cast<std::uint8_t>((bit7 ? 0xC0 : 0x40) | (slave.data_bits() - 1)),

@@ -6,7 +6,7 @@
 #include <sstream>
 
 #include "bits.hpp"
-#include "mb4sim/ma_frequency.hpp"
+#include "sim/masters/mb4/ma_frequency.hpp"
 
 namespace mb4test {
 namespace {

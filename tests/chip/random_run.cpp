@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "bits.hpp"
+#include "sim/lines/biss/actuator.hpp"
 
 namespace mb4test {
 namespace {

@@ -13,8 +13,8 @@
 #include <string>
 #include <vector>
 
-#include "mb4sim/scenario.hpp"
 #include "mb4sim/simulator.hpp"
+#include "sim/scenario/scenario.hpp"
 #include "sim_bus.hpp"
 #include "test_host.hpp"
 
@@ -22,7 +22,7 @@ namespace mb4test {
 
 // A scenario whose slaves send listed words, one a frame: `words` by SCDATAx (1..8).
 struct WordScenario {
-  std::string text;  // each slave with the line that word_file() gives
+  std::string text;      // each slave with the line that word_file() gives
   bool any_host = true;  // MB4_HOST chooses the host; false: `text` names it
   std::vector<std::pair<unsigned, std::vector<std::uint64_t>>> words;
 

@@ -8,6 +8,7 @@
 
 #include "bits.hpp"
 #include "protocol_chip.hpp"
+#include "sim/lines/registers/control_slave.hpp"
 
 namespace {
 

@@ -11,7 +11,7 @@
 #include <cstdlib>
 #include <string>
 
-#include "mb4sim/scenario.hpp"
+#include "sim/scenario/scenario.hpp"
 
 namespace mb4test {
 

@@ -13,8 +13,8 @@
 #include <vector>
 
 #include "mb4/mb4.hpp"
-#include "mb4sim/scenario.hpp"
 #include "mb4sim/simulator.hpp"
+#include "sim/scenario/scenario.hpp"
 #include "sim_bus.hpp"
 #include "test_host.hpp"
 

@@ -9,6 +9,7 @@
 #include <string>
 
 #include "protocol_bus.hpp"
+#include "sim/lines/biss/actuator.hpp"
 
 namespace {
 

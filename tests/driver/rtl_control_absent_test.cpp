@@ -11,7 +11,7 @@
 #include <string>
 
 #include "chip_fixture.hpp"
-#include "mb4sim/control_slave.hpp"
+#include "sim/lines/registers/control_slave.hpp"
 
 namespace {
 

@@ -10,6 +10,7 @@
 #include <string>
 
 #include "chip_fixture.hpp"
+#include "sim/lines/registers/control_slave.hpp"
 
 namespace {
 

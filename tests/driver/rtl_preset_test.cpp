@@ -9,11 +9,11 @@
 #include <array>
 #include <cstdint>
 #include <string>
-#include <variant>
 #include <vector>
 
 #include "chip_fixture.hpp"
-#include "mb4sim/presets.hpp"
+#include "sim/lines/biss/biss_c_slave.hpp"
+#include "sim/lines/presets.hpp"
 
 namespace {
 
@@ -26,7 +26,7 @@ namespace sim = mb4::sim;
 std::vector<std::string> names() {
   std::vector<std::string> list;
   for (const sim::Preset& preset : sim::presets()) {
-    if (std::holds_alternative<sim::BissCSlaveConfig>(preset.device)) {
+    if (preset.device->traits().protocol.control) {
       list.emplace_back(preset.name);
     }
   }
@@ -38,7 +38,7 @@ class DriverPreset : public testing::TestWithParam<std::string> {
   static constexpr unsigned kFreeLength = 22;  // where the preset asks for it
 
   const sim::Preset& preset = *sim::preset_by_name(GetParam());
-  const sim::BissCSlaveConfig& device = std::get<sim::BissCSlaveConfig>(preset.device);
+  const sim::BissCSlaveConfig& device = preset.device.as<sim::BissCSlaveConfig>();
   unsigned bits = device.data_bits == 0 ? kFreeLength : device.data_bits;
   Chip chip{mb4test::one_slave("preset = \"" + GetParam() + "\"" +
                                (device.data_bits == 0 ? "\ndata_bits = 22" : "") +

@@ -12,6 +12,7 @@
 #include <string>
 
 #include "protocol_bus.hpp"
+#include "sim/lines/registers/control_slave.hpp"
 
 namespace {
 

@@ -12,8 +12,8 @@
 #include <string>
 #include <vector>
 
-#include "mb4sim/scenario.hpp"
 #include "mb4sim/simulator.hpp"
+#include "sim/scenario/scenario.hpp"
 
 namespace mb4::tool {
 namespace {

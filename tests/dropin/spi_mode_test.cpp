@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "mb4sim/spi_host.hpp"
+#include "sim/hosts/spi_host.hpp"
 
 namespace mb4::sim {
 namespace {

@@ -4,12 +4,12 @@
 // A bus with MO (datasheet pages 15, 25, 31; protocol facts section 8): the master is one more
 // slave at the far end. It acknowledges with rising edge 2, sends its start bit MO_BUSY periods
 // later than a slave could, then CDS = 0, then the words (slave 1 first), then 1.
-#include "mb4sim/actuator.hpp"
+#include "sim/lines/biss/actuator.hpp"
 
 #include <gtest/gtest.h>
 
 #include "chain_bench.hpp"
-#include "mb4sim/line.hpp"
+#include "sim/lines/line.hpp"
 
 namespace mb4::sim {
 namespace {

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "mb4sim/time.hpp"
+#include "sim/core/time.hpp"
 
 namespace mb4::sim {
 

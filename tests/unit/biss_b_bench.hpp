@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "control_bench.hpp"
-#include "mb4sim/biss_b_slave.hpp"
+#include "sim/lines/biss/biss_b_slave.hpp"
 
 namespace mb4::sim {
 

@@ -4,7 +4,7 @@
 // Register mode of BiSS B on hand-made bit cells (datasheet page 13, I401 to I407, page 16; fields
 // by docs/choices.md). SL stands before the rising edge of each cell: what the slave puts on the
 // line with one rising edge is seen at the next.
-#include "mb4sim/biss_b_registers.hpp"
+#include "sim/lines/biss/biss_b_registers.hpp"
 
 #include <gtest/gtest.h>
 

@@ -3,7 +3,7 @@
 //
 // Sensor frames of BiSS B and the ways into register mode (datasheet pages 12, 13, 16; protocol
 // facts sections 5.1, 5.2, 5.5, 5.6).
-#include "mb4sim/biss_b_slave.hpp"
+#include "sim/lines/biss/biss_b_slave.hpp"
 
 #include <gtest/gtest.h>
 

@@ -3,7 +3,7 @@
 //
 // Expected edges come from the protocol (datasheet BiSS C chapter, page 15; protocol facts sections
 // 1.2 to 1.4), never from the chip.
-#include "mb4sim/biss_c_slave.hpp"
+#include "sim/lines/biss/biss_c_slave.hpp"
 
 #include <gtest/gtest.h>
 

@@ -2,15 +2,15 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Cables of a scenario: keys, events at given times, and one seed for all random choices.
-#include "mb4sim/cable.hpp"
+#include "sim/core/cable.hpp"
 
 #include <gtest/gtest.h>
 
 #include <string>
 #include <vector>
 
-#include "mb4sim/scenario.hpp"
 #include "mb4sim/simulator.hpp"
+#include "sim/scenario/scenario.hpp"
 
 namespace mb4::sim {
 namespace {

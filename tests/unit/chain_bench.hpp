@@ -10,9 +10,9 @@
 #include <utility>
 #include <vector>
 
-#include "mb4sim/biss_c_slave.hpp"
-#include "mb4sim/event_queue.hpp"
-#include "mb4sim/slave_chain.hpp"
+#include "sim/core/event_queue.hpp"
+#include "sim/lines/biss/biss_c_slave.hpp"
+#include "sim/lines/slave_chain.hpp"
 
 namespace mb4::sim {
 

@@ -3,7 +3,7 @@
 //
 // Register access: iC-MB4 Rev D2 pages 27, 28; bits of a control frame and golden vectors from TI
 // TIDEP0022, tables 7 and 11. The master is the one of control_bench.hpp.
-#include "mb4sim/control_slave.hpp"
+#include "sim/lines/registers/control_slave.hpp"
 
 #include <gtest/gtest.h>
 

@@ -14,11 +14,11 @@
 
 #include "arrivals.hpp"
 #include "clock_source.hpp"
-#include "mb4sim/biss_c_slave.hpp"
 #include "mb4sim/simulator.hpp"
-#include "mb4sim/slave_chain.hpp"
-#include "mb4sim/spi_host.hpp"
-#include "mb4sim/wire.hpp"
+#include "sim/core/wire.hpp"
+#include "sim/hosts/spi_host.hpp"
+#include "sim/lines/biss/biss_c_slave.hpp"
+#include "sim/lines/slave_chain.hpp"
 
 namespace mb4::sim {
 namespace {

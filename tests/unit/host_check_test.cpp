@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // The check of the host's timing, and the host models under this check: datasheet pages 9 to 11.
-#include "mb4sim/host_check.hpp"
+#include "sim/hosts/host_check.hpp"
 
 #include <gtest/gtest.h>
 
@@ -12,8 +12,8 @@
 #include <set>
 #include <string>
 
-#include "mb4sim/parallel_host.hpp"
-#include "mb4sim/spi_host.hpp"
+#include "sim/hosts/parallel_host.hpp"
+#include "sim/hosts/spi_host.hpp"
 
 namespace mb4::sim {
 namespace {

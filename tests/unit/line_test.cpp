@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
-#include "mb4sim/line.hpp"
+#include "sim/lines/line.hpp"
 
 #include <gtest/gtest.h>
 

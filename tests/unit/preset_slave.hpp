@@ -4,17 +4,17 @@
 #define MB4_TESTS_UNIT_PRESET_SLAVE_HPP_
 
 #include <string_view>
-#include <variant>
 
 #include "control_bench.hpp"
-#include "mb4sim/presets.hpp"
+#include "sim/lines/biss/biss_c_slave.hpp"
+#include "sim/lines/presets.hpp"
 
 namespace mb4::sim {
 
 // A slave as the preset of this name describes it, registers included.
 inline BissCSlave& add_preset(ControlBench& bench, std::string_view name) {
   const Preset* preset = preset_by_name(name);
-  BissCSlave& slave = bench.add(std::get<BissCSlaveConfig>(preset->device));
+  BissCSlave& slave = bench.add(preset->device.as<BissCSlaveConfig>());
   for (const auto& run : preset->registers) {
     std::uint8_t address = run.address;
     for (const std::uint8_t value : run.values) slave.reg_write(address++, value);

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Presets as a master sees them: over the line, by register access.
-#include "mb4sim/presets.hpp"
+#include "sim/lines/presets.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
-#include "mb4sim/replay_slave.hpp"
+#include "sim/lines/replay/replay_slave.hpp"
 
 #include <gtest/gtest.h>
 

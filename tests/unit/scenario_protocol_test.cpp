@@ -7,8 +7,11 @@
 #include <ostream>
 #include <string>
 
-#include "mb4sim/presets.hpp"
-#include "mb4sim/scenario.hpp"
+#include "sim/lines/biss/biss_b_slave.hpp"
+#include "sim/lines/biss/biss_c_slave.hpp"
+#include "sim/lines/presets.hpp"
+#include "sim/lines/ssi/ssi_slave.hpp"
+#include "sim/scenario/scenario.hpp"
 
 namespace mb4::sim {
 namespace {
@@ -22,7 +25,7 @@ std::string channel(const std::string& keys, const std::string& slaves) {
 
 template <typename Config>
 const Config& config_of(const Scenario& scenario, std::size_t index = 0) {
-  return std::get<Config>(scenario.channels.at(0).slaves.at(index).device);
+  return scenario.channels.at(0).slaves.at(index).device.as<Config>();
 }
 
 TEST(ScenarioProtocols, Ssi_IsReadCompletely) {
@@ -41,7 +44,7 @@ TEST(ScenarioProtocols, Ssi_IsReadCompletely) {
   EXPECT_EQ(config.source.constant, 0x1FFU);
   EXPECT_EQ(config.crc.width(), 0U);
   EXPECT_FALSE(config.control.present);
-  EXPECT_EQ(scenario.channels[0].protocol(), LineProtocol::kSsi);
+  EXPECT_EQ(scenario.channels[0].protocol().key, "ssi");
 }
 
 TEST(ScenarioProtocols, SsiDefaults_AreThoseOfThePage) {
@@ -80,7 +83,7 @@ TEST(ScenarioProtocols, BissB_IsReadCompletely) {
   EXPECT_EQ(far.register_timeout, 0U);
   EXPECT_FALSE(far.passes_acknowledge);
   EXPECT_EQ(far.timeout.fixed, from_us(16));
-  EXPECT_EQ(scenario.channels[0].protocol(), LineProtocol::kBissB);
+  EXPECT_EQ(scenario.channels[0].protocol().key, "biss-b");
 }
 
 TEST(ScenarioProtocols, ActuatorAndMo_AreReadCompletely) {
@@ -109,12 +112,12 @@ TEST(ScenarioProtocols, ActuatorAndMo_AreReadCompletely) {
 TEST(ScenarioProtocols, EveryPreset_CanBeUsedWithItsProtocol) {
   const char* const protocols[] = {"biss-c", "biss-b", "ssi"};
   for (const Preset& preset : presets()) {
-    const unsigned bits = std::visit([](const auto& d) { return d.data_bits; }, preset.device);
+    const unsigned bits = preset.device->data_bits;
     std::string keys = "preset = \"" + std::string(preset.name) + "\"";
     if (bits == 0) keys += "\ndata_bits = 20";
     for (std::size_t i = 0; i < 3; ++i) {
       const std::string text = channel("", slave(protocols[i], keys));
-      if (i == preset.device.index()) {
+      if (preset.device->traits().protocol.key == protocols[i]) {
         EXPECT_NO_THROW(parse_scenario(text, "s")) << preset.name;
       } else {
         EXPECT_THROW(parse_scenario(text, "s"), ScenarioError) << preset.name;

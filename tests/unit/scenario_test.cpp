@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
-#include "mb4sim/scenario.hpp"
+#include "sim/scenario/scenario.hpp"
 
 #include <gtest/gtest.h>
 
@@ -11,11 +11,13 @@
 #include <string>
 #include <vector>
 
+#include "sim/lines/biss/biss_c_slave.hpp"
+
 namespace mb4::sim {
 namespace {
 
 const BissCSlaveConfig& biss_c(const Scenario& scenario, std::size_t index = 0) {
-  return std::get<BissCSlaveConfig>(scenario.channels.at(0).slaves.at(index).device);
+  return scenario.channels.at(0).slaves.at(index).device.as<BissCSlaveConfig>();
 }
 
 std::string slave(const std::string& keys) {
@@ -117,6 +119,12 @@ TEST(Scenario, KeysOfAnyKind_AreKnownWithoutTheKind) {
       known += taken ? 1 : 0;
     }
     EXPECT_GE(known, table.expected) << table.key;
+  }
+}
+
+TEST(Scenario, Master_IsTheIcMb4) {
+  for (const char* text : {"", "[master]\n", "[master]\ntype = \"ic-mb4\"\n"}) {
+    EXPECT_EQ(parse_scenario(text, "s").master->type, "ic-mb4") << text;
   }
 }
 
@@ -229,6 +237,10 @@ INSTANTIATE_TEST_SUITE_P(
     Bad, Scenarios,
     testing::Values(
         BadScenario{"UnknownTable", "[chips]\n", "s.toml:1:2: key 'chips': unknown key"},
+        BadScenario{"Master", "[master]\ntype = \"ic-mb9\"\n",
+                    "s.toml:2:8: key 'type': unknown value 'ic-mb9', expected one of: ic-mb4"},
+        BadScenario{"MasterKey", "[master]\nname = \"ic-mb4\"\n",
+                    "s.toml:2:1: key 'name': unknown key"},
         BadScenario{"UnknownKey", "[chip]\nf_clk_hz = 20_000_000\nf_clk = 3\n",
                     "s.toml:3:1: key 'f_clk': unknown key"},
         BadScenario{"WrongType", "[chip]\nf_clk_hz = \"fast\"\n",

@@ -9,6 +9,8 @@
 #include <array>
 #include <vector>
 
+#include "sim/lines/biss/biss_c_slave.hpp"
+
 namespace mb4::sim {
 namespace {
 
@@ -89,7 +91,7 @@ TEST(Simulator, ManyAtOnce_DoNotDisturbEachOther) {
 
 TEST(Simulator, SameSeed_GivesTheSameRun) {
   Scenario scenario = load("/resolute-26.toml");
-  std::get<BissCSlaveConfig>(scenario.channels[0].slaves[0].device).timeout.sample_period = 9'000;
+  scenario.channels[0].slaves[0].device.as<BissCSlaveConfig>().timeout.sample_period = 9'000;
   const auto run = [&](std::uint64_t seed) {
     SimulatorOptions options;
     options.seed = seed;

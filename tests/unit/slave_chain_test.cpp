@@ -3,12 +3,12 @@
 //
 // Chains (protocol facts section 1.7): slave 1, next to the master, comes first; each slave is a
 // shift register of its own length.
-#include "mb4sim/slave_chain.hpp"
+#include "sim/lines/slave_chain.hpp"
 
 #include <gtest/gtest.h>
 
 #include "chain_bench.hpp"
-#include "mb4sim/biss_b_slave.hpp"
+#include "sim/lines/biss/biss_b_slave.hpp"
 
 namespace mb4::sim {
 namespace {

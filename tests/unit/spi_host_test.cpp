@@ -3,7 +3,7 @@
 //
 // Timing of the SPI host against items I201 to I209 (datasheet page 11), with pins that record
 // their edges.
-#include "mb4sim/spi_host.hpp"
+#include "sim/hosts/spi_host.hpp"
 
 #include <gtest/gtest.h>
 

@@ -3,7 +3,7 @@
 //
 // Expected edges come from the SSI documents of makers (Posital, TR-Electronic, National
 // Instruments: protocol facts, section 6) and from the datasheet's SSI chapter (pages 14, 16).
-#include "mb4sim/ssi_slave.hpp"
+#include "sim/lines/ssi/ssi_slave.hpp"
 
 #include <gtest/gtest.h>
 

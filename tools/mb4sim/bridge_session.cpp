@@ -8,7 +8,7 @@
 #include <string_view>
 
 #include "mb4sim/model_stopped.hpp"
-#include "mb4sim/pins.hpp"
+#include "sim/hosts/pins.hpp"
 
 namespace mb4::tool {
 namespace {

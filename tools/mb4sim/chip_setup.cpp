@@ -23,17 +23,9 @@ std::uint32_t frame_timeout(const sim::Scenario& scenario) {
     double slave_us = 0;
     for (const sim::SlaveConfig& slave : channel.slaves) {
       periods += slave.data_bits() + slave.crc().width();
-      if (const auto* biss_c = std::get_if<sim::BissCSlaveConfig>(&slave.device)) {
-        periods += biss_c->busy_periods;
-        slave_us = std::max(slave_us, sim::to_us(biss_c->timeout.fixed));
-      } else if (const auto* biss_b = std::get_if<sim::BissBSlaveConfig>(&slave.device)) {
-        periods += biss_b->busy_periods;
-        slave_us = std::max(slave_us, sim::to_us(biss_b->timeout.fixed));
-      } else if (const auto* ssi = std::get_if<sim::SsiSlaveConfig>(&slave.device)) {
-        slave_us = std::max(slave_us, sim::to_us(ssi->monoflop));
-      } else if (const auto* replay = std::get_if<sim::ReplaySlaveConfig>(&slave.device)) {
-        slave_us = std::max(slave_us, sim::to_us(replay->recording.edges.back().time));
-      }
+      const sim::DeviceTraits traits = slave.traits();
+      periods += traits.busy_periods;
+      slave_us = std::max(slave_us, sim::to_us(traits.timeout));
     }
     longest_us =
         std::max(longest_us, periods * period_us + 2 * slave_us + 2 * sim::to_us(channel.delay));
@@ -42,16 +34,10 @@ std::uint32_t frame_timeout(const sim::Scenario& scenario) {
       std::min<double>(longest_us + kFrameMarginUs, kMaxFrameTimeoutUs));
 }
 
-Protocol protocol_of(sim::LineProtocol protocol) {
-  switch (protocol) {
-    case sim::LineProtocol::kBissB:
-      return Protocol::kBissB;
-    case sim::LineProtocol::kSsi:
-      return Protocol::kSsi;
-    case sim::LineProtocol::kBissC:
-      break;
-  }
-  return Protocol::kBissC;
+Protocol protocol_of(const sim::LineProtocol& protocol) {
+  return protocol.key == "biss-b" ? Protocol::kBissB
+         : protocol.key == "ssi"  ? Protocol::kSsi
+                                  : Protocol::kBissC;
 }
 
 [[noreturn]] void fail(const sim::Scenario& scenario, const sim::TableSource& source,
@@ -62,16 +48,11 @@ Protocol protocol_of(sim::LineProtocol protocol) {
 // Sets the members that depend on the slave's protocol.
 void add_protocol(const sim::SlaveConfig& slave, SlaveConfig& target, Config& config) {
   constexpr unsigned kMostBusy = 255;
-  unsigned busy = 0;
-  if (const auto* biss_c = std::get_if<sim::BissCSlaveConfig>(&slave.device)) {
-    target.actuator = biss_c->actuator;
-    target.stop_bit = biss_c->stop_bit;
-    busy = static_cast<unsigned>(std::min<std::uint64_t>(biss_c->busy_periods, kMostBusy));
-  } else if (const auto* biss_b = std::get_if<sim::BissBSlaveConfig>(&slave.device)) {
-    busy = static_cast<unsigned>(std::min<std::uint64_t>(biss_b->busy_periods, kMostBusy));
-  } else if (const auto* ssi = std::get_if<sim::SsiSlaveConfig>(&slave.device)) {
-    target.gray = ssi->gray;
-  }
+  const sim::DeviceTraits traits = slave.traits();
+  target.actuator = traits.actuator;
+  if (traits.actuator) target.stop_bit = traits.stop_bit;
+  target.gray = traits.gray;
+  const unsigned busy = std::min(traits.busy_periods, kMostBusy);
   // With MO in use the start bit comes from the chip.
   if (config.mo)
     config.mo_busy = static_cast<std::uint8_t>(std::max<unsigned>(config.mo_busy, busy));

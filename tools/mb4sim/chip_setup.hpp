@@ -10,7 +10,7 @@
 
 #include "mb4/config.hpp"
 #include "mb4/result.hpp"
-#include "mb4sim/scenario.hpp"
+#include "sim/scenario/scenario.hpp"
 
 namespace mb4::tool {
 

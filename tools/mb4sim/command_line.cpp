@@ -11,7 +11,7 @@
 #include <system_error>
 #include <vector>
 
-#include "mb4sim/version.hpp"
+#include "sim/core/version.hpp"
 #include "suggestion.hpp"
 
 namespace mb4::tool {

@@ -6,7 +6,7 @@
 
 #include <optional>
 
-#include "mb4sim/crc.hpp"
+#include "sim/core/crc.hpp"
 
 namespace mb4::tool {
 namespace {

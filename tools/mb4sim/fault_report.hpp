@@ -9,9 +9,9 @@
 #include <string>
 #include <vector>
 
-#include "mb4sim/fault.hpp"
-#include "mb4sim/scenario.hpp"
-#include "mb4sim/time.hpp"
+#include "sim/core/time.hpp"
+#include "sim/faults/fault.hpp"
+#include "sim/scenario/scenario.hpp"
 
 namespace mb4::tool {
 

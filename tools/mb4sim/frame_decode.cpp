@@ -4,8 +4,6 @@
 
 #include <fmt/core.h>
 
-#include <variant>
-
 namespace mb4::tool {
 namespace {
 
@@ -19,7 +17,7 @@ class Decoder {
   }
 
   DecodedFrame run() {
-    const bool ssi = channel_.protocol() == sim::LineProtocol::kSsi;
+    const bool ssi = !channel_.protocol().start_bit;
     if (frame_.trace.rising.size() < 2) return frame_;
     if (ssi ? begin_ssi() : begin_biss()) {
       frame_.good = true;
@@ -82,7 +80,7 @@ class Decoder {
           low > 1 ? std::vector<std::string>{fmt::format("Ack, processing {} T_MA", low - 1), "Ack"}
                   : std::vector<std::string>{"Ack"});
     field(1, FieldKind::kFraming, {"start"});
-    if (channel_.protocol() == sim::LineProtocol::kBissC) {
+    if (channel_.protocol().control) {
       frame_.cds = level(next_);
       field(1, FieldKind::kControl, {"CDS"});
     }
@@ -91,19 +89,18 @@ class Decoder {
 
   void word(const sim::SlaveConfig& slave, std::size_t index) {
     const std::string who = channel_.slaves.size() > 1 ? fmt::format("{}: ", index + 1) : "";
-    const auto* biss_c = std::get_if<sim::BissCSlaveConfig>(&slave.device);
-    const auto* ssi = std::get_if<sim::SsiSlaveConfig>(&slave.device);
-    if (biss_c != nullptr && biss_c->actuator && biss_c->stop_bit) {
+    const sim::DeviceTraits traits = slave.traits();
+    if (traits.actuator && traits.stop_bit) {
       field(1, FieldKind::kFraming, {"stop"});
     }
     const unsigned data_bits = slave.data_bits();
     const unsigned flag_bits = slave.flag_bits();
     const std::uint64_t raw = peek(data_bits);
     frame_.words.push_back(raw);
-    const char* const what = biss_c != nullptr && biss_c->actuator ? "data" : "position";
+    const char* const what = traits.actuator ? "data" : "position";
     const std::string value = fmt::format("0x{:0{}X}", flag_bits < 64 ? raw >> flag_bits : 0,
                                           (data_bits - flag_bits + 3) / 4);
-    if (ssi != nullptr && ssi->gray) {
+    if (traits.gray) {
       // Binary: each bit is the parity of the Gray bits from the MSB to it.
       std::uint64_t binary = flag_bits < 64 ? raw >> flag_bits : 0;
       for (unsigned shift = 1; shift < 64; shift *= 2) binary ^= binary >> shift;
@@ -117,7 +114,7 @@ class Decoder {
              fmt::format("{}{} {}", who, what, value), who + value, value});
     }
     for (unsigned i = flag_bits; i-- > 0;) {
-      const bool named = flag_bits == 2 && ssi == nullptr;
+      const bool named = flag_bits == 2 && channel_.protocol().start_bit;
       field(1, FieldKind::kFlag, {named ? (i == 1 ? "nE" : "nW") : fmt::format("f{}", i)});
     }
     const sim::Crc& crc = slave.crc();
@@ -158,7 +155,7 @@ class Decoder {
     if (frame_.trace.end > std::max(from, edge)) {
       frame_.sl.push_back(rest("timeout", from, frame_.trace.end));
     }
-    if (channel_.protocol() != sim::LineProtocol::kBissC) return;
+    if (!channel_.protocol().control) return;
     frame_.cdm = !frame_.trace.rest;
     frame_.ma.push_back(
         {frame_.trace.clock_end,

@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "line_recording.hpp"
-#include "mb4sim/scenario.hpp"
-#include "mb4sim/time.hpp"
+#include "sim/core/time.hpp"
+#include "sim/scenario/scenario.hpp"
 
 namespace mb4::tool {
 

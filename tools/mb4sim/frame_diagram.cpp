@@ -143,18 +143,6 @@ void add_ticks(const DecodedFrame& frame, const Axis& axis, Diagram& diagram) {
   diagram.axis = "t / us";
 }
 
-std::string protocol_text(sim::LineProtocol protocol) {
-  switch (protocol) {
-    case sim::LineProtocol::kBissB:
-      return "BiSS B";
-    case sim::LineProtocol::kSsi:
-      return "SSI";
-    case sim::LineProtocol::kBissC:
-      break;
-  }
-  return "BiSS C";
-}
-
 }  // namespace
 
 Diagram frame_diagram(const LineRecording& recording, const DecodedFrame& frame,
@@ -166,9 +154,9 @@ Diagram frame_diagram(const LineRecording& recording, const DecodedFrame& frame,
   diagram.title = title;
   diagram.notes.push_back(
       fmt::format("{}, f_MA {:.4g} MHz, {} rising edges, SL {:.4g} ns behind MA, {:.4g} us{}",
-                  protocol_text(channel.protocol()),
-                  1e6 / static_cast<double>(frame.trace.period()), frame.trace.rising.size(),
-                  sim::to_ns(frame.delay), sim::to_us(frame.trace.end - frame.trace.begin),
+                  channel.protocol().title, 1e6 / static_cast<double>(frame.trace.period()),
+                  frame.trace.rising.size(), sim::to_ns(frame.delay),
+                  sim::to_us(frame.trace.end - frame.trace.begin),
                   !frame.complete ? std::string("; no answer")
                   : frame.good    ? std::string()
                                   : "; " + frame.mistakes));

@@ -9,7 +9,7 @@
 
 #include "frame_decode.hpp"
 #include "line_recording.hpp"
-#include "mb4sim/scenario.hpp"
+#include "sim/scenario/scenario.hpp"
 #include "timing_svg.hpp"
 
 namespace mb4::tool {

@@ -14,8 +14,8 @@
 #include "chip_setup.hpp"
 #include "mb4/reading.hpp"
 #include "mb4/result.hpp"
-#include "mb4sim/scenario.hpp"
-#include "mb4sim/time.hpp"
+#include "sim/core/time.hpp"
+#include "sim/scenario/scenario.hpp"
 
 namespace mb4::tool {
 

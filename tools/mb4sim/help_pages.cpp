@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "command_line.hpp"
-#include "mb4sim/presets.hpp"
-#include "mb4sim/version.hpp"
+#include "sim/core/version.hpp"
+#include "sim/lines/presets.hpp"
 
 namespace mb4::tool {
 namespace {

@@ -7,8 +7,8 @@
 
 #include <vector>
 
-#include "mb4sim/line.hpp"
-#include "mb4sim/time.hpp"
+#include "sim/core/time.hpp"
+#include "sim/lines/line.hpp"
 
 namespace mb4::tool {
 

@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <cstdio>
 
-#include "mb4sim/one_line.hpp"
+#include "sim/core/one_line.hpp"
 
 namespace mb4::tool {
 namespace {

@@ -10,7 +10,7 @@
 #include <system_error>
 
 #include "exit_status.hpp"
-#include "mb4sim/one_line.hpp"
+#include "sim/core/one_line.hpp"
 
 namespace mb4::tool {
 namespace {

@@ -16,9 +16,9 @@
 #include "frame_diagram.hpp"
 #include "line_recording.hpp"
 #include "mb4/device.hpp"
-#include "mb4sim/scenario.hpp"
 #include "mb4sim/simulator.hpp"
 #include "output_file.hpp"
+#include "sim/scenario/scenario.hpp"
 #include "sim_bus.hpp"
 #include "trace_file.hpp"
 #include "vcd_writer.hpp"
@@ -175,7 +175,7 @@ void check(const PlotOptions& options, const sim::Scenario& scenario) {
     throw UseError(
         fmt::format("{}: there is no slave on channel {}", options.scenario, options.channel));
   }
-  if (is_control(options) && channel->protocol() != sim::LineProtocol::kBissC) {
+  if (is_control(options) && !channel->protocol().control) {
     throw UseError("control frames are drawn of BiSS C only");
   }
   // Mistakes in numbers show before anything is written.

@@ -3,15 +3,13 @@
 #include <fmt/core.h>
 
 #include <string>
-#include <variant>
 #include <vector>
 
 #include "commands.hpp"
 #include "exit_status.hpp"
-#include "mb4sim/one_line.hpp"
-#include "mb4sim/presets.hpp"
-#include "mb4sim/sensor_config.hpp"
 #include "messages.hpp"
+#include "sim/core/one_line.hpp"
+#include "sim/lines/presets.hpp"
 #include "suggestion.hpp"
 
 namespace mb4::tool {
@@ -26,31 +24,17 @@ struct Cells {
   bool control = false;  // registers can be reached
 };
 
-std::string timeout_text(const sim::SlaveTimeout& timeout) {
-  return timeout.fixed == 0 ? "adaptive" : fmt::format("{:g} us", sim::to_us(timeout.fixed));
-}
-
 Cells cells(const sim::Preset& preset) {
+  const sim::DeviceConfig& device = *preset.device;
+  const sim::DeviceTraits traits = device.traits();
   Cells out;
-  const auto& sensor = std::visit(
-      [](const auto& device) -> const sim::SensorConfig& { return device; }, preset.device);
-  out.data_bits = sensor.data_bits == 0 ? "-" : fmt::format("{}", sensor.data_bits);
-  out.flag_bits = sensor.flag_bits;
-  out.crc = sensor.crc.polynomial == 0 ? "-" : fmt::format("0x{:X}", sensor.crc.polynomial);
-  if (const auto* biss_c = std::get_if<sim::BissCSlaveConfig>(&preset.device)) {
-    out.protocol = "biss-c";
-    out.timeout = timeout_text(biss_c->timeout);
-    out.control = biss_c->control.present;
-  } else if (const auto* biss_b = std::get_if<sim::BissBSlaveConfig>(&preset.device)) {
-    out.protocol = "biss-b";
-    out.timeout = timeout_text(biss_b->timeout);
-    out.control = true;
-  } else {
-    const auto& ssi = std::get<sim::SsiSlaveConfig>(preset.device);
-    out.protocol = "ssi";
-    out.timeout = fmt::format("{:g} us", sim::to_us(ssi.monoflop));
-    out.control = ssi.control.present;
-  }
+  out.protocol = traits.protocol.key;
+  out.data_bits = device.data_bits == 0 ? "-" : fmt::format("{}", device.data_bits);
+  out.flag_bits = device.flag_bits;
+  out.crc = device.crc.polynomial == 0 ? "-" : fmt::format("0x{:X}", device.crc.polynomial);
+  out.timeout =
+      traits.timeout == 0 ? "adaptive" : fmt::format("{:g} us", sim::to_us(traits.timeout));
+  out.control = traits.registers;
   return out;
 }
 

@@ -11,11 +11,11 @@
 #include "exit_status.hpp"
 #include "fault_report.hpp"
 #include "frame_report.hpp"
-#include "mb4sim/one_line.hpp"
-#include "mb4sim/scenario.hpp"
 #include "mb4sim/simulator.hpp"
 #include "progress.hpp"
 #include "session.hpp"
+#include "sim/core/one_line.hpp"
+#include "sim/scenario/scenario.hpp"
 #include "worker_pool.hpp"
 
 namespace mb4::tool {

@@ -13,9 +13,9 @@
 #include "fault_report.hpp"
 #include "mb4/device.hpp"
 #include "mb4_regs_table.hpp"
-#include "mb4sim/scenario.hpp"
 #include "mb4sim/simulator.hpp"
 #include "messages.hpp"
+#include "sim/scenario/scenario.hpp"
 #include "sim_bus.hpp"
 
 namespace mb4::tool {

@@ -15,13 +15,13 @@
 #include "fault_report.hpp"
 #include "frame_report.hpp"
 #include "interrupts.hpp"
-#include "mb4sim/scenario.hpp"
 #include "mb4sim/simulator.hpp"
 #include "messages.hpp"
 #include "output_file.hpp"
 #include "progress.hpp"
 #include "run_outputs.hpp"
 #include "session.hpp"
+#include "sim/scenario/scenario.hpp"
 
 namespace mb4::tool {
 namespace {

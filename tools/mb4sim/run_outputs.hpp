@@ -8,8 +8,8 @@
 #include <memory>
 
 #include "commands.hpp"
-#include "mb4sim/scenario.hpp"
 #include "output_file.hpp"
+#include "sim/scenario/scenario.hpp"
 #include "trace_file.hpp"
 
 namespace mb4::tool {

@@ -14,9 +14,9 @@
 #include "fault_report.hpp"
 #include "mb4/device.hpp"
 #include "mb4/scan.hpp"
-#include "mb4sim/scenario.hpp"
 #include "mb4sim/simulator.hpp"
 #include "messages.hpp"
+#include "sim/scenario/scenario.hpp"
 #include "sim_bus.hpp"
 
 namespace mb4::tool {
@@ -164,7 +164,7 @@ int scan_command(const ScanOptions& options) {
   for (unsigned number = 1; number <= kChannels; ++number) {
     const sim::ChannelConfig* channel = scenario.channel(number);
     if (channel == nullptr) continue;
-    if (channel->protocol() != sim::LineProtocol::kBissC) {
+    if (!channel->protocol().control) {
       notes += fmt::format("channel {}: not scanned, only BiSS C slaves can be asked\n", number);
       continue;
     }

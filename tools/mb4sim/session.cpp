@@ -6,6 +6,7 @@
 
 #include "mb4/position.hpp"
 #include "mb4/scan.hpp"
+#include "sim/lines/biss/actuator.hpp"
 
 namespace mb4::tool {
 namespace {
@@ -23,9 +24,8 @@ Config session_config(const sim::Scenario& scenario) {
 // The word as the chip stores it for an SSI encoder with Gray code. The chip converts the flags
 // like a part of the Gray code. The driver restores two of them, nE and nW.
 std::uint64_t as_stored(const sim::SlaveConfig& slave, std::uint64_t word) {
-  const auto* ssi = std::get_if<sim::SsiSlaveConfig>(&slave.device);
   const unsigned flags = slave.flag_bits();
-  if (ssi == nullptr || !ssi->gray || flags == 0 || flags == 2 || flags >= 64) return word;
+  if (!slave.traits().gray || flags == 0 || flags == 2 || flags >= 64) return word;
   const std::uint64_t position = binary_to_gray(word >> flags) << flags;
   return gray_to_binary(position | (word & ((std::uint64_t{1} << flags) - 1)));
 }

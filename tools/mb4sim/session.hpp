@@ -17,8 +17,8 @@
 #include "fault_report.hpp"
 #include "frame_report.hpp"
 #include "mb4/device.hpp"
-#include "mb4sim/scenario.hpp"
 #include "mb4sim/simulator.hpp"
+#include "sim/scenario/scenario.hpp"
 #include "sim_bus.hpp"
 
 namespace mb4::tool {

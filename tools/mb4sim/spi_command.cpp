@@ -11,9 +11,9 @@
 #include "commands.hpp"
 #include "exit_status.hpp"
 #include "fault_report.hpp"
-#include "mb4sim/scenario.hpp"
 #include "mb4sim/simulator.hpp"
 #include "pair_warning.hpp"
+#include "sim/scenario/scenario.hpp"
 #include "sim_bus.hpp"
 
 namespace mb4::tool {

@@ -6,7 +6,7 @@
 
 #include <algorithm>
 
-#include "mb4sim/time.hpp"
+#include "sim/core/time.hpp"
 
 namespace mb4::tool {
 namespace {

@@ -20,8 +20,8 @@
 #include "commands.hpp"
 #include "exit_status.hpp"
 #include "file_descriptor.hpp"
-#include "mb4sim/scenario.hpp"
 #include "mb4sim/simulator.hpp"
+#include "sim/scenario/scenario.hpp"
 #include "trace_file.hpp"
 
 namespace mb4::tool {

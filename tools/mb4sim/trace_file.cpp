@@ -7,7 +7,7 @@
 #include <string_view>
 
 #include "exit_status.hpp"
-#include "mb4sim/wave_view.hpp"
+#include "sim/model/wave_view.hpp"
 
 namespace mb4::tool {
 namespace {

@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "mb4sim/scenario.hpp"
 #include "output_file.hpp"
+#include "sim/scenario/scenario.hpp"
 
 namespace mb4::tool {
 

@@ -10,8 +10,8 @@
 #include "chip_setup.hpp"
 #include "mb4/device.hpp"
 #include "mb4/opcodes.hpp"
-#include "mb4sim/scenario.hpp"
 #include "mb4sim/simulator.hpp"
+#include "sim/scenario/scenario.hpp"
 #include "sim_bus.hpp"
 
 namespace mb4::tool {
@@ -68,7 +68,7 @@ class Bench : public Workload {
     WorkCount count;
     count.clocks = simulator_.clk_cycles();
     count.time = simulator_.now();
-    for (unsigned number = 1; number <= sim::kMaxSlaves; ++number) {
+    for (unsigned number = 1; number <= simulator_.scenario().master->slaves; ++number) {
       const sim::Slave* slave = simulator_.slave(number);
       if (slave != nullptr) count.frames += slave->frames();
     }

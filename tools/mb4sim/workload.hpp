@@ -9,7 +9,7 @@
 #include <memory>
 #include <span>
 
-#include "mb4sim/time.hpp"
+#include "sim/core/time.hpp"
 
 namespace mb4::tool {
 

@@ -113,7 +113,7 @@ def sim_findings(arrows, files):
     findings = []
     for source, target, _, _ in arrows:
         if source in files and target in files and not any(
-                re.search(rf'#include "(?:mb4sim/)?{b}\.hpp"', files[a])
+                re.search(rf'#include "(?:[\w/]+/)?{b}\.hpp"', files[a])
                 for a, b in ((source, target), (target, source))):
             findings.append(f"{source} -> {target}: neither includes the other")
     return findings
@@ -144,7 +144,7 @@ PLANTED = {  # an arrow that is not true: what is found
 def check():
     modules = {path.stem: Module(path) for path in ROOT.glob("rtl/**/*.sv")}
     files = {}
-    for path in (*ROOT.glob("sim/include/mb4sim/*.hpp"), *ROOT.glob("sim/model/*.hpp"), *ROOT.glob("sim/src/*.cpp")):
+    for path in (*ROOT.glob("sim/**/*.hpp"), *ROOT.glob("sim/**/*.cpp")):
         files[path.stem] = files.get(path.stem, "") + path.read_text(encoding="utf-8")
     findings = []
     for line, expected in PLANTED.items():

@@ -14,23 +14,24 @@
 #include <string>
 #include <string_view>
 
-#include "mb4sim/event_queue.hpp"
-#include "mb4sim/fault_injector.hpp"
-#include "mb4sim/host_check.hpp"
-#include "mb4sim/host_pins.hpp"
-#include "mb4sim/line.hpp"
-#include "mb4sim/ma_pulse_check.hpp"
 #include "mb4sim/model_stopped.hpp"
-#include "mb4sim/parallel_host.hpp"
-#include "mb4sim/pins.hpp"
-#include "mb4sim/scenario.hpp"
-#include "mb4sim/slave.hpp"
-#include "mb4sim/spi_host.hpp"
-#include "mb4sim/time.hpp"
+#include "sim/core/event_queue.hpp"
+#include "sim/core/time.hpp"
+#include "sim/faults/fault_injector.hpp"
+#include "sim/hosts/host_check.hpp"
+#include "sim/hosts/host_pins.hpp"
+#include "sim/hosts/parallel_host.hpp"
+#include "sim/hosts/pins.hpp"
+#include "sim/hosts/spi_host.hpp"
+#include "sim/lines/line.hpp"
+#include "sim/lines/ma_pulse_check.hpp"
+#include "sim/lines/slave.hpp"
+#include "sim/scenario/scenario.hpp"
 
 namespace mb4::sim {
 
 class ChipModel;
+class SimulatorFaults;
 
 struct SimulatorOptions {
   std::optional<std::uint64_t> seed;      // replaces the scenario's seed
@@ -46,7 +47,7 @@ struct SimulatorOptions {
 class Simulator final : public HostPins {
  public:
   // Builds everything, resets the chip (NRES low for kResetLow) and returns at time kReady.
-  // Throws ScenarioError if the trace file cannot be written.
+  // Throws TraceError if the trace file cannot be written.
   explicit Simulator(const Scenario& scenario, const SimulatorOptions& options = {});
   ~Simulator();
   Simulator(const Simulator&) = delete;
@@ -122,6 +123,7 @@ class Simulator final : public HostPins {
   void flush_trace();
 
  private:
+  friend class SimulatorFaults;
   struct SlPin {
     Simulator* simulator;
     Pin pin;
@@ -150,6 +152,7 @@ class Simulator final : public HostPins {
   SpiHost spi2_;
   ParallelHost bus_;
   HostCheck host_check_;
+  std::unique_ptr<SimulatorFaults> fault_target_;
   std::unique_ptr<FaultInjector> injector_;
   Time now_ = 0;
   unsigned seen_ = 0;  // watched outputs that have been handled

@@ -1,0 +1,20 @@
+// SPDX-FileCopyrightText: 2026 The openmb4 authors
+// SPDX-License-Identifier: Apache-2.0
+#include "sim/core/scenario_error.hpp"
+
+namespace mb4::sim {
+
+SourcePos TableSource::of(std::string_view key) const {
+  const auto found = keys.find(key);
+  return found == keys.end() ? table : found->second;
+}
+
+ScenarioError::ScenarioError(const std::string& file, SourcePos where, std::string_view key,
+                             const std::string& message)
+    : ScenarioError(file + ":" +
+                    (where.line == 0
+                         ? ""
+                         : std::to_string(where.line) + ":" + std::to_string(where.column) + ":") +
+                    " key '" + std::string(key) + "': " + message) {}
+
+}  // namespace mb4::sim

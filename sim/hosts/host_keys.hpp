@@ -1,0 +1,20 @@
+// SPDX-FileCopyrightText: 2026 The openmb4 authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Reads the keys of a scenario that say how the host is connected. Throws ScenarioError.
+#ifndef MB4SIM_SRC_HOST_KEYS_HPP_
+#define MB4SIM_SRC_HOST_KEYS_HPP_
+
+#include <span>
+
+#include "sim/core/toml_reader.hpp"
+#include "sim/hosts/host_config.hpp"
+
+namespace mb4::sim {
+
+// `accepted`: the interfaces of the master, in the order in which they are listed to the user.
+void read_host_keys(TomlReader& reader, std::span<const HostInterface> accepted, HostConfig& host);
+
+}  // namespace mb4::sim
+
+#endif  // MB4SIM_SRC_HOST_KEYS_HPP_

@@ -1,0 +1,21 @@
+// SPDX-FileCopyrightText: 2026 The openmb4 authors
+// SPDX-License-Identifier: Apache-2.0
+#include "sim/lines/device.hpp"
+
+namespace mb4::sim {
+
+std::string_view DeviceConfig::refuses(SlaveFault fault) const {
+  switch (fault) {
+    case SlaveFault::kSilent:
+      return "";
+    case SlaveFault::kBusy:
+      return "only BiSS slaves have a busy time";
+    case SlaveFault::kWrongCrc:
+      return crc.width() == 0 ? "this slave sends no CRC" : "";
+    case SlaveFault::kWrongId:
+      return "only a BiSS C slave with control communication has an ID";
+  }
+  return "";
+}
+
+}  // namespace mb4::sim

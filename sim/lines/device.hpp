@@ -1,0 +1,115 @@
+// SPDX-FileCopyrightText: 2026 The openmb4 authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// A slave as a scenario describes it, whatever its protocol. The room of each protocol derives its
+// own configuration from DeviceConfig. The rest of the simulator asks questions and names no
+// protocol.
+#ifndef MB4SIM_DEVICE_HPP_
+#define MB4SIM_DEVICE_HPP_
+
+#include <concepts>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <utility>
+
+#include "sim/core/crc.hpp"
+#include "sim/core/time.hpp"
+#include "sim/lines/slave.hpp"
+
+namespace mb4::sim {
+
+// How the slaves of a line talk. All slaves of a line have the same.
+struct LineProtocol {
+  std::string_view key;    // as in the scenario: "biss-c"
+  std::string_view title;  // for the user: "BiSS C"
+  bool start_bit = true;   // slaves acknowledge and send a start bit before their data
+  bool control = false;    // CDS follows the start bit: a master can ask who is there
+
+  // Bits of a frame before the data.
+  unsigned leading_bits() const { return (start_bit ? 1U : 0U) + (control ? 1U : 0U); }
+  bool operator==(const LineProtocol& other) const { return key == other.key; }
+};
+
+// What a master must know of a device to read it, and a user to choose it.
+struct DeviceTraits {
+  LineProtocol protocol;
+  unsigned busy_periods = 0;  // periods of MA between acknowledge and start bit beyond one
+  // Time without an edge of MA after which a frame is over, ps. 0: the device measures MA.
+  Time timeout = 0;
+  bool gray = false;
+  bool actuator = false;   // it takes words from MO
+  bool stop_bit = false;   // actuator: a 0 precedes its data
+  bool registers = false;  // a master can reach registers
+  // What such a device is called if it must be alone on its line; empty: it need not be.
+  std::string_view alone{};
+};
+
+struct DeviceConfig {
+  std::string name;
+  unsigned data_bits = 28;  // 1 to 64, position and flags
+  unsigned flag_bits = 2;   // the lowest bits of the word that are not part of the position
+  Crc crc{0x43, 0};
+
+  virtual ~DeviceConfig() = default;
+  // `seed`: of the random values of this slave.
+  virtual std::unique_ptr<Slave> make_slave(std::uint64_t seed) const = 0;
+  virtual DeviceTraits traits() const = 0;
+  // Returns why the device cannot have this fault; empty if it can.
+  virtual std::string_view refuses(SlaveFault fault) const;
+  // The slave learns the number of IDs behind it. Returns the number of its own IDs that are fixed.
+  virtual unsigned set_ids_behind(unsigned /*ids*/) { return 0; }
+
+ protected:
+  DeviceConfig() = default;
+  DeviceConfig(const DeviceConfig&) = default;
+  DeviceConfig& operator=(const DeviceConfig&) = default;
+};
+
+// Holds a DeviceConfig of any kind by value.
+class Device {
+ public:
+  Device() = default;
+  template <std::derived_from<DeviceConfig> Config>
+  Device(Config config)  // NOLINT(google-explicit-constructor): a device is such a configuration
+      : config_(std::make_unique<Config>(std::move(config))), copy_(&copy_of<Config>) {}
+  Device(const Device& other)
+      : config_(other.copy_ == nullptr ? nullptr : other.copy_(*other.config_)),
+        copy_(other.copy_) {}
+  Device(Device&&) = default;
+  Device& operator=(Device other) {
+    config_ = std::move(other.config_);
+    copy_ = other.copy_;
+    return *this;
+  }
+  ~Device() = default;
+
+  DeviceConfig& operator*() { return *config_; }
+  const DeviceConfig& operator*() const { return *config_; }
+  DeviceConfig* operator->() { return config_.get(); }
+  const DeviceConfig* operator->() const { return config_.get(); }
+  // For a program that knows the protocol. Throws std::bad_cast if it is wrong.
+  template <typename Config>
+  Config& as() {
+    return dynamic_cast<Config&>(*config_);
+  }
+  template <typename Config>
+  const Config& as() const {
+    return dynamic_cast<const Config&>(*config_);
+  }
+
+ private:
+  using Copy = std::unique_ptr<DeviceConfig> (*)(const DeviceConfig& config);
+  template <typename Config>
+  static std::unique_ptr<DeviceConfig> copy_of(const DeviceConfig& config) {
+    return std::make_unique<Config>(static_cast<const Config&>(config));
+  }
+
+  std::unique_ptr<DeviceConfig> config_;
+  Copy copy_ = nullptr;
+};
+
+}  // namespace mb4::sim
+
+#endif  // MB4SIM_DEVICE_HPP_

@@ -1,0 +1,130 @@
+// SPDX-FileCopyrightText: 2026 The openmb4 authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// The interface of every device on a line. It has two sides: the line side (clock and data pins),
+// and an access from outside the line, by which a test sets values and looks at what has arrived.
+#ifndef MB4SIM_SLAVE_HPP_
+#define MB4SIM_SLAVE_HPP_
+
+#include <cstdint>
+#include <optional>
+
+#include "sim/core/time.hpp"
+#include "sim/lines/registers/register_file.hpp"
+#include "sim/lines/shift_register.hpp"
+
+namespace mb4::sim {
+
+class Actuator;
+class ControlSlave;
+
+// Faults that a scenario can ask of a slave.
+enum class SlaveFault { kSilent, kBusy, kWrongCrc, kWrongId };
+
+// Faults of a slave. A member is true as long as the fault lasts. SlaveChain::detach() and
+// ControlFaults make other faults.
+struct SlaveFaults {
+  bool silent = false;     // SLO is 1, whatever the slave sends
+  bool busy = false;       // BiSS: the acknowledge does not end
+  bool wrong_crc = false;  // the last bit of the CRC after the data is inverted
+};
+
+class Slave {
+ public:
+  Slave() = default;
+  Slave(const Slave&) = delete;
+  Slave& operator=(const Slave&) = delete;
+  virtual ~Slave() = default;
+
+  // --- line side, called by SlaveChain -------------------------------------------------------
+  // MA changes. The chain calls all its slaves at one time, from the farthest to the nearest one.
+  // `sli_before` is SLI before the edge; `sli` is SLI after the slaves behind have changed.
+  virtual void ma_edge(Time now, bool ma, bool sli_before, bool sli) = 0;
+  // SLI changed without an edge of MA.
+  virtual void sli_changed(Time now, bool sli) = 0;
+  // Called at deadline(). `sli` is the present level of SLI.
+  virtual void timer(Time now, bool sli) = 0;
+  // The chain reads the next values at every edge of MA, so they are not virtual.
+  // The next time at which the slave wants a call of timer() if nothing happens before; kNever if
+  // it wants none.
+  Time deadline() const { return deadline_; }
+  // Level of pin SLO.
+  bool slo() const { return slo_; }
+  // True between two frames: the timeout has elapsed.
+  bool idle() const { return idle_; }
+  // True in the data of a frame. There a rising edge of MA shifts, and nothing else happens before
+  // the timeout. Then the chain may call shift() at rising edges instead of ma_edge(). It must call
+  // last_edge() before any other call.
+  bool shifting() const { return shifting_ != nullptr; }
+  void shift(bool sli_before) {
+    shifting_->shift(sli_before && takes_sli_);
+    slo_ = shifting_->out();
+  }
+  // The last edge of MA was at `edge`; `ma` is its level since then.
+  virtual void last_edge(Time /*edge*/, bool /*ma*/) {}
+
+  // --- access from outside the line ----------------------------------------------------------
+  // Length of the process data in bits, without CRC.
+  virtual unsigned data_bits() const = 0;
+  // Sets the raw word that is latched from now on. Returns false if it does not fit into
+  // data_bits() or if the slave has no data of its own (replay).
+  virtual bool set_data(std::uint64_t raw) = 0;
+  // The raw word of the current or last frame. Nothing if the device does not know it (replay).
+  virtual std::optional<std::uint64_t> sent_word() const { return std::nullopt; }
+  // SlaveChain::refresh() applies a changed `silent`. The other faults are valid from the next
+  // frame on.
+  SlaveFaults& faults() { return faults_; }
+  // Begins or ends a fault that DeviceConfig::refuses() does not refuse.
+  virtual void set_fault(SlaveFault fault, bool on) {
+    if (fault == SlaveFault::kSilent) faults_.silent = on;
+    if (fault == SlaveFault::kBusy) faults_.busy = on;
+    if (fault == SlaveFault::kWrongCrc) faults_.wrong_crc = on;
+  }
+  const SlaveFaults& faults() const { return faults_; }
+  // Number of frames in which the slave has sent its start bit.
+  std::uint64_t frames() const { return frames_; }
+  // Number of CDM bits taken so far, and the last of them: the inverted level of MA at the end of
+  // the timeout. last_cdm() is false before the first one.
+  std::uint64_t cdm_count() const { return cdm_count_; }
+  bool last_cdm() const { return last_cdm_; }
+  // The slave's own registers; every address is valid. Below 0x40 they are those of bank 0.
+  std::uint8_t reg_read(std::uint8_t address) const { return registers_.get(address); }
+  void reg_write(std::uint8_t address, std::uint8_t value) { registers_.set(address, value); }
+  RegisterFile& registers() { return registers_; }
+  // Control communication with its counters and faults. Null if the device has none.
+  virtual ControlSlave* control() { return nullptr; }
+  // The words received over MO. Null if the device is not an actuator.
+  virtual const Actuator* actuator() const { return nullptr; }
+
+ protected:
+  void set_slo(bool level) { slo_ = level; }
+  void set_idle(bool idle) { idle_ = idle; }
+  // `data`: the register to shift, null if the slave is not shifting. `takes_sli`: bits from SLI
+  // come in; otherwise zeros come in.
+  void set_shifting(ShiftRegister* data, bool takes_sli) {
+    shifting_ = data;
+    takes_sli_ = takes_sli;
+  }
+  void set_deadline(Time deadline) { deadline_ = deadline; }
+  void count_frame() { ++frames_; }
+  void take_cdm(bool cdm) {
+    last_cdm_ = cdm;
+    ++cdm_count_;
+  }
+
+ private:
+  Time deadline_ = kNever;
+  bool slo_ = true;
+  bool idle_ = true;
+  bool takes_sli_ = false;
+  ShiftRegister* shifting_ = nullptr;
+  SlaveFaults faults_;
+  RegisterFile registers_;
+  std::uint64_t frames_ = 0;
+  std::uint64_t cdm_count_ = 0;
+  bool last_cdm_ = false;
+};
+
+}  // namespace mb4::sim
+
+#endif  // MB4SIM_SLAVE_HPP_

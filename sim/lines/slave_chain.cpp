@@ -1,0 +1,148 @@
+// SPDX-FileCopyrightText: 2026 The openmb4 authors
+// SPDX-License-Identifier: Apache-2.0
+#include "sim/lines/slave_chain.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace mb4::sim {
+
+void SlaveChain::add(std::unique_ptr<Slave> slave) {
+  if (attached_ == slaves_.size()) ++attached_;
+  slaves_.push_back(std::move(slave));
+}
+
+void SlaveChain::drive(Time now, bool ma, bool mo) {
+  if (ma != ma_) {
+    if (shifting_) {
+      shift(now, ma, mo);
+      report(now);
+      return;
+    }
+    const Standing standing = drive_slaves(now, ma, mo);
+    shifting_ = standing.shifting && !standing.idle && attached_ == slaves_.size();
+    timeout_ = standing.deadline - now;
+    last_edge_ = now;
+    finish(now, standing);
+  } else if (mo != mo_) {
+    catch_up();
+    mo_ = mo;
+    finish(now, settle_sli(now));
+  } else {
+    report(now);
+  }
+}
+
+// One pass from the far slave to the near one. SLI of each slave before the edge is what the slave
+// behind it sent until its call.
+SlaveChain::Standing SlaveChain::drive_slaves(Time now, bool ma, bool mo) {
+  Standing standing;
+  bool sli_before = end_level(mo_);
+  bool sli = end_level(mo);
+  ma_ = ma;
+  mo_ = mo;
+  for (std::size_t i = slaves_.size(); i-- > attached_;) standing.add(*slaves_[i]);
+  for (std::size_t i = attached_; i-- > 0;) {
+    Slave& slave = *slaves_[i];
+    const bool slo_before = slo_of(i);
+    slave.ma_edge(now, ma, sli_before, sli);
+    sli_before = slo_before;
+    sli = slo_of(i);
+    standing.add(slave);
+  }
+  return standing;
+}
+
+// The same in the data of a frame, which is the longest part of a frame.
+void SlaveChain::shift(Time now, bool ma, bool mo) {
+  last_edge_ = now;
+  deadline_ = now + timeout_;
+  bool sli_before = mo_;
+  ma_ = ma;
+  mo_ = mo;
+  if (!ma) return;
+  for (std::size_t i = attached_; i-- > 0;) {
+    const bool slo_before = slo_of(i);
+    slaves_[i]->shift(sli_before);
+    sli_before = slo_before;
+  }
+}
+
+// Ends the short way of shift() until the next edge of MA. The slaves learn the time of the last
+// edge.
+void SlaveChain::catch_up() {
+  if (!shifting_) return;
+  shifting_ = false;
+  for (const auto& slave : slaves_) slave->last_edge(last_edge_, ma_);
+}
+
+void SlaveChain::detach(Time now, std::size_t index) {
+  catch_up();
+  const std::size_t before = attached_;
+  attached_ = std::min(index, slaves_.size());
+  // If MA is 0, slaves that leave see it rise, and slaves that come back see it fall.
+  for (std::size_t i = slaves_.size(); !ma_ && i-- > std::min(before, attached_);) {
+    slaves_[i]->ma_edge(now, i >= attached_, sli_of(i), sli_of(i));
+  }
+  refresh(now);
+}
+
+void SlaveChain::refresh(Time now) {
+  catch_up();
+  finish(now, settle_sli(now));
+}
+
+SlaveChain::Standing SlaveChain::settle_sli(Time now) {
+  Standing standing;
+  for (std::size_t i = slaves_.size(); i-- > 0;) {
+    slaves_[i]->sli_changed(now, sli_of(i));
+    standing.add(*slaves_[i]);
+  }
+  return standing;
+}
+
+void SlaveChain::on_timer(Time now, void* receiver, std::uint64_t /*word*/) {
+  auto* chain = static_cast<SlaveChain*>(receiver);
+  if (now != chain->armed_at_) return;
+  chain->armed_at_ = kNever;
+  if (chain->shifting_ && now < chain->deadline_) {
+    chain->arm();
+    chain->report(now);
+    return;
+  }
+  chain->catch_up();
+  auto& slaves = chain->slaves_;
+  const bool running = !chain->idle_;
+  const bool level = chain->reported_;
+  for (std::size_t i = slaves.size(); i-- > 0;) {
+    if (slaves[i]->deadline() <= now) slaves[i]->timer(now, chain->sli_of(i));
+  }
+  chain->finish(now, chain->settle_sli(now));
+  // A frame that ends in a bit of 1 has no edge at its end.
+  if (running && level && chain->reported_ && chain->idle_) {
+    chain->output_(now, chain->receiver_, level);
+  }
+}
+
+void SlaveChain::finish(Time now, const Standing& standing) {
+  idle_ = standing.idle;
+  deadline_ = standing.deadline;
+  arm();
+  report(now);
+}
+
+// Keeps one timer event at or before the next deadline. Every edge of MA moves the deadline to a
+// later time. The event stays, and on_timer() posts a new one if it came too early.
+void SlaveChain::arm() {
+  if (deadline_ >= armed_at_) return;
+  armed_at_ = deadline_;
+  queue_.post(deadline_, &SlaveChain::on_timer, this);
+}
+
+void SlaveChain::report(Time now) {
+  if (slo() == reported_) return;
+  reported_ = !reported_;
+  output_(now, receiver_, reported_);
+}
+
+}  // namespace mb4::sim

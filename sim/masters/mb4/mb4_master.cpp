@@ -1,0 +1,76 @@
+// SPDX-FileCopyrightText: 2026 The openmb4 authors
+// SPDX-License-Identifier: Apache-2.0
+#include "sim/masters/mb4/mb4_master.hpp"
+
+#include <algorithm>
+#include <iterator>
+#include <string>
+#include <utility>
+
+#include "sim/core/toml_reader.hpp"
+#include "sim/masters/mb4/ma_frequency.hpp"
+
+namespace mb4::sim {
+namespace {
+
+constexpr HostInterface kInterfaces[] = {HostInterface::kSpi, HostInterface::kSpi2,
+                                         HostInterface::kIntel, HostInterface::kMotorola};
+constexpr std::int64_t kMaxClkHz = 200'000'000;
+
+// Bits of quirks_i, as in mb4_pkg.
+constexpr std::pair<const char*, unsigned> kQuirkBits[] = {{"IDA_TEST_INVERT", 0},
+                                                           {"AGSERR_ON_INSTR_WRITE", 1},
+                                                           {"AGSERR_ON_HOLDBANK", 2},
+                                                           {"AGS_CLEARED_ON_ERROR", 3}};
+constexpr unsigned kQuirkRevisionBit = 4;
+constexpr std::pair<std::int64_t, unsigned> kRevisions[] = {{0x20, 0}, {0x10, 1}, {0x11, 2}};
+
+void read_quirks(TomlReader& reader, ChipConfig& chip) {
+  for (const auto& [name, bit] : kQuirkBits) {
+    if (const auto on = reader.boolean(name)) {
+      chip.quirks = (chip.quirks & ~(1U << bit)) | (static_cast<unsigned>(*on) << bit);
+    }
+  }
+  if (const auto revision = reader.integer("REVISION", 0, 0xFF)) {
+    const auto* found = std::find_if(std::begin(kRevisions), std::end(kRevisions),
+                                     [&](const auto& entry) { return entry.first == *revision; });
+    if (found == std::end(kRevisions)) {
+      reader.fail("REVISION", "expected 0x20 (Y), 0x10 (Z) or 0x11 (Z1)");
+    }
+    chip.quirks |= found->second << kQuirkRevisionBit;
+  }
+}
+
+void read_host(TomlReader& reader, const ChipConfig& chip, HostConfig& host) {
+  host.ma_hz = default_ma_frequency(chip.system_hz());
+  if (const auto hz = reader.integer("ma_hz", 1, kMaxClkHz)) {
+    host.ma_hz = static_cast<std::uint64_t>(*hz);
+    if (!freqs_code(chip.system_hz(), host.ma_hz)) {
+      const NearestMa nearest = nearest_ma(chip.system_hz(), host.ma_hz);
+      std::string choice;
+      if (nearest.below != 0) choice = std::to_string(nearest.below);
+      if (nearest.above != 0) {
+        choice += (choice.empty() ? "" : " and ") + std::to_string(nearest.above);
+      }
+      reader.fail("ma_hz", "the chip cannot make " + std::to_string(host.ma_hz) + " Hz from " +
+                               std::to_string(chip.system_hz()) + " Hz; nearest: " + choice);
+    }
+  }
+}
+
+}  // namespace
+
+// SCDATA1 to SCDATA8. With SLAVELOC5 the last four are those of channel 2.
+const Master kMb4Master{.type = "ic-mb4",
+                        .interfaces = kInterfaces,
+                        .channels = 2,
+                        .slaves = 8,
+                        .slaves_shared = 4,
+                        .min_clk_hz = 1'000,
+                        .max_clk_hz = kMaxClkHz,
+                        .min_osc_hz = 10'000'000,
+                        .max_osc_hz = 25'000'000,
+                        .read_quirks = read_quirks,
+                        .read_host = read_host};
+
+}  // namespace mb4::sim

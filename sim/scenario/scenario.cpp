@@ -1,0 +1,165 @@
+// SPDX-FileCopyrightText: 2026 The openmb4 authors
+// SPDX-License-Identifier: Apache-2.0
+#include "sim/scenario/scenario.hpp"
+
+#include <algorithm>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "sim/core/text_file.hpp"
+#include "sim/core/toml_reader.hpp"
+#include "sim/hosts/host_keys.hpp"
+#include "sim/lines/protocols.hpp"
+#include "sim/scenario/scenario_channel.hpp"
+#include "sim/scenario/scenario_fault.hpp"
+
+namespace mb4::sim {
+namespace {
+
+const Master& read_master(const toml::table& table, TomlFile& file) {
+  TomlReader reader(table, file);
+  std::vector<std::string_view> types;
+  for (const Master* each : masters()) types.push_back(each->type);
+  const Master& master = *masters()[reader.choice("type", types).value_or(0)];
+  reader.finish();
+  return master;
+}
+
+ChipConfig read_chip(const toml::table& table, TomlFile& file, const Master& master) {
+  TomlReader reader(table, file);
+  ChipConfig chip;
+  if (const auto hz = reader.integer("f_clk_hz", 0, master.max_clk_hz)) {
+    if (*hz != 0 && *hz < master.min_clk_hz) {
+      reader.fail("f_clk_hz", std::to_string(*hz) + " is below " +
+                                  std::to_string(master.min_clk_hz) + " (0 = not connected)");
+    }
+    chip.f_clk_hz = static_cast<std::uint64_t>(*hz);
+  }
+  if (const auto hz = reader.integer("f_osc_hz", master.min_osc_hz, master.max_osc_hz)) {
+    chip.f_osc_hz = static_cast<std::uint64_t>(*hz);
+  }
+  if (const auto* quirks = reader.table("quirks")) {
+    TomlReader quirks_reader(*quirks, file);
+    master.read_quirks(quirks_reader, chip);
+    quirks_reader.finish();
+  }
+  chip.source = reader.source();
+  reader.finish();
+  return chip;
+}
+
+HostConfig read_host(const toml::table& table, TomlFile& file, const Master& master,
+                     const ChipConfig& chip) {
+  TomlReader reader(table, file);
+  HostConfig host;
+  read_host_keys(reader, master.interfaces, host);
+  master.read_host(reader, chip, host);
+  reader.finish();
+  host.source = reader.source();
+  return host;
+}
+
+void read_channels(const toml::array& channels, TomlFile& file, Scenario& scenario) {
+  for (const auto& node : channels) {
+    const toml::table& table = *node.as_table();
+    const Master& master = *scenario.master;
+    ChannelConfig channel = read_channel(table, file, master);
+    const TomlReader reader(table, file);
+    if (scenario.channel(channel.number) != nullptr) {
+      reader.fail("number", "channel " + std::to_string(channel.number) + " is given twice");
+    }
+    scenario.channels.push_back(std::move(channel));
+    unsigned last = 1;
+    for (const ChannelConfig& each : scenario.channels) last = std::max(last, each.number);
+    if (last == 1) continue;
+    for (const ChannelConfig& each : scenario.channels) {
+      if (each.slaves.size() > master.slaves_shared) {
+        reader.fail("slave", "with channel " + std::to_string(last) +
+                                 " in use a channel takes at most " +
+                                 std::to_string(master.slaves_shared) + " slaves");
+      }
+    }
+  }
+}
+
+}  // namespace
+
+Scenario::Scenario() : master(masters().front()) {}
+
+LineProtocol ChannelConfig::protocol() const {
+  return slaves.empty() ? protocols().front()->blank()->traits().protocol
+                        : slaves.front().protocol();
+}
+
+const ChannelConfig* Scenario::channel(unsigned number) const {
+  for (const ChannelConfig& each : channels) {
+    if (each.number == number) return &each;
+  }
+  return nullptr;
+}
+
+unsigned Scenario::channel_of(unsigned slave) const {
+  unsigned found = 1;
+  for (const ChannelConfig& each : channels) {
+    if (slave >= master->first_slave(each.number)) found = std::max(found, each.number);
+  }
+  return found;
+}
+
+const SlaveConfig* Scenario::slave(unsigned number) const {
+  if (number == 0) return nullptr;
+  const unsigned place = channel_of(number);
+  const ChannelConfig* found = channel(place);
+  const unsigned index = number - master->first_slave(place);
+  return found != nullptr && index < found->slaves.size() ? &found->slaves[index] : nullptr;
+}
+
+Scenario parse_scenario(std::string_view text, const std::string& name) {
+  Scenario scenario;
+  scenario.name = name;
+  toml::table root;
+  try {
+    root = toml::parse(text, name);
+  } catch (const toml::parse_error& error) {
+    const auto where = error.source().begin;
+    std::string description(error.description());
+    std::replace(description.begin(), description.end(), '\n', ' ');
+    throw ScenarioError(name + ":" + std::to_string(where.line) + ":" +
+                        std::to_string(where.column) + ": not valid TOML: " + description);
+  }
+  TomlFile file{name, std::nullopt};
+  TomlReader reader(root, file);
+  const auto* master = reader.table("master");
+  const auto* chip = reader.table("chip");
+  const auto* host = reader.table("host");
+  const auto* sim = reader.table("sim");
+  const auto* channels = reader.tables("channel");
+  const auto* faults = reader.tables("fault");
+  reader.finish();
+  if (master != nullptr) scenario.master = &read_master(*master, file);
+  if (chip != nullptr) scenario.chip = read_chip(*chip, file, *scenario.master);
+  const toml::table none;
+  scenario.host = read_host(host != nullptr ? *host : none, file, *scenario.master, scenario.chip);
+  if (sim != nullptr) {
+    TomlReader sim_reader(*sim, file);
+    scenario.seed = sim_reader.word("seed").value_or(scenario.seed);
+    sim_reader.finish();
+  }
+  if (channels != nullptr) read_channels(*channels, file, scenario);
+  if (faults != nullptr) {
+    for (const auto& node : *faults) {
+      scenario.faults.push_back(read_fault(*node.as_table(), scenario, file));
+    }
+  }
+  TomlReader::throw_missing(file);
+  scenario.source = reader.source();
+  return scenario;
+}
+
+Scenario load_scenario(const std::string& path) {
+  return parse_scenario(read_text_file(path), path);
+}
+
+}  // namespace mb4::sim

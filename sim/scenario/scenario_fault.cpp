@@ -1,0 +1,151 @@
+// SPDX-FileCopyrightText: 2026 The openmb4 authors
+// SPDX-License-Identifier: Apache-2.0
+#include "sim/scenario/scenario_fault.hpp"
+
+#include <algorithm>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "sim/core/number_text.hpp"
+#include "sim/core/toml_reader.hpp"
+#include "sim/faults/fault_types.hpp"
+
+namespace mb4::sim {
+namespace {
+
+constexpr double kMaxTimeUs = 1e9;
+constexpr double kMinPerS = 1e-6;
+constexpr double kMaxPerS = 1e7;
+
+// Number of bits of a frame that a random bit-flip may hit: start bit, CDS, data and CRC of all
+// slaves.
+unsigned frame_bits(const ChannelConfig& channel) {
+  unsigned bits = channel.protocol().leading_bits();
+  for (const SlaveConfig& slave : channel.slaves) bits += slave.data_bits() + slave.crc().width();
+  return std::max(bits, 1U);
+}
+
+// Refuses a key that only other kinds of fault have.
+void refuse(TomlReader& reader, FaultKind kind, const char* key) {
+  if (!reader.has(key)) return;
+  reader.fail(key, "a fault of kind '" + std::string(to_string(kind)) + "' has no such key");
+}
+
+void read_line(TomlReader& reader, const Scenario& scenario, FaultConfig& fault) {
+  const auto number = reader.integer("channel", 1, scenario.master->channels);
+  if (!number && scenario.channels.size() > 1) reader.missing("channel", "missing: there are two");
+  if (!number && scenario.channels.empty()) reader.fail("channel", "the scenario has none");
+  fault.channel = number ? static_cast<unsigned>(*number) : scenario.channels.front().number;
+  const ChannelConfig* channel = scenario.channel(fault.channel);
+  if (channel == nullptr) {
+    reader.fail("channel", "the scenario has no channel " + std::to_string(fault.channel));
+  }
+  fault.frame_bits = frame_bits(*channel);
+}
+
+void read_slave_fault(TomlReader& reader, const Scenario& scenario, FaultConfig& fault) {
+  const auto number = reader.integer("slave", 1, scenario.master->slaves);
+  if (!number) return reader.missing("slave");
+  fault.slave = static_cast<unsigned>(*number);
+  fault.channel = scenario.channel_of(fault.slave);
+  const SlaveConfig* slave = scenario.slave(fault.slave);
+  if (slave == nullptr) {
+    reader.fail("slave", "the scenario has no slave " + std::to_string(fault.slave));
+  }
+  const auto of_slave = fault_type(fault.kind).of_slave;
+  if (!of_slave) return;
+  const std::string_view refusal = slave->device->refuses(*of_slave);
+  if (!refusal.empty()) reader.fail("slave", std::string(refusal));
+}
+
+void read_place(TomlReader& reader, const Scenario& scenario, FaultConfig& fault) {
+  switch (fault_type(fault.kind).place) {
+    case FaultPlace::kLine:
+      return read_line(reader, scenario, fault);
+    case FaultPlace::kSlave:
+      return read_slave_fault(reader, scenario, fault);
+    case FaultPlace::kHost: {
+      const std::string_view refusal = host_kind(scenario.host.interface).refuses_abort;
+      if (!refusal.empty()) reader.fail("kind", std::string(refusal));
+      return;
+    }
+    case FaultPlace::kClock:
+      if (scenario.chip.f_clk_hz == 0) reader.fail("kind", "there is no clock at pin CLK");
+      return;
+  }
+}
+
+// Reads a time or a list of times.
+void read_at(TomlReader& reader, FaultConfig& fault) {
+  const toml::node* node = reader.node("at_us");
+  const auto add = [&](const toml::node& item) {
+    const auto value = item.value<double>();
+    if (!item.is_number() || !(*value >= 0 && *value <= kMaxTimeUs)) {
+      reader.fail_at(item.source(), "at_us",
+                     "expected microseconds of 0 to " + plain(kMaxTimeUs) + ", or a list of them");
+    }
+    fault.at.push_back(from_us(*value));
+  };
+  if (const toml::array* list = node->as_array()) {
+    if (list->empty()) reader.fail("at_us", "the list is empty");
+    for (const toml::node& item : *list) add(item);
+  } else {
+    add(*node);
+  }
+}
+
+void read_when(TomlReader& reader, FaultConfig& fault) {
+  const char* const one = "one of at_us (fixed times) and per_s (random) is needed";
+  if (reader.has("at_us") && reader.has("per_s")) reader.fail("at_us", one);
+  if (!reader.has("at_us") && !reader.has("per_s")) {
+    reader.missing("at_us", one);
+    reader.know({"per_s", "from_us", "to_us"});
+  } else if (reader.has("at_us")) {
+    read_at(reader, fault);
+    for (const char* key : {"from_us", "to_us"}) {
+      if (reader.has(key)) reader.fail(key, "only together with per_s");
+    }
+  } else {
+    fault.per_s = *reader.number("per_s", kMinPerS, kMaxPerS);
+    fault.from = from_us(reader.number("from_us", 0, kMaxTimeUs).value_or(0));
+    if (const auto to = reader.number("to_us", 0, kMaxTimeUs)) fault.to = from_us(*to);
+    if (fault.to < fault.from) reader.fail("to_us", "is before from_us");
+  }
+  if (is_momentary(fault.kind)) {
+    refuse(reader, fault.kind, "for_us");
+    return;
+  }
+  if (const auto us = reader.number("for_us", 0.001, kMaxTimeUs)) {
+    fault.duration = from_us(*us);
+  } else if (fault.at.empty()) {
+    reader.missing("for_us", "missing: how long does each of them last?");
+  }
+}
+
+}  // namespace
+
+FaultConfig read_fault(const toml::table& table, const Scenario& scenario, TomlFile& file) {
+  TomlReader reader(table, file);
+  FaultConfig fault;
+  std::vector<std::string_view> names;
+  for (const FaultType& type : fault_types()) names.push_back(type.name);
+  const auto kind = reader.choice("kind", names);
+  if (!kind) {
+    reader.missing("kind");
+    reader.know({"channel", "bits", "on", "level", "width_ns", "jitter_ns", "slave", "after_clocks",
+                 "hz", "at_us", "per_s", "from_us", "to_us", "for_us"});
+    reader.finish();
+    return fault;
+  }
+  const FaultType& type = fault_types()[*kind];
+  fault.kind = type.kind;
+  read_place(reader, scenario, fault);
+  type.read(reader, {scenario.master->min_clk_hz, scenario.master->max_clk_hz}, fault);
+  read_when(reader, fault);
+  reader.finish();
+  fault.line = reader.source().table.line;
+  return fault;
+}
+
+}  // namespace mb4::sim

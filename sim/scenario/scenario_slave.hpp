@@ -1,0 +1,20 @@
+// SPDX-FileCopyrightText: 2026 The openmb4 authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Reads the [[channel.slave]] part of a scenario.
+#ifndef MB4SIM_SRC_SCENARIO_SLAVE_HPP_
+#define MB4SIM_SRC_SCENARIO_SLAVE_HPP_
+
+#include <toml++/toml.h>
+
+#include "sim/core/toml_reader.hpp"
+#include "sim/scenario/scenario.hpp"
+
+namespace mb4::sim {
+
+// Reads one slave. Throws ScenarioError.
+SlaveConfig read_slave(const toml::table& table, TomlFile& file);
+
+}  // namespace mb4::sim
+
+#endif  // MB4SIM_SRC_SCENARIO_SLAVE_HPP_

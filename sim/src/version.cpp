@@ -1,9 +1,0 @@
-// SPDX-FileCopyrightText: 2026 The openmb4 authors
-// SPDX-License-Identifier: Apache-2.0
-#include "mb4sim/version.hpp"
-
-namespace mb4::sim {
-
-const char* version() { return MB4SIM_VERSION; }
-
-}  // namespace mb4::sim
