@@ -380,8 +380,14 @@ class Map:
 
     @property
     def places(self):
-        """(single field, its codes)."""
-        return [(f, e) for f in self.singles for e in self.enums if f.ident in e.users]
+        """(name, lowest bit, codes) of the coded fields whose place does not depend on a number."""
+        fields = [(f.ident, f) for f in self.singles]
+        for family in self.families:
+            if family.lsb_step == 0:
+                fields.append((family.ident, family.first))
+            elif family.count == 2:
+                fields += [(f"{family.ident}{f.index}", f) for f in family.fields]
+        return [(n, f.lsb, e) for n, f in fields for e in self.enums if {f.ident, f.ident + "x"} & set(e.users)]
 
     @property
     def groups(self):

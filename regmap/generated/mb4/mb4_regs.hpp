@@ -784,7 +784,7 @@ enum class CommandExecution : std::uint8_t {
   kTested = 1,
 };
 
-// Codes of single fields in place: k, field, code.
+// Codes in place: k, field, code.
 inline constexpr std::uint8_t kWnrRead = 0x00;
 inline constexpr std::uint8_t kWnrWrite = 0x80;
 inline constexpr std::uint8_t kChsel2NotUsed = 0x00;
@@ -880,6 +880,38 @@ inline constexpr std::uint8_t kIds7No = 0x00;
 inline constexpr std::uint8_t kIds7Yes = 0x01;
 inline constexpr std::uint8_t kIdaTestImmediate = 0x00;
 inline constexpr std::uint8_t kIdaTestTested = 0x08;
+inline constexpr std::uint8_t kGraysBinary = 0x00;
+inline constexpr std::uint8_t kGraysGray = 0x80;
+inline constexpr std::uint8_t kLstopWithout = 0x00;
+inline constexpr std::uint8_t kLstopWith = 0x80;
+inline constexpr std::uint8_t kEnscdNo = 0x00;
+inline constexpr std::uint8_t kEnscdYes = 0x40;
+inline constexpr std::uint8_t kSelcrcsByLength = 0x00;
+inline constexpr std::uint8_t kSelcrcsByPolynomial = 0x80;
+inline constexpr std::uint8_t kScrclenNone = 0x00;
+inline constexpr std::uint8_t kScrclenCrc3 = 0x03;
+inline constexpr std::uint8_t kScrclenCrc4 = 0x04;
+inline constexpr std::uint8_t kScrclenCrc5 = 0x05;
+inline constexpr std::uint8_t kScrclenCrc6 = 0x06;
+inline constexpr std::uint8_t kScrclenCrc7 = 0x07;
+inline constexpr std::uint8_t kScrclenCrc8 = 0x08;
+inline constexpr std::uint8_t kScrclenCrc16 = 0x10;
+inline constexpr std::uint8_t kCfgch1BissB = 0x00;
+inline constexpr std::uint8_t kCfgch1BissC = 0x01;
+inline constexpr std::uint8_t kCfgch1Ssi = 0x02;
+inline constexpr std::uint8_t kCfgch1Unused = 0x03;
+inline constexpr std::uint8_t kCfgch2BissB = 0x00;
+inline constexpr std::uint8_t kCfgch2BissC = 0x04;
+inline constexpr std::uint8_t kCfgch2Ssi = 0x08;
+inline constexpr std::uint8_t kCfgch2Unused = 0x0C;
+inline constexpr std::uint8_t kCds1Low = 0x00;
+inline constexpr std::uint8_t kCds1High = 0x02;
+inline constexpr std::uint8_t kCds2Low = 0x00;
+inline constexpr std::uint8_t kCds2High = 0x08;
+inline constexpr std::uint8_t kSl1Low = 0x00;
+inline constexpr std::uint8_t kSl1High = 0x01;
+inline constexpr std::uint8_t kSl2Low = 0x00;
+inline constexpr std::uint8_t kSl2High = 0x04;
 
 // First byte of an SPI frame. SPI2 knows only READ_REGISTERS and READ_REGISTERS0.
 enum class SpiOpcode : std::uint8_t {
@@ -890,6 +922,12 @@ enum class SpiOpcode : std::uint8_t {
   kReadRegisters0 = 0x09,  // Read upward from the first data byte.
   kWriteRegisters0 = 0x0B,  // Write upward from the first data byte.
 };
+inline constexpr std::uint8_t kSpiOpcodeWriteRegisters = 0x02;
+inline constexpr std::uint8_t kSpiOpcodeReadRegisters = 0x03;
+inline constexpr std::uint8_t kSpiOpcodeReadStatus = 0x05;
+inline constexpr std::uint8_t kSpiOpcodeWriteInstruction = 0x07;
+inline constexpr std::uint8_t kSpiOpcodeReadRegisters0 = 0x09;
+inline constexpr std::uint8_t kSpiOpcodeWriteRegisters0 = 0x0B;
 
 }  // namespace mb4::regs
 

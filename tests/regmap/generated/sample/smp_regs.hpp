@@ -209,7 +209,7 @@ enum class Mode : std::uint32_t {
   kAlways = 5,
 };
 
-// Codes of single fields in place: k, field, code.
+// Codes in place: k, field, code.
 inline constexpr std::uint32_t kModeOff = 0x00000000;
 inline constexpr std::uint32_t kModeSingle = 0x00001000;
 inline constexpr std::uint32_t kModeAlways = 0x00005000;
