@@ -4,7 +4,7 @@
 // The only list of the RTL files. Paths are relative to this folder; packages come first.
 mb4_pkg.sv
 line/biss_pkg.sv
-../regmap/generated/mb4_regs_pkg.sv
+../regmap/generated/mb4/mb4_regs_pkg.sv
 common/mb4_reset_sync.sv
 common/mb4_sync_bit.sv
 common/mb4_count_rx.sv

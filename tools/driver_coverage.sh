@@ -28,7 +28,7 @@ launcher=$(command -v ccache || true)
 tests=$root/tests/driver
 # Built without exceptions, as users build the driver: then no branch belongs to an exception.
 export FLAGS="-O0 --coverage -fno-inline -DMB4_EXAMPLES=\"$root/examples\" -I$root/drivers/include \
-  -I$root/regmap/generated -I$root -I$root/sim/include -I$root/tools/mb4sim -I$root/tests/chip \
+  -I$root/regmap/generated/mb4 -I$root -I$root/sim/include -I$root/tools/mb4sim -I$root/tests/chip \
   -I$tests -I$tests/ports"
 # compile COMPILER SOURCE...: one object each, two at once. A source that does not compile stops it.
 compile() {

@@ -23,13 +23,16 @@ module mb4_spi2 (
   input  logic [7:0] rd_data_i   // valid after that edge, until the next read
 );
 
+  // Data of slave 5.
+  localparam logic [7:0] FIRST = mb4_regs_pkg::ADDR_SCDATA + mb4_regs_pkg::SCDATA_STRIDE * 8'd4;
+
   logic       rd_en;
   logic [7:0] rd_addr;
   logic       inside_q;          // the last read was within 0x20..0x3F
   logic       wr_en;
   logic [7:0] wr_addr, wr_data;
 
-  mb4_spi #(.ReadOnly(1'b1), .Registers0(mb4_regs_pkg::ADDR_SCDATA + 8'h20)) u_spi (
+  mb4_spi #(.ReadOnly(1'b1), .Registers0(FIRST)) u_spi (
     .rst_ni,
     .sclk_i,
     .cs_ni,
@@ -46,7 +49,7 @@ module mb4_spi2 (
 
   always_ff @(posedge sclk_i or negedge rst_ni) begin
     if (!rst_ni)    inside_q <= 1'b0;
-    else if (rd_en) inside_q <= rd_addr[7:5] == 3'b001;
+    else if (rd_en) inside_q <= rd_addr[7:5] == FIRST[7:5];
   end
 
   assign rd_en_o   = rd_en;

@@ -26,18 +26,21 @@ module mb4_cfg_regs (
   output mb4_pkg::cfg_t cfg_o
 );
 
+  // Bits that the host cannot write stay 0.
   logic [7:0] regadr_q;
-  logic [5:0] regnum_q;
-  logic [1:0] chsel_q;
+  logic [7:0] regnum_q;
+  logic [7:0] chsel_q;
   logic [7:0] ctrl_q;
   logic [7:0] freq_q;
-  logic [1:0] bankcfg_q;
+  logic [7:0] bankcfg_q;
   logic [7:0] freqags_q;
   logic [7:0] mo_busy_q;
-  logic       slaveloc5_q;
-  logic [3:0] cfgch_q;
+  logic [7:0] slaveloc5_q;
+  logic [7:0] cfgch_q;
   logic [7:0] actnsens_q;
   logic [7:0] iface_q;
+
+  mb4_pkg::access_t access;
 
   always_ff @(posedge hclk_i or negedge rst_ni) begin
     if (!rst_ni) begin
@@ -55,18 +58,18 @@ module mb4_cfg_regs (
       iface_q     <= '0;
     end else if (wr_en_i) begin
       unique case (wr_addr_i)
-        mb4_regs_pkg::ADDR_REGADR:    regadr_q    <= wr_data_i;
-        mb4_regs_pkg::ADDR_REGNUM:    regnum_q    <= wr_data_i[5:0];
-        mb4_regs_pkg::ADDR_CHSEL:     chsel_q     <= wr_data_i[1:0];
+        mb4_regs_pkg::ADDR_REGADR:    regadr_q    <= wr_data_i & mb4_regs_pkg::WMASK_REGADR;
+        mb4_regs_pkg::ADDR_REGNUM:    regnum_q    <= wr_data_i & mb4_regs_pkg::WMASK_REGNUM;
+        mb4_regs_pkg::ADDR_CHSEL:     chsel_q     <= wr_data_i & mb4_regs_pkg::WMASK_CHSEL;
         mb4_regs_pkg::ADDR_CTRL:      ctrl_q      <= wr_data_i & mb4_regs_pkg::WMASK_CTRL;
-        mb4_regs_pkg::ADDR_FREQ:      freq_q      <= wr_data_i;
-        mb4_regs_pkg::ADDR_BANKCFG:   bankcfg_q   <= wr_data_i[1:0];
-        mb4_regs_pkg::ADDR_FREQAGS:   freqags_q   <= wr_data_i;
-        mb4_regs_pkg::ADDR_MO_BUSY:   mo_busy_q   <= wr_data_i;
-        mb4_regs_pkg::ADDR_SLAVELOC5: slaveloc5_q <= wr_data_i[4];
-        mb4_regs_pkg::ADDR_CFGCH:     cfgch_q     <= wr_data_i[3:0];
-        mb4_regs_pkg::ADDR_ACTNSENS:  actnsens_q  <= wr_data_i;
-        mb4_regs_pkg::ADDR_IFACE:     iface_q     <= wr_data_i;
+        mb4_regs_pkg::ADDR_FREQ:      freq_q      <= wr_data_i & mb4_regs_pkg::WMASK_FREQ;
+        mb4_regs_pkg::ADDR_BANKCFG:   bankcfg_q   <= wr_data_i & mb4_regs_pkg::WMASK_BANKCFG;
+        mb4_regs_pkg::ADDR_FREQAGS:   freqags_q   <= wr_data_i & mb4_regs_pkg::WMASK_FREQAGS;
+        mb4_regs_pkg::ADDR_MO_BUSY:   mo_busy_q   <= wr_data_i & mb4_regs_pkg::WMASK_MO_BUSY;
+        mb4_regs_pkg::ADDR_SLAVELOC5: slaveloc5_q <= wr_data_i & mb4_regs_pkg::WMASK_SLAVELOC5;
+        mb4_regs_pkg::ADDR_CFGCH:     cfgch_q     <= wr_data_i & mb4_regs_pkg::WMASK_CFGCH;
+        mb4_regs_pkg::ADDR_ACTNSENS:  actnsens_q  <= wr_data_i & mb4_regs_pkg::WMASK_ACTNSENS;
+        mb4_regs_pkg::ADDR_IFACE:     iface_q     <= wr_data_i & mb4_regs_pkg::WMASK_IFACE;
         default: ;  // not kept here
       endcase
     end
@@ -75,22 +78,49 @@ module mb4_cfg_regs (
   always_comb begin
     unique case (rd_addr_i)
       mb4_regs_pkg::ADDR_REGADR:    rd_data_o = regadr_q;
-      mb4_regs_pkg::ADDR_REGNUM:    rd_data_o = {2'b00, regnum_q};
-      mb4_regs_pkg::ADDR_CHSEL:     rd_data_o = {6'b000000, chsel_q};
+      mb4_regs_pkg::ADDR_REGNUM:    rd_data_o = regnum_q;
+      mb4_regs_pkg::ADDR_CHSEL:     rd_data_o = chsel_q;
       mb4_regs_pkg::ADDR_CTRL:      rd_data_o = ctrl_q;
       mb4_regs_pkg::ADDR_FREQ:      rd_data_o = freq_q;
-      mb4_regs_pkg::ADDR_BANKCFG:   rd_data_o = {6'b000000, bankcfg_q};
+      mb4_regs_pkg::ADDR_BANKCFG:   rd_data_o = bankcfg_q;
       mb4_regs_pkg::ADDR_FREQAGS:   rd_data_o = freqags_q;
       mb4_regs_pkg::ADDR_MO_BUSY:   rd_data_o = mo_busy_q;
-      mb4_regs_pkg::ADDR_SLAVELOC5: rd_data_o = {3'b000, slaveloc5_q, 4'b0001};
-      mb4_regs_pkg::ADDR_CFGCH:     rd_data_o = {4'b0000, cfgch_q};
+      mb4_regs_pkg::ADDR_SLAVELOC5: rd_data_o = slaveloc5_q | mb4_regs_pkg::RESET_SLAVELOC5;
+      mb4_regs_pkg::ADDR_CFGCH:     rd_data_o = cfgch_q;
       mb4_regs_pkg::ADDR_ACTNSENS:  rd_data_o = actnsens_q;
       mb4_regs_pkg::ADDR_IFACE:     rd_data_o = iface_q;
       default:                      rd_data_o = 8'h00;
     endcase
   end
 
-  assign cfg_o = {regadr_q, regnum_q, ctrl_q[7:3], chsel_q, ctrl_q[1:0], freq_q, bankcfg_q,
-                  freqags_q, mo_busy_q, slaveloc5_q, cfgch_q, actnsens_q, iface_q};
+  assign access.wnr     = regadr_q[mb4_regs_pkg::WNR_LSB];
+  assign access.regadr  = regadr_q[mb4_regs_pkg::REGADR_LSB +: mb4_regs_pkg::REGADR_W];
+  assign access.regnum  = regnum_q[mb4_regs_pkg::REGNUM_LSB +: mb4_regs_pkg::REGNUM_W];
+  assign access.cts     = ctrl_q[mb4_regs_pkg::CTS_LSB];
+  assign access.regvers = ctrl_q[mb4_regs_pkg::REGVERS_LSB];
+  assign access.slaveid = ctrl_q[mb4_regs_pkg::SLAVEID_LSB +: mb4_regs_pkg::SLAVEID_W];
+
+  assign cfg_o.access     = access;
+  assign cfg_o.chsel      = chsel_q[mb4_regs_pkg::CHSEL_LSB +: mb4_regs_pkg::CHSEL_W];
+  assign cfg_o.en_mo      = ctrl_q[mb4_regs_pkg::EN_MO_LSB];
+  assign cfg_o.holdcdm    = ctrl_q[mb4_regs_pkg::HOLDCDM_LSB];
+  assign cfg_o.freqr      = freq_q[mb4_regs_pkg::FREQR_LSB +: mb4_regs_pkg::FREQR_W];
+  assign cfg_o.freqs      = freq_q[mb4_regs_pkg::FREQS_LSB +: mb4_regs_pkg::FREQS_W];
+  assign cfg_o.nocrc      = bankcfg_q[mb4_regs_pkg::NOCRC_LSB];
+  assign cfg_o.singlebank = bankcfg_q[mb4_regs_pkg::SINGLEBANK_LSB];
+  assign cfg_o.freqags    = freqags_q;
+  assign cfg_o.mo_busy    = mo_busy_q;
+  assign cfg_o.slaveloc5  = slaveloc5_q[mb4_regs_pkg::SLAVELOC5_LSB];
+  assign cfg_o.cfgch2     = cfgch_q[mb4_regs_pkg::CFGCH_LSB + mb4_regs_pkg::CFGCH_LSB_STEP +:
+                                    mb4_regs_pkg::CFGCH_W];
+  assign cfg_o.cfgch1     = cfgch_q[mb4_regs_pkg::CFGCH_LSB +: mb4_regs_pkg::CFGCH_W];
+  assign cfg_o.actnsens   = actnsens_q;
+  assign cfg_o.mavo       = iface_q[mb4_regs_pkg::MAVO_LSB];
+  assign cfg_o.mafo       = iface_q[mb4_regs_pkg::MAFO_LSB];
+  assign cfg_o.mavs       = iface_q[mb4_regs_pkg::MAVS_LSB];
+  assign cfg_o.mafs       = iface_q[mb4_regs_pkg::MAFS_LSB];
+  assign cfg_o.cfgif      = iface_q[mb4_regs_pkg::CFGIF_LSB +: mb4_regs_pkg::CFGIF_W];
+  assign cfg_o.entest     = iface_q[mb4_regs_pkg::ENTEST_LSB];
+  assign cfg_o.clkeni     = iface_q[mb4_regs_pkg::CLKENI_LSB];
 
 endmodule

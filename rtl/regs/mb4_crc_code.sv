@@ -24,14 +24,14 @@ module mb4_crc_code (
 
   always_comb begin
     unique case (code_i)
-      7'h03:   poly_o = 8'h05;  // 0x0B
-      7'h04:   poly_o = 8'h09;  // 0x13
-      7'h05:   poly_o = 8'h12;  // 0x25
-      7'h06:   poly_o = 8'h21;  // 0x43
-      7'h07:   poly_o = 8'h44;  // 0x89
-      7'h08:   poly_o = 8'h97;  // 0x12F
-      7'h10:   poly_o = 8'hEC;  // 0x190D9
-      default: poly_o = 8'h00;
+      mb4_regs_pkg::CRC_LENGTH_CRC3:  poly_o = 8'h05;  // 0x0B
+      mb4_regs_pkg::CRC_LENGTH_CRC4:  poly_o = 8'h09;  // 0x13
+      mb4_regs_pkg::CRC_LENGTH_CRC5:  poly_o = 8'h12;  // 0x25
+      mb4_regs_pkg::CRC_LENGTH_CRC6:  poly_o = 8'h21;  // 0x43
+      mb4_regs_pkg::CRC_LENGTH_CRC7:  poly_o = 8'h44;  // 0x89
+      mb4_regs_pkg::CRC_LENGTH_CRC8:  poly_o = 8'h97;  // 0x12F
+      mb4_regs_pkg::CRC_LENGTH_CRC16: poly_o = 8'hEC;  // 0x190D9
+      default:                        poly_o = 8'h00;
     endcase
     if (selcrc_i) poly_o = {1'b0, code_i};
   end

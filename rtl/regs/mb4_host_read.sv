@@ -49,7 +49,9 @@ module mb4_host_read (
   logic [7:0] ram_data;
   logic [7:0] reg_d;
   logic [7:0] reg_q;
-  logic [3:0] flags_d;   // bits 7, 5, 3, 1 of the register, from bank 1
+  logic [7:0] status0, status3, status8;
+  logic [7:0] svalid_lo, svalid_hi;
+  logic [3:0] flags_d;   // bits at the places of SVALID, from bank 1
   logic [3:0] flags_q;
   logic       bank_q;
   logic       ready_q;
@@ -61,36 +63,57 @@ module mb4_host_read (
   assign reg_sel_d   = !(lo_sel_d || hi_sel_d || rdata_sel_d || slave_sel_d);
 
   always_comb begin
+    status0 = mb4_regs_pkg::RESET_STATUS0 & mb4_regs_pkg::CONST_STATUS0;
+    status0[mb4_regs_pkg::NERR_LSB]      = status_i.n_err;
+    status0[mb4_regs_pkg::NAGSERR_LSB]   = status_i.flags.n_agserr;
+    status0[mb4_regs_pkg::NDELAYERR_LSB] = status_i.flags.n_delayerr;
+    status0[mb4_regs_pkg::NSCDERR_LSB]   = status_i.flags.n_scderr;
+    status0[mb4_regs_pkg::NREGERR_LSB]   = status_i.flags.n_regerr;
+    status0[mb4_regs_pkg::REGEND_LSB]    = status_i.flags.regend && !control_pending_i;
+    status0[mb4_regs_pkg::EOT_LSB]       = status_i.flags.eot && !instr_pending_i;
+    status3 = mb4_regs_pkg::RESET_STATUS3 & mb4_regs_pkg::CONST_STATUS3;
+    status3[mb4_regs_pkg::CDMTIMEOUT_LSB] = status_i.flags.cdm_timeout;
+    status3[mb4_regs_pkg::CDSSEL_LSB]     = status_i.cdssel;
+    status3[mb4_regs_pkg::REGBYTES_LSB +: mb4_regs_pkg::REGBYTES_W] = status_i.flags.regbytes;
+    status8 = mb4_regs_pkg::RESET_STATUS8 & mb4_regs_pkg::CONST_STATUS8;
+    status8[mb4_regs_pkg::CDS_LSB]                              = status_i.cds1;
+    status8[mb4_regs_pkg::CDS_LSB + mb4_regs_pkg::CDS_LSB_STEP] = status_i.cds2;
+    status8[mb4_regs_pkg::SL_LSB]                               = status_i.sl1;
+    status8[mb4_regs_pkg::SL_LSB + mb4_regs_pkg::SL_LSB_STEP]   = status_i.sl2;
+    svalid_lo = mb4_regs_pkg::RESET_SVALID_LO & mb4_regs_pkg::CONST_SVALID_LO;
+    svalid_hi = mb4_regs_pkg::RESET_SVALID_HI & mb4_regs_pkg::CONST_SVALID_HI;
+    for (int unsigned i = 0; i < 4; i++) begin
+      svalid_lo[mb4_regs_pkg::SVALID_LSB + mb4_regs_pkg::SVALID_LSB_STEP * i] = svalid_i[i];
+      svalid_hi[mb4_regs_pkg::SVALID_LSB + mb4_regs_pkg::SVALID_LSB_STEP * i] = svalid_i[4+i];
+    end
+  end
+
+  always_comb begin
     unique case (rd_addr_i)
       mb4_regs_pkg::ADDR_REVISION:
         unique case (revision_sel_i)
-          2'd1:    reg_d = 8'h10;
-          2'd2:    reg_d = 8'h11;
+          2'd1:    reg_d = mb4_regs_pkg::DEVICE_REVISION_Z;
+          2'd2:    reg_d = mb4_regs_pkg::DEVICE_REVISION_Z1;
           default: reg_d = mb4_regs_pkg::RESET_REVISION;
         endcase
       mb4_regs_pkg::ADDR_VERSION:
         reg_d = mb4_regs_pkg::RESET_VERSION;
       mb4_regs_pkg::ADDR_STATUS0:
-        reg_d = {status_i.n_err, status_i.flags.n_agserr, status_i.flags.n_delayerr,
-                 status_i.flags.n_scderr, status_i.flags.n_regerr,
-                 status_i.flags.regend && !control_pending_i, 1'b1,
-                 status_i.flags.eot && !instr_pending_i};
+        reg_d = status0;
       mb4_regs_pkg::ADDR_SVALID_LO:
-        reg_d = {svalid_i[3], 1'b0, svalid_i[2], 1'b0,
-                 svalid_i[1], 1'b0, svalid_i[0], 1'b0};
+        reg_d = svalid_lo;
       mb4_regs_pkg::ADDR_SVALID_HI:
-        reg_d = {svalid_i[7], 1'b0, svalid_i[6], 1'b0,
-                 svalid_i[5], 1'b0, svalid_i[4], 1'b0};
+        reg_d = svalid_hi;
       mb4_regs_pkg::ADDR_STATUS3:
-        reg_d = {status_i.flags.cdm_timeout, status_i.cdssel, status_i.flags.regbytes};
+        reg_d = status3;
       mb4_regs_pkg::ADDR_INSTR:
         reg_d = instr_data_i;
       mb4_regs_pkg::ADDR_STATUS8:
-        reg_d = {4'b0101, status_i.cds2, status_i.sl2, status_i.cds1, status_i.sl1};
+        reg_d = status8;
       mb4_regs_pkg::ADDR_STATUS9:
         reg_d = mb4_regs_pkg::RESET_STATUS9;
       mb4_regs_pkg::ADDR_SWBANKFAIL:
-        reg_d = {7'b0000000, status_i.flags.swbank_fail};
+        reg_d = 8'(status_i.flags.swbank_fail) << mb4_regs_pkg::SWBANKFAIL_LSB;
       default:
         reg_d = cfg_data_i;
     endcase
@@ -100,7 +123,11 @@ module mb4_host_read (
     unique case (rd_addr_i)
       mb4_regs_pkg::ADDR_SVALID_LO: flags_d = svalid_i[11:8];
       mb4_regs_pkg::ADDR_SVALID_HI: flags_d = svalid_i[15:12];
-      default:                      flags_d = {reg_d[7], reg_d[5], reg_d[3], reg_d[1]};
+      default: begin
+        for (int unsigned i = 0; i < 4; i++) begin
+          flags_d[i] = reg_d[mb4_regs_pkg::SVALID_LSB + mb4_regs_pkg::SVALID_LSB_STEP * i];
+        end
+      end
     endcase
   end
 
@@ -128,8 +155,14 @@ module mb4_host_read (
     end
   end
 
-  assign reg_data = bank_q ? {flags_q[3], reg_q[6], flags_q[2], reg_q[4],
-                              flags_q[1], reg_q[2], flags_q[0], reg_q[0]} : reg_q;
+  always_comb begin
+    reg_data = reg_q;
+    for (int unsigned i = 0; i < 4; i++) begin
+      if (bank_q) begin
+        reg_data[mb4_regs_pkg::SVALID_LSB + mb4_regs_pkg::SVALID_LSB_STEP * i] = flags_q[i];
+      end
+    end
+  end
 
   // An AND-OR choice is short: half an SCLK period is left for the path to MISO.
   assign ram_data =

@@ -52,7 +52,7 @@ module mb4_instr_reg (
       count_q <= '0;
       bank_q  <= 1'b0;
     end else if (wr_en_i && wr_addr_i == mb4_regs_pkg::ADDR_INSTR) begin
-      byte_q  <= {wr_data_i[7] || (byte_q[7] && pending_o), wr_data_i[6:0]};
+      byte_q  <= wr_data_i | (byte_q & {8{pending_o}} & mb4_regs_pkg::BREAK_MASK);
       if (count_q != ~ack_i) count_q <= {count_q[0], !count_q[1]};
       bank_q  <= bank_o;
     end
@@ -61,9 +61,9 @@ module mb4_instr_reg (
   assign written_o = byte_q;
   assign count_o   = count_q;
   assign pending_o = count_q != ack_i;
-  assign pending_control_o = pending_o && byte_q[3];
-  assign bank_o      = (pending_o && byte_q[6]) ? bank_q : host_bank_i;
+  assign pending_control_o = pending_o && byte_q[mb4_regs_pkg::INSTR_LSB + 2];
+  assign bank_o      = (pending_o && byte_q[mb4_regs_pkg::HOLDBANK_LSB]) ? bank_q : host_bank_i;
   assign bank_kept_o = bank_q;
-  assign rd_data_o = pending_o ? {1'b0, byte_q[6:0]} : held_i;
+  assign rd_data_o = pending_o ? (byte_q & ~mb4_regs_pkg::BREAK_MASK) : held_i;
 
 endmodule

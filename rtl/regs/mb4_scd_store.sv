@@ -59,6 +59,7 @@ module mb4_scd_store #(
 );
 
   logic       post_lo, post_hi, post_svalid_lo, post_svalid_hi;
+  logic [3:0] keep;
   logic       ready_lo, ready_hi;
   logic       lo_wr_en, hi_wr_en;
   logic [5:0] lo_wr_addr, hi_wr_addr;
@@ -68,11 +69,15 @@ module mb4_scd_store #(
   logic [7:0] svalid_lo, svalid_hi;
   logic [15:0] rd2_lo_data;
 
-  assign post_lo        = post_valid_i && post_i[15:13] == 3'b000;
-  assign post_hi        = post_valid_i && post_i[15:13] == 3'b001;
+  assign post_lo        = post_valid_i && post_i[15:13] == mb4_regs_pkg::ADDR_SCDATA[7:5];
+  assign post_hi        = post_valid_i && post_i[15:13] == mb4_regs_pkg::ADDR_SCDATA[7:5] + 3'd1;
   assign post_svalid_lo = post_valid_i && post_i[15:8] == mb4_regs_pkg::ADDR_SVALID_LO;
   assign post_svalid_hi = post_valid_i && post_i[15:8] == mb4_regs_pkg::ADDR_SVALID_HI;
   assign post_ready_o   = (ready_lo || !post_lo) && (ready_hi || !post_hi);
+
+  for (genvar i = 0; i < 4; i++) begin : gen_keep
+    assign keep[i] = post_i[mb4_regs_pkg::SVALID_LSB + mb4_regs_pkg::SVALID_LSB_STEP * i];
+  end
 
   mb4_rx_router u_router (
     .slaveloc5_i,
@@ -163,7 +168,7 @@ module mb4_scd_store #(
     .split_i     (word_split_i[0] && !slave_i[2]),
     .clear_i     (svalid_clear_i),
     .keep_en_i   (post_svalid_lo),
-    .keep_i      ({post_i[7], post_i[5], post_i[3], post_i[1]}),
+    .keep_i      (keep),
     .svalid_o    (svalid_lo)
   );
 
@@ -179,7 +184,7 @@ module mb4_scd_store #(
     .split_i     (slaveloc5_i ? word_split_i[1] && slave_i[5] : word_split_i[0] && slave_i[2]),
     .clear_i     (svalid_clear_i),
     .keep_en_i   (post_svalid_hi),
-    .keep_i      ({post_i[7], post_i[5], post_i[3], post_i[1]}),
+    .keep_i      (keep),
     .svalid_o    (svalid_hi)
   );
 

@@ -43,7 +43,8 @@ module mb4_slave_cfg #(
   logic [3:0]  wr_en;
   logic [31:0] wr_data;
   logic [31:0] rd_data;
-  logic [7:0]  crc_poly;  // of a row's second byte
+  logic [7:0]  crc_byte;
+  logic [7:0]  crc_poly;  // of crc_byte
   logic [3:0]  sel_q;     // byte of the row that the host reads; 0: row not written
 
   assign row     = wr_addr_i[4:2];
@@ -52,20 +53,23 @@ module mb4_slave_cfg #(
   assign wr_data = {wr_data_i & {8{byte_en[3]}}, wr_data_i & {8{byte_en[2]}},
                     wr_data_i & {8{byte_en[1]}}, wr_data_i & {8{byte_en[0]}}};
 
+  assign crc_byte = wr_data[32'd8 * 32'(mb4_regs_pkg::SLAVE_CFG_CRC_OFFSET) +: 8];
+
   always_ff @(posedge hclk_i or negedge rst_ni) begin
     if (!rst_ni) begin
       rows_q  <= '0;
       enscd_q <= '0;
     end else if (wr_en_i) begin
       rows_q[row] <= 1'b1;
-      // ENSCDx is bit 6 of the row's first byte.
-      if (byte_en[0]) enscd_q[row] <= wr_data_i[6];
+      if (byte_en[mb4_regs_pkg::SLAVE_CFG_LENGTH_OFFSET[1:0]]) begin
+        enscd_q[row] <= wr_data_i[mb4_regs_pkg::ENSCD_LSB];
+      end
     end
   end
 
   mb4_crc_code u_code (
-    .selcrc_i (wr_data[15]),
-    .code_i   (wr_data[14:8]),
+    .selcrc_i (crc_byte[mb4_regs_pkg::SELCRCS_LSB]),
+    .code_i   (crc_byte[mb4_regs_pkg::SCRCLEN_LSB +: mb4_regs_pkg::SCRCLEN_W]),
     .poly_o   (crc_poly)
   );
 

@@ -24,7 +24,7 @@ case $case in
     driver=$work/copy
     cp -r "$root/drivers" "$driver"
     if [ "$case" = copied_with_header ]; then
-      cp "$root/regmap/generated/mb4_regs.hpp" "$driver/include/"
+      cp "$root/regmap/generated/mb4/mb4_regs.hpp" "$driver/include/"
     fi
     ;;
 esac

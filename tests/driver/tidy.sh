@@ -18,7 +18,7 @@ if ! command -v "$tidy" > /dev/null 2>&1; then
 fi
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
-flags="-std=c++17 -fno-exceptions -fno-rtti -I$root/drivers/include -I$root/regmap/generated"
+flags="-std=c++17 -fno-exceptions -fno-rtti -I$root/drivers/include -I$root/regmap/generated/mb4"
 
 run() {
   "$tidy" --quiet --config-file="$root/drivers/.clang-tidy" "$1" -- $flags

@@ -26,7 +26,7 @@ def run(manual, work):
     source.write_text("".join(block.text for block in blocks if block.language == "cpp"),
                       encoding="utf-8")
     subprocess.run([COMPILER, "-std=c++17", "-O2", f"-I{ROOT}/drivers/include",
-                    f"-I{ROOT}/regmap/generated", str(source), "-o", str(program)], check=True,
+                    f"-I{ROOT}/regmap/generated/mb4", str(source), "-o", str(program)], check=True,
                    timeout=120)
     return subprocess.run([MB4SIM, "spidev", "--scenario", f"{ROOT}/tests/dropin/golden.toml", "--",
                            str(program)], capture_output=True, text=True, timeout=60, check=False)

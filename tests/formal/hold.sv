@@ -13,7 +13,8 @@
 // cover: 34
 // unbounded: no: frames' ends, both halves and the crossing together are bounded only
 // mutation: regs/mb4_bank_ctrl.sv | host_q != (kept_i ^ swbank_q) | 1'b0 != 1'b0
-// mutation: regs/mb4_instr_reg.sv | (pending_o && byte_q[6]) ? bank_q : host_bank_i | host_bank_i
+// mutation: regs/mb4_instr_reg.sv | (pending_o && byte_q[mb4_regs_pkg::HOLDBANK_LSB]) ? bank_q : host_bank_i
+//   | host_bank_i
 // mutation: regs/mb4_bank_ctrl.sv | assign swap = want && !holdbank_i;
 //   | assign swap = want && !undo;
 

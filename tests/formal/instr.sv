@@ -19,9 +19,9 @@
 // mutation: common/mb4_count_rx.sv | sync != taken_q && ack_q == taken_q; | sync != taken_q;
 // mutation: common/mb4_count_rx.sv | ack_q  <= late_q; | ack_q  <= taken_q;
 // mutation: common/mb4_sync_bit.sv | {sync_q[0], data_i} | {2{data_i}}
-// mutation: regs/mb4_instr_reg.sv | wr_data_i[7] || (byte_q[7] && pending_o) | wr_data_i[7]
-// mutation: regs/mb4_instr_reg.sv | wr_data_i[7] || (byte_q[7] && pending_o)
-//   | wr_data_i[7] || byte_q[7]
+// mutation: regs/mb4_instr_reg.sv | (byte_q & {8{pending_o}} & mb4_regs_pkg::BREAK_MASK) | 8'h00
+// mutation: regs/mb4_instr_reg.sv | (byte_q & {8{pending_o}} & mb4_regs_pkg::BREAK_MASK)
+//   | (byte_q & mb4_regs_pkg::BREAK_MASK)
 // mutation: regs/mb4_instr_reg.sv | if (count_q != ~ack_i) count_q | count_q
 // mutation: regs/mb4_instr_reg.sv | if (count_q != ~ack_i) count_q | if (count_q == ack_i) count_q
 

@@ -58,7 +58,7 @@ STILL = {
     ("sim/model/edge/count_parts.cpp", "tools/mb4sim/workload.hpp"): "the workloads of mb4sim bench",
 }
 # Folders in which an include in quotes or angle brackets is looked for, behind the file's own.
-INCLUDE_FOLDERS = ("sim/include/", "drivers/include/", "regmap/generated/", "sim/model/",
+INCLUDE_FOLDERS = ("sim/include/", "drivers/include/", "regmap/generated/mb4/", "sim/model/",
                    "tools/mb4sim/", "drivers/c/", "")
 CPP = (".cpp", ".hpp", ".c", ".h")
 
@@ -145,7 +145,7 @@ def self_test():
         "sim/include/mb4sim/a.hpp": "", "sim/lines/l.hpp": "", "sim/lines/biss/b.hpp": "",
         "tools/mb4sim/t.hpp": "", "drivers/include/mb4/d.hpp": "",
         "rtl/line/mb4_frame.sv": "  mb4_ram #(.Width(8)) u_a (\n", "rtl/common/mb4_ram.sv": "",
-        "rtl/regs/mb4_bank.sv": "", "regmap/generated/mb4_regs_pkg.sv": "",
+        "rtl/regs/mb4_bank.sv": "", "regmap/generated/mb4/mb4_regs_pkg.sv": "",
     }
     cases = (
         ("sim/capi/a.cpp", '#include "mb4sim/a.hpp"\n', 0),

@@ -39,16 +39,16 @@ MACHINE_PATH = re.compile(
 MODE = re.compile(r"(?<![\w-])--(?:cc|sc|binary|lint-only|xml-only|dpi-hdr-only)\b")
 
 # CMake takes the version from its line (mb4sim --version, libmb4sim, pkg-config, openmb4Config.cmake),
-# and so do tools/release.sh and regmap/generate.py. These cannot: FuseSoC reads the core file as it
-# stands, the driver works as a copied folder, and the register map's files are checked in.
+# and so do tools/release.sh and regmap/generator. These cannot: FuseSoC reads the core file as it
+# stands, the driver works as a copied folder, and the files of each register map are checked in.
 VERSION_FILE = "CMakeLists.txt"
 VERSION_LINE = r"(?m)^project\(openmb4 VERSION (\d+)\.(\d+)\.(\d+)\b"
 VERSION_COPIES = {
     "openmb4.core": r"(?m)^name: openmb4:ip:mb4:(\d+)\.(\d+)\.(\d+)$",
     "drivers/include/mb4/version.hpp":
         r"VersionMajor = (\d+);[^;]*VersionMinor = (\d+);[^;]*VersionPatch = (\d+);",
-    "regmap/generated/mb4.ipxact.xml": r"<ipxact:version>(\d+)\.(\d+)\.(\d+)</ipxact:version>",
 }
+IPXACT = ".ipxact.xml", r"<ipxact:version>(\d+)\.(\d+)\.(\d+)</ipxact:version>"
 # The newest release; a tree before its first release has none.
 RELEASE = {"CHANGELOG.md": r"(?m)^## \[(\d+)\.(\d+)\.(\d+)\]"}
 
@@ -142,7 +142,8 @@ def version_findings(files):
         return [f"{VERSION_FILE}:1: no line project(openmb4 VERSION x.y.z"]
     version = ".".join(line.groups())
     findings = []
-    for name, pattern in {**VERSION_COPIES, **RELEASE}.items():
+    copies = VERSION_COPIES | {name: IPXACT[1] for name in files if name.endswith(IPXACT[0])}
+    for name, pattern in {**copies, **RELEASE}.items():
         copy = re.search(pattern, files.get(name) or "")
         if copy is None and name in RELEASE:
             continue
@@ -151,7 +152,7 @@ def version_findings(files):
             findings.append(f"{name}:1: version {said}; {VERSION_FILE} says {version}")
     # "==1.2.3" is the version of somebody else's package.
     literal = re.compile(rf"(?<![\w.=]){re.escape(version)}(?!\w|\.\d)")
-    for name in files.keys() - {VERSION_FILE, *VERSION_COPIES, *RELEASE}:
+    for name in files.keys() - {VERSION_FILE, *copies, *RELEASE}:
         for number, row in enumerate((files[name] or "").splitlines(), 1):
             if literal.search(row):
                 findings.append(f"{name}:{number}: repeats the version {version} of {VERSION_FILE}")
@@ -201,7 +202,7 @@ def self_test():
                              ("x\n", False, 0), (None, True, 1)):
         expect(count, runnable_findings({"a": text}, lambda _, bit=bit: bit), f"run bit of {text}")
 
-    core, header, ipxact, changelog = *VERSION_COPIES, *RELEASE
+    core, header, ipxact, changelog = *VERSION_COPIES, "any" + IPXACT[0], *RELEASE
     good = {VERSION_FILE: "project(openmb4 VERSION 1.2.3 LANGUAGES C)\n",
             core: "name: openmb4:ip:mb4:1.2.3\n",
             header: "kVersionMajor = 1;\nint kVersionMinor = 2;\nint kVersionPatch = 3;\n",

@@ -121,7 +121,7 @@ class Package(unittest.TestCase):
         for name in ("bin/mb4sim", "include/mb4sim.h", "include/openmb4/mb4/device.hpp",
                      "include/openmb4/mb4_regs.hpp", "share/openmb4/rtl/mb4.f",
                      "share/openmb4/rtl/mb4_core.sv", "share/openmb4/rtl/mb4_check.svh",
-                     "share/openmb4/regmap/generated/mb4_regs_pkg.sv", "share/man/man1/mb4sim.1",
+                     "share/openmb4/regmap/generated/mb4/mb4_regs_pkg.sv", "share/man/man1/mb4sim.1",
                      "share/openmb4/examples/resolute-26.toml",
                      "share/bash-completion/completions/mb4sim",
                      "share/zsh/site-functions/_mb4sim"):

@@ -7,7 +7,7 @@ The datasheet's text (with '|' tables, as a PDF to Markdown converter leaves it)
 variable MB4_DATASHEET. Two things are read from it:
   * table 6, the layout: for each of the 256 addresses the names of all bits, constants and reserved bits
   * tables 7 to 67: for each field its address, bits, access, table, page and the codes listed for it
-Both are compared with regmap/generated/mb4_regs.json in both directions.
+Both are compared with regmap/generated/mb4/mb4_regs.json in both directions.
 
 --self-test spoils single entries of the map in memory and expects each to be reported.
 """
@@ -20,7 +20,7 @@ import re
 import sys
 from pathlib import Path
 
-MAP = Path(__file__).resolve().parents[2] / "regmap" / "generated" / "mb4_regs.json"
+MAP = Path(__file__).resolve().parents[2] / "regmap" / "generated" / "mb4" / "mb4_regs.json"
 SKIPPED = 77
 
 # Known slips: page, text as found, text as meant, how often, reason. Each has to occur, or it is reported.

@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
 # SPDX-FileCopyrightText: 2026 The openmb4 authors
 # SPDX-License-Identifier: Apache-2.0
-"""Generate the register map anew, twice, and compare with the files that are checked in.
+"""Generate the maps of regmap/ and of the tests anew, twice, and compare with the files that are checked in.
 
-Runs with this Python if it has the packages of regmap/requirements.txt, else with that of the virtual
+Runs with this Python if it has the packages of regmap/generator/requirements.txt, else with that of the virtual
 environment that regmap/regenerate.sh makes (argument, or MB4_REGMAP_VENV). Exit status 77: neither has them.
 """
 
@@ -14,7 +14,8 @@ import sys
 import tempfile
 from pathlib import Path
 
-REGMAP = Path(__file__).resolve().parents[2] / "regmap"
+HERE = Path(__file__).resolve().parent
+REGMAP = HERE.parents[1] / "regmap"
 SKIPPED = 77
 
 
@@ -36,31 +37,36 @@ def main():
     pythons = [sys.executable, *(str(v / "bin" / "python3") for v in venvs)]
     usable = [(p, v) for p in pythons if (v := installed(p))]
     if not usable:
-        print("skipped: the packages of regmap/requirements.txt are not installed (see regmap/regenerate.sh)")
+        print("skipped: the packages of regmap/generator/requirements.txt are not installed (see regmap/regenerate.sh)")
         return SKIPPED
-    pinned = (REGMAP / "requirements.txt").read_text(encoding="utf-8").split()
+    pinned = (REGMAP / "generator" / "requirements.txt").read_text(encoding="utf-8").split()
     exact = [(p, v) for p, v in usable if all(package in pinned for package in v)]
     if not exact:
-        print(f"skipped: {', '.join(usable[0][1])} are not the versions of regmap/requirements.txt")
+        print(f"skipped: {', '.join(usable[0][1])} are not the versions of regmap/generator/requirements.txt")
         return SKIPPED
     python, versions = exact[0]
 
-    with tempfile.TemporaryDirectory() as scratch:
-        outs = [Path(scratch) / name for name in ("first", "second")]
-        for out in outs:
-            subprocess.run([python, str(REGMAP / "generate.py"), "--out", str(out)], check=True)
-        made = {f.name for f in outs[0].iterdir()}
-        kept = {f.name for f in (REGMAP / "generated").iterdir()}
-        problems = [f"{name}: only generated, not checked in" for name in sorted(made - kept)]
-        problems += [f"{name}: checked in, but not generated" for name in sorted(kept - made)]
-        for name in sorted(made & kept):
-            if not filecmp.cmp(outs[0] / name, REGMAP / "generated" / name, shallow=False):
-                problems.append(f"{name}: differs from what generate.py makes; run regmap/regenerate.sh")
-            if not filecmp.cmp(outs[0] / name, outs[1] / name, shallow=False):
-                problems.append(f"{name}: two runs of generate.py differ")
+    problems, count = [], 0
+    for maps, kept_in in (([], REGMAP / "generated"), ([str(HERE / "sample.rdl")], HERE / "generated")):
+        with tempfile.TemporaryDirectory() as scratch:
+            outs = [Path(scratch) / name for name in ("first", "second")]
+            for out in outs:
+                subprocess.run([python, str(REGMAP / "generator" / "generate.py"), *maps, "--out", str(out)], check=True)
+            made, kept = (
+                {f.relative_to(folder).as_posix() for f in folder.rglob("*") if f.is_file()}
+                for folder in (outs[0], kept_in)
+            )
+            count += len(made)
+            problems += [f"{name}: only generated, not checked in" for name in sorted(made - kept)]
+            problems += [f"{name}: checked in, but not generated" for name in sorted(kept - made)]
+            for name in sorted(made & kept):
+                if not filecmp.cmp(outs[0] / name, kept_in / name, shallow=False):
+                    problems.append(f"{name}: differs from what generate.py makes; run regmap/regenerate.sh")
+                if not filecmp.cmp(outs[0] / name, outs[1] / name, shallow=False):
+                    problems.append(f"{name}: two runs of generate.py differ")
     for problem in problems:
         print(problem)
-    print(f"{len(made)} files compared, made by {', '.join(versions)}; {len(problems)} problems")
+    print(f"{count} files compared, made by {', '.join(versions)}; {len(problems)} problems")
     return 1 if problems else 0
 
 

@@ -7,6 +7,8 @@
 
 #include "mb4_regs.hpp"
 #include "mb4_regs_table.hpp"
+#include "smp_regs.hpp"
+#include "smp_regs_table.hpp"
 
 namespace {
 
@@ -25,6 +27,18 @@ static_assert(SVALID<1>::insert(0xFF, 0) == 0xFD);
 // encode puts a constant in place.
 static_assert(INSTR::encode<static_cast<std::uint8_t>(Instr::kControl)>() == 0x08);
 static_assert((BREAK::encode<1>() | AGS::encode<1>()) == 0x81);
+
+// of puts a code or a number in place, and drops what does not fit.
+static_assert(INSTR::of(Instr::kControl) == 0x08 && INSTR::of(0xFF) == 0x0E);
+static_assert(SCDLEN<3>::of(28) == 28 && FREQR::of(5) == 0xA0);
+
+// Codes in place, and single bytes.
+static_assert(kInstrControl == 0x08 && kBreakAbort == 0x80 && kCfgch2Unused == 0x0C);
+static_assert(kEnscdYes == 0x40 && kSpiOpcodeReadRegisters0 == 0x09);
+
+// What a register holds after reset, what a host can write, what never changes.
+static_assert(kResetStatus0 == 0xFB && kConstStatus0 == 0x02 && kWmaskStatus0 == 0x00);
+static_assert(kResetSlaveloc5 == 0x01 && kConstSlaveloc5 == 0xEF && kWmaskSlaveloc5 == 0x10);
 
 // Members.
 static_assert(EOT::kAddress == kAddrStatus0 && EOT::kMask == 0x01 && EOT::kReset == 1);
@@ -64,6 +78,20 @@ constexpr int dual_use() {
   return count;
 }
 static_assert(dual_use() == 1 + 8 + 8 + 1);  // RDATA1, GRAYSx, SCRCLENx, SLAVEID
+
+// A map with registers of 32 bits, addresses of 12 bits and all kinds of access.
+namespace smp = test::smp;
+static_assert(std::is_same_v<decltype(smp::WHOLE::kMask), const std::uint32_t>);
+static_assert(std::is_same_v<decltype(smp::WHOLE::kAddress), const std::uint16_t>);
+static_assert(smp::WHOLE::kMask == 0xFFFFFFFF && smp::TOP::kMask == 0x80000000);
+static_assert(smp::WHOLE::insert(0, 0xDEADBEEF) == smp::kResetWhole);
+static_assert(smp::MODE::get(smp::kResetControl) == 5 && smp::kModeAlways == 0x5000);
+static_assert(smp::DONE::kAccess == smp::Access::kWriteOneClears && smp::DONE::kWritable);
+static_assert(smp::COUNT::kAccess == smp::Access::kReadClears && !smp::COUNT::kWritable);
+static_assert(smp::KEY::kAccess == smp::Access::kWriteOnly && smp::START::kWritable);
+static_assert(smp::ERROR<3>::kAddress == 0x124 && smp::line_address(3) == 0x120);
+static_assert(smp::POSITION<2, 1>::kAddress == 0xF0C && smp::kFamilyDelay.mask(3) == 0xFFF);
+static_assert(smp::kConstEvents == 0xF0000000 && smp::kWmaskEvents == 0x7);
 
 }  // namespace
 

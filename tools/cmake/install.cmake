@@ -14,27 +14,33 @@ set(data ${CMAKE_INSTALL_DATADIR}/openmb4)
 set(package ${CMAKE_INSTALL_LIBDIR}/cmake/openmb4)
 
 target_include_directories(mb4_driver INTERFACE $<INSTALL_INTERFACE:${headers}>)
-target_include_directories(mb4_regs INTERFACE $<INSTALL_INTERFACE:${headers}>)
 target_include_directories(mb4_driver_c INTERFACE $<INSTALL_INTERFACE:${headers}>)
 set_target_properties(mb4_driver PROPERTIES EXPORT_NAME driver)
 set_target_properties(mb4_driver_c PROPERTIES EXPORT_NAME c EXCLUDE_FROM_ALL OFF)
-set_target_properties(mb4_regs PROPERTIES EXPORT_NAME regs)
 set_target_properties(mb4sim_shared PROPERTIES EXPORT_NAME mb4sim)
 
-install(TARGETS mb4_driver mb4_driver_c mb4_regs mb4sim_shared EXPORT openmb4
+install(TARGETS mb4_driver mb4_driver_c mb4sim_shared EXPORT openmb4
   INCLUDES DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
 install(TARGETS mb4sim)
 # Where `mb4sim spidev` looks for it.
 install(TARGETS mb4sim_spidev DESTINATION ${CMAKE_INSTALL_LIBDIR})
 install(FILES ${MB4_ROOT}/sim/include/mb4sim.h DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
 install(DIRECTORY ${MB4_ROOT}/drivers/include/ DESTINATION ${headers})
-install(FILES ${MB4_ROOT}/regmap/generated/mb4_regs.hpp ${MB4_ROOT}/regmap/generated/mb4_regs.h
-  DESTINATION ${headers})
+
+# Each register map: headers, package, manual.
+get_property(maps GLOBAL PROPERTY MB4_REGISTER_MAPS)
+foreach(map ${maps})
+  target_include_directories(${map}_regs INTERFACE $<INSTALL_INTERFACE:${headers}>)
+  install(TARGETS ${map}_regs EXPORT openmb4)
+  set(folder ${MB4_ROOT}/regmap/generated/${map})
+  install(FILES ${folder}/${map}_regs.hpp ${folder}/${map}_regs.h DESTINATION ${headers})
+  install(FILES ${folder}/${map}_regs_pkg.sv DESTINATION ${data}/regmap/generated/${map})
+  install(FILES ${folder}/registers.md DESTINATION ${CMAKE_INSTALL_DOCDIR}/regmap/generated/${map})
+endforeach()
 
 # The RTL in the folders of the repository, because mb4.f names its files relative to itself.
 install(DIRECTORY ${MB4_ROOT}/rtl DESTINATION ${data}
   FILES_MATCHING PATTERN "*.sv" PATTERN "*.svh" PATTERN "*.f" PATTERN "*.vlt")
-install(FILES ${MB4_ROOT}/regmap/generated/mb4_regs_pkg.sv DESTINATION ${data}/regmap/generated)
 install(DIRECTORY ${MB4_ROOT}/examples DESTINATION ${data}
   FILES_MATCHING PATTERN "*.toml" PATTERN "*.edges" PATTERN "*.c" PATTERN "firmware" EXCLUDE)
 install(DIRECTORY ${MB4_ROOT}/tools/sigrok DESTINATION ${data} PATTERN __pycache__ EXCLUDE)
@@ -44,7 +50,7 @@ install(FILES ${MB4_ROOT}/LICENSE ${MB4_ROOT}/README.md ${MB4_ROOT}/CHANGELOG.md
               ${MB4_ROOT}/CONTRIBUTING.md
   DESTINATION ${CMAKE_INSTALL_DOCDIR})
 install(DIRECTORY ${MB4_ROOT}/docs DESTINATION ${CMAKE_INSTALL_DOCDIR})
-foreach(folder sim drivers regmap/generated)
+foreach(folder sim drivers)
   file(GLOB pages CONFIGURE_DEPENDS ${MB4_ROOT}/${folder}/*.md)
   install(FILES ${pages} DESTINATION ${CMAKE_INSTALL_DOCDIR}/${folder})
 endforeach()

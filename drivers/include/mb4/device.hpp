@@ -119,7 +119,7 @@ class Device {
   Result<void> reset() {
     forget();
     RegisterImage image{};
-    image[regs::kAddrSlaveloc5 - kImageFirst] = kSlaveloc5Constant;
+    image[regs::kAddrSlaveloc5 - kImageFirst] = regs::kResetSlaveloc5;
     return Configuration<Bus, Clock>(chip_).write(image, 0);
   }
 

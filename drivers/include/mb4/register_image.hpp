@@ -24,8 +24,6 @@ inline constexpr std::uint8_t kImageFirst = regs::kAddrSlaveCfg;
 inline constexpr std::uint8_t kImageLast = regs::kAddrSvalidHi;
 inline constexpr std::size_t kImageBytes = kImageLast - kImageFirst + 1;
 
-inline constexpr std::uint8_t kSlaveloc5Constant = 0x01;
-
 using RegisterImage = std::array<std::uint8_t, kImageBytes>;
 
 namespace detail {
@@ -103,7 +101,7 @@ constexpr std::uint8_t encode_ctrl(const Config& config, bool biss_b) {
   image[regs::kAddrActnsens - kImageFirst] = actuators(config);
   // Bit 0 of 0xEC is constant 1 (table 6). The image holds this 1, so that the comparison needs no
   // exception.
-  image[regs::kAddrSlaveloc5 - kImageFirst] = kSlaveloc5Constant;
+  image[regs::kAddrSlaveloc5 - kImageFirst] = regs::kResetSlaveloc5;
   detail::put<regs::SLAVELOC5>(image, channels_are_split(config)
                                           ? regs::SlaveLocation::kSplit
                                           : regs::SlaveLocation::kAllOnChannel1);

@@ -57,6 +57,8 @@ class Status {
   // SVALIDx of all slaves; bit 0 is slave 1.
   [[nodiscard]] constexpr std::uint8_t valid_mask() const {
     // Bits 7, 5, 3, 1 of each register.
+    static_assert(regs::kFamilySvalid.lsb == 1 && regs::kFamilySvalid.lsb_step == 2 &&
+                  regs::kFamilySvalid.per_register == 4);
     unsigned bits = (unsigned{bytes_[1]} | unsigned{bytes_[2]} << 8U) >> 1U;
     bits = (bits & 0x1111U) | (bits & 0x4444U) >> 1U;
     bits = (bits & 0x0303U) | (bits & 0x3030U) >> 2U;
@@ -73,11 +75,12 @@ class Status {
   // The constant bits (table 6, page 22) read as they must: bit 1 of 0xF0 is 1, bits 0, 2, 4, 6 of
   // 0xF1 and 0xF2 are 0. False for MISO stuck at 0 or at 1.
   [[nodiscard]] constexpr bool plausible() const {
-    constexpr std::uint8_t kStatusOne = 0x02;
-    constexpr std::uint8_t kSvalidZeros = 0x55;
-    return (bytes_[0] & kStatusOne) != 0 &&
-           (bytes_[regs::kAddrSvalidLo - regs::kAddrStatus0] & kSvalidZeros) == 0 &&
-           (bytes_[regs::kAddrSvalidHi - regs::kAddrStatus0] & kSvalidZeros) == 0;
+    static_assert((regs::kResetStatus0 & regs::kConstStatus0) == regs::kConstStatus0);
+    static_assert((regs::kResetSvalidLo & regs::kConstSvalidLo) == 0);
+    static_assert((regs::kResetSvalidHi & regs::kConstSvalidHi) == 0);
+    return (bytes_[0] & regs::kConstStatus0) != 0 &&
+           (bytes_[regs::kAddrSvalidLo - regs::kAddrStatus0] & regs::kConstSvalidLo) == 0 &&
+           (bytes_[regs::kAddrSvalidHi - regs::kAddrStatus0] & regs::kConstSvalidHi) == 0;
   }
 
   // The byte of 0xF4: the instruction bits that have not returned to 0, HOLDBANK, AGS.
