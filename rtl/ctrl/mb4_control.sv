@@ -83,7 +83,7 @@ module mb4_control (
   logic busy, clear_flags, scd_en, scd_bad, ags_error, bank_fail, init_clear;
   logic control_want, register_want, control_active, is_frame, is_control, is_register;
   logic reg_begin, reg_end, reg_error, delay_error, reg_ags_error;
-  logic live, stalled;
+  logic live, automatic_frames, stalled;
   logic [1:0] in_use, frame_use, init_use, manual, select;
   logic is_void, void_end, refused, access_run;
   mb4_pkg::access_t access_q;   // constant while an access runs
@@ -246,6 +246,7 @@ module mb4_control (
     .register_i    (register_o),
     .frame_end_i   (frame_end_o),
     .live_i        (live),
+    .automatic_i   (automatic_frames),
     .tick_i,
     .sl_i,
     .cds_i,
@@ -281,7 +282,8 @@ module mb4_control (
 
   // Frames run, or will come by themselves. A frame that the host has to ask for, or that it holds
   // back with HOLDBANK, may come as late as the host likes.
-  assign live = !eot_o || (held_o.ags && !infinite &&
+  assign automatic_frames = held_o.ags && !infinite;
+  assign live = !eot_o || (automatic_frames &&
                            !(held_o.holdbank && quirks_i[mb4_pkg::QUIRK_AGSERR_ON_HOLDBANK]));
 
   mb4_ma_force u_force (

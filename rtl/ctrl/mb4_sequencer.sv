@@ -22,10 +22,13 @@
 // - A frame is due while HOLDBANK holds back a switch: the frame runs into the other bank and the
 //   switch is lost (mb4_bank_ctrl). With agserr_on_hold_i there is no frame, SWBANKFAIL = 1 and
 //   nAGSERR = 0 (decision 15).
-// - A control communication that cannot run ends at once (decision 37).
+// - A control communication that cannot run ends at once (decision 37). So does a BiSS B access
+//   that waits for its automatic frame when its lines or REGVERS are changed.
+// - A BiSS B access without AGS cannot begin while SL is low: the first request after the
+//   watchdog's limit ends it (decision 42). A BiSS C access has begun, and mb4_control_frame ends it.
 // - INSTR written with the code whose frame runs does not ask for another frame.
 //
-// Datasheet: pages 31..33, Tables 44..49; decisions 1, 3, 8, 14, 15, 19, 23, 25, 26.
+// Datasheet: pages 31..33, Tables 44..49; decisions 1, 3, 8, 14, 15, 19, 23, 25, 26, 37, 42.
 
 `include "mb4_check.svh"
 
@@ -93,7 +96,7 @@ module mb4_sequencer (
   // control communication
   output logic       control_begin_o, // INSTR asks for BiSS C; stays until a frame takes it
   output logic       register_begin_o, // INSTR asks for BiSS B, or for what cannot run
-  output logic       void_o,          // INSTR asks for what cannot run, and ends
+  output logic       void_o,          // INSTR asks for what cannot run or begin, and ends
   output logic       refused_o,       // SL is low: no frame for INSTR
   input  logic       control_active_i,
   input  logic       control_end_i,
@@ -123,6 +126,7 @@ module mb4_sequencer (
   logic             all_idle, sl_low;
   logic             by_instr, begins;  // INSTR asks for a frame, for a control communication
   logic             register_d, register_q;  // a BiSS B register access runs, not a frame
+  logic             awaits_d, awaits_q;      // one waits for its automatic frame
 
   // INIT does not test SL (page 33), but the slaves need their timeout before and after it. So SL
   // has 1024 MA periods to return to 1. The longest timeout in the field is 40 us: 400 MA periods
@@ -150,6 +154,9 @@ module mb4_sequencer (
   assign reduced_d   = start_o ? control_active_i &&
                                  held_q.instr == mb4_regs_pkg::INSTR_CONTROL_REDUCED
                                : reduced_q;
+  // With AGS = 1 new_q falls in IDLE, and INSTR alone keeps the request.
+  assign awaits_d    = (new_q ? is_register_i && held_q.ags : awaits_q) &&
+                       !(written || start_o || void_o);
 
   always_comb begin
     state_d        = state_q;
@@ -180,6 +187,9 @@ module mb4_sequencer (
         if (new_q && !new_d && (!is_frame_i || !held_q.ags)) begin
           held_d.instr = 3'b000;
           void_o       = is_void_i;
+        end else if (awaits_q && !is_register_i) begin
+          held_d.instr = 3'b000;
+          void_o       = 1'b1;
         end
         if (held_q.init && !mem_busy_i) begin
           if (init_use_i == 2'b00) begin
@@ -200,11 +210,16 @@ module mb4_sequencer (
             taken_o     = 1'b1;
             ags_error_o = 1'b1;
             bank_fail_o = 1'b1;
-          end else if (sl_low && !agsmin_i) begin
-            taken_o     = 1'b1;
-            ags_error_o = 1'b1;
-            refused_o   = by_instr;
-          end else if (all_idle && !sl_low) begin
+          end else if (sl_low) begin
+            taken_o     = !agsmin_i;
+            ags_error_o = !agsmin_i;
+            refused_o   = by_instr && (!agsmin_i || is_register_i);
+            // Requests for an access that has not begun have been refused for too long.
+            if (control_stalled_i && !control_active_i && !control_end_i && held_q.instr[2]) begin
+              held_d.instr = 3'b000;
+              void_o       = 1'b1;
+            end
+          end else if (all_idle) begin
             taken_o = 1'b1;
             start_o = 1'b1;
             use_d   = frame_use_i;
@@ -296,6 +311,7 @@ module mb4_sequencer (
       bad_q      <= 1'b0;
       reduced_q  <= 1'b0;
       register_q <= 1'b0;
+      awaits_q   <= 1'b0;
       wait_q     <= '0;
     end else begin
       state_q    <= state_d;
@@ -306,6 +322,7 @@ module mb4_sequencer (
       bad_q      <= bad_d;
       reduced_q  <= reduced_d;
       register_q <= register_d;
+      awaits_q   <= awaits_d;
       wait_q     <= wait_d;
     end
   end
