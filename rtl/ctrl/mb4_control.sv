@@ -54,7 +54,8 @@ module mb4_control (
   mb4_pkg::access_t access_q;   // constant while an access runs
   logic [1:0] chsel_q;
   logic agsmin, infinite, request, missed, taken, lines_idle, running, brk, init_clear;
-  logic control_want, register_want, control_active, void_end, refused, access_run, live, stalled;
+  logic control_want, register_want, control_active, void_end, refused, access_run;
+  logic live, automatic_frames, stalled;
   logic reg_begin, reg_end, reg_error, delay_error, reg_ags_error;
   logic [1:0] manual, select;
   logic eot, n_scderr, n_agserr, n_regerr, n_delayerr, regend, swbank_fail, cdm_timeout;
@@ -189,6 +190,7 @@ module mb4_control (
     .register_i    (go_o.register_access),
     .frame_end_i   (bank_o.frame_end),
     .live_i        (live),
+    .automatic_i   (automatic_frames),
     .tick_i,
     .sl_i,
     .cds_i         ({status2.cds, status1.cds}),
@@ -225,7 +227,8 @@ module mb4_control (
 
   // Frames run, or will come by themselves. A frame that the host has to ask for, or that it holds
   // back with HOLDBANK, may come as late as the host likes.
-  assign live = !eot || (held_o.ags && !infinite &&
+  assign automatic_frames = held_o.ags && !infinite;
+  assign live = !eot || (automatic_frames &&
                            !(held_o.holdbank && quirks_i[mb4_pkg::QUIRK_AGSERR_ON_HOLDBANK]));
 
   mb4_ma_force u_force (

@@ -26,7 +26,7 @@ module mb4_control_comm (
   // frames
   input  logic       begin_i,          // a BiSS C control communication begins
   input  logic       register_want_i,  // INSTR asks for BiSS B, or for what cannot run
-  input  logic       void_i,           // an access that cannot run ends
+  input  logic       void_i,           // an access that cannot run or begin ends
   input  logic       refused_i,        // SL is low: no frame for INSTR
   input  logic       abort_i,
   input  logic       clear_i,          // BREAK, INIT
@@ -37,6 +37,7 @@ module mb4_control_comm (
   input  logic       register_i,       // start_i is for a BiSS B register access
   input  logic       frame_end_i,
   input  logic       live_i,           // frames run, or will come by themselves
+  input  logic       automatic_i,      // no frame depends on INSTR
   input  logic       tick_i,
   input  logic [1:0] sl_i,
   input  logic [1:0] cds_i,
@@ -177,11 +178,12 @@ module mb4_control_comm (
 
   // A flop delays time_o by one clock. This keeps it out of the long paths that begin at the end of
   // a half period. The delay does no harm, because the start of a frame restarts the time base.
-  assign time_d = waiting || (active_o && (live_i || refused_q));
+  assign time_d = waiting || refused_q || (active_o && live_i);
 
-  // The frame of the last request could not start. The watchdog then counts the time up to the next
-  // request.
-  assign refused_d = active_o && !start_i && (refused_i || refused_q);
+  // The frame of the last request, or the BiSS B access, could not start. The watchdog then counts
+  // the time up to the next request. With FREQAGS = AGSMIN a BiSS B access asks in every clock.
+  assign refused_d = !start_i && !clear_i && !void_i && !automatic_i &&
+                     ((refused_i && (active_o || register_i)) || (refused_q && !control_end));
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) {time_q, refused_q, void_q} <= '0;

@@ -22,10 +22,13 @@
 // - A frame is due while HOLDBANK holds back a switch: the frame runs into the other bank and the
 //   switch is lost (mb4_bank_ctrl). With agserr_on_hold_i there is no frame, SWBANKFAIL = 1 and
 //   nAGSERR = 0 (decision 15).
-// - A control communication that cannot run ends at once (decision 37).
+// - A control communication that cannot run ends at once (decision 37). So does a BiSS B access
+//   that waits for its automatic frame when its lines or REGVERS are changed.
+// - A BiSS B access without AGS cannot begin while SL is low: the first request after the
+//   watchdog's limit ends it (decision 42). A BiSS C access has begun, and mb4_control_frame ends it.
 // - INSTR written with the code whose frame runs does not ask for another frame.
 //
-// Datasheet: pages 31..33, Tables 44..49; decisions 1, 3, 8, 14, 15, 19, 23, 25, 26.
+// Datasheet: pages 31..33, Tables 44..49; decisions 1, 3, 8, 14, 15, 19, 23, 25, 26, 37, 42.
 
 `include "mb4_check.svh"
 
@@ -71,7 +74,7 @@ module mb4_sequencer (
   // control communication
   output logic       control_begin_o, // INSTR asks for BiSS C; stays until a frame takes it
   output logic       register_begin_o, // INSTR asks for BiSS B, or for what cannot run
-  output logic       void_o,          // INSTR asks for what cannot run, and ends
+  output logic       void_o,          // INSTR asks for what cannot run or begin, and ends
   output logic       refused_o,       // SL is low: no frame for INSTR
   input  logic       control_active_i,
   input  logic       control_end_i,
@@ -106,6 +109,7 @@ module mb4_sequencer (
   logic             all_idle, sl_low;
   logic             by_instr, begins;  // INSTR asks for a frame, for a control communication
   logic             register_d, register_q;  // a BiSS B register access runs, not a frame
+  logic             awaits_d, awaits_q;      // one waits for its automatic frame
 
   // INIT does not test SL (page 33), but the slaves need their timeout before and after it. So SL
   // has 1024 MA periods to return to 1. The longest timeout in the field is 40 us: 400 MA periods
@@ -140,28 +144,31 @@ module mb4_sequencer (
   assign reduced_d   = start ? control_active_i &&
                                  held_q.instr == mb4_regs_pkg::INSTR_CONTROL_REDUCED
                                : reduced_q;
+  // With AGS = 1 new_q falls in IDLE, and INSTR alone keeps the request.
+  assign awaits_d    = (new_q ? kind_i.is_register && held_q.ags : awaits_q) &&
+                       !(written || start || void_o);
 
   always_comb begin
-    state_d        = state_q;
-    held_d         = held_q;
-    new_d          = new_q && (by_instr || state_q != IDLE || held_q.init);
-    use_d          = use_q;
-    done_d         = done_q;
-    bad_d          = bad_q;
-    wait_d         = (tick_i && wait_q != 11'd0) ? wait_q - 11'd1 : wait_q;
-    start          = 1'b0;
-    init           = 1'b0;
-    abort          = 1'b0;
-    frame_end      = 1'b0;
-    swap           = 1'b0;
-    init_clear_o   = 1'b0;
-    scd_en         = 1'b0;
-    ags_error      = 1'b0;
-    bank_fail      = 1'b0;
-    taken_o        = 1'b0;
-    break_o        = 1'b0;
-    void_o         = 1'b0;
-    refused_o      = 1'b0;
+    state_d      = state_q;
+    held_d       = held_q;
+    new_d        = new_q && (by_instr || state_q != IDLE || held_q.init);
+    use_d        = use_q;
+    done_d       = done_q;
+    bad_d        = bad_q;
+    wait_d       = (tick_i && wait_q != 11'd0) ? wait_q - 11'd1 : wait_q;
+    start        = 1'b0;
+    init         = 1'b0;
+    abort        = 1'b0;
+    frame_end    = 1'b0;
+    swap         = 1'b0;
+    init_clear_o = 1'b0;
+    scd_en       = 1'b0;
+    ags_error    = 1'b0;
+    bank_fail    = 1'b0;
+    taken_o      = 1'b0;
+    break_o      = 1'b0;
+    void_o       = 1'b0;
+    refused_o    = 1'b0;
 
     unique case (state_q)
       IDLE: begin
@@ -170,33 +177,41 @@ module mb4_sequencer (
         if (new_q && !new_d && (!kind_i.is_frame || !held_q.ags)) begin
           held_d.instr = 3'b000;
           void_o       = kind_i.is_void;
+        end else if (awaits_q && !kind_i.is_register) begin
+          held_d.instr = 3'b000;
+          void_o       = 1'b1;
         end
         if (held_q.init && !mem_busy_i) begin
           if (kind_i.init_use == 2'b00) begin
-            held_d.init   = 1'b0;
-            init_clear_o  = 1'b1;
+            held_d.init  = 1'b0;
+            init_clear_o = 1'b1;
           end else if (all_idle) begin
-            start       = 1'b1;
-            init        = 1'b1;
-            init_clear_o  = 1'b1;
-            use_d         = kind_i.init_use;
-            done_d        = ~kind_i.init_use;
-            state_d       = INIT;
+            start        = 1'b1;
+            init         = 1'b1;
+            init_clear_o = 1'b1;
+            use_d        = kind_i.init_use;
+            done_d       = ~kind_i.init_use;
+            state_d      = INIT;
           end else if (wait_q == 11'd0) begin
             abort = 1'b1;
           end
         end else if ((by_instr || request_i) && !mem_busy_i && kind_i.in_use != 2'b00) begin
           if (bank_pending_i && held_q.holdbank && agserr_on_hold_i && !kind_i.is_register) begin
-            taken_o     = 1'b1;
+            taken_o   = 1'b1;
             ags_error = 1'b1;
             bank_fail = 1'b1;
-          end else if (sl_low && !agsmin_i) begin
-            taken_o     = 1'b1;
-            ags_error = 1'b1;
-            refused_o   = by_instr;
-          end else if (all_idle && !sl_low) begin
+          end else if (sl_low) begin
+            taken_o   = !agsmin_i;
+            ags_error = !agsmin_i;
+            refused_o = by_instr && (!agsmin_i || kind_i.is_register);
+            // Requests for an access that has not begun have been refused for too long.
+            if (control_stalled_i && !control_active_i && !control_end_i && held_q.instr[2]) begin
+              held_d.instr = 3'b000;
+              void_o       = 1'b1;
+            end
+          end else if (all_idle) begin
             taken_o = 1'b1;
-            start = 1'b1;
+            start   = 1'b1;
             use_d   = kind_i.frame_use;
             done_d  = ~kind_i.frame_use;
             bad_d   = 1'b0;
@@ -211,23 +226,23 @@ module mb4_sequencer (
         bad_d  = bad_q || (word_done & ~word_ok_i) != 2'b00;
         done_d = done_q | line_end;
         if (done_d == 2'b11) begin
-          state_d  = FRAME_DONE;
-          scd_en = !reduced_q && !register_q;
+          state_d = FRAME_DONE;
+          scd_en  = !reduced_q && !register_q;
         end
       end
       FRAME_DONE: begin
         // All lines have brought their last bit. The banks switch now.
-        state_d     = IDLE;
+        state_d   = IDLE;
         frame_end = !register_q;
-        wait_d      = INIT_WAIT;
+        wait_d    = INIT_WAIT;
         if (!held_q.ags && !new_q) held_d.instr = 3'b000;
       end
       INIT: begin
         // INIT runs: MA makes its two pulses and the line delay is measured (BiSS C), or MA does
         // the hand-over (BiSS B).
-        done_d      = done_q | init_done | init_fail | line_end;
+        done_d    = done_q | init_done | init_fail | line_end;
         ags_error = (init_fail & use_q) != 2'b00;
-        wait_d      = INIT_WAIT;
+        wait_d    = INIT_WAIT;
         if (done_d == 2'b11) state_d = INIT_TIMEOUT;
       end
       INIT_TIMEOUT: begin
@@ -250,7 +265,7 @@ module mb4_sequencer (
     if (written) begin
       // INSTR written with the code whose frame runs is no new request. A frame runs from its first
       // clock to the one before its end. A write does not cancel an INIT; AGS waits for its end.
-      new_d           = written_i.instr != 3'b000 &&
+      new_d = written_i.instr != 3'b000 &&
                         (new_d || (state_q != FRAME && state_d != FRAME) ||
                          written_i.instr != held_q.instr);
       held_d.holdbank = written_i.holdbank;
@@ -258,18 +273,18 @@ module mb4_sequencer (
       held_d.ags      = written_i.ags;
       held_d.instr    = written_i.instr;
       held_d.init     = written_i.init || held_d.init;
-      swap  = written_i.swbank != held_q.swbank;
+      swap            = written_i.swbank != held_q.swbank;
       if (written_i.brk) begin
         abort       = 1'b1;
-        break_o       = 1'b1;
+        break_o     = 1'b1;
         start       = 1'b0;
         frame_end   = 1'b0;
         scd_en      = 1'b0;
-        state_d       = IDLE;
-        new_d         = written_i.instr != 3'b000;
-        held_d.init   = written_i.init;
+        state_d     = IDLE;
+        new_d       = written_i.instr != 3'b000;
+        held_d.init = written_i.init;
         ags_error   = 1'b0;
-        wait_d        = INIT_WAIT;
+        wait_d      = INIT_WAIT;
       end
       if (agserr_on_write_i) ags_error = 1'b1;
     end
@@ -286,6 +301,7 @@ module mb4_sequencer (
       bad_q      <= 1'b0;
       reduced_q  <= 1'b0;
       register_q <= 1'b0;
+      awaits_q   <= 1'b0;
       wait_q     <= '0;
     end else begin
       state_q    <= state_d;
@@ -296,6 +312,7 @@ module mb4_sequencer (
       bad_q      <= bad_d;
       reduced_q  <= reduced_d;
       register_q <= register_d;
+      awaits_q   <= awaits_d;
       wait_q     <= wait_d;
     end
   end

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Control communication that cannot run, cannot start, or whose settings change while it runs:
-// decisions 37, 38, 42 and 43, pages 27, 28, 34.
+// decisions 24, 37, 38, 42 and 43, pages 27, 28, 34.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -42,6 +42,28 @@ std::string two_lines(Protocol first, Protocol second, const std::string& keys =
     text += keys;
   }
   return text;
+}
+
+// A slave of registers on line 1, which holds SL at 0 from the first moment on.
+std::string sl_low(Protocol protocol) {
+  return "[host]\nsclk_hz = 20_000_000\n[[channel]]\nnumber = 1\n"
+         "[[channel.event]]\nat_us = 0\naction = \"sl-low\"\n[[channel.slave]]\nprotocol = \"" +
+         std::string(protocol == Protocol::kBissB ? "biss-b\"\nregister_timeout = 30.0\n"
+                                                  : "biss-c\"\n") +
+         kSlave + "registers = { 0x20 = [0x5A] }\n";
+}
+void release_sl(Chip& chip) {
+  chip.simulator.line(1)->faults().stick(std::nullopt);
+  chip.simulator.refresh_lines();
+}
+// Line 1 for a read of register 0x20.
+void configure(Chip& chip, Protocol protocol, unsigned freqs, unsigned freqr,
+               std::uint8_t freqags) {
+  const bool biss_c = protocol == Protocol::kBissC;
+  chip.write(0xC0, {0x59, 0x06, 0x00, 0x00});
+  chip.write(0xE2, {0x20, 0x00, 0x00, static_cast<std::uint8_t>(biss_c ? 0xC0 : 0x80),
+                    static_cast<std::uint8_t>(freqr << 5U | freqs), 0x00, freqags});
+  chip.write(0xEC, {0x01, static_cast<std::uint8_t>(biss_c ? 0x0D : 0x0C)});
 }
 
 constexpr unsigned code_of(std::optional<Protocol> protocol) {
@@ -206,44 +228,121 @@ TEST(ChipAccess, OneOfTwoLinesFits_TheAccessRunsThere) {
 // 4096 * 2^(FREQR + 1) MA periods after the first one ends the access.
 TEST(ChipAccess, SlLow_EndsWhateverFreqagsIs) {
   constexpr double kLimitUs = 9.0 / 8 * 4096 * 64 * 0.5;  // FREQR = 5, f_MA = 2 MHz
-  for (const unsigned freqags : {0x7CU, 0x31U, 0x00U, 0x7DU, 0x80U}) {
-    const bool agsmin = freqags == 0x7C;
-    Chip chip(one_slave(kSlave, "[[channel.event]]\nat_us = 0\naction = \"sl-low\"\n", "",
-                        "sclk_hz = 20_000_000"));
-    chip.configure_slave1(26, 0x06, 0x04, static_cast<std::uint8_t>(freqags));
-    chip.write(0xE2, {0x20, 0x00, 0x00, 0xC0});
-    sim::Time first = sim::kNever;
-    unsigned ends = 0;
-    sim::Time last = 0;
-    for (unsigned request = 0; request < 1200; ++request) {
-      const auto before = chip.simulator.now();
-      chip.instruct(0x08);
-      const auto now = chip.simulator.now();
-      if (first == sim::kNever) first = now;
-      chip.advance_us(300);
-      const unsigned status = chip.status();
-      if ((status & kRegEnd) == 0) {
-        ASSERT_EQ(status, agsmin ? 0xFAU : 0x3BU) << request;
-      } else {
-        ASSERT_EQ(status, agsmin ? 0x77U : 0x37U) << request;
-        ++ends;
-        const double waited = static_cast<double>(now - first) / 1e6;
-        EXPECT_GT(waited, kLimitUs - (agsmin ? 302 : 1)) << request;
-        EXPECT_LT(static_cast<double>(last - first) / 1e6, kLimitUs + 1) << request;
-        first = sim::kNever;
+  for (const Protocol protocol : {Protocol::kBissC, Protocol::kBissB}) {
+    for (const unsigned freqags : {0x7CU, 0x31U, 0x00U, 0x7DU, 0x80U}) {
+      const bool agsmin = freqags == 0x7C;
+      const std::string what = std::to_string(static_cast<unsigned>(protocol)) + " " +
+                               std::to_string(freqags) + " ";
+      Chip chip(sl_low(protocol));
+      configure(chip, protocol, 0x04, 5, static_cast<std::uint8_t>(freqags));
+      sim::Time first = sim::kNever;
+      unsigned ends = 0;
+      sim::Time last = 0;
+      for (unsigned request = 0; request < 1200; ++request) {
+        const auto before = chip.simulator.now();
+        chip.instruct(0x08);
+        const auto now = chip.simulator.now();
+        if (first == sim::kNever) first = now;
+        chip.advance_us(300);
+        const unsigned status = chip.status();
+        if ((status & kRegEnd) == 0) {
+          ASSERT_EQ(status, agsmin ? 0xFAU : 0x3BU) << what << request;
+        } else {
+          ASSERT_EQ(status, agsmin ? 0x77U : 0x37U) << what << request;
+          ASSERT_EQ(chip.read(0xF3), 0x00) << what << request;
+          ASSERT_EQ(chip.read(0xF4), 0x00) << what << request;
+          ++ends;
+          const double waited = static_cast<double>(now - first) / 1e6;
+          EXPECT_GT(waited, kLimitUs - (agsmin ? 302 : 1)) << what << request;
+          EXPECT_LT(static_cast<double>(last - first) / 1e6, kLimitUs + 1) << what << request;
+          first = sim::kNever;
+        }
+        last = before;
       }
-      last = before;
+      EXPECT_GE(ends, 2U) << what;
+      // SL comes back: the next access runs.
+      release_sl(chip);
+      chip.instruct(0x80);
+      chip.advance_us(50);
+      chip.write(0xE8, {0x7C});
+      chip.instruct(0x09);
+      chip.advance_us(protocol == Protocol::kBissB ? 12'000 : 4000);
+      EXPECT_EQ(chip.status() & (kNotRegErr | kRegEnd), kNotRegErr | kRegEnd) << what;
+      EXPECT_EQ(chip.read(0x80), 0x5A) << what;
     }
-    EXPECT_GE(ends, 2U) << freqags;
-    // SL comes back: the next access runs.
-    chip.simulator.line(1)->faults().stick(std::nullopt);
-    chip.simulator.refresh_lines();
-    chip.instruct(0x80);
-    chip.advance_us(50);
-    chip.write(0xE8, {0x7C});
-    chip.instruct(0x09);
-    chip.advance_us(4000);
-    EXPECT_EQ(chip.status() & (kNotRegErr | kRegEnd), kNotRegErr | kRegEnd) << freqags;
+  }
+}
+
+// The host sets AGS while an access waits for SL: no request ends it from then on. BiSS C ends as
+// with AGS from the beginning (docs/choices.md); BiSS B still waits for the line.
+TEST(ChipAccess, SlLowAndAgsBehindTheFirstRequest_EndsAsUnderAgs) {
+  for (const Protocol protocol : {Protocol::kBissC, Protocol::kBissB}) {
+    for (const unsigned freqags : {0x7CU, 0x31U, 0x80U}) {
+      for (const unsigned byte : {0x01U, 0x05U, 0x09U}) {
+        const std::string what = std::to_string(static_cast<unsigned>(protocol)) + " " +
+                                 std::to_string(freqags) + " " + std::to_string(byte);
+        Chip chip(sl_low(protocol));
+        configure(chip, protocol, 0x00, 0, static_cast<std::uint8_t>(freqags));
+        chip.instruct(0x08);
+        chip.advance_us(100);
+        chip.instruct(static_cast<std::uint8_t>(byte));
+        chip.advance_us(1500);  // the limit is 922 us
+        const bool ends = protocol == Protocol::kBissC;
+        EXPECT_EQ(chip.status() & (kNotRegErr | kRegEnd), ends ? kRegEnd : kNotRegErr) << what;
+        EXPECT_EQ(chip.read(0xF4), ends && byte == 0x09 ? 0x01 : byte) << what;
+        // Without AGS an access starts anew: the time before does not count.
+        chip.instruct(0x00);
+        chip.instruct(0x08);
+        chip.advance_us(10);
+        EXPECT_EQ(chip.status() & (kNotRegErr | kRegEnd), kNotRegErr) << what;
+        release_sl(chip);
+        chip.instruct(0x80);
+        chip.advance_us(50);
+        chip.instruct(0x09);
+        chip.advance_us(4000);
+        EXPECT_EQ(chip.status() & (kNotRegErr | kRegEnd), kNotRegErr | kRegEnd) << what;
+      }
+    }
+  }
+}
+
+// Decisions 24, 37: an access is asked for beside automatic frames, and before it begins, or while
+// it runs, the lines or REGVERS change so that it cannot run any more. It ends.
+TEST(ChipAccess, ChangedBeforeItsAutomaticFrame_Ends) {
+  struct Change {
+    std::uint8_t regvers, cfgch;
+  };
+  for (const Protocol protocol : {Protocol::kBissB, Protocol::kBissC}) {
+    for (const unsigned freqags : {0x31U, 0x80U, 0x7CU, 0x7DU}) {
+      for (const Change& change : {Change{0x80, 0x0D}, Change{0x80, 0x0F}, Change{0xC0, 0x0C},
+                                   Change{0xC0, 0x0D}, Change{0x80, 0x0C}, Change{0xC0, 0x0E}}) {
+        for (const bool low : {false, true}) {
+          for (unsigned phase = 0; phase < 12; ++phase) {
+            const std::string what = std::to_string(static_cast<unsigned>(protocol)) +
+                                     ", FREQAGS " + std::to_string(freqags) + ", change " +
+                                     std::to_string(change.regvers) + " " +
+                                     std::to_string(change.cfgch) + (low ? ", SL low" : "") +
+                                     ", phase " + std::to_string(phase);
+            Chip chip(sl_low(protocol));
+            if (!low) release_sl(chip);
+            configure(chip, protocol, 0x00, 0, static_cast<std::uint8_t>(freqags));
+            chip.advance_us(10);
+            chip.instruct(0x01);
+            chip.advance_us(60);
+            chip.instruct(phase % 2 == 0 ? 0x09 : 0x0F);
+            chip.simulator.advance(phase * phase * 450 * sim::kPsPerNs);
+            chip.write(0xE5, {change.regvers});
+            chip.write(0xED, {change.cfgch});
+            chip.advance_us(5000);
+            const bool biss_b = change.regvers == 0x80 && change.cfgch == 0x0C;
+            const bool waits_getsens = freqags == 0x7D && (protocol == Protocol::kBissC || biss_b);
+            if (waits_getsens || (low && biss_b)) continue;
+            EXPECT_EQ(chip.status() & kRegEnd, kRegEnd) << what;
+            EXPECT_EQ(chip.read(0xF4), 0x01) << what;
+          }
+        }
+      }
+    }
   }
 }
 
