@@ -80,7 +80,7 @@ module mb4_engine #(
 
   // lines
   logic [7:0]  enscd;
-  logic [1:0]  ssi, idle, sl, sl_pin, word_ok, cds;
+  logic [1:0]  idle, sl, sl_pin, word_ok, cds;
   logic        register_ma, register_end, time_run, time_restart, tick;
   biss_pkg::line_go_t go;
   logic [2*biss_pkg::LINE_START_W-1:0]  line_start;
@@ -88,6 +88,7 @@ module mb4_engine #(
   logic [2*biss_pkg::LINE_STATUS_W-1:0] line_status;
   logic [2*biss_pkg::LINE_EVENT_W-1:0]  line_event;
   logic [2*biss_pkg::LINE_DATA_W-1:0]   line_data;
+  logic        mo_rd_en;
   logic [11:0] mo_addr;
   logic [15:0] mo_data;
 
@@ -149,7 +150,7 @@ module mb4_engine #(
     .data_i         (line_data),
     .word_ok_o      (word_ok),
     .svalid_clear_i (svalid_clear),
-    .mo_rd_en_i     (cfg.en_mo),
+    .mo_rd_en_i     (mo_rd_en),
     .mo_addr_i      (mo_addr),
     .mo_data_o      (mo_data)
   );
@@ -175,7 +176,6 @@ module mb4_engine #(
     .rdata_o        (rdata_cmd),
     .rdata_i        (rdata),
     .post_busy_i    (post_busy),
-    .ssi_o          (ssi),
     .cmd_o          (cmd),
     .go_o           (go),
     .register_ma_o  (register_ma),
@@ -204,7 +204,6 @@ module mb4_engine #(
     .cfg_en_o       (cfg_en),
     .cfg_slave_o    (cfg_slave),
     .slave_cfg_i    (slave_cfg),
-    .ssi_i          (ssi),
     .cmd_i          (cmd),
     .go_i           (go),
     .register_ma_i  (register_ma),
@@ -217,6 +216,7 @@ module mb4_engine #(
     .status_o       (line_status),
     .event_o        (line_event),
     .data_o         (line_data),
+    .mo_rd_en_o     (mo_rd_en),
     .mo_addr_o      (mo_addr),
     .mo_data_i      (mo_data),
     .ma_o           ({ma2_o, ma1_o}),

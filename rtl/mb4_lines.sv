@@ -25,7 +25,6 @@ module mb4_lines #(
   output logic [11:0] cfg_slave_o,
   input  logic [4*mb4_pkg::SLAVE_CFG_W-1:0] slave_cfg_i,
   // frames
-  input  logic [1:0]  ssi_i,
   input  logic [2*biss_pkg::LINE_CMD_W-1:0] cmd_i,
   input  biss_pkg::line_go_t go_i,
   input  logic [2*biss_pkg::LINE_START_W-1:0] start_i,
@@ -39,6 +38,7 @@ module mb4_lines #(
   output logic [2*biss_pkg::LINE_EVENT_W-1:0]  event_o,
   output logic [2*biss_pkg::LINE_DATA_W-1:0]   data_o,
   // data for MO
+  output logic        mo_rd_en_o,
   output logic [11:0] mo_addr_o,
   input  logic [15:0] mo_data_i,
   // pins
@@ -59,7 +59,7 @@ module mb4_lines #(
   logic [7:0]  half_len;
   logic        half_next, smp_a, smp_b, smp_half, smp_b_neg, idle;
   logic [15:0] own;             // data channels of the lines
-  logic [1:0]  rx_next, mo_next, len_valid, actuator;
+  logic [1:0]  ssi, mo_rd_en, rx_next, mo_next, len_valid, actuator;
   logic [13:0] len;
   logic [2*OFFER_W-1:0] rx_offer, mo_offer;
   logic [1:0]  rx_actuator, rx_len_valid;
@@ -67,6 +67,7 @@ module mb4_lines #(
   logic        unused;
 
   assign idle = idle_o == 2'b11;
+  assign mo_rd_en_o = mo_rd_en != 2'b00;
   assign own  = cfg_i.slaveloc5 ? 16'hF00F : 16'h00FF;
 
   mb4_freqs_dec u_freqs (
@@ -98,7 +99,7 @@ module mb4_lines #(
       .enscd_i,
       .actnsens_i  (cfg_i.actnsens),
       .own_i       (own[i*8 +: 8]),
-      .ssi_i       (ssi_i[i]),
+      .ssi_i       (ssi[i]),
       .nocrc_i     (cfg_i.nocrc),
       .start_i     (go_i.start),
       .next_i      (rx_next[i]),
@@ -117,7 +118,7 @@ module mb4_lines #(
       .enscd_i,
       .actnsens_i  (cfg_i.actnsens),
       .own_i       (own[i*8 +: 8]),
-      .ssi_i       (ssi_i[i]),
+      .ssi_i       (ssi[i]),
       .nocrc_i     (cfg_i.nocrc),
       .start_i     (go_i.start),
       .next_i      (mo_next[i]),
@@ -151,11 +152,13 @@ module mb4_lines #(
       .smp_b_neg_i (smp_b_neg),
       .len_valid_i (len_valid[i]),
       .len_i       (len[i*7 +: 7]),
+      .ssi_o       (ssi[i]),
       .rx_offer_i  (rx_offer[i*OFFER_W +: OFFER_W]),
       .rx_next_o   (rx_next[i]),
       .mo_bus_i    (actuator[i] && cfg_i.en_mo),
       .mo_offer_i  (mo_offer[i*OFFER_W +: OFFER_W]),
       .mo_next_o   (mo_next[i]),
+      .mo_rd_en_o  (mo_rd_en[i]),
       .mo_addr_o   (mo_addr_o[i*6 +: 6]),
       .mo_data_i   (mo_data_i[i*8 +: 8]),
       .ma_o        (ma_o[i]),

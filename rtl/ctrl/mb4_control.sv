@@ -30,7 +30,6 @@ module mb4_control (
   input  logic [7:0] rdata_i,
   input  logic       post_busy_i,     // bytes of the host are on their way to RDATA
   // lines
-  output logic [1:0] ssi_o,
   output logic [2*biss_pkg::LINE_CMD_W-1:0] cmd_o,
   output biss_pkg::line_go_t go_o,
   output logic       register_ma_o,   // BiSS B register access: next level of MA
@@ -57,7 +56,7 @@ module mb4_control (
   logic control_want, register_want, control_active, void_end, refused, access_run;
   logic live, automatic_frames, stalled;
   logic reg_begin, reg_end, reg_error, delay_error, reg_ags_error;
-  logic [1:0] manual, select;
+  logic [1:0] ssi, manual, select;
   logic eot, n_scderr, n_agserr, n_regerr, n_delayerr, regend, swbank_fail, cdm_timeout;
   logic [5:0] good_bytes;
   // lines
@@ -74,7 +73,7 @@ module mb4_control (
     .cfgch1_i      (cfg_i.cfgch1),
     .cfgch2_i      (cfg_i.cfgch2),
     .kind_o        (kind),
-    .ssi_o,
+    .ssi_o         (ssi),
     .manual_o      (manual),
     .select_o      (select)
   );
@@ -171,7 +170,7 @@ module mb4_control (
     .instr_i       (held_o.instr),
     .ida_invert_i  (quirks_i[mb4_pkg::QUIRK_IDA_TEST_INVERT]),
     .in_use_i      (kind.in_use),
-    .ssi_i         (ssi_o),
+    .ssi_i         (ssi),
     .manual_i      (manual),
     .select_i      (select),
     .rdata_o,

@@ -32,6 +32,7 @@ module mb4_line #(
   input  logic       smp_half_i,
   input  logic       smp_b_neg_i,
   // words on SL
+  output logic       ssi_o,        // the frame is SSI
   input  logic       len_valid_i,
   input  logic [6:0] len_i,
   input  biss_pkg::offer_t rx_offer_i,
@@ -40,6 +41,7 @@ module mb4_line #(
   input  logic       mo_bus_i,     // MO has words for actuators
   input  biss_pkg::offer_t mo_offer_i,
   output logic       mo_next_o,
+  output logic       mo_rd_en_o,
   output logic [5:0] mo_addr_o,
   input  logic [7:0] mo_data_i,
   // pins
@@ -63,7 +65,6 @@ module mb4_line #(
   logic final_rise;
   logic ma_clocks;
   logic biss_c;
-  logic ssi;
   logic timeout;
   logic cds;
   logic cdm;
@@ -116,7 +117,7 @@ module mb4_line #(
     .word_bit_o  (word_bit),
     .word_run_o  (word_run),
     .biss_c_o    (biss_c),
-    .ssi_o       (ssi),
+    .ssi_o,
     .rise_o      (rise),
     .final_o     (final_rise),
     .clocks_o    (ma_clocks),
@@ -139,7 +140,7 @@ module mb4_line #(
     .smp_half_i,
     .smp_b_neg_i,
     .clear_i     (go_i.start),
-    .ssi_i       (ssi),
+    .ssi_i       (ssi_o),
     .armed_a_i   (armed_a),
     .armed_b_i   (armed_b),
     .sl_o,
@@ -178,7 +179,7 @@ module mb4_line #(
     .rst_ni,
     .enable_i    (cmd_i.mo_en),
     .low_i       (cmd_i.mo_low),
-    .begin_i     (go_i.start && start_i.takes_part && !go_i.register_access && !ssi),
+    .begin_i     (go_i.start && start_i.takes_part && !go_i.register_access && !ssi_o),
     .biss_c_i    (biss_c),
     .reduced_i   (go_i.reduced),
     .busy_i      (cmd_i.mo_busy),
@@ -186,12 +187,13 @@ module mb4_line #(
     .final_i     (final_rise),
     .clocks_i    (ma_clocks),
     .line_idle_i (idle_o),
-    .return_i    (go_i.mo_return),
+    .return_i    (go_i.mo_return || go_i.stop),
     .any_word_i  (mo_offer_i.any),
     .last_word_i (mo_offer_i.last),
     .slave_i     (mo_offer_i.slave),
     .word_i      (mo_offer_i.word),
     .next_o      (mo_next_o),
+    .mem_rd_en_o (mo_rd_en_o),
     .mem_addr_o  (mo_addr_o),
     .mem_data_i  (mo_data_i),
     .mo_o

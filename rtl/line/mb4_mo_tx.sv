@@ -30,7 +30,7 @@ module mb4_mo_tx (
   input  logic       final_i,       // ... the last one of the frame
   input  logic       clocks_i,      // MA is clocking
   input  logic       line_idle_i,
-  input  logic       return_i,      // INIT: the time for the slaves has ended
+  input  logic       return_i,      // BREAK, or INIT: the time for the slaves has ended
   // words
   input  logic       any_word_i,
   input  logic       last_word_i,
@@ -38,6 +38,7 @@ module mb4_mo_tx (
   input  biss_pkg::word_t word_i,
   output logic       next_o,
   // data
+  output logic       mem_rd_en_o,
   output logic [5:0] mem_addr_o,    // slave, byte
   input  logic [7:0] mem_data_i,
   output logic       mo_o
@@ -201,7 +202,8 @@ module mb4_mo_tx (
     end
   end
 
-  assign mem_addr_o = {slave_i, byte_now};
-  assign mo_o       = mo_q;
+  assign mem_rd_en_o = state_q != IDLE;
+  assign mem_addr_o  = {slave_i, byte_now};
+  assign mo_o        = mo_q;
 
 endmodule

@@ -410,6 +410,45 @@ TEST(ChipMoInit, BreakAtEveryPhase_ReturnsMo) {
   }
 }
 
+// BREAK and INIT in one byte, at any time of a frame: MO takes part in this INIT, so that slaves that
+// pass it on acknowledge.
+TEST(ChipMoInit, BreakAndInitInOneByte_MoTakesPart) {
+  for (const char* kind : kKinds) {
+    ProtocolChip chip(channel(1) + sensors(3, kind, "\"adaptive\""),
+                      {.freqs = 1, .en_mo = true, .freqags = 0x7F});
+    for (unsigned phase = 0; phase < 200; ++phase) {
+      chip.instruct(0x04);
+      chip.simulator.advance(phase * ProtocolChip::kClk);
+      chip.instruct(0x90);
+      chip.advance_us(100);
+      EXPECT_EQ(chip.status(), 0xFB) << kind << " " << phase;
+      ASSERT_TRUE(chip.frame()) << kind << " " << phase;
+      EXPECT_EQ(chip.svalid(), 0x2AU) << kind << " " << phase;
+    }
+  }
+}
+
+// EN_MO counts from the next frame (docs/choices.md): cleared within one, the actuator still gets
+// the word that the host wrote.
+TEST(ChipMo, EnMoClearedInAFrame_WordArrives) {
+  ProtocolChip chip(channel(1) + actuator(40) + sensor(9, 0x155),
+                    {.freqs = 1, .en_mo = true, .freqags = 0x7F});
+  constexpr std::uint64_t kWord = 0x12'3456'789A;
+  write_both_banks(chip, 1, kWord);
+  const std::uint8_t ctrl = chip.read(0xE5);
+  for (unsigned phase = 40; phase < 300; ++phase) {
+    const unsigned words = chip.simulator.slave(1)->actuator()->words();
+    chip.write(0xE5, {ctrl});
+    chip.advance_us(40);
+    chip.instruct(0x04);
+    chip.simulator.advance(phase * ProtocolChip::kClk);
+    chip.write(0xE5, {static_cast<std::uint8_t>(ctrl & ~0x02U)});
+    ASSERT_TRUE(chip.wait_eot()) << phase;
+    EXPECT_EQ(chip.simulator.slave(1)->actuator()->words(), words + 1) << phase;
+    EXPECT_EQ(chip.simulator.slave(1)->actuator()->word(), kWord) << phase;
+  }
+}
+
 // EN_MO = 0, or a chain that is not wired to MO: the last slave shows the timeout, INIT ends with
 // it.
 TEST(ChipMoInit, MoNotInUse_EndsWithTheSlavesTimeout) {

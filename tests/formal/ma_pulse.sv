@@ -37,7 +37,7 @@ module proof (
   input mb4_pkg::cfg_t cfg_i,
   input logic [7:0] enscd_i,
   input logic [4*mb4_pkg::SLAVE_CFG_W-1:0] slave_cfg_i,
-  input logic [1:0] ssi_i, sl_i,
+  input logic [1:0] sl_i,
   input logic [2*biss_pkg::LINE_CMD_W-1:0] cmd_i,
   input biss_pkg::line_go_t go_i,
   input logic [2*biss_pkg::LINE_START_W-1:0] start_i,
@@ -51,7 +51,7 @@ module proof (
   assign forced = {cmd2.forced, cmd1.forced};
 
   mb4_lines u_lines (
-    .clk_i, .rst_ni, .por_ni, .cfg_i, .enscd_i, .slave_cfg_i, .ssi_i, .cmd_i, .go_i, .start_i,
+    .clk_i, .rst_ni, .por_ni, .cfg_i, .enscd_i, .slave_cfg_i, .cmd_i, .go_i, .start_i,
     .register_ma_i, .register_end_i, .time_run_i, .time_restart_i, .mo_data_i, .sl_i, .idle_o(idle),
     .ma_o(ma)
   );

@@ -42,7 +42,7 @@ module frame_top (
   logic       len_valid;
   logic [6:0] len;
   logic       next;
-  logic       mo_next, mo, ssi;
+  logic       mo_next, mo_rd_en, mo, ssi;
   logic [5:0] mo_addr;
   logic       rx_len_valid, rx_actuator, mo_actuator;
   logic [6:0] rx_len;
@@ -76,8 +76,6 @@ module frame_top (
     .smp_half_o  (smp_half),
     .smp_b_neg_o (smp_b_neg)
   );
-
-  assign ssi = protocol_i == biss_pkg::SSI;
 
   // The configuration store of the chip: a clock from the data channel's number to its bytes.
   always_comb begin
@@ -163,11 +161,13 @@ module frame_top (
     .smp_b_neg_i (smp_b_neg),
     .len_valid_i (len_valid),
     .len_i       (len),
+    .ssi_o       (ssi),
     .rx_offer_i  (rx_offer),
     .rx_next_o   (next),
     .mo_bus_i    (1'b0),
     .mo_offer_i  (mo_offer),
     .mo_next_o   (mo_next),
+    .mo_rd_en_o  (mo_rd_en),
     .mo_addr_o   (mo_addr),
     .mo_data_i   (8'h00),
     .ma_o,
@@ -190,7 +190,7 @@ module frame_top (
   assign init_fail_o = ends.init_fail;
 
   logic unused;
-  assign unused = ^{sl_sync, status, ends, data, mo, mo_addr, rx_len_valid, rx_len, rx_actuator,
+  assign unused = ^{sl_sync, status, ends, data, mo, mo_rd_en, mo_addr, rx_len_valid, rx_len, rx_actuator,
                     mo_actuator};
 
 endmodule
