@@ -20,11 +20,11 @@ namespace {
 using mb4ref::Protocol;
 using mb4test::Chip;
 using mb4test::one_slave;
+namespace reg = mb4::regs;
 namespace sim = mb4::sim;
 
 const std::string kSlave = "data_bits = 26\ncrc = 0x43\ndata = 0x0AAAAAA\n";
 
-constexpr unsigned kErr = 0x80, kNotRegErr = 0x08, kRegEnd = 0x04, kEot = 0x01;
 
 // One slave on each line, of the protocol of the line.
 std::string two_lines(Protocol first, Protocol second, const std::string& keys = "") {
@@ -58,38 +58,46 @@ TEST(ChipAccess, NoLineThatFits_EndsAtOnceWithAnError) {
   for (const auto& first : kinds) {
     for (const auto& second : kinds) {
       Chip chip(two_lines(first.value_or(Protocol::kBissC), second.value_or(Protocol::kBissC)));
-      chip.write(0xC0, {0x59, 0x06, 0x00, 0x00});
-      chip.write(0xD0, {0x59, 0x06, 0x00, 0x00});
-      chip.write(0xE6, {0xA0, 0x00, 0x7C});
+      chip.write(reg::slave_cfg_address(1), {reg::kEnscdYes | 25, reg::kScrclenCrc6, 0x00, 0x00});
+      chip.write(reg::slave_cfg_address(5), {reg::kEnscdYes | 25, reg::kScrclenCrc6, 0x00, 0x00});
+      chip.write(reg::kAddrFreq, {reg::FREQR::of(5), 0, reg::kFreqagsAgsMin});
       chip.advance_us(10);
       for (unsigned setting = 0; setting < 128; ++setting) {
         const bool slaveloc5 = (setting & 1U) != 0, regvers = (setting & 2U) != 0;
         const unsigned chsel = (setting >> 2U) & 3U;
         const bool cts = (setting & 16U) != 0, ags = (setting & 32U) != 0;
         const unsigned instr = (setting & 64U) != 0 ? 7 : 4;
-        chip.instruct(0x80);
+        chip.instruct(reg::kBreakAbort);
         chip.advance_us(50);
-        chip.write(0xE2, {0x20, 0x00, static_cast<std::uint8_t>(chsel),
-                          static_cast<std::uint8_t>((cts ? 0x80 : 0) | (regvers ? 0x40 : 0))});
-        chip.write(0xEC, {static_cast<std::uint8_t>(slaveloc5 ? 0x11 : 0x01),
-                          static_cast<std::uint8_t>(code_of(second) << 2U | code_of(first))});
+        chip.write(reg::kAddrRegadr,
+                   {0x20, 0x00, static_cast<std::uint8_t>(chsel),
+                    static_cast<std::uint8_t>((cts ? reg::kCtsRegisterAccess : 0) |
+                                              (regvers ? reg::kRegversBissC : 0))});
+        chip.write(
+            reg::kAddrSlaveloc5,
+            {static_cast<std::uint8_t>(slaveloc5 ? reg::kResetSlaveloc5 | reg::kSlaveloc5Split
+                                                 : reg::kResetSlaveloc5),
+             static_cast<std::uint8_t>(code_of(second) << 2U | code_of(first))});
         const unsigned lines = mb4ref::Reference::access_lines(
             {first, slaveloc5 ? second : std::nullopt}, regvers, chsel, cts);
         chip.instruct(static_cast<std::uint8_t>(instr << 1U | (ags ? 1U : 0U)));
         chip.advance_us(ags ? 20 : 2);
         const unsigned status = chip.status();
-        const unsigned left = chip.read(0xF4) & 0x0E;
+        const unsigned left = chip.read(reg::kAddrInstr) & reg::INSTR::kMask;
         const std::string what = "CFGCH " + std::to_string(code_of(first)) + " " +
                                  std::to_string(code_of(second)) + ", setting " +
                                  std::to_string(setting);
         if (lines == 0) {
           ++in_vain;
-          ASSERT_EQ(status & (kErr | kNotRegErr | kRegEnd), kRegEnd) << what;
+          ASSERT_EQ(status & (reg::nERR::kMask | reg::nREGERR::kMask | reg::REGEND::kMask),
+                    reg::REGEND::kMask)
+              << what;
           ASSERT_EQ(left, 0x00U) << what;
-          ASSERT_EQ(chip.read(0xF3) & 0x3F, 0x00) << what;
+          ASSERT_EQ(chip.read(reg::kAddrStatus3) & reg::REGBYTES::kMask, 0) << what;
         } else {
           ++runs;
-          ASSERT_EQ(status & (kNotRegErr | kRegEnd), kNotRegErr) << what;
+          ASSERT_EQ(status & (reg::nREGERR::kMask | reg::REGEND::kMask), reg::nREGERR::kMask)
+              << what;
         }
       }
     }
@@ -102,36 +110,44 @@ TEST(ChipAccess, NoLineThatFits_EndsAtOnceWithAnError) {
 // those of an earlier one are not shown by an access that cannot run.
 TEST(ChipAccess, RegBytes_AreThoseOfTheAccessThatFailed) {
   Chip chip(two_lines(Protocol::kBissB, Protocol::kBissC, "missing = [0x23, 0x35]\n"));
-  chip.write(0xE6, {0x00, 0x00, 0x7C});
-  chip.write(0xEC, {0x11, 0x04});  // line 1 BiSS B, line 2 BiSS C
+  chip.write(reg::kAddrFreq, {0, 0, reg::kFreqagsAgsMin});
+  chip.write(reg::kAddrSlaveloc5, {reg::kResetSlaveloc5 | reg::kSlaveloc5Split,
+                                   reg::kCfgch2BissC});  // line 1 BiSS B, line 2 BiSS C
   // Reads `count` bytes over the line, at a FREQAGS that suits both.
   const auto read = [&](unsigned line, unsigned address, unsigned count) {
-    chip.write(0xE2, {static_cast<std::uint8_t>(address), static_cast<std::uint8_t>(count - 1),
-                      static_cast<std::uint8_t>(line),
-                      static_cast<std::uint8_t>(line == 1 ? 0x80 : 0xC0)});
-    chip.instruct(0x09);
-    for (unsigned i = 0; i < 400 && (chip.read(0xF4) & 0x0E) != 0; ++i) chip.advance_us(100);
-    chip.instruct(0x00);  // the running frame ends
+    chip.write(
+        reg::kAddrRegadr,
+        {static_cast<std::uint8_t>(address), static_cast<std::uint8_t>(count - 1),
+         static_cast<std::uint8_t>(line),
+         static_cast<std::uint8_t>(line == 1 ? reg::kCtsRegisterAccess
+                                             : reg::kCtsRegisterAccess | reg::kRegversBissC)});
+    chip.instruct(reg::kInstrControl | reg::kAgsOn);
+    for (unsigned i = 0; i < 400 && (chip.read(reg::kAddrInstr) & reg::INSTR::kMask) != 0; ++i)
+      chip.advance_us(100);
+    chip.instruct(0);  // the running frame ends
     chip.advance_us(100);
-    return chip.status() & 0x2CU;
+    return chip.status() & (reg::nDELAYERR::kMask | reg::nREGERR::kMask | reg::REGEND::kMask);
   };
-  const auto reg_bytes = [&] { return chip.read(0xF3) & 0x3FU; };
+  const auto reg_bytes = [&] { return chip.read(reg::kAddrStatus3) & reg::REGBYTES::kMask; };
   unsigned turn = 0;
   for (const unsigned line : {1U, 2U, 1U}) {
     const std::string what = "turn " + std::to_string(++turn) + ", line " + std::to_string(line);
     const unsigned start = line == 1 ? 0x21 : 0x31;
     EXPECT_EQ(read(line, start, 6), 0x0CU) << what << ": nDELAYERR = 0";
     EXPECT_EQ(reg_bytes(), line == 1 ? 2U : 4U) << what;
-    chip.write(0xE5, {static_cast<std::uint8_t>(line == 1 ? 0xC0 : 0x80)});
+    chip.write(reg::kAddrCtrl,
+               {static_cast<std::uint8_t>(line == 1 ? reg::kCtsRegisterAccess | reg::kRegversBissC
+                                                    : reg::kCtsRegisterAccess)});
     chip.advance_us(2);
     EXPECT_EQ(reg_bytes(), line == 1 ? 2U : 4U) << what << ", REGVERS of the next access";
     EXPECT_EQ(read(line, 0x40, 3), 0x2CU) << what;
     EXPECT_EQ(reg_bytes(), 0U) << what << ": no error";
     // The line is not one of this REGVERS.
-    chip.write(0xE4, {static_cast<std::uint8_t>(3 - line)});
-    chip.instruct(0x08);
+    chip.write(reg::kAddrChsel, {static_cast<std::uint8_t>(3 - line)});
+    chip.instruct(reg::kInstrControl);
     chip.advance_us(2);
-    EXPECT_EQ(chip.status() & 0x0CU, 0x04U) << what << ": nREGERR = 0";
+    EXPECT_EQ(chip.status() & (reg::nREGERR::kMask | reg::REGEND::kMask), reg::kRegendDone)
+        << what << ": nREGERR = 0";
     EXPECT_EQ(reg_bytes(), 0U) << what << ": none of this access";
   }
 }
@@ -141,45 +157,51 @@ TEST(ChipAccess, RegBytes_AreThoseOfTheAccessThatFailed) {
 TEST(ChipAccess, InVainDuringAFrameThatHangs_EndsBehindIt) {
   for (const unsigned ags : {0U, 1U}) {
     Chip chip(one_slave(kSlave, "", "", "sclk_hz = 20_000_000"));
-    chip.configure_slave1(26, 0x06, 0x04, 0x7C);
-    chip.write(0xE4, {0x01, 0x80});  // line 1 is BiSS C, REGVERS of BiSS B
-    chip.write(0xF5, {0x30});
+    chip.configure_slave1(26, reg::kScrclenCrc6, 0x04, reg::kFreqagsAgsMin);
+    chip.write(reg::kAddrChsel,
+               {reg::kChsel1Used, reg::kCtsRegisterAccess});  // line 1 is BiSS C, REGVERS of BiSS B
+    chip.write(reg::kAddrIface, {reg::kMavsHigh | reg::kMafsForced});
     chip.advance_us(10);
-    chip.instruct(static_cast<std::uint8_t>(0x04U | ags));
+    chip.instruct(static_cast<std::uint8_t>(reg::kInstrCdm0 | ags));
     chip.advance_us(100);
-    chip.instruct(static_cast<std::uint8_t>(0x08U | ags));
+    chip.instruct(static_cast<std::uint8_t>(reg::kInstrControl | ags));
     chip.advance_us(20'000);
-    EXPECT_EQ(chip.status() & (kRegEnd | kEot), 0U) << ags;
-    EXPECT_EQ(chip.read(0xF4), 0x08U | ags) << ags;
-    chip.write(0xF5, {0x00});
+    EXPECT_EQ(chip.status() & (reg::REGEND::kMask | reg::EOT::kMask), 0U) << ags;
+    EXPECT_EQ(chip.read(reg::kAddrInstr), reg::kInstrControl | ags) << ags;
+    chip.write(reg::kAddrIface, {0});
     chip.advance_us(200);
-    EXPECT_EQ(chip.status() & (kNotRegErr | kRegEnd), kRegEnd) << ags;
-    EXPECT_EQ(chip.read(0xF4), ags) << ags;
+    EXPECT_EQ(chip.status() & (reg::nREGERR::kMask | reg::REGEND::kMask), reg::REGEND::kMask)
+        << ags;
+    EXPECT_EQ(chip.read(reg::kAddrInstr), ags) << ags;
   }
 }
 
 // After a good access one that cannot run is no success, and its data stay those of the good one.
 TEST(ChipAccess, InVainAfterASuccess_IsAnErrorAndKeepsRdata) {
   Chip chip(one_slave(kSlave + "registers = { 0x20 = [0x5A] }", "", "", "sclk_hz = 20_000_000"));
-  chip.configure_slave1(26, 0x06, 0x04, 0x7C);
-  chip.write(0xE2, {0x20, 0x00, 0x00, 0xC0});
-  chip.instruct(0x09);
+  chip.configure_slave1(26, reg::kScrclenCrc6, 0x04, reg::kFreqagsAgsMin);
+  chip.write(reg::kAddrRegadr, {0x20, 0x00, 0, reg::kCtsRegisterAccess | reg::kRegversBissC});
+  chip.instruct(reg::kInstrControl | reg::kAgsOn);
   chip.advance_us(4000);
-  ASSERT_EQ(chip.status() & (kNotRegErr | kRegEnd), kNotRegErr | kRegEnd);
-  ASSERT_EQ(chip.read(0x80), 0x5A);
-  chip.instruct(0x80);
+  ASSERT_EQ(chip.status() & (reg::nREGERR::kMask | reg::REGEND::kMask),
+            reg::nREGERR::kMask | reg::REGEND::kMask);
+  ASSERT_EQ(chip.read(reg::kAddrRdata), 0x5A);
+  chip.instruct(reg::kBreakAbort);
   chip.advance_us(50);
-  chip.write(0xE2, {0x21});
-  chip.write(0xE5, {0x80});
-  chip.instruct(0x08);
-  EXPECT_EQ(chip.status() & (kNotRegErr | kRegEnd | kEot), kRegEnd | kEot) << "the first read";
-  EXPECT_EQ(chip.read(0x80), 0x5A);
+  chip.write(reg::kAddrRegadr, {0x21});
+  chip.write(reg::kAddrCtrl, {reg::kCtsRegisterAccess});
+  chip.instruct(reg::kInstrControl);
+  EXPECT_EQ(chip.status() & (reg::nREGERR::kMask | reg::REGEND::kMask | reg::EOT::kMask),
+            reg::REGEND::kMask | reg::EOT::kMask)
+      << "the first read";
+  EXPECT_EQ(chip.read(reg::kAddrRdata), 0x5A);
   // And the way back: the next access that can run does.
-  chip.write(0xE5, {0xC0});
-  chip.instruct(0x09);
+  chip.write(reg::kAddrCtrl, {reg::kCtsRegisterAccess | reg::kRegversBissC});
+  chip.instruct(reg::kInstrControl | reg::kAgsOn);
   chip.advance_us(4000);
-  EXPECT_EQ(chip.status() & (kNotRegErr | kRegEnd), kNotRegErr | kRegEnd);
-  EXPECT_EQ(chip.read(0x80), 0x00);
+  EXPECT_EQ(chip.status() & (reg::nREGERR::kMask | reg::REGEND::kMask),
+            reg::nREGERR::kMask | reg::REGEND::kMask);
+  EXPECT_EQ(chip.read(reg::kAddrRdata), 0x00);
 }
 
 // CHSEL = 11, REGVERS = 0: the access runs on the line of BiSS B although the other does not fit.
@@ -187,17 +209,20 @@ TEST(ChipAccess, OneOfTwoLinesFits_TheAccessRunsThere) {
   for (const Protocol other : {Protocol::kBissC, Protocol::kSsi}) {
     for (const bool swapped : {false, true}) {
       Chip chip(swapped ? two_lines(Protocol::kBissB, other) : two_lines(other, Protocol::kBissB));
-      chip.write(0xC0, {0x59, 0x06, 0x00, 0x00});
-      chip.write(0xD0, {0x59, 0x06, 0x00, 0x00});
-      chip.write(0xE6, {0x04, 0x00, 0x00});
-      chip.write(0xE2, {0x20, 0x00, 0x03, 0x00});
+      chip.write(reg::slave_cfg_address(1), {reg::kEnscdYes | 25, reg::kScrclenCrc6, 0x00, 0x00});
+      chip.write(reg::slave_cfg_address(5), {reg::kEnscdYes | 25, reg::kScrclenCrc6, 0x00, 0x00});
+      chip.write(reg::kAddrFreq, {reg::FREQS::of(4), 0, 0x00});
+      chip.write(reg::kAddrRegadr, {0x20, 0x00, reg::kChsel2Used | reg::kChsel1Used, 0});
       const unsigned code = static_cast<unsigned>(other);
-      chip.write(0xEC, {0x11, static_cast<std::uint8_t>(swapped ? code << 2U : code)});
+      chip.write(reg::kAddrSlaveloc5, {reg::kResetSlaveloc5 | reg::kSlaveloc5Split,
+                                       static_cast<std::uint8_t>(swapped ? code << 2U : code)});
       chip.advance_us(10);
-      chip.instruct(0x08);
+      chip.instruct(reg::kInstrControl);
       chip.advance_us(3000);
-      EXPECT_EQ(chip.status() & (kNotRegErr | kRegEnd), kNotRegErr | kRegEnd) << swapped;
-      EXPECT_EQ(chip.read(0x80), 0x5A) << swapped;
+      EXPECT_EQ(chip.status() & (reg::nREGERR::kMask | reg::REGEND::kMask),
+                reg::nREGERR::kMask | reg::REGEND::kMask)
+          << swapped;
+      EXPECT_EQ(chip.read(reg::kAddrRdata), 0x5A) << swapped;
     }
   }
 }
@@ -210,22 +235,32 @@ TEST(ChipAccess, SlLow_EndsWhateverFreqagsIs) {
     const bool agsmin = freqags == 0x7C;
     Chip chip(one_slave(kSlave, "[[channel.event]]\nat_us = 0\naction = \"sl-low\"\n", "",
                         "sclk_hz = 20_000_000"));
-    chip.configure_slave1(26, 0x06, 0x04, static_cast<std::uint8_t>(freqags));
-    chip.write(0xE2, {0x20, 0x00, 0x00, 0xC0});
+    chip.configure_slave1(26, reg::kScrclenCrc6, 0x04, static_cast<std::uint8_t>(freqags));
+    chip.write(reg::kAddrRegadr, {0x20, 0x00, 0, reg::kCtsRegisterAccess | reg::kRegversBissC});
     sim::Time first = sim::kNever;
     unsigned ends = 0;
     sim::Time last = 0;
     for (unsigned request = 0; request < 1200; ++request) {
       const auto before = chip.simulator.now();
-      chip.instruct(0x08);
+      chip.instruct(reg::kInstrControl);
       const auto now = chip.simulator.now();
       if (first == sim::kNever) first = now;
       chip.advance_us(300);
       const unsigned status = chip.status();
-      if ((status & kRegEnd) == 0) {
-        ASSERT_EQ(status, agsmin ? 0xFAU : 0x3BU) << request;
+      if ((status & reg::REGEND::kMask) == 0) {
+        ASSERT_EQ(status,
+                  agsmin ? reg::kResetStatus0 & ~reg::EOT::kMask
+                         : unsigned{reg::kResetStatus0 & ~(reg::nERR::kMask | reg::nAGSERR::kMask)})
+            << request;
       } else {
-        ASSERT_EQ(status, agsmin ? 0x77U : 0x37U) << request;
+        ASSERT_EQ(status,
+                  agsmin
+                      ? unsigned{(reg::kResetStatus0 & ~(reg::nERR::kMask | reg::nREGERR::kMask)) |
+                                 reg::kRegendDone}
+                      : unsigned{(reg::kResetStatus0 &
+                                  ~(reg::nERR::kMask | reg::nAGSERR::kMask | reg::nREGERR::kMask)) |
+                                 reg::kRegendDone})
+            << request;
         ++ends;
         const double waited = static_cast<double>(now - first) / 1e6;
         EXPECT_GT(waited, kLimitUs - (agsmin ? 302 : 1)) << request;
@@ -238,12 +273,14 @@ TEST(ChipAccess, SlLow_EndsWhateverFreqagsIs) {
     // SL comes back: the next access runs.
     chip.simulator.line(1)->faults().stick(std::nullopt);
     chip.simulator.refresh_lines();
-    chip.instruct(0x80);
+    chip.instruct(reg::kBreakAbort);
     chip.advance_us(50);
-    chip.write(0xE8, {0x7C});
-    chip.instruct(0x09);
+    chip.write(reg::kAddrFreqags, {reg::kFreqagsAgsMin});
+    chip.instruct(reg::kInstrControl | reg::kAgsOn);
     chip.advance_us(4000);
-    EXPECT_EQ(chip.status() & (kNotRegErr | kRegEnd), kNotRegErr | kRegEnd) << freqags;
+    EXPECT_EQ(chip.status() & (reg::nREGERR::kMask | reg::REGEND::kMask),
+              reg::nREGERR::kMask | reg::REGEND::kMask)
+        << freqags;
   }
 }
 
@@ -252,18 +289,22 @@ TEST(ChipAccess, SlLow_EndsWhateverFreqagsIs) {
 TEST(ChipAccess, SettingsChangedWhileItRuns_DoNotReachIt) {
   for (unsigned phase = 0; phase < 300; ++phase) {
     Chip chip(one_slave(kSlave, "", "", "sclk_hz = 20_000_000"));
-    chip.configure_slave1(26, 0x06, 0x00, 0x7C);
-    chip.write(0x80, {0xA1, 0xB2, 0xC3});
+    chip.configure_slave1(26, reg::kScrclenCrc6, 0x00, reg::kFreqagsAgsMin);
+    chip.write(reg::kAddrRdata, {0xA1, 0xB2, 0xC3});
     // Three bytes from 0x20 on, WNR = 1 (bit 7), slave ID 0.
-    chip.write(0xE2, {0xA0, 0x02, 0x00, 0xC0});
+    chip.write(reg::kAddrRegadr,
+               {reg::kWnrWrite | 0x20, 0x02, 0, reg::kCtsRegisterAccess | reg::kRegversBissC});
     chip.advance_us(10);
-    chip.instruct(0x09);
+    chip.instruct(reg::kInstrControl | reg::kAgsOn);
     chip.simulator.advance(phase * 3'333 * sim::kPsPerNs);
-    chip.write(0xE2, {0x51, 0x3F, 0x02, 0x38});
+    chip.write(reg::kAddrRegadr,
+               {0x51, 0x3F, reg::kChsel2Used, reg::CMD::of(3) | reg::kIdaTestTested});
     chip.advance_us(3000);
     const auto& slave = *chip.simulator.slave(1);
-    ASSERT_EQ(chip.status() & (kNotRegErr | kRegEnd), kNotRegErr | kRegEnd) << phase;
-    ASSERT_EQ(chip.read(0xF4) & 0x0E, 0x00) << phase;
+    ASSERT_EQ(chip.status() & (reg::nREGERR::kMask | reg::REGEND::kMask),
+              reg::nREGERR::kMask | reg::REGEND::kMask)
+        << phase;
+    ASSERT_EQ(chip.read(reg::kAddrInstr) & reg::INSTR::kMask, 0) << phase;
     const std::vector<std::uint8_t> want{0xA1, 0xB2, 0xC3, 0x00};
     for (unsigned i = 0; i < want.size(); ++i) {
       ASSERT_EQ(slave.reg_read(static_cast<std::uint8_t>(0x20 + i)), want[i]) << phase;
