@@ -18,6 +18,7 @@
 namespace {
 
 using mb4test::Chip;
+namespace reg = mb4::regs;
 namespace sim = mb4::sim;
 
 constexpr std::uint64_t kWords[] = {0x0AAAAAA, 0x155};
@@ -102,21 +103,22 @@ Seen predicted(const Split& split, const std::vector<unsigned>& swaps) {
 Seen measured(const Split& split, unsigned clocks) {
   Chip chip(scenario(split));
   const auto config = registers(split);
-  chip.write(0xC0,
+  chip.write(reg::slave_cfg_address(1),
              {config.slave[0], config.slave[1], 0, 0, config.slave[4], config.slave[5], 0, 0});
   const unsigned bank = (split.nocrc ? 2 : 0) | (split.singlebank ? 1 : 0);
-  chip.write(0xE5, {0x40, 0xA4, static_cast<std::uint8_t>(bank), 0x7C});
-  chip.write(0xEC, {0x01, 0x0D});
+  chip.write(reg::kAddrCtrl, {reg::kRegversBissC, reg::FREQR::of(5) | reg::FREQS::of(4),
+                              static_cast<std::uint8_t>(bank), reg::kFreqagsAgsMin});
+  chip.write(reg::kAddrSlaveloc5, {reg::kResetSlaveloc5, reg::kCfgch2Unused | reg::kCfgch1BissC});
   chip.advance_us(10);
   unsigned f4 = 0;
   const auto instruct = [&](unsigned bits) { chip.instruct(static_cast<std::uint8_t>(f4 | bits)); };
   const auto frame = [&] {
-    instruct(0x04);
+    instruct(reg::kInstrCdm0);
     EXPECT_TRUE(chip.wait_eot());
     chip.advance_us(30);
   };
   const auto fill = [&](unsigned first) {
-    std::vector<std::uint8_t> tx{0x02, 0x00};
+    std::vector<std::uint8_t> tx{reg::kSpiOpcodeWriteRegisters, reg::kAddrScdata};
     for (unsigned i = 0; i < 8 * split.slaves; ++i)
       tx.push_back(static_cast<std::uint8_t>(first + i));
     chip.spi(tx);
@@ -131,7 +133,7 @@ Seen measured(const Split& split, unsigned clocks) {
   instruct(0);
   chip.advance_us(1);
   fill(0x91);
-  instruct(0x04);
+  instruct(reg::kInstrCdm0);
   chip.simulator.advance(clocks * 50 * sim::kPsPerNs);
   f4 ^= 0x20;
   instruct(0);  // INSTR = 000: the frame runs on
@@ -145,12 +147,12 @@ Seen measured(const Split& split, unsigned clocks) {
   seen.gap = static_cast<unsigned>((chip.simulator.now() - inverted) / (50 * sim::kPsPerNs));
   EXPECT_TRUE(chip.wait_eot());
   const auto look = [&] {
-    const auto data = chip.read(0x00, 8 * split.slaves);
+    const auto data = chip.read(reg::kAddrScdata, 8 * split.slaves);
     seen.data.insert(seen.data.end(), data.begin(), data.end());
-    seen.svalid = static_cast<std::uint8_t>(seen.svalid << 4U | chip.read(0xF1));
+    seen.svalid = static_cast<std::uint8_t>(seen.svalid << 4U | chip.read(reg::kAddrSvalidLo));
   };
   look();
-  seen.scd_error = (chip.status() & 0x10) == 0;
+  seen.scd_error = (chip.status() & reg::nSCDERR::kMask) == 0;
   f4 ^= 0x20;
   instruct(0);
   chip.advance_us(1);

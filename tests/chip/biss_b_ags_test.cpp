@@ -10,10 +10,9 @@
 namespace {
 
 using mb4test::ProtocolChip;
+namespace reg = mb4::regs;
 namespace sim = mb4::sim;
 
-constexpr std::uint8_t kAgs = 0x01;
-constexpr std::uint8_t kRegister = 0x08;  // INSTR = 100
 
 std::string bus(const std::string& channel_keys, const std::string& slave_keys) {
   return "[[channel]]\nnumber = 1\n" + channel_keys +
@@ -38,12 +37,12 @@ TEST_P(BissBUnderAgsmin, FramesGoOnBehindTheRegisterTimeout) {
                             std::to_string((by_mo ? 0.0015 : 0.0008) * t_mar_ns) + "\n"),
                     {.freqs = 0, .freqr = freqr, .biss_c_registers = false, .en_mo = by_mo});
   const auto& counters = slave(chip).access().counters();
-  chip.instruct(kAgs);
+  chip.instruct(reg::kAgsOn);
   for (unsigned value = 0; value < 16; ++value) {
     for (const bool write : {true, false}) {
       chip.write_rdata({static_cast<std::uint8_t>(write ? value : 0xFF)});
       chip.set_access(by_mo ? 1 : 0, 0x20, 1, write);
-      chip.instruct(kAgs | kRegister);
+      chip.instruct(reg::kAgsOn | reg::kInstrControl);
       ASSERT_TRUE(chip.simulator.run_while_waiting(
           [&] {
             return !slave(chip).in_register_mode() && chip.simulator.line(1)->sl() &&
@@ -56,9 +55,12 @@ TEST_P(BissBUnderAgsmin, FramesGoOnBehindTheRegisterTimeout) {
       EXPECT_GT(slave(chip).frames(), frames + 5) << value;
       EXPECT_EQ(counters.protocol_errors, 0U) << value;
       EXPECT_EQ(counters.aborts, 0U) << value;
-      EXPECT_EQ(chip.status() & 0xFCU, 0xFCU) << value;
-      EXPECT_EQ(chip.read(0xF4), kAgs) << value;
-      EXPECT_EQ(chip.read(0x80), value) << write;
+      EXPECT_EQ(chip.status() & ~(reg::kConstStatus0 | reg::EOT::kMask),
+                unsigned{reg::kNerrGood | reg::kNagserrGood | reg::kNdelayerrGood |
+                         reg::kNscderrGood | reg::kNregerrGood | reg::kRegendDone})
+          << value;
+      EXPECT_EQ(chip.read(reg::kAddrInstr), reg::kAgsOn) << value;
+      EXPECT_EQ(chip.read(reg::kAddrRdata), value) << write;
     }
   }
 }
@@ -77,7 +79,7 @@ TEST(ChipBissBAgs, AccessWithAnError_FramesGoOnBehindTheRegisterTimeout) {
       slave(chip).reg_write(0x20, static_cast<std::uint8_t>(value));
       chip.write_rdata({static_cast<std::uint8_t>(0x10 * value)});
       chip.set_access(0, 0x20, 1, write);
-      chip.instruct(kAgs | kRegister);
+      chip.instruct(reg::kAgsOn | reg::kInstrControl);
       if (write) {
         // The echo of one data bit is wrong.
         ASSERT_TRUE(chip.simulator.run_while_waiting([&] { return slave(chip).in_register_mode(); },
@@ -89,9 +91,11 @@ TEST(ChipBissBAgs, AccessWithAnError_FramesGoOnBehindTheRegisterTimeout) {
         chip.simulator.line(1)->faults().stick(std::nullopt);
         chip.simulator.refresh_lines();
       }
-      ASSERT_TRUE(chip.simulator.run_while_waiting([&] { return (chip.status() & 0x04U) != 0; },
-                                                   chip.simulator.now() + 200 * sim::kPsPerUs));
-      EXPECT_EQ(chip.status() & 0x0CU, 0x04U) << value << write;
+      ASSERT_TRUE(chip.simulator.run_while_waiting(
+          [&] { return (chip.status() & reg::REGEND::kMask) != 0; },
+          chip.simulator.now() + 200 * sim::kPsPerUs));
+      EXPECT_EQ(chip.status() & (reg::nREGERR::kMask | reg::REGEND::kMask), reg::kRegendDone)
+          << value << write;
       // The rest of the byte has not gone out: the slave does not take it.
       EXPECT_EQ(slave(chip).reg_read(0x20), value) << write;
       chip.advance_us(10);
@@ -99,7 +103,9 @@ TEST(ChipBissBAgs, AccessWithAnError_FramesGoOnBehindTheRegisterTimeout) {
       chip.advance_us(60);
       EXPECT_GT(slave(chip).frames(), frames + 5) << value << write;
       EXPECT_EQ(slave(chip).access().counters().protocol_errors, 0U) << value << write;
-      EXPECT_EQ(chip.status() & 0x50U, 0x50U) << value << write;
+      EXPECT_EQ(chip.status() & (reg::nAGSERR::kMask | reg::nSCDERR::kMask),
+                unsigned{reg::kNagserrGood | reg::kNscderrGood})
+          << value << write;
     }
   }
 }
@@ -111,7 +117,7 @@ TEST(ChipBissBAgs, SlInTheAddressPart_IsNotLookedAt) {
                       {.freqs = 0, .freqr = 3, .biss_c_registers = false});
     chip.write_rdata({0xC3});
     chip.set_access(0, 0x10, 1, write);
-    chip.instruct(kRegister);
+    chip.instruct(reg::kInstrControl);
     unsigned rising = 0;
     bool ma = true;
     ASSERT_TRUE(chip.simulator.run_while_waiting(
@@ -128,10 +134,11 @@ TEST(ChipBissBAgs, SlInTheAddressPart_IsNotLookedAt) {
     chip.simulator.advance(16 * chip.t_mar + chip.t_mar / 8);
     chip.simulator.line(1)->faults().stick(std::nullopt);
     chip.simulator.refresh_lines();
-    ASSERT_TRUE(chip.simulator.run_while_waiting([&] { return (chip.status() & 0x04U) != 0; },
-                                                 chip.simulator.now() + 200 * sim::kPsPerUs));
-    EXPECT_EQ(chip.status(), 0xFF) << write;
-    EXPECT_EQ(chip.read(0x80), write ? 0xC3 : 0x5A);
+    ASSERT_TRUE(
+        chip.simulator.run_while_waiting([&] { return (chip.status() & reg::REGEND::kMask) != 0; },
+                                         chip.simulator.now() + 200 * sim::kPsPerUs));
+    EXPECT_EQ(chip.status(), reg::kResetStatus0 | reg::kRegendDone) << write;
+    EXPECT_EQ(chip.read(reg::kAddrRdata), write ? 0xC3 : 0x5A);
     EXPECT_EQ(slave(chip).reg_read(0x10), write ? 0xC3 : 0x5A);
   }
 }
@@ -140,15 +147,17 @@ TEST(ChipBissBAgs, SlInTheAddressPart_IsNotLookedAt) {
 TEST(ChipBissBAgs, SecondAccess_RegendFallsWithTheInstruction) {
   ProtocolChip chip(bus("", "timeout = 2\nregisters = { 0x10 = 0x5A, 0x11 = 0xA5 }\n"),
                     {.freqs = 0, .freqr = 1, .biss_c_registers = false, .freqags = 0xFF});
-  chip.instruct(kAgs);  // one frame every 4 ms
+  chip.instruct(reg::kAgsOn);  // one frame every 4 ms
   for (const unsigned address : {0x10U, 0x11U}) {
     chip.set_access(0, address, 1, false);
-    chip.instruct(kAgs | kRegister);
-    EXPECT_EQ(chip.status() & 0x0CU, 0x08U) << address;
-    ASSERT_TRUE(chip.simulator.run_while_waiting([&] { return (chip.status() & 0x04U) != 0; },
-                                                 chip.simulator.now() + 10'000 * sim::kPsPerUs));
-    EXPECT_EQ(chip.read(0x80), address == 0x10 ? 0x5A : 0xA5);
-    EXPECT_EQ(chip.read(0xF4), kAgs);
+    chip.instruct(reg::kAgsOn | reg::kInstrControl);
+    EXPECT_EQ(chip.status() & (reg::nREGERR::kMask | reg::REGEND::kMask), reg::kNregerrGood)
+        << address;
+    ASSERT_TRUE(
+        chip.simulator.run_while_waiting([&] { return (chip.status() & reg::REGEND::kMask) != 0; },
+                                         chip.simulator.now() + 10'000 * sim::kPsPerUs));
+    EXPECT_EQ(chip.read(reg::kAddrRdata), address == 0x10 ? 0x5A : 0xA5);
+    EXPECT_EQ(chip.read(reg::kAddrInstr), reg::kAgsOn);
   }
 }
 
@@ -157,12 +166,12 @@ TEST(ChipBissBAgs, InitOnABus_EndsWithTheHandOver) {
   ProtocolChip chip(bus("mo = true\n", "timeout = 2\n"),
                     {.freqs = 0, .freqr = 1, .biss_c_registers = false, .en_mo = true});
   for (unsigned i = 0; i < 2; ++i) {
-    ASSERT_TRUE(chip.frame(0x10));
+    ASSERT_TRUE(chip.frame(reg::kInitStart));
     EXPECT_EQ(chip.ma[0].size(), 2U);
-    EXPECT_EQ(chip.status(), 0xFB);
+    EXPECT_EQ(chip.status(), reg::kResetStatus0);
     ASSERT_TRUE(chip.frame());
     EXPECT_EQ(chip.scdata(1, 16), 0x1234U);
-    EXPECT_EQ(chip.status(), 0xFB);
+    EXPECT_EQ(chip.status(), reg::kResetStatus0);
   }
 }
 
@@ -170,13 +179,13 @@ TEST(ChipBissBAgs, InitOnABus_EndsWithTheHandOver) {
 TEST(ChipBissBAgs, HeldSwitch_DoesNotKeepARegisterAccess) {
   ProtocolChip chip(bus("", "timeout = 2\nregisters = { 0x10 = 0x5A }\n"),
                     {.freqs = 0, .freqr = 1, .biss_c_registers = false});
-  ASSERT_TRUE(chip.run(0x44, 1000));
+  ASSERT_TRUE(chip.run(reg::kHoldbankPrevented | reg::kInstrCdm0, 1000));
   chip.advance_us(50);
   chip.set_access(0, 0x10, 1, false);
-  ASSERT_TRUE(chip.run(0x40 | kRegister, 1000));
-  EXPECT_EQ(chip.read(0x80), 0x5A);
-  EXPECT_EQ(chip.status(), 0xFF);
-  EXPECT_EQ(chip.read(0xFB), 0x00);
+  ASSERT_TRUE(chip.run(reg::kHoldbankPrevented | reg::kInstrControl, 1000));
+  EXPECT_EQ(chip.read(reg::kAddrRdata), 0x5A);
+  EXPECT_EQ(chip.status(), reg::kResetStatus0 | reg::kRegendDone);
+  EXPECT_EQ(chip.read(reg::kAddrSwbankfail), 0);
 }
 
 }  // namespace

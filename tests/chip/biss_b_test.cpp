@@ -16,6 +16,7 @@ using mb4test::ChipPlan;
 using mb4test::ma_clocks;
 using mb4test::ProtocolChip;
 using mb4test::to_bits;
+namespace reg = mb4::regs;
 namespace sim = mb4::sim;
 
 // Register timeout of 80 % of a register clock (I407), sensor timeout of 55 % of T_MA (I306) but
@@ -34,7 +35,6 @@ sim::BissBSlave& biss_b(ProtocolChip& chip, unsigned number = 1) {
   return dynamic_cast<sim::BissBSlave&>(*chip.simulator.slave(number));
 }
 
-constexpr std::uint8_t kRegister = 0x08;  // INSTR = 100
 
 // MA of one access as widths of high and low levels in percent of T_MAR, from the first cell on.
 std::string cells(const ProtocolChip& chip, std::size_t first_rise, bool& exact) {
@@ -66,7 +66,7 @@ TEST(ChipBissB, SensorFrame_EveryFreqs) {
     ASSERT_TRUE(chip.frame()) << freqs;
     EXPECT_EQ(chip.scdata(1, 28), 0xABCDEF7U) << freqs;
     EXPECT_EQ(chip.svalid(), 2U);
-    EXPECT_EQ(chip.status(), 0xFB);
+    EXPECT_EQ(chip.status(), reg::kResetStatus0);
     // N + 4 edges and the processing time: no CDS; MA rests high.
     ASSERT_EQ(chip.ma[0].size(), 2U * (28 + 6 + 4 + 2)) << freqs;
     for (std::size_t i = 1; i < chip.ma[0].size(); ++i) {
@@ -98,16 +98,17 @@ TEST(ChipBissB, RegisterAccess_LeavesDataAndErrorOfTheFrameBefore) {
       chip.simulator.slave(1)->set_data(data);
       ASSERT_TRUE(chip.frame());
       if (bad) {
-        chip.write(0xC1, {mb4test::crc_register(0x12F)});  // not the slave's CRC
+        chip.write(reg::SCRCLEN<1>::kAddress,
+                   {mb4test::crc_register(0x12F)});  // not the slave's CRC
         ASSERT_TRUE(chip.frame());
-        chip.write(0xC1, {mb4test::crc_register(0x43)});
+        chip.write(reg::SCRCLEN<1>::kAddress, {mb4test::crc_register(reg::SCRCLEN<1>::of(67))});
       }
       const unsigned flags = chip.status();
       EXPECT_EQ(flags & 0x10U, bad ? 0U : 0x10U) << "nSCDERR";
       const std::uint64_t before = chip.scdata(1, 28);
       chip.write_rdata({0xA6});
       chip.set_access(0, 0x21, 1, true);
-      ASSERT_TRUE(chip.frame(kRegister));
+      ASSERT_TRUE(chip.frame(reg::kInstrControl));
       EXPECT_EQ(chip.status(), flags | 0x04U) << "REGEND";
       EXPECT_EQ(chip.scdata(1, 28), before);
       EXPECT_EQ(before, data);
@@ -132,9 +133,10 @@ TEST_P(BissBClocks, EveryFreqr_WritesAndReadsWithExactCells) {
     for (const bool write : {true, false}) {
       chip.write_rdata({static_cast<std::uint8_t>(write ? value : 0)});
       chip.set_access(id, address, 1, write);
-      ASSERT_TRUE(chip.frame(kRegister)) << what;
-      EXPECT_EQ(chip.status(), 0xFF) << what;
-      EXPECT_EQ(chip.read(0xF3) & 0x3FU, 0U) << what;  // REGBYTES: after an error only
+      ASSERT_TRUE(chip.frame(reg::kInstrControl)) << what;
+      EXPECT_EQ(chip.status(), reg::kResetStatus0 | reg::kRegendDone) << what;
+      EXPECT_EQ(chip.read(reg::kAddrStatus3) & reg::REGBYTES::kMask, 0U)
+          << what;  // REGBYTES: after an error only
       EXPECT_EQ(biss_b(chip).access().counters().protocol_errors, 0U) << what;
       EXPECT_EQ(chip.simulator.slave(1)->reg_read(static_cast<std::uint8_t>(address)), value);
       if (by_mo) {
@@ -158,7 +160,7 @@ TEST_P(BissBClocks, EveryFreqr_WritesAndReadsWithExactCells) {
             << what;
       }
     }
-    EXPECT_EQ(chip.read(0x80), value) << what;
+    EXPECT_EQ(chip.read(reg::kAddrRdata), value) << what;
     EXPECT_EQ(biss_b(chip).handshakes(), by_mo ? 0U : 2U);
     EXPECT_EQ(biss_b(chip).mo_selections(), by_mo ? 2U : 0U);
     // And a sensor frame after it.
@@ -200,13 +202,13 @@ TEST(ChipBissB, OneToSixtyFourBytes_AreWrittenAndReadBack) {
           const unsigned address = (count * 5) % 128;
           chip.write_rdata(bytes);
           chip.set_access(by_mo ? 1 : 0, address, count, true);
-          ASSERT_TRUE(chip.frame(kRegister)) << count;
-          ASSERT_EQ(chip.status(), 0xFF) << count;
+          ASSERT_TRUE(chip.frame(reg::kInstrControl)) << count;
+          ASSERT_EQ(chip.status(), reg::kResetStatus0 | reg::kRegendDone) << count;
           chip.write_rdata(std::vector<std::uint8_t>(64, 0));
           chip.set_access(by_mo ? 1 : 0, address, count, false);
-          ASSERT_TRUE(chip.frame(kRegister)) << count;
-          ASSERT_EQ(chip.status(), 0xFF) << count;
-          EXPECT_EQ(chip.read(0x80, count), bytes) << count;
+          ASSERT_TRUE(chip.frame(reg::kInstrControl)) << count;
+          ASSERT_EQ(chip.status(), reg::kResetStatus0 | reg::kRegendDone) << count;
+          EXPECT_EQ(chip.read(reg::kAddrRdata, count), bytes) << count;
           for (unsigned i = 0; i < count; ++i) {
             EXPECT_EQ(
                 chip.simulator.slave(1)->reg_read(static_cast<std::uint8_t>((address + i) % 128)),
@@ -229,13 +231,14 @@ TEST(ChipBissB, LongestCable_IsARegisterClockLessThirtyNs) {
               slave(0, freqr, "data_bits = 16\nregisters = { 0x10 = [0x5A, 0xC3, 0x00, 0xFF] }\n"),
           {.freqs = 0, .freqr = freqr, .biss_c_registers = false});
       chip.set_access(0, 0x10, 4, false);
-      ASSERT_TRUE(chip.frame(kRegister)) << delay;
-      EXPECT_EQ(chip.status(), 0xFF) << delay;
-      EXPECT_EQ(chip.read(0x80, 4), (std::vector<std::uint8_t>{0x5A, 0xC3, 0x00, 0xFF})) << delay;
+      ASSERT_TRUE(chip.frame(reg::kInstrControl)) << delay;
+      EXPECT_EQ(chip.status(), reg::kResetStatus0 | reg::kRegendDone) << delay;
+      EXPECT_EQ(chip.read(reg::kAddrRdata, 4), (std::vector<std::uint8_t>{0x5A, 0xC3, 0x00, 0xFF}))
+          << delay;
       chip.write_rdata({0x12, 0x34});
       chip.set_access(0, 0x20, 2, true);
-      ASSERT_TRUE(chip.frame(kRegister)) << delay;
-      EXPECT_EQ(chip.status(), 0xFF) << delay;
+      ASSERT_TRUE(chip.frame(reg::kInstrControl)) << delay;
+      EXPECT_EQ(chip.status(), reg::kResetStatus0 | reg::kRegendDone) << delay;
       EXPECT_EQ(chip.simulator.slave(1)->reg_read(0x21), 0x34) << delay;
     }
   }
@@ -249,9 +252,9 @@ TEST(ChipBissB, BusySlave_IsWaitedForBeforeEachByte) {
                               "\nregisters = { 0x10 = [1, 2, 3] }\n"),
         {.freqs = 0, .freqr = 0, .biss_c_registers = false});
     chip.set_access(0, 0x10, 3, false);
-    ASSERT_TRUE(chip.frame(kRegister)) << busy;
-    EXPECT_EQ(chip.status(), 0xFF) << busy;
-    EXPECT_EQ(chip.read(0x80, 3), (std::vector<std::uint8_t>{1, 2, 3})) << busy;
+    ASSERT_TRUE(chip.frame(reg::kInstrControl)) << busy;
+    EXPECT_EQ(chip.status(), reg::kResetStatus0 | reg::kRegendDone) << busy;
+    EXPECT_EQ(chip.read(reg::kAddrRdata, 3), (std::vector<std::uint8_t>{1, 2, 3})) << busy;
   }
 }
 
@@ -260,9 +263,11 @@ TEST(ChipBissB, MissingRegister_EndsAfter4096Clocks) {
   ProtocolChip chip(channel() + slave(0, 1, "data_bits = 16\nmissing = [0x12]\n"),
                     {.freqs = 0, .freqr = 1, .biss_c_registers = false});
   chip.set_access(0, 0x10, 5, false);
-  ASSERT_TRUE(chip.run(kRegister));
-  EXPECT_EQ(chip.status() & 0x2CU, 0x0CU);  // nDELAYERR = 0, nREGERR = 1, REGEND = 1
-  EXPECT_EQ(chip.read(0xF3) & 0x3FU, 2U);   // bytes before it
+  ASSERT_TRUE(chip.run(reg::kInstrControl));
+  EXPECT_EQ(
+      chip.status() & (reg::nDELAYERR::kMask | reg::nREGERR::kMask | reg::REGEND::kMask),
+      unsigned{reg::kNregerrGood | reg::kRegendDone});  // nDELAYERR = 0, nREGERR = 1, REGEND = 1
+  EXPECT_EQ(chip.read(reg::kAddrStatus3) & reg::REGBYTES::kMask, 2U);  // bytes before it
   const sim::Time clocked = chip.ma[0].back().time - chip.ma[0].front().time;
   EXPECT_GE(clocked, 4096 * chip.t_mar);
   EXPECT_LE(clocked, (4096 + 17 + 3 * 14 + 10) * chip.t_mar);
@@ -274,19 +279,19 @@ TEST(ChipBissB, WrongCrcAndSilentSlave_AreReported) {
   const std::vector<std::uint8_t> before{0xE1, 0xE2, 0xE3};
   chip.write_rdata(before);
   chip.set_access(0, 0x10, 2, false);
-  ASSERT_TRUE(chip.frame(kRegister));
-  EXPECT_EQ(chip.status() & 0x0CU, 0x04U);
-  EXPECT_EQ(chip.read(0xF3) & 0x3FU, 0U);
-  EXPECT_EQ(chip.read(0x80, 3), before) << "page 28: stored after success only";
+  ASSERT_TRUE(chip.frame(reg::kInstrControl));
+  EXPECT_EQ(chip.status() & (reg::nREGERR::kMask | reg::REGEND::kMask), reg::kRegendDone);
+  EXPECT_EQ(chip.read(reg::kAddrStatus3) & reg::REGBYTES::kMask, 0U);
+  EXPECT_EQ(chip.read(reg::kAddrRdata, 3), before) << "page 28: stored after success only";
   biss_b(chip).access().set_wrong_data_crc(false);
   biss_b(chip).access().set_silent(true);
   chip.write_rdata({0x12});
   chip.set_access(0, 0x10, 1, true);
-  ASSERT_TRUE(chip.frame(kRegister));
-  EXPECT_EQ(chip.status() & 0x0CU, 0x04U);
+  ASSERT_TRUE(chip.frame(reg::kInstrControl));
+  EXPECT_EQ(chip.status() & (reg::nREGERR::kMask | reg::REGEND::kMask), reg::kRegendDone);
   biss_b(chip).access().set_silent(false);
-  ASSERT_TRUE(chip.frame(kRegister));
-  EXPECT_EQ(chip.status(), 0xFF);
+  ASSERT_TRUE(chip.frame(reg::kInstrControl));
+  EXPECT_EQ(chip.status(), reg::kResetStatus0 | reg::kRegendDone);
   EXPECT_EQ(chip.simulator.slave(1)->reg_read(0x10), 0x12);
 }
 
@@ -295,11 +300,13 @@ TEST(ChipBissB, NoHandOver_IsAnAgsError) {
   ProtocolChip chip(channel() + slave(0, 0), {.freqs = 0, .freqr = 0, .biss_c_registers = false});
   chip.simulator.line(1)->faults().stick(true);
   chip.set_access(0, 0x10, 1, false);
-  ASSERT_TRUE(chip.run(kRegister, 10'000));
-  EXPECT_EQ(chip.status() & 0x6DU, 0x2DU);
+  ASSERT_TRUE(chip.run(reg::kInstrControl, 10'000));
+  EXPECT_EQ(chip.status() & (reg::nAGSERR::kMask | reg::nDELAYERR::kMask | reg::nREGERR::kMask |
+                             reg::REGEND::kMask | reg::EOT::kMask),
+            unsigned{reg::kNdelayerrGood | reg::kNregerrGood | reg::kRegendDone | reg::kEotIdle});
   chip.simulator.line(1)->faults().stick(std::nullopt);
   chip.simulator.refresh_lines();
-  chip.instruct(0x80);
+  chip.instruct(reg::kBreakAbort);
   chip.advance_us(100);
   chip.simulator.slave(1)->set_data(0x1234);
   ASSERT_TRUE(chip.frame());
@@ -325,28 +332,28 @@ TEST(ChipBissB, BreakInAnyCell_EndsItAndTheNextAccessWorks) {
         }
         chip.write_rdata(host_bytes);
         chip.set_access(id, 0x10, 2, writing);
-        chip.instruct(kRegister);
+        chip.instruct(reg::kInstrControl);
         chip.simulator.advance(phase * 93 * sim::kPsPerNs);
         if (!chip.simulator.pin(sim::Pin::kEot)) ++in_cells;
-        chip.instruct(0x80);
+        chip.instruct(reg::kBreakAbort);
         chip.advance_us(1);
         EXPECT_TRUE(chip.simulator.pin(sim::Pin::kEot)) << phase;
         EXPECT_TRUE(chip.simulator.pin(sim::Pin::kMa1)) << phase;
         EXPECT_EQ(chip.simulator.pin(sim::Pin::kMo1), by_mo) << phase;
-        EXPECT_EQ(chip.read(0xF4), 0x00) << phase;
-        EXPECT_EQ(chip.status(), 0xFB) << phase;
-        EXPECT_EQ(chip.read(0xF3) & 0x3FU, 0U) << phase;
-        const auto rdata = chip.read(0x80, 2);
+        EXPECT_EQ(chip.read(reg::kAddrInstr), 0) << phase;
+        EXPECT_EQ(chip.status(), reg::kResetStatus0) << phase;
+        EXPECT_EQ(chip.read(reg::kAddrStatus3) & reg::REGBYTES::kMask, 0U) << phase;
+        const auto rdata = chip.read(reg::kAddrRdata, 2);
         for (unsigned i = 0; i < 2; ++i) {
-          const auto reg = chip.simulator.slave(1)->reg_read(static_cast<std::uint8_t>(0x10 + i));
+          const auto held = chip.simulator.slave(1)->reg_read(static_cast<std::uint8_t>(0x10 + i));
           EXPECT_TRUE(rdata[i] == host_bytes[i] || (!writing && rdata[i] == slave_bytes[i]))
               << phase;
-          EXPECT_TRUE(reg == slave_bytes[i] || (writing && reg == host_bytes[i])) << phase;
+          EXPECT_TRUE(held == slave_bytes[i] || (writing && held == host_bytes[i])) << phase;
         }
         chip.advance_us(5);  // the slave's register timeout
-        ASSERT_TRUE(chip.frame(kRegister)) << phase;
-        EXPECT_EQ(chip.status(), 0xFF) << phase;
-        EXPECT_EQ(chip.read(0x80, 2), writing ? host_bytes : slave_bytes) << phase;
+        ASSERT_TRUE(chip.frame(reg::kInstrControl)) << phase;
+        EXPECT_EQ(chip.status(), reg::kResetStatus0 | reg::kRegendDone) << phase;
+        EXPECT_EQ(chip.read(reg::kAddrRdata, 2), writing ? host_bytes : slave_bytes) << phase;
         if (!writing) continue;
         EXPECT_EQ(chip.simulator.slave(1)->reg_read(0x10), host_bytes[0]) << phase;
         EXPECT_EQ(chip.simulator.slave(1)->reg_read(0x11), host_bytes[1]) << phase;
@@ -361,11 +368,11 @@ TEST(ChipBissB, Init_IsTheHandOverAlone) {
   for (const unsigned freqs : {0U, 9U, 0x1FU}) {
     ProtocolChip chip(channel() + slave(freqs, 0),
                       {.freqs = freqs, .freqr = 0, .biss_c_registers = false});
-    ASSERT_TRUE(chip.frame(0x10));
+    ASSERT_TRUE(chip.frame(reg::kInitStart));
     EXPECT_EQ(biss_b(chip).handshakes(), 1U);
     ASSERT_EQ(chip.ma[0].size(), 2U) << freqs;
     EXPECT_GE(chip.ma[0][1].time - chip.ma[0][0].time, biss_b(chip).config().timeout.fixed);
-    EXPECT_EQ(chip.status(), 0xFB) << freqs;
+    EXPECT_EQ(chip.status(), reg::kResetStatus0) << freqs;
     chip.simulator.slave(1)->set_data(0x1234);
     ASSERT_TRUE(chip.frame());
     EXPECT_EQ(chip.scdata(1, 16), 0x1234U);
@@ -384,9 +391,9 @@ TEST(ChipBissB, Chain_EachSlaveByItsId) {
     ProtocolChip chip(text, {.freqs = 1, .freqr = 1, .biss_c_registers = false, .en_mo = by_mo});
     for (unsigned id = 0; id < 7; ++id) {
       chip.set_access(id + (by_mo ? 1 : 0), 0x10, 1, false);
-      ASSERT_TRUE(chip.frame(kRegister)) << id;
-      EXPECT_EQ(chip.status(), 0xFF) << id;
-      EXPECT_EQ(chip.read(0x80), 0x10 * (7 - id)) << id;
+      ASSERT_TRUE(chip.frame(reg::kInstrControl)) << id;
+      EXPECT_EQ(chip.status(), reg::kResetStatus0 | reg::kRegendDone) << id;
+      EXPECT_EQ(chip.read(reg::kAddrRdata), 0x10 * (7 - id)) << id;
       ASSERT_TRUE(chip.frame());
       for (unsigned i = 1; i <= 7; ++i) EXPECT_EQ(chip.scdata(i, 9), 0x100U + i);
     }

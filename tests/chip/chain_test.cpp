@@ -17,6 +17,7 @@
 namespace {
 
 using mb4test::Chip;
+namespace reg = mb4::regs;
 namespace sim = mb4::sim;
 
 const sim::BissCSlaveConfig& config_of(const sim::SlaveConfig& slave) {
@@ -69,15 +70,19 @@ class ChainBench {
       unsigned x = channel.number == 1 ? 0 : 4;
       for (const sim::SlaveConfig& slave : channel.slaves) {
         const auto& crc = config_of(slave).crc;
-        spi({0x02, static_cast<std::uint8_t>(0xC0 + 4 * x++),
-             static_cast<std::uint8_t>(0x40 | (slave.data_bits() - 1)), crc_byte(crc.polynomial),
-             static_cast<std::uint8_t>(crc.start & 0xFF),
+        spi({reg::kSpiOpcodeWriteRegisters, reg::slave_cfg_address(++x),
+             static_cast<std::uint8_t>(reg::kEnscdYes | (slave.data_bits() - 1)),
+             crc_byte(crc.polynomial), static_cast<std::uint8_t>(crc.start & 0xFF),
              static_cast<std::uint8_t>(crc.start >> 8)});
       }
     }
-    spi({0x02, 0xE5, 0x40, 0xA0, 0x02, 0x7C});
-    spi({0x02, 0xEC, static_cast<std::uint8_t>(two ? 0x11 : 0x01),
-         static_cast<std::uint8_t>(two ? 0x05 : 0x0D)});
+    spi({reg::kSpiOpcodeWriteRegisters, reg::kAddrCtrl, reg::kRegversBissC, reg::FREQR::of(5),
+         reg::kNocrcDropped, reg::kFreqagsAgsMin});
+    spi({reg::kSpiOpcodeWriteRegisters, reg::kAddrSlaveloc5,
+         static_cast<std::uint8_t>(two ? reg::kResetSlaveloc5 | reg::kSlaveloc5Split
+                                       : reg::kResetSlaveloc5),
+         static_cast<std::uint8_t>(two ? reg::kCfgch2BissC | reg::kCfgch1BissC
+                                       : reg::kCfgch2Unused | reg::kCfgch1BissC)});
   }
 
   std::vector<std::uint8_t> spi(const std::vector<std::uint8_t>& tx) {
@@ -88,14 +93,14 @@ class ChainBench {
 
   // One frame; compares edges, flags and all words. `frame` counts from 0.
   void check_frame(std::uint64_t frame) {
-    spi({0x07, 0x04});
+    spi({reg::kSpiOpcodeWriteInstruction, reg::kInstrCdm0});
     simulator.advance(400 * sim::kPsPerNs);
     ASSERT_TRUE(simulator.run_while_waiting([&] { return simulator.pin(sim::Pin::kEot); },
                                             simulator.now() + sim::kPsPerSecond));
-    const auto status = spi({0x05, 0, 0, 0});
+    const auto status = spi({reg::kSpiOpcodeReadStatus, 0, 0, 0});
     std::vector<std::uint8_t> memory = spi([] {
       std::vector<std::uint8_t> tx(65, 0);
-      tx[0] = 0x09;
+      tx[0] = reg::kSpiOpcodeReadRegisters0;
       return tx;
     }());
     unsigned valid = 0;
@@ -128,7 +133,7 @@ class ChainBench {
         EXPECT_LE(ma.rising, 3 + busy + way + 2) << "channel " << channel.number;
       }
     }
-    EXPECT_EQ(status[1], 0xFB);
+    EXPECT_EQ(status[1], reg::kResetStatus0);
     EXPECT_EQ(status[2] | status[3] << 8U, valid);
   }
 
@@ -190,10 +195,10 @@ TEST(ChipChain, LargestConfiguration_OneLineAndTwo) {
     // And a fault in the very last bit of each line is seen.
     for (const unsigned line : {1U, two ? 2U : 1U}) {
       bench.simulator.line(line)->faults().flip_next_frame({two ? 321U : 641U});
-      bench.spi({0x07, 0x04});
+      bench.spi({reg::kSpiOpcodeWriteInstruction, reg::kInstrCdm0});
       bench.simulator.advance(200 * sim::kPsPerUs);
-      const auto status = bench.spi({0x05, 0, 0, 0});
-      EXPECT_EQ(status[1], 0x6B);
+      const auto status = bench.spi({reg::kSpiOpcodeReadStatus, 0, 0, 0});
+      EXPECT_EQ(status[1], reg::kResetStatus0 & ~(reg::nERR::kMask | reg::nSCDERR::kMask));
       EXPECT_EQ(status[2], line == 1 && two ? 0x2A : 0xAA);
       EXPECT_EQ(status[3], line == 1 && two ? 0xAA : 0x2A);
     }
@@ -226,7 +231,8 @@ TEST(ChipChain, SmallestConfiguration_OneBit) {
 // Table 10: without SLAVELOC5 all data channels are on line 1; line 2 rests for any CFGCH2.
 TEST(ChipChain, NoSlaveloc5_Line2Rests) {
   ChainBench bench(chain_of_eight());
-  bench.spi({0x02, 0xEC, 0x01, 0x05});
+  bench.spi({reg::kSpiOpcodeWriteRegisters, reg::kAddrSlaveloc5, reg::kResetSlaveloc5,
+             reg::kCfgch2BissC | reg::kCfgch1BissC});
   for (std::uint64_t frame = 0; frame < 4; ++frame) bench.check_frame(frame);
   EXPECT_EQ(bench.simulator.ma_check(2).pulses(), 0U);
   EXPECT_TRUE(bench.simulator.pin(sim::Pin::kMa2));

@@ -47,22 +47,22 @@ class Chip {
     return rx;
   }
   void write(std::uint8_t address, std::initializer_list<std::uint8_t> bytes) {
-    std::vector<std::uint8_t> tx{0x02, address};
+    std::vector<std::uint8_t> tx{reg::kSpiOpcodeWriteRegisters, address};
     tx.insert(tx.end(), bytes);
     spi(tx);
   }
   std::vector<std::uint8_t> read(std::uint8_t address, std::size_t count) {
     std::vector<std::uint8_t> tx(count + 2);
-    tx[0] = 0x03;
+    tx[0] = reg::kSpiOpcodeReadRegisters;
     tx[1] = address;
     auto rx = spi(tx);
     return {rx.begin() + 2, rx.end()};
   }
   std::uint8_t read(std::uint8_t address) { return read(address, 1)[0]; }
   // Opcode 0x05: 0xF0 upward.
-  std::uint8_t status() { return spi({0x05, 0x00})[1]; }
+  std::uint8_t status() { return spi({reg::kSpiOpcodeReadStatus, 0x00})[1]; }
   // Opcode 0x07.
-  void instruct(std::uint8_t byte) { spi({0x07, byte}); }
+  void instruct(std::uint8_t byte) { spi({reg::kSpiOpcodeWriteInstruction, byte}); }
   void advance_us(std::uint64_t us) { simulator.advance(us * sim::kPsPerUs); }
   // Waits until EOT = 1 at the pin; false after `us`. Pin EOT falls two or three clocks after
   // the instruction's last SCLK edge (docs/timing.md).
@@ -74,9 +74,11 @@ class Chip {
   // BiSS C on channel 1, one slave, by hand.
   void configure_slave1(unsigned data_bits, std::uint8_t crc_byte, std::uint8_t freqs,
                         std::uint8_t freqags = 0x00) {
-    write(0xC0, {static_cast<std::uint8_t>(0x40 | (data_bits - 1)), crc_byte, 0x00, 0x00});
-    write(0xE5, {0x40, static_cast<std::uint8_t>(0xA0 | freqs), 0x00, freqags});
-    write(0xEC, {0x01, 0x0D});
+    write(reg::slave_cfg_address(1),
+          {static_cast<std::uint8_t>(reg::kEnscdYes | (data_bits - 1)), crc_byte, 0x00, 0x00});
+    write(reg::kAddrCtrl,
+          {reg::kRegversBissC, static_cast<std::uint8_t>(reg::FREQR::of(5) | freqs), 0, freqags});
+    write(reg::kAddrSlaveloc5, {reg::kResetSlaveloc5, reg::kCfgch2Unused | reg::kCfgch1BissC});
   }
 
   sim::Simulator simulator;

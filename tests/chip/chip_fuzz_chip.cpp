@@ -11,12 +11,9 @@
 namespace mb4test {
 namespace {
 
-namespace regs = mb4::regs;
 using mb4ref::Protocol;
 
 constexpr const char* kProtocolNames[] = {"biss-b", "biss-c", "ssi"};
-constexpr unsigned kEnscd = 0x40;
-constexpr unsigned kBit7 = 0x80;  // GRAYSx, LSTOPx
 
 // Inverse of an odd number modulo 2^64.
 std::uint64_t inverse(std::uint64_t odd) {
@@ -52,12 +49,13 @@ std::string slave_text(Random& random, const FuzzLine& line, const FuzzSlave& sl
   }
   switch (line.protocol) {
     case Protocol::kSsi:
-      text << "gray = " << (slave.gray ? "true" : "false") << "\ntimeout = " << 10 + random.below(20)
-           << "\n";
+      text << "gray = " << (slave.gray ? "true" : "false")
+           << "\ntimeout = " << 10 + random.below(20) << "\n";
       break;
     case Protocol::kBissB:
-      text << "timeout = " << 10 + random.below(20) << "\nregister_timeout = "
-           << 40 + random.below(60) << "\nbusy_periods = " << random.below(8) << "\n";
+      text << "timeout = " << 10 + random.below(20)
+           << "\nregister_timeout = " << 40 + random.below(60)
+           << "\nbusy_periods = " << random.below(8) << "\n";
       break;
     default:
       text << (random.one_in(3) ? "timeout = " + std::to_string(5 + random.below(20))
@@ -145,8 +143,8 @@ void make_line(Random& random, FuzzChip& chip, unsigned index, unsigned room) {
   line.present = true;
   line.protocol = random.one_in(2) ? Protocol::kBissC : static_cast<Protocol>(random.below(3));
   line.mo = line.protocol != Protocol::kSsi && random.one_in(3);
-  line.delay_ns = random.one_in(3) || line.protocol == Protocol::kSsi ? random.below(60)
-                                                                      : random.below(900);
+  line.delay_ns =
+      random.one_in(3) || line.protocol == Protocol::kSsi ? random.below(60) : random.below(900);
   unsigned mask = 1U << random.below(room);
   if (line.protocol != Protocol::kSsi && random.one_in(3)) mask |= 1U << random.below(room);
   for (unsigned x = 0; x < room; ++x) {
@@ -154,13 +152,16 @@ void make_line(Random& random, FuzzChip& chip, unsigned index, unsigned room) {
     FuzzSlave slave = make_slave(random, line);
     slave.channel = index * 4 + x;
     slave.number = static_cast<unsigned>(4 * index + line.slaves.size() + 1);
-    std::uint8_t* const bytes = &chip.fit[regs::slave_cfg_address(slave.channel + 1)];
-    bytes[0] = static_cast<std::uint8_t>(kEnscd | (slave.bits - 1) |
-                                         (slave.gray || slave.actuator ? kBit7 : 0));
+    std::uint8_t* const bytes = &chip.fit[reg::slave_cfg_address(slave.channel + 1)];
+    bytes[0] = static_cast<std::uint8_t>(reg::kEnscdYes | (slave.bits - 1) |
+                                         (slave.gray       ? reg::kGraysGray
+                                          : slave.actuator ? reg::kLstopWith
+                                                           : 0));
     bytes[1] = slave.crc_register;
     bytes[2] = static_cast<std::uint8_t>(slave.crc_start);
     bytes[3] = static_cast<std::uint8_t>(slave.crc_start >> 8U);
-    if (slave.actuator) chip.fit[regs::kAddrActnsens] |= static_cast<std::uint8_t>(1U << slave.channel);
+    if (slave.actuator)
+      chip.fit[reg::kAddrActnsens] |= static_cast<std::uint8_t>(1U << slave.channel);
     line.slaves.push_back(slave);
   }
 }
@@ -182,7 +183,8 @@ std::string FuzzSlave::line_bits(std::uint64_t word, std::uint32_t inverted_crc)
 }
 
 bool FuzzLine::has_actuator() const {
-  return std::any_of(slaves.begin(), slaves.end(), [](const auto& slave) { return slave.actuator; });
+  return std::any_of(slaves.begin(), slaves.end(),
+                     [](const auto& slave) { return slave.actuator; });
 }
 
 FuzzChip make_fuzz_chip(Random& random, std::uint64_t seed) {
@@ -198,8 +200,9 @@ FuzzChip make_fuzz_chip(Random& random, std::uint64_t seed) {
   const bool first = !second || !random.one_in(5);
   if (first) make_line(random, chip, 0, second ? 4 : 8);
   if (second) make_line(random, chip, 1, 4);
-  chip.fit[regs::kAddrSlaveloc5] = second ? 0x11 : 0x01;
-  chip.fit[regs::kAddrCfgch] =
+  chip.fit[reg::kAddrSlaveloc5] =
+      second ? reg::kResetSlaveloc5 | reg::kSlaveloc5Split : reg::kResetSlaveloc5;
+  chip.fit[reg::kAddrCfgch] =
       static_cast<std::uint8_t>(static_cast<unsigned>(chip.lines[0].protocol) |
                                 static_cast<unsigned>(chip.lines[1].protocol) << 2U);
 
@@ -210,8 +213,8 @@ FuzzChip make_fuzz_chip(Random& random, std::uint64_t seed) {
   static constexpr unsigned kSclk[] = {50'000'000, 20'000'000, 20'000'000, 5'000'000};
   std::ostringstream text;
   text << "[sim]\nseed = " << seed << "\n[chip]\nf_clk_hz = " << chip.f_clk_hz
-       << "\nf_osc_hz = " << chip.f_osc_hz << "\n[chip.quirks]\nAGSERR_ON_HOLDBANK = "
-       << (chip.agserr_on_hold ? "true" : "false")
+       << "\nf_osc_hz = " << chip.f_osc_hz
+       << "\n[chip.quirks]\nAGSERR_ON_HOLDBANK = " << (chip.agserr_on_hold ? "true" : "false")
        << "\nAGSERR_ON_INSTR_WRITE = " << (chip.agserr_on_write ? "true" : "false")
        << "\n[host]\ninterface = \"" << kHosts[host] << "\"\nsclk_hz = " << kSclk[random.below(4)]
        << "\ncycle_ns = " << 110 + random.below(3) * 400 << "\n";

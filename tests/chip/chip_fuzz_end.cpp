@@ -14,7 +14,7 @@
 namespace mb4test {
 namespace {
 
-namespace regs = mb4::regs;
+namespace reg = mb4::regs;
 namespace sim = mb4::sim;
 using sim::Pin;
 
@@ -35,9 +35,9 @@ std::string hex(const std::array<std::uint8_t, 5>& status) {
 void FuzzRun::ensure_clock() {
   if (host_.wait_clocks(4)) return;
   count(FuzzCounts::kWaitsClock);
-  const unsigned iface = host_.written(regs::kAddrIface);
-  if ((iface & kClkeni) != 0) fail("clock", "stands still with CLKENI = 1");
-  host_.write(regs::kAddrIface, {static_cast<std::uint8_t>(iface | kClkeni)});
+  const unsigned iface = host_.written(reg::kAddrIface);
+  if ((iface & reg::CLKENI::kMask) != 0) fail("clock", "stands still with CLKENI = 1");
+  host_.write(reg::kAddrIface, {static_cast<std::uint8_t>(iface | reg::CLKENI::kMask)});
   if (!host_.wait_clocks(4)) fail("clock", "stands still after CLKENI = 1");
 }
 
@@ -85,7 +85,7 @@ std::uint64_t FuzzRun::access_bound() const {
 
 // By the status read last.
 bool FuzzRun::access_ended() const {
-  return (status_[0] & kRegend) != 0 && !is_control(status_[4]);
+  return (status_[0] & reg::REGEND::kMask) != 0 && !is_control(status_[4]);
 }
 
 // Until no frame and no INIT runs; with AGS = 1 until a frame has ended or none runs.
@@ -93,9 +93,10 @@ FuzzRun::End FuzzRun::wait_end() {
   ensure_clock();
   if (!host_.wait_clocks(kSettleClocks)) ensure_clock();
   return wait_until(frame_bound(), [&](bool eot) {
-    if ((status_[4] & kInit) != 0) return false;
-    const bool now = (status_[0] & kEot) != 0;
-    return (status_[4] & kAgs) != 0 ? eot || now : now && (status_[4] & kInstr) == 0;
+    if ((status_[4] & reg::INIT::kMask) != 0) return false;
+    const bool now = (status_[0] & reg::EOT::kMask) != 0;
+    return (status_[4] & reg::AGS::kMask) != 0 ? eot || now
+                                               : now && (status_[4] & reg::INSTR::kMask) == 0;
   });
 }
 
@@ -137,15 +138,16 @@ void FuzzRun::classify_wait() {
     }
     if (!possible.biss[i] || !clocked) continue;
     // Decision 24: the access ends all the same.
-    const bool held = chip_.agserr_on_hold && (status_[4] & kHoldBank) != 0;
+    const bool held = chip_.agserr_on_hold && (status_[4] & reg::HOLDBANK::kMask) != 0;
     if (is_control(status_[4]) && host_.access_clean() && !possible.biss_b_control && !held &&
-        !is_agsinfinite(host_.written(regs::kAddrFreqags))) {
+        !is_agsinfinite(host_.written(reg::kAddrFreqags))) {
       // The frame goes on with the end of a fault. Then the access waits for the host's next write
       // (23), or needs as many frames as any other.
       const bool fault_ends = host_.simulator().now() / sim::kPsPerNs <
                               chip_.faults_end_ns + frame_bound() * host_.clock_ns();
       const auto frame_ended = [&](bool eot) {
-        return fault_ends && ((status_[4] & kAgs) != 0 ? eot : (status_[0] & kEot) != 0);
+        return fault_ends &&
+               ((status_[4] & reg::AGS::kMask) != 0 ? eot : (status_[0] & reg::EOT::kMask) != 0);
       };
       bool ended = false;
       const End end = wait_until(possible.limit * 9 / 8 + frame_bound(), [&](bool eot) {
@@ -171,16 +173,17 @@ void FuzzRun::end_by_break(FuzzCounts::What wait) {
   ensure_clock();
   const unsigned bank = host_.banks();
   if (one_in(4)) {
-    host_.instruct_twice(bank | kBreak, one_in(2) ? bank : bank ^ kHoldBank);
+    host_.instruct_twice(bank | reg::BREAK::kMask, one_in(2) ? bank : bank ^ reg::HOLDBANK::kMask);
   } else {
-    host_.instruct(bank | kBreak);
+    host_.instruct(bank | reg::BREAK::kMask);
   }
   if (!host_.wait_clocks(2 * kSettleClocks + 2 * host_.possible().ma_clocks)) ensure_clock();
   status_ = host_.status();
-  const unsigned agserr = chip_.agserr_on_write ? 0 : kNAgserr;
-  constexpr unsigned kOther = 0x3D;  // nDELAYERR, nSCDERR, nREGERR, REGEND, EOT
-  constexpr unsigned kAfterBreak = 0x39;
-  if ((status_[4] & (kInit | kInstr | kAgs)) != 0 ||
+  const unsigned agserr = chip_.agserr_on_write ? 0 : reg::nAGSERR::kMask;
+  constexpr unsigned kAfterBreak =
+      reg::kNdelayerrGood | reg::kNscderrGood | reg::kNregerrGood | reg::kEotIdle;
+  constexpr unsigned kOther = kAfterBreak | reg::REGEND::kMask;
+  if ((status_[4] & (reg::INIT::kMask | reg::INSTR::kMask | reg::AGS::kMask)) != 0 ||
       (status_[0] & (kOther | agserr)) != (kAfterBreak | agserr)) {
     fail("BREAK", "0xF0 to 0xF4 read" + hex(status_));
   }
@@ -192,7 +195,8 @@ void FuzzRun::end_by_break(FuzzCounts::What wait) {
 void FuzzRun::check_cannot_run() {
   if (!host_.access_open() || !host_.access_clean() || host_.access_can_run()) return;
   const End end = wait_until(kAtOnceClocks, [&](bool /*eot*/) {
-    return !is_control(status_[4]) && (status_[0] & (kRegend | kNRegerr)) == kRegend;
+    return !is_control(status_[4]) &&
+           (status_[0] & (reg::REGEND::kMask | reg::nREGERR::kMask)) == reg::REGEND::kMask;
   });
   if (end != End::kDone) fail("access that cannot run (37)", "0xF0 to 0xF4 read" + hex(status_));
   count(FuzzCounts::kAccessesCannotRun);
@@ -212,7 +216,8 @@ void FuzzRun::drive_on(bool by_getsens) {
       host_.pin(Pin::kGetsens, "GETSENS", false);
     } else {
       // A frame that HOLDBANK keeps back would not be one.
-      host_.instruct((host_.banks() & (chip_.agserr_on_hold ? kSwBank : ~0U)) | kControl);
+      host_.instruct((host_.banks() & (chip_.agserr_on_hold ? reg::SWBANK::kMask : ~0U)) |
+                     reg::kInstrControl);
     }
     if (const End end = wait_end(); end != End::kDone) return not_ended(end);
     if (access_ended()) {
@@ -241,23 +246,24 @@ void FuzzRun::check_access_ends() {
     return;
   }
   const Possible& possible = host_.possible();
-  const bool ags = (status_[4] & kAgs) != 0;
+  const bool ags = (status_[4] & reg::AGS::kMask) != 0;
   if (!ags) {
     if (one_in(2)) return end_by_break(FuzzCounts::kWaitsHost);
     count(FuzzCounts::kWaitsHost);
     return drive_on(false);
   }
-  if (is_agsinfinite(host_.written(regs::kAddrFreqags))) {
+  if (is_agsinfinite(host_.written(reg::kAddrFreqags))) {
     if (one_in(2)) return end_by_break(FuzzCounts::kWaitsGetsens);
     count(FuzzCounts::kWaitsGetsens);
-    if (!is_control(status_[4])) host_.instruct(host_.banks() | kAgs | kControl);
+    if (!is_control(status_[4]))
+      host_.instruct(host_.banks() | reg::AGS::kMask | reg::kInstrControl);
     return drive_on(true);
   }
-  if (chip_.agserr_on_hold && (status_[4] & kHoldBank) != 0) {
+  if (chip_.agserr_on_hold && (status_[4] & reg::HOLDBANK::kMask) != 0) {
     return end_by_break(FuzzCounts::kWaitsHold);
   }
   // Another INSTR was written before it began, or while it ran (then it goes on).
-  if (!is_control(status_[4])) host_.instruct(host_.banks() | kAgs | kControl);
+  if (!is_control(status_[4])) host_.instruct(host_.banks() | reg::AGS::kMask | reg::kInstrControl);
   const End later = wait_until(access_bound(), [&](bool /*eot*/) { return access_ended(); });
   if (later == End::kTooLong) return end_by_break(FuzzCounts::kWaitsTooLong);
   if (later == End::kDone) {
@@ -271,8 +277,8 @@ void FuzzRun::check_access_ends() {
   // Only BiSS C begins beside a running frame, and ends beside one that hangs (24). Any other
   // INSTR 100 or 111, also one that cannot run, is taken behind the frame (19), which a line that
   // does not answer holds (4).
-  const bool biss_c = (host_.written(regs::kAddrCtrl) & 0x40U) != 0;
-  if ((!biss_c || !host_.access_can_run()) && (status_[0] & kEot) == 0) {
+  const bool biss_c = (host_.written(reg::kAddrCtrl) & reg::REGVERS::kMask) != 0;
+  if ((!biss_c || !host_.access_can_run()) && (status_[0] & reg::EOT::kMask) == 0) {
     const End frame = wait_end();
     if (frame != End::kDone) return not_ended(frame);
   }
@@ -286,7 +292,7 @@ void FuzzRun::check_end() {
   if (one_in(2) || !at_rest()) return;
   // An access that nothing disturbs; the lines are as the phase has left them.
   if (one_in(4)) {
-    host_.write(regs::kAddrCfgch, {static_cast<std::uint8_t>(one_in(2) ? 0x0F : byte())});
+    host_.write(reg::kAddrCfgch, {static_cast<std::uint8_t>(one_in(2) ? 0x0F : byte())});
   }
   ask_for_access();
   check_ended();
@@ -294,7 +300,7 @@ void FuzzRun::check_end() {
 
 // AGS = 0 and nothing runs.
 bool FuzzRun::at_rest() {
-  return !host_.access_open() && (host_.written(regs::kAddrInstr) & kAgs) == 0;
+  return !host_.access_open() && (host_.written(reg::kAddrInstr) & reg::AGS::kMask) == 0;
 }
 
 void FuzzRun::check_ended() {
@@ -305,7 +311,7 @@ void FuzzRun::check_ended() {
     count(FuzzCounts::kInstructionsEnd);
     check_access_ends();
   }
-  if ((host_.written(regs::kAddrInstr) & kAgs) != 0) {
+  if ((host_.written(reg::kAddrInstr) & reg::AGS::kMask) != 0) {
     if (one_in(3)) return;
     host_.instruct(host_.banks());
     if (const End end = wait_end(); end != End::kDone) return not_ended(end);
@@ -336,13 +342,13 @@ void FuzzRun::recover() {
   if (!chip_.lines[0].present) host_.pin(Pin::kSl1, "SL1", true);
   if (!chip_.lines[1].present) host_.pin(Pin::kSl2, "SL2_NSL1", true);
   const bool osc = chip_.f_clk_hz == 0 || chip_.clk_stops_for_ever || one_in(2);
-  host_.write(regs::kAddrIface, {static_cast<std::uint8_t>(osc ? kClkeni : 0U)});
+  host_.write(reg::kAddrIface, {static_cast<std::uint8_t>(osc ? reg::CLKENI::kMask : 0U)});
   configure(true);
   misfit_ = {};
   if (!host_.wait_clocks(100)) fail("recovery", "the clock does not run");
-  host_.instruct(host_.banks() & kSwBank);
+  host_.instruct(host_.banks() & reg::SWBANK::kMask);
   end_by_break(FuzzCounts::kRecoveries);
-  host_.instruct(host_.banks() & kSwBank);
+  host_.instruct(host_.banks() & reg::SWBANK::kMask);
   // MO that fell with EN_MO less than a timeout ago selects register mode of BiSS B.
   host_.wait_ns(40'000);
   wait_slaves(false);
@@ -354,31 +360,31 @@ void FuzzRun::recover() {
     for (const FuzzSlave& slave : chip_.lines[line].slaves) {
       sim::ControlSlave* const control = simulator.slave(slave.number)->control();
       if (control != nullptr && !control->data_active()) {
-        host_.write(regs::slave_cfg_address(slave.channel + 1), {0});
+        host_.write(reg::slave_cfg_address(slave.channel + 1), {0});
       } else if (!slave.actuator) {
         there.emplace_back(&slave, line);
       }
     }
   }
-  const unsigned bank = host_.banks() & kSwBank;
-  host_.instruct(bank | kInit);
+  const unsigned bank = host_.banks() & reg::SWBANK::kMask;
+  host_.instruct(bank | reg::INIT::kMask);
   if (wait_end() != End::kDone) fail("recovery", "INIT does not end, status" + hex(status_));
-  const unsigned agserr = chip_.agserr_on_write ? kNAgserr | kNerr : 0U;
+  const unsigned agserr = chip_.agserr_on_write ? reg::nAGSERR::kMask | reg::nERR::kMask : 0U;
   if ((status_[0] | agserr) != (0xFBU | agserr)) fail("recovery", "after INIT" + hex(status_));
   // An SSI line takes no part in INIT (docs/choices.md).
-  const bool biss_c = (host_.written(regs::kAddrCtrl) & 0x40U) != 0 &&
+  const bool biss_c = (host_.written(reg::kAddrCtrl) & reg::REGVERS::kMask) != 0 &&
                       (host_.possible().biss[0] || host_.possible().biss[1]);
   if (biss_c && (status_[1] != 0 || status_[2] != 0)) {
     fail("SVALID after INIT (35)", "status" + hex(status_));
   }
   wait_slaves(true);
-  host_.instruct(bank | 0x04U);
+  host_.instruct(bank | reg::kInstrCdm0);
   if (wait_end() != End::kDone) fail("recovery", "the frame does not end, status" + hex(status_));
   if ((status_[0] | agserr) != (0xFBU | agserr)) fail("recovery", "after the frame" + hex(status_));
-  const auto svalid = host_.read(regs::kAddrSvalidLo, 2);
+  const auto svalid = host_.read(reg::kAddrSvalidLo, 2);
   for (const auto& [slave, line] : there) {
     const unsigned x = slave->channel;
-    const auto data = host_.read(regs::scdata_address(x + 1), 8);
+    const auto data = host_.read(reg::scdata_address(x + 1), 8);
     if ((svalid[x / 4] >> (2 * (x % 4) + 1) & 1U) == 0) {
       fail("recovery", "SVALID" + std::to_string(x + 1) + " is 0");
     }

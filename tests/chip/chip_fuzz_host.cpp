@@ -10,7 +10,7 @@
 namespace mb4test {
 namespace {
 
-namespace regs = mb4::regs;
+namespace reg = mb4::regs;
 namespace sim = mb4::sim;
 using mb4ref::Protocol;
 using sim::Pin;
@@ -50,13 +50,13 @@ void FuzzHost::write(unsigned address, const std::vector<std::uint8_t>& bytes) {
 }
 
 std::array<std::uint8_t, 5> FuzzHost::status() {
-  const auto rx = session_.spi({0x05, 0, 0, 0, 0, 0});
+  const auto rx = session_.spi({reg::kSpiOpcodeReadStatus, 0, 0, 0, 0, 0});
   return {rx[1], rx[2], rx[3], rx[4], rx[5]};
 }
 
 void FuzzHost::instruct(unsigned byte) {
   session_.instruct(byte);
-  took(regs::kAddrInstr, static_cast<std::uint8_t>(byte));
+  took(reg::kAddrInstr, static_cast<std::uint8_t>(byte));
 }
 
 void FuzzHost::instruct_twice(unsigned first, unsigned second) {
@@ -66,8 +66,8 @@ void FuzzHost::instruct_twice(unsigned first, unsigned second) {
     return;
   }
   for (const unsigned byte : {first, second}) {
-    bus_write(regs::kAddrInstr, static_cast<std::uint8_t>(byte));
-    took(regs::kAddrInstr, static_cast<std::uint8_t>(byte));
+    bus_write(reg::kAddrInstr, static_cast<std::uint8_t>(byte));
+    took(reg::kAddrInstr, static_cast<std::uint8_t>(byte));
   }
   wait_ns(5 * clock_ns_);
 }
@@ -127,16 +127,16 @@ bool FuzzHost::wait_clocks(std::uint64_t clocks) {
 
 bool FuzzHost::line_used(unsigned line) const {
   return protocol(line) != Protocol::kUnused &&
-         (line == 0 || (image_[regs::kAddrSlaveloc5] & 0x10U) != 0);
+         (line == 0 || (image_[reg::kAddrSlaveloc5] & reg::SLAVELOC5::kMask) != 0);
 }
 
 Protocol FuzzHost::protocol(unsigned line) const {
-  return static_cast<Protocol>((image_[regs::kAddrCfgch] >> (2 * line)) & 3U);
+  return static_cast<Protocol>((image_[reg::kAddrCfgch] >> (2 * line)) & 3U);
 }
 
 bool FuzzHost::access_can_run() const {
-  const bool biss_c = (image_[regs::kAddrCtrl] & 0x40U) != 0;
-  const unsigned chsel = image_[regs::kAddrChsel] & 3U;
+  const bool biss_c = (image_[reg::kAddrCtrl] & reg::REGVERS::kMask) != 0;
+  const unsigned chsel = image_[reg::kAddrChsel] & reg::CHSEL::kMask;
   for (const unsigned line : {0U, 1U}) {
     if ((((chsel == 0 ? 1U : chsel) >> line) & 1U) == 0 || !line_used(line)) continue;
     if ((protocol(line) == Protocol::kBissB) != biss_c) return true;
@@ -146,16 +146,16 @@ bool FuzzHost::access_can_run() const {
 
 void FuzzHost::took(unsigned address, std::uint8_t value) {
   image_[address] = value;
-  if (address == regs::kAddrInstr) {
-    image_[address] = value & static_cast<std::uint8_t>(~kBreak);
+  if (address == reg::kAddrInstr) {
+    image_[address] = value & static_cast<std::uint8_t>(~reg::BREAK::kMask);
     // Another write that comes too close takes the place of INIT, not that of BREAK (decision 41).
     if (lost_with_init_ && clocks() < init_clock_ + kInstrClocks) access_open_ = true;
-    lost_with_init_ = access_open_ && (value & kInit) != 0;
+    lost_with_init_ = access_open_ && (value & reg::INIT::kMask) != 0;
     init_clock_ = clocks();
-    if ((value & (kBreak | kInit)) != 0) access_open_ = false;
-    if ((value & kBreak) != 0) lost_with_init_ = false;
+    if ((value & (reg::BREAK::kMask | reg::INIT::kMask)) != 0) access_open_ = false;
+    if ((value & reg::BREAK::kMask) != 0) lost_with_init_ = false;
     if (is_control(value)) {
-      access_clean_ = rest_ && !access_open_ && (value & kInit) == 0;
+      access_clean_ = rest_ && !access_open_ && (value & reg::INIT::kMask) == 0;
       access_open_ = true;
     } else {
       access_clean_ = false;
@@ -163,41 +163,42 @@ void FuzzHost::took(unsigned address, std::uint8_t value) {
   } else if (address >= 0xC0) {
     access_clean_ = false;
   }
-  rest_ = rest_ && (address != regs::kAddrInstr || (value & (kInstr | kInit | kAgs)) == 0);
+  rest_ = rest_ && (address != reg::kAddrInstr ||
+                    (value & (reg::INSTR::kMask | reg::INIT::kMask | reg::AGS::kMask)) == 0);
   note_configuration();
 }
 
 void FuzzHost::note_configuration() {
-  const unsigned freq = image_[regs::kAddrFreq];
+  const unsigned freq = image_[reg::kAddrFreq];
   possible_.ma_clocks = std::max(possible_.ma_clocks, ma_clocks(freq));
   possible_.limit = std::max(possible_.limit, start_bit_limit(freq));
   unsigned bits = 0;
-  for (unsigned x = 1; x <= regs::kSlaves; ++x) {
-    const unsigned length = image_[regs::slave_cfg_address(x)];
+  for (unsigned x = 1; x <= reg::kSlaves; ++x) {
+    const unsigned length = image_[reg::slave_cfg_address(x)];
     constexpr unsigned kMostCrc = 16;
     if ((length & 0x40U) != 0) bits += (length & 0x3FU) + 2 + kMostCrc;
   }
   // Request, acknowledge, delay, processing time, CDS and the end.
   possible_.frame_periods =
-      std::max(possible_.frame_periods, bits + image_[regs::kAddrMoBusy] + 60U);
-  possible_.bytes = std::max(possible_.bytes, (image_[regs::kAddrRegnum] & 0x3FU) + 1U);
+      std::max(possible_.frame_periods, bits + image_[reg::kAddrMoBusy] + 60U);
+  possible_.bytes = std::max(possible_.bytes, (image_[reg::kAddrRegnum] & reg::REGNUM::kMask) + 1U);
   for (const unsigned line : {0U, 1U}) {
     possible_.used[line] = possible_.used[line] || line_used(line);
     possible_.biss[line] =
         possible_.biss[line] || (line_used(line) && protocol(line) != Protocol::kSsi);
   }
-  possible_.biss_b_control |= (image_[regs::kAddrCtrl] & 0x40U) == 0;
+  possible_.biss_b_control |= (image_[reg::kAddrCtrl] & reg::REGVERS::kMask) == 0;
   possible_.control_asked |=
-      is_control(image_[regs::kAddrInstr]) || (image_[regs::kAddrInstr] & kInit) != 0;
-  const unsigned code = image_[regs::kAddrFreqags];
-  possible_.agsmin |= code == kAgsMin;
-  possible_.paired |= (image_[regs::kAddrIface] & 0x08U) != 0;
-  possible_.ma_forced |= (image_[regs::kAddrIface] & kMaForced) != 0;
+      is_control(image_[reg::kAddrInstr]) || (image_[reg::kAddrInstr] & reg::INIT::kMask) != 0;
+  const unsigned code = image_[reg::kAddrFreqags];
+  possible_.agsmin |= code == reg::kFreqagsAgsMin;
+  possible_.paired |= (image_[reg::kAddrIface] & reg::kCfgifRs422) != 0;
+  possible_.ma_forced |= (image_[reg::kAddrIface] & kMaForced) != 0;
   possible_.ma_may_rest |=
-      (image_[regs::kAddrCtrl] & 0x02U) != 0 && image_[regs::kAddrActnsens] != 0;
-  const std::uint64_t period = code < kAgsMin ? 20U * (code + 1U)
-                               : code < 0x80  ? 0
-                                              : 625U * (code - 127U);
+      (image_[reg::kAddrCtrl] & reg::EN_MO::kMask) != 0 && image_[reg::kAddrActnsens] != 0;
+  const std::uint64_t period = code < reg::kFreqagsAgsMin ? 20U * (code + 1U)
+                               : code < 0x80              ? 0
+                                                          : 625U * (code - 127U);
   possible_.ags_period = std::max(possible_.ags_period, period);
 }
 

@@ -17,28 +17,14 @@
 
 namespace mb4test {
 
-// Bits of 0xF4, 0xF5 and 0xF0 (Tables 44 to 60).
-inline constexpr unsigned kAgs = 0x01;
-inline constexpr unsigned kInstr = 0x0E;
-inline constexpr unsigned kInit = 0x10;
-inline constexpr unsigned kSwBank = 0x20;
-inline constexpr unsigned kHoldBank = 0x40;
-inline constexpr unsigned kBreak = 0x80;
-inline constexpr unsigned kClkeni = 0x01;
-inline constexpr unsigned kForceBits = 0xF0;
-inline constexpr unsigned kMaForced = 0x50;  // MAFS, MAFO
-inline constexpr unsigned kEot = 0x01;
-inline constexpr unsigned kRegend = 0x04;
-inline constexpr unsigned kNRegerr = 0x08;
-inline constexpr unsigned kNAgserr = 0x40;
-inline constexpr unsigned kNerr = 0x80;
-inline constexpr unsigned kControl = 0x08;         // INSTR = 100
-inline constexpr unsigned kReducedControl = 0x0E;  // INSTR = 111
-inline constexpr unsigned kAgsMin = 0x7C;
-inline constexpr unsigned kAgsInfinite = 0x7D;
+// Of 0xF5 (Tables 50 to 53).
+inline constexpr unsigned kForceBits =
+    reg::MAVO::kMask | reg::MAFO::kMask | reg::MAVS::kMask | reg::MAFS::kMask;
+inline constexpr unsigned kMaForced = reg::MAFS::kMask | reg::MAFO::kMask;
 
 inline bool is_control(unsigned instruction) {
-  return (instruction & kInstr) == kControl || (instruction & kInstr) == kReducedControl;
+  return (instruction & reg::INSTR::kMask) == reg::kInstrControl ||
+         (instruction & reg::INSTR::kMask) == reg::kInstrControlReduced;
 }
 inline bool is_agsinfinite(unsigned freqags) { return freqags >= 0x7D && freqags <= 0x7F; }
 
@@ -85,7 +71,9 @@ class FuzzHost {
 
   unsigned written(unsigned address) const { return image_[address]; }
   // 0xF4 as it should stand without INSTR, INIT and AGS.
-  unsigned banks() const { return image_[0xF4] & (kSwBank | kHoldBank); }
+  unsigned banks() const {
+    return image_[reg::kAddrInstr] & (reg::SWBANK::kMask | reg::HOLDBANK::kMask);
+  }
   bool line_used(unsigned line) const;
   mb4ref::Protocol protocol(unsigned line) const;
   // INSTR = 100 or 111 would find a line that fits (decision 37).

@@ -9,35 +9,34 @@
 namespace mb4test {
 namespace {
 
-namespace regs = mb4::regs;
+namespace reg = mb4::regs;
 namespace sim = mb4::sim;
 using sim::Pin;
 
 }  // namespace
 
 const char* FuzzCounts::name(unsigned what) {
-  static constexpr const char* kNames[kWhats] = {
-      "operations",
-      "resets",
-      "asked whether everything ends",
-      "instructions that ended",
-      "accesses that ended",
-      "accesses that cannot run (37)",
-      "waits: clock stands still",
-      "waits: SL low (3)",
-      "waits: slave (4)",
-      "waits: host's next write (23, 42)",
-      "waits: GETSENS",
-      "waits: HOLDBANK released",
-      "waits: limit too long to be waited for",
-      "waits ended by BREAK",
-      "phases of words",
-      "valid words compared",
-      "SWBANK inverted within a frame",
-      "CRC aliases",
-      "CRC aliases, unclear",
-      "recoveries",
-      "words after a recovery"};
+  static constexpr const char* kNames[kWhats] = {"operations",
+                                                 "resets",
+                                                 "asked whether everything ends",
+                                                 "instructions that ended",
+                                                 "accesses that ended",
+                                                 "accesses that cannot run (37)",
+                                                 "waits: clock stands still",
+                                                 "waits: SL low (3)",
+                                                 "waits: slave (4)",
+                                                 "waits: host's next write (23, 42)",
+                                                 "waits: GETSENS",
+                                                 "waits: HOLDBANK released",
+                                                 "waits: limit too long to be waited for",
+                                                 "waits ended by BREAK",
+                                                 "phases of words",
+                                                 "valid words compared",
+                                                 "SWBANK inverted within a frame",
+                                                 "CRC aliases",
+                                                 "CRC aliases, unclear",
+                                                 "recoveries",
+                                                 "words after a recovery"};
   return kNames[what];
 }
 
@@ -69,9 +68,12 @@ FuzzRun::FuzzRun(const FuzzChip& chip, Random& random, const std::filesystem::pa
 
 void FuzzRun::fail(const std::string& rule, const std::string& what) {
   std::string pins = "; pins";
-  for (const auto& [pin, name] : {std::pair{Pin::kEot, " EOT "}, {Pin::kMa1, ", MA1 "},
-                                  {Pin::kSl1, ", SL1 "}, {Pin::kMo1, ", MO1 "},
-                                  {Pin::kMa2, ", MA2 "}, {Pin::kSl2, ", SL2 "},
+  for (const auto& [pin, name] : {std::pair{Pin::kEot, " EOT "},
+                                  {Pin::kMa1, ", MA1 "},
+                                  {Pin::kSl1, ", SL1 "},
+                                  {Pin::kMo1, ", MO1 "},
+                                  {Pin::kMa2, ", MA2 "},
+                                  {Pin::kSl2, ", SL2 "},
                                   {Pin::kMo2, ", MO2 "}}) {
     pins += name + std::to_string(host_.simulator().pin(pin) ? 1 : 0);
   }
@@ -80,7 +82,7 @@ void FuzzRun::fail(const std::string& rule, const std::string& what) {
 }
 
 void FuzzRun::run() {
-  if (chip_.f_clk_hz == 0) host_.write(regs::kAddrIface, {kClkeni});
+  if (chip_.f_clk_hz == 0) host_.write(reg::kAddrIface, {reg::CLKENI::kMask});
   most_clocks_ = 300'000;
   for (unsigned phases = 1 + below(3); phases > 0; --phases) {
     if (one_in(2)) {
@@ -94,8 +96,8 @@ void FuzzRun::run() {
 }
 
 unsigned FuzzRun::random_freqags() {
-  if (one_in(2)) return kAgsMin;
-  if (one_in(5)) return kAgsInfinite;
+  if (one_in(2)) return reg::kFreqagsAgsMin;
+  if (one_in(5)) return reg::kFreqagsAgsInfinite;
   return one_in(8) ? below(0x100) : below(40);
 }
 
@@ -107,11 +109,11 @@ void FuzzRun::configure(bool anew) {
     host_.write(first, {begin, begin + count});
   };
   if (anew) {
-    range(regs::kAddrSlaveCfg, 32);
+    range(reg::kAddrSlaveCfg, 32);
   } else {
-    for (unsigned x = 1; x <= regs::kSlaves; ++x) {
-      const unsigned first = regs::slave_cfg_address(x);
-      unsigned last = first + regs::kSlaveCfgStride;
+    for (unsigned x = 1; x <= reg::kSlaves; ++x) {
+      const unsigned first = reg::slave_cfg_address(x);
+      unsigned last = first + reg::kSlaveCfgStride;
       while (last > first && host_.written(last - 1) == chip_.fit[last - 1]) --last;
       if (last > first) range(first, last - first);
     }
@@ -128,15 +130,15 @@ void FuzzRun::configure(bool anew) {
   const bool en_mo = need_mo || one_in(4);
   unsigned freqs = below(3);
   while ((freqs + 1) * 2 * (1'000'000'000 / 25'000'000) < ma_ns) ++freqs;
-  host_.write(regs::kAddrChsel,
+  host_.write(reg::kAddrChsel,
               {static_cast<std::uint8_t>(below(4)),
                static_cast<std::uint8_t>((biss_b ? 0 : 0x40) | 0x80 | (en_mo ? 2 : 0)),
                static_cast<std::uint8_t>(below(2) << 5U | freqs),
                static_cast<std::uint8_t>((one_in(4) ? 2 : 0) | (one_in(6) ? 1 : 0)),
                static_cast<std::uint8_t>(random_freqags()),
                static_cast<std::uint8_t>(en_mo && one_in(2) ? below(12) : 0)});
-  range(regs::kAddrSlaveloc5, 2);
-  range(regs::kAddrActnsens, 1);
+  range(reg::kAddrSlaveloc5, 2);
+  range(reg::kAddrActnsens, 1);
 }
 
 void FuzzRun::random_wait() {
@@ -147,11 +149,11 @@ void FuzzRun::random_wait() {
 unsigned FuzzRun::random_instruction() {
   static constexpr unsigned kCodes[] = {1, 2, 2, 3, 4, 4, 4, 7, 0, 0, 5, 6};
   unsigned byte = kCodes[below(12)] << 1U | host_.banks();
-  if (one_in(3)) byte |= kAgs;
-  if (one_in(12)) byte |= kInit;
-  if (one_in(6)) byte |= kBreak;
-  if (one_in(6)) byte ^= kSwBank;
-  if (one_in(6)) byte ^= kHoldBank;
+  if (one_in(3)) byte |= reg::AGS::kMask;
+  if (one_in(12)) byte |= reg::INIT::kMask;
+  if (one_in(6)) byte |= reg::BREAK::kMask;
+  if (one_in(6)) byte ^= reg::SWBANK::kMask;
+  if (one_in(6)) byte ^= reg::HOLDBANK::kMask;
   return byte;
 }
 
@@ -168,47 +170,47 @@ void FuzzRun::random_registers() {
   };
   switch (below(16)) {
     case 0:
-      put(regs::kAddrSlaveCfg + below(32), byte());
+      put(reg::kAddrSlaveCfg + below(32), byte());
       break;
     case 1: {  // data channels as no slave is
       const unsigned x = below(8);
-      host_.write(regs::slave_cfg_address(x + 1), {byte(), byte(), byte(), byte()});
+      host_.write(reg::slave_cfg_address(x + 1), {byte(), byte(), byte(), byte()});
       break;
     }
     case 2:
-      put(regs::kAddrFreq, one_in(20) ? byte() : below(2) << 5U | below(one_in(6) ? 32 : 4));
+      put(reg::kAddrFreq, one_in(20) ? byte() : below(2) << 5U | below(one_in(6) ? 32 : 4));
       break;
     case 3:
-      put(regs::kAddrFreqags, random_freqags());
+      put(reg::kAddrFreqags, random_freqags());
       break;
     case 4:
-      put(regs::kAddrCtrl, one_in(2) ? byte() : 0xC0U | below(4));
+      put(reg::kAddrCtrl, one_in(2) ? byte() : 0xC0U | below(4));
       break;
     case 5:
-      put(regs::kAddrCfgch, one_in(2) ? byte() : chip_.fit[regs::kAddrCfgch]);
+      put(reg::kAddrCfgch, one_in(2) ? byte() : chip_.fit[reg::kAddrCfgch]);
       break;
     case 6:
-      put(regs::kAddrSlaveloc5, byte());
+      put(reg::kAddrSlaveloc5, byte());
       break;
     case 7:
-      put(regs::kAddrChsel, byte());
+      put(reg::kAddrChsel, byte());
       break;
     case 8:
-      put(regs::kAddrActnsens, one_in(2) ? byte() : chip_.fit[regs::kAddrActnsens]);
+      put(reg::kAddrActnsens, one_in(2) ? byte() : chip_.fit[reg::kAddrActnsens]);
       break;
     case 9:
-      put(regs::kAddrMoBusy, one_in(8) ? byte() : below(12));
+      put(reg::kAddrMoBusy, one_in(8) ? byte() : below(12));
       break;
     case 10:
-      put(regs::kAddrBankcfg, byte());
+      put(reg::kAddrBankcfg, byte());
       break;
     case 11:  // force bits, CFGIF, CLKENI
-      put(regs::kAddrIface, (one_in(2) ? byte() & kForceBits : 0U) | (one_in(4) ? below(4) << 2U : 0U) |
-                                (one_in(8) ? 0x02U : 0U) |
-                                (chip_.f_clk_hz == 0 ? !one_in(6) : one_in(4)));
+      put(reg::kAddrIface, (one_in(2) ? byte() & kForceBits : 0U) |
+                               (one_in(4) ? below(4) << 2U : 0U) | (one_in(8) ? 0x02U : 0U) |
+                               (chip_.f_clk_hz == 0 ? !one_in(6) : one_in(4)));
       break;
     case 12:
-      host_.write(regs::kAddrRegadr,
+      host_.write(reg::kAddrRegadr,
                   {static_cast<std::uint8_t>(one_in(2) ? byte() : below(2) << 7U | 0x20U),
                    static_cast<std::uint8_t>(one_in(16) ? byte() : below(3))});
       break;
@@ -219,7 +221,7 @@ void FuzzRun::random_registers() {
       break;
     }
     case 14:
-      host_.write(regs::kAddrSvalidLo, {byte(), byte()});
+      host_.write(reg::kAddrSvalidLo, {byte(), byte()});
       break;
     default:
       put(0x40 + below(0xB4), byte());
@@ -252,7 +254,7 @@ void FuzzRun::random_pin() {
       if (!one_in(3)) break;
       count(FuzzCounts::kResets);
       host_.reset(250 + below(2000));
-      if (chip_.f_clk_hz == 0 && !one_in(4)) host_.write(regs::kAddrIface, {kClkeni});
+      if (chip_.f_clk_hz == 0 && !one_in(4)) host_.write(reg::kAddrIface, {reg::CLKENI::kMask});
       if (one_in(2)) configure();
       break;
     default:
@@ -287,16 +289,18 @@ void FuzzRun::ask_for_access() {
   const bool biss_b = one_in(3);
   const bool write = one_in(2);
   if (one_in(2)) {
-    host_.write(0x80, {static_cast<std::uint8_t>(one_in(2) ? 0 : 0x80), byte(), byte()});
+    host_.write(reg::kAddrRdata,
+                {static_cast<std::uint8_t>(one_in(2) ? 0 : reg::kWnrWrite), byte(), byte()});
   }
-  host_.write(regs::kAddrRegadr, {static_cast<std::uint8_t>((write ? 0x80U : 0U) | (0x20 + below(20))),
-                                  static_cast<std::uint8_t>(below(3)),
-                                  static_cast<std::uint8_t>(below(4))});
-  const unsigned kept = host_.written(regs::kAddrCtrl) & 0x03U;
-  host_.write(regs::kAddrCtrl,
+  host_.write(reg::kAddrRegadr,
+              {static_cast<std::uint8_t>((write ? 0x80U : 0U) | (0x20 + below(20))),
+               static_cast<std::uint8_t>(below(3)), static_cast<std::uint8_t>(below(4))});
+  const unsigned kept = host_.written(reg::kAddrCtrl) & 0x03U;
+  host_.write(reg::kAddrCtrl,
               {static_cast<std::uint8_t>(kept | (biss_b ? 0U : 0x40U) | (one_in(4) ? 0U : 0x80U) |
                                          (one_in(3) ? below(8) << 3U : 0U))});
-  host_.instruct(host_.banks() | (one_in(4) ? kReducedControl : kControl) | (one_in(2) ? kAgs : 0U));
+  host_.instruct(host_.banks() | (one_in(4) ? reg::kInstrControlReduced : reg::kInstrControl) |
+                 (one_in(2) ? reg::AGS::kMask : 0U));
 }
 
 void FuzzRun::wild_operation() {
@@ -323,7 +327,7 @@ void FuzzRun::wild_operation() {
     case 9: {
       const unsigned address = below(0x100);
       host_.read(address, 1 + below(12));
-      if (one_in(2)) host_.read(0x20, 1 + below(20));
+      if (one_in(2)) host_.read(reg::scdata_address(5), 1 + below(20));
       break;
     }
     default:

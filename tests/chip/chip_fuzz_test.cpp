@@ -54,8 +54,8 @@ std::string run_session(std::uint64_t seed, FuzzCounts& counts, std::string& tex
   if (rule.empty()) {
     std::filesystem::remove_all(folder);
   } else {
-    text += "\nrepeat with: " + run.host().session().save() + "\nor with: MB4_SEED=" +
-            std::to_string(seed) +
+    text += "\nrepeat with: " + run.host().session().save() +
+            "\nor with: MB4_SEED=" + std::to_string(seed) +
             " MB4_CHIP_FUZZ_SESSIONS=1 chip_fuzz_test --gtest_filter=*ChipFuzz.*/0";
   }
   return rule;

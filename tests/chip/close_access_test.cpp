@@ -20,9 +20,9 @@
 namespace {
 
 using mb4test::Random;
+namespace reg = mb4::regs;
 namespace sim = mb4::sim;
 
-constexpr std::uint8_t kF4 = 0xF4;
 constexpr unsigned kPhases = 50;
 
 // A chip behind its fastest host: SPI at 50 MHz, or the shortest bus cycles.
@@ -41,7 +41,7 @@ class FastHost {
   void write(std::uint8_t address, const std::vector<std::uint8_t>& bytes) {
     if (spi_) {
       std::vector<std::uint8_t> tx{0x02, address};
-      if (address == kF4) tx = {0x07};
+      if (address == reg::kAddrInstr) tx = {0x07};
       tx.insert(tx.end(), bytes.begin(), bytes.end());
       simulator_.spi().transfer(tx, {});
     } else {
@@ -113,9 +113,9 @@ TEST_P(CloseAccess, ManyBytesWithClock_AllReadBack) {
       const unsigned count = 5 + phase % 60;
       std::vector<std::uint8_t> bytes(count);
       for (auto& byte : bytes) byte = static_cast<std::uint8_t>(random.below(256));
-      host.write(0x80, bytes);
+      host.write(reg::kAddrRdata, bytes);
       for (unsigned i = 0; i < count; ++i) {
-        ASSERT_EQ(host.read(static_cast<std::uint8_t>(0x80 + i)), bytes[i])
+        ASSERT_EQ(host.read(reg::rdata_address(i + 1)), bytes[i])
             << mhz << " MHz, phase " << phase << ", byte " << i << " of " << count;
       }
     }
@@ -148,27 +148,27 @@ TEST_P(CloseAccess, CoreHasTakenTheByte_TheMemoryAnswers) {
   for (const bool writes : {false, true}) {
     FastHost host(GetParam(), 20, kSlave);
     host.chip().advance(200 * 50'000);
-    host.write(0xC0, {0x59, 0x06, 0x00, 0x00});
-    host.write(0xE5, {0x40, 0xA0, 0x00, 0x7C});
-    host.write(0xEC, {0x01, 0x0D});
+    host.write(reg::slave_cfg_address(1), {reg::kEnscdYes | 25, reg::kScrclenCrc6, 0x00, 0x00});
+    host.write(reg::kAddrCtrl, {reg::kRegversBissC, reg::FREQR::of(5), 0, reg::kFreqagsAgsMin});
+    host.write(reg::kAddrSlaveloc5, {reg::kResetSlaveloc5, reg::kCfgch2Unused | reg::kCfgch1BissC});
     for (unsigned phase = 0; phase < 100; ++phase) {
       host.chip().run_until((host.chip().now() / 50'000 + 200) * 50'000 + phase * 500);
-      host.write(0x00, {0x77, 0x66});
-      host.write(kF4, {0x04});
+      host.write(reg::kAddrScdata, {0x77, 0x66});
+      host.write(reg::kAddrInstr, {reg::kInstrCdm0});
       const auto end = host.chip().now() + 20'000'000;
       while (host.chip().now() < end) {
         if (writes) {
-          host.write(0x88, {static_cast<std::uint8_t>(phase)});
+          host.write(reg::rdata_address(9), {static_cast<std::uint8_t>(phase)});
         } else {
           host.chip().advance(100'000);
         }
         // The flag first: it tells that the banks have switched.
-        if (host.read(0xF1) != 0x02) continue;
-        ASSERT_EQ(host.read(0x00), 0xAA) << phase;
-        ASSERT_EQ(host.read(0x01), 0xAA) << phase;
+        if (host.read(reg::kAddrSvalidLo) != reg::SVALID<1>::kMask) continue;
+        ASSERT_EQ(host.read(reg::kAddrScdata), 0xAA) << phase;
+        ASSERT_EQ(host.read(reg::SCDATA<1, 1>::kAddress), 0xAA) << phase;
       }
-      ASSERT_EQ(host.read(0x00), 0xAA) << phase;
-      host.write(0xF1, {0x00});
+      ASSERT_EQ(host.read(reg::kAddrScdata), 0xAA) << phase;
+      host.write(reg::kAddrSvalidLo, {0});
     }
   }
 }
@@ -184,20 +184,24 @@ TEST_P(CloseAccess, BreakBeforeAnotherWrite_IsDone) {
         FastHost host(GetParam(), mhz,
                       kSlave + "[[channel.event]]\nat_us = 50\naction = \"sl-high\"\n");
         host.chip().advance(100 * period);
-        host.write(0xC0, {0x59, 0x06, 0x00, 0x00});
-        host.write(0xE5, {0x40, 0xA1, 0x00, 0x31});
-        host.write(0xEC, {0x01, 0x0D});
+        host.write(reg::slave_cfg_address(1), {reg::kEnscdYes | 25, reg::kScrclenCrc6, 0x00, 0x00});
+        host.write(reg::kAddrCtrl,
+                   {reg::kRegversBissC, reg::FREQR::of(5) | reg::FREQS::of(1), 0, 0x31});
+        host.write(reg::kAddrSlaveloc5,
+                   {reg::kResetSlaveloc5, reg::kCfgch2Unused | reg::kCfgch1BissC});
         host.chip().run_until(60'000'000);
-        host.write(kF4, {0x04});
+        host.write(reg::kAddrInstr, {reg::kInstrCdm0});
         host.chip().advance(20'000'000);
-        ASSERT_EQ(host.read(0xF0) & 0x01, 0x00);
+        ASSERT_EQ(host.read(reg::kAddrStatus0) & reg::EOT::kMask, 0);
         host.phase(period, phase);
-        host.write(kF4, {0x80});
-        for (unsigned i = 1; i < more; ++i) host.write(kF4, {0x40});
-        host.write(kF4, {0x20});
+        host.write(reg::kAddrInstr, {reg::kBreakAbort});
+        for (unsigned i = 1; i < more; ++i) host.write(reg::kAddrInstr, {reg::kHoldbankPrevented});
+        host.write(reg::kAddrInstr, {reg::SWBANK::kMask});
         host.chip().advance(10'000'000);
-        ASSERT_EQ(host.read(0xF0) & 0x01, 0x01) << mhz << " MHz, phase " << phase << ", " << more;
-        ASSERT_EQ(host.read(kF4), 0x20) << mhz << " MHz, phase " << phase << ", " << more;
+        ASSERT_EQ(host.read(reg::kAddrStatus0) & reg::EOT::kMask, reg::kEotIdle)
+            << mhz << " MHz, phase " << phase << ", " << more;
+        ASSERT_EQ(host.read(reg::kAddrInstr), reg::SWBANK::kMask)
+            << mhz << " MHz, phase " << phase << ", " << more;
       }
     }
   }
@@ -207,7 +211,7 @@ TEST_P(CloseAccess, BreakBeforeAnotherWrite_IsDone) {
 // host's bank has changed if SWBANK has.
 void writes_in_a_row(FastHost& host, const std::function<void()>& before,
                      const std::function<void()>& settle) {
-  host.write(0x00, {0x11});
+  host.write(reg::kAddrScdata, {0x11});
   settle();
   Random random(4);
   unsigned swbank = 0;
@@ -218,14 +222,14 @@ void writes_in_a_row(FastHost& host, const std::function<void()>& before,
     unsigned last = 0;
     for (unsigned i = 0; i < count; ++i) {
       last = random.below(4) << 5U;
-      host.write(kF4, {static_cast<std::uint8_t>(last)});
+      host.write(reg::kAddrInstr, {static_cast<std::uint8_t>(last)});
     }
-    ASSERT_EQ(host.read(kF4), last) << "read back at once";
+    ASSERT_EQ(host.read(reg::kAddrInstr), last) << "read back at once";
     settle();
     if ((last & 0x20U) != swbank) marked = !marked;
     swbank = last & 0x20U;
-    ASSERT_EQ(host.read(kF4), last) << "round " << round;
-    ASSERT_EQ(host.read(0x00), marked ? 0x11 : 0x00) << "round " << round;
+    ASSERT_EQ(host.read(reg::kAddrInstr), last) << "round " << round;
+    ASSERT_EQ(host.read(reg::kAddrScdata), marked ? 0x11 : 0x00) << "round " << round;
   }
 }
 

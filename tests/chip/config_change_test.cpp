@@ -16,10 +16,9 @@ namespace {
 
 using mb4test::Chip;
 using mb4test::ControlHost;
-using mb4test::kAgsmin;
 using mb4test::kAllGood;
-using mb4test::kRegend;
 using mb4test::one_slave;
+namespace reg = mb4::regs;
 namespace sim = mb4::sim;
 
 const char kEncoder[] = "data_bits = 14\ncrc = 0x43\ndata = 0x1ABC";
@@ -30,26 +29,29 @@ std::string two_lines() {
          kEncoder + "\n";
 }
 void configure(Chip& chip) {
-  chip.write(0xC0, {0x40 | 13, 0x06, 0x00, 0x00});
-  chip.write(0xC4, std::initializer_list<std::uint8_t>{0x00, 0x00, 0x00, 0x00});
-  chip.write(0xD0, {0x40 | 13, 0x06, 0x00, 0x00});
-  chip.write(0xE4, {0x00, 0x40, 0x01, 0x00, kAgsmin, 0x00});  // FREQR 0: a short limit
-  chip.write(0xEC, {0x11, 0x05, 0x00, 0x00});
-  chip.write(0xF5, {0x00});
+  chip.write(reg::slave_cfg_address(1), {reg::kEnscdYes | 13, reg::kScrclenCrc6, 0x00, 0x00});
+  chip.write(reg::slave_cfg_address(2),
+             std::initializer_list<std::uint8_t>{0x00, 0x00, 0x00, 0x00});
+  chip.write(reg::slave_cfg_address(5), {reg::kEnscdYes | 13, reg::kScrclenCrc6, 0x00, 0x00});
+  chip.write(reg::kAddrChsel, {0, reg::kRegversBissC, reg::FREQS::of(1), 0, reg::kFreqagsAgsMin,
+                               0x00});  // FREQR 0: a short limit
+  chip.write(reg::kAddrSlaveloc5, {reg::kResetSlaveloc5 | reg::kSlaveloc5Split,
+                                   reg::kCfgch2BissC | reg::kCfgch1BissC, 0x00, 0});
+  chip.write(reg::kAddrIface, {0});
 }
 void expect_all_works(Chip& chip, ControlHost& host, bool with_registers, const std::string& what) {
   configure(chip);
-  chip.instruct(0x80);
+  chip.instruct(reg::kBreakAbort);
   chip.advance_us(100);
-  chip.instruct(0x10);
+  chip.instruct(reg::kInitStart);
   ASSERT_TRUE(chip.wait_eot()) << what;
-  chip.instruct(0x04);
+  chip.instruct(reg::kInstrCdm0);
   ASSERT_TRUE(chip.wait_eot()) << what;
-  EXPECT_EQ(chip.status(), 0xFB) << what;
-  EXPECT_EQ(chip.read(0xF1) & 0x02, 0x02) << what;
-  EXPECT_EQ(chip.read(0xF2) & 0x02, 0x02) << what;
-  EXPECT_EQ(chip.read(0x00, 2), (std::vector<std::uint8_t>{0xBC, 0x1A})) << what;
-  EXPECT_EQ(chip.read(0x20, 2), (std::vector<std::uint8_t>{0xBC, 0x1A})) << what;
+  EXPECT_EQ(chip.status(), reg::kResetStatus0) << what;
+  EXPECT_EQ(chip.read(reg::kAddrSvalidLo) & reg::SVALID<1>::kMask, reg::SVALID<1>::kMask) << what;
+  EXPECT_EQ(chip.read(reg::kAddrSvalidHi) & reg::SVALID<5>::kMask, reg::SVALID<5>::kMask) << what;
+  EXPECT_EQ(chip.read(reg::kAddrScdata, 2), (std::vector<std::uint8_t>{0xBC, 0x1A})) << what;
+  EXPECT_EQ(chip.read(reg::scdata_address(5), 2), (std::vector<std::uint8_t>{0xBC, 0x1A})) << what;
   if (!with_registers) return;
   host.set_read(0, 0x31, 1);
   ASSERT_NE(host.run_single(80), 0U) << what;
@@ -64,14 +66,52 @@ struct Change {
 // Every configuration byte but CLKENI's, with fields at both ends of their range. FREQS = 0x1F
 // takes long; force bits are released again before the frame can end.
 constexpr Change kChanges[] = {
-    {0xC0, 0x00}, {0xC0, 0x40}, {0xC0, 0x7F}, {0xC0, 0xFF}, {0xC1, 0x00}, {0xC1, 0xFF},
-    {0xC2, 0xFF}, {0xC3, 0xFF}, {0xC4, 0x4D}, {0xC4, 0xFF}, {0xD0, 0x00}, {0xD0, 0x7F},
-    {0xD1, 0x08}, {0xE2, 0xFF}, {0xE2, 0x00}, {0xE3, 0x3F}, {0xE4, 0x01}, {0xE4, 0x02},
-    {0xE4, 0x03}, {0xE5, 0x40}, {0xE5, 0x00}, {0xE5, 0xC0}, {0xE5, 0xFB}, {0xE5, 0x42},
-    {0xE5, 0x41}, {0xE6, 0x00}, {0xE6, 0x09}, {0xE6, 0x10}, {0xE6, 0xE1}, {0xE7, 0x01},
-    {0xE7, 0x03}, {0xE8, 0x00}, {0xE8, 0x7D}, {0xE8, 0xFF}, {0xE9, 0xFF}, {0xEC, 0x01},
-    {0xED, 0x00}, {0xED, 0x0A}, {0xED, 0x0F}, {0xED, 0x07}, {0xED, 0x0D}, {0xEF, 0x01},
-    {0xEF, 0xFF}, {0xF5, 0x04}, {0xF5, 0x0C}, {0xF5, 0x02},
+    {reg::slave_cfg_address(1), 0x00},
+    {reg::slave_cfg_address(1), 0x40},
+    {reg::slave_cfg_address(1), 0x7F},
+    {reg::slave_cfg_address(1), 0xFF},
+    {reg::SCRCLEN<1>::kAddress, 0x00},
+    {reg::SCRCLEN<1>::kAddress, 0xFF},
+    {reg::SCRCSTART_LO<1>::kAddress, 0xFF},
+    {reg::SCRCSTART_HI<1>::kAddress, 0xFF},
+    {reg::slave_cfg_address(2), 0x4D},
+    {reg::slave_cfg_address(2), 0xFF},
+    {reg::slave_cfg_address(5), 0x00},
+    {reg::slave_cfg_address(5), 0x7F},
+    {reg::SCRCLEN<5>::kAddress, 0x08},
+    {reg::kAddrRegadr, 0xFF},
+    {reg::kAddrRegadr, 0x00},
+    {reg::kAddrRegnum, 0x3F},
+    {reg::kAddrChsel, 0x01},
+    {reg::kAddrChsel, 0x02},
+    {reg::kAddrChsel, 0x03},
+    {reg::kAddrCtrl, 0x40},
+    {reg::kAddrCtrl, 0x00},
+    {reg::kAddrCtrl, 0xC0},
+    {reg::kAddrCtrl, 0xFB},
+    {reg::kAddrCtrl, 0x42},
+    {reg::kAddrCtrl, 0x41},
+    {reg::kAddrFreq, 0x00},
+    {reg::kAddrFreq, 0x09},
+    {reg::kAddrFreq, 0x10},
+    {reg::kAddrFreq, 0xE1},
+    {reg::kAddrBankcfg, 0x01},
+    {reg::kAddrBankcfg, 0x03},
+    {reg::kAddrFreqags, 0x00},
+    {reg::kAddrFreqags, 0x7D},
+    {reg::kAddrFreqags, 0xFF},
+    {reg::kAddrMoBusy, 0xFF},
+    {reg::kAddrSlaveloc5, 0x01},
+    {reg::kAddrCfgch, 0x00},
+    {reg::kAddrCfgch, 0x0A},
+    {reg::kAddrCfgch, 0x0F},
+    {reg::kAddrCfgch, 0x07},
+    {reg::kAddrCfgch, 0x0D},
+    {reg::kAddrActnsens, 0x01},
+    {reg::kAddrActnsens, 0xFF},
+    {reg::kAddrIface, 0x04},
+    {reg::kAddrIface, 0x0C},
+    {reg::kAddrIface, 0x02},
 };
 std::string name_of(const Change& change, unsigned phase) {
   return std::to_string(change.address) + " <- " + std::to_string(change.value) + ", phase " +
@@ -92,18 +132,20 @@ TEST(ConfigChange, LineTakenIntoUseUnderAgs_FirstFrameIsRight) {
       std::string text = one_slave(kEncoder, "", "", "sclk_hz = 20_000_000");
       text.replace(text.find("biss-c"), 6, kind.protocol);
       Chip chip(text);
-      chip.write(0xC0, {0x40 | 13, 0x06, 0x00, 0x00});
-      chip.write(0xE5, {0x40, 0x01, 0x00, 0x64});  // 5 MHz, a request each 101 us
-      chip.write(0xED, {0x0F});
-      chip.instruct(0x01);
+      chip.write(reg::slave_cfg_address(1), {reg::kEnscdYes | 13, reg::kScrclenCrc6, 0x00, 0x00});
+      chip.write(reg::kAddrCtrl,
+                 {reg::kRegversBissC, reg::FREQS::of(1), 0, 0x64});  // 5 MHz, a request each 101 us
+      chip.write(reg::kAddrCfgch, {reg::kCfgch2Unused | reg::kCfgch1Unused});
+      chip.instruct(reg::kAgsOn);
       chip.simulator.advance((150'000 + 10 * phase) * sim::kPsPerNs);
       EXPECT_EQ(chip.simulator.slave(1)->frames(), 0U) << what;
-      chip.write(0xED, {kind.cfgch});
+      chip.write(reg::kAddrCfgch, {kind.cfgch});
       chip.advance_us(40);  // the frame, and not the next one
       EXPECT_EQ(chip.simulator.slave(1)->frames(), 1U) << what;
-      EXPECT_EQ(chip.status() & 0x10, 0x10) << what << ": nSCDERR";
-      EXPECT_EQ(chip.read(0xF1) & 0x02, 0x02) << what << ": SVALID1";
-      EXPECT_EQ(chip.read(0x00, 2), (std::vector<std::uint8_t>{0xBC, 0x1A})) << what;
+      EXPECT_EQ(chip.status() & reg::nSCDERR::kMask, reg::kNscderrGood) << what << ": nSCDERR";
+      EXPECT_EQ(chip.read(reg::kAddrSvalidLo) & reg::SVALID<1>::kMask, reg::SVALID<1>::kMask)
+          << what << ": SVALID1";
+      EXPECT_EQ(chip.read(reg::kAddrScdata, 2), (std::vector<std::uint8_t>{0xBC, 0x1A})) << what;
     }
   }
 }
@@ -128,7 +170,7 @@ TEST(ConfigChange, ProtocolInAnSsiFrame_WordIsDecodedAsItBegan) {
 }
 
 TEST(ConfigChange, InAFrame_ItEndsAndEverythingWorksAgain) {
-  for (const unsigned instruction : {0x04U, 0x02U, 0x10U}) {
+  for (const unsigned instruction : {reg::kInstrCdm0, reg::kInstrCdm1, reg::kInitStart}) {
     for (const Change& change : kChanges) {
       Chip chip(two_lines());
       ControlHost host(chip);
@@ -141,7 +183,8 @@ TEST(ConfigChange, InAFrame_ItEndsAndEverythingWorksAgain) {
         ASSERT_NO_THROW(chip.write(change.address, {change.value})) << what;
         // A slave that a longer frame still clocks sends zeros: the frame ends by its length.
         // CFGIF takes SL2 away: a line that does not answer waits for BREAK (decision 4).
-        const bool takes_sl2 = change.address == 0xF5 && (change.value & 0x08) != 0;
+        const bool takes_sl2 =
+            change.address == reg::kAddrIface && (change.value & reg::kCfgifRs422) != 0;
         ASSERT_TRUE(chip.wait_eot(400) || takes_sl2) << what;
         ASSERT_NO_THROW(expect_all_works(chip, host, phase == 11, what)) << what;
         if (testing::Test::HasFailure()) return;
@@ -166,10 +209,10 @@ TEST(ConfigChange, InAnAccess_ItEndsAndEverythingWorksAgain) {
           } else {
             host.set_read(0, 0x31, 2);
           }
-          chip.instruct(ags ? 0x09 : 0x08);
+          chip.instruct(ags ? reg::kInstrControl | reg::kAgsOn : reg::kInstrControl);
           // 14 zeros, the header, the data: up to frame 60 of 6 us each.
           for (unsigned frame = 0; frame < 15 * phase + 5; ++frame) {
-            if (!ags) chip.instruct(0x08);
+            if (!ags) chip.instruct(reg::kInstrControl);
             ASSERT_NO_THROW(chip.advance_us(8)) << what;
           }
           ASSERT_NO_THROW(chip.write(change.address, {change.value})) << what;
@@ -177,9 +220,9 @@ TEST(ConfigChange, InAnAccess_ItEndsAndEverythingWorksAgain) {
           chip.simulator.set_pin(sim::Pin::kGetsens, true);
           bool ended = false;
           for (unsigned look = 0; look < 150 && !ended; ++look) {
-            if (!ags) chip.instruct(0x08);
+            if (!ags) chip.instruct(reg::kInstrControl);
             ASSERT_NO_THROW(chip.advance_us(40)) << what;
-            ended = (host.status() & kRegend) != 0;
+            ended = (host.status() & reg::REGEND::kMask) != 0;
           }
           chip.simulator.set_pin(sim::Pin::kGetsens, false);
           EXPECT_TRUE(ended) << what;
@@ -195,8 +238,10 @@ TEST(ConfigChange, InAnAccess_ItEndsAndEverythingWorksAgain) {
 // what it was started with.
 TEST(ConfigChange, FieldsOfAnAccess_CountAsItWasStarted) {
   constexpr Change kFields[] = {
-      {0xE2, 0x7E}, {0xE2, 0xB0}, {0xE3, 0x00}, {0xE3, 0x3F}, {0xE4, 0x02}, {0xE4, 0x03},
-      {0xE5, 0x40}, {0xE5, 0x80}, {0xE5, 0xF8}, {0xE5, 0xC8}, {0xE5, 0x48}, {0xE5, 0x70},
+      {reg::kAddrRegadr, 0x7E}, {reg::kAddrRegadr, 0xB0}, {reg::kAddrRegnum, 0x00},
+      {reg::kAddrRegnum, 0x3F}, {reg::kAddrChsel, 0x02},  {reg::kAddrChsel, 0x03},
+      {reg::kAddrCtrl, 0x40},   {reg::kAddrCtrl, 0x80},   {reg::kAddrCtrl, 0xF8},
+      {reg::kAddrCtrl, 0xC8},   {reg::kAddrCtrl, 0x48},   {reg::kAddrCtrl, 0x70},
   };
   for (const bool ags : {false, true}) {
     for (const Change& change : kFields) {
@@ -209,18 +254,18 @@ TEST(ConfigChange, FieldsOfAnAccess_CountAsItWasStarted) {
           chip.simulator.slave(slave)->reg_write(0x30, static_cast<std::uint8_t>(0x10 * slave + 1));
           chip.simulator.slave(slave)->reg_write(0x31, static_cast<std::uint8_t>(0x10 * slave + 2));
         }
-        chip.write(0x80, {0xE1, 0xE2, 0xE3});
+        chip.write(reg::kAddrRdata, {0xE1, 0xE2, 0xE3});
         host.set_read(0, 0x30, 2);
         bool ended = false;
         if (ags) {
-          chip.instruct(0x09);
+          chip.instruct(reg::kInstrControl | reg::kAgsOn);
           chip.simulator.run_while_waiting(
               [&] { return chip.simulator.slave(1)->cdm_count() >= frame; },
               chip.simulator.now() + 1000 * sim::kPsPerUs);
           ASSERT_NO_THROW(chip.write(change.address, {change.value})) << what;
           for (unsigned look = 0; look < 200 && !ended; ++look) {
             ASSERT_NO_THROW(chip.advance_us(10)) << what;
-            ended = (host.status() & kRegend) != 0;
+            ended = (host.status() & reg::REGEND::kMask) != 0;
           }
         } else {
           ASSERT_EQ(host.run_single(frame), 0U) << what;
@@ -228,7 +273,9 @@ TEST(ConfigChange, FieldsOfAnAccess_CountAsItWasStarted) {
           ASSERT_NO_THROW(ended = host.run_single(100) != 0) << what;
         }
         ASSERT_TRUE(ended) << what;
-        EXPECT_EQ(host.status() & 0xFE, 0xFE) << what;
+        EXPECT_EQ(host.status() & ~reg::EOT::kMask,
+                  (reg::kResetStatus0 & ~reg::EOT::kMask) | reg::kRegendDone)
+            << what;
         EXPECT_EQ(host.rdata(3), (std::vector<std::uint8_t>{0x11, 0x12, 0xE3})) << what;
         EXPECT_EQ(chip.simulator.slave(1)->control()->counters().starts, 1U) << what;
         EXPECT_EQ(chip.simulator.slave(5)->control()->counters().starts, 0U) << what;
@@ -239,9 +286,11 @@ TEST(ConfigChange, FieldsOfAnAccess_CountAsItWasStarted) {
 }
 
 TEST(ConfigChange, FieldsOfACommand_CountAsItWasStarted) {
-  constexpr Change kFields[] = {{0x80, 0x40}, {0x80, 0x00}, {0xE4, 0x02}, {0xE4, 0x03},
-                                {0xE5, 0xC0}, {0xE5, 0x60}, {0xE5, 0x20}, {0xE5, 0x40},
-                                {0xE5, 0x58}, {0xE5, 0x68}};
+  constexpr Change kFields[] = {{reg::kAddrIds, 0x40},   {reg::kAddrIds, 0x00},
+                                {reg::kAddrChsel, 0x02}, {reg::kAddrChsel, 0x03},
+                                {reg::kAddrCtrl, 0xC0},  {reg::kAddrCtrl, 0x60},
+                                {reg::kAddrCtrl, 0x20},  {reg::kAddrCtrl, 0x40},
+                                {reg::kAddrCtrl, 0x58},  {reg::kAddrCtrl, 0x68}};
   for (const bool tested : {false, true}) {
     for (const Change& change : kFields) {
       for (unsigned frame = 1; frame < 14 + (tested ? 26U : 25U); ++frame) {

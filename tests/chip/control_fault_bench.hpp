@@ -39,10 +39,10 @@ class FaultBench {
   FaultBench(Way way, unsigned slot, const std::string& keys = "")
       : chip(scenario(keys)), host(chip), near(control(1)), far(control(2)) {
     for (const std::uint8_t address : {std::uint8_t{0xC0}, std::uint8_t{0xC4}}) {
-      chip.write(address, {0x40 | 13, 0x06, 0x00, 0x00});
+      chip.write(address, {reg::kEnscdYes | 13, reg::kScrclenCrc6, 0x00, 0x00});
     }
-    chip.write(0xE5, {0x40, 0x00, 0x00, kAgsmin});
-    chip.write(0xEC, {0x01, 0x0D});
+    chip.write(reg::kAddrCtrl, {reg::kRegversBissC, 0, 0, reg::kFreqagsAgsMin});
+    chip.write(reg::kAddrSlaveloc5, {reg::kResetSlaveloc5, reg::kCfgch2Unused | reg::kCfgch1BissC});
     if (way == Way::kCdm) {
       near.faults().flip_cdm_in_slot(slot);  // a fault of the line hits all slaves
       far.faults().flip_cdm_in_slot(slot);
@@ -55,25 +55,25 @@ class FaultBench {
   Expected run() {
     EXPECT_TRUE(host.run_ags(4000)) << "it never ends";
     const std::uint8_t status = host.status();
-    EXPECT_NE(status & kRegend, 0);
-    const bool reg = (status & kNoRegErr) == 0;
-    const bool delay = (status & kNoDelayErr) == 0;
-    EXPECT_FALSE(reg && delay);
-    EXPECT_EQ((status & 0x80) == 0, reg || delay) << "page 34: NER";
+    EXPECT_NE(status & reg::REGEND::kMask, 0);
+    const bool bad = (status & reg::nREGERR::kMask) == 0;
+    const bool delay = (status & reg::nDELAYERR::kMask) == 0;
+    EXPECT_FALSE(bad && delay);
+    EXPECT_EQ((status & reg::nERR::kMask) == 0, bad || delay) << "page 34: NER";
     const unsigned good = host.regbytes();
     // The slaves see 14 zeros, also after a fault in the zeros themselves.
     chip.advance_us(150);
     EXPECT_FALSE(near.faults().pending() || far.faults().pending()) << "the fault was not reached";
-    EXPECT_TRUE(reg || delay || good == 0) << "Table 63";
-    return {reg ? Flag::kRegErr : delay ? Flag::kDelayErr : Flag::kNone, good};
+    EXPECT_TRUE(bad || delay || good == 0) << "Table 63";
+    return {bad ? Flag::kRegErr : delay ? Flag::kDelayErr : Flag::kNone, good};
   }
   // Register access and commands work.
   void check_next() {
     const std::vector<std::uint8_t> out{0x3C, 0xC3};
     host.set_write(0, 0x50, out);
     EXPECT_EQ(run(), kGood);
-    EXPECT_EQ(reg(0x50), 0x3C);
-    EXPECT_EQ(reg(0x51), 0xC3);
+    EXPECT_EQ(slave_reg(0x50), 0x3C);
+    EXPECT_EQ(slave_reg(0x51), 0xC3);
     host.set_read(0, 0x50, 2);
     EXPECT_EQ(run(), kGood);
     EXPECT_EQ(host.rdata(2), out);
@@ -82,7 +82,7 @@ class FaultBench {
     EXPECT_EQ(run(), kGood);
     EXPECT_EQ(near.counters().commands, commands + 1);
   }
-  std::uint8_t reg(unsigned address) {
+  std::uint8_t slave_reg(unsigned address) {
     return chip.simulator.slave(2)->reg_read(static_cast<std::uint8_t>(address));
   }
   void set_reg(unsigned address, std::uint8_t value) {
@@ -92,7 +92,7 @@ class FaultBench {
   void check_untouched(unsigned first_allowed, unsigned count) {
     for (unsigned address = 0; address < 128; ++address) {
       if (address >= first_allowed && address < first_allowed + count) continue;
-      EXPECT_EQ(reg(address), 0) << address;
+      EXPECT_EQ(slave_reg(address), 0) << address;
     }
     for (unsigned address = 0; address < 128; ++address) {
       EXPECT_EQ(chip.simulator.slave(1)->reg_read(static_cast<std::uint8_t>(address)), 0);

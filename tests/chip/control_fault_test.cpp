@@ -22,6 +22,7 @@ using mb4test::Flag;
 using mb4test::kGood;
 using mb4test::reg_error;
 using mb4test::Way;
+namespace reg = mb4::regs;
 using Bytes = std::vector<std::uint8_t>;
 
 // Line bits: 10100101 0100 and 00000110 0101 (TI TIDEP0022 and CRC4 of the protocol).
@@ -70,7 +71,7 @@ TEST_P(ControlFaults, Read_GivesGoodBytesOnly) {
   bench.set_reg(kAddress, kBytes[0]);
   bench.set_reg(kAddress + 1, kBytes[1]);
   const Bytes before{0xE1, 0xE2};
-  bench.chip.write(0x80, {before[0], before[1]});
+  bench.chip.write(reg::kAddrRdata, {before[0], before[1]});
   bench.host.set_read(0, kAddress, 2);
   const Expected result = bench.run();
   EXPECT_EQ(result, of_read(way, slot));
@@ -110,7 +111,7 @@ TEST_P(ControlFaults, Write_ReportsGoodOnlyWhatIsWritten) {
   EXPECT_EQ(result, of_write(way, slot));
   const unsigned good = result.flag == Flag::kNone ? 2 : result.good_bytes;
   for (unsigned i = 0; i < 2; ++i) {
-    const unsigned value = bench.reg(kAddress + i);
+    const unsigned value = bench.slave_reg(kAddress + i);
     EXPECT_TRUE(value == 0 || value == kBytes[i]) << "a value that nobody has sent";
     if (i < good && !(way == Way::kCds && slot == 19)) {
       EXPECT_EQ(value, kBytes[i]);
@@ -196,7 +197,7 @@ TEST(ControlFaultMatrix, FalseStartBitWhileBusy_IsAnError) {
         bench.host.set_write(0, kAddress, {0x06});
       }
       EXPECT_EQ(bench.run(), reg_error(0)) << slot;
-      EXPECT_EQ(bench.reg(kAddress), kBytes[0]);
+      EXPECT_EQ(bench.slave_reg(kAddress), kBytes[0]);
       bench.check_next();
     }
   }
@@ -216,7 +217,7 @@ TEST(ControlFaultMatrix, SilentSlaveAndWrongCrc_AreReported) {
   bench.host.set_command(0x80, 3);
   EXPECT_EQ(bench.run().flag, Flag::kRegErr);
   bench.far.faults().set_silent(false);
-  EXPECT_EQ(bench.reg(kAddress), 0x11);
+  EXPECT_EQ(bench.slave_reg(kAddress), 0x11);
   bench.check_next();
 }
 

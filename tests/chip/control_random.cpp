@@ -77,14 +77,19 @@ std::string ControlRun::make_scenario() {
 
 void ControlRun::configure() {
   for (unsigned i = 0; i < count_; ++i) {
-    const unsigned at = 0xC0 + 4 * (i + (channel_ == 1 ? 0 : 4));
-    chip_->write(static_cast<std::uint8_t>(at), {0x40 | 4, 0x06, 0x00, 0x00});
+    const unsigned at = reg::slave_cfg_address(i + (channel_ == 1 ? 1 : 5));
+    chip_->write(static_cast<std::uint8_t>(at),
+                 {reg::kEnscdYes | 4, reg::kScrclenCrc6, 0x00, 0x00});
   }
   host_->select(static_cast<std::uint8_t>(channel_));
   // FREQR = 0: the limit for the start bit is 8192 periods of MA.
-  chip_->write(0xE5, {0x40, 0x00, 0x00, kAgsmin});
-  chip_->write(0xEC, {static_cast<std::uint8_t>(channel_ == 1 ? 0x01 : 0x11),
-                      static_cast<std::uint8_t>(channel_ == 1 ? 0x0D : 0x07)});
+  chip_->write(reg::kAddrCtrl, {reg::kRegversBissC, 0, 0, reg::kFreqagsAgsMin});
+  chip_->write(
+      reg::kAddrSlaveloc5,
+      {static_cast<std::uint8_t>(channel_ == 1 ? reg::kResetSlaveloc5
+                                               : reg::kResetSlaveloc5 | reg::kSlaveloc5Split),
+       static_cast<std::uint8_t>(channel_ == 1 ? reg::kCfgch2Unused | reg::kCfgch1BissC
+                                               : reg::kCfgch2BissC | reg::kCfgch1Unused)});
 }
 
 ControlAccess ControlRun::draw_access() {
@@ -217,29 +222,30 @@ ControlRun::Outcome ControlRun::run(const ControlAccess& access) {
   } else {
     host_->set_command(access.ids, access.ids == 0 ? 2 : 3, access.tested);
   }
-  const bool ended = ags_ ? host_->run_ags(20000) : host_->run_single(3000, 0x08, channel_) != 0;
+  const bool ended =
+      ags_ ? host_->run_ags(20000) : host_->run_single(3000, reg::kInstrControl, channel_) != 0;
   bool in_time = ended;
   if (!ags_ && !ended) {  // between frames the limit passes without them
     chip_->advance_us(1000);
-    in_time = (host_->status() & kRegend) != 0;
+    in_time = (host_->status() & reg::REGEND::kMask) != 0;
   }
   require(in_time, "it never ends");
   if (ags_) chip_->advance_us(10);
   const std::uint8_t status = host_->status();
   Outcome outcome;
-  outcome.reg_error = (status & kNoRegErr) == 0;
-  outcome.delay_error = (status & kNoDelayErr) == 0;
+  outcome.reg_error = (status & reg::nREGERR::kMask) == 0;
+  outcome.delay_error = (status & reg::nDELAYERR::kMask) == 0;
   outcome.good_bytes = host_->regbytes();
-  require((status & kRegend) != 0, "REGEND = 0 at the end");
+  require((status & reg::REGEND::kMask) != 0, "REGEND = 0 at the end");
   require(!(outcome.reg_error && outcome.delay_error), "nREGERR and nDELAYERR");
-  require((status & kNoAgsErr) != 0, "nAGSERR");
+  require((status & reg::nAGSERR::kMask) != 0, "nAGSERR");
   return outcome;
 }
 
 void ControlRun::send_zeros(unsigned frames) {
   if (ags_) return chip_->advance_us(10 * frames);  // they come by themselves
   for (unsigned i = 0; i < frames; ++i) {
-    chip_->instruct(0x04);
+    chip_->instruct(reg::kInstrCdm0);
     require(chip_->wait_eot(), "a frame with CDM = 0");
     chip_->advance_us(2);
   }

@@ -15,14 +15,9 @@ namespace {
 
 using mb4test::Chip;
 using mb4test::ControlHost;
-using mb4test::kAgsmin;
 using mb4test::kAllGood;
-using mb4test::kNoAgsErr;
-using mb4test::kNoDelayErr;
-using mb4test::kNoRegErr;
-using mb4test::kNoScdErr;
-using mb4test::kRegend;
 using mb4test::one_slave;
+namespace reg = mb4::regs;
 namespace sim = mb4::sim;
 
 const char kEncoder[] = "data_bits = 14\ncrc = 0x43\ndata = 0x1ABC";
@@ -40,17 +35,19 @@ std::string two_channels() {
          "[[channel]]\nnumber = 2\n[[channel.slave]]\nprotocol = \"biss-c\"\n" + kEncoder + "\n";
 }
 void configure(Chip& chip, unsigned slaves = 1, std::uint8_t freqs = 0x00,
-               std::uint8_t freqags = kAgsmin) {
+               std::uint8_t freqags = reg::kFreqagsAgsMin) {
   for (unsigned i = 0; i < slaves; ++i) {
-    chip.write(static_cast<std::uint8_t>(0xC0 + 4 * i), {0x40 | 13, 0x06, 0x00, 0x00});
+    chip.write(reg::slave_cfg_address(i + 1), {reg::kEnscdYes | 13, reg::kScrclenCrc6, 0x00, 0x00});
   }
-  chip.write(0xE5, {0x40, static_cast<std::uint8_t>(0xA0 | freqs), 0x00, freqags});
-  chip.write(0xEC, {0x01, 0x0D});
+  chip.write(reg::kAddrCtrl, {reg::kRegversBissC,
+                              static_cast<std::uint8_t>(reg::FREQR::of(5) | freqs), 0, freqags});
+  chip.write(reg::kAddrSlaveloc5, {reg::kResetSlaveloc5, reg::kCfgch2Unused | reg::kCfgch1BissC});
 }
 void configure_two(Chip& chip) {
   configure(chip);
-  chip.write(0xD0, {0x40 | 13, 0x06, 0x00, 0x00});
-  chip.write(0xEC, {0x11, 0x05});
+  chip.write(reg::slave_cfg_address(5), {reg::kEnscdYes | 13, reg::kScrclenCrc6, 0x00, 0x00});
+  chip.write(reg::kAddrSlaveloc5,
+             {reg::kResetSlaveloc5 | reg::kSlaveloc5Split, reg::kCfgch2BissC | reg::kCfgch1BissC});
 }
 
 TEST(Control, SixtyFourBytes_Take929FramesAndComeBack) {
@@ -70,7 +67,7 @@ TEST(Control, SixtyFourBytes_Take929FramesAndComeBack) {
   chip.spi(std::vector<std::uint8_t>(66, 0x80));                 // an unknown opcode, to be ignored
   host.set_write(0, 0x00, std::vector<std::uint8_t>(64, 0x00));  // RDATA = 0
   host.set_read(0, 0x00, 64);
-  chip.instruct(0x80);
+  chip.instruct(reg::kBreakAbort);
   // The zeros of the access before count from its stop bit on: 2 of 14.
   EXPECT_EQ(host.run_single(1000), 929U - 2U);
   EXPECT_EQ(host.rdata(64), bytes);
@@ -97,25 +94,27 @@ TEST(Control, UnderAgs_OneWriteIsEnoughAndPositionsGoOn) {
   ControlHost host(chip);
   chip.simulator.slave(1)->reg_write(0x7E, 0x57);
   chip.simulator.slave(1)->reg_write(0x7F, 0x41);
-  chip.instruct(0x01);
+  chip.instruct(reg::kAgsOn);
   chip.advance_us(100);
   for (int round = 0; round < 3; ++round) {
     host.set_read(0, 0x7E, 2);
-    chip.instruct(0x09);
+    chip.instruct(reg::kInstrControl | reg::kAgsOn);
     const auto frames = chip.simulator.slave(1)->frames();
-    EXPECT_EQ(host.status() & kRegend, 0);
-    EXPECT_EQ(chip.read(0xF4), 0x09);
+    EXPECT_EQ(host.status() & reg::REGEND::kMask, 0);
+    EXPECT_EQ(chip.read(reg::kAddrInstr), reg::kInstrControl | reg::kAgsOn);
     unsigned polls = 0;
     std::uint8_t f0 = 0;
     do {
-      const auto rx = chip.spi({0x05, 0, 0});
+      const auto rx = chip.spi({reg::kSpiOpcodeReadStatus, 0, 0});
       f0 = rx[1];
-      EXPECT_EQ(f0 & (kNoScdErr | kNoAgsErr | kNoRegErr | kNoDelayErr), 0x78);
+      EXPECT_EQ(f0 & (reg::nSCDERR::kMask | reg::nAGSERR::kMask | reg::nREGERR::kMask |
+                      reg::nDELAYERR::kMask),
+                0x78);
       EXPECT_EQ(rx[2], 0x02) << "SVALID1";
       ASSERT_LT(++polls, 1000U);
-    } while ((f0 & kRegend) == 0);
+    } while ((f0 & reg::REGEND::kMask) == 0);
     chip.advance_us(1);
-    EXPECT_EQ(chip.read(0xF4), 0x01);
+    EXPECT_EQ(chip.read(reg::kAddrInstr), reg::kAgsOn);
     EXPECT_EQ(host.rdata(2), (std::vector<std::uint8_t>{0x57, 0x41}));
     // 33 + 14 frames and up to 14 zeros, one running frame, one until the poll has seen it.
     const auto used = chip.simulator.slave(1)->frames() - frames;
@@ -136,7 +135,7 @@ TEST(Control, Channel2_IsSelectedByChsel) {
     host.select(static_cast<std::uint8_t>(chsel));
     host.set_read(0, 0x10, 1);
     const auto starts = chip.simulator.slave(chsel == 2 ? 1 : 5)->control()->counters().starts;
-    ASSERT_NE(host.run_single(60, 0x08, chsel == 2 ? 2 : 1), 0U);
+    ASSERT_NE(host.run_single(60, reg::kInstrControl, chsel == 2 ? 2 : 1), 0U);
     EXPECT_EQ(host.status(), kAllGood);
     EXPECT_EQ(host.rdata(1)[0], chsel == 2 ? 0x55 : 0x11);
     EXPECT_EQ(chip.simulator.slave(chsel == 2 ? 1 : 5)->control()->counters().starts, starts)
@@ -156,7 +155,9 @@ TEST(Control, Chains_EverySlaveHasItsId) {
     for (unsigned id = 0; id < count; ++id) {
       host.set_read(id, 0x33, 1);
       ASSERT_TRUE(host.run_ags(2000)) << count << " " << id;
-      EXPECT_EQ(host.status() & ~1U, 0xFE) << count << " " << id;
+      EXPECT_EQ(host.status() & ~reg::EOT::kMask,
+                (reg::kResetStatus0 & ~reg::EOT::kMask) | reg::kRegendDone)
+          << count << " " << id;
       EXPECT_EQ(host.rdata(1)[0], 0x10 * (count - id));
     }
   }
@@ -169,12 +170,14 @@ TEST(Control, MissingId_SetsNRegErr) {
   ControlHost host(chip);
   host.set_read(2, 0x33, 1);
   EXPECT_EQ(host.run_single(60), 14U + 18U) << "R echo is expected in slot 17";
-  EXPECT_EQ(host.status(), 0xFF & ~kNoRegErr & ~0x80);
+  EXPECT_EQ(host.status(),
+            (reg::kResetStatus0 | reg::kRegendDone) & ~reg::nREGERR::kMask & ~reg::nERR::kMask);
   EXPECT_FALSE(chip.simulator.pin(sim::Pin::kNer)) << "page 34: NER";
   EXPECT_EQ(host.regbytes(), 0U);
   host.set_write(2, 0x33, {0x12});
   EXPECT_EQ(host.run_single(60), 14U + 19U) << "W echo is expected in slot 18";
-  EXPECT_EQ(host.status(), 0xFF & ~kNoRegErr & ~0x80);
+  EXPECT_EQ(host.status(),
+            (reg::kResetStatus0 | reg::kRegendDone) & ~reg::nREGERR::kMask & ~reg::nERR::kMask);
   host.set_read(1, 0x33, 1);
   EXPECT_NE(host.run_single(60), 0U);
   EXPECT_EQ(host.status(), kAllGood) << "the next one clears the flag";
@@ -185,7 +188,7 @@ TEST(Control, MissingRegister_SetsNDelayErrAfterTheLimit) {
   for (const unsigned freqr : {0U, 1U, 5U}) {
     Chip chip(one_slave(kEncoder));
     configure(chip);
-    chip.write(0xE6, {static_cast<std::uint8_t>(freqr << 5U)});
+    chip.write(reg::kAddrFreq, {static_cast<std::uint8_t>(freqr << 5U)});
     sim::RegisterFile::Marks missing;
     missing[0x21] = true;
     chip.simulator.slave(1)->registers().set_missing(missing);
@@ -197,18 +200,21 @@ TEST(Control, MissingRegister_SetsNDelayErrAfterTheLimit) {
     const double limit = 4096.0 * (2U << freqr) * 0.1;
     EXPECT_GT(us, limit);
     EXPECT_LT(us, limit * 1.1 + 400) << "half a period a frame, and 46 frames before";
-    EXPECT_EQ(host.status() & ~1U, 0xFE & ~kNoDelayErr & ~0x80);
+    EXPECT_EQ(host.status() & ~reg::EOT::kMask,
+              ((reg::kResetStatus0 & ~reg::EOT::kMask) | reg::kRegendDone) &
+                  ~reg::nDELAYERR::kMask & ~reg::nERR::kMask);
     EXPECT_EQ(host.regbytes(), 1U) << "Table 63: one byte was good";
     if (freqr == 0) {
-      chip.instruct(0x10);
+      chip.instruct(reg::kInitStart);
       ASSERT_TRUE(chip.wait_eot());
-      EXPECT_EQ(host.status(), 0xFB) << "INIT";
+      EXPECT_EQ(host.status(), reg::kResetStatus0) << "INIT";
       EXPECT_EQ(host.regbytes(), 0U) << "Table 63: INIT resets it";
     }
     std::printf("FREQR %u: nDELAYERR after %.0f us, limit %.0f us\n", freqr, us, limit);
     host.set_read(0, 0x20, 1);
     ASSERT_TRUE(host.run_ags(2000));
-    EXPECT_EQ(host.status() & ~1U, 0xFE);
+    EXPECT_EQ(host.status() & ~reg::EOT::kMask,
+              (reg::kResetStatus0 & ~reg::EOT::kMask) | reg::kRegendDone);
     EXPECT_EQ(host.regbytes(), 0U) << "Table 63: so does a new control communication";
   }
 }
@@ -224,15 +230,16 @@ TEST(Control, MissingRegisterWithoutFrames_EndsWithTheNextFrame) {
   ControlHost host(chip);
   host.set_read(0, 0x20, 1);
   EXPECT_EQ(host.run_single(40), 0U);
-  EXPECT_EQ(host.status() & kRegend, 0);
+  EXPECT_EQ(host.status() & reg::REGEND::kMask, 0);
   chip.advance_us(60000);
-  EXPECT_EQ(host.status() & kRegend, 0);
+  EXPECT_EQ(host.status() & reg::REGEND::kMask, 0);
   EXPECT_EQ(host.run_single(2), 1U);
-  EXPECT_EQ(host.status(), 0xFF & ~kNoDelayErr & ~0x80);
+  EXPECT_EQ(host.status(),
+            (reg::kResetStatus0 | reg::kRegendDone) & ~reg::nDELAYERR::kMask & ~reg::nERR::kMask);
   EXPECT_FALSE(chip.simulator.pin(sim::Pin::kNer)) << "page 34: NER";
-  chip.instruct(0x80);
+  chip.instruct(reg::kBreakAbort);
   chip.advance_us(1);
-  EXPECT_EQ(host.status(), 0xFB) << "BREAK";
+  EXPECT_EQ(host.status(), reg::kResetStatus0) << "BREAK";
   EXPECT_TRUE(chip.simulator.pin(sim::Pin::kNer));
 }
 
@@ -259,14 +266,14 @@ TEST(Control, BreakAndInit_EndItAnywhere) {
   ControlHost host(chip);
   chip.simulator.slave(1)->reg_write(0x31, 0x77);
   for (unsigned frames = 1; frames < 60; frames += 3) {
-    for (const unsigned instruction : {0x80U, 0x10U}) {
+    for (const unsigned instruction : {reg::kBreakAbort, reg::kInitStart}) {
       host.set_read(0, 0x30, 2);
       EXPECT_EQ(host.run_single(frames), 0U);
       chip.instruct(static_cast<std::uint8_t>(instruction));
       ASSERT_TRUE(chip.wait_eot());
-      EXPECT_EQ(host.status(), 0xFB);
+      EXPECT_EQ(host.status(), reg::kResetStatus0);
       EXPECT_EQ(host.regbytes(), 0U);
-      EXPECT_EQ(chip.read(0xF4), 0x00);
+      EXPECT_EQ(chip.read(reg::kAddrInstr), 0);
       host.set_read(0, 0x31, 1);
       ASSERT_NE(host.run_single(60), 0U) << frames;
       EXPECT_EQ(host.status(), kAllGood) << frames;
@@ -283,14 +290,15 @@ TEST(Control, WritingInstrWithoutIt_DoesNotEndIt) {
   ControlHost host(chip);
   chip.simulator.slave(1)->reg_write(0x31, 0x77);
   host.set_read(0, 0x31, 1);
-  chip.instruct(0x09);
+  chip.instruct(reg::kInstrControl | reg::kAgsOn);
   for (int i = 0; i < 30; ++i) {
     chip.advance_us(17);
-    chip.instruct(0x41);
-    chip.instruct(0x01);
+    chip.instruct(reg::kHoldbankPrevented | reg::kAgsOn);
+    chip.instruct(reg::kAgsOn);
   }
   chip.advance_us(2000);
-  EXPECT_EQ(host.status() & ~1U, 0xFE);
+  EXPECT_EQ(host.status() & ~reg::EOT::kMask,
+            (reg::kResetStatus0 & ~reg::EOT::kMask) | reg::kRegendDone);
   EXPECT_EQ(host.rdata(1)[0], 0x77);
 }
 
@@ -302,10 +310,10 @@ TEST(Control, OtherInstrWithinAnAccess_CdmIsTheAccesssAndThenInstrs) {
     chip.simulator.slave(1)->reg_write(0x31, 0x77);
     host.set_read(0, 0x31, 1);
     std::vector<bool> cdm;
-    while (cdm.size() < 60 && (host.status() & kRegend) == 0) {
+    while (cdm.size() < 60 && (host.status() & reg::REGEND::kMask) == 0) {
       const unsigned code = cdm.empty() ? 0b100U : codes.begin()[cdm.size() % codes.size()];
       host.run_single(1, static_cast<std::uint8_t>(code << 1U));
-      EXPECT_EQ(chip.read(0xF4), 0x00);
+      EXPECT_EQ(chip.read(reg::kAddrInstr), 0);
       cdm.push_back(host.cdm().at(0));
     }
     EXPECT_EQ(host.status(), kAllGood);
@@ -320,7 +328,7 @@ TEST(Control, OtherInstrWithinAnAccess_CdmIsTheAccesssAndThenInstrs) {
   ControlHost host(chip);
   EXPECT_EQ(run(chip, host, {0b001, 0b010, 0b011, 0b100, 0b001}), expected);
   for (const bool cdm : {true, false, true}) {
-    host.run_single(1, cdm ? 0x02 : 0x04);
+    host.run_single(1, cdm ? reg::kInstrCdm1 : reg::kInstrCdm0);
     EXPECT_EQ(host.cdm().at(0), cdm) << "behind it";
   }
 }
@@ -332,20 +340,22 @@ TEST(Control, OtherInstrWithinAnAccessUnderAgs_CountsBehindIt) {
     ControlHost host(chip);
     chip.simulator.slave(1)->reg_write(0x31, 0x77);
     host.set_read(0, 0x31, 1);
-    chip.instruct(0x09);
+    chip.instruct(reg::kInstrControl | reg::kAgsOn);
     chip.advance_us(40);
-    chip.instruct(cdm ? 0x03 : 0x05);
+    chip.instruct(cdm ? reg::kInstrCdm1 | reg::kAgsOn : reg::kInstrCdm0 | reg::kAgsOn);
     sim::Slave& slave = *chip.simulator.slave(1);
     unsigned looks = 0;
-    while ((host.status() & kRegend) == 0) {
+    while ((host.status() & reg::REGEND::kMask) == 0) {
       ASSERT_LT(++looks, 300U);
       chip.advance_us(5);
     }
-    EXPECT_EQ(host.status() & ~1U, 0xFE);
+    EXPECT_EQ(host.status() & ~reg::EOT::kMask,
+              (reg::kResetStatus0 & ~reg::EOT::kMask) | reg::kRegendDone);
     EXPECT_EQ(host.rdata(1)[0], 0x77);
     EXPECT_EQ(slave.control()->counters().starts, 1U);
     chip.advance_us(100);
-    EXPECT_EQ(chip.read(0xF4), cdm ? 0x03 : 0x05);
+    EXPECT_EQ(chip.read(reg::kAddrInstr),
+              cdm ? reg::kInstrCdm1 | reg::kAgsOn : reg::kInstrCdm0 | reg::kAgsOn);
     for (unsigned frame = 0; frame < 5; ++frame) {
       chip.advance_us(25);
       EXPECT_EQ(slave.last_cdm(), cdm) << frame;
@@ -365,7 +375,7 @@ TEST(Control, ErrorInTheSecondByte_TheOthersAreNotSent) {
     const std::vector<std::uint8_t> before{0xE1, 0xE2, 0xE3, 0xE4};
     if (reading) {
       for (unsigned i = 0; i < 4; ++i) slave.reg_write(static_cast<std::uint8_t>(i), bytes[i]);
-      chip.spi({0x02, 0x80, 0xE1, 0xE2, 0xE3, 0xE4});
+      chip.spi({reg::kSpiOpcodeWriteRegisters, reg::kAddrRdata, 0xE1, 0xE2, 0xE3, 0xE4});
       host.set_read(0, 0x00, 4);
     } else {
       host.set_write(0, 0x00, bytes);
@@ -373,22 +383,22 @@ TEST(Control, ErrorInTheSecondByte_TheOthersAreNotSent) {
     // Slot 19 is S of the first byte, 33 of the second: bit D5 of it.
     slave.control()->faults().flip_cds_in_slot(36);
     const auto count = slave.cdm_count();
-    chip.instruct(0x09);
+    chip.instruct(reg::kInstrControl | reg::kAgsOn);
     unsigned looks = 0;
-    while ((host.status() & kRegend) == 0) {
+    while ((host.status() & reg::REGEND::kMask) == 0) {
       ASSERT_LT(++looks, 500U);
       chip.advance_us(5);
     }
     // Up to slot 36 for an echo, to the second byte's CRC for a read; all four take up to slot 75.
     EXPECT_LE(slave.cdm_count() - count, 14U + 1U + (reading ? 46U : 37U));
-    EXPECT_EQ(host.status() & (kNoRegErr | kNoDelayErr), kNoDelayErr);
+    EXPECT_EQ(host.status() & (reg::nREGERR::kMask | reg::nDELAYERR::kMask), reg::nDELAYERR::kMask);
     EXPECT_EQ(host.regbytes(), 1U);
     for (unsigned frame = 0; frame < 40; ++frame) {
       chip.advance_us(20);
       EXPECT_FALSE(slave.last_cdm()) << frame;
     }
     EXPECT_EQ(slave.control()->counters().starts, 1U);
-    EXPECT_EQ(chip.read(0xF4), 0x01);
+    EXPECT_EQ(chip.read(reg::kAddrInstr), reg::kAgsOn);
     if (reading) {
       EXPECT_EQ(host.rdata(4), (std::vector<std::uint8_t>{0x11, 0xE2, 0xE3, 0xE4})) << "page 28";
     } else {
@@ -408,24 +418,29 @@ TEST(Control, HoldCdm_WorksWithAWrongOrAbsentDataChannel) {
       for (const bool hold : {true, false}) {
         Chip chip(one_slave("data_bits = 14\ncrc = 0x43\ndata = 0x3FFF\ntimeout = 5.0"));
         configure(chip, 1, 0x00, ags ? 0x31 : 0x00);  // 50 us
-        chip.write(0xC0, {static_cast<std::uint8_t>(channel), 0x00});
+        chip.write(reg::slave_cfg_address(1), {static_cast<std::uint8_t>(channel), 0});
         ControlHost host(chip);
         chip.simulator.slave(1)->reg_write(0x31, 0x77);
         host.set_read(0, 0x31, 1);
-        chip.write(0xE5, {static_cast<std::uint8_t>(hold ? 0xC1 : 0xC0)});
+        chip.write(reg::kAddrCtrl,
+                   {static_cast<std::uint8_t>(
+                       hold ? reg::kCtsRegisterAccess | reg::kRegversBissC | reg::kHoldcdmHold
+                            : reg::kCtsRegisterAccess | reg::kRegversBissC)});
         bool ended = false;
         if (ags) {
           ended = host.run_ags(10'000);
         } else {
           for (unsigned frame = 0; frame < 60 && !ended; ++frame) {
-            chip.instruct(0x08);
+            chip.instruct(reg::kInstrControl);
             ASSERT_TRUE(chip.wait_eot());
-            ended = (host.status() & kRegend) != 0;
+            ended = (host.status() & reg::REGEND::kMask) != 0;
             chip.advance_us(20);
           }
         }
-        const bool good = ended && (host.status() & (kRegend | kNoRegErr | kNoDelayErr)) ==
-                                       (kRegend | kNoRegErr | kNoDelayErr);
+        const bool good =
+            ended &&
+            (host.status() & (reg::REGEND::kMask | reg::nREGERR::kMask | reg::nDELAYERR::kMask)) ==
+                (reg::REGEND::kMask | reg::nREGERR::kMask | reg::nDELAYERR::kMask);
         // Clocked out and beyond: SL is 0, and HOLDCDM makes no difference.
         EXPECT_EQ(good, hold || channel == (0x40U | 39U)) << channel << " " << ags;
         if (good) {
@@ -470,7 +485,8 @@ TEST(Command, Broadcast_ReachesAllWithoutAcknowledge) {
   ControlHost host(chip);
   host.set_command(0x00, 2);
   ASSERT_TRUE(host.run_ags(2000));
-  EXPECT_EQ(host.status() & ~1U, 0xFE);
+  EXPECT_EQ(host.status() & ~reg::EOT::kMask,
+            (reg::kResetStatus0 & ~reg::EOT::kMask) | reg::kRegendDone);
   for (unsigned n = 1; n <= 3; ++n) {
     EXPECT_EQ(chip.simulator.slave(n)->control()->counters().commands, 1U);
     EXPECT_EQ(chip.simulator.slave(n)->control()->last_command().code, 2);
@@ -499,7 +515,8 @@ TEST(Command, MissingId_IsExecutedOnlyWithoutTheTest) {
     ControlHost host(chip);
     host.set_command(0x80 | 0x04, 3, tested);  // ID 5 is nobody's
     ASSERT_NE(host.run_single(60), 0U);
-    EXPECT_EQ(host.status(), 0xFF & ~kNoRegErr & ~0x80);
+    EXPECT_EQ(host.status(),
+              (reg::kResetStatus0 | reg::kRegendDone) & ~reg::nREGERR::kMask & ~reg::nERR::kMask);
     EXPECT_EQ(chip.simulator.slave(2)->control()->counters().commands, tested ? 0U : 1U);
   }
 }
@@ -518,7 +535,8 @@ TEST(Command, IdaTestInvertQuirk_SwapsThePolarity) {
       EXPECT_EQ(chip.simulator.slave(1)->control()->counters().commands, 1U);
       host.set_command(0x80 | 0x04, 3, ida_test);  // ID 5 is nobody's
       ASSERT_NE(host.run_single(60), 0U);
-      EXPECT_EQ(host.status(), 0xFF & ~kNoRegErr & ~0x80);
+      EXPECT_EQ(host.status(),
+                (reg::kResetStatus0 | reg::kRegendDone) & ~reg::nREGERR::kMask & ~reg::nERR::kMask);
       EXPECT_EQ(chip.simulator.slave(1)->control()->counters().commands, tested ? 1U : 2U);
     }
   }
@@ -540,7 +558,9 @@ TEST(Command, BothChannels_GetIt) {
     }
     chip.simulator.slave(silent)->control()->faults().set_silent(true);
     ASSERT_NE(host.run_single(60), 0U);
-    EXPECT_EQ(host.status(), 0xFF & ~kNoRegErr & ~0x80) << "silent: slave " << silent;
+    EXPECT_EQ(host.status(),
+              (reg::kResetStatus0 | reg::kRegendDone) & ~reg::nREGERR::kMask & ~reg::nERR::kMask)
+        << "silent: slave " << silent;
     EXPECT_EQ(chip.simulator.slave(6 - silent)->control()->counters().commands, 2U) << silent;
     EXPECT_EQ(chip.simulator.slave(silent)->control()->counters().commands, 1U) << silent;
   }
@@ -552,26 +572,26 @@ TEST(Command, ReducedFrames_CarryItAndLeaveSensorData) {
   Chip chip(one_slave(std::string(kEncoder) + "\ntimeout = 5.0"));
   configure(chip, 1, 0x00, 0x13);  // 20 us
   ControlHost host(chip);
-  chip.instruct(0x04);
+  chip.instruct(reg::kInstrCdm0);
   ASSERT_TRUE(chip.wait_eot());
-  const auto before = chip.read(0x00, 8);
+  const auto before = chip.read(reg::kAddrScdata, 8);
   ASSERT_EQ(before[0], 0xBC);
-  ASSERT_EQ(chip.read(0xF1), 0x02);
+  ASSERT_EQ(chip.read(reg::kAddrSvalidLo), reg::SVALID<1>::kMask);
   chip.simulator.slave(1)->set_data(0x2FFF);
   host.set_command(0x80, 3, true);
-  chip.write(0xE5, {0x40 | 3U << 4U | 8U | 1U});
-  chip.instruct(0x0F);
+  chip.write(reg::kAddrCtrl, {reg::kRegversBissC | 3U << 4U | 8U | 1U});
+  chip.instruct(reg::kInstrControlReduced | reg::kAgsOn);
   chip.advance_us(100);
   unsigned looks = 0;
   for (;; ++looks) {
     ASSERT_LT(looks, 200U) << "it never ends";
-    const auto now = chip.read(0x00, 8);
-    const auto svalid = chip.read(0xF1);
+    const auto now = chip.read(reg::kAddrScdata, 8);
+    const auto svalid = chip.read(reg::kAddrSvalidLo);
     const auto rising = chip.simulator.line(1)->monitor().last(chip.simulator.now()).rising;
     const auto commands = chip.simulator.slave(1)->control()->counters().commands;
-    const bool regend = (host.status() & kRegend) != 0;
+    const bool regend = (host.status() & reg::REGEND::kMask) != 0;
     // As long as INSTR is 111, what was read before came with reduced frames only.
-    if (chip.read(0xF4) != 0x0F) break;
+    if (chip.read(reg::kAddrInstr) != 0x0F) break;
     EXPECT_EQ(now, before) << looks;
     EXPECT_EQ(svalid, 0x02) << looks;
     EXPECT_EQ(rising, 5U) << looks;
@@ -579,10 +599,11 @@ TEST(Command, ReducedFrames_CarryItAndLeaveSensorData) {
     EXPECT_EQ(commands, 0U) << looks;
   }
   EXPECT_GT(looks, 10U);
-  EXPECT_EQ(chip.read(0xF4), 0x01);
+  EXPECT_EQ(chip.read(reg::kAddrInstr), reg::kAgsOn);
   chip.advance_us(50);
-  EXPECT_EQ(chip.read(0x00, 2), (std::vector<std::uint8_t>{0xFF, 0x2F})) << "whole frames again";
-  chip.instruct(0x00);
+  EXPECT_EQ(chip.read(reg::kAddrScdata, 2), (std::vector<std::uint8_t>{0xFF, 0x2F}))
+      << "whole frames again";
+  chip.instruct(0);
   chip.advance_us(50);
   EXPECT_EQ(host.status(), kAllGood);
   EXPECT_EQ(chip.simulator.slave(1)->control()->counters().commands, 1U);
@@ -594,41 +615,43 @@ TEST(Command, ReducedFramesWithoutAgs_LeaveBothBanks) {
   Chip chip(one_slave(std::string(kEncoder) + "\ntimeout = 5.0"));
   configure(chip);
   ControlHost host(chip);
-  chip.instruct(0x04);
+  chip.instruct(reg::kInstrCdm0);
   ASSERT_TRUE(chip.wait_eot());
-  const auto other = chip.read(0x00, 8);
+  const auto other = chip.read(reg::kAddrScdata, 8);
   chip.simulator.slave(1)->set_data(0x0123);
   chip.advance_us(10);
-  chip.instruct(0x04);
+  chip.instruct(reg::kInstrCdm0);
   ASSERT_TRUE(chip.wait_eot());
-  const auto before = chip.read(0x00, 8);
+  const auto before = chip.read(reg::kAddrScdata, 8);
   ASSERT_NE(before, other);
   chip.advance_us(10);
   chip.simulator.slave(1)->set_data(0x2FFF);
   host.set_command(0x80, 3);
-  chip.write(0xE5, {0x40 | 3U << 4U | 1U});
+  chip.write(reg::kAddrCtrl, {reg::kRegversBissC | 3U << 4U | 1U});
   // Two zeros were sent before: S is in frame 12, the last acknowledge in frame 36.
   for (int frame = 0; frame < 37; ++frame) {
-    chip.instruct(0x0E);
+    chip.instruct(reg::kInstrControlReduced);
     ASSERT_TRUE(chip.wait_eot());
-    EXPECT_EQ(chip.read(0xF4), 0x00) << frame;
-    EXPECT_EQ(host.status() & kRegend, frame == 36 ? kRegend : 0) << frame;
+    EXPECT_EQ(chip.read(reg::kAddrInstr), 0) << frame;
+    EXPECT_EQ(host.status() & reg::REGEND::kMask, frame == 36 ? reg::REGEND::kMask : 0) << frame;
     chip.advance_us(10);
     EXPECT_EQ(chip.simulator.line(1)->monitor().last(chip.simulator.now()).rising, 5U) << frame;
-    EXPECT_EQ(chip.read(0x00, 8), before);
-    EXPECT_EQ(chip.read(0xF1), 0x02);
+    EXPECT_EQ(chip.read(reg::kAddrScdata, 8), before);
+    EXPECT_EQ(chip.read(reg::kAddrSvalidLo), reg::SVALID<1>::kMask);
     // The lone slave locks ID 0 in slot 1 and acknowledges in slot 17.
-    EXPECT_EQ(chip.read(0xF3) & 0x40, frame == 13 || frame == 29 ? 0x40 : 0x00) << frame;
+    EXPECT_EQ(chip.read(reg::kAddrStatus3) & reg::CDSSEL::kMask,
+              frame == 13 || frame == 29 ? reg::kCdsselHigh : 0)
+        << frame;
     // Executed at once: EX is in slot 16, its stop bit in slot 17.
     EXPECT_EQ(chip.simulator.slave(1)->control()->counters().commands, frame < 29 ? 0U : 1U);
   }
   EXPECT_EQ(host.status(), kAllGood);
   EXPECT_EQ(chip.simulator.slave(1)->control()->last_command().ids, 0x80);
   EXPECT_EQ(chip.simulator.slave(1)->control()->last_command().code, 3);
-  chip.instruct(0x20);
+  chip.instruct(reg::SWBANK::kMask);
   chip.advance_us(1);
-  EXPECT_EQ(chip.read(0x00, 8), other);
-  EXPECT_EQ(chip.read(0xF1), 0x02);
+  EXPECT_EQ(chip.read(reg::kAddrScdata, 8), other);
+  EXPECT_EQ(chip.read(reg::kAddrSvalidLo), reg::SVALID<1>::kMask);
 }
 
 // ---- by hand
@@ -643,12 +666,13 @@ TEST(ControlByHand, CdmByCds_ComesRightAtAnyDelay) {
                             std::string("delay_ns = ") + delay));
         configure(chip);
         if (!sensor) {
-          chip.write(0xC0, {0x00});
-          chip.write(0xE5, {0x41});  // HOLDCDM: the frame is not clocked out
+          chip.write(reg::slave_cfg_address(1), {0});
+          chip.write(reg::kAddrCtrl, {reg::kRegversBissC |
+                                      reg::kHoldcdmHold});  // HOLDCDM: the frame is not clocked out
         }
         if (cds == 1) chip.simulator.line(1)->faults().flip_next_frame({1});
         const auto count = chip.simulator.slave(1)->cdm_count();
-        chip.instruct(0x06);
+        chip.instruct(reg::kInstrCdmNotCdssel);
         ASSERT_TRUE(chip.wait_eot());
         chip.advance_us(40);
         EXPECT_EQ(chip.simulator.slave(1)->cdm_count(), count + 1);

@@ -15,9 +15,9 @@ namespace {
 
 using mb4test::Chip;
 using mb4test::ControlHost;
-using mb4test::kAgsmin;
 using mb4test::kAllGood;
 using mb4test::one_slave;
+namespace reg = mb4::regs;
 
 const char kTi[] = "preset = \"wachendorff-wdgf58m\"";
 
@@ -45,7 +45,8 @@ class ControlTi : public testing::TestWithParam<std::uint8_t> {};
 TEST_P(ControlTi, EveryReadRow_IsOnMaBitForBit) {
   for (const TiRow& row : kTiRows) {
     Chip chip(one_slave(kTi));
-    chip.configure_slave1(chip.simulator.slave(1)->data_bits(), 0x06, GetParam(), kAgsmin);
+    chip.configure_slave1(chip.simulator.slave(1)->data_bits(), reg::kScrclenCrc6, GetParam(),
+                          reg::kFreqagsAgsMin);
     ControlHost host(chip);
     host.set_read(0, row.address, 1);
     ASSERT_EQ(host.run_single(60), 47U) << "14 zeros, 32 slots, one more for P";
@@ -78,7 +79,8 @@ TEST_P(ControlTi, EveryValueOfTable11_IsReadBack) {
                                                                     {0x7E, 0x57},
                                                                     {0x7F, 0x41}}};
   Chip chip(one_slave(kTi));
-  chip.configure_slave1(chip.simulator.slave(1)->data_bits(), 0x06, GetParam(), kAgsmin);
+  chip.configure_slave1(chip.simulator.slave(1)->data_bits(), reg::kScrclenCrc6, GetParam(),
+                        reg::kFreqagsAgsMin);
   ControlHost host(chip);
   for (const auto& [address, value] : kTable11) {
     host.set_read(0, address, 1);
@@ -91,7 +93,8 @@ TEST_P(ControlTi, EveryValueOfTable11_IsReadBack) {
 // The printed write row has a wrong header CRC; this is the frame that writes 0x06 to 0x60.
 TEST_P(ControlTi, Write0x06To0x60_IsTheConsistentFrame) {
   Chip chip(one_slave(kTi));
-  chip.configure_slave1(chip.simulator.slave(1)->data_bits(), 0x06, GetParam(), kAgsmin);
+  chip.configure_slave1(chip.simulator.slave(1)->data_bits(), reg::kScrclenCrc6, GetParam(),
+                        reg::kFreqagsAgsMin);
   ControlHost host(chip);
   host.set_write(0, 0x60, {0x06});
   ASSERT_EQ(host.run_single(60), 47U);
@@ -107,21 +110,23 @@ INSTANTIATE_TEST_SUITE_P(Freqs, ControlTi, testing::Values(0x00, 0x01, 0x04, 0x0
 bool exchange(Chip& chip, std::uint8_t instruction) {
   chip.instruct(instruction);
   EXPECT_TRUE(chip.wait_eot());
-  return (chip.read(0xF3) & 0x40) != 0;
+  return (chip.read(reg::kAddrStatus3) & reg::CDSSEL::kMask) != 0;
 }
 
 // Table 45: a host that sends every CDM itself; INSTR = 011 waits for the slave's start bit: CDM =
 // 1 until CDS is 1, 0 in that very frame (facts 3.5).
 TEST(ControlByHand, ReadOfABusySlave_Works) {
   Chip chip(one_slave(std::string(kTi) + "\nread_busy_frames = 5"));
-  chip.configure_slave1(chip.simulator.slave(1)->data_bits(), 0x06, 0x00, kAgsmin);
+  chip.configure_slave1(chip.simulator.slave(1)->data_bits(), reg::kScrclenCrc6, 0x00,
+                        reg::kFreqagsAgsMin);
   const auto send = [&](std::uint8_t instruction) { return exchange(chip, instruction); };
   for (int i = 0; i < 13; ++i) send(0x04);
-  EXPECT_EQ(chip.read(0xF3) & 0x80, 0x00);
+  EXPECT_EQ(chip.read(reg::kAddrStatus3) & reg::CDMTIMEOUT::kMask, 0);
   send(0x04);
-  EXPECT_EQ(chip.read(0xF3) & 0x80, 0x80) << "CDMTIMEOUT";
+  EXPECT_EQ(chip.read(reg::kAddrStatus3) & reg::CDMTIMEOUT::kMask, reg::kCdmtimeoutReached)
+      << "CDMTIMEOUT";
   send(0x02);  // S
-  EXPECT_EQ(chip.read(0xF3) & 0x80, 0x00);
+  EXPECT_EQ(chip.read(reg::kAddrStatus3) & reg::CDMTIMEOUT::kMask, 0);
   const std::uint32_t frame = 0x8CE54000;  // read 0x67, slots 1..
   for (int slot = 1; slot <= 18; ++slot) send((frame >> (32 - slot)) & 1U ? 0x02 : 0x04);
   unsigned waits = 0;
@@ -139,7 +144,8 @@ TEST(ControlByHand, PrintedWriteRow_IsRejected) {
   for (const std::uint32_t frame : {0x8C13C194U, 0x8C16C194U}) {
     const bool right = frame == 0x8C16C194U;
     Chip chip(one_slave(kTi));
-    chip.configure_slave1(chip.simulator.slave(1)->data_bits(), 0x06, 0x00, kAgsmin);
+    chip.configure_slave1(chip.simulator.slave(1)->data_bits(), reg::kScrclenCrc6, 0x00,
+                          reg::kFreqagsAgsMin);
     for (int i = 0; i < 14; ++i) exchange(chip, 0x04);
     exchange(chip, 0x02);  // S
     unsigned answers = 0;

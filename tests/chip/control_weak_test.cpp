@@ -40,7 +40,7 @@ TEST(ControlWeak, LostStartBitOfAWrite_IsSeenByTheLastCrcBitOnly) {
     const bool line_bit = !crc0;
     EXPECT_EQ(result, line_bit ? reg_error(0) : kGood) << value;
     EXPECT_EQ(bench.far.counters().writes, 0U) << value;
-    EXPECT_EQ(bench.reg(kAddress), 0) << value;
+    EXPECT_EQ(bench.slave_reg(kAddress), 0) << value;
   }
 }
 
@@ -53,7 +53,7 @@ TEST(ControlWeak, EarlyStartBitOfAWrite_IsSeenIfD7IsZero) {
     bench.host.set_write(0, kAddress, {static_cast<std::uint8_t>(value)});
     EXPECT_EQ(bench.run(), (value & 0x80U) != 0 ? kGood : reg_error(0)) << value;
     EXPECT_EQ(bench.far.counters().writes, 0U) << value;
-    EXPECT_EQ(bench.reg(kAddress), 0) << value;
+    EXPECT_EQ(bench.slave_reg(kAddress), 0) << value;
   }
 }
 
@@ -90,7 +90,7 @@ TEST(ControlWeak, WriteThatIsCutOff_MayLeaveAThirdValueButIsReported) {
   bench.host.set_write(0, kAddress, {0x33});
   EXPECT_EQ(bench.run(), reg_error(0));
   EXPECT_EQ(word_of(0x30), "001100000000");
-  EXPECT_EQ(bench.reg(kAddress), 0x30);
+  EXPECT_EQ(bench.slave_reg(kAddress), 0x30);
   bench.check_next();
 }
 
@@ -111,7 +111,7 @@ TEST(ControlWeak, SLostAtOneSlaveOnly_TheNextOneTakesItsId) {
   bench.near.faults() = {};
   bench.host.set_write(0, kAddress, {0x5A});
   EXPECT_EQ(bench.run(), kGood);
-  EXPECT_EQ(bench.reg(kAddress), 0);
+  EXPECT_EQ(bench.slave_reg(kAddress), 0);
   EXPECT_EQ(bench.chip.simulator.slave(1)->reg_read(kAddress), 0x5A);
   bench.check_next();
 }

@@ -20,6 +20,7 @@ namespace {
 
 using mb4ref::CrcChoice;
 using mb4test::Chip;
+namespace reg = mb4::regs;
 namespace sim = mb4::sim;
 
 enum Kind { kNone, kSingle, kPair, kShortBurst, kLongBurst, kRandom, kStartBit, kKinds };
@@ -62,12 +63,13 @@ class Campaign {
     sensors_.clear();
     const unsigned count = one_in(12) ? 8 : 1 + below(3);
     const unsigned longest = one_in(20) ? 64 : 14;
-    std::vector<std::uint8_t> registers{0x02, 0xC0};
+    std::vector<std::uint8_t> registers{reg::kSpiOpcodeWriteRegisters, reg::slave_cfg_address(1)};
     for (unsigned i = 0; i < count; ++i) add_sensor(longest, text, registers);
     Chip chip(text.str());
     chip.spi(registers);
-    chip.write(0xE5, {0x40, 0xA0, 0x02, 0x7C});  // f_CLK / 2, NOCRC, AGSMIN
-    chip.write(0xEC, {0x01, 0x0D});
+    chip.write(reg::kAddrCtrl, {reg::kRegversBissC, reg::FREQR::of(5), reg::kNocrcDropped,
+                                reg::kFreqagsAgsMin});  // f_CLK / 2, NOCRC, AGSMIN
+    chip.write(reg::kAddrSlaveloc5, {reg::kResetSlaveloc5, reg::kCfgch2Unused | reg::kCfgch1BissC});
     for (unsigned i = 0; i < frames; ++i) {
       frame(chip, tallies, wrong);
       if (testing::Test::HasFatalFailure()) return;
@@ -179,12 +181,12 @@ class Campaign {
       }
     }
     chip.simulator.line(1)->faults().flip_next_frame(injected);
-    chip.instruct(0x04);
+    chip.instruct(reg::kInstrCdm0);
     ASSERT_TRUE(chip.wait_eot());
-    std::vector<std::uint8_t> status = chip.spi({0x05, 0, 0, 0});
+    std::vector<std::uint8_t> status = chip.spi({reg::kSpiOpcodeReadStatus, 0, 0, 0});
     const std::vector<std::uint8_t> memory = chip.spi(std::vector<std::uint8_t>{[&] {
       std::vector<std::uint8_t> tx(1 + 8 * sensors_.size(), 0);
-      tx[0] = 0x09;
+      tx[0] = reg::kSpiOpcodeReadRegisters0;
       return tx;
     }()});
     bool all_good = true;

@@ -14,6 +14,7 @@ namespace {
 using mb4test::Chip;
 using mb4test::config26;
 using mb4test::one_slave;
+namespace reg = mb4::regs;
 namespace sim = mb4::sim;
 
 const char kEncoder26[] = "data_bits = 28\ncrc = 0x43\ndata = 0xAAF37BF\ntimeout = \"adaptive\"";
@@ -99,16 +100,17 @@ TEST(ChipFrame, EveryFlippedBit_IsAnErrorAndNeverAValue) {
     // Once more by hand: the flags as the chip shows them.
     chip.advance_us(10);
     chip.simulator.line(1)->faults().flip_next_frame({bit});
-    chip.instruct(0x04);
+    chip.instruct(reg::kInstrCdm0);
     ASSERT_TRUE(chip.wait_eot());
-    const auto status = chip.spi({0x05, 0, 0});
+    const auto status = chip.spi({reg::kSpiOpcodeReadStatus, 0, 0});
     EXPECT_EQ(status[1] & 0x90, 0x00) << "nSCDERR = 0, nERR = 0";
     EXPECT_EQ(status[1] & 0x01, 0x01) << "EOT";
     EXPECT_EQ(status[2] & 0x02, 0x00) << "SVALID1";
     EXPECT_FALSE(chip.simulator.pin(sim::Pin::kNer));
     // The next good frame clears nSCDERR (decision 9).
     ASSERT_TRUE(chip.device.read_frame().ok());
-    EXPECT_EQ(chip.status() & 0x91, 0x91);
+    EXPECT_EQ(chip.status() & (reg::nERR::kMask | reg::nSCDERR::kMask | reg::EOT::kMask),
+              reg::kNerrGood | reg::kNscderrGood | reg::kEotIdle);
     EXPECT_TRUE(chip.simulator.pin(sim::Pin::kNer));
   }
 }
@@ -117,18 +119,19 @@ TEST(ChipFrame, EveryFlippedBit_IsAnErrorAndNeverAValue) {
 // top byte; one frame fills one bank, the next the other.
 TEST(ChipFrame, ScdataAndCrcByte_AreWhereTable22ShowsThem) {
   Chip chip(one_slave("data_bits = 21\ncrc = 0x43\ndata = 0x15A5A5"));
-  chip.configure_slave1(21, 0x06, 0x00);
+  chip.configure_slave1(21, reg::kScrclenCrc6, 0x00);
   for (int bank = 0; bank < 2; ++bank) {
-    chip.write(0x00, {0xE0, 0xE1, 0xE2, 0xE3, 0xE4, 0xE5, 0xE6, 0xE7});
-    chip.write(0xF4, {static_cast<std::uint8_t>(bank == 0 ? 0x20 : 0x00)});  // SWBANK changes
+    chip.write(reg::kAddrScdata, {0xE0, 0xE1, 0xE2, 0xE3, 0xE4, 0xE5, 0xE6, 0xE7});
+    chip.write(reg::kAddrInstr,
+               {static_cast<std::uint8_t>(bank == 0 ? reg::SWBANK::kMask : 0)});  // SWBANK changes
   }
   for (int frame = 0; frame < 4; ++frame) {
     chip.advance_us(20);
-    chip.instruct(0x04);
+    chip.instruct(reg::kInstrCdm0);
     ASSERT_TRUE(chip.wait_eot());
-    EXPECT_EQ(chip.read(0x00, 8),
+    EXPECT_EQ(chip.read(reg::kAddrScdata, 8),
               (std::vector<std::uint8_t>{0xA5, 0xA5, 0x15, 0xE3, 0xE4, 0xE5, 0xE6, 0x27}));
-    EXPECT_EQ(chip.read(0xF1) & 0x02, 0x02);
+    EXPECT_EQ(chip.read(reg::kAddrSvalidLo) & reg::SVALID<1>::kMask, reg::SVALID<1>::kMask);
   }
 }
 
@@ -136,17 +139,17 @@ TEST(ChipFrame, ScdataAndCrcByte_AreWhereTable22ShowsThem) {
 // clears itself; EOT is 0 while the frame runs and equals the pin.
 TEST(ChipInstr, CdmZeroAndOne_AreSentAndInstrClears) {
   Chip chip(one_slave("data_bits = 28\ncrc = 0x43\ndata = 0x123\ntimeout = 20.0"));
-  chip.configure_slave1(28, 0x06, 0x00);
+  chip.configure_slave1(28, reg::kScrclenCrc6, 0x00);
   for (int round = 0; round < 3; ++round) {
     for (const unsigned cdm : {0U, 1U}) {
       const std::uint8_t instr = cdm == 0 ? 0x04 : 0x02;
       chip.instruct(instr);
-      EXPECT_EQ(chip.status() & 0x01, 0x00);
+      EXPECT_EQ(chip.status() & reg::EOT::kMask, 0);
       EXPECT_FALSE(chip.simulator.pin(sim::Pin::kEot));
-      EXPECT_EQ(chip.read(0xF4), instr);
+      EXPECT_EQ(chip.read(reg::kAddrInstr), instr);
       ASSERT_TRUE(chip.wait_eot());
-      EXPECT_EQ(chip.read(0xF4), 0x00);
-      EXPECT_EQ(chip.status() & 0x01, 0x01);
+      EXPECT_EQ(chip.read(reg::kAddrInstr), 0);
+      EXPECT_EQ(chip.status() & reg::EOT::kMask, reg::kEotIdle);
       chip.advance_us(5);
       EXPECT_EQ(chip.simulator.pin(sim::Pin::kMa1), cdm == 0);
       EXPECT_FALSE(chip.simulator.pin(sim::Pin::kSl1));
@@ -162,16 +165,16 @@ TEST(ChipInstr, CdmZeroAndOne_AreSentAndInstrClears) {
 // Table 25: HOLDCDM = 1 keeps MA until the next frame begins.
 TEST(ChipInstr, HoldCdm_MaStaysLowUntilNextFrame) {
   Chip chip(one_slave(kEncoder26));
-  chip.configure_slave1(28, 0x06, 0x01);
-  chip.write(0xE5, {0x41});
-  chip.instruct(0x02);
+  chip.configure_slave1(28, reg::kScrclenCrc6, 0x01);
+  chip.write(reg::kAddrCtrl, {reg::kRegversBissC | reg::kHoldcdmHold});
+  chip.instruct(reg::kInstrCdm1);
   ASSERT_TRUE(chip.wait_eot());
   chip.advance_us(100);
   EXPECT_FALSE(chip.simulator.pin(sim::Pin::kMa1));
   EXPECT_TRUE(chip.simulator.pin(sim::Pin::kSl1));
-  chip.instruct(0x04);
+  chip.instruct(reg::kInstrCdm0);
   ASSERT_TRUE(chip.wait_eot());
-  EXPECT_EQ(chip.read(0xF1) & 0x02, 0x02);
+  EXPECT_EQ(chip.read(reg::kAddrSvalidLo) & reg::SVALID<1>::kMask, reg::SVALID<1>::kMask);
   chip.advance_us(100);
   EXPECT_TRUE(chip.simulator.pin(sim::Pin::kMa1));
   EXPECT_TRUE(chip.simulator.slave(1)->cdm_count() == 2 && !chip.simulator.slave(1)->last_cdm());
@@ -180,49 +183,53 @@ TEST(ChipInstr, HoldCdm_MaStaysLowUntilNextFrame) {
 // Decision 3 and Table 45's text: SL low at the start of a frame.
 TEST(ChipInstr, SlLowAtStart_NoFrameAndAgsError) {
   Chip chip(one_slave(kEncoder26));
-  chip.configure_slave1(28, 0x06, 0x00, 0x00);
+  chip.configure_slave1(28, reg::kScrclenCrc6, 0x00, 0x00);
   chip.simulator.line(1)->faults().stick(false);
   chip.simulator.refresh_lines();
   chip.advance_us(1);
-  chip.instruct(0x04);
+  chip.instruct(reg::kInstrCdm0);
   chip.advance_us(2);
-  EXPECT_EQ(chip.status() & 0xC1, 0x01) << "nERR = nAGSERR = 0, EOT = 1";
-  EXPECT_EQ(chip.read(0xF4), 0x00);
+  EXPECT_EQ(chip.status() & (reg::nERR::kMask | reg::nAGSERR::kMask | reg::EOT::kMask),
+            reg::kEotIdle)
+      << "nERR = nAGSERR = 0, EOT = 1";
+  EXPECT_EQ(chip.read(reg::kAddrInstr), 0);
   EXPECT_EQ(chip.simulator.line(1)->monitor().frames(), 0U);
   // BREAK returns the flags to 1 (decision 8).
-  chip.instruct(0x80);
-  EXPECT_EQ(chip.status() & 0xC1, 0xC1);
+  chip.instruct(reg::kBreakAbort);
+  EXPECT_EQ(chip.status() & (reg::nERR::kMask | reg::nAGSERR::kMask | reg::EOT::kMask),
+            reg::kNerrGood | reg::kNagserrGood | reg::kEotIdle);
 }
 
 TEST(ChipInstr, SlLowAtStartWithAgsMin_WaitsForOneWithoutError) {
   Chip chip(one_slave(kEncoder26));
-  chip.configure_slave1(28, 0x06, 0x00, 0x7C);
+  chip.configure_slave1(28, reg::kScrclenCrc6, 0x00, reg::kFreqagsAgsMin);
   chip.simulator.line(1)->faults().stick(false);
   chip.simulator.refresh_lines();
   chip.advance_us(1);
-  chip.instruct(0x04);
+  chip.instruct(reg::kInstrCdm0);
   chip.advance_us(50);
-  EXPECT_EQ(chip.status() & 0xC1, 0xC0);
+  EXPECT_EQ(chip.status() & (reg::nERR::kMask | reg::nAGSERR::kMask | reg::EOT::kMask),
+            reg::kNerrGood | reg::kNagserrGood);
   EXPECT_EQ(chip.simulator.line(1)->monitor().frames(), 0U);
   chip.simulator.line(1)->faults().stick(std::nullopt);
   chip.simulator.refresh_lines();
   ASSERT_TRUE(chip.wait_eot());
-  EXPECT_EQ(chip.read(0xF1) & 0x02, 0x02);
+  EXPECT_EQ(chip.read(reg::kAddrSvalidLo) & reg::SVALID<1>::kMask, reg::SVALID<1>::kMask);
 }
 
 // Decision 4: a silent sensor keeps the frame running; page 33: BREAK ends it.
 TEST(ChipBreak, SilentSensor_FrameRunsUntilBreak) {
   Chip chip(one_slave(kEncoder26));
-  chip.configure_slave1(28, 0x06, 0x00);
+  chip.configure_slave1(28, reg::kScrclenCrc6, 0x00);
   chip.simulator.line(1)->faults().stick(true);
   chip.simulator.refresh_lines();
-  chip.instruct(0x04);
+  chip.instruct(reg::kInstrCdm0);
   chip.advance_us(2000);
-  EXPECT_EQ(chip.status() & 0x01, 0x00);
+  EXPECT_EQ(chip.status() & reg::EOT::kMask, 0);
   EXPECT_GT(chip.simulator.line(1)->monitor().last(chip.simulator.now()).rising, 19000U);
-  chip.instruct(0x80);
-  EXPECT_EQ(chip.status(), 0xFB);
-  EXPECT_EQ(chip.read(0xF4), 0x00);
+  chip.instruct(reg::kBreakAbort);
+  EXPECT_EQ(chip.status(), reg::kResetStatus0);
+  EXPECT_EQ(chip.read(reg::kAddrInstr), 0);
   chip.advance_us(1);
   EXPECT_TRUE(chip.simulator.pin(sim::Pin::kMa1));
   const auto rising = chip.simulator.line(1)->monitor().last(chip.simulator.now()).rising;
@@ -232,10 +239,10 @@ TEST(ChipBreak, SilentSensor_FrameRunsUntilBreak) {
   chip.simulator.line(1)->faults().stick(std::nullopt);
   chip.simulator.refresh_lines();
   chip.advance_us(100);
-  chip.instruct(0x04);
+  chip.instruct(reg::kInstrCdm0);
   ASSERT_TRUE(chip.wait_eot());
-  EXPECT_EQ(chip.read(0xF1) & 0x02, 0x02);
-  EXPECT_EQ(chip.read(0x00, 4), (std::vector<std::uint8_t>{0xBF, 0x37, 0xAF, 0x0A}));
+  EXPECT_EQ(chip.read(reg::kAddrSvalidLo) & reg::SVALID<1>::kMask, reg::SVALID<1>::kMask);
+  EXPECT_EQ(chip.read(reg::kAddrScdata, 4), (std::vector<std::uint8_t>{0xBF, 0x37, 0xAF, 0x0A}));
 }
 
 // BREAK in the middle of a frame at every phase: no bank switch, no validity, no short pulse.
@@ -243,13 +250,17 @@ TEST(ChipBreak, AnyPhaseOfAFrame_AbortsAndRecovers) {
   Chip chip(one_slave(kEncoder26, "delay_ns = 123.0"));
   ASSERT_TRUE(chip.device.configure(config26(5'000'000)).ok());
   for (unsigned step = 0; step < 90; ++step) {
-    chip.write(0x00, {0x5A});  // the host's bank; a good read has cleared SVALID1
-    chip.instruct(0x04);
+    chip.write(reg::kAddrScdata, {0x5A});  // the host's bank; a good read has cleared SVALID1
+    chip.instruct(reg::kInstrCdm0);
     chip.simulator.advance(step * 67 * sim::kPsPerNs);
-    chip.instruct(0x80);
-    EXPECT_EQ(chip.status() & 0x79, 0x79) << step;
-    EXPECT_EQ(chip.read(0xF1), 0x00) << "no validity at step " << step;
-    EXPECT_EQ(chip.read(0x00), 0x5A) << "no bank switch at step " << step;
+    chip.instruct(reg::kBreakAbort);
+    EXPECT_EQ(chip.status() & (reg::nAGSERR::kMask | reg::nDELAYERR::kMask | reg::nSCDERR::kMask |
+                               reg::nREGERR::kMask | reg::EOT::kMask),
+              reg::kNagserrGood | reg::kNdelayerrGood | reg::kNscderrGood | reg::kNregerrGood |
+                  reg::kEotIdle)
+        << step;
+    EXPECT_EQ(chip.read(reg::kAddrSvalidLo), 0) << "no validity at step " << step;
+    EXPECT_EQ(chip.read(reg::kAddrScdata), 0x5A) << "no bank switch at step " << step;
     chip.advance_us(30);
     EXPECT_TRUE(chip.simulator.pin(sim::Pin::kMa1)) << step;
     const auto frame = chip.simulator.line(1)->monitor().last(chip.simulator.now());
@@ -321,18 +332,24 @@ TEST(ChipDriver, QuirkAgserrOnInstrWrite_GoodFramesAreRead) {
       const auto reading = chip.device.read_frame();
       ASSERT_TRUE(reading.ok());
       EXPECT_EQ(reading.value().raw, 0xAAF37BFU);
-      EXPECT_EQ(chip.status(), quirk ? 0x3B : 0xFB) << "nERR, nAGSERR";
+      EXPECT_EQ(chip.status(), quirk
+                                   ? reg::kResetStatus0 & ~(reg::nERR::kMask | reg::nAGSERR::kMask)
+                                   : reg::kResetStatus0)
+          << "nERR, nAGSERR";
       EXPECT_EQ(chip.simulator.pin(sim::Pin::kNer), !quirk);
     }
     for (const unsigned byte : {0x00U, 0x80U, 0x40U, 0x20U, 0x04U}) {
-      chip.instruct(0x10);
+      chip.instruct(reg::kInitStart);
       ASSERT_TRUE(chip.wait_eot());
-      EXPECT_EQ(chip.status(), 0xFB) << "INIT";
-      chip.write(0xF3, {static_cast<std::uint8_t>(byte)});
-      EXPECT_EQ(chip.status(), 0xFB) << "another register";
-      chip.write(0xF4, {static_cast<std::uint8_t>(byte)});
+      EXPECT_EQ(chip.status(), reg::kResetStatus0) << "INIT";
+      chip.write(reg::kAddrStatus3, {static_cast<std::uint8_t>(byte)});
+      EXPECT_EQ(chip.status(), reg::kResetStatus0) << "another register";
+      chip.write(reg::kAddrInstr, {static_cast<std::uint8_t>(byte)});
       ASSERT_TRUE(chip.wait_eot());
-      EXPECT_EQ(chip.status(), quirk ? 0x3B : 0xFB) << byte;
+      EXPECT_EQ(chip.status(), quirk
+                                   ? reg::kResetStatus0 & ~(reg::nERR::kMask | reg::nAGSERR::kMask)
+                                   : reg::kResetStatus0)
+          << byte;
       chip.advance_us(20);
     }
   }
@@ -397,20 +414,20 @@ TEST(ChipInit, LineDelay_IsMeasuredInQuarterPeriods) {
   for (const auto& [delay, quarters] :
        {std::pair{"0.0", 1}, {"30.0", 2}, {"110.0", 5}, {"1000.0", 41}, {"6300.0", 253}}) {
     Chip chip(one_slave(kEncoder26, std::string("delay_ns = ") + delay));
-    chip.configure_slave1(28, 0x06, 0x00);
+    chip.configure_slave1(28, reg::kScrclenCrc6, 0x00);
     // Decision 25: INIT reads back 1 at least until the next possible register read.
     chip.simulator.spi().set_timing(sim::SpiTiming::for_frequency(50'000'000));
-    chip.instruct(0x10);
-    EXPECT_EQ(chip.read(0xF4), 0x10);
+    chip.instruct(reg::kInitStart);
+    EXPECT_EQ(chip.read(reg::kAddrInstr), reg::kInitStart);
     chip.simulator.spi().set_timing(sim::SpiTiming::for_frequency(10'000'000));
     ASSERT_TRUE(chip.wait_eot());
-    EXPECT_EQ(chip.read(0xF4), 0x00);
-    EXPECT_EQ(chip.status(), 0xFB);
-    EXPECT_EQ(chip.read(0x00), quarters) << delay;
+    EXPECT_EQ(chip.read(reg::kAddrInstr), 0);
+    EXPECT_EQ(chip.status(), reg::kResetStatus0);
+    EXPECT_EQ(chip.read(reg::kAddrScdata), quarters) << delay;
     EXPECT_EQ(chip.simulator.line(1)->monitor().last(chip.simulator.now()).rising, 2U);
-    chip.instruct(0x04);
+    chip.instruct(reg::kInstrCdm0);
     ASSERT_TRUE(chip.wait_eot());
-    EXPECT_EQ(chip.read(0xF1) & 0x02, 0x02);
+    EXPECT_EQ(chip.read(reg::kAddrSvalidLo) & reg::SVALID<1>::kMask, reg::SVALID<1>::kMask);
   }
 }
 
@@ -419,14 +436,14 @@ TEST(ChipInit, WrittenAtAnyTime_RunsOnceAndLeavesTheFrameBeforeItWhole) {
   for (unsigned step = 0; step < 60; ++step) {
     for (const unsigned cdm : {0U, 1U}) {
       Chip chip(one_slave("data_bits = 28\ncrc = 0x43\ndata = 0xAAF37BF\ntimeout = 13.0"));
-      chip.configure_slave1(28, 0x06, 0x01);
-      chip.instruct(cdm == 0 ? 0x04 : 0x02);
+      chip.configure_slave1(28, reg::kScrclenCrc6, 0x01);
+      chip.instruct(cdm == 0 ? reg::kInstrCdm0 : reg::kInstrCdm1);
       chip.simulator.advance(step * 500 * sim::kPsPerNs);
-      chip.instruct(0x10);
+      chip.instruct(reg::kInitStart);
       ASSERT_TRUE(chip.wait_eot()) << step;
-      EXPECT_EQ(chip.read(0xF4), 0x00);
-      EXPECT_EQ(chip.status(), 0xFB);
-      EXPECT_EQ(chip.read(0x00), 1) << step;
+      EXPECT_EQ(chip.read(reg::kAddrInstr), 0);
+      EXPECT_EQ(chip.status(), reg::kResetStatus0);
+      EXPECT_EQ(chip.read(reg::kAddrScdata), 1) << step;
       EXPECT_EQ(chip.simulator.slave(1)->frames(), 1U) << step;
       EXPECT_EQ(chip.simulator.line(1)->monitor().frames(), 2U) << step;
       EXPECT_EQ(chip.simulator.line(1)->monitor().last(chip.simulator.now()).rising, 2U);
@@ -438,21 +455,21 @@ TEST(ChipInit, WrittenAtAnyTime_RunsOnceAndLeavesTheFrameBeforeItWhole) {
 TEST(ChipInit, TogetherWithBreakOnASilentLine_EndsAndTheNextMeasuresTheLine) {
   for (unsigned step = 0; step < 24; ++step) {
     Chip chip(one_slave(kEncoder26));
-    chip.configure_slave1(28, 0x06, static_cast<std::uint8_t>(step % 12));
+    chip.configure_slave1(28, reg::kScrclenCrc6, static_cast<std::uint8_t>(step % 12));
     chip.simulator.line(1)->faults().stick(true);
     chip.simulator.refresh_lines();
-    chip.instruct(0x04);
+    chip.instruct(reg::kInstrCdm0);
     chip.simulator.advance(30 * sim::kPsPerUs + step * 31 * sim::kPsPerNs);
     chip.simulator.line(1)->faults().stick(std::nullopt);
     chip.simulator.refresh_lines();
-    chip.instruct(0x90);
+    chip.instruct(reg::kBreakAbort | reg::kInitStart);
     ASSERT_TRUE(chip.wait_eot()) << step;
-    EXPECT_EQ(chip.read(0xF4), 0x00);
+    EXPECT_EQ(chip.read(reg::kAddrInstr), 0);
     chip.advance_us(50);
-    chip.instruct(0x10);
+    chip.instruct(reg::kInitStart);
     ASSERT_TRUE(chip.wait_eot()) << step;
-    EXPECT_EQ(chip.status(), 0xFB);
-    EXPECT_EQ(chip.read(0x00), 1);
+    EXPECT_EQ(chip.status(), reg::kResetStatus0);
+    EXPECT_EQ(chip.read(reg::kAddrScdata), 1);
   }
 }
 
@@ -461,73 +478,75 @@ TEST(ChipConfig, FreqsWrittenAtEot_TheRunningTailKeepsItsClock) {
   for (const auto& [before, after] : {std::pair{0x1F, 0x01}, {0x01, 0x1F}, {0x09, 0x00}}) {
     Chip chip(one_slave(kEncoder26));
     chip.simulator.spi().set_timing(sim::SpiTiming::for_frequency(50'000'000));
-    chip.configure_slave1(28, 0x06, static_cast<std::uint8_t>(before));
-    chip.instruct(0x02);
+    chip.configure_slave1(28, reg::kScrclenCrc6, static_cast<std::uint8_t>(before));
+    chip.instruct(reg::kInstrCdm1);
     ASSERT_TRUE(chip.wait_eot());
-    chip.write(0xE6, {static_cast<std::uint8_t>(0xA0 | after)});
+    chip.write(reg::kAddrFreq, {static_cast<std::uint8_t>(reg::FREQR::of(5) | after)});
     chip.advance_us(100);
     const auto frame = chip.simulator.line(1)->monitor().last(chip.simulator.now());
     const unsigned half_clocks = before < 0x10 ? before + 1 : 10 * (before - 15);
     EXPECT_EQ(frame.max_low, half_clocks * 50 * sim::kPsPerNs);
     EXPECT_EQ(frame.max_high, half_clocks * 50 * sim::kPsPerNs);
-    chip.instruct(0x04);
+    chip.instruct(reg::kInstrCdm0);
     ASSERT_TRUE(chip.wait_eot());
-    EXPECT_EQ(chip.read(0xF1), 0x02);
+    EXPECT_EQ(chip.read(reg::kAddrSvalidLo), reg::SVALID<1>::kMask);
   }
 }
 
 // Page 35: CDS1, CDSSEL switch with the banks; CDMTIMEOUT counts 14 frames with CDM = 0.
 TEST(ChipStatus, CdmTimeout_FourteenZerosSetItAndAOneClearsIt) {
   Chip chip(one_slave(kEncoder26));
-  chip.configure_slave1(28, 0x06, 0x00, 0x7C);
+  chip.configure_slave1(28, reg::kScrclenCrc6, 0x00, reg::kFreqagsAgsMin);
   for (int round = 0; round < 2; ++round) {
     for (int i = 1; i <= 16; ++i) {
-      chip.instruct(0x04);
+      chip.instruct(reg::kInstrCdm0);
       ASSERT_TRUE(chip.wait_eot());
-      EXPECT_EQ(chip.read(0xF3) & 0x80, i >= 14 ? 0x80 : 0x00) << i;
+      EXPECT_EQ(chip.read(reg::kAddrStatus3) & reg::CDMTIMEOUT::kMask,
+                i >= 14 ? reg::kCdmtimeoutReached : 0)
+          << i;
     }
-    chip.instruct(0x02);
+    chip.instruct(reg::kInstrCdm1);
     ASSERT_TRUE(chip.wait_eot());
-    EXPECT_EQ(chip.read(0xF3) & 0x80, 0x00);
+    EXPECT_EQ(chip.read(reg::kAddrStatus3) & reg::CDMTIMEOUT::kMask, 0);
   }
   for (int i = 0; i < 14; ++i) {
-    chip.instruct(0x04);
+    chip.instruct(reg::kInstrCdm0);
     ASSERT_TRUE(chip.wait_eot());
   }
-  chip.instruct(0x10);
+  chip.instruct(reg::kInitStart);
   ASSERT_TRUE(chip.wait_eot());
-  EXPECT_EQ(chip.read(0xF3) & 0x80, 0x00) << "INIT";
+  EXPECT_EQ(chip.read(reg::kAddrStatus3) & reg::CDMTIMEOUT::kMask, 0) << "INIT";
 }
 
 // No line in use: nothing to run; INSTR clears itself all the same (docs/choices.md).
 TEST(ChipInstr, NoLineInUse_InstrClearsWithoutAFrame) {
   Chip chip(one_slave(kEncoder26));
-  chip.configure_slave1(28, 0x06, 0x00);
-  chip.write(0xED, {0x0F});
-  chip.instruct(0x04);
+  chip.configure_slave1(28, reg::kScrclenCrc6, 0x00);
+  chip.write(reg::kAddrCfgch, {reg::kCfgch2Unused | reg::kCfgch1Unused});
+  chip.instruct(reg::kInstrCdm0);
   chip.advance_us(2);
-  EXPECT_EQ(chip.read(0xF4), 0x00);
-  EXPECT_EQ(chip.status(), 0xFB);
+  EXPECT_EQ(chip.read(reg::kAddrInstr), 0);
+  EXPECT_EQ(chip.status(), reg::kResetStatus0);
   EXPECT_EQ(chip.simulator.line(1)->monitor().frames(), 0U);
 }
 
 // Decision 19: the same INSTR written again during its frame (to set HOLDBANK, say) is no request.
 TEST(ChipInstr, SameInstrWrittenDuringItsFrame_NoSecondFrame) {
   Chip chip(one_slave(kEncoder26));
-  chip.configure_slave1(28, 0x06, 0x03, 0x7C);
-  chip.instruct(0x04);
+  chip.configure_slave1(28, reg::kScrclenCrc6, 0x03, reg::kFreqagsAgsMin);
+  chip.instruct(reg::kInstrCdm0);
   chip.advance_us(2);
-  chip.instruct(0x44);
+  chip.instruct(reg::kHoldbankPrevented | reg::kInstrCdm0);
   ASSERT_TRUE(chip.wait_eot());
   chip.advance_us(100);
-  EXPECT_EQ(chip.status(), 0xFB);
-  EXPECT_EQ(chip.read(0xFB), 0x00);
+  EXPECT_EQ(chip.status(), reg::kResetStatus0);
+  EXPECT_EQ(chip.read(reg::kAddrSwbankfail), 0);
   EXPECT_EQ(chip.simulator.slave(1)->frames(), 1U);
-  EXPECT_EQ(chip.read(0xF4), 0x40);
+  EXPECT_EQ(chip.read(reg::kAddrInstr), reg::kHoldbankPrevented);
   // A different one is taken after the frame.
-  chip.instruct(0x04);
+  chip.instruct(reg::kInstrCdm0);
   chip.advance_us(2);
-  chip.instruct(0x02);
+  chip.instruct(reg::kInstrCdm1);
   chip.advance_us(200);
   EXPECT_EQ(chip.simulator.slave(1)->frames(), 3U);
   EXPECT_TRUE(chip.simulator.slave(1)->last_cdm());
@@ -535,21 +554,21 @@ TEST(ChipInstr, SameInstrWrittenDuringItsFrame_NoSecondFrame) {
 
 TEST(ChipInit, NoAnswerIn255Quarters_AbortsWithAgsError) {
   Chip chip(one_slave(kEncoder26, "delay_ns = 7000.0"));
-  chip.configure_slave1(28, 0x06, 0x00);
-  chip.instruct(0x10);
+  chip.configure_slave1(28, reg::kScrclenCrc6, 0x00);
+  chip.instruct(reg::kInitStart);
   ASSERT_TRUE(chip.wait_eot());
-  EXPECT_EQ(chip.status() & 0x41, 0x01);
-  EXPECT_EQ(chip.read(0xF4), 0x00);
+  EXPECT_EQ(chip.status() & (reg::nAGSERR::kMask | reg::EOT::kMask), reg::kEotIdle);
+  EXPECT_EQ(chip.read(reg::kAddrInstr), 0);
 }
 
 TEST(ChipInit, SlConstantlyLow_IsIgnored) {
   Chip chip(one_slave(kEncoder26));
-  chip.configure_slave1(28, 0x06, 0x00);
+  chip.configure_slave1(28, reg::kScrclenCrc6, 0x00);
   chip.simulator.line(1)->faults().stick(false);
   chip.simulator.refresh_lines();
-  chip.instruct(0x10);
+  chip.instruct(reg::kInitStart);
   ASSERT_TRUE(chip.wait_eot());
-  EXPECT_EQ(chip.status(), 0xFB);
+  EXPECT_EQ(chip.status(), reg::kResetStatus0);
 }
 
 }  // namespace

@@ -20,6 +20,7 @@
 
 namespace {
 
+namespace reg = mb4::regs;
 namespace sim = mb4::sim;
 using sim::Pin;
 using Bytes = std::vector<std::uint8_t>;
@@ -119,18 +120,22 @@ void operate(mb4test::Chip& chip, Reader& reader) {
         rest(simulator, kInterfaces[reader.next() % 4]);  // straps that move
       } else if (chip.simulator.slave(1)->control() != nullptr && reader.next() % 2 == 0) {
         // Registers or a command, one line or two, in frames whole, reduced or of BiSS B.
-        chip.configure_slave1(28, 0x06, static_cast<std::uint8_t>(reader.next() % 4),
-                              static_cast<std::uint8_t>(reader.next() % 2 == 0 ? 0x7C : 0x09));
-        chip.write(0xD0, {0x40 | 15, 0x06, 0x00, 0x00});
-        chip.write(0xEC, {0x11, static_cast<std::uint8_t>(0x01U | (reader.next() & 0x0CU))});
-        chip.write(0xE2, {static_cast<std::uint8_t>(reader.next()),
-                          static_cast<std::uint8_t>(reader.next() % 3),
-                          static_cast<std::uint8_t>(reader.next())});
-        chip.write(0xE5, {static_cast<std::uint8_t>(reader.next())});
-        chip.instruct(static_cast<std::uint8_t>(0x08U | (reader.next() & 0x07U)));
+        chip.configure_slave1(
+            28, reg::kScrclenCrc6, static_cast<std::uint8_t>(reader.next() % 4),
+            static_cast<std::uint8_t>(reader.next() % 2 == 0 ? reg::kFreqagsAgsMin : 0x09));
+        chip.write(reg::slave_cfg_address(5), {reg::kEnscdYes | 15, reg::kScrclenCrc6, 0x00, 0x00});
+        chip.write(reg::kAddrSlaveloc5,
+                   {reg::kResetSlaveloc5 | reg::kSlaveloc5Split,
+                    static_cast<std::uint8_t>(reg::kCfgch1BissC | (reader.next() & 0x0CU))});
+        chip.write(reg::kAddrRegadr, {static_cast<std::uint8_t>(reader.next()),
+                                      static_cast<std::uint8_t>(reader.next() % 3),
+                                      static_cast<std::uint8_t>(reader.next())});
+        chip.write(reg::kAddrCtrl, {static_cast<std::uint8_t>(reader.next())});
+        chip.instruct(static_cast<std::uint8_t>(reg::kInstrControl | (reader.next() & 0x07U)));
       } else {
         // A frame of the encoder, one after the other, or control communication.
-        chip.configure_slave1(28, 0x06, static_cast<std::uint8_t>(reader.next() % 4), 0x7C);
+        chip.configure_slave1(28, reg::kScrclenCrc6, static_cast<std::uint8_t>(reader.next() % 4),
+                              reg::kFreqagsAgsMin);
         chip.instruct(static_cast<std::uint8_t>(reader.next()));
       }
       break;
@@ -142,11 +147,11 @@ void check_control(mb4test::Chip& chip) {
   mb4test::ControlHost host(chip);
   host.set_write(0, 0x31, {0x6B});
   ASSERT_NE(host.run_single(100), 0U);
-  ASSERT_EQ(chip.status(), 0xFF);
+  ASSERT_EQ(chip.status(), reg::kResetStatus0 | reg::kRegendDone);
   ASSERT_EQ(chip.simulator.slave(1)->reg_read(0x31), 0x6B);
   host.set_read(0, 0x31, 1);
   ASSERT_NE(host.run_single(100), 0U);
-  ASSERT_EQ(chip.status(), 0xFF);
+  ASSERT_EQ(chip.status(), reg::kResetStatus0 | reg::kRegendDone);
   ASSERT_EQ(host.rdata(1)[0], 0x6B);
 }
 
@@ -165,18 +170,18 @@ void check_after_reset(mb4test::Chip& chip, sim::HostInterface interface) {
   simulator.set_pin(Pin::kNres, true);
   // The encoder's timeout, the memories' clearing, a clock switch.
   simulator.advance(100 * sim::kPsPerUs);
-  ASSERT_EQ(chip.read(0xEA, 2), (Bytes{0x20, 0x84}));
-  ASSERT_EQ(chip.read(0xC0, 4), (Bytes{0, 0, 0, 0}));
-  ASSERT_EQ(chip.status(), 0xFB);
-  chip.configure_slave1(28, 0x06, 0x00, 0x7C);
-  ASSERT_EQ(chip.read(0xC0), 0x5B);
-  chip.write(0x85, {0x5A, 0xA5});
+  ASSERT_EQ(chip.read(reg::kAddrRevision, 2), (Bytes{reg::kRevisionY, reg::kVersionIcMb4}));
+  ASSERT_EQ(chip.read(reg::slave_cfg_address(1), 4), (Bytes{0, 0, 0, 0}));
+  ASSERT_EQ(chip.status(), reg::kResetStatus0);
+  chip.configure_slave1(28, reg::kScrclenCrc6, 0x00, reg::kFreqagsAgsMin);
+  ASSERT_EQ(chip.read(reg::slave_cfg_address(1)), reg::kEnscdYes | 27);
+  chip.write(reg::rdata_address(6), {0x5A, 0xA5});
   chip.advance_us(1);
-  ASSERT_EQ(chip.read(0x85, 2), (Bytes{0x5A, 0xA5}));
-  chip.instruct(0x04);
+  ASSERT_EQ(chip.read(reg::rdata_address(6), 2), (Bytes{0x5A, 0xA5}));
+  chip.instruct(reg::kInstrCdm0);
   ASSERT_TRUE(chip.wait_eot(500));
-  ASSERT_EQ(chip.read(0x00, 4), (Bytes{0xBF, 0x37, 0xAF, 0x0A}));
-  ASSERT_EQ(chip.status(), 0xFB);
+  ASSERT_EQ(chip.read(reg::kAddrScdata, 4), (Bytes{0xBF, 0x37, 0xAF, 0x0A}));
+  ASSERT_EQ(chip.status(), reg::kResetStatus0);
   if (chip.simulator.slave(1)->control() != nullptr) check_control(chip);
 }
 

@@ -18,6 +18,7 @@
 namespace {
 
 using mb4test::Chip;
+namespace reg = mb4::regs;
 namespace sim = mb4::sim;
 using Bytes = std::vector<std::uint8_t>;
 
@@ -36,12 +37,12 @@ TEST_P(HostHammer, EveryAddressWhileFramesRun_NothingIsDisturbed) {
             "registers = { 0x40 = [0x11, 0x22, 0x33, 0x44, 0x55, 0x66, 0x77, 0x88] }\n");
   auto& simulator = chip.simulator;
   chip.advance_us(5);
-  chip.configure_slave1(28, 0x06, 0x00, mb4test::kAgsmin);
+  chip.configure_slave1(28, reg::kScrclenCrc6, 0x00, mb4test::reg::kFreqagsAgsMin);
   mb4test::ControlHost control(chip);
   control.select(0);
   control.set_read(0, 0x40, 8);
   // Both banks of the spare bytes: by SWBANK, before frames run.
-  for (const int instruction : {0x20, 0x00}) {
+  for (const int instruction : {unsigned{reg::SWBANK::kMask}, unsigned{0}}) {
     for (unsigned address = 0x08; address < 0x40; ++address) {
       chip.write(static_cast<std::uint8_t>(address), {spare(address)});
     }
@@ -50,14 +51,14 @@ TEST_P(HostHammer, EveryAddressWhileFramesRun_NothingIsDisturbed) {
     chip.advance_us(1);
   }
   std::array<std::uint8_t, 256> config{};
-  for (unsigned address = 0xC0; address < 0xF0; ++address) {
+  for (unsigned address = reg::kAddrSlaveCfg; address < reg::kAddrStatus0; ++address) {
     config[address] = chip.read(static_cast<std::uint8_t>(address));
   }
 
   std::mt19937_64 random(4711);
   std::uint64_t reads = 0, writes = 0, accesses = 0;
   const sim::Slave& slave = *simulator.slave(1);
-  chip.instruct(0x09);
+  chip.instruct(reg::kInstrControl | reg::kAgsOn);
   for (unsigned long turn = 0; slave.frames() < wanted; ++turn) {
     const auto address = static_cast<std::uint8_t>(random());
     const bool write = random() % 3 == 0;
@@ -70,33 +71,36 @@ TEST_P(HostHammer, EveryAddressWhileFramesRun_NothingIsDisturbed) {
         }
       };
       check(is_spare(address), 0xFF, spare(address));
-      check(address >= 0x40 && address < 0x80, 0xFF, 0);
-      check(address >= 0xC0 && address < 0xF0, 0xFF, config[address]);
-      check(address == 0xF0, 0xFA, 0xFA);  // no error flag
-      check(address == 0xF9, 0xFF, 0x55);
-      check(address == 0xFB || address == 0xF5, 0xFF, 0);
+      check(address >= 0x40 && address < reg::kAddrRdata, 0xFF, 0);
+      check(address >= reg::kAddrSlaveCfg && address < reg::kAddrStatus0, 0xFF, config[address]);
+      check(address == reg::kAddrStatus0, 0xFA, 0xFA);  // no error flag
+      check(address == reg::kAddrStatus9, 0xFF, reg::kResetStatus9);
+      check(address == reg::kAddrSwbankfail || address == reg::kAddrIface, 0xFF, 0);
       ASSERT_FALSE(testing::Test::HasFailure()) << "turn " << turn;
     } else if (is_spare(address)) {
       chip.write(address, {spare(address)});
       ++writes;
-    } else if (address >= 0xC0 && address < 0xF0) {
+    } else if (address >= reg::kAddrSlaveCfg && address < reg::kAddrStatus0) {
       chip.write(address, {config[address]});
       ++writes;
-    } else if ((address >= 0x40 && address < 0x80) || address > 0xF5) {
+    } else if ((address >= 0x40 && address < reg::kAddrRdata) || address > reg::kAddrIface) {
       chip.write(address, {static_cast<std::uint8_t>(random())});  // reserved, read-only
       ++writes;
-    } else if (address == 0xF0 || address == 0xF3) {
+    } else if (address == reg::kAddrStatus0 || address == reg::kAddrStatus3) {
       chip.write(address, {static_cast<std::uint8_t>(random())});  // read-only
       ++writes;
-    } else if (address == 0xF1 || address == 0xF2) {
+    } else if (address == reg::kAddrSvalidLo || address == reg::kAddrSvalidHi) {
       chip.write(address, {0xFF});  // no effect
       ++writes;
     }
-    if (turn % 64 == 0 && (chip.read(0xF4) & 0x0E) == 0) {
-      ASSERT_EQ(chip.read(0x80, 8), (Bytes{0x11, 0x22, 0x33, 0x44, 0x55, 0x66, 0x77, 0x88}));
-      ASSERT_EQ(chip.read(0xF0) & 0xFE, 0xFE) << "REGEND and no error";
+    if (turn % 64 == 0 && (chip.read(reg::kAddrInstr) & reg::INSTR::kMask) == 0) {
+      ASSERT_EQ(chip.read(reg::kAddrRdata, 8),
+                (Bytes{0x11, 0x22, 0x33, 0x44, 0x55, 0x66, 0x77, 0x88}));
+      ASSERT_EQ(chip.read(reg::kAddrStatus0) & ~reg::EOT::kMask,
+                (reg::kResetStatus0 & ~reg::EOT::kMask) | reg::kRegendDone)
+          << "REGEND and no error";
       ++accesses;
-      chip.instruct(0x09);
+      chip.instruct(reg::kInstrControl | reg::kAgsOn);
       simulator.advance(500'000);  // 5 T to the next access that may be to 0xF4
     }
   }

@@ -13,6 +13,7 @@
 namespace {
 
 using mb4test::Chip;
+namespace reg = mb4::regs;
 namespace sim = mb4::sim;
 using Bytes = std::vector<std::uint8_t>;
 
@@ -47,11 +48,12 @@ TEST_P(HostSweep, EveryPhase_WritesAndReadsAreRightAndNoWordIsTorn) {
     const sim::Time clk = clock ? sim::kPsPerSecond / clk_hz : 50'000;
     if (clock) {
       simulator.advance(80 * clk);
-      chip.write(0xC0, {0x40 | 63, 0x00, 0x00, 0x00});
-      chip.write(0xE5, {0x40, 0xA0, 0x00, 0x0F});
-      chip.write(0xEC, {0x01, 0x0D});
+      chip.write(reg::slave_cfg_address(1), {reg::kEnscdYes | 63, 0, 0x00, 0x00});
+      chip.write(reg::kAddrCtrl, {reg::kRegversBissC, reg::FREQR::of(5), 0, 0x0F});
+      chip.write(reg::kAddrSlaveloc5,
+                 {reg::kResetSlaveloc5, reg::kCfgch2Unused | reg::kCfgch1BissC});
       // SCLK above 2 f_CLK: 3 T between writes of 0xF4 are the host's business (docs/timing.md).
-      chip.instruct(0x01);
+      chip.instruct(reg::kAgsOn);
       simulator.advance(2000 * clk);
     }
     for (unsigned phase = 0; phase < kPhases; ++phase) {
@@ -62,24 +64,27 @@ TEST_P(HostSweep, EveryPhase_WritesAndReadsAreRightAndNoWordIsTorn) {
         return static_cast<std::uint8_t>((phase * 31 + k * 17 + sclk_hz % 251) &
                                          (k % 4 == 0 ? 0xBFU : 0xFFU));
       };
-      chip.write(0xD4, {b(0), b(1), b(2), b(3), b(4), b(5), b(6)});
-      ASSERT_EQ(chip.read(0xD4, 7), (Bytes{b(0), b(1), b(2), b(3), b(4), b(5), b(6)}));
-      ASSERT_EQ(chip.read(0xEA, 2), (Bytes{0x20, 0x84}));
+      chip.write(reg::slave_cfg_address(6), {b(0), b(1), b(2), b(3), b(4), b(5), b(6)});
+      ASSERT_EQ(chip.read(reg::slave_cfg_address(6), 7),
+                (Bytes{b(0), b(1), b(2), b(3), b(4), b(5), b(6)}));
+      ASSERT_EQ(chip.read(reg::kAddrRevision, 2), (Bytes{reg::kRevisionY, reg::kVersionIcMb4}));
       if (clock) {
-        chip.instruct(0x41);
-        const auto rx = chip.spi(Bytes{0x09, 0, 0, 0, 0, 0, 0, 0, 0});
+        chip.instruct(reg::kHoldbankPrevented | reg::kAgsOn);
+        const auto rx = chip.spi(Bytes{reg::kSpiOpcodeReadRegisters0, 0, 0, 0, 0, 0, 0, 0, 0});
         ASSERT_LE(frame_of(rx, 1), simulator.slave(1)->frames())
             << "torn: SCLK " << sclk_hz << " phase " << phase;
-        ASSERT_EQ(chip.read(0x00, 8), Bytes(rx.begin() + 1, rx.end()));
+        ASSERT_EQ(chip.read(reg::kAddrScdata, 8), Bytes(rx.begin() + 1, rx.end()));
         simulator.advance(5 * clk);
-        chip.instruct(0x01);
-        chip.spi({0x02, 0x90, b(7), b(8), b(9), b(10)});
+        chip.instruct(reg::kAgsOn);
+        chip.spi({reg::kSpiOpcodeWriteRegisters, reg::rdata_address(17), b(7), b(8), b(9), b(10)});
         simulator.advance(8 * clk);
-        ASSERT_EQ(chip.read(0x90, 4), (Bytes{b(7), b(8), b(9), b(10)}));
+        ASSERT_EQ(chip.read(reg::rdata_address(17), 4), (Bytes{b(7), b(8), b(9), b(10)}));
         // nAGSERR falls where a slow host holds the banks for longer than a frame (decision 15).
-        ASSERT_EQ(chip.status() & 0x38, 0x38);
+        ASSERT_EQ(
+            chip.status() & (reg::nDELAYERR::kMask | reg::nSCDERR::kMask | reg::nREGERR::kMask),
+            reg::kNdelayerrGood | reg::kNscderrGood | reg::kNregerrGood);
       } else {
-        ASSERT_EQ(chip.status(), 0xFB);
+        ASSERT_EQ(chip.status(), reg::kResetStatus0);
       }
       ++points;
     }

@@ -16,6 +16,7 @@ namespace {
 
 using mb4test::Chip;
 using mb4test::one_slave;
+namespace reg = mb4::regs;
 namespace sim = mb4::sim;
 using sim::Pin;
 
@@ -46,21 +47,21 @@ class ParallelHostChip : public testing::TestWithParam<const char*> {};
 // Figures 3 to 6 at the datasheet's shortest times.
 TEST_P(ParallelHostChip, EveryAddress_HoldsItsOwnByte) {
   Chip chip(host(GetParam()));
-  for (unsigned address = 0; address < 0xF0; ++address) {
+  for (unsigned address = 0; address < reg::kAddrStatus0; ++address) {
     chip.simulator.bus().write(static_cast<std::uint8_t>(address),
                                static_cast<std::uint8_t>(address * 37 + 11));
   }
   chip.advance_us(1);
-  for (unsigned address = 0; address < 0xF0; ++address) {
+  for (unsigned address = 0; address < reg::kAddrStatus0; ++address) {
     const unsigned value = (address * 37 + 11) & 0xFFU;
     const auto read = chip.simulator.bus().read(static_cast<std::uint8_t>(address));
-    const bool memory = address < 0x40 || (address >= 0x80 && address < 0xE0);
+    const bool memory = address < 0x40 || (address >= reg::kAddrRdata && address < 0xE0);
     EXPECT_EQ(read, memory ? value : chip.read(static_cast<std::uint8_t>(address))) << address;
-    if (address >= 0x40 && address < 0x80) {
+    if (address >= 0x40 && address < reg::kAddrRdata) {
       EXPECT_EQ(read, 0);
     }
   }
-  EXPECT_EQ(chip.simulator.bus().read(0xEB), 0x84);
+  EXPECT_EQ(chip.simulator.bus().read(reg::kAddrVersion), reg::kVersionIcMb4);
 }
 
 // Page 17: data pins in high impedance outside a read; a read byte stands while its strobe lasts.
@@ -139,17 +140,17 @@ TEST_P(ParallelHostChip, ByteIsTakenAtTheEndOfTheWriteStrobe) {
   drive(0xFF);
   if (!intel) set(Pin::kNrdRnw, true);
   set(Pin::kNcs, true);
-  EXPECT_EQ(chip.read(0xC0), 0x5A);
+  EXPECT_EQ(chip.read(reg::slave_cfg_address(1)), reg::kEnscdYes | 26);
   simulator.host_check().clear();
 }
 
 // Table 1: the serial interface is not there with CFGSPI = 0, nor the parallel one with 1.
 TEST_P(ParallelHostChip, SpiFramesOnTheParallelStraps_ChangeNothing) {
   Chip chip(host(GetParam()));
-  const auto before = chip.read(0xC0, 0x30);
+  const auto before = chip.read(reg::slave_cfg_address(1), 0x30);
   const Bytes tx{0x02, 0xC0, 0xFF, 0xFF, 0xFF};
   chip.simulator.spi().transfer(tx, {});
-  EXPECT_EQ(chip.read(0xC0, 0x30), before);
+  EXPECT_EQ(chip.read(reg::slave_cfg_address(1), 0x30), before);
   chip.simulator.host_check().clear();
 }
 
@@ -174,10 +175,10 @@ TEST_P(HoldBankAtOnce, FirstReadAfterTheWrite_NeverTorn) {
   auto& simulator = chip.simulator;
   const sim::Time clk = sim::kPsPerSecond / simulator.scenario().chip.f_clk_hz;
   const sim::Time period = 20 * 16 * clk;
-  chip.write(0xC0, {0x40 | 63, 0x00, 0x00, 0x00});
-  chip.write(0xE5, {0x40, 0xA0, 0x00, 0x0F});
-  chip.write(0xEC, {0x01, 0x0D});
-  chip.instruct(0x01);
+  chip.write(reg::slave_cfg_address(1), {reg::kEnscdYes | 63, 0, 0x00, 0x00});
+  chip.write(reg::kAddrCtrl, {reg::kRegversBissC, reg::FREQR::of(5), 0, 0x0F});
+  chip.write(reg::kAddrSlaveloc5, {reg::kResetSlaveloc5, reg::kCfgch2Unused | reg::kCfgch1BissC});
+  chip.instruct(reg::kAgsOn);
   simulator.advance(4 * period + 7);
   sim::Time next = simulator.now();
   std::set<std::uint64_t> words;
@@ -188,8 +189,8 @@ TEST_P(HoldBankAtOnce, FirstReadAfterTheWrite_NeverTorn) {
     // Around the end of a frame, where the banks switch, in steps of a fraction of a clock.
     simulator.run_until(next);
     next += 3 * period + clk / 9 + (i % 5 == 0 ? period / 400 : 0);
-    if (i % 2 == 0) chip.instruct(0x41);
-    const Bytes word = simulator.scenario().host.parallel() ? chip.read(0x00, 8) : [&] {
+    if (i % 2 == 0) chip.instruct(reg::kHoldbankPrevented | reg::kAgsOn);
+    const Bytes word = simulator.scenario().host.parallel() ? chip.read(reg::kAddrScdata, 8) : [&] {
       const auto rx = chip.spi(Bytes{0x09, 0, 0, 0, 0, 0, 0, 0, 0});
       return Bytes(rx.begin() + 1, rx.end());
     }();
@@ -198,9 +199,9 @@ TEST_P(HoldBankAtOnce, FirstReadAfterTheWrite_NeverTorn) {
     without += i % 2 != 0 && !whole ? 1U : 0U;
     if (i % 2 == 0) {
       ASSERT_TRUE(whole) << "turn " << i;
-      ASSERT_EQ(chip.read(0x00, 8), word) << "turn " << i;
+      ASSERT_EQ(chip.read(reg::kAddrScdata, 8), word) << "turn " << i;
       words.insert(frame_of(word));
-      chip.instruct(0x01);
+      chip.instruct(reg::kAgsOn);
     }
     next = std::max(next, simulator.now());
   }
@@ -276,14 +277,14 @@ TEST_F(Spi2, OtherAddressesAndOpcodes_ReadZeroAndChangeNothing) {
   Bytes expected{value(0x3E), value(0x3F), 0, 0, 0};
   EXPECT_EQ(read2(0x3E, 5), expected);
   EXPECT_EQ(read2(0x1F, 2), (Bytes{0, value(0x20)}));
-  const Bytes before = chip.read(0x00, 256);
+  const Bytes before = chip.read(reg::kAddrScdata, 256);
   for (unsigned opcode = 0; opcode < 256; ++opcode) {
     if (opcode == 0x03 || opcode == 0x09) continue;
     EXPECT_EQ(spi2({static_cast<std::uint8_t>(opcode), 0x20, 0xFF, 0xFF, 0x03}),
               (Bytes{0, 0, 0, 0, 0}));
   }
   chip.advance_us(1);
-  EXPECT_EQ(chip.read(0x00, 256), before);
+  EXPECT_EQ(chip.read(reg::kAddrScdata, 256), before);
 }
 
 // Table 4; the pins of SPI2 in high impedance.
@@ -340,10 +341,11 @@ TEST_F(Spi2, BesideSpi_NeitherDisturbsTheOther) {
       mb4test::BackgroundSpi2 other(simulator, tx);
       other.start(simulator.now() + 1'000 + round * 7'777, half);
       for (unsigned k = 0; !other.done(); ++k) {
-        chip.write(0xC4, {static_cast<std::uint8_t>(k), static_cast<std::uint8_t>(round)});
-        ASSERT_EQ(chip.read(0xC4, 2),
+        chip.write(reg::slave_cfg_address(2),
+                   {static_cast<std::uint8_t>(k), static_cast<std::uint8_t>(round)});
+        ASSERT_EQ(chip.read(reg::slave_cfg_address(2), 2),
                   (Bytes{static_cast<std::uint8_t>(k), static_cast<std::uint8_t>(round)}));
-        ASSERT_EQ(chip.read(0x18, 12), values(0x18, 12));
+        ASSERT_EQ(chip.read(reg::scdata_address(4), 12), values(0x18, 12));
         ++frames;
       }
       ASSERT_EQ(Bytes(other.rx().begin() + 2, other.rx().end()), values(from, 12)) << half;
@@ -359,21 +361,22 @@ TEST(Spi2Frames, HoldBank_WordsAreWhole) {
             "source = \"ramp\"\nstart = 0\nstep = 0x0101010101010101\n");
   auto& simulator = chip.simulator;
   simulator.spi2().set_timing(sim::SpiTiming::for_frequency(50'000'000));
-  chip.write(0xD0, {0x40 | 63, 0x00, 0x00, 0x00});
-  chip.write(0xE5, {0x40, 0xA0, 0x00, 0x0B});
-  chip.write(0xEC, {0x11, 0x07});
-  chip.instruct(0x01);
+  chip.write(reg::slave_cfg_address(5), {reg::kEnscdYes | 63, 0, 0x00, 0x00});
+  chip.write(reg::kAddrCtrl, {reg::kRegversBissC, reg::FREQR::of(5), 0, 0x0B});
+  chip.write(reg::kAddrSlaveloc5,
+             {reg::kResetSlaveloc5 | reg::kSlaveloc5Split, reg::kCfgch2BissC | reg::kCfgch1Unused});
+  chip.instruct(reg::kAgsOn);
   chip.advance_us(40);
   std::set<std::uint64_t> seen;
   for (unsigned i = 0; i < 500; ++i) {
-    chip.instruct(0x41);
+    chip.instruct(reg::kHoldbankPrevented | reg::kAgsOn);
     Bytes rx(9);
     simulator.spi2().transfer(Bytes{0x09, 0, 0, 0, 0, 0, 0, 0, 0}, rx);
     const Bytes word(rx.begin() + 1, rx.end());
     ASSERT_LE(frame_of(word), simulator.slave(5)->frames()) << i;
-    ASSERT_EQ(chip.read(0x20, 8), word) << "the driver's SPI2 route, " << i;
+    ASSERT_EQ(chip.read(reg::scdata_address(5), 8), word) << "the driver's SPI2 route, " << i;
     seen.insert(frame_of(word));
-    chip.instruct(0x01);
+    chip.instruct(reg::kAgsOn);
     simulator.advance(12'000'000 + i * 31'000);
   }
   EXPECT_EQ(seen.size(), 500U);
@@ -383,11 +386,11 @@ TEST(Spi2Frames, HoldBank_WordsAreWhole) {
 TEST(ChipPinsPaired, Cfgif_MakesTheSecondPinsTheInverseOfTheFirst) {
   for (const unsigned cfgif : {0U, 1U, 2U, 3U}) {
     Chip chip(one_slave("data_bits = 28\ncrc = 0x43\ndata = 0xAAF37BF"));
-    chip.configure_slave1(28, 0x06, 0x03, 0x7C);
-    chip.write(0xF5, {static_cast<std::uint8_t>(cfgif << 2U)});
+    chip.configure_slave1(28, reg::kScrclenCrc6, 0x03, reg::kFreqagsAgsMin);
+    chip.write(reg::kAddrIface, {static_cast<std::uint8_t>(cfgif << 2U)});
     unsigned edges = 0;
     bool last = true;
-    chip.instruct(0x04);
+    chip.instruct(reg::kInstrCdm0);
     chip.simulator.run_while_waiting(
         [&] {
           const bool ma1 = chip.simulator.pin(Pin::kMa1);
@@ -404,9 +407,10 @@ TEST(ChipPinsPaired, Cfgif_MakesTheSecondPinsTheInverseOfTheFirst) {
     EXPECT_EQ(chip.simulator.pin(Pin::kSl2), cfgif < 2);
     chip.simulator.set_pin(Pin::kSl2, false);
     chip.advance_us(1);
-    EXPECT_EQ(chip.read(0xF8) & 0x05, cfgif < 2 ? 0x01 : 0x05);
-    EXPECT_EQ(chip.read(0x00, 4), (Bytes{0xBF, 0x37, 0xAF, 0x0A})) << cfgif;
-    chip.write(0xF5, {0x00});
+    EXPECT_EQ(chip.read(reg::kAddrStatus8) & (reg::SL2::kMask | reg::SL1::kMask),
+              cfgif < 2 ? 0x01 : 0x05);
+    EXPECT_EQ(chip.read(reg::kAddrScdata, 4), (Bytes{0xBF, 0x37, 0xAF, 0x0A})) << cfgif;
+    chip.write(reg::kAddrIface, {0});
     chip.advance_us(1);
     EXPECT_EQ(chip.simulator.pin(Pin::kSl2), cfgif >= 2) << "let go: pull-up";
   }
@@ -417,7 +421,7 @@ TEST(ChipPinsPaired, Cfgif_MakesTheSecondPinsTheInverseOfTheFirst) {
 TEST(ChipPinsPaired, ReceiverPair_TakesTheDifference) {
   Chip chip("[host]\ninterface = \"spi\"\n");
   for (const unsigned cfgif : {0U, 1U, 2U, 3U}) {
-    chip.write(0xF5, {static_cast<std::uint8_t>(cfgif << 2U)});
+    chip.write(reg::kAddrIface, {static_cast<std::uint8_t>(cfgif << 2U)});
     for (const bool sl1 : {true, false}) {
       for (const bool sl2 : {true, false}) {
         chip.simulator.set_pin(Pin::kSl1, sl1);
@@ -425,7 +429,8 @@ TEST(ChipPinsPaired, ReceiverPair_TakesTheDifference) {
         chip.advance_us(1);
         const unsigned expected =
             cfgif < 2 ? (sl2 ? 4U : 0U) | (sl1 ? 1U : 0U) : (!sl1 && sl2 ? 4U : 5U);
-        EXPECT_EQ(chip.read(0xF8) & 0x05U, expected) << cfgif << " " << sl1 << sl2;
+        EXPECT_EQ(chip.read(reg::kAddrStatus8) & (reg::SL2::kMask | reg::SL1::kMask), expected)
+            << cfgif << " " << sl1 << sl2;
       }
     }
   }
@@ -443,15 +448,15 @@ TEST(ChipPinsPaired, WordOnThePair_IsTheDifference) {
     for (const Row& row : {Row{3, true, 0xA7}, Row{1, true, 0xA7}, Row{1, false, 0xFF},
                            Row{2, true, 0xFF}, Row{2, false, 0xA7}}) {
       Chip chip("[host]\ninterface = \"spi\"\n");
-      chip.configure_slave1(8, 0x00, 0x09, 0x7C);  // 1 MHz
-      chip.write(0xED, {0x0E});
-      chip.write(0xF5, {static_cast<std::uint8_t>(cfgif << 2U)});
+      chip.configure_slave1(8, 0, 0x09, reg::kFreqagsAgsMin);  // 1 MHz
+      chip.write(reg::kAddrCfgch, {reg::kCfgch2Unused | reg::kCfgch1Ssi});
+      chip.write(reg::kAddrIface, {static_cast<std::uint8_t>(cfgif << 2U)});
       const auto send = [&chip, row](bool level) {
         chip.simulator.set_pin(Pin::kSl1, (row.wires & 1U) != 0 ? level : row.other);
         chip.simulator.set_pin(Pin::kSl2, (row.wires & 2U) != 0 ? !level : row.other);
       };
       send(true);
-      chip.instruct(0x04);
+      chip.instruct(reg::kInstrCdm0);
       ASSERT_TRUE(chip.simulator.run_while_waiting([&] { return !chip.simulator.pin(Pin::kMa1); },
                                                    chip.simulator.now() + 10'000'000));
       const sim::Time first = chip.simulator.now() + 500'000;  // first rising edge
@@ -461,8 +466,8 @@ TEST(ChipPinsPaired, WordOnThePair_IsTheDifference) {
       }
       chip.simulator.at(first + 8'500'000, [send] { send(true); });
       ASSERT_TRUE(chip.wait_eot());
-      EXPECT_EQ(chip.read(0x00), row.word) << row.wires << " " << row.other;
-      EXPECT_EQ(chip.read(0xF1), 0x02) << row.wires;
+      EXPECT_EQ(chip.read(reg::kAddrScdata), row.word) << row.wires << " " << row.other;
+      EXPECT_EQ(chip.read(reg::kAddrSvalidLo), reg::SVALID<1>::kMask) << row.wires;
     }
   }
 }
@@ -472,12 +477,12 @@ TEST(ChipPinsPaired, WordOnThePair_IsTheDifference) {
 TEST(ChipPinsPaired, FrameOnOneWire_IsReadAtEveryDelay) {
   for (sim::Time delay = 5'000; delay < 210'000; delay += 5'000) {
     Chip chip("[host]\ninterface = \"spi\"\n");
-    chip.configure_slave1(16, 0x00, 0x00, 0x7C);  // 100 ns
-    chip.write(0xF5, {0x08});
+    chip.configure_slave1(16, 0, 0x00, reg::kFreqagsAgsMin);  // 100 ns
+    chip.write(reg::kAddrIface, {reg::kCfgifRs422});
     const auto send = [&chip](bool level) { chip.simulator.set_pin(Pin::kSl2, !level); };
     chip.simulator.set_pin(Pin::kSl1, false);
     send(true);
-    chip.instruct(0x04);
+    chip.instruct(reg::kInstrCdm0);
     ASSERT_TRUE(chip.simulator.run_while_waiting([&] { return !chip.simulator.pin(Pin::kMa1); },
                                                  chip.simulator.now() + 10'000'000));
     // Rising edges 2 to 20: acknowledge, start bit, CDS, 16 bits; then 0 and the timeout's end.
@@ -490,8 +495,8 @@ TEST(ChipPinsPaired, FrameOnOneWire_IsReadAtEveryDelay) {
     chip.simulator.at(edge, [send] { send(false); });
     chip.simulator.at(edge + 1'000'000, [send] { send(true); });
     ASSERT_TRUE(chip.wait_eot(50)) << delay;
-    EXPECT_EQ(chip.read(0x00, 2), (Bytes{0x4A, 0xB3})) << delay;
-    EXPECT_EQ(chip.read(0xF1), 0x02) << delay;
+    EXPECT_EQ(chip.read(reg::kAddrScdata, 2), (Bytes{0x4A, 0xB3})) << delay;
+    EXPECT_EQ(chip.read(reg::kAddrSvalidLo), reg::SVALID<1>::kMask) << delay;
   }
 }
 
@@ -500,27 +505,27 @@ TEST(ChipPinsPaired, FrameOnOneWire_IsReadAtEveryDelay) {
 TEST(ChipPinsPaired, CableOnThePair_FramesAndRegistersWork) {
   Chip chip(one_slave("data_bits = 28\ncrc = 0x43\ndata = 0xAAF37BF\nregisters = { 0x31 = 0x77 }",
                       "delay_ns = 330.0"));
-  chip.configure_slave1(28, 0x06, 0x00, 0x7C);
-  chip.write(0xF5, {0x08});
-  chip.instruct(0x10);
+  chip.configure_slave1(28, reg::kScrclenCrc6, 0x00, reg::kFreqagsAgsMin);
+  chip.write(reg::kAddrIface, {reg::kCfgifRs422});
+  chip.instruct(reg::kInitStart);
   ASSERT_TRUE(chip.wait_eot());
-  EXPECT_EQ(chip.read(0x00), 14U) << "330 ns in quarters of 100 ns";
-  chip.write(0xE2, {0x31, 0x00});
-  chip.write(0xE5, {0xC0});
-  for (unsigned frame = 0; frame < 60 && (chip.status() & 0x04) == 0; ++frame) {
-    chip.instruct(0x08);
+  EXPECT_EQ(chip.read(reg::kAddrScdata), 14U) << "330 ns in quarters of 100 ns";
+  chip.write(reg::kAddrRegadr, {0x31, 0x00});
+  chip.write(reg::kAddrCtrl, {reg::kCtsRegisterAccess | reg::kRegversBissC});
+  for (unsigned frame = 0; frame < 60 && (chip.status() & reg::REGEND::kMask) == 0; ++frame) {
+    chip.instruct(reg::kInstrControl);
     ASSERT_TRUE(chip.wait_eot());
-    EXPECT_EQ(chip.read(0x00, 4), (Bytes{0xBF, 0x37, 0xAF, 0x0A})) << frame;
+    EXPECT_EQ(chip.read(reg::kAddrScdata, 4), (Bytes{0xBF, 0x37, 0xAF, 0x0A})) << frame;
     chip.advance_us(2);
     EXPECT_NE(chip.simulator.pin(Pin::kSl1), chip.simulator.pin(Pin::kSl2));
   }
-  EXPECT_EQ(chip.status(), 0xFF);
-  EXPECT_EQ(chip.read(0x80), 0x77);
+  EXPECT_EQ(chip.status(), reg::kResetStatus0 | reg::kRegendDone);
+  EXPECT_EQ(chip.read(reg::kAddrRdata), 0x77);
   chip.simulator.line(1)->faults().stick(false);
   chip.simulator.refresh_lines();
   chip.advance_us(1);
   EXPECT_TRUE(chip.simulator.pin(Pin::kSl2));
-  EXPECT_EQ(chip.read(0xF8) & 0x05, 0x04);
+  EXPECT_EQ(chip.read(reg::kAddrStatus8) & (reg::SL2::kMask | reg::SL1::kMask), 0x04);
 }
 
 // An SPI frame across the end of a reset is no frame.
@@ -545,9 +550,9 @@ TEST(ChipResetPins, NresRisesInsideAFrame_TheFrameIsIgnored) {
     simulator.set_pin(Pin::kNcs, true);
     simulator.advance(50'000);
     simulator.host_check().clear();
-    EXPECT_EQ(chip.read(0xC0, 0x30)[0], 0x00) << clocks;
-    chip.write(0xC0, {0x5A});
-    EXPECT_EQ(chip.read(0xC0), 0x5A) << clocks;
+    EXPECT_EQ(chip.read(reg::slave_cfg_address(1), 0x30)[0], 0x00) << clocks;
+    chip.write(reg::slave_cfg_address(1), {reg::kEnscdYes | 26});
+    EXPECT_EQ(chip.read(reg::slave_cfg_address(1)), reg::kEnscdYes | 26) << clocks;
   }
 }
 
@@ -582,12 +587,12 @@ INSTANTIATE_TEST_SUITE_P(Hosts, WritesAfterReset, testing::Values("spi", "intel"
 // at once (decision 36).
 TEST(ChipNoClockWrites, DataBytes_TakeEffectWhenTheClockComes) {
   Chip chip("[chip]\nf_clk_hz = 0\n[host]\n");
-  chip.write(0x10, {1, 2, 3, 4, 5, 6, 7, 8, 9});
+  chip.write(reg::scdata_address(3), {1, 2, 3, 4, 5, 6, 7, 8, 9});
   chip.advance_us(5);
-  EXPECT_EQ(chip.read(0x10, 9), (Bytes{0, 0, 0, 0, 0, 6, 7, 8, 9}));
-  chip.write(0xF5, {0x01});
+  EXPECT_EQ(chip.read(reg::scdata_address(3), 9), (Bytes{0, 0, 0, 0, 0, 6, 7, 8, 9}));
+  chip.write(reg::kAddrIface, {reg::kClkeniInternal});
   chip.advance_us(20);
-  EXPECT_EQ(chip.read(0x10, 9), (Bytes{1, 2, 3, 4, 5, 6, 7, 8, 9}));
+  EXPECT_EQ(chip.read(reg::scdata_address(3), 9), (Bytes{1, 2, 3, 4, 5, 6, 7, 8, 9}));
 }
 
 // Decision 32, Table 7: a pin CLK that stops after it has run does not keep the oscillator away.
@@ -601,12 +606,12 @@ TEST(ChipClockPin, StopsAfterItHasRun_ClkeniStillWorks) {
     }
     simulator.set_pin(Pin::kClk, rest);
     simulator.advance(25'000);
-    chip.configure_slave1(28, 0x06, 0x00, 0x7C);
-    chip.write(0xF5, {0x01});
+    chip.configure_slave1(28, reg::kScrclenCrc6, 0x00, reg::kFreqagsAgsMin);
+    chip.write(reg::kAddrIface, {reg::kClkeniInternal});
     chip.advance_us(100);
-    chip.instruct(0x04);
+    chip.instruct(reg::kInstrCdm0);
     ASSERT_TRUE(chip.wait_eot()) << rest;
-    EXPECT_EQ(chip.read(0x00, 4), (Bytes{0xBF, 0x37, 0xAF, 0x0A}));
+    EXPECT_EQ(chip.read(reg::kAddrScdata, 4), (Bytes{0xBF, 0x37, 0xAF, 0x0A}));
   }
 }
 

@@ -11,6 +11,7 @@ namespace {
 
 using mb4test::Chip;
 using mb4test::one_slave;
+namespace reg = mb4::regs;
 namespace sim = mb4::sim;
 
 constexpr sim::Time kClk = 50'000;  // 20 MHz in ps
@@ -30,8 +31,8 @@ void instruct_at(Chip& chip, std::uint8_t byte, sim::Time when) {
 TEST(ChipInstrPhase, ChangedUnderAgs_ShiftsNoFrame) {
   Chip chip(one_slave(kEncoder26));
   chip.simulator.spi().set_timing(sim::SpiTiming::for_frequency(50'000'000));
-  chip.configure_slave1(28, 0x06, 0x00, 0x09);  // 10 us
-  chip.instruct(0x01);
+  chip.configure_slave1(28, reg::kScrclenCrc6, 0x00, 0x09);  // 10 us
+  chip.instruct(reg::kAgsOn);
   auto& monitor = chip.simulator.line(1)->monitor();
   chip.advance_us(35);
   const sim::Time period = 200 * kClk;
@@ -42,19 +43,19 @@ TEST(ChipInstrPhase, ChangedUnderAgs_ShiftsNoFrame) {
     chip.simulator.run_until(due + period / 2);
     EXPECT_EQ(monitor.last(chip.simulator.now()).start, due) << "phase " << phase << " ps";
   }
-  EXPECT_EQ(chip.status(), 0xFB);
+  EXPECT_EQ(chip.status(), reg::kResetStatus0);
 }
 
 // docs/choices.md: after BREAK and AGS in one byte the first frame is due a whole period later, so
 // that a slave that was left in a frame has time to end it.
 TEST(ChipInstrPhase, BreakWithAgs_NextFrameIsAPeriodLater) {
   Chip chip(one_slave(kEncoder26));
-  chip.configure_slave1(28, 0x06, 0x00, 0x63);
-  chip.instruct(0x01);
+  chip.configure_slave1(28, reg::kScrclenCrc6, 0x00, 0x63);
+  chip.instruct(reg::kAgsOn);
   auto& monitor = chip.simulator.line(1)->monitor();
   chip.advance_us(350);
   const sim::Time before = monitor.last(chip.simulator.now()).start;
-  instruct_at(chip, 0x81, before + 160 * sim::kPsPerUs);
+  instruct_at(chip, reg::kBreakAbort | reg::kAgsOn, before + 160 * sim::kPsPerUs);
   const sim::Time byte = before + 160 * sim::kPsPerUs;
   chip.advance_us(110);
   const sim::Time after = monitor.last(chip.simulator.now()).start;
@@ -66,8 +67,8 @@ TEST(ChipInstrPhase, BreakWithAgs_NextFrameIsAPeriodLater) {
 // Table 54: EOT = 0 is a frame. Between two of them INSTR may change without it.
 TEST(ChipInstrPhase, ChangedUnderAgs_LeavesPinEotHigh) {
   Chip chip(one_slave(kEncoder26));
-  chip.configure_slave1(28, 0x06, 0x00, 0x63);  // 100 us
-  chip.instruct(0x01);
+  chip.configure_slave1(28, reg::kScrclenCrc6, 0x00, 0x63);  // 100 us
+  chip.instruct(reg::kAgsOn);
   const auto eot_is = [&](bool level, sim::Time us) {
     return chip.simulator.run_while_waiting(
         [&] { return chip.simulator.pin(sim::Pin::kEot) == level; },
@@ -91,24 +92,24 @@ TEST(ChipInstrPhase, SameCodeAtTheEndOfItsFrame_IsOneFrameMoreOrNone) {
   bool one = false;
   Chip chip(one_slave(kEncoder26));
   chip.simulator.spi().set_timing(sim::SpiTiming::for_frequency(50'000'000));
-  chip.configure_slave1(28, 0x06, 0x00, 0x7C);
+  chip.configure_slave1(28, reg::kScrclenCrc6, 0x00, reg::kFreqagsAgsMin);
   // How long a frame takes from its byte to pin EOT.
-  chip.instruct(0x04);
+  chip.instruct(reg::kInstrCdm0);
   ASSERT_TRUE(chip.wait_eot());
   chip.advance_us(10);
   const sim::Time begin = chip.simulator.now() / kClk * kClk + 100 * kClk;
-  instruct_at(chip, 0x04, begin);
+  instruct_at(chip, reg::kInstrCdm0, begin);
   ASSERT_TRUE(chip.wait_eot());
   const sim::Time length = chip.simulator.now() - begin;
   for (sim::Time phase = 0; phase < 20 * kClk; phase += kStep) {
     chip.advance_us(10);
     const auto frames = chip.simulator.slave(1)->frames();
     const sim::Time start = chip.simulator.now() / kClk * kClk + 100 * kClk;
-    instruct_at(chip, 0x04, start);
-    instruct_at(chip, 0x04, start + length - 14 * kClk + phase);
+    instruct_at(chip, reg::kInstrCdm0, start);
+    instruct_at(chip, reg::kInstrCdm0, start + length - 14 * kClk + phase);
     chip.advance_us(20);
-    EXPECT_EQ(chip.read(0xF4), 0x00) << "phase " << phase << " ps";
-    EXPECT_EQ(chip.status(), 0xFB);
+    EXPECT_EQ(chip.read(reg::kAddrInstr), 0) << "phase " << phase << " ps";
+    EXPECT_EQ(chip.status(), reg::kResetStatus0);
     const auto more = chip.simulator.slave(1)->frames() - frames - 1;
     EXPECT_LE(more, 1U) << "phase " << phase << " ps";
     EXPECT_TRUE(more == 0 ? !one : true) << "no frame after phases that gave one: " << phase;
@@ -123,23 +124,23 @@ TEST(ChipInstrPhase, SameCodeAtTheEndOfItsFrame_IsOneFrameMoreOrNone) {
 TEST(ChipInstrPhase, SameCodeAtTheStartOfItsFrame_IsOneFrame) {
   Chip chip(one_slave(kEncoder26));
   chip.simulator.spi().set_timing(sim::SpiTiming::for_frequency(50'000'000));
-  chip.configure_slave1(28, 0x06, 0x00, 0x7C);
+  chip.configure_slave1(28, reg::kScrclenCrc6, 0x00, reg::kFreqagsAgsMin);
   for (sim::Time phase = 0; phase < 12 * kClk; phase += kStep) {
     const auto frames = chip.simulator.slave(1)->frames();
     chip.simulator.line(1)->faults().stick(false);
     chip.simulator.refresh_lines();
     chip.advance_us(1);
-    chip.instruct(0x04);
+    chip.instruct(reg::kInstrCdm0);
     const sim::Time release = chip.simulator.now() / kClk * kClk + 40 * kClk;
     chip.simulator.at(release, [&chip] {
       chip.simulator.line(1)->faults().stick(std::nullopt);
       chip.simulator.refresh_lines();
     });
-    instruct_at(chip, 0x04, release - 8 * kClk + phase);
+    instruct_at(chip, reg::kInstrCdm0, release - 8 * kClk + phase);
     chip.advance_us(20);
     EXPECT_EQ(chip.simulator.slave(1)->frames(), frames + 1) << "phase " << phase << " ps";
-    EXPECT_EQ(chip.read(0xF4), 0x00);
-    EXPECT_EQ(chip.status(), 0xFB);
+    EXPECT_EQ(chip.read(reg::kAddrInstr), 0);
+    EXPECT_EQ(chip.status(), reg::kResetStatus0);
   }
 }
 
@@ -148,15 +149,15 @@ TEST(ChipInstrPhase, SameCodeAtTheStartOfItsFrame_IsOneFrame) {
 TEST(ChipInstrPhase, SameCodeDuringInit_IsAFrameAfterIt) {
   Chip chip(one_slave(kEncoder26));
   chip.simulator.spi().set_timing(sim::SpiTiming::for_frequency(50'000'000));
-  chip.configure_slave1(28, 0x06, 0x03, 0x7D);
-  chip.instruct(0x05);
-  chip.instruct(0x15);  // INIT waits for the frame
+  chip.configure_slave1(28, reg::kScrclenCrc6, 0x03, reg::kFreqagsAgsInfinite);
+  chip.instruct(reg::kInstrCdm0 | reg::kAgsOn);
+  chip.instruct(reg::kInitStart | reg::kInstrCdm0 | reg::kAgsOn);  // INIT waits for the frame
   ASSERT_TRUE(chip.simulator.run_while_waiting(
       [&] { return chip.simulator.line(1)->monitor().frames() == 2; }, sim::kPsPerSecond));
-  chip.instruct(0x05);
-  EXPECT_EQ(chip.read(0xF4), 0x15);
+  chip.instruct(reg::kInstrCdm0 | reg::kAgsOn);
+  EXPECT_EQ(chip.read(reg::kAddrInstr), reg::kInitStart | reg::kInstrCdm0 | reg::kAgsOn);
   chip.advance_us(100);
-  EXPECT_EQ(chip.read(0xF4), 0x05);
+  EXPECT_EQ(chip.read(reg::kAddrInstr), reg::kInstrCdm0 | reg::kAgsOn);
   EXPECT_EQ(chip.simulator.slave(1)->frames(), 2U) << "beside the INIT";
   EXPECT_EQ(chip.simulator.line(1)->monitor().frames(), 3U);
 }

@@ -20,6 +20,7 @@ namespace {
 using mb4test::Chip;
 using mb4test::number_from;
 using mb4test::one_slave;
+namespace reg = mb4::regs;
 namespace sim = mb4::sim;
 
 constexpr unsigned kDataBits = 28;  // 26 position bits, nE, nW
@@ -81,7 +82,7 @@ Tally run(sim::Time jitter, std::uint64_t frames, std::uint64_t seed) {
   Chip chip("[sim]\nseed = " + std::to_string(seed) + "\n" +
             one_slave("data_bits = 28\ncrc = 0x43"));
   chip.simulator.spi().set_timing(sim::SpiTiming::for_frequency(50'000'000));
-  chip.configure_slave1(kDataBits, 0x06, 0x00);
+  chip.configure_slave1(kDataBits, reg::kScrclenCrc6, 0x00);
   sim::WireFaults faults;
   faults.jitter = jitter;
   chip.simulator.line(1)->set_faults({}, faults);
@@ -94,20 +95,20 @@ Tally run(sim::Time jitter, std::uint64_t frames, std::uint64_t seed) {
       const std::uint64_t sent = random.next() >> (64 - kDataBits);
       chip.simulator.slave(1)->set_data(sent);
       ++tally.frames;
-      chip.instruct(0x04);
+      chip.instruct(reg::kInstrCdm0);
       if (!chip.wait_eot(60)) {
         ++tally.wrong;
         ++tally.flagged;
         ++tally.endless;
-        chip.instruct(0x80);
+        chip.instruct(reg::kBreakAbort);
         chip.advance_us(60);
         continue;
       }
-      const auto status = chip.spi({0x05, 0, 0});
-      const bool valid = (status[2] & 0x02) != 0;
-      const bool no_error = (status[1] & 0x10) != 0;
+      const auto status = chip.spi({reg::kSpiOpcodeReadStatus, 0, 0});
+      const bool valid = (status[2] & reg::SVALID<1>::kMask) != 0;
+      const bool no_error = (status[1] & reg::nSCDERR::kMask) != 0;
       EXPECT_EQ(valid, no_error);
-      const auto bytes = chip.read(0x00, 8);
+      const auto bytes = chip.read(reg::kAddrScdata, 8);
       std::uint64_t got = 0;
       for (unsigned byte = 4; byte-- > 0;) got = got << 8 | bytes[byte];
       const std::uint32_t got_crc = bytes[7];

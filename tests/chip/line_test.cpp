@@ -15,6 +15,7 @@ namespace {
 
 using mb4test::Chip;
 using mb4test::one_slave;
+namespace reg = mb4::regs;
 namespace sim = mb4::sim;
 
 const char kEncoder[] = "data_bits = 28\ncrc = 0x43\ndata = 0xAAF37BF";
@@ -32,12 +33,14 @@ std::vector<unsigned> all_codes() {
 sim::Time period_of(unsigned code) { return sim::ma_divider(code) * kClock; }
 
 // Frame by hand; true if SVALID1 = 1, nSCDERR = 1 and the position is right.
-bool good_frame(Chip& chip, std::uint64_t limit_us = 5000, std::uint8_t instruction = 0x04) {
+bool good_frame(Chip& chip, std::uint64_t limit_us = 5000,
+                std::uint8_t instruction = reg::kInstrCdm0) {
   chip.instruct(instruction);
   if (!chip.wait_eot(limit_us)) return false;
-  const auto status = chip.spi({0x05, 0, 0});
-  return (status[1] & 0x11) == 0x11 && (status[2] & 0x02) != 0 &&
-         chip.read(0x00, 4) == std::vector<std::uint8_t>{0xBF, 0x37, 0xAF, 0x0A};
+  const auto status = chip.spi({reg::kSpiOpcodeReadStatus, 0, 0});
+  return (status[1] & reg::nSCDERR::kMask) != 0 && (status[1] & reg::EOT::kMask) != 0 &&
+         (status[2] & reg::SVALID<1>::kMask) != 0 &&
+         chip.read(reg::kAddrScdata, 4) == std::vector<std::uint8_t>{0xBF, 0x37, 0xAF, 0x0A};
 }
 
 // Decision 17, I304: normal frames over lines of many MA periods, one after the other.
@@ -46,7 +49,7 @@ TEST(ChipLine, DelayOf10To1000Periods_NormalFramesWork) {
     for (const unsigned periods : {1U, 10U, 100U, 1000U}) {
       Chip chip(one_slave(kEncoder));
       chip.simulator.line(1)->set_round_trip(periods * period_of(code));
-      chip.configure_slave1(28, 0x06, static_cast<std::uint8_t>(code));
+      chip.configure_slave1(28, reg::kScrclenCrc6, static_cast<std::uint8_t>(code));
       for (int i = 0; i < 3; ++i) {
         ASSERT_TRUE(good_frame(chip)) << code << " " << periods;
         // MA has stopped though the line still holds edges: at most what the start bit took.
@@ -68,7 +71,7 @@ TEST(ChipLine, LongLine_CdmOneSendsNoEdgeTooMany) {
     std::uint64_t rising[2] = {};
     for (const unsigned cdm : {0U, 1U}) {
       Chip chip(one_slave(kEncoder));
-      chip.configure_slave1(28, 0x06, 0x03, 0x7C);
+      chip.configure_slave1(28, reg::kScrclenCrc6, 0x03, reg::kFreqagsAgsMin);
       chip.simulator.line(1)->set_round_trip(50 * period_of(3) + eighths * period_of(3) / 8);
       ASSERT_TRUE(good_frame(chip, 5000, cdm == 0 ? 0x04 : 0x02));
       chip.simulator.advance(60 * period_of(3));
@@ -90,11 +93,12 @@ TEST(ChipLine, SlaveTimeoutOf55Percent_FramesAndCdmAreRight) {
     for (const unsigned percent : {0U, 60U, 230U}) {
       const double us = static_cast<double>(period) * 0.55 / sim::kPsPerUs;
       Chip chip(one_slave(std::string(kEncoder) + "\ntimeout = " + std::to_string(us)));
-      chip.configure_slave1(28, 0x06, static_cast<std::uint8_t>(code), 0x7C);
+      chip.configure_slave1(28, reg::kScrclenCrc6, static_cast<std::uint8_t>(code),
+                            reg::kFreqagsAgsMin);
       chip.simulator.line(1)->set_round_trip(period / 100 * percent);
       for (const unsigned hold : {0U, 1U}) {
-        chip.write(0xE5, {static_cast<std::uint8_t>(0x40 | hold)});
-        for (const unsigned instr : {0x02U, 0x04U, 0x02U}) {
+        chip.write(reg::kAddrCtrl, {static_cast<std::uint8_t>(reg::kRegversBissC | hold)});
+        for (const unsigned instr : {reg::kInstrCdm1, reg::kInstrCdm0, reg::kInstrCdm1}) {
           ASSERT_TRUE(good_frame(chip, 5000, static_cast<std::uint8_t>(instr)))
               << code << " " << percent << " " << hold << " " << instr;
           chip.simulator.advance(5 * period);
@@ -103,7 +107,7 @@ TEST(ChipLine, SlaveTimeoutOf55Percent_FramesAndCdmAreRight) {
           EXPECT_EQ(chip.simulator.pin(sim::Pin::kMa1), hold == 0 || instr == 0x04);
         }
       }
-      EXPECT_EQ(chip.status(), 0xFB);
+      EXPECT_EQ(chip.status(), reg::kResetStatus0);
     }
   }
 }
@@ -111,7 +115,7 @@ TEST(ChipLine, SlaveTimeoutOf55Percent_FramesAndCdmAreRight) {
 // Page 12: the delay is measured anew in every frame.
 TEST(ChipLine, AnotherCableBetweenFrames_IsMeasuredAnew) {
   Chip chip(one_slave(kEncoder));
-  chip.configure_slave1(28, 0x06, 0x00);
+  chip.configure_slave1(28, reg::kScrclenCrc6, 0x00);
   for (unsigned i = 0; i < 200; ++i) {
     const sim::Time delay = (i * 7919U) % 2500U * sim::kPsPerNs;
     chip.simulator.line(1)->set_round_trip(delay);
@@ -127,32 +131,37 @@ TEST(ChipLine, TwoChannelsOfDifferentDelay_BothFramesAreGood) {
       kEncoder + "\n[[channel]]\nnumber = 2\n[[channel.slave]]\nprotocol = \"biss-c\"\n" +
       kEncoder + "\n";
   Chip chip(text);
-  chip.configure_slave1(28, 0x06, 0x00, 0x7C);
-  chip.write(0xD0, {0x40 | 27, 0x06, 0x00, 0x00});
-  chip.write(0xEC, {0x11, 0x05});  // SLAVELOC5, both channels BiSS C
+  chip.configure_slave1(28, reg::kScrclenCrc6, 0x00, reg::kFreqagsAgsMin);
+  chip.write(reg::slave_cfg_address(5), {reg::kEnscdYes | 27, reg::kScrclenCrc6, 0x00, 0x00});
+  chip.write(reg::kAddrSlaveloc5,
+             {reg::kResetSlaveloc5 | reg::kSlaveloc5Split,
+              reg::kCfgch2BissC | reg::kCfgch1BissC});  // SLAVELOC5, both channels BiSS C
   const unsigned delays[][2] = {{0, 0}, {0, 1230}, {1230, 0}, {37, 112}, {9000, 400}, {25, 50}};
   for (const auto& [first, second] : delays) {
     chip.simulator.line(1)->set_round_trip(first * sim::kPsPerNs);
     chip.simulator.line(2)->set_round_trip(second * sim::kPsPerNs);
     chip.advance_us(50);
-    chip.instruct(0x04);
+    chip.instruct(reg::kInstrCdm0);
     ASSERT_TRUE(chip.wait_eot());
-    const auto status = chip.spi({0x05, 0, 0, 0});
+    const auto status = chip.spi({reg::kSpiOpcodeReadStatus, 0, 0, 0});
     EXPECT_EQ(status[1] & 0x11, 0x11) << first << " " << second;
     EXPECT_EQ(status[2] & 0x02, 0x02) << first << " " << second;
     EXPECT_EQ(status[3] & 0x02, 0x02) << first << " " << second;
     // Page 33: SCDATA1 and SCDATA5 of one INIT. Table 68's erratum 3 (Z1) is not there: one delay
     // may be longer than the other line's delay and timeout.
     chip.advance_us(50);
-    chip.instruct(0x10);
+    chip.instruct(reg::kInitStart);
     ASSERT_TRUE(chip.wait_eot());
     if (first < 6350 && second < 6350) {
-      EXPECT_EQ(chip.status() & 0x41, 0x41) << first << " " << second;
-      EXPECT_EQ(chip.read(0x00), first / 25 + 1) << first << " " << second;
-      EXPECT_EQ(chip.read(0x20), second / 25 + 1) << first << " " << second;
+      EXPECT_EQ(chip.status() & (reg::nAGSERR::kMask | reg::EOT::kMask),
+                reg::kNagserrGood | reg::kEotIdle)
+          << first << " " << second;
+      EXPECT_EQ(chip.read(reg::kAddrScdata), first / 25 + 1) << first << " " << second;
+      EXPECT_EQ(chip.read(reg::scdata_address(5)), second / 25 + 1) << first << " " << second;
     } else {
-      EXPECT_EQ(chip.status() & 0x41, 0x01) << "beyond 255 quarters: nAGSERR";
-      chip.instruct(0x80);
+      EXPECT_EQ(chip.status() & (reg::nAGSERR::kMask | reg::EOT::kMask), reg::kEotIdle)
+          << "beyond 255 quarters: nAGSERR";
+      chip.instruct(reg::kBreakAbort);
     }
   }
 }
@@ -169,7 +178,7 @@ TEST(ChipLine, DeviationFromTheFirstMeasurement_25PercentLateAnd50EarlyAndNoMore
       // Positive skew delays falling edges, the acknowledge too: rising edges come early.
       const sim::WireFaults sl{0, -late, 0, 0};
       Chip chip(one_slave(kEncoder));
-      chip.configure_slave1(28, 0x06, static_cast<std::uint8_t>(code));
+      chip.configure_slave1(28, reg::kScrclenCrc6, static_cast<std::uint8_t>(code));
       chip.simulator.line(1)->set_faults({}, sl);
       unsigned bad = 0;
       for (std::int64_t quarter = 0; quarter < 5; ++quarter) {
@@ -181,7 +190,7 @@ TEST(ChipLine, DeviationFromTheFirstMeasurement_25PercentLateAnd50EarlyAndNoMore
           chip.simulator.line(1)->set_round_trip(static_cast<sim::Time>(delay));
           if (!good_frame(chip, 100)) {
             ++bad;
-            chip.instruct(0x80);
+            chip.instruct(reg::kBreakAbort);
           }
           chip.advance_us(20);
         }
@@ -205,24 +214,27 @@ TEST(ChipInit, EveryFreqsCode_MeasuresTheDelayToTheQuarter) {
     const sim::Time quarter = period_of(code) / 4;
     Chip chip(one_slave(kEncoder));
     chip.simulator.spi().set_timing(sim::SpiTiming::for_frequency(50'000'000));
-    chip.configure_slave1(28, 0x06, static_cast<std::uint8_t>(code));
+    chip.configure_slave1(28, reg::kScrclenCrc6, static_cast<std::uint8_t>(code));
     for (const sim::Time n : {0U, 1U, 2U, 3U, 4U, 5U, 6U, 7U, 50U, 129U, 254U}) {
       // Just before the point, at it (too late for it), just behind the one before.
       for (const sim::Time delay : {(n + 1) * quarter - 1, n * quarter, n * quarter + 1}) {
         chip.simulator.line(1)->set_round_trip(delay);
-        chip.instruct(0x10);
+        chip.instruct(reg::kInitStart);
         ASSERT_TRUE(chip.wait_eot(100'000)) << code << " " << n;
-        EXPECT_EQ(chip.status() & 0x41, 0x41) << code << " " << n;
-        EXPECT_EQ(chip.read(0x00), n + 1) << "FREQS " << code << ", delay " << delay << " ps";
+        EXPECT_EQ(chip.status() & (reg::nAGSERR::kMask | reg::EOT::kMask),
+                  reg::kNagserrGood | reg::kEotIdle)
+            << code << " " << n;
+        EXPECT_EQ(chip.read(reg::kAddrScdata), n + 1)
+            << "FREQS " << code << ", delay " << delay << " ps";
         EXPECT_EQ(chip.simulator.line(1)->monitor().last(chip.simulator.now()).rising, 2U);
       }
     }
     // 255 is the limit; beyond it the sequence is aborted.
     chip.simulator.line(1)->set_round_trip(255 * quarter);
-    chip.instruct(0x10);
+    chip.instruct(reg::kInitStart);
     ASSERT_TRUE(chip.wait_eot(100'000)) << code;
-    EXPECT_EQ(chip.status() & 0x41, 0x01) << code;
-    EXPECT_EQ(chip.read(0xF4), 0x00);
+    EXPECT_EQ(chip.status() & (reg::nAGSERR::kMask | reg::EOT::kMask), reg::kEotIdle) << code;
+    EXPECT_EQ(chip.read(reg::kAddrInstr), 0);
   }
 }
 
@@ -230,24 +242,24 @@ TEST(ChipInit, EveryFreqsCode_MeasuresTheDelayToTheQuarter) {
 // the other level before.
 TEST(ChipInit, AfterErrors_SetsTheFlagsAndResetsRegend) {
   Chip chip(one_slave(kEncoder));
-  chip.configure_slave1(28, 0x06, 0x00);
+  chip.configure_slave1(28, reg::kScrclenCrc6, 0x00);
   mb4test::ControlHost host(chip);
   host.select(0x01);
   const auto expect_init_resets = [&](std::uint8_t flag, bool level) {
     EXPECT_EQ((chip.status() & flag) != 0, level) << unsigned{flag};
     chip.advance_us(50);
-    chip.instruct(0x10);
+    chip.instruct(reg::kInitStart);
     ASSERT_TRUE(chip.wait_eot());
-    EXPECT_EQ(chip.status(), 0xFB) << unsigned{flag};
+    EXPECT_EQ(chip.status(), reg::kResetStatus0) << unsigned{flag};
     EXPECT_TRUE(chip.simulator.pin(sim::Pin::kNer));
   };
   chip.simulator.line(1)->faults().flip_next_frame({5});
-  chip.instruct(0x04);
+  chip.instruct(reg::kInstrCdm0);
   ASSERT_TRUE(chip.wait_eot());
   expect_init_resets(0x10, false);  // nSCDERR
 
   chip.simulator.line(1)->set_round_trip(10 * sim::kPsPerUs);
-  chip.instruct(0x10);
+  chip.instruct(reg::kInitStart);
   ASSERT_TRUE(chip.wait_eot());
   chip.simulator.line(1)->set_round_trip(0);
   expect_init_resets(0x40, false);  // nAGSERR
@@ -282,10 +294,10 @@ TEST(ChipInit, TiTable10_LineDelayInClocksIsAsPrinted) {
           "cable_m = " + std::to_string(row.metres) + "\nns_per_m = 8.3\ntransceiver_ns = 69",
           "f_clk_hz = " + std::to_string(clk_mhz) + "000000"));
       const unsigned half = clk_mhz / row.ma_mhz / 2;
-      chip.configure_slave1(28, 0x06, static_cast<std::uint8_t>(half - 1));
-      chip.instruct(0x10);
+      chip.configure_slave1(28, reg::kScrclenCrc6, static_cast<std::uint8_t>(half - 1));
+      chip.instruct(reg::kInitStart);
       ASSERT_TRUE(chip.wait_eot());
-      const unsigned quarters = chip.read(0x00);
+      const unsigned quarters = chip.read(reg::kAddrScdata);
       EXPECT_EQ((quarters + 3) / 4, row.clocks)
           << "row " << row.number << ", " << quarters << " quarters, CLK " << clk_mhz << " MHz";
       EXPECT_TRUE(good_frame(chip));

@@ -22,6 +22,7 @@
 namespace mb4test {
 namespace {
 
+namespace reg = mb4::regs;
 namespace sim = mb4::sim;
 
 constexpr sim::Pin kOutputs[] = {sim::Pin::kEot, sim::Pin::kMa1, sim::Pin::kMa2,
@@ -97,8 +98,8 @@ class Lockstep {
     ASSERT_EQ(advance(fast_.simulator(), duration), advance(plain_.simulator(), duration));
   }
   void compare() {
-    const std::vector<std::uint8_t> registers = fast_.read(0x00, 256);
-    ASSERT_EQ(registers, plain_.read(0x00, 256));
+    const std::vector<std::uint8_t> registers = fast_.read(reg::kAddrScdata, 256);
+    ASSERT_EQ(registers, plain_.read(reg::kAddrScdata, 256));
     sim::Simulator& a = fast_.simulator();
     sim::Simulator& b = plain_.simulator();
     ASSERT_EQ(levels(a), levels(b));
@@ -128,12 +129,18 @@ void configure(Lockstep& chips, const RandomCase& random_case) {
     cfgch = static_cast<std::uint8_t>((cfgch & ~(3U << 2 * line)) | kBissC << 2 * line);
   }
   const auto& slaves = random_case.registers.slave;
-  chips.write(0xC0, {slaves.begin(), slaves.end()});
-  chips.write(
-      0xE4, {random_case.chsel, static_cast<std::uint8_t>(random_case.en_mo ? 0x42 : 0x40),
-             static_cast<std::uint8_t>(0xA0 | random_case.freqs), 0x00, 0x7C, random_case.mo_busy});
-  chips.write(0xEC, {static_cast<std::uint8_t>(random_case.registers.slaveloc5 ? 0x11 : 0x01),
-                     cfgch, 0x00, random_case.registers.actnsens});
+  chips.write(reg::slave_cfg_address(1), {slaves.begin(), slaves.end()});
+  chips.write(reg::kAddrChsel,
+              {random_case.chsel,
+               static_cast<std::uint8_t>(random_case.en_mo ? reg::kRegversBissC | reg::kEnMoData
+                                                           : reg::kRegversBissC),
+               static_cast<std::uint8_t>(reg::FREQR::of(5) | random_case.freqs), 0,
+               reg::kFreqagsAgsMin, random_case.mo_busy});
+  chips.write(reg::kAddrSlaveloc5,
+              {static_cast<std::uint8_t>(random_case.registers.slaveloc5
+                                             ? reg::kResetSlaveloc5 | reg::kSlaveloc5Split
+                                             : reg::kResetSlaveloc5),
+               cfgch, 0x00, random_case.registers.actnsens});
 }
 
 // One action of a host; most of them leave the chip at rest sooner or later.
@@ -141,19 +148,21 @@ void act(Lockstep& chips, Random& random) {
   const auto byte = [&] { return static_cast<std::uint8_t>(random.below(256)); };
   switch (random.below(12)) {
     case 0:  // a frame or a control communication
-      chips.write(0xF4, {static_cast<std::uint8_t>(2 * random.below(8))});
+      chips.write(reg::kAddrInstr, {static_cast<std::uint8_t>(2 * random.below(8))});
       break;
     case 1:  // frames by themselves: fast, slow, by GETSENS
-      chips.write(0xE8, {byte()});
-      chips.write(0xF4, {0x01});
+      chips.write(reg::kAddrFreqags, {byte()});
+      chips.write(reg::kAddrInstr, {reg::kAgsOn});
       break;
     case 2:
-      chips.write(0xE8, {static_cast<std::uint8_t>(random.one_in(2) ? 0x80 + random.below(8)
-                                                                    : 0x7C + random.below(4))});
-      chips.write(0xF4, {0x01});
+      chips.write(
+          reg::kAddrFreqags,
+          {static_cast<std::uint8_t>(random.one_in(2) ? 0x80 + random.below(8)
+                                                      : reg::kFreqagsAgsMin + random.below(4))});
+      chips.write(reg::kAddrInstr, {reg::kAgsOn});
       break;
     case 3:
-      chips.write(0xF4, {0x80});
+      chips.write(reg::kAddrInstr, {reg::kBreakAbort});
       break;
     case 4:
       for (const bool level : {true, false}) {
@@ -162,13 +171,13 @@ void act(Lockstep& chips, Random& random) {
       }
       break;
     case 5:  // any register, any bits; instructions are above
-      chips.write(static_cast<std::uint8_t>(random.below(0xF4)), {byte()});
+      chips.write(static_cast<std::uint8_t>(random.below(reg::kAddrInstr)), {byte()});
       break;
     case 6:
-      chips.write(0xE6, {byte()});
+      chips.write(reg::kAddrFreq, {byte()});
       break;
     case 7:  // the oscillator, and back
-      chips.write(0xF5, {static_cast<std::uint8_t>(random.one_in(4) ? byte() : 0x00)});
+      chips.write(reg::kAddrIface, {static_cast<std::uint8_t>(random.one_in(4) ? byte() : 0)});
       break;
     case 8:
       if (!random.one_in(4)) break;
@@ -236,20 +245,21 @@ TEST(Lockstep, ClkeniShorterThanAClock_ChangesNothing) {
     Random random(seed);
     Pair chips(scenario);
     chips.both([](sim::Simulator& chip) { chip.bus().set_timing({}); });
-    chips.configure({{0xC0, 0x5B},
-                     {0xC1, 0xA1},
-                     {0xE4, 0x01},
-                     {0xE5, 0x40},
-                     {0xE6, 0x23},
-                     {0xE8, 0x7C},
-                     {0xEC, 0x01},
-                     {0xED, 0x01}});
+    chips.configure(
+        {{reg::slave_cfg_address(1), reg::kEnscdYes | 27},
+         {reg::SCRCLEN<1>::kAddress, reg::kSelcrcsByPolynomial | reg::SCRCPOLY<1>::of(33)},
+         {reg::kAddrChsel, reg::kChsel1Used},
+         {reg::kAddrCtrl, reg::kRegversBissC},
+         {reg::kAddrFreq, reg::FREQR::of(1) | reg::FREQS::of(3)},
+         {reg::kAddrFreqags, reg::kFreqagsAgsMin},
+         {reg::kAddrSlaveloc5, reg::kResetSlaveloc5},
+         {reg::kAddrCfgch, reg::kCfgch1BissC}});
     for (unsigned step = 0; step < 400; ++step) {
       if (random.one_in(4)) {
-        chips.write(0xE2, static_cast<std::uint8_t>(random.below(256)));
-        chips.write(0xF4, static_cast<std::uint8_t>(2 * random.below(8) | 1U));
+        chips.write(reg::kAddrRegadr, static_cast<std::uint8_t>(random.below(256)));
+        chips.write(reg::kAddrInstr, static_cast<std::uint8_t>(2 * random.below(8) | 1U));
       } else if (random.one_in(3)) {
-        chips.write(0xF4, 0x80);
+        chips.write(reg::kAddrInstr, reg::kBreakAbort);
       }
       const sim::Time pause = (1 + random.below(30'000)) * sim::kPsPerNs;
       ASSERT_EQ(advance(chips.fast, pause), advance(chips.plain, pause)) << seed << " " << step;
@@ -259,8 +269,8 @@ TEST(Lockstep, ClkeniShorterThanAClock_ChangesNothing) {
       if (random.one_in(2)) {
         chips.both([&](sim::Simulator& chip) {
           chip.run_until(edge);
-          chip.bus().write(0xF5, 0x01);
-          chip.bus().write(0xF5, 0x00);
+          chip.bus().write(reg::kAddrIface, reg::kClkeniInternal);
+          chip.bus().write(reg::kAddrIface, 0);
         });
       }
       ASSERT_EQ(advance(chips.fast, 3 * sim::kPsPerUs), advance(chips.plain, 3 * sim::kPsPerUs))
@@ -278,7 +288,12 @@ TEST(Lockstep, SlBesideAHostPin_ChangesNothing) {
     Random random(seed);
     Pair chips(scenario);
     chips.configure(
-        {{0xC0, 0x5B}, {0xC1, 0xA1}, {0xE6, 0x00}, {0xE8, 0x7C}, {0xED, 0x01}, {0xF4, 0x01}});
+        {{reg::slave_cfg_address(1), reg::kEnscdYes | 27},
+         {reg::SCRCLEN<1>::kAddress, reg::kSelcrcsByPolynomial | reg::SCRCPOLY<1>::of(33)},
+         {reg::kAddrFreq, 0},
+         {reg::kAddrFreqags, reg::kFreqagsAgsMin},
+         {reg::kAddrCfgch, reg::kCfgch1BissC},
+         {reg::kAddrInstr, reg::kAgsOn}});
     for (unsigned step = 0; step < 2'000; ++step) {
       const sim::Time before = 1 + random.below(60'000);
       const sim::Time between = 1 + random.below(10'000);

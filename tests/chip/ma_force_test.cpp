@@ -13,6 +13,7 @@ namespace {
 
 using mb4test::Chip;
 using mb4test::one_slave;
+namespace reg = mb4::regs;
 namespace sim = mb4::sim;
 
 const char kEncoder[] = "data_bits = 28\ncrc = 0x43\ndata = 0xAAF37BF";
@@ -27,28 +28,28 @@ bool expected_level(unsigned line, unsigned bits, unsigned chsel) {
 }
 
 void expect_good_frame(Chip& chip) {
-  chip.configure_slave1(28, 0x06, 0x01);
+  chip.configure_slave1(28, reg::kScrclenCrc6, 0x01);
   chip.advance_us(100);
-  chip.instruct(0x04);
+  chip.instruct(reg::kInstrCdm0);
   ASSERT_TRUE(chip.wait_eot());
-  EXPECT_EQ(chip.read(0xF1) & 0x02, 0x02);
-  EXPECT_EQ(chip.read(0x00, 4), (std::vector<std::uint8_t>{0xBF, 0x37, 0xAF, 0x0A}));
+  EXPECT_EQ(chip.read(reg::kAddrSvalidLo) & reg::SVALID<1>::kMask, reg::SVALID<1>::kMask);
+  EXPECT_EQ(chip.read(reg::kAddrScdata, 4), (std::vector<std::uint8_t>{0xBF, 0x37, 0xAF, 0x0A}));
 }
 
 // All 16 values of the bits for each CHSEL, with and without a frame before.
 TEST(MaForce, EveryCombination_HasTheLevelsOfTheTables) {
   for (const bool frame_before : {false, true}) {
     Chip chip(one_slave(kEncoder));
-    chip.configure_slave1(28, 0x06, 0x04);
+    chip.configure_slave1(28, reg::kScrclenCrc6, 0x04);
     if (frame_before) {
-      chip.instruct(0x04);
+      chip.instruct(reg::kInstrCdm0);
       ASSERT_TRUE(chip.wait_eot());
       chip.advance_us(20);
     }
     for (unsigned chsel = 0; chsel < 4; ++chsel) {
-      chip.write(0xE4, {static_cast<std::uint8_t>(chsel)});
+      chip.write(reg::kAddrChsel, {static_cast<std::uint8_t>(chsel)});
       for (unsigned bits = 0; bits < 16; ++bits) {
-        chip.write(0xF5, {static_cast<std::uint8_t>(bits << 4U)});
+        chip.write(reg::kAddrIface, {static_cast<std::uint8_t>(bits << 4U)});
         chip.advance_us(2);
         const std::string what =
             "CHSEL " + std::to_string(chsel) + ", bits " + std::to_string(bits);
@@ -56,8 +57,8 @@ TEST(MaForce, EveryCombination_HasTheLevelsOfTheTables) {
         EXPECT_EQ(chip.simulator.pin(sim::Pin::kMa2), expected_level(2, bits, chsel)) << what;
       }
     }
-    chip.write(0xF5, {0x00});
-    chip.write(0xE4, {0x00});
+    chip.write(reg::kAddrIface, {0});
+    chip.write(reg::kAddrChsel, {0});
     chip.advance_us(20);
     expect_good_frame(chip);
   }
@@ -67,14 +68,15 @@ TEST(MaForce, EveryCombination_HasTheLevelsOfTheTables) {
 TEST(MaForce, FasterThanThePeriod_CutsNothingShort) {
   for (const unsigned freqs : {0x00U, 0x01U, 0x09U, 0x0FU, 0x11U, 0x1FU}) {
     Chip chip(one_slave(kEncoder));
-    chip.configure_slave1(28, 0x06, static_cast<std::uint8_t>(freqs));
+    chip.configure_slave1(28, reg::kScrclenCrc6, static_cast<std::uint8_t>(freqs));
     chip.simulator.spi().set_timing(sim::SpiTiming::for_frequency(50'000'000));
     for (unsigned i = 0; i < 300; ++i) {
       static const std::uint8_t kBytes[] = {0x10, 0x30, 0x00, 0xC0, 0x40, 0x50, 0xF0};
-      ASSERT_NO_THROW(chip.write(0xF5, {kBytes[(i * i + i / 7) % 7]})) << "FREQS " << freqs;
+      ASSERT_NO_THROW(chip.write(reg::kAddrIface, {kBytes[(i * i + i / 7) % 7]}))
+          << "FREQS " << freqs;
       chip.simulator.advance((i % 13) * 37 * sim::kPsPerNs);
     }
-    chip.write(0xF5, {0x00});
+    chip.write(reg::kAddrIface, {0});
     chip.advance_us(50);
     EXPECT_TRUE(chip.simulator.pin(sim::Pin::kMa1));
     EXPECT_GT(chip.simulator.ma_check(1).pulses(), 2U);
@@ -85,17 +87,17 @@ TEST(MaForce, FasterThanThePeriod_CutsNothingShort) {
 TEST(MaForce, ForcedLine_CarriesNoFrame) {
   for (const unsigned level : {0x00U, 0x20U}) {
     Chip chip(one_slave(kEncoder));
-    chip.configure_slave1(28, 0x06, 0x01);
-    chip.write(0xF5, {static_cast<std::uint8_t>(0x10U | level)});
+    chip.configure_slave1(28, reg::kScrclenCrc6, 0x01);
+    chip.write(reg::kAddrIface, {static_cast<std::uint8_t>(reg::kMafsForced | level)});
     chip.advance_us(20);
-    chip.instruct(0x04);
+    chip.instruct(reg::kInstrCdm0);
     for (unsigned i = 0; i < 400; ++i) {
       chip.simulator.advance(333 * sim::kPsPerNs);
       ASSERT_EQ(chip.simulator.pin(sim::Pin::kMa1), level != 0);
     }
     EXPECT_FALSE(chip.simulator.pin(sim::Pin::kEot));
-    chip.instruct(0x80);
-    chip.write(0xF5, {0x00});
+    chip.instruct(reg::kBreakAbort);
+    chip.write(reg::kAddrIface, {0});
     expect_good_frame(chip);
   }
 }

@@ -17,6 +17,7 @@ namespace {
 
 using mb4test::Chip;
 using mb4test::one_slave;
+namespace reg = mb4::regs;
 namespace sim = mb4::sim;
 
 const char kEncoder[] = "data_bits = 28\ncrc = 0x43\ndata = 0xAAF37BF";
@@ -29,12 +30,13 @@ sim::Time half_ns(unsigned freqs, sim::Time clk_ns) {
 
 // A good frame, as a proof that everything has recovered. Ends a chip that was reset.
 void expect_good_frame(Chip& chip, std::uint8_t freqs, const std::string& what) {
-  chip.configure_slave1(28, 0x06, freqs);
+  chip.configure_slave1(28, reg::kScrclenCrc6, freqs);
   chip.advance_us(100);
-  chip.instruct(0x04);
+  chip.instruct(reg::kInstrCdm0);
   ASSERT_TRUE(chip.wait_eot()) << what;
-  EXPECT_EQ(chip.read(0xF1) & 0x02, 0x02) << what;
-  EXPECT_EQ(chip.read(0x00, 4), (std::vector<std::uint8_t>{0xBF, 0x37, 0xAF, 0x0A})) << what;
+  EXPECT_EQ(chip.read(reg::kAddrSvalidLo) & reg::SVALID<1>::kMask, reg::SVALID<1>::kMask) << what;
+  EXPECT_EQ(chip.read(reg::kAddrScdata, 4), (std::vector<std::uint8_t>{0xBF, 0x37, 0xAF, 0x0A}))
+      << what;
 }
 
 constexpr std::uint8_t byte(unsigned value) { return static_cast<std::uint8_t>(value); }
@@ -54,9 +56,11 @@ class MaPulse : public testing::TestWithParam<Cut> {
     constexpr unsigned kPhases = 45;  // over half a frame, none twice at the same phase of MA
     for (unsigned phase = 0; phase < kPhases; ++phase) {
       Chip chip(one_slave(kEncoder, "delay_ns = 90.0", chip_keys));
-      if (!chip_keys.empty()) chip.write(0xF5, {0x01});
-      chip.configure_slave1(28, 0x06, freqs);
-      if (instr == 0x02) chip.write(0xE5, {0x41});  // HOLDCDM: MA rests low
+      if (!chip_keys.empty()) chip.write(reg::kAddrIface, {reg::kClkeniInternal});
+      chip.configure_slave1(28, reg::kScrclenCrc6, freqs);
+      if (instr == 0x02)
+        chip.write(reg::kAddrCtrl,
+                   {reg::kRegversBissC | reg::kHoldcdmHold});  // HOLDCDM: MA rests low
       chip.instruct(instr);
       chip.simulator.advance(phase * half * sim::kPsPerNs * 8 / 7 + phase * 3137);
       const bool ma = chip.simulator.pin(sim::Pin::kMa1);
@@ -72,7 +76,7 @@ class MaPulse : public testing::TestWithParam<Cut> {
 
 TEST_P(MaPulse, BreakAtAnyPhase_CutsNothingShort) {
   at_every_phase("", 50, [](Chip& chip) {
-    chip.instruct(0x80);
+    chip.instruct(reg::kBreakAbort);
     chip.advance_us(200);
   });
 }
@@ -94,7 +98,7 @@ TEST_P(MaPulse, ResetOnTheOscillator_CutsNothingShort) {
     chip.simulator.advance(251 * sim::kPsPerNs);
     chip.simulator.set_pin(sim::Pin::kNres, true);
     chip.advance_us(20);
-    chip.write(0xF5, {0x01});
+    chip.write(reg::kAddrIface, {reg::kClkeniInternal});
     chip.advance_us(200);
   });
 }
@@ -103,10 +107,10 @@ TEST_P(MaPulse, ResetOnTheOscillator_CutsNothingShort) {
 TEST_P(MaPulse, ClockSwitchAtAnyPhase_CutsNothingShort) {
   for (const unsigned osc : {10'000'000U, 25'000'000U}) {
     at_every_phase("f_osc_hz = " + std::to_string(osc) + "\n", 50, [](Chip& chip) {
-      chip.write(0xF5, {0x00});
+      chip.write(reg::kAddrIface, {0});
       chip.advance_us(20);
-      chip.write(0xF5, {0x01});
-      chip.instruct(0x80);
+      chip.write(reg::kAddrIface, {reg::kClkeniInternal});
+      chip.instruct(reg::kBreakAbort);
       chip.advance_us(300);
     });
   }
@@ -116,10 +120,10 @@ TEST_P(MaPulse, ClockSwitchAtAnyPhase_CutsNothingShort) {
 TEST_P(MaPulse, ForcedAtAnyPhase_CutsNothingShort) {
   for (const unsigned level : {0x00U, 0x20U}) {
     at_every_phase("", 50, [level](Chip& chip) {
-      chip.write(0xF5, {static_cast<std::uint8_t>(0x10U | level)});
+      chip.write(reg::kAddrIface, {static_cast<std::uint8_t>(reg::kMafsForced | level)});
       chip.advance_us(20);
-      chip.write(0xF5, {0x00});
-      chip.instruct(0x80);
+      chip.write(reg::kAddrIface, {0});
+      chip.instruct(reg::kBreakAbort);
       chip.advance_us(200);
     });
   }
@@ -129,10 +133,10 @@ TEST_P(MaPulse, ForcedAtAnyPhase_CutsNothingShort) {
 TEST_P(MaPulse, BreakAndNewFrameAtOnce_CutNothingShort) {
   at_every_phase("", 50, [](Chip& chip) {
     chip.simulator.spi().set_timing(sim::SpiTiming::for_frequency(50'000'000));
-    chip.instruct(0x80);
-    chip.instruct(0x04);
-    chip.instruct(0x82);
-    chip.instruct(0x80);
+    chip.instruct(reg::kBreakAbort);
+    chip.instruct(reg::kInstrCdm0);
+    chip.instruct(reg::kBreakAbort | reg::kInstrCdm1);
+    chip.instruct(reg::kBreakAbort);
     chip.advance_us(200);
   });
 }
@@ -144,12 +148,13 @@ TEST_P(MaPulse, LineTakenOutOfUseAtAnyPhase_CutsNothingShort) {
     for (const std::uint8_t next : std::array<std::uint8_t, 3>{0x00, 0x04, 0x1F}) {
       at_every_phase("", 50, [order, next](Chip& chip) {
         chip.simulator.spi().set_timing(sim::SpiTiming::for_frequency(50'000'000));
-        if (order == 0) chip.instruct(0x80);
-        chip.write(0xE6, {next});
-        chip.write(0xEC, {0x10, 0x07});  // BiSS C on line 2 only
-        chip.instruct(order == 1 ? 0x84 : 0x04);
+        if (order == 0) chip.instruct(reg::kBreakAbort);
+        chip.write(reg::kAddrFreq, {next});
+        chip.write(reg::kAddrSlaveloc5,
+                   {0x10, reg::kCfgch2BissC | reg::kCfgch1Unused});  // BiSS C on line 2 only
+        chip.instruct(order == 1 ? reg::kBreakAbort | reg::kInstrCdm0 : reg::kInstrCdm0);
         chip.advance_us(20);
-        chip.instruct(0x80);
+        chip.instruct(reg::kBreakAbort);
         chip.advance_us(200);
       });
     }
@@ -181,22 +186,25 @@ std::string two_lines(const char* line1 = "biss-c") {
 
 // After any earlier events both lines deliver data.
 void expect_good_frames(Chip& chip, const std::string& what, std::uint8_t cfgch = 0x05) {
-  chip.instruct(0x80);
-  chip.write(0xF5, {0x00});
-  for (unsigned slave = 0xC0; slave < 0xE0; slave += 4) {
-    const bool used = slave == 0xC0 || slave == 0xD0;
+  chip.instruct(reg::kBreakAbort);
+  chip.write(reg::kAddrIface, {0});
+  for (unsigned slave = reg::slave_cfg_address(1); slave < reg::slave_cfg_address(9);
+       slave += reg::kSlaveCfgStride) {
+    const bool used = slave == reg::slave_cfg_address(1) || slave == reg::slave_cfg_address(5);
     chip.write(byte(slave), {byte(used ? 0x59 : 0x00), 0x06, 0x00, 0x00});
   }
-  chip.write(0xE4, {0x00, 0x40, 0x01, 0x00, 0x00, 0x00});
-  chip.write(0xEC, {0x10, cfgch});
-  chip.write(0xEF, {0x00});
+  chip.write(reg::kAddrChsel, {0, reg::kRegversBissC, reg::FREQS::of(1), 0, 0x00, 0x00});
+  chip.write(reg::kAddrSlaveloc5, {reg::kSlaveloc5Split, cfgch});
+  chip.write(reg::kAddrActnsens, {0});
   chip.advance_us(1000);
-  chip.instruct(0x04);
+  chip.instruct(reg::kInstrCdm0);
   ASSERT_TRUE(chip.wait_eot()) << what;
-  EXPECT_EQ(chip.read(0xF1, 2), (std::vector<std::uint8_t>{0x02, 0x02})) << what;
+  EXPECT_EQ(chip.read(reg::kAddrSvalidLo, 2),
+            (std::vector<std::uint8_t>{reg::SVALID<1>::kMask, reg::SVALID<5>::kMask}))
+      << what;
   const std::vector<std::uint8_t> word{0xAA, 0xAA, 0xAA, 0x00};
-  EXPECT_EQ(chip.read(0x00, 4), word) << what;
-  EXPECT_EQ(chip.read(0x20, 4), word) << what;
+  EXPECT_EQ(chip.read(reg::kAddrScdata, 4), word) << what;
+  EXPECT_EQ(chip.read(reg::scdata_address(5), 4), word) << what;
 }
 
 // Every phase of the last half period, in steps of a clock. The half period is 8 us long; its line
@@ -218,20 +226,24 @@ TEST(MaPulseTwoLines, LastHalfPeriodOfALineOutOfUse_EndsInItsTime) {
       // 1 ns for clock edges that are rounded to picoseconds.
       chip.simulator.ma_check(old_line).require(8'000 * sim::kPsPerNs - sim::kPsPerNs);
       chip.simulator.ma_check(3 - old_line).require(way.half * sim::kPsPerNs - sim::kPsPerNs);
-      chip.write(0xC0, {0x59, 0x06, 0x00, 0x00});
-      chip.write(0xD0, {0x59, 0x06, 0x00, 0x00});
-      chip.write(0xE5, {0x40, 0x1F, 0x00, 0x7C});
-      chip.write(0xEC, {0x10, byte(way.by_slaveloc5 ? 0x07 : 0x0D)});
-      chip.instruct(0x04);
+      chip.write(reg::slave_cfg_address(1), {reg::kEnscdYes | 25, reg::kScrclenCrc6, 0x00, 0x00});
+      chip.write(reg::slave_cfg_address(5), {reg::kEnscdYes | 25, reg::kScrclenCrc6, 0x00, 0x00});
+      chip.write(reg::kAddrCtrl, {reg::kRegversBissC, reg::FREQS::of(31), 0, reg::kFreqagsAgsMin});
+      chip.write(reg::kAddrSlaveloc5,
+                 {0x10, byte(way.by_slaveloc5 ? reg::kCfgch2BissC | reg::kCfgch1Unused
+                                              : reg::kCfgch2Unused | reg::kCfgch1BissC)});
+      chip.instruct(reg::kInstrCdm0);
       chip.simulator.advance(d * sim::kPsPerNs);
       const std::string what = "D " + std::to_string(d) + " ns, FREQS " +
                                std::to_string(way.freqs) + (way.break_first ? ", BREAK first" : "");
       ASSERT_NO_THROW({
-        if (way.break_first) chip.instruct(0x80);
-        chip.write(0xE6, {way.freqs});
-        chip.write(0xEC,
-                   {byte(way.by_slaveloc5 ? 0x00 : 0x10), byte(way.by_slaveloc5 ? 0x0D : 0x07)});
-        chip.instruct(way.break_first ? 0x04 : 0x84);
+        if (way.break_first) chip.instruct(reg::kBreakAbort);
+        chip.write(reg::kAddrFreq, {way.freqs});
+        chip.write(reg::kAddrSlaveloc5,
+                   {byte(way.by_slaveloc5 ? 0x00 : 0x10),
+                    byte(way.by_slaveloc5 ? reg::kCfgch2Unused | reg::kCfgch1BissC
+                                          : reg::kCfgch2BissC | reg::kCfgch1Unused)});
+        chip.instruct(way.break_first ? reg::kInstrCdm0 : reg::kBreakAbort | reg::kInstrCdm0);
         chip.advance_us(90);
       }) << what;
       EXPECT_GE(chip.simulator.ma_check(3 - old_line).pulses(), 2U * (26U + 6U + 4U)) << what;
@@ -244,20 +256,21 @@ TEST(MaPulseTwoLines, LastHalfPeriodOfALineOutOfUse_EndsInItsTime) {
 TEST(MaPulseTwoLines, LineOutOfUseWithSlLow_StartsTheOther) {
   for (const std::uint8_t instr : std::array<std::uint8_t, 3>{0x04, 0x02, 0x10}) {
     Chip chip(two_lines());
-    chip.write(0xC0, {0x59, 0x06, 0x00, 0x00});
-    chip.write(0xD0, {0x59, 0x06, 0x00, 0x00});
-    chip.write(0xE5, {0x40, 0x01, 0x00, 0x00});
-    chip.write(0xEC, {0x10, 0x05});
+    chip.write(reg::slave_cfg_address(1), {reg::kEnscdYes | 25, reg::kScrclenCrc6, 0x00, 0x00});
+    chip.write(reg::slave_cfg_address(5), {reg::kEnscdYes | 25, reg::kScrclenCrc6, 0x00, 0x00});
+    chip.write(reg::kAddrCtrl, {reg::kRegversBissC, reg::FREQS::of(1), 0, 0x00});
+    chip.write(reg::kAddrSlaveloc5, {reg::kSlaveloc5Split, reg::kCfgch2BissC | reg::kCfgch1BissC});
     chip.instruct(instr);
     chip.advance_us(5);
     chip.simulator.line(1)->faults().stick(false);
     chip.simulator.refresh_lines();
     ASSERT_TRUE(chip.wait_eot());
     chip.advance_us(40);
-    chip.write(0xED, {0x07});
-    chip.instruct(0x04);
+    chip.write(reg::kAddrCfgch, {reg::kCfgch2BissC | reg::kCfgch1Unused});
+    chip.instruct(reg::kInstrCdm0);
     ASSERT_TRUE(chip.wait_eot(100));
-    EXPECT_EQ(chip.read(0xF2), 0x02) << "INSTR byte " << unsigned{instr};
+    EXPECT_EQ(chip.read(reg::kAddrSvalidHi), reg::SVALID<5>::kMask)
+        << "INSTR byte " << unsigned{instr};
     EXPECT_TRUE(chip.simulator.pin(sim::Pin::kMa1));
   }
 }
@@ -270,17 +283,19 @@ TEST(MaPulseTwoLines, ForcedLineOtherFreqs_CutsNothingShort) {
     const bool slower = (way & 1U) != 0;
     for (sim::Time d = 0; d < 5000; d += 50) {
       Chip chip(two_lines());
-      chip.write(0xE4, {0x02});
-      chip.write(0xE6, {byte(slower ? 0x00 : 0x18)});
-      chip.write(0xF5, {0x40});  // line 1 low
+      chip.write(reg::kAddrChsel, {reg::kChsel2Used});
+      chip.write(reg::kAddrFreq, {byte(slower ? 0 : reg::FREQS::of(24))});
+      chip.write(reg::kAddrIface, {reg::kMafoForced});  // line 1 low
       chip.simulator.advance(8'000 * sim::kPsPerNs + d * sim::kPsPerNs);
       ASSERT_NO_THROW({
-        chip.write(0xE5, {0xC0, byte(slower ? 0x18 : 0x00)});
-        chip.write(0xE4, {0x00});  // line 2 low, line 1 released
-        chip.instruct((way & 2U) != 0 ? 0x84 : 0x90);
+        chip.write(reg::kAddrCtrl, {reg::kCtsRegisterAccess | reg::kRegversBissC,
+                                    byte(slower ? reg::FREQS::of(24) : 0)});
+        chip.write(reg::kAddrChsel, {0});  // line 2 low, line 1 released
+        chip.instruct((way & 2U) != 0 ? reg::kBreakAbort | reg::kInstrCdm0
+                                      : reg::kBreakAbort | reg::kInitStart);
         chip.simulator.advance((d % 7) * 211 * sim::kPsPerNs);
         if ((way & 4U) != 0) {
-          chip.write(0xF5, {0x00});
+          chip.write(reg::kAddrIface, {0});
         } else {
           chip.simulator.set_pin(sim::Pin::kNres, false);
           chip.simulator.advance(100 * sim::kPsPerNs);
@@ -302,13 +317,13 @@ TEST(MaPulseTwoLines, ForcedLineOtherFreqs_CutsNothingShort) {
 // line one with actuators and back again.
 TEST(SettingsInAFrame, EnMoAndForceChange_FrameGoesOnWithWhatItBeganWith) {
   Chip chip(two_lines("biss-b"));
-  chip.write(0xF5, {0x10});
-  chip.instruct(0x04);
-  chip.write(0xD4, {0x40});
-  chip.write(0xE5, {0x02});
-  chip.write(0xEF, {0x20});
-  chip.write(0xF5, {0x00});
-  chip.write(0xE5, {0x00, 0xA0});
+  chip.write(reg::kAddrIface, {reg::kMafsForced});
+  chip.instruct(reg::kInstrCdm0);
+  chip.write(reg::slave_cfg_address(6), {reg::kEnscdYes});
+  chip.write(reg::kAddrCtrl, {reg::kEnMoData});
+  chip.write(reg::kAddrActnsens, {reg::ACTnSENS<6>::kMask});
+  chip.write(reg::kAddrIface, {0});
+  chip.write(reg::kAddrCtrl, {0, reg::FREQR::of(5)});
   ASSERT_NO_THROW(chip.advance_us(300));
   ASSERT_NO_FATAL_FAILURE(expect_good_frames(chip, "", 0x04));
 }
@@ -324,21 +339,23 @@ TEST(SettingsInAFrame, AnyConfigurationRegister_FrameEnds) {
     const unsigned protocol = session % 3;
     Chip chip(two_lines(protocols.at(protocol)));
     const auto cfgch = static_cast<std::uint8_t>(0x04U | protocol);
-    chip.write(0xC0, {0x59, 0x06, 0x00, 0x00});
-    chip.write(0xD0, {0x59, 0x06, 0x00, 0x00});
-    chip.write(0xE5, {0x40, 0x14, 0x00, 0x7C});
-    chip.write(0xEC, {0x10, cfgch});
-    if (below(3) == 0) chip.write(0xE5, {0x42});
-    if (below(3) == 0) chip.write(0xEF, {below(256)});
+    chip.write(reg::slave_cfg_address(1), {reg::kEnscdYes | 25, reg::kScrclenCrc6, 0x00, 0x00});
+    chip.write(reg::slave_cfg_address(5), {reg::kEnscdYes | 25, reg::kScrclenCrc6, 0x00, 0x00});
+    chip.write(reg::kAddrCtrl, {reg::kRegversBissC, reg::FREQS::of(20), 0, reg::kFreqagsAgsMin});
+    chip.write(reg::kAddrSlaveloc5, {reg::kSlaveloc5Split, cfgch});
+    if (below(3) == 0) chip.write(reg::kAddrCtrl, {reg::kRegversBissC | reg::kEnMoData});
+    if (below(3) == 0) chip.write(reg::kAddrActnsens, {below(256)});
     chip.advance_us(50);
     const bool init = session % 5 == 0;
-    chip.instruct(init ? 0x10 : session % 2 == 0 ? 0x04 : 0x02);
+    chip.instruct(init ? reg::kInitStart : session % 2 == 0 ? reg::kInstrCdm0 : reg::kInstrCdm1);
     chip.simulator.advance(sim::Time{10U + below(100)} * (init ? 50 : 1000) * sim::kPsPerNs);
     ASSERT_FALSE(chip.simulator.pin(sim::Pin::kEot)) << session;
     std::string what = "session " + std::to_string(session) + ":";
     for (unsigned count = 1U + below(4); count > 0; --count) {
-      static constexpr std::array<std::uint8_t, 11> kMore{0xE2, 0xE4, 0xE5, 0xE6, 0xE7, 0xE8,
-                                                          0xE9, 0xEC, 0xED, 0xEF, 0xED};
+      static constexpr std::array<std::uint8_t, 11> kMore{
+          reg::kAddrRegadr,  reg::kAddrChsel,    reg::kAddrCtrl,   reg::kAddrFreq,
+          reg::kAddrBankcfg, reg::kAddrFreqags,  reg::kAddrMoBusy, reg::kAddrSlaveloc5,
+          reg::kAddrCfgch,   reg::kAddrActnsens, reg::kAddrCfgch};
       const std::uint8_t address = below(3) == 0 ? static_cast<std::uint8_t>(0xC0U + below(32))
                                                  : kMore.at(below(kMore.size()));
       const std::uint8_t value = below(256);

@@ -13,6 +13,8 @@ namespace {
 using mb4test::ChipPlan;
 using mb4test::ProtocolChip;
 using mb4test::to_bits;
+using mb4test::valid;
+namespace reg = mb4::regs;
 namespace sim = mb4::sim;
 
 constexpr const char* kBus = "mo = true\n";
@@ -51,10 +53,10 @@ std::string mo_by_slot(const ProtocolChip& chip, unsigned line, bool before) {
 
 void write_both_banks(ProtocolChip& chip, unsigned x, std::uint64_t word) {
   chip.write_scdata(x, word);
-  chip.instruct(0x20);  // SWBANK
+  chip.instruct(reg::SWBANK::kMask);  // SWBANK
   chip.advance_us(1);
   chip.write_scdata(x, word);
-  chip.instruct(0x00);
+  chip.instruct(0);
   chip.advance_us(1);
 }
 
@@ -78,7 +80,7 @@ TEST(ChipMo, Waveform_IsAcknowledgeBusyStartCdsWords) {
       EXPECT_TRUE(with_edge) << mo.time;
     }
     EXPECT_EQ(chip.scdata(2, 9), 0x155U);
-    EXPECT_EQ(chip.svalid(), 0x08U);
+    EXPECT_EQ(chip.svalid(), valid({2}));
     EXPECT_EQ(chip.simulator.slave(1)->actuator()->word(), 0xA5CU);
     EXPECT_EQ(chip.simulator.slave(3)->actuator()->word(), 0xE7U);
   }
@@ -91,7 +93,7 @@ TEST(ChipMo, WaveformInBissB_IsAcknowledgeBusyStartWords) {
       ProtocolChip chip(channel(1) + "[[channel.slave]]\nprotocol = \"biss-b\"\ndata_bits = 9\n",
                         {.freqs = 4, .biss_c_registers = false, .en_mo = true, .mo_busy = busy});
       if (acts) {
-        chip.write(0xEF, {0x01});  // ACTnSENS1
+        chip.write(reg::kAddrActnsens, {reg::ACTnSENS<1>::kMask});  // ACTnSENS1
         write_both_banks(chip, 1, 0x155);
       }
       std::string slots(1, '1');
@@ -150,7 +152,7 @@ TEST_P(MoChains, EveryPosition_GetsExactlyWhatTheHostWrote) {
         }
       }
       EXPECT_EQ(chip.svalid(), valid) << position;
-      EXPECT_EQ(chip.status(), 0xFB);
+      EXPECT_EQ(chip.status(), reg::kResetStatus0);
       seed = seed * 6364136223846793005ULL + 1442695040888963407ULL;
     }
   }
@@ -191,14 +193,14 @@ TEST(ChipMo, BothChannelsWithDifferentLengths_AndBothCdm) {
     for (unsigned frame = 1; frame <= 5; ++frame) {
       write_both_banks(chip, 1, 0x30 + frame);
       write_both_banks(chip, 6, 0xA1B2C3D4E5F6ULL * frame);
-      ASSERT_TRUE(chip.frame(cdm ? 0x02 : 0x04));
+      ASSERT_TRUE(chip.frame(cdm ? reg::kInstrCdm1 : reg::kInstrCdm0));
       EXPECT_EQ(chip.simulator.slave(1)->actuator()->word(), 0x30U + frame);
       EXPECT_EQ(chip.simulator.slave(6)->actuator()->word(),
                 (0xA1B2C3D4E5F6ULL * frame) & 0xFFFFFFFFFFFFULL);
       EXPECT_EQ(chip.scdata(2, 24), 0xC0FFEEU);
       EXPECT_EQ(chip.scdata(5, 40), 0x123456789AULL);
       EXPECT_EQ(chip.simulator.slave(1)->last_cdm(), cdm);
-      EXPECT_EQ(chip.status(), 0xFB);
+      EXPECT_EQ(chip.status(), reg::kResetStatus0);
     }
   }
 }
@@ -222,7 +224,7 @@ TEST(ChipMo, HostWritesItsBank_TheNextSwitchHandsItOver) {
     EXPECT_EQ(received->word(), 0x1111U) << x;
     ASSERT_TRUE(chip.frame());
     EXPECT_EQ(received->word(), 0x2222U) << x;
-    chip.write(0xE7, {0x01});  // SINGLEBANK
+    chip.write(reg::kAddrBankcfg, {reg::kSinglebankOneBank});  // SINGLEBANK
     chip.write_scdata(channel_number, 0x3333);
     ASSERT_TRUE(chip.frame());
     EXPECT_EQ(received->word(), 0x3333U) << x;
@@ -256,10 +258,10 @@ TEST(ChipMo, SensorsOnACableLongerThanTheFrame_SeeNoOneBehindTheirSlots) {
                             sensor(8, 0x5A) + sensor(5, 0x15),
                         {.freqs = 0, .en_mo = true, .mo_busy = 1});
       for (unsigned frame = 1; frame <= 3; ++frame) {
-        ASSERT_TRUE(chip.frame(cdm ? 0x02 : 0x04));
+        ASSERT_TRUE(chip.frame(cdm ? reg::kInstrCdm1 : reg::kInstrCdm0));
         EXPECT_EQ(chip.scdata(1, 8), 0x5AU) << delay_ns;
         EXPECT_EQ(chip.scdata(2, 5), 0x15U) << delay_ns;
-        EXPECT_EQ(chip.status(), 0xFB) << delay_ns;
+        EXPECT_EQ(chip.status(), reg::kResetStatus0) << delay_ns;
         EXPECT_EQ(chip.simulator.slave(1)->last_cdm(), cdm) << delay_ns;
         EXPECT_EQ(chip.simulator.slave(2)->last_cdm(), cdm) << delay_ns;
         EXPECT_EQ(chip.simulator.slave(1)->cdm_count(), frame) << delay_ns;
@@ -275,10 +277,11 @@ TEST(ChipMo, SensorsOnACableLongerThanTheFrame_SeeNoOneBehindTheirSlots) {
         EXPECT_GT(last_rise, chip.mo[0][2].time + (8 + 6 + 5 + 6) * chip.t_ma / 2) << delay_ns;
       }
       // Frame after frame: no timeout is seen that is none.
-      chip.instruct(0x01);
+      chip.instruct(reg::kAgsOn);
       chip.advance_us(400);
-      EXPECT_EQ(chip.svalid(), 0x0AU) << delay_ns;
-      EXPECT_EQ(chip.status() & 0xFEU, 0xFAU) << delay_ns;
+      EXPECT_EQ(chip.svalid(), valid({1, 2})) << delay_ns;
+      EXPECT_EQ(chip.status() & ~reg::EOT::kMask, reg::kResetStatus0 & ~reg::EOT::kMask)
+          << delay_ns;
       EXPECT_EQ(chip.simulator.slave(1)->frames(), chip.simulator.slave(2)->frames());
       EXPECT_GT(chip.simulator.slave(1)->frames(), 8U) << delay_ns;
     }
@@ -308,7 +311,7 @@ unsigned quarters(sim::Time delay, sim::Time t_ma) {
 void check_init_and_frames(ProtocolChip& chip, unsigned lines, unsigned count, sim::Time delay,
                            const std::string& trace) {
   SCOPED_TRACE(trace);
-  ASSERT_TRUE(chip.run(0x14));  // INIT, then a frame with CDM = 0
+  ASSERT_TRUE(chip.run(reg::kInitStart | reg::kInstrCdm0));  // INIT, then a frame with CDM = 0
   for (unsigned i = 0; i < lines; ++i) {
     ASSERT_GE(chip.ma[i].size(), 4U);
     const sim::Time second = chip.ma[i][3].time;
@@ -324,16 +327,16 @@ void check_init_and_frames(ProtocolChip& chip, unsigned lines, unsigned count, s
       EXPECT_EQ(chip.simulator.slave(4 * i + x)->frames(), 1U);
     }
   }
-  EXPECT_EQ(chip.status(), 0xFB);
+  EXPECT_EQ(chip.status(), reg::kResetStatus0);
   chip.simulator.advance(kSlaveTimeout + delay);
-  ASSERT_TRUE(chip.run(0x10));
+  ASSERT_TRUE(chip.run(reg::kInitStart));
   for (unsigned i = 0; i < lines; ++i) {
     EXPECT_EQ(chip.scdata(4 * i + 1, 8), quarters(delay, chip.t_ma));
     EXPECT_TRUE(chip.simulator.pin(i == 0 ? sim::Pin::kMo1 : sim::Pin::kMo2));
     EXPECT_TRUE(chip.simulator.pin(i == 0 ? sim::Pin::kSl1 : sim::Pin::kSl2));
   }
   EXPECT_EQ(chip.svalid(), 0U) << "decision 35";
-  EXPECT_EQ(chip.status(), 0xFB);
+  EXPECT_EQ(chip.status(), reg::kResetStatus0);
 }
 
 // Both kinds of slaves acknowledge, at every delay in steps of one clock.
@@ -368,10 +371,10 @@ TEST(ChipMoInit, MoLaterThanMa_CountIsThatOfTheSlavesKind) {
           channel(1, "mo = true\ndelay_ns = 200\nmo_delay_ns = " + std::to_string(mo_ns) + "\n") +
               sensors(3, kind, "\"adaptive\""),
           {.freqs = 4, .en_mo = true, .freqags = 0x7F});
-      ASSERT_TRUE(chip.run(0x10));
+      ASSERT_TRUE(chip.run(reg::kInitStart));
       const unsigned ns = (kind == kKinds[1] ? mo_ns : 100) + 100;
       EXPECT_EQ(chip.scdata(1, 8), quarters(ns * sim::kPsPerNs, chip.t_ma)) << kind << " " << mo_ns;
-      EXPECT_EQ(chip.status(), 0xFB);
+      EXPECT_EQ(chip.status(), reg::kResetStatus0);
     }
   }
 }
@@ -382,12 +385,12 @@ TEST(ChipMoInit, FrameAtEveryPhaseAfterIt) {
     ProtocolChip chip(channel(1, "mo = true\ndelay_ns = 730\n") + sensors(3, kind, "40.0"),
                       {.freqs = 1, .en_mo = true, .freqags = 0x7F});
     for (unsigned phase = 0; phase < 40; ++phase) {
-      ASSERT_TRUE(chip.run(0x10)) << kind << " " << phase;
+      ASSERT_TRUE(chip.run(reg::kInitStart)) << kind << " " << phase;
       chip.simulator.advance(phase * ProtocolChip::kClk);
       ASSERT_TRUE(chip.frame()) << kind << " " << phase;
-      EXPECT_EQ(chip.svalid(), 0x2AU) << kind << " " << phase;
+      EXPECT_EQ(chip.svalid(), valid({1, 2, 3})) << kind << " " << phase;
       for (unsigned x = 1; x <= 3; ++x) EXPECT_EQ(chip.scdata(x, 8 + x), 0x154U + x);
-      EXPECT_EQ(chip.status(), 0xFB) << kind << " " << phase;
+      EXPECT_EQ(chip.status(), reg::kResetStatus0) << kind << " " << phase;
     }
   }
 }
@@ -398,14 +401,14 @@ TEST(ChipMoInit, BreakAtEveryPhase_ReturnsMo) {
     ProtocolChip chip(channel(1) + sensors(3, kind, "\"adaptive\""),
                       {.freqs = 1, .en_mo = true, .freqags = 0x7F});
     for (unsigned phase = 0; phase < 60; ++phase) {
-      chip.instruct(0x10);
+      chip.instruct(reg::kInitStart);
       chip.simulator.advance(phase * ProtocolChip::kClk);
-      chip.instruct(0x80);
+      chip.instruct(reg::kBreakAbort);
       chip.advance_us(45);
       EXPECT_TRUE(chip.simulator.pin(sim::Pin::kMo1)) << kind << " " << phase;
-      ASSERT_TRUE(chip.frame(0x14)) << kind << " " << phase;
-      EXPECT_EQ(chip.svalid(), 0x2AU) << kind << " " << phase;
-      EXPECT_EQ(chip.status(), 0xFB) << kind << " " << phase;
+      ASSERT_TRUE(chip.frame(reg::kInitStart | reg::kInstrCdm0)) << kind << " " << phase;
+      EXPECT_EQ(chip.svalid(), valid({1, 2, 3})) << kind << " " << phase;
+      EXPECT_EQ(chip.status(), reg::kResetStatus0) << kind << " " << phase;
     }
   }
 }
@@ -462,7 +465,7 @@ TEST(ChipMoInit, MoNotInUse_EndsWithTheSlavesTimeout) {
                                            "\ndelay_ns = " + std::to_string(50 * step) + "\n") +
                                 sensors(3, kind, "20.0"),
                             {.freqs = 1, .en_mo = en_mo, .freqags = 0x7F});
-          ASSERT_TRUE(chip.run(0x10));
+          ASSERT_TRUE(chip.run(reg::kInitStart));
           const sim::Time second = chip.ma[0].at(3).time;
           const sim::Time end = second + 20 * sim::kPsPerUs + delay;
           EXPECT_GE(chip.simulator.now(), end);
@@ -471,8 +474,8 @@ TEST(ChipMoInit, MoNotInUse_EndsWithTheSlavesTimeout) {
           EXPECT_EQ(chip.mo[0].size(), en_mo ? 2U : 0U);
           EXPECT_EQ(chip.simulator.pin(sim::Pin::kMo1), en_mo);
           ASSERT_TRUE(chip.frame());
-          EXPECT_EQ(chip.svalid(), 0x2AU) << kind << " " << step;
-          EXPECT_EQ(chip.status(), 0xFB);
+          EXPECT_EQ(chip.svalid(), valid({1, 2, 3})) << kind << " " << step;
+          EXPECT_EQ(chip.status(), reg::kResetStatus0);
         }
       }
     }
@@ -495,8 +498,8 @@ TEST(ChipMo, FramesWithBothKindsOfAcknowledge) {
         EXPECT_EQ(chip.simulator.slave(2)->actuator()->word(), 0x30U + frame);
         EXPECT_EQ(chip.scdata(1, 9), 0x155U) << kinds << " " << step;
         EXPECT_EQ(chip.scdata(3, 12), 0xABCU) << kinds << " " << step;
-        EXPECT_EQ(chip.svalid(), 0x22U) << kinds << " " << step;
-        EXPECT_EQ(chip.status(), 0xFB) << kinds << " " << step;
+        EXPECT_EQ(chip.svalid(), valid({1, 3})) << kinds << " " << step;
+        EXPECT_EQ(chip.status(), reg::kResetStatus0) << kinds << " " << step;
       }
     }
   }
@@ -510,11 +513,16 @@ TEST(ChipMo, RegisterAccessOnABus) {
   mb4test::ControlHost host(chip);
   for (const unsigned id : {0U, 1U}) {
     host.set_read(id, 0x44, 1);
-    chip.write(0xE5, {static_cast<std::uint8_t>(0xC2 | id << 3U)});
+    chip.write(reg::kAddrCtrl,
+               {static_cast<std::uint8_t>(reg::kCtsRegisterAccess | reg::kRegversBissC |
+                                          reg::kEnMoData | reg::SLAVEID::of(id))});
     ASSERT_TRUE(host.run_ags(100'000));
     EXPECT_EQ(host.rdata(1)[0], id == 0 ? 0x22 : 0x11);
-    EXPECT_EQ(host.status() & 0x7CU, 0x7CU);
-    chip.instruct(0x00);
+    EXPECT_EQ(host.status() & (reg::nAGSERR::kMask | reg::nDELAYERR::kMask | reg::nSCDERR::kMask |
+                               reg::nREGERR::kMask | reg::REGEND::kMask),
+              unsigned{reg::kNagserrGood | reg::kNdelayerrGood | reg::kNscderrGood |
+                       reg::kNregerrGood | reg::kRegendDone});
+    chip.instruct(0);
     chip.advance_us(100);
   }
 }
@@ -529,9 +537,9 @@ TEST(ChipMo, Init_MoFallsWithTheSecondRisingEdge) {
                         {.freqs = freqs, .en_mo = true, .mo_busy = 3});
       const unsigned lines = two_lines ? 2 : 1;
       for (int round = 0; round < 2; ++round) {
-        ASSERT_TRUE(chip.frame(0x10)) << freqs;
-        EXPECT_EQ(chip.status(), 0xFB) << freqs;
-        EXPECT_EQ(chip.read(0x00), 1 + 260'000 * 4 / chip.t_ma) << freqs;
+        ASSERT_TRUE(chip.frame(reg::kInitStart)) << freqs;
+        EXPECT_EQ(chip.status(), reg::kResetStatus0) << freqs;
+        EXPECT_EQ(chip.read(reg::kAddrScdata), 1 + 260'000 * 4 / chip.t_ma) << freqs;
         for (unsigned line = 0; line < lines; ++line) {
           ASSERT_EQ(chip.ma[line].size(), 4U) << freqs;
           ASSERT_EQ(chip.mo[line].size(), 2U) << freqs;

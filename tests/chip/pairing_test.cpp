@@ -11,6 +11,8 @@
 namespace {
 
 using mb4test::ProtocolChip;
+using mb4test::valid;
+namespace reg = mb4::regs;
 namespace sim = mb4::sim;
 
 const char* const kNames[] = {"BissB", "BissC", "Ssi"};
@@ -33,11 +35,11 @@ TEST_P(Pairings, EveryFrame_IsRightOnBothChannels) {
   ProtocolChip chip(channel(1, first, 25, 3) + channel(2, second, 34, -7), {.freqs = 4});
   std::uint64_t bad = 0;
   for (std::uint64_t i = 0; i < frames; ++i) {
-    chip.instruct(0x04);
+    chip.instruct(reg::kInstrCdm0);
     ASSERT_TRUE(chip.wait_eot());
     bad += chip.scdata(1, 25) != ((5 + 3 * i) & 0x1FFFFFF) ? 1 : 0;
     bad += chip.scdata(5, 34) != ((5 - 7 * i) & 0x3FFFFFFFF) ? 1 : 0;
-    bad += chip.status() != 0xFB || chip.svalid() != 0x202 ? 1 : 0;
+    bad += chip.status() != reg::kResetStatus0 || chip.svalid() != valid({1, 5}) ? 1 : 0;
     ASSERT_EQ(bad, 0U) << "frame " << i;
   }
   EXPECT_EQ(chip.simulator.slave(1)->frames(), frames);
@@ -49,15 +51,15 @@ TEST_P(Pairings, Agsmin_RunsWithoutAnError) {
   const auto [first, second] = GetParam();
   const std::uint64_t frames = mb4test::number_from("MB4_PAIR_FRAMES", 300);
   ProtocolChip chip(channel(1, first, 25, 3) + channel(2, second, 34, -7), {.freqs = 4});
-  chip.instruct(0x01);
+  chip.instruct(reg::kAgsOn);
   while (chip.simulator.slave(1)->frames() < frames) {
     chip.advance_us(97);
-    chip.instruct(0x41);  // HOLDBANK
+    chip.instruct(reg::kHoldbankPrevented | reg::kAgsOn);  // HOLDBANK
     const auto n = (chip.scdata(1, 25) - 5) / 3;
     const bool same = chip.scdata(5, 34) == ((5 - 7 * n) & 0x3FFFFFFFF);
-    chip.instruct(0x01);
+    chip.instruct(reg::kAgsOn);
     ASSERT_TRUE(same) << n;
-    ASSERT_EQ(chip.svalid(), 0x202U);
+    ASSERT_EQ(chip.svalid(), valid({1, 5}));
   }
   EXPECT_EQ(chip.simulator.slave(1)->frames(), chip.simulator.slave(5)->frames());
 }

@@ -24,7 +24,7 @@ struct ChipPlan {
   bool en_mo = false;
   unsigned mo_busy = 0;
   bool holdcdm = false;
-  std::uint8_t freqags = kAgsmin;
+  std::uint8_t freqags = reg::kFreqagsAgsMin;
 };
 
 // Table 35, in system clocks.
@@ -47,6 +47,16 @@ struct PinEdge {
   bool level = false;
 };
 
+// What ProtocolChip::svalid() returns if SVALIDx is 1 for these x and 0 for all others.
+inline unsigned valid(std::initializer_list<unsigned> slaves) {
+  unsigned bits = 0;
+  for (const unsigned x : slaves) {
+    const unsigned byte = reg::kFamilySvalid.address(x) - reg::kAddrSvalidLo;
+    bits |= unsigned{reg::kFamilySvalid.mask(x)} << 8U * byte;
+  }
+  return bits;
+}
+
 class ProtocolChip : public Chip {
  public:
   static constexpr sim::Time kClk = 50 * sim::kPsPerNs;  // 20 MHz
@@ -57,13 +67,14 @@ class ProtocolChip : public Chip {
     for (const sim::ChannelConfig& channel : simulator.scenario().channels) {
       unsigned x = channel.number == 1 ? 0 : 4;
       for (const sim::SlaveConfig& slave : channel.slaves) {
-        bool bit7 = false;
         const sim::DeviceTraits traits = slave.traits();
-        bit7 = traits.stop_bit || traits.gray;
+        std::uint8_t bit7 = 0;
+        if (traits.stop_bit) bit7 = reg::kLstopWith;
+        if (traits.gray) bit7 = reg::kGraysGray;
         actnsens |= static_cast<unsigned>(traits.actuator) << x;
         const sim::Crc& crc = slave.crc();
-        write(static_cast<std::uint8_t>(0xC0 + 4 * x++),
-              {static_cast<std::uint8_t>((bit7 ? 0xC0 : 0x40) | (slave.data_bits() - 1)),
+        write(reg::slave_cfg_address(++x),
+              {static_cast<std::uint8_t>(bit7 | reg::kEnscdYes | (slave.data_bits() - 1)),
                crc_register(crc.polynomial), static_cast<std::uint8_t>(crc.start & 0xFF),
                static_cast<std::uint8_t>(crc.start >> 8U)});
       }
@@ -73,19 +84,24 @@ class ProtocolChip : public Chip {
       const unsigned shift = channel.number == 1 ? 0 : 2;
       cfgch = (cfgch & ~(3U << shift)) | code << shift;
     }
-    e5_ = (plan.biss_c_registers ? 0x40U : 0U) | (plan.en_mo ? 2U : 0U) | (plan.holdcdm ? 1U : 0U);
-    write(0xE5,
-          {static_cast<std::uint8_t>(e5_), static_cast<std::uint8_t>(plan.freqr << 5U | plan.freqs),
-           0x02, plan.freqags, static_cast<std::uint8_t>(plan.mo_busy)});
-    write(0xEC, {static_cast<std::uint8_t>(simulator.line(2) != nullptr ? 0x11 : 0x01),
-                 static_cast<std::uint8_t>(cfgch), 0x00, static_cast<std::uint8_t>(actnsens)});
+    ctrl_ = (plan.biss_c_registers ? reg::kRegversBissC : 0U) | (plan.en_mo ? reg::kEnMoData : 0U) |
+            (plan.holdcdm ? reg::kHoldcdmHold : 0U);
+    write(reg::kAddrCtrl,
+          {static_cast<std::uint8_t>(ctrl_),
+           static_cast<std::uint8_t>(reg::FREQR::of(plan.freqr) | reg::FREQS::of(plan.freqs)),
+           reg::kNocrcDropped, plan.freqags, static_cast<std::uint8_t>(plan.mo_busy)});
+    write(reg::kAddrSlaveloc5,
+          {static_cast<std::uint8_t>(simulator.line(2) != nullptr
+                                         ? reg::kResetSlaveloc5 | reg::kSlaveloc5Split
+                                         : reg::kResetSlaveloc5),
+           static_cast<std::uint8_t>(cfgch), 0x00, static_cast<std::uint8_t>(actnsens)});
     t_ma = ma_clocks(plan.freqs) * kClk;
     t_mar = t_ma << (plan.freqr + 1);
     advance_us(5);  // the memories are cleared
   }
 
   // INSTR; waits for EOT and for all slaves, recording MA and MO. False if it does not end.
-  bool frame(std::uint8_t instr = 0x04) {
+  bool frame(std::uint8_t instr = reg::kInstrCdm0) {
     const bool ended = run(instr);
     simulator.run_while_waiting([&] { return idle(); }, simulator.now() + sim::kPsPerSecond);
     return ended;
@@ -117,7 +133,7 @@ class ProtocolChip : public Chip {
 
   // SCDATAx, x = 1 to 8.
   std::uint64_t scdata(unsigned x) {
-    const auto bytes = read(static_cast<std::uint8_t>(8 * (x - 1)), 8);
+    const auto bytes = read(reg::scdata_address(x), 8);
     std::uint64_t word = 0;
     for (unsigned i = 0; i < 8; ++i) word |= std::uint64_t{bytes[i]} << (8 * i);
     return word;
@@ -128,25 +144,26 @@ class ProtocolChip : public Chip {
     return bits == 64 ? word : word & ((std::uint64_t{1} << bits) - 1);
   }
   void write_scdata(unsigned x, std::uint64_t word) {
-    std::vector<std::uint8_t> tx{0x02, static_cast<std::uint8_t>(8 * (x - 1))};
+    std::vector<std::uint8_t> tx{reg::kSpiOpcodeWriteRegisters, reg::scdata_address(x)};
     for (unsigned i = 0; i < 8; ++i) tx.push_back(static_cast<std::uint8_t>(word >> (8 * i)));
     spi(tx);
     advance_us(1);
   }
-  // Both bytes: bit 2x - 1 is SVALIDx.
+  // Both bytes of SVALID; valid() makes the value to compare with.
   unsigned svalid() {
-    const auto status = spi({0x05, 0, 0, 0});
+    const auto status = spi({reg::kSpiOpcodeReadStatus, 0, 0, 0});
     return status[2] | status[3] << 8U;
   }
 
   // BiSS B registers (REGVERS = 0): REGADR, WNR, REGNUM, SLAVEID.
   void set_access(unsigned id, unsigned address, unsigned count, bool write_access) {
-    write(0xE2, {static_cast<std::uint8_t>((write_access ? 0x80 : 0) | address),
-                 static_cast<std::uint8_t>(count - 1)});
-    write(0xE5, {static_cast<std::uint8_t>(e5_ | id << 3U)});
+    write(reg::kAddrRegadr,
+          {static_cast<std::uint8_t>((write_access ? reg::kWnrWrite : 0) | address),
+           static_cast<std::uint8_t>(count - 1)});
+    write(reg::kAddrCtrl, {static_cast<std::uint8_t>(ctrl_ | reg::SLAVEID::of(id))});
   }
   void write_rdata(const std::vector<std::uint8_t>& bytes) {
-    std::vector<std::uint8_t> tx{0x02, 0x80};
+    std::vector<std::uint8_t> tx{reg::kSpiOpcodeWriteRegisters, reg::kAddrRdata};
     tx.insert(tx.end(), bytes.begin(), bytes.end());
     spi(tx);
     advance_us(1);
@@ -175,7 +192,7 @@ class ProtocolChip : public Chip {
     edges.push_back({simulator.now(), level});
   }
 
-  unsigned e5_ = 0;
+  unsigned ctrl_ = 0;
   bool seen_ma_[2] = {true, true};
   bool seen_mo_[2] = {false, false};
 };

@@ -11,10 +11,10 @@
 namespace {
 
 using mb4test::ProtocolChip;
+using mb4test::valid;
+namespace reg = mb4::regs;
 namespace sim = mb4::sim;
 
-constexpr std::uint8_t kRegister = 0x08;  // INSTR = 100
-constexpr std::uint8_t kInit = 0x10;
 
 std::string channel(unsigned number, const std::string& protocol, const std::string& keys = "",
                     const std::string& channel_keys = "") {
@@ -35,18 +35,18 @@ TEST(ProtocolLines, BissBRegisters_OnTheSelectedLineAlone) {
                           channel(2, "biss-b", "registers = { 0x10 = 0x52 }", mo),
                       {.freqs = 0, .freqr = 1, .biss_c_registers = false, .en_mo = by_mo});
     for (const unsigned line : {2U, 1U, 2U}) {
-      chip.write(0xE4, {static_cast<std::uint8_t>(line)});
+      chip.write(reg::kAddrChsel, {static_cast<std::uint8_t>(line)});
       chip.set_access(by_mo ? 1 : 0, 0x10, 1, false);
-      ASSERT_TRUE(chip.frame(kRegister));
-      EXPECT_EQ(chip.status(), 0xFF) << line;
-      EXPECT_EQ(chip.read(0x80), 0x50 + line) << line;
+      ASSERT_TRUE(chip.frame(reg::kInstrControl));
+      EXPECT_EQ(chip.status(), reg::kResetStatus0 | reg::kRegendDone) << line;
+      EXPECT_EQ(chip.read(reg::kAddrRdata), 0x50 + line) << line;
       EXPECT_TRUE(chip.ma[2 - line].empty()) << line;
       EXPECT_TRUE(chip.mo[2 - line].empty()) << line;
       EXPECT_EQ(chip.mo[line - 1].size(), by_mo ? 2U : 0U) << line;
       chip.write_rdata({static_cast<std::uint8_t>(0xA0 + line)});
       chip.set_access(by_mo ? 1 : 0, 0x20, 1, true);
-      ASSERT_TRUE(chip.frame(kRegister));
-      EXPECT_EQ(chip.status(), 0xFF) << line;
+      ASSERT_TRUE(chip.frame(reg::kInstrControl));
+      EXPECT_EQ(chip.status(), reg::kResetStatus0 | reg::kRegendDone) << line;
       EXPECT_EQ(chip.simulator.slave(line == 1 ? 1 : 5)->reg_read(0x20), 0xA0 + line);
       ASSERT_TRUE(chip.frame());
       EXPECT_EQ(chip.scdata(1, 16), 0x1111U);
@@ -62,18 +62,18 @@ TEST(ProtocolLines, BissBRegistersOnBothLines_WaitForBothHandOvers) {
   ProtocolChip chip(channel(1, "biss-b", "timeout = 3\nregisters = { 0x10 = 0x51 }") +
                         channel(2, "biss-b", "timeout = 40\nregisters = { 0x10 = 0x52 }"),
                     {.freqs = 0, .freqr = 1, .biss_c_registers = false});
-  chip.write(0xE4, {0x03});
+  chip.write(reg::kAddrChsel, {reg::kChsel2Used | reg::kChsel1Used});
   chip.set_access(0, 0x10, 1, false);
-  ASSERT_TRUE(chip.frame(kRegister));
-  EXPECT_EQ(chip.status(), 0xFF);
-  EXPECT_EQ(chip.read(0x80), 0x51);
+  ASSERT_TRUE(chip.frame(reg::kInstrControl));
+  EXPECT_EQ(chip.status(), reg::kResetStatus0 | reg::kRegendDone);
+  EXPECT_EQ(chip.read(reg::kAddrRdata), 0x51);
   for (const unsigned line : {0U, 1U}) {
     ASSERT_GE(chip.ma[line].size(), 2U);
     EXPECT_GE(chip.ma[line][1].time - chip.ma[line][0].time, 40 * sim::kPsPerUs);
   }
   chip.write_rdata({0x77});
   chip.set_access(0, 0x20, 1, true);
-  ASSERT_TRUE(chip.frame(kRegister));
+  ASSERT_TRUE(chip.frame(reg::kInstrControl));
   EXPECT_EQ(chip.simulator.slave(1)->reg_read(0x20), 0x77);
   EXPECT_EQ(chip.simulator.slave(5)->reg_read(0x20), 0x77);
 }
@@ -86,10 +86,10 @@ TEST(ProtocolLines, ReducedFrames_ClockOutNoWordOnTheOtherLine) {
     EXPECT_EQ(chip.scdata(5, 16), 0x2221U);
     chip.advance_us(100);
     chip.simulator.slave(5)->set_data(0x1234);
-    ASSERT_TRUE(chip.frame(0x0E));  // INSTR = 111
+    ASSERT_TRUE(chip.frame(reg::kInstrControlReduced));  // INSTR = 111
     EXPECT_LT(chip.ma[1].size(), 16U) << other;
     EXPECT_EQ(chip.scdata(5, 16), 0x2221U) << other;
-    EXPECT_EQ(chip.svalid(), 0x202U) << other;
+    EXPECT_EQ(chip.svalid(), valid({1, 5})) << other;
   }
 }
 
@@ -107,18 +107,23 @@ TEST(ProtocolLines, BissBAccess_LeavesTheOtherProtocolAlone) {
         const bool fits = ((chsel == 0 ? 1U : chsel) & line) != 0;
         const std::string what = std::string(other) + ", BiSS B on " + std::to_string(line) +
                                  ", CHSEL " + std::to_string(chsel);
-        chip.write(0xE4, {static_cast<std::uint8_t>(chsel)});
+        chip.write(reg::kAddrChsel, {static_cast<std::uint8_t>(chsel)});
         const auto stale = static_cast<std::uint8_t>(0xE0 + chsel);
         chip.write_rdata({stale});
-        ASSERT_TRUE(fits ? chip.frame(kRegister) : chip.run(kRegister, 5)) << what;
-        EXPECT_EQ(chip.read(0xF4), 0x00) << what;
+        ASSERT_TRUE(fits ? chip.frame(reg::kInstrControl) : chip.run(reg::kInstrControl, 5))
+            << what;
+        EXPECT_EQ(chip.read(reg::kAddrInstr), 0) << what;
         EXPECT_EQ(chip.ma[line - 1].empty(), !fits) << what;
         EXPECT_TRUE(chip.ma[2 - line].empty()) << what;
-        EXPECT_EQ(chip.status(), fits ? 0xFF : 0x77) << what;
-        EXPECT_EQ(chip.read(0x80), fits ? 0x51 : stale) << what;
+        EXPECT_EQ(chip.status(),
+                  fits ? reg::kResetStatus0 | reg::kRegendDone
+                       : (reg::kResetStatus0 & ~(reg::nERR::kMask | reg::nREGERR::kMask)) |
+                             reg::kRegendDone)
+            << what;
+        EXPECT_EQ(chip.read(reg::kAddrRdata), fits ? 0x51 : stale) << what;
       }
       ASSERT_TRUE(chip.frame());
-      EXPECT_EQ(chip.svalid(), 0x202U);
+      EXPECT_EQ(chip.svalid(), valid({1, 5}));
     }
   }
 }
@@ -127,8 +132,8 @@ TEST(ProtocolLines, BissBAccess_LeavesTheOtherProtocolAlone) {
 TEST(ProtocolLines, BissBInit_WaitsForBothLinesAndGivesUp) {
   ProtocolChip chip(channel(1, "biss-b", "timeout = 3") + channel(2, "biss-b", "timeout = 40"),
                     {.freqs = 0, .freqr = 1, .biss_c_registers = false});
-  ASSERT_TRUE(chip.frame(kInit));
-  EXPECT_EQ(chip.status(), 0xFB);
+  ASSERT_TRUE(chip.frame(reg::kInitStart));
+  EXPECT_EQ(chip.status(), reg::kResetStatus0);
   for (const unsigned line : {0U, 1U}) {
     ASSERT_EQ(chip.ma[line].size(), 2U);
     EXPECT_GE(chip.ma[line][1].time - chip.ma[line][0].time, 40 * sim::kPsPerUs);
@@ -136,9 +141,10 @@ TEST(ProtocolLines, BissBInit_WaitsForBothLinesAndGivesUp) {
   }
   for (const unsigned stuck : {1U, 2U}) {
     chip.simulator.line(stuck)->faults().stick(true);
-    ASSERT_TRUE(chip.run(kInit, 10'000)) << stuck;
-    EXPECT_EQ(chip.status(), 0x3B) << stuck;  // nAGSERR and nERR
-    EXPECT_EQ(chip.read(0xF4), 0x00) << stuck;
+    ASSERT_TRUE(chip.run(reg::kInitStart, 10'000)) << stuck;
+    EXPECT_EQ(chip.status(), reg::kResetStatus0 & ~(reg::nERR::kMask | reg::nAGSERR::kMask))
+        << stuck;  // nAGSERR and nERR
+    EXPECT_EQ(chip.read(reg::kAddrInstr), 0) << stuck;
     ASSERT_EQ(chip.ma[0].size(), 2U);
     const sim::Time low = chip.ma[0][1].time - chip.ma[0][0].time;
     EXPECT_GE(low, 4096 * chip.t_mar) << stuck;
@@ -148,51 +154,51 @@ TEST(ProtocolLines, BissBInit_WaitsForBothLinesAndGivesUp) {
     chip.advance_us(2000);
   }
   ASSERT_TRUE(chip.frame());
-  EXPECT_EQ(chip.svalid(), 0x202U);
+  EXPECT_EQ(chip.svalid(), valid({1, 5}));
 }
 
 // SSI has no initialisation: the line keeps still; alone, INIT resets the flags only.
 TEST(ProtocolLines, InitOfSsi_MovesNoLine) {
   ProtocolChip mixed(channel(1, "ssi") + channel(2, "biss-c"), {.freqs = 4});
-  ASSERT_TRUE(mixed.frame(kInit));
+  ASSERT_TRUE(mixed.frame(reg::kInitStart));
   EXPECT_TRUE(mixed.ma[0].empty());
   EXPECT_EQ(mixed.ma[1].size(), 4U);
-  EXPECT_EQ(mixed.status(), 0xFB);
+  EXPECT_EQ(mixed.status(), reg::kResetStatus0);
   ProtocolChip alone(channel(1, "ssi"), {.freqs = 4, .freqags = 0x00});
   alone.simulator.line(1)->faults().stick(false);
   alone.simulator.refresh_lines();
-  alone.instruct(0x04);
+  alone.instruct(reg::kInstrCdm0);
   alone.advance_us(10);
-  EXPECT_EQ(alone.status(), 0x3B);
-  ASSERT_TRUE(alone.run(kInit, 1000));
+  EXPECT_EQ(alone.status(), reg::kResetStatus0 & ~(reg::nERR::kMask | reg::nAGSERR::kMask));
+  ASSERT_TRUE(alone.run(reg::kInitStart, 1000));
   EXPECT_TRUE(alone.ma[0].empty());
-  EXPECT_EQ(alone.status(), 0xFB);
-  EXPECT_EQ(alone.read(0xF4), 0x00);
+  EXPECT_EQ(alone.status(), reg::kResetStatus0);
+  EXPECT_EQ(alone.read(reg::kAddrInstr), 0);
 }
 
 // MO and ACTnSENS mean nothing to an SSI line.
 TEST(ProtocolLines, SsiBesideMo_ReadsItsWordAndLeavesMoAlone) {
   ProtocolChip chip(channel(1, "ssi") + channel(2, "biss-c", "", "mo = true\n"),
                     {.freqs = 4, .en_mo = true, .mo_busy = 2});
-  chip.write(0xEF, {0x01});
+  chip.write(reg::kAddrActnsens, {reg::ACTnSENS<1>::kMask});
   ASSERT_TRUE(chip.frame());
   EXPECT_TRUE(chip.mo[0].empty());
   EXPECT_TRUE(chip.simulator.pin(sim::Pin::kMo1));
   EXPECT_EQ(chip.mo[1].size(), 4U);
   EXPECT_EQ(chip.scdata(1, 16), 0x1111U);
-  EXPECT_EQ(chip.svalid(), 0x202U);
+  EXPECT_EQ(chip.svalid(), valid({1, 5}));
 }
 
 // Page 15: control data belong to BiSS C. Bit 7 of 0xC0 has no meaning for a BiSS sensor.
 TEST(ProtocolLines, CdmAndGrays_MeanNothingToBissB) {
   ProtocolChip chip(channel(1, "biss-b"), {.freqs = 4, .freqr = 0, .biss_c_registers = false});
-  chip.write(0xC0, {0xC0 | 15});
+  chip.write(reg::slave_cfg_address(1), {reg::kGraysGray | reg::kEnscdYes | 15});
   for (const unsigned instr : {2U, 4U, 6U}) {
     ASSERT_TRUE(chip.frame(static_cast<std::uint8_t>(instr)));
     ASSERT_EQ(chip.ma[0].size(), 2U * (16 + 6 + 4)) << instr;
     EXPECT_TRUE(chip.ma[0].back().level);
     EXPECT_EQ(chip.scdata(1, 16), 0x1111U);
-    EXPECT_EQ(chip.read(0xF8) & 0x02U, 0U);
+    EXPECT_EQ(chip.read(reg::kAddrStatus8) & reg::CDS1::kMask, 0U);
   }
 }
 
@@ -207,19 +213,20 @@ TEST(ProtocolLines, SsiLastBitOneAndLate_NextFrameWaitsForTheMonoflop) {
         "response_ns = " +
             std::to_string(most) + "\n",
         {.freqs = freqs});
-    chip.instruct(0x01);
+    chip.instruct(reg::kAgsOn);
     for (unsigned i = 0; i < 20; ++i) {
       chip.advance_us(23);
-      chip.instruct(0x41);  // HOLDBANK
+      chip.instruct(reg::kHoldbankPrevented | reg::kAgsOn);  // HOLDBANK
       const auto word = chip.scdata(1, 13);
-      chip.instruct(0x01);
+      chip.instruct(reg::kAgsOn);
       const auto frames = chip.simulator.slave(1)->frames();
       EXPECT_EQ(word % 2, 1U) << freqs;
       EXPECT_LE(word, 2 * frames + 1) << freqs;
       EXPECT_GE(word + 6, 2 * frames) << freqs;
     }
     EXPECT_GT(chip.simulator.slave(1)->frames(), 30U) << freqs;
-    EXPECT_EQ(chip.status() & 0x10U, 0x10U) << freqs;  // HOLDBANK under AGSMIN: nAGSERR = 0
+    EXPECT_EQ(chip.status() & reg::nSCDERR::kMask, reg::kNscderrGood)
+        << freqs;  // HOLDBANK under AGSMIN: nAGSERR = 0
   }
 }
 

@@ -10,14 +10,10 @@
 namespace mb4test {
 namespace {
 
+namespace reg = mb4::regs;
 namespace sim = mb4::sim;
 
 constexpr std::uint64_t kLimitNs = 200'000'000;
-constexpr unsigned kAgs = 0x01;
-constexpr unsigned kHoldBank = 0x40;
-constexpr unsigned kBreak = 0x80;
-constexpr unsigned kAgsMinCode = 0x7C;
-constexpr unsigned kAgsInfiniteCode = 0x7D;
 
 }  // namespace
 
@@ -28,7 +24,7 @@ void RandomRun::expect(bool good, const std::string& what) {
 }
 
 void RandomRun::set_freqags(unsigned code) {
-  session_.write(0xE8, {static_cast<std::uint8_t>(code)});
+  session_.write(reg::kAddrFreqags, {static_cast<std::uint8_t>(code)});
 }
 
 void RandomRun::wait_idle() {
@@ -111,20 +107,24 @@ void RandomRun::check_actuators() {
 
 void RandomRun::check() {
   check_actuators();
-  const auto status = session_.spi({0x05, 0, 0, 0, 0});
+  const auto status = session_.spi({reg::kSpiOpcodeReadStatus, 0, 0, 0, 0});
   const bool error = reference_.scd_error() || reference_.ags_error();
-  const unsigned expected = (error ? 0x00U : 0x80U) | (reference_.ags_error() ? 0x00U : 0x40U) |
-                            (reference_.scd_error() ? 0x00U : 0x10U) | 0x01U;
+  const unsigned expected = (error ? 0U : reg::kNerrGood) |
+                            (reference_.ags_error() ? 0U : reg::kNagserrGood) |
+                            (reference_.scd_error() ? 0U : reg::kNscderrGood) | reg::kEotIdle;
+  constexpr unsigned kCompared =
+      reg::nERR::kMask | reg::nAGSERR::kMask | reg::nSCDERR::kMask | reg::EOT::kMask;
   const std::string frame = " after frame " + std::to_string(applied_);
-  expect((status[1] & 0xD1U) == expected, "status 0x" + to_bits(status[1], 8) + ", expected " +
-                                              to_bits(expected, 8) +
-                                              " in nERR, nAGSERR, nSCDERR, EOT" + frame);
+  expect((status[1] & kCompared) == expected, "status 0x" + to_bits(status[1], 8) + ", expected " +
+                                                  to_bits(expected, 8) +
+                                                  " in nERR, nAGSERR, nSCDERR, EOT" + frame);
   expect(status[2] == reference_.svalid_lo() && status[3] == reference_.svalid_hi(),
          "SVALID " + to_bits(status[3] * 256U + status[2], 16) + ", expected " +
              to_bits(reference_.svalid_hi() * 256U + reference_.svalid_lo(), 16) + frame);
-  expect(session_.read(0xFB, 1)[0] == (reference_.swbank_fail() ? 1 : 0), "SWBANKFAIL" + frame);
+  expect(session_.read(reg::kAddrSwbankfail, 1)[0] == (reference_.swbank_fail() ? 1 : 0),
+         "SWBANKFAIL" + frame);
   std::vector<std::uint8_t> tx(65, 0);
-  tx[0] = 0x09;
+  tx[0] = reg::kSpiOpcodeReadRegisters0;
   const auto memory = session_.spi(tx);
   for (unsigned address = 0; address < 64; ++address) {
     expect(memory[address + 1] == reference_.scdata(address),
@@ -135,7 +135,7 @@ void RandomRun::check() {
 }
 
 void RandomRun::fill_bank() {
-  std::vector<std::uint8_t> tx{0x0B};
+  std::vector<std::uint8_t> tx{reg::kSpiOpcodeWriteRegisters0};
   for (unsigned address = 0; address < 64; ++address) {
     const auto value = static_cast<std::uint8_t>(random_.below(256));
     tx.push_back(value);
@@ -147,16 +147,21 @@ void RandomRun::fill_bank() {
 
 void RandomRun::configure() {
   session_.wait_ns(10'000);  // the memories are cleared
-  session_.write(0xC0, {case_.registers.slave.begin(), case_.registers.slave.end()});
-  session_.write(
-      0xE4, {case_.chsel,
-             static_cast<std::uint8_t>(0x40 | (case_.en_mo ? 2 : 0) | (case_.hold_cdm ? 1 : 0)),
-             static_cast<std::uint8_t>(0xA0 | case_.freqs),
-             static_cast<std::uint8_t>((case_.registers.nocrc ? 2 : 0) |
-                                       (case_.registers.singlebank ? 1 : 0)),
-             kAgsMinCode, case_.mo_busy});
-  session_.write(0xEC, {static_cast<std::uint8_t>(case_.registers.slaveloc5 ? 0x11 : 0x01),
-                        case_.cfgch, 0x00, case_.registers.actnsens});
+  session_.write(reg::slave_cfg_address(1),
+                 {case_.registers.slave.begin(), case_.registers.slave.end()});
+  session_.write(reg::kAddrChsel,
+                 {case_.chsel,
+                  static_cast<std::uint8_t>(reg::kRegversBissC | (case_.en_mo ? 2 : 0) |
+                                            (case_.hold_cdm ? 1 : 0)),
+                  static_cast<std::uint8_t>(reg::FREQR::of(5) | case_.freqs),
+                  static_cast<std::uint8_t>((case_.registers.nocrc ? 2 : 0) |
+                                            (case_.registers.singlebank ? 1 : 0)),
+                  reg::kFreqagsAgsMin, case_.mo_busy});
+  session_.write(reg::kAddrSlaveloc5,
+                 {static_cast<std::uint8_t>(case_.registers.slaveloc5
+                                                ? reg::kResetSlaveloc5 | reg::kSlaveloc5Split
+                                                : reg::kResetSlaveloc5),
+                  case_.cfgch, 0x00, case_.registers.actnsens});
   // What no frame touches must stay: fill both banks.
   fill_bank();
   toggle_swbank();
@@ -165,7 +170,7 @@ void RandomRun::configure() {
 
 // One frame by INSTR, with HOLDBANK or without.
 void RandomRun::instr_frame(unsigned hold) {
-  set_freqags(kAgsMinCode);
+  set_freqags(reg::kFreqagsAgsMin);
   const unsigned instr =
       1 + random_.below(case_.late_cds ? 2 : 3);  // CDM = 1, CDM = 0, CDM = NOT CDSSEL = 1
   const auto before = frames_seen();
@@ -186,21 +191,21 @@ void RandomRun::instr_frame(unsigned hold) {
     expect(session_.simulator().slave(line == 0 ? 1 : 5)->last_cdm() == cdm, "CDM of the frame");
   }
   const unsigned held = swbank_ | hold;
-  expect(session_.read(0xF4, 1)[0] == held, "0xF4 after the frame");
+  expect(session_.read(reg::kAddrInstr, 1)[0] == held, "0xF4 after the frame");
 }
 
 unsigned RandomRun::rate_code() const {
   const std::uint64_t needed_ns = frame_ns_ + frame_ns_ / 4 + 2000;
   for (unsigned code = 0; code < 0x100; ++code) {
-    if (code >= kAgsMinCode && code < 0x80) continue;
+    if (code >= reg::kFreqagsAgsMin && code < 0x80) continue;
     if (period_ns(code) >= needed_ns) return code;
   }
-  return kAgsMinCode;
+  return reg::kFreqagsAgsMin;
 }
 
 // Table 37; a frame's own time for AGSMIN.
 std::uint64_t RandomRun::period_ns(unsigned code) const {
-  if (code == kAgsMinCode) return frame_ns_;
+  if (code == reg::kFreqagsAgsMin) return frame_ns_;
   const std::uint64_t clocks = code < 0x80 ? 20ULL * (code + 1) : 625ULL * (code - 127);
   return clocks * 1'000'000'000 / case_.f_clk_hz;
 }
@@ -216,25 +221,25 @@ void RandomRun::pulse_getsens() {
 void RandomRun::automatic(RandomCounts::Action action) {
   const unsigned instr = random_.below(case_.late_cds ? 3 : 4);
   const unsigned code = action == RandomCounts::kRate     ? rate_code()
-                        : action == RandomCounts::kAgsMin ? kAgsMinCode
-                                                          : kAgsInfiniteCode;
+                        : action == RandomCounts::kAgsMin ? reg::kFreqagsAgsMin
+                                                          : reg::kFreqagsAgsInfinite;
   set_freqags(code);
   const auto before = frames_seen();
   const unsigned count = 2 + random_.below(3);
   if (action == RandomCounts::kGetsens) {
-    session_.instruct(swbank_ | kAgs);  // with INSTR it would be one frame more
+    session_.instruct(swbank_ | reg::AGS::kMask);  // with INSTR it would be one frame more
     session_.wait_ns(1000);             // AGS must have come to the core before the first pulse
     for (unsigned i = 0; i < count; ++i) pulse_getsens();
     session_.instruct(swbank_);
     wait_idle();
     expect(frames_seen() == before + count, "GETSENS pulses and frames are not the same number");
   } else {
-    session_.instruct(swbank_ | kAgs | instr << 1U);
+    session_.instruct(swbank_ | reg::AGS::kMask | instr << 1U);
     session_.wait_ns(count * period_ns(code) + period_ns(code) / 2);
     session_.instruct(swbank_);
     wait_idle();
     const auto frames = frames_seen() - before;
-    expect(frames >= count && (code == kAgsMinCode || frames <= count + 1),
+    expect(frames >= count && (code == reg::kFreqagsAgsMin || frames <= count + 1),
            std::to_string(frames) + " frames in " + std::to_string(count) + " periods");
   }
   take_frames(frames_seen());
@@ -243,16 +248,16 @@ void RandomRun::automatic(RandomCounts::Action action) {
 // HOLDBANK and a frame, perhaps another one that must not run or writes over the first, then the
 // switch that was held back.
 void RandomRun::held_frame() {
-  instr_frame(kHoldBank);
+  instr_frame(reg::HOLDBANK::kMask);
   check();
   if (!case_.omits) {
     for (unsigned more = random_.below(3); more > 0; --more) {
-      instr_frame(kHoldBank);
+      instr_frame(reg::HOLDBANK::kMask);
       check();
     }
   } else if (random_.one_in(2) && !case_.registers.singlebank) {
     const auto before = frames_seen();
-    session_.instruct(swbank_ | kHoldBank | 0x04);
+    session_.instruct(swbank_ | reg::HOLDBANK::kMask | reg::kInstrCdm0);
     wait_idle();
     expect(frames_seen() == before, "a frame runs although the switch is held back");
     reference_.omitted_frame();
@@ -266,11 +271,11 @@ void RandomRun::held_frame() {
 // HOLDBANK while frames come by themselves, with AGSERR_ON_HOLDBANK: one more frame whose switch
 // waits, the next is left out.
 void RandomRun::held_automatic() {
-  const unsigned code = random_.one_in(2) ? kAgsMinCode : rate_code();
+  const unsigned code = random_.one_in(2) ? reg::kFreqagsAgsMin : rate_code();
   set_freqags(code);
-  session_.instruct(swbank_ | kAgs);
+  session_.instruct(swbank_ | reg::AGS::kMask);
   session_.wait_ns(period_ns(code) * (8 + random_.below(16)) / 8);
-  session_.instruct(swbank_ | kAgs | kHoldBank);
+  session_.instruct(swbank_ | reg::AGS::kMask | reg::HOLDBANK::kMask);
   session_.wait_ns(4 * std::max(period_ns(code), frame_ns_) + 2000);
   if (!case_.registers.singlebank) {
     const auto seen = frames_seen();
@@ -307,14 +312,15 @@ void RandomRun::write_scdata() {
 
 void RandomRun::write_svalid() {
   const auto value = static_cast<std::uint16_t>(random_.word());
-  session_.write(0xF1, {static_cast<std::uint8_t>(value), static_cast<std::uint8_t>(value >> 8U)});
+  session_.write(reg::kAddrSvalidLo,
+                 {static_cast<std::uint8_t>(value), static_cast<std::uint8_t>(value >> 8U)});
   session_.wait_ns(1000);
   reference_.write_svalid(value);
 }
 
 void RandomRun::break_if_error() {
   if (!reference_.ags_error()) return;
-  session_.instruct(swbank_ | kBreak);
+  session_.instruct(swbank_ | reg::BREAK::kMask);
   session_.wait_ns(1000);
   reference_.clear_errors();
   check();

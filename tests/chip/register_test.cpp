@@ -10,6 +10,7 @@ namespace {
 
 using mb4test::Chip;
 using mb4test::one_slave;
+namespace reg = mb4::regs;
 namespace sim = mb4::sim;
 
 // Table 6 by hand: bits of each address that can be written and read back, and the fixed ones.
@@ -64,7 +65,7 @@ Bits table6(unsigned address) {
 // Page 22: all RAM registers are 0 after reset; the others as printed.
 TEST(ChipRegisters, AfterReset_EveryAddressReadsItsResetValue) {
   Chip chip("");
-  const auto values = chip.read(0x00, 256);
+  const auto values = chip.read(reg::kAddrScdata, 256);
   for (unsigned address = 0; address < 256; ++address) {
     EXPECT_EQ(values[address], table6(address).fixed) << std::hex << address;
   }
@@ -74,7 +75,8 @@ TEST(ChipRegisters, WrittenBits_ReadBackAndReservedOnesReadZero) {
   Chip chip("");
   chip.advance_us(4);  // the memories are cleared
   for (unsigned address = 0; address < 256; ++address) {
-    if (address == 0xF4 || address == 0xF5) continue;  // instructions and clock: tests of their own
+    if (address == reg::kAddrInstr || address == reg::kAddrIface)
+      continue;  // instructions and clock: tests of their own
     for (const int pattern : {0xFF, 0x5A, 0xA5, 0x00}) {
       const auto value = static_cast<std::uint8_t>(pattern);
       chip.write(static_cast<std::uint8_t>(address), {value});
@@ -87,10 +89,10 @@ TEST(ChipRegisters, WrittenBits_ReadBackAndReservedOnesReadZero) {
 
 TEST(ChipRegisters, EveryAddressHoldsItsOwnByte) {
   Chip chip("");
-  for (unsigned address = 0; address < 0xF0; ++address) {
+  for (unsigned address = 0; address < reg::kAddrStatus0; ++address) {
     chip.write(static_cast<std::uint8_t>(address), {static_cast<std::uint8_t>(address * 37 + 11)});
   }
-  for (unsigned address = 0; address < 0xF0; ++address) {
+  for (unsigned address = 0; address < reg::kAddrStatus0; ++address) {
     const Bits bits = table6(address);
     EXPECT_EQ(chip.read(static_cast<std::uint8_t>(address)),
               (static_cast<std::uint8_t>(address * 37 + 11) & bits.writable) | bits.fixed)
@@ -103,9 +105,9 @@ TEST(ChipRegisters, InterfaceByte_ReadsBack) {
   Chip chip("");
   for (const int pattern : {0xFC, 0x0D, 0x51, 0x00}) {
     const auto value = static_cast<std::uint8_t>(pattern);
-    chip.write(0xF5, {value});
+    chip.write(reg::kAddrIface, {value});
     chip.advance_us(1);
-    EXPECT_EQ(chip.read(0xF5), value);
+    EXPECT_EQ(chip.read(reg::kAddrIface), value);
   }
 }
 
@@ -113,37 +115,37 @@ TEST(ChipRegisters, InterfaceByte_ReadsBack) {
 TEST(ChipRegisters, Entest_ReadsBackAndChangesNothing) {
   for (const unsigned entest : {0x00U, 0x02U}) {
     Chip chip(one_slave("data_bits = 28\ncrc = 0x43\ndata = 0x1234567"));
-    chip.configure_slave1(28, 0x06, 0x00, 0x00);
-    chip.write(0xF5, {static_cast<std::uint8_t>(entest)});
-    EXPECT_EQ(chip.read(0xF5), entest);
-    for (const unsigned instruction : {0x10U, 0x04U, 0x02U}) {
+    chip.configure_slave1(28, reg::kScrclenCrc6, 0x00, 0x00);
+    chip.write(reg::kAddrIface, {static_cast<std::uint8_t>(entest)});
+    EXPECT_EQ(chip.read(reg::kAddrIface), entest);
+    for (const unsigned instruction : {reg::kInitStart, reg::kInstrCdm0, reg::kInstrCdm1}) {
       chip.instruct(static_cast<std::uint8_t>(instruction));
       ASSERT_TRUE(chip.wait_eot());
-      EXPECT_EQ(chip.status(), 0xFB);
+      EXPECT_EQ(chip.status(), reg::kResetStatus0);
       chip.advance_us(50);
     }
-    EXPECT_EQ(chip.read(0x00, 4), (std::vector<std::uint8_t>{0x67, 0x45, 0x23, 0x01}));
-    EXPECT_EQ(chip.read(0xF1), 0x02);
+    EXPECT_EQ(chip.read(reg::kAddrScdata, 4), (std::vector<std::uint8_t>{0x67, 0x45, 0x23, 0x01}));
+    EXPECT_EQ(chip.read(reg::kAddrSvalidLo), reg::SVALID<1>::kMask);
     EXPECT_EQ(chip.simulator.line(1)->monitor().last(chip.simulator.now()).rising, 28U + 6 + 5);
     EXPECT_TRUE(chip.simulator.slave(1)->last_cdm());
-    EXPECT_EQ(chip.read(0xF5), entest);
+    EXPECT_EQ(chip.read(reg::kAddrIface), entest);
   }
 }
 
 // Decision 32, design: the host domain needs no system clock.
 TEST(ChipNoClock, ClkNotConnected_ConfigurationIsWrittenAndRead) {
   Chip chip("[chip]\nf_clk_hz = 0\n");
-  for (unsigned address = 0xC0; address < 0xF0; ++address) {
+  for (unsigned address = reg::kAddrSlaveCfg; address < reg::kAddrStatus0; ++address) {
     chip.write(static_cast<std::uint8_t>(address), {static_cast<std::uint8_t>(~address)});
   }
-  for (unsigned address = 0xC0; address < 0xF0; ++address) {
+  for (unsigned address = reg::kAddrSlaveCfg; address < reg::kAddrStatus0; ++address) {
     const Bits bits = table6(address);
     EXPECT_EQ(chip.read(static_cast<std::uint8_t>(address)),
               (static_cast<std::uint8_t>(~address) & bits.writable) | bits.fixed)
         << std::hex << address;
   }
-  EXPECT_EQ(chip.read(0xEB), 0x84);
-  EXPECT_EQ(chip.status(), 0xFB);
+  EXPECT_EQ(chip.read(reg::kAddrVersion), reg::kVersionIcMb4);
+  EXPECT_EQ(chip.status(), reg::kResetStatus0);
   EXPECT_EQ(chip.simulator.clk_cycles(), 0U);
 }
 
@@ -166,7 +168,7 @@ TEST(ChipPins, SlLevels_ShowInRegisterF8) {
     chip.simulator.set_pin(sim::Pin::kSl1, (levels & 1U) != 0);
     chip.simulator.set_pin(sim::Pin::kSl2, (levels & 2U) != 0);
     chip.advance_us(1);
-    EXPECT_EQ(chip.read(0xF8), 0x50 | ((levels & 2U) << 1) | (levels & 1U));
+    EXPECT_EQ(chip.read(reg::kAddrStatus8), 0x50 | ((levels & 2U) << 1) | (levels & 1U));
   }
 }
 
@@ -175,59 +177,60 @@ TEST(ChipPins, NerPulledLowOutside_NerrIsZeroAndNoOtherFlag) {
   Chip chip("");
   chip.simulator.set_pin(sim::Pin::kNer, false);
   chip.advance_us(1);
-  EXPECT_EQ(chip.status(), 0x7B);
+  EXPECT_EQ(chip.status(), reg::kResetStatus0 & ~reg::nERR::kMask);
   chip.simulator.set_pin(sim::Pin::kNer, true);
   chip.advance_us(1);
-  EXPECT_EQ(chip.status(), 0xFB);
+  EXPECT_EQ(chip.status(), reg::kResetStatus0);
 }
 
 // Decision 18: writing 0 to SVALIDx clears, writing 1 has no effect.
 TEST(ChipSvalid, Writing_ZeroClearsAndOneDoesNothing) {
   Chip chip(one_slave("data_bits = 28\ncrc = 0x43\ndata = 0x1"));
-  chip.configure_slave1(28, 0x06, 0x00);
-  chip.write(0xF1, {0xFF});
-  EXPECT_EQ(chip.read(0xF1), 0x00);
-  chip.instruct(0x04);
+  chip.configure_slave1(28, reg::kScrclenCrc6, 0x00);
+  chip.write(reg::kAddrSvalidLo, {0xFF});
+  EXPECT_EQ(chip.read(reg::kAddrSvalidLo), 0);
+  chip.instruct(reg::kInstrCdm0);
   ASSERT_TRUE(chip.wait_eot());
-  EXPECT_EQ(chip.read(0xF1), 0x02);
-  chip.write(0xF1, {0xFF});
-  EXPECT_EQ(chip.read(0xF1), 0x02);
-  chip.write(0xF1, {0x02});
-  EXPECT_EQ(chip.read(0xF1), 0x02);
-  chip.write(0xF1, {0xFD});
-  EXPECT_EQ(chip.read(0xF1), 0x00);
+  EXPECT_EQ(chip.read(reg::kAddrSvalidLo), reg::SVALID<1>::kMask);
+  chip.write(reg::kAddrSvalidLo, {0xFF});
+  EXPECT_EQ(chip.read(reg::kAddrSvalidLo), reg::SVALID<1>::kMask);
+  chip.write(reg::kAddrSvalidLo, {reg::SVALID<1>::kMask});
+  EXPECT_EQ(chip.read(reg::kAddrSvalidLo), reg::SVALID<1>::kMask);
+  chip.write(reg::kAddrSvalidLo, {0xFD});
+  EXPECT_EQ(chip.read(reg::kAddrSvalidLo), 0);
 }
 
 // Page 35: with the CRC off SVALID is set when the data have been read.
 TEST(ChipSvalid, CrcOff_IsSetAfterTheFrame) {
   Chip chip(one_slave("data_bits = 12\ncrc = 0\ndata = 0xABC"));
-  chip.configure_slave1(12, 0x00, 0x00);
-  chip.instruct(0x04);
+  chip.configure_slave1(12, 0, 0x00);
+  chip.instruct(reg::kInstrCdm0);
   ASSERT_TRUE(chip.wait_eot());
-  EXPECT_EQ(chip.read(0xF1), 0x02);
-  EXPECT_EQ(chip.read(0x00, 2), (std::vector<std::uint8_t>{0xBC, 0x0A}));
+  EXPECT_EQ(chip.read(reg::kAddrSvalidLo), reg::SVALID<1>::kMask);
+  EXPECT_EQ(chip.read(reg::kAddrScdata, 2), (std::vector<std::uint8_t>{0xBC, 0x0A}));
 }
 
 // Table 48: HOLDBANK keeps data and SVALID; the switch follows when it is released.
 TEST(ChipBanks, HoldBank_KeepsTheHostsBankUntilReleased) {
   Chip chip(one_slave("data_bits = 28\ncrc = 0x43\ndata = 0x1111111", "", ""));
-  chip.configure_slave1(28, 0x06, 0x00, 0x7C);
-  chip.instruct(0x04);
+  chip.configure_slave1(28, reg::kScrclenCrc6, 0x00, reg::kFreqagsAgsMin);
+  chip.instruct(reg::kInstrCdm0);
   ASSERT_TRUE(chip.wait_eot());
-  ASSERT_EQ(chip.read(0x00), 0x11);
+  ASSERT_EQ(chip.read(reg::kAddrScdata), 0x11);
   chip.simulator.slave(1)->set_data(0x2222222);
-  chip.instruct(0x44);  // HOLDBANK and a frame
+  chip.instruct(reg::kHoldbankPrevented | reg::kInstrCdm0);  // HOLDBANK and a frame
   ASSERT_TRUE(chip.wait_eot());
-  EXPECT_EQ(chip.read(0x00, 4), (std::vector<std::uint8_t>{0x11, 0x11, 0x11, 0x01}));
-  EXPECT_EQ(chip.read(0xF1), 0x02);
-  chip.write(0xF1, {0x00});
+  EXPECT_EQ(chip.read(reg::kAddrScdata, 4), (std::vector<std::uint8_t>{0x11, 0x11, 0x11, 0x01}));
+  EXPECT_EQ(chip.read(reg::kAddrSvalidLo), reg::SVALID<1>::kMask);
+  chip.write(reg::kAddrSvalidLo, {0});
   chip.advance_us(1);
-  EXPECT_EQ(chip.read(0xF1), 0x00) << "cleared while held, in the host's bank only";
-  EXPECT_EQ(chip.read(0xFB), 0x00);
-  chip.instruct(0x00);
+  EXPECT_EQ(chip.read(reg::kAddrSvalidLo), 0) << "cleared while held, in the host's bank only";
+  EXPECT_EQ(chip.read(reg::kAddrSwbankfail), 0);
+  chip.instruct(0);
   chip.advance_us(1);
-  EXPECT_EQ(chip.read(0x00, 4), (std::vector<std::uint8_t>{0x22, 0x22, 0x22, 0x02}));
-  EXPECT_EQ(chip.read(0xF1), 0x02) << "SVALID switches with the data";
+  EXPECT_EQ(chip.read(reg::kAddrScdata, 4), (std::vector<std::uint8_t>{0x22, 0x22, 0x22, 0x02}));
+  EXPECT_EQ(chip.read(reg::kAddrSvalidLo), reg::SVALID<1>::kMask)
+      << "SVALID switches with the data";
 }
 
 // Page 33, decision 15: another frame due while the switch is held back runs into the other bank
@@ -238,22 +241,22 @@ TEST(ChipBanks, FrameDueWhileSwitchIsPending_OverwritesOrIsOmitted) {
     Chip chip(one_slave(
         "data_bits = 28\ncrc = 0x43\ndata = 0x1111111", "",
         std::string("quirks = { AGSERR_ON_HOLDBANK = ") + (omits ? "true }" : "false }")));
-    chip.configure_slave1(28, 0x06, 0x00, 0x7C);
-    chip.instruct(0x44);
+    chip.configure_slave1(28, reg::kScrclenCrc6, 0x00, reg::kFreqagsAgsMin);
+    chip.instruct(reg::kHoldbankPrevented | reg::kInstrCdm0);
     ASSERT_TRUE(chip.wait_eot());
     chip.advance_us(10);
-    EXPECT_EQ(chip.read(0xFB), 0x00);
+    EXPECT_EQ(chip.read(reg::kAddrSwbankfail), 0);
     chip.simulator.slave(1)->set_data(0x2222222);
-    chip.instruct(0x44);
+    chip.instruct(reg::kHoldbankPrevented | reg::kInstrCdm0);
     chip.advance_us(10);
     EXPECT_EQ(chip.simulator.slave(1)->frames(), omits ? 1U : 2U);
-    EXPECT_EQ(chip.read(0xFB), 0x01);
-    EXPECT_EQ(chip.status() & 0x40, omits ? 0x00 : 0x40);
-    EXPECT_EQ(chip.read(0x00), 0x00) << "held";
-    chip.instruct(0x00);
+    EXPECT_EQ(chip.read(reg::kAddrSwbankfail), reg::kSwbankfailFailed);
+    EXPECT_EQ(chip.status() & reg::nAGSERR::kMask, omits ? 0 : reg::kNagserrGood);
+    EXPECT_EQ(chip.read(reg::kAddrScdata), 0x00) << "held";
+    chip.instruct(0);
     chip.advance_us(1);
-    EXPECT_EQ(chip.read(0x00), omits ? 0x11 : 0x22);
-    EXPECT_EQ(chip.read(0xFB), 0x00);
+    EXPECT_EQ(chip.read(reg::kAddrScdata), omits ? 0x11 : 0x22);
+    EXPECT_EQ(chip.read(reg::kAddrSwbankfail), 0);
   }
 }
 
@@ -262,53 +265,54 @@ TEST(ChipBanks, FrameDueWhileSwitchIsPending_OverwritesOrIsOmitted) {
 TEST(ChipBanks, ReleaseWhileAFrameOverwrites_SwitchesAtItsEnd) {
   for (unsigned clocks = 0; clocks < 120; ++clocks) {
     Chip chip(one_slave("data_bits = 28\ncrc = 0x43\ndata = 0x1111111"));
-    chip.configure_slave1(28, 0x06, 0x00, 0x7C);
-    chip.instruct(0x44);
+    chip.configure_slave1(28, reg::kScrclenCrc6, 0x00, reg::kFreqagsAgsMin);
+    chip.instruct(reg::kHoldbankPrevented | reg::kInstrCdm0);
     ASSERT_TRUE(chip.wait_eot());
     chip.advance_us(10);
     chip.simulator.slave(1)->set_data(0x2222222);
-    chip.instruct(0x44);
+    chip.instruct(reg::kHoldbankPrevented | reg::kInstrCdm0);
     chip.simulator.advance(clocks * 50 * sim::kPsPerNs);
-    chip.instruct(0x00);
-    const unsigned svalid = chip.read(0xF1);
-    if ((chip.status() & 0x01) == 0) {
+    chip.instruct(0);
+    const unsigned svalid = chip.read(reg::kAddrSvalidLo);
+    if ((chip.status() & reg::EOT::kMask) == 0) {
       ASSERT_EQ(svalid, 0U) << clocks << ": no word before the end";
     }
     ASSERT_TRUE(chip.wait_eot());
     chip.advance_us(1);
-    ASSERT_EQ(chip.read(0xF1), 0x02) << clocks;
-    ASSERT_EQ(chip.read(0x00, 4), (std::vector<std::uint8_t>{0x22, 0x22, 0x22, 0x02})) << clocks;
+    ASSERT_EQ(chip.read(reg::kAddrSvalidLo), reg::SVALID<1>::kMask) << clocks;
+    ASSERT_EQ(chip.read(reg::kAddrScdata, 4), (std::vector<std::uint8_t>{0x22, 0x22, 0x22, 0x02}))
+        << clocks;
   }
 }
 
 // Table 48: one byte releases HOLDBANK and requests the next frame.
 TEST(ChipBanks, ReleaseAndFrameInOneByte_SwitchAndFrameHappen) {
   Chip chip(one_slave("data_bits = 28\ncrc = 0x43\ndata = 0x1111111"));
-  chip.configure_slave1(28, 0x06, 0x00, 0x7C);
-  chip.instruct(0x44);
+  chip.configure_slave1(28, reg::kScrclenCrc6, 0x00, reg::kFreqagsAgsMin);
+  chip.instruct(reg::kHoldbankPrevented | reg::kInstrCdm0);
   ASSERT_TRUE(chip.wait_eot());
   chip.simulator.slave(1)->set_data(0x2222222);
-  chip.instruct(0x04);
+  chip.instruct(reg::kInstrCdm0);
   ASSERT_TRUE(chip.wait_eot());
-  EXPECT_EQ(chip.status(), 0xFB);
-  EXPECT_EQ(chip.read(0xFB), 0x00);
+  EXPECT_EQ(chip.status(), reg::kResetStatus0);
+  EXPECT_EQ(chip.read(reg::kAddrSwbankfail), 0);
   EXPECT_EQ(chip.simulator.slave(1)->frames(), 2U);
-  EXPECT_EQ(chip.read(0x00), 0x22);
+  EXPECT_EQ(chip.read(reg::kAddrScdata), 0x22);
 }
 
 // With one bank a frame that is broken off must not leave half-written data marked as valid.
 TEST(ChipBanks, SingleBankFrameBrokenOff_SvalidIsZero) {
   Chip chip(one_slave("data_bits = 28\ncrc = 0x43\ndata = 0x1111111"));
-  chip.configure_slave1(28, 0x06, 0x03, 0x7C);
-  chip.write(0xE7, {0x01});
-  chip.instruct(0x04);
+  chip.configure_slave1(28, reg::kScrclenCrc6, 0x03, reg::kFreqagsAgsMin);
+  chip.write(reg::kAddrBankcfg, {reg::kSinglebankOneBank});
+  chip.instruct(reg::kInstrCdm0);
   ASSERT_TRUE(chip.wait_eot());
-  EXPECT_EQ(chip.read(0xF1), 0x02);
+  EXPECT_EQ(chip.read(reg::kAddrSvalidLo), reg::SVALID<1>::kMask);
   chip.advance_us(50);
-  chip.instruct(0x04);
+  chip.instruct(reg::kInstrCdm0);
   chip.advance_us(10);
-  chip.instruct(0x80);
-  EXPECT_EQ(chip.read(0xF1), 0x00);
+  chip.instruct(reg::kBreakAbort);
+  EXPECT_EQ(chip.read(reg::kAddrSvalidLo), 0);
 }
 
 // Two lines: unequal lengths end one frame together; a line that is not used stays quiet.
@@ -316,30 +320,33 @@ TEST(ChipBanks, TwoLines_UnequalLengthsEndTogether) {
   Chip chip(one_slave("data_bits = 28\ncrc = 0x43\ndata = 0x1111111") +
             "[[channel]]\nnumber = 2\ndelay_ns = 333.0\n[[channel.slave]]\n"
             "protocol = \"biss-c\"\ndata_bits = 50\ncrc = 0x25\ndata = 0x2FEDCBA987654\n");
-  chip.configure_slave1(28, 0x06, 0x00, 0x7C);
-  chip.write(0xD0, {0x40 | 49, 0x05});
+  chip.configure_slave1(28, reg::kScrclenCrc6, 0x00, reg::kFreqagsAgsMin);
+  chip.write(reg::slave_cfg_address(5), {reg::kEnscdYes | 49, reg::kScrclenCrc5});
   // SLAVELOC5 = 0: channel 2 takes no part for any CFGCH2; slaves 5 to 8 would be on line 1.
-  chip.write(0xD0, {0x00});
-  chip.write(0xEC, {0x01, 0x05});
-  chip.instruct(0x04);
+  chip.write(reg::slave_cfg_address(5), {0});
+  chip.write(reg::kAddrSlaveloc5, {reg::kResetSlaveloc5, reg::kCfgch2BissC | reg::kCfgch1BissC});
+  chip.instruct(reg::kInstrCdm0);
   ASSERT_TRUE(chip.wait_eot());
   EXPECT_EQ(chip.simulator.line(2)->monitor().frames(), 0U);
-  EXPECT_EQ(chip.read(0xF1), 0x02);
-  chip.write(0xD0, {0x40 | 49});
-  chip.write(0xEC, {0x11, 0x0D});  // CFGCH2: not used
+  EXPECT_EQ(chip.read(reg::kAddrSvalidLo), reg::SVALID<1>::kMask);
+  chip.write(reg::slave_cfg_address(5), {reg::kEnscdYes | 49});
+  chip.write(reg::kAddrSlaveloc5, {reg::kResetSlaveloc5 | reg::kSlaveloc5Split,
+                                   reg::kCfgch2Unused | reg::kCfgch1BissC});  // CFGCH2: not used
   for (int i = 0; i < 30; ++i) {
-    chip.instruct(0x04);
+    chip.instruct(reg::kInstrCdm0);
     ASSERT_TRUE(chip.wait_eot());
   }
-  EXPECT_EQ(chip.read(0xF1, 2), (std::vector<std::uint8_t>{0x02, 0x00}));
+  EXPECT_EQ(chip.read(reg::kAddrSvalidLo, 2),
+            (std::vector<std::uint8_t>{reg::SVALID<1>::kMask, 0}));
   EXPECT_EQ(chip.simulator.line(2)->monitor().frames(), 0U);
-  chip.write(0xED, {0x05});
-  chip.instruct(0x04);
+  chip.write(reg::kAddrCfgch, {reg::kCfgch2BissC | reg::kCfgch1BissC});
+  chip.instruct(reg::kInstrCdm0);
   ASSERT_TRUE(chip.wait_eot());
-  EXPECT_EQ(chip.read(0xF1, 2), (std::vector<std::uint8_t>{0x02, 0x02}));
-  EXPECT_EQ(chip.read(0x20, 7),
+  EXPECT_EQ(chip.read(reg::kAddrSvalidLo, 2),
+            (std::vector<std::uint8_t>{reg::SVALID<1>::kMask, reg::SVALID<5>::kMask}));
+  EXPECT_EQ(chip.read(reg::scdata_address(5), 7),
             (std::vector<std::uint8_t>{0x54, 0x76, 0x98, 0xBA, 0xDC, 0xFE, 0x02}));
-  EXPECT_EQ(chip.read(0x00, 4), (std::vector<std::uint8_t>{0x11, 0x11, 0x11, 0x01}));
+  EXPECT_EQ(chip.read(reg::kAddrScdata, 4), (std::vector<std::uint8_t>{0x11, 0x11, 0x11, 0x01}));
 }
 
 // Table 10, code 0: data channels 5 to 8 are on line 1 behind the others, line 2 takes no part,
@@ -349,22 +356,27 @@ TEST(ChipBanks, Slaveloc5_SaysWhichLineChannels5To8AreOn) {
             "[[channel.slave]]\nprotocol = \"biss-c\"\ndata_bits = 20\ncrc = 0x25\n"
             "data = 0xA5A5A\n[[channel]]\nnumber = 2\n[[channel.slave]]\n"
             "protocol = \"biss-c\"\ndata_bits = 20\ncrc = 0x25\ndata = 0x5B5B5\n");
-  chip.configure_slave1(28, 0x06, 0x00, 0x00);
-  chip.write(0xD0, {0x40 | 19, 0x05, 0x00, 0x00});
+  chip.configure_slave1(28, reg::kScrclenCrc6, 0x00, 0x00);
+  chip.write(reg::slave_cfg_address(5), {reg::kEnscdYes | 19, reg::kScrclenCrc5, 0x00, 0x00});
   for (const bool second_line : {false, true, false}) {
-    chip.write(0xEC, {static_cast<std::uint8_t>(second_line ? 0x11 : 0x01), 0x05});
+    chip.write(reg::kAddrSlaveloc5,
+               {static_cast<std::uint8_t>(second_line ? reg::kResetSlaveloc5 | reg::kSlaveloc5Split
+                                                      : reg::kResetSlaveloc5),
+                reg::kCfgch2BissC | reg::kCfgch1BissC});
     const auto frames = chip.simulator.line(2)->monitor().frames();
-    chip.instruct(0x04);
+    chip.instruct(reg::kInstrCdm0);
     ASSERT_TRUE(chip.wait_eot());
     chip.advance_us(50);
-    EXPECT_EQ(chip.read(0xF1, 2), (std::vector<std::uint8_t>{0x02, 0x02}));
-    EXPECT_EQ(chip.read(0x00, 4), (std::vector<std::uint8_t>{0x11, 0x11, 0x11, 0x01}));
-    EXPECT_EQ(chip.read(0x20, 3), second_line ? (std::vector<std::uint8_t>{0xB5, 0xB5, 0x05})
-                                              : (std::vector<std::uint8_t>{0x5A, 0x5A, 0x0A}));
+    EXPECT_EQ(chip.read(reg::kAddrSvalidLo, 2),
+              (std::vector<std::uint8_t>{reg::SVALID<1>::kMask, reg::SVALID<5>::kMask}));
+    EXPECT_EQ(chip.read(reg::kAddrScdata, 4), (std::vector<std::uint8_t>{0x11, 0x11, 0x11, 0x01}));
+    EXPECT_EQ(chip.read(reg::scdata_address(5), 3),
+              second_line ? (std::vector<std::uint8_t>{0xB5, 0xB5, 0x05})
+                          : (std::vector<std::uint8_t>{0x5A, 0x5A, 0x0A}));
     EXPECT_EQ(chip.simulator.line(2)->monitor().frames(), frames + (second_line ? 1 : 0));
     EXPECT_EQ(chip.simulator.line(1)->monitor().last(chip.simulator.now()).rising,
               second_line ? 28U + 6 + 5 : 28U + 6 + 20 + 5 + 5);
-    EXPECT_EQ(chip.status(), 0xFB);
+    EXPECT_EQ(chip.status(), reg::kResetStatus0);
   }
 }
 
@@ -375,31 +387,35 @@ TEST(ChipBanks, LineNotUsed_KeepsQuietAndTheOtherWorks) {
     Chip chip(one_slave("data_bits = 28\ncrc = 0x43\ndata = 0x1111111") +
               "[[channel]]\nnumber = 2\n[[channel.slave]]\n"
               "protocol = \"biss-c\"\ndata_bits = 28\ncrc = 0x43\ndata = 0x2222222\n");
-    chip.configure_slave1(28, 0x06, 0x00, 0x00);
-    chip.write(0xD0, {0x40 | 27, 0x06, 0x00, 0x00});
-    chip.write(0xE7, {0x01});  // one bank
-    chip.write(0xEC, {0x11, static_cast<std::uint8_t>(0x05U | ((unused & 1U) != 0 ? 3U : 0U) |
-                                                      ((unused & 2U) != 0 ? 0xCU : 0U))});
-    for (const unsigned x : {0U, 0x20U}) {
+    chip.configure_slave1(28, reg::kScrclenCrc6, 0x00, 0x00);
+    chip.write(reg::slave_cfg_address(5), {reg::kEnscdYes | 27, reg::kScrclenCrc6, 0x00, 0x00});
+    chip.write(reg::kAddrBankcfg, {reg::kSinglebankOneBank});  // one bank
+    chip.write(reg::kAddrSlaveloc5,
+               {reg::kResetSlaveloc5 | reg::kSlaveloc5Split,
+                static_cast<std::uint8_t>(reg::kCfgch2BissC | reg::kCfgch1BissC |
+                                          ((unused & 1U) != 0 ? reg::kCfgch1Unused : 0U) |
+                                          ((unused & 2U) != 0 ? reg::kCfgch2Unused : 0U))});
+    for (const unsigned x : {reg::scdata_address(1), reg::scdata_address(5)}) {
       chip.write(static_cast<std::uint8_t>(x), {0xE0, 0xE1, 0xE2, 0xE3});
     }
     for (const unsigned line : {1U, 2U}) {
       if (((unused >> (line - 1)) & 1U) != 0) chip.simulator.line(line)->faults().stick(false);
     }
     chip.simulator.refresh_lines();
-    for (const unsigned instruction : {0x04U, 0x02U, 0x10U}) {
+    for (const unsigned instruction : {reg::kInstrCdm0, reg::kInstrCdm1, reg::kInitStart}) {
       chip.instruct(static_cast<std::uint8_t>(instruction));
       ASSERT_TRUE(chip.wait_eot(100)) << unused << " " << instruction;
-      EXPECT_EQ(chip.read(0xF4), 0x00);
-      EXPECT_EQ(chip.status(), 0xFB) << unused << " " << instruction;
-      if (instruction == 0x10) continue;
+      EXPECT_EQ(chip.read(reg::kAddrInstr), 0);
+      EXPECT_EQ(chip.status(), reg::kResetStatus0) << unused << " " << instruction;
+      if (instruction == reg::kInitStart) continue;
       for (const unsigned line : {1U, 2U}) {
         const bool used = ((unused >> (line - 1)) & 1U) == 0;
         const auto byte = static_cast<std::uint8_t>(0x11 * line);
         EXPECT_EQ(chip.read(static_cast<std::uint8_t>(0x20 * (line - 1)), 3),
                   used ? std::vector<std::uint8_t>(3, byte)
                        : (std::vector<std::uint8_t>{0xE0, 0xE1, 0xE2}));
-        EXPECT_EQ(chip.read(static_cast<std::uint8_t>(0xF0 + line)), used ? 0x02 : 0x00);
+        EXPECT_EQ(chip.read(static_cast<std::uint8_t>(reg::kAddrStatus0 + line)),
+                  used ? 0x02 : 0x00);
       }
       chip.advance_us(50);
     }
@@ -415,31 +431,32 @@ TEST(ChipBanks, LineNotUsed_KeepsQuietAndTheOtherWorks) {
 TEST(ChipBanks, SwBank_EveryChangeSwapsOnce) {
   Chip chip("");
   chip.advance_us(4);  // the memories are cleared
-  chip.write(0x00, {0xAA});
-  chip.instruct(0x20);
+  chip.write(reg::kAddrScdata, {0xAA});
+  chip.instruct(reg::SWBANK::kMask);
   chip.advance_us(1);
-  EXPECT_EQ(chip.read(0x00), 0x00);
-  chip.write(0x00, {0x55});
-  chip.instruct(0x20);
+  EXPECT_EQ(chip.read(reg::kAddrScdata), 0x00);
+  chip.write(reg::kAddrScdata, {0x55});
+  chip.instruct(reg::SWBANK::kMask);
   chip.advance_us(1);
-  EXPECT_EQ(chip.read(0x00), 0x55);
-  EXPECT_EQ(chip.read(0xF4), 0x20);
-  chip.instruct(0x00);
+  EXPECT_EQ(chip.read(reg::kAddrScdata), 0x55);
+  EXPECT_EQ(chip.read(reg::kAddrInstr), reg::SWBANK::kMask);
+  chip.instruct(0);
   chip.advance_us(1);
-  EXPECT_EQ(chip.read(0x00), 0xAA);
+  EXPECT_EQ(chip.read(reg::kAddrScdata), 0xAA);
 }
 
 // Table 38: one bank: the host sees the new data at once, nothing swaps.
 TEST(ChipBanks, SingleBank_HostAndFrameUseTheSameBank) {
   Chip chip(one_slave("data_bits = 28\ncrc = 0x43\ndata = 0x1111111"));
-  chip.configure_slave1(28, 0x06, 0x00, 0x7C);
-  chip.write(0xE7, {0x01});
-  chip.write(0x00, {0xE0, 0xE1, 0xE2, 0xE3, 0xE4});
+  chip.configure_slave1(28, reg::kScrclenCrc6, 0x00, reg::kFreqagsAgsMin);
+  chip.write(reg::kAddrBankcfg, {reg::kSinglebankOneBank});
+  chip.write(reg::kAddrScdata, {0xE0, 0xE1, 0xE2, 0xE3, 0xE4});
   for (int i = 0; i < 3; ++i) {
-    chip.instruct(0x44);
+    chip.instruct(reg::kHoldbankPrevented | reg::kInstrCdm0);
     ASSERT_TRUE(chip.wait_eot());
-    EXPECT_EQ(chip.read(0x00, 5), (std::vector<std::uint8_t>{0x11, 0x11, 0x11, 0x01, 0xE4}));
-    EXPECT_EQ(chip.read(0xF1), 0x02);
+    EXPECT_EQ(chip.read(reg::kAddrScdata, 5),
+              (std::vector<std::uint8_t>{0x11, 0x11, 0x11, 0x01, 0xE4}));
+    EXPECT_EQ(chip.read(reg::kAddrSvalidLo), reg::SVALID<1>::kMask);
   }
 }
 
@@ -448,14 +465,15 @@ TEST(ChipReset, NresInAFrame_EverythingReadsItsResetValue) {
   // What is read at once, while the memories are still being cleared.
   for (const unsigned first : {0x00U, 0x3CU, 0x80U, 0xBCU}) {
     Chip chip(one_slave("data_bits = 28\ncrc = 0x43\ndata = 0x1111111"));
-    chip.configure_slave1(28, 0x06, 0x00);
-    chip.write(0xE2, {0xFF, 0x3F, 0x03});
-    chip.write(0xE9, {0xFF});
+    chip.configure_slave1(28, reg::kScrclenCrc6, 0x00);
+    chip.write(reg::kAddrRegadr,
+               {reg::kWnrWrite | 0x7F, 0x3F, reg::kChsel2Used | reg::kChsel1Used});
+    chip.write(reg::kAddrMoBusy, {0xFF});
     std::vector<std::uint8_t> scdata(65, 0xFF);
     scdata[0] = 0x0B;
     std::vector<std::uint8_t> rdata(66, 0xFF);
     rdata[0] = 0x02;
-    rdata[1] = 0x80;
+    rdata[1] = reg::kAddrRdata;
     chip.spi(rdata);
     // Both banks, with a word and SVALID1 = 1 in each.
     for (const unsigned swbank : {0x20U, 0x00U}) {
@@ -464,18 +482,19 @@ TEST(ChipReset, NresInAFrame_EverythingReadsItsResetValue) {
       chip.advance_us(1);
     }
     for (unsigned bank = 0; bank < 2; ++bank) {
-      chip.instruct(0x04);
+      chip.instruct(reg::kInstrCdm0);
       ASSERT_TRUE(chip.wait_eot());
       chip.advance_us(20);
     }
     for (const unsigned swbank : {0x20U, 0x00U}) {
       chip.instruct(static_cast<std::uint8_t>(swbank));
       chip.advance_us(1);
-      ASSERT_EQ(chip.read(0x00, 5), (std::vector<std::uint8_t>{0x11, 0x11, 0x11, 0x01, 0xFF}));
-      ASSERT_EQ(chip.read(0x3F), 0xFF);
-      ASSERT_EQ(chip.read(0xF1), 0x02);
+      ASSERT_EQ(chip.read(reg::kAddrScdata, 5),
+                (std::vector<std::uint8_t>{0x11, 0x11, 0x11, 0x01, 0xFF}));
+      ASSERT_EQ(chip.read(reg::SCDATA<8, 7>::kAddress), 0xFF);
+      ASSERT_EQ(chip.read(reg::kAddrSvalidLo), reg::SVALID<1>::kMask);
     }
-    chip.instruct(0x02);
+    chip.instruct(reg::kInstrCdm1);
     chip.advance_us(2);
     chip.simulator.set_pin(sim::Pin::kNres, false);
     chip.simulator.advance(250 * sim::kPsPerNs);
@@ -484,14 +503,15 @@ TEST(ChipReset, NresInAFrame_EverythingReadsItsResetValue) {
     EXPECT_EQ(chip.read(static_cast<std::uint8_t>(first), 4), std::vector<std::uint8_t>(4, 0));
     chip.advance_us(40);
     EXPECT_TRUE(chip.simulator.pin(sim::Pin::kMa1));
-    const auto values = chip.read(0x00, 256);
+    const auto values = chip.read(reg::kAddrScdata, 256);
     for (unsigned address = 0; address < 256; ++address) {
       EXPECT_EQ(values[address], table6(address).fixed) << std::hex << address;
     }
-    chip.instruct(0x20);
+    chip.instruct(reg::SWBANK::kMask);
     chip.advance_us(1);
-    EXPECT_EQ(chip.read(0x00, 64), std::vector<std::uint8_t>(64, 0)) << "the other bank";
-    EXPECT_EQ(chip.read(0xF1, 2), (std::vector<std::uint8_t>{0, 0}));
+    EXPECT_EQ(chip.read(reg::kAddrScdata, 64), std::vector<std::uint8_t>(64, 0))
+        << "the other bank";
+    EXPECT_EQ(chip.read(reg::kAddrSvalidLo, 2), (std::vector<std::uint8_t>{0, 0}));
   }
 }
 
@@ -500,40 +520,42 @@ TEST(ChipReset, NresInAFrame_EverythingReadsItsResetValue) {
 TEST(ChipReset, OneByteOfAChannelWritten_TheOthersAreZero) {
   for (unsigned byte = 0; byte < 4; ++byte) {
     Chip chip("");
-    for (unsigned address = 0xC0; address < 0xE0; ++address) {
+    for (unsigned address = reg::kAddrSlaveCfg; address < reg::slave_cfg_address(9); ++address) {
       chip.write(static_cast<std::uint8_t>(address), {0xFF});
     }
     chip.simulator.set_pin(sim::Pin::kNres, false);
     chip.advance_us(1);
     chip.simulator.set_pin(sim::Pin::kNres, true);
     chip.advance_us(1);
-    chip.write(static_cast<std::uint8_t>(0xC8 + byte), {0xA5});
-    const auto values = chip.read(0xC0, 32);
+    chip.write(static_cast<std::uint8_t>(reg::slave_cfg_address(3) + byte), {0xA5});
+    const auto values = chip.read(reg::slave_cfg_address(1), 32);
     for (unsigned i = 0; i < 32; ++i) EXPECT_EQ(values[i], i == 8 + byte ? 0xA5 : 0x00) << i;
   }
 }
 
 TEST(ChipReset, OnlyLengthWritten_TheFrameHasNoCrc) {
   Chip chip(one_slave("data_bits = 28\ncrc = 0\ndata = 0x1234567"));
-  chip.configure_slave1(28, 0x06, 0x00);
-  chip.write(0xC1, {0x86, 0xFF, 0xFF});
+  chip.configure_slave1(28, reg::kScrclenCrc6, 0x00);
+  chip.write(reg::SCRCLEN<1>::kAddress,
+             {reg::kSelcrcsByPolynomial | reg::SCRCPOLY<1>::of(6), 0xFF, 0xFF});
   chip.simulator.set_pin(sim::Pin::kNres, false);
   chip.advance_us(1);
   chip.simulator.set_pin(sim::Pin::kNres, true);
   chip.advance_us(4);
-  chip.write(0xC0, {0x40 | 27});
-  chip.write(0xE5, {0x40});
-  chip.write(0xED, {0x0D});
-  chip.instruct(0x10);  // INIT
+  chip.write(reg::slave_cfg_address(1), {reg::kEnscdYes | 27});
+  chip.write(reg::kAddrCtrl, {reg::kRegversBissC});
+  chip.write(reg::kAddrCfgch, {reg::kCfgch2Unused | reg::kCfgch1BissC});
+  chip.instruct(reg::kInitStart);  // INIT
   ASSERT_TRUE(chip.wait_eot());
   EXPECT_EQ(chip.simulator.line(1)->monitor().frames(), 1U);
   EXPECT_EQ(chip.simulator.line(1)->monitor().last(chip.simulator.now()).rising, 2U);
-  EXPECT_EQ(chip.read(0x00), 1) << "the line delay";
+  EXPECT_EQ(chip.read(reg::kAddrScdata), 1) << "the line delay";
   chip.advance_us(40);
-  chip.instruct(0x02);
+  chip.instruct(reg::kInstrCdm1);
   ASSERT_TRUE(chip.wait_eot());
-  EXPECT_EQ(chip.read(0x00, 8), (std::vector<std::uint8_t>{0x67, 0x45, 0x23, 0x01, 0, 0, 0, 0}));
-  EXPECT_EQ(chip.read(0xF1), 0x02);
+  EXPECT_EQ(chip.read(reg::kAddrScdata, 8),
+            (std::vector<std::uint8_t>{0x67, 0x45, 0x23, 0x01, 0, 0, 0, 0}));
+  EXPECT_EQ(chip.read(reg::kAddrSvalidLo), reg::SVALID<1>::kMask);
 }
 
 }  // namespace

@@ -72,18 +72,20 @@ class Session {
 
   // --- the same, put together -----------------------------------------------------------------
   void write(std::uint8_t address, const std::vector<std::uint8_t>& bytes) {
-    std::vector<std::uint8_t> tx{0x02, address};
+    std::vector<std::uint8_t> tx{reg::kSpiOpcodeWriteRegisters, address};
     tx.insert(tx.end(), bytes.begin(), bytes.end());
     spi(tx);
   }
   std::vector<std::uint8_t> read(std::uint8_t address, std::size_t count) {
     std::vector<std::uint8_t> tx(count + 2);
-    tx[0] = 0x03;
+    tx[0] = reg::kSpiOpcodeReadRegisters;
     tx[1] = address;
     const auto rx = spi(tx);
     return {rx.begin() + 2, rx.end()};
   }
-  void instruct(unsigned byte) { spi({0x07, static_cast<std::uint8_t>(byte)}); }
+  void instruct(unsigned byte) {
+    spi({reg::kSpiOpcodeWriteInstruction, static_cast<std::uint8_t>(byte)});
+  }
   // Waits in steps until `done()`; false after `limit_ns`.
   template <typename Done>
   bool wait_until(Done done, std::uint64_t limit_ns, std::uint64_t step_ns = 500) {

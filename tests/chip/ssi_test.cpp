@@ -16,6 +16,8 @@ using mb4test::ChipPlan;
 using mb4test::ControlHost;
 using mb4test::ma_clocks;
 using mb4test::ProtocolChip;
+using mb4test::valid;
+namespace reg = mb4::regs;
 namespace sim = mb4::sim;
 
 // FREQS codes at f_CLK = 20 MHz: 2 MHz, 1 MHz, 500 kHz, 250 kHz, 100 kHz, 62.5 kHz.
@@ -63,7 +65,7 @@ TEST_P(SsiFrames, EveryDelay_WordIsRightAndMaIsLPlusOne) {
       ASSERT_TRUE(chip.frame());
       EXPECT_EQ(chip.scdata(1, bits), expected) << delay.response << " " << delay.cable;
       EXPECT_EQ(chip.svalid(), 2U);
-      EXPECT_EQ(chip.status(), 0xFB);
+      EXPECT_EQ(chip.status(), reg::kResetStatus0);
       const auto ma = chip.simulator.line(1)->monitor().last(chip.simulator.now());
       EXPECT_EQ(ma.rising, bits + 1);
     }
@@ -103,10 +105,11 @@ TEST(ChipSsi, LevelAtTheRisingEdge_IsWhatCounts) {
     ProtocolChip chip(encoder(8, "data = 0xA7"), {.freqs = freqs});
     // By hand: SL of channel 2 is free, so the encoder is played by the test.
     const sim::Time period = chip.t_ma;
-    chip.write(0xEC, {0x11, 0x0B});
-    chip.write(0xD0, {0x47, 0x00, 0x00, 0x00});
+    chip.write(reg::kAddrSlaveloc5,
+               {reg::kResetSlaveloc5 | reg::kSlaveloc5Split, reg::kCfgch2Ssi | reg::kCfgch1Unused});
+    chip.write(reg::slave_cfg_address(5), {reg::kEnscdYes | 7, 0, 0x00, 0x00});
     const std::string bits = mb4test::to_bits(0xA7, 8);
-    chip.instruct(0x04);
+    chip.instruct(reg::kInstrCdm0);
     ASSERT_TRUE(chip.simulator.run_while_waiting(
         [&] { return !chip.simulator.pin(sim::Pin::kMa2); }, chip.simulator.now() + 1'000'000'000));
     const sim::Time first = chip.simulator.now() + period / 2;  // first rising edge
@@ -130,7 +133,7 @@ TEST(ChipSsi, GraysOff_LeavesTheCode) {
   ProtocolChip chip(encoder(13, "gray = true\ndata = 0x1234"), {.freqs = 9});
   ASSERT_TRUE(chip.frame());
   EXPECT_EQ(chip.scdata(1, 13), 0x1234U);
-  chip.write(0xC0, {0x4C});
+  chip.write(reg::slave_cfg_address(1), {reg::kEnscdYes | 12});
   ASSERT_TRUE(chip.frame());
   EXPECT_EQ(chip.scdata(1, 13), 0x1234U ^ (0x1234U >> 1U));
 }
@@ -140,11 +143,11 @@ TEST(ChipSsi, WithCrc_IsChecked) {
   ProtocolChip chip(encoder(24, "crc = 0x43\ndata = 0xC0FFEE"), {.freqs = 9});
   ASSERT_TRUE(chip.frame());
   EXPECT_EQ(chip.scdata(1, 24), 0xC0FFEEU);
-  EXPECT_EQ(chip.status(), 0xFB);
+  EXPECT_EQ(chip.status(), reg::kResetStatus0);
   for (const unsigned bit : {0U, 11U, 23U, 24U, 29U}) {
     chip.simulator.line(1)->faults().flip_next_frame({bit});
     ASSERT_TRUE(chip.frame());
-    EXPECT_EQ(chip.status() & 0x90U, 0U) << bit;
+    EXPECT_EQ(chip.status() & (reg::nERR::kMask | reg::nSCDERR::kMask), 0U) << bit;
     EXPECT_EQ(chip.svalid(), 0U) << bit;
     ASSERT_TRUE(chip.frame());
     EXPECT_EQ(chip.svalid(), 2U) << bit;
@@ -154,7 +157,7 @@ TEST(ChipSsi, WithCrc_IsChecked) {
 // AGSMIN waits for SL = 1 at the end of the monoflop time: every frame is a new one.
 TEST(ChipSsi, Agsmin_ReadsEveryWordOnce) {
   ProtocolChip chip(encoder(25, "source = \"ramp\"\ngray = true"), {.freqs = 9});
-  chip.instruct(0x01);
+  chip.instruct(reg::kAgsOn);
   std::uint64_t last = 0;
   // 26 us of clock and 20 us of monoflop time; a look takes about 38 us.
   for (unsigned i = 0; i < 50; ++i) {
@@ -164,18 +167,19 @@ TEST(ChipSsi, Agsmin_ReadsEveryWordOnce) {
     last = word;
   }
   EXPECT_GT(last, 35U);
-  EXPECT_EQ(chip.status() & 0x50U, 0x50U);
+  EXPECT_EQ(chip.status() & (reg::nAGSERR::kMask | reg::nSCDERR::kMask),
+            unsigned{reg::kNagserrGood | reg::kNscderrGood});
 }
 
 // Multiple transmission: two data channels read the word twice in one frame, the second behind one
 // 0.
 TEST(ChipSsi, Ring_SecondChannelReadsTheSameWord) {
   ProtocolChip chip(encoder(25, "ring = true\ndata = 0x1A5B37C"), {.freqs = 9});
-  chip.write(0xC4, {0x40 | 25, 0x00, 0x00, 0x00});
+  chip.write(reg::slave_cfg_address(2), {reg::kEnscdYes | 25, 0, 0x00, 0x00});
   ASSERT_TRUE(chip.frame());
   EXPECT_EQ(chip.scdata(1, 25), 0x1A5B37CU);
   EXPECT_EQ(chip.scdata(2, 26), 0x1A5B37CU);
-  EXPECT_EQ(chip.svalid(), 0x0AU);
+  EXPECT_EQ(chip.svalid(), valid({1, 2}));
 }
 
 // Page 16: CDM goes out as the inverted level of MA after the frame.
@@ -183,7 +187,7 @@ TEST(ChipSsi, ExtendedSsi_SendsCdmBehindTheFrame) {
   ProtocolChip chip(encoder(13, "control = true\ndata = 0x1234"), {.freqs = 9});
   unsigned count = 0;
   for (const bool cdm : {true, false, true, true, false}) {
-    ASSERT_TRUE(chip.frame(cdm ? 0x02 : 0x04));
+    ASSERT_TRUE(chip.frame(cdm ? reg::kInstrCdm1 : reg::kInstrCdm0));
     EXPECT_EQ(chip.simulator.slave(1)->last_cdm(), cdm);
     EXPECT_EQ(chip.simulator.slave(1)->cdm_count(), ++count);
     EXPECT_EQ(chip.scdata(1, 13), 0x1234U);
@@ -206,7 +210,11 @@ TEST(ChipSsi, ExtendedSsi_WritesRegistersBlind) {
     const auto& counters = chip.simulator.slave(1)->control()->counters();
     EXPECT_EQ(counters.writes, count);
     EXPECT_EQ(counters.header_errors + counters.data_errors + counters.protocol_errors, 0U);
-    EXPECT_EQ(host.status() & 0x7CU, 0x7CU) << count;  // no error, REGEND
+    EXPECT_EQ(host.status() & (reg::nAGSERR::kMask | reg::nDELAYERR::kMask | reg::nSCDERR::kMask |
+                               reg::nREGERR::kMask | reg::REGEND::kMask),
+              unsigned{reg::kNagserrGood | reg::kNdelayerrGood | reg::kNscderrGood |
+                       reg::kNregerrGood | reg::kRegendDone})
+        << count;  // no error, REGEND
   }
 }
 
@@ -219,7 +227,8 @@ TEST(ChipSsi, ExtendedSsi_CannotRead) {
   chip.write_rdata(before);
   host.set_read(0, 0x30, 2);
   EXPECT_TRUE(host.run_ags(1'000'000));
-  EXPECT_EQ(host.status() & 0x0CU, 0x04U);  // REGEND, nREGERR = 0
+  EXPECT_EQ(host.status() & (reg::nREGERR::kMask | reg::REGEND::kMask),
+            reg::kRegendDone);  // REGEND, nREGERR = 0
   EXPECT_EQ(host.regbytes(), 0U);
   EXPECT_EQ(host.rdata(3), before) << "page 28: stored after success only";
 }
@@ -229,9 +238,9 @@ TEST(ChipSsi, SlLow_GivesAgsErrorUnlessAgsmin) {
   ProtocolChip chip(encoder(13, "data = 0x1234"), {.freqs = 9, .freqags = 0x00});
   chip.simulator.line(1)->faults().stick(false);
   chip.simulator.refresh_lines();
-  chip.instruct(0x04);
+  chip.instruct(reg::kInstrCdm0);
   chip.advance_us(100);
-  EXPECT_EQ(chip.status() & 0x41U, 0x01U);
+  EXPECT_EQ(chip.status() & (reg::nAGSERR::kMask | reg::EOT::kMask), reg::kEotIdle);
   EXPECT_EQ(chip.simulator.slave(1)->frames(), 0U);
 }
 

@@ -12,17 +12,17 @@ namespace {
 
 using mb4test::Chip;
 using mb4test::one_slave;
+namespace reg = mb4::regs;
 namespace sim = mb4::sim;
 
 const char kEncoder26[] = "data_bits = 28\ncrc = 0x43\ndata = 0xAAF37BF\ntimeout = \"adaptive\"";
-constexpr std::uint8_t kAgsmin = 0x7C;
 
-void frame(Chip& chip, std::uint8_t instruction = 0x04) {
+void frame(Chip& chip, std::uint8_t instruction = reg::kInstrCdm0) {
   chip.instruct(instruction);
   ASSERT_TRUE(chip.wait_eot());
 }
 // Bit 1 on the wire is CDS: a slave of this version sends 0.
-void frame_with_cds(Chip& chip, unsigned line, std::uint8_t instruction = 0x04) {
+void frame_with_cds(Chip& chip, unsigned line, std::uint8_t instruction = reg::kInstrCdm0) {
   chip.simulator.line(line)->faults().flip_next_frame({1});
   frame(chip, instruction);
 }
@@ -37,9 +37,10 @@ std::string two_lines() {
          kEncoder26 + "\n";
 }
 void configure_two_lines(Chip& chip) {
-  chip.configure_slave1(28, 0x06, 0x00, kAgsmin);
-  chip.write(0xD0, {0x40 | 27, 0x06, 0x00, 0x00});
-  chip.write(0xEC, {0x11, 0x05});
+  chip.configure_slave1(28, reg::kScrclenCrc6, 0x00, reg::kFreqagsAgsMin);
+  chip.write(reg::slave_cfg_address(5), {reg::kEnscdYes | 27, reg::kScrclenCrc6, 0x00, 0x00});
+  chip.write(reg::kAddrSlaveloc5,
+             {reg::kResetSlaveloc5 | reg::kSlaveloc5Split, reg::kCfgch2BissC | reg::kCfgch1BissC});
 }
 
 // Table 54: nothing runs after a reset, and the pin says so from its first moment on.
@@ -61,37 +62,39 @@ TEST(ChipStatus, Eot_IsZeroDuringFramesAndInitAndEqualsThePin) {
   Chip chip(one_slave(kEncoder26));
   chip.simulator.spi().set_timing(sim::SpiTiming::for_frequency(50'000'000));
   chip.simulator.bus().set_timing({});
-  chip.configure_slave1(28, 0x06, 0x03, kAgsmin);
-  for (const unsigned instruction : {0x04U, 0x10U}) {
-    EXPECT_EQ(chip.status() & 0x01, 0x01);
+  chip.configure_slave1(28, reg::kScrclenCrc6, 0x03, reg::kFreqagsAgsMin);
+  for (const unsigned instruction : {reg::kInstrCdm0, reg::kInitStart}) {
+    EXPECT_EQ(chip.status() & reg::EOT::kMask, reg::kEotIdle);
     EXPECT_TRUE(chip.simulator.pin(sim::Pin::kEot));
     chip.instruct(static_cast<std::uint8_t>(instruction));
     chip.simulator.advance(400 * sim::kPsPerNs);
     unsigned reads = 0;
     while (!chip.simulator.pin(sim::Pin::kEot)) {
-      const std::uint8_t flag = chip.status() & 0x01;
+      const std::uint8_t flag = chip.status() & reg::EOT::kMask;
       if (chip.simulator.pin(sim::Pin::kEot)) break;  // rose during the read
       EXPECT_EQ(flag, 0x00);
       ++reads;
       ASSERT_LT(reads, 1000U);
     }
     EXPECT_GT(reads, 3U);
-    EXPECT_EQ(chip.status() & 0x01, 0x01);
+    EXPECT_EQ(chip.status() & reg::EOT::kMask, reg::kEotIdle);
   }
 }
 
 // Table 55, decision 9: set by a wrong CRC; cleared by the next good frame, by INIT, by BREAK.
 TEST(ChipStatus, Nscderr_WrongCrcSetsItGoodFrameInitAndBreakClearIt) {
   Chip chip(one_slave(kEncoder26));
-  chip.configure_slave1(28, 0x06, 0x00, kAgsmin);
-  for (const unsigned clear : {0x04U, 0x10U, 0x80U}) {
+  chip.configure_slave1(28, reg::kScrclenCrc6, 0x00, reg::kFreqagsAgsMin);
+  for (const unsigned clear : {reg::kInstrCdm0, reg::kInitStart, reg::kBreakAbort}) {
     frame_with_wrong_crc(chip);
-    EXPECT_EQ(chip.status(), 0x6B) << "nERR = nSCDERR = 0";
+    EXPECT_EQ(chip.status(), reg::kResetStatus0 & ~(reg::nERR::kMask | reg::nSCDERR::kMask))
+        << "nERR = nSCDERR = 0";
     EXPECT_FALSE(chip.simulator.pin(sim::Pin::kNer));
     chip.advance_us(10);
-    EXPECT_EQ(chip.status(), 0x6B) << "stays until it is cleared";
+    EXPECT_EQ(chip.status(), reg::kResetStatus0 & ~(reg::nERR::kMask | reg::nSCDERR::kMask))
+        << "stays until it is cleared";
     frame(chip, static_cast<std::uint8_t>(clear));
-    EXPECT_EQ(chip.status(), 0xFB) << "cleared by " << clear;
+    EXPECT_EQ(chip.status(), reg::kResetStatus0) << "cleared by " << clear;
     EXPECT_TRUE(chip.simulator.pin(sim::Pin::kNer));
   }
 }
@@ -100,23 +103,24 @@ TEST(ChipStatus, Nscderr_WrongCrcSetsItGoodFrameInitAndBreakClearIt) {
 // the next good frame ("at least one").
 TEST(ChipStatus, Nagserr_MissedFrameSetsItInitAndBreakClearIt) {
   Chip chip(one_slave(kEncoder26));
-  chip.configure_slave1(28, 0x06, 0x00, 0x00);
-  for (const unsigned clear : {0x10U, 0x80U}) {
+  chip.configure_slave1(28, reg::kScrclenCrc6, 0x00, 0x00);
+  for (const unsigned clear : {reg::kInitStart, reg::kBreakAbort}) {
     chip.simulator.line(1)->faults().stick(false);
     chip.simulator.refresh_lines();
     chip.advance_us(1);
     frame(chip);
-    EXPECT_EQ(chip.status(), 0x3B) << "nERR = nAGSERR = 0";
+    EXPECT_EQ(chip.status(), reg::kResetStatus0 & ~(reg::nERR::kMask | reg::nAGSERR::kMask))
+        << "nERR = nAGSERR = 0";
     EXPECT_FALSE(chip.simulator.pin(sim::Pin::kNer));
     chip.simulator.line(1)->faults().stick(std::nullopt);
     chip.simulator.refresh_lines();
     chip.advance_us(1);
     frame(chip);
-    EXPECT_EQ(chip.read(0xF1), 0x02) << "the next frame is tried";
-    EXPECT_EQ(chip.status(), 0x3B);
+    EXPECT_EQ(chip.read(reg::kAddrSvalidLo), reg::SVALID<1>::kMask) << "the next frame is tried";
+    EXPECT_EQ(chip.status(), reg::kResetStatus0 & ~(reg::nERR::kMask | reg::nAGSERR::kMask));
     chip.advance_us(10);
     frame(chip, static_cast<std::uint8_t>(clear));
-    EXPECT_EQ(chip.status(), 0xFB) << "cleared by " << clear;
+    EXPECT_EQ(chip.status(), reg::kResetStatus0) << "cleared by " << clear;
     EXPECT_TRUE(chip.simulator.pin(sim::Pin::kNer));
   }
 }
@@ -125,7 +129,7 @@ TEST(ChipStatus, Nagserr_MissedFrameSetsItInitAndBreakClearIt) {
 // another component touches no other flag.
 TEST(ChipStatus, NerPin_InternalAndExternalErrorsAreWiredOr) {
   Chip chip(one_slave(kEncoder26));
-  chip.configure_slave1(28, 0x06, 0x00, kAgsmin);
+  chip.configure_slave1(28, reg::kScrclenCrc6, 0x00, reg::kFreqagsAgsMin);
   for (const bool internal : {false, true}) {
     for (const bool external : {false, true}) {
       chip.simulator.set_pin(sim::Pin::kNer, !external);
@@ -136,7 +140,10 @@ TEST(ChipStatus, NerPin_InternalAndExternalErrorsAreWiredOr) {
       }
       const bool low = internal || external;
       EXPECT_EQ(chip.simulator.pin(sim::Pin::kNer), !low);
-      EXPECT_EQ(chip.status(), (low ? 0x00 : 0x80) | (internal ? 0x6B : 0x7B));
+      EXPECT_EQ(chip.status(),
+                (low ? 0x00 : 0x80) |
+                    (internal ? reg::kResetStatus0 & ~(reg::nERR::kMask | reg::nSCDERR::kMask)
+                              : reg::kResetStatus0 & ~reg::nERR::kMask));
     }
   }
   chip.simulator.set_pin(sim::Pin::kNer, true);
@@ -156,14 +163,14 @@ TEST(ChipStatus, EverySvalid_HasItsOwnBit) {
   }
   Chip chip(text);
   for (unsigned x = 0; x < 8; ++x) {
-    chip.write(static_cast<std::uint8_t>(0xC0 + 4 * x), {0x43, 0x06, 0x00, 0x00});
+    chip.write(reg::slave_cfg_address(x + 1), {reg::kEnscdYes | 3, reg::kScrclenCrc6, 0x00, 0x00});
   }
-  chip.write(0xE5, {0x40, 0xA0, 0x00, kAgsmin});
-  chip.write(0xEC, {0x01, 0x0D});
+  chip.write(reg::kAddrCtrl, {reg::kRegversBissC, reg::FREQR::of(5), 0, reg::kFreqagsAgsMin});
+  chip.write(reg::kAddrSlaveloc5, {reg::kResetSlaveloc5, reg::kCfgch2Unused | reg::kCfgch1BissC});
   for (unsigned x = 0; x < 8; ++x) {
     const unsigned bit = 1U << (8 * (x / 4) + 2 * (x % 4) + 1);  // in F2:F1
     const auto flags = [&] {
-      const auto bytes = chip.read(0xF1, 2);
+      const auto bytes = chip.read(reg::kAddrSvalidLo, 2);
       return bytes[0] | (bytes[1] << 8U);
     };
     frame(chip);
@@ -173,7 +180,7 @@ TEST(ChipStatus, EverySvalid_HasItsOwnBit) {
     EXPECT_EQ(flags(), 0xAAAA & ~bit) << "wrong CRC of slave " << x + 1;
     frame(chip);
     EXPECT_EQ(flags(), 0xAAAA);
-    chip.write(0xF1,
+    chip.write(reg::kAddrSvalidLo,
                {static_cast<std::uint8_t>(~bit & 0xFFU), static_cast<std::uint8_t>(~bit >> 8U)});
     chip.advance_us(1);
     EXPECT_EQ(flags(), 0xAAAA & ~bit) << "written";
@@ -186,7 +193,7 @@ TEST(ChipStatus, CdsBits_FollowTheirLineAndChsel) {
   Chip chip(two_lines());
   configure_two_lines(chip);
   for (const unsigned chsel : {0U, 1U, 2U}) {
-    chip.write(0xE4, {static_cast<std::uint8_t>(chsel)});
+    chip.write(reg::kAddrChsel, {static_cast<std::uint8_t>(chsel)});
     for (unsigned pattern = 0; pattern < 4; ++pattern) {
       for (const unsigned line : {1U, 2U}) {
         if (((pattern >> (line - 1)) & 1U) != 0) {
@@ -196,26 +203,28 @@ TEST(ChipStatus, CdsBits_FollowTheirLineAndChsel) {
       frame(chip);
       const unsigned cds1 = pattern & 1U;
       const unsigned cds2 = pattern >> 1U;
-      EXPECT_EQ(chip.read(0xF8), 0x55 | (cds1 << 1U) | (cds2 << 3U));
-      EXPECT_EQ(chip.read(0xF3) & 0x40, (chsel == 2 ? cds2 : cds1) << 6U) << chsel;
-      EXPECT_EQ(chip.read(0xF1, 2), (std::vector<std::uint8_t>{0x02, 0x02}));
+      EXPECT_EQ(chip.read(reg::kAddrStatus8), 0x55 | (cds1 << 1U) | (cds2 << 3U));
+      EXPECT_EQ(chip.read(reg::kAddrStatus3) & reg::CDSSEL::kMask, (chsel == 2 ? cds2 : cds1) << 6U)
+          << chsel;
+      EXPECT_EQ(chip.read(reg::kAddrSvalidLo, 2),
+                (std::vector<std::uint8_t>{reg::SVALID<1>::kMask, reg::SVALID<5>::kMask}));
     }
   }
 }
 
 TEST(ChipStatus, CdsUnderHoldBank_SwitchesWithTheBank) {
   Chip chip(one_slave(kEncoder26));
-  chip.configure_slave1(28, 0x06, 0x00, kAgsmin);
+  chip.configure_slave1(28, reg::kScrclenCrc6, 0x00, reg::kFreqagsAgsMin);
   frame(chip);
   frame_with_cds(chip, 1, 0x44);
-  EXPECT_EQ(chip.read(0xF8), 0x55);
-  EXPECT_EQ(chip.read(0xF3) & 0x40, 0x00);
-  chip.instruct(0x00);
+  EXPECT_EQ(chip.read(reg::kAddrStatus8), 0x55);
+  EXPECT_EQ(chip.read(reg::kAddrStatus3) & reg::CDSSEL::kMask, 0);
+  chip.instruct(0);
   chip.advance_us(1);
-  EXPECT_EQ(chip.read(0xF8), 0x57);
-  EXPECT_EQ(chip.read(0xF3) & 0x40, 0x40);
+  EXPECT_EQ(chip.read(reg::kAddrStatus8), 0x57);
+  EXPECT_EQ(chip.read(reg::kAddrStatus3) & reg::CDSSEL::kMask, reg::kCdsselHigh);
   frame(chip);
-  EXPECT_EQ(chip.read(0xF8), 0x55);
+  EXPECT_EQ(chip.read(reg::kAddrStatus8), 0x55);
 }
 
 // Decision 14: of a reduced frame only the CDS bits change, and at once. Not so under HOLDBANK:
@@ -223,34 +232,37 @@ TEST(ChipStatus, CdsUnderHoldBank_SwitchesWithTheBank) {
 TEST(ChipStatus, CdsOfReducedFrames_ShowsAtOnceButNotUnderHoldBank) {
   for (const bool hold : {false, true}) {
     Chip chip(one_slave(kEncoder26));
-    chip.configure_slave1(28, 0x06, 0x00, kAgsmin);
-    chip.write(0xE5, {0x41});  // a command; HOLDCDM for frames that are not clocked out
+    chip.configure_slave1(28, reg::kScrclenCrc6, 0x00, reg::kFreqagsAgsMin);
+    chip.write(reg::kAddrCtrl,
+               {reg::kRegversBissC |
+                reg::kHoldcdmHold});  // a command; HOLDCDM for frames that are not clocked out
     frame(chip);
     frame_with_cds(chip, 1, hold ? 0x4E : 0x0E);
     chip.advance_us(10);
-    EXPECT_EQ(chip.read(0xF3) & 0x40, hold ? 0x00 : 0x40);
-    EXPECT_EQ(chip.read(0xF8), hold ? 0x55 : 0x57);
-    EXPECT_EQ(chip.read(0xF1), 0x02);
-    chip.instruct(hold ? 0x60 : 0x20);
+    EXPECT_EQ(chip.read(reg::kAddrStatus3) & reg::CDSSEL::kMask, hold ? 0 : reg::kCdsselHigh);
+    EXPECT_EQ(chip.read(reg::kAddrStatus8), hold ? 0x55 : 0x57);
+    EXPECT_EQ(chip.read(reg::kAddrSvalidLo), reg::SVALID<1>::kMask);
+    chip.instruct(hold ? reg::kHoldbankPrevented | reg::SWBANK::kMask : reg::SWBANK::kMask);
     chip.advance_us(1);
-    EXPECT_EQ(chip.read(0xF3) & 0x40, hold ? 0x40 : 0x00) << "the other bank";
+    EXPECT_EQ(chip.read(reg::kAddrStatus3) & reg::CDSSEL::kMask, hold ? reg::kCdsselHigh : 0)
+        << "the other bank";
   }
 }
 
 // Table 62: set when HOLDBANK has kept a frame from switching; cleared by the next switch only.
 TEST(ChipStatus, SwBankFail_PreventedSwitchSetsItTheNextSwitchClearsIt) {
   Chip chip(one_slave(kEncoder26));
-  chip.configure_slave1(28, 0x06, 0x00, kAgsmin);
+  chip.configure_slave1(28, reg::kScrclenCrc6, 0x00, reg::kFreqagsAgsMin);
   frame(chip, 0x44);
-  EXPECT_EQ(chip.read(0xFB), 0x00) << "held back, not lost";
+  EXPECT_EQ(chip.read(reg::kAddrSwbankfail), 0) << "held back, not lost";
   frame(chip, 0x44);
-  EXPECT_EQ(chip.read(0xFB), 0x01);
-  frame(chip, 0x10 | 0x40);
-  EXPECT_EQ(chip.status(), 0xFB) << "INIT clears nAGSERR";
-  EXPECT_EQ(chip.read(0xFB), 0x01) << "but not this flag";
-  chip.instruct(0x00);
+  EXPECT_EQ(chip.read(reg::kAddrSwbankfail), reg::kSwbankfailFailed);
+  frame(chip, reg::kInitStart | reg::kHoldbankPrevented);
+  EXPECT_EQ(chip.status(), reg::kResetStatus0) << "INIT clears nAGSERR";
+  EXPECT_EQ(chip.read(reg::kAddrSwbankfail), reg::kSwbankfailFailed) << "but not this flag";
+  chip.instruct(0);
   chip.advance_us(1);
-  EXPECT_EQ(chip.read(0xFB), 0x00);
+  EXPECT_EQ(chip.read(reg::kAddrSwbankfail), 0);
 }
 
 // Table 45, 011: CDM = NOT CDSSEL, one frame with AGS = 0; Table 23: on the selected line, 0 on the
@@ -260,7 +272,7 @@ TEST(ChipInstr, CdmNotCdssel_IsTheInverseOfTheCdsOfTheFrame) {
   for (const unsigned chsel : {0U, 1U, 2U, 3U}) {
     Chip chip(two_lines());
     configure_two_lines(chip);
-    chip.write(0xE4, {static_cast<std::uint8_t>(chsel)});
+    chip.write(reg::kAddrChsel, {static_cast<std::uint8_t>(chsel)});
     for (const bool cds : {true, false, false, true, true}) {
       const auto frames = chip.simulator.slave(1)->frames();
       if (cds) {
@@ -268,8 +280,8 @@ TEST(ChipInstr, CdmNotCdssel_IsTheInverseOfTheCdsOfTheFrame) {
       } else {
         frame(chip, 0x06);
       }
-      EXPECT_EQ(chip.read(0xF4), 0x00);
-      EXPECT_EQ((chip.read(0xF3) & 0x40) != 0, cds) << "CDSSEL";
+      EXPECT_EQ(chip.read(reg::kAddrInstr), 0);
+      EXPECT_EQ((chip.read(reg::kAddrStatus3) & reg::CDSSEL::kMask) != 0, cds) << "CDSSEL";
       chip.advance_us(10);
       EXPECT_EQ(chip.simulator.slave(1)->frames(), frames + 1);
       EXPECT_EQ(chip.simulator.slave(1)->last_cdm(), chsel != 2 && !cds) << chsel;
@@ -281,12 +293,15 @@ TEST(ChipInstr, CdmNotCdssel_IsTheInverseOfTheCdsOfTheFrame) {
 // Table 6: constants of the status block.
 TEST(ChipStatus, ConstantBits_ReadAsPrinted) {
   Chip chip(one_slave(kEncoder26));
-  chip.configure_slave1(28, 0x06, 0x00, kAgsmin);
+  chip.configure_slave1(28, reg::kScrclenCrc6, 0x00, reg::kFreqagsAgsMin);
   frame(chip);
-  EXPECT_EQ(chip.read(0xF0) & 0x02, 0x02);
-  EXPECT_EQ(chip.read(0xF1, 2), (std::vector<std::uint8_t>{0x02, 0x00})) << "even bits are 0";
-  EXPECT_EQ(chip.read(0xF8) & 0xF0, 0x50);
-  EXPECT_EQ(chip.read(0xF9), 0x55);
+  EXPECT_EQ(chip.read(reg::kAddrStatus0) & 0x02,
+            reg::kResetStatus0 & ~(reg::nERR::kMask | reg::nAGSERR::kMask | reg::nDELAYERR::kMask |
+                                   reg::nSCDERR::kMask | reg::nREGERR::kMask | reg::EOT::kMask));
+  EXPECT_EQ(chip.read(reg::kAddrSvalidLo, 2), (std::vector<std::uint8_t>{reg::SVALID<1>::kMask, 0}))
+      << "even bits are 0";
+  EXPECT_EQ(chip.read(reg::kAddrStatus8) & reg::kConstStatus8, 0x50);
+  EXPECT_EQ(chip.read(reg::kAddrStatus9), 0x55);
 }
 
 }  // namespace

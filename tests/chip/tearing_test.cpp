@@ -16,6 +16,7 @@ namespace {
 
 using mb4test::Chip;
 using mb4test::one_slave;
+namespace reg = mb4::regs;
 namespace sim = mb4::sim;
 
 constexpr unsigned kBytes = 8;
@@ -41,10 +42,10 @@ std::vector<std::uint8_t> bytes_of(std::uint64_t frame) {
 }
 
 void start_frames(Chip& chip) {
-  chip.write(0xC0, {0x40 | 63, 0x00, 0x00, 0x00});
-  chip.write(0xE5, {0x40, 0xA0, 0x00, kRate});
-  chip.write(0xEC, {0x01, 0x0D});
-  chip.instruct(0x01);
+  chip.write(reg::slave_cfg_address(1), {reg::kEnscdYes | 63, 0, 0x00, 0x00});
+  chip.write(reg::kAddrCtrl, {reg::kRegversBissC, reg::FREQR::of(5), 0, kRate});
+  chip.write(reg::kAddrSlaveloc5, {reg::kResetSlaveloc5, reg::kCfgch2Unused | reg::kCfgch1BissC});
+  chip.instruct(reg::kAgsOn);
 }
 
 class Tearing : public testing::TestWithParam<const char*> {};
@@ -60,7 +61,7 @@ TEST_P(Tearing, HoldBankAtEveryPhase_NoWordIsTorn) {
   for (unsigned i = 0; i < 400; ++i) {
     chip.simulator.run_until(next);
     next += turn;
-    chip.instruct(0x41);
+    chip.instruct(reg::kHoldbankPrevented | reg::kAgsOn);
     const auto frames = chip.simulator.slave(1)->frames();  // one may run
     std::vector<std::uint8_t> word;
     if (i % 2 == 0) {
@@ -68,10 +69,10 @@ TEST_P(Tearing, HoldBankAtEveryPhase_NoWordIsTorn) {
         word.push_back(chip.read(static_cast<std::uint8_t>(byte)));
       }
     } else {
-      word = chip.read(0x00, kBytes);
+      word = chip.read(reg::kAddrScdata, kBytes);
     }
-    const auto again = chip.read(0x00, kBytes);
-    chip.instruct(0x01);
+    const auto again = chip.read(reg::kAddrScdata, kBytes);
+    chip.instruct(reg::kAgsOn);
     ASSERT_TRUE(word == bytes_of(frames - 1) || word == bytes_of(frames - 2))
         << "torn at turn " << i;
     ASSERT_EQ(again, word) << "turn " << i;

@@ -11,9 +11,13 @@
 #include <cstdlib>
 #include <string>
 
+#include "mb4_regs.hpp"
 #include "sim/scenario/scenario.hpp"
 
 namespace mb4test {
+
+// Registers and bits in tests: reg::kAddrInstr, reg::INSTR::kMask, reg::kInstrCdm0.
+namespace reg = mb4::regs;
 
 // "spi", "intel" or "motorola".
 inline std::string test_host() {
