@@ -8,7 +8,7 @@
 // the chip's logic. It computes all logic that depends on the inputs. It looks for edges of every
 // clock and reset of the chip three times or more. It does the same at falling edges of CLK, where
 // only a few flops act. Here the change is known: an edge of CLK. So only those statements of the
-// model run that such an edge starts and that read something that has changed (edge/split_edge.py).
+// model run that such an edge starts and that read something that has changed (parts/model_parts.py).
 // A falling edge costs nothing if it would leave its flops unchanged.
 //
 // A chip is at rest if a clock leaves every bit of it unchanged. Then any number of clocks leaves

@@ -11,7 +11,7 @@
 // Some packages of Verilator leave this number empty.
 #if VERILATOR_VERSION_INTEGER + 0 == 5006000
 #include <Vmb4_chip_edge.hpp>
-#ifndef MB4_EDGE_NOT_SPLIT
+#ifndef MODEL_RUNS_WHOLE
 #define MB4_DIRECT_STEPS
 #include "direct_steps.hpp"
 #endif

@@ -52,8 +52,8 @@ def libraries(package):
         sys.exit(f"the other Verilator was not taken:\n{text}")
     # Not the environment of above: a build that configures again has to know it.
     text = run(CMAKE, "--build", FOLDER, "--target", "mb4sim_core")
-    header = Path(FOLDER, "sim", "split", "Vmb4_chip_edge.hpp").read_text(encoding="utf-8")
-    if header != "#define MB4_EDGE_NOT_SPLIT\n":
+    header = Path(FOLDER, "sim", "parts", "fast", "Vmb4_chip_edge.hpp").read_text(encoding="utf-8")
+    if header != "#define MODEL_RUNS_WHOLE\n":
         sys.exit("the model of an unknown Verilator is taken for one of 5.006")
     return version[1]
 

@@ -1,9 +1,11 @@
 # SPDX-FileCopyrightText: 2026 The openmb4 authors
 # SPDX-License-Identifier: Apache-2.0
-"""Parts of an edge of CLK (sim/model/edge): split_edge_test.py FOLDER HEADER
+"""A model in parts: model_parts_test.py FOLDER HEADER VERILATOR CXX RUNTIME [FLAGS]
 
-FOLDER has the modules, HEADER is what was made of the chip. That the parts compute what the whole
-does is shown by tests/chip/lockstep_test.cpp; here are the rules, with statements made by hand."""
+FOLDER has the program (sim/model/parts), HEADER is what it has made of the chip, RUNTIME a library
+with Verilator's runtime, compiled with FLAGS. tests/chip/lockstep_test.cpp shows that the parts of
+the chip compute what the whole does. Here are the rules, with statements made by hand, and a small
+model that is not the chip."""
 
 import subprocess
 import sys
@@ -11,9 +13,11 @@ import tempfile
 import unittest
 from pathlib import Path
 
-FOLDER, HEADER = sys.argv[1:3]
+FOLDER, HEADER, VERILATOR, CXX, RUNTIME = sys.argv[1:6]
 sys.path.insert(0, FOLDER)
 
+from busy import Busy, busy_of  # noqa: E402
+from description import Description  # noqa: E402
 from generated_model import NotUnderstood, analyse, apart, split, statements  # noqa: E402
 from groups import Kinds, groups_of, inputs, looks, parts_of  # noqa: E402
 from header import Writer  # noqa: E402
@@ -122,7 +126,13 @@ class Parts(unittest.TestCase):
 
     def parts(self, texts, busy, widths=None):
         widths = widths or {f"m__DOT__{name}": 1 for name in "srd"}
-        return parts_of(groups_of(rows(*texts)), Kinds(busy, widths), False)[0]
+        known = Busy({name for kind, name in busy if kind == "fast"},
+                     {name: kind for kind, name in busy if kind != "fast"})
+        return parts_of(groups_of(rows(*texts)), Kinds(known, widths), False)[0]
+
+    def writer(self, widths, places, by_host, lists):
+        described = Description("Vm", "m", ["clk"])
+        return Writer(described, {}, widths, places, [], set(), set(), by_host, lists)
 
     def test_who_writes_a_fast_variable_runs_always(self):
         parts = self.parts(["vlSelf->a = vlSelf->b;", "vlSelf->c = vlSelf->d;"], [("fast", "a")])
@@ -152,7 +162,7 @@ class Parts(unittest.TestCase):
 
     def header(self, texts, busy, widths):
         lists = {"rise": self.parts(texts, busy, widths)}
-        return Writer({}, widths, {}, [], set(), set(), lists).header(64, False)
+        return self.writer(widths, {}, set(), lists).header(64, False)
 
     def test_other_values_of_a_key_are_looked_at_again(self):
         text = self.header(["vlSelf->a = (vlSelf->b & vlSelf->c);", "vlSelf->c = vlSelf->d;"],
@@ -165,7 +175,7 @@ class Parts(unittest.TestCase):
         texts = ["vlSelf->y = (vlSelf->k & vlSelf->x);", "vlSelf->z = (1U == vlSelf->y);"]
         lists = {"rise": self.parts(texts, [("fast", "k")], {"k": 1})}
         places = {"x": 0, "y": 1}
-        text = Writer({}, {"k": 1}, places, [], set(), set(places), lists).header(64, False)
+        text = self.writer({"k": 1}, places, set(places), lists).header(64, False)
         keyed = [part for part in lists["rise"] if part.key]
         plain = [part for part in lists["rise"] if not part.key]
         both = 0b11 << keyed[0].flag
@@ -180,29 +190,136 @@ class Parts(unittest.TestCase):
         self.assertIn("if (((before0 == 2U) != (vlSelf->b == 2U))) {", text)
 
 
-class Fallback(unittest.TestCase):
-    def header(self, folder):
-        output = Path(folder, "edge.hpp")
-        subprocess.run([sys.executable, "-B", Path(FOLDER, "split_edge.py"), folder,
-                        Path(FOLDER, "busy.txt"), output], check=True, capture_output=True)
-        return output.read_text(encoding="utf-8")
+class Counts(unittest.TestCase):
+    def test_what_moves_at_most_clocks_is_fast(self):
+        # Ten runs are those of all groups after edges of host pins.
+        found = busy_of("runs 10 g\nruns 110 often\nruns 15 often\nruns 13 seldom\nruns 11 hardly\n"
+                        "moves 45 a\nmoves 44 b\nmoves 100 c==3\n")
+        self.assertEqual(found, Busy({"a", "c==3"}, {"often": "often", "seldom": "seldom"}))
 
-    def test_no_model_of_this_kind_runs_whole(self):
-        with tempfile.TemporaryDirectory() as folder:
-            self.assertEqual(self.header(folder), "#define MB4_EDGE_NOT_SPLIT\n")
-            # Files of that name, but not text; then a folder in the place of one.
-            Path(folder, "Vmb4_chip.cmake").write_bytes(b"\xff\xfe\x00")
-            self.assertEqual(self.header(folder), "#define MB4_EDGE_NOT_SPLIT\n")
-            Path(folder, "Vmb4_chip.cmake").unlink()
-            Path(folder, "Vmb4_chip.cmake").mkdir()
-            self.assertEqual(self.header(folder), "#define MB4_EDGE_NOT_SPLIT\n")
+    def test_nothing_counted_is_nothing_busy(self):
+        self.assertEqual(busy_of(""), Busy())
+
+
+SAMPLE = """
+module sample (input logic clk_i, rst_ni, en_i, input logic [7:0] add_i,
+               output logic [7:0] sum_o, output logic [1:0] turn_o, output logic high_o, late_o);
+  logic [3:0] wait_q, wait_d;
+  logic [7:0] sum_d;
+  assign high_o = sum_o > 8'd200;
+  assign wait_d = wait_q != 4'd0 ? wait_q - 4'd1 : en_i ? 4'd9 : 4'd0;
+  assign sum_d = turn_o == 2'd2 && wait_q == 4'd4 ? sum_o + add_i : sum_o;
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) sum_o <= '0;
+    else sum_o <= sum_d;
+  end
+  always_ff @(posedge clk_i) wait_q <= wait_d;
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) turn_o <= '0;
+    else turn_o <= turn_o + 2'd1;
+  end
+  FALL
+endmodule
+"""
+FALLING = "always_ff @(negedge clk_i) late_o <= high_o;"
+RISING = "always_ff @(posedge clk_i) late_o <= high_o;"
+DIVIDED = "logic half_q; always_ff @(posedge clk_i) half_q <= !half_q;" \
+          "always_ff @(posedge half_q) late_o <= high_o;"
+DESCRIBED = 'prefix = "Vsample"\nnamespace = "sample"\nclocks = ["clk_i"]\n'
+
+
+class SecondModel(unittest.TestCase):
+    """A model that is not the chip."""
+
+    def setUp(self):
+        keeper = tempfile.TemporaryDirectory()
+        self.addCleanup(keeper.cleanup)
+        self.folder = Path(keeper.name)
+        (self.folder / "model.toml").write_text(DESCRIBED, encoding="utf-8")
+
+    def run_in(self, *command):
+        return subprocess.run([str(word) for word in command], cwd=self.folder, check=True,
+                              capture_output=True, text=True).stdout
+
+    def verilate(self, fall):
+        (self.folder / "sample.sv").write_text(SAMPLE.replace("FALL", fall), encoding="utf-8")
+        self.run_in(VERILATOR, "--cc", "--make", "cmake", "--prefix", "Vsample", "--Mdir", "v",
+                    "-fno-const-bit-op-tree", "--x-initial", "unique", "sample.sv")
+
+    def parts(self, *options):
+        """(the header, what the program says)."""
+        told = self.run_in(sys.executable, "-B", Path(FOLDER, "model_parts.py"), "model.toml", "v",
+                           "v/Vsample_edge.hpp", *options)
+        return (self.folder / "v/Vsample_edge.hpp").read_text(encoding="utf-8"), told
+
+    def compare(self):
+        """Runs the parts beside eval(). Returns what the program prints."""
+        root = self.run_in(VERILATOR, "--getenv", "VERILATOR_ROOT").strip()
+        files = [Path(__file__).with_name("parts_sample.cpp").resolve(),
+                 *sorted((self.folder / "v").glob("*.cpp"))]
+        (self.folder / "all.cpp").write_text(
+            "".join(f'#include "{file}"\n' for file in files), encoding="utf-8")
+        self.run_in(CXX, "-std=c++20", "-O0", *sys.argv[6:], "-Iv", f"-isystem{root}/include",
+                    f"-isystem{root}/include/vltstd", "-o", "sample", "all.cpp", RUNTIME,
+                    "-pthread", "-latomic", "-lz")
+        return self.run_in(self.folder / "sample")
+
+    def test_parts_compute_what_eval_does(self):
+        self.verilate(FALLING)
+        text, told = self.parts("--count")
+        self.assertEqual((told, text.count("MODEL_RUNS_WHOLE")), ("", 0))
+        (self.folder / "counts").write_text(self.compare(), encoding="utf-8")
+        text, _ = self.parts("--busy", "counts", "--check")
+        # turn_o moves at each clock, and what reads it has a flag for each of its values.
+        self.assertRegex(text, r"at = \d \+ \(static_cast<unsigned>\(vlSelf->turn_o\) << 0\);")
+        self.assertEqual(self.compare(), "")
+
+    def test_without_counts_and_falling_edges_too(self):
+        self.verilate(RISING)
+        text, told = self.parts()
+        self.assertEqual((told, text.count("static_cast<unsigned>(vlSelf->")), ("", 0))
+        self.assertEqual(self.compare(), "")
+
+    def test_a_clock_made_by_the_clock_is_refused(self):
+        self.verilate(DIVIDED)
+        text, told = self.parts()
+        self.assertEqual(text, "#define MODEL_RUNS_WHOLE\n")
+        self.assertIn("Vsample runs whole", told)
+        self.assertIn("an edge of the clock makes events: ['sample__DOT__half_q']", told)
+
+    def test_a_name_that_the_model_does_not_have_is_told(self):
+        self.verilate(FALLING)
+        with (self.folder / "model.toml").open("a", encoding="utf-8") as file:
+            file.write('[changed]\nmore = ["sample.wait_q", "sample.u_a.gone_q"]\n')
+        text, told = self.parts()
+        self.assertEqual(text, "#define MODEL_RUNS_WHOLE\n")
+        self.assertIn("the model has no sample.u_a.gone_q\n", told)
+
+    def test_an_unknown_key_is_an_error(self):
+        (self.folder / "model.toml").write_text(DESCRIBED + "clock = 1\n", encoding="utf-8")
+        with self.assertRaises(subprocess.CalledProcessError) as caught:
+            self.parts()
+        self.assertIn("'clock'", caught.exception.stderr)
+
+    def test_what_no_verilator_has_made_runs_whole(self):
+        (self.folder / "v").mkdir()
+        self.assertEqual(self.parts()[0], "#define MODEL_RUNS_WHOLE\n")
+        # Files of that name, but not text; then a folder in the place of one.
+        listing = self.folder / "v/Vsample.cmake"
+        listing.write_bytes(b"\xff\xfe\x00")
+        self.assertEqual(self.parts()[0], "#define MODEL_RUNS_WHOLE\n")
+        listing.unlink()
+        listing.mkdir()
+        self.assertEqual(self.parts()[0], "#define MODEL_RUNS_WHOLE\n")
 
 
 class Chip(unittest.TestCase):
     def test_the_chip_is_split(self):
         text = Path(HEADER).read_text(encoding="utf-8")
-        self.assertNotIn("MB4_EDGE_NOT_SPLIT", text)
+        self.assertNotIn("MODEL_RUNS_WHOLE", text)
         self.assertGreater(text.count("__builtin_expect"), 20)
+        # Some parts have a flag for each value of fast variables: the chip's counts were taken.
+        self.assertGreater(text.count("static_cast<unsigned>(vlSelf->"), 10)
 
 
 unittest.main(argv=sys.argv[:1])

@@ -3,9 +3,9 @@
 """Reads the C++ that Verilator 5.006 writes for a model: its statements, and what each of them
 reads and writes.
 
-This module understands only the forms that occur in this chip: functions of assignments and
-conditionals without loops, over members of the model (vlSelf->NAME) and local variables. Any other
-form raises NotUnderstood."""
+This module understands only these forms: functions of assignments and conditionals without loops,
+over members of the model (vlSelf->NAME) and local variables. Any other form raises
+NotUnderstood."""
 
 import re
 from collections import defaultdict
@@ -92,6 +92,13 @@ def places(folder, prefix):
     text = (folder / f"{prefix}___024root.h").read_text(encoding="utf-8")
     names = re.findall(r"^\s+(?:VL_(?:IN|OUT)\w*\((\w+),\d+,\d+\)|\S.* (\w+));$", text, re.M)
     return {pin or name: place for place, (pin, name) in enumerate(names)}
+
+
+def input_pins(folder, prefix):
+    text = (folder / f"{prefix}___024root.h").read_text(encoding="utf-8")
+    if "VL_INW(" in text:
+        raise NotUnderstood("an input of more than 64 bits")
+    return set(re.findall(r"^\s+VL_IN\w*\((\w+),\d+,\d+\);", text, re.M))
 
 
 def after_string(text, at):

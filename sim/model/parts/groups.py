@@ -188,9 +188,9 @@ class Schedule:
         return len(found)
 
 
-def plain(name, number=None):
-    """The name as in busy.txt: a local variable without its function."""
-    return name.rsplit(".", 1)[-1] + ("" if number is None else f"=={number}")
+def look_name(name, number):
+    """A variable, or its comparison with a number, as the counts name it."""
+    return name if number is None else f"{name}=={number}"
 
 
 class Kinds:
@@ -198,18 +198,17 @@ class Kinds:
     have work about equally often."""
 
     def __init__(self, busy, widths):
-        self.rate = {name: kind for kind, name in busy if kind != "fast"}
-        self.fast = {name for kind, name in busy if kind == "fast"}
-        self.widths = widths
+        self.busy, self.widths = busy, widths
 
     def __call__(self, group):
         """None: the group runs always. Otherwise the variables of its key and the name of its
         part."""
-        if {plain(name) for name in group.writes} & self.fast:
+        if group.writes & self.busy.fast:
             return None
-        key = sorted({name for name, number in group.looks if plain(name, number) in self.fast})
+        key = sorted({name for name, number in group.looks
+                      if look_name(name, number) in self.busy.fast})
         if not key:
-            rate = self.rate.get(group.name, "")
+            rate = self.busy.rate.get(group.name, "")
             return (), group.module if rate == "often" else rate
         if sum(self.widths.get(name, KEY_BITS + 1) for name in key) > KEY_BITS or group.arrays:
             return None

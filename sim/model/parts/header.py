@@ -1,24 +1,16 @@
 # SPDX-FileCopyrightText: 2026 The openmb4 authors
 # SPDX-License-Identifier: Apache-2.0
-"""Writes the header for direct_steps.hpp: functions for the edges of CLK, and the flags of their
-parts."""
+"""Writes the header: functions for the edges of the clock, and the flags of their parts."""
 
 import re
 from collections import defaultdict
 
+from description import members
 from generated_model import NotUnderstood
+from groups import look_name
 
-PREFIX = "Vmb4_chip"
-ROOT = f"{PREFIX}___024root"
-PIN = re.compile(r"(?!.*__)\w+_i$")
 CHECKED = 13  # one of so many rising edges has a check
 BLOCK = 48  # neighbouring variables that one comparison of memory covers
-SL = ["sl1_i", "sl2_i"]
-# Functions of the header for changes from outside between edges, with the variables that change.
-OUTSIDE = {
-    "sl_has_changed": SL,
-    "time_has_changed": ["mb4_chip__DOT__u_engine__DOT__u_control__DOT__u_request__DOT__pre_q",
-                         "mb4_chip__DOT__u_engine__DOT__u_control__DOT__u_request__DOT__step_q"]}
 HOST = """private:
 static const std::byte* bytes(const void* p) { return static_cast<const std::byte*>(p); }
 template <typename F, typename L>
@@ -51,17 +43,12 @@ def marked(parts):
     return " ".join(f"kept.changed[{k}] |= {mask:#x}ULL;" for k, mask in sorted(masks.items()))
 
 
-def opening(name):
-    """The first lines of a function that holds statements of the model."""
-    return [f"inline void {name}({ROOT}* __restrict vlSelf, Kept& __restrict kept) {{",
-            f"{PREFIX}__Syms* const __restrict vlSymsp = vlSelf->vlSymsp;", "(void)vlSymsp;"]
-
-
 class Writer:
-    """The header: rise() with its parts, fall(), follow_sl(), and marks for changes from
-    outside."""
+    """The header: rise() with its parts, fall(), the functions of [follow], and marks for changes
+    from outside."""
 
-    def __init__(self, types, widths, places, tables, arrays, by_host, lists):
+    def __init__(self, description, types, widths, places, tables, arrays, pins, by_host, lists):
+        self.described, self.root, self.input_pins = description, description.root, pins
         self.types, self.widths, self.places = types, widths, places
         self.tables, self.arrays = tables, arrays
         self.by_host, self.lists = by_host, lists
@@ -84,6 +71,12 @@ class Writer:
         self.kept = {name for name, many in users.items()
                      if len(many) > 1 or any(name in part.reads for part in many)}
         self.lines = []
+
+    def opening(self, name):
+        """The first lines of a function that holds statements of the model."""
+        return [f"inline void {name}({self.root}* __restrict vlSelf, Kept& __restrict kept) {{",
+                f"{self.described.prefix}__Syms* const __restrict vlSymsp = vlSelf->vlSymsp;",
+                "(void)vlSymsp;"]
 
     def variable(self, name):
         if name not in self.types:
@@ -133,7 +126,7 @@ class Writer:
                 alike[marked(parts)].append(test)
                 if count:
                     self.lines.append(f"counts.moves[{len(self.moves)}] += {test};")
-                    self.moves.append(name if number is None else f"{name}=={number}")
+                    self.moves.append(look_name(name, number))
         self.lines += [f"if ({' | '.join(tests)}) {{ {marks} }}" for marks, tests in alike.items()]
 
     def bits_of(self, part):
@@ -177,7 +170,7 @@ class Writer:
         self.compare(told, lambda k: f"before{k}", self.variable, count)
 
     def function(self, name, parts, count):
-        self.lines += opening(name)
+        self.lines += self.opening(name)
         for part in parts:
             if not part.bits:
                 self.lines.append("{")
@@ -202,25 +195,26 @@ class Writer:
         self.lines.append("~Counts() {")
         for kind, many in (("runs", names), ("moves", self.moves)):
             self.lines += [f"for (int k = 0; k < {len(many)}; ++k)",
-                           f'std::fprintf(stderr, "{kind} %llu %s\\n", '
+                           f'std::printf("{kind} %llu %s\\n", '
                            f"static_cast<unsigned long long>({kind}[k]), k_{kind}[k]);"]
         self.lines += ["}", "} counts;"]
 
     def pins(self):
         """Marks for the host's pins. A pin changes before the comparison, so Pins keeps its old
         level."""
-        names = sorted(name for name in self.by_host
-                       if PIN.match(name) and name not in SL and self.marks([name]))
+        late = {name for pins in self.described.follow.values() for name in members(pins)}
+        names = sorted(name for name in self.by_host & self.input_pins - late
+                       if self.marks([name]))
         self.lines += ["struct Pins {",
-                       *(f"decltype({ROOT}::{name}) {name}{{}};" for name in names),
-                       f"void compare(const {ROOT}& root, Kept& kept) {{"]
+                       *(f"decltype({self.root}::{name}) {name}{{}};" for name in names),
+                       f"void compare(const {self.root}& root, Kept& kept) {{"]
         self.compare(names, names.__getitem__, lambda name: f"root.{name}")
         self.lines += [*(f"{name} = root.{name};" for name in names), "}", "};"]
 
     def host(self):
         """Copies of the variables that the host's pins can change, for a later comparison."""
-        watched = sorted((name for name in self.by_host if not PIN.match(name)
-                          and name not in self.types and self.marks_behind_eval(name)),
+        watched = sorted((name for name in self.by_host - self.input_pins - self.types.keys()
+                          if self.marks_behind_eval(name)),
                          key=lambda name: self.places[name])
         blocks = []
         for name in watched:
@@ -229,9 +223,9 @@ class Writer:
                 blocks.append([])
             blocks[-1].append(name)
         self.lines += [
-            "class Host {", "public:", f"void take(const {ROOT}& root) {{",
+            "class Host {", "public:", f"void take(const {self.root}& root) {{",
             *(f"copy(root, root.{block[0]}, root.{block[-1]});" for block in blocks), "}",
-            f"void compare(const {ROOT}& root, Kept& kept) const {{"]
+            f"void compare(const {self.root}& root, Kept& kept) const {{"]
         for block in blocks:
             self.lines.append(f"if (!same(root, root.{block[0]}, root.{block[-1]})) {{")
             for name in block:
@@ -239,17 +233,17 @@ class Writer:
                 self.lines.append("" if name in self.arrays else changed)
                 self.lines.append(f"{{ {self.marks_behind_eval(name)} }}")
             self.lines.append("}")
-        self.lines += ["}", HOST.replace("ROOT", ROOT), "};"]
+        self.lines += ["}", HOST.replace("ROOT", self.root), "};"]
 
     def header(self, flags, count, check=()):
         """`check`: lines of a function check(), called after some of the edges."""
         self.checked = bool(check)
         words = flags // 64 + 1
         self.lines = [
-            "// Made from the model by split_edge.py.", "#pragma once",
+            "// Made from the model by model_parts.py.", "#pragma once",
             "#include <cstddef>", "#include <cstdint>", "#include <cstdio>", "#include <cstring>",
-            f"#include <{PREFIX}__Syms.h>", *self.tables,
-            "namespace mb4::sim::edge {",
+            f"#include <{self.described.prefix}__Syms.h>", *self.tables,
+            f"namespace {self.described.namespace} {{",
             "struct Kept {", f"std::uint64_t changed[{words}];",
             "Kept() { all(); }",
             "void all() { for (auto& word : changed) word = ~std::uint64_t{0}; }",
@@ -262,8 +256,9 @@ class Writer:
         if count:
             self.counts()
         self.lines += body
-        for name, changed in OUTSIDE.items():
-            self.lines.append(f"inline void {name}(Kept& kept) {{ {self.marks(changed)} }}")
+        for name, changed in self.described.changed.items():
+            self.lines.append(f"inline void {name}(Kept& kept) "
+                              f"{{ {self.marks(members(changed))} }}")
         self.pins()
         self.host()
         return "\n".join([*self.lines, "}", ""])

@@ -2,8 +2,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """Makes check() for the header. It tests the assumption of the parts while the model runs."""
 
-from header import opening
-
 HEAD = """#include <cstdlib>
 #include <type_traits>
 inline void differs(const char* name, unsigned value) {
@@ -16,7 +14,7 @@ def check(writer):
     """Lines of check(). It computes each part whose flag is not set, with every value of its key,
     and ends the program if a variable changes. It leaves out parts that write arrays, and
     messages."""
-    lines = [HEAD, *opening("check")]
+    lines = [HEAD, *writer.opening("check")]
     for part in writer.lists["rise"]:
         if part.bits and not part.arrays:
             lines += one(writer, part)

@@ -1,0 +1,155 @@
+#!/usr/bin/env python3
+# SPDX-FileCopyrightText: 2026 The openmb4 authors
+# SPDX-License-Identifier: Apache-2.0
+"""Splits the edges of a Verilated model's clock into parts, of which only those run whose inputs
+have changed.
+
+  model_parts.py MODEL.toml FOLDER OUTPUT [--busy COUNTS | --count] [--check]
+     MODEL.toml  describes the model (description.py)
+     FOLDER      Verilator's output
+     OUTPUT      a header; it defines MODEL_RUNS_WHOLE if this program does not understand the model
+     --busy      COUNTS says what is busy (busy.py), so the model runs faster. A wrong count costs
+                 speed only
+     --count     each group is a part and counts how often it runs; the program that includes the
+                 header prints the counts when it ends
+     --check     at some edges the model also computes the parts whose flags are not set; the
+                 program ends if one of them would change a variable
+
+The header has rise() and fall() for the edges of the clock, `Kept` with the flags, and `Pins` and
+`Host` for changes by eval(): tests/unit/parts_sample.cpp shows their use.
+
+Verilator computes all logic of a clock at each of its edges. This program puts Verilator's
+statements, unchanged, into groups: a register with the statements that write it. The order of the
+groups keeps every dependency. A fast variable is one that changes at nearly every clock. A group
+that writes one runs always. Other groups are put into bundles of two kinds:
+
+* One flag controls the bundle. The flag is set when a variable that the bundle reads changes.
+* If the bundle reads fast variables of a few bits, these are its key, and each value of the key has
+  a flag. All flags are set when any other variable that the bundle reads changes. If the bundle
+  computes a different result, the flags of the other values of the key are set. So while a flag is
+  not set, the bundle would compute the present result with that value of the key.
+
+If a variable is only compared with numbers, it counts as changed when the result of a comparison
+changes."""
+
+import argparse
+import re
+import sys
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).resolve().parent))
+
+import description  # noqa: E402
+from busy import Busy, busy_of  # noqa: E402
+from description import member, members  # noqa: E402
+from generated_model import (NotUnderstood, constants, functions, input_pins,  # noqa: E402
+                             places, statements, triggers, widths)
+from groups import Group, Kinds, Part, groups_of, parts_of  # noqa: E402
+from header import Writer  # noqa: E402
+from self_check import check  # noqa: E402
+
+INPUTS = "ico_sequent__TOP__0"  # Verilator's function for logic that depends on the inputs
+
+
+def started(described, bodies, names):
+    """[(function, the events that start it)] in the order of eval_nba()."""
+    calls = re.findall(rf"if \(([^{{]*)\) \{{\s*{described.root}___(\w+)\(vlSelf\);",
+                       bodies["eval_nba"])
+    return [(function, {event for k in re.findall(r"\.at\((\w+?)U\)", condition)
+                        for event in names[int(k, 0)]})
+            for condition, function in calls]
+
+
+def behind(rows, names):
+    """Those statements that depend on any of these variables, and the statements that they need."""
+    taken = set()
+    while True:
+        size = len(taken)
+        touched = set(names).union(*(rows[i].writes for i in taken))
+        needed = {name for i in taken for name in rows[i].reads if "." in name}
+        taken |= {i for i, row in enumerate(rows) if row.reads & touched or row.writes & needed}
+        if len(taken) == size:
+            return [rows[i] for i in sorted(taken)]
+
+
+def by_host(described, functions_of, rows_of, pins):
+    """The variables that an edge of an input pin can change while no clock and no reset does."""
+    clocks = described.events("posedge") | described.events("negedge")
+    other = [row for function, events in functions_of for row in rows_of[function]
+             if not (function.startswith("nba_sequent") and events & clocks)]
+    first = {name for function, events in functions_of for row in rows_of[function]
+             for name in row.writes if function.startswith("nba_sequent") and not events & clocks}
+    rows = rows_of[INPUTS] + other
+    read = {name for many in rows_of.values() for row in many for name in row.reads}
+    pins = (pins & read) - set(members(described.clocks))
+    return pins | first | {name for row in behind(rows, pins | first) for name in row.writes}
+
+
+def look_for_surprises(described, names, rise, fall):
+    """Raises NotUnderstood if an edge of the clock does what the header cannot show."""
+    clocks = set(members(described.clocks))
+    # No code looks for events after an edge of the clock.
+    watched = {member(event.split()[1]) for events in names.values() for event in events}
+    moved = {name for row in rise + fall for name in row.writes} & watched - clocks - set(
+        members(described.released))
+    if moved:
+        raise NotUnderstood(f"an edge of the clock makes events: {sorted(moved)}")
+    for row in rise:
+        if (row.reads | row.writes) & clocks or "__Vtrig" in row.text:
+            raise NotUnderstood(f"depends on the clock itself: {row.text[:80]}")
+
+
+def made(described, folder, busy, count, checked):
+    prefix = described.prefix
+    bodies, names = functions(folder, prefix), triggers(folder, prefix)
+    if "eval_nba" not in bodies:
+        raise NotUnderstood("no functions of the model found")
+    description.check(described, places(folder, prefix))
+    functions_of = started(described, bodies, names)
+    # Verilator may split long functions or keep modules apart. Then the calls look different.
+    if len(functions_of) != bodies["eval_nba"].count("___nba_") or \
+            bodies.get("eval_ico", "").count("___ico_") != (INPUTS in bodies):
+        raise NotUnderstood("calls in eval_nba() or eval_ico()")
+    types, rows_of = {}, {INPUTS: []}
+    for function in [INPUTS] * (INPUTS in bodies) + [name for name, _ in functions_of]:
+        local, rows_of[function] = statements(function, bodies[function])
+        types |= local
+    rise, fall = ([row for function, events in functions_of if events & described.events(edge)
+                   for row in rows_of[function]] for edge in ("posedge", "negedge"))
+    if not rise:
+        raise NotUnderstood(f"no rising edge of {' or '.join(described.clocks)} found")
+    look_for_surprises(described, names, rise, fall)
+    bits = widths(folder, prefix, bodies)
+    parts, flags = parts_of(groups_of(rise), Kinds(busy, bits), count)
+    lists = {"rise": parts, "fall": [Part([Group(fall)])] if fall else []}
+    for function, pins in described.follow.items():
+        late = behind(rows_of[INPUTS], members(pins))
+        lists[function] = [Part([Group(late)])] if late else []
+    arrays = {name for rows in rows_of.values() for row in rows for name in row.arrays}
+    pins = input_pins(folder, prefix)
+    writer = Writer(described, types, bits, places(folder, prefix), constants(folder, prefix),
+                    arrays, pins, by_host(described, functions_of, rows_of, pins), lists)
+    return writer.header(flags, count, check(writer) if checked else ())
+
+
+def main():
+    arguments = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    for name in ("model", "folder", "output"):
+        arguments.add_argument(name, type=Path)
+    arguments.add_argument("--busy", type=Path)
+    arguments.add_argument("--count", action="store_true")
+    arguments.add_argument("--check", action="store_true")
+    given = arguments.parse_args()
+    described = description.read(given.model)
+    busy = busy_of(given.busy.read_text(encoding="utf-8")) if given.busy else Busy()
+    try:
+        text = made(described, given.folder, busy, given.count, given.check)
+    except Exception as error:  # another Verilator: files are missing, unreadable or different
+        print(f"model_parts.py: {described.prefix} runs whole, at a third of its speed: "
+              f"{type(error).__name__}: {error}")
+        text = "#define MODEL_RUNS_WHOLE\n"
+    given.output.write_text(text, encoding="utf-8")
+
+
+main()
