@@ -265,6 +265,18 @@ constexpr FaultType kTypes[] = {
      end_clock},
 };
 
+// The rows hold the kinds 0, 1, 2 ... without a gap, in any order.
+constexpr bool every_kind_once() {
+  for (std::size_t kind = 0; kind < std::size(kTypes); ++kind) {
+    const auto is_kind = [&](const FaultType& type) {
+      return static_cast<std::size_t>(type.kind) == kind;
+    };
+    if (std::count_if(std::begin(kTypes), std::end(kTypes), is_kind) != 1) return false;
+  }
+  return true;
+}
+static_assert(every_kind_once());
+
 }  // namespace
 
 std::span<const FaultType> fault_types() { return kTypes; }

@@ -8,6 +8,7 @@
 
 #include <cstdint>
 #include <string>
+#include <string_view>
 #include <variant>
 #include <vector>
 
@@ -78,9 +79,8 @@ class ProtocolChip : public Chip {
                crc_register(crc.polynomial), static_cast<std::uint8_t>(crc.start & 0xFF),
                static_cast<std::uint8_t>(crc.start >> 8U)});
       }
-      const unsigned code = channel.protocol() == sim::LineProtocol::kBissB   ? 0
-                            : channel.protocol() == sim::LineProtocol::kBissC ? 1
-                                                                              : 2;
+      const std::string_view protocol = channel.protocol().key;
+      const unsigned code = protocol == "biss-b" ? 0 : protocol == "biss-c" ? 1 : 2;
       const unsigned shift = channel.number == 1 ? 0 : 2;
       cfgch = (cfgch & ~(3U << shift)) | code << shift;
     }

@@ -38,7 +38,7 @@ struct SessionFrame {
 
 class Session {
  public:
-  // Throws sim::ScenarioError, sim::ModelStopped, as every call.
+  // Throws sim::ScenarioError, sim::TraceError, sim::ModelStopped, as every call.
   Session(const sim::Scenario& scenario, const sim::SimulatorOptions& options,
           bool bus_log = false);
 
