@@ -41,6 +41,7 @@ MAY_USE = {
     "sim/include/": ("sim/core/", "sim/lines/", "sim/hosts/", "sim/faults/", "sim/scenario/"),
     "sim/simulator.cpp": ("sim/core/", "sim/lines/", "sim/hosts/", "sim/masters/", "sim/model/",
                           "sim/faults/", "sim/scenario/", "sim/include/"),
+    "sim/busy_chip.cpp": ("sim/scenario/", "sim/include/"),
     "sim/capi/": ("sim/core/", "sim/include/"),
     "tools/": ("sim/", "drivers/", "regmap/"),
     "examples/": ("sim/", "drivers/"),
