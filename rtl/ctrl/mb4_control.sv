@@ -272,7 +272,8 @@ module mb4_control (
   // REGBYTES tells the number of good bytes only after an error (Table 63).
   assign regbytes_o = (n_regerr_o && n_delayerr_o) ? 6'd0 : good_bytes;
 
-  // The host may configure the next access while one runs (decision 38).
+  // The host may configure the next access while one runs (decision 38). The next one may begin in
+  // the clock after its end.
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni)          {access_q, chsel_q} <= '0;
     else if (!access_run) {access_q, chsel_q} <= {cfg_i.access, cfg_i.chsel};
