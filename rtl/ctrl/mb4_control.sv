@@ -216,7 +216,8 @@ module mb4_control (
   assign flags_o = {n_agserr, n_delayerr, n_scderr, n_regerr, regend, eot, swbank_fail, cdm_timeout,
                     (n_regerr && n_delayerr) ? 6'd0 : good_bytes};
 
-  // The host may configure the next access while one runs (decision 38).
+  // The host may configure the next access while one runs (decision 38). The next one may begin in
+  // the clock after its end.
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni)          {access_q, chsel_q} <= '0;
     else if (!access_run) {access_q, chsel_q} <= {cfg_i.access, cfg_i.chsel};

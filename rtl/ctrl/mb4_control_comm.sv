@@ -43,7 +43,7 @@ module mb4_control_comm (
   input  logic [1:0] cds_i,
   input  logic [1:0] cdm_i,            // as sent
   output logic       active_o,
-  output logic       run_o,            // an access runs
+  output logic       run_o,            // an access runs, and goes on after this clock
   output logic       time_o,           // the time base must run between frames too
   output logic       stalled_o,        // no frame has ended for too long
   output logic [1:0] cdm0_o,
@@ -68,7 +68,7 @@ module mb4_control_comm (
   logic       void_q;                  // void_i one clock late, as all ends come
   logic       register_q;              // the results are those of BiSS B
   logic       unused;
-  logic waiting, moved;
+  logic waiting, moved, next_active;
   logic control_begin, control_end, control_error, control_delay, in_body, expired, sent;
   logic register_start, register_active, register_wait, register_init, register_error;
   logic register_delay, register_end, register_mo;
@@ -104,6 +104,7 @@ module mb4_control_comm (
     .expired_i       (expired),
     .stalled_i       (stalled_o),
     .active_o,
+    .next_active_o   (next_active),
     .in_body_o       (in_body),
     .wait_o          (waiting),
     .moved_o         (moved),
@@ -205,7 +206,7 @@ module mb4_control_comm (
   );
 
   assign stalled_o = counted && (!refused_q || refused_i);
-  assign run_o     = active_o || register_active || register_start;
+  assign run_o     = next_active || (register_active && !abort_i) || register_start;
 
   // Zeros within a control frame do not count. The stop bit is the first zero that counts.
   assign sent = (cdm_i & in_use_i) != 2'b00;

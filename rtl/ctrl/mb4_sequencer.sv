@@ -24,8 +24,8 @@
 //   nAGSERR = 0 (decision 15).
 // - A control communication that cannot run ends at once (decision 37). So does a BiSS B access
 //   that waits for its automatic frame when its lines or REGVERS are changed.
-// - A BiSS B access without AGS cannot begin while SL is low: the first request after the
-//   watchdog's limit ends it (decision 42). A BiSS C access has begun; mb4_control_frame ends it.
+// - A BiSS B access without AGS cannot begin while SL is low: the first request after the limit of
+//   the watchdog ends it (decision 42). A BiSS C access has begun: mb4_control_frame ends it.
 // - INSTR written with the code whose frame runs does not ask for another frame.
 //
 // Datasheet: pages 31..33, Tables 44..49; decisions 1, 3, 8, 14, 15, 19, 23, 25, 26, 37, 42.

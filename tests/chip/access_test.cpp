@@ -14,6 +14,7 @@
 #include "chip_fixture.hpp"
 #include "mb4/fields.hpp"
 #include "reference.hpp"
+#include "sim/lines/registers/control_slave.hpp"
 
 namespace {
 
@@ -344,6 +345,62 @@ TEST(ChipAccess, ChangedBeforeItsAutomaticFrame_Ends) {
       }
     }
   }
+}
+
+// Decisions 8, 38: BREAK and the next access in one byte. This access has the settings that the
+// host has written for it, at any phase of the one that BREAK ends.
+TEST(ChipAccess, BreakAndTheNextAccessInOneByte_TakesTheNewSettings) {
+  for (const unsigned line : {1U, 2U}) {
+    for (const unsigned next_line : {1U, 2U}) {
+      for (unsigned phase = 0; phase < 20; ++phase) {
+        const std::string what = "line " + std::to_string(line) + ", then " +
+                                 std::to_string(next_line) + ", phase " + std::to_string(phase);
+        Chip chip(two_lines(Protocol::kBissB, Protocol::kBissC));
+        chip.simulator.slave(next_line == 1 ? 1 : 5)->reg_write(0x21, 0xC3);
+        const auto ask = [&](unsigned address, unsigned on, std::uint8_t byte) {
+          chip.write(0xE2, {static_cast<std::uint8_t>(address), 0x00, static_cast<std::uint8_t>(on),
+                            static_cast<std::uint8_t>(on == 1 ? 0x80 : 0xC0)});
+          chip.instruct(byte);
+        };
+        chip.write(0xE6, {0x00, 0x00, 0x31});
+        chip.write(0xEC, {0x11, 0x04});  // line 1 BiSS B, line 2 BiSS C
+        chip.advance_us(10);
+        ask(0x20, line, 0x09);
+        chip.simulator.advance((50'000 + 1'130 * phase) * sim::kPsPerNs);
+        ask(0x21, next_line, 0x89);
+        chip.advance_us(5000);
+        EXPECT_EQ(chip.status() & (kNotRegErr | kRegEnd), kNotRegErr | kRegEnd) << what;
+        EXPECT_EQ(chip.read(0x80), 0xC3) << what;
+        EXPECT_EQ(chip.read(0xF4), 0x01) << what;
+      }
+    }
+  }
+}
+
+// Decision 38: the same without BREAK, with an INSTR that the host writes around the end of the
+// access. In the last frame it is the next access, before it none.
+TEST(ChipAccess, NextAccessInTheLastFrame_TakesTheNewSettings) {
+  std::array<unsigned, 3> seen{};  // accesses
+  for (unsigned phase = 0; phase < 120; ++phase) {
+    Chip chip(one_slave(kSlave + "timeout = 1.0\nregisters = { 0x20 = [0x5A, 0xC3] }", "", "",
+                        "sclk_hz = 20_000_000"));
+    chip.configure_slave1(26, 0x06, 0x00, 0x31);  // a frame every 50 us
+    chip.write(0xE2, {0x20, 0x00, 0x01, 0xC0});
+    chip.advance_us(10);
+    chip.instruct(0x09);
+    chip.advance_us(45 * 50);
+    chip.simulator.advance(phase * 3'130 * sim::kPsPerNs);
+    chip.write(0xE2, {0x21});
+    chip.instruct(0x0F);
+    chip.advance_us(6000);
+    const auto starts = chip.simulator.slave(1)->control()->counters().starts;
+    ++seen.at(starts);
+    EXPECT_EQ(chip.status() & (kNotRegErr | kRegEnd), kNotRegErr | kRegEnd) << phase;
+    EXPECT_EQ(chip.read(0x80), starts == 1 ? 0x5A : 0xC3) << phase;
+    EXPECT_EQ(chip.read(0xF4), 0x01) << phase;
+  }
+  EXPECT_GT(seen[1], 0U);
+  EXPECT_GT(seen[2], 0U);
 }
 
 // Decision 38: an access goes on with what it was started with, whenever the host writes its

@@ -5,6 +5,8 @@
 // exceptions: the clock stands still, a line waits (decisions 3 and 4), or the access waits for the
 // host or GETSENS.
 #include <algorithm>
+#include <array>
+#include <optional>
 
 #include "bits.hpp"
 #include "chip_fuzz_run.hpp"
@@ -110,22 +112,34 @@ void FuzzRun::classify_wait() {
   const Possible& possible = host_.possible();
   struct Seen {
     Pin sl, ma;
-    bool first_sl, first_ma;
-    bool sl_changed, ma_changed;
+    bool first_sl = false, first_ma = false;
+    bool sl_changed = false, ma_changed = false;
+    bool ma_now = false, sl_moved = false;
+    std::array<std::optional<bool>, 2> sl_at{};  // SL at the edges of MA, falling and rising
   };
-  std::array<Seen, 2> lines{Seen{Pin::kSl1, Pin::kMa1, false, false, false, false},
-                            Seen{Pin::kSl2, Pin::kMa2, false, false, false, false}};
+  std::array<Seen, 2> lines{Seen{Pin::kSl1, Pin::kMa1}, Seen{Pin::kSl2, Pin::kMa2}};
   auto& simulator = host_.simulator();
   for (Seen& line : lines) {
     line.first_sl = simulator.pin(line.sl);
-    line.first_ma = simulator.pin(line.ma);
+    line.first_ma = line.ma_now = simulator.pin(line.ma);
   }
   host_.session().watch_ns(100 * possible.ma_clocks * host_.clock_ns(), [&] {
     for (Seen& line : lines) {
-      line.sl_changed = line.sl_changed || simulator.pin(line.sl) != line.first_sl;
-      line.ma_changed = line.ma_changed || simulator.pin(line.ma) != line.first_ma;
+      const bool ma = simulator.pin(line.ma);
+      const bool sl = simulator.pin(line.sl);
+      line.ma_changed = line.ma_changed || ma != line.first_ma;
+      if (ma != line.ma_now) {
+        std::optional<bool>& before = line.sl_at.at(ma ? 1 : 0);
+        line.sl_moved = line.sl_moved || before.value_or(sl) != sl;
+        before = sl;
+        line.ma_now = ma;
+      }
+      line.sl_changed = line.sl_changed || sl != line.first_sl;
     }
   });
+  // A slave that repeats MA, as one of SSI whose timeout is shorter than half a period, shows the
+  // same bit in each period: it does not answer.
+  for (Seen& line : lines) line.sl_changed = line.sl_changed && (line.sl_moved || !line.ma_changed);
   for (unsigned i = 0; i < 2; ++i) {
     const Seen& line = lines[i];
     const bool nothing_seen = i == 1 && possible.paired;
