@@ -440,7 +440,7 @@ TEST(ChipMo, EnMoClearedInAFrame_WordArrives) {
   write_both_banks(chip, 1, kWord);
   const std::uint8_t ctrl = chip.read(0xE5);
   for (unsigned phase = 40; phase < 300; ++phase) {
-    const unsigned words = chip.simulator.slave(1)->actuator()->words();
+    const auto words = chip.simulator.slave(1)->actuator()->words();
     chip.write(0xE5, {ctrl});
     chip.advance_us(40);
     chip.instruct(0x04);
