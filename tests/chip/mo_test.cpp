@@ -423,7 +423,7 @@ TEST(ChipMoInit, BreakAndInitInOneByte_MoTakesPart) {
       chip.instruct(0x04);
       chip.simulator.advance(phase * ProtocolChip::kClk);
       chip.instruct(0x90);
-      chip.advance_us(100);
+      chip.advance_us(300);
       EXPECT_EQ(chip.status(), 0xFB) << kind << " " << phase;
       ASSERT_TRUE(chip.frame()) << kind << " " << phase;
       EXPECT_EQ(chip.svalid(), 0x2AU) << kind << " " << phase;
@@ -447,6 +447,7 @@ TEST(ChipMo, EnMoClearedInAFrame_WordArrives) {
     chip.simulator.advance(phase * ProtocolChip::kClk);
     chip.write(0xE5, {static_cast<std::uint8_t>(ctrl & ~0x02U)});
     ASSERT_TRUE(chip.wait_eot()) << phase;
+    chip.advance_us(40);  // the actuator takes the word in its timeout
     EXPECT_EQ(chip.simulator.slave(1)->actuator()->words(), words + 1) << phase;
     EXPECT_EQ(chip.simulator.slave(1)->actuator()->word(), kWord) << phase;
   }
