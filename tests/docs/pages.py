@@ -166,8 +166,10 @@ def shell(script, folder):
     """(status, output) of a script as bash runs it; background jobs count. None: it does not end."""
     environment = dict(os.environ, TERM="dumb", HOME=str(folder), MANPAGER="cat",
                        PATH=f"{folder}/build/bin{os.pathsep}{os.environ['PATH']}")
-    wait = "\nfor job in $(jobs -p); do wait $job; done\n"
-    run = subprocess.Popen(["bash", "-e", "-o", "pipefail", "-c", script + wait], cwd=folder,
+    # bash forgets a job that has ended, but not the status of a known process.
+    note = "trap 'case \" $jobs_of_page \" in *\" $! \"*) ;; *) jobs_of_page=\"$jobs_of_page $!\" ;; esac' DEBUG\n"
+    wait = "\ntrap - DEBUG\nfor job in $jobs_of_page; do wait $job; done\n"
+    run = subprocess.Popen(["bash", "-e", "-o", "pipefail", "-c", note + script + wait], cwd=folder,
                            env=environment, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
                            stderr=subprocess.STDOUT, text=True, errors="replace",
                            start_new_session=True)

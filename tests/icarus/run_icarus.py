@@ -46,6 +46,8 @@ HARMLESS = (r".*sorry: constant selects in always_\* processes are not currently
 
 def package_names(text):
     names = set(re.findall(r"\blocalparam\b[^;=]*?(\w+)\s*=", text))
+    for members in re.findall(r"\benum\s[^{]*\{([^}]*)\}", re.sub(r"//[^\n]*", "", text)):
+        names |= {member.split("=")[0].strip() for member in members.split(",")}
     return names | set(re.findall(r"\}\s*(\w+)\s*;", text))
 
 
@@ -53,13 +55,14 @@ def plain_enum(match):
     """An enum as a vector and constants."""
     base, members, name = match.groups()
     members = [m.strip() for m in re.sub(r"//[^\n]*", "", members).split(",")]
-    values = ", ".join(f"{member} = {number}" for number, member in enumerate(members))
+    values = ", ".join(member if "=" in member else f"{member} = {number}"
+                       for number, member in enumerate(members))
     return f"typedef {base} {name}; localparam {base} {values};"
 
 
 
 WORDS = {"begin", "end", "if", "else", "for", "int", "case", "casez", "endcase", "default",
-         "unique", "signed"}
+         "unique", "signed", "unsigned"}
 
 
 def type_of(name, text):
@@ -88,7 +91,7 @@ def explicit_sensitivity(text):
         written |= set(re.findall(r"\{([\w, ]+)\}\s*=(?!=)", code))
         written |= {name.strip() for group in written for name in group.split(",")}
         read = set(re.findall(r"(?<![.$\w'])([a-z]\w+)\b(?!\s*')(?!::)", code)) - WORDS - written
-        read = sorted(name for name in read if not name.startswith(("mb4_pkg", "mb4_regs_pkg")))
+        read = sorted(name for name in read if not "_pkg" in name)
         written = sorted(name for name in written if type_of(name, text))
         shadows = " ".join(f"{type_of(name, text)} {name}_shadow;" for name in written)
         shown = " ".join(f"{name} = {name}_shadow;" for name in written)
@@ -107,11 +110,13 @@ def translate(path, packages):
         names = "|".join(sorted(packages[path.stem], key=len, reverse=True))
         text = re.sub(rf"\b({names})\b", rf"{path.stem}_\1", text)
     text = explicit_sensitivity(text)
-    text = re.sub(r"\b(mb4_\w*pkg)::(\w+)", r"\1_\2", text)
+    text = re.sub(r"\b(\w+_pkg)::(\w+)", r"\1_\2", text)
     text = re.sub(r"\btypedef enum (logic \[[^]]*\])\s*\{([^}]*)\}\s*(\w+)\s*;",
                   plain_enum, text)
     text = re.sub(r"\bint unsigned\b", "int", text)
     text = re.sub(r"\bunique0?\s+(case[xz]?)\b", r"\1", text)
+    # Icarus casts no member of a struct.
+    text = re.sub(r"\b(\d+)'\((\w+\.[\w.]+)\)", r"(\1'd0 | \2)", text)
     return re.sub(r"\bsigned'\(", "$signed(", text)
 
 
