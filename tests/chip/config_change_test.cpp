@@ -152,20 +152,23 @@ TEST(ConfigChange, LineTakenIntoUseUnderAgs_FirstFrameIsRight) {
 
 // CFGCH written within an SSI frame counts from the next one: the word is decoded as it began.
 TEST(ConfigChange, ProtocolInAnSsiFrame_WordIsDecodedAsItBegan) {
-  Chip chip("[host]\nsclk_hz = 50_000_000\n[[channel]]\nnumber = 1\n[[channel.slave]]\n"
-            "protocol = \"ssi\"\ndata_bits = 13\ngray = true\ndata = 0x1234\n");
+  Chip chip(
+      "[host]\nsclk_hz = 50_000_000\n[[channel]]\nnumber = 1\n[[channel.slave]]\n"
+      "protocol = \"ssi\"\ndata_bits = 13\ngray = true\ndata = 0x1234\n");
   for (unsigned step = 0; step < 200; ++step) {
-    chip.write(0xC0, {0x40 | 0x80 | 12, 0x00, 0x00, 0x00});
-    chip.write(0xE6, {0x09, 0x00, 0x7F});
-    chip.write(0xED, {0x0E});
-    chip.instruct(0x80);
+    chip.write(reg::slave_cfg_address(1),
+               {reg::kEnscdYes | reg::kGraysGray | 12, 0x00, 0x00, 0x00});
+    chip.write(reg::kAddrFreq, {0x09, 0x00, 0x7F});
+    chip.write(reg::kAddrCfgch, {reg::kCfgch2Unused | reg::kCfgch1Ssi});
+    chip.instruct(reg::kBreakAbort);
     chip.advance_us(60);
-    chip.instruct(0x04);
+    chip.instruct(reg::kInstrCdm0);
     chip.simulator.advance(step * 100'000);  // in steps of two clocks
-    chip.write(0xED, {0x0D});
+    chip.write(reg::kAddrCfgch, {reg::kCfgch2Unused | reg::kCfgch1BissC});
     ASSERT_TRUE(chip.wait_eot()) << step;
-    EXPECT_EQ(chip.status() & 0x10U, 0x10U) << step;
-    EXPECT_EQ(chip.read(0x00, 2), (std::vector<std::uint8_t>{0x34, 0x12})) << step;
+    EXPECT_EQ(chip.status() & reg::nSCDERR::kMask, reg::nSCDERR::kMask) << step;
+    EXPECT_EQ(chip.read(reg::scdata_address(1), 2), (std::vector<std::uint8_t>{0x34, 0x12}))
+        << step;
   }
 }
 

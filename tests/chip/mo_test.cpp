@@ -413,20 +413,20 @@ TEST(ChipMoInit, BreakAtEveryPhase_ReturnsMo) {
   }
 }
 
-// BREAK and INIT in one byte, at any time of a frame: MO takes part in this INIT, so that slaves that
-// pass it on acknowledge.
+// BREAK and INIT in one byte, at any time of a frame: MO takes part in this INIT, so that slaves
+// that pass it on acknowledge.
 TEST(ChipMoInit, BreakAndInitInOneByte_MoTakesPart) {
   for (const char* kind : kKinds) {
     ProtocolChip chip(channel(1) + sensors(3, kind, "\"adaptive\""),
                       {.freqs = 1, .en_mo = true, .freqags = 0x7F});
     for (unsigned phase = 0; phase < 200; ++phase) {
-      chip.instruct(0x04);
+      chip.instruct(reg::kInstrCdm0);
       chip.simulator.advance(phase * ProtocolChip::kClk);
-      chip.instruct(0x90);
+      chip.instruct(reg::kBreakAbort | reg::kInitStart);
       chip.advance_us(300);
-      EXPECT_EQ(chip.status(), 0xFB) << kind << " " << phase;
+      EXPECT_EQ(chip.status(), reg::kResetStatus0) << kind << " " << phase;
       ASSERT_TRUE(chip.frame()) << kind << " " << phase;
-      EXPECT_EQ(chip.svalid(), 0x2AU) << kind << " " << phase;
+      EXPECT_EQ(chip.svalid(), valid({1, 2, 3})) << kind << " " << phase;
     }
   }
 }
@@ -438,14 +438,14 @@ TEST(ChipMo, EnMoClearedInAFrame_WordArrives) {
                     {.freqs = 1, .en_mo = true, .freqags = 0x7F});
   constexpr std::uint64_t kWord = 0x12'3456'789A;
   write_both_banks(chip, 1, kWord);
-  const std::uint8_t ctrl = chip.read(0xE5);
+  const std::uint8_t ctrl = chip.read(reg::kAddrCtrl);
   for (unsigned phase = 40; phase < 300; ++phase) {
     const auto words = chip.simulator.slave(1)->actuator()->words();
-    chip.write(0xE5, {ctrl});
+    chip.write(reg::kAddrCtrl, {ctrl});
     chip.advance_us(40);
-    chip.instruct(0x04);
+    chip.instruct(reg::kInstrCdm0);
     chip.simulator.advance(phase * ProtocolChip::kClk);
-    chip.write(0xE5, {static_cast<std::uint8_t>(ctrl & ~0x02U)});
+    chip.write(reg::kAddrCtrl, {static_cast<std::uint8_t>(ctrl & ~reg::kEnMoData)});
     ASSERT_TRUE(chip.wait_eot()) << phase;
     chip.advance_us(40);  // the actuator takes the word in its timeout
     EXPECT_EQ(chip.simulator.slave(1)->actuator()->words(), words + 1) << phase;
