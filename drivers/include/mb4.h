@@ -5,9 +5,10 @@
  * and no static data.
  *
  * The comment of the C++ call with the same name states what a call does, its transfers, ranges and
- * errors: mb4/device.hpp, automatic.hpp, control_steps.hpp, control.hpp, scan.hpp, position.hpp.
- * mb4/error.hpp and docs/driver.md describe the errors. No pointer may be null unless its comment
- * allows it. Outputs are valid only on success unless the comment says otherwise.
+ * errors: mb4/device.hpp, automatic.hpp, control_steps.hpp, control.hpp, scan.hpp,
+ * enc/position.hpp. mb4/error.hpp and docs/driver.md describe the errors. No pointer may be null
+ * unless its comment allows it. Outputs are valid only on success unless the comment says
+ * otherwise.
  */
 #ifndef MB4_H_
 #define MB4_H_
@@ -66,7 +67,7 @@ enum { MB4_START_BACK_TO_BACK, MB4_START_ON_PIN, MB4_START_PERIODIC };
 enum { MB4_FLAGS_NONE, MB4_FLAGS_ERROR_WARNING };
 enum { MB4_SPI_CHECK_OFF, MB4_SPI_CHECK_CRC, MB4_SPI_CHECK_FULL };
 
-/* mb4::SlaveConfig in mb4/config_data.hpp, which states the ranges. */
+/* mb4::SlaveConfig in mb4/config/members.hpp, which states the ranges. */
 typedef struct {
   bool enabled;
   uint8_t data_bits;       /* 1..64: position and flags, without CRC */
@@ -78,7 +79,7 @@ typedef struct {
   bool stop_bit;           /* actuators: a stop bit comes before the word */
 } mb4_slave_config;
 
-/* mb4::Config in mb4/config_data.hpp, which states ranges and meaning. Begin with
+/* mb4::Config in mb4/config/members.hpp, which states ranges and meaning. Begin with
  * mb4_config_default(). */
 typedef struct {
   uint32_t f_clk_hz;         /* 1'000'000..25'000'000; internal clock from 10'000'000 */
@@ -119,7 +120,7 @@ typedef struct {
   uint8_t status[MB4_STATUS_BYTES];
 } mb4_frame;
 
-/* mb4::Command in mb4/control_data.hpp. */
+/* mb4::Command in mb4/command.hpp. */
 typedef struct {
   uint8_t channels; /* bit 0 channel 1, bit 1 channel 2 */
   uint8_t ids;      /* bit 0 is ID 0; 0 = broadcast */

@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "encoder26.hpp"
-#include "mb4/control_data.hpp"
+#include "mb4/detail/control_time.hpp"
 #include "mb4/device.hpp"
 #include "mb4/register_image.hpp"
 #include "strict_bus.hpp"

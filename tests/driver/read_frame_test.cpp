@@ -11,7 +11,6 @@
 #include <vector>
 
 #include "encoder26.hpp"
-#include "mb4/acquisition.hpp"
 #include "mb4/device.hpp"
 #include "strict_bus.hpp"
 

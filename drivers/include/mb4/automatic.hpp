@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Layer 4: automatic frames (AGS = 1). Reads them so that the bytes of one position always come
-// from one frame.
+// Automatic frames (AGS = 1). Reads them so that the bytes of one position always come from one
+// frame.
 
 #ifndef MB4_AUTOMATIC_HPP_
 #define MB4_AUTOMATIC_HPP_
@@ -10,17 +10,22 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "mb4/actuator.hpp"
-#include "mb4/chip.hpp"
 #include "mb4/config.hpp"
-#include "mb4/control_data.hpp"
+#include "mb4/detail/actuator_write.hpp"
+#include "mb4/detail/chip.hpp"
+#include "mb4/detail/fetch.hpp"
+#include "mb4/detail/frame_poll.hpp"
 #include "mb4/frame.hpp"
-#include "mb4/frame_poll.hpp"
 #include "mb4/result.hpp"
 #include "mb4/status.hpp"
 #include "mb4_regs.hpp"
 
 namespace mb4 {
+
+// Most SPI transfers of one Automatic::poll_slave(), whatever the chip answers.
+inline constexpr unsigned kMaxPollSlaveTransfers = 6;
+// The same with SpiCheck::kFull.
+inline constexpr unsigned kMaxPollSlaveTransfersChecked = 9;
 
 // Automatic frames, at the rate or on the event that Config::frame_start selects (table 44):
 //
@@ -132,8 +137,8 @@ class Automatic {
     }
     detail::Outcome outcome;
     detail::FetchedData data;
-    const Result<void> read =
-        FramePoll<Bus, Clock>(chip_).read(chip_.sensors, control_runs(), outcome, fetch_all, &data);
+    const Result<void> read = detail::FramePoll<Bus, Clock>(chip_).read(
+        chip_.sensors, control_runs(), outcome, fetch_all, &data);
     if (read) {
       // nSCDERR describes the last frame on the line, which may be later than the bank that was
       // read. When one slave has SVALID = 1, each slave with SVALID = 0 was bad in that frame.
@@ -163,8 +168,8 @@ class Automatic {
     detail::FetchedSlave data;
     data.slave = slave;
     if (const Result<void> read =
-            FramePoll<Bus, Clock>(chip_).read(static_cast<std::uint8_t>(1U << (slave - 1U)),
-                                              control_runs(), outcome, fetch_one, &data);
+            detail::FramePoll<Bus, Clock>(chip_).read(static_cast<std::uint8_t>(1U << (slave - 1U)),
+                                                      control_runs(), outcome, fetch_one, &data);
         !read) {
       return read.failure();
     }
@@ -189,7 +194,7 @@ class Automatic {
     if (control_runs()) {
       return Error::kBusy;
     }
-    return ActuatorWrite<Bus, Clock>(chip_).write(slave, word, false);
+    return detail::ActuatorWrite<Bus, Clock>(chip_).write(slave, word, false);
   }
 
   // Waits for the next new frame, at most frame_timeout_us() plus one frame period, and fetches it

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Layer 4: control communication, which is registers of the slaves and commands.
+// Control communication, which is registers of the slaves and commands.
 
 #ifndef MB4_CONTROL_HPP_
 #define MB4_CONTROL_HPP_
@@ -9,10 +9,11 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "mb4/chip.hpp"
-#include "mb4/control_data.hpp"
+#include "mb4/command.hpp"
 #include "mb4/control_steps.hpp"
+#include "mb4/detail/chip.hpp"
 #include "mb4/result.hpp"
+#include "mb4/slave_address.hpp"
 #include "mb4/span.hpp"
 
 namespace mb4 {

@@ -12,14 +12,16 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "mb4/checked_registers.hpp"
-#include "mb4/chip.hpp"
+#include "mb4/command.hpp"
 #include "mb4/config.hpp"
-#include "mb4/control_checks.hpp"
-#include "mb4/control_data.hpp"
-#include "mb4/control_pace.hpp"
+#include "mb4/detail/checked_registers.hpp"
+#include "mb4/detail/chip.hpp"
+#include "mb4/detail/control_checks.hpp"
+#include "mb4/detail/control_pace.hpp"
+#include "mb4/detail/control_time.hpp"
 #include "mb4/register_image.hpp"
 #include "mb4/result.hpp"
+#include "mb4/slave_address.hpp"
 #include "mb4/span.hpp"
 #include "mb4/status.hpp"
 #include "mb4_regs.hpp"
@@ -58,9 +60,9 @@ namespace mb4 {
 //   kCorrupted    touched, the access does not run. Only with SpiCheck::kFull, which reads back
 //                 each write: one transfer more for each write of registers
 template <typename Bus, typename Clock>
-class ControlSteps : private ControlChecks<Bus, Clock> {
+class ControlSteps : private detail::ControlChecks<Bus, Clock> {
  public:
-  using ControlChecks<Bus, Clock>::ControlChecks;
+  using detail::ControlChecks<Bus, Clock>::ControlChecks;
 
   // Begins to read `count` (1..64) registers from `address`; address + count <= 128. `slave`:
   // channel 1 or 2, ID 0..7. Two transfers.
@@ -216,7 +218,7 @@ class ControlSteps : private ControlChecks<Bus, Clock> {
   [[nodiscard]] bool running() const { return chip_.control.kind != Kind::kNone; }
 
  private:
-  using Checks = ControlChecks<Bus, Clock>;
+  using Checks = detail::ControlChecks<Bus, Clock>;
   using Checks::chip_;
   using Kind = detail::ControlState::Kind;
 

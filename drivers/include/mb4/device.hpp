@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Layer 3: one chip. Most users need only this class.
+// One chip. Most users need only this class.
 
 #ifndef MB4_DEVICE_HPP_
 #define MB4_DEVICE_HPP_
@@ -10,17 +10,19 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "mb4/acquisition.hpp"
-#include "mb4/actuator.hpp"
 #include "mb4/automatic.hpp"
 #include "mb4/bus.hpp"
-#include "mb4/chip.hpp"
 #include "mb4/config.hpp"
-#include "mb4/configuration.hpp"
 #include "mb4/control.hpp"
+#include "mb4/detail/actuator_write.hpp"
+#include "mb4/detail/chip.hpp"
+#include "mb4/detail/image_writer.hpp"
+#include "mb4/detail/initialization.hpp"
+#include "mb4/detail/single_shot.hpp"
+#include "mb4/error.hpp"
 #include "mb4/fields.hpp"
 #include "mb4/frame.hpp"
-#include "mb4/initialization.hpp"
+#include "mb4/line_delay.hpp"
 #include "mb4/opcodes.hpp"
 #include "mb4/reading.hpp"
 #include "mb4/register_image.hpp"
@@ -82,7 +84,7 @@ class Device {
       return valid;
     }
     forget();
-    if (const Result<void> written = Configuration<Bus, Clock>(chip_).write(
+    if (const Result<void> written = detail::ImageWriter<Bus, Clock>(chip_).write(
             encode_registers(config), encode_interface(config));
         !written) {
       return written;
@@ -104,7 +106,7 @@ class Device {
     if (!chip_.configured) {
       return Error::kNotConfigured;
     }
-    const Result<void> same = Configuration<Bus, Clock>(chip_).compare(
+    const Result<void> same = detail::ImageWriter<Bus, Clock>(chip_).compare(
         encode_registers(chip_.config), encode_interface(chip_.config), true);
     if (same.error() == Error::kNotDetected || same.error() == Error::kVerify) {
       chip_.configured = false;
@@ -120,7 +122,7 @@ class Device {
     forget();
     RegisterImage image{};
     image[regs::kAddrSlaveloc5 - kImageFirst] = regs::kResetSlaveloc5;
-    return Configuration<Bus, Clock>(chip_).write(image, 0);
+    return detail::ImageWriter<Bus, Clock>(chip_).write(image, 0);
   }
 
   // Runs INIT (page 33): two pulses at MA in BiSS C. The call waits until the slaves are ready and
@@ -143,7 +145,7 @@ class Device {
       return allowed.failure();
     }
     LineDelay delay;
-    const Result<void> done = Initialization<Bus, Clock>(chip_).run(delay);
+    const Result<void> done = detail::Initialization<Bus, Clock>(chip_).run(delay);
     return done ? Result<LineDelay>(delay) : Result<LineDelay>(done.failure());
   }
 
@@ -178,7 +180,7 @@ class Device {
     if (!is_in(chip_.sensors, slave)) {
       return Error::kInvalidArgument;
     }
-    return SingleShot<Bus, Clock>(chip_).read(slave);
+    return detail::SingleShot<Bus, Clock>(chip_).read(slave);
   }
 
   // Reads all enabled slaves with one frame. Transfers as for read_frame(), but 1..n for the data
@@ -192,7 +194,7 @@ class Device {
     if (const Result<void> allowed = single_frame_allowed(); !allowed) {
       return allowed.failure();
     }
-    return SingleShot<Bus, Clock>(chip_).read_all(frame);
+    return detail::SingleShot<Bus, Clock>(chip_).read_all(frame);
   }
 
   // Writes the word that the chip sends to the actuator `slave` (1..8) with each frame, from the
@@ -213,7 +215,7 @@ class Device {
         !allowed && allowed.error() != Error::kWrongMode) {
       return allowed;
     }
-    return ActuatorWrite<Bus, Clock>(chip_).write(slave, word, true);
+    return detail::ActuatorWrite<Bus, Clock>(chip_).write(slave, word, true);
   }
 
   // Writes BREAK (page 33): it aborts a frame, a control communication and AGS at once; MA and the

@@ -139,6 +139,19 @@ struct alignas(4) ErrorInfo {
   [[nodiscard]] constexpr std::uint8_t bytes() const {
     return code == Error::kVerify ? std::uint8_t{0} : detail;
   }
+
+  // The form in which a Result keeps it (enc/result.hpp).
+  [[nodiscard]] static constexpr std::uint32_t pack(ErrorInfo info) {
+    return static_cast<std::uint32_t>(info.code) | static_cast<std::uint32_t>(info.field) << 8U |
+           std::uint32_t{info.number} << 16U | std::uint32_t{info.detail} << 24U;
+  }
+  [[nodiscard]] static constexpr ErrorInfo unpack(std::uint32_t packed) {
+    ErrorInfo info(static_cast<Error>(packed & 0xFFU),
+                   static_cast<ConfigField>(packed >> 8U & 0xFFU),
+                   static_cast<std::uint8_t>(packed >> 16U));
+    info.detail = static_cast<std::uint8_t>(packed >> 24U);
+    return info;
+  }
 };
 
 // Short stable names for messages; they cost program memory only where they are used.

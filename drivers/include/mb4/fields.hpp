@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Layer 2: single fields of the register map by type, on top of the opcodes.
+// Single fields of the register map by type, on top of the opcodes.
 
 #ifndef MB4_FIELDS_HPP_
 #define MB4_FIELDS_HPP_

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Layer 1: the six SPI opcodes (datasheet table 3, pages 17 to 19), one SPI frame per call.
+// The six SPI opcodes (datasheet table 3, pages 17 to 19), one SPI frame per call.
 
 #ifndef MB4_OPCODES_HPP_
 #define MB4_OPCODES_HPP_

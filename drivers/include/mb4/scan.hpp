@@ -11,8 +11,8 @@
 #include <cstdint>
 
 #include "mb4/config.hpp"
-#include "mb4/control_data.hpp"
 #include "mb4/result.hpp"
+#include "mb4/slave_address.hpp"
 #include "mb4/span.hpp"
 
 namespace mb4 {

@@ -1,47 +1,33 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Layer 3: INIT, which makes the slaves ready and measures the line delay in BiSS C (pages 32, 33).
+// INIT, which makes the slaves ready and measures the line delay in BiSS C (pages 32, 33).
 
-#ifndef MB4_INITIALIZATION_HPP_
-#define MB4_INITIALIZATION_HPP_
+#ifndef MB4_DETAIL_INITIALIZATION_HPP_
+#define MB4_DETAIL_INITIALIZATION_HPP_
 
 #include <array>
 #include <cstddef>
 #include <cstdint>
 
-#include "mb4/checked_registers.hpp"
-#include "mb4/chip.hpp"
 #include "mb4/config.hpp"
-#include "mb4/control_data.hpp"
+#include "mb4/detail/checked_registers.hpp"
+#include "mb4/detail/chip.hpp"
+#include "mb4/detail/control_time.hpp"
+#include "mb4/line_delay.hpp"
 #include "mb4/register_image.hpp"
 #include "mb4/result.hpp"
 #include "mb4/span.hpp"
 #include "mb4/status.hpp"
 #include "mb4_regs.hpp"
 
-namespace mb4 {
-
-// The delay that INIT measures, from the second rising edge of MA to the falling edge of SL, in
-// quarters of a period of MA (page 33). 0 for a channel that is not in use, for SSI, and if no
-// channel is BiSS C.
-struct LineDelay {
-  std::array<std::uint8_t, kChannels> quarters{};  // [0] is channel 1
-};
-
-// The measured delay in nanoseconds. 4 * ma_hz quarters are one second. The measurement has a
-// resolution of one quarter: the real delay is at most this value and more than this value minus
-// one quarter. For a valid `config`.
-[[nodiscard]] constexpr std::uint32_t line_delay_ns(const Config& config, std::uint8_t quarters) {
-  // Both factors are divided by 16 to fit 32 bits: 255 * 250'000'000 does not fit.
-  return quarters * 15'625'000U / (config.ma_hz / 16U);
-}
+namespace mb4::detail {
 
 // Used through Device::initialize(), which documents the errors.
 template <typename Bus, typename Clock>
 class Initialization {
  public:
-  explicit constexpr Initialization(detail::Chip<Bus, Clock>& chip) : chip_(chip) {}
+  explicit constexpr Initialization(Chip<Bus, Clock>& chip) : chip_(chip) {}
 
   // The chip must be configured, and no frames and no control communication may run.
   Result<void> run(LineDelay& delay) {
@@ -78,10 +64,9 @@ class Initialization {
  private:
   // A register access may have left another protocol in REGVERS.
   Result<void> set_protocol() {
-    const std::uint8_t control = detail::encode_ctrl(chip_.config, only_biss_b(chip_.config));
+    const std::uint8_t control = encode_ctrl(chip_.config, only_biss_b(chip_.config));
     return any_channel_is(chip_.config, Protocol::kBissB)
-               ? detail::write_checked(chip_, regs::kAddrCtrl,
-                                       Span<const std::uint8_t>(&control, 1))
+               ? write_checked(chip_, regs::kAddrCtrl, Span<const std::uint8_t>(&control, 1))
                : Result<void>();
   }
 
@@ -98,8 +83,8 @@ class Initialization {
       return {};
     }
     const Result<void> read =
-        detail::read_checked(chip_, regs::scdata_address(1 + channel * kSlavesOfChannel),
-                             Span<std::uint8_t>(&quarters, 1));
+        read_checked(chip_, regs::scdata_address(1 + channel * kSlavesOfChannel),
+                     Span<std::uint8_t>(&quarters, 1));
     // An ideal line and slave give 1.
     return read && quarters == 0 ? Error::kNoData : read;
   }
@@ -111,13 +96,12 @@ class Initialization {
   [[nodiscard]] std::uint32_t timeout_us() const {
     constexpr std::uint32_t kPeriods = 255 + 64 + 1024;
     const Config& config = chip_.config;
-    const std::uint32_t us =
-        measures() ? detail::periods_us(config, kPeriods) : detail::register_limit_us(config);
-    return detail::with_spread(config, us) + kFrameMarginUs;
+    const std::uint32_t us = measures() ? periods_us(config, kPeriods) : register_limit_us(config);
+    return with_spread(config, us) + kFrameMarginUs;
   }
 
   Result<void> wait() {
-    detail::Deadline<Clock> deadline(*chip_.clock, timeout_us());
+    Deadline<Clock> deadline(*chip_.clock, timeout_us());
     for (bool last = false; !last;) {
       last = deadline.last_poll();
       Status status;
@@ -132,7 +116,7 @@ class Initialization {
         // INIT also ends with a line that is stuck low (page 33), so the line is checked here. In
         // BiSS B the slaves are in register mode now and first need their timeout.
         if (!measures()) {
-          detail::pause(*chip_.clock, chip_.recovery_us());
+          pause(*chip_.clock, chip_.recovery_us());
         }
         return chip_.diagnose_line();
       }
@@ -140,9 +124,9 @@ class Initialization {
     return chip_.stop_frame(Error::kTimeout);
   }
 
-  detail::Chip<Bus, Clock>& chip_;
+  Chip<Bus, Clock>& chip_;
 };
 
-}  // namespace mb4
+}  // namespace mb4::detail
 
-#endif  // MB4_INITIALIZATION_HPP_
+#endif  // MB4_DETAIL_INITIALIZATION_HPP_

@@ -1,17 +1,16 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Writes and reads registers of the chip with the checks that SpiCheck selects. For the driver's
-// own use.
+// Writes and reads registers of the chip with the checks that SpiCheck selects.
 
-#ifndef MB4_CHECKED_REGISTERS_HPP_
-#define MB4_CHECKED_REGISTERS_HPP_
+#ifndef MB4_DETAIL_CHECKED_REGISTERS_HPP_
+#define MB4_DETAIL_CHECKED_REGISTERS_HPP_
 
 #include <array>
 #include <cstddef>
 #include <cstdint>
 
-#include "mb4/chip.hpp"
+#include "mb4/detail/chip.hpp"
 #include "mb4/opcodes.hpp"
 #include "mb4/result.hpp"
 #include "mb4/span.hpp"
@@ -55,4 +54,4 @@ Result<void> read_checked(Chip<Bus, Clock>& chip, std::uint8_t address, Span<std
 
 }  // namespace mb4::detail
 
-#endif  // MB4_CHECKED_REGISTERS_HPP_
+#endif  // MB4_DETAIL_CHECKED_REGISTERS_HPP_

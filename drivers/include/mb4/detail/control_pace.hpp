@@ -1,15 +1,15 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Time limits of a running control communication. For the driver's own use; users call Control.
+// The time and the number of frames that a running control communication has left.
 
-#ifndef MB4_CONTROL_PACE_HPP_
-#define MB4_CONTROL_PACE_HPP_
+#ifndef MB4_DETAIL_CONTROL_PACE_HPP_
+#define MB4_DETAIL_CONTROL_PACE_HPP_
 
 #include <cstdint>
 
-#include "mb4/chip.hpp"
-#include "mb4/control_data.hpp"
+#include "mb4/detail/chip.hpp"
+#include "mb4/detail/control_time.hpp"
 
 namespace mb4::detail {
 
@@ -34,4 +34,4 @@ template <typename Bus, typename Clock>
 
 }  // namespace mb4::detail
 
-#endif  // MB4_CONTROL_PACE_HPP_
+#endif  // MB4_DETAIL_CONTROL_PACE_HPP_

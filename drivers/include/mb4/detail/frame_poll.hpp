@@ -1,34 +1,26 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Layer 4: reads one slave or all slaves from automatic frames, with HOLDBANK, or without it while
+// Reads one slave or all slaves from automatic frames, with HOLDBANK, or without it while
 // a control communication runs.
 
-#ifndef MB4_FRAME_POLL_HPP_
-#define MB4_FRAME_POLL_HPP_
+#ifndef MB4_DETAIL_FRAME_POLL_HPP_
+#define MB4_DETAIL_FRAME_POLL_HPP_
 
 #include <cstdint>
 
-#include "mb4/chip.hpp"
 #include "mb4/config.hpp"
+#include "mb4/detail/chip.hpp"
+#include "mb4/detail/fetch.hpp"
 #include "mb4/frame.hpp"
 #include "mb4/result.hpp"
 #include "mb4/status.hpp"
 #include "mb4_regs.hpp"
 
-namespace mb4 {
-
-// Most SPI transfers of one Automatic::poll_slave(), whatever the chip answers.
-inline constexpr unsigned kMaxPollSlaveTransfers = 6;
-// The same with SpiCheck::kFull.
-inline constexpr unsigned kMaxPollSlaveTransfersChecked = 9;
-
-namespace detail {
+namespace mb4::detail {
 
 // 0xF4 while a bank is held.
 inline constexpr std::uint8_t kHoldAndAgs = regs::AGS::encode<1>() | regs::HOLDBANK::encode<1>();
-
-}  // namespace detail
 
 // Used through Automatic::poll() and poll_slave(), which document order and errors. The caller
 // passes the function that fetches the data. So a program that reads one slave does not link the
@@ -36,19 +28,18 @@ inline constexpr std::uint8_t kHoldAndAgs = regs::AGS::encode<1>() | regs::HOLDB
 template <typename Bus, typename Clock>
 class FramePoll {
  public:
-  explicit constexpr FramePoll(detail::Chip<Bus, Clock>& chip) : chip_(chip) {}
+  explicit constexpr FramePoll(Chip<Bus, Clock>& chip) : chip_(chip) {}
 
-  using Fetch = Result<void> (*)(detail::Chip<Bus, Clock>& chip, void* data);
+  using Fetch = Result<void> (*)(Chip<Bus, Clock>& chip, void* data);
 
   // Reads the slaves of `mask`, all sensors; `fetch` stores their bytes in `data`.
   // `beside_control`: a control communication runs, and 0xF4 must not be written.
-  Result<void> read(std::uint8_t mask, bool beside_control, detail::Outcome& out, Fetch fetch,
-                    void* data) {
+  Result<void> read(std::uint8_t mask, bool beside_control, Outcome& out, Fetch fetch, void* data) {
     if (beside_control) {
       return run(mask, true, out, fetch, data);
     }
     constexpr std::uint8_t kAgs = regs::AGS::encode<1>();
-    Result<void> done = chip_.write_instruction(detail::kHoldAndAgs);
+    Result<void> done = chip_.write_instruction(kHoldAndAgs);
     if (done) {
       done = run(mask, false, out, fetch, data);
     }
@@ -62,8 +53,7 @@ class FramePoll {
   // it, so no good frame has ended meanwhile. nSCDERR is 1, so no bad frame has ended either.
   // SVALID is then seen only in the first status; with SpiCheck::kFull the driver reads that status
   // twice.
-  Result<void> run(std::uint8_t mask, bool beside_control, detail::Outcome& out, Fetch fetch,
-                   void* data) {
+  Result<void> run(std::uint8_t mask, bool beside_control, Outcome& out, Fetch fetch, void* data) {
     Status& status = out.status;
     std::uint8_t fresh = mask;
     for (unsigned looks = beside_control && chip_.checks_all() ? 2 : 1; looks > 0; --looks) {
@@ -73,7 +63,7 @@ class FramePoll {
       // The chip must hold exactly the byte that was written. Without HOLDBANK the bytes may come
       // from two frames; with SWBANK or INIT they are other data.
       if (!beside_control && chip_.checks_all() &&
-          (status.instruction() | regs::AGS::encode<1>()) != detail::kHoldAndAgs) {
+          (status.instruction() | regs::AGS::encode<1>()) != kHoldAndAgs) {
         return Error::kCorrupted;
       }
       fresh = static_cast<std::uint8_t>(fresh & status.valid_mask());
@@ -100,9 +90,9 @@ class FramePoll {
     return chip_.clear_valid_checked(mask);
   }
 
-  detail::Chip<Bus, Clock>& chip_;
+  Chip<Bus, Clock>& chip_;
 };
 
-}  // namespace mb4
+}  // namespace mb4::detail
 
-#endif  // MB4_FRAME_POLL_HPP_
+#endif  // MB4_DETAIL_FRAME_POLL_HPP_

@@ -1,25 +1,24 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Layer 4: words for actuators (pages 15, 25, 31).
+// Writes the words of actuators (pages 15, 25, 31).
 
-#ifndef MB4_ACTUATOR_HPP_
-#define MB4_ACTUATOR_HPP_
+#ifndef MB4_DETAIL_ACTUATOR_WRITE_HPP_
+#define MB4_DETAIL_ACTUATOR_WRITE_HPP_
 
 #include <array>
 #include <cstddef>
 #include <cstdint>
 
-#include "mb4/checked_registers.hpp"
-#include "mb4/chip.hpp"
 #include "mb4/config.hpp"
-#include "mb4/control_data.hpp"
-#include "mb4/frame_poll.hpp"
+#include "mb4/detail/checked_registers.hpp"
+#include "mb4/detail/chip.hpp"
+#include "mb4/detail/frame_poll.hpp"
 #include "mb4/result.hpp"
 #include "mb4/span.hpp"
 #include "mb4_regs.hpp"
 
-namespace mb4 {
+namespace mb4::detail {
 
 // Used through Device::write_actuator() and Automatic::write_actuator(), which document the errors.
 //
@@ -32,7 +31,7 @@ namespace mb4 {
 template <typename Bus, typename Clock>
 class ActuatorWrite {
  public:
-  explicit constexpr ActuatorWrite(detail::Chip<Bus, Clock>& chip) : chip_(chip) {}
+  explicit constexpr ActuatorWrite(Chip<Bus, Clock>& chip) : chip_(chip) {}
 
   // The chip must be configured, and no control communication may run. `both_banks` = false: with
   // automatic frames only the host's bank is written.
@@ -63,9 +62,9 @@ class ActuatorWrite {
   static constexpr std::uint8_t kAgs = regs::AGS::encode<1>();
 
   Result<void> write_held(std::uint8_t address, Span<const std::uint8_t> bytes) {
-    Result<void> written = instruct(detail::kHoldAndAgs);
+    Result<void> written = instruct(kHoldAndAgs);
     if (written) {
-      written = detail::write_checked(chip_, address, bytes);
+      written = write_checked(chip_, address, bytes);
     }
     const Result<void> released = chip_.write_instruction(kAgs);
     return written ? released : written;
@@ -74,11 +73,11 @@ class ActuatorWrite {
   // Reads until the word differs, which shows the other bank, and writes this bank. If no reading
   // differs, both banks hold the word.
   Result<void> write_other(std::uint8_t address, Span<const std::uint8_t> bytes) {
-    detail::Deadline<Clock> deadline(
-        *chip_.clock, frame_timeout_us(chip_.config) + detail::frame_pitch_us(chip_.config));
+    Deadline<Clock> deadline(*chip_.clock,
+                             frame_timeout_us(chip_.config) + frame_pitch_us(chip_.config));
     for (bool last = false; !last;) {
       last = deadline.last_poll();
-      const Result<void> same = detail::compare_registers(chip_, address, bytes);
+      const Result<void> same = compare_registers(chip_, address, bytes);
       if (!same) {
         return same.error() == Error::kCorrupted ? write_held(address, bytes) : same;
       }
@@ -95,7 +94,7 @@ class ActuatorWrite {
     chip_.recover_first = true;
     // Each change of SWBANK switches the banks (page 33). After two changes SWBANK is 0 again.
     for (const std::uint8_t next : {regs::SWBANK::encode<1>(), std::uint8_t{0}}) {
-      Result<void> done = detail::write_checked(chip_, address, bytes);
+      Result<void> done = write_checked(chip_, address, bytes);
       if (chip_.config.single_bank) {
         chip_.recover_first = !done;
         return done;
@@ -105,7 +104,7 @@ class ActuatorWrite {
         return done;
       }
       // The switch takes some system clocks, each at most 1 us.
-      detail::pause(*chip_.clock, kSwitchUs);
+      pause(*chip_.clock, kSwitchUs);
     }
     chip_.recover_first = false;
     return {};
@@ -118,9 +117,9 @@ class ActuatorWrite {
 
   static constexpr std::uint32_t kSwitchUs = 10;
 
-  detail::Chip<Bus, Clock>& chip_;
+  Chip<Bus, Clock>& chip_;
 };
 
-}  // namespace mb4
+}  // namespace mb4::detail
 
-#endif  // MB4_ACTUATOR_HPP_
+#endif  // MB4_DETAIL_ACTUATOR_WRITE_HPP_

@@ -1,17 +1,15 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Values that follow from a Config. All functions are constexpr.
+// Which slaves and protocols a Config has, and where. All functions are constexpr.
 
-#ifndef MB4_CONFIG_FIGURES_HPP_
-#define MB4_CONFIG_FIGURES_HPP_
+#ifndef MB4_CONFIG_SLAVES_HPP_
+#define MB4_CONFIG_SLAVES_HPP_
 
 #include <cstddef>
 #include <cstdint>
 
-#include "mb4/config_data.hpp"
-#include "mb4/crc.hpp"
-#include "mb4_regs.hpp"
+#include "mb4/config/members.hpp"
 
 namespace mb4 {
 
@@ -84,61 +82,6 @@ namespace mb4 {
   return (std::uint32_t{mask} << 1 >> (slave < 32 ? slave : 31) & 1U) != 0;
 }
 
-// Periods of MA in a frame without processing time, for the channel with the longer frame. A frame
-// has 5 periods in BiSS C (acknowledge, start, CDS), 4 in BiSS B (no CDS), 1 in SSI. Data, CRC and
-// an actuator's stop bit are added, and in BiSS MO_BUSY.
-[[nodiscard]] constexpr std::uint32_t frame_periods(const Config& config) {
-  std::uint32_t longest = 0;
-  for (std::uint8_t channel = 1; channel <= kChannels; ++channel) {
-    const Protocol protocol = config.channels[channel - 1U].protocol;
-    std::uint32_t periods = 5U + config.mo_busy;
-    if (protocol != Protocol::kBissC) {
-      periods = protocol == Protocol::kSsi ? 1U : 4U + config.mo_busy;
-    }
-    for (std::size_t slave = 1; slave <= kSlaves; ++slave) {
-      const SlaveConfig& one = config.slaves[slave - 1];
-      if (one.enabled && channel_of(config, slave) == channel) {
-        periods += one.data_bits + std::uint32_t{crc_width_bits(one.crc_polynomial)};
-        periods += one.actuator && one.stop_bit ? 1U : 0U;
-      }
-    }
-    longest = periods > longest ? periods : longest;
-  }
-  return longest;
-}
-
-// The calculated timeout adds this time to the MA periods of the frame. It covers the slaves'
-// timeout of the previous frame (up to 40 us), the slave's processing time, the line delay and the
-// SPI transfers.
-inline constexpr std::uint32_t kFrameMarginUs = 200;
-
-namespace detail {
-
-// Adds the spread of the internal oscillator, which may run at 10 MHz while f_clk_hz says 25 MHz
-// (D05).
-[[gnu::noinline]] constexpr std::uint32_t with_spread(const Config& config, std::uint32_t time) {
-  return config.clock_source == ClockSource::kInternal ? 3 * time : time;
-}
-
-// Converts up to 4 million periods of MA to microseconds, rounded up. It does without a division of
-// 64 bits, which costs 1 KB on a small core.
-[[gnu::noinline]] constexpr std::uint32_t periods_us(const Config& config, std::uint32_t periods) {
-  return periods * 1000U / (config.ma_hz / 1000U) + 1U;
-}
-
-}  // namespace detail
-
-// The timeout of a frame in microseconds: Config::frame_timeout_us, or, if that is 0, the time of
-// the frame plus kFrameMarginUs. For a valid `config`.
-[[nodiscard]] constexpr std::uint32_t frame_timeout_us(const Config& config) {
-  if (config.frame_timeout_us != 0) {
-    return config.frame_timeout_us;
-  }
-  // Eight slaves need at most 908 * 3 periods; 2'724'000'000 fits 32 bits.
-  return detail::with_spread(config, frame_periods(config)) * 1'000'000U / config.ma_hz + 1 +
-         kFrameMarginUs;
-}
-
 }  // namespace mb4
 
-#endif  // MB4_CONFIG_FIGURES_HPP_
+#endif  // MB4_CONFIG_SLAVES_HPP_

@@ -1,27 +1,26 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Checks the conditions for a control communication before it begins. For the driver's own use;
-// users call Control.
+// Checks the conditions for a control communication before it begins.
 
-#ifndef MB4_CONTROL_CHECKS_HPP_
-#define MB4_CONTROL_CHECKS_HPP_
+#ifndef MB4_DETAIL_CONTROL_CHECKS_HPP_
+#define MB4_DETAIL_CONTROL_CHECKS_HPP_
 
 #include <cstddef>
 #include <cstdint>
 
-#include "mb4/chip.hpp"
 #include "mb4/config.hpp"
-#include "mb4/control_data.hpp"
+#include "mb4/detail/chip.hpp"
 #include "mb4/result.hpp"
+#include "mb4/slave_address.hpp"
 #include "mb4_regs.hpp"
 
-namespace mb4 {
+namespace mb4::detail {
 
 template <typename Bus, typename Clock>
 class ControlChecks {
  public:
-  explicit constexpr ControlChecks(detail::Chip<Bus, Clock>& chip) : chip_(chip) {}
+  explicit constexpr ControlChecks(Chip<Bus, Clock>& chip) : chip_(chip) {}
 
  protected:
   // `without`: the protocol that does not have this kind of access.
@@ -44,7 +43,7 @@ class ControlChecks {
     if (!chip_.configured) {
       return Error::kNotConfigured;
     }
-    if (chip_.control.kind != detail::ControlState::Kind::kNone) {
+    if (chip_.control.kind != ControlState::Kind::kNone) {
       return Error::kBusy;
     }
     if (!chip_.automatic && chip_.config.frame_start != FrameStart::kWaitForLine) {
@@ -73,9 +72,9 @@ class ControlChecks {
     return check_protocol(slave.channel, without);
   }
 
-  detail::Chip<Bus, Clock>& chip_;
+  Chip<Bus, Clock>& chip_;
 };
 
-}  // namespace mb4
+}  // namespace mb4::detail
 
-#endif  // MB4_CONTROL_CHECKS_HPP_
+#endif  // MB4_DETAIL_CONTROL_CHECKS_HPP_

@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 
-// The configuration of the chip in real units (Hz, us, bits). validate() in config.hpp checks it.
+// The configuration of the chip in real units (Hz, us, bits). validate() checks it.
 
-#ifndef MB4_CONFIG_DATA_HPP_
-#define MB4_CONFIG_DATA_HPP_
+#ifndef MB4_CONFIG_MEMBERS_HPP_
+#define MB4_CONFIG_MEMBERS_HPP_
 
 #include <array>
 #include <cstddef>
@@ -162,4 +162,4 @@ inline constexpr std::uint32_t kMaxRegisterBusyUs = 10'000'000;
 
 }  // namespace mb4
 
-#endif  // MB4_CONFIG_DATA_HPP_
+#endif  // MB4_CONFIG_MEMBERS_HPP_

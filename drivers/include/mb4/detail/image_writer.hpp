@@ -1,26 +1,25 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Layer 3: writes and compares the registers of a configuration. For the driver's own use; users
-// call Device.
+// Writes and compares the registers of a configuration.
 
-#ifndef MB4_CONFIGURATION_HPP_
-#define MB4_CONFIGURATION_HPP_
+#ifndef MB4_DETAIL_IMAGE_WRITER_HPP_
+#define MB4_DETAIL_IMAGE_WRITER_HPP_
 
 #include <array>
 #include <cstdint>
 
-#include "mb4/chip.hpp"
+#include "mb4/detail/chip.hpp"
 #include "mb4/register_image.hpp"
 #include "mb4/result.hpp"
 #include "mb4_regs.hpp"
 
-namespace mb4 {
+namespace mb4::detail {
 
 template <typename Bus, typename Clock>
-class Configuration {
+class ImageWriter {
  public:
-  explicit constexpr Configuration(detail::Chip<Bus, Clock>& chip) : chip_(chip) {}
+  explicit constexpr ImageWriter(Chip<Bus, Clock>& chip) : chip_(chip) {}
 
   // Three transfers: BREAK, all registers, comparison.
   Result<void> write(const RegisterImage& image, std::uint8_t interface_byte) {
@@ -66,9 +65,9 @@ class Configuration {
            address != regs::kAddrRevision && address != regs::kAddrVersion;
   }
 
-  detail::Chip<Bus, Clock>& chip_;
+  Chip<Bus, Clock>& chip_;
 };
 
-}  // namespace mb4
+}  // namespace mb4::detail
 
-#endif  // MB4_CONFIGURATION_HPP_
+#endif  // MB4_DETAIL_IMAGE_WRITER_HPP_

@@ -2,10 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 
 // The state that all calls on one chip share: bus, clock, configuration, and what the driver knows
-// about the chip. For the driver's own use; users call Device.
+// about the chip.
 
-#ifndef MB4_CHIP_HPP_
-#define MB4_CHIP_HPP_
+#ifndef MB4_DETAIL_CHIP_HPP_
+#define MB4_DETAIL_CHIP_HPP_
 
 #include <array>
 #include <cstddef>
@@ -222,4 +222,4 @@ struct Chip {
 
 }  // namespace mb4::detail
 
-#endif  // MB4_CHIP_HPP_
+#endif  // MB4_DETAIL_CHIP_HPP_

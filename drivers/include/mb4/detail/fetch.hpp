@@ -1,0 +1,183 @@
+// SPDX-FileCopyrightText: 2026 The openmb4 authors
+// SPDX-License-Identifier: Apache-2.0
+
+// How the data of one frame is read from the chip, checked and decoded.
+
+#ifndef MB4_DETAIL_FETCH_HPP_
+#define MB4_DETAIL_FETCH_HPP_
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+#include "mb4/config.hpp"
+#include "mb4/error.hpp"
+#include "mb4/frame.hpp"
+#include "mb4/opcodes.hpp"
+#include "mb4/reading.hpp"
+#include "mb4/result.hpp"
+#include "mb4/span.hpp"
+#include "mb4/status.hpp"
+#include "mb4_regs.hpp"
+
+namespace mb4::detail {
+
+// SCDATA1 to 8 as fetched; bytes that no slave needs stay 0.
+using DataImage = std::array<std::uint8_t, kSlaves * regs::kScdataStride>;
+
+// The byte on MOSI while data is read with SpiCheck::kFull. A disturbed bit can turn the read into
+// a write. That write must not store zeros, because zeros can pass as data with a CRC.
+inline constexpr std::uint8_t kDataFiller = 0x5A;
+
+// Reads SCDATA from `begin` upwards. For address 0x00 it uses opcode 0x09, which is one byte
+// shorter than 0x03 and needs no stretched clock (I204).
+template <typename Bus>
+Result<void> read_run(Opcodes<Bus>& opcodes, const Config& config, Span<std::uint8_t> bytes,
+                      std::uint8_t begin) {
+  const std::uint8_t filler = config.spi_check == SpiCheck::kFull ? kDataFiller : 0;
+  return begin == 0 ? opcodes.read_registers0(bytes, filler)
+                    : opcodes.read_registers(begin, bytes, filler);
+}
+
+// Reads only the bytes that the slaves of `mask` need: at most one transfer for each slave, none if
+// `mask` is 0. Neighbours share a transfer when the bytes between them cost no more than another
+// opcode and address.
+template <typename Bus>
+Result<void> read_data(Opcodes<Bus>& opcodes, const Config& config, std::uint8_t mask,
+                       DataImage& image) {
+  constexpr std::size_t kHeaderBytes = 2;
+  constexpr std::size_t kOutOfReach = 0x100;
+  std::size_t begin = 0;
+  std::size_t end = 0;
+  // The loop ends with a slave number whose address is out of reach, so that the last run is read.
+  for (std::uint8_t slave = 1; slave <= kSlaves + 1; ++slave) {
+    if (slave <= kSlaves && !is_in(mask, slave)) {
+      continue;
+    }
+    const std::size_t from = slave <= kSlaves ? regs::scdata_address(slave) : kOutOfReach;
+    if (end != 0 && from - end > kHeaderBytes) {
+      const Result<void> read =
+          read_run(opcodes, config, Span<std::uint8_t>(&image[begin], end - begin),
+                   static_cast<std::uint8_t>(begin));
+      if (!read) {
+        return read;
+      }
+      end = 0;
+    }
+    if (slave <= kSlaves) {
+      begin = end == 0 ? from : begin;
+      end = from + reading_bytes(config, slave);
+    }
+  }
+  return {};
+}
+
+// Data as fetched, and which slaves' bytes were the same when they were read again.
+struct FetchedData {
+  DataImage image{};
+  std::uint8_t stable = 0xFF;  // bit 0 is slave 1
+};
+
+// SpiCheck::kFull: true for data that only a second reading proves. Without a stored CRC this is
+// any data. With a CRC it is all zeros and all ones: a line that was stuck for a moment makes them,
+// and the CRC may accept them.
+[[nodiscard]] constexpr bool needs_second_reading(const Config& config, std::uint8_t slave,
+                                                  Span<const std::uint8_t> bytes) {
+  const SlaveConfig& slave_config = config.slaves[slave - 1U];
+  if (!crc_is_stored(config, slave_config)) {
+    return true;
+  }
+  std::uint8_t all_and = 0xFF;
+  std::uint8_t all_or = 0;
+  for (std::size_t i = 0; i < data_bytes(slave_config); ++i) {
+    all_and = static_cast<std::uint8_t>(all_and & bytes[i]);
+    all_or = static_cast<std::uint8_t>(all_or | bytes[i]);
+  }
+  return all_or == 0 || all_and == 0xFF;
+}
+
+// Calls read_data(). With SpiCheck::kFull it reads the data that needs_second_reading() once more.
+template <typename Bus>
+Result<void> fetch_data(Opcodes<Bus>& opcodes, const Config& config, std::uint8_t mask,
+                        FetchedData& data) {
+  const Result<void> first = read_data(opcodes, config, mask, data.image);
+  if (!first || config.spi_check != SpiCheck::kFull) {
+    return first;
+  }
+  // `second` begins as a copy, so bytes that are not read again are equal in both images.
+  DataImage second = data.image;
+  std::uint8_t again = 0;
+  for (std::uint8_t slave = 1; slave <= kSlaves; ++slave) {
+    const Span<const std::uint8_t> bytes(&data.image[regs::scdata_address(slave)],
+                                         regs::kScdataStride);
+    if (is_in(mask, slave) && needs_second_reading(config, slave, bytes)) {
+      again = static_cast<std::uint8_t>(again | 1U << (slave - 1U));
+    }
+  }
+  const Result<void> read = read_data(opcodes, config, again, second);
+  for (std::size_t i = 0; i < second.size(); ++i) {
+    if (data.image[i] != second[i]) {
+      data.stable = static_cast<std::uint8_t>(data.stable & ~(1U << i / regs::kScdataStride));
+    }
+  }
+  return read;
+}
+
+// As FetchedData, for one slave: it needs less memory and code in an interrupt.
+struct FetchedSlave {
+  std::array<std::uint8_t, regs::kScdataStride> bytes{};
+  std::uint8_t slave = 1;
+  bool stable = true;
+};
+
+template <typename Bus>
+Result<void> fetch_slave(Opcodes<Bus>& opcodes, const Config& config, FetchedSlave& data) {
+  const std::size_t size = reading_bytes(config, data.slave);
+  const std::uint8_t from = regs::scdata_address(data.slave);
+  const Result<void> first =
+      read_run(opcodes, config, Span<std::uint8_t>(data.bytes.data(), size), from);
+  if (!first || config.spi_check != SpiCheck::kFull ||
+      !needs_second_reading(config, data.slave, data.bytes)) {
+    return first;
+  }
+  std::array<std::uint8_t, regs::kScdataStride> second{};
+  const Result<void> read =
+      read_run(opcodes, config, Span<std::uint8_t>(second.data(), size), from);
+  for (std::size_t i = 0; i < size; ++i) {
+    data.stable = data.stable && data.bytes[i] == second[i];
+  }
+  return read;
+}
+
+// The result of one frame.
+struct Outcome {
+  Status status;          // as read after the data
+  std::uint8_t good = 0;  // slaves whose data is new and good; bit 0 is slave 1
+};
+
+// Decodes the data of one slave. `bytes`: the eight bytes of SCDATAx. `stable`: a second reading,
+// if there was one, was equal.
+inline Result<Reading> decode(const Config& config, std::uint8_t slave, const std::uint8_t* bytes,
+                              bool stable) {
+  return stable ? decode_reading(config, slave,
+                                 Span<const std::uint8_t>(bytes, reading_bytes(config, slave)))
+                : Result<Reading>(Error::kCorrupted);
+}
+
+// Decodes all `slaves` of a frame. `missing` is the error of a slave that is not good.
+inline void decode_all(const Config& config, std::uint8_t slaves, const Outcome& outcome,
+                       const FetchedData& data, Error missing, Frame& frame) {
+  frame.status = outcome.status;
+  for (std::uint8_t slave = 1; slave <= kSlaves; ++slave) {
+    if (is_in(outcome.good, slave)) {
+      frame.set(slave, decode(config, slave, &data.image[regs::scdata_address(slave)],
+                              is_in(data.stable, slave)));
+    } else if (is_in(slaves, slave)) {
+      frame.set(slave, missing);
+    }
+  }
+}
+
+}  // namespace mb4::detail
+
+#endif  // MB4_DETAIL_FETCH_HPP_
