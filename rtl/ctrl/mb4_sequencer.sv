@@ -78,7 +78,8 @@ module mb4_sequencer (
   output logic       refused_o,       // SL is low: no frame for INSTR
   input  logic       control_active_i,
   input  logic       control_end_i,
-  input  logic       control_stalled_i // because no frame ends
+  input  logic       control_stalled_i, // because no frame ends
+  input  logic       stale_i          // kind_i still has the settings of an access that has ended
 );
 
   typedef enum logic [2:0] {
@@ -136,8 +137,9 @@ module mb4_sequencer (
   assign by_instr = new_q && kind_i.is_frame && kind_i.in_use != 2'b00 &&
                     (!held_q.ags || infinite_i);
   assign begins   = new_q && kind_i.in_use != 2'b00 && !held_q.init && state_q != INIT_TIMEOUT;
-  assign control_begin_o  = begins && kind_i.is_control && state_q != INIT;
-  assign register_begin_o = (begins && kind_i.is_register) || (new_q && kind_i.is_void && !void_o);
+  assign control_begin_o  = begins && kind_i.is_control && state_q != INIT && !stale_i;
+  assign register_begin_o = (begins && (kind_i.is_register || (kind_i.is_control && stale_i))) ||
+                            (new_q && kind_i.is_void && !void_o);
   assign register_access  = init ? !regvers_i : kind_i.is_register;
   assign register_d  = start ? register_access : register_q;
   assign start_use_o = init ? kind_i.init_use : kind_i.frame_use;
@@ -145,13 +147,13 @@ module mb4_sequencer (
                                  held_q.instr == mb4_regs_pkg::INSTR_CONTROL_REDUCED
                                : reduced_q;
   // With AGS = 1 new_q falls in IDLE, and INSTR alone keeps the request.
-  assign awaits_d    = (new_q ? kind_i.is_register && held_q.ags : awaits_q) &&
+  assign awaits_d    = (new_q ? kind_i.is_register && held_q.ags && !stale_i : awaits_q) &&
                        !(written || start || void_o);
 
   always_comb begin
     state_d      = state_q;
     held_d       = held_q;
-    new_d        = new_q && (by_instr || state_q != IDLE || held_q.init);
+    new_d        = new_q && (by_instr || state_q != IDLE || held_q.init || stale_i);
     use_d        = use_q;
     done_d       = done_q;
     bad_d        = bad_q;
@@ -195,7 +197,8 @@ module mb4_sequencer (
           end else if (wait_q == 11'd0) begin
             abort = 1'b1;
           end
-        end else if ((by_instr || request_i) && !mem_busy_i && kind_i.in_use != 2'b00) begin
+        end else if ((by_instr || request_i) && !mem_busy_i && !stale_i &&
+                     kind_i.in_use != 2'b00) begin
           if (bank_pending_i && held_q.holdbank && agserr_on_hold_i && !kind_i.is_register) begin
             taken_o   = 1'b1;
             ags_error = 1'b1;
