@@ -138,7 +138,9 @@ module mb4_sequencer (
                     (!held_q.ags || infinite_i);
   assign begins   = new_q && kind_i.in_use != 2'b00 && !held_q.init && state_q != INIT_TIMEOUT;
   assign control_begin_o  = begins && kind_i.is_control && state_q != INIT && !stale_i;
-  assign register_begin_o = (begins && (kind_i.is_register || (kind_i.is_control && stale_i))) ||
+  // A new instruction takes REGEND away at once. After a stall it is still the old one.
+  assign register_begin_o = (begins && (kind_i.is_register ||
+                                        (kind_i.is_control && stale_i && !control_stalled_i))) ||
                             (new_q && kind_i.is_void && !void_o);
   assign register_access  = init ? !regvers_i : kind_i.is_register;
   assign register_d  = start ? register_access : register_q;
