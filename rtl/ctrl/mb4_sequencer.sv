@@ -117,7 +117,7 @@ module mb4_sequencer (
   // at 10 MHz.
   localparam logic [10:0] INIT_WAIT = 11'h7FF;
 
-  // ack_o comes one clock after new_q. REGEND has fallen by then.
+  // ack_o comes two clocks after new_q. REGEND has fallen by then.
   mb4_count_rx u_written (
     .clk_i,
     .rst_ni,
@@ -269,7 +269,8 @@ module mb4_sequencer (
 
     if (written) begin
       // INSTR written with the code whose frame runs is no new request. A frame runs from its first
-      // clock to the one before its end. A write does not cancel an INIT; AGS waits for its end.
+      // clock to the one before its end. A write does not cancel an INIT; automatic frames wait for its
+      // end.
       new_d = written_i.instr != 3'b000 &&
                         (new_d || (state_q != FRAME && state_d != FRAME) ||
                          written_i.instr != held_q.instr);
