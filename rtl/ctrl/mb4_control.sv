@@ -53,7 +53,7 @@ module mb4_control (
   mb4_pkg::access_t access_q;   // constant while an access runs
   logic [1:0] chsel_q;
   logic agsmin, infinite, request, missed, taken, lines_idle, running, brk, init_clear;
-  logic control_want, register_want, control_active, void_end, refused, access_run;
+  logic control_want, register_want, control_active, void_end, refused, access_run, access_stale;
   logic live, automatic_frames, stalled;
   logic reg_begin, reg_end, reg_error, delay_error, reg_ags_error;
   logic [1:0] ssi, manual, select;
@@ -62,7 +62,7 @@ module mb4_control (
   // lines
   biss_pkg::line_status_t status1, status2;
   logic [1:0] start_use, cdm0, cdm1, mo_low, forced, force_level;
-  logic force_change, keep_time, keep_time_q;
+  logic force_change, force_any, keep_time, keep_time_q;
 
   mb4_frame_kind u_kind (
     .instr_i       (held_o.instr),
@@ -117,7 +117,8 @@ module mb4_control (
     .refused_o         (refused),
     .control_active_i  (control_active),
     .control_end_i     (reg_end),
-    .control_stalled_i (stalled)
+    .control_stalled_i (stalled),
+    .stale_i           (access_stale)
   );
 
   mb4_frame_request u_request (
@@ -196,6 +197,7 @@ module mb4_control (
     .cdm_i         ({status2.cdm, status1.cdm}),
     .active_o      (control_active),
     .run_o         (access_run),
+    .stale_o       (access_stale),
     .time_o        (keep_time),
     .stalled_o     (stalled),
     .cdm0_o        (cdm0),
@@ -216,8 +218,8 @@ module mb4_control (
   assign flags_o = {n_agserr, n_delayerr, n_scderr, n_regerr, regend, eot, swbank_fail, cdm_timeout,
                     (n_regerr && n_delayerr) ? 6'd0 : good_bytes};
 
-  // The host may configure the next access while one runs (decision 38). The next one may begin in
-  // the clock after its end.
+  // The host may configure the next access while one runs (decision 38). Its settings are here two
+  // clocks after the end. In the clock between, the sequencer waits (access_stale).
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni)          {access_q, chsel_q} <= '0;
     else if (!access_run) {access_q, chsel_q} <= {cfg_i.access, cfg_i.chsel};
@@ -241,7 +243,8 @@ module mb4_control (
     .chsel_i  (cfg_i.chsel),
     .force_o  (forced),
     .level_o  (force_level),
-    .change_o (force_change)
+    .change_o (force_change),
+    .any_o    (force_any)
   );
 
   // ---- lines --------------------------------------------------------------------------------
@@ -262,7 +265,7 @@ module mb4_control (
     if (!rst_ni) keep_time_q <= 1'b0;
     else         keep_time_q <= keep_time;
   end
-  assign time_run_o     = keep_time || forced != 2'b00;
-  assign time_restart_o = forced == 2'b00 && (force_change || (keep_time && !keep_time_q));
+  assign time_run_o     = keep_time || force_any;
+  assign time_restart_o = !force_any && (force_change || (keep_time && !keep_time_q));
 
 endmodule

@@ -43,7 +43,8 @@ module mb4_control_comm (
   input  logic [1:0] cds_i,
   input  logic [1:0] cdm_i,            // as sent
   output logic       active_o,
-  output logic       run_o,            // an access runs, and goes on after this clock
+  output logic       run_o,            // an access runs or begins
+  output logic       stale_o,          // access_i is still that of an access which has ended
   output logic       time_o,           // the time base must run between frames too
   output logic       stalled_o,        // no frame has ended for too long
   output logic [1:0] cdm0_o,
@@ -68,7 +69,8 @@ module mb4_control_comm (
   logic       void_q;                  // void_i one clock late, as all ends come
   logic       register_q;              // the results are those of BiSS B
   logic       unused;
-  logic waiting, moved, next_active;
+  logic waiting, moved, control_runs;
+  logic run_q;
   logic control_begin, control_end, control_error, control_delay, in_body, expired, sent;
   logic register_start, register_active, register_wait, register_init, register_error;
   logic register_delay, register_end, register_mo;
@@ -96,7 +98,7 @@ module mb4_control_comm (
     .rdata_wr_en_o   (control_wr_en),
     .rdata_wr_data_o (control_data),
     .begin_i,
-    .abort_i         (clear_i || void_i),
+    .abort_i         (clear_i || void_q),
     .start_i         (start_i && !init_i && !register_i),
     .frame_end_i,
     .cds_i           (cds_i & in_use_i),
@@ -104,7 +106,7 @@ module mb4_control_comm (
     .expired_i       (expired),
     .stalled_i       (stalled_o),
     .active_o,
-    .next_active_o   (next_active),
+    .running_o       (control_runs),
     .in_body_o       (in_body),
     .wait_o          (waiting),
     .moved_o         (moved),
@@ -187,8 +189,8 @@ module mb4_control_comm (
                      ((refused_i && (active_o || register_i)) || (refused_q && !control_end));
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
-    if (!rst_ni) {time_q, refused_q, void_q} <= '0;
-    else         {time_q, refused_q, void_q} <= {time_d, refused_d, void_i};
+    if (!rst_ni) {time_q, refused_q, void_q, run_q} <= '0;
+    else         {time_q, refused_q, void_q, run_q} <= {time_d, refused_d, void_i, run_o};
   end
 
   assign time_o = time_q;
@@ -206,7 +208,8 @@ module mb4_control_comm (
   );
 
   assign stalled_o = counted && (!refused_q || refused_i);
-  assign run_o     = next_active || (register_active && !abort_i) || register_start;
+  assign run_o     = active_o || register_active;
+  assign stale_o   = run_q && !control_runs && !register_active;
 
   // Zeros within a control frame do not count. The stop bit is the first zero that counts.
   assign sent = (cdm_i & in_use_i) != 2'b00;

@@ -53,7 +53,7 @@ module mb4_control_frame (
   input  logic       expired_i,      // no start bit for too long
   input  logic       stalled_i,      // no frame has ended for too long
   output logic       active_o,
-  output logic       next_active_o,  // active_o after this clock
+  output logic       running_o,      // active_o one clock late in its rise
   output logic       in_body_o,      // the slot is between S and the stop bit
   output logic       wait_o,         // waiting for the slave's start bit
   output logic       moved_o,        // a frame ends, but not while S is awaited
@@ -297,7 +297,7 @@ module mb4_control_frame (
   // instruction, so it does not begin a control frame.
   assign begin_o       = begin_i && !active_q && !stalled_i;
   assign active_o      = active_q || begin_o;
-  assign next_active_o = active_d;
+  assign running_o     = active_q;
   assign wait_o        = active_q && cts_i && slot_q == mb4_pkg::SLOT_WAIT;
   assign late          = wait_o && stay && expired_i;
   assign moved_o       = step && !(wait_o && stay);

@@ -3,8 +3,8 @@
 //
 // Tells what INSTR asks for, and which lines take part.
 //
-// Combinational; the configuration must be stable while frames run. Bit i of a vector {2, 1} is for
-// line i + 1.
+// Combinational. CHSEL, CTS and REGVERS are those that mb4_control keeps for an access; the host may
+// change the rest at any time (decision 38). Bit i of a vector {2, 1} is for line i + 1.
 //
 // - A line is in use unless CFGCHx is 11. Line 2 also needs SLAVELOC5 = 1.
 // - Control communication runs on the lines that CHSEL names and whose protocol fits: BiSS B with

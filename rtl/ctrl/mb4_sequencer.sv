@@ -78,7 +78,8 @@ module mb4_sequencer (
   output logic       refused_o,       // SL is low: no frame for INSTR
   input  logic       control_active_i,
   input  logic       control_end_i,
-  input  logic       control_stalled_i // because no frame ends
+  input  logic       control_stalled_i, // because no frame ends
+  input  logic       stale_i          // kind_i still has the settings of an access that has ended
 );
 
   typedef enum logic [2:0] {
@@ -116,7 +117,7 @@ module mb4_sequencer (
   // at 10 MHz.
   localparam logic [10:0] INIT_WAIT = 11'h7FF;
 
-  // ack_o comes one clock after new_q. REGEND has fallen by then.
+  // ack_o comes two clocks after new_q. REGEND has fallen by then.
   mb4_count_rx u_written (
     .clk_i,
     .rst_ni,
@@ -136,8 +137,11 @@ module mb4_sequencer (
   assign by_instr = new_q && kind_i.is_frame && kind_i.in_use != 2'b00 &&
                     (!held_q.ags || infinite_i);
   assign begins   = new_q && kind_i.in_use != 2'b00 && !held_q.init && state_q != INIT_TIMEOUT;
-  assign control_begin_o  = begins && kind_i.is_control && state_q != INIT;
-  assign register_begin_o = (begins && kind_i.is_register) || (new_q && kind_i.is_void && !void_o);
+  assign control_begin_o  = begins && kind_i.is_control && state_q != INIT && !stale_i;
+  // A new instruction takes REGEND away at once. After a stall it is still the old one.
+  assign register_begin_o = (begins && (kind_i.is_register ||
+                                        (kind_i.is_control && stale_i && !control_stalled_i))) ||
+                            (new_q && kind_i.is_void && !void_o);
   assign register_access  = init ? !regvers_i : kind_i.is_register;
   assign register_d  = start ? register_access : register_q;
   assign start_use_o = init ? kind_i.init_use : kind_i.frame_use;
@@ -145,13 +149,13 @@ module mb4_sequencer (
                                  held_q.instr == mb4_regs_pkg::INSTR_CONTROL_REDUCED
                                : reduced_q;
   // With AGS = 1 new_q falls in IDLE, and INSTR alone keeps the request.
-  assign awaits_d    = (new_q ? kind_i.is_register && held_q.ags : awaits_q) &&
+  assign awaits_d    = (new_q ? kind_i.is_register && held_q.ags && !stale_i : awaits_q) &&
                        !(written || start || void_o);
 
   always_comb begin
     state_d      = state_q;
     held_d       = held_q;
-    new_d        = new_q && (by_instr || state_q != IDLE || held_q.init);
+    new_d        = new_q && (by_instr || state_q != IDLE || held_q.init || stale_i);
     use_d        = use_q;
     done_d       = done_q;
     bad_d        = bad_q;
@@ -195,7 +199,8 @@ module mb4_sequencer (
           end else if (wait_q == 11'd0) begin
             abort = 1'b1;
           end
-        end else if ((by_instr || request_i) && !mem_busy_i && kind_i.in_use != 2'b00) begin
+        end else if ((by_instr || request_i) && !mem_busy_i && !stale_i &&
+                     kind_i.in_use != 2'b00) begin
           if (bank_pending_i && held_q.holdbank && agserr_on_hold_i && !kind_i.is_register) begin
             taken_o   = 1'b1;
             ags_error = 1'b1;
@@ -264,7 +269,8 @@ module mb4_sequencer (
 
     if (written) begin
       // INSTR written with the code whose frame runs is no new request. A frame runs from its first
-      // clock to the one before its end. A write does not cancel an INIT; AGS waits for its end.
+      // clock to the one before its end. A write does not cancel an INIT; automatic frames wait for its
+      // end.
       new_d = written_i.instr != 3'b000 &&
                         (new_d || (state_q != FRAME && state_d != FRAME) ||
                          written_i.instr != held_q.instr);

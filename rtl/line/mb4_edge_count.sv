@@ -90,7 +90,7 @@ module mb4_edge_count (
       need_q  <= need_d;
       none_q  <= none_d;
       one_q   <= one_d;
-      len_valid_q <= len_valid_i;
+      len_valid_q <= len_valid_i && !begin_i;   // not a word of a frame that BREAK has ended
       len_q       <= len_i;
     end
   end

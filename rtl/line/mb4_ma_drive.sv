@@ -9,8 +9,9 @@
 //
 //   clocking_o  high from begin_i until enough_i was seen at the end of a high level
 //   rise_o      high in the clock of a tick that makes a rising edge
-//   force_i     from the next tick on MA has the level force_level_i, whatever the frame does
-//   released_o  high for one clock: the line must rest until the next tick, because force_i has
+//   force_i     from the first tick after the next clock on MA has the level force_level_i, whatever
+//               the frame does
+//   released_o  high for one clock: the line must rest until the next tick, because the force has
 //               ended or has made MA fall
 //
 // Misuse: enough_i must not fall before the next begin_i.
@@ -47,7 +48,8 @@ module mb4_ma_drive (
   logic clocking_d;
   logic clocking_q;
   logic force_q;
-  logic fell_q;     // force_i has made MA fall
+  logic level_q;
+  logic released_q;
 
   always_comb begin
     ma_d       = ma_q;
@@ -71,18 +73,20 @@ module mb4_ma_drive (
     end else if (tick_i && high_i) begin
       ma_d = 1'b1;
     end
-    if (force_i) ma_d = (tick_i && !start_i) ? force_level_i : ma_q;
+    if (force_q) ma_d = (tick_i && !start_i) ? level_q : ma_q;
   end
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
       clocking_q <= 1'b0;
       force_q    <= 1'b0;
-      fell_q     <= 1'b0;
+      level_q    <= 1'b0;
+      released_q <= 1'b0;
     end else begin
       clocking_q <= clocking_d;
       force_q    <= force_i;
-      fell_q     <= force_i && tick_i && ma_q && !force_level_i;
+      level_q    <= force_level_i;
+      released_q <= force_q && (!force_i || (tick_i && ma_q && !level_q));
     end
   end
 
@@ -96,7 +100,7 @@ module mb4_ma_drive (
   assign rise_o = tick_i && clocking_q && half_next_i && !register_i && !stop_i &&
                   !(enough_i && cdm_i);
 
-  assign released_o = (force_q && !force_i) || fell_q;
+  assign released_o = released_q;
   assign clocking_o = clocking_q;
   assign ma_o       = ma_q;
 

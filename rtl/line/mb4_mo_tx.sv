@@ -11,9 +11,9 @@
 // one clock. mem_addr_o is the byte that is needed next; its data follow one clock later.
 //
 // Misuse: a frame may end before the last slot (MO is not connected to the slaves, or busy_i is
-// larger than theirs). Then it ends here too (line_idle_i). Eight words of BiSS B at f_CLK / 2 with
-// busy_i = 0 are one too many: the first slot comes before the list is ready, and its contents are
-// undefined.
+// larger than theirs). Then it ends here too (line_idle_i). BiSS B at f_CLK / 2 with busy_i = 0 has
+// time for six words: with seven or eight the first slot comes before the list is ready, and its
+// contents are undefined.
 // Datasheet: pages 15, 25, 31, Figure 12, Tables 17, 18, 39, 40; protocol of the chain.
 
 module mb4_mo_tx (

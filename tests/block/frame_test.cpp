@@ -357,4 +357,28 @@ TEST(FrameAbort, SilentSlave_MaReturnsHighAfterAFullHalfPeriod) {
   }
 }
 
+// BREAK + INSTR in one byte: the next frame begins while the list of words of the old one is still
+// being summed up. It has the edges of its own words only: 5 and their bits (page 14).
+TEST(FrameAbort, WithinTheListOfWords_NextFrameHasItsOwnEdges) {
+  std::string payload;
+  for (unsigned slave = 0; slave < 8; ++slave) payload += line_word(0xA0U + slave, 8, 0x43);
+  for (unsigned clocks = 1; clocks <= 16; ++clocks) {
+    FrameBench bench;
+    for (unsigned slave = 0; slave < 8; ++slave) bench.configure(slave, 8, 0x06);
+    bench.model->start_i = 1;
+    bench.clocks(1);
+    bench.model->start_i = 0;
+    bench.clocks(clocks - 1);
+    bench.model->abort_i = 1;
+    bench.clocks(1);
+    bench.model->abort_i = 0;
+    while (bench.model->idle_o == 0) bench.clocks(1);
+    // The slave takes no notice of the frame that was cut short.
+    Slave slave = slave_with(payload, 0);
+    const auto result = bench.run(slave, 0);
+    EXPECT_EQ(result.rises.size(), 5U + 8U * 14U) << clocks;
+    EXPECT_EQ(result.good, 8U) << clocks;
+  }
+}
+
 }  // namespace

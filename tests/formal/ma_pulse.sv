@@ -22,11 +22,11 @@
 // look: dut_clock2 = u_lines.gen_line[1].u_line.u_frame.u_ma.clocking_q
 // mutation: line/mb4_ma_drive.sv | end else if (stop_i) begin
 //   | end else if (stop_i) begin ma_d = 1'b1;
-// mutation: line/mb4_ma_drive.sv | if (force_i) ma_d = (tick_i && !start_i) ? force_level_i : ma_q;
-//   | if (force_i) ma_d = force_level_i;
-// mutation: line/mb4_ma_drive.sv | if (force_i) ma_d = (tick_i && !start_i) ? force_level_i : ma_q;
-//   | if (force_i) ma_d = tick_i ? force_level_i : ma_q;
-// mutation: line/mb4_ma_drive.sv | || fell_q; | ;
+// mutation: line/mb4_ma_drive.sv | if (force_q) ma_d = (tick_i && !start_i) ? level_q : ma_q;
+//   | if (force_q) ma_d = level_q;
+// mutation: line/mb4_ma_drive.sv | if (force_q) ma_d = (tick_i && !start_i) ? level_q : ma_q;
+//   | if (force_q) ma_d = tick_i ? level_q : ma_q;
+// mutation: line/mb4_ma_drive.sv | (!force_i || (tick_i && ma_q && !level_q)); | !force_i;
 // mutation: line/mb4_frame.sv | if (tick_i && sl_high && !ma_clocks) state_d = IDLE;
 //   | if (sl_high) state_d = IDLE;
 // mutation: line/mb4_frame.sv | if (tick_i) state_d = IDLE; | state_d = IDLE;
@@ -45,10 +45,13 @@ module proof (
   input logic [15:0] mo_data_i
 );
 
-  logic [1:0] idle, ma, forced;
+  logic [1:0] idle, ma, forced_q;
   biss_pkg::line_cmd_t cmd1, cmd2;
   assign {cmd2, cmd1} = cmd_i;
-  assign forced = {cmd2.forced, cmd1.forced};
+  always @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) forced_q <= 2'b00;
+    else         forced_q <= {cmd2.forced, cmd1.forced};
+  end
 
   mb4_lines u_lines (
     .clk_i, .rst_ni, .por_ni, .cfg_i, .enscd_i, .slave_cfg_i, .cmd_i, .go_i, .start_i,
@@ -63,8 +66,8 @@ module proof (
     if (started)  assume (por_ni);
     // Which lines a start is for, and whether they are in use, is free.
     if (go_i.start) assume (idle == 2'b11 && !go_i.stop);  // proof sequencer
-    // mb4_control: a forced level counts half periods.
-    if (forced != 2'b00) assume (time_run_i && !time_restart_i);
+    // mb4_control: a forced level counts half periods. The lines take it one clock late.
+    if (forced_q != 2'b00) assume (time_run_i && !time_restart_i);
   end
 
   wire [7:0] dut_len, dut_cnt;
@@ -86,13 +89,13 @@ module proof (
   logic [1:0] rise;
   line_proof #(.Covers(1'b1)) u_line1 (
     .clk_i, .por_ni, .live_i(started && live_q), .reset_i(!rst_ni), .len_i(dut_len),
-    .len_q_i(len_q), .cnt_i(dut_cnt), .ma_i(ma[0]), .idle_i(idle[0]), .force_i(forced[0]),
+    .len_q_i(len_q), .cnt_i(dut_cnt), .ma_i(ma[0]), .idle_i(idle[0]), .force_i(forced_q[0]),
     .state_i(dut_state1), .clocking_i(dut_clock1), .other_i(dut_state2),
     .other_rise_i(rise[1]), .rise_o(rise[0])
   );
   line_proof u_line2 (
     .clk_i, .por_ni, .live_i(started && live_q), .reset_i(!rst_ni), .len_i(dut_len),
-    .len_q_i(len_q), .cnt_i(dut_cnt), .ma_i(ma[1]), .idle_i(idle[1]), .force_i(forced[1]),
+    .len_q_i(len_q), .cnt_i(dut_cnt), .ma_i(ma[1]), .idle_i(idle[1]), .force_i(forced_q[1]),
     .state_i(dut_state2), .clocking_i(dut_clock2), .other_i(dut_state1),
     .other_rise_i(rise[0]), .rise_o(rise[1])
   );
