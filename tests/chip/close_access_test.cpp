@@ -12,57 +12,16 @@
 #include <string>
 #include <vector>
 
-#include "mb4sim/simulator.hpp"
+#include "fast_host.hpp"
 #include "random_case.hpp"
-#include "sim/hosts/parallel_host.hpp"
-#include "sim/scenario/scenario.hpp"
 
 namespace {
 
+using mb4test::FastHost;
+using mb4test::kPhases;
 using mb4test::Random;
 namespace reg = mb4::regs;
 namespace sim = mb4::sim;
-
-constexpr unsigned kPhases = 50;
-
-// A chip behind its fastest host: SPI at 50 MHz, or the shortest bus cycles.
-class FastHost {
- public:
-  FastHost(const std::string& interface, double clk_mhz, const std::string& rest = "")
-      : simulator_(sim::parse_scenario(
-            "[chip]\nf_clk_hz = " + std::to_string(static_cast<unsigned>(clk_mhz * 1e6)) +
-                "\n[host]\ninterface = \"" + interface + "\"\nsclk_hz = 50_000_000\n" + rest,
-            "test.toml")),
-        spi_(interface == "spi") {
-    if (!spi_) simulator_.bus().set_timing({});
-  }
-  sim::Simulator& chip() { return simulator_; }
-
-  void write(std::uint8_t address, const std::vector<std::uint8_t>& bytes) {
-    if (spi_) {
-      std::vector<std::uint8_t> tx{0x02, address};
-      if (address == reg::kAddrInstr) tx = {0x07};
-      tx.insert(tx.end(), bytes.begin(), bytes.end());
-      simulator_.spi().transfer(tx, {});
-    } else {
-      for (const auto byte : bytes) simulator_.bus().write(address++, byte);
-    }
-  }
-  std::uint8_t read(std::uint8_t address) {
-    if (!spi_) return simulator_.bus().read(address);
-    std::vector<std::uint8_t> tx{0x03, address, 0x00}, rx(3);
-    simulator_.spi().transfer(tx, rx);
-    return rx[2];
-  }
-  // Time passes up to phase `of` kPhases of a period of CLK.
-  void phase(sim::Time period, unsigned of) {
-    simulator_.run_until((simulator_.now() / period + 20) * period + period * of / kPhases);
-  }
-
- private:
-  sim::Simulator simulator_;
-  bool spi_;
-};
 
 const std::string kSlave =
     "[[channel]]\nnumber = 1\n[[channel.slave]]\nprotocol = \"biss-c\"\ndata_bits = 26\n"
