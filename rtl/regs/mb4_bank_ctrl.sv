@@ -31,7 +31,7 @@ module mb4_bank_ctrl (
   input  logic frame_end_i,
   input  logic frame_run_i,     // a frame runs that writes to the engine's bank
   output logic pending_o,
-  output logic swapped_o,       // the swap of a frame's end happens
+  output logic swapped_o,       // the swap of a frame's end happens, or has just happened
   output logic lost_o,          // the pending swap will not happen
   output logic base_o,          // base of the host's bank
   output logic newest_o,        // base of the bank that it has when no swap is pending
@@ -51,6 +51,7 @@ module mb4_bank_ctrl (
   logic want;
   logic swap;
   logic follow;
+  logic made_q;       // the base has followed to a pending swap
 
   mb4_sync_bit u_kept (
     .clk_i,
@@ -73,6 +74,7 @@ module mb4_bank_ctrl (
       pending_q <= 1'b0;
       hold_q    <= 1'b0;
       end_q     <= 1'b0;
+      made_q    <= 1'b0;
     end else begin
       host_q    <= host_q ^ (swap || follow) ^ swbank_pulse_i;
       base_q    <= base_d;
@@ -80,11 +82,12 @@ module mb4_bank_ctrl (
       pending_q <= pending_d;
       hold_q    <= holdbank_i;
       end_q     <= frame_end_i;
+      made_q    <= follow && hold_q;
     end
   end
 
   assign pending_o   = pending_q;
-  assign swapped_o   = swap || (follow && hold_q);
+  assign swapped_o   = swap || made_q;
   assign lost_o      = pending_q && frame_run_i;
   assign base_o      = base_q;
   assign newest_o    = newest_q;

@@ -166,6 +166,32 @@ TEST_P(CloseAccess, BreakBeforeAnotherWrite_IsDone) {
   }
 }
 
+// Tables 47, 56, decisions 25, 26: REGEND is 0 from the write of INSTR 100 or 111 on; the other
+// codes leave it as it is, however soon the host reads.
+TEST_P(CloseAccess, RegendBehindInstr_FallsForControlCommunicationOnly) {
+  for (const double mhz : {20.0, 1.0}) {
+    FastHost host(GetParam(), mhz);
+    const auto period = static_cast<sim::Time>(1e6 / mhz);
+    host.chip().advance(200 * period);
+    host.write(reg::kAddrSlaveloc5,
+               {reg::kResetSlaveloc5, reg::kCfgch2Unused | reg::kCfgch1Unused});
+    for (unsigned phase = 0; phase < kPhases; ++phase) {
+      for (unsigned instr = 0; instr < 8; ++instr) {
+        // No line is in use: the instruction ends at once, with REGEND = 1 (decision 37).
+        host.write(reg::kAddrInstr, {reg::kInstrControl});
+        host.phase(period, phase);
+        ASSERT_EQ(host.read(reg::kAddrStatus0) & reg::REGEND::kMask, reg::kRegendDone);
+        host.write(reg::kAddrInstr, {static_cast<std::uint8_t>(instr << 1U)});
+        const bool control = instr == 4 || instr == 7;
+        if (control && mhz > 1.0) continue;  // it may have ended
+        ASSERT_EQ(host.read(reg::kAddrStatus0) & reg::REGEND::kMask,
+                  control ? 0U : reg::kRegendDone)
+            << mhz << " MHz, phase " << phase << ", INSTR " << instr;
+      }
+    }
+  }
+}
+
 // One to five writes of 0xF4 in a row: the last one is what the core holds in the end, and the
 // host's bank has changed if SWBANK has.
 void writes_in_a_row(FastHost& host, const std::function<void()>& before,
