@@ -5,20 +5,20 @@
 //
 // Clock domain: core.
 //
-// - The end of a frame swaps the banks, one clock later: the CDS bits are in the bank by then. While
-//   HOLDBANK is set the swap stays pending; it happens when HOLDBANK is cleared.
+// - The end of a frame swaps the banks, one clock later: the CDS bits are in the bank by then.
+//   While HOLDBANK is set the swap stays pending; it happens when HOLDBANK is cleared.
 // - A frame that runs while a swap is pending writes to the engine's bank again, and the swap is
 //   lost (lost_o).
 // - A change of SWBANK swaps the banks once, with HOLDBANK set or not.
 // - With SINGLEBANK both sides use the host's bank, and the end of a frame swaps nothing.
 // - HOLDBANK arrives here some clocks after the host has written it. While it is set here, and when
 //   it is cleared, the base follows the one that the host keeps (mb4_instr_reg). So a swap that the
-//   end of a frame has made in between is undone and stays pending. A host that has cleared HOLDBANK
-//   and set it again gets the swap that was pending, even if the 0 never arrives here.
+//   end of a frame has made in between is undone and stays pending. A host that has cleared
+//   HOLDBANK and set it again gets the swap that was pending, even if the 0 never arrives here.
 //
-// The base is the host's bank without the inversions of SWBANK. Its two flops are for the host: only
-// one of them changes at a time, unless a swap is undone.
-// Misuse: the end of a second frame within five clocks of the first one; swaps may then be lost.
+// The base is the host's bank without the inversions of SWBANK.
+// Misuse: the ends of two frames between the host's write of HOLDBANK and its arrival here; a swap
+// may then be lost.
 // Datasheet: pages 26, 31, 33, Tables 38, 48, 49; decisions 15, 41.
 
 module mb4_bank_ctrl (

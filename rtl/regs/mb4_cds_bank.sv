@@ -4,8 +4,8 @@
 // CDS bits of both lines, in two banks that switch with the banks of SCDATA.
 //
 // Clock domain: core.
-// Latency: the end of a frame writes the engine's bank, one clock before the banks swap. The outputs
-// are flops; mb4_host_read chooses the bank that the host sees.
+// Latency: the end of a frame writes the engine's bank, one clock before the banks swap. The
+// outputs are flops; mb4_host_read chooses the bank that the host sees.
 //
 // - A reduced frame switches only the CDS bits: it writes the bank that the host sees (decision
 //   14). With HOLDBANK it writes the other bank, and the host sees the bits after the next frame.

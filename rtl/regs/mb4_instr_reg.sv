@@ -15,9 +15,9 @@
 // has acted.
 //
 // The bank of the host follows the order of the writes. SWBANK acts at its write. The rest is the
-// base: the bank without the inversions of SWBANK. Until the core has acted, the host keeps the base
-// that it had at the write of 0xF4, or the base of the newest word if the byte has HOLDBANK = 0.
-// kept_o tells the core which base that is (mb4_bank_ctrl).
+// base: the bank without the inversions of SWBANK. Until the core has acted, the host keeps the
+// base that it had at the write of 0xF4, or the base of the newest word if the byte has HOLDBANK =
+// 0. kept_o tells the core which base that is (mb4_bank_ctrl).
 //
 // Misuse: a write at the moment in which the core takes the previous one. The core may then take
 // some bits of the older byte; it takes the later byte three clocks later.

@@ -9,8 +9,8 @@
 // which one rests while the other has edges.
 // Latency: hit_o and data_o are valid after the edge with rd_en_i, until the next read.
 //
-// An entry ends when the core has taken its byte (mb4_posted); the memory answers from then on. Three
-// things tell this at the read:
+// An entry ends when the core has taken its byte (mb4_posted); the memory answers from then on.
+// Three things tell this at the read:
 //
 // - empty_i: all bytes have been taken,
 // - no byte waited at the last edge of hclk_i: only a byte written with that edge may wait,
