@@ -6,8 +6,9 @@
 // all host interfaces of the 28-pin device in front of it.
 //
 // Clock domains: wr_clk_i and rd_clk_i (host), rd2_clk_i (second reader, with Port2) and clk_i
-// (core). The host can write and read the registers 0xC0..0xFB while the core clock stands still.
-// Frames, data memories and instructions need the core clock.
+// (core). While the core clock stands still the host can read all registers 0xC0..0xFB, and write
+// all but SVALID and 0xF4: these writes wait for it, as do those to the data memories. Frames need
+// the core clock.
 // Latency: a rising edge of wr_clk_i or rd_clk_i samples an access. Read data are valid after this
 // edge until the next read.
 // Reset: rst_ni is asynchronous. It goes unchanged to the host domain, because the host clocks
@@ -80,7 +81,7 @@ module mb4_engine #(
 
   // lines
   logic [7:0]  enscd;
-  logic [1:0]  idle, sl, sl_pin, word_ok, cds;
+  logic [1:0]  idle, sl, sl_pin, word_ok;
   logic        register_ma, register_end, time_run, time_restart, tick;
   biss_pkg::line_go_t go;
   logic [2*biss_pkg::LINE_START_W-1:0]  line_start;
@@ -140,7 +141,6 @@ module mb4_engine #(
     .mem_busy_o     (mem_busy),
     .holdbank_i     (held.holdbank),
     .bank_i         (bank),
-    .cds_o          (cds),
     .bank_pending_o (bank_pending),
     .bank_swapped_o (bank_swapped),
     .bank_lost_o    (bank_lost),
@@ -230,8 +230,7 @@ module mb4_engine #(
   assign eot_o  = flags.eot;
   // With the DDR cell of an iCE40 no other logic can read the pin.
   assign sl_pin = SlCells == mb4_pkg::SL_ICE40 ? sl : {sl2_i, sl1_i};
-  assign status = {flags, ner_i && !ner_low_o, (cfg.chsel == 2'b10) ? cds[1] : cds[0],
-                   cds[1], sl_pin[1], cds[0], sl_pin[0]};
+  assign status = {flags, ner_i && !ner_low_o, sl_pin};
   assign clkeni_o = cfg.clkeni;
   assign paired_o = cfg.cfgif[1];
 

@@ -122,14 +122,11 @@ package mb4_pkg;
     logic [5:0] regbytes;
   } flags_t;
 
-  // Status bits of the core. SVALID is not here: it has two banks.
+  // Status bits of the core. SVALID and CDS are not here: they have two banks.
   typedef struct packed {
     flags_t     flags;
     logic       n_err;
-    logic       cdssel;
-    logic       cds2;
     logic       sl2;
-    logic       cds1;
     logic       sl1;
   } status_t;
 

@@ -7,10 +7,9 @@
 //
 // - The falling edge of ALE stores the address. It stays for any number of accesses.
 // - rd_clk_o rises at the start of a read (NRD falls, E rises). The byte is taken once and is
-// stable
-//   while the strobe lasts.
+//   stable while the strobe lasts.
 // - wr_clk_o rises at the end of a write (NWR rises, E falls). The data are stable then (I014,
-// I112).
+//   I112).
 //
 // Misuse: with NCS high nothing happens. NRD and NWR low together are a write. NCS or a strobe that
 // changes at the wrong time may end an access early; no state but the address stays behind. NRES

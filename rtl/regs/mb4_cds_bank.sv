@@ -4,8 +4,8 @@
 // CDS bits of both lines, in two banks that switch with the banks of SCDATA.
 //
 // Clock domain: core.
-// Latency: the end of a frame writes the engine's bank. The outputs show the host's bank one clock
-// later, without glitches.
+// Latency: the end of a frame writes the engine's bank, one clock before the banks swap. The
+// outputs are flops; mb4_host_read chooses the bank that the host sees.
 //
 // - A reduced frame switches only the CDS bits: it writes the bank that the host sees (decision
 //   14). With HOLDBANK it writes the other bank, and the host sees the bits after the next frame.
@@ -23,12 +23,11 @@ module mb4_cds_bank (
   input  logic       reduced_i,
   input  logic       holdbank_i,
   input  logic [1:0] cds_i,        // of lines {2, 1}
-  output logic [1:0] cds_o
+  output logic [3:0] cds_o         // bank 1 in the upper half
 );
 
   logic [1:0] bank0_q;
   logic [1:0] bank1_q;
-  logic [1:0] host_q;
   logic       bank;
 
   assign bank = (reduced_i && !holdbank_i) ? host_bank_i : eng_bank_i;
@@ -37,14 +36,12 @@ module mb4_cds_bank (
     if (!rst_ni) begin
       bank0_q <= '0;
       bank1_q <= '0;
-      host_q  <= '0;
     end else begin
       if (frame_end_i && !bank) bank0_q <= cds_i;
       if (frame_end_i && bank)  bank1_q <= cds_i;
-      host_q <= host_bank_i ? bank1_q : bank0_q;
     end
   end
 
-  assign cds_o = host_q;
+  assign cds_o = {bank1_q, bank0_q};
 
 endmodule

@@ -10,7 +10,7 @@
 // read register) samples each of them. It does so half an SCLK period before the first of them
 // reaches MISO, or 23 ns before the data bus must be stable. The same edge takes data and SVALID of
 // both banks. The choice between the banks comes after the flops, so all bits of a byte are of one
-// bank.
+// bank. CDSSEL is chosen before its flop, because it is the only bit of its byte that has banks.
 // Misuse: reserved addresses read 0 (decision 13).
 // Datasheet: pages 21, 22, 34..36, Tables 6, 41, 42, 54..67.
 
@@ -36,6 +36,8 @@ module mb4_host_read (
   input  logic       control_pending_i,
   input  mb4_pkg::status_t status_i,
   input  logic [15:0] svalid_i,      // bank 1 in the upper byte
+  input  logic [3:0] cds_i,          // of lines {2, 1}, bank 1 in the upper half
+  input  logic       cdssel2_i,      // CDSSEL is that of line 2
   input  logic [1:0] revision_sel_i
 );
 
@@ -51,7 +53,7 @@ module mb4_host_read (
   logic [7:0] reg_q;
   logic [7:0] status0, status3, status8;
   logic [7:0] svalid_lo, svalid_hi;
-  logic [3:0] flags_d;   // bits at the places of SVALID, from bank 1
+  logic [3:0] flags_d;   // bits at the places of SVALID and CDS, from bank 1
   logic [3:0] flags_q;
   logic       bank_q;
   logic       ready_q;
@@ -73,11 +75,11 @@ module mb4_host_read (
     status0[mb4_regs_pkg::EOT_LSB]       = status_i.flags.eot && !instr_pending_i;
     status3 = mb4_regs_pkg::RESET_STATUS3 & mb4_regs_pkg::CONST_STATUS3;
     status3[mb4_regs_pkg::CDMTIMEOUT_LSB] = status_i.flags.cdm_timeout;
-    status3[mb4_regs_pkg::CDSSEL_LSB]     = status_i.cdssel;
+    status3[mb4_regs_pkg::CDSSEL_LSB]     = cds_i[{bank_i, cdssel2_i}];
     status3[mb4_regs_pkg::REGBYTES_LSB +: mb4_regs_pkg::REGBYTES_W] = status_i.flags.regbytes;
     status8 = mb4_regs_pkg::RESET_STATUS8 & mb4_regs_pkg::CONST_STATUS8;
-    status8[mb4_regs_pkg::CDS_LSB]                              = status_i.cds1;
-    status8[mb4_regs_pkg::CDS_LSB + mb4_regs_pkg::CDS_LSB_STEP] = status_i.cds2;
+    status8[mb4_regs_pkg::CDS_LSB]                              = cds_i[0];
+    status8[mb4_regs_pkg::CDS_LSB + mb4_regs_pkg::CDS_LSB_STEP] = cds_i[1];
     status8[mb4_regs_pkg::SL_LSB]                               = status_i.sl1;
     status8[mb4_regs_pkg::SL_LSB + mb4_regs_pkg::SL_LSB_STEP]   = status_i.sl2;
     svalid_lo = mb4_regs_pkg::RESET_SVALID_LO & mb4_regs_pkg::CONST_SVALID_LO;
@@ -123,6 +125,7 @@ module mb4_host_read (
     unique case (rd_addr_i)
       mb4_regs_pkg::ADDR_SVALID_LO: flags_d = svalid_i[11:8];
       mb4_regs_pkg::ADDR_SVALID_HI: flags_d = svalid_i[15:12];
+      mb4_regs_pkg::ADDR_STATUS8:   flags_d = {reg_d[7], reg_d[5], cds_i[3:2]};
       default: begin
         for (int unsigned i = 0; i < 4; i++) begin
           flags_d[i] = reg_d[mb4_regs_pkg::SVALID_LSB + mb4_regs_pkg::SVALID_LSB_STEP * i];

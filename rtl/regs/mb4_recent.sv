@@ -9,10 +9,17 @@
 // which one rests while the other has edges.
 // Latency: hit_o and data_o are valid after the edge with rd_en_i, until the next read.
 //
-// An entry ends when the core has taken its byte (mb4_posted); the memory answers from then on. Two
-// signals tell this: empty_i, and marked_i = mark_o at an edge of hclk_i. Without an edge of hclk_i
-// an entry may stay for as long as bytes wait that the host wrote directly after it.
-// Misuse: none; older addresses read what the memory holds.
+// An entry ends when the core has taken its byte (mb4_posted); the memory answers from then on.
+// Three things tell this at the read:
+//
+// - empty_i: all bytes have been taken,
+// - no byte waited at the last edge of hclk_i: only a byte written with that edge may wait,
+// - marked_i = mark_o: the bytes written before the last change of mark_o have been taken. mark_o
+//   changes with an edge of hclk_i, when marked_i has followed.
+//
+// Misuse: none; older addresses read what the memory holds. A byte that was written behind the last
+// change of mark_o, with less than 8 clocks of the core between the writes, may answer until all
+// bytes of this row of writes have been taken.
 // Source: decision 36.
 
 module mb4_recent (
@@ -36,11 +43,14 @@ module mb4_recent (
   logic [27:0] addr_q;    // four addresses, the newest lowest
   logic [3:0]  valid_q;
   logic [3:0]  old_q;     // written before the mark
+  logic [3:0]  drained;   // no byte waited at the last edge of hclk_i, nor was this one written
   logic [3:0]  valid;     // valid_q without the bytes that the core has taken
   logic [3:0]  old;
   logic        passed;
   logic        mark_q;
   logic        marked_q;
+  logic        empty_q;
+  logic        fresh_q;   // the newest entry was written at the last edge of hclk_i
   logic        hit_q;
   logic [2:0]  wr_match;
   logic [3:0]  rd_match;
@@ -51,14 +61,16 @@ module mb4_recent (
   end
 
   for (genvar i = 0; i < 4; i++) begin : gen_read
-    assign rd_match[i] = valid_q[i] && addr_q[7*i +: 7] == rd_addr_i;
+    assign rd_match[i] = valid_q[i] && !drained[i] && !(old_q[i] && marked_i == mark_q) &&
+                         addr_q[7*i +: 7] == rd_addr_i;
   end
 
   assign move = {wr_match == 3'b000, wr_match[1:0] == 2'b00, !wr_match[0], 1'b1} &
                 {4{wr_en_i}};
 
   assign passed = marked_q == mark_q;
-  assign valid  = valid_q & ~(old_q & {4{passed}});
+  assign drained = {{3{empty_q}}, empty_q && !fresh_q};
+  assign valid  = valid_q & ~(old_q & {4{passed}}) & ~drained;
   assign old    = old_q | {4{passed}};
 
   always_ff @(posedge hclk_i or negedge rst_ni) begin
@@ -68,7 +80,11 @@ module mb4_recent (
       old_q    <= '0;
       mark_q   <= 1'b0;
       marked_q <= 1'b0;
+      empty_q  <= 1'b0;
+      fresh_q  <= 1'b0;
     end else begin
+      empty_q  <= empty_i;
+      fresh_q  <= wr_en_i;
       if (passed && valid != 4'b0000) mark_q <= !mark_q;
       marked_q <= marked_i;
       if (move[0]) addr_q[6:0]   <= wr_addr_i;

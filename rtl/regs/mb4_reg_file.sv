@@ -45,14 +45,13 @@ module mb4_reg_file #(
   output logic [1:0]       count_o,
   input  logic [1:0]       ack_i,
   input  mb4_pkg::instr_t  held_i,
-  // status, core domain, without SVALID
+  // status, core domain, without SVALID and CDS
   input  mb4_pkg::status_t status_i,
   input  logic [1:0]       revision_sel_i,
   // memories and banks
   output logic       mem_busy_o,
   input  logic       holdbank_i,
   input  mb4_pkg::bank_cmd_t bank_i,
-  output logic [1:0] cds_o,          // of the host's bank
   output logic       bank_pending_o,
   output logic       bank_swapped_o,
   output logic       bank_lost_o,
@@ -84,8 +83,10 @@ module mb4_reg_file #(
   logic        post_rdata, ready_scd, ready_rdata;
   logic [7:0]  rdata_data;
   logic [15:0] scd_lo_data, scd_hi_data, scd2_data, svalid;
-  logic        host_bank, eng_bank;
-  logic        bank_seen, bank_kept;  // by the host: bank it reads, bank it had
+  logic [3:0]  cds;
+  logic        host_bank, eng_bank;   // core domain
+  logic        base, newest;          // core domain: bases of banks (mb4_bank_ctrl)
+  logic        bank_seen, base_kept;  // host domain: bank it has, base it keeps
   logic [1:0]  word_split;
   biss_pkg::line_data_t data1, data2;
 
@@ -134,9 +135,10 @@ module mb4_reg_file #(
     .count_o,
     .ack_i,
     .held_i,
-    .host_bank_i (host_bank),
+    .base_i      (base),
+    .newest_i    (newest),
     .bank_o      (bank_seen),
-    .bank_kept_o (bank_kept)
+    .kept_o      (base_kept)
   );
 
   mb4_host_read u_read (
@@ -159,6 +161,8 @@ module mb4_reg_file #(
     .control_pending_i (control_pending),
     .status_i,
     .svalid_i        (svalid),
+    .cds_i           (cds),
+    .cdssel2_i       (cfg_o.chsel == 2'b10),
     .revision_sel_i
   );
 
@@ -175,7 +179,8 @@ module mb4_reg_file #(
   // ---- memories -----------------------------------------------------------------------------
 
   // SCDATA, RDATA and SVALID are in the core domain; writes to them are posted. Only addresses of
-  // SCDATA and RDATA have bit 6 = 0.
+  // SCDATA and RDATA have bit 6 = 0. Bytes of SCDATA and SVALID carry the bank that the host has:
+  //   SCDATA 0, bank, address 5..0;   RDATA 1, 0, address 5..0;   SVALID 1, 1, bank, address 4..0
   assign post_wr = wr_en_i && (!wr_addr_i[6] ||
                              wr_addr_i == mb4_regs_pkg::ADDR_SVALID_LO ||
                              wr_addr_i == mb4_regs_pkg::ADDR_SVALID_HI);
@@ -184,7 +189,8 @@ module mb4_reg_file #(
     .hclk_i,
     .hrst_ni,
     .wr_en_i   (post_wr),
-    .wr_data_i ({wr_addr_i, wr_data_i}),
+    .wr_data_i ({wr_addr_i[7], wr_addr_i[6] || (!wr_addr_i[7] && bank_seen),
+                 wr_addr_i[6] ? bank_seen : wr_addr_i[5], wr_addr_i[4:0], wr_data_i}),
     .clk_i,
     .rst_ni,
     .valid_o   (post_valid),
@@ -286,13 +292,15 @@ module mb4_reg_file #(
     .rst_ni,
     .singlebank_i   (cfg_o.singlebank),
     .holdbank_i,
-    .kept_i         (bank_kept),
+    .kept_i         (base_kept),
     .swbank_pulse_i (bank_i.swap),
     .frame_end_i    (bank_i.data_end),
     .frame_run_i    (bank_i.run),
     .pending_o      (bank_pending_o),
     .swapped_o      (bank_swapped_o),
     .lost_o         (bank_lost_o),
+    .base_o         (base),
+    .newest_o       (newest),
     .host_bank_o    (host_bank),
     .eng_bank_o     (eng_bank)
   );
@@ -316,7 +324,7 @@ module mb4_reg_file #(
     .reduced_i   (bank_i.reduced),
     .holdbank_i,
     .cds_i       ({data2.cds, data1.cds}),
-    .cds_o
+    .cds_o       (cds)
   );
 
 endmodule

@@ -9,8 +9,8 @@
 // (SCDATA5..8, only with Port2).
 // Latency: read data are valid after the edge with the enable. A read gives the bytes and flags of
 // both banks, bank 1 above bank 0.
-// Vectors: bit i of a vector {2, 1} is for line i + 1. Host writes and clears act on the host's
-// bank.
+// Vectors: bit i of a vector {2, 1} is for line i + 1. Host writes and clears act on the bank that
+// the host had at the write; it comes with them (mb4_reg_file).
 // Datasheet: pages 26, 35, Tables 20, 61.
 
 module mb4_scd_store #(
@@ -24,7 +24,7 @@ module mb4_scd_store #(
   // clearing after reset
   input  logic       clear_i,
   input  logic [5:0] clear_addr_i,
-  // host, posted into the core domain: {address, data}
+  // host, posted into the core domain: {kind, bank, address, data} as in mb4_reg_file
   input  logic       post_valid_i,
   input  logic [15:0] post_i,
   output logic       post_ready_o,    // also 1 if the byte is not for this module
@@ -69,10 +69,10 @@ module mb4_scd_store #(
   logic [7:0] svalid_lo, svalid_hi;
   logic [15:0] rd2_lo_data;
 
-  assign post_lo        = post_valid_i && post_i[15:13] == mb4_regs_pkg::ADDR_SCDATA[7:5];
-  assign post_hi        = post_valid_i && post_i[15:13] == mb4_regs_pkg::ADDR_SCDATA[7:5] + 3'd1;
-  assign post_svalid_lo = post_valid_i && post_i[15:8] == mb4_regs_pkg::ADDR_SVALID_LO;
-  assign post_svalid_hi = post_valid_i && post_i[15:8] == mb4_regs_pkg::ADDR_SVALID_HI;
+  assign post_lo        = post_valid_i && !post_i[15] && !post_i[13];
+  assign post_hi        = post_valid_i && !post_i[15] && post_i[13];
+  assign post_svalid_lo = post_valid_i && post_i[15:14] == 2'b11 && post_i[8];
+  assign post_svalid_hi = post_valid_i && post_i[15:14] == 2'b11 && post_i[9];
   assign post_ready_o   = (ready_lo || !post_lo) && (ready_hi || !post_hi);
 
   for (genvar i = 0; i < 4; i++) begin : gen_keep
@@ -114,7 +114,7 @@ module mb4_scd_store #(
     .eng_rd_addr_i  ({eng_bank_i, mo_addr_i[4:0]}),
     .eng_rd_data_o  (lo_mo_data),
     .host_wr_en_i   (post_lo),
-    .host_wr_addr_i ({host_bank_i, post_i[12:8]}),
+    .host_wr_addr_i ({post_i[14], post_i[12:8]}),
     .host_wr_data_i (post_i[7:0]),
     .host_ready_o   (ready_lo),
     .rclk_i,
@@ -138,7 +138,7 @@ module mb4_scd_store #(
     .eng_rd_addr_i  ({eng_bank_i, hi_mo_addr}),
     .eng_rd_data_o  (hi_mo_data),
     .host_wr_en_i   (post_hi),
-    .host_wr_addr_i ({host_bank_i, post_i[12:8]}),
+    .host_wr_addr_i ({post_i[14], post_i[12:8]}),
     .host_wr_data_i (post_i[7:0]),
     .host_ready_o   (ready_hi),
     .rclk_i,
@@ -159,7 +159,6 @@ module mb4_scd_store #(
   mb4_svalid u_svalid_lo (
     .clk_i,
     .rst_ni,
-    .host_bank_i,
     .eng_bank_i,
     .begin_i     (word_begin_i[0] && !slave_i[2]),
     .set_en_i    (word_done_i[0] && !slave_i[2]),
@@ -169,13 +168,13 @@ module mb4_scd_store #(
     .clear_i     (svalid_clear_i),
     .keep_en_i   (post_svalid_lo),
     .keep_i      (keep),
+    .keep_bank_i (post_i[13]),
     .svalid_o    (svalid_lo)
   );
 
   mb4_svalid u_svalid_hi (
     .clk_i,
     .rst_ni,
-    .host_bank_i,
     .eng_bank_i,
     .begin_i     (slaveloc5_i ? word_begin_i[1] && slave_i[5] : word_begin_i[0] && slave_i[2]),
     .set_en_i    (slaveloc5_i ? word_done_i[1] && slave_i[5] : word_done_i[0] && slave_i[2]),
@@ -185,6 +184,7 @@ module mb4_scd_store #(
     .clear_i     (svalid_clear_i),
     .keep_en_i   (post_svalid_hi),
     .keep_i      (keep),
+    .keep_bank_i (post_i[13]),
     .svalid_o    (svalid_hi)
   );
 

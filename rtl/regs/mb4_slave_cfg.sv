@@ -13,7 +13,7 @@
 // first byte that is written to a row clears the other three. A word list reads only rows whose
 // ENSCDx is set, so it never uses a row that has not been written. Like mb4_cfg_regs the rows are
 // quasi-static for the core.
-// Datasheet: pages 23..26, Tables 10..18.
+// Datasheet: pages 23..26, Tables 11..19.
 
 module mb4_slave_cfg #(
   parameter int unsigned Lists = 4

@@ -17,7 +17,6 @@
 module mb4_svalid (
   input  logic       clk_i,
   input  logic       rst_ni,
-  input  logic       host_bank_i,
   input  logic       eng_bank_i,
   // line engine
   input  logic       begin_i,      // a word begins
@@ -29,6 +28,7 @@ module mb4_svalid (
   // host: a 0 clears the flag
   input  logic       keep_en_i,
   input  logic [3:0] keep_i,
+  input  logic       keep_bank_i,  // bank that the host had at its write
   output logic [7:0] svalid_o    // bank 1 in the upper half
 );
 
@@ -41,7 +41,7 @@ module mb4_svalid (
     bank0_d = bank0_q;
     bank1_d = bank1_q;
     if (keep_en_i) begin
-      if (host_bank_i) bank1_d = bank1_q & keep_i;
+      if (keep_bank_i) bank1_d = bank1_q & keep_i;
       else             bank0_d = bank0_q & keep_i;
     end
     if (set_en_i || begin_i) begin

@@ -61,7 +61,7 @@ module proof (
   mb4_instr_reg u_instr (
     .hclk_i, .rst_ni, .wr_en_i(write_i), .wr_addr_i(8'hF4), .wr_data_i(data_i),
     .pending_o(pending), .written_o(written), .count_o(count), .ack_i(ack), .held_i(8'h00),
-    .host_bank_i(1'b0)
+    .base_i(1'b0), .newest_i(1'b0)
   );
   mb4_count_rx u_dut (.clk_i, .rst_ni, .count_i(count), .pulse_o(pulse), .ack_o(ack));
 
