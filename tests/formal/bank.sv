@@ -18,14 +18,14 @@
 // look: dut_swap = u_dut.swap
 // look: dut_made = u_dut.made_q
 // look: dut_kept = u_dut.u_kept.sync_q
-// mutation: regs/mb4_bank_ctrl.sv | assign swap   = want && !holdbank_i; | assign swap   = want;
-// mutation: regs/mb4_bank_ctrl.sv | ? !hold_q : want && holdbank_i; | ? !hold_q : 1'b0;
-// mutation: regs/mb4_bank_ctrl.sv | ? !hold_q : want && holdbank_i; | ? 1'b1 : want && holdbank_i;
-// mutation: regs/mb4_bank_ctrl.sv | (holdbank_i || hold_q) && base_q | holdbank_i && base_q
-// mutation: regs/mb4_bank_ctrl.sv | newest_q  <= base_d ^ pending_d; | newest_q  <= base_d;
-// mutation: regs/mb4_bank_ctrl.sv | host_q ^ !singlebank_i | host_q ^ !holdbank_i
-// mutation: regs/mb4_bank_ctrl.sv | (pending_q && !frame_run_i) | pending_q
-// mutation: regs/mb4_bank_ctrl.sv | lost_o      = pending_q && frame_run_i;
+// mutation: mb4/regs/mb4_bank_ctrl.sv | assign swap   = want && !holdbank_i; | assign swap   = want;
+// mutation: mb4/regs/mb4_bank_ctrl.sv | ? !hold_q : want && holdbank_i; | ? !hold_q : 1'b0;
+// mutation: mb4/regs/mb4_bank_ctrl.sv | ? !hold_q : want && holdbank_i; | ? 1'b1 : want && holdbank_i;
+// mutation: mb4/regs/mb4_bank_ctrl.sv | (holdbank_i || hold_q) && base_q | holdbank_i && base_q
+// mutation: mb4/regs/mb4_bank_ctrl.sv | newest_q  <= base_d ^ pending_d; | newest_q  <= base_d;
+// mutation: mb4/regs/mb4_bank_ctrl.sv | host_q ^ !singlebank_i | host_q ^ !holdbank_i
+// mutation: mb4/regs/mb4_bank_ctrl.sv | (pending_q && !frame_run_i) | pending_q
+// mutation: mb4/regs/mb4_bank_ctrl.sv | lost_o      = pending_q && frame_run_i;
 //   | lost_o      = pending_q && holdbank_i && frame_run_i;
 
 module proof (

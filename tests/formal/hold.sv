@@ -13,10 +13,10 @@
 // depth: 36
 // cover: 34
 // unbounded: no: frames' ends, both halves and the crossing together are bounded only
-// mutation: regs/mb4_bank_ctrl.sv | base_q != kept; | 1'b0 != 1'b0;
-// mutation: regs/mb4_instr_reg.sv | pending_o ? kept_q : base_i; | base_i;
-// mutation: regs/mb4_instr_reg.sv | ? base : newest_i; | ? base_i : newest_i;
-// mutation: regs/mb4_bank_ctrl.sv | assign swap   = want && !holdbank_i;
+// mutation: mb4/regs/mb4_bank_ctrl.sv | base_q != kept; | 1'b0 != 1'b0;
+// mutation: mb4/regs/mb4_instr_reg.sv | pending_o ? kept_q : base_i; | base_i;
+// mutation: mb4/regs/mb4_instr_reg.sv | ? base : newest_i; | ? base_i : newest_i;
+// mutation: mb4/regs/mb4_bank_ctrl.sv | assign swap   = want && !holdbank_i;
 //   | assign swap   = want;
 
 module proof (
