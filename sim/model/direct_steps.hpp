@@ -160,7 +160,7 @@ class DirectSteps {
   }
 
   // True if a falling edge would change a flop. Such flops are in the clock switch and in the
-  // samplers of SL (mb4_clk_mux, mb4_sl_capture). A lint test checks that there are no others.
+  // samplers of SL (enc_clk_mux, biss_sl_capture). A lint test checks that there are no others.
   static bool fall_matters(const Root& root) {
     const unsigned paired = root.mb4_chip__DOT__paired;
     const unsigned sl1 = root.sl1_i | (paired & (root.sl2_i ^ 1U));

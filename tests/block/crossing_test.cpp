@@ -6,14 +6,14 @@
 
 #include <random>
 
-#include "Vmb4_clk_mux.h"
-#include "Vmb4_posted.h"
+#include "Venc_clk_mux.h"
+#include "Venc_posted.h"
 #include "model_context.hpp"
 
 namespace {
 
 // A reset is an edge to Verilator.
-void reset(Vmb4_clk_mux& mux) {
+void reset(Venc_clk_mux& mux) {
   for (const int level : {1, 0, 1}) {
     mux.rst_ni = static_cast<std::uint8_t>(level);
     mux.eval();
@@ -24,8 +24,8 @@ void reset(Vmb4_clk_mux& mux) {
 TEST(PostedBlock, HostBytesOf160nsAndAnyCoreClock_NoneIsLostOrDoubled) {
   for (const unsigned clk_ps : {40'000U, 50'000U, 60'000U, 72'300U, 79'999U, 99'999U}) {
     for (unsigned phase = 0; phase < clk_ps; phase += clk_ps / 13) {
-      mb4test::Owned<Vmb4_posted> owner;
-      Vmb4_posted& posted = *owner;
+      mb4test::Owned<Venc_posted> owner;
+      Venc_posted& posted = *owner;
       posted.hclk_i = posted.clk_i = 0;
       posted.hrst_ni = posted.rst_ni = 0;
       posted.wr_en_i = posted.mark_i = 0;
@@ -76,8 +76,8 @@ TEST(PostedBlock, HostBytesOf160nsAndAnyCoreClock_NoneIsLostOrDoubled) {
 
 // The queue holds 128 bytes while the core clock stands still; they come in order when it runs.
 TEST(PostedBlock, CoreClockStandsStill_128BytesWaitAndNoneIsLost) {
-  mb4test::Owned<Vmb4_posted> owner;
-  Vmb4_posted& posted = *owner;
+  mb4test::Owned<Venc_posted> owner;
+  Venc_posted& posted = *owner;
   posted.hclk_i = posted.clk_i = 0;
   posted.wr_en_i = 0;
   posted.ready_i = 1;
@@ -117,8 +117,8 @@ TEST(PostedBlock, CoreClockStandsStill_128BytesWaitAndNoneIsLost) {
 // is changed at times between `shortest` and `shortest` + `spread`; returns how often clk_o moved.
 std::uint64_t no_short_pulse(std::uint64_t half0, std::uint64_t half1, std::uint64_t shortest,
                              std::uint64_t spread) {
-  mb4test::Owned<Vmb4_clk_mux> owner;
-  Vmb4_clk_mux& mux = *owner;
+  mb4test::Owned<Venc_clk_mux> owner;
+  Venc_clk_mux& mux = *owner;
   mux.clk0_i = mux.clk1_i = 0;
   mux.sel_i = 0;
   reset(mux);
@@ -169,8 +169,8 @@ TEST(ClockMuxBlock, ChoiceTakenBackAtAnyTime_NoShortPulse) {
 
 // A pin CLK that never toggled does not keep the oscillator from being chosen.
 TEST(ClockMuxBlock, FirstClockNeverToggles_SecondCanBeChosen) {
-  mb4test::Owned<Vmb4_clk_mux> owner;
-  Vmb4_clk_mux& mux = *owner;
+  mb4test::Owned<Venc_clk_mux> owner;
+  Venc_clk_mux& mux = *owner;
   mux.clk0_i = mux.clk1_i = 0;
   mux.sel_i = 1;
   reset(mux);
@@ -188,8 +188,8 @@ TEST(ClockMuxBlock, FirstClockNeverToggles_SecondCanBeChosen) {
 // chosen again, and no pulse is short.
 TEST(ClockMuxBlock, FirstClockStopsAfterItHasRun_SecondCanBeChosen) {
   for (const int rest : {0, 1}) {
-    mb4test::Owned<Vmb4_clk_mux> owner;
-    Vmb4_clk_mux& mux = *owner;
+    mb4test::Owned<Venc_clk_mux> owner;
+    Venc_clk_mux& mux = *owner;
     mux.clk0_i = mux.clk1_i = 0;
     mux.sel_i = 0;
     reset(mux);

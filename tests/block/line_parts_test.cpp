@@ -6,10 +6,10 @@
 
 #include <string>
 
-#include "Vmb4_crc.h"
+#include "Venc_crc.h"
 #include "Vmb4_freqs_dec.h"
-#include "Vmb4_sl_sampler.h"
-#include "Vmb4_timebase.h"
+#include "Vbiss_sl_sampler.h"
+#include "Vbiss_timebase.h"
 #include "model_context.hpp"
 
 namespace {
@@ -53,7 +53,7 @@ TEST(CrcBlock, GoldenVectors_OfAllWidthsAndStarts) {
                       {7, 0x89, 0x21, 0x12, 0x20},
                       {8, 0x12F, 0x0C, 0xEC, 0x7E},
                       {16, 0x190D9, 0x13F8, 0x2264, 0x07A8}};
-  Block<Vmb4_crc> crc;
+  Block<Venc_crc> crc;
   crc.model.load_i = 0;
   crc.model.shift_i = 0;
   crc.reset();
@@ -111,7 +111,7 @@ TEST(DividerBlock, EveryCode_GivesTable35sPeriod) {
 // Page 12: four equally spaced sampling points in each MA period, two clocks late.
 TEST(DividerBlock, EveryHalfLength_TicksAndFourEvenSamplingPoints) {
   for (const unsigned half : {1U, 2U, 3U, 4U, 5U, 6U, 7U, 15U, 16U, 20U, 30U, 150U, 160U}) {
-    Block<Vmb4_timebase> base;
+    Block<Vbiss_timebase> base;
     auto& m = base.model;
     m.half_len_i = static_cast<std::uint8_t>(half);
     m.run_i = 0;
@@ -150,7 +150,7 @@ TEST(DividerBlock, EveryHalfLength_TicksAndFourEvenSamplingPoints) {
 TEST(SamplerBlock, DelayOfKQuarters_CountsKPlusOneAndTakesBitsMidway) {
   for (const unsigned half : {1U, 2U, 3U, 8U}) {
     for (unsigned delay = 0; delay < 60 * half; delay += 1 + half / 3) {  // in half clocks
-      Block<Vmb4_sl_sampler> sampler;
+      Block<Vbiss_sl_sampler> sampler;
       auto& m = sampler.model;
       m.sl_i = 1;
       m.smp_a_i = m.smp_b_i = m.smp_half_i = 0;

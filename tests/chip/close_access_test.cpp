@@ -12,57 +12,16 @@
 #include <string>
 #include <vector>
 
-#include "mb4sim/simulator.hpp"
+#include "fast_host.hpp"
 #include "random_case.hpp"
-#include "sim/hosts/parallel_host.hpp"
-#include "sim/scenario/scenario.hpp"
 
 namespace {
 
+using mb4test::FastHost;
+using mb4test::kPhases;
 using mb4test::Random;
 namespace reg = mb4::regs;
 namespace sim = mb4::sim;
-
-constexpr unsigned kPhases = 50;
-
-// A chip behind its fastest host: SPI at 50 MHz, or the shortest bus cycles.
-class FastHost {
- public:
-  FastHost(const std::string& interface, double clk_mhz, const std::string& rest = "")
-      : simulator_(sim::parse_scenario(
-            "[chip]\nf_clk_hz = " + std::to_string(static_cast<unsigned>(clk_mhz * 1e6)) +
-                "\n[host]\ninterface = \"" + interface + "\"\nsclk_hz = 50_000_000\n" + rest,
-            "test.toml")),
-        spi_(interface == "spi") {
-    if (!spi_) simulator_.bus().set_timing({});
-  }
-  sim::Simulator& chip() { return simulator_; }
-
-  void write(std::uint8_t address, const std::vector<std::uint8_t>& bytes) {
-    if (spi_) {
-      std::vector<std::uint8_t> tx{0x02, address};
-      if (address == reg::kAddrInstr) tx = {0x07};
-      tx.insert(tx.end(), bytes.begin(), bytes.end());
-      simulator_.spi().transfer(tx, {});
-    } else {
-      for (const auto byte : bytes) simulator_.bus().write(address++, byte);
-    }
-  }
-  std::uint8_t read(std::uint8_t address) {
-    if (!spi_) return simulator_.bus().read(address);
-    std::vector<std::uint8_t> tx{0x03, address, 0x00}, rx(3);
-    simulator_.spi().transfer(tx, rx);
-    return rx[2];
-  }
-  // Time passes up to phase `of` kPhases of a period of CLK.
-  void phase(sim::Time period, unsigned of) {
-    simulator_.run_until((simulator_.now() / period + 20) * period + period * of / kPhases);
-  }
-
- private:
-  sim::Simulator simulator_;
-  bool spi_;
-};
 
 const std::string kSlave =
     "[[channel]]\nnumber = 1\n[[channel.slave]]\nprotocol = \"biss-c\"\ndata_bits = 26\n"
@@ -202,6 +161,32 @@ TEST_P(CloseAccess, BreakBeforeAnotherWrite_IsDone) {
             << mhz << " MHz, phase " << phase << ", " << more;
         ASSERT_EQ(host.read(reg::kAddrInstr), reg::SWBANK::kMask)
             << mhz << " MHz, phase " << phase << ", " << more;
+      }
+    }
+  }
+}
+
+// Tables 47, 56, decisions 25, 26: REGEND is 0 from the write of INSTR 100 or 111 on; the other
+// codes leave it as it is, however soon the host reads.
+TEST_P(CloseAccess, RegendBehindInstr_FallsForControlCommunicationOnly) {
+  for (const double mhz : {20.0, 1.0}) {
+    FastHost host(GetParam(), mhz);
+    const auto period = static_cast<sim::Time>(1e6 / mhz);
+    host.chip().advance(200 * period);
+    host.write(reg::kAddrSlaveloc5,
+               {reg::kResetSlaveloc5, reg::kCfgch2Unused | reg::kCfgch1Unused});
+    for (unsigned phase = 0; phase < kPhases; ++phase) {
+      for (unsigned instr = 0; instr < 8; ++instr) {
+        // No line is in use: the instruction ends at once, with REGEND = 1 (decision 37).
+        host.write(reg::kAddrInstr, {reg::kInstrControl});
+        host.phase(period, phase);
+        ASSERT_EQ(host.read(reg::kAddrStatus0) & reg::REGEND::kMask, reg::kRegendDone);
+        host.write(reg::kAddrInstr, {static_cast<std::uint8_t>(instr << 1U)});
+        const bool control = instr == 4 || instr == 7;
+        if (control && mhz > 1.0) continue;  // it may have ended
+        ASSERT_EQ(host.read(reg::kAddrStatus0) & reg::REGEND::kMask,
+                  control ? 0U : reg::kRegendDone)
+            << mhz << " MHz, phase " << phase << ", INSTR " << instr;
       }
     }
   }

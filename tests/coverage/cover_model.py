@@ -21,10 +21,10 @@ def main():
     hooks = project.ROOT / "sim" / "model" / "verilated_hooks.h"
     status, text = project.run(
         [project.tool("verilator"), "--cc", "--build", "-j", "2", "-fno-const-bit-op-tree",
-         *project.verilator_flags(), "--coverage-line", "--coverage-toggle", f"-I{project.RTL}",
+         *project.verilator_flags(), "--coverage-line", "--coverage-toggle", f"-I{project.INCLUDE}",
          "-CFLAGS", f"-O1 -std=c++20 -DVL_USER_STOP -include {hooks}",
          "--top-module", "mb4_chip", "--prefix", "Vmb4_cover", "--Mdir", folder,
-         project.RTL / "mb4.vlt", project.ROOT / "sim" / "model" / "public.vlt",
+         project.WAIVERS, project.ROOT / "sim" / "model" / "public.vlt",
          *project.rtl_files()], cwd=folder)
     if status != 0:
         raise SystemExit(text)

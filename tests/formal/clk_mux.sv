@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The clock switch (mb4_clk_mux): never both clocks at once, and none is cut or begun inside a pulse,
+// The clock switch (enc_clk_mux): never both clocks at once, and none is cut or begun inside a pulse,
 // whenever the choice changes, at any phase and ratio of the clocks. Left out: clock 0 given up.
 //
 // claim: one clock at most is let through, from and to its low level; any choice, any clocks
@@ -18,10 +18,10 @@
 // look: dut_en0 = u_dut.en0_q
 // look: dut_en1 = u_dut.en1_q
 // look: dut_dead = u_dut.dead_q
-// mutation: common/mb4_clk_mux.sv | sel0_q && claim0_q && !claim1_q | sel0_q && claim0_q
-// mutation: common/mb4_clk_mux.sv | sel1_q && claim1_q && !claim0_q | claim1_q && !claim0_q
-// mutation: common/mb4_clk_mux.sv | claim0_q <= sel0_q || en0_q | claim0_q <= sel0_q
-// mutation: common/mb4_clk_mux.sv | negedge clk1_i | posedge clk1_i
+// mutation: common/enc_clk_mux.sv | sel0_q && claim0_q && !claim1_q | sel0_q && claim0_q
+// mutation: common/enc_clk_mux.sv | sel1_q && claim1_q && !claim0_q | claim1_q && !claim0_q
+// mutation: common/enc_clk_mux.sv | claim0_q <= sel0_q || en0_q | claim0_q <= sel0_q
+// mutation: common/enc_clk_mux.sv | negedge clk1_i | posedge clk1_i
 
 module proof (
   input logic clk0_i,
@@ -52,7 +52,7 @@ module proof (
   end
 
   logic clk;
-  mb4_clk_mux u_dut (.clk0_i, .clk1_i, .rst_ni, .sel_i, .clk_o(clk));
+  enc_clk_mux u_dut (.clk0_i, .clk1_i, .rst_ni, .sel_i, .clk_o(clk));
 
   always @* if (started && rst_ni && rst_q) begin
     OneAtMost_A: assert (!(dut_en0 && dut_en1));

@@ -11,10 +11,10 @@
 // cover: 9
 // unbounded: induction 1
 // look: dut_rem = u_dut.rem_q
-// mutation: line/mb4_crc.sv | feed_i & (bit_i ^ top) | feed_i & bit_i
-// mutation: line/mb4_crc.sv | if (load_i) rem_d = start_i; | if (load_i) rem_d = {start_i[15:1], 1'b0};
-// mutation: regs/mb4_crc_code.sv | poly_o = 8'hEC; | poly_o = 8'hED;
-// mutation: ctrl/mb4_crc_decode.sv | top = 8'h01 << i; | top = 8'h02 << i;
+// mutation: common/enc_crc.sv | feed_i & (bit_i ^ top) | feed_i & bit_i
+// mutation: common/enc_crc.sv | if (load_i) rem_d = start_i; | if (load_i) rem_d = {start_i[15:1], 1'b0};
+// mutation: mb4/regs/mb4_crc_code.sv | poly_o = 8'hEC; | poly_o = 8'hED;
+// mutation: mb4/ctrl/mb4_crc_decode.sv | top = 8'h01 << i; | top = 8'h02 << i;
 
 module proof (
   input logic clk_i,
@@ -48,7 +48,7 @@ module proof (
     .crc_top_o  (top)
   );
 
-  mb4_crc u_dut (
+  enc_crc u_dut (
     .clk_i,
     .rst_ni,
     .crc16_i (last[3]),

@@ -13,10 +13,10 @@
 // look: dut_len = u_dut.len_q
 // look: dut_cnt = u_dut.cnt_q
 // look: dut_half = u_dut.half_q
-// mutation: line/mb4_timebase.sv | cnt_q + 8'd2 == len_q; | cnt_q + 8'd1 == len_q;
-// mutation: ctrl/mb4_freqs_dec.sv | {2'b00, steps, 1'b0} | {2'b00, steps, 1'b1}
-// mutation: line/mb4_timebase.sv | cnt_q == {1'b0, len_q[7:1]} - 8'd1 | cnt_q == {1'b0, len_q[7:1]}
-// mutation: line/mb4_timebase.sv | half_d = !half_q; | half_d = half_q ^ !run_i;
+// mutation: biss/biss_timebase.sv | cnt_q + 8'd2 == len_q; | cnt_q + 8'd1 == len_q;
+// mutation: mb4/ctrl/mb4_freqs_dec.sv | {2'b00, steps, 1'b0} | {2'b00, steps, 1'b1}
+// mutation: biss/biss_timebase.sv | cnt_q == {1'b0, len_q[7:1]} - 8'd1 | cnt_q == {1'b0, len_q[7:1]}
+// mutation: biss/biss_timebase.sv | half_d = !half_q; | half_d = half_q ^ !run_i;
 
 module proof (
   input logic       clk_i,
@@ -31,7 +31,7 @@ module proof (
 
   mb4_freqs_dec u_freqs (.freqs_i, .half_len_o(half_len));
 
-  mb4_timebase u_dut (
+  biss_timebase u_dut (
     .clk_i,
     .rst_ni,
     .half_len_i  (half_len),

@@ -9,10 +9,10 @@
 // depth: 10
 // cover: 10
 // unbounded: induction 5
-// mutation: ctrl/mb4_status_flags.sv | (quiet_q == 2'b11) && !busy_i | quiet_q == 2'b11
-// mutation: ctrl/mb4_sequencer.sv | assign busy        = state_d != IDLE
+// mutation: mb4/ctrl/mb4_status_flags.sv | (quiet_q == 2'b11) && !busy_i | quiet_q == 2'b11
+// mutation: mb4/ctrl/mb4_sequencer.sv | assign busy        = state_d != IDLE
 //   | assign busy        = (state_d != IDLE && state_d != INIT)
-// mutation: ctrl/mb4_status_flags.sv | eot_q        <= 1'b1; | eot_q        <= 1'b0;
+// mutation: mb4/ctrl/mb4_status_flags.sv | eot_q        <= 1'b1; | eot_q        <= 1'b0;
 
 module proof (
   input logic clk_i, rst_ni,

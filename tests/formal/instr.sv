@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // 0xF4 on its way to the core (decision 41): the instruction register (mb4_instr_reg) and the
-// receiver of its Gray count (mb4_count_rx), at any phase and ratio of the clocks, edges at the
+// receiver of its Gray count (enc_count_rx), at any phase and ratio of the clocks, edges at the
 // same instant among them, and with writes however close. A byte that is taken at the very instant
 // of a write may be any mix of the older and the later one. "Clocks" are the receiver's.
 //
@@ -16,14 +16,14 @@
 // look: dut_sync1 = u_dut.gen_bit[1].u_sync.sync_q
 // look: dut_taken = u_dut.taken_q
 // look: dut_late = u_dut.late_q
-// mutation: common/mb4_count_rx.sv | sync != taken_q && ack_q == taken_q; | sync != taken_q;
-// mutation: common/mb4_count_rx.sv | ack_q  <= late_q; | ack_q  <= taken_q;
-// mutation: common/mb4_sync_bit.sv | {sync_q[0], data_i} | {2{data_i}}
-// mutation: regs/mb4_instr_reg.sv | (byte_q & {8{pending_o}} & mb4_regs_pkg::BREAK_MASK) | 8'h00
-// mutation: regs/mb4_instr_reg.sv | (byte_q & {8{pending_o}} & mb4_regs_pkg::BREAK_MASK)
+// mutation: common/enc_count_rx.sv | sync != taken_q && ack_q == taken_q; | sync != taken_q;
+// mutation: common/enc_count_rx.sv | ack_q  <= late_q; | ack_q  <= taken_q;
+// mutation: common/enc_sync_bit.sv | {sync_q[0], data_i} | {2{data_i}}
+// mutation: mb4/regs/mb4_instr_reg.sv | (byte_q & {8{pending_o}} & mb4_regs_pkg::BREAK_MASK) | 8'h00
+// mutation: mb4/regs/mb4_instr_reg.sv | (byte_q & {8{pending_o}} & mb4_regs_pkg::BREAK_MASK)
 //   | (byte_q & mb4_regs_pkg::BREAK_MASK)
-// mutation: regs/mb4_instr_reg.sv | if (count_q != ~ack_i) count_q | count_q
-// mutation: regs/mb4_instr_reg.sv | if (count_q != ~ack_i) count_q | if (count_q == ack_i) count_q
+// mutation: mb4/regs/mb4_instr_reg.sv | if (count_q != ~ack_i) count_q | count_q
+// mutation: mb4/regs/mb4_instr_reg.sv | if (count_q != ~ack_i) count_q | if (count_q == ack_i) count_q
 
 module proof (
   input logic       hclk_i,
@@ -61,9 +61,9 @@ module proof (
   mb4_instr_reg u_instr (
     .hclk_i, .rst_ni, .wr_en_i(write_i), .wr_addr_i(8'hF4), .wr_data_i(data_i),
     .pending_o(pending), .written_o(written), .count_o(count), .ack_i(ack), .held_i(8'h00),
-    .host_bank_i(1'b0)
+    .base_i(1'b0), .newest_i(1'b0)
   );
-  mb4_count_rx u_dut (.clk_i, .rst_ni, .count_i(count), .pulse_o(pulse), .ack_o(ack));
+  enc_count_rx u_dut (.clk_i, .rst_ni, .count_i(count), .pulse_o(pulse), .ack_o(ack));
 
   // The host: the last byte, whether it found 0xF4 at rest, whether a BREAK has come since the last
   // rest; one BREAK out of all.

@@ -20,17 +20,17 @@
 // look: dut_state2 = u_lines.gen_line[1].u_line.u_frame.state_q
 // look: dut_clock1 = u_lines.gen_line[0].u_line.u_frame.u_ma.clocking_q
 // look: dut_clock2 = u_lines.gen_line[1].u_line.u_frame.u_ma.clocking_q
-// mutation: line/mb4_ma_drive.sv | end else if (stop_i) begin
+// mutation: biss/biss_ma_drive.sv | end else if (stop_i) begin
 //   | end else if (stop_i) begin ma_d = 1'b1;
-// mutation: line/mb4_ma_drive.sv | if (force_q) ma_d = (tick_i && !start_i) ? level_q : ma_q;
+// mutation: biss/biss_ma_drive.sv | if (force_q) ma_d = (tick_i && !start_i) ? level_q : ma_q;
 //   | if (force_q) ma_d = level_q;
-// mutation: line/mb4_ma_drive.sv | if (force_q) ma_d = (tick_i && !start_i) ? level_q : ma_q;
+// mutation: biss/biss_ma_drive.sv | if (force_q) ma_d = (tick_i && !start_i) ? level_q : ma_q;
 //   | if (force_q) ma_d = tick_i ? level_q : ma_q;
-// mutation: line/mb4_ma_drive.sv | (!force_i || (tick_i && ma_q && !level_q)); | !force_i;
-// mutation: line/mb4_frame.sv | if (tick_i && sl_high && !ma_clocks) state_d = IDLE;
+// mutation: biss/biss_ma_drive.sv | (!force_i || (tick_i && ma_q && !level_q)); | !force_i;
+// mutation: biss/biss_frame.sv | if (tick_i && sl_high && !ma_clocks) state_d = IDLE;
 //   | if (sl_high) state_d = IDLE;
-// mutation: line/mb4_frame.sv | if (tick_i) state_d = IDLE; | state_d = IDLE;
-// mutation: line/mb4_timebase.sv | if (restart_i) len_q <= half_len_i; | len_q <= half_len_i;
+// mutation: biss/biss_frame.sv | if (tick_i) state_d = IDLE; | state_d = IDLE;
+// mutation: biss/biss_timebase.sv | if (restart_i) len_q <= half_len_i; | len_q <= half_len_i;
 
 module proof (
   input logic clk_i, rst_ni, por_ni,

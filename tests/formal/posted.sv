@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The queue of posted bytes (mb4_posted): everything written comes out once, in order and whole, at
+// The queue of posted bytes (enc_posted): everything written comes out once, in order and whole, at
 // any phase and ratio of the clocks; it is empty when everything written has been taken, and only
 // then; the mark follows when everything written up to its change, and with it, has been taken.
 // Contract: no more bytes wait than the queue holds; the mark changes with the host's clock, and
@@ -25,22 +25,22 @@
 // look: dut_mark = u_dut.u_mark.sync_q
 // look: dut_late = u_dut.mark_q
 // look: dut_seek = u_dut.seek_q
-// keep: common/mb4_ram.sv | logic [Width-1:0] mem [0:(1 << AddrW)-1];
+// keep: common/enc_ram.sv | logic [Width-1:0] mem [0:(1 << AddrW)-1];
 //   | (* mem2reg *) logic [Width-1:0] mem [0:(1 << AddrW)-1];
 // look: dut_mem0 = u_dut.u_ram.mem[0]
 // look: dut_mem1 = u_dut.u_ram.mem[1]
 // look: dut_mem2 = u_dut.u_ram.mem[2]
 // look: dut_mem3 = u_dut.u_ram.mem[3]
-// mutation: common/mb4_posted.sv | (!valid_q || ready_i); | 1'b1;
-// mutation: common/mb4_posted.sv | wr_gray_q <= wr_d ^ {1'b0, wr_d[AddrW:1]};
+// mutation: common/enc_posted.sv | (!valid_q || ready_i); | 1'b1;
+// mutation: common/enc_posted.sv | wr_gray_q <= wr_d ^ {1'b0, wr_d[AddrW:1]};
 //   | wr_gray_q <= wr_q ^ {1'b0, wr_d[AddrW:1]};
-// mutation: common/mb4_posted.sv | if (fetch) rd_q <= | if (valid_q) rd_q <=
-// mutation: common/mb4_posted.sv | if (!valid_q || ready_i) taken_q <= rd_gray;
+// mutation: common/enc_posted.sv | if (fetch) rd_q <= | if (valid_q) rd_q <=
+// mutation: common/enc_posted.sv | if (!valid_q || ready_i) taken_q <= rd_gray;
 //   | taken_q <= rd_gray;
-// mutation: common/mb4_posted.sv | mark_q  <= mark; | mark_q  <= mark_i;
-// mutation: common/mb4_posted.sv | target_q <= wr_sync; | target_q <= rd_gray;
-// mutation: common/mb4_posted.sv | if (taken_q == target_q) marked_q | marked_q
-// mutation: common/mb4_posted.sv | empty_o = wr_gray_q == taken_q; | empty_o = wr_sync == taken_q;
+// mutation: common/enc_posted.sv | mark_q  <= mark; | mark_q  <= mark_i;
+// mutation: common/enc_posted.sv | target_q <= wr_sync; | target_q <= rd_gray;
+// mutation: common/enc_posted.sv | if (taken_q == target_q) marked_q | marked_q
+// mutation: common/enc_posted.sv | empty_o = wr_gray_q == taken_q; | empty_o = wr_sync == taken_q;
 
 module proof (
   input logic       hclk_i,
@@ -110,7 +110,7 @@ module proof (
     else if (watched_q && valid && ready_i && out_q == place_q) got_q <= 1'b1;
   end
 
-  mb4_posted #(.Width(3), .AddrW(2)) u_dut (
+  enc_posted #(.Width(3), .AddrW(2)) u_dut (
     .hclk_i, .hrst_ni(rst_ni), .wr_en_i(write), .wr_data_i(data_i),
     .empty_o(empty), .mark_i(mark_q), .mark_o(marked), .clk_i, .rst_ni,
     .valid_o(valid), .data_o(data), .ready_i

@@ -88,7 +88,7 @@ def model(proof, folder, mutation=None):
         files.append(target)
     formal = "" if "checks" in proof.values else "-formal"
     looks = [value.split(" = ") for value in proof.values.get("look", [])]
-    commands = [f"read_verilog -defer -sv {formal} -I{project.RTL} " +
+    commands = [f"read_verilog -defer -sv {formal} -I{project.INCLUDE} " +
                 " ".join(str(f) for f in files),
                 f"read_verilog -sv -formal {proof.path}",
                 "hierarchy -check -top proof", "proc", "flatten", "cd proof",

@@ -17,11 +17,11 @@
 // look: dut_taken = u_dut.u_written.taken_q
 // look: dut_late = u_dut.u_written.late_q
 // look: dut_ack = u_dut.u_written.ack_q
-// mutation: ctrl/mb4_sequencer.sv | if (written_i.brk) begin
+// mutation: mb4/ctrl/mb4_sequencer.sv | if (written_i.brk) begin
 //   | if (written_i.brk && state_q != INIT_TIMEOUT) begin
-// mutation: ctrl/mb4_sequencer.sv | if ((use_q & ~idle_i) == 2'b00 || wait_q == 11'd0) begin
+// mutation: mb4/ctrl/mb4_sequencer.sv | if ((use_q & ~idle_i) == 2'b00 || wait_q == 11'd0) begin
 //   | if ((use_q & ~idle_i) == 2'b00) begin
-// mutation: ctrl/mb4_sequencer.sv | default: state_d = IDLE; | default: state_d = state_q;
+// mutation: mb4/ctrl/mb4_sequencer.sv | default: state_d = IDLE; | default: state_d = state_q;
 
 module proof (
   input logic clk_i, rst_ni,

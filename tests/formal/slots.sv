@@ -20,17 +20,17 @@
 // look: dut_fresh = u_dut.fresh_q
 // look: dut_bits = u_dut.bits_q
 // look: dut_broadcast = u_dut.broadcast_q
-// mutation: ctrl/mb4_control_frame.sv | if (!stay) slot_d
-//   | if (!stay || slot_q == mb4_pkg::SLOT_WAIT) slot_d
-// mutation: ctrl/mb4_control_frame.sv | start_i ? active_o : carries_q && !frame_end_i
+// mutation: biss/biss_control_frame.sv | if (!stay) slot_d
+//   | if (!stay || slot_q == biss_pkg::SLOT_WAIT) slot_d
+// mutation: biss/biss_control_frame.sv | start_i ? active_o : carries_q && !frame_end_i
 //   | start_i ? active_o : carries_q
-// mutation: ctrl/mb4_control_frame.sv | last_d  = index_q == regnum_i;
+// mutation: biss/biss_control_frame.sv | last_d  = index_q == regnum_i;
 //   | last_d  = index_d == regnum_i;
-// mutation: ctrl/mb4_control_frame.sv | mb4_pkg::SLOT_START: cdm0 = cdm_timeout_i;
-//   | mb4_pkg::SLOT_START: cdm0 = 1'b1;
-// mutation: ctrl/mb4_control_frame.sv | fresh_q[1] && !post_busy_i; | fresh_q[1];
-// mutation: ctrl/mb4_control_frame.sv | if (take) broadcast_q | if (step) broadcast_q
-// mutation: ctrl/mb4_control_frame.sv | if (take || step) bits_q | if (step) bits_q
+// mutation: biss/biss_control_frame.sv | biss_pkg::SLOT_START: cdm0 = cdm_timeout_i;
+//   | biss_pkg::SLOT_START: cdm0 = 1'b1;
+// mutation: biss/biss_control_frame.sv | fresh_q[1] && !post_busy_i; | fresh_q[1];
+// mutation: biss/biss_control_frame.sv | if (take) broadcast_q | if (step) broadcast_q
+// mutation: biss/biss_control_frame.sv | if (take || step) bits_q | if (step) bits_q
 
 module proof (
   input logic clk_i, rst_ni,
@@ -50,7 +50,7 @@ module proof (
   logic [1:0] cdm0, cdm1;
   logic [5:0] good, addr;
 
-  mb4_control_frame u_dut (
+  biss_control_frame u_dut (
     .clk_i, .rst_ni, .cts_i(cts), .wnr_i(wnr), .regadr_i(regadr), .regnum_i(regnum),
     .slaveid_i(slaveid), .ida_invert_i(ida_invert), .select_i(select), .blind_i(blind),
     .rdata_addr_o(addr), .rdata_i, .post_busy_i, .rdata_wr_en_o(wr_en), .begin_i, .abort_i,

@@ -16,10 +16,10 @@
 // look: dut_state = u_dut.u_cmd.state_q
 // look: dut_addr = u_dut.u_cmd.addr_q
 // look: dut_open = u_dut.open_q
-// mutation: host/mb4_spi_shift.sv | bit_q + 3'd1 | bit_q + 3'd1 + {2'b00, &bit_q}
-// mutation: host/mb4_spi.sv | assign miso_oe_o = !cs_ni; | assign miso_oe_o = open_q;
-// mutation: host/mb4_spi_shift.sv | {out_q, 1'b0} | {miso_q, out_q}
-// mutation: host/mb4_spi_cmd.sv | addr_d  = addr_q + 8'd1; | addr_d  = addr_q;
+// mutation: mb4/host/mb4_spi_shift.sv | bit_q + 3'd1 | bit_q + 3'd1 + {2'b00, &bit_q}
+// mutation: mb4/host/mb4_spi.sv | assign miso_oe_o = !cs_ni; | assign miso_oe_o = open_q;
+// mutation: mb4/host/mb4_spi_shift.sv | {out_q, 1'b0} | {miso_q, out_q}
+// mutation: mb4/host/mb4_spi_cmd.sv | addr_d  = addr_q + 8'd1; | addr_d  = addr_q;
 
 module proof (
   input logic       rst_ni,

@@ -10,12 +10,12 @@
 // depth: 12
 // cover: 8
 // unbounded: induction 1
-// mutation: ctrl/mb4_status_flags.sv | if (scd_en_i)    n_scderr_d = !scd_bad_i;
+// mutation: mb4/ctrl/mb4_status_flags.sv | if (scd_en_i)    n_scderr_d = !scd_bad_i;
 //   | if (scd_bad_i) n_scderr_d = 1'b0;
-// mutation: ctrl/mb4_status_flags.sv | fail_q && !bank_swapped_i | fail_q && !clear_i
-// mutation: ctrl/mb4_status_flags.sv | !(n_scderr_d && n_agserr_d && n_regerr_d && n_delayerr_d)
+// mutation: mb4/ctrl/mb4_status_flags.sv | fail_q && !bank_swapped_i | fail_q && !clear_i
+// mutation: mb4/ctrl/mb4_status_flags.sv | !(n_scderr_d && n_agserr_d && n_regerr_d && n_delayerr_d)
 //   | !(n_scderr_d && n_agserr_d && n_regerr_d)
-// mutation: ctrl/mb4_status_flags.sv | n_delayerr_d = !delay_error_i;
+// mutation: mb4/ctrl/mb4_status_flags.sv | n_delayerr_d = !delay_error_i;
 //   | n_delayerr_d = !reg_error_i;
 
 module proof (

@@ -34,10 +34,10 @@ import project  # noqa: E402
 # File, text, replacement: what the bench must notice.
 FAULTS = [
     ("mb4_spi_shift", "bit_q + 3'd1", "bit_q + 3'd3"),
-    ("mb4_crc", "feed_i & (bit_i ^ top)", "feed_i & bit_i"),
-    ("mb4_edge_count", "11'sd5", "11'sd4"),
-    ("mb4_control_frame", "slot_q + 6'd1", "slot_q + 6'd2"),
-    ("mb4_posted", "rd_q + (AddrW+1)'(1)", "rd_q"),
+    ("enc_crc", "feed_i & (bit_i ^ top)", "feed_i & bit_i"),
+    ("biss_edge_count", "11'sd5", "11'sd4"),
+    ("biss_control_frame", "slot_q + 6'd1", "slot_q + 6'd2"),
+    ("enc_posted", "rd_q + (AddrW+1)'(1)", "rd_q"),
 ]
 # Sensitivity to more than what is read; '0 at a port is taken for one bit and padded with zeros.
 HARMLESS = (r".*sorry: constant selects in always_\* processes are not currently supported.*"
@@ -148,7 +148,7 @@ def build(folder, fault=None):
         files.append(folder / path.name)
         files[-1].write_text(text, encoding="utf-8")
     program = folder / "bench.vvp"
-    status, text = project.run([project.tool("iverilog"), "-g2012", f"-I{project.RTL}",
+    status, text = project.run([project.tool("iverilog"), "-g2012", f"-I{project.INCLUDE}",
                                 "-o", program, "-s", "bench", *files, HERE / "bench.sv"])
     messages = [line for line in text.splitlines() if not re.fullmatch(HARMLESS, line)]
     if status != 0 or messages:

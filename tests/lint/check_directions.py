@@ -66,14 +66,14 @@ MAY_USE = {
     "sim/capi/": ("sim/core/", "sim/include/"),
     "tools/": ("sim/", *DRIVER, "regmap/"),
     "examples/": ("sim/", *DRIVER),
-    "rtl/mb4_pkg": (),
-    "rtl/common/": ("rtl/mb4_pkg",),
-    "rtl/line/": ("rtl/common/", "rtl/mb4_pkg"),
-    "rtl/host/": ("rtl/common/", "rtl/mb4_pkg", "regmap/"),
-    "rtl/regs/": ("rtl/common/", "rtl/line/", "rtl/mb4_pkg", "regmap/"),
-    "rtl/ctrl/": ("rtl/common/", "rtl/line/", "rtl/mb4_pkg", "regmap/"),
-    "rtl/mb4_": ("rtl/common/", "rtl/line/", "rtl/host/", "rtl/regs/", "rtl/ctrl/", "rtl/mb4_pkg",
-                 "regmap/"),
+    "rtl/common/": (),
+    "rtl/biss/": ("rtl/common/",),
+    "rtl/mb4/mb4_pkg": (),
+    "rtl/mb4/host/": ("rtl/common/", "rtl/mb4/mb4_pkg", "regmap/"),
+    "rtl/mb4/regs/": ("rtl/common/", "rtl/biss/", "rtl/mb4/mb4_pkg", "regmap/"),
+    "rtl/mb4/ctrl/": ("rtl/common/", "rtl/biss/", "rtl/mb4/mb4_pkg", "regmap/"),
+    "rtl/mb4/": ("rtl/common/", "rtl/biss/", "regmap/", "rtl/mb4/host/", "rtl/mb4/regs/",
+                 "rtl/mb4/ctrl/", "rtl/mb4/mb4_pkg"),
 }
 for level, layer in enumerate(DRIVER_HEADERS):
     lower = [name for names in DRIVER_HEADERS[:level + 1] for name in names]
@@ -170,8 +170,8 @@ def self_test():
         "tools/mb4sim/t.hpp": "", "drivers/include/mb4/device.hpp": "",
         "drivers/include/mb4/detail/chip.hpp": "", "drivers/include/mb4/span.hpp": "",
         "drivers/include/enc/span.hpp": "", "regmap/generated/mb4/mb4_regs.hpp": "",
-        "rtl/line/mb4_frame.sv": "  mb4_ram #(.Width(8)) u_a (\n", "rtl/common/mb4_ram.sv": "",
-        "rtl/regs/mb4_bank.sv": "", "regmap/generated/mb4/mb4_regs_pkg.sv": "",
+        "rtl/biss/biss_frame.sv": "  enc_ram #(.Width(8)) u_a (\n", "rtl/common/enc_ram.sv": "",
+        "rtl/mb4/regs/mb4_bank.sv": "", "regmap/generated/mb4/mb4_regs_pkg.sv": "",
     }
     cases = (
         ("sim/capi/a.cpp", '#include "mb4sim/a.hpp"\n', 0),
@@ -196,17 +196,17 @@ def self_test():
         ("drivers/include/mb4/new.hpp", '#include "mb4/span.hpp"\n', 1),
         ("tests/unit/a.cpp", '#include "t.hpp"\n', 0),
         ("rtl/common/mb4_a.sv", "  mb4_bank u_bank (\n", 1),
-        ("rtl/line/mb4_a.sv", "  mb4_ram #(\n", 0),
-        ("rtl/line/mb4_a.sv", "  assign a = b == mb4_regs_pkg::ADDR;\n", 1),
-        ("rtl/line/mb4_a.sv", "  // mb4_regs_pkg::ADDR, mb4_bank u_bank (\n", 0),
-        ("rtl/mb4_core.sv", "  mb4_bank u_bank (\n  mb4_frame u_frame (\n", 0),
+        ("rtl/biss/mb4_a.sv", "  enc_ram #(\n", 0),
+        ("rtl/biss/mb4_a.sv", "  assign a = b == mb4_regs_pkg::ADDR;\n", 1),
+        ("rtl/biss/mb4_a.sv", "  // mb4_regs_pkg::ADDR, mb4_bank u_bank (\n", 0),
+        ("rtl/mb4/mb4_core.sv", "  mb4_bank u_bank (\n  biss_frame u_frame (\n", 0),
     )
     findings = []
     for name, text, expected in cases:
         found = findings_of({**files, name: text}, {})
         if len(found) != expected:
             findings.append(f"{name}, {text!r}: expected {expected} finding(s), got {found}")
-    if len(findings_of(files, {("rtl/line/mb4_frame.sv", "rtl/regs/mb4_bank.sv"): ""})) != 1:
+    if len(findings_of(files, {("rtl/biss/biss_frame.sv", "rtl/mb4/regs/mb4_bank.sv"): ""})) != 1:
         findings.append("an exception that is not needed: no finding")
     return findings
 

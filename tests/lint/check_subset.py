@@ -3,7 +3,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Text check of the RTL: the written subset that Yosys 0.23 reads right, and the style of a file.
 
-  check_subset.py [FILE...]    default: rtl/**/*.sv and the packages of rtl/mb4.f
+  check_subset.py [FILE...]    default: rtl/**/*.sv and the packages of rtl/mb4/mb4.f
   check_subset.py --self-test  a bad snippet for every rule, and good ones
 
 One line `file:line: message` per finding, exit status 1. The rules marked W name constructs of
@@ -42,7 +42,7 @@ PATTERNS = [
     (r"\b(?:break|continue)\s*;", "break/continue"),
     (r"\.\*", ".* connection"),
     (r"\b(?:assert|assume|cover|restrict|expect)\b(?:\s+property\b)?|\b(?:sequence|property)\b",
-     "assertion: use the macros of mb4_check.svh"),
+     "assertion: use the macros of enc_check.svh"),
     (r"\b(?:interface|modport|virtual)\b", "interface"),
     (r"\binitial\b", "initial outside FORMAL"),
     (r"(?<![\w`])#\s*(?:\d|[A-Za-z_])", "delay"),
@@ -175,7 +175,7 @@ def check_ports(file):
 
 def check_connections(file):
     """Instances: `module name (`, parameters and ports by name."""
-    for match in file.matches(r"^[ ]*(mb4_\w+)\s*(#\s*\()?", re.M):
+    for match in file.matches(r"^[ ]*([a-z]\w*_\w+)\s*(#\s*\()?", re.M):
         rest = file.code[match.end():]
         if match.group(2):
             depth, end = 1, 0
@@ -185,7 +185,7 @@ def check_connections(file):
             parts, rest = split_commas(rest[:end - 1]), rest[end:]
             if any(not part.strip().startswith(".") for part in parts):
                 file.report(match.start(1), "parameter connected by position")
-        instance = re.match(r"\s*(\w+)\s*\(", rest)
+        instance = re.match(r"\s*(u_\w+)\s*\(", rest)
         if not instance:
             continue
         depth, end = 1, instance.end()
@@ -199,7 +199,7 @@ def check_connections(file):
 
 # Falling edges of clocks: SL is sampled twice a clock, clocks are switched while they are low, SPI
 # sends behind them, the bus latches the address. Everything else takes the rising edge.
-FALLING = {"mb4_sl_capture.sv", "mb4_clk_mux.sv", "mb4_spi_shift.sv", "mb4_spi.sv",
+FALLING = {"biss_sl_capture.sv", "enc_clk_mux.sv", "mb4_spi_shift.sv", "mb4_spi.sv",
            "mb4_par_bus.sv"}
 
 
@@ -343,7 +343,7 @@ BAD_FILES = [
 
 GOOD = SPDX + r"""
 // import, return, '{, inside, initial: words in a comment are free.
-`include "mb4_check.svh"
+`include "enc_check.svh"
 
 module mb4_x #(
   parameter int unsigned Width = 8,
@@ -416,8 +416,8 @@ module mb4_x #(
   initial assume (!rst_ni);
 `endif
 
-  `MB4_ASSERT(StateInRange_A, clk_i, rst_ni, state_q <= NEXT)
-  `MB4_ASSERT_IF(LongOne_A, clk_i, rst_ni, next,
+  `ENC_ASSERT(StateInRange_A, clk_i, rst_ni, state_q <= NEXT)
+  `ENC_ASSERT_IF(LongOne_A, clk_i, rst_ni, next,
                  both.last)
 
 endmodule

@@ -4,7 +4,7 @@
 """Verilator's lint of the RTL and the waivers.
 
   check_verilator.py lint        every module as top, the project's flags: no message
-  check_verilator.py waivers     each waiver of rtl/mb4.vlt stands under its reason, none is idle,
+  check_verilator.py waivers     each waiver of rtl/waivers.vlt stands under its reason, none is idle,
                                  none names UNOPTFLAT; no lint_off inside the RTL
   check_verilator.py self-test   planted faults are reported
 """
@@ -26,7 +26,7 @@ INLINE_ALLOWED = {("mb4_regs_pkg.sv", "UNUSEDPARAM"): 1}
 def lint(top, files, waivers):
     """What Verilator says about one top module; verilator_flags() holds -fno-const-bit-op-tree."""
     status, text = project.run([project.tool("verilator"), "--lint-only",
-                                *project.verilator_flags(), f"-I{project.RTL}",
+                                *project.verilator_flags(), f"-I{project.INCLUDE}",
                                 "--top-module", top, *waivers, *files])
     text = text.replace(f"{project.ROOT}/", "")
     return [f"{top}: {text.strip()}"] if status != 0 or text.strip() else []
@@ -40,7 +40,7 @@ def inline(path, text):
             key = (path.name, rule)
             seen[key] = seen.get(key, 0) + 1
             if seen[key] > INLINE_ALLOWED.get(key, 0):
-                findings.append(f"{path.name}:{number}: lint_off {rule}: waivers live in mb4.vlt")
+                findings.append(f"{path.name}:{number}: lint_off {rule}: waivers live in waivers.vlt")
     return findings
 
 
@@ -82,20 +82,20 @@ def idle(files, tops, text):
             named = set(re.findall(r"\w+(?=\.sv\b)", lines[number])) & stems
             named = {name for name in named if not name.endswith("_pkg")}
             if not any(lint(top, files, [rest]) for top in [*tops, *sorted(named - set(tops))]):
-                findings.append(f"mb4.vlt:{number + 1}: nothing needs this waiver any more: "
+                findings.append(f"waivers.vlt:{number + 1}: nothing needs this waiver any more: "
                                 f"{lines[number]}")
     return findings
 
 
 def check_lint():
     files, modules = project.rtl_files(), list(project.rtl_modules())
-    findings = [line for top in modules for line in lint(top, files, [project.RTL / "mb4.vlt"])]
+    findings = [line for top in modules for line in lint(top, files, [project.WAIVERS])]
     project.finish(findings, f"{len(modules)} modules as top: no message")
 
 
 def check_waivers():
-    waivers = (project.RTL / "mb4.vlt").read_text(encoding="utf-8")
-    findings = unreasoned("mb4.vlt", waivers)
+    waivers = (project.WAIVERS).read_text(encoding="utf-8")
+    findings = unreasoned("waivers.vlt", waivers)
     texts = {*project.RTL.rglob("*.sv"), *project.RTL.rglob("*.svh"), *project.rtl_files()}
     for path in sorted(texts):
         findings += inline(path, path.read_text(encoding="utf-8"))

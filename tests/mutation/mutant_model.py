@@ -25,7 +25,7 @@ def main():
         status, text = project.run(
             [project.tool("verilator"), "--cc", "--build", "-j", "2", "-fno-const-bit-op-tree",
              *project.verilator_flags(), "-Wno-fatal", "-Wno-lint", "-Wno-style",
-             f"-I{project.RTL}",
+             f"-I{project.INCLUDE}",
              "-CFLAGS", f"-O1 -std=c++20 -DVL_USER_STOP -include {HERE / 'mutant.h'} -include "
              f"{project.ROOT / 'sim' / 'model' / 'verilated_hooks.h'}",
              "--top-module", "mb4_chip", "--prefix", "Vmb4_mutant", "--Mdir", folder,

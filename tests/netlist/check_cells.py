@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-FileCopyrightText: 2026 The openmb4 authors
 # SPDX-License-Identifier: Apache-2.0
-"""SL behind DDR input cells (parameter SlCells, mb4_sl_capture).
+"""SL behind DDR input cells (parameter SlCells, biss_sl_capture).
 
   check_cells.py behave FOLDER      all choices give what the flops give, in Icarus
   check_cells.py self-test FOLDER   cells with exchanged edges are reported
@@ -30,21 +30,21 @@ EXCHANGED = [("SL_ICE40", ".D_IN_0       (pos1_q)", ".D_IN_0       (neg1_q)",
 
 def simulate(folder, *changes):
     """(True if all choices agree, what was said)."""
-    source = (project.RTL / "line" / "mb4_sl_capture.sv").read_text(encoding="utf-8")
+    source = (project.RTL / "line" / "biss_sl_capture.sv").read_text(encoding="utf-8")
     for old, new in zip(changes[::2], changes[1::2]):
         if source.count(old) != 1:
-            raise SystemExit(f"'{old}' occurs {source.count(old)} times in mb4_sl_capture.sv")
+            raise SystemExit(f"'{old}' occurs {source.count(old)} times in biss_sl_capture.sv")
         source = source.replace(old, new)
     folder.mkdir(parents=True, exist_ok=True)
-    (folder / "mb4_sl_capture.sv").write_text(source, encoding="utf-8")
+    (folder / "biss_sl_capture.sv").write_text(source, encoding="utf-8")
     cells = Path(project.tool("yosys")).parents[1] / "share" / "yosys" / "ice40" / "cells_sim.v"
     files = [folder / f"capture_{number}.v" for number in range(len(CHOICES))]
     for number, file in enumerate(files):
         status, text = yosys.execute(
             [f"read_verilog -lib {cells}",
-             f"read_verilog -sv {project.RTL / 'mb4_pkg.sv'} {folder / 'mb4_sl_capture.sv'}",
-             f"chparam -set SlCells {number} mb4_sl_capture",
-             "hierarchy -top mb4_sl_capture", "proc", "opt_clean",
+             f"read_verilog -sv {project.RTL / 'mb4_pkg.sv'} {folder / 'biss_sl_capture.sv'}",
+             f"chparam -set SlCells {number} biss_sl_capture",
+             "hierarchy -top biss_sl_capture", "proc", "opt_clean",
              f"rename -top capture_{number}", f"write_verilog -noattr {file}"], folder, file.stem)
         if status != 0:
             raise SystemExit(text)

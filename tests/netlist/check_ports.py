@@ -98,7 +98,7 @@ def self_test(folder):
         source = folder / f"{name}.sv"
         source.write_text(f"module {name} (input {kind} a_i, output logic [{width - 1}:0] y_o);\n"
                           f"  assign y_o = a_i;\nendmodule\n", encoding="utf-8")
-        files = [project.RTL / "line/biss_pkg.sv", trap, source]
+        files = [project.RTL / "biss/biss_pkg.sv", trap, source]
         expected = sv_widths.module_ports(source, sv_widths.read_packages(files[:2]))
         if expected["a_i"] != ("input", width):
             findings.append(f"{name}: read as {expected['a_i']} from the source, not {width}")

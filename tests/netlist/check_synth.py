@@ -61,7 +61,7 @@ def every(folder):
     # One file, one module: what the list names is all there is.
     known = {re.sub(r"^\\", "", m["attributes"].get("hdlname", name))
              for name, m in netlist["modules"].items()}
-    missing += [f"{m}: module outside rtl/mb4.f" for m in sorted(known - set(modules))]
+    missing += [f"{m}: module outside rtl/mb4/mb4.f" for m in sorted(known - set(modules))]
     project.finish(missing, f"{len(modules)} modules, each as its own top and synthesised; "
                             f"no latch, no loop, no double driver")
 

@@ -30,7 +30,7 @@ module IDDRX1F (input D, SCLK, RST, output reg Q0, Q1);
   end
 endmodule
 
-// The four choices of mb4_sl_capture side by side, SL with edges anywhere but at those of the clock.
+// The four choices of biss_sl_capture side by side, SL with edges anywhere but at those of the clock.
 module bench;
   reg clk = 1'b0, rst_n = 1'b0, sl = 1'b1;
   wire [3:0] pos, neg;

@@ -419,9 +419,9 @@ CORE = (["clk_i"], ["rst_ni"])
 HOST = (["hclk_i"], ["rst_ni"])
 
 MODULES = {
-    "mb4_clk_mux": simple(["clk0_i", "clk1_i"], ["rst_ni"], 4000,
+    "enc_clk_mux": simple(["clk0_i", "clk1_i"], ["rst_ni"], 4000,
                           {"sel_i": rarely("sel_i", 0.02)}),
-    "mb4_posted": posted,
+    "enc_posted": posted,
     "mb4_scd_bank": scd_bank,
     "mb4_spi": spi,
     "mb4_spi2": spi,
@@ -452,21 +452,21 @@ MODULES = {
         "getsens_i": rarely("getsens_i", 0.1), "hold_cdm_i": rarely("hold_cdm_i", 0.01),
         "freqags_i": rarely("freqags_i", 0.003,
                             lambda s: s.rng.choice([0, 1, 2, 3, 0x7C, 0x7F, 0x80]))}),
-    "mb4_cdm_timeout": simple(*CORE, 4000, {"cdm_i": 0.02, "clear_i": 0.01}),
+    "biss_cdm_timeout": simple(*CORE, 4000, {"cdm_i": 0.02, "clear_i": 0.01}),
     "mb4_status_flags": simple(*CORE, 4000, {
         "clear_i": 0.05, "scd_bad_i": 0.2, "ags_error_i": 0.05, "bank_fail_i": 0.1}),
-    "mb4_control_frame": control_frame,
+    "biss_control_frame": control_frame,
     "mb4_cds_bank": simple(*CORE, 3000),
-    "mb4_timebase": timebase,
-    "mb4_sl_sampler": simple(*CORE, 12000, {
+    "biss_timebase": timebase,
+    "biss_sl_sampler": simple(*CORE, 12000, {
         "ssi_i": rarely("ssi_i", 0.002), "clear_i": 0.002, "smp_a_i": 0.4, "smp_b_i": 0.4, "sl_i": rarely("sl_i", 0.3, lambda s:
                                                                         int(s.chance(0.99))),
         "armed_a_i": 0.95, "armed_b_i": 0.95}, reset_rate=0.0005),
-    "mb4_crc": simple(*CORE, 4000, {
+    "enc_crc": simple(*CORE, 4000, {
         "load_i": 0.02, "shift_i": 0.8, "feed_i": 0.8, "poly_i": rarely("poly_i", 0.02),
         "top_i": rarely("top_i", 0.02, lambda s: (1 << s.rng.randrange(8)))}),
-    "mb4_rx_word": rx_word,
-    "mb4_frame": simple(["clk_i"], ["rst_ni", "por_ni"], 12000, {
+    "biss_rx_word": rx_word,
+    "biss_frame": simple(["clk_i"], ["rst_ni", "por_ni"], 12000, {
         "start_i": 0.1, "use_i": 0.95, "init_i": 0.1, "abort_i": 0.003, "bit_valid_i": 0.3,
         "tick_i": 0.5, "len_valid_i": 0.01, "len_i": rarely("len_i", 0.5, lambda s:
                                                             s.rng.choice([1, 7, 30, 80])),
@@ -476,15 +476,15 @@ MODULES = {
         "bus_i": rarely("bus_i", 0.01), "mo_busy_i": rarely("mo_busy_i", 0.01),
         "ack_i": 0.2, "hold_cdm_i": 0.2, "quarters_i": rarely("quarters_i", 0.1, lambda s:
                                                              s.rng.choice([3, 254, 255]))}),
-    "mb4_edge_count": simple(*CORE, 6000, {
+    "biss_edge_count": simple(*CORE, 6000, {
         "begin_i": 0.05, "run_i": 0.95, "rise_i": 0.5, "len_valid_i": 0.03, "wait_i": 0.05,
         "len_i": rarely("len_i", 0.5, lambda s: s.rng.choice([1, 2, 7, 80])),
         "mo_busy_i": rarely("mo_busy_i", 0.1, lambda s: s.rng.choice([0, 1, 5]))}),
-    "mb4_ma_drive": simple(["clk_i"], ["rst_ni", "por_ni"], 4000, {
+    "biss_ma_drive": simple(["clk_i"], ["rst_ni", "por_ni"], 4000, {
         "begin_i": 0.05, "stop_i": 0.01, "tick_i": 0.6, "enough_i": 0.1,
         "force_i": rarely("force_i", 0.02)}),
-    "mb4_mo_tx": mo_tx,
-    "mb4_biss_b": biss_b,
+    "biss_mo_tx": mo_tx,
+    "biss_b_access": biss_b,
     "mb4_core": core,
     "struct_in_block": simple(*CORE, 500),
 }

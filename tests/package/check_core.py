@@ -13,16 +13,15 @@ import tempfile
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(ROOT / "tools" / "synth"))
+
+import project  # noqa: E402
+
 SKIPPED = 77
 
 
 def listed():
-    files = []
-    for line in (ROOT / "rtl" / "mb4.f").read_text().splitlines():
-        line = line.strip()
-        if line and not line.startswith(("//", "+", "-")):
-            files.append((ROOT / "rtl" / line).resolve().relative_to(ROOT).as_posix())
-    return files
+    return [path.relative_to(ROOT).as_posix() for path in project.rtl_files()]
 
 
 def lists():

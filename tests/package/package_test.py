@@ -23,7 +23,7 @@ add_executable(transfer transfer.c)
 target_link_libraries(transfer PRIVATE mb4::mb4sim)
 add_executable(position position.cpp)
 target_link_libraries(position PRIVATE mb4::driver mb4::mb4sim)
-if(NOT EXISTS ${openmb4_RTL_DIR}/mb4.f)
+if(NOT EXISTS ${openmb4_RTL_DIR}/mb4/mb4.f)
   message(FATAL_ERROR "no RTL in ${openmb4_RTL_DIR}")
 endif()
 """
@@ -119,19 +119,22 @@ class Package(unittest.TestCase):
 
     def test_everything_is_there_and_nothing_points_elsewhere(self):
         for name in ("bin/mb4sim", "include/mb4sim.h", "include/openmb4/mb4/device.hpp",
-                     "include/openmb4/mb4_regs.hpp", "share/openmb4/rtl/mb4.f",
-                     "share/openmb4/rtl/mb4_core.sv", "share/openmb4/rtl/mb4_check.svh",
+                     "include/openmb4/mb4_regs.hpp", "share/openmb4/rtl/mb4/mb4.f",
+                     "share/openmb4/rtl/mb4/mb4_core.sv",
+                     "share/openmb4/rtl/common/enc_check.svh",
                      "share/openmb4/regmap/generated/mb4/mb4_regs_pkg.sv", "share/man/man1/mb4sim.1",
                      "share/openmb4/examples/resolute-26.toml",
                      "share/bash-completion/completions/mb4sim",
                      "share/zsh/site-functions/_mb4sim"):
             self.assertTrue(os.path.isfile(self.path(name)), name)
-        # Every file that mb4.f names.
-        with open(self.path("share/openmb4/rtl/mb4.f"), encoding="utf-8") as file:
-            for line in file:
-                if line.strip() and not line.startswith(("//", "+")):
-                    self.assertTrue(os.path.isfile(self.path("share/openmb4/rtl", line.strip())),
-                                    line)
+        # Every file that the lists name.
+        for room in ("common", "biss", "mb4"):
+            folder = self.path("share/openmb4/rtl", room)
+            with open(os.path.join(folder, room + ".f"), encoding="utf-8") as file:
+                for line in file:
+                    name = line.strip().removeprefix("-F ")
+                    if name and not name.startswith("//"):
+                        self.assertTrue(os.path.isfile(os.path.join(folder, name)), line)
         for path, _, names in os.walk(self.prefix):
             for name in names:
                 if name.endswith((".cmake", ".pc")):

@@ -44,18 +44,28 @@ function(mb4_add_test name)
     PROPERTIES LABELS "${ARG_LABELS}" ENVIRONMENT "${ARG_ENV}" TIMEOUT 600)
 endfunction()
 
-# mb4_rtl_sources(OUT): the absolute paths named by rtl/mb4.f, the only file list.
+# mb4_rtl_sources(OUT [LIST]): the absolute paths that a list of files names, by default
+# rtl/mb4/mb4.f. Its line -F LIST stands for the files of another list.
 function(mb4_rtl_sources out)
-  file(STRINGS ${MB4_ROOT}/rtl/mb4.f lines)
-  set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${MB4_ROOT}/rtl/mb4.f)
+  set(list ${MB4_ROOT}/rtl/mb4/mb4.f)
+  if(ARGC GREATER 1)
+    set(list ${ARGV1})
+  endif()
+  cmake_path(GET list PARENT_PATH folder)
+  file(STRINGS ${list} lines)
+  set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${list})
   set(files)
   foreach(line IN LISTS lines)
     string(STRIP "${line}" line)
-    if(line MATCHES "^(//|#|\\+|-)" OR line STREQUAL "")
-      continue()
+    if(line MATCHES "^-F +(.*)")
+      cmake_path(ABSOLUTE_PATH CMAKE_MATCH_1 BASE_DIRECTORY ${folder} NORMALIZE
+                 OUTPUT_VARIABLE lower)
+      mb4_rtl_sources(lower_files ${lower})
+      list(APPEND files ${lower_files})
+    elseif(NOT line MATCHES "^//" AND NOT line STREQUAL "")
+      cmake_path(ABSOLUTE_PATH line BASE_DIRECTORY ${folder} NORMALIZE)
+      list(APPEND files ${line})
     endif()
-    cmake_path(ABSOLUTE_PATH line BASE_DIRECTORY ${MB4_ROOT}/rtl NORMALIZE)
-    list(APPEND files ${line})
   endforeach()
   set(${out} ${files} PARENT_SCOPE)
 endfunction()
@@ -85,7 +95,7 @@ function(mb4_verilate target)
   endif()
   verilate(${target} ${trace}
     TOP_MODULE ${ARG_TOP} PREFIX ${ARG_PREFIX}
-    SOURCES ${MB4_ROOT}/rtl/mb4.vlt ${sources} ${ARG_SOURCES}
+    SOURCES ${MB4_ROOT}/rtl/waivers.vlt ${sources} ${ARG_SOURCES}
     INCLUDE_DIRS ${folders}
     VERILATOR_ARGS -Wall --assert --x-assign unique --x-initial unique -fno-const-bit-op-tree
                    --no-timing ${ARG_ARGS})

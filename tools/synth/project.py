@@ -1,7 +1,10 @@
 # SPDX-FileCopyrightText: 2026 The openmb4 authors
 # SPDX-License-Identifier: Apache-2.0
 """What the scripts under tests/netlist, tests/lint and tests/canary know about the project: the
-file list, Verilator's flags, and how a missing tool is reported."""
+file list, Verilator's flags, and how a missing tool is reported.
+
+  project.py   prints the RTL files in their order, for a tool's command line
+"""
 
 import argparse
 import re
@@ -12,6 +15,8 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
 RTL = ROOT / "rtl"
+INCLUDE = RTL / "common"          # enc_check.svh
+WAIVERS = RTL / "waivers.vlt"     # of Verilator's lint
 SKIPPED = 77
 
 
@@ -33,14 +38,24 @@ class Arguments(argparse.ArgumentParser):
 
 
 def rtl_files():
-    """The files named by rtl/mb4.f, packages first, as absolute paths."""
-    lines = (RTL / "mb4.f").read_text(encoding="utf-8").splitlines()
-    names = [line.strip() for line in lines if line.strip() and line.strip()[:2] != "//"]
-    return [(RTL / name).resolve() for name in names]
+    """The files that rtl/mb4/mb4.f names, itself or by the lists of lower rooms, as absolute paths."""
+    return listed(RTL / "mb4" / "mb4.f")
+
+
+def listed(path):
+    """The files that a list names. Its line -F LIST stands for those of another list."""
+    files = []
+    for line in path.read_text(encoding="utf-8").splitlines():
+        line = line.strip()
+        if line.startswith("-F "):
+            files += listed((path.parent / line[3:].strip()).resolve())
+        elif line and not line.startswith("//"):
+            files.append((path.parent / line).resolve())
+    return files
 
 
 def rtl_modules():
-    """Module name to file, in the order of rtl/mb4.f, without the packages."""
+    """Module name to file, in the order of rtl/mb4/mb4.f, without the packages."""
     return {path.stem: path for path in rtl_files() if not path.stem.endswith("_pkg")}
 
 
@@ -94,3 +109,7 @@ def finish(findings, passed):
         sys.exit(1)
     print(passed)
     sys.exit(0)
+
+
+if __name__ == "__main__":
+    print(*rtl_files())

@@ -4,7 +4,7 @@
 
 import xml.etree.ElementTree as ElementTree
 
-from project import RTL, rtl_files, run, tool, verilator_flags
+from project import INCLUDE, WAIVERS, rtl_files, run, tool, verilator_flags
 
 
 def data_width(table, number):
@@ -30,7 +30,7 @@ def module_ports(top, folder, files=None):
     output = folder / f"{top}.xml"
     # verilator_flags() holds -fno-const-bit-op-tree.
     status, text = run([tool("verilator"), "--xml-only", "--xml-output", output, *verilator_flags(),
-                        "-Wno-fatal", f"-I{RTL}", "--top-module", top, RTL / "mb4.vlt",
+                        "-Wno-fatal", f"-I{INCLUDE}", "--top-module", top, WAIVERS,
                         *(rtl_files() if files is None else files)], cwd=folder)
     if status != 0:
         raise SystemExit(f"{top}: {text}")

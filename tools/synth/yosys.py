@@ -4,7 +4,7 @@
 
 import re
 
-from project import RTL, rtl_files, run, tool
+from project import INCLUDE, rtl_files, run, tool
 
 # After proc a latch is one of these; after techmap one of the second line.
 LATCHES = "t:$dlatch t:$adlatch t:$dlatchsr t:$sr"
@@ -14,7 +14,7 @@ GATE_LATCHES = "t:$_DLATCH_* t:$_DLATCHSR_* t:$_SR_*"
 def read(files=None):
     """Yosys commands that read the RTL as a user's tool would: no define, SystemVerilog subset."""
     names = " ".join(str(path) for path in (rtl_files() if files is None else files))
-    return [f"read_verilog -sv -I{RTL} {names}"]
+    return [f"read_verilog -sv -I{INCLUDE} {names}"]
 
 
 def check_as_top(module):

@@ -45,7 +45,7 @@ class Module:
         self.assigns = [(target, right) for left, right in re.findall(r"assign ([^=;]*)=([^;]*);", text)
                         for target in names(left)]
         self.instances = {}  # name: (module, {port: nets})
-        for found in re.finditer(r"\b(mb4_\w+)\s*(?:#\s*\((?:[^()]|\([^()]*\))*\)\s*)?(u_\w+)\s*\(", text):
+        for found in re.finditer(r"\b([a-z]\w*_\w+)\s*(?:#\s*\((?:[^()]|\([^()]*\))*\)\s*)?(u_\w+)\s*\(", text):
             ports, inside = {}, text[found.end():bracket(text, found.end()) - 1]
             for port in re.finditer(r"\.(\w+)\s*(\()?", inside):
                 if port[2]:

@@ -63,7 +63,7 @@ module frame_top (
     .half_len_o (half_len)
   );
 
-  mb4_timebase u_timebase (
+  biss_timebase u_timebase (
     .clk_i,
     .rst_ni,
     .half_len_i  (half_len),
@@ -140,7 +140,7 @@ module frame_top (
   // Without MO, force bits and register access.
   assign cmd = {protocol_i, 1'b0, 8'h00, hold_cdm_i, 3'b000};
 
-  mb4_line u_line (
+  biss_line u_line (
     .clk_i,
     .rst_ni,
     .por_ni      (rst_ni),

@@ -33,7 +33,7 @@ module icebreaker (
   assign por_n = por_q == 4'd15;
 
   // SL is taken in the I/O cells: both edges see the same delay from the pin.
-  mb4_core #(.SlCells(mb4_pkg::SL_ICE40)) u_core (
+  mb4_core #(.SlCells(biss_pkg::SL_ICE40)) u_core (
     .clk_i,
     .rst_ni    (por_n && button_ni),
     .por_ni    (por_n),

@@ -1,0 +1,320 @@
+// SPDX-FileCopyrightText: 2026 The openmb4 authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// BiSS C control frame, master side: register read, register write, commands. Each frame carries
+// one CDM bit and one CDS bit. The slot is the number of frames since the start bit S (slot
+// numbers: biss_pkg).
+//
+// Clock domain: core. begin_i starts a control communication; it is ignored while active_o is high.
+// Each frame that starts from then on carries one bit:
+//
+// - cdm0_o and cdm1_o are the CDM to send if CDS of the same frame is 0 or 1, one bit for each
+//   line.
+// - frame_end_i takes CDS. CDS of a slot answers CDM of the slot before.
+// - Slot 0 lasts until 14 zeros have been sent (cdm_timeout_i). Slot 19 lasts until the start bit
+//   of the slave.
+// - IDS is the first byte of RDATA. It is taken when the bytes have arrived that the host wrote
+//   before begin_i.
+//
+// Latency: end_o comes one clock after the step that finished or failed.
+// Misuse: a register access needs exactly one line in select_i. The configuration must be stable
+// while active_o is high.
+// Silent slave: without echo of R and W nREGERR = 0. Without start bit nDELAYERR = 0 with the first
+// frame that ends with expired_i. Frames that do not end (stalled_i) also end the control frame.
+// Datasheet: pages 27..29, 34, 35, Figures 20..22; decisions 5, 12, 20, 22..24, 31.
+
+`include "enc_check.svh"
+
+module biss_control_frame (
+  input  logic       clk_i,
+  input  logic       rst_ni,
+  // configuration
+  input  logic       cts_i,
+  input  logic       wnr_i,
+  input  logic [6:0] regadr_i,
+  input  logic [5:0] regnum_i,
+  input  logic [2:0] slaveid_i,      // or CMD(1:0), IDA_TEST
+  input  logic       ida_invert_i,   // quirk: IDA_TEST has the opposite polarity
+  input  logic [1:0] select_i,       // lines {2, 1} that carry the control frame
+  input  logic       blind_i,        // SSI: no CDS, every answer to a write counts as right
+  // RDATA: byte rdata_addr_o is valid one clock after its address
+  output logic [5:0] rdata_addr_o,
+  input  logic [7:0] rdata_i,
+  input  logic       post_busy_i,    // bytes of the host are on their way to RDATA
+  output logic       rdata_wr_en_o,
+  output logic [7:0] rdata_wr_data_o,
+  // frames
+  input  logic       begin_i,
+  input  logic       abort_i,        // BREAK, INIT
+  input  logic       start_i,        // a frame starts
+  input  logic       frame_end_i,    // the frame has ended
+  input  logic [1:0] cds_i,          // CDS of the frame, lines {2, 1}
+  input  logic       cdm_timeout_i,  // at least 14 frames with CDM = 0 before this one
+  input  logic       expired_i,      // no start bit for too long
+  input  logic       stalled_i,      // no frame has ended for too long
+  output logic       active_o,
+  output logic       running_o,      // active_o one clock late in its rise
+  output logic       in_body_o,      // the slot is between S and the stop bit
+  output logic       wait_o,         // waiting for the slave's start bit
+  output logic       moved_o,        // a frame ends, but not while S is awaited
+  output logic [1:0] cdm0_o,
+  output logic [1:0] cdm1_o,
+  // result
+  output logic       begin_o,
+  output logic       end_o,
+  output logic       reg_error_o,    // with end_o
+  output logic       delay_error_o,  // with end_o
+  output logic [5:0] good_bytes_o
+);
+
+  logic       active_q;
+  logic       active_d;
+  logic [1:0] fresh_q;      // the fields have not been taken yet
+  logic       broadcast_q;
+  logic       carries_q;    // the running frame carries a bit of the control frame
+  logic       carries_d;
+  logic [5:0] slot_q;
+  logic [5:0] slot_d;
+  logic [9:0] bits_q;       // header fields, IDS and CMD, or data byte; next bit on top
+  logic [9:0] bits_d;
+  logic [3:0] crc_q;
+  logic [3:0] crc_d;
+  logic [5:0] index_q;      // bytes done
+  logic [5:0] index_d;
+  logic       last_q;       // the last byte is done
+  logic       last_d;
+  logic       sent_q;       // CDM of the slot before
+  logic       sent_d;
+  logic [1:0] ida_bad_q;    // lines whose IDA differs from IDS
+  logic [1:0] ida_bad_d;
+  logic       end_q, reg_error_q, delay_error_q;
+  logic       end_d, reg_error_d, delay_error_d;
+
+  logic       step;
+  logic       take;
+  logic       tested;
+  logic       cds;          // of the selected line
+  logic       cdm0, cdm1, sent;
+  logic       top, crc_feed, crc_shift, crc_bit;
+  logic       by_ida;       // CDM depends on the IDA of the line
+  logic       stay, fail, late, finish;
+  logic       header, echo, ida;
+  logic       data;         // slot of a data bit, on CDM (write) or CDS (read)
+  logic       data_crc;
+
+  assign step      = carries_q && frame_end_i;
+  assign take      = fresh_q[1] && !post_busy_i;
+  assign tested    = (slaveid_i[0] ^ ida_invert_i) && !broadcast_q;
+  assign cds       = (blind_i && cts_i) ? sent_q : (cds_i & select_i) != 2'b00;
+  assign top       = bits_q[9];
+
+  // ---- slots --------------------------------------------------------------------------------
+  assign header   = slot_q >= biss_pkg::SLOT_HEADER && slot_q < biss_pkg::SLOT_CRC;
+  assign echo     = cts_i && slot_q > biss_pkg::SLOT_WAIT && slot_q <= biss_pkg::SLOT_STOP;
+  assign ida      = !cts_i && !broadcast_q && slot_q >= biss_pkg::SLOT_IDA &&
+                    slot_q <= biss_pkg::SLOT_EX_TESTED;
+  // CDS of a read comes one slot after CDM of a write.
+  assign data     = cts_i && (wnr_i
+                    ? (slot_q == biss_pkg::SLOT_WAIT && cds) ||
+                      (slot_q > biss_pkg::SLOT_WAIT && slot_q < biss_pkg::SLOT_DATA_CRC)
+                    : slot_q > biss_pkg::SLOT_WAIT && slot_q <= biss_pkg::SLOT_DATA_CRC);
+  assign data_crc = echo && !data;
+
+  // ---- CDM ----------------------------------------------------------------------------------
+
+  always_comb begin
+    cdm0   = 1'b0;
+    by_ida = 1'b0;
+    unique case (slot_q)
+      biss_pkg::SLOT_START: cdm0 = cdm_timeout_i;
+      biss_pkg::SLOT_CTS:   cdm0 = cts_i;
+      6'd2, 6'd3, 6'd4, 6'd5, 6'd6, 6'd7, 6'd8, 6'd9, 6'd10, 6'd11:
+        cdm0 = top;
+      6'd12, 6'd13, 6'd14, 6'd15:
+        cdm0 = !crc_q[3];
+      biss_pkg::SLOT_READ:  cdm0 = cts_i ? !wnr_i : !tested;   // EX at once
+      biss_pkg::SLOT_WRITE: cdm0 = cts_i && wnr_i;
+      biss_pkg::SLOT_BYTE:  cdm0 = cts_i;
+      biss_pkg::SLOT_WAIT, 6'd20, 6'd21, 6'd22, 6'd23, 6'd25, 6'd26:
+        cdm0 = cts_i && wnr_i && top;
+      biss_pkg::SLOT_EX_TESTED: begin
+        cdm0   = cts_i && wnr_i && top;
+        by_ida = !cts_i && tested;
+      end
+      6'd27, 6'd28, 6'd29, 6'd30:
+        cdm0 = wnr_i && !crc_q[3];
+      biss_pkg::SLOT_NEXT:  cdm0 = !last_q;
+      default: cdm0 = 1'b0;
+    endcase
+    cdm1 = cdm0;
+    // S is repeated until the slave answers it.
+    if (cts_i && !blind_i && slot_q == biss_pkg::SLOT_WAIT) cdm0 = 1'b1;
+  end
+
+  assign sent = cds ? cdm1 : cdm0;
+
+  for (genvar i = 0; i < 2; i++) begin : gen_line
+    assign cdm0_o[i] = select_i[i] && (by_ida ? !ida_bad_q[i] && !top : cdm0);
+    assign cdm1_o[i] = select_i[i] && (by_ida ? !ida_bad_q[i] && top : cdm1);
+  end
+
+  // ---- what a frame's end does ----------------------------------------------------------------
+
+  always_comb begin
+    stay      = 1'b0;
+    fail      = 1'b0;
+    finish    = 1'b0;
+    ida_bad_d = ida_bad_q;
+    unique case (slot_q)
+      biss_pkg::SLOT_START: stay = !sent;
+      biss_pkg::SLOT_WRITE: begin
+        fail   = cts_i && (cds == wnr_i || (blind_i && !wnr_i));
+        finish = !cts_i && broadcast_q;
+      end
+      biss_pkg::SLOT_BYTE:  fail   = cts_i && cds != wnr_i;
+      biss_pkg::SLOT_WAIT:  stay   = cts_i && !cds;
+      biss_pkg::SLOT_STOP_TESTED: finish = !cts_i;
+      biss_pkg::SLOT_NEXT:  finish = last_q;
+      default: ;
+    endcase
+    if (echo && wnr_i && cds != sent_q)        fail = 1'b1;
+    if (data_crc && !wnr_i && cds == crc_q[3]) fail = 1'b1;
+    if (ida) begin
+      ida_bad_d = ida_bad_q | (select_i & (cds_i ^ {2{top}}));
+      if (slot_q == biss_pkg::SLOT_EX_TESTED && !tested) finish = 1'b1;
+    end
+  end
+
+  always_comb begin
+    crc_feed  = header || data;
+    crc_shift = (slot_q >= biss_pkg::SLOT_CRC && slot_q < biss_pkg::SLOT_READ) || data_crc;
+    crc_bit   = crc_q[3] ^ ((header || wnr_i) ? sent : cds);
+    crc_d     = crc_q;
+    if (crc_feed)       crc_d = {crc_q[2:0], 1'b0} ^ (crc_bit ? biss_pkg::CONTROL_CRC_POLY : 4'h0);
+    else if (crc_shift) crc_d = {crc_q[2:0], 1'b0};
+    // The CRC of the header does not cover S. After a CRC has been sent, crc_q is 0 again.
+    if (slot_q == biss_pkg::SLOT_START) crc_d = 4'h0;
+  end
+
+  always_comb begin
+    bits_d = bits_q;
+    if (take)
+      bits_d = cts_i ? {slaveid_i, regadr_i} : {rdata_i, slaveid_i[2:1]};
+    else if (cts_i && (slot_q == biss_pkg::SLOT_BYTE || slot_q == biss_pkg::SLOT_NEXT))
+      bits_d = {rdata_i, 2'b00};
+    else if ((header && slot_q != biss_pkg::SLOT_CTS) || data || ida)
+      bits_d = {bits_q[8:0], (data && !wnr_i) ? cds : top};
+  end
+
+  assign rdata_wr_en_o   = step && cts_i && !wnr_i && !fail && slot_q == biss_pkg::SLOT_STOP;
+  assign rdata_wr_data_o = bits_q[7:0];
+  assign rdata_addr_o    = index_q;
+
+  always_comb begin
+    active_d      = active_q;
+    carries_d     = start_i ? active_o : carries_q && !frame_end_i;
+    slot_d        = slot_q;
+    index_d       = index_q;
+    last_d        = last_q;
+    sent_d        = sent_q;
+    end_d         = 1'b0;
+    reg_error_d   = 1'b0;
+    delay_error_d = 1'b0;
+
+    if (step) begin
+      sent_d = sent;
+      if (!stay) slot_d = (slot_q == biss_pkg::SLOT_NEXT) ? biss_pkg::SLOT_WAIT
+                                                             : slot_q + 6'd1;
+      if (slot_q == biss_pkg::SLOT_STOP && !fail) begin
+        index_d = index_q + 6'd1;
+        last_d  = index_q == regnum_i;
+      end
+      end_d         = fail || finish || late;
+      reg_error_d   = fail || (finish && ida_bad_d != 2'b00);
+      delay_error_d = late;
+    end else if (active_q && stalled_i) begin
+      end_d         = 1'b1;
+      reg_error_d   = !wait_o;
+      delay_error_d = wait_o;
+    end
+
+    // A frame may start in the clock of begin_i, so slot_q is 0 whenever no control frame runs.
+    if (end_d) begin
+      active_d  = 1'b0;
+      carries_d = 1'b0;
+      slot_d    = biss_pkg::SLOT_START;
+    end
+    if (begin_o) begin
+      active_d = 1'b1;
+      index_d  = 6'd0;
+      last_d   = 1'b0;
+    end
+    if (abort_i) begin
+      active_d  = 1'b0;
+      carries_d = 1'b0;
+      slot_d    = biss_pkg::SLOT_START;
+      index_d   = 6'd0;
+      end_d     = 1'b0;
+    end
+  end
+
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      active_q      <= 1'b0;
+      carries_q     <= 1'b0;
+      fresh_q       <= '0;
+      broadcast_q   <= 1'b0;
+      slot_q        <= '0;
+      bits_q        <= '0;
+      crc_q         <= '0;
+      index_q       <= '0;
+      last_q        <= 1'b0;
+      sent_q        <= 1'b0;
+      ida_bad_q     <= '0;
+      end_q         <= 1'b0;
+      reg_error_q   <= 1'b0;
+      delay_error_q <= 1'b0;
+    end else begin
+      active_q      <= active_d;
+      carries_q     <= carries_d;
+      fresh_q       <= begin_o ? 2'b01 : take ? 2'b00 : {fresh_q[0], fresh_q[0]};
+      slot_q        <= slot_d;
+      index_q       <= index_d;
+      last_q        <= last_d;
+      sent_q        <= sent_d;
+      end_q         <= end_d;
+      reg_error_q   <= reg_error_d;
+      delay_error_q <= delay_error_d;
+      if (take) broadcast_q <= rdata_i == 8'h00;
+      if (take || step) bits_q <= bits_d;
+      if (step) crc_q <= crc_d;
+      if (begin_o)   ida_bad_q <= '0;
+      else if (step) ida_bad_q <= ida_bad_d;
+    end
+  end
+
+  // begin_i stays high until a frame takes the instruction. After a stall it is still the old
+  // instruction, so it does not begin a control frame.
+  assign begin_o       = begin_i && !active_q && !stalled_i;
+  assign active_o      = active_q || begin_o;
+  assign running_o     = active_q;
+  assign wait_o        = active_q && cts_i && slot_q == biss_pkg::SLOT_WAIT;
+  assign late          = wait_o && stay && expired_i;
+  assign moved_o       = step && !(wait_o && stay);
+  assign in_body_o     = carries_q && slot_q != biss_pkg::SLOT_START &&
+                         (cts_i ? slot_q < biss_pkg::SLOT_STOP
+                                : slot_q < (tested ? biss_pkg::SLOT_STOP_TESTED
+                                                   : biss_pkg::SLOT_STOP_COMMAND));
+  assign end_o         = end_q;
+  assign reg_error_o   = reg_error_q;
+  assign delay_error_o = delay_error_q;
+  assign good_bytes_o  = index_q;
+
+  `ENC_ASSERT(SlotInRange_A, clk_i, rst_ni, slot_q <= biss_pkg::SLOT_NEXT)
+  `ENC_ASSERT_IF(IdleIsSlot0_A, clk_i, rst_ni, !active_q, slot_q == biss_pkg::SLOT_START)
+  `ENC_ASSERT_IF(DataCrcStartsAtZero_A, clk_i, rst_ni,
+                 slot_q == biss_pkg::SLOT_BYTE || slot_q == biss_pkg::SLOT_NEXT, crc_q == 4'h0)
+  `ENC_ASSERT_IF(NextIsForRegisters_A, clk_i, rst_ni, active_q && !cts_i,
+                 slot_q <= biss_pkg::SLOT_STOP_TESTED)
+
+endmodule

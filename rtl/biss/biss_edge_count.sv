@@ -1,0 +1,107 @@
+// SPDX-FileCopyrightText: 2026 The openmb4 authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Counts the rising MA edges of a frame on one line: edges sent (up to two) and edges still needed.
+//
+// Clock domain: core.
+//
+//   begin_i      sets the need to that of the protocol (BiSS C 5, BiSS B 4, SSI 1), plus MO_BUSY on
+//                a line with actuators
+//   len_valid_i  adds the length of a word
+//   wait_i       adds a processing clock
+//   rise_i       takes one edge away
+//
+// Latency: a word counts from the second clock after len_valid_i. Until then no edge is the last
+// one. All outputs except two_next_o are ready early in the clock, because they decide what MA does
+// next.
+//
+// Misuse: MA may make one edge more than needed before a word is told. The count keeps this edge
+// (-1) and subtracts it from the word. The count does not keep further surplus edges.
+// Datasheet: pages 12..16, Figures 8..16.
+
+`include "enc_check.svh"
+
+module biss_edge_count (
+  input  logic       clk_i,
+  input  logic       rst_ni,
+  input  logic       biss_c_i,
+  input  logic       ssi_i,
+  input  logic       bus_i,
+  input  logic [7:0] mo_busy_i,
+  input  logic       begin_i,
+  input  logic       run_i,        // a frame
+  input  logic       len_valid_i,
+  input  logic [6:0] len_i,
+  input  logic       wait_i,
+  input  logic       rise_i,
+  output logic       two_o,        // two edges have been sent
+  output logic       two_next_o,   // two edges with the one of this clock
+  output logic       none_left_o,
+  output logic       one_left_o    // one edge is left, or none
+);
+
+  logic [1:0]         rises_d;
+  logic [1:0]         rises_q;
+  logic signed [10:0] more;        // edges needed, without rise_i
+  logic signed [10:0] need_d;
+  logic signed [10:0] need_q;      // edges needed; -1: one too many was sent
+  logic               len_valid_q;
+  logic [6:0]         len_q;
+  logic               take;
+  logic               none_d;
+  logic               none_q;
+  logic               one_d;
+  logic               one_q;
+
+  assign more = need_q + (len_valid_q ? signed'({4'h0, len_q}) : 11'sd0)
+                       + (wait_i ? 11'sd1 : 11'sd0);
+  assign take = rise_i && !need_q[10];
+
+  // rise_i comes late, so the results for both of its values are prepared.
+  always_comb begin
+    rises_d = rises_q;
+    need_d  = need_q;
+    none_d  = none_q;
+    one_d   = one_q;
+    if (begin_i) begin
+      rises_d = 2'd0;
+      need_d  = (biss_c_i ? 11'sd5 : ssi_i ? 11'sd1 : 11'sd4) +
+                (bus_i ? signed'({3'b000, mo_busy_i}) : 11'sd0);
+      none_d  = 1'b0;
+      one_d   = ssi_i && !biss_c_i && !(bus_i && mo_busy_i != 8'd0);
+    end else if (run_i) begin
+      if (rise_i && rises_q != 2'd2) rises_d = rises_q + 2'd1;
+      need_d = more - (take ? 11'sd1 : 11'sd0);
+      none_d = more[10] || more[9:1] == 9'd0 && (take || !more[0]);
+      one_d  = more[10] || more[9:1] == 9'd0 || (take && more[9:0] == 10'd2);
+    end
+  end
+
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      rises_q <= '0;
+      need_q  <= '0;
+      none_q  <= 1'b1;
+      one_q   <= 1'b1;
+      len_valid_q <= 1'b0;
+      len_q       <= '0;
+    end else begin
+      rises_q <= rises_d;
+      need_q  <= need_d;
+      none_q  <= none_d;
+      one_q   <= one_d;
+      len_valid_q <= len_valid_i && !begin_i;   // not a word of a frame that BREAK has ended
+      len_q       <= len_i;
+    end
+  end
+
+  assign two_o       = rises_q == 2'd2;
+  assign two_next_o  = rises_d == 2'd2;
+  assign none_left_o = none_q && !len_valid_q;
+  assign one_left_o  = one_q && !len_valid_q;
+
+  `ENC_ASSERT(NeedInRange_A, clk_i, rst_ni, need_q >= -11'sd1 && need_q <= 11'sd920)
+  `ENC_ASSERT(NoneLeft_A, clk_i, rst_ni, none_q == (need_q <= 11'sd0))
+  `ENC_ASSERT(OneLeft_A, clk_i, rst_ni, one_q == (need_q <= 11'sd1))
+
+endmodule

@@ -1,0 +1,341 @@
+// SPDX-FileCopyrightText: 2026 The openmb4 authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Frame on one line, BiSS C, BiSS B or SSI: follows the slaves from the request to their timeout.
+//
+// Clock domain: core. start_i with use_i begins a frame when the time base restarts: MA is high for
+// half a period, then it falls. After the last needed rising edge MA takes the inverted CDM and
+// keeps it through the slaves' timeout. The number of rising edges of MA is the largest of these:
+//
+// - the edges that the slaves need: BiSS C 5 plus processing clocks, BiSS B 4 plus processing
+//   clocks, SSI 1, each plus all data and CRC bits,
+// - the edges already sent when the start bit comes back over a long line (decision 17),
+// - the edges already sent when CDS comes back, if CDM depends on it.
+//
+// With bus_i actuators are on MO, and more edges would shift their words. So MO_BUSY counts as the
+// number of processing clocks, and MA does not wait for the start bit.
+//
+//   reduced_i     the frame ends after CDS (decision 14)
+//   frame_end_o   the last data bit has been taken; cds_o is valid from the next clock on (0 in
+//                 BiSS B and SSI)
+//   idle_o        the slaves' timeout has ended too
+//   init_i        the line makes the two-pulse initialisation instead of a frame: init_done_o comes
+//                 with the acknowledge, init_fail_o after 255 quarter periods without it
+//   register_i    MA belongs to the BiSS B register access (biss_b_access) until register_end_i,
+//                 which makes frame_end_o
+//
+// Changes of protocol and bus_i count from the next start on. A line that is taken out of use
+// (UNUSED) does not wait for SL in its timeout.
+//
+// Misuse: start_i is ignored while idle_o is low. A slave that never answers keeps the frame
+// running until abort_i (decision 4). After abort_i, and after a reset, MA returns to 1 with the
+// next tick.
+// Datasheet: pages 12..16, 27, 32, 33, Figures 8..16.
+
+`include "enc_check.svh"
+
+module biss_frame (
+  input  logic       clk_i,
+  input  logic       rst_ni,
+  input  logic       por_ni,       // power-on reset of MA
+  // control
+  input  logic [1:0] protocol_i,   // biss_pkg::protocol_e
+  input  logic       bus_i,
+  input  logic [7:0] mo_busy_i,
+  input  logic       start_i,
+  input  logic       use_i,
+  input  logic       init_i,
+  input  logic       cdm0_i,       // CDM to send if CDS of this frame is 0
+  input  logic       cdm1_i,       // CDM to send if CDS of this frame is 1
+  input  logic       reduced_i,
+  input  logic       hold_cdm_i,
+  input  logic       abort_i,
+  // BiSS B register access
+  input  logic       register_i,   // with start_i
+  input  logic       register_ma_i,
+  input  logic       register_end_i,
+  // MA force bits
+  input  logic       force_i,
+  input  logic       force_level_i,
+  // time base
+  input  logic       tick_i,
+  input  logic       half_next_i,
+  // sampler
+  output logic       armed_a_o,
+  output logic       armed_b_o,
+  input  logic       ack_i,
+  input  logic [7:0] quarters_i,
+  input  logic       sl_i,
+  input  logic       bit_valid_i,
+  input  logic       bit_i,
+  // words
+  input  logic       len_valid_i,
+  input  logic [6:0] len_i,
+  input  logic       any_word_i,
+  input  logic       last_word_i,
+  input  logic       word_done_i,
+  output logic       word_load_o,  // the next bit is the first of a word
+  output logic       word_bit_o,
+  output logic       word_run_o,   // a word is on SL
+  // results
+  output logic       biss_c_o,     // protocol of this frame
+  output logic       ssi_o,
+  output logic       rise_o,       // a rising MA edge of a frame
+  output logic       final_o,      // ... the last one, as far as it is known
+  output logic       clocks_o,     // MA is clocking
+  output logic       cds_o,
+  output logic       cdm_o,        // CDM as sent
+  output logic       frame_end_o,
+  output logic       init_done_o,
+  output logic       init_fail_o,
+  output logic       idle_o,
+  output logic       timeout_o,    // waiting for SL = 1
+  output logic       ma_o
+);
+
+  typedef enum logic [2:0] {
+    IDLE,
+    REQUEST,
+    CDS,
+    DATA,
+    STOP,
+    TIMEOUT,
+    RELEASE,
+    REGISTER
+  } state_e;
+
+  state_e             state_d;
+  state_e             state_q;
+  logic [1:0]         cdm_d;
+  logic [1:0]         cdm_q;       // for CDS = 1, 0
+  logic               reduced_d;
+  logic               reduced_q;
+  logic               hold_d;
+  logic               hold_q;
+  logic               init_d;
+  logic               init_q;
+  logic               started_d;
+  logic               started_q;   // the start bit has come
+  logic               none_left;   // no more MA edges needed
+  logic               one_left;    // one more needed, or none
+  logic               cds_d;
+  logic               cds_q;
+  logic               load_d;
+  logic               load_q;
+  logic               enough;
+  logic               rise;
+  logic               ma_clocks;
+  logic               released;
+  logic               begin_frame;
+  logic               waited;      // one more processing clock
+  logic               cdm;
+  logic               cdm_known;
+  logic               biss_c;
+  logic               ssi;
+  logic               rests;       // no frame: the configuration may change
+  logic [1:0]         protocol;
+  logic [1:0]         protocol_q;
+  logic               bus;
+  logic               bus_q;
+  logic               unused;      // the line is out of use
+  logic               sl_high;     // the slaves' timeout has ended, or no longer counts
+
+  enc_sync_bit u_unused (
+    .clk_i,
+    .rst_ni,
+    .data_i (protocol_i == biss_pkg::UNUSED),
+    .data_o (unused)
+  );
+
+  assign rests       = state_q == IDLE || state_q == TIMEOUT || state_q == RELEASE;
+  assign protocol    = rests ? protocol_i : protocol_q;
+  assign bus         = rests ? bus_i : bus_q;
+  assign biss_c      = protocol == biss_pkg::BISS_C;
+  assign ssi         = protocol == biss_pkg::SSI;
+  assign sl_high     = sl_i || unused;
+  assign begin_frame = start_i && use_i && state_q == IDLE;
+  // If CDM depends on CDS, it is known when CDS has come. Until then MA goes on.
+  assign cdm         = cds_q ? cdm_q[1] : cdm_q[0];
+  assign cdm_known   = cdm_q[1] == cdm_q[0] || state_q == DATA || state_q == STOP ||
+                       state_q == TIMEOUT;
+  assign enough      = init_q ? armed_a_o
+                              : (started_q || bus) && none_left && cdm_known && !len_valid_i;
+
+  biss_ma_drive u_ma (
+    .clk_i,
+    .rst_ni,
+    .por_ni,
+    .tick_i,
+    .half_next_i,
+    .start_i,
+    .begin_i       (begin_frame),
+    .clocked_i     (!register_i),
+    .stop_i        (abort_i && state_q != RELEASE),
+    .enough_i      (enough),
+    .cdm_i         (cdm),
+    .high_i        (state_q == RELEASE || (state_q == TIMEOUT && sl_high && !hold_q)),
+    .register_i    (state_q == REGISTER),
+    .register_ma_i,
+    .force_i,
+    .force_level_i,
+    .released_o    (released),
+    .rise_o        (rise),
+    .clocking_o    (ma_clocks),
+    .ma_o
+  );
+
+  biss_edge_count u_edges (
+    .clk_i,
+    .rst_ni,
+    .biss_c_i    (biss_c),
+    .ssi_i       (ssi),
+    .bus_i       (bus),
+    .mo_busy_i,
+    .begin_i     (begin_frame),
+    .run_i       (state_q != IDLE),
+    .len_valid_i (len_valid_i && !reduced_q),
+    .len_i,
+    .wait_i      (waited && !bus),
+    .rise_i      (rise),
+    .two_o       (armed_a_o),
+    .two_next_o  (armed_b_o),
+    .none_left_o (none_left),
+    .one_left_o  (one_left)
+  );
+
+  // What SL brings moves the frame on.
+  always_comb begin
+    state_d     = state_q;
+    cdm_d       = cdm_q;
+    reduced_d   = reduced_q;
+    hold_d      = hold_q;
+    init_d      = init_q;
+    started_d   = started_q;
+    cds_d       = cds_q;
+    load_d      = 1'b0;
+    waited      = 1'b0;
+    word_bit_o  = 1'b0;
+    frame_end_o = 1'b0;
+    init_done_o = 1'b0;
+    init_fail_o = 1'b0;
+
+    unique case (state_q)
+      IDLE: begin
+        // The line rests; MA is high, or keeps its level with HOLDCDM.
+        if (begin_frame) begin
+          state_d   = register_i ? REGISTER : REQUEST;
+          cdm_d     = (init_i || !(biss_c || ssi)) ? 2'b00 : {cdm1_i, cdm0_i};
+          cds_d     = 1'b0;
+          reduced_d = reduced_i && !init_i;
+          hold_d    = hold_cdm_i;
+          init_d    = init_i && !register_i;
+          started_d = ssi;
+        end else if (released) begin
+          state_d = RELEASE;
+        end
+      end
+      REQUEST: begin
+        // The slaves acknowledge and process, up to the start bit. With SSI the first word follows
+        // at once; with INIT only the acknowledge counts.
+        if (init_q) begin
+          init_done_o = ack_i;
+          init_fail_o = !ack_i && (quarters_i == 8'hFF || ssi);
+          if (init_done_o || init_fail_o) state_d = TIMEOUT;
+        end else if (bit_valid_i && biss_c) begin
+          waited    = !bit_i;
+          started_d = bit_i;
+          if (bit_i) state_d = CDS;
+        end else if (ssi || bit_valid_i) begin
+          waited = !ssi && !bit_i;
+          if (!waited) begin
+            started_d   = 1'b1;
+            load_d      = any_word_i && !reduced_q;
+            frame_end_o = !load_d;
+            state_d     = load_d ? DATA : ssi ? TIMEOUT : STOP;
+          end
+        end
+      end
+      CDS: begin
+        // The bit after the start bit is CDS (BiSS C).
+        if (bit_valid_i) begin
+          cds_d       = bit_i;
+          load_d      = any_word_i && !reduced_q;
+          frame_end_o = !load_d;
+          state_d     = load_d ? DATA : STOP;
+        end
+      end
+      DATA: begin
+        // SL brings the words.
+        word_bit_o = bit_valid_i;
+        if (word_done_i) begin
+          load_d      = !last_word_i;
+          frame_end_o = last_word_i;
+          if (last_word_i) state_d = STOP;
+        end
+      end
+      STOP: begin
+        // SL shows the last bit of the frame up to the next sampling point.
+        if (bit_valid_i) state_d = TIMEOUT;
+      end
+      REGISTER: begin
+        // The BiSS B register access drives MA.
+        frame_end_o = register_end_i;
+        if (register_end_i) state_d = TIMEOUT;
+      end
+      TIMEOUT: begin
+        // The slaves are in their timeout. It ends with SL = 1.
+        if (tick_i && sl_high && !ma_clocks) state_d = IDLE;
+      end
+      RELEASE: begin
+        // After an abort, a reset or a forced level MA goes to 1 with the next tick.
+        if (tick_i) state_d = IDLE;
+      end
+      default: state_d = RELEASE;
+    endcase
+
+    // MA may be low in IDLE, because of HOLDCDM.
+    if (abort_i && (state_q == IDLE ? !ma_o : state_q != RELEASE)) state_d = RELEASE;
+  end
+
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      state_q    <= RELEASE;
+      cdm_q      <= '0;
+      reduced_q  <= 1'b0;
+      hold_q     <= 1'b0;
+      init_q     <= 1'b0;
+      started_q  <= 1'b0;
+      cds_q      <= 1'b0;
+      load_q     <= 1'b0;
+      protocol_q <= '0;
+      bus_q      <= 1'b0;
+    end else begin
+      state_q    <= state_d;
+      cdm_q      <= cdm_d;
+      reduced_q  <= reduced_d;
+      hold_q     <= hold_d;
+      init_q     <= init_d;
+      started_q  <= started_d;
+      cds_q      <= cds_d;
+      load_q     <= load_d;
+      // A frame keeps the configuration with which it begins.
+      protocol_q <= protocol;
+      bus_q      <= bus;
+    end
+  end
+
+  assign word_load_o = load_q;
+  assign word_run_o  = state_q == DATA && !abort_i;
+  assign biss_c_o    = biss_c;
+  assign ssi_o       = ssi;
+  assign rise_o      = rise;
+  assign final_o     = rise && (started_q || bus) && one_left && cdm_known;
+  assign clocks_o    = ma_clocks;
+  assign cds_o       = cds_q;
+  assign cdm_o       = cdm;
+  assign idle_o      = state_q == IDLE && !released;
+  assign timeout_o   = state_q == TIMEOUT;
+
+  `ENC_ASSERT_IF(IdleDoesNotClock_A, clk_i, rst_ni, state_q == IDLE, !ma_clocks)
+
+endmodule

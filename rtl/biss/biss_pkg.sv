@@ -1,0 +1,137 @@
+// SPDX-FileCopyrightText: 2026 The openmb4 authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// What a line of BiSS or SSI is told and what it tells. No register map stands in it, so that any
+// master can use the line.
+//
+// A frame begins on all lines at once, so all lines share one line_go_t. Of all other types each
+// line has its own; a vector of two of them has line 1 in its lower half.
+
+package biss_pkg;
+
+  // UNUSED: nothing is on the line, and it does not wait for SL.
+  typedef enum logic [1:0] {
+    BISS_B = 2'd0,
+    BISS_C = 2'd1,
+    SSI    = 2'd2,
+    UNUSED = 2'd3
+  } protocol_e;
+
+  // What captures SL on both clock edges (biss_sl_capture): flops, or the DDR cell of the pin.
+  localparam logic [1:0] SL_FLOPS   = 2'd0;
+  localparam logic [1:0] SL_ICE40   = 2'd1;
+  localparam logic [1:0] SL_ECP5    = 2'd2;
+  localparam logic [1:0] SL_XILINX7 = 2'd3;
+
+  // One data word: its lengths and its CRC.
+  typedef struct packed {
+    logic [5:0]  data_last;  // data bits minus 1
+    logic        crc_on;
+    logic [3:0]  crc_last;   // CRC bits minus 1: 0..7 or 15 (only 15 has bit 3 set)
+    logic [7:0]  crc_poly;   // without the highest power; 16-bit CRC: the lower half
+    logic [7:0]  crc_top;    // one-hot: highest bit of the remainder; 16-bit CRC: 0
+    logic [15:0] crc_start;
+    logic        crc_store;  // the received CRC goes to the top byte(s)
+    logic        gray;       // the data bits are Gray coded
+    logic        actuator;   // the word is sent on MO; SL is not looked at in its slot
+    logic        stop;       // a stop bit precedes the data of the actuator
+  } word_t;
+
+  // A word list offers its current word. All registers.
+  typedef struct packed {
+    logic        any;        // the frame has words
+    logic        last;       // no word follows this one
+    logic [2:0]  slave;      // data channel of the word
+    word_t       word;
+  } offer_t;
+
+  // Configuration and requests that last. They come from registers.
+  typedef struct packed {
+    protocol_e   protocol;
+    logic        mo_en;      // MO takes part in frames
+    logic [7:0]  mo_busy;    // processing clocks that MO shows
+    logic        hold_cdm;   // MA keeps the inverted CDM up to the next frame
+    logic        forced;     // MA has the level force_level between frames
+    logic        force_level;
+    logic        mo_low;     // BiSS B register access: MO is 0
+  } line_cmd_t;
+
+  // Strobes of the sequence of frames, and what comes with them.
+  typedef struct packed {
+    logic        start;      // a frame begins on the lines that take part
+    logic        init;       // with start: the two pulses of INIT instead of a frame
+    logic        register_access; // with start: MA belongs to the BiSS B register access
+    logic        reduced;    // the frame ends after CDS, from start to its end
+    logic        mo_return;  // INIT: MO returns to 1
+    logic        stop;       // MA returns to 1 with the next tick
+  } line_go_t;
+
+  // With line_go_t.start, what it means for one line.
+  typedef struct packed {
+    logic        takes_part;
+    logic        cdm0;       // CDM to send if CDS of this frame is 0
+    logic        cdm1;       // CDM to send if CDS of this frame is 1
+  } line_start_t;
+
+  // What the sequence of frames needs to know. Registers of the line.
+  typedef struct packed {
+    logic        timeout;    // waiting for SL = 1
+    logic        cds;        // of the last frame
+    logic        cdm;        // as sent
+  } line_status_t;
+
+  // Ends, each high for one clock. Combinational.
+  typedef struct packed {
+    logic        frame_end;  // the last data bit has been taken
+    logic        init_done;  // the slaves have acknowledged INIT
+    logic        init_fail;  // they have not
+    logic        word_done;  // last bit of a sensor's word
+  } line_event_t;
+
+  // What the data memories need. Combinational.
+  typedef struct packed {
+    logic        wr_en;      // a byte has been received
+    logic [2:0]  slave;      // data channel of the byte and of the word
+    logic [2:0]  wr_byte;    // its place in the word
+    logic [7:0]  wr_data;
+    logic        word_begin; // first bit of a sensor's word
+    logic        word_open;  // bits of a sensor's word have come, more follow
+    logic        word_done;  // last bit of a sensor's word
+    logic        word_ok;    // with word_done: the CRC fits
+    logic        cds;        // of the last frame
+    logic        delay_en;   // INIT has measured the line delay
+    logic [7:0]  delay;      // in quarters of an MA period
+  } line_data_t;
+
+  // Slots of a BiSS C control frame: the number of frames since the start bit S (slot 0). A name
+  // stands for the CDM of its slot, SLOT_IDA for the CDS. CDS answers CDM one slot later.
+  // Datasheet: pages 27..29; commands: decision 31.
+  localparam logic [5:0] SLOT_START        = 6'd0;
+  localparam logic [5:0] SLOT_CTS          = 6'd1;
+  localparam logic [5:0] SLOT_HEADER       = 6'd1;   // first slot that the CRC of the header covers
+  localparam logic [5:0] SLOT_CRC          = 6'd12;
+  localparam logic [5:0] SLOT_READ         = 6'd16;  // R; EX of a command that is executed at once
+  localparam logic [5:0] SLOT_WRITE        = 6'd17;  // W
+  localparam logic [5:0] SLOT_BYTE         = 6'd18;  // S of the first data byte
+  localparam logic [5:0] SLOT_WAIT         = 6'd19;  // S until the slave answers; first data bit
+  localparam logic [5:0] SLOT_DATA_CRC     = 6'd27;
+  localparam logic [5:0] SLOT_STOP         = 6'd31;
+  localparam logic [5:0] SLOT_NEXT         = 6'd32;  // S of the next byte, or end
+  localparam logic [5:0] SLOT_IDA          = 6'd17;  // first acknowledge on CDS
+  localparam logic [5:0] SLOT_STOP_COMMAND = 6'd17;
+  localparam logic [5:0] SLOT_EX_TESTED    = 6'd24;  // EX after the test; last acknowledge on CDS
+  localparam logic [5:0] SLOT_STOP_TESTED  = 6'd25;
+
+  // Generator of the control CRC, x^4 + x + 1, without its highest power.
+  localparam logic [3:0] CONTROL_CRC_POLY = 4'h3;
+
+  // Widths of the types, for vectors of two.
+  localparam int unsigned WORD_W        = 47;
+  localparam int unsigned OFFER_W       = 52;
+  localparam int unsigned LINE_CMD_W    = 15;
+  localparam int unsigned LINE_START_W  = 3;
+  localparam int unsigned LINE_STATUS_W = 3;
+  localparam int unsigned LINE_EVENT_W  = 4;
+  localparam int unsigned LINE_DATA_W   = 29;
+
+endpackage

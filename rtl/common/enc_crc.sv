@@ -1,0 +1,50 @@
+// SPDX-FileCopyrightText: 2026 The openmb4 authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Serial CRC of one word, right aligned: any polynomial up to degree 8, and with crc16_i the
+// polynomial of BiSS Safety, 0x190D9.
+//
+// Clock domain: core. load_i sets the start value. shift_i takes one bit: with feed_i the data bit
+// goes into the division, without feed_i the remainder is shifted out. top_o is the highest bit of
+// the remainder. The bits above the degree of the polynomial have no meaning, and nothing looks at
+// them. So the upper half of the division can always use the polynomial of degree 16.
+// Misuse: with shift_i and no load_i before it the division continues the word before.
+// Datasheet: pages 24, 25; algorithm and vectors: docs/theory.md.
+
+module enc_crc (
+  input  logic        clk_i,
+  input  logic        rst_ni,
+  input  logic        crc16_i,
+  input  logic [7:0]  poly_i,    // without the highest power; degree 16: the lower half
+  input  logic [7:0]  top_i,     // highest bit of the remainder, one-hot; 0 with crc16_i
+  input  logic [15:0] start_i,
+  input  logic        load_i,
+  input  logic        shift_i,
+  input  logic        feed_i,
+  input  logic        bit_i,
+  output logic        top_o
+);
+
+  localparam logic [7:0] POLY16_UPPER = 8'h90;
+
+  logic [15:0] rem_d;
+  logic [15:0] rem_q;
+  logic        top;
+  logic        divide;
+
+  assign top    = (rem_q[7:0] & top_i) != 8'h00 || (crc16_i && rem_q[15]);
+  assign divide = feed_i & (bit_i ^ top);
+
+  always_comb begin
+    rem_d = {rem_q[14:0], 1'b0} ^ ({POLY16_UPPER, poly_i} & {16{divide}});
+    if (load_i) rem_d = start_i;
+  end
+
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni)                rem_q <= '0;
+    else if (load_i || shift_i) rem_q <= rem_d;
+  end
+
+  assign top_o = top;
+
+endmodule

@@ -1,0 +1,342 @@
+// SPDX-FileCopyrightText: 2026 The openmb4 authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Core half of the instruction register 0xF4, and the order of events: it decides which frame runs
+// when, and when an instruction clears itself.
+//
+// Clock domain: core.
+// Latency: a written byte arrives 2..3 clocks after its last bit. The frame that it asks for starts
+// one clock later at the earliest. busy_o rises before ack_o reaches the host half. A frame ends
+// two clocks after its last bit: first its result, then the bank switch.
+//
+// - With AGS = 1 INSTR sets the CDM of the automatic frames (mb4_frame_request) and stays. Only
+//   with FREQAGS = AGSINFINITE it also asks for a frame.
+// - A BiSS B register access (register_o) takes the place of a frame. INIT of BiSS B is only the
+//   hand-over of such an access.
+// - INIT waits for the slaves' timeout of the frame before it, but not without limit (INIT_WAIT).
+//
+// Misuse and errors:
+//
+// - SL is low when a frame is due: no frame, nAGSERR = 0. With FREQAGS = AGSMIN the frame waits for
+//   SL = 1 instead (decision 3).
+// - A frame is due while HOLDBANK holds back a switch: the frame runs into the other bank and the
+//   switch is lost (mb4_bank_ctrl). With agserr_on_hold_i there is no frame, SWBANKFAIL = 1 and
+//   nAGSERR = 0 (decision 15).
+// - A control communication that cannot run ends at once (decision 37). So does a BiSS B access
+//   that waits for its automatic frame when its lines or REGVERS are changed.
+// - A BiSS B access without AGS cannot begin while SL is low: the first request after the limit of
+//   the watchdog ends it (decision 42). A BiSS C access has begun: biss_control_frame ends it.
+// - INSTR written with the code whose frame runs does not ask for another frame.
+//
+// Datasheet: pages 31..33, Tables 44..49; decisions 1, 3, 8, 14, 15, 19, 23, 25, 26, 37, 42.
+
+`include "enc_check.svh"
+
+module mb4_sequencer (
+  input  logic       clk_i,
+  input  logic       rst_ni,
+  // instruction register, host half
+  input  mb4_pkg::instr_t written_i,
+  input  logic [1:0] count_i,         // one step for each write
+  output logic [1:0] ack_o,           // steps taken
+  output mb4_pkg::instr_t held_o,
+  // configuration
+  input  logic       mem_busy_i,
+  input  logic       agsmin_i,
+  input  logic       infinite_i,
+  input  logic       regvers_i,
+  input  mb4_pkg::kind_t kind_i,
+  input  logic       agserr_on_hold_i,
+  input  logic       agserr_on_write_i,
+  input  logic       ags_clear_i,     // an AGS error clears AGS
+  // automatic frames
+  input  logic       request_i,
+  input  logic       missed_i,
+  output logic       taken_o,
+  output logic       lines_idle_o,
+  output logic       running_o,
+  output logic       break_o,
+  // lines, {2, 1} each
+  output biss_pkg::line_go_t go_o,
+  output logic [1:0] start_use_o,     // lines that go_o.start is for
+  input  logic       tick_i,
+  input  logic [1:0] idle_i,
+  input  logic [1:0] timeout_i,
+  input  logic [1:0] sl_i,
+  input  logic [2*biss_pkg::LINE_EVENT_W-1:0] event_i,
+  input  logic [1:0] word_ok_i,       // with word_done of event_i
+  // banks
+  input  logic       bank_pending_i,
+  output mb4_pkg::bank_cmd_t bank_o,
+  // status
+  output mb4_pkg::frame_flags_t flags_o,
+  output logic       init_clear_o,    // INIT begins
+  // control communication
+  output logic       control_begin_o, // INSTR asks for BiSS C; stays until a frame takes it
+  output logic       register_begin_o, // INSTR asks for BiSS B, or for what cannot run
+  output logic       void_o,          // INSTR asks for what cannot run or begin, and ends
+  output logic       refused_o,       // SL is low: no frame for INSTR
+  input  logic       control_active_i,
+  input  logic       control_end_i,
+  input  logic       control_stalled_i, // because no frame ends
+  input  logic       stale_i          // kind_i still has the settings of an access that has ended
+);
+
+  typedef enum logic [2:0] {
+    IDLE,
+    FRAME,
+    FRAME_DONE,
+    INIT,
+    INIT_TIMEOUT
+  } state_e;
+
+  state_e           state_d;
+  state_e           state_q;
+  mb4_pkg::instr_t  held_d, held_q;
+  logic             new_d, new_q;  // INSTR was written, its frame has not started
+  logic [1:0]       use_d, use_q;
+  logic [1:0]       done_d, done_q;
+  logic             bad_d, bad_q;
+  logic             reduced_d;
+  logic             reduced_q;     // the running frame ends after CDS
+  logic [10:0]      wait_d;
+  logic [10:0]      wait_q;        // half MA periods left for the return of SL to 1
+  logic             written;
+  biss_pkg::line_event_t event1, event2;
+  logic [1:0]       line_end, word_done, init_done, init_fail;
+  logic             start, init, register_access, mo_return, abort;
+  logic             frame_end, swap;
+  logic             busy, clear_flags, scd_en, ags_error, bank_fail;
+  logic             all_idle, sl_low;
+  logic             by_instr, begins;  // INSTR asks for a frame, for a control communication
+  logic             register_d, register_q;  // a BiSS B register access runs, not a frame
+  logic             awaits_d, awaits_q;      // one waits for its automatic frame
+
+  // INIT does not test SL (page 33), but the slaves need their timeout before and after it. So SL
+  // has 1024 MA periods to return to 1. The longest timeout in the field is 40 us: 400 MA periods
+  // at 10 MHz.
+  localparam logic [10:0] INIT_WAIT = 11'h7FF;
+
+  // ack_o comes two clocks after new_q. REGEND has fallen by then.
+  enc_count_rx u_written (
+    .clk_i,
+    .rst_ni,
+    .count_i,
+    .pulse_o (written),
+    .ack_o
+  );
+
+  assign {event2, event1} = event_i;
+  assign line_end  = {event2.frame_end, event1.frame_end};
+  assign word_done = {event2.word_done, event1.word_done};
+  assign init_done = {event2.init_done, event1.init_done};
+  assign init_fail = {event2.init_fail, event1.init_fail};
+
+  assign all_idle = idle_i == 2'b11;   // also lines out of use: they share the time base
+  assign sl_low   = (kind_i.in_use & (idle_i | timeout_i) & ~sl_i) != 2'b00;
+  assign by_instr = new_q && kind_i.is_frame && kind_i.in_use != 2'b00 &&
+                    (!held_q.ags || infinite_i);
+  assign begins   = new_q && kind_i.in_use != 2'b00 && !held_q.init && state_q != INIT_TIMEOUT;
+  assign control_begin_o  = begins && kind_i.is_control && state_q != INIT && !stale_i;
+  // A new instruction takes REGEND away at once. After a stall it is still the old one.
+  assign register_begin_o = (begins && (kind_i.is_register ||
+                                        (kind_i.is_control && stale_i && !control_stalled_i))) ||
+                            (new_q && kind_i.is_void && !void_o);
+  assign register_access  = init ? !regvers_i : kind_i.is_register;
+  assign register_d  = start ? register_access : register_q;
+  assign start_use_o = init ? kind_i.init_use : kind_i.frame_use;
+  assign reduced_d   = start ? control_active_i &&
+                                 held_q.instr == mb4_regs_pkg::INSTR_CONTROL_REDUCED
+                               : reduced_q;
+  // With AGS = 1 new_q falls in IDLE, and INSTR alone keeps the request.
+  assign awaits_d    = (new_q ? kind_i.is_register && held_q.ags && !stale_i : awaits_q) &&
+                       !(written || start || void_o);
+
+  always_comb begin
+    state_d      = state_q;
+    held_d       = held_q;
+    new_d        = new_q && (by_instr || state_q != IDLE || held_q.init || stale_i);
+    use_d        = use_q;
+    done_d       = done_q;
+    bad_d        = bad_q;
+    wait_d       = (tick_i && wait_q != 11'd0) ? wait_q - 11'd1 : wait_q;
+    start        = 1'b0;
+    init         = 1'b0;
+    abort        = 1'b0;
+    frame_end    = 1'b0;
+    swap         = 1'b0;
+    init_clear_o = 1'b0;
+    scd_en       = 1'b0;
+    ags_error    = 1'b0;
+    bank_fail    = 1'b0;
+    taken_o      = 1'b0;
+    break_o      = 1'b0;
+    void_o       = 1'b0;
+    refused_o    = 1'b0;
+
+    unique case (state_q)
+      IDLE: begin
+        // The host sees EOT = 1, unless a request waits. An INSTR that asks for no frame ends here;
+        // it does not delay an automatic frame.
+        if (new_q && !new_d && (!kind_i.is_frame || !held_q.ags)) begin
+          held_d.instr = 3'b000;
+          void_o       = kind_i.is_void;
+        end else if (awaits_q && !kind_i.is_register) begin
+          held_d.instr = 3'b000;
+          void_o       = 1'b1;
+        end
+        if (held_q.init && !mem_busy_i) begin
+          if (kind_i.init_use == 2'b00) begin
+            held_d.init  = 1'b0;
+            init_clear_o = 1'b1;
+          end else if (all_idle) begin
+            start        = 1'b1;
+            init         = 1'b1;
+            init_clear_o = 1'b1;
+            use_d        = kind_i.init_use;
+            done_d       = ~kind_i.init_use;
+            state_d      = INIT;
+          end else if (wait_q == 11'd0) begin
+            abort = 1'b1;
+          end
+        end else if ((by_instr || request_i) && !mem_busy_i && !stale_i &&
+                     kind_i.in_use != 2'b00) begin
+          if (bank_pending_i && held_q.holdbank && agserr_on_hold_i && !kind_i.is_register) begin
+            taken_o   = 1'b1;
+            ags_error = 1'b1;
+            bank_fail = 1'b1;
+          end else if (sl_low) begin
+            taken_o   = !agsmin_i;
+            ags_error = !agsmin_i;
+            refused_o = by_instr && (!agsmin_i || kind_i.is_register);
+            // Requests for an access that has not begun have been refused for too long.
+            if (control_stalled_i && !control_active_i && !control_end_i && held_q.instr[2]) begin
+              held_d.instr = 3'b000;
+              void_o       = 1'b1;
+            end
+          end else if (all_idle) begin
+            taken_o = 1'b1;
+            start   = 1'b1;
+            use_d   = kind_i.frame_use;
+            done_d  = ~kind_i.frame_use;
+            bad_d   = 1'b0;
+            state_d = FRAME;
+          end
+          if (taken_o) new_d = 1'b0;
+          if (ags_error && !held_q.ags) held_d.instr = 3'b000;
+        end
+      end
+      FRAME: begin
+        // A frame or a register access runs. It ends when the last of its lines has ended.
+        bad_d  = bad_q || (word_done & ~word_ok_i) != 2'b00;
+        done_d = done_q | line_end;
+        if (done_d == 2'b11) begin
+          state_d = FRAME_DONE;
+          scd_en  = !reduced_q && !register_q;
+        end
+      end
+      FRAME_DONE: begin
+        // All lines have brought their last bit. The banks switch now.
+        state_d   = IDLE;
+        frame_end = !register_q;
+        wait_d    = INIT_WAIT;
+        if (!held_q.ags && !new_q) held_d.instr = 3'b000;
+      end
+      INIT: begin
+        // INIT runs: MA makes its two pulses and the line delay is measured (BiSS C), or MA does
+        // the hand-over (BiSS B).
+        done_d    = done_q | init_done | init_fail | line_end;
+        ags_error = (init_fail & use_q) != 2'b00;
+        wait_d    = INIT_WAIT;
+        if (done_d == 2'b11) state_d = INIT_TIMEOUT;
+      end
+      INIT_TIMEOUT: begin
+        // The slaves are in their timeout. The host still reads INIT = 1.
+        if ((use_q & ~idle_i) == 2'b00 || wait_q == 11'd0) begin
+          state_d     = IDLE;
+          held_d.init = 1'b0;
+        end
+      end
+      default: state_d = IDLE;
+    endcase
+
+    // With AGS = 1 the instruction ends with the control communication.
+    if (control_end_i && held_q.instr[2] && (!new_q || control_stalled_i)) begin
+      held_d.instr = 3'b000;
+    end
+    if (missed_i) ags_error = 1'b1;
+    if (ags_error && ags_clear_i) held_d.ags = 1'b0;
+
+    if (written) begin
+      // INSTR written with the code whose frame runs is no new request. A frame runs from its first
+      // clock to the one before its end. A write does not cancel an INIT; automatic frames wait for
+      // its end.
+      new_d = written_i.instr != 3'b000 &&
+                        (new_d || (state_q != FRAME && state_d != FRAME) ||
+                         written_i.instr != held_q.instr);
+      held_d.holdbank = written_i.holdbank;
+      held_d.swbank   = written_i.swbank;
+      held_d.ags      = written_i.ags;
+      held_d.instr    = written_i.instr;
+      held_d.init     = written_i.init || held_d.init;
+      swap            = written_i.swbank != held_q.swbank;
+      if (written_i.brk) begin
+        abort       = 1'b1;
+        break_o     = 1'b1;
+        start       = 1'b0;
+        frame_end   = 1'b0;
+        scd_en      = 1'b0;
+        state_d     = IDLE;
+        new_d       = written_i.instr != 3'b000;
+        held_d.init = written_i.init;
+        ags_error   = 1'b0;
+        wait_d      = INIT_WAIT;
+      end
+      if (agserr_on_write_i) ags_error = 1'b1;
+    end
+    clear_flags = init_clear_o || break_o;
+  end
+
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      state_q    <= IDLE;
+      held_q     <= '0;
+      new_q      <= 1'b0;
+      use_q      <= '0;
+      done_q     <= '0;
+      bad_q      <= 1'b0;
+      reduced_q  <= 1'b0;
+      register_q <= 1'b0;
+      awaits_q   <= 1'b0;
+      wait_q     <= '0;
+    end else begin
+      state_q    <= state_d;
+      held_q     <= held_d;
+      new_q      <= new_d;
+      use_q      <= use_d;
+      done_q     <= done_d;
+      bad_q      <= bad_d;
+      reduced_q  <= reduced_d;
+      register_q <= register_d;
+      awaits_q   <= awaits_d;
+      wait_q     <= wait_d;
+    end
+  end
+
+  // Slaves that pass MO on do not show their timeout on SL. So MO stays low for half of INIT_WAIT,
+  // which covers the timeout, and SL has the other half to follow MO (decision 39).
+  assign mo_return = state_q == INIT_TIMEOUT && !wait_q[10];
+  assign held_o      = held_q;
+  assign go_o        = {start, init, register_access, reduced_d, mo_return, abort};
+  assign bank_o      = {state_q == FRAME && !reduced_q && !register_q, frame_end,
+                        frame_end && !reduced_q, reduced_d, swap};
+  assign flags_o     = {busy, clear_flags, scd_en, bad_d, ags_error, bank_fail};
+  assign running_o    = state_q != IDLE;
+  assign lines_idle_o = all_idle;
+  // With AGS = 1 INSTR asks for no frame, unless FREQAGS is AGSINFINITE.
+  assign busy        = state_d != IDLE || (new_d && (!held_d.ags || infinite_i)) || held_d.init;
+
+  `ENC_ASSERT(BreakIsNotKept_A, clk_i, rst_ni, !held_q.brk)
+  `ENC_ASSERT_IF(StartOnIdleLines_A, clk_i, rst_ni, start, all_idle)
+
+endmodule

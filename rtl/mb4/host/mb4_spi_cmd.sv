@@ -1,0 +1,135 @@
+// SPDX-FileCopyrightText: 2026 The openmb4 authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// SPI command decoder: opcode, address, data with auto-increment.
+//
+// Clock domain: SCLK.
+// Latency: a write takes effect at the 8th rising edge of its byte. Read data must be in tx_byte_i
+// of the shifter after the edge at which rd_en_o is high.
+// Misuse: an unknown opcode is ignored until NCS rises. The address wraps from 0xFF to 0x00
+// (decision 13). With ReadOnly only the opcodes 0x03 and 0x09 are known (SPI2).
+// Datasheet: pages 17..19, Table 3.
+
+`include "enc_check.svh"
+
+module mb4_spi_cmd #(
+  parameter bit         ReadOnly   = 1'b0,
+  parameter logic [7:0] Registers0 = mb4_regs_pkg::ADDR_SCDATA
+) (
+  input  logic       sclk_i,
+  input  logic       frame_rst_ni,
+  // from the shifter
+  input  logic       byte_valid_i,
+  input  logic [7:0] byte_i,
+  output logic       tx_en_o,
+  // host byte bus, sampled at the rising edge of sclk_i
+  output logic       wr_en_o,
+  output logic [7:0] wr_addr_o,
+  output logic [7:0] wr_data_o,
+  output logic       rd_en_o,
+  output logic [7:0] rd_addr_o
+);
+
+  typedef enum logic [2:0] {
+    OPCODE,
+    ADDR_WRITE,
+    ADDR_READ,
+    WRITE,
+    READ,
+    IGNORE
+  } state_e;
+
+  state_e     state_d;
+  state_e     state_q;
+  logic [7:0] addr_d;
+  logic [7:0] addr_q;
+  logic [7:0] opcode;
+
+  // No opcode has the value 0x00.
+  assign opcode = (ReadOnly && byte_i != mb4_regs_pkg::SPI_OPCODE_READ_REGISTERS &&
+                   byte_i != mb4_regs_pkg::SPI_OPCODE_READ_REGISTERS0) ? 8'h00 : byte_i;
+
+  always_comb begin
+    state_d   = state_q;
+    addr_d    = addr_q;
+    wr_en_o   = 1'b0;
+    rd_en_o   = 1'b0;
+    rd_addr_o = addr_q;
+
+    if (byte_valid_i) begin
+      unique case (state_q)
+        OPCODE: begin
+          // The host sends the opcode. An opcode without an address byte has a fixed address, and
+          // its read begins at once.
+          unique case (opcode)
+            mb4_regs_pkg::SPI_OPCODE_WRITE_REGISTERS: state_d = ADDR_WRITE;
+            mb4_regs_pkg::SPI_OPCODE_READ_REGISTERS:  state_d = ADDR_READ;
+            mb4_regs_pkg::SPI_OPCODE_READ_STATUS: begin
+              state_d   = READ;
+              rd_en_o   = 1'b1;
+              rd_addr_o = mb4_regs_pkg::ADDR_STATUS0;
+            end
+            mb4_regs_pkg::SPI_OPCODE_READ_REGISTERS0: begin
+              state_d   = READ;
+              rd_en_o   = 1'b1;
+              rd_addr_o = Registers0;
+            end
+            mb4_regs_pkg::SPI_OPCODE_WRITE_INSTRUCTION: begin
+              state_d = WRITE;
+              addr_d  = mb4_regs_pkg::ADDR_INSTR;
+            end
+            mb4_regs_pkg::SPI_OPCODE_WRITE_REGISTERS0: begin
+              state_d = WRITE;
+              addr_d  = Registers0;
+            end
+            default: state_d = IGNORE;
+          endcase
+        end
+        ADDR_WRITE: begin
+          // The host sends the address of a write.
+          state_d = WRITE;
+          addr_d  = byte_i;
+        end
+        ADDR_READ: begin
+          // The host sends the address of a read. The first data bit leaves with the next falling
+          // edge.
+          state_d   = READ;
+          rd_en_o   = 1'b1;
+          rd_addr_o = byte_i;
+        end
+        WRITE: begin
+          // The host sends bytes. Each one is written, then the address counts up.
+          wr_en_o = 1'b1;
+          addr_d  = addr_q + 8'd1;
+        end
+        READ: begin
+          // The host clocks bytes out. At the end of each byte the next address is read.
+          rd_en_o = 1'b1;
+        end
+        IGNORE: begin
+          // Nothing is read or written until NCS rises.
+        end
+        default: state_d = IGNORE;
+      endcase
+      if (rd_en_o) addr_d = rd_addr_o + 8'd1;
+    end
+  end
+
+  always_ff @(posedge sclk_i or negedge frame_rst_ni) begin
+    if (!frame_rst_ni) begin
+      state_q <= OPCODE;
+      addr_q  <= '0;
+    end else begin
+      state_q <= state_d;
+      addr_q  <= addr_d;
+    end
+  end
+
+  assign tx_en_o   = state_q == READ;
+  assign wr_addr_o = addr_q;
+  assign wr_data_o = byte_i;
+
+  `ENC_ASSERT(StateInRange_A, sclk_i, frame_rst_ni, state_q <= IGNORE)
+  `ENC_ASSERT(ReadOrWrite_A, sclk_i, frame_rst_ni, !(wr_en_o && rd_en_o))
+
+endmodule

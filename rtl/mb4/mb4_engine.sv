@@ -1,0 +1,237 @@
+// SPDX-FileCopyrightText: 2026 The openmb4 authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// The chip behind its host interface: registers, control, two lines. Its host side is a byte bus
+// with its own clocks, so that any interface fits: mb4_core puts SPI in front of it, mb4_chip puts
+// all host interfaces of the 28-pin device in front of it.
+//
+// Clock domains: wr_clk_i and rd_clk_i (host), rd2_clk_i (second reader, with Port2) and clk_i
+// (core). While the core clock stands still the host can read all registers 0xC0..0xFB, and write
+// all but SVALID and 0xF4: these writes wait for it, as do those to the data memories. Frames need
+// the core clock.
+// Latency: a rising edge of wr_clk_i or rd_clk_i samples an access. Read data are valid after this
+// edge until the next read.
+// Reset: rst_ni is asynchronous. It goes unchanged to the host domain, because the host clocks
+// stand still while a reset ends, and synchronised to the core. por_ni resets MA and its time base
+// at power-on. With rst_ni alone MA first ends its present level.
+//
+// Misuse: wr_clk_i and rd_clk_i may be one clock. If they are two clocks, one must stand still
+// while the other has edges; otherwise the data of a read are undefined.
+// Datasheet: pages 15..36. Crossings: docs/crossings.md.
+
+module mb4_engine #(
+  parameter bit Port2 = 1'b0,    // second read port: SCDATA5..8
+  parameter logic [1:0] SlCells = biss_pkg::SL_FLOPS  // SL: flops or DDR cells (biss_sl_capture)
+) (
+  input  logic       clk_i,
+  input  logic       rst_ni,
+  input  logic       por_ni,      // power-on reset; asserted together with rst_ni
+  // host byte bus
+  input  logic       wr_clk_i,
+  input  logic       wr_en_i,
+  input  logic [7:0] wr_addr_i,
+  input  logic [7:0] wr_data_i,
+  input  logic       rd_clk_i,
+  input  logic       rd_en_i,
+  input  logic [7:0] rd_addr_i,
+  output logic [7:0] rd_data_o,
+  // second read port, address in 0x20..0x3F without its upper bits
+  input  logic       rd2_clk_i,
+  input  logic       rd2_en_i,
+  input  logic [4:0] rd2_addr_i,
+  output logic [7:0] rd2_data_o,
+  // status
+  output logic       eot_o,
+  output logic       ner_low_o,   // an error flag is set: pull NER low
+  input  logic       ner_i,       // level at NER
+  output logic       clkeni_o,    // 1 = internal oscillator
+  output logic       paired_o,    // CFGIF: line 1 is differential and takes the pins of line 2
+  input  logic       getsens_i,
+  // lines
+  output logic       ma1_o,
+  input  logic       sl1_i,
+  output logic       mo1_o,
+  output logic       ma2_o,
+  input  logic       sl2_i,
+  output logic       mo2_o,
+  // constants
+  input  logic [mb4_pkg::QUIRKS_W-1:0] quirks_i
+);
+
+  logic       rst_core_n;
+  logic       por_core_n;
+  logic [mb4_pkg::QUIRKS_W-1:0] quirks_q;
+
+  // registers
+  logic [3:0]       cfg_en;       // read ports of the word lists
+  logic [11:0]      cfg_slave;
+  logic [4*mb4_pkg::SLAVE_CFG_W-1:0] slave_cfg;
+  mb4_pkg::cfg_t    cfg;
+  mb4_pkg::instr_t  written;
+  mb4_pkg::instr_t  held;
+  mb4_pkg::flags_t  flags;
+  mb4_pkg::status_t status;
+  logic [1:0] instr_count, instr_ack;
+
+  // memories and banks
+  mb4_pkg::bank_cmd_t  bank;
+  mb4_pkg::rdata_cmd_t rdata_cmd;
+  logic mem_busy, bank_pending, bank_swapped, bank_lost, post_busy, svalid_clear;
+  logic [7:0] rdata;
+
+  // lines
+  logic [7:0]  enscd;
+  logic [1:0]  idle, sl, sl_pin, word_ok;
+  logic        register_ma, register_end, time_run, time_restart, tick;
+  biss_pkg::line_go_t go;
+  logic [2*biss_pkg::LINE_START_W-1:0]  line_start;
+  logic [2*biss_pkg::LINE_CMD_W-1:0]    cmd;
+  logic [2*biss_pkg::LINE_STATUS_W-1:0] line_status;
+  logic [2*biss_pkg::LINE_EVENT_W-1:0]  line_event;
+  logic [2*biss_pkg::LINE_DATA_W-1:0]   line_data;
+  logic        mo_rd_en;
+  logic [11:0] mo_addr;
+  logic [15:0] mo_data;
+
+  // quirks_i is static. The flops keep it out of the combinational logic behind the pins. This
+  // shortens paths and makes the simulation faster.
+  always_ff @(posedge clk_i) quirks_q <= quirks_i;
+
+  enc_reset_sync u_reset (
+    .clk_i,
+    .rst_ni,
+    .rst_sync_no (rst_core_n)
+  );
+
+  enc_reset_sync u_por (
+    .clk_i,
+    .rst_ni      (por_ni),
+    .rst_sync_no (por_core_n)
+  );
+
+  // ---- registers ----------------------------------------------------------------------------
+
+  mb4_reg_file #(.Port2(Port2)) u_regs (
+    .clk_i,
+    .rst_ni         (rst_core_n),
+    .hrst_ni        (rst_ni),
+    .hclk_i         (wr_clk_i),
+    .wr_en_i,
+    .wr_addr_i,
+    .wr_data_i,
+    .rclk_i         (rd_clk_i),
+    .rd_en_i,
+    .rd_addr_i,
+    .rd_data_o,
+    .rd2_clk_i,
+    .rd2_en_i,
+    .rd2_addr_i,
+    .rd2_data_o,
+    .enscd_o        (enscd),
+    .cfg_en_i       (cfg_en),
+    .cfg_slave_i    (cfg_slave),
+    .slave_cfg_o    (slave_cfg),
+    .cfg_o          (cfg),
+    .written_o      (written),
+    .count_o        (instr_count),
+    .ack_i          (instr_ack),
+    .held_i         (held),
+    .status_i       (status),
+    .revision_sel_i (quirks_i[mb4_pkg::QUIRK_REVISION_LSB +: 2]),
+    .mem_busy_o     (mem_busy),
+    .holdbank_i     (held.holdbank),
+    .bank_i         (bank),
+    .bank_pending_o (bank_pending),
+    .bank_swapped_o (bank_swapped),
+    .bank_lost_o    (bank_lost),
+    .rdata_i        (rdata_cmd),
+    .rdata_o        (rdata),
+    .post_busy_o    (post_busy),
+    .data_i         (line_data),
+    .word_ok_o      (word_ok),
+    .svalid_clear_i (svalid_clear),
+    .mo_rd_en_i     (mo_rd_en),
+    .mo_addr_i      (mo_addr),
+    .mo_data_o      (mo_data)
+  );
+
+  // ---- control ------------------------------------------------------------------------------
+
+  mb4_control u_control (
+    .clk_i,
+    .rst_ni         (rst_core_n),
+    .written_i      (written),
+    .count_i        (instr_count),
+    .ack_o          (instr_ack),
+    .held_o         (held),
+    .cfg_i          (cfg),
+    .quirks_i       (quirks_q),
+    .getsens_i,
+    .mem_busy_i     (mem_busy),
+    .bank_pending_i (bank_pending),
+    .bank_swapped_i (bank_swapped),
+    .bank_lost_i    (bank_lost),
+    .bank_o         (bank),
+    .svalid_clear_o (svalid_clear),
+    .rdata_o        (rdata_cmd),
+    .rdata_i        (rdata),
+    .post_busy_i    (post_busy),
+    .cmd_o          (cmd),
+    .go_o           (go),
+    .register_ma_o  (register_ma),
+    .register_end_o (register_end),
+    .start_o        (line_start),
+    .time_run_o     (time_run),
+    .time_restart_o (time_restart),
+    .tick_i         (tick),
+    .idle_i         (idle),
+    .status_i       (line_status),
+    .event_i        (line_event),
+    .sl_i           (sl),
+    .word_ok_i      (word_ok),
+    .flags_o        (flags),
+    .ner_low_o
+  );
+
+  // ---- lines --------------------------------------------------------------------------------
+
+  mb4_lines #(.SlCells(SlCells)) u_lines (
+    .clk_i,
+    .rst_ni         (rst_core_n),
+    .por_ni         (por_core_n),
+    .cfg_i          (cfg),
+    .enscd_i        (enscd),
+    .cfg_en_o       (cfg_en),
+    .cfg_slave_o    (cfg_slave),
+    .slave_cfg_i    (slave_cfg),
+    .cmd_i          (cmd),
+    .go_i           (go),
+    .register_ma_i  (register_ma),
+    .register_end_i (register_end),
+    .start_i        (line_start),
+    .time_run_i     (time_run),
+    .time_restart_i (time_restart),
+    .tick_o         (tick),
+    .idle_o         (idle),
+    .status_o       (line_status),
+    .event_o        (line_event),
+    .data_o         (line_data),
+    .mo_rd_en_o     (mo_rd_en),
+    .mo_addr_o      (mo_addr),
+    .mo_data_i      (mo_data),
+    .ma_o           ({ma2_o, ma1_o}),
+    .mo_o           ({mo2_o, mo1_o}),
+    .sl_i           ({sl2_i, sl1_i}),
+    .sl_o           (sl)
+  );
+
+  // ---- status -------------------------------------------------------------------------------
+
+  assign eot_o  = flags.eot;
+  // With the DDR cell of an iCE40 no other logic can read the pin.
+  assign sl_pin = SlCells == biss_pkg::SL_ICE40 ? sl : {sl2_i, sl1_i};
+  assign status = {flags, ner_i && !ner_low_o, sl_pin};
+  assign clkeni_o = cfg.clkeni;
+  assign paired_o = cfg.cfgif[1];
+
+endmodule

@@ -1,0 +1,136 @@
+// SPDX-FileCopyrightText: 2026 The openmb4 authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Types and numbers that the whole chip shares. Register addresses and field positions are in the
+// generated package mb4_regs_pkg. Neither package refers to the other.
+
+package mb4_pkg;
+
+  // Number of single-cycle data channels, and width in bits of the configuration of one of them.
+  // Channel x has the four bytes 0xC0 + 4 (x - 1) .. + 3; the first byte is in bits 7:0.
+  localparam int unsigned NUM_SLAVES  = 8;
+  localparam int unsigned SLAVE_CFG_W = 32;
+
+  // Configuration of a data channel, as the word lists read it.
+  typedef struct packed {
+    logic [15:0] crc_start;  // SCRCSTARTx
+    logic [7:0]  crc_poly;   // CRC choice in the form of mb4_crc_code
+    logic        gray_lstop; // GRAYSx (SSI) or LSTOPx (actuator)
+    logic        enscd;      // ENSCDx
+    logic [5:0]  scdlen;     // SCDLENx: data bits minus 1
+  } slave_cfg_t;
+
+  // Configuration of a control communication (0xE2, 0xE3, 0xE5).
+  typedef struct packed {
+    logic       wnr;
+    logic [6:0] regadr;
+    logic [5:0] regnum;
+    logic       cts;
+    logic       regvers;
+    logic [2:0] slaveid;     // or CMD(1:0), IDA_TEST
+  } access_t;
+
+  // Configuration outside the data channels (0xE2..0xE9, 0xEC..0xEF, 0xF5).
+  typedef struct packed {
+    access_t    access;
+    logic [1:0] chsel;
+    logic       en_mo;
+    logic       holdcdm;
+    logic [2:0] freqr;
+    logic [4:0] freqs;
+    logic       nocrc;
+    logic       singlebank;
+    logic [7:0] freqags;
+    logic [7:0] mo_busy;
+    logic       slaveloc5;
+    logic [1:0] cfgch2;
+    logic [1:0] cfgch1;
+    logic [7:0] actnsens;
+    logic       mavo;
+    logic       mafo;
+    logic       mavs;
+    logic       mafs;
+    logic [1:0] cfgif;
+    logic       entest;
+    logic       clkeni;
+  } cfg_t;
+
+  // Contents of 0xF4 (datasheet Tables 44..49), bit 7 first.
+  typedef struct packed {
+    logic       brk;
+    logic       holdbank;
+    logic       swbank;
+    logic       init;
+    logic [2:0] instr;
+    logic       ags;
+  } instr_t;
+
+  // What INSTR, CHSEL and CFGCH ask for (mb4_frame_kind). Vectors {line 2, line 1}.
+  typedef struct packed {
+    logic [1:0] in_use;      // lines in use
+    logic [1:0] frame_use;   // lines of the frame that INSTR asks for
+    logic [1:0] init_use;    // lines of INIT
+    logic       is_frame;    // INSTR asks for a frame
+    logic       is_control;  // ... with a BiSS C control communication
+    logic       is_register; // ... that is a BiSS B register access
+    logic       is_void;     // INSTR asks for a control communication that no line can do
+  } kind_t;
+
+  // What the sequence of frames tells the flags.
+  typedef struct packed {
+    logic       busy;        // a frame or INIT runs or is requested
+    logic       clear;       // INIT, BREAK
+    logic       scd_en;      // a frame is complete: scd_bad is its result
+    logic       scd_bad;
+    logic       ags_error;   // a frame could not start
+    logic       bank_fail;   // a bank switch was prevented
+  } frame_flags_t;
+
+  // What the sequence of frames tells the banks.
+  typedef struct packed {
+    logic       run;         // a frame with sensor data runs
+    logic       frame_end;   // a frame is complete
+    logic       data_end;    // ... with sensor data
+    logic       reduced;     // the frame was reduced: only the CDS bits switch
+    logic       swap;        // SWBANK has changed its value
+  } bank_cmd_t;
+
+  // RDATA, for the control communication. A read byte comes one clock later.
+  typedef struct packed {
+    logic       rd_en;
+    logic [5:0] addr;
+    logic       wr_en;
+    logic [7:0] wr_data;
+  } rdata_cmd_t;
+
+  // Status bits that control makes, one flop for each bit.
+  typedef struct packed {
+    logic       n_agserr;
+    logic       n_delayerr;
+    logic       n_scderr;
+    logic       n_regerr;
+    logic       regend;
+    logic       eot;
+    logic       swbank_fail;
+    logic       cdm_timeout;
+    logic [5:0] regbytes;
+  } flags_t;
+
+  // Status bits of the core. SVALID and CDS are not here: they have two banks.
+  typedef struct packed {
+    flags_t     flags;
+    logic       n_err;
+    logic       sl2;
+    logic       sl1;
+  } status_t;
+
+  // Quirks: a static input vector that adapts the chip to real silicon (docs/choices.md).
+  localparam int unsigned QUIRKS_W                   = 6;
+  localparam int unsigned QUIRK_IDA_TEST_INVERT      = 0;
+  localparam int unsigned QUIRK_AGSERR_ON_INSTR_WR   = 1;
+  localparam int unsigned QUIRK_AGSERR_ON_HOLDBANK   = 2;
+  localparam int unsigned QUIRK_AGS_CLEARED_ON_ERROR = 3;
+  localparam int unsigned QUIRK_REVISION_LSB         = 4;  // 2 bits: 0 = Y, 1 = Z, 2 = Z1
+  localparam logic [5:0]  QUIRKS_DEFAULT             = 6'b000000;
+
+endpackage

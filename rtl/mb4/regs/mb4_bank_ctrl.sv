@@ -1,0 +1,97 @@
+// SPDX-FileCopyrightText: 2026 The openmb4 authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Decides which bank the host uses and which bank the line engine uses.
+//
+// Clock domain: core.
+//
+// - The end of a frame swaps the banks, one clock later: the CDS bits are in the bank by then.
+//   While HOLDBANK is set the swap stays pending; it happens when HOLDBANK is cleared.
+// - A frame that runs while a swap is pending writes to the engine's bank again, and the swap is
+//   lost (lost_o).
+// - A change of SWBANK swaps the banks once, with HOLDBANK set or not.
+// - With SINGLEBANK both sides use the host's bank, and the end of a frame swaps nothing.
+// - HOLDBANK arrives here some clocks after the host has written it. While it is set here, and when
+//   it is cleared, the base follows the one that the host keeps (mb4_instr_reg). So a swap that the
+//   end of a frame has made in between is undone and stays pending. A host that has cleared
+//   HOLDBANK and set it again gets the swap that was pending, even if the 0 never arrives here.
+//
+// The base is the host's bank without the inversions of SWBANK.
+// Misuse: the ends of two frames between the host's write of HOLDBANK and its arrival here; a swap
+// may then be lost.
+// Datasheet: pages 26, 31, 33, Tables 38, 48, 49; decisions 15, 41.
+
+module mb4_bank_ctrl (
+  input  logic clk_i,
+  input  logic rst_ni,
+  input  logic singlebank_i,
+  input  logic holdbank_i,
+  input  logic kept_i,          // host domain: base that the host keeps
+  input  logic swbank_pulse_i,  // SWBANK has changed its value
+  input  logic frame_end_i,
+  input  logic frame_run_i,     // a frame runs that writes to the engine's bank
+  output logic pending_o,
+  output logic swapped_o,       // the swap of a frame's end happens, or has just happened
+  output logic lost_o,          // the pending swap will not happen
+  output logic base_o,          // base of the host's bank
+  output logic newest_o,        // base of the bank that it has when no swap is pending
+  output logic host_bank_o,
+  output logic eng_bank_o
+);
+
+  logic host_q;
+  logic base_q;
+  logic base_d;
+  logic newest_q;
+  logic pending_q;
+  logic pending_d;
+  logic hold_q;
+  logic end_q;
+  logic kept;
+  logic want;
+  logic swap;
+  logic follow;
+  logic made_q;       // the base has followed to a pending swap
+
+  enc_sync_bit u_kept (
+    .clk_i,
+    .rst_ni,
+    .data_i (kept_i),
+    .data_o (kept)
+  );
+
+  assign want   = ((pending_q && !frame_run_i) || end_q) && !singlebank_i;
+  assign swap   = want && !holdbank_i;
+  assign follow = (holdbank_i || hold_q) && base_q != kept;
+  assign base_d = base_q ^ (swap || follow);
+  assign pending_d = follow ? !hold_q : want && holdbank_i;
+
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      host_q    <= 1'b0;
+      base_q    <= 1'b0;
+      newest_q  <= 1'b0;
+      pending_q <= 1'b0;
+      hold_q    <= 1'b0;
+      end_q     <= 1'b0;
+      made_q    <= 1'b0;
+    end else begin
+      host_q    <= host_q ^ (swap || follow) ^ swbank_pulse_i;
+      base_q    <= base_d;
+      newest_q  <= base_d ^ pending_d;
+      pending_q <= pending_d;
+      hold_q    <= holdbank_i;
+      end_q     <= frame_end_i;
+      made_q    <= follow && hold_q;
+    end
+  end
+
+  assign pending_o   = pending_q;
+  assign swapped_o   = swap || made_q;
+  assign lost_o      = pending_q && frame_run_i;
+  assign base_o      = base_q;
+  assign newest_o    = newest_q;
+  assign host_bank_o = host_q;
+  assign eng_bank_o  = host_q ^ !singlebank_i;
+
+endmodule

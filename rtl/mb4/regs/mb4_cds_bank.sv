@@ -1,0 +1,47 @@
+// SPDX-FileCopyrightText: 2026 The openmb4 authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// CDS bits of both lines, in two banks that switch with the banks of SCDATA.
+//
+// Clock domain: core.
+// Latency: the end of a frame writes the engine's bank, one clock before the banks swap. The
+// outputs are flops; mb4_host_read chooses the bank that the host sees.
+//
+// - A reduced frame switches only the CDS bits: it writes the bank that the host sees (decision
+//   14). With HOLDBANK it writes the other bank, and the host sees the bits after the next frame.
+// - With one bank the host sees the engine's value at once. The datasheet calls it valid only with
+//   two banks.
+//
+// Datasheet: page 35, Tables 65, 66 and the note below them.
+
+module mb4_cds_bank (
+  input  logic       clk_i,
+  input  logic       rst_ni,
+  input  logic       host_bank_i,
+  input  logic       eng_bank_i,
+  input  logic       frame_end_i,
+  input  logic       reduced_i,
+  input  logic       holdbank_i,
+  input  logic [1:0] cds_i,        // of lines {2, 1}
+  output logic [3:0] cds_o         // bank 1 in the upper half
+);
+
+  logic [1:0] bank0_q;
+  logic [1:0] bank1_q;
+  logic       bank;
+
+  assign bank = (reduced_i && !holdbank_i) ? host_bank_i : eng_bank_i;
+
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      bank0_q <= '0;
+      bank1_q <= '0;
+    end else begin
+      if (frame_end_i && !bank) bank0_q <= cds_i;
+      if (frame_end_i && bank)  bank1_q <= cds_i;
+    end
+  end
+
+  assign cds_o = {bank1_q, bank0_q};
+
+endmodule

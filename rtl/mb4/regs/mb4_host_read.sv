@@ -1,0 +1,180 @@
+// SPDX-FileCopyrightText: 2026 The openmb4 authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Host read side: chooses the source of every address and holds the byte for the host interface.
+//
+// Clock domain: host reads (rclk_i).
+// Latency: rd_data_o is valid after the edge with rd_en_i, until the next read.
+//
+// The status bits of the core and the bank that the host owns are asynchronous here. One flop (the
+// read register) samples each of them. It does so half an SCLK period before the first of them
+// reaches MISO, or 23 ns before the data bus must be stable. The same edge takes data and SVALID of
+// both banks. The choice between the banks comes after the flops, so all bits of a byte are of one
+// bank. CDSSEL is chosen before its flop, because it is the only bit of its byte that has banks.
+// Misuse: reserved addresses read 0 (decision 13).
+// Datasheet: pages 21, 22, 34..36, Tables 6, 41, 42, 54..67.
+
+module mb4_host_read (
+  input  logic       rclk_i,
+  input  logic       rst_ni,
+  // host byte bus
+  input  logic       rd_en_i,
+  input  logic [7:0] rd_addr_i,
+  output logic [7:0] rd_data_o,
+  // sources
+  input  logic        ram_ready_i,   // core: the memories are cleared
+  input  logic        bank_i,        // bank that the host reads
+  input  logic [15:0] scd_lo_data_i, // read registers of the memories, of the edge
+  input  logic [15:0] scd_hi_data_i, // with rd_en_i; bank 1 in the upper byte
+  input  logic [7:0] rdata_data_i,
+  input  logic       recent_hit_i,   // same edge: the byte of the host is still on its way
+  input  logic [7:0] recent_data_i,
+  input  logic [7:0] slave_data_i,   // configuration of the data channels, same edge
+  input  logic [7:0] cfg_data_i,     // combinational from rd_addr_i
+  input  logic [7:0] instr_data_i,
+  input  logic       instr_pending_i,
+  input  logic       control_pending_i,
+  input  mb4_pkg::status_t status_i,
+  input  logic [15:0] svalid_i,      // bank 1 in the upper byte
+  input  logic [3:0] cds_i,          // of lines {2, 1}, bank 1 in the upper half
+  input  logic       cdssel2_i,      // CDSSEL is that of line 2
+  input  logic [1:0] revision_sel_i
+);
+
+  // One select bit for each source. The three memories read 0 until they are cleared.
+  logic       reg_sel_d, reg_sel_q;
+  logic       slave_sel_d, slave_sel_q;
+  logic       lo_sel_d, lo_sel_q;
+  logic       hi_sel_d, hi_sel_q;
+  logic       rdata_sel_d, rdata_sel_q;
+  logic [7:0] reg_data;
+  logic [7:0] ram_data;
+  logic [7:0] reg_d;
+  logic [7:0] reg_q;
+  logic [7:0] status0, status3, status8;
+  logic [7:0] svalid_lo, svalid_hi;
+  logic [3:0] flags_d;   // bits at the places of SVALID and CDS, from bank 1
+  logic [3:0] flags_q;
+  logic       bank_q;
+  logic       ready_q;
+
+  assign lo_sel_d    = rd_addr_i[7:5] == mb4_regs_pkg::ADDR_SCDATA[7:5];
+  assign hi_sel_d    = rd_addr_i[7:5] == mb4_regs_pkg::ADDR_SCDATA[7:5] + 3'd1;
+  assign rdata_sel_d = rd_addr_i[7:6] == mb4_regs_pkg::ADDR_RDATA[7:6];
+  assign slave_sel_d = rd_addr_i[7:5] == mb4_regs_pkg::ADDR_SLAVE_CFG[7:5];
+  assign reg_sel_d   = !(lo_sel_d || hi_sel_d || rdata_sel_d || slave_sel_d);
+
+  always_comb begin
+    status0 = mb4_regs_pkg::RESET_STATUS0 & mb4_regs_pkg::CONST_STATUS0;
+    status0[mb4_regs_pkg::NERR_LSB]      = status_i.n_err;
+    status0[mb4_regs_pkg::NAGSERR_LSB]   = status_i.flags.n_agserr;
+    status0[mb4_regs_pkg::NDELAYERR_LSB] = status_i.flags.n_delayerr;
+    status0[mb4_regs_pkg::NSCDERR_LSB]   = status_i.flags.n_scderr;
+    status0[mb4_regs_pkg::NREGERR_LSB]   = status_i.flags.n_regerr;
+    status0[mb4_regs_pkg::REGEND_LSB]    = status_i.flags.regend && !control_pending_i;
+    status0[mb4_regs_pkg::EOT_LSB]       = status_i.flags.eot && !instr_pending_i;
+    status3 = mb4_regs_pkg::RESET_STATUS3 & mb4_regs_pkg::CONST_STATUS3;
+    status3[mb4_regs_pkg::CDMTIMEOUT_LSB] = status_i.flags.cdm_timeout;
+    status3[mb4_regs_pkg::CDSSEL_LSB]     = cds_i[{bank_i, cdssel2_i}];
+    status3[mb4_regs_pkg::REGBYTES_LSB +: mb4_regs_pkg::REGBYTES_W] = status_i.flags.regbytes;
+    status8 = mb4_regs_pkg::RESET_STATUS8 & mb4_regs_pkg::CONST_STATUS8;
+    status8[mb4_regs_pkg::CDS_LSB]                              = cds_i[0];
+    status8[mb4_regs_pkg::CDS_LSB + mb4_regs_pkg::CDS_LSB_STEP] = cds_i[1];
+    status8[mb4_regs_pkg::SL_LSB]                               = status_i.sl1;
+    status8[mb4_regs_pkg::SL_LSB + mb4_regs_pkg::SL_LSB_STEP]   = status_i.sl2;
+    svalid_lo = mb4_regs_pkg::RESET_SVALID_LO & mb4_regs_pkg::CONST_SVALID_LO;
+    svalid_hi = mb4_regs_pkg::RESET_SVALID_HI & mb4_regs_pkg::CONST_SVALID_HI;
+    for (int unsigned i = 0; i < 4; i++) begin
+      svalid_lo[mb4_regs_pkg::SVALID_LSB + mb4_regs_pkg::SVALID_LSB_STEP * i] = svalid_i[i];
+      svalid_hi[mb4_regs_pkg::SVALID_LSB + mb4_regs_pkg::SVALID_LSB_STEP * i] = svalid_i[4+i];
+    end
+  end
+
+  always_comb begin
+    unique case (rd_addr_i)
+      mb4_regs_pkg::ADDR_REVISION:
+        unique case (revision_sel_i)
+          2'd1:    reg_d = mb4_regs_pkg::DEVICE_REVISION_Z;
+          2'd2:    reg_d = mb4_regs_pkg::DEVICE_REVISION_Z1;
+          default: reg_d = mb4_regs_pkg::RESET_REVISION;
+        endcase
+      mb4_regs_pkg::ADDR_VERSION:
+        reg_d = mb4_regs_pkg::RESET_VERSION;
+      mb4_regs_pkg::ADDR_STATUS0:
+        reg_d = status0;
+      mb4_regs_pkg::ADDR_SVALID_LO:
+        reg_d = svalid_lo;
+      mb4_regs_pkg::ADDR_SVALID_HI:
+        reg_d = svalid_hi;
+      mb4_regs_pkg::ADDR_STATUS3:
+        reg_d = status3;
+      mb4_regs_pkg::ADDR_INSTR:
+        reg_d = instr_data_i;
+      mb4_regs_pkg::ADDR_STATUS8:
+        reg_d = status8;
+      mb4_regs_pkg::ADDR_STATUS9:
+        reg_d = mb4_regs_pkg::RESET_STATUS9;
+      mb4_regs_pkg::ADDR_SWBANKFAIL:
+        reg_d = 8'(status_i.flags.swbank_fail) << mb4_regs_pkg::SWBANKFAIL_LSB;
+      default:
+        reg_d = cfg_data_i;
+    endcase
+  end
+
+  always_comb begin
+    unique case (rd_addr_i)
+      mb4_regs_pkg::ADDR_SVALID_LO: flags_d = svalid_i[11:8];
+      mb4_regs_pkg::ADDR_SVALID_HI: flags_d = svalid_i[15:12];
+      mb4_regs_pkg::ADDR_STATUS8:   flags_d = {reg_d[7], reg_d[5], cds_i[3:2]};
+      default: begin
+        for (int unsigned i = 0; i < 4; i++) begin
+          flags_d[i] = reg_d[mb4_regs_pkg::SVALID_LSB + mb4_regs_pkg::SVALID_LSB_STEP * i];
+        end
+      end
+    endcase
+  end
+
+  always_ff @(posedge rclk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      reg_sel_q   <= 1'b0;
+      slave_sel_q <= 1'b0;
+      lo_sel_q    <= 1'b0;
+      hi_sel_q    <= 1'b0;
+      rdata_sel_q <= 1'b0;
+      reg_q    <= '0;
+      flags_q  <= '0;
+      bank_q   <= 1'b0;
+      ready_q  <= 1'b0;
+    end else if (rd_en_i) begin
+      reg_sel_q   <= reg_sel_d;
+      slave_sel_q <= slave_sel_d;
+      lo_sel_q    <= lo_sel_d;
+      hi_sel_q    <= hi_sel_d;
+      rdata_sel_q <= rdata_sel_d;
+      reg_q    <= reg_d;
+      flags_q  <= flags_d;
+      bank_q   <= bank_i;
+      ready_q  <= ram_ready_i;
+    end
+  end
+
+  always_comb begin
+    reg_data = reg_q;
+    for (int unsigned i = 0; i < 4; i++) begin
+      if (bank_q) begin
+        reg_data[mb4_regs_pkg::SVALID_LSB + mb4_regs_pkg::SVALID_LSB_STEP * i] = flags_q[i];
+      end
+    end
+  end
+
+  // An AND-OR choice is short: half an SCLK period is left for the path to MISO.
+  assign ram_data =
+      ((bank_q ? scd_lo_data_i[15:8] : scd_lo_data_i[7:0]) & {8{lo_sel_q}}) |
+      ((bank_q ? scd_hi_data_i[15:8] : scd_hi_data_i[7:0]) & {8{hi_sel_q}}) |
+      (rdata_data_i & {8{rdata_sel_q}});
+
+  assign rd_data_o = (ram_data & {8{ready_q && !recent_hit_i}}) |
+                     (recent_data_i & {8{recent_hit_i}}) |
+                     (slave_data_i & {8{slave_sel_q}}) | (reg_data & {8{reg_sel_q}});
+
+endmodule

@@ -1,0 +1,76 @@
+// SPDX-FileCopyrightText: 2026 The openmb4 authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Instruction register 0xF4, host half: keeps the written byte for the core and reads it back.
+//
+// Clock domain: host (hclk_i). count_o, a Gray count, tells the core of a write. The core acts once
+// for each step and answers with its own count, ack_i. Until both counts are equal:
+//
+// - the register reads as written (BREAK never reads 1),
+// - pending_o keeps EOT at 0; with INSTR 100 or 111 it keeps REGEND at 0 as well. So the first
+//   status read after an instruction already sees it (decisions 25, 26).
+//
+// Writes that are closer than the core can take: the count runs at most two steps ahead, and the
+// last step comes with the last byte. A BREAK among these writes stays in the byte until the core
+// has acted.
+//
+// The bank of the host follows the order of the writes. SWBANK acts at its write. The rest is the
+// base: the bank without the inversions of SWBANK. Until the core has acted, the host keeps the
+// base that it had at the write of 0xF4, or the base of the newest word if the byte has HOLDBANK =
+// 0. kept_o tells the core which base that is (mb4_bank_ctrl).
+//
+// Misuse: a write at the moment in which the core takes the previous one. The core may then take
+// some bits of the older byte; it takes the later byte three clocks later.
+// Datasheet: pages 32, 33, Tables 44..49; decisions 25, 26, 41.
+
+module mb4_instr_reg (
+  input  logic       hclk_i,
+  input  logic       rst_ni,
+  // host byte bus
+  input  logic       wr_en_i,
+  input  logic [7:0] wr_addr_i,
+  input  logic [7:0] wr_data_i,
+  output logic [7:0] rd_data_o,
+  output logic       pending_o,
+  output logic       pending_control_o,  // ... for INSTR 100 or 111
+  // to and from the core domain
+  output mb4_pkg::instr_t written_o,
+  output logic [1:0]      count_o,
+  input  logic [1:0]      ack_i,
+  input  mb4_pkg::instr_t held_i,
+  // banks
+  input  logic            base_i,       // core domain: of the host's bank
+  input  logic            newest_i,     // core domain: of the bank with the newest word
+  output logic            bank_o,       // bank that the host reads and writes
+  output logic            kept_o        // base that the host keeps until the core has acted
+);
+
+  logic [7:0] byte_q;
+  logic [1:0] count_q;
+  logic       kept_q;
+  logic       base;
+
+  always_ff @(posedge hclk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      byte_q  <= '0;
+      count_q <= '0;
+      kept_q  <= 1'b0;
+    end else if (wr_en_i && wr_addr_i == mb4_regs_pkg::ADDR_INSTR) begin
+      byte_q  <= wr_data_i | (byte_q & {8{pending_o}} & mb4_regs_pkg::BREAK_MASK);
+      if (count_q != ~ack_i) count_q <= {count_q[0], !count_q[1]};
+      kept_q  <= wr_data_i[mb4_regs_pkg::HOLDBANK_LSB] ? base : newest_i;
+    end
+  end
+
+  assign written_o = byte_q;
+  assign count_o   = count_q;
+  assign pending_o = count_q != ack_i;
+  assign pending_control_o = pending_o &&
+      (byte_q[mb4_regs_pkg::INSTR_LSB +: 3] == mb4_regs_pkg::INSTR_CONTROL ||
+       byte_q[mb4_regs_pkg::INSTR_LSB +: 3] == mb4_regs_pkg::INSTR_CONTROL_REDUCED);
+  assign base      = pending_o ? kept_q : base_i;
+  assign bank_o    = base ^ byte_q[mb4_regs_pkg::SWBANK_LSB];
+  assign kept_o    = kept_q;
+  assign rd_data_o = pending_o ? (byte_q & ~mb4_regs_pkg::BREAK_MASK) : held_i;
+
+endmodule

@@ -1,0 +1,118 @@
+// SPDX-FileCopyrightText: 2026 The openmb4 authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// The bytes that the host wrote last to SCDATA and RDATA, until the core has taken them. With them
+// the host reads a byte back at once, with or without a system clock. The last four different
+// addresses are kept, the newest first.
+//
+// Clock domains: host; writes in hclk_i, reads in rclk_i. These are one clock, or two strobes of
+// which one rests while the other has edges.
+// Latency: hit_o and data_o are valid after the edge with rd_en_i, until the next read.
+//
+// An entry ends when the core has taken its byte (enc_posted); the memory answers from then on.
+// Three things tell this at the read:
+//
+// - empty_i: all bytes have been taken,
+// - no byte waited at the last edge of hclk_i: only a byte written with that edge may wait,
+// - marked_i = mark_o: the bytes written before the last change of mark_o have been taken. mark_o
+//   changes with an edge of hclk_i, when marked_i has followed.
+//
+// Misuse: none; older addresses read what the memory holds. A byte that was written behind the last
+// change of mark_o, with less than 8 clocks of the core between the writes, may answer until all
+// bytes of this row of writes have been taken.
+// Source: decision 36.
+
+module mb4_recent (
+  input  logic       hclk_i,
+  input  logic       rst_ni,
+  input  logic       wr_en_i,
+  input  logic [6:0] wr_addr_i,
+  input  logic [7:0] wr_data_i,
+  input  logic       rclk_i,
+  input  logic       rd_en_i,
+  input  logic [6:0] rd_addr_i,
+  input  logic       rd_mem_i,    // the address is in one of the memories
+  output logic       hit_o,
+  output logic [7:0] data_o,
+  // posted writes
+  input  logic       empty_i,     // no byte waits in the queue
+  output logic       mark_o,      // a change asks when all bytes written so far have been taken
+  input  logic       marked_i     // follows mark_o when they have been taken
+);
+
+  logic [27:0] addr_q;    // four addresses, the newest lowest
+  logic [3:0]  valid_q;
+  logic [3:0]  old_q;     // written before the mark
+  logic [3:0]  drained;   // no byte waited at the last edge of hclk_i, nor was this one written
+  logic [3:0]  valid;     // valid_q without the bytes that the core has taken
+  logic [3:0]  old;
+  logic        passed;
+  logic        mark_q;
+  logic        marked_q;
+  logic        empty_q;
+  logic        fresh_q;   // the newest entry was written at the last edge of hclk_i
+  logic        hit_q;
+  logic [2:0]  wr_match;
+  logic [3:0]  rd_match;
+  logic [3:0]  move;      // entry takes the address of its newer neighbour
+
+  for (genvar i = 0; i < 3; i++) begin : gen_write
+    assign wr_match[i] = valid_q[i] && addr_q[7*i +: 7] == wr_addr_i;
+  end
+
+  for (genvar i = 0; i < 4; i++) begin : gen_read
+    assign rd_match[i] = valid_q[i] && !drained[i] && !(old_q[i] && marked_i == mark_q) &&
+                         addr_q[7*i +: 7] == rd_addr_i;
+  end
+
+  assign move = {wr_match == 3'b000, wr_match[1:0] == 2'b00, !wr_match[0], 1'b1} &
+                {4{wr_en_i}};
+
+  assign passed = marked_q == mark_q;
+  assign drained = {{3{empty_q}}, empty_q && !fresh_q};
+  assign valid  = valid_q & ~(old_q & {4{passed}}) & ~drained;
+  assign old    = old_q | {4{passed}};
+
+  always_ff @(posedge hclk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      addr_q   <= '0;
+      valid_q  <= '0;
+      old_q    <= '0;
+      mark_q   <= 1'b0;
+      marked_q <= 1'b0;
+      empty_q  <= 1'b0;
+      fresh_q  <= 1'b0;
+    end else begin
+      empty_q  <= empty_i;
+      fresh_q  <= wr_en_i;
+      if (passed && valid != 4'b0000) mark_q <= !mark_q;
+      marked_q <= marked_i;
+      if (move[0]) addr_q[6:0]   <= wr_addr_i;
+      if (move[1]) addr_q[13:7]  <= addr_q[6:0];
+      if (move[2]) addr_q[20:14] <= addr_q[13:7];
+      if (move[3]) addr_q[27:21] <= addr_q[20:14];
+      valid_q <= (valid & ~move) | ({valid[2:0], 1'b1} & move);
+      old_q   <= (old & ~move) | ({old[2:0], 1'b0} & move);
+    end
+  end
+
+  enc_ram #(.Width(8), .AddrW(7)) u_ram (
+    .wclk_i    (hclk_i),
+    .wr_en_i,
+    .wr_addr_i,
+    .wr_data_i,
+    .rclk_i,
+    .rd_en_i,
+    .rd_addr_i,
+    .rd_data_o (data_o)
+  );
+
+  always_ff @(posedge rclk_i or negedge rst_ni) begin
+    if (!rst_ni)      hit_q <= 1'b0;
+    else if (rd_en_i) hit_q <= rd_mem_i && rd_match != 4'b0000 && !empty_i;
+  end
+
+  assign hit_o  = hit_q;
+  assign mark_o = mark_q;
+
+endmodule

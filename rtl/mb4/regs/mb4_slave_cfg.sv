@@ -1,0 +1,111 @@
+// SPDX-FileCopyrightText: 2026 The openmb4 authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Configuration of the eight data channels, 0xC0..0xDF, in rows of four bytes. The host reads one
+// copy of it. Each word list reads a copy of its own, in which the CRC choice has one form
+// (mb4_crc_code).
+//
+// Clock domains: host (hclk_i writes, rclk_i reads); the word lists read in the core clock. Only
+// the word lists need the core clock.
+// Latency: read data are valid after the edge with the enable, until the next read.
+//
+// A reset does not clear a memory. rows_q tells which rows have been written since the reset; the
+// first byte that is written to a row clears the other three. A word list reads only rows whose
+// ENSCDx is set, so it never uses a row that has not been written. Like mb4_cfg_regs the rows are
+// quasi-static for the core.
+// Datasheet: pages 23..26, Tables 11..19.
+
+module mb4_slave_cfg #(
+  parameter int unsigned Lists = 4
+) (
+  // host
+  input  logic        hclk_i,
+  input  logic        rst_ni,
+  input  logic        wr_en_i,
+  input  logic [4:0]  wr_addr_i,
+  input  logic [7:0]  wr_data_i,
+  input  logic        rclk_i,
+  input  logic        rd_en_i,
+  input  logic [4:0]  rd_addr_i,
+  output logic [7:0]  rd_data_o,
+  // word lists, one slice for each
+  input  logic        clk_i,
+  output logic [mb4_pkg::NUM_SLAVES-1:0]        enscd_o,
+  input  logic [Lists-1:0]                      list_en_i,
+  input  logic [3*Lists-1:0]                    list_slave_i,
+  output logic [mb4_pkg::SLAVE_CFG_W*Lists-1:0] list_cfg_o
+);
+
+  logic [7:0]  rows_q;
+  logic [7:0]  enscd_q;
+  logic [2:0]  row;
+  logic [3:0]  byte_en;
+  logic [3:0]  wr_en;
+  logic [31:0] wr_data;
+  logic [31:0] rd_data;
+  logic [7:0]  crc_byte;
+  logic [7:0]  crc_poly;  // of crc_byte
+  logic [3:0]  sel_q;     // byte of the row that the host reads; 0: row not written
+
+  assign row     = wr_addr_i[4:2];
+  assign byte_en = 4'b0001 << wr_addr_i[1:0];
+  assign wr_en   = wr_en_i ? byte_en | {4{!rows_q[row]}} : 4'b0000;
+  assign wr_data = {wr_data_i & {8{byte_en[3]}}, wr_data_i & {8{byte_en[2]}},
+                    wr_data_i & {8{byte_en[1]}}, wr_data_i & {8{byte_en[0]}}};
+
+  assign crc_byte = wr_data[32'd8 * 32'(mb4_regs_pkg::SLAVE_CFG_CRC_OFFSET) +: 8];
+
+  always_ff @(posedge hclk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      rows_q  <= '0;
+      enscd_q <= '0;
+    end else if (wr_en_i) begin
+      rows_q[row] <= 1'b1;
+      if (byte_en[mb4_regs_pkg::SLAVE_CFG_LENGTH_OFFSET[1:0]]) begin
+        enscd_q[row] <= wr_data_i[mb4_regs_pkg::ENSCD_LSB];
+      end
+    end
+  end
+
+  mb4_crc_code u_code (
+    .selcrc_i (crc_byte[mb4_regs_pkg::SELCRCS_LSB]),
+    .code_i   (crc_byte[mb4_regs_pkg::SCRCLEN_LSB +: mb4_regs_pkg::SCRCLEN_W]),
+    .poly_o   (crc_poly)
+  );
+
+  enc_ram_row u_host (
+    .wclk_i    (hclk_i),
+    .wr_en_i   (wr_en),
+    .wr_addr_i (row),
+    .wr_data_i (wr_data),
+    .rclk_i,
+    .rd_en_i,
+    .rd_addr_i (rd_addr_i[4:2]),
+    .rd_data_o (rd_data)
+  );
+
+  // One select bit for each byte: half an SCLK period is left for the path to MISO.
+  always_ff @(posedge rclk_i or negedge rst_ni) begin
+    if (!rst_ni)      sel_q <= '0;
+    else if (rd_en_i) sel_q <= {4{rows_q[rd_addr_i[4:2]]}} & (4'b0001 << rd_addr_i[1:0]);
+  end
+
+  assign rd_data_o = (rd_data[7:0]   & {8{sel_q[0]}}) | (rd_data[15:8]  & {8{sel_q[1]}}) |
+                     (rd_data[23:16] & {8{sel_q[2]}}) | (rd_data[31:24] & {8{sel_q[3]}});
+
+  for (genvar i = 0; i < Lists; i++) begin : gen_list
+    enc_ram_row u_list (
+      .wclk_i    (hclk_i),
+      .wr_en_i   (wr_en),
+      .wr_addr_i (row),
+      .wr_data_i ({wr_data[31:16], crc_poly, wr_data[7:0]}),
+      .rclk_i    (clk_i),
+      .rd_en_i   (list_en_i[i]),
+      .rd_addr_i (list_slave_i[3*i +: 3]),
+      .rd_data_o (list_cfg_o[mb4_pkg::SLAVE_CFG_W*i +: mb4_pkg::SLAVE_CFG_W])
+    );
+  end
+
+  assign enscd_o = enscd_q;
+
+endmodule
