@@ -14,7 +14,7 @@
 // cover: 34
 // unbounded: no: frames' ends, both halves and the crossing together are bounded only
 // mutation: mb4/regs/mb4_bank_ctrl.sv | base_q != kept; | 1'b0 != 1'b0;
-// mutation: mb4/regs/mb4_instr_reg.sv | pending_o ? kept_q : base_i; | base_i;
+// mutation: mb4/regs/mb4_instr_reg.sv | (pending_o && hold_q) ? kept_q : base_i; | base_i;
 // mutation: mb4/regs/mb4_instr_reg.sv | ? base : newest_i; | ? base_i : newest_i;
 // mutation: mb4/regs/mb4_bank_ctrl.sv | assign swap   = want && !holdbank_i;
 //   | assign swap   = want;
