@@ -286,7 +286,9 @@ TEST_P(HostBanks, ReadBehindSwbank_IsOfTheBankThatTheHostHas) {
     const auto b = static_cast<std::uint8_t>(0x80 + phase);
     host.write(0x00, {a});
     host.write(reg::kAddrInstr, {kSwap});
-    if (phase != 0) EXPECT_EQ(host.read(0x00), static_cast<std::uint8_t>(0x7F + phase)) << phase;
+    if (phase != 0) {
+      EXPECT_EQ(host.read(0x00), static_cast<std::uint8_t>(0x7F + phase)) << phase;
+    }
     host.write(0x00, {b});
     EXPECT_EQ(host.read(0x00), b) << phase;
     host.write(reg::kAddrInstr, {0});
