@@ -65,7 +65,8 @@ module proof (
     .mem_busy_i(1'b0), .agsmin_i(1'b0), .infinite_i(1'b0), .regvers_i(1'b0), .kind_i('0), .agserr_on_hold_i(1'b0), .agserr_on_write_i(1'b0),
     .ags_clear_i(1'b0), .request_i(1'b0), .missed_i(1'b0), .tick_i(1'b0), .idle_i(2'b11),
     .timeout_i(2'b00), .sl_i(2'b11), .event_i('0), .word_ok_i(2'b00), .bank_pending_i(1'b0),
-    .control_active_i(1'b0), .control_end_i(1'b0), .control_stalled_i(1'b0), .bank_o(bank_cmd)
+    .control_active_i(1'b0), .control_end_i(1'b0), .control_stalled_i(1'b0), .stale_i(1'b0),
+    .bank_o(bank_cmd)
   );
   mb4_bank_ctrl u_bank (
     .clk_i, .rst_ni, .singlebank_i(1'b0), .holdbank_i(held.holdbank), .kept_i(late_i ? late_q : kept),
