@@ -102,6 +102,11 @@ module biss_control_frame (
   logic       data;         // slot of a data bit, on CDM (write) or CDS (read)
   logic       data_crc;
 
+  // Slots from `first` to the one before `behind`.
+  function automatic logic [63:0] slots(input logic [5:0] first, input logic [5:0] behind);
+    slots = (64'd1 << behind) - (64'd1 << first);
+  endfunction
+
   assign step      = carries_q && frame_end_i;
   assign take      = fresh_q[1] && !post_busy_i;
   assign tested    = (slaveid_i[0] ^ ida_invert_i) && !broadcast_q;
@@ -109,15 +114,23 @@ module biss_control_frame (
   assign top       = bits_q[9];
 
   // ---- slots --------------------------------------------------------------------------------
-  assign header   = slot_q >= biss_pkg::SLOT_HEADER && slot_q < biss_pkg::SLOT_CRC;
-  assign echo     = cts_i && slot_q > biss_pkg::SLOT_WAIT && slot_q <= biss_pkg::SLOT_STOP;
-  assign ida      = !cts_i && !broadcast_q && slot_q >= biss_pkg::SLOT_IDA &&
-                    slot_q <= biss_pkg::SLOT_EX_TESTED;
+  // Sets of slots, one bit for each. A set costs less than two comparisons.
+  localparam logic [63:0] HEADER  = slots(biss_pkg::SLOT_HEADER, biss_pkg::SLOT_CRC);
+  localparam logic [63:0] CRC     = slots(biss_pkg::SLOT_CRC, biss_pkg::SLOT_READ);
+  localparam logic [63:0] ACK     = slots(biss_pkg::SLOT_IDA, biss_pkg::SLOT_STOP_TESTED);
+  localparam logic [63:0] DATA    = slots(biss_pkg::SLOT_WAIT + 6'd1, biss_pkg::SLOT_DATA_CRC);
+  localparam logic [63:0] ANSWER  = slots(biss_pkg::SLOT_WAIT + 6'd1, biss_pkg::SLOT_NEXT);
+  localparam logic [63:0] BODY    = slots(biss_pkg::SLOT_CTS, biss_pkg::SLOT_STOP);
+  localparam logic [63:0] TESTED  = slots(biss_pkg::SLOT_CTS, biss_pkg::SLOT_STOP_TESTED);
+  localparam logic [63:0] COMMAND = slots(biss_pkg::SLOT_CTS, biss_pkg::SLOT_STOP_COMMAND);
+
+  assign header   = HEADER[slot_q];
+  assign echo     = cts_i && ANSWER[slot_q];
+  assign ida      = !cts_i && !broadcast_q && ACK[slot_q];
   // CDS of a read comes one slot after CDM of a write.
-  assign data     = cts_i && (wnr_i
-                    ? (slot_q == biss_pkg::SLOT_WAIT && cds) ||
-                      (slot_q > biss_pkg::SLOT_WAIT && slot_q < biss_pkg::SLOT_DATA_CRC)
-                    : slot_q > biss_pkg::SLOT_WAIT && slot_q <= biss_pkg::SLOT_DATA_CRC);
+  assign data     = cts_i && (DATA[slot_q] ||
+                    (slot_q == (wnr_i ? biss_pkg::SLOT_WAIT : biss_pkg::SLOT_DATA_CRC) &&
+                     (cds || !wnr_i)));
   assign data_crc = echo && !data;
 
   // ---- CDM ----------------------------------------------------------------------------------
@@ -187,7 +200,7 @@ module biss_control_frame (
 
   always_comb begin
     crc_feed  = header || data;
-    crc_shift = (slot_q >= biss_pkg::SLOT_CRC && slot_q < biss_pkg::SLOT_READ) || data_crc;
+    crc_shift = CRC[slot_q] || data_crc;
     crc_bit   = crc_q[3] ^ ((header || wnr_i) ? sent : cds);
     crc_d     = crc_q;
     if (crc_feed)       crc_d = {crc_q[2:0], 1'b0} ^ (crc_bit ? biss_pkg::CONTROL_CRC_POLY : 4'h0);
@@ -301,10 +314,8 @@ module biss_control_frame (
   assign wait_o        = active_q && cts_i && slot_q == biss_pkg::SLOT_WAIT;
   assign late          = wait_o && stay && expired_i;
   assign moved_o       = step && !(wait_o && stay);
-  assign in_body_o     = carries_q && slot_q != biss_pkg::SLOT_START &&
-                         (cts_i ? slot_q < biss_pkg::SLOT_STOP
-                                : slot_q < (tested ? biss_pkg::SLOT_STOP_TESTED
-                                                   : biss_pkg::SLOT_STOP_COMMAND));
+  assign in_body_o     = carries_q &&
+                         (cts_i ? BODY[slot_q] : tested ? TESTED[slot_q] : COMMAND[slot_q]);
   assign end_o         = end_q;
   assign reg_error_o   = reg_error_q;
   assign delay_error_o = delay_error_q;

@@ -7,8 +7,8 @@
 //
 // Clock domains: wr_clk_i and rd_clk_i (host), rd2_clk_i (second reader, with Port2) and clk_i
 // (core). While the core clock stands still the host can read all registers 0xC0..0xFB, and write
-// all but SVALID and 0xF4: these writes wait for it, as do those to the data memories. Frames need
-// the core clock.
+// all but SVALID and 0xF4: these writes wait for it, as do those to the data memories. Of 0xF4,
+// SWBANK and HOLDBANK choose the bank that the host reads at once. Frames need the core clock.
 // Latency: a rising edge of wr_clk_i or rd_clk_i samples an access. Read data are valid after this
 // edge until the next read.
 // Reset: rst_ni is asynchronous. It goes unchanged to the host domain, because the host clocks

@@ -232,8 +232,8 @@ TEST(ChipAccess, SlLow_EndsWhateverFreqagsIs) {
   for (const Protocol protocol : {Protocol::kBissC, Protocol::kBissB}) {
     for (const unsigned freqags : {0x7CU, 0x31U, 0x00U, 0x7DU, 0x80U}) {
       const bool agsmin = freqags == 0x7C;
-      const std::string what = std::to_string(static_cast<unsigned>(protocol)) + " " +
-                               std::to_string(freqags) + " ";
+      const std::string what =
+          std::to_string(static_cast<unsigned>(protocol)) + " " + std::to_string(freqags) + " ";
       Chip chip(sl_low(protocol));
       configure(chip, protocol, 0x04, 5, static_cast<std::uint8_t>(freqags));
       sim::Time first = sim::kNever;
@@ -343,6 +343,33 @@ TEST(ChipAccess, ChangedBeforeItsAutomaticFrame_Ends) {
           }
         }
       }
+    }
+  }
+}
+
+// Decisions 37, 38: a BiSS B access waits for its automatic frame while SL is low. The host asks
+// for it again, and directly behind it writes REGVERS = 1, with which it can run on line 2 alone.
+// With a slow clock both arrive at about the same time. The access runs or has ended; it does not
+// stay.
+TEST(ChipAccess, AskedAgainAndChangedWhileItWaits_Ends) {
+  for (const unsigned khz : {800U, 1000U, 1700U, 2500U}) {
+    for (unsigned phase = 0; phase < 24; ++phase) {
+      Chip chip("[chip]\nf_clk_hz = " + std::to_string(1000 * khz) + "\n" +
+                two_lines(Protocol::kBissB, Protocol::kBissC));
+      chip.simulator.line(1)->faults().stick(false);
+      chip.simulator.refresh_lines();
+      chip.write(0xE2, {0x20, 0x00, 0x03, 0x80, 0x00, 0x00, 0x7C});
+      chip.write(0xEC, {0x11, 0x04});
+      chip.advance_us(200);
+      chip.instruct(0x09);
+      chip.simulator.advance((40'000 + phase * 1'000'000 / khz / 6) * sim::kPsPerNs);
+      chip.instruct(0x09);
+      chip.write(0xE5, {0xC0});
+      chip.advance_us(50);
+      release_sl(chip);
+      for (unsigned i = 0; i < 50 && (chip.status() & kRegEnd) == 0; ++i) chip.advance_us(2000);
+      EXPECT_EQ(chip.status() & kRegEnd, kRegEnd) << khz << " kHz, phase " << phase;
+      EXPECT_EQ(chip.read(0xF4), 0x01) << khz << " kHz, phase " << phase;
     }
   }
 }

@@ -275,6 +275,50 @@ TEST_P(HostBanks, CdsBehindHoldbank_IsThatOfTheWord) {
   }
 }
 
+// Bytes that the core has not taken yet belong to the bank of their write: the host reads its own
+// bank at once, also behind SWBANK (36). The clock is slow, so that all of it happens at once.
+TEST_P(HostBanks, ReadBehindSwbank_IsOfTheBankThatTheHostHas) {
+  FastHost host(GetParam(), 1.0);
+  host.chip().advance(200'000'000);
+  for (unsigned phase = 0; phase < 40; ++phase) {
+    host.chip().advance(200'000'000 + phase * 25'000);
+    const auto a = static_cast<std::uint8_t>(0x10 + phase);
+    const auto b = static_cast<std::uint8_t>(0x80 + phase);
+    host.write(0x00, {a});
+    host.write(reg::kAddrInstr, {kSwap});
+    if (phase != 0) {
+      EXPECT_EQ(host.read(0x00), static_cast<std::uint8_t>(0x7F + phase)) << phase;
+    }
+    host.write(0x00, {b});
+    EXPECT_EQ(host.read(0x00), b) << phase;
+    host.write(reg::kAddrInstr, {0});
+    EXPECT_EQ(host.read(0x00), a) << phase;
+  }
+}
+
+// Pin EOT tells that the word is there. A write of 0xF4 without HOLDBANK shortly before does not
+// keep the host on the old bank.
+TEST_P(HostBanks, WordAtPinEotBehindAWrite_IsTheNewOne) {
+  for (const double mhz : kClocks) {
+    Frames host(GetParam(), mhz);
+    // When the pin rises behind the start of a frame.
+    host.start(0);
+    const sim::Time began = host.chip().now();
+    const auto at_end = [&] { return host.chip().pin(sim::Pin::kEot); };
+    ASSERT_TRUE(host.chip().run_while_waiting(at_end, began + 5000 * host.period));
+    const sim::Time length = host.chip().now() - began;
+    host.chip().advance(30'000'000);
+    for (sim::Time before = 0; before < 12 * host.period; before += host.period / 4) {
+      host.start(0);
+      host.chip().advance(length - before - host.period);
+      host.write(reg::kAddrInstr, {0});
+      ASSERT_TRUE(host.chip().run_while_waiting(at_end, host.chip().now() + 5000 * host.period));
+      EXPECT_EQ(host.word(), host.frames()) << mhz << " MHz, " << before << " ps before";
+      host.chip().advance(30'000'000);
+    }
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(Hosts, HostBanks, testing::Values("spi", "intel", "motorola"),
                          [](const auto& host) { return host.param; });
 

@@ -23,7 +23,7 @@ module proof (
   input logic [1:0] idle_i, timeout_i, sl_i, word_ok_i,
   input logic [2*biss_pkg::LINE_EVENT_W-1:0] event_i,
   input logic request_i, missed_i, tick_i, bank_pending_i,
-  input logic control_active_i, control_end_i, control_stalled_i
+  input logic control_active_i, control_end_i, control_stalled_i, stale_i
 );
 
   logic busy, running, start, frame_end, eot;
@@ -39,7 +39,8 @@ module proof (
     .clk_i, .rst_ni, .written_i, .count_i, .mem_busy_i, .agsmin_i, .infinite_i, .regvers_i,
     .kind_i, .agserr_on_hold_i(1'b1), .agserr_on_write_i(1'b0), .ags_clear_i(1'b0),
     .request_i, .missed_i, .tick_i, .idle_i, .timeout_i, .sl_i, .event_i, .word_ok_i,
-    .bank_pending_i, .control_active_i, .control_end_i, .control_stalled_i, .running_o(running),
+    .bank_pending_i, .control_active_i, .control_end_i, .control_stalled_i, .stale_i,
+    .running_o(running),
     .go_o(go), .bank_o(bank), .held_o(held), .flags_o(flags)
   );
 

@@ -14,7 +14,7 @@
 // cover: 34
 // unbounded: no: frames' ends, both halves and the crossing together are bounded only
 // mutation: mb4/regs/mb4_bank_ctrl.sv | base_q != kept; | 1'b0 != 1'b0;
-// mutation: mb4/regs/mb4_instr_reg.sv | pending_o ? kept_q : base_i; | base_i;
+// mutation: mb4/regs/mb4_instr_reg.sv | (pending_o && hold_q) ? kept_q : base_i; | base_i;
 // mutation: mb4/regs/mb4_instr_reg.sv | ? base : newest_i; | ? base_i : newest_i;
 // mutation: mb4/regs/mb4_bank_ctrl.sv | assign swap   = want && !holdbank_i;
 //   | assign swap   = want;
@@ -65,7 +65,8 @@ module proof (
     .mem_busy_i(1'b0), .agsmin_i(1'b0), .infinite_i(1'b0), .regvers_i(1'b0), .kind_i('0), .agserr_on_hold_i(1'b0), .agserr_on_write_i(1'b0),
     .ags_clear_i(1'b0), .request_i(1'b0), .missed_i(1'b0), .tick_i(1'b0), .idle_i(2'b11),
     .timeout_i(2'b00), .sl_i(2'b11), .event_i('0), .word_ok_i(2'b00), .bank_pending_i(1'b0),
-    .control_active_i(1'b0), .control_end_i(1'b0), .control_stalled_i(1'b0), .bank_o(bank_cmd)
+    .control_active_i(1'b0), .control_end_i(1'b0), .control_stalled_i(1'b0), .stale_i(1'b0),
+    .bank_o(bank_cmd)
   );
   mb4_bank_ctrl u_bank (
     .clk_i, .rst_ni, .singlebank_i(1'b0), .holdbank_i(held.holdbank), .kept_i(late_i ? late_q : kept),

@@ -208,8 +208,8 @@ module mb4_control_comm (
   );
 
   assign stalled_o = counted && (!refused_q || refused_i);
-  assign run_o     = active_o || register_active;
-  assign stale_o   = run_q && !control_runs && !register_active;
+  assign run_o     = active_o || register_active || register_start;
+  assign stale_o   = (run_q && !control_runs && !register_active) || void_q;
 
   // Zeros within a control frame do not count. The stop bit is the first zero that counts.
   assign sent = (cdm_i & in_use_i) != 2'b00;

@@ -7,7 +7,7 @@
 // Clock domain: core.
 // Latency: a written byte arrives 2..3 clocks after its last bit. The frame that it asks for starts
 // one clock later at the earliest. busy_o rises before ack_o reaches the host half. A frame ends
-// two clocks after its last bit: first its result, then the bank switch.
+// two clocks after its last bit: its result one clock after it, frame_end of bank_o with the end.
 //
 // - With AGS = 1 INSTR sets the CDM of the automatic frames (mb4_frame_request) and stays. Only
 //   with FREQAGS = AGSINFINITE it also asks for a frame.
@@ -199,8 +199,8 @@ module mb4_sequencer (
           end else if (wait_q == 11'd0) begin
             abort = 1'b1;
           end
-        end else if ((by_instr || request_i) && !mem_busy_i && !stale_i &&
-                     kind_i.in_use != 2'b00) begin
+        end else if ((by_instr || request_i) && !mem_busy_i && kind_i.in_use != 2'b00 &&
+                     !(stale_i && held_q.instr != 3'b000)) begin
           if (bank_pending_i && held_q.holdbank && agserr_on_hold_i && !kind_i.is_register) begin
             taken_o   = 1'b1;
             ags_error = 1'b1;
@@ -236,7 +236,7 @@ module mb4_sequencer (
         end
       end
       FRAME_DONE: begin
-        // All lines have brought their last bit. The banks switch now.
+        // All lines have brought their last bit. The banks switch in the next clock.
         state_d   = IDLE;
         frame_end = !register_q;
         wait_d    = INIT_WAIT;

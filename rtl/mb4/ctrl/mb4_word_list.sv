@@ -115,8 +115,8 @@ module mb4_word_list #(
 
   assign last = rest == 8'h00;
 
-  // The CRC is stored only if the data leave the top byte(s) free (page 26).
-  assign crc_room = crc_last[3] ? cfg_i.scdlen < 6'd48 : cfg_i.scdlen < 6'd56;
+  // The CRC is stored only if the data leave the top byte free, with 16 bits the top two (page 26).
+  assign crc_room = !(cfg_i.scdlen[5:4] == 2'b11 && (cfg_i.scdlen[3] || crc_last[3]));
 
   assign offer_o = {todo_q != 8'h00, last, slave_q,
                     cfg_i.scdlen, crc_on, crc_last, crc_poly, crc_top, cfg_i.crc_start,

@@ -15,9 +15,9 @@
 // has acted.
 //
 // The bank of the host follows the order of the writes. SWBANK acts at its write. The rest is the
-// base: the bank without the inversions of SWBANK. Until the core has acted, the host keeps the
-// base that it had at the write of 0xF4, or the base of the newest word if the byte has HOLDBANK =
-// 0. kept_o tells the core which base that is (mb4_bank_ctrl).
+// base: the bank without the inversions of SWBANK. A write that sets, keeps or clears HOLDBANK
+// keeps a base until the core has acted: with HOLDBANK = 1 the one that the host had, with
+// HOLDBANK = 0 that of the newest word. kept_o tells the core which base it is (mb4_bank_ctrl).
 //
 // Misuse: a write at the moment in which the core takes the previous one. The core may then take
 // some bits of the older byte; it takes the later byte three clocks later.
@@ -48,6 +48,7 @@ module mb4_instr_reg (
   logic [7:0] byte_q;
   logic [1:0] count_q;
   logic       kept_q;
+  logic       hold_q;     // the byte, or one that the core has not answered, has HOLDBANK = 1
   logic       base;
 
   always_ff @(posedge hclk_i or negedge rst_ni) begin
@@ -55,10 +56,13 @@ module mb4_instr_reg (
       byte_q  <= '0;
       count_q <= '0;
       kept_q  <= 1'b0;
+      hold_q  <= 1'b0;
     end else if (wr_en_i && wr_addr_i == mb4_regs_pkg::ADDR_INSTR) begin
       byte_q  <= wr_data_i | (byte_q & {8{pending_o}} & mb4_regs_pkg::BREAK_MASK);
       if (count_q != ~ack_i) count_q <= {count_q[0], !count_q[1]};
       kept_q  <= wr_data_i[mb4_regs_pkg::HOLDBANK_LSB] ? base : newest_i;
+      hold_q  <= wr_data_i[mb4_regs_pkg::HOLDBANK_LSB] || byte_q[mb4_regs_pkg::HOLDBANK_LSB] ||
+                 (pending_o && hold_q);
     end
   end
 
@@ -68,7 +72,7 @@ module mb4_instr_reg (
   assign pending_control_o = pending_o &&
       (byte_q[mb4_regs_pkg::INSTR_LSB +: 3] == mb4_regs_pkg::INSTR_CONTROL ||
        byte_q[mb4_regs_pkg::INSTR_LSB +: 3] == mb4_regs_pkg::INSTR_CONTROL_REDUCED);
-  assign base      = pending_o ? kept_q : base_i;
+  assign base      = (pending_o && hold_q) ? kept_q : base_i;
   assign bank_o    = base ^ byte_q[mb4_regs_pkg::SWBANK_LSB];
   assign kept_o    = kept_q;
   assign rd_data_o = pending_o ? (byte_q & ~mb4_regs_pkg::BREAK_MASK) : held_i;

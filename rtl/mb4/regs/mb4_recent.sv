@@ -3,7 +3,8 @@
 //
 // The bytes that the host wrote last to SCDATA and RDATA, until the core has taken them. With them
 // the host reads a byte back at once, with or without a system clock. The last four different
-// addresses are kept, the newest first.
+// addresses are kept, the newest first. An address includes the host's bank of SCDATA, so a switch
+// of the banks hides no byte and shows none of the other bank.
 //
 // Clock domains: host; writes in hclk_i, reads in rclk_i. These are one clock, or two strobes of
 // which one rests while the other has edges.
@@ -26,11 +27,11 @@ module mb4_recent (
   input  logic       hclk_i,
   input  logic       rst_ni,
   input  logic       wr_en_i,
-  input  logic [6:0] wr_addr_i,
+  input  logic [7:0] wr_addr_i,
   input  logic [7:0] wr_data_i,
   input  logic       rclk_i,
   input  logic       rd_en_i,
-  input  logic [6:0] rd_addr_i,
+  input  logic [7:0] rd_addr_i,
   input  logic       rd_mem_i,    // the address is in one of the memories
   output logic       hit_o,
   output logic [7:0] data_o,
@@ -40,7 +41,7 @@ module mb4_recent (
   input  logic       marked_i     // follows mark_o when they have been taken
 );
 
-  logic [27:0] addr_q;    // four addresses, the newest lowest
+  logic [31:0] addr_q;    // four addresses, the newest lowest
   logic [3:0]  valid_q;
   logic [3:0]  old_q;     // written before the mark
   logic [3:0]  drained;   // no byte waited at the last edge of hclk_i, nor was this one written
@@ -57,12 +58,12 @@ module mb4_recent (
   logic [3:0]  move;      // entry takes the address of its newer neighbour
 
   for (genvar i = 0; i < 3; i++) begin : gen_write
-    assign wr_match[i] = valid_q[i] && addr_q[7*i +: 7] == wr_addr_i;
+    assign wr_match[i] = valid_q[i] && addr_q[8*i +: 8] == wr_addr_i;
   end
 
   for (genvar i = 0; i < 4; i++) begin : gen_read
     assign rd_match[i] = valid_q[i] && !drained[i] && !(old_q[i] && marked_i == mark_q) &&
-                         addr_q[7*i +: 7] == rd_addr_i;
+                         addr_q[8*i +: 8] == rd_addr_i;
   end
 
   assign move = {wr_match == 3'b000, wr_match[1:0] == 2'b00, !wr_match[0], 1'b1} &
@@ -87,16 +88,16 @@ module mb4_recent (
       fresh_q  <= wr_en_i;
       if (passed && valid != 4'b0000) mark_q <= !mark_q;
       marked_q <= marked_i;
-      if (move[0]) addr_q[6:0]   <= wr_addr_i;
-      if (move[1]) addr_q[13:7]  <= addr_q[6:0];
-      if (move[2]) addr_q[20:14] <= addr_q[13:7];
-      if (move[3]) addr_q[27:21] <= addr_q[20:14];
+      if (move[0]) addr_q[7:0]   <= wr_addr_i;
+      if (move[1]) addr_q[15:8]  <= addr_q[7:0];
+      if (move[2]) addr_q[23:16] <= addr_q[15:8];
+      if (move[3]) addr_q[31:24] <= addr_q[23:16];
       valid_q <= (valid & ~move) | ({valid[2:0], 1'b1} & move);
       old_q   <= (old & ~move) | ({old[2:0], 1'b0} & move);
     end
   end
 
-  enc_ram #(.Width(8), .AddrW(7)) u_ram (
+  enc_ram #(.Width(8), .AddrW(8)) u_ram (
     .wclk_i    (hclk_i),
     .wr_en_i,
     .wr_addr_i,
