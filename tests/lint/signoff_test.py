@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-FileCopyrightText: 2026 The openmb4 authors
 # SPDX-License-Identifier: Apache-2.0
-"""tools/signoff/signoff.py with planted tables, reports and logs."""
+"""tools/signoff/signoff.py with planted tables, reports and logs; tests/coverage/functional.py."""
 
 import subprocess
 import sys
@@ -163,6 +163,33 @@ class SignOff(unittest.TestCase):
         self.assertEqual(self.call("check"), (0, ""))
         self.put("page.md", "x")
         self.assertEqual(self.call("check")[0], 1)
+
+
+class Functional(unittest.TestCase):
+    """tests/coverage/functional.py."""
+
+    def call(self, goal, **files):
+        script = SCRIPT.parents[2] / "tests" / "coverage" / "functional.py"
+        with tempfile.TemporaryDirectory() as folder:
+            for name, text in files.items():
+                (Path(folder) / f"{name}.txt").write_text(text, encoding="utf-8")
+            done = subprocess.run([sys.executable, "-B", script, folder, goal],
+                                  capture_output=True, text=True, check=False)
+            missed = Path(folder) / "missed.txt"
+            missed = missed.read_text(encoding="utf-8") if missed.exists() else ""
+        return done.returncode, done.stdout + done.stderr, missed
+
+    def test_files_are_added_up(self):
+        one, two = "0\tA\tx=0\n0\tA\tx=1\n", "3\tA\tx=0\n0\tA\tx=1\n"
+        status, said, missed = self.call("50", a=one, b=two, missed="old")
+        self.assertEqual((status, missed), (0, "A: x=1\n"))
+        self.assertIn("functional in all: 1 of 2 points, 50.00 %", said)
+        self.assertEqual(self.call("51", a=one, b=two)[0], 1)
+        self.assertEqual(self.call("1", a=one)[0], 1)
+
+    def test_useless_files_are_named(self):
+        self.assertIn("a.txt:1: no line", self.call("1", a="x\n")[1])
+        self.assertIn("no points", self.call("1")[1])
 
 
 if __name__ == "__main__":
