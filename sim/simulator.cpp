@@ -205,6 +205,9 @@ void Simulator::settle() {
     seen_ = now;
     drive_line(0, changed, now, ChipModel::kMa1, ChipModel::kMo1);
     drive_line(1, changed, now, ChipModel::kMa2, ChipModel::kMo2);
+    if ((changed & ChipModel::kEot) != 0 && observer_ != nullptr) {
+      observer_->pin_changed(Pin::kEot, (now & ChipModel::kEot) != 0);
+    }
     if ((changed & ChipModel::kNerLow) != 0) chip_->set_input(now_, Pin::kNer, pin(Pin::kNer));
   }
 }
@@ -245,6 +248,15 @@ bool Simulator::can_set(Pin pin) const {
   return true;
 }
 
+void Simulator::set_observer(PinObserver* observer) {
+  observer_ = observer;
+  if (observer == nullptr) return;
+  for (std::size_t index = 0; index <= index_of(Pin::kEot); ++index) {
+    const Pin pin = static_cast<Pin>(index);
+    observer->pin_changed(pin, is_output(pin) ? this->pin(pin) : levels_[index]);
+  }
+}
+
 void Simulator::set_pin(Pin pin, bool level) {
   check_alive();
   if (!can_set(pin)) return;
@@ -257,6 +269,7 @@ void Simulator::set_pin(Pin pin, bool level) {
     if (levels_[index_of(pin)] == level) return;
     levels_[index_of(pin)] = level;
     host_check_.edge(now_, pin, level);
+    if (observer_ != nullptr) observer_->pin_changed(pin, level);
     drive_chip(pin, level);
   } catch (const ModelStopped& error) {
     stopped_ = error;

@@ -26,6 +26,15 @@ class HostPins {
   ~HostPins() = default;
 };
 
+// Sees pins of the chip as they change.
+class PinObserver {
+ public:
+  virtual void pin_changed(Pin pin, bool level) = 0;
+
+ protected:
+  ~PinObserver() = default;
+};
+
 }  // namespace mb4::sim
 
 #endif  // MB4SIM_HOST_PINS_HPP_

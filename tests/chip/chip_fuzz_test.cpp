@@ -11,6 +11,7 @@
 // The sessions are split into parts. MB4_CHIP_FUZZ_SESSIONS: sessions of all parts (default 1000),
 // MB4_SEED: seed of the first, MB4_CHIP_FUZZ_SECONDS: instead of a number, for each part. A failure
 // prints its seed and leaves a scenario and a script for `mb4sim spi` in the folder MB4_FAILURES.
+// MB4_CHIP_FUZZ_COVER: folder that takes the functional coverage of each part (default: none).
 #include <gtest/gtest.h>
 
 #include <chrono>
@@ -23,6 +24,7 @@
 #include "bits.hpp"
 #include "chip_fuzz_run.hpp"
 #include "mb4sim/model_stopped.hpp"
+#include "sim/masters/mb4/functional_coverage.hpp"
 
 namespace {
 
@@ -34,11 +36,16 @@ constexpr unsigned kShown = 5;  // failures of one kind that are printed in full
 class ChipFuzz : public testing::TestWithParam<unsigned> {};
 
 // The rule that a session broke; empty: none.
-std::string run_session(std::uint64_t seed, FuzzCounts& counts, std::string& text) {
+std::string run_session(std::uint64_t seed, FuzzCounts& counts, std::string& text,
+                        mb4::sim::FunctionalCoverage* coverage) {
   mb4test::Random random(seed);
   const mb4test::FuzzChip chip = mb4test::make_fuzz_chip(random, seed);
   const auto folder = mb4test::failure_path("mb4-chip-fuzz-" + std::to_string(seed));
   mb4test::FuzzRun run(chip, random, folder);
+  if (coverage != nullptr) {
+    coverage->restart();
+    run.host().simulator().set_observer(coverage);
+  }
   std::string rule;
   try {
     run.run();
@@ -72,12 +79,15 @@ TEST_P(ChipFuzz, AnySession_EndsAndRecovers) {
   const auto elapsed = [&] {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   };
+  const char* cover = std::getenv("MB4_CHIP_FUZZ_COVER");
+  mb4::sim::FunctionalCoverage coverage;
   FuzzCounts counts;
   std::map<std::string, unsigned> failures;
   for (std::uint64_t seed = first;
        seconds != 0 ? elapsed() < static_cast<double>(seconds) : seed < end; ++seed) {
     std::string text;
-    const std::string rule = run_session(seed, counts, text);
+    const std::string rule =
+        run_session(seed, counts, text, cover != nullptr ? &coverage : nullptr);
     if (rule.empty()) continue;
     if (++failures[rule] <= kShown) ADD_FAILURE() << "seed " << seed << ": " << text;
   }
@@ -93,6 +103,11 @@ TEST_P(ChipFuzz, AnySession_EndsAndRecovers) {
     if (counts.number >= 5000 || (counts.number >= 200 && FuzzCounts::is_common(what))) {
       EXPECT_GT(counts.total[what], 0U) << FuzzCounts::name(what);
     }
+  }
+  if (cover != nullptr) {
+    std::filesystem::create_directories(cover);
+    const auto path = std::filesystem::path(cover) / (std::to_string(GetParam()) + ".txt");
+    EXPECT_TRUE(std::ofstream(path) << coverage.text()) << path;
   }
   for (const auto& [rule, number] : failures) {
     std::printf("FAILED: %6u sessions  %s\n", number, rule.c_str());

@@ -79,18 +79,24 @@ def main():
     totals = {}
     missed = defaultdict(list)
     shares = {kind: [0, 0] for kind in ("line", "branch", "toggle")}
+    rooms = defaultdict(lambda: [0, 0])
+
+    def add(kind, file, reached):
+        room = str(file.parent.relative_to(ROOT / "rtl"))
+        for share in (shares[kind], rooms[kind, room], rooms[kind, "all"]):
+            share[0] += reached
+            share[1] += 1
+
     for (file, line), count in per_line.items():
         if count == 0 and excluded(file, line):
             continue
-        shares["line"][0] += count > 0
-        shares["line"][1] += 1
+        add("line", file, count > 0)
         if count == 0:
             missed[file].append((line, "line"))
     for (file, line, _, kind, comment), count in counts.items():
         if kind not in ("branch", "toggle") or (count == 0 and excluded(file, line)):
             continue
-        shares[kind][0] += count > 0
-        shares[kind][1] += 1
+        add(kind, file, count > 0)
         if count == 0:
             missed[file].append((line, f"{kind} {comment}"))
     for kind, (hit, total) in shares.items():
@@ -123,6 +129,8 @@ def main():
         for line, note in sorted(missed[file]):
             if not note.startswith("toggle"):
                 print(f"{file.name}:{line}: {note}: {sources[file][line - 1].strip()}")
+    for (kind, room), (hit, total) in sorted(rooms.items()):
+        print(f"{kind} in {room}: {hit} of {total}, {100 * hit / total:.2f} %")
     failed = [f"exclusions.txt: reached or unknown: {rows[n]}" for n in range(len(rows))
               if n not in used]
     for kind, total in totals.items():

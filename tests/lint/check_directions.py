@@ -53,7 +53,7 @@ MAY_USE = {
     "sim/lines/protocols.cpp": ("sim/lines/", "sim/lines/biss/", "sim/lines/ssi/", "sim/lines/replay/"),
     "sim/hosts/": ("sim/core/",),
     "sim/masters/": ("sim/core/", "sim/hosts/"),
-    "sim/masters/mb4/": ("sim/core/", "sim/hosts/", "sim/masters/"),
+    "sim/masters/mb4/": ("sim/core/", "sim/hosts/", "sim/masters/", "regmap/"),
     "sim/masters/masters.cpp": ("sim/masters/", "sim/masters/mb4/"),
     "sim/model/": ("rtl/", "sim/core/", "sim/hosts/", "sim/masters/", "sim/include/"),
     "sim/faults/": ("sim/core/", "sim/lines/"),

@@ -22,12 +22,17 @@ import tempfile
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
+HERE = Path(__file__).resolve().parent
+sys.path.insert(0, str(HERE.parents[1] / "tools" / "synth"))
+
+import project  # noqa: E402
+
 # Two chips side by side, of which one has no fault: nothing that other tests do not look at.
 LEFT_OUT = "-Lockstep.*:HostFuzz.*"
 SMALL = {"MB4_RANDOM_CONFIGS": "100", "MB4_FAULT_FRAMES": "2000", "MB4_LINE_FRAMES": "1210",
          "MB4_HOST_FRAMES": "300"}
 FIRST_BATCH = 2.0  # seconds; each batch takes twice as long as the one before
-EXPECTED = Path(__file__).resolve().parent / "equivalent.txt"
+EXPECTED = HERE / "equivalent.txt"
 
 
 def start(program, tests, number, seconds=0, output=None):
@@ -128,11 +133,20 @@ def main():
                   flush=True)
     equivalent = reasons()
     argued = 0
+    places = {module: str(path.parent.relative_to(project.RTL))
+              for module, path in project.rtl_modules().items()}
+    rooms = {room: [0, 0] for room in sorted({*places.values(), "all"})}
     for number, text in faults.items():
+        reason = equivalent.get(re.sub(r"^(\w+):\d+", r"\1", text))
+        for room in ("all", places[text.split(":")[0]]):
+            rooms[room][0] += number in done
+            rooms[room][1] += number in done or reason is None
         if number not in done:
-            reason = equivalent.get(re.sub(r"^(\w+):\d+", r"\1", text))
             argued += reason is not None
             print(f"not caught: {text}" + (f"\n  because {reason}" if reason else ""))
+    for room, (found, of) in rooms.items():
+        if of:
+            print(f"in {room}: {found} of {of} faults caught, {100 * found / of:.1f} %")
     share = 100 * len(done) / (len(faults) - argued)
     print(f"{len(done)} of {len(faults)} faults caught, {argued} change nothing: {share:.1f} %")
     sys.exit(0 if share >= goal else 1)

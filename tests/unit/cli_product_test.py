@@ -13,6 +13,7 @@ import subprocess
 import sys
 import time
 import unittest
+from pathlib import Path
 
 from cli import EXAMPLES, MB4SIM, RESOLUTE, CliTest, run, slave
 
@@ -271,6 +272,20 @@ class Regress(CliTest):
         result = run("regress", RESOLUTE, BUS, "--seeds", "2", "--frames", "5", "--jobs", "2")
         self.assertEqual(result.returncode, 0)
         self.assertTrue(result.stdout.endswith("runs 4, failed 0\n"))
+
+    def test_cover_counts_over_runs_and_processes(self):
+        files = []
+        for jobs in ("1", "2"):
+            files.append(Path(self.path(f"cover{jobs}.txt", "")))
+            result = run("regress", RESOLUTE, self.noisy, "--seeds", "2", "--frames", "5", "--jobs",
+                         jobs, "--cover", str(files[-1]))
+            self.assertRegex(result.stdout, r"\nfunctional coverage \d+ of \d+ points\n$")
+        lines = files[0].read_text(encoding="utf-8").splitlines()
+        self.assertEqual(lines, files[1].read_text(encoding="utf-8").splitlines())
+        self.assertIn("20\tBiSS C frame, one\tENSCD1=1", lines)
+        self.assertIn("0\tSSI frame, one\tENSCD1=1", lines)
+        self.assert_one_line(run("regress", RESOLUTE, "--cover", "/no/such/file"), 2, "/no/such/file")
+        self.assert_one_line(run("regress", RESOLUTE, "--cover", RESOLUTE), 2, "--cover")
 
     def test_mistakes(self):
         self.assert_one_line(run("regress"), 2, "^mb4sim: ")

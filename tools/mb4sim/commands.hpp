@@ -65,6 +65,7 @@ struct RegressOptions {
   std::uint64_t first_seed = 1;
   std::uint64_t frames = 100;
   std::uint64_t jobs = 1;
+  std::string cover_path;  // empty: no functional coverage
 };
 int regress_command(const RegressOptions& options);
 

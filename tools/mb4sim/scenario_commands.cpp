@@ -134,6 +134,11 @@ void add_regress(CLI::App& app, Action& action) {
   regress.add_option("--jobs", options->jobs, "Processes that work at the same time (default 1)")
       ->type_name("N")
       ->transform(whole_number(1, kMaxJobs));
+  regress
+      .add_option("--cover", options->cover_path,
+                  "Write how often each value of a field met each kind of frame")
+      ->type_name("FILE")
+      ->check(file_name());
   regress.footer(
       "The output does not depend on --jobs. Look at a failed run with: mb4sim run SCENARIO --seed "
       "S "

@@ -92,6 +92,9 @@ class Simulator final : public HostPins {
   bool paired() const { return paired_; }
   // False for pins that set_pin() ignores.
   bool can_set(Pin pin) const;
+  // Tells the observer the levels of all pins that set_pin() drives and of EOT, at once and then at
+  // every change. Null: nobody. The observer must live as long as it is set.
+  void set_observer(PinObserver* observer);
 
   // --- hosts, lines, slaves ------------------------------------------------------------------
   // Hosts on the chip's pins. The straps, which the scenario's interface has set, decide which of
@@ -155,6 +158,7 @@ class Simulator final : public HostPins {
   std::unique_ptr<SimulatorFaults> fault_target_;
   std::unique_ptr<FaultInjector> injector_;
   Time now_ = 0;
+  PinObserver* observer_ = nullptr;
   unsigned seen_ = 0;  // watched outputs that have been handled
   bool settling_ = false;
   bool paired_ = false;            // MA2 is the inverse of MA1 (CFGIF)
