@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
-#include "reference.hpp"
+#include "tests/reference/reference.hpp"
 
 #include <map>
 #include <stdexcept>

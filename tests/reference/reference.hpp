@@ -5,8 +5,8 @@
 // that the host wrote and the bits on the lines. The source is the datasheet (pages 14..16,
 // 23..26, 31, 33..35) and decisions 8, 9, 11, 15, 18, 28, 29, 30; it shares no code with the RTL,
 // the simulator or the driver.
-#ifndef MB4_TESTS_REFERENCE_REFERENCE_HPP_
-#define MB4_TESTS_REFERENCE_REFERENCE_HPP_
+#ifndef TESTS_REFERENCE_REFERENCE_HPP_
+#define TESTS_REFERENCE_REFERENCE_HPP_
 
 #include <array>
 #include <cstdint>
@@ -122,4 +122,4 @@ class Reference {
 
 }  // namespace mb4ref
 
-#endif  // MB4_TESTS_REFERENCE_REFERENCE_HPP_
+#endif  // TESTS_REFERENCE_REFERENCE_HPP_
