@@ -15,7 +15,7 @@
 #include <string>
 #include <vector>
 
-namespace mb4ref {
+namespace mb4test {
 
 // CFGCHx (Table 8).
 enum class Protocol : std::uint8_t { kBissB = 0, kBissC = 1, kSsi = 2, kUnused = 3 };
@@ -120,6 +120,6 @@ class Reference {
   bool swbank_fail_ = false;
 };
 
-}  // namespace mb4ref
+}  // namespace mb4test
 
 #endif  // TESTS_REFERENCE_REFERENCE_HPP_

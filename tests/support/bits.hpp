@@ -34,18 +34,18 @@ inline std::uint64_t from_bits(const std::string& bits) {
 inline void invert(std::string& bits, std::size_t at) { bits[at] = bits[at] == '0' ? '1' : '0'; }
 
 // One data channel as a slave sends it: data bits, MSB first, and the inverted CRC.
-inline std::string word_on_line(std::uint64_t word, unsigned data_bits, mb4ref::CrcChoice crc,
+inline std::string word_on_line(std::uint64_t word, unsigned data_bits, mb4test::CrcChoice crc,
                                 std::uint16_t start) {
   const std::string data = to_bits(word, data_bits);
-  return data + to_bits(~std::uint64_t{mb4ref::remainder(data, crc, start)}, crc.width);
+  return data + to_bits(~std::uint64_t{mb4test::remainder(data, crc, start)}, crc.width);
 }
 
 // Whether data bits and CRC as received belong together.
-inline bool crc_fits(const std::string& received, unsigned data_bits, mb4ref::CrcChoice crc,
+inline bool crc_fits(const std::string& received, unsigned data_bits, mb4test::CrcChoice crc,
                      std::uint16_t start) {
   const std::string data = received.substr(0, data_bits);
   return received.substr(data_bits) ==
-         to_bits(~std::uint64_t{mb4ref::remainder(data, crc, start)}, crc.width);
+         to_bits(~std::uint64_t{mb4test::remainder(data, crc, start)}, crc.width);
 }
 
 // Value of an environment variable, `fallback` if it is not set.

@@ -18,7 +18,7 @@ std::uint64_t data_word(Random& random, unsigned bits) {
   return bits == 64 ? value : value & ((1ULL << bits) - 1);
 }
 
-using mb4ref::Protocol;
+using mb4test::Protocol;
 
 constexpr const char* kProtocolNames[] = {"biss-b", "biss-c", "ssi"};
 
@@ -30,14 +30,14 @@ struct LinePlan {
 };
 
 Sensor make_sensor(Random& random, RandomCase& result, const LinePlan& plan, unsigned channel) {
-  mb4ref::Registers& registers = result.registers;
+  mb4test::Registers& registers = result.registers;
   Sensor sensor;
   sensor.channel = channel;
   sensor.bits = random.one_in(6) ? (random.one_in(2) ? 1 : 64) : 1 + random.below(64);
   const unsigned codes[] = {0x03, 0x04, 0x05, 0x06, 0x06, 0x07, 0x08, 0x10, 0x00};
   unsigned c1 = codes[random.below(9)];
   if (random.one_in(4)) c1 = 0x80 | random.below(128);
-  sensor.crc = mb4ref::crc_choice(static_cast<std::uint8_t>(c1));
+  sensor.crc = mb4test::crc_choice(static_cast<std::uint8_t>(c1));
   if (sensor.crc.width != 0 && random.one_in(2)) {
     sensor.start = static_cast<std::uint16_t>(random.word());
   }
@@ -183,8 +183,8 @@ std::array<LinePlan, 2> make_plans(Random& random, RandomCase& result, bool all_
 
 }  // namespace
 
-mb4ref::Lines RandomCase::frame(std::uint64_t frame) const {
-  mb4ref::Lines result;
+mb4test::Lines RandomCase::frame(std::uint64_t frame) const {
+  mb4test::Lines result;
   const auto at = static_cast<std::size_t>(std::min<std::uint64_t>(frame, kFrames - 1));
   for (unsigned line = 0; line < 2; ++line) {
     if (!used[line]) continue;
@@ -203,7 +203,7 @@ mb4ref::Lines RandomCase::frame(std::uint64_t frame) const {
 
 RandomCase make_case(Random& random, bool all_protocols) {
   RandomCase result;
-  mb4ref::Registers& registers = result.registers;
+  mb4test::Registers& registers = result.registers;
   registers.slaveloc5 = random.one_in(2);
   registers.nocrc = random.one_in(4);
   registers.singlebank = random.one_in(5);

@@ -22,7 +22,7 @@ struct Sensor {
   unsigned channel = 0;
   unsigned slave = 0;  // number in the simulator, 1..8
   unsigned bits = 0;
-  mb4ref::CrcChoice crc;
+  mb4test::CrcChoice crc;
   std::uint16_t start = 0;
   bool actuator = false;
   bool stop_bit = false;             // LSTOP of an actuator
@@ -39,7 +39,7 @@ struct Sensor {
 struct RandomCase {
   static constexpr unsigned kFrames = 24;  // with words and faults of their own
 
-  mb4ref::Registers registers;
+  mb4test::Registers registers;
   std::array<bool, 2> used{};                // CFGCH: the line takes part
   std::array<std::vector<Sensor>, 2> lines;  // in chain order, next to SL first
   // Bits after the start bit; for SSI, from the first data bit on.
@@ -59,11 +59,11 @@ struct RandomCase {
 
   // Bits of both lines in frame number `frame` (from 0), of BiSS C with CDS first; slots of
   // actuators are zeros, lines not used empty.
-  mb4ref::Lines frame(std::uint64_t frame) const;
-  mb4ref::Protocol protocol(unsigned line) const { return registers.protocol[line]; }
+  mb4test::Lines frame(std::uint64_t frame) const;
+  mb4test::Protocol protocol(unsigned line) const { return registers.protocol[line]; }
   // Bits in front of the first word of a line.
   unsigned cds_bits(unsigned line) const {
-    return protocol(line) == mb4ref::Protocol::kBissC ? 1 : 0;
+    return protocol(line) == mb4test::Protocol::kBissC ? 1 : 0;
   }
 };
 

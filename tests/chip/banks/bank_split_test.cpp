@@ -31,8 +31,8 @@ struct Split {
   unsigned apart = 0;  // clocks to a second inversion; 0: none
 };
 
-mb4ref::Registers registers(const Split& split) {
-  mb4ref::Registers result;
+mb4test::Registers registers(const Split& split) {
+  mb4test::Registers result;
   const std::uint8_t bytes[] = {0x59, 0x06, 0x00, 0x00, 0x49, 0x05, 0x00, 0x00};
   for (unsigned i = 0; i < 4 * split.slaves; ++i) result.slave[i] = bytes[i];
   result.nocrc = split.nocrc;
@@ -70,9 +70,9 @@ struct Seen {
 };
 
 Seen predicted(const Split& split, const std::vector<unsigned>& swaps) {
-  mb4ref::Reference reference;
+  mb4test::Reference reference;
   const auto config = registers(split);
-  mb4ref::Lines lines;
+  mb4test::Lines lines;
   lines.bits[0] = line_bits(split);
   if (split.valid) {
     reference.frame(config, lines);

@@ -24,7 +24,7 @@ const char* const kFaultNames[] = {
 
 // Eight data bits and CRC4 as they stand on the line.
 std::string word_of(std::uint8_t value) {
-  return word_on_line(value, 8, mb4ref::crc_choice(0x04), 0);
+  return word_on_line(value, 8, mb4test::crc_choice(0x04), 0);
 }
 
 bool addressed(const Access& access, unsigned id) {

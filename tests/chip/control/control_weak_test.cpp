@@ -22,7 +22,7 @@ constexpr unsigned kAddress = 0x30;
 
 // Eight data bits and CRC4 as they stand on the line.
 std::string word_of(unsigned value) {
-  return mb4test::word_on_line(value, 8, mb4ref::crc_choice(0x04), 0);
+  return mb4test::word_on_line(value, 8, mb4test::crc_choice(0x04), 0);
 }
 
 // The slave's start bit of a write is lost. The master repeats S,

@@ -11,7 +11,7 @@
 namespace mb4test {
 namespace {
 
-using mb4ref::Protocol;
+using mb4test::Protocol;
 
 constexpr const char* kProtocolNames[] = {"biss-b", "biss-c", "ssi"};
 
@@ -28,7 +28,7 @@ FuzzSlave make_slave(Random& random, const FuzzLine& line) {
   static constexpr std::uint8_t kCrcs[] = {0x05, 0x06, 0x06, 0x07, 0x08, 0x08, 0x10, 0x10, 0x10};
   slave.crc_register = random.one_in(8) ? static_cast<std::uint8_t>(0x90 | random.below(0x70))
                                         : kCrcs[random.below(9)];
-  slave.crc = mb4ref::crc_choice(slave.crc_register);
+  slave.crc = mb4test::crc_choice(slave.crc_register);
   if (random.one_in(2)) slave.crc_start = static_cast<std::uint16_t>(random.word());
   slave.gray = line.protocol == Protocol::kSsi && random.one_in(3);
   slave.actuator = line.mo && line.protocol == Protocol::kBissC && random.one_in(4);
@@ -174,7 +174,7 @@ bool FuzzSlave::has_sent(std::uint64_t word, std::uint64_t frames) const {
 
 std::uint32_t FuzzSlave::crc_of(std::uint64_t word) const {
   const std::uint64_t sent = gray ? word ^ (word >> 1U) : word;
-  return mb4ref::remainder(to_bits(sent, bits), crc, crc_start);
+  return mb4test::remainder(to_bits(sent, bits), crc, crc_start);
 }
 
 std::string FuzzSlave::line_bits(std::uint64_t word, std::uint32_t inverted_crc) const {

@@ -23,7 +23,7 @@ struct FuzzSlave {
   unsigned channel = 0;  // data channel 0..7
   unsigned number = 0;   // in the simulator, 1..8
   unsigned bits = 0;
-  mb4ref::CrcChoice crc;
+  mb4test::CrcChoice crc;
   std::uint8_t crc_register = 0;
   std::uint16_t crc_start = 0;
   bool gray = false;
@@ -41,7 +41,7 @@ struct FuzzSlave {
 
 struct FuzzLine {
   bool present = false;
-  mb4ref::Protocol protocol = mb4ref::Protocol::kUnused;
+  mb4test::Protocol protocol = mb4test::Protocol::kUnused;
   bool mo = false;
   std::uint64_t delay_ns = 0;
   std::vector<FuzzSlave> slaves;

@@ -12,7 +12,7 @@ namespace {
 
 namespace reg = mb4::regs;
 namespace sim = mb4::sim;
-using mb4ref::Protocol;
+using mb4test::Protocol;
 using sim::Pin;
 
 // A clock that makes no edge for so long stands still: longer than the oscillator needs to take

@@ -75,7 +75,7 @@ class FuzzHost {
     return image_[reg::kAddrInstr] & (reg::SWBANK::kMask | reg::HOLDBANK::kMask);
   }
   bool line_used(unsigned line) const;
-  mb4ref::Protocol protocol(unsigned line) const;
+  mb4test::Protocol protocol(unsigned line) const;
   // INSTR = 100 or 111 would find a line that fits (decision 37).
   bool access_can_run() const;
 

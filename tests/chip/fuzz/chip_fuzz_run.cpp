@@ -123,9 +123,9 @@ void FuzzRun::configure(bool anew) {
   std::uint64_t ma_ns = 100;
   for (const FuzzLine& line : chip_.lines) {
     if (!line.present) continue;
-    biss_b = biss_b && line.protocol == mb4ref::Protocol::kBissB;
+    biss_b = biss_b && line.protocol == mb4test::Protocol::kBissB;
     need_mo = need_mo || line.has_actuator();
-    if (line.protocol == mb4ref::Protocol::kSsi) ma_ns = std::max<std::uint64_t>(ma_ns, 150);
+    if (line.protocol == mb4test::Protocol::kSsi) ma_ns = std::max<std::uint64_t>(ma_ns, 150);
   }
   const bool en_mo = need_mo || one_in(4);
   unsigned freqs = below(3);

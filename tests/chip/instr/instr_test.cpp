@@ -309,7 +309,7 @@ class Polynomial : public testing::TestWithParam<unsigned> {};
 // Table 15: every SCRCPOLY stands for code & '1'; good words are valid, an inverted bit is not.
 TEST_P(Polynomial, GoodWordsAreValidAndEveryInvertedBitIsFound) {
   const unsigned code = GetParam();
-  const auto crc = mb4ref::crc_choice(static_cast<std::uint8_t>(0x80 | code));
+  const auto crc = mb4test::crc_choice(static_cast<std::uint8_t>(0x80 | code));
   ASSERT_EQ(crc.polynomial, 2 * code + 1);
   Chip chip(one_slave("data_bits = 9\nflag_bits = 0\ncrc = " + std::to_string(crc.polynomial)));
   chip.configure_slave1(9, static_cast<std::uint8_t>(reg::kSelcrcsByPolynomial | code), 0x00,

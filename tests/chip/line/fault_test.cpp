@@ -18,8 +18,8 @@
 
 namespace {
 
-using mb4ref::CrcChoice;
 using mb4test::Chip;
+using mb4test::CrcChoice;
 namespace reg = mb4::regs;
 namespace sim = mb4::sim;
 
@@ -87,7 +87,7 @@ class Campaign {
     const std::uint8_t codes[] = {0x03, 0x04, 0x05, 0x06, 0x07, 0x08, 0x10};
     const std::uint8_t code =
         one_in(3) ? static_cast<std::uint8_t>(0x81 + below(127)) : codes[below(7)];
-    sensor.crc = mb4ref::crc_choice(code);
+    sensor.crc = mb4test::crc_choice(code);
     sensor.start = one_in(2) ? static_cast<std::uint16_t>(random_()) : std::uint16_t{0};
     sensor.period = period_of(sensor.crc);
     for (const unsigned byte : {0x40U | (sensor.bits - 1), unsigned{code}, sensor.start & 0xFFU,

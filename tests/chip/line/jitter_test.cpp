@@ -26,12 +26,12 @@ namespace sim = mb4::sim;
 constexpr unsigned kDataBits = 28;  // 26 position bits, nE, nW
 constexpr unsigned kCrcBits = 6;
 constexpr unsigned kWordBits = kDataBits + kCrcBits;
-constexpr mb4ref::CrcChoice kCrc{kCrcBits, 0x43};
+constexpr mb4test::CrcChoice kCrc{kCrcBits, 0x43};
 constexpr unsigned kSteps = 121;  // of the delay, 10 ns each
 constexpr unsigned kPeriodNs = 100;
 
 std::uint32_t crc6(std::uint64_t word) {
-  return mb4ref::remainder(mb4test::to_bits(word, kDataBits), kCrc, 0);
+  return mb4test::remainder(mb4test::to_bits(word, kDataBits), kCrc, 0);
 }
 
 // Share of the error patterns of each weight that CRC-6 does not see: counted over its 2^28 code

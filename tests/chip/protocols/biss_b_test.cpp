@@ -53,7 +53,7 @@ std::string cells(const ProtocolChip& chip, std::size_t first_rise, bool& exact)
 
 // CRC4 of x^4 + x + 1, inverted (long division).
 std::string with_crc4(const std::string& bits) {
-  return bits + to_bits(~std::uint64_t{mb4ref::remainder(bits, {4, 0x13}, 0)}, 4);
+  return bits + to_bits(~std::uint64_t{mb4test::remainder(bits, {4, 0x13}, 0)}, 4);
 }
 
 TEST(ChipBissB, SensorFrame_EveryFreqs) {

@@ -50,7 +50,7 @@ std::uint64_t RandomRun::frames_seen() {
 // How often did the CRC not see a fault?
 void RandomRun::count_faults(std::uint64_t frame) {
   if (frame >= RandomCase::kFrames) return;
-  const mb4ref::Lines lines = case_.frame(frame);
+  const mb4test::Lines lines = case_.frame(frame);
   for (unsigned line = 0; line < 2; ++line) {
     if (!case_.used[line]) continue;
     std::size_t at = case_.cds_bits(line);
@@ -186,7 +186,7 @@ void RandomRun::instr_frame(unsigned hold) {
   const unsigned lines = case_.chsel == 0 ? 1 : case_.chsel;
   for (const unsigned line : {0U, 1U}) {
     // BiSS B has no CDM.
-    if (!case_.used[line] || case_.protocol(line) == mb4ref::Protocol::kBissB) continue;
+    if (!case_.used[line] || case_.protocol(line) == mb4test::Protocol::kBissB) continue;
     const bool cdm = instr != 2 && ((lines >> line) & 1U) != 0;
     expect(session_.simulator().slave(line == 0 ? 1 : 5)->last_cdm() == cdm, "CDM of the frame");
   }

@@ -69,7 +69,7 @@ class RandomRun {
   const RandomCase& case_;
   Random& random_;
   Session session_;
-  mb4ref::Reference reference_;
+  mb4test::Reference reference_;
   RandomCounts counts_;
   std::uint64_t applied_ = 0;      // frames that the reference has seen
   std::uint64_t frame_ns_ = 0;     // of one frame with its timeout

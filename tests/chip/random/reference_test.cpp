@@ -8,9 +8,9 @@
 
 namespace {
 
-using mb4ref::Protocol;
-using mb4ref::Reference;
-using mb4ref::Registers;
+using mb4test::Protocol;
+using mb4test::Reference;
+using mb4test::Registers;
 
 // Data channel `x` with this register 0xC0, polynomial code and no start value.
 void set_channel(Registers& registers, unsigned x, std::uint8_t c0, std::uint8_t c1) {

@@ -18,9 +18,9 @@
 
 namespace {
 
-using mb4ref::Protocol;
 using mb4test::Chip;
 using mb4test::one_slave;
+using mb4test::Protocol;
 namespace sim = mb4::sim;
 
 const std::string kSlave = "data_bits = 26\ncrc = 0x43\ndata = 0x0AAAAAA\n";
@@ -96,7 +96,7 @@ TEST(ChipAccess, NoLineThatFits_EndsAtOnceWithAnError) {
                           static_cast<std::uint8_t>((cts ? 0x80 : 0) | (regvers ? 0x40 : 0))});
         chip.write(0xEC, {static_cast<std::uint8_t>(slaveloc5 ? 0x11 : 0x01),
                           static_cast<std::uint8_t>(code_of(second) << 2U | code_of(first))});
-        const unsigned lines = mb4ref::Reference::access_lines(
+        const unsigned lines = mb4test::Reference::access_lines(
             {first, slaveloc5 ? second : std::nullopt}, regvers, chsel, cts);
         chip.instruct(static_cast<std::uint8_t>(instr << 1U | (ags ? 1U : 0U)));
         chip.advance_us(ags ? 20 : 2);

@@ -19,18 +19,18 @@ namespace {
 
 using mb4::Error;
 using mb4::Frame;
-using mb4_test::Bytes;
-using mb4_test::encoder26;
-using mb4_test::FakeClock;
-using mb4_test::join;
-using mb4_test::kBreak;
-using mb4_test::kClearValid1;
-using mb4_test::kData4;
-using mb4_test::kReadData4;
-using mb4_test::kReadStatus;
-using mb4_test::status;
-using mb4_test::StrictBus;
-using mb4_test::zeros;
+using mb4test::Bytes;
+using mb4test::encoder26;
+using mb4test::FakeClock;
+using mb4test::join;
+using mb4test::kBreak;
+using mb4test::kClearValid1;
+using mb4test::kData4;
+using mb4test::kReadData4;
+using mb4test::kReadStatus;
+using mb4test::status;
+using mb4test::StrictBus;
+using mb4test::zeros;
 
 const Bytes kAgs{0x07, 0x01};   // AGS: bit 0 of 0xF4 (table 44)
 const Bytes kHold{0x07, 0x41};  // and HOLDBANK, bit 6 (table 48)
@@ -43,7 +43,7 @@ const Bytes kBad = status(0x6A, 0x00, 0x01);  // nSCDERR = 0, nERR = 0
 class AutomaticTest : public testing::Test {
  protected:
   void configure(mb4::Config config = encoder26()) {
-    mb4_test::expect_configure(bus);
+    mb4test::expect_configure(bus);
     ASSERT_TRUE(device.configure(config).ok());
   }
   void start() {
@@ -95,7 +95,7 @@ TEST_F(Start, WrongUse_IsAnErrorWithoutTransfer) {
 TEST_F(Start, SingleBank_IsUnsupported) {
   mb4::Config config = encoder26();
   config.single_bank = true;
-  mb4_test::expect_configure(bus, 0xE7, 0x03);
+  mb4test::expect_configure(bus, 0xE7, 0x03);
   ASSERT_TRUE(device.configure(config).ok());
   const mb4::ErrorInfo info = device.automatic().start().info();
   EXPECT_EQ(info.code, Error::kUnsupported);
@@ -118,8 +118,8 @@ TEST_F(Start, Stop_ClearsAgsAndSingleFramesWork) {
   EXPECT_TRUE(device.automatic().stop().ok());
   bus.expect_write(kBreak);
   bus.expect_write(kClearValid1);
-  bus.expect_write(mb4_test::kStartFrame);
-  bus.expect_read(kReadStatus, mb4_test::kGoodFrame);
+  bus.expect_write(mb4test::kStartFrame);
+  bus.expect_read(kReadStatus, mb4test::kGoodFrame);
   bus.expect_read(kReadData4, kData4);
   bus.expect_write(kClearValid1);
   EXPECT_TRUE(device.read_frame().ok());
@@ -145,7 +145,7 @@ TEST_F(Poll, NewFrame_FollowsTable69) {
   const std::size_t before = bus.transfers();
   ASSERT_TRUE(device.automatic().poll(frame).ok());
   EXPECT_EQ(bus.transfers() - before, 6U);  // 5 + one slave
-  EXPECT_EQ(frame[1]->position, mb4_test::kPosition);
+  EXPECT_EQ(frame[1]->position, mb4test::kPosition);
 }
 
 TEST_F(Poll, NothingNew_TakesThreeTransfers) {
@@ -198,7 +198,7 @@ TEST(PollFailure, TransportAtEachTransfer_ReleasesTheBank) {
     StrictBus bus;
     FakeClock clock;
     mb4::Device<StrictBus, FakeClock> device(bus, clock);
-    mb4_test::expect_configure(bus);
+    mb4test::expect_configure(bus);
     bus.expect_write(kAgs);
     ASSERT_TRUE(device.configure(encoder26()).ok());
     ASSERT_TRUE(device.automatic().start().ok());
@@ -230,15 +230,15 @@ TEST(PollThree, OneSlaveBad_OthersAreRead) {
   StrictBus bus;
   FakeClock clock;
   mb4::Device<StrictBus, FakeClock> device(bus, clock);
-  mb4_test::expect_configure_three(bus);
+  mb4test::expect_configure_three(bus);
   bus.expect_write(kAgs);
-  ASSERT_TRUE(device.configure(mb4_test::three_slaves()).ok());
+  ASSERT_TRUE(device.configure(mb4test::three_slaves()).ok());
   ASSERT_TRUE(device.automatic().start().ok());
   bus.expect_write(kHold);
   bus.expect_read(kReadStatus, {0x00, 0xFB, 0x02, 0x02, 0x00, 0x01});
-  mb4_test::expect_three_data(bus);
+  mb4test::expect_three_data(bus);
   bus.expect_read(kReadStatus, {0x00, 0xFB, 0x02, 0x02, 0x00, 0x41});
-  bus.expect_write(mb4_test::kThreeClear);
+  bus.expect_write(mb4test::kThreeClear);
   bus.expect_write(kAgs);
   Frame frame;
   const std::size_t before = bus.transfers();
@@ -255,7 +255,7 @@ TEST_F(Next, FrameComes_IsFetched) {
   bus.expect_read(kReadStatus, kNew);
   expect_read();
   ASSERT_TRUE(device.automatic().next(frame).ok());
-  EXPECT_EQ(frame[1]->position, mb4_test::kPosition);
+  EXPECT_EQ(frame[1]->position, mb4test::kPosition);
 }
 
 // Table 69: SVALID = 0 after reading: BREAK, then AGS again; here before the next frame.
@@ -330,7 +330,7 @@ TEST_F(Next, TransportFailureWhileWaiting_RestartsNextTime) {
 TEST_F(Next, NoPulseAtGetsens_IsNoDataAndChangesNothing) {
   mb4::Config config = encoder26();
   config.frame_start = mb4::FrameStart::kOnPin;
-  mb4_test::expect_configure(bus, 0xE8, 0x7D);
+  mb4test::expect_configure(bus, 0xE8, 0x7D);
   bus.expect_write(kAgs);
   ASSERT_TRUE(device.configure(config).ok());
   ASSERT_TRUE(device.automatic().start().ok());

@@ -24,11 +24,11 @@ using mb4::Config;
 using mb4::ConfigField;
 using mb4::Error;
 using mb4::ErrorInfo;
-using mb4_test::Bytes;
-using mb4_test::encoder26;
-using mb4_test::FakeClock;
-using mb4_test::hex;
-using mb4_test::StrictBus;
+using mb4test::Bytes;
+using mb4test::encoder26;
+using mb4test::FakeClock;
+using mb4test::hex;
+using mb4test::StrictBus;
 
 // A Config can be checked by the compiler.
 static_assert(mb4::validate(encoder26()).ok());
@@ -339,7 +339,7 @@ std::string image_text(const Config& config) {
 
 TEST(RegisterImage, Encoder26_MatchesHandWorkedBytes) {
   EXPECT_EQ(image_text(encoder26()),
-            hex(mb4_test::join({mb4_test::configuration(), {0x00, 0x00, 0x00}})));
+            hex(mb4test::join({mb4test::configuration(), {0x00, 0x00, 0x00}})));
 }
 
 std::uint8_t image_byte(const Config& config, std::uint8_t address) {

@@ -21,15 +21,15 @@ namespace {
 
 using mb4::Error;
 using mb4::ErrorInfo;
-using mb4_test::Bytes;
-using mb4_test::encoder26;
-using mb4_test::FakeClock;
-using mb4_test::join;
-using mb4_test::kBreak;
-using mb4_test::kClearValid1;
-using mb4_test::kReadStatus;
-using mb4_test::StrictBus;
-using mb4_test::zeros;
+using mb4test::Bytes;
+using mb4test::encoder26;
+using mb4test::FakeClock;
+using mb4test::join;
+using mb4test::kBreak;
+using mb4test::kClearValid1;
+using mb4test::kReadStatus;
+using mb4test::StrictBus;
+using mb4test::zeros;
 
 const Bytes kFrame{0x07, 0x08};     // INSTR = 100: bits 3:1 of 0xF4 (table 45)
 const Bytes kFrameAgs{0x07, 0x09};  // with AGS = 1
@@ -47,7 +47,7 @@ const Bytes kDoneAgs = status(0xFF, 0x01);
 class ControlTest : public testing::Test {
  protected:
   void configure() {
-    mb4_test::expect_configure(bus);
+    mb4test::expect_configure(bus);
     ASSERT_TRUE(device.configure(encoder26()).ok());
   }
   void start_automatic() {
@@ -172,9 +172,9 @@ TEST_F(Registers, SingleFrameAfterwards_NeedsNoRecovery) {
   expect_frames(status(0x77));
   std::array<std::uint8_t, 1> bytes{};
   EXPECT_EQ(device.control().read_registers({1, 0}, 0x10, bytes).error(), Error::kRegister);
-  bus.expect_write(mb4_test::kStartFrame);
-  bus.expect_read(kReadStatus, mb4_test::kGoodFrame);
-  bus.expect_read(mb4_test::kReadData4, mb4_test::kData4);
+  bus.expect_write(mb4test::kStartFrame);
+  bus.expect_read(kReadStatus, mb4test::kGoodFrame);
+  bus.expect_read(mb4test::kReadData4, mb4test::kData4);
   bus.expect_write(kClearValid1);
   EXPECT_TRUE(device.read_frame().ok());
 }
@@ -195,7 +195,7 @@ TEST_F(Registers, SilentSlave_IsTimeoutAfterBreak) {
 TEST_F(Registers, NeverEnding_IsTimeoutAfterCountedFrames) {
   mb4::Config config = encoder26();
   config.register_busy_us = 39;
-  mb4_test::expect_configure(bus);
+  mb4test::expect_configure(bus);
   ASSERT_TRUE(device.configure(config).ok());
   bus.expect_write({0x02, 0xE2, 0x10, 0x00, 0x01, 0xC0});
   for (int frame = 0; frame < 49 + 2 + 1; ++frame) {
@@ -225,7 +225,7 @@ TEST(RegistersFailure, TransportAtEachTransfer_IsReportedAndNothingKeepsRunning)
     StrictBus bus;
     FakeClock clock;
     mb4::Device<StrictBus, FakeClock> device(bus, clock);
-    mb4_test::expect_configure(bus);
+    mb4test::expect_configure(bus);
     ASSERT_TRUE(device.configure(encoder26()).ok());
     bus.expect_write({0x02, 0x80, 0x12});
     bus.expect_write({0x02, 0xE2, 0xE0, 0x00, 0x01, 0xC0});
@@ -283,7 +283,7 @@ TEST(ControlConfig, FramesThatDoNotWait_AreUnsupported) {
   mb4::Device<StrictBus, FakeClock> device(bus, clock);
   mb4::Config config = encoder26();
   config.frame_start = mb4::FrameStart::kRequireIdleLine;
-  mb4_test::expect_configure(bus, 0xE8, 0x7D);
+  mb4test::expect_configure(bus, 0xE8, 0x7D);
   ASSERT_TRUE(device.configure(config).ok());
   const ErrorInfo info = device.control().begin_read({1, 0}, 0, 1).info();
   EXPECT_EQ(info.code, Error::kUnsupported);
@@ -386,7 +386,7 @@ class PollBesideControl : public ControlTest {
   void expect_read(const Bytes& after) {
     bus.expect_read(kReadStatus, {0, 0xFB, 0x02, 0, 0, 0x09});
     bus.expect_write(kClearValid1);
-    bus.expect_read(mb4_test::kReadData4, mb4_test::kData4);
+    bus.expect_read(mb4test::kReadData4, mb4test::kData4);
     bus.expect_read(kReadStatus, after);
   }
   mb4::Frame frame;
@@ -395,7 +395,7 @@ class PollBesideControl : public ControlTest {
 TEST_F(PollBesideControl, NoSwitch_IsRead) {
   expect_read(kRunsAgs);
   ASSERT_TRUE(device.automatic().poll(frame).ok());
-  EXPECT_EQ(frame[1]->position, mb4_test::kPosition);
+  EXPECT_EQ(frame[1]->position, mb4test::kPosition);
 }
 
 TEST_F(PollBesideControl, NothingNew_IsOneTransfer) {
@@ -427,7 +427,7 @@ TEST(PollBesideControlFailure, TransportAtEachTransfer_LeavesNoReading) {
     StrictBus bus;
     FakeClock clock;
     mb4::Device<StrictBus, FakeClock> device(bus, clock);
-    mb4_test::expect_configure(bus);
+    mb4test::expect_configure(bus);
     bus.expect_write(kAgs);
     bus.expect_write({0x02, 0xE2, 0x44, 0x00, 0x01, 0xC0});
     bus.expect_write(kFrameAgs);
@@ -436,7 +436,7 @@ TEST(PollBesideControlFailure, TransportAtEachTransfer_LeavesNoReading) {
     ASSERT_TRUE(device.control().begin_read({1, 0}, 0x44, 1).ok());
     bus.expect_read(kReadStatus, {0, 0xFB, 0x02, 0, 0, 0x09});
     bus.expect_write(kClearValid1);
-    bus.expect_read(mb4_test::kReadData4, mb4_test::kData4);
+    bus.expect_read(mb4test::kReadData4, mb4test::kData4);
     bus.expect_read(kReadStatus, kRunsAgs);
     bus.fail_at(6 + index);
     mb4::Frame frame;
@@ -488,8 +488,8 @@ TEST(CommandChannels, BothAtOnce_IsAllowed) {
   StrictBus bus;
   FakeClock clock;
   mb4::Device<StrictBus, FakeClock> device(bus, clock);
-  mb4_test::expect_configure_three(bus);
-  ASSERT_TRUE(device.configure(mb4_test::three_slaves()).ok());
+  mb4test::expect_configure_three(bus);
+  ASSERT_TRUE(device.configure(mb4test::three_slaves()).ok());
   bus.expect_write({0x02, 0x80, 0x00});
   bus.expect_write({0x02, 0xE4, 0x03, 0x40});
   bus.expect_write(kFrame);
@@ -511,10 +511,10 @@ TEST_F(Commands, WrongArguments_AreErrorsWithoutTransfer) {
 
 // ---- IDs: the far end of the chain is ID 0 ------------------------------------------------------
 
-static_assert(mb4::slave_address(mb4_test::three_slaves(), 1).id == 1);
-static_assert(mb4::slave_address(mb4_test::three_slaves(), 2).id == 0);
-static_assert(mb4::slave_address(mb4_test::three_slaves(), 5).id == 0);
-static_assert(mb4::slave_address(mb4_test::three_slaves(), 5).channel == 2);
+static_assert(mb4::slave_address(mb4test::three_slaves(), 1).id == 1);
+static_assert(mb4::slave_address(mb4test::three_slaves(), 2).id == 0);
+static_assert(mb4::slave_address(mb4test::three_slaves(), 5).id == 0);
+static_assert(mb4::slave_address(mb4test::three_slaves(), 5).channel == 2);
 static_assert(mb4::slave_address(encoder26(), 1).id == 0);
 
 }  // namespace

@@ -17,13 +17,13 @@
 namespace {
 
 using mb4::Error;
-using mb4_test::Bytes;
-using mb4_test::encoder26;
-using mb4_test::FakeClock;
-using mb4_test::join;
-using mb4_test::StrictBus;
-using mb4_test::StuckBus;
-using mb4_test::zeros;
+using mb4test::Bytes;
+using mb4test::encoder26;
+using mb4test::FakeClock;
+using mb4test::join;
+using mb4test::StrictBus;
+using mb4test::StuckBus;
+using mb4test::zeros;
 
 class DeviceTest : public testing::Test {
  protected:
@@ -62,7 +62,7 @@ TEST_F(Probe, TransportFailure_IsReported) {
 }
 
 TEST_F(Configure, ValidConfig_WritesReadsBackAndCompares) {
-  mb4_test::expect_configure(bus);
+  mb4test::expect_configure(bus);
   EXPECT_TRUE(device.configure(encoder26()).ok());
   EXPECT_TRUE(device.configured());
   EXPECT_EQ(device.config().slaves[0].data_bits, 28);
@@ -73,13 +73,13 @@ TEST_F(Configure, InternalClock_IsSwitchedOnFirst) {
   mb4::Config config = encoder26();
   config.clock_source = mb4::ClockSource::kInternal;
   bus.expect_write({0x07, 0x80, 0x01});
-  bus.expect_write(join({{0x02, 0xC0}, mb4_test::configuration(), {0x00, 0x00, 0x00}}));
-  bus.expect_read(join({{0x03, 0xC0}, zeros(54)}), join({zeros(2), mb4_test::read_back(0x01)}));
+  bus.expect_write(join({{0x02, 0xC0}, mb4test::configuration(), {0x00, 0x00, 0x00}}));
+  bus.expect_read(join({{0x03, 0xC0}, zeros(54)}), join({zeros(2), mb4test::read_back(0x01)}));
   EXPECT_TRUE(device.configure(config).ok());
 }
 
 TEST_F(Configure, InvalidConfigAfterGoodOne_KeepsTheGoodOne) {
-  mb4_test::expect_configure(bus);
+  mb4test::expect_configure(bus);
   ASSERT_TRUE(device.configure(encoder26()).ok());
   EXPECT_EQ(device.configure(mb4::Config()).error(), Error::kInvalidConfig);
   EXPECT_TRUE(device.configured());
@@ -91,9 +91,9 @@ TEST(ConfigureFailure, TransportAtEachTransfer_IsReportedAndLeavesUnconfigured) 
     StrictBus bus;
     FakeClock clock;
     mb4::Device<StrictBus, FakeClock> device(bus, clock);
-    mb4_test::expect_configure(bus);
+    mb4test::expect_configure(bus);
     ASSERT_TRUE(device.configure(encoder26()).ok());
-    mb4_test::expect_configure(bus);
+    mb4test::expect_configure(bus);
     bus.fail_at(3 + index);
     EXPECT_EQ(device.configure(encoder26()).error(), Error::kTransport) << index;
     EXPECT_FALSE(device.configured()) << index;
@@ -116,8 +116,8 @@ TEST(ConfigureFailure, AnyWrongBit_IsVerifyWithItsAddress) {
       FakeClock clock;
       mb4::Device<StrictBus, FakeClock> device(bus, clock);
       bus.expect_write({0x07, 0x80, 0x00});
-      bus.expect_write(join({{0x02, 0xC0}, mb4_test::configuration(), {0x00, 0x00, 0x00}}));
-      Bytes answer = mb4_test::read_back();
+      bus.expect_write(join({{0x02, 0xC0}, mb4test::configuration(), {0x00, 0x00, 0x00}}));
+      Bytes answer = mb4test::read_back();
       std::uint8_t& byte = answer[address - 0xC0];
       byte = static_cast<std::uint8_t>(byte ^ (1U << bit));
       bus.expect_read(join({{0x03, 0xC0}, zeros(54)}), join({zeros(2), answer}));
@@ -135,8 +135,8 @@ TEST(ConfigureFailure, AnyWrongBit_IsVerifyWithItsAddress) {
 
 TEST_F(Configure, OtherVersion_IsNotDetected) {
   bus.expect_write({0x07, 0x80, 0x00});
-  bus.expect_write(join({{0x02, 0xC0}, mb4_test::configuration(), {0x00, 0x00, 0x00}}));
-  Bytes answer = mb4_test::read_back();
+  bus.expect_write(join({{0x02, 0xC0}, mb4test::configuration(), {0x00, 0x00, 0x00}}));
+  Bytes answer = mb4test::read_back();
   answer[0xEB - 0xC0] = 0x83;
   bus.expect_read(join({{0x03, 0xC0}, zeros(54)}), join({zeros(2), answer}));
   EXPECT_EQ(device.configure(encoder26()).error(), Error::kNotDetected);
@@ -184,9 +184,9 @@ TEST(StatusSnapshot, WrongConstantBit_IsNotDetected) {
     StrictBus bus;
     FakeClock clock;
     mb4::Device<StrictBus, FakeClock> device(bus, clock);
-    Bytes answer = mb4_test::kIdleStatus;
+    Bytes answer = mb4test::kIdleStatus;
     answer[1 + one.byte] = static_cast<std::uint8_t>(answer[1 + one.byte] ^ one.flip);
-    bus.expect_read(mb4_test::kReadStatus, answer);
+    bus.expect_read(mb4test::kReadStatus, answer);
     EXPECT_EQ(device.read_status().error(), Error::kNotDetected) << one.byte;
   }
 }

@@ -11,7 +11,7 @@
 #include "mb4/config.hpp"
 #include "tests/driver/mb4/strict_bus.hpp"
 
-namespace mb4_test {
+namespace mb4test {
 
 constexpr mb4::Config encoder26() {
   mb4::Config config;
@@ -89,6 +89,6 @@ inline const Bytes kClearValid1{0x02, 0xF1, 0xFD, 0xFF};  // only SVALID1, bit 1
 inline const Bytes kReadData4{0x09, 0x00, 0x00, 0x00, 0x00};
 inline const Bytes kData4{0x00, 0xBF, 0x37, 0xAF, 0x0A};  // 0x0AAF37BF, low byte first (table 20)
 
-}  // namespace mb4_test
+}  // namespace mb4test
 
 #endif  // TESTS_DRIVER_MB4_ENCODER26_HPP_

@@ -12,7 +12,7 @@
 namespace {
 
 using mb4::Error;
-using mb4_test::StrictBus;
+using mb4test::StrictBus;
 
 mb4::Fields<StrictBus> fields_of(StrictBus& bus) {
   return mb4::Fields<StrictBus>(mb4::Opcodes<StrictBus>(bus));

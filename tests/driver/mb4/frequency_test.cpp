@@ -16,7 +16,7 @@
 namespace {
 
 using mb4::Config;
-using mb4_test::encoder26;
+using mb4test::encoder26;
 
 std::uint8_t freqags(const Config& config) { return mb4::encode_registers(config)[0xE8 - 0xC0]; }
 

@@ -16,38 +16,38 @@
 namespace {
 
 using mb4::Error;
-using mb4_test::Bytes;
-using mb4_test::FakeClock;
-using mb4_test::join;
-using mb4_test::kClearValid1;
-using mb4_test::kGoodFrame;
-using mb4_test::kIdleStatus;
-using mb4_test::kReadStatus;
-using mb4_test::kStartFrame;
-using mb4_test::status;
-using mb4_test::StrictBus;
-using mb4_test::zeros;
+using mb4test::Bytes;
+using mb4test::FakeClock;
+using mb4test::join;
+using mb4test::kClearValid1;
+using mb4test::kGoodFrame;
+using mb4test::kIdleStatus;
+using mb4test::kReadStatus;
+using mb4test::kStartFrame;
+using mb4test::status;
+using mb4test::StrictBus;
+using mb4test::zeros;
 
 const Bytes kAgs{0x07, 0x01};                      // AGS: bit 0 of 0xF4 (table 44)
 const Bytes kHold{0x07, 0x41};                     // and HOLDBANK, bit 6 (table 48)
 const Bytes kBreakAndInterface{0x07, 0x80, 0x00};  // BREAK: bit 7; 0xF5 as configured
 const Bytes kReadAll =
     join({{0x09}, Bytes(8, 0x5A)});  // eight bytes, the CRC in the last (page 26)
-const Bytes kAllOf = join({mb4_test::kData4, {0, 0, 0, mb4_test::kCrc6}});
+const Bytes kAllOf = join({mb4test::kData4, {0, 0, 0, mb4test::kCrc6}});
 const Bytes kNew = status(0xFA, 0x02, 0x41);
 const Bytes kCleared = status(0xFA, 0x00, 0x41);
 
 class FullCheck : public testing::Test {
  protected:
   FullCheck() {
-    mb4::Config config = mb4_test::encoder26();
+    mb4::Config config = mb4test::encoder26();
     config.spi_check = mb4::SpiCheck::kFull;
     configure(config);
   }
   void configure(const mb4::Config& config) {
     const bool crc = config.slaves[0].crc_polynomial != 0;
-    Bytes image = mb4_test::configuration();
-    Bytes answer = mb4_test::read_back();
+    Bytes image = mb4test::configuration();
+    Bytes answer = mb4test::read_back();
     for (Bytes* bytes : {&image, &answer}) {
       (*bytes)[0xE7 - 0xC0] = 0x00;  // NOCRC = 0 (table 21)
       (*bytes)[1] = crc ? 0x06 : 0x00;
@@ -86,7 +86,7 @@ TEST_F(FullCheck, GoodFrame_TakesSixTransfers) {
   const std::size_t before = bus.transfers();
   const mb4::Result<mb4::Reading> reading = device.read_frame();
   ASSERT_TRUE(reading.ok());
-  EXPECT_EQ(reading->position, mb4_test::kPosition);
+  EXPECT_EQ(reading->position, mb4test::kPosition);
   EXPECT_EQ(bus.transfers() - before, 6U);
 }
 

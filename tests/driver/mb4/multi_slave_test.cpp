@@ -19,17 +19,17 @@ namespace {
 using mb4::Config;
 using mb4::Error;
 using mb4::Frame;
-using mb4_test::Bytes;
-using mb4_test::FakeClock;
-using mb4_test::hex;
-using mb4_test::join;
-using mb4_test::kBreak;
-using mb4_test::kReadStatus;
-using mb4_test::kRunning;
-using mb4_test::kStartFrame;
-using mb4_test::StrictBus;
-using mb4_test::three_slaves;
-using mb4_test::zeros;
+using mb4test::Bytes;
+using mb4test::FakeClock;
+using mb4test::hex;
+using mb4test::join;
+using mb4test::kBreak;
+using mb4test::kReadStatus;
+using mb4test::kRunning;
+using mb4test::kStartFrame;
+using mb4test::StrictBus;
+using mb4test::three_slaves;
+using mb4test::zeros;
 
 // The compiler checks it as well.
 static_assert(mb4::validate(three_slaves()).ok());
@@ -37,7 +37,7 @@ static_assert(mb4::validate(three_slaves()).ok());
 class MultiSlave : public testing::Test {
  protected:
   void configure() {
-    mb4_test::expect_configure_three(bus);
+    mb4test::expect_configure_three(bus);
     ASSERT_TRUE(device.configure(three_slaves()).ok());
   }
   void expect_frame(const Bytes& status) {
@@ -55,7 +55,7 @@ class MultiSlave : public testing::Test {
 TEST(MultiSlaveImage, TwoChannels_MatchHandWorkedBytes) {
   const mb4::RegisterImage image = mb4::encode_registers(three_slaves());
   EXPECT_EQ(hex(Bytes(image.begin(), image.end())),
-            hex(join({mb4_test::three_configuration(), {0x00, 0x00, 0x00}})));
+            hex(join({mb4test::three_configuration(), {0x00, 0x00, 0x00}})));
 }
 
 // Tables 25, 38: HOLDCDM is bit 0 of 0xE5, SINGLEBANK bit 0 of 0xE7.
@@ -68,7 +68,7 @@ TEST(MultiSlaveImage, SingleBankAndHoldCdm_HaveTheirBits) {
 }
 
 TEST(MultiSlaveConfig, EightSlavesOnOneChannel_AreValid) {
-  Config config = mb4_test::encoder26();
+  Config config = mb4test::encoder26();
   for (std::size_t i = 1; i < 8; ++i) {
     config.slaves[i] = config.slaves[0];
   }
@@ -82,13 +82,13 @@ TEST(MultiSlaveConfig, TwoChannels_FrameIsTheLongerOne) {
   EXPECT_EQ(mb4::frame_periods(three_slaves()), 58U);
   EXPECT_EQ(mb4::channel_of(three_slaves(), 4), 1);
   EXPECT_EQ(mb4::channel_of(three_slaves(), 5), 2);
-  EXPECT_EQ(mb4::channel_of(mb4_test::encoder26(), 5), 1);
+  EXPECT_EQ(mb4::channel_of(mb4test::encoder26(), 5), 1);
 }
 
 // Page 27: with HOLDCDM the master need not be configured according to the slaves; page 30: AGSMIN
 // needs complete frames all the same.
 TEST(MultiSlaveConfig, ChannelWithoutSlave_NeedsHoldCdmAndNoWaitForLine) {
-  Config config = mb4_test::encoder26();
+  Config config = mb4test::encoder26();
   config.slaves[0].enabled = false;
   EXPECT_EQ(mb4::validate(config).info().field, mb4::ConfigField::kSlaveEnabled);
   config.hold_cdm = true;
@@ -111,12 +111,12 @@ TEST(MultiSlaveConfig, OnlyChannel2_IsValid) {
 // Slaves 1 and 2 are four bytes apart: two bursts are shorter than one. Slave 5 is far away.
 TEST_F(MultiSlave, AllGood_OneFrameForAll) {
   configure();
-  expect_frame(mb4_test::kThreeValid);
-  mb4_test::expect_three_data(bus);
-  bus.expect_write(mb4_test::kThreeClear);
+  expect_frame(mb4test::kThreeValid);
+  mb4test::expect_three_data(bus);
+  bus.expect_write(mb4test::kThreeClear);
   ASSERT_TRUE(device.read_all(frame).ok());
   EXPECT_TRUE(frame.good(0x13));
-  EXPECT_EQ(frame[1]->position, mb4_test::kPosition);
+  EXPECT_EQ(frame[1]->position, mb4test::kPosition);
   EXPECT_EQ(frame[2]->raw, 0x1234U);
   EXPECT_EQ(frame[5]->raw, 0xABCDEFU);
   EXPECT_EQ(frame[5]->slave, 5);
@@ -129,19 +129,19 @@ TEST_F(MultiSlave, AllGood_OneFrameForAll) {
 TEST_F(MultiSlave, CrcErrorOfOne_OthersAreRead) {
   configure();
   expect_frame({0x00, 0x6B, 0x02, 0x02, 0x00, 0x00});
-  bus.expect_read(mb4_test::kReadData4, mb4_test::kData4);
+  bus.expect_read(mb4test::kReadData4, mb4test::kData4);
   bus.expect_read({0x03, 0x20, 0, 0, 0}, {0, 0, 0xEF, 0xCD, 0xAB});
-  bus.expect_write(mb4_test::kThreeClear);
+  bus.expect_write(mb4test::kThreeClear);
   ASSERT_TRUE(device.read_all(frame).ok());
   EXPECT_FALSE(frame.good(0x13));
-  EXPECT_EQ(frame[1]->position, mb4_test::kPosition);
+  EXPECT_EQ(frame[1]->position, mb4test::kPosition);
   EXPECT_EQ(frame[2].error(), Error::kCrc);
   EXPECT_EQ(frame[5]->raw, 0xABCDEFU);
   bus.expect_write(kBreak);
-  bus.expect_write(mb4_test::kThreeClear);
-  expect_frame(mb4_test::kThreeValid);
-  mb4_test::expect_three_data(bus);
-  bus.expect_write(mb4_test::kThreeClear);
+  bus.expect_write(mb4test::kThreeClear);
+  expect_frame(mb4test::kThreeValid);
+  mb4test::expect_three_data(bus);
+  bus.expect_write(mb4test::kThreeClear);
   ASSERT_TRUE(device.read_all(frame).ok());
   EXPECT_TRUE(frame.good(0x13));
 }
@@ -169,7 +169,7 @@ TEST_F(MultiSlave, NoDataOfOne_IsNoData) {
   expect_frame({0x00, 0xFB, 0x08, 0x02, 0x00, 0x00});
   bus.expect_read({0x03, 0x08, 0, 0}, {0, 0, 0x34, 0x12});
   bus.expect_read({0x03, 0x20, 0, 0, 0}, {0, 0, 0xEF, 0xCD, 0xAB});
-  bus.expect_write(mb4_test::kThreeClear);
+  bus.expect_write(mb4test::kThreeClear);
   ASSERT_TRUE(device.read_all(frame).ok());
   EXPECT_EQ(frame[1].error(), Error::kNoData);
   EXPECT_TRUE(frame[2].ok());
@@ -186,11 +186,11 @@ TEST_F(MultiSlave, LineLowAtStart_IsLineErrorOfTheCall) {
 // Bit 14 of 14 bits is set: that came from SPI.
 TEST_F(MultiSlave, CorruptedSlave_IsCorruptedAloneAndRecoversNext) {
   configure();
-  expect_frame(mb4_test::kThreeValid);
-  bus.expect_read(mb4_test::kReadData4, mb4_test::kData4);
+  expect_frame(mb4test::kThreeValid);
+  bus.expect_read(mb4test::kReadData4, mb4test::kData4);
   bus.expect_read({0x03, 0x08, 0, 0}, {0, 0, 0x34, 0x52});
   bus.expect_read({0x03, 0x20, 0, 0, 0}, {0, 0, 0xEF, 0xCD, 0xAB});
-  bus.expect_write(mb4_test::kThreeClear);
+  bus.expect_write(mb4test::kThreeClear);
   ASSERT_TRUE(device.read_all(frame).ok());
   EXPECT_TRUE(frame[1].ok());
   EXPECT_EQ(frame[2].error(), Error::kCorrupted);
@@ -208,12 +208,12 @@ TEST(MultiSlaveFailure, TransportAtEachTransfer_LeavesNoReading) {
     StrictBus bus;
     FakeClock clock;
     mb4::Device<StrictBus, FakeClock> device(bus, clock);
-    mb4_test::expect_configure_three(bus);
+    mb4test::expect_configure_three(bus);
     bus.expect_write(kStartFrame);
     bus.expect_read(kReadStatus, kRunning);
-    bus.expect_read(kReadStatus, mb4_test::kThreeValid);
-    mb4_test::expect_three_data(bus);
-    bus.expect_write(mb4_test::kThreeClear);
+    bus.expect_read(kReadStatus, mb4test::kThreeValid);
+    mb4test::expect_three_data(bus);
+    bus.expect_write(mb4test::kThreeClear);
     bus.fail_at(3 + index);
     ASSERT_TRUE(device.configure(three_slaves()).ok());
     Frame frame;
@@ -227,17 +227,17 @@ TEST(MultiSlaveFailure, TransportAtEachTransfer_LeavesNoReading) {
 // Reading one of several clears the flags of all: slave 5 must not pass this frame for a later one.
 TEST_F(MultiSlave, OneOfSeveral_ReadsItsDataAndClearsAllFlags) {
   configure();
-  expect_frame(mb4_test::kThreeValid);
+  expect_frame(mb4test::kThreeValid);
   bus.expect_read({0x03, 0x08, 0, 0}, {0, 0, 0x34, 0x12});
-  bus.expect_write(mb4_test::kThreeClear);
+  bus.expect_write(mb4test::kThreeClear);
   EXPECT_EQ(device.read_frame(2)->raw, 0x1234U);
 }
 
 TEST_F(MultiSlave, CrcErrorOfAnother_DoesNotSpoilThisOne) {
   configure();
   expect_frame({0x00, 0x6B, 0x02, 0x00, 0x00, 0x00});
-  bus.expect_read(mb4_test::kReadData4, mb4_test::kData4);
-  bus.expect_write(mb4_test::kThreeClear);
+  bus.expect_read(mb4test::kReadData4, mb4test::kData4);
+  bus.expect_write(mb4test::kThreeClear);
   EXPECT_TRUE(device.read_frame(1).ok());
 }
 
@@ -260,7 +260,7 @@ TEST_F(MultiSlave, LineOfChannel2StaysLow_IsLineError) {
 
 // All eight with 6 bytes each: gaps of 2 bytes, one burst. Slaves 1 and 8 alone: two.
 TEST(ReadData, NeighboursWithSmallGap_ShareOneBurst) {
-  Config config = mb4_test::encoder26();
+  Config config = mb4test::encoder26();
   for (mb4::SlaveConfig& slave : config.slaves) {
     slave = config.slaves[0];
     slave.data_bits = 48;

@@ -15,10 +15,10 @@
 namespace {
 
 using mb4::Error;
-using mb4_test::Bytes;
-using mb4_test::join;
-using mb4_test::StrictBus;
-using mb4_test::zeros;
+using mb4test::Bytes;
+using mb4test::join;
+using mb4test::StrictBus;
+using mb4test::zeros;
 
 // Page 18: opcode 0x02, address, data.
 TEST(Opcodes, WriteRegisters_SendsAddressAndData) {

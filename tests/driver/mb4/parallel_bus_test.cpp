@@ -16,8 +16,8 @@
 
 namespace {
 
-using mb4_test::Bytes;
-using mb4_test::hex;
+using mb4test::Bytes;
+using mb4test::hex;
 
 // Notes the cycles; a read answers with its address inverted. The cycle `broken` fails.
 struct Port {
@@ -78,7 +78,7 @@ TEST(ParallelBus, UnknownOrIncompleteFrame_MakesNoCycle) {
     const Transferred result = transfer(tx, tx.size());
     EXPECT_TRUE(result.done);
     EXPECT_EQ(result.cycles, "");
-    EXPECT_EQ(result.miso, hex(mb4_test::zeros(tx.size())));
+    EXPECT_EQ(result.miso, hex(mb4test::zeros(tx.size())));
   }
 }
 

@@ -19,22 +19,22 @@ namespace {
 using mb4::Error;
 using mb4::Reading;
 using mb4::Result;
-using mb4_test::Bytes;
-using mb4_test::encoder26;
-using mb4_test::FakeClock;
-using mb4_test::join;
-using mb4_test::kBreak;
-using mb4_test::kClearValid1;
-using mb4_test::kData4;
-using mb4_test::kGoodFrame;
-using mb4_test::kIdleStatus;
-using mb4_test::kReadData4;
-using mb4_test::kReadStatus;
-using mb4_test::kRunning;
-using mb4_test::kStartFrame;
-using mb4_test::status;
-using mb4_test::StrictBus;
-using mb4_test::zeros;
+using mb4test::Bytes;
+using mb4test::encoder26;
+using mb4test::FakeClock;
+using mb4test::join;
+using mb4test::kBreak;
+using mb4test::kClearValid1;
+using mb4test::kData4;
+using mb4test::kGoodFrame;
+using mb4test::kIdleStatus;
+using mb4test::kReadData4;
+using mb4test::kReadStatus;
+using mb4test::kRunning;
+using mb4test::kStartFrame;
+using mb4test::status;
+using mb4test::StrictBus;
+using mb4test::zeros;
 
 // Status with 0xF0..0xF8, as the driver reads it after a timeout; bit 0 of 0xF8 is SL1 (table 67).
 const Bytes kReadLine = join({{0x05}, zeros(9)});
@@ -46,7 +46,7 @@ Bytes line_level(unsigned sl1) {
 class ReadFrame : public testing::Test {
  protected:
   void configure(mb4::Config config = encoder26()) {
-    mb4_test::expect_configure(bus);
+    mb4test::expect_configure(bus);
     ASSERT_TRUE(device.configure(config).ok());
   }
   // What comes first after a failed read.
@@ -77,8 +77,8 @@ TEST_F(ReadFrame, GoodFrame_ReturnsPosition) {
   bus.expect_write(kClearValid1);            // note of table 61
   const Result<Reading> reading = device.read_frame();
   ASSERT_TRUE(reading.ok());
-  EXPECT_EQ(reading->raw, mb4_test::kRaw);
-  EXPECT_EQ(reading->position, mb4_test::kPosition);
+  EXPECT_EQ(reading->raw, mb4test::kRaw);
+  EXPECT_EQ(reading->position, mb4test::kPosition);
   EXPECT_FALSE(reading->error);
   EXPECT_FALSE(reading->warning);
 }
@@ -115,7 +115,7 @@ TEST_F(ReadFrame, InstructionStillPending_IsNotTheEnd) {
 TEST_F(ReadFrame, StoredCrc_IsReadAndReturned) {
   mb4::Config config = encoder26();
   config.spi_check = mb4::SpiCheck::kCrc;
-  mb4_test::expect_configure(bus, 0xE7, 0x00);
+  mb4test::expect_configure(bus, 0xE7, 0x00);
   ASSERT_TRUE(device.configure(config).ok());
   bus.expect_write(kStartFrame);
   bus.expect_read(kReadStatus, kGoodFrame);
@@ -220,7 +220,7 @@ TEST(ReadFrameFailure, TransportAtEachTransfer_IsReportedWithoutPosition) {
     StrictBus bus;
     FakeClock clock;
     mb4::Device<StrictBus, FakeClock> device(bus, clock);
-    mb4_test::expect_configure(bus);
+    mb4test::expect_configure(bus);
     bus.expect_write(kStartFrame);
     bus.expect_read(kReadStatus, kRunning);
     bus.expect_read(kReadStatus, kGoodFrame);
@@ -249,7 +249,7 @@ TEST_F(ReadFrame, StartErrorFlagFromTheWrite_DoesNotSpoilGoodFrame) {
   bus.expect_write(kClearValid1);
   const Result<Reading> reading = device.read_frame();
   ASSERT_TRUE(reading.ok());
-  EXPECT_EQ(reading->position, mb4_test::kPosition);
+  EXPECT_EQ(reading->position, mb4test::kPosition);
   expect_good_frame();  // and nothing has to be recovered
   EXPECT_TRUE(device.read_frame().ok());
 }
@@ -383,7 +383,7 @@ TEST(ReadFrameRecovery, SlaveCutOffByBreak_GetsItsTimeoutBeforeTheRequest) {
   FakeClock clock;
   TimedBus bus{strict, clock};
   mb4::Device<TimedBus, FakeClock> device(bus, clock);
-  mb4_test::expect_configure(strict);
+  mb4test::expect_configure(strict);
   strict.expect_write(kStartFrame);
   strict.expect_read(kReadStatus, kRunning).fail_last();
   ASSERT_TRUE(device.configure(encoder26()).ok());
@@ -507,7 +507,7 @@ TEST(TimeoutFailure, TransportWhileStopping_IsTransport) {
     FakeClock clock;
     clock.step_us = 1000;
     mb4::Device<StrictBus, FakeClock> device(bus, clock);
-    mb4_test::expect_configure(bus);
+    mb4test::expect_configure(bus);
     bus.expect_write(kStartFrame);
     bus.expect_read(kReadStatus, kRunning);
     bus.expect_write(kBreak);

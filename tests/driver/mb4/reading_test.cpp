@@ -26,10 +26,10 @@ Result<Reading> decode(const Config& config, const Word& bytes) {
 
 TEST(Reading, GoldenWord_SplitsIntoPositionAndFlags) {
   const Result<Reading> reading =
-      decode(mb4_test::encoder26(), Word{0xBF, 0x37, 0xAF, 0x0A, 0x99, 0x99, 0x99, 0x99});
+      decode(mb4test::encoder26(), Word{0xBF, 0x37, 0xAF, 0x0A, 0x99, 0x99, 0x99, 0x99});
   ASSERT_TRUE(reading.ok());
-  EXPECT_EQ(reading->raw, mb4_test::kRaw);
-  EXPECT_EQ(reading->position, mb4_test::kPosition);
+  EXPECT_EQ(reading->raw, mb4test::kRaw);
+  EXPECT_EQ(reading->position, mb4test::kPosition);
   EXPECT_FALSE(reading->error);
   EXPECT_FALSE(reading->warning);
   EXPECT_FALSE(reading->crc_stored);
@@ -40,16 +40,16 @@ TEST(Reading, GoldenWord_SplitsIntoPositionAndFlags) {
 TEST(Reading, FlagBits_AreActiveLow) {
   for (unsigned flags = 0; flags < 4; ++flags) {
     const Word bytes{static_cast<std::uint8_t>(0xBC | flags), 0x37, 0xAF, 0x0A};
-    const Result<Reading> reading = decode(mb4_test::encoder26(), bytes);
+    const Result<Reading> reading = decode(mb4test::encoder26(), bytes);
     ASSERT_TRUE(reading.ok());
-    EXPECT_EQ(reading->position, mb4_test::kPosition);
+    EXPECT_EQ(reading->position, mb4test::kPosition);
     EXPECT_EQ(reading->error, flags == 0 || flags == 1);
     EXPECT_EQ(reading->warning, flags == 0 || flags == 2);
   }
 }
 
 TEST(Reading, WithoutFlags_PositionIsTheWholeWord) {
-  Config config = mb4_test::encoder26();
+  Config config = mb4test::encoder26();
   config.slaves[0].flags = mb4::Flags::kNone;
   const Result<Reading> reading = decode(config, Word{0xBC, 0x37, 0xAF, 0x0A});
   ASSERT_TRUE(reading.ok());
@@ -62,7 +62,7 @@ TEST(Reading, WithoutFlags_PositionIsTheWholeWord) {
 TEST(Reading, EveryLength_TakesItsBytesOnly) {
   const Word ones{0xFF, 0xFF, 0xFF, 0xFF, 0xFF, 0xFF, 0xFF, 0xFF};
   for (unsigned data_bits = 1; data_bits <= 64; ++data_bits) {
-    Config config = mb4_test::encoder26();
+    Config config = mb4test::encoder26();
     config.slaves[0].flags = mb4::Flags::kNone;
     config.slaves[0].data_bits = static_cast<std::uint8_t>(data_bits);
     const unsigned data_bytes = (data_bits + 7) / 8;
@@ -79,12 +79,12 @@ TEST(Reading, EveryLength_TakesItsBytesOnly) {
 
 // Page 26: "unused bits are set to zero".
 TEST(Reading, UnusedBitSet_IsCorrupted) {
-  EXPECT_EQ(decode(mb4_test::encoder26(), Word{0xBF, 0x37, 0xAF, 0x1A}).error(), Error::kCorrupted);
-  EXPECT_EQ(decode(mb4_test::encoder26(), Word{0xFF, 0xFF, 0xFF, 0xFF}).error(), Error::kCorrupted);
+  EXPECT_EQ(decode(mb4test::encoder26(), Word{0xBF, 0x37, 0xAF, 0x1A}).error(), Error::kCorrupted);
+  EXPECT_EQ(decode(mb4test::encoder26(), Word{0xFF, 0xFF, 0xFF, 0xFF}).error(), Error::kCorrupted);
 }
 
 Config with_stored_crc(std::uint8_t data_bits, std::uint32_t polynomial) {
-  Config config = mb4_test::encoder26();
+  Config config = mb4test::encoder26();
   config.spi_check = mb4::SpiCheck::kCrc;
   config.slaves[0].data_bits = data_bits;
   config.slaves[0].crc_polynomial = polynomial;
@@ -96,10 +96,10 @@ TEST(Reading, StoredCrc6_IsReturnedFromTheTopByte) {
   const Config config = with_stored_crc(28, 0x43);
   EXPECT_EQ(mb4::reading_bytes(config, 1), 8U);
   const Result<Reading> reading =
-      decode(config, Word{0xBF, 0x37, 0xAF, 0x0A, 0x99, 0x99, 0x99, mb4_test::kCrc6});
+      decode(config, Word{0xBF, 0x37, 0xAF, 0x0A, 0x99, 0x99, 0x99, mb4test::kCrc6});
   ASSERT_TRUE(reading.ok());
   EXPECT_TRUE(reading->crc_stored);
-  EXPECT_EQ(reading->crc, mb4_test::kCrc6);
+  EXPECT_EQ(reading->crc, mb4test::kCrc6);
 }
 
 // Table 22, slave 3: CRC16 at bytes 6 (low) and 7 (high). 0x13F8 is the golden value.
@@ -113,14 +113,14 @@ TEST(Reading, StoredCrc16_IsReturnedFromTheTopTwoBytes) {
 
 TEST(Reading, StoredCrcOfOtherData_IsCorrupted) {
   for (unsigned bit = 0; bit < 28; ++bit) {
-    Word bytes{0xBF, 0x37, 0xAF, 0x0A, 0x00, 0x00, 0x00, mb4_test::kCrc6};
+    Word bytes{0xBF, 0x37, 0xAF, 0x0A, 0x00, 0x00, 0x00, mb4test::kCrc6};
     bytes[bit / 8] = static_cast<std::uint8_t>(bytes[bit / 8] ^ (1U << (bit % 8)));
     EXPECT_EQ(decode(with_stored_crc(28, 0x43), bytes).error(), Error::kCorrupted) << bit;
   }
 }
 
 TEST(Reading, UnusedBitBesideStoredCrc_IsCorrupted) {
-  const Word bytes{0xBF, 0x37, 0xAF, 0x0A, 0x00, 0x00, 0x00, mb4_test::kCrc6 | 0x80};
+  const Word bytes{0xBF, 0x37, 0xAF, 0x0A, 0x00, 0x00, 0x00, mb4test::kCrc6 | 0x80};
   EXPECT_EQ(decode(with_stored_crc(28, 0x43), bytes).error(), Error::kCorrupted);
 }
 

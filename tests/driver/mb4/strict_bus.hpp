@@ -20,7 +20,7 @@
 #include "mb4/bus.hpp"
 #include "mb4/span.hpp"
 
-namespace mb4_test {
+namespace mb4test {
 
 using Bytes = std::vector<std::uint8_t>;
 
@@ -135,6 +135,6 @@ struct FakeClock {
   }
 };
 
-}  // namespace mb4_test
+}  // namespace mb4test
 
 #endif  // TESTS_DRIVER_MB4_STRICT_BUS_HPP_

@@ -12,7 +12,7 @@
 #include "tests/driver/mb4/encoder26.hpp"
 #include "tests/driver/mb4/strict_bus.hpp"
 
-namespace mb4_test {
+namespace mb4test {
 
 constexpr mb4::Config three_slaves() {
   mb4::Config config = encoder26();
@@ -65,6 +65,6 @@ inline void expect_three_data(StrictBus& bus) {
   bus.expect_read({0x03, 0x20, 0, 0, 0}, {0, 0, 0xEF, 0xCD, 0xAB});
 }
 
-}  // namespace mb4_test
+}  // namespace mb4test
 
 #endif  // TESTS_DRIVER_MB4_THREE_SLAVES_HPP_

@@ -35,7 +35,7 @@ std::vector<std::uint8_t> exchange(const std::uint8_t* tx, std::size_t size) {
 
 class DriverPort : public testing::Test {
  protected:
-  DriverPort() : simulator(mb4::sim::parse_scenario(mb4_test::kEncoder, "test.toml")) {
+  DriverPort() : simulator(mb4::sim::parse_scenario(mb4test::kEncoder, "test.toml")) {
     chip = &simulator;
     fails = false;
   }
@@ -45,7 +45,7 @@ class DriverPort : public testing::Test {
   void read_positions(Bus& bus, Clock& clock) {
     mb4::Device<Bus, Clock> device(bus, clock);
     ASSERT_TRUE(device.probe().ok());
-    ASSERT_TRUE(device.configure(mb4_test::encoder(false)).ok());
+    ASSERT_TRUE(device.configure(mb4test::encoder(false)).ok());
     for (int i = 0; i < 3; ++i) {
       const mb4::Result<mb4::Reading> reading = device.read_frame();
       ASSERT_TRUE(reading.ok());

@@ -18,7 +18,7 @@
 #include "sim_bus.hpp"
 #include "tests/support/test_host.hpp"
 
-namespace mb4_test {
+namespace mb4test {
 
 enum class FaultKind : std::uint8_t {
   kNone,
@@ -130,6 +130,6 @@ inline std::vector<Fault> all_faults(const std::vector<std::size_t>& bits, std::
   return faults;
 }
 
-}  // namespace mb4_test
+}  // namespace mb4test
 
 #endif  // TESTS_DRIVER_RTL_FAULT_BUS_HPP_

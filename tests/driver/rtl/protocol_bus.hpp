@@ -12,7 +12,7 @@
 #include "mb4/mb4.hpp"
 #include "tests/driver/rtl/fault_bus.hpp"
 
-namespace mb4_test {
+namespace mb4test {
 
 inline std::string on_channel(unsigned number, const std::string& keys = "") {
   return "[[channel]]\nnumber = " + std::to_string(number) + "\n" + keys;
@@ -65,6 +65,6 @@ inline std::string biss_b_bus(bool mo, const std::string& keys = "") {
   return on_channel(1, mo ? "mo = true\n" : "") + device("biss-b", 28, kBissBKeys + keys);
 }
 
-}  // namespace mb4_test
+}  // namespace mb4test
 
 #endif  // TESTS_DRIVER_RTL_PROTOCOL_BUS_HPP_

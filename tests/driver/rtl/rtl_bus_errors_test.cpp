@@ -16,7 +16,7 @@
 
 namespace {
 
-using namespace mb4_test;  // NOLINT: the states and names of rtl_calls.hpp
+using namespace mb4test;  // NOLINT: the states and names of rtl_calls.hpp
 
 TEST(DriverCallErrors, AutomaticFramesOnOneBank_AreUnsupported) {
   FaultyChip chip(kEncoder);

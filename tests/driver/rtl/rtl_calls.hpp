@@ -15,7 +15,7 @@
 #include "tests/driver/rtl/fault_bus.hpp"
 #include "tests/support/chip_fixture.hpp"
 
-namespace mb4_test {
+namespace mb4test {
 
 using mb4::Config;
 using mb4::Error;
@@ -65,6 +65,6 @@ inline mb4::Command activate() {
   return command;
 }
 
-}  // namespace mb4_test
+}  // namespace mb4test
 
 #endif  // TESTS_DRIVER_RTL_RTL_CALLS_HPP_

@@ -18,7 +18,7 @@
 
 namespace {
 
-using namespace mb4_test;  // NOLINT: the states and names of rtl_calls.hpp
+using namespace mb4test;  // NOLINT: the states and names of rtl_calls.hpp
 
 struct Call {
   std::string name;

@@ -17,7 +17,7 @@
 
 namespace {
 
-using namespace mb4_test;  // NOLINT: the states and names of rtl_calls.hpp
+using namespace mb4test;  // NOLINT: the states and names of rtl_calls.hpp
 
 // ---- Errors of single calls ---------------------------------------------------------------------
 
@@ -86,7 +86,7 @@ TEST(DriverCallErrors, InvalidArgument_TouchesNothing) {
   FaultyChip chip(kEncoder);
   prepare(chip, State::kAutomatic);
   chip.bus.plan({});
-  mb4::Device<mb4_test::FaultBus, mb4::tool::SimClock>& device = chip.device;
+  mb4::Device<mb4test::FaultBus, mb4::tool::SimClock>& device = chip.device;
   EXPECT_EQ(device.automatic().poll_slave(0).error(), Error::kInvalidArgument);
   EXPECT_EQ(device.automatic().poll_slave(2).error(), Error::kInvalidArgument);
   EXPECT_EQ(device.automatic().poll_slave(9).error(), Error::kInvalidArgument);

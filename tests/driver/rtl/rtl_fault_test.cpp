@@ -23,11 +23,11 @@ namespace {
 using mb4::Config;
 using mb4::Error;
 using mb4::Frame;
-using mb4_test::all_faults;
-using mb4_test::Fault;
-using mb4_test::FaultKind;
-using mb4_test::FaultyChip;
-using mb4_test::kForEver;
+using mb4test::all_faults;
+using mb4test::Fault;
+using mb4test::FaultKind;
+using mb4test::FaultyChip;
+using mb4test::kForEver;
 
 // How positions are read.
 enum class Way : std::uint8_t { kSingle, kAll, kPoll, kPollSlave, kNext, kPollBeside };

@@ -16,7 +16,7 @@
 
 namespace {
 
-using namespace mb4_test;  // NOLINT: scenarios and configurations
+using namespace mb4test;  // NOLINT: scenarios and configurations
 using mb4::Config;
 using mb4::Error;
 using mb4::Flags;

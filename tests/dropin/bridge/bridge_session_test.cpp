@@ -15,7 +15,11 @@
 #include "mb4sim/simulator.hpp"
 #include "sim/scenario/scenario.hpp"
 
-namespace mb4::tool {
+namespace mb4test {
+
+using namespace mb4::tool;
+namespace sim = mb4::sim;
+
 namespace {
 
 using Bytes = std::vector<std::uint8_t>;
@@ -98,4 +102,4 @@ TEST(BridgePace, Gaps_LetTenMicrosecondsPassWithEveryRequest) {
 }
 
 }  // namespace
-}  // namespace mb4::tool
+}  // namespace mb4test

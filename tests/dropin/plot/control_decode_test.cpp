@@ -10,7 +10,10 @@
 #include <string>
 #include <vector>
 
-namespace mb4::tool {
+namespace mb4test {
+
+using namespace mb4::tool;
+
 namespace {
 
 // Slots from 0 on, as strings of bits; 14 zeros are put in front.
@@ -101,4 +104,4 @@ TEST(ControlDecode, Commands_HaveTheirHeaders) {
 }
 
 }  // namespace
-}  // namespace mb4::tool
+}  // namespace mb4test

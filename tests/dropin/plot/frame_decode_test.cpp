@@ -13,7 +13,10 @@
 #include "line_recording.hpp"
 #include "tests/support/protocol_chip.hpp"
 
-namespace mb4::tool {
+namespace mb4test {
+
+using namespace mb4::tool;
+
 namespace {
 
 using mb4test::ChipPlan;
@@ -149,4 +152,4 @@ TEST(FrameDecodeErrors, SilentEncoder_HasNoFields) {
 }
 
 }  // namespace
-}  // namespace mb4::tool
+}  // namespace mb4test

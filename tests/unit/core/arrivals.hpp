@@ -10,7 +10,9 @@
 
 #include "sim/core/time.hpp"
 
-namespace mb4::sim {
+namespace mb4test {
+
+using namespace mb4::sim;
 
 using Arrivals = std::vector<std::pair<Time, unsigned>>;
 
@@ -18,6 +20,6 @@ inline void record(Time now, void* receiver, unsigned levels) {
   static_cast<Arrivals*>(receiver)->emplace_back(now, levels);
 }
 
-}  // namespace mb4::sim
+}  // namespace mb4test
 
 #endif  // TESTS_UNIT_CORE_ARRIVALS_HPP_

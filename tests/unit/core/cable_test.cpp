@@ -12,7 +12,10 @@
 #include "mb4sim/simulator.hpp"
 #include "sim/scenario/scenario.hpp"
 
-namespace mb4::sim {
+namespace mb4test {
+
+using namespace mb4::sim;
+
 namespace {
 
 std::string channel(const std::string& keys) {
@@ -233,4 +236,4 @@ TEST(MaGuard, ShortenedMa_EndsTheSimulation) {
 }
 
 }  // namespace
-}  // namespace mb4::sim
+}  // namespace mb4test

@@ -7,7 +7,10 @@
 #include <ostream>
 #include <string>
 
-namespace mb4::sim {
+namespace mb4test {
+
+using namespace mb4::sim;
+
 namespace {
 
 // Protocol facts, section 7: data 1010101011110011011110111111 (26-bit position 0x2ABCDEF, both
@@ -62,4 +65,4 @@ TEST(Crc, NoPolynomial_HasNoBits) {
 }
 
 }  // namespace
-}  // namespace mb4::sim
+}  // namespace mb4test

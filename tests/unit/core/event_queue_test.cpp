@@ -8,7 +8,10 @@
 #include <utility>
 #include <vector>
 
-namespace mb4::sim {
+namespace mb4test {
+
+using namespace mb4::sim;
+
 namespace {
 
 TEST(EventQueue, EventsOutOfOrder_RunInOrderOfTime) {
@@ -79,4 +82,4 @@ TEST(EventQueue, PlainHandler_GetsTimeReceiverAndWord) {
 }
 
 }  // namespace
-}  // namespace mb4::sim
+}  // namespace mb4test

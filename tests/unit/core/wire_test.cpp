@@ -11,7 +11,10 @@
 
 #include "tests/unit/core/arrivals.hpp"
 
-namespace mb4::sim {
+namespace mb4test {
+
+using namespace mb4::sim;
+
 namespace {
 
 TEST(Wire, DelayLongerThanEdgeDistance_AllEdgesArrive) {
@@ -132,4 +135,4 @@ TEST(Wire, DelayShrinks_OrderIsKept) {
 }
 
 }  // namespace
-}  // namespace mb4::sim
+}  // namespace mb4test

@@ -20,7 +20,10 @@
 #include "sim/lines/slave_chain.hpp"
 #include "tests/unit/core/arrivals.hpp"
 
-namespace mb4::sim {
+namespace mb4test {
+
+using namespace mb4::sim;
+
 namespace {
 
 TEST(FaultParts, Glitch_InvertsTheLevelForItsWidth) {
@@ -164,4 +167,4 @@ TEST(FaultParts, Simulator_RecordsItsFaults) {
 }
 
 }  // namespace
-}  // namespace mb4::sim
+}  // namespace mb4test

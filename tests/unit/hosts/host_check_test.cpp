@@ -15,7 +15,10 @@
 #include "sim/hosts/parallel_host.hpp"
 #include "sim/hosts/spi_host.hpp"
 
-namespace mb4::sim {
+namespace mb4test {
+
+using namespace mb4::sim;
+
 namespace {
 
 // Pins without a chip, watched.
@@ -170,4 +173,4 @@ TEST(HostCheck, NotSelectedOrInReset_NothingIsReported) {
 }
 
 }  // namespace
-}  // namespace mb4::sim
+}  // namespace mb4test

@@ -12,7 +12,10 @@
 #include <cstddef>
 #include <vector>
 
-namespace mb4::sim {
+namespace mb4test {
+
+using namespace mb4::sim;
+
 namespace {
 
 class RecordingPins final : public HostPins {
@@ -132,4 +135,4 @@ TEST(SpiHost, ByteByByte_IsTheSameWaveform) {
 }
 
 }  // namespace
-}  // namespace mb4::sim
+}  // namespace mb4test

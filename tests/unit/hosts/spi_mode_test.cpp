@@ -11,7 +11,10 @@
 
 #include "sim/hosts/spi_host.hpp"
 
-namespace mb4::sim {
+namespace mb4test {
+
+using namespace mb4::sim;
+
 namespace {
 
 // Writes down MOSI as it was before each edge of SCLK, and answers with what it is told.
@@ -80,4 +83,4 @@ TEST(SpiMode, WordsOf1To32Bits_GoOutMsbFirst) {
 }
 
 }  // namespace
-}  // namespace mb4::sim
+}  // namespace mb4test

@@ -14,7 +14,9 @@
 #include "sim/lines/biss/biss_c_slave.hpp"
 #include "sim/lines/slave_chain.hpp"
 
-namespace mb4::sim {
+namespace mb4test {
+
+using namespace mb4::sim;
 
 class ChainBench {
  public:
@@ -85,6 +87,6 @@ inline BissCSlaveConfig constant_slave(unsigned data_bits, std::uint64_t word,
   return config;
 }
 
-}  // namespace mb4::sim
+}  // namespace mb4test
 
 #endif  // TESTS_UNIT_LINES_CHAIN_BENCH_HPP_

@@ -4,7 +4,10 @@
 
 #include <gtest/gtest.h>
 
-namespace mb4::sim {
+namespace mb4test {
+
+using namespace mb4::sim;
+
 namespace {
 
 TEST(DataSource, Ramp_CountsPositionAboveTheFlags) {
@@ -44,4 +47,4 @@ TEST(DataSource, List_RepeatsOrHoldsItsEnd) {
 }
 
 }  // namespace
-}  // namespace mb4::sim
+}  // namespace mb4test

@@ -6,7 +6,10 @@
 
 #include "tests/unit/lines/chain_bench.hpp"
 
-namespace mb4::sim {
+namespace mb4test {
+
+using namespace mb4::sim;
+
 namespace {
 
 constexpr Time kPeriod = 100 * kPsPerNs;
@@ -131,4 +134,4 @@ TEST(Line, StuckHigh_NeverFalls) {
 }
 
 }  // namespace
-}  // namespace mb4::sim
+}  // namespace mb4test

@@ -4,7 +4,10 @@
 
 #include <gtest/gtest.h>
 
-namespace mb4::sim {
+namespace mb4test {
+
+using namespace mb4::sim;
+
 namespace {
 
 constexpr Time kPeriod = 100'000;
@@ -58,4 +61,4 @@ TEST(MaMonitor, RunningFrame_IsKnownAsRunning) {
 }
 
 }  // namespace
-}  // namespace mb4::sim
+}  // namespace mb4test

@@ -7,7 +7,10 @@
 #include <string>
 #include <vector>
 
-namespace mb4::sim {
+namespace mb4test {
+
+using namespace mb4::sim;
+
 namespace {
 
 constexpr Time kClock = 50'000;
@@ -67,4 +70,4 @@ TEST(MaPulseCheck, FreqsChanges_LowCountsByItsBeginningHighByItsEnd) {
 }
 
 }  // namespace
-}  // namespace mb4::sim
+}  // namespace mb4test

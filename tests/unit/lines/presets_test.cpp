@@ -9,7 +9,10 @@
 #include "tests/unit/lines/registers/control_bench.hpp"
 #include "tests/unit/lines/registers/preset_slave.hpp"
 
-namespace mb4::sim {
+namespace mb4test {
+
+using namespace mb4::sim;
+
 namespace {
 
 using Result = ControlBench::Result;
@@ -79,4 +82,4 @@ TEST(Presets, EdsSensor_DescribesItself) {
 }
 
 }  // namespace
-}  // namespace mb4::sim
+}  // namespace mb4test

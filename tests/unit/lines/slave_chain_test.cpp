@@ -10,7 +10,10 @@
 #include "sim/lines/biss/biss_b_slave.hpp"
 #include "tests/unit/lines/chain_bench.hpp"
 
-namespace mb4::sim {
+namespace mb4test {
+
+using namespace mb4::sim;
+
 namespace {
 
 constexpr Time kPeriod = 100 * kPsPerNs;
@@ -246,4 +249,4 @@ TEST(SlaveChain, NoSlaves_LineRestsHigh) {
 }
 
 }  // namespace
-}  // namespace mb4::sim
+}  // namespace mb4test

@@ -4,7 +4,10 @@
 
 #include <gtest/gtest.h>
 
-namespace mb4::sim {
+namespace mb4test {
+
+using namespace mb4::sim;
+
 namespace {
 
 TEST(ClockSource, WholePeriod_HasEdgesEveryHalfPeriod) {
@@ -41,4 +44,4 @@ TEST(ClockSource, SkippedAhead_EdgesAreThoseOfAnUninterruptedClock) {
 }
 
 }  // namespace
-}  // namespace mb4::sim
+}  // namespace mb4test

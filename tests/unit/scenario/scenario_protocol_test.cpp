@@ -13,7 +13,10 @@
 #include "sim/lines/ssi/ssi_slave.hpp"
 #include "sim/scenario/scenario.hpp"
 
-namespace mb4::sim {
+namespace mb4test {
+
+using namespace mb4::sim;
+
 namespace {
 
 std::string slave(const std::string& protocol, const std::string& keys) {
@@ -200,4 +203,4 @@ INSTANTIATE_TEST_SUITE_P(
     [](const auto& entry) { return entry.param.name; });
 
 }  // namespace
-}  // namespace mb4::sim
+}  // namespace mb4test

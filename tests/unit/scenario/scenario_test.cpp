@@ -13,7 +13,10 @@
 
 #include "sim/lines/biss/biss_c_slave.hpp"
 
-namespace mb4::sim {
+namespace mb4test {
+
+using namespace mb4::sim;
+
 namespace {
 
 const BissCSlaveConfig& biss_c(const Scenario& scenario, std::size_t index = 0) {
@@ -429,4 +432,4 @@ TEST(Scenario, MissingFile_IsNamed) {
 }
 
 }  // namespace
-}  // namespace mb4::sim
+}  // namespace mb4test

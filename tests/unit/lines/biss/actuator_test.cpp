@@ -11,7 +11,10 @@
 #include "sim/lines/line.hpp"
 #include "tests/unit/lines/chain_bench.hpp"
 
-namespace mb4::sim {
+namespace mb4test {
+
+using namespace mb4::sim;
+
 namespace {
 
 constexpr Time kPeriod = 200 * kPsPerNs;
@@ -211,4 +214,4 @@ TEST(Actuator, MoNotConnected_LeavesSliAtZero) {
 }
 
 }  // namespace
-}  // namespace mb4::sim
+}  // namespace mb4test

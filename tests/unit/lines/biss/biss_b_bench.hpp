@@ -13,7 +13,9 @@
 #include "sim/lines/biss/biss_b_slave.hpp"
 #include "tests/unit/lines/registers/control_bench.hpp"
 
-namespace mb4::sim {
+namespace mb4test {
+
+using namespace mb4::sim;
 
 inline BissBSlaveConfig biss_b_slave(unsigned data_bits, std::uint64_t word,
                                      std::uint32_t polynomial) {
@@ -85,6 +87,6 @@ class BissBBench : public ChainBench {
   unsigned last_high_ = 50;
 };
 
-}  // namespace mb4::sim
+}  // namespace mb4test
 
 #endif  // TESTS_UNIT_LINES_BISS_BISS_B_BENCH_HPP_

@@ -10,7 +10,10 @@
 
 #include "tests/unit/lines/biss/biss_b_bench.hpp"
 
-namespace mb4::sim {
+namespace mb4test {
+
+using namespace mb4::sim;
+
 namespace {
 
 BissBSlaveConfig with_registers() {
@@ -276,4 +279,4 @@ TEST(BissBRegisters, Chain_AnswersById) {
 }
 
 }  // namespace
-}  // namespace mb4::sim
+}  // namespace mb4test

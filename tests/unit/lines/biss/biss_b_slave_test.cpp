@@ -9,7 +9,10 @@
 
 #include "tests/unit/lines/biss/biss_b_bench.hpp"
 
-namespace mb4::sim {
+namespace mb4test {
+
+using namespace mb4::sim;
+
 namespace {
 
 constexpr Time kPeriod = 400 * kPsPerNs;
@@ -163,4 +166,4 @@ TEST(BissBSlave, MoHigh_StartBitComesFromMo) {
 }
 
 }  // namespace
-}  // namespace mb4::sim
+}  // namespace mb4test

@@ -9,7 +9,10 @@
 
 #include "tests/unit/lines/chain_bench.hpp"
 
-namespace mb4::sim {
+namespace mb4test {
+
+using namespace mb4::sim;
+
 namespace {
 
 constexpr Time kPeriod = 100 * kPsPerNs;  // 10 MHz
@@ -183,4 +186,4 @@ TEST(BissCSlave, RegisterFile_KeepsAllBytes) {
 }
 
 }  // namespace
-}  // namespace mb4::sim
+}  // namespace mb4test

@@ -7,7 +7,10 @@
 
 #include "tests/unit/lines/registers/control_bench.hpp"
 
-namespace mb4::sim {
+namespace mb4test {
+
+using namespace mb4::sim;
+
 namespace {
 
 using Result = ControlBench::Result;
@@ -228,4 +231,4 @@ TEST(ControlAccess, FlippedCdmOfFrame_CountsFramesFromNow) {
 }
 
 }  // namespace
-}  // namespace mb4::sim
+}  // namespace mb4test

@@ -12,7 +12,9 @@
 
 #include "tests/unit/lines/chain_bench.hpp"
 
-namespace mb4::sim {
+namespace mb4test {
+
+using namespace mb4::sim;
 
 // CRC4 of x^4 + x + 1 over a text of bits, as it goes over the line (inverted).
 inline std::string crc4(const std::string& bits) {
@@ -149,6 +151,6 @@ class ControlBench : public ChainBench {
   unsigned line_bits_ = 0;
 };
 
-}  // namespace mb4::sim
+}  // namespace mb4test
 
 #endif  // TESTS_UNIT_LINES_REGISTERS_CONTROL_BENCH_HPP_

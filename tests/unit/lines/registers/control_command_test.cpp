@@ -6,7 +6,10 @@
 
 #include "tests/unit/lines/registers/control_bench.hpp"
 
-namespace mb4::sim {
+namespace mb4test {
+
+using namespace mb4::sim;
+
 namespace {
 
 using Result = ControlBench::Result;
@@ -170,4 +173,4 @@ TEST(ControlCommand, WrongHeaderCrc_HasNoEffect) {
 }
 
 }  // namespace
-}  // namespace mb4::sim
+}  // namespace mb4test

@@ -12,7 +12,10 @@
 #include "tests/unit/lines/registers/control_bench.hpp"
 #include "tests/unit/lines/registers/preset_slave.hpp"
 
-namespace mb4::sim {
+namespace mb4test {
+
+using namespace mb4::sim;
+
 namespace {
 
 using Result = ControlBench::Result;
@@ -266,4 +269,4 @@ TEST(ControlSlave, RandomAccesses_LeaveWhatWasWritten) {
 }
 
 }  // namespace
-}  // namespace mb4::sim
+}  // namespace mb4test

@@ -9,7 +9,9 @@
 #include "sim/lines/presets.hpp"
 #include "tests/unit/lines/registers/control_bench.hpp"
 
-namespace mb4::sim {
+namespace mb4test {
+
+using namespace mb4::sim;
 
 // A slave as the preset of this name describes it, registers included.
 inline BissCSlave& add_preset(ControlBench& bench, std::string_view name) {
@@ -22,6 +24,6 @@ inline BissCSlave& add_preset(ControlBench& bench, std::string_view name) {
   return slave;
 }
 
-}  // namespace mb4::sim
+}  // namespace mb4test
 
 #endif  // TESTS_UNIT_LINES_REGISTERS_PRESET_SLAVE_HPP_

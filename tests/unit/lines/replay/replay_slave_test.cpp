@@ -10,7 +10,10 @@
 
 #include "tests/unit/lines/chain_bench.hpp"
 
-namespace mb4::sim {
+namespace mb4test {
+
+using namespace mb4::sim;
+
 namespace {
 
 constexpr Time kStart = 5 * kPsPerUs;
@@ -119,4 +122,4 @@ INSTANTIATE_TEST_SUITE_P(
     [](const auto& entry) { return entry.param.name; });
 
 }  // namespace
-}  // namespace mb4::sim
+}  // namespace mb4test

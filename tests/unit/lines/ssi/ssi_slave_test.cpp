@@ -9,7 +9,10 @@
 
 #include "tests/unit/lines/registers/control_bench.hpp"
 
-namespace mb4::sim {
+namespace mb4test {
+
+using namespace mb4::sim;
+
 namespace {
 
 constexpr Time kPeriod = 1000 * kPsPerNs;  // 1 MHz
@@ -200,4 +203,4 @@ TEST(SsiSlave, ExtendedSsi_TakesABlindRegisterWrite) {
 }
 
 }  // namespace
-}  // namespace mb4::sim
+}  // namespace mb4test

@@ -4,7 +4,10 @@
 
 #include <gtest/gtest.h>
 
-namespace mb4::sim {
+namespace mb4test {
+
+using namespace mb4::sim;
+
 namespace {
 
 // Datasheet Table 35, f_CLK = 20 MHz: 10 MHz down to 62.5 kHz.
@@ -33,4 +36,4 @@ TEST(MaFrequency, Default_IsTheHighestUpToTenMegahertz) {
 }
 
 }  // namespace
-}  // namespace mb4::sim
+}  // namespace mb4test
