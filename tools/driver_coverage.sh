@@ -28,8 +28,8 @@ launcher=$(command -v ccache || true)
 tests=$root/tests/driver
 # Built without exceptions, as users build the driver: then no branch belongs to an exception.
 export FLAGS="-O0 --coverage -fno-inline -DMB4_EXAMPLES=\"$root/examples\" -I$root/drivers/include \
-  -I$root/regmap/generated/mb4 -I$root -I$root/sim/include -I$root/tools/mb4sim -I$root/tests/chip \
-  -I$tests -I$tests/ports"
+  -I$root/regmap/generated/mb4 -I$root -I$root/sim/include -I$root/tools/mb4sim \
+  -I$tests/ports"
 # compile COMPILER SOURCE...: one object each, two at once. A source that does not compile stops it.
 compile() {
   local compiler=$1
@@ -37,9 +37,9 @@ compile() {
   printf '%s\n' "$@" | xargs -P 2 -I{} sh -c \
     "$launcher $compiler"' $FLAGS -c "$1" -o "$(basename "$1").o"' - {}
 }
-compile "g++ -std=c++20 -fno-exceptions" "$tests"/*_test.cpp
+compile "g++ -std=c++20 -fno-exceptions" "$tests"/{enc,mb4,rtl,ports}/*_test.cpp
 compile "g++ -std=c++17 -fno-exceptions -fno-rtti" "$root/drivers/c/mb4_c.cpp"
-compile "gcc -std=c99" "$tests/c_binding_test.c"
+compile "gcc -std=c99" "$tests/c/c_binding_test.c"
 
 simulator=("$build/lib/libmb4sim_core.a" "$build/lib/libmb4sim_chip.a" -lfmt -lz -lpthread -ldl)
 gtest=(-lgtest -lgtest_main -lpthread)

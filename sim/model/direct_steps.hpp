@@ -15,7 +15,7 @@
 // it unchanged. Only the time to the next frame (AGS) may move, and this class advances it.
 //
 // This relies on how Verilator 5.006 (Debian 12) writes a model. With another version fast_chip.cpp
-// uses PlainSteps. tests/chip/lockstep_test.cpp compares both.
+// uses PlainSteps. tests/chip/random/lockstep_test.cpp compares both.
 #ifndef MB4SIM_MODEL_DIRECT_STEPS_HPP_
 #define MB4SIM_MODEL_DIRECT_STEPS_HPP_
 

@@ -122,7 +122,7 @@ def main():
     found = list(findings(calls, table, errors, tests))
     found = [f"calls.toml: {line}" for line in found]
     found += [f"c_binding_test.c: {line}" for line in uncalled(
-        (HEADERS.parent / "mb4.h").read_text(), (HERE / "c_binding_test.c").read_text())]
+        (HEADERS.parent / "mb4.h").read_text(), (HERE / "c" / "c_binding_test.c").read_text())]
     for line in found:
         print(line)
     if not found:

@@ -1,11 +1,11 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
-#include "reference.hpp"
+#include "tests/reference/reference.hpp"
 
 #include <map>
 #include <stdexcept>
 
-namespace mb4ref {
+namespace mb4test {
 namespace {
 
 bool on_line(const Registers& registers, unsigned x, unsigned line) {
@@ -262,4 +262,4 @@ std::uint8_t Reference::spread(unsigned first) const {
   return static_cast<std::uint8_t>(value);
 }
 
-}  // namespace mb4ref
+}  // namespace mb4test

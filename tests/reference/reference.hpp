@@ -5,8 +5,8 @@
 // that the host wrote and the bits on the lines. The source is the datasheet (pages 14..16,
 // 23..26, 31, 33..35) and decisions 8, 9, 11, 15, 18, 28, 29, 30; it shares no code with the RTL,
 // the simulator or the driver.
-#ifndef MB4_TESTS_REFERENCE_REFERENCE_HPP_
-#define MB4_TESTS_REFERENCE_REFERENCE_HPP_
+#ifndef TESTS_REFERENCE_REFERENCE_HPP_
+#define TESTS_REFERENCE_REFERENCE_HPP_
 
 #include <array>
 #include <cstdint>
@@ -15,7 +15,7 @@
 #include <string>
 #include <vector>
 
-namespace mb4ref {
+namespace mb4test {
 
 // CFGCHx (Table 8).
 enum class Protocol : std::uint8_t { kBissB = 0, kBissC = 1, kSsi = 2, kUnused = 3 };
@@ -120,6 +120,6 @@ class Reference {
   bool swbank_fail_ = false;
 };
 
-}  // namespace mb4ref
+}  // namespace mb4test
 
-#endif  // MB4_TESTS_REFERENCE_REFERENCE_HPP_
+#endif  // TESTS_REFERENCE_REFERENCE_HPP_

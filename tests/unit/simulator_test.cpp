@@ -11,7 +11,10 @@
 
 #include "sim/lines/biss/biss_c_slave.hpp"
 
-namespace mb4::sim {
+namespace mb4test {
+
+using namespace mb4::sim;
+
 namespace {
 
 Scenario load(const char* example) { return load_scenario(std::string(MB4_EXAMPLES) + example); }
@@ -211,4 +214,4 @@ TEST(Simulator, OneFrame_MonitorSeesTheChipsClock) {
 }
 
 }  // namespace
-}  // namespace mb4::sim
+}  // namespace mb4test

@@ -16,7 +16,7 @@ have changed.
                  program ends if one of them would change a variable
 
 The header has rise() and fall() for the edges of the clock, `Kept` with the flags, and `Pins` and
-`Host` for changes by eval(): tests/unit/parts_sample.cpp shows their use.
+`Host` for changes by eval(): tests/unit/model/parts/parts_sample.cpp shows their use.
 
 Verilator computes all logic of a clock at each of its edges. This program puts Verilator's
 statements, unchanged, into groups: a register with the statements that write it. The order of the

@@ -1,0 +1,56 @@
+// SPDX-FileCopyrightText: 2026 The openmb4 authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Divider and time base of a line alone.
+#include <gtest/gtest.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "Vbiss_timebase.h"
+#include "tests/support/model_context.hpp"
+
+namespace {
+
+using mb4test::Block;
+
+// Page 12: four equally spaced sampling points in each MA period, two clocks late.
+TEST(DividerBlock, EveryHalfLength_TicksAndFourEvenSamplingPoints) {
+  for (const unsigned half : {1U, 2U, 3U, 4U, 5U, 6U, 7U, 15U, 16U, 20U, 30U, 150U, 160U}) {
+    Block<Vbiss_timebase> base;
+    auto& m = base.model;
+    m.half_len_i = static_cast<std::uint8_t>(half);
+    m.run_i = 0;
+    m.restart_i = 0;
+    base.reset();
+    m.restart_i = 1;
+    base.clock();
+    m.restart_i = 0;
+    m.run_i = 1;
+    std::vector<unsigned> points;  // in half clocks
+    unsigned ticks = 0;
+    for (unsigned i = 0; i < 8 * half + 2; ++i) {
+      m.eval();
+      if (m.tick_o != 0) {
+        EXPECT_EQ((i + 1) % half, 0U) << i;
+        EXPECT_EQ(m.half_next_o, ticks % 2) << "the first half period is high";
+        ++ticks;
+      }
+      if (m.smp_a_o != 0) points.push_back(2 * i);
+      if (m.smp_b_o != 0) points.push_back(2 * i + (m.smp_b_neg_o != 0 ? 1U : 0U));
+      base.clock();
+    }
+    EXPECT_EQ(ticks, (8 * half + 2) / half) << half;
+    // Only from the first tick on is the grid complete.
+    unsigned checked = 0;
+    for (std::size_t k = 1; k < points.size(); ++k) {
+      if (points[k - 1] < 2 * half + 4) continue;
+      EXPECT_EQ(points[k] - points[k - 1], half) << "half " << half << " point " << k;
+      ++checked;
+    }
+    EXPECT_GE(checked, 10U);
+  }
+}
+
+}  // namespace

@@ -1,0 +1,241 @@
+// SPDX-FileCopyrightText: 2026 The openmb4 authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Drives frame_top (one line without registers) and acts as a BiSS C slave behind a line delay.
+// This slave has its own few lines, written from the edge table of the protocol, so that the test
+// of the frame engine does not depend on the simulator's slave model.
+#ifndef TESTS_BLOCK_BISS_FRAME_BENCH_HPP_
+#define TESTS_BLOCK_BISS_FRAME_BENCH_HPP_
+
+#include <gtest/gtest.h>
+
+#include <cstdint>
+#include <deque>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "Vframe_top.h"
+#include "sim/lines/ma_pulse_check.hpp"
+#include "tests/support/model_context.hpp"
+
+namespace mb4test {
+
+// CRC of a bit string, most significant bit first; `polynomial` with its highest power.
+inline std::uint32_t crc_of(const std::string& bits, std::uint32_t polynomial,
+                            std::uint32_t start = 0) {
+  unsigned width = 0;
+  while ((polynomial >> (width + 1)) != 0) ++width;
+  const std::uint32_t mask = (1U << width) - 1U;
+  std::uint32_t remainder = start & mask;
+  for (const char bit : bits) {
+    const bool top = ((remainder >> (width - 1)) & 1U) != 0;
+    remainder = (remainder << 1) & mask;
+    if (top != (bit == '1')) remainder ^= polynomial & mask;
+  }
+  return remainder;
+}
+
+inline std::string bits_of(std::uint64_t value, unsigned width) {
+  std::string text;
+  for (unsigned i = width; i-- > 0;) text += ((value >> i) & 1U) != 0 ? '1' : '0';
+  return text;
+}
+
+// The word of one slave as it appears on the line: data, then the inverted CRC.
+inline std::string line_word(std::uint64_t data, unsigned data_bits, std::uint32_t polynomial,
+                             std::uint32_t start = 0) {
+  std::string text = bits_of(data, data_bits);
+  if (polynomial == 0) return text;
+  unsigned width = 0;
+  while ((polynomial >> (width + 1)) != 0) ++width;
+  return text + bits_of(~crc_of(text, polynomial, start) & ((1U << width) - 1U), width);
+}
+
+// A slave that answers rising edge after rising edge (BiSS C frame, edge by edge).
+struct Slave {
+  std::string payload;        // CDS, then all data and CRC bits
+  unsigned busy = 0;          // processing clocks
+  std::uint64_t timeout = 0;  // in sixteenths of a clock
+  unsigned rises = 0;
+  bool in_frame = false;
+  bool out = true;
+  std::uint64_t last_edge = 0;
+  int cdm_level = -1;  // MA when the timeout ended, -1: not yet
+
+  void edge(bool ma, std::uint64_t now) {
+    last_edge = now;
+    if (!in_frame) {
+      if (!ma) {
+        in_frame = true;
+        rises = 0;
+      }
+      return;
+    }
+    if (!ma) return;
+    ++rises;
+    if (rises == 2) out = false;
+    if (rises == 3 + busy) out = true;
+    if (rises > 3 + busy) {
+      const std::size_t index = rises - 4 - busy;
+      out = index < payload.size() && payload[index] == '1';
+    }
+  }
+  void step(bool ma, std::uint64_t now) {
+    if (in_frame && now - last_edge >= timeout) {
+      in_frame = false;
+      out = true;
+      cdm_level = ma ? 1 : 0;
+    }
+  }
+};
+
+class FrameBench {
+ public:
+  static constexpr std::uint64_t kSub = 16;  // time steps in a clock
+
+  FrameBench() {
+    model->clk_i = 0;
+    model->rst_ni = 0;
+    model->freqs_i = 0;
+    model->nocrc_i = 0;
+    model->start_i = 0;
+    model->init_i = 0;
+    model->protocol_i = 1;  // BiSS C
+    model->cdm_i = 0;
+    model->hold_cdm_i = 0;
+    model->abort_i = 0;
+    model->sl_i = 1;
+    for (int i = 0; i < 8; ++i) model->slave_cfg_i[i] = 0;
+    clocks(2);
+    model->rst_ni = 1;
+    clocks(2);
+  }
+
+  // Datasheet 0xC0..0xC3 of one data channel: SCDLEN = bits - 1, ENSCD, CRC code, start value.
+  void configure(unsigned slave, unsigned data_bits, std::uint32_t crc_byte,
+                 std::uint32_t crc_start = 0) {
+    model->slave_cfg_i[slave] = (crc_start << 16) | (crc_byte << 8) | 0x40U | (data_bits - 1);
+  }
+
+  struct Result {
+    std::vector<std::uint64_t> rises;  // time of MA edges in sixteenths of a clock
+    std::vector<std::uint64_t> falls;
+    std::uint64_t end_time = 0;  // frame_end
+    bool ended = false;
+    bool idle = false;
+    int ma_in_timeout = -1;
+    bool cds = false;
+    std::uint8_t memory[8][8];
+    bool written[8][8];
+    unsigned words = 0;
+    unsigned good = 0;
+  };
+
+  // Starts a frame and runs until idle or `max_clocks`.
+  Result run(Slave& slave, std::uint64_t delay_sub, std::uint64_t max_clocks = 400000) {
+    result_ = Result{};
+    for (auto& row : result_.written)
+      for (bool& w : row) w = false;
+    slave_ = &slave;
+    delay_out_ = delay_sub / 2;
+    delay_back_ = delay_sub - delay_out_;
+    recording_ = true;
+    model->start_i = 1;
+    clocks(1);
+    model->start_i = 0;
+    for (std::uint64_t i = 0; i < max_clocks && !(model->idle_o != 0); ++i) clocks(1);
+    result_.idle = model->idle_o != 0;
+    result_.cds = model->cds_o != 0;
+    recording_ = false;
+    slave_ = nullptr;
+    return result_;
+  }
+
+  void clocks(std::uint64_t count) {
+    for (std::uint64_t i = 0; i < count; ++i) {
+      half_clock(1);
+      half_clock(0);
+    }
+  }
+
+  std::uint64_t now() const { return time_; }
+  Owned<Vframe_top> model;
+
+ private:
+  void half_clock(int level) {
+    // Line and slave first: SL before the edge is what the edge samples.
+    for (std::uint64_t i = 0; i < kSub / 2; ++i) {
+      ++time_;
+      if (slave_ == nullptr) continue;
+      while (!to_slave_.empty() && to_slave_.front().first <= time_) {
+        slave_ma_ = to_slave_.front().second;
+        slave_->edge(slave_ma_, time_);
+        to_slave_.pop_front();
+      }
+      slave_->step(slave_ma_, time_);
+      if (slave_->out != last_out_) {
+        last_out_ = slave_->out;
+        to_master_.push_back({time_ + delay_back_, last_out_});
+      }
+      while (!to_master_.empty() && to_master_.front().first <= time_) {
+        model->sl_i = to_master_.front().second ? 1 : 0;
+        to_master_.pop_front();
+      }
+    }
+    if (level == 1 && recording_) sample();
+    if (level == 1) ++clocks_;
+    model->clk_i = static_cast<std::uint8_t>(level);
+    model->eval();
+    if (model->ma_o != last_ma_) {
+      last_ma_ = model->ma_o;
+      const auto complaint = ma_check_.edge(time_, last_ma_ != 0, clocks_, half_clocks(), kSub);
+      if (complaint) ADD_FAILURE() << *complaint << " (16 steps a clock)";
+      if (recording_) (last_ma_ != 0 ? result_.rises : result_.falls).push_back(time_);
+      if (slave_ != nullptr) to_slave_.push_back({time_ + delay_out_, last_ma_ != 0});
+    }
+  }
+
+  // Table 35 (0x10 is not permitted).
+  unsigned half_clocks() {
+    return model->freqs_i < 0x10 ? model->freqs_i + 1U : 10U * (model->freqs_i - 15U);
+  }
+
+  // Outputs are combinational: taken just before the rising edge, as the registers do.
+  void sample() {
+    model->eval();
+    if (model->wr_en_o != 0) {
+      result_.memory[model->slave_o][model->wr_byte_o] = model->wr_data_o;
+      result_.written[model->slave_o][model->wr_byte_o] = true;
+    }
+    if (model->word_done_o != 0) {
+      ++result_.words;
+      if (model->word_ok_o != 0) ++result_.good;
+    }
+    if (model->frame_end_o != 0) {
+      result_.ended = true;
+      result_.end_time = time_;
+    }
+    if (model->timeout_o != 0 && model->idle_o == 0 && model->sl_i == 0) {
+      result_.ma_in_timeout = model->ma_o;
+    }
+  }
+
+  Slave* slave_ = nullptr;
+  std::uint64_t time_ = 0;
+  std::uint64_t delay_out_ = 0;
+  std::uint64_t delay_back_ = 0;
+  std::deque<std::pair<std::uint64_t, bool>> to_slave_;
+  std::deque<std::pair<std::uint64_t, bool>> to_master_;
+  bool slave_ma_ = true;
+  bool last_out_ = true;
+  std::uint8_t last_ma_ = 1;
+  std::uint64_t clocks_ = 0;
+  mb4::sim::MaPulseCheck ma_check_;
+  bool recording_ = false;
+  Result result_{};
+};
+
+}  // namespace mb4test
+
+#endif  // TESTS_BLOCK_BISS_FRAME_BENCH_HPP_

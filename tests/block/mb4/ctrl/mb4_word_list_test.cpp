@@ -1,0 +1,120 @@
+// SPDX-FileCopyrightText: 2026 The openmb4 authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// The list of words of one line: pages 23 to 26; the lowest data channel is next to SL.
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "Vmb4_word_list.h"
+#include "tests/support/model_context.hpp"
+
+namespace {
+
+struct Channel {
+  bool enabled = false, own = false, actuator = false, gray_lstop = false;
+  unsigned data_bits = 0;
+  unsigned crc_bits = 0;  // 0, 3 to 8, 16
+  unsigned crc_start = 0;
+
+  // Table 14 in the form of mb4_crc_code.
+  unsigned crc_code() const {
+    static constexpr unsigned kCodes[] = {0, 0, 0, 0x05, 0x09, 0x12, 0x21, 0x44, 0x97};
+    return crc_bits == 16 ? 0xEC : kCodes[crc_bits];
+  }
+  std::uint32_t port() const {
+    return crc_start << 16 | crc_code() << 8 | (gray_lstop ? 0x80U : 0) | (enabled ? 0x40U : 0) |
+           (data_bits - 1);
+  }
+};
+
+class WordList : public mb4test::Block<Vmb4_word_list> {
+ public:
+  WordList() {
+    model.enscd_i = model.actnsens_i = model.own_i = model.ssi_i = model.nocrc_i = 0;
+    model.start_i = model.next_i = 0;
+    model.cfg_i = 0;
+    reset();
+  }
+  // A clock; the configuration that is asked for arrives with it.
+  void step() {
+    model.eval();
+    const bool asked = model.cfg_en_o != 0;
+    const unsigned slave = model.cfg_slave_o;
+    clock();
+    if (asked) model.cfg_i = channels[slave].port();
+    model.start_i = model.next_i = 0;
+    model.eval();
+  }
+  unsigned field(unsigned lsb, unsigned width) const {
+    return static_cast<unsigned>(model.offer_o >> lsb & ((1U << width) - 1));
+  }
+  std::array<Channel, 8> channels;
+};
+
+TEST(WordListBlock, RandomConfigurations_WordsComeInOrderWithTheirLengths) {
+  mb4test::Dice random;
+  for (int round = 0; round < 2'000; ++round) {
+    SCOPED_TRACE(testing::Message() << "round " << round);
+    WordList list;
+    auto& m = list.model;
+    const bool ssi = random.below(4) == 0;
+    const bool nocrc = random.below(4) == 0;
+    m.ssi_i = ssi;
+    m.nocrc_i = nocrc;
+    std::vector<unsigned> words, lengths;
+    bool actuators = false;
+    for (unsigned i = 0; i < 8; ++i) {
+      Channel& c = list.channels[i];
+      c.enabled = random.below(2) != 0;
+      c.own = random.below(4) != 0;
+      c.actuator = random.below(3) == 0;
+      c.gray_lstop = random.below(2) != 0;
+      c.data_bits = 1 + random.below(64);
+      const unsigned crc = 2 + random.below(8);
+      c.crc_bits = crc == 2 ? 0 : crc == 9 ? 16 : crc;
+      c.crc_start = random.below(65536);
+      const auto bit = static_cast<std::uint8_t>(1U << i);
+      if (c.enabled) m.enscd_i |= bit;
+      if (c.own) m.own_i |= bit;
+      if (c.actuator) m.actnsens_i |= bit;
+      if (!c.enabled || !c.own) continue;
+      words.push_back(i);
+      // Table 18: the stop bit of an actuator; SSI has none.
+      const bool sends = c.actuator && !ssi;
+      actuators = actuators || sends;
+      lengths.push_back(c.data_bits + c.crc_bits + (sends && c.gray_lstop ? 1 : 0));
+    }
+    m.start_i = 1;
+    list.step();
+    ASSERT_EQ(m.actuator_o, actuators);
+    std::vector<unsigned> told;
+    for (; m.len_valid_o != 0 && told.size() < 9; list.step()) told.push_back(m.len_o);
+    ASSERT_EQ(told, lengths);
+
+    for (std::size_t i = 0; i < words.size(); ++i) {
+      const Channel& c = list.channels[words[i]];
+      const bool sends = c.actuator && !ssi;
+      ASSERT_EQ(list.field(51, 1), 1U) << "any";
+      ASSERT_EQ(list.field(50, 1), i + 1 == words.size()) << "last";
+      ASSERT_EQ(list.field(47, 3), words[i]) << "slave";
+      ASSERT_EQ(list.field(41, 6), c.data_bits - 1);
+      ASSERT_EQ(list.field(40, 1), c.crc_bits != 0);
+      ASSERT_EQ(list.field(36, 4), c.crc_bits == 0 ? 0 : c.crc_bits - 1);
+      ASSERT_EQ(list.field(4, 16), c.crc_start);
+      // Page 26, Table 21: NOCRC = 0, and the data leave the top byte(s) free.
+      ASSERT_EQ(list.field(3, 1),
+                c.crc_bits != 0 && !nocrc && c.data_bits <= (c.crc_bits == 16 ? 48U : 56U));
+      ASSERT_EQ(list.field(2, 1), ssi && c.gray_lstop) << "Gray";
+      ASSERT_EQ(list.field(1, 1), sends) << "actuator";
+      ASSERT_EQ(list.field(0, 1), sends && c.gray_lstop) << "stop bit";
+      m.next_i = 1;
+      list.step();
+    }
+    ASSERT_EQ(list.field(51, 1), 0U) << "no word follows";
+  }
+}
+
+}  // namespace

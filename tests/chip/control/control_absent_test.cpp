@@ -1,0 +1,282 @@
+// SPDX-FileCopyrightText: 2026 The openmb4 authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Slaves that are missing, stop answering, or are unplugged in the middle of a control
+// communication. The communication must end by itself with the flag of pages 34 and 35 (decision
+// 24), in every mode of frames.
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "sim/lines/registers/control_slave.hpp"
+#include "tests/support/control_host.hpp"
+
+namespace {
+
+using mb4test::Chip;
+using mb4test::ControlHost;
+using mb4test::kAllGood;
+using mb4test::one_slave;
+namespace reg = mb4::regs;
+namespace sim = mb4::sim;
+
+enum class Frames { kRate, kMin, kSingle };
+struct Mode {
+  Frames frames;
+  unsigned open_level;
+  std::uint8_t freqags;
+};
+std::string name_of(const Mode& mode) {
+  const char* const names[] = {"Rate", "Agsmin", "Single"};
+  const bool other = mode.frames == Frames::kSingle && mode.freqags != reg::kFreqagsAgsMin;
+  return std::string(names[static_cast<unsigned>(mode.frames)]) +
+         (other ? "Freqags" + std::to_string(mode.freqags) : "") + "_SlOpenIs" +
+         std::to_string(mode.open_level);
+}
+void PrintTo(const Mode& mode, std::ostream* out) { *out << name_of(mode); }
+
+// Table 58 at FREQR = 0, f_MA = 10 MHz: 4096 x 2 periods; an eighth more for frames that hang.
+constexpr double kLimitUs = 4096 * 2 * 0.1;
+constexpr unsigned kPauseUs = 300;  // between two requests
+
+class ControlAbsent : public testing::TestWithParam<Mode> {
+ protected:
+  void SetUp() override {
+    chip.write(reg::slave_cfg_address(1), {reg::kEnscdYes | 13, reg::kScrclenCrc6, 0x00, 0x00});
+    chip.write(reg::kAddrCtrl, {reg::kRegversBissC, 0, 0, GetParam().freqags});
+    chip.write(reg::kAddrSlaveloc5, {reg::kResetSlaveloc5, reg::kCfgch2Unused | reg::kCfgch1BissC});
+    if (GetParam().frames != Frames::kSingle) chip.instruct(reg::kAgsOn);
+    chip.advance_us(60);
+  }
+  // Lets the control communication that is set up run until its CDM of `slot` has been taken, and
+  // the slave is idle again.
+  void run_to_slot(unsigned slot) {
+    const sim::Slave& slave = *chip.simulator.slave(1);
+    const auto& counters = chip.simulator.slave(1)->control()->counters();
+    if (GetParam().frames != Frames::kSingle) chip.instruct(reg::kInstrControl | reg::kAgsOn);
+    const auto next = [&] {
+      if (GetParam().frames == Frames::kSingle) chip.instruct(reg::kInstrControl);
+      const auto count = slave.cdm_count();
+      ASSERT_TRUE(chip.simulator.run_while_waiting([&] { return slave.cdm_count() != count; },
+                                                   chip.simulator.now() + 100 * sim::kPsPerUs));
+    };
+    const auto starts = counters.starts;
+    for (unsigned i = 0; i < 20 && counters.starts == starts; ++i) next();
+    ASSERT_EQ(counters.starts, starts + 1);
+    for (unsigned i = 0; i < slot; ++i) next();
+    chip.simulator.advance(200 * sim::kPsPerNs);  // SL = 1 has come through
+  }
+  void unplug() {
+    chip.simulator.line(1)->act(chip.simulator.now(), sim::CableEvent::Action::kUnplug);
+  }
+  // Frames that SL = 0 keeps from starting are left out unless FREQAGS is AGSMIN (decision 3): the
+  // host asks again and again (decision 42).
+  bool asks_again() const {
+    return GetParam().frames == Frames::kSingle && GetParam().freqags != reg::kFreqagsAgsMin;
+  }
+  // What 0xF0 says when REGEND = 1; 0 if it never does. The host does nothing but look, once it has
+  // requested the frame that then does not end.
+  std::uint8_t end_of_it() {
+    if (GetParam().frames == Frames::kSingle) chip.instruct(reg::kInstrControl);
+    const sim::Time start = chip.simulator.now();
+    sim::Time asked = start;
+    while (chip.simulator.now() - start < 5000 * sim::kPsPerUs) {
+      if (asks_again() && chip.simulator.now() - asked >= kPauseUs * sim::kPsPerUs) {
+        asked = chip.simulator.now();
+        chip.instruct(reg::kInstrControl);
+      }
+      const std::uint8_t status = host.status();
+      if ((status & reg::REGEND::kMask) != 0) {
+        took_us = static_cast<double>(chip.simulator.now() - start) / sim::kPsPerUs;
+        return status;
+      }
+      chip.advance_us(5);
+    }
+    return 0;
+  }
+  void expect_end(std::uint8_t flag, double limit_us) {
+    const std::uint8_t status = end_of_it();
+    ASSERT_NE(status & reg::REGEND::kMask, 0) << "it never ends";
+    EXPECT_LT(took_us, limit_us + 60 + (asks_again() ? kPauseUs : 0));
+    EXPECT_EQ(status & (reg::nREGERR::kMask | reg::nDELAYERR::kMask),
+              (reg::nREGERR::kMask | reg::nDELAYERR::kMask) & ~flag);
+    if (GetParam().frames == Frames::kSingle) {
+      EXPECT_EQ(status & reg::nAGSERR::kMask,
+                asks_again() && GetParam().open_level == 0 ? 0 : reg::kNagserrGood)
+          << "nAGSERR: decision 3";
+    }
+    EXPECT_EQ(status & reg::nERR::kMask, 0) << "page 34: NER";
+    EXPECT_EQ(chip.read(reg::kAddrInstr) & reg::INSTR::kMask, 0) << "INSTR";
+    EXPECT_EQ(host.regbytes(), 0U);
+  }
+  // BREAK, and everything works again.
+  void plug_and_check() {
+    chip.simulator.line(1)->act(chip.simulator.now(), sim::CableEvent::Action::kPlug);
+    chip.simulator.slave(1)->reg_write(0x31, 0x77);
+    chip.instruct(reg::kBreakAbort);
+    chip.advance_us(50);
+    host.set_read(0, 0x31, 1);
+    ASSERT_NE(host.run_single(60), 0U);
+    EXPECT_EQ(host.status(), kAllGood);
+    EXPECT_EQ(host.rdata(1)[0], 0x77);
+  }
+
+  Chip chip{one_slave("data_bits = 14\nread_busy_frames = 5",
+                      "open_level = " + std::to_string(GetParam().open_level))};
+  ControlHost host{chip};
+  double took_us = 0;
+};
+
+TEST_P(ControlAbsent, BeforeTheAccess_IsNRegErr) {
+  unplug();
+  host.set_read(0, 0x31, 1);
+  if (GetParam().frames != Frames::kSingle) chip.instruct(reg::kInstrControl | reg::kAgsOn);
+  expect_end(reg::nREGERR::kMask, kLimitUs * 9 / 8);
+  plug_and_check();
+}
+
+TEST_P(ControlAbsent, BeforeACommand_IsNRegErr) {
+  unplug();
+  host.set_command(0x00, 2);
+  if (GetParam().frames != Frames::kSingle) chip.instruct(reg::kInstrControl | reg::kAgsOn);
+  expect_end(reg::nREGERR::kMask, kLimitUs * 9 / 8);
+  plug_and_check();
+}
+
+TEST_P(ControlAbsent, UnpluggedInTheHeader_IsNRegErr) {
+  host.set_write(0, 0x31, {0x12});
+  run_to_slot(8);
+  unplug();
+  expect_end(reg::nREGERR::kMask, kLimitUs * 9 / 8);
+  plug_and_check();
+}
+
+// The slave has confirmed, its start bit is missing: Table 58.
+TEST_P(ControlAbsent, UnpluggedWhileBusy_IsNDelayErr) {
+  host.set_read(0, 0x31, 1);
+  run_to_slot(22);
+  unplug();
+  expect_end(reg::nDELAYERR::kMask, kLimitUs * 9 / 8);
+  plug_and_check();
+}
+
+TEST_P(ControlAbsent, UnpluggedInTheData_IsNRegErr) {
+  host.set_read(0, 0x31, 2);
+  run_to_slot(19 + 5 + 6);
+  unplug();
+  expect_end(reg::nREGERR::kMask, kLimitUs * 9 / 8);
+  plug_and_check();
+}
+
+// The slave is there, but says no more.
+TEST_P(ControlAbsent, SilentSlave_IsNRegErrInTheSlotOfTheEcho) {
+  chip.simulator.slave(1)->control()->faults().set_silent(true);
+  host.set_read(0, 0x31, 1);
+  const auto before = chip.simulator.slave(1)->cdm_count();
+  if (GetParam().frames == Frames::kSingle) {
+    EXPECT_EQ(host.run_single(60), 14U - 0U + 18U);
+  } else {
+    chip.instruct(reg::kInstrControl | reg::kAgsOn);
+    EXPECT_NE(end_of_it() & reg::REGEND::kMask, 0);
+    EXPECT_LE(chip.simulator.slave(1)->cdm_count() - before, 14U + 18U + 2U);
+  }
+  EXPECT_EQ(host.status() & (reg::nREGERR::kMask | reg::nDELAYERR::kMask), reg::nDELAYERR::kMask);
+  chip.simulator.slave(1)->control()->faults().set_silent(false);
+  plug_and_check();
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Modes, ControlAbsent,
+    testing::Values(Mode{Frames::kRate, 1, 0x18}, Mode{Frames::kRate, 0, 0x18},
+                    Mode{Frames::kMin, 1, reg::kFreqagsAgsMin},
+                    Mode{Frames::kMin, 0, reg::kFreqagsAgsMin},
+                    Mode{Frames::kSingle, 1, reg::kFreqagsAgsMin},
+                    Mode{Frames::kSingle, 0, reg::kFreqagsAgsMin}, Mode{Frames::kSingle, 1, 0x1F},
+                    Mode{Frames::kSingle, 0, 0x1F}, Mode{Frames::kSingle, 1, 0x00},
+                    Mode{Frames::kSingle, 0, 0x00}, Mode{Frames::kSingle, 1, 0x7D},
+                    Mode{Frames::kSingle, 0, 0x7D}, Mode{Frames::kSingle, 1, 0x80},
+                    Mode{Frames::kSingle, 0, 0x80}),
+    [](const auto& tested) { return name_of(tested.param); });
+
+// A cable that comes back before the limit costs nothing but time. Scenario keys of the cable.
+TEST(ControlPlug, PluggedInAgainInTime_AccessGoesOn) {
+  Chip chip(one_slave("data_bits = 14\nread_busy_frames = 40",
+                      "open_level = 0\n[[channel.event]]\n"
+                      "at_us = 1400\naction = \"unplug\"\n[[channel.event]]\nat_us = 1900\n"
+                      "action = \"plug\""));
+  chip.write(reg::slave_cfg_address(1), {reg::kEnscdYes | 13, reg::kScrclenCrc6, 0x00, 0x00});
+  chip.write(reg::kAddrCtrl,
+             {reg::kRegversBissC, reg::FREQR::of(1), 0, 0x18});  // FREQR = 1: 1638 us
+  chip.write(reg::kAddrSlaveloc5, {reg::kResetSlaveloc5, reg::kCfgch2Unused | reg::kCfgch1BissC});
+  ControlHost host(chip);
+  chip.simulator.slave(1)->reg_write(0x31, 0x77);
+  host.set_read(0, 0x31, 1);
+  ASSERT_TRUE(host.run_ags(8000));
+  EXPECT_EQ(host.status() & (reg::REGEND::kMask | reg::nREGERR::kMask | reg::nDELAYERR::kMask),
+            reg::REGEND::kMask | reg::nREGERR::kMask | reg::nDELAYERR::kMask);
+  EXPECT_EQ(host.rdata(1)[0], 0x77);
+  EXPECT_GT(chip.simulator.now(), 2000 * sim::kPsPerUs);
+}
+
+// One instruction a frame, and a host that takes its time between looking and writing: the end
+// comes with a frame and is never missed. Between frames nothing ends.
+TEST(ControlSingle, HostOfAnyPace_SeesNDelayErr) {
+  for (unsigned pause_us = 0; pause_us < 400; pause_us += 13) {
+    Chip chip(one_slave("data_bits = 14\nmissing = [0x20]"));
+    chip.write(reg::slave_cfg_address(1), {reg::kEnscdYes | 13, reg::kScrclenCrc6, 0x00, 0x00});
+    chip.write(reg::kAddrCtrl, {reg::kRegversBissC, 0, 0, reg::kFreqagsAgsMin});
+    chip.write(reg::kAddrSlaveloc5, {reg::kResetSlaveloc5, reg::kCfgch2Unused | reg::kCfgch1BissC});
+    ControlHost host(chip);
+    host.set_read(0, 0x20, 1);
+    unsigned frames = 0;
+    std::uint8_t status = 0;
+    while ((status & reg::REGEND::kMask) == 0 && frames < 500) {
+      chip.advance_us(frames < 14 + 18 ? 3 : pause_us);
+      chip.instruct(reg::kInstrControl);
+      ++frames;
+      ASSERT_TRUE(chip.wait_eot());
+      status = host.status();
+    }
+    ASSERT_EQ(status,
+              (reg::kResetStatus0 | reg::kRegendDone) & ~reg::nDELAYERR::kMask & ~reg::nERR::kMask)
+        << pause_us;
+    const std::uint64_t starts = chip.simulator.slave(1)->control()->counters().starts;
+    EXPECT_EQ(starts, 1U) << "the access was begun again, pause " << pause_us;
+  }
+}
+
+// Table 58, decision 24: the last start bit in time and the first that is late.
+TEST(ControlBusy, StartBitAtTheLimit_LastInTimeIsGood) {
+  // 25 us a frame; the limit is 32.77 frames after the one that carried the S that was not
+  // answered.
+  for (const unsigned busy : {0U, 1U, 31U, 32U, 33U, 40U}) {
+    for (const bool reading : {true, false}) {
+      Chip chip(one_slave("data_bits = 14\nread_busy_frames = " + std::to_string(busy) +
+                          "\nwrite_busy_frames = " + std::to_string(busy)));
+      chip.write(reg::slave_cfg_address(1), {reg::kEnscdYes | 13, reg::kScrclenCrc6, 0x00, 0x00});
+      chip.write(reg::kAddrCtrl, {reg::kRegversBissC, 0, 0, 0x18});
+      chip.write(reg::kAddrSlaveloc5,
+                 {reg::kResetSlaveloc5, reg::kCfgch2Unused | reg::kCfgch1BissC});
+      ControlHost host(chip);
+      chip.simulator.slave(1)->reg_write(0x31, 0x77);
+      if (reading) {
+        host.set_read(0, 0x31, 1);
+      } else {
+        host.set_write(0, 0x31, {0x55});
+      }
+      ASSERT_TRUE(host.run_ags(8000)) << busy;
+      const std::uint8_t flags = host.status() & (reg::nREGERR::kMask | reg::nDELAYERR::kMask);
+      const bool in_time = busy <= 32;
+      EXPECT_EQ(flags, in_time ? reg::nREGERR::kMask | reg::nDELAYERR::kMask : reg::nREGERR::kMask)
+          << busy;
+      if (reading && in_time) {
+        EXPECT_EQ(host.rdata(1)[0], 0x77);
+      }
+      if (!reading) {
+        EXPECT_EQ(chip.simulator.slave(1)->reg_read(0x31), in_time ? 0x55 : 0x77) << busy;
+      }
+    }
+  }
+}
+
+}  // namespace

@@ -1,0 +1,520 @@
+// SPDX-FileCopyrightText: 2026 The openmb4 authors
+// SPDX-License-Identifier: Apache-2.0
+
+// Control communication, transfer by transfer: pages 27 to 29, 34, 35.
+
+#include "mb4/control.hpp"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "mb4/device.hpp"
+#include "tests/driver/mb4/encoder26.hpp"
+#include "tests/driver/mb4/strict_bus.hpp"
+#include "tests/driver/mb4/three_slaves.hpp"
+
+namespace {
+
+using mb4::Error;
+using mb4::ErrorInfo;
+using mb4test::Bytes;
+using mb4test::encoder26;
+using mb4test::FakeClock;
+using mb4test::join;
+using mb4test::kBreak;
+using mb4test::kClearValid1;
+using mb4test::kReadStatus;
+using mb4test::StrictBus;
+using mb4test::zeros;
+
+const Bytes kFrame{0x07, 0x08};     // INSTR = 100: bits 3:1 of 0xF4 (table 45)
+const Bytes kFrameAgs{0x07, 0x09};  // with AGS = 1
+const Bytes kAgs{0x07, 0x01};
+// 0xF0: nERR, nAGSERR, nDELAYERR, nSCDERR, nREGERR, REGEND, 1, EOT (tables 54 to 60); F3: REGBYTES.
+Bytes status(std::uint8_t f0, std::uint8_t f4 = 0x00, std::uint8_t f3 = 0x00) {
+  return {0x00, f0, 0x00, 0x00, f3, f4};
+}
+const Bytes kFrameRuns = status(0xFA, 0x08);
+const Bytes kFrameOver = status(0xFB);
+const Bytes kDone = status(0xFF);           // REGEND = 1, no error
+const Bytes kRunsAgs = status(0xFB, 0x09);  // INSTR reads 100 until the end
+const Bytes kDoneAgs = status(0xFF, 0x01);
+
+class ControlTest : public testing::Test {
+ protected:
+  void configure() {
+    mb4test::expect_configure(bus);
+    ASSERT_TRUE(device.configure(encoder26()).ok());
+  }
+  void start_automatic() {
+    configure();
+    bus.expect_write(kAgs);
+    ASSERT_TRUE(device.automatic().start().ok());
+  }
+  // 0xE2: WNR and REGADR; 0xE3: REGNUM = count - 1; 0xE4: CHSEL; 0xE5: CTS, REGVERS, SLAVEID.
+  void expect_begin(std::uint8_t e2, std::uint8_t e3, std::uint8_t e4, std::uint8_t e5) {
+    bus.expect_write({0x02, 0xE2, e2, e3, e4, e5});
+    bus.expect_write(kFrame);
+  }
+  // Two more frames, then the end.
+  void expect_frames(const Bytes& end = kDone) {
+    bus.expect_read(kReadStatus, kFrameOver);
+    bus.expect_write(kFrame);
+    bus.expect_read(kReadStatus, kFrameRuns);
+    bus.expect_read(kReadStatus, end);
+    bus.expect_write(kClearValid1);
+  }
+
+  StrictBus bus;
+  FakeClock clock;
+  mb4::Device<StrictBus, FakeClock> device{bus, clock};
+};
+
+using Registers = ControlTest;
+using RegistersAgs = ControlTest;
+using Commands = ControlTest;
+using Steps = ControlTest;
+
+// ---- Registers without automatic frames ---------------------------------------------------------
+
+TEST_F(Registers, ReadOne_OneInstructionAFrame) {
+  configure();
+  expect_begin(0x44, 0x00, 0x01, 0xC0);
+  expect_frames();
+  bus.expect_read({0x03, 0x80, 0x00}, {0x00, 0x00, 0x5F});
+  std::uint8_t value = 0;
+  ASSERT_TRUE(
+      device.control().read_registers({1, 0}, 0x44, mb4::Span<std::uint8_t>(&value, 1)).ok());
+  EXPECT_EQ(value, 0x5F);
+}
+
+// Table 31: SLAVEID in bits 5:3 of 0xE5.
+TEST_F(Registers, ReadSixOfId5_HasItsFields) {
+  configure();
+  expect_begin(0x78, 0x05, 0x01, 0xE8);
+  expect_frames();
+  bus.expect_read(join({{0x03, 0x80}, zeros(6)}), {0, 0, 'M', 'U', 1, 2, 3, 4});
+  std::array<std::uint8_t, 6> bytes{};
+  ASSERT_TRUE(device.control().read_registers({1, 5}, 0x78, bytes).ok());
+  EXPECT_EQ(bytes, (std::array<std::uint8_t, 6>{'M', 'U', 1, 2, 3, 4}));
+}
+
+// Page 28: RDATA is written before INSTR; WNR is bit 7 of 0xE2.
+TEST_F(Registers, WriteTwo_DataFirst) {
+  configure();
+  bus.expect_write({0x02, 0x80, 0x12, 0x34});
+  expect_begin(0xE0, 0x01, 0x01, 0xC0);
+  expect_frames();
+  const std::array<std::uint8_t, 2> data{0x12, 0x34};
+  EXPECT_TRUE(device.control().write_registers({1, 0}, 0x60, data).ok());
+}
+
+// 128 registers are two accesses of 64.
+TEST_F(Registers, ReadAll128_IsSplit) {
+  configure();
+  Bytes low(64, 0xA5);
+  Bytes high(64, 0x5A);
+  expect_begin(0x00, 0x3F, 0x01, 0xC0);
+  expect_frames();
+  bus.expect_read(join({{0x03, 0x80}, zeros(64)}), join({zeros(2), low}));
+  expect_begin(0x40, 0x3F, 0x01, 0xC0);
+  expect_frames();
+  bus.expect_read(join({{0x03, 0x80}, zeros(64)}), join({zeros(2), high}));
+  std::array<std::uint8_t, 128> bytes{};
+  ASSERT_TRUE(device.control().read_registers({1, 0}, 0x00, bytes).ok());
+  EXPECT_EQ(Bytes(bytes.begin(), bytes.end()), join({low, high}));
+}
+
+TEST_F(Registers, Write70_SecondPartContinues) {
+  configure();
+  std::array<std::uint8_t, 70> data{};
+  for (std::size_t i = 0; i < data.size(); ++i) {
+    data[i] = static_cast<std::uint8_t>(i);
+  }
+  bus.expect_write(join({{0x02, 0x80}, Bytes(data.begin(), data.begin() + 64)}));
+  expect_begin(0x80 | 0x10, 0x3F, 0x01, 0xC0);
+  expect_frames();
+  bus.expect_write({0x02, 0x80, 64, 65, 66, 67, 68, 69});
+  expect_begin(0x80 | 0x50, 0x05, 0x01, 0xC0);
+  expect_frames(status(0x77, 0x00, 0x03));  // nREGERR = 0 after 3
+  const ErrorInfo info = device.control().write_registers({1, 0}, 0x10, data).info();
+  EXPECT_EQ(info.code, Error::kRegister);
+  EXPECT_EQ(info.bytes(), 67);
+}
+
+// Table 57: nREGERR; table 63: REGBYTES.
+TEST_F(Registers, RegisterError_NamesGoodBytes) {
+  configure();
+  expect_begin(0x10, 0x07, 0x01, 0xC0);
+  expect_frames(status(0x77, 0x00, 0x05));
+  std::array<std::uint8_t, 8> bytes{};
+  const ErrorInfo info = device.control().read_registers({1, 0}, 0x10, bytes).info();
+  EXPECT_EQ(info.code, Error::kRegister);
+  EXPECT_EQ(info.bytes(), 5);
+}
+
+// Table 58: nDELAYERR, bit 5.
+TEST_F(Registers, MissingStartBit_IsRegisterDelay) {
+  configure();
+  expect_begin(0x10, 0x00, 0x01, 0xC0);
+  expect_frames(status(0x5F));
+  std::array<std::uint8_t, 1> bytes{};
+  EXPECT_EQ(device.control().read_registers({1, 0}, 0x10, bytes).error(), Error::kRegisterDelay);
+}
+
+TEST_F(Registers, SingleFrameAfterwards_NeedsNoRecovery) {
+  configure();
+  expect_begin(0x10, 0x00, 0x01, 0xC0);
+  expect_frames(status(0x77));
+  std::array<std::uint8_t, 1> bytes{};
+  EXPECT_EQ(device.control().read_registers({1, 0}, 0x10, bytes).error(), Error::kRegister);
+  bus.expect_write(mb4test::kStartFrame);
+  bus.expect_read(kReadStatus, mb4test::kGoodFrame);
+  bus.expect_read(mb4test::kReadData4, mb4test::kData4);
+  bus.expect_write(kClearValid1);
+  EXPECT_TRUE(device.read_frame().ok());
+}
+
+// A frame that does not end within frame_timeout_us().
+TEST_F(Registers, SilentSlave_IsTimeoutAfterBreak) {
+  configure();
+  clock.step_us = 1000;
+  expect_begin(0x10, 0x00, 0x01, 0xC0);
+  bus.expect_read(kReadStatus, kFrameRuns);
+  bus.expect_write(kBreak);
+  std::array<std::uint8_t, 1> bytes{};
+  EXPECT_EQ(device.control().read_registers({1, 0}, 0x10, bytes).error(), Error::kTimeout);
+}
+
+// Without an end the frames are counted: 49 for one register, and what fits into register_busy_us:
+// 39 us are 2 frames of 39 half microseconds, and one to round up.
+TEST_F(Registers, NeverEnding_IsTimeoutAfterCountedFrames) {
+  mb4::Config config = encoder26();
+  config.register_busy_us = 39;
+  mb4test::expect_configure(bus);
+  ASSERT_TRUE(device.configure(config).ok());
+  bus.expect_write({0x02, 0xE2, 0x10, 0x00, 0x01, 0xC0});
+  for (int frame = 0; frame < 49 + 2 + 1; ++frame) {
+    bus.expect_write(kFrame);
+    bus.expect_read(kReadStatus, kFrameOver);
+  }
+  bus.expect_write(kBreak);
+  std::array<std::uint8_t, 1> bytes{};
+  EXPECT_EQ(device.control().read_registers({1, 0}, 0x10, bytes).error(), Error::kTimeout);
+}
+
+// REGEND = 1 may be left from the access before until the first frame has begun.
+TEST_F(Registers, RegendOfTheLastAccess_IsNotTheEnd) {
+  configure();
+  expect_begin(0x10, 0x00, 0x01, 0xC0);
+  bus.expect_read(kReadStatus, kDone);
+  bus.expect_write(kFrame);
+  bus.expect_read(kReadStatus, kDone);
+  bus.expect_write(kClearValid1);
+  bus.expect_read({0x03, 0x80, 0x00}, {0x00, 0x00, 0x01});
+  std::array<std::uint8_t, 1> bytes{};
+  EXPECT_TRUE(device.control().read_registers({1, 0}, 0x10, bytes).ok());
+}
+
+TEST(RegistersFailure, TransportAtEachTransfer_IsReportedAndNothingKeepsRunning) {
+  for (std::size_t index = 0; index < 9; ++index) {
+    StrictBus bus;
+    FakeClock clock;
+    mb4::Device<StrictBus, FakeClock> device(bus, clock);
+    mb4test::expect_configure(bus);
+    ASSERT_TRUE(device.configure(encoder26()).ok());
+    bus.expect_write({0x02, 0x80, 0x12});
+    bus.expect_write({0x02, 0xE2, 0xE0, 0x00, 0x01, 0xC0});
+    bus.expect_write(kFrame);
+    bus.expect_read(kReadStatus, kFrameOver);
+    bus.expect_write(kFrame);
+    bus.expect_read(kReadStatus, kFrameRuns);
+    bus.expect_read(kReadStatus, kDone);
+    bus.expect_write(kClearValid1);
+    const bool all = index == 8;
+    if (!all) {
+      bus.fail_at(3 + index);
+    }
+    const bool runs = index >= 2 && index <= 6;
+    if (runs) {
+      bus.expect_write(kBreak);
+    }
+    const std::array<std::uint8_t, 1> data{0x12};
+    const mb4::Result<void> done = device.control().write_registers({1, 0}, 0x60, data);
+    // The last one only clears flags; the access itself was good.
+    EXPECT_EQ(done.error(), index >= 7 ? Error::kNone : Error::kTransport) << index;
+    EXPECT_EQ(device.control().poll().error(), Error::kWrongMode) << index;
+  }
+}
+
+// ---- Wrong use ----------------------------------------------------------------------------------
+
+TEST_F(Registers, WrongArguments_AreErrorsWithoutTransfer) {
+  std::array<std::uint8_t, 129> bytes{};
+  const mb4::Span<std::uint8_t> all(bytes);
+  EXPECT_EQ(device.control().read_registers({1, 0}, 0, all.first(1)).error(),
+            Error::kNotConfigured);
+  configure();
+  mb4::Control<StrictBus, FakeClock> control = device.control();
+  EXPECT_EQ(control.read_registers({1, 0}, 0x00, all).error(), Error::kInvalidArgument);
+  EXPECT_EQ(control.read_registers({1, 0}, 0x00, all.first(0)).error(), Error::kInvalidArgument);
+  EXPECT_EQ(control.read_registers({1, 0}, 0x7F, all.first(2)).error(), Error::kInvalidArgument);
+  EXPECT_EQ(control.read_registers({1, 0}, 0x80, all.first(1)).error(), Error::kInvalidArgument);
+  EXPECT_EQ(control.read_registers({1, 8}, 0x00, all.first(1)).error(), Error::kInvalidArgument);
+  EXPECT_EQ(control.read_registers({0, 0}, 0x00, all.first(1)).error(), Error::kInvalidArgument);
+  EXPECT_EQ(control.read_registers({3, 0}, 0x00, all.first(1)).error(), Error::kInvalidArgument);
+  // Channel 2 is not in use.
+  EXPECT_EQ(control.read_registers({2, 0}, 0x00, all.first(1)).error(), Error::kInvalidArgument);
+  EXPECT_EQ(control.begin_read({1, 0}, 0x00, 65).error(), Error::kInvalidArgument);
+  EXPECT_EQ(control.begin_write({1, 0}, 0x00, all.first(65)).error(), Error::kInvalidArgument);
+  EXPECT_EQ(control.write_registers({1, 0}, 0x40, all.first(65)).error(), Error::kInvalidArgument);
+  EXPECT_EQ(control.take(all.first(1)).error(), Error::kInvalidArgument);
+  EXPECT_EQ(control.poll().error(), Error::kWrongMode);
+}
+
+// The frames of an access follow each other at once; SL is low then.
+TEST(ControlConfig, FramesThatDoNotWait_AreUnsupported) {
+  StrictBus bus;
+  FakeClock clock;
+  mb4::Device<StrictBus, FakeClock> device(bus, clock);
+  mb4::Config config = encoder26();
+  config.frame_start = mb4::FrameStart::kRequireIdleLine;
+  mb4test::expect_configure(bus, 0xE8, 0x7D);
+  ASSERT_TRUE(device.configure(config).ok());
+  const ErrorInfo info = device.control().begin_read({1, 0}, 0, 1).info();
+  EXPECT_EQ(info.code, Error::kUnsupported);
+  EXPECT_EQ(info.field, mb4::ConfigField::kFrameStart);
+}
+
+// ---- Step by step -------------------------------------------------------------------------------
+
+TEST_F(Steps, Poll_NeverWaits) {
+  configure();
+  expect_begin(0x10, 0x01, 0x01, 0xC0);
+  mb4::Control<StrictBus, FakeClock> control = device.control();
+  ASSERT_TRUE(control.begin_read({1, 0}, 0x10, 2).ok());
+  EXPECT_EQ(control.begin_read({1, 0}, 0x10, 2).error(), Error::kBusy);
+  EXPECT_EQ(device.read_frame().error(), Error::kBusy);
+  EXPECT_EQ(device.automatic().start().error(), Error::kBusy);
+  EXPECT_EQ(device.automatic().stop().error(), Error::kBusy);
+  bus.expect_read(kReadStatus, kFrameRuns);
+  EXPECT_FALSE(*control.poll());
+  bus.expect_read(kReadStatus, kFrameOver);
+  bus.expect_write(kFrame);
+  EXPECT_FALSE(*control.poll());
+  // A failed look changes nothing.
+  bus.expect_read(kReadStatus, kDone).fail_last();
+  EXPECT_EQ(control.poll().error(), Error::kTransport);
+  bus.expect_read(kReadStatus, Bytes(6, 0xFF));
+  EXPECT_EQ(control.poll().error(), Error::kNotDetected);
+  bus.expect_read(kReadStatus, kDone);
+  bus.expect_write(kClearValid1);
+  EXPECT_TRUE(*control.poll());
+  std::array<std::uint8_t, 3> bytes{};
+  EXPECT_EQ(control.take(bytes).error(), Error::kInvalidArgument);
+  bus.expect_read({0x03, 0x80, 0, 0}, {0, 0, 1, 2});
+  EXPECT_TRUE(control.take(mb4::Span<std::uint8_t>(bytes.data(), 2)).ok());
+  EXPECT_EQ(control.poll().error(), Error::kWrongMode);
+}
+
+TEST_F(Steps, Abort_BreaksAndFreesTheChip) {
+  configure();
+  expect_begin(0x10, 0x00, 0x01, 0xC0);
+  ASSERT_TRUE(device.control().begin_read({1, 0}, 0x10, 1).ok());
+  bus.expect_write(kBreak);
+  EXPECT_TRUE(device.control().abort().ok());
+  EXPECT_EQ(device.control().poll().error(), Error::kWrongMode);
+  // The aborted access may still run: BREAK and the slaves' timeout come first.
+  bus.expect_write({0x02, 0xE2, 0x11, 0x00, 0x01, 0xC0});
+  bus.expect_write(kBreak);
+  bus.expect_write(kClearValid1);
+  bus.expect_write(kFrame);
+  EXPECT_TRUE(device.control().begin_read({1, 0}, 0x11, 1).ok());
+}
+
+// ---- Registers beside automatic frames ----------------------------------------------------------
+
+TEST_F(RegistersAgs, ReadOne_OneInstructionForAll) {
+  start_automatic();
+  bus.expect_write({0x02, 0xE2, 0x44, 0x00, 0x01, 0xC0});
+  bus.expect_write(kFrameAgs);
+  bus.expect_read(kReadStatus, kRunsAgs);
+  bus.expect_read(kReadStatus, kRunsAgs);
+  bus.expect_read(kReadStatus, kDoneAgs);
+  bus.expect_read({0x03, 0x80, 0x00}, {0x00, 0x00, 0x77});
+  std::array<std::uint8_t, 1> bytes{};
+  ASSERT_TRUE(device.control().read_registers({1, 0}, 0x44, bytes).ok());
+  EXPECT_EQ(bytes[0], 0x77);
+  EXPECT_TRUE(device.automatic().running());
+}
+
+// 49 frames of 220 us, 4096 * 64 periods of MA and a quarter, 200 us of margin: 174 860 us.
+TEST_F(RegistersAgs, NeverEnding_IsTimeoutAndFramesCanBeRestarted) {
+  start_automatic();
+  bus.expect_write({0x02, 0xE2, 0x44, 0x00, 0x01, 0xC0});
+  bus.expect_write(kFrameAgs);
+  ASSERT_TRUE(device.control().begin_read({1, 0}, 0x44, 1).ok());
+  clock.time_us += 174'800;
+  bus.expect_read(kReadStatus, kRunsAgs);
+  EXPECT_FALSE(*device.control().poll());
+  clock.time_us += 100;
+  bus.expect_read(kReadStatus, kRunsAgs);
+  bus.expect_write(kBreak);
+  EXPECT_EQ(device.control().poll().error(), Error::kTimeout);
+  EXPECT_FALSE(device.automatic().running());
+  bus.expect_write(kBreak);
+  bus.expect_write(kClearValid1);
+  bus.expect_write(kAgs);
+  bus.expect_read(kReadStatus, {0, 0xFB, 0x02, 0, 0, 1}).fail_last();
+  mb4::Frame frame;
+  EXPECT_EQ(device.automatic().next(frame).error(), Error::kTransport);
+}
+
+class PollBesideControl : public ControlTest {
+ protected:
+  void SetUp() override {
+    start_automatic();
+    bus.expect_write({0x02, 0xE2, 0x44, 0x00, 0x01, 0xC0});
+    bus.expect_write(kFrameAgs);
+    ASSERT_TRUE(device.control().begin_read({1, 0}, 0x44, 1).ok());
+  }
+  // 0xF4 is never written: its INSTR = 100 could start the access again.
+  void expect_read(const Bytes& after) {
+    bus.expect_read(kReadStatus, {0, 0xFB, 0x02, 0, 0, 0x09});
+    bus.expect_write(kClearValid1);
+    bus.expect_read(mb4test::kReadData4, mb4test::kData4);
+    bus.expect_read(kReadStatus, after);
+  }
+  mb4::Frame frame;
+};
+
+TEST_F(PollBesideControl, NoSwitch_IsRead) {
+  expect_read(kRunsAgs);
+  ASSERT_TRUE(device.automatic().poll(frame).ok());
+  EXPECT_EQ(frame[1]->position, mb4test::kPosition);
+}
+
+TEST_F(PollBesideControl, NothingNew_IsOneTransfer) {
+  bus.expect_read(kReadStatus, kRunsAgs);
+  ASSERT_TRUE(device.automatic().poll(frame).ok());
+  EXPECT_EQ(frame[1].error(), Error::kNoData);
+}
+
+// SVALID is 1 again: a frame has ended meanwhile.
+TEST_F(PollBesideControl, GoodFrameEnded_IsBankSwitched) {
+  expect_read({0, 0xFB, 0x02, 0, 0, 0x09});
+  EXPECT_EQ(device.automatic().poll(frame).error(), Error::kBankSwitched);
+  EXPECT_FALSE(frame[1].ok());
+}
+
+// So does a bad one, which leaves SVALID at 0.
+TEST_F(PollBesideControl, BadFrameEnded_IsBankSwitched) {
+  expect_read({0, 0x6B, 0x00, 0, 0, 0x09});
+  EXPECT_EQ(device.automatic().poll(frame).error(), Error::kBankSwitched);
+}
+
+TEST_F(PollBesideControl, Restart_IsBusy) {
+  EXPECT_EQ(device.automatic().restart().error(), Error::kBusy);
+  EXPECT_EQ(device.automatic().stop().error(), Error::kBusy);
+}
+
+TEST(PollBesideControlFailure, TransportAtEachTransfer_LeavesNoReading) {
+  for (std::size_t index = 0; index < 4; ++index) {
+    StrictBus bus;
+    FakeClock clock;
+    mb4::Device<StrictBus, FakeClock> device(bus, clock);
+    mb4test::expect_configure(bus);
+    bus.expect_write(kAgs);
+    bus.expect_write({0x02, 0xE2, 0x44, 0x00, 0x01, 0xC0});
+    bus.expect_write(kFrameAgs);
+    ASSERT_TRUE(device.configure(encoder26()).ok());
+    ASSERT_TRUE(device.automatic().start().ok());
+    ASSERT_TRUE(device.control().begin_read({1, 0}, 0x44, 1).ok());
+    bus.expect_read(kReadStatus, {0, 0xFB, 0x02, 0, 0, 0x09});
+    bus.expect_write(kClearValid1);
+    bus.expect_read(mb4test::kReadData4, mb4test::kData4);
+    bus.expect_read(kReadStatus, kRunsAgs);
+    bus.fail_at(6 + index);
+    mb4::Frame frame;
+    EXPECT_EQ(device.automatic().poll(frame).error(), Error::kTransport) << index;
+    EXPECT_FALSE(frame[1].ok()) << index;
+  }
+}
+
+// ---- Commands -----------------------------------------------------------------------------------
+
+// Table 32: IDS0 is bit 7 of 0x80. Table 33: CMD in bits 5:4, table 34: IDA_TEST bit 3 of 0xE5.
+TEST_F(Commands, AddressedWithTest_HasItsFields) {
+  configure();
+  bus.expect_write({0x02, 0x80, 0xA0});        // ID 0 and ID 2
+  bus.expect_write({0x02, 0xE4, 0x01, 0x58});  // CTS = 0, REGVERS = 1, CMD = 01, IDA_TEST = 1
+  bus.expect_write(kFrame);
+  expect_frames();
+  mb4::Command command;
+  command.ids = 0x05;
+  command.code = 1;
+  command.test_acknowledge = true;
+  EXPECT_TRUE(device.control().send(command).ok());
+}
+
+TEST_F(Commands, Broadcast_HasNoIds) {
+  configure();
+  bus.expect_write({0x02, 0x80, 0x00});
+  bus.expect_write({0x02, 0xE4, 0x01, 0x60});
+  bus.expect_write(kFrame);
+  expect_frames();
+  mb4::Command command;
+  command.code = 2;
+  EXPECT_TRUE(device.control().send(command).ok());
+}
+
+// Page 34: nREGERR is also the error in IDA.
+TEST_F(Commands, NotAcknowledged_IsCommand) {
+  configure();
+  bus.expect_write({0x02, 0x80, 0x01});
+  bus.expect_write({0x02, 0xE4, 0x01, 0x40});
+  bus.expect_write(kFrame);
+  expect_frames(status(0x77));
+  mb4::Command command;
+  command.ids = 0x80;
+  EXPECT_EQ(device.control().send(command).error(), Error::kCommand);
+}
+
+TEST(CommandChannels, BothAtOnce_IsAllowed) {
+  StrictBus bus;
+  FakeClock clock;
+  mb4::Device<StrictBus, FakeClock> device(bus, clock);
+  mb4test::expect_configure_three(bus);
+  ASSERT_TRUE(device.configure(mb4test::three_slaves()).ok());
+  bus.expect_write({0x02, 0x80, 0x00});
+  bus.expect_write({0x02, 0xE4, 0x03, 0x40});
+  bus.expect_write(kFrame);
+  mb4::Command command;
+  command.channels = 3;
+  EXPECT_TRUE(device.control().begin_command(command).ok());
+}
+
+TEST_F(Commands, WrongArguments_AreErrorsWithoutTransfer) {
+  EXPECT_EQ(device.control().send({}).error(), Error::kNotConfigured);
+  configure();
+  const mb4::Command wrong[] = {{0, 1, 0, false}, {2, 1, 0, false}, {3, 1, 0, false},
+                                {4, 1, 0, false}, {1, 1, 4, false}, {1, 0, 3, false},
+                                {1, 0, 0, true}};
+  for (const mb4::Command& command : wrong) {
+    EXPECT_EQ(device.control().send(command).error(), Error::kInvalidArgument);
+  }
+}
+
+// ---- IDs: the far end of the chain is ID 0 ------------------------------------------------------
+
+static_assert(mb4::slave_address(mb4test::three_slaves(), 1).id == 1);
+static_assert(mb4::slave_address(mb4test::three_slaves(), 2).id == 0);
+static_assert(mb4::slave_address(mb4test::three_slaves(), 5).id == 0);
+static_assert(mb4::slave_address(mb4test::three_slaves(), 5).channel == 2);
+static_assert(mb4::slave_address(encoder26(), 1).id == 0);
+
+}  // namespace

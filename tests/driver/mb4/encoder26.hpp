@@ -1,0 +1,94 @@
+// SPDX-FileCopyrightText: 2026 The openmb4 authors
+// SPDX-License-Identifier: Apache-2.0
+
+// The encoder of most driver tests and its configuration bytes, worked out by hand from the tables
+// of the datasheet: 26 bits of position, nE, nW, CRC6 0x43 with start value 0, BiSS C on channel 1,
+// 20 MHz at pin CLK, MA 2 MHz.
+
+#ifndef TESTS_DRIVER_MB4_ENCODER26_HPP_
+#define TESTS_DRIVER_MB4_ENCODER26_HPP_
+
+#include "mb4/config.hpp"
+#include "tests/driver/mb4/strict_bus.hpp"
+
+namespace mb4test {
+
+constexpr mb4::Config encoder26() {
+  mb4::Config config;
+  config.f_clk_hz = 20'000'000;
+  config.ma_hz = 2'000'000;
+  config.spi_check = mb4::SpiCheck::kOff;
+  config.channels[0].protocol = mb4::Protocol::kBissC;
+  config.slaves[0].enabled = true;
+  config.slaves[0].data_bits = 28;
+  config.slaves[0].flags = mb4::Flags::kErrorWarning;
+  config.slaves[0].crc_polynomial = 0x43;
+  config.slaves[0].crc_start = 0;
+  return config;
+}
+
+// Position 0x2ABCDEF, nE = nW = 1: the golden word, 28 bits, and its CRC6.
+inline constexpr std::uint64_t kRaw = 0xAAF37BF;
+inline constexpr std::uint64_t kPosition = 0x2ABCDEF;
+inline constexpr std::uint8_t kCrc6 = 0x18;
+
+// 0xC0..0xEF as written. Addresses 0xEA, 0xEB are read-only, `identity` fills them in a read.
+inline Bytes configuration(Bytes identity = {0x00, 0x00}) {
+  return join({
+      {0x5B},              // 0xC0: ENSCD1 = 1 (table 11), SCDLEN1 = 28 - 1 = 0x1B (table 12)
+      {0x06},              // 0xC1: SELCRCS1 = 0, SCRCLEN1 = 6 for 0x43 (tables 13, 14)
+      {0x00, 0x00},        // 0xC2, 0xC3: SCRCSTART1 = 0x0000 (table 16)
+      zeros(28),           // 0xC4..0xDF: slaves 2 to 8 not enabled
+      {0x00, 0x00},        // 0xE0, 0xE1: reserved
+      {0x00, 0x00, 0x00},  // 0xE2..0xE4: no control communication
+      {0x40},              // 0xE5: REGVERS = 1, BiSS C (table 26)
+      {0xA4},              // 0xE6: FREQR = 5 (table 36), FREQS = 4: 20 MHz / 2 / 5 (table 35)
+      {0x02},              // 0xE7: NOCRC = 1 (table 21), SINGLEBANK = 0 (table 38)
+      {0x7C},              // 0xE8: FREQAGS = AGSMIN (table 37; page 32)
+      {0x00},              // 0xE9: MO_BUSY = 0
+      identity,            // 0xEA, 0xEB: REVISION, VERSION (tables 41, 42)
+      {0x01},              // 0xEC: SLAVELOC5 = 0, constant bit 0 (table 6)
+      {0x0D},              // 0xED: CFGCH2 = 3 not used, CFGCH1 = 1 BiSS C (table 8)
+      {0x00, 0x00},        // 0xEE reserved; 0xEF: ACTnSENS, all sensors (table 17)
+  });
+}
+
+// What read_registers(0xC0, 54 bytes) returns after a good configure(): registers of revision Y,
+// idle status 0xFB (pages 34, 35), 0xF1..0xF4 zero, 0xF5 = `interface_byte`.
+inline Bytes read_back(std::uint8_t interface_byte = 0x00) {
+  return join({configuration({0x20, 0x84}), {0xFB, 0x00, 0x00, 0x00, 0x00}, {interface_byte}});
+}
+
+// The three transfers of configure(encoder26()), or of a configuration that differs from it in the
+// register at `address` alone.
+inline void expect_configure(StrictBus& bus, std::uint8_t address, std::uint8_t value) {
+  Bytes image = configuration();
+  Bytes answer = read_back();
+  image[address - 0xC0U] = value;
+  answer[address - 0xC0U] = value;
+  // Opcode 0x07 (page 18): BREAK = 1 to 0xF4 (table 47), CLKENI = 0 and CFGIF = TTL to 0xF5.
+  bus.expect_write({0x07, 0x80, 0x00});
+  // Opcode 0x02 (page 18): 0xC0..0xEF, then 0xF0 (read-only) and SVALID 1 to 8 cleared (table 61).
+  bus.expect_write(join({{0x02, 0xC0}, image, {0x00, 0x00, 0x00}}));
+  // Opcode 0x03 (page 18): data follows the address without a dummy byte.
+  bus.expect_read(join({{0x03, 0xC0}, zeros(54)}), join({zeros(2), answer}));
+}
+inline void expect_configure(StrictBus& bus) { expect_configure(bus, 0xC0, configuration()[0]); }
+
+// Status bytes 0xF0..0xF4 after the MISO byte of the opcode, as opcode 0x05 delivers them.
+inline Bytes status(std::uint8_t f0, std::uint8_t f1, std::uint8_t f4 = 0x00) {
+  return {0x00, f0, f1, 0x00, 0x00, f4};
+}
+inline const Bytes kReadStatus{0x05, 0x00, 0x00, 0x00, 0x00, 0x00};
+inline const Bytes kIdleStatus = status(0xFB, 0x00);     // EOT = 1, no error, REGEND = 0
+inline const Bytes kRunning = status(0xFA, 0x00, 0x04);  // EOT = 0, INSTR = 010 still there
+inline const Bytes kGoodFrame = status(0xFB, 0x02);      // EOT = 1, SVALID1 = 1 (bit 1 of 0xF1)
+inline const Bytes kStartFrame{0x07, 0x04};              // INSTR = 010: bits 3:1 of 0xF4 (table 45)
+inline const Bytes kBreak{0x07, 0x80};                   // BREAK: bit 7 of 0xF4 (table 47)
+inline const Bytes kClearValid1{0x02, 0xF1, 0xFD, 0xFF};  // only SVALID1, bit 1, is written 0
+inline const Bytes kReadData4{0x09, 0x00, 0x00, 0x00, 0x00};
+inline const Bytes kData4{0x00, 0xBF, 0x37, 0xAF, 0x0A};  // 0x0AAF37BF, low byte first (table 20)
+
+}  // namespace mb4test
+
+#endif  // TESTS_DRIVER_MB4_ENCODER26_HPP_

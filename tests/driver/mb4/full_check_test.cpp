@@ -1,0 +1,196 @@
+// SPDX-FileCopyrightText: 2026 The openmb4 authors
+// SPDX-License-Identifier: Apache-2.0
+
+// SpiCheck::kFull, transfer by transfer: the second readings, and the error that a difference
+// causes.
+
+#include <gtest/gtest.h>
+
+#include <cstddef>
+#include <cstdint>
+
+#include "mb4/mb4.hpp"
+#include "tests/driver/mb4/encoder26.hpp"
+#include "tests/driver/mb4/strict_bus.hpp"
+
+namespace {
+
+using mb4::Error;
+using mb4test::Bytes;
+using mb4test::FakeClock;
+using mb4test::join;
+using mb4test::kClearValid1;
+using mb4test::kGoodFrame;
+using mb4test::kIdleStatus;
+using mb4test::kReadStatus;
+using mb4test::kStartFrame;
+using mb4test::status;
+using mb4test::StrictBus;
+using mb4test::zeros;
+
+const Bytes kAgs{0x07, 0x01};                      // AGS: bit 0 of 0xF4 (table 44)
+const Bytes kHold{0x07, 0x41};                     // and HOLDBANK, bit 6 (table 48)
+const Bytes kBreakAndInterface{0x07, 0x80, 0x00};  // BREAK: bit 7; 0xF5 as configured
+const Bytes kReadAll =
+    join({{0x09}, Bytes(8, 0x5A)});  // eight bytes, the CRC in the last (page 26)
+const Bytes kAllOf = join({mb4test::kData4, {0, 0, 0, mb4test::kCrc6}});
+const Bytes kNew = status(0xFA, 0x02, 0x41);
+const Bytes kCleared = status(0xFA, 0x00, 0x41);
+
+class FullCheck : public testing::Test {
+ protected:
+  FullCheck() {
+    mb4::Config config = mb4test::encoder26();
+    config.spi_check = mb4::SpiCheck::kFull;
+    configure(config);
+  }
+  void configure(const mb4::Config& config) {
+    const bool crc = config.slaves[0].crc_polynomial != 0;
+    Bytes image = mb4test::configuration();
+    Bytes answer = mb4test::read_back();
+    for (Bytes* bytes : {&image, &answer}) {
+      (*bytes)[0xE7 - 0xC0] = 0x00;  // NOCRC = 0 (table 21)
+      (*bytes)[1] = crc ? 0x06 : 0x00;
+    }
+    bus.expect_write({0x07, 0x80, 0x00});
+    bus.expect_write(join({{0x02, 0xC0}, image, zeros(3)}));
+    bus.expect_read(join({{0x03, 0xC0}, zeros(54)}), join({zeros(2), answer}));
+    EXPECT_TRUE(device.configure(config).ok());
+  }
+  void start() {
+    bus.expect_write(kAgs);
+    ASSERT_TRUE(device.automatic().start().ok());
+  }
+  // The next single frame begins with this.
+  void expect_recovery() {
+    bus.expect_write(kBreakAndInterface);
+    bus.expect_write(kClearValid1);
+  }
+  void expect_good_frame() {
+    bus.expect_write(kStartFrame);
+    bus.expect_read(kReadStatus, kGoodFrame);
+    bus.expect_read(kReadAll, kAllOf);
+    bus.expect_read(kReadStatus, kGoodFrame);
+    bus.expect_write(kClearValid1);
+    bus.expect_read(kReadStatus, kIdleStatus);
+  }
+
+  StrictBus bus;
+  FakeClock clock;
+  mb4::Device<StrictBus, FakeClock> device{bus, clock};
+  mb4::Frame frame;
+};
+
+TEST_F(FullCheck, GoodFrame_TakesSixTransfers) {
+  expect_good_frame();
+  const std::size_t before = bus.transfers();
+  const mb4::Result<mb4::Reading> reading = device.read_frame();
+  ASSERT_TRUE(reading.ok());
+  EXPECT_EQ(reading->position, mb4test::kPosition);
+  EXPECT_EQ(bus.transfers() - before, 6U);
+}
+
+// 0xF4 still holds something although the frame has ended: it was disturbed on its way.
+TEST_F(FullCheck, InstructionNotDone_IsCorrupted) {
+  bus.expect_write(kStartFrame);
+  bus.expect_read(kReadStatus, status(0xFB, 0x02, 0x20));  // SWBANK
+  EXPECT_EQ(device.read_frame().error(), Error::kCorrupted);
+  expect_recovery();
+  expect_good_frame();
+  EXPECT_TRUE(device.read_frame().ok());
+}
+
+// In the status after the data: SVALID is 0, or a frame runs that the driver has not requested.
+TEST_F(FullCheck, StatusBehindTheData_HasToBeTheSame) {
+  for (const Bytes& after : {kIdleStatus, status(0xFA, 0x02)}) {
+    bus.expect_write(kStartFrame);
+    bus.expect_read(kReadStatus, kGoodFrame);
+    bus.expect_read(kReadAll, kAllOf);
+    bus.expect_read(kReadStatus, after);
+    EXPECT_EQ(device.read_frame().error(), Error::kCorrupted);
+    expect_recovery();
+  }
+  expect_good_frame();
+  EXPECT_TRUE(device.read_frame().ok());
+}
+
+// The chip may take a moment to clear the flag, but not longer.
+TEST_F(FullCheck, FlagNotCleared_IsLookedAtTwice) {
+  for (const bool cleared : {true, false}) {
+    bus.expect_write(kStartFrame);
+    bus.expect_read(kReadStatus, kGoodFrame);
+    bus.expect_read(kReadAll, kAllOf);
+    bus.expect_read(kReadStatus, kGoodFrame);
+    bus.expect_write(kClearValid1);
+    bus.expect_read(kReadStatus, kGoodFrame);
+    bus.expect_read(kReadStatus, cleared ? kIdleStatus : kGoodFrame);
+    EXPECT_EQ(device.read_frame().error(), cleared ? Error::kNone : Error::kCorrupted);
+  }
+}
+
+// Data that is read twice and differs: all equal bits, which a stuck line makes.
+TEST_F(FullCheck, SecondReadingDiffers_IsCorrupted) {
+  bus.expect_write(kStartFrame);
+  bus.expect_read(kReadStatus, kGoodFrame);
+  bus.expect_read(kReadAll, zeros(9));
+  bus.expect_read(kReadAll, kAllOf);
+  bus.expect_read(kReadStatus, kGoodFrame);
+  bus.expect_write(kClearValid1);
+  bus.expect_read(kReadStatus, kIdleStatus);
+  EXPECT_EQ(device.read_frame().error(), Error::kCorrupted);
+}
+
+TEST_F(FullCheck, SecondReadingDiffersInAPoll_IsCorrupted) {
+  start();
+  for (const bool one : {false, true}) {
+    bus.expect_write(kHold);
+    bus.expect_read(kReadStatus, kNew);
+    bus.expect_read(kReadAll, zeros(9));
+    bus.expect_read(kReadAll, kAllOf);
+    bus.expect_read(kReadStatus, kNew);
+    bus.expect_write(kClearValid1);
+    bus.expect_read(kReadStatus, kCleared);
+    bus.expect_write(kAgs);
+    if (one) {
+      EXPECT_EQ(device.automatic().poll_slave(1).error(), Error::kCorrupted);
+    } else {
+      ASSERT_TRUE(device.automatic().poll(frame).ok());
+      EXPECT_EQ(frame[1].error(), Error::kCorrupted);
+    }
+  }
+}
+
+// HOLDBANK has not arrived, or something else has with it.
+TEST_F(FullCheck, HoldbankNotInTheChip_IsCorruptedAndReleased) {
+  start();
+  for (const std::uint8_t held : Bytes{0x01, 0x61, 0x51}) {
+    bus.expect_write(kHold);
+    bus.expect_read(kReadStatus, status(0xFA, 0x02, held));
+    bus.expect_write(kAgs);
+    EXPECT_EQ(device.automatic().poll_slave(1).error(), Error::kCorrupted) << unsigned{held};
+  }
+  // AGS may have ended by an error.
+  bus.expect_write(kHold);
+  bus.expect_read(kReadStatus, status(0xFA, 0x00, 0x40));
+  bus.expect_write(kAgs);
+  EXPECT_EQ(device.automatic().poll_slave(1).error(), Error::kNoData);
+}
+
+// After a failed read each of these begins with BREAK, and says so if that fails.
+TEST_F(FullCheck, RecoveryFails_IsTransport) {
+  const auto fails_first = [this](auto call) {
+    bus.expect_write(kBreakAndInterface).fail_last();
+    EXPECT_EQ(call().error(), Error::kTransport);
+  };
+  bus.expect_write(kStartFrame).fail_last();
+  EXPECT_EQ(device.read_frame().error(), Error::kTransport);
+  fails_first([this] { return device.read_frame(); });
+  fails_first([this] { return device.read_all(frame); });
+  fails_first([this] { return device.initialize(); });
+  fails_first([this] { return device.automatic().start(); });
+  bus.expect_write({0x02, 0xE2, 0x44, 0x00, 0x01, 0xC0});  // begin_read() writes its request first
+  bus.expect_read({0x03, 0xE2, 0, 0, 0, 0}, {0, 0, 0x44, 0x00, 0x01, 0xC0});
+  fails_first([this] { return device.control().begin_read({1, 0}, 0x44, 1); });
+}
+
+}  // namespace

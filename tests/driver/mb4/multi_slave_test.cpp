@@ -1,0 +1,278 @@
+// SPDX-FileCopyrightText: 2026 The openmb4 authors
+// SPDX-License-Identifier: Apache-2.0
+
+// Several slaves on one and on two channels: registers, one frame for all, one of several.
+
+#include <gtest/gtest.h>
+
+#include <cstddef>
+#include <cstdint>
+
+#include "mb4/device.hpp"
+#include "mb4/register_image.hpp"
+#include "tests/driver/mb4/encoder26.hpp"
+#include "tests/driver/mb4/strict_bus.hpp"
+#include "tests/driver/mb4/three_slaves.hpp"
+
+namespace {
+
+using mb4::Config;
+using mb4::Error;
+using mb4::Frame;
+using mb4test::Bytes;
+using mb4test::FakeClock;
+using mb4test::hex;
+using mb4test::join;
+using mb4test::kBreak;
+using mb4test::kReadStatus;
+using mb4test::kRunning;
+using mb4test::kStartFrame;
+using mb4test::StrictBus;
+using mb4test::three_slaves;
+using mb4test::zeros;
+
+// The compiler checks it as well.
+static_assert(mb4::validate(three_slaves()).ok());
+
+class MultiSlave : public testing::Test {
+ protected:
+  void configure() {
+    mb4test::expect_configure_three(bus);
+    ASSERT_TRUE(device.configure(three_slaves()).ok());
+  }
+  void expect_frame(const Bytes& status) {
+    bus.expect_write(kStartFrame);
+    bus.expect_read(kReadStatus, kRunning);
+    bus.expect_read(kReadStatus, status);
+  }
+
+  StrictBus bus;
+  FakeClock clock;
+  mb4::Device<StrictBus, FakeClock> device{bus, clock};
+  Frame frame;
+};
+
+TEST(MultiSlaveImage, TwoChannels_MatchHandWorkedBytes) {
+  const mb4::RegisterImage image = mb4::encode_registers(three_slaves());
+  EXPECT_EQ(hex(Bytes(image.begin(), image.end())),
+            hex(join({mb4test::three_configuration(), {0x00, 0x00, 0x00}})));
+}
+
+// Tables 25, 38: HOLDCDM is bit 0 of 0xE5, SINGLEBANK bit 0 of 0xE7.
+TEST(MultiSlaveImage, SingleBankAndHoldCdm_HaveTheirBits) {
+  Config config = three_slaves();
+  config.single_bank = true;
+  config.hold_cdm = true;
+  EXPECT_EQ(mb4::encode_registers(config)[0xE5 - 0xC0], 0x41);
+  EXPECT_EQ(mb4::encode_registers(config)[0xE7 - 0xC0], 0x03);
+}
+
+TEST(MultiSlaveConfig, EightSlavesOnOneChannel_AreValid) {
+  Config config = mb4test::encoder26();
+  for (std::size_t i = 1; i < 8; ++i) {
+    config.slaves[i] = config.slaves[0];
+  }
+  EXPECT_TRUE(mb4::validate(config).ok());
+  EXPECT_EQ(mb4::frame_periods(config), 5U + 8 * 34);
+  EXPECT_EQ(mb4::encode_registers(config)[0xEC - 0xC0], 0x01);
+}
+
+// The longer channel decides: 5 + 28 + 6 + 14 + 5 against 5 + 24 + 16.
+TEST(MultiSlaveConfig, TwoChannels_FrameIsTheLongerOne) {
+  EXPECT_EQ(mb4::frame_periods(three_slaves()), 58U);
+  EXPECT_EQ(mb4::channel_of(three_slaves(), 4), 1);
+  EXPECT_EQ(mb4::channel_of(three_slaves(), 5), 2);
+  EXPECT_EQ(mb4::channel_of(mb4test::encoder26(), 5), 1);
+}
+
+// Page 27: with HOLDCDM the master need not be configured according to the slaves; page 30: AGSMIN
+// needs complete frames all the same.
+TEST(MultiSlaveConfig, ChannelWithoutSlave_NeedsHoldCdmAndNoWaitForLine) {
+  Config config = mb4test::encoder26();
+  config.slaves[0].enabled = false;
+  EXPECT_EQ(mb4::validate(config).info().field, mb4::ConfigField::kSlaveEnabled);
+  config.hold_cdm = true;
+  EXPECT_EQ(mb4::validate(config).info().field, mb4::ConfigField::kSlaveEnabled);
+  config.frame_start = mb4::FrameStart::kPeriodic;
+  config.frame_period_clk = 2000;
+  EXPECT_TRUE(mb4::validate(config).ok());
+  config.hold_cdm = false;
+  EXPECT_EQ(mb4::validate(config).info().field, mb4::ConfigField::kSlaveEnabled);
+}
+
+TEST(MultiSlaveConfig, OnlyChannel2_IsValid) {
+  Config config = three_slaves();
+  config.channels[0].protocol = mb4::Protocol::kUnused;
+  config.slaves[0].enabled = false;
+  config.slaves[1].enabled = false;
+  EXPECT_TRUE(mb4::validate(config).ok());
+}
+
+// Slaves 1 and 2 are four bytes apart: two bursts are shorter than one. Slave 5 is far away.
+TEST_F(MultiSlave, AllGood_OneFrameForAll) {
+  configure();
+  expect_frame(mb4test::kThreeValid);
+  mb4test::expect_three_data(bus);
+  bus.expect_write(mb4test::kThreeClear);
+  ASSERT_TRUE(device.read_all(frame).ok());
+  EXPECT_TRUE(frame.good(0x13));
+  EXPECT_EQ(frame[1]->position, mb4test::kPosition);
+  EXPECT_EQ(frame[2]->raw, 0x1234U);
+  EXPECT_EQ(frame[5]->raw, 0xABCDEFU);
+  EXPECT_EQ(frame[5]->slave, 5);
+  EXPECT_EQ(frame[3].error(), Error::kInvalidArgument);
+  EXPECT_TRUE(frame.status.valid(5));
+}
+
+// Page 34: with nSCDERR = 0 the faulty one is identified by SVALIDx; the others' data is good. The
+// frame's flags are then set right by BREAK before the next one.
+TEST_F(MultiSlave, CrcErrorOfOne_OthersAreRead) {
+  configure();
+  expect_frame({0x00, 0x6B, 0x02, 0x02, 0x00, 0x00});
+  bus.expect_read(mb4test::kReadData4, mb4test::kData4);
+  bus.expect_read({0x03, 0x20, 0, 0, 0}, {0, 0, 0xEF, 0xCD, 0xAB});
+  bus.expect_write(mb4test::kThreeClear);
+  ASSERT_TRUE(device.read_all(frame).ok());
+  EXPECT_FALSE(frame.good(0x13));
+  EXPECT_EQ(frame[1]->position, mb4test::kPosition);
+  EXPECT_EQ(frame[2].error(), Error::kCrc);
+  EXPECT_EQ(frame[5]->raw, 0xABCDEFU);
+  bus.expect_write(kBreak);
+  bus.expect_write(mb4test::kThreeClear);
+  expect_frame(mb4test::kThreeValid);
+  mb4test::expect_three_data(bus);
+  bus.expect_write(mb4test::kThreeClear);
+  ASSERT_TRUE(device.read_all(frame).ok());
+  EXPECT_TRUE(frame.good(0x13));
+}
+
+TEST_F(MultiSlave, NoneGood_NothingIsRead) {
+  configure();
+  expect_frame({0x00, 0x6B, 0x00, 0x00, 0x00, 0x00});
+  ASSERT_TRUE(device.read_all(frame).ok());
+  for (const unsigned slave : {1U, 2U, 5U}) {
+    EXPECT_EQ(frame[slave].error(), Error::kCrc);
+  }
+}
+
+// "CRC error" and all valid is a contradiction: nothing is believed.
+TEST_F(MultiSlave, CrcErrorWithAllValid_IsCrcForAll) {
+  configure();
+  expect_frame({0x00, 0x6B, 0x0A, 0x02, 0x00, 0x00});
+  ASSERT_TRUE(device.read_all(frame).ok());
+  EXPECT_EQ(frame[1].error(), Error::kCrc);
+  EXPECT_EQ(frame[5].error(), Error::kCrc);
+}
+
+TEST_F(MultiSlave, NoDataOfOne_IsNoData) {
+  configure();
+  expect_frame({0x00, 0xFB, 0x08, 0x02, 0x00, 0x00});
+  bus.expect_read({0x03, 0x08, 0, 0}, {0, 0, 0x34, 0x12});
+  bus.expect_read({0x03, 0x20, 0, 0, 0}, {0, 0, 0xEF, 0xCD, 0xAB});
+  bus.expect_write(mb4test::kThreeClear);
+  ASSERT_TRUE(device.read_all(frame).ok());
+  EXPECT_EQ(frame[1].error(), Error::kNoData);
+  EXPECT_TRUE(frame[2].ok());
+}
+
+TEST_F(MultiSlave, LineLowAtStart_IsLineErrorOfTheCall) {
+  configure();
+  expect_frame({0x00, 0x3B, 0x00, 0x00, 0x00, 0x00});
+  bus.expect_write(kBreak);
+  EXPECT_EQ(device.read_all(frame).error(), Error::kLineError);
+  EXPECT_FALSE(frame[1].ok());
+}
+
+// Bit 14 of 14 bits is set: that came from SPI.
+TEST_F(MultiSlave, CorruptedSlave_IsCorruptedAloneAndRecoversNext) {
+  configure();
+  expect_frame(mb4test::kThreeValid);
+  bus.expect_read(mb4test::kReadData4, mb4test::kData4);
+  bus.expect_read({0x03, 0x08, 0, 0}, {0, 0, 0x34, 0x52});
+  bus.expect_read({0x03, 0x20, 0, 0, 0}, {0, 0, 0xEF, 0xCD, 0xAB});
+  bus.expect_write(mb4test::kThreeClear);
+  ASSERT_TRUE(device.read_all(frame).ok());
+  EXPECT_TRUE(frame[1].ok());
+  EXPECT_EQ(frame[2].error(), Error::kCorrupted);
+  bus.expect_write(kBreak).fail_last();
+  EXPECT_EQ(device.read_all(frame).error(), Error::kTransport);
+  EXPECT_FALSE(frame[1].ok());
+}
+
+TEST_F(MultiSlave, NotConfigured_IsAnErrorWithoutTransfer) {
+  EXPECT_EQ(device.read_all(frame).error(), Error::kNotConfigured);
+}
+
+TEST(MultiSlaveFailure, TransportAtEachTransfer_LeavesNoReading) {
+  for (std::size_t index = 0; index < 7; ++index) {
+    StrictBus bus;
+    FakeClock clock;
+    mb4::Device<StrictBus, FakeClock> device(bus, clock);
+    mb4test::expect_configure_three(bus);
+    bus.expect_write(kStartFrame);
+    bus.expect_read(kReadStatus, kRunning);
+    bus.expect_read(kReadStatus, mb4test::kThreeValid);
+    mb4test::expect_three_data(bus);
+    bus.expect_write(mb4test::kThreeClear);
+    bus.fail_at(3 + index);
+    ASSERT_TRUE(device.configure(three_slaves()).ok());
+    Frame frame;
+    EXPECT_EQ(device.read_all(frame).error(), Error::kTransport) << index;
+    for (std::size_t slave = 1; slave <= 8; ++slave) {
+      EXPECT_FALSE(frame[slave].ok()) << index;
+    }
+  }
+}
+
+// Reading one of several clears the flags of all: slave 5 must not pass this frame for a later one.
+TEST_F(MultiSlave, OneOfSeveral_ReadsItsDataAndClearsAllFlags) {
+  configure();
+  expect_frame(mb4test::kThreeValid);
+  bus.expect_read({0x03, 0x08, 0, 0}, {0, 0, 0x34, 0x12});
+  bus.expect_write(mb4test::kThreeClear);
+  EXPECT_EQ(device.read_frame(2)->raw, 0x1234U);
+}
+
+TEST_F(MultiSlave, CrcErrorOfAnother_DoesNotSpoilThisOne) {
+  configure();
+  expect_frame({0x00, 0x6B, 0x02, 0x00, 0x00, 0x00});
+  bus.expect_read(mb4test::kReadData4, mb4test::kData4);
+  bus.expect_write(mb4test::kThreeClear);
+  EXPECT_TRUE(device.read_frame(1).ok());
+}
+
+TEST_F(MultiSlave, OwnCrcError_IsCrcWhateverTheOtherFlagSays) {
+  configure();
+  expect_frame({0x00, 0x2B, 0x08, 0x02, 0x00, 0x00});
+  EXPECT_EQ(device.read_frame(1).error(), Error::kCrc);
+}
+
+// After a timeout both lines must be high: SL1 is bit 0, SL2 bit 2 of 0xF8 (table 67).
+TEST_F(MultiSlave, LineOfChannel2StaysLow_IsLineError) {
+  configure();
+  clock.step_us = 1000;
+  bus.expect_write(kStartFrame);
+  bus.expect_read(kReadStatus, kRunning);
+  bus.expect_write(kBreak);
+  bus.expect_read(join({{0x05}, zeros(9)}), join({zeros(9), {0x51}}));
+  EXPECT_EQ(device.read_all(frame).error(), Error::kLineError);
+}
+
+// All eight with 6 bytes each: gaps of 2 bytes, one burst. Slaves 1 and 8 alone: two.
+TEST(ReadData, NeighboursWithSmallGap_ShareOneBurst) {
+  Config config = mb4test::encoder26();
+  for (mb4::SlaveConfig& slave : config.slaves) {
+    slave = config.slaves[0];
+    slave.data_bits = 48;
+  }
+  StrictBus bus;
+  mb4::Opcodes<StrictBus> opcodes(bus);
+  bus.expect_read(join({{0x09}, zeros(62)}), zeros(63));
+  mb4::detail::DataImage image{};
+  EXPECT_TRUE(mb4::detail::read_data(opcodes, config, 0xFF, image).ok());
+  bus.expect_read({0x09, 0, 0, 0, 0, 0, 0}, zeros(7));
+  bus.expect_read(join({{0x03, 0x38}, zeros(6)}), zeros(8));
+  EXPECT_TRUE(mb4::detail::read_data(opcodes, config, 0x81, image).ok());
+}
+
+}  // namespace

@@ -1,0 +1,46 @@
+#!/usr/bin/env python3
+# SPDX-FileCopyrightText: 2026 The openmb4 authors
+# SPDX-License-Identifier: Apache-2.0
+"""The driver's quick starts as printed in the manual, compiled for Linux and run on the simulated chip:
+driver, spidev and chip together.
+
+  quick_start_test.py MB4SIM ROOT COMPILER
+"""
+
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "docs"))
+
+import pages  # noqa: E402
+
+MB4SIM, ROOT, COMPILER = sys.argv[1], Path(sys.argv[2]), sys.argv[3]
+POSITION = 0x2ABCDEF  # of golden.toml
+
+
+def run(manual, work):
+    blocks = pages.blocks(manual.read_text(encoding="utf-8"))
+    source, program = work / "unit.cpp", work / "unit"
+    source.write_text("".join(block.text for block in blocks if block.language == "cpp"),
+                      encoding="utf-8")
+    subprocess.run([COMPILER, "-std=c++17", "-O2", f"-I{ROOT}/drivers/include",
+                    f"-I{ROOT}/regmap/generated/mb4", str(source), "-o", str(program)], check=True,
+                   timeout=120)
+    return subprocess.run([MB4SIM, "spidev", "--scenario", f"{ROOT}/tests/dropin/golden.toml", "--",
+                           str(program)], capture_output=True, text=True, timeout=60, check=False)
+
+
+def main():
+    failed = False
+    for manual in (ROOT / "docs" / "driver.md", ROOT / "drivers" / "README.md"):
+        with tempfile.TemporaryDirectory() as folder:
+            done = run(manual, Path(folder))
+        print(f"{manual.name}: {done.stdout.strip()} (status {done.returncode}) {done.stderr}")
+        # Nothing on standard error: no limit of the chip's for its host has been broken.
+        failed |= (done.returncode, done.stdout, done.stderr) != (0, f"{POSITION}\n", "")
+    return 1 if failed else 0
+
+
+sys.exit(main())

@@ -1,0 +1,57 @@
+// SPDX-FileCopyrightText: 2026 The openmb4 authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Which host the whole-chip tests use. They run once for each of them (tests/chip/CMakeLists.txt
+// sets MB4_HOST); a scenario that names another interface than SPI keeps it.
+#ifndef TESTS_SUPPORT_TEST_HOST_HPP_
+#define TESTS_SUPPORT_TEST_HOST_HPP_
+
+#include <algorithm>
+#include <cstdio>
+#include <cstdlib>
+#include <string>
+
+#include "mb4_regs.hpp"
+#include "sim/scenario/scenario.hpp"
+
+namespace mb4test {
+
+// Registers and bits in tests: reg::kAddrInstr, reg::INSTR::kMask, reg::kInstrCdm0.
+namespace reg = mb4::regs;
+
+// "spi", "intel" or "motorola".
+inline std::string test_host() {
+  const char* const name = std::getenv("MB4_HOST");
+  return name == nullptr ? "spi" : name;
+}
+
+// Tests look at the flags right after an instruction, as SPI lets them: 5 T must pass meanwhile.
+// What the shortest cycles do is shown in host_test.cpp. A scenario may ask for longer ones.
+inline constexpr mb4::sim::Time kTestCycle = 1000 * mb4::sim::kPsPerNs;
+
+// The same for a scenario's text, whose table [host] names no interface.
+inline std::string with_test_host(std::string text) {
+  const std::string table = "[host]\n";
+  return text.replace(text.find(table), table.size(),
+                      table + "interface = \"" + test_host() + "\"\ncycle_ns = 1000\n");
+}
+
+inline mb4::sim::Scenario with_test_host(mb4::sim::Scenario scenario) {
+  using mb4::sim::HostInterface;
+  if (scenario.host.interface != HostInterface::kSpi) return scenario;
+  const std::string name = test_host();
+  scenario.host.cycle = std::max(scenario.host.cycle, kTestCycle);
+  if (name == "intel") {
+    scenario.host.interface = HostInterface::kIntel;
+  } else if (name == "motorola") {
+    scenario.host.interface = HostInterface::kMotorola;
+  } else if (name != "spi") {
+    std::fprintf(stderr, "MB4_HOST: spi, intel or motorola, not %s\n", name.c_str());
+    std::exit(EXIT_FAILURE);
+  }
+  return scenario;
+}
+
+}  // namespace mb4test
+
+#endif  // TESTS_SUPPORT_TEST_HOST_HPP_

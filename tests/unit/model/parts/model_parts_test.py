@@ -1,0 +1,325 @@
+# SPDX-FileCopyrightText: 2026 The openmb4 authors
+# SPDX-License-Identifier: Apache-2.0
+"""A model in parts: model_parts_test.py FOLDER HEADER VERILATOR CXX RUNTIME [FLAGS]
+
+FOLDER has the program (sim/model/parts), HEADER is what it has made of the chip, RUNTIME a library
+with Verilator's runtime, compiled with FLAGS. tests/chip/random/lockstep_test.cpp shows that the parts of
+the chip compute what the whole does. Here are the rules, with statements made by hand, and a small
+model that is not the chip."""
+
+import subprocess
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+FOLDER, HEADER, VERILATOR, CXX, RUNTIME = sys.argv[1:6]
+sys.path.insert(0, FOLDER)
+
+from busy import Busy, busy_of  # noqa: E402
+from description import Description  # noqa: E402
+from generated_model import NotUnderstood, analyse, apart, split, statements  # noqa: E402
+from groups import Kinds, groups_of, inputs, looks, parts_of  # noqa: E402
+from header import Writer  # noqa: E402
+
+
+def rows(*texts, local=()):
+    return [analyse(text, "f", set(local)) for text in texts]
+
+
+def order(parts):
+    return [row.text for part in parts for row in part.rows]
+
+
+class Statements(unittest.TestCase):
+    def test_names(self):
+        row, = rows("vlSelf->a = ((IData)(vlSelf->b) + x);", local={"x"})
+        self.assertEqual((row.reads, row.writes, row.defines), ({"b", "f.x"}, {"a"}, {"a"}))
+
+    def test_conditional_write_keeps_the_rest(self):
+        row, = rows("if (vlSelf->c) { vlSelf->a = 1U; }")
+        self.assertEqual((row.writes, row.defines, inputs([row])), ({"a"}, set(), {"a", "c"}))
+
+    def test_element_of_an_array_keeps_the_rest(self):
+        row, = rows("vlSelf->m[(IData)(vlSelf->i)] = vlSelf->m[0U];")
+        self.assertEqual((row.reads, row.writes, row.defines, row.arrays),
+                         ({"i", "m"}, {"m"}, set(), {"m"}))
+
+    def test_comparison_is_no_write(self):
+        row, = rows("vlSelf->a = (vlSelf->b == vlSelf->c);")
+        self.assertEqual(row.writes, {"a"})
+
+    def test_what_is_only_compared_with_numbers_has_these(self):
+        row, = rows("vlSelf->a = ((0U != (IData)(vlSelf->b)) & (0x1fU == vlSelf->c));")
+        self.assertEqual((row.reads, row.looks), ({"b", "c"}, {("b", 0), ("c", 31)}))
+        found = looks(rows("vlSelf->a = (0U == (IData)(vlSelf->b));", "vlSelf->d = vlSelf->b;"))
+        self.assertEqual(found, {("b", None)})
+
+    def test_comparisons_of_another_form_are_reads(self):
+        for text in ("(0U < (IData)(vlSelf->b))", "(0U == (vlSelf->b & 3U))",
+                     "(0U == (IData)(vlSelf->b[1U]))", "(0U == vlSelf->b + 1U)",
+                     "(vlSelf->c == (IData)(vlSelf->b))"):
+            row, = rows(f"vlSelf->a = {text};")
+            self.assertIn(("b", None), row.looks, msg=text)
+
+    def test_text_and_comments_have_no_names(self):
+        row, = rows('VL_WRITEF("vlSelf->a = %d; {\\n", vlSelf->b/*7:0*/);')
+        self.assertEqual((row.reads, row.writes), ({"b"}, set()))
+
+    def test_unknown_is_refused(self):
+        for text in ("vlSelf->a = vl_random();", "VL_ASSIGN_W(70, vlSelf->a, vlSelf->b);",
+                     "vlSelf->a += 1U;", "for (;;) { vlSelf->a = 1U; }", "other(vlSelf);",
+                     "vlSelf->a = vlSymsp->TOP__x.y;"):
+            with self.assertRaises(NotUnderstood, msg=text):
+                rows(text)
+
+    def test_bodies_are_split_at_their_statements(self):
+        body = 'vlSelf->a = 1U;\nif (vlSelf->b) {\n x = "};"; } else { y = 1U; }\n// c\nz = 2U;'
+        self.assertEqual([" ".join(text.split()) for text in split(body)],
+                         ["vlSelf->a = 1U;", 'if (vlSelf->b) { x = "};"; } else { y = 1U; }',
+                          "z = 2U;"])
+
+    def test_local_variable_read_before_it_is_written_is_zero(self):
+        head = "    // Init\n    CData/*0:0*/ x;\n    x = 0;\n    // Body\n"
+        _, kept = statements("f", head + "if (vlSelf->a) { x = 1U; }\nvlSelf->b = x;")
+        self.assertEqual(kept[0].text, "x = 0;")
+        _, kept = statements("f", head + "x = vlSelf->a;\nvlSelf->b = x;")
+        self.assertEqual(len(kept), 2)
+
+
+class LongConditionals(unittest.TestCase):
+    PAD = "/*" + 1500 * "-" + "*/"
+
+    def pieces(self, text):
+        return apart(self.PAD.join(["if (vlSelf->c", text]), "f", set())
+
+    def test_independent_statements_part(self):
+        self.assertEqual(len(self.pieces(") { vlSelf->a = 1U; vlSelf->b = 2U; }"
+                                         " else { vlSelf->b = 3U; vlSelf->a = 4U; }")), 2)
+
+    def test_dependent_statements_stay_together_in_their_order(self):
+        found = self.pieces(") { vlSelf->a = 1U; } else { vlSelf->p = 2U; vlSelf->a = vlSelf->p; }")
+        self.assertEqual(len(found), 1)
+        self.assertLess(found[0].index("vlSelf->p = 2U"), found[0].index("vlSelf->a = vlSelf->p"))
+
+    def test_condition_that_is_written_stays_whole(self):
+        self.assertEqual(len(self.pieces(") { vlSelf->c = 1U; vlSelf->b = 2U; }")), 1)
+
+
+class Parts(unittest.TestCase):
+    def test_a_register_has_its_statements_in_one_group(self):
+        groups = groups_of(rows("vlSelf->d = vlSelf->q;", "vlSelf->d = vlSelf->e;",
+                                "vlSelf->x = vlSelf->y;"))
+        self.assertEqual(sorted(len(group.rows) for group in groups), [1, 2])
+
+    def test_circles_are_one_group(self):
+        groups = groups_of(rows("vlSelf->a = vlSelf->q;", "vlSelf->b = vlSelf->a;",
+                                "if (vlSelf->b) { vlSelf->a = 1U; }"))
+        self.assertEqual(len(groups), 1)
+
+    def test_old_values_are_read_before_they_change(self):
+        texts = ["vlSelf->m__DOT__s = vlSelf->m__DOT__r;", "vlSelf->m__DOT__r = vlSelf->m__DOT__d;",
+                 "vlSelf->m__DOT__d = vlSelf->m__DOT__s;"]
+        for name in "srd":
+            for kind in ("fast", "often"):
+                self.assertEqual(order(self.parts(texts, [(kind, f"m__DOT__{name}")])), texts)
+
+    def parts(self, texts, busy, widths=None):
+        widths = widths or {f"m__DOT__{name}": 1 for name in "srd"}
+        known = Busy({name for kind, name in busy if kind == "fast"},
+                     {name: kind for kind, name in busy if kind != "fast"})
+        return parts_of(groups_of(rows(*texts)), Kinds(known, widths), False)[0]
+
+    def writer(self, widths, places, by_host, lists):
+        described = Description("Vm", "m", ["clk"])
+        return Writer(described, {}, widths, places, [], set(), set(), by_host, lists)
+
+    def test_who_writes_a_fast_variable_runs_always(self):
+        parts = self.parts(["vlSelf->a = vlSelf->b;", "vlSelf->c = vlSelf->d;"], [("fast", "a")])
+        self.assertEqual([(part.flag, part.bits) for part in parts], [(0, 0), (0, 1)])
+
+    def test_who_reads_fast_variables_has_a_flag_for_each_of_their_values(self):
+        texts = ["vlSelf->a = (vlSelf->b & vlSelf->c);"]
+        part, = self.parts(texts, [("fast", "b")], {"b": 2})
+        self.assertEqual((part.key, part.bits, part.looks), (("b",), 4, {("c", None)}))
+        part, = self.parts(texts, [("fast", "b"), ("fast", "c")], {"b": 2, "c": 1})
+        self.assertEqual((part.key, part.bits, part.looks), (("b", "c"), 8, set()))
+
+    def test_wide_or_unknown_keys_and_arrays_run_always(self):
+        for text, widths in (("vlSelf->a = vlSelf->b;", {"b": 4}), ("vlSelf->a = vlSelf->b;", {}),
+                             ("vlSelf->a[0U] = vlSelf->b;", {"b": 1})):
+            part, = self.parts([text], [("fast", "b")], widths)
+            self.assertEqual((part.bits, part.key), (0, ()))
+
+    def test_flags_of_a_key_stay_in_a_word(self):
+        texts = [f"vlSelf->m{i}__DOT__a = vlSelf->k{i % 8};" for i in range(30)]
+        parts = self.parts(texts, [("fast", f"k{i}") for i in range(8)],
+                           {f"k{i}": 3 for i in range(8)})
+        self.assertEqual(len(parts), 30)
+        for part in parts:
+            self.assertEqual(part.flag // 64, (part.flag + part.bits - 1) // 64)
+        self.assertEqual(len({part.flag + i for part in parts for i in range(part.bits)}), 240)
+
+    def header(self, texts, busy, widths):
+        lists = {"rise": self.parts(texts, busy, widths)}
+        return self.writer(widths, {}, set(), lists).header(64, False)
+
+    def test_other_values_of_a_key_are_looked_at_again(self):
+        text = self.header(["vlSelf->a = (vlSelf->b & vlSelf->c);", "vlSelf->c = vlSelf->d;"],
+                           [("fast", "b")], {"b": 2})
+        self.assertIn("at = 0 + (static_cast<unsigned>(vlSelf->b) << 0);", text)
+        self.assertIn("if ((before0 != vlSelf->a)) { kept.changed[0] |= 0xfULL & ~here; }", text)
+        self.assertIn("if ((before0 != vlSelf->c)) { kept.changed[0] |= 0xfULL; }", text)
+
+    def test_behind_eval_writers_run_as_readers_do(self):
+        texts = ["vlSelf->y = (vlSelf->k & vlSelf->x);", "vlSelf->z = (1U == vlSelf->y);"]
+        lists = {"rise": self.parts(texts, [("fast", "k")], {"k": 1})}
+        places = {"x": 0, "y": 1}
+        text = self.writer({"k": 1}, places, set(places), lists).header(64, False)
+        keyed = [part for part in lists["rise"] if part.key]
+        plain = [part for part in lists["rise"] if not part.key]
+        both = 0b11 << keyed[0].flag
+        self.assertIn("if (then(root, root.x) != root.x) \n"
+                      f"{{ kept.changed[0] |= {both:#x}ULL; }}", text)
+        self.assertIn("if (then(root, root.y) != root.y) \n"
+                      f"{{ kept.changed[0] |= {both | 1 << plain[0].flag:#x}ULL; }}", text)
+
+    def test_a_comparison_counts_when_it_changes(self):
+        text = self.header(["vlSelf->a = (2U == (IData)(vlSelf->b));", "vlSelf->b = vlSelf->c;"],
+                           [("fast", "b")], {"b": 8})
+        self.assertIn("if (((before0 == 2U) != (vlSelf->b == 2U))) {", text)
+
+
+class Counts(unittest.TestCase):
+    def test_what_moves_at_most_clocks_is_fast(self):
+        # Ten runs are those of all groups after edges of host pins.
+        found = busy_of("runs 10 g\nruns 110 often\nruns 15 often\nruns 13 seldom\nruns 11 hardly\n"
+                        "moves 45 a\nmoves 44 b\nmoves 100 c==3\n")
+        self.assertEqual(found, Busy({"a", "c==3"}, {"often": "often", "seldom": "seldom"}))
+
+    def test_nothing_counted_is_nothing_busy(self):
+        self.assertEqual(busy_of(""), Busy())
+
+
+SAMPLE = """
+module sample (input logic clk_i, rst_ni, en_i, input logic [7:0] add_i,
+               output logic [7:0] sum_o, output logic [1:0] turn_o, output logic high_o, late_o);
+  logic [3:0] wait_q, wait_d;
+  logic [7:0] sum_d;
+  assign high_o = sum_o > 8'd200;
+  assign wait_d = wait_q != 4'd0 ? wait_q - 4'd1 : en_i ? 4'd9 : 4'd0;
+  assign sum_d = turn_o == 2'd2 && wait_q == 4'd4 ? sum_o + add_i : sum_o;
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) sum_o <= '0;
+    else sum_o <= sum_d;
+  end
+  always_ff @(posedge clk_i) wait_q <= wait_d;
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) turn_o <= '0;
+    else turn_o <= turn_o + 2'd1;
+  end
+  FALL
+endmodule
+"""
+FALLING = "always_ff @(negedge clk_i) late_o <= high_o;"
+RISING = "always_ff @(posedge clk_i) late_o <= high_o;"
+DIVIDED = "logic half_q; always_ff @(posedge clk_i) half_q <= !half_q;" \
+          "always_ff @(posedge half_q) late_o <= high_o;"
+DESCRIBED = 'prefix = "Vsample"\nnamespace = "sample"\nclocks = ["clk_i"]\n'
+
+
+class SecondModel(unittest.TestCase):
+    """A model that is not the chip."""
+
+    def setUp(self):
+        keeper = tempfile.TemporaryDirectory()
+        self.addCleanup(keeper.cleanup)
+        self.folder = Path(keeper.name)
+        (self.folder / "model.toml").write_text(DESCRIBED, encoding="utf-8")
+
+    def run_in(self, *command):
+        return subprocess.run([str(word) for word in command], cwd=self.folder, check=True,
+                              capture_output=True, text=True).stdout
+
+    def verilate(self, fall):
+        (self.folder / "sample.sv").write_text(SAMPLE.replace("FALL", fall), encoding="utf-8")
+        self.run_in(VERILATOR, "--cc", "--make", "cmake", "--prefix", "Vsample", "--Mdir", "v",
+                    "-fno-const-bit-op-tree", "--x-initial", "unique", "sample.sv")
+
+    def parts(self, *options):
+        """(the header, what the program says)."""
+        told = self.run_in(sys.executable, "-B", Path(FOLDER, "model_parts.py"), "model.toml", "v",
+                           "v/Vsample_edge.hpp", *options)
+        return (self.folder / "v/Vsample_edge.hpp").read_text(encoding="utf-8"), told
+
+    def compare(self):
+        """Runs the parts beside eval(). Returns what the program prints."""
+        root = self.run_in(VERILATOR, "--getenv", "VERILATOR_ROOT").strip()
+        files = [Path(__file__).with_name("parts_sample.cpp").resolve(),
+                 *sorted((self.folder / "v").glob("*.cpp"))]
+        (self.folder / "all.cpp").write_text(
+            "".join(f'#include "{file}"\n' for file in files), encoding="utf-8")
+        self.run_in(CXX, "-std=c++20", "-O0", *sys.argv[6:], "-Iv", f"-isystem{root}/include",
+                    f"-isystem{root}/include/vltstd", "-o", "sample", "all.cpp", RUNTIME,
+                    "-pthread", "-latomic", "-lz")
+        return self.run_in(self.folder / "sample")
+
+    def test_parts_compute_what_eval_does(self):
+        self.verilate(FALLING)
+        text, told = self.parts("--count")
+        self.assertEqual((told, text.count("MODEL_RUNS_WHOLE")), ("", 0))
+        (self.folder / "counts").write_text(self.compare(), encoding="utf-8")
+        text, _ = self.parts("--busy", "counts", "--check")
+        # turn_o moves at each clock, and what reads it has a flag for each of its values.
+        self.assertRegex(text, r"at = \d \+ \(static_cast<unsigned>\(vlSelf->turn_o\) << 0\);")
+        self.assertEqual(self.compare(), "")
+
+    def test_without_counts_and_falling_edges_too(self):
+        self.verilate(RISING)
+        text, told = self.parts()
+        self.assertEqual((told, text.count("static_cast<unsigned>(vlSelf->")), ("", 0))
+        self.assertEqual(self.compare(), "")
+
+    def test_a_clock_made_by_the_clock_is_refused(self):
+        self.verilate(DIVIDED)
+        text, told = self.parts()
+        self.assertEqual(text, "#define MODEL_RUNS_WHOLE\n")
+        self.assertIn("Vsample runs whole", told)
+        self.assertIn("an edge of the clock makes events: ['sample__DOT__half_q']", told)
+
+    def test_a_name_that_the_model_does_not_have_is_told(self):
+        self.verilate(FALLING)
+        with (self.folder / "model.toml").open("a", encoding="utf-8") as file:
+            file.write('[changed]\nmore = ["sample.wait_q", "sample.u_a.gone_q"]\n')
+        text, told = self.parts()
+        self.assertEqual(text, "#define MODEL_RUNS_WHOLE\n")
+        self.assertIn("the model has no sample.u_a.gone_q\n", told)
+
+    def test_an_unknown_key_is_an_error(self):
+        (self.folder / "model.toml").write_text(DESCRIBED + "clock = 1\n", encoding="utf-8")
+        with self.assertRaises(subprocess.CalledProcessError) as caught:
+            self.parts()
+        self.assertIn("'clock'", caught.exception.stderr)
+
+    def test_what_no_verilator_has_made_runs_whole(self):
+        (self.folder / "v").mkdir()
+        self.assertEqual(self.parts()[0], "#define MODEL_RUNS_WHOLE\n")
+        # Files of that name, but not text; then a folder in the place of one.
+        listing = self.folder / "v/Vsample.cmake"
+        listing.write_bytes(b"\xff\xfe\x00")
+        self.assertEqual(self.parts()[0], "#define MODEL_RUNS_WHOLE\n")
+        listing.unlink()
+        listing.mkdir()
+        self.assertEqual(self.parts()[0], "#define MODEL_RUNS_WHOLE\n")
+
+
+class Chip(unittest.TestCase):
+    def test_the_chip_is_split(self):
+        text = Path(HEADER).read_text(encoding="utf-8")
+        self.assertNotIn("MODEL_RUNS_WHOLE", text)
+        self.assertGreater(text.count("__builtin_expect"), 20)
+        # Some parts have a flag for each value of fast variables: the chip's counts were taken.
+        self.assertGreater(text.count("static_cast<unsigned>(vlSelf->"), 10)
+
+
+unittest.main(argv=sys.argv[:1])
