@@ -3,19 +3,25 @@
 #include "mb4sim/simulator.hpp"
 
 #include <algorithm>
-#include <cassert>
 #include <utility>
 
-#include "chip_model.hpp"
 #include "sim/core/random.hpp"
 #include "sim/faults/fault_target.hpp"
+#include "sim/masters/master.hpp"
 
 namespace mb4::sim {
 namespace {
 
-constexpr std::uint64_t kChipSeed = 0;  // part numbers of derive_seed(); slaves use 1 to 8
-constexpr std::uint64_t kFirstLineSeed = 9;
+using Outputs = MasterModel::Outputs;
+
+// Part numbers of derive_seed(). Slaves 1 to 8 and lines 1 and 2 have the numbers between those of
+// the master and of the faults.
+constexpr std::uint64_t kMasterSeed = 0;
 constexpr std::uint64_t kFaultSeed = 11;
+constexpr std::uint64_t slave_seed(unsigned number) {
+  return number <= 8 ? number : 0x100 + number;
+}
+constexpr std::uint64_t line_seed(unsigned index) { return index < 2 ? 9 + index : 0x200 + index; }
 
 std::unique_ptr<Slave> make_slave(const SlaveConfig& config, std::uint64_t seed) {
   std::unique_ptr<Slave> slave = config.device->make_slave(seed);
@@ -23,11 +29,9 @@ std::unique_ptr<Slave> make_slave(const SlaveConfig& config, std::uint64_t seed)
   return slave;
 }
 
-[[noreturn]] void stop_for_pulse(std::size_t index, const std::string& violation) {
+[[noreturn]] void stop_for_pulse(unsigned index, const std::string& violation) {
   throw ModelStopped("MA" + std::to_string(index + 1) + ": " + violation);
 }
-
-constexpr std::size_t index_of(Pin pin) { return static_cast<std::size_t>(pin); }
 
 }  // namespace
 
@@ -37,9 +41,9 @@ class SimulatorFaults final : public FaultTarget {
   explicit SimulatorFaults(Simulator& simulator) : simulator_(simulator) {}
   Line& line(unsigned channel) override { return *simulator_.line(channel); }
   Slave& slave(unsigned number) override { return *simulator_.slave(number); }
-  void abort_transfer(std::uint64_t bits) override { simulator_.spi().abort_next(bits); }
+  void abort_transfer(std::uint64_t bits) override { simulator_.master_->abort_transfer(bits); }
   void set_clock(Time now, std::optional<std::uint64_t> hz) override {
-    simulator_.chip_->set_clock(now, hz.value_or(simulator_.scenario().chip.f_clk_hz));
+    simulator_.model_->set_clock(now, hz.value_or(simulator_.scenario().chip.f_clk_hz));
   }
 
  private:
@@ -49,64 +53,48 @@ class SimulatorFaults final : public FaultTarget {
 Simulator::Simulator(const Scenario& scenario, const SimulatorOptions& options)
     : scenario_(scenario),
       seed_(options.seed.value_or(scenario.seed)),
-      sl_pins_{SlPin{this, Pin::kSl1}, SlPin{this, Pin::kSl2}},
-      spi_(*this, SpiTiming::for_frequency(scenario.host.sclk_hz)),
-      spi2_(*this, SpiTiming::for_frequency(scenario.host.sclk2_hz), kSpi2Pins),
-      bus_(*this,
-           scenario.host.interface == HostInterface::kMotorola ? ParallelMode::kMotorola
-                                                               : ParallelMode::kIntel,
-           ParallelTiming::for_cycle(scenario.host.cycle)) {
-  const std::uint64_t chip_seed = derive_seed(seed_, kChipSeed);
-  for (std::size_t index = 0; index < index_of(Pin::kEot); ++index) {
-    const Pin pin = static_cast<Pin>(index);
-    levels_[index] = pulled_up(pin) || pin == Pin::kCfgspi;  // CFGSPI is a strap
-    if (levels_[index]) host_check_.edge(0, pin, true);
+      lines_(scenario.master->channels),
+      trace_{options.trace_path.value_or(""), options.trace_from, options.trace_to} {
+  for (unsigned index = 0; index < lines_.size(); ++index) {
+    lines_[index].simulator = this;
+    lines_[index].index = index;
   }
+  Outputs connected = 0;
   for (const ChannelConfig& channel : scenario_.channels) {
-    const std::size_t index = channel.number - 1;
-    auto line = std::make_unique<Line>(queue_, channel.delay, &Simulator::on_sl, &sl_pins_[index],
-                                       channel.cable, derive_seed(seed_, kFirstLineSeed + index));
+    const unsigned index = channel.number - 1;
+    auto line = std::make_unique<Line>(queue_, channel.delay, &Simulator::on_sl, &lines_[index],
+                                       channel.cable, derive_seed(seed_, line_seed(index)));
     unsigned number = scenario_.master->first_slave(channel.number);
     for (const SlaveConfig& slave : channel.slaves) {
-      line->chain().add(make_slave(slave, derive_seed(seed_, number)));
+      line->chain().add(make_slave(slave, derive_seed(seed_, slave_seed(number))));
       ++number;
     }
     if (!channel.protocol().start_bit) line->faults().set_no_start_bit();
     for (const auto& [frame, bits] : channel.flips) line->faults().flip_frame(frame, bits);
-    lines_[index] = std::move(line);
+    lines_[index].line = std::move(line);
+    connected |= MasterModel::ma_of(index);
   }
-  const TraceFile trace{options.trace_path.value_or(""), options.trace_from, options.trace_to};
-  chip_ = options.trace_path         ? make_traced_chip(scenario_.chip, chip_seed, trace)
-          : options.plain_evaluation ? make_plain_chip(scenario_.chip, chip_seed)
-                                     : make_fast_chip(scenario_.chip, chip_seed);
+  master_ = scenario_.master->make(
+      {scenario_.chip, scenario_.host, connected, *this, derive_seed(seed_, kMasterSeed),
+       options.trace_path ? &trace_ : nullptr, options.plain_evaluation});
+  model_ = &master_->model();
   if (options.trace_path) {
-    for (const auto& line : lines_) {
-      if (line != nullptr) line->set_probe(&Simulator::on_probe, this);
+    for (const LineEnd& end : lines_) {
+      if (end.line != nullptr) end.line->set_probe(&Simulator::on_probe, this);
     }
     on_probe(0, this);
   }
   fault_target_ = std::make_unique<SimulatorFaults>(*this);
   injector_ = std::make_unique<FaultInjector>(*fault_target_, queue_, scenario_.faults,
                                               derive_seed(seed_, kFaultSeed));
-  // For the lines MA rests at 1 and MO at 0. Any other level of the chip is now a change.
-  seen_ = ChipModel::kMa1 | ChipModel::kMa2;
+  // For the lines MA rests at 1 and MO at 0. Any other level of the master is now a change.
+  for (unsigned index = 0; index < lines_.size(); ++index) seen_ |= MasterModel::ma_of(index);
   settle();
-  set_straps();
-  run_until(kResetLow);
-  set_pin(Pin::kNres, true);
+  master_->power_on();
   run_until(kReady);
 }
 
 Simulator::~Simulator() = default;
-
-void Simulator::set_straps() {
-  if (scenario_.host.parallel()) {
-    bus_.rest();
-  } else if (scenario_.host.interface == HostInterface::kSpi2) {
-    set_pin(Pin::kDb4, true);  // NCS of SPI2
-    set_pin(Pin::kNwrE, false);
-  }
-}
 
 void Simulator::check_alive() const {
   if (stopped_) throw ModelStopped(*stopped_);
@@ -117,7 +105,7 @@ bool Simulator::step(Time limit) {
   const Time until = std::min(limit, event);
   // Clock edges come before events of the same time: an input that changes together with the clock
   // is too late for that edge.
-  if (const Time changed = chip_->run_clocks(until); changed != kNever) {
+  if (const Time changed = model_->run_clocks(until); changed != kNever) {
     now_ = changed;
     settle();
     return true;
@@ -158,37 +146,32 @@ bool Simulator::run_while_waiting(const std::function<bool()>& done, Time limit)
   return true;
 }
 
-std::uint64_t Simulator::clk_cycles() const { return chip_->cycles(); }
-std::uint64_t Simulator::clk_cycles_left_out() const { return chip_->left_out(); }
+std::uint64_t Simulator::clk_cycles() const { return model_->cycles(); }
+std::uint64_t Simulator::clk_cycles_left_out() const { return model_->left_out(); }
 
-void Simulator::drive_chip(Pin pin, bool level) {
-  chip_->set_input(now_, pin, level);
-  // Host pins and reset change CFGIF. It decides whether MA2 is the inverse of another pin.
-  if (pin != Pin::kSl1 && pin != Pin::kSl2 && chip_->paired() != paired_) {
-    paired_ = !paired_;
-    ma_checks_[1].restart((chip_->watched() & ChipModel::kMa2) != 0);
-    if (lines_[1] == nullptr) drive_sl(Pin::kSl2, !(drives_pair() && this->pin(Pin::kSl1)));
-  }
-  settle();
-}
-
-inline void Simulator::check_ma(std::size_t index, bool level) {
-  // A pin that follows MA1 has no pulses of its own.
-  if (index == 1 && paired_) {
-    ma_checks_[index].restart(level);
+inline void Simulator::check_ma(LineEnd& end, bool level) {
+  // A pin that follows another one has no pulses of its own.
+  if (end.follows) {
+    end.ma_check.restart(level);
     return;
   }
-  const std::string* violation = ma_checks_[index].edge(now_, level, chip_->cycles(),
-                                                        chip_->half_clocks(), chip_->min_clock());
-  if (violation != nullptr) stop_for_pulse(index, *violation);
+  const std::string* violation = end.ma_check.edge(
+      now_, level, model_->cycles(), model_->half_clocks(end.index), model_->min_clock());
+  if (violation != nullptr) stop_for_pulse(end.index, *violation);
 }
 
-// `ma`, `mo`: the bits of the line's pins in `changed` and `outputs`.
-inline void Simulator::drive_line(std::size_t index, unsigned changed, unsigned outputs,
-                                  unsigned ma, unsigned mo) {
-  if ((changed & ma) != 0) check_ma(index, (outputs & ma) != 0);
-  if ((changed & (ma | mo)) == 0 || lines_[index] == nullptr) return;
-  lines_[index]->drive(now_, (outputs & ma) != 0, (outputs & mo) != 0);
+// Tells each line whose MA or MO has changed, the first line first.
+inline void Simulator::lines_changed(Outputs changed, Outputs levels) {
+  constexpr Outputs kMa = MasterModel::ma_of(0);
+  constexpr Outputs kMo = MasterModel::mo_of(0);
+  for (LineEnd* end = lines_.data(); changed != 0; ++end) {
+    if ((changed & kMa) != 0) check_ma(*end, (levels & kMa) != 0);
+    if ((changed & (kMa | kMo)) != 0 && end->line != nullptr) {
+      end->line->drive(now_, (levels & kMa) != 0, (levels & kMo) != 0);
+    }
+    changed >>= MasterModel::kBitsOfLine;
+    levels >>= MasterModel::kBitsOfLine;
+  }
 }
 
 // Handles outputs that have changed. This may change inputs, which calls settle() again; that inner
@@ -200,118 +183,79 @@ void Simulator::settle() {
     bool& flag;
     ~Leave() { flag = false; }
   } leave{settling_};
-  for (unsigned now = chip_->watched(); now != seen_; now = chip_->watched()) {
-    const unsigned changed = now ^ seen_;
+  constexpr Outputs kLines = MasterModel::own(0) - 1;
+  for (Outputs now = model_->outputs(); now != seen_; now = model_->outputs()) {
+    const Outputs changed = now ^ seen_;
     seen_ = now;
-    drive_line(0, changed, now, ChipModel::kMa1, ChipModel::kMo1);
-    drive_line(1, changed, now, ChipModel::kMa2, ChipModel::kMo2);
-    if ((changed & ChipModel::kEot) != 0 && observer_ != nullptr) {
-      observer_->pin_changed(Pin::kEot, (now & ChipModel::kEot) != 0);
-    }
-    if ((changed & ChipModel::kNerLow) != 0) chip_->set_input(now_, Pin::kNer, pin(Pin::kNer));
+    lines_changed(changed & kLines, now);
+    if ((changed & ~kLines) != 0) master_->own_outputs_changed(now_, changed);
   }
 }
 
 void Simulator::on_sl(Time /*now*/, void* receiver, bool level) {
-  const auto* sl = static_cast<SlPin*>(receiver);
-  sl->simulator->drive_sl(sl->pin, level);
-  if (sl->simulator->drives_pair()) sl->simulator->drive_sl(Pin::kSl2, !level);
-}
-
-void Simulator::drive_sl(Pin pin, bool level) {
-  levels_[index_of(pin)] = level;
-  drive_chip(pin, level);
+  const auto* end = static_cast<LineEnd*>(receiver);
+  end->simulator->model_->set_sl(end->simulator->now_, end->index, level);
+  end->simulator->settle();
 }
 
 void Simulator::on_probe(Time now, void* receiver) {
   auto* simulator = static_cast<Simulator*>(receiver);
-  unsigned ma = 0;
-  unsigned slo = 0;
-  unsigned idle = 0;
-  for (unsigned channel = 1; channel <= 2; ++channel) {
-    const Line* line = simulator->lines_[channel - 1].get();
-    if (line == nullptr || line->chain().ma()) ma |= 1U << (channel - 1);
+  std::uint64_t ma = 0;
+  std::uint64_t slo = 0;
+  std::uint64_t idle = 0;
+  for (const LineEnd& end : simulator->lines_) {
+    if (end.line == nullptr || end.line->chain().ma()) ma |= std::uint64_t{1} << end.index;
   }
   for (unsigned number = 1; number <= simulator->scenario_.master->slaves; ++number) {
     const Slave* slave = simulator->slave(number);
-    if (slave == nullptr || slave->slo()) slo |= 1U << (number - 1);
-    if (slave == nullptr || slave->idle()) idle |= 1U << (number - 1);
+    const std::uint64_t bit = std::uint64_t{1} << (number - 1);
+    if (slave == nullptr || slave->slo()) slo |= bit;
+    if (slave == nullptr || slave->idle()) idle |= bit;
   }
-  simulator->chip_->set_probes(now, ma, slo, idle);
+  simulator->model_->set_probes(now, ma, slo, idle);
 }
 
-bool Simulator::can_set(Pin pin) const {
-  if (is_output(pin)) return false;
-  if (pin == Pin::kSl1) return lines_[0] == nullptr;
-  if (pin == Pin::kSl2) return lines_[1] == nullptr && !drives_pair();
-  if (pin == Pin::kClk) return scenario_.chip.f_clk_hz == 0;
-  return true;
+std::optional<Pin> Simulator::pin_by_name(std::string_view name) const {
+  const auto find = scenario_.master->pin_by_name;
+  return find == nullptr ? std::nullopt : find(name);
 }
 
-void Simulator::set_observer(PinObserver* observer) {
-  observer_ = observer;
-  if (observer == nullptr) return;
-  for (std::size_t index = 0; index <= index_of(Pin::kEot); ++index) {
-    const Pin pin = static_cast<Pin>(index);
-    observer->pin_changed(pin, is_output(pin) ? this->pin(pin) : levels_[index]);
+bool Simulator::can_set(Pin pin) const { return master_->can_set(pin); }
+bool Simulator::pin(Pin pin) const { return master_->pin(pin); }
+
+void Simulator::change_followers() {
+  followers_ = model_->followers();
+  for (LineEnd& end : lines_) {
+    const Outputs ma = MasterModel::ma_of(end.index);
+    const bool follows = (followers_ & ma) != 0;
+    if (end.follows == follows) continue;
+    end.follows = follows;
+    end.ma_check.restart((model_->outputs() & ma) != 0);
   }
 }
+
+void Simulator::set_observer(PinObserver* observer) { master_->set_observer(observer); }
 
 void Simulator::set_pin(Pin pin, bool level) {
   check_alive();
-  if (!can_set(pin)) return;
   try {
-    if (pin == Pin::kNer) {
-      ner_pulled_ = !level;
-      drive_chip(pin, this->pin(pin));
-      return;
-    }
-    if (levels_[index_of(pin)] == level) return;
-    levels_[index_of(pin)] = level;
-    host_check_.edge(now_, pin, level);
-    if (observer_ != nullptr) observer_->pin_changed(pin, level);
-    drive_chip(pin, level);
+    master_->set_pin(now_, pin, level);
+    if (model_->followers() != followers_) change_followers();
+    settle();
   } catch (const ModelStopped& error) {
     stopped_ = error;
     throw;
   }
 }
 
-bool Simulator::pin(Pin pin) const {
-  const unsigned outputs = chip_->watched();
-  switch (pin) {
-    case Pin::kEot:
-      return (outputs & ChipModel::kEot) != 0;
-    case Pin::kMa1:
-      return (outputs & ChipModel::kMa1) != 0;
-    case Pin::kMa2:
-      return (outputs & ChipModel::kMa2) != 0;
-    case Pin::kMo1:
-      return (outputs & ChipModel::kMo1) != 0;
-    case Pin::kMo2:
-      return (outputs & ChipModel::kMo2) != 0;
-    case Pin::kClk:
-      return chip_->clk();
-    case Pin::kNer:
-      return !ner_pulled_ && (outputs & ChipModel::kNerLow) == 0;
-    default:
-      break;
-  }
-  const std::size_t index = index_of(pin);
-  if (index <= index_of(Pin::kDb7) && ((chip_->db_enable() >> index) & 1U) != 0) {
-    return ((chip_->db_out() >> index) & 1U) != 0;
-  }
-  return levels_[index];
-}
-
 Line* Simulator::line(unsigned channel) {
-  return channel >= 1 && channel <= lines_.size() ? lines_[channel - 1].get() : nullptr;
+  return channel >= 1 && channel <= lines_.size() ? lines_[channel - 1].line.get() : nullptr;
 }
 
 const Slave* Simulator::slave(unsigned number) const {
   if (number == 0) return nullptr;
   const unsigned channel = scenario_.channel_of(number);
-  const Line* line = lines_[channel - 1].get();
+  const Line* line = lines_[channel - 1].line.get();
   const unsigned index = number - scenario_.master->first_slave(channel);
   return line != nullptr && index < line->chain().size() ? &line->chain().slave(index) : nullptr;
 }
@@ -322,11 +266,11 @@ Slave* Simulator::slave(unsigned number) {
 
 void Simulator::refresh_lines() {
   check_alive();
-  for (const auto& line : lines_) {
-    if (line != nullptr) line->refresh(now_);
+  for (const LineEnd& end : lines_) {
+    if (end.line != nullptr) end.line->refresh(now_);
   }
 }
 
-void Simulator::flush_trace() { chip_->finish_trace(); }
+void Simulator::flush_trace() { model_->finish_trace(); }
 
 }  // namespace mb4::sim

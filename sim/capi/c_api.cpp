@@ -124,14 +124,14 @@ uint64_t mb4sim_clk_cycles(const mb4sim* sim) {
 
 int mb4sim_pin_read(mb4sim* sim, const char* pin) {
   if (sim == nullptr || pin == nullptr) return MB4SIM_ERROR_UNKNOWN;
-  const auto which = mb4::sim::pin_by_name(pin);
+  const auto which = sim->simulator.pin_by_name(pin);
   if (!which) return MB4SIM_ERROR_UNKNOWN;
   return sim->simulator.pin(*which) ? 1 : 0;
 }
 
 int mb4sim_pin_write(mb4sim* sim, const char* pin, int level) {
-  if (pin == nullptr) return MB4SIM_ERROR_UNKNOWN;
-  const auto which = mb4::sim::pin_by_name(pin);
+  if (sim == nullptr || pin == nullptr) return MB4SIM_ERROR_UNKNOWN;
+  const auto which = sim->simulator.pin_by_name(pin);
   if (!which) return MB4SIM_ERROR_UNKNOWN;
   if (level != 0 && level != 1) return MB4SIM_ERROR_VALUE;
   return guarded(sim, [&](Simulator& simulator) {

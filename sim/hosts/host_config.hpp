@@ -13,18 +13,26 @@
 
 namespace mb4::sim {
 
-// The connection of the host. kSpi2: SPI with the second serial interface enabled.
-enum class HostInterface { kSpi, kSpi2, kIntel, kMotorola };
-
-// One connection and what it can do.
-struct HostKind {
-  HostInterface interface;
+// One way to connect a host. A master lists those that it has; it may make one of its own.
+struct HostInterface {
   std::string_view key;  // value of `interface` in the scenario
-  bool parallel;
-  std::string_view refuses_abort;  // why the host cannot abort a transfer; empty: it can
+  bool parallel = false;
+  std::string_view refuses_abort = "";  // why the host cannot abort a transfer; empty: it can
+
+  constexpr bool operator==(const HostInterface& other) const { return key == other.key; }
+
+  // Those of the hosts in this folder. kSpi2: SPI with the second serial interface enabled.
+  static const HostInterface kSpi;
+  static const HostInterface kSpi2;
+  static const HostInterface kIntel;
+  static const HostInterface kMotorola;
 };
 
-const HostKind& host_kind(HostInterface interface);
+inline constexpr std::string_view kNoAbort = "only an SPI host aborts frames";
+inline constexpr HostInterface HostInterface::kSpi{"spi"};
+inline constexpr HostInterface HostInterface::kSpi2{"spi2"};
+inline constexpr HostInterface HostInterface::kIntel{"intel", true, kNoAbort};
+inline constexpr HostInterface HostInterface::kMotorola{"motorola", true, kNoAbort};
 
 struct HostConfig {
   HostInterface interface = HostInterface::kSpi;
@@ -32,7 +40,7 @@ struct HostConfig {
   std::uint64_t sclk2_hz = 10'000'000;  // SPI2
   Time cycle = 1000 * kPsPerNs;         // of the parallel bus, ps
 
-  bool parallel() const { return host_kind(interface).parallel; }
+  bool parallel() const { return interface.parallel; }
   // MA frequency that `mb4sim run` sets up. The master can always make it.
   std::uint64_t ma_hz = 10'000'000;
   TableSource source;

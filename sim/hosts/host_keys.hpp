@@ -12,8 +12,13 @@
 
 namespace mb4::sim {
 
-// `accepted`: the interfaces of the master, in the order in which they are listed to the user.
-void read_host_keys(TomlReader& reader, std::span<const HostInterface> accepted, HostConfig& host);
+// `accepted`: the interfaces of the master, in the order in which they are listed to the user. The
+// first is the default.
+void read_interface(TomlReader& reader, std::span<const HostInterface> accepted, HostConfig& host);
+
+// For a master with such hosts: the keys of SPI and SPI2, and those of the parallel bus.
+void read_spi_keys(TomlReader& reader, HostConfig& host);
+void read_parallel_keys(TomlReader& reader, HostConfig& host);
 
 }  // namespace mb4::sim
 

@@ -9,8 +9,6 @@ namespace {
 
 constexpr unsigned kBits = 8;
 
-Pin db(unsigned bit) { return static_cast<Pin>(static_cast<unsigned>(Pin::kDb0) + bit); }
-
 }  // namespace
 
 Time ParallelTiming::read_cycle() const {
@@ -31,13 +29,17 @@ ParallelTiming ParallelTiming::for_cycle(Time cycle) {
   return timing;
 }
 
+Pin ParallelHost::db(unsigned bit) const {
+  return static_cast<Pin>(static_cast<int>(wires_.db0) + static_cast<int>(bit));
+}
+
 void ParallelHost::rest() {
-  pins_.set_pin(Pin::kCfgspi, false);
-  pins_.set_pin(Pin::kIntNmot, mode_ == ParallelMode::kIntel);
-  pins_.set_pin(Pin::kNcs, true);
-  pins_.set_pin(Pin::kAle, false);
-  pins_.set_pin(Pin::kNrdRnw, true);
-  pins_.set_pin(Pin::kNwrE, mode_ == ParallelMode::kIntel);
+  pins_.set_pin(wires_.cfgspi, false);
+  pins_.set_pin(wires_.int_nmot, mode_ == ParallelMode::kIntel);
+  pins_.set_pin(wires_.ncs, true);
+  pins_.set_pin(wires_.ale, false);
+  pins_.set_pin(wires_.nrd_rnw, true);
+  pins_.set_pin(wires_.nwr_e, mode_ == ParallelMode::kIntel);
 }
 
 void ParallelHost::drive(unsigned byte) {
@@ -46,23 +48,23 @@ void ParallelHost::drive(unsigned byte) {
 
 void ParallelHost::latch(std::uint8_t address) {
   drive(address);
-  pins_.set_pin(Pin::kNcs, false);
-  pins_.set_pin(Pin::kAle, true);
+  pins_.set_pin(wires_.ncs, false);
+  pins_.set_pin(wires_.ale, true);
   wait(timing_.ale_high);
-  pins_.set_pin(Pin::kAle, false);
+  pins_.set_pin(wires_.ale, false);
 }
 
 void ParallelHost::strobe(bool read, bool active) {
   if (mode_ == ParallelMode::kMotorola) {
-    pins_.set_pin(Pin::kNwrE, active);
+    pins_.set_pin(wires_.nwr_e, active);
   } else {
-    pins_.set_pin(read ? Pin::kNrdRnw : Pin::kNwrE, !active);
+    pins_.set_pin(read ? wires_.nrd_rnw : wires_.nwr_e, !active);
   }
 }
 
 void ParallelHost::write(std::uint8_t address, std::uint8_t value) {
   latch(address);
-  if (mode_ == ParallelMode::kMotorola) pins_.set_pin(Pin::kNrdRnw, false);
+  if (mode_ == ParallelMode::kMotorola) pins_.set_pin(wires_.nrd_rnw, false);
   wait(std::max(timing_.address_hold, timing_.ale_to_strobe));
   drive(value);
   strobe(false, true);
@@ -70,8 +72,8 @@ void ParallelHost::write(std::uint8_t address, std::uint8_t value) {
   strobe(false, false);
   const Time end = pins_.now();
   wait(timing_.hold);
-  pins_.set_pin(Pin::kNrdRnw, true);
-  pins_.set_pin(Pin::kNcs, true);
+  pins_.set_pin(wires_.nrd_rnw, true);
+  pins_.set_pin(wires_.ncs, true);
   pins_.run_until(std::max(pins_.now(), end + timing_.data_hold));
   drive(0);
 }
@@ -89,7 +91,7 @@ std::uint8_t ParallelHost::read(std::uint8_t address) {
   strobe(true, false);
   const Time end = pins_.now();
   wait(timing_.hold);
-  pins_.set_pin(Pin::kNcs, true);
+  pins_.set_pin(wires_.ncs, true);
   pins_.run_until(std::max(pins_.now(), end + timing_.release));
   return static_cast<std::uint8_t>(value);
 }

@@ -36,10 +36,17 @@ struct ParallelTiming {
   Time write_cycle() const;
 };
 
-class ParallelHost {
+// The pins of the master to which a host is connected. The data pins have consecutive numbers.
+struct ParallelPins {
+  Pin db0, ncs, ale, nrd_rnw, nwr_e;
+  Pin cfgspi, int_nmot;  // straps: 0 = parallel bus; 1 = Intel
+};
+
+class ParallelHost final : public HostModel {
  public:
-  ParallelHost(HostPins& pins, ParallelMode mode, const ParallelTiming& timing)
-      : pins_(pins), mode_(mode), timing_(timing) {}
+  ParallelHost(HostPins& pins, ParallelMode mode, const ParallelTiming& timing,
+               const ParallelPins& wires)
+      : pins_(pins), wires_(wires), mode_(mode), timing_(timing) {}
 
   // One bus cycle each. The calls return when NCS is high again and the next cycle may begin.
   void write(std::uint8_t address, std::uint8_t value);
@@ -58,7 +65,10 @@ class ParallelHost {
   void latch(std::uint8_t address);
   void strobe(bool read, bool active);
 
+  Pin db(unsigned bit) const;
+
   HostPins& pins_;
+  ParallelPins wires_;
   ParallelMode mode_;
   ParallelTiming timing_;
 };

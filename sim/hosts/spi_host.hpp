@@ -37,18 +37,14 @@ struct SpiMode {
   bool cpha = false;
 };
 
-// The pins of the chip to which a host is connected (page 3).
+// The pins of the master to which a host is connected.
 struct SpiPins {
-  Pin ncs = Pin::kNcs;
-  Pin sclk = Pin::kAle;
-  Pin mosi = Pin::kDb0;
-  Pin miso = Pin::kDb1;
+  Pin ncs, sclk, mosi, miso;
 };
-inline constexpr SpiPins kSpi2Pins{Pin::kDb4, Pin::kDb5, Pin::kDb6, Pin::kDb7};
 
-class SpiHost {
+class SpiHost final : public HostModel {
  public:
-  SpiHost(HostPins& pins, const SpiTiming& timing, const SpiPins& wires = {})
+  SpiHost(HostPins& pins, const SpiTiming& timing, const SpiPins& wires)
       : pins_(pins), wires_(wires), timing_(timing) {}
 
   // Sends one frame: NCS low, all bytes, NCS high. `rx` receives as many bytes as it has room for,

@@ -1,21 +1,27 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The masters that a scenario can have, and what each of them accepts. masters.cpp holds the only
-// list of them.
+// The masters that a scenario can have: what each of them accepts, and how it is made.
 #ifndef MB4SIM_MASTER_HPP_
 #define MB4SIM_MASTER_HPP_
 
 #include <cstdint>
+#include <memory>
+#include <optional>
 #include <span>
 #include <string_view>
+#include <vector>
 
 #include "sim/hosts/host_config.hpp"
+#include "sim/hosts/host_pins.hpp"
 #include "sim/masters/chip_config.hpp"
 
 namespace mb4::sim {
 
+class LiveMaster;
 class TomlReader;
+struct MasterSetup;
+struct WaveGroup;
 
 struct Master {
   std::string_view type;                      // value of `type` in [master]
@@ -30,8 +36,13 @@ struct Master {
   std::int64_t max_osc_hz;
   // Reads [chip.quirks].
   void (*read_quirks)(TomlReader& reader, ChipConfig& chip);
-  // Reads the keys of [host] that are not about its interface.
+  // Reads the keys of [host] but `interface`, which is known.
   void (*read_host)(TomlReader& reader, const ChipConfig& chip, HostConfig& host);
+  // Null if it has no pins.
+  std::optional<Pin> (*pin_by_name)(std::string_view name);
+  std::unique_ptr<LiveMaster> (*make)(const MasterSetup& setup);
+  // The groups of the waveform view (sim/model/wave_view.hpp). Null if it has no waveform.
+  std::vector<WaveGroup> (*wave_groups)(const HostConfig& host);
 
   // Number of the first slave of a channel, from 1 on.
   constexpr unsigned first_slave(unsigned channel) const {
@@ -41,6 +52,9 @@ struct Master {
 
 // In the order in which they are listed to the user. The first is the default.
 std::span<const Master* const> masters();
+
+// A program adds a master of its own before it reads a scenario. `master` must live on.
+void add_master(const Master& master);
 
 }  // namespace mb4::sim
 

@@ -3,10 +3,18 @@
 #include "sim/masters/mb4/mb4_master.hpp"
 
 namespace mb4::sim {
+namespace {
 
-std::span<const Master* const> masters() {
-  static constexpr const Master* kAll[] = {&kMb4Master};
-  return kAll;
+// The only list of the masters of this library.
+std::vector<const Master*>& list() {
+  static std::vector<const Master*> all{&kMb4Master};
+  return all;
 }
+
+}  // namespace
+
+std::span<const Master* const> masters() { return list(); }
+
+void add_master(const Master& master) { list().push_back(&master); }
 
 }  // namespace mb4::sim

@@ -12,7 +12,6 @@
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
-#include <initializer_list>
 #include <memory>
 #include <optional>
 #include <stdexcept>
@@ -32,77 +31,7 @@ struct Signal {
   bool enumerated = false;  // the file has names for its values
 };
 
-// A signal of the top module, shown under the name of a pin.
-struct PinName {
-  std::string_view name;    // empty: the signal's name
-  std::string_view signal;  // without the range of a vector
-  int bit = -1;             // bit of a vector; -1: all of it
-};
-
-// A group of the view: pins of the chip, and signals inside the chip whose path contains a scope.
-struct Group {
-  std::string_view name;
-  bool open;  // unfolded when the view is loaded
-  std::vector<PinName> pins;
-  std::vector<std::string_view> scopes;
-};
-
-Group host_group(HostInterface interface) {
-  Group group{"host", true, {{"NRES", "nres_i"}, {"NCS", "ncs_i"}}, {}};
-  const auto add = [&](std::initializer_list<PinName> pins) {
-    group.pins.insert(group.pins.end(), pins);
-  };
-  switch (interface) {
-    case HostInterface::kSpi:
-    case HostInterface::kSpi2:
-      add({{"SCLK", "ale_i"}, {"MOSI", "db_i", 0}, {"MISO", "db_o", 1}, {"MISO on", "db_oe_o", 1}});
-      group.scopes = {".u_host.u_spi.u_cmd."};
-      break;
-    case HostInterface::kIntel:
-      add({{"ALE", "ale_i"}, {"NRD", "nrd_rnw_i"}, {"NWR", "nwr_e_i"}});
-      break;
-    case HostInterface::kMotorola:
-      add({{"ALE", "ale_i"}, {"RNW", "nrd_rnw_i"}, {"E", "nwr_e_i"}});
-      break;
-  }
-  if (interface == HostInterface::kSpi2) {
-    add({{"NCS of SPI2", "db_i", 4},
-         {"SCLK of SPI2", "db_i", 5},
-         {"MOSI of SPI2", "db_i", 6},
-         {"MISO of SPI2", "db_o", 7},
-         {"MISO of SPI2 on", "db_oe_o", 7}});
-    group.scopes.push_back(".u_spi2.u_spi.u_cmd.");
-  }
-  if (interface == HostInterface::kIntel || interface == HostInterface::kMotorola) {
-    add({{"DB in", "db_i"}, {"DB out", "db_o"}, {"DB on", "db_oe_o"}});
-    group.scopes = {".u_par_bus."};
-  }
-  add({{"EOT", "eot_o"}, {"NER", "ner_i"}, {"NER pulled", "ner_low_o"}});
-  return group;
-}
-
-// The groups in the order of the view. The first ones are those that a user of the chip sees.
-std::vector<Group> groups(HostInterface interface) {
-  return {
-      host_group(interface),
-      {"line", true, {{"MA1", "ma1_o"}, {"SL1", "sl1_i"}, {"MA2", "ma2_o"}, {"SL2", "sl2_i"}}, {}},
-      {"slaves", true, {{"", "slaves_ma_i"}, {"", "slaves_slo_i"}, {"", "slaves_idle_i"}}, {}},
-      {"control", false, {{"CLK", "clk_i"}}, {".u_control.", ".u_timebase."}},
-      {"line engine", false, {{"MO1", "mo1_o"}, {"MO2", "mo2_o"}}, {".gen_line[", ".u_line."}},
-      {"registers", false, {}, {".u_regs."}},
-      {"straps",
-       false,
-       {{"CFGSPI", "cfgspi_i"},
-        {"INT_NMOT", "int_nmot_i"},
-        {"NRD_RNW", "nrd_rnw_i"},
-        {"NWR_E", "nwr_e_i"},
-        {"GETSENS", "getsens_i"},
-        {"oscillator", "osc_i"}},
-       {}},
-  };
-}
-
-bool belongs(const Group& group, const Signal& signal) {
+bool belongs(const WaveGroup& group, const Signal& signal) {
   // Inside the chip the view has registers and outputs only. The other signals follow from them and
   // are in the file.
   const std::string name = signal.path.substr(0, signal.path.find('[', signal.path.rfind('.')));
@@ -169,7 +98,7 @@ Waveform read_waveform(const std::string& /*fst_path*/) { return {}; }
 #endif
 
 // Writes a pin. Writes nothing if the file has no such signal.
-void write_pin(std::ostream& out, const PinName& pin, const std::vector<Signal>& signals) {
+void write_pin(std::ostream& out, const WavePin& pin, const std::vector<Signal>& signals) {
   for (const Signal& signal : signals) {
     if (signal.path.substr(0, signal.path.find('[')) != pin.signal) continue;
     out << (signal.vector && pin.bit < 0 ? "@22\n" : "@28\n");
@@ -190,7 +119,7 @@ void write_signal(std::ostream& out, const Signal& signal) {
 }  // namespace
 
 void write_wave_view(const std::string& fst_path, const std::string& view_path,
-                     HostInterface interface, std::optional<Time> marker) {
+                     std::span<const WaveGroup> groups, std::optional<Time> marker) {
   constexpr double kWindowPs = 150e6;    // configuration and the first frames of a usual scenario
   constexpr double kWindowPixels = 900;  // width on an ordinary screen
   constexpr double kZoomUnit = 200;      // GTKWave: a pixel is 2^zoom / 200 time units
@@ -207,9 +136,9 @@ void write_wave_view(const std::string& fst_path, const std::string& view_path,
       << marker.value_or(waveform.begin);
   for (int letter = 0; letter < 26; ++letter) out << " -1";
   out << '\n';
-  for (const Group& group : groups(interface)) {
+  for (const WaveGroup& group : groups) {
     out << (group.open ? "@800200\n-" : "@c00200\n-") << group.name << '\n';
-    for (const PinName& pin : group.pins) write_pin(out, pin, waveform.signals);
+    for (const WavePin& pin : group.pins) write_pin(out, pin, waveform.signals);
     for (const Signal& signal : waveform.signals) {
       if (belongs(group, signal)) write_signal(out, signal);
     }

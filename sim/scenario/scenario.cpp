@@ -54,7 +54,7 @@ HostConfig read_host(const toml::table& table, TomlFile& file, const Master& mas
                      const ChipConfig& chip) {
   TomlReader reader(table, file);
   HostConfig host;
-  read_host_keys(reader, master.interfaces, host);
+  read_interface(reader, master.interfaces, host);
   master.read_host(reader, chip, host);
   reader.finish();
   host.source = reader.source();

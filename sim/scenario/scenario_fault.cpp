@@ -66,7 +66,7 @@ void read_place(TomlReader& reader, const Scenario& scenario, FaultConfig& fault
     case FaultPlace::kSlave:
       return read_slave_fault(reader, scenario, fault);
     case FaultPlace::kHost: {
-      const std::string_view refusal = host_kind(scenario.host.interface).refuses_abort;
+      const std::string_view refusal = scenario.host.interface.refuses_abort;
       if (!refusal.empty()) reader.fail("kind", std::string(refusal));
       return;
     }

@@ -24,7 +24,7 @@ def main():
          *project.verilator_flags(), "--coverage-line", "--coverage-toggle", f"-I{project.INCLUDE}",
          "-CFLAGS", f"-O1 -std=c++20 -DVL_USER_STOP -include {hooks}",
          "--top-module", "mb4_chip", "--prefix", "Vmb4_cover", "--Mdir", folder,
-         project.WAIVERS, project.ROOT / "sim" / "model" / "public.vlt",
+         project.WAIVERS, project.ROOT / "sim/masters/mb4/model/public.vlt",
          *project.rtl_files()], cwd=folder)
     if status != 0:
         raise SystemExit(text)

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
-// The model without tracing, made of the iCE40 netlist: takes the place of sim/model/fast_chip.cpp.
+// The model without tracing, made of the iCE40 netlist: takes the place of
+// sim/masters/mb4/model/fast_chip.cpp.
 #include <Vmb4_gate.h>
 
 #include "plain_steps.hpp"

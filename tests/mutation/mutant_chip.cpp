@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
-// The model without tracing, with faults (mutate.py): takes the place of sim/model/fast_chip.cpp.
+// The model without tracing, with faults (mutate.py): takes the place of
+// sim/masters/mb4/model/fast_chip.cpp.
 #include <Vmb4_mutant.h>
 #include <Vmb4_mutant___024root.h>
 

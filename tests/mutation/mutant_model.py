@@ -29,7 +29,7 @@ def main():
              "-CFLAGS", f"-O1 -std=c++20 -DVL_USER_STOP -include {HERE / 'mutant.h'} -include "
              f"{project.ROOT / 'sim' / 'model' / 'verilated_hooks.h'}",
              "--top-module", "mb4_chip", "--prefix", "Vmb4_mutant", "--Mdir", folder,
-             project.ROOT / "sim" / "model" / "public.vlt",
+             project.ROOT / "sim/masters/mb4/model/public.vlt",
              *[folder / "rtl" / path.name for path in project.rtl_files()]], cwd=folder)
     if status != 0:
         raise SystemExit(text)

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "mb4sim/simulator.hpp"
+#include "sim/masters/mb4/pins.hpp"
 #include "sim/scenario/scenario.hpp"
 #include "sim_bus.hpp"
 #include "tests/support/test_host.hpp"

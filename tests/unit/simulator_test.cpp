@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "sim/lines/biss/biss_c_slave.hpp"
+#include "sim/masters/mb4/pins.hpp"
 
 namespace mb4test {
 

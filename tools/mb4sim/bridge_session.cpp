@@ -8,7 +8,6 @@
 #include <string_view>
 
 #include "mb4sim/model_stopped.hpp"
-#include "sim/hosts/pins.hpp"
 
 namespace mb4::tool {
 namespace {
@@ -41,8 +40,8 @@ std::string_view text(std::span<const std::uint8_t> bytes) {
   return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
 }
 
-sim::Pin pin_of(std::span<const std::uint8_t> name) {
-  const auto pin = sim::pin_by_name(text(name));
+sim::Pin pin_of(const sim::Simulator& simulator, std::span<const std::uint8_t> name) {
+  const auto pin = simulator.pin_by_name(text(name));
   if (!pin) throw RefusedValue("there is no such pin");
   return *pin;
 }
@@ -201,7 +200,7 @@ void BridgeSession::execute(char request, Payload payload, std::vector<std::uint
 
 void BridgeSession::set_pin(Payload payload) {
   if (payload.size() < 2 || payload[0] > 1) throw Malformed("a level 0 or 1 and a name are needed");
-  const sim::Pin pin = pin_of(payload.subspan(1));
+  const sim::Pin pin = pin_of(chip_.simulator(), payload.subspan(1));
   if (!chip_.simulator().can_set(pin)) {
     throw RefusedValue("the pin is driven by chip or simulation");
   }
@@ -209,7 +208,7 @@ void BridgeSession::set_pin(Payload payload) {
 }
 
 void BridgeSession::read_pin(Payload payload, std::vector<std::uint8_t>& answer) {
-  answer.push_back(chip_.simulator().pin(pin_of(payload)) ? 1 : 0);
+  answer.push_back(chip_.simulator().pin(pin_of(chip_.simulator(), payload)) ? 1 : 0);
 }
 
 void BridgeSession::select(Payload payload) {

@@ -68,7 +68,7 @@ void execute(sim::Simulator& simulator, SimBus& bus, const std::vector<std::stri
     if (words.size() != 3 || (words[2] != "0" && words[2] != "1")) {
       throw UseError("expected 'pin NAME LEVEL' with level 0 or 1");
     }
-    const auto pin = sim::pin_by_name(words[1]);
+    const auto pin = simulator.pin_by_name(words[1]);
     if (!pin) throw UseError(fmt::format("there is no pin '{}'", words[1]));
     if (!simulator.can_set(*pin)) {
       throw UseError(fmt::format("pin '{}' is driven by chip or simulation", words[1]));

@@ -41,7 +41,7 @@ std::vector<std::string> inputs_of(const std::string& path, const sim::Scenario&
 
 TraceFile::TraceFile(const std::string& option, const std::string& scenario_path,
                      const sim::Scenario& scenario)
-    : path_(option), interface_(scenario.host.interface) {
+    : path_(option), master_(scenario.master), host_(scenario.host) {
   if (path_.empty()) return;
   if (is_vcd(path_)) {
     throw UseError(
@@ -65,7 +65,8 @@ std::optional<std::string> TraceFile::path() const {
 }
 
 void TraceFile::write_view(std::optional<sim::Time> marker) const {
-  if (!path_.empty()) sim::write_wave_view(path_, view_path(path_), interface_, marker);
+  if (path_.empty() || master_->wave_groups == nullptr) return;
+  sim::write_wave_view(path_, view_path(path_), master_->wave_groups(host_), marker);
 }
 
 }  // namespace mb4::tool

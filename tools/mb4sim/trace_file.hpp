@@ -34,7 +34,8 @@ class TraceFile {
 
  private:
   std::string path_;
-  sim::HostInterface interface_;
+  const sim::Master* master_;
+  sim::HostConfig host_;
   std::vector<Output> outputs_;
 };
 

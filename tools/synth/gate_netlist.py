@@ -20,7 +20,7 @@ import project  # noqa: E402
 import yosys  # noqa: E402
 
 TOP = "mb4_chip"
-# What sim/model looks at, and its name at mb4_gate_top.
+# What sim/masters/mb4/model looks at, and its name at mb4_gate_top.
 PROBES = {"clkeni": "clkeni", "clk": "clk", "paired": "paired",
           "u_engine.u_lines.u_timebase.len_q": "len_q"}
 

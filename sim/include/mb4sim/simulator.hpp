@@ -1,18 +1,20 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The whole simulation: one chip with its clock, reset, host and lines. A process may hold any
+// The whole simulation: one master with its clock, reset, hosts and lines. A process may hold any
 // number of simulators. All of them are used from one thread.
 #ifndef MB4SIM_SIMULATOR_HPP_
 #define MB4SIM_SIMULATOR_HPP_
 
-#include <array>
 #include <cstdint>
 #include <functional>
 #include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <typeinfo>
+#include <utility>
+#include <vector>
 
 #include "mb4sim/model_stopped.hpp"
 #include "sim/core/event_queue.hpp"
@@ -21,16 +23,15 @@
 #include "sim/hosts/host_check.hpp"
 #include "sim/hosts/host_pins.hpp"
 #include "sim/hosts/parallel_host.hpp"
-#include "sim/hosts/pins.hpp"
 #include "sim/hosts/spi_host.hpp"
 #include "sim/lines/line.hpp"
 #include "sim/lines/ma_pulse_check.hpp"
 #include "sim/lines/slave.hpp"
+#include "sim/masters/live_master.hpp"
 #include "sim/scenario/scenario.hpp"
 
 namespace mb4::sim {
 
-class ChipModel;
 class SimulatorFaults;
 
 struct SimulatorOptions {
@@ -39,21 +40,20 @@ struct SimulatorOptions {
   // The waveform holds only the time between these two, both included. The rest costs little.
   Time trace_from = 0;
   Time trace_to = kNever;
-  // true: Verilator's eval() evaluates every clock edge and nothing is left out. This is slower and
-  // gives the same results.
+  // true: every clock edge is evaluated and nothing is left out. This is slower and gives the same
+  // results.
   bool plain_evaluation = false;
 };
 
 class Simulator final : public HostPins {
  public:
-  // Builds everything, resets the chip (NRES low for kResetLow) and returns at time kReady.
+  // Builds everything, resets the master and returns at time kReady.
   // Throws TraceError if the trace file cannot be written.
   explicit Simulator(const Scenario& scenario, const SimulatorOptions& options = {});
   ~Simulator();
   Simulator(const Simulator&) = delete;
   Simulator& operator=(const Simulator&) = delete;
 
-  static constexpr Time kResetLow = 500 * kPsPerNs;  // E08: at least 250 ns
   static constexpr Time kReady = 1000 * kPsPerNs;
 
   // --- time ----------------------------------------------------------------------------------
@@ -73,23 +73,23 @@ class Simulator final : public HostPins {
   bool run_while_waiting(const std::function<bool()>& done, Time limit);
   // Calls `callback` at `time`, which must not be before now().
   void at(Time time, std::function<void()> callback) { queue_.post(time, std::move(callback)); }
-  // Number of rising edges of the chip's system clock, which is pin CLK or, with CLKENI = 1, the
-  // oscillator.
+  // Number of rising edges of the master's system clock. That of the iC-MB4 is pin CLK or, with
+  // CLKENI = 1, the oscillator.
   std::uint64_t clk_cycles() const;
-  // Number of those edges that were not simulated one by one because the chip was at rest.
+  // Number of those edges that were not simulated one by one because the master was at rest.
   std::uint64_t clk_cycles_left_out() const;
 
   // --- pins ----------------------------------------------------------------------------------
+  // Each master has pins of its own; sim/masters/mb4/ has those of the iC-MB4.
+  std::optional<Pin> pin_by_name(std::string_view name) const;
   // Drives a pin from outside. The pin keeps this level until the next call. The call has no effect
-  // on output pins, on SL of a channel that the scenario has, and on CLK if it is connected. At NER
-  // false pulls the pin low and true leaves it to the pull-up. With CFGIF = 10 or 11 channel 1 also
-  // drives SL2_NSL1 with the inverse of SL1, unless the scenario has channel 2.
+  // on pins that something else drives, for example SL of a channel that the scenario has.
   void set_pin(Pin pin, bool level) override;
   // Level of any pin as a voltmeter would show it.
   bool pin(Pin pin) const override;
-  // True if CFGIF makes the pins of line 2 the inverse of those of line 1. Then nothing of channel
-  // 2 is connected.
-  bool paired() const { return paired_; }
+  // True if the pins of a line are the inverse of those of another one (iC-MB4: CFGIF). Then
+  // nothing of that channel is connected.
+  bool paired() const { return followers_ != 0; }
   // False for pins that set_pin() ignores.
   bool can_set(Pin pin) const;
   // Tells the observer the levels of all pins that set_pin() drives and of EOT, at once and then at
@@ -97,23 +97,28 @@ class Simulator final : public HostPins {
   void set_observer(PinObserver* observer);
 
   // --- hosts, lines, slaves ------------------------------------------------------------------
-  // Hosts on the chip's pins. The straps, which the scenario's interface has set, decide which of
-  // them the chip listens to: spi() with CFGSPI = 1, spi2() in addition with NWR_E = 0, bus() with
-  // CFGSPI = 0.
-  SpiHost& spi() { return spi_; }
-  SpiHost& spi2() { return spi2_; }
-  ParallelHost& bus() { return bus_; }
-  // Violations of the datasheet's limits at the host pins so far.
-  HostCheck& host_check() { return host_check_; }
-  // The line of channel 1 or 2. Null if the scenario does not have this channel.
+  // A host that the master offers, by its name and class. Throws std::bad_cast if there is none.
+  template <typename Host>
+  Host& host(std::string_view name) {
+    auto* found = dynamic_cast<Host*>(master_->host(name));
+    if (found == nullptr) throw std::bad_cast();
+    return *found;
+  }
+  // Those that most masters call the same.
+  SpiHost& spi() { return host<SpiHost>("spi"); }
+  SpiHost& spi2() { return host<SpiHost>("spi2"); }
+  ParallelHost& bus() { return host<ParallelHost>("bus"); }
+  // Violations of the master's limits at the host pins so far.
+  HostCheck& host_check() { return master_->host_check(); }
+  // The line of a channel, from 1 on. Null if the scenario does not have this channel.
   Line* line(unsigned channel);
-  // A slave by the number of its SCDATAx, 1 to 8. Channel 1 counts from 1, channel 2 from 5. Null
-  // if there is no such slave.
+  // A slave by its number from 1 on. For the iC-MB4 this is the number of its SCDATAx: channel 1
+  // counts from 1, channel 2 from 5. Null if there is no such slave.
   Slave* slave(unsigned number);
   const Slave* slave(unsigned number) const;
-  // Guard of pin MA of a channel (1 or 2). It exists also for a channel that the scenario does not
-  // have.
-  MaPulseCheck& ma_check(unsigned channel) { return ma_checks_.at(channel - 1); }
+  // Guard of pin MA of a channel of the master. It exists also for a channel that the scenario does
+  // not have.
+  MaPulseCheck& ma_check(unsigned channel) { return lines_.at(channel - 1).ma_check; }
   // Applies changed line faults (SlFaults::stick) to the SL pins at once.
   void refresh_lines();
 
@@ -127,43 +132,37 @@ class Simulator final : public HostPins {
 
  private:
   friend class SimulatorFaults;
-  struct SlPin {
-    Simulator* simulator;
-    Pin pin;
+  // The master's end of a line.
+  struct LineEnd {
+    Simulator* simulator = nullptr;
+    unsigned index = 0;
+    bool follows = false;        // MA only follows another pin
+    std::unique_ptr<Line> line;  // null if the scenario does not have this channel
+    MaPulseCheck ma_check;
   };
   static void on_probe(Time now, void* receiver);
   static void on_sl(Time now, void* receiver, bool level);
-  bool drives_pair() const { return paired_ && lines_[0] != nullptr && lines_[1] == nullptr; }
-  void drive_sl(Pin pin, bool level);
 
-  void set_straps();
   bool step(Time limit);
-  void drive_chip(Pin pin, bool level);
   void settle();
-  void drive_line(std::size_t index, unsigned changed, unsigned outputs, unsigned ma, unsigned mo);
-  void check_ma(std::size_t index, bool level);
+  void change_followers();
+  void lines_changed(MasterModel::Outputs changed, MasterModel::Outputs levels);
+  void check_ma(LineEnd& end, bool level);
   void check_alive() const;
 
   Scenario scenario_;
   std::uint64_t seed_;
   EventQueue queue_;
-  std::unique_ptr<ChipModel> chip_;
-  std::array<SlPin, 2> sl_pins_;
-  std::array<std::unique_ptr<Line>, 2> lines_;
-  std::array<MaPulseCheck, 2> ma_checks_;
-  SpiHost spi_;
-  SpiHost spi2_;
-  ParallelHost bus_;
-  HostCheck host_check_;
+  std::vector<LineEnd> lines_;
+  TraceFile trace_;
+  std::unique_ptr<LiveMaster> master_;
+  MasterModel* model_ = nullptr;  // of master_
   std::unique_ptr<SimulatorFaults> fault_target_;
   std::unique_ptr<FaultInjector> injector_;
   Time now_ = 0;
-  PinObserver* observer_ = nullptr;
-  unsigned seen_ = 0;  // watched outputs that have been handled
+  MasterModel::Outputs seen_ = 0;  // outputs that have been handled
+  MasterModel::Outputs followers_ = 0;
   bool settling_ = false;
-  bool paired_ = false;            // MA2 is the inverse of MA1 (CFGIF)
-  bool ner_pulled_ = false;        // by something outside
-  std::array<bool, 32> levels_{};  // of input pins, index is Pin
   std::optional<ModelStopped> stopped_;
 };
 

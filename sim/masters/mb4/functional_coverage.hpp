@@ -19,6 +19,7 @@
 #include <vector>
 
 #include "sim/hosts/host_pins.hpp"
+#include "sim/masters/mb4/pins.hpp"
 
 namespace mb4::sim {
 

@@ -4,11 +4,16 @@
 
 #include <algorithm>
 #include <iterator>
+#include <memory>
 #include <string>
 #include <utility>
 
 #include "sim/core/toml_reader.hpp"
+#include "sim/hosts/host_keys.hpp"
+#include "sim/masters/mb4/live_mb4.hpp"
 #include "sim/masters/mb4/ma_frequency.hpp"
+#include "sim/masters/mb4/pins.hpp"
+#include "sim/masters/mb4/wave_groups.hpp"
 
 namespace mb4::sim {
 namespace {
@@ -42,6 +47,8 @@ void read_quirks(TomlReader& reader, ChipConfig& chip) {
 }
 
 void read_host(TomlReader& reader, const ChipConfig& chip, HostConfig& host) {
+  read_spi_keys(reader, host);
+  read_parallel_keys(reader, host);
   host.ma_hz = default_ma_frequency(chip.system_hz());
   if (const auto hz = reader.integer("ma_hz", 1, kMaxClkHz)) {
     host.ma_hz = static_cast<std::uint64_t>(*hz);
@@ -58,6 +65,10 @@ void read_host(TomlReader& reader, const ChipConfig& chip, HostConfig& host) {
   }
 }
 
+std::unique_ptr<LiveMaster> make(const MasterSetup& setup) {
+  return std::make_unique<LiveMb4>(setup);
+}
+
 }  // namespace
 
 // SCDATA1 to SCDATA8. With SLAVELOC5 the last four are those of channel 2.
@@ -71,6 +82,9 @@ const Master kMb4Master{.type = "ic-mb4",
                         .min_osc_hz = 10'000'000,
                         .max_osc_hz = 25'000'000,
                         .read_quirks = read_quirks,
-                        .read_host = read_host};
+                        .read_host = read_host,
+                        .pin_by_name = pin_by_name,
+                        .make = make,
+                        .wave_groups = mb4_wave_groups};
 
 }  // namespace mb4::sim

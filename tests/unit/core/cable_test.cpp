@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "mb4sim/simulator.hpp"
+#include "sim/masters/mb4/pins.hpp"
 #include "sim/scenario/scenario.hpp"
 
 namespace mb4test {

@@ -18,6 +18,7 @@
 #include "sim/hosts/spi_host.hpp"
 #include "sim/lines/biss/biss_c_slave.hpp"
 #include "sim/lines/slave_chain.hpp"
+#include "sim/masters/mb4/pins.hpp"
 #include "tests/unit/core/arrivals.hpp"
 
 namespace mb4test {
@@ -66,7 +67,7 @@ class CountingPins final : public HostPins {
 
 TEST(FaultParts, AbortedSpiFrame_EndsBehindItsClocks) {
   CountingPins pins;
-  SpiHost host(pins, SpiTiming::for_frequency(10'000'000));
+  SpiHost host(pins, SpiTiming::for_frequency(10'000'000), kSpiPins);
   const std::array<std::uint8_t, 4> tx{};
   std::array<std::uint8_t, 4> rx{1, 2, 3, 4};
   host.abort_next(11);
@@ -81,7 +82,7 @@ TEST(FaultParts, AbortedSpiFrame_EndsBehindItsClocks) {
 
 TEST(FaultParts, AbortBehindTheEnd_StillCutsTheLastClock) {
   CountingPins pins;
-  SpiHost host(pins, SpiTiming::for_frequency(10'000'000));
+  SpiHost host(pins, SpiTiming::for_frequency(10'000'000), kSpiPins);
   const std::array<std::uint8_t, 2> tx{};
   host.abort_next(1000);
   host.transfer(tx, {});

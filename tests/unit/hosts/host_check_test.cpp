@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // The check of the host's timing, and the host models under this check: datasheet pages 9 to 11.
-#include "sim/hosts/host_check.hpp"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -14,6 +12,7 @@
 
 #include "sim/hosts/parallel_host.hpp"
 #include "sim/hosts/spi_host.hpp"
+#include "sim/masters/mb4/mb4_host_check.hpp"
 
 namespace mb4test {
 
@@ -40,7 +39,7 @@ class WatchedPins final : public HostPins {
     return found;
   }
 
-  HostCheck check;
+  Mb4HostCheck check;
 
  private:
   Time now_ = 0;
@@ -59,7 +58,7 @@ std::set<std::string> parallel_items(ParallelMode mode,
   WatchedPins pins;
   ParallelTiming timing;
   if (change) change(timing);
-  ParallelHost host(pins, mode, timing);
+  ParallelHost host(pins, mode, timing, kParallelPins);
   host.rest();
   pins.run_until(2 * kPsPerUs);
   for (unsigned i = 0; i < 4; ++i) {
@@ -121,7 +120,7 @@ std::set<std::string> spi_items(const std::function<void(SpiTiming&)>& change,
 }
 
 TEST(HostCheck, SpiHosts_AtAndBelowTheLimits) {
-  for (const SpiPins& wires : {SpiPins{}, kSpi2Pins}) {
+  for (const SpiPins& wires : {kSpiPins, kSpi2Pins}) {
     EXPECT_EQ(spi_items(nullptr, wires), std::set<std::string>{});
     const auto one = [&](const char* item, const std::function<void(SpiTiming&)>& change) {
       EXPECT_TRUE(spi_items(change, wires).contains(item)) << item;

@@ -12,6 +12,8 @@
 #include <cstddef>
 #include <vector>
 
+#include "sim/masters/mb4/pins.hpp"
+
 namespace mb4test {
 
 using namespace mb4::sim;
@@ -61,7 +63,7 @@ class SpiFrequencies : public testing::TestWithParam<std::uint64_t> {};
 
 TEST_P(SpiFrequencies, TwoFrames_KeepEveryLimit) {
   RecordingPins pins;
-  SpiHost host(pins, SpiTiming::for_frequency(GetParam()));
+  SpiHost host(pins, SpiTiming::for_frequency(GetParam()), kSpiPins);
   const std::array<std::uint8_t, 4> tx{0x03, 0xA5, 0x00, 0xFF};
   host.transfer(tx, {});
   host.transfer(tx, {});
@@ -100,7 +102,7 @@ INSTANTIATE_TEST_SUITE_P(Hz, SpiFrequencies,
 TEST(SpiHost, OtherOpcodes_AreNotStretched) {
   for (const unsigned opcode : {0x02U, 0x05U, 0x07U, 0x09U, 0x0BU}) {
     RecordingPins pins;
-    SpiHost host(pins, SpiTiming::for_frequency(50'000'000));
+    SpiHost host(pins, SpiTiming::for_frequency(50'000'000), kSpiPins);
     const std::array<std::uint8_t, 3> tx{static_cast<std::uint8_t>(opcode), 0x00, 0x00};
     host.transfer(tx, {});
     const auto rise = pins.times(Pin::kAle, true);
@@ -110,7 +112,7 @@ TEST(SpiHost, OtherOpcodes_AreNotStretched) {
 
 TEST(SpiHost, FullDuplex_SendsMsbFirstAndReturnsWhatCameBack) {
   RecordingPins pins;
-  SpiHost host(pins, SpiTiming::for_frequency(10'000'000));
+  SpiHost host(pins, SpiTiming::for_frequency(10'000'000), kSpiPins);
   const std::array<std::uint8_t, 3> tx{0x81, 0x3C, 0x55};
   std::array<std::uint8_t, 3> rx{};
   host.transfer(tx, rx);
@@ -122,8 +124,8 @@ TEST(SpiHost, ByteByByte_IsTheSameWaveform) {
   RecordingPins whole;
   RecordingPins steps;
   const std::array<std::uint8_t, 3> tx{0x03, 0xEA, 0x00};
-  SpiHost(whole, SpiTiming::for_frequency(10'000'000)).transfer(tx, {});
-  SpiHost host(steps, SpiTiming::for_frequency(10'000'000));
+  SpiHost(whole, SpiTiming::for_frequency(10'000'000), kSpiPins).transfer(tx, {});
+  SpiHost host(steps, SpiTiming::for_frequency(10'000'000), kSpiPins);
   host.select(true);
   for (const std::uint8_t byte : tx) host.byte(byte);
   host.select(false);

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "sim/hosts/spi_host.hpp"
+#include "sim/masters/mb4/pins.hpp"
 
 namespace mb4test {
 
@@ -54,7 +55,7 @@ TEST(SpiMode, FourModes_TakeDataAtTheirEdge) {
     const bool cpol = (mode & 2U) != 0;
     const bool cpha = (mode & 1U) != 0;
     Pins pins;
-    SpiHost host(pins, {});
+    SpiHost host(pins, {}, kSpiPins);
     host.set_mode({cpol, cpha});
     EXPECT_EQ(pins.sclk, cpol);
     // Data are taken at the rising edge in modes 0 and 3, at the falling one in 1 and 2.
@@ -72,7 +73,7 @@ TEST(SpiMode, FourModes_TakeDataAtTheirEdge) {
 TEST(SpiMode, WordsOf1To32Bits_GoOutMsbFirst) {
   for (unsigned bits = 1; bits <= 32; ++bits) {
     Pins pins;
-    SpiHost host(pins, {});
+    SpiHost host(pins, {}, kSpiPins);
     host.select(true);
     host.word(0xA55AC33D, bits);
     host.select(false);

@@ -1,8 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
-// The model with a waveform file.
-#include <Vmb4_chip_trace.h>
-#include <Vmb4_chip_trace___024root.h>
+//
+// Writes the waveform of a Verilated model with tracing.
+#ifndef MB4SIM_MODEL_FST_TRACE_HPP_
+#define MB4SIM_MODEL_FST_TRACE_HPP_
+
 #include <verilated_fst_c.h>
 
 #include <algorithm>
@@ -11,32 +13,16 @@
 #include <string>
 #include <system_error>
 
-#include "plain_steps.hpp"
+#include "sim/core/time.hpp"
 #include "sim/core/trace_error.hpp"
-#include "verilated_chip.hpp"
+#include "sim/core/trace_file.hpp"
 
 namespace mb4::sim {
-namespace {
-
-struct Inside {
-  // public.vlt makes this signal visible.
-  static bool osc_selected(const Vmb4_chip_trace& model) {
-    return model.rootp->mb4sim_trace_top__DOT__u_chip__DOT__clkeni != 0;
-  }
-  static bool clk(const Vmb4_chip_trace& model) {
-    return model.rootp->mb4sim_trace_top__DOT__u_chip__DOT__clk != 0;
-  }
-  static bool paired(const Vmb4_chip_trace& model) {
-    return model.rootp->mb4sim_trace_top__DOT__u_chip__DOT__paired != 0;
-  }
-  static unsigned half_clocks(const Vmb4_chip_trace& model) {
-    return model.rootp
-        ->mb4sim_trace_top__DOT__u_chip__DOT__u_engine__DOT__u_lines__DOT__u_timebase__DOT__len_q;
-  }
-};
 
 class FstTrace {
  public:
+  static constexpr bool kTraces = true;
+
   FstTrace() = default;
   FstTrace(const FstTrace&) = delete;
   FstTrace& operator=(const FstTrace&) = delete;
@@ -79,12 +65,6 @@ class FstTrace {
   Time to_ = kNever;
 };
 
-}  // namespace
-
-std::unique_ptr<ChipModel> make_traced_chip(const ChipConfig& config, std::uint64_t seed,
-                                            const TraceFile& trace) {
-  using Chip = VerilatedChip<Vmb4_chip_trace, FstTrace, Inside, PlainSteps<Vmb4_chip_trace>>;
-  return std::make_unique<Chip>(config, seed, trace);
-}
-
 }  // namespace mb4::sim
+
+#endif  // MB4SIM_MODEL_FST_TRACE_HPP_

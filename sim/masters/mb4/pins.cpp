@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
-#include "sim/hosts/pins.hpp"
+#include "sim/masters/mb4/pins.hpp"
 
 #include <array>
 #include <utility>

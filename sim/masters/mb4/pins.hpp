@@ -9,9 +9,12 @@
 #include <optional>
 #include <string_view>
 
+#include "sim/hosts/parallel_host.hpp"
+#include "sim/hosts/spi_host.hpp"
+
 namespace mb4::sim {
 
-enum class Pin {
+enum class Pin : int {
   kDb0,
   kDb1,
   kDb2,
@@ -42,6 +45,12 @@ enum class Pin {
 // Returns the pin of a name such as "NCS", "ALE", "SL2_NSL1". "SCLK", "MOSI", "MISO" and the short
 // "SL2", "MA2", "MO2" are names too. Nothing for any other name.
 std::optional<Pin> pin_by_name(std::string_view name);
+
+// The pins to which hosts are connected (page 3).
+inline constexpr SpiPins kSpiPins{Pin::kNcs, Pin::kAle, Pin::kDb0, Pin::kDb1};
+inline constexpr SpiPins kSpi2Pins{Pin::kDb4, Pin::kDb5, Pin::kDb6, Pin::kDb7};
+inline constexpr ParallelPins kParallelPins{Pin::kDb0,  Pin::kNcs,    Pin::kAle,    Pin::kNrdRnw,
+                                            Pin::kNwrE, Pin::kCfgspi, Pin::kIntNmot};
 
 constexpr bool is_output(Pin pin) { return pin >= Pin::kEot; }
 

@@ -14,8 +14,8 @@
 #include <string>
 #include <vector>
 
-#include "sim/scenario/scenario.hpp"
 #include "mb4sim/simulator.hpp"
+#include "sim/scenario/scenario.hpp"
 
 namespace {
 

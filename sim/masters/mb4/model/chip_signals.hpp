@@ -3,8 +3,8 @@
 //
 // The signals that VerilatedChip reads inside a model whose top is mb4_chip. public.vlt makes them
 // visible.
-#ifndef MB4SIM_MODEL_CHIP_SIGNALS_HPP_
-#define MB4SIM_MODEL_CHIP_SIGNALS_HPP_
+#ifndef MB4SIM_MB4_CHIP_SIGNALS_HPP_
+#define MB4SIM_MB4_CHIP_SIGNALS_HPP_
 
 namespace mb4::sim {
 
@@ -14,11 +14,10 @@ struct ChipSignals {
   static bool clk(const Model& model) { return model.rootp->mb4_chip__DOT__clk != 0; }
   static bool paired(const Model& model) { return model.rootp->mb4_chip__DOT__paired != 0; }
   static unsigned half_clocks(const Model& model) {
-    return model.rootp
-        ->mb4_chip__DOT__u_engine__DOT__u_lines__DOT__u_timebase__DOT__len_q;
+    return model.rootp->mb4_chip__DOT__u_engine__DOT__u_lines__DOT__u_timebase__DOT__len_q;
   }
 };
 
 }  // namespace mb4::sim
 
-#endif  // MB4SIM_MODEL_CHIP_SIGNALS_HPP_
+#endif  // MB4SIM_MB4_CHIP_SIGNALS_HPP_

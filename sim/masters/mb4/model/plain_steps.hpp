@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Evaluates a model for VerilatedChip by eval() alone, whatever has changed.
-#ifndef MB4SIM_MODEL_PLAIN_STEPS_HPP_
-#define MB4SIM_MODEL_PLAIN_STEPS_HPP_
+#ifndef MB4SIM_MB4_PLAIN_STEPS_HPP_
+#define MB4SIM_MB4_PLAIN_STEPS_HPP_
 
 #include <cstdint>
 
@@ -31,4 +31,4 @@ class PlainSteps {
 
 }  // namespace mb4::sim
 
-#endif  // MB4SIM_MODEL_PLAIN_STEPS_HPP_
+#endif  // MB4SIM_MB4_PLAIN_STEPS_HPP_

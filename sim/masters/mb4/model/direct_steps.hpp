@@ -8,16 +8,17 @@
 // the chip's logic. It computes all logic that depends on the inputs. It looks for edges of every
 // clock and reset of the chip three times or more. It does the same at falling edges of CLK, where
 // only a few flops act. Here the change is known: an edge of CLK. So only those statements of the
-// model run that such an edge starts and that read something that has changed (parts/model_parts.py).
-// A falling edge costs nothing if it would leave its flops unchanged.
+// model run that such an edge starts and that read something that has changed
+// (sim/model/parts/model_parts.py). A falling edge costs nothing if it would leave its flops
+// unchanged.
 //
 // A chip is at rest if a clock leaves every bit of it unchanged. Then any number of clocks leaves
 // it unchanged. Only the time to the next frame (AGS) may move, and this class advances it.
 //
 // This relies on how Verilator 5.006 (Debian 12) writes a model. With another version fast_chip.cpp
 // uses PlainSteps. tests/chip/random/lockstep_test.cpp compares both.
-#ifndef MB4SIM_MODEL_DIRECT_STEPS_HPP_
-#define MB4SIM_MODEL_DIRECT_STEPS_HPP_
+#ifndef MB4SIM_MB4_DIRECT_STEPS_HPP_
+#define MB4SIM_MB4_DIRECT_STEPS_HPP_
 
 #include <Vmb4_chip.h>
 #include <Vmb4_chip___024root.h>
@@ -202,4 +203,4 @@ class DirectSteps {
 
 }  // namespace mb4::sim
 
-#endif  // MB4SIM_MODEL_DIRECT_STEPS_HPP_
+#endif  // MB4SIM_MB4_DIRECT_STEPS_HPP_

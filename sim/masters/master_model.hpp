@@ -1,0 +1,74 @@
+// SPDX-FileCopyrightText: 2026 The openmb4 authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// The side of a master that runs: its clocks and its lines. It may consist of several Verilated
+// models, or of none. One virtual call runs all clock edges between two outside events, so there is
+// no virtual call per clock.
+#ifndef MB4SIM_MASTER_MODEL_HPP_
+#define MB4SIM_MASTER_MODEL_HPP_
+
+#include <cstdint>
+
+#include "sim/core/time.hpp"
+
+namespace mb4::sim {
+
+// A line is a channel of the scenario. Its index is the number of the channel - 1.
+class MasterModel {
+ public:
+  // The outputs that others wait for: MA and MO of each line, and up to 16 bits of the master's
+  // own.
+  using Outputs = std::uint64_t;
+  static constexpr unsigned kMaxLines = 24;
+  static constexpr unsigned kBitsOfLine = 2;
+  static constexpr Outputs ma_of(unsigned line) { return Outputs{1} << (kBitsOfLine * line); }
+  static constexpr Outputs mo_of(unsigned line) { return Outputs{2} << (kBitsOfLine * line); }
+  static constexpr Outputs own(unsigned bit) {
+    return Outputs{1} << (kBitsOfLine * kMaxLines + bit);
+  }
+
+  MasterModel() = default;
+  MasterModel(const MasterModel&) = delete;
+  MasterModel& operator=(const MasterModel&) = delete;
+  virtual ~MasterModel() = default;
+
+  // Runs all clock edges up to and including `limit`. Stops after the first edge that changes
+  // outputs(). Returns the time of that edge, or kNever if outputs() has not changed.
+  virtual Time run_clocks(Time limit) = 0;
+  Outputs outputs() const { return outputs_; }
+  // SL of a line changes. The simulator looks at outputs() afterwards.
+  virtual void set_sl(Time now, unsigned line, bool level) = 0;
+  // Changes the frequency of the clock from `now` on; with 0 it stands still. Does nothing if the
+  // scenario has no clock.
+  virtual void set_clock(Time now, std::uint64_t hz) = 0;
+
+  // --- what the guard of MA's pulses needs (MaPulseCheck)
+  // ----------------------------------------- Number of rising edges of the system clock so far.
+  std::uint64_t cycles() const { return cycles_; }
+  // Shortest period that the system clock can have had so far, ps; 0 = unknown.
+  Time min_clock() const { return min_clock_; }
+  // Half a period of MA in system clocks, as the running or last frame of this line has it.
+  virtual unsigned half_clocks(unsigned line) const = 0;
+  // ma_of() of the lines whose MA only follows another pin, and so has no pulses of its own.
+  Outputs followers() const { return followers_; }
+
+  // Number of clocks that were left out because the master was at rest.
+  virtual std::uint64_t left_out() const { return 0; }
+  // Levels at the slaves, for the waveform: MA (bit n = line n), SLO and idle (bit n = slave n +
+  // 1).
+  virtual void set_probes(Time /*now*/, std::uint64_t /*ma*/, std::uint64_t /*slo*/,
+                          std::uint64_t /*idle*/) {}
+  // Writes the rest of the waveform to its file.
+  virtual void finish_trace() {}
+
+ protected:
+  // These are read at every edge of MA, so they are not virtual.
+  Outputs outputs_ = 0;
+  Outputs followers_ = 0;
+  std::uint64_t cycles_ = 0;
+  Time min_clock_ = 0;
+};
+
+}  // namespace mb4::sim
+
+#endif  // MB4SIM_MASTER_MODEL_HPP_

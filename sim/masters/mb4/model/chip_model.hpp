@@ -1,0 +1,57 @@
+// SPDX-FileCopyrightText: 2026 The openmb4 authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// The Verilated chip behind an interface without Verilator types.
+#ifndef MB4SIM_MB4_CHIP_MODEL_HPP_
+#define MB4SIM_MB4_CHIP_MODEL_HPP_
+
+#include <cstdint>
+#include <memory>
+
+#include "sim/core/time.hpp"
+#include "sim/core/trace_file.hpp"
+#include "sim/masters/chip_config.hpp"
+#include "sim/masters/master_model.hpp"
+#include "sim/masters/mb4/pins.hpp"
+
+namespace mb4::sim {
+
+class ChipModel : public MasterModel {
+ public:
+  static constexpr Outputs kMa1 = ma_of(0);
+  static constexpr Outputs kMa2 = ma_of(1);
+  static constexpr Outputs kMo1 = mo_of(0);
+  static constexpr Outputs kMo2 = mo_of(1);
+  static constexpr Outputs kEot = own(0);
+  static constexpr Outputs kNerLow = own(1);
+
+  // Time of the next clock edge; kNever without a clock.
+  virtual Time next_edge() const = 0;
+  // Drives an input pin and evaluates the chip at time `now`. `pin` must not be an output.
+  virtual void set_input(Time now, Pin pin, bool level) = 0;
+  // Levels of pins: CLK, SL of a line, the data bus as far as the chip drives it (DB0 is bit 0).
+  virtual bool clk() const = 0;
+  virtual bool sl(unsigned line) const = 0;
+  virtual unsigned db_out() const = 0;
+  virtual unsigned db_enable() const = 0;
+  // True if CFGIF makes the pins of line 2 the inverse of those of line 1.
+  bool paired() const { return followers_ != 0; }
+  // From now on set_sl() of line 1 also drives SL2 with the inverse.
+  void drive_pair(bool on) { drives_pair_ = on; }
+
+ protected:
+  bool drives_pair_ = false;
+};
+
+// The two models that are built: one without tracing code, one that writes an FST file. The model
+// without tracing can be evaluated with as little work as possible (fast) or by Verilator's eval()
+// alone (plain). On return all inputs are at their defaults (pins.hpp), NRES is low, and the chip
+// has been evaluated at time 0.
+std::unique_ptr<ChipModel> make_fast_chip(const ChipConfig& config, std::uint64_t seed);
+std::unique_ptr<ChipModel> make_plain_chip(const ChipConfig& config, std::uint64_t seed);
+std::unique_ptr<ChipModel> make_traced_chip(const ChipConfig& config, std::uint64_t seed,
+                                            const TraceFile& trace);
+
+}  // namespace mb4::sim
+
+#endif  // MB4SIM_MB4_CHIP_MODEL_HPP_

@@ -1,0 +1,210 @@
+// SPDX-FileCopyrightText: 2026 The openmb4 authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// A master beside the iC-MB4, made by this test alone: no RTL, no pins, one line, and a memory as
+// its host. Each write makes one BiSS C frame. It shows what a master needs, and that the simulator
+// needs no change for it.
+#include <gtest/gtest.h>
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <typeinfo>
+
+#include "mb4sim/simulator.hpp"
+#include "sim/core/scenario_error.hpp"
+#include "sim/core/toml_reader.hpp"
+#include "sim/masters/live_master.hpp"
+#include "sim/masters/master.hpp"
+#include "sim/scenario/scenario.hpp"
+
+namespace mb4::sim {
+namespace {
+
+constexpr unsigned kDataBits = 28;
+constexpr unsigned kCrcBits = 6;
+constexpr unsigned kLatestStart = 64;  // bits to wait for the start bit
+
+// MA has half of the clock's frequency. SL is taken at the rising edges of MA.
+class FrameMaker final : public MasterModel {
+ public:
+  explicit FrameMaker(std::uint64_t hz) : period_(kPsPerSecond / hz) {
+    min_clock_ = period_;
+    outputs_ = ma_of(0);
+  }
+
+  void start(Time now) {
+    next_ = now + period_;
+    acknowledged_ = false;
+    bits_ = 0;
+    started_ = std::nullopt;
+    word_ = 0;
+  }
+  bool busy() const { return next_ != kNever; }
+  // Of the last frame; nothing if no start bit came.
+  std::optional<std::uint64_t> word() const {
+    return started_ ? std::optional(word_) : std::nullopt;
+  }
+
+  Time run_clocks(Time limit) override {
+    if (next_ > limit) return kNever;
+    const Time now = next_;
+    next_ += period_;
+    ++cycles_;
+    outputs_ ^= ma_of(0);
+    if ((outputs_ & ma_of(0)) != 0) take_bit();
+    return now;
+  }
+  void set_sl(Time /*now*/, unsigned /*line*/, bool level) override { sl_ = level; }
+  void set_clock(Time /*now*/, std::uint64_t hz) override {
+    if (hz != 0) period_ = kPsPerSecond / hz;
+  }
+  unsigned half_clocks(unsigned /*line*/) const override { return 1; }
+
+ private:
+  void take_bit() {
+    ++bits_;
+    if (!started_) {
+      acknowledged_ = acknowledged_ || !sl_;
+      if (acknowledged_ && sl_) started_ = bits_;
+      if (bits_ == kLatestStart) next_ = kNever;
+      return;
+    }
+    const unsigned place = bits_ - *started_;  // 1 is CDS
+    if (place > 1 && place <= 1 + kDataBits) word_ = word_ << 1U | (sl_ ? 1U : 0U);
+    if (place == 1 + kDataBits + kCrcBits) next_ = kNever;
+  }
+
+  Time period_;
+  Time next_ = kNever;
+  bool sl_ = true;
+  bool acknowledged_ = false;
+  unsigned bits_ = 0;
+  std::optional<unsigned> started_;
+  std::uint64_t word_ = 0;
+};
+
+// Address 0: any write makes a frame; reading gives 1 while it runs. Address 1: the word, or all
+// ones without a start bit. An access takes 10 ns.
+class MemoryHost final : public HostModel {
+ public:
+  MemoryHost(HostPins& outside, FrameMaker& maker) : outside_(outside), maker_(maker) {}
+  void write(std::uint32_t address, std::uint32_t /*data*/) {
+    pass();
+    if (address == 0) maker_.start(outside_.now());
+  }
+  std::uint32_t read(std::uint32_t address) {
+    pass();
+    return address == 0 ? maker_.busy() : static_cast<std::uint32_t>(maker_.word().value_or(~0U));
+  }
+
+ private:
+  void pass() { outside_.run_until(outside_.now() + 10 * kPsPerNs); }
+
+  HostPins& outside_;
+  FrameMaker& maker_;
+};
+
+class LiveOneLine final : public LiveMaster {
+ public:
+  explicit LiveOneLine(const MasterSetup& setup)
+      : maker_(setup.chip.f_clk_hz), memory_(setup.outside, maker_) {}
+  MasterModel& model() override { return maker_; }
+  void power_on() override {}
+  HostModel* host(std::string_view name) override { return name == "memory" ? &memory_ : nullptr; }
+
+ private:
+  FrameMaker maker_;
+  MemoryHost memory_;
+};
+
+constexpr HostInterface kInterfaces[] = {{"memory", false, "a memory is never aborted"}};
+const Master kOneLine{
+    .type = "one-line",
+    .interfaces = kInterfaces,
+    .channels = 1,
+    .slaves = 1,
+    .slaves_shared = 1,
+    .min_clk_hz = 1'000'000,
+    .max_clk_hz = 20'000'000,
+    .min_osc_hz = 0,
+    .max_osc_hz = 0,
+    .read_quirks = [](TomlReader& /*reader*/, ChipConfig& /*chip*/) {},
+    .read_host = [](TomlReader& /*reader*/, const ChipConfig& /*chip*/, HostConfig& /*host*/) {},
+    .pin_by_name = nullptr,
+    .make = [](const MasterSetup& setup) -> std::unique_ptr<LiveMaster> {
+      return std::make_unique<LiveOneLine>(setup);
+    },
+    .wave_groups = nullptr};
+
+constexpr char kChannel[] =
+    "[[channel]]\nnumber = 1\ndelay_ns = 40\n"
+    "[[channel.slave]]\nprotocol = \"biss-c\"\ndata_bits = 28\n";
+
+Scenario scenario(const std::string& rest) {
+  [[maybe_unused]] static const bool added = [] {
+    add_master(kOneLine);
+    return true;
+  }();
+  return parse_scenario("[master]\ntype = \"one-line\"\n" + rest, "test.toml");
+}
+
+std::string error_of(const std::string& rest) {
+  try {
+    scenario(rest);
+  } catch (const ScenarioError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+std::uint32_t frame(Simulator& simulator) {
+  auto& memory = simulator.host<MemoryHost>("memory");
+  memory.write(0, 1);
+  while (memory.read(0) != 0) simulator.advance(kPsPerUs);
+  simulator.advance(100 * kPsPerUs);  // the slave's timeout
+  return memory.read(1);
+}
+
+TEST(SecondMaster, EachWrite_IsAFrameWithTheWordOfTheSlave) {
+  Simulator simulator(scenario(kChannel));
+  for (const std::uint32_t word : {0x0U, 0xFFF'FFFFU, 0x8000001U, 0x5A5A5A5U}) {
+    ASSERT_TRUE(simulator.slave(1)->set_data(word));
+    const auto frames = simulator.slave(1)->frames();
+    EXPECT_EQ(frame(simulator), word);
+    EXPECT_EQ(simulator.slave(1)->frames(), frames + 1);
+  }
+  EXPECT_EQ(simulator.ma_check(1).shortest(), 50 * kPsPerNs);  // f_clk_hz is 20 MHz
+  EXPECT_GT(simulator.clk_cycles(), 0U);
+}
+
+TEST(SecondMaster, CableAndFaults_AreThoseOfEveryMaster) {
+  Simulator simulator(scenario(std::string(kChannel) +
+                               "[[channel.event]]\nat_us = 300\naction = \"unplug\"\n"
+                               "[[fault]]\nkind = \"bit-flip\"\nat_us = 100\nbits = [29]\n"));
+  simulator.slave(1)->set_data(0x1234567);
+  EXPECT_EQ(frame(simulator), 0x1234567U);
+  simulator.run_until(110 * kPsPerUs);
+  EXPECT_EQ(frame(simulator), 0x1234566U);  // bits 0 and 1 are start bit and CDS
+  EXPECT_EQ(simulator.faults().size(), 1U);
+  simulator.run_until(310 * kPsPerUs);
+  EXPECT_EQ(frame(simulator), ~0U);
+}
+
+TEST(SecondMaster, WhatItDoesNotHave_IsRefused) {
+  EXPECT_NE(error_of("[[channel]]\nnumber = 2\n").find("test.toml:4:10: key 'number'"),
+            std::string::npos);
+  EXPECT_NE(error_of("[host]\ninterface = \"spi\"\n").find("memory"), std::string::npos);
+  EXPECT_NE(error_of("[host]\nma_hz = 10_000_000\n").find("key 'ma_hz': unknown"),
+            std::string::npos);
+  EXPECT_NE(error_of("[[fault]]\nkind = \"abort\"\nat_us = 1\n").find("never aborted"),
+            std::string::npos);
+  Simulator simulator(scenario(kChannel));
+  EXPECT_THROW(simulator.spi(), std::bad_cast);
+  EXPECT_EQ(simulator.pin_by_name("NCS"), std::nullopt);
+  // A scenario without [master] has the iC-MB4.
+  EXPECT_EQ(parse_scenario("", "test.toml").master->type, "ic-mb4");
+}
+
+}  // namespace
+}  // namespace mb4::sim
