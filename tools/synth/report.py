@@ -164,4 +164,5 @@ def main():
     (project.ROOT / "docs" / "resources.md").write_text(text, encoding="utf-8")
 
 
-main()
+if __name__ == "__main__":
+    main()

@@ -7,7 +7,8 @@
                     the folders with most files
 
 A code line is one with more than comments. Wiring is a code line that declares a port, is a
-.name connection, or only copies a signal into or out of a struct (assign a.b = c; or assign c = a.b;).
+.name connection, or only copies a signal into or out of a struct (assign a.b = c; or assign c = a.b;),
+also several at once (assign {a, b} = c; or assign c = {a, b};).
 """
 
 import re
@@ -17,6 +18,8 @@ import project
 import sv_widths
 
 COPY = re.compile(r"assign\s+(\w+(\[\w+\])?\.[\w.]+\s*=\s*[\w\[\]]+|[\w\[\]]+\s*=\s*\w+(\[\w+\])?\.[\w.]+)\s*;$")
+NAMES = r"\{[\w\s,.\[\]]*\}"
+COPIES = re.compile(rf"assign\s+({NAMES}\s*=\s*[\w.\[\]]+|[\w.\[\]]+\s*=\s*{NAMES})\s*;")
 PORT = re.compile(r"(input|output|inout)\s")
 
 
@@ -25,6 +28,7 @@ def wiring(text):
     lines = [line.strip() for line in sv_widths.without_comments(text).splitlines() if line.strip()]
     found = sum(1 for line in lines
                 if PORT.match(line) or re.match(r"\.\w+|\.\*", line) or COPY.match(line))
+    found += sum(copies.group().count("\n") + 1 for copies in COPIES.finditer("\n".join(lines)))
     ports = Counter()
     module = ""
     for line in lines:
@@ -58,4 +62,5 @@ def main():
     print("files:  " + ", ".join(f"{name} {number}" for name, number in folders().most_common(6)))
 
 
-main()
+if __name__ == "__main__":
+    main()
