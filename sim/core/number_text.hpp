@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Whole numbers in the usual notation: decimal or 0x, with _ between digits.
-#ifndef MB4SIM_SRC_NUMBER_TEXT_HPP_
-#define MB4SIM_SRC_NUMBER_TEXT_HPP_
+#ifndef MB4SIM_NUMBER_TEXT_HPP_
+#define MB4SIM_NUMBER_TEXT_HPP_
 
 #include <cstdint>
 #include <optional>
@@ -20,4 +20,4 @@ std::string plain(double value);
 
 }  // namespace mb4::sim
 
-#endif  // MB4SIM_SRC_NUMBER_TEXT_HPP_
+#endif  // MB4SIM_NUMBER_TEXT_HPP_

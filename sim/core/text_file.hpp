@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Files that a scenario names.
-#ifndef MB4SIM_SRC_TEXT_FILE_HPP_
-#define MB4SIM_SRC_TEXT_FILE_HPP_
+#ifndef MB4SIM_TEXT_FILE_HPP_
+#define MB4SIM_TEXT_FILE_HPP_
 
 #include <string>
 
@@ -17,4 +17,4 @@ std::string beside(const std::string& scenario, const std::string& file);
 
 }  // namespace mb4::sim
 
-#endif  // MB4SIM_SRC_TEXT_FILE_HPP_
+#endif  // MB4SIM_TEXT_FILE_HPP_

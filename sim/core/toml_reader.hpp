@@ -4,8 +4,8 @@
 // Reads one TOML table of a scenario key by key. Every mistake becomes a ScenarioError with the
 // place of the node. A key that the caller never asks for is a mistake, too; it is reported before
 // a missing key.
-#ifndef MB4SIM_SRC_TOML_READER_HPP_
-#define MB4SIM_SRC_TOML_READER_HPP_
+#ifndef MB4SIM_TOML_READER_HPP_
+#define MB4SIM_TOML_READER_HPP_
 
 #include <toml++/toml.h>
 
@@ -87,4 +87,4 @@ class TomlReader {
 
 }  // namespace mb4::sim
 
-#endif  // MB4SIM_SRC_TOML_READER_HPP_
+#endif  // MB4SIM_TOML_READER_HPP_

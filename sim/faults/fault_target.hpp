@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // What faults can reach of a simulation.
-#ifndef MB4SIM_SRC_FAULT_TARGET_HPP_
-#define MB4SIM_SRC_FAULT_TARGET_HPP_
+#ifndef MB4SIM_FAULT_TARGET_HPP_
+#define MB4SIM_FAULT_TARGET_HPP_
 
 #include <cstdint>
 #include <optional>
@@ -31,4 +31,4 @@ class FaultTarget {
 
 }  // namespace mb4::sim
 
-#endif  // MB4SIM_SRC_FAULT_TARGET_HPP_
+#endif  // MB4SIM_FAULT_TARGET_HPP_

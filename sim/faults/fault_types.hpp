@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // The kinds of fault: name, keys and effect of each. fault_types.cpp holds the only list of them.
-#ifndef MB4SIM_SRC_FAULT_TYPES_HPP_
-#define MB4SIM_SRC_FAULT_TYPES_HPP_
+#ifndef MB4SIM_FAULT_TYPES_HPP_
+#define MB4SIM_FAULT_TYPES_HPP_
 
 #include <cstdint>
 #include <optional>
@@ -61,4 +61,4 @@ const FaultType& fault_type(FaultKind kind);
 
 }  // namespace mb4::sim
 
-#endif  // MB4SIM_SRC_FAULT_TYPES_HPP_
+#endif  // MB4SIM_FAULT_TYPES_HPP_

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Reads the keys of a scenario that say how the host is connected. Throws ScenarioError.
-#ifndef MB4SIM_SRC_HOST_KEYS_HPP_
-#define MB4SIM_SRC_HOST_KEYS_HPP_
+#ifndef MB4SIM_HOST_KEYS_HPP_
+#define MB4SIM_HOST_KEYS_HPP_
 
 #include <span>
 
@@ -22,4 +22,4 @@ void read_parallel_keys(TomlReader& reader, HostConfig& host);
 
 }  // namespace mb4::sim
 
-#endif  // MB4SIM_SRC_HOST_KEYS_HPP_
+#endif  // MB4SIM_HOST_KEYS_HPP_

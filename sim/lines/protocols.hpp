@@ -3,8 +3,8 @@
 //
 // The protocols that a slave of a scenario can have. protocols.cpp holds the only list of them. To
 // add one, write its DeviceConfig and its Protocol in a room of its own and name the latter there.
-#ifndef MB4SIM_SRC_PROTOCOLS_HPP_
-#define MB4SIM_SRC_PROTOCOLS_HPP_
+#ifndef MB4SIM_PROTOCOLS_HPP_
+#define MB4SIM_PROTOCOLS_HPP_
 
 #include <span>
 #include <string>
@@ -36,4 +36,4 @@ std::span<const Protocol* const> protocols();
 
 }  // namespace mb4::sim
 
-#endif  // MB4SIM_SRC_PROTOCOLS_HPP_
+#endif  // MB4SIM_PROTOCOLS_HPP_

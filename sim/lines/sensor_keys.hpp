@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Reads the keys that slaves of several protocols share: lengths, CRC, timeout, source of the data.
-#ifndef MB4SIM_SRC_SENSOR_KEYS_HPP_
-#define MB4SIM_SRC_SENSOR_KEYS_HPP_
+#ifndef MB4SIM_SENSOR_KEYS_HPP_
+#define MB4SIM_SENSOR_KEYS_HPP_
 
 #include <string>
 #include <string_view>
@@ -34,4 +34,4 @@ void know_sensor_keys(TomlReader& reader);
 
 }  // namespace mb4::sim
 
-#endif  // MB4SIM_SRC_SENSOR_KEYS_HPP_
+#endif  // MB4SIM_SENSOR_KEYS_HPP_

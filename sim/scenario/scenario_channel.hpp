@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Reads the [[channel]] part of a scenario: the cable, and through read_slave() its slaves.
-#ifndef MB4SIM_SRC_SCENARIO_CHANNEL_HPP_
-#define MB4SIM_SRC_SCENARIO_CHANNEL_HPP_
+#ifndef MB4SIM_SCENARIO_CHANNEL_HPP_
+#define MB4SIM_SCENARIO_CHANNEL_HPP_
 
 #include <toml++/toml.h>
 
@@ -17,4 +17,4 @@ ChannelConfig read_channel(const toml::table& table, TomlFile& file, const Maste
 
 }  // namespace mb4::sim
 
-#endif  // MB4SIM_SRC_SCENARIO_CHANNEL_HPP_
+#endif  // MB4SIM_SCENARIO_CHANNEL_HPP_

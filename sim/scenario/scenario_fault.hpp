@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Reads the [[fault]] part of a scenario.
-#ifndef MB4SIM_SRC_SCENARIO_FAULT_HPP_
-#define MB4SIM_SRC_SCENARIO_FAULT_HPP_
+#ifndef MB4SIM_SCENARIO_FAULT_HPP_
+#define MB4SIM_SCENARIO_FAULT_HPP_
 
 #include <toml++/toml.h>
 
@@ -18,4 +18,4 @@ FaultConfig read_fault(const toml::table& table, const Scenario& scenario, TomlF
 
 }  // namespace mb4::sim
 
-#endif  // MB4SIM_SRC_SCENARIO_FAULT_HPP_
+#endif  // MB4SIM_SCENARIO_FAULT_HPP_

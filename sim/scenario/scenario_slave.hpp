@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Reads the [[channel.slave]] part of a scenario.
-#ifndef MB4SIM_SRC_SCENARIO_SLAVE_HPP_
-#define MB4SIM_SRC_SCENARIO_SLAVE_HPP_
+#ifndef MB4SIM_SCENARIO_SLAVE_HPP_
+#define MB4SIM_SCENARIO_SLAVE_HPP_
 
 #include <toml++/toml.h>
 
@@ -17,4 +17,4 @@ SlaveConfig read_slave(const toml::table& table, TomlFile& file);
 
 }  // namespace mb4::sim
 
-#endif  // MB4SIM_SRC_SCENARIO_SLAVE_HPP_
+#endif  // MB4SIM_SCENARIO_SLAVE_HPP_

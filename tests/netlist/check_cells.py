@@ -30,7 +30,7 @@ EXCHANGED = [("SL_ICE40", ".D_IN_0       (pos1_q)", ".D_IN_0       (neg1_q)",
 
 def simulate(folder, *changes):
     """(True if all choices agree, what was said)."""
-    source = (project.RTL / "line" / "biss_sl_capture.sv").read_text(encoding="utf-8")
+    source = (project.RTL / "biss" / "biss_sl_capture.sv").read_text(encoding="utf-8")
     for old, new in zip(changes[::2], changes[1::2]):
         if source.count(old) != 1:
             raise SystemExit(f"'{old}' occurs {source.count(old)} times in biss_sl_capture.sv")
@@ -42,7 +42,7 @@ def simulate(folder, *changes):
     for number, file in enumerate(files):
         status, text = yosys.execute(
             [f"read_verilog -lib {cells}",
-             f"read_verilog -sv {project.RTL / 'mb4_pkg.sv'} {folder / 'biss_sl_capture.sv'}",
+             f"read_verilog -sv {project.RTL / 'biss' / 'biss_pkg.sv'} {folder / 'biss_sl_capture.sv'}",
              f"chparam -set SlCells {number} biss_sl_capture",
              "hierarchy -top biss_sl_capture", "proc", "opt_clean",
              f"rename -top capture_{number}", f"write_verilog -noattr {file}"], folder, file.stem)

@@ -11,10 +11,10 @@
 #include <string_view>
 
 #include "command_line.hpp"
-#include "exit_status.hpp"
 #include "interrupts.hpp"
 #include "mb4sim/model_stopped.hpp"
-#include "messages.hpp"
+#include "report/exit_status.hpp"
+#include "report/messages.hpp"
 
 namespace mb4::tool {
 namespace {

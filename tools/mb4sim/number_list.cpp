@@ -9,7 +9,7 @@
 #include <string_view>
 #include <system_error>
 
-#include "exit_status.hpp"
+#include "report/exit_status.hpp"
 #include "sim/core/one_line.hpp"
 
 namespace mb4::tool {

@@ -14,10 +14,10 @@
 #include <vector>
 
 #include "chip_setup.hpp"
-#include "fault_report.hpp"
-#include "frame_report.hpp"
 #include "mb4/device.hpp"
 #include "mb4sim/simulator.hpp"
+#include "report/fault_report.hpp"
+#include "report/frame_report.hpp"
 #include "sim/scenario/scenario.hpp"
 #include "sim_bus.hpp"
 

@@ -16,9 +16,9 @@
 #include <deque>
 #include <exception>
 
-#include "exit_status.hpp"
 #include "interrupts.hpp"
-#include "messages.hpp"
+#include "report/exit_status.hpp"
+#include "report/messages.hpp"
 
 namespace mb4::tool {
 namespace {

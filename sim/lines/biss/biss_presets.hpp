@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // The encoders of BiSS C and of BiSS B that are known by name.
-#ifndef MB4SIM_SRC_BISS_PRESETS_HPP_
-#define MB4SIM_SRC_BISS_PRESETS_HPP_
+#ifndef MB4SIM_BISS_PRESETS_HPP_
+#define MB4SIM_BISS_PRESETS_HPP_
 
 #include <vector>
 
@@ -16,4 +16,4 @@ std::vector<Preset> biss_b_presets();
 
 }  // namespace mb4::sim
 
-#endif  // MB4SIM_SRC_BISS_PRESETS_HPP_
+#endif  // MB4SIM_BISS_PRESETS_HPP_

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // The protocols BiSS C and BiSS B of a scenario.
-#ifndef MB4SIM_SRC_BISS_PROTOCOLS_HPP_
-#define MB4SIM_SRC_BISS_PROTOCOLS_HPP_
+#ifndef MB4SIM_BISS_PROTOCOLS_HPP_
+#define MB4SIM_BISS_PROTOCOLS_HPP_
 
 #include "sim/lines/protocols.hpp"
 
@@ -14,4 +14,4 @@ extern const Protocol kBissBProtocol;
 
 }  // namespace mb4::sim
 
-#endif  // MB4SIM_SRC_BISS_PROTOCOLS_HPP_
+#endif  // MB4SIM_BISS_PROTOCOLS_HPP_

@@ -3,8 +3,8 @@
 //
 // Reads the keys of a scenario's slave for registers and control communication. All functions throw
 // ScenarioError. On entry the targets hold the values of the preset.
-#ifndef MB4SIM_SRC_REGISTER_KEYS_HPP_
-#define MB4SIM_SRC_REGISTER_KEYS_HPP_
+#ifndef MB4SIM_REGISTER_KEYS_HPP_
+#define MB4SIM_REGISTER_KEYS_HPP_
 
 #include <cstdint>
 #include <initializer_list>
@@ -41,4 +41,4 @@ void know_control_keys(TomlReader& reader);
 
 }  // namespace mb4::sim
 
-#endif  // MB4SIM_SRC_REGISTER_KEYS_HPP_
+#endif  // MB4SIM_REGISTER_KEYS_HPP_

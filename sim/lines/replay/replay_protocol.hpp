@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // The protocol "replay" of a scenario: a recorded frame.
-#ifndef MB4SIM_SRC_REPLAY_PROTOCOL_HPP_
-#define MB4SIM_SRC_REPLAY_PROTOCOL_HPP_
+#ifndef MB4SIM_REPLAY_PROTOCOL_HPP_
+#define MB4SIM_REPLAY_PROTOCOL_HPP_
 
 #include "sim/lines/protocols.hpp"
 
@@ -13,4 +13,4 @@ extern const Protocol kReplayProtocol;
 
 }  // namespace mb4::sim
 
-#endif  // MB4SIM_SRC_REPLAY_PROTOCOL_HPP_
+#endif  // MB4SIM_REPLAY_PROTOCOL_HPP_

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // The protocol SSI of a scenario.
-#ifndef MB4SIM_SRC_SSI_PROTOCOL_HPP_
-#define MB4SIM_SRC_SSI_PROTOCOL_HPP_
+#ifndef MB4SIM_SSI_PROTOCOL_HPP_
+#define MB4SIM_SSI_PROTOCOL_HPP_
 
 #include "sim/lines/protocols.hpp"
 
@@ -13,4 +13,4 @@ extern const Protocol kSsiProtocol;
 
 }  // namespace mb4::sim
 
-#endif  // MB4SIM_SRC_SSI_PROTOCOL_HPP_
+#endif  // MB4SIM_SSI_PROTOCOL_HPP_

@@ -5,8 +5,8 @@
 // "spi", "spi2", "bus". The straps, which the scenario's interface has set, decide which of them
 // the chip listens to: "spi" with CFGSPI = 1, "spi2" in addition with NWR_E = 0, "bus" with CFGSPI
 // = 0.
-#ifndef MB4SIM_SRC_LIVE_MB4_HPP_
-#define MB4SIM_SRC_LIVE_MB4_HPP_
+#ifndef MB4SIM_LIVE_MB4_HPP_
+#define MB4SIM_LIVE_MB4_HPP_
 
 #include <array>
 #include <memory>
@@ -63,4 +63,4 @@ class LiveMb4 final : public LiveMaster {
 
 }  // namespace mb4::sim
 
-#endif  // MB4SIM_SRC_LIVE_MB4_HPP_
+#endif  // MB4SIM_LIVE_MB4_HPP_

@@ -6,8 +6,8 @@
 // host model or by hand.
 //
 // Source: iC-MB4 Rev D2, pages 9 to 11.
-#ifndef MB4SIM_SRC_MB4_HOST_CHECK_HPP_
-#define MB4SIM_SRC_MB4_HOST_CHECK_HPP_
+#ifndef MB4SIM_MB4_HOST_CHECK_HPP_
+#define MB4SIM_MB4_HOST_CHECK_HPP_
 
 #include <array>
 
@@ -54,4 +54,4 @@ class Mb4HostCheck final : public HostCheck {
 
 }  // namespace mb4::sim
 
-#endif  // MB4SIM_SRC_MB4_HOST_CHECK_HPP_
+#endif  // MB4SIM_MB4_HOST_CHECK_HPP_

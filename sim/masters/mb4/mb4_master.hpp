@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // The iC-MB4 as a master of a scenario.
-#ifndef MB4SIM_SRC_MB4_MASTER_HPP_
-#define MB4SIM_SRC_MB4_MASTER_HPP_
+#ifndef MB4SIM_MB4_MASTER_HPP_
+#define MB4SIM_MB4_MASTER_HPP_
 
 #include "sim/masters/master.hpp"
 
@@ -13,4 +13,4 @@ extern const Master kMb4Master;
 
 }  // namespace mb4::sim
 
-#endif  // MB4SIM_SRC_MB4_MASTER_HPP_
+#endif  // MB4SIM_MB4_MASTER_HPP_

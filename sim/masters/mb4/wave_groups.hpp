@@ -3,8 +3,8 @@
 //
 // The waveform view of the iC-MB4: host, registers, control, line and slaves. Pins have the names
 // that the datasheet gives them with this interface (page 3).
-#ifndef MB4SIM_SRC_MB4_WAVE_GROUPS_HPP_
-#define MB4SIM_SRC_MB4_WAVE_GROUPS_HPP_
+#ifndef MB4SIM_MB4_WAVE_GROUPS_HPP_
+#define MB4SIM_MB4_WAVE_GROUPS_HPP_
 
 #include <vector>
 
@@ -17,4 +17,4 @@ std::vector<WaveGroup> mb4_wave_groups(const HostConfig& host);
 
 }  // namespace mb4::sim
 
-#endif  // MB4SIM_SRC_MB4_WAVE_GROUPS_HPP_
+#endif  // MB4SIM_MB4_WAVE_GROUPS_HPP_

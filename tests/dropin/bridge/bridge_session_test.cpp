@@ -3,7 +3,7 @@
 //
 // The bridge's protocol without sockets: requests cut at every place, and answers of a chip whose
 // model has stopped.
-#include "bridge_session.hpp"
+#include "bridge/bridge_session.hpp"
 
 #include <gtest/gtest.h>
 

@@ -3,7 +3,7 @@
 //
 // Control frames from worked examples (headers and CRCs of the protocol's documents), some with
 // mistakes added.
-#include "control_decode.hpp"
+#include "plot/control_decode.hpp"
 
 #include <gtest/gtest.h>
 

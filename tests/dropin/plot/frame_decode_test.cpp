@@ -3,14 +3,14 @@
 //
 // Compares frames decoded from the edges at the pins with the words set in the encoders and what
 // the chip has stored, for every protocol, with random lengths, CRCs and delays.
-#include "frame_decode.hpp"
+#include "plot/frame_decode.hpp"
 
 #include <gtest/gtest.h>
 
 #include <random>
 #include <string>
 
-#include "line_recording.hpp"
+#include "plot/line_recording.hpp"
 #include "tests/support/protocol_chip.hpp"
 
 namespace mb4test {

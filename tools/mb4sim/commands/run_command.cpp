@@ -1,0 +1,187 @@
+// SPDX-FileCopyrightText: 2026 The openmb4 authors
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/core.h>
+
+#include <cstdio>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+#include "commands/commands.hpp"
+#include "interrupts.hpp"
+#include "mb4sim/simulator.hpp"
+#include "report/exit_status.hpp"
+#include "report/fault_report.hpp"
+#include "report/frame_report.hpp"
+#include "report/messages.hpp"
+#include "report/output_file.hpp"
+#include "report/progress.hpp"
+#include "report/run_outputs.hpp"
+#include "session.hpp"
+#include "sim/scenario/scenario.hpp"
+
+namespace mb4::tool {
+namespace {
+
+// Prints and writes what a session brings.
+class RunPrinter {
+ public:
+  RunPrinter(const RunOptions& options, const sim::Scenario& scenario, RunOutputs& outputs)
+      : options_(options), outputs_(outputs), frames_(scenario), progress_(options.frames) {}
+
+  void begin(Session& session) {
+    faults_.emplace(session.simulator().scenario(), session.simulator().faults());
+    if (options_.json) {
+      fmt::print("{}", frames_.json_header(options_.scenario, session.simulator().seed()));
+    } else {
+      fmt::print("{}", frames_.table_header());
+    }
+    if (outputs_.csv != nullptr) outputs_.csv->append(frames_.csv_header());
+  }
+
+  void frame(const SessionFrame& frame, Session& session) {
+    session.report(frame, *faults_);
+    progress_.clear();
+    if (!options_.json) fmt::print("{}", faults_->new_lines());
+    for (std::size_t i = 0; i < session.slaves().size(); ++i) {
+      frames_.add(frame.number, frame.end, session.slaves()[i].number, frame.results[i],
+                  frame.sent[i]);
+      fmt::print("{}", options_.json ? frames_.json_row() : frames_.table_row());
+      if (outputs_.csv != nullptr) outputs_.csv->append(frames_.csv_row());
+    }
+    if (outputs_.bus_log != nullptr) outputs_.bus_log->append(session.take_bus_log());
+    progress_.update(frame.number);
+  }
+
+  // `error`: what has kept the run from its end. Returns whether everything was good.
+  bool end(const Session& session, const std::string& error = "") {
+    progress_.clear();
+    faults_->finish();
+    const RunSummary summary = session.summary();
+    if (options_.json) {
+      std::string more = faults_->any() ? ", \"faults\": " + faults_->json() : "";
+      if (!error.empty()) more += ", \"error\": " + json_text(error);
+      fmt::print("{}", frames_.json_summary(summary, more));
+    } else {
+      fmt::print("{}{}{}", faults_->new_lines(), faults_->summary(),
+                 frames_.table_summary(summary));
+    }
+    return frames_.bad() == 0 && faults_->ids_good();
+  }
+
+ private:
+  const RunOptions& options_;
+  RunOutputs& outputs_;
+  FrameReport frames_;
+  std::optional<FaultReport> faults_;
+  Progress progress_;
+};
+
+sim::SimulatorOptions simulator_options(const RunOptions& options, const RunOutputs& outputs) {
+  sim::SimulatorOptions sim_options;
+  sim_options.seed = options.seed;
+  if (!options.trace.empty() && !options.trace_error_us) {
+    sim_options.trace_path = outputs.trace.path();
+    if (options.trace_from_us) sim_options.trace_from = sim::from_us(*options.trace_from_us);
+    if (options.trace_to_us) sim_options.trace_to = sim::from_us(*options.trace_to_us);
+  }
+  return sim_options;
+}
+
+// Repeats the run until a little after its first bad frame, with a waveform around that frame.
+void trace_around(const RunOptions& options, const sim::Scenario& scenario,
+                  const Interrupts& interrupts, const RunOutputs& outputs,
+                  const SessionFrame& bad) {
+  const sim::Time margin = sim::from_us(*options.trace_error_us);
+  sim::SimulatorOptions sim_options = simulator_options(options, outputs);
+  sim_options.trace_path = outputs.trace.path();
+  sim_options.trace_from = bad.begin > margin ? bad.begin - margin : 0;
+  sim_options.trace_to = bad.end + margin;
+  Session session(scenario, sim_options);
+  if (!session.configure()) return;
+  // The register accesses that faults ask for belong to the course of events.
+  FaultReport faults(session.simulator().scenario(), session.simulator().faults());
+  for (std::uint64_t number = 1; number < bad.number; ++number) {
+    interrupts.check();
+    session.report(session.read(number), faults);
+  }
+  session.read(bad.number);
+  session.simulator().run_until(sim_options.trace_to);
+}
+
+// Reads all frames; returns the first bad one. What is printed ends properly whatever happens.
+std::optional<SessionFrame> read_frames(const RunOptions& options, const Interrupts& interrupts,
+                                        Session& session, RunPrinter& printer, bool& good) {
+  std::optional<SessionFrame> first_bad;
+  printer.begin(session);
+  try {
+    for (std::uint64_t number = 1; number <= options.frames; ++number) {
+      interrupts.check();
+      SessionFrame frame = session.read(number);
+      printer.frame(frame, session);
+      if (!first_bad && frame.bad()) first_bad = std::move(frame);
+    }
+  } catch (const std::runtime_error& error) {  // sim::ModelStopped, Interrupted, UseError
+    printer.end(session, error.what());
+    throw;
+  }
+  good = printer.end(session);
+  return first_bad;
+}
+
+}  // namespace
+
+int run_command(const RunOptions& options) {
+  const sim::Scenario scenario = sim::load_scenario(options.scenario);
+  make_config(scenario);
+  // Everything is checked before the first file is touched.
+  RunOutputs outputs = open_outputs(options, scenario);
+  const Interrupts interrupts;
+  std::optional<SessionFrame> first_bad;
+  bool good = false;
+  const bool traced = !options.trace.empty() && !options.trace_error_us;
+  try {
+    Session session(scenario, simulator_options(options, outputs), outputs.bus_log != nullptr);
+    if (const Result<void> configured = session.configure(); !configured) {
+      const std::string error = "cannot configure the chip: " + describe(configured.info());
+      print_error(options.json, error, kBad);
+      if (traced) session.simulator().flush_trace();
+      outputs.csv.reset();
+      outputs.bus_log.reset();
+      if (options.json) {
+        RunPrinter printer(options, scenario, outputs);
+        printer.begin(session);
+        printer.end(session, error);
+      }
+    } else {
+      RunPrinter printer(options, scenario, outputs);
+      first_bad = read_frames(options, interrupts, session, printer, good);
+    }
+  } catch (const sim::ModelStopped&) {
+    // The waveform file is complete when the simulator has gone.
+    if (traced) outputs.trace.write_view();
+    throw;
+  } catch (const Interrupted&) {
+    if (traced) outputs.trace.write_view();
+    throw;
+  }
+  if (traced) outputs.trace.write_view();
+  if (options.trace_error_us) {
+    if (first_bad) {
+      trace_around(options, scenario, interrupts, outputs, *first_bad);
+      outputs.trace.write_view(first_bad->begin);
+      print_note(options.json, fmt::format("{} shows frame {}, the first bad one", options.trace,
+                                           first_bad->number));
+    } else {
+      print_note(options.json, fmt::format("no bad frame, so {} was not written", options.trace));
+    }
+  }
+  if (outputs.bus_log != nullptr) outputs.bus_log->commit();
+  if (outputs.csv != nullptr) outputs.csv->commit();
+  return good ? kGood : kBad;
+}
+
+}  // namespace mb4::tool

@@ -1,0 +1,94 @@
+// SPDX-FileCopyrightText: 2026 The openmb4 authors
+// SPDX-License-Identifier: Apache-2.0
+#include "plot/line_recording.hpp"
+
+#include <algorithm>
+
+namespace mb4::tool {
+
+void Wave::edge(sim::Time time, bool level) {
+  if (level == last()) return;
+  // A pulse without duration is none.
+  if (!edges.empty() && edges.back().time == time) {
+    edges.pop_back();
+  } else {
+    edges.push_back({time, level});
+  }
+}
+
+bool Wave::at(sim::Time time) const {
+  const auto next = std::upper_bound(edges.begin(), edges.end(), time,
+                                     [](sim::Time t, const Edge& edge) { return t < edge.time; });
+  return next == edges.begin() ? idle : std::prev(next)->level;
+}
+
+Wave Wave::between(sim::Time from, sim::Time to) const {
+  Wave part{at(from), {}};
+  for (const Edge& edge : edges) {
+    if (edge.time > from && edge.time < to) part.edges.push_back(edge);
+  }
+  return part;
+}
+
+LineRecording::LineRecording(sim::Line& line) {
+  sl_.idle = line.sl();
+  line.set_tap(&LineRecording::on_edge, this);
+}
+
+void LineRecording::clear() {
+  for (Wave* wave : {&ma_, &mo_, &sl_}) *wave = Wave{wave->last(), {}};
+}
+
+void LineRecording::on_edge(sim::Time now, void* receiver, sim::Line::Signal signal, bool level) {
+  auto* self = static_cast<LineRecording*>(receiver);
+  switch (signal) {
+    case sim::Line::Signal::kMa:
+      return self->ma_.edge(now, level);
+    case sim::Line::Signal::kMo:
+      return self->mo_.edge(now, level);
+    case sim::Line::Signal::kSl:
+      return self->sl_.edge(now, level);
+  }
+}
+
+std::vector<FrameTrace> LineRecording::frames(sim::Time now) const {
+  std::vector<FrameTrace> frames;
+  bool running = false;
+  for (const Edge& edge : ma_.edges) {
+    if (running) {
+      FrameTrace& frame = frames.back();
+      const sim::Time period = frame.period();
+      running = period == 0 || edge.time - frame.clock_end <= period + period / 2;
+    }
+    if (!running && edge.level) continue;  // MA goes back to 1 between two frames
+    if (!running) frames.emplace_back().begin = edge.time;
+    running = true;
+    FrameTrace& frame = frames.back();
+    frame.clock_end = edge.time;
+    frame.rest = edge.level;
+    if (edge.level) {
+      frame.rising.push_back(edge.time);
+    } else {
+      frame.last_falling = edge.time;
+    }
+  }
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    FrameTrace& frame = frames[i];
+    frame.end = i + 1 < frames.size() ? frames[i + 1].begin : now;
+    // SL may be 1 when the clock stops, because of the line's delay: the end is where it stays 1.
+    for (auto edge = sl_.edges.rbegin(); edge != sl_.edges.rend(); ++edge) {
+      if (edge->time >= frame.end || edge->time <= frame.clock_end) continue;
+      if (edge->level) frame.end = edge->time;
+      break;
+    }
+  }
+  if (!frames.empty()) {
+    const FrameTrace& last = frames.back();
+    if (last.period() == 0 || now <= last.clock_end + last.period() + last.period() / 2) {
+      frames.pop_back();
+    }
+  }
+  return frames;
+}
+
+}  // namespace mb4::tool

@@ -1,0 +1,186 @@
+// SPDX-FileCopyrightText: 2026 The openmb4 authors
+// SPDX-License-Identifier: Apache-2.0
+#include "report/fault_report.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <array>
+#include <map>
+
+#include "report/messages.hpp"
+
+namespace mb4::tool {
+namespace {
+
+using Fate = FaultReport::Fate;
+
+const char* to_string(Fate fate) {
+  switch (fate) {
+    case Fate::kDetected:
+      return "detected";
+    case Fate::kMissed:
+      return "missed";
+    default:
+      return "no effect";
+  }
+}
+
+struct KindCount {
+  std::uint64_t injected = 0;
+  std::array<std::uint64_t, 4> fates{};              // by Fate
+  std::map<std::string, std::uint64_t> detected_by;  // error
+};
+
+void add_to(KindCount& kind, const FaultReport::Entry& entry) {
+  ++kind.injected;
+  ++kind.fates[static_cast<std::size_t>(entry.fate)];
+  if (entry.fate == Fate::kDetected) ++kind.detected_by[entry.error];
+}
+
+std::uint64_t of(const KindCount& kind, Fate fate) {
+  return kind.fates[static_cast<std::size_t>(fate)];
+}
+
+std::string fault_text(const std::vector<sim::FaultRecord>& records, std::size_t index) {
+  return fmt::format("fault {} at {:.3f} us: {}", index + 1, sim::to_us(records[index].begin),
+                     records[index].what);
+}
+
+}  // namespace
+
+std::string fault_lines(const std::vector<sim::FaultRecord>& records, std::size_t from) {
+  std::string out;
+  for (std::size_t i = from; i < records.size(); ++i) {
+    out += fmt::format("  {}\n", fault_text(records, i));
+  }
+  return out;
+}
+
+void print_faults(bool json, const std::vector<sim::FaultRecord>& records, std::size_t from) {
+  if (!json) fmt::print(stderr, "{}", fault_lines(records, from));
+  for (std::size_t i = from; json && i < records.size(); ++i) {
+    print_note(json, fault_text(records, i));
+  }
+}
+
+FaultReport::FaultReport(const sim::Scenario& scenario,
+                         const std::vector<sim::FaultRecord>& records)
+    : scenario_(scenario), records_(records) {}
+
+void FaultReport::add_new() { entries_.resize(records_.size()); }
+
+void FaultReport::frame(std::uint64_t number, sim::Time begin,
+                        const std::vector<SlaveOutcome>& outcomes) {
+  add_new();
+  for (std::size_t i = first_open_; i < entries_.size(); ++i) {
+    Entry& entry = entries_[i];
+    if (entry.fate != Fate::kOpen) continue;
+    const sim::FaultRecord& record = records_[i];
+    const sim::FaultConfig& fault = scenario_.faults[record.config];
+    if (fault.kind == sim::FaultKind::kWrongId) continue;
+    const SlaveOutcome* worst = nullptr;
+    for (const SlaveOutcome& outcome : outcomes) {
+      if (outcome.kind == SlaveOutcome::Kind::kRight) continue;
+      if (fault.channel != 0 && fault.channel != outcome.channel) continue;
+      if (worst == nullptr || outcome.kind > worst->kind) worst = &outcome;
+    }
+    if (worst != nullptr) {
+      entry.fate = worst->kind == SlaveOutcome::Kind::kWrong ? Fate::kMissed : Fate::kDetected;
+      entry.error = worst->state;
+      entry.by = fmt::format("frame {}, slave {}: {}", number, worst->slave, worst->state);
+    } else if (record.end <= begin) {
+      entry.fate = Fate::kNoEffect;
+    }
+  }
+  while (first_open_ < entries_.size() && entries_[first_open_].fate != Fate::kOpen) ++first_open_;
+}
+
+unsigned FaultReport::unchecked_id() const {
+  for (std::size_t i = first_open_; i < entries_.size(); ++i) {
+    const sim::FaultConfig& fault = scenario_.faults[records_[i].config];
+    if (fault.kind == sim::FaultKind::kWrongId && entries_[i].fate == Fate::kOpen &&
+        !entries_[i].id_checked) {
+      return fault.slave;
+    }
+  }
+  return 0;
+}
+
+void FaultReport::id_checked(unsigned slave, const std::string& error) {
+  for (std::size_t i = first_open_; i < entries_.size(); ++i) {
+    const sim::FaultConfig& fault = scenario_.faults[records_[i].config];
+    Entry& entry = entries_[i];
+    if (fault.kind != sim::FaultKind::kWrongId || fault.slave != slave ||
+        entry.fate != Fate::kOpen) {
+      continue;
+    }
+    entry.id_checked = true;
+    if (error.empty()) continue;
+    ids_good_ = false;
+    entry.fate = Fate::kDetected;
+    entry.error = error;
+    entry.by = fmt::format("register access to slave {}: {}", slave, error);
+  }
+}
+
+std::uint64_t FaultReport::count(Fate fate) const {
+  return static_cast<std::uint64_t>(std::count_if(
+      entries_.begin(), entries_.end(), [&](const Entry& entry) { return entry.fate == fate; }));
+}
+
+void FaultReport::finish() {
+  add_new();
+  for (Entry& entry : entries_) {
+    if (entry.fate == Fate::kOpen) entry.fate = Fate::kNoEffect;
+  }
+}
+
+std::string FaultReport::new_lines() {
+  std::string out = fault_lines(records_, printed_);
+  printed_ = records_.size();
+  return out;
+}
+
+std::string FaultReport::summary() const {
+  if (!any()) return "";
+  KindCount all;
+  std::map<sim::FaultKind, KindCount> kinds;
+  for (const sim::FaultConfig& fault : scenario_.faults) kinds[fault.kind];
+  for (std::size_t i = 0; i < entries_.size(); ++i) {
+    add_to(all, entries_[i]);
+    add_to(kinds[scenario_.faults[records_[i].config].kind], entries_[i]);
+  }
+  const auto line = [](const KindCount& kind) {
+    return fmt::format("injected {}, detected {}, no effect {}, missed {}", kind.injected,
+                       of(kind, Fate::kDetected), of(kind, Fate::kNoEffect),
+                       of(kind, Fate::kMissed));
+  };
+  std::string out = fmt::format("faults: {}\n", line(all));
+  for (const auto& [kind, counts] : kinds) {
+    out += fmt::format("  {:<15}  {}\n", sim::to_string(kind), line(counts));
+    for (const auto& [error, number] : counts.detected_by) {
+      out += fmt::format("  {:<15}    detected by: {} ({})\n", "", error, number);
+    }
+  }
+  return out;
+}
+
+std::string FaultReport::json() const {
+  std::string out = "[";
+  for (std::size_t i = 0; i < entries_.size(); ++i) {
+    const sim::FaultRecord& record = records_[i];
+    const Entry& entry = entries_[i];
+    out += fmt::format(
+        "{}\n  {{\"fault\": {}, \"line\": {}, \"kind\": \"{}\", \"time_us\": {:.6f}, \"end_us\": "
+        "{}, \"what\": {}, \"fate\": \"{}\", \"by\": {}}}",
+        i == 0 ? "" : ",", i + 1, scenario_.faults[record.config].line,
+        sim::to_string(scenario_.faults[record.config].kind), sim::to_us(record.begin),
+        record.end == sim::kNever ? "null" : fmt::format("{:.6f}", sim::to_us(record.end)),
+        json_text(record.what), to_string(entry.fate),
+        entry.by.empty() ? "null" : json_text(entry.by));
+  }
+  return out + "]";
+}
+
+}  // namespace mb4::tool

@@ -1,0 +1,116 @@
+// SPDX-FileCopyrightText: 2026 The openmb4 authors
+// SPDX-License-Identifier: Apache-2.0
+#include "report/sweep_report.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace mb4::tool {
+namespace {
+
+constexpr int kFirstColumn = 11;
+
+std::string cell(const SweepPoint& point) {
+  if (point.bad() == 0) return ".";
+  return fmt::format("{}{}", point.bad(), point.wrong != 0 ? "!" : "");
+}
+
+std::string plane_text(const Sweep& sweep, const SweepPlane& plane) {
+  std::size_t width = 5;
+  for (const auto& row : plane.points) {
+    for (const SweepPoint& point : row) width = std::max(width, cell(point).size() + 1);
+  }
+  for (const long long jitter : sweep.jitters_mpercent) {
+    width = std::max(width, thousandths(jitter).size() + 2);
+  }
+  std::string out = fmt::format("\n{}; bad words by delay and jitter\n{:>{}}", plane_title(plane),
+                                "delay/ns", kFirstColumn);
+  for (const long long jitter : sweep.jitters_mpercent) {
+    out += fmt::format("{:>{}}", thousandths(jitter) + "%", width);
+  }
+  out += '\n';
+  for (std::size_t d = 0; d < sweep.delays_ps.size(); ++d) {
+    out += fmt::format("{:>{}}", thousandths(sweep.delays_ps[d]), kFirstColumn);
+    for (const SweepPoint& point : plane.points[d]) {
+      out += fmt::format("{:>{}}", cell(point), width);
+    }
+    out += '\n';
+  }
+  return out;
+}
+
+}  // namespace
+
+std::string thousandths(long long value) {
+  std::string text = fmt::format("{}.{:03}", value / 1000, value % 1000);
+  text.erase(text.find_last_not_of('0') + 1);
+  if (text.back() == '.') text.pop_back();
+  return text;
+}
+
+std::string plane_title(const SweepPlane& plane) {
+  return fmt::format("FREQS 0x{:02X}: MA {} kHz, T_MA {} ns", plane.freqs,
+                     thousandths(static_cast<long long>(plane.ma_hz)),
+                     thousandths(std::llround(1e12 / static_cast<double>(plane.ma_hz))));
+}
+
+std::string frames_text(const Sweep& sweep) {
+  return fmt::format("{} frame{} at each point", sweep.frames, sweep.frames == 1 ? "" : "s");
+}
+
+bool Sweep::within_i305() const {
+  for (const SweepPlane& plane : planes) {
+    for (const auto& row : plane.points) {
+      for (std::size_t j = 0; j < row.size(); ++j) {
+        if (jitters_mpercent[j] <= kI305 && row[j].bad() != 0) return false;
+      }
+    }
+  }
+  return true;
+}
+
+std::string sweep_text(const Sweep& sweep) {
+  std::string out =
+      fmt::format("{}: {}, jitter peak to peak in % of T_MA\n", sweep.scenario, frames_text(sweep));
+  SweepPoint sum;
+  for (const SweepPlane& plane : sweep.planes) {
+    out += plane_text(sweep, plane);
+    for (const auto& row : plane.points) {
+      for (const SweepPoint& point : row) {
+        sum.words += point.words;
+        sum.flagged += point.flagged;
+        sum.wrong += point.wrong;
+      }
+    }
+  }
+  const bool any =
+      *std::min_element(sweep.jitters_mpercent.begin(), sweep.jitters_mpercent.end()) <= kI305;
+  out += fmt::format(
+      "\n. = all good, ! = wrong words delivered as good (CRC aliases) among them\n"
+      "words {}, flagged {}, wrong but delivered {}; jitter up to 25 % (I305): {}; seed {}\n",
+      sum.words, sum.flagged, sum.wrong,
+      !any                  ? "not tried"
+      : sweep.within_i305() ? "all good"
+                            : "BAD",
+      sweep.seed);
+  return out;
+}
+
+std::string sweep_csv(const Sweep& sweep) {
+  std::string out = "freqs,ma_hz,delay_ns,jitter_percent,words,flagged,wrong\n";
+  for (const SweepPlane& plane : sweep.planes) {
+    for (std::size_t d = 0; d < sweep.delays_ps.size(); ++d) {
+      for (std::size_t j = 0; j < sweep.jitters_mpercent.size(); ++j) {
+        const SweepPoint& point = plane.points[d][j];
+        out += fmt::format("{},{},{},{},{},{},{}\n", plane.freqs, plane.ma_hz,
+                           thousandths(sweep.delays_ps[d]), thousandths(sweep.jitters_mpercent[j]),
+                           point.words, point.flagged, point.wrong);
+      }
+    }
+  }
+  return out;
+}
+
+}  // namespace mb4::tool
