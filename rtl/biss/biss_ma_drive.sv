@@ -8,8 +8,8 @@
 // 1. So no pulse is shorter than half a period.
 //
 //   clocking_o  high from begin_i until enough_i was seen at the end of a high level
-//   rise_o      high in the clock of a tick that makes a rising edge in the frame; a force bit does not
-//               count
+//   rise_o      high in the clock of a tick that makes a rising edge in the frame, whatever the
+//               force bits do
 //   force_i     from the first tick behind the next clock on MA has the level force_level_i,
 //               whatever the frame does
 //   released_o  high for one clock: the line must rest until the next tick, because the force has
