@@ -45,7 +45,7 @@ module biss_control_frame (
   output logic [7:0] rdata_wr_data_o,
   // frames
   input  logic       begin_i,
-  input  logic       abort_i,        // BREAK, INIT
+  input  logic       abort_i,        // BREAK, INIT, or the access cannot run any more
   input  logic       start_i,        // a frame starts
   input  logic       frame_end_i,    // the frame has ended
   input  logic [1:0] cds_i,          // CDS of the frame, lines {2, 1}

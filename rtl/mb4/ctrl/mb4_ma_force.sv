@@ -23,7 +23,7 @@ module mb4_ma_force (
   output logic [1:0] force_o,
   output logic [1:0] level_o,
   output logic       change_o,
-  output logic       any_o       // a line is forced
+  output logic       any_o       // force_o, one clock later: a line is forced
 );
 
   logic [5:0] meta_q;

@@ -6,8 +6,9 @@
 //
 // Clock domain: core.
 // Latency: a written byte arrives 2..3 clocks after its last bit. The frame that it asks for starts
-// one clock later at the earliest. busy_o rises before ack_o reaches the host half. A frame ends
-// two clocks after its last bit: its result one clock after it, frame_end of bank_o with the end.
+// one clock later at the earliest. busy rises before ack_o reaches the host half. A frame ends two
+// clocks after its last bit (frame_end). Its result comes one clock before this end, and the banks
+// switch one clock behind it (mb4_bank_ctrl).
 //
 // - With AGS = 1 INSTR sets the CDM of the automatic frames (mb4_frame_request) and stays. Only
 //   with FREQAGS = AGSINFINITE it also asks for a frame.
