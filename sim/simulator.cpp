@@ -8,6 +8,7 @@
 #include "sim/core/random.hpp"
 #include "sim/faults/fault_target.hpp"
 #include "sim/masters/master.hpp"
+#include "sim/scenario/injection.hpp"
 
 namespace mb4::sim {
 namespace {
@@ -241,7 +242,7 @@ void Simulator::set_pin(Pin pin, bool level) {
   try {
     master_->set_pin(now_, pin, level);
     if (model_->followers() != followers_) change_followers();
-    settle();
+    if (model_->outputs() != seen_) settle();
   } catch (const ModelStopped& error) {
     stopped_ = error;
     throw;
@@ -269,6 +270,19 @@ void Simulator::refresh_lines() {
   for (const LineEnd& end : lines_) {
     if (end.line != nullptr) end.line->refresh(now_);
   }
+}
+
+void Simulator::inject(std::string_view text) {
+  check_alive();
+  const Injection injection = parse_injection(text, "inject", scenario_, now_);
+  scenario_.faults.insert(scenario_.faults.end(), injection.faults.begin(), injection.faults.end());
+  injector_->add_new();
+  for (const Injection::Event& each : injection.events) {
+    Line* const place = line(each.channel);
+    const CableEvent::Action action = each.event.action;
+    at(each.event.time, [this, place, action] { place->act(now_, action); });
+  }
+  run_until(now_);  // what begins now has begun when this returns
 }
 
 void Simulator::flush_trace() { model_->finish_trace(); }

@@ -4,7 +4,8 @@
 #
 # Packs the committed tree as openmb4-VERSION.tar.gz with its checksum beside it; the same commit and
 # the same Yosys give the same bytes. In its folder verilog/ is plain Verilog of each top
-# (tools/synth/plain_verilog.py). Usage: tools/release.sh [FOLDER]   (default build/)
+# (tools/synth/plain_verilog.py). Beside it python/ holds the sdist of the Python package, which
+# builds its library from the RTL that it carries. Usage: tools/release.sh [FOLDER]   (default build/)
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
@@ -38,4 +39,13 @@ archive=$folder/$name.tar.gz
 git archive --format=tar --prefix="$name/verilog/" "${added[@]}" --prefix="$name/" HEAD | gzip -9n >"$archive.partial"
 mv "$archive.partial" "$archive"
 (cd "$folder" && sha256sum "$name.tar.gz" >"$name.tar.gz.sha256")
+
+# The sdist: pyproject.toml of tools/python at the top, and the rooms that its build reads.
+sed -e 's|"\.\./\.\."|"."|; s|"\.\./\.\./|"|; s|packages = \["|&tools/python/|' \
+  tools/python/pyproject.toml >"$plain/pyproject.toml"
+printf 'Metadata-Version: 2.1\nName: openmb4\nVersion: %s\nLicense: Apache-2.0\n' "$version" >"$plain/PKG-INFO"
+mkdir -p "$folder/python"
+git archive --format=tar --prefix="$name/" --add-file="$plain/pyproject.toml" \
+  --add-file="$plain/PKG-INFO" HEAD -- CMakeLists.txt LICENSE drivers regmap rtl sim \
+  tools/CMakeLists.txt tools/cmake tools/mb4sim tools/python | gzip -9n >"$folder/python/$name.tar.gz"
 echo "$archive"

@@ -2,9 +2,10 @@
 # SPDX-FileCopyrightText: 2026 The openmb4 authors
 # SPDX-License-Identifier: Apache-2.0
 #
-# Installs the Debian 12 packages that are missing. Usage: tools/setup.sh [demo|test]
-#   demo  what the build and the command line need (default)
-#   test  that, and what the tests use besides
+# Installs the Debian 12 packages that are missing. Usage: tools/setup.sh [demo|test|python]
+#   demo    what the build and the command line need (default)
+#   test    that, and what the tests use besides
+#   python  what `pip install tools/python` needs
 set -euo pipefail
 
 demo_packages=(
@@ -12,18 +13,23 @@ demo_packages=(
   ninja-build python3 verilator zlib1g-dev
 )
 test_packages=(
-  clang git groff gtkwave libbenchmark-dev iverilog liblz4-dev librsvg2-bin pkg-config
-  sigrok-cli spi-tools yosys z3 zsh
+  clang ghdl git groff gtkwave libbenchmark-dev iverilog liblz4-dev librsvg2-bin pkg-config
+  sigrok-cli spi-tools valgrind yosys z3 zsh
   clang-tidy gcovr
   gcc-arm-none-eabi libnewlib-arm-none-eabi libstdc++-arm-none-eabi-newlib linux-libc-dev
   gcc-riscv64-unknown-elf picolibc-riscv64-unknown-elf qemu-system-arm
+  python3-cffi python3-numpy python3-pytest
+)
+python_packages=(
+  cmake g++ libfmt-dev libtomlplusplus-dev ninja-build python3 python3-pip python3-venv verilator zlib1g-dev
 )
 
 case "${1:-demo}" in
   demo) packages=("${demo_packages[@]}") ;;
   test) packages=("${demo_packages[@]}" "${test_packages[@]}") ;;
+  python) packages=("${python_packages[@]}") ;;
   *)
-    echo "usage: tools/setup.sh [demo|test]" >&2
+    echo "usage: tools/setup.sh [demo|test|python]" >&2
     exit 2
     ;;
 esac

@@ -63,6 +63,7 @@ mb4_config mb4_config_default(void) {
   config.spi_check = static_cast<std::uint8_t>(from.spi_check);
   config.register_divider = from.register_divider;
   config.register_timeout_us = from.register_timeout_us;
+  config.hold_beside_access = from.hold_beside_access;
   for (std::size_t i = 0; i < mb4::kChannels; ++i) {
     config.protocol[i] = static_cast<std::uint8_t>(from.channels[i].protocol);
   }

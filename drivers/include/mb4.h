@@ -21,6 +21,13 @@
 extern "C" {
 #endif
 
+/* The compiler warns where a result is dropped (GCC, Clang). */
+#if defined(__GNUC__)
+#define MB4_RESULT __attribute__((warn_unused_result)) mb4_result
+#else
+#define MB4_RESULT mb4_result
+#endif
+
 enum {
   MB4_SLAVES = 8,
   MB4_CHANNELS = 2,
@@ -99,6 +106,7 @@ typedef struct {
   uint32_t register_timeout_us; /* longest timeout of the BiSS B slaves, up to 1'000'000 */
   uint8_t protocol[MB4_CHANNELS];      /* MB4_PROTOCOL_...; [0] is channel 1 */
   mb4_slave_config slaves[MB4_SLAVES]; /* [0] is slave 1 */
+  bool hold_beside_access; /* HOLDBANK beside register accesses too */
 } mb4_config;
 
 /* mb4::Reading in mb4/reading.hpp. */
@@ -159,53 +167,53 @@ mb4_config mb4_config_default(void);
 uint32_t mb4_ma_hz_at_most(uint32_t f_clk_hz, uint32_t limit_hz);
 /* Shortest frame period of table 37 that is at least `period_ns`, in clocks; 0 if there is none. */
 uint32_t mb4_frame_period_clk_at_least(uint32_t f_clk_hz, uint32_t period_ns);
-mb4_result mb4_validate(const mb4_config *config);
+MB4_RESULT mb4_validate(const mb4_config *config);
 
-mb4_result mb4_probe(mb4_device *device, uint8_t *version, uint8_t *revision);
-mb4_result mb4_configure(mb4_device *device, const mb4_config *config);
-mb4_result mb4_verify(mb4_device *device);
-mb4_result mb4_reset(mb4_device *device);
+MB4_RESULT mb4_probe(mb4_device *device, uint8_t *version, uint8_t *revision);
+MB4_RESULT mb4_configure(mb4_device *device, const mb4_config *config);
+MB4_RESULT mb4_verify(mb4_device *device);
+MB4_RESULT mb4_reset(mb4_device *device);
 /* quarters: line delay of channels 1 and 2 in quarters of a period of MA, 0..255. */
-mb4_result mb4_initialize(mb4_device *device, uint8_t quarters[MB4_CHANNELS]);
-mb4_result mb4_read_frame(mb4_device *device, uint8_t slave, mb4_reading *reading);
-mb4_result mb4_read_all(mb4_device *device, mb4_frame *frame);
+MB4_RESULT mb4_initialize(mb4_device *device, uint8_t quarters[MB4_CHANNELS]);
+MB4_RESULT mb4_read_frame(mb4_device *device, uint8_t slave, mb4_reading *reading);
+MB4_RESULT mb4_read_all(mb4_device *device, mb4_frame *frame);
 /* `word` for the actuator `slave` (1..8): at most data_bits bits. */
-mb4_result mb4_write_actuator(mb4_device *device, uint8_t slave, uint64_t word);
-mb4_result mb4_break_transmission(mb4_device *device);
-mb4_result mb4_read_status(mb4_device *device, uint8_t status[MB4_STATUS_BYTES]);
-mb4_result mb4_clear_valid(mb4_device *device, uint8_t slave);
+MB4_RESULT mb4_write_actuator(mb4_device *device, uint8_t slave, uint64_t word);
+MB4_RESULT mb4_break_transmission(mb4_device *device);
+MB4_RESULT mb4_read_status(mb4_device *device, uint8_t status[MB4_STATUS_BYTES]);
+MB4_RESULT mb4_clear_valid(mb4_device *device, uint8_t slave);
 
-mb4_result mb4_automatic_start(mb4_device *device);
-mb4_result mb4_automatic_stop(mb4_device *device);
-mb4_result mb4_automatic_restart(mb4_device *device);
-mb4_result mb4_automatic_poll(mb4_device *device, mb4_frame *frame);
-mb4_result mb4_automatic_poll_slave(mb4_device *device, uint8_t slave, mb4_reading *reading);
-mb4_result mb4_automatic_write_actuator(mb4_device *device, uint8_t slave, uint64_t word);
-mb4_result mb4_automatic_next(mb4_device *device, mb4_frame *frame);
+MB4_RESULT mb4_automatic_start(mb4_device *device);
+MB4_RESULT mb4_automatic_stop(mb4_device *device);
+MB4_RESULT mb4_automatic_restart(mb4_device *device);
+MB4_RESULT mb4_automatic_poll(mb4_device *device, mb4_frame *frame);
+MB4_RESULT mb4_automatic_poll_slave(mb4_device *device, uint8_t slave, mb4_reading *reading);
+MB4_RESULT mb4_automatic_write_actuator(mb4_device *device, uint8_t slave, uint64_t word);
+MB4_RESULT mb4_automatic_next(mb4_device *device, mb4_frame *frame);
 
-mb4_result mb4_slave_read(mb4_device *device, uint8_t channel, uint8_t id, uint8_t address,
+MB4_RESULT mb4_slave_read(mb4_device *device, uint8_t channel, uint8_t id, uint8_t address,
                           uint8_t *data, size_t size);
-mb4_result mb4_slave_write(mb4_device *device, uint8_t channel, uint8_t id, uint8_t address,
+MB4_RESULT mb4_slave_write(mb4_device *device, uint8_t channel, uint8_t id, uint8_t address,
                            const uint8_t *data, size_t size);
-mb4_result mb4_slave_command(mb4_device *device, const mb4_command *command);
-mb4_result mb4_slave_begin_read(mb4_device *device, uint8_t channel, uint8_t id, uint8_t address,
+MB4_RESULT mb4_slave_command(mb4_device *device, const mb4_command *command);
+MB4_RESULT mb4_slave_begin_read(mb4_device *device, uint8_t channel, uint8_t id, uint8_t address,
                                 size_t size);
-mb4_result mb4_slave_begin_write(mb4_device *device, uint8_t channel, uint8_t id, uint8_t address,
+MB4_RESULT mb4_slave_begin_write(mb4_device *device, uint8_t channel, uint8_t id, uint8_t address,
                                  const uint8_t *data, size_t size);
-mb4_result mb4_slave_begin_command(mb4_device *device, const mb4_command *command);
+MB4_RESULT mb4_slave_begin_command(mb4_device *device, const mb4_command *command);
 /* `ended` becomes true when the access has ended without error, otherwise false. */
-mb4_result mb4_slave_poll(mb4_device *device, bool *ended);
-mb4_result mb4_slave_take(mb4_device *device, uint8_t *data, size_t size);
-mb4_result mb4_slave_abort(mb4_device *device);
+MB4_RESULT mb4_slave_poll(mb4_device *device, bool *ended);
+MB4_RESULT mb4_slave_take(mb4_device *device, uint8_t *data, size_t size);
+MB4_RESULT mb4_slave_abort(mb4_device *device);
 /* Stores the identities of up to `size` IDs; `count` becomes the number of IDs that have answered,
  * 0 on error. */
-mb4_result mb4_scan(mb4_device *device, uint8_t channel, mb4_identity *identities, size_t size,
+MB4_RESULT mb4_scan(mb4_device *device, uint8_t channel, mb4_identity *identities, size_t size,
                     uint8_t *count);
 
 /* SPI opcodes 0x02 and 0x03 without any protection of bits; size 1..64. */
-mb4_result mb4_write_registers(mb4_device *device, uint8_t address, const uint8_t *data,
+MB4_RESULT mb4_write_registers(mb4_device *device, uint8_t address, const uint8_t *data,
                                size_t size);
-mb4_result mb4_read_registers(mb4_device *device, uint8_t address, uint8_t *data, size_t size);
+MB4_RESULT mb4_read_registers(mb4_device *device, uint8_t address, uint8_t *data, size_t size);
 
 /* Text of mb4_result.code and mb4_result.field; never null. */
 const char *mb4_error_text(uint8_t code);
@@ -215,7 +223,7 @@ const char *mb4_field_text(uint8_t field);
 int64_t mb4_to_signed(uint64_t position, uint8_t bits);
 uint64_t mb4_gray_to_binary(uint64_t gray);
 uint64_t mb4_binary_to_gray(uint64_t binary);
-mb4_result mb4_split_turns(uint64_t position, uint8_t multi_bits, uint8_t single_bits,
+MB4_RESULT mb4_split_turns(uint64_t position, uint8_t multi_bits, uint8_t single_bits,
                            uint64_t *multi, uint64_t *single);
 
 /* mb4::PositionTracker in mb4/position.hpp. Call mb4_tracker_begin() first. */
@@ -223,7 +231,9 @@ typedef struct {
   uint64_t opaque[4];
 } mb4_tracker;
 void mb4_tracker_begin(mb4_tracker *tracker, uint8_t bits, uint64_t max_step);
-mb4_result mb4_tracker_update(mb4_tracker *tracker, uint64_t position, int64_t *total);
+MB4_RESULT mb4_tracker_update(mb4_tracker *tracker, uint64_t position, int64_t *total);
+
+#undef MB4_RESULT
 
 #ifdef __cplusplus
 }

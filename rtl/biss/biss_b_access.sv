@@ -4,7 +4,7 @@
 // BiSS B register access and initialisation, master side. One module serves all lines; it drives
 // the lines that use_i names with start_i.
 //
-// Clock domain: core. ma_o is the level of MA from the next tick on. The parts of an access:
+// Clock domain: core. ma_o tells the level of MA from the next tick on. The parts of an access:
 //
 // - Hand-over: MA is high, then low until all slaves answer with SL = 0. In an access with mo_i
 //   (EN_MO) MA is low for half a register clock instead, with any SL. INIT ends here.
@@ -12,13 +12,12 @@
 //   MA is high for a quarter of it (bit 0), three quarters (bit 1) or a half (read-out).
 // - SL is taken at the rising edges. In a write it repeats the bit of two cells before; in a read
 //   it brings the bits of the slave.
-// - End: after the last stop bit MA stays at 1. end_o comes two register clocks later: by then SL
-//   has shown the stop bit over any cable (I405), so the next 1 on SL is the slave's timeout.
+// - End: after the last stop bit MA stays at 1. The access ends two register clocks later: by then
+//   SL has shown the stop bit over any cable (I405), so the next 1 on SL is the slave's timeout.
 // - A wrong bit ends the access too: in a write after a stop bit, in a read at the end of the byte.
 //
-// Results with end_o: ags_error_o (no hand-over), reg_error_o (wrong CRC or wrong echo),
-// delay_error_o (no start bit). good_bytes_o counts the bytes without error. mo_low_o asks for MO =
-// 0: in an access from its first clock on, in INIT from the falling edge of MA on.
+// ma_o.ends tells the end of an access and of INIT, end_o only that of an access. mo_low_o asks for
+// MO = 0: in an access from its first clock on, in INIT from the falling edge of MA on.
 //
 // Misuse: the configuration must be stable while active_o is high.
 // Datasheet: pages 13, 16, 30, 34, Figures 9, 14..16, Table 36; decisions 6, 7.
@@ -30,10 +29,7 @@ module biss_b_access (
   input  logic       rst_ni,
   // configuration
   input  logic [2:0] freqr_i,
-  input  logic       wnr_i,
-  input  logic [6:0] regadr_i,
-  input  logic [5:0] regnum_i,
-  input  logic [2:0] slaveid_i,
+  input  biss_pkg::access_t access_i,
   input  logic       mo_i,           // EN_MO
   // control
   input  logic       start_i,
@@ -44,23 +40,16 @@ module biss_b_access (
   input  logic       expired_i,      // the wait for SL has lasted too long
   output logic       wait_o,
   output logic       active_o,
-  output logic       init_o,         // the access is an initialisation
-  output logic [1:0] use_o,          // lines of the access
   // lines
   input  logic [1:0] sl_i,           // synchronised
-  output logic       ma_o,
-  output logic       mo_low_o,
-  // RDATA: byte rdata_addr_o is valid one clock after its address
-  output logic [5:0] rdata_addr_o,
+  output biss_pkg::register_ma_t ma_o,
+  output logic [1:0] mo_low_o,
+  // RDATA: the byte is valid one clock after its address
+  output biss_pkg::access_byte_t byte_o,
   input  logic [7:0] rdata_i,
-  output logic       rdata_wr_en_o,
-  output logic [7:0] rdata_wr_data_o,
   // result
-  output logic       end_o,
-  output logic       ags_error_o,
-  output logic       reg_error_o,
-  output logic       delay_error_o,
-  output logic [5:0] good_bytes_o
+  output logic       ags_error_o,    // no hand-over
+  output biss_pkg::access_end_t end_o
 );
 
   typedef enum logic [2:0] {
@@ -103,6 +92,10 @@ module biss_b_access (
   logic [1:0]  check_q;     // ... must come back on SL
   logic [1:0]  sample_q;    // rising edge of MA, delayed two clocks as sl_i is
   logic        fresh_q;     // the read has not clocked the slave yet
+  logic        ma;
+  logic        ends;
+  logic        wr_en;
+  logic        reg_error, delay_error;
   logic        quarter;
   logic        boundary;    // the next cell begins
   logic        in_fields;
@@ -123,7 +116,7 @@ module biss_b_access (
                       cell_q != (state_q == ADDRESS ? ADDRESS_STOP : BYTE_STOP);
   assign out        = cell_q == 5'd0 || (in_fields && bits_q[10]) || (in_crc && !crc_q[3]);
   assign sample     = sample_q[1];
-  assign last       = index_q == regnum_i;
+  assign last       = index_q == access_i.regnum;
 
   // CRC over the fields: bits that are sent count cell by cell, received bits sample by sample.
   assign feed   = in_fields && (state_q == READ ? sample : boundary);
@@ -142,15 +135,15 @@ module biss_b_access (
     bits_d          = bits_q;
     index_d         = index_q;
     fail_d          = fail_q;
-    end_o           = 1'b0;
+    ends           = 1'b0;
     ags_error_o     = 1'b0;
-    reg_error_o     = 1'b0;
-    delay_error_o   = 1'b0;
-    rdata_wr_en_o   = 1'b0;
+    reg_error     = 1'b0;
+    delay_error   = 1'b0;
+    wr_en   = 1'b0;
 
     unique case (state_q)
       IDLE: begin
-        // No access. MA belongs to the frame engine.
+        // No access. biss_frame drives MA.
         cell_d  = 5'd0;
         fail_d  = 1'b0;
         if (start_i) begin
@@ -160,7 +153,7 @@ module biss_b_access (
       end
       REQUEST: begin
         // MA is high up to the next tick.
-        bits_d = {slaveid_i, regadr_i, wnr_i};
+        bits_d = {access_i.slaveid, access_i.regadr, access_i.wnr};
         if (tick_i) state_d = HAND_OVER;
       end
       HAND_OVER: begin
@@ -183,7 +176,7 @@ module biss_b_access (
           if (in_fields) bits_d = {bits_q[9:0], 1'b0};
           if (cell_q == ADDRESS_STOP) begin
             cell_d  = 5'd0;
-            state_d = wnr_i ? WRITE : READ;
+            state_d = access_i.wnr ? WRITE : READ;
           end
         end
       end
@@ -209,7 +202,7 @@ module biss_b_access (
           if (in_fields) bits_d = {bits_q[9:0], sl};
           if (in_crc && sl == crc_q[3]) fail_d = 1'b1;
           if (cell_q == BYTE_LAST) begin
-            rdata_wr_en_o = !fail_d;
+            wr_en = !fail_d;
             if (!fail_d) index_d = index_q + 6'd1;
             if (fail_d || last) state_d = SETTLE;
           end
@@ -217,7 +210,7 @@ module biss_b_access (
         end
         if (boundary && cell_q == 5'd0 && expired_i) begin
           state_d       = IDLE;
-          delay_error_o = 1'b1;
+          delay_error = 1'b1;
         end
       end
       SETTLE: begin
@@ -225,28 +218,28 @@ module biss_b_access (
         if (sample) cell_d = 5'd1;
         if (sample && cell_q != 5'd0) begin
           state_d     = IDLE;
-          reg_error_o = fail_q;
+          reg_error = fail_q;
         end
       end
       default: state_d = IDLE;
     endcase
 
-    end_o = state_q != IDLE && state_d == IDLE;
+    ends = state_q != IDLE && state_d == IDLE;
     if (abort_i) begin
       state_d = IDLE;
-      end_o   = 1'b0;
+      ends   = 1'b0;
     end
   end
 
   // Level of MA after the next tick.
   always_comb begin
-    ma_o = 1'b1;
+    ma = 1'b1;
     if (state_d == HAND_OVER) begin
-      ma_o = 1'b0;
+      ma = 1'b0;
     end else if (state_q != HAND_OVER && state_d != SETTLE && state_d != IDLE) begin
-      if (phase_next == 2'd1) ma_o = out || state_q == READ;
-      if (phase_next == 2'd2) ma_o = out && state_q != READ;
-      if (phase_next == 2'd3) ma_o = 1'b0;
+      if (phase_next == 2'd1) ma = out || state_q == READ;
+      if (phase_next == 2'd2) ma = out && state_q != READ;
+      if (phase_next == 2'd3) ma = 1'b0;
     end
   end
 
@@ -290,15 +283,13 @@ module biss_b_access (
     end
   end
 
-  assign mo_low_o        = init_q ? state_q == HAND_OVER : state_q != IDLE;
-  assign init_o          = init_q;
-  assign use_o           = use_q;
-  assign active_o        = state_q != IDLE;
-  assign wait_o          = (state_q == HAND_OVER && (init_q || !mo_q)) ||
+  assign ma_o     = {ma, ends};
+  assign end_o    = {ends && !init_q, reg_error, delay_error, index_q};
+  assign byte_o   = {wr_en, index_q, bits_q[7:0]};
+  assign mo_low_o = use_q & {2{init_q ? state_q == HAND_OVER : state_q != IDLE}};
+  assign active_o = state_q != IDLE;
+  assign wait_o   = (state_q == HAND_OVER && (init_q || !mo_q)) ||
                            (state_q == READ && cell_q == 5'd0);
-  assign rdata_addr_o    = index_q;
-  assign rdata_wr_data_o = bits_q[7:0];
-  assign good_bytes_o    = index_q;
 
   `ENC_ASSERT(StateInRange_A, clk_i, rst_ni, state_q <= SETTLE)
   `ENC_ASSERT(CellInRange_A, clk_i, rst_ni, cell_q <= ADDRESS_STOP)

@@ -29,20 +29,14 @@ module biss_control_frame (
   input  logic       clk_i,
   input  logic       rst_ni,
   // configuration
-  input  logic       cts_i,
-  input  logic       wnr_i,
-  input  logic [6:0] regadr_i,
-  input  logic [5:0] regnum_i,
-  input  logic [2:0] slaveid_i,      // or CMD(1:0), IDA_TEST
+  input  biss_pkg::access_t access_i,
   input  logic       ida_invert_i,   // quirk: IDA_TEST has the opposite polarity
   input  logic [1:0] select_i,       // lines {2, 1} that carry the control frame
   input  logic       blind_i,        // SSI: no CDS, every answer to a write counts as right
-  // RDATA: byte rdata_addr_o is valid one clock after its address
-  output logic [5:0] rdata_addr_o,
+  // RDATA: the byte is valid one clock after its address
+  output biss_pkg::access_byte_t byte_o,
   input  logic [7:0] rdata_i,
   input  logic       post_busy_i,    // bytes of the host are on their way to RDATA
-  output logic       rdata_wr_en_o,
-  output logic [7:0] rdata_wr_data_o,
   // frames
   input  logic       begin_i,
   input  logic       abort_i,        // BREAK, INIT, or the access cannot run any more
@@ -61,10 +55,7 @@ module biss_control_frame (
   output logic [1:0] cdm1_o,
   // result
   output logic       begin_o,
-  output logic       end_o,
-  output logic       reg_error_o,    // with end_o
-  output logic       delay_error_o,  // with end_o
-  output logic [5:0] good_bytes_o
+  output biss_pkg::access_end_t end_o
 );
 
   logic       active_q;
@@ -90,6 +81,8 @@ module biss_control_frame (
   logic       end_q, reg_error_q, delay_error_q;
   logic       end_d, reg_error_d, delay_error_d;
 
+  logic       cts;          // a register access, no command
+  logic       wnr;
   logic       step;
   logic       take;
   logic       tested;
@@ -107,10 +100,12 @@ module biss_control_frame (
     slots = (64'd1 << behind) - (64'd1 << first);
   endfunction
 
+  assign cts       = access_i.cts;
+  assign wnr       = access_i.wnr;
   assign step      = carries_q && frame_end_i;
   assign take      = fresh_q[1] && !post_busy_i;
-  assign tested    = (slaveid_i[0] ^ ida_invert_i) && !broadcast_q;
-  assign cds       = (blind_i && cts_i) ? sent_q : (cds_i & select_i) != 2'b00;
+  assign tested    = (access_i.slaveid[0] ^ ida_invert_i) && !broadcast_q;
+  assign cds       = (blind_i && cts) ? sent_q : (cds_i & select_i) != 2'b00;
   assign top       = bits_q[9];
 
   // ---- slots --------------------------------------------------------------------------------
@@ -125,12 +120,12 @@ module biss_control_frame (
   localparam logic [63:0] COMMAND = slots(biss_pkg::SLOT_CTS, biss_pkg::SLOT_STOP_COMMAND);
 
   assign header   = HEADER[slot_q];
-  assign echo     = cts_i && ANSWER[slot_q];
-  assign ida      = !cts_i && !broadcast_q && ACK[slot_q];
+  assign echo     = cts && ANSWER[slot_q];
+  assign ida      = !cts && !broadcast_q && ACK[slot_q];
   // CDS of a read comes one slot after CDM of a write.
-  assign data     = cts_i && (DATA[slot_q] ||
-                    (slot_q == (wnr_i ? biss_pkg::SLOT_WAIT : biss_pkg::SLOT_DATA_CRC) &&
-                     (cds || !wnr_i)));
+  assign data     = cts && (DATA[slot_q] ||
+                    (slot_q == (wnr ? biss_pkg::SLOT_WAIT : biss_pkg::SLOT_DATA_CRC) &&
+                     (cds || !wnr)));
   assign data_crc = echo && !data;
 
   // ---- CDM ----------------------------------------------------------------------------------
@@ -140,28 +135,28 @@ module biss_control_frame (
     by_ida = 1'b0;
     unique case (slot_q)
       biss_pkg::SLOT_START: cdm0 = cdm_timeout_i;
-      biss_pkg::SLOT_CTS:   cdm0 = cts_i;
+      biss_pkg::SLOT_CTS:   cdm0 = cts;
       6'd2, 6'd3, 6'd4, 6'd5, 6'd6, 6'd7, 6'd8, 6'd9, 6'd10, 6'd11:
         cdm0 = top;
       6'd12, 6'd13, 6'd14, 6'd15:
         cdm0 = !crc_q[3];
-      biss_pkg::SLOT_READ:  cdm0 = cts_i ? !wnr_i : !tested;   // EX at once
-      biss_pkg::SLOT_WRITE: cdm0 = cts_i && wnr_i;
-      biss_pkg::SLOT_BYTE:  cdm0 = cts_i;
+      biss_pkg::SLOT_READ:  cdm0 = cts ? !wnr : !tested;   // EX at once
+      biss_pkg::SLOT_WRITE: cdm0 = cts && wnr;
+      biss_pkg::SLOT_BYTE:  cdm0 = cts;
       biss_pkg::SLOT_WAIT, 6'd20, 6'd21, 6'd22, 6'd23, 6'd25, 6'd26:
-        cdm0 = cts_i && wnr_i && top;
+        cdm0 = cts && wnr && top;
       biss_pkg::SLOT_EX_TESTED: begin
-        cdm0   = cts_i && wnr_i && top;
-        by_ida = !cts_i && tested;
+        cdm0   = cts && wnr && top;
+        by_ida = !cts && tested;
       end
       6'd27, 6'd28, 6'd29, 6'd30:
-        cdm0 = wnr_i && !crc_q[3];
+        cdm0 = wnr && !crc_q[3];
       biss_pkg::SLOT_NEXT:  cdm0 = !last_q;
       default: cdm0 = 1'b0;
     endcase
     cdm1 = cdm0;
     // S is repeated until the slave answers it.
-    if (cts_i && !blind_i && slot_q == biss_pkg::SLOT_WAIT) cdm0 = 1'b1;
+    if (cts && !blind_i && slot_q == biss_pkg::SLOT_WAIT) cdm0 = 1'b1;
   end
 
   assign sent = cds ? cdm1 : cdm0;
@@ -181,17 +176,17 @@ module biss_control_frame (
     unique case (slot_q)
       biss_pkg::SLOT_START: stay = !sent;
       biss_pkg::SLOT_WRITE: begin
-        fail   = cts_i && (cds == wnr_i || (blind_i && !wnr_i));
-        finish = !cts_i && broadcast_q;
+        fail   = cts && (cds == wnr || (blind_i && !wnr));
+        finish = !cts && broadcast_q;
       end
-      biss_pkg::SLOT_BYTE:  fail   = cts_i && cds != wnr_i;
-      biss_pkg::SLOT_WAIT:  stay   = cts_i && !cds;
-      biss_pkg::SLOT_STOP_TESTED: finish = !cts_i;
+      biss_pkg::SLOT_BYTE:  fail   = cts && cds != wnr;
+      biss_pkg::SLOT_WAIT:  stay   = cts && !cds;
+      biss_pkg::SLOT_STOP_TESTED: finish = !cts;
       biss_pkg::SLOT_NEXT:  finish = last_q;
       default: ;
     endcase
-    if (echo && wnr_i && cds != sent_q)        fail = 1'b1;
-    if (data_crc && !wnr_i && cds == crc_q[3]) fail = 1'b1;
+    if (echo && wnr && cds != sent_q)        fail = 1'b1;
+    if (data_crc && !wnr && cds == crc_q[3]) fail = 1'b1;
     if (ida) begin
       ida_bad_d = ida_bad_q | (select_i & (cds_i ^ {2{top}}));
       if (slot_q == biss_pkg::SLOT_EX_TESTED && !tested) finish = 1'b1;
@@ -201,7 +196,7 @@ module biss_control_frame (
   always_comb begin
     crc_feed  = header || data;
     crc_shift = CRC[slot_q] || data_crc;
-    crc_bit   = crc_q[3] ^ ((header || wnr_i) ? sent : cds);
+    crc_bit   = crc_q[3] ^ ((header || wnr) ? sent : cds);
     crc_d     = crc_q;
     if (crc_feed)       crc_d = {crc_q[2:0], 1'b0} ^ (crc_bit ? biss_pkg::CONTROL_CRC_POLY : 4'h0);
     else if (crc_shift) crc_d = {crc_q[2:0], 1'b0};
@@ -212,16 +207,15 @@ module biss_control_frame (
   always_comb begin
     bits_d = bits_q;
     if (take)
-      bits_d = cts_i ? {slaveid_i, regadr_i} : {rdata_i, slaveid_i[2:1]};
-    else if (cts_i && (slot_q == biss_pkg::SLOT_BYTE || slot_q == biss_pkg::SLOT_NEXT))
+      bits_d = cts ? {access_i.slaveid, access_i.regadr} : {rdata_i, access_i.slaveid[2:1]};
+    else if (cts && (slot_q == biss_pkg::SLOT_BYTE || slot_q == biss_pkg::SLOT_NEXT))
       bits_d = {rdata_i, 2'b00};
     else if ((header && slot_q != biss_pkg::SLOT_CTS) || data || ida)
-      bits_d = {bits_q[8:0], (data && !wnr_i) ? cds : top};
+      bits_d = {bits_q[8:0], (data && !wnr) ? cds : top};
   end
 
-  assign rdata_wr_en_o   = step && cts_i && !wnr_i && !fail && slot_q == biss_pkg::SLOT_STOP;
-  assign rdata_wr_data_o = bits_q[7:0];
-  assign rdata_addr_o    = index_q;
+  assign byte_o = {step && cts && !wnr && !fail && slot_q == biss_pkg::SLOT_STOP, index_q,
+                   bits_q[7:0]};
 
   always_comb begin
     active_d      = active_q;
@@ -240,7 +234,7 @@ module biss_control_frame (
                                                              : slot_q + 6'd1;
       if (slot_q == biss_pkg::SLOT_STOP && !fail) begin
         index_d = index_q + 6'd1;
-        last_d  = index_q == regnum_i;
+        last_d  = index_q == access_i.regnum;
       end
       end_d         = fail || finish || late;
       reg_error_d   = fail || (finish && ida_bad_d != 2'b00);
@@ -311,21 +305,18 @@ module biss_control_frame (
   assign begin_o       = begin_i && !active_q && !stalled_i;
   assign active_o      = active_q || begin_o;
   assign running_o     = active_q;
-  assign wait_o        = active_q && cts_i && slot_q == biss_pkg::SLOT_WAIT;
+  assign wait_o        = active_q && cts && slot_q == biss_pkg::SLOT_WAIT;
   assign late          = wait_o && stay && expired_i;
   assign moved_o       = step && !(wait_o && stay);
   assign in_body_o     = carries_q &&
-                         (cts_i ? BODY[slot_q] : tested ? TESTED[slot_q] : COMMAND[slot_q]);
-  assign end_o         = end_q;
-  assign reg_error_o   = reg_error_q;
-  assign delay_error_o = delay_error_q;
-  assign good_bytes_o  = index_q;
+                         (cts ? BODY[slot_q] : tested ? TESTED[slot_q] : COMMAND[slot_q]);
+  assign end_o         = {end_q, reg_error_q, delay_error_q, index_q};
 
   `ENC_ASSERT(SlotInRange_A, clk_i, rst_ni, slot_q <= biss_pkg::SLOT_NEXT)
   `ENC_ASSERT_IF(IdleIsSlot0_A, clk_i, rst_ni, !active_q, slot_q == biss_pkg::SLOT_START)
   `ENC_ASSERT_IF(DataCrcStartsAtZero_A, clk_i, rst_ni,
                  slot_q == biss_pkg::SLOT_BYTE || slot_q == biss_pkg::SLOT_NEXT, crc_q == 4'h0)
-  `ENC_ASSERT_IF(NextIsForRegisters_A, clk_i, rst_ni, active_q && !cts_i,
+  `ENC_ASSERT_IF(NextIsForRegisters_A, clk_i, rst_ni, active_q && !cts,
                  slot_q <= biss_pkg::SLOT_STOP_TESTED)
 
 endmodule

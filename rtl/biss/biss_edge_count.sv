@@ -21,7 +21,11 @@
 
 `include "enc_check.svh"
 
-module biss_edge_count (
+module biss_edge_count #(
+  parameter int unsigned Slaves   = 8,    // most words of a frame
+  parameter int unsigned DataBits = 64,   // the longest word
+  parameter bit          Mo       = 1'b1  // the line may have actuators: bus_i
+) (
   input  logic       clk_i,
   input  logic       rst_ni,
   input  logic       biss_c_i,
@@ -40,22 +44,31 @@ module biss_edge_count (
   output logic       one_left_o    // one edge is left, or none
 );
 
-  logic [1:0]         rises_d;
-  logic [1:0]         rises_q;
-  logic signed [10:0] more;        // edges needed, without rise_i
-  logic signed [10:0] need_d;
-  logic signed [10:0] need_q;      // edges needed; -1: one too many was sent
+  // The longest frame: 5 edges, MO_BUSY, and words with stop bit and CRC.
+  localparam int unsigned MOST = 5 + (Mo ? 255 : 0) + Slaves * (DataBits + 17);
+  localparam int unsigned W    = $clog2((MOST > 127 ? MOST : 127) + 1) + 1;  // a length has 7 bits
+
+  logic [1:0]          rises_d;
+  logic [1:0]          rises_q;
+  logic signed [W-1:0] more;       // edges needed, without rise_i
+  logic signed [W-1:0] need_d;
+  logic signed [W-1:0] need_q;     // edges needed; -1: one too many was sent
   logic               len_valid_q;
   logic [6:0]         len_q;
+  logic               bus;
+  logic [2:0]         base;        // edges of the protocol
   logic               take;
   logic               none_d;
   logic               none_q;
   logic               one_d;
   logic               one_q;
 
-  assign more = need_q + (len_valid_q ? signed'({4'h0, len_q}) : 11'sd0)
-                       + (wait_i ? 11'sd1 : 11'sd0);
-  assign take = rise_i && !need_q[10];
+  assign more = need_q + (len_valid_q ? signed'(W'(len_q)) : signed'(W'(0)))
+                       + (wait_i ? signed'(W'(1)) : signed'(W'(0)));
+  assign take = rise_i && !need_q[W-1];
+
+  assign bus  = Mo && bus_i;
+  assign base = biss_c_i ? 3'd5 : ssi_i ? 3'd1 : 3'd4;
 
   // rise_i comes late, so the results for both of its values are prepared.
   always_comb begin
@@ -65,15 +78,14 @@ module biss_edge_count (
     one_d   = one_q;
     if (begin_i) begin
       rises_d = 2'd0;
-      need_d  = (biss_c_i ? 11'sd5 : ssi_i ? 11'sd1 : 11'sd4) +
-                (bus_i ? signed'({3'b000, mo_busy_i}) : 11'sd0);
+      need_d  = signed'(W'(base)) + (bus ? signed'(W'(mo_busy_i)) : signed'(W'(0)));
       none_d  = 1'b0;
-      one_d   = ssi_i && !biss_c_i && !(bus_i && mo_busy_i != 8'd0);
+      one_d   = ssi_i && !biss_c_i && !(bus && mo_busy_i != 8'd0);
     end else if (run_i) begin
       if (rise_i && rises_q != 2'd2) rises_d = rises_q + 2'd1;
-      need_d = more - (take ? 11'sd1 : 11'sd0);
-      none_d = more[10] || more[9:1] == 9'd0 && (take || !more[0]);
-      one_d  = more[10] || more[9:1] == 9'd0 || (take && more[9:0] == 10'd2);
+      need_d = more - (take ? signed'(W'(1)) : signed'(W'(0)));
+      none_d = more[W-1] || more[W-2:1] == '0 && (take || !more[0]);
+      one_d  = more[W-1] || more[W-2:1] == '0 || (take && more[W-2:0] == (W-1)'(2));
     end
   end
 
@@ -100,8 +112,9 @@ module biss_edge_count (
   assign none_left_o = none_q && !len_valid_q;
   assign one_left_o  = one_q && !len_valid_q;
 
-  `ENC_ASSERT(NeedInRange_A, clk_i, rst_ni, need_q >= -11'sd1 && need_q <= 11'sd920)
-  `ENC_ASSERT(NoneLeft_A, clk_i, rst_ni, none_q == (need_q <= 11'sd0))
-  `ENC_ASSERT(OneLeft_A, clk_i, rst_ni, one_q == (need_q <= 11'sd1))
+  `ENC_ASSERT(NeedInRange_A, clk_i, rst_ni,
+              32'(need_q) >= -1 && 32'(need_q) <= signed'(MOST))
+  `ENC_ASSERT(NoneLeft_A, clk_i, rst_ni, none_q == (32'(need_q) <= 0))
+  `ENC_ASSERT(OneLeft_A, clk_i, rst_ni, one_q == (32'(need_q) <= 1))
 
 endmodule

@@ -3,9 +3,10 @@
 //
 // Frame on one line, BiSS C, BiSS B or SSI: follows the slaves from the request to their timeout.
 //
-// Clock domain: core. start_i with use_i begins a frame when the time base restarts: MA is high for
-// half a period, then it falls. After the last needed rising edge MA takes the inverted CDM and
-// keeps it through the slaves' timeout. The number of rising edges of MA is the largest of these:
+// Clock domain: core. go_i.start begins a frame on a line that takes part when the time base
+// restarts: MA is high for half a period, then it falls. After the last needed rising edge MA takes
+// the inverted CDM and keeps it through the slaves' timeout. The number of rising edges of MA is
+// the largest of these:
 //
 // - the edges that the slaves need: BiSS C 5 plus processing clocks, BiSS B 4 plus processing
 //   clocks, SSI 1, each plus all data and CRC bits,
@@ -15,48 +16,44 @@
 // With bus_i actuators are on MO, and more edges would shift their words. So MO_BUSY counts as the
 // number of processing clocks, and MA does not wait for the start bit.
 //
-//   reduced_i     the frame ends after CDS (decision 14)
-//   frame_end_o   the last data bit has been taken; cds_o is valid from the next clock on (0 in
-//                 BiSS B and SSI)
-//   idle_o        the slaves' timeout has ended too
-//   init_i        the line makes the two-pulse initialisation instead of a frame: init_done_o comes
-//                 with the acknowledge, init_fail_o after 255 quarter periods without it
-//   register_i    MA belongs to the BiSS B register access (biss_b_access) until register_end_i,
-//                 which makes frame_end_o
+//   go_i.reduced         the frame ends after CDS (decision 14)
+//   event_o.frame_end    the last data bit has been taken; status_o.cds is valid from the next
+//                        clock on (0 in BiSS B and SSI)
+//   go_i.init            the line makes the two-pulse initialisation instead of a frame:
+//                        event_o.init_done comes with the acknowledge, event_o.init_fail with
+//                        late_i (without it for as long as the line delay can be)
+//   go_i.register_access MA belongs to the BiSS B register access (biss_b_access) until
+//                        register_ma_i.ends, which makes event_o.frame_end
 //
 // Changes of protocol and bus_i count from the next start on. A line that is taken out of use
 // (UNUSED) does not wait for SL in its timeout.
 //
-// Misuse: start_i is ignored while idle_o is low. A slave that never answers keeps the frame
-// running until abort_i (decision 4). After abort_i, and after a reset, MA returns to 1 with the
-// next tick.
+// Parameters: a protocol that is left out acts as UNUSED (decision 44). Such a line must not take
+// part in a frame.
+//
+// Misuse: go_i.start is ignored while status_o.idle is low. A slave that never answers keeps the
+// frame running until go_i.stop (decision 4). After go_i.stop, and after a reset, MA returns to 1
+// with the next tick.
 // Datasheet: pages 12..16, 27, 32, 33, Figures 8..16.
 
 `include "enc_check.svh"
 
-module biss_frame (
+module biss_frame #(
+  parameter bit          BissB    = 1'b1,
+  parameter bit          Ssi      = 1'b1,
+  parameter bit          Mo       = 1'b1,  // the line may have actuators: bus_i
+  parameter int unsigned Slaves   = 8,     // most words of a frame
+  parameter int unsigned DataBits = 64     // the longest word
+) (
   input  logic       clk_i,
   input  logic       rst_ni,
   input  logic       por_ni,       // power-on reset of MA
   // control
-  input  logic [1:0] protocol_i,   // biss_pkg::protocol_e
-  input  logic       bus_i,
-  input  logic [7:0] mo_busy_i,
-  input  logic       start_i,
-  input  logic       use_i,
-  input  logic       init_i,
-  input  logic       cdm0_i,       // CDM to send if CDS of this frame is 0
-  input  logic       cdm1_i,       // CDM to send if CDS of this frame is 1
-  input  logic       reduced_i,
-  input  logic       hold_cdm_i,
-  input  logic       abort_i,
-  // BiSS B register access
-  input  logic       register_i,   // with start_i
-  input  logic       register_ma_i,
-  input  logic       register_end_i,
-  // MA force bits
-  input  logic       force_i,
-  input  logic       force_level_i,
+  input  biss_pkg::line_cmd_t    cmd_i,
+  input  biss_pkg::line_go_t     go_i,
+  input  biss_pkg::line_start_t  start_i,
+  input  logic                   bus_i,
+  input  biss_pkg::register_ma_t register_ma_i,
   // time base
   input  logic       tick_i,
   input  logic       half_next_i,
@@ -64,32 +61,26 @@ module biss_frame (
   output logic       armed_a_o,
   output logic       armed_b_o,
   input  logic       ack_i,
-  input  logic [7:0] quarters_i,
+  input  logic       late_i,       // no acknowledge for as long as the sampler counts
   input  logic       sl_i,
   input  logic       bit_valid_i,
   input  logic       bit_i,
   // words
   input  logic       len_valid_i,
   input  logic [6:0] len_i,
-  input  logic       any_word_i,
-  input  logic       last_word_i,
+  input  biss_pkg::offer_t offer_i,
   input  logic       word_done_i,
   output logic       word_load_o,  // the next bit is the first of a word
   output logic       word_bit_o,
   output logic       word_run_o,   // a word is on SL
   // results
+  output logic       ssi_o,        // the frame is SSI
   output logic       biss_c_o,     // protocol of this frame
-  output logic       ssi_o,
   output logic       rise_o,       // a rising MA edge of a frame
   output logic       final_o,      // ... the last one, as far as it is known
   output logic       clocks_o,     // MA is clocking
-  output logic       cds_o,
-  output logic       cdm_o,        // CDM as sent
-  output logic       frame_end_o,
-  output logic       init_done_o,
-  output logic       init_fail_o,
-  output logic       idle_o,
-  output logic       timeout_o,    // waiting for SL = 1
+  output biss_pkg::line_status_t status_o,
+  output biss_pkg::line_event_t  event_o,
   output logic       ma_o
 );
 
@@ -139,21 +130,27 @@ module biss_frame (
   logic               bus_q;
   logic               unused;      // the line is out of use
   logic               sl_high;     // the slaves' timeout has ended, or no longer counts
+  logic               frame_end, init_done, init_fail;
+  state_e             new_state;
+  logic [1:0]         new_cdm;
+  logic               new_reduced, new_init, abort;
 
   enc_sync_bit u_unused (
     .clk_i,
     .rst_ni,
-    .data_i (protocol_i == biss_pkg::UNUSED),
+    .data_i (cmd_i.protocol == biss_pkg::UNUSED ||
+             (!BissB && cmd_i.protocol == biss_pkg::BISS_B) ||
+             (!Ssi && cmd_i.protocol == biss_pkg::SSI)),
     .data_o (unused)
   );
 
   assign rests       = state_q == IDLE || state_q == TIMEOUT || state_q == RELEASE;
-  assign protocol    = rests ? protocol_i : protocol_q;
-  assign bus         = rests ? bus_i : bus_q;
-  assign biss_c      = protocol == biss_pkg::BISS_C;
-  assign ssi         = protocol == biss_pkg::SSI;
+  assign protocol    = rests ? cmd_i.protocol : protocol_q;
+  assign bus         = Mo && (rests ? bus_i : bus_q);
+  assign biss_c      = BissB ? protocol == biss_pkg::BISS_C : !ssi;
+  assign ssi         = Ssi && protocol == biss_pkg::SSI;
   assign sl_high     = sl_i || unused;
-  assign begin_frame = start_i && use_i && state_q == IDLE;
+  assign begin_frame = go_i.start && start_i.takes_part && state_q == IDLE;
   // If CDM depends on CDS, it is known when CDS has come. Until then MA goes on.
   assign cdm         = cds_q ? cdm_q[1] : cdm_q[0];
   assign cdm_known   = cdm_q[1] == cdm_q[0] || state_q == DATA || state_q == STOP ||
@@ -167,30 +164,30 @@ module biss_frame (
     .por_ni,
     .tick_i,
     .half_next_i,
-    .start_i,
+    .start_i       (go_i.start),
     .begin_i       (begin_frame),
-    .clocked_i     (!register_i),
-    .stop_i        (abort_i && state_q != RELEASE),
+    .clocked_i     (!go_i.register_access),
+    .stop_i        (go_i.stop && state_q != RELEASE),
     .enough_i      (enough),
     .cdm_i         (cdm),
     .high_i        (state_q == RELEASE || (state_q == TIMEOUT && sl_high && !hold_q)),
-    .register_i    (state_q == REGISTER),
-    .register_ma_i,
-    .force_i,
-    .force_level_i,
+    .register_i    (BissB && state_q == REGISTER),
+    .register_ma_i (register_ma_i.level),
+    .force_i       (cmd_i.forced),
+    .force_level_i (cmd_i.force_level),
     .released_o    (released),
     .rise_o        (rise),
     .clocking_o    (ma_clocks),
     .ma_o
   );
 
-  biss_edge_count u_edges (
+  biss_edge_count #(.Slaves(Slaves), .DataBits(DataBits), .Mo(Mo)) u_edges (
     .clk_i,
     .rst_ni,
     .biss_c_i    (biss_c),
     .ssi_i       (ssi),
     .bus_i       (bus),
-    .mo_busy_i,
+    .mo_busy_i   (cmd_i.mo_busy),
     .begin_i     (begin_frame),
     .run_i       (state_q != IDLE),
     .len_valid_i (len_valid_i && !reduced_q),
@@ -202,6 +199,13 @@ module biss_frame (
     .none_left_o (none_left),
     .one_left_o  (one_left)
   );
+
+  // What begins with go_i.start, and what go_i.stop ends. MA may be low in IDLE (HOLDCDM).
+  assign new_state   = BissB && go_i.register_access ? REGISTER : REQUEST;
+  assign new_cdm     = (go_i.init || !(biss_c || ssi)) ? 2'b00 : {start_i.cdm1, start_i.cdm0};
+  assign new_reduced = go_i.reduced && !go_i.init;
+  assign new_init    = go_i.init && !go_i.register_access;
+  assign abort       = go_i.stop && (state_q == IDLE ? !ma_o : state_q != RELEASE);
 
   // What SL brings moves the frame on.
   always_comb begin
@@ -215,20 +219,20 @@ module biss_frame (
     load_d      = 1'b0;
     waited      = 1'b0;
     word_bit_o  = 1'b0;
-    frame_end_o = 1'b0;
-    init_done_o = 1'b0;
-    init_fail_o = 1'b0;
+    frame_end   = 1'b0;
+    init_done   = 1'b0;
+    init_fail   = 1'b0;
 
     unique case (state_q)
       IDLE: begin
         // The line rests; MA is high, or keeps its level with HOLDCDM.
         if (begin_frame) begin
-          state_d   = register_i ? REGISTER : REQUEST;
-          cdm_d     = (init_i || !(biss_c || ssi)) ? 2'b00 : {cdm1_i, cdm0_i};
+          state_d   = new_state;
+          cdm_d     = new_cdm;
           cds_d     = 1'b0;
-          reduced_d = reduced_i && !init_i;
-          hold_d    = hold_cdm_i;
-          init_d    = init_i && !register_i;
+          reduced_d = new_reduced;
+          hold_d    = cmd_i.hold_cdm;
+          init_d    = new_init;
           started_d = ssi;
         end else if (released) begin
           state_d = RELEASE;
@@ -238,9 +242,9 @@ module biss_frame (
         // The slaves acknowledge and process, up to the start bit. With SSI the first word follows
         // at once; with INIT only the acknowledge counts.
         if (init_q) begin
-          init_done_o = ack_i;
-          init_fail_o = !ack_i && (quarters_i == 8'hFF || ssi);
-          if (init_done_o || init_fail_o) state_d = TIMEOUT;
+          init_done = ack_i;
+          init_fail = !ack_i && (late_i || ssi);
+          if (init_done || init_fail) state_d = TIMEOUT;
         end else if (bit_valid_i && biss_c) begin
           waited    = !bit_i;
           started_d = bit_i;
@@ -249,8 +253,8 @@ module biss_frame (
           waited = !ssi && !bit_i;
           if (!waited) begin
             started_d   = 1'b1;
-            load_d      = any_word_i && !reduced_q;
-            frame_end_o = !load_d;
+            load_d      = offer_i.any && !reduced_q;
+            frame_end   = !load_d;
             state_d     = load_d ? DATA : ssi ? TIMEOUT : STOP;
           end
         end
@@ -258,9 +262,9 @@ module biss_frame (
       CDS: begin
         // The bit after the start bit is CDS (BiSS C).
         if (bit_valid_i) begin
-          cds_d       = bit_i;
-          load_d      = any_word_i && !reduced_q;
-          frame_end_o = !load_d;
+          cds_d     = bit_i;
+          load_d    = offer_i.any && !reduced_q;
+          frame_end = !load_d;
           state_d     = load_d ? DATA : STOP;
         end
       end
@@ -268,9 +272,9 @@ module biss_frame (
         // SL brings the words.
         word_bit_o = bit_valid_i;
         if (word_done_i) begin
-          load_d      = !last_word_i;
-          frame_end_o = last_word_i;
-          if (last_word_i) state_d = STOP;
+          load_d    = !offer_i.last;
+          frame_end = offer_i.last;
+          if (offer_i.last) state_d = STOP;
         end
       end
       STOP: begin
@@ -279,8 +283,8 @@ module biss_frame (
       end
       REGISTER: begin
         // The BiSS B register access drives MA.
-        frame_end_o = register_end_i;
-        if (register_end_i) state_d = TIMEOUT;
+        frame_end = register_ma_i.ends;
+        if (register_ma_i.ends) state_d = TIMEOUT;
       end
       TIMEOUT: begin
         // The slaves are in their timeout. It ends with SL = 1.
@@ -293,8 +297,7 @@ module biss_frame (
       default: state_d = RELEASE;
     endcase
 
-    // MA may be low in IDLE, because of HOLDCDM.
-    if (abort_i && (state_q == IDLE ? !ma_o : state_q != RELEASE)) state_d = RELEASE;
+    if (abort) state_d = RELEASE;
   end
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
@@ -325,16 +328,14 @@ module biss_frame (
   end
 
   assign word_load_o = load_q;
-  assign word_run_o  = state_q == DATA && !abort_i;
-  assign biss_c_o    = biss_c;
+  assign word_run_o  = state_q == DATA && !go_i.stop;
   assign ssi_o       = ssi;
   assign rise_o      = rise;
   assign final_o     = rise && (started_q || bus) && one_left && cdm_known;
   assign clocks_o    = ma_clocks;
-  assign cds_o       = cds_q;
-  assign cdm_o       = cdm;
-  assign idle_o      = state_q == IDLE && !released;
-  assign timeout_o   = state_q == TIMEOUT;
+  assign biss_c_o    = biss_c;
+  assign status_o    = {state_q == IDLE && !released, state_q == TIMEOUT, cds_q, cdm, sl_i};
+  assign event_o     = {frame_end, init_done, init_fail};
 
   `ENC_ASSERT_IF(IdleDoesNotClock_A, clk_i, rst_ni, state_q == IDLE, !ma_clocks)
 

@@ -10,7 +10,7 @@
 //   clocking_o  high from begin_i until enough_i was seen at the end of a high level
 //   rise_o      high in the clock of a tick that makes a rising edge in the frame, whatever the
 //               force bits do
-//   force_i     from the first tick behind the next clock on MA has the level force_level_i,
+//   force_i     from the first tick after the next clock on MA has the level force_level_i,
 //               whatever the frame does
 //   released_o  high for one clock: the line must rest until the next tick, because the force has
 //               ended or has made MA fall
@@ -26,7 +26,7 @@ module biss_ma_drive (
   input  logic tick_i,
   input  logic half_next_i,
   input  logic start_i,        // the time base restarts
-  // frame engine
+  // biss_frame
   input  logic begin_i,
   input  logic clocked_i,      // with begin_i: MA clocks (no register access)
   input  logic stop_i,         // MA stops clocking

@@ -2,45 +2,42 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Drives MO of one line: the master acts as one more slave in front of the chain. It acknowledges
-// with the slaves, sends the start bit after busy_i more periods, and then a slot for each word:
+// with the slaves, sends the start bit after MO_BUSY more periods, and then a slot for each word:
 // the word of an actuator (stop bit if configured, data, inverted CRC), or zeros for a sensor.
 //
-// Clock domain: core. In a frame MO changes with the rising MA edges (rise_i), otherwise with
-// enable_i. INIT is a frame that ends before the start bit (line_idle_i, return_i; decision 39).
-// begin_i starts a frame. From then on this module steps the word list: word_i follows next_o by
-// one clock. mem_addr_o is the byte that is needed next; its data follow one clock later.
+// Clock domain: core. In a frame MO changes with the rising MA edges, otherwise with cmd_i.mo_en.
+// INIT is a frame that ends before the start bit (line_idle_i, go_i.mo_return; decision 39).
+// begin_i starts a frame. From then on this module steps the word list: offer_i follows next_o by
+// one clock. read_o is the byte that is needed next; its data follow one clock later.
 //
-// Misuse: a frame may end before the last slot (MO is not connected to the slaves, or busy_i is
-// larger than theirs). Then it ends here too (line_idle_i). BiSS B at f_CLK / 2 with busy_i = 0 has
-// time for six words: with seven or eight the first slot comes before the list is ready, and its
-// contents are undefined.
+// With FreeCrc = 0 a word with another CRC than 0x43 and 16 bits is sent with a wrong one.
+//
+// Misuse: a frame may end before the last slot (MO is not connected to the slaves, or MO_BUSY is
+// larger than theirs). Then it ends here too (line_idle_i). BiSS B at f_CLK / 2 with MO_BUSY = 0
+// has time for six words: with seven or eight the first slot comes before the list is ready, and
+// its contents are undefined.
 // Datasheet: pages 15, 25, 31, Figure 12, Tables 17, 18, 39, 40; protocol of the chain.
 
-module biss_mo_tx (
+module biss_mo_tx #(
+  parameter int unsigned DataBits = 64,   // the longest word
+  parameter bit          FreeCrc  = 1'b1  // any CRC; 0: only 0x43 and 16 bits
+) (
   input  logic       clk_i,
   input  logic       rst_ni,
   // control
-  input  logic       enable_i,      // EN_MO
-  input  logic       low_i,         // MO is 0: BiSS B register access
+  input  biss_pkg::line_cmd_t cmd_i,
+  input  biss_pkg::line_go_t  go_i,
   input  logic       begin_i,       // a BiSS frame or INIT begins
   input  logic       biss_c_i,
-  input  logic       reduced_i,
-  input  logic [7:0] busy_i,        // MO_BUSY
-  input  logic       rise_i,
-  input  logic       final_i,       // ... the last one of the frame
+  input  logic       rise_i,        // a rising MA edge of the frame
+  input  logic       final_i,       // ... the last one
   input  logic       clocks_i,      // MA is clocking
   input  logic       line_idle_i,
-  input  logic       return_i,      // BREAK, or INIT: the time for the slaves has ended
   // words
-  input  logic       any_word_i,
-  input  logic       last_word_i,
-  input  logic [2:0] slave_i,
-  input  biss_pkg::word_t word_i,
+  input  biss_pkg::offer_t offer_i,
   output logic       next_o,
-  // data
-  output logic       mem_rd_en_o,
-  output logic [5:0] mem_addr_o,    // slave, byte
-  input  logic [7:0] mem_data_i,
+  output biss_pkg::mo_read_t read_o,
+  input  logic [7:0] data_i,
   output logic       mo_o
 );
 
@@ -53,6 +50,7 @@ module biss_mo_tx (
     STOP
   } state_e;
 
+  biss_pkg::word_t word;
   state_e     state_d;
   state_e     state_q;
   logic       mo_d;
@@ -62,7 +60,7 @@ module biss_mo_tx (
   logic [7:0] busy_d;
   logic [7:0] busy_q;     // processing clocks left
   logic       load_d;
-  logic       load_q;     // a new word: word_i is valid
+  logic       load_q;     // a new word: offer_i is valid
   logic       stop_d;
   logic       stop_q;     // the stop bit comes first
   logic       in_crc_d;
@@ -74,19 +72,25 @@ module biss_mo_tx (
   logic       crc_top;
   logic       shift;
   logic       none;       // no words in this frame
+  logic       ends;       // ... even before its last slot
 
-  assign none     = !any_word_i || reduced_i;
-  assign byte_now = load_q ? word_i.data_last[5:3] : left_q[5:3];
-  assign data_bit = mem_data_i[left_q[2:0]] && word_i.actuator;
+  // Bits of left_q that are in use: 16 CRC bits need four.
+  localparam logic [5:0] LEFT = 6'((32'd1 << (DataBits > 16 ? $clog2(DataBits) : 4)) - 32'd1);
+
+  assign word     = offer_i.word;
+  assign ends     = line_idle_i || go_i.mo_return || go_i.stop;
+  assign none     = !offer_i.any || go_i.reduced;
+  assign byte_now = load_q ? word.data_last[5:3] : left_q[5:3];
+  assign data_bit = data_i[left_q[2:0]] && word.actuator;
   assign shift    = rise_i && state_q == DATA && !stop_q;
 
-  enc_crc u_crc (
+  enc_crc #(.Free(FreeCrc)) u_crc (
     .clk_i,
     .rst_ni,
-    .crc16_i (word_i.crc_last[3]),
-    .poly_i  (word_i.crc_poly),
-    .top_i   (word_i.crc_top),
-    .start_i (word_i.crc_start),
+    .crc16_i (word.crc_last[3]),
+    .poly_i  (word.crc_poly),
+    .top_i   (word.crc_top),
+    .start_i (word.crc_start),
     .load_i  (load_q),
     .shift_i (shift),
     .feed_i  (!in_crc_q),
@@ -106,21 +110,21 @@ module biss_mo_tx (
     next_o   = 1'b0;
 
     if (load_q) begin
-      stop_d   = word_i.stop;
+      stop_d   = word.stop;
       in_crc_d = 1'b0;
-      left_d   = word_i.data_last;
+      left_d   = word.data_last & LEFT;
     end
 
     unique case (state_q)
       IDLE: begin
-        // No frame. MO is enable_i, but 0 in a BiSS B register access.
+        // No frame. MO is EN_MO, but 0 in a BiSS B register access.
         mo_d     = 1'b1;
         second_d = 1'b0;
-        if (begin_i && enable_i) state_d = REQUEST;
+        if (begin_i && cmd_i.mo_en) state_d = REQUEST;
       end
       REQUEST: begin
         // MO is 1 up to the second rising edge; with it MO falls, as the acknowledge of the slaves.
-        busy_d = busy_i;
+        busy_d = cmd_i.mo_busy;
         if (rise_i) begin
           second_d = 1'b1;
           if (second_q) begin
@@ -130,7 +134,7 @@ module biss_mo_tx (
         end
       end
       WAIT: begin
-        // MO is 0 for busy_i periods, then it sends the start bit.
+        // MO is 0 for MO_BUSY periods, then it sends the start bit.
         if (rise_i) begin
           busy_d = busy_q - 8'd1;
           mo_d   = busy_q == 8'd0;
@@ -152,16 +156,16 @@ module biss_mo_tx (
         // MO sends the slots of the words.
         if (rise_i) begin
           stop_d = 1'b0;
-          mo_d   = !stop_q && word_i.actuator && (in_crc_q ? !crc_top : data_bit);
+          mo_d   = !stop_q && word.actuator && (in_crc_q ? !crc_top : data_bit);
           if (!stop_q) begin
-            left_d = left_q - 6'd1;
+            left_d = (left_q - 6'd1) & LEFT;
             if (left_q == 6'd0) begin
               in_crc_d = 1'b1;
-              left_d   = 6'(word_i.crc_last);
-              if (in_crc_q || !word_i.crc_on) begin
+              left_d   = 6'(word.crc_last);
+              if (in_crc_q || !word.crc_on) begin
                 next_o = 1'b1;
-                load_d = !last_word_i;
-                if (last_word_i) state_d = STOP;
+                load_d = !offer_i.last;
+                if (offer_i.last) state_d = STOP;
               end
             end
           end
@@ -176,8 +180,8 @@ module biss_mo_tx (
       default: state_d = IDLE;
     endcase
 
-    if (state_q != IDLE && (line_idle_i || return_i)) state_d = IDLE;
-    if (state_d == IDLE) mo_d = enable_i && !low_i;
+    if (state_q != IDLE && ends) state_d = IDLE;
+    if (state_d == IDLE) mo_d = cmd_i.mo_en && !cmd_i.mo_low;
   end
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
@@ -202,8 +206,7 @@ module biss_mo_tx (
     end
   end
 
-  assign mem_rd_en_o = state_q != IDLE;
-  assign mem_addr_o  = {slave_i, byte_now};
-  assign mo_o        = mo_q;
+  assign read_o = {state_q != IDLE, offer_i.slave, byte_now};
+  assign mo_o   = mo_q;
 
 endmodule

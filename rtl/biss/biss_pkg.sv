@@ -4,8 +4,9 @@
 // What a line of BiSS or SSI is told and what it tells. No register map stands in it, so that any
 // master can use the line.
 //
-// A frame begins on all lines at once, so all lines share one line_go_t. Of all other types each
-// line has its own; a vector of two of them has line 1 in its lower half.
+// A frame begins on all lines at once, so all lines share one line_go_t, register_ma_t and
+// sample_t. Of the other line types each line has its own; a vector of two of them has line 1 in
+// its lower half. access_t, access_byte_t and access_end_t belong to the control communication.
 
 package biss_pkg;
 
@@ -73,11 +74,33 @@ package biss_pkg;
     logic        cdm1;       // CDM to send if CDS of this frame is 1
   } line_start_t;
 
+  // MA in a BiSS B register access. Combinational.
+  typedef struct packed {
+    logic        level;      // from the next tick on
+    logic        ends;       // the access ends
+  } register_ma_t;
+
+  // Sampling points of SL. Registers of the time base.
+  typedef struct packed {
+    logic        a;          // beginning of a half period
+    logic        b;          // middle of it
+    logic        b_neg;      // the middle is at a falling clock edge
+  } sample_t;
+
+  // MO reads a byte of an actuator. Registers of the line.
+  typedef struct packed {
+    logic        rd_en;
+    logic [2:0]  slave;
+    logic [2:0]  place;      // of the byte in the word
+  } mo_read_t;
+
   // What the sequence of frames needs to know. Registers of the line.
   typedef struct packed {
+    logic        idle;       // no frame, and the slaves' timeout has ended
     logic        timeout;    // waiting for SL = 1
     logic        cds;        // of the last frame
     logic        cdm;        // as sent
+    logic        sl;         // level at SL, synchronised
   } line_status_t;
 
   // Ends, each high for one clock. Combinational.
@@ -85,23 +108,51 @@ package biss_pkg;
     logic        frame_end;  // the last data bit has been taken
     logic        init_done;  // the slaves have acknowledged INIT
     logic        init_fail;  // they have not
-    logic        word_done;  // last bit of a sensor's word
   } line_event_t;
+
+  // Words of sensors. Combinational.
+  typedef struct packed {
+    logic [2:0]  slave;      // data channel of the byte and of the word
+    logic        wr_en;      // a byte has been received
+    logic [2:0]  wr_byte;    // its place in the word
+    logic [7:0]  wr_data;
+    logic        first;      // first bit of a word
+    logic        open;       // bits of a word have come, more follow
+    logic        done;       // last bit of a word
+    logic        ok;         // with done: the CRC fits
+  } rx_t;
 
   // What the data memories need. Combinational.
   typedef struct packed {
-    logic        wr_en;      // a byte has been received
-    logic [2:0]  slave;      // data channel of the byte and of the word
-    logic [2:0]  wr_byte;    // its place in the word
-    logic [7:0]  wr_data;
-    logic        word_begin; // first bit of a sensor's word
-    logic        word_open;  // bits of a sensor's word have come, more follow
-    logic        word_done;  // last bit of a sensor's word
-    logic        word_ok;    // with word_done: the CRC fits
+    rx_t         rx;
     logic        cds;        // of the last frame
     logic        delay_en;   // INIT has measured the line delay
     logic [7:0]  delay;      // in quarters of an MA period
   } line_data_t;
+
+  // A register access or a command.
+  typedef struct packed {
+    logic        cts;        // 0: command
+    logic        wnr;        // write
+    logic [6:0]  regadr;
+    logic [5:0]  regnum;     // bytes minus 1
+    logic [2:0]  slaveid;    // or CMD(1:0), IDA_TEST
+  } access_t;
+
+  // The byte of an access: its place, and its value if the slave has sent it.
+  typedef struct packed {
+    logic        wr_en;
+    logic [5:0]  addr;
+    logic [7:0]  wr_data;
+  } access_byte_t;
+
+  // How an access ends.
+  typedef struct packed {
+    logic        ends;
+    logic        reg_error;   // with ends: wrong echo, wrong CRC
+    logic        delay_error; // with ends: no start bit
+    logic [5:0]  good_bytes;
+  } access_end_t;
 
   // Slots of a BiSS C control frame: the number of frames since the start bit S (slot 0). A name
   // stands for the CDM of its slot, SLOT_IDA for the CDS. CDS answers CDM one slot later.
@@ -130,8 +181,9 @@ package biss_pkg;
   localparam int unsigned OFFER_W       = 52;
   localparam int unsigned LINE_CMD_W    = 15;
   localparam int unsigned LINE_START_W  = 3;
-  localparam int unsigned LINE_STATUS_W = 3;
-  localparam int unsigned LINE_EVENT_W  = 4;
+  localparam int unsigned LINE_STATUS_W = 5;
+  localparam int unsigned LINE_EVENT_W  = 3;
   localparam int unsigned LINE_DATA_W   = 29;
+  localparam int unsigned MO_READ_W     = 7;
 
 endpackage

@@ -4,37 +4,41 @@
 // Assembles one data word from received bits, most significant bit first, into bytes, and checks
 // its CRC.
 //
-// Clock domain: core. load_i prepares for the word that word_i describes; word_i must stay until
-// done_o. Each bit_valid_i takes one bit.
+// Clock domain: core. load_i prepares for the word that offer_i describes; offer_i must stay until
+// next_o. Each bit_valid_i takes one bit.
 //
 // - Bytes: a byte is offered for one clock when its lowest bit has come. Data go from the highest
 //   used byte down to byte 0; unused bits of a written byte are 0. Then the received CRC,
 //   re-inverted and right aligned, goes to byte 7 (a 16-bit CRC to bytes 7 and 6).
 // - Gray coded data are decoded. The CRC covers them as they are sent.
-// - begin_o comes with the first bit. open_o is high when bits of the word have come and more
-//   follow. done_o comes with the last bit, and ok_o is the result of the CRC then.
-// - The slot of an actuator is only counted: it gives no bytes, and ok_o = 1.
+// - next_o comes with the last bit of every word. rx_o tells only of the words of sensors: the
+//   slot of an actuator is counted, but gives no bytes and no result.
+// - A CRC that FreeCrc = 0 leaves out is taken with its length, and the word is bad.
 //
-// Misuse: bits without a load continue the old word.
-// Datasheet: page 26, Tables 19..22; decisions 11, 28, 29.
+// Misuse: bits without a load continue the old word. A word that is longer than DataBits ends
+// early.
+// Datasheet: page 26, Tables 19..22; decisions 11, 28, 29, 44.
 
-module biss_rx_word (
+module biss_rx_word #(
+  parameter int unsigned DataBits = 64,   // the longest word
+  parameter bit          FreeCrc  = 1'b1  // any CRC; 0: only 0x43 and 16 bits
+) (
   input  logic       clk_i,
   input  logic       rst_ni,
-  input  biss_pkg::word_t word_i,
+  input  biss_pkg::offer_t offer_i,
   input  logic       run_i,        // a word is on SL
   input  logic       load_i,
   input  logic       bit_valid_i,
   input  logic       bit_i,
-  output logic       wr_en_o,
-  output logic [2:0] wr_byte_o,
-  output logic [7:0] wr_data_o,
-  output logic       begin_o,
-  output logic       open_o,
-  output logic       done_o,
-  output logic       ok_o
+  output logic       next_o,
+  output biss_pkg::rx_t rx_o
 );
 
+  biss_pkg::word_t word;
+  logic       sensor;
+  logic       wr_en;
+  logic [2:0] wr_byte;
+  logic       ok;
   logic       in_crc_d;
   logic       in_crc_q;
   logic [5:0] left_d;
@@ -50,14 +54,24 @@ module biss_rx_word (
   logic       crc_top;
   logic       value;
   logic       crc_fits;
+  logic       known;     // the CRC is one that the module has
 
-  enc_crc u_crc (
+  // Bits of left_q that are in use: 16 CRC bits need four.
+  localparam logic [5:0] LEFT = 6'((32'd1 << (DataBits > 16 ? $clog2(DataBits) : 4)) - 32'd1);
+
+`ifndef __ICARUS__  // Icarus 11 knows no $error here
+  if (DataBits < 1 || DataBits > 64) begin : gen_data_bits
+    $error("DataBits is 1 to 64");
+  end
+`endif
+
+  enc_crc #(.Free(FreeCrc)) u_crc (
     .clk_i,
     .rst_ni,
-    .crc16_i (word_i.crc_last[3]),
-    .poly_i  (word_i.crc_poly),
-    .top_i   (word_i.crc_top),
-    .start_i (word_i.crc_start),
+    .crc16_i (word.crc_last[3]),
+    .poly_i  (word.crc_poly),
+    .top_i   (word.crc_top),
+    .start_i (word.crc_start),
     .load_i,
     .shift_i (bit_valid_i && !skip_q),
     .feed_i  (!in_crc_q),
@@ -65,9 +79,14 @@ module biss_rx_word (
     .top_o   (crc_top)
   );
 
+  assign word   = offer_i.word;
+  assign sensor = !word.actuator;
+
   // CRC bits are sent inverted.
-  assign value    = bit_i ^ (in_crc_q || (word_i.gray && bin_q));
-  assign crc_fits = (good_q && value == crc_top) || word_i.actuator;
+  assign value    = bit_i ^ (in_crc_q || (word.gray && bin_q));
+  assign crc_fits = good_q && value == crc_top && known;
+  assign known    = FreeCrc || word.crc_last[3] ||
+                    (word.crc_top == 8'h20 && word.crc_poly[5:0] == 6'h03);
 
   always_comb begin
     skip_d    = skip_q;
@@ -75,36 +94,35 @@ module biss_rx_word (
     left_d    = left_q;
     part_d    = part_q;
     good_d    = good_q;
-    wr_en_o   = 1'b0;
-    wr_byte_o = left_q[5:3];
-    wr_data_o = {part_q, value};
-    done_o    = 1'b0;
-    ok_o      = 1'b1;
+    wr_en   = 1'b0;
+    wr_byte = left_q[5:3];
+    next_o    = 1'b0;
+    ok      = 1'b1;
 
     if (load_i) begin
-      skip_d   = word_i.stop;
+      skip_d   = word.stop;
       in_crc_d = 1'b0;
-      left_d   = word_i.data_last;
+      left_d   = word.data_last & LEFT;
       part_d   = '0;
       good_d   = 1'b1;
     end else if (bit_valid_i && skip_q) begin
       skip_d = 1'b0;
     end else if (bit_valid_i) begin
-      left_d = left_q - 6'd1;
+      left_d = (left_q - 6'd1) & LEFT;
       part_d = (left_q[2:0] == 3'd0) ? 7'h00 : {part_q[5:0], value};
       if (!in_crc_q) begin
-        wr_en_o = left_q[2:0] == 3'd0 && !word_i.actuator;
+        wr_en = left_q[2:0] == 3'd0;
         if (left_q == 6'd0) begin
           in_crc_d = 1'b1;
-          left_d   = 6'(word_i.crc_last);
-          done_o   = !word_i.crc_on;
+          left_d   = 6'(word.crc_last);
+          next_o   = !word.crc_on;
         end
       end else begin
         good_d    = crc_fits;
-        ok_o      = crc_fits;
-        done_o    = left_q == 6'd0;
-        wr_en_o   = word_i.crc_store && !word_i.actuator && left_q[2:0] == 3'd0;
-        wr_byte_o = (word_i.crc_last[3] && left_q == 6'd0) ? 3'd6 : 3'd7;
+        ok      = crc_fits;
+        next_o    = left_q == 6'd0;
+        wr_en   = word.crc_store && left_q[2:0] == 3'd0;
+        wr_byte = (word.crc_last[3] && left_q == 6'd0) ? 3'd6 : 3'd7;
       end
     end
   end
@@ -130,7 +148,9 @@ module biss_rx_word (
     end
   end
 
-  assign begin_o = bit_valid_i && fresh_q;
-  assign open_o  = run_i && !load_i && (bit_valid_i || !fresh_q) && !done_o;
+  assign rx_o = {offer_i.slave, wr_en && sensor, wr_byte, part_q, value,
+                 bit_valid_i && fresh_q && sensor,
+                 run_i && !load_i && (bit_valid_i || !fresh_q) && !next_o && sensor,
+                 next_o && sensor, ok};
 
 endmodule

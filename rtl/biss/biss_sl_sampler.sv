@@ -15,23 +15,23 @@
 // - SSI has no acknowledge: bits are taken at the rising MA edges, the first bit at the second
 //   edge.
 //
-// Misuse: if SL is already low at the first point, quarters_o is 1. quarters_o stops at 255.
+// Misuse: if SL is already low at the first point, quarters_o is 1. quarters_o stops at
+// 2^DelayW - 1 (255).
 // Datasheet: page 12 (I304, I305, four sampling points), page 14 (I504, I505); decisions 2, 17.
 
 `include "enc_check.svh"
 
 module biss_sl_sampler #(
-  parameter logic [1:0] SlCells = biss_pkg::SL_FLOPS
+  parameter logic [1:0]  SlCells = biss_pkg::SL_FLOPS,
+  parameter int unsigned DelayW  = 8    // bits of the line delay, 1 to 8
 ) (
   input  logic       clk_i,
   input  logic       rst_ni,
   input  logic       sl_i,         // pin
   // time base
-  input  logic       smp_a_i,
-  input  logic       smp_b_i,
-  input  logic       smp_half_i,
-  input  logic       smp_b_neg_i,
-  // frame engine: the second rising MA edge has come, for points a and b; not delayed yet
+  input  biss_pkg::sample_t sample_i,
+  input  logic       sample_half_i, // MA level of the half period of the points
+  // biss_frame: the second rising MA edge has come, for points a and b; not delayed yet
   input  logic       clear_i,
   input  logic       ssi_i,
   input  logic       armed_a_i,
@@ -40,9 +40,18 @@ module biss_sl_sampler #(
   output logic       sl_o,         // synchronised level
   output logic       ack_o,        // the line delay is known
   output logic [7:0] quarters_o,
+  output logic       late_o,       // quarters_o has reached its end
   output logic       bit_valid_o,
   output logic       bit_o
 );
+
+  localparam logic [DelayW-1:0] LONGEST = {DelayW{1'b1}};
+
+`ifndef __ICARUS__  // Icarus 11 knows no $error here
+  if (DelayW < 1 || DelayW > 8) begin : gen_delay
+    $error("DelayW is 1 to 8");
+  end
+`endif
 
   logic       pos;
   logic       neg;
@@ -59,8 +68,8 @@ module biss_sl_sampler #(
   logic [1:0] phase_d;
   logic       skip_q;
   logic       skip_d;
-  logic [7:0] quarters_q;
-  logic [7:0] quarters_d;
+  logic [DelayW-1:0] quarters_q;
+  logic [DelayW-1:0] quarters_d;
   logic       phase_known;
   logic       at_phase;
 
@@ -82,16 +91,17 @@ module biss_sl_sampler #(
     end
   end
 
-  assign value_b = smp_b_neg_i ? neg : pos;
-  assign look_a  = smp_a_i && armed_a_q[1] && !found_q && !ssi_i;
-  assign look_b  = smp_b_i && armed_b_q[1] && !found_q && !ssi_i;
+  assign value_b = sample_i.b_neg ? neg : pos;
+  assign look_a  = sample_i.a && armed_a_q[1] && !found_q && !ssi_i;
+  assign look_b  = sample_i.b && armed_b_q[1] && !found_q && !ssi_i;
   assign hit_a   = look_a && !pos;
   assign hit_b   = look_b && !value_b && !hit_a;
 
   assign phase_known = ssi_i ? armed_b_q[1] : found_q;
 
   always_comb begin
-    at_phase   = phase_known && smp_half_i != phase_q[1] && (phase_q[0] ? smp_b_i : smp_a_i);
+    at_phase   = phase_known && sample_half_i != phase_q[1] &&
+                 (phase_q[0] ? sample_i.b : sample_i.a);
     found_d    = found_q;
     phase_d    = phase_q;
     skip_d     = skip_q && !at_phase;
@@ -100,19 +110,19 @@ module biss_sl_sampler #(
       found_d    = 1'b0;
       phase_d    = 2'b00;
       skip_d     = 1'b0;
-      quarters_d = 8'd0;
+      quarters_d = '0;
     end else if (!found_q && !ssi_i) begin
       // Point a comes before point b. At the highest MA frequency both come in one clock.
-      if (look_a && quarters_d != 8'hFF)           quarters_d = quarters_d + 8'd1;
-      if (look_b && !hit_a && quarters_d != 8'hFF) quarters_d = quarters_d + 8'd1;
+      if (look_a && quarters_d != LONGEST)           quarters_d = quarters_d + DelayW'(1);
+      if (look_b && !hit_a && quarters_d != LONGEST) quarters_d = quarters_d + DelayW'(1);
       found_d = hit_a || hit_b;
       // The phase of the bits is the point after the one that read 0. This point still lies in the
       // acknowledge, so it is skipped, unless it comes in this same clock.
       if (hit_a) begin
-        phase_d = {!smp_half_i, 1'b1};
-        skip_d  = !smp_b_i;
+        phase_d = {!sample_half_i, 1'b1};
+        skip_d  = !sample_i.b;
       end else if (hit_b) begin
-        phase_d = {smp_half_i, 1'b0};
+        phase_d = {sample_half_i, 1'b0};
         skip_d  = 1'b1;
       end
     end
@@ -134,7 +144,8 @@ module biss_sl_sampler #(
 
   assign sl_o        = pos;
   assign ack_o       = found_q;
-  assign quarters_o  = quarters_q;
+  assign quarters_o  = 8'(quarters_q);
+  assign late_o      = quarters_q == LONGEST;
   assign bit_valid_o = at_phase && !skip_q;
   assign bit_o       = phase_q[0] ? value_b : pos;
 

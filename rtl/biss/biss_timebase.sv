@@ -7,9 +7,9 @@
 // begins a half period in which MA is high. tick_o is high in the last clock of each half period;
 // half_next_o is the level of MA in the next half period.
 //
-// The sampling points are smp_a_o (beginning of a half period) and smp_b_o (middle of it). Both
+// The sampling points in sample_o are a (beginning of a half period) and b (middle of it). Both
 // come two clocks late, to match SL after its synchroniser. If the half period is one clock, both
-// come in the same clock. In an odd half period the middle is at a falling clock edge: smp_b_neg_o.
+// come in the same clock. In an odd half period the middle is at a falling clock edge: b_neg.
 //
 // Misuse: half_len_i must not be 0. It comes from the host domain and is read only with restart_i,
 // so the host may change it while slaves are still in their timeout.
@@ -25,10 +25,8 @@ module biss_timebase (
   input  logic       restart_i,
   output logic       tick_o,
   output logic       half_next_o,
-  output logic       smp_a_o,
-  output logic       smp_b_o,
-  output logic       smp_half_o,   // MA level of the half period of the points
-  output logic       smp_b_neg_o
+  output biss_pkg::sample_t sample_o,
+  output logic       sample_half_o  // MA level of the half period of the points
 );
 
   logic [7:0] len_q;
@@ -87,12 +85,10 @@ module biss_timebase (
     end
   end
 
-  assign tick_o      = tick;
-  assign half_next_o = !half_q;
-  assign smp_a_o     = a_q[1];
-  assign smp_b_o     = b_q[1];
-  assign smp_half_o  = h_q[1];
-  assign smp_b_neg_o = len_q[0];
+  assign tick_o        = tick;
+  assign half_next_o   = !half_q;
+  assign sample_o      = {a_q[1], b_q[1], len_q[0]};
+  assign sample_half_o = h_q[1];
 
   `ENC_ASSERT(HalfLength_A, clk_i, rst_ni, len_q != 8'd0)
   `ENC_ASSERT_IF(CountInRange_A, clk_i, rst_ni, run_i, cnt_q < len_q)

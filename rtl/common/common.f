@@ -11,3 +11,5 @@ enc_ram_row.sv
 enc_posted.sv
 enc_clk_mux.sv
 enc_crc.sv
+enc_axil.sv
+enc_wb.sv

@@ -8,10 +8,14 @@
 // goes into the division, without feed_i the remainder is shifted out. top_o is the highest bit of
 // the remainder. The bits above the degree of the polynomial have no meaning, and nothing looks at
 // them. So the upper half of the division can always use the polynomial of degree 16.
+// With Free = 0 the module knows two polynomials, x^6 + x + 1 (0x43) and the one of degree 16
+// (0x190D9), and does not look at poly_i and top_i.
 // Misuse: with shift_i and no load_i before it the division continues the word before.
 // Datasheet: pages 24, 25; algorithm and vectors: docs/theory.md.
 
-module enc_crc (
+module enc_crc #(
+  parameter bit Free = 1'b1      // any polynomial up to degree 8; 0: only 0x43
+) (
   input  logic        clk_i,
   input  logic        rst_ni,
   input  logic        crc16_i,
@@ -26,17 +30,22 @@ module enc_crc (
 );
 
   localparam logic [7:0] POLY16_UPPER = 8'h90;
+  localparam logic [7:0] POLY16_LOWER = 8'hD9;
+  localparam logic [7:0] POLY6        = 8'h43;
 
+  logic [7:0]  poly;
   logic [15:0] rem_d;
   logic [15:0] rem_q;
   logic        top;
   logic        divide;
 
-  assign top    = (rem_q[7:0] & top_i) != 8'h00 || (crc16_i && rem_q[15]);
+  assign poly   = Free ? poly_i : crc16_i ? POLY16_LOWER : POLY6;
+  assign top    = Free ? (rem_q[7:0] & top_i) != 8'h00 || (crc16_i && rem_q[15])
+                       : crc16_i ? rem_q[15] : rem_q[5];
   assign divide = feed_i & (bit_i ^ top);
 
   always_comb begin
-    rem_d = {rem_q[14:0], 1'b0} ^ ({POLY16_UPPER, poly_i} & {16{divide}});
+    rem_d = {rem_q[14:0], 1'b0} ^ ({POLY16_UPPER, poly} & {16{divide}});
     if (load_i) rem_d = start_i;
   end
 

@@ -19,15 +19,11 @@ regs/mb4_recent.sv
 regs/mb4_host_read.sv
 regs/mb4_read_port2.sv
 regs/mb4_ram_clear.sv
-regs/mb4_write_port.sv
-regs/mb4_scd_bank.sv
+regs/mb4_memory.sv
 regs/mb4_svalid.sv
 regs/mb4_bank_ctrl.sv
-regs/mb4_word_split.sv
 regs/mb4_cds_bank.sv
-regs/mb4_rx_router.sv
 regs/mb4_scd_store.sv
-regs/mb4_rdata_buf.sv
 regs/mb4_reg_file.sv
 ctrl/mb4_freqs_dec.sv
 ctrl/mb4_crc_decode.sv

@@ -56,9 +56,10 @@ module mb4_chip (
   logic paired;
   logic ma2, mo2;
 
-  logic       wr_clk, wr_en, rd_clk, rd_en, rd2_clk, rd2_en;
-  logic [7:0] wr_addr, wr_data, rd_addr, rd_data, rd2_data;
-  logic [4:0] rd2_addr;
+  mb4_pkg::host_t   host;
+  mb4_pkg::mem_rd_t read2;
+  logic       wr_clk, rd_clk, rd2_clk;
+  logic [7:0] rd_data, rd2_data;
 
   enc_clk_mux u_clk_mux (
     .clk0_i (clk_i),
@@ -80,16 +81,11 @@ module mb4_chip (
     .db_o,
     .db_oe_o,
     .wr_clk_o   (wr_clk),
-    .wr_en_o    (wr_en),
-    .wr_addr_o  (wr_addr),
-    .wr_data_o  (wr_data),
     .rd_clk_o   (rd_clk),
-    .rd_en_o    (rd_en),
-    .rd_addr_o  (rd_addr),
+    .host_o     (host),
     .rd_data_i  (rd_data),
     .rd2_clk_o  (rd2_clk),
-    .rd2_en_o   (rd2_en),
-    .rd2_addr_o (rd2_addr),
+    .read2_o    (read2),
     .rd2_data_i (rd2_data)
   );
 
@@ -98,16 +94,16 @@ module mb4_chip (
     .rst_ni     (nres_i),
     .por_ni     (npor_i),
     .wr_clk_i   (wr_clk),
-    .wr_en_i    (wr_en),
-    .wr_addr_i  (wr_addr),
-    .wr_data_i  (wr_data),
+    .wr_en_i    (host.wr_en),
+    .wr_addr_i  (host.wr_addr),
+    .wr_data_i  (host.wr_data),
     .rd_clk_i   (rd_clk),
-    .rd_en_i    (rd_en),
-    .rd_addr_i  (rd_addr),
+    .rd_en_i    (host.rd_en),
+    .rd_addr_i  (host.rd_addr),
     .rd_data_o  (rd_data),
     .rd2_clk_i  (rd2_clk),
-    .rd2_en_i   (rd2_en),
-    .rd2_addr_i (rd2_addr),
+    .rd2_en_i   (read2.en),
+    .rd2_addr_i (read2.addr[4:0]),
     .rd2_data_o (rd2_data),
     .eot_o,
     .ner_low_o,

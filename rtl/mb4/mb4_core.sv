@@ -39,8 +39,8 @@ module mb4_core #(
   input  logic [mb4_pkg::QUIRKS_W-1:0] quirks_i
 );
 
-  logic       wr_en, rd_en;
-  logic [7:0] wr_addr, wr_data, rd_addr, rd_data;
+  mb4_pkg::host_t host;
+  logic [7:0] rd_data;
 
   mb4_spi u_spi (
     .rst_ni,
@@ -49,11 +49,7 @@ module mb4_core #(
     .mosi_i,
     .miso_o,
     .miso_oe_o,
-    .wr_en_o   (wr_en),
-    .wr_addr_o (wr_addr),
-    .wr_data_o (wr_data),
-    .rd_en_o   (rd_en),
-    .rd_addr_o (rd_addr),
+    .host_o    (host),
     .rd_data_i (rd_data)
   );
 
@@ -67,12 +63,12 @@ module mb4_core #(
     .rst_ni,
     .por_ni,
     .wr_clk_i   (sclk_i),
-    .wr_en_i    (wr_en),
-    .wr_addr_i  (wr_addr),
-    .wr_data_i  (wr_data),
+    .wr_en_i    (host.wr_en),
+    .wr_addr_i  (host.wr_addr),
+    .wr_data_i  (host.wr_data),
     .rd_clk_i   (sclk_i),
-    .rd_en_i    (rd_en),
-    .rd_addr_i  (rd_addr),
+    .rd_en_i    (host.rd_en),
+    .rd_addr_i  (host.rd_addr),
     .rd_data_o  (rd_data),
     .rd2_clk_i  (1'b0),
     .rd2_en_i   (1'b0),

@@ -67,30 +67,32 @@ module mb4_engine #(
   logic [11:0]      cfg_slave;
   logic [4*mb4_pkg::SLAVE_CFG_W-1:0] slave_cfg;
   mb4_pkg::cfg_t    cfg;
-  mb4_pkg::instr_t  written;
-  mb4_pkg::instr_t  held;
+  mb4_pkg::instr_host_t instr;
+  mb4_pkg::instr_core_t instr_state;
   mb4_pkg::flags_t  flags;
   mb4_pkg::status_t status;
-  logic [1:0] instr_count, instr_ack;
 
   // memories and banks
-  mb4_pkg::bank_cmd_t  bank;
-  mb4_pkg::rdata_cmd_t rdata_cmd;
-  logic mem_busy, bank_pending, bank_swapped, bank_lost, post_busy, svalid_clear;
+  mb4_pkg::bank_cmd_t   bank;
+  mb4_pkg::bank_event_t bank_event;
+  mb4_pkg::mem_state_t  mem;
+  mb4_pkg::rdata_cmd_t  rdata_cmd;
+  logic       post_busy;
   logic [7:0] rdata;
 
   // lines
   logic [7:0]  enscd;
-  logic [1:0]  idle, sl, sl_pin, word_ok;
-  logic        register_ma, register_end, time_run, time_restart, tick;
-  biss_pkg::line_go_t go;
+  logic [1:0]  sl_pin, word_bad;
+  logic        time_run, time_restart, tick;
+  biss_pkg::line_go_t     go;
+  biss_pkg::register_ma_t register_ma;
+  biss_pkg::line_status_t status1, status2;
   logic [2*biss_pkg::LINE_START_W-1:0]  line_start;
   logic [2*biss_pkg::LINE_CMD_W-1:0]    cmd;
   logic [2*biss_pkg::LINE_STATUS_W-1:0] line_status;
   logic [2*biss_pkg::LINE_EVENT_W-1:0]  line_event;
   logic [2*biss_pkg::LINE_DATA_W-1:0]   line_data;
-  logic        mo_rd_en;
-  logic [11:0] mo_addr;
+  logic [2*biss_pkg::MO_READ_W-1:0]     mo_read;
   logic [15:0] mo_data;
 
   // quirks_i is static. The flops keep it out of the combinational logic behind the pins. This
@@ -116,42 +118,30 @@ module mb4_engine #(
     .rst_ni         (rst_core_n),
     .hrst_ni        (rst_ni),
     .hclk_i         (wr_clk_i),
-    .wr_en_i,
-    .wr_addr_i,
-    .wr_data_i,
     .rclk_i         (rd_clk_i),
-    .rd_en_i,
-    .rd_addr_i,
+    .host_i         ({wr_en_i, wr_addr_i, wr_data_i, rd_en_i, rd_addr_i}),
     .rd_data_o,
     .rd2_clk_i,
-    .rd2_en_i,
-    .rd2_addr_i,
+    .rd2_i          ({rd2_en_i, 1'b1, rd2_addr_i}),
     .rd2_data_o,
     .enscd_o        (enscd),
     .cfg_en_i       (cfg_en),
     .cfg_slave_i    (cfg_slave),
     .slave_cfg_o    (slave_cfg),
     .cfg_o          (cfg),
-    .written_o      (written),
-    .count_o        (instr_count),
-    .ack_i          (instr_ack),
-    .held_i         (held),
+    .instr_o        (instr),
+    .instr_i        (instr_state),
     .status_i       (status),
     .revision_sel_i (quirks_i[mb4_pkg::QUIRK_REVISION_LSB +: 2]),
-    .mem_busy_o     (mem_busy),
-    .holdbank_i     (held.holdbank),
     .bank_i         (bank),
-    .bank_pending_o (bank_pending),
-    .bank_swapped_o (bank_swapped),
-    .bank_lost_o    (bank_lost),
+    .mem_o          (mem),
+    .bank_event_o   (bank_event),
     .rdata_i        (rdata_cmd),
     .rdata_o        (rdata),
     .post_busy_o    (post_busy),
     .data_i         (line_data),
-    .word_ok_o      (word_ok),
-    .svalid_clear_i (svalid_clear),
-    .mo_rd_en_i     (mo_rd_en),
-    .mo_addr_i      (mo_addr),
+    .word_bad_o     (word_bad),
+    .mo_read_i      (mo_read),
     .mo_data_o      (mo_data)
   );
 
@@ -160,35 +150,27 @@ module mb4_engine #(
   mb4_control u_control (
     .clk_i,
     .rst_ni         (rst_core_n),
-    .written_i      (written),
-    .count_i        (instr_count),
-    .ack_o          (instr_ack),
-    .held_o         (held),
+    .instr_i        (instr),
+    .instr_o        (instr_state),
     .cfg_i          (cfg),
     .quirks_i       (quirks_q),
     .getsens_i,
-    .mem_busy_i     (mem_busy),
-    .bank_pending_i (bank_pending),
-    .bank_swapped_i (bank_swapped),
-    .bank_lost_i    (bank_lost),
+    .mem_i          (mem),
+    .bank_event_i   (bank_event),
     .bank_o         (bank),
-    .svalid_clear_o (svalid_clear),
     .rdata_o        (rdata_cmd),
     .rdata_i        (rdata),
     .post_busy_i    (post_busy),
     .cmd_o          (cmd),
     .go_o           (go),
     .register_ma_o  (register_ma),
-    .register_end_o (register_end),
     .start_o        (line_start),
     .time_run_o     (time_run),
     .time_restart_o (time_restart),
     .tick_i         (tick),
-    .idle_i         (idle),
     .status_i       (line_status),
     .event_i        (line_event),
-    .sl_i           (sl),
-    .word_ok_i      (word_ok),
+    .word_bad_i     (word_bad),
     .flags_o        (flags),
     .ner_low_o
   );
@@ -207,29 +189,26 @@ module mb4_engine #(
     .cmd_i          (cmd),
     .go_i           (go),
     .register_ma_i  (register_ma),
-    .register_end_i (register_end),
     .start_i        (line_start),
     .time_run_i     (time_run),
     .time_restart_i (time_restart),
     .tick_o         (tick),
-    .idle_o         (idle),
     .status_o       (line_status),
     .event_o        (line_event),
     .data_o         (line_data),
-    .mo_rd_en_o     (mo_rd_en),
-    .mo_addr_o      (mo_addr),
+    .mo_read_o      (mo_read),
     .mo_data_i      (mo_data),
     .ma_o           ({ma2_o, ma1_o}),
     .mo_o           ({mo2_o, mo1_o}),
-    .sl_i           ({sl2_i, sl1_i}),
-    .sl_o           (sl)
+    .sl_i           ({sl2_i, sl1_i})
   );
 
   // ---- status -------------------------------------------------------------------------------
 
   assign eot_o  = flags.eot;
   // With the DDR cell of an iCE40 no other logic can read the pin.
-  assign sl_pin = SlCells == biss_pkg::SL_ICE40 ? sl : {sl2_i, sl1_i};
+  assign {status2, status1} = line_status;
+  assign sl_pin = SlCells == biss_pkg::SL_ICE40 ? {status2.sl, status1.sl} : {sl2_i, sl1_i};
   assign status = {flags, ner_i && !ner_low_o, sl_pin};
   assign clkeni_o = cfg.clkeni;
   assign paired_o = cfg.cfgif[1];

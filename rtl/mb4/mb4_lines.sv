@@ -28,24 +28,20 @@ module mb4_lines #(
   input  logic [2*biss_pkg::LINE_CMD_W-1:0] cmd_i,
   input  biss_pkg::line_go_t go_i,
   input  logic [2*biss_pkg::LINE_START_W-1:0] start_i,
-  input  logic        register_ma_i,  // BiSS B register access: next level of MA
-  input  logic        register_end_i, // ... it ends
+  input  biss_pkg::register_ma_t register_ma_i,
   input  logic        time_run_i,     // the time base runs between frames too
   input  logic        time_restart_i, // ... and begins a half period, if no frame runs
   output logic        tick_o,
-  output logic [1:0]  idle_o,         // no frame, and the slaves' timeout has ended
   output logic [2*biss_pkg::LINE_STATUS_W-1:0] status_o,
   output logic [2*biss_pkg::LINE_EVENT_W-1:0]  event_o,
   output logic [2*biss_pkg::LINE_DATA_W-1:0]   data_o,
   // data for MO
-  output logic        mo_rd_en_o,
-  output logic [11:0] mo_addr_o,
+  output logic [2*biss_pkg::MO_READ_W-1:0] mo_read_o,
   input  logic [15:0] mo_data_i,
   // pins
   output logic [1:0]  ma_o,
   output logic [1:0]  mo_o,
-  input  logic [1:0]  sl_i,
-  output logic [1:0]  sl_o         // synchronised
+  input  logic [1:0]  sl_i
 );
 
   localparam int unsigned CFG_W    = mb4_pkg::SLAVE_CFG_W;
@@ -55,20 +51,21 @@ module mb4_lines #(
   localparam int unsigned STATUS_W = biss_pkg::LINE_STATUS_W;
   localparam int unsigned EVENT_W  = biss_pkg::LINE_EVENT_W;
   localparam int unsigned DATA_W   = biss_pkg::LINE_DATA_W;
+  localparam int unsigned READ_W   = biss_pkg::MO_READ_W;
 
+  biss_pkg::line_status_t status1, status2;
+  biss_pkg::sample_t sample;
   logic [7:0]  half_len;
-  logic        half_next, smp_a, smp_b, smp_half, smp_b_neg, idle;
-  logic [15:0] own;             // data channels of the lines
-  logic [1:0]  ssi, mo_rd_en, rx_next, mo_next, len_valid, actuator;
-  logic [13:0] len;
-  logic [2*OFFER_W-1:0] rx_offer, mo_offer;
-  logic [1:0]  rx_actuator, rx_len_valid;
-  logic [13:0] rx_len;
+  logic        half_next, sample_half, idle;
+  logic [1:0]  ssi;
+  // word lists {MO 2, MO 1, SL 2, SL 1}
+  logic [3:0]  next, actuator, len_valid;
+  logic [27:0] len;
+  logic [4*OFFER_W-1:0] offer;
   logic        unused;
 
-  assign idle = idle_o == 2'b11;
-  assign mo_rd_en_o = mo_rd_en != 2'b00;
-  assign own  = cfg_i.slaveloc5 ? 16'hF00F : 16'h00FF;
+  assign {status2, status1} = status_o;
+  assign idle = status1.idle && status2.idle;
 
   mb4_freqs_dec u_freqs (
     .freqs_i    (cfg_i.freqs),
@@ -86,89 +83,67 @@ module mb4_lines #(
     .restart_i   (go_i.start || (idle && time_restart_i)),
     .tick_o,
     .half_next_o (half_next),
-    .smp_a_o     (smp_a),
-    .smp_b_o     (smp_b),
-    .smp_half_o  (smp_half),
-    .smp_b_neg_o (smp_b_neg)
+    .sample_o    (sample),
+    .sample_half_o (sample_half)
   );
 
+  for (genvar k = 0; k < 4; k++) begin : gen_list
+    localparam int unsigned LINE  = k % 2;
+    localparam logic [7:0]  UPPER = 8'hF0;   // data channels of line 2 with SLAVELOC5 = 1
+
+    mb4_word_list #(.Sum(k >= 2)) u_list (
+      .clk_i,
+      .rst_ni,
+      .enscd_i     (enscd_i & (LINE == 0 ? ~(UPPER & {8{cfg_i.slaveloc5}})
+                                          : UPPER & {8{cfg_i.slaveloc5}})),
+      .actnsens_i  (cfg_i.actnsens),
+      .ssi_i       (ssi[LINE]),
+      .nocrc_i     (cfg_i.nocrc),
+      .start_i     (go_i.start),
+      .next_i      (next[k]),
+      .cfg_en_o    (cfg_en_o[k]),
+      .cfg_slave_o (cfg_slave_o[k*3 +: 3]),
+      .cfg_i       (slave_cfg_i[k*CFG_W +: CFG_W]),
+      .actuator_o  (actuator[k]),
+      .len_valid_o (len_valid[k]),
+      .len_o       (len[k*7 +: 7]),
+      .offer_o     (offer[k*OFFER_W +: OFFER_W])
+    );
+  end
+
   for (genvar i = 0; i < 2; i++) begin : gen_line
-    mb4_word_list #(.Sum(1'b0)) u_rx_list (
-      .clk_i,
-      .rst_ni,
-      .enscd_i,
-      .actnsens_i  (cfg_i.actnsens),
-      .own_i       (own[i*8 +: 8]),
-      .ssi_i       (ssi[i]),
-      .nocrc_i     (cfg_i.nocrc),
-      .start_i     (go_i.start),
-      .next_i      (rx_next[i]),
-      .cfg_en_o    (cfg_en_o[i]),
-      .cfg_slave_o (cfg_slave_o[i*3 +: 3]),
-      .cfg_i       (slave_cfg_i[i*CFG_W +: CFG_W]),
-      .actuator_o  (rx_actuator[i]),
-      .len_valid_o (rx_len_valid[i]),
-      .len_o       (rx_len[i*7 +: 7]),
-      .offer_o     (rx_offer[i*OFFER_W +: OFFER_W])
-    );
-
-    mb4_word_list u_mo_list (
-      .clk_i,
-      .rst_ni,
-      .enscd_i,
-      .actnsens_i  (cfg_i.actnsens),
-      .own_i       (own[i*8 +: 8]),
-      .ssi_i       (ssi[i]),
-      .nocrc_i     (cfg_i.nocrc),
-      .start_i     (go_i.start),
-      .next_i      (mo_next[i]),
-      .cfg_en_o    (cfg_en_o[2 + i]),
-      .cfg_slave_o (cfg_slave_o[(2 + i)*3 +: 3]),
-      .cfg_i       (slave_cfg_i[(2 + i)*CFG_W +: CFG_W]),
-      .actuator_o  (actuator[i]),
-      .len_valid_o (len_valid[i]),
-      .len_o       (len[i*7 +: 7]),
-      .offer_o     (mo_offer[i*OFFER_W +: OFFER_W])
-    );
-
     biss_line #(.SlCells(SlCells)) u_line (
       .clk_i,
       .rst_ni,
       .por_ni,
       .cmd_i       (cmd_i[i*CMD_W +: CMD_W]),
       .go_i,
-      .register_ma_i,
-      .register_end_i,
       .start_i     (start_i[i*START_W +: START_W]),
-      .idle_o      (idle_o[i]),
+      .register_ma_i,
       .status_o    (status_o[i*STATUS_W +: STATUS_W]),
       .event_o     (event_o[i*EVENT_W +: EVENT_W]),
       .data_o      (data_o[i*DATA_W +: DATA_W]),
       .tick_i      (tick_o),
       .half_next_i (half_next),
-      .smp_a_i     (smp_a),
-      .smp_b_i     (smp_b),
-      .smp_half_i  (smp_half),
-      .smp_b_neg_i (smp_b_neg),
-      .len_valid_i (len_valid[i]),
-      .len_i       (len[i*7 +: 7]),
+      .sample_i    (sample),
+      .sample_half_i (sample_half),
       .ssi_o       (ssi[i]),
-      .rx_offer_i  (rx_offer[i*OFFER_W +: OFFER_W]),
-      .rx_next_o   (rx_next[i]),
-      .mo_bus_i    (actuator[i] && cfg_i.en_mo),
-      .mo_offer_i  (mo_offer[i*OFFER_W +: OFFER_W]),
-      .mo_next_o   (mo_next[i]),
-      .mo_rd_en_o  (mo_rd_en[i]),
-      .mo_addr_o   (mo_addr_o[i*6 +: 6]),
+      .len_valid_i (len_valid[2 + i]),
+      .len_i       (len[(2 + i)*7 +: 7]),
+      .rx_offer_i  (offer[i*OFFER_W +: OFFER_W]),
+      .rx_next_o   (next[i]),
+      .mo_bus_i    (actuator[2 + i] && cfg_i.en_mo),
+      .mo_offer_i  (offer[(2 + i)*OFFER_W +: OFFER_W]),
+      .mo_next_o   (next[2 + i]),
+      .mo_read_o   (mo_read_o[i*READ_W +: READ_W]),
       .mo_data_i   (mo_data_i[i*8 +: 8]),
       .ma_o        (ma_o[i]),
       .mo_o        (mo_o[i]),
-      .sl_i        (sl_i[i]),
-      .sl_o        (sl_o[i])
+      .sl_i        (sl_i[i])
     );
   end
 
   // Only the MO list counts the bits.
-  assign unused = ^{rx_actuator, rx_len_valid, rx_len};
+  assign unused = ^{actuator[1:0], len_valid[1:0], len[13:0]};
 
 endmodule

@@ -20,8 +20,9 @@ package mb4_pkg;
     logic [5:0]  scdlen;     // SCDLENx: data bits minus 1
   } slave_cfg_t;
 
-  // Configuration of a control communication (0xE2, 0xE3, 0xE5).
+  // Configuration of a control communication (0xE2..0xE5).
   typedef struct packed {
+    logic [1:0] chsel;
     logic       wnr;
     logic [6:0] regadr;
     logic [5:0] regnum;
@@ -33,7 +34,6 @@ package mb4_pkg;
   // Configuration outside the data channels (0xE2..0xE9, 0xEC..0xEF, 0xF5).
   typedef struct packed {
     access_t    access;
-    logic [1:0] chsel;
     logic       en_mo;
     logic       holdcdm;
     logic [2:0] freqr;
@@ -65,9 +65,45 @@ package mb4_pkg;
     logic       ags;
   } instr_t;
 
+  // Accesses of the host, each sampled by its clock. Combinational.
+  typedef struct packed {
+    logic       wr_en;
+    logic [7:0] wr_addr;
+    logic [7:0] wr_data;
+    logic       rd_en;
+    logic [7:0] rd_addr;
+  } host_t;
+
+  // Access to a data memory. A byte that is read comes one clock later.
+  typedef struct packed {
+    logic       en;
+    logic [5:0] addr;
+    logic [7:0] data;
+  } mem_wr_t;
+
+  typedef struct packed {
+    logic       en;
+    logic [5:0] addr;
+  } mem_rd_t;
+
+  // 0xF4 on its way to the core. Registers of the host domain.
+  typedef struct packed {
+    logic [1:0] count;       // one step for each write
+    instr_t     written;
+  } instr_host_t;
+
+  // ... and back. Registers of the core domain.
+  typedef struct packed {
+    logic [1:0] ack;         // steps taken
+    instr_t     held;
+  } instr_core_t;
+
   // What INSTR, CHSEL and CFGCH ask for (mb4_frame_kind). Vectors {line 2, line 1}.
   typedef struct packed {
     logic [1:0] in_use;      // lines in use
+    logic [1:0] ssi;         // lines with SSI
+    logic [1:0] manual;      // lines that CHSEL names
+    logic [1:0] select;      // ... and whose protocol fits: lines of the control communication
     logic [1:0] frame_use;   // lines of the frame that INSTR asks for
     logic [1:0] init_use;    // lines of INIT
     logic       is_frame;    // INSTR asks for a frame
@@ -93,15 +129,53 @@ package mb4_pkg;
     logic       data_end;    // ... with sensor data
     logic       reduced;     // the frame was reduced: only the CDS bits switch
     logic       swap;        // SWBANK has changed its value
+    logic       clear;       // INIT of BiSS C begins: SVALID is cleared
   } bank_cmd_t;
 
-  // RDATA, for the control communication. A read byte comes one clock later.
+  // What the memories and banks tell the sequence of frames. Registers.
   typedef struct packed {
-    logic       rd_en;
-    logic [5:0] addr;
-    logic       wr_en;
-    logic [7:0] wr_data;
+    logic       clears;      // the memories are being cleared after a reset
+    logic       pending;     // HOLDBANK holds back a switch of the banks
+  } mem_state_t;
+
+  // What the switches of the banks tell the flags. Combinational.
+  typedef struct packed {
+    logic       swapped;     // the swap of a frame's end happens, or has just happened
+    logic       lost;        // the pending swap will not happen
+  } bank_event_t;
+
+  // The banks that the host and frames use. Registers.
+  typedef struct packed {
+    logic       host;
+    logic       eng;
+  } banks_t;
+
+  // RDATA, for the control communication. A byte that is read comes one clock later.
+  typedef struct packed {
+    mem_wr_t    wr;
+    mem_rd_t    rd;
   } rdata_cmd_t;
+
+  // Requests of automatic frames.
+  typedef struct packed {
+    logic       due;         // a frame is requested
+    logic       agsmin;      // FREQAGS is AGSMIN, with AGS = 1 or 0
+    logic       infinite;    // FREQAGS is AGSINFINITE
+  } request_t;
+
+  // What a control communication tells the flags. Combinational.
+  typedef struct packed {
+    logic       begins;
+    logic       ends;
+    logic       reg_error;   // with ends
+    logic       delay_error; // with ends: no start bit came
+  } access_event_t;
+
+  // ... and what it keeps for the host. Registers.
+  typedef struct packed {
+    logic       cdm_timeout;
+    logic [5:0] good_bytes;
+  } access_state_t;
 
   // Status bits that control makes, one flop for each bit.
   typedef struct packed {

@@ -1,27 +1,46 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The C interface. It translates names, numbers and exceptions and does nothing else.
+// The C interface. It translates names, numbers and exceptions. What it adds is in FrameWatch and
+// report.hpp.
 #include <algorithm>
+#include <climits>
 #include <cstring>
 #include <exception>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "mb4sim.h"
 #include "mb4sim/simulator.hpp"
+#include "sim/capi/frame_watch.hpp"
+#include "sim/capi/report.hpp"
 #include "sim/core/version.hpp"
 
+using mb4::sim::FrameWatch;
 using mb4::sim::ModelStopped;
 using mb4::sim::Scenario;
 using mb4::sim::Simulator;
 
 // What a handle points to.
 struct mb4sim {
-  explicit mb4sim(const Scenario& scenario) : simulator(scenario) {}
+  // Faults of the scenario are followed from the beginning; without any, frames cost less.
+  explicit mb4sim(const Scenario& scenario) : simulator(scenario) {
+    if (!scenario.faults.empty()) watch();
+  }
+  FrameWatch& watch() {
+    if (frames == nullptr) frames = std::make_unique<FrameWatch>(simulator);
+    return *frames;
+  }
   Simulator simulator;
-  bool failed = false;  // by an exception that leaves the simulator in an unknown state
+  std::unique_ptr<FrameWatch> frames;
+  bool failed = false;   // by an exception that leaves the simulator in an unknown state
+  bool inside = false;   // a call that lets time pass is running
+  bool closing = false;  // a callback has closed the handle: it goes when that call returns
+  int last_error = 0;    // of the last call that cannot return one
+  std::string reason;    // why the simulator has stopped
 };
 
 namespace {
@@ -48,19 +67,73 @@ mb4sim* open(Load load, char* error, size_t error_size) {
   }
 }
 
-// Runs `call` on the simulator. Every exception becomes a negative error.
 template <typename Call>
-int guarded(mb4sim* sim, Call call) {
-  if (sim == nullptr) return MB4SIM_ERROR_UNKNOWN;
-  if (sim->failed) return MB4SIM_ERROR_FAILED;
+int run(mb4sim& sim, Call call) {
   try {
-    return call(sim->simulator);
-  } catch (const ModelStopped&) {
+    return call(sim.simulator);
+  } catch (const ModelStopped& stop) {
+    if (sim.reason.empty()) sim.reason = stop.what();
     return MB4SIM_ERROR_STOPPED;
   } catch (...) {
-    sim->failed = true;
+    sim.failed = true;
     return MB4SIM_ERROR_FAILED;
   }
+}
+
+// Runs `call` on the simulator. Every exception becomes a negative error. A callback must not let
+// time pass, because time is passing already. `keep`: for mb4sim_last_error().
+enum class Keep { kNo, kYes };
+template <typename Call>
+int guarded(mb4sim* sim, Call call, Keep keep = Keep::kNo) {
+  if (sim == nullptr) return MB4SIM_ERROR_UNKNOWN;
+  const auto kept = [&](int result) {
+    if (keep == Keep::kYes) sim->last_error = std::min(result, 0);
+    return result;
+  };
+  if (sim->failed) return kept(MB4SIM_ERROR_FAILED);
+  if (sim->inside) return kept(MB4SIM_ERROR_CALLBACK);
+  sim->inside = true;
+  const int result = kept(run(*sim, call));
+  sim->inside = false;
+  if (sim->closing) delete sim;
+  return result;
+}
+
+// The same for a scenario whose host is on SPI, or on the parallel bus.
+enum class Wires { kSpi, kParallel };
+template <typename Call>
+int hosted(mb4sim* sim, Wires wires, Call call, Keep keep = Keep::kNo) {
+  const auto with_host = [&](Simulator& simulator) {
+    const bool parallel = simulator.scenario().host.parallel();
+    return parallel == (wires == Wires::kParallel) ? call(simulator) : int{MB4SIM_ERROR_HOST};
+  };
+  return guarded(sim, with_host, keep);
+}
+
+// A pin by its name; nothing for null pointers and other names.
+std::optional<mb4::sim::Pin> find_pin(const mb4sim* sim, const char* name) {
+  if (sim == nullptr || name == nullptr) return std::nullopt;
+  return sim->simulator.pin_by_name(name);
+}
+
+const char* error_text(const mb4sim& sim, int error) {
+  switch (error) {
+    case 0:
+      return "";
+    case MB4SIM_ERROR_STOPPED:
+      return sim.reason.c_str();
+    case MB4SIM_ERROR_HOST:
+      return "the scenario's host has another interface";
+    case MB4SIM_ERROR_CALLBACK:
+      return "not allowed in a callback";
+    default:
+      return "out of memory or another failure; only closing is left";
+  }
+}
+
+// In ps, not beyond the end of time.
+mb4::sim::Time duration(uint64_t ns) {
+  return std::min(ns, mb4::sim::kEndOfTime / mb4::sim::kPsPerNs + 1) * mb4::sim::kPsPerNs;
 }
 
 }  // namespace
@@ -82,36 +155,42 @@ mb4sim* mb4sim_open_file(const char* path, char* error, size_t error_size) {
   return open([&] { return mb4::sim::load_scenario(path); }, error, error_size);
 }
 
-void mb4sim_close(mb4sim* sim) { delete sim; }
+void mb4sim_close(mb4sim* sim) {
+  if (sim != nullptr && sim->inside) {
+    sim->closing = true;
+  } else {
+    delete sim;
+  }
+}
 
 int mb4sim_spi_transfer(mb4sim* sim, const uint8_t* tx, uint8_t* rx, size_t n) {
   if (tx == nullptr && n != 0) return MB4SIM_ERROR_UNKNOWN;
-  return guarded(sim, [&](Simulator& simulator) {
-    if (simulator.scenario().host.parallel()) return int{MB4SIM_ERROR_HOST};
+  return hosted(sim, Wires::kSpi, [&](Simulator& simulator) {
     simulator.spi().transfer(std::span(tx, n), std::span(rx, rx == nullptr ? 0 : n));
     return 0;
   });
 }
 
 void mb4sim_spi_select(mb4sim* sim, int active) {
-  guarded(sim, [&](Simulator& simulator) {
+  const auto call = [&](Simulator& simulator) {
     simulator.spi().select(active != 0);
     return 0;
-  });
+  };
+  hosted(sim, Wires::kSpi, call, Keep::kYes);
 }
 
 uint8_t mb4sim_spi_byte(mb4sim* sim, uint8_t mosi) {
-  const int value =
-      guarded(sim, [&](Simulator& simulator) { return int{simulator.spi().byte(mosi)}; });
+  const auto call = [&](Simulator& simulator) { return int{simulator.spi().byte(mosi)}; };
+  const int value = hosted(sim, Wires::kSpi, call, Keep::kYes);
   return value < 0 ? uint8_t{0} : static_cast<uint8_t>(value);
 }
 
 void mb4sim_advance_ns(mb4sim* sim, uint64_t ns) {
-  guarded(sim, [&](Simulator& simulator) {
-    simulator.advance(std::min(ns, mb4::sim::kEndOfTime / mb4::sim::kPsPerNs + 1) *
-                      mb4::sim::kPsPerNs);
+  const auto call = [&](Simulator& simulator) {
+    simulator.advance(duration(ns));
     return 0;
-  });
+  };
+  guarded(sim, call, Keep::kYes);
 }
 
 uint64_t mb4sim_time_ns(const mb4sim* sim) {
@@ -123,15 +202,13 @@ uint64_t mb4sim_clk_cycles(const mb4sim* sim) {
 }
 
 int mb4sim_pin_read(mb4sim* sim, const char* pin) {
-  if (sim == nullptr || pin == nullptr) return MB4SIM_ERROR_UNKNOWN;
-  const auto which = sim->simulator.pin_by_name(pin);
+  const auto which = find_pin(sim, pin);
   if (!which) return MB4SIM_ERROR_UNKNOWN;
   return sim->simulator.pin(*which) ? 1 : 0;
 }
 
 int mb4sim_pin_write(mb4sim* sim, const char* pin, int level) {
-  if (sim == nullptr || pin == nullptr) return MB4SIM_ERROR_UNKNOWN;
-  const auto which = sim->simulator.pin_by_name(pin);
+  const auto which = find_pin(sim, pin);
   if (!which) return MB4SIM_ERROR_UNKNOWN;
   if (level != 0 && level != 1) return MB4SIM_ERROR_VALUE;
   return guarded(sim, [&](Simulator& simulator) {
@@ -169,6 +246,108 @@ int mb4sim_slave_reg_write(mb4sim* sim, unsigned slave, uint8_t address, uint8_t
 uint64_t mb4sim_slave_frames(const mb4sim* sim, unsigned slave) {
   const auto* device = sim == nullptr ? nullptr : sim->simulator.slave(slave);
   return device == nullptr ? 0 : device->frames();
+}
+
+int mb4sim_inject(mb4sim* sim, const char* toml, char* error, size_t error_size) {
+  put_error("", error, error_size);
+  if (toml == nullptr) {
+    put_error("inject: no text", error, error_size);
+    return MB4SIM_ERROR_UNKNOWN;
+  }
+  const int result = guarded(sim, [&](Simulator& simulator) {
+    try {
+      sim->watch();
+      simulator.inject(toml);
+    } catch (const mb4::sim::ScenarioError& failure) {
+      put_error(failure.what(), error, error_size);
+      return int{MB4SIM_ERROR_VALUE};
+    }
+    return 0;
+  });
+  if (result < 0 && result != MB4SIM_ERROR_VALUE) {
+    put_error(sim == nullptr ? "no simulator" : error_text(*sim, result), error, error_size);
+  }
+  return result;
+}
+
+int mb4sim_slave_sent(const mb4sim* sim, unsigned slave, uint64_t frame, uint64_t* raw) {
+  if (sim == nullptr || raw == nullptr) return MB4SIM_ERROR_UNKNOWN;
+  const auto* device = sim->simulator.slave(slave);
+  if (device == nullptr) return MB4SIM_ERROR_UNKNOWN;
+  const auto word = device->sent_in(frame);
+  if (!word) return MB4SIM_ERROR_VALUE;
+  *raw = *word;
+  return 0;
+}
+
+int mb4sim_run_until(mb4sim* sim, const char* pin, int level, uint64_t limit_ns) {
+  const auto which = find_pin(sim, pin);
+  if (!which) return MB4SIM_ERROR_UNKNOWN;
+  if (which == sim->simulator.pin_by_name("CLK")) return MB4SIM_ERROR_DRIVEN;
+  if (level != 0 && level != 1) return MB4SIM_ERROR_VALUE;
+  return guarded(sim, [&](Simulator& simulator) {
+    const auto done = [&] { return simulator.pin(*which) == (level == 1); };
+    const auto limit = std::min(mb4::sim::kEndOfTime, simulator.now() + duration(limit_ns));
+    return simulator.run_while_waiting(done, std::max(limit, simulator.now())) ? 1 : 0;
+  });
+}
+
+int mb4sim_bus_write(mb4sim* sim, uint8_t address, uint8_t data) {
+  return hosted(sim, Wires::kParallel, [&](Simulator& simulator) {
+    simulator.bus().write(address, data);
+    return 0;
+  });
+}
+
+int mb4sim_bus_read(mb4sim* sim, uint8_t address, uint8_t* data) {
+  if (data == nullptr) return MB4SIM_ERROR_UNKNOWN;
+  return hosted(sim, Wires::kParallel, [&](Simulator& simulator) {
+    *data = simulator.bus().read(address);
+    return 0;
+  });
+}
+
+int mb4sim_on_frame(mb4sim* sim, mb4sim_frame_callback callback, void* context) {
+  return guarded(sim, [&](Simulator&) {
+    if (callback == nullptr) {
+      if (sim->frames != nullptr) sim->frames->set_callback({});
+      return 0;
+    }
+    sim->watch().set_callback([callback, context](const mb4::sim::SeenFrame& seen) {
+      mb4sim_frame frame{};
+      frame.size = sizeof frame;
+      frame.channel = seen.channel;
+      frame.number = seen.number;
+      frame.start_ns = seen.ma.start / mb4::sim::kPsPerNs;
+      frame.end_ns = seen.ma.last_edge / mb4::sim::kPsPerNs;
+      frame.ma_edges = static_cast<unsigned>(seen.ma.rising + seen.ma.falling);
+      if (!seen.ma.rest_level) frame.flags |= MB4SIM_FRAME_MA_LOW;
+      if (seen.fault) frame.flags |= MB4SIM_FRAME_FAULT;
+      callback(context, &frame);
+    });
+    return 0;
+  });
+}
+
+int mb4sim_report(const mb4sim* sim, char* json, size_t size) {
+  if (sim == nullptr) return MB4SIM_ERROR_UNKNOWN;
+  try {
+    // The call only reads; the simulator's own calls for it are not const.
+    auto* const self = const_cast<mb4sim*>(sim);
+    const std::string text =
+        report_json(self->simulator, self->frames == nullptr ? std::vector<mb4::sim::FaultStory>{}
+                                                             : self->frames->stories());
+    put_error(text.c_str(), json, size);
+    return static_cast<int>(std::min<size_t>(text.size(), INT_MAX));
+  } catch (...) {
+    return MB4SIM_ERROR_FAILED;
+  }
+}
+
+int mb4sim_last_error(const mb4sim* sim, char* text, size_t size) {
+  const int error = sim == nullptr ? int{MB4SIM_ERROR_UNKNOWN} : sim->last_error;
+  put_error(sim == nullptr ? "no simulator" : error_text(*sim, error), text, size);
+  return error;
 }
 
 const char* mb4sim_version(void) { return mb4::sim::version(); }

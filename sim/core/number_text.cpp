@@ -3,6 +3,7 @@
 #include "sim/core/number_text.hpp"
 
 #include <charconv>
+#include <cstdio>
 #include <sstream>
 
 namespace mb4::sim {
@@ -28,6 +29,13 @@ std::string plain(double value) {
   std::ostringstream out;
   out << value;
   return out.str();
+}
+
+std::string ns_text(Time time) {
+  char text[40];
+  std::snprintf(text, sizeof(text), "%llu.%03llu", static_cast<unsigned long long>(time / kPsPerNs),
+                static_cast<unsigned long long>(time % kPsPerNs));
+  return text;
 }
 
 }  // namespace mb4::sim

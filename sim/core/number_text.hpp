@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Whole numbers in the usual notation: decimal or 0x, with _ between digits.
+// Numbers as text. Whole ones are read in the usual notation: decimal or 0x, with _ between digits.
 #ifndef MB4SIM_NUMBER_TEXT_HPP_
 #define MB4SIM_NUMBER_TEXT_HPP_
 
@@ -10,6 +10,8 @@
 #include <string>
 #include <string_view>
 
+#include "sim/core/time.hpp"
+
 namespace mb4::sim {
 
 // Returns nothing if the text is not such a number or does not fit into 64 bits.
@@ -17,6 +19,9 @@ std::optional<std::uint64_t> parse_word(std::string_view text);
 
 // Returns `value` as an output stream writes it.
 std::string plain(double value);
+
+// Returns a time in nanoseconds, with three digits for the picoseconds.
+std::string ns_text(Time time);
 
 }  // namespace mb4::sim
 

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sim/core/toml_reader.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "sim/core/number_text.hpp"
@@ -33,6 +34,18 @@ SourcePos position(const toml::source_region& where) {
 }
 
 }  // namespace
+
+toml::table parse_toml(std::string_view text, const std::string& name) {
+  try {
+    return toml::parse(text, name);
+  } catch (const toml::parse_error& error) {
+    const auto where = error.source().begin;
+    std::string description(error.description());
+    std::replace(description.begin(), description.end(), '\n', ' ');
+    throw ScenarioError(name + ":" + std::to_string(where.line) + ":" +
+                        std::to_string(where.column) + ": not valid TOML: " + description);
+  }
+}
 
 void TomlReader::missing(std::string_view key, const std::string& message) {
   known_.emplace(key);
@@ -93,7 +106,10 @@ std::optional<double> TomlReader::number(std::string_view key, double minimum, d
   const toml::node* found = node(key);
   if (found == nullptr) return std::nullopt;
   if (!found->is_number()) fail(key, "expected a number, found " + type_name(*found));
-  const double value = *found->value<double>();
+  // toml++ gives no double for an integer that a double cannot hold.
+  const auto* whole = found->as_integer();
+  const double value =
+      whole != nullptr ? static_cast<double>(whole->get()) : found->as_floating_point()->get();
   if (!(value >= minimum && value <= maximum)) {
     fail(key, plain(value) + " is outside " + plain(minimum) + " to " + plain(maximum));
   }

@@ -27,6 +27,9 @@ struct TomlFile {
   std::optional<ScenarioError> missing;  // the first key that is not there
 };
 
+// Parses TOML. Throws ScenarioError with the place of a mistake, which begins with `name`.
+toml::table parse_toml(std::string_view text, const std::string& name);
+
 class TomlReader {
  public:
   TomlReader(const toml::table& table, TomlFile& file) : table_(table), file_(file) {}

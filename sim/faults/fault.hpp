@@ -34,6 +34,8 @@ enum class FaultKind {
 std::string_view to_string(FaultKind kind);
 // True for a fault that has no duration: bit-flip, glitch, abort.
 bool is_momentary(FaultKind kind);
+// True for a fault of the clock, which acts on all lines.
+bool is_of_clock(FaultKind kind);
 
 struct FaultConfig {
   FaultKind kind = FaultKind::kGlitch;
@@ -53,7 +55,7 @@ struct FaultConfig {
   Time to = kNever;        // random: no fault after this time
   Time duration = kNever;  // ps; kNever: to the end
 
-  unsigned line = 0;  // line of the table in the scenario file
+  unsigned scenario_line = 0;  // line number of the table in the scenario file; 0: no file
 };
 
 // A fault that has happened. Times are in ps since power-on.
@@ -61,7 +63,9 @@ struct FaultRecord {
   std::size_t config = 0;  // index into Scenario::faults
   Time begin = 0;
   Time end = kNever;  // of a fault with a duration: kNever until it is over
-  std::string what;   // "glitch of 10 ns on SL of channel 1"
+  // Not 0: the fault waits for this frame and hits it alone, by SlFaults::frames().
+  std::uint64_t frame = 0;
+  std::string what;  // "glitch of 10 ns on SL of channel 1"
 };
 
 }  // namespace mb4::sim

@@ -12,17 +12,35 @@ namespace mb4::sim {
 
 FaultInjector::FaultInjector(FaultTarget& target, EventQueue& queue,
                              const std::vector<FaultConfig>& faults, std::uint64_t seed)
-    : target_(target), queue_(queue), faults_(faults) {
-  for (std::size_t i = 0; i < faults_.size(); ++i) {
+    : target_(target), queue_(queue), faults_(faults), seed_(seed) {
+  add_new();
+}
+
+// A fault that was there before on this channel may act now: the cable without it is what it knows.
+void FaultInjector::remember_cable(Source& source) {
+  const unsigned channel = faults_[source.config].channel;
+  for (const auto& before : sources_) {
+    const FaultConfig& fault = faults_[before->config];
+    if (before.get() == &source || fault_type(fault.kind).place != FaultPlace::kLine ||
+        fault.channel != channel) {
+      continue;
+    }
+    source.ma_was = before->ma_was;
+    source.sl_was = before->sl_was;
+    return;
+  }
+  const Line& line = target_.line(channel);
+  source.ma_was = line.ma_faults();
+  source.sl_was = line.sl_faults();
+}
+
+void FaultInjector::add_new() {
+  for (std::size_t i = sources_.size(); i < faults_.size(); ++i) {
     const FaultConfig& fault = faults_[i];
     sources_.push_back(
-        std::make_unique<Source>(Source{this, i, Random(derive_seed(seed, i)), {}, {}, {}}));
+        std::make_unique<Source>(Source{this, i, Random(derive_seed(seed_, i)), {}, {}, {}}));
     Source& source = *sources_.back();
-    if (fault_type(fault.kind).place == FaultPlace::kLine) {
-      const Line& line = target_.line(fault.channel);
-      source.ma_was = line.ma_faults();
-      source.sl_was = line.sl_faults();
-    }
+    if (fault_type(fault.kind).place == FaultPlace::kLine) remember_cable(source);
     for (const Time at : fault.at) queue_.post(at, &FaultInjector::begin, &source);
     if (fault.at.empty()) post_random(source, fault.from);
   }
@@ -36,8 +54,9 @@ void FaultInjector::post_random(Source& source, Time after) {
   if (at <= fault.to && at < kEndOfTime) queue_.post(at, &FaultInjector::begin, &source);
 }
 
-FaultScene FaultInjector::scene(Time now, Source& source) const {
-  return {faults_[source.config], target_, source.random, source.ma_was, source.sl_was, now};
+FaultScene FaultInjector::scene(Time now, Source& source, FaultRecord& record) const {
+  return {faults_[source.config], target_, source.random, source.ma_was,
+          source.sl_was,          now,     record};
 }
 
 void FaultInjector::begin(Time now, void* receiver, std::uint64_t /*word*/) {
@@ -49,7 +68,7 @@ void FaultInjector::begin(Time now, void* receiver, std::uint64_t /*word*/) {
   record.config = source.config;
   record.begin = now;
   record.end = type.momentary ? now + fault.width : kNever;
-  record.what = type.begin(self.scene(now, source));
+  record.what = type.begin(self.scene(now, source, record));
   self.records_.push_back(std::move(record));
   if (!type.momentary) {
     source.lasting.push_back(self.records_.size() - 1);
@@ -68,7 +87,7 @@ void FaultInjector::end(Time now, void* receiver, std::uint64_t record) {
   self.records_[record].end = now;
   std::erase(source.lasting, record);
   if (!source.lasting.empty()) return;
-  fault_type(self.faults_[source.config].kind).end(self.scene(now, source));
+  fault_type(self.faults_[source.config].kind).end(self.scene(now, source, self.records_[record]));
 }
 
 }  // namespace mb4::sim

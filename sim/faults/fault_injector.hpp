@@ -25,11 +25,14 @@ struct FaultScene;
 class FaultInjector {
  public:
   // Posts the first event of each fault. All references must outlive the injector. The injector
-  // must exist before time begins.
+  // must exist before time begins. `faults` may grow: add_new() then posts the new ones, whose
+  // times must not have passed.
   FaultInjector(FaultTarget& target, EventQueue& queue, const std::vector<FaultConfig>& faults,
                 std::uint64_t seed);
   FaultInjector(const FaultInjector&) = delete;
   FaultInjector& operator=(const FaultInjector&) = delete;
+
+  void add_new();
 
   // The faults so far, in the order in which they began.
   const std::vector<FaultRecord>& records() const { return records_; }
@@ -47,11 +50,13 @@ class FaultInjector {
   static void begin(Time now, void* receiver, std::uint64_t word);
   static void end(Time now, void* receiver, std::uint64_t record);
   void post_random(Source& source, Time after);
-  FaultScene scene(Time now, Source& source) const;
+  FaultScene scene(Time now, Source& source, FaultRecord& record) const;
+  void remember_cable(Source& source);
 
   FaultTarget& target_;
   EventQueue& queue_;
   const std::vector<FaultConfig>& faults_;
+  std::uint64_t seed_;
   std::vector<std::unique_ptr<Source>> sources_;
   std::vector<FaultRecord> records_;
 };

@@ -69,6 +69,7 @@ std::string begin_bit_flip(Scene scene) {
   // The running frame may be past these bits, so they are inverted in the next one.
   const std::uint64_t frame = line.frames() + 1;
   line.flip_frame(frame, bits);
+  scene.record.frame = frame;
   return "bit " + list + " of frame " + std::to_string(frame) + " inverted, channel " +
          std::to_string(scene.config.channel);
 }
@@ -165,7 +166,8 @@ void plug(Scene scene, bool in) {
   if (index == 0) {
     line.act(scene.now, in ? Action::kPlug : Action::kUnplug);
   } else {
-    line.chain().detach(scene.now, in ? line.chain().size() : index);
+    line.chain().detach(scene.now,
+                        in ? line.chain().size() : std::min(index, line.chain().attached()));
   }
 }
 
@@ -289,5 +291,6 @@ const FaultType& fault_type(FaultKind kind) {
 std::string_view to_string(FaultKind kind) { return fault_type(kind).name; }
 
 bool is_momentary(FaultKind kind) { return fault_type(kind).momentary; }
+bool is_of_clock(FaultKind kind) { return fault_type(kind).place == FaultPlace::kClock; }
 
 }  // namespace mb4::sim

@@ -32,6 +32,7 @@ struct FaultScene {
   const WireFaults& ma_was;  // faults of the cable without those of this table
   const WireFaults& sl_was;
   Time now;
+  FaultRecord& record;  // of the fault that begins or ends
 };
 
 // What a fault may be at most, from the master.
@@ -49,7 +50,7 @@ struct FaultType {
   std::optional<SlaveFault> of_slave;
   // Reads the keys that only this kind has. Throws ScenarioError.
   void (*read)(TomlReader& reader, const FaultLimits& limits, FaultConfig& fault);
-  // Makes the fault begin. Returns what it is, for the record.
+  // Makes the fault begin. Returns what it is, for the record, whose times are set.
   std::string (*begin)(const FaultScene& scene);
   // Makes the fault end. Null if it is momentary.
   void (*end)(const FaultScene& scene);

@@ -32,9 +32,13 @@ class HostCheck {
  protected:
   // Records a violation if a level has lasted for less than `minimum`. `since` is the time at which
   // it began; kNever if it never did.
-  void need(Time now, const char* item, const char* what, Time since, Time minimum);
+  void need(Time now, const char* item, const char* what, Time since, Time minimum) {
+    if (since != kNever && now - since < minimum) violated(now, item, what, since, minimum);
+  }
 
  private:
+  void violated(Time now, const char* item, const char* what, Time since, Time minimum);
+
   std::vector<Violation> violations_;
   std::uint64_t count_ = 0;
 };

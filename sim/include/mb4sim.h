@@ -5,15 +5,15 @@
  * encoders around it. A process may hold any number of simulators. All of them are used from one
  * thread. No function throws, prints or ends the process.
  *
- * A simulator can stop for good. Its time then stands still, and the calls below return this error:
+ * A simulator can stop for good. Its time then stands still, and calls return this error:
  *
- *   MB4SIM_ERROR_STOPPED  an assertion in the chip's RTL has failed: mb4sim_spi_transfer(),
- *                         mb4sim_pin_write()
- *   MB4SIM_ERROR_FAILED   a call ran out of memory or failed in another unforeseen way: the same
- *                         calls, mb4sim_slave_set_data() and mb4sim_slave_reg_write()
+ *   MB4SIM_ERROR_STOPPED  an assertion in the chip's RTL has failed, or a pulse at MA was too
+ *                         short: all calls that let time pass, mb4sim_pin_write(), mb4sim_inject()
+ *   MB4SIM_ERROR_FAILED   a call ran out of memory or failed in another unforeseen way: all calls
+ *                         that change something
  *
- * In both cases mb4sim_spi_byte() returns 0. One exception: the TOML parser ends the process if
- * memory runs out while a scenario is opened.
+ * In both cases mb4sim_spi_byte() returns 0; mb4sim_last_error() after it tells why. One
+ * exception: the TOML parser ends the process if memory runs out while a scenario is opened.
  */
 #ifndef MB4SIM_H_
 #define MB4SIM_H_
@@ -36,11 +36,13 @@ typedef struct mb4sim mb4sim;
 /* Errors: the negative values that calls return. */
 enum {
   MB4SIM_ERROR_UNKNOWN = -1, /* no such pin or slave, or a null pointer */
-  MB4SIM_ERROR_VALUE = -2,   /* level not 0 or 1; word longer than the slave's data */
+  MB4SIM_ERROR_VALUE = -2,   /* level not 0 or 1; word longer than the slave's data; a text with a
+                                mistake; a frame that is not kept */
   MB4SIM_ERROR_DRIVEN = -3,  /* the pin is an output or driven by the simulation */
-  MB4SIM_ERROR_STOPPED = -4, /* an assertion in the chip's RTL has failed */
+  MB4SIM_ERROR_STOPPED = -4, /* an assertion in the chip's RTL has failed; an MA pulse too short */
   MB4SIM_ERROR_FAILED = -5,  /* out of memory or another failure; only closing is left */
-  MB4SIM_ERROR_HOST = -6     /* SPI with a scenario whose host is on the parallel bus */
+  MB4SIM_ERROR_HOST = -6,    /* the scenario's host has another interface */
+  MB4SIM_ERROR_CALLBACK = -7 /* a callback has called what changes something */
 };
 
 /* Opens a simulator from the TOML text of a scenario (sim/README.md). File names in the text are
@@ -95,6 +97,81 @@ MB4SIM_API int mb4sim_slave_reg_read(mb4sim *sim, unsigned slave, uint8_t addres
 MB4SIM_API int mb4sim_slave_reg_write(mb4sim *sim, unsigned slave, uint8_t address, uint8_t value);
 /* Number of frames in which this slave has sent its start bit; 0 if the slave does not exist. */
 MB4SIM_API uint64_t mb4sim_slave_frames(const mb4sim *sim, unsigned slave);
+
+/* --- for programs that test firmware --- */
+
+/* Adds faults and cable events while the simulation runs. `toml` holds [[fault]] tables as in a
+ * scenario (sim/README.md), or [[channel]] tables with `number` and [[channel.event]] only; an
+ * empty text adds nothing. Their times count from now. As in a scenario, the first end of two
+ * faults that do the same at one place stops both. Returns 0, or MB4SIM_ERROR_VALUE and the line
+ * "inject:line:column: key 'x': message" in `error`, as mb4sim_open() does; then nothing
+ * is added. */
+MB4SIM_API int mb4sim_inject(mb4sim *sim, const char *toml, char *error, size_t error_size);
+
+/* The raw word (flags included) that slave `slave` (1 to 8) latched for its frame number `frame`,
+ * from 1 to mb4sim_slave_frames(). It sent this word, unless the frame was reduced or cut. Returns
+ * 0; MB4SIM_ERROR_VALUE if there was no such frame, if it is not one of the last 1024, or for a
+ * slave that does not know its words (replay). */
+MB4SIM_API int mb4sim_slave_sent(const mb4sim *sim, unsigned slave, uint64_t frame, uint64_t *raw);
+
+/* Lets time pass until a pin (mb4sim_pin_read()) has this level, 0 or 1, at most `limit_ns`
+ * nanoseconds. Returns 1 when it has, 0 at the limit, or a negative error: MB4SIM_ERROR_DRIVEN for
+ * CLK, whose edges cannot be waited for. */
+MB4SIM_API int mb4sim_run_until(mb4sim *sim, const char *pin, int level, uint64_t limit_ns);
+
+/* One cycle of the parallel bus with the scenario's timing. Returns 0 or a negative error:
+ * MB4SIM_ERROR_HOST if the host of the scenario is not on the parallel bus. */
+MB4SIM_API int mb4sim_bus_write(mb4sim *sim, uint8_t address, uint8_t data);
+MB4SIM_API int mb4sim_bus_read(mb4sim *sim, uint8_t address, uint8_t *data);
+
+/* A frame on a line. The struct may grow at its end; `size` tells what there is. */
+typedef struct mb4sim_frame {
+  size_t size;       /* of this struct, bytes */
+  unsigned channel;  /* 1 or 2 */
+  uint64_t number;   /* of the frame on its channel since power-on, from 1 on. INIT, BREAK, BiSS B
+                        accesses and MA force bits count too, so it is not a slave's number */
+  uint64_t start_ns; /* first falling edge of MA at the chip, since power-on */
+  uint64_t end_ns;   /* last edge of MA */
+  unsigned ma_edges; /* edges of MA, both directions */
+  unsigned flags;    /* MB4SIM_FRAME_... */
+} mb4sim_frame;
+
+enum {
+  MB4SIM_FRAME_MA_LOW = 1, /* MA rests at 0 after the frame: CDM = 1 in BiSS C */
+  MB4SIM_FRAME_FAULT = 2   /* a [[fault]] of the line, a slave or the clock lasted in the frame */
+};
+
+typedef void (*mb4sim_frame_callback)(void *context, const mb4sim_frame *frame);
+
+/* From now on `callback` is called at the end of every frame of a channel, inside the call that
+ * lets time pass. NULL ends it. Returns 0 or a negative error.
+ *
+ * A frame is over when MA has rested for 1.5 of its periods (40 us before its second rising edge).
+ * So MA below 12.5 kHz, or a clock that changes inside a frame, splits a frame; slaves with a
+ * shorter timeout join two. The chip's flags may follow later: read them at EOT = 1.
+ *
+ * `frame` is valid in the call only. The callback may read pins, time, words and registers, and
+ * close the simulator. It must not throw or jump. Calls that change something return
+ * MB4SIM_ERROR_CALLBACK in it, mb4sim_on_frame() too. */
+MB4SIM_API int mb4sim_on_frame(mb4sim *sim, mb4sim_frame_callback callback, void *context);
+
+/* Writes what has gone wrong so far as JSON to `json`, cut to `size` bytes with the terminating 0:
+ *
+ *   time_ns          now
+ *   faults           list of [[fault]]s that have happened: kind, channel (0: host and clock),
+ *                    slave (0: none), what, begin_ns, end_ns (null: it lasts), frames: how many it
+ *                    touched, ner_low: after how many of them pin NER was low, at EOT = 1 or when
+ *                    the next frame started
+ *   host_violations  count, and first: a list of up to 100 with item ("I205") and text
+ *
+ * Returns the length that the whole text needs, without the 0, or a negative error. `json` may be
+ * NULL with size 0. Frames are counted from the first mb4sim_inject() or mb4sim_on_frame() on; in a
+ * scenario with [[fault]] from power-on. */
+MB4SIM_API int mb4sim_report(const mb4sim *sim, char *json, size_t size);
+
+/* The error of the latest call of mb4sim_spi_select(), mb4sim_spi_byte() or mb4sim_advance_ns(),
+ * 0 if it had none. `text` receives it in words, cut to `size` bytes; it may be NULL. */
+MB4SIM_API int mb4sim_last_error(const mb4sim *sim, char *text, size_t size);
 
 /* Version of the library, "major.minor.patch". */
 MB4SIM_API const char *mb4sim_version(void);

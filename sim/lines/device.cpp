@@ -9,11 +9,11 @@ std::string_view DeviceConfig::refuses(SlaveFault fault) const {
     case SlaveFault::kSilent:
       return "";
     case SlaveFault::kBusy:
-      return "only BiSS slaves have a busy time";
+      return "this slave has no busy time";
     case SlaveFault::kWrongCrc:
       return crc.width() == 0 ? "this slave sends no CRC" : "";
     case SlaveFault::kWrongId:
-      return "only a BiSS C slave with control communication has an ID";
+      return "this slave has no ID";
   }
   return "";
 }

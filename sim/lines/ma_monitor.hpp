@@ -40,7 +40,7 @@ class MaMonitor {
   void edge(Time now, bool level) {
     if (level == level_) return;
     level_ = level;
-    if (active_ && now >= current_.last_edge + rest_limit()) end(now, level);
+    if (active_ && now >= ends_at()) end(now, level);
     if (!active_) {
       if (!level) begin(now);  // else MA returns to 1 between two frames
       return;
@@ -59,7 +59,9 @@ class MaMonitor {
   // Number of frames that have started.
   std::uint64_t frames() const { return frames_; }
   // True while a frame is being clocked.
-  bool running(Time now) const { return active_ && now < current_.last_edge + rest_limit(); }
+  bool running(Time now) const { return active_ && now < ends_at(); }
+  // The time at which the running frame is over if MA has no more edge; in the past if it is over.
+  Time ends_at() const { return current_.last_edge + rest_limit(); }
   // The last frame whose clock has ended. If there is none yet, the running frame.
   MaFrame last(Time now) const;
 

@@ -6,8 +6,10 @@
 #ifndef MB4SIM_SLAVE_HPP_
 #define MB4SIM_SLAVE_HPP_
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <vector>
 
 #include "sim/core/time.hpp"
 #include "sim/lines/registers/register_file.hpp"
@@ -83,6 +85,13 @@ class Slave {
   const SlaveFaults& faults() const { return faults_; }
   // Number of frames in which the slave has sent its start bit.
   std::uint64_t frames() const { return frames_; }
+  // The raw word that the slave latched for its frame `frame`, from 1 on. Nothing if there was no
+  // such frame, if it is not one of the last kKeptFrames, or if the device does not know its words.
+  static constexpr std::size_t kKeptFrames = 1024;
+  std::optional<std::uint64_t> sent_in(std::uint64_t frame) const {
+    if (frame == 0 || frame > frames_ || frames_ - frame >= kKeptFrames) return std::nullopt;
+    return kept_[(frame - 1) % kKeptFrames];
+  }
   // Number of CDM bits taken so far, and the last of them: the inverted level of MA at the end of
   // the timeout. last_cdm() is false before the first one.
   std::uint64_t cdm_count() const { return cdm_count_; }
@@ -106,7 +115,12 @@ class Slave {
     takes_sli_ = takes_sli;
   }
   void set_deadline(Time deadline) { deadline_ = deadline; }
-  void count_frame() { ++frames_; }
+  void count_frame() {
+    const std::size_t place = frames_ % kKeptFrames;
+    if (place == kept_.size()) kept_.emplace_back();
+    kept_[place] = sent_word();
+    ++frames_;
+  }
   void take_cdm(bool cdm) {
     last_cdm_ = cdm;
     ++cdm_count_;
@@ -121,6 +135,7 @@ class Slave {
   SlaveFaults faults_;
   RegisterFile registers_;
   std::uint64_t frames_ = 0;
+  std::vector<std::optional<std::uint64_t>> kept_;  // sent_word() of the last frames
   std::uint64_t cdm_count_ = 0;
   bool last_cdm_ = false;
 };

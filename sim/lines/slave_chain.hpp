@@ -40,6 +40,8 @@ class SlaveChain {
   void refresh(Time now);
 
   std::size_t size() const { return slaves_.size(); }
+  // Number of slaves that are plugged in.
+  std::size_t attached() const { return attached_; }
   // `index` 0 is slave 1.
   Slave& slave(std::size_t index) { return *slaves_[index]; }
   const Slave& slave(std::size_t index) const { return *slaves_[index]; }

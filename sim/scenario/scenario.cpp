@@ -119,16 +119,7 @@ const SlaveConfig* Scenario::slave(unsigned number) const {
 Scenario parse_scenario(std::string_view text, const std::string& name) {
   Scenario scenario;
   scenario.name = name;
-  toml::table root;
-  try {
-    root = toml::parse(text, name);
-  } catch (const toml::parse_error& error) {
-    const auto where = error.source().begin;
-    std::string description(error.description());
-    std::replace(description.begin(), description.end(), '\n', ' ');
-    throw ScenarioError(name + ":" + std::to_string(where.line) + ":" +
-                        std::to_string(where.column) + ": not valid TOML: " + description);
-  }
+  const toml::table root = parse_toml(text, name);
   TomlFile file{name, std::nullopt};
   TomlReader reader(root, file);
   const auto* master = reader.table("master");

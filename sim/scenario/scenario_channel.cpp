@@ -112,11 +112,7 @@ CableConfig read_cable(TomlReader& reader) {
   }
   cable.open_level = reader.integer("open_level", 0, 1).value_or(1) != 0;
   cable.mo = reader.boolean("mo").value_or(false);
-  if (const auto* events = reader.tables("event")) {
-    for (const auto& node : *events) {
-      cable.events.push_back(read_event(*node.as_table(), reader.file()));
-    }
-  }
+  cable.events = read_events(reader);
   return cable;
 }
 
@@ -163,6 +159,14 @@ void set_ids(ChannelConfig& channel) {
 }
 
 }  // namespace
+
+std::vector<CableEvent> read_events(TomlReader& channel) {
+  std::vector<CableEvent> events;
+  if (const auto* tables = channel.tables("event")) {
+    for (const auto& node : *tables) events.push_back(read_event(*node.as_table(), channel.file()));
+  }
+  return events;
+}
 
 ChannelConfig read_channel(const toml::table& table, TomlFile& file, const Master& master) {
   TomlReader reader(table, file);

@@ -7,6 +7,9 @@
 
 #include <toml++/toml.h>
 
+#include <vector>
+
+#include "sim/core/cable.hpp"
 #include "sim/core/toml_reader.hpp"
 #include "sim/scenario/scenario.hpp"
 
@@ -14,6 +17,9 @@ namespace mb4::sim {
 
 // Reads one channel of this master. Throws ScenarioError.
 ChannelConfig read_channel(const toml::table& table, TomlFile& file, const Master& master);
+
+// Reads the tables [[channel.event]] of the channel that `channel` reads.
+std::vector<CableEvent> read_events(TomlReader& channel);
 
 }  // namespace mb4::sim
 

@@ -80,8 +80,9 @@ void read_place(TomlReader& reader, const Scenario& scenario, FaultConfig& fault
 void read_at(TomlReader& reader, FaultConfig& fault) {
   const toml::node* node = reader.node("at_us");
   const auto add = [&](const toml::node& item) {
+    // Nothing for an integer that a double cannot hold.
     const auto value = item.value<double>();
-    if (!item.is_number() || !(*value >= 0 && *value <= kMaxTimeUs)) {
+    if (!item.is_number() || !value || !(*value >= 0 && *value <= kMaxTimeUs)) {
       reader.fail_at(item.source(), "at_us",
                      "expected microseconds of 0 to " + plain(kMaxTimeUs) + ", or a list of them");
     }
@@ -144,7 +145,7 @@ FaultConfig read_fault(const toml::table& table, const Scenario& scenario, TomlF
   type.read(reader, {scenario.master->min_clk_hz, scenario.master->max_clk_hz}, fault);
   read_when(reader, fault);
   reader.finish();
-  fault.line = reader.source().table.line;
+  fault.scenario_line = reader.source().table.line;
   return fault;
 }
 

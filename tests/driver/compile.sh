@@ -23,6 +23,9 @@ fi
 
 strict="-Wall -Wextra -Wpedantic -Wconversion -Wshadow -Werror"
 freestanding="-std=c++17 -ffreestanding -fno-exceptions -fno-rtti -fno-threadsafe-statics"
+case $file in
+  *.c) freestanding="-x c -std=c99 -ffreestanding" ;;
+esac
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 

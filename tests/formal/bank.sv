@@ -1,14 +1,16 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Bank switch: once for each frame's end, never while HOLDBANK is set, then once when it is
-// released, unless the next frame has run meanwhile: then it is told as lost, once, and never
-// happens; host and line engine never share a bank unless SINGLEBANK says so (datasheet pages 26,
-// 31, 33, Tables 38, 48, 49; decision 15). What the host keeps comes before all this: while
-// HOLDBANK is set, and in the clock of its release, the bank follows it.
+// Each end of a frame switches the banks once. While HOLDBANK is set there is no switch; its
+// release makes the switch that was held back, once. If the next frame has run meanwhile, this
+// switch is reported as lost, once, and is never made. Host and frames never share a bank unless
+// SINGLEBANK is set (datasheet pages 26, 31, 33, Tables 38, 48, 49; decision 15). The bank that the
+// host keeps has priority: while HOLDBANK is set, and in the clock of its release, the bank follows
+// it.
 //
-// claim: one switch a frame, none under HOLDBANK but for what the host keeps, lost (told, and never
-//   made) only while the next frame runs; never the same bank for both sides
+// claim: one switch for each frame; none under HOLDBANK, except to the bank that the host keeps;
+//   a switch is lost (reported, never made) only while the next frame runs; host and frames
+//   never have the same bank
 // clocks: one
 // depth: 12
 // cover: 10
@@ -24,9 +26,9 @@
 // mutation: mb4/regs/mb4_bank_ctrl.sv | (holdbank_i || hold_q) && base_q | holdbank_i && base_q
 // mutation: mb4/regs/mb4_bank_ctrl.sv | newest_q  <= base_d ^ pending_d; | newest_q  <= base_d;
 // mutation: mb4/regs/mb4_bank_ctrl.sv | host_q ^ !singlebank_i | host_q ^ !holdbank_i
-// mutation: mb4/regs/mb4_bank_ctrl.sv | (pending_q && !frame_run_i) | pending_q
-// mutation: mb4/regs/mb4_bank_ctrl.sv | lost_o      = pending_q && frame_run_i;
-//   | lost_o      = pending_q && holdbank_i && frame_run_i;
+// mutation: mb4/regs/mb4_bank_ctrl.sv | (pending_q && !bank_i.run) | pending_q
+// mutation: mb4/regs/mb4_bank_ctrl.sv | made_q, pending_q && bank_i.run};
+//   | made_q, pending_q && holdbank_i && bank_i.run};
 
 module proof (
   input logic clk_i,
@@ -40,6 +42,10 @@ module proof (
 
   (* anyconst *) logic single;
   logic pending, swapped, lost, base, newest, host_bank, eng_bank;
+  mb4_pkg::bank_event_t told;
+  mb4_pkg::banks_t      banks;
+  assign {swapped, lost}       = told;
+  assign {host_bank, eng_bank} = banks;
 
   mb4_bank_ctrl u_dut (
     .clk_i,
@@ -47,16 +53,12 @@ module proof (
     .singlebank_i (single),
     .holdbank_i,
     .kept_i,
-    .swbank_pulse_i,
-    .frame_end_i,
-    .frame_run_i,
+    .bank_i       ({frame_run_i, 1'b0, frame_end_i, 1'b0, swbank_pulse_i, 1'b0}),
     .pending_o    (pending),
-    .swapped_o    (swapped),
-    .lost_o       (lost),
+    .event_o      (told),
     .base_o       (base),
     .newest_o     (newest),
-    .host_bank_o  (host_bank),
-    .eng_bank_o   (eng_bank)
+    .banks_o      (banks)
   );
 
   wire       dut_hold, dut_end, dut_swap, dut_made;

@@ -42,7 +42,7 @@ module proof (
     {en0_q, en1_q} <= {dut_en0, dut_en1};
   end
 
-  // One reset, in the beginning; one thing moves at a time.
+  // One reset at the beginning; one input changes at a time.
   always @* begin
     if (!started) assume (!rst_ni && !clk0_i && !clk1_i);
     if (started && rst_q) assume (rst_ni);
@@ -63,7 +63,7 @@ module proof (
     Off_A: assert (dut_en0 || dut_en1 || !clk);
   end
 
-  // How it holds: who is ready has a claim, and has found none of the other's.
+  // Invariant: a clock that is ready has a claim, and has found no claim of the other clock.
   always @* if (started && rst_ni) begin
     Claim0_A: assert (dut_claim0 || !(dut_ready0 || dut_en0));
     Claim1_A: assert (dut_claim1 || !(dut_ready1 || dut_en1));
@@ -74,7 +74,7 @@ module proof (
     Goes1_A:  assert (!dut_en1 || dut_ready1 || clk1_i);
   end
 
-  // Over and back, and a choice taken back before anything has moved.
+  // The choice changes and changes back; once before the switch has moved.
   logic been0_q = 1'b0, been1_q = 1'b0;
   always @(posedge gclk) begin
     been0_q <= been0_q || dut_en0;

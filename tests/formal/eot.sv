@@ -4,14 +4,14 @@
 // EOT is 0 exactly while a frame or INIT runs: from the clock after its start, until the third
 // clock after its end, when all results have settled (datasheet page 34; decisions 1, 25).
 //
-// claim: EOT = 0 from the clock after the start to three clocks behind the end, and never else
+// claim: EOT = 0 from the clock after the start to three clocks after the end, and at no other time
 // clocks: one
 // depth: 10
 // cover: 10
 // unbounded: induction 5
-// mutation: mb4/ctrl/mb4_status_flags.sv | (quiet_q == 2'b11) && !busy_i | quiet_q == 2'b11
-// mutation: mb4/ctrl/mb4_sequencer.sv | assign busy        = state_d != IDLE
-//   | assign busy        = (state_d != IDLE && state_d != INIT)
+// mutation: mb4/ctrl/mb4_status_flags.sv | (quiet_q == 2'b11) && !frame_i.busy | quiet_q == 2'b11
+// mutation: mb4/ctrl/mb4_sequencer.sv | assign busy = state_d != IDLE
+//   | assign busy = (state_d != IDLE && state_d != INIT)
 // mutation: mb4/ctrl/mb4_status_flags.sv | eot_q        <= 1'b1; | eot_q        <= 1'b0;
 
 module proof (
@@ -19,35 +19,40 @@ module proof (
   input logic [1:0] count_i,
   input mb4_pkg::instr_t written_i,
   input mb4_pkg::kind_t kind_i,
-  input logic mem_busy_i, agsmin_i, infinite_i, regvers_i,
-  input logic [1:0] idle_i, timeout_i, sl_i, word_ok_i,
+  input mb4_pkg::request_t request_i,
+  input mb4_pkg::mem_state_t mem_i,
+  input logic regvers_i,
+  input logic [1:0] word_bad_i,
+  input logic [2*biss_pkg::LINE_STATUS_W-1:0] status_i,
   input logic [2*biss_pkg::LINE_EVENT_W-1:0] event_i,
-  input logic request_i, missed_i, tick_i, bank_pending_i,
+  input logic missed_i, tick_i,
   input logic control_active_i, control_end_i, control_stalled_i, stale_i
 );
 
   logic busy, running, start, frame_end, eot;
+  mb4_pkg::instr_core_t answer;
   mb4_pkg::instr_t held;
+  mb4_pkg::flags_t shown;
   biss_pkg::line_go_t    go;
   mb4_pkg::bank_cmd_t    bank;
   mb4_pkg::frame_flags_t flags;
   assign start     = go.start;
   assign frame_end = bank.frame_end;
   assign busy      = flags.busy;
+  assign held      = answer.held;
+  assign eot       = shown.eot;
 
   mb4_sequencer u_sequencer (
-    .clk_i, .rst_ni, .written_i, .count_i, .mem_busy_i, .agsmin_i, .infinite_i, .regvers_i,
-    .kind_i, .agserr_on_hold_i(1'b1), .agserr_on_write_i(1'b0), .ags_clear_i(1'b0),
-    .request_i, .missed_i, .tick_i, .idle_i, .timeout_i, .sl_i, .event_i, .word_ok_i,
-    .bank_pending_i, .control_active_i, .control_end_i, .control_stalled_i, .stale_i,
-    .running_o(running),
-    .go_o(go), .bank_o(bank), .held_o(held), .flags_o(flags)
+    .clk_i, .rst_ni, .instr_i({count_i, written_i}), .instr_o(answer), .regvers_i, .kind_i,
+    .quirks_i(6'd1 << mb4_pkg::QUIRK_AGSERR_ON_HOLDBANK), .request_i, .missed_i, .tick_i,
+    .status_i, .event_i, .word_bad_i, .mem_i,
+    .control_active_i, .control_end_i, .control_stalled_i, .stale_i,
+    .running_o(running), .go_o(go), .bank_o(bank), .flags_o(flags)
   );
 
   mb4_status_flags u_flags (
-    .clk_i, .rst_ni, .busy_i(busy), .clear_i(1'b0), .scd_en_i(1'b0), .scd_bad_i(1'b0),
-    .ags_error_i(1'b0), .bank_fail_i(1'b0), .bank_swapped_i(1'b0), .reg_begin_i(1'b0),
-    .reg_end_i(1'b0), .reg_error_i(1'b0), .delay_error_i(1'b0), .eot_o(eot)
+    .clk_i, .rst_ni, .frame_i({busy, 5'd0}), .bank_i('0), .access_i('0), .access_state_i('0),
+    .flags_o(shown)
   );
 
   logic started = 1'b0;

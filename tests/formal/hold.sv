@@ -3,12 +3,12 @@
 //
 // HOLDBANK and SWBANK at any speed (docs/crossings.md). From the host's write of HOLDBANK = 1 on the
 // host reads one and the same bank, whatever frames end meanwhile, until it writes 0xF4 again. It is
-// the bank that it had before, or the other one if the write inverts SWBANK. The line engine's bank
+// the bank that it had before, or the other one if the write inverts SWBANK. The bank of frames
 // is the other one as soon as 0xF4 is answered. Host half and core half of 0xF4 with the bank
 // control. Writes of 0xF4 may be closer than the core can answer.
 //
-// claim: no switch seen by the host from the write of HOLDBANK on, and SWBANK at its write, at any
-//   phase of the clocks and however close the writes
+// claim: the host sees no switch from its write of HOLDBANK on, and sees SWBANK at its write; at
+//   any phase of the clocks, with writes as close as can be
 // clocks: many
 // depth: 36
 // cover: 34
@@ -27,7 +27,7 @@ module proof (
   input logic [7:0] data_i,
   input logic       frame_end_i,
   input logic       frame_run_i,
-  input logic       late_i         // the base that the host keeps arrives a clock behind the count
+  input logic       late_i         // the base that the host keeps arrives a clock after the count
 );
 
   (* gclk *) logic gclk;
@@ -43,11 +43,14 @@ module proof (
     assume ((data_i & 8'h9F) == 8'h00);
   end
 
-  mb4_pkg::instr_t written, held;
-  logic [1:0] count, ack;
-  logic pending, bank, kept, base, newest, host_bank, eng_bank, swbank_pulse;
+  mb4_pkg::instr_host_t asked;
+  mb4_pkg::instr_core_t answer;
+  mb4_pkg::instr_t held;
+  assign held = answer.held;
+  logic pending, bank, kept, base, newest, host_bank, eng_bank;
   mb4_pkg::bank_cmd_t bank_cmd;
-  assign swbank_pulse = bank_cmd.swap;
+  mb4_pkg::banks_t banks;
+  assign {host_bank, eng_bank} = banks;
   logic [7:0] rd_data;
   logic [2:0] end_q;     // core clocks since the last frame's end
   logic       frame_end;
@@ -56,22 +59,21 @@ module proof (
   assign frame_end = frame_end_i && end_q == 3'd7;
 
   mb4_instr_reg u_instr (
-    .hclk_i, .rst_ni, .wr_en_i(write_i), .wr_addr_i(8'hF4), .wr_data_i(data_i), .rd_data_o(rd_data),
-    .pending_o(pending), .written_o(written), .count_o(count), .ack_i(ack), .held_i(held),
+    .hclk_i, .rst_ni, .host_i({write_i, 8'hF4, data_i, 9'd0}), .rd_data_o(rd_data),
+    .pending_o(pending), .instr_o(asked), .instr_i(answer),
     .base_i(base), .newest_i(newest), .bank_o(bank), .kept_o(kept)
   );
   mb4_sequencer u_sequencer (
-    .clk_i, .rst_ni, .written_i(written), .count_i(count), .ack_o(ack), .held_o(held),
-    .mem_busy_i(1'b0), .agsmin_i(1'b0), .infinite_i(1'b0), .regvers_i(1'b0), .kind_i('0), .agserr_on_hold_i(1'b0), .agserr_on_write_i(1'b0),
-    .ags_clear_i(1'b0), .request_i(1'b0), .missed_i(1'b0), .tick_i(1'b0), .idle_i(2'b11),
-    .timeout_i(2'b00), .sl_i(2'b11), .event_i('0), .word_ok_i(2'b00), .bank_pending_i(1'b0),
+    .clk_i, .rst_ni, .instr_i(asked), .instr_o(answer), .regvers_i(1'b0), .kind_i('0),
+    .quirks_i('0), .request_i('0), .missed_i(1'b0), .tick_i(1'b0),
+    .status_i({2{5'b10001}}), .event_i('0), .word_bad_i(2'b00), .mem_i('0),
     .control_active_i(1'b0), .control_end_i(1'b0), .control_stalled_i(1'b0), .stale_i(1'b0),
     .bank_o(bank_cmd)
   );
   mb4_bank_ctrl u_bank (
     .clk_i, .rst_ni, .singlebank_i(1'b0), .holdbank_i(held.holdbank), .kept_i(late_i ? late_q : kept),
-    .swbank_pulse_i(swbank_pulse), .frame_end_i(frame_end), .frame_run_i, .base_o(base),
-    .newest_o(newest), .host_bank_o(host_bank), .eng_bank_o(eng_bank)
+    .bank_i({frame_run_i, 1'b0, frame_end, 1'b0, bank_cmd.swap, 1'b0}), .base_o(base),
+    .newest_o(newest), .banks_o(banks)
   );
 
   // The bank that the host has from its last write on.

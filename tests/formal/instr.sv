@@ -6,8 +6,9 @@
 // same instant among them, and with writes however close. A byte that is taken at the very instant
 // of a write may be any mix of the older and the later one. "Clocks" are the receiver's.
 //
-// claim: the last byte written is the last taken, within 6 clocks, 3 for a write alone; no BREAK is
-//   lost or made up; one pulse for each step, ack two clocks behind it; any clocks, any writes
+// claim: the last byte written is the last one taken, within 6 clocks, 3 for a single write; no
+//   BREAK is lost or invented; one pulse for each step, ack two clocks after it; any clocks, any
+//   writes
 // clocks: many
 // depth: 24
 // cover: 24
@@ -22,8 +23,8 @@
 // mutation: mb4/regs/mb4_instr_reg.sv | (byte_q & {8{pending_o}} & mb4_regs_pkg::BREAK_MASK) | 8'h00
 // mutation: mb4/regs/mb4_instr_reg.sv | (byte_q & {8{pending_o}} & mb4_regs_pkg::BREAK_MASK)
 //   | (byte_q & mb4_regs_pkg::BREAK_MASK)
-// mutation: mb4/regs/mb4_instr_reg.sv | if (count_q != ~ack_i) count_q | count_q
-// mutation: mb4/regs/mb4_instr_reg.sv | if (count_q != ~ack_i) count_q | if (count_q == ack_i) count_q
+// mutation: mb4/regs/mb4_instr_reg.sv | if (count_q != ~instr_i.ack) count_q | count_q
+// mutation: mb4/regs/mb4_instr_reg.sv | if (count_q != ~instr_i.ack) count_q | if (count_q == instr_i.ack) count_q
 
 module proof (
   input logic       hclk_i,
@@ -59,8 +60,8 @@ module proof (
   mb4_pkg::instr_t written;
 
   mb4_instr_reg u_instr (
-    .hclk_i, .rst_ni, .wr_en_i(write_i), .wr_addr_i(8'hF4), .wr_data_i(data_i),
-    .pending_o(pending), .written_o(written), .count_o(count), .ack_i(ack), .held_i(8'h00),
+    .hclk_i, .rst_ni, .host_i({write_i, 8'hF4, data_i, 9'd0}),
+    .pending_o(pending), .instr_o({count, written}), .instr_i({ack, 8'h00}),
     .base_i(1'b0), .newest_i(1'b0)
   );
   enc_count_rx u_dut (.clk_i, .rst_ni, .count_i(count), .pulse_o(pulse), .ack_o(ack));
@@ -120,7 +121,7 @@ module proof (
                 (way > {2'd0, lag} ? way : {2'd0, lag}) + (owed == 2'd1 ? 4'd3 : 4'd6);
 
   always @* if (started && rst_ni) begin
-    // At rest: the last byte was taken, and every BREAK.
+    // At rest the core has taken the last byte and every BREAK.
     if (!pending) Last_A: assert (taken_q[6:0] == last_q && owed == 2'd0);
     if (!pending && watched_q) Break_A: assert (found_q);
     if (since >= 4'd8) Rest_A: assert (!pending && !pulse);

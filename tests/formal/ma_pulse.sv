@@ -41,11 +41,14 @@ module proof (
   input logic [2*biss_pkg::LINE_CMD_W-1:0] cmd_i,
   input biss_pkg::line_go_t go_i,
   input logic [2*biss_pkg::LINE_START_W-1:0] start_i,
-  input logic register_ma_i, register_end_i, time_run_i, time_restart_i,
+  input biss_pkg::register_ma_t register_ma_i,
+  input logic time_run_i, time_restart_i,
   input logic [15:0] mo_data_i
 );
 
   logic [1:0] idle, ma, forced_q;
+  biss_pkg::line_status_t status1, status2;
+  assign idle = {status2.idle, status1.idle};
   biss_pkg::line_cmd_t cmd1, cmd2;
   assign {cmd2, cmd1} = cmd_i;
   always @(posedge clk_i or negedge rst_ni) begin
@@ -55,8 +58,8 @@ module proof (
 
   mb4_lines u_lines (
     .clk_i, .rst_ni, .por_ni, .cfg_i, .enscd_i, .slave_cfg_i, .cmd_i, .go_i, .start_i,
-    .register_ma_i, .register_end_i, .time_run_i, .time_restart_i, .mo_data_i, .sl_i, .idle_o(idle),
-    .ma_o(ma)
+    .register_ma_i, .time_run_i, .time_restart_i, .mo_data_i, .sl_i,
+    .status_o({status2, status1}), .ma_o(ma)
   );
 
   logic started = 1'b0;

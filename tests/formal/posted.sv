@@ -8,7 +8,7 @@
 // when it has been followed. Here the queue holds four bytes of three bits; the count and its Gray
 // code are what crosses.
 //
-// claim: all bytes once, in order, whole; empty and the mark tell no sooner than all of them (up to
+// claim: all bytes once, in order, whole; empty and the mark come only after all bytes (up to
 //   the mark) are taken; any clocks
 // clocks: many
 // depth: 16

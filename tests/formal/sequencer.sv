@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// No dead state: from every state of the sequencer, those that it never reaches too, BREAK leads to
-// idle within three clocks of the host's write, and a reset at once. INIT gives up waiting. The
-// state is arbitrary at first: what holds here needs no history.
+// The sequencer has no dead state. From each state, also from those that it never reaches, BREAK
+// leads to idle within three clocks of the host's write, and a reset leads to idle at once. INIT
+// gives up waiting. The state is arbitrary at first: what holds here needs no history.
 //
 // claim: BREAK ends in idle within 3 clocks from any state, reachable or not; reset at once
 // clocks: one
@@ -17,10 +17,10 @@
 // look: dut_taken = u_dut.u_written.taken_q
 // look: dut_late = u_dut.u_written.late_q
 // look: dut_ack = u_dut.u_written.ack_q
-// mutation: mb4/ctrl/mb4_sequencer.sv | if (written_i.brk) begin
-//   | if (written_i.brk && state_q != INIT_TIMEOUT) begin
-// mutation: mb4/ctrl/mb4_sequencer.sv | if ((use_q & ~idle_i) == 2'b00 || wait_q == 11'd0) begin
-//   | if ((use_q & ~idle_i) == 2'b00) begin
+// mutation: mb4/ctrl/mb4_sequencer.sv | if (asked.brk) begin
+//   | if (asked.brk && state_q != INIT_TIMEOUT) begin
+// mutation: mb4/ctrl/mb4_sequencer.sv | if ((use_q & ~idle) == 2'b00 || wait_q == 11'd0) begin
+//   | if ((use_q & ~idle) == 2'b00) begin
 // mutation: mb4/ctrl/mb4_sequencer.sv | default: state_d = IDLE; | default: state_d = state_q;
 
 module proof (
@@ -29,11 +29,14 @@ module proof (
   input logic check_i,   // free: at which clocks the checks look
   input mb4_pkg::instr_t written_i,
   input mb4_pkg::kind_t kind_i,
-  input logic mem_busy_i, agsmin_i, infinite_i, regvers_i,
-  input logic [1:0] idle_i, timeout_i, sl_i, word_ok_i,
+  input mb4_pkg::request_t request_i,
+  input mb4_pkg::mem_state_t mem_i,
+  input logic regvers_i,
+  input logic [1:0] word_bad_i,
+  input logic [2*biss_pkg::LINE_STATUS_W-1:0] status_i,
   input logic [2*biss_pkg::LINE_EVENT_W-1:0] event_i,
-  input logic [2:0] quirk_i,
-  input logic request_i, missed_i, tick_i, bank_pending_i,
+  input logic [mb4_pkg::QUIRKS_W-1:0] quirks_i,
+  input logic missed_i, tick_i,
   input logic control_active_i, control_end_i, control_stalled_i, stale_i
 );
 
@@ -44,13 +47,14 @@ module proof (
   assign abort     = go.stop;
   assign ags_error = flags.ags_error;
 
+  biss_pkg::line_status_t status1, status2;
+  assign {status2, status1} = status_i;
+
   mb4_sequencer u_dut (
-    .clk_i, .rst_ni, .written_i, .count_i, .mem_busy_i, .agsmin_i, .infinite_i, .regvers_i,
-    .kind_i, .agserr_on_hold_i(quirk_i[0]), .agserr_on_write_i(quirk_i[1]), .ags_clear_i(quirk_i[2]),
-    .request_i, .missed_i, .tick_i, .idle_i, .timeout_i, .sl_i, .event_i, .word_ok_i,
-    .bank_pending_i, .control_active_i, .control_end_i, .control_stalled_i, .stale_i,
-    .running_o(running),
-    .go_o(go), .flags_o(flags)
+    .clk_i, .rst_ni, .instr_i({count_i, written_i}), .regvers_i, .kind_i, .quirks_i,
+    .request_i, .missed_i, .tick_i, .status_i, .event_i, .word_bad_i, .mem_i,
+    .control_active_i, .control_end_i, .control_stalled_i, .stale_i,
+    .running_o(running), .go_o(go), .flags_o(flags)
   );
 
   logic started = 1'b0;
@@ -105,7 +109,7 @@ module proof (
   // is any of the eight codes with any counters.
   always @* if (check_i) begin
     StartOrAbort_A: assert (!(start && abort));
-    if (start) StartOnIdle_A: assert (idle_i == 2'b11);
+    if (start) StartOnIdle_A: assert (status1.idle && status2.idle);
     if (!rst_ni) ResetIdles_A: assert (!running);
     if (started && rst_ni && age_q == 3'd3 && byte_q.brk) BreakIdles_A: assert (!running);
     if (started && live_q && state_q > 3'd4) NoStray_A: assert (!running);

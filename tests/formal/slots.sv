@@ -24,8 +24,8 @@
 //   | if (!stay || slot_q == biss_pkg::SLOT_WAIT) slot_d
 // mutation: biss/biss_control_frame.sv | start_i ? active_o : carries_q && !frame_end_i
 //   | start_i ? active_o : carries_q
-// mutation: biss/biss_control_frame.sv | last_d  = index_q == regnum_i;
-//   | last_d  = index_d == regnum_i;
+// mutation: biss/biss_control_frame.sv | last_d  = index_q == access_i.regnum;
+//   | last_d  = index_d == access_i.regnum;
 // mutation: biss/biss_control_frame.sv | biss_pkg::SLOT_START: cdm0 = cdm_timeout_i;
 //   | biss_pkg::SLOT_START: cdm0 = 1'b1;
 // mutation: biss/biss_control_frame.sv | fresh_q[1] && !post_busy_i; | fresh_q[1];
@@ -49,15 +49,19 @@ module proof (
   logic active, body, waits, moved, begins, ends, reg_error, delay_error, wr_en;
   logic [1:0] cdm0, cdm1;
   logic [5:0] good, addr;
+  logic [7:0] wr_data;
+  biss_pkg::access_byte_t bytes;
+  biss_pkg::access_end_t  result;
+  assign {wr_en, addr, wr_data}               = bytes;
+  assign {ends, reg_error, delay_error, good} = result;
 
   biss_control_frame u_dut (
-    .clk_i, .rst_ni, .cts_i(cts), .wnr_i(wnr), .regadr_i(regadr), .regnum_i(regnum),
-    .slaveid_i(slaveid), .ida_invert_i(ida_invert), .select_i(select), .blind_i(blind),
-    .rdata_addr_o(addr), .rdata_i, .post_busy_i, .rdata_wr_en_o(wr_en), .begin_i, .abort_i,
+    .clk_i, .rst_ni, .access_i({cts, wnr, regadr, regnum, slaveid}),
+    .ida_invert_i(ida_invert), .select_i(select), .blind_i(blind),
+    .byte_o(bytes), .rdata_i, .post_busy_i, .begin_i, .abort_i,
     .start_i, .frame_end_i, .cds_i, .cdm_timeout_i, .expired_i, .stalled_i, .active_o(active),
     .in_body_o(body), .wait_o(waits), .moved_o(moved), .cdm0_o(cdm0), .cdm1_o(cdm1),
-    .begin_o(begins), .end_o(ends), .reg_error_o(reg_error), .delay_error_o(delay_error),
-    .good_bytes_o(good)
+    .begin_o(begins), .end_o(result)
   );
 
   logic started = 1'b0;
@@ -68,7 +72,7 @@ module proof (
     // A frame starts after the one before has ended; frames that start carry what begins with them.
     if (start_i) assume (!frame_end_i && !running_q);
     if (frame_end_i) assume (running_q);
-    // post_busy_i ends: the fields are there before the frame behind that of S ends.
+    // post_busy_i ends: the fields are there before the frame after that of S ends.
     if (frame_end_i && mine_q && dut_slot != 6'd0) assume (taken_q);
   end
 
@@ -167,7 +171,7 @@ module proof (
     end
     if (rst_ni && live_q && step_q && !abort_q && !cts && slot_q <= 6'd17)
       CommandEnds_A: assert (ends == (slot_q == 6'd17 && to_all));
-    // A CRC leaves zeros behind it, bit by bit: the next one starts at zero.
+    // A CRC leaves zeros after it, bit by bit: the next one starts at zero.
     if (dut_slot == 6'd13 || dut_slot == 6'd29) Zeros1_A: assert (!dut_crc[0]);
     if (dut_slot == 6'd14 || dut_slot == 6'd30) Zeros2_A: assert (dut_crc[1:0] == 2'b00);
     if (dut_slot == 6'd15 || dut_slot == 6'd31) Zeros3_A: assert (dut_crc[2:0] == 3'b000);

@@ -34,6 +34,8 @@ module proof (
   logic       miso, miso_oe;
   logic       wr_en, rd_en;
   logic [7:0] wr_addr, wr_data, rd_addr, rd_data_q;
+  mb4_pkg::host_t host;
+  assign {wr_en, wr_addr, wr_data, rd_en, rd_addr} = host;
 
   mb4_spi u_dut (
     .rst_ni,
@@ -42,11 +44,7 @@ module proof (
     .mosi_i,
     .miso_o    (miso),
     .miso_oe_o (miso_oe),
-    .wr_en_o   (wr_en),
-    .wr_addr_o (wr_addr),
-    .wr_data_o (wr_data),
-    .rd_en_o   (rd_en),
-    .rd_addr_o (rd_addr),
+    .host_o    (host),
     .rd_data_i (rd_data_q)
   );
 

@@ -10,28 +10,34 @@
 // depth: 12
 // cover: 8
 // unbounded: induction 1
-// mutation: mb4/ctrl/mb4_status_flags.sv | if (scd_en_i)    n_scderr_d = !scd_bad_i;
-//   | if (scd_bad_i) n_scderr_d = 1'b0;
-// mutation: mb4/ctrl/mb4_status_flags.sv | fail_q && !bank_swapped_i | fail_q && !clear_i
+// mutation: mb4/ctrl/mb4_status_flags.sv | if (frame_i.scd_en)    n_scderr_d = !frame_i.scd_bad;
+//   | if (frame_i.scd_bad) n_scderr_d = 1'b0;
+// mutation: mb4/ctrl/mb4_status_flags.sv | fail_q && !bank_i.swapped | fail_q && !frame_i.clear
 // mutation: mb4/ctrl/mb4_status_flags.sv | !(n_scderr_d && n_agserr_d && n_regerr_d && n_delayerr_d)
 //   | !(n_scderr_d && n_agserr_d && n_regerr_d)
-// mutation: mb4/ctrl/mb4_status_flags.sv | n_delayerr_d = !delay_error_i;
-//   | n_delayerr_d = !reg_error_i;
+// mutation: mb4/ctrl/mb4_status_flags.sv | n_delayerr_d = !access_i.delay_error;
+//   | n_delayerr_d = !access_i.reg_error;
 
 module proof (
   input logic clk_i,
   input logic rst_ni,
   input logic busy_i, clear_i, scd_en_i, scd_bad_i, ags_error_i, bank_fail_i, bank_swapped_i,
+  input logic bank_lost_i,
+  input mb4_pkg::access_state_t access_state_i,
   input logic reg_begin_i, reg_end_i, reg_error_i, delay_error_i
 );
 
-  logic eot, n_scderr, n_agserr, n_regerr, n_delayerr, regend, fail, ner_low;
+  logic eot, n_scderr, n_agserr, n_regerr, n_delayerr, regend, fail, ner_low, zeros;
+  logic [5:0] bytes;
+  mb4_pkg::flags_t flags;
+  assign {n_agserr, n_delayerr, n_scderr, n_regerr, regend, eot, fail, zeros, bytes} = flags;
 
   mb4_status_flags u_dut (
-    .clk_i, .rst_ni, .busy_i, .clear_i, .scd_en_i, .scd_bad_i, .ags_error_i, .bank_fail_i,
-    .bank_swapped_i, .reg_begin_i, .reg_end_i, .reg_error_i, .delay_error_i,
-    .eot_o(eot), .n_scderr_o(n_scderr), .n_agserr_o(n_agserr), .n_regerr_o(n_regerr),
-    .n_delayerr_o(n_delayerr), .regend_o(regend), .swbank_fail_o(fail), .ner_low_o(ner_low)
+    .clk_i, .rst_ni,
+    .frame_i({busy_i, clear_i, scd_en_i, scd_bad_i, ags_error_i, bank_fail_i}),
+    .bank_i({bank_swapped_i, bank_lost_i}),
+    .access_i({reg_begin_i, reg_end_i, reg_error_i, delay_error_i}), .access_state_i,
+    .flags_o(flags), .ner_low_o(ner_low)
   );
 
   logic started = 1'b0;
@@ -44,7 +50,7 @@ module proof (
 
   assign ended = reg_end_i && !clear_i && !reg_begin_i;
   assign set   = {scd_en_i && scd_bad_i, ags_error_i, ended && reg_error_i,
-                  ended && delay_error_i, ended, bank_fail_i};
+                  ended && delay_error_i, ended, bank_fail_i || bank_lost_i};
   assign clear = {clear_i || (scd_en_i && !scd_bad_i), clear_i,
                   clear_i || reg_begin_i || (ended && !reg_error_i),
                   clear_i || reg_begin_i || (ended && !delay_error_i),
@@ -57,6 +63,8 @@ module proof (
 
   always @* if (started) begin
     Table_A: assert ({!n_scderr, !n_agserr, !n_regerr, !n_delayerr, regend, fail} == flags_q);
+    Zeros_A: assert (zeros == access_state_i.cdm_timeout);
+    Bytes_A: assert (bytes == (n_regerr && n_delayerr ? 6'd0 : access_state_i.good_bytes));
     Ner_A: assert (ner_low == (flags_q[5:2] != 4'd0));
   end
   always @(posedge clk_i) begin

@@ -1,9 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// mb4_core in Icarus, a second simulator: SPI, registers, a BiSS C frame, a register access. Plain
-// SystemVerilog, no expected value of it from the RTL: golden vectors of docs/theory.md, protocol
-// facts (BiSS C protocol description C5, control frame). With +speed=N workload A for N clocks.
+// mb4_core in Icarus, a second simulator: SPI, registers, a BiSS C frame, a register access. It is
+// plain SystemVerilog. No expected value comes from the RTL: the CRC is that of the table in
+// docs/theory.md, the control frame that of the BiSS C protocol description (C5). With +speed=N
+// workload A for N clocks.
 `timescale 1ns/1ps
 
 module bench;
@@ -224,7 +225,7 @@ module bench;
   endtask
 
   // Read register 0x67 of ID 0, value 0x5F: the control frame of the protocol description, bit by
-  // bit. CDS: ID lock in slot 1, R echo in 17, S in 19, data and inverted CRC behind it.
+  // bit. CDS: ID lock in slot 1, R echo in 17, S in 19, data and inverted CRC after it.
   task check_register_access;
     begin
       write1(8'hE2, 8'h67);

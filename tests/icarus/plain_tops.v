@@ -24,8 +24,8 @@ module mb4_core (
 
   mb4_spi u_spi (
     .rst_ni(rst_ni), .sclk_i(sclk_i), .cs_ni(cs_ni), .mosi_i(mosi_i), .miso_o(miso_o),
-    .miso_oe_o(miso_oe_o), .wr_en_o(wr_en), .wr_addr_o(wr_addr), .wr_data_o(wr_data),
-    .rd_en_o(rd_en), .rd_addr_o(rd_addr), .rd_data_i(rd_data)
+    .miso_oe_o(miso_oe_o), .host_o({wr_en, wr_addr, wr_data, rd_en, rd_addr}),
+    .rd_data_i(rd_data)
   );
 
   mb4_engine u_engine (

@@ -83,9 +83,9 @@ for level, layer in enumerate(DRIVER_HEADERS):
     lower = [name for names in DRIVER_HEADERS[:level + 1] for name in names]
     for header in layer:
         MAY_USE[header] = (*lower, "regmap/") if level else ()
-# What is not as the table says yet. Each must still be needed.
+# Uses that break the table for the time being. Each of them must still exist.
 STILL = {}
-# Folders in which an include in quotes or angle brackets is looked for, behind the file's own.
+# Folders in which an include in quotes or angle brackets is looked for, after the file's own.
 INCLUDE_FOLDERS = ("sim/include/", "drivers/include/", "regmap/generated/mb4/", "sim/model/",
                    "tools/mb4sim/", "drivers/c/", "")
 CPP = (".cpp", ".hpp", ".c", ".h")

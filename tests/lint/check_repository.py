@@ -13,6 +13,7 @@
                                   repeat it say the same, no other file does
   check_repository.py rooms       README.md names every folder of rtl/, tests/ and tools/, docs/README.md
                                   every page of docs/
+  check_repository.py decisions   docs/choices.md has a row for every "decision N"
   check_repository.py self-test   planted faults are reported
 """
 
@@ -51,6 +52,12 @@ VERSION_COPIES = {
 IPXACT = ".ipxact.xml", r"<ipxact:version>(\d+)\.(\d+)\.(\d+)</ipxact:version>"
 # The newest release; a tree before its first release has none.
 RELEASE = {"CHANGELOG.md": r"(?m)^## \[(\d+)\.(\d+)\.(\d+)\]"}
+
+CHOICES = "docs/choices.md"
+# "decision 8", "decisions 1, 22..24 and 31", also when a comment breaks the line between them.
+GAP = r"(?:\s|\n[ \t]*(?://|#|\*))*"
+DECISIONS = re.compile(
+    rf"\b[Dd]ecisions?{GAP}(\d+(?:{GAP}(?:,|\.\.|and\b){GAP}\d+)*)")
 
 
 def tracked():
@@ -174,6 +181,19 @@ def room_findings(files):
     return sorted(findings)
 
 
+def decision_findings(files):
+    rows = set(re.findall(r"(?m)^\| (\d+) \|", files.get(CHOICES) or ""))
+    findings = []
+    for name, text in files.items():
+        for match in DECISIONS.finditer(text or ""):
+            line = text.count("\n", 0, match.start()) + 1
+            for first, last in re.findall(r"(\d+)(?:\.\.(\d+))?", match[1]):
+                findings += [f"{name}:{line}: {CHOICES} has no row {number}"
+                             for number in range(int(first), int(last or first) + 1)
+                             if str(number) not in rows]
+    return findings
+
+
 def self_test():
     findings = []
 
@@ -223,6 +243,12 @@ def self_test():
     expect(1, room_findings({**rooms, "tests/chip/a.cpp": "", "tests/chip/b.cpp": ""}), "a new room")
     expect(1, room_findings({**rooms, "docs/new.md": ""}), "a new page")
 
+    choices = {CHOICES: "| no. | x |\n|---|---|\n| 1 | a |\n| 3 | b |\n| 4 | c |\n| 4 | d |\n| | e |\n"}
+    for text, count in (("decision 1", 0), ("Decisions 1, 3 and 4, page 2", 0), ("decision 2", 1),
+                        ("decisions 3..5", 1), ("decision\n// 2", 1), ("decisions 1,\n  # 2, 5", 2),
+                        ("decision 4: 2 zeros", 0), ("12 decisions. 2", 0)):
+        expect(count, decision_findings({**choices, "a.sv": text}), f"decisions: {text}")
+
     helper = {HELPER: f"verilate(x VERILATOR_ARGS {FLAG})"}
     expect(0, verilator_findings(helper), "helper")
     bare = {HELPER: "verilate(x VERILATOR_ARGS -Wall)"}
@@ -243,7 +269,7 @@ def main():
     check = {"licences": licence_findings, "paths": path_findings, "merged": merge_findings,
              "runnable": runnable_findings,
              "verilator": verilator_findings, "version": version_findings,
-             "rooms": room_findings}[sys.argv[1]]
+             "rooms": room_findings, "decisions": decision_findings}[sys.argv[1]]
     files = tracked()
     project.finish(check(files), f"{len(files)} tracked files")
 

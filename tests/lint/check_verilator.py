@@ -3,7 +3,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """Verilator's lint of the RTL and the waivers.
 
-  check_verilator.py lint        every module as top, the project's flags: no message
+  check_verilator.py lint        every module as top, the project's flags, and smaller instances of
+                                 what siblings use smaller: no message
   check_verilator.py waivers     each waiver of rtl/waivers.vlt stands under its reason, none is idle,
                                  none names UNOPTFLAT; no lint_off inside the RTL
   check_verilator.py self-test   planted faults are reported
@@ -23,13 +24,18 @@ import project  # noqa: E402
 INLINE_ALLOWED = {("mb4_regs_pkg.sv", "UNUSEDPARAM"): 1}
 
 
-def lint(top, files, waivers):
+# Each parameter of a line smaller than in the chip, alone and all together.
+SMALLER = {"biss_line": ["BissB=0", "Ssi=0", "Mo=0", "FreeCrc=0", "Slaves=1", "DataBits=32", "DelayW=6"]}
+
+
+def lint(top, files, waivers, parameters=()):
     """What Verilator says about one top module; verilator_flags() holds -fno-const-bit-op-tree."""
     status, text = project.run([project.tool("verilator"), "--lint-only",
                                 *project.verilator_flags(), f"-I{project.INCLUDE}",
-                                "--top-module", top, *waivers, *files])
+                                "--top-module", top, *(f"-G{value}" for value in parameters),
+                                *waivers, *files])
     text = text.replace(f"{project.ROOT}/", "")
-    return [f"{top}: {text.strip()}"] if status != 0 or text.strip() else []
+    return [f"{' '.join([top, *parameters])}: {text.strip()}"] if status != 0 or text.strip() else []
 
 
 def inline(path, text):
@@ -90,7 +96,12 @@ def idle(files, tops, text):
 def check_lint():
     files, modules = project.rtl_files(), list(project.rtl_modules())
     findings = [line for top in modules for line in lint(top, files, [project.WAIVERS])]
-    project.finish(findings, f"{len(modules)} modules as top: no message")
+    smaller = [(top, values) for top, all_values in SMALLER.items()
+               for values in [*([value] for value in all_values), all_values]]
+    for top, values in smaller:
+        findings += lint(top, files, [project.WAIVERS], values)
+    project.finish(findings, f"{len(modules)} modules as top and {len(smaller)} smaller instances: "
+                             "no message")
 
 
 def check_waivers():

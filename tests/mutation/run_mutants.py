@@ -27,7 +27,7 @@ sys.path.insert(0, str(HERE.parents[1] / "tools" / "synth"))
 
 import project  # noqa: E402
 
-# Two chips side by side, of which one has no fault: nothing that other tests do not look at.
+# Lockstep compares two chips, of which one has no fault; other tests look at the same behaviour.
 LEFT_OUT = "-Lockstep.*:HostFuzz.*"
 SMALL = {"MB4_RANDOM_CONFIGS": "100", "MB4_FAULT_FRAMES": "2000", "MB4_LINE_FRAMES": "1210",
          "MB4_HOST_FRAMES": "300"}

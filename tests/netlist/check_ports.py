@@ -25,7 +25,7 @@ import yosys  # noqa: E402
 # Pairs that must be there, so that the rule cannot become empty by a new name.
 NEEDED_PAIRS = {"mb4_pkg::SLAVE_CFG_W", "biss_pkg::WORD_W", "biss_pkg::LINE_DATA_W"}
 
-# Yosys 0.23 makes the first too narrow without a message (struct: wrong hardware of tool-limits).
+# Yosys 0.23 makes the first one too narrow without a message; a struct becomes wrong hardware.
 PLANTED = {
     "array_of_struct": ("biss_pkg::word_t [3:0]", 4 * 47),
     "array_of_vector": ("nib_t [7:0]", 8 * 4),

@@ -17,7 +17,7 @@ module IDDR (input C, CE, D, R, S, output reg Q1, Q2);
   always @(negedge C) if (CE) Q2 <= D;
 endmodule
 
-// Lattice FPGA-TN-02035: both outputs change at the rising edge, a clock behind the samples.
+// Lattice FPGA-TN-02035: both outputs change at the rising edge, a clock after the samples.
 module IDDRX1F (input D, SCLK, RST, output reg Q0, Q1);
   reg pos, neg;
   always @(posedge SCLK or posedge RST) begin

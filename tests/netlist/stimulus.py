@@ -54,6 +54,8 @@ def play(steps, clocks, resets, rounds, ports=None, hold=0.5, reset_rate=0.002, 
     their value with probability `hold`."""
     ports = ports or {}
     data = [p for p in steps.widths if p not in clocks and p not in resets]
+    if unknown := ports.keys() - steps.widths.keys():
+        raise SystemExit(f"rules for ports that the module does not have: {sorted(unknown)}")
     for _ in range(rounds):
         values = {}
         for port in data:
@@ -88,13 +90,38 @@ def rarely(port, probability, choose=None):
     return rule
 
 
-def host_write(steps):
+def pack(*fields):
+    """A struct from (value, width) pairs, the highest field first."""
+    word = 0
+    for value, width in fields:
+        word = word << width | int(value) & ((1 << width) - 1)
+    return word
+
+
+def struct(port, *fields):
+    """A rule for a struct: a new value at each step. A field is (probability, 1) of a 1, or
+    (function of the steps, width), or (None, width) for any value."""
+    def rule(steps):
+        values = []
+        for source, width in fields:
+            if source is None:
+                values.append((steps.rng.getrandbits(width), width))
+            elif callable(source):
+                values.append((source(steps), width))
+            else:
+                values.append((steps.chance(source), width))
+        return pack(*values)
+    return {port: rule}
+
+
+def host_address(steps):
     """An address of 0xC0..0xFF mostly: where the configuration lives."""
     return steps.rng.getrandbits(6) | 0xC0 if steps.chance(0.9) else steps.rng.getrandbits(8)
 
 
-def host(*names):
-    return {name: rarely(name, 0.5, host_write) for name in names}
+def host(wr_address=host_address):
+    """host_t of mb4_pkg: writes and reads of the host."""
+    return struct("host_i", (0.5, 1), (wr_address, 8), (None, 8), (0.5, 1), (host_address, 8))
 
 
 def instruction_byte(steps):
@@ -174,33 +201,37 @@ def slave_cfg_store(steps):
     """Memory contents are unknown until written: write every row, then read once."""
     steps.reset(["rst_ni"])
     for address in range(32):
-        steps.step(wr_en_i=1, wr_addr_i=address, wr_data_i=any_value(steps, "wr_data_i"))
+        steps.step(host_i=pack((1, 1), (0xC0 | address, 8), (steps.rng.getrandbits(8), 8), (0, 9)))
         steps.clock("hclk_i")
-    steps.step(wr_en_i=0, rd_en_i=1, list_en_i=0xF)
+    steps.step(host_i=1 << 8, list_en_i=0xF)
     steps.clock("rclk_i")
     steps.clock("clk_i")
     steps.compare_from = len(steps.steps)
     # A write and a read of one row never share a clock edge: which byte is read is left open.
     play(steps, ["hclk_i", "rclk_i", "clk_i"], ["rst_ni"], 12000,
-         {"rd_en_i": 0.9}, one_clock=True)
+         host(lambda s: 0xC0 | s.rng.getrandbits(5 + int(s.chance(0.2)))), one_clock=True)
 
 
-def scd_bank(steps):
+def memory(steps):
     """Memory contents are unknown until written: clear all, then read once."""
-    steps.step(clear_i=1)
     for address in range(64):
-        steps.step(clear_addr_i=address)
+        steps.step(clear_i=pack((1, 1), (address, 6), (0, 8)))
         steps.clock("clk_i")
-    steps.step(clear_i=0, rd_en_i=1, eng_rd_en_i=1)
+    steps.step(clear_i=0, rd_i=1 << 6, eng_rd_i=1 << 6)
     steps.clock("rclk_i")
     steps.clock("clk_i")
     steps.compare_from = len(steps.steps)
     # Few bytes, the same in both banks.
-    few = {port: rarely(port, 0.6, lambda s: s.rng.getrandbits(1) << 5 | s.rng.getrandbits(2) * 9)
-           for port in ("clear_addr_i", "eng_wr_addr_i", "host_wr_addr_i", "eng_rd_addr_i")}
-    few["rd_addr_i"] = rarely("rd_addr_i", 0.6, lambda s: s.rng.getrandbits(2) * 9)
+    def place(s):
+        return s.rng.getrandbits(1) << 5 | s.rng.getrandbits(2) * 9
+
+    few = {}
+    for port, probability in (("clear_i", 0.05), ("eng_wr_i", 0.5), ("host_wr_i", 0.5)):
+        few |= struct(port, (probability, 1), (place, 6), (None, 8))
+    for port in ("eng_rd_i", "rd_i", "rd2_i"):
+        few |= struct(port, (0.5, 1), (place, 6))
     # A write and a read of one address never share a clock edge: which byte is read is left open.
-    play(steps, ["clk_i", "rclk_i"], [], 6000, dict(few, clear_i=0.05), one_clock=True)
+    play(steps, ["clk_i", "rclk_i"], [], 6000, few, one_clock=True)
 
 
 def posted(steps):
@@ -217,15 +248,20 @@ def posted(steps):
 
 
 def kind(steps):
-    """kind_t of mb4_pkg: three pairs of lines, is_frame, is_control, is_register, is_void."""
-    value = steps.rng.choice([1, 2, 3, 3, 3]) << 4 | steps.rng.getrandbits(4)
+    """kind_t of mb4_pkg: six pairs of lines, is_frame, is_control, is_register, is_void."""
+    value = steps.rng.choice([1, 2, 3, 3, 3]) << 10 | steps.rng.getrandbits(10)
     return (value << 4 | steps.chance(0.9) << 3 | steps.chance(0.3) << 2 | steps.chance(0.2) << 1 |
             steps.chance(0.1))
 
 
 def line_event(steps):
-    """line_event_t of biss_pkg: frame_end, init_done, init_fail, word_done."""
-    return (steps.rng.getrandbits(2) << 2 | steps.chance(0.07) << 1 | steps.rng.getrandbits(1))
+    """line_event_t of biss_pkg: frame_end, init_done, init_fail."""
+    return steps.rng.getrandbits(2) << 1 | steps.chance(0.07)
+
+
+def line_status(steps):
+    """line_status_t of biss_pkg: idle, timeout, cds, cdm, sl; mostly idle with SL = 1."""
+    return pack((steps.chance(0.9), 1), (steps.rng.getrandbits(3), 3), (steps.chance(0.9), 1))
 
 
 def word_cfg(steps, crc, store_gray, actuator, stop):
@@ -244,7 +280,7 @@ def rx_word(steps):
     for _ in range(120):
         crc = steps.rng.choice([0, 0, 1, 3, 5, 6, 7, 8, 16])
         word = word_cfg(steps, crc, steps.rng.getrandbits(2), steps.chance(0.2), steps.chance(0.2))
-        steps.step(word_i=word, load_i=1, bit_valid_i=0, run_i=int(steps.chance(0.9)))
+        steps.step(offer_i=steps.rng.getrandbits(5) << 47 | word, load_i=1, bit_valid_i=0, run_i=int(steps.chance(0.9)))
         steps.clock("clk_i")
         steps.step(load_i=0)
         for _ in range(steps.rng.randint(1, 90)):
@@ -261,14 +297,18 @@ def control_crc(value):
     return bits + [~crc >> i & 1 for i in range(3, -1, -1)]
 
 
+def access(steps, cts, write, count):
+    """access_t of biss_pkg: an access of `count` bytes anywhere."""
+    return pack((cts, 1), (write, 1), (steps.rng.getrandbits(7), 7), (count - 1, 6),
+                (steps.rng.getrandbits(3), 3))
+
+
 def control_frame(steps):
     """Register accesses of many bytes with a slave that answers right, then anything."""
     steps.reset(["rst_ni"])
     for number in range(4):
         write, value, count = number & 1, steps.rng.getrandbits(8), steps.rng.randint(33, 64)
-        steps.step(post_busy_i=0, cts_i=1, wnr_i=write, regadr_i=steps.rng.getrandbits(7),
-                   regnum_i=count - 1,
-                   slaveid_i=steps.rng.getrandbits(3), select_i=1 + (number >> 1), rdata_i=value,
+        steps.step(post_busy_i=0, access_i=access(steps, 1, write, count), select_i=1 + (number >> 1), rdata_i=value,
                    cdm_timeout_i=1, begin_i=1)
         steps.clock("clk_i")
         steps.step(begin_i=0, expired_i=0)
@@ -280,7 +320,7 @@ def control_frame(steps):
             steps.clock("clk_i")
             steps.step(frame_end_i=0)
     # A slave whose start bit does not come.
-    steps.step(wnr_i=0, begin_i=1)
+    steps.step(access_i=access(steps, 1, 0, 1), begin_i=1)
     steps.clock("clk_i")
     steps.step(begin_i=0)
     for cds in [0] * 17 + [1] + [0] * 4:
@@ -291,12 +331,11 @@ def control_frame(steps):
         steps.step(frame_end_i=0)
     play(steps, ["clk_i"], ["rst_ni"], 24000, {
         "begin_i": 0.3, "post_busy_i": 0.3, "abort_i": 0.0005, "start_i": 0.7, "frame_end_i": 0.7,
-        "cdm_timeout_i": 0.9, "expired_i": 0.4, "running_i": 0.5,
+        "cdm_timeout_i": 0.9, "expired_i": 0.4,
         "select_i": rarely("select_i", 0.01, lambda s: s.rng.choice([1, 1, 2, 3])),
-        "cts_i": rarely("cts_i", 0.003), "wnr_i": rarely("wnr_i", 0.003),
-        "regadr_i": rarely("regadr_i", 0.003), "regnum_i": rarely(
-            "regnum_i", 0.003, lambda s: s.rng.choice([0, 1, 2])),
-        "slaveid_i": rarely("slaveid_i", 0.003), "ida_invert_i": rarely("ida_invert_i", 0.003),
+        "access_i": rarely("access_i", 0.01, lambda s: access(
+            s, s.rng.getrandbits(1), s.rng.getrandbits(1), s.rng.choice([1, 2, 3]))),
+        "ida_invert_i": rarely("ida_invert_i", 0.003),
         "rdata_i": rarely("rdata_i", 0.003, lambda s: s.rng.choice([0, 0x80, 0xC0, 0x5A]))})
 
 
@@ -304,22 +343,29 @@ def mo_tx(steps):
     """Frames of a few words; a rising MA edge every second clock at most."""
     steps.reset(["rst_ni"])
     for _ in range(60):
-        steps.step(enable_i=int(steps.chance(0.9)), low_i=int(steps.chance(0.1)), begin_i=1,
-                   biss_c_i=steps.rng.getrandbits(1), reduced_i=int(steps.chance(0.1)),
-                   busy_i=steps.rng.choice([0, 0, 1, 5]), line_idle_i=0, rise_i=0)
+        word = 0
+        # line_cmd_t: protocol, mo_en, mo_busy, hold_cdm, forced, force_level, mo_low; line_go_t: four
+        # fields, mo_return, stop.
+        steps.step(cmd_i=pack((0, 2), (steps.chance(0.9), 1), (steps.rng.choice([0, 0, 1, 5]), 8),
+                              (0, 3), (steps.chance(0.1), 1)),
+                   go_i=pack((0, 3), (steps.chance(0.1), 1), (0, 2)), begin_i=1,
+                   line_idle_i=0, biss_c_i=steps.rng.getrandbits(1), clocks_i=1, rise_i=0)
         steps.clock("clk_i")
         steps.step(begin_i=0)
         for _ in range(steps.rng.randint(10, 150)):
             if steps.chance(0.03):
-                steps.step(word_i=word_cfg(steps, steps.rng.choice([0, 3, 5, 6, 8, 16]), 0,
-                                           steps.chance(0.8), steps.rng.getrandbits(1)))
-            steps.step(any_word_i=int(steps.chance(0.9)), last_word_i=int(steps.chance(0.3)),
-                       slave_i=any_value(steps, "slave_i"), rise_i=1,
-                       mem_data_i=any_value(steps, "mem_data_i"),
-                       line_idle_i=int(steps.chance(0.005)), final_i=int(steps.chance(0.3)),
-                       clocks_i=int(steps.chance(0.95)))
+                word = word_cfg(steps, steps.rng.choice([0, 3, 5, 6, 8, 16]), 0, steps.chance(0.8),
+                                steps.rng.getrandbits(1))
+            # offer_t: any, last, slave, word.
+            steps.step(offer_i=pack((steps.chance(0.9), 1), (steps.chance(0.3), 1),
+                                    (steps.rng.getrandbits(3), 3), (word, 47)),
+                       data_i=any_value(steps, "data_i"), line_idle_i=int(steps.chance(0.005)),
+                       clocks_i=int(steps.chance(0.95)),
+                       final_i=int(steps.chance(0.3)), rise_i=1)
             steps.clock("clk_i")
-            steps.step(rise_i=0, final_i=0)
+            steps.step(final_i=0, rise_i=0)
+            if steps.chance(0.003):
+                steps.step(go_i=steps.rng.choice([1, 2]))
             steps.clock("clk_i")
 
 
@@ -328,8 +374,7 @@ def biss_b(steps):
     steps.reset(["rst_ni"])
     for number in range(6):
         write, value, count = number & 1, steps.rng.getrandbits(8), steps.rng.choice([3, 64, 64])
-        steps.step(freqr_i=0, wnr_i=write, regadr_i=steps.rng.getrandbits(7), regnum_i=count - 1,
-                   slaveid_i=steps.rng.getrandbits(3), mo_i=number >> 1 & 1, use_i=1 + number % 3,
+        steps.step(freqr_i=0, access_i=access(steps, 1, write, count), mo_i=number >> 1 & 1, use_i=1 + number % 3,
                    rdata_i=value, init_i=0, start_i=1, sl_i=3, tick_i=1, expired_i=0)
         steps.clock("clk_i")
         steps.step(start_i=0, sl_i=0)
@@ -347,10 +392,9 @@ def biss_b(steps):
     play(steps, ["clk_i"], ["rst_ni"], 12000, {
         "start_i": 0.3, "abort_i": 0.0005, "tick_i": 0.9, "expired_i": 0.3, "init_i": 0.1,
         "freqr_i": rarely("freqr_i", 0.003, lambda s: s.rng.choice([0, 0, 1])),
-        "wnr_i": rarely("wnr_i", 0.003), "mo_i": rarely("mo_i", 0.01),
-        "regadr_i": rarely("regadr_i", 0.003), "regnum_i": rarely(
-            "regnum_i", 0.003, lambda s: s.rng.choice([0, 1])),
-        "slaveid_i": rarely("slaveid_i", 0.003), "use_i": rarely("use_i", 0.003),
+        "access_i": rarely("access_i", 0.01, lambda s: access(
+            s, 1, s.rng.getrandbits(1), s.rng.choice([1, 2]))),
+        "mo_i": rarely("mo_i", 0.01), "use_i": rarely("use_i", 0.003),
         "rdata_i": rarely("rdata_i", 0.003)})
 
 
@@ -422,30 +466,30 @@ MODULES = {
     "enc_clk_mux": simple(["clk0_i", "clk1_i"], ["rst_ni"], 4000,
                           {"sel_i": rarely("sel_i", 0.02)}),
     "enc_posted": posted,
-    "mb4_scd_bank": scd_bank,
+    "mb4_memory": memory,
     "mb4_spi": spi,
     "mb4_spi2": spi,
     "mb4_par_bus": simple(["ale_i", "nrd_rnw_i", "nwr_e_i"], ["rst_ni"], 4000, {
         "enable_i": rarely("enable_i", 0.02), "int_nmot_i": rarely("int_nmot_i", 0.02),
         "cs_ni": 0.2}),
-    "mb4_cfg_regs": simple(*HOST, 6000, host("wr_addr_i", "rd_addr_i"), hold=0.2),
+    "mb4_cfg_regs": simple(*HOST, 6000, host(), hold=0.2),
     "mb4_slave_cfg": slave_cfg_store,
-    "mb4_instr_reg": simple(*HOST, 4000, {"wr_addr_i": rarely("wr_addr_i", 0.5,
-                            lambda s: 0xF4 ^ (int(s.chance(0.3)) << s.rng.randrange(8)))}),
-    "mb4_host_read": simple(["rclk_i"], ["rst_ni"], 6000, host("rd_addr_i")),
-    "mb4_bank_ctrl": simple(*CORE, 4000, {"frame_end_i": 0.2, "swbank_pulse_i": 0.1}),
+    "mb4_instr_reg": simple(*HOST, 4000, host(
+        lambda s: 0xF4 ^ (int(s.chance(0.3)) << s.rng.randrange(8)))),
+    "mb4_host_read": simple(["rclk_i"], ["rst_ni"], 6000, host()),
+    "mb4_bank_ctrl": simple(*CORE, 4000, struct(
+        "bank_i", (0.5, 1), (None, 1), (0.2, 1), (None, 1), (0.1, 1), (None, 1))),
     "mb4_crc_decode": crc_decode,
     "mb4_word_list": simple(*CORE, 6000, {
-        "start_i": 0.02, "next_i": 0.2, "own_i": rarely("own_i", 0.01),
+        "start_i": 0.02, "next_i": 0.2,
         "enscd_i": rarely("enscd_i", 0.02), "cfg_i": rarely("cfg_i", 0.5, slave_cfg)}),
     "mb4_sequencer": simple(*CORE, 12000, {
-        "written_i": rarely("written_i", 0.1, instruction_byte),
-        "count_i": rarely("count_i", 0.1),
-        "mem_busy_i": 0.02, "idle_i": rarely("idle_i", 0.3, lambda s: s.rng.choice([3, 3, 3, 1])),
-        "sl_i": rarely("sl_i", 0.2, lambda s: s.rng.choice([3, 3, 3, 1])), "tick_i": 0.9,
+        "instr_i": rarely("instr_i", 0.1, lambda s: s.rng.getrandbits(2) << 8 | instruction_byte(s)),
+        **struct("mem_i", (0.02, 1), (None, 1)), "tick_i": 0.9,
+        "status_i": rarely("status_i", 0.3, lambda s: line_status(s) << 5 | line_status(s)),
         "regvers_i": rarely("regvers_i", 0.02), "kind_i": rarely("kind_i", 0.3, kind),
-        "event_i": rarely("event_i", 0.9, lambda s: line_event(s) << 4 | line_event(s)),
-        "agserr_on_write_i": rarely("agserr_on_write_i", 0.01),
+        "event_i": rarely("event_i", 0.9, lambda s: line_event(s) << 3 | line_event(s)),
+        "quirks_i": rarely("quirks_i", 0.01),
     }),
     "mb4_frame_request": simple(*CORE, 12000, {
         "ags_i": 0.999, "restart_i": 0.001, "busy_i": 0.3, "taken_i": 0.05, "lines_idle_i": 0.8,
@@ -454,28 +498,40 @@ MODULES = {
                             lambda s: s.rng.choice([0, 1, 2, 3, 0x7C, 0x7F, 0x80]))}),
     "biss_cdm_timeout": simple(*CORE, 4000, {"cdm_i": 0.02, "clear_i": 0.01}),
     "mb4_status_flags": simple(*CORE, 4000, {
-        "clear_i": 0.05, "scd_bad_i": 0.2, "ags_error_i": 0.05, "bank_fail_i": 0.1}),
+        **struct("frame_i", (None, 1), (0.05, 1), (None, 1), (0.2, 1), (0.05, 1), (0.1, 1)),
+        **struct("bank_i", (None, 1), (0.1, 1))}),
     "biss_control_frame": control_frame,
     "mb4_cds_bank": simple(*CORE, 3000),
     "biss_timebase": timebase,
     "biss_sl_sampler": simple(*CORE, 12000, {
-        "ssi_i": rarely("ssi_i", 0.002), "clear_i": 0.002, "smp_a_i": 0.4, "smp_b_i": 0.4, "sl_i": rarely("sl_i", 0.3, lambda s:
-                                                                        int(s.chance(0.99))),
+        "ssi_i": rarely("ssi_i", 0.002), "clear_i": 0.002,
+        **struct("sample_i", (0.4, 1), (0.4, 1), (None, 1)),
+        "sl_i": rarely("sl_i", 0.3, lambda s: int(s.chance(0.99))),
         "armed_a_i": 0.95, "armed_b_i": 0.95}, reset_rate=0.0005),
+    # A manager that keeps its requests now and then, and breaks every rule in between.
+    "enc_axil": simple(*CORE, 4000, {
+        "s_axi_awvalid": 0.8, "s_axi_wvalid": 0.8, "s_axi_arvalid": 0.5, "s_axi_bready": 0.7,
+        "s_axi_rready": 0.7, "word_ready_i": 0.6, "word_error_i": 0.2}),
+    "enc_wb": simple(*CORE, 4000, {
+        "wb_cyc_i": 0.95, "wb_stb_i": 0.8, "word_ready_i": 0.6, "word_error_i": 0.2}),
     "enc_crc": simple(*CORE, 4000, {
         "load_i": 0.02, "shift_i": 0.8, "feed_i": 0.8, "poly_i": rarely("poly_i", 0.02),
         "top_i": rarely("top_i", 0.02, lambda s: (1 << s.rng.randrange(8)))}),
     "biss_rx_word": rx_word,
     "biss_frame": simple(["clk_i"], ["rst_ni", "por_ni"], 12000, {
-        "start_i": 0.1, "use_i": 0.95, "init_i": 0.1, "abort_i": 0.003, "bit_valid_i": 0.3,
+        # start, init, register_access, reduced, mo_return, stop.
+        **struct("go_i", (0.1, 1), (0.1, 1), (0.1, 1), (None, 1), (None, 1), (0.003, 1)),
+        **struct("start_i", (0.95, 1), (None, 1), (None, 1)),
+        # protocol, mo_en, mo_busy, hold_cdm, forced, force_level, mo_low.
+        "cmd_i": rarely("cmd_i", 0.01, lambda s: pack(
+            (s.rng.choice([1, 1, 1, 0, 2, 3]), 2), (0, 1), (s.rng.getrandbits(8), 8),
+            (s.chance(0.2), 1), (s.chance(0.2), 1), (s.rng.getrandbits(2), 2))),
+        **struct("offer_i", (None, 1), (0.3, 1), (None, 50)),
+        **struct("register_ma_i", (None, 1), (0.05, 1)), "bit_valid_i": 0.3,
         "tick_i": 0.5, "len_valid_i": 0.01, "len_i": rarely("len_i", 0.5, lambda s:
                                                             s.rng.choice([1, 7, 30, 80])),
-        "last_word_i": 0.3, "word_done_i": 0.2, "sl_i": 0.7,
-        "protocol_i": rarely("protocol_i", 0.01, lambda s: s.rng.choice([1, 1, 1, 0, 2, 3])),
-        "register_i": 0.1, "register_end_i": 0.05, "force_i": rarely("force_i", 0.002),
-        "bus_i": rarely("bus_i", 0.01), "mo_busy_i": rarely("mo_busy_i", 0.01),
-        "ack_i": 0.2, "hold_cdm_i": 0.2, "quarters_i": rarely("quarters_i", 0.1, lambda s:
-                                                             s.rng.choice([3, 254, 255]))}),
+        "word_done_i": 0.2, "sl_i": 0.7, "bus_i": rarely("bus_i", 0.01),
+        "ack_i": 0.2, "late_i": 0.002}),
     "biss_edge_count": simple(*CORE, 6000, {
         "begin_i": 0.05, "run_i": 0.95, "rise_i": 0.5, "len_valid_i": 0.03, "wait_i": 0.05,
         "len_i": rarely("len_i", 0.5, lambda s: s.rng.choice([1, 2, 7, 80])),
@@ -491,9 +547,10 @@ MODULES = {
 
 # Output bits that no input can change.
 CONSTANT = {
+    "enc_axil": ["s_axi_bresp[0]", "s_axi_rresp[0]"],   # OKAY or SLVERR
     "mb4_crc_decode": ["crc_poly_o[0]"],  # every polynomial ends in 1
     "mb4_word_list": ["offer_o[28]"],
     # BREAK never reads 1; MO returns 1024 half periods after INIT's acknowledge
-    "mb4_sequencer": ["held_o[7]", "go_o[1]"],
-    "mb4_scd_bank": [f"rd2_data_o[{i}]" for i in range(16)],  # Port2 = 0
+    "mb4_sequencer": ["instr_o[7]", "go_o[1]"],
+    "mb4_memory": [f"rd2_data_o[{i}]" for i in range(16)],  # Port2 = 0
 }

@@ -9,6 +9,7 @@ import subprocess
 import sys
 import tarfile
 import tempfile
+import tomllib
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -19,6 +20,24 @@ def git(*arguments, cwd):
     safe = f"safe.directory={ROOT}"
     return subprocess.run(["git", "-c", safe, "-c", f"safe.directory={cwd}", *arguments], cwd=cwd,
                           capture_output=True, text=True, timeout=100, check=True).stdout
+
+
+def check_sdist(folder, version):
+    """CMake configures it as pip does: no file is missing that the build names."""
+    with tarfile.open(folder / "b" / "python" / f"openmb4-{version}.tar.gz") as tar:
+        tar.extractall(folder)
+    top = folder / f"openmb4-{version}"
+    settings = tomllib.loads((top / "pyproject.toml").read_text())["tool"]["scikit-build"]
+    assert (top / settings["wheel"]["packages"][0] / "__init__.py").exists(), settings
+    assert (top / settings["metadata"]["version"]["input"]).exists(), settings
+    assert (top / "PKG-INFO").exists()
+    done = subprocess.run(["cmake", "-S", top / settings["cmake"]["source-dir"], "-B", folder / "pip",
+                           "-G", "Ninja", "-DSKBUILD=2", "-DBUILD_TESTING=OFF"],
+                          capture_output=True, text=True, timeout=300, check=False)
+    assert done.returncode == 0, done.stderr
+    done = subprocess.run(["ninja", "-n", *settings["build"]["targets"]], cwd=folder / "pip",
+                          capture_output=True, text=True, timeout=100, check=False)
+    assert done.returncode == 0 and str(ROOT) not in done.stdout, done.stdout[-500:]
 
 
 def main():
@@ -54,6 +73,9 @@ def main():
             plain = tar.extractfile(f"openmb4-{version}/verilog/mb4_chip.v").read().decode()
         tracked |= {f"verilog/{top}.v" for top in ("mb4_core", "mb4_engine", "mb4_chip")}
         assert packed == {f"openmb4-{version}/{name}" for name in tracked}, "other files"
+        sdists = [Path(folder, out, "python", archive.name).read_bytes() for out in ("a", "b")]
+        assert sdists[0] == sdists[1], "two sdists of one commit differ"
+        check_sdist(Path(folder), version)
         # What it does is shown by tests/icarus.
         assert "`timescale" in plain and len(re.findall(r"^module ", plain, re.M)) == 1, plain[:500]
         (clone / "README.md").write_text("changed")

@@ -65,7 +65,7 @@ CrcChoice crc_choice(std::uint8_t register_c1) {
 
 std::uint32_t remainder(const std::string& data, CrcChoice crc, std::uint16_t start) {
   // Long division on a string of bits: the start value is added to the first `width` bits of the
-  // message with `width` zeros behind it.
+  // message with `width` zeros after it.
   std::string message = data + std::string(crc.width, '0');
   for (unsigned i = 0; i < crc.width; ++i) {
     const bool bit = ((start >> (crc.width - 1 - i)) & 1U) != 0;

@@ -30,7 +30,7 @@ struct Registers {
   bool singlebank = false;
 };
 
-// Bits of one line behind the start bit as '0' and '1': in BiSS C CDS first, then all words in the
+// Bits of one line after the start bit as '0' and '1': in BiSS C CDS first, then all words in the
 // order of their channels. In SSI from the second rising edge on.
 struct Lines {
   std::array<std::string, 2> bits;

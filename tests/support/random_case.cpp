@@ -71,7 +71,7 @@ std::string timeout_key(Random& random) {
   return text.str();
 }
 
-// Single bits, pairs, bursts; positions behind the start bit, CDS (0) left alone.
+// Single bits, pairs, bursts; positions after the start bit, CDS (0) left alone.
 std::vector<unsigned> make_flips(Random& random, unsigned length) {
   if (length < 2 || !random.one_in(3)) return {};
   const unsigned first = 1 + random.below(length - 1);

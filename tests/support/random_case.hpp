@@ -48,7 +48,7 @@ struct RandomCase {
   std::uint8_t chsel = 0;  // lines that CDM is sent on, 0 = line 1
   bool hold_cdm = false;   // HOLDCDM
   bool omits = false;      // AGSERR_ON_HOLDBANK: no frame while a switch is held back
-  // A line with actuators is so long that CDS comes behind the frame: a CDM that depends on it
+  // A line with actuators is so long that CDS comes after the frame: a CDM that depends on it
   // would cost an actuator's word (docs/choices.md).
   bool late_cds = false;
   bool en_mo = false;

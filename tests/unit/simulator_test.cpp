@@ -9,12 +9,14 @@
 #include <array>
 #include <vector>
 
+#include "mb4_regs.hpp"
 #include "sim/lines/biss/biss_c_slave.hpp"
 #include "sim/masters/mb4/pins.hpp"
 
 namespace mb4test {
 
 using namespace mb4::sim;
+namespace reg = mb4::regs;
 
 namespace {
 
@@ -26,12 +28,12 @@ std::vector<std::uint8_t> exchange(Simulator& simulator, std::vector<std::uint8_
   return rx;
 }
 
-// Datasheet Tables 41, 42: REVISION 0x20, VERSION 0x84.
+// Datasheet Tables 41, 42.
 TEST(Simulator, ChipAfterReset_AnswersOverSpi) {
   Simulator simulator(load("/resolute-26.toml"));
-  const auto rx = exchange(simulator, {0x03, 0xEA, 0, 0});
-  EXPECT_EQ(rx[2], 0x20);
-  EXPECT_EQ(rx[3], 0x84);
+  const auto rx = exchange(simulator, {reg::kSpiOpcodeReadRegisters, reg::kAddrRevision, 0, 0});
+  EXPECT_EQ(rx[2], reg::kRevisionY);
+  EXPECT_EQ(rx[3], reg::kVersionIcMb4);
 }
 
 // Datasheet page 21: RAM registers reset to 0, for any power-on values of the flops.
@@ -41,8 +43,8 @@ TEST(Simulator, AnySeed_ConfigurationIsZeroAfterReset) {
     options.seed = seed;
     Simulator simulator(load("/resolute-26.toml"), options);
     std::vector<std::uint8_t> tx(2 + 42, 0);
-    tx[0] = 0x03;
-    tx[1] = 0xC0;
+    tx[0] = reg::kSpiOpcodeReadRegisters;
+    tx[1] = reg::slave_cfg_address(1);
     const auto rx = exchange(simulator, tx);
     for (std::size_t i = 2; i < rx.size(); ++i) EXPECT_EQ(rx[i], 0) << "seed " << seed;
   }
@@ -62,12 +64,12 @@ TEST(Simulator, NoClockAtPin_StandsStillUntilOscillatorIsSelected) {
   Simulator simulator(load("/sine-internal-osc.toml"));
   simulator.advance(10 * kPsPerUs);
   EXPECT_EQ(simulator.clk_cycles(), 0U);
-  exchange(simulator, {0x02, 0xF5, 0x01});  // CLKENI
-  simulator.advance(kPsPerUs);              // the clock switch takes two periods
+  exchange(simulator, {reg::kSpiOpcodeWriteRegisters, reg::kAddrIface, reg::kClkeniInternal});
+  simulator.advance(kPsPerUs);  // the clock switch takes two periods
   const std::uint64_t before = simulator.clk_cycles();
   simulator.advance(100 * kPsPerUs);
   EXPECT_EQ(simulator.clk_cycles() - before, 2000U);
-  exchange(simulator, {0x02, 0xF5, 0x00});
+  exchange(simulator, {reg::kSpiOpcodeWriteRegisters, reg::kAddrIface, reg::kClkeniExternal});
   simulator.advance(10 * kPsPerUs);
   const std::uint64_t stopped = simulator.clk_cycles();
   simulator.advance(10 * kPsPerUs);
@@ -88,9 +90,9 @@ TEST(Simulator, ManyAtOnce_DoNotDisturbEachOther) {
   const Scenario scenario = load("/resolute-26.toml");
   Simulator first(scenario);
   Simulator second(scenario);
-  exchange(first, {0x02, 0xE6, 0x55});
-  EXPECT_EQ(exchange(first, {0x03, 0xE6, 0})[2], 0x55);
-  EXPECT_EQ(exchange(second, {0x03, 0xE6, 0})[2], 0x00);
+  exchange(first, {reg::kSpiOpcodeWriteRegisters, reg::kAddrFreq, 0x55});
+  EXPECT_EQ(exchange(first, {reg::kSpiOpcodeReadRegisters, reg::kAddrFreq, 0})[2], 0x55);
+  EXPECT_EQ(exchange(second, {reg::kSpiOpcodeReadRegisters, reg::kAddrFreq, 0})[2], 0x00);
 }
 
 TEST(Simulator, SameSeed_GivesTheSameRun) {
@@ -100,12 +102,15 @@ TEST(Simulator, SameSeed_GivesTheSameRun) {
     SimulatorOptions options;
     options.seed = seed;
     Simulator simulator(scenario, options);
-    exchange(simulator, {0x02, 0xC0, 0x5B, 0x06, 0, 0});
-    exchange(simulator, {0x02, 0xE5, 0x40, 0xA0, 0x00, 0x7C});
-    exchange(simulator, {0x02, 0xED, 0x0D});
+    exchange(simulator, {reg::kSpiOpcodeWriteRegisters, reg::slave_cfg_address(1),
+                         reg::kEnscdYes | 27, reg::kScrclenCrc6, 0, 0});
+    exchange(simulator, {reg::kSpiOpcodeWriteRegisters, reg::kAddrCtrl, reg::kRegversBissC,
+                         reg::FREQR::of(5), 0, reg::kFreqagsAgsMin});
+    exchange(simulator, {reg::kSpiOpcodeWriteRegisters, reg::kAddrCfgch,
+                         reg::kCfgch1BissC | reg::kCfgch2Unused});
     Time end = 0;
     for (int i = 0; i < 5; ++i) {
-      exchange(simulator, {0x07, 0x04});
+      exchange(simulator, {reg::kSpiOpcodeWriteInstruction, reg::kInstrCdm0});
       simulator.run_while_waiting([&] { return !simulator.slave(1)->idle(); },
                                   simulator.now() + 100 * kPsPerUs);
       simulator.run_while_waiting([&] { return simulator.slave(1)->idle(); },
@@ -156,18 +161,19 @@ TEST(Simulator, UndrivenPins_RestAtTheirPulls) {
 // open SL (B01) is ready for one.
 TEST(Simulator, BusLetGo_ReturnsToItsPullDowns) {
   Simulator simulator(parse_scenario("[host]\ninterface = \"intel\"\n", "open.toml"));
-  simulator.bus().write(0xC1, 0xFF);
-  EXPECT_EQ(simulator.bus().read(0xC1), 0xFF);
+  constexpr std::uint8_t kCrc = reg::slave_cfg_address(1) + reg::kSlaveCfgCrcOffset;
+  simulator.bus().write(kCrc, 0xFF);
+  EXPECT_EQ(simulator.bus().read(kCrc), 0xFF);
   for (unsigned bit = 0; bit < 8; ++bit) {
     EXPECT_FALSE(simulator.pin(static_cast<Pin>(bit))) << bit;
   }
-  simulator.bus().write(0xED, 0x05);
-  simulator.bus().write(0xE8, 0x7D);  // AGSINFINITE
-  simulator.bus().write(0xF4, 0x01);
+  simulator.bus().write(reg::kAddrCfgch, reg::kCfgch1BissC | reg::kCfgch2BissC);
+  simulator.bus().write(reg::kAddrFreqags, reg::kFreqagsAgsInfinite);
+  simulator.bus().write(reg::kAddrInstr, reg::kAgsOn);
   simulator.advance(100 * kPsPerUs);
   EXPECT_TRUE(simulator.pin(Pin::kMa1));
   EXPECT_TRUE(simulator.pin(Pin::kEot));
-  EXPECT_EQ(simulator.bus().read(0xF0), 0xFB);
+  EXPECT_EQ(simulator.bus().read(reg::kAddrStatus0), reg::kResetStatus0);
   simulator.set_pin(Pin::kGetsens, true);
   EXPECT_TRUE(simulator.run_while_waiting([&] { return !simulator.pin(Pin::kMa1); },
                                           simulator.now() + 100 * kPsPerUs));
@@ -177,7 +183,8 @@ TEST(Simulator, NerPulledOutside_ReadsLowUntilReleased) {
   Simulator simulator(load("/resolute-26.toml"));
   simulator.set_pin(Pin::kNer, false);
   EXPECT_FALSE(simulator.pin(Pin::kNer));
-  EXPECT_EQ(exchange(simulator, {0x05, 0})[1] & 0x80, 0);  // nERR shows the level of the pin
+  EXPECT_EQ(exchange(simulator, {reg::kSpiOpcodeReadStatus, 0})[1] & reg::nERR::kMask,
+            0);  // shows the level of the pin
   simulator.set_pin(Pin::kNer, true);
   EXPECT_TRUE(simulator.pin(Pin::kNer));
 }
@@ -195,10 +202,13 @@ TEST(Simulator, OneFrame_MonitorSeesTheChipsClock) {
   Scenario scenario = load("/resolute-26.toml");
   scenario.channels[0].delay = 0;
   Simulator simulator(scenario);
-  exchange(simulator, {0x02, 0xC0, 0x5B, 0x06, 0, 0});
-  exchange(simulator, {0x02, 0xE5, 0x40, 0xA0, 0x00, 0x7C});
-  exchange(simulator, {0x02, 0xED, 0x0D});
-  exchange(simulator, {0x07, 0x04});
+  exchange(simulator, {reg::kSpiOpcodeWriteRegisters, reg::slave_cfg_address(1),
+                       reg::kEnscdYes | 27, reg::kScrclenCrc6, 0, 0});
+  exchange(simulator, {reg::kSpiOpcodeWriteRegisters, reg::kAddrCtrl, reg::kRegversBissC,
+                       reg::FREQR::of(5), 0, reg::kFreqagsAgsMin});
+  exchange(simulator, {reg::kSpiOpcodeWriteRegisters, reg::kAddrCfgch,
+                       reg::kCfgch1BissC | reg::kCfgch2Unused});
+  exchange(simulator, {reg::kSpiOpcodeWriteInstruction, reg::kInstrCdm0});
   simulator.advance(50 * kPsPerUs);
   const MaFrame frame = simulator.line(1)->monitor().last(simulator.now());
   EXPECT_EQ(frame.rising, 28U + 6 + 5);
@@ -209,9 +219,27 @@ TEST(Simulator, OneFrame_MonitorSeesTheChipsClock) {
   EXPECT_TRUE(frame.rest_level);
   EXPECT_EQ(simulator.slave(1)->frames(), 1U);
   EXPECT_FALSE(simulator.slave(1)->last_cdm());
-  const auto rx = exchange(simulator, {0x09, 0, 0, 0, 0});
+  const auto rx = exchange(simulator, {reg::kSpiOpcodeReadRegisters0, 0, 0, 0, 0});
   EXPECT_EQ(rx[1], 0xEF);
   EXPECT_EQ(rx[4], 0x02);
+}
+
+// The jitter of the first fault lasts when the second is added; afterwards the cable is as it was.
+TEST(Simulator, InjectedJitterWithinAnother_LeavesTheCableAsItWas) {
+  Simulator simulator(load("/resolute-26.toml"));
+  const auto inject = [&](const char* for_us) {
+    simulator.inject(std::string("[[fault]]\nkind = \"jitter\"\njitter_ns = 20\nat_us = 1.0\n") +
+                     "for_us = " + for_us + "\n");
+    simulator.advance(50 * kPsPerUs);
+  };
+  ASSERT_EQ(simulator.line(1)->sl_faults().jitter, 0U);
+  inject("100.0");
+  EXPECT_EQ(simulator.line(1)->sl_faults().jitter, 20'000U);
+  inject("300.0");
+  EXPECT_EQ(simulator.line(1)->sl_faults().jitter, 20'000U);
+  simulator.advance(400 * kPsPerUs);
+  EXPECT_EQ(simulator.line(1)->sl_faults().jitter, 0U);
+  EXPECT_EQ(simulator.faults().size(), 2U);
 }
 
 }  // namespace

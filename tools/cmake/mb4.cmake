@@ -14,7 +14,7 @@ if(MB4_CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
 endif()
 
 if(MB4_SANITIZE)
-  # Time to compile counts here: -O1, and of the debug information the line numbers.
+  # The time to compile counts here, so -O1, and only line numbers as debug information.
   add_compile_options(-O1 -g1 -fsanitize=address,undefined -fno-sanitize-recover=all
                       -fno-omit-frame-pointer)
   add_link_options(-fsanitize=address,undefined)
@@ -34,9 +34,9 @@ function(mb4_add_test name)
   target_compile_features(${name} PRIVATE cxx_std_20)
   target_link_libraries(${name} PRIVATE ${ARG_LIBS} GTest::gtest GTest::gtest_main)
   mb4_warnings(${name})
-  # What takes time at run time lies in the libraries. With -O1 the compiler does not see that an
-  # optional has been set. Of the sanitizers the tests' own code has that of addresses: undefined
-  # behaviour counts in the product, and costs a third of the time.
+  # The libraries take the time at run time, so the tests' own code has -O1. With -O1 the compiler
+  # does not see that an optional has been set. The tests' own code has AddressSanitizer only: UBSan
+  # costs a third of the time and is meant for the product.
   target_compile_options(${name} PRIVATE -O1 -Wno-maybe-uninitialized
     $<$<BOOL:${MB4_SANITIZE}>:-fno-sanitize=undefined>)
   include(GoogleTest)
@@ -81,9 +81,9 @@ function(mb4_verilate target)
     set(ARG_PREFIX V${ARG_TOP})
   endif()
   mb4_rtl_sources(sources)
-  # Verilator also finds modules by the names of their files: without it a build tree made before a
-  # file was added cannot come as far as reading the new list.
-  set(folders ${MB4_ROOT}/rtl)
+  # Verilator gets the folders too, and finds a module by the name of its file. Otherwise a build
+  # tree that was made before a file was added would fail before CMake reads the new list.
+  set(folders)
   foreach(source IN LISTS sources)
     cmake_path(GET source PARENT_PATH folder)
     list(APPEND folders ${folder})
@@ -115,7 +115,7 @@ function(mb4_verilated_library target)
     ${VERILATOR_ROOT}/include ${VERILATOR_ROOT}/include/vltstd)
 endfunction()
 
-# The one of the environment is remembered, as a build that configures again may not have it.
+# The cache keeps VERILATOR_ROOT of the environment, because CMake may configure again without it.
 if(DEFINED ENV{VERILATOR_ROOT})
   set(VERILATOR_ROOT $ENV{VERILATOR_ROOT} CACHE PATH "Folder of Verilator")
 endif()

@@ -38,7 +38,8 @@ function(verilate target)
     target_link_libraries(${target} PUBLIC ${MB4_LZ4_LIBRARY} z)
     target_compile_definitions(${target} PRIVATE VM_TRACE=1 VM_TRACE_FST=1)
   endif()
-  # A changed source configures again; with all files as they were Verilator writes none.
+  # A changed source makes CMake configure again. If no source has changed, Verilator writes no
+  # file.
   set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${ARG_SOURCES})
   execute_process(
     COMMAND ${CMAKE_COMMAND} -E env VERILATOR_ROOT=${VERILATOR_ROOT} ${VERILATOR_BIN} --cc

@@ -85,7 +85,7 @@ SessionFrame Session::read(std::uint64_t number) {
     if (out.sent.back()) out.sent.back() = as_stored(*slave.config, *out.sent.back());
     const sim::Actuator* const target = actuator(slave);
     if (target == nullptr) continue;
-    // What it has got against what the host has written.
+    // An actuator: compares the word that it has taken with the word that the host has written.
     out.sent.back() = set_points_[slave.number];
     if (!read) continue;
     Reading taken;

@@ -2,10 +2,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "workload.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 #include "chip_setup.hpp"
 #include "mb4/device.hpp"
@@ -165,6 +167,122 @@ class SpiTraffic final : public Bench {
   std::array<std::uint8_t, kBurst> back_{};
 };
 
+using SpiFrame = std::vector<std::uint8_t>;
+
+// The 54 bytes that the driver writes from 0xC0 on for one slave of 28 bits with CRC 0x43, MA at
+// 10 MHz, and what it sends around them. `freqags`: the byte of FREQAGS.
+std::vector<SpiFrame> recorded_setup(std::uint8_t freqags) {
+  SpiFrame write(56);
+  write[0] = 0x02;
+  write[1] = 0xC0;
+  write[2] = 0x5B;
+  write[3] = 0x06;
+  write[39] = 0x40;
+  write[40] = 0xA0;
+  write[42] = freqags;
+  write[46] = 0x01;
+  write[47] = 0x0D;
+  SpiFrame read(56);
+  read[0] = 0x03;
+  read[1] = 0xC0;
+  return {{0x07, 0x80, 0x00}, write, read};
+}
+
+// What `mb4sim run` and Automatic::poll_slave() have sent for a frame, byte for byte. The bytes are
+// recorded, so a change of the driver does not change this workload.
+const SpiFrame kStatus = {0x05, 0, 0, 0, 0, 0};
+const SpiFrame kReadWord = {0x09, 0, 0, 0, 0, 0, 0, 0, 0};
+const SpiFrame kClearValid = {0x02, 0xF1, 0xFD, 0xFF};
+const std::vector<SpiFrame> kSingleFrame = {{0x07, 0x04}, kStatus, kStatus, kReadWord, kClearValid};
+const std::vector<SpiFrame> kHeldFrame = {{0x07, 0x41}, kStatus,     kReadWord,
+                                          kStatus,      kClearValid, {0x07, 0x01}};
+
+struct Recording {
+  std::uint8_t freqags;
+  std::vector<SpiFrame> start;  // after the configuration
+  std::vector<SpiFrame> cycle;  // for one frame
+  sim::Time period;             // from the begin of a cycle to that of the next; 0: no pause
+};
+
+const Recording kReadSingle{0x7C, {}, kSingleFrame, 0};
+const Recording kReadAutomatic{0x87, {{0x07, 0x01}}, kHeldFrame, 250 * sim::kPsPerUs};
+
+// Firmware that reads one encoder over SPI.
+class Firmware final : public Workload {
+ public:
+  explicit Firmware(const Recording& recording)
+      : simulator_(sim::parse_scenario(channel_of('1', 1), "workload")), recording_(recording) {
+    send(recorded_setup(recording.freqags));
+    send(recording.start);
+    next_ = simulator_.now() + recording.period;
+    simulator_.run_until(next_);
+    while (good_ == 0) cycle();
+  }
+
+  void run(sim::Time duration) override {
+    const sim::Time end = simulator_.now() + duration;
+    while (simulator_.now() < end) cycle();
+  }
+
+  WorkCount count() const override {
+    WorkCount count;
+    count.clocks = simulator_.clk_cycles();
+    count.time = simulator_.now();
+    count.frames = good_;
+    count.spi_bytes = bytes_;
+    return count;
+  }
+
+ private:
+  static constexpr unsigned kCyclesUntilData = 4;
+
+  void send(const std::vector<SpiFrame>& frames) {
+    for (const SpiFrame& frame : frames) {
+      back_.resize(frame.size());
+      simulator_.spi().transfer(frame, back_);
+      bytes_ += frame.size();
+      if (frame[0] == kReadWord[0]) word_ = back_;
+    }
+  }
+  void cycle() {
+    send(recording_.cycle);
+    next_ = std::max(next_ + recording_.period, simulator_.now());
+    simulator_.run_until(next_);
+    // The encoder counts up, so a word that has come twice was not read.
+    if (word_ != last_) ++good_;
+    if (++cycles_ > good_ + kCyclesUntilData) throw std::runtime_error("workload: no new word");
+    last_ = word_;
+  }
+
+  sim::Simulator simulator_;
+  const Recording& recording_;
+  sim::Time next_ = 0;
+  SpiFrame back_;
+  SpiFrame word_;
+  SpiFrame last_;
+  std::uint64_t cycles_ = 0;
+  std::uint64_t good_ = 0;
+  std::uint64_t bytes_ = 0;
+};
+
+// A simulator is made, configured and has read its first frame, again and again.
+class StartUp final : public Workload {
+ public:
+  void run(sim::Time duration) override {
+    for (const sim::Time end = total_.time + duration; total_.time < end;) {
+      const WorkCount one = Firmware(kReadSingle).count();
+      total_.clocks += one.clocks;
+      total_.frames += one.frames;
+      total_.spi_bytes += one.spi_bytes;
+      total_.time += one.time;
+    }
+  }
+  WorkCount count() const override { return total_; }
+
+ private:
+  WorkCount total_;
+};
+
 constexpr std::uint32_t kMillisecondClk = 20'000;
 
 constexpr WorkloadInfo kWorkloads[] = {
@@ -180,6 +298,12 @@ constexpr WorkloadInfo kWorkloads[] = {
      }},
     {'D', "SPI traffic only, SCLK 10 MHz",
      []() -> std::unique_ptr<Workload> { return std::make_unique<SpiTraffic>(); }},
+    {'E', "firmware reads 1 slave frame by frame, SCLK 10 MHz",
+     []() -> std::unique_ptr<Workload> { return std::make_unique<Firmware>(kReadSingle); }},
+    {'F', "firmware reads 1 slave at 4 kHz, AGS, SCLK 10 MHz",
+     []() -> std::unique_ptr<Workload> { return std::make_unique<Firmware>(kReadAutomatic); }},
+    {'G', "start-up: a new simulator, configuration, first frame",
+     []() -> std::unique_ptr<Workload> { return std::make_unique<StartUp>(); }},
 };
 
 }  // namespace

@@ -46,6 +46,10 @@ struct WorkloadInfo {
 // B: 8 slaves on both channels, AGSMIN, one register access after another.
 // C: 1 slave, 1000 frames a second, idle in between; the host does not read the data.
 // D: SPI traffic only, no frames.
+// E: firmware starts a frame, waits for it and reads it, one after the other (`mb4sim run`).
+// F: an interrupt reads automatic frames at 4 kHz (Automatic::poll_slave()).
+// G: a simulator is made, configured and has read its first frame, again and again.
+// E, F and G replay recorded SPI bytes without the driver; SCLK is 10 MHz.
 // All with f_CLK = 20 MHz.
 std::span<const WorkloadInfo> workloads();
 

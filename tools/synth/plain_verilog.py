@@ -20,7 +20,7 @@ HEAD = """// SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 //
 // {top} as plain Verilog (2005), one module, made from the RTL by tools/synth/plain_verilog.py:
-// do not edit. Ports: rtl/{top}.sv; how to use it: docs/integration.md.
+// do not edit. Ports: rtl/mb4/{top}.sv; how to use it: docs/integration.md.
 `timescale 1ns/1ps
 
 """

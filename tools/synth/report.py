@@ -110,11 +110,13 @@ def version(command):
 def page(folder):
     lines = ["<!--", "SPDX-FileCopyrightText: 2026 The openmb4 authors",
              "SPDX-License-Identifier: Apache-2.0", "-->", "", "# Resources", "",
-             "Made by `tools/synth/report.py build/synth`<!-- not run: runs long --> with Debian's "
-             "tools; do not edit. "
-             "fmax over seeds " + ", ".join(map(str, SEEDS)) + ", worst to best, after routing, "
-             "slowest corner, no constraint that helps. How to use the design on a device: "
+             "For FPGA engineers. After this page you know how much of a device each top takes, and "
+             "how fast it is there. How to use the design on a device: "
              "[integration](integration.md).", "",
+             "`tools/synth/report.py build/synth`<!-- not run: runs long --> makes this page with "
+             "Debian's tools; do not edit it. The fmax figures are the worst and the best of seeds " +
+             ", ".join(map(str, SEEDS)) + ", after routing, for the slowest corner, without a timing "
+             "constraint that would help.", "",
              "## iCE40, placed and routed", "",
              "| top | LUT4 | flops | block RAM | HX8K clk / MHz | HX8K host clock | "
              "UP5K clk / MHz | UP5K host clock |", "|---|---|---|---|---|---|---|---|"]
@@ -135,7 +137,7 @@ def page(folder):
                          f"{count(cells, ram)} | {cells.get(carry, 0)} |")
             print(lines[-1], flush=True)
     lines += ["", "## What takes the space", "",
-              "`mb4_core` on iCE40, by the names of the cells behind optimisation: a LUT that serves "
+              "`mb4_core` on iCE40, by the names of the cells after optimisation: a LUT that serves "
               "two modules counts for the one that names it.", "",
               "| instance | LUT4 | flops | block RAM |", "|---|---|---|---|"]
     lines += [f"| `{name}` | {luts} | {flops} | {rams} |"

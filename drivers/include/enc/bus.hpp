@@ -43,8 +43,10 @@ inline constexpr bool kIsBus<
 //
 //   std::uint32_t now_us();
 //
-// It counts microseconds upwards and wraps at 2^32. The driver uses differences only. The driver
-// also counts its polls, so a clock that stands still cannot block it for ever.
+// It counts microseconds upwards and wraps at 2^32, in steps of at most 32 us (a counter of 32
+// kHz). A reading is rounded down; steps must not add up to more than the time. The driver uses
+// differences only. It also counts its polls, so a clock that stands still cannot block it for
+// ever.
 template <typename Clock, typename = void>
 inline constexpr bool kIsClock = false;
 

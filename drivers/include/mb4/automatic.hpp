@@ -22,7 +22,8 @@
 
 namespace mb4 {
 
-// Most SPI transfers of one Automatic::poll_slave(), whatever the chip answers.
+// Most SPI transfers of one Automatic::poll_slave(), whatever the chip answers: 8, with
+// SpiCheck::kFull 12, beside a control communication without Config::hold_beside_access.
 inline constexpr unsigned kMaxPollSlaveTransfers = 6;
 // The same with SpiCheck::kFull.
 inline constexpr unsigned kMaxPollSlaveTransfersChecked = 9;
@@ -38,9 +39,11 @@ inline constexpr unsigned kMaxPollSlaveTransfersChecked = 9;
 //  * HOLDBANK takes effect some system clocks after the write. With SCLK above 2 f_CLK, bytes read
 //    at once could still come from the old bank. So the driver reads the status between HOLDBANK
 //    and the data, which takes at least 48 SCLK periods.
-//  * While a control communication runs, 0xF4 must not be written: INSTR = 100, written back at the
-//    wrong moment, would start the access again. The driver then reads without HOLDBANK. It drops
-//    the data and reports kBankSwitched unless SVALID and nSCDERR prove that no bank was switched.
+//  * While a control communication runs, the byte with HOLDBANK has INSTR = 000: INSTR = 100,
+//    written back at the wrong moment, would start the access again. The access goes on. Where a
+//    chip does not allow this (Config::hold_beside_access = false) the driver reads without
+//    HOLDBANK. It drops the data unless SVALID and nSCDERR prove that no bank was switched, tries
+//    once more, and then reports kBankSwitched. It then reports no kCrc and no dead line.
 //
 // Why data is never old: the driver clears SVALID of all enabled slaves after each read. SVALID = 1
 // therefore means that a frame has ended since then (note of table 61).
@@ -71,6 +74,7 @@ class Automatic {
         return recovered;
       }
     }
+    chip_.news_us = chip_.clock->now_us();
     // The next single frame begins with BREAK, because an automatic frame may still run then.
     chip_.recover_first = true;
     if (const Result<void> on = chip_.write_instruction(kAgs); !on) {
@@ -118,18 +122,33 @@ class Automatic {
   //   0x05        0xF0..0xF4: SVALID after reading (table 69)
   //   0x02        SVALID of the enabled slaves = 0
   //   0x07        HOLDBANK = 0, AGS = 1; also after a failed transfer
-  // While a control communication runs the order is 0x05, 0x02, data, 0x05: at most 3 + n.
   // SpiCheck::kFull adds at most n + 2: data again where a stored CRC does not prove it, and one or
-  // two 0x05 after the 0x02. While a control communication runs it adds at most n + 1.
+  // two 0x05 after the 0x02. Beside a control communication without Config::hold_beside_access the
+  // order is 0x05, 0x02, data, 0x05, twice at most: 6 + 2 n, and with kFull 2 n + 2 more.
+  //
+  // After a frame with a bad word (nSCDERR = 0) it reads the data of the slaves without SVALID as
+  // well: a stored CRC that fits shows a word that has been read before. A bad word then gets the
+  // CRC that fits, so that it counts once: one 0x02 more for each. When frames stay away: one 0x05
+  // more, up to 0xF8.
   //
   // An interrupt may call it, if it interrupts no other call on the same Device.
   //
-  // Success: frame[slave] is a Reading, kNoData (nothing new), kCrc or kCorrupted for each enabled
-  // slave. frame.status shows omitted frames (nAGSERR). The datasheet asks for restart() when
-  // SVALID is 0 although a frame must have ended (table 69). This call does not restart, because
-  // only the caller knows how often frames come; next() does.
+  // Success: frame[slave] is a Reading, kNoData (nothing new), kCrc (a bad frame, told once) or
+  // kCorrupted for each enabled slave. With SpiCheck::kOff, and where the data leaves no room for a
+  // CRC, kCrc is told only together with a good word of another slave, or, if there is no other
+  // slave, by each call until a frame is good. frame.status shows that frames were omitted
+  // (nAGSERR), not how many; frames that later ones have overwritten are not counted either. The
+  // datasheet asks for restart() when SVALID is 0 although a frame must have ended (table 69). This
+  // call does not restart; next() does.
+  //
   // Errors: kWrongMode (automatic frames do not run; not touched), kTransport, kNotDetected,
   // kBankSwitched; kCorrupted with SpiCheck::kFull. On error `frame` holds no Reading.
+  // kTimeout, kLineError (SL is 0): frames stay away for more than two periods and 33 us, if the
+  // chip has left frames out, otherwise for 16 periods: a chip that has lost its configuration or
+  // its clock sets no flag. Back to back a period is frame_timeout_us(). Never with
+  // FrameStart::kOnPin. Nothing is changed, and each call says so until a frame ends: call
+  // restart(). A dead line on one channel stops both, see without_channel(). kCrc, by each call:
+  // the same without a stored CRC, if the last frame was bad and the chip has left none out.
   Result<void> poll(Frame& frame) {
     frame.clear();
     if (!chip_.automatic) {
@@ -138,13 +157,9 @@ class Automatic {
     detail::Outcome outcome;
     detail::FetchedData data;
     const Result<void> read = detail::FramePoll<Bus, Clock>(chip_).read(
-        chip_.sensors, control_runs(), outcome, fetch_all, &data);
+        chip_.sensor_flags, control_runs(), outcome, fetch_all, &data);
     if (read) {
-      // nSCDERR describes the last frame on the line, which may be later than the bank that was
-      // read. When one slave has SVALID = 1, each slave with SVALID = 0 was bad in that frame.
-      detail::decode_all(
-          chip_.config, chip_.sensors, outcome, data,
-          outcome.good != 0 || outcome.status.scd_error() ? Error::kCrc : Error::kNoData, frame);
+      detail::decode_all(chip_.config, chip_.sensors, outcome, data, frame);
     }
     return read;
   }
@@ -154,9 +169,9 @@ class Automatic {
   // interrupt of a control loop. It does not change SVALID of other slaves.
   //
   // Not touched: kInvalidArgument (the slave is no enabled sensor), kWrongMode (automatic frames do
-  // not run). kNoData: no frame with data of this slave has ended since the last call. kCrc: the
-  // same, and the last frame had a wrong CRC. kCorrupted, kTransport, kNotDetected, kBankSwitched
-  // as for poll().
+  // not run). kNoData: no frame with data of this slave has ended since the last call. kCrc: one
+  // has, and its CRC was wrong; told once for each frame, without a stored CRC as for poll().
+  // kTimeout, kLineError, kCorrupted, kTransport, kNotDetected, kBankSwitched as for poll().
   Result<Reading> poll_slave(std::uint8_t slave) {
     if (!is_in(chip_.sensors, slave)) {
       return Error::kInvalidArgument;
@@ -167,14 +182,13 @@ class Automatic {
     detail::Outcome outcome;
     detail::FetchedSlave data;
     data.slave = slave;
-    if (const Result<void> read =
-            detail::FramePoll<Bus, Clock>(chip_).read(static_cast<std::uint8_t>(1U << (slave - 1U)),
-                                                      control_runs(), outcome, fetch_one, &data);
+    if (const Result<void> read = detail::FramePoll<Bus, Clock>(chip_).read(
+            flag_of(slave), control_runs(), outcome, fetch_one, &data);
         !read) {
       return read.failure();
     }
     if (outcome.good == 0) {
-      return outcome.status.scd_error() ? Error::kCrc : Error::kNoData;
+      return outcome.bad > detail::kUnproven ? Error::kCrc : Error::kNoData;
     }
     return detail::decode(chip_.config, slave, data.bytes.data(), data.stable);
   }
@@ -229,13 +243,30 @@ class Automatic {
  private:
   static constexpr std::uint8_t kAgs = regs::AGS::encode<1>();
 
-  static Result<void> fetch_all(detail::Chip<Bus, Clock>& chip, void* data) {
-    return detail::fetch_data(chip.opcodes, chip.config, chip.sensors,
-                              *static_cast<detail::FetchedData*>(data));
+  static Result<void> fetch_all(detail::Chip<Bus, Clock>& chip, void* to, std::uint16_t missing,
+                                std::uint16_t& bad) {
+    detail::FetchedData& data = *static_cast<detail::FetchedData*>(to);
+    const bool news = missing != chip.sensor_flags;
+    Result<void> done;
+    if (news || chip.config.spi_check != SpiCheck::kOff) {
+      done = detail::fetch_data(chip.opcodes, chip.config, chip.sensor_flags, data);
+    }
+    for (std::uint8_t slave = 1; slave <= kSlaves && done; ++slave) {
+      if ((missing & flag_of(slave)) != 0) {
+        done = detail::judge(chip, slave, &data.image[regs::scdata_address(slave)], news, bad);
+      }
+    }
+    return done;
   }
-  static Result<void> fetch_one(detail::Chip<Bus, Clock>& chip, void* data) {
-    return detail::fetch_slave(chip.opcodes, chip.config,
-                               *static_cast<detail::FetchedSlave*>(data));
+  static Result<void> fetch_one(detail::Chip<Bus, Clock>& chip, void* to, std::uint16_t missing,
+                                std::uint16_t& bad) {
+    detail::FetchedSlave& data = *static_cast<detail::FetchedSlave*>(to);
+    Result<void> done;
+    if (missing == 0 || chip.config.spi_check != SpiCheck::kOff) {
+      done = detail::fetch_slave(chip.opcodes, chip.config, data);
+    }
+    return done && missing != 0 ? detail::judge(chip, data.slave, data.bytes.data(), false, bad)
+                                : done;
   }
 
   [[nodiscard]] bool control_runs() const {
@@ -244,8 +275,7 @@ class Automatic {
 
   // Polls until a frame has ended, good or bad.
   Result<void> wait() {
-    detail::Deadline<Clock> deadline(
-        *chip_.clock, frame_timeout_us(chip_.config) + detail::frame_pitch_us(chip_.config));
+    detail::Deadline<Clock> deadline(*chip_.clock, chip_.frame_us + chip_.pitch_us);
     bool idle = false;
     for (bool last = false; !last;) {
       last = deadline.last_poll();
@@ -257,7 +287,7 @@ class Automatic {
       idle = status.idle();
       // A frame that was bad for all slaves shows only in nSCDERR. The BREAK of the restart sets
       // nSCDERR to 1 again.
-      if ((status.valid_mask() & chip_.sensors) != 0 || status.scd_error()) {
+      if ((status.valid_flags() & chip_.sensor_flags) != 0 || status.scd_error()) {
         return {};
       }
     }

@@ -126,7 +126,9 @@ class ControlSteps : private detail::ControlChecks<Bus, Clock> {
 
   // Reads the status once and does the next step of what was begun; it never waits. At most three
   // transfers: the status; then, without automatic frames, the next frame's instruction, or at the
-  // end SVALID = 0. Call it until it returns true or an error.
+  // end SVALID = 0. None if Automatic::poll() or poll_slave() has seen since the last call that the
+  // access runs. With SpiCheck::kFull the end is read twice beside these calls. Call it until it
+  // returns true or an error.
   //
   //   false                      the access is still running
   //   true                       the access has ended without error; after a read call take()
@@ -150,6 +152,10 @@ class ControlSteps : private detail::ControlChecks<Bus, Clock> {
     // status once more before it reports a timeout.
     const bool late =
         --state.polls_left == 0 || chip_.clock->now_us() - state.start_us >= state.timeout_us;
+    if (state.seen_running && !late) {
+      state.seen_running = false;
+      return false;
+    }
     Status status;
     if (const Result<void> look = chip_.look(status); !look) {
       state.polls_left += state.polls_left == 0 ? 1 : 0;
@@ -161,6 +167,13 @@ class ControlSteps : private detail::ControlChecks<Bus, Clock> {
     const bool alone = chip_.automatic || state.biss_b;
     const bool stale = !alone && state.first_frame;
     if (frame_over && status.control_ended() && !stale) {
+      // INSTR = 000 tells nothing where a read of positions has written it. One disturbed bit must
+      // not end the access.
+      if (state.overwritten && chip_.checks_all()) {
+        if (const Result<void> look = chip_.look(status); !look || !status.control_ended()) {
+          return look ? Result<bool>(false) : Result<bool>(look.failure());
+        }
+      }
       // Now the slaves' register timeout runs. The line does not show its end.
       if (state.biss_b && state.first_frame) {
         state.first_frame = false;
@@ -183,7 +196,7 @@ class ControlSteps : private detail::ControlChecks<Bus, Clock> {
       return give_up();
     }
     ++state.frames;
-    detail::restart_time(chip_, frame_timeout_us(chip_.config));
+    detail::restart_time(chip_, chip_.frame_us);
     if (const Result<void> next = chip_.write_instruction(kFrame); !next) {
       return next.failure();
     }
@@ -253,10 +266,12 @@ class ControlSteps : private detail::ControlChecks<Bus, Clock> {
     state.kind = kind;
     state.count = registers;
     state.biss_b = biss_b;
+    state.overwritten = false;
+    state.seen_running = false;
     state.first_frame = true;
     state.frames = 1;
     state.access_us = chip_.clock->now_us();
-    std::uint32_t timeout_us = frame_timeout_us(chip_.config);
+    std::uint32_t timeout_us = chip_.frame_us;
     if (biss_b) {
       timeout_us = detail::biss_b_timeout_us(chip_.config, registers);
     } else if (chip_.automatic) {
@@ -274,7 +289,7 @@ class ControlSteps : private detail::ControlChecks<Bus, Clock> {
     // Without AGS the frames of the access have set SVALID, and the next single frame needs
     // SVALID = 0. With AGS the class Automatic clears the flags.
     if (!chip_.automatic) {
-      if (const Result<void> clear = chip_.clear_valid(chip_.sensors); clear) {
+      if (const Result<void> clear = chip_.clear_valid(chip_.sensor_flags); clear) {
         chip_.recover_first = false;
       }
     }

@@ -53,6 +53,10 @@ template <typename Bus, typename Clock>
 class Device {
  public:
   constexpr Device(Bus& bus, Clock& clock) : chip_(bus, clock), fields_(chip_.opcodes) {}
+  // What a Device knows about its chip must exist once: a copy would read a frame twice, or request
+  // one that already runs.
+  Device(const Device&) = delete;
+  Device& operator=(const Device&) = delete;
 
   // Reads VERSION and REVISION. One transfer, changes nothing.
   // kTransport; kNotDetected: VERSION is not 0x84 (an iC-MB3 says 0x83).
@@ -76,14 +80,27 @@ class Device {
   //   0x07  0xF4, 0xF5   BREAK, clock source and interface
   //   0x02  0xC0..0xF2   all other registers; clears SVALID 1 to 8
   //   0x03  0xC0..0xF5   comparison of all bits that can be written, and of VERSION
-  // Not touched: kInvalidConfig. Touched: kTransport, kNotDetected, kVerify; the Device then counts
-  // as not configured. The call ends a frame that runs and starts none: call it at start-up or
-  // between frames.
+  // One more before them, which only reads, if actuators are on both channels and these have
+  // frames of different length: VERSION and REVISION.
+  // Not touched: kInvalidConfig. Read only: kInvalidConfig for what this revision cannot do
+  // (validate() with a revision). Touched: kTransport, kNotDetected, kVerify. After an error that
+  // is not "not touched" the Device counts as not configured. The call ends a frame that runs and
+  // starts none: call it at start-up or between frames.
   Result<void> configure(const Config& config) {
     if (const Result<void> valid = validate(config); !valid) {
       return valid;
     }
     forget();
+    if (detail::needs_revision_y(config)) {
+      const Result<Identity> identity = probe();
+      if (!identity) {
+        return identity.failure();
+      }
+      if (const ErrorInfo old = detail::check_revision(identity->revision);
+          old.code != Error::kNone) {
+        return old;
+      }
+    }
     if (const Result<void> written = detail::ImageWriter<Bus, Clock>(chip_).write(
             encode_registers(config), encode_interface(config));
         !written) {
@@ -91,7 +108,10 @@ class Device {
     }
     chip_.config = config;
     chip_.sensors = sensors(config);
+    chip_.sensor_flags = Status::valid_registers(chip_.sensors);
     chip_.actuators = actuators(config);
+    chip_.frame_us = frame_timeout_us(config);
+    chip_.pitch_us = detail::frame_pitch_us(config);
     chip_.configured = true;
     chip_.recover_first = false;
     return {};
@@ -157,7 +177,7 @@ class Device {
   //    after the data, 1 or 2 after SVALID is cleared.
   //  * After a failed read that has made a transfer, 2 more and 100 us, because its frame may still
   //    run. BiSS B adds register_timeout_us.
-  //  * Each poll is 6 bytes. frame_timeout_us(config) limits p: at most t + t/16 + 2 polls for t
+  //  * Each poll is 6 bytes. frame_timeout_us(config) limits p: at most 4 t + 132 polls for t
   //    microseconds, even if the clock stands still.
   // In order:
   //   0x07  BREAK, then 100 us for the slaves' timeout  (after a failed read)
@@ -240,7 +260,7 @@ class Device {
     if (!is_in(0xFF, slave)) {
       return Error::kInvalidArgument;
     }
-    return chip_.clear_valid(static_cast<std::uint8_t>(1U << (slave - 1U)));
+    return chip_.clear_valid(flag_of(slave));
   }
 
   // Automatic frames; see automatic.hpp. The returned object holds only a reference to this Device.

@@ -37,15 +37,16 @@ enum class Error : std::uint8_t {
   kVerify = 7,
   // The frame has not ended in time and SL is not stuck: the slave does not answer or takes longer
   // than the timeout, or the chip has no system clock. Touched: BREAK has been sent, the chip is
-  // idle.
+  // idle; only Automatic::poll() and poll_slave() leave that to the caller.
   kTimeout = 8,
   // SL is low where it must be high. Either the chip refused to start the frame (nAGSERR = 0 and no
   // new data, datasheet pages 32, 34), or the frame did not end and SL is still low well after
-  // BREAK: broken or shorted line, slave without supply. Touched: BREAK has been sent, the chip is
-  // idle.
+  // BREAK: broken or shorted line, slave without supply. Touched: as for kTimeout.
   kLineError = 9,
   // The frame came with a wrong CRC: nSCDERR = 0 or SVALIDx = 0 (datasheet pages 34, 35). Touched:
-  // one frame has run, the chip is idle and the next frame may be requested.
+  // one frame has run, the chip is idle and the next frame may be requested. Automatic::poll() and
+  // poll_slave() tell a bad word with a stored CRC once, and only for its slave; without a stored
+  // CRC see Automatic::poll().
   kCrc = 10,
   // The frame ended without an error flag but holds no new data of this slave (SVALIDx = 0).
   // Touched: one frame has run, the chip is idle.
@@ -72,8 +73,9 @@ enum class Error : std::uint8_t {
   // The call needs automatic frames and they do not run, or they run and the call forbids them; or
   // ControlSteps::poll() finds nothing that was begun. Not touched.
   kWrongMode = 17,
-  // During a control communication the driver reads without HOLDBANK, and the chip switched the
-  // banks meanwhile. Touched: SVALID of one frame is cleared. This is no fault; read again.
+  // A read without HOLDBANK beside a control communication (Config::hold_beside_access = false),
+  // and the chip switched the banks twice meanwhile. Touched: SVALID of one frame is cleared. This
+  // is no fault; read again.
   kBankSwitched = 18,
   // INIT: the line delay is more than 255 quarters of a period of MA (nAGSERR = 0, page 33).
   // Touched: INIT has ended, the chip is idle.

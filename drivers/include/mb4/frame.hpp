@@ -18,14 +18,14 @@
 
 namespace mb4 {
 
-// All slaves of one frame. The caller provides it; about 330 bytes.
+// All slaves of one frame. The caller provides it; about 300 bytes.
 class Frame {
  public:
-  // The result of slave 1..8; other numbers are not checked. It is a Reading or an error: kCrc,
-  // kNoData (no new frame since the last read, or none for this slave), kCorrupted.
-  // kInvalidArgument: the slave is not enabled, or it is an actuator.
+  // The result of slave 1..8. It is a Reading or an error: kCrc, kNoData (no new frame since the
+  // last read, or none for this slave), kCorrupted. kInvalidArgument: the slave is not enabled, it
+  // is an actuator, or `slave` is not 1..8.
   [[nodiscard]] const Result<Reading>& operator[](std::size_t slave) const {
-    return results_[slave - 1];
+    return results_[slave <= kSlaves ? slave : 0];
   }
   // Sets everything to the state after construction.
   void clear() {
@@ -34,12 +34,17 @@ class Frame {
     }
     status = Status();
   }
-  void set(std::size_t slave, const Result<Reading>& result) { results_[slave - 1] = result; }
+  // Slave 1..8; nothing happens for other numbers.
+  void set(std::size_t slave, const Result<Reading>& result) {
+    if (slave - 1 < kSlaves) {
+      results_[slave] = result;
+    }
+  }
 
   // True when every slave of `mask` (bit 0 is slave 1) has a Reading.
   [[nodiscard]] bool good(std::uint8_t mask) const {
     for (std::size_t slave = 1; slave <= kSlaves; ++slave) {
-      if (is_in(mask, static_cast<std::uint8_t>(slave)) && !results_[slave - 1]) {
+      if (is_in(mask, static_cast<std::uint8_t>(slave)) && !results_[slave]) {
         return false;
       }
     }
@@ -51,8 +56,9 @@ class Frame {
 
  private:
   static constexpr Error kNone = Error::kInvalidArgument;
-  std::array<Result<Reading>, kSlaves> results_{
-      {kNone, kNone, kNone, kNone, kNone, kNone, kNone, kNone}};
+  // [0] is the answer for a number that is no slave; it never changes.
+  std::array<Result<Reading>, kSlaves + 1> results_{
+      {kNone, kNone, kNone, kNone, kNone, kNone, kNone, kNone, kNone}};
 };
 
 }  // namespace mb4

@@ -68,58 +68,42 @@ class Opcodes {
   }
 
  private:
-  static constexpr bool burst_fits(std::uint8_t address, std::size_t count) {
-    return count >= 1 && count <= kMaxBurstBytes && std::size_t{address} + count <= 0x100;
-  }
-
-  // Fills opcode and, where it is sent, address; returns the number of bytes before the data.
-  static std::size_t begin(std::uint8_t* tx, regs::SpiOpcode opcode, bool send_address,
-                           std::uint8_t address) {
-    tx[0] = static_cast<std::uint8_t>(opcode);
-    if (!send_address) {
-      return 1;
-    }
-    tx[1] = address;
-    return 2;
-  }
-
   Result<void> write(regs::SpiOpcode opcode, bool send_address, std::uint8_t address,
                      Span<const std::uint8_t> data) {
-    if (!burst_fits(address, data.size())) {
-      return Error::kInvalidArgument;
-    }
-    std::uint8_t tx[kMaxTransferBytes];
-    const std::size_t header = begin(tx, opcode, send_address, address);
-    for (std::size_t i = 0; i < data.size(); ++i) {
-      tx[header + i] = data[i];
-    }
-    if (!bus_->transfer(Span<const std::uint8_t>(tx, header + data.size()), Span<std::uint8_t>())) {
-      return Error::kTransport;
-    }
-    return {};
+    return exchange(opcode, send_address, address, data.data(), nullptr, data.size(), 0);
   }
 
   Result<void> read(regs::SpiOpcode opcode, bool send_address, std::uint8_t address,
                     Span<std::uint8_t> data, std::uint8_t filler) {
-    if (!burst_fits(address, data.size())) {
+    return exchange(opcode, send_address, address, nullptr, data.data(), data.size(), filler);
+  }
+
+  // One transfer: writes `from`, or, if that is null, sends `filler` and reads into `to`.
+  [[gnu::noinline]] Result<void> exchange(regs::SpiOpcode opcode, bool send_address,
+                                          std::uint8_t address, const std::uint8_t* from,
+                                          std::uint8_t* to, std::size_t count,
+                                          std::uint8_t filler) {
+    if (count < 1 || count > kMaxBurstBytes || std::size_t{address} + count > 0x100) {
       return Error::kInvalidArgument;
     }
     std::uint8_t tx[kMaxTransferBytes];
     std::uint8_t rx[kMaxTransferBytes];
-    const std::size_t header = begin(tx, opcode, send_address, address);
-    const std::size_t size = header + data.size();
+    tx[0] = static_cast<std::uint8_t>(opcode);
+    tx[1] = address;
+    const std::size_t header = send_address ? 2 : 1;
+    const std::size_t size = header + count;
     for (std::size_t i = header; i < size; ++i) {
-      tx[i] = filler;
-    }
-    // A bus that claims success without writing rx must not turn stack contents into data.
-    for (std::size_t i = 0; i < size; ++i) {
+      tx[i] = from != nullptr ? from[i - header] : filler;
+      // A bus that claims success without writing rx must not turn stack contents into data.
       rx[i] = 0;
     }
-    if (!bus_->transfer(Span<const std::uint8_t>(tx, size), Span<std::uint8_t>(rx, size))) {
+    const Span<std::uint8_t> received =
+        from != nullptr ? Span<std::uint8_t>() : Span<std::uint8_t>(rx, size);
+    if (!bus_->transfer(Span<const std::uint8_t>(tx, size), received)) {
       return Error::kTransport;
     }
-    for (std::size_t i = 0; i < data.size(); ++i) {
-      data[i] = rx[header + i];
+    for (std::size_t i = 0; to != nullptr && i < count; ++i) {
+      to[i] = rx[header + i];
     }
     return {};
   }

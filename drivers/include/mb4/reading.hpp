@@ -45,45 +45,55 @@ struct Reading {
 namespace detail {
 
 // CRC of the data bits as they were on the line. Where the chip has converted Gray code, the bits
-// are converted back.
-constexpr std::uint16_t crc_on_line(const SlaveConfig& slave, Span<const std::uint8_t> bytes) {
-  CrcShift shift(slave.crc_polynomial, slave.crc_start);
+// are converted back. As enc::CrcShift, but left aligned: the highest bit of the polynomial is
+// shifted out, and no step needs a mask.
+[[gnu::noinline]] constexpr std::uint32_t crc_on_line(const SlaveConfig& slave,
+                                                      const std::uint8_t* bytes) {
+  std::uint32_t polynomial = slave.crc_polynomial;
+  std::uint32_t remainder = slave.crc_start;
+  unsigned unused = 0;
+  for (bool top = false; !top; ++unused) {
+    top = (polynomial & 0x80000000U) != 0;
+    polynomial <<= 1;
+    remainder <<= 1;
+  }
   unsigned above = 0;
   for (unsigned i = slave.data_bits; i-- > 0;) {
     const unsigned bit = bytes[i / 8] >> i % 8 & 1U;
-    shift.shift(bit ^ above);
+    const bool differs = remainder >> 31 != (bit ^ above);
+    remainder = remainder << 1 ^ (differs ? polynomial : 0);
     above = slave.gray ? bit : 0;
   }
-  return shift.value();
+  return remainder >> unused;
 }
 
 }  // namespace detail
 
-// Decodes `bytes` (the first reading_bytes() bytes of SCDATAx, page 26) of slave 1..8. kCorrupted
-// when bits that the chip sets to 0 are not 0 or when the stored CRC does not belong to the data.
-[[nodiscard]] constexpr Result<Reading> decode_reading(const Config& config, std::uint8_t slave,
-                                                       Span<const std::uint8_t> bytes) {
+namespace detail {
+
+// The CRC in the top byte(s) of SCDATAx (page 26).
+constexpr std::uint16_t stored_crc(const SlaveConfig& slave, const std::uint8_t* bytes) {
+  return crc_bytes(slave) > 1 ? static_cast<std::uint16_t>(bytes[7] << 8 | bytes[6]) : bytes[7];
+}
+
+// decode_reading() without a check of its arguments.
+constexpr Result<Reading> decode_bytes(const Config& config, std::uint8_t slave,
+                                       const std::uint8_t* bytes) {
   const SlaveConfig& slave_config = config.slaves[slave - 1U];
   const unsigned bits = slave_config.data_bits;
-  // In halves: shifting 64 bits by a variable costs a function on a small core.
-  std::uint32_t half[2] = {0, 0};
   const unsigned count = data_bytes(slave_config);
-  for (unsigned i = 0; i < count; ++i) {
-    half[i / 4] |= std::uint32_t{bytes[i]} << 8 * (i % 4);
-  }
   if (bits % 8 != 0 && bytes[count - 1] >> bits % 8 != 0) {
     return Error::kCorrupted;
   }
   Reading reading;
   reading.slave = slave;
-  reading.raw = std::uint64_t{half[1]} << 32 | half[0];
+  for (unsigned i = count; i-- > 0;) {
+    reading.raw = reading.raw << 8 | bytes[i];
+  }
   if (crc_is_stored(config, slave_config)) {
     reading.crc_stored = true;
-    reading.crc = bytes[7];
-    if (slave_config.crc_polynomial > 0x1FF) {
-      reading.crc = static_cast<std::uint16_t>((bytes[7] << 8) | bytes[6]);
-    }
-    if (reading.crc != detail::crc_on_line(slave_config, bytes)) {
+    reading.crc = stored_crc(slave_config, bytes);
+    if (reading.crc != crc_on_line(slave_config, bytes)) {
       return Error::kCorrupted;
     }
   }
@@ -97,6 +107,18 @@ constexpr std::uint16_t crc_on_line(const SlaveConfig& slave, Span<const std::ui
     reading.position >>= 2;
   }
   return reading;
+}
+
+}  // namespace detail
+
+// Decodes `bytes` (the first reading_bytes() bytes of SCDATAx, page 26) of slave 1..8 of a valid
+// `config`. kCorrupted when bits that the chip sets to 0 are not 0 or when the stored CRC does not
+// belong to the data. kInvalidArgument: `slave` is not 1..8, or there are fewer bytes.
+[[nodiscard]] constexpr Result<Reading> decode_reading(const Config& config, std::uint8_t slave,
+                                                       Span<const std::uint8_t> bytes) {
+  return is_in(0xFF, slave) && bytes.size() >= reading_bytes(config, slave)
+             ? detail::decode_bytes(config, slave, bytes.data())
+             : Result<Reading>(Error::kInvalidArgument);
 }
 
 }  // namespace mb4

@@ -14,6 +14,11 @@
 
 namespace mb4 {
 
+// SVALIDx of slave 1..8 in Status::valid_flags().
+[[nodiscard]] constexpr std::uint16_t flag_of(std::uint8_t slave) {
+  return static_cast<std::uint16_t>(std::uint32_t{1} << (2U * slave - 1U));
+}
+
 // 0xF0..0xF4 as read in one SPI frame. The names state the active meaning: `scd_error()` is true
 // when nSCDERR is 0.
 class Status {
@@ -54,12 +59,16 @@ class Status {
             regs::kFamilySvalid.mask(slave)) != 0;
   }
 
+  // 0xF2 and 0xF1, high and low byte: SVALIDx of slave x is bit 2 x - 1 (flag_of()).
+  [[nodiscard]] constexpr std::uint16_t valid_flags() const {
+    return static_cast<std::uint16_t>(bytes_[1] | bytes_[2] << 8);
+  }
   // SVALIDx of all slaves; bit 0 is slave 1.
   [[nodiscard]] constexpr std::uint8_t valid_mask() const {
     // Bits 7, 5, 3, 1 of each register.
     static_assert(regs::kFamilySvalid.lsb == 1 && regs::kFamilySvalid.lsb_step == 2 &&
                   regs::kFamilySvalid.per_register == 4);
-    unsigned bits = (unsigned{bytes_[1]} | unsigned{bytes_[2]} << 8U) >> 1U;
+    unsigned bits = unsigned{valid_flags()} >> 1U;
     bits = (bits & 0x1111U) | (bits & 0x4444U) >> 1U;
     bits = (bits & 0x0303U) | (bits & 0x3030U) >> 2U;
     return static_cast<std::uint8_t>((bits & 0x0FU) | (bits & 0x0F00U) >> 4U);

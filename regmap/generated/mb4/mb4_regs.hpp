@@ -746,7 +746,7 @@ enum class LineInterface : std::uint8_t {
 
 // MAFS, MAFO
 enum class MaForce : std::uint8_t {
-  // The line is driven by the frame engine.
+  // Frames and accesses drive the line.
   kFree = 0,
   // The line has the level of the matching value bit.
   kForced = 1,

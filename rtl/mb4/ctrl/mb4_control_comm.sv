@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Control communication: BiSS C control frames, BiSS B register access, the CDM bit of every frame,
-// and the time limits.
+// and the time limits. It also keeps the configuration of an access while the access runs, and
+// tells what INSTR asks for with this configuration (kind_o).
 //
 // Clock domain: core. Latency, misuse and datasheet sections: see the modules.
 // Vectors: bit i of a vector {2, 1} is for line i + 1.
@@ -10,15 +11,10 @@
 module mb4_control_comm (
   input  logic       clk_i,
   input  logic       rst_ni,
-  input  mb4_pkg::access_t access_i,   // stable while run_o
-  input  logic [2:0] freqr_i,
-  input  logic       en_mo_i,
+  input  mb4_pkg::cfg_t cfg_i,
+  input  logic [mb4_pkg::QUIRKS_W-1:0] quirks_i,
   input  logic [2:0] instr_i,
-  input  logic       ida_invert_i,
-  input  logic [1:0] in_use_i,
-  input  logic [1:0] ssi_i,
-  input  logic [1:0] manual_i,         // lines that CHSEL names
-  input  logic [1:0] select_i,         // lines of the access: CHSEL names them, protocol fits
+  output mb4_pkg::kind_t kind_o,
   // RDATA
   output mb4_pkg::rdata_cmd_t rdata_o,
   input  logic [7:0] rdata_i,
@@ -28,39 +24,28 @@ module mb4_control_comm (
   input  logic       register_want_i,  // INSTR asks for BiSS B, or for what cannot run
   input  logic       void_i,           // an access that cannot run or begin ends
   input  logic       refused_i,        // SL is low: no frame for INSTR
-  input  logic       abort_i,
   input  logic       clear_i,          // BREAK, INIT
   input  logic       init_clear_i,     // INIT begins
-  input  logic       start_i,
-  input  logic [1:0] use_i,            // lines that start_i is for
-  input  logic       init_i,
-  input  logic       register_i,       // start_i is for a BiSS B register access
+  input  biss_pkg::line_go_t go_i,
+  input  logic [1:0] use_i,            // lines that go_i.start is for
   input  logic       frame_end_i,
   input  logic       live_i,           // frames run, or will come by themselves
   input  logic       automatic_i,      // no frame depends on INSTR
   input  logic       tick_i,
-  input  logic [1:0] sl_i,
-  input  logic [1:0] cds_i,
-  input  logic [1:0] cdm_i,            // as sent
+  input  logic [2*biss_pkg::LINE_STATUS_W-1:0] status_i,
   output logic       active_o,
-  output logic       run_o,            // an access runs or begins
-  output logic       stale_o,          // access_i is still that of an access which has ended
+  output logic       stale_o,          // kind_o is still that of an access which has ended
   output logic       time_o,           // the time base must run between frames too
   output logic       stalled_o,        // no frame has ended for too long
   output logic [1:0] cdm0_o,
   output logic [1:0] cdm1_o,
-  output logic       cdm_timeout_o,
   // BiSS B register access
-  output logic       register_ma_o,
-  output logic       register_end_o,
+  output biss_pkg::register_ma_t register_ma_o,
   output logic [1:0] register_mo_o,    // MO is low
   // results
-  output logic       reg_begin_o,
-  output logic       reg_end_o,
-  output logic       reg_error_o,      // with reg_end_o
-  output logic       delay_error_o,    // with reg_end_o
-  output logic       ags_error_o,
-  output logic [5:0] good_bytes_o
+  output mb4_pkg::access_event_t event_o,
+  output mb4_pkg::access_state_t state_o,
+  output logic       ags_error_o
 );
 
   logic       time_d, time_q;
@@ -70,101 +55,101 @@ module mb4_control_comm (
   logic       register_q;              // the results are those of BiSS B
   logic       unused;
   logic waiting, moved, control_runs;
-  logic run_q;
-  logic control_begin, control_end, control_error, control_delay, in_body, expired, sent;
-  logic register_start, register_active, register_wait, register_init, register_error;
-  logic register_delay, register_end, register_mo;
-  logic [1:0] control0, control1, register_use;
-  logic       control_wr_en, register_wr_en;
-  logic [5:0] control_addr, control_bytes, register_addr, register_bytes;
-  logic [7:0] control_data, register_data;
+  logic run, run_q;                    // an access runs or begins
+  logic control_begin, in_body, expired, sent, cdm_timeout;
+  logic register_start, register_active, register_wait;
+  logic [1:0] control0, control1;
+  mb4_pkg::access_t       access_q;    // constant while an access runs
+  biss_pkg::access_t      access;
+  biss_pkg::access_byte_t control_byte, register_byte, rdata;
+  biss_pkg::access_end_t  control_end, register_end;
+  biss_pkg::line_status_t status1, status2;
+
+  assign {status2, status1} = status_i;
+
+  // The host may configure the next access while one runs (decision 38). Its settings are here two
+  // clocks after the end. In the clock between, the sequencer waits (stale_o).
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni)   access_q <= '0;
+    else if (!run) access_q <= cfg_i.access;
+  end
+
+  assign access = {access_q.cts, access_q.wnr, access_q.regadr, access_q.regnum,
+                   access_q.slaveid};
+
+  mb4_frame_kind u_kind (
+    .instr_i,
+    .access_i    (access_q),
+    .slaveloc5_i (cfg_i.slaveloc5),
+    .cfgch1_i    (cfg_i.cfgch1),
+    .cfgch2_i    (cfg_i.cfgch2),
+    .kind_o
+  );
 
   // ---- BiSS C -------------------------------------------------------------------------------
 
   biss_control_frame u_frame (
     .clk_i,
     .rst_ni,
-    .cts_i           (access_i.cts),
-    .wnr_i           (access_i.wnr),
-    .regadr_i        (access_i.regadr),
-    .regnum_i        (access_i.regnum),
-    .slaveid_i       (access_i.slaveid),
-    .ida_invert_i,
-    .select_i,
-    .blind_i         ((select_i & ssi_i) != 2'b00),
-    .rdata_addr_o    (control_addr),
+    .access_i      (access),
+    .ida_invert_i  (quirks_i[mb4_pkg::QUIRK_IDA_TEST_INVERT]),
+    .select_i      (kind_o.select),
+    .blind_i       ((kind_o.select & kind_o.ssi) != 2'b00),
+    .byte_o        (control_byte),
     .rdata_i,
     .post_busy_i,
-    .rdata_wr_en_o   (control_wr_en),
-    .rdata_wr_data_o (control_data),
     .begin_i,
-    .abort_i         (clear_i || void_q),
-    .start_i         (start_i && !init_i && !register_i),
+    .abort_i       (clear_i || void_q),
+    .start_i       (go_i.start && !go_i.init && !go_i.register_access),
     .frame_end_i,
-    .cds_i           (cds_i & in_use_i),
-    .cdm_timeout_i   (cdm_timeout_o),
-    .expired_i       (expired),
-    .stalled_i       (stalled_o),
+    .cds_i         ({status2.cds, status1.cds} & kind_o.in_use),
+    .cdm_timeout_i (cdm_timeout),
+    .expired_i     (expired),
+    .stalled_i     (stalled_o),
     .active_o,
-    .running_o       (control_runs),
-    .in_body_o       (in_body),
-    .wait_o          (waiting),
-    .moved_o         (moved),
-    .cdm0_o          (control0),
-    .cdm1_o          (control1),
-    .begin_o         (control_begin),
-    .end_o           (control_end),
-    .reg_error_o     (control_error),
-    .delay_error_o   (control_delay),
-    .good_bytes_o    (control_bytes)
+    .running_o     (control_runs),
+    .in_body_o     (in_body),
+    .wait_o        (waiting),
+    .moved_o       (moved),
+    .cdm0_o        (control0),
+    .cdm1_o        (control1),
+    .begin_o       (control_begin),
+    .end_o         (control_end)
   );
 
   // ---- BiSS B register access ---------------------------------------------------------------
 
-  assign register_start = start_i && register_i;
+  assign register_start = go_i.start && go_i.register_access;
 
   biss_b_access u_biss_b (
     .clk_i,
     .rst_ni,
-    .freqr_i,
-    .wnr_i           (access_i.wnr),
-    .regadr_i        (access_i.regadr),
-    .regnum_i        (access_i.regnum),
-    .slaveid_i       (access_i.slaveid),
-    .mo_i            (en_mo_i),
-    .start_i         (register_start),
+    .freqr_i   (cfg_i.freqr),
+    .access_i  (access),
+    .mo_i      (cfg_i.en_mo),
+    .start_i   (register_start),
     .use_i,
-    .init_i,
-    .abort_i,
+    .init_i    (go_i.init),
+    .abort_i   (go_i.stop),
     .tick_i,
-    .expired_i       (expired),
-    .wait_o          (register_wait),
-    .active_o        (register_active),
-    .init_o          (register_init),
-    .use_o           (register_use),
-    .sl_i,
-    .ma_o            (register_ma_o),
-    .mo_low_o        (register_mo),
-    .rdata_addr_o    (register_addr),
+    .expired_i (expired),
+    .wait_o    (register_wait),
+    .active_o  (register_active),
+    .sl_i      ({status2.sl, status1.sl}),
+    .ma_o      (register_ma_o),
+    .mo_low_o  (register_mo_o),
+    .byte_o    (register_byte),
     .rdata_i,
-    .rdata_wr_en_o   (register_wr_en),
-    .rdata_wr_data_o (register_data),
-    .end_o           (register_end_o),
-    .ags_error_o     (ags_error_o),
-    .reg_error_o     (register_error),
-    .delay_error_o   (register_delay),
-    .good_bytes_o    (register_bytes)
+    .ags_error_o,
+    .end_o     (register_end)
   );
 
-  assign register_end    = register_end_o && !register_init;
-  assign register_mo_o   = register_use & {2{register_mo}};
-  assign rdata_o         = {active_o || register_active,
-                            register_active ? register_addr : control_addr,
-                            control_wr_en || register_wr_en,
-                            register_active ? register_data : control_data};
+  assign rdata   = register_active ? register_byte : control_byte;
+  assign rdata_o = {control_byte.wr_en || register_byte.wr_en, rdata.addr, rdata.wr_data,
+                    active_o || register_active, rdata.addr};
 
   mb4_cdm_select u_cdm (
-    .manual_i,
+    .manual_i   (kind_o.manual),
     .instr_i,
     .active_i   (active_o),
     .control0_i (control0),
@@ -185,12 +170,13 @@ module mb4_control_comm (
 
   // The frame of the last request, or the BiSS B access, could not start. The watchdog then counts
   // the time up to the next request. With FREQAGS = AGSMIN a BiSS B access asks in every clock.
-  assign refused_d = !start_i && !clear_i && !void_i && !automatic_i &&
-                     ((refused_i && (active_o || register_i)) || (refused_q && !control_end));
+  assign refused_d = !go_i.start && !clear_i && !void_i && !automatic_i &&
+                     ((refused_i && (active_o || go_i.register_access)) ||
+                      (refused_q && !control_end.ends));
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) {time_q, refused_q, void_q, run_q} <= '0;
-    else         {time_q, refused_q, void_q, run_q} <= {time_d, refused_d, void_i, run_o};
+    else         {time_q, refused_q, void_q, run_q} <= {time_d, refused_d, void_i, run};
   end
 
   assign time_o = time_q;
@@ -198,9 +184,9 @@ module mb4_control_comm (
   mb4_reg_watchdog u_watchdog (
     .clk_i,
     .rst_ni,
-    .freqr_i,
+    .freqr_i   (cfg_i.freqr),
     .watch_i   (time_d || register_wait),
-    .clear_i   (moved || (start_i && refused_q)),
+    .clear_i   (moved || (go_i.start && refused_q)),
     .live_i    (live_i || register_wait || refused_q),
     .tick_i,
     .expired_o (expired),
@@ -208,11 +194,11 @@ module mb4_control_comm (
   );
 
   assign stalled_o = counted && (!refused_q || refused_i);
-  assign run_o     = active_o || register_active || register_start;
+  assign run       = active_o || register_active || register_start;
   assign stale_o   = (run_q && !control_runs && !register_active) || void_q;
 
   // Zeros within a control frame do not count. The stop bit is the first zero that counts.
-  assign sent = (cdm_i & in_use_i) != 2'b00;
+  assign sent = ({status2.cdm, status1.cdm} & kind_o.in_use) != 2'b00;
 
   biss_cdm_timeout u_cdm_timeout (
     .clk_i,
@@ -220,18 +206,19 @@ module mb4_control_comm (
     .frame_end_i,
     .cdm_i       (sent || in_body),
     .clear_i     (init_clear_i),
-    .timeout_o   (cdm_timeout_o)
+    .timeout_o   (cdm_timeout)
   );
 
   // ---- results ------------------------------------------------------------------------------
 
   // REGEND falls with the instruction. It does not wait for the frame of the access.
-  assign reg_begin_o   = control_begin || register_want_i;
-  assign reg_end_o     = control_end || register_end || void_q;
-  assign reg_error_o   = void_q || (control_end ? control_error : register_error);
-  assign delay_error_o = control_end ? control_delay : register_delay;
-  // Not needed: begin_i and register_want_i tell the kind of access.
-  assign unused        = access_i.regvers;
-  assign good_bytes_o  = register_q ? register_bytes : control_bytes;
+  assign event_o = {
+    control_begin || register_want_i,
+    control_end.ends || register_end.ends || void_q,
+    void_q || (control_end.ends ? control_end.reg_error : register_end.reg_error),
+    control_end.ends ? control_end.delay_error : register_end.delay_error
+  };
+  assign state_o = {cdm_timeout, register_q ? register_end.good_bytes : control_end.good_bytes};
+  assign unused  = rdata.wr_en;
 
 endmodule

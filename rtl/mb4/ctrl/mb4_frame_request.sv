@@ -8,7 +8,7 @@
 //
 // - Rate: the first frame is due one period after AGS was set. Then one is due every 20 (FREQAGS +
 //   1) or 625 (FREQAGS - 127) clocks, whatever the frames do. Writing AGS = 1 again does not move
-//   these times; BREAK starts them again. request_o stays until taken_i.
+//   these times; BREAK starts them again. request_o.due stays until taken_i.
 // - missed_o: a frame is due while the one before has not ended. The new frame is left out.
 // - GETSENS = 1 is a request whenever the lines are idle. With hold_cdm_i each pulse gives one
 //   frame.
@@ -28,12 +28,12 @@ module mb4_frame_request (
   input  logic       busy_i,       // a frame runs
   input  logic       lines_idle_i,
   input  logic       taken_i,
-  output logic       agsmin_o,     // FREQAGS is AGSMIN, with AGS = 1 or 0
-  output logic       infinite_o,   // FREQAGS is AGSINFINITE
-  output logic       request_o,
+  output mb4_pkg::request_t request_o,
   output logic       missed_o
 );
 
+  logic       agsmin;
+  logic       infinite;
   logic       timed;
   logic       getsens;
   logic [9:0] pre_q;      // clocks of the current step
@@ -52,9 +52,9 @@ module mb4_frame_request (
     .data_o (getsens)
   );
 
-  assign agsmin_o   = freqags_i == mb4_regs_pkg::AGS_RATE_AGS_MIN;
-  assign infinite_o = freqags_i[7:2] == 6'b011111 && !agsmin_o;
-  assign timed      = ags_i && !agsmin_o && !infinite_o;
+  assign agsmin   = freqags_i == mb4_regs_pkg::AGS_RATE_AGS_MIN;
+  assign infinite = freqags_i[7:2] == 6'b011111 && !agsmin;
+  assign timed      = ags_i && !agsmin && !infinite;
 
   assign pre_end = pre_q == (freqags_i[7] ? 10'd624 : 10'd19);
   assign due     = timed && !restart_i && pre_end && step_q == freqags_i[6:0];
@@ -84,8 +84,9 @@ module mb4_frame_request (
     end
   end
 
-  assign request_o = ags_i && (agsmin_o || pending_q ||
-                               (infinite_o && getsens && lines_idle_i && (armed_q || !hold_cdm_i)));
+  assign request_o = {ags_i && (agsmin || pending_q ||
+                                (infinite && getsens && lines_idle_i && (armed_q || !hold_cdm_i))),
+                      agsmin, infinite};
   assign missed_o  = due && busy_i;
 
 endmodule

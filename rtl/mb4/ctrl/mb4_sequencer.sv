@@ -6,14 +6,14 @@
 //
 // Clock domain: core.
 // Latency: a written byte arrives 2..3 clocks after its last bit. The frame that it asks for starts
-// one clock later at the earliest. busy rises before ack_o reaches the host half. A frame ends two
-// clocks after its last bit (frame_end). Its result comes one clock before this end, and the banks
-// switch one clock behind it (mb4_bank_ctrl).
+// one clock later at the earliest. busy rises before the count reaches the host half. A frame ends
+// two clocks after its last bit (frame_end). Its result comes one clock before this end, and the
+// banks switch one clock after it (mb4_bank_ctrl).
 //
 // - With AGS = 1 INSTR sets the CDM of the automatic frames (mb4_frame_request) and stays. Only
 //   with FREQAGS = AGSINFINITE it also asks for a frame.
-// - A BiSS B register access (register_o) takes the place of a frame. INIT of BiSS B is only the
-//   hand-over of such an access.
+// - A BiSS B register access (go_o.register_access) takes the place of a frame. INIT of BiSS B is
+//   only the hand-over of such an access.
 // - INIT waits for the slaves' timeout of the frame before it, but not without limit (INIT_WAIT).
 //
 // Misuse and errors:
@@ -21,8 +21,8 @@
 // - SL is low when a frame is due: no frame, nAGSERR = 0. With FREQAGS = AGSMIN the frame waits for
 //   SL = 1 instead (decision 3).
 // - A frame is due while HOLDBANK holds back a switch: the frame runs into the other bank and the
-//   switch is lost (mb4_bank_ctrl). With agserr_on_hold_i there is no frame, SWBANKFAIL = 1 and
-//   nAGSERR = 0 (decision 15).
+//   switch is lost (mb4_bank_ctrl). With QUIRK_AGSERR_ON_HOLDBANK there is no frame,
+//   SWBANKFAIL = 1 and nAGSERR = 0 (decision 15).
 // - A control communication that cannot run ends at once (decision 37). So does a BiSS B access
 //   that waits for its automatic frame when its lines or REGVERS are changed.
 // - A BiSS B access without AGS cannot begin while SL is low: the first request after the limit of
@@ -37,21 +37,14 @@ module mb4_sequencer (
   input  logic       clk_i,
   input  logic       rst_ni,
   // instruction register, host half
-  input  mb4_pkg::instr_t written_i,
-  input  logic [1:0] count_i,         // one step for each write
-  output logic [1:0] ack_o,           // steps taken
-  output mb4_pkg::instr_t held_o,
+  input  mb4_pkg::instr_host_t instr_i,
+  output mb4_pkg::instr_core_t instr_o,
   // configuration
-  input  logic       mem_busy_i,
-  input  logic       agsmin_i,
-  input  logic       infinite_i,
   input  logic       regvers_i,
   input  mb4_pkg::kind_t kind_i,
-  input  logic       agserr_on_hold_i,
-  input  logic       agserr_on_write_i,
-  input  logic       ags_clear_i,     // an AGS error clears AGS
+  input  logic [mb4_pkg::QUIRKS_W-1:0] quirks_i,
   // automatic frames
-  input  logic       request_i,
+  input  mb4_pkg::request_t request_i,
   input  logic       missed_i,
   output logic       taken_o,
   output logic       lines_idle_o,
@@ -61,13 +54,11 @@ module mb4_sequencer (
   output biss_pkg::line_go_t go_o,
   output logic [1:0] start_use_o,     // lines that go_o.start is for
   input  logic       tick_i,
-  input  logic [1:0] idle_i,
-  input  logic [1:0] timeout_i,
-  input  logic [1:0] sl_i,
-  input  logic [2*biss_pkg::LINE_EVENT_W-1:0] event_i,
-  input  logic [1:0] word_ok_i,       // with word_done of event_i
+  input  logic [2*biss_pkg::LINE_STATUS_W-1:0] status_i,
+  input  logic [2*biss_pkg::LINE_EVENT_W-1:0]  event_i,
+  input  logic [1:0] word_bad_i,      // a word ends that is not valid
   // banks
-  input  logic       bank_pending_i,
+  input  mb4_pkg::mem_state_t mem_i,
   output mb4_pkg::bank_cmd_t bank_o,
   // status
   output mb4_pkg::frame_flags_t flags_o,
@@ -103,8 +94,11 @@ module mb4_sequencer (
   logic [10:0]      wait_d;
   logic [10:0]      wait_q;        // half MA periods left for the return of SL to 1
   logic             written;
+  mb4_pkg::instr_t  asked;         // the byte of the host
+  biss_pkg::line_status_t status1, status2;
   biss_pkg::line_event_t event1, event2;
-  logic [1:0]       line_end, word_done, init_done, init_fail;
+  logic [1:0]       idle, line_end, init_done, init_fail;
+  logic [1:0]       ack;
   logic             start, init, register_access, mo_return, abort;
   logic             frame_end, swap;
   logic             busy, clear_flags, scd_en, ags_error, bank_fail;
@@ -118,25 +112,28 @@ module mb4_sequencer (
   // at 10 MHz.
   localparam logic [10:0] INIT_WAIT = 11'h7FF;
 
-  // ack_o comes two clocks after new_q. REGEND has fallen by then.
+  // ack comes two clocks after new_q. REGEND has fallen by then.
   enc_count_rx u_written (
     .clk_i,
     .rst_ni,
-    .count_i,
+    .count_i (instr_i.count),
     .pulse_o (written),
-    .ack_o
+    .ack_o   (ack)
   );
 
-  assign {event2, event1} = event_i;
+  assign {status2, status1} = status_i;
+  assign {event2, event1}   = event_i;
+  assign asked     = instr_i.written;
+  assign idle      = {status2.idle, status1.idle};
   assign line_end  = {event2.frame_end, event1.frame_end};
-  assign word_done = {event2.word_done, event1.word_done};
   assign init_done = {event2.init_done, event1.init_done};
   assign init_fail = {event2.init_fail, event1.init_fail};
 
-  assign all_idle = idle_i == 2'b11;   // also lines out of use: they share the time base
-  assign sl_low   = (kind_i.in_use & (idle_i | timeout_i) & ~sl_i) != 2'b00;
+  assign all_idle = idle == 2'b11;   // also lines out of use: they share the time base
+  assign sl_low   = (kind_i.in_use & (idle | {status2.timeout, status1.timeout}) &
+                     ~{status2.sl, status1.sl}) != 2'b00;
   assign by_instr = new_q && kind_i.is_frame && kind_i.in_use != 2'b00 &&
-                    (!held_q.ags || infinite_i);
+                    (!held_q.ags || request_i.infinite);
   assign begins   = new_q && kind_i.in_use != 2'b00 && !held_q.init && state_q != INIT_TIMEOUT;
   assign control_begin_o  = begins && kind_i.is_control && state_q != INIT && !stale_i;
   // A new instruction takes REGEND away at once. After a stall it is still the old one.
@@ -186,7 +183,7 @@ module mb4_sequencer (
           held_d.instr = 3'b000;
           void_o       = 1'b1;
         end
-        if (held_q.init && !mem_busy_i) begin
+        if (held_q.init && !mem_i.clears) begin
           if (kind_i.init_use == 2'b00) begin
             held_d.init  = 1'b0;
             init_clear_o = 1'b1;
@@ -200,16 +197,17 @@ module mb4_sequencer (
           end else if (wait_q == 11'd0) begin
             abort = 1'b1;
           end
-        end else if ((by_instr || request_i) && !mem_busy_i && kind_i.in_use != 2'b00 &&
+        end else if ((by_instr || request_i.due) && !mem_i.clears && kind_i.in_use != 2'b00 &&
                      !(stale_i && held_q.instr != 3'b000)) begin
-          if (bank_pending_i && held_q.holdbank && agserr_on_hold_i && !kind_i.is_register) begin
+          if (mem_i.pending && held_q.holdbank && !kind_i.is_register &&
+              quirks_i[mb4_pkg::QUIRK_AGSERR_ON_HOLDBANK]) begin
             taken_o   = 1'b1;
             ags_error = 1'b1;
             bank_fail = 1'b1;
           end else if (sl_low) begin
-            taken_o   = !agsmin_i;
-            ags_error = !agsmin_i;
-            refused_o = by_instr && (!agsmin_i || kind_i.is_register);
+            taken_o   = !request_i.agsmin;
+            ags_error = !request_i.agsmin;
+            refused_o = by_instr && (!request_i.agsmin || kind_i.is_register);
             // Requests for an access that has not begun have been refused for too long.
             if (control_stalled_i && !control_active_i && !control_end_i && held_q.instr[2]) begin
               held_d.instr = 3'b000;
@@ -229,7 +227,7 @@ module mb4_sequencer (
       end
       FRAME: begin
         // A frame or a register access runs. It ends when the last of its lines has ended.
-        bad_d  = bad_q || (word_done & ~word_ok_i) != 2'b00;
+        bad_d  = bad_q || word_bad_i != 2'b00;
         done_d = done_q | line_end;
         if (done_d == 2'b11) begin
           state_d = FRAME_DONE;
@@ -253,7 +251,7 @@ module mb4_sequencer (
       end
       INIT_TIMEOUT: begin
         // The slaves are in their timeout. The host still reads INIT = 1.
-        if ((use_q & ~idle_i) == 2'b00 || wait_q == 11'd0) begin
+        if ((use_q & ~idle) == 2'b00 || wait_q == 11'd0) begin
           state_d     = IDLE;
           held_d.init = 1'b0;
         end
@@ -266,34 +264,33 @@ module mb4_sequencer (
       held_d.instr = 3'b000;
     end
     if (missed_i) ags_error = 1'b1;
-    if (ags_error && ags_clear_i) held_d.ags = 1'b0;
+    if (ags_error && quirks_i[mb4_pkg::QUIRK_AGS_CLEARED_ON_ERROR]) held_d.ags = 1'b0;
 
     if (written) begin
       // INSTR written with the code whose frame runs is no new request. A frame runs from its first
       // clock to the one before its end. A write does not cancel an INIT; automatic frames wait for
       // its end.
-      new_d = written_i.instr != 3'b000 &&
-                        (new_d || (state_q != FRAME && state_d != FRAME) ||
-                         written_i.instr != held_q.instr);
-      held_d.holdbank = written_i.holdbank;
-      held_d.swbank   = written_i.swbank;
-      held_d.ags      = written_i.ags;
-      held_d.instr    = written_i.instr;
-      held_d.init     = written_i.init || held_d.init;
-      swap            = written_i.swbank != held_q.swbank;
-      if (written_i.brk) begin
+      new_d = asked.instr != 3'b000 &&
+              (new_d || (state_q != FRAME && state_d != FRAME) || asked.instr != held_q.instr);
+      held_d.holdbank = asked.holdbank;
+      held_d.swbank   = asked.swbank;
+      held_d.ags      = asked.ags;
+      held_d.instr    = asked.instr;
+      held_d.init     = asked.init || held_d.init;
+      swap            = asked.swbank != held_q.swbank;
+      if (asked.brk) begin
         abort       = 1'b1;
         break_o     = 1'b1;
         start       = 1'b0;
         frame_end   = 1'b0;
         scd_en      = 1'b0;
         state_d     = IDLE;
-        new_d       = written_i.instr != 3'b000;
-        held_d.init = written_i.init;
+        new_d       = asked.instr != 3'b000;
+        held_d.init = asked.init;
         ags_error   = 1'b0;
         wait_d      = INIT_WAIT;
       end
-      if (agserr_on_write_i) ags_error = 1'b1;
+      if (quirks_i[mb4_pkg::QUIRK_AGSERR_ON_INSTR_WR]) ags_error = 1'b1;
     end
     clear_flags = init_clear_o || break_o;
   end
@@ -327,15 +324,15 @@ module mb4_sequencer (
   // Slaves that pass MO on do not show their timeout on SL. So MO stays low for half of INIT_WAIT,
   // which covers the timeout, and SL has the other half to follow MO (decision 39).
   assign mo_return = state_q == INIT_TIMEOUT && !wait_q[10];
-  assign held_o      = held_q;
+  assign instr_o     = {ack, held_q};
   assign go_o        = {start, init, register_access, reduced_d, mo_return, abort};
   assign bank_o      = {state_q == FRAME && !reduced_q && !register_q, frame_end,
-                        frame_end && !reduced_q, reduced_d, swap};
+                        frame_end && !reduced_q, reduced_d, swap, init && regvers_i};
   assign flags_o     = {busy, clear_flags, scd_en, bad_d, ags_error, bank_fail};
   assign running_o    = state_q != IDLE;
   assign lines_idle_o = all_idle;
   // With AGS = 1 INSTR asks for no frame, unless FREQAGS is AGSINFINITE.
-  assign busy        = state_d != IDLE || (new_d && (!held_d.ags || infinite_i)) || held_d.init;
+  assign busy = state_d != IDLE || (new_d && (!held_d.ags || request_i.infinite)) || held_d.init;
 
   `ENC_ASSERT(BreakIsNotKept_A, clk_i, rst_ni, !held_q.brk)
   `ENC_ASSERT_IF(StartOnIdleLines_A, clk_i, rst_ni, start, all_idle)

@@ -19,9 +19,8 @@ module mb4_word_list #(
   input  logic       clk_i,
   input  logic       rst_ni,
   // configuration
-  input  logic [7:0] enscd_i,
+  input  logic [7:0] enscd_i,    // enabled data channels of this line
   input  logic [7:0] actnsens_i,
-  input  logic [7:0] own_i,      // data channels of this line
   input  logic       ssi_i,
   input  logic       nocrc_i,
   // control
@@ -37,7 +36,6 @@ module mb4_word_list #(
   output biss_pkg::offer_t offer_o  // the current word
 );
 
-  logic [7:0]  enabled;
   logic [7:0]  todo_d;
   logic [7:0]  todo_q;
   logic [7:0]  rest;       // words after the current one
@@ -58,7 +56,6 @@ module mb4_word_list #(
   logic        last;
   logic        unused;
 
-  assign enabled = enscd_i & own_i;
   assign rest    = todo_q & (todo_q - 8'd1);
   // Not needed: enscd_i tells the same.
   assign unused  = cfg_i.enscd;
@@ -79,15 +76,15 @@ module mb4_word_list #(
     first_new  = 3'd0;
     first_rest = 3'd0;
     for (int i = 7; i >= 0; i--) begin
-      if (enabled[i]) first_new  = 3'(i);
+      if (enscd_i[i]) first_new  = 3'(i);
       if (rest[i])    first_rest = 3'(i);
     end
   end
 
   always_comb begin
-    todo_d    = begins ? enabled : rest;
+    todo_d    = begins ? enscd_i : rest;
     slave_d   = begins ? first_new : first_rest;
-    summing_d = Sum && (start_i ? enabled != 8'h00 : summing_q && !last);
+    summing_d = Sum && (start_i ? enscd_i != 8'h00 : summing_q && !last);
   end
 
   assign cfg_en_o    = start_i || next_i || summing_q;
@@ -105,7 +102,7 @@ module mb4_word_list #(
     end
   end
 
-  assign actuator_o = (enabled & actnsens_i) != 8'h00 && !ssi_i;
+  assign actuator_o = (enscd_i & actnsens_i) != 8'h00 && !ssi_i;
 
   assign actuator = actnsens_i[slave_q] && !ssi_i;
   assign stop     = actuator && cfg_i.gray_lstop;

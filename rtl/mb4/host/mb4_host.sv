@@ -24,22 +24,16 @@ module mb4_host (
   output logic [7:0] db_oe_o,
   // host byte bus
   output logic       wr_clk_o,
-  output logic       wr_en_o,
-  output logic [7:0] wr_addr_o,
-  output logic [7:0] wr_data_o,
   output logic       rd_clk_o,
-  output logic       rd_en_o,
-  output logic [7:0] rd_addr_o,
+  output mb4_pkg::host_t host_o,
   input  logic [7:0] rd_data_i,
   // second read port: SCDATA5..8
   output logic       rd2_clk_o,
-  output logic       rd2_en_o,
-  output logic [4:0] rd2_addr_o,
+  output mb4_pkg::mem_rd_t read2_o,
   input  logic [7:0] rd2_data_i
 );
 
-  logic       spi_wr_en, spi_rd_en;
-  logic [7:0] spi_wr_addr, spi_wr_data, spi_rd_addr;
+  mb4_pkg::host_t spi;
   logic       miso, miso_oe, miso2, miso2_oe;
   logic       par_wr_clk, par_rd_clk, par_oe;
   logic [7:0] par_addr;
@@ -51,11 +45,7 @@ module mb4_host (
     .mosi_i    (db_i[0]),
     .miso_o    (miso),
     .miso_oe_o (miso_oe),
-    .wr_en_o   (spi_wr_en),
-    .wr_addr_o (spi_wr_addr),
-    .wr_data_o (spi_wr_data),
-    .rd_en_o   (spi_rd_en),
-    .rd_addr_o (spi_rd_addr),
+    .host_o    (spi),
     .rd_data_i
   );
 
@@ -66,8 +56,7 @@ module mb4_host (
     .mosi_i    (db_i[6]),
     .miso_o    (miso2),
     .miso_oe_o (miso2_oe),
-    .rd_en_o   (rd2_en_o),
-    .rd_addr_o (rd2_addr_o),
+    .read_o    (read2_o),
     .rd_data_i (rd2_data_i)
   );
 
@@ -87,12 +76,8 @@ module mb4_host (
   );
 
   assign wr_clk_o  = cfgspi_i ? ale_i : par_wr_clk;
-  assign wr_en_o   = cfgspi_i ? spi_wr_en : 1'b1;
-  assign wr_addr_o = cfgspi_i ? spi_wr_addr : par_addr;
-  assign wr_data_o = cfgspi_i ? spi_wr_data : db_i;
   assign rd_clk_o  = cfgspi_i ? ale_i : par_rd_clk;
-  assign rd_en_o   = cfgspi_i ? spi_rd_en : 1'b1;
-  assign rd_addr_o = cfgspi_i ? spi_rd_addr : par_addr;
+  assign host_o    = cfgspi_i ? spi : {1'b1, par_addr, db_i, 1'b1, par_addr};
   assign rd2_clk_o = db_i[5];
 
   assign db_o    = cfgspi_i ? {miso2, 5'b00000, miso, 1'b0} : rd_data_i;

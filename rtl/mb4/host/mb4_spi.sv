@@ -20,11 +20,7 @@ module mb4_spi #(
   output logic       miso_o,
   output logic       miso_oe_o,  // 0 = high impedance
   // host byte bus, sampled at the rising edge of sclk_i
-  output logic       wr_en_o,
-  output logic [7:0] wr_addr_o,
-  output logic [7:0] wr_data_o,
-  output logic       rd_en_o,
-  output logic [7:0] rd_addr_o,
+  output mb4_pkg::host_t host_o,
   input  logic [7:0] rd_data_i   // valid after that edge, until the next read
 );
 
@@ -58,11 +54,7 @@ module mb4_spi #(
     .byte_valid_i (byte_valid),
     .byte_i       (rx_byte),
     .tx_en_o      (tx_en),
-    .wr_en_o,
-    .wr_addr_o,
-    .wr_data_o,
-    .rd_en_o,
-    .rd_addr_o
+    .host_o
   );
 
   assign miso_oe_o = !cs_ni;

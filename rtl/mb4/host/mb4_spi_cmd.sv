@@ -5,7 +5,7 @@
 //
 // Clock domain: SCLK.
 // Latency: a write takes effect at the 8th rising edge of its byte. Read data must be in tx_byte_i
-// of the shifter after the edge at which rd_en_o is high.
+// of the shifter after the edge at which host_o.rd_en is high.
 // Misuse: an unknown opcode is ignored until NCS rises. The address wraps from 0xFF to 0x00
 // (decision 13). With ReadOnly only the opcodes 0x03 and 0x09 are known (SPI2).
 // Datasheet: pages 17..19, Table 3.
@@ -23,11 +23,7 @@ module mb4_spi_cmd #(
   input  logic [7:0] byte_i,
   output logic       tx_en_o,
   // host byte bus, sampled at the rising edge of sclk_i
-  output logic       wr_en_o,
-  output logic [7:0] wr_addr_o,
-  output logic [7:0] wr_data_o,
-  output logic       rd_en_o,
-  output logic [7:0] rd_addr_o
+  output mb4_pkg::host_t host_o
 );
 
   typedef enum logic [2:0] {
@@ -44,6 +40,8 @@ module mb4_spi_cmd #(
   logic [7:0] addr_d;
   logic [7:0] addr_q;
   logic [7:0] opcode;
+  logic       wr_en, rd_en;
+  logic [7:0] rd_addr;
 
   // No opcode has the value 0x00.
   assign opcode = (ReadOnly && byte_i != mb4_regs_pkg::SPI_OPCODE_READ_REGISTERS &&
@@ -52,9 +50,9 @@ module mb4_spi_cmd #(
   always_comb begin
     state_d   = state_q;
     addr_d    = addr_q;
-    wr_en_o   = 1'b0;
-    rd_en_o   = 1'b0;
-    rd_addr_o = addr_q;
+    wr_en     = 1'b0;
+    rd_en     = 1'b0;
+    rd_addr   = addr_q;
 
     if (byte_valid_i) begin
       unique case (state_q)
@@ -66,13 +64,13 @@ module mb4_spi_cmd #(
             mb4_regs_pkg::SPI_OPCODE_READ_REGISTERS:  state_d = ADDR_READ;
             mb4_regs_pkg::SPI_OPCODE_READ_STATUS: begin
               state_d   = READ;
-              rd_en_o   = 1'b1;
-              rd_addr_o = mb4_regs_pkg::ADDR_STATUS0;
+              rd_en   = 1'b1;
+              rd_addr = mb4_regs_pkg::ADDR_STATUS0;
             end
             mb4_regs_pkg::SPI_OPCODE_READ_REGISTERS0: begin
               state_d   = READ;
-              rd_en_o   = 1'b1;
-              rd_addr_o = Registers0;
+              rd_en   = 1'b1;
+              rd_addr = Registers0;
             end
             mb4_regs_pkg::SPI_OPCODE_WRITE_INSTRUCTION: begin
               state_d = WRITE;
@@ -94,24 +92,24 @@ module mb4_spi_cmd #(
           // The host sends the address of a read. The first data bit leaves with the next falling
           // edge.
           state_d   = READ;
-          rd_en_o   = 1'b1;
-          rd_addr_o = byte_i;
+          rd_en   = 1'b1;
+          rd_addr = byte_i;
         end
         WRITE: begin
           // The host sends bytes. Each one is written, then the address counts up.
-          wr_en_o = 1'b1;
+          wr_en = 1'b1;
           addr_d  = addr_q + 8'd1;
         end
         READ: begin
           // The host clocks bytes out. At the end of each byte the next address is read.
-          rd_en_o = 1'b1;
+          rd_en = 1'b1;
         end
         IGNORE: begin
           // Nothing is read or written until NCS rises.
         end
         default: state_d = IGNORE;
       endcase
-      if (rd_en_o) addr_d = rd_addr_o + 8'd1;
+      if (rd_en) addr_d = rd_addr + 8'd1;
     end
   end
 
@@ -125,11 +123,10 @@ module mb4_spi_cmd #(
     end
   end
 
-  assign tx_en_o   = state_q == READ;
-  assign wr_addr_o = addr_q;
-  assign wr_data_o = byte_i;
+  assign tx_en_o = state_q == READ;
+  assign host_o  = {wr_en, addr_q, byte_i, rd_en, rd_addr};
 
   `ENC_ASSERT(StateInRange_A, sclk_i, frame_rst_ni, state_q <= IGNORE)
-  `ENC_ASSERT(ReadOrWrite_A, sclk_i, frame_rst_ni, !(wr_en_o && rd_en_o))
+  `ENC_ASSERT(ReadOrWrite_A, sclk_i, frame_rst_ni, !(wr_en && rd_en))
 
 endmodule

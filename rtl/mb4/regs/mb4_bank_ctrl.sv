@@ -1,14 +1,14 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Decides which bank the host uses and which bank the line engine uses.
+// Decides which bank the host uses and which bank frames use.
 //
 // Clock domain: core.
 //
 // - The end of a frame swaps the banks, one clock later: the CDS bits are in the bank by then.
 //   While HOLDBANK is set the swap stays pending; it happens when HOLDBANK is cleared.
-// - A frame that runs while a swap is pending writes to the engine's bank again, and the swap is
-//   lost (lost_o).
+// - A frame that runs while a swap is pending writes to the frames' bank again, and the swap is
+//   lost (event_o.lost).
 // - A change of SWBANK swaps the banks once, with HOLDBANK set or not.
 // - With SINGLEBANK both sides use the host's bank, and the end of a frame swaps nothing.
 // - HOLDBANK arrives here some clocks after the host has written it. While it is set here, and when
@@ -27,16 +27,12 @@ module mb4_bank_ctrl (
   input  logic singlebank_i,
   input  logic holdbank_i,
   input  logic kept_i,          // host domain: base that the host keeps
-  input  logic swbank_pulse_i,  // SWBANK has changed its value
-  input  logic frame_end_i,
-  input  logic frame_run_i,     // a frame runs that writes to the engine's bank
+  input  mb4_pkg::bank_cmd_t bank_i,
   output logic pending_o,
-  output logic swapped_o,       // the swap of a frame's end happens, or has just happened
-  output logic lost_o,          // the pending swap will not happen
+  output mb4_pkg::bank_event_t event_o,
   output logic base_o,          // base of the host's bank
   output logic newest_o,        // base of the bank that it has when no swap is pending
-  output logic host_bank_o,
-  output logic eng_bank_o
+  output mb4_pkg::banks_t banks_o
 );
 
   logic host_q;
@@ -60,7 +56,7 @@ module mb4_bank_ctrl (
     .data_o (kept)
   );
 
-  assign want   = ((pending_q && !frame_run_i) || end_q) && !singlebank_i;
+  assign want   = ((pending_q && !bank_i.run) || end_q) && !singlebank_i;
   assign swap   = want && !holdbank_i;
   assign follow = (holdbank_i || hold_q) && base_q != kept;
   assign base_d = base_q ^ (swap || follow);
@@ -76,22 +72,20 @@ module mb4_bank_ctrl (
       end_q     <= 1'b0;
       made_q    <= 1'b0;
     end else begin
-      host_q    <= host_q ^ (swap || follow) ^ swbank_pulse_i;
+      host_q    <= host_q ^ (swap || follow) ^ bank_i.swap;
       base_q    <= base_d;
       newest_q  <= base_d ^ pending_d;
       pending_q <= pending_d;
       hold_q    <= holdbank_i;
-      end_q     <= frame_end_i;
+      end_q     <= bank_i.data_end;
       made_q    <= follow && hold_q;
     end
   end
 
   assign pending_o   = pending_q;
-  assign swapped_o   = swap || made_q;
-  assign lost_o      = pending_q && frame_run_i;
+  assign event_o     = {swap || made_q, pending_q && bank_i.run};
   assign base_o      = base_q;
   assign newest_o    = newest_q;
-  assign host_bank_o = host_q;
-  assign eng_bank_o  = host_q ^ !singlebank_i;
+  assign banks_o     = {host_q, host_q ^ !singlebank_i};
 
 endmodule

@@ -4,7 +4,7 @@
 // CDS bits of both lines, in two banks that switch with the banks of SCDATA.
 //
 // Clock domain: core.
-// Latency: the end of a frame writes the engine's bank, one clock before the banks swap. The
+// Latency: the end of a frame writes the frames' bank, one clock before the banks swap. The
 // outputs are flops; mb4_host_read chooses the bank that the host sees.
 //
 // - A reduced frame switches only the CDS bits: it writes the bank that the host sees (decision
@@ -17,10 +17,8 @@
 module mb4_cds_bank (
   input  logic       clk_i,
   input  logic       rst_ni,
-  input  logic       host_bank_i,
-  input  logic       eng_bank_i,
-  input  logic       frame_end_i,
-  input  logic       reduced_i,
+  input  mb4_pkg::banks_t    banks_i,
+  input  mb4_pkg::bank_cmd_t bank_i,
   input  logic       holdbank_i,
   input  logic [1:0] cds_i,        // of lines {2, 1}
   output logic [3:0] cds_o         // bank 1 in the upper half
@@ -30,15 +28,15 @@ module mb4_cds_bank (
   logic [1:0] bank1_q;
   logic       bank;
 
-  assign bank = (reduced_i && !holdbank_i) ? host_bank_i : eng_bank_i;
+  assign bank = (bank_i.reduced && !holdbank_i) ? banks_i.host : banks_i.eng;
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
       bank0_q <= '0;
       bank1_q <= '0;
     end else begin
-      if (frame_end_i && !bank) bank0_q <= cds_i;
-      if (frame_end_i && bank)  bank1_q <= cds_i;
+      if (bank_i.frame_end && !bank) bank0_q <= cds_i;
+      if (bank_i.frame_end && bank)  bank1_q <= cds_i;
     end
   end
 

@@ -5,9 +5,9 @@
 // in mb4_slave_cfg.
 //
 // Clock domain: host (hclk_i: SCLK or bus strobe); no system clock is needed. An edge of hclk_i
-// with wr_en_i writes; rd_data_o is combinational from rd_addr_i. The outputs are quasi-static for
-// the core: the datasheet (page 28) asks the host to keep them stable while frames run. An
-// instruction that the host writes after them reaches the core when they have settled
+// with host_i.wr_en writes; rd_data_o is combinational from host_i.rd_addr. The outputs are
+// quasi-static for the core: the datasheet (page 28) asks the host to keep them stable while frames
+// run. An instruction that the host writes after them reaches the core when they have settled
 // (docs/crossings.md).
 // Misuse: reserved bits and addresses accept writes and read 0 (decision 13). Table 35 does not
 // permit FREQS code 0x10; it gives f_CLK / 20.
@@ -17,10 +17,7 @@ module mb4_cfg_regs (
   input  logic       hclk_i,
   input  logic       rst_ni,
   // host byte bus
-  input  logic       wr_en_i,
-  input  logic [7:0] wr_addr_i,
-  input  logic [7:0] wr_data_i,
-  input  logic [7:0] rd_addr_i,
+  input  mb4_pkg::host_t host_i,
   output logic [7:0] rd_data_o,
   // configuration
   output mb4_pkg::cfg_t cfg_o
@@ -41,6 +38,9 @@ module mb4_cfg_regs (
   logic [7:0] iface_q;
 
   mb4_pkg::access_t access;
+  logic [7:0] rd_addr;
+
+  assign rd_addr = host_i.rd_addr;
 
   always_ff @(posedge hclk_i or negedge rst_ni) begin
     if (!rst_ni) begin
@@ -56,27 +56,27 @@ module mb4_cfg_regs (
       cfgch_q     <= '0;
       actnsens_q  <= '0;
       iface_q     <= '0;
-    end else if (wr_en_i) begin
-      unique case (wr_addr_i)
-        mb4_regs_pkg::ADDR_REGADR:    regadr_q    <= wr_data_i & mb4_regs_pkg::WMASK_REGADR;
-        mb4_regs_pkg::ADDR_REGNUM:    regnum_q    <= wr_data_i & mb4_regs_pkg::WMASK_REGNUM;
-        mb4_regs_pkg::ADDR_CHSEL:     chsel_q     <= wr_data_i & mb4_regs_pkg::WMASK_CHSEL;
-        mb4_regs_pkg::ADDR_CTRL:      ctrl_q      <= wr_data_i & mb4_regs_pkg::WMASK_CTRL;
-        mb4_regs_pkg::ADDR_FREQ:      freq_q      <= wr_data_i & mb4_regs_pkg::WMASK_FREQ;
-        mb4_regs_pkg::ADDR_BANKCFG:   bankcfg_q   <= wr_data_i & mb4_regs_pkg::WMASK_BANKCFG;
-        mb4_regs_pkg::ADDR_FREQAGS:   freqags_q   <= wr_data_i & mb4_regs_pkg::WMASK_FREQAGS;
-        mb4_regs_pkg::ADDR_MO_BUSY:   mo_busy_q   <= wr_data_i & mb4_regs_pkg::WMASK_MO_BUSY;
-        mb4_regs_pkg::ADDR_SLAVELOC5: slaveloc5_q <= wr_data_i & mb4_regs_pkg::WMASK_SLAVELOC5;
-        mb4_regs_pkg::ADDR_CFGCH:     cfgch_q     <= wr_data_i & mb4_regs_pkg::WMASK_CFGCH;
-        mb4_regs_pkg::ADDR_ACTNSENS:  actnsens_q  <= wr_data_i & mb4_regs_pkg::WMASK_ACTNSENS;
-        mb4_regs_pkg::ADDR_IFACE:     iface_q     <= wr_data_i & mb4_regs_pkg::WMASK_IFACE;
+    end else if (host_i.wr_en) begin
+      unique case (host_i.wr_addr)
+        mb4_regs_pkg::ADDR_REGADR:    regadr_q    <= host_i.wr_data & mb4_regs_pkg::WMASK_REGADR;
+        mb4_regs_pkg::ADDR_REGNUM:    regnum_q    <= host_i.wr_data & mb4_regs_pkg::WMASK_REGNUM;
+        mb4_regs_pkg::ADDR_CHSEL:     chsel_q     <= host_i.wr_data & mb4_regs_pkg::WMASK_CHSEL;
+        mb4_regs_pkg::ADDR_CTRL:      ctrl_q      <= host_i.wr_data & mb4_regs_pkg::WMASK_CTRL;
+        mb4_regs_pkg::ADDR_FREQ:      freq_q      <= host_i.wr_data & mb4_regs_pkg::WMASK_FREQ;
+        mb4_regs_pkg::ADDR_BANKCFG:   bankcfg_q   <= host_i.wr_data & mb4_regs_pkg::WMASK_BANKCFG;
+        mb4_regs_pkg::ADDR_FREQAGS:   freqags_q   <= host_i.wr_data & mb4_regs_pkg::WMASK_FREQAGS;
+        mb4_regs_pkg::ADDR_MO_BUSY:   mo_busy_q   <= host_i.wr_data & mb4_regs_pkg::WMASK_MO_BUSY;
+        mb4_regs_pkg::ADDR_SLAVELOC5: slaveloc5_q <= host_i.wr_data & mb4_regs_pkg::WMASK_SLAVELOC5;
+        mb4_regs_pkg::ADDR_CFGCH:     cfgch_q     <= host_i.wr_data & mb4_regs_pkg::WMASK_CFGCH;
+        mb4_regs_pkg::ADDR_ACTNSENS:  actnsens_q  <= host_i.wr_data & mb4_regs_pkg::WMASK_ACTNSENS;
+        mb4_regs_pkg::ADDR_IFACE:     iface_q     <= host_i.wr_data & mb4_regs_pkg::WMASK_IFACE;
         default: ;  // not kept here
       endcase
     end
   end
 
   always_comb begin
-    unique case (rd_addr_i)
+    unique case (rd_addr)
       mb4_regs_pkg::ADDR_REGADR:    rd_data_o = regadr_q;
       mb4_regs_pkg::ADDR_REGNUM:    rd_data_o = regnum_q;
       mb4_regs_pkg::ADDR_CHSEL:     rd_data_o = chsel_q;
@@ -101,7 +101,7 @@ module mb4_cfg_regs (
   assign access.slaveid = ctrl_q[mb4_regs_pkg::SLAVEID_LSB +: mb4_regs_pkg::SLAVEID_W];
 
   assign cfg_o.access     = access;
-  assign cfg_o.chsel      = chsel_q[mb4_regs_pkg::CHSEL_LSB +: mb4_regs_pkg::CHSEL_W];
+  assign access.chsel   = chsel_q[mb4_regs_pkg::CHSEL_LSB +: mb4_regs_pkg::CHSEL_W];
   assign cfg_o.en_mo      = ctrl_q[mb4_regs_pkg::EN_MO_LSB];
   assign cfg_o.holdcdm    = ctrl_q[mb4_regs_pkg::HOLDCDM_LSB];
   assign cfg_o.freqr      = freq_q[mb4_regs_pkg::FREQR_LSB +: mb4_regs_pkg::FREQR_W];

@@ -4,7 +4,7 @@
 // Host read side: chooses the source of every address and holds the byte for the host interface.
 //
 // Clock domain: host reads (rclk_i).
-// Latency: rd_data_o is valid after the edge with rd_en_i, until the next read.
+// Latency: rd_data_o is valid after the edge with host_i.rd_en, until the next read.
 //
 // The status bits of the core and the bank that the host owns are asynchronous here. One flop (the
 // read register) samples each of them. It does so half an SCLK period before the first of them
@@ -18,19 +18,18 @@ module mb4_host_read (
   input  logic       rclk_i,
   input  logic       rst_ni,
   // host byte bus
-  input  logic       rd_en_i,
-  input  logic [7:0] rd_addr_i,
+  input  mb4_pkg::host_t host_i,
   output logic [7:0] rd_data_o,
   // sources
   input  logic        ram_ready_i,   // core: the memories are cleared
   input  logic        bank_i,        // bank that the host reads
   input  logic [15:0] scd_lo_data_i, // read registers of the memories, of the edge
-  input  logic [15:0] scd_hi_data_i, // with rd_en_i; bank 1 in the upper byte
+  input  logic [15:0] scd_hi_data_i, // with host_i.rd_en; bank 1 in the upper byte
   input  logic [7:0] rdata_data_i,
   input  logic       recent_hit_i,   // same edge: the byte of the host is still on its way
   input  logic [7:0] recent_data_i,
   input  logic [7:0] slave_data_i,   // configuration of the data channels, same edge
-  input  logic [7:0] cfg_data_i,     // combinational from rd_addr_i
+  input  logic [7:0] cfg_data_i,     // combinational from host_i.rd_addr
   input  logic [7:0] instr_data_i,
   input  logic       instr_pending_i,
   input  logic       control_pending_i,
@@ -41,6 +40,7 @@ module mb4_host_read (
   input  logic [1:0] revision_sel_i
 );
 
+  logic [7:0] rd_addr;
   // One select bit for each source. The three memories read 0 until they are cleared.
   logic       reg_sel_d, reg_sel_q;
   logic       slave_sel_d, slave_sel_q;
@@ -58,10 +58,11 @@ module mb4_host_read (
   logic       bank_q;
   logic       ready_q;
 
-  assign lo_sel_d    = rd_addr_i[7:5] == mb4_regs_pkg::ADDR_SCDATA[7:5];
-  assign hi_sel_d    = rd_addr_i[7:5] == mb4_regs_pkg::ADDR_SCDATA[7:5] + 3'd1;
-  assign rdata_sel_d = rd_addr_i[7:6] == mb4_regs_pkg::ADDR_RDATA[7:6];
-  assign slave_sel_d = rd_addr_i[7:5] == mb4_regs_pkg::ADDR_SLAVE_CFG[7:5];
+  assign rd_addr     = host_i.rd_addr;
+  assign lo_sel_d    = rd_addr[7:5] == mb4_regs_pkg::ADDR_SCDATA[7:5];
+  assign hi_sel_d    = rd_addr[7:5] == mb4_regs_pkg::ADDR_SCDATA[7:5] + 3'd1;
+  assign rdata_sel_d = rd_addr[7:6] == mb4_regs_pkg::ADDR_RDATA[7:6];
+  assign slave_sel_d = rd_addr[7:5] == mb4_regs_pkg::ADDR_SLAVE_CFG[7:5];
   assign reg_sel_d   = !(lo_sel_d || hi_sel_d || rdata_sel_d || slave_sel_d);
 
   always_comb begin
@@ -91,7 +92,7 @@ module mb4_host_read (
   end
 
   always_comb begin
-    unique case (rd_addr_i)
+    unique case (rd_addr)
       mb4_regs_pkg::ADDR_REVISION:
         unique case (revision_sel_i)
           2'd1:    reg_d = mb4_regs_pkg::DEVICE_REVISION_Z;
@@ -122,7 +123,7 @@ module mb4_host_read (
   end
 
   always_comb begin
-    unique case (rd_addr_i)
+    unique case (rd_addr)
       mb4_regs_pkg::ADDR_SVALID_LO: flags_d = svalid_i[11:8];
       mb4_regs_pkg::ADDR_SVALID_HI: flags_d = svalid_i[15:12];
       mb4_regs_pkg::ADDR_STATUS8:   flags_d = {reg_d[7], reg_d[5], cds_i[3:2]};
@@ -145,7 +146,7 @@ module mb4_host_read (
       flags_q  <= '0;
       bank_q   <= 1'b0;
       ready_q  <= 1'b0;
-    end else if (rd_en_i) begin
+    end else if (host_i.rd_en) begin
       reg_sel_q   <= reg_sel_d;
       slave_sel_q <= slave_sel_d;
       lo_sel_q    <= lo_sel_d;

@@ -3,8 +3,8 @@
 //
 // Instruction register 0xF4, host half: keeps the written byte for the core and reads it back.
 //
-// Clock domain: host (hclk_i). count_o, a Gray count, tells the core of a write. The core acts once
-// for each step and answers with its own count, ack_i. Until both counts are equal:
+// Clock domain: host (hclk_i). instr_o.count, a Gray count, tells the core of a write. The core
+// acts once for each step and answers with its own count, instr_i.ack. Until both counts are equal:
 //
 // - the register reads as written (BREAK never reads 1),
 // - pending_o keeps EOT at 0; with INSTR 100 or 111 it keeps REGEND at 0 as well. So the first
@@ -27,17 +27,13 @@ module mb4_instr_reg (
   input  logic       hclk_i,
   input  logic       rst_ni,
   // host byte bus
-  input  logic       wr_en_i,
-  input  logic [7:0] wr_addr_i,
-  input  logic [7:0] wr_data_i,
+  input  mb4_pkg::host_t host_i,
   output logic [7:0] rd_data_o,
   output logic       pending_o,
   output logic       pending_control_o,  // ... for INSTR 100 or 111
   // to and from the core domain
-  output mb4_pkg::instr_t written_o,
-  output logic [1:0]      count_o,
-  input  logic [1:0]      ack_i,
-  input  mb4_pkg::instr_t held_i,
+  output mb4_pkg::instr_host_t instr_o,
+  input  mb4_pkg::instr_core_t instr_i,
   // banks
   input  logic            base_i,       // core domain: of the host's bank
   input  logic            newest_i,     // core domain: of the bank with the newest word
@@ -57,24 +53,23 @@ module mb4_instr_reg (
       count_q <= '0;
       kept_q  <= 1'b0;
       hold_q  <= 1'b0;
-    end else if (wr_en_i && wr_addr_i == mb4_regs_pkg::ADDR_INSTR) begin
-      byte_q  <= wr_data_i | (byte_q & {8{pending_o}} & mb4_regs_pkg::BREAK_MASK);
-      if (count_q != ~ack_i) count_q <= {count_q[0], !count_q[1]};
-      kept_q  <= wr_data_i[mb4_regs_pkg::HOLDBANK_LSB] ? base : newest_i;
-      hold_q  <= wr_data_i[mb4_regs_pkg::HOLDBANK_LSB] || byte_q[mb4_regs_pkg::HOLDBANK_LSB] ||
+    end else if (host_i.wr_en && host_i.wr_addr == mb4_regs_pkg::ADDR_INSTR) begin
+      byte_q  <= host_i.wr_data | (byte_q & {8{pending_o}} & mb4_regs_pkg::BREAK_MASK);
+      if (count_q != ~instr_i.ack) count_q <= {count_q[0], !count_q[1]};
+      kept_q  <= host_i.wr_data[mb4_regs_pkg::HOLDBANK_LSB] ? base : newest_i;
+      hold_q  <= host_i.wr_data[mb4_regs_pkg::HOLDBANK_LSB] || byte_q[mb4_regs_pkg::HOLDBANK_LSB] ||
                  (pending_o && hold_q);
     end
   end
 
-  assign written_o = byte_q;
-  assign count_o   = count_q;
-  assign pending_o = count_q != ack_i;
+  assign instr_o   = {count_q, byte_q};
+  assign pending_o = count_q != instr_i.ack;
   assign pending_control_o = pending_o &&
       (byte_q[mb4_regs_pkg::INSTR_LSB +: 3] == mb4_regs_pkg::INSTR_CONTROL ||
        byte_q[mb4_regs_pkg::INSTR_LSB +: 3] == mb4_regs_pkg::INSTR_CONTROL_REDUCED);
   assign base      = (pending_o && hold_q) ? kept_q : base_i;
   assign bank_o    = base ^ byte_q[mb4_regs_pkg::SWBANK_LSB];
   assign kept_o    = kept_q;
-  assign rd_data_o = pending_o ? (byte_q & ~mb4_regs_pkg::BREAK_MASK) : held_i;
+  assign rd_data_o = pending_o ? (byte_q & ~mb4_regs_pkg::BREAK_MASK) : instr_i.held;
 
 endmodule

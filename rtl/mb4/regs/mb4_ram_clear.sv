@@ -3,15 +3,14 @@
 //
 // Clears the data memories after a reset: one address of every memory in each clock, 64 clocks.
 //
-// Clock domain: core. busy_o is high from the reset until the last address is cleared. While it is
-// high the host reads 0, no frame starts, and posted host writes wait.
+// Clock domain: core. clear_o.en is high from the reset until the last address is cleared. While it
+// is high the host reads 0, no frame starts, and posted host writes wait.
 // Datasheet: page 22 (all RAM registers are reset to 0).
 
 module mb4_ram_clear (
   input  logic       clk_i,
   input  logic       rst_ni,
-  output logic       busy_o,
-  output logic [5:0] addr_o
+  output mb4_pkg::mem_wr_t clear_o
 );
 
   logic       done_q;
@@ -27,7 +26,6 @@ module mb4_ram_clear (
     end
   end
 
-  assign busy_o = !done_q;
-  assign addr_o = addr_q;
+  assign clear_o = {!done_q, addr_q, 8'h00};
 
 endmodule

@@ -8,7 +8,7 @@
 //
 // Clock domains: host; writes in hclk_i, reads in rclk_i. These are one clock, or two strobes of
 // which one rests while the other has edges.
-// Latency: hit_o and data_o are valid after the edge with rd_en_i, until the next read.
+// Latency: hit_o and data_o are valid after the edge with host_i.rd_en, until the next read.
 //
 // An entry ends when the core has taken its byte (enc_posted); the memory answers from then on.
 // Three things tell this at the read:
@@ -18,7 +18,7 @@
 // - marked_i = mark_o: the bytes written before the last change of mark_o have been taken. mark_o
 //   changes with an edge of hclk_i, when marked_i has followed.
 //
-// Misuse: none; older addresses read what the memory holds. A byte that was written behind the last
+// Misuse: none; older addresses read what the memory holds. A byte that was written after the last
 // change of mark_o, with less than 8 clocks of the core between the writes, may answer until all
 // bytes of this row of writes have been taken.
 // Source: decision 36.
@@ -26,13 +26,9 @@
 module mb4_recent (
   input  logic       hclk_i,
   input  logic       rst_ni,
-  input  logic       wr_en_i,
-  input  logic [7:0] wr_addr_i,
-  input  logic [7:0] wr_data_i,
   input  logic       rclk_i,
-  input  logic       rd_en_i,
-  input  logic [7:0] rd_addr_i,
-  input  logic       rd_mem_i,    // the address is in one of the memories
+  input  mb4_pkg::host_t host_i,
+  input  logic       bank_i,      // bank of SCDATA that the host has
   output logic       hit_o,
   output logic [7:0] data_o,
   // posted writes
@@ -41,6 +37,8 @@ module mb4_recent (
   input  logic       marked_i     // follows mark_o when they have been taken
 );
 
+  logic        wr_en;
+  logic [7:0]  wr_addr, rd_addr;   // with the bank in bit 6
   logic [31:0] addr_q;    // four addresses, the newest lowest
   logic [3:0]  valid_q;
   logic [3:0]  old_q;     // written before the mark
@@ -57,17 +55,22 @@ module mb4_recent (
   logic [3:0]  rd_match;
   logic [3:0]  move;      // entry takes the address of its newer neighbour
 
+  // Only addresses of SCDATA (bit 7 = 0) and RDATA have bit 6 = 0.
+  assign wr_en   = host_i.wr_en && !host_i.wr_addr[6];
+  assign wr_addr = {host_i.wr_addr[7], !host_i.wr_addr[7] && bank_i, host_i.wr_addr[5:0]};
+  assign rd_addr = {host_i.rd_addr[7], !host_i.rd_addr[7] && bank_i, host_i.rd_addr[5:0]};
+
   for (genvar i = 0; i < 3; i++) begin : gen_write
-    assign wr_match[i] = valid_q[i] && addr_q[8*i +: 8] == wr_addr_i;
+    assign wr_match[i] = valid_q[i] && addr_q[8*i +: 8] == wr_addr;
   end
 
   for (genvar i = 0; i < 4; i++) begin : gen_read
     assign rd_match[i] = valid_q[i] && !drained[i] && !(old_q[i] && marked_i == mark_q) &&
-                         addr_q[8*i +: 8] == rd_addr_i;
+                         addr_q[8*i +: 8] == rd_addr;
   end
 
   assign move = {wr_match == 3'b000, wr_match[1:0] == 2'b00, !wr_match[0], 1'b1} &
-                {4{wr_en_i}};
+                {4{wr_en}};
 
   assign passed = marked_q == mark_q;
   assign drained = {{3{empty_q}}, empty_q && !fresh_q};
@@ -85,10 +88,10 @@ module mb4_recent (
       fresh_q  <= 1'b0;
     end else begin
       empty_q  <= empty_i;
-      fresh_q  <= wr_en_i;
+      fresh_q  <= wr_en;
       if (passed && valid != 4'b0000) mark_q <= !mark_q;
       marked_q <= marked_i;
-      if (move[0]) addr_q[7:0]   <= wr_addr_i;
+      if (move[0]) addr_q[7:0]   <= wr_addr;
       if (move[1]) addr_q[15:8]  <= addr_q[7:0];
       if (move[2]) addr_q[23:16] <= addr_q[15:8];
       if (move[3]) addr_q[31:24] <= addr_q[23:16];
@@ -99,18 +102,18 @@ module mb4_recent (
 
   enc_ram #(.Width(8), .AddrW(8)) u_ram (
     .wclk_i    (hclk_i),
-    .wr_en_i,
-    .wr_addr_i,
-    .wr_data_i,
+    .wr_en_i   (wr_en),
+    .wr_addr_i (wr_addr),
+    .wr_data_i (host_i.wr_data),
     .rclk_i,
-    .rd_en_i,
-    .rd_addr_i,
+    .rd_en_i   (host_i.rd_en),
+    .rd_addr_i (rd_addr),
     .rd_data_o (data_o)
   );
 
   always_ff @(posedge rclk_i or negedge rst_ni) begin
-    if (!rst_ni)      hit_q <= 1'b0;
-    else if (rd_en_i) hit_q <= rd_mem_i && rd_match != 4'b0000 && !empty_i;
+    if (!rst_ni)           hit_q <= 1'b0;
+    else if (host_i.rd_en) hit_q <= !host_i.rd_addr[6] && rd_match != 4'b0000 && !empty_i;
   end
 
   assign hit_o  = hit_q;

@@ -21,17 +21,12 @@ module mb4_reg_file #(
   input  logic       hrst_ni,         // host domain
   // host byte bus, sampled at the rising edge of hclk_i and rclk_i
   input  logic       hclk_i,
-  input  logic       wr_en_i,
-  input  logic [7:0] wr_addr_i,
-  input  logic [7:0] wr_data_i,
   input  logic       rclk_i,
-  input  logic       rd_en_i,
-  input  logic [7:0] rd_addr_i,
+  input  mb4_pkg::host_t host_i,
   output logic [7:0] rd_data_o,
   // second read port
   input  logic       rd2_clk_i,
-  input  logic       rd2_en_i,
-  input  logic [4:0] rd2_addr_i,
+  input  mb4_pkg::mem_rd_t rd2_i,
   output logic [7:0] rd2_data_o,
   // configuration, host domain, quasi-static
   output mb4_pkg::cfg_t    cfg_o,
@@ -41,66 +36,57 @@ module mb4_reg_file #(
   input  logic [11:0]      cfg_slave_i,
   output logic [4*mb4_pkg::SLAVE_CFG_W-1:0] slave_cfg_o,
   // instruction register
-  output mb4_pkg::instr_t  written_o,
-  output logic [1:0]       count_o,
-  input  logic [1:0]       ack_i,
-  input  mb4_pkg::instr_t  held_i,
+  output mb4_pkg::instr_host_t instr_o,
+  input  mb4_pkg::instr_core_t instr_i,
   // status, core domain, without SVALID and CDS
   input  mb4_pkg::status_t status_i,
   input  logic [1:0]       revision_sel_i,
   // memories and banks
-  output logic       mem_busy_o,
-  input  logic       holdbank_i,
   input  mb4_pkg::bank_cmd_t bank_i,
-  output logic       bank_pending_o,
-  output logic       bank_swapped_o,
-  output logic       bank_lost_o,
+  output mb4_pkg::mem_state_t mem_o,
+  output mb4_pkg::bank_event_t bank_event_o,
   // control communication
   input  mb4_pkg::rdata_cmd_t rdata_i,
   output logic [7:0] rdata_o,
   output logic       post_busy_o,    // bytes from the host are on their way to the memories
   // received bytes and words of lines {2, 1}
   input  logic [2*biss_pkg::LINE_DATA_W-1:0] data_i,
-  output logic [1:0]  word_ok_o,       // CRC is good and all of the word is in one bank
-  input  logic        svalid_clear_i,  // INIT of BiSS C begins
+  output logic [1:0]  word_bad_o,      // a word ends: its CRC is wrong, or it is split
   // actuator data for MO of lines {2, 1}
-  input  logic        mo_rd_en_i,
-  input  logic [11:0] mo_addr_i,
+  input  logic [2*biss_pkg::MO_READ_W-1:0] mo_read_i,
   output logic [15:0] mo_data_o
 );
 
+  mb4_pkg::mem_rd_t rd;
+  mb4_pkg::mem_wr_t clear;
+  mb4_pkg::banks_t  banks;           // core domain
   logic [7:0]  cfg_data;
   logic [7:0]  slave_data;
   logic [7:0]  instr_data;
   logic        instr_pending, control_pending;
-  logic        clear_busy;
-  logic [5:0]  clear_addr;
   logic        post_wr;
   logic        post_valid, post_ready;
   logic [15:0] post_data;
   logic        post_empty, mark, marked, recent_hit;
   logic [7:0]  recent_data;
-  logic        post_rdata, ready_scd, ready_rdata;
-  logic [7:0]  rdata_data;
-  logic [15:0] scd_lo_data, scd_hi_data, scd2_data, svalid;
+  logic        post_rdata, ready_scd, ready_rdata, bank_pending;
+  logic [15:0] scd_lo_data, scd_hi_data, scd2_data, rdata_data, rdata2_data, svalid;
   logic [3:0]  cds;
-  logic        host_bank, eng_bank;   // core domain
   logic        base, newest;          // core domain: bases of banks (mb4_bank_ctrl)
   logic        bank_seen, base_kept;  // host domain: bank it has, base it keeps
-  logic [1:0]  word_split;
   biss_pkg::line_data_t data1, data2;
+  logic        unused;
 
   assign {data2, data1} = data_i;
+  assign rd    = {host_i.rd_en, host_i.rd_addr[5:0]};
+  assign mem_o = {clear.en, bank_pending};
 
   // ---- registers ----------------------------------------------------------------------------
 
   mb4_cfg_regs u_cfg (
     .hclk_i,
-    .rst_ni (hrst_ni),
-    .wr_en_i,
-    .wr_addr_i,
-    .wr_data_i,
-    .rd_addr_i,
+    .rst_ni      (hrst_ni),
+    .host_i,
     .rd_data_o   (cfg_data),
     .cfg_o
   );
@@ -108,12 +94,8 @@ module mb4_reg_file #(
   mb4_slave_cfg u_slave_cfg (
     .hclk_i,
     .rst_ni       (hrst_ni),
-    .wr_en_i      (wr_en_i && wr_addr_i[7:5] == mb4_regs_pkg::ADDR_SLAVE_CFG[7:5]),
-    .wr_addr_i    (wr_addr_i[4:0]),
-    .wr_data_i,
+    .host_i,
     .rclk_i,
-    .rd_en_i,
-    .rd_addr_i    (rd_addr_i[4:0]),
     .rd_data_o    (slave_data),
     .clk_i,
     .enscd_o,
@@ -124,17 +106,13 @@ module mb4_reg_file #(
 
   mb4_instr_reg u_instr (
     .hclk_i,
-    .rst_ni (hrst_ni),
-    .wr_en_i,
-    .wr_addr_i,
-    .wr_data_i,
-    .rd_data_o (instr_data),
-    .pending_o (instr_pending),
+    .rst_ni      (hrst_ni),
+    .host_i,
+    .rd_data_o   (instr_data),
+    .pending_o   (instr_pending),
     .pending_control_o (control_pending),
-    .written_o,
-    .count_o,
-    .ack_i,
-    .held_i,
+    .instr_o,
+    .instr_i,
     .base_i      (base),
     .newest_i    (newest),
     .bank_o      (bank_seen),
@@ -144,14 +122,13 @@ module mb4_reg_file #(
   mb4_host_read u_read (
     .rclk_i,
     .rst_ni (hrst_ni),
-    .rd_en_i,
-    .rd_addr_i,
+    .host_i,
     .rd_data_o,
-    .ram_ready_i     (!clear_busy),
+    .ram_ready_i     (!clear.en),
     .bank_i          (bank_seen),
     .scd_lo_data_i   (scd_lo_data),
     .scd_hi_data_i   (scd_hi_data),
-    .rdata_data_i    (rdata_data),
+    .rdata_data_i    (rdata_data[7:0]),
     .recent_hit_i    (recent_hit),
     .recent_data_i   (recent_data),
     .slave_data_i    (slave_data),
@@ -162,16 +139,16 @@ module mb4_reg_file #(
     .status_i,
     .svalid_i        (svalid),
     .cds_i           (cds),
-    .cdssel2_i       (cfg_o.chsel == 2'b10),
+    .cdssel2_i       (cfg_o.access.chsel == 2'b10),
     .revision_sel_i
   );
 
   mb4_read_port2 u_read2 (
     .rclk_i      (rd2_clk_i),
     .rst_ni      (hrst_ni),
-    .rd_en_i     (rd2_en_i),
+    .rd_en_i     (rd2_i.en),
     .rd_data_o   (rd2_data_o),
-    .ram_ready_i (!clear_busy && Port2),
+    .ram_ready_i (!clear.en && Port2),
     .bank_i      (bank_seen),
     .data_i      (scd2_data)
   );
@@ -181,16 +158,17 @@ module mb4_reg_file #(
   // SCDATA, RDATA and SVALID are in the core domain; writes to them are posted. Only addresses of
   // SCDATA and RDATA have bit 6 = 0. Bytes of SCDATA and SVALID carry the bank that the host has:
   //   SCDATA 0, bank, address 5..0;   RDATA 1, 0, address 5..0;   SVALID 1, 1, bank, address 4..0
-  assign post_wr = wr_en_i && (!wr_addr_i[6] ||
-                             wr_addr_i == mb4_regs_pkg::ADDR_SVALID_LO ||
-                             wr_addr_i == mb4_regs_pkg::ADDR_SVALID_HI);
+  assign post_wr = host_i.wr_en && (!host_i.wr_addr[6] ||
+                                    host_i.wr_addr == mb4_regs_pkg::ADDR_SVALID_LO ||
+                                    host_i.wr_addr == mb4_regs_pkg::ADDR_SVALID_HI);
 
   enc_posted #(.Width(16)) u_posted (
     .hclk_i,
     .hrst_ni,
     .wr_en_i   (post_wr),
-    .wr_data_i ({wr_addr_i[7], wr_addr_i[6] || (!wr_addr_i[7] && bank_seen),
-                 wr_addr_i[6] ? bank_seen : wr_addr_i[5], wr_addr_i[4:0], wr_data_i}),
+    .wr_data_i ({host_i.wr_addr[7], host_i.wr_addr[6] || (!host_i.wr_addr[7] && bank_seen),
+                 host_i.wr_addr[6] ? bank_seen : host_i.wr_addr[5], host_i.wr_addr[4:0],
+                 host_i.wr_data}),
     .clk_i,
     .rst_ni,
     .valid_o   (post_valid),
@@ -206,13 +184,9 @@ module mb4_reg_file #(
   mb4_recent u_recent (
     .hclk_i,
     .rst_ni    (hrst_ni),
-    .wr_en_i   (wr_en_i && !wr_addr_i[6]),
-    .wr_addr_i ({wr_addr_i[7], !wr_addr_i[7] && bank_seen, wr_addr_i[5:0]}),
-    .wr_data_i,
     .rclk_i,
-    .rd_en_i,
-    .rd_addr_i ({rd_addr_i[7], !rd_addr_i[7] && bank_seen, rd_addr_i[5:0]}),
-    .rd_mem_i  (!rd_addr_i[6]),
+    .host_i,
+    .bank_i    (bank_seen),
     .hit_o     (recent_hit),
     .data_o    (recent_data),
     .empty_i   (post_empty),
@@ -223,108 +197,77 @@ module mb4_reg_file #(
   assign post_rdata = post_valid && post_data[15:14] == 2'b10;
   assign post_ready = ready_scd && (ready_rdata || !post_rdata);
 
-  assign mem_busy_o = clear_busy;
   mb4_ram_clear u_clear (
     .clk_i,
     .rst_ni,
-    .busy_o (clear_busy),
-    .addr_o (clear_addr)
+    .clear_o (clear)
   );
 
   mb4_scd_store #(.Port2(Port2)) u_scd (
     .clk_i,
     .rst_ni,
     .slaveloc5_i  (cfg_o.slaveloc5),
-    .host_bank_i  (host_bank),
-    .eng_bank_i   (eng_bank),
-    .clear_i      (clear_busy),
-    .clear_addr_i (clear_addr),
+    .banks_i      (banks),
+    .bank_i,
+    .clear_i      (clear),
     .post_valid_i (post_valid),
     .post_i       (post_data),
     .post_ready_o (ready_scd),
     .rclk_i,
-    .rd_en_i,
-    .rd_addr_i    (rd_addr_i[4:0]),
+    .rd_i         (rd),
     .rd_lo_data_o (scd_lo_data),
     .rd_hi_data_o (scd_hi_data),
     .rd2_clk_i,
-    .rd2_en_i,
-    .rd2_addr_i,
+    .rd2_i,
     .rd2_data_o   (scd2_data),
     .svalid_o     (svalid),
-    .wr_line_i      ({data2.wr_en, data1.wr_en}),
-    .wr_byte_i      ({data2.wr_byte, data1.wr_byte}),
-    .wr_line_data_i ({data2.wr_data, data1.wr_data}),
-    .slave_i        ({data2.slave, data1.slave}),
-    .word_begin_i   ({data2.word_begin, data1.word_begin}),
-    .word_done_i    ({data2.word_done, data1.word_done}),
-    .word_ok_i      (word_ok_o),
-    .word_split_i   (word_split),
-    .svalid_clear_i,
-    .delay_en_i     ({data2.delay_en, data1.delay_en}),
-    .delay_i        ({data2.delay, data1.delay}),
-    .mo_rd_en_i,
-    .mo_addr_i,
+    .data_i,
+    .word_bad_o,
+    .mo_read_i,
     .mo_data_o
   );
 
-  mb4_rdata_buf u_rdata (
+  mb4_memory #(.Banks(1'b0)) u_rdata (
     .clk_i,
-    .clear_i        (clear_busy),
-    .clear_addr_i   (clear_addr),
-    .eng_wr_en_i    (rdata_i.wr_en),
-    .eng_addr_i     (rdata_i.addr),
-    .eng_wr_data_i  (rdata_i.wr_data),
-    .eng_rd_en_i    (rdata_i.rd_en),
-    .eng_rd_data_o  (rdata_o),
-    .host_wr_en_i   (post_rdata),
-    .host_wr_addr_i (post_data[13:8]),
-    .host_wr_data_i (post_data[7:0]),
-    .host_ready_o   (ready_rdata),
+    .clear_i      (clear),
+    .eng_wr_i     (rdata_i.wr),
+    .eng_rd_i     (rdata_i.rd),
+    .eng_data_o   (rdata_o),
+    .host_wr_i    ({post_rdata, post_data[13:0]}),
+    .host_ready_o (ready_rdata),
     .rclk_i,
-    .rd_en_i,
-    .rd_addr_i      (rd_addr_i[5:0]),
-    .rd_data_o      (rdata_data)
+    .rd_i         (rd),
+    .rd_data_o    (rdata_data),
+    .rd2_clk_i    (1'b0),
+    .rd2_i        (7'd0),
+    .rd2_data_o   (rdata2_data)
   );
 
   mb4_bank_ctrl u_bank (
     .clk_i,
     .rst_ni,
     .singlebank_i   (cfg_o.singlebank),
-    .holdbank_i,
+    .holdbank_i     (instr_i.held.holdbank),
     .kept_i         (base_kept),
-    .swbank_pulse_i (bank_i.swap),
-    .frame_end_i    (bank_i.data_end),
-    .frame_run_i    (bank_i.run),
-    .pending_o      (bank_pending_o),
-    .swapped_o      (bank_swapped_o),
-    .lost_o         (bank_lost_o),
+    .bank_i,
+    .pending_o      (bank_pending),
+    .event_o        (bank_event_o),
     .base_o         (base),
     .newest_o       (newest),
-    .host_bank_o    (host_bank),
-    .eng_bank_o     (eng_bank)
-  );
-
-  mb4_word_split u_split (
-    .clk_i,
-    .rst_ni,
-    .swap_i      (bank_i.swap),
-    .word_open_i ({data2.word_open, data1.word_open}),
-    .word_ok_i   ({data2.word_ok, data1.word_ok}),
-    .split_o     (word_split),
-    .word_ok_o
+    .banks_o        (banks)
   );
 
   mb4_cds_bank u_cds (
     .clk_i,
     .rst_ni,
-    .host_bank_i (host_bank),
-    .eng_bank_i  (eng_bank),
-    .frame_end_i (bank_i.frame_end),
-    .reduced_i   (bank_i.reduced),
-    .holdbank_i,
+    .banks_i     (banks),
+    .bank_i,
+    .holdbank_i  (instr_i.held.holdbank),
     .cds_i       ({data2.cds, data1.cds}),
     .cds_o       (cds)
   );
+
+  // RDATA has no banks and no second read port.
+  assign unused = ^{rdata_data[15:8], rdata2_data};
 
 endmodule

@@ -2,8 +2,14 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Sensor data of all eight data channels with their validity flags. The lower half holds
-// SCDATA1..4, the upper half SCDATA5..8; each half has two banks. The file connects the halves and
-// decodes addresses; it has no flops of its own.
+// SCDATA1..4, the upper half SCDATA5..8; each half has two banks. The module brings the received
+// bytes and words of both lines to the halves: with SLAVELOC5 = 1 line 2 owns the upper half,
+// otherwise line 1 fills both. The line delay that INIT measures goes to byte 0 of the half of its
+// line, into the bank that the host reads (decision 16).
+//
+// SWBANK may change the bank while a word is being received. Each bank then has a part of the word,
+// and the word is not valid (decision 34). Bytes of the clock of bank_i.swap still go to the old
+// bank; a word that ends in this clock is complete.
 //
 // Clock domains: core; rclk_i for the reads of the host; rd2_clk_i for the second read port
 // (SCDATA5..8, only with Port2).
@@ -11,7 +17,7 @@
 // both banks, bank 1 above bank 0.
 // Vectors: bit i of a vector {2, 1} is for line i + 1. Host writes and clears act on the bank that
 // the host had at the write; it comes with them (mb4_reg_file).
-// Datasheet: pages 26, 35, Tables 20, 61.
+// Datasheet: pages 23, 26, 32, 33, 35, Tables 10, 20, 49, 61.
 
 module mb4_scd_store #(
   parameter bit Port2 = 1'b0
@@ -19,52 +25,43 @@ module mb4_scd_store #(
   input  logic       clk_i,
   input  logic       rst_ni,
   input  logic       slaveloc5_i,
-  input  logic       host_bank_i,
-  input  logic       eng_bank_i,
-  // clearing after reset
-  input  logic       clear_i,
-  input  logic [5:0] clear_addr_i,
+  input  mb4_pkg::banks_t    banks_i,
+  input  mb4_pkg::bank_cmd_t bank_i,
+  input  mb4_pkg::mem_wr_t   clear_i,  // after reset
   // host, posted into the core domain: {kind, bank, address, data} as in mb4_reg_file
   input  logic       post_valid_i,
   input  logic [15:0] post_i,
   output logic       post_ready_o,    // also 1 if the byte is not for this module
   // host read port
   input  logic        rclk_i,
-  input  logic        rd_en_i,
-  input  logic [4:0]  rd_addr_i,
+  input  mb4_pkg::mem_rd_t rd_i,
   output logic [15:0] rd_lo_data_o,
   output logic [15:0] rd_hi_data_o,
   output logic [15:0] svalid_o,
   // second host read port
   input  logic        rd2_clk_i,
-  input  logic        rd2_en_i,
-  input  logic [4:0]  rd2_addr_i,
+  input  mb4_pkg::mem_rd_t rd2_i,
   output logic [15:0] rd2_data_o,
-  // actuator data for MO of lines {2, 1}: address is {data channel, byte}; data one clock later
-  input  logic        mo_rd_en_i,
-  input  logic [11:0] mo_addr_i,
+  // actuator data for MO of lines {2, 1}, one clock later
+  input  logic [2*biss_pkg::MO_READ_W-1:0] mo_read_i,
   output logic [15:0] mo_data_o,
   // received bytes and words of lines {2, 1}
-  input  logic [1:0]  wr_line_i,
-  input  logic [5:0]  wr_byte_i,
-  input  logic [15:0] wr_line_data_i,
-  input  logic [5:0]  slave_i,
-  input  logic [1:0]  word_begin_i,
-  input  logic [1:0]  word_done_i,
-  input  logic [1:0]  word_ok_i,
-  input  logic [1:0]  word_split_i,
-  input  logic        svalid_clear_i,  // INIT of BiSS C begins
-  input  logic [1:0]  delay_en_i,
-  input  logic [15:0] delay_i
+  input  logic [2*biss_pkg::LINE_DATA_W-1:0] data_i,
+  output logic [1:0]  word_bad_o       // a word ends: its CRC is wrong, or it is split
 );
 
   logic       post_lo, post_hi, post_svalid_lo, post_svalid_hi;
   logic [3:0] keep;
   logic       ready_lo, ready_hi;
+  biss_pkg::line_data_t data1, data2;
+  biss_pkg::mo_read_t   mo1, mo2, hi_mo;
+  logic [1:0] split, ok, split_q;  // the word being received is split
+  logic       hi_en, hi_first, hi_done, hi_ok, hi_split;
+  logic [2:0] hi_slave, hi_byte;   // word of the line that owns the upper half
   logic       lo_wr_en, hi_wr_en;
   logic [5:0] lo_wr_addr, hi_wr_addr;
   logic [7:0] lo_wr_data, hi_wr_data;
-  logic [4:0] hi_mo_addr;
+  logic       mo_en;
   logic [7:0] lo_mo_data, hi_mo_data;
   logic [7:0] svalid_lo, svalid_hi;
   logic [15:0] rd2_lo_data;
@@ -79,93 +76,89 @@ module mb4_scd_store #(
     assign keep[i] = post_i[mb4_regs_pkg::SVALID_LSB + mb4_regs_pkg::SVALID_LSB_STEP * i];
   end
 
-  mb4_rx_router u_router (
-    .slaveloc5_i,
-    .host_bank_i,
-    .eng_bank_i,
-    .ch1_slave_i    (slave_i[2:0]),
-    .ch1_wr_en_i    (wr_line_i[0]),
-    .ch1_wr_byte_i  (wr_byte_i[2:0]),
-    .ch1_wr_data_i  (wr_line_data_i[7:0]),
-    .ch1_delay_en_i (delay_en_i[0]),
-    .ch1_delay_i    (delay_i[7:0]),
-    .ch2_slave_i    (slave_i[5:3]),
-    .ch2_wr_en_i    (wr_line_i[1]),
-    .ch2_wr_byte_i  (wr_byte_i[5:3]),
-    .ch2_wr_data_i  (wr_line_data_i[15:8]),
-    .ch2_delay_en_i (delay_en_i[1]),
-    .ch2_delay_i    (delay_i[15:8]),
-    .lo_wr_en_o     (lo_wr_en),
-    .lo_wr_addr_o   (lo_wr_addr),
-    .lo_wr_data_o   (lo_wr_data),
-    .hi_wr_en_o     (hi_wr_en),
-    .hi_wr_addr_o   (hi_wr_addr),
-    .hi_wr_data_o   (hi_wr_data)
-  );
+  assign {data2, data1} = data_i;
+  assign {mo2, mo1}     = mo_read_i;
 
-  mb4_scd_bank u_scd_lo (
-    .clk_i,
-    .clear_i,
-    .clear_addr_i,
-    .eng_wr_en_i    (lo_wr_en),
-    .eng_wr_addr_i  (lo_wr_addr),
-    .eng_wr_data_i  (lo_wr_data),
-    .eng_rd_en_i    (mo_rd_en_i),
-    .eng_rd_addr_i  ({eng_bank_i, mo_addr_i[4:0]}),
-    .eng_rd_data_o  (lo_mo_data),
-    .host_wr_en_i   (post_lo),
-    .host_wr_addr_i ({post_i[14], post_i[12:8]}),
-    .host_wr_data_i (post_i[7:0]),
-    .host_ready_o   (ready_lo),
-    .rclk_i,
-    .rd_en_i,
-    .rd_addr_i,
-    .rd_data_o      (rd_lo_data_o),
-    .rd2_clk_i      (1'b0),
-    .rd2_en_i       (1'b0),
-    .rd2_addr_i     ('0),
-    .rd2_data_o     (rd2_lo_data)
-  );
+  // ---- words ----------------------------------------------------------------------------------
 
-  mb4_scd_bank #(.Port2(Port2)) u_scd_hi (
-    .clk_i,
-    .clear_i,
-    .clear_addr_i,
-    .eng_wr_en_i    (hi_wr_en),
-    .eng_wr_addr_i  (hi_wr_addr),
-    .eng_wr_data_i  (hi_wr_data),
-    .eng_rd_en_i    (mo_rd_en_i),
-    .eng_rd_addr_i  ({eng_bank_i, hi_mo_addr}),
-    .eng_rd_data_o  (hi_mo_data),
-    .host_wr_en_i   (post_hi),
-    .host_wr_addr_i ({post_i[14], post_i[12:8]}),
-    .host_wr_data_i (post_i[7:0]),
-    .host_ready_o   (ready_hi),
-    .rclk_i,
-    .rd_en_i,
-    .rd_addr_i,
-    .rd_data_o      (rd_hi_data_o),
-    .rd2_clk_i,
-    .rd2_en_i,
-    .rd2_addr_i,
-    .rd2_data_o
-  );
+  assign split      = {data2.rx.open, data1.rx.open} & {2{bank_i.swap}};
+  assign ok         = {data2.rx.ok, data1.rx.ok} & ~split_q;
+  assign word_bad_o = {data2.rx.done, data1.rx.done} & ~ok;
+
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) split_q <= '0;
+    else         split_q <= (split_q | split) & {data2.rx.open, data1.rx.open};
+  end
+
+  assign hi_slave = slaveloc5_i ? data2.rx.slave : data1.rx.slave;
+  assign hi_en    = slaveloc5_i ? data2.rx.wr_en : data1.rx.wr_en;
+  assign hi_byte  = slaveloc5_i ? data2.rx.wr_byte : data1.rx.wr_byte;
+  assign hi_first = slaveloc5_i ? data2.rx.first : data1.rx.first;
+  assign hi_done  = slaveloc5_i ? data2.rx.done : data1.rx.done;
+  assign hi_ok    = slaveloc5_i ? ok[1] : ok[0];
+  assign hi_split = slaveloc5_i ? split[1] : split[0];
+
+  // Assignments field by field: the simulator then sees which fields matter.
+  assign lo_wr_en   = data1.delay_en || (data1.rx.wr_en && !data1.rx.slave[2]);
+  assign lo_wr_addr = data1.delay_en ? {banks_i.host, 5'd0}
+                                     : {banks_i.eng, data1.rx.slave[1:0], data1.rx.wr_byte};
+  assign lo_wr_data = data1.delay_en ? data1.delay : data1.rx.wr_data;
+  assign hi_wr_en   = data2.delay_en || (hi_slave[2] && hi_en);
+  assign hi_wr_addr = data2.delay_en ? {banks_i.host, 5'd0}
+                                     : {banks_i.eng, hi_slave[1:0], hi_byte};
+  assign hi_wr_data = data2.delay_en ? data2.delay
+                                     : slaveloc5_i ? data2.rx.wr_data : data1.rx.wr_data;
+
+  // ---- memories -------------------------------------------------------------------------------
 
   // One line at a time uses the upper half: line 2 if its word is there, else line 1.
-  assign hi_mo_addr = mo_addr_i[11] ? mo_addr_i[10:6] : mo_addr_i[4:0];
-  assign mo_data_o  = {hi_mo_data, mo_addr_i[5] ? hi_mo_data : lo_mo_data};
+  assign hi_mo     = mo2.slave[2] ? mo2 : mo1;
+  assign mo_en     = mo1.rd_en || mo2.rd_en;
+  assign mo_data_o = {hi_mo_data, mo1.slave[2] ? hi_mo_data : lo_mo_data};
+
+  mb4_memory u_scd_lo (
+    .clk_i,
+    .clear_i,
+    .eng_wr_i     ({lo_wr_en, lo_wr_addr, lo_wr_data}),
+    .eng_rd_i     ({mo_en, banks_i.eng, mo1.slave[1:0], mo1.place}),
+    .eng_data_o   (lo_mo_data),
+    .host_wr_i    ({post_lo, post_i[14], post_i[12:0]}),
+    .host_ready_o (ready_lo),
+    .rclk_i,
+    .rd_i,
+    .rd_data_o    (rd_lo_data_o),
+    .rd2_clk_i    (1'b0),
+    .rd2_i        (7'd0),
+    .rd2_data_o   (rd2_lo_data)
+  );
+
+  mb4_memory #(.Port2(Port2)) u_scd_hi (
+    .clk_i,
+    .clear_i,
+    .eng_wr_i     ({hi_wr_en, hi_wr_addr, hi_wr_data}),
+    .eng_rd_i     ({mo_en, banks_i.eng, hi_mo.slave[1:0], hi_mo.place}),
+    .eng_data_o   (hi_mo_data),
+    .host_wr_i    ({post_hi, post_i[14], post_i[12:0]}),
+    .host_ready_o (ready_hi),
+    .rclk_i,
+    .rd_i,
+    .rd_data_o    (rd_hi_data_o),
+    .rd2_clk_i,
+    .rd2_i,
+    .rd2_data_o
+  );
 
   // Validity flags of the lower and the upper four data channels.
   mb4_svalid u_svalid_lo (
     .clk_i,
     .rst_ni,
-    .eng_bank_i,
-    .begin_i     (word_begin_i[0] && !slave_i[2]),
-    .set_en_i    (word_done_i[0] && !slave_i[2]),
-    .set_slave_i (slave_i[1:0]),
-    .set_valid_i (word_ok_i[0]),
-    .split_i     (word_split_i[0] && !slave_i[2]),
-    .clear_i     (svalid_clear_i),
+    .eng_bank_i  (banks_i.eng),
+    .begin_i     (data1.rx.first && !data1.rx.slave[2]),
+    .set_en_i    (data1.rx.done && !data1.rx.slave[2]),
+    .set_slave_i (data1.rx.slave[1:0]),
+    .set_valid_i (ok[0]),
+    .split_i     (split[0] && !data1.rx.slave[2]),
+    .clear_i     (bank_i.clear),
     .keep_en_i   (post_svalid_lo),
     .keep_i      (keep),
     .keep_bank_i (post_i[13]),
@@ -175,13 +168,13 @@ module mb4_scd_store #(
   mb4_svalid u_svalid_hi (
     .clk_i,
     .rst_ni,
-    .eng_bank_i,
-    .begin_i     (slaveloc5_i ? word_begin_i[1] && slave_i[5] : word_begin_i[0] && slave_i[2]),
-    .set_en_i    (slaveloc5_i ? word_done_i[1] && slave_i[5] : word_done_i[0] && slave_i[2]),
-    .set_slave_i (slaveloc5_i ? slave_i[4:3] : slave_i[1:0]),
-    .set_valid_i (slaveloc5_i ? word_ok_i[1] : word_ok_i[0]),
-    .split_i     (slaveloc5_i ? word_split_i[1] && slave_i[5] : word_split_i[0] && slave_i[2]),
-    .clear_i     (svalid_clear_i),
+    .eng_bank_i  (banks_i.eng),
+    .begin_i     (hi_first && hi_slave[2]),
+    .set_en_i    (hi_done && hi_slave[2]),
+    .set_slave_i (hi_slave[1:0]),
+    .set_valid_i (hi_ok),
+    .split_i     (hi_split && hi_slave[2]),
+    .clear_i     (bank_i.clear),
     .keep_en_i   (post_svalid_hi),
     .keep_i      (keep),
     .keep_bank_i (post_i[13]),
@@ -190,8 +183,8 @@ module mb4_scd_store #(
 
   assign svalid_o = {svalid_hi[7:4], svalid_lo[7:4], svalid_hi[3:0], svalid_lo[3:0]};
 
-  // The lower half has no second read port.
+  // The lower half has no second read port. The enables of MO are common.
   logic unused;
-  assign unused = ^rd2_lo_data;
+  assign unused = ^{rd2_lo_data, mo1, mo2, hi_mo};
 
 endmodule

@@ -21,12 +21,8 @@ module mb4_slave_cfg #(
   // host
   input  logic        hclk_i,
   input  logic        rst_ni,
-  input  logic        wr_en_i,
-  input  logic [4:0]  wr_addr_i,
-  input  logic [7:0]  wr_data_i,
+  input  mb4_pkg::host_t host_i,
   input  logic        rclk_i,
-  input  logic        rd_en_i,
-  input  logic [4:0]  rd_addr_i,
   output logic [7:0]  rd_data_o,
   // word lists, one slice for each
   input  logic        clk_i,
@@ -36,6 +32,7 @@ module mb4_slave_cfg #(
   output logic [mb4_pkg::SLAVE_CFG_W*Lists-1:0] list_cfg_o
 );
 
+  logic        write;
   logic [7:0]  rows_q;
   logic [7:0]  enscd_q;
   logic [2:0]  row;
@@ -47,11 +44,12 @@ module mb4_slave_cfg #(
   logic [7:0]  crc_poly;  // of crc_byte
   logic [3:0]  sel_q;     // byte of the row that the host reads; 0: row not written
 
-  assign row     = wr_addr_i[4:2];
-  assign byte_en = 4'b0001 << wr_addr_i[1:0];
-  assign wr_en   = wr_en_i ? byte_en | {4{!rows_q[row]}} : 4'b0000;
-  assign wr_data = {wr_data_i & {8{byte_en[3]}}, wr_data_i & {8{byte_en[2]}},
-                    wr_data_i & {8{byte_en[1]}}, wr_data_i & {8{byte_en[0]}}};
+  assign write   = host_i.wr_en && host_i.wr_addr[7:5] == mb4_regs_pkg::ADDR_SLAVE_CFG[7:5];
+  assign row     = host_i.wr_addr[4:2];
+  assign byte_en = 4'b0001 << host_i.wr_addr[1:0];
+  assign wr_en   = write ? byte_en | {4{!rows_q[row]}} : 4'b0000;
+  assign wr_data = {4{host_i.wr_data}} & {{8{byte_en[3]}}, {8{byte_en[2]}},
+                                          {8{byte_en[1]}}, {8{byte_en[0]}}};
 
   assign crc_byte = wr_data[32'd8 * 32'(mb4_regs_pkg::SLAVE_CFG_CRC_OFFSET) +: 8];
 
@@ -59,10 +57,10 @@ module mb4_slave_cfg #(
     if (!rst_ni) begin
       rows_q  <= '0;
       enscd_q <= '0;
-    end else if (wr_en_i) begin
+    end else if (write) begin
       rows_q[row] <= 1'b1;
       if (byte_en[mb4_regs_pkg::SLAVE_CFG_LENGTH_OFFSET[1:0]]) begin
-        enscd_q[row] <= wr_data_i[mb4_regs_pkg::ENSCD_LSB];
+        enscd_q[row] <= host_i.wr_data[mb4_regs_pkg::ENSCD_LSB];
       end
     end
   end
@@ -79,15 +77,17 @@ module mb4_slave_cfg #(
     .wr_addr_i (row),
     .wr_data_i (wr_data),
     .rclk_i,
-    .rd_en_i,
-    .rd_addr_i (rd_addr_i[4:2]),
+    .rd_en_i   (host_i.rd_en),
+    .rd_addr_i (host_i.rd_addr[4:2]),
     .rd_data_o (rd_data)
   );
 
   // One select bit for each byte: half an SCLK period is left for the path to MISO.
   always_ff @(posedge rclk_i or negedge rst_ni) begin
-    if (!rst_ni)      sel_q <= '0;
-    else if (rd_en_i) sel_q <= {4{rows_q[rd_addr_i[4:2]]}} & (4'b0001 << rd_addr_i[1:0]);
+    if (!rst_ni) sel_q <= '0;
+    else if (host_i.rd_en) begin
+      sel_q <= {4{rows_q[host_i.rd_addr[4:2]]}} & (4'b0001 << host_i.rd_addr[1:0]);
+    end
   end
 
   assign rd_data_o = (rd_data[7:0]   & {8{sel_q[0]}}) | (rd_data[15:8]  & {8{sel_q[1]}}) |

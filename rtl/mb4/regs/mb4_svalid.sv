@@ -5,12 +5,12 @@
 //
 // Clock domain: core. The outputs are flops; mb4_host_read chooses the bank that the host sees.
 //
-// - The line engine writes the flag in its own bank. The flag falls with the first bit of a new
+// - A frame writes the flag in the bank of frames. The flag falls with the first bit of a new
 //   word, so a half-written word is never called valid.
 // - The host clears flags in its own bank: writing 0 clears, writing 1 has no effect (decision 18).
 // - A word that SWBANK splits loses its flag in both banks (decision 34).
 // - INIT of BiSS C clears all flags (decision 35).
-// - With one bank both sides act on the same flags. If they do so in one clock, the engine wins.
+// - With one bank both sides act on the same flags. If they do so in one clock, the line wins.
 //
 // Datasheet: page 35, Table 61.
 
@@ -18,7 +18,7 @@ module mb4_svalid (
   input  logic       clk_i,
   input  logic       rst_ni,
   input  logic       eng_bank_i,
-  // line engine
+  // the lines
   input  logic       begin_i,      // a word begins
   input  logic       set_en_i,     // a word is complete
   input  logic [1:0] set_slave_i,  // data channel within the four

@@ -124,6 +124,10 @@ class Simulator final : public HostPins {
 
   // Faults of the scenario that have happened so far.
   const std::vector<FaultRecord>& faults() const { return injector_->records(); }
+  // Adds the faults and cable events of a text (parse_injection()). Its times count from now().
+  // They become part of scenario().faults. Throws ScenarioError, and then adds nothing. Must not be
+  // called from inside a callback.
+  void inject(std::string_view text);
 
   const Scenario& scenario() const { return scenario_; }
   std::uint64_t seed() const { return seed_; }

@@ -20,7 +20,11 @@ struct BissSlaveConfig : SensorConfig {
   bool passes_acknowledge = false;
 
   std::string_view refuses(SlaveFault fault) const override {
-    return fault == SlaveFault::kBusy ? "" : SensorConfig::refuses(fault);
+    if (fault == SlaveFault::kBusy) return "";
+    if (fault == SlaveFault::kWrongId) {
+      return "only a BiSS C slave with control communication has an ID";
+    }
+    return SensorConfig::refuses(fault);
   }
 };
 

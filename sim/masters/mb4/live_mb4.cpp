@@ -77,6 +77,7 @@ void LiveMb4::drive(Time now, Pin pin, bool level) {
 }
 
 void LiveMb4::set_pin(Time now, Pin pin, bool level) {
+  if (pin < Pin::kClk && levels_[index_of(pin)] == level) return;
   if (!can_set(pin)) return;
   if (pin == Pin::kNer) {
     ner_pulled_ = !level;

@@ -5,6 +5,8 @@
   prefix     the class that Verilator makes
   namespace  the C++ namespace of the header
   clocks     the clock's pin, and variables that are this clock while the edge functions are in use
+  host       optional: pins whose edges host() evaluates
+  seen       optional: variables whose change host() tells, as that of what a clock's edge reads
   released   optional: clocks or resets that an edge of the clock may change, because its user looks
              for that change, or because the change starts nothing
   [follow]   optional: FUNCTION = [pins]. Such a pin changes without eval(). The function computes
@@ -24,6 +26,8 @@ class Description:
     prefix: str
     namespace: str
     clocks: list
+    host: list = field(default_factory=list)
+    seen: list = field(default_factory=list)
     released: list = field(default_factory=list)
     follow: dict = field(default_factory=dict)
     changed: dict = field(default_factory=dict)
@@ -34,8 +38,8 @@ class Description:
 
     def variables(self):
         """All names that the file mentions."""
-        return {name for names in (self.clocks, self.released, *self.follow.values(),
-                                   *self.changed.values()) for name in names}
+        return {name for names in (self.clocks, self.host, self.seen, self.released,
+                                   *self.follow.values(), *self.changed.values()) for name in names}
 
     def events(self, edge):
         """The events of the clock, as Verilator names them."""

@@ -94,13 +94,6 @@ def places(folder, prefix):
     return {pin or name: place for place, (pin, name) in enumerate(names)}
 
 
-def input_pins(folder, prefix):
-    text = (folder / f"{prefix}___024root.h").read_text(encoding="utf-8")
-    if "VL_INW(" in text:
-        raise NotUnderstood("an input of more than 64 bits")
-    return set(re.findall(r"^\s+VL_IN\w*\((\w+),\d+,\d+\);", text, re.M))
-
-
 def after_string(text, at):
     return STRING.match(text, at).end()
 
@@ -207,14 +200,14 @@ def analyse(text, function, local):
     return statement
 
 
-def apart(text, function, local):
+def apart(text, function, local, long=LONG):
     """Splits a long conditional into several ones that do not depend on each other."""
-    parts = branches(text) if len(text) > LONG and "VL_WRITEF" not in text else None
+    parts = branches(text) if len(text) > long and "VL_WRITEF" not in text else None
     if not parts:
         return [text]
     condition, *sides = parts
     rows = [(side, piece, analyse(piece, function, local)) for side, body in enumerate(sides)
-            for inner in split(body) for piece in apart(inner, function, local)]
+            for inner in split(body) for piece in apart(inner, function, local, long)]
     if analyse(f"if {condition} {{}}", function, local).reads & {
             name for _, _, row in rows for name in row.writes}:
         return [text]
@@ -236,15 +229,16 @@ def apart(text, function, local):
             for yes, no in classes.values()]
 
 
-def statements(name, body):
+def statements(name, body, long=LONG):
     """({local variable: type}, [statements]) of a function."""
     head, body = body.split("// Body\n", 1)
     local = {row[3]: row[1] for row in map(TYPE.match, map(str.strip, head.splitlines())) if row}
     found = [analyse(piece, name, local) for text in split(body)
-             for piece in apart(text, name, local)]
+             for piece in apart(text, name, local, long)]
     # Local variables start at zero. This matters only if they are read, or written in part, first.
-    for variable in local:
+    for variable, kind in local.items():
+        wide = "{}" if kind.startswith("VlWide") else 0
         first = next((row for row in found if f"{name}.{variable}" in row.reads | row.writes), None)
         if first and f"{name}.{variable}" not in first.defines - first.reads:
-            found.insert(0, analyse(f"{variable} = 0;", name, local))
+            found.insert(0, analyse(f"{variable} = {wide};", name, local))
     return {f"{name}.{key}": kind for key, kind in local.items()}, found

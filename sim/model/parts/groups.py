@@ -5,6 +5,7 @@ order keeps every dependency."""
 
 import re
 from collections import defaultdict
+from graphlib import CycleError, TopologicalSorter
 
 from generated_model import NotUnderstood
 
@@ -38,12 +39,14 @@ def message(row):
 class Part:
     """Groups that run together. There are three cases: they run always (`bits` is 0); one flag
     controls them; or one flag for each value of the variables in `key` does, `bits` flags from
-    `flag` on."""
+    `flag` on. `when`: they run only after one of these events (bits); `always`: then
+    they run if the clock has had an edge; `section`: a number for a few events in a row."""
 
-    def __init__(self, groups, flag=0, bits=0, key=()):
+    def __init__(self, groups, flag=0, bits=0, key=(), when=0, always=False, section=0):
         self.rows = [row for group in groups for row in group.rows]
         self.name = groups[0].name if groups else ""
         self.flag, self.bits, self.key = flag, bits, key
+        self.when, self.always, self.section = when, always, section
         self.reads = inputs(self.rows)
         self.looks = {look for look in looks(self.rows) if look[0] not in key}
         self.writes = set().union(*(row.writes for row in self.rows))
@@ -101,41 +104,20 @@ def joined(count, links, after):
         succ = defaultdict(set)
         for a, many in after.items():
             succ[root(a)] |= {root(b) for b in many} - {root(a)}
-        circle = circle_in(succ)
-        if not circle:
+        try:
+            TopologicalSorter(succ).prepare()
             return [root(i) for i in range(count)]
-        for node in circle[1:]:
-            kind[root(node)] = root(circle[0])
+        except CycleError as circle:
+            for node in circle.args[1]:
+                kind[root(node)] = root(circle.args[1][0])
 
 
-def circle_in(succ):
-    done, path, on = set(), [], set()
-    for start in list(succ):
-        if start in done:
-            continue
-        stack = [(start, iter(succ[start]))]
-        path.append(start)
-        on.add(start)
-        while stack:
-            node, rest = stack[-1]
-            follower = next(rest, None)
-            if follower is None:
-                stack.pop()
-                done.add(path.pop())
-                on.discard(node)
-            elif follower in on:
-                return path[path.index(follower):]
-            elif follower not in done:
-                stack.append((follower, iter(succ.get(follower, ()))))
-                path.append(follower)
-                on.add(follower)
-    return []
-
-
-def groups_of(rows):
+def groups_of(rows, linked=()):
+    """The groups. Statements that read or write a variable of `linked` share one."""
     after = order_of(rows)
     first = {}
-    links = [(i, first.setdefault(name, i)) for i, row in enumerate(rows) for name in row.writes]
+    links = [(i, first.setdefault(name, i)) for i, row in enumerate(rows)
+             for name in row.writes | row.reads.intersection(linked)]
     kind = joined(len(rows), links, after)
     members = defaultdict(list)
     for i, k in enumerate(kind):
@@ -215,10 +197,34 @@ class Kinds:
         return tuple(key), group.module
 
 
-def parts_of(groups, kinds, count):
-    """(the parts of the edge in their order, number of flags)."""
+class HostKinds:
+    """The same for edges of host pins. `events` has the bits of the events of each function. A
+    register that reads what an edge of the clock writes is computed after each such edge. What such
+    an edge writes and what reads it without a clock, the edge of the clock computes itself."""
+
+    widths = {}
+
+    def __init__(self, events, by_clock):
+        self.events, self.by_clock = events, by_clock
+
+    def __call__(self, group):
+        when, *others = {self.events.get(row.function, 0) for row in group.rows}
+        if others:
+            raise NotUnderstood(f"{group.name}: more than one kind of event")
+        always = not all(map(combinational, group.rows)) and \
+            any(name in self.by_clock for name, _ in group.looks)
+        return (), ", ".join(sorted({name for name, _ in group.looks} - group.writes)), when, always
+
+
+def combinational(row):
+    """Whether eval() computes the statement again whenever something that it reads has changed."""
+    return not row.function.startswith("nba_sequent")
+
+
+def parts_of(groups, kinds, count, flags=0):
+    """(the parts of the edge in their order, number of flags). `flags`: the first flag."""
     schedule = Schedule(groups)
-    found, flags = [], 0
+    found, events = [], 0
     while schedule.open:
         run = schedule.run(None, kinds)
         if run:
@@ -226,14 +232,16 @@ def parts_of(groups, kinds, count):
             continue
         kind = max(sorted({kinds(group) for group in schedule.open}),
                    key=lambda k: schedule.reach(k, kinds))
-        bits = 1 << sum(kinds.widths[name] for name in kind[0])
+        key, _, when, always = (*kind, 0, False)[:4]
+        bits = 1 << sum(kinds.widths[name] for name in key)
+        events += not found or found[-1].when != when
         bundle = []
         for group in schedule.run(kind, kinds) + [None]:
             if bundle and (group is None or count or
                            sum(one.size for one in bundle) + group.size > BUNDLE):
                 if flags % 64 + bits > 64:
                     flags += 64 - flags % 64
-                found.append(Part(bundle, flags, bits, kind[0]))
+                found.append(Part(bundle, flags, bits, key, when, always, events // 8))
                 flags += bits
                 bundle = []
             bundle.append(group)

@@ -4,36 +4,26 @@
 
 import re
 from collections import defaultdict
+from functools import reduce
+from itertools import groupby
 
 from description import members
 from generated_model import NotUnderstood
-from groups import look_name
+from groups import Part, combinational, look_name, looks
 
 CHECKED = 13  # one of so many rising edges has a check
-BLOCK = 48  # neighbouring variables that one comparison of memory covers
-HOST = """private:
-static const std::byte* bytes(const void* p) { return static_cast<const std::byte*>(p); }
-template <typename F, typename L>
-void copy(const ROOT& root, const F& first, const L& last) {
-std::memcpy(copy_ + (bytes(&first) - bytes(&root)), &first,
-static_cast<std::size_t>(bytes(&last + 1) - bytes(&first)));
-}
-template <typename F, typename L>
-bool same(const ROOT& root, const F& first, const L& last) const {
-return std::memcmp(copy_ + (bytes(&first) - bytes(&root)), &first,
-static_cast<std::size_t>(bytes(&last + 1) - bytes(&first))) == 0;
-}
-template <typename T>
-T then(const ROOT& root, const T& member) const {
-T value;
-std::memcpy(&value, copy_ + (bytes(&member) - bytes(&root)), sizeof value);
-return value;
-}
-std::byte copy_[sizeof(ROOT)];"""
+# What the parts have in common that one test of host() leaves out: the event, runs of flags.
+GATES = (lambda part: part.section, lambda part: part.when, lambda part: part.flag // 64,
+         lambda part: part.flag // 8)
 
 
 def mask_of(part):
     return ((1 << part.bits) - 1) << part.flag % 64
+
+
+def mark(readers, seen, part):
+    for name, number in seen:
+        readers[name][number].add(part)
 
 
 def marked(parts):
@@ -44,22 +34,34 @@ def marked(parts):
 
 
 class Writer:
-    """The header: rise() with its parts, fall(), the functions of [follow], and marks for changes
-    from outside."""
+    """The header: rise() with its parts, fall(), the functions of [follow], host(), and marks for
+    changes from outside. `events`: {variable: bit of its rising edge; that of its falling
+    edge is the next}."""
 
-    def __init__(self, description, types, widths, places, tables, arrays, pins, by_host, lists):
-        self.described, self.root, self.input_pins = description, description.root, pins
-        self.types, self.widths, self.places = types, widths, places
-        self.tables, self.arrays = tables, arrays
-        self.by_host, self.lists = by_host, lists
-        self.readers = defaultdict(lambda: defaultdict(set))  # {name: {number or None: parts}}
-        self.writers = defaultdict(set)  # {name: parts that write it}
+    def __init__(self, description, types, widths, tables, events, lists, flags):
+        self.described, self.root = description, description.root
+        self.types, self.widths, self.tables = types, widths, tables
+        self.events, self.lists, self.flags = events, lists, flags
+        # {name: {number or None: parts that must run when it changes}}, for changes by an edge of
+        # the clock and by a host pin. host() leaves nothing to compute that has no clock. But the
+        # other values of a key are not computed there.
+        self.by_clock, self.by_host = (defaultdict(lambda: defaultdict(set)) for _ in range(2))
+        self.readers = self.by_clock
+        self.always = [part for part in lists["events"] if part.always]
         for part in lists["rise"]:
             if part.bits:
-                for name, number in part.looks:
-                    self.readers[name][number].add(part)
-                for name in part.writes:
-                    self.writers[name].add(part)
+                mark(self.by_clock, part.looks, part)
+                clocked = looks([row for row in part.rows if not combinational(row)])
+                mark(self.by_host, part.looks | {(name, None) for name in part.writes}
+                     if part.key else clocked, part)
+        for part in lists["pins"] + lists["events"]:
+            mark(self.by_host, part.looks, part)
+        # A change that an edge of the clock sees sets the last flag.
+        self.core = Part([], flags + -flags % 64, 1)
+        mark(self.by_host, looks([row for name in lists.keys() - {"pins", "events"}
+                                  for part in lists[name] for row in part.rows
+                                  if not combinational(row)]), self.core)
+        mark(self.by_host, {(name, None) for name in members(description.seen)}, self.core)
         self.moves = []
         users = defaultdict(list)
         for parts in lists.values():
@@ -72,9 +74,9 @@ class Writer:
                      if len(many) > 1 or any(name in part.reads for part in many)}
         self.lines = []
 
-    def opening(self, name):
+    def opening(self, name, result="void"):
         """The first lines of a function that holds statements of the model."""
-        return [f"inline void {name}({self.root}* __restrict vlSelf, Kept& __restrict kept) {{",
+        return [f"inline {result} {name}({self.root}* __restrict vlSelf, Kept& __restrict kept) {{",
                 f"{self.described.prefix}__Syms* const __restrict vlSymsp = vlSelf->vlSymsp;",
                 "(void)vlSymsp;"]
 
@@ -90,8 +92,9 @@ class Writer:
         for name in sorted(row.writes - row.defines):
             marks = self.marks([name])
             if marks and name in row.arrays:
-                text, found = re.subn(rf"(vlSelf->{name}\s*\[[^;]*?\]\s*=(?!=)[^;]*;)",
-                                      rf"\1 {marks}", text)
+                text, found = re.subn(
+                    rf"(vlSelf->{name}\s*\[[^;]*?\])(\s*=(?!=)[^;]*;)",
+                    rf"{{ const auto was = \1; \1\2 if (was != \1) {{ {marks} }} }}", text)
                 if found == 0:
                     raise NotUnderstood(f"{name}: an array written in an unknown way")
         for name in sorted((row.reads | row.writes) & self.types.keys(), key=len, reverse=True):
@@ -106,13 +109,6 @@ class Writer:
     def marks(self, names):
         """Code that makes all parts run that read one of the variables."""
         return marked(set().union(*(self.reading(name) for name in names)))
-
-    def marks_behind_eval(self, name):
-        """Code for a variable that eval() has changed. The parts that read it must run. The parts
-        that write it must run too, because their result is no longer there. (eval() has local
-        variables of its own. A variable may have changed because of one whose value the parts never
-        see.)"""
-        return marked(self.reading(name) | self.writers[name])
 
     def compare(self, names, before, now, count=False):
         """Sets the marks of the parts that read a changed variable. Variables with the same readers
@@ -149,7 +145,7 @@ class Writer:
 
     def declared(self, part):
         """Lines for the local variables that exist only inside a part."""
-        return [f"{self.types[name]} {self.variable(name)} = 0;"
+        return [f"{self.types[name]} {self.variable(name)}{{}};"
                 for name in sorted({name for row in part.rows for name in row.reads | row.writes}
                                    & self.types.keys() - self.kept)]
 
@@ -168,9 +164,10 @@ class Writer:
                                for k, name in enumerate(told))
             self.lines.append(f"if ({tests or 'false'}) {{ {word} |= {mask:#x}ULL & ~here; }}")
         self.compare(told, lambda k: f"before{k}", self.variable, count)
+        if self.readers is self.by_host:
+            self.look_for(part.writes)
 
-    def function(self, name, parts, count):
-        self.lines += self.opening(name)
+    def some(self, parts, count=False):
         for part in parts:
             if not part.bits:
                 self.lines.append("{")
@@ -181,6 +178,27 @@ class Writer:
                                "const auto here = std::uint64_t{1} << at;", f"{word} &= ~here;"]
             self.part(part, count)
             self.lines.append("}")
+
+    def gated(self, parts, tests=GATES):
+        """Parts of host(): one test leaves out many of them."""
+        for gate, many in groupby(parts, tests[0]):
+            many = list(many)
+            masks = sum(mask_of(part) for part in many)
+            when = reduce(int.__or__, (part.when for part in many))
+            if tests[2:]:
+                self.lines.append(f"if ((now & {when:#x}) != 0) {{" if when else "{")
+            else:
+                self.lines.append(f"if ((kept.changed[{many[0].flag // 64}] & {masks:#x}) != 0) {{"
+                                  if len(many) > 1 else "{")
+            if tests[1:]:
+                self.gated(many, tests[1:])
+            else:
+                self.some(many)
+            self.lines.append("}")
+
+    def function(self, name, parts, count):
+        self.lines += [*self.opening(name), "kept.clocked = true;"]
+        self.some(parts, count)
         if self.checked and name == "rise":
             self.lines.append(f"if (++kept.rises % {CHECKED} == 0) check(vlSelf, kept);")
         self.lines.append("}")
@@ -199,66 +217,64 @@ class Writer:
                            f"static_cast<unsigned long long>({kind}[k]), k_{kind}[k]);"]
         self.lines += ["}", "} counts;"]
 
-    def pins(self):
-        """Marks for the host's pins. A pin changes before the comparison, so Pins keeps its old
-        level."""
-        late = {name for pins in self.described.follow.values() for name in members(pins)}
-        names = sorted(name for name in self.by_host & self.input_pins - late
-                       if self.marks([name]))
-        self.lines += ["struct Pins {",
-                       *(f"decltype({self.root}::{name}) {name}{{}};" for name in names),
-                       f"void compare(const {self.root}& root, Kept& kept) {{"]
-        self.compare(names, names.__getitem__, lambda name: f"root.{name}")
-        self.lines += [*(f"{name} = root.{name};" for name in names), "}", "};"]
+    def host(self, name):
+        """host(): an edge of a host pin. It follows eval(): first what depends on the inputs, then
+        what the events start, as long as there are events."""
+        self.readers = self.by_host
+        core, pins = self.core, sorted(members(self.described.host))
+        self.lines += [*self.opening(name, "bool"), f"kept.changed[{core.flag // 64}] = 0;",
+                       "unsigned next = 0;",
+                       f"if (std::exchange(kept.clocked, false)) {{ {marked(self.always)} }}"]
+        for name in pins:
+            self.lines.append(f"if (const auto was = kept.{name}; was != vlSelf->{name}) {{")
+            self.compare([name], lambda _: "was", self.variable)
+            self.look_for([name])
+            self.lines += [f"kept.{name} = vlSelf->{name};", "}"]
+        self.gated(self.lists["pins"])
+        self.lines += ["while (next != 0) {", "const unsigned now = std::exchange(next, 0);"]
+        self.gated(self.lists["events"])
+        self.lines += ["}", f"return kept.changed[{core.flag // 64}] != 0;", "}"]
 
-    def host(self):
-        """Copies of the variables that the host's pins can change, for a later comparison."""
-        watched = sorted((name for name in self.by_host - self.input_pins - self.types.keys()
-                          if self.marks_behind_eval(name)),
-                         key=lambda name: self.places[name])
-        blocks = []
-        for name in watched:
-            if not blocks or self.places[name] - self.places[blocks[-1][0]] >= BLOCK or \
-                    name in self.arrays or blocks[-1][0] in self.arrays:
-                blocks.append([])
-            blocks[-1].append(name)
-        self.lines += [
-            "class Host {", "public:", f"void take(const {self.root}& root) {{",
-            *(f"copy(root, root.{block[0]}, root.{block[-1]});" for block in blocks), "}",
-            f"void compare(const {self.root}& root, Kept& kept) const {{"]
-        for block in blocks:
-            self.lines.append(f"if (!same(root, root.{block[0]}, root.{block[-1]})) {{")
-            for name in block:
-                changed = f"if (then(root, root.{name}) != root.{name}) "
-                self.lines.append("" if name in self.arrays else changed)
-                self.lines.append(f"{{ {self.marks_behind_eval(name)} }}")
-            self.lines.append("}")
-        self.lines += ["}", HOST.replace("ROOT", self.root), "};"]
+    def look_for(self, names):
+        """Code that adds the events of these variables to `next`."""
+        for name, bit in self.events.items():
+            old = f"vlSelf->__Vtrigrprev__TOP__{name}"
+            if name in names:
+                self.lines += [f"if (vlSelf->{name} != {old}) {{",
+                               f"next |= vlSelf->{name} != 0 ? {1 << bit:#x} : {2 << bit:#x};",
+                               f"{old} = vlSelf->{name};", "}"]
 
-    def header(self, flags, count, check=()):
-        """`check`: lines of a function check(), called after some of the edges."""
+    def header(self, count, check=(), check_host=()):
+        """`check`: lines of a function check(), called after some of the edges. `check_host`: those
+        of a host() that calls unchecked_host()."""
         self.checked = bool(check)
-        words = flags // 64 + 1
+        pins = sorted(members(self.described.host))
         self.lines = [
             "// Made from the model by model_parts.py.", "#pragma once",
             "#include <cstddef>", "#include <cstdint>", "#include <cstdio>", "#include <cstring>",
+            "#include <utility>",
             f"#include <{self.described.prefix}__Syms.h>", *self.tables,
+            f"void {self.root}___eval({self.root}*);",
             f"namespace {self.described.namespace} {{",
-            "struct Kept {", f"std::uint64_t changed[{words}];",
-            "Kept() { all(); }",
-            "void all() { for (auto& word : changed) word = ~std::uint64_t{0}; }",
+            "struct Kept {", f"std::uint64_t changed[{self.core.flag // 64 + 1}];",
+            "Kept() { std::memset(changed, 0xFF, sizeof changed); }",
+            f"void all(const {self.root}& root) {{",
+            "std::memset(changed, 0xFF, sizeof changed);",
+            *(f"{name} = root.{name};" for name in pins), "(void)root; }",
+            *(f"decltype({self.root}::{name}) {name}{{}};" for name in pins),
             *(f"{self.types[name]} {name.replace('.', '__')}{{}};" for name in sorted(self.kept)),
-            *(["std::uint64_t rises = 0;"] if check else []), "};", *check]
+            "bool clocked = false;", "std::uint64_t rises = 0, edges = 0;", "};", *check]
         head, self.lines = self.lines, []
-        for name, parts in self.lists.items():
-            self.function(name, parts, count)
+        for name in sorted(self.lists.keys() - {"pins", "events"}):
+            self.function(name, self.lists[name], count and name == "rise")
         body, self.lines = self.lines, head
         if count:
             self.counts()
         self.lines += body
         for name, changed in self.described.changed.items():
             self.lines.append(f"inline void {name}(Kept& kept) "
-                              f"{{ {self.marks(members(changed))} }}")
-        self.pins()
-        self.host()
+                              f"{{ kept.clocked = true; {self.marks(members(changed))} }}")
+        if pins:
+            self.host("unchecked_host" if check else "host")
+            self.lines += check_host
         return "\n".join([*self.lines, "}", ""])

@@ -12,11 +12,11 @@ have changed.
                  speed only
      --count     each group is a part and counts how often it runs; the program that includes the
                  header prints the counts when it ends
-     --check     at some edges the model also computes the parts whose flags are not set; the
-                 program ends if one of them would change a variable
+     --check     at some edges the model also computes the parts whose flags are not set, and after
+                 some edges of host pins it runs eval(); the program ends if a variable differs
 
-The header has rise() and fall() for the edges of the clock, `Kept` with the flags, and `Pins` and
-`Host` for changes by eval(): tests/unit/model/parts/parts_sample.cpp shows their use.
+The header has rise() and fall() for the edges of the clock, host() for edges of host pins, and
+`Kept` with the flags: tests/unit/model/parts/parts_sample.cpp shows their use.
 
 Verilator computes all logic of a clock at each of its edges. This program puts Verilator's
 statements, unchanged, into groups: a register with the statements that write it. The order of the
@@ -30,7 +30,12 @@ that writes one runs always. Other groups are put into bundles of two kinds:
   not set, the bundle would compute the present result with that value of the key.
 
 If a variable is only compared with numbers, it counts as changed when the result of a comparison
-changes."""
+changes.
+
+host() has a flag for each group. Each side computes what has no clock of its own changes, so a flag
+of host() is set by host() only, and an edge of a host pin sets those flags of rise() that stand for
+registers and for keys. A register on a clock of the host that reads what rise() writes is computed
+again after each edge of the clock."""
 
 import argparse
 import re
@@ -42,11 +47,11 @@ sys.path.insert(0, str(Path(__file__).resolve().parent))
 import description  # noqa: E402
 from busy import Busy, busy_of  # noqa: E402
 from description import member, members  # noqa: E402
-from generated_model import (NotUnderstood, constants, functions, input_pins,  # noqa: E402
-                             places, statements, triggers, widths)
-from groups import Group, Kinds, Part, groups_of, parts_of  # noqa: E402
+from generated_model import (LONG, NotUnderstood, constants, functions, places,  # noqa: E402
+                             statements, triggers, widths)
+from groups import Group, HostKinds, Kinds, Part, groups_of, parts_of  # noqa: E402
 from header import Writer  # noqa: E402
-from self_check import check  # noqa: E402
+from self_check import check, check_host  # noqa: E402
 
 INPUTS = "ico_sequent__TOP__0"  # Verilator's function for logic that depends on the inputs
 
@@ -61,28 +66,38 @@ def started(described, bodies, names):
 
 
 def behind(rows, names):
-    """Those statements that depend on any of these variables, and the statements that they need."""
+    """Those statements that depend on any of these variables, the local variables that they read,
+    and all statements that write what they write: a variable may have a default first."""
     taken = set()
     while True:
         size = len(taken)
-        touched = set(names).union(*(rows[i].writes for i in taken))
-        needed = {name for i in taken for name in rows[i].reads if "." in name}
+        written = set().union(*(rows[i].writes for i in taken))
+        touched = written | set(names)
+        needed = written | {name for i in taken for name in rows[i].reads if "." in name}
         taken |= {i for i, row in enumerate(rows) if row.reads & touched or row.writes & needed}
         if len(taken) == size:
             return [rows[i] for i in sorted(taken)]
 
 
-def by_host(described, functions_of, rows_of, pins):
-    """The variables that an edge of an input pin can change while no clock and no reset does."""
-    clocks = described.events("posedge") | described.events("negedge")
-    other = [row for function, events in functions_of for row in rows_of[function]
-             if not (function.startswith("nba_sequent") and events & clocks)]
-    first = {name for function, events in functions_of for row in rows_of[function]
-             for name in row.writes if function.startswith("nba_sequent") and not events & clocks}
-    rows = rows_of[INPUTS] + other
-    read = {name for many in rows_of.values() for row in many for name in row.reads}
-    pins = (pins & read) - set(members(described.clocks))
-    return pins | first | {name for row in behind(rows, pins | first) for name in row.writes}
+def of_host(described, names, functions_of, rows_of):
+    """What an edge of a host pin starts: (statements behind the inputs, statements behind events,
+    {function: bits of its events}, {variable: bit of its rising edge})."""
+    pins = behind(rows_of[INPUTS], members(described.host))
+    rows, bits = [], {}
+    watched = sorted({event.split()[1] for events in names.values() for event in events})
+    while True:
+        moved = {name for row in pins + rows for name in row.writes} | set(members(described.host))
+        found = [name for name in watched if member(name) in moved]
+        if len(found) == len(bits):
+            break
+        bits = {name: 2 * k for k, name in enumerate(found)}
+        when = {function: sum(1 << bits[name] + (edge == "negedge") for edge, name in
+                              (event.split() for event in events) if name in bits)
+                for function, events in functions_of}
+        rows = [row for function, _ in functions_of if when[function] for row in rows_of[function]]
+    if bits.keys() & (set(described.clocks) | set(described.released)):
+        raise NotUnderstood(f"a host pin moves a clock or a reset: {sorted(bits)}")
+    return pins, rows, when if bits else {}, {member(name): bits[name] for name in bits}
 
 
 def look_for_surprises(described, names, rise, fall):
@@ -111,8 +126,11 @@ def made(described, folder, busy, count, checked):
             bodies.get("eval_ico", "").count("___ico_") != (INPUTS in bodies):
         raise NotUnderstood("calls in eval_nba() or eval_ico()")
     types, rows_of = {}, {INPUTS: []}
-    for function in [INPUTS] * (INPUTS in bodies) + [name for name, _ in functions_of]:
-        local, rows_of[function] = statements(function, bodies[function])
+    clock = described.events("posedge") | described.events("negedge")
+    for function, events in [(INPUTS, set())] * (INPUTS in bodies) + functions_of:
+        # An edge of a host pin changes little, so there it is worth to look at each variable.
+        local, rows_of[function] = statements(function, bodies[function],
+                                              LONG if events & clock else 0)
         types |= local
     rise, fall = ([row for function, events in functions_of if events & described.events(edge)
                    for row in rows_of[function]] for edge in ("posedge", "negedge"))
@@ -122,14 +140,21 @@ def made(described, folder, busy, count, checked):
     bits = widths(folder, prefix, bodies)
     parts, flags = parts_of(groups_of(rise), Kinds(busy, bits), count)
     lists = {"rise": parts, "fall": [Part([Group(fall)])] if fall else []}
+    by_clock = {name for row in rise + fall for name in row.writes}
     for function, pins in described.follow.items():
         late = behind(rows_of[INPUTS], members(pins))
         lists[function] = [Part([Group(late)])] if late else []
-    arrays = {name for rows in rows_of.values() for row in rows for name in row.arrays}
-    pins = input_pins(folder, prefix)
-    writer = Writer(described, types, bits, places(folder, prefix), constants(folder, prefix),
-                    arrays, pins, by_host(described, functions_of, rows_of, pins), lists)
-    return writer.header(flags, count, check(writer) if checked else ())
+        by_clock |= {name for row in late for name in row.writes} | set(members(pins))
+    pins, rows, when, events = of_host(described, names, functions_of, rows_of)
+    for name, many in (("pins", pins), ("events", rows)):
+        # What only one statement sees is no variable of the model: it may be old.
+        local = {name for row in many for name in row.reads if "." in name}
+        lists[name], flags = parts_of(groups_of(many, local), HostKinds(when, by_clock), False,
+                                      flags + -flags % 64)
+    writer = Writer(described, types, bits, constants(folder, prefix), events, lists, flags)
+    if not checked:
+        return writer.header(count)
+    return writer.header(count, check(writer), check_host(writer, places(folder, prefix)))
 
 
 def main():

@@ -1,6 +1,9 @@
 # SPDX-FileCopyrightText: 2026 The openmb4 authors
 # SPDX-License-Identifier: Apache-2.0
-"""Makes check() for the header. It tests the assumption of the parts while the model runs."""
+"""Makes check() and another host() for the header. They test the assumptions of the parts while the
+model runs."""
+
+import re
 
 HEAD = """#include <cstdlib>
 #include <type_traits>
@@ -8,6 +11,25 @@ inline void differs(const char* name, unsigned value) {
 std::fprintf(stderr, "edge: %s would change, key %u, but no flag says so\\n", name, value);
 std::abort();
 }"""
+
+
+def check_host(writer, names):
+    """Lines of a host() that at some edges compares all variables with those after eval()."""
+    root = writer.root
+    compared = [name for name in names if re.match(r"(?!__V|\w+__Syms)", name)]
+    compared += [f"__Vtrigrprev__TOP__{name}" for name in writer.events]
+    return [*writer.opening("host", "bool"),
+            "if (++kept.edges % 5 != 0) return unchecked_host(vlSelf, kept);",
+            f"static std::byte before[sizeof({root})], after[sizeof({root})];",
+            f"std::memcpy(before, vlSelf, sizeof({root}));",
+            "const bool seen = unchecked_host(vlSelf, kept);",
+            f"std::memcpy(after, vlSelf, sizeof({root}));",
+            f"std::memcpy(static_cast<void*>(vlSelf), before, sizeof({root}));",
+            f"{root}___eval(vlSelf);",
+            "const auto base = reinterpret_cast<const std::byte*>(vlSelf);",
+            *(f"if (const auto p = reinterpret_cast<const std::byte*>(&vlSelf->{name}); "
+              f"std::memcmp(after + (p - base), p, sizeof vlSelf->{name}) != 0) "
+              f'differs("host: {name}", 0);' for name in compared), "return seen;", "}"]
 
 
 def check(writer):

@@ -81,7 +81,7 @@ TEST(EdgeCountBlock, RandomFrames_EdgesAreThoseOfTheProtocol) {
   }
 }
 
-// An edge that MA made before a word was told is taken from the word.
+// An edge that MA makes before the length of a word is known counts for this word.
 TEST(EdgeCountBlock, OneEdgeTooMany_WordNeedsOneLess) {
   Edges edges;
   edges.begin(Protocol::kSsi);
@@ -103,7 +103,7 @@ TEST(EdgeCountBlock, OneEdgeTooMany_WordNeedsOneLess) {
   EXPECT_EQ(more, 12U);
 }
 
-// What was told of a frame that BREAK has ended does not count in the next one.
+// The lengths of words of a frame that BREAK has ended do not count in the next frame.
 TEST(EdgeCountBlock, FrameBeginsAsAWordIsTold_WordIsForgotten) {
   Edges edges;
   edges.begin(Protocol::kBissC);

@@ -33,7 +33,7 @@ class Ma : public mb4test::Block<Vbiss_ma_drive> {
     model.begin_i = 0;
     first_half_ = true;
   }
-  // Half an MA period; the tick is its last clock. Returns the level of MA behind it.
+  // Half an MA period; the tick is its last clock. Returns the level of MA after it.
   char half() {
     for (unsigned i = 1; i < kHalf; ++i) clock();
     model.tick_i = 1;

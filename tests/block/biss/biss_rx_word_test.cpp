@@ -5,55 +5,44 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <bit>
 #include <cstdint>
 #include <map>
 #include <string>
 
 #include "Vbiss_rx_word.h"
 #include "tests/block/biss/frame_bench.hpp"
+#include "tests/block/biss/word.hpp"
 #include "tests/support/model_context.hpp"
 
 namespace {
 
 using mb4test::bits_of;
 using mb4test::crc_of;
+using mb4test::kPolynomials;
+using mb4test::Word;
 
-// The polynomials of Table 14; 0: no CRC.
-constexpr std::uint32_t kPolynomials[] = {0, 0xB, 0x13, 0x25, 0x43, 0x89, 0x12F, 0x190D9};
-
-struct Word {
-  unsigned data_bits = 0;
-  std::uint32_t polynomial = 0;
-  std::uint16_t start = 0;
-  bool store = false, gray = false, actuator = false, stop = false;
-
-  unsigned crc_bits() const {
-    return polynomial == 0 ? 0 : static_cast<unsigned>(std::bit_width(polynomial)) - 1;
-  }
-  // The fields of biss_pkg::word_t, the highest first.
-  std::uint64_t port() const {
-    const unsigned crc = crc_bits();
-    std::uint64_t value = data_bits - 1;
-    const auto add = [&](std::uint64_t field, unsigned bits) { value = value << bits | field; };
-    add(crc != 0, 1);
-    add(crc == 0 ? 0 : crc - 1, 4);
-    add(polynomial & 0xFF, 8);
-    add(crc == 0 || crc == 16 ? 0 : 1U << (crc - 1), 8);
-    add(start, 16);
-    add(store, 1);
-    add(gray, 1);
-    add(actuator, 1);
-    add(stop, 1);
-    return value;
-  }
+// The fields of biss_pkg::rx_t.
+struct Rx {
+  explicit Rx(unsigned port)
+      : slave(port >> 16 & 7),
+        wr_en((port >> 15 & 1) != 0),
+        wr_byte(port >> 12 & 7),
+        wr_data(port >> 4 & 0xFF),
+        first((port >> 3 & 1) != 0),
+        open((port >> 2 & 1) != 0),
+        done((port >> 1 & 1) != 0),
+        ok((port & 1) != 0) {}
+  unsigned slave;
+  bool wr_en;
+  unsigned wr_byte, wr_data;
+  bool first, open, done, ok;
 };
 
 TEST(RxWordBlock, RandomWords_BytesFlagsAndCrcAreThoseOfTheLine) {
   mb4test::Dice random;
   mb4test::Block<Vbiss_rx_word> block;
   auto& m = block.model;
-  m.word_i = 0;
+  m.offer_i = 0;
   m.run_i = m.load_i = m.bit_valid_i = m.bit_i = 0;
   block.reset();
   for (int round = 0; round < 4'000; ++round) {
@@ -88,29 +77,34 @@ TEST(RxWordBlock, RandomWords_BytesFlagsAndCrcAreThoseOfTheLine) {
         if (crc_bytes == 2) expected[6] = crc & 0xFF;
       }
     }
-    m.word_i = word.port();
+    const unsigned slave = random.below(8);
+    m.offer_i = std::uint64_t{slave} << 47 | word.port();
     m.run_i = m.load_i = 1;
     block.clock();
     m.load_i = 0;
     for (std::size_t i = 0; i < line.size(); ++i) {
       for (unsigned gap = random.below(3); gap > 0; --gap) {
         m.eval();
-        ASSERT_EQ(m.open_o, i != 0);
-        ASSERT_EQ(m.done_o | m.begin_o | m.wr_en_o, 0);
+        ASSERT_EQ(m.next_o, 0);
+        ASSERT_EQ(Rx(m.rx_o).open, i != 0 && !word.actuator);
+        ASSERT_FALSE(Rx(m.rx_o).done || Rx(m.rx_o).first || Rx(m.rx_o).wr_en);
         block.clock();
       }
       const bool last = i + 1 == line.size();
       m.bit_valid_i = 1;
       m.bit_i = line[i] == '1';
       m.eval();
-      ASSERT_EQ(m.begin_o, i == 0);
-      ASSERT_EQ(m.done_o, last);
-      ASSERT_EQ(m.open_o, !last);
-      if (last) {
-        ASSERT_EQ(m.ok_o, !spoiled || word.actuator);
+      const Rx rx(m.rx_o);
+      ASSERT_EQ(m.next_o, last);
+      ASSERT_EQ(rx.first, i == 0 && !word.actuator);
+      ASSERT_EQ(rx.done, last && !word.actuator);
+      ASSERT_EQ(rx.open, !last && !word.actuator);
+      if (rx.done) {
+        ASSERT_EQ(rx.ok, !spoiled);
       }
-      if (m.wr_en_o != 0) {
-        ASSERT_TRUE(seen.emplace(m.wr_byte_o, m.wr_data_o).second) << "written twice";
+      if (rx.wr_en) {
+        ASSERT_EQ(rx.slave, slave);
+        ASSERT_TRUE(seen.emplace(rx.wr_byte, rx.wr_data).second) << "written twice";
       }
       block.clock();
       m.bit_valid_i = 0;

@@ -22,8 +22,8 @@ TEST(SamplerBlock, DelayOfKQuarters_CountsKPlusOneAndTakesBitsMidway) {
       Block<Vbiss_sl_sampler> sampler;
       auto& m = sampler.model;
       m.sl_i = 1;
-      m.smp_a_i = m.smp_b_i = m.smp_half_i = 0;
-      m.smp_b_neg_i = half & 1U;
+      m.sample_i = half & 1U;
+      m.sample_half_i = 0;
       m.clear_i = 0;
       m.armed_a_i = m.armed_b_i = 0;
       sampler.reset();
@@ -51,10 +51,14 @@ TEST(SamplerBlock, DelayOfKQuarters_CountsKPlusOneAndTakesBitsMidway) {
           const int t = 2 * clock_edge;
           const int h = static_cast<int>(half);
           const auto is_point = [&](int time) { return time >= 0 && time % h == 0; };
-          m.smp_a_i = is_point(t) && (t / h) % 2 == 0 ? 1 : 0;
+          const bool point_a = is_point(t) && (t / h) % 2 == 0;
           const int b = (half & 1U) != 0 ? t + 1 : t;
-          m.smp_b_i = is_point(b) && (b / h) % 2 == 1 ? 1 : 0;
-          m.smp_half_i = t >= 0 && (t / (2 * h)) % 2 == 0 ? 1 : 0;
+          const bool point_b = is_point(b) && (b / h) % 2 == 1;
+          const bool level_ma = t >= 0 && (t / (2 * h)) % 2 == 0;
+          // biss_pkg::sample_t: a, b, b_neg.
+          m.sample_i =
+              static_cast<std::uint8_t>((point_a ? 4 : 0) | (point_b ? 2 : 0) | (half & 1U));
+          m.sample_half_i = level_ma ? 1 : 0;
         };
         // The engine's own flags: armed from rising edge 2 on, seen one clock early by point b.
         m.armed_a_i = n >= 1 ? 1 : 0;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Divider and time base of a line alone.
+// The time base of the lines alone.
 #include <gtest/gtest.h>
 
 #include <cstddef>
@@ -16,7 +16,7 @@ namespace {
 using mb4test::Block;
 
 // Page 12: four equally spaced sampling points in each MA period, two clocks late.
-TEST(DividerBlock, EveryHalfLength_TicksAndFourEvenSamplingPoints) {
+TEST(TimebaseBlock, EveryHalfLength_TicksAndFourEvenSamplingPoints) {
   for (const unsigned half : {1U, 2U, 3U, 4U, 5U, 6U, 7U, 15U, 16U, 20U, 30U, 150U, 160U}) {
     Block<Vbiss_timebase> base;
     auto& m = base.model;
@@ -37,8 +37,9 @@ TEST(DividerBlock, EveryHalfLength_TicksAndFourEvenSamplingPoints) {
         EXPECT_EQ(m.half_next_o, ticks % 2) << "the first half period is high";
         ++ticks;
       }
-      if (m.smp_a_o != 0) points.push_back(2 * i);
-      if (m.smp_b_o != 0) points.push_back(2 * i + (m.smp_b_neg_o != 0 ? 1U : 0U));
+      // biss_pkg::sample_t: a, b, b_neg.
+      if ((m.sample_o & 4) != 0) points.push_back(2 * i);
+      if ((m.sample_o & 2) != 0) points.push_back(2 * i + (m.sample_o & 1U));
       base.clock();
     }
     EXPECT_EQ(ticks, (8 * half + 2) / half) << half;

@@ -3,7 +3,7 @@
 //
 // Drives frame_top (one line without registers) and acts as a BiSS C slave behind a line delay.
 // This slave has its own few lines, written from the edge table of the protocol, so that the test
-// of the frame engine does not depend on the simulator's slave model.
+// of biss_frame does not depend on the simulator's slave model.
 #ifndef TESTS_BLOCK_BISS_FRAME_BENCH_HPP_
 #define TESTS_BLOCK_BISS_FRAME_BENCH_HPP_
 
@@ -90,11 +90,13 @@ struct Slave {
   }
 };
 
-class FrameBench {
+// Model: frame_top, or a smaller instance of it.
+template <typename Model>
+class FrameBenchOf {
  public:
   static constexpr std::uint64_t kSub = 16;  // time steps in a clock
 
-  FrameBench() {
+  FrameBenchOf() {
     model->clk_i = 0;
     model->rst_ni = 0;
     model->freqs_i = 0;
@@ -160,7 +162,7 @@ class FrameBench {
   }
 
   std::uint64_t now() const { return time_; }
-  Owned<Vframe_top> model;
+  Owned<Model> model;
 
  private:
   void half_clock(int level) {
@@ -235,6 +237,8 @@ class FrameBench {
   bool recording_ = false;
   Result result_{};
 };
+
+using FrameBench = FrameBenchOf<Vframe_top>;
 
 }  // namespace mb4test
 

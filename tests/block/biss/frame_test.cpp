@@ -60,7 +60,7 @@ TEST_P(FrameAtEveryFreqs, ThirtyFourBits_PeriodDutyEdgesAndWordAreRight) {
   EXPECT_EQ(result.memory[0][2], 0xAF);
   EXPECT_EQ(result.memory[0][3], 0x0A);
   EXPECT_FALSE(result.written[0][4]);
-  EXPECT_EQ(result.memory[0][7], 0x18);  // protocol facts, section 7: CRC 0x18 for this word
+  EXPECT_EQ(result.memory[0][7], 0x18);  // docs/theory.md, CRC: this word has 0x18
   EXPECT_EQ(slave.cdm_level, 1);         // CDM is sent inverted
 }
 

@@ -1,9 +1,18 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Test bench top: one line with its time base and word list, without registers and sequencer.
+// Test bench top: one line with its time base and word list, without registers and sequencer. The
+// parameters are those of biss_line.
 
-module frame_top (
+module frame_top #(
+  parameter bit          BissB    = 1'b1,
+  parameter bit          Ssi      = 1'b1,
+  parameter bit          Mo       = 1'b1,
+  parameter bit          FreeCrc  = 1'b1,
+  parameter int unsigned Slaves   = 8,
+  parameter int unsigned DataBits = 64,
+  parameter int unsigned DelayW   = 8
+) (
   input  logic         clk_i,
   input  logic         rst_ni,
   input  logic [4:0]   freqs_i,
@@ -35,15 +44,13 @@ module frame_top (
   logic [7:0] half_len;
   logic       tick;
   logic       half_next;
-  logic       smp_a;
-  logic       smp_b;
-  logic       smp_half;
-  logic       smp_b_neg;
+  biss_pkg::sample_t sample;
+  logic       sample_half;
   logic       len_valid;
   logic [6:0] len;
   logic       next;
-  logic       mo_next, mo_rd_en, mo, ssi;
-  logic [5:0] mo_addr;
+  logic       mo_next, mo, ssi;
+  biss_pkg::mo_read_t mo_read;
   logic       rx_len_valid, rx_actuator, mo_actuator;
   logic [6:0] rx_len;
   biss_pkg::offer_t     rx_offer, mo_offer;
@@ -51,7 +58,6 @@ module frame_top (
   biss_pkg::line_status_t status;
   biss_pkg::line_event_t  ends;
   biss_pkg::line_data_t   data;
-  logic       sl_sync;
   logic [7:0]  enscd;
   logic        rx_cfg_en, mo_cfg_en;
   logic [2:0]  rx_cfg_slave, mo_cfg_slave;
@@ -71,10 +77,8 @@ module frame_top (
     .restart_i   (start_i),
     .tick_o      (tick),
     .half_next_o (half_next),
-    .smp_a_o     (smp_a),
-    .smp_b_o     (smp_b),
-    .smp_half_o  (smp_half),
-    .smp_b_neg_o (smp_b_neg)
+    .sample_o    (sample),
+    .sample_half_o (sample_half)
   );
 
   // The configuration store of the chip: a clock from the data channel's number to its bytes.
@@ -104,7 +108,6 @@ module frame_top (
     .rst_ni,
     .enscd_i     (enscd),
     .actnsens_i  (8'h00),
-    .own_i       (8'hFF),
     .ssi_i       (ssi),
     .nocrc_i,
     .start_i,
@@ -123,7 +126,6 @@ module frame_top (
     .rst_ni,
     .enscd_i     (enscd),
     .actnsens_i  (8'h00),
-    .own_i       (8'hFF),
     .ssi_i       (ssi),
     .nocrc_i,
     .start_i,
@@ -140,25 +142,24 @@ module frame_top (
   // Without MO, force bits and register access.
   assign cmd = {protocol_i, 1'b0, 8'h00, hold_cdm_i, 3'b000};
 
-  biss_line u_line (
+  biss_line #(
+    .BissB(BissB), .Ssi(Ssi), .Mo(Mo), .FreeCrc(FreeCrc), .Slaves(Slaves), .DataBits(DataBits),
+    .DelayW(DelayW)
+  ) u_line (
     .clk_i,
     .rst_ni,
     .por_ni      (rst_ni),
     .cmd_i       (cmd),
     .go_i        ({start_i, init_i, 3'b000, abort_i}),
     .start_i     ({1'b1, cdm_i, cdm_i}),
-    .register_ma_i  (1'b1),
-    .register_end_i (1'b0),
-    .idle_o,
+    .register_ma_i (2'b10),
     .status_o    (status),
     .event_o     (ends),
     .data_o      (data),
     .tick_i      (tick),
     .half_next_i (half_next),
-    .smp_a_i     (smp_a),
-    .smp_b_i     (smp_b),
-    .smp_half_i  (smp_half),
-    .smp_b_neg_i (smp_b_neg),
+    .sample_i    (sample),
+    .sample_half_i (sample_half),
     .len_valid_i (len_valid),
     .len_i       (len),
     .ssi_o       (ssi),
@@ -167,21 +168,20 @@ module frame_top (
     .mo_bus_i    (1'b0),
     .mo_offer_i  (mo_offer),
     .mo_next_o   (mo_next),
-    .mo_rd_en_o  (mo_rd_en),
-    .mo_addr_o   (mo_addr),
+    .mo_read_o   (mo_read),
     .mo_data_i   (8'h00),
     .ma_o,
     .mo_o        (mo),
-    .sl_i,
-    .sl_o        (sl_sync)
+    .sl_i
   );
 
-  assign wr_en_o     = data.wr_en;
-  assign wr_byte_o   = data.wr_byte;
-  assign wr_data_o   = data.wr_data;
-  assign slave_o     = data.slave;
-  assign word_done_o = data.word_done;
-  assign word_ok_o   = data.word_ok;
+  assign wr_en_o     = data.rx.wr_en;
+  assign wr_byte_o   = data.rx.wr_byte;
+  assign wr_data_o   = data.rx.wr_data;
+  assign slave_o     = data.rx.slave;
+  assign word_done_o = data.rx.done;
+  assign word_ok_o   = data.rx.ok;
+  assign idle_o      = status.idle;
   assign quarters_o  = data.delay;
   assign cds_o       = status.cds;
   assign timeout_o   = status.timeout;
@@ -190,7 +190,7 @@ module frame_top (
   assign init_fail_o = ends.init_fail;
 
   logic unused;
-  assign unused = ^{sl_sync, status, ends, data, mo, mo_rd_en, mo_addr, rx_len_valid, rx_len, rx_actuator,
+  assign unused = ^{status, ends, data, mo, mo_read, rx_len_valid, rx_len, rx_actuator,
                     mo_actuator};
 
 endmodule

@@ -15,7 +15,7 @@ namespace {
 
 using mb4test::Block;
 
-// Golden vectors of protocol facts, section 7: 28 bits of 0x2ABCDEF with nE = nW = 1.
+// The table of docs/theory.md, CRC: 28 bits of 0x2ABCDEF with nE = nW = 1.
 TEST(CrcBlock, GoldenVectors_OfAllWidthsAndStarts) {
   struct Row {
     unsigned width;

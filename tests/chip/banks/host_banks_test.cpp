@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Banks and accesses of the host that follow each other faster than the core's clock: bytes and
-// SVALID behind and before SWBANK or HOLDBANK, words read behind them, CDS, and words behind bytes
-// of the host (pages 26, 33, 35; decisions 14, 15, 18, 36, 41). Every host, every phase, CLK from
-// 10 to 25 MHz and slow.
+// Accesses of the host that follow each other faster than the core's clock: bytes and SVALID before
+// and after SWBANK or HOLDBANK, words read after these, CDS, and words after bytes of the host
+// (pages 26, 33, 35; decisions 14, 15, 18, 36, 41). Every host, every phase, CLK from 10 to 25 MHz
+// and slow.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -47,7 +47,7 @@ class Frames : public FastHost {
     settle();
   }
   void settle() { chip().advance(100 * period); }
-  // One frame, with these other bits of 0xF4, and the pause of its slave behind it.
+  // Runs one frame, with these other bits of 0xF4, and waits until its slave is idle.
   void frame(std::uint8_t bits = 0) {
     start(bits);
     EXPECT_TRUE(chip().run_while_waiting([&] { return chip().pin(sim::Pin::kEot); },
@@ -58,7 +58,8 @@ class Frames : public FastHost {
     write(reg::kAddrInstr, {static_cast<std::uint8_t>(bits | reg::kInstrCdm0)});
     chip().advance(8 * period);
   }
-  // The number of the frame whose word the host reads, from 1 on; huge if it is torn.
+  // Returns the number of the frame whose word the host reads, from 1 on. A torn word gives a huge
+  // number.
   std::uint64_t word() {
     std::uint64_t value = 0;
     for (unsigned i = 0; i < 8; ++i) {
@@ -187,9 +188,9 @@ TEST_P(HostBanks, WordBehindBytesOfTheHost_IsNotHidden) {
   }
 }
 
-// Decision 41: HOLDBANK 1-0-1 behind a frame, however close: the switch that HOLDBANK held back is
-// done, and the host reads one word from then on. Around the frame's end it is the one or the
-// other.
+// Decision 41: the host writes HOLDBANK 1, 0, 1 after a frame, as fast as it can. The switch that
+// HOLDBANK held back is done, and from then on the host reads one word. Around the end of the frame
+// this is the old or the new word.
 TEST_P(HostBanks, ReleasedAndSetAgain_TheSwitchIsDone) {
   for (const double mhz : kClocks) {
     Frames host(GetParam(), mhz);
@@ -275,8 +276,9 @@ TEST_P(HostBanks, CdsBehindHoldbank_IsThatOfTheWord) {
   }
 }
 
-// Bytes that the core has not taken yet belong to the bank of their write: the host reads its own
-// bank at once, also behind SWBANK (36). The clock is slow, so that all of it happens at once.
+// A byte that the core has not taken yet belongs to the bank that the host had at the write. The
+// host reads its own bank at once, also after SWBANK (decision 36). The clock is slow, so all
+// accesses come before the core takes a byte.
 TEST_P(HostBanks, ReadBehindSwbank_IsOfTheBankThatTheHostHas) {
   FastHost host(GetParam(), 1.0);
   host.chip().advance(200'000'000);
@@ -301,7 +303,7 @@ TEST_P(HostBanks, ReadBehindSwbank_IsOfTheBankThatTheHostHas) {
 TEST_P(HostBanks, WordAtPinEotBehindAWrite_IsTheNewOne) {
   for (const double mhz : kClocks) {
     Frames host(GetParam(), mhz);
-    // When the pin rises behind the start of a frame.
+    // Time from the start of a frame to the rise of the pin.
     host.start(0);
     const sim::Time began = host.chip().now();
     const auto at_end = [&] { return host.chip().pin(sim::Pin::kEot); };

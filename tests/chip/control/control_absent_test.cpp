@@ -69,13 +69,13 @@ class ControlAbsent : public testing::TestWithParam<Mode> {
   void unplug() {
     chip.simulator.line(1)->act(chip.simulator.now(), sim::CableEvent::Action::kUnplug);
   }
-  // Frames that SL = 0 keeps from starting are left out unless FREQAGS is AGSMIN (decision 3): the
-  // host asks again and again (decision 42).
+  // While SL = 0 the chip leaves out frames, unless FREQAGS is AGSMIN (decision 3). So the host
+  // asks again and again (decision 42).
   bool asks_again() const {
     return GetParam().frames == Frames::kSingle && GetParam().freqags != reg::kFreqagsAgsMin;
   }
-  // What 0xF0 says when REGEND = 1; 0 if it never does. The host does nothing but look, once it has
-  // requested the frame that then does not end.
+  // Returns 0xF0 with REGEND = 1, or 0 if REGEND stays 0. When the host has requested the frame
+  // that does not end, it only reads.
   std::uint8_t end_of_it() {
     if (GetParam().frames == Frames::kSingle) chip.instruct(reg::kInstrControl);
     const sim::Time start = chip.simulator.now();
@@ -168,7 +168,7 @@ TEST_P(ControlAbsent, UnpluggedInTheData_IsNRegErr) {
   plug_and_check();
 }
 
-// The slave is there, but says no more.
+// The slave is on the line but does not answer any more.
 TEST_P(ControlAbsent, SilentSlave_IsNRegErrInTheSlotOfTheEcho) {
   chip.simulator.slave(1)->control()->faults().set_silent(true);
   host.set_read(0, 0x31, 1);
@@ -198,7 +198,7 @@ INSTANTIATE_TEST_SUITE_P(
                     Mode{Frames::kSingle, 0, 0x80}),
     [](const auto& tested) { return name_of(tested.param); });
 
-// A cable that comes back before the limit costs nothing but time. Scenario keys of the cable.
+// A cable that is plugged in again before the limit delays the access and does not end it.
 TEST(ControlPlug, PluggedInAgainInTime_AccessGoesOn) {
   Chip chip(one_slave("data_bits = 14\nread_busy_frames = 40",
                       "open_level = 0\n[[channel.event]]\n"
@@ -218,8 +218,8 @@ TEST(ControlPlug, PluggedInAgainInTime_AccessGoesOn) {
   EXPECT_GT(chip.simulator.now(), 2000 * sim::kPsPerUs);
 }
 
-// One instruction a frame, and a host that takes its time between looking and writing: the end
-// comes with a frame and is never missed. Between frames nothing ends.
+// The host writes one instruction for each frame and pauses between reading the status and writing.
+// Only a frame ends the access, so the host never misses the end.
 TEST(ControlSingle, HostOfAnyPace_SeesNDelayErr) {
   for (unsigned pause_us = 0; pause_us < 400; pause_us += 13) {
     Chip chip(one_slave("data_bits = 14\nmissing = [0x20]"));

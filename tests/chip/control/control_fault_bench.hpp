@@ -88,7 +88,7 @@ class FaultBench {
   void set_reg(unsigned address, std::uint8_t value) {
     chip.simulator.slave(2)->reg_write(static_cast<std::uint8_t>(address), value);
   }
-  // Nothing but `allowed` addresses has been written, in neither slave.
+  // No register of the two slaves has changed except those at `allowed` addresses.
   void check_untouched(unsigned first_allowed, unsigned count) {
     for (unsigned address = 0; address < 128; ++address) {
       if (address >= first_allowed && address < first_allowed + count) continue;

@@ -141,8 +141,8 @@ constexpr CommandCase kBroadcast{0x00, false, 17};
 constexpr CommandCase kImmediate{0xC0, false, 24};
 constexpr CommandCase kTested{0xC0, true, 25};
 
-// `ex`: its slot, the only one behind the header that decides about execution. The slaves confirm
-// before they see it (or are not asked), so no slave can report its loss.
+// `ex`: the slot of EX. After the header only this bit decides whether the slaves execute the
+// command. They confirm before EX comes, or are not asked, so no slave can report that EX was lost.
 void command_matrix(const CommandCase& command, unsigned ex) {
   const bool addressed = command.ids != 0;
   for (const Way way : {Way::kCdm, Way::kCds}) {
@@ -185,7 +185,7 @@ TEST(ControlFaultMatrix, OneSlaveMissesTheHeader_TestedCommandIsDoneByNone) {
 
 // ---- a slave that takes its time ------------------------------------------------------------
 
-// A start bit on the line that the busy slave has not sent: no data follow.
+// A fault puts a start bit on the line while the slave is busy. No data follow it.
 TEST(ControlFaultMatrix, FalseStartBitWhileBusy_IsAnError) {
   for (const bool reading : {true, false}) {
     for (unsigned slot = 19; slot <= 22; ++slot) {

@@ -102,7 +102,7 @@ ControlAccess ControlRun::draw_access() {
   Access access;
   if (one_in(8)) {
     access.kind = Access::Kind::kCommand;
-    // IDs 4 to 7 do not exist here; one in a while is addressed all the same.
+    // No slave here has IDs 4 to 7; now and then the test addresses one of them.
     access.ids = static_cast<std::uint8_t>(one_in(3) ? 0 : 1U << (7 - below(count_)));
     if (access.ids != 0 && one_in(3)) access.ids |= static_cast<std::uint8_t>(1U << (7 - below(8)));
     access.tested = access.ids != 0 && one_in(2);
@@ -192,7 +192,8 @@ void ControlRun::apply(const ControlAccess& access, const ControlFault& fault) {
         device.slave->control()->faults().flip_cdm_in_slot(fault.slot);
       break;
     case Fault::Kind::kCdmAlone:
-      // Without S a slave locks no ID, and others move up: not this test's subject.
+      // A slave that misses S locks no ID, and the IDs of other slaves change. This test leaves
+      // that out.
       at_target().flip_cdm_in_slot(std::max(fault.slot, 1U));
       break;
     case Fault::Kind::kCds:
@@ -259,10 +260,11 @@ void ControlRun::step(ControlTally& tally) {
   apply(access, fault);
   const Outcome outcome = run(access);
   note(outcome);
-  // What a slave was left in ends with zeros. The chip counts those from the stop bit on, and
-  // cannot know that one of them came as a one: the access behind it would fail (nREGERR). That one
-  // may even have looked like S: a slave that takes what follows for a command does not count zeros
-  // before EX and needs ten more.
+  // Zeros end the control frame in which an access has left a slave. The chip counts its zeros from
+  // the stop bit on and does not know that a fault has inverted one of them. Then the next access
+  // would fail (nREGERR = 0), so the host sends more zeros here. The inverted zero may also have
+  // looked like S. A slave that takes the following bits for a command does not count zeros before
+  // EX and needs ten more.
   if (fault.kind != Fault::Kind::kNone || outcome.delay_error) send_zeros(24);
   ++tally.faults[static_cast<unsigned>(fault.kind)];
   if (outcome.reg_error) ++tally.reg_errors;

@@ -20,7 +20,7 @@
 
 namespace mb4test {
 
-// The chip has reported something that is not so.
+// The chip has made a wrong report.
 class WrongReport : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
@@ -51,7 +51,7 @@ struct ControlTally {
   std::uint64_t reg_errors = 0, delay_errors = 0;
   std::uint64_t missing = 0;     // ID or register that no slave has
   std::uint64_t cut_writes = 0;  // reported as errors, but the slave has written part of a byte
-  // Reported as good, and known not to be: the weak places.
+  // Accesses that the chip reports as good although they were not done: the weak places.
   std::uint64_t lost_start = 0, early_start = 0, lost_execution = 0, lost_broadcast = 0,
                 cut_reads = 0, false_acknowledge = 0;
 };

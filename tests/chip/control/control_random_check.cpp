@@ -86,9 +86,9 @@ void ControlRun::check_read(const ControlAccess& access, const ControlFault& fau
   }
 }
 
-// What the slave gets of a byte in whose transmission a bit is wrong. The chip stops with the wrong
-// echo, one frame after the bit was sent, and zeros follow: in some 1.5 % of all cases their CRC
-// fits, and the slave writes them. nREGERR and REGBYTES tell.
+// The bits that the slave receives of a byte of which one bit is wrong. The chip stops at the wrong
+// echo, one frame after it has sent the bit, and zeros follow. In 1.5 % of all cases the CRC fits,
+// and the slave writes the byte. nREGERR and REGBYTES show the error.
 std::optional<ControlRun::CutByte> ControlRun::cut_byte(const ControlAccess& access,
                                                         const ControlFault& fault) const {
   const bool back = fault.kind == Fault::Kind::kCds;
@@ -117,7 +117,8 @@ void ControlRun::check_write(const ControlAccess& access, const ControlFault& fa
   require(good <= there_, "a register that is not there was written");
   Device* const device = target(access);
   if (device == nullptr) return;
-  // Which registers are written? Always a first part of them: those that are reported, or one more.
+  // The registers that are written are the first ones of the access: as many as reported, or one
+  // more.
   unsigned least = good;
   unsigned most = std::min(good + (error ? 1U : 0U), size);
   std::optional<CutByte> cut;
@@ -164,7 +165,8 @@ void ControlRun::check_command(const ControlAccess& access, const ControlFault& 
     require(count <= executed_[id] + 1, "a command was executed twice");
     executed_[id] = count;
     require(!done || addressed(access, id), "a slave that was not addressed has executed");
-    // A zero in the slot of the other kind of EX that comes as a one is an EX.
+    // EX has one of two slots. If a fault inverts the zero in the other slot, the slave takes it
+    // for EX.
     const bool too_early = line_fault && fault.slot == slot::kExImmediate;
     require(!(done && outcome.reg_error && access.tested) || too_early,
             "executed although the test failed");
@@ -179,7 +181,7 @@ void ControlRun::check_command(const ControlAccess& access, const ControlFault& 
   ++(fault.slot == ex ? tally.lost_execution : tally.lost_broadcast);
 }
 
-// What must be so without a fault, and what no access may change.
+// Checks what every access must leave as it is, and what an access without a fault must show.
 void ControlRun::check_rest(const ControlAccess& access, const ControlFault& fault,
                             const Outcome& outcome) {
   for (const Device& device : devices_) {

@@ -68,7 +68,7 @@ TEST(Control, SixtyFourBytes_Take929FramesAndComeBack) {
   host.set_write(0, 0x00, std::vector<std::uint8_t>(64, 0x00));  // RDATA = 0
   host.set_read(0, 0x00, 64);
   chip.instruct(reg::kBreakAbort);
-  // The zeros of the access before count from its stop bit on: 2 of 14.
+  // The zeros of the last access count from its stop bit on: 2 of 14 have been sent.
   EXPECT_EQ(host.run_single(1000), 929U - 2U);
   EXPECT_EQ(host.rdata(64), bytes);
   std::printf("64 bytes: %u frames\n", frames);
@@ -219,8 +219,9 @@ TEST(Control, MissingRegister_SetsNDelayErrAfterTheLimit) {
   }
 }
 
-// With AGS = 0 the limit passes between two frames as well, but the end comes with a frame: a host
-// that has looked just before would otherwise begin anew (decision 23).
+// With AGS = 0 the limit can pass between two frames, but only a frame ends the access. Otherwise a
+// host that has read REGEND = 0 just before would write INSTR again and begin a new access
+// (decision 23).
 TEST(Control, MissingRegisterWithoutFrames_EndsWithTheNextFrame) {
   Chip chip(one_slave(kEncoder));
   configure(chip);
@@ -243,7 +244,7 @@ TEST(Control, MissingRegisterWithoutFrames_EndsWithTheNextFrame) {
   EXPECT_TRUE(chip.simulator.pin(sim::Pin::kNer));
 }
 
-// S is repeated while the slave is busy (facts 3.5); nothing is lost, whatever the time.
+// The master repeats S as long as the slave is busy, and no data are lost, however long that takes.
 TEST(Control, BusySlave_IsWaitedFor) {
   for (const unsigned busy : {1U, 2U, 13U, 14U, 100U}) {
     Chip chip(one_slave(std::string(kEncoder) + "\nread_busy_frames = " + std::to_string(busy) +
@@ -409,7 +410,7 @@ TEST(Control, ErrorInTheSecondByte_TheOthersAreNotSent) {
 }
 
 // Page 27: with HOLDCDM = 1 control communication works "even if the master is not configured
-// according to the data channel(s) of the connected BiSS slave(s)". Without it SL = 1 behind the
+// according to the data channel(s) of the connected BiSS slave(s)". Without it SL = 1 after the
 // clocks looks as if the slave's timeout were over, and MA returns to 1 too early for a CDM of 1.
 TEST(Control, HoldCdm_WorksWithAWrongOrAbsentDataChannel) {
   // ENSCD, SCDLEN; no CRC: no channel at all, bits that are too few and too many.
@@ -441,7 +442,8 @@ TEST(Control, HoldCdm_WorksWithAWrongOrAbsentDataChannel) {
             ended &&
             (host.status() & (reg::REGEND::kMask | reg::nREGERR::kMask | reg::nDELAYERR::kMask)) ==
                 (reg::REGEND::kMask | reg::nREGERR::kMask | reg::nDELAYERR::kMask);
-        // Clocked out and beyond: SL is 0, and HOLDCDM makes no difference.
+        // Frames that are clocked out, or longer: SL is 0 after them, and HOLDCDM makes no
+        // difference.
         EXPECT_EQ(good, hold || channel == (0x40U | 39U)) << channel << " " << ags;
         if (good) {
           EXPECT_EQ(host.rdata(1)[0], 0x77) << channel << " " << ags;
@@ -454,7 +456,8 @@ TEST(Control, HoldCdm_WorksWithAWrongOrAbsentDataChannel) {
 // ---- commands
 // -------------------------------------------------------------------------------------
 
-// Worked headers of the facts file, 4: CTS IDS0..7 CMD1..0 and the inverted CRC.
+// Headers of commands worked out by hand (page 29; rule of the CRC: docs/theory.md): CTS, IDS0..7,
+// CMD1..0 and the inverted CRC.
 TEST(Command, Headers_AreAsWorkedOut) {
   struct Row {
     std::uint8_t ids;
@@ -590,7 +593,7 @@ TEST(Command, ReducedFrames_CarryItAndLeaveSensorData) {
     const auto rising = chip.simulator.line(1)->monitor().last(chip.simulator.now()).rising;
     const auto commands = chip.simulator.slave(1)->control()->counters().commands;
     const bool regend = (host.status() & reg::REGEND::kMask) != 0;
-    // As long as INSTR is 111, what was read before came with reduced frames only.
+    // While INSTR is 111, only reduced frames have run, so the values above must not have changed.
     if (chip.read(reg::kAddrInstr) != 0x0F) break;
     EXPECT_EQ(now, before) << looks;
     EXPECT_EQ(svalid, 0x02) << looks;

@@ -113,8 +113,8 @@ bool exchange(Chip& chip, std::uint8_t instruction) {
   return (chip.read(reg::kAddrStatus3) & reg::CDSSEL::kMask) != 0;
 }
 
-// Table 45: a host that sends every CDM itself; INSTR = 011 waits for the slave's start bit: CDM =
-// 1 until CDS is 1, 0 in that very frame (facts 3.5).
+// Table 45: the host sends every CDM itself. With INSTR = 011 the chip waits for the slave's start
+// bit: it sends CDM = 1 while CDS is 0, and CDM = 0 in the frame that brings CDS = 1.
 TEST(ControlByHand, ReadOfABusySlave_Works) {
   Chip chip(one_slave(std::string(kTi) + "\nread_busy_frames = 5"));
   chip.configure_slave1(chip.simulator.slave(1)->data_bits(), reg::kScrclenCrc6, 0x00,

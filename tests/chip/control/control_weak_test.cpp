@@ -44,9 +44,9 @@ TEST(ControlWeak, LostStartBitOfAWrite_IsSeenByTheLastCrcBitOnly) {
   }
 }
 
-// The same one frame early: a false start bit in the last frame in which the slave is busy. The
-// master sends D7; if it is 1 the slave takes it for the repeated S, and its own S passes for the
-// echo of D7. Shifted by one bit no CRC fits, so the slave never writes.
+// A false start bit comes one frame early, in the last frame in which the slave is busy. The master
+// sends D7. If D7 is 1, the slave takes it for the repeated S, and the master takes the slave's S
+// for the echo of D7. All bits are shifted by one, so no CRC fits, and the slave never writes.
 TEST(ControlWeak, EarlyStartBitOfAWrite_IsSeenIfD7IsZero) {
   for (unsigned value = 0; value < 256; ++value) {
     FaultBench bench(Way::kCds, 20, "write_busy_frames = 2");
@@ -81,9 +81,9 @@ TEST(ControlWeak, SlaveThatFallsSilentWhileItSends_IsNotSeenIfTheCrcFits) {
   std::printf("%u of %u\n", unseen, 86U * 12U);
 }
 
-// The other way round nothing is reported as good, but the slave may keep a third value: after a
-// wrong echo zeros follow, and their CRC may fit as well. So after an error the register that
-// REGBYTES points at holds the old, the new or another value.
+// Here the chip reports the error, but the slave may hold a third value: zeros follow a wrong echo,
+// and their CRC may fit. So after an error the register that REGBYTES points at holds the old, the
+// new or another value.
 TEST(ControlWeak, WriteThatIsCutOff_MayLeaveAThirdValueButIsReported) {
   FaultBench bench(Way::kCds, 19 + 5);
   bench.set_reg(kAddress, 0x11);

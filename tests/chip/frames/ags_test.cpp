@@ -156,9 +156,9 @@ TEST(ChipAgs, AgsMin_PitchIsFramePlusTimeout) {
 }
 
 // Page 30: AGSMIN "requires completed BiSS frames to ensure a low level at SL at the end of each
-// frame". Behind a frame that is clocked out SL shows the slave's timeout, and the next one waits
-// for its end. Behind one that is too short a data bit of 1 looks like that end: the next frame
-// comes into the slave's timeout, and no word is taken for a good one.
+// frame". After a frame that is clocked out SL shows the slave's timeout, and the next frame waits
+// for its end. After a frame that is too short, a data bit of 1 looks like that end: the next frame
+// comes during the slave's timeout, and none of its words is valid.
 TEST(ChipAgs, AgsMin_NeedsFramesThatAreClockedOut) {
   Chip chip(one_slave("data_bits = 28\ncrc = 0x43\ndata = 0xFFFFFFF\ntimeout = 20.0"));
   chip.configure_slave1(28, reg::kScrclenCrc6, 0x00, reg::kFreqagsAgsMin);
@@ -315,7 +315,7 @@ TEST(ChipAgs, BreakWithAgs_RecoversFromASilentSensor) {
   chip.instruct(reg::kAgsOn);
   chip.advance_us(500);
   EXPECT_EQ(chip.status() & (reg::nERR::kMask | reg::nAGSERR::kMask | reg::EOT::kMask), 0)
-      << "missed frames raise nAGSERR (decision 4)";
+      << "missed frames raise nAGSERR (docs/choices.md: AGS with a rate)";
   chip.simulator.line(1)->faults().stick(std::nullopt);
   chip.simulator.refresh_lines();
   chip.instruct(reg::kBreakAbort | reg::kAgsOn);

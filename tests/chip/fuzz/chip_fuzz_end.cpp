@@ -50,7 +50,7 @@ FuzzRun::End FuzzRun::wait_until(std::uint64_t bound, Done done) {
   std::uint64_t step_ns = 30 * host_.clock_ns();
   bool eot = false;
   for (unsigned looks = 0;; ++looks) {
-    // What is waited for mostly comes with EOT = 1.
+    // Most of the awaited events come together with EOT = 1.
     if (looks % 4 == 0 || host_.simulator().pin(Pin::kEot)) {
       status_ = host_.status();
       if (done(eot)) return End::kDone;
@@ -229,7 +229,7 @@ void FuzzRun::drive_on(bool by_getsens) {
       host_.wait_ns(3 * host_.clock_ns());
       host_.pin(Pin::kGetsens, "GETSENS", false);
     } else {
-      // A frame that HOLDBANK keeps back would not be one.
+      // With the quirk HOLDBANK keeps frames back, and the access would get none.
       host_.instruct((host_.banks() & (chip_.agserr_on_hold ? reg::SWBANK::kMask : ~0U)) |
                      reg::kInstrControl);
     }
@@ -289,7 +289,7 @@ void FuzzRun::check_access_ends() {
                    (possible.used[1] && !host_.simulator().pin(Pin::kSl2));
   if (possible.biss_b_control && low) return end_by_break(FuzzCounts::kWaitsSlLow);
   // Only BiSS C begins beside a running frame, and ends beside one that hangs (24). Any other
-  // INSTR 100 or 111, also one that cannot run, is taken behind the frame (19), which a line that
+  // INSTR 100 or 111, also one that cannot run, is taken after the frame (19), which a line that
   // does not answer holds (4).
   const bool biss_c = (host_.written(reg::kAddrCtrl) & reg::REGVERS::kMask) != 0;
   if ((!biss_c || !host_.access_can_run()) && (status_[0] & reg::EOT::kMask) == 0) {
@@ -333,7 +333,7 @@ void FuzzRun::check_ended() {
   if (at_rest()) host_.at_rest();
 }
 
-// Until the slaves' timeouts are over and, behind INIT, SL is 1.
+// Until the slaves' timeouts are over and, after INIT, SL is 1.
 void FuzzRun::wait_slaves(bool sl_high) {
   const auto idle = [&](unsigned line, Pin sl) {
     return !chip_.lines[line].present || (host_.simulator().line(line + 1)->chain().idle() &&

@@ -41,7 +41,7 @@ struct Possible {
   bool agsmin = false;
   bool paired = false;  // CFGIF = 10, 11: line 2 sees SL = 1
   bool ma_forced = false;
-  bool ma_may_rest = false;      // EN_MO with an actuator: MA does not go on behind the frame
+  bool ma_may_rest = false;      // EN_MO with an actuator: MA does not go on after the frame
   std::uint64_t ags_period = 0;  // system clocks
 };
 

@@ -30,7 +30,7 @@ class FuzzFailure : public std::runtime_error {
   std::string rule_;
 };
 
-// What sessions have come to.
+// Counts of what the sessions have reached.
 struct FuzzCounts {
   enum What {
     kOperations,

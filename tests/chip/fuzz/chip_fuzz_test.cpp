@@ -99,7 +99,7 @@ TEST_P(ChipFuzz, AnySession_EndsAndRecovers) {
     std::printf("%8llu in %6llu sessions  %s\n",
                 static_cast<unsigned long long>(counts.total[what]),
                 static_cast<unsigned long long>(counts.sessions[what]), FuzzCounts::name(what));
-    // What is rare is reached by longer runs.
+    // Only longer runs reach rare events.
     if (counts.number >= 5000 || (counts.number >= 200 && FuzzCounts::is_common(what))) {
       EXPECT_GT(counts.total[what], 0U) << FuzzCounts::name(what);
     }
@@ -114,8 +114,8 @@ TEST_P(ChipFuzz, AnySession_EndsAndRecovers) {
   }
 }
 
-// What a failure leaves behind repeats the session: the command answers byte by byte what the test
-// has seen.
+// The files of a failure repeat its session: `mb4sim spi` gets the same answers as the test, byte
+// by byte.
 TEST(ChipFuzzScript, SavedSessions_AreRepeatedByTheCommand) {
   const auto folder = mb4test::failure_path("mb4-chip-fuzz-repeated");
   for (std::uint64_t seed = 1; seed <= 6; ++seed) {
@@ -125,7 +125,7 @@ TEST(ChipFuzzScript, SavedSessions_AreRepeatedByTheCommand) {
     try {
       run.run();
     } catch (const mb4test::FuzzFailure&) {
-      // The script is good all the same.
+      // A session that fails has a script too.
     }
     run.host().session().save();
     const std::string answers = (folder / "again.txt").string();

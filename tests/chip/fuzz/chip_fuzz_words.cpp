@@ -41,7 +41,7 @@ bool LineRecord::has_brought(const std::string& bits, sim::Time period) const {
   constexpr unsigned kParts = 8;
   for (const auto& [time, level] : edges) {
     if (level != (bits[change] == '1')) continue;
-    // The bit `change` is taken within one period behind this edge.
+    // The bit `change` is taken within one period after this edge.
     for (unsigned part = 0; part < kParts; ++part) {
       const sim::Time first = time + period * part / kParts;
       if (first < change * period) continue;
@@ -66,7 +66,7 @@ bool FuzzRun::begin_words() {
   for (unsigned line = 0; line < 2; ++line) {
     const auto& slaves = chip_.lines[line].slaves;
     if (slaves.empty() || !one_in(6)) continue;
-    // A slave's length is another one, or a data channel is there without a slave.
+    // The length of a slave differs from its data channel's, or a data channel has no slave.
     const FuzzSlave& slave = slaves[below(static_cast<unsigned>(slaves.size()))];
     const unsigned channel = one_in(2) ? slave.channel : 4 * line + below(4);
     misfit_[line] = 1U << channel;

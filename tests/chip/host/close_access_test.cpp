@@ -101,8 +101,8 @@ TEST_P(CloseAccess, NoClock_TheLastFourAddressesAnswer) {
   }
 }
 
-// From when the core has taken the bytes the memory answers: a bank that switches is seen, and so
-// is the word of a frame, even while the host goes on writing elsewhere.
+// The memory answers as soon as the core has taken the bytes. So the host sees a switched bank and
+// the word of a frame, even while it goes on writing to other addresses.
 TEST_P(CloseAccess, CoreHasTakenTheByte_TheMemoryAnswers) {
   for (const bool writes : {false, true}) {
     FastHost host(GetParam(), 20, kSlave);
@@ -121,7 +121,7 @@ TEST_P(CloseAccess, CoreHasTakenTheByte_TheMemoryAnswers) {
         } else {
           host.chip().advance(100'000);
         }
-        // The flag first: it tells that the banks have switched.
+        // The host reads the flag first, because it shows that the banks have switched.
         if (host.read(reg::kAddrSvalidLo) != reg::SVALID<1>::kMask) continue;
         ASSERT_EQ(host.read(reg::kAddrScdata), 0xAA) << phase;
         ASSERT_EQ(host.read(reg::SCDATA<1, 1>::kAddress), 0xAA) << phase;

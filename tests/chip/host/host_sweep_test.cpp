@@ -52,7 +52,8 @@ TEST_P(HostSweep, EveryPhase_WritesAndReadsAreRightAndNoWordIsTorn) {
       chip.write(reg::kAddrCtrl, {reg::kRegversBissC, reg::FREQR::of(5), 0, 0x0F});
       chip.write(reg::kAddrSlaveloc5,
                  {reg::kResetSlaveloc5, reg::kCfgch2Unused | reg::kCfgch1BissC});
-      // SCLK above 2 f_CLK: 3 T between writes of 0xF4 are the host's business (docs/timing.md).
+      // With SCLK above 2 f_CLK the host itself must leave 3 T between writes of 0xF4
+      // (docs/timing.md).
       chip.instruct(reg::kAgsOn);
       simulator.advance(2000 * clk);
     }

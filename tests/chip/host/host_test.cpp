@@ -104,7 +104,7 @@ TEST_P(ParallelHostChip, DataBus_IsDrivenInReadStrobesOnlyAndStandsStill) {
     set(intel ? Pin::kNrdRnw : Pin::kNwrE, intel);
     EXPECT_EQ(data(), 0x00U);
   }
-  // NCS high ends it too, and nothing listens then.
+  // NCS = 1 ends the read too. While NCS = 1 the chip ignores the strobes.
   set(intel ? Pin::kNrdRnw : Pin::kNwrE, !intel);
   EXPECT_EQ(data(), 0x54U);
   set(Pin::kNcs, true);

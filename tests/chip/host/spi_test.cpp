@@ -98,7 +98,7 @@ TEST_P(SpiAtRatio, AllOpcodes_WorkAtEveryPhase) {
                       oscillator ? "f_clk_hz = 0\nf_osc_hz = " + hz : "f_clk_hz = " + hz));
   chip.simulator.spi().set_timing(sim::SpiTiming::for_frequency(sclk_khz * 1000ULL));
   if (oscillator) chip.write(reg::kAddrIface, {reg::kClkeniInternal});
-  // A slow host needs a slow frame to see it run.
+  // A slow host sees EOT = 0 only in a slow frame.
   chip.configure_slave1(28, reg::kScrclenCrc6, sclk_khz >= 33'333 ? 0x00 : 0x1F,
                         reg::kFreqagsAgsMin);
   std::uint64_t random = 1;
@@ -144,7 +144,7 @@ TEST_P(SpiAtRatio, AllOpcodes_WorkAtEveryPhase) {
     chip.advance_us(1);
     ASSERT_EQ(chip.read(reg::kAddrSvalidLo), 0);
   }
-  // Two writes of 0xF4 as close as SPI can be: none is taken for the end of the other.
+  // Two writes of 0xF4 follow each other as closely as SPI allows. The chip carries out both.
   for (unsigned i = 0; i < 25; ++i) {
     const std::uint64_t before = chip.simulator.slave(1)->frames();
     chip.advance_us(100);  // the slave's timeout: BREAK ends no frame

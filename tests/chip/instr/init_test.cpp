@@ -41,7 +41,7 @@ TEST(ChipInit, OtherWritesMeanwhile_DoNotEndIt) {
   }
 }
 
-// Decision 35: SCDATA1 and SCDATA5 hold line delays behind INIT, so all SVALID are 0, without an
+// Decision 35: SCDATA1 and SCDATA5 hold line delays after INIT, so all SVALID are 0, without an
 // error; the next frame sets those of its words.
 TEST(ChipInit, AllSvalid_AreZeroBehindIt) {
   for (const unsigned freqs : {0x00U, 0x04U}) {

@@ -59,7 +59,7 @@ TEST(ChipInstrPhase, BreakWithAgs_NextFrameIsAPeriodLater) {
   const sim::Time byte = before + 160 * sim::kPsPerUs;
   chip.advance_us(110);
   const sim::Time after = monitor.last(chip.simulator.now()).start;
-  // And the way of the byte and of MA: ChipInstrTiming and half a period.
+  // In addition: the time of the byte to the core (ChipInstrTiming) and half a period of MA.
   EXPECT_GE(after, byte + 2000 * kClk);
   EXPECT_LE(after, byte + 2006 * kClk);
 }
@@ -85,8 +85,8 @@ TEST(ChipInstrPhase, ChangedUnderAgs_LeavesPinEotHigh) {
   EXPECT_TRUE(eot_is(false, 110)) << "the next frame";
 }
 
-// INSTR written again around the end of its frame: before it asks for nothing, from then on for
-// another frame. It clears itself in either case.
+// The host writes the same INSTR again around the end of its frame. A write before the end asks for
+// nothing; a later one asks for another frame. INSTR clears itself in both cases.
 TEST(ChipInstrPhase, SameCodeAtTheEndOfItsFrame_IsOneFrameMoreOrNone) {
   bool none = false;
   bool one = false;
@@ -119,8 +119,8 @@ TEST(ChipInstrPhase, SameCodeAtTheEndOfItsFrame_IsOneFrameMoreOrNone) {
   EXPECT_TRUE(none && one) << "the phases reach from one side to the other";
 }
 
-// FREQAGS = AGSMIN: a frame waits for SL = 1. The same INSTR written while it waits, or just when
-// it starts, is no second one.
+// FREQAGS = AGSMIN: a frame waits for SL = 1. The same INSTR, written while the frame waits or just
+// when it starts, asks for no second frame.
 TEST(ChipInstrPhase, SameCodeAtTheStartOfItsFrame_IsOneFrame) {
   Chip chip(one_slave(kEncoder26));
   chip.simulator.spi().set_timing(sim::SpiTiming::for_frequency(50'000'000));

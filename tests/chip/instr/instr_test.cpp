@@ -62,7 +62,7 @@ TEST(ChipInstr, NoAgs_NothingRunsByItself) {
   }
 }
 
-// AGS cleared: the frame that runs ends whole, none follows.
+// After AGS is cleared the running frame ends as usual, and no other one follows.
 TEST(ChipInstr, AgsCleared_TheRunningFrameEndsAndNoneFollows) {
   for (const unsigned freqags : {0x09U, 0x7CU}) {
     for (unsigned phase = 0; phase < 24; ++phase) {
@@ -204,7 +204,7 @@ TEST(ChipInit, AgsWrittenDuringInit_FramesFollow) {
   }
 }
 
-// Decision 16: the line delay comes into the bank that the host reads; the other one keeps its
+// Decision 16: INIT writes the line delay to the bank that the host reads; the other bank keeps its
 // byte.
 TEST(ChipInit, LineDelay_IsInTheHostsBank) {
   for (const unsigned frames : {0U, 1U}) {
@@ -249,7 +249,7 @@ TEST(ChipBanks, SwBankDuringAFrame_ActsAtOnce) {
   chip.write(reg::kAddrFreq,
              {reg::FREQR::of(5) | reg::FREQS::of(31)});  // 62.5 kHz: the frame takes 600 us
   chip.instruct(reg::SWBANK::kMask | reg::kInstrCdm0);
-  // 4 + 12 of 28 bits, 16 us each, behind four periods: bytes 3 and 2 have come.
+  // 4 + 12 of 28 bits, 16 us each, after four periods: bytes 3 and 2 have come.
   chip.advance_us(345);
   EXPECT_EQ(chip.read(reg::kAddrScdata, 8), ones) << "the host's bank";
   EXPECT_EQ(chip.read(reg::kAddrSvalidLo), reg::SVALID<1>::kMask);
@@ -279,7 +279,7 @@ TEST(ChipBanks, SwBankDuringAFrame_ActsAtOnce) {
   EXPECT_EQ(chip.read(reg::kAddrSvalidLo), reg::SVALID<1>::kMask);
 }
 
-// Page 33, decision 19: SWBANK acts at once, HOLDBANK or not; a switch that HOLDBANK keeps back is
+// Page 33, decision 34: SWBANK acts at once, HOLDBANK or not; a switch that HOLDBANK keeps back is
 // not lost by it and still comes with the release.
 TEST(ChipBanks, SwBankUnderHoldBank_SwapsAndThePendingSwitchStays) {
   Chip chip(one_slave(kEncoder26));

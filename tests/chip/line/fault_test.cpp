@@ -214,7 +214,8 @@ class Campaign {
       tally.expected += probabilities[i];
       if (!valid) continue;
       ++tally.missed;
-      // What no polynomial with x^n and 1 lets through, and pairs closer than its period.
+      // Every polynomial with x^n and 1 detects these, and also pairs that are closer than its
+      // period.
       const bool certain = kinds[i] == kSingle || kinds[i] == kShortBurst ||
                            (kinds[i] == kPair && probabilities[i] == 0);
       if (certain) ++wrong;
@@ -253,7 +254,8 @@ TEST(ChipFaults, RandomFaults_OnlyMultiplesOfThePolynomialPass) {
       std::printf("%2u %-8s %8llu %6llu %9.1f\n", width, kNames[kind],
                   static_cast<unsigned long long>(tally.faulty),
                   static_cast<unsigned long long>(tally.missed), tally.expected);
-      // What a lost start bit leaves is no random pattern: for it 2^-n is only printed.
+      // A lost start bit does not leave a random pattern, so the test prints 2^-n for it and
+      // compares nothing.
       if (kind == kStartBit) continue;
       EXPECT_NEAR(static_cast<double>(tally.missed), tally.expected,
                   6 * std::sqrt(tally.expected) + 6)

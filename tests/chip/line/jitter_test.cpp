@@ -169,8 +169,8 @@ INSTANTIATE_TEST_SUITE_P(Percent, LineJitter, testing::Values(0, 5, 12, 20, 25))
 
 class LineJitterBeyond : public testing::TestWithParam<unsigned> {};
 
-// Beyond it frames go wrong and say so; a wrong position passes as valid only where the CRC cannot
-// see it, as often as chance allows.
+// With more jitter than I305 allows, frames go wrong, and the chip reports them. A wrong position
+// is valid only if its CRC fits, and that is as rare as the theory says.
 TEST_P(LineJitterBeyond, WrongFramesAreFlagged_ExceptCrcAliases) {
   const unsigned percent = GetParam();
   const Tally tally =

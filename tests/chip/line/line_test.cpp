@@ -52,7 +52,8 @@ TEST(ChipLine, DelayOf10To1000Periods_NormalFramesWork) {
       chip.configure_slave1(28, reg::kScrclenCrc6, static_cast<std::uint8_t>(code));
       for (int i = 0; i < 3; ++i) {
         ASSERT_TRUE(good_frame(chip)) << code << " " << periods;
-        // MA has stopped though the line still holds edges: at most what the start bit took.
+        // MA has stopped while edges are still on the line: it has made no more than the start bit
+        // needed.
         const auto frame = chip.simulator.line(1)->monitor().last(chip.simulator.now());
         EXPECT_GE(frame.rising, std::max(39U, periods)) << code << " " << periods;
         EXPECT_LE(frame.rising, std::max(39U, periods + 7U)) << code << " " << periods;
@@ -85,7 +86,7 @@ TEST(ChipLine, LongLine_CdmOneSendsNoEdgeTooMany) {
   EXPECT_EQ(kept, 8U) << "in every second half period MA is low";
 }
 
-// I306: a slave may end its frame after MA has rested for 55 % of a period. Then SL is low behind
+// I306: a slave may end its frame after MA has rested for 55 % of a period. Then SL is low after
 // the last bit for no longer than that, and the slave has taken CDM before the master can know.
 TEST(ChipLine, SlaveTimeoutOf55Percent_FramesAndCdmAreRight) {
   for (const unsigned code : all_codes()) {
@@ -168,7 +169,7 @@ TEST(ChipLine, TwoChannelsOfDifferentDelay_BothFramesAreGood) {
 
 // I305 in the strict reading. The acknowledge is a falling edge; with a skew of the SL wire every
 // rising edge deviates from it by exactly that much, every falling one not at all. A bit is taken
-// more than one and up to two quarters behind the measured edge (docs/timing.md): rising edges may
+// more than one and up to two quarters after the measured edge (docs/timing.md): rising edges may
 // be 25 % of T_MA late and 50 % early, at every phase of the delay; one picosecond more fails at
 // some phase.
 TEST(ChipLine, DeviationFromTheFirstMeasurement_25PercentLateAnd50EarlyAndNoMore) {
@@ -216,7 +217,8 @@ TEST(ChipInit, EveryFreqsCode_MeasuresTheDelayToTheQuarter) {
     chip.simulator.spi().set_timing(sim::SpiTiming::for_frequency(50'000'000));
     chip.configure_slave1(28, reg::kScrclenCrc6, static_cast<std::uint8_t>(code));
     for (const sim::Time n : {0U, 1U, 2U, 3U, 4U, 5U, 6U, 7U, 50U, 129U, 254U}) {
-      // Just before the point, at it (too late for it), just behind the one before.
+      // SL falls just before the sampling point, at the point (too late for it), and just after the
+      // point before it.
       for (const sim::Time delay : {(n + 1) * quarter - 1, n * quarter, n * quarter + 1}) {
         chip.simulator.line(1)->set_round_trip(delay);
         chip.instruct(reg::kInitStart);

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// MA force bits (page 33, Tables 50..53; CHSEL: page 27, Table 23). That no pulse is short is seen
-// by the guard at the MA pins, which ends a simulation otherwise.
+// MA force bits (page 33, Tables 50..53; CHSEL: page 27, Table 23). The guard at the MA pins ends
+// the simulation if a pulse is too short.
 #include <gtest/gtest.h>
 
 #include <string>

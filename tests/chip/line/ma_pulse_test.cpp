@@ -275,8 +275,8 @@ TEST(MaPulseTwoLines, LineOutOfUseWithSlLow_StartsTheOther) {
   }
 }
 
-// A line that is forced low ends that half period as well: whatever line starts with a shorter one,
-// and whatever ends the force. The other way round: a longer one.
+// A line that is forced low also ends its half period, whichever line starts with a shorter half
+// period and whatever ends the force. The same with a longer half period.
 TEST(MaPulseTwoLines, ForcedLineOtherFreqs_CutsNothingShort) {
   for (unsigned way = 0; way < 8; ++way) {
     std::uint64_t pulses = 0;
@@ -328,7 +328,7 @@ TEST(SettingsInAFrame, EnMoAndForceChange_FrameGoesOnWithWhatItBeganWith) {
   ASSERT_NO_FATAL_FAILURE(expect_good_frames(chip, "", 0x04));
 }
 
-// A healthy line's frame ends, whatever is configured behind its first clock, for any protocol.
+// A healthy line's frame ends, whatever is configured after its first clock, for any protocol.
 TEST(SettingsInAFrame, AnyConfigurationRegister_FrameEnds) {
   const std::array<const char*, 3> protocols{"biss-b", "biss-c", "ssi"};
   for (unsigned session = 0; session < 600; ++session) {

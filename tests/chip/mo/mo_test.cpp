@@ -36,7 +36,7 @@ std::string slot(std::uint64_t word, unsigned bits, bool stop_bit) {
   return (stop_bit ? "0" : "") + mb4test::word_on_line(word, bits, {6, 0x43}, 0);
 }
 
-// Level of MO behind each rising edge of MA, from the first on.
+// Level of MO after each rising edge of MA, from the first on.
 std::string mo_by_slot(const ProtocolChip& chip, unsigned line, bool before) {
   std::string text;
   std::size_t next = 0;
@@ -69,7 +69,8 @@ TEST(ChipMo, Waveform_IsAcknowledgeBusyStartCdsWords) {
     write_both_banks(chip, 3, 0xE7);
     EXPECT_TRUE(chip.simulator.pin(sim::Pin::kMo1));
     ASSERT_TRUE(chip.frame());
-    // Behind rising edge 1 still idle, 2 acknowledge, 3 + MO_BUSY start bit, CDS 0, words, then 1.
+    // MO after rising edge 1: still idle; 2: acknowledge; 3 + MO_BUSY: start bit; then CDS = 0, the
+    // words, and 1.
     EXPECT_EQ(mo_by_slot(chip, 0, true), "1" + std::string(1 + busy, '0') + "10" +
                                              slot(0xA5C, 12, true) + std::string(15, '0') +
                                              slot(0xE7, 8, false) + "1");
@@ -249,7 +250,7 @@ TEST(ChipMo, CableLongerThanTheFrame_WordArrives) {
 }
 
 // Sensors alone on such a cable: MA goes on until the start bit is back (decision 17), and MO has
-// to stay 0 meanwhile. A 1 would run through the slaves behind the data and look like their
+// to stay 0 meanwhile. A 1 would run through the slaves after the data and look like their
 // timeout.
 TEST(ChipMo, SensorsOnACableLongerThanTheFrame_SeeNoOneBehindTheirSlots) {
   for (const double delay_ns : {900.0, 2500.0, 10'000.0}) {
@@ -276,7 +277,7 @@ TEST(ChipMo, SensorsOnACableLongerThanTheFrame_SeeNoOneBehindTheirSlots) {
         EXPECT_GE(chip.mo[0][3].time, last_rise) << delay_ns;
         EXPECT_GT(last_rise, chip.mo[0][2].time + (8 + 6 + 5 + 6) * chip.t_ma / 2) << delay_ns;
       }
-      // Frame after frame: no timeout is seen that is none.
+      // Frames follow each other, and the chip takes no other 1 on SL for the timeout.
       chip.instruct(reg::kAgsOn);
       chip.advance_us(400);
       EXPECT_EQ(chip.svalid(), valid({1, 2})) << delay_ns;

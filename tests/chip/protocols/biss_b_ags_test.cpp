@@ -22,9 +22,9 @@ sim::BissBSlave& slave(ProtocolChip& chip) {
   return dynamic_cast<sim::BissBSlave&>(*chip.simulator.slave(1));
 }
 
-// Behind a register access the slave has its register timeout before the next frame begins, also
-// if what comes back over the cable last, or what the slave would go on with, is 1. On a bus the
-// slaves pass on MO = 1.
+// After a register access the slave gets its register timeout before the next frame begins, also if
+// the last bit on the cable is 1, or the next bit that the slave would send. On a bus the slaves
+// pass on MO = 1.
 class BissBUnderAgsmin : public testing::TestWithParam<std::tuple<double, unsigned, bool>> {};
 
 TEST_P(BissBUnderAgsmin, FramesGoOnBehindTheRegisterTimeout) {
@@ -109,7 +109,7 @@ TEST(ChipBissBAgs, AccessWithAnError_FramesGoOnBehindTheRegisterTimeout) {
   }
 }
 
-// What SL shows during the address part says nothing: a slave may send it back.
+// The chip ignores SL during the address part, because a slave may send the address back.
 TEST(ChipBissBAgs, SlInTheAddressPart_IsNotLookedAt) {
   for (const bool write : {true, false}) {
     ProtocolChip chip(bus("", "timeout = 2\nregisters = { 0x10 = 0x5A }\n"),
@@ -174,7 +174,7 @@ TEST(ChipBissBAgs, InitOnABus_EndsWithTheHandOver) {
   }
 }
 
-// HOLDBANK is about the banks of SCDATA (page 33); a register access has none.
+// HOLDBANK concerns the banks of SCDATA (page 33); a register access does not use them.
 TEST(ChipBissBAgs, HeldSwitch_DoesNotKeepARegisterAccess) {
   ProtocolChip chip(bus("", "timeout = 2\nregisters = { 0x10 = 0x5A }\n"),
                     {.freqs = 0, .freqr = 1, .biss_c_registers = false});

@@ -294,7 +294,7 @@ TEST(ChipBissB, WrongCrcAndSilentSlave_AreReported) {
   EXPECT_EQ(chip.simulator.slave(1)->reg_read(0x10), 0x12);
 }
 
-// No hand-over: nAGSERR = 0 (decision 6); BREAK and the next frame work.
+// No hand-over: nAGSERR = 0 (decision 7); BREAK and the next frame work.
 TEST(ChipBissB, NoHandOver_IsAnAgsError) {
   ProtocolChip chip(channel() + slave(0, 0), {.freqs = 0, .freqr = 0, .biss_c_registers = false});
   chip.simulator.line(1)->faults().stick(true);

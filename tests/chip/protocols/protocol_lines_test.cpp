@@ -26,7 +26,7 @@ sim::BissBSlave& biss_b(ProtocolChip& chip, unsigned number) {
   return dynamic_cast<sim::BissBSlave&>(*chip.simulator.slave(number));
 }
 
-// Page 27: one line at a time, by CHSEL; the other one hears nothing.
+// Page 27: CHSEL selects one line; the other line gets no control data.
 TEST(ProtocolLines, BissBRegisters_OnTheSelectedLineAlone) {
   for (const bool by_mo : {false, true}) {
     const std::string mo = by_mo ? "mo = true\n" : "";
@@ -77,7 +77,8 @@ TEST(ProtocolLines, BissBRegistersOnBothLines_WaitForBothHandOvers) {
   EXPECT_EQ(chip.simulator.slave(5)->reg_read(0x20), 0x77);
 }
 
-// Decision 14: frames without sensor data are so on both lines, whatever the other one speaks.
+// Decision 14: a reduced frame has no sensor data on either line, whatever the protocol of the
+// other line is.
 TEST(ProtocolLines, ReducedFrames_ClockOutNoWordOnTheOtherLine) {
   for (const char* other : {"biss-b", "ssi"}) {
     ProtocolChip chip(channel(1, "biss-c") + channel(2, other), {.freqs = 4});
@@ -156,7 +157,8 @@ TEST(ProtocolLines, BissBInit_WaitsForBothLinesAndGivesUp) {
   EXPECT_EQ(chip.svalid(), valid({1, 5}));
 }
 
-// SSI has no initialisation: the line keeps still; alone, INIT resets the flags only.
+// SSI has no INIT sequence, so MA of an SSI line rests. With SSI lines only, INIT just resets the
+// flags.
 TEST(ProtocolLines, InitOfSsi_MovesNoLine) {
   ProtocolChip mixed(channel(1, "ssi") + channel(2, "biss-c"), {.freqs = 4});
   ASSERT_TRUE(mixed.frame(reg::kInitStart));
@@ -201,8 +203,8 @@ TEST(ProtocolLines, CdmAndGrays_MeanNothingToBissB) {
   }
 }
 
-// An encoder may answer one period less 30 ns late, with its last bit as well: a 1 there is no end
-// of the monoflop time.
+// An encoder may answer up to one period less 30 ns late, also with its last bit. The chip must not
+// take a last bit of 1 for the end of the monoflop time.
 TEST(ProtocolLines, SsiLastBitOneAndLate_NextFrameWaitsForTheMonoflop) {
   for (const unsigned freqs : {0U, 1U, 4U}) {
     const double most = 50.0 * mb4test::ma_clocks(freqs) - 30;

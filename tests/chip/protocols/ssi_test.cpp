@@ -171,7 +171,7 @@ TEST(ChipSsi, Agsmin_ReadsEveryWordOnce) {
             unsigned{reg::kNagserrGood | reg::kNscderrGood});
 }
 
-// Multiple transmission: two data channels read the word twice in one frame, the second behind one
+// Multiple transmission: two data channels read the word twice in one frame, the second after one
 // 0.
 TEST(ChipSsi, Ring_SecondChannelReadsTheSameWord) {
   ProtocolChip chip(encoder(25, "ring = true\ndata = 0x1A5B37C"), {.freqs = 9});

@@ -58,8 +58,9 @@ sim::SimulatorOptions plain_options() {
 
 // Two bare chips on the parallel bus, without slaves' words and a script to write down.
 struct Pair {
-  explicit Pair(const sim::Scenario& scenario) : fast(scenario), plain(scenario, plain_options()) {
-    both([](sim::Simulator& chip) { chip.advance(10 * sim::kPsPerUs); });
+  explicit Pair(const sim::Scenario& scenario, sim::Time pause = 10 * sim::kPsPerUs)
+      : fast(scenario), plain(scenario, plain_options()) {
+    both([&](sim::Simulator& chip) { chip.advance(pause); });
   }
   template <typename Action>
   void both(const Action& action) {
@@ -227,7 +228,7 @@ TEST(Lockstep, LessWork_ChangesNothing) {
     std::filesystem::remove_all(folder);
   }
 #ifdef MB4_EDGE_IN_PARTS
-  // Otherwise there was little to compare.
+  // Clocks must have been left out, or the two chips did the same work.
   EXPECT_GT(left_out, clocks / 4);
 #endif
   EXPECT_GT(clocks - left_out, 1000 * cases);
@@ -312,6 +313,146 @@ TEST(Lockstep, SlBesideAHostPin_ChangesNothing) {
     }
   }
 }
+
+// The clock switch takes up CLK again after each reset, in the same clock in both. The write tells
+// the clock: its frame waits for the memories to be cleared.
+TEST(LockstepReset, OfAnyLength_EndsInTheSameClock) {
+  for (const unsigned khz : {5'000U, 7'300U, 8'000U, 10'000U, 11'000U, 12'500U, 20'000U, 25'000U}) {
+    const sim::Scenario scenario = sim::parse_scenario(
+        "[chip]\nf_clk_hz = " + std::to_string(khz) + "_000\n[host]\ninterface = \"intel\"\n",
+        "reset");
+    Pair chips(scenario, 0);
+    const sim::Time clock = sim::kPsPerSecond / (1'000 * khz);
+    for (unsigned clocks = 0; clocks < 16; ++clocks) {
+      if (clocks > 0) {
+        chips.both([&](sim::Simulator& chip) {
+          chip.set_pin(sim::Pin::kNres, false);
+          chip.advance(clocks * clock + clock / 3);
+          chip.set_pin(sim::Pin::kNres, true);
+        });
+      }
+      chips.both([](sim::Simulator& chip) { chip.bus().write(reg::kAddrInstr, reg::kInstrCdm1); });
+      ASSERT_EQ(advance(chips.fast, 50 * sim::kPsPerUs), advance(chips.plain, 50 * sim::kPsPerUs))
+          << khz << " kHz, reset of " << clocks << " clocks";
+    }
+    ASSERT_EQ(chips.fast.clk_cycles(), chips.plain.clk_cycles()) << khz;
+  }
+}
+
+// CLK again after the oscillator, at frequencies below its own.
+TEST(LockstepReset, BackToASlowClk_TakesTheSameClocks) {
+  for (const unsigned khz : {1'000U, 2'500U, 7'300U, 20'000U}) {
+    const sim::Scenario scenario = sim::parse_scenario(
+        "[chip]\nf_clk_hz = " + std::to_string(khz) + "_000\n[host]\ninterface = \"intel\"\n",
+        "reset");
+    Pair chips(scenario);
+    chips.write(reg::kAddrFreqags, 0x02);
+    chips.write(reg::kAddrInstr, reg::kAgsOn);
+    for (unsigned turn = 0; turn < 20; ++turn) {
+      for (const unsigned oscillator : {1U, 0U}) {
+        chips.write(reg::kAddrIface, static_cast<std::uint8_t>(oscillator));
+        const sim::Time pause = (3 + 7 * turn) * sim::kPsPerUs;
+        ASSERT_EQ(advance(chips.fast, pause), advance(chips.plain, pause))
+            << khz << " kHz, turn " << turn << ", CLKENI " << oscillator;
+      }
+    }
+    ASSERT_EQ(chips.fast.clk_cycles(), chips.plain.clk_cycles()) << khz;
+  }
+}
+
+// All pins that a chip can drive, the data bus bit by bit.
+unsigned all_levels(const sim::Simulator& simulator) {
+  unsigned word = levels(simulator);
+  for (int bit = 0; bit < 8; ++bit) {
+    word = word << 1U |
+           (simulator.pin(static_cast<sim::Pin>(static_cast<int>(sim::Pin::kDb0) + bit)) ? 1U : 0U);
+  }
+  return word;
+}
+
+// The time of a host's next step: at an edge of CLK, or anywhere from 1 ps on.
+sim::Time some_time(Random& random, sim::Time half_clock) {
+  if (random.one_in(3)) return half_clock * (1 + random.below(4));
+  constexpr sim::Time kLongest[] = {3, 100, 3'000};
+  return 1 + random.word() % (kLongest[random.below(3)] * sim::kPsPerNs);
+}
+
+// Hosts that keep no protocol: pins change one by one at random times, many at those of edges of
+// CLK. Frames run meanwhile, begun by a write in between. CLK has all ratios to the host.
+class LockstepPins : public ::testing::TestWithParam<const char*> {};
+
+TEST_P(LockstepPins, EdgesOfHostPins_ChangeNothingElse) {
+  const std::string interface = GetParam();
+  const std::uint64_t cases = number_from("MB4_LOCKSTEP_CASES", 12);
+  for (std::uint64_t seed = 1; seed <= cases; ++seed) {
+    Random random(seed);
+    constexpr std::uint64_t kClk[] = {1'000'000, 7'300'000, 20'000'000, 25'000'000};
+    const std::uint64_t f_clk = kClk[random.below(4)];
+    const sim::Time half_clock = sim::kPsPerSecond / (2 * f_clk);
+    const sim::Scenario scenario = sim::parse_scenario(
+        "[chip]\nf_clk_hz = " + std::to_string(f_clk) + "\n[host]\ninterface = \"" + interface +
+            "\"\n[[channel]]\nnumber = 1\n[[channel.slave]]\nprotocol = \"biss-c\"\n"
+            "preset = \"resolute-26\"\n",
+        "pins");
+    Pair chips(scenario);
+    const bool serial = interface.starts_with("spi");
+    const auto write = [&](std::uint8_t address, std::uint8_t value) {
+      chips.both([&](sim::Simulator& chip) {
+        if (serial) {
+          chip.spi().transfer(std::vector<std::uint8_t>{0x02, address, value}, {});
+        } else {
+          chip.bus().write(address, value);
+        }
+        chip.advance(600 * sim::kPsPerNs);
+      });
+    };
+    write(reg::slave_cfg_address(1), reg::kEnscdYes | 27);
+    write(reg::SCRCLEN<1>::kAddress, reg::kSelcrcsByPolynomial | reg::SCRCPOLY<1>::of(33));
+    write(reg::kAddrChsel, reg::kChsel1Used);
+    write(reg::kAddrCfgch, reg::kCfgch1BissC);
+    write(reg::kAddrFreqags, reg::kFreqagsAgsMin);
+    write(reg::kAddrInstr, reg::kAgsOn);
+    for (unsigned step = 0; step < 3'000; ++step) {
+      // SCLK and the strobes change most often, so that bytes are complete now and then.
+      constexpr sim::Pin kPins[] = {
+          sim::Pin::kAle, sim::Pin::kNwrE, sim::Pin::kNrdRnw, sim::Pin::kNcs,     sim::Pin::kDb5,
+          sim::Pin::kDb4, sim::Pin::kDb6,  sim::Pin::kDb0,    sim::Pin::kGetsens, sim::Pin::kNer};
+      const unsigned kind = random.below(40);
+      const sim::Pin pin = kind < 20   ? sim::Pin::kAle
+                           : kind < 30 ? sim::Pin::kDb0
+                                       : kPins[random.below(10)];
+      const bool level = !chips.plain.pin(pin);
+      if (pin != sim::Pin::kNcs || random.one_in(8) || !level) {
+        chips.both([&](sim::Simulator& chip) { chip.set_pin(pin, level); });
+      }
+      ASSERT_EQ(all_levels(chips.fast), all_levels(chips.plain)) << seed << " " << step;
+      const sim::Time pause = some_time(random, half_clock);
+      ASSERT_EQ(advance(chips.fast, pause), advance(chips.plain, pause)) << seed << " " << step;
+      ASSERT_EQ(all_levels(chips.fast), all_levels(chips.plain)) << seed << " " << step;
+      if (step % 300 == 299) {  // a byte that is written, then pins again
+        chips.both([&](sim::Simulator& chip) { chip.set_pin(sim::Pin::kNcs, true); });
+        write(static_cast<std::uint8_t>(random.below(reg::kAddrIface)),
+              static_cast<std::uint8_t>(random.below(256)));
+        write(reg::kAddrInstr, static_cast<std::uint8_t>(random.below(128)));
+      }
+    }
+    ASSERT_EQ(chips.fast.clk_cycles(), chips.plain.clk_cycles()) << seed;
+    chips.both([&](sim::Simulator& chip) { chip.set_pin(sim::Pin::kNcs, true); });
+    for (unsigned address = 0; address < 256; ++address) {
+      const auto byte = static_cast<std::uint8_t>(address);
+      const auto read = [&](sim::Simulator& chip) {
+        if (!serial) return chip.bus().read(byte);
+        std::vector<std::uint8_t> back(3);
+        chip.spi().transfer(std::vector<std::uint8_t>{0x03, byte, 0}, back);
+        return back[2];
+      };
+      ASSERT_EQ(read(chips.fast), read(chips.plain)) << seed << " " << address;
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Hosts, LockstepPins,
+                         ::testing::Values("spi", "spi2", "intel", "motorola"));
 
 }  // namespace
 }  // namespace mb4test

@@ -81,7 +81,8 @@ void RandomRun::take_frames(std::uint64_t up_to) {
   }
 }
 
-// Each actuator has taken every frame, the last one's word is what MO had to bring.
+// Each actuator has taken a word from every frame, and holds the word that MO had to send in the
+// last one.
 void RandomRun::check_actuators() {
   for (unsigned line = 0; line < 2; ++line) {
     std::size_t at = 0;
@@ -162,7 +163,7 @@ void RandomRun::configure() {
                                                 ? reg::kResetSlaveloc5 | reg::kSlaveloc5Split
                                                 : reg::kResetSlaveloc5),
                   case_.cfgch, 0x00, case_.registers.actnsens});
-  // What no frame touches must stay: fill both banks.
+  // Fills both banks, because bytes that no frame writes must keep their values.
   fill_bank();
   toggle_swbank();
   fill_bank();

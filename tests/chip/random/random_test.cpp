@@ -70,8 +70,8 @@ TEST(ChipRandom, Configurations_AgreeWithTheReference) {
   }
 }
 
-// What a difference leaves behind repeats the run: the command answers byte by byte what the test
-// saw.
+// The files of a difference repeat its run: `mb4sim spi` gets the same answers as the test, byte by
+// byte.
 TEST(ChipRandom, SavedRuns_AreRepeatedByTheCommand) {
   for (std::uint64_t seed = 1001; seed < 1006; ++seed) {
     Random random(seed);

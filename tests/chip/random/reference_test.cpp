@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Tests the reference itself with examples calculated by hand (protocol facts, sections 6 to 8).
+// Tests the reference itself with examples calculated by hand (words and CRC: datasheet pages
+// 23 to 26; rule of the CRC: docs/theory.md).
 #include "tests/reference/reference.hpp"
 
 #include <gtest/gtest.h>

@@ -132,7 +132,7 @@ TEST(ChipRegisters, Entest_ReadsBackAndChangesNothing) {
   }
 }
 
-// Decision 32, design: the host domain needs no system clock.
+// Decision 32: the host domain needs no system clock.
 TEST(ChipNoClock, ClkNotConnected_ConfigurationIsWrittenAndRead) {
   Chip chip("[chip]\nf_clk_hz = 0\n");
   for (unsigned address = reg::kAddrSlaveCfg; address < reg::kAddrStatus0; ++address) {
@@ -349,7 +349,7 @@ TEST(ChipBanks, TwoLines_UnequalLengthsEndTogether) {
   EXPECT_EQ(chip.read(reg::kAddrScdata, 4), (std::vector<std::uint8_t>{0x11, 0x11, 0x11, 0x01}));
 }
 
-// Table 10, code 0: data channels 5 to 8 are on line 1 behind the others, line 2 takes no part,
+// Table 10, code 0: data channels 5 to 8 come after the others on line 1, and line 2 takes no part,
 // whatever CFGCH2 says. The same slaves with code 1: channel 5 is line 2's.
 TEST(ChipBanks, Slaveloc5_SaysWhichLineChannels5To8AreOn) {
   Chip chip(one_slave("data_bits = 28\ncrc = 0x43\ndata = 0x1111111") +
@@ -462,7 +462,7 @@ TEST(ChipBanks, SingleBank_HostAndFrameUseTheSameBank) {
 
 // E08, page 22: NRES resets registers and data memories, also in the middle of a frame.
 TEST(ChipReset, NresInAFrame_EverythingReadsItsResetValue) {
-  // What is read at once, while the memories are still being cleared.
+  // The first address that the host reads, while the memories are still being cleared.
   for (const unsigned first : {0x00U, 0x3CU, 0x80U, 0xBCU}) {
     Chip chip(one_slave("data_bits = 28\ncrc = 0x43\ndata = 0x1111111"));
     chip.configure_slave1(28, reg::kScrclenCrc6, 0x00);

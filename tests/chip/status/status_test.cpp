@@ -227,8 +227,8 @@ TEST(ChipStatus, CdsUnderHoldBank_SwitchesWithTheBank) {
   EXPECT_EQ(chip.read(reg::kAddrStatus8), 0x55);
 }
 
-// Decision 14: of a reduced frame only the CDS bits change, and at once. Not so under HOLDBANK:
-// what the host holds stays as it is, the other bank gets them.
+// Decision 14: a reduced frame changes only the CDS bits, at once. Under HOLDBANK the host's bank
+// does not change; the CDS bits go to the other bank.
 TEST(ChipStatus, CdsOfReducedFrames_ShowsAtOnceButNotUnderHoldBank) {
   for (const bool hold : {false, true}) {
     Chip chip(one_slave(kEncoder26));

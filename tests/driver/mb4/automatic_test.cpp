@@ -303,11 +303,11 @@ TEST_F(Next, LineLow_IsLineError) {
   EXPECT_EQ(device.automatic().next(frame).error(), Error::kLineError);
 }
 
-// Clock stands still: 220 us and one frame's 220 us, so 440 + 440 / 16 + 2 polls.
+// Clock stands still: 220 us, one frame's 220 us, and 33 us for the clock's step.
 TEST_F(Next, ClockStandsStill_EndsAfterBoundedPolls) {
   start();
   clock.step_us = 0;
-  for (int poll = 0; poll < 440 + 440 / 16 + 2; ++poll) {
+  for (int poll = 0; poll < 4 * (440 + 33); ++poll) {
     bus.expect_read(kReadStatus, kNothingNew);
   }
   expect_line(bus, 0x51);

@@ -531,4 +531,60 @@ TEST(Names, EveryErrorAndField_HasOne) {
   EXPECT_STREQ(mb4::to_string(static_cast<ConfigField>(250)), "unknown");
 }
 
+// Table 68, entry 2: actuators on both channels with different SCD length, before revision Y.
+TEST(Revision, ActuatorsOnBothChannelsOfDifferentLength_NeedRevisionY) {
+  Config config = mb4test::encoder26();
+  config.mo = true;
+  config.channels[1].protocol = mb4::Protocol::kBissC;
+  config.slaves[0].actuator = true;
+  config.slaves[4] = config.slaves[0];
+  config.slaves[4].data_bits = 27;
+  const mb4::ErrorInfo wrong = mb4::validate(config, 0x11).info();
+  EXPECT_EQ(wrong.code, Error::kInvalidConfig);
+  EXPECT_EQ(wrong.field, ConfigField::kActuator);
+  EXPECT_EQ(wrong.number, 5);
+  EXPECT_EQ(mb4::validate(config, 0x10).error(), Error::kInvalidConfig);
+  EXPECT_TRUE(mb4::validate(config, 0x20).ok());
+  EXPECT_TRUE(mb4::validate(config).ok());
+  config.slaves[4].data_bits = 28;
+  EXPECT_TRUE(mb4::validate(config, 0x11).ok());
+  config.slaves[4].data_bits = 27;
+  config.slaves[4].actuator = false;
+  EXPECT_TRUE(mb4::validate(config, 0x11).ok());
+  config.ma_hz = 0;
+  EXPECT_EQ(mb4::validate(config, 0x20).info().field, ConfigField::kMaHz);
+}
+
+// configure() asks the chip before it writes.
+TEST(Revision, ConfigureOnAnOldChip_IsRefusedBeforeAnyWrite) {
+  Config config = mb4test::encoder26();
+  config.mo = true;
+  config.channels[1].protocol = mb4::Protocol::kBissC;
+  config.slaves[0].actuator = true;
+  config.slaves[4] = config.slaves[0];
+  config.slaves[4].data_bits = 27;
+  for (const unsigned revision : {0x10U, 0x11U}) {
+    mb4test::StrictBus bus;
+    mb4test::FakeClock clock;
+    mb4::Device<mb4test::StrictBus, mb4test::FakeClock> device(bus, clock);
+    mb4test::expect_configure(bus);
+    ASSERT_TRUE(device.configure(mb4test::encoder26()).ok());
+    bus.expect_read({0x03, 0xEA, 0x00, 0x00},
+                    {0x00, 0x00, static_cast<std::uint8_t>(revision), 0x84});
+    EXPECT_EQ(device.configure(config).info().field, ConfigField::kActuator);
+    EXPECT_FALSE(device.configured());
+  }
+  mb4test::StrictBus bus;
+  mb4test::FakeClock clock;
+  mb4::Device<mb4test::StrictBus, mb4test::FakeClock> device(bus, clock);
+  mb4test::expect_configure(bus);
+  ASSERT_TRUE(device.configure(mb4test::encoder26()).ok());
+  bus.expect_read({0x03, 0xEA, 0x00, 0x00}, {0x00, 0x00, 0x11, 0x83});
+  EXPECT_EQ(device.configure(config).error(), Error::kNotDetected);
+  EXPECT_FALSE(device.configured());
+  bus.expect_read({0x03, 0xEA, 0x00, 0x00}, {0x00, 0x00, 0x20, 0x84});
+  bus.expect_write({0x07, 0x80, 0x00}).fail_last();
+  EXPECT_EQ(device.configure(config).error(), Error::kTransport);
+}
+
 }  // namespace

@@ -46,12 +46,14 @@ const Bytes kDoneAgs = status(0xFF, 0x01);
 
 class ControlTest : public testing::Test {
  protected:
-  void configure() {
+  void configure(const mb4::Config& config = encoder26()) {
     mb4test::expect_configure(bus);
-    ASSERT_TRUE(device.configure(encoder26()).ok());
+    ASSERT_TRUE(device.configure(config).ok());
   }
-  void start_automatic() {
-    configure();
+  void start_automatic(bool hold_beside_access = true) {
+    mb4::Config config = encoder26();
+    config.hold_beside_access = hold_beside_access;
+    configure(config);
     bus.expect_write(kAgs);
     ASSERT_TRUE(device.automatic().start().ok());
   }
@@ -190,15 +192,16 @@ TEST_F(Registers, SilentSlave_IsTimeoutAfterBreak) {
   EXPECT_EQ(device.control().read_registers({1, 0}, 0x10, bytes).error(), Error::kTimeout);
 }
 
-// Without an end the frames are counted: 49 for one register, and what fits into register_busy_us:
-// 39 us are 2 frames of 39 half microseconds, and one to round up.
+// Without an end and with a clock that stands still the frames are counted: 49 for one register,
+// one for each microsecond of register_busy_us, and one to round up.
 TEST_F(Registers, NeverEnding_IsTimeoutAfterCountedFrames) {
+  clock.step_us = 0;
   mb4::Config config = encoder26();
   config.register_busy_us = 39;
   mb4test::expect_configure(bus);
   ASSERT_TRUE(device.configure(config).ok());
   bus.expect_write({0x02, 0xE2, 0x10, 0x00, 0x01, 0xC0});
-  for (int frame = 0; frame < 49 + 2 + 1; ++frame) {
+  for (int frame = 0; frame < 49 + 39 + 1; ++frame) {
     bus.expect_write(kFrame);
     bus.expect_read(kReadStatus, kFrameOver);
   }
@@ -374,15 +377,15 @@ TEST_F(RegistersAgs, NeverEnding_IsTimeoutAndFramesCanBeRestarted) {
   EXPECT_EQ(device.automatic().next(frame).error(), Error::kTransport);
 }
 
+// With Config::hold_beside_access = false 0xF4 is never written.
 class PollBesideControl : public ControlTest {
  protected:
   void SetUp() override {
-    start_automatic();
+    start_automatic(false);
     bus.expect_write({0x02, 0xE2, 0x44, 0x00, 0x01, 0xC0});
     bus.expect_write(kFrameAgs);
     ASSERT_TRUE(device.control().begin_read({1, 0}, 0x44, 1).ok());
   }
-  // 0xF4 is never written: its INSTR = 100 could start the access again.
   void expect_read(const Bytes& after) {
     bus.expect_read(kReadStatus, {0, 0xFB, 0x02, 0, 0, 0x09});
     bus.expect_write(kClearValid1);
@@ -398,14 +401,28 @@ TEST_F(PollBesideControl, NoSwitch_IsRead) {
   EXPECT_EQ(frame[1]->position, mb4test::kPosition);
 }
 
-TEST_F(PollBesideControl, NothingNew_IsOneTransfer) {
+// A frame may have ended behind the first look, and then a whole period is left.
+TEST_F(PollBesideControl, NothingNew_IsLookedForTwice) {
+  bus.expect_read(kReadStatus, kRunsAgs);
+  expect_read(kRunsAgs);
+  ASSERT_TRUE(device.automatic().poll(frame).ok());
+  EXPECT_EQ(frame[1]->position, mb4test::kPosition);
+  bus.expect_read(kReadStatus, kRunsAgs);
   bus.expect_read(kReadStatus, kRunsAgs);
   ASSERT_TRUE(device.automatic().poll(frame).ok());
   EXPECT_EQ(frame[1].error(), Error::kNoData);
 }
 
 // SVALID is 1 again: a frame has ended meanwhile.
-TEST_F(PollBesideControl, GoodFrameEnded_IsBankSwitched) {
+TEST_F(PollBesideControl, GoodFrameEnded_IsReadAgain) {
+  expect_read({0, 0xFB, 0x02, 0, 0, 0x09});
+  expect_read(kRunsAgs);
+  ASSERT_TRUE(device.automatic().poll(frame).ok());
+  EXPECT_EQ(frame[1]->position, mb4test::kPosition);
+}
+
+TEST_F(PollBesideControl, GoodFrameEndedTwice_IsBankSwitched) {
+  expect_read({0, 0xFB, 0x02, 0, 0, 0x09});
   expect_read({0, 0xFB, 0x02, 0, 0, 0x09});
   EXPECT_EQ(device.automatic().poll(frame).error(), Error::kBankSwitched);
   EXPECT_FALSE(frame[1].ok());
@@ -414,7 +431,15 @@ TEST_F(PollBesideControl, GoodFrameEnded_IsBankSwitched) {
 // So does a bad one, which leaves SVALID at 0.
 TEST_F(PollBesideControl, BadFrameEnded_IsBankSwitched) {
   expect_read({0, 0x6B, 0x00, 0, 0, 0x09});
+  expect_read({0, 0x6B, 0x00, 0, 0, 0x09});
   EXPECT_EQ(device.automatic().poll(frame).error(), Error::kBankSwitched);
+}
+
+// The second try finds nothing new. What the first one has read stays dropped.
+TEST_F(PollBesideControl, BadFrameEndedAndThenNothingNew_IsNoData) {
+  expect_read({0, 0x6B, 0x00, 0, 0, 0x09});
+  bus.expect_read(kReadStatus, {0, 0x6B, 0x00, 0, 0, 0x09});
+  EXPECT_EQ(device.automatic().poll_slave(1).error(), Error::kNoData);
 }
 
 TEST_F(PollBesideControl, Restart_IsBusy) {
@@ -431,7 +456,9 @@ TEST(PollBesideControlFailure, TransportAtEachTransfer_LeavesNoReading) {
     bus.expect_write(kAgs);
     bus.expect_write({0x02, 0xE2, 0x44, 0x00, 0x01, 0xC0});
     bus.expect_write(kFrameAgs);
-    ASSERT_TRUE(device.configure(encoder26()).ok());
+    mb4::Config config = encoder26();
+    config.hold_beside_access = false;
+    ASSERT_TRUE(device.configure(config).ok());
     ASSERT_TRUE(device.automatic().start().ok());
     ASSERT_TRUE(device.control().begin_read({1, 0}, 0x44, 1).ok());
     bus.expect_read(kReadStatus, {0, 0xFB, 0x02, 0, 0, 0x09});
@@ -443,6 +470,83 @@ TEST(PollBesideControlFailure, TransportAtEachTransfer_LeavesNoReading) {
     EXPECT_EQ(device.automatic().poll(frame).error(), Error::kTransport) << index;
     EXPECT_FALSE(frame[1].ok()) << index;
   }
+}
+
+// Table 69 beside an access: the byte with HOLDBANK has INSTR = 000, never 100.
+class HoldBesideControl : public ControlTest {
+ protected:
+  void begin(mb4::SpiCheck check) {
+    mb4::Config config = encoder26();
+    config.spi_check = check;
+    mb4test::expect_configure(bus, 0xE7, check == mb4::SpiCheck::kOff ? 0x02 : 0x00);
+    ASSERT_TRUE(device.configure(config).ok());
+    bus.expect_write(kAgs);
+    ASSERT_TRUE(device.automatic().start().ok());
+    bus.expect_write({0x02, 0xE2, 0x44, 0x00, 0x01, 0xC0});
+    if (check == mb4::SpiCheck::kFull) {
+      bus.expect_read({0x03, 0xE2, 0, 0, 0, 0}, {0, 0, 0x44, 0x00, 0x01, 0xC0});
+    }
+    bus.expect_write(kFrameAgs);
+    ASSERT_TRUE(device.control().begin_read({1, 0}, 0x44, 1).ok());
+  }
+  // Nothing new; 0xF0 as given.
+  void expect_look(std::uint8_t f0) {
+    bus.expect_write({0x07, 0x41});
+    bus.expect_read(kReadStatus, {0, f0, 0, 0, 0, 0x41});
+    bus.expect_write(kAgs);
+  }
+  static constexpr std::uint8_t kRuns = 0xFB;
+  static constexpr std::uint8_t kEnded = 0xFF;
+};
+
+TEST_F(HoldBesideControl, NewFrame_FollowsTable69) {
+  begin(mb4::SpiCheck::kOff);
+  bus.expect_write({0x07, 0x41});
+  bus.expect_read(kReadStatus, {0, 0xFB, 0x02, 0, 0, 0x41});
+  bus.expect_read(mb4test::kReadData4, mb4test::kData4);
+  bus.expect_read(kReadStatus, {0, 0xFB, 0x02, 0, 0, 0x41});
+  bus.expect_write(kClearValid1);
+  bus.expect_write(kAgs);
+  EXPECT_EQ(device.automatic().poll_slave(1)->position, mb4test::kPosition);
+}
+
+// What the read of positions has seen needs no transfer of its own, once.
+TEST_F(HoldBesideControl, StatusOfTheRead_ServesTheAccess) {
+  begin(mb4::SpiCheck::kOff);
+  expect_look(kRuns);
+  EXPECT_EQ(device.automatic().poll_slave(1).error(), Error::kNoData);
+  EXPECT_FALSE(*device.control().poll());
+  bus.expect_read(kReadStatus, {0, kRuns, 0, 0, 0, 0x01});
+  EXPECT_FALSE(*device.control().poll());
+  expect_look(kEnded);
+  EXPECT_EQ(device.automatic().poll_slave(1).error(), Error::kNoData);
+  bus.expect_read(kReadStatus, {0, kEnded, 0, 0, 0, 0x01});
+  EXPECT_TRUE(*device.control().poll());
+}
+
+// Behind the time limit the status is read once more, whatever a read has seen.
+TEST_F(HoldBesideControl, TimeOver_IsTimeoutAfterAnotherLook) {
+  begin(mb4::SpiCheck::kOff);
+  expect_look(kRuns);
+  EXPECT_EQ(device.automatic().poll_slave(1).error(), Error::kNoData);
+  clock.time_us += 200'000;
+  bus.expect_read(kReadStatus, {0, kRuns, 0, 0, 0, 0x01});
+  bus.expect_write(kBreak);
+  EXPECT_EQ(device.control().poll().error(), Error::kTimeout);
+}
+
+// INSTR = 000 is the driver's own: one bit more must not look like the end.
+TEST_F(HoldBesideControl, FlippedRegend_DoesNotEndTheAccess) {
+  begin(mb4::SpiCheck::kFull);
+  expect_look(kRuns);
+  EXPECT_EQ(device.automatic().poll_slave(1).error(), Error::kNoData);
+  EXPECT_FALSE(*device.control().poll());
+  bus.expect_read(kReadStatus, {0, kEnded, 0, 0, 0, 0x01});
+  bus.expect_read(kReadStatus, {0, kRuns, 0, 0, 0, 0x01});
+  EXPECT_FALSE(*device.control().poll());
+  bus.expect_read(kReadStatus, {0, kEnded, 0, 0, 0, 0x01});
+  bus.expect_read(kReadStatus, {0, kEnded, 0, 0, 0, 0x01});
+  EXPECT_TRUE(*device.control().poll());
 }
 
 // ---- Commands -----------------------------------------------------------------------------------

@@ -160,6 +160,75 @@ TEST_F(FullCheck, SecondReadingDiffersInAPoll_IsCorrupted) {
   }
 }
 
+// Without HOLDBANK: a switch between the two readings of the first try is no fault of the second.
+TEST_F(FullCheck, BankSwitchedBetweenTwoReadings_SecondTryIsGood) {
+  mb4::Config config = mb4test::encoder26();
+  config.spi_check = mb4::SpiCheck::kFull;
+  config.hold_beside_access = false;
+  configure(config);
+  start();
+  bus.expect_write({0x02, 0xE2, 0x44, 0x00, 0x01, 0xC0});
+  bus.expect_read({0x03, 0xE2, 0, 0, 0, 0}, {0, 0, 0x44, 0x00, 0x01, 0xC0});
+  bus.expect_write({0x07, 0x09});  // INSTR = 100
+  ASSERT_TRUE(device.control().begin_read({1, 0}, 0x44, 1).ok());
+  const Bytes fresh = status(0xFB, 0x02, 0x09);
+  const Bytes still = status(0xFB, 0x00, 0x09);
+  for (const bool one : {false, true}) {
+    for (const bool second : {false, true}) {
+      bus.expect_read(kReadStatus, fresh);
+      bus.expect_read(kReadStatus, fresh);
+      bus.expect_write(kClearValid1);
+      if (!second) {
+        bus.expect_read(kReadAll, zeros(9));
+      }
+      bus.expect_read(kReadAll, kAllOf);
+      bus.expect_read(kReadStatus, second ? still : fresh);
+    }
+    if (one) {
+      EXPECT_EQ(device.automatic().poll_slave(1).error(), Error::kNone);
+    } else {
+      ASSERT_TRUE(device.automatic().poll(frame).ok());
+      EXPECT_EQ(frame[1].error(), Error::kNone);
+    }
+  }
+}
+
+// Without HOLDBANK a bad word of slave 2 is not marked: another bank may be there by then.
+TEST(CrcCheckUnheld, BadWordOfTheOtherSlave_IsNotWritten) {
+  StrictBus bus;
+  FakeClock clock;
+  mb4::Device<StrictBus, FakeClock> device(bus, clock);
+  mb4::Config config = mb4test::encoder26();
+  config.spi_check = mb4::SpiCheck::kCrc;
+  config.hold_beside_access = false;
+  config.slaves[1] = config.slaves[0];
+  Bytes image = mb4test::configuration();
+  Bytes answer = mb4test::read_back();
+  for (Bytes* bytes : {&image, &answer}) {
+    (*bytes)[0xE7 - 0xC0] = 0x00;  // NOCRC = 0 (table 21)
+    (*bytes)[4] = 0x5B;            // slave 2 as slave 1
+    (*bytes)[5] = 0x06;
+  }
+  bus.expect_write({0x07, 0x80, 0x00});
+  bus.expect_write(join({{0x02, 0xC0}, image, zeros(3)}));
+  bus.expect_read(join({{0x03, 0xC0}, zeros(54)}), join({zeros(2), answer}));
+  ASSERT_TRUE(device.configure(config).ok());
+  bus.expect_write(kAgs);
+  ASSERT_TRUE(device.automatic().start().ok());
+  bus.expect_write({0x02, 0xE2, 0x44, 0x00, 0x01, 0xC0});
+  bus.expect_write({0x07, 0x09});
+  ASSERT_TRUE(device.control().begin_read({1, 0}, 0x44, 1).ok());
+  const Bytes word = join({mb4test::kData4, {0, 0, 0, mb4test::kCrc6}});
+  for (int i = 0; i < 2; ++i) {
+    bus.expect_read(kReadStatus, status(0x6B, 0x02, 0x09));
+    bus.expect_write({0x02, 0xF1, 0xF5, 0xFF});
+    bus.expect_read(join({{0x09}, zeros(16)}), join({word, Bytes(8, 0x11)}));
+    bus.expect_read(kReadStatus, status(0x6B, 0x00, 0x09));
+  }
+  mb4::Frame frame;
+  EXPECT_EQ(device.automatic().poll(frame).error(), Error::kBankSwitched);
+}
+
 // HOLDBANK has not arrived, or something else has with it.
 TEST_F(FullCheck, HoldbankNotInTheChip_IsCorruptedAndReleased) {
   start();

@@ -269,10 +269,11 @@ TEST(ReadData, NeighboursWithSmallGap_ShareOneBurst) {
   mb4::Opcodes<StrictBus> opcodes(bus);
   bus.expect_read(join({{0x09}, zeros(62)}), zeros(63));
   mb4::detail::DataImage image{};
-  EXPECT_TRUE(mb4::detail::read_data(opcodes, config, 0xFF, image).ok());
+  EXPECT_TRUE(mb4::detail::read_data(opcodes, config, 0xFFFF, image).ok());
   bus.expect_read({0x09, 0, 0, 0, 0, 0, 0}, zeros(7));
   bus.expect_read(join({{0x03, 0x38}, zeros(6)}), zeros(8));
-  EXPECT_TRUE(mb4::detail::read_data(opcodes, config, 0x81, image).ok());
+  EXPECT_TRUE(
+      mb4::detail::read_data(opcodes, config, mb4::flag_of(1) | mb4::flag_of(8), image).ok());
 }
 
 }  // namespace

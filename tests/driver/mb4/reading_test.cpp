@@ -10,6 +10,7 @@
 #include <array>
 #include <cstdint>
 
+#include "mb4/frame.hpp"
 #include "tests/driver/mb4/encoder26.hpp"
 
 namespace {
@@ -135,6 +136,31 @@ TEST(Reading, NoRoomForCrc_IsReadWithoutIt) {
   ASSERT_TRUE(reading.ok());
   EXPECT_FALSE(reading->crc_stored);
   EXPECT_EQ(reading->raw, 0x0807060504030201U);
+}
+
+// No byte is read outside the configuration and outside the caller's bytes.
+TEST(Reading, SlaveOrBytesOutOfRange_IsInvalidArgument) {
+  const Config config = mb4test::encoder26();
+  const Word bytes{0xBF, 0x37, 0xAF, 0x0A};
+  for (const unsigned slave : {0U, 9U, 32U, 255U}) {
+    EXPECT_EQ(mb4::decode_reading(config, static_cast<std::uint8_t>(slave), bytes).error(),
+              Error::kInvalidArgument)
+        << slave;
+  }
+  const mb4::Span<const std::uint8_t> all(bytes);
+  EXPECT_EQ(mb4::decode_reading(config, 1, all.first(3)).error(), Error::kInvalidArgument);
+  EXPECT_TRUE(mb4::decode_reading(config, 1, all.first(4)).ok());
+}
+
+TEST(Frame, SlaveOutOfRange_IsInvalidArgument) {
+  mb4::Frame frame;
+  for (const std::size_t slave : {std::size_t{0}, std::size_t{9}, ~std::size_t{0}}) {
+    frame.set(slave, Result<Reading>(Reading()));
+    EXPECT_EQ(frame[slave].error(), Error::kInvalidArgument) << slave;
+  }
+  frame.set(8, Result<Reading>(Reading()));
+  EXPECT_TRUE(frame[8].ok());
+  EXPECT_TRUE(frame.good(0x80));
 }
 
 TEST(Result, ValueOfAnError_StopsTheProgram) {

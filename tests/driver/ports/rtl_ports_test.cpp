@@ -9,7 +9,9 @@
 #include <stdarg.h>
 #include <zephyr/drivers/spi.h>
 
+#include <algorithm>
 #include <cstdint>
+#include <cstdlib>
 #include <cstring>
 #include <memory>
 #include <string>
@@ -23,9 +25,24 @@
 
 namespace {
 
+namespace reg = mb4::regs;
+
 mb4::sim::Simulator* chip = nullptr;  // what the wrapped calls below talk to
 bool fails = false;
+std::uint64_t cycle_hz = 16'000'000;  // Zephyr's cycle counter
+std::uint32_t read_hz = 0;            // fastest SCLK of opcode 0x03
+std::uint32_t other_hz = 0;           // slowest SCLK of any other opcode
+mb4::sim::Time break_ends = 0;        // of the last BREAK; 0: a later frame has begun
+mb4::sim::Time shortest_pause = 0;    // from the end of a BREAK to the next frame
 constexpr int kFile = 12345;
+
+void note_rate(std::uint8_t opcode, std::uint32_t hz) {
+  if (opcode == reg::kSpiOpcodeReadRegisters) {
+    read_hz = std::max(read_hz, hz);
+  } else {
+    other_hz = std::min(other_hz, hz);
+  }
+}
 
 std::vector<std::uint8_t> exchange(const std::uint8_t* tx, std::size_t size) {
   std::vector<std::uint8_t> rx(size);
@@ -38,6 +55,11 @@ class DriverPort : public testing::Test {
   DriverPort() : simulator(mb4::sim::parse_scenario(mb4test::kEncoder, "test.toml")) {
     chip = &simulator;
     fails = false;
+    cycle_hz = 16'000'000;
+    read_hz = 0;
+    other_hz = ~std::uint32_t{0};
+    break_ends = 0;
+    shortest_pause = mb4::sim::kPsPerSecond;
   }
   ~DriverPort() override { chip = nullptr; }
 
@@ -90,7 +112,8 @@ int __wrap_ioctl(int file, unsigned long request, ...) {
     return *static_cast<std::uint8_t*>(argument) == SPI_MODE_0 ? 0 : -1;
   }
   const auto* message = static_cast<const spi_ioc_transfer*>(argument);
-  if (request != SPI_IOC_MESSAGE(1) || message->speed_hz > 5'000'000) return -1;
+  if (request != SPI_IOC_MESSAGE(1)) return -1;
+  note_rate(*reinterpret_cast<const std::uint8_t*>(message->tx_buf), message->speed_hz);
   const auto rx = exchange(reinterpret_cast<const std::uint8_t*>(message->tx_buf), message->len);
   if (message->rx_buf != 0) {
     std::memcpy(reinterpret_cast<void*>(message->rx_buf), rx.data(), rx.size());
@@ -100,17 +123,24 @@ int __wrap_ioctl(int file, unsigned long request, ...) {
 
 int spi_transceive_dt(const spi_dt_spec* spec, const spi_buf_set* tx, const spi_buf_set* rx) {
   if (spec->bus != chip || fails) return -EIO;
-  const auto received =
-      exchange(static_cast<const std::uint8_t*>(tx->buffers[0].buf), tx->buffers[0].len);
+  const auto* const bytes = static_cast<const std::uint8_t*>(tx->buffers[0].buf);
+  const bool breaks = bytes[0] == reg::kSpiOpcodeWriteInstruction && bytes[1] == reg::BREAK::kMask;
+  note_rate(bytes[0], spec->config.frequency);
+  if (break_ends != 0 && !breaks) {
+    shortest_pause = std::min(shortest_pause, chip->now() - break_ends);
+  }
+  const auto received = exchange(bytes, tx->buffers[0].len);
+  break_ends = breaks ? chip->now() : 0;
   if (rx != nullptr) std::memcpy(rx->buffers[0].buf, received.data(), rx->buffers[0].len);
   return 0;
 }
 
 std::uint32_t k_cycle_get_32(void) {
   chip->advance(100 * mb4::sim::kPsPerNs);
-  // Wraps every 268 s at 16 MHz; begins shortly before.
-  return static_cast<std::uint32_t>(chip->now() / (mb4::sim::kPsPerUs / 16)) - 1000;
+  // Begins shortly before its wrap.
+  return static_cast<std::uint32_t>(chip->now() / 1000 * cycle_hz / 1'000'000'000) - 1000;
 }
+std::uint32_t sys_clock_hw_cycles_per_sec(void) { return static_cast<std::uint32_t>(cycle_hz); }
 
 }  // extern "C"
 
@@ -121,9 +151,20 @@ TEST_F(DriverPort, Spidev_ReadsPositions) {
   ASSERT_TRUE(bus.ready());
   mb4::tool::SimClock clock(simulator);
   read_positions(bus, clock);
+  EXPECT_EQ(read_hz, 5'000'000U);
+  EXPECT_EQ(other_hz, 5'000'000U);
   mb4::ports::MonotonicClock monotonic;
   const std::uint32_t before = monotonic.now_us();
   EXPECT_LT(monotonic.now_us() - before, 10'000'000U);
+}
+
+// I204 concerns opcode 0x03 only: SCLK high for 100 ns behind the address byte.
+TEST_F(DriverPort, SpidevAt10MHz_OnlyOpcode03IsSlower) {
+  mb4::ports::SpidevBus bus("/dev/spidev0.0", 10'000'000);
+  mb4::tool::SimClock clock(simulator);
+  read_positions(bus, clock);
+  EXPECT_EQ(read_hz, 5'000'000U);
+  EXPECT_EQ(other_hz, 10'000'000U);
 }
 
 TEST_F(DriverPort, SpidevMissing_IsNotReadyAndTransport) {
@@ -148,9 +189,12 @@ TEST_F(DriverPort, SpidevIoctlFails_IsTransport) {
 struct SpiClass {
   bool in_transaction = false;
   bool selected = false;
+  bool first = false;
+  std::uint32_t hz = 0;
 
-  void beginTransaction(int settings) {
-    EXPECT_EQ(settings, 5'000'000);
+  void beginTransaction(std::uint32_t settings) {
+    hz = settings;
+    first = true;
     in_transaction = true;
   }
   void endTransaction() {
@@ -159,25 +203,36 @@ struct SpiClass {
   }
   std::uint8_t transfer(std::uint8_t mosi) {
     EXPECT_TRUE(in_transaction && selected);
+    if (first) note_rate(mosi, hz);
+    first = false;
     return chip->spi().byte(mosi);
   }
 };
 
 TEST_F(DriverPort, ArduinoBytes_ReadPositions) {
   SpiClass spi;
-  mb4::ports::ByteBus bus(spi, 5'000'000, [&](bool active) {
+  const auto select = [&](bool active) {
     spi.selected = active;
     chip->spi().select(active);
-  });
+  };
+  mb4::ports::ByteBus bus(spi, 5'000'000U, select);
   mb4::ports::MicrosClock clock([&] {
     chip->advance(100 * mb4::sim::kPsPerNs);
     return static_cast<unsigned long>(chip->now() / mb4::sim::kPsPerUs);
   });
   read_positions(bus, clock);
+  EXPECT_EQ(read_hz, 5'000'000U);
+  EXPECT_EQ(other_hz, 5'000'000U);
+  mb4::ports::ByteBus fast(spi, 10'000'000U, 5'000'000U, select);
+  read_hz = 0;
+  other_hz = ~0U;
+  read_positions(fast, clock);
+  EXPECT_EQ(read_hz, 5'000'000U);
+  EXPECT_EQ(other_hz, 10'000'000U);
 }
 
 TEST_F(DriverPort, ZephyrTransceive_ReadsPositionsOverTheCounterWrap) {
-  const spi_dt_spec spec{chip};
+  const spi_dt_spec spec{chip, {5'000'000}};
   mb4::ports::ZephyrBus bus(spec);
   mb4::ports::ZephyrClock clock;
   read_positions(bus, clock);
@@ -191,5 +246,63 @@ TEST_F(DriverPort, ZephyrTransceive_ReadsPositionsOverTheCounterWrap) {
   mb4::Device<mb4::ports::ZephyrBus, mb4::ports::ZephyrClock> device(bus, clock);
   EXPECT_EQ(device.probe().error(), mb4::Error::kTransport);
 }
+
+// The bus keeps what it needs of the spec, which may be a temporary; page 11 as for spidev.
+TEST_F(DriverPort, ZephyrSpecGoneAndAt10MHz_ReadsPositions) {
+  auto spec = std::make_unique<spi_dt_spec>(spi_dt_spec{chip, {10'000'000}});
+  mb4::ports::ZephyrBus bus(*spec);
+  spec->bus = nullptr;
+  spec.reset();
+  mb4::ports::ZephyrClock clock;
+  read_positions(bus, clock);
+  EXPECT_EQ(read_hz, 5'000'000U);
+  EXPECT_EQ(other_hz, 10'000'000U);
+}
+
+// Cycle counters as boards have them: 32 kHz is the slowest that keeps the contract of a clock.
+class DriverPortCycles : public DriverPort, public testing::WithParamInterface<std::uint32_t> {};
+
+TEST_P(DriverPortCycles, Reads_NoFalseTimeoutAndNoShortPause) {
+  cycle_hz = GetParam();
+  const spi_dt_spec spec{chip, {5'000'000}};
+  mb4::ports::ZephyrBus bus(spec);
+  mb4::ports::ZephyrClock clock;
+  mb4::Device<mb4::ports::ZephyrBus, mb4::ports::ZephyrClock> device(bus, clock);
+  mb4::Config config = mb4test::encoder(false);
+  config.ma_hz = mb4::ma_hz_at_most(config.f_clk_hz, 200'000);
+  ASSERT_TRUE(device.configure(config).ok());
+  shortest_pause = mb4::sim::kPsPerSecond;  // configure() makes none
+  unsigned timeouts = 0;
+  for (int i = 0; i < 100; ++i) {
+    if (i % 4 == 3) {
+      ASSERT_TRUE(device.break_transmission().ok());
+    }
+    timeouts += device.read_frame().error() == mb4::Error::kTimeout ? 1 : 0;
+    simulator.advance(7'777 * mb4::sim::kPsPerNs);
+  }
+  EXPECT_EQ(timeouts, 0U);
+  EXPECT_GE(shortest_pause, 100 * mb4::sim::kPsPerUs);
+  EXPECT_LT(shortest_pause, mb4::sim::kPsPerSecond) << "no pause was measured";
+}
+
+TEST_P(DriverPortCycles, Microseconds_AreRightAfterManyReadings) {
+  cycle_hz = GetParam();
+  mb4::ports::ZephyrClock clock;
+  const std::uint32_t begin = clock.now_us();
+  const mb4::sim::Time from = simulator.now();
+  for (int i = 0; i < 20'000; ++i) {
+    clock.now_us();
+    if (i % 10 == 0) simulator.advance(77 * mb4::sim::kPsPerUs);
+  }
+  const auto us = static_cast<std::int64_t>((simulator.now() - from) / mb4::sim::kPsPerUs);
+  // One cycle, and the rounding to whole microseconds.
+  const auto limit = static_cast<std::int64_t>(1'000'000 / cycle_hz) + 2;
+  EXPECT_LE(std::abs(static_cast<std::int64_t>(clock.now_us() - begin) - us), limit) << us;
+}
+
+INSTANTIATE_TEST_SUITE_P(Hz, DriverPortCycles,
+                         testing::Values(32'000U, 32'768U, 1'000'000U, 12'288'000U, 16'000'000U,
+                                         72'000'000U, 600'000'000U),
+                         [](const auto& test) { return std::to_string(test.param); });
 
 }  // namespace

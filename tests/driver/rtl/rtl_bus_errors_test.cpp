@@ -79,7 +79,11 @@ TEST(DriverCallErrors, FlippedDataBit_IsCorrupted) {
 // A poll takes longer than the frames are apart: another one always ends in between.
 TEST(DriverCallErrors, FrameEndsBesideControl_IsBankSwitched) {
   FaultyChip chip("[host]\nsclk_hz = 1000000\ncycle_ns = 15000\n" + kEncoder);
-  prepare(chip, State::kAutomatic);
+  Config config = encoder(true);
+  config.hold_beside_access = false;
+  ASSERT_TRUE(chip.device.configure(config).ok());
+  ASSERT_TRUE(chip.device.automatic().start().ok());
+  chip.simulator.advance(250 * mb4::sim::kPsPerUs);
   ASSERT_TRUE(chip.device.control().begin_read({1, 0}, 0x44, 4).ok());
   Frame frame;
   EXPECT_EQ(chip.device.automatic().poll_slave(1).error(), Error::kBankSwitched);

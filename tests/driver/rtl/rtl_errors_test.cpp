@@ -301,6 +301,14 @@ TEST(DriverCallErrors, BrokenAutomaticFrames_EachCallTellsWhatIsWrong) {
     error = chip.device.automatic().poll_slave(1).error();
   }
   EXPECT_EQ(error, Error::kCrc);
+  // It counts once.
+  ASSERT_TRUE(chip.device.automatic().poll(frame).ok());
+  EXPECT_EQ(frame[1].error(), Error::kNoData);
+  chip.simulator.advance(100 * mb4::sim::kPsPerUs);
+  ASSERT_TRUE(chip.device.automatic().poll(frame).ok());
+  ASSERT_TRUE(frame[1].ok());
+  chip.simulator.line(1)->faults().flip_next_frame({10});
+  chip.simulator.advance(100 * mb4::sim::kPsPerUs);
   ASSERT_TRUE(chip.device.automatic().poll(frame).ok());
   EXPECT_EQ(frame[1].error(), Error::kCrc);
   chip.simulator.line(1)->faults().stick(false);

@@ -30,7 +30,7 @@ using mb4test::FaultyChip;
 using mb4test::kForEver;
 
 // How positions are read.
-enum class Way : std::uint8_t { kSingle, kAll, kPoll, kPollSlave, kNext, kPollBeside };
+enum class Way : std::uint8_t { kSingle, kAll, kPoll, kPollSlave, kNext, kPollBeside, kPollUnheld };
 
 struct Setup {
   std::string name;
@@ -70,6 +70,7 @@ Config config(const Setup& setup) {
     config.frame_start = mb4::FrameStart::kPeriodic;
     config.frame_period_clk = 1000;  // 50 us
   }
+  config.hold_beside_access = setup.way != Way::kPollUnheld;
   return config;
 }
 
@@ -82,7 +83,7 @@ class Drive {
       EXPECT_TRUE(chip.device.automatic().start().ok());
     }
     EXPECT_TRUE(read().has_value());
-    if (setup.way == Way::kPollBeside) {
+    if (setup.way == Way::kPollBeside || setup.way == Way::kPollUnheld) {
       // The last register of many: frames for as long as the test needs.
       EXPECT_TRUE(chip.device.control().begin_read({1, 0}, 0x00, 64).ok());
       EXPECT_TRUE(read().has_value());
@@ -172,6 +173,9 @@ TEST_P(DriverFault, EveryFault_NeverAWrongOrOldPosition) {
     if (GetParam().way == Way::kPollSlave || GetParam().way == Way::kPollBeside) {
       EXPECT_LE(run.chip.bus.count(), mb4::kMaxPollSlaveTransfersChecked);
     }
+    if (GetParam().way == Way::kPollUnheld) {
+      EXPECT_LE(run.chip.bus.count(), 12U);
+    }
     if (fault.last == kForEver) {
       run.read();
       run.read();
@@ -212,6 +216,7 @@ INSTANTIATE_TEST_SUITE_P(
                     Setup{"PollSlave26Crc6", Way::kPollSlave, 26, 0x43, 1},
                     Setup{"PollSlave64Crc16Slave2", Way::kPollSlave, 64, 0x190D9, 2},
                     Setup{"PollSlave26Beside", Way::kPollBeside, 26, 0x43, 1},
+                    Setup{"PollSlave26Unheld", Way::kPollUnheld, 26, 0x43, 1},
                     Setup{"SingleBissB", Way::kSingle, 26, 0x43, 1, mb4::Protocol::kBissB},
                     Setup{"PollSlaveBissB", Way::kPollSlave, 26, 0x43, 1, mb4::Protocol::kBissB},
                     Setup{"SingleSsi", Way::kSingle, 25, 0, 1, mb4::Protocol::kSsi},

@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "mb4_regs.hpp"
 #include "mb4sim/simulator.hpp"
 #include "sim/masters/mb4/pins.hpp"
 #include "sim/scenario/scenario.hpp"
@@ -19,6 +20,7 @@
 namespace mb4test {
 
 using namespace mb4::tool;
+namespace reg = mb4::regs;
 namespace sim = mb4::sim;
 
 namespace {
@@ -46,8 +48,9 @@ class BridgeSessionTest : public testing::Test {
 };
 
 TEST_F(BridgeSessionTest, RequestsCutAnywhere_AreAnsweredOnceComplete) {
-  const Bytes read = request('T', {0x03, 0xEA, 0, 0, 0});
-  const Bytes expected = answer(0, {0, 0, 0x20, 0x84, 0x01});
+  const Bytes read = request('T', {reg::kSpiOpcodeReadRegisters, reg::kAddrRevision, 0, 0, 0});
+  const Bytes expected =
+      answer(0, {0, 0, reg::kRevisionY, reg::kVersionIcMb4, reg::kResetSlaveloc5});
   Bytes both = read;
   both.insert(both.end(), read.begin(), read.end());
   for (std::size_t cut = 0; cut <= both.size(); ++cut) {

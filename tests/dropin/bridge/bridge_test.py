@@ -18,6 +18,7 @@ import unittest
 
 MB4SIM, SCENARIO = sys.argv[1:3]
 GOOD, MALFORMED, REFUSED = 0, 1, 2
+# A client knows no generated names. REVISION, VERSION and SLAVELOC5, from 0xEA on.
 ID = bytes([0x20, 0x84, 0x01])
 
 
@@ -149,11 +150,11 @@ class Bridge(unittest.TestCase):
             self.assertEqual(client.ask("M", payload)[0], GOOD)
             return struct.unpack("<Q", client.ask("W", bytes(8))[1])[0] - before
 
-        # 10 bytes at 1 MHz last 80 us; NCS adds half a clock before and behind at most.
+        # 10 bytes at 1 MHz last 80 us; NCS adds half a clock before and after at most.
         self.assertLess(abs(took(transfer(10, bytes(10), speed=1_000_000)) - 80_000), 2000)
         self.assertLess(abs(took(transfer(10, bytes(10), speed=100_000)) - 800_000), 20_000)
         plain = took(transfer(10, bytes(10), speed=1_000_000))
-        # The time that NCS stays low behind the last clock counts in the delay.
+        # The time that NCS stays low after the last clock counts in the delay.
         late = took(transfer(10, bytes(10), speed=1_000_000, delay=70))
         self.assertLess(abs(late - plain - 70_000), 1000)
         slow = took(transfer(10, bytes(10), speed=1_000_000, word_delay=5))

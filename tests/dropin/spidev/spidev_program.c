@@ -4,7 +4,7 @@
  * A program for spidev as anybody writes it: it knows nothing of a simulator. It brings an encoder
  * of 26 bits into operation and tries what the interface offers; sizes and errors are those of
  * Linux (Documentation/spi/spidev.rst), register values those of the datasheet (Rev D2) and the
- * word of golden.toml.
+ * word of golden.toml. It uses no header of this project, so registers and opcodes are numbers.
  *
  *   spidev_program [DEVICE]
  */

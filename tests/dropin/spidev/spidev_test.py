@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-FileCopyrightText: 2026 The openmb4 authors
 # SPDX-License-Identifier: Apache-2.0
-"""Programs that know nothing of a simulator, run by `mb4sim spidev`.
+"""Programs that know nothing of a simulator, run by `mb4sim spidev`. They use no file of this project, so
+registers and opcodes are numbers.
 
   spidev_test.py MB4SIM PROGRAM SCENARIO     PROGRAM: spidev_program
 """
@@ -164,7 +165,7 @@ class Spidev(unittest.TestCase):
         self.assertGreaterEqual(second - first, 50)
 
     def test_sclk_too_fast_for_the_address_is_reported(self):
-        # I204: 100 ns behind the address of 0x03. Linux hosts cannot stretch: 5 MHz is the limit.
+        # I204: 100 ns after the address of 0x03. Linux hosts cannot stretch: 5 MHz is the limit.
         for hz, seen in ((5_000_000, False), (10_000_000, True)):
             with tempfile.TemporaryDirectory() as folder:
                 path = Path(folder, "fast.toml")

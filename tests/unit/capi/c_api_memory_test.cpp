@@ -9,6 +9,7 @@
 #include <initializer_list>
 #include <new>
 
+#include "mb4_regs.hpp"
 #include "mb4sim.h"
 
 // The library allocates through these, so that a test can let it run out of memory.
@@ -26,7 +27,9 @@ void operator delete(void* memory, std::size_t /*size*/) noexcept { std::free(me
 
 namespace {
 
-// A cable so long that more edges are on their way than the event queue keeps without memory.
+namespace reg = mb4::regs;
+
+// On this long cable more edges are on their way than the event queue keeps without new memory.
 constexpr const char* kScenario = R"(
 [[channel]]
 number = 1
@@ -43,20 +46,22 @@ TEST(CApiMemory, OutOfMemory_IsAnErrorAndStaysOne) {
   const auto send = [&](std::initializer_list<uint8_t> bytes) {
     return mb4sim_spi_transfer(sim, bytes.begin(), nullptr, bytes.size());
   };
-  send({0x02, 0xC0, 0x5B, 0x06, 0, 0});
-  send({0x02, 0xE5, 0x40, 0xA0, 0x00, 0x7C});
-  send({0x02, 0xED, 0x0D});
+  send({reg::kSpiOpcodeWriteRegisters, reg::slave_cfg_address(1), reg::kEnscdYes | 27,
+        reg::kScrclenCrc6, 0, 0});
+  send({reg::kSpiOpcodeWriteRegisters, reg::kAddrCtrl, reg::kRegversBissC, reg::FREQR::of(5), 0,
+        reg::kFreqagsAgsMin});
+  send({reg::kSpiOpcodeWriteRegisters, reg::kAddrCfgch, reg::kCfgch1BissC | reg::kCfgch2Unused});
   memory_is_out = true;
-  int status = send({0x07, 0x04});
-  for (int i = 0; i < 100 && status == 0; ++i) status = send({0x05, 0x00});
+  int status = send({reg::kSpiOpcodeWriteInstruction, reg::kInstrCdm0});
+  for (int i = 0; i < 100 && status == 0; ++i) status = send({reg::kSpiOpcodeReadStatus, 0});
   memory_is_out = false;
   EXPECT_EQ(status, MB4SIM_ERROR_FAILED);
   const uint64_t stopped = mb4sim_time_ns(sim);
   mb4sim_advance_ns(sim, 1000);
   EXPECT_EQ(mb4sim_time_ns(sim), stopped);
-  EXPECT_EQ(send({0x05, 0x00}), -5);
-  EXPECT_EQ(mb4sim_pin_write(sim, "GETSENS", 1), -5);
-  EXPECT_EQ(mb4sim_spi_byte(sim, 0x05), 0);
+  EXPECT_EQ(send({reg::kSpiOpcodeReadStatus, 0}), MB4SIM_ERROR_FAILED);
+  EXPECT_EQ(mb4sim_pin_write(sim, "GETSENS", 1), MB4SIM_ERROR_FAILED);
+  EXPECT_EQ(mb4sim_spi_byte(sim, reg::kSpiOpcodeReadStatus), 0);
   mb4sim_close(sim);
 }
 

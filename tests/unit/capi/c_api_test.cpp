@@ -7,9 +7,12 @@
 #include <cstring>
 #include <string>
 
+#include "mb4_regs.hpp"
 #include "mb4sim.h"
 
 namespace {
+
+namespace reg = mb4::regs;
 
 constexpr const char* kScenario = R"(
 [[channel]]
@@ -42,33 +45,33 @@ TEST_F(CApi, OpenedFromText_HasEmptyErrorAndRunningTime) {
 }
 
 TEST_F(CApi, Transfer_TakesItsRealTime) {
-  const uint8_t tx[4] = {0x03, 0xEA, 0, 0};
+  const uint8_t tx[4] = {reg::kSpiOpcodeReadRegisters, reg::kAddrRevision, 0, 0};
   uint8_t rx[4] = {};
   const uint64_t before = mb4sim_time_ns(sim);
   EXPECT_EQ(mb4sim_spi_transfer(sim, tx, rx, 4), 0);
   // 32 bits of 100 ns, one high phase of 100 instead of 50 ns (I204), hold of NCS 50 ns.
   EXPECT_EQ(mb4sim_time_ns(sim) - before, 3200U + 50 + 50);
-  EXPECT_EQ(rx[2], 0x20);
-  EXPECT_EQ(rx[3], 0x84);
+  EXPECT_EQ(rx[2], reg::kRevisionY);
+  EXPECT_EQ(rx[3], reg::kVersionIcMb4);
 }
 
 TEST_F(CApi, ByteByByte_ReadsTheSame) {
   mb4sim_spi_select(sim, 1);
-  mb4sim_spi_byte(sim, 0x03);
-  mb4sim_spi_byte(sim, 0xEB);
-  EXPECT_EQ(mb4sim_spi_byte(sim, 0), 0x84);
+  mb4sim_spi_byte(sim, reg::kSpiOpcodeReadRegisters);
+  mb4sim_spi_byte(sim, reg::kAddrVersion);
+  EXPECT_EQ(mb4sim_spi_byte(sim, 0), reg::kVersionIcMb4);
   mb4sim_spi_select(sim, 0);
   EXPECT_EQ(mb4sim_pin_read(sim, "NCS"), 1);
 }
 
 TEST_F(CApi, TransferWhileSelected_ContinuesThatFrameAndEndsIt) {
   mb4sim_spi_select(sim, 1);
-  mb4sim_spi_byte(sim, 0x03);
-  const uint8_t tx[3] = {0xEA, 0, 0};
+  mb4sim_spi_byte(sim, reg::kSpiOpcodeReadRegisters);
+  const uint8_t tx[3] = {reg::kAddrRevision, 0, 0};
   uint8_t rx[3] = {};
   EXPECT_EQ(mb4sim_spi_transfer(sim, tx, rx, 3), 0);
-  EXPECT_EQ(rx[1], 0x20);
-  EXPECT_EQ(rx[2], 0x84);
+  EXPECT_EQ(rx[1], reg::kRevisionY);
+  EXPECT_EQ(rx[2], reg::kVersionIcMb4);
   EXPECT_EQ(mb4sim_pin_read(sim, "NCS"), 1);
 }
 
@@ -84,7 +87,7 @@ TEST_F(CApi, Clk_ShowsItsPresentLevel) {
 }
 
 TEST_F(CApi, NullRx_IsAllowed) {
-  const uint8_t tx[3] = {0x02, 0xE6, 0xA0};
+  const uint8_t tx[3] = {reg::kSpiOpcodeWriteRegisters, reg::kAddrFreq, reg::FREQR::of(5)};
   EXPECT_EQ(mb4sim_spi_transfer(sim, tx, nullptr, 3), 0);
 }
 
@@ -128,13 +131,15 @@ TEST_F(CApi, SetData_IsReadByTheChip) {
   const auto send = [&](std::initializer_list<uint8_t> bytes) {
     EXPECT_EQ(mb4sim_spi_transfer(sim, bytes.begin(), nullptr, bytes.size()), 0);
   };
-  send({0x02, 0xC0, 0x5B, 0x06, 0, 0});
-  send({0x02, 0xE5, 0x40, 0xA0, 0x00, 0x7C});
-  send({0x02, 0xED, 0x0D});
+  send({reg::kSpiOpcodeWriteRegisters, reg::slave_cfg_address(1), reg::kEnscdYes | 27,
+        reg::kScrclenCrc6, 0, 0});
+  send({reg::kSpiOpcodeWriteRegisters, reg::kAddrCtrl, reg::kRegversBissC, reg::FREQR::of(5), 0,
+        reg::kFreqagsAgsMin});
+  send({reg::kSpiOpcodeWriteRegisters, reg::kAddrCfgch, reg::kCfgch1BissC | reg::kCfgch2Unused});
   mb4sim_slave_set_data(sim, 1, 0x1234567);
-  send({0x07, 0x04});
+  send({reg::kSpiOpcodeWriteInstruction, reg::kInstrCdm0});
   mb4sim_advance_ns(sim, 20'000);
-  const uint8_t tx[5] = {0x09, 0, 0, 0, 0};
+  const uint8_t tx[5] = {reg::kSpiOpcodeReadRegisters0, 0, 0, 0, 0};
   uint8_t rx[5] = {};
   EXPECT_EQ(mb4sim_spi_transfer(sim, tx, rx, 5), 0);
   EXPECT_EQ(rx[1], 0x67);

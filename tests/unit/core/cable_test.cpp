@@ -193,7 +193,7 @@ TEST(CableEvents, BrokenMa_SlaveSeesNoFrame) {
   EXPECT_EQ(bench.sim.slave(1)->frames(), 1U);
 }
 
-// Same seed, same edges to the picosecond; another seed, others.
+// The same seed gives the same edges to the picosecond; another seed gives others.
 TEST(CableSeed, JitterAndGlitches_RepeatWithTheSeed) {
   const auto run = [](std::uint64_t seed) {
     CableBench bench("jitter_ns = 30\nma_jitter_ns = 5\nglitches_per_s = 200000\nglitch_ns = 3\n",
@@ -216,7 +216,8 @@ TEST(CableSeed, JitterAndGlitches_RepeatWithTheSeed) {
   EXPECT_NE(first, run(2));
 }
 
-// The guard at the MA pin is part of every simulation: MA that is too short ends it for good.
+// The guard at the MA pin is part of every simulation: a pulse that is too short ends the
+// simulation.
 TEST(MaGuard, ShortenedMa_EndsTheSimulation) {
   CableBench bench("");
   bench.frame();

@@ -13,8 +13,7 @@ using namespace mb4::sim;
 
 namespace {
 
-// Protocol facts, section 7: data 1010101011110011011110111111 (26-bit position 0x2ABCDEF, both
-// flags 1).
+// The word of the table in docs/theory.md, CRC: 26-bit position 0x2ABCDEF, both flags 1.
 constexpr std::uint64_t kData28 = 0b1010101011110011011110111111;
 
 struct Golden {

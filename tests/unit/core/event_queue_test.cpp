@@ -46,7 +46,7 @@ TEST(EventQueue, HandlerPostsAtItsOwnTime_RunsAfterThoseAlreadyThere) {
   EXPECT_EQ(order, (std::vector<int>{1, 2, 3}));
 }
 
-// More than stand in the row, in every order, each time twice.
+// Posts more events than the row holds, in every order, two for each time.
 TEST(EventQueue, ManyEvents_RunInOrderOfTimeAndPosting) {
   EventQueue queue;
   std::vector<std::pair<Time, unsigned>> order;

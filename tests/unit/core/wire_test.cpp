@@ -120,7 +120,7 @@ TEST(Wire, Stuck_HidesEdgesUntilItIsFree) {
   EXPECT_EQ(arrivals, (Arrivals{{10, 0}, {40, 1}}));
 }
 
-// A shorter delay from now on: what is on its way still comes first.
+// The delay becomes shorter: edges that are on their way still arrive first.
 TEST(Wire, DelayShrinks_OrderIsKept) {
   EventQueue queue;
   Arrivals arrivals;

@@ -36,7 +36,7 @@ TEST(FaultParts, Glitch_InvertsTheLevelForItsWidth) {
   EXPECT_EQ(arrivals, (Arrivals{{50, 0}, {70, 1}}));
 }
 
-// A second glitch inside the first gives the level back for its time.
+// A second glitch inside the first restores the level for its duration.
 TEST(FaultParts, GlitchInAGlitch_IsTheLevelAgain) {
   EventQueue queue;
   Arrivals arrivals;

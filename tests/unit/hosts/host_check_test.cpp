@@ -10,6 +10,7 @@
 #include <set>
 #include <string>
 
+#include "mb4_regs.hpp"
 #include "sim/hosts/parallel_host.hpp"
 #include "sim/hosts/spi_host.hpp"
 #include "sim/masters/mb4/mb4_host_check.hpp"
@@ -114,7 +115,7 @@ std::set<std::string> spi_items(const std::function<void(SpiTiming&)>& change,
   SpiTiming timing = SpiTiming::for_frequency(50'000'000);
   if (change) change(timing);
   SpiHost host(pins, timing, wires);
-  const std::array<std::uint8_t, 4> tx{0x03, 0xA5, 0x5A, 0xFF};
+  const std::array<std::uint8_t, 4> tx{mb4::regs::kSpiOpcodeReadRegisters, 0xA5, 0x5A, 0xFF};
   for (unsigned i = 0; i < 3; ++i) host.transfer(tx, {});
   return pins.items();
 }

@@ -12,11 +12,13 @@
 #include <cstddef>
 #include <vector>
 
+#include "mb4_regs.hpp"
 #include "sim/masters/mb4/pins.hpp"
 
 namespace mb4test {
 
 using namespace mb4::sim;
+namespace reg = mb4::regs;
 
 namespace {
 
@@ -64,7 +66,7 @@ class SpiFrequencies : public testing::TestWithParam<std::uint64_t> {};
 TEST_P(SpiFrequencies, TwoFrames_KeepEveryLimit) {
   RecordingPins pins;
   SpiHost host(pins, SpiTiming::for_frequency(GetParam()), kSpiPins);
-  const std::array<std::uint8_t, 4> tx{0x03, 0xA5, 0x00, 0xFF};
+  const std::array<std::uint8_t, 4> tx{reg::kSpiOpcodeReadRegisters, 0xA5, 0x00, 0xFF};
   host.transfer(tx, {});
   host.transfer(tx, {});
   const auto rise = pins.times(Pin::kAle, true);
@@ -100,10 +102,12 @@ INSTANTIATE_TEST_SUITE_P(Hz, SpiFrequencies,
                          testing::Values(1'000'000U, 10'000'000U, 12'345'678U, 50'000'000U));
 
 TEST(SpiHost, OtherOpcodes_AreNotStretched) {
-  for (const unsigned opcode : {0x02U, 0x05U, 0x07U, 0x09U, 0x0BU}) {
+  for (const std::uint8_t opcode :
+       {reg::kSpiOpcodeWriteRegisters, reg::kSpiOpcodeReadStatus, reg::kSpiOpcodeWriteInstruction,
+        reg::kSpiOpcodeReadRegisters0, reg::kSpiOpcodeWriteRegisters0}) {
     RecordingPins pins;
     SpiHost host(pins, SpiTiming::for_frequency(50'000'000), kSpiPins);
-    const std::array<std::uint8_t, 3> tx{static_cast<std::uint8_t>(opcode), 0x00, 0x00};
+    const std::array<std::uint8_t, 3> tx{opcode, 0x00, 0x00};
     host.transfer(tx, {});
     const auto rise = pins.times(Pin::kAle, true);
     EXPECT_EQ(rise[23] - rise[0], 23U * 20'000U);
@@ -123,7 +127,7 @@ TEST(SpiHost, FullDuplex_SendsMsbFirstAndReturnsWhatCameBack) {
 TEST(SpiHost, ByteByByte_IsTheSameWaveform) {
   RecordingPins whole;
   RecordingPins steps;
-  const std::array<std::uint8_t, 3> tx{0x03, 0xEA, 0x00};
+  const std::array<std::uint8_t, 3> tx{reg::kSpiOpcodeReadRegisters, reg::kAddrRevision, 0x00};
   SpiHost(whole, SpiTiming::for_frequency(10'000'000), kSpiPins).transfer(tx, {});
   SpiHost host(steps, SpiTiming::for_frequency(10'000'000), kSpiPins);
   host.select(true);

@@ -18,7 +18,7 @@ using namespace mb4::sim;
 
 namespace {
 
-// Writes down MOSI as it was before each edge of SCLK, and answers with what it is told.
+// Records MOSI as it was before each edge of SCLK, and answers with given bits.
 class Pins final : public HostPins {
  public:
   Time now() const override { return now_; }
@@ -38,7 +38,7 @@ class Pins final : public HostPins {
 
   bool selected = false;
   bool sclk = false;
-  bool answer_edge = false;  // MISO changes behind edges to this level
+  bool answer_edge = false;  // MISO changes after edges to this level
   std::string answer;
   std::string at_rising;
   std::string at_falling;

@@ -84,7 +84,7 @@ TEST(Line, FlippedBits_AreInvertedInOneFrameOnly) {
             "0");
 }
 
-// MA stops in an inverted bit, as BREAK may have it; the slave times out with SLO = 1 as it was.
+// MA stops in an inverted bit, as BREAK can do it; the slave times out, and SLO stays 1.
 TEST(Line, FrameCutOffInAFlippedBit_RestsHighAfterTheTimeout) {
   LineBench bench(20);
   bench.line.faults().flip_next_frame({2});

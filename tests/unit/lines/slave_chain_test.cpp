@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Chains (protocol facts section 1.7): slave 1, next to the master, comes first; each slave is a
+// Chains (datasheet page 15; docs/choices.md, 10): slave 1, next to the master, comes first; each slave is a
 // shift register of its own length.
 #include "sim/lines/slave_chain.hpp"
 
@@ -79,8 +79,8 @@ TEST(SlaveChain, DifferentTimeouts_SlRisesWithTheLongest) {
   }
 }
 
-// In the data of a frame the chain keeps falling edges to itself: each slave still counts its own
-// timeout from the last one, and knows the level of MA.
+// In the data of a frame the chain does not pass falling edges on. Each slave still counts its
+// timeout from the last edge, and knows the level of MA.
 TEST(SlaveChain, MaRestsInTheData_EachSlaveTimesOutFromTheLastEdge) {
   for (const bool rest : {true, false}) {
     ChainBench bench;
@@ -185,8 +185,8 @@ TEST(SlaveChain, PassedOnAcknowledge_ComesWithMo) {
   expect_acknowledge<BissBSlave>(config);
 }
 
-// One slave of the other kind among three: a 0 comes from it at once, and runs through those nearer
-// to the master.
+// One of three slaves is of the other kind: it sends 0 at once, and the slaves nearer to the master
+// pass this 0 on.
 TEST(SlaveChain, MixedKinds_AcknowledgeWithTheFirstOfThem) {
   for (unsigned latched = 0; latched < 3; ++latched) {
     ChainBench bench;
@@ -222,7 +222,8 @@ TEST(SlaveChain, PassedOnAcknowledgeWithoutMo_ComesFromTheLastSlave) {
   }
 }
 
-// "The acknowledge does not end", of either kind: it begins as always, and MO's start bit is kept.
+// The fault "the acknowledge does not end", for both kinds of slaves: the acknowledge begins as
+// usual, and the slave does not pass on the start bit of MO.
 TEST(SlaveChain, BusyFault_KeepsMosStartBit) {
   for (const bool passes : {false, true}) {
     ChainBench bench;

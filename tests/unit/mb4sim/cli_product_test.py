@@ -49,7 +49,7 @@ class Trace(CliTest):
         with open(self.path("a.gtkw"), encoding="utf-8") as file:
             view = file.read()
         self.assertIn(f"[timestart] {round(first * 1e6)}\n", view)
-        # What the window shows does not depend on it.
+        # The window does not change what the command prints.
         self.assertEqual(result.stdout, run("run", RESOLUTE, "--frames", "20").stdout)
 
     def test_states_are_shown_by_name(self):
@@ -119,7 +119,8 @@ class Trace(CliTest):
             end = os.times()
             return end.children_user + end.children_system - begin.children_user - begin.children_system
 
-        # A ratio in one run: the machine, its other work and sanitizers are in both.
+        # The test compares two times of one run, because the machine, its other work and sanitizers
+        # change both.
         plain = min(used() for _ in range(3))
         traced = min(used("--trace", self.path("a.fst")) for _ in range(3))
         self.assertLess(traced, 15 * plain)
@@ -143,7 +144,7 @@ class Trace(CliTest):
 
 class Run(CliTest):
     def test_progress_is_for_terminals_only(self):
-        arguments = ["run", RESOLUTE, "--frames", "12000"]
+        arguments = ["run", RESOLUTE, "--frames", "60000"]
         master, terminal = pty.openpty()
         with subprocess.Popen([MB4SIM, *arguments], stdout=subprocess.DEVNULL, stderr=terminal,
                               stdin=subprocess.DEVNULL) as process:
@@ -159,8 +160,8 @@ class Run(CliTest):
                 seen += part
             self.assertEqual(process.wait(timeout=60), 0)
         os.close(master)
-        self.assertRegex(seen.decode(), r"\[#+ *\] +\d+ %  \d+ of 12000, \d+ s left")
-        # Nothing of it stays behind.
+        self.assertRegex(seen.decode(), r"\[#+ *\] +\d+ %  \d+ of 60000, \d+ s left")
+        # The command leaves no file behind.
         self.assertTrue(seen.endswith(b"\r\x1b[K"), seen[-80:])
 
     def test_no_terminal_no_progress(self):

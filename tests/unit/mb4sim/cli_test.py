@@ -105,7 +105,7 @@ class Cli(CliTest):
             self.assertEqual(result.returncode, 0)
             row = json.loads(result.stdout)["frames"][0]
             self.assertEqual((row["position"], row["nE"], row["nW"]), (99, flags >> 1, flags & 1))
-        # One flag is the chip's to convert; the position is right all the same.
+        # The chip converts one flag too, and the position is still right.
         text = text.replace("flag_bits = 2\nflags = 3", "flag_bits = 1\nflags = 1")
         result = run("run", self.path("x.toml", text), "--frames", "1", "--json")
         self.assertEqual(result.returncode, 0)
@@ -165,7 +165,7 @@ class Cli(CliTest):
                     result = run(command, scenario)
                     self.assert_one_line(result, 2, "^mb4sim: " + re.escape(scenario) + message)
                     self.assertNotIn("polynomial of", result.stderr)
-                # The chip alone takes it: what the driver cannot do is no matter here.
+                # Only the chip takes these bytes, so limits of the driver do not matter here.
                 self.assertEqual(run("spi", scenario, text="03 EB 00\n").returncode, 0)
 
     def test_messages_stay_one_line_without_control_characters(self):
@@ -280,7 +280,7 @@ class Cli(CliTest):
         self.assertEqual(result.returncode, 0, result.stderr)
         report = json.loads(result.stdout)
         rates = {rate["workload"]: rate for rate in report["rates"]}
-        self.assertEqual(list(rates), ["A", "B", "C", "D"])
+        self.assertEqual(list(rates), list("ABCDEFG"))
         for rate in rates.values():
             self.assertGreater(rate["clk_per_s"], 10_000)
             self.assertLessEqual(rate["slowest"], rate["clk_per_s"])
@@ -376,7 +376,7 @@ class Cli(CliTest):
                          [{"slave": n, "good": 3, "bad": 0} for n in (1, 2, 5)])
 
     def test_run_counts_the_bad_frames_of_each_slave(self):
-        # Frame 2: one bit of slave 2, behind start bit, CDS and the 28 + 6 bits of slave 1.
+        # Frame 2: one bit of slave 2, after start bit, CDS and the 28 + 6 bits of slave 1.
         two = ("[[channel]]\nnumber = 1\nflips = [[2, 37]]\n" + 2 *
                "[[channel.slave]]\nprotocol = \"biss-c\"\ndata_bits = 28\n")
         result = run("run", self.path("x.toml", two), "--frames", "3")
@@ -411,7 +411,8 @@ class Cli(CliTest):
         with open(self.path("wave.gtkw"), encoding="utf-8") as file:
             view = file.read()
         self.assertIn('[dumpfile] "wave.fst"', view)
-        for group in ("host", "line", "slaves", "control", "line engine", "registers", "straps"):
+        for group in ("host", "line", "slaves", "control", "inside the lines", "registers",
+                      "straps"):
             self.assertEqual(view.count(f"\n-{group}\n"), 2)
             self.assertNotRegex(view, f"-{group}\n@1[04]0")  # no empty group
         for pin in ("ncs_i", "ale_i", "ma1_o", "sl1_i", "slaves_slo_i[7:0]"):

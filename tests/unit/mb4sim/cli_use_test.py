@@ -47,7 +47,7 @@ class Words(CliTest):
                  r"unknown: '--frams=3', did you mean '--frames'\? \(see mb4sim run --help\)"),
                 (["run", RESOLUTE, "--trace-f", "1"],
                  r"unknown: '--trace-f', did you mean '--trace-from'\?, '1' "),
-                # What is unknown comes before what is missing or has a bad value.
+                # An unknown key is reported before a missing one or a bad value.
                 (["run", "--quick"], r"unknown: '--quick' \(see mb4sim run --help\)"),
                 (["run", RESOLUTE, "--frames", "x", "--quick"], r"unknown: '--quick' "),
                 (["--eds", "scan", RESOLUTE],
@@ -200,7 +200,7 @@ class Interrupted(CliTest):
                 head = [process.stdout.readline() for _ in range(3)]
                 process.send_signal(number)
                 rest, errors = self.rest(process)
-                # It dies by the signal, as callers expect, after it has ended its output.
+                # The command completes its output and then ends by the signal, as callers expect.
                 self.assertEqual(process.returncode, -number)
                 report = json.loads("".join(head) + rest)
                 name = number.name
@@ -349,7 +349,7 @@ class Pairs(CliTest):
             self.assert_one_line(result, 0, self.WARNING)
         for value in ("00", "04"):
             self.assertEqual(run("spi", two, text=f"02 F5 {value}\n").stderr, "")
-        # Nobody misses a channel that the scenario does not have.
+        # A scenario without the channel gives no warning.
         one = self.path("one.toml", slave("data_bits = 28"))
         self.assertEqual(run("spi", one, text="02 F5 08\n").stderr, "")
 

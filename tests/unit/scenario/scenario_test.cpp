@@ -27,7 +27,7 @@ std::string slave(const std::string& keys) {
   return "[[channel]]\nnumber = 1\n[[channel.slave]]\nprotocol = \"biss-c\"\n" + keys + "\n";
 }
 
-// The scenario of the design page, every key of it.
+// A scenario with many keys; the test looks at every value.
 TEST(Scenario, ExampleOfTheDesign_IsReadCompletely) {
   const Scenario scenario = parse_scenario(R"([chip]
 f_clk_hz = 20_000_000
@@ -63,8 +63,8 @@ registers = { 0x44 = [0x00, 0xD9, 0x01, 0x32] }
   EXPECT_EQ(scenario.channels[0].slaves[0].registers.at(0x47), 0x32);
 }
 
-// A slave without protocol and a fault without kind may have what some protocol or kind has: there
-// a key is unknown only if it is unknown to all of them.
+// In a slave without protocol, and in a fault without kind, a key is unknown only if no protocol or
+// kind knows it.
 TEST(Scenario, KeysOfAnyKind_AreKnownWithoutTheKind) {
   std::ifstream file(MB4_EXAMPLES "/../sim/README.md");
   const std::string manual{std::istreambuf_iterator<char>(file), {}};

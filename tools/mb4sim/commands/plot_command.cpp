@@ -217,7 +217,8 @@ int plot_command(const PlotOptions& options) {
   Frame frame;
   if (done && is_control(options)) {
     done = access(options, device);
-    // As a host goes on: without control communication, so that the end of it can be seen.
+    // The host goes on with frames without control communication, so that the picture shows its
+    // end.
     for (unsigned i = 0; i < kFramesBehind; ++i) static_cast<void>(device.read_all(frame));
   } else {
     for (unsigned i = 0; done && i < options.frame; ++i) done = device.read_all(frame);

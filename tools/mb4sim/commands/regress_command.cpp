@@ -29,8 +29,8 @@ namespace {
 constexpr const char* kRow = "{:<44}  {:>20}  {:>8}  {:>6}  {:>6}  {:>6}  {}\n";
 constexpr std::uint64_t kMaxRuns = 1'000'000;
 
-// What a worker tells: a line of the table, which begins with its exit status as a digit; with
-// `cover` a line of counts behind it.
+// What a worker returns: a line of the table, which begins with its exit status as a digit; with
+// `cover` a line of counts after it.
 std::string run_one(const std::string& path, const sim::Scenario& scenario, std::uint64_t seed,
                     std::uint64_t frames, bool cover) {
   std::string state = "ok";

@@ -174,7 +174,7 @@ std::string FaultReport::json() const {
     out += fmt::format(
         "{}\n  {{\"fault\": {}, \"line\": {}, \"kind\": \"{}\", \"time_us\": {:.6f}, \"end_us\": "
         "{}, \"what\": {}, \"fate\": \"{}\", \"by\": {}}}",
-        i == 0 ? "" : ",", i + 1, scenario_.faults[record.config].line,
+        i == 0 ? "" : ",", i + 1, scenario_.faults[record.config].scenario_line,
         sim::to_string(scenario_.faults[record.config].kind), sim::to_us(record.begin),
         record.end == sim::kNever ? "null" : fmt::format("{:.6f}", sim::to_us(record.end)),
         json_text(record.what), to_string(entry.fate),

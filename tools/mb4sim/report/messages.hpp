@@ -5,13 +5,13 @@
 #ifndef MB4SIM_TOOL_MESSAGES_HPP_
 #define MB4SIM_TOOL_MESSAGES_HPP_
 
-#include <string>
 #include <string_view>
+
+#include "sim/core/json_text.hpp"
 
 namespace mb4::tool {
 
-// A string as JSON, quotes included. Bytes that are no UTF-8 become U+FFFD.
-std::string json_text(std::string_view text);
+using sim::json_text;
 
 // {"error": "...", "status": N} with --json.
 void print_error(bool json, std::string_view text, int status);

@@ -28,7 +28,7 @@ module icebreaker (
   logic       clkeni, paired;
   logic [3:0] por_q;
 
-  // Flops are 0 behind the configuration: 15 clocks of power-on reset.
+  // Flops are 0 after the configuration: 15 clocks of power-on reset.
   always_ff @(posedge clk_i) if (por_q != 4'd15) por_q <= por_q + 4'd1;
   assign por_n = por_q == 4'd15;
 

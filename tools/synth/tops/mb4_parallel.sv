@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // The chip with the parallel host bus alone, Intel or Motorola: bus pins before mb4_engine
-// (instances only). What the area of a design without SPI is measured with, and a pattern for it.
+// (instances only). It serves to measure the area of a design without SPI, and as an example of
+// one.
 //
 // Clock domains: the strobes (mb4_par_bus) and clk_i (mb4_engine).
 // Datasheet: pages 9, 10, 17, Table 2.

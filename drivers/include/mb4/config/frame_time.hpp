@@ -15,27 +15,35 @@
 
 namespace mb4 {
 
+namespace detail {
+
+// As frame_periods(), for one channel (1 or 2).
+[[gnu::noinline]] constexpr std::uint32_t channel_periods(const Config& config,
+                                                          std::uint8_t channel) {
+  const Protocol protocol = config.channels[channel - 1U].protocol;
+  std::uint32_t periods = 5U + config.mo_busy;
+  if (protocol != Protocol::kBissC) {
+    periods = protocol == Protocol::kSsi ? 1U : 4U + config.mo_busy;
+  }
+  for (std::size_t slave = 1; slave <= kSlaves; ++slave) {
+    const SlaveConfig& one = config.slaves[slave - 1];
+    if (one.enabled && channel_of(config, slave) == channel) {
+      periods += one.data_bits + std::uint32_t{crc_width_bits(one.crc_polynomial)};
+      periods += one.actuator && one.stop_bit ? 1U : 0U;
+    }
+  }
+  return periods;
+}
+
+}  // namespace detail
+
 // Periods of MA in a frame without processing time, for the channel with the longer frame. A frame
 // has 5 periods in BiSS C (acknowledge, start, CDS), 4 in BiSS B (no CDS), 1 in SSI. Data, CRC and
 // an actuator's stop bit are added, and in BiSS MO_BUSY.
 [[nodiscard]] constexpr std::uint32_t frame_periods(const Config& config) {
-  std::uint32_t longest = 0;
-  for (std::uint8_t channel = 1; channel <= kChannels; ++channel) {
-    const Protocol protocol = config.channels[channel - 1U].protocol;
-    std::uint32_t periods = 5U + config.mo_busy;
-    if (protocol != Protocol::kBissC) {
-      periods = protocol == Protocol::kSsi ? 1U : 4U + config.mo_busy;
-    }
-    for (std::size_t slave = 1; slave <= kSlaves; ++slave) {
-      const SlaveConfig& one = config.slaves[slave - 1];
-      if (one.enabled && channel_of(config, slave) == channel) {
-        periods += one.data_bits + std::uint32_t{crc_width_bits(one.crc_polynomial)};
-        periods += one.actuator && one.stop_bit ? 1U : 0U;
-      }
-    }
-    longest = periods > longest ? periods : longest;
-  }
-  return longest;
+  const std::uint32_t first = detail::channel_periods(config, 1);
+  const std::uint32_t second = detail::channel_periods(config, 2);
+  return first > second ? first : second;
 }
 
 // The calculated timeout adds this time to the MA periods of the frame. It covers the slaves'

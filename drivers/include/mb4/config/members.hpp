@@ -153,6 +153,14 @@ struct Config {
   // reports kRegisterDelay. If a shorter time ends, the driver sends BREAK and reports kTimeout.
   std::uint32_t register_busy_us = 0;
 
+  // How positions are read while a BiSS C register access or a command runs beside automatic
+  // frames. True: with HOLDBANK as otherwise; the byte of 0xF4 then has INSTR = 000. The RTL goes
+  // on with the access whatever INSTR is, once the instruction is in the chip; the datasheet does
+  // not say. False, for a chip that does not: without HOLDBANK, and once more at once if the banks
+  // have switched meanwhile. A loop whose period is less than twice the time of the transfers then
+  // loses positions.
+  bool hold_beside_access = true;
+
   std::array<ChannelConfig, kChannels> channels{};  // [0] is channel 1
   std::array<SlaveConfig, kSlaves> slaves{};        // [0] is slave 1, next to SL, SCDATA1
 };

@@ -18,13 +18,17 @@ namespace mb4 {
   return static_cast<std::uint8_t>((slave.data_bits + 7U) / 8U);
 }
 
+// Bytes of SCDATAx that a stored CRC takes, 1 or 2. 0x12F is the longest polynomial whose CRC fits
+// one byte.
+[[nodiscard]] constexpr std::uint8_t crc_bytes(const SlaveConfig& slave) {
+  return slave.crc_polynomial > 0x1FF ? 2 : 1;
+}
+
 // True if the chip stores this slave's CRC. The CRC takes the top byte of SCDATAx, a CRC of 16 bits
 // the two top bytes, if the data leaves them free (page 26). For a valid `config`.
 [[nodiscard]] constexpr bool crc_is_stored(const Config& config, const SlaveConfig& slave) {
-  // 0x12F is the longest polynomial whose CRC fits one byte.
-  const unsigned crc_bytes = slave.crc_polynomial > 0x1FF ? 2 : 1;
   return config.spi_check != SpiCheck::kOff && slave.crc_polynomial != 0 &&
-         data_bytes(slave) + crc_bytes <= 8;
+         data_bytes(slave) + crc_bytes(slave) <= 8;
 }
 
 // True if slaves 5 to 8 are on channel 2 (SLAVELOC5).
@@ -75,6 +79,20 @@ namespace mb4 {
 // Enabled slaves that deliver data.
 [[nodiscard]] constexpr std::uint8_t sensors(const Config& config) {
   return static_cast<std::uint8_t>(enabled_slaves(config) & ~unsigned{actuators(config)});
+}
+
+// `config` without channel 1 or 2 and its slaves, for a line that is dead: a frame ends when all
+// its lines have ended, so a line without an answer stops the other channel too.
+[[nodiscard]] constexpr Config without_channel(Config config, std::uint8_t channel) {
+  for (std::size_t slave = 1; slave <= kSlaves; ++slave) {
+    if (channel_of(config, slave) == channel) {
+      config.slaves[slave - 1].enabled = false;
+    }
+  }
+  if (channel >= 1 && channel <= kChannels) {
+    config.channels[channel - 1U].protocol = Protocol::kUnused;
+  }
+  return config;
 }
 
 // True if `slave` is 1..8 and in `mask` (bit 0 is slave 1). Any `slave` is allowed.

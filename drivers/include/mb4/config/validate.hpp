@@ -145,6 +145,20 @@ constexpr ConfigField wrong_in_slave(const Config& config, std::size_t number) {
   return slave.actuator && (ssi || !config.mo) ? ConfigField::kActuator : ConfigField::kNone;
 }
 
+// Erratum 2 of table 68, before revision Y: data of actuators fails if there are some on both
+// channels and the frames of the channels differ in length. For a valid `config`.
+constexpr bool needs_revision_y(const Config& config) {
+  const unsigned words = actuators(config);
+  return words > 0x0F && (words & 0x0FU) != 0 && channels_are_split(config) &&
+         channel_periods(config, 1) != channel_periods(config, 2);
+}
+
+constexpr ErrorInfo check_revision(std::uint8_t revision) {
+  return revision < static_cast<std::uint8_t>(regs::DeviceRevision::kY)
+             ? ErrorInfo(Error::kInvalidConfig, ConfigField::kActuator, kSlaves / 2 + 1)
+             : ErrorInfo();
+}
+
 }  // namespace detail
 
 // Checks the whole configuration; makes no transfer. kInvalidConfig: the chip does not allow a
@@ -171,6 +185,14 @@ constexpr ConfigField wrong_in_slave(const Config& config, std::size_t number) {
   // Last, because it needs the length of a frame.
   wrong = detail::wrong_in_frame_start(config);
   return detail::invalid(wrong);
+}
+
+// The same for a chip whose `revision` is known (Identity::revision). kInvalidConfig, kActuator, 5:
+// the chip is older than revision Y, which cannot have actuators on both channels unless their
+// frames are equally long (table 68). configure() asks the chip where this matters.
+[[nodiscard]] constexpr Result<void> validate(const Config& config, std::uint8_t revision) {
+  const Result<void> valid = validate(config);
+  return valid && detail::needs_revision_y(config) ? detail::check_revision(revision) : valid;
 }
 
 }  // namespace mb4

@@ -73,13 +73,15 @@ class ActuatorWrite {
   // Reads until the word differs, which shows the other bank, and writes this bank. If no reading
   // differs, both banks hold the word.
   Result<void> write_other(std::uint8_t address, Span<const std::uint8_t> bytes) {
-    Deadline<Clock> deadline(*chip_.clock,
-                             frame_timeout_us(chip_.config) + frame_pitch_us(chip_.config));
+    Deadline<Clock> deadline(*chip_.clock, chip_.frame_us + chip_.pitch_us);
     for (bool last = false; !last;) {
       last = deadline.last_poll();
-      const Result<void> same = compare_registers(chip_, address, bytes);
-      if (!same) {
-        return same.error() == Error::kCorrupted ? write_held(address, bytes) : same;
+      // Deadline counts a poll as five cycles of the parallel bus; a word may have one byte.
+      for (unsigned readings = 5; readings > 0; --readings) {
+        const Result<void> same = compare_registers(chip_, address, bytes);
+        if (!same) {
+          return same.error() == Error::kCorrupted ? write_held(address, bytes) : same;
+        }
       }
     }
     return {};

@@ -22,18 +22,24 @@
 
 namespace mb4::detail {
 
-// Ends a polling loop after `timeout_us`. It also counts the polls, so that the loop ends when the
-// time source stands still.
+// Coarsest step of a time source, that of 32 kHz, and the rounding of its readings (enc/bus.hpp).
+// Two readings may differ by this much more than the time between them. Every wait is longer by it.
+inline constexpr std::uint32_t kClockStepUs = 33;
+
+// Polls of the status that `time_us` (up to 1'000'000'000) may hold. The fastest poll is five
+// cycles of the parallel bus: 0.25 us, because a cycle takes at least 55 ns (I104 to I116).
+constexpr std::uint32_t polls_of(std::uint32_t time_us) { return 4 * (time_us + kClockStepUs); }
+
+// Ends a polling loop after `timeout_us`, never before. It also counts the polls, so that the loop
+// ends when the time source stands still.
 template <typename Clock>
 class Deadline {
  public:
   [[gnu::noinline]] constexpr Deadline(Clock& clock, std::uint32_t timeout_us)
       : clock_(clock),
         start_us_(clock.now_us()),
-        timeout_us_(timeout_us),
-        // A poll takes at least 0.96 us: 6 bytes of 8 SCLK periods of >= 20 ns (I203, I204). So
-        // with a working clock the time ends before the count.
-        polls_left_(timeout_us + timeout_us / 16 + 2) {}
+        timeout_us_(timeout_us + kClockStepUs),
+        polls_left_(polls_of(timeout_us)) {}
 
   // Call it before each poll. The last poll is then made when the time is already over: a task that
   // was suspended reads the status once more before it reports a timeout.
@@ -49,13 +55,14 @@ class Deadline {
   std::uint32_t polls_left_;
 };
 
-// Waits `time_us` (up to 4'294'967) without a transfer. A count of calls ends the wait when the
-// time source stands still. Even if a call takes only 1 ns, the count does not end before the time.
+// Waits at least `time_us` (up to 4'294'967) without a transfer. A count of calls ends the wait
+// when the time source stands still. Even if a call takes only 1 ns, the count does not end before
+// the time.
 template <typename Clock>
 void pause(Clock& clock, std::uint32_t time_us) {
   const std::uint32_t start_us = clock.now_us();
   std::uint32_t calls_left = time_us * 1000;
-  while (clock.now_us() - start_us < time_us && --calls_left != 0) {
+  while (clock.now_us() - start_us < time_us + kClockStepUs && --calls_left != 0) {
   }
 }
 
@@ -71,6 +78,8 @@ struct ControlState {
   std::uint8_t readable = 0;    // registers that a finished read has left in RDATA
   std::uint8_t count = 0;       // registers of this access, 1..64
   bool biss_b = false;          // one instruction runs the whole access, without frames
+  bool overwritten = false;     // a read of positions has written INSTR = 000 meanwhile
+  bool seen_running = false;    // ... and has seen REGEND = 0 since the last poll
   bool first_frame = false;     // REGEND may belong to the access before; BiSS B: not ended yet
   std::uint32_t start_us = 0;   // of this frame; with automatic frames of the access
   std::uint32_t access_us = 0;  // start of the access
@@ -89,8 +98,12 @@ struct Chip {
   Opcodes<Bus> opcodes;
   Clock* clock;
   Config config{};
-  std::uint8_t sensors = 0;    // slaves of `config` that deliver data; bit 0 is slave 1
-  std::uint8_t actuators = 0;  // slaves of `config` that take words; bit 0 is slave 1
+  std::uint8_t sensors = 0;        // slaves of `config` that deliver data; bit 0 is slave 1
+  std::uint16_t sensor_flags = 0;  // the same as flag_of()
+  std::uint8_t actuators = 0;      // slaves of `config` that take words; bit 0 is slave 1
+  std::uint32_t news_us = 0;       // when the last automatic frame was seen
+  std::uint32_t frame_us = 0;      // frame_timeout_us(), worked out once
+  std::uint32_t pitch_us = 0;      // frame_pitch_us()
   bool configured = false;
   // AGS = 1 was written, and nothing has stopped it.
   bool automatic = false;
@@ -121,11 +134,11 @@ struct Chip {
     return write_instruction(regs::BREAK::encode<1>());
   }
 
-  // Clears SVALIDx of the slaves in `mask` (bit 0 is slave 1) in the bank that the host reads.
+  // Clears SVALIDx of the slaves in `mask` (flag_of()) in the bank that the host reads.
   // Writing 0 clears a flag and writing 1 has no effect (page 35, "reset by writing to the SVALIDx
   // register"), so the flags of other slaves do not change. One transfer; none if `mask` is 0.
-  Result<void> clear_valid(std::uint8_t mask) {
-    const unsigned keep = ~unsigned{Status::valid_registers(mask)};
+  Result<void> clear_valid(std::uint16_t mask) {
+    const unsigned keep = ~unsigned{mask};
     const std::array<std::uint8_t, 2> both{static_cast<std::uint8_t>(keep),
                                            static_cast<std::uint8_t>(keep >> 8U)};
     return mask == 0 ? Result<void>() : opcodes.write_registers(regs::kAddrSvalidLo, both);
@@ -135,14 +148,14 @@ struct Chip {
 
   // As clear_valid(). With SpiCheck::kFull it then reads the status once or twice until the flags
   // are 0: the chip takes some system clocks to clear them. kCorrupted: they are still 1.
-  Result<void> clear_valid_checked(std::uint8_t mask) {
+  Result<void> clear_valid_checked(std::uint16_t mask) {
     if (const Result<void> cleared = clear_valid(mask); !cleared || !checks_all()) {
       return cleared;
     }
     for (unsigned looks = 2; looks > 0; --looks) {
       Status status;
       const Result<void> read = look(status);
-      if (!read || (status.valid_mask() & mask) == 0) {
+      if (!read || (status.valid_flags() & mask) == 0) {
         return read;
       }
     }
@@ -162,7 +175,7 @@ struct Chip {
       return stopped;
     }
     pause(*clock, recovery_us());
-    return clear_valid(sensors);
+    return clear_valid(sensor_flags);
   }
 
   // With SpiCheck::kFull: reads 0xF4 and compares it with `want`, except AGS, which an error may
@@ -197,13 +210,18 @@ struct Chip {
     Deadline<Clock> deadline(*clock, kLineRecoveryUs);
     for (bool last = false; !last;) {
       last = deadline.last_poll();
-      std::array<std::uint8_t, regs::SL1::kAddress - regs::kAddrStatus0 + 1> bytes{};
-      const Result<void> read = opcodes.read_status(bytes);
-      if (!read || lines_are_high(bytes[bytes.size() - 1])) {
-        return read;
+      if (const Result<void> line = look_at_lines(); line.error() != Error::kLineError) {
+        return line;
       }
     }
     return Error::kLineError;
+  }
+
+  // Reads the lines once. kLineError: SL of a channel in use is 0.
+  [[gnu::noinline]] Result<void> look_at_lines() {
+    std::array<std::uint8_t, regs::SL1::kAddress - regs::kAddrStatus0 + 1> bytes{};
+    const Result<void> read = opcodes.read_status(bytes);
+    return read && !lines_are_high(bytes[bytes.size() - 1]) ? Error::kLineError : read;
   }
 
   // Time from BREAK until all slaves are ready. Slaves of BiSS B may be in register mode and need

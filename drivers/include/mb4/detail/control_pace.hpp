@@ -17,18 +17,19 @@ namespace mb4::detail {
 template <typename Bus, typename Clock>
 void restart_time(Chip<Bus, Clock>& chip, std::uint32_t timeout_us) {
   chip.control.start_us = chip.clock->now_us();
-  chip.control.timeout_us = timeout_us;
-  chip.control.polls_left = timeout_us + timeout_us / 16 + 2;  // as of Deadline
+  chip.control.timeout_us = timeout_us + kClockStepUs;
+  chip.control.polls_left = polls_of(timeout_us);
 }
 
 // For accesses without automatic frames, where the host sets the pace. True when the access cannot
-// end well any more: all frames that it needs have run and the time of a busy slave is over, or as
-// many frames have run as fit into that time.
+// end well any more: all frames that it needs have run and the time of a busy slave is over. A
+// frame takes more than a microsecond, so a clock that stands still ends it too.
 template <typename Bus, typename Clock>
 [[nodiscard]] bool enough_frames(Chip<Bus, Clock>& chip) {
   const ControlState& state = chip.control;
-  return state.frames >= control_frame_limit(chip.config, state.count) ||
-         (state.frames >= control_frames(state.count) &&
+  const std::uint32_t needed = control_frames(state.count);
+  return state.frames >= needed &&
+         (state.frames - needed > register_busy_us(chip.config) ||
           chip.clock->now_us() - state.access_us >= control_timeout_us(chip.config, state.count));
 }
 

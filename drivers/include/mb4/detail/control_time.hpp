@@ -46,19 +46,6 @@ constexpr std::uint32_t biss_b_timeout_us(const Config& config, std::uint8_t cou
          register_busy_us(config) + kFrameMarginUs;
 }
 
-// Largest number of frames of an access without automatic frames, where the host sets the pace. A
-// busy slave takes as many frames as fit into its time. Each frame lasts at least its MA periods.
-constexpr std::uint32_t control_frame_limit(const Config& config, std::uint8_t count) {
-  // The product must fit 32 bits. So it uses kHz, and ms for long times, both rounded up. The
-  // largest cases are 327'681 ms at 3 kHz and 10'000 ms at 12'500 kHz.
-  constexpr std::uint32_t kShortUs = 340'000;
-  const std::uint32_t busy_us = register_busy_us(config);
-  const std::uint32_t ma_khz = config.ma_hz / 1000U + 1U;
-  const std::uint32_t busy_periods =
-      busy_us <= kShortUs ? busy_us * ma_khz / 1000U + 1U : (busy_us / 1000U + 1U) * ma_khz;
-  return control_frames(count) + busy_periods / frame_periods(config) + 1U;
-}
-
 }  // namespace mb4::detail
 
 #endif  // MB4_DETAIL_CONTROL_TIME_HPP_

@@ -39,11 +39,11 @@ Result<void> read_run(Opcodes<Bus>& opcodes, const Config& config, Span<std::uin
                     : opcodes.read_registers(begin, bytes, filler);
 }
 
-// Reads only the bytes that the slaves of `mask` need: at most one transfer for each slave, none if
-// `mask` is 0. Neighbours share a transfer when the bytes between them cost no more than another
-// opcode and address.
+// Reads only the bytes that the slaves of `flags` (flag_of()) need: at most one transfer for each
+// slave, none if `flags` is 0. Neighbours share a transfer when the bytes between them cost no more
+// than another opcode and address.
 template <typename Bus>
-Result<void> read_data(Opcodes<Bus>& opcodes, const Config& config, std::uint8_t mask,
+Result<void> read_data(Opcodes<Bus>& opcodes, const Config& config, std::uint16_t flags,
                        DataImage& image) {
   constexpr std::size_t kHeaderBytes = 2;
   constexpr std::size_t kOutOfReach = 0x100;
@@ -51,7 +51,7 @@ Result<void> read_data(Opcodes<Bus>& opcodes, const Config& config, std::uint8_t
   std::size_t end = 0;
   // The loop ends with a slave number whose address is out of reach, so that the last run is read.
   for (std::uint8_t slave = 1; slave <= kSlaves + 1; ++slave) {
-    if (slave <= kSlaves && !is_in(mask, slave)) {
+    if (slave <= kSlaves && (flags & flag_of(slave)) == 0) {
       continue;
     }
     const std::size_t from = slave <= kSlaves ? regs::scdata_address(slave) : kOutOfReach;
@@ -75,7 +75,7 @@ Result<void> read_data(Opcodes<Bus>& opcodes, const Config& config, std::uint8_t
 // Data as fetched, and which slaves' bytes were the same when they were read again.
 struct FetchedData {
   DataImage image{};
-  std::uint8_t stable = 0xFF;  // bit 0 is slave 1
+  std::uint16_t stable = 0xFFFF;  // flag_of()
 };
 
 // SpiCheck::kFull: true for data that only a second reading proves. Without a stored CRC this is
@@ -98,26 +98,28 @@ struct FetchedData {
 
 // Calls read_data(). With SpiCheck::kFull it reads the data that needs_second_reading() once more.
 template <typename Bus>
-Result<void> fetch_data(Opcodes<Bus>& opcodes, const Config& config, std::uint8_t mask,
+Result<void> fetch_data(Opcodes<Bus>& opcodes, const Config& config, std::uint16_t flags,
                         FetchedData& data) {
-  const Result<void> first = read_data(opcodes, config, mask, data.image);
+  data.stable = 0xFFFF;
+  const Result<void> first = read_data(opcodes, config, flags, data.image);
   if (!first || config.spi_check != SpiCheck::kFull) {
     return first;
   }
   // `second` begins as a copy, so bytes that are not read again are equal in both images.
   DataImage second = data.image;
-  std::uint8_t again = 0;
+  std::uint16_t again = 0;
   for (std::uint8_t slave = 1; slave <= kSlaves; ++slave) {
     const Span<const std::uint8_t> bytes(&data.image[regs::scdata_address(slave)],
                                          regs::kScdataStride);
-    if (is_in(mask, slave) && needs_second_reading(config, slave, bytes)) {
-      again = static_cast<std::uint8_t>(again | 1U << (slave - 1U));
+    if ((flags & flag_of(slave)) != 0 && needs_second_reading(config, slave, bytes)) {
+      again = static_cast<std::uint16_t>(again | flag_of(slave));
     }
   }
   const Result<void> read = read_data(opcodes, config, again, second);
   for (std::size_t i = 0; i < second.size(); ++i) {
     if (data.image[i] != second[i]) {
-      data.stable = static_cast<std::uint8_t>(data.stable & ~(1U << i / regs::kScdataStride));
+      data.stable = static_cast<std::uint16_t>(
+          data.stable & ~flag_of(static_cast<std::uint8_t>(i / regs::kScdataStride + 1)));
     }
   }
   return read;
@@ -134,6 +136,7 @@ template <typename Bus>
 Result<void> fetch_slave(Opcodes<Bus>& opcodes, const Config& config, FetchedSlave& data) {
   const std::size_t size = reading_bytes(config, data.slave);
   const std::uint8_t from = regs::scdata_address(data.slave);
+  data.stable = true;
   const Result<void> first =
       read_run(opcodes, config, Span<std::uint8_t>(data.bytes.data(), size), from);
   if (!first || config.spi_check != SpiCheck::kFull ||
@@ -149,31 +152,33 @@ Result<void> fetch_slave(Opcodes<Bus>& opcodes, const Config& config, FetchedSla
   return read;
 }
 
+// A flag beside flag_of(): of a slave without SVALID and without a stored CRC only nSCDERR tells.
+inline constexpr std::uint16_t kUnproven = 1;
+
 // The result of one frame.
 struct Outcome {
-  Status status;          // as read after the data
-  std::uint8_t good = 0;  // slaves whose data is new and good; bit 0 is slave 1
+  Status status;           // as read after the data
+  std::uint16_t good = 0;  // slaves whose data is new and good; flag_of()
+  std::uint16_t bad = 0;   // slaves whose data is new and bad; and kUnproven
 };
 
 // Decodes the data of one slave. `bytes`: the eight bytes of SCDATAx. `stable`: a second reading,
 // if there was one, was equal.
 inline Result<Reading> decode(const Config& config, std::uint8_t slave, const std::uint8_t* bytes,
                               bool stable) {
-  return stable ? decode_reading(config, slave,
-                                 Span<const std::uint8_t>(bytes, reading_bytes(config, slave)))
-                : Result<Reading>(Error::kCorrupted);
+  return stable ? decode_bytes(config, slave, bytes) : Result<Reading>(Error::kCorrupted);
 }
 
-// Decodes all `slaves` of a frame. `missing` is the error of a slave that is not good.
+// Decodes all `slaves` of a frame.
 inline void decode_all(const Config& config, std::uint8_t slaves, const Outcome& outcome,
-                       const FetchedData& data, Error missing, Frame& frame) {
+                       const FetchedData& data, Frame& frame) {
   frame.status = outcome.status;
   for (std::uint8_t slave = 1; slave <= kSlaves; ++slave) {
-    if (is_in(outcome.good, slave)) {
+    if ((outcome.good & flag_of(slave)) != 0) {
       frame.set(slave, decode(config, slave, &data.image[regs::scdata_address(slave)],
-                              is_in(data.stable, slave)));
+                              (data.stable & flag_of(slave)) != 0));
     } else if (is_in(slaves, slave)) {
-      frame.set(slave, missing);
+      frame.set(slave, (outcome.bad & flag_of(slave)) != 0 ? Error::kCrc : Error::kNoData);
     }
   }
 }

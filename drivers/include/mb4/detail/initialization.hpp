@@ -55,7 +55,7 @@ class Initialization {
       done = read_delay(channel, delay.quarters[channel]);
     }
     if (done) {
-      done = chip_.clear_valid_checked(chip_.sensors);
+      done = chip_.clear_valid_checked(chip_.sensor_flags);
     }
     chip_.recover_first = !done;
     return done;

@@ -47,15 +47,15 @@ class SingleShot {
   Result<Reading> read(std::uint8_t slave) {
     Outcome outcome;
     FetchedData data;
-    if (const Result<void> done = run(static_cast<std::uint8_t>(1U << (slave - 1U)), outcome, data);
-        !done) {
+    if (const Result<void> done = run(flag_of(slave), outcome, data); !done) {
       return done.failure();
     }
     if (outcome.good == 0) {
-      return missing(outcome);
+      return outcome.bad != 0 ? Error::kCrc : Error::kNoData;
     }
-    const Result<Reading> reading = decode(
-        chip_.config, slave, &data.image[regs::scdata_address(slave)], is_in(data.stable, slave));
+    const Result<Reading> reading =
+        decode(chip_.config, slave, &data.image[regs::scdata_address(slave)],
+               (data.stable & flag_of(slave)) != 0);
     // After kCorrupted the status, which came over the same SPI, is doubtful too.
     chip_.recover_first = !reading;
     return reading;
@@ -66,35 +66,33 @@ class SingleShot {
     frame.clear();
     Outcome outcome;
     FetchedData data;
-    const Result<void> done = run(chip_.sensors, outcome, data);
+    const Result<void> done = run(chip_.sensor_flags, outcome, data);
     if (done) {
-      decode_all(chip_.config, chip_.sensors, outcome, data, missing(outcome), frame);
+      decode_all(chip_.config, chip_.sensors, outcome, data, frame);
       chip_.recover_first = !frame.good(chip_.sensors);
     }
     return done;
   }
 
  private:
-  static Error missing(const Outcome& outcome) {
-    return outcome.status.scd_error() ? Error::kCrc : Error::kNoData;
-  }
-
   // Runs one frame and fetches the data of those slaves of `mask` that are good.
   //
   // SVALIDx was cleared before the request, so SVALIDx = 1 proves that the requested frame ran,
   // with any value of nAGSERR. A chip may set nAGSERR = 0 at each write of 0xF4 (page 34 can be
   // read so; AGSERR_ON_INSTR_WRITE = 1). The driver looks at nAGSERR only if there is no data and
   // nSCDERR = 1; nSCDERR = 0 shows that a frame ran. On such a chip kNoData appears as kLineError.
-  Result<void> run(std::uint8_t mask, Outcome& out, FetchedData& data) {
+  Result<void> run(std::uint16_t mask, Outcome& out, FetchedData& data) {
     Status& status = out.status;
     if (const Result<void> ended = run_frame(status); !ended) {
       return ended;
     }
-    const unsigned valid = status.valid_mask() & unsigned{chip_.sensors};
+    // SVALID was cleared before the request, so every slave without it was bad in this frame.
+    out.bad = status.scd_error() ? 0xFFFF : 0;
+    const unsigned valid = status.valid_flags() & unsigned{chip_.sensor_flags};
     // nSCDERR = 0: the CRC of a slave was wrong, and SVALIDx = 0 identifies the slave (page 34). If
     // every SVALIDx is 1, the chip contradicts itself and the driver uses no data.
-    if (!status.scd_error() || valid != chip_.sensors) {
-      out.good = static_cast<std::uint8_t>(valid & mask);
+    if (!status.scd_error() || valid != chip_.sensor_flags) {
+      out.good = static_cast<std::uint16_t>(valid & mask);
     }
     if (out.good == 0) {
       // Without a sensor only nAGSERR can show a refused frame. With kWaitForLine the chip refuses
@@ -108,11 +106,11 @@ class SingleShot {
     if (done && chip_.checks_all()) {
       Status after;
       done = chip_.look(after);
-      if (done && (!after.idle() || (out.good & ~unsigned{after.valid_mask()}) != 0)) {
+      if (done && (!after.idle() || (out.good & ~unsigned{after.valid_flags()}) != 0)) {
         return Error::kCorrupted;
       }
     }
-    return done ? chip_.clear_valid_checked(chip_.sensors) : done;
+    return done ? chip_.clear_valid_checked(chip_.sensor_flags) : done;
   }
 
   // Requests a frame and polls until it has ended or was refused. Stops the frame if it does not
@@ -129,7 +127,7 @@ class SingleShot {
     if (const Result<void> start = chip_.write_instruction(kOneFrame); !start) {
       return start;
     }
-    Deadline<Clock> deadline(*chip_.clock, frame_timeout_us(chip_.config));
+    Deadline<Clock> deadline(*chip_.clock, chip_.frame_us);
     for (bool last = false; !last;) {
       last = deadline.last_poll();
       if (const Result<void> look = chip_.look(status); !look) {

@@ -10,6 +10,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "mb4/bus.hpp"
 #include "mb4/span.hpp"
 
 namespace mb4::ports {
@@ -20,16 +21,24 @@ namespace mb4::ports {
 //   mb4::ports::ByteBus bus(SPI, SPISettings(5'000'000, MSBFIRST, SPI_MODE0),
 //                           [](bool active) { digitalWrite(10, active ? LOW : HIGH); });
 //
+// Above 5 MHz opcode 0x03 needs settings of its own (I204):
+//
+//   mb4::ports::ByteBus bus(SPI, SPISettings(10'000'000, MSBFIRST, SPI_MODE0),
+//                           SPISettings(mb4::kReadSclkHz, MSBFIRST, SPI_MODE0), select);
+//
 // There may be any pause between the bytes of one frame. Before the first transfer the pin must be
 // an output at HIGH, and SPI.begin() must have been called. transfer() never fails.
 template <typename Spi, typename Settings, typename Select>
 class ByteBus {
  public:
   constexpr ByteBus(Spi& spi, Settings settings, Select select)
-      : spi_(spi), settings_(settings), select_(select) {}
+      : ByteBus(spi, settings, settings, select) {}
+  // `read_settings` are those of opcode 0x03.
+  constexpr ByteBus(Spi& spi, Settings settings, Settings read_settings, Select select)
+      : spi_(spi), settings_(settings), read_settings_(read_settings), select_(select) {}
 
   bool transfer(Span<const std::uint8_t> tx, Span<std::uint8_t> rx) {
-    spi_.beginTransaction(settings_);
+    spi_.beginTransaction(needs_read_sclk(tx) ? read_settings_ : settings_);
     select_(true);
     for (std::size_t i = 0; i < tx.size(); ++i) {
       const std::uint8_t received = spi_.transfer(tx[i]);
@@ -45,6 +54,7 @@ class ByteBus {
  private:
   Spi& spi_;
   Settings settings_;
+  Settings read_settings_;
   Select select_;
 };
 

@@ -14,6 +14,7 @@
 
 #include <cstdint>
 
+#include "mb4/bus.hpp"
 #include "mb4/span.hpp"
 
 namespace mb4::ports {
@@ -21,8 +22,8 @@ namespace mb4::ports {
 // Owns the file. SPI mode 0, eight bits. One object for one chip select; not copied.
 class SpidevBus {
  public:
-  // `path` is the device file. 5 MHz is the fastest SCLK at which opcode 0x03 is safe without a
-  // stretched clock (I204).
+  // `path` is the device file. `sclk_hz` may be more than 5 MHz: opcode 0x03 alone then runs at
+  // 5 MHz, the fastest SCLK at which it is safe without a stretched clock (I204).
   explicit SpidevBus(const char* path, std::uint32_t sclk_hz = 5'000'000)
       : sclk_hz_(sclk_hz), file_(::open(path, O_RDWR | O_CLOEXEC)) {
     std::uint8_t mode = SPI_MODE_0;
@@ -45,7 +46,7 @@ class SpidevBus {
     message.tx_buf = reinterpret_cast<std::uintptr_t>(tx.data());
     message.rx_buf = reinterpret_cast<std::uintptr_t>(rx.data());
     message.len = static_cast<std::uint32_t>(tx.size());
-    message.speed_hz = sclk_hz_;
+    message.speed_hz = needs_read_sclk(tx) && sclk_hz_ > kReadSclkHz ? kReadSclkHz : sclk_hz_;
     message.bits_per_word = 8;
     return ready_ && ::ioctl(file_, SPI_IOC_MESSAGE(1), &message) == static_cast<int>(tx.size());
   }

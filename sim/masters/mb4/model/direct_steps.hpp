@@ -12,6 +12,9 @@
 // (sim/model/parts/model_parts.py). A falling edge costs nothing if it would leave its flops
 // unchanged.
 //
+// An edge of a host pin runs only the host's logic. The core sees it if something changes that an
+// edge of CLK reads.
+//
 // A chip is at rest if a clock leaves every bit of it unchanged. Then any number of clocks leaves
 // it unchanged. Only the time to the next frame (AGS) may move, and this class advances it.
 //
@@ -25,7 +28,6 @@
 
 #include <Vmb4_chip_edge.hpp>
 #include <algorithm>
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
@@ -39,21 +41,19 @@ class DirectSteps {
  public:
   // Any inputs have changed.
   void inputs(Vmb4_chip& model) {
-    const Root& root = *model.rootp;
-    // While the oscillator runs, the edges of CLK come here as well.
-    const bool host = on_clk(root) && root.clk_i == root.__Vtrigrprev__TOP__clk_i;
-    if (host) host_.take(root);
     model.eval();
-    if (late_) edge::sl_has_changed(kept_);
     late_ = false;
-    pins_.compare(root, kept_);
-    // If its clock and its resets are unchanged, the chip has seen an edge of a host pin.
-    const auto before = std::exchange(clocks_and_resets_, clocks_and_resets(root));
-    if (host && on_clk(root) && before == clocks_and_resets_) {
-      host_.compare(root, kept_);
-    } else {
-      kept_.all();
+    kept_.all(*model.rootp);
+  }
+  // Pins of the host have changed. Returns false if neither the next edge of CLK nor anyone who
+  // waits for the chip's outputs sees a change.
+  bool host(Vmb4_chip& model) {
+    if (!on_clk(*model.rootp)) {
+      inputs(model);
+      return true;
     }
+    take_sl(*model.rootp);
+    return edge::host(model.rootp, kept_);
   }
   // SL1 or SL2 has changed and no other input. SL is not a clock, and no output depends on it
   // before the next clock edge. So the change waits for that edge.
@@ -68,34 +68,31 @@ class DirectSteps {
       return true;
     }
     const bool matters = level || fall_matters(root);
-    root.mb4_chip__DOT__clk = level;
     if (matters) {
-      if (late_) {
-        late_ = false;
-        edge::follow_sl(&root, kept_);
-        edge::sl_has_changed(kept_);
-      }
+      take_sl(root);
       if (level) {
         edge::rise(&root, kept_);
       } else {
         edge::fall(&root, kept_);
       }
     }
-    // The next eval() must not find an edge that has already been handled.
-    root.__Vtrigrprev__TOP__clk_i = level;
-    root.__Vtrigrprev__TOP__mb4_chip__DOT__clk = level;
+    set_clock(root, level);
     return matters;
   }
 
-  // Stores the state of the chip while CLK is low.
-  void mark(const Vmb4_chip& model) {
+  // Stores the state of the chip before a rising edge of CLK.
+  void mark(Vmb4_chip& model) {
+    // Only an edge of the system clock is taken ahead: while CLK is not it, eval() needs to see it.
+    if (on_clk(*model.rootp)) set_clock(*model.rootp, true);
     before_.resize(sizeof(Root));
     std::memcpy(before_.data(), bytes(*model.rootp), sizeof(Root));
   }
-  // Called one clock after mark(), with no input changed since. Returns true if nothing has changed
-  // except the time to the next frame. This stays true for rest_left() clocks if no input changes.
+  // Called after this edge. Returns true if it has changed nothing except the time to the next
+  // frame, and if the falling edge will change nothing. This stays true for rest_left() clocks, up
+  // to a change that the chip sees at an edge of CLK.
   bool at_rest(const Vmb4_chip& model) {
     const Root& root = *model.rootp;
+    if (!on_clk(root) || fall_matters(root)) return false;
     counting_ = moved(root, root.*kPre) || moved(root, root.*kStep);
     ignore(root, root.*kPre);
     ignore(root, root.*kStep);
@@ -108,6 +105,12 @@ class DirectSteps {
     if (!counting_) return std::numeric_limits<std::uint64_t>::max();
     const std::uint64_t last = (last_step(root) + 1) * step_clocks(root) - kMargin;
     return std::max(elapsed(root), last) - elapsed(root);
+  }
+  // The chip is at rest, and CLK has an edge. Returns false if the edge must be evaluated.
+  bool rests(Vmb4_chip& model, bool level) {
+    if (level && leave_out(model, 1) == 0) return false;
+    set_clock(*model.rootp, level);
+    return true;
   }
   // Makes `clocks` clocks pass, or a few less. Returns their number. The end of a step changes more
   // than a count, and the logic that depends on it is computed shortly before. So no clock near
@@ -146,20 +149,22 @@ class DirectSteps {
   static constexpr auto kFreqags =
       &Root::mb4_chip__DOT__u_engine__DOT__u_regs__DOT__u_cfg__DOT__freqags_q;
 
+  // Computes what depends on SL, if it has changed.
+  void take_sl(Root& root) {
+    if (!std::exchange(late_, false)) return;
+    edge::follow_sl(&root, kept_);
+    edge::sl_has_changed(kept_);
+  }
+  // CLK and the system clock. eval() must not find an edge that has been handled.
+  static void set_clock(Root& root, bool level) {
+    root.clk_i = root.mb4_chip__DOT__clk = level;
+    root.__Vtrigrprev__TOP__clk_i = root.__Vtrigrprev__TOP__mb4_chip__DOT__clk = level;
+  }
   // True if CLK is the system clock.
   static bool on_clk(const Root& root) {
     return root.mb4_chip__DOT__u_clk_mux__DOT__en0_q != 0 &&
            root.mb4_chip__DOT__u_clk_mux__DOT__en1_q == 0;
   }
-  static std::array<unsigned, 6> clocks_and_resets(const Root& root) {
-    return {root.mb4_chip__DOT__u_clk_mux__DOT__en0_q,
-            root.mb4_chip__DOT__u_clk_mux__DOT__en1_q,
-            root.nres_i,
-            root.npor_i,
-            root.mb4_chip__DOT__u_engine__DOT__rst_core_n,
-            root.mb4_chip__DOT__u_engine__DOT__por_core_n};
-  }
-
   // True if a falling edge would change a flop. Such flops are in the clock switch and in the
   // samplers of SL (enc_clk_mux, biss_sl_capture). A lint test checks that there are no others.
   static bool fall_matters(const Root& root) {
@@ -193,9 +198,6 @@ class DirectSteps {
   }
 
   edge::Kept kept_;
-  edge::Pins pins_;
-  edge::Host host_;
-  std::array<unsigned, 6> clocks_and_resets_{};
   bool late_ = false;  // SL has changed
   bool counting_ = false;
   std::vector<std::byte> before_;

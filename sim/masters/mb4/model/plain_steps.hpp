@@ -14,6 +14,11 @@ class PlainSteps {
  public:
   // Any inputs have changed.
   void inputs(Model& model) { model.eval(); }
+  // Pins of the host have changed. Returns false if the next edge of CLK sees no change.
+  bool host(Model& model) {
+    model.eval();
+    return true;
+  }
   // SL1 or SL2 has changed and no other input.
   void sl(Model& model) { model.eval(); }
   // CLK rises or falls and no other input changes. Returns false if the edge changes nothing.
@@ -25,6 +30,7 @@ class PlainSteps {
   // This class leaves out no clocks at rest.
   void mark(const Model& /*model*/) {}
   bool at_rest(const Model& /*model*/) const { return false; }
+  bool rests(Model& /*model*/, bool /*level*/) { return false; }
   std::uint64_t rest_left(const Model& /*model*/) const { return 0; }
   std::uint64_t leave_out(Model& /*model*/, std::uint64_t clocks) { return clocks; }
 };

@@ -113,7 +113,15 @@ class VerilatedChip final : public ChipModel {
       const Time now = pin_clock_.next();
       const bool level = pin_clock_.edge();
       cycles_ += level ? 1U : 0U;
+      if (resting_) resting_ = steps_.rests(model, level);
+      if (resting_) {
+        if (!level) leave_out_rest(limit);
+        continue;
+      }
       context_->time(now);
+      // After some clocks without a change at any pin, is the chip at rest?
+      const bool look = level && ++quiet_ == kLooks[looks_];
+      if (look) steps_.mark(model);
       if (steps_.clk(model, level)) {
         trace_.dump(now);
         if (const Outputs outputs = pack(); outputs != outputs_) {
@@ -122,7 +130,10 @@ class VerilatedChip final : public ChipModel {
           return now;
         }
       }
-      if (!level) leave_out_rest(limit);
+      if (!look) continue;
+      quiet_ = 0;
+      resting_ = steps_.at_rest(model);
+      looks_ = resting_ ? 0 : std::min(looks_ + 1, std::size(kLooks) - 1);
     }
     return kNever;
   }
@@ -134,6 +145,7 @@ class VerilatedChip final : public ChipModel {
   void set_input(Time now, Pin pin, bool level) override {
     Verilated::threadContextp(context_.get());
     const CData value = level ? 1 : 0;
+    bool host = true;
     switch (pin) {
       case Pin::kNcs:
         model_->ncs_i = value;
@@ -149,14 +161,18 @@ class VerilatedChip final : public ChipModel {
         break;
       case Pin::kCfgspi:
         model_->cfgspi_i = value;
+        host = false;
         break;
       case Pin::kIntNmot:
         model_->int_nmot_i = value;
+        host = false;
         break;
       case Pin::kNres:
         model_->nres_i = value;
+        host = false;
         break;
       case Pin::kClk:
+        host = false;
         if (!pin_clock_connected_) {
           cycles_ += value != 0 && model_->clk_i == 0 && !osc_running_ ? 1U : 0U;
           model_->clk_i = value;
@@ -182,7 +198,15 @@ class VerilatedChip final : public ChipModel {
         break;
       }
     }
-    evaluate(now);
+    if (host) {
+      context_->time(now);
+      const bool seen = steps_.host(*model_);
+      trace_.dump(now);
+      if (!seen) return;
+      stirred();
+    } else {
+      evaluate(now);
+    }
     outputs_ = pack();
     // Host pins and reset change CFGIF and CLKENI, clock edges do not.
     followers_ = Inside::paired(*model_) ? kMa2 : 0;
@@ -231,21 +255,9 @@ class VerilatedChip final : public ChipModel {
   // at rest (MA of a low frequency), the checks become less frequent.
   static constexpr unsigned kLooks[] = {4, 2, 8, 16, 32, 64};
 
-  // Called after a falling edge of CLK. After some time without a change at any pin it checks
-  // whether the chip is at rest. If so, it leaves out all periods up to `limit`, and later ones
-  // until an input changes.
+  // Called after a falling edge of CLK while the chip is at rest: leaves out all periods up to
+  // `limit`.
   void leave_out_rest(Time limit) {
-    if (!resting_) {
-      ++quiet_;
-      if (quiet_ == kLooks[looks_]) {
-        steps_.mark(*model_);
-      } else if (quiet_ > kLooks[looks_]) {
-        quiet_ = 0;
-        resting_ = steps_.at_rest(*model_);
-        looks_ = resting_ ? 0 : std::min(looks_ + 1, std::size(kLooks) - 1);
-      }
-      if (!resting_) return;
-    }
     const std::uint64_t left = steps_.rest_left(*model_);
     resting_ = left != 0;
     const std::uint64_t clocks = std::min(left, pin_clock_.whole_periods(limit));

@@ -21,6 +21,10 @@ class Requests : public mb4test::Block<Vmb4_frame_request> {
     model.freqags_i = static_cast<std::uint8_t>(freqags);
     reset();
   }
+  // mb4_pkg::request_t.
+  bool due() const { return (model.request_o & 4) != 0; }
+  bool agsmin() const { return (model.request_o & 2) != 0; }
+  bool infinite() const { return (model.request_o & 1) != 0; }
   // The clocks, counted from 1, that end with a request; each request is taken in the next clock.
   std::vector<unsigned> run(unsigned clocks) {
     std::vector<unsigned> times;
@@ -28,7 +32,7 @@ class Requests : public mb4test::Block<Vmb4_frame_request> {
       clock();
       model.taken_i = 0;
       model.eval();
-      if (model.request_o == 0) continue;
+      if (!due()) continue;
       times.push_back(i);
       model.taken_i = 1;
     }
@@ -43,7 +47,7 @@ unsigned period_of(unsigned code) {
 }
 
 TEST(FrameRequestBlock, FastAndSlowRates_OneRequestAPeriodFromAgsOn) {
-  // Of the slow codes, which take long, some.
+  // Only some of the slow codes, because they take long.
   for (unsigned code = 0; code < 256; code += code < 0x80 || code == 0xFE ? 1 : 7) {
     const unsigned period = period_of(code);
     if (period == 0) continue;
@@ -52,24 +56,24 @@ TEST(FrameRequestBlock, FastAndSlowRates_OneRequestAPeriodFromAgsOn) {
     requests.model.ags_i = 1;
     EXPECT_EQ(requests.run(3 * period), (std::vector<unsigned>{period, 2 * period, 3 * period}))
         << "FREQAGS " << code;
-    EXPECT_EQ(requests.model.agsmin_o, 0);
-    EXPECT_EQ(requests.model.infinite_o, 0);
+    EXPECT_FALSE(requests.agsmin());
+    EXPECT_FALSE(requests.infinite());
   }
 }
 
 // Table 44: with AGSMIN the next frame follows the one before; AGSINFINITE waits for pin GETSENS.
 TEST(FrameRequestBlock, CodesWithoutRate_AgsminAlwaysAndAgsinfiniteNever) {
   Requests least(0x7C);
-  EXPECT_EQ(least.model.agsmin_o, 1);
+  EXPECT_TRUE(least.agsmin());
   least.model.eval();
-  EXPECT_EQ(least.model.request_o, 0);
+  EXPECT_FALSE(least.due());
   least.model.ags_i = 1;
   EXPECT_EQ(least.run(10).size(), 10U);
   for (const unsigned code : {0x7DU, 0x7EU, 0x7FU}) {
     Requests infinite(code);
     infinite.model.ags_i = 1;
     EXPECT_TRUE(infinite.run(5000).empty()) << code;
-    EXPECT_EQ(infinite.model.infinite_o, 1) << code;
+    EXPECT_TRUE(infinite.infinite()) << code;
   }
 }
 

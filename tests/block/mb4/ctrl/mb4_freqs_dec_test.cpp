@@ -14,7 +14,7 @@ namespace {
 using mb4test::Block;
 
 // Table 35: MA period in clocks for every code; 0x10 is not permitted, the choice is f_CLK / 20.
-TEST(DividerBlock, EveryCode_GivesTable35sPeriod) {
+TEST(FreqsDecBlock, EveryCode_GivesTable35sPeriod) {
   Block<Vmb4_freqs_dec> decoder;
   for (unsigned code = 0; code < 32; ++code) {
     decoder.model.freqs_i = static_cast<std::uint8_t>(code);

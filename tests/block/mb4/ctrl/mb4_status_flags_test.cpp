@@ -1,11 +1,11 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The status flags alone: pages 33 to 35, Tables 54 to 60, 62; decisions 8, 9.
+// The status flags alone: pages 33 to 35, Tables 54 to 60, 62 to 64; decisions 8, 9.
 #include <gtest/gtest.h>
 
-#include <array>
 #include <cstdint>
+#include <initializer_list>
 
 #include "Vmb4_status_flags.h"
 #include "tests/support/model_context.hpp"
@@ -17,50 +17,65 @@ struct Flags {
   bool swbank_fail = false;
 };
 
+// The events of one clock, by the fields of mb4_pkg::frame_flags_t, bank_event_t, access_event_t.
+struct Events {
+  bool busy = false, clear = false, scd_en = false, scd_bad = false, ags_error = false;
+  bool bank_fail = false, bank_swapped = false, bank_lost = false;
+  bool reg_begin = false, reg_end = false, reg_error = false, delay_error = false;
+};
+
 class Status : public mb4test::Block<Vmb4_status_flags> {
  public:
   Status() {
-    none();
+    model.frame_i = model.bank_i = model.access_i = model.access_state_i = 0;
     reset();
   }
-  std::array<std::uint8_t*, 10> inputs() {
-    return {&model.busy_i,      &model.clear_i,     &model.scd_en_i,       &model.scd_bad_i,
-            &model.ags_error_i, &model.bank_fail_i, &model.bank_swapped_i, &model.reg_begin_i,
-            &model.reg_end_i,   &model.reg_error_i};
-  }
-  void none() {
-    for (std::uint8_t* input : inputs()) *input = 0;
-    model.delay_error_i = 0;
-  }
+  // One clock with the events of `now`, which are over then.
   void pulse() {
+    model.frame_i =
+        port({now.busy, now.clear, now.scd_en, now.scd_bad, now.ags_error, now.bank_fail});
+    model.bank_i = port({now.bank_swapped, now.bank_lost});
+    model.access_i = port({now.reg_begin, now.reg_end, now.reg_error, now.delay_error});
+    now = {};
     clock();
-    none();
   }
+  // mb4_pkg::flags_t.
+  bool flag(unsigned bit) const { return (model.flags_o >> bit & 1) != 0; }
+  bool eot() const { return flag(8); }
   void expect(const Flags& flags) {
-    EXPECT_EQ(model.n_scderr_o, flags.n_scderr);
-    EXPECT_EQ(model.n_agserr_o, flags.n_agserr);
-    EXPECT_EQ(model.n_regerr_o, flags.n_regerr);
-    EXPECT_EQ(model.n_delayerr_o, flags.n_delayerr);
-    EXPECT_EQ(model.regend_o, flags.regend);
-    EXPECT_EQ(model.swbank_fail_o, flags.swbank_fail);
+    EXPECT_EQ(flag(13), flags.n_agserr);
+    EXPECT_EQ(flag(12), flags.n_delayerr);
+    EXPECT_EQ(flag(11), flags.n_scderr);
+    EXPECT_EQ(flag(10), flags.n_regerr);
+    EXPECT_EQ(flag(9), flags.regend);
+    EXPECT_EQ(flag(7), flags.swbank_fail);
     // Table 60: pin NER is low if any of the four is indicated.
     EXPECT_EQ(model.ner_low_o,
               !(flags.n_scderr && flags.n_agserr && flags.n_regerr && flags.n_delayerr));
+  }
+
+  Events now;
+
+ private:
+  static std::uint8_t port(std::initializer_list<bool> fields) {
+    unsigned value = 0;
+    for (const bool field : fields) value = value << 1 | (field ? 1U : 0U);
+    return static_cast<std::uint8_t>(value);
   }
 };
 
 TEST(StatusBlock, Reset_NoErrorAndNothingEnded) {
   Status status;
   status.expect({});
-  EXPECT_EQ(status.model.eot_o, 1);
+  EXPECT_TRUE(status.eot());
 }
 
 // Table 55, decision 9: the result of the last frame only.
 TEST(StatusBlock, FrameEnds_NscderrIsItsResult) {
   Status status;
   for (const bool bad : {true, false, true, true}) {
-    status.model.scd_en_i = 1;
-    status.model.scd_bad_i = bad;
+    status.now.scd_en = true;
+    status.now.scd_bad = bad;
     status.pulse();
     status.expect({.n_scderr = !bad});
   }
@@ -72,12 +87,12 @@ TEST(StatusBlock, ControlCommunicationEnds_ThreeFlagsTellIt) {
   for (const bool error : {false, true}) {
     for (const bool delay : {false, true}) {
       Status status;
-      status.model.reg_end_i = 1;
-      status.model.reg_error_i = error;
-      status.model.delay_error_i = delay;
+      status.now.reg_end = true;
+      status.now.reg_error = error;
+      status.now.delay_error = delay;
       status.pulse();
       status.expect({.n_regerr = !error, .n_delayerr = !delay, .regend = true});
-      status.model.reg_begin_i = 1;
+      status.now.reg_begin = true;
       status.pulse();
       status.expect({});
     }
@@ -86,32 +101,34 @@ TEST(StatusBlock, ControlCommunicationEnds_ThreeFlagsTellIt) {
 
 // Table 62: until the next successful switch.
 TEST(StatusBlock, SwitchPrevented_SwbankfailUntilTheNextSwitch) {
-  Status status;
-  status.model.bank_fail_i = 1;
-  status.pulse();
-  status.expect({.swbank_fail = true});
-  status.clock();
-  status.model.clear_i = 1;
-  status.pulse();
-  status.expect({.swbank_fail = true});
-  status.model.bank_swapped_i = 1;
-  status.pulse();
-  status.expect({});
+  for (const bool lost : {false, true}) {
+    Status status;
+    (lost ? status.now.bank_lost : status.now.bank_fail) = true;
+    status.pulse();
+    status.expect({.swbank_fail = true});
+    status.pulse();
+    status.now.clear = true;
+    status.pulse();
+    status.expect({.swbank_fail = true});
+    status.now.bank_swapped = true;
+    status.pulse();
+    status.expect({});
+  }
 }
 
 // Page 32, decision 8: INIT and BREAK set nSCDERR, nREGERR, nDELAYERR, nAGSERR and reset REGEND.
 TEST(StatusBlock, InitOrBreak_FourFlagsAreSetAndRegendIsReset) {
   Status status;
-  status.model.ags_error_i = status.model.scd_en_i = status.model.scd_bad_i = 1;
-  status.model.reg_end_i = status.model.reg_error_i = status.model.delay_error_i = 1;
+  status.now.ags_error = status.now.scd_en = status.now.scd_bad = true;
+  status.now.reg_end = status.now.reg_error = status.now.delay_error = true;
   status.pulse();
   status.expect({false, false, false, false, true, false});
-  status.model.clear_i = 1;
+  status.now.clear = true;
   status.pulse();
   status.expect({});
 }
 
-// Any events, one a clock: what is not concerned keeps its value.
+// Random events, one in each clock: a flag that the event does not concern keeps its value.
 TEST(StatusBlock, RandomEvents_EachFlagFollowsItsOwn) {
   mb4test::Dice random;
   Status status;
@@ -120,45 +137,45 @@ TEST(StatusBlock, RandomEvents_EachFlagFollowsItsOwn) {
     SCOPED_TRACE(testing::Message() << "step " << step);
     const bool bad = random.below(2) != 0;
     const bool delay = random.below(2) != 0;
-    auto& m = status.model;
+    auto& now = status.now;
     switch (random.below(8)) {
       case 0:
-        m.clear_i = 1;
+        now.clear = true;
         flags = {.swbank_fail = flags.swbank_fail};
         break;
       case 1:
-        m.scd_en_i = 1;
-        m.scd_bad_i = bad;
+        now.scd_en = true;
+        now.scd_bad = bad;
         flags.n_scderr = !bad;
         break;
       case 2:
-        m.ags_error_i = 1;
+        now.ags_error = true;
         flags.n_agserr = false;
         break;
       case 3:
-        m.bank_fail_i = 1;
+        now.bank_fail = true;
         flags.swbank_fail = true;
         break;
       case 4:
-        m.bank_swapped_i = 1;
+        now.bank_swapped = true;
         flags.swbank_fail = false;
         break;
       case 5:
-        m.reg_begin_i = 1;
+        now.reg_begin = true;
         flags.n_regerr = flags.n_delayerr = true;
         flags.regend = false;
         break;
       case 6:
-        m.reg_end_i = 1;
-        m.reg_error_i = bad;
-        m.delay_error_i = delay;
+        now.reg_end = true;
+        now.reg_error = bad;
+        now.delay_error = delay;
         flags.n_regerr = !bad;
         flags.n_delayerr = !delay;
         flags.regend = true;
         break;
       default:
         // Results without an event do not count.
-        m.scd_bad_i = m.reg_error_i = m.delay_error_i = 1;
+        now.scd_bad = now.reg_error = now.delay_error = true;
     }
     status.pulse();
     status.expect(flags);
@@ -169,15 +186,30 @@ TEST(StatusBlock, RandomEvents_EachFlagFollowsItsOwn) {
 TEST(StatusBlock, Busy_EotFallsAtOnceAndRisesThreeClocksAfterIt) {
   Status status;
   for (const int busy : {1, 2, 7}) {
-    status.model.busy_i = 1;
     for (int i = 0; i < busy; ++i) {
-      status.clock();
-      EXPECT_EQ(status.model.eot_o, 0);
+      status.now.busy = true;
+      status.pulse();
+      EXPECT_FALSE(status.eot());
     }
-    status.model.busy_i = 0;
     for (int i = 1; i <= 6; ++i) {
-      status.clock();
-      EXPECT_EQ(status.model.eot_o, i >= 3) << "busy " << busy << " clock " << i;
+      status.pulse();
+      EXPECT_EQ(status.eot(), i >= 3) << "busy " << busy << " clock " << i;
+    }
+  }
+}
+
+// Tables 63, 64: the number of good bytes only with nREGERR or nDELAYERR; CDMTIMEOUT as it is.
+TEST(StatusBlock, AccessHasEnded_BytesAreToldAfterAnErrorOnly) {
+  for (const bool error : {false, true}) {
+    for (const bool delay : {false, true}) {
+      Status status;
+      status.model.access_state_i = 1U << 6 | 41;
+      status.now.reg_end = true;
+      status.now.reg_error = error;
+      status.now.delay_error = delay;
+      status.pulse();
+      EXPECT_TRUE(status.flag(6)) << "CDMTIMEOUT";
+      EXPECT_EQ(status.model.flags_o & 0x3F, error || delay ? 41 : 0);
     }
   }
 }

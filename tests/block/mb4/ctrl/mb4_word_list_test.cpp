@@ -14,7 +14,7 @@
 namespace {
 
 struct Channel {
-  bool enabled = false, own = false, actuator = false, gray_lstop = false;
+  bool enabled = false, actuator = false, gray_lstop = false;
   unsigned data_bits = 0;
   unsigned crc_bits = 0;  // 0, 3 to 8, 16
   unsigned crc_start = 0;
@@ -33,7 +33,7 @@ struct Channel {
 class WordList : public mb4test::Block<Vmb4_word_list> {
  public:
   WordList() {
-    model.enscd_i = model.actnsens_i = model.own_i = model.ssi_i = model.nocrc_i = 0;
+    model.enscd_i = model.actnsens_i = model.ssi_i = model.nocrc_i = 0;
     model.start_i = model.next_i = 0;
     model.cfg_i = 0;
     reset();
@@ -69,7 +69,6 @@ TEST(WordListBlock, RandomConfigurations_WordsComeInOrderWithTheirLengths) {
     for (unsigned i = 0; i < 8; ++i) {
       Channel& c = list.channels[i];
       c.enabled = random.below(2) != 0;
-      c.own = random.below(4) != 0;
       c.actuator = random.below(3) == 0;
       c.gray_lstop = random.below(2) != 0;
       c.data_bits = 1 + random.below(64);
@@ -78,9 +77,8 @@ TEST(WordListBlock, RandomConfigurations_WordsComeInOrderWithTheirLengths) {
       c.crc_start = random.below(65536);
       const auto bit = static_cast<std::uint8_t>(1U << i);
       if (c.enabled) m.enscd_i |= bit;
-      if (c.own) m.own_i |= bit;
       if (c.actuator) m.actnsens_i |= bit;
-      if (!c.enabled || !c.own) continue;
+      if (!c.enabled) continue;
       words.push_back(i);
       // Table 18: the stop bit of an actuator; SSI has none.
       const bool sends = c.actuator && !ssi;

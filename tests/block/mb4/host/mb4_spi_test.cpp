@@ -19,12 +19,14 @@ class SpiBlock : public testing::Test {
  protected:
   SpiBlock() {
     for (unsigned i = 0; i < 256; ++i) memory[i] = static_cast<std::uint8_t>(i ^ 0xC3);
-    // A reset is an edge to Verilator.
+    // A reset is an edge to Verilator, that of the frame too: NCS falls first, which opens it.
     spi.rst_ni = 1;
-    spi.cs_ni = 0;
+    spi.cs_ni = 1;
     spi.sclk_i = 0;
     spi.mosi_i = 0;
     spi.rd_data_i = 0xEE;
+    spi.eval();
+    spi.cs_ni = 0;
     spi.eval();
     spi.rst_ni = 0;
     spi.cs_ni = 1;
@@ -37,6 +39,10 @@ class SpiBlock : public testing::Test {
     spi.cs_ni = active ? 0 : 1;
     spi.eval();
   }
+  // mb4_pkg::host_t: wr_en, wr_addr, wr_data, rd_en, rd_addr.
+  unsigned field(unsigned lsb, unsigned width) const {
+    return spi.host_o >> lsb & ((1U << width) - 1);
+  }
   // One clock: MISO is what the host samples with the rising edge.
   bool clock(bool mosi) {
     spi.mosi_i = mosi ? 1 : 0;
@@ -44,14 +50,14 @@ class SpiBlock : public testing::Test {
     const bool selected = spi.cs_ni == 0;
     const bool miso = spi.miso_o != 0;
     // What the registers see at the rising edge.
-    const bool write = selected && spi.wr_en_o != 0;
-    const bool read = selected && spi.rd_en_o != 0;
+    const bool write = selected && field(25, 1) != 0;
+    const bool read = selected && field(8, 1) != 0;
     if (write) {
-      memory[spi.wr_addr_o] = spi.wr_data_o;
+      memory[field(17, 8)] = static_cast<std::uint8_t>(field(9, 8));
       ++writes;
     }
     if (read) {
-      next = memory[spi.rd_addr_o];
+      next = memory[field(0, 8)];
       ++reads;
     }
     spi.sclk_i = 1;
@@ -159,8 +165,8 @@ TEST_F(SpiBlock, MisoChanges_OnFallingEdgesOnly) {
   for (int i = 0; i < 64; ++i) {
     const auto before = spi.miso_o;
     spi.sclk_i = 1;
-    const bool read = spi.rd_en_o != 0;
-    const std::uint8_t address = spi.rd_addr_o;
+    const bool read = field(8, 1) != 0;
+    const unsigned address = field(0, 8);
     spi.eval();
     if (read) spi.rd_data_i = memory[address];
     spi.eval();

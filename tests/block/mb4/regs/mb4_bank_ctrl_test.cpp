@@ -4,16 +4,21 @@
 // The choice of the banks alone: pages 26, 31, 33, Tables 38, 48, 49; decision 15.
 #include <gtest/gtest.h>
 
+#include <cstdint>
+
 #include "Vmb4_bank_ctrl.h"
 #include "tests/support/model_context.hpp"
 
 namespace {
 
+// Fields of mb4_pkg::bank_cmd_t.
+constexpr std::uint8_t kRun = 0x20, kDataEnd = 0x08, kSwap = 0x02;
+
 class Banks : public mb4test::Block<Vmb4_bank_ctrl> {
  public:
   Banks() {
     model.singlebank_i = model.holdbank_i = model.kept_i = 0;
-    model.swbank_pulse_i = model.frame_end_i = model.frame_run_i = 0;
+    model.bank_i = 0;
     reset();
   }
   void settle() {
@@ -27,18 +32,18 @@ class Banks : public mb4test::Block<Vmb4_bank_ctrl> {
     settle();
   }
   void begin_frame() {
-    model.frame_run_i = 1;
+    model.bank_i = kRun;
     lost = false;
     for (int i = 0; i < 4; ++i) {
       model.eval();
-      lost = lost || model.lost_o != 0;
+      lost = lost || (model.event_o & 1) != 0;
       clock();
     }
   }
   void end_frame() {
-    model.frame_end_i = 1;
+    model.bank_i |= kDataEnd;
     clock();
-    model.frame_end_i = model.frame_run_i = 0;
+    model.bank_i = 0;
     settle();
   }
   void frame() {
@@ -46,13 +51,13 @@ class Banks : public mb4test::Block<Vmb4_bank_ctrl> {
     end_frame();
   }
   void invert_swbank() {
-    model.swbank_pulse_i = 1;
+    model.bank_i = kSwap;
     clock();
-    model.swbank_pulse_i = 0;
+    model.bank_i = 0;
     settle();
   }
-  unsigned host() const { return model.host_bank_o; }
-  unsigned engine() const { return model.eng_bank_o; }
+  unsigned host() const { return model.banks_o >> 1; }
+  unsigned engine() const { return model.banks_o & 1; }
 
   bool lost = false;
 };

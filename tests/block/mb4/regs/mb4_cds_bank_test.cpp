@@ -15,7 +15,7 @@ TEST(CdsBankBlock, RandomFrames_BitsAreThoseOfTheLastFrameOfTheirBank) {
   mb4test::Dice random;
   mb4test::Block<Vmb4_cds_bank> block;
   auto& m = block.model;
-  m.host_bank_i = m.eng_bank_i = m.frame_end_i = m.reduced_i = m.holdbank_i = m.cds_i = 0;
+  m.banks_i = m.bank_i = m.holdbank_i = m.cds_i = 0;
   block.reset();
   unsigned banks[2] = {0, 0};
   for (int step = 0; step < 5'000; ++step) {
@@ -25,10 +25,9 @@ TEST(CdsBankBlock, RandomFrames_BitsAreThoseOfTheLastFrameOfTheirBank) {
     const bool reduced = random.below(2) != 0;
     const bool hold = random.below(2) != 0;
     const unsigned cds = random.below(4);
-    m.host_bank_i = static_cast<std::uint8_t>(host);
-    m.eng_bank_i = static_cast<std::uint8_t>(engine);
-    m.frame_end_i = end;
-    m.reduced_i = reduced;
+    m.banks_i = static_cast<std::uint8_t>(host << 1 | engine);
+    // mb4_pkg::bank_cmd_t: the ends of all frames, reduced ones.
+    m.bank_i = static_cast<std::uint8_t>((end ? 0x10 : 0) | (reduced ? 0x04 : 0));
     m.holdbank_i = hold;
     m.cds_i = static_cast<std::uint8_t>(cds);
     block.clock();

@@ -21,28 +21,35 @@ constexpr std::uint8_t kBreak = 0x80, kHoldBank = 0x40, kSwBank = 0x20;
 class Instr : public mb4test::Owned<Vmb4_instr_reg> {
  public:
   Instr() : m(**this) {
-    m.hclk_i = m.wr_en_i = m.wr_addr_i = m.wr_data_i = 0;
-    m.ack_i = m.held_i = m.base_i = m.newest_i = 0;
+    m.hclk_i = 0;
+    m.host_i = 0;
+    m.instr_i = m.base_i = m.newest_i = 0;
     for (const int level : {1, 0, 1}) {
       m.rst_ni = static_cast<std::uint8_t>(level);
       m.eval();
     }
   }
   void write(std::uint8_t data, std::uint8_t address = reg::kAddrInstr) {
-    m.wr_en_i = 1;
-    m.wr_addr_i = address;
-    m.wr_data_i = data;
+    // mb4_pkg::host_t: wr_en, wr_addr, wr_data, rd_en, rd_addr.
+    m.host_i = 1U << 25 | unsigned{address} << 17 | unsigned{data} << 9;
     m.hclk_i = 1;
     m.eval();
-    m.hclk_i = m.wr_en_i = 0;
+    m.hclk_i = 0;
+    m.host_i = 0;
     m.eval();
   }
   // The core takes one step of the Gray count 0, 1, 3, 2 and keeps the byte without BREAK.
   void core_takes() {
     static constexpr std::uint8_t kNext[] = {1, 3, 0, 2};
-    ASSERT_NE(m.count_o, m.ack_i);
-    m.held_i = static_cast<std::uint8_t>(m.written_o & ~kBreak);
-    m.ack_i = kNext[m.ack_i];
+    const unsigned ack = m.instr_i >> 8;
+    ASSERT_NE(count(), ack);
+    answer(kNext[ack], static_cast<std::uint8_t>(written() & ~kBreak));
+  }
+  // mb4_pkg::instr_host_t and instr_core_t: a count above a byte.
+  unsigned count() const { return m.instr_o >> 8; }
+  unsigned written() const { return m.instr_o & 0xFF; }
+  void answer(unsigned ack, std::uint8_t held) {
+    m.instr_i = static_cast<std::uint16_t>(ack << 8 | held);
     m.eval();
   }
   Vmb4_instr_reg& m;
@@ -53,7 +60,7 @@ TEST(InstrRegBlock, AnyByte_ReadsAsWrittenUntilTheCoreHasActed) {
     Instr instr;
     EXPECT_EQ(instr.m.pending_o, 0);
     instr.write(static_cast<std::uint8_t>(value));
-    EXPECT_EQ(instr.m.written_o, value);
+    EXPECT_EQ(instr.written(), value);
     EXPECT_EQ(instr.m.rd_data_o, value & 0x7F) << "BREAK never reads 1";
     EXPECT_EQ(instr.m.pending_o, 1);
     const unsigned code = (value >> 1) & 7;  // Table 45
@@ -61,9 +68,8 @@ TEST(InstrRegBlock, AnyByte_ReadsAsWrittenUntilTheCoreHasActed) {
     instr.core_takes();
     EXPECT_EQ(instr.m.pending_o, 0);
     EXPECT_EQ(instr.m.pending_control_o, 0);
-    instr.m.held_i = static_cast<std::uint8_t>(~value);
-    instr.m.eval();
-    EXPECT_EQ(instr.m.rd_data_o, instr.m.held_i) << "what the core holds";
+    instr.answer(instr.count(), static_cast<std::uint8_t>(~value));
+    EXPECT_EQ(instr.m.rd_data_o, ~value & 0xFF) << "what the core holds";
   }
 }
 
@@ -73,7 +79,7 @@ TEST(InstrRegBlock, OtherAddresses_ChangeNothing) {
     if (address == reg::kAddrInstr) continue;
     instr.write(0xFF, static_cast<std::uint8_t>(address));
     ASSERT_EQ(instr.m.pending_o, 0) << address;
-    ASSERT_EQ(instr.m.written_o, 0) << address;
+    ASSERT_EQ(instr.written(), 0) << address;
   }
 }
 
@@ -92,20 +98,20 @@ TEST(InstrRegBlock, CloseWritesInAnyNumber_LastByteCountsAndNoBreakIsLost) {
     }
     unsigned steps = 0;
     while (instr.m.pending_o != 0) {
-      ASSERT_EQ(instr.m.written_o, (last & ~kBreak) | (broken ? kBreak : 0)) << "round " << round;
+      ASSERT_EQ(instr.written(), (last & ~kBreak) | (broken ? kBreak : 0)) << "round " << round;
       instr.core_takes();
       ASSERT_LE(++steps, 2U) << "round " << round;
     }
   }
 }
 
-// One bit changes with each step, so that the core sees no step that there is not.
+// Each step of the count changes one bit, so the core never sees a step that was not made.
 TEST(InstrRegBlock, CountOfWrites_IsAGrayCount) {
   Instr instr;
   for (int i = 0; i < 9; ++i) {
-    const unsigned before = instr.m.count_o;
+    const unsigned before = instr.count();
     instr.write(0);
-    EXPECT_EQ(std::popcount(before ^ instr.m.count_o), 1);
+    EXPECT_EQ(std::popcount(before ^ instr.count()), 1);
     instr.core_takes();
   }
 }
@@ -125,8 +131,9 @@ TEST(InstrRegBlock, SwbankInverted_HostsBankIsSwitchedAtTheWrite) {
   }
 }
 
-// Table 48: from the write of HOLDBANK on the bank stays, though a frame ends in the core.
-// HOLDBANK = 0 gives the bank with the newest word at once; a byte that still holds does not.
+// Table 48: from the write of HOLDBANK = 1 on the host's bank stays, also when a frame ends in the
+// core. A byte with HOLDBANK = 0 gives the bank with the newest word at once; a byte with HOLDBANK
+// = 1 does not.
 TEST(InstrRegBlock, HoldBankWritten_BankStaysUntilItIsCleared) {
   Instr instr;
   instr.write(kHoldBank);

@@ -12,9 +12,7 @@ extern "C" {
 #endif
 
 uint32_t k_cycle_get_32(void);
-/* A kernel clock of 16 MHz. */
-inline uint32_t k_cyc_to_us_floor32(uint32_t cycles) { return cycles / 16; }
-inline uint32_t k_us_to_cyc_floor32(uint32_t us) { return us * 16; }
+uint32_t sys_clock_hw_cycles_per_sec(void);
 
 #ifdef __cplusplus
 }

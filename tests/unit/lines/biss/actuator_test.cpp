@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// A bus with MO (datasheet pages 15, 25, 31; protocol facts section 8): the master is one more
-// slave at the far end. It acknowledges with rising edge 2, sends its start bit MO_BUSY periods
-// later than a slave could, then CDS = 0, then the words (slave 1 first), then 1.
+// A bus with MO (datasheet pages 15, 25, 31; docs/theory.md, MO and actuators): the master acts as
+// one more slave at the far end. It acknowledges with rising edge 2, sends its start bit MO_BUSY
+// periods later than a slave could, then CDS = 0, then the words (slave 1 first), then 1.
 #include "sim/lines/biss/actuator.hpp"
 
 #include <gtest/gtest.h>
@@ -98,7 +98,7 @@ TEST(Actuator, OneWord_IsTakenAtTheEndOfTheFrame) {
   const std::string first = line_word(0xA5C, config);
   const std::string second = line_word(0x3F1, config);
   const std::string old = line_word(0, config);
-  // Behind its own word a slave sends what came in: the stop bit of MO.
+  // After its own word a slave sends what came in: the stop bit of MO.
   EXPECT_EQ(bench.frame(first), "1010" + old + "0");
   EXPECT_EQ(slave.actuator()->word(), 0xA5CU);
   EXPECT_EQ(bench.frame(second), "1010" + first + "0");
@@ -150,7 +150,7 @@ TEST(Actuator, EveryPositionInEveryChain_GetsItsWordAndSensorsStayValid) {
   }
 }
 
-// MO has a delay of its own; what counts is that it comes within the period of MA it belongs to.
+// MO has its own delay. The slave reads it correctly if it arrives within its period of MA.
 TEST(Actuator, MoLaterThanMa_UpToOnePeriod) {
   for (const Time late : {Time{1}, 50 * kPsPerNs, 100 * kPsPerNs, 199 * kPsPerNs}) {
     for (const Time round_trip : {Time{0}, 330 * kPsPerNs, 5000 * kPsPerNs}) {
@@ -171,7 +171,7 @@ TEST(Actuator, MoLaterThanMa_UpToOnePeriod) {
   }
 }
 
-// The model can see a master that clocks on: the word has moved away.
+// A master that makes too many clocks is visible: the word has left the shift register.
 TEST(Actuator, MoreEdgesThanTheFrameHas_ShiftTheWordOut) {
   BusBench bench;
   const BissCSlaveConfig config = actuator(12, 0x43);

@@ -50,12 +50,14 @@ class BissBAccess : public testing::TestWithParam<bool> {
   BissBBench bench;
 };
 
-// 0x5F has the CRC 0000, inverted 1111 (protocol facts section 3.8).
+// 0x5F has the CRC 0000 with 0x13, 1111 on the line (by hand, with the rule of docs/theory.md,
+// CRC).
 TEST_P(BissBAccess, Read_AnswersBehindTheStopBit) {
   auto& slave = bench.add(with_registers());
   slave.reg_write(0x67, 0x5F);
   enter();
-  // Nothing while the master speaks; the start bit is seen one clock behind the stop bit's cell.
+  // The slave sends nothing while the master sends; its start bit shows one clock after the cell of
+  // the stop bit.
   EXPECT_EQ(bench.send(biss_b_header(first_id(), 0x67, false)), std::string(17, '0'));
   EXPECT_EQ(bench.send(std::string(13, 'c')),
             "0"

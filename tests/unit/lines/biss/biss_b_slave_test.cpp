@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Sensor frames of BiSS B and the ways into register mode (datasheet pages 12, 13, 16; protocol
-// facts sections 5.1, 5.2, 5.5, 5.6).
+// Sensor frames of BiSS B and the ways into register mode (datasheet pages 12, 13, 16;
+// docs/choices.md, 6 and 7).
 #include "sim/lines/biss/biss_b_slave.hpp"
 
 #include <gtest/gtest.h>
@@ -134,7 +134,8 @@ TEST(BissBSlave, MoFallsBeforeMa_SelectsRegisterModeWithoutTimeout) {
   }
 }
 
-// SLI = 0 of the last slave, also on a bus whose master has switched MO off, is no selection.
+// SLI = 0 of the last slave does not select register mode, also on a bus whose master has switched
+// MO off.
 TEST(BissBSlave, SliRestsLow_IsTheLastSlaveOfASensorFrame) {
   BissBBench bench;
   auto& slave = bench.add(biss_b_slave(8, 0xA5, 0));

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Expected edges come from the protocol (datasheet BiSS C chapter, page 15; protocol facts sections
-// 1.2 to 1.4), never from the chip.
+// Expected edges come from the protocol (datasheet BiSS C chapter, page 15; docs/theory.md,
+// A frame), never from the chip.
 #include "sim/lines/biss/biss_c_slave.hpp"
 
 #include <gtest/gtest.h>
@@ -136,7 +136,7 @@ TEST(BissCSlave, LevelInTimeout_IsTakenInvertedAsCdm) {
   EXPECT_FALSE(slave.last_cdm());
 }
 
-// Section 1.3: after CDM = 1 with HOLDCDM MA rests low and rises just before the next frame.
+// Table 25: after CDM = 1 with HOLDCDM MA rests low and rises just before the next frame.
 TEST(BissCSlave, MaRestsLow_NextFrameIsNotShifted) {
   ChainBench bench;
   BissCSlave& slave = bench.add(constant_slave(28, kWord, 0x43));

@@ -193,7 +193,7 @@ TEST(ControlAccess, FlippedCdm_NeverWritesSomethingElse) {
     slave.control()->faults().flip_cdm_in_slot(slot);
     const Result result = bench.write(0, 0x60, {0x06});
     EXPECT_FALSE(slave.control()->faults().pending()) << slot;
-    // P and the end mark do not belong to the byte any more.
+    // P and the end mark come after the byte.
     EXPECT_EQ(result == Result::kOk, slot >= 31) << slot;
     for (unsigned a = 0; a < 128; ++a) {
       const unsigned value = result == Result::kOk && a == 0x60 ? 0x06 : 0;

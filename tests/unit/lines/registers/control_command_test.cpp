@@ -41,7 +41,7 @@ std::string padded(std::string bits) {
 }
 
 TEST(ControlCommand, Headers_AreTheComputedOnes) {
-  // Values worked out apart from this code: nCRC behind CTS, IDS and CMD.
+  // The values were worked out by hand: nCRC after CTS, IDS and CMD.
   EXPECT_EQ(command_header(0x00, 0), "1000000000001111");
   EXPECT_EQ(command_header(0x00, 1), "1000000000011100");
   EXPECT_EQ(command_header(0x00, 2), "1000000000101001");
@@ -60,7 +60,7 @@ TEST(ControlCommand, Broadcast00_SwitchesAllDataChannelsOff) {
   EXPECT_FALSE(bench.near.control()->data_active());
   EXPECT_EQ(bench.near.control()->counters().commands, 1U);
   EXPECT_EQ(bench.near.control()->last_command().ids, 0);
-  // Registers are within reach all the same, with frames of no data.
+  // The master can still reach registers, with frames without data.
   bench.set_line_bits(0);
   EXPECT_EQ(bench.write(1, 0x48, {0x99}), Result::kOk);
   EXPECT_EQ(bench.middle.reg_read(0x48), 0x99);

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Expected edges come from the SSI documents of makers (Posital, TR-Electronic, National
-// Instruments: protocol facts, section 6) and from the datasheet's SSI chapter (pages 14, 16).
+// Instruments) and from the datasheet's SSI chapter (pages 14, 16).
 #include "sim/lines/ssi/ssi_slave.hpp"
 
 #include <gtest/gtest.h>

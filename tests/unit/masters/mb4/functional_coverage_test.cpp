@@ -24,8 +24,8 @@ class CoverageOfHost : public testing::TestWithParam<HostInterface> {
     simulator_.set_observer(&coverage_);
     write(reg::slave_cfg_address(1),
           {static_cast<std::uint8_t>(reg::ENSCD<1>::kMask | 25), 6});  // SCDLEN1, SCRCLEN1
-    write(reg::kAddrFreq, {0x1F});                                     // FREQR = 0, FREQS maximum
-    write(reg::kAddrCfgch, {0x0D});                                    // BiSS C; line 2 unused
+    write(reg::kAddrFreq, {reg::FREQS::kMask});                        // FREQR = 0, FREQS maximum
+    write(reg::kAddrCfgch, {reg::kCfgch1BissC | reg::kCfgch2Unused});
   }
   static Scenario scenario() {
     Scenario loaded = load_scenario(MB4_EXAMPLES "/resolute-26.toml");
@@ -108,7 +108,7 @@ TEST_P(CoverageOfHost, ResetAndAnotherRun_AreTakenIn) {
   simulator_.advance(kPsPerUs);
   simulator_.set_pin(Pin::kNres, true);
   simulator_.advance(kPsPerUs);
-  write(reg::kAddrCfgch, {0x0E});  // SSI
+  write(reg::kAddrCfgch, {reg::kCfgch1Ssi | reg::kCfgch2Unused});
   instruct(reg::kInstrCdm0);
   simulator_.advance(2000 * kPsPerUs);
   EXPECT_EQ(reached()["SSI frame, one"]["ENSCD1=0"], 1U);

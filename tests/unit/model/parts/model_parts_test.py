@@ -19,12 +19,12 @@ sys.path.insert(0, FOLDER)
 from busy import Busy, busy_of  # noqa: E402
 from description import Description  # noqa: E402
 from generated_model import NotUnderstood, analyse, apart, split, statements  # noqa: E402
-from groups import Kinds, groups_of, inputs, looks, parts_of  # noqa: E402
+from groups import HostKinds, Kinds, groups_of, inputs, looks, parts_of  # noqa: E402
 from header import Writer  # noqa: E402
 
 
-def rows(*texts, local=()):
-    return [analyse(text, "f", set(local)) for text in texts]
+def rows(*texts, local=(), function="f"):
+    return [analyse(text, function, set(local)) for text in texts]
 
 
 def order(parts):
@@ -130,9 +130,10 @@ class Parts(unittest.TestCase):
                      {name: kind for kind, name in busy if kind != "fast"})
         return parts_of(groups_of(rows(*texts)), Kinds(known, widths), False)[0]
 
-    def writer(self, widths, places, by_host, lists):
-        described = Description("Vm", "m", ["clk"])
-        return Writer(described, {}, widths, places, [], set(), set(), by_host, lists)
+    def writer(self, widths, lists, events=(), host=()):
+        described = Description("Vm", "m", ["clk"], list(host))
+        return Writer(described, {}, widths, [], dict(events),
+                      {"pins": [], "events": []} | lists, 64)
 
     def test_who_writes_a_fast_variable_runs_always(self):
         parts = self.parts(["vlSelf->a = vlSelf->b;", "vlSelf->c = vlSelf->d;"], [("fast", "a")])
@@ -162,7 +163,7 @@ class Parts(unittest.TestCase):
 
     def header(self, texts, busy, widths):
         lists = {"rise": self.parts(texts, busy, widths)}
-        return self.writer(widths, {}, set(), lists).header(64, False)
+        return self.writer(widths, lists).header(False)
 
     def test_other_values_of_a_key_are_looked_at_again(self):
         text = self.header(["vlSelf->a = (vlSelf->b & vlSelf->c);", "vlSelf->c = vlSelf->d;"],
@@ -171,18 +172,35 @@ class Parts(unittest.TestCase):
         self.assertIn("if ((before0 != vlSelf->a)) { kept.changed[0] |= 0xfULL & ~here; }", text)
         self.assertIn("if ((before0 != vlSelf->c)) { kept.changed[0] |= 0xfULL; }", text)
 
-    def test_behind_eval_writers_run_as_readers_do(self):
-        texts = ["vlSelf->y = (vlSelf->k & vlSelf->x);", "vlSelf->z = (1U == vlSelf->y);"]
-        lists = {"rise": self.parts(texts, [("fast", "k")], {"k": 1})}
-        places = {"x": 0, "y": 1}
-        text = self.writer({"k": 1}, places, set(places), lists).header(64, False)
-        keyed = [part for part in lists["rise"] if part.key]
-        plain = [part for part in lists["rise"] if not part.key]
-        both = 0b11 << keyed[0].flag
-        self.assertIn("if (then(root, root.x) != root.x) \n"
-                      f"{{ kept.changed[0] |= {both:#x}ULL; }}", text)
-        self.assertIn("if (then(root, root.y) != root.y) \n"
-                      f"{{ kept.changed[0] |= {both | 1 << plain[0].flag:#x}ULL; }}", text)
+    def test_a_host_pin_marks_registers_and_other_values_of_keys(self):
+        keyed, = self.parts(["vlSelf->y = (vlSelf->k & vlSelf->x);"], [("fast", "k")], {"k": 1})
+        register = parts_of(groups_of(rows("vlSelf->q = vlSelf->x;", function="nba_sequent__0")),
+                            Kinds(Busy(), {}), False, 2)[0]
+        logic = parts_of(groups_of(rows("vlSelf->z = vlSelf->x;")), Kinds(Busy(), {}), False, 3)[0]
+        writer = self.writer({"k": 1}, {"rise": [keyed, *register, *logic]}, host=["x"])
+        # host() computes what has no clock itself. The last flag: an edge of the clock sees it.
+        self.assertEqual(writer.by_host["x"][None], {keyed, *register, writer.core})
+        self.assertEqual(writer.by_clock["x"][None], {keyed, *register, *logic})
+
+    def test_what_an_event_starts_waits_for_it(self):
+        when = {"nba_sequent__0": 0b01, "nba_comb__0": 0b10}
+        found = [*rows("vlSelf->q = vlSelf->d;", "vlSelf->p = vlSelf->c;",
+                       function="nba_sequent__0"),
+                 *rows("vlSelf->z = (vlSelf->q & vlSelf->c);", function="nba_comb__0")]
+        parts, _ = parts_of(groups_of(found), HostKinds(when, {"c"}), True)
+        # A register that reads what the clock writes is computed after each edge of the clock.
+        self.assertEqual({tuple(part.writes): (part.when, part.always) for part in parts},
+                         {("q",): (1, False), ("p",): (1, True), ("z",): (2, False)})
+        text = self.writer({}, {"rise": [], "events": parts}, {"s": 0}, ["s"]).header(False)
+        self.assertIn("next |= vlSelf->s != 0 ? 0x1 : 0x2;", text)
+        clocked = next(part for part in parts if part.always)
+        self.assertIn("if (std::exchange(kept.clocked, false)) "
+                      f"{{ kept.changed[0] |= {1 << clocked.flag:#x}ULL; }}", text)
+
+    def test_an_element_of_an_array_marks_when_it_changes(self):
+        text = self.header(["vlSelf->m[0U] = vlSelf->x;", "vlSelf->a = vlSelf->m[1U];"], [], {})
+        self.assertIn("{ const auto was = vlSelf->m[0U]; vlSelf->m[0U] = vlSelf->x; "
+                      "if (was != vlSelf->m[0U]) { kept.changed[0] |=", text)
 
     def test_a_comparison_counts_when_it_changes(self):
         text = self.header(["vlSelf->a = (2U == (IData)(vlSelf->b));", "vlSelf->b = vlSelf->c;"],
@@ -192,7 +210,7 @@ class Parts(unittest.TestCase):
 
 class Counts(unittest.TestCase):
     def test_what_moves_at_most_clocks_is_fast(self):
-        # Ten runs are those of all groups after edges of host pins.
+        # The ten runs are those of all groups after edges of host pins.
         found = busy_of("runs 10 g\nruns 110 often\nruns 15 often\nruns 13 seldom\nruns 11 hardly\n"
                         "moves 45 a\nmoves 44 b\nmoves 100 c==3\n")
         self.assertEqual(found, Busy({"a", "c==3"}, {"often": "often", "seldom": "seldom"}))
@@ -202,13 +220,26 @@ class Counts(unittest.TestCase):
 
 
 SAMPLE = """
-module sample (input logic clk_i, rst_ni, en_i, input logic [7:0] add_i,
-               output logic [7:0] sum_o, output logic [1:0] turn_o, output logic high_o, late_o);
+module sample (input logic clk_i, rst_ni, en_i, sck_i, input logic [7:0] add_i,
+               output logic [7:0] sum_o, output logic [1:0] turn_o, output logic high_o, late_o,
+               output logic [7:0] got_o, output logic near_o);
   logic [3:0] wait_q, wait_d;
   logic [7:0] sum_d;
   assign high_o = sum_o > 8'd200;
   assign wait_d = wait_q != 4'd0 ? wait_q - 4'd1 : en_i ? 4'd9 : 4'd0;
-  assign sum_d = turn_o == 2'd2 && wait_q == 4'd4 ? sum_o + add_i : sum_o;
+  assign sum_d = turn_o == 2'd2 && wait_q == 4'd4 ? sum_o + add_i + got_o : sum_o;
+  // A register on a clock of the host, and a clock behind a gate.
+  logic gated, odd_q;
+  assign gated = sck_i & en_i;
+  always_ff @(posedge sck_i or negedge rst_ni) begin
+    if (!rst_ni) got_o <= '0;
+    else if (en_i) got_o <= got_o ^ add_i ^ sum_o;
+  end
+  always_ff @(negedge gated or negedge rst_ni) begin
+    if (!rst_ni) odd_q <= 1'b0;
+    else odd_q <= !odd_q;
+  end
+  assign near_o = (got_o[3:0] == sum_o[3:0]) ^ odd_q;
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) sum_o <= '0;
     else sum_o <= sum_d;
@@ -225,7 +256,8 @@ FALLING = "always_ff @(negedge clk_i) late_o <= high_o;"
 RISING = "always_ff @(posedge clk_i) late_o <= high_o;"
 DIVIDED = "logic half_q; always_ff @(posedge clk_i) half_q <= !half_q;" \
           "always_ff @(posedge half_q) late_o <= high_o;"
-DESCRIBED = 'prefix = "Vsample"\nnamespace = "sample"\nclocks = ["clk_i"]\n'
+DESCRIBED = 'prefix = "Vsample"\nnamespace = "sample"\nclocks = ["clk_i"]\n' \
+    'host = ["en_i", "add_i", "sck_i"]\n'
 
 
 class SecondModel(unittest.TestCase):

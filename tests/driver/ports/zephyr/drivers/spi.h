@@ -6,6 +6,7 @@
 #define ZEPHYR_DRIVERS_SPI_H_
 
 #include <stddef.h>
+#include <stdint.h>
 
 #ifdef __cplusplus
 extern "C" {
@@ -19,8 +20,12 @@ struct spi_buf_set {
   const struct spi_buf* buffers;
   size_t count;
 };
+struct spi_config {
+  uint32_t frequency;
+};
 struct spi_dt_spec {
   const void* bus;
+  struct spi_config config;
 };
 
 int spi_transceive_dt(const struct spi_dt_spec* spec, const struct spi_buf_set* tx_bufs,

@@ -28,6 +28,8 @@ module proof (
 
   logic [7:0] half_len;
   logic       tick, half_next, smp_a, smp_b, smp_half, smp_b_neg;
+  biss_pkg::sample_t sample;
+  assign {smp_a, smp_b, smp_b_neg} = sample;
 
   mb4_freqs_dec u_freqs (.freqs_i, .half_len_o(half_len));
 
@@ -39,10 +41,8 @@ module proof (
     .restart_i,
     .tick_o      (tick),
     .half_next_o (half_next),
-    .smp_a_o     (smp_a),
-    .smp_b_o     (smp_b),
-    .smp_half_o  (smp_half),
-    .smp_b_neg_o (smp_b_neg)
+    .sample_o    (sample),
+    .sample_half_o (smp_half)
   );
 
   logic started = 1'b0;

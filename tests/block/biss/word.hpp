@@ -1,0 +1,45 @@
+// SPDX-FileCopyrightText: 2026 The openmb4 authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// One data word as a line is told of it.
+#ifndef TESTS_BLOCK_BISS_WORD_HPP_
+#define TESTS_BLOCK_BISS_WORD_HPP_
+
+#include <bit>
+#include <cstdint>
+
+namespace mb4test {
+
+// The polynomials of Table 14; 0: no CRC.
+inline constexpr std::uint32_t kPolynomials[] = {0, 0xB, 0x13, 0x25, 0x43, 0x89, 0x12F, 0x190D9};
+
+struct Word {
+  unsigned data_bits = 0;
+  std::uint32_t polynomial = 0;
+  std::uint16_t start = 0;
+  bool store = false, gray = false, actuator = false, stop = false;
+
+  unsigned crc_bits() const {
+    return polynomial == 0 ? 0 : static_cast<unsigned>(std::bit_width(polynomial)) - 1;
+  }
+  // The fields of biss_pkg::word_t, the highest first.
+  std::uint64_t port() const {
+    const unsigned crc = crc_bits();
+    std::uint64_t value = data_bits - 1;
+    const auto add = [&](std::uint64_t field, unsigned bits) { value = value << bits | field; };
+    add(crc != 0, 1);
+    add(crc == 0 ? 0 : crc - 1, 4);
+    add(polynomial & 0xFF, 8);
+    add(crc == 0 || crc == 16 ? 0 : 1U << (crc - 1), 8);
+    add(start, 16);
+    add(store, 1);
+    add(gray, 1);
+    add(actuator, 1);
+    add(stop, 1);
+    return value;
+  }
+};
+
+}  // namespace mb4test
+
+#endif  // TESTS_BLOCK_BISS_WORD_HPP_

@@ -1,0 +1,134 @@
+# SPDX-FileCopyrightText: 2026 The openmb4 authors
+# SPDX-License-Identifier: Apache-2.0
+"""The driver's calls: expected values are those of the scenarios."""
+
+import os
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import openmb4
+import pytest
+
+ROOT = Path(__file__).resolve().parents[2]
+EXAMPLES = ROOT / "examples"
+RAMP = ('[[channel]]\nnumber = 1\n[[channel.slave]]\nprotocol = "biss-c"\ndata_bits = 28\n'
+        'source = "ramp"\nstart = 1000\nstep = 3\nregisters = { 0x44 = [1, 2, 3, 4], '
+        '0x78 = [0x4D, 0x42, 0x34, 0, 0, 7, 0x69, 0x43] }\n')
+
+
+@pytest.fixture
+def chip():
+    with openmb4.Simulator(RAMP) as opened:
+        opened.driver.configure()
+        yield opened
+
+
+def positions(rows, slave=1):
+    assert not rows["frame"]["code"][:, slave - 1].any()
+    return rows["frame"]["reading"]["position"][:, slave - 1]
+
+
+def test_frames_are_an_array_of_the_ramp(chip):
+    first = chip.driver.read_frame(1).position
+    assert (first - 1000) % 3 == 0
+    rows = chip.driver.read_all(500)
+    assert np.array_equal(positions(rows), first + 3 * np.arange(1, 501))
+    assert (np.diff(rows["time_ns"].astype(np.int64)) > 0).all()
+    assert rows["time_ns"][-1] == chip.time_ns
+    assert not rows["frame"]["reading"]["error"][:, 0].any()
+
+
+def test_automatic_frames_follow_each_other(chip):
+    chip.driver.automatic_start()
+    found = positions(chip.driver.automatic_next(50))
+    chip.driver.automatic_stop()
+    assert (np.diff(found.astype(np.int64)) % 3 == 0).all()
+    assert (np.diff(found.astype(np.int64)) > 0).all()
+
+
+def test_registers_of_the_slave_are_read_and_written(chip):
+    assert chip.driver.slave_read(1, 0, 0x44, 4) == bytes((1, 2, 3, 4))
+    chip.driver.slave_write(1, 0, 0x50, b"\x5A\xA5")
+    assert [chip.slave_register(1, 0x50), chip.slave_register(1, 0x51)] == [0x5A, 0xA5]
+
+
+def test_scan_finds_the_identity_of_the_slave(chip):
+    one, = chip.driver.scan(1)
+    assert one.device_id == b"MB4\0\0\7" and one.manufacturer == b"iC" and one.has_identity
+
+
+def test_probe_and_chip_registers(chip):
+    assert chip.driver.probe()[0] == 0x84  # VERSION of the iC-MB4
+    chip.driver.write_registers(0x80, b"\1\2\3")
+    assert chip.driver.read_registers(0x80, 3) == b"\1\2\3"
+
+
+def test_configuration_may_be_changed_and_is_checked(chip):
+    config = chip.driver.config()
+    assert config.slaves[0].data_bits == 28 and config.slaves[0].crc_polynomial == 0x43
+    config.ma_hz = 2_000_000
+    chip.driver.configure(config)
+    frames = []
+    chip.on_frame(frames.append)
+    chip.driver.read_all()
+    frame, = frames
+    assert frame.end_ns - frame.start_ns == (frame.ma_edges - 1) * 250
+    config.slaves[0].data_bits = 65
+    with pytest.raises(openmb4.Error, match="data_bits of 1") as error:
+        chip.driver.configure(config)
+    assert error.value.code == "MB4_INVALID_CONFIG"
+
+
+def test_bad_frame_has_a_code_and_the_next_is_good(chip):
+    chip.inject({"fault": [{"kind": "wrong-crc", "slave": 1, "at_us": 0, "for_us": 30}]})
+    rows = chip.driver.read_all(20)
+    codes = rows["frame"]["code"][:, 0]
+    assert codes[0] != 0 and codes[-1] == 0
+    with pytest.raises(openmb4.Error) as error:
+        chip.inject({"fault": [{"kind": "silent", "slave": 1, "at_us": 0}]})
+        chip.driver.read_frame(1)
+    assert error.value.code.startswith("MB4_")
+
+
+@pytest.mark.parametrize("name", ["two-channels", "mixed-channels", "sine-internal-osc"])
+def test_configuration_of_the_scenario_reads_what_the_slaves_sent(name):
+    with openmb4.Simulator(EXAMPLES / f"{name}.toml") as opened:
+        opened.driver.configure()
+        row, = opened.driver.read_all()
+        slaves = [slave for slave in range(1, 9) if opened.frames(slave)]
+        assert slaves
+        for slave in slaves:
+            assert row["frame"]["code"][slave - 1] == 0
+            assert row["frame"]["reading"]["raw"][slave - 1] == opened.sent(slave)
+
+
+def test_driver_with_a_parallel_host_says_why_it_fails():
+    with openmb4.Simulator('[host]\ninterface = "intel"\n' + RAMP) as opened:
+        with pytest.raises(openmb4.Error, match="driver: the scenario's host"):
+            opened.driver.configure()
+
+
+def test_reading_before_configuration_is_refused():
+    with openmb4.Simulator(RAMP) as opened:
+        with pytest.raises(openmb4.Error) as error:
+            opened.driver.read_all(1000)
+        assert error.value.code == "MB4_NOT_CONFIGURED"
+
+
+@pytest.mark.parametrize("page", ["README.md", "docs/python.md"])
+def test_command_of_the_page_reads_the_position_of_its_scenario(page):
+    program = re.search(r"python -c '(.*)'", (ROOT / page).read_text(encoding="utf-8"))[1]
+    folder = str(Path(openmb4.__file__).parents[1])
+    run = subprocess.run([sys.executable, "-B", "-c", program], cwd=ROOT, check=True, text=True,
+                         capture_output=True, env=dict(os.environ, PYTHONPATH=folder))
+    assert f"position={0x2ABCDEF >> 2}," in run.stdout
+
+
+def test_first_example_of_the_page_runs(monkeypatch, capsys):
+    page = (ROOT / "docs" / "python.md").read_text(encoding="utf-8")
+    monkeypatch.chdir(ROOT)
+    exec(re.search(r"```python\n(.*?)```", page, re.S)[1], {})
+    assert capsys.readouterr().out.startswith(f"{0x2ABCDEF >> 2}\nTrue ")

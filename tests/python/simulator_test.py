@@ -1,0 +1,181 @@
+# SPDX-FileCopyrightText: 2026 The openmb4 authors
+# SPDX-License-Identifier: Apache-2.0
+"""Simulator: expected values are those of the scenario, or of mb4sim.h."""
+
+import threading
+import time
+from pathlib import Path
+
+import openmb4
+import pytest
+
+EXAMPLES = Path(__file__).resolve().parents[2] / "examples"
+TEXT = (EXAMPLES / "resolute-26.toml").read_text(encoding="utf-8")
+SLAVE = {"protocol": "biss-c", "data_bits": 64, "data": 0xFEDCBA9876543210,
+         "registers": {0x44: [0x00, 0xD9]}}
+TABLES = {"chip": {"f_clk_hz": 20_000_000}, "channel": [{"number": 1, "slave": [SLAVE]}]}
+PARALLEL = {**TABLES, "host": {"interface": "intel"}}
+
+
+@pytest.mark.parametrize("scenario", [TEXT, EXAMPLES / "resolute-26.toml"])
+def test_scenario_text_and_file_give_the_word_of_the_scenario(scenario):
+    with openmb4.Simulator(scenario) as chip:
+        assert chip.time_ns == 1000
+        chip.driver.configure()
+        assert chip.driver.read_frame(1).raw == 0x2ABCDEF
+        assert chip.sent(1) == 0x2ABCDEF
+
+
+def test_scenario_dict_may_hold_64_bits_and_register_addresses():
+    with openmb4.Simulator(TABLES) as chip:
+        assert chip.slave_register(1, 0x45) == 0xD9
+        chip.driver.configure()
+        assert chip.driver.read_frame(1).raw == 0xFEDCBA9876543210
+
+
+@pytest.mark.parametrize("scenario, message", [
+    ({"chip": {"f_clk": 1}}, "scenario:1:"),
+    ("[chip]\nf_clk = 1\n", "scenario:2:1: key 'f_clk'"),
+    (Path("no-such.toml"), "no-such.toml"),
+])
+def test_mistake_in_scenario_is_named(scenario, message):
+    with pytest.raises(openmb4.Error, match=message):
+        openmb4.Simulator(scenario)
+
+
+def test_spi_reads_the_version():
+    with openmb4.Simulator(TEXT) as chip:
+        # Opcode 0x03, address 0xEA: REVISION and VERSION = 0x84 (tables 38, 39).
+        assert chip.spi(bytes((0x03, 0xEA, 0, 0)))[3] == 0x84
+
+
+def test_bus_writes_and_reads_and_spi_is_refused():
+    with openmb4.Simulator(PARALLEL) as chip:
+        chip.bus_write(0xE6, 0x42)
+        assert chip.bus_read(0xE6) == 0x42
+        with pytest.raises(openmb4.Error, match="another interface") as error:
+            chip.spi(b"\x05\x00")
+        assert error.value.code == "MB4SIM_ERROR_HOST"
+
+
+def test_time_passes_as_asked():
+    with openmb4.Simulator(TEXT) as chip:
+        before = chip.clk_cycles
+        chip.advance_ns(10_000)
+        assert chip.time_ns == 11_000
+        assert chip.clk_cycles - before == 200  # 20 MHz
+
+
+def test_pins_are_read_driven_and_waited_for():
+    with openmb4.Simulator(TEXT) as chip:
+        chip.set_pin("NER", 0)
+        assert chip.pin("NER") == 0
+        chip.set_pin("NER", 1)
+        assert chip.pin("NER") == 1
+        assert not chip.run_until("MA1", 0, 5_000)
+        assert chip.time_ns == 6_000
+        for pin, code in (("MA1", "DRIVEN"), ("MA9", "UNKNOWN")):
+            with pytest.raises(openmb4.Error) as error:
+                chip.set_pin(pin, 1)
+            assert error.value.code == f"MB4SIM_ERROR_{code}"
+
+
+def test_frames_come_with_their_time_and_edges():
+    with openmb4.Simulator(TEXT) as chip:
+        chip.driver.configure()
+        seen = []
+        chip.on_frame(seen.append)
+        first = chip.frames(1)
+        begin = chip.time_ns
+        chip.driver.read_all(3)
+        chip.on_frame(None)
+        chip.driver.read_all()
+        assert [frame.channel for frame in seen] == [1, 1, 1]
+        assert chip.frames(1) == first + 4
+        for frame in seen:
+            assert begin < frame.start_ns < frame.end_ns < chip.time_ns
+            # 28 data bits, CRC6, start bit, CDS at least, two edges each, at 10 MHz
+            assert frame.ma_edges >= 2 * 36
+            assert frame.end_ns - frame.start_ns == (frame.ma_edges - 1) * 50
+            assert not frame.fault
+
+
+def test_exception_of_callback_comes_out_of_the_call():
+    def callback(frame):
+        raise ValueError(f"frame {frame.number}")
+
+    with openmb4.Simulator(TEXT) as chip:
+        chip.driver.configure()
+        chip.on_frame(callback)
+        with pytest.raises(ValueError, match="frame "):
+            chip.driver.read_all()
+        chip.on_frame(None)
+        assert chip.driver.read_frame(1).raw == 0x2ABCDEF
+
+
+def test_callback_may_read_but_not_let_time_pass_or_close():
+    errors, words = [], []
+    with openmb4.Simulator(TEXT) as chip:
+        def callback(_):
+            words.append(chip.sent(1))
+            for call in (lambda: chip.advance_ns(1), chip.close, lambda: chip.driver.read_all()):
+                with pytest.raises(openmb4.Error) as error:
+                    call()
+                errors.append(error.value.code)
+
+        chip.driver.configure()
+        chip.on_frame(callback)
+        chip.driver.read_frame(1)
+        assert errors == ["MB4SIM_ERROR_CALLBACK"] * 3
+        assert words == [0x2ABCDEF]
+
+
+def test_injected_fault_is_met_and_reported():
+    with openmb4.Simulator(TEXT) as chip:
+        chip.driver.configure()
+        chip.inject({"fault": [{"kind": "silent", "slave": 1, "at_us": 0, "for_us": 100}]})
+        with pytest.raises(openmb4.Error):
+            chip.driver.read_frame(1)
+        fault, = chip.report()["faults"]
+        assert fault["kind"] == "silent" and fault["slave"] == 1 and fault["frames"] == 1
+        with pytest.raises(openmb4.Error, match="inject:1:"):
+            chip.inject({"fault": [{"kind": "nonsense"}]})
+
+
+def test_closed_simulator_refuses_every_call():
+    chip = openmb4.Simulator(TEXT)
+    chip.close()
+    chip.close()
+    for call in (lambda: chip.time_ns, lambda: chip.spi(b"\5"), lambda: chip.driver.read_all(),
+                 lambda: chip.regs.FREQS.read()):
+        with pytest.raises(openmb4.Error, match="closed"):
+            call()
+
+
+def test_threads_run_while_time_passes():
+    with openmb4.Simulator(TEXT) as chip:
+        chip.driver.configure()
+        counted = 0
+        worker = threading.Thread(target=chip.driver.read_all, args=(1000,))
+        worker.start()
+        while worker.is_alive():
+            counted += 1
+            time.sleep(0.001)
+    assert counted > 10
+
+
+def test_simulators_in_threads_do_not_disturb_each_other():
+    words = [0x2000001 + i for i in range(6)]
+    results = [None] * len(words)
+
+    def run(i):
+        with openmb4.Simulator(TEXT.replace("0x2ABCDEF", hex(words[i]))) as chip:
+            chip.driver.configure()
+            results[i] = set(chip.driver.read_all(200)["frame"]["reading"]["raw"][:, 0].tolist())
+
+    workers = [threading.Thread(target=run, args=(i,)) for i in range(len(words))]
+    for worker in workers:
+        worker.start()
+    for worker in workers:
+        worker.join()
+    assert results == [{word} for word in words]

@@ -1,0 +1,228 @@
+# SPDX-FileCopyrightText: 2026 The openmb4 authors
+# SPDX-License-Identifier: Apache-2.0
+"""A simulated chip with its host and encoders."""
+
+import json
+import os
+import threading
+from numbers import Integral
+from typing import Any, Callable, Mapping, NamedTuple, Optional, Union
+
+from . import driver, registers
+from ._library import Error, ffi, lib, simulator_error
+
+ERROR_BYTES = 1000
+
+
+def to_toml(value: Any) -> str:
+    """A value of a scenario in TOML; tables inside tables stand in one line. Keys may be numbers, as
+    register addresses are."""
+    if isinstance(value, Mapping):
+        pairs = (f"{json.dumps(str(k))} = {to_toml(v)}" for k, v in value.items())
+        return f"{{ {', '.join(pairs)} }}"
+    if isinstance(value, (list, tuple)):
+        return f"[{', '.join(map(to_toml, value))}]"
+    if isinstance(value, bool):
+        return str(value).lower()
+    if isinstance(value, Integral):
+        return str(int(value)) if value < 1 << 63 else f'"0x{int(value):X}"'
+    return json.dumps(value, ensure_ascii=False) if isinstance(value, str) else repr(float(value))
+
+
+def document(tables: Mapping[str, Any]) -> str:
+    return "".join(f"{key} = {to_toml(value)}\n" for key, value in tables.items())
+
+
+class Frame(NamedTuple):
+    """A frame on a line: mb4sim_frame of mb4sim.h."""
+
+    channel: int
+    number: int
+    start_ns: int
+    end_ns: int
+    ma_edges: int
+    ma_low: bool  # MA rests at 0 after the frame: CDM = 1 in BiSS C
+    fault: bool  # a fault lasted in the frame
+
+
+class Simulator:
+    """Opens a scenario: TOML text (str), the path of a file (os.PathLike) or a dict of its tables.
+    Time then stands at 1 us. Raises Error with the line that names the mistake.
+
+    A process may hold any number of simulators, and each may be used from any thread: calls on one
+    simulator wait for each other, calls on several run at the same time. A callback of on_frame()
+    may read, but not let time pass. Close a simulator with close() or `with`.
+    """
+
+    def __init__(self, scenario: Union[str, os.PathLike, Mapping[str, Any]], /):
+        self._lock = threading.RLock()
+        self._running = False
+        self._raised: Optional[BaseException] = None
+        self._callback: Any = ffi.NULL
+        self._sim: Any = None
+        self._is_path = isinstance(scenario, os.PathLike)
+        self._scenario = (os.fsencode(scenario) if self._is_path else
+                          (scenario if isinstance(scenario, str) else document(scenario)).encode())
+        if b"\0" in self._scenario:
+            raise Error("scenario: holds a character of code 0")
+        error = ffi.new("char[]", ERROR_BYTES)
+        opened = lib.mb4sim_open_file if self._is_path else lib.mb4sim_open
+        sim = opened(self._scenario, error, ERROR_BYTES)
+        if sim == ffi.NULL:
+            raise Error(ffi.string(error).decode(errors="replace"))
+        self._sim = ffi.gc(sim, lib.mb4sim_close)
+        self.driver = driver.Driver(self)
+        self.regs = registers.Registers(self)
+
+    def close(self) -> None:
+        """Ends the simulator; a second call does nothing."""
+        with self._lock:
+            if self._running:
+                raise simulator_error(lib.MB4SIM_ERROR_CALLBACK, "close")
+            if self._sim is not None:
+                ffi.release(self._sim)
+                self._sim = None
+
+    def __enter__(self) -> "Simulator":
+        return self
+
+    def __exit__(self, *_: Any) -> None:
+        self.close()
+
+    def _call(self, function: Callable[..., Any], *arguments: Any) -> Any:
+        """Calls C with the other threads released. An exception of a callback comes out here."""
+        with self._lock:
+            if self._sim is None:
+                raise Error("the simulator is closed")
+            outer, self._running = self._running, True
+            try:
+                result = function(*arguments)
+            finally:
+                self._running = outer
+            if self._raised is not None and not outer:
+                raised, self._raised = self._raised, None
+                raise raised
+            return result
+
+    def _do(self, what: str, function: Callable[..., int], *arguments: Any) -> int:
+        with self._lock:
+            result = self._call(function, self._sim, *arguments)
+            if result < 0:
+                raise simulator_error(result, what)
+            return result
+
+    # --- host ---
+
+    def spi(self, data: bytes) -> bytes:
+        """One SPI frame: NCS low, these bytes, NCS high. Returns the chip's bytes."""
+        received = ffi.new("uint8_t[]", len(data))
+        self._do("spi", lib.mb4sim_spi_transfer, bytes(data), received, len(data))
+        return bytes(ffi.buffer(received))
+
+    def bus_write(self, address: int, value: int) -> None:
+        """One write cycle of the parallel bus."""
+        self._do("bus_write", lib.mb4sim_bus_write, address, value)
+
+    def bus_read(self, address: int) -> int:
+        """One read cycle of the parallel bus."""
+        value = ffi.new("uint8_t *")
+        self._do("bus_read", lib.mb4sim_bus_read, address, value)
+        return value[0]
+
+    # --- time ---
+
+    @property
+    def time_ns(self) -> int:
+        """Time since power-on, rounded down."""
+        return self._call(lib.mb4sim_time_ns, self._sim)
+
+    @property
+    def clk_cycles(self) -> int:
+        """Rising edges of the system clock so far."""
+        return self._call(lib.mb4sim_clk_cycles, self._sim)
+
+    def advance_ns(self, ns: int) -> None:
+        with self._lock:
+            self._call(lib.mb4sim_advance_ns, self._sim, ns)
+            error = lib.mb4sim_last_error(self._sim, ffi.NULL, 0)
+            if error:
+                raise simulator_error(error, "advance_ns")
+
+    def run_until(self, pin: str, level: int, limit_ns: int) -> bool:
+        """Lets time pass until a pin has this level; False: it has not within limit_ns."""
+        return self._do(f"run_until {pin}", lib.mb4sim_run_until, pin.encode(), level,
+                        limit_ns) == 1
+
+    # --- pins and slaves ---
+
+    def pin(self, name: str) -> int:
+        """The level of a pin by its datasheet name."""
+        return self._do(f"pin {name}", lib.mb4sim_pin_read, name.encode())
+
+    def set_pin(self, name: str, level: int) -> None:
+        """Drives an input pin. At NER 0 pulls it low and 1 lets it go."""
+        self._do(f"set_pin {name}", lib.mb4sim_pin_write, name.encode(), level)
+
+    def set_data(self, slave: int, raw: int) -> None:
+        """The raw word, flags included, that slave 1..8 latches from now on."""
+        self._do(f"set_data {slave}", lib.mb4sim_slave_set_data, slave, raw)
+
+    def slave_register(self, slave: int, address: int) -> int:
+        """A register of the slave's own file, without traffic on the line."""
+        value = ffi.new("uint8_t *")
+        self._do(f"slave_register {slave}", lib.mb4sim_slave_reg_read, slave, address, value)
+        return value[0]
+
+    def set_slave_register(self, slave: int, address: int, value: int) -> None:
+        self._do(f"set_slave_register {slave}", lib.mb4sim_slave_reg_write, slave, address, value)
+
+    def frames(self, slave: int) -> int:
+        """Number of frames in which this slave has sent its start bit."""
+        return self._call(lib.mb4sim_slave_frames, self._sim, slave)
+
+    def sent(self, slave: int, frame: Optional[int] = None) -> int:
+        """The raw word that a slave sent in a frame, 1..frames(); by default in its last one. The
+        last 1024 are kept."""
+        with self._lock:
+            raw = ffi.new("uint64_t *")
+            self._do(f"sent {slave}", lib.mb4sim_slave_sent, slave,
+                     self.frames(slave) if frame is None else frame, raw)
+            return raw[0]
+
+    # --- tests of firmware ---
+
+    def inject(self, faults: Union[str, Mapping[str, Any]]) -> None:
+        """Adds faults or cable events, as TOML text or a dict; times count from now."""
+        text = (faults if isinstance(faults, str) else document(faults)).encode()
+        error = ffi.new("char[]", ERROR_BYTES)
+        result = self._call(lib.mb4sim_inject, self._sim, text, error, ERROR_BYTES)
+        if result < 0:
+            said = ffi.string(error).decode(errors="replace")
+            raise Error(said, "MB4SIM_ERROR_VALUE") if said else simulator_error(result, "inject")
+
+    def on_frame(self, callback: Optional[Callable[[Frame], Any]]) -> None:
+        """Calls `callback` at the end of every frame of a line; None ends it. What it raises, the
+        call raises that let time pass."""
+
+        def keep(kind: Any, value: BaseException, trace: Any) -> None:
+            self._raised = self._raised or value
+
+        def pass_on(_: Any, frame: Any) -> None:
+            callback(Frame(frame.channel, frame.number, frame.start_ns, frame.end_ns,
+                           frame.ma_edges, bool(frame.flags & lib.MB4SIM_FRAME_MA_LOW),
+                           bool(frame.flags & lib.MB4SIM_FRAME_FAULT)))
+
+        with self._lock:
+            function = ffi.NULL if callback is None else ffi.callback(
+                "mb4sim_frame_callback", pass_on, onerror=keep)
+            self._do("on_frame", lib.mb4sim_on_frame, function, ffi.NULL)
+            self._callback = function  # C keeps no reference
+
+    def report(self) -> dict:
+        """Faults, how they were met, and violations of the host's timing, as mb4sim_report() of
+        mb4sim.h tells."""
+        with self._lock:
+            size = self._do("report", lib.mb4sim_report, ffi.NULL, 0) + 1
+            text = ffi.new("char[]", size)
+            self._do("report", lib.mb4sim_report, text, size)
+            return json.loads(ffi.string(text))
