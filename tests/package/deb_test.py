@@ -97,7 +97,7 @@ class Packages(unittest.TestCase):
     @unittest.skipUnless(os.environ.get("MB4_CLEAN_ROOT"), "MB4_CLEAN_ROOT names no folder")
     def test_installed_and_removed_in_a_clean_debian(self):
         root = Path(os.environ["MB4_CLEAN_ROOT"]).resolve()
-        place = root / "tmp/openmb4"
+        place = root / "var/openmb4"
         shutil.rmtree(place, ignore_errors=True)
         place.mkdir(parents=True)
         for deb in self.debs.values():
@@ -108,7 +108,7 @@ class Packages(unittest.TestCase):
             run("dpkg-deb", "-f", deb, "Depends") for deb in self.debs.values())))
         run(*inside, "apt-get", "install", "-y", "-q", *needed)
         self.try_root(root, lambda: run(*inside, "apt-get", "install", "-y", "-q", *(
-                          f"/tmp/openmb4/{Path(deb).name}" for deb in self.debs.values())),
+                          f"/var/openmb4/{Path(deb).name}" for deb in self.debs.values())),
                       lambda: run(*inside, "apt-get", "purge", "-y", "-q", *NAMES),
                       lambda *arguments: run(*inside, "mb4sim", *arguments))
 
