@@ -9,8 +9,8 @@
 //   if the core gave none for a whole limit; the queue never overflows; memories are read only when
 //   the core has taken all bytes; the enabled bytes of a write act once, that of 0xF4 last
 // clocks: one
-// depth: 40
-// cover: 30
+// depth: 20
+// cover: 24
 // unbounded: no: the queue's count is tied to the model's only through 3 clocks of history
 // keep: mb4/host/mb4_bridge.sv | parameter int unsigned WaitLimit = 1024 | parameter int unsigned WaitLimit = 4
 // keep: mb4/host/mb4_bridge.sv | localparam logic [7:0]  ROOM    = 8'd124; | localparam logic [7:0]  ROOM    = 8'd4;
@@ -87,13 +87,14 @@ module proof (
 
   // Clocks since the core's last sign, and clocks of the access.
   logic [2:0] beat_n;   // history: three clocks go by in the synchroniser
-  logic [4:0] quiet_n;
+  logic [4:0] quiet_n, quiet_q;
   logic [5:0] access_n;
   (* anyconst *) logic dead;
   always @* if (dead) assume (!beat_i && !take_i && !answer_i);
   always @(posedge clk_i) begin
     beat_n   <= {beat_n[1:0], beat_i};
     quiet_n  <= beat_n[2] != beat_n[1] ? 5'd0 : quiet_n + {4'd0, quiet_n != 5'd31};
+    quiet_q  <= quiet_n;   // when the access ended
     access_n <= req_i && !ready ? access_n + {5'd0, access_n != 6'd63} : 6'd0;
     if (!rst_ni) {beat_n, quiet_n, access_n} <= '0;
   end
@@ -111,7 +112,7 @@ module proof (
   always @* if (rst_ni && started) begin
     Room_A:   assert (held_q <= 5'd8);
     if (dead) Bound_A: assert (access_n < 6'd24);
-    if (req_i && ready && error) Error_A: assert (quiet_n >= 5'd4);
+    if (req_i && ready && error) Error_A: assert (quiet_q >= 5'd4);
     if (host.wr_en) begin
       Once_A:   assert (req_i && write_i && be_i[host.wr_addr[1:0]] && !done_q[host.wr_addr[1:0]]);
       Place_A:  assert (addr_i[11:8] == 4'd0 && host.wr_addr[7:2] == addr_i[7:2]);
