@@ -12,4 +12,5 @@ enc_posted.sv
 enc_clk_mux.sv
 enc_crc.sv
 enc_axil.sv
+enc_axis_fifo.sv
 enc_wb.sv
