@@ -25,7 +25,9 @@ def inside_out(text):
             return text
         conditions.insert(0, parts[0])
         body = parts[1].strip()
-    return f"if ({' && '.join(conditions)}) {{ {body} }}"
+    # VL_STOP_MT() throws. Told so, the compiler keeps what it knows about the variables.
+    end = "std::abort();" if "VL_STOP_MT" in body else ""
+    return f"if ({' && '.join(conditions)}) {{ {body} {end} }}"
 
 
 def mark(readers, seen, part):
@@ -280,7 +282,7 @@ class Writer:
         pins = sorted(members(self.described.host))
         self.lines = [
             "// Made from the model by model_parts.py.", "#pragma once",
-            "#include <cstddef>", "#include <cstdint>", "#include <cstdio>", "#include <cstring>",
+            "#include <cstddef>", "#include <cstdint>", "#include <cstdio>", "#include <cstdlib>", "#include <cstring>",
             "#include <utility>",
             f"#include <{self.described.prefix}__Syms.h>", *self.tables,
             f"void {self.root}___eval({self.root}*);",
