@@ -5,7 +5,8 @@
 # Packs the committed tree as openmb4-VERSION.tar.gz with its checksum beside it; the same commit and
 # the same Yosys give the same bytes. In its folder verilog/ is plain Verilog of each top
 # (tools/synth/plain_verilog.py). Beside it python/ holds the sdist of the Python package, which
-# builds its library from the RTL that it carries. Usage: tools/release.sh [FOLDER]   (default build/)
+# builds its library from the RTL that it carries, and the library for Arduino and PlatformIO
+# (tools/arduino.py). Usage: tools/release.sh [FOLDER]   (default build/)
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
@@ -48,4 +49,6 @@ mkdir -p "$folder/python"
 git archive --format=tar --prefix="$name/" --add-file="$plain/pyproject.toml" \
   --add-file="$plain/PKG-INFO" HEAD -- CMakeLists.txt LICENSE drivers regmap rtl sim \
   tools/CMakeLists.txt tools/cmake tools/mb4sim tools/python | gzip -9n >"$folder/python/$name.tar.gz"
+# The library for Arduino and PlatformIO.
+tools/arduino.py "$folder" >/dev/null
 echo "$archive"

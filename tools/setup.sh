@@ -17,7 +17,7 @@ test_packages=(
   sigrok-cli spi-tools valgrind yosys z3 zsh
   clang-tidy gcovr
   gcc-arm-none-eabi libnewlib-arm-none-eabi libstdc++-arm-none-eabi-newlib linux-libc-dev
-  gcc-riscv64-unknown-elf picolibc-riscv64-unknown-elf qemu-system-arm
+  arduino-core-avr avr-libc gcc-avr gcc-riscv64-unknown-elf picolibc-riscv64-unknown-elf qemu-system-arm
   python3-cffi python3-distributed python3-ipykernel python3-matplotlib python3-nbclient python3-numpy
   python3-pytest python3-tqdm python3-yaml
 )
