@@ -69,6 +69,17 @@ module biss_b_access (
   localparam logic [4:0] BYTE_LAST    = 5'd12;   // last bit of the CRC
   localparam logic [4:0] BYTE_STOP    = 5'd13;
 
+  // Cells from `first` to the one before `behind`, one bit for each. A set costs less than two
+  // comparisons.
+  function automatic logic [31:0] cells(input logic [4:0] first, input logic [4:0] behind);
+    cells = (32'd1 << behind) - (32'd1 << first);
+  endfunction
+
+  localparam logic [31:0] ADDRESS_FIELDS = cells(5'd1, ADDRESS_CRC);
+  localparam logic [31:0] ADDRESS_CRCS   = cells(ADDRESS_CRC, ADDRESS_STOP);
+  localparam logic [31:0] BYTE_FIELDS    = cells(5'd1, BYTE_CRC);
+  localparam logic [31:0] BYTE_CRCS      = cells(BYTE_CRC, BYTE_STOP);
+
   state_e      state_d;
   state_e      state_q;
   logic        init_q;
@@ -110,10 +121,8 @@ module biss_b_access (
   assign quarter    = tick_i && pre_q == 7'd0;
   assign phase_next = phase_q + {1'b0, quarter};
   assign boundary   = quarter && phase_q == 2'd3;
-  assign in_fields  = cell_q != 5'd0 &&
-                      cell_q < (state_q == ADDRESS ? ADDRESS_CRC : BYTE_CRC);
-  assign in_crc     = !in_fields && cell_q != 5'd0 &&
-                      cell_q != (state_q == ADDRESS ? ADDRESS_STOP : BYTE_STOP);
+  assign in_fields  = state_q == ADDRESS ? ADDRESS_FIELDS[cell_q] : BYTE_FIELDS[cell_q];
+  assign in_crc     = state_q == ADDRESS ? ADDRESS_CRCS[cell_q] : BYTE_CRCS[cell_q];
   assign out        = cell_q == 5'd0 || (in_fields && bits_q[10]) || (in_crc && !crc_q[3]);
   assign sample     = sample_q[1];
   assign last       = index_q == access_i.regnum;
@@ -163,8 +172,10 @@ module biss_b_access (
             if (phase_q == 2'd1) state_d = ADDRESS;
           end else if ((use_q & sl_i) == 2'b00) begin
             state_d = init_q ? IDLE : ADDRESS;
+            ends    = init_q;
           end else if (expired_i) begin
             state_d     = IDLE;
+            ends        = 1'b1;
             ags_error_o = 1'b1;
           end
         end
@@ -209,7 +220,8 @@ module biss_b_access (
           if (cell_q == BYTE_STOP || state_d == SETTLE) cell_d = 5'd0;
         end
         if (boundary && cell_q == 5'd0 && expired_i) begin
-          state_d       = IDLE;
+          state_d     = IDLE;
+          ends        = 1'b1;
           delay_error = 1'b1;
         end
       end
@@ -217,17 +229,17 @@ module biss_b_access (
         // MA stays high while the last stop bit travels to SL.
         if (sample) cell_d = 5'd1;
         if (sample && cell_q != 5'd0) begin
-          state_d     = IDLE;
+          state_d   = IDLE;
+          ends      = 1'b1;
           reg_error = fail_q;
         end
       end
       default: state_d = IDLE;
     endcase
 
-    ends = state_q != IDLE && state_d == IDLE;
     if (abort_i) begin
       state_d = IDLE;
-      ends   = 1'b0;
+      ends    = 1'b0;
     end
   end
 

@@ -46,7 +46,9 @@ module biss_control_frame (
   input  logic       cdm_timeout_i,  // at least 14 frames with CDM = 0 before this one
   input  logic       expired_i,      // no start bit for too long
   input  logic       stalled_i,      // no frame has ended for too long
+  input  logic       stalled_start_i, // ... if a frame starts in this clock
   output logic       active_o,
+  output logic       active_start_o, // active_o, if a frame starts in this clock; it comes earlier
   output logic       running_o,      // active_o one clock late in its rise
   output logic       in_body_o,      // the slot is between S and the stop bit
   output logic       wait_o,         // waiting for the slave's start bit
@@ -219,7 +221,7 @@ module biss_control_frame (
 
   always_comb begin
     active_d      = active_q;
-    carries_d     = start_i ? active_o : carries_q && !frame_end_i;
+    carries_d     = start_i ? active_start_o : carries_q && !frame_end_i;
     slot_d        = slot_q;
     index_d       = index_q;
     last_d        = last_q;
@@ -304,6 +306,7 @@ module biss_control_frame (
   // instruction, so it does not begin a control frame.
   assign begin_o       = begin_i && !active_q && !stalled_i;
   assign active_o      = active_q || begin_o;
+  assign active_start_o = active_q || (begin_i && !stalled_start_i);
   assign running_o     = active_q;
   assign wait_o        = active_q && cts && slot_q == biss_pkg::SLOT_WAIT;
   assign late          = wait_o && stay && expired_i;

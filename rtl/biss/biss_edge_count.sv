@@ -7,13 +7,13 @@
 //
 //   begin_i      sets the need to that of the protocol (BiSS C 5, BiSS B 4, SSI 1), plus MO_BUSY on
 //                a line with actuators
-//   len_valid_i  adds the length of a word
+//   len_valid_i  adds the length of a word (not in the clock of begin_i)
 //   wait_i       adds a processing clock
 //   rise_i       takes one edge away
 //
 // Latency: a word counts from the second clock after len_valid_i. Until then no edge is the last
-// one. All outputs except two_next_o are ready early in the clock, because they decide what MA does
-// next.
+// one. MO_BUSY counts from the second clock after begin_i. All outputs except two_next_o are ready
+// early in the clock, because they decide what MA does next.
 //
 // Misuse: MA may make one edge more than needed before a word is told. The count keeps this edge
 // (-1) and subtracts it from the word. The count does not keep further surplus edges.
@@ -54,7 +54,7 @@ module biss_edge_count #(
   logic signed [W-1:0] need_d;
   logic signed [W-1:0] need_q;     // edges needed; -1: one too many was sent
   logic               len_valid_q;
-  logic [6:0]         len_q;
+  logic [7:0]         len_q;       // one clock after begin_i: MO_BUSY
   logic               bus;
   logic [2:0]         base;        // edges of the protocol
   logic               take;
@@ -62,9 +62,10 @@ module biss_edge_count #(
   logic               none_q;
   logic               one_d;
   logic               one_q;
+  logic               unused;
 
-  assign more = need_q + (len_valid_q ? signed'(W'(len_q)) : signed'(W'(0)))
-                       + (wait_i ? signed'(W'(1)) : signed'(W'(0)));
+  // One adder: the bit below the sums carries wait_i into it.
+  assign {more, unused} = {need_q, 1'b1} + {W'(len_q), wait_i};
   assign take = rise_i && !need_q[W-1];
 
   assign bus  = Mo && bus_i;
@@ -78,9 +79,9 @@ module biss_edge_count #(
     one_d   = one_q;
     if (begin_i) begin
       rises_d = 2'd0;
-      need_d  = signed'(W'(base)) + (bus ? signed'(W'(mo_busy_i)) : signed'(W'(0)));
+      need_d  = signed'(W'(base));
       none_d  = 1'b0;
-      one_d   = ssi_i && !biss_c_i && !(bus && mo_busy_i != 8'd0);
+      one_d   = ssi_i && !biss_c_i;
     end else if (run_i) begin
       if (rise_i && rises_q != 2'd2) rises_d = rises_q + 2'd1;
       need_d = more - (take ? signed'(W'(1)) : signed'(W'(0)));
@@ -103,7 +104,7 @@ module biss_edge_count #(
       none_q  <= none_d;
       one_q   <= one_d;
       len_valid_q <= len_valid_i && !begin_i;   // not a word of a frame that BREAK has ended
-      len_q       <= len_i;
+      len_q       <= begin_i ? mo_busy_i & {8{bus}} : {1'b0, len_i & {7{len_valid_i}}};
     end
   end
 

@@ -9,7 +9,7 @@
 //
 //   clocking_o  high from begin_i until enough_i was seen at the end of a high level
 //   rise_o      high in the clock of a tick that makes a rising edge in the frame, whatever the
-//               force bits do
+//               force bits do; it has no meaning with stop_i, which comes late
 //   force_i     from the first tick after the next clock on MA has the level force_level_i,
 //               whatever the frame does
 //   released_o  high for one clock: the line must rest until the next tick, because the force has
@@ -98,8 +98,7 @@ module biss_ma_drive (
 
   // rise_o follows the cases above, without begin_i. begin_i comes late, and clocking_q is 0 then,
   // so rise_o is 0 in any case.
-  assign rise_o = tick_i && clocking_q && half_next_i && !register_i && !stop_i &&
-                  !(enough_i && cdm_i);
+  assign rise_o = tick_i && clocking_q && half_next_i && !register_i && !(enough_i && cdm_i);
 
   assign released_o = released_q;
   assign clocking_o = clocking_q;

@@ -71,6 +71,7 @@ module biss_mo_tx #(
   logic       data_bit;
   logic       crc_top;
   logic       shift;
+  logic       reduced_q;  // the frame ends after CDS
   logic       none;       // no words in this frame
   logic       ends;       // ... even before its last slot
 
@@ -79,7 +80,8 @@ module biss_mo_tx #(
 
   assign word     = offer_i.word;
   assign ends     = line_idle_i || go_i.mo_return || go_i.stop;
-  assign none     = !offer_i.any || go_i.reduced;
+  // go_i.reduced comes late. It does not change between the start of a frame and its CDS.
+  assign none     = !offer_i.any || reduced_q;
   assign byte_now = load_q ? word.data_last[5:3] : left_q[5:3];
   assign data_bit = data_i[left_q[2:0]] && word.actuator;
   assign shift    = rise_i && state_q == DATA && !stop_q;
@@ -191,6 +193,7 @@ module biss_mo_tx #(
       second_q <= 1'b0;
       busy_q   <= '0;
       load_q   <= 1'b0;
+      reduced_q <= 1'b0;
       stop_q   <= 1'b0;
       in_crc_q <= 1'b0;
       left_q   <= '0;
@@ -200,6 +203,7 @@ module biss_mo_tx #(
       second_q <= second_d;
       busy_q   <= busy_d;
       load_q   <= load_d;
+      reduced_q <= go_i.reduced;
       stop_q   <= stop_d;
       in_crc_q <= in_crc_d;
       left_q   <= left_d;

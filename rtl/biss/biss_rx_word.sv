@@ -35,7 +35,8 @@ module biss_rx_word #(
 );
 
   biss_pkg::word_t word;
-  logic       sensor;
+  logic       sensor_q;  // the word is not that of an actuator
+  logic       store_q;   // its CRC is stored
   logic       wr_en;
   logic [2:0] wr_byte;
   logic       ok;
@@ -79,8 +80,7 @@ module biss_rx_word #(
     .top_o   (crc_top)
   );
 
-  assign word   = offer_i.word;
-  assign sensor = !word.actuator;
+  assign word = offer_i.word;
 
   // CRC bits are sent inverted.
   assign value    = bit_i ^ (in_crc_q || (word.gray && bin_q));
@@ -121,7 +121,7 @@ module biss_rx_word #(
         good_d    = crc_fits;
         ok      = crc_fits;
         next_o    = left_q == 6'd0;
-        wr_en   = word.crc_store && left_q[2:0] == 3'd0;
+        wr_en   = store_q && left_q[2:0] == 3'd0;
         wr_byte = (word.crc_last[3] && left_q == 6'd0) ? 3'd6 : 3'd7;
       end
     end
@@ -131,6 +131,8 @@ module biss_rx_word #(
     if (!rst_ni) begin
       skip_q   <= 1'b0;
       fresh_q  <= 1'b0;
+      sensor_q <= 1'b0;
+      store_q  <= 1'b0;
       bin_q    <= 1'b0;
       in_crc_q <= 1'b0;
       left_q   <= '0;
@@ -138,6 +140,7 @@ module biss_rx_word #(
       good_q   <= 1'b0;
     end else begin
       skip_q   <= skip_d;
+      if (load_i) {sensor_q, store_q} <= {!word.actuator, word.crc_store};
       fresh_q  <= load_i || (fresh_q && !bit_valid_i);
       if (load_i)           bin_q <= 1'b0;
       else if (bit_valid_i) bin_q <= value;
@@ -148,9 +151,9 @@ module biss_rx_word #(
     end
   end
 
-  assign rx_o = {offer_i.slave, wr_en && sensor, wr_byte, part_q, value,
-                 bit_valid_i && fresh_q && sensor,
-                 run_i && !load_i && (bit_valid_i || !fresh_q) && !next_o && sensor,
-                 next_o && sensor, ok};
+  assign rx_o = {offer_i.slave, wr_en && sensor_q, wr_byte, part_q, value,
+                 bit_valid_i && fresh_q && sensor_q,
+                 run_i && !load_i && (bit_valid_i || !fresh_q) && !next_o && sensor_q,
+                 next_o && sensor_q, ok};
 
 endmodule

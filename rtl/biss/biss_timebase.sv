@@ -31,7 +31,7 @@ module biss_timebase (
 
   logic [7:0] len_q;
   logic [7:0] cnt_d;
-  logic [7:0] cnt_q;
+  logic [7:0] cnt_q;       // clock of the half period, 1 to len_q
   logic       last_d;
   logic       last_q;      // the last clock of a half period
   logic       half_d;
@@ -44,30 +44,27 @@ module biss_timebase (
 
   // Much logic depends on tick in the same clock, so last_q is prepared one clock before.
   assign tick   = run_i && last_q;
-  assign middle = (len_q == 8'd1) ? tick : run_i && cnt_q == {1'b0, len_q[7:1]} - 8'd1;
+  assign middle = (len_q == 8'd1) ? tick : run_i && cnt_q == {1'b0, len_q[7:1]};
 
   always_comb begin
     cnt_d  = cnt_q;
-    last_d = last_q;
     half_d = half_q;
     if (restart_i) begin
-      cnt_d  = 8'd0;
-      last_d = half_len_i == 8'd1;
+      cnt_d  = 8'd1;
       half_d = 1'b1;
     end else if (tick) begin
-      cnt_d  = 8'd0;
-      last_d = len_q == 8'd1;
+      cnt_d  = 8'd1;
       half_d = !half_q;
     end else if (run_i) begin
       cnt_d  = cnt_q + 8'd1;
-      last_d = cnt_q + 8'd2 == len_q;
     end
+    last_d = restart_i ? half_len_i == 8'd1 : cnt_d == len_q;
   end
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
       len_q  <= 8'd1;
-      cnt_q  <= '0;
+      cnt_q  <= 8'd1;
       last_q <= 1'b1;
       half_q <= 1'b1;
       a_q    <= '0;
@@ -91,7 +88,8 @@ module biss_timebase (
   assign sample_half_o = h_q[1];
 
   `ENC_ASSERT(HalfLength_A, clk_i, rst_ni, len_q != 8'd0)
-  `ENC_ASSERT_IF(CountInRange_A, clk_i, rst_ni, run_i, cnt_q < len_q)
-  `ENC_ASSERT(LastOfHalf_A, clk_i, rst_ni, last_q == (cnt_q == len_q - 8'd1))
+  `ENC_ASSERT_IF(CountInRange_A, clk_i, rst_ni, run_i,
+                 cnt_q != 8'd0 && cnt_q <= len_q)
+  `ENC_ASSERT(LastOfHalf_A, clk_i, rst_ni, last_q == (cnt_q == len_q))
 
 endmodule

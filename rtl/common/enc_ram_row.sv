@@ -1,35 +1,38 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Memory of rows of four bytes: each byte has its own write enable, a read gives the whole row. It
-// maps to block RAM with byte enables.
+// Memory of rows of four fields: each field has its own write enable, a read gives the whole row. A
+// field is a byte; field 1 may be wider. It maps to block RAM with write enables.
 //
 // Clock domains: wclk_i writes, rclk_i reads.
 // Latency: read data are valid after the rclk_i edge that samples rd_en_i and rd_addr_i.
 // Misuse: the contents are undefined until they are written; the owner clears them. A read of a
-// byte at the edge that writes it gives the old or the new byte.
+// field at the edge that writes it gives an undefined field.
 
 module enc_ram_row #(
-  parameter int unsigned AddrW = 3
+  parameter int unsigned AddrW  = 3,
+  parameter int unsigned Field1 = 8   // bits of field 1
 ) (
   input  logic             wclk_i,
-  input  logic [3:0]       wr_en_i,    // one bit for each byte
+  input  logic [3:0]       wr_en_i,    // one bit for each field
   input  logic [AddrW-1:0] wr_addr_i,
-  input  logic [31:0]      wr_data_i,
+  input  logic [24+Field1-1:0] wr_data_i,
   input  logic             rclk_i,
   input  logic             rd_en_i,
   input  logic [AddrW-1:0] rd_addr_i,
-  output logic [31:0]      rd_data_o
+  output logic [24+Field1-1:0] rd_data_o
 );
 
-  logic [31:0] mem [0:(1 << AddrW)-1];
-  logic [31:0] rd_data_q;
+  localparam int unsigned W = 24 + Field1;
+
+  (* no_rw_check *) logic [W-1:0] mem [0:(1 << AddrW)-1];
+  logic [W-1:0] rd_data_q;
 
   always_ff @(posedge wclk_i) begin
     if (wr_en_i[0]) mem[wr_addr_i][7:0]   <= wr_data_i[7:0];
-    if (wr_en_i[1]) mem[wr_addr_i][15:8]  <= wr_data_i[15:8];
-    if (wr_en_i[2]) mem[wr_addr_i][23:16] <= wr_data_i[23:16];
-    if (wr_en_i[3]) mem[wr_addr_i][31:24] <= wr_data_i[31:24];
+    if (wr_en_i[1]) mem[wr_addr_i][W-17:8] <= wr_data_i[W-17:8];
+    if (wr_en_i[2]) mem[wr_addr_i][W-9:W-16] <= wr_data_i[W-9:W-16];
+    if (wr_en_i[3]) mem[wr_addr_i][W-1:W-8] <= wr_data_i[W-1:W-8];
   end
 
   always_ff @(posedge rclk_i) begin

@@ -16,6 +16,7 @@ host/mb4_bridge.sv
 host/mb4_page.sv
 regs/mb4_cfg_regs.sv
 regs/mb4_crc_code.sv
+regs/mb4_crc_decode.sv
 regs/mb4_slave_cfg.sv
 regs/mb4_instr_reg.sv
 regs/mb4_recent.sv
@@ -29,7 +30,6 @@ regs/mb4_cds_bank.sv
 regs/mb4_scd_store.sv
 regs/mb4_reg_file.sv
 ctrl/mb4_freqs_dec.sv
-ctrl/mb4_crc_decode.sv
 ctrl/mb4_word_list.sv
 ctrl/mb4_frame_request.sv
 ctrl/mb4_frame_kind.sv

@@ -91,7 +91,7 @@ module mb4_lines #(
     localparam int unsigned LINE  = k % 2;
     localparam logic [7:0]  UPPER = 8'hF0;   // data channels of line 2 with SLAVELOC5 = 1
 
-    mb4_word_list #(.Sum(k >= 2)) u_list (
+    mb4_word_list #(.Sum(k >= 2), .Channels(LINE == 0 ? 8'hFF : UPPER)) u_list (
       .clk_i,
       .rst_ni,
       .enscd_i     (enscd_i & (LINE == 0 ? ~(UPPER & {8{cfg_i.slaveloc5}})

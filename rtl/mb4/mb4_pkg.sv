@@ -9,12 +9,15 @@ package mb4_pkg;
   // Number of single-cycle data channels, and width in bits of the configuration of one of them.
   // Channel x has the four bytes 0xC0 + 4 (x - 1) .. + 3; the first byte is in bits 7:0.
   localparam int unsigned NUM_SLAVES  = 8;
-  localparam int unsigned SLAVE_CFG_W = 32;
+  localparam int unsigned SLAVE_CFG_W = 44;
 
   // Configuration of a data channel, as the word lists read it.
   typedef struct packed {
     logic [15:0] crc_start;  // SCRCSTARTx
-    logic [7:0]  crc_poly;   // CRC choice in the form of mb4_crc_code
+    logic        crc_on;     // CRC choice as mb4_crc_decode makes it
+    logic [3:0]  crc_last;
+    logic [6:0]  crc_poly;   // without its lowest bit, a 1
+    logic [7:0]  crc_top;
     logic        gray_lstop; // GRAYSx (SSI) or LSTOPx (actuator)
     logic        enscd;      // ENSCDx
     logic [5:0]  scdlen;     // SCDLENx: data bits minus 1

@@ -14,7 +14,7 @@
 // mutation: common/enc_crc.sv | feed_i & (bit_i ^ top) | feed_i & bit_i
 // mutation: common/enc_crc.sv | if (load_i) rem_d = start_i; | if (load_i) rem_d = {start_i[15:1], 1'b0};
 // mutation: mb4/regs/mb4_crc_code.sv | poly_o = 8'hEC; | poly_o = 8'hED;
-// mutation: mb4/ctrl/mb4_crc_decode.sv | top = 8'h01 << i; | top = 8'h02 << i;
+// mutation: mb4/regs/mb4_crc_decode.sv | top = 8'h01 << i; | top = 8'h02 << i;
 
 module proof (
   input logic clk_i,

@@ -46,7 +46,8 @@ module proof (
     .clk_i, .rst_ni, .instr_i({count_i, written_i}), .instr_o(answer), .regvers_i, .kind_i,
     .quirks_i(6'd1 << mb4_pkg::QUIRK_AGSERR_ON_HOLDBANK), .request_i, .missed_i, .tick_i,
     .status_i, .event_i, .word_bad_i, .mem_i,
-    .control_active_i, .control_end_i, .control_stalled_i, .stale_i,
+    .control_active_i, .control_start_i(control_active_i), .control_end_i, .control_stalled_i,
+    .stale_i,
     .running_o(running), .go_o(go), .bank_o(bank), .flags_o(flags)
   );
 

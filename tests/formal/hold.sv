@@ -67,7 +67,8 @@ module proof (
     .clk_i, .rst_ni, .instr_i(asked), .instr_o(answer), .regvers_i(1'b0), .kind_i('0),
     .quirks_i('0), .request_i('0), .missed_i(1'b0), .tick_i(1'b0),
     .status_i({2{5'b10001}}), .event_i('0), .word_bad_i(2'b00), .mem_i('0),
-    .control_active_i(1'b0), .control_end_i(1'b0), .control_stalled_i(1'b0), .stale_i(1'b0),
+    .control_active_i(1'b0), .control_start_i(1'b0), .control_end_i(1'b0),
+    .control_stalled_i(1'b0), .stale_i(1'b0),
     .bank_o(bank_cmd)
   );
   mb4_bank_ctrl u_bank (

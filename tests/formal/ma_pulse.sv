@@ -85,20 +85,20 @@ module proof (
   end
 
   always @* if (started && live_q) begin
-    Count_A: assert (dut_cnt < dut_len && dut_len <= 8'd160 && dut_len != 8'd0);
-    Last_A:  assert (dut_last == (dut_cnt == dut_len - 8'd1));
+    Count_A: assert (dut_cnt != 8'd0 && dut_cnt <= dut_len && dut_len <= 8'd160);
+    Last_A:  assert (dut_last == (dut_cnt == dut_len));
   end
 
   logic [1:0] rise;
   line_proof #(.Covers(1'b1)) u_line1 (
     .clk_i, .por_ni, .live_i(started && live_q), .reset_i(!rst_ni), .len_i(dut_len),
-    .len_q_i(len_q), .cnt_i(dut_cnt), .ma_i(ma[0]), .idle_i(idle[0]), .force_i(forced_q[0]),
+    .len_q_i(len_q), .cnt_i(dut_cnt - 8'd1), .ma_i(ma[0]), .idle_i(idle[0]), .force_i(forced_q[0]),
     .state_i(dut_state1), .clocking_i(dut_clock1), .other_i(dut_state2),
     .other_rise_i(rise[1]), .rise_o(rise[0])
   );
   line_proof u_line2 (
     .clk_i, .por_ni, .live_i(started && live_q), .reset_i(!rst_ni), .len_i(dut_len),
-    .len_q_i(len_q), .cnt_i(dut_cnt), .ma_i(ma[1]), .idle_i(idle[1]), .force_i(forced_q[1]),
+    .len_q_i(len_q), .cnt_i(dut_cnt - 8'd1), .ma_i(ma[1]), .idle_i(idle[1]), .force_i(forced_q[1]),
     .state_i(dut_state2), .clocking_i(dut_clock2), .other_i(dut_state1),
     .other_rise_i(rise[0]), .rise_o(rise[1])
   );

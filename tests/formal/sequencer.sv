@@ -53,7 +53,8 @@ module proof (
   mb4_sequencer u_dut (
     .clk_i, .rst_ni, .instr_i({count_i, written_i}), .regvers_i, .kind_i, .quirks_i,
     .request_i, .missed_i, .tick_i, .status_i, .event_i, .word_bad_i, .mem_i,
-    .control_active_i, .control_end_i, .control_stalled_i, .stale_i,
+    .control_active_i, .control_start_i(control_active_i), .control_end_i, .control_stalled_i,
+    .stale_i,
     .running_o(running), .go_o(go), .flags_o(flags)
   );
 

@@ -22,8 +22,8 @@
 // look: dut_broadcast = u_dut.broadcast_q
 // mutation: biss/biss_control_frame.sv | if (!stay) slot_d
 //   | if (!stay || slot_q == biss_pkg::SLOT_WAIT) slot_d
-// mutation: biss/biss_control_frame.sv | start_i ? active_o : carries_q && !frame_end_i
-//   | start_i ? active_o : carries_q
+// mutation: biss/biss_control_frame.sv | start_i ? active_start_o : carries_q && !frame_end_i
+//   | start_i ? active_start_o : carries_q
 // mutation: biss/biss_control_frame.sv | last_d  = index_q == access_i.regnum;
 //   | last_d  = index_d == access_i.regnum;
 // mutation: biss/biss_control_frame.sv | biss_pkg::SLOT_START: cdm0 = cdm_timeout_i;
@@ -59,7 +59,8 @@ module proof (
     .clk_i, .rst_ni, .access_i({cts, wnr, regadr, regnum, slaveid}),
     .ida_invert_i(ida_invert), .select_i(select), .blind_i(blind),
     .byte_o(bytes), .rdata_i, .post_busy_i, .begin_i, .abort_i,
-    .start_i, .frame_end_i, .cds_i, .cdm_timeout_i, .expired_i, .stalled_i, .active_o(active),
+    .start_i, .frame_end_i, .cds_i, .cdm_timeout_i, .expired_i, .stalled_i,
+    .stalled_start_i(stalled_i), .active_o(active),
     .in_body_o(body), .wait_o(waits), .moved_o(moved), .cdm0_o(cdm0), .cdm1_o(cdm1),
     .begin_o(begins), .end_o(result)
   );

@@ -13,9 +13,9 @@
 // look: dut_len = u_dut.len_q
 // look: dut_cnt = u_dut.cnt_q
 // look: dut_half = u_dut.half_q
-// mutation: biss/biss_timebase.sv | cnt_q + 8'd2 == len_q; | cnt_q + 8'd1 == len_q;
+// mutation: biss/biss_timebase.sv | cnt_d == len_q; | cnt_q == len_q;
 // mutation: mb4/ctrl/mb4_freqs_dec.sv | {2'b00, steps, 1'b0} | {2'b00, steps, 1'b1}
-// mutation: biss/biss_timebase.sv | cnt_q == {1'b0, len_q[7:1]} - 8'd1 | cnt_q == {1'b0, len_q[7:1]}
+// mutation: biss/biss_timebase.sv | cnt_q == {1'b0, len_q[7:1]}; | cnt_q == {1'b0, len_q[7:1]} + 8'd1;
 // mutation: biss/biss_timebase.sv | half_d = !half_q; | half_d = half_q ^ !run_i;
 
 module proof (
@@ -93,7 +93,7 @@ module proof (
   always @* if (started) begin
     SameLength_A: assert (dut_len == len_q[7:0] && len_q >= 9'd1 && len_q <= 9'd160);
     SameHalf_A: assert (dut_half == (at_q < len_q) && at_q < 2 * len_q);
-    SameCount_A: assert (dut_cnt == 8'(at_q < len_q ? at_q : at_q - len_q));
+    SameCount_A: assert (dut_cnt == 8'(at_q < len_q ? at_q : at_q - len_q) + 8'd1);
   end
 
 endmodule

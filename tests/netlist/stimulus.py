@@ -119,9 +119,9 @@ def host_address(steps):
     return steps.rng.getrandbits(6) | 0xC0 if steps.chance(0.9) else steps.rng.getrandbits(8)
 
 
-def host(wr_address=host_address):
+def host(wr_address=host_address, wr_data=None):
     """host_t of mb4_pkg: writes and reads of the host."""
-    return struct("host_i", (0.5, 1), (wr_address, 8), (None, 8), (0.5, 1), (host_address, 8))
+    return struct("host_i", (0.5, 1), (wr_address, 8), (wr_data, 8), (0.5, 1), (host_address, 8))
 
 
 def instruction_byte(steps):
@@ -143,7 +143,11 @@ def crc_decode(steps):
 def slave_cfg(steps):
     """A data channel, mostly with a CRC that the chip knows."""
     crc = steps.rng.choice(CRC_POLYNOMIALS) if steps.chance(0.8) else steps.rng.getrandbits(8)
-    return steps.rng.getrandbits(16) << 16 | crc << 8 | steps.rng.getrandbits(8)
+    # mb4_pkg::slave_cfg_t: start, CRC on, bits minus 1, polynomial, highest bit, the other fields.
+    top = 0 if crc >= 0xC0 else 1 << crc.bit_length() - 1 if crc else 0
+    last = 15 if crc >= 0xC0 else max(crc.bit_length() - 1, 0)
+    return pack((steps.rng.getrandbits(16), 16), (int(crc != 0), 1), (last, 4), (crc & 0x7F, 7),
+                (top, 8), (steps.rng.getrandbits(8), 8))
 
 
 def spi_bytes(steps, values, between=lambda steps: None):
@@ -209,7 +213,10 @@ def slave_cfg_store(steps):
     steps.compare_from = len(steps.steps)
     # A write and a read of one row never share a clock edge: which byte is read is left open.
     play(steps, ["hclk_i", "rclk_i", "clk_i"], ["rst_ni"], 12000,
-         host(lambda s: 0xC0 | s.rng.getrandbits(5 + int(s.chance(0.2)))), one_clock=True)
+         host(lambda s: 0xC0 | s.rng.getrandbits(5 + int(s.chance(0.2))),
+              # 0x10 is the CRC of 16 bits, 0x81 that of one bit.
+              lambda s: s.rng.choice([0x10, 0x81]) if s.chance(0.2) else s.rng.getrandbits(8)),
+         one_clock=True)
 
 
 def memory(steps):

@@ -47,7 +47,7 @@ module mb4_control (
   mb4_pkg::access_event_t access_event;
   mb4_pkg::access_state_t access_state;
   logic missed, taken, lines_idle, running, brk, init_clear;
-  logic control_want, register_want, control_active, void_end, refused, access_stale;
+  logic control_want, register_want, control_active, control_start, void_end, refused, access_stale;
   logic live, automatic_frames, stalled, access_ags_error;
   // lines
   logic [1:0] start_use, cdm0, cdm1, mo_low, forced, force_level;
@@ -82,6 +82,7 @@ module mb4_control (
     .void_o            (void_end),
     .refused_o         (refused),
     .control_active_i  (control_active),
+    .control_start_i   (control_start),
     .control_end_i     (access_event.ends),
     .control_stalled_i (stalled),
     .stale_i           (access_stale)
@@ -137,6 +138,7 @@ module mb4_control (
     .tick_i,
     .status_i,
     .active_o      (control_active),
+    .active_start_o (control_start),
     .stale_o       (access_stale),
     .time_o        (keep_time),
     .stalled_o     (stalled),

@@ -34,6 +34,7 @@ module mb4_control_comm (
   input  logic       tick_i,
   input  logic [2*biss_pkg::LINE_STATUS_W-1:0] status_i,
   output logic       active_o,
+  output logic       active_start_o,   // active_o, if a frame starts in this clock
   output logic       stale_o,          // kind_o is still that of an access which has ended
   output logic       time_o,           // the time base must run between frames too
   output logic       stalled_o,        // no frame has ended for too long
@@ -106,7 +107,9 @@ module mb4_control_comm (
     .cdm_timeout_i (cdm_timeout),
     .expired_i     (expired),
     .stalled_i     (stalled_o),
+    .stalled_start_i (counted && !refused_q),
     .active_o,
+    .active_start_o,
     .running_o     (control_runs),
     .in_body_o     (in_body),
     .wait_o        (waiting),
@@ -151,7 +154,7 @@ module mb4_control_comm (
   mb4_cdm_select u_cdm (
     .manual_i   (kind_o.manual),
     .instr_i,
-    .active_i   (active_o),
+    .active_i   (active_start_o),
     .control0_i (control0),
     .control1_i (control1),
     .cdm0_o,

@@ -69,6 +69,7 @@ module mb4_sequencer (
   output logic       void_o,          // INSTR asks for what cannot run or begin, and ends
   output logic       refused_o,       // SL is low: no frame for INSTR
   input  logic       control_active_i,
+  input  logic       control_start_i, // ..., if a frame starts in this clock
   input  logic       control_end_i,
   input  logic       control_stalled_i, // because no frame ends
   input  logic       stale_i          // kind_i still has the settings of an access that has ended
@@ -143,7 +144,7 @@ module mb4_sequencer (
   assign register_access  = init ? !regvers_i : kind_i.is_register;
   assign register_d  = start ? register_access : register_q;
   assign start_use_o = init ? kind_i.init_use : kind_i.frame_use;
-  assign reduced_d   = start ? control_active_i &&
+  assign reduced_d   = start ? control_start_i &&
                                  held_q.instr == mb4_regs_pkg::INSTR_CONTROL_REDUCED
                                : reduced_q;
   // With AGS = 1 new_q falls in IDLE, and INSTR alone keeps the request.

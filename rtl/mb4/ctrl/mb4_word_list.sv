@@ -4,7 +4,8 @@
 // Word list of one line: tells which data channel comes next, and how long the frame is.
 //
 // Clock domain: core. start_i takes the list of words: the enabled data channels of this line,
-// lowest first. The lowest is the slave next to SL.
+// lowest first. The lowest is the slave next to SL. Channels names the data channels that the line
+// can have; enscd_i of the others must be 0.
 // Latency: offer_o is the current word. It is valid one clock after start_i and one clock after
 // next_i. With Sum = 1 the module first walks through the list once: from the clock after start_i
 // on, len_o gives the bits of one word in each clock, with len_valid_o. offer_o is the first word
@@ -14,7 +15,8 @@
 // Datasheet: pages 23..26; order of the words: protocol of the chain, first slave first.
 
 module mb4_word_list #(
-  parameter bit Sum = 1'b1
+  parameter bit Sum = 1'b1,
+  parameter logic [7:0] Channels = 8'hFF
 ) (
   input  logic       clk_i,
   input  logic       rst_ni,
@@ -36,8 +38,22 @@ module mb4_word_list #(
   output biss_pkg::offer_t offer_o  // the current word
 );
 
-  logic [7:0]  todo_d;
-  logic [7:0]  todo_q;
+  // The lowest of some data channels; of none the lowest that the line can have.
+  function automatic logic [2:0] lowest(input logic [7:0] channels);
+    lowest = 3'd0;
+    for (int i = 7; i >= 0; i--) begin
+      if (Channels[i]) lowest = 3'(i);
+    end
+    for (int i = 7; i >= 0; i--) begin
+      if (channels[i]) lowest = 3'(i);
+    end
+  endfunction
+
+  localparam logic [2:0] LOWEST = lowest(8'h00);
+
+  logic [7:0]  enscd_q;    // of this frame
+  logic        any_d;
+  logic        any_q;      // there is a current word
   logic [7:0]  rest;       // words after the current one
   logic        begins;     // next clock: the first word
   logic        summing_d;
@@ -46,43 +62,29 @@ module mb4_word_list #(
   logic [2:0]  first_rest;
   logic [2:0]  slave_d;
   logic [2:0]  slave_q;
-  logic        crc_on;
-  logic [3:0]  crc_last;
-  logic [7:0]  crc_poly;
-  logic [7:0]  crc_top;
   logic        actuator;
   logic        stop;
   logic        crc_room;
   logic        last;
   logic        unused;
 
-  assign rest    = todo_q & (todo_q - 8'd1);
-  // Not needed: enscd_i tells the same.
-  assign unused  = cfg_i.enscd;
+  // Not needed: enscd_i tells the same, and no word precedes channel 0.
+  assign unused = cfg_i.enscd ^ enscd_q[0];
 
-  mb4_crc_decode u_decode (
-    .poly_i     (cfg_i.crc_poly),
-    .crc_on_o   (crc_on),
-    .crc_last_o (crc_last),
-    .crc_poly_o (crc_poly),
-    .crc_top_o  (crc_top)
-  );
+  assign rest[0] = 1'b0;
+  for (genvar i = 1; i < 8; i++) begin : gen_rest
+    assign rest[i] = enscd_q[i] && slave_q < 3'(i);
+  end
 
   assign begins = start_i || (summing_q && last);
 
   // Data channel of the next clock. Its configuration arrives together with it. start_i and next_i
   // come late, so both results are prepared and these inputs only choose.
-  always_comb begin
-    first_new  = 3'd0;
-    first_rest = 3'd0;
-    for (int i = 7; i >= 0; i--) begin
-      if (enscd_i[i]) first_new  = 3'(i);
-      if (rest[i])    first_rest = 3'(i);
-    end
-  end
+  assign first_new  = lowest(enscd_i);
+  assign first_rest = lowest(rest);
 
   always_comb begin
-    todo_d    = begins ? enscd_i : rest;
+    any_d     = begins ? enscd_i != 8'h00 : rest != 8'h00;
     slave_d   = begins ? first_new : first_rest;
     summing_d = Sum && (start_i ? enscd_i != 8'h00 : summing_q && !last);
   end
@@ -92,13 +94,17 @@ module mb4_word_list #(
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
-      todo_q    <= 8'h00;
+      enscd_q   <= 8'h00;
+      any_q     <= 1'b0;
       summing_q <= 1'b0;
-      slave_q   <= 3'd0;
-    end else if (cfg_en_o) begin
-      todo_q    <= todo_d;
-      summing_q <= summing_d;
-      slave_q   <= slave_d;
+      slave_q   <= LOWEST;
+    end else begin
+      if (start_i) enscd_q <= enscd_i;
+      if (cfg_en_o) begin
+        any_q     <= any_d;
+        summing_q <= summing_d;
+        slave_q   <= slave_d;
+      end
     end
   end
 
@@ -108,15 +114,18 @@ module mb4_word_list #(
   assign stop     = actuator && cfg_i.gray_lstop;
 
   assign len_valid_o = summing_q;
-  assign len_o       = 7'(cfg_i.scdlen) + 7'd1 + 7'(crc_last) + 7'(crc_on) + 7'(stop);
+  assign len_o       = 7'(cfg_i.scdlen) + 7'd1 + 7'(cfg_i.crc_last) + 7'(cfg_i.crc_on) +
+                       7'(stop);
 
   assign last = rest == 8'h00;
 
   // The CRC is stored only if the data leave the top byte free, with 16 bits the top two (page 26).
-  assign crc_room = !(cfg_i.scdlen[5:4] == 2'b11 && (cfg_i.scdlen[3] || crc_last[3]));
+  assign crc_room = !(cfg_i.scdlen[5:4] == 2'b11 && (cfg_i.scdlen[3] || cfg_i.crc_last[3]));
 
-  assign offer_o = {todo_q != 8'h00, last, slave_q,
-                    cfg_i.scdlen, crc_on, crc_last, crc_poly, crc_top, cfg_i.crc_start,
-                    crc_room && !nocrc_i && crc_on, ssi_i && cfg_i.gray_lstop, actuator, stop};
+  assign offer_o = {any_q, last, slave_q,
+                    cfg_i.scdlen, cfg_i.crc_on, cfg_i.crc_last, cfg_i.crc_poly, 1'b1,
+                    cfg_i.crc_top, cfg_i.crc_start,
+                    crc_room && !nocrc_i && cfg_i.crc_on,
+                    ssi_i && cfg_i.gray_lstop, actuator, stop};
 
 endmodule

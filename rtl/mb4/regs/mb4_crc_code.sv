@@ -12,7 +12,7 @@
 // without its last 1, and its degree (1..7) is the CRC length.
 //
 // Clock domain: host; combinational. The conversion stands where the host writes, once for all
-// readers (mb4_crc_decode).
+// readers; mb4_crc_decode goes on from it.
 // Misuse: SCRCLEN codes that Table 14 does not permit, and SCRCPOLY = 0, switch the CRC off.
 // Datasheet: pages 24, 25, Tables 13..15.
 

@@ -11,10 +11,12 @@
 // bank, and a host read gives the bytes of both banks, so that it does not depend on the bank that
 // the host owns.
 //
-// The memory has a single write port. Clearing after a reset goes first, then the core, then the
+// The memory has a single write port. The core goes first, then clearing after a reset, then the
 // posted byte of the host. host_ready_o is high in the clock in which this byte is taken. The core
 // writes at most every second clock, so the host waits at most one clock for it.
-// Misuse: the host may use RDATA only while no control communication runs (page 28).
+// Misuse: a byte that the core writes while clear_i.en is high keeps one address from being
+// cleared; no frame runs then. The host may use RDATA only while no control communication runs
+// (page 28).
 // Datasheet: pages 26, 28, Tables 20, 27.
 
 module mb4_memory #(
@@ -47,8 +49,9 @@ module mb4_memory #(
 
   assign host_ready_o = !clear_i.en && !eng_wr_i.en;
   assign wr_en   = clear_i.en || eng_wr_i.en || host_wr_i.en;
-  assign wr_addr = clear_i.en ? clear_i.addr : eng_wr_i.en ? eng_wr_i.addr : host_wr_i.addr;
-  assign wr_data = clear_i.en ? clear_i.data : eng_wr_i.en ? eng_wr_i.data : host_wr_i.data;
+  // The inner choice is the same in all memories, so synthesis makes it once.
+  assign wr_addr = eng_wr_i.en ? eng_wr_i.addr : clear_i.en ? clear_i.addr : host_wr_i.addr;
+  assign wr_data = eng_wr_i.en ? eng_wr_i.data : clear_i.en ? clear_i.data : host_wr_i.data;
 
   if (Banks) begin : gen_banks
     enc_ram_pair #(.AddrW(5)) u_host (

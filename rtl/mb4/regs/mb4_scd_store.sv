@@ -113,8 +113,7 @@ module mb4_scd_store #(
 
   // ---- memories -------------------------------------------------------------------------------
 
-  // One line at a time uses the upper half: line 2 if its word is there, else line 1.
-  assign hi_mo     = mo2.slave[2] ? mo2 : mo1;
+  assign hi_mo     = slaveloc5_i ? mo2 : mo1;
   assign mo_en     = mo1.rd_en || mo2.rd_en;
   assign mo_data_o = {hi_mo_data, mo1.slave[2] ? hi_mo_data : lo_mo_data};
 

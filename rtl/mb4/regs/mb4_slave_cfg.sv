@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Configuration of the eight data channels, 0xC0..0xDF, in rows of four bytes. The host reads one
-// copy of it. Each word list reads a copy of its own, in which the CRC choice has one form
-// (mb4_crc_code).
+// copy of it. Each word list reads a copy of its own, in which the CRC choice is decoded
+// (mb4_crc_code, mb4_crc_decode): the host's write does it once for all of them.
 //
 // Clock domains: host (hclk_i writes, rclk_i reads); the word lists read in the core clock. Only
 // the word lists need the core clock.
@@ -41,7 +41,11 @@ module mb4_slave_cfg #(
   logic [31:0] wr_data;
   logic [31:0] rd_data;
   logic [7:0]  crc_byte;
-  logic [7:0]  crc_poly;  // of crc_byte
+  logic [7:0]  crc_code;  // of crc_byte
+  logic        crc_on;
+  logic [3:0]  crc_last;
+  logic [7:0]  crc_poly, crc_top;
+  logic        unused;
   logic [3:0]  sel_q;     // byte of the row that the host reads; 0: row not written
 
   assign write   = host_i.wr_en && host_i.wr_addr[7:5] == mb4_regs_pkg::ADDR_SLAVE_CFG[7:5];
@@ -68,8 +72,18 @@ module mb4_slave_cfg #(
   mb4_crc_code u_code (
     .selcrc_i (crc_byte[mb4_regs_pkg::SELCRCS_LSB]),
     .code_i   (crc_byte[mb4_regs_pkg::SCRCLEN_LSB +: mb4_regs_pkg::SCRCLEN_W]),
-    .poly_o   (crc_poly)
+    .poly_o   (crc_code)
   );
+
+  mb4_crc_decode u_decode (
+    .poly_i     (crc_code),
+    .crc_on_o   (crc_on),
+    .crc_last_o (crc_last),
+    .crc_poly_o (crc_poly),
+    .crc_top_o  (crc_top)
+  );
+
+  assign unused = crc_poly[0];   // every polynomial ends in 1
 
   enc_ram_row u_host (
     .wclk_i    (hclk_i),
@@ -94,11 +108,11 @@ module mb4_slave_cfg #(
                      (rd_data[23:16] & {8{sel_q[2]}}) | (rd_data[31:24] & {8{sel_q[3]}});
 
   for (genvar i = 0; i < Lists; i++) begin : gen_list
-    enc_ram_row u_list (
+    enc_ram_row #(.Field1(20)) u_list (
       .wclk_i    (hclk_i),
       .wr_en_i   (wr_en),
       .wr_addr_i (row),
-      .wr_data_i ({wr_data[31:16], crc_poly, wr_data[7:0]}),
+      .wr_data_i ({wr_data[31:16], crc_on, crc_last, crc_poly[7:1], crc_top, wr_data[7:0]}),
       .rclk_i    (clk_i),
       .rd_en_i   (list_en_i[i]),
       .rd_addr_i (list_slave_i[3*i +: 3]),

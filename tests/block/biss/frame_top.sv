@@ -63,6 +63,8 @@ module frame_top #(
   logic [2:0]  rx_cfg_slave, mo_cfg_slave;
   logic [31:0] rx_cfg_q, mo_cfg_q;
   logic [7:0]  rx_poly, mo_poly;
+  logic [19:0] rx_crc, mo_crc;
+  logic        unused_rx, unused_mo;
 
   mb4_freqs_dec u_freqs (
     .freqs_i,
@@ -98,6 +100,22 @@ module frame_top #(
     .poly_o   (mo_poly)
   );
 
+  mb4_crc_decode u_rx_decode (
+    .poly_i     (rx_poly),
+    .crc_on_o   (rx_crc[19]),
+    .crc_last_o (rx_crc[18:15]),
+    .crc_poly_o ({rx_crc[14:8], unused_rx}),
+    .crc_top_o  (rx_crc[7:0])
+  );
+
+  mb4_crc_decode u_mo_decode (
+    .poly_i     (mo_poly),
+    .crc_on_o   (mo_crc[19]),
+    .crc_last_o (mo_crc[18:15]),
+    .crc_poly_o ({mo_crc[14:8], unused_mo}),
+    .crc_top_o  (mo_crc[7:0])
+  );
+
   always_ff @(posedge clk_i) begin
     if (rx_cfg_en) rx_cfg_q <= slave_cfg_i[32*rx_cfg_slave +: 32];
     if (mo_cfg_en) mo_cfg_q <= slave_cfg_i[32*mo_cfg_slave +: 32];
@@ -114,7 +132,7 @@ module frame_top #(
     .next_i      (next),
     .cfg_en_o    (rx_cfg_en),
     .cfg_slave_o (rx_cfg_slave),
-    .cfg_i       ({rx_cfg_q[31:16], rx_poly, rx_cfg_q[7:0]}),
+    .cfg_i       ({rx_cfg_q[31:16], rx_crc, rx_cfg_q[7:0]}),
     .actuator_o  (rx_actuator),
     .len_valid_o (rx_len_valid),
     .len_o       (rx_len),
@@ -132,7 +150,7 @@ module frame_top #(
     .next_i      (mo_next),
     .cfg_en_o    (mo_cfg_en),
     .cfg_slave_o (mo_cfg_slave),
-    .cfg_i       ({mo_cfg_q[31:16], mo_poly, mo_cfg_q[7:0]}),
+    .cfg_i       ({mo_cfg_q[31:16], mo_crc, mo_cfg_q[7:0]}),
     .actuator_o  (mo_actuator),
     .len_valid_o (len_valid),
     .len_o       (len),
@@ -190,7 +208,7 @@ module frame_top #(
   assign init_fail_o = ends.init_fail;
 
   logic unused;
-  assign unused = ^{status, ends, data, mo, mo_read, rx_len_valid, rx_len, rx_actuator,
-                    mo_actuator};
+  assign unused = ^{unused_rx, unused_mo, status, ends, data, mo, mo_read, rx_len_valid, rx_len,
+                    rx_actuator, mo_actuator};
 
 endmodule

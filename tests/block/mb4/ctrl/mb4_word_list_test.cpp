@@ -19,14 +19,18 @@ struct Channel {
   unsigned crc_bits = 0;  // 0, 3 to 8, 16
   unsigned crc_start = 0;
 
-  // Table 14 in the form of mb4_crc_code.
-  unsigned crc_code() const {
-    static constexpr unsigned kCodes[] = {0, 0, 0, 0x05, 0x09, 0x12, 0x21, 0x44, 0x97};
-    return crc_bits == 16 ? 0xEC : kCodes[crc_bits];
+  // Table 14: the polynomial without its last 1, and without what is above x^7.
+  unsigned polynomial() const {
+    static constexpr unsigned kFull[] = {0, 0, 0, 0xB, 0x13, 0x25, 0x43, 0x89, 0x12F};
+    return (crc_bits == 16 ? 0x190D9U : kFull[crc_bits]) >> 1 & 0x7F;
   }
-  std::uint32_t port() const {
-    return crc_start << 16 | crc_code() << 8 | (gray_lstop ? 0x80U : 0) | (enabled ? 0x40U : 0) |
-           (data_bits - 1);
+  unsigned top() const { return crc_bits == 0 || crc_bits == 16 ? 0 : 1U << (crc_bits - 1); }
+  // mb4_pkg::slave_cfg_t
+  std::uint64_t port() const {
+    const std::uint64_t crc = (crc_bits != 0 ? 1U << 19 : 0) |
+                              (crc_bits != 0 ? crc_bits - 1 : 0) << 15 | polynomial() << 8 | top();
+    return std::uint64_t{crc_start} << 28 | crc << 8 | (gray_lstop ? 0x80U : 0) |
+           (enabled ? 0x40U : 0) | (data_bits - 1);
   }
 };
 
@@ -101,6 +105,10 @@ TEST(WordListBlock, RandomConfigurations_WordsComeInOrderWithTheirLengths) {
       ASSERT_EQ(list.field(41, 6), c.data_bits - 1);
       ASSERT_EQ(list.field(40, 1), c.crc_bits != 0);
       ASSERT_EQ(list.field(36, 4), c.crc_bits == 0 ? 0 : c.crc_bits - 1);
+      if (c.crc_bits != 0) {
+        ASSERT_EQ(list.field(28, 8), c.polynomial() << 1 | 1U);
+        ASSERT_EQ(list.field(20, 8), c.top());
+      }
       ASSERT_EQ(list.field(4, 16), c.crc_start);
       // Page 26, Table 21: NOCRC = 0, and the data leave the top byte(s) free.
       ASSERT_EQ(list.field(3, 1),

@@ -65,10 +65,10 @@ TEST(MemoryBlock, EveryMixOfWriters_BothSidesReadTheByteOfTheFirst) {
     m.clk_i = 1;
     m.eval();
     low();
-    if (clears) {
-      bytes[cleared] = 0;
-    } else if (core_writes) {
+    if (core_writes) {
       bytes[core_address] = core_byte;
+    } else if (clears) {
+      bytes[cleared] = 0;
     } else if (host_asks) {
       bytes[host_address] = host_byte;
     }

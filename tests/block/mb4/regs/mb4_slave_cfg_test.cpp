@@ -16,15 +16,24 @@ namespace {
 
 constexpr unsigned kLists = 4;
 
-// Tables 13 to 15, in the form of mb4_crc_code: the polynomial without its last 1, 0xEC for the one
-// of degree 16, 0 for no CRC.
-unsigned crc_form(unsigned byte) {
-  static const std::map<unsigned, unsigned> kTable14 = {{3, 0xB},  {4, 0x13}, {5, 0x25},
-                                                        {6, 0x43}, {7, 0x89}, {8, 0x12F}};
-  if (byte >= 0x80) return byte & 0x7F;
-  if (byte == 0x10) return 0xEC;
+// Tables 13 to 15: the polynomial of a CRC byte, 0 for no CRC.
+unsigned polynomial(unsigned byte) {
+  static const std::map<unsigned, unsigned> kTable14 = {
+      {3, 0xB}, {4, 0x13}, {5, 0x25}, {6, 0x43}, {7, 0x89}, {8, 0x12F}, {16, 0x190D9}};
+  if (byte > 0x80) return (byte & 0x7F) << 1 | 1;
   const auto row = kTable14.find(byte);
-  return row == kTable14.end() ? 0 : row->second >> 1;
+  return row == kTable14.end() ? 0 : row->second;
+}
+
+// What a word list reads: mb4_pkg::slave_cfg_t.
+std::uint64_t list_row(unsigned length, unsigned crc, unsigned start) {
+  const unsigned full = polynomial(crc);
+  unsigned bits = 0;
+  while (full >> (bits + 1) != 0) ++bits;
+  const std::uint64_t on = bits != 0, last = bits == 0 ? 0 : bits - 1;
+  const std::uint64_t poly = full >> 1 & 0x7F;  // with the highest power, up to x^7
+  const std::uint64_t top = bits == 0 || bits == 16 ? 0 : 1U << (bits - 1);
+  return std::uint64_t{start} << 28 | on << 27 | last << 23 | poly << 16 | top << 8 | length;
 }
 
 class SlaveCfgBlock : public testing::Test {
@@ -63,7 +72,7 @@ class SlaveCfgBlock : public testing::Test {
     return m.rd_data_o;
   }
   // What list `list` gets for data channel `x` (0 to 7). All lists are asked at once.
-  std::uint32_t list_reads(unsigned list, unsigned x, mb4test::Dice& random) {
+  std::uint64_t list_reads(unsigned list, unsigned x, mb4test::Dice& random) {
     m.list_en_i = 0xF;
     unsigned slaves = random.below(1U << 12);
     slaves = (slaves & ~(7U << 3 * list)) | x << 3 * list;
@@ -73,7 +82,11 @@ class SlaveCfgBlock : public testing::Test {
     m.clk_i = 0;
     m.list_en_i = 0;
     m.eval();
-    return m.list_cfg_o[list];
+    std::uint64_t row = 0;
+    for (unsigned i = 44 * list; i < 44 * (list + 1); ++i) {
+      row |= std::uint64_t{m.list_cfg_o[i / 32] >> i % 32 & 1U} << (i - 44 * list);
+    }
+    return row;
   }
   std::array<unsigned, 32> bytes{};
   mb4test::Owned<Vmb4_slave_cfg> owner;
@@ -97,8 +110,8 @@ TEST_F(SlaveCfgBlock, RandomWrites_HostAndListsReadThem) {
     // A word list asks only for channels with ENSCDx.
     if ((enscd >> x & 1U) == 0) continue;
     const unsigned list = random.below(kLists);
-    const std::uint32_t expected = bytes[4 * x] | crc_form(bytes[4 * x + 1]) << 8 |
-                                   bytes[4 * x + 2] << 16 | bytes[4 * x + 3] << 24;
+    const std::uint64_t expected =
+        list_row(bytes[4 * x], bytes[4 * x + 1], bytes[4 * x + 2] | bytes[4 * x + 3] << 8);
     ASSERT_EQ(list_reads(list, x, random), expected) << "list " << list << " channel " << x + 1;
   }
 }

@@ -4,7 +4,7 @@
 // CRC of a data word: makes the length and the inputs of enc_crc from the polynomial
 // (mb4_crc_code).
 //
-// Combinational.
+// Combinational, host domain: it stands where the host writes, once for all word lists.
 // Misuse: none; every code has a defined result.
 // Datasheet: pages 24, 25, Tables 13..15.
 
