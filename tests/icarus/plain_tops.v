@@ -32,7 +32,7 @@ module mb4_core (
     .clk_i(clk_i), .rst_ni(rst_ni), .por_ni(por_ni), .wr_clk_i(sclk_i), .wr_en_i(wr_en),
     .wr_addr_i(wr_addr), .wr_data_i(wr_data), .rd_clk_i(sclk_i), .rd_en_i(rd_en),
     .rd_addr_i(rd_addr), .rd_data_o(rd_data), .rd2_clk_i(1'b0), .rd2_en_i(1'b0),
-    .rd2_addr_i(5'd0), .rd2_data_o(), .eot_o(eot_o), .ner_low_o(ner_low_o), .ner_i(ner_i),
+    .rd2_addr_i(5'd0), .rd2_data_o(), .tap_o(), .eot_o(eot_o), .ner_low_o(ner_low_o), .ner_i(ner_i),
     .clkeni_o(clkeni_o), .paired_o(paired_o), .getsens_i(getsens_i), .ma1_o(ma1_o),
     .sl1_i(sl1_i), .mo1_o(mo1_o), .ma2_o(ma2_o), .sl2_i(sl2_i), .mo2_o(mo2_o),
     .quirks_i(quirks_i)

@@ -14,7 +14,7 @@ sys.path.insert(0, str(SYNTH))
 
 import project  # noqa: E402
 
-SCRIPTS = ("report.py", "plain_verilog.py", "gate_netlist.py")
+SCRIPTS = ("report.py", "plain_verilog.py", "gate_netlist.py", "constraints.py")
 
 
 def main():

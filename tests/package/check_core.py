@@ -43,7 +43,7 @@ def run():
         sys.exit(SKIPPED)
     with tempfile.TemporaryDirectory() as folder:
         for target, expected in (("lint", ""), ("sim", "revision 0x20, version 0x84"),
-                                 ("synth", "")):
+                                 ("lint_axil", ""), ("lint_wb", ""), ("synth", "")):
             done = subprocess.run(
                 [fusesoc, "--cores-root", str(ROOT), "run", "--build-root",
                  str(Path(folder) / target), "--target", target, "openmb4:ip:mb4"],

@@ -45,9 +45,18 @@ class WordBusBench {
     model->quirks_i = 0;
     model->sl1_i = model->sl2_i = 1;
     bus_clock(false);
-    reset(true);
-    model->eval();
-    for (int i = 0; i < 4; ++i) clock();
+    // A reset is an edge to Verilator: the bus is reset first, so that the reset of the core has
+    // one.
+    core_runs_ = false;
+    model->por_ni = 1;
+    for (const bool active : {false, true, true, false, false, false, true}) {
+      model->por_ni = !active;
+      reset(active);
+      model->eval();
+      clock();
+    }
+    start_core();
+    while (core_edges < 4) clock();
     model->por_ni = 1;
     reset(false);
     for (int i = 0; i < 8; ++i) clock();
@@ -68,11 +77,11 @@ class WordBusBench {
     EXPECT_FALSE(write(address, data, enables).error) << std::hex << address;
   }
 
-  // Channel 1 on line 1 and channel 5 on line 2, words of 64 bits without CRC, MA at half the
+  // Channel 1 on line 1 with 64 bits and channel 5 on line 2 with 32 bits, no CRC, MA at half the
   // clock, frames one after the other.
   void configure() {
     put(0xC0, 0x0000007F);
-    put(0xD0, 0x0000007F);
+    put(0xD0, 0x0000005F);
     put(0xE4, 0x00004000);  // REGVERS: BiSS C, FREQS = 0
     put(0xE8, 0x0000007C);  // AGSMIN
     put(0xEC, 0x00000510);  // SLAVELOC5, both lines BiSS C
@@ -148,7 +157,8 @@ class WordBusBench {
           const auto value = static_cast<std::uint8_t>(1 + frames[i].size() * (i == 0 ? 1 : 3));
           frames[i].push_back({value, core_edges});
           slave.payload = "0";  // CDS
-          for (int byte = 0; byte < 8; ++byte) slave.payload += bits_of(value, 8);
+          for (unsigned byte = 0; byte < (i == 0 ? 8U : 4U); ++byte)
+            slave.payload += bits_of(value, 8);
         }
       }
       ma_[i] = ma[i];

@@ -38,6 +38,7 @@ module mb4_parallel #(
 
   logic       wr_clk, rd_clk, clkeni, paired;
   logic [7:0] addr, rd2_data;
+  mb4_pkg::tap_t tap;   // of bus tops
 
   mb4_par_bus u_bus (
     .rst_ni,
@@ -82,6 +83,7 @@ module mb4_parallel #(
     .ma2_o,
     .sl2_i,
     .mo2_o,
+    .tap_o      (tap),
     .quirks_i   (mb4_pkg::QUIRKS_DEFAULT)
   );
 

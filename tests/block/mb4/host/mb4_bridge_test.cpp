@@ -209,7 +209,7 @@ TYPED_TEST(WordBus, SnapshotsWhileFramesRun_AreOfOneFrame) {
         ASSERT_LE(number, bus.frames[line].size());
         const auto& frame = bus.frames[line][number - 1];
         ASSERT_EQ(low, 0x01010101U * frame.value) << "frame " << number;
-        ASSERT_EQ(high, 0x01010101U * frame.value) << "frame " << number;
+        ASSERT_EQ(high, line == 0 ? 0x01010101U * frame.value : 0U) << "frame " << number;
         EXPECT_EQ(flags, 1U);
         if (offset == 0) offset = frame.latch_clock - time;
         EXPECT_EQ(time + offset, frame.latch_clock);

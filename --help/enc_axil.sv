@@ -1,0 +1,116 @@
+
+
+
+
+
+
+
+
+
+
+
+
+
+
+
+
+
+
+
+
+
+
+
+
+
+module enc_axil #(
+  parameter int AddrW = 12
+) (
+  input  logic             clk_i,
+  input  logic             rst_ni,
+  
+  input  logic             s_axi_awvalid,
+  output logic             s_axi_awready,
+  input  logic [AddrW-1:2] s_axi_awaddr,
+  input  logic             s_axi_wvalid,
+  output logic             s_axi_wready,
+  input  logic [31:0]      s_axi_wdata,
+  input  logic [3:0]       s_axi_wstrb,
+  output logic             s_axi_bvalid,
+  input  logic             s_axi_bready,
+  output logic [1:0]       s_axi_bresp,
+  input  logic             s_axi_arvalid,
+  output logic             s_axi_arready,
+  input  logic [AddrW-1:2] s_axi_araddr,
+  output logic             s_axi_rvalid,
+  input  logic             s_axi_rready,
+  output logic [31:0]      s_axi_rdata,
+  output logic [1:0]       s_axi_rresp,
+  
+  output logic             word_req_o,
+  output logic             word_write_o,
+  output logic [AddrW-1:2] word_addr_o,
+  output logic [31:0]      word_data_o,
+  output logic [3:0]       word_be_o,
+  input  logic             word_ready_i,
+  input  logic [31:0]      word_data_i,
+  input  logic             word_error_i
+);
+
+  logic        busy_q;      
+  logic        write_q;     
+  logic        awready_q;   
+  logic        arready_q;
+  logic        bvalid_q;
+  logic        rvalid_q;
+  logic        error_q;
+  logic [31:0] data_q;
+  logic        write, read;
+  logic        rest;
+  logic        done;
+
+  assign write = s_axi_awvalid && s_axi_wvalid;
+  assign read  = s_axi_arvalid;
+  assign rest  = !(busy_q || awready_q || arready_q || bvalid_q || rvalid_q);
+
+  assign word_req_o   = busy_q && (write_q ? write : read);
+  assign word_write_o = write_q;
+  assign word_addr_o  = write_q ? s_axi_awaddr : s_axi_araddr;
+  assign word_data_o  = s_axi_wdata;
+  assign word_be_o    = s_axi_wstrb | {4{!write_q}};
+  assign done         = word_req_o && word_ready_i;
+
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      busy_q    <= 1'b0;
+      write_q   <= 1'b0;
+      awready_q <= 1'b0;
+      arready_q <= 1'b0;
+      bvalid_q  <= 1'b0;
+      rvalid_q  <= 1'b0;
+      error_q   <= 1'b0;
+      data_q    <= '0;
+    end else begin
+      if (rest) write_q <= write && !(read && write_q);
+      busy_q    <= rest ? write || read : word_req_o && !word_ready_i;
+      awready_q <= done && write_q;
+      arready_q <= done && !write_q;
+      bvalid_q  <= (awready_q && write) || (bvalid_q && !s_axi_bready);
+      rvalid_q  <= (arready_q && read) || (rvalid_q && !s_axi_rready);
+      if (done) begin
+        error_q <= word_error_i;
+        data_q  <= word_data_i;
+      end
+    end
+  end
+
+  assign s_axi_awready = awready_q;
+  assign s_axi_wready  = awready_q;
+  assign s_axi_bvalid  = bvalid_q;
+  assign s_axi_bresp   = {error_q, 1'b0};
+  assign s_axi_arready = arready_q;
+  assign s_axi_rvalid  = rvalid_q;
+  assign s_axi_rdata   = data_q;
+  assign s_axi_rresp   = {error_q, 1'b0};
+
+endmodule

@@ -1,0 +1,132 @@
+
+
+
+
+
+
+
+
+
+
+
+
+
+
+
+
+
+
+
+
+module enc_posted #(
+  parameter int Width = 16,
+  parameter int AddrW = 7
+) (
+  
+  input  logic             hclk_i,
+  input  logic             hrst_ni,
+  input  logic             wr_en_i,
+  input  logic [Width-1:0] wr_data_i,
+  output logic             empty_o,
+  input  logic             mark_i,
+  output logic             mark_o,
+  
+  input  logic             clk_i,
+  input  logic             rst_ni,
+  output logic             valid_o,
+  output logic [Width-1:0] data_o,
+  input  logic             ready_i,
+  output logic             busy_o
+);
+
+  logic [AddrW:0] wr_q;
+  logic [AddrW:0] wr_d;
+  logic [AddrW:0] wr_gray_q;
+  logic [AddrW:0] wr_sync;
+  logic [AddrW:0] rd_q;
+  logic [AddrW:0] rd_gray;
+  logic           valid_q;
+  logic           busy_q;
+  logic [AddrW:0] taken_q;    
+  logic [AddrW:0] target_q;   
+  logic           mark;
+  logic           mark_q;
+  logic           seek_q;     
+  logic           marked_q;
+  logic           fetch;
+
+  assign wr_d = wr_q + (AddrW+1)'(1);
+
+  always_ff @(posedge hclk_i or negedge hrst_ni) begin
+    if (!hrst_ni) begin
+      wr_q      <= '0;
+      wr_gray_q <= '0;
+    end else if (wr_en_i) begin
+      wr_q      <= wr_d;
+      wr_gray_q <= wr_d ^ {1'b0, wr_d[AddrW:1]};
+    end
+  end
+
+  for (genvar i = 0; i <= AddrW; i++) begin : gen_sync
+    enc_sync_bit u_sync (
+      .clk_i,
+      .rst_ni,
+      .data_i (wr_gray_q[i]),
+      .data_o (wr_sync[i])
+    );
+  end
+
+  enc_sync_bit u_mark (
+    .clk_i,
+    .rst_ni,
+    .data_i (mark_i),
+    .data_o (mark)
+  );
+
+  assign rd_gray = rd_q ^ {1'b0, rd_q[AddrW:1]};
+  assign fetch   = wr_sync != rd_gray && (!valid_q || ready_i);
+
+  enc_ram #(.Width(Width), .AddrW(AddrW)) u_ram (
+    .wclk_i    (hclk_i),
+    .wr_en_i,
+    .wr_addr_i (wr_q[AddrW-1:0]),
+    .wr_data_i,
+    .rclk_i    (clk_i),
+    .rd_en_i   (fetch),
+    .rd_addr_i (rd_q[AddrW-1:0]),
+    .rd_data_o (data_o)
+  );
+
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      rd_q     <= '0;
+      valid_q  <= 1'b0;
+      busy_q   <= 1'b0;
+      taken_q  <= '0;
+      target_q <= '0;
+      mark_q   <= 1'b0;
+      seek_q   <= 1'b0;
+      marked_q <= 1'b0;
+    end else begin
+      if (fetch) rd_q <= rd_q + (AddrW+1)'(1);
+      valid_q <= fetch || (valid_q && !ready_i);
+      busy_q  <= valid_q || wr_sync != rd_gray;
+      if (!valid_q || ready_i) taken_q <= rd_gray;
+      
+      mark_q  <= mark;
+      if (seek_q) begin
+        seek_q <= taken_q != target_q;
+        if (taken_q == target_q) marked_q <= mark_q;
+      end else if (mark_q != marked_q) begin
+        seek_q   <= 1'b1;
+        target_q <= wr_sync;
+      end
+    end
+  end
+
+  assign valid_o = valid_q;
+  assign busy_o  = busy_q;
+  assign empty_o = wr_gray_q == taken_q;
+  assign mark_o  = marked_q;
+
+endmodule

@@ -1,0 +1,193 @@
+
+
+
+
+
+
+
+
+
+module mb4_control (
+  input  logic clk_i,
+  input  logic rst_ni,
+  
+  input  mb4_pkg_instr_host_t instr_i,
+  output mb4_pkg_instr_core_t instr_o,
+  input  mb4_pkg_cfg_t   cfg_i,
+  input  logic [mb4_pkg_QUIRKS_W-1:0] quirks_i,
+  input  logic       getsens_i,
+  
+  input  mb4_pkg_mem_state_t mem_i,
+  input  mb4_pkg_bank_event_t bank_event_i,
+  output mb4_pkg_bank_cmd_t bank_o,
+  
+  output mb4_pkg_rdata_cmd_t rdata_o,
+  input  logic [7:0] rdata_i,
+  input  logic       post_busy_i,     
+  
+  output logic [2*biss_pkg_LINE_CMD_W-1:0] cmd_o,
+  output biss_pkg_line_go_t go_o,
+  output biss_pkg_register_ma_t register_ma_o,
+  output logic [2*biss_pkg_LINE_START_W-1:0] start_o,
+  output logic       time_run_o,      
+  output logic       time_restart_o,  
+  input  logic       tick_i,
+  input  logic [2*biss_pkg_LINE_STATUS_W-1:0] status_i,
+  input  logic [2*biss_pkg_LINE_EVENT_W-1:0]  event_i,
+  input  logic [1:0] word_bad_i,      
+  
+  output mb4_pkg_flags_t flags_o,
+  output logic       ner_low_o,
+  output logic       frame_lost_o     
+);
+
+  mb4_pkg_kind_t         kind;
+  mb4_pkg_request_t      request;
+  mb4_pkg_frame_flags_t  frame_flags;
+  mb4_pkg_access_event_t access_event;
+  mb4_pkg_access_state_t access_state;
+  logic missed, taken, lines_idle, running, brk, init_clear;
+  logic control_want, register_want, control_active, void_end, refused, access_stale;
+  logic live, automatic_frames, stalled, access_ags_error;
+  
+  logic [1:0] start_use, cdm0, cdm1, mo_low, forced, force_level;
+  logic force_change, force_any, keep_time, keep_time_q;
+
+  mb4_sequencer u_sequencer (
+    .clk_i,
+    .rst_ni,
+    .instr_i,
+    .instr_o,
+    .regvers_i         (cfg_i.access.regvers),
+    .kind_i            (kind),
+    .quirks_i,
+    .request_i         (request),
+    .missed_i          (missed || access_ags_error),
+    .taken_o           (taken),
+    .lines_idle_o      (lines_idle),
+    .running_o         (running),
+    .break_o           (brk),
+    .go_o,
+    .start_use_o       (start_use),
+    .tick_i,
+    .status_i,
+    .event_i,
+    .word_bad_i,
+    .mem_i,
+    .bank_o,
+    .flags_o           (frame_flags),
+    .init_clear_o      (init_clear),
+    .control_begin_o   (control_want),
+    .register_begin_o  (register_want),
+    .void_o            (void_end),
+    .refused_o         (refused),
+    .control_active_i  (control_active),
+    .control_end_i     (access_event.ends),
+    .control_stalled_i (stalled),
+    .stale_i           (access_stale)
+  );
+
+  mb4_frame_request u_request (
+    .clk_i,
+    .rst_ni,
+    .ags_i        (instr_o.held.ags),
+    .restart_i    (brk),
+    .freqags_i    (cfg_i.freqags),
+    .hold_cdm_i   (cfg_i.holdcdm),
+    .getsens_i,
+    .busy_i       (running),
+    .lines_idle_i (lines_idle),
+    .taken_i      (taken),
+    .request_o    (request),
+    .missed_o     (missed)
+  );
+
+  mb4_status_flags u_flags (
+    .clk_i,
+    .rst_ni,
+    .frame_i        (frame_flags),
+    .bank_i         (bank_event_i),
+    .access_i       (access_event),
+    .access_state_i (access_state),
+    .flags_o,
+    .ner_low_o
+  );
+
+  mb4_control_comm u_comm (
+    .clk_i,
+    .rst_ni,
+    .cfg_i,
+    .quirks_i,
+    .instr_i       (instr_o.held.instr),
+    .kind_o        (kind),
+    .rdata_o,
+    .rdata_i,
+    .post_busy_i,
+    .begin_i       (control_want),
+    .register_want_i (register_want),
+    .void_i        (void_end),
+    .refused_i     (refused),
+    .clear_i       (frame_flags.clear),
+    .init_clear_i  (init_clear),
+    .go_i          (go_o),
+    .use_i         (start_use),
+    .frame_end_i   (bank_o.frame_end),
+    .live_i        (live),
+    .automatic_i   (automatic_frames),
+    .tick_i,
+    .status_i,
+    .active_o      (control_active),
+    .stale_o       (access_stale),
+    .time_o        (keep_time),
+    .stalled_o     (stalled),
+    .cdm0_o        (cdm0),
+    .cdm1_o        (cdm1),
+    .register_ma_o,
+    .register_mo_o (mo_low),
+    .event_o       (access_event),
+    .state_o       (access_state),
+    .ags_error_o   (access_ags_error)
+  );
+
+  assign frame_lost_o = frame_flags.ags_error || frame_flags.bank_fail || bank_event_i.lost;
+
+  
+  
+  assign automatic_frames = instr_o.held.ags && !request.infinite;
+  assign live = !flags_o.eot || (automatic_frames &&
+                           !(instr_o.held.holdbank && quirks_i[mb4_pkg_QUIRK_AGSERR_ON_HOLDBANK]));
+
+  mb4_ma_force u_force (
+    .clk_i,
+    .rst_ni,
+    .mafs_i   (cfg_i.mafs),
+    .mavs_i   (cfg_i.mavs),
+    .mafo_i   (cfg_i.mafo),
+    .mavo_i   (cfg_i.mavo),
+    .chsel_i  (cfg_i.access.chsel),
+    .force_o  (forced),
+    .level_o  (force_level),
+    .change_o (force_change),
+    .any_o    (force_any)
+  );
+
+  
+
+  
+  assign cmd_o = {
+    cfg_i.cfgch2 | {2{!cfg_i.slaveloc5}}, cfg_i.en_mo, cfg_i.mo_busy,
+    cfg_i.holdcdm, forced[1], force_level[1], mo_low[1],
+    cfg_i.cfgch1, cfg_i.en_mo, cfg_i.mo_busy,
+    cfg_i.holdcdm, forced[0], force_level[0], mo_low[0]
+  };
+  assign start_o = {start_use[1], cdm0[1], cdm1[1], start_use[0], cdm0[0], cdm1[0]};
+
+  
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) keep_time_q <= 1'b0;
+    else         keep_time_q <= keep_time;
+  end
+  assign time_run_o     = keep_time || force_any;
+  assign time_restart_o = !force_any && (force_change || (keep_time && !keep_time_q));
+
+endmodule

@@ -1,0 +1,224 @@
+
+
+
+
+
+
+
+
+
+
+module mb4_control_comm (
+  input  logic       clk_i,
+  input  logic       rst_ni,
+  input  mb4_pkg_cfg_t cfg_i,
+  input  logic [mb4_pkg_QUIRKS_W-1:0] quirks_i,
+  input  logic [2:0] instr_i,
+  output mb4_pkg_kind_t kind_o,
+  
+  output mb4_pkg_rdata_cmd_t rdata_o,
+  input  logic [7:0] rdata_i,
+  input  logic       post_busy_i,
+  
+  input  logic       begin_i,          
+  input  logic       register_want_i,  
+  input  logic       void_i,           
+  input  logic       refused_i,        
+  input  logic       clear_i,          
+  input  logic       init_clear_i,     
+  input  biss_pkg_line_go_t go_i,
+  input  logic [1:0] use_i,            
+  input  logic       frame_end_i,
+  input  logic       live_i,           
+  input  logic       automatic_i,      
+  input  logic       tick_i,
+  input  logic [2*biss_pkg_LINE_STATUS_W-1:0] status_i,
+  output logic       active_o,
+  output logic       stale_o,          
+  output logic       time_o,           
+  output logic       stalled_o,        
+  output logic [1:0] cdm0_o,
+  output logic [1:0] cdm1_o,
+  
+  output biss_pkg_register_ma_t register_ma_o,
+  output logic [1:0] register_mo_o,    
+  
+  output mb4_pkg_access_event_t event_o,
+  output mb4_pkg_access_state_t state_o,
+  output logic       ags_error_o
+);
+
+  logic       time_d, time_q;
+  logic       refused_d, refused_q;    
+  logic       counted;                 
+  logic       void_q;                  
+  logic       register_q;              
+  logic       unused;
+  logic waiting, moved, control_runs;
+  logic run, run_q;                    
+  logic control_begin, in_body, expired, sent, cdm_timeout;
+  logic register_start, register_active, register_wait;
+  logic [1:0] control0, control1;
+  mb4_pkg_access_t       access_q;    
+  biss_pkg_access_t      access;
+  biss_pkg_access_byte_t control_byte, register_byte, rdata;
+  biss_pkg_access_end_t  control_end, register_end;
+  biss_pkg_line_status_t status1, status2;
+
+  assign {status2, status1} = status_i;
+
+  
+  
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni)   access_q <= '0;
+    else if (!run) access_q <= cfg_i.access;
+  end
+
+  assign access = {access_q.cts, access_q.wnr, access_q.regadr, access_q.regnum,
+                   access_q.slaveid};
+
+  mb4_frame_kind u_kind (
+    .instr_i,
+    .access_i    (access_q),
+    .slaveloc5_i (cfg_i.slaveloc5),
+    .cfgch1_i    (cfg_i.cfgch1),
+    .cfgch2_i    (cfg_i.cfgch2),
+    .kind_o
+  );
+
+  
+
+  biss_control_frame u_frame (
+    .clk_i,
+    .rst_ni,
+    .access_i      (access),
+    .ida_invert_i  (quirks_i[mb4_pkg_QUIRK_IDA_TEST_INVERT]),
+    .select_i      (kind_o.select),
+    .blind_i       ((kind_o.select & kind_o.ssi) != 2'b00),
+    .byte_o        (control_byte),
+    .rdata_i,
+    .post_busy_i,
+    .begin_i,
+    .abort_i       (clear_i || void_q),
+    .start_i       (go_i.start && !go_i.init && !go_i.register_access),
+    .frame_end_i,
+    .cds_i         ({status2.cds, status1.cds} & kind_o.in_use),
+    .cdm_timeout_i (cdm_timeout),
+    .expired_i     (expired),
+    .stalled_i     (stalled_o),
+    .active_o,
+    .running_o     (control_runs),
+    .in_body_o     (in_body),
+    .wait_o        (waiting),
+    .moved_o       (moved),
+    .cdm0_o        (control0),
+    .cdm1_o        (control1),
+    .begin_o       (control_begin),
+    .end_o         (control_end)
+  );
+
+  
+
+  assign register_start = go_i.start && go_i.register_access;
+
+  biss_b_access u_biss_b (
+    .clk_i,
+    .rst_ni,
+    .freqr_i   (cfg_i.freqr),
+    .access_i  (access),
+    .mo_i      (cfg_i.en_mo),
+    .start_i   (register_start),
+    .use_i,
+    .init_i    (go_i.init),
+    .abort_i   (go_i.stop),
+    .tick_i,
+    .expired_i (expired),
+    .wait_o    (register_wait),
+    .active_o  (register_active),
+    .sl_i      ({status2.sl, status1.sl}),
+    .ma_o      (register_ma_o),
+    .mo_low_o  (register_mo_o),
+    .byte_o    (register_byte),
+    .rdata_i,
+    .ags_error_o,
+    .end_o     (register_end)
+  );
+
+  assign rdata   = register_active ? register_byte : control_byte;
+  assign rdata_o = {control_byte.wr_en || register_byte.wr_en, rdata.addr, rdata.wr_data,
+                    active_o || register_active, rdata.addr};
+
+  mb4_cdm_select u_cdm (
+    .manual_i   (kind_o.manual),
+    .instr_i,
+    .active_i   (active_o),
+    .control0_i (control0),
+    .control1_i (control1),
+    .cdm0_o,
+    .cdm1_o
+  );
+
+  
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni)                                        register_q <= 1'b0;
+    else if (register_start || control_begin || void_i) register_q <= register_start;
+  end
+
+  
+  
+  assign time_d = waiting || refused_q || (active_o && live_i);
+
+  
+  
+  assign refused_d = !go_i.start && !clear_i && !void_i && !automatic_i &&
+                     ((refused_i && (active_o || go_i.register_access)) ||
+                      (refused_q && !control_end.ends));
+
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) {time_q, refused_q, void_q, run_q} <= '0;
+    else         {time_q, refused_q, void_q, run_q} <= {time_d, refused_d, void_i, run};
+  end
+
+  assign time_o = time_q;
+
+  mb4_reg_watchdog u_watchdog (
+    .clk_i,
+    .rst_ni,
+    .freqr_i   (cfg_i.freqr),
+    .watch_i   (time_d || register_wait),
+    .clear_i   (moved || (go_i.start && refused_q)),
+    .live_i    (live_i || register_wait || refused_q),
+    .tick_i,
+    .expired_o (expired),
+    .stalled_o (counted)
+  );
+
+  assign stalled_o = counted && (!refused_q || refused_i);
+  assign run       = active_o || register_active || register_start;
+  assign stale_o   = (run_q && !control_runs && !register_active) || void_q;
+
+  
+  assign sent = ({status2.cdm, status1.cdm} & kind_o.in_use) != 2'b00;
+
+  biss_cdm_timeout u_cdm_timeout (
+    .clk_i,
+    .rst_ni,
+    .frame_end_i,
+    .cdm_i       (sent || in_body),
+    .clear_i     (init_clear_i),
+    .timeout_o   (cdm_timeout)
+  );
+
+  
+
+  
+  assign event_o = {
+    control_begin || register_want_i,
+    control_end.ends || register_end.ends || void_q,
+    void_q || (control_end.ends ? control_end.reg_error : register_end.reg_error),
+    control_end.ends ? control_end.delay_error : register_end.delay_error
+  };
+  assign state_o = {cdm_timeout, register_q ? register_end.good_bytes : control_end.good_bytes};
+  assign unused  = rdata.wr_en;
+
+endmodule

@@ -1,0 +1,94 @@
+
+
+
+
+
+
+
+
+
+
+
+module mb4_core #(
+  parameter logic [1:0] SlCells = biss_pkg_SL_FLOPS   
+) (
+  input  logic       clk_i,
+  input  logic       rst_ni,
+  input  logic       por_ni,      
+  
+  input  logic       sclk_i,
+  input  logic       cs_ni,
+  input  logic       mosi_i,
+  output logic       miso_o,
+  output logic       miso_oe_o,
+  
+  output logic       eot_o,
+  output logic       ner_low_o,   
+  input  logic       ner_i,       
+  output logic       clkeni_o,    
+  output logic       paired_o,    
+  input  logic       getsens_i,
+  
+  output logic       ma1_o,
+  input  logic       sl1_i,
+  output logic       mo1_o,
+  output logic       ma2_o,
+  input  logic       sl2_i,
+  output logic       mo2_o,
+  
+  input  logic [mb4_pkg_QUIRKS_W-1:0] quirks_i
+);
+
+  mb4_pkg_host_t host;
+  logic [7:0] rd_data;
+
+  mb4_spi u_spi (
+    .rst_ni,
+    .sclk_i,
+    .cs_ni,
+    .mosi_i,
+    .miso_o,
+    .miso_oe_o,
+    .host_o    (host),
+    .rd_data_i (rd_data)
+  );
+
+  
+  logic [7:0] rd2_data;
+  mb4_pkg_tap_t tap;
+  logic       unused;
+  assign unused = ^{rd2_data, tap};
+
+  mb4_engine #(.SlCells(SlCells)) u_engine (
+    .clk_i,
+    .rst_ni,
+    .por_ni,
+    .wr_clk_i   (sclk_i),
+    .wr_en_i    (host.wr_en),
+    .wr_addr_i  (host.wr_addr),
+    .wr_data_i  (host.wr_data),
+    .rd_clk_i   (sclk_i),
+    .rd_en_i    (host.rd_en),
+    .rd_addr_i  (host.rd_addr),
+    .rd_data_o  (rd_data),
+    .rd2_clk_i  (1'b0),
+    .rd2_en_i   (1'b0),
+    .rd2_addr_i ('0),
+    .rd2_data_o (rd2_data),
+    .eot_o,
+    .ner_low_o,
+    .ner_i,
+    .clkeni_o,
+    .paired_o,
+    .getsens_i,
+    .ma1_o,
+    .sl1_i,
+    .mo1_o,
+    .ma2_o,
+    .sl2_i,
+    .mo2_o,
+    .tap_o      (tap),
+    .quirks_i
+  );
+
+endmodule

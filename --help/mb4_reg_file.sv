@@ -1,0 +1,279 @@
+
+
+
+
+
+
+
+
+
+
+
+
+
+
+
+module mb4_reg_file #(
+  parameter bit Port2 = 1'b0,
+  parameter bit Tap   = 1'b0     
+) (
+  input  logic       clk_i,
+  input  logic       rst_ni,          
+  input  logic       hrst_ni,         
+  
+  input  logic       hclk_i,
+  input  logic       rclk_i,
+  input  mb4_pkg_host_t host_i,
+  output logic [7:0] rd_data_o,
+  
+  input  logic       rd2_clk_i,
+  input  mb4_pkg_mem_rd_t rd2_i,
+  output logic [7:0] rd2_data_o,
+  
+  output mb4_pkg_cfg_t    cfg_o,
+  output logic [7:0]       enscd_o,
+  
+  input  logic [3:0]       cfg_en_i,
+  input  logic [11:0]      cfg_slave_i,
+  output logic [4*mb4_pkg_SLAVE_CFG_W-1:0] slave_cfg_o,
+  
+  output mb4_pkg_instr_host_t instr_o,
+  input  mb4_pkg_instr_core_t instr_i,
+  
+  input  mb4_pkg_status_t status_i,
+  input  logic [1:0]       revision_sel_i,
+  
+  input  mb4_pkg_bank_cmd_t bank_i,
+  output mb4_pkg_mem_state_t mem_o,
+  output mb4_pkg_bank_event_t bank_event_o,
+  
+  input  mb4_pkg_rdata_cmd_t rdata_i,
+  output logic [7:0] rdata_o,
+  output logic       post_busy_o,    
+  
+  input  logic [2*biss_pkg_LINE_DATA_W-1:0] data_i,
+  output logic [1:0]  word_bad_o,      
+  
+  input  logic [2*biss_pkg_MO_READ_W-1:0] mo_read_i,
+  output logic [15:0] mo_data_o,
+  
+  output mb4_pkg_reg_tap_t tap_o
+);
+
+  mb4_pkg_mem_rd_t rd;
+  mb4_pkg_mem_wr_t clear;
+  mb4_pkg_banks_t  banks;           
+  logic [7:0]  cfg_data;
+  logic [7:0]  slave_data;
+  logic [7:0]  instr_data;
+  logic        instr_pending, control_pending;
+  logic        post_wr;
+  logic        post_valid, post_ready;
+  logic [15:0] post_data;
+  logic        post_empty, mark, marked, recent_hit;
+  logic [7:0]  recent_data;
+  logic        post_rdata, ready_scd, ready_rdata, bank_pending;
+  logic [15:0] scd_lo_data, scd_hi_data, scd2_data, scd2_lo_data, rdata_data, rdata2_data, svalid;
+  logic [3:0]  cds;
+  logic        base, newest;          
+  logic        bank_seen, base_kept;  
+  biss_pkg_line_data_t data1, data2;
+  logic        unused;
+
+  assign {data2, data1} = data_i;
+  assign rd    = {host_i.rd_en, host_i.rd_addr[5:0]};
+  assign mem_o = {clear.en, bank_pending};
+
+  
+
+  mb4_cfg_regs u_cfg (
+    .hclk_i,
+    .rst_ni      (hrst_ni),
+    .host_i,
+    .rd_data_o   (cfg_data),
+    .cfg_o
+  );
+
+  mb4_slave_cfg u_slave_cfg (
+    .hclk_i,
+    .rst_ni       (hrst_ni),
+    .host_i,
+    .rclk_i,
+    .rd_data_o    (slave_data),
+    .clk_i,
+    .enscd_o,
+    .list_en_i    (cfg_en_i),
+    .list_slave_i (cfg_slave_i),
+    .list_cfg_o   (slave_cfg_o)
+  );
+
+  mb4_instr_reg u_instr (
+    .hclk_i,
+    .rst_ni      (hrst_ni),
+    .host_i,
+    .rd_data_o   (instr_data),
+    .pending_o   (instr_pending),
+    .pending_control_o (control_pending),
+    .instr_o,
+    .instr_i,
+    .base_i      (base),
+    .newest_i    (newest),
+    .bank_o      (bank_seen),
+    .kept_o      (base_kept)
+  );
+
+  mb4_host_read u_read (
+    .rclk_i,
+    .rst_ni (hrst_ni),
+    .host_i,
+    .rd_data_o,
+    .ram_ready_i     (!clear.en),
+    .bank_i          (bank_seen),
+    .scd_lo_data_i   (scd_lo_data),
+    .scd_hi_data_i   (scd_hi_data),
+    .rdata_data_i    (rdata_data[7:0]),
+    .recent_hit_i    (recent_hit),
+    .recent_data_i   (recent_data),
+    .slave_data_i    (slave_data),
+    .cfg_data_i      (cfg_data),
+    .instr_data_i    (instr_data),
+    .instr_pending_i (instr_pending),
+    .control_pending_i (control_pending),
+    .status_i,
+    .svalid_i        (svalid),
+    .cds_i           (cds),
+    .cdssel2_i       (cfg_o.access.chsel == 2'b10),
+    .revision_sel_i
+  );
+
+  mb4_read_port2 u_read2 (
+    .rclk_i      (rd2_clk_i),
+    .rst_ni      (hrst_ni),
+    .rd_en_i     (rd2_i.en),
+    .rd_data_o   (rd2_data_o),
+    .ram_ready_i (!clear.en && Port2),
+    .bank_i      (bank_seen),
+    .data_i      (scd2_data)
+  );
+
+  
+
+  
+  
+  
+  assign post_wr = host_i.wr_en && (!host_i.wr_addr[6] ||
+                                    host_i.wr_addr == mb4_regs_pkg_ADDR_SVALID_LO ||
+                                    host_i.wr_addr == mb4_regs_pkg_ADDR_SVALID_HI);
+
+  enc_posted #(.Width(16)) u_posted (
+    .hclk_i,
+    .hrst_ni,
+    .wr_en_i   (post_wr),
+    .wr_data_i ({host_i.wr_addr[7], host_i.wr_addr[6] || (!host_i.wr_addr[7] && bank_seen),
+                 host_i.wr_addr[6] ? bank_seen : host_i.wr_addr[5], host_i.wr_addr[4:0],
+                 host_i.wr_data}),
+    .clk_i,
+    .rst_ni,
+    .valid_o   (post_valid),
+    .data_o    (post_data),
+    .ready_i   (post_ready),
+    .busy_o    (post_busy_o),
+    .empty_o   (post_empty),
+    .mark_i    (mark),
+    .mark_o    (marked)
+  );
+
+  
+  mb4_recent u_recent (
+    .hclk_i,
+    .rst_ni    (hrst_ni),
+    .rclk_i,
+    .host_i,
+    .bank_i    (bank_seen),
+    .hit_o     (recent_hit),
+    .data_o    (recent_data),
+    .empty_i   (post_empty),
+    .mark_o    (mark),
+    .marked_i  (marked)
+  );
+
+  assign post_rdata = post_valid && post_data[15:14] == 2'b10;
+  assign post_ready = ready_scd && (ready_rdata || !post_rdata);
+
+  mb4_ram_clear u_clear (
+    .clk_i,
+    .rst_ni,
+    .clear_o (clear)
+  );
+
+  mb4_scd_store #(.Port2(Port2), .Tap(Tap)) u_scd (
+    .clk_i,
+    .rst_ni,
+    .slaveloc5_i  (cfg_o.slaveloc5),
+    .banks_i      (banks),
+    .bank_i,
+    .clear_i      (clear),
+    .post_valid_i (post_valid),
+    .post_i       (post_data),
+    .post_ready_o (ready_scd),
+    .rclk_i,
+    .rd_i         (rd),
+    .rd_lo_data_o (scd_lo_data),
+    .rd_hi_data_o (scd_hi_data),
+    .rd2_clk_i,
+    .rd2_i,
+    .rd2_data_o   (scd2_data),
+    .rd2_lo_data_o (scd2_lo_data),
+    .svalid_o     (svalid),
+    .data_i,
+    .word_bad_o,
+    .mo_read_i,
+    .mo_data_o
+  );
+
+  mb4_memory #(.Banks(1'b0)) u_rdata (
+    .clk_i,
+    .clear_i      (clear),
+    .eng_wr_i     (rdata_i.wr),
+    .eng_rd_i     (rdata_i.rd),
+    .eng_data_o   (rdata_o),
+    .host_wr_i    ({post_rdata, post_data[13:0]}),
+    .host_ready_o (ready_rdata),
+    .rclk_i,
+    .rd_i         (rd),
+    .rd_data_o    (rdata_data),
+    .rd2_clk_i    (1'b0),
+    .rd2_i        (7'd0),
+    .rd2_data_o   (rdata2_data)
+  );
+
+  mb4_bank_ctrl u_bank (
+    .clk_i,
+    .rst_ni,
+    .singlebank_i   (cfg_o.singlebank),
+    .holdbank_i     (instr_i.held.holdbank),
+    .kept_i         (base_kept),
+    .bank_i,
+    .pending_o      (bank_pending),
+    .event_o        (bank_event_o),
+    .base_o         (base),
+    .newest_o       (newest),
+    .banks_o        (banks)
+  );
+
+  mb4_cds_bank u_cds (
+    .clk_i,
+    .rst_ni,
+    .banks_i     (banks),
+    .bank_i,
+    .holdbank_i  (instr_i.held.holdbank),
+    .cds_i       ({data2.cds, data1.cds}),
+    .cds_o       (cds)
+  );
+
+  assign tap_o = {post_empty, banks, svalid, cds, scd2_data, scd2_lo_data};
+
+  
+  assign unused = ^{rdata_data[15:8], rdata2_data};
+
+endmodule

@@ -1,0 +1,192 @@
+
+
+
+
+
+
+
+
+
+
+
+
+
+
+
+
+
+
+
+
+
+
+module mb4_scd_store #(
+  parameter bit Port2 = 1'b0,
+  parameter bit Tap   = 1'b0   
+) (
+  input  logic       clk_i,
+  input  logic       rst_ni,
+  input  logic       slaveloc5_i,
+  input  mb4_pkg_banks_t    banks_i,
+  input  mb4_pkg_bank_cmd_t bank_i,
+  input  mb4_pkg_mem_wr_t   clear_i,  
+  
+  input  logic       post_valid_i,
+  input  logic [15:0] post_i,
+  output logic       post_ready_o,    
+  
+  input  logic        rclk_i,
+  input  mb4_pkg_mem_rd_t rd_i,
+  output logic [15:0] rd_lo_data_o,
+  output logic [15:0] rd_hi_data_o,
+  output logic [15:0] svalid_o,
+  
+  input  logic        rd2_clk_i,
+  input  mb4_pkg_mem_rd_t rd2_i,
+  output logic [15:0] rd2_data_o,
+  output logic [15:0] rd2_lo_data_o,  
+  
+  input  logic [2*biss_pkg_MO_READ_W-1:0] mo_read_i,
+  output logic [15:0] mo_data_o,
+  
+  input  logic [2*biss_pkg_LINE_DATA_W-1:0] data_i,
+  output logic [1:0]  word_bad_o       
+);
+
+  logic       post_lo, post_hi, post_svalid_lo, post_svalid_hi;
+  logic [3:0] keep;
+  logic       ready_lo, ready_hi;
+  biss_pkg_line_data_t data1, data2;
+  biss_pkg_mo_read_t   mo1, mo2, hi_mo;
+  logic [1:0] split, ok, split_q;  
+  logic       hi_en, hi_first, hi_done, hi_ok, hi_split;
+  logic [2:0] hi_slave, hi_byte;   
+  logic       lo_wr_en, hi_wr_en;
+  logic [5:0] lo_wr_addr, hi_wr_addr;
+  logic [7:0] lo_wr_data, hi_wr_data;
+  logic       mo_en;
+  logic [7:0] lo_mo_data, hi_mo_data;
+  logic [7:0] svalid_lo, svalid_hi;
+
+  assign post_lo        = post_valid_i && !post_i[15] && !post_i[13];
+  assign post_hi        = post_valid_i && !post_i[15] && post_i[13];
+  assign post_svalid_lo = post_valid_i && post_i[15:14] == 2'b11 && post_i[8];
+  assign post_svalid_hi = post_valid_i && post_i[15:14] == 2'b11 && post_i[9];
+  assign post_ready_o   = (ready_lo || !post_lo) && (ready_hi || !post_hi);
+
+  for (genvar i = 0; i < 4; i++) begin : gen_keep
+    assign keep[i] = post_i[mb4_regs_pkg_SVALID_LSB + mb4_regs_pkg_SVALID_LSB_STEP * i];
+  end
+
+  assign {data2, data1} = data_i;
+  assign {mo2, mo1}     = mo_read_i;
+
+  
+
+  assign split      = {data2.rx.open, data1.rx.open} & {2{bank_i.swap}};
+  assign ok         = {data2.rx.ok, data1.rx.ok} & ~split_q;
+  assign word_bad_o = {data2.rx.done, data1.rx.done} & ~ok;
+
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) split_q <= '0;
+    else         split_q <= (split_q | split) & {data2.rx.open, data1.rx.open};
+  end
+
+  assign hi_slave = slaveloc5_i ? data2.rx.slave : data1.rx.slave;
+  assign hi_en    = slaveloc5_i ? data2.rx.wr_en : data1.rx.wr_en;
+  assign hi_byte  = slaveloc5_i ? data2.rx.wr_byte : data1.rx.wr_byte;
+  assign hi_first = slaveloc5_i ? data2.rx.first : data1.rx.first;
+  assign hi_done  = slaveloc5_i ? data2.rx.done : data1.rx.done;
+  assign hi_ok    = slaveloc5_i ? ok[1] : ok[0];
+  assign hi_split = slaveloc5_i ? split[1] : split[0];
+
+  
+  assign lo_wr_en   = data1.delay_en || (data1.rx.wr_en && !data1.rx.slave[2]);
+  assign lo_wr_addr = data1.delay_en ? {banks_i.host, 5'd0}
+                                     : {banks_i.eng, data1.rx.slave[1:0], data1.rx.wr_byte};
+  assign lo_wr_data = data1.delay_en ? data1.delay : data1.rx.wr_data;
+  assign hi_wr_en   = data2.delay_en || (hi_slave[2] && hi_en);
+  assign hi_wr_addr = data2.delay_en ? {banks_i.host, 5'd0}
+                                     : {banks_i.eng, hi_slave[1:0], hi_byte};
+  assign hi_wr_data = data2.delay_en ? data2.delay
+                                     : slaveloc5_i ? data2.rx.wr_data : data1.rx.wr_data;
+
+  
+
+  
+  assign hi_mo     = mo2.slave[2] ? mo2 : mo1;
+  assign mo_en     = mo1.rd_en || mo2.rd_en;
+  assign mo_data_o = {hi_mo_data, mo1.slave[2] ? hi_mo_data : lo_mo_data};
+
+  mb4_memory #(.Port2(Tap)) u_scd_lo (
+    .clk_i,
+    .clear_i,
+    .eng_wr_i     ({lo_wr_en, lo_wr_addr, lo_wr_data}),
+    .eng_rd_i     ({mo_en, banks_i.eng, mo1.slave[1:0], mo1.place}),
+    .eng_data_o   (lo_mo_data),
+    .host_wr_i    ({post_lo, post_i[14], post_i[12:0]}),
+    .host_ready_o (ready_lo),
+    .rclk_i,
+    .rd_i,
+    .rd_data_o    (rd_lo_data_o),
+    .rd2_clk_i,
+    .rd2_i,
+    .rd2_data_o   (rd2_lo_data_o)
+  );
+
+  mb4_memory #(.Port2(Port2)) u_scd_hi (
+    .clk_i,
+    .clear_i,
+    .eng_wr_i     ({hi_wr_en, hi_wr_addr, hi_wr_data}),
+    .eng_rd_i     ({mo_en, banks_i.eng, hi_mo.slave[1:0], hi_mo.place}),
+    .eng_data_o   (hi_mo_data),
+    .host_wr_i    ({post_hi, post_i[14], post_i[12:0]}),
+    .host_ready_o (ready_hi),
+    .rclk_i,
+    .rd_i,
+    .rd_data_o    (rd_hi_data_o),
+    .rd2_clk_i,
+    .rd2_i,
+    .rd2_data_o
+  );
+
+  
+  mb4_svalid u_svalid_lo (
+    .clk_i,
+    .rst_ni,
+    .eng_bank_i  (banks_i.eng),
+    .begin_i     (data1.rx.first && !data1.rx.slave[2]),
+    .set_en_i    (data1.rx.done && !data1.rx.slave[2]),
+    .set_slave_i (data1.rx.slave[1:0]),
+    .set_valid_i (ok[0]),
+    .split_i     (split[0] && !data1.rx.slave[2]),
+    .clear_i     (bank_i.clear),
+    .keep_en_i   (post_svalid_lo),
+    .keep_i      (keep),
+    .keep_bank_i (post_i[13]),
+    .svalid_o    (svalid_lo)
+  );
+
+  mb4_svalid u_svalid_hi (
+    .clk_i,
+    .rst_ni,
+    .eng_bank_i  (banks_i.eng),
+    .begin_i     (hi_first && hi_slave[2]),
+    .set_en_i    (hi_done && hi_slave[2]),
+    .set_slave_i (hi_slave[1:0]),
+    .set_valid_i (hi_ok),
+    .split_i     (hi_split && hi_slave[2]),
+    .clear_i     (bank_i.clear),
+    .keep_en_i   (post_svalid_hi),
+    .keep_i      (keep),
+    .keep_bank_i (post_i[13]),
+    .svalid_o    (svalid_hi)
+  );
+
+  assign svalid_o = {svalid_hi[7:4], svalid_lo[7:4], svalid_hi[3:0], svalid_lo[3:0]};
+
+  
+  logic unused;
+  assign unused = ^{mo1, mo2, hi_mo};
+
+endmodule
