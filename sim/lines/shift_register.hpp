@@ -36,9 +36,10 @@ class ShiftRegister {
     shifts_ = 0;
   }
   // The bit that leaves next.
-  bool out() const { return at(0); }
+  bool out() const { return (static_cast<std::uint64_t>(bits_ >> 64U) >> 63U) != 0; }
   void shift(bool in) {
-    bits_ = bits_ << 1U | (in ? in_ : 0);
+    bits_ <<= 1U;
+    if (in) bits_ |= in_;
     ++shifts_;
   }
 

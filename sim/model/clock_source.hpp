@@ -80,6 +80,7 @@ class ClockSource {
 
   void step() {
     next_ += whole_;
+    if (rest_ == 0) return;
     rest_sum_ += rest_;
     if (rest_sum_ >= denominator_) {
       rest_sum_ -= denominator_;

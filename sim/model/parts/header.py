@@ -14,7 +14,8 @@ from groups import KEY_BITS, Part, combinational, look_name, looks
 CHECKED = 13  # one of so many rising edges has a check
 # What the parts have in common that one test leaves out: the event, runs of flags.
 GATES = (lambda part: part.section, lambda part: part.when,
-         lambda part: part.rare and part.flag // 64 + 1, lambda part: part.rare and part.flag // 8 + 1)
+         lambda part: part.rare and part.flag // 64 + 1,
+         lambda part: part.rare and part.flag // 8 + 1)
 
 
 def inside_out(text):
@@ -134,8 +135,10 @@ class Writer:
         return marked(set().union(*(self.reading(name) for name in names)))
 
     def compare(self, name, old, new, also=""):
-        """Sets the marks of the parts that read a variable which has changed from `old` to `new`."""
-        for number, parts in sorted(self.readers[name].items(), key=lambda item: (item[0] is None, str(item[0]))):
+        """Sets the marks of the parts that read a variable, if it has changed from `old` to `new`.
+        `also` belongs to the last test, that for any change."""
+        for number, parts in sorted(self.readers[name].items(),
+                                    key=lambda item: (item[0] is None, str(item[0]))):
             test = f"{old} != {new}" if number is None else \
                 f"({old} == {number}U) != ({new} == {number}U)"
             if self.count:
@@ -219,8 +222,9 @@ class Writer:
             if tests[2:]:
                 self.lines.append(f"if ((now & {when:#x}) != 0) {{" if when else "{")
             else:
-                self.lines.append(f"if ((kept.changed[{many[0].flag // 64}] & {mask_of(many):#x}ULL)"
-                                  " != 0) {" if gate and many[1:] else "{")
+                word = f"kept.changed[{many[0].flag // 64}]"
+                self.lines.append(f"if (({word} & {mask_of(many):#x}ULL) != 0) {{"
+                                  if gate and many[1:] else "{")
             if tests[1:]:
                 self.gated(many, tests[1:])
             else:
@@ -282,8 +286,8 @@ class Writer:
         pins = sorted(members(self.described.host))
         self.lines = [
             "// Made from the model by model_parts.py.", "#pragma once",
-            "#include <cstddef>", "#include <cstdint>", "#include <cstdio>", "#include <cstdlib>", "#include <cstring>",
-            "#include <utility>",
+            "#include <cstddef>", "#include <cstdint>", "#include <cstdio>", "#include <cstdlib>",
+            "#include <cstring>", "#include <utility>",
             f"#include <{self.described.prefix}__Syms.h>", *self.tables,
             f"void {self.root}___eval({self.root}*);",
             f"namespace {self.described.namespace} {{",
