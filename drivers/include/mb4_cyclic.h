@@ -1,27 +1,23 @@
 /* SPDX-FileCopyrightText: 2026 The openmb4 authors
  * SPDX-License-Identifier: Apache-2.0
  *
- * The read path of a control loop, in C99 and C++: positions of one slave from
- * automatic frames. Automatic::poll_slave() is a loop over it. A program in C
- * needs this header, mb4.h and the generated mb4_regs.h, and no C++ compiler.
- * There is no heap, static data, callback or clock.
+ * The read path of a control loop, in C99 and C++: positions of one slave from automatic frames.
+ * Automatic::poll_slave() is a loop over it. A program in C needs this header, mb4.h and the
+ * generated mb4_regs.h, and no C++ compiler. There is no heap, static data, callback or clock.
  *
- * A read is one or more plans. A plan holds SPI frames; the caller makes them,
- * by DMA or otherwise:
+ * A read is one or more plans. A plan holds SPI frames; the caller makes them, by DMA or otherwise:
  *
  *   mb4_cyclic_plan(&read, &plan);                    // begins a read
  *   do {
- *     bool done = ...;                                // plan.size[i] bytes
- * from plan.tx[i] to
- *                                                     // plan.rx[i], NCS low
- * for each frame code = mb4_cyclic_finish(&read, &plan, done, now_us,
- * MB4_WITH_ALL); } while (code == MB4_MORE); if (code == MB4_OK) { read.reading
- * ... }
+ *     bool done = ...;                                // plan.size[i] bytes from plan.tx[i] to
+ *                                                     // plan.rx[i], NCS low for each frame
+ *     code = mb4_cyclic_finish(&read, &plan, done, now_us, MB4_WITH_ALL);
+ *   } while (code == MB4_MORE);
+ *   if (code == MB4_OK) { read.reading ... }
  *
- * With `chain` set, a read is one plan of four frames (table 69 of the
- * datasheet): 0x07 HOLDBANK, 0x09 or 0x03 data, 0x05 status, 0x02 SVALID = 0
- * and HOLDBANK = 0. Only a bad word needs another plan. Without `chain` the
- * 0x02 is a plan of its own, and a bad word needs one frame more.
+ * With `chain` set, a read is one plan of four frames (table 69 of the datasheet): 0x07 HOLDBANK,
+ * 0x09 or 0x03 data, 0x05 status, 0x02 SVALID = 0 and HOLDBANK = 0. Only a bad word needs another
+ * plan. Without `chain` the 0x02 is a plan of its own, and a bad word needs one frame more.
  *
  * No function may be interrupted by another one on the same object.
  */
@@ -72,8 +68,7 @@ enum {
 };
 #endif
 
-/* Functions that are called from several places and stay functions: small code
- * counts more here. */
+/* Functions that are called from several places and stay functions: small code counts more here. */
 #if defined(__GNUC__)
 #define MB4_APART static __attribute__((noinline, unused))
 #else
@@ -84,22 +79,18 @@ enum {
 extern "C" {
 #endif
 
-/* ---- Plans
- * -----------------------------------------------------------------------------------
- */
+/* ---- Plans ----------------------------------------------------------------------------------- */
 
 enum {
   MB4_PLAN_FRAMES = 4,
-  MB4_PLAN_FRAME_BYTES =
-      12,        /* longest frame: 10 bytes, rounded up to whole words */
-  MB4_MORE = 255 /* of mb4_cyclic_finish(): make the frames of the plan */
+  MB4_PLAN_FRAME_BYTES = 12, /* longest frame: 10 bytes, rounded up to whole words */
+  MB4_MORE = 255             /* of mb4_cyclic_finish(): make the frames of the plan */
 };
 
-/* SPI frames to make one after the other, each with NCS low. Every frame begins
- * at a whole word. Place the object where DMA reaches it. Write only rx. */
+/* SPI frames to make one after the other, each with NCS low. Every frame begins at a whole word.
+ * Place the object where DMA reaches it. Write only rx. */
 typedef struct {
-  uint32_t pause_us; /* the next plan must not begin earlier than this after the
-                        last frame */
+  uint32_t pause_us; /* the next plan must not begin earlier than this after the last frame */
   uint8_t frames;    /* 1..MB4_PLAN_FRAMES */
   uint8_t size[MB4_PLAN_FRAMES]; /* bytes of each frame, 2..10 */
   uint8_t unused[3];
@@ -107,10 +98,9 @@ typedef struct {
   uint8_t rx[MB4_PLAN_FRAMES][MB4_PLAN_FRAME_BYTES];
 } mb4_plan;
 
-/* Adds a frame of `size` bytes that begins with `first` and `second`; the rest
- * is `filler`. */
-static inline void mb4_plan_add(mb4_plan *plan, uint8_t size, uint8_t first,
-                                uint8_t second, uint8_t filler) {
+/* Adds a frame of `size` bytes that begins with `first` and `second`; the rest is `filler`. */
+static inline void mb4_plan_add(mb4_plan *plan, uint8_t size, uint8_t first, uint8_t second,
+                                uint8_t filler) {
   uint8_t *tx = plan->tx[plan->frames];
   uint8_t i;
   plan->size[plan->frames] = size;
@@ -124,12 +114,10 @@ static inline void mb4_plan_add(mb4_plan *plan, uint8_t size, uint8_t first,
 
 /* False: the frame writes, so what comes back need not be stored. */
 static inline bool mb4_plan_reads(const mb4_plan *plan, uint8_t frame) {
-  return plan->tx[frame][0] != MB4_CYCLIC_WRITE &&
-         plan->tx[frame][0] != MB4_CYCLIC_INSTRUCT;
+  return plan->tx[frame][0] != MB4_CYCLIC_WRITE && plan->tx[frame][0] != MB4_CYCLIC_INSTRUCT;
 }
 
-/* ---- The word of one slave
- * ------------------------------------------------------------------- */
+/* ---- The word of one slave ------------------------------------------------------------------- */
 
 /* What SCDATAx of one slave holds. mb4_word_set() works it out. */
 typedef struct {
@@ -144,10 +132,9 @@ typedef struct {
   bool gray;             /* the chip has converted Gray code */
 } mb4_word;
 
-/* `slave` 1..8. The members of `config` must be those that the chip has
- * (mb4_validate()). `spi_check`: MB4_SPI_CHECK_..., as configured. */
-static inline void mb4_word_set(mb4_word *word, uint8_t slave,
-                                const mb4_slave_config *config,
+/* `slave` 1..8. The members of `config` must be those that the chip has (mb4_validate()).
+ * `spi_check`: MB4_SPI_CHECK_..., as configured. */
+static inline void mb4_word_set(mb4_word *word, uint8_t slave, const mb4_slave_config *config,
                                 uint8_t spi_check) {
   const uint8_t data_bytes = (uint8_t)((config->data_bits + 7U) / 8U);
   uint8_t width = 0;
@@ -161,10 +148,8 @@ static inline void mb4_word_set(mb4_word *word, uint8_t slave,
   word->polynomial = 0;
   word->start = 0;
   word->table = 0;
-  /* The CRC takes the top byte(s) of SCDATAx if the data leaves them free (page
-   * 26). */
-  if (spi_check != MB4_SPI_CHECK_OFF && width != 0 &&
-      data_bytes + (width > 8 ? 2 : 1) <= 8) {
+  /* The CRC takes the top byte(s) of SCDATAx if the data leaves them free (page 26). */
+  if (spi_check != MB4_SPI_CHECK_OFF && width != 0 && data_bytes + (width > 8 ? 2 : 1) <= 8) {
     word->bytes = 8;
     word->crc_bits = width;
     word->polynomial = config->crc_polynomial << (32 - width);
@@ -174,9 +159,8 @@ static inline void mb4_word_set(mb4_word *word, uint8_t slave,
   word->gray = config->gray;
 }
 
-/* Parts of the read path that a build may leave out: the last argument of
- * mb4_cyclic_finish(). A constant lets the compiler drop the rest. What is left
- * out must not be configured. */
+/* Parts of the read path that a build may leave out: the last argument of mb4_cyclic_finish(). A
+ * constant lets the compiler drop the rest. What is left out must not be configured. */
 enum {
   MB4_WITH_LONG = 1,     /* data of more than 32 bits */
   MB4_WITH_GRAY = 2,     /* SSI with Gray code */
@@ -184,14 +168,11 @@ enum {
   MB4_WITH_UNHELD = 8,   /* without HOLDBANK beside a register access */
   MB4_WITH_SEVERAL = 16, /* other slaves deliver data too */
   MB4_WITH_ALL = 31,
-  MB4_WITH_TABLE =
-      32 /* CRC by word->table, four bits a step, where it is not null */
+  MB4_WITH_TABLE = 32 /* CRC by word->table, four bits a step, where it is not null */
 };
 
-/* `steps` (1..32) bits, of a CRC that is left aligned and has the data added to
- * it. */
-static inline uint32_t mb4_crc_steps(uint32_t crc, uint32_t polynomial,
-                                     uint8_t steps) {
+/* `steps` (1..32) bits, of a CRC that is left aligned and has the data added to it. */
+static inline uint32_t mb4_crc_steps(uint32_t crc, uint32_t polynomial, uint8_t steps) {
   do {
     const uint32_t top = crc & 0x80000000U;
     crc <<= 1;
@@ -202,8 +183,7 @@ static inline uint32_t mb4_crc_steps(uint32_t crc, uint32_t polynomial,
   return crc;
 }
 
-/* Fills the caller's table of 16 words for MB4_WITH_TABLE; 64 bytes for half
- * the time of a read. */
+/* Fills the caller's table of 16 words for MB4_WITH_TABLE; 64 bytes for half the time of a read. */
 static inline void mb4_crc_table(mb4_word *word, uint32_t *table) {
   uint8_t i;
   for (i = 0; i < 16; ++i) {
@@ -213,8 +193,8 @@ static inline void mb4_crc_table(mb4_word *word, uint32_t *table) {
 }
 
 /* As mb4_crc_steps(), by the table if there is one. */
-static inline uint32_t mb4_crc_add(const mb4_word *word, uint32_t crc,
-                                   uint8_t steps, uint8_t with) {
+static inline uint32_t mb4_crc_add(const mb4_word *word, uint32_t crc, uint8_t steps,
+                                   uint8_t with) {
   if ((with & MB4_WITH_TABLE) != 0 && word->table != 0) {
     if ((steps & 3U) != 0) {
       crc = mb4_crc_steps(crc, word->polynomial, steps & 3U);
@@ -227,10 +207,8 @@ static inline uint32_t mb4_crc_add(const mb4_word *word, uint32_t crc,
   return mb4_crc_steps(crc, word->polynomial, steps);
 }
 
-/* The CRC of the data bits `low`, `high` as they were on the line.
- * word->crc_bits is not 0. */
-MB4_APART uint16_t mb4_word_crc(const mb4_word *word, uint32_t low,
-                                uint32_t high, uint8_t with) {
+/* The CRC of the data bits `low`, `high` as they were on the line. word->crc_bits is not 0. */
+MB4_APART uint16_t mb4_word_crc(const mb4_word *word, uint32_t low, uint32_t high, uint8_t with) {
   uint32_t crc = word->start;
   uint8_t bits = word->bits;
   if ((with & MB4_WITH_GRAY) != 0 && word->gray) {
@@ -238,51 +216,38 @@ MB4_APART uint16_t mb4_word_crc(const mb4_word *word, uint32_t low,
     high ^= high >> 1;
   }
   if ((with & MB4_WITH_LONG) != 0 && bits > 32) {
-    crc = mb4_crc_add(word, crc ^ high << (64 - bits), (uint8_t)(bits - 32),
-                      with);
+    crc = mb4_crc_add(word, crc ^ high << (64 - bits), (uint8_t)(bits - 32), with);
     bits = 32;
   }
   crc = mb4_crc_add(word, crc ^ low << (32 - bits), bits, with);
   return (uint16_t)(crc >> (32 - word->crc_bits));
 }
 
-/* ---- Reading
- * ---------------------------------------------------------------------------------
- */
+/* ---- Reading --------------------------------------------------------------------------------- */
 
 /* What all slaves of one chip share. */
 typedef struct {
-  uint32_t news_us;    /* when the last frame was seen; set it when frames are
-                          started */
-  uint32_t omitted_us; /* longest time without a frame after the chip has left
-                          some out */
-  uint32_t
-      silent_us; /* longest time without a frame; 0: only the caller knows */
-  uint8_t
-      lines;    /* bits of 0xF8 that are 1 while the lines are idle: SL1, SL2 */
-  bool several; /* other slaves deliver data too */
-  uint8_t taken; /* slaves (bit 0 is slave 1) of which a read has taken a good
-                    word */
+  uint32_t news_us;    /* when the last frame was seen; set it when frames are started */
+  uint32_t omitted_us; /* longest time without a frame after the chip has left some out */
+  uint32_t silent_us;  /* longest time without a frame; 0: only the caller knows */
+  uint8_t lines;       /* bits of 0xF8 that are 1 while the lines are idle: SL1, SL2 */
+  bool several;        /* other slaves deliver data too */
+  uint8_t taken;       /* slaves (bit 0 is slave 1) of which a read has taken a good word */
   uint32_t good_us[MB4_SLAVES]; /* when; set them when frames are started */
 } mb4_watch;
 
-/* One read. Set the object to zero once; then the members up to `chain` are the
- * caller's. The frames of a chain stay in the plan, so that the next read need
- * not write them again: clear `built` when the plan's memory or one of these
- * members has changed. */
+/* One read. Set the object to zero once; then the members up to `chain` are the caller's. The
+ * frames of a chain stay in the plan, so that the next read need not write them again: clear
+ * `built` when the plan's memory or one of these members has changed. */
 typedef struct {
   const mb4_word *word;
   mb4_watch *watch;
   uint8_t spi_check; /* MB4_SPI_CHECK_..., as configured */
-  bool unheld; /* a register access runs, and the chip allows no HOLDBANK beside
-                  it */
-  bool chain;  /* one plan of four frames; not with MB4_SPI_CHECK_FULL, not
-                  unheld */
+  bool unheld;       /* a register access runs, and the chip allows no HOLDBANK beside it */
+  bool chain;        /* one plan of four frames; not with MB4_SPI_CHECK_FULL, not unheld */
   /* Results. */
-  bool bad; /* a new word came with a wrong CRC; with MB4_OK a good one has
-               followed */
-  bool
-      running; /* a register access is running: REGEND = 0 in the last status */
+  bool bad;     /* a new word came with a wrong CRC; with MB4_OK a good one has followed */
+  bool running; /* a register access is running: REGEND = 0 in the last status */
   uint8_t status[MB4_STATUS_BYTES]; /* the last one */
   /* Private. */
   uint8_t stage;
@@ -300,42 +265,36 @@ typedef struct {
 } mb4_cyclic;
 
 enum {
-  MB4_STAGE_DATA, /* HOLDBANK, data, status; in a chain also the end */
-  MB4_STAGE_LOOK, /* FULL: HOLDBANK, status; unheld: status, with FULL twice */
+  MB4_STAGE_DATA,   /* HOLDBANK, data, status; in a chain also the end */
+  MB4_STAGE_LOOK,   /* FULL: HOLDBANK, status; unheld: status, with FULL twice */
   MB4_STAGE_SECOND, /* FULL: data, status */
-  MB4_STAGE_UNHELD, /* SVALID = 0, data, status; then, if need be, data and
-                       status again */
-  MB4_STAGE_CLEAR,  /* FULL: data again, SVALID = 0, status; then, if need be,
-                       status again */
+  MB4_STAGE_UNHELD, /* SVALID = 0, data, status; then, if need be, data and status again */
+  MB4_STAGE_CLEAR,  /* FULL: data again, SVALID = 0, status; then, if need be, status again */
   MB4_STAGE_END,    /* the bank is released; the result is known */
   MB4_STAGE_LINES   /* are the lines idle? */
 };
 
 static inline void mb4_cyclic_add_data(const mb4_cyclic *read, mb4_plan *plan) {
-  /* With FULL the filler is what a disturbed opcode would write: not zeros,
-   * which may pass. */
+  /* With FULL the filler is what a disturbed opcode would write: not zeros, which may pass. */
   const uint8_t filler = read->spi_check == MB4_SPI_CHECK_FULL ? 0x5A : 0;
   const mb4_word *word = read->word;
   if (word->slave == 1) { /* one byte shorter, and at any SCLK (I204) */
-    mb4_plan_add(plan, (uint8_t)(word->bytes + 1), MB4_CYCLIC_READ0, filler,
-                 filler);
+    mb4_plan_add(plan, (uint8_t)(word->bytes + 1), MB4_CYCLIC_READ0, filler, filler);
   } else {
-    mb4_plan_add(plan, (uint8_t)(word->bytes + 2), MB4_CYCLIC_READ,
-                 (uint8_t)(8 * word->slave - 8), filler);
+    mb4_plan_add(plan, (uint8_t)(word->bytes + 2), MB4_CYCLIC_READ, (uint8_t)(8 * word->slave - 8),
+                 filler);
   }
 }
 
 MB4_APART void mb4_cyclic_add_status(mb4_plan *plan) {
-  /* A bus that stores nothing must not turn an old answer into a new one: this
-   * is no status. */
+  /* A bus that stores nothing must not turn an old answer into a new one: this is no status. */
   plan->rx[plan->frames][1] = 0;
   mb4_plan_add(plan, 1 + MB4_STATUS_BYTES, MB4_CYCLIC_STATUS, 0, 0);
 }
 
-/* Clears SVALID of the slave. With `size` 6 it also writes 0xF4, HOLDBANK = 0;
- * 0xF3 between them is read-only. */
-static inline void mb4_cyclic_add_clear(const mb4_cyclic *read, mb4_plan *plan,
-                                        uint8_t size) {
+/* Clears SVALID of the slave. With `size` 6 it also writes 0xF4, HOLDBANK = 0; 0xF3 between them is
+ * read-only. */
+static inline void mb4_cyclic_add_clear(const mb4_cyclic *read, mb4_plan *plan, uint8_t size) {
   const uint8_t index = (uint8_t)(read->word->slave - 1);
   uint8_t *tx = plan->tx[plan->frames];
   mb4_plan_add(plan, size, MB4_CYCLIC_WRITE, MB4_CYCLIC_SVALID, 0xFF);
@@ -343,14 +302,12 @@ static inline void mb4_cyclic_add_clear(const mb4_cyclic *read, mb4_plan *plan,
   tx[5] = MB4_CYCLIC_AGS;
 }
 
-static inline void mb4_cyclic_add_instruction(mb4_plan *plan,
-                                              uint8_t instruction) {
+static inline void mb4_cyclic_add_instruction(mb4_plan *plan, uint8_t instruction) {
   mb4_plan_add(plan, 2, MB4_CYCLIC_INSTRUCT, instruction, 0);
 }
 
 /* The next plan begins: `code` is the result if nothing else happens. */
-MB4_APART uint8_t mb4_cyclic_next(mb4_cyclic *read, mb4_plan *plan,
-                                  uint8_t stage, uint8_t code) {
+MB4_APART uint8_t mb4_cyclic_next(mb4_cyclic *read, mb4_plan *plan, uint8_t stage, uint8_t code) {
   plan->frames = 0;
   read->built = 0;
   read->stage = stage;
@@ -358,8 +315,7 @@ MB4_APART uint8_t mb4_cyclic_next(mb4_cyclic *read, mb4_plan *plan,
   return MB4_MORE;
 }
 
-MB4_APART uint8_t mb4_cyclic_release(mb4_cyclic *read, mb4_plan *plan,
-                                     uint8_t code) {
+MB4_APART uint8_t mb4_cyclic_release(mb4_cyclic *read, mb4_plan *plan, uint8_t code) {
   (void)mb4_cyclic_next(read, plan, MB4_STAGE_END, code);
   mb4_cyclic_add_instruction(plan, MB4_CYCLIC_AGS);
   return MB4_MORE;
@@ -368,8 +324,7 @@ MB4_APART uint8_t mb4_cyclic_release(mb4_cyclic *read, mb4_plan *plan,
 /* Begins a try. */
 MB4_APART uint8_t mb4_cyclic_try(mb4_cyclic *read, mb4_plan *plan) {
   const bool full = read->spi_check == MB4_SPI_CHECK_FULL;
-  (void)mb4_cyclic_next(read, plan,
-                        full || read->unheld ? MB4_STAGE_LOOK : MB4_STAGE_DATA,
+  (void)mb4_cyclic_next(read, plan, full || read->unheld ? MB4_STAGE_LOOK : MB4_STAGE_DATA,
                         MB4_NO_DATA);
   if (!read->unheld) {
     mb4_cyclic_add_instruction(plan, MB4_CYCLIC_HOLD);
@@ -404,24 +359,19 @@ static inline void mb4_cyclic_plan(mb4_cyclic *read, mb4_plan *plan) {
 }
 
 /* Takes a status. Returns MB4_OK, or what is wrong with it. */
-static inline uint8_t mb4_cyclic_take_status(mb4_cyclic *read,
-                                             const uint8_t *rx) {
+static inline uint8_t mb4_cyclic_take_status(mb4_cyclic *read, const uint8_t *rx) {
   uint8_t i;
   for (i = 0; i < MB4_STATUS_BYTES; ++i) {
     read->status[i] = rx[1 + i];
   }
   /* Constant bits (pages 21, 22): MISO stuck at 0 or 1 fails them. */
-  if ((rx[1] & MB4_CYCLIC_CONST0) == 0 ||
-      ((rx[2] | rx[3]) & MB4_CYCLIC_CONST1) != 0) {
+  if ((rx[1] & MB4_CYCLIC_CONST0) == 0 || ((rx[2] | rx[3]) & MB4_CYCLIC_CONST1) != 0) {
     return MB4_NOT_DETECTED;
   }
   read->running = (rx[1] & MB4_CYCLIC_REGEND) == 0;
-  /* The chip must hold exactly what was written; AGS may have ended by an
-   * error. Without HOLDBANK the bytes may come from two frames; with SWBANK or
-   * INIT they are other data. */
-  return read->unheld || (rx[5] | MB4_CYCLIC_AGS) == MB4_CYCLIC_HOLD
-             ? MB4_OK
-             : MB4_CORRUPTED;
+  /* The chip must hold exactly what was written; AGS may have ended by an error. Without HOLDBANK
+   * the bytes may come from two frames; with SWBANK or INIT they are other data. */
+  return read->unheld || (rx[5] | MB4_CYCLIC_AGS) == MB4_CYCLIC_HOLD ? MB4_OK : MB4_CORRUPTED;
 }
 
 static inline bool mb4_cyclic_valid(const mb4_cyclic *read) {
@@ -434,9 +384,8 @@ static inline bool mb4_cyclic_frame_bad(const mb4_cyclic *read) {
 }
 
 /* The bytes of SCDATAx, which end frame `frame` of `plan`. */
-static inline void mb4_cyclic_load(const mb4_cyclic *read, const mb4_plan *plan,
-                                   uint8_t frame, uint32_t *low,
-                                   uint32_t *high) {
+static inline void mb4_cyclic_load(const mb4_cyclic *read, const mb4_plan *plan, uint8_t frame,
+                                   uint32_t *low, uint32_t *high) {
   const uint8_t *bytes = &plan->rx[frame][plan->size[frame]];
   uint8_t left = read->word->bytes;
   uint32_t part = 0;
@@ -454,10 +403,10 @@ static inline void mb4_cyclic_load(const mb4_cyclic *read, const mb4_plan *plan,
   *low = part;
 }
 
-/* Keeps the data bits of `low`, `high`. False: a bit above them, in the same
- * byte, is 1 although the chip makes it 0. */
-static inline bool mb4_cyclic_cut(const mb4_word *word, uint32_t *low,
-                                  uint32_t *high, uint8_t with) {
+/* Keeps the data bits of `low`, `high`. False: a bit above them, in the same byte, is 1 although
+ * the chip makes it 0. */
+static inline bool mb4_cyclic_cut(const mb4_word *word, uint32_t *low, uint32_t *high,
+                                  uint8_t with) {
   uint32_t *top = low;
   uint8_t bits = word->bits;
   uint8_t unused;
@@ -516,11 +465,10 @@ static inline bool mb4_cyclic_decode(mb4_cyclic *read, uint8_t with) {
   return true;
 }
 
-/* FULL: data that only a second reading proves. Without a stored CRC this is
- * any data. With a CRC it is all zeros and all ones: a line that was stuck for
- * a moment makes them, and the CRC may accept them. */
-static inline bool mb4_cyclic_needs_second(const mb4_cyclic *read,
-                                           uint8_t with) {
+/* FULL: data that only a second reading proves. Without a stored CRC this is any data. With a CRC
+ * it is all zeros and all ones: a line that was stuck for a moment makes them, and the CRC may
+ * accept them. */
+static inline bool mb4_cyclic_needs_second(const mb4_cyclic *read, uint8_t with) {
   uint32_t low = read->low;
   uint32_t high = read->high;
   uint32_t ones_low = 0xFFFFFFFFU;
@@ -533,12 +481,11 @@ static inline bool mb4_cyclic_needs_second(const mb4_cyclic *read,
   return (low | high) == 0 || (low == ones_low && high == ones_high);
 }
 
-/* The word in the held bank has no SVALID, and the last frame was bad. A stored
- * CRC tells whether this word is the bad one; otherwise it was good and has
- * been read before. A bad word gets the CRC that fits, so that it counts once;
- * the next frame overwrites it. Adds the frame for this to `plan`. */
-MB4_APART uint8_t mb4_cyclic_judge(mb4_cyclic *read, mb4_plan *plan,
-                                   uint8_t with) {
+/* The word in the held bank has no SVALID, and the last frame was bad. A stored CRC tells whether
+ * this word is the bad one; otherwise it was good and has been read before. A bad word gets the CRC
+ * that fits, so that it counts once; the next frame overwrites it. Adds the frame for this to
+ * `plan`. */
+MB4_APART uint8_t mb4_cyclic_judge(mb4_cyclic *read, mb4_plan *plan, uint8_t with) {
   const mb4_word *word = read->word;
   uint32_t low = read->low;
   uint32_t high = read->high;
@@ -547,8 +494,7 @@ MB4_APART uint8_t mb4_cyclic_judge(mb4_cyclic *read, mb4_plan *plan,
   uint8_t *tx;
   if (word->crc_bits == 0) {
     read->unproven = true;
-    return (with & MB4_WITH_SEVERAL) != 0 && read->watch->several ? MB4_NO_DATA
-                                                                  : MB4_CRC;
+    return (with & MB4_WITH_SEVERAL) != 0 && read->watch->several ? MB4_NO_DATA : MB4_CRC;
   }
   (void)mb4_cyclic_cut(word, &low, &high, with);
   crc = mb4_word_crc(word, low, high, with);
@@ -557,13 +503,12 @@ MB4_APART uint8_t mb4_cyclic_judge(mb4_cyclic *read, mb4_plan *plan,
   }
   read->bad = true;
   if (read->chain && !read->again) {
-    return MB4_CRC; /* the bank is free already; it must be held while the word
-                       is marked */
+    return MB4_CRC; /* the bank is free already; it must be held while the word is marked */
   }
   bytes = word->crc_bits > 8 ? 2 : 1;
   tx = plan->tx[plan->frames];
-  mb4_plan_add(plan, (uint8_t)(2 + bytes), MB4_CYCLIC_WRITE,
-               (uint8_t)(8 * word->slave - bytes), (uint8_t)crc);
+  mb4_plan_add(plan, (uint8_t)(2 + bytes), MB4_CYCLIC_WRITE, (uint8_t)(8 * word->slave - bytes),
+               (uint8_t)crc);
   if (bytes == 2) {
     tx[3] = (uint8_t)(crc >> 8);
   }
@@ -571,10 +516,8 @@ MB4_APART uint8_t mb4_cyclic_judge(mb4_cyclic *read, mb4_plan *plan,
 }
 
 /* Data and status of a held bank are here. */
-static inline uint8_t mb4_cyclic_held(mb4_cyclic *read, mb4_plan *plan,
-                                      uint8_t with) {
-  const bool full =
-      (with & MB4_WITH_FULL) != 0 && read->spi_check == MB4_SPI_CHECK_FULL;
+static inline uint8_t mb4_cyclic_held(mb4_cyclic *read, mb4_plan *plan, uint8_t with) {
+  const bool full = (with & MB4_WITH_FULL) != 0 && read->spi_check == MB4_SPI_CHECK_FULL;
   const bool valid = mb4_cyclic_valid(read);
   const bool chained = read->chain && !read->again;
   uint8_t code = MB4_NO_DATA;
@@ -611,13 +554,11 @@ static inline uint8_t mb4_cyclic_held(mb4_cyclic *read, mb4_plan *plan,
   return MB4_MORE;
 }
 
-/* Without HOLDBANK two facts prove that the data belongs to one good frame.
- * SVALID was cleared before the data was read and is still 0: no good frame has
- * ended meanwhile. nSCDERR is 1: no bad frame has ended either. Directly after
- * a switch of the banks there is the time of a frame until the next one, so a
- * second try follows. */
-static inline uint8_t mb4_cyclic_unheld(mb4_cyclic *read, mb4_plan *plan,
-                                        uint8_t code) {
+/* Without HOLDBANK two facts prove that the data belongs to one good frame. SVALID was cleared
+ * before the data was read and is still 0: no good frame has ended meanwhile. nSCDERR is 1: no bad
+ * frame has ended either. Directly after a switch of the banks there is the time of a frame until
+ * the next one, so a second try follows. */
+static inline uint8_t mb4_cyclic_unheld(mb4_cyclic *read, mb4_plan *plan, uint8_t code) {
   if ((code == MB4_NO_DATA || code == MB4_BANK_SWITCHED) && !read->again) {
     read->again = true;
     return mb4_cyclic_try(read, plan);
@@ -625,8 +566,7 @@ static inline uint8_t mb4_cyclic_unheld(mb4_cyclic *read, mb4_plan *plan,
   return code;
 }
 
-static inline uint8_t mb4_cyclic_take_unheld(mb4_cyclic *read, mb4_plan *plan,
-                                             uint8_t with) {
+static inline uint8_t mb4_cyclic_take_unheld(mb4_cyclic *read, mb4_plan *plan, uint8_t with) {
   const bool repeated = plan->frames == 2;
   uint32_t low;
   uint32_t high;
@@ -639,8 +579,7 @@ static inline uint8_t mb4_cyclic_take_unheld(mb4_cyclic *read, mb4_plan *plan,
   }
   mb4_cyclic_load(read, plan, (uint8_t)(plan->frames - 2), &low, &high);
   if (repeated) {
-    return low == read->low && high == read->high ? read->code
-                                                  : (uint8_t)MB4_CORRUPTED;
+    return low == read->low && high == read->high ? read->code : (uint8_t)MB4_CORRUPTED;
   }
   read->low = low;
   read->high = high;
@@ -656,8 +595,7 @@ static inline uint8_t mb4_cyclic_take_unheld(mb4_cyclic *read, mb4_plan *plan,
 }
 
 /* LOOK: is there a new frame? */
-static inline uint8_t mb4_cyclic_take_look(mb4_cyclic *read, mb4_plan *plan,
-                                           uint8_t with) {
+static inline uint8_t mb4_cyclic_take_look(mb4_cyclic *read, mb4_plan *plan, uint8_t with) {
   const bool unheld = (with & MB4_WITH_UNHELD) != 0 && read->unheld;
   uint8_t frame = unheld ? 0 : 1;
   uint8_t code = MB4_OK;
@@ -677,8 +615,7 @@ static inline uint8_t mb4_cyclic_take_look(mb4_cyclic *read, mb4_plan *plan,
     mb4_cyclic_add_clear(read, plan, 4);
   } else {
     if (code != MB4_OK || (!read->fresh && !mb4_cyclic_frame_bad(read))) {
-      return mb4_cyclic_release(read, plan,
-                                code != MB4_OK ? code : (uint8_t)MB4_NO_DATA);
+      return mb4_cyclic_release(read, plan, code != MB4_OK ? code : (uint8_t)MB4_NO_DATA);
     }
     (void)mb4_cyclic_next(read, plan, MB4_STAGE_SECOND, MB4_OK);
   }
@@ -687,9 +624,8 @@ static inline uint8_t mb4_cyclic_take_look(mb4_cyclic *read, mb4_plan *plan,
   return MB4_MORE;
 }
 
-/* CLEAR: was the second reading the same, and is SVALID 0? The chip takes some
- * system clocks for this, so the status is read twice before it counts as a
- * fault. */
+/* CLEAR: was the second reading the same, and is SVALID 0? The chip takes some system clocks for
+ * this, so the status is read twice before it counts as a fault. */
 static inline uint8_t mb4_cyclic_take_clear(mb4_cyclic *read, mb4_plan *plan) {
   const bool last = plan->frames == 1;
   uint32_t low;
@@ -712,17 +648,15 @@ static inline uint8_t mb4_cyclic_take_clear(mb4_cyclic *read, mb4_plan *plan) {
   return mb4_cyclic_release(read, plan, code == MB4_OK ? read->code : code);
 }
 
-/* The result is `code`. Frames that stay away for too long turn it into an
- * alarm. A word that is new, good or bad, proves that frames come. nSCDERR = 0
- * stays when no more frames end, so a bad frame without a stored CRC proves
- * nothing. */
-static inline uint8_t mb4_cyclic_watch(mb4_cyclic *read, mb4_plan *plan,
-                                       uint8_t code, uint32_t now_us,
-                                       uint8_t with) {
+/* The result is `code`. Frames that stay away for too long turn it into an alarm. A word that is
+ * new, good or bad, proves that frames come. nSCDERR = 0 stays when no more frames end, so a bad
+ * frame without a stored CRC proves nothing. */
+static inline uint8_t mb4_cyclic_watch(mb4_cyclic *read, mb4_plan *plan, uint8_t code,
+                                       uint32_t now_us, uint8_t with) {
   mb4_watch *watch = read->watch;
   const bool omitted = (read->status[0] & MB4_CYCLIC_AGSERR) == 0;
-  const uint8_t index = (uint8_t)(read->word->slave - 1);
   const bool several = (with & MB4_WITH_SEVERAL) != 0 && watch->several;
+  const uint8_t index = (uint8_t)(read->word->slave - 1);
   uint32_t limit_us;
   if (several && code == MB4_OK) {
     watch->taken = (uint8_t)(watch->taken | 1U << index);
@@ -732,10 +666,8 @@ static inline uint8_t mb4_cyclic_watch(mb4_cyclic *read, mb4_plan *plan,
     watch->news_us = now_us;
     return code;
   }
-  /* Other slaves keep news_us young. Bad frames without a good word of this one
-   * are its own. */
-  if (several && read->unproven &&
-      now_us - watch->good_us[index] > watch->omitted_us) {
+  /* Other slaves keep news_us young. Bad frames without a good word of this one are its own. */
+  if (several && read->unproven && now_us - watch->good_us[index] > watch->omitted_us) {
     code = MB4_CRC;
   }
   limit_us = omitted || read->unproven ? watch->omitted_us : watch->silent_us;
@@ -750,26 +682,21 @@ static inline uint8_t mb4_cyclic_watch(mb4_cyclic *read, mb4_plan *plan,
   return MB4_MORE;
 }
 
-/* Takes what came back. `transferred`: all frames of the plan were made, in
- * order. `now_us`: the time, a counter of microseconds that wraps at 2^32.
- * `with`: MB4_WITH_..., a constant.
+/* Takes what came back. `transferred`: all frames of the plan were made, in order. `now_us`: the
+ * time, a counter of microseconds that wraps at 2^32. `with`: MB4_WITH_..., a constant.
  *
- * Returns MB4_MORE (make the frames of the new plan, then call it again) or the
- * result:
+ * Returns MB4_MORE (make the frames of the new plan, then call it again) or the result:
  *
  *   MB4_OK             read->reading is a new position
- *   MB4_NO_DATA        no frame with data of this slave has ended since the
- * last read MB4_CRC            one has, and its CRC was wrong; told once for
- * each frame. Without a stored CRC: by each read until a frame is good, if the
- * slave is the only one MB4_CORRUPTED, MB4_NOT_DETECTED, MB4_TRANSPORT,
- * MB4_BANK_SWITCHED, MB4_TIMEOUT, MB4_LINE_ERROR as Automatic::poll() in
- * mb4/automatic.hpp describes them
+ *   MB4_NO_DATA        no frame with data of this slave has ended since the last read
+ *   MB4_CRC            one has, and its CRC was wrong; told once for each frame. Without a stored
+ *                      CRC: by each read until a frame is good, if the slave is the only one
+ *   MB4_CORRUPTED, MB4_NOT_DETECTED, MB4_TRANSPORT, MB4_BANK_SWITCHED, MB4_TIMEOUT, MB4_LINE_ERROR
+ *                      as Automatic::poll() in mb4/automatic.hpp describes them
  *
- * At most three calls a read without MB4_SPI_CHECK_FULL, six with it or unheld.
- */
-static inline uint8_t mb4_cyclic_finish(mb4_cyclic *read, mb4_plan *plan,
-                                        bool transferred, uint32_t now_us,
-                                        uint8_t with) {
+ * At most three calls a read without MB4_SPI_CHECK_FULL, six with it or unheld. */
+static inline uint8_t mb4_cyclic_finish(mb4_cyclic *read, mb4_plan *plan, bool transferred,
+                                        uint32_t now_us, uint8_t with) {
   const uint8_t stage = read->stage;
   uint8_t code = transferred ? read->code : (uint8_t)MB4_TRANSPORT;
   if (stage == MB4_STAGE_LINES) {
@@ -778,8 +705,7 @@ static inline uint8_t mb4_cyclic_finish(mb4_cyclic *read, mb4_plan *plan,
     return transferred && !idle ? (uint8_t)MB4_LINE_ERROR : code;
   }
   if (stage == MB4_STAGE_END) {
-    /* The release was the last frame. If it was not alone, it may not have been
-     * tried. */
+    /* The release was the last frame. If it was not alone, it may not have been tried. */
     if (!transferred && (plan->frames > 1 || plan->size[0] > 2)) {
       return mb4_cyclic_release(read, plan, code);
     }
@@ -806,8 +732,7 @@ static inline uint8_t mb4_cyclic_finish(mb4_cyclic *read, mb4_plan *plan,
     mb4_cyclic_load(read, plan, frame, &read->low, &read->high);
     code = mb4_cyclic_held(read, plan, with);
   }
-  return code == MB4_MORE ? code
-                          : mb4_cyclic_watch(read, plan, code, now_us, with);
+  return code == MB4_MORE ? code : mb4_cyclic_watch(read, plan, code, now_us, with);
 }
 
 #undef MB4_APART

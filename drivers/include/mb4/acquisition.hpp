@@ -1,12 +1,11 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 
-// The former name of device.hpp for single frames: Device::read_frame() and
-// read_all().
+// The former name of device.hpp for single frames: Device::read_frame() and read_all().
 
 #ifndef MB4_ACQUISITION_HPP_
 #define MB4_ACQUISITION_HPP_
 
 #include "mb4/device.hpp"
 
-#endif // MB4_ACQUISITION_HPP_
+#endif  // MB4_ACQUISITION_HPP_

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Automatic frames (AGS = 1). Reads them so that the bytes of one position
-// always come from one frame.
+// Automatic frames (AGS = 1). Reads them so that the bytes of one position always come from one
+// frame.
 
 #ifndef MB4_AUTOMATIC_HPP_
 #define MB4_AUTOMATIC_HPP_
@@ -23,47 +23,40 @@
 
 namespace mb4 {
 
-// Most SPI transfers of one Automatic::poll_slave(), whatever the chip answers:
-// 8, with SpiCheck::kFull 12, beside a control communication without
-// Config::hold_beside_access.
+// Most SPI transfers of one Automatic::poll_slave(), whatever the chip answers: 8, with
+// SpiCheck::kFull 14, beside a control communication without Config::hold_beside_access.
 inline constexpr unsigned kMaxPollSlaveTransfers = 6;
 // The same with SpiCheck::kFull.
 inline constexpr unsigned kMaxPollSlaveTransfersChecked = 9;
 
-// Automatic frames, at the rate or on the event that Config::frame_start
-// selects (table 44):
+// Automatic frames, at the rate or on the event that Config::frame_start selects (table 44):
 //
 //   device.automatic().start();
-//   device.automatic().poll(frame);    // in an interrupt: the last frame, if
-//   it is new device.automatic().next(frame);    // in a loop: waits for the
-//   next frame
+//   device.automatic().poll(frame);    // in an interrupt: the last frame, if it is new
+//   device.automatic().next(frame);    // in a loop: waits for the next frame
 //
 // Why the bytes of a position belong together:
 //  * HOLDBANK holds the bank while the driver reads it (page 33, table 69).
-//  * HOLDBANK takes effect some system clocks after the write. With SCLK above
-//  2 f_CLK, bytes read
-//    at once could still come from the old bank. So the driver reads the status
-//    between HOLDBANK and the data, which takes at least 48 SCLK periods.
-//  * While a control communication runs, the byte with HOLDBANK has INSTR =
-//  000: INSTR = 100,
-//    written back at the wrong moment, would start the access again. The access
-//    goes on. Where a chip does not allow this (Config::hold_beside_access =
-//    false) the driver reads without HOLDBANK. It drops the data unless SVALID
-//    and nSCDERR prove that no bank was switched, tries once more, and then
-//    reports kBankSwitched. It then reports no kCrc and no dead line.
+//  * HOLDBANK takes effect some system clocks after the write. With SCLK above 2 f_CLK, bytes read
+//    at once could still come from the old bank. So the driver reads the status between HOLDBANK
+//    and the data, which takes at least 48 SCLK periods.
+//  * While a control communication runs, the byte with HOLDBANK has INSTR = 000: INSTR = 100,
+//    written back at the wrong moment, would start the access again. The access goes on. Where a
+//    chip does not allow this (Config::hold_beside_access = false) the driver reads without
+//    HOLDBANK. It drops the data unless SVALID and nSCDERR prove that no bank was switched, tries
+//    once more, and then reports kBankSwitched. It then reports no kCrc and no dead line.
 //
-// Why data is never old: the driver clears SVALID of all enabled slaves after
-// each read. SVALID = 1 therefore means that a frame has ended since then (note
-// of table 61).
-template <typename Bus, typename Clock> class Automatic {
-public:
-  explicit constexpr Automatic(detail::Chip<Bus, Clock> &chip) : chip_(chip) {}
+// Why data is never old: the driver clears SVALID of all enabled slaves after each read. SVALID = 1
+// therefore means that a frame has ended since then (note of table 61).
+template <typename Bus, typename Clock>
+class Automatic {
+ public:
+  explicit constexpr Automatic(detail::Chip<Bus, Clock>& chip) : chip_(chip) {}
 
-  // Sets AGS = 1. One transfer; after a failed read and after stop() 2 more and
-  // 100 us (BREAK, SVALID; BiSS B adds register_timeout_us). Not touched:
-  // kNotConfigured, kWrongMode (AGS is on already), kBusy, kUnsupported with
-  // kSingleBank. Touched: kTransport (AGS may be on; call stop() or start()
-  // again).
+  // Sets AGS = 1. One transfer; after a failed read and after stop() 2 more and 100 us (BREAK,
+  // SVALID; BiSS B adds register_timeout_us).
+  // Not touched: kNotConfigured, kWrongMode (AGS is on already), kBusy, kUnsupported with
+  // kSingleBank. Touched: kTransport (AGS may be on; call stop() or start() again).
   Result<void> start() {
     if (!chip_.configured) {
       return Error::kNotConfigured;
@@ -83,8 +76,7 @@ public:
       }
     }
     chip_.started(chip_.clock->now_us());
-    // The next single frame begins with BREAK, because an automatic frame may
-    // still run then.
+    // The next single frame begins with BREAK, because an automatic frame may still run then.
     chip_.recover_first = true;
     if (const Result<void> on = chip_.write_instruction(kAgs); !on) {
       return on;
@@ -94,9 +86,9 @@ public:
     return {};
   }
 
-  // Sets AGS = 0: the running frame ends normally and no other frame follows.
-  // One transfer. The call is allowed when no frames run. kBusy (not touched);
-  // kTransport (touched, AGS may be on or off).
+  // Sets AGS = 0: the running frame ends normally and no other frame follows. One transfer. The
+  // call is allowed when no frames run. kBusy (not touched); kTransport (touched, AGS may be on or
+  // off).
   Result<void> stop() {
     if (control_runs()) {
       return Error::kBusy;
@@ -107,10 +99,9 @@ public:
     return chip_.write_instruction(0);
   }
 
-  // Starts automatic frames again (table 69): BREAK, 100 us for the slaves'
-  // timeout, SVALID = 0, AGS = 1. BiSS B adds register_timeout_us. Three
-  // transfers. Not for interrupts, because it waits. Errors as of start(), but
-  // AGS may be on.
+  // Starts automatic frames again (table 69): BREAK, 100 us for the slaves' timeout, SVALID = 0,
+  // AGS = 1. BiSS B adds register_timeout_us. Three transfers. Not for interrupts, because it
+  // waits. Errors as of start(), but AGS may be on.
   Result<void> restart() {
     if (control_runs()) {
       return Error::kBusy;
@@ -123,51 +114,46 @@ public:
   // True when the driver has set AGS = 1 and nothing has stopped it.
   [[nodiscard]] bool running() const { return chip_.automatic; }
 
-  // Fetches the last complete frame if it has not been fetched yet. Never
-  // waits. Transfers without SpiCheck::kFull, whatever the chip answers: at
-  // most 5 + n for n enabled slaves, 3 when nothing is new. In order:
+  // Fetches the last complete frame if it has not been fetched yet. Never waits. Transfers without
+  // SpiCheck::kFull, whatever the chip answers: at most 5 + n for n enabled slaves, 3 when nothing
+  // is new. In order:
   //   0x07        HOLDBANK = 1, AGS = 1
   //   0x05        0xF0..0xF4: is a frame new? HOLDBANK takes effect meanwhile
-  //   0x09, 0x03  SCDATA of the enabled slaves, 1..n bursts; only the bytes
-  //   that hold data 0x05        0xF0..0xF4: SVALID after reading (table 69)
+  //   0x09, 0x03  SCDATA of the enabled slaves, 1..n bursts; only the bytes that hold data
+  //   0x05        0xF0..0xF4: SVALID after reading (table 69)
   //   0x02        SVALID of the enabled slaves = 0
   //   0x07        HOLDBANK = 0, AGS = 1; also after a failed transfer
-  // SpiCheck::kFull adds at most n + 2: data again where a stored CRC does not
-  // prove it, and one or two 0x05 after the 0x02. Beside a control
-  // communication without Config::hold_beside_access the order is 0x05, 0x02,
-  // data, 0x05, twice at most: 6 + 2 n, and with kFull 2 n + 2 more.
+  // SpiCheck::kFull adds at most n + 2: data again where a stored CRC does not prove it, and one or
+  // two 0x05 after the 0x02. Beside a control communication without Config::hold_beside_access the
+  // order is 0x05, 0x02, data, 0x05, twice at most: 6 + 2 n, and with kFull 2 n + 2 more.
   //
-  // After a frame with a bad word (nSCDERR = 0) it reads the data of the slaves
-  // without SVALID as well: a stored CRC that fits shows a word that has been
-  // read before. A bad word then gets the CRC that fits, so that it counts
-  // once: one 0x02 more for each. When frames stay away: one 0x05 more, up to
-  // 0xF8.
+  // After a frame with a bad word (nSCDERR = 0) it reads the data of the slaves without SVALID as
+  // well: a stored CRC that fits shows a word that has been read before. A bad word then gets the
+  // CRC that fits, so that it counts once: one 0x02 more for each. When frames stay away: one 0x05
+  // more, up to 0xF8.
   //
-  // An interrupt may call it, if it interrupts no other call on the same
-  // Device. It calls now_us() of the Clock, so this must be safe in the
-  // interrupt too.
+  // An interrupt may call it, if it interrupts no other call on the same Device. It calls now_us()
+  // of the Clock, so this must be safe in the interrupt too.
   //
-  // Success: frame[slave] is a Reading, kNoData (nothing new), kCrc (a bad
-  // frame, told once) or kCorrupted for each enabled slave. With
-  // SpiCheck::kOff, and where the data leaves no room for a CRC, kCrc is told
-  // only together with a good word of another slave, or, if there is no other
-  // slave, by each call until a frame is good. frame.status shows that frames
-  // were omitted (nAGSERR), not how many; frames that later ones have
-  // overwritten are not counted either. The datasheet asks for restart() when
-  // SVALID is 0 although a frame must have ended (table 69). This call does not
-  // restart; next() does.
+  // Success: frame[slave] is a Reading, kNoData (nothing new), kCrc (a bad frame, told once) or
+  // kCorrupted for each enabled slave. With SpiCheck::kOff, and where the data leaves no room for a
+  // CRC, kCrc is told only together with a good word of another slave, and by each call if no good
+  // word of the slave has come for two periods or if there is no other slave. frame.status shows
+  // that frames were omitted (nAGSERR), not how many; frames that later ones have overwritten are
+  // not counted either. The datasheet asks for restart() when SVALID is 0 although a frame must
+  // have ended (table 69). This call does not restart; next() does.
   //
-  // Errors: kWrongMode (automatic frames do not run; not touched), kTransport,
-  // kNotDetected, kBankSwitched; kCorrupted with SpiCheck::kFull. On error
-  // `frame` holds no Reading. kTimeout, kLineError (SL is 0): frames stay away
-  // for more than two periods and 33 us, if the chip has left frames out,
-  // otherwise for 16 periods: a chip that has lost its configuration or its
-  // clock sets no flag. Back to back a period is frame_timeout_us(). Never with
-  // FrameStart::kOnPin. Nothing is changed, and each call says so until a frame
-  // ends: call restart(). A dead line on one channel stops both, see
-  // without_channel(). kCrc, by each call: the same without a stored CRC, if
-  // the last frame was bad and the chip has left none out.
-  Result<void> poll(Frame &frame) {
+  // Errors: kWrongMode (automatic frames do not run; not touched), kTransport, kNotDetected,
+  // kBankSwitched; kCorrupted with SpiCheck::kFull. On error `frame` holds no Reading.
+  // kTimeout, kLineError (SL is 0): frames stay away for more than two periods and the step of
+  // the clock (enc::clock_step_us), if the chip has left frames out, otherwise for 16 periods. With
+  // Config::frame_timeout_us it is that time and one period if this is longer than two: a chip that
+  // has lost its configuration or its clock sets no flag. Back to back a period is
+  // frame_timeout_us(). Never with FrameStart::kOnPin. Nothing is changed, and each call says so
+  // until a frame ends: call restart(). A dead line on one channel stops both, see
+  // without_channel(). kCrc, by each call: the same without a stored CRC, if the last frame was bad
+  // and the chip has left none out.
+  Result<void> poll(Frame& frame) {
     frame.clear();
     if (!chip_.automatic) {
       return Error::kWrongMode;
@@ -182,22 +168,19 @@ public:
     return read;
   }
 
-  // As poll(), for one slave (1..8). At most kMaxPollSlaveTransfers transfers,
-  // with SpiCheck::kFull kMaxPollSlaveTransfersChecked; 3 when nothing is new.
-  // Its code is small and fast, for the interrupt of a control loop. It does
-  // not change SVALID of other slaves.
+  // As poll(), for one slave (1..8). At most kMaxPollSlaveTransfers transfers, with SpiCheck::kFull
+  // kMaxPollSlaveTransfersChecked. Its code is small and fast, for the
+  // interrupt of a control loop. It does not change SVALID of other slaves.
   //
-  // Not touched: kInvalidArgument (the slave is no enabled sensor), kWrongMode
-  // (automatic frames do not run). kNoData: no frame with data of this slave
-  // has ended since the last call. kCrc: one has, and its CRC was wrong; told
-  // once for each frame, without a stored CRC as for poll(). kTimeout,
-  // kLineError, kCorrupted, kTransport, kNotDetected, kBankSwitched as for
-  // poll().
+  // Not touched: kInvalidArgument (the slave is no enabled sensor), kWrongMode (automatic frames do
+  // not run). kNoData: no frame with data of this slave has ended since the last call. kCrc: one
+  // has, and its CRC was wrong; told once for each frame, without a stored CRC as for poll().
+  // kTimeout, kLineError, kCorrupted, kTransport, kNotDetected, kBankSwitched as for poll().
   //
-  // `With` leaves out parts that the configuration does not use: a constant,
-  // MB4_WITH_... of mb4_cyclic.h. poll_slave<0>() is for one slave, BiSS of up
-  // to 32 data bits with SpiCheck::kCrc or kOff and Config::hold_beside_access.
-  // kUnsupported (not touched): the configuration needs such a part.
+  // `With` leaves out parts that the configuration does not use: a constant, MB4_WITH_... of
+  // mb4_cyclic.h. poll_slave<0>() is for one slave, BiSS of up to 32 data bits with SpiCheck::kCrc
+  // or kOff and Config::hold_beside_access. kUnsupported (not touched): the configuration needs
+  // such a part.
   template <std::uint8_t With = MB4_WITH_ALL>
   Result<Reading> poll_slave(std::uint8_t slave) {
     CyclicRead read;
@@ -212,35 +195,32 @@ public:
     return read.result();
   }
 
-  // Begins to read one slave (1..8) without a transfer: the caller makes the
-  // frames of `read` and calls finish() until it returns true. The result is
-  // that of poll_slave(). Most reads are one step of four frames:
+  // Begins to read one slave (1..8) without a transfer: the caller makes the frames of `read` and
+  // calls finish() until it returns true. The result is that of poll_slave(). Most reads are one
+  // step of four frames:
   //   0x07        HOLDBANK = 1, AGS = 1
   //   0x09, 0x03  SCDATA of the slave; only the bytes that hold data
   //   0x05        0xF0..0xF4
   //   0x02        0xF1..0xF4: SVALID of the slave = 0, HOLDBANK = 0, AGS = 1
-  // A bad word needs two more steps, of three frames and two. SpiCheck::kFull
-  // and a control communication without Config::hold_beside_access need up to
-  // six steps, as poll_slave() does: they decide between the transfers.
+  // A bad word needs two more steps, of three frames and two. SpiCheck::kFull and a control
+  // communication without Config::hold_beside_access need up to six steps, as poll_slave() does:
+  // they decide between the transfers.
   //
-  // No other call on the Device may come between this one and the end of the
-  // read. To give up a read, call finish() with transferred = false until it
-  // returns true, without making its frames. Not touched: kInvalidArgument,
-  // kWrongMode, kUnsupported as for poll_slave().
+  // No other call on the Device may come between this one and the end of the read. To give up a
+  // read, call finish() with transferred = false until it returns true, without making its frames.
+  // Not touched: kInvalidArgument, kWrongMode, kUnsupported as for poll_slave().
   template <std::uint8_t With = MB4_WITH_ALL>
-  Result<void> plan_slave(std::uint8_t slave, CyclicRead &read) {
+  Result<void> plan_slave(std::uint8_t slave, CyclicRead& read) {
     return begin(slave, read, chip_.config.spi_check != SpiCheck::kFull, With);
   }
 
-  // Takes what came back. `transferred`: every frame of `read` was made.
-  // `now_us`: the time, as Clock::now_us() counts it. True: the read has ended,
-  // see CyclicRead::result(). False: make the frames that `read` holds now, and
-  // call it again. It makes no transfer and does not ask for the time.
+  // Takes what came back. `transferred`: every frame of `read` was made. `now_us`: the time, as
+  // Clock::now_us() counts it. True: the read has ended, see CyclicRead::result(). False: make the
+  // frames that `read` holds now, and call it again. It makes no transfer and does not ask for the
+  // time.
   template <std::uint8_t With = MB4_WITH_ALL>
-  [[nodiscard]] bool finish(CyclicRead &read, bool transferred,
-                            std::uint32_t now_us) {
-    read.code_ =
-        mb4_cyclic_finish(&read.read_, &read.plan_, transferred, now_us, With);
+  [[nodiscard]] bool finish(CyclicRead& read, bool transferred, std::uint32_t now_us) {
+    read.code_ = mb4_cyclic_finish(&read.read_, &read.plan_, transferred, now_us, With);
     if (read.code_ == MB4_MORE) {
       return false;
     }
@@ -248,16 +228,14 @@ public:
     return true;
   }
 
-  // Device::write_actuator() for a control loop that writes a word for each
-  // frame. Never waits; three transfers, five with SpiCheck::kFull. `word` has
-  // at most data_bits bits. The chip sends the word with the frame after the
-  // one that runs. Only one of the two banks gets the word: if the caller
-  // writes no other word before the frame after that, that frame sends the
-  // previous word.
+  // Device::write_actuator() for a control loop that writes a word for each frame. Never waits;
+  // three transfers, five with SpiCheck::kFull. `word` has at most data_bits bits. The chip sends
+  // the word with the frame after the one that runs. Only one of the two banks gets the word: if
+  // the caller writes no other word before the frame after that, that frame sends the previous
+  // word.
   //
-  // Not touched: kWrongMode (automatic frames do not run), kBusy,
-  // kInvalidArgument. kTransport, kNotDetected, kCorrupted as for
-  // Device::write_actuator().
+  // Not touched: kWrongMode (automatic frames do not run), kBusy, kInvalidArgument. kTransport,
+  // kNotDetected, kCorrupted as for Device::write_actuator().
   Result<void> write_actuator(std::uint8_t slave, std::uint64_t word) {
     if (!chip_.automatic) {
       return Error::kWrongMode;
@@ -268,16 +246,15 @@ public:
     return detail::ActuatorWrite<Bus, Clock>(chip_).write(slave, word, false);
   }
 
-  // Waits for the next new frame, at most frame_timeout_us() plus one frame
-  // period, and fetches it as poll() does. After an error, and after a frame in
-  // which a slave was not good (table 69), the next call begins with restart(),
-  // unless a control communication runs.
+  // Waits for the next new frame, at most frame_timeout_us() plus one frame period, and fetches it
+  // as poll() does. After an error, and after a frame in which a slave was not good (table 69), the
+  // next call begins with restart(), unless a control communication runs.
   //
-  // Errors: kWrongMode (automatic frames do not run; not touched) and those of
-  // poll(). kTimeout, kLineError: no frame has ended in time; BREAK was sent,
-  // which also ends a control communication. kNoData: no pulse at pin GETSENS
-  // in that time (FrameStart::kOnPin); nothing is changed.
-  Result<void> next(Frame &frame) {
+  // Errors: kWrongMode (automatic frames do not run; not touched) and those of poll(). kTimeout,
+  // kLineError: no frame has ended in time; BREAK was sent, which also ends a control
+  // communication. kNoData: no pulse at pin GETSENS in that time (FrameStart::kOnPin); nothing is
+  // changed.
+  Result<void> next(Frame& frame) {
     frame.clear();
     if (!chip_.automatic && !chip_.restart) {
       return Error::kWrongMode;
@@ -294,34 +271,31 @@ public:
     }
     const Result<void> read = poll(frame);
     // kBankSwitched needs no restart.
-    chip_.restart = read ? !frame.good(chip_.sensors)
-                         : read.error() != Error::kBankSwitched;
+    chip_.restart = read ? !frame.good(chip_.sensors) : read.error() != Error::kBankSwitched;
     return read;
   }
 
-private:
+ private:
   static constexpr std::uint8_t kAgs = regs::AGS::encode<1>();
 
-  static Result<void> fetch_all(detail::Chip<Bus, Clock> &chip, void *to,
-                                std::uint16_t missing, std::uint16_t &bad) {
-    detail::FetchedData &data = *static_cast<detail::FetchedData *>(to);
+  static Result<void> fetch_all(detail::Chip<Bus, Clock>& chip, void* to, std::uint16_t missing,
+                                std::uint16_t& bad) {
+    detail::FetchedData& data = *static_cast<detail::FetchedData*>(to);
     const bool news = missing != chip.sensor_flags;
     Result<void> done;
     if (news || chip.config.spi_check != SpiCheck::kOff) {
-      done = detail::fetch_data(chip.opcodes, chip.config, chip.sensor_flags,
-                                data);
+      done = detail::fetch_data(chip.opcodes, chip.config, chip.sensor_flags, data);
     }
     for (std::uint8_t slave = 1; slave <= kSlaves && done; ++slave) {
       if ((missing & flag_of(slave)) != 0) {
-        done = detail::judge(
-            chip, slave, &data.image[regs::scdata_address(slave)], news, bad);
+        done = detail::judge(chip, slave, &data.image[regs::scdata_address(slave)], news, bad);
       }
     }
     chip.watch.taken = news ? 0 : chip.watch.taken;
     return done;
   }
-  [[gnu::noinline]] Result<void> begin(std::uint8_t slave, CyclicRead &read,
-                                       bool chain, std::uint8_t with) {
+  [[gnu::noinline]] Result<void> begin(std::uint8_t slave, CyclicRead& read, bool chain,
+                                       std::uint8_t with) {
     if (!is_in(chip_.sensors, slave)) {
       return Error::kInvalidArgument;
     }
@@ -354,8 +328,7 @@ private:
 
   // Polls until a frame has ended, good or bad.
   Result<void> wait() {
-    detail::Deadline<Clock> deadline(*chip_.clock,
-                                     chip_.frame_us + chip_.pitch_us);
+    detail::Deadline<Clock> deadline(*chip_.clock, chip_.frame_us + chip_.pitch_us);
     bool idle = false;
     for (bool last = false; !last;) {
       last = deadline.last_poll();
@@ -365,10 +338,9 @@ private:
         return look;
       }
       idle = status.idle();
-      // A frame that was bad for all slaves shows only in nSCDERR. The BREAK of
-      // the restart sets nSCDERR to 1 again.
-      if ((status.valid_flags() & chip_.sensor_flags) != 0 ||
-          status.scd_error()) {
+      // A frame that was bad for all slaves shows only in nSCDERR. The BREAK of the restart sets
+      // nSCDERR to 1 again.
+      if ((status.valid_flags() & chip_.sensor_flags) != 0 || status.scd_error()) {
         return {};
       }
     }
@@ -380,9 +352,9 @@ private:
     return stopped;
   }
 
-  detail::Chip<Bus, Clock> &chip_;
+  detail::Chip<Bus, Clock>& chip_;
 };
 
-} // namespace mb4
+}  // namespace mb4
 
-#endif // MB4_AUTOMATIC_HPP_
+#endif  // MB4_AUTOMATIC_HPP_

@@ -16,12 +16,11 @@ struct Command {
   std::uint8_t channels = 1;
   // Addressed slaves: bit n = ID n. 0 = broadcast, which no slave acknowledges.
   std::uint8_t ids = 0;
-  // CMD, 0..3. Broadcast 3 is reserved. Protocol and device define the meaning
-  // of the codes; for example broadcast 0 ends the single-cycle data of all
-  // slaves.
+  // CMD, 0..3. Broadcast 3 is reserved. Protocol and device define the meaning of the codes; for
+  // example broadcast 0 ends the single-cycle data of all slaves.
   std::uint8_t code = 0;
-  // IDA_TEST: the slaves execute only if exactly those addressed have
-  // acknowledged. Not with broadcast.
+  // IDA_TEST: the slaves execute only if exactly those addressed have acknowledged. Not with
+  // broadcast.
   bool test_acknowledge = false;
 };
 
@@ -36,7 +35,7 @@ constexpr std::uint8_t reversed(std::uint8_t bits) {
   return static_cast<std::uint8_t>(out);
 }
 
-} // namespace detail
-} // namespace mb4
+}  // namespace detail
+}  // namespace mb4
 
-#endif // MB4_COMMAND_HPP_
+#endif  // MB4_COMMAND_HPP_

@@ -1,8 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 
-// The configuration: Config, what follows from it, and validate(), its complete
-// check.
+// The configuration: Config, what follows from it, and validate(), its complete check.
 
 #ifndef MB4_CONFIG_HPP_
 #define MB4_CONFIG_HPP_
@@ -14,4 +13,4 @@
 #include "mb4/crc.hpp"
 #include "mb4/frequency.hpp"
 
-#endif // MB4_CONFIG_HPP_
+#endif  // MB4_CONFIG_HPP_

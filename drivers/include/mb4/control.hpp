@@ -22,50 +22,41 @@ namespace mb4 {
 //
 //   device.control().read_registers({1, 0}, 0x78, id);       // channel 1, ID 0
 //
-// A call ends within the time limit of ControlSteps::poll(), whatever chip and
-// slave do.
+// A call ends within the time limit of ControlSteps::poll(), whatever chip and slave do.
 template <typename Bus, typename Clock>
 class Control : public ControlSteps<Bus, Clock> {
   using Steps = ControlSteps<Bus, Clock>;
 
-public:
+ public:
   using Steps::Steps;
 
-  // Reads out.size() (1..128) registers from `address`, in parts of 64; address
-  // + size <= 128. Errors of begin_read(), poll() and take(). After kTransport
-  // and kNotDetected the call has tried to send BREAK. ErrorInfo::bytes counts
-  // over all parts; on error only that many bytes of `out` are valid.
-  Result<void> read_registers(SlaveAddress slave, std::uint8_t address,
-                              Span<std::uint8_t> out) {
-    return in_parts(slave, address, out,
-                    Span<const std::uint8_t>(nullptr, out.size()));
+  // Reads out.size() (1..128) registers from `address`, in parts of 64; address + size <= 128.
+  // Errors of begin_read(), poll() and take(). After kTransport and kNotDetected the call has tried
+  // to send BREAK. ErrorInfo::bytes counts over all parts; on error only that many bytes of `out`
+  // are valid.
+  Result<void> read_registers(SlaveAddress slave, std::uint8_t address, Span<std::uint8_t> out) {
+    return in_parts(slave, address, out, Span<const std::uint8_t>(nullptr, out.size()));
   }
 
-  // Writes data.size() (1..128) registers from `address`, in parts of 64;
-  // address + size <= 128. Errors of begin_write() and poll(), as for
-  // read_registers(). On error the first ErrorInfo::bytes registers are
-  // written, and the next one may be.
+  // Writes data.size() (1..128) registers from `address`, in parts of 64; address + size <= 128.
+  // Errors of begin_write() and poll(), as for read_registers(). On error the first
+  // ErrorInfo::bytes registers are written, and the next one may be.
   Result<void> write_registers(SlaveAddress slave, std::uint8_t address,
                                Span<const std::uint8_t> data) {
     return in_parts(slave, address, Span<std::uint8_t>(), data);
   }
 
-  // Sends a command and waits for its end. Errors of begin_command() and
-  // poll().
-  Result<void> send(const Command &command) {
-    return wait(Steps::begin_command(command));
-  }
+  // Sends a command and waits for its end. Errors of begin_command() and poll().
+  Result<void> send(const Command& command) { return wait(Steps::begin_command(command)); }
 
-private:
-  // Waits for the end of what a begin call has begun; `begun` is the result of
-  // that call. After an error nothing runs. The first error is returned, even
-  // if BREAK fails after it.
-  Result<void> wait(const Result<void> &begun) {
+ private:
+  // Waits for the end of what a begin call has begun; `begun` is the result of that call. After an
+  // error nothing runs. The first error is returned, even if BREAK fails after it.
+  Result<void> wait(const Result<void>& begun) {
     if (!begun && begun.error() != Error::kTransport) {
       return begun;
     }
-    Result<bool> ended =
-        begun ? Result<bool>(false) : Result<bool>(begun.failure());
+    Result<bool> ended = begun ? Result<bool>(false) : Result<bool>(begun.failure());
     while (ended && !*ended) {
       ended = Steps::poll();
     }
@@ -76,8 +67,8 @@ private:
   }
 
   // Reads data.size() registers into `out`; if `out` is empty it writes `data`.
-  Result<void> in_parts(SlaveAddress slave, std::uint8_t address,
-                        Span<std::uint8_t> out, Span<const std::uint8_t> data) {
+  Result<void> in_parts(SlaveAddress slave, std::uint8_t address, Span<std::uint8_t> out,
+                        Span<const std::uint8_t> data) {
     const std::size_t size = data.size();
     if (size > kSlaveRegisters || address + size > kSlaveRegisters) {
       return Error::kInvalidArgument;
@@ -85,13 +76,11 @@ private:
     std::size_t done = 0;
     do {
       const std::size_t left = size - done;
-      const std::size_t count =
-          left < kMaxRegistersPerAccess ? left : kMaxRegistersPerAccess;
+      const std::size_t count = left < kMaxRegistersPerAccess ? left : kMaxRegistersPerAccess;
       const std::uint8_t from = static_cast<std::uint8_t>(address + done);
       Result<void> result =
           wait(out.empty() ? Steps::begin_write(slave, from,
-                                                Span<const std::uint8_t>(
-                                                    data.data() + done, count))
+                                                Span<const std::uint8_t>(data.data() + done, count))
                            : Steps::begin_read(slave, from, count));
       if (result && !out.empty()) {
         result = Steps::take(Span<std::uint8_t>(out.data() + done, count));
@@ -107,6 +96,6 @@ private:
   }
 };
 
-} // namespace mb4
+}  // namespace mb4
 
-#endif // MB4_CONTROL_HPP_
+#endif  // MB4_CONTROL_HPP_

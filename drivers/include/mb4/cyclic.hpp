@@ -1,9 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 
-// One read of a position in steps: the driver plans SPI frames, the caller
-// makes them, by DMA or otherwise, and the driver takes what came back. The
-// code is that of mb4_cyclic.h.
+// One read of a position in steps: the driver plans SPI frames, the caller makes them, by DMA or
+// otherwise, and the driver takes what came back. The code is that of mb4_cyclic.h.
 
 #ifndef MB4_CYCLIC_HPP_
 #define MB4_CYCLIC_HPP_
@@ -21,35 +20,32 @@
 
 namespace mb4 {
 
-// Memory for one read, in the caller's hands: Automatic::plan_slave() begins
-// the read, Automatic::finish() continues it. The object may be used again and
-// again, and must stay where it is until the read has ended. Place it where DMA
-// reaches it; each frame begins at a whole word.
+// Memory for one read, in the caller's hands: Automatic::plan_slave() begins the read,
+// Automatic::finish() continues it. The object may be used again and again, and must stay where it
+// is until the read has ended. Place it where DMA reaches it; each frame begins at a whole word.
 class CyclicRead {
-public:
+ public:
   CyclicRead() = default;
-  CyclicRead(const CyclicRead &) = delete;
-  CyclicRead &operator=(const CyclicRead &) = delete;
+  CyclicRead(const CyclicRead&) = delete;
+  CyclicRead& operator=(const CyclicRead&) = delete;
 
   static constexpr std::size_t kMaxFrames = MB4_PLAN_FRAMES;
   static constexpr std::size_t kMaxFrameBytes = 10;
 
-  // SPI frames to make now, in this order, each with NCS low: tx(i) goes out
-  // while rx(i) comes in. rx(i) is as long as tx(i), or empty for a write. i <
-  // frames() <= kMaxFrames.
+  // SPI frames to make now, in this order, each with NCS low: tx(i) goes out while rx(i) comes in.
+  // rx(i) is as long as tx(i), or empty for a write. i < frames() <= kMaxFrames.
   [[nodiscard]] std::size_t frames() const { return plan_.frames; }
   [[nodiscard]] Span<const std::uint8_t> tx(std::size_t i) const {
     return {plan_.tx[i], plan_.size[i]};
   }
   [[nodiscard]] Span<std::uint8_t> rx(std::size_t i) {
-    return {plan_.rx[i], mb4_plan_reads(&plan_, static_cast<std::uint8_t>(i))
-                             ? plan_.size[i]
-                             : 0U};
+    return {plan_.rx[i], mb4_plan_reads(&plan_, static_cast<std::uint8_t>(i)) ? plan_.size[i] : 0U};
   }
 
-  // Makes the frames on a bus (bus.hpp), one after the other. False: one has
-  // failed, and those after it were not made.
-  template <typename Bus> [[nodiscard]] bool run(Bus &bus) {
+  // Makes the frames on a bus (bus.hpp), one after the other. False: one has failed, and those
+  // after it were not made.
+  template <typename Bus>
+  [[nodiscard]] bool run(Bus& bus) {
     for (std::size_t i = 0; i < frames(); ++i) {
       if (!bus.transfer(tx(i), rx(i))) {
         return false;
@@ -58,12 +54,10 @@ public:
     return true;
   }
 
-  // After finish() has returned true. kNone: position() is new, without the
-  // flag bits. Smaller code than result().
+  // After finish() has returned true. kNone: position() is new, without the flag bits. Smaller code
+  // than result().
   [[nodiscard]] Error error() const { return static_cast<Error>(code_); }
-  [[nodiscard]] std::uint64_t position() const {
-    return read_.reading.position;
-  }
+  [[nodiscard]] std::uint64_t position() const { return read_.reading.position; }
   // nE and nW of the slave, as in a Reading.
   [[nodiscard]] bool slave_error() const { return read_.reading.error; }
   [[nodiscard]] bool slave_warning() const { return read_.reading.warning; }
@@ -73,7 +67,7 @@ public:
     if (code_ != MB4_OK) {
       return static_cast<Error>(code_);
     }
-    const mb4_reading &from = read_.reading;
+    const mb4_reading& from = read_.reading;
     Reading reading;
     reading.raw = from.raw;
     reading.position = from.position;
@@ -85,8 +79,9 @@ public:
     return reading;
   }
 
-private:
-  template <typename Bus, typename Clock> friend class Automatic;
+ private:
+  template <typename Bus, typename Clock>
+  friend class Automatic;
 
   mb4_plan plan_;
   mb4_cyclic read_{};
@@ -96,8 +91,8 @@ private:
 namespace detail {
 
 // `slave` 1..8 of a valid configuration.
-inline void set_word(const Config &config, std::uint8_t slave, mb4_word &word) {
-  const SlaveConfig &from = config.slaves[slave - 1U];
+inline void set_word(const Config& config, std::uint8_t slave, mb4_word& word) {
+  const SlaveConfig& from = config.slaves[slave - 1U];
   mb4_slave_config one{};
   one.data_bits = from.data_bits;
   one.flags = static_cast<std::uint8_t>(from.flags);
@@ -108,8 +103,8 @@ inline void set_word(const Config &config, std::uint8_t slave, mb4_word &word) {
 }
 
 // The parts of the read path, MB4_WITH_..., that `slave` needs.
-constexpr unsigned needed(const Config &config, std::uint8_t slave) {
-  const SlaveConfig &one = config.slaves[slave - 1U];
+constexpr unsigned needed(const Config& config, std::uint8_t slave) {
+  const SlaveConfig& one = config.slaves[slave - 1U];
   unsigned parts = one.data_bits > 32 ? unsigned{MB4_WITH_LONG} : 0U;
   parts |= one.gray ? unsigned{MB4_WITH_GRAY} : 0U;
   parts |= config.spi_check == SpiCheck::kFull ? unsigned{MB4_WITH_FULL} : 0U;
@@ -120,7 +115,7 @@ static_assert(static_cast<int>(Error::kCorrupted) == MB4_CORRUPTED);
 static_assert(static_cast<int>(Error::kBankSwitched) == MB4_BANK_SWITCHED);
 static_assert(static_cast<int>(SpiCheck::kFull) == MB4_SPI_CHECK_FULL);
 
-} // namespace detail
-} // namespace mb4
+}  // namespace detail
+}  // namespace mb4
 
-#endif // MB4_CYCLIC_HPP_
+#endif  // MB4_CYCLIC_HPP_

@@ -35,39 +35,35 @@ namespace mb4 {
 
 // Identity of the chip (tables 41, 42, page 31).
 struct Identity {
-  std::uint8_t version = 0; // 0x84; a regs::DeviceVersion
-  std::uint8_t revision =
-      0; // 0x10 Z, 0x11 Z1, 0x20 Y; probe() accepts every value
+  std::uint8_t version = 0;   // 0x84; a regs::DeviceVersion
+  std::uint8_t revision = 0;  // 0x10 Z, 0x11 Z1, 0x20 Y; probe() accepts every value
 };
 
 // One iC-MB4 or compatible chip on an SPI bus.
 //
-// `Bus` and `Clock` obey the contracts in bus.hpp and outlive the Device. A
-// Device uses no heap and no global state, so a program can have any number of
-// them. Size: a Config, pointers and a few flags.
+// `Bus` and `Clock` obey the contracts in bus.hpp and outlive the Device. A Device uses no heap and
+// no global state, so a program can have any number of them. Size: a Config, pointers and a few
+// flags.
 //
-// Interrupt safety: no call may be interrupted by another call on the same
-// Device, and all calls of one Device belong in one context (main loop or one
-// interrupt). Different devices are independent if their buses are. Calls block
-// until their transfers are done; the comment of each call states the number of
-// transfers.
-template <typename Bus, typename Clock> class Device {
-public:
-  constexpr Device(Bus &bus, Clock &clock)
-      : chip_(bus, clock), fields_(chip_.opcodes) {}
-  // What a Device knows about its chip must exist once: a copy would read a
-  // frame twice, or request one that already runs.
-  Device(const Device &) = delete;
-  Device &operator=(const Device &) = delete;
+// Interrupt safety: no call may be interrupted by another call on the same Device, and all calls
+// of one Device belong in one context (main loop or one interrupt). Different devices are
+// independent if their buses are. Calls block until their transfers are done; the comment of each
+// call states the number of transfers.
+template <typename Bus, typename Clock>
+class Device {
+ public:
+  constexpr Device(Bus& bus, Clock& clock) : chip_(bus, clock), fields_(chip_.opcodes) {}
+  // What a Device knows about its chip must exist once: a copy would read a frame twice, or request
+  // one that already runs.
+  Device(const Device&) = delete;
+  Device& operator=(const Device&) = delete;
 
   // Reads VERSION and REVISION. One transfer, changes nothing.
   // kTransport; kNotDetected: VERSION is not 0x84 (an iC-MB3 says 0x83).
   Result<Identity> probe() {
     std::array<std::uint8_t, 2> bytes{};
     static_assert(regs::kAddrVersion == regs::kAddrRevision + 1);
-    if (const Result<void> read =
-            chip_.opcodes.read_registers(regs::kAddrRevision, bytes);
-        !read) {
+    if (const Result<void> read = chip_.opcodes.read_registers(regs::kAddrRevision, bytes); !read) {
       return read.failure();
     }
     if (bytes[1] != static_cast<std::uint8_t>(regs::DeviceVersion::kIcMb4)) {
@@ -79,21 +75,18 @@ public:
     return identity;
   }
 
-  // Validates `config` completely, then stops all activity of the chip (BREAK,
-  // AGS off), writes all configuration registers, reads them back and compares
-  // them. Three transfers:
+  // Validates `config` completely, then stops all activity of the chip (BREAK, AGS off), writes all
+  // configuration registers, reads them back and compares them. Three transfers:
   //   0x07  0xF4, 0xF5   BREAK, clock source and interface
   //   0x02  0xC0..0xF2   all other registers; clears SVALID 1 to 8
-  //   0x03  0xC0..0xF5   comparison of all bits that can be written, and of
-  //   VERSION
-  // One more before them, which only reads, if actuators are on both channels
-  // and these have frames of different length: VERSION and REVISION. Not
-  // touched: kInvalidConfig. Read only: kInvalidConfig for what this revision
-  // cannot do (validate() with a revision). Touched: kTransport, kNotDetected,
-  // kVerify. After an error that is not "not touched" the Device counts as not
-  // configured. The call ends a frame that runs and starts none: call it at
-  // start-up or between frames.
-  Result<void> configure(const Config &config) {
+  //   0x03  0xC0..0xF5   comparison of all bits that can be written, and of VERSION
+  // One more before them, which only reads, if actuators are on both channels and these have
+  // frames of different length: VERSION and REVISION.
+  // Not touched: kInvalidConfig. Read only: kInvalidConfig for what this revision cannot do
+  // (validate() with a revision). Touched: kTransport, kNotDetected, kVerify. After an error that
+  // is not "not touched" the Device counts as not configured. The call ends a frame that runs and
+  // starts none: call it at start-up or between frames.
+  Result<void> configure(const Config& config) {
     if (const Result<void> valid = validate(config); !valid) {
       return valid;
     }
@@ -108,9 +101,8 @@ public:
         return old;
       }
     }
-    if (const Result<void> written =
-            detail::ImageWriter<Bus, Clock>(chip_).write(
-                encode_registers(config), encode_interface(config));
+    if (const Result<void> written = detail::ImageWriter<Bus, Clock>(chip_).write(
+            encode_registers(config), encode_interface(config));
         !written) {
       return written;
     }
@@ -120,13 +112,11 @@ public:
     chip_.actuators = actuators(config);
     chip_.frame_us = frame_timeout_us(config);
     chip_.pitch_us = detail::frame_pitch_us(config);
-    chip_.needs =
-        (chip_.sensors & (chip_.sensors - 1U)) != 0 ? MB4_WITH_SEVERAL : 0;
+    chip_.needs = (chip_.sensors & (chip_.sensors - 1U)) != 0 ? MB4_WITH_SEVERAL : 0;
     for (std::uint8_t slave = 1; slave <= kSlaves; ++slave) {
       detail::set_word(config, slave, chip_.words[slave - 1U]);
       chip_.needs = static_cast<std::uint8_t>(
-          chip_.needs |
-          (is_in(chip_.sensors, slave) ? detail::needed(config, slave) : 0));
+          chip_.needs | (is_in(chip_.sensors, slave) ? detail::needed(config, slave) : 0));
     }
     chip_.set_watch();
     chip_.configured = true;
@@ -134,11 +124,10 @@ public:
     return {};
   }
 
-  // Reads the configuration back and compares it as configure() does. It finds
-  // a configuration that a disturbed transfer or a supply dip has changed. One
-  // transfer of 56 bytes (0x03 from 0xC0); it changes nothing in the chip. The
-  // registers of control communications are not compared. kNotConfigured (not
-  // touched), kTransport. kNotDetected, kVerify: the Device then counts as not
+  // Reads the configuration back and compares it as configure() does. It finds a configuration that
+  // a disturbed transfer or a supply dip has changed. One transfer of 56 bytes (0x03 from 0xC0); it
+  // changes nothing in the chip. The registers of control communications are not compared.
+  // kNotConfigured (not touched), kTransport. kNotDetected, kVerify: the Device then counts as not
   // configured; call configure() again.
   Result<void> verify() {
     if (!chip_.configured) {
@@ -152,11 +141,10 @@ public:
     return same;
   }
 
-  // Sends BREAK, then writes all registers of the configuration to their value
-  // after power-on (page 21: all 0) and compares them. Three transfers, as
-  // configure(). The data memories keep their contents. kTransport,
-  // kNotDetected, kVerify (touched). After the call, with or without error, the
-  // Device counts as not configured.
+  // Sends BREAK, then writes all registers of the configuration to their value after power-on
+  // (page 21: all 0) and compares them. Three transfers, as configure(). The data memories keep
+  // their contents. kTransport, kNotDetected, kVerify (touched). After the call, with or without
+  // error, the Device counts as not configured.
   Result<void> reset() {
     forget();
     RegisterImage image{};
@@ -164,47 +152,39 @@ public:
     return detail::ImageWriter<Bus, Clock>(chip_).write(image, 0);
   }
 
-  // Runs INIT (page 33): two pulses at MA in BiSS C. The call waits until the
-  // slaves are ready and returns the delay of the lines. Use it at start-up and
-  // after errors: slaves that are in an undefined state become ready. INIT sets
-  // all error flags to 1 and SVALID to 0. Without a BiSS C channel nothing is
-  // measured: in BiSS B INIT is the hand-over, with SSI alone it only resets
+  // Runs INIT (page 33): two pulses at MA in BiSS C. The call waits until the slaves are ready and
+  // returns the delay of the lines. Use it at start-up and after errors: slaves that are in an
+  // undefined state become ready. INIT sets all error flags to 1 and SVALID to 0. Without a BiSS C
+  // channel nothing is measured: in BiSS B INIT is the hand-over, with SSI alone it only resets
   // flags. No automatic frames and no control communication may run.
   //
-  // Transfers: 0x02 twice (SCDATA1, SCDATA5 = 0), with BiSS B 0x02 (0xE5),
-  // 0x07, 0x05 until INIT = 0 and EOT = 1 within 1343 periods of MA (BiSS B
-  // alone: 4096 register clocks) and 200 us, 0x05 until SL is 1, 0x03 for each
-  // channel that is measured, 0x02 (SVALID). SpiCheck::kFull reads some of them
-  // again.
+  // Transfers: 0x02 twice (SCDATA1, SCDATA5 = 0), with BiSS B 0x02 (0xE5), 0x07, 0x05 until INIT =
+  // 0 and EOT = 1 within 1343 periods of MA (BiSS B alone: 4096 register clocks) and 200 us, 0x05
+  // until SL is 1, 0x03 for each channel that is measured, 0x02 (SVALID). SpiCheck::kFull reads
+  // some of them again.
   //
-  // Not touched: kNotConfigured, kWrongMode, kBusy. Touched: kTransport,
-  // kNotDetected; kTimeout (BREAK was sent); kLineDelay: the delay is more than
-  // 255 quarters of a period of MA; kLineError: SL is stuck low, or in BiSS B
-  // no slave has answered; kNoData: nothing was measured, because the chip has
-  // no system clock; kCorrupted.
+  // Not touched: kNotConfigured, kWrongMode, kBusy. Touched: kTransport, kNotDetected; kTimeout
+  // (BREAK was sent); kLineDelay: the delay is more than 255 quarters of a period of MA;
+  // kLineError: SL is stuck low, or in BiSS B no slave has answered; kNoData: nothing was measured,
+  // because the chip has no system clock; kCorrupted.
   Result<LineDelay> initialize() {
     if (const Result<void> allowed = single_frame_allowed(); !allowed) {
       return allowed.failure();
     }
     LineDelay delay;
-    const Result<void> done =
-        detail::Initialization<Bus, Clock>(chip_).run(delay);
+    const Result<void> done = detail::Initialization<Bus, Clock>(chip_).run(delay);
     return done ? Result<LineDelay>(delay) : Result<LineDelay>(done.failure());
   }
 
-  // Requests one frame with CDM = 0, waits for its end and returns the data of
-  // `slave` (1..8, an enabled sensor of the configuration).
+  // Requests one frame with CDM = 0, waits for its end and returns the data of `slave` (1..8, an
+  // enabled sensor of the configuration).
   //
-  // Transfers of a good read: 3 + p, where p >= 1 is the number of status
-  // polls.
-  //  * SpiCheck::kFull adds at most 4: 1 for data again where no stored CRC
-  //  proves it, 1 status
+  // Transfers of a good read: 3 + p, where p >= 1 is the number of status polls.
+  //  * SpiCheck::kFull adds at most 4: 1 for data again where no stored CRC proves it, 1 status
   //    after the data, 1 or 2 after SVALID is cleared.
-  //  * After a failed read that has made a transfer, 2 more and 100 us, because
-  //  its frame may still
+  //  * After a failed read that has made a transfer, 2 more and 100 us, because its frame may still
   //    run. BiSS B adds register_timeout_us.
-  //  * Each poll is 6 bytes. frame_timeout_us(config) limits p: at most 4 t +
-  //  132 polls for t
+  //  * Each poll is 6 bytes. frame_timeout_us(config) limits p: at most 4 t + 132 polls for t
   //    microseconds, even if the clock stands still.
   // In order:
   //   0x07  BREAK, then 100 us for the slaves' timeout  (after a failed read)
@@ -214,12 +194,10 @@ public:
   //   0x09  SCDATA1, 1..8 bytes (0x03 with its address for slaves 2 to 8)
   //   0x02  SVALID of the enabled slaves = 0
   //
-  // Not touched: kNotConfigured, kInvalidArgument, kWrongMode (automatic frames
-  // run), kBusy. Touched: kTransport; kNotDetected (the status cannot come from
-  // an iC-MB4); kTimeout, kLineError (BREAK was sent); kCrc, kNoData,
-  // kCorrupted. The call returns a Reading only for a good frame that began
-  // after this request. Reading::error tells whether the slave trusts its
-  // position.
+  // Not touched: kNotConfigured, kInvalidArgument, kWrongMode (automatic frames run), kBusy.
+  // Touched: kTransport; kNotDetected (the status cannot come from an iC-MB4); kTimeout, kLineError
+  // (BREAK was sent); kCrc, kNoData, kCorrupted. The call returns a Reading only for a good frame
+  // that began after this request. Reading::error tells whether the slave trusts its position.
   //
   // Sets HOLDBANK and SWBANK to 0, as any single frame does.
   Result<Reading> read_frame(std::uint8_t slave = 1) {
@@ -232,38 +210,33 @@ public:
     return detail::SingleShot<Bus, Clock>(chip_).read(slave);
   }
 
-  // Reads all enabled slaves with one frame. Transfers as for read_frame(),
-  // but 1..n for the data of n slaves; SpiCheck::kFull adds up to n. Only bytes
-  // that hold data are read; slaves share a burst where this needs fewer bytes.
-  // No data is read if no slave is good.
+  // Reads all enabled slaves with one frame. Transfers as for read_frame(), but 1..n for the data
+  // of n slaves; SpiCheck::kFull adds up to n. Only bytes that hold data are read; slaves share a
+  // burst where this needs fewer bytes. No data is read if no slave is good.
   //
-  // Success means that the frame has ended; frame[slave] holds the result of
-  // each slave. Errors of the call concern the whole frame: those of
-  // read_frame() except kCrc and kNoData. On error `frame` holds no Reading.
-  Result<void> read_all(Frame &frame) {
+  // Success means that the frame has ended; frame[slave] holds the result of each slave. Errors of
+  // the call concern the whole frame: those of read_frame() except kCrc and kNoData. On error
+  // `frame` holds no Reading.
+  Result<void> read_all(Frame& frame) {
     if (const Result<void> allowed = single_frame_allowed(); !allowed) {
       return allowed.failure();
     }
     return detail::SingleShot<Bus, Clock>(chip_).read_all(frame);
   }
 
-  // Writes the word that the chip sends to the actuator `slave` (1..8) with
-  // each frame, from the next frame on. `word` has at most data_bits bits; the
-  // chip adds stop bit and CRC.
+  // Writes the word that the chip sends to the actuator `slave` (1..8) with each frame, from the
+  // next frame on. `word` has at most data_bits bits; the chip adds stop bit and CRC.
   //
-  // Transfers; SpiCheck::kFull reads back each write, except the last 0x07 of a
-  // bank with automatic frames, by one more:
-  //   without automatic frames  0x02, 0x07, 0x02, 0x07; with single_bank only
-  //   0x02 with automatic frames     0x07, 0x02, 0x07 for one bank; 0x03 until
-  //   the end of a frame has
-  //                             switched the banks, at most frame_timeout_us()
-  //                             plus one frame period; 0x07, 0x02, 0x07 for the
-  //                             other bank
+  // Transfers; SpiCheck::kFull reads back each write, except the last 0x07 of a bank with automatic
+  // frames, by one more:
+  //   without automatic frames  0x02, 0x07, 0x02, 0x07; with single_bank only 0x02
+  //   with automatic frames     0x07, 0x02, 0x07 for one bank; 0x03 until the end of a frame has
+  //                             switched the banks, at most frame_timeout_us() plus one frame
+  //                             period; 0x07, 0x02, 0x07 for the other bank
   //
-  // Not touched: kNotConfigured, kBusy, kInvalidArgument (`slave` is no
-  // actuator, or the word has too many bits). Touched: kTransport,
-  // kNotDetected, kCorrupted; the chip may send the word or not, write it
-  // again.
+  // Not touched: kNotConfigured, kBusy, kInvalidArgument (`slave` is no actuator, or the word has
+  // too many bits). Touched: kTransport, kNotDetected, kCorrupted; the chip may send the word or
+  // not, write it again.
   Result<void> write_actuator(std::uint8_t slave, std::uint64_t word) {
     if (const Result<void> allowed = single_frame_allowed();
         !allowed && allowed.error() != Error::kWrongMode) {
@@ -272,26 +245,24 @@ public:
     return detail::ActuatorWrite<Bus, Clock>(chip_).write(slave, word, true);
   }
 
-  // Writes BREAK (page 33): it aborts a frame, a control communication and AGS
-  // at once; MA and the error flags return to 1. The configuration stays. One
-  // transfer. kTransport. The next read first waits 100 us for the slaves'
-  // timeout.
+  // Writes BREAK (page 33): it aborts a frame, a control communication and AGS at once; MA and the
+  // error flags return to 1. The configuration stays. One transfer. kTransport. The next read first
+  // waits 100 us for the slaves' timeout.
   Result<void> break_transmission() {
     chip_.recover_first = true;
     chip_.restart = false;
     return chip_.write_break();
   }
 
-  // Reads 0xF0..0xF4 in one transfer; changes nothing. kTransport,
-  // kNotDetected.
+  // Reads 0xF0..0xF4 in one transfer; changes nothing. kTransport, kNotDetected.
   Result<Status> read_status() {
     Status status;
     const Result<void> read = chip_.look(status);
     return read ? Result<Status>(status) : Result<Status>(read.failure());
   }
 
-  // Clears SVALIDx of `slave` (1..8) and nothing else. One transfer.
-  // kInvalidArgument (not touched), kTransport.
+  // Clears SVALIDx of `slave` (1..8) and nothing else. One transfer. kInvalidArgument (not
+  // touched), kTransport.
   Result<void> clear_valid(std::uint8_t slave) {
     if (!is_in(0xFF, slave)) {
       return Error::kInvalidArgument;
@@ -299,28 +270,22 @@ public:
     return chip_.clear_valid(flag_of(slave));
   }
 
-  // Automatic frames; see automatic.hpp. The returned object holds only a
+  // Automatic frames; see automatic.hpp. The returned object holds only a reference to this Device.
+  [[nodiscard]] Automatic<Bus, Clock> automatic() { return Automatic<Bus, Clock>(chip_); }
+  // Registers of the slaves and commands; see control.hpp. The returned object holds only a
   // reference to this Device.
-  [[nodiscard]] Automatic<Bus, Clock> automatic() {
-    return Automatic<Bus, Clock>(chip_);
-  }
-  // Registers of the slaves and commands; see control.hpp. The returned object
-  // holds only a reference to this Device.
-  [[nodiscard]] Control<Bus, Clock> control() {
-    return Control<Bus, Clock>(chip_);
-  }
+  [[nodiscard]] Control<Bus, Clock> control() { return Control<Bus, Clock>(chip_); }
 
-  // The lower layers, for what Device does not cover. Their headers state what
-  // they do not protect.
-  [[nodiscard]] Fields<Bus> &fields() { return fields_; }
-  [[nodiscard]] Opcodes<Bus> &opcodes() { return chip_.opcodes; }
+  // The lower layers, for what Device does not cover. Their headers state what they do not protect.
+  [[nodiscard]] Fields<Bus>& fields() { return fields_; }
+  [[nodiscard]] Opcodes<Bus>& opcodes() { return chip_.opcodes; }
 
   // True after a successful configure().
   [[nodiscard]] bool configured() const { return chip_.configured; }
   // The configuration in the chip; meaningful if configured().
-  [[nodiscard]] const Config &config() const { return chip_.config; }
+  [[nodiscard]] const Config& config() const { return chip_.config; }
 
-private:
+ private:
   void forget() {
     chip_.configured = false;
     chip_.automatic = false;
@@ -342,6 +307,6 @@ private:
   Fields<Bus> fields_;
 };
 
-} // namespace mb4
+}  // namespace mb4
 
-#endif // MB4_DEVICE_HPP_
+#endif  // MB4_DEVICE_HPP_

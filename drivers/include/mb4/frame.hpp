@@ -20,23 +20,22 @@ namespace mb4 {
 
 // All slaves of one frame. The caller provides it; about 300 bytes.
 class Frame {
-public:
-  // The result of slave 1..8. It is a Reading or an error: kCrc, kNoData (no
-  // new frame since the last read, or none for this slave), kCorrupted.
-  // kInvalidArgument: the slave is not enabled, it is an actuator, or `slave`
-  // is not 1..8.
-  [[nodiscard]] const Result<Reading> &operator[](std::size_t slave) const {
+ public:
+  // The result of slave 1..8. It is a Reading or an error: kCrc, kNoData (no new frame since the
+  // last read, or none for this slave), kCorrupted. kInvalidArgument: the slave is not enabled, it
+  // is an actuator, or `slave` is not 1..8.
+  [[nodiscard]] const Result<Reading>& operator[](std::size_t slave) const {
     return results_[slave <= kSlaves ? slave : 0];
   }
   // Sets everything to the state after construction.
   void clear() {
-    for (Result<Reading> &result : results_) {
+    for (Result<Reading>& result : results_) {
       result = kNone;
     }
     status = Status();
   }
   // Slave 1..8; nothing happens for other numbers.
-  void set(std::size_t slave, const Result<Reading> &result) {
+  void set(std::size_t slave, const Result<Reading>& result) {
     if (slave - 1 < kSlaves) {
       results_[slave] = result;
     }
@@ -55,13 +54,13 @@ public:
   // Status read after the data.
   Status status;
 
-private:
+ private:
   static constexpr Error kNone = Error::kInvalidArgument;
   // [0] is the answer for a number that is no slave; it never changes.
   std::array<Result<Reading>, kSlaves + 1> results_{
       {kNone, kNone, kNone, kNone, kNone, kNone, kNone, kNone, kNone}};
 };
 
-} // namespace mb4
+}  // namespace mb4
 
-#endif // MB4_FRAME_HPP_
+#endif  // MB4_FRAME_HPP_

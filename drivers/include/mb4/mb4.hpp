@@ -31,4 +31,4 @@
 #include "mb4/status.hpp"
 #include "mb4/version.hpp"
 
-#endif // MB4_MB4_HPP_
+#endif  // MB4_MB4_HPP_

@@ -1,8 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 
-// The driver over the parallel bus: each SPI frame that the driver asks for
-// becomes bus cycles.
+// The driver over the parallel bus: each SPI frame that the driver asks for becomes bus cycles.
 
 #ifndef MB4_PARALLEL_BUS_HPP_
 #define MB4_PARALLEL_BUS_HPP_
@@ -15,31 +14,27 @@
 
 namespace mb4 {
 
-// A bus (bus.hpp) on top of a port that makes single cycles, Intel or Motorola
-// (datasheet pages 9, 10, 17). A type `Port` has
+// A bus (bus.hpp) on top of a port that makes single cycles, Intel or Motorola (datasheet pages 9,
+// 10, 17). A type `Port` has
 //
 //   bool write(std::uint8_t address, std::uint8_t value);
 //   bool read(std::uint8_t address, std::uint8_t& value);
 //
-// * One call is one bus cycle with its address. It returns true when the cycle
-// was made.
-// * The port waits at least five system clocks (0.5 us at 10 MHz, the
-// oscillator's lowest) after a
-//   write to 0xF4 before the next write to 0xF4. The chip takes two closer
-//   writes as one.
-// * On most processors a cycle is one access to memory that is mapped to the
-// chip.
+// * One call is one bus cycle with its address. It returns true when the cycle was made.
+// * The port waits at least five system clocks (0.5 us at 10 MHz, the oscillator's lowest) after a
+//   write to 0xF4 before the next write to 0xF4. The chip takes two closer writes as one.
+// * On most processors a cycle is one access to memory that is mapped to the chip.
 //
-// Unknown opcodes do nothing, as on SPI; addresses wrap after 0xFF. After a
-// failed cycle transfer() returns false at once: the first bytes of a write may
-// have taken effect.
-template <typename Port> class ParallelBus {
-public:
+// Unknown opcodes do nothing, as on SPI; addresses wrap after 0xFF. After a failed cycle transfer()
+// returns false at once: the first bytes of a write may have taken effect.
+template <typename Port>
+class ParallelBus {
+ public:
   // The port must outlive this object.
-  explicit constexpr ParallelBus(Port &port) : port_(&port) {}
+  explicit constexpr ParallelBus(Port& port) : port_(&port) {}
 
   bool transfer(Span<const std::uint8_t> tx, Span<std::uint8_t> rx) {
-    for (std::uint8_t &byte : rx) {
+    for (std::uint8_t& byte : rx) {
       byte = 0;
     }
     if (tx.empty()) {
@@ -49,35 +44,34 @@ public:
     std::size_t first = 1;
     bool reads = false;
     switch (static_cast<regs::SpiOpcode>(tx[0])) {
-    case regs::SpiOpcode::kReadRegisters:
-      reads = true;
-      [[fallthrough]];
-    case regs::SpiOpcode::kWriteRegisters:
-      if (tx.size() < 2) {
+      case regs::SpiOpcode::kReadRegisters:
+        reads = true;
+        [[fallthrough]];
+      case regs::SpiOpcode::kWriteRegisters:
+        if (tx.size() < 2) {
+          return true;
+        }
+        address = tx[1];
+        first = 2;
+        break;
+      case regs::SpiOpcode::kReadStatus:
+        reads = true;
+        address = regs::kAddrStatus0;
+        break;
+      case regs::SpiOpcode::kWriteInstruction:
+        address = regs::kAddrInstr;
+        break;
+      case regs::SpiOpcode::kReadRegisters0:
+        reads = true;
+        break;
+      case regs::SpiOpcode::kWriteRegisters0:
+        break;
+      default:
         return true;
-      }
-      address = tx[1];
-      first = 2;
-      break;
-    case regs::SpiOpcode::kReadStatus:
-      reads = true;
-      address = regs::kAddrStatus0;
-      break;
-    case regs::SpiOpcode::kWriteInstruction:
-      address = regs::kAddrInstr;
-      break;
-    case regs::SpiOpcode::kReadRegisters0:
-      reads = true;
-      break;
-    case regs::SpiOpcode::kWriteRegisters0:
-      break;
-    default:
-      return true;
     }
     for (std::size_t i = first; i < tx.size(); ++i) {
       std::uint8_t value = 0;
-      if (!(reads ? port_->read(address, value)
-                  : port_->write(address, tx[i]))) {
+      if (!(reads ? port_->read(address, value) : port_->write(address, tx[i]))) {
         return false;
       }
       if (reads && i < rx.size()) {
@@ -88,10 +82,10 @@ public:
     return true;
   }
 
-private:
-  Port *port_;
+ private:
+  Port* port_;
 };
 
-} // namespace mb4
+}  // namespace mb4
 
-#endif // MB4_PARALLEL_BUS_HPP_
+#endif  // MB4_PARALLEL_BUS_HPP_

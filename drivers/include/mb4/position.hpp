@@ -1,8 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Arithmetic on positions: sign, Gray code, turns. The contracts:
-// enc/position.hpp.
+// Arithmetic on positions: sign, Gray code, turns. The contracts: enc/position.hpp.
 
 #ifndef MB4_POSITION_HPP_
 #define MB4_POSITION_HPP_
@@ -24,12 +23,11 @@ using enc::Turns;
 
 using PositionTracker = enc::PositionTracker<ErrorInfo>;
 
-[[nodiscard]] constexpr Result<Turns> split_turns(std::uint64_t position,
-                                                  std::uint8_t multi_bits,
+[[nodiscard]] constexpr Result<Turns> split_turns(std::uint64_t position, std::uint8_t multi_bits,
                                                   std::uint8_t single_bits) {
   return enc::split_turns<ErrorInfo>(position, multi_bits, single_bits);
 }
 
-} // namespace mb4
+}  // namespace mb4
 
-#endif // MB4_POSITION_HPP_
+#endif  // MB4_POSITION_HPP_

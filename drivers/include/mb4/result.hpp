@@ -1,8 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 
-// `Result<T>`, which carries either a value or one of the driver's errors:
-// enc/result.hpp.
+// `Result<T>`, which carries either a value or one of the driver's errors: enc/result.hpp.
 
 #ifndef MB4_RESULT_HPP_
 #define MB4_RESULT_HPP_
@@ -14,8 +13,9 @@ namespace mb4 {
 
 using Failure = enc::Failure<ErrorInfo>;
 
-template <typename T> using Result = enc::Result<T, ErrorInfo>;
+template <typename T>
+using Result = enc::Result<T, ErrorInfo>;
 
-} // namespace mb4
+}  // namespace mb4
 
-#endif // MB4_RESULT_HPP_
+#endif  // MB4_RESULT_HPP_

@@ -19,15 +19,13 @@ namespace mb4 {
 
 // Standard registers of a BiSS C slave.
 inline constexpr std::uint8_t kRegisterEdsBank = 0x41;
-inline constexpr std::uint8_t kRegisterDeviceId =
-    0x78; // six bytes, then two of the manufacturer
+inline constexpr std::uint8_t kRegisterDeviceId = 0x78;  // six bytes, then two of the manufacturer
 
-// The identity registers of one slave ID: raw bytes in the order of their
-// addresses.
+// The identity registers of one slave ID: raw bytes in the order of their addresses.
 struct SlaveIdentity {
-  std::array<std::uint8_t, 6> device_id{};    // 0x78..0x7D, ASCII by custom
-  std::array<std::uint8_t, 2> manufacturer{}; // 0x7E, 0x7F
-  std::uint8_t eds_bank = 0; // 0x41: first bank of the electronic data sheet
+  std::array<std::uint8_t, 6> device_id{};     // 0x78..0x7D, ASCII by custom
+  std::array<std::uint8_t, 2> manufacturer{};  // 0x7E, 0x7F
+  std::uint8_t eds_bank = 0;                   // 0x41: first bank of the electronic data sheet
   // False: the slave does not have these registers; the bytes are 0.
   bool has_identity = false;
   // False: no such register, or it says that there is no EDS (0x00, 0xFF).
@@ -36,49 +34,42 @@ struct SlaveIdentity {
 
 namespace detail {
 
-// Reads once more after kRegister without a byte: one disturbed frame must not
-// hide a slave.
+// Reads once more after kRegister without a byte: one disturbed frame must not hide a slave.
 template <typename Device>
-Result<void> read_twice(Device &device, SlaveAddress slave,
-                        std::uint8_t address, Span<std::uint8_t> out) {
-  const Result<void> first =
-      device.control().read_registers(slave, address, out);
-  return first.error() == Error::kRegister
-             ? device.control().read_registers(slave, address, out)
-             : first;
+Result<void> read_twice(Device& device, SlaveAddress slave, std::uint8_t address,
+                        Span<std::uint8_t> out) {
+  const Result<void> first = device.control().read_registers(slave, address, out);
+  return first.error() == Error::kRegister ? device.control().read_registers(slave, address, out)
+                                           : first;
 }
 
-} // namespace detail
+}  // namespace detail
 
-// Reads ID 0, 1, ... of `channel` (1 or 2) until an ID does not answer; IDs
-// have no gaps. Stores the identities of the first out.size() IDs. Returns how
-// many have answered, 0..8. A device with several IDs counts once for each ID.
+// Reads ID 0, 1, ... of `channel` (1 or 2) until an ID does not answer; IDs have no gaps. Stores
+// the identities of the first out.size() IDs. Returns how many have answered, 0..8. A device with
+// several IDs counts once for each ID.
 //
-// The Config of that channel must have the right data lengths. Or no slave is
-// enabled, with Config::hold_cdm and automatic frames of FrameStart::kPeriodic,
-// whose period is longer than the slaves' timeout.
+// The Config of that channel must have the right data lengths. Or no slave is enabled, with
+// Config::hold_cdm and automatic frames of FrameStart::kPeriodic, whose period is longer than the
+// slaves' timeout.
 //
-// Two register accesses for each slave, two more for the end. A register that a
-// slave does not have takes the chip's time limit, about 26 ms at f_MA = 10
-// MHz.
+// Two register accesses for each slave, two more for the end. A register that a slave does not have
+// takes the chip's time limit, about 26 ms at f_MA = 10 MHz.
 //
-// Errors of Control::read_registers(), except kRegisterDelay. kRegister: a
-// slave has answered wrongly twice. kUnsupported also for BiSS B, where a
-// missing slave looks like a slave without the register.
+// Errors of Control::read_registers(), except kRegisterDelay. kRegister: a slave has answered
+// wrongly twice. kUnsupported also for BiSS B, where a missing slave looks like a slave without the
+// register.
 template <typename Device>
-Result<std::uint8_t> scan_bus(Device &device, std::uint8_t channel,
-                              Span<SlaveIdentity> out) {
+Result<std::uint8_t> scan_bus(Device& device, std::uint8_t channel, Span<SlaveIdentity> out) {
   if (channel >= 1 && channel <= kChannels &&
       device.config().channels[channel - 1U].protocol == Protocol::kBissB) {
-    return ErrorInfo(Error::kUnsupported, ConfigField::kChannelProtocol,
-                     channel);
+    return ErrorInfo(Error::kUnsupported, ConfigField::kChannelProtocol, channel);
   }
   for (std::uint8_t id = 0; id < kSlaveIds; ++id) {
     const SlaveAddress slave{channel, id};
     SlaveIdentity identity;
     std::array<std::uint8_t, 8> bytes{};
-    const Result<void> named =
-        detail::read_twice(device, slave, kRegisterDeviceId, bytes);
+    const Result<void> named = detail::read_twice(device, slave, kRegisterDeviceId, bytes);
     if (named.error() == Error::kRegister && named.info().bytes() == 0) {
       return id;
     }
@@ -93,14 +84,12 @@ Result<std::uint8_t> scan_bus(Device &device, std::uint8_t channel,
     for (std::size_t i = 0; i < identity.manufacturer.size(); ++i) {
       identity.manufacturer[i] = bytes[identity.device_id.size() + i];
     }
-    const Result<void> eds =
-        detail::read_twice(device, slave, kRegisterEdsBank,
-                           Span<std::uint8_t>(&identity.eds_bank, 1));
+    const Result<void> eds = detail::read_twice(device, slave, kRegisterEdsBank,
+                                                Span<std::uint8_t>(&identity.eds_bank, 1));
     if (!eds && eds.error() != Error::kRegisterDelay) {
       return eds.failure();
     }
-    identity.has_eds =
-        eds.ok() && identity.eds_bank != 0x00 && identity.eds_bank != 0xFF;
+    identity.has_eds = eds.ok() && identity.eds_bank != 0x00 && identity.eds_bank != 0xFF;
     if (id < out.size()) {
       out[id] = identity;
     }
@@ -108,6 +97,6 @@ Result<std::uint8_t> scan_bus(Device &device, std::uint8_t channel,
   return kSlaveIds;
 }
 
-} // namespace mb4
+}  // namespace mb4
 
-#endif // MB4_SCAN_HPP_
+#endif  // MB4_SCAN_HPP_

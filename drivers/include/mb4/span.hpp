@@ -12,6 +12,6 @@ namespace mb4 {
 
 using enc::Span;
 
-} // namespace mb4
+}  // namespace mb4
 
-#endif // MB4_SPAN_HPP_
+#endif  // MB4_SPAN_HPP_

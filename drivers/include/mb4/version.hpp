@@ -14,6 +14,6 @@ inline constexpr std::uint32_t kDriverVersionMajor = 0;
 inline constexpr std::uint32_t kDriverVersionMinor = 1;
 inline constexpr std::uint32_t kDriverVersionPatch = 0;
 
-} // namespace mb4
+}  // namespace mb4
 
-#endif // MB4_VERSION_HPP_
+#endif  // MB4_VERSION_HPP_

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 
-// The state that all calls on one chip share: bus, clock, configuration, and
-// what the driver knows about the chip.
+// The state that all calls on one chip share: bus, clock, configuration, and what the driver knows
+// about the chip.
 
 #ifndef MB4_DETAIL_CHIP_HPP_
 #define MB4_DETAIL_CHIP_HPP_
@@ -25,126 +25,111 @@ namespace mb4::detail {
 
 using enc::clock_step_us;
 
-// Coarsest step of a time source, that of 32 kHz, and the rounding of its
-// readings (enc/bus.hpp). Two readings may differ by this much more than the
-// time between them. Every wait is longer by it.
+// Coarsest step of a time source, that of 32 kHz, and the rounding of its readings (enc/bus.hpp).
+// Two readings may differ by this much more than the time between them. Every wait is longer by it.
 inline constexpr std::uint32_t kClockStepUs = enc::kMaxClockStepUs;
 
-// Polls of the status that `time_us` (up to 1'000'000'000) may hold. The
-// fastest poll is five cycles of the parallel bus: 0.25 us, because a cycle
-// takes at least 55 ns (I104 to I116).
-constexpr std::uint32_t polls_of(std::uint32_t time_us) {
-  return 4 * (time_us + kClockStepUs);
-}
+// Polls of the status that `time_us` (up to 1'000'000'000) may hold. The fastest poll is five
+// cycles of the parallel bus: 0.25 us, because a cycle takes at least 55 ns (I104 to I116).
+constexpr std::uint32_t polls_of(std::uint32_t time_us) { return 4 * (time_us + kClockStepUs); }
 
-// Ends a polling loop after `timeout_us`, never before. It also counts the
-// polls, so that the loop ends when the time source stands still.
-template <typename Clock> class Deadline {
-public:
-  [[gnu::noinline]] constexpr Deadline(Clock &clock, std::uint32_t timeout_us)
-      : clock_(clock), start_us_(clock.now_us()),
+// Ends a polling loop after `timeout_us`, never before. It also counts the polls, so that the loop
+// ends when the time source stands still.
+template <typename Clock>
+class Deadline {
+ public:
+  [[gnu::noinline]] constexpr Deadline(Clock& clock, std::uint32_t timeout_us)
+      : clock_(clock),
+        start_us_(clock.now_us()),
         timeout_us_(timeout_us + kClockStepUs),
         polls_left_(polls_of(timeout_us)) {}
 
-  // Call it before each poll. The last poll is then made when the time is
-  // already over: a task that was suspended reads the status once more before
-  // it reports a timeout.
+  // Call it before each poll. The last poll is then made when the time is already over: a task that
+  // was suspended reads the status once more before it reports a timeout.
   bool last_poll() {
     --polls_left_;
     return polls_left_ == 0 || clock_.now_us() - start_us_ >= timeout_us_;
   }
 
-private:
-  Clock &clock_;
+ private:
+  Clock& clock_;
   std::uint32_t start_us_;
   std::uint32_t timeout_us_;
   std::uint32_t polls_left_;
 };
 
-// Waits at least `time_us` (up to 4'294'967) without a transfer. A count of
-// calls ends the wait when the time source stands still. Even if a call takes
-// only 1 ns, the count does not end before the time.
-template <typename Clock> void pause(Clock &clock, std::uint32_t time_us) {
+// Waits at least `time_us` (up to 4'294'967) without a transfer. A count of calls ends the wait
+// when the time source stands still. Even if a call takes only 1 ns, the count does not end before
+// the time.
+template <typename Clock>
+void pause(Clock& clock, std::uint32_t time_us) {
   const std::uint32_t start_us = clock.now_us();
   std::uint32_t calls_left = time_us * 1000;
-  while (clock.now_us() - start_us < time_us + kClockStepUs &&
-         --calls_left != 0) {
+  while (clock.now_us() - start_us < time_us + kClockStepUs && --calls_left != 0) {
   }
 }
 
-// Time for a slave whose frame BREAK has ended, until it is ready again. A
-// slave needs its timeout for this; 12.5 to 40 us are common.
+// Time for a slave whose frame BREAK has ended, until it is ready again. A slave needs its timeout
+// for this; 12.5 to 40 us are common.
 inline constexpr std::uint32_t kLineRecoveryUs = 100;
 
-// The control communication that is running, and the registers of the last
-// read.
+// The control communication that is running, and the registers of the last read.
 struct ControlState {
   enum class Kind : std::uint8_t { kNone, kRead, kWrite, kCommand };
 
   Kind kind = Kind::kNone;
-  std::uint8_t readable = 0; // registers that a finished read has left in RDATA
-  std::uint8_t count = 0;    // registers of this access, 1..64
-  bool biss_b = false; // one instruction runs the whole access, without frames
-  bool overwritten =
-      false; // a read of positions has written INSTR = 000 meanwhile
-  bool seen_running = false; // ... and has seen REGEND = 0 since the last poll
-  bool first_frame =
-      false; // REGEND may belong to the access before; BiSS B: not ended yet
-  std::uint32_t start_us =
-      0; // of this frame; with automatic frames of the access
-  std::uint32_t access_us = 0; // start of the access
+  std::uint8_t readable = 0;    // registers that a finished read has left in RDATA
+  std::uint8_t count = 0;       // registers of this access, 1..64
+  bool biss_b = false;          // one instruction runs the whole access, without frames
+  bool overwritten = false;     // a read of positions has written INSTR = 000 meanwhile
+  bool seen_running = false;    // ... and has seen REGEND = 0 since the last poll
+  bool first_frame = false;     // REGEND may belong to the access before; BiSS B: not ended yet
+  std::uint32_t start_us = 0;   // of this frame; with automatic frames of the access
+  std::uint32_t access_us = 0;  // start of the access
   std::uint32_t timeout_us = 0;
-  std::uint32_t frames = 0;     // begun so far, without automatic frames
-  std::uint32_t polls_left = 0; // limit for a time source that stands still
+  std::uint32_t frames = 0;      // begun so far, without automatic frames
+  std::uint32_t polls_left = 0;  // limit for a time source that stands still
 };
 
-template <typename Bus, typename Clock> struct Chip {
-  static_assert(
-      kIsClock<Clock>,
-      "mb4: the Clock type needs 'std::uint32_t now_us()'; see mb4/bus.hpp");
+template <typename Bus, typename Clock>
+struct Chip {
+  static_assert(kIsClock<Clock>,
+                "mb4: the Clock type needs 'std::uint32_t now_us()'; see mb4/bus.hpp");
 
-  constexpr Chip(Bus &bus, Clock &the_clock)
-      : opcodes(bus), clock(&the_clock) {}
+  constexpr Chip(Bus& bus, Clock& the_clock) : opcodes(bus), clock(&the_clock) {}
 
   Opcodes<Bus> opcodes;
-  Clock *clock;
+  Clock* clock;
   Config config{};
-  std::uint8_t sensors =
-      0; // slaves of `config` that deliver data; bit 0 is slave 1
-  std::uint16_t sensor_flags = 0; // the same as flag_of()
-  std::uint8_t actuators =
-      0; // slaves of `config` that take words; bit 0 is slave 1
-  std::array<mb4_word, kSlaves> words{}; // how the data of each slave is read
-  std::uint8_t needs = 0;                // MB4_WITH_..., for any slave
-  mb4_watch watch{};                     // are automatic frames coming?
-  std::uint32_t frame_us = 0;            // frame_timeout_us(), worked out once
-  std::uint32_t pitch_us = 0;            // frame_pitch_us()
+  std::uint8_t sensors = 0;               // slaves of `config` that deliver data; bit 0 is slave 1
+  std::uint16_t sensor_flags = 0;         // the same as flag_of()
+  std::uint8_t actuators = 0;             // slaves of `config` that take words; bit 0 is slave 1
+  std::array<mb4_word, kSlaves> words{};  // how the data of each slave is read
+  std::uint8_t needs = 0;                 // MB4_WITH_..., for any slave
+  mb4_watch watch{};                      // are automatic frames coming?
+  std::uint32_t frame_us = 0;             // frame_timeout_us(), worked out once
+  std::uint32_t pitch_us = 0;             // frame_pitch_us()
   bool configured = false;
   // AGS = 1 was written, and nothing has stopped it.
   bool automatic = false;
-  // A frame may still run and SVALID is unknown: recover() comes before the
-  // next request. Every error after the first transfer of a call sets this
-  // flag.
+  // A frame may still run and SVALID is unknown: recover() comes before the next request. Every
+  // error after the first transfer of a call sets this flag.
   bool recover_first = true;
-  // The caller wants automatic frames, but they need BREAK and a new start
-  // first (table 69).
+  // The caller wants automatic frames, but they need BREAK and a new start first (table 69).
   bool restart = false;
   ControlState control{};
 
-  // Works out when frames have stayed away for too long: Automatic::poll(). A
-  // slave that needs longer than a period says so by Config::frame_timeout_us.
+  // Works out when frames have stayed away for too long: Automatic::poll(). A slave that needs
+  // longer than a period says so by Config::frame_timeout_us.
   void set_watch() {
     const std::uint32_t two_us = 2 * pitch_us;
     const std::uint32_t slow_us = config.frame_timeout_us + pitch_us;
     const bool on_pin = config.frame_start == FrameStart::kOnPin;
-    watch.omitted_us =
-        (two_us > slow_us ? two_us : slow_us) + clock_step_us<Clock>;
+    watch.omitted_us = (two_us > slow_us ? two_us : slow_us) + clock_step_us<Clock>;
     watch.silent_us = on_pin ? 0 : 14 * pitch_us + watch.omitted_us;
     watch.lines = static_cast<std::uint8_t>(
-        (config.channels[0].protocol == Protocol::kUnused ? 0
-                                                          : regs::SL1::kMask) |
-        (config.channels[1].protocol == Protocol::kUnused ? 0
-                                                          : regs::SL2::kMask));
+        (config.channels[0].protocol == Protocol::kUnused ? 0 : regs::SL1::kMask) |
+        (config.channels[1].protocol == Protocol::kUnused ? 0 : regs::SL2::kMask));
     watch.several = (sensors & (sensors - 1U)) != 0;
   }
 
@@ -152,55 +137,47 @@ template <typename Bus, typename Clock> struct Chip {
   void started(std::uint32_t now_us) {
     watch.news_us = now_us;
     watch.taken = 0;
-    for (std::uint32_t &good_us : watch.good_us) {
+    for (std::uint32_t& good_us : watch.good_us) {
       good_us = now_us;
     }
   }
 
   // Reads the status once. kTransport, kNotDetected.
-  Result<void> look(Status &status) {
+  Result<void> look(Status& status) {
     std::array<std::uint8_t, Status::kBytes> bytes{};
     const Result<void> read = opcodes.read_status(bytes);
     status = Status(bytes);
     return read && !status.plausible() ? Error::kNotDetected : read;
   }
 
-  // Writes 0xF4 and no other register. All bits that `instruction` does not set
-  // become 0.
+  // Writes 0xF4 and no other register. All bits that `instruction` does not set become 0.
   Result<void> write_instruction(std::uint8_t instruction) {
     return opcodes.write_instruction(Span<const std::uint8_t>(&instruction, 1));
   }
 
-  // Sends BREAK. After it the chip is idle, AGS is off, MA is 1 and the error
-  // flags are 1.
+  // Sends BREAK. After it the chip is idle, AGS is off, MA is 1 and the error flags are 1.
   Result<void> write_break() {
     automatic = false;
     control.kind = ControlState::Kind::kNone;
     return write_instruction(regs::BREAK::encode<1>());
   }
 
-  // Clears SVALIDx of the slaves in `mask` (flag_of()) in the bank that the
-  // host reads. Writing 0 clears a flag and writing 1 has no effect (page 35,
-  // "reset by writing to the SVALIDx register"), so the flags of other slaves
-  // do not change. One transfer; none if `mask` is 0.
+  // Clears SVALIDx of the slaves in `mask` (flag_of()) in the bank that the host reads.
+  // Writing 0 clears a flag and writing 1 has no effect (page 35, "reset by writing to the SVALIDx
+  // register"), so the flags of other slaves do not change. One transfer; none if `mask` is 0.
   Result<void> clear_valid(std::uint16_t mask) {
     const unsigned keep = ~unsigned{mask};
-    const std::array<std::uint8_t, 2> both{
-        static_cast<std::uint8_t>(keep), static_cast<std::uint8_t>(keep >> 8U)};
-    return mask == 0 ? Result<void>()
-                     : opcodes.write_registers(regs::kAddrSvalidLo, both);
+    const std::array<std::uint8_t, 2> both{static_cast<std::uint8_t>(keep),
+                                           static_cast<std::uint8_t>(keep >> 8U)};
+    return mask == 0 ? Result<void>() : opcodes.write_registers(regs::kAddrSvalidLo, both);
   }
 
-  [[nodiscard]] bool checks_all() const {
-    return config.spi_check == SpiCheck::kFull;
-  }
+  [[nodiscard]] bool checks_all() const { return config.spi_check == SpiCheck::kFull; }
 
-  // As clear_valid(). With SpiCheck::kFull it then reads the status once or
-  // twice until the flags are 0: the chip takes some system clocks to clear
-  // them. kCorrupted: they are still 1.
+  // As clear_valid(). With SpiCheck::kFull it then reads the status once or twice until the flags
+  // are 0: the chip takes some system clocks to clear them. kCorrupted: they are still 1.
   Result<void> clear_valid_checked(std::uint16_t mask) {
-    if (const Result<void> cleared = clear_valid(mask);
-        !cleared || !checks_all()) {
+    if (const Result<void> cleared = clear_valid(mask); !cleared || !checks_all()) {
       return cleared;
     }
     for (unsigned looks = 2; looks > 0; --looks) {
@@ -213,18 +190,15 @@ template <typename Bus, typename Clock> struct Chip {
     return Error::kCorrupted;
   }
 
-  // Sends BREAK, waits for the slaves' timeout, and clears the flags of frames
-  // that ran. With SpiCheck::kFull it also writes 0xF5, the register after
-  // 0xF4: the failed transfer may have been a read of the status that reached
-  // the chip as a write.
+  // Sends BREAK, waits for the slaves' timeout, and clears the flags of frames that ran. With
+  // SpiCheck::kFull it also writes 0xF5, the register after 0xF4: the failed transfer may have been
+  // a read of the status that reached the chip as a write.
   Result<void> recover() {
     automatic = false;
     control.kind = ControlState::Kind::kNone;
-    const std::array<std::uint8_t, 2> bytes{regs::BREAK::encode<1>(),
-                                            encode_interface(config)};
+    const std::array<std::uint8_t, 2> bytes{regs::BREAK::encode<1>(), encode_interface(config)};
     const Span<const std::uint8_t> both(bytes);
-    if (const Result<void> stopped =
-            opcodes.write_instruction(both.first(checks_all() ? 2 : 1));
+    if (const Result<void> stopped = opcodes.write_instruction(both.first(checks_all() ? 2 : 1));
         !stopped) {
       return stopped;
     }
@@ -232,9 +206,8 @@ template <typename Bus, typename Clock> struct Chip {
     return clear_valid(sensor_flags);
   }
 
-  // With SpiCheck::kFull: reads 0xF4 and compares it with `want`, except AGS,
-  // which an error may have ended. One transfer; otherwise none. kCorrupted:
-  // 0xF4 differs. kTransport, kNotDetected.
+  // With SpiCheck::kFull: reads 0xF4 and compares it with `want`, except AGS, which an error may
+  // have ended. One transfer; otherwise none. kCorrupted: 0xF4 differs. kTransport, kNotDetected.
   Result<void> confirm_instruction(std::uint8_t want) {
     if (!checks_all()) {
       return {};
@@ -242,13 +215,10 @@ template <typename Bus, typename Clock> struct Chip {
     Status status;
     const Result<void> read = look(status);
     constexpr std::uint8_t kAgs = regs::AGS::encode<1>();
-    return read && (status.instruction() | kAgs) != (want | kAgs)
-               ? Error::kCorrupted
-               : read;
+    return read && (status.instruction() | kAgs) != (want | kAgs) ? Error::kCorrupted : read;
   }
 
-  // Sends BREAK and returns `cause`. If the transfer fails it returns that
-  // failure instead.
+  // Sends BREAK and returns `cause`. If the transfer fails it returns that failure instead.
   Result<void> stop_frame(Error cause) {
     const Result<void> stopped = write_break();
     return stopped ? Result<void>(cause) : stopped;
@@ -261,16 +231,14 @@ template <typename Bus, typename Clock> struct Chip {
     return line ? Error::kTimeout : line;
   }
 
-  // For a frame that did not end by itself, after BREAK: waits until SL of all
-  // channels in use is 1, which it must be when the slaves' timeout is over.
-  // Success: SL is 1, so no slave has answered. kLineError: a line is stuck
-  // low.
+  // For a frame that did not end by itself, after BREAK: waits until SL of all channels in use is
+  // 1, which it must be when the slaves' timeout is over. Success: SL is 1, so no slave has
+  // answered. kLineError: a line is stuck low.
   Result<void> diagnose_line() {
     Deadline<Clock> deadline(*clock, kLineRecoveryUs);
     for (bool last = false; !last;) {
       last = deadline.last_poll();
-      if (const Result<void> line = look_at_lines();
-          line.error() != Error::kLineError) {
+      if (const Result<void> line = look_at_lines(); line.error() != Error::kLineError) {
         return line;
       }
     }
@@ -279,27 +247,24 @@ template <typename Bus, typename Clock> struct Chip {
 
   // Reads the lines once. kLineError: SL of a channel in use is 0.
   [[gnu::noinline]] Result<void> look_at_lines() {
-    std::array<std::uint8_t, regs::SL1::kAddress - regs::kAddrStatus0 + 1>
-        bytes{};
+    std::array<std::uint8_t, regs::SL1::kAddress - regs::kAddrStatus0 + 1> bytes{};
     const Result<void> read = opcodes.read_status(bytes);
-    return read && !lines_are_high(bytes[bytes.size() - 1]) ? Error::kLineError
-                                                            : read;
+    return read && !lines_are_high(bytes[bytes.size() - 1]) ? Error::kLineError : read;
   }
 
-  // Time from BREAK until all slaves are ready. Slaves of BiSS B may be in
-  // register mode and need longer.
+  // Time from BREAK until all slaves are ready. Slaves of BiSS B may be in register mode and need
+  // longer.
   [[nodiscard]] std::uint32_t recovery_us() const {
-    return any_channel_is(config, Protocol::kBissB)
-               ? kLineRecoveryUs + config.register_timeout_us
-               : kLineRecoveryUs;
+    return any_channel_is(config, Protocol::kBissB) ? kLineRecoveryUs + config.register_timeout_us
+                                                    : kLineRecoveryUs;
   }
 
-private:
+ private:
   [[nodiscard]] bool lines_are_high(std::uint8_t line_status) const {
     return (line_status & watch.lines) == watch.lines;
   }
 };
 
-} // namespace mb4::detail
+}  // namespace mb4::detail
 
-#endif // MB4_DETAIL_CHIP_HPP_
+#endif  // MB4_DETAIL_CHIP_HPP_

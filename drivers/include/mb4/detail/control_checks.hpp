@@ -17,21 +17,20 @@
 
 namespace mb4::detail {
 
-template <typename Bus, typename Clock> class ControlChecks {
-public:
-  explicit constexpr ControlChecks(Chip<Bus, Clock> &chip) : chip_(chip) {}
+template <typename Bus, typename Clock>
+class ControlChecks {
+ public:
+  explicit constexpr ControlChecks(Chip<Bus, Clock>& chip) : chip_(chip) {}
 
-protected:
+ protected:
   // `without`: the protocol that does not have this kind of access.
-  [[nodiscard]] Result<void> check_protocol(std::uint8_t channel,
-                                            Protocol without) const {
+  [[nodiscard]] Result<void> check_protocol(std::uint8_t channel, Protocol without) const {
     const Protocol protocol = chip_.config.channels[channel - 1U].protocol;
     if (protocol == Protocol::kUnused) {
       return Error::kInvalidArgument;
     }
     if (protocol == without) {
-      return ErrorInfo(Error::kUnsupported, ConfigField::kChannelProtocol,
-                       channel);
+      return ErrorInfo(Error::kUnsupported, ConfigField::kChannelProtocol, channel);
     }
     return {};
   }
@@ -47,23 +46,19 @@ protected:
     if (chip_.control.kind != ControlState::Kind::kNone) {
       return Error::kBusy;
     }
-    if (!chip_.automatic &&
-        chip_.config.frame_start != FrameStart::kWaitForLine) {
+    if (!chip_.automatic && chip_.config.frame_start != FrameStart::kWaitForLine) {
       return ErrorInfo(Error::kUnsupported, ConfigField::kFrameStart, 0);
     }
     return {};
   }
 
-  [[nodiscard]] Result<void> check_access(SlaveAddress slave,
-                                          std::uint8_t address,
-                                          std::size_t count,
-                                          Protocol without) const {
+  [[nodiscard]] Result<void> check_access(SlaveAddress slave, std::uint8_t address,
+                                          std::size_t count, Protocol without) const {
     if (const Result<void> free = check_free(); !free) {
       return free;
     }
-    if (slave.channel < 1 || slave.channel > kChannels ||
-        slave.id >= kSlaveIds || count < 1 || count > kMaxRegistersPerAccess ||
-        address + count > kSlaveRegisters) {
+    if (slave.channel < 1 || slave.channel > kChannels || slave.id >= kSlaveIds || count < 1 ||
+        count > kMaxRegistersPerAccess || address + count > kSlaveRegisters) {
       return Error::kInvalidArgument;
     }
     if (is_biss_b(slave.channel)) {
@@ -77,9 +72,9 @@ protected:
     return check_protocol(slave.channel, without);
   }
 
-  Chip<Bus, Clock> &chip_;
+  Chip<Bus, Clock>& chip_;
 };
 
-} // namespace mb4::detail
+}  // namespace mb4::detail
 
-#endif // MB4_DETAIL_CONTROL_CHECKS_HPP_
+#endif  // MB4_DETAIL_CONTROL_CHECKS_HPP_

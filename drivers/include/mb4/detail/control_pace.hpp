@@ -1,8 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 
-// The time and the number of frames that a running control communication has
-// left.
+// The time and the number of frames that a running control communication has left.
 
 #ifndef MB4_DETAIL_CONTROL_PACE_HPP_
 #define MB4_DETAIL_CONTROL_PACE_HPP_
@@ -14,29 +13,26 @@
 
 namespace mb4::detail {
 
-// Starts the time and the count of polls for an access, one of its frames, or
-// the slaves' timeout.
+// Starts the time and the count of polls for an access, one of its frames, or the slaves' timeout.
 template <typename Bus, typename Clock>
-void restart_time(Chip<Bus, Clock> &chip, std::uint32_t timeout_us) {
+void restart_time(Chip<Bus, Clock>& chip, std::uint32_t timeout_us) {
   chip.control.start_us = chip.clock->now_us();
   chip.control.timeout_us = timeout_us + kClockStepUs;
   chip.control.polls_left = polls_of(timeout_us);
 }
 
-// For accesses without automatic frames, where the host sets the pace. True
-// when the access cannot end well any more: all frames that it needs have run
-// and the time of a busy slave is over. A frame takes more than a microsecond,
-// so a clock that stands still ends it too.
+// For accesses without automatic frames, where the host sets the pace. True when the access cannot
+// end well any more: all frames that it needs have run and the time of a busy slave is over. A
+// frame takes more than a microsecond, so a clock that stands still ends it too.
 template <typename Bus, typename Clock>
-[[nodiscard]] bool enough_frames(Chip<Bus, Clock> &chip) {
-  const ControlState &state = chip.control;
+[[nodiscard]] bool enough_frames(Chip<Bus, Clock>& chip) {
+  const ControlState& state = chip.control;
   const std::uint32_t needed = control_frames(state.count);
   return state.frames >= needed &&
          (state.frames - needed > register_busy_us(chip.config) ||
-          chip.clock->now_us() - state.access_us >=
-              control_timeout_us(chip.config, state.count));
+          chip.clock->now_us() - state.access_us >= control_timeout_us(chip.config, state.count));
 }
 
-} // namespace mb4::detail
+}  // namespace mb4::detail
 
-#endif // MB4_DETAIL_CONTROL_PACE_HPP_
+#endif  // MB4_DETAIL_CONTROL_PACE_HPP_

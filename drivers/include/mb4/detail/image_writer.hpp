@@ -16,48 +16,38 @@
 
 namespace mb4::detail {
 
-template <typename Bus, typename Clock> class ImageWriter {
-public:
-  explicit constexpr ImageWriter(Chip<Bus, Clock> &chip) : chip_(chip) {}
+template <typename Bus, typename Clock>
+class ImageWriter {
+ public:
+  explicit constexpr ImageWriter(Chip<Bus, Clock>& chip) : chip_(chip) {}
 
   // Three transfers: BREAK, all registers, comparison.
-  Result<void> write(const RegisterImage &image, std::uint8_t interface_byte) {
-    const std::array<std::uint8_t, 2> stop_and_interface{
-        regs::BREAK::encode<1>(), interface_byte};
-    if (const Result<void> write =
-            chip_.opcodes.write_instruction(stop_and_interface);
-        !write) {
+  Result<void> write(const RegisterImage& image, std::uint8_t interface_byte) {
+    const std::array<std::uint8_t, 2> stop_and_interface{regs::BREAK::encode<1>(), interface_byte};
+    if (const Result<void> write = chip_.opcodes.write_instruction(stop_and_interface); !write) {
       return write;
     }
-    if (const Result<void> write =
-            chip_.opcodes.write_registers(kImageFirst, image);
-        !write) {
+    if (const Result<void> write = chip_.opcodes.write_registers(kImageFirst, image); !write) {
       return write;
     }
     return compare(image, interface_byte, false);
   }
 
-  [[gnu::noinline]] Result<void> compare(const RegisterImage &image,
-                                         std::uint8_t interface_byte,
+  [[gnu::noinline]] Result<void> compare(const RegisterImage& image, std::uint8_t interface_byte,
                                          bool running) {
     std::array<std::uint8_t, regs::kAddrIface - kImageFirst + 1> bytes{};
-    if (const Result<void> read =
-            chip_.opcodes.read_registers(kImageFirst, bytes);
-        !read) {
+    if (const Result<void> read = chip_.opcodes.read_registers(kImageFirst, bytes); !read) {
       return read;
     }
-    // VERSION comes first: without a chip every register differs, and kVerify
-    // would say less.
+    // VERSION comes first: without a chip every register differs, and kVerify would say less.
     if (bytes[regs::kAddrVersion - kImageFirst] !=
         static_cast<std::uint8_t>(regs::DeviceVersion::kIcMb4)) {
       return Error::kNotDetected;
     }
-    for (unsigned address = kImageFirst; address < regs::kAddrStatus0;
-         ++address) {
+    for (unsigned address = kImageFirst; address < regs::kAddrStatus0; ++address) {
       if (is_compared(address, running) &&
           bytes[address - kImageFirst] != image[address - kImageFirst]) {
-        return ErrorInfo::at_register(Error::kVerify,
-                                      static_cast<std::uint8_t>(address));
+        return ErrorInfo::at_register(Error::kVerify, static_cast<std::uint8_t>(address));
       }
     }
     if (bytes[regs::kAddrIface - kImageFirst] != interface_byte) {
@@ -66,21 +56,18 @@ public:
     return {};
   }
 
-private:
-  // REVISION and VERSION are constant. 0xE0, 0xE1 and 0xEE are reserved, and
-  // the datasheet does not say what they read. 0xE2..0xE5 change with each
-  // control communication.
+ private:
+  // REVISION and VERSION are constant. 0xE0, 0xE1 and 0xEE are reserved, and the datasheet does not
+  // say what they read. 0xE2..0xE5 change with each control communication.
   static constexpr bool is_compared(unsigned address, bool running) {
-    const bool control =
-        address >= regs::kAddrRegadr && address <= regs::kAddrCtrl;
-    return !(control && running) && (address < 0xE0 || address > 0xE1) &&
-           address != 0xEE && address != regs::kAddrRevision &&
-           address != regs::kAddrVersion;
+    const bool control = address >= regs::kAddrRegadr && address <= regs::kAddrCtrl;
+    return !(control && running) && (address < 0xE0 || address > 0xE1) && address != 0xEE &&
+           address != regs::kAddrRevision && address != regs::kAddrVersion;
   }
 
-  Chip<Bus, Clock> &chip_;
+  Chip<Bus, Clock>& chip_;
 };
 
-} // namespace mb4::detail
+}  // namespace mb4::detail
 
-#endif // MB4_DETAIL_IMAGE_WRITER_HPP_
+#endif  // MB4_DETAIL_IMAGE_WRITER_HPP_

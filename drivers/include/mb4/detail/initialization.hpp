@@ -1,8 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 
-// INIT, which makes the slaves ready and measures the line delay in BiSS C
-// (pages 32, 33).
+// INIT, which makes the slaves ready and measures the line delay in BiSS C (pages 32, 33).
 
 #ifndef MB4_DETAIL_INITIALIZATION_HPP_
 #define MB4_DETAIL_INITIALIZATION_HPP_
@@ -25,21 +24,20 @@
 namespace mb4::detail {
 
 // Used through Device::initialize(), which documents the errors.
-template <typename Bus, typename Clock> class Initialization {
-public:
-  explicit constexpr Initialization(Chip<Bus, Clock> &chip) : chip_(chip) {}
+template <typename Bus, typename Clock>
+class Initialization {
+ public:
+  explicit constexpr Initialization(Chip<Bus, Clock>& chip) : chip_(chip) {}
 
-  // The chip must be configured, and no frames and no control communication may
-  // run.
-  Result<void> run(LineDelay &delay) {
+  // The chip must be configured, and no frames and no control communication may run.
+  Result<void> run(LineDelay& delay) {
     if (chip_.recover_first) {
       if (const Result<void> recovered = chip_.recover(); !recovered) {
         return recovered;
       }
     }
     chip_.recover_first = true;
-    // SCDATA1 and SCDATA5 become 0, so that an old value cannot look like a new
-    // one.
+    // SCDATA1 and SCDATA5 become 0, so that an old value cannot look like a new one.
     Result<void> done = write_zero(regs::scdata_address(1));
     if (done) {
       done = write_zero(regs::scdata_address(5));
@@ -63,49 +61,42 @@ public:
     return done;
   }
 
-private:
+ private:
   // A register access may have left another protocol in REGVERS.
   Result<void> set_protocol() {
-    const std::uint8_t control =
-        encode_ctrl(chip_.config, only_biss_b(chip_.config));
+    const std::uint8_t control = encode_ctrl(chip_.config, only_biss_b(chip_.config));
     return any_channel_is(chip_.config, Protocol::kBissB)
-               ? write_checked(chip_, regs::kAddrCtrl,
-                               Span<const std::uint8_t>(&control, 1))
+               ? write_checked(chip_, regs::kAddrCtrl, Span<const std::uint8_t>(&control, 1))
                : Result<void>();
   }
 
   Result<void> write_zero(std::uint8_t address) {
     constexpr std::uint8_t kZero = 0;
-    return chip_.opcodes.write_registers(address,
-                                         Span<const std::uint8_t>(&kZero, 1));
+    return chip_.opcodes.write_registers(address, Span<const std::uint8_t>(&kZero, 1));
   }
 
   // SCDATA1 and SCDATA5 (page 33) of the channels that INIT has measured.
-  Result<void> read_delay(unsigned channel, std::uint8_t &quarters) {
+  Result<void> read_delay(unsigned channel, std::uint8_t& quarters) {
     constexpr unsigned kSlavesOfChannel = kSlaves / kChannels;
     const Protocol protocol = chip_.config.channels[channel].protocol;
-    if (!measures() || protocol == Protocol::kUnused ||
-        protocol == Protocol::kSsi) {
+    if (!measures() || protocol == Protocol::kUnused || protocol == Protocol::kSsi) {
       return {};
     }
-    const Result<void> read = read_checked(
-        chip_, regs::scdata_address(1 + channel * kSlavesOfChannel),
-        Span<std::uint8_t>(&quarters, 1));
+    const Result<void> read =
+        read_checked(chip_, regs::scdata_address(1 + channel * kSlavesOfChannel),
+                     Span<std::uint8_t>(&quarters, 1));
     // An ideal line and slave give 1.
     return read && quarters == 0 ? Error::kNoData : read;
   }
 
-  [[nodiscard]] bool measures() const {
-    return any_channel_is(chip_.config, Protocol::kBissC);
-  }
+  [[nodiscard]] bool measures() const { return any_channel_is(chip_.config, Protocol::kBissC); }
 
-  // Longest time of INIT: the limits of the delay and of the slaves' timeout
-  // (docs/choices.md), or, without BiSS C, the limit of the hand-over.
+  // Longest time of INIT: the limits of the delay and of the slaves' timeout (docs/choices.md), or,
+  // without BiSS C, the limit of the hand-over.
   [[nodiscard]] std::uint32_t timeout_us() const {
     constexpr std::uint32_t kPeriods = 255 + 64 + 1024;
-    const Config &config = chip_.config;
-    const std::uint32_t us =
-        measures() ? periods_us(config, kPeriods) : register_limit_us(config);
+    const Config& config = chip_.config;
+    const std::uint32_t us = measures() ? periods_us(config, kPeriods) : register_limit_us(config);
     return with_spread(config, us) + kFrameMarginUs;
   }
 
@@ -122,9 +113,8 @@ private:
         if (status.start_error()) {
           return measures() ? Error::kLineDelay : Error::kLineError;
         }
-        // INIT also ends with a line that is stuck low (page 33), so the line
-        // is checked here. In BiSS B the slaves are in register mode now and
-        // first need their timeout.
+        // INIT also ends with a line that is stuck low (page 33), so the line is checked here. In
+        // BiSS B the slaves are in register mode now and first need their timeout.
         if (!measures()) {
           pause(*chip_.clock, chip_.recovery_us());
         }
@@ -134,9 +124,9 @@ private:
     return chip_.stop_frame(Error::kTimeout);
   }
 
-  Chip<Bus, Clock> &chip_;
+  Chip<Bus, Clock>& chip_;
 };
 
-} // namespace mb4::detail
+}  // namespace mb4::detail
 
-#endif // MB4_DETAIL_INITIALIZATION_HPP_
+#endif  // MB4_DETAIL_INITIALIZATION_HPP_

@@ -21,33 +21,27 @@
 
 namespace mb4::detail {
 
-// Requests one frame by INSTR = 010 (CDM = 0) and fetches the result of one
-// slave or of all. Used through Device::read_frame() and read_all(), which
-// document the errors.
+// Requests one frame by INSTR = 010 (CDM = 0) and fetches the result of one slave or of all. Used
+// through Device::read_frame() and read_all(), which document the errors.
 //
 // Why a value is never old:
-//  * No older frame runs when the driver requests the new one. Otherwise the
-//  chip would ignore the
-//    equal INSTR and deliver the older frame. A good read has seen the end of
-//    its frame, and configure() sends BREAK. After a failed read the frame may
-//    still run, for example if the first status poll has failed; so the next
-//    read sends BREAK first.
-//  * After BREAK the driver waits for the slave's timeout before the request.
-//  Before its timeout
-//    ends, the slave would take the new frame's clock for the rest of the old
-//    frame. Waiting for SL = 1 (FrameStart::kWaitForLine) is not enough,
-//    because a data bit may also make SL = 1.
-//  * SVALID of every enabled slave is cleared before every frame: by the
-//  previous good read, by
+//  * No older frame runs when the driver requests the new one. Otherwise the chip would ignore the
+//    equal INSTR and deliver the older frame. A good read has seen the end of its frame, and
+//    configure() sends BREAK. After a failed read the frame may still run, for example if the first
+//    status poll has failed; so the next read sends BREAK first.
+//  * After BREAK the driver waits for the slave's timeout before the request. Before its timeout
+//    ends, the slave would take the new frame's clock for the rest of the old frame. Waiting for
+//    SL = 1 (FrameStart::kWaitForLine) is not enough, because a data bit may also make SL = 1.
+//  * SVALID of every enabled slave is cleared before every frame: by the previous good read, by
 //    configure(), or after that BREAK.
-//  * The frame has ended when EOT = 1 and INSTR = 0, and the driver uses data
-//  only with
-//    SVALIDx = 1. With two banks the chip switches them at the end of the frame
-//    (page 26). So the host sees data and SVALIDx of this frame, and no later
-//    frame replaces them before the next request.
-template <typename Bus, typename Clock> class SingleShot {
-public:
-  explicit constexpr SingleShot(Chip<Bus, Clock> &chip) : chip_(chip) {}
+//  * The frame has ended when EOT = 1 and INSTR = 0, and the driver uses data only with
+//    SVALIDx = 1. With two banks the chip switches them at the end of the frame (page 26). So the
+//    host sees data and SVALIDx of this frame, and no later frame replaces them before the next
+//    request.
+template <typename Bus, typename Clock>
+class SingleShot {
+ public:
+  explicit constexpr SingleShot(Chip<Bus, Clock>& chip) : chip_(chip) {}
 
   // The chip is configured and `slave` 1..8 delivers data.
   Result<Reading> read(std::uint8_t slave) {
@@ -62,14 +56,13 @@ public:
     const Result<Reading> reading =
         decode(chip_.config, slave, &data.image[regs::scdata_address(slave)],
                (data.stable & flag_of(slave)) != 0);
-    // After kCorrupted the status, which came over the same SPI, is doubtful
-    // too.
+    // After kCorrupted the status, which came over the same SPI, is doubtful too.
     chip_.recover_first = !reading;
     return reading;
   }
 
   // The chip is configured.
-  Result<void> read_all(Frame &frame) {
+  Result<void> read_all(Frame& frame) {
     frame.clear();
     Outcome outcome;
     FetchedData data;
@@ -81,36 +74,30 @@ public:
     return done;
   }
 
-private:
-  // Runs one frame and fetches the data of those slaves of `mask` that are
-  // good.
+ private:
+  // Runs one frame and fetches the data of those slaves of `mask` that are good.
   //
-  // SVALIDx was cleared before the request, so SVALIDx = 1 proves that the
-  // requested frame ran, with any value of nAGSERR. A chip may set nAGSERR = 0
-  // at each write of 0xF4 (page 34 can be read so; AGSERR_ON_INSTR_WRITE = 1).
-  // The driver looks at nAGSERR only if there is no data and nSCDERR = 1;
-  // nSCDERR = 0 shows that a frame ran. On such a chip kNoData appears as
-  // kLineError.
-  Result<void> run(std::uint16_t mask, Outcome &out, FetchedData &data) {
-    Status &status = out.status;
+  // SVALIDx was cleared before the request, so SVALIDx = 1 proves that the requested frame ran,
+  // with any value of nAGSERR. A chip may set nAGSERR = 0 at each write of 0xF4 (page 34 can be
+  // read so; AGSERR_ON_INSTR_WRITE = 1). The driver looks at nAGSERR only if there is no data and
+  // nSCDERR = 1; nSCDERR = 0 shows that a frame ran. On such a chip kNoData appears as kLineError.
+  Result<void> run(std::uint16_t mask, Outcome& out, FetchedData& data) {
+    Status& status = out.status;
     if (const Result<void> ended = run_frame(status); !ended) {
       return ended;
     }
-    // SVALID was cleared before the request, so every slave without it was bad
-    // in this frame.
+    // SVALID was cleared before the request, so every slave without it was bad in this frame.
     out.bad = status.scd_error() ? 0xFFFF : 0;
     const unsigned valid = status.valid_flags() & unsigned{chip_.sensor_flags};
-    // nSCDERR = 0: the CRC of a slave was wrong, and SVALIDx = 0 identifies the
-    // slave (page 34). If every SVALIDx is 1, the chip contradicts itself and
-    // the driver uses no data.
+    // nSCDERR = 0: the CRC of a slave was wrong, and SVALIDx = 0 identifies the slave (page 34). If
+    // every SVALIDx is 1, the chip contradicts itself and the driver uses no data.
     if (!status.scd_error() || valid != chip_.sensor_flags) {
       out.good = static_cast<std::uint16_t>(valid & mask);
     }
     if (out.good == 0) {
-      // Without a sensor only nAGSERR can show a refused frame. With
-      // kWaitForLine the chip refuses no frame.
-      const bool refusable =
-          mask != 0 || chip_.config.frame_start != FrameStart::kWaitForLine;
+      // Without a sensor only nAGSERR can show a refused frame. With kWaitForLine the chip refuses
+      // no frame.
+      const bool refusable = mask != 0 || chip_.config.frame_start != FrameStart::kWaitForLine;
       return refusable && status.start_error() && !status.scd_error()
                  ? chip_.stop_frame(Error::kLineError)
                  : Result<void>();
@@ -119,17 +106,16 @@ private:
     if (done && chip_.checks_all()) {
       Status after;
       done = chip_.look(after);
-      if (done &&
-          (!after.idle() || (out.good & ~unsigned{after.valid_flags()}) != 0)) {
+      if (done && (!after.idle() || (out.good & ~unsigned{after.valid_flags()}) != 0)) {
         return Error::kCorrupted;
       }
     }
     return done ? chip_.clear_valid_checked(chip_.sensor_flags) : done;
   }
 
-  // Requests a frame and polls until it has ended or was refused. Stops the
-  // frame if it does not end in time.
-  Result<void> run_frame(Status &status) {
+  // Requests a frame and polls until it has ended or was refused. Stops the frame if it does not
+  // end in time.
+  Result<void> run_frame(Status& status) {
     if (chip_.recover_first) {
       if (const Result<void> recovered = chip_.recover(); !recovered) {
         return recovered;
@@ -147,23 +133,19 @@ private:
       if (const Result<void> look = chip_.look(status); !look) {
         return look;
       }
-      // EOT = 1 alone does not show the end: EOT is also 1 before the chip has
-      // taken the instruction. A refused frame resets INSTR too; run() finds
-      // it.
+      // EOT = 1 alone does not show the end: EOT is also 1 before the chip has taken the
+      // instruction. A refused frame resets INSTR too; run() finds it.
       if (status.idle() && status.instruction_done()) {
-        // INSTR = 0, but another bit is 1: the chip received another byte than
-        // the one sent.
-        return chip_.checks_all() && status.instruction() != 0
-                   ? Error::kCorrupted
-                   : Error::kNone;
+        // INSTR = 0, but another bit is 1: the chip received another byte than the one sent.
+        return chip_.checks_all() && status.instruction() != 0 ? Error::kCorrupted : Error::kNone;
       }
     }
     return chip_.stop_and_diagnose();
   }
 
-  Chip<Bus, Clock> &chip_;
+  Chip<Bus, Clock>& chip_;
 };
 
-} // namespace mb4::detail
+}  // namespace mb4::detail
 
-#endif // MB4_DETAIL_SINGLE_SHOT_HPP_
+#endif  // MB4_DETAIL_SINGLE_SHOT_HPP_
