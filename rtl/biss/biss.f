@@ -7,6 +7,7 @@ biss_pkg.sv
 biss_timebase.sv
 biss_sl_capture.sv
 biss_sl_sampler.sv
+biss_delay_sampler.sv
 biss_rx_word.sv
 biss_edge_count.sv
 biss_ma_drive.sv

@@ -29,11 +29,13 @@ struct Master {
   unsigned channels;
   unsigned slaves;         // of all channels together
   unsigned slaves_shared;  // of each channel if another channel than the first is in use
+  unsigned chain = 0;      // of a single channel that is in use; 0: as many as `slaves`
   // Limits of f_clk_hz (but 0) and f_osc_hz.
   std::int64_t min_clk_hz;
   std::int64_t max_clk_hz;
   std::int64_t min_osc_hz;
   std::int64_t max_osc_hz;
+  unsigned quirks = 0;  // ChipConfig::quirks without [chip.quirks]
   // Reads [chip.quirks].
   void (*read_quirks)(TomlReader& reader, ChipConfig& chip);
   // Reads the keys of [host] but `interface`, which is known.

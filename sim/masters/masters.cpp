@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
+#include "sim/masters/axi/axi_master.hpp"
 #include "sim/masters/mb4/mb4_master.hpp"
 
 namespace mb4::sim {
@@ -7,7 +8,7 @@ namespace {
 
 // The only list of the masters of this library.
 std::vector<const Master*>& list() {
-  static std::vector<const Master*> all{&kMb4Master};
+  static std::vector<const Master*> all{&kMb4Master, &kAxiMaster};
   return all;
 }
 

@@ -30,6 +30,7 @@ const Master& read_master(const toml::table& table, TomlFile& file) {
 ChipConfig read_chip(const toml::table& table, TomlFile& file, const Master& master) {
   TomlReader reader(table, file);
   ChipConfig chip;
+  chip.quirks = master.quirks;
   if (const auto hz = reader.integer("f_clk_hz", 0, master.max_clk_hz)) {
     if (*hz != 0 && *hz < master.min_clk_hz) {
       reader.fail("f_clk_hz", std::to_string(*hz) + " is below " +
@@ -130,6 +131,7 @@ Scenario parse_scenario(std::string_view text, const std::string& name) {
   const auto* faults = reader.tables("fault");
   reader.finish();
   if (master != nullptr) scenario.master = &read_master(*master, file);
+  scenario.chip.quirks = scenario.master->quirks;
   if (chip != nullptr) scenario.chip = read_chip(*chip, file, *scenario.master);
   const toml::table none;
   scenario.host = read_host(host != nullptr ? *host : none, file, *scenario.master, scenario.chip);

@@ -180,9 +180,11 @@ ChannelConfig read_channel(const toml::table& table, TomlFile& file, const Maste
   read_mo_delay(reader, channel);
   if (const auto* slaves = reader.tables("slave")) {
     for (const auto& node : *slaves) {
-      if (channel.slaves.size() == master.slaves) {
+      const unsigned most = master.chain == 0 ? master.slaves : master.chain;
+      if (channel.slaves.size() == most) {
         reader.fail_at(node.source(), "slave",
-                       "more than " + std::to_string(master.slaves) + " slaves on a channel");
+                       "more than " + std::to_string(most) + (most == 1 ? " slave" : " slaves") +
+                           " on a channel");
       }
       channel.slaves.push_back(read_slave(*node.as_table(), file));
       check_slave(reader, channel, node.source());

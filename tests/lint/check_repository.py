@@ -46,6 +46,7 @@ VERSION_FILE = "CMakeLists.txt"
 VERSION_LINE = r"(?m)^project\(openmb4 VERSION (\d+)\.(\d+)\.(\d+)\b"
 VERSION_COPIES = {
     "openmb4.core": r"(?m)^name: openmb4:ip:mb4:(\d+)\.(\d+)\.(\d+)$",
+    "openmb4-axi.core": r"(?m)^name: openmb4:ip:biss_axi:(\d+)\.(\d+)\.(\d+)$",
     "drivers/include/mb4/version.hpp":
         r"VersionMajor = (\d+);[^;]*VersionMinor = (\d+);[^;]*VersionPatch = (\d+);",
 }

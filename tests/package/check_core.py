@@ -1,8 +1,9 @@
 # SPDX-FileCopyrightText: 2026 The openmb4 authors
 # SPDX-License-Identifier: Apache-2.0
-"""The FuseSoC core file.
+"""The FuseSoC core files.
 
-  check_core.py lists   openmb4.core names the files of rtl/mb4.f in their order
+  check_core.py lists   openmb4.core and openmb4-axi.core name the files of rtl/mb4/mb4.f and
+                        rtl/axi/axi.f in their order
   check_core.py run     runs its targets; skipped without fusesoc (PyPI)
 """
 import re
@@ -20,18 +21,19 @@ import project  # noqa: E402
 SKIPPED = 77
 
 
-def listed():
-    return [path.relative_to(ROOT).as_posix() for path in project.rtl_files()]
+CORES = {"openmb4.core": "mb4/mb4.f", "openmb4-axi.core": "axi/axi.f"}
 
 
 def lists():
-    core = (ROOT / "openmb4.core").read_text()
-    assert core.startswith("CAPI=2:"), "a core file begins with CAPI=2:"
-    named = re.findall(r"(?m)^ +- (\S+\.sv)$", core)
-    assert named == listed(), sorted(set(named) ^ set(listed())) or "another order"
-    for name in re.findall(r"(?m)^ +- ([\w./]+)", core):
-        assert (ROOT / name).is_file(), name
-    print(f"{len(named)} files")
+    for name, rtl in CORES.items():
+        core = (ROOT / name).read_text()
+        assert core.startswith("CAPI=2:"), f"{name}: a core file begins with CAPI=2:"
+        named = re.findall(r"(?m)^ +- (\S+\.sv)$", core)
+        listed = [path.relative_to(ROOT).as_posix() for path in project.listed(project.RTL / rtl)]
+        assert named == listed, f"{name}: {sorted(set(named) ^ set(listed)) or 'another order'}"
+        for file in re.findall(r"(?m)^ +- ([\w./]+)", core):
+            assert (ROOT / file).is_file(), file
+        print(f"{name}: {len(named)} files")
 
 
 def run():

@@ -70,17 +70,19 @@ function(mb4_rtl_sources out)
   set(${out} ${files} PARENT_SCOPE)
 endfunction()
 
-# mb4_verilate(TARGET TOP module [PREFIX class] [TRACE] [SOURCES extra...] [ARGS arg...])
-# Adds the Verilated model of one RTL module to a library.
+# mb4_verilate(TARGET TOP module [PREFIX class] [TRACE] [LIST file.f] [SOURCES extra...]
+#              [ARGS arg...])
+# Adds the Verilated model of one RTL module to a library. LIST names the RTL, by default
+# rtl/mb4/mb4.f.
 #
 # -fno-const-bit-op-tree is not an optimisation choice: without it Verilator 5.006 computes wrong
 # values for XOR trees with inversions (tests/canary shows it).
 function(mb4_verilate target)
-  cmake_parse_arguments(ARG "TRACE" "TOP;PREFIX" "SOURCES;ARGS" ${ARGN})
+  cmake_parse_arguments(ARG "TRACE" "TOP;PREFIX;LIST" "SOURCES;ARGS" ${ARGN})
   if(NOT ARG_PREFIX)
     set(ARG_PREFIX V${ARG_TOP})
   endif()
-  mb4_rtl_sources(sources)
+  mb4_rtl_sources(sources ${ARG_LIST})
   # Verilator gets the folders too, and finds a module by the name of its file. Otherwise a build
   # tree that was made before a file was added would fail before CMake reads the new list.
   set(folders)

@@ -42,6 +42,14 @@ def rtl_files():
     return listed(RTL / "mb4" / "mb4.f")
 
 
+def all_rtl_files():
+    """The files of all masters, each once."""
+    files = rtl_files()
+    for path in sorted(RTL.glob("*/*.f")):
+        files += [other for other in listed(path) if other not in files]
+    return files
+
+
 def listed(path):
     """The files that a list names. Its line -F LIST stands for those of another list."""
     files = []

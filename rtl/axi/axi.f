@@ -1,0 +1,13 @@
+// SPDX-FileCopyrightText: 2026 The openmb4 authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// The BiSS C master with N channels on AXI. Paths are relative to this folder; packages come first.
+-F ../biss/biss.f
+axi_pkg.sv
+../../regmap/generated/axi/axi_regs_pkg.sv
+axi_channel.sv
+axi_start.sv
+axi_regs.sv
+axi_stream.sv
+axi_core.sv
+biss_axi.sv

@@ -1,0 +1,320 @@
+// SPDX-FileCopyrightText: 2026 The openmb4 authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// One channel: MA and SLO of one encoder, from the start of a frame to the end of the encoder's
+// timeout.
+//
+// Clock domain: core. start_i begins a frame on an enabled channel that rests (busy_o = 0); MA
+// falls half an MA period later. frame_o is high while the frame runs, busy_o until the timeout has
+// ended too. The results change only in the last clock of frame_o.
+//
+// MA has as many rising edges as the encoder needs: 5, its processing clocks, and all bits of
+// position, error, warning and CRC. The channel counts edges minus bits that have come before the
+// start bit; at frame_i.edges (4 and the bits) MA stays 1. If more were sent before the start bit
+// came back over a long line, MA stops with the start bit.
+//
+// A frame is bad, and changes neither position nor flags, if
+// - SLO is 0 at start_i (MA does not move; the channel rests at once),
+// - the acknowledge does not come within 1023 clocks, or the start bit not within StartLimit bits,
+// - the CRC is wrong and frame_i.check is 1,
+// - the channel is disabled or clear_i comes while it runs. MA then returns to 1 at the end of a
+//   half period.
+// After a frame SLO = 0 counts as timeout for at most TimeoutLimit clocks.
+//
+// Misuse: start_i while busy_o is 1 does nothing. frame_i must not change while frame_o is 1.
+// Source: hello-fpga BiSS-C master manual 1.1 and 2.4; docs/axi.md.
+
+`include "enc_check.svh"
+
+module axi_channel #(
+  parameter int unsigned StartLimit   = 1024,  // bits, 1 to 4095
+  parameter int unsigned TimeoutLimit = 4000   // clocks, 1 to 4095
+) (
+  input  logic       clk_i,
+  input  logic       rst_ni,
+  // frames
+  input  axi_pkg::frame_t frame_i,
+  input  logic       clear_i,           // soft reset
+  input  logic       enabled_i,
+  input  logic       start_i,
+  input  logic       request_i,         // with start_i: clears single_valid_o
+  // time base
+  input  logic       tick_i,
+  input  logic       half_next_i,
+  // results
+  output logic       busy_o,
+  output logic       frame_o,
+  output logic       single_valid_o,
+  output axi_pkg::result_t result_o,
+  output axi_pkg::word_t   word_o,
+  // pins
+  output logic       ma_o,
+  input  logic       slo_i
+);
+
+  localparam logic [11:0] START_LAST   = 12'(StartLimit - 1);
+  localparam logic [11:0] TIMEOUT_LAST = 12'(TimeoutLimit - 1);
+  localparam logic [11:0] CRC_LAST     = 12'd5;
+
+`ifndef __ICARUS__  // Icarus 11 knows no $error here
+  if (StartLimit < 1 || StartLimit > 4095 || TimeoutLimit < 1 || TimeoutLimit > 4095)
+  begin : gen_limits
+    $error("StartLimit and TimeoutLimit are 1 to 4095");
+  end
+`endif
+
+  typedef enum logic [3:0] {
+    IDLE,
+    REQUEST,
+    ACK,
+    START,
+    CDS,
+    DATA,
+    CRC,
+    STOP,
+    TIMEOUT
+  } state_e;
+
+  state_e      state_d;
+  state_e      state_q;
+  logic        first_q;        // one rising MA edge has come
+  logic [11:0] count_d;
+  logic [11:0] count_q;        // bits of a part, or clocks of the timeout
+  logic [6:0]  ahead_d;
+  logic [6:0]  ahead_q;        // rising MA edges minus bits before the start bit
+  logic        all_sent;       // ahead_q has reached frame_i.edges
+  logic        enough;
+  logic [33:0] shift_q;        // position, error, warning
+  logic [5:0]  received_q;
+  logic [5:0]  calculated_q;
+  logic        fits_q;         // the CRC bits so far fit
+  logic        ended_q;        // the last CRC bit has been taken
+  logic        begin_frame;
+  logic        no_ack;
+  logic        no_start;
+  logic        fail;           // the frame ends as a bad one
+  logic        running;        // the frame waits for bits
+  logic        sl, ack, late, bit_valid, sl_bit;
+  logic [9:0]  delay;
+  logic        rise, ma_clocks, ma, unused_released;
+  logic        crc_top;
+  logic        good;
+  axi_pkg::result_t result_q;
+  axi_pkg::word_t   word_q;
+  logic        single_valid_q;
+
+  biss_delay_sampler u_sampler (
+    .clk_i,
+    .rst_ni,
+    .sl_i        (slo_i),
+    .half_len_i  (frame_i.half_len),
+    .clear_i     (start_i),
+    .armed_i     (state_q == ACK),
+    .sl_o        (sl),
+    .ack_o       (ack),
+    .delay_o     (delay),
+    .late_o      (late),
+    .bit_valid_o (bit_valid),
+    .bit_o       (sl_bit)
+  );
+
+  biss_ma_drive u_ma (
+    .clk_i,
+    .rst_ni,
+    .por_ni        (rst_ni),
+    .tick_i,
+    .half_next_i,
+    .start_i,
+    .begin_i       (begin_frame && sl),
+    .clocked_i     (1'b1),
+    .stop_i        (fail),
+    .enough_i      (enough),
+    .cdm_i         (1'b0),
+    .high_i        (state_q == TIMEOUT),
+    .register_i    (1'b0),
+    .register_ma_i (1'b1),
+    .force_i       (1'b0),
+    .force_level_i (1'b1),
+    .released_o    (unused_released),
+    .rise_o        (rise),
+    .clocking_o    (ma_clocks),
+    .ma_o          (ma)
+  );
+
+  enc_crc #(.Free(1'b0)) u_crc (
+    .clk_i,
+    .rst_ni,
+    .crc16_i (1'b0),
+    .poly_i  (8'h43),
+    .top_i   (8'h20),
+    .start_i (16'h0000),
+    .load_i  (state_q == CDS),
+    .shift_i (bit_valid),
+    .feed_i  (state_q == DATA),
+    .bit_i   (sl_bit),
+    .top_o   (crc_top)
+  );
+
+  assign begin_frame = start_i && enabled_i && state_q == IDLE;
+  assign running     = state_q != IDLE && state_q != TIMEOUT && state_q != STOP;
+  assign no_ack      = state_q == ACK && !ack && late;
+  assign no_start    = state_q == START && bit_valid && !sl_bit && count_q == START_LAST;
+  assign fail        = no_ack || no_start || (running && (clear_i || !enabled_i));
+  assign all_sent    = ahead_q == frame_i.edges;
+  assign enough      = all_sent && (state_q == CDS || state_q == DATA || state_q == CRC ||
+                                    state_q == STOP || state_q == TIMEOUT);
+
+  always_comb begin
+    state_d = state_q;
+    count_d = count_q;
+    unique case (state_q)
+      IDLE: begin
+        // MA and SLO are 1.
+        if (begin_frame && sl) state_d = REQUEST;
+      end
+      REQUEST: begin
+        // The encoder latches at the first rising edge of MA and acknowledges the second one.
+        if (rise && first_q) state_d = ACK;
+      end
+      ACK: begin
+        // SLO is still 1: the acknowledge is on its way.
+        count_d = '0;
+        if (ack) state_d = START;
+      end
+      START: begin
+        // SLO is 0 for as long as the encoder processes, then 1 for one bit.
+        if (bit_valid) begin
+          count_d = count_q + 12'd1;
+          if (sl_bit) state_d = CDS;
+        end
+      end
+      CDS: begin
+        // The bit behind the start bit.
+        count_d = '0;
+        if (bit_valid) state_d = DATA;
+      end
+      DATA: begin
+        // Position, error, warning.
+        if (bit_valid) begin
+          count_d = count_q + 12'd1;
+          if (count_q[6:0] == frame_i.data_last) begin
+            state_d = CRC;
+            count_d = '0;
+          end
+        end
+      end
+      CRC: begin
+        if (bit_valid) begin
+          count_d = count_q + 12'd1;
+          if (count_q == CRC_LAST) state_d = STOP;
+        end
+      end
+      STOP: begin
+        // SLO falls with the last edge of MA. Before that its level is the last CRC bit.
+        count_d = '0;
+        if (bit_valid) state_d = TIMEOUT;
+      end
+      TIMEOUT: begin
+        // SLO is 0 until the encoder is ready.
+        count_d = count_q + 12'(count_q != TIMEOUT_LAST);
+        if ((sl || count_q == TIMEOUT_LAST) && !ma_clocks && ma) state_d = IDLE;
+      end
+      default: state_d = IDLE;
+    endcase
+    if (fail) begin
+      state_d = TIMEOUT;
+      count_d = '0;
+    end
+  end
+
+  always_comb begin
+    ahead_d = ahead_q;
+    if (state_q == START && bit_valid && !sl_bit) begin
+      if (!rise) ahead_d = ahead_q - 7'd1;
+    end else if (rise && !all_sent) begin
+      ahead_d = ahead_q + 7'd1;
+    end
+    if (start_i) ahead_d = '0;
+  end
+
+  assign good = fits_q || !frame_i.check;
+
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      state_q <= IDLE;
+      first_q <= 1'b0;
+      count_q <= '0;
+      ahead_q <= '0;
+      ended_q <= 1'b0;
+    end else begin
+      state_q <= state_d;
+      first_q <= state_q == REQUEST && (first_q || rise);
+      count_q <= count_d;
+      ahead_q <= ahead_d;
+      ended_q <= state_q == CRC && state_d == STOP;
+    end
+  end
+
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      shift_q      <= '0;
+      received_q   <= '0;
+      calculated_q <= '0;
+      fits_q       <= 1'b0;
+    end else begin
+      if (state_q == CDS)                    shift_q <= '0;
+      else if (bit_valid && state_q == DATA) shift_q <= {shift_q[32:0], sl_bit};
+      if (state_q == CDS) fits_q <= 1'b1;
+      else if (bit_valid && state_q == CRC) fits_q <= fits_q && sl_bit != crc_top;
+      if (bit_valid && state_q == CRC) begin
+        received_q   <= {received_q[4:0], sl_bit};
+        calculated_q <= {calculated_q[4:0], !crc_top};
+      end
+    end
+  end
+
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      result_q       <= '0;
+      word_q         <= '0;
+      word_q.nerr    <= 1'b1;
+      word_q.nwarn   <= 1'b1;
+      single_valid_q <= 1'b0;
+    end else begin
+      if (clear_i) begin
+        result_q <= '0;
+      end else begin
+        if (ended_q || no_ack) result_q.delay <= delay;
+        if (ended_q) begin
+          result_q.received   <= received_q;
+          result_q.calculated <= calculated_q;
+        end
+        if (ended_q && good && frame_i.single) result_q.single <= shift_q[33:2];
+      end
+      if (clear_i || !enabled_i)  word_q.position <= '0;
+      else if (ended_q && good)   word_q.position <= shift_q[33:2];
+      if (clear_i) begin
+        word_q.nerr  <= 1'b1;
+        word_q.nwarn <= 1'b1;
+      end else if (ended_q && good) begin
+        word_q.nerr  <= shift_q[1];
+        word_q.nwarn <= shift_q[0];
+      end
+      word_q.good    <= !clear_i && !start_i && (ended_q ? good : word_q.good);
+      word_q.crc_bad <= !clear_i && !start_i && (ended_q ? !fits_q : word_q.crc_bad);
+      single_valid_q <= !clear_i && !(start_i && request_i) &&
+                        (single_valid_q || (ended_q && good && frame_i.single));
+    end
+  end
+
+  assign busy_o         = state_q != IDLE;
+  assign frame_o        = running || ended_q;
+  assign single_valid_o = single_valid_q;
+  assign result_o       = result_q;
+  assign word_o         = word_q;
+  assign ma_o           = ma;
+
+  `ENC_ASSERT(StateInRange_A, clk_i, rst_ni, state_q <= TIMEOUT)
+  `ENC_ASSERT_IF(RestIsHigh_A, clk_i, rst_ni, state_q == IDLE, ma && !ma_clocks)
+
+endmodule

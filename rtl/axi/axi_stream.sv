@@ -1,0 +1,123 @@
+// SPDX-FileCopyrightText: 2026 The openmb4 authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Words of all channels as an AXI4-Stream.
+//
+// Clock domain: core. done_i says that all enabled channels have ended their frames.
+//
+// Mode 0: one beat for each read, in the next clock, 32 bits for each channel (channel 0 lowest).
+//   s_axis_tready does not count. TLAST is 1. TUSER has a bit for each channel: 1 = its word is of
+//   this frame and good. Bits of a disabled channel are 0.
+// Mode 1: one beat for each enabled channel in ascending order, the first 2 clocks after done_i,
+//   one channel a clock. TLAST comes with the last one. TUSER: 0 good, 1 nE, 2 nW, 3 CRC wrong,
+//   15..8 channel.
+//   Beats that the sink does not take wait in a FIFO. overrun_o is high for one clock if one was
+//   lost because the FIFO was full.
+//
+// A word that is not good holds the position of the last good frame.
+//
+// Misuse: a channel that is enabled or disabled between done_i and its beat is sent or left out.
+// Source: hello-fpga BiSS-C master manual 2.3.2; docs/axi.md.
+
+module axi_stream #(
+  parameter int unsigned Channels = 1,
+  parameter int unsigned Mode     = 0,
+  parameter int unsigned DataW    = 32 * Channels,  // mode 0: 32 * Channels; mode 1: 32 or 64
+  parameter int unsigned UserW    = Channels,  // mode 0: Channels; mode 1: 16
+  parameter int unsigned Depth    = 16   // of the FIFO of mode 1
+) (
+  input  logic                clk_i,
+  input  logic                rst_ni,
+  input  logic                clear_i,
+  input  logic                done_i,
+  input  logic [Channels-1:0] enabled_i,
+  input  logic [Channels*axi_pkg::WORD_W-1:0] words_i,
+  output logic                overrun_o,
+  // AXI4-Stream
+  output logic                s_axis_tvalid,
+  input  logic                s_axis_tready,
+  output logic [DataW-1:0]    s_axis_tdata,
+  output logic [UserW-1:0]    s_axis_tuser,
+  output logic                s_axis_tlast
+);
+
+  if (Mode == 0) begin : gen_one_beat
+    logic                valid_q;
+    logic [Channels-1:0] user_q;
+    logic [Channels-1:0] good;
+    logic                unused;
+
+    for (genvar i = 0; i < Channels; i++) begin : gen_channel
+      localparam int unsigned AT = i * axi_pkg::WORD_W;
+      assign s_axis_tdata[i*32 +: 32] = words_i[AT + axi_pkg::WORD_POSITION +: 32];
+      assign good[i]                  = words_i[AT + axi_pkg::WORD_GOOD];
+    end
+
+    always_ff @(posedge clk_i or negedge rst_ni) begin
+      if (!rst_ni) begin
+        valid_q <= 1'b0;
+        user_q  <= '0;
+      end else begin
+        valid_q <= done_i && !clear_i;
+        if (done_i) user_q <= good & enabled_i;
+      end
+    end
+
+    assign unused        = s_axis_tready ^ (^words_i);
+    assign overrun_o     = 1'b0;
+    assign s_axis_tvalid = valid_q;
+    assign s_axis_tuser  = user_q;
+    assign s_axis_tlast  = 1'b1;
+  end else begin : gen_beats
+    localparam int unsigned INDEX_W = Channels > 1 ? $clog2(Channels) : 1;
+
+    logic               run_q;
+    logic [INDEX_W-1:0] index_q;
+    logic               last_index;
+    logic               now;        // the channel is enabled
+    logic               later;      // one of the channels behind it is
+    logic [axi_pkg::WORD_W-1:0] word;
+
+    assign last_index = index_q == INDEX_W'(Channels - 1);
+
+    always_comb begin
+      word  = '0;
+      now   = 1'b0;
+      later = 1'b0;
+      for (int unsigned i = 0; i < Channels; i++) begin
+        if (index_q == INDEX_W'(i)) begin
+          word = words_i[i*axi_pkg::WORD_W +: axi_pkg::WORD_W];
+          now  = enabled_i[i];
+        end
+        if (index_q < INDEX_W'(i)) later = later || enabled_i[i];
+      end
+    end
+
+    always_ff @(posedge clk_i or negedge rst_ni) begin
+      if (!rst_ni) begin
+        run_q   <= 1'b0;
+        index_q <= '0;
+      end else begin
+        run_q   <= !clear_i && (done_i || (run_q && !last_index));
+        index_q <= (run_q && !last_index) ? index_q + INDEX_W'(1) : '0;
+      end
+    end
+
+    enc_axis_fifo #(.DataW(DataW), .UserW(UserW), .Depth(Depth)) u_fifo (
+      .clk_i,
+      .rst_ni,
+      .clear_i,
+      .push_i    (run_q && now),
+      .data_i    (DataW'(word[axi_pkg::WORD_POSITION +: 32])),
+      .user_i    ({8'(index_q), 4'd0, word[axi_pkg::WORD_POSITION-1:0]}),
+      .last_i    (!later),
+      .overrun_o,
+      .m_axis_tvalid (s_axis_tvalid),
+      .m_axis_tready (s_axis_tready),
+      .m_axis_tdata  (s_axis_tdata),
+      .m_axis_tuser  (s_axis_tuser),
+      .m_axis_tlast  (s_axis_tlast)
+    );
+  end
+
+endmodule

@@ -1,0 +1,70 @@
+// SPDX-FileCopyrightText: 2026 The openmb4 authors
+// SPDX-License-Identifier: Apache-2.0
+#include "sim/masters/axi/axi_master.hpp"
+
+#include <memory>
+#include <string>
+#include <utility>
+
+#include "sim/core/toml_reader.hpp"
+#include "sim/masters/axi/live_axi.hpp"
+
+namespace mb4::sim {
+namespace {
+
+constexpr HostInterface kInterfaces[] = {{"axi", false, "an AXI access is never aborted"}};
+constexpr std::int64_t kMaxClkHz = 500'000'000;
+constexpr std::uint64_t kMaxMaHz = 10'000'000;
+constexpr std::uint64_t kLongestHalf = 255;  // clocks of half an MA period
+
+// Bits of axi_pkg::switch_t: the parameters of biss_axi.
+constexpr std::pair<const char*, unsigned> kSwitches[] = {
+    {"VALID_UNTIL_REQUEST", 0}, {"CRC_BIT_IGNORES", 2}, {"ENABLE_ACTIVE_LOW", 3}};
+constexpr unsigned kDefaultSwitches = 1;
+
+void read_quirks(TomlReader& reader, ChipConfig& chip) {
+  for (const auto& [name, bit] : kSwitches) {
+    if (const auto on = reader.boolean(name)) {
+      chip.quirks = (chip.quirks & ~(1U << bit)) | (static_cast<unsigned>(*on) << bit);
+    }
+  }
+}
+
+// MA is the clock divided by twice 1 to 255.
+void read_host(TomlReader& reader, const ChipConfig& chip, HostConfig& host) {
+  const std::uint64_t clk = chip.f_clk_hz;
+  const std::uint64_t half = (clk + 2 * kMaxMaHz - 1) / (2 * kMaxMaHz);
+  host.ma_hz = clk == 0 ? kMaxMaHz : clk / (2 * (half == 0 ? 1 : half));
+  const auto hz = reader.integer("ma_hz", 1, kMaxClkHz);
+  if (!hz) return;
+  host.ma_hz = static_cast<std::uint64_t>(*hz);
+  const std::uint64_t wanted = clk / (2 * host.ma_hz);
+  if (wanted < 1 || wanted > kLongestHalf || clk % (2 * host.ma_hz) != 0) {
+    reader.fail("ma_hz", "the master cannot make " + std::to_string(host.ma_hz) + " Hz from " +
+                             std::to_string(clk) +
+                             " Hz: MA is the clock divided by 2 to 510, even");
+  }
+}
+
+}  // namespace
+
+const Master kAxiMaster{.type = "axi",
+                        .interfaces = kInterfaces,
+                        .channels = kAxiChannels,
+                        .slaves = kAxiChannels,
+                        .slaves_shared = 1,
+                        .chain = 1,
+                        .min_clk_hz = 1'000,
+                        .max_clk_hz = kMaxClkHz,
+                        .min_osc_hz = 0,
+                        .max_osc_hz = 0,
+                        .quirks = kDefaultSwitches,
+                        .read_quirks = read_quirks,
+                        .read_host = read_host,
+                        .pin_by_name = axi_pin_by_name,
+                        .make = [](const MasterSetup& setup) -> std::unique_ptr<LiveMaster> {
+                          return std::make_unique<LiveAxi>(setup);
+                        },
+                        .wave_groups = nullptr};
+
+}  // namespace mb4::sim

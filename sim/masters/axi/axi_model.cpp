@@ -1,0 +1,197 @@
+// SPDX-FileCopyrightText: 2026 The openmb4 authors
+// SPDX-License-Identifier: Apache-2.0
+#include "sim/masters/axi/axi_model.hpp"
+
+#include <Vaxi_1.h>
+#include <Vaxi_16.h>
+#include <Vaxi_16___024root.h>
+#include <Vaxi_1___024root.h>
+#include <Vaxi_4.h>
+#include <Vaxi_4___024root.h>
+#include <verilated.h>
+
+#include <type_traits>
+
+#include "sim/model/clock_source.hpp"
+
+namespace mb4::sim {
+namespace {
+
+// Place of half_len in axi_pkg::frame_t.
+constexpr unsigned kHalfLenLsb = 16;
+
+template <typename Model, unsigned kChannels>
+class VerilatedAxi final : public AxiModel {
+  using Slo = std::conditional_t<(kChannels > 8), SData, CData>;
+
+ public:
+  VerilatedAxi(const ChipConfig& chip, std::uint64_t seed)
+      : context_(std::make_unique<VerilatedContext>()), clock_(chip.f_clk_hz) {
+    min_clock_ = chip.f_clk_hz == 0 ? 0 : kPsPerSecond / chip.f_clk_hz;
+    // Memories without reset get random values. randSeed() demands 31 bits that are not 0.
+    context_->randReset(2);
+    context_->randSeed(static_cast<int>(seed % 0x7FFFFFFEU) + 1);
+    context_->threads(1);  // else every context starts a pool of unused threads
+    model_ = std::make_unique<Model>(context_.get(), "biss_axi");
+    Model& m = *model_;
+    m.clk_i = 0;
+    m.switches_i = static_cast<CData>(chip.quirks);
+    m.s_axi_awvalid = m.s_axi_wvalid = m.s_axi_arvalid = 0;
+    m.s_axi_bready = m.s_axi_rready = 1;
+    m.s_axis_tready = 1;
+    m.slo_i = static_cast<Slo>((1U << kChannels) - 1);
+    m.ext_sample_clk_i = 0;
+    m.sample_en_i = 1;
+    // Only an edge resets the flops of a Verilated model.
+    context_->assertOn(false);
+    m.rst_ni = 1;
+    m.eval();
+    m.rst_ni = 0;
+    m.eval();
+    context_->assertOn(true);
+    pack();
+  }
+
+  ~VerilatedAxi() override {
+    // The model's destructor uses the context of the thread, not the model's own one.
+    Verilated::threadContextp(context_.get());
+    model_->final();
+  }
+
+  Time run_clocks(Time limit) override {
+    Verilated::threadContextp(context_.get());
+    Model& m = *model_;
+    while (clock_.next() <= limit) {
+      const Time now = clock_.next();
+      if (!clock_.edge()) {
+        m.clk_i = 0;
+        m.eval();
+        continue;
+      }
+      ++cycles_;
+      // What is on the pins before the edge is what the edge transfers.
+      const Outputs before = outputs_;
+      const bool valid = m.s_axis_tvalid != 0;
+      if (valid && m.rst_ni != 0) take_beat(now);
+      const bool moves = !access_.done;
+      if (moves) look_at_answer();
+      m.clk_i = 1;
+      m.eval();
+      if (moves && m.rst_ni != 0) drive();
+      pack();
+      if (outputs_ != before) return now;
+    }
+    return kNever;
+  }
+
+  void set_sl(Time /*now*/, unsigned line, bool level) override {
+    if (line >= kChannels) return;
+    const auto bit = static_cast<Slo>(1U << line);
+    model_->slo_i = static_cast<Slo>(level ? model_->slo_i | bit : model_->slo_i & ~bit);
+  }
+  void set_clock(Time now, std::uint64_t hz) override {
+    if (min_clock_ == 0) return;
+    clock_.retune(hz, now);
+    if (hz != 0 && kPsPerSecond / hz < min_clock_) min_clock_ = kPsPerSecond / hz;
+  }
+  unsigned half_clocks(unsigned /*line*/) const override {
+    const unsigned half =
+        (model_->rootp->axi_core__DOT__u_start__DOT__frame_q >> kHalfLenLsb) & 0xFFU;
+    return half == 0 ? 1 : half;
+  }
+
+  unsigned channels() const override { return kChannels; }
+  void set_reset(bool active) override {
+    Verilated::threadContextp(context_.get());
+    model_->rst_ni = active ? 0 : 1;
+    model_->eval();
+    pack();
+  }
+  void set_ext_sample_clk(bool level) override { model_->ext_sample_clk_i = level ? 1 : 0; }
+  void set_sample_en(bool level) override { model_->sample_en_i = level ? 1 : 0; }
+  bool ext_sample_clk() const override { return model_->ext_sample_clk_i != 0; }
+  bool sample_en() const override { return model_->sample_en_i != 0; }
+  bool slo(unsigned line) const override { return ((model_->slo_i >> line) & 1U) != 0; }
+
+ private:
+  std::uint32_t word(unsigned channel) const {
+    if constexpr (kChannels == 1) {
+      return model_->s_axis_tdata;
+    } else {
+      return model_->s_axis_tdata[channel];
+    }
+  }
+
+  void take_beat(Time now) {
+    if (beats_.size() == kMostBeats) {
+      beats_.pop_front();
+      ++beats_dropped_;
+    }
+    AxiBeat& beat = beats_.emplace_back();
+    beat.time = now;
+    for (unsigned channel = 0; channel < kChannels; ++channel) beat.words.push_back(word(channel));
+    beat.user = model_->s_axis_tuser;
+    beat.last = model_->s_axis_tlast != 0;
+    beat_ = !beat_;
+  }
+
+  // Before an edge: what it takes. BREADY and RREADY are always 1.
+  void look_at_answer() {
+    const Model& m = *model_;
+    handed_ = (m.s_axi_awvalid != 0 && m.s_axi_awready != 0) ||
+              (m.s_axi_arvalid != 0 && m.s_axi_arready != 0);
+    if (m.s_axi_bvalid == 0 && m.s_axi_rvalid == 0) return;
+    access_.answer = m.s_axi_bvalid != 0 ? m.s_axi_bresp : m.s_axi_rresp;
+    if (!access_.write) access_.data = m.s_axi_rdata;
+    access_.done = true;
+    done_ = !done_;
+  }
+
+  // After an edge: the manager's pins.
+  void drive() {
+    Model& m = *model_;
+    if (fresh_) {
+      m.s_axi_awaddr = m.s_axi_araddr = access_.address;
+      m.s_axi_wdata = access_.data;
+      m.s_axi_wstrb = access_.strobe;
+      m.s_axi_awvalid = m.s_axi_wvalid = access_.write ? 1 : 0;
+      m.s_axi_arvalid = access_.write ? 0 : 1;
+      fresh_ = false;
+    } else if (handed_) {
+      m.s_axi_awvalid = m.s_axi_wvalid = m.s_axi_arvalid = 0;
+      handed_ = false;
+    }
+  }
+
+  void pack() {
+    const Model& m = *model_;
+    Outputs out = 0;
+    for (unsigned line = 0; line < kAxiChannels; ++line) {
+      if (line >= kChannels || ((m.ma_o >> line) & 1U) != 0) out |= ma_of(line);
+    }
+    if (m.error_no != 0) out |= kError;
+    if (m.warn_no != 0) out |= kWarn;
+    if (m.sample_clk_o != 0) out |= kSampleClk;
+    if (done_) out |= kDone;
+    if (beat_) out |= kBeat;
+    outputs_ = out;
+  }
+
+  std::unique_ptr<VerilatedContext> context_;
+  std::unique_ptr<Model> model_;
+  ClockSource clock_;
+  bool handed_ = false;
+  bool done_ = false;
+  bool beat_ = false;
+};
+
+}  // namespace
+
+std::unique_ptr<AxiModel> make_axi_model(const ChipConfig& chip, unsigned channels,
+                                         std::uint64_t seed) {
+  if (channels <= 1) return std::make_unique<VerilatedAxi<Vaxi_1, 1>>(chip, seed);
+  if (channels <= 4) return std::make_unique<VerilatedAxi<Vaxi_4, 4>>(chip, seed);
+  return std::make_unique<VerilatedAxi<Vaxi_16, kAxiChannels>>(chip, seed);
+}
+
+}  // namespace mb4::sim

@@ -1,0 +1,86 @@
+// SPDX-FileCopyrightText: 2026 The openmb4 authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// The Verilated BiSS C master with N channels behind an interface without Verilator types.
+#ifndef MB4SIM_AXI_MODEL_HPP_
+#define MB4SIM_AXI_MODEL_HPP_
+
+#include <cstdint>
+#include <deque>
+#include <memory>
+#include <vector>
+
+#include "sim/core/time.hpp"
+#include "sim/masters/chip_config.hpp"
+#include "sim/masters/master_model.hpp"
+
+namespace mb4::sim {
+
+inline constexpr unsigned kAxiChannels = 16;
+
+// One beat of the stream in mode 0.
+struct AxiBeat {
+  Time time = 0;                     // of the clock edge that took it
+  std::vector<std::uint32_t> words;  // one for each channel of the model
+  std::uint32_t user = 0;            // bit c: the word of channel c is of this frame and good
+  bool last = false;
+};
+
+// An AXI4-Lite access that runs or has ended.
+struct AxiAccess {
+  bool write = false;
+  std::uint8_t address = 0;
+  std::uint32_t data = 0;   // written, or read
+  std::uint8_t strobe = 0;  // write
+  std::uint8_t answer = 0;  // BRESP or RRESP
+  bool done = true;
+};
+
+class AxiModel : public MasterModel {
+ public:
+  // Bits of outputs() beside MA.
+  static constexpr Outputs kError = own(0);      // pin error is 1
+  static constexpr Outputs kWarn = own(1);       // pin warn is 1
+  static constexpr Outputs kSampleClk = own(2);  // pin sample_clk_output
+  static constexpr Outputs kDone = own(3);       // changes at the end of each access
+  static constexpr Outputs kBeat = own(4);       // changes with each beat of the stream
+
+  // Number of channels that the model has: at least those of the scenario.
+  virtual unsigned channels() const = 0;
+
+  virtual void set_reset(bool active) = 0;
+  virtual void set_ext_sample_clk(bool level) = 0;
+  virtual void set_sample_en(bool level) = 0;
+  virtual bool ext_sample_clk() const = 0;
+  virtual bool sample_en() const = 0;
+  virtual bool slo(unsigned line) const = 0;
+
+  // Begins an access: the valids rise after the next clock edge at the latest. Only one runs.
+  void begin(const AxiAccess& access) {
+    access_ = access;
+    access_.done = false;
+    fresh_ = true;
+  }
+  const AxiAccess& access() const { return access_; }
+
+  // Beats that the sink has taken. The oldest ones are dropped when there are too many.
+  std::deque<AxiBeat>& beats() { return beats_; }
+  std::uint64_t beats_dropped() const { return beats_dropped_; }
+
+ protected:
+  static constexpr std::size_t kMostBeats = 65'536;
+
+  AxiAccess access_;
+  bool fresh_ = false;  // the access has not been put on the pins
+  std::deque<AxiBeat> beats_;
+  std::uint64_t beats_dropped_ = 0;
+};
+
+// `channels`: those that the scenario needs. The next larger of the models that are built (1, 4,
+// 16 channels) is taken.
+std::unique_ptr<AxiModel> make_axi_model(const ChipConfig& chip, unsigned channels,
+                                         std::uint64_t seed);
+
+}  // namespace mb4::sim
+
+#endif  // MB4SIM_AXI_MODEL_HPP_

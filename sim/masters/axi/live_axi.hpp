@@ -1,0 +1,73 @@
+// SPDX-FileCopyrightText: 2026 The openmb4 authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// The BiSS C master with N channels in a simulation. Its host by name: "axi".
+#ifndef MB4SIM_LIVE_AXI_HPP_
+#define MB4SIM_LIVE_AXI_HPP_
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string_view>
+
+#include "sim/hosts/host_pins.hpp"
+#include "sim/masters/axi/axi_model.hpp"
+#include "sim/masters/live_master.hpp"
+
+namespace mb4::sim {
+
+// A manager of AXI4-Lite and the sink of the stream. An access lets time pass until it has its
+// answer.
+class AxiHost final : public HostModel {
+ public:
+  AxiHost(HostPins& outside, AxiModel& model, Time period)
+      : outside_(outside), model_(model), period_(period) {}
+
+  // Return BRESP and RRESP, or nothing if there is no answer within 1000 clocks (a clock that
+  // stands still). `strobe`: bit b lets byte b be written.
+  std::optional<std::uint8_t> write(std::uint8_t address, std::uint32_t data,
+                                    std::uint8_t strobe = 0xF);
+  std::optional<std::uint8_t> read(std::uint8_t address, std::uint32_t& data);
+  // The same for callers that know that the clock runs: the value, or 0 without an answer.
+  std::uint32_t read(std::uint8_t address);
+
+  // The oldest beat of the stream that has not been read. A sink that is always ready has taken it.
+  std::optional<AxiBeat> next_beat();
+  std::size_t beats_waiting() const { return model_.beats().size(); }
+
+ private:
+  std::optional<std::uint8_t> run(const AxiAccess& access);
+
+  HostPins& outside_;
+  AxiModel& model_;
+  Time period_;
+};
+
+class LiveAxi final : public LiveMaster {
+ public:
+  explicit LiveAxi(const MasterSetup& setup);
+
+  MasterModel& model() override { return *model_; }
+  // axi_aresetn is low for 500 ns.
+  void power_on() override;
+
+  bool can_set(Pin pin) const override;
+  void set_pin(Time now, Pin pin, bool level) override;
+  bool pin(Pin pin) const override;
+
+  HostModel* host(std::string_view name) override { return name == "axi" ? &host_ : nullptr; }
+
+ private:
+  HostPins& outside_;
+  MasterModel::Outputs lines_;
+  std::unique_ptr<AxiModel> model_;
+  AxiHost host_;
+  bool aresetn_ = false;
+};
+
+// Pins by the document's names; ma0 to ma15 and slo0 to slo15 are the lines.
+std::optional<Pin> axi_pin_by_name(std::string_view name);
+
+}  // namespace mb4::sim
+
+#endif  // MB4SIM_LIVE_AXI_HPP_
