@@ -102,7 +102,7 @@ typedef struct {
 static inline void mb4_plan_add(mb4_plan *plan, uint8_t size, uint8_t first, uint8_t second,
                                 uint8_t filler) {
   uint8_t *tx = plan->tx[plan->frames];
-  uint8_t i;
+  uint8_t i = 0;
   plan->size[plan->frames] = size;
   ++plan->frames;
   tx[0] = first;
@@ -185,7 +185,7 @@ static inline uint32_t mb4_crc_steps(uint32_t crc, uint32_t polynomial, uint8_t 
 
 /* Fills the caller's table of 16 words for MB4_WITH_TABLE; 64 bytes for half the time of a read. */
 static inline void mb4_crc_table(mb4_word *word, uint32_t *table) {
-  uint8_t i;
+  uint8_t i = 0;
   for (i = 0; i < 16; ++i) {
     table[i] = mb4_crc_steps((uint32_t)i << 28, word->polynomial, 4);
   }
@@ -360,7 +360,7 @@ static inline void mb4_cyclic_plan(mb4_cyclic *read, mb4_plan *plan) {
 
 /* Takes a status. Returns MB4_OK, or what is wrong with it. */
 static inline uint8_t mb4_cyclic_take_status(mb4_cyclic *read, const uint8_t *rx) {
-  uint8_t i;
+  uint8_t i = 0;
   for (i = 0; i < MB4_STATUS_BYTES; ++i) {
     read->status[i] = rx[1 + i];
   }
@@ -409,9 +409,9 @@ static inline bool mb4_cyclic_cut(const mb4_word *word, uint32_t *low, uint32_t 
                                   uint8_t with) {
   uint32_t *top = low;
   uint8_t bits = word->bits;
-  uint8_t unused;
-  uint32_t kept;
-  uint32_t cut;
+  uint8_t unused = 0;
+  uint32_t kept = 0;
+  uint32_t cut = 0;
   if ((with & MB4_WITH_LONG) != 0 && bits > 32) {
     top = high;
     bits = (uint8_t)(bits - 32);
@@ -436,7 +436,7 @@ static inline bool mb4_cyclic_decode(mb4_cyclic *read, uint8_t with) {
   mb4_reading *reading = &read->reading;
   uint32_t low = read->low;
   uint32_t high = read->high;
-  uint32_t sent;
+  uint32_t sent = 0;
   if (!mb4_cyclic_cut(word, &low, &high, with)) {
     return false;
   }
@@ -489,9 +489,9 @@ MB4_APART uint8_t mb4_cyclic_judge(mb4_cyclic *read, mb4_plan *plan, uint8_t wit
   const mb4_word *word = read->word;
   uint32_t low = read->low;
   uint32_t high = read->high;
-  uint16_t crc;
-  uint8_t bytes;
-  uint8_t *tx;
+  uint16_t crc = 0;
+  uint8_t bytes = 0;
+  uint8_t *tx = 0;
   if (word->crc_bits == 0) {
     read->unproven = true;
     return (with & MB4_WITH_SEVERAL) != 0 && read->watch->several ? MB4_NO_DATA : MB4_CRC;
@@ -568,8 +568,8 @@ static inline uint8_t mb4_cyclic_unheld(mb4_cyclic *read, mb4_plan *plan, uint8_
 
 static inline uint8_t mb4_cyclic_take_unheld(mb4_cyclic *read, mb4_plan *plan, uint8_t with) {
   const bool repeated = plan->frames == 2;
-  uint32_t low;
-  uint32_t high;
+  uint32_t low = 0;
+  uint32_t high = 0;
   uint8_t code = mb4_cyclic_take_status(read, plan->rx[plan->frames - 1]);
   if (code != MB4_OK) {
     return code;
@@ -628,8 +628,8 @@ static inline uint8_t mb4_cyclic_take_look(mb4_cyclic *read, mb4_plan *plan, uin
  * this, so the status is read twice before it counts as a fault. */
 static inline uint8_t mb4_cyclic_take_clear(mb4_cyclic *read, mb4_plan *plan) {
   const bool last = plan->frames == 1;
-  uint32_t low;
-  uint32_t high;
+  uint32_t low = 0;
+  uint32_t high = 0;
   uint8_t code = mb4_cyclic_take_status(read, plan->rx[plan->frames - 1]);
   if (plan->frames == 3) {
     mb4_cyclic_load(read, plan, 0, &low, &high);
@@ -657,7 +657,7 @@ static inline uint8_t mb4_cyclic_watch(mb4_cyclic *read, mb4_plan *plan, uint8_t
   const bool omitted = (read->status[0] & MB4_CYCLIC_AGSERR) == 0;
   const bool several = (with & MB4_WITH_SEVERAL) != 0 && watch->several;
   const uint8_t index = (uint8_t)(read->word->slave - 1);
-  uint32_t limit_us;
+  uint32_t limit_us = 0;
   if (several && code == MB4_OK) {
     watch->taken = (uint8_t)(watch->taken | 1U << index);
     watch->good_us[index] = now_us;
