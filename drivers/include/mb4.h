@@ -148,12 +148,13 @@ typedef struct {
 /* Makes one SPI frame: NCS low, `size` bytes, NCS high. rx may be null. The contract is that of Bus
  * in mb4/bus.hpp. Returns true when all bytes were exchanged. */
 typedef bool (*mb4_transfer)(void *context, const uint8_t *tx, uint8_t *rx, size_t size);
-/* Returns the time in microseconds; it wraps at 2^32. */
+/* Returns the time in microseconds; it wraps at 2^32. mb4_automatic_poll() and
+ * mb4_automatic_poll_slave() ask for it too: in an interrupt it must be safe there. */
 typedef uint32_t (*mb4_now_us)(void *context);
 
 /* One chip. The caller provides the memory and does not use its contents. */
 typedef struct {
-  uint64_t opaque[52];
+  uint64_t opaque[100];
 } mb4_device;
 
 /* Call it before every other call on `device`. It makes no transfer. The functions must not be

@@ -102,7 +102,7 @@ typedef struct {
 static inline void mb4_plan_add(mb4_plan *plan, uint8_t size, uint8_t first, uint8_t second,
                                 uint8_t filler) {
   uint8_t *tx = plan->tx[plan->frames];
-  uint8_t i;
+  uint8_t i = 0;
   plan->size[plan->frames] = size;
   ++plan->frames;
   tx[0] = first;
@@ -162,12 +162,13 @@ static inline void mb4_word_set(mb4_word *word, uint8_t slave, const mb4_slave_c
 /* Parts of the read path that a build may leave out: the last argument of mb4_cyclic_finish(). A
  * constant lets the compiler drop the rest. What is left out must not be configured. */
 enum {
-  MB4_WITH_LONG = 1,   /* data of more than 32 bits */
-  MB4_WITH_GRAY = 2,   /* SSI with Gray code */
-  MB4_WITH_FULL = 4,   /* MB4_SPI_CHECK_FULL */
-  MB4_WITH_UNHELD = 8, /* without HOLDBANK beside a register access */
-  MB4_WITH_ALL = 15,
-  MB4_WITH_TABLE = 16 /* CRC by word->table, four bits a step, where it is not null */
+  MB4_WITH_LONG = 1,     /* data of more than 32 bits */
+  MB4_WITH_GRAY = 2,     /* SSI with Gray code */
+  MB4_WITH_FULL = 4,     /* MB4_SPI_CHECK_FULL */
+  MB4_WITH_UNHELD = 8,   /* without HOLDBANK beside a register access */
+  MB4_WITH_SEVERAL = 16, /* other slaves deliver data too */
+  MB4_WITH_ALL = 31,
+  MB4_WITH_TABLE = 32 /* CRC by word->table, four bits a step, where it is not null */
 };
 
 /* `steps` (1..32) bits, of a CRC that is left aligned and has the data added to it. */
@@ -184,7 +185,7 @@ static inline uint32_t mb4_crc_steps(uint32_t crc, uint32_t polynomial, uint8_t 
 
 /* Fills the caller's table of 16 words for MB4_WITH_TABLE; 64 bytes for half the time of a read. */
 static inline void mb4_crc_table(mb4_word *word, uint32_t *table) {
-  uint8_t i;
+  uint8_t i = 0;
   for (i = 0; i < 16; ++i) {
     table[i] = mb4_crc_steps((uint32_t)i << 28, word->polynomial, 4);
   }
@@ -231,6 +232,8 @@ typedef struct {
   uint32_t silent_us;  /* longest time without a frame; 0: only the caller knows */
   uint8_t lines;       /* bits of 0xF8 that are 1 while the lines are idle: SL1, SL2 */
   bool several;        /* other slaves deliver data too */
+  uint8_t taken;       /* slaves (bit 0 is slave 1) of which a read has taken a good word */
+  uint32_t good_us[MB4_SLAVES]; /* when; set them when frames are started */
 } mb4_watch;
 
 /* One read. Set the object to zero once; then the members up to `chain` are the caller's. The
@@ -357,7 +360,7 @@ static inline void mb4_cyclic_plan(mb4_cyclic *read, mb4_plan *plan) {
 
 /* Takes a status. Returns MB4_OK, or what is wrong with it. */
 static inline uint8_t mb4_cyclic_take_status(mb4_cyclic *read, const uint8_t *rx) {
-  uint8_t i;
+  uint8_t i = 0;
   for (i = 0; i < MB4_STATUS_BYTES; ++i) {
     read->status[i] = rx[1 + i];
   }
@@ -406,9 +409,9 @@ static inline bool mb4_cyclic_cut(const mb4_word *word, uint32_t *low, uint32_t 
                                   uint8_t with) {
   uint32_t *top = low;
   uint8_t bits = word->bits;
-  uint8_t unused;
-  uint32_t kept;
-  uint32_t cut;
+  uint8_t unused = 0;
+  uint32_t kept = 0;
+  uint32_t cut = 0;
   if ((with & MB4_WITH_LONG) != 0 && bits > 32) {
     top = high;
     bits = (uint8_t)(bits - 32);
@@ -433,7 +436,7 @@ static inline bool mb4_cyclic_decode(mb4_cyclic *read, uint8_t with) {
   mb4_reading *reading = &read->reading;
   uint32_t low = read->low;
   uint32_t high = read->high;
-  uint32_t sent;
+  uint32_t sent = 0;
   if (!mb4_cyclic_cut(word, &low, &high, with)) {
     return false;
   }
@@ -486,12 +489,12 @@ MB4_APART uint8_t mb4_cyclic_judge(mb4_cyclic *read, mb4_plan *plan, uint8_t wit
   const mb4_word *word = read->word;
   uint32_t low = read->low;
   uint32_t high = read->high;
-  uint16_t crc;
-  uint8_t bytes;
-  uint8_t *tx;
+  uint16_t crc = 0;
+  uint8_t bytes = 0;
+  uint8_t *tx = 0;
   if (word->crc_bits == 0) {
     read->unproven = true;
-    return read->watch->several ? MB4_NO_DATA : MB4_CRC;
+    return (with & MB4_WITH_SEVERAL) != 0 && read->watch->several ? MB4_NO_DATA : MB4_CRC;
   }
   (void)mb4_cyclic_cut(word, &low, &high, with);
   crc = mb4_word_crc(word, low, high, with);
@@ -565,8 +568,8 @@ static inline uint8_t mb4_cyclic_unheld(mb4_cyclic *read, mb4_plan *plan, uint8_
 
 static inline uint8_t mb4_cyclic_take_unheld(mb4_cyclic *read, mb4_plan *plan, uint8_t with) {
   const bool repeated = plan->frames == 2;
-  uint32_t low;
-  uint32_t high;
+  uint32_t low = 0;
+  uint32_t high = 0;
   uint8_t code = mb4_cyclic_take_status(read, plan->rx[plan->frames - 1]);
   if (code != MB4_OK) {
     return code;
@@ -625,8 +628,8 @@ static inline uint8_t mb4_cyclic_take_look(mb4_cyclic *read, mb4_plan *plan, uin
  * this, so the status is read twice before it counts as a fault. */
 static inline uint8_t mb4_cyclic_take_clear(mb4_cyclic *read, mb4_plan *plan) {
   const bool last = plan->frames == 1;
-  uint32_t low;
-  uint32_t high;
+  uint32_t low = 0;
+  uint32_t high = 0;
   uint8_t code = mb4_cyclic_take_status(read, plan->rx[plan->frames - 1]);
   if (plan->frames == 3) {
     mb4_cyclic_load(read, plan, 0, &low, &high);
@@ -649,13 +652,23 @@ static inline uint8_t mb4_cyclic_take_clear(mb4_cyclic *read, mb4_plan *plan) {
  * new, good or bad, proves that frames come. nSCDERR = 0 stays when no more frames end, so a bad
  * frame without a stored CRC proves nothing. */
 static inline uint8_t mb4_cyclic_watch(mb4_cyclic *read, mb4_plan *plan, uint8_t code,
-                                       uint32_t now_us) {
+                                       uint32_t now_us, uint8_t with) {
   mb4_watch *watch = read->watch;
   const bool omitted = (read->status[0] & MB4_CYCLIC_AGSERR) == 0;
-  uint32_t limit_us;
+  const bool several = (with & MB4_WITH_SEVERAL) != 0 && watch->several;
+  const uint8_t index = (uint8_t)(read->word->slave - 1);
+  uint32_t limit_us = 0;
+  if (several && code == MB4_OK) {
+    watch->taken = (uint8_t)(watch->taken | 1U << index);
+    watch->good_us[index] = now_us;
+  }
   if (read->unheld || code == MB4_OK || read->bad || code == MB4_CORRUPTED) {
     watch->news_us = now_us;
     return code;
+  }
+  /* Other slaves keep news_us young. Bad frames without a good word of this one are its own. */
+  if (several && read->unproven && now_us - watch->good_us[index] > watch->omitted_us) {
+    code = MB4_CRC;
   }
   limit_us = omitted || read->unproven ? watch->omitted_us : watch->silent_us;
   if ((code != MB4_NO_DATA && code != MB4_CRC) || watch->silent_us == 0 ||
@@ -719,7 +732,7 @@ static inline uint8_t mb4_cyclic_finish(mb4_cyclic *read, mb4_plan *plan, bool t
     mb4_cyclic_load(read, plan, frame, &read->low, &read->high);
     code = mb4_cyclic_held(read, plan, with);
   }
-  return code == MB4_MORE ? code : mb4_cyclic_watch(read, plan, code, now_us);
+  return code == MB4_MORE ? code : mb4_cyclic_watch(read, plan, code, now_us, with);
 }
 
 #undef MB4_APART

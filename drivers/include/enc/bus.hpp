@@ -45,8 +45,9 @@ inline constexpr bool kIsBus<
 //
 // It counts microseconds upwards and wraps at 2^32, in steps of at most 32 us (a counter of 32
 // kHz). A reading is rounded down; steps must not add up to more than the time. The driver uses
-// differences only. It also counts its polls, so a clock that stands still cannot block it for
-// ever.
+// differences only. Calls that suit an interrupt, such as mb4::Automatic::poll_slave(), ask for the
+// time too: now_us() must then be safe in that interrupt. It also counts its polls, so a clock that
+// stands still cannot block it for ever.
 template <typename Clock, typename = void>
 inline constexpr bool kIsClock = false;
 

@@ -24,7 +24,7 @@
 namespace mb4 {
 
 // Most SPI transfers of one Automatic::poll_slave(), whatever the chip answers: 8, with
-// SpiCheck::kFull 12, beside a control communication without Config::hold_beside_access.
+// SpiCheck::kFull 14, beside a control communication without Config::hold_beside_access.
 inline constexpr unsigned kMaxPollSlaveTransfers = 6;
 // The same with SpiCheck::kFull.
 inline constexpr unsigned kMaxPollSlaveTransfersChecked = 9;
@@ -75,7 +75,7 @@ class Automatic {
         return recovered;
       }
     }
-    chip_.watch.news_us = chip_.clock->now_us();
+    chip_.started(chip_.clock->now_us());
     // The next single frame begins with BREAK, because an automatic frame may still run then.
     chip_.recover_first = true;
     if (const Result<void> on = chip_.write_instruction(kAgs); !on) {
@@ -132,24 +132,27 @@ class Automatic {
   // CRC that fits, so that it counts once: one 0x02 more for each. When frames stay away: one 0x05
   // more, up to 0xF8.
   //
-  // An interrupt may call it, if it interrupts no other call on the same Device.
+  // An interrupt may call it, if it interrupts no other call on the same Device. It calls now_us()
+  // of the Clock, so this must be safe in the interrupt too.
   //
   // Success: frame[slave] is a Reading, kNoData (nothing new), kCrc (a bad frame, told once) or
   // kCorrupted for each enabled slave. With SpiCheck::kOff, and where the data leaves no room for a
-  // CRC, kCrc is told only together with a good word of another slave, or, if there is no other
-  // slave, by each call until a frame is good. frame.status shows that frames were omitted
-  // (nAGSERR), not how many; frames that later ones have overwritten are not counted either. The
-  // datasheet asks for restart() when SVALID is 0 although a frame must have ended (table 69). This
-  // call does not restart; next() does.
+  // CRC, kCrc is told only together with a good word of another slave, and by each call if no good
+  // word of the slave has come for two periods or if there is no other slave. frame.status shows
+  // that frames were omitted (nAGSERR), not how many; frames that later ones have overwritten are
+  // not counted either. The datasheet asks for restart() when SVALID is 0 although a frame must
+  // have ended (table 69). This call does not restart; next() does.
   //
   // Errors: kWrongMode (automatic frames do not run; not touched), kTransport, kNotDetected,
   // kBankSwitched; kCorrupted with SpiCheck::kFull. On error `frame` holds no Reading.
-  // kTimeout, kLineError (SL is 0): frames stay away for more than two periods and 33 us, if the
-  // chip has left frames out, otherwise for 16 periods: a chip that has lost its configuration or
-  // its clock sets no flag. Back to back a period is frame_timeout_us(). Never with
-  // FrameStart::kOnPin. Nothing is changed, and each call says so until a frame ends: call
-  // restart(). A dead line on one channel stops both, see without_channel(). kCrc, by each call:
-  // the same without a stored CRC, if the last frame was bad and the chip has left none out.
+  // kTimeout, kLineError (SL is 0): frames stay away for more than two periods and the step of
+  // the clock (enc::clock_step_us), if the chip has left frames out, otherwise for 16 periods. With
+  // Config::frame_timeout_us it is that time and one period if this is longer than two: a chip that
+  // has lost its configuration or its clock sets no flag. Back to back a period is
+  // frame_timeout_us(). Never with FrameStart::kOnPin. Nothing is changed, and each call says so
+  // until a frame ends: call restart(). A dead line on one channel stops both, see
+  // without_channel(). kCrc, by each call: the same without a stored CRC, if the last frame was bad
+  // and the chip has left none out.
   Result<void> poll(Frame& frame) {
     frame.clear();
     if (!chip_.automatic) {
@@ -166,7 +169,7 @@ class Automatic {
   }
 
   // As poll(), for one slave (1..8). At most kMaxPollSlaveTransfers transfers, with SpiCheck::kFull
-  // kMaxPollSlaveTransfersChecked; 3 when nothing is new. Its code is small and fast, for the
+  // kMaxPollSlaveTransfersChecked. Its code is small and fast, for the
   // interrupt of a control loop. It does not change SVALID of other slaves.
   //
   // Not touched: kInvalidArgument (the slave is no enabled sensor), kWrongMode (automatic frames do
@@ -175,8 +178,9 @@ class Automatic {
   // kTimeout, kLineError, kCorrupted, kTransport, kNotDetected, kBankSwitched as for poll().
   //
   // `With` leaves out parts that the configuration does not use: a constant, MB4_WITH_... of
-  // mb4_cyclic.h. poll_slave<0>() is for BiSS of up to 32 data bits with SpiCheck::kCrc or kOff and
-  // Config::hold_beside_access. kUnsupported (not touched): the configuration needs such a part.
+  // mb4_cyclic.h. poll_slave<0>() is for one slave, BiSS of up to 32 data bits with SpiCheck::kCrc
+  // or kOff and Config::hold_beside_access. kUnsupported (not touched): the configuration needs
+  // such a part.
   template <std::uint8_t With = MB4_WITH_ALL>
   Result<Reading> poll_slave(std::uint8_t slave) {
     CyclicRead read;
@@ -287,6 +291,7 @@ class Automatic {
         done = detail::judge(chip, slave, &data.image[regs::scdata_address(slave)], news, bad);
       }
     }
+    chip.watch.taken = news ? 0 : chip.watch.taken;
     return done;
   }
   [[gnu::noinline]] Result<void> begin(std::uint8_t slave, CyclicRead& read, bool chain,

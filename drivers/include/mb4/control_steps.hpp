@@ -57,8 +57,10 @@ namespace mb4 {
 //   kWrongMode    BiSS B while automatic frames run
 //   kTransport    touched: parts of the request are in the chip and the access may run; call
 //                 abort()
+//   kNotDetected  as kTransport; only with SpiCheck::kFull while automatic frames run
 //   kCorrupted    touched, the access does not run. Only with SpiCheck::kFull, which reads back
-//                 each write: one transfer more for each write of registers
+//                 each write: one transfer more for each write of registers, and, while automatic
+//                 frames run, one or two for the instruction
 template <typename Bus, typename Clock>
 class ControlSteps : private detail::ControlChecks<Bus, Clock> {
  public:
@@ -140,9 +142,11 @@ class ControlSteps : private detail::ControlChecks<Bus, Clock> {
   //                              abort()
   //   kWrongMode                 nothing was begun
   //
-  // Time limit. With automatic frames: the time of the frames needed, plus register_busy_us, by the
-  // clock. Without them: frame_timeout_us() for each frame; and register_busy_us when all frames
-  // needed have run.
+  // Time limit, checked by poll(). With automatic frames: the time of the frames needed, plus
+  // register_busy_us, by the clock, from the begin call on. Without them the chip makes a frame
+  // only when poll() asks for it: frame_timeout_us() for each frame, from its request on, and
+  // register_busy_us, from the begin call on, which counts when all frames needed have run. A
+  // caller that polls seldom therefore uses up register_busy_us.
   Result<bool> poll() {
     if (chip_.control.kind == Kind::kNone) {
       return Error::kWrongMode;
@@ -278,8 +282,24 @@ class ControlSteps : private detail::ControlChecks<Bus, Clock> {
       timeout_us = detail::control_timeout_us(chip_.config, registers);
     }
     detail::restart_time(chip_, timeout_us);
-    return chip_.write_instruction(
+    const Result<void> written = chip_.write_instruction(
         chip_.automatic ? static_cast<std::uint8_t>(kFrame | regs::AGS::encode<1>()) : kFrame);
+    return written && chip_.automatic && chip_.checks_all() ? confirm_begun() : written;
+  }
+
+  // REGEND falls with the instruction, and reads 0 while it waits. If it is still 1, the
+  // instruction was lost and the access before would count as this one; or this access has failed
+  // at once (nREGERR = 0). One disturbed status must not hide an access that runs.
+  Result<void> confirm_begun() {
+    for (unsigned looks = 2; looks > 0; --looks) {
+      Status status;
+      const Result<void> look = chip_.look(status);
+      if (!look || !status.control_ended() || status.control_error()) {
+        return look;
+      }
+    }
+    chip_.control.kind = Kind::kNone;
+    return Error::kCorrupted;
   }
 
   Result<bool> finish(const Status& status) {

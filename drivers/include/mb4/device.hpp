@@ -112,7 +112,7 @@ class Device {
     chip_.actuators = actuators(config);
     chip_.frame_us = frame_timeout_us(config);
     chip_.pitch_us = detail::frame_pitch_us(config);
-    chip_.needs = 0;
+    chip_.needs = (chip_.sensors & (chip_.sensors - 1U)) != 0 ? MB4_WITH_SEVERAL : 0;
     for (std::uint8_t slave = 1; slave <= kSlaves; ++slave) {
       detail::set_word(config, slave, chip_.words[slave - 1U]);
       chip_.needs = static_cast<std::uint8_t>(

@@ -487,6 +487,9 @@ class HoldBesideControl : public ControlTest {
       bus.expect_read({0x03, 0xE2, 0, 0, 0, 0}, {0, 0, 0x44, 0x00, 0x01, 0xC0});
     }
     bus.expect_write(kFrameAgs);
+    if (check == mb4::SpiCheck::kFull) {
+      bus.expect_read(kReadStatus, {0, kRuns, 0, 0, 0, 0x09});
+    }
     ASSERT_TRUE(device.control().begin_read({1, 0}, 0x44, 1).ok());
   }
   // Nothing new; 0xF0 as given.

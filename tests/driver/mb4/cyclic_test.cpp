@@ -127,6 +127,13 @@ TEST_F(Chain, WrongUse_IsAnErrorWithoutPlan) {
   EXPECT_EQ(device.automatic().plan_slave(1, read).error(), Error::kWrongMode);
 }
 
+// A build without a part does not read what needs it.
+TEST_F(Chain, PartLeftOut_IsUnsupported) {
+  start(mb4::SpiCheck::kFull);
+  EXPECT_EQ(device.automatic().poll_slave<0>(1).error(), Error::kUnsupported);
+  EXPECT_EQ(device.automatic().plan_slave<0>(1, read).error(), Error::kUnsupported);
+}
+
 // SVALID = 1, but the stored CRC does not fit: SPI has disturbed the bytes.
 TEST_F(Chain, DisturbedData_IsCorrupted) {
   start(mb4::SpiCheck::kCrc);

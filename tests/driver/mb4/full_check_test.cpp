@@ -175,6 +175,7 @@ TEST_F(FullCheck, BankSwitchedBetweenTwoReadings_SecondTryIsGood) {
   bus.expect_write({0x02, 0xE2, 0x44, 0x00, 0x01, 0xC0});
   bus.expect_read({0x03, 0xE2, 0, 0, 0, 0}, {0, 0, 0x44, 0x00, 0x01, 0xC0});
   bus.expect_write({0x07, 0x09});  // INSTR = 100
+  bus.expect_read(kReadStatus, status(0xFB, 0x00, 0x09));
   ASSERT_TRUE(device.control().begin_read({1, 0}, 0x44, 1).ok());
   const Bytes fresh = status(0xFB, 0x02, 0x09);
   const Bytes still = status(0xFB, 0x00, 0x09);

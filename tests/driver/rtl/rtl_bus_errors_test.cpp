@@ -127,6 +127,26 @@ TEST(DriverCall, PollSlave_KeepsToItsTransfers) {
   }
 }
 
+// The instruction of the second access is lost: REGEND = 1 is that of the first one.
+TEST(DriverCallErrors, LostInstructionBesideFrames_IsCorrupted) {
+  FaultyChip chip(kEncoder);
+  prepare(chip, State::kAutomatic);
+  ASSERT_TRUE(chip.device.control().read_registers({1, 0}, 0x44, buffer).ok());
+  chip.bus.plan({FaultKind::kLost, 2, 2, 0});
+  EXPECT_EQ(chip.device.control().begin_read({1, 0}, 0x46, 1).error(), Error::kCorrupted);
+  EXPECT_EQ(chip.device.control().poll().error(), Error::kWrongMode);
+  // A status that is disturbed once does not hide the access.
+  chip.bus.plan({FaultKind::kFlipMiso, 3, 3, 13});  // REGEND: bit 2 of the second byte
+  EXPECT_TRUE(chip.device.control().begin_read({1, 0}, 0x46, 1).ok());
+  EXPECT_EQ(chip.bus.count(), 5U);
+  EXPECT_TRUE(chip.device.control().abort().ok());
+  // MISO stuck from the instruction on.
+  ASSERT_TRUE(chip.device.automatic().restart().ok());
+  chip.bus.plan({FaultKind::kMisoLow, 3, 3, 0});
+  EXPECT_EQ(chip.device.control().begin_read({1, 0}, 0x46, 1).error(), Error::kNotDetected);
+  EXPECT_TRUE(chip.device.control().abort().ok());
+}
+
 TEST(DriverCallErrors, FlippedRegisterBit_IsCorrupted) {
   for (const std::size_t transfer : {0U, 1U}) {
     FaultyChip chip(kEncoder);

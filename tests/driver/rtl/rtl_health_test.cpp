@@ -120,6 +120,41 @@ TEST_P(DriverHealth, BadFrame_CountsOnce) {
   EXPECT_EQ(told_all, bad / 2);
 }
 
+// Slave 1 is bad in every frame, slave 5 is healthy: slave 1 is not silent for ever. With kOff the
+// driver says so when no good word of slave 1 has come for two periods.
+TEST_P(DriverHealth, OneSlaveAlwaysBad_IsCrcAndNotNoData) {
+  unsigned told = 0;
+  unsigned told_all = 0;
+  for (int i = 0; i < 60; ++i) {
+    chip.simulator.line(1)->faults().flip_next_frame({9});
+    chip.simulator.advance(100 * sim::kPsPerUs);
+    Frame frame;
+    if (i < 30) {
+      told += chip.device.automatic().poll_slave(1).error() == Error::kCrc ? 1 : 0;
+      EXPECT_NE(chip.device.automatic().poll_slave(5).error(), Error::kCrc);
+    } else {
+      ASSERT_TRUE(chip.device.automatic().poll(frame).ok());
+      told_all += frame[1].error() == Error::kCrc ? 1 : 0;
+      EXPECT_TRUE(frame[5].ok()) << i;
+    }
+  }
+  EXPECT_GE(told, 20U);
+  EXPECT_GE(told_all, 20U);
+}
+
+// poll_slave(1) has taken the good word of slave 1. Slave 5 was bad in the same frame, and then the
+// word of slave 5 of the frame before is no reason to blame slave 1.
+TEST_P(DriverHealth, PollAfterPollSlave_DoesNotBlameTheGoodSlave) {
+  for (int i = 0; i < 100; ++i) {
+    if (i % 2 == 1) chip.simulator.line(2)->faults().flip_next_frame({9});
+    chip.simulator.advance((90 + i % 20) * sim::kPsPerUs);
+    static_cast<void>(chip.device.automatic().poll_slave(1));
+    Frame frame;
+    ASSERT_TRUE(chip.device.automatic().poll(frame).ok());
+    EXPECT_NE(frame[1].error(), Error::kCrc) << i;
+  }
+}
+
 // Every frame is bad: each one counts, if the chip stores the CRC. With kOff the driver says so
 // when no good one has come for two periods.
 TEST_P(DriverHealth, EveryFrameBad_EachCounts) {
@@ -271,5 +306,66 @@ INSTANTIATE_TEST_SUITE_P(Checks, DriverHealth,
                            return "Check" + std::to_string(static_cast<int>(test.param.check)) +
                                   (test.param.omits ? "_Omits" : "_Overwrites");
                          });
+
+// A clock that says how fine it is.
+struct FineClock {
+  static constexpr std::uint32_t kStepUs = 1;
+  std::uint32_t now_us() { return static_cast<std::uint32_t>(simulator.now() / sim::kPsPerUs); }
+  sim::Simulator& simulator;
+};
+
+// Frames at 32 kHz: the alarm comes with the third tick without a frame.
+TEST(DriverWatch, FastFramesAndFineClock_AlarmIsTheThirdTick) {
+  Chip chip(two_channels(true));
+  FineClock clock{chip.simulator};
+  mb4::tool::SimBus bus(chip.simulator);
+  mb4::Device device(bus, clock);
+  Config fast = config26(10'000'000);
+  fast.spi_check = mb4::SpiCheck::kCrc;
+  fast.frame_start = mb4::FrameStart::kPeriodic;
+  fast.frame_period_clk = mb4::frame_period_clk_at_least(fast.f_clk_hz, 31'250);
+  ASSERT_TRUE(device.configure(fast).ok());
+  ASSERT_TRUE(device.automatic().start().ok());
+  sim::Time tick = chip.simulator.now() + 100 * sim::kPsPerUs;
+  chip.simulator.run_until(tick);
+  ASSERT_TRUE(device.automatic().poll_slave(1).ok());
+  chip.simulator.line(1)->faults().stick(true);
+  chip.simulator.refresh_lines();
+  unsigned silent = 0;
+  Error error = Error::kNone;
+  for (unsigned i = 0; i < 10 && error != Error::kTimeout; ++i) {
+    tick += 31'250'000;
+    chip.simulator.run_until(tick);
+    error = device.automatic().poll_slave(1).error();
+    silent = error == Error::kNone ? 0 : silent + 1;
+  }
+  EXPECT_EQ(error, Error::kTimeout);
+  EXPECT_EQ(silent, 3U);
+}
+
+// A slave that acknowledges for three periods: frames are left out, and Config::frame_timeout_us
+// tells that this is no fault.
+TEST(DriverWatch, SlaveSlowerThanAPeriod_IsNoAlarm) {
+  for (const bool told : {true, false}) {
+    Chip chip("[[channel]]\nnumber = 1\n" + slave("source = \"ramp\"\nstep = 1\nbusy_periods = 1600"));
+    Config slow = config26(10'000'000);
+    slow.spi_check = mb4::SpiCheck::kCrc;
+    slow.frame_start = mb4::FrameStart::kPeriodic;
+    slow.frame_period_clk = mb4::frame_period_clk_at_least(slow.f_clk_hz, 50'000);
+    slow.frame_timeout_us = told ? 200 : 0;
+    ASSERT_TRUE(chip.device.configure(slow).ok());
+    ASSERT_TRUE(chip.device.automatic().start().ok());
+    unsigned good = 0;
+    unsigned alarms = 0;
+    for (int i = 0; i < 100; ++i) {
+      chip.simulator.advance(20 * sim::kPsPerUs);
+      const Error error = chip.device.automatic().poll_slave(1).error();
+      good += error == Error::kNone ? 1 : 0;
+      alarms += error != Error::kNone && error != Error::kNoData ? 1 : 0;
+    }
+    EXPECT_GE(good, 10U);
+    EXPECT_EQ(alarms != 0, !told) << alarms;
+  }
+}
 
 }  // namespace

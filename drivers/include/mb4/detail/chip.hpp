@@ -133,6 +133,15 @@ struct Chip {
     watch.several = (sensors & (sensors - 1U)) != 0;
   }
 
+  // Automatic frames begin now.
+  void started(std::uint32_t now_us) {
+    watch.news_us = now_us;
+    watch.taken = 0;
+    for (std::uint32_t& good_us : watch.good_us) {
+      good_us = now_us;
+    }
+  }
+
   // Reads the status once. kTransport, kNotDetected.
   Result<void> look(Status& status) {
     std::array<std::uint8_t, Status::kBytes> bytes{};

@@ -116,12 +116,22 @@ class FramePoll {
   // for a while, and nAGSERR stays 1. So does it for frames back to back, and in a chip that has
   // been reset or lost its clock; the limit without a flag is generous. With FrameStart::kOnPin
   // only the caller knows when frames come.
-  Result<void> watch(const Outcome& out) {
+  Result<void> watch(Outcome& out) {
     const std::uint32_t now_us = chip_.clock->now_us();
     const bool left_out = out.status.start_error();
     const bool unproven = (out.bad & kUnproven) != 0;
     if (out.good != 0 || (out.bad != 0 && !unproven)) {
       chip_.watch.news_us = now_us;
+    }
+    // As mb4_cyclic_watch() for one slave.
+    for (std::uint8_t slave = 1; slave <= kSlaves; ++slave) {
+      std::uint32_t& good_us = chip_.watch.good_us[slave - 1U];
+      if ((out.good & flag_of(slave)) != 0) {
+        good_us = now_us;
+      } else if (unproven && !crc_is_stored(chip_.config, chip_.config.slaves[slave - 1U]) &&
+                 now_us - good_us > chip_.watch.omitted_us) {
+        out.bad = static_cast<std::uint16_t>(out.bad | flag_of(slave));
+      }
     }
     const mb4_watch& watch = chip_.watch;
     const std::uint32_t limit_us = left_out || unproven ? watch.omitted_us : watch.silent_us;
@@ -141,7 +151,7 @@ class FramePoll {
 // With a stored CRC the word itself tells. A bad word then gets the CRC that fits, so that it
 // counts once; the next frame overwrites it. Without one nSCDERR = 0 is all there is: it concerns
 // this slave if there is no other, or if `news`, a good word of another slave, shows that the frame
-// is new.
+// is new and poll_slave() has not taken this slave's word of it.
 template <typename Bus, typename Clock>
 Result<void> judge(Chip<Bus, Clock>& chip, std::uint8_t slave, const std::uint8_t* bytes, bool news,
                    std::uint16_t& bad) {
@@ -149,7 +159,8 @@ Result<void> judge(Chip<Bus, Clock>& chip, std::uint8_t slave, const std::uint8_
   const std::uint16_t flag = flag_of(slave);
   if (!crc_is_stored(chip.config, one)) {
     bad = static_cast<std::uint16_t>(bad | kUnproven);
-    if (news || chip.sensor_flags == flag) {
+    const bool taken = is_in(chip.watch.taken, slave);
+    if ((news && !taken) || chip.sensor_flags == flag) {
       bad = static_cast<std::uint16_t>(bad | flag);
     }
     return {};
