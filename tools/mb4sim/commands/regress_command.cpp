@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "chip_setup.hpp"
 #include "commands/commands.hpp"
 #include "mb4sim/simulator.hpp"
 #include "report/exit_status.hpp"
@@ -83,7 +84,7 @@ std::vector<std::uint64_t> numbers(const std::string& text) {
 int regress_command(const RegressOptions& options) {
   std::vector<sim::Scenario> scenarios;
   for (const std::string& path : options.scenarios) {
-    scenarios.push_back(sim::load_scenario(path));
+    scenarios.push_back(load_chip_scenario(path));
     make_config(scenarios.back());
   }
   const std::uint64_t runs = scenarios.size() * options.seeds;
