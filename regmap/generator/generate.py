@@ -20,7 +20,7 @@ import jinja2
 from peakrdl_html import HTMLExporter
 from peakrdl_ipxact import IPXACTExporter
 
-from model import ACCESS, camel, load
+from model import ACCESS, camel, load, version
 
 HERE = Path(__file__).resolve().parent
 REGMAP = HERE.parent
@@ -99,9 +99,7 @@ def json_text(model):
 
 def write_ipxact(model, tops, path):
     """The PeakRDL exporter's file plus a second memory map for the second meanings."""
-    cmake = (REGMAP.parent / "CMakeLists.txt").read_text(encoding="utf-8")
-    version = re.search(r"project\(openmb4 VERSION ([\d.]+)", cmake)[1]
-    exporter = IPXACTExporter(vendor="openmb4", library="openmb4", version=version)
+    exporter = IPXACTExporter(vendor="openmb4", library="openmb4", version=version())
     with tempfile.TemporaryDirectory() as scratch:
         exporter.export(tops[0], str(Path(scratch) / "unused.xml"))
     doc = exporter.doc

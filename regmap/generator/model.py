@@ -553,10 +553,21 @@ def enums_of(nodes):
     return list(found.values())
 
 
+def version():
+    """The project's version, as CMakeLists.txt has it."""
+    cmake = (HERE.parents[1] / "CMakeLists.txt").read_text(encoding="utf-8")
+    return re.search(r"project\(openmb4 VERSION ([\d.]+)", cmake)[1]
+
+
+def version_macros():
+    """Macros that a map may use: VERSION_MAJOR, VERSION_MINOR, VERSION_PATCH."""
+    return dict(zip(("VERSION_MAJOR", "VERSION_MINOR", "VERSION_PATCH"), version().split(".")))
+
+
 def load(rdl):
     """The map of one file: addrmap NAME and, where bits have a second meaning, addrmap NAME_alternate."""
     compiler = RDLCompiler()
-    compiler.compile_file(str(rdl), incl_search_paths=[str(HERE)])
+    compiler.compile_file(str(rdl), incl_search_paths=[str(HERE)], defines=version_macros())
     name = rdl.stem
     names = [n for n in (name, f"{name}_alternate") if n in compiler.root.comp_defs]
     if name not in names:

@@ -11,6 +11,8 @@ enc_ram_row.sv
 enc_posted.sv
 enc_clk_mux.sv
 enc_crc.sv
+enc_time.sv
+enc_irq.sv
 enc_axil.sv
 enc_axis_fifo.sv
 enc_wb.sv

@@ -5,12 +5,15 @@
 -F ../biss/biss.f
 mb4_pkg.sv
 ../../regmap/generated/mb4/mb4_regs_pkg.sv
+../../regmap/generated/mb4_page/mb4_page_regs_pkg.sv
 host/mb4_spi_shift.sv
 host/mb4_spi_cmd.sv
 host/mb4_spi.sv
 host/mb4_spi2.sv
 host/mb4_par_bus.sv
 host/mb4_host.sv
+host/mb4_bridge.sv
+host/mb4_page.sv
 regs/mb4_cfg_regs.sv
 regs/mb4_crc_code.sv
 regs/mb4_slave_cfg.sv
@@ -41,3 +44,6 @@ mb4_lines.sv
 mb4_engine.sv
 mb4_core.sv
 mb4_chip.sv
+mb4_bus.sv
+mb4_axil.sv
+mb4_wb.sv

@@ -60,6 +60,7 @@ module mb4_chip (
   mb4_pkg::mem_rd_t read2;
   logic       wr_clk, rd_clk, rd2_clk;
   logic [7:0] rd_data, rd2_data;
+  mb4_pkg::tap_t tap;
 
   enc_clk_mux u_clk_mux (
     .clk0_i (clk_i),
@@ -117,8 +118,13 @@ module mb4_chip (
     .ma2_o      (ma2),
     .sl2_i      (sl2_i || paired),
     .mo2_o      (mo2),
+    .tap_o      (tap),
     .quirks_i
   );
+
+  // Only bus tops have a page.
+  logic unused;
+  assign unused = ^tap;
 
   assign ma2_o = paired ? !ma1_o : ma2;
   assign mo2_o = paired ? !mo1_o : mo2;

@@ -53,10 +53,11 @@ module mb4_core #(
     .rd_data_i (rd_data)
   );
 
-  // The core has no second read port.
+  // The core has no second read port and no page.
   logic [7:0] rd2_data;
+  mb4_pkg::tap_t tap;
   logic       unused;
-  assign unused = ^rd2_data;
+  assign unused = ^{rd2_data, tap};
 
   mb4_engine #(.SlCells(SlCells)) u_engine (
     .clk_i,
@@ -86,6 +87,7 @@ module mb4_core #(
     .ma2_o,
     .sl2_i,
     .mo2_o,
+    .tap_o      (tap),
     .quirks_i
   );
 

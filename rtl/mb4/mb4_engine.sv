@@ -21,6 +21,7 @@
 
 module mb4_engine #(
   parameter bit Port2 = 1'b0,    // second read port: SCDATA5..8
+  parameter bit Tap   = 1'b0,    // for bus tops: tap_o, and 0xF4 acts later (decision 45)
   parameter logic [1:0] SlCells = biss_pkg::SL_FLOPS  // SL: flops or DDR cells (biss_sl_capture)
 ) (
   input  logic       clk_i,
@@ -54,6 +55,8 @@ module mb4_engine #(
   output logic       ma2_o,
   input  logic       sl2_i,
   output logic       mo2_o,
+  // for bus tops (mb4_page); others leave it open
+  output mb4_pkg::tap_t tap_o,
   // constants
   input  logic [mb4_pkg::QUIRKS_W-1:0] quirks_i
 );
@@ -67,7 +70,7 @@ module mb4_engine #(
   logic [11:0]      cfg_slave;
   logic [4*mb4_pkg::SLAVE_CFG_W-1:0] slave_cfg;
   mb4_pkg::cfg_t    cfg;
-  mb4_pkg::instr_host_t instr;
+  mb4_pkg::instr_host_t instr, instr_seen;
   mb4_pkg::instr_core_t instr_state;
   mb4_pkg::flags_t  flags;
   mb4_pkg::status_t status;
@@ -95,6 +98,11 @@ module mb4_engine #(
   logic [2*biss_pkg::MO_READ_W-1:0]     mo_read;
   logic [15:0] mo_data;
 
+  // bus tops
+  mb4_pkg::reg_tap_t      reg_tap;
+  biss_pkg::line_data_t   data1, data2;
+  logic                   frame_lost, frame_starts;
+
   // quirks_i is static. The flops keep it out of the combinational logic behind the pins. This
   // shortens paths and makes the simulation faster.
   always_ff @(posedge clk_i) quirks_q <= quirks_i;
@@ -113,7 +121,7 @@ module mb4_engine #(
 
   // ---- registers ----------------------------------------------------------------------------
 
-  mb4_reg_file #(.Port2(Port2)) u_regs (
+  mb4_reg_file #(.Port2(Port2), .Tap(Tap)) u_regs (
     .clk_i,
     .rst_ni         (rst_core_n),
     .hrst_ni        (rst_ni),
@@ -142,15 +150,29 @@ module mb4_engine #(
     .data_i         (line_data),
     .word_bad_o     (word_bad),
     .mo_read_i      (mo_read),
-    .mo_data_o      (mo_data)
+    .mo_data_o      (mo_data),
+    .tap_o          (reg_tap)
   );
+
+  // A bus may write 0xF4 one clock after the MA force bits, which need up to 5 clocks of the core
+  // (mb4_ma_force). The count needs 2 or 3, so it comes 3 clocks later.
+  if (Tap) begin : gen_late
+    logic [5:0] late_q;
+    always_ff @(posedge clk_i or negedge rst_core_n) begin
+      if (!rst_core_n) late_q <= '0;
+      else             late_q <= {late_q[3:0], instr.count};
+    end
+    assign instr_seen = {late_q[5:4], instr.written};
+  end else begin : gen_not_late
+    assign instr_seen = instr;
+  end
 
   // ---- control ------------------------------------------------------------------------------
 
   mb4_control u_control (
     .clk_i,
     .rst_ni         (rst_core_n),
-    .instr_i        (instr),
+    .instr_i        (instr_seen),
     .instr_o        (instr_state),
     .cfg_i          (cfg),
     .quirks_i       (quirks_q),
@@ -172,7 +194,8 @@ module mb4_engine #(
     .event_i        (line_event),
     .word_bad_i     (word_bad),
     .flags_o        (flags),
-    .ner_low_o
+    .ner_low_o,
+    .frame_lost_o   (frame_lost)
   );
 
   // ---- lines --------------------------------------------------------------------------------
@@ -210,6 +233,18 @@ module mb4_engine #(
   assign {status2, status1} = line_status;
   assign sl_pin = SlCells == biss_pkg::SL_ICE40 ? {status2.sl, status1.sl} : {sl2_i, sl1_i};
   assign status = {flags, ner_i && !ner_low_o, sl_pin};
+  assign {data2, data1} = line_data;
+  assign frame_starts   = go.start && !go.init && !go.register_access;
+  // takes_part is the highest bit of biss_pkg::line_start_t.
+  assign tap_o = {reg_tap, !mem.clears, cfg.slaveloc5,
+                  cfg.cfgch2 == biss_pkg::SSI, cfg.cfgch1 == biss_pkg::SSI,
+                  frame_starts && line_start[2*biss_pkg::LINE_START_W-1],
+                  frame_starts && line_start[biss_pkg::LINE_START_W-1], go.stop,
+                  ma2_o, ma1_o, data2.rx.wr_en, data1.rx.wr_en, data2.rx.done, data1.rx.done,
+                  data2.rx.slave, data1.rx.slave, bank.frame_end, frame_lost,
+                  flags.n_agserr, flags.n_delayerr, flags.n_scderr, flags.n_regerr, flags.regend,
+                  flags.swbank_fail};
+
   assign clkeni_o = cfg.clkeni;
   assign paired_o = cfg.cfgif[1];
 

@@ -198,6 +198,47 @@ package mb4_pkg;
     logic       sl1;
   } status_t;
 
+  // What a bus top looks at in the register file. Core domain.
+  typedef struct packed {
+    logic        empty;      // the core has taken all posted bytes; changes with either clock
+    banks_t      banks;
+    logic [15:0] svalid;     // bank 1 in the upper byte
+    logic [3:0]  cds;        // of lines {2, 1}, bank 1 in the upper half
+    logic [15:0] hi;         // byte that the second port has read from SCDATA5..8, of both banks
+    logic [15:0] lo;         // ... and from SCDATA1..4
+  } reg_tap_t;
+
+  // What a bus top looks at in the engine. Core domain; vectors are of lines {2, 1}.
+  typedef struct packed {
+    logic        empty;      // the core has taken all posted bytes; changes with either clock
+    banks_t      banks;
+    logic [15:0] svalid;
+    logic [3:0]  cds;
+    logic [15:0] hi;
+    logic [15:0] lo;
+    logic        ready;      // the memories are cleared
+    logic        slaveloc5;
+    logic [1:0]  ssi;        // the line has SSI
+    logic [1:0]  start;      // a frame begins on the line
+    logic        stop;       // ... and is aborted
+    logic [1:0]  ma;
+    logic [1:0]  wr;         // a byte of a word comes
+    logic [1:0]  done;       // a word ends
+    logic [5:0]  slave;      // data channels of these words
+    logic        frame_end;
+    logic        lost;       // a frame was left out or overwritten
+    logic [3:0]  good;       // nAGSERR, nDELAYERR, nSCDERR, nREGERR
+    logic        regend;
+    logic        swbank_fail;
+  } tap_t;
+
+  // A bus top asks the core to fill a shadow. Registers of the bus domain.
+  typedef struct packed {
+    logic        req;        // changes with each request
+    logic        stamp;      // the time; else the snapshot of a data channel
+    logic [2:0]  channel;
+  } page_req_t;
+
   // Quirks: a static input vector that adapts the chip to real silicon (docs/choices.md).
   localparam int unsigned QUIRKS_W                   = 6;
   localparam int unsigned QUIRK_IDA_TEST_INVERT      = 0;

@@ -22,13 +22,6 @@ void EventQueue::post(Time time, Handler handler, void* receiver, std::uint64_t 
   }
 }
 
-// `event` has been posted last, so events of the same time run before it.
-void EventQueue::insert(const Event& event) {
-  std::size_t at = few_size_++;
-  for (; at > 0 && few_[at - 1].time <= event.time; --at) few_[at] = few_[at - 1];
-  few_[at] = event;
-}
-
 void EventQueue::to_heap(const Event& event) {
   heap_.push_back(event);
   std::push_heap(heap_.begin(), heap_.end(), Later{});

@@ -25,6 +25,17 @@ class EventQueue {
   // event. A time in the past is an error of the caller (asserted).
   void post(Time time, Handler handler, void* receiver, std::uint64_t word = 0);
 
+  // Moves the next event to a later time if it has this handler and this receiver. It then comes
+  // after all events of that time, as if it had been posted now. Returns false otherwise.
+  bool postpone(Time time, Handler handler, void* receiver) {
+    if (!heap_.empty() || few_size_ == 0) return false;
+    const Event& next = few_[few_size_ - 1];
+    if (next.handler != handler || next.receiver != receiver) return false;
+    --few_size_;
+    insert({time, sequence_++, handler, receiver, 0});
+    return true;
+  }
+
   // The convenient form for tests and scripts.
   void post(Time time, std::function<void()> callback);
 
@@ -53,7 +64,12 @@ class EventQueue {
   };
   static constexpr std::size_t kFew = 16;
   bool few_is_next() const;
-  void insert(const Event& event);
+  // `event` has been posted last, so events of the same time run before it.
+  void insert(const Event& event) {
+    std::size_t at = few_size_++;
+    for (; at > 0 && few_[at - 1].time <= event.time; --at) few_[at] = few_[at - 1];
+    few_[at] = event;
+  }
   void to_heap(const Event& event);
   static void run_callback(Time now, void* receiver, std::uint64_t slot);
 

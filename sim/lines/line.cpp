@@ -31,21 +31,23 @@ Line::Line(EventQueue& queue, Time round_trip, Output output, void* receiver,
   }
 }
 
-void Line::drive(Time now, bool ma, bool mo) {
-  monitor_.edge(now, ma);
+void Line::drive_all(Time now, bool ma, bool mo, unsigned levels) {
   if (tap_ != nullptr) {
     tap_(now, tap_receiver_, Signal::kMa, ma);
     tap_(now, tap_receiver_, Signal::kMo, mo);
   }
-  out_.drive(now, (ma ? kMa : 0U) | (mo && mo_wired_ ? kMo : 0U));
+  out_.drive(now, levels);
+  lane_ = tap_ == nullptr && probe_ == nullptr && plugged_ && out_.ideal();
 }
 
 void Line::set_round_trip(Time round_trip) {
+  lane_ = false;
   out_.set_delay(round_trip / 2);
   back_.set_delay(round_trip - round_trip / 2);
 }
 
 void Line::set_faults(const WireFaults& ma, const WireFaults& sl) {
+  lane_ = false;
   out_.set_faults(ma);
   back_.set_faults(sl);
 }
@@ -78,6 +80,7 @@ void Line::on_event(Time now, void* receiver, std::uint64_t action) {
 }
 
 void Line::act(Time now, CableEvent::Action action) {
+  lane_ = false;
   switch (action) {
     case CableEvent::Action::kUnplug:
     case CableEvent::Action::kPlug:
@@ -105,6 +108,10 @@ void Line::act(Time now, CableEvent::Action action) {
 
 void Line::at_slaves(Time now, void* receiver, unsigned levels) {
   auto* line = static_cast<Line*>(receiver);
+  if (line->plugged_ && line->probe_ == nullptr && line->shifts(levels)) {
+    line->shift(now, levels);
+    return;
+  }
   line->ma_arrived_ = (levels & kMa) != 0;
   const bool mo = (levels & kMo) != 0;
   const bool mo_changes = mo != line->mo_leaving_;

@@ -39,7 +39,16 @@ class Line {
   Line& operator=(const Line&) = delete;
 
   // Sets the levels of the chip's MA and MO pins. MO has an effect only in a bus connection.
-  void drive(Time now, bool ma, bool mo);
+  void drive(Time now, bool ma, bool mo) {
+    monitor_.edge(now, ma);
+    const unsigned levels = (ma ? kMa : 0U) | (mo && mo_wired_ ? kMo : 0U);
+    if (lane_ && shifts(levels)) {
+      out_.pass(levels);
+      shift(now, levels);
+    } else {
+      drive_all(now, ma, mo, levels);
+    }
+  }
   // Applies a changed SlFaults::stick().
   void refresh(Time now) { set_pin(now, received_); }
 
@@ -52,7 +61,10 @@ class Line {
   const WireFaults& ma_faults() const { return out_.faults(); }
   const WireFaults& sl_faults() const { return back_.faults(); }
   // One glitch of `width` ps at the slaves' MA or at the chip's SL.
-  void glitch_ma(Time now, Time width) { out_.glitch(now, width); }
+  void glitch_ma(Time now, Time width) {
+    lane_ = false;
+    out_.glitch(now, width);
+  }
   void glitch_sl(Time now, Time width) { back_.glitch(now, width); }
   // Makes one cable event happen now.
   void act(Time now, CableEvent::Action action);
@@ -60,6 +72,7 @@ class Line {
 
   // The probe is for waveforms. There is at most one.
   void set_probe(Probe probe, void* receiver) {
+    lane_ = false;
     probe_ = probe;
     probe_receiver_ = receiver;
   }
@@ -67,6 +80,7 @@ class Line {
   // The tap is for recordings. There is at most one. It is called for MA and MO when either of them
   // may have changed.
   void set_tap(Tap tap, void* receiver) {
+    lane_ = false;
     tap_ = tap;
     tap_receiver_ = receiver;
   }
@@ -87,6 +101,20 @@ class Line {
   static void slo_changed(Time now, void* receiver, bool slo);
   static void at_master(Time now, void* receiver, unsigned levels);
   static void on_event(Time now, void* receiver, std::uint64_t action);
+  void drive_all(Time now, bool ma, bool mo, unsigned levels);
+  // True if an edge of MA arrives in the data of a frame and nothing disturbs the slaves.
+  bool shifts(unsigned levels) const {
+    return chain_.shifting() && faults_.only_counts() &&
+           levels == ((ma_arrived_ ? 0U : kMa) | (mo_leaving_ ? kMo : 0U));
+  }
+  void shift(Time now, unsigned levels) {
+    ma_arrived_ = (levels & kMa) != 0;
+    if (ma_arrived_) faults_.count_bit();
+    const bool slo = chain_.shift(now, ma_arrived_, mo_arrived_);
+    if (slo == sent_) return;
+    sent_ = slo;
+    back_.drive(now, slo ? 1U : 0U);
+  }
   void to_slaves(Time now);
   void send_back(Time now);
   void set_pin(Time now, bool level);
@@ -110,6 +138,7 @@ class Line {
   bool mo_arrived_ = false;
   bool mo_leaving_ = false;  // level of MO put into mo_late_
   bool driving_ = false;     // inside SlaveChain::drive(): SLO is sent after it has settled
+  bool lane_ = false;        // nobody looks at an edge of MA on its way to the slaves
   bool sent_ = true;         // level sent into the way back
   bool received_ = true;     // level that has come out of it
   bool pin_ = true;

@@ -33,6 +33,10 @@ class SlFaults {
   void set_no_start_bit() { start_bit_ = false; }
 
   // --- used by Line --------------------------------------------------------------------------
+  // True if the frame has reached its start bit and no bit of it is inverted. Then levels() has
+  // nothing to do before the slaves are idle.
+  bool only_counts() const { return counting_ && pending_.empty(); }
+  void count_bit() { ++bit_; }
   // MA rises at the slaves.
   void rising_edge() {
     if (counting_) {

@@ -15,8 +15,8 @@ void SlaveChain::add(std::unique_ptr<Slave> slave) {
 void SlaveChain::drive(Time now, bool ma, bool mo) {
   if (ma != ma_) {
     if (shifting_) {
-      shift(now, ma, mo);
-      report(now);
+      const bool before = reported_;
+      if (shift(now, ma, mo) != before) output_(now, receiver_, reported_);
       return;
     }
     const Standing standing = drive_slaves(now, ma, mo);
@@ -51,21 +51,6 @@ SlaveChain::Standing SlaveChain::drive_slaves(Time now, bool ma, bool mo) {
     standing.add(slave);
   }
   return standing;
-}
-
-// The same in the data of a frame, which is the longest part of a frame.
-void SlaveChain::shift(Time now, bool ma, bool mo) {
-  last_edge_ = now;
-  deadline_ = now + timeout_;
-  bool sli_before = mo_;
-  ma_ = ma;
-  mo_ = mo;
-  if (!ma) return;
-  for (std::size_t i = attached_; i-- > 0;) {
-    const bool slo_before = slo_of(i);
-    slaves_[i]->shift(sli_before);
-    sli_before = slo_before;
-  }
 }
 
 // Ends the short way of shift() until the next edge of MA. The slaves learn the time of the last
@@ -137,6 +122,11 @@ void SlaveChain::arm() {
   if (deadline_ >= armed_at_) return;
   armed_at_ = deadline_;
   queue_.post(deadline_, &SlaveChain::on_timer, this);
+}
+
+// The timer event would come now and would be too early.
+void SlaveChain::postpone() {
+  if (queue_.postpone(deadline_, &SlaveChain::on_timer, this)) armed_at_ = deadline_;
 }
 
 void SlaveChain::report(Time now) {

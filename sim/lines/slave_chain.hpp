@@ -33,6 +33,25 @@ class SlaveChain {
 
   // Sets the levels of MA and MO as they arrive at the slaves. Both change at once.
   void drive(Time now, bool ma, bool mo);
+  // True in the data of a frame, which is the longest part of a frame. There shift() does what
+  // drive() does when MA changes, without a call of the output. It returns SLO.
+  bool shifting() const { return shifting_; }
+  bool shift(Time now, bool ma, bool mo) {
+    last_edge_ = now;
+    deadline_ = now + timeout_;
+    if (armed_at_ == now) postpone();
+    bool sli = mo_;
+    ma_ = ma;
+    mo_ = mo;
+    if (!ma) return reported_ = slo();
+    for (std::size_t i = attached_; i-- > 0;) {
+      Slave& slave = *slaves_[i];
+      const bool before = slave.slo() || slave.faults().silent;
+      slave.shift(sli);
+      sli = before;
+    }
+    return reported_ = slo();
+  }
   // Unplugs slave `index` (0 = slave 1) and those behind it: they see MA = 1, time out and become
   // idle. The last slave that is left sees SLI = 1. With index = size() all slaves are plugged in.
   void detach(Time now, std::size_t index);
@@ -75,11 +94,11 @@ class SlaveChain {
     }
   };
   Standing drive_slaves(Time now, bool ma, bool mo);
-  void shift(Time now, bool ma, bool mo);
   void catch_up();
   Standing settle_sli(Time now);
   void finish(Time now, const Standing& standing);
   void arm();
+  void postpone();
   void report(Time now);
 
   EventQueue& queue_;

@@ -33,6 +33,7 @@ case $mode in
   accept)
     # Twice: the include guard has to hold as well.
     printf '#include "%s"\n#include "%s"\n' "$file" "$file" > "$work/unit.cpp"
+    case $file in *.c) cp "$file" "$work/unit.cpp" ;; esac
     "$compiler" $freestanding $strict "$@" -c "$work/unit.cpp" -o "$work/unit.o"
     ;;
   reject)

@@ -179,7 +179,7 @@ def compiled(folder, top, files):
 def plain(folder):
     """(findings, sentence) of the plain Verilog."""
     findings, texts = [], []
-    for top in plain_verilog.TOPS:
+    for top in ("mb4_core", "mb4_engine", "mb4_chip"):   # those with a bench
         extra = [plain_verilog.write("mb4_spi", folder)] if top == "mb4_engine" else []
         good, text = play(compiled(folder, top, [plain_verilog.write(top, folder), *extra]))
         texts.append(f"{top} {text.strip()}")

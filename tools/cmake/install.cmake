@@ -3,8 +3,9 @@
 #
 # `cmake --install`: command, shared library with its C interface, header-only driver and its C
 # binding, RTL, manual page, shell completions, pkg-config files, CMake package openmb4 (targets
-# mb4::mb4sim, mb4::driver, mb4::c, mb4::regs). Only for openmb4 as the top project. Everything is found relative to where it lies, so
-# that the tree can be moved.
+# mb4::mb4sim, mb4::driver, mb4::c, mb4::regs). Only for openmb4 as the top project. Everything is
+# found relative to where it lies, so that the tree can be moved. The components tool, library, dev,
+# driver and rtl are the Debian packages of packages.cmake.
 
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
@@ -19,13 +20,17 @@ set_target_properties(mb4_driver PROPERTIES EXPORT_NAME driver)
 set_target_properties(mb4_driver_c PROPERTIES EXPORT_NAME c EXCLUDE_FROM_ALL OFF)
 set_target_properties(mb4sim_shared PROPERTIES EXPORT_NAME mb4sim)
 
-install(TARGETS mb4_driver mb4_driver_c mb4sim_shared EXPORT openmb4
+install(TARGETS mb4sim_shared EXPORT openmb4
+  LIBRARY COMPONENT library NAMELINK_COMPONENT dev
   INCLUDES DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
-install(TARGETS mb4sim)
+install(TARGETS mb4_driver mb4_driver_c EXPORT openmb4
+  LIBRARY COMPONENT driver ARCHIVE COMPONENT driver
+  INCLUDES DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
+install(TARGETS mb4sim COMPONENT tool)
 # Where `mb4sim spidev` looks for it.
-install(TARGETS mb4sim_spidev DESTINATION ${CMAKE_INSTALL_LIBDIR})
-install(FILES ${MB4_ROOT}/sim/include/mb4sim.h DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
-install(DIRECTORY ${MB4_ROOT}/drivers/include/ DESTINATION ${headers})
+install(TARGETS mb4sim_spidev DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT tool)
+install(FILES ${MB4_ROOT}/sim/include/mb4sim.h DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT dev)
+install(DIRECTORY ${MB4_ROOT}/drivers/include/ DESTINATION ${headers} COMPONENT driver)
 
 # Each register map: headers, package, manual.
 get_property(maps GLOBAL PROPERTY MB4_REGISTER_MAPS)
@@ -33,26 +38,30 @@ foreach(map ${maps})
   target_include_directories(${map}_regs INTERFACE $<INSTALL_INTERFACE:${headers}>)
   install(TARGETS ${map}_regs EXPORT openmb4)
   set(folder ${MB4_ROOT}/regmap/generated/${map})
-  install(FILES ${folder}/${map}_regs.hpp ${folder}/${map}_regs.h DESTINATION ${headers})
-  install(FILES ${folder}/${map}_regs_pkg.sv DESTINATION ${data}/regmap/generated/${map})
-  install(FILES ${folder}/registers.md DESTINATION ${CMAKE_INSTALL_DOCDIR}/regmap/generated/${map})
+  install(FILES ${folder}/${map}_regs.hpp ${folder}/${map}_regs.h DESTINATION ${headers}
+    COMPONENT driver)
+  install(FILES ${folder}/${map}_regs_pkg.sv DESTINATION ${data}/regmap/generated/${map}
+    COMPONENT rtl)
+  install(FILES ${folder}/registers.md DESTINATION ${CMAKE_INSTALL_DOCDIR}/regmap/generated/${map}
+    COMPONENT tool)
 endforeach()
 
 # The RTL in the folders of the repository, because mb4.f names its files relative to itself.
-install(DIRECTORY ${MB4_ROOT}/rtl DESTINATION ${data}
+install(DIRECTORY ${MB4_ROOT}/rtl DESTINATION ${data} COMPONENT rtl
   FILES_MATCHING PATTERN "*.sv" PATTERN "*.svh" PATTERN "*.f" PATTERN "*.vlt")
-install(DIRECTORY ${MB4_ROOT}/examples DESTINATION ${data}
+install(DIRECTORY ${MB4_ROOT}/examples DESTINATION ${data} COMPONENT tool
   FILES_MATCHING PATTERN "*.toml" PATTERN "*.edges" PATTERN "*.c" PATTERN "firmware" EXCLUDE)
-install(DIRECTORY ${MB4_ROOT}/tools/sigrok DESTINATION ${data} PATTERN __pycache__ EXCLUDE)
+install(DIRECTORY ${MB4_ROOT}/tools/sigrok DESTINATION ${data} COMPONENT tool
+  PATTERN __pycache__ EXCLUDE)
 
 # The documents in the folders of the repository, because they refer to each other.
 install(FILES ${MB4_ROOT}/LICENSE ${MB4_ROOT}/README.md ${MB4_ROOT}/CHANGELOG.md
               ${MB4_ROOT}/CONTRIBUTING.md
-  DESTINATION ${CMAKE_INSTALL_DOCDIR})
-install(DIRECTORY ${MB4_ROOT}/docs DESTINATION ${CMAKE_INSTALL_DOCDIR})
+  DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT tool)
+install(DIRECTORY ${MB4_ROOT}/docs DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT tool)
 foreach(folder sim drivers)
   file(GLOB pages CONFIGURE_DEPENDS ${MB4_ROOT}/${folder}/*.md)
-  install(FILES ${pages} DESTINATION ${CMAKE_INSTALL_DOCDIR}/${folder})
+  install(FILES ${pages} DESTINATION ${CMAKE_INSTALL_DOCDIR}/${folder} COMPONENT tool)
 endforeach()
 
 # Manual page and completions are what the command prints.
@@ -65,16 +74,20 @@ add_custom_command(
   COMMAND mb4sim completion zsh > ${pages}/_mb4sim
   DEPENDS mb4sim VERBATIM)
 add_custom_target(mb4sim_pages ALL DEPENDS ${pages}/mb4sim.1)
-install(FILES ${pages}/mb4sim.1 DESTINATION ${CMAKE_INSTALL_MANDIR}/man1)
-install(FILES ${pages}/mb4sim DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions)
-install(FILES ${pages}/_mb4sim DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/site-functions)
+install(FILES ${pages}/mb4sim.1 DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT tool)
+install(FILES ${pages}/mb4sim DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions
+  COMPONENT tool)
+install(FILES ${pages}/_mb4sim DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/site-functions
+  COMPONENT tool)
 
 file(RELATIVE_PATH prefix_from_pkgconfig
   ${CMAKE_INSTALL_FULL_LIBDIR}/pkgconfig ${CMAKE_INSTALL_PREFIX})
+set(component dev)
 foreach(name mb4sim mb4driver mb4_c)
   configure_file(${MB4_ROOT}/tools/cmake/${name}.pc.in ${CMAKE_BINARY_DIR}/package/${name}.pc @ONLY)
   install(FILES ${CMAKE_BINARY_DIR}/package/${name}.pc
-    DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
+    DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig COMPONENT ${component})
+  set(component driver)
 endforeach()
 
 configure_package_config_file(${MB4_ROOT}/tools/cmake/openmb4Config.cmake.in
@@ -82,5 +95,9 @@ configure_package_config_file(${MB4_ROOT}/tools/cmake/openmb4Config.cmake.in
 write_basic_package_version_file(${CMAKE_BINARY_DIR}/package/openmb4ConfigVersion.cmake
   COMPATIBILITY SameMinorVersion)
 install(FILES ${CMAKE_BINARY_DIR}/package/openmb4Config.cmake
-              ${CMAKE_BINARY_DIR}/package/openmb4ConfigVersion.cmake DESTINATION ${package})
-install(EXPORT openmb4 NAMESPACE mb4:: DESTINATION ${package} FILE openmb4Targets.cmake)
+              ${CMAKE_BINARY_DIR}/package/openmb4ConfigVersion.cmake DESTINATION ${package}
+  COMPONENT dev)
+install(EXPORT openmb4 NAMESPACE mb4:: DESTINATION ${package} FILE openmb4Targets.cmake
+  COMPONENT dev)
+
+include(${CMAKE_CURRENT_LIST_DIR}/packages.cmake)

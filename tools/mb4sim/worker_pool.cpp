@@ -4,6 +4,7 @@
 
 #include <fmt/core.h>
 #include <poll.h>
+#include <sched.h>
 #include <signal.h>
 #include <sys/prctl.h>
 #include <sys/wait.h>
@@ -15,6 +16,9 @@
 #include <cstring>
 #include <deque>
 #include <exception>
+#include <optional>
+#include <utility>
+#include <vector>
 
 #include "interrupts.hpp"
 #include "report/exit_status.hpp"
@@ -25,7 +29,8 @@ namespace {
 
 struct Worker {
   pid_t process;
-  int pipe;  // what it returns
+  int pipe;          // what it returns; -1: it has ended
+  std::string text;  // what has come; empty if it has died
 };
 
 void write_all(int pipe, const std::string& text) {
@@ -50,11 +55,10 @@ class Signals {
   Signals& operator=(const Signals&) = delete;
   ~Signals() { ::sigprocmask(SIG_SETMASK, &mask_, nullptr); }
 
-  // Until there is something to read or, with fd < 0, not at all. Throws Interrupted.
-  void wait(int fd) const {
-    pollfd poll{fd, POLLIN, 0};
+  // Until one of these has something to read; without any only the signals. Throws Interrupted.
+  void wait(std::vector<pollfd>& some) const {
     const timespec none{0, 0};
-    while (::ppoll(&poll, 1, fd < 0 ? &none : nullptr, &mask_) < 0) {
+    while (::ppoll(some.data(), some.size(), some.empty() ? &none : nullptr, &mask_) < 0) {
       interrupts_.check();
       if (errno != EINTR) throw UseError(fmt::format("ppoll: {}", std::strerror(errno)));
     }
@@ -80,11 +84,15 @@ class Workers {
   Workers& operator=(const Workers&) = delete;
   // No worker process remains.
   ~Workers() {
-    for (const Worker& worker : running_) ::kill(worker.process, SIGKILL);
-    while (!running_.empty()) wait_for_oldest();
+    for (Worker& worker : all_) {
+      if (worker.pipe < 0) continue;
+      ::kill(worker.process, SIGKILL);
+      end(worker);
+    }
   }
 
-  std::size_t count() const { return running_.size(); }
+  bool empty() const { return all_.empty(); }
+  unsigned running() const { return running_; }
 
   void start(std::uint64_t number, const std::function<std::string(std::uint64_t)>& job) {
     int ends[2];
@@ -94,7 +102,8 @@ class Workers {
     if (process < 0) throw UseError(fmt::format("fork: {}", std::strerror(errno)));
     if (process != 0) {
       ::close(ends[1]);
-      running_.push_back({process, ends[0]});
+      all_.push_back({process, ends[0], ""});
+      ++running_;
       return;
     }
     // The worker must not write the parent's buffers a second time.
@@ -109,48 +118,72 @@ class Workers {
     ::_exit(kGood);
   }
 
-  // What the oldest one returns; empty if it has died.
-  std::string finish() {
-    std::string text;
-    char buffer[4096];
-    for (ssize_t count = 1; count > 0;) {
-      signals_.wait(running_.front().pipe);
-      count = ::read(running_.front().pipe, buffer, sizeof(buffer));
-      text.append(buffer, static_cast<std::size_t>(std::max<ssize_t>(count, 0)));
+  // Waits until a worker has something to say or ends.
+  void wait() {
+    std::vector<pollfd> pipes;
+    for (const Worker& worker : all_) {
+      if (worker.pipe >= 0) pipes.push_back({worker.pipe, POLLIN, 0});
     }
-    const int status = wait_for_oldest();
-    if (WIFEXITED(status) && WEXITSTATUS(status) == kGood) return text;
-    signals_.wait(-1);  // the signal that ended the worker may be for the command too
-    return "";
+    signals_.wait(pipes);
+    auto pipe = pipes.begin();
+    for (Worker& worker : all_) {
+      if (worker.pipe >= 0 && pipe++->revents != 0) read(worker);
+    }
+  }
+
+  // What the oldest one has returned, if it has ended.
+  std::optional<std::string> finished() {
+    if (all_.empty() || all_.front().pipe >= 0) return std::nullopt;
+    std::string text = std::move(all_.front().text);
+    all_.pop_front();
+    return text;
   }
 
  private:
-  int wait_for_oldest() {
-    const Worker worker = running_.front();
-    running_.pop_front();
+  void read(Worker& worker) {
+    char buffer[4096];
+    const ssize_t count = ::read(worker.pipe, buffer, sizeof(buffer));
+    if (count > 0) worker.text.append(buffer, static_cast<std::size_t>(count));
+    if (count > 0 || end(worker)) return;
+    worker.text.clear();
+    std::vector<pollfd> none;
+    signals_.wait(none);  // the signal that ended the worker may be for the command too
+  }
+  // Returns whether it ended well.
+  bool end(Worker& worker) {
     ::close(worker.pipe);
+    worker.pipe = -1;
+    --running_;
     int status = 0;
     while (::waitpid(worker.process, &status, 0) < 0 && errno == EINTR) {
     }
-    return status;
+    return WIFEXITED(status) && WEXITSTATUS(status) == kGood;
   }
 
   Signals signals_;
-  std::deque<Worker> running_;
+  std::deque<Worker> all_;  // those that run, and those whose turn has not come
+  unsigned running_ = 0;
 };
 
 }  // namespace
+
+unsigned usable_cores() {
+  cpu_set_t cores;
+  if (::sched_getaffinity(0, sizeof(cores), &cores) != 0) return 1;
+  return static_cast<unsigned>(std::max(1, CPU_COUNT(&cores)));
+}
 
 void run_jobs(std::uint64_t count, unsigned workers,
               const std::function<std::string(std::uint64_t)>& job,
               const std::function<void(const std::string&)>& result) {
   std::fflush(stdout);
   std::fflush(stderr);
-  // A result fits into the pipe's buffer, so that a worker never waits for its turn.
-  Workers running;
-  for (std::uint64_t next = 0; next < count || running.count() != 0;) {
-    while (next < count && running.count() < workers) running.start(next++, job);
-    result(running.finish());
+  // A worker that has ended makes room for the next one before its own turn comes.
+  Workers all;
+  for (std::uint64_t next = 0; next < count || !all.empty();) {
+    while (next < count && all.running() < workers) all.start(next++, job);
+    all.wait();
+    while (const std::optional<std::string> text = all.finished()) result(*text);
     std::fflush(stdout);
   }
 }

@@ -12,6 +12,9 @@
 
 namespace mb4::tool {
 
+// Number of processors that this process may use, 1 or more.
+unsigned usable_cores();
+
 // Runs `job` for 0 to count - 1 in at most `workers` (1 or more) processes at a time and hands what
 // they return to `result`, in the order of their numbers; an empty text if a worker has died.
 // Throws UseError if no process can be started, Interrupted if a signal ends the command. In every

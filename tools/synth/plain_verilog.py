@@ -3,8 +3,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """Plain Verilog of each top, for tools that do not read SystemVerilog.
 
-  plain_verilog.py FOLDER   writes FOLDER/mb4_core.v, mb4_engine.v and mb4_chip.v: one module each,
-                            with the default parameters, made by Yosys from the RTL
+  plain_verilog.py FOLDER   writes FOLDER/TOP.v for each top (mb4_core.v ...): one module each, with
+                            the default parameters, made by Yosys from the RTL
 """
 
 import sys
@@ -15,7 +15,7 @@ sys.path.insert(0, str(Path(__file__).resolve().parent))
 import project  # noqa: E402
 import yosys  # noqa: E402
 
-TOPS = ("mb4_core", "mb4_engine", "mb4_chip")
+TOPS = ("mb4_core", "mb4_engine", "mb4_chip", "mb4_axil", "mb4_wb")
 HEAD = """// SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 //

@@ -54,6 +54,19 @@ template <typename Clock>
 inline constexpr bool kIsClock<Clock, std::void_t<decltype(std::declval<Clock&>().now_us())>> =
     std::is_same_v<decltype(std::declval<Clock&>().now_us()), std::uint32_t>;
 
+// How much more than the time between them two readings of a clock may differ: its step and the
+// rounding, rounded up. A clock that is finer than 32 kHz may say so; alarms are then earlier:
+//
+//   static constexpr std::uint32_t kStepUs = 1;   // counts every microsecond
+inline constexpr std::uint32_t kMaxClockStepUs = 33;
+
+template <typename Clock, typename = void>
+inline constexpr std::uint32_t clock_step_us = kMaxClockStepUs;
+
+template <typename Clock>
+inline constexpr std::uint32_t clock_step_us<Clock, std::void_t<decltype(Clock::kStepUs)>> =
+    Clock::kStepUs;
+
 // A bus made of one plain function and a context pointer. `rx` is null when the driver does not
 // need the received bytes.
 class FunctionBus {

@@ -11,6 +11,7 @@
 #include <cstdint>
 
 #include "mb4/config.hpp"
+#include "mb4/cyclic.hpp"
 #include "mb4/detail/actuator_write.hpp"
 #include "mb4/detail/chip.hpp"
 #include "mb4/detail/fetch.hpp"
@@ -74,7 +75,7 @@ class Automatic {
         return recovered;
       }
     }
-    chip_.news_us = chip_.clock->now_us();
+    chip_.watch.news_us = chip_.clock->now_us();
     // The next single frame begins with BREAK, because an automatic frame may still run then.
     chip_.recover_first = true;
     if (const Result<void> on = chip_.write_instruction(kAgs); !on) {
@@ -172,25 +173,55 @@ class Automatic {
   // not run). kNoData: no frame with data of this slave has ended since the last call. kCrc: one
   // has, and its CRC was wrong; told once for each frame, without a stored CRC as for poll().
   // kTimeout, kLineError, kCorrupted, kTransport, kNotDetected, kBankSwitched as for poll().
+  //
+  // `With` leaves out parts that the configuration does not use: a constant, MB4_WITH_... of
+  // mb4_cyclic.h. poll_slave<0>() is for BiSS of up to 32 data bits with SpiCheck::kCrc or kOff and
+  // Config::hold_beside_access. kUnsupported (not touched): the configuration needs such a part.
+  template <std::uint8_t With = MB4_WITH_ALL>
   Result<Reading> poll_slave(std::uint8_t slave) {
-    if (!is_in(chip_.sensors, slave)) {
-      return Error::kInvalidArgument;
+    CyclicRead read;
+    const Result<void> allowed = begin(slave, read, false, With);
+    if (!allowed) {
+      return allowed.failure();
     }
-    if (!chip_.automatic) {
-      return Error::kWrongMode;
+    bool transferred = false;
+    do {
+      transferred = read.run(chip_.opcodes.bus());
+    } while (!finish<With>(read, transferred, chip_.clock->now_us()));
+    return read.result();
+  }
+
+  // Begins to read one slave (1..8) without a transfer: the caller makes the frames of `read` and
+  // calls finish() until it returns true. The result is that of poll_slave(). Most reads are one
+  // step of four frames:
+  //   0x07        HOLDBANK = 1, AGS = 1
+  //   0x09, 0x03  SCDATA of the slave; only the bytes that hold data
+  //   0x05        0xF0..0xF4
+  //   0x02        0xF1..0xF4: SVALID of the slave = 0, HOLDBANK = 0, AGS = 1
+  // A bad word needs two more steps, of three frames and two. SpiCheck::kFull and a control
+  // communication without Config::hold_beside_access need up to six steps, as poll_slave() does:
+  // they decide between the transfers.
+  //
+  // No other call on the Device may come between this one and the end of the read. To give up a
+  // read, call finish() with transferred = false until it returns true, without making its frames.
+  // Not touched: kInvalidArgument, kWrongMode, kUnsupported as for poll_slave().
+  template <std::uint8_t With = MB4_WITH_ALL>
+  Result<void> plan_slave(std::uint8_t slave, CyclicRead& read) {
+    return begin(slave, read, chip_.config.spi_check != SpiCheck::kFull, With);
+  }
+
+  // Takes what came back. `transferred`: every frame of `read` was made. `now_us`: the time, as
+  // Clock::now_us() counts it. True: the read has ended, see CyclicRead::result(). False: make the
+  // frames that `read` holds now, and call it again. It makes no transfer and does not ask for the
+  // time.
+  template <std::uint8_t With = MB4_WITH_ALL>
+  [[nodiscard]] bool finish(CyclicRead& read, bool transferred, std::uint32_t now_us) {
+    read.code_ = mb4_cyclic_finish(&read.read_, &read.plan_, transferred, now_us, With);
+    if (read.code_ == MB4_MORE) {
+      return false;
     }
-    detail::Outcome outcome;
-    detail::FetchedSlave data;
-    data.slave = slave;
-    if (const Result<void> read = detail::FramePoll<Bus, Clock>(chip_).read(
-            flag_of(slave), control_runs(), outcome, fetch_one, &data);
-        !read) {
-      return read.failure();
-    }
-    if (outcome.good == 0) {
-      return outcome.bad > detail::kUnproven ? Error::kCrc : Error::kNoData;
-    }
-    return detail::decode(chip_.config, slave, data.bytes.data(), data.stable);
+    chip_.control.seen_running = read.read_.running;
+    return true;
   }
 
   // Device::write_actuator() for a control loop that writes a word for each frame. Never waits;
@@ -258,15 +289,32 @@ class Automatic {
     }
     return done;
   }
-  static Result<void> fetch_one(detail::Chip<Bus, Clock>& chip, void* to, std::uint16_t missing,
-                                std::uint16_t& bad) {
-    detail::FetchedSlave& data = *static_cast<detail::FetchedSlave*>(to);
-    Result<void> done;
-    if (missing == 0 || chip.config.spi_check != SpiCheck::kOff) {
-      done = detail::fetch_slave(chip.opcodes, chip.config, data);
+  [[gnu::noinline]] Result<void> begin(std::uint8_t slave, CyclicRead& read, bool chain,
+                                       std::uint8_t with) {
+    if (!is_in(chip_.sensors, slave)) {
+      return Error::kInvalidArgument;
     }
-    return done && missing != 0 ? detail::judge(chip, data.slave, data.bytes.data(), false, bad)
-                                : done;
+    if (!chip_.automatic) {
+      return Error::kWrongMode;
+    }
+    if ((chip_.needs & ~unsigned{with}) != 0) {
+      return Error::kUnsupported;
+    }
+    const bool unheld = control_runs() && !chip_.config.hold_beside_access;
+    if (read.read_.word != &chip_.words[slave - 1U] || unheld) {
+      read.read_.built = nullptr;
+    }
+    read.read_.word = &chip_.words[slave - 1U];
+    read.read_.watch = &chip_.watch;
+    read.read_.spi_check = static_cast<std::uint8_t>(chip_.config.spi_check);
+    read.read_.unheld = unheld;
+    if (read.read_.chain != (chain && !unheld)) {
+      read.read_.built = nullptr;
+    }
+    read.read_.chain = chain && !unheld;
+    chip_.control.overwritten = chip_.control.overwritten || !unheld;
+    mb4_cyclic_plan(&read.read_, &read.plan_);
+    return {};
   }
 
   [[nodiscard]] bool control_runs() const {

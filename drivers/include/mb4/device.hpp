@@ -112,6 +112,13 @@ class Device {
     chip_.actuators = actuators(config);
     chip_.frame_us = frame_timeout_us(config);
     chip_.pitch_us = detail::frame_pitch_us(config);
+    chip_.needs = 0;
+    for (std::uint8_t slave = 1; slave <= kSlaves; ++slave) {
+      detail::set_word(config, slave, chip_.words[slave - 1U]);
+      chip_.needs = static_cast<std::uint8_t>(
+          chip_.needs | (is_in(chip_.sensors, slave) ? detail::needed(config, slave) : 0));
+    }
+    chip_.set_watch();
     chip_.configured = true;
     chip_.recover_first = false;
     return {};

@@ -40,6 +40,8 @@ class Opcodes {
   // The bus must outlive this object.
   explicit constexpr Opcodes(Bus& bus) : bus_(&bus) {}
 
+  [[nodiscard]] Bus& bus() { return *bus_; }
+
   // 0x02: writes `data` from `address` upwards.
   Result<void> write_registers(std::uint8_t address, Span<const std::uint8_t> data) {
     return write(regs::SpiOpcode::kWriteRegisters, true, address, data);

@@ -37,7 +37,8 @@ module mb4_control (
   input  logic [1:0] word_bad_i,      // a word ends that is not valid
   // status
   output mb4_pkg::flags_t flags_o,
-  output logic       ner_low_o
+  output logic       ner_low_o,
+  output logic       frame_lost_o     // a frame was left out or overwritten
 );
 
   mb4_pkg::kind_t         kind;
@@ -147,6 +148,8 @@ module mb4_control (
     .state_o       (access_state),
     .ags_error_o   (access_ags_error)
   );
+
+  assign frame_lost_o = frame_flags.ags_error || frame_flags.bank_fail || bank_event_i.lost;
 
   // Frames run, or will come by themselves. A frame that the host has to ask for, or that it holds
   // back with HOLDBANK, may come as late as the host likes.

@@ -14,7 +14,8 @@
 // Datasheet: pages 21..36. Crossings: docs/crossings.md.
 
 module mb4_reg_file #(
-  parameter bit Port2 = 1'b0
+  parameter bit Port2 = 1'b0,
+  parameter bit Tap   = 1'b0     // the second read port reads SCDATA1..4 too, for tap_o
 ) (
   input  logic       clk_i,
   input  logic       rst_ni,          // core domain
@@ -54,7 +55,9 @@ module mb4_reg_file #(
   output logic [1:0]  word_bad_o,      // a word ends: its CRC is wrong, or it is split
   // actuator data for MO of lines {2, 1}
   input  logic [2*biss_pkg::MO_READ_W-1:0] mo_read_i,
-  output logic [15:0] mo_data_o
+  output logic [15:0] mo_data_o,
+  // for bus tops
+  output mb4_pkg::reg_tap_t tap_o
 );
 
   mb4_pkg::mem_rd_t rd;
@@ -70,7 +73,7 @@ module mb4_reg_file #(
   logic        post_empty, mark, marked, recent_hit;
   logic [7:0]  recent_data;
   logic        post_rdata, ready_scd, ready_rdata, bank_pending;
-  logic [15:0] scd_lo_data, scd_hi_data, scd2_data, rdata_data, rdata2_data, svalid;
+  logic [15:0] scd_lo_data, scd_hi_data, scd2_data, scd2_lo_data, rdata_data, rdata2_data, svalid;
   logic [3:0]  cds;
   logic        base, newest;          // core domain: bases of banks (mb4_bank_ctrl)
   logic        bank_seen, base_kept;  // host domain: bank it has, base it keeps
@@ -203,7 +206,7 @@ module mb4_reg_file #(
     .clear_o (clear)
   );
 
-  mb4_scd_store #(.Port2(Port2)) u_scd (
+  mb4_scd_store #(.Port2(Port2), .Tap(Tap)) u_scd (
     .clk_i,
     .rst_ni,
     .slaveloc5_i  (cfg_o.slaveloc5),
@@ -220,6 +223,7 @@ module mb4_reg_file #(
     .rd2_clk_i,
     .rd2_i,
     .rd2_data_o   (scd2_data),
+    .rd2_lo_data_o (scd2_lo_data),
     .svalid_o     (svalid),
     .data_i,
     .word_bad_o,
@@ -266,6 +270,8 @@ module mb4_reg_file #(
     .cds_i       ({data2.cds, data1.cds}),
     .cds_o       (cds)
   );
+
+  assign tap_o = {post_empty, banks, svalid, cds, scd2_data, scd2_lo_data};
 
   // RDATA has no banks and no second read port.
   assign unused = ^{rdata_data[15:8], rdata2_data};

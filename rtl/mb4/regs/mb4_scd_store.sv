@@ -12,7 +12,8 @@
 // bank; a word that ends in this clock is complete.
 //
 // Clock domains: core; rclk_i for the reads of the host; rd2_clk_i for the second read port
-// (SCDATA5..8, only with Port2).
+// (SCDATA5..8, only with Port2;
+// SCDATA1..4 with Tap).
 // Latency: read data are valid after the edge with the enable. A read gives the bytes and flags of
 // both banks, bank 1 above bank 0.
 // Vectors: bit i of a vector {2, 1} is for line i + 1. Host writes and clears act on the bank that
@@ -20,7 +21,8 @@
 // Datasheet: pages 23, 26, 32, 33, 35, Tables 10, 20, 49, 61.
 
 module mb4_scd_store #(
-  parameter bit Port2 = 1'b0
+  parameter bit Port2 = 1'b0,
+  parameter bit Tap   = 1'b0   // the second read port reads the lower half too
 ) (
   input  logic       clk_i,
   input  logic       rst_ni,
@@ -42,6 +44,7 @@ module mb4_scd_store #(
   input  logic        rd2_clk_i,
   input  mb4_pkg::mem_rd_t rd2_i,
   output logic [15:0] rd2_data_o,
+  output logic [15:0] rd2_lo_data_o,  // of SCDATA1..4, with Tap
   // actuator data for MO of lines {2, 1}, one clock later
   input  logic [2*biss_pkg::MO_READ_W-1:0] mo_read_i,
   output logic [15:0] mo_data_o,
@@ -64,7 +67,6 @@ module mb4_scd_store #(
   logic       mo_en;
   logic [7:0] lo_mo_data, hi_mo_data;
   logic [7:0] svalid_lo, svalid_hi;
-  logic [15:0] rd2_lo_data;
 
   assign post_lo        = post_valid_i && !post_i[15] && !post_i[13];
   assign post_hi        = post_valid_i && !post_i[15] && post_i[13];
@@ -116,7 +118,7 @@ module mb4_scd_store #(
   assign mo_en     = mo1.rd_en || mo2.rd_en;
   assign mo_data_o = {hi_mo_data, mo1.slave[2] ? hi_mo_data : lo_mo_data};
 
-  mb4_memory u_scd_lo (
+  mb4_memory #(.Port2(Tap)) u_scd_lo (
     .clk_i,
     .clear_i,
     .eng_wr_i     ({lo_wr_en, lo_wr_addr, lo_wr_data}),
@@ -127,9 +129,9 @@ module mb4_scd_store #(
     .rclk_i,
     .rd_i,
     .rd_data_o    (rd_lo_data_o),
-    .rd2_clk_i    (1'b0),
-    .rd2_i        (7'd0),
-    .rd2_data_o   (rd2_lo_data)
+    .rd2_clk_i,
+    .rd2_i,
+    .rd2_data_o   (rd2_lo_data_o)
   );
 
   mb4_memory #(.Port2(Port2)) u_scd_hi (
@@ -183,8 +185,8 @@ module mb4_scd_store #(
 
   assign svalid_o = {svalid_hi[7:4], svalid_lo[7:4], svalid_hi[3:0], svalid_lo[3:0]};
 
-  // The lower half has no second read port. The enables of MO are common.
+  // The enables of MO are common.
   logic unused;
-  assign unused = ^{rd2_lo_data, mo1, mo2, hi_mo};
+  assign unused = ^{mo1, mo2, hi_mo};
 
 endmodule

@@ -65,6 +65,7 @@ package mb4_components is
       ma2_o      : out std_logic;
       sl2_i      : in  std_logic;
       mo2_o      : out std_logic;
+      tap_o      : out std_logic_vector(81 downto 0);
       quirks_i   : in  std_logic_vector(5 downto 0)
     );
   end component;
@@ -94,6 +95,79 @@ package mb4_components is
       mo2_o      : out std_logic;  -- pin MO2_NMO1
       sl1_i      : in  std_logic;  -- pin SL1
       sl2_i      : in  std_logic;  -- pin SL2_NSL1
+      quirks_i   : in  std_logic_vector(5 downto 0)
+    );
+  end component;
+
+  component mb4_axil
+    port (
+      s_axi_aclk    : in  std_logic;
+      s_axi_aresetn : in  std_logic;
+      s_axi_awvalid : in  std_logic;
+      s_axi_awready : out std_logic;
+      s_axi_awaddr  : in  std_logic_vector(11 downto 0);
+      s_axi_wvalid  : in  std_logic;
+      s_axi_wready  : out std_logic;
+      s_axi_wdata   : in  std_logic_vector(31 downto 0);
+      s_axi_wstrb   : in  std_logic_vector(3 downto 0);
+      s_axi_bvalid  : out std_logic;
+      s_axi_bready  : in  std_logic;
+      s_axi_bresp   : out std_logic_vector(1 downto 0);
+      s_axi_arvalid : in  std_logic;
+      s_axi_arready : out std_logic;
+      s_axi_araddr  : in  std_logic_vector(11 downto 0);
+      s_axi_rvalid  : out std_logic;
+      s_axi_rready  : in  std_logic;
+      s_axi_rdata   : out std_logic_vector(31 downto 0);
+      s_axi_rresp   : out std_logic_vector(1 downto 0);
+      irq_o         : out std_logic;
+      clk_i         : in  std_logic;
+      por_ni        : in  std_logic;  -- power-on reset; asserted together with s_axi_aresetn
+      eot_o         : out std_logic;
+      ner_low_o     : out std_logic;  -- an error flag is set: pull NER low
+      ner_i         : in  std_logic;  -- level at NER
+      clkeni_o      : out std_logic;  -- CLKENI as written
+      paired_o      : out std_logic;  -- CFGIF: line 1 is differential and takes the pins of line 2
+      getsens_i     : in  std_logic;
+      ma1_o         : out std_logic;
+      sl1_i         : in  std_logic;
+      mo1_o         : out std_logic;
+      ma2_o         : out std_logic;
+      sl2_i         : in  std_logic;
+      mo2_o         : out std_logic;
+      quirks_i      : in  std_logic_vector(5 downto 0)
+    );
+  end component;
+
+  component mb4_wb
+    port (
+      wb_clk_i   : in  std_logic;
+      wb_rst_i   : in  std_logic;
+      wb_cyc_i   : in  std_logic;
+      wb_stb_i   : in  std_logic;
+      wb_we_i    : in  std_logic;
+      wb_adr_i   : in  std_logic_vector(9 downto 0);
+      wb_dat_i   : in  std_logic_vector(31 downto 0);
+      wb_sel_i   : in  std_logic_vector(3 downto 0);
+      wb_dat_o   : out std_logic_vector(31 downto 0);
+      wb_ack_o   : out std_logic;
+      wb_err_o   : out std_logic;
+      wb_stall_o : out std_logic;  -- of pipelined cycles; classic masters leave it open
+      irq_o      : out std_logic;
+      clk_i      : in  std_logic;
+      por_ni     : in  std_logic;  -- power-on reset; asserted together with wb_rst_i
+      eot_o      : out std_logic;
+      ner_low_o  : out std_logic;  -- an error flag is set: pull NER low
+      ner_i      : in  std_logic;  -- level at NER
+      clkeni_o   : out std_logic;  -- CLKENI as written
+      paired_o   : out std_logic;  -- CFGIF: line 1 is differential and takes the pins of line 2
+      getsens_i  : in  std_logic;
+      ma1_o      : out std_logic;
+      sl1_i      : in  std_logic;
+      mo1_o      : out std_logic;
+      ma2_o      : out std_logic;
+      sl2_i      : in  std_logic;
+      mo2_o      : out std_logic;
       quirks_i   : in  std_logic_vector(5 downto 0)
     );
   end component;

@@ -37,6 +37,7 @@ entity mb4_engine_example is
     ma2_o      : out std_logic;
     sl2_i      : in  std_logic;
     mo2_o      : out std_logic;
+    tap_o      : out std_logic_vector(81 downto 0);
     quirks_i   : in  std_logic_vector(5 downto 0)
   );
 end entity;
@@ -72,6 +73,7 @@ begin
       ma2_o      => ma2_o,
       sl2_i      => sl2_i,
       mo2_o      => mo2_o,
+      tap_o      => tap_o,
       quirks_i   => quirks_i
     );
 end architecture;

@@ -9,7 +9,7 @@ from graphlib import CycleError, TopologicalSorter
 
 from generated_model import NotUnderstood
 
-BUNDLE = 8000  # characters of C++ that one flag controls
+BUNDLE = 3000  # characters of C++ that one flag controls
 KEY_BITS = 3
 
 
@@ -38,15 +38,16 @@ def message(row):
 
 class Part:
     """Groups that run together. There are three cases: they run always (`bits` is 0); one flag
-    controls them; or one flag for each value of the variables in `key` does, `bits` flags from
-    `flag` on. `when`: they run only after one of these events (bits); `always`: then
+    controls them; or one flag for each value of the variables in `key` does, `bits` flags in
+    place `flag` of a table. `when`: they run only after one of these events (bits); `always`: then
     they run if the clock has had an edge; `section`: a number for a few events in a row."""
 
-    def __init__(self, groups, flag=0, bits=0, key=(), when=0, always=False, section=0):
+    def __init__(self, groups, flag=0, bits=0, key=(), when=0, always=False, section=0,
+                 rare=False):
         self.rows = [row for group in groups for row in group.rows]
         self.name = groups[0].name if groups else ""
         self.flag, self.bits, self.key = flag, bits, key
-        self.when, self.always, self.section = when, always, section
+        self.when, self.always, self.section, self.rare = when, always, section, rare
         self.reads = inputs(self.rows)
         self.looks = {look for look in looks(self.rows) if look[0] not in key}
         self.writes = set().union(*(row.writes for row in self.rows))
@@ -196,6 +197,10 @@ class Kinds:
             return None
         return tuple(key), group.module
 
+    @staticmethod
+    def rare(kind):
+        return kind in (((), "seldom"), ((), ""))
+
 
 class HostKinds:
     """The same for edges of host pins. `events` has the bits of the events of each function. A
@@ -203,6 +208,10 @@ class HostKinds:
     an edge writes and what reads it without a clock, the edge of the clock computes itself."""
 
     widths = {}
+
+    @staticmethod
+    def rare(_):
+        return True
 
     def __init__(self, events, by_clock):
         self.events, self.by_clock = events, by_clock
@@ -224,7 +233,7 @@ def combinational(row):
 def parts_of(groups, kinds, count, flags=0):
     """(the parts of the edge in their order, number of flags). `flags`: the first flag."""
     schedule = Schedule(groups)
-    found, events = [], 0
+    found, events, keyed = [], 0, 0
     while schedule.open:
         run = schedule.run(None, kinds)
         if run:
@@ -239,10 +248,9 @@ def parts_of(groups, kinds, count, flags=0):
         for group in schedule.run(kind, kinds) + [None]:
             if bundle and (group is None or count or
                            sum(one.size for one in bundle) + group.size > BUNDLE):
-                if flags % 64 + bits > 64:
-                    flags += 64 - flags % 64
-                found.append(Part(bundle, flags, bits, key, when, always, events // 8))
-                flags += bits
+                found.append(Part(bundle, keyed if key else flags, bits, key, when, always,
+                                  events // 8, kinds.rare(kind)))
+                keyed, flags = keyed + (key != ()), flags + (key == ())
                 bundle = []
             bundle.append(group)
     return found, flags

@@ -8,17 +8,26 @@ from functools import reduce
 from itertools import groupby
 
 from description import members
-from generated_model import NotUnderstood
-from groups import Part, combinational, look_name, looks
+from generated_model import NotUnderstood, branches
+from groups import KEY_BITS, Part, combinational, look_name, looks
 
 CHECKED = 13  # one of so many rising edges has a check
-# What the parts have in common that one test of host() leaves out: the event, runs of flags.
-GATES = (lambda part: part.section, lambda part: part.when, lambda part: part.flag // 64,
-         lambda part: part.flag // 8)
+# What the parts have in common that one test leaves out: the event, runs of flags.
+GATES = (lambda part: part.section, lambda part: part.when,
+         lambda part: part.rare and part.flag // 64 + 1, lambda part: part.rare and part.flag // 8 + 1)
 
 
-def mask_of(part):
-    return ((1 << part.bits) - 1) << part.flag % 64
+def inside_out(text):
+    """An assertion with its own condition first: the others, such as the reset, seldom decide."""
+    conditions, body = [], text.strip()
+    while parts := branches(body):
+        if parts[2]:
+            return text
+        conditions.insert(0, parts[0])
+        body = parts[1].strip()
+    # VL_STOP_MT() throws. Told so, the compiler keeps what it knows about the variables.
+    end = "std::abort();" if "VL_STOP_MT" in body else ""
+    return f"if ({' && '.join(conditions)}) {{ {body} {end} }}"
 
 
 def mark(readers, seen, part):
@@ -26,11 +35,20 @@ def mark(readers, seen, part):
         readers[name][number].add(part)
 
 
+def mask_of(parts):
+    return sum(1 << part.flag % 64 for part in parts)
+
+
 def marked(parts):
-    masks = defaultdict(int)
+    """Code that sets all flags of these parts. A part with a key has a byte for each value."""
+    words = defaultdict(set)
     for part in parts:
-        masks[part.flag // 64] |= mask_of(part)
-    return " ".join(f"kept.changed[{k}] |= {mask:#x}ULL;" for k, mask in sorted(masks.items()))
+        if not part.key:
+            words[part.flag // 64].add(part)
+    return " ".join(
+        [f"kept.changed[{k}] |= {mask_of(some):#x}ULL;" for k, some in sorted(words.items())] +
+        [f"std::memset(kept.keyed[{part.flag}], 1, {part.bits});"
+         for part in sorted(parts, key=lambda part: part.flag) if part.key])
 
 
 class Writer:
@@ -73,6 +91,7 @@ class Writer:
         self.kept = {name for name, many in users.items()
                      if len(many) > 1 or any(name in part.reads for part in many)}
         self.lines = []
+        self.local = {}  # {variable: the local one that stands for it now}
 
     def opening(self, name, result="void"):
         """The first lines of a function that holds statements of the model."""
@@ -81,6 +100,8 @@ class Writer:
                 "(void)vlSymsp;"]
 
     def variable(self, name):
+        if name in self.local:
+            return self.local[name]
         if name not in self.types:
             return f"vlSelf->{name}"
         return ("kept." if name in self.kept else "") + name.replace(".", "__")
@@ -88,7 +109,7 @@ class Writer:
     def text(self, row):
         """The statement as it stands in the header. A write into an array sets its marks at
         once."""
-        text = row.text
+        text = row.text if row.writes else inside_out(row.text)
         for name in sorted(row.writes - row.defines):
             marks = self.marks([name])
             if marks and name in row.arrays:
@@ -97,6 +118,8 @@ class Writer:
                     rf"{{ const auto was = \1; \1\2 if (was != \1) {{ {marks} }} }}", text)
                 if found == 0:
                     raise NotUnderstood(f"{name}: an array written in an unknown way")
+        for name in (row.reads | row.writes) & self.local.keys() - self.types.keys():
+            text = re.sub(rf"vlSelf->{name}\b", self.local[name], text)
         for name in sorted((row.reads | row.writes) & self.types.keys(), key=len, reverse=True):
             text = re.sub(rf"(?<![\w>.]){re.escape(name.split('.', 1)[1])}\b",
                           lambda _, name=name: self.variable(name), text)
@@ -110,20 +133,15 @@ class Writer:
         """Code that makes all parts run that read one of the variables."""
         return marked(set().union(*(self.reading(name) for name in names)))
 
-    def compare(self, names, before, now, count=False):
-        """Sets the marks of the parts that read a changed variable. Variables with the same readers
-        share one test."""
-        alike = defaultdict(list)
-        for k, name in enumerate(names):
-            for number, parts in sorted(self.readers[name].items(), key=str):
-                old, new = before(k), now(name)
-                test = f"({old} != {new})" if number is None else \
-                    f"(({old} == {number}U) != ({new} == {number}U))"
-                alike[marked(parts)].append(test)
-                if count:
-                    self.lines.append(f"counts.moves[{len(self.moves)}] += {test};")
-                    self.moves.append(look_name(name, number))
-        self.lines += [f"if ({' | '.join(tests)}) {{ {marks} }}" for marks, tests in alike.items()]
+    def compare(self, name, old, new, also=""):
+        """Sets the marks of the parts that read a variable which has changed from `old` to `new`."""
+        for number, parts in sorted(self.readers[name].items(), key=lambda item: (item[0] is None, str(item[0]))):
+            test = f"{old} != {new}" if number is None else \
+                f"({old} == {number}U) != ({new} == {number}U)"
+            if self.count:
+                self.lines.append(f"counts.moves[{len(self.moves)}] += {test};")
+                self.moves.append(look_name(name, number))
+            self.lines.append(f"if ({test}) {{ {marked(parts)} {also if number is None else ''} }}")
 
     def bits_of(self, part):
         """(variable of the part's key, place of its bits in the key's value), one after the
@@ -133,11 +151,13 @@ class Writer:
             yield name, at
             at += self.widths[name]
 
-    def key(self, part):
-        """The place of the flag for the present value of the part's key."""
-        return " + ".join([str(part.flag % 64),
-                           *(f"(static_cast<unsigned>({self.variable(name)}) << {at})"
-                             for name, at in self.bits_of(part))])
+    def flag(self, part, value=None):
+        """The flag of the part for a value of its key, or for the present one."""
+        if not part.key:
+            return f"kept.changed[{part.flag // 64}] & {mask_of([part]):#x}ULL"
+        value = value or " + ".join(f"(unsigned{{{self.variable(name)}}} << {at})"
+                                    for name, at in self.bits_of(part))
+        return f"kept.keyed[{part.flag}][{value}]"
 
     def lasting(self, part):
         """The variables that a part writes and that keep their value after it, without arrays."""
@@ -149,56 +169,67 @@ class Writer:
                 for name in sorted({name for row in part.rows for name in row.reads | row.writes}
                                    & self.types.keys() - self.kept)]
 
-    def part(self, part, count):
+    def part(self, part):
+        """The statements of a part. A variable that others look at is computed in a local one. It
+        is stored after the last statement that writes it, if it has changed."""
         self.lines += self.declared(part)
-        told = [name for name in self.lasting(part) if part.key or self.marks([name])]
-        for k, name in enumerate(told):
-            self.lines.append(f"const auto before{k} = {self.variable(name)};")
-        if count and part.bits:
+        if self.count and part.bits:
             self.lines.append(f"++counts.runs[{part.flag}];")
-        self.lines += [self.text(row) for row in part.rows]
-        if part.key:
-            # The result has changed, so it is not known for other values of the key.
-            word, mask = f"kept.changed[{part.flag // 64}]", mask_of(part)
-            tests = " | ".join(f"(before{k} != {self.variable(name)})"
-                               for k, name in enumerate(told))
-            self.lines.append(f"if ({tests or 'false'}) {{ {word} |= {mask:#x}ULL & ~here; }}")
-        self.compare(told, lambda k: f"before{k}", self.variable, count)
+        told = [name for name in self.lasting(part) if part.key or self.readers[name]]
+        last = {name: row for row in part.rows for name in row.writes.intersection(told)}
+        # The result has changed, so it is not known for other values of the key.
+        again = f"{marked([part])} here = 0;"
+        for row in part.rows:
+            for name in sorted(row.writes.intersection(told) - self.local.keys()):
+                now = f"now{told.index(name)}"
+                self.lines.append(f"auto {now} = {self.variable(name)};")
+                self.local[name] = now
+            self.lines.append(self.text(row))
+            for name in sorted(name for name in told if last[name] is row):
+                now = self.local.pop(name)
+                old = self.variable(name)
+                store = f"{old} = {now};"
+                also = again * bool(part.key)
+                if None in self.readers[name]:
+                    self.compare(name, old, now, also + store)
+                else:
+                    self.compare(name, old, now)
+                    self.lines.append(f"if ({old} != {now}) {{ {also} {store} }}")
         if self.readers is self.by_host:
             self.look_for(part.writes)
 
-    def some(self, parts, count=False):
+    def some(self, parts):
         for part in parts:
-            if not part.bits:
-                self.lines.append("{")
+            if part.key:
+                self.lines += [f"if (auto& here = {self.flag(part)}; __builtin_expect(here, 0)) {{",
+                               "here = 0;"]
+            elif part.bits:
+                self.lines += [f"if (__builtin_expect(({self.flag(part)}) != 0, 0)) {{",
+                               f"kept.changed[{part.flag // 64}] &= ~{mask_of([part]):#x}ULL;"]
             else:
-                word = f"kept.changed[{part.flag // 64}]"
-                self.lines += [f"if (const unsigned at = {self.key(part)};",
-                               f"__builtin_expect(({word} >> at & 1) != 0, 0)) {{",
-                               "const auto here = std::uint64_t{1} << at;", f"{word} &= ~here;"]
-            self.part(part, count)
+                self.lines.append("{")
+            self.part(part)
             self.lines.append("}")
 
     def gated(self, parts, tests=GATES):
-        """Parts of host(): one test leaves out many of them."""
+        """One test leaves out many parts."""
         for gate, many in groupby(parts, tests[0]):
             many = list(many)
-            masks = sum(mask_of(part) for part in many)
             when = reduce(int.__or__, (part.when for part in many))
             if tests[2:]:
                 self.lines.append(f"if ((now & {when:#x}) != 0) {{" if when else "{")
             else:
-                self.lines.append(f"if ((kept.changed[{many[0].flag // 64}] & {masks:#x}) != 0) {{"
-                                  if len(many) > 1 else "{")
+                self.lines.append(f"if ((kept.changed[{many[0].flag // 64}] & {mask_of(many):#x}ULL)"
+                                  " != 0) {" if gate and many[1:] else "{")
             if tests[1:]:
                 self.gated(many, tests[1:])
             else:
                 self.some(many)
             self.lines.append("}")
 
-    def function(self, name, parts, count):
+    def function(self, name, parts):
         self.lines += [*self.opening(name), "kept.clocked = true;"]
-        self.some(parts, count)
+        self.gated(parts)
         if self.checked and name == "rise":
             self.lines.append(f"if (++kept.rises % {CHECKED} == 0) check(vlSelf, kept);")
         self.lines.append("}")
@@ -227,7 +258,7 @@ class Writer:
                        f"if (std::exchange(kept.clocked, false)) {{ {marked(self.always)} }}"]
         for name in pins:
             self.lines.append(f"if (const auto was = kept.{name}; was != vlSelf->{name}) {{")
-            self.compare([name], lambda _: "was", self.variable)
+            self.compare(name, "was", self.variable(name))
             self.look_for([name])
             self.lines += [f"kept.{name} = vlSelf->{name};", "}"]
         self.gated(self.lists["pins"])
@@ -247,26 +278,29 @@ class Writer:
     def header(self, count, check=(), check_host=()):
         """`check`: lines of a function check(), called after some of the edges. `check_host`: those
         of a host() that calls unchecked_host()."""
-        self.checked = bool(check)
+        self.checked, self.count = bool(check), False
         pins = sorted(members(self.described.host))
         self.lines = [
             "// Made from the model by model_parts.py.", "#pragma once",
-            "#include <cstddef>", "#include <cstdint>", "#include <cstdio>", "#include <cstring>",
+            "#include <cstddef>", "#include <cstdint>", "#include <cstdio>", "#include <cstdlib>", "#include <cstring>",
             "#include <utility>",
             f"#include <{self.described.prefix}__Syms.h>", *self.tables,
             f"void {self.root}___eval({self.root}*);",
             f"namespace {self.described.namespace} {{",
             "struct Kept {", f"std::uint64_t changed[{self.core.flag // 64 + 1}];",
-            "Kept() { std::memset(changed, 0xFF, sizeof changed); }",
-            f"void all(const {self.root}& root) {{",
-            "std::memset(changed, 0xFF, sizeof changed);",
+            f"std::uint8_t keyed[{1 + sum(bool(part.key) for part in self.lists['rise'])}]"
+            f"[{1 << KEY_BITS}];", "Kept() { mark_all(); }",
+            "void mark_all() {", "std::memset(changed, 0xFF, sizeof changed);",
+            "std::memset(keyed, 1, sizeof keyed);", "}",
+            f"void all(const {self.root}& root) {{", "mark_all();",
             *(f"{name} = root.{name};" for name in pins), "(void)root; }",
             *(f"decltype({self.root}::{name}) {name}{{}};" for name in pins),
             *(f"{self.types[name]} {name.replace('.', '__')}{{}};" for name in sorted(self.kept)),
             "bool clocked = false;", "std::uint64_t rises = 0, edges = 0;", "};", *check]
         head, self.lines = self.lines, []
         for name in sorted(self.lists.keys() - {"pins", "events"}):
-            self.function(name, self.lists[name], count and name == "rise")
+            self.count = count and name == "rise"
+            self.function(name, self.lists[name])
         body, self.lines = self.lines, head
         if count:
             self.counts()
@@ -274,6 +308,7 @@ class Writer:
         for name, changed in self.described.changed.items():
             self.lines.append(f"inline void {name}(Kept& kept) "
                               f"{{ kept.clocked = true; {self.marks(members(changed))} }}")
+        self.count = False
         if pins:
             self.host("unchecked_host" if check else "host")
             self.lines += check_host

@@ -50,8 +50,7 @@ def one(writer, part):
         lines += [f"const auto {kind}{k} = {writer.variable(name)};"
                   for k, name in enumerate(names)]
     lines += [f"for (unsigned value = 0; value < {part.bits}; ++value) {{",
-              f"if ((kept.changed[{part.flag // 64}] >> ({part.flag % 64} + value) & 1) != 0)",
-              "continue;"]
+              f"if (({writer.flag(part, 'value')}) != 0) continue;"]
     for k, (name, at) in enumerate(writer.bits_of(part)):
         mask = (1 << writer.widths[name]) - 1
         lines.append(f"{writer.variable(name)} = "

@@ -4,7 +4,7 @@
 """Builds driver code for a microcontroller, prints what it takes, compares with budget.toml.
 
   footprint.py TARGET PROGRAM INCLUDE_DIR...     TARGET: cortex-m0plus cortex-m4 rv32imc
-                                                 PROGRAM: position single whole
+                                                 PROGRAM: cyclic position single whole
   footprint.py self-test                         the checks of stack and budget can fail
 
 Rejects every symbol that a driver without heap, exceptions and static constructors cannot need.
@@ -30,6 +30,7 @@ TARGETS = {
 FLAGS = ("-std=c++17 -ffreestanding -fno-exceptions -fno-rtti -fno-threadsafe-statics -Os "
          "-ffunction-sections -fdata-sections -fcallgraph-info=su "
          "-Wall -Wextra -Wpedantic -Wconversion -Wshadow -Werror").split()
+CPP_FLAGS = ("-std=c++17", "-fno-exceptions", "-fno-rtti", "-fno-threadsafe-statics")
 FORBIDDEN = re.compile(r"malloc|calloc|realloc| free$|_Znw|_Zna|_Zdl|_Zda|"
                        r"__cxa_|__aeabi_atexit|_Unwind|_GLOBAL__sub_I|__gxx_")
 
@@ -100,7 +101,7 @@ def over(budget, figures):
             for what, limit in budget.items() if figures[what] > limit]
 
 
-PROGRAMS = {"position": "position read path", "single": "one encoder, single frames",
+PROGRAMS = {"cyclic": "read path in C99", "position": "position read path", "single": "one encoder, single frames",
             "whole": "everything"}
 
 
@@ -129,8 +130,14 @@ def measure(target, program, includes):
     with tempfile.TemporaryDirectory() as folder:
         work = Path(folder)
         for unit in (program, "board"):
-            run([*base, *FLAGS, *[f"-I{path}" for path in includes], "-c", HERE / f"{unit}.cpp",
-                 "-o", work / f"{unit}.o"])
+            source = HERE / f"{unit}.cpp"
+            language = [*base, *FLAGS]
+            if not source.exists():
+                source = source.with_suffix(".c")
+                language = [prefix + "gcc", *cpu, specs, "-std=c99",
+                            *[flag for flag in FLAGS if flag not in CPP_FLAGS]]
+            run([*language, *[f"-I{path}" for path in includes], "-c", source, "-o",
+                 work / f"{unit}.o"])
         elf = work / "unit.elf"
         # Without start files and C++ runtime: all but libgcc arithmetic and memcpy is the driver's.
         run([prefix + "gcc", *cpu, specs, "-nostartfiles", "-Wl,--gc-sections", "-Wl,-e,firmware",

@@ -1,13 +1,13 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 
-// The position read path: what the interrupt of a control loop links, every check included. The
-// device is the application's and has been configured elsewhere.
+// The position read path: what the interrupt of a control loop links, for one BiSS encoder of up to
+// 32 bits with a CRC. The device is the application's and has been configured elsewhere.
 
 #include "board.hpp"
 
 extern "C" bool firmware(BoardDevice& device, std::uint64_t& position) {
-  const mb4::Result<mb4::Reading> reading = device.automatic().poll_slave(1);
+  const mb4::Result<mb4::Reading> reading = device.automatic().poll_slave<0>(1);
   if (!reading) {
     return false;
   }

@@ -86,6 +86,8 @@ inline const Bytes kGoodFrame = status(0xFB, 0x02);      // EOT = 1, SVALID1 = 1
 inline const Bytes kStartFrame{0x07, 0x04};              // INSTR = 010: bits 3:1 of 0xF4 (table 45)
 inline const Bytes kBreak{0x07, 0x80};                   // BREAK: bit 7 of 0xF4 (table 47)
 inline const Bytes kClearValid1{0x02, 0xF1, 0xFD, 0xFF};  // only SVALID1, bit 1, is written 0
+// ... and 0xF4 = AGS: HOLDBANK = 0. 0xF3 between them is read-only.
+inline const Bytes kClearValid1AndRelease{0x02, 0xF1, 0xFD, 0xFF, 0xFF, 0x01};
 inline const Bytes kReadData4{0x09, 0x00, 0x00, 0x00, 0x00};
 inline const Bytes kData4{0x00, 0xBF, 0x37, 0xAF, 0x0A};  // 0x0AAF37BF, low byte first (table 20)
 

@@ -60,11 +60,13 @@ struct ScanOptions {
 int scan_command(const ScanOptions& options);
 
 struct RegressOptions {
-  std::vector<std::string> scenarios;
+  std::vector<std::string> scenarios;  // merge: outputs of shards
   std::uint64_t seeds = 1;
   std::uint64_t first_seed = 1;
   std::uint64_t frames = 100;
   std::uint64_t jobs = 1;
+  std::string shard;       // "K/N"; empty: all runs
+  bool merge = false;      // print what shards have found
   std::string cover_path;  // empty: no functional coverage
 };
 int regress_command(const RegressOptions& options);

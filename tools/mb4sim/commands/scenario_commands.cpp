@@ -2,11 +2,13 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Options and help of the commands that run a scenario.
+#include <algorithm>
 #include <memory>
 #include <string>
 
 #include "command_line.hpp"
 #include "commands/commands.hpp"
+#include "worker_pool.hpp"
 
 namespace mb4::tool {
 namespace {
@@ -118,7 +120,10 @@ void add_regress(CLI::App& app, Action& action) {
   std::shared_ptr<RegressOptions> options;
   CLI::App& regress = *add_command(app, action, "regress", "Run scenarios with many seeds",
                                    &regress_command, options);
-  regress.add_option("scenarios", options->scenarios, "Scenario files (TOML)")
+  options->jobs = std::min<std::uint64_t>(usable_cores(), kMaxJobs);
+  regress
+      .add_option("scenarios", options->scenarios,
+                  "Scenario files (TOML); with --merge outputs of shards")
       ->required()
       ->type_name("SCENARIO")
       ->check(file_name());
@@ -131,9 +136,20 @@ void add_regress(CLI::App& app, Action& action) {
   regress.add_option("--first-seed", options->first_seed, "Seed of the first of them (default 1)")
       ->type_name("S")
       ->transform(whole_number(0, std::numeric_limits<std::uint64_t>::max()));
-  regress.add_option("--jobs", options->jobs, "Processes that work at the same time (default 1)")
+  regress
+      .add_option("--jobs", options->jobs,
+                  "Processes that work at the same time (default: one for each processor)")
       ->type_name("N")
       ->transform(whole_number(1, kMaxJobs));
+  regress
+      .add_option("--shard", options->shard, "Only part K of N parts; the output is for --merge")
+      ->type_name("K/N")
+      ->check(file_name());
+  CLI::Option* const merge = regress.add_flag(
+      "--merge", options->merge, "Print what the shards have found that the files hold");
+  for (const char* option : {"--frames", "--seeds", "--first-seed", "--jobs", "--shard"}) {
+    regress.get_option(option)->excludes(merge);
+  }
   regress
       .add_option("--cover", options->cover_path,
                   "Write how often each value of a field met each kind of frame")
@@ -141,10 +157,10 @@ void add_regress(CLI::App& app, Action& action) {
       ->check(file_name());
   regress.footer(
       "The output does not depend on --jobs. Look at a failed run with: mb4sim run SCENARIO --seed "
-      "S "
-      "--frames N\n"
-      "Example: mb4sim regress examples/resolute-26.toml examples/two-channels.toml --seeds 20 "
-      "--jobs 2");
+      "S --frames N\n"
+      "Examples: mb4sim regress examples/resolute-26.toml examples/two-channels.toml --seeds 20\n"
+      "  mb4sim regress examples/resolute-26.toml --seeds 20 --shard 1/2 > 1.shard\n"
+      "  mb4sim regress --merge *.shard");
 }
 
 }  // namespace

@@ -8,10 +8,11 @@
 """
 
 from ._library import Error, version
+from ._sweep import sweep
 from .driver import Config, Driver, Identity, Reading
 from .registers import Field, Register, Registers
-from .simulator import Frame, Simulator
+from .simulator import Edges, Frame, Simulator
 
 __version__ = version()
-__all__ = ["Config", "Driver", "Error", "Field", "Frame", "Identity", "Reading", "Register",
-           "Registers", "Simulator"]
+__all__ = ["Config", "Driver", "Edges", "Error", "Field", "Frame", "Identity", "Reading", "Register",
+           "Registers", "Simulator", "sweep"]

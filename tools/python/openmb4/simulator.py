@@ -6,7 +6,9 @@ import json
 import os
 import threading
 from numbers import Integral
-from typing import Any, Callable, Mapping, NamedTuple, Optional, Union
+from typing import Any, Callable, Dict, Mapping, NamedTuple, Optional, Sequence, Tuple, Union
+
+import numpy as np
 
 from . import driver, registers
 from ._library import Error, ffi, lib, simulator_error
@@ -43,6 +45,15 @@ class Frame(NamedTuple):
     ma_edges: int
     ma_low: bool  # MA rests at 0 after the frame: CDM = 1 in BiSS C
     fault: bool  # a fault lasted in the frame
+
+
+class Edges(NamedTuple):
+    """What record() saw: of each pin the times in ns at which a level began, the first at start_ns,
+    and these levels."""
+
+    start_ns: int
+    end_ns: int
+    pins: Dict[str, Tuple[np.ndarray, np.ndarray]]
 
 
 class Simulator:
@@ -158,6 +169,25 @@ class Simulator:
     def pin(self, name: str) -> int:
         """The level of a pin by its datasheet name."""
         return self._do(f"pin {name}", lib.mb4sim_pin_read, name.encode())
+
+    def record(self, pins: Sequence[str], ns: int, step_ns: int = 10) -> Edges:
+        """Lets `ns` pass and looks at these pins every `step_ns`: an edge is told up to one step
+        late, and a pulse shorter than a step may be missed."""
+        if ns < 0 or step_ns < 1:
+            raise Error(f"record: ns must be 0 or more and step_ns 1 or more, not {ns} and {step_ns}")
+        with self._lock:
+            start = now = self.time_ns
+            seen = {name: [(start, self.pin(name))] for name in pins}
+            while now < start + ns:
+                self.advance_ns(min(step_ns, start + ns - now))
+                now = self.time_ns
+                for name, edges in seen.items():
+                    level = self.pin(name)
+                    if level != edges[-1][1]:
+                        edges.append((now, level))
+        return Edges(start, now, {name: (np.array([at for at, _ in edges], np.int64),
+                                         np.array([level for _, level in edges], np.int8))
+                                  for name, edges in seen.items()})
 
     def set_pin(self, name: str, level: int) -> None:
         """Drives an input pin. At NER 0 pulls it low and 1 lets it go."""

@@ -13,6 +13,7 @@
 
 #include "mb4/bus.hpp"
 #include "mb4/config.hpp"
+#include "mb4/cyclic.hpp"
 #include "mb4/opcodes.hpp"
 #include "mb4/register_image.hpp"
 #include "mb4/result.hpp"
@@ -22,9 +23,11 @@
 
 namespace mb4::detail {
 
+using enc::clock_step_us;
+
 // Coarsest step of a time source, that of 32 kHz, and the rounding of its readings (enc/bus.hpp).
 // Two readings may differ by this much more than the time between them. Every wait is longer by it.
-inline constexpr std::uint32_t kClockStepUs = 33;
+inline constexpr std::uint32_t kClockStepUs = enc::kMaxClockStepUs;
 
 // Polls of the status that `time_us` (up to 1'000'000'000) may hold. The fastest poll is five
 // cycles of the parallel bus: 0.25 us, because a cycle takes at least 55 ns (I104 to I116).
@@ -98,12 +101,14 @@ struct Chip {
   Opcodes<Bus> opcodes;
   Clock* clock;
   Config config{};
-  std::uint8_t sensors = 0;        // slaves of `config` that deliver data; bit 0 is slave 1
-  std::uint16_t sensor_flags = 0;  // the same as flag_of()
-  std::uint8_t actuators = 0;      // slaves of `config` that take words; bit 0 is slave 1
-  std::uint32_t news_us = 0;       // when the last automatic frame was seen
-  std::uint32_t frame_us = 0;      // frame_timeout_us(), worked out once
-  std::uint32_t pitch_us = 0;      // frame_pitch_us()
+  std::uint8_t sensors = 0;               // slaves of `config` that deliver data; bit 0 is slave 1
+  std::uint16_t sensor_flags = 0;         // the same as flag_of()
+  std::uint8_t actuators = 0;             // slaves of `config` that take words; bit 0 is slave 1
+  std::array<mb4_word, kSlaves> words{};  // how the data of each slave is read
+  std::uint8_t needs = 0;                 // MB4_WITH_..., for any slave
+  mb4_watch watch{};                      // are automatic frames coming?
+  std::uint32_t frame_us = 0;             // frame_timeout_us(), worked out once
+  std::uint32_t pitch_us = 0;             // frame_pitch_us()
   bool configured = false;
   // AGS = 1 was written, and nothing has stopped it.
   bool automatic = false;
@@ -113,6 +118,20 @@ struct Chip {
   // The caller wants automatic frames, but they need BREAK and a new start first (table 69).
   bool restart = false;
   ControlState control{};
+
+  // Works out when frames have stayed away for too long: Automatic::poll(). A slave that needs
+  // longer than a period says so by Config::frame_timeout_us.
+  void set_watch() {
+    const std::uint32_t two_us = 2 * pitch_us;
+    const std::uint32_t slow_us = config.frame_timeout_us + pitch_us;
+    const bool on_pin = config.frame_start == FrameStart::kOnPin;
+    watch.omitted_us = (two_us > slow_us ? two_us : slow_us) + clock_step_us<Clock>;
+    watch.silent_us = on_pin ? 0 : 14 * pitch_us + watch.omitted_us;
+    watch.lines = static_cast<std::uint8_t>(
+        (config.channels[0].protocol == Protocol::kUnused ? 0 : regs::SL1::kMask) |
+        (config.channels[1].protocol == Protocol::kUnused ? 0 : regs::SL2::kMask));
+    watch.several = (sensors & (sensors - 1U)) != 0;
+  }
 
   // Reads the status once. kTransport, kNotDetected.
   Result<void> look(Status& status) {
@@ -233,8 +252,7 @@ struct Chip {
 
  private:
   [[nodiscard]] bool lines_are_high(std::uint8_t line_status) const {
-    return (config.channels[0].protocol == Protocol::kUnused || regs::SL1::get(line_status) == 1) &&
-           (config.channels[1].protocol == Protocol::kUnused || regs::SL2::get(line_status) == 1);
+    return (line_status & watch.lines) == watch.lines;
   }
 };
 

@@ -125,33 +125,6 @@ Result<void> fetch_data(Opcodes<Bus>& opcodes, const Config& config, std::uint16
   return read;
 }
 
-// As FetchedData, for one slave: it needs less memory and code in an interrupt.
-struct FetchedSlave {
-  std::array<std::uint8_t, regs::kScdataStride> bytes{};
-  std::uint8_t slave = 1;
-  bool stable = true;
-};
-
-template <typename Bus>
-Result<void> fetch_slave(Opcodes<Bus>& opcodes, const Config& config, FetchedSlave& data) {
-  const std::size_t size = reading_bytes(config, data.slave);
-  const std::uint8_t from = regs::scdata_address(data.slave);
-  data.stable = true;
-  const Result<void> first =
-      read_run(opcodes, config, Span<std::uint8_t>(data.bytes.data(), size), from);
-  if (!first || config.spi_check != SpiCheck::kFull ||
-      !needs_second_reading(config, data.slave, data.bytes)) {
-    return first;
-  }
-  std::array<std::uint8_t, regs::kScdataStride> second{};
-  const Result<void> read =
-      read_run(opcodes, config, Span<std::uint8_t>(second.data(), size), from);
-  for (std::size_t i = 0; i < size; ++i) {
-    data.stable = data.stable && data.bytes[i] == second[i];
-  }
-  return read;
-}
-
 // A flag beside flag_of(): of a slave without SVALID and without a stored CRC only nSCDERR tells.
 inline constexpr std::uint16_t kUnproven = 1;
 

@@ -47,7 +47,7 @@ class FramePoll {
       // Directly after a switch there is the time of a frame until the next one. A frame may also
       // have ended after the first look.
       // watch() counts from the end of the control communication, which has its own timeout.
-      chip_.news_us = chip_.clock->now_us();
+      chip_.watch.news_us = chip_.clock->now_us();
       return (first ? out.good != 0 : first.error() != Error::kBankSwitched)
                  ? first
                  : run(mask, true, out, fetch, data);
@@ -121,11 +121,11 @@ class FramePoll {
     const bool left_out = out.status.start_error();
     const bool unproven = (out.bad & kUnproven) != 0;
     if (out.good != 0 || (out.bad != 0 && !unproven)) {
-      chip_.news_us = now_us;
+      chip_.watch.news_us = now_us;
     }
-    const std::uint32_t pitches = left_out || unproven ? 2 : 16;
-    if (chip_.config.frame_start == FrameStart::kOnPin ||
-        now_us - chip_.news_us <= pitches * chip_.pitch_us + kClockStepUs) {
+    const mb4_watch& watch = chip_.watch;
+    const std::uint32_t limit_us = left_out || unproven ? watch.omitted_us : watch.silent_us;
+    if (watch.silent_us == 0 || now_us - watch.news_us <= limit_us) {
       return {};
     }
     const Result<void> line = chip_.look_at_lines();

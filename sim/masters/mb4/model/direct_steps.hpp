@@ -59,25 +59,28 @@ class DirectSteps {
   // before the next clock edge. So the change waits for that edge.
   void sl(Vmb4_chip& /*model*/) { late_ = true; }
 
-  // CLK rises or falls and no other input changes. Returns false if the edge changes nothing.
-  bool clk(Vmb4_chip& model, bool level) {
+  // CLK falls. Returns false if the edge must be evaluated.
+  bool falls_idly(Vmb4_chip& model) {
+    Root& root = *model.rootp;
+    if (!on_clk(root) || fall_matters(root)) return false;
+    set_clock(root, false);
+    return true;
+  }
+  // CLK rises or falls and no other input changes.
+  void clk(Vmb4_chip& model, bool level) {
     Root& root = *model.rootp;
     root.clk_i = level;
     if (!on_clk(root)) {  // the chip runs on another clock, or is changing to one
       inputs(model);
-      return true;
+      return;
     }
-    const bool matters = level || fall_matters(root);
-    if (matters) {
-      take_sl(root);
-      if (level) {
-        edge::rise(&root, kept_);
-      } else {
-        edge::fall(&root, kept_);
-      }
+    take_sl(root);
+    if (level) {
+      edge::rise(&root, kept_);
+    } else {
+      edge::fall(&root, kept_);
     }
     set_clock(root, level);
-    return matters;
   }
 
   // Stores the state of the chip before a rising edge of CLK.

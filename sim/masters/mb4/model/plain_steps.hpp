@@ -21,13 +21,13 @@ class PlainSteps {
   }
   // SL1 or SL2 has changed and no other input.
   void sl(Model& model) { model.eval(); }
-  // CLK rises or falls and no other input changes. Returns false if the edge changes nothing.
-  bool clk(Model& model, bool level) {
+  // CLK rises or falls and no other input changes.
+  void clk(Model& model, bool level) {
     model.clk_i = level;
     model.eval();
-    return true;
   }
-  // This class leaves out no clocks at rest.
+  // This class leaves out no edges.
+  bool falls_idly(const Model& /*model*/) const { return false; }
   void mark(const Model& /*model*/) {}
   bool at_rest(const Model& /*model*/) const { return false; }
   bool rests(Model& /*model*/, bool /*level*/) { return false; }

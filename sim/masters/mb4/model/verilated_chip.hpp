@@ -112,23 +112,23 @@ class VerilatedChip final : public ChipModel {
     while (pin_clock_.next() <= limit) {
       const Time now = pin_clock_.next();
       const bool level = pin_clock_.edge();
-      cycles_ += level ? 1U : 0U;
+      if (level) ++cycles_;
       if (resting_) resting_ = steps_.rests(model, level);
       if (resting_) {
         if (!level) leave_out_rest(limit);
         continue;
       }
+      if (!level && steps_.falls_idly(model)) continue;
       context_->time(now);
       // After some clocks without a change at any pin, is the chip at rest?
       const bool look = level && ++quiet_ == kLooks[looks_];
       if (look) steps_.mark(model);
-      if (steps_.clk(model, level)) {
-        trace_.dump(now);
-        if (const Outputs outputs = pack(); outputs != outputs_) {
-          outputs_ = outputs;
-          stirred();
-          return now;
-        }
+      steps_.clk(model, level);
+      trace_.dump(now);
+      if (const Outputs outputs = pack(); outputs != outputs_) {
+        outputs_ = outputs;
+        stirred();
+        return now;
       }
       if (!look) continue;
       quiet_ = 0;

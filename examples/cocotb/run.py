@@ -1,0 +1,40 @@
+#!/usr/bin/env python3
+# SPDX-FileCopyrightText: 2026 The openmb4 authors
+# SPDX-License-Identifier: Apache-2.0
+"""Runs the cocotb test bench of mb4_core with Icarus Verilog.
+
+  run.py VERILOG FOLDER    VERILOG is mb4_core.v of a release, or of tools/synth/plain_verilog.py;
+                           FOLDER takes the build
+
+Needs cocotb 2.1 and the openmb4 package."""
+
+import sys
+from pathlib import Path
+
+from cocotb_tools.check_results import get_results
+from cocotb_tools.runner import get_runner
+
+
+def main():
+    if len(sys.argv) != 3:
+        print(__doc__, file=sys.stderr)
+        return 2
+    verilog, folder = Path(sys.argv[1]), Path(sys.argv[2]).resolve()
+    if not verilog.is_file():
+        print(f"run.py: {verilog} is no file", file=sys.stderr)
+        return 2
+    folder.mkdir(parents=True, exist_ok=True)
+    # Icarus takes the unit of time from the source only.
+    source = folder / "mb4_core.v"
+    source.write_text("`timescale 1ns/1ps\n" + verilog.read_text(encoding="utf-8"), encoding="utf-8")
+    runner = get_runner("icarus")
+    runner.build(sources=[source], hdl_toplevel="mb4_core", build_dir=folder, always=True)
+    results = runner.test(hdl_toplevel="mb4_core", test_module="mb4_core_test", build_dir=folder,
+                          test_dir=Path(__file__).resolve().parent,
+                          results_xml=str(folder / "results.xml"))
+    tests, failed = get_results(results)
+    return 1 if failed or not tests else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,133 @@
+// SPDX-FileCopyrightText: 2026 The openmb4 authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// The chip on AXI4-Lite, 32 bits, 12 bits of address: the registers of the chip at 0x000..0x0FF,
+// four bytes to a word, and a page of words at 0x100 (docs/buses.md).
+//
+// Clock domains: s_axi_aclk and clk_i (core). They need no relation, and may be one clock; there is
+// no clock switch, so CLKENI only goes to clkeni_o.
+// Reset: s_axi_aresetn resets all but MA and its time base; por_ni is the power-on reset and is
+// asserted together with it. Both are asynchronous.
+// Latency: enc_axil and mb4_bridge. An access waits for the core at most while its clock runs, and
+// WaitLimit clocks of s_axi_aclk after the core's clock has stopped: then it ends with SLVERR.
+// irq_o is active high and of s_axi_aclk.
+//
+// Misuse: of the bus, enc_axil; addresses that hold nothing read 0 and ignore writes.
+// Source: decision 45; AMBA AXI and ACE protocol specification (IHI0022), part B1.
+
+module mb4_axil #(
+  parameter logic [1:0]  SlCells   = biss_pkg::SL_FLOPS,  // SL: flops or DDR cells
+  parameter int unsigned WaitLimit = 1024
+) (
+  // AXI4-Lite
+  input  logic        s_axi_aclk,
+  input  logic        s_axi_aresetn,
+  input  logic        s_axi_awvalid,
+  output logic        s_axi_awready,
+  input  logic [11:0] s_axi_awaddr,
+  input  logic        s_axi_wvalid,
+  output logic        s_axi_wready,
+  input  logic [31:0] s_axi_wdata,
+  input  logic [3:0]  s_axi_wstrb,
+  output logic        s_axi_bvalid,
+  input  logic        s_axi_bready,
+  output logic [1:0]  s_axi_bresp,
+  input  logic        s_axi_arvalid,
+  output logic        s_axi_arready,
+  input  logic [11:0] s_axi_araddr,
+  output logic        s_axi_rvalid,
+  input  logic        s_axi_rready,
+  output logic [31:0] s_axi_rdata,
+  output logic [1:0]  s_axi_rresp,
+  output logic        irq_o,
+  // core
+  input  logic        clk_i,
+  input  logic        por_ni,      // power-on reset; asserted together with s_axi_aresetn
+  output logic        eot_o,
+  output logic        ner_low_o,   // an error flag is set: pull NER low
+  input  logic        ner_i,       // level at NER
+  output logic        clkeni_o,    // CLKENI as written
+  output logic        paired_o,    // CFGIF: line 1 is differential and takes the pins of line 2
+  input  logic        getsens_i,
+  // lines
+  output logic        ma1_o,
+  input  logic        sl1_i,
+  output logic        mo1_o,
+  output logic        ma2_o,
+  input  logic        sl2_i,
+  output logic        mo2_o,
+  // constants
+  input  logic [mb4_pkg::QUIRKS_W-1:0] quirks_i
+);
+
+  logic        rst_n;
+  logic        word_req, word_write, word_ready, word_error;
+  logic [11:2] word_addr;
+  logic [31:0] word_wdata, word_rdata;
+  logic [3:0]  word_be;
+  logic        unused;
+
+  enc_axil #(.AddrW(12)) u_axil (
+    .clk_i         (s_axi_aclk),
+    .rst_ni        (rst_n),
+    .s_axi_awvalid,
+    .s_axi_awready,
+    .s_axi_awaddr  (s_axi_awaddr[11:2]),
+    .s_axi_wvalid,
+    .s_axi_wready,
+    .s_axi_wdata,
+    .s_axi_wstrb,
+    .s_axi_bvalid,
+    .s_axi_bready,
+    .s_axi_bresp,
+    .s_axi_arvalid,
+    .s_axi_arready,
+    .s_axi_araddr  (s_axi_araddr[11:2]),
+    .s_axi_rvalid,
+    .s_axi_rready,
+    .s_axi_rdata,
+    .s_axi_rresp,
+    .word_req_o    (word_req),
+    .word_write_o  (word_write),
+    .word_addr_o   (word_addr),
+    .word_data_o   (word_wdata),
+    .word_be_o     (word_be),
+    .word_ready_i  (word_ready),
+    .word_data_i   (word_rdata),
+    .word_error_i  (word_error)
+  );
+
+  mb4_bus #(.SlCells(SlCells), .WaitLimit(WaitLimit)) u_bus (
+    .bus_clk_i       (s_axi_aclk),
+    .bus_rst_ni      (s_axi_aresetn),
+    .bus_rst_sync_no (rst_n),
+    .word_req_i      (word_req),
+    .word_write_i    (word_write),
+    .word_addr_i     (word_addr),
+    .word_data_i     (word_wdata),
+    .word_be_i       (word_be),
+    .word_ready_o    (word_ready),
+    .word_data_o     (word_rdata),
+    .word_error_o    (word_error),
+    .irq_o,
+    .clk_i,
+    .por_ni,
+    .eot_o,
+    .ner_low_o,
+    .ner_i,
+    .clkeni_o,
+    .paired_o,
+    .getsens_i,
+    .ma1_o,
+    .sl1_i,
+    .mo1_o,
+    .ma2_o,
+    .sl2_i,
+    .mo2_o,
+    .quirks_i
+  );
+
+  // The word that holds the byte is accessed.
+  assign unused = ^{s_axi_awaddr[1:0], s_axi_araddr[1:0]};
+
+endmodule

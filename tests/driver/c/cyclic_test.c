@@ -1,0 +1,215 @@
+/* SPDX-FileCopyrightText: 2026 The openmb4 authors
+ * SPDX-License-Identifier: Apache-2.0
+ *
+ * The read path in C99 on the Verilated chip, without the C++ driver: no library of it is linked.
+ */
+#include <stdio.h>
+#include <string.h>
+
+#include "mb4_cyclic.h"
+#include "mb4_regs.h"
+#include "mb4sim.h"
+
+static unsigned failures;
+
+static void check(int good, const char *what, int line) {
+  if (!good) {
+    printf("line %d: %s\n", line, what);
+    ++failures;
+  }
+}
+#define CHECK(condition) check((condition), #condition, __LINE__)
+
+enum { kPeriodNs = 50000, kPhases = 25 };
+
+/* BiSS C at 10 MHz, 28 bits; the position counts the frames. */
+static const char kScenario[] =
+    "[chip.quirks]\nAGSERR_ON_HOLDBANK = %s\n[host]\nsclk_hz = 10_000_000\n"
+    "[[channel]]\nnumber = 1\n[[channel.slave]]\nprotocol = \"biss-c\"\ndata_bits = 28\n"
+    "source = \"ramp\"\nstep = 1\n";
+
+typedef struct {
+  mb4sim *simulator;
+  mb4_word word;
+  mb4_watch watch;
+  mb4_cyclic read;
+  mb4_plan plan;
+  uint32_t table[16];
+  uint8_t parts;
+  unsigned transfers;
+  unsigned bytes;
+} drive_t;
+
+static void write_bytes(drive_t *drive, const uint8_t *bytes, size_t size) {
+  CHECK(mb4sim_spi_transfer(drive->simulator, bytes, NULL, size) == 0);
+}
+
+static uint32_t now_us(const drive_t *drive) {
+  return (uint32_t)(mb4sim_time_ns(drive->simulator) / 1000);
+}
+
+static void start(drive_t *drive, bool omits, uint8_t spi_check, bool chain, bool by_table) {
+  char text[400];
+  char error[200];
+  const uint8_t stop[] = {0x07, 0x80, 0x00};
+  const uint8_t run[] = {0x07, 0x01};
+  const mb4_slave_config slave = {true, 28, MB4_FLAGS_ERROR_WARNING, 0, 0x43, false, false, false};
+  uint8_t image[2 + 0xF3 - 0xC0] = {0x02, 0xC0, 0x5B, 0x06}; /* SCDLEN1 = 27, SCRCLEN1 = 6 */
+  (void)snprintf(text, sizeof text, kScenario, omits ? "true" : "false");
+  memset(drive, 0, sizeof *drive);
+  drive->simulator = mb4sim_open(text, error, sizeof error);
+  if (drive->simulator == NULL) {
+    printf("%s\n", error);
+    ++failures;
+    return;
+  }
+  image[2 + MB4_ADDR_CTRL - 0xC0] = 0x40;    /* REGVERS: BiSS C (table 26) */
+  image[2 + MB4_ADDR_FREQ - 0xC0] = 0xA0;    /* FREQS = 0: 20 MHz / 2 (table 35), FREQR = 5 */
+  image[2 + MB4_ADDR_BANKCFG - 0xC0] = spi_check == MB4_SPI_CHECK_OFF ? 0x02 : 0x00; /* NOCRC */
+  image[2 + MB4_ADDR_FREQAGS - 0xC0] = 50 - 1; /* 20 MHz / 20 / 50: every 50 us (table 37) */
+  image[2 + MB4_ADDR_SLAVELOC5 - 0xC0] = 0x01;
+  image[2 + MB4_ADDR_CFGCH - 0xC0] = 0x0D; /* channel 1 BiSS C, channel 2 unused (table 8) */
+  write_bytes(drive, stop, sizeof stop);
+  write_bytes(drive, image, sizeof image);
+  mb4_word_set(&drive->word, 1, &slave, spi_check);
+  drive->parts = MB4_WITH_ALL;
+  if (by_table) {
+    mb4_crc_table(&drive->word, drive->table);
+    drive->parts |= MB4_WITH_TABLE;
+  }
+  drive->watch.news_us = now_us(drive);
+  drive->watch.omitted_us = 2 * kPeriodNs / 1000 + 2;
+  drive->watch.silent_us = 16 * kPeriodNs / 1000;
+  drive->watch.lines = 1;
+  drive->read.word = &drive->word;
+  drive->read.watch = &drive->watch;
+  drive->read.spi_check = spi_check;
+  drive->read.chain = chain;
+  write_bytes(drive, run, sizeof run);
+}
+
+static uint8_t read_position(drive_t *drive) {
+  uint8_t code;
+  unsigned calls = 0;
+  drive->transfers = 0;
+  drive->bytes = 0;
+  mb4_cyclic_plan(&drive->read, &drive->plan);
+  do {
+    uint8_t i;
+    for (i = 0; i < drive->plan.frames; ++i) {
+      const uint8_t size = drive->plan.size[i];
+      CHECK(size <= 25);
+      CHECK(mb4sim_spi_transfer(drive->simulator, drive->plan.tx[i], drive->plan.rx[i], size) == 0);
+      ++drive->transfers;
+      drive->bytes += size;
+    }
+    code = mb4_cyclic_finish(&drive->read, &drive->plan, true, now_us(drive), drive->parts);
+    CHECK(++calls <= 6);
+  } while (code == MB4_MORE);
+  return code;
+}
+
+/* At each phase of a loop that ticks with the frames each word comes once, in order, and is true;
+ * what is missing was left out or overwritten while the bank was held. */
+static void test_phases(bool omits, uint8_t spi_check, bool chain, bool by_table) {
+  unsigned phase;
+  for (phase = 0; phase < kPhases; ++phase) {
+    drive_t drive;
+    uint64_t last = 0;
+    uint64_t due;
+    unsigned good = 0;
+    unsigned ticks;
+    start(&drive, omits, spi_check, chain, by_table);
+    if (drive.simulator == NULL) {
+      return;
+    }
+    due = mb4sim_time_ns(drive.simulator) + 3 * kPeriodNs + phase * kPeriodNs / kPhases;
+    for (ticks = 0; ticks < 100; ++ticks) {
+      const uint64_t now = mb4sim_time_ns(drive.simulator);
+      uint8_t code;
+      uint64_t before;
+      CHECK(now <= due);
+      mb4sim_advance_ns(drive.simulator, due - now);
+      due += kPeriodNs;
+      before = mb4sim_time_ns(drive.simulator);
+      code = read_position(&drive);
+      if (code == MB4_OK) {
+        const uint64_t position = drive.read.reading.position;
+        uint64_t sent = 0;
+        CHECK(mb4sim_slave_sent(drive.simulator, 1, position + 1, &sent) == 0);
+        CHECK(sent == drive.read.reading.raw);
+        CHECK(ticks == 0 || position > last);
+        CHECK(mb4sim_slave_frames(drive.simulator, 1) - position <= 4);
+        CHECK(!drive.read.reading.error && !drive.read.reading.warning);
+        last = position;
+        ++good;
+        if (chain) {
+          CHECK(drive.transfers == 4 && drive.bytes <= 23);
+          CHECK(mb4sim_time_ns(drive.simulator) - before <= 19000);
+        }
+      } else {
+        CHECK(code == MB4_NO_DATA);
+      }
+    }
+    CHECK(good >= 98);
+    mb4sim_close(drive.simulator);
+  }
+}
+
+/* A bad word is told once; then a dead line within three frames, and what it is. */
+static void test_faults(bool omits, bool chain, unsigned stuck_level, uint8_t alarm) {
+  drive_t drive;
+  char error[200];
+  char fault[200];
+  unsigned told = 0;
+  unsigned i;
+  uint8_t code = MB4_NO_DATA;
+  start(&drive, omits, MB4_SPI_CHECK_CRC, chain, false);
+  if (drive.simulator == NULL) {
+    return;
+  }
+  mb4sim_advance_ns(drive.simulator, 3 * kPeriodNs);
+  CHECK(read_position(&drive) == MB4_OK);
+  for (i = 0; i < 40; ++i) {
+    if (i == 5) {
+      CHECK(mb4sim_inject(drive.simulator,
+                          "[[fault]]\nkind = \"bit-flip\"\nchannel = 1\nat_us = 0\nbits = [9]\n",
+                          error, sizeof error) == 0);
+    }
+    code = read_position(&drive);
+    told += code == MB4_CRC ? 1 : 0;
+    CHECK(code == MB4_OK || code == MB4_CRC || code == MB4_NO_DATA);
+    mb4sim_advance_ns(drive.simulator, 2000);
+  }
+  if (told != 1) {
+    printf("%u bad words were told\n", told);
+    ++failures;
+  }
+  mb4sim_advance_ns(drive.simulator, kPeriodNs);
+  CHECK(read_position(&drive) == MB4_OK);
+  (void)snprintf(fault, sizeof fault,
+                 "[[fault]]\nkind = \"stuck\"\nchannel = 1\nat_us = 0\nlevel = %u\n", stuck_level);
+  if (mb4sim_inject(drive.simulator, fault, error, sizeof error) != 0) {
+    printf("%s\n", error);
+    ++failures;
+  }
+  for (i = 0; i < 5 && code != alarm; ++i) {
+    mb4sim_advance_ns(drive.simulator, kPeriodNs - 20000);
+    code = read_position(&drive);
+  }
+  CHECK(code == alarm);
+  CHECK(i <= 4);
+  mb4sim_close(drive.simulator);
+}
+
+int main(void) {
+  test_phases(false, MB4_SPI_CHECK_CRC, true, false);
+  test_phases(true, MB4_SPI_CHECK_CRC, true, true);
+  test_phases(false, MB4_SPI_CHECK_OFF, true, false);
+  test_phases(false, MB4_SPI_CHECK_CRC, false, true);
+  test_phases(false, MB4_SPI_CHECK_FULL, false, false);
+  test_faults(false, true, 1, MB4_TIMEOUT);
+  test_faults(true, false, 0, MB4_LINE_ERROR);
+  printf("%u failures\n", failures);
+  return failures != 0;
+}

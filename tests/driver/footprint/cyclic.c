@@ -1,0 +1,34 @@
+/* SPDX-FileCopyrightText: 2026 The openmb4 authors
+ * SPDX-License-Identifier: Apache-2.0
+ *
+ * The read path in C99: one BiSS encoder of up to 32 bits with a CRC, bit by bit or, with
+ * -DPARTS=MB4_WITH_TABLE, by table. Word, watch, table and the memory of the read are the
+ * application's.
+ */
+#include <stddef.h>
+
+#include "mb4_cyclic.h"
+
+#ifndef PARTS
+#define PARTS 0
+#endif
+
+bool board_transfer(const uint8_t *tx, uint8_t *rx, size_t size);
+uint32_t board_now_us(void);
+
+uint8_t firmware(mb4_cyclic *read, mb4_plan *plan, uint64_t *position);
+
+uint8_t firmware(mb4_cyclic *read, mb4_plan *plan, uint64_t *position) {
+  uint8_t code;
+  mb4_cyclic_plan(read, plan);
+  do {
+    bool done = true;
+    uint8_t i;
+    for (i = 0; i < plan->frames && done; ++i) {
+      done = board_transfer(plan->tx[i], plan->rx[i], plan->size[i]);
+    }
+    code = mb4_cyclic_finish(read, plan, done, board_now_us(), PARTS);
+  } while (code == MB4_MORE);
+  *position = read->reading.position;
+  return code;
+}

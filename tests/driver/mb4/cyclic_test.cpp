@@ -1,0 +1,301 @@
+// SPDX-FileCopyrightText: 2026 The openmb4 authors
+// SPDX-License-Identifier: Apache-2.0
+
+// The read path in steps, plan by plan: table 69 as one chain, and what follows a fault. Expected
+// bytes come from the datasheet (tables 3, 44, 48, 55, 61; page 26).
+
+#include "mb4/cyclic.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cstdint>
+#include <initializer_list>
+#include <string>
+#include <vector>
+
+#include "mb4/device.hpp"
+#include "tests/driver/mb4/encoder26.hpp"
+#include "tests/driver/mb4/strict_bus.hpp"
+
+namespace {
+
+using mb4::Error;
+using mb4test::Bytes;
+using mb4test::FakeClock;
+using mb4test::hex;
+using mb4test::join;
+using mb4test::kClearValid1;
+using mb4test::kClearValid1AndRelease;
+using mb4test::kReadStatus;
+using mb4test::StrictBus;
+using mb4test::zeros;
+
+const Bytes kAgs{0x07, 0x01};
+const Bytes kHold{0x07, 0x41};
+const Bytes kReadWord = join({{0x09}, zeros(8)});
+const Bytes kWord = join({mb4test::kData4, {0, 0, 0, mb4test::kCrc6}});
+const Bytes kBadWord = join({mb4test::kData4, {0, 0, 0, 0x3F}});
+
+Bytes held(std::uint8_t f0, std::uint8_t valid) { return {0, f0, valid, 0, 0, 0x41}; }
+const Bytes kNew = held(0xFA, 0x02);
+const Bytes kNone = held(0xFA, 0x00);
+const Bytes kBad = held(0x6A, 0x00);  // nSCDERR = 0, nERR = 0
+
+class CyclicTest : public testing::Test {
+ protected:
+  // Slave 1, and slaves 2.. with the same word if `slaves` is more than 1.
+  void start(mb4::SpiCheck check, unsigned slaves = 1) {
+    mb4::Config config = mb4test::encoder26();
+    config.spi_check = check;
+    Bytes image = mb4test::configuration();
+    Bytes answer = mb4test::read_back();
+    for (Bytes* bytes : {&image, &answer}) {
+      if (check != mb4::SpiCheck::kOff) (*bytes)[0xE7 - 0xC0] = 0x00;  // NOCRC = 0 (table 21)
+      if (slaves > 1) {
+        (*bytes)[4] = (*bytes)[0];
+        (*bytes)[5] = (*bytes)[1];
+      }
+    }
+    if (slaves > 1) config.slaves[1] = config.slaves[0];
+    bus.expect_write({0x07, 0x80, 0x00});
+    bus.expect_write(join({{0x02, 0xC0}, image, zeros(3)}));
+    bus.expect_read(join({{0x03, 0xC0}, zeros(54)}), join({zeros(2), answer}));
+    ASSERT_TRUE(device.configure(config).ok());
+    bus.expect_write(kAgs);
+    clock.time_us = 1000;
+    clock.step_us = 0;
+    ASSERT_TRUE(device.automatic().start().ok());
+  }
+
+  // The frames of the plan must be `frames`; then the chip answers with `answers`, one for each
+  // read of the plan. Returns finish().
+  bool step(const std::vector<Bytes>& frames, const std::vector<Bytes>& answers,
+            bool transferred = true) {
+    EXPECT_EQ(read.frames(), frames.size());
+    std::size_t next = 0;
+    for (std::size_t i = 0; i < read.frames() && i < frames.size(); ++i) {
+      EXPECT_EQ(hex(Bytes(read.tx(i).begin(), read.tx(i).end())), hex(frames[i])) << i;
+      if (read.rx(i).empty() || next >= answers.size()) continue;
+      EXPECT_EQ(read.rx(i).size(), answers[next].size()) << "slip in the test";
+      for (std::size_t k = 0; k < answers[next].size(); ++k) read.rx(i)[k] = answers[next][k];
+      ++next;
+    }
+    return device.automatic().finish(read, transferred, now_us);
+  }
+  void plan() { ASSERT_TRUE(device.automatic().plan_slave(1, read).ok()); }
+
+  StrictBus bus;
+  FakeClock clock;
+  mb4::Device<StrictBus, FakeClock> device{bus, clock};
+  mb4::CyclicRead read;
+  std::uint32_t now_us = 1000;
+  const std::vector<Bytes> kChain{kHold, kReadWord, kReadStatus, kClearValid1AndRelease};
+  const std::vector<Bytes> kHeld{kHold, kReadWord, kReadStatus};
+};
+
+using Chain = CyclicTest;
+using Full = CyclicTest;
+
+// 4 transfers, 23 bytes.
+TEST_F(Chain, NewFrame_IsOnePlan) {
+  start(mb4::SpiCheck::kCrc);
+  plan();
+  EXPECT_TRUE(step(kChain, {kWord, kNew}));
+  ASSERT_TRUE(read.result().ok());
+  EXPECT_EQ(read.result()->position, mb4test::kPosition);
+  EXPECT_TRUE(read.result()->crc_stored);
+  EXPECT_EQ(read.result()->crc, mb4test::kCrc6);
+  std::size_t bytes = 0;
+  for (const Bytes& frame : kChain) bytes += frame.size();
+  EXPECT_EQ(bytes, 23U);
+}
+
+TEST_F(Chain, NothingNew_IsNoData) {
+  start(mb4::SpiCheck::kCrc);
+  plan();
+  EXPECT_TRUE(step(kChain, {kWord, kNone}));
+  EXPECT_EQ(read.result().error(), Error::kNoData);
+}
+
+TEST_F(Chain, WrongUse_IsAnErrorWithoutPlan) {
+  EXPECT_EQ(device.automatic().plan_slave(1, read).error(), Error::kInvalidArgument);
+  start(mb4::SpiCheck::kCrc);
+  EXPECT_EQ(device.automatic().plan_slave(2, read).error(), Error::kInvalidArgument);
+  EXPECT_EQ(device.automatic().plan_slave(0, read).error(), Error::kInvalidArgument);
+  bus.expect_write({0x07, 0x00});
+  ASSERT_TRUE(device.automatic().stop().ok());
+  EXPECT_EQ(device.automatic().plan_slave(1, read).error(), Error::kWrongMode);
+}
+
+// SVALID = 1, but the stored CRC does not fit: SPI has disturbed the bytes.
+TEST_F(Chain, DisturbedData_IsCorrupted) {
+  start(mb4::SpiCheck::kCrc);
+  plan();
+  EXPECT_TRUE(step(kChain, {kBadWord, kNew}));
+  EXPECT_EQ(read.result().error(), Error::kCorrupted);
+  // A bit above the data of 28 bits.
+  plan();
+  Bytes high = kWord;
+  high[4] |= 0x10;
+  EXPECT_TRUE(step(kChain, {high, kNew}));
+  EXPECT_EQ(read.result().error(), Error::kCorrupted);
+}
+
+// A bad word is marked while the bank is held, so that it counts once. CRC6 0x43 of page 26 is in
+// byte 7.
+TEST_F(Chain, BadWord_IsHeldAndMarked) {
+  start(mb4::SpiCheck::kCrc);
+  plan();
+  EXPECT_FALSE(step(kChain, {kBadWord, kBad}));
+  EXPECT_FALSE(step(kHeld, {kBadWord, kBad}));
+  EXPECT_TRUE(step({{0x02, 0x07, mb4test::kCrc6}, kAgs}, {}));
+  EXPECT_EQ(read.result().error(), Error::kCrc);
+  plan();
+  EXPECT_TRUE(step(kChain, {kWord, kBad}));
+  EXPECT_EQ(read.result().error(), Error::kNoData);
+}
+
+// Between the two plans the bank switches to a good word; or to one that was read before.
+TEST_F(Chain, BadWordGone_NewOneCounts) {
+  start(mb4::SpiCheck::kCrc);
+  plan();
+  EXPECT_FALSE(step(kChain, {kBadWord, kBad}));
+  EXPECT_FALSE(step(kHeld, {kWord, kNew}));
+  EXPECT_TRUE(step({kClearValid1AndRelease}, {}));
+  EXPECT_TRUE(read.result().ok());
+  plan();
+  EXPECT_FALSE(step(kChain, {kBadWord, kBad}));
+  EXPECT_FALSE(step(kHeld, {kWord, kBad}));
+  EXPECT_TRUE(step({kAgs}, {}));
+  EXPECT_EQ(read.result().error(), Error::kCrc);
+}
+
+// HOLDBANK must not stay 1 after a fault.
+TEST_F(Chain, Faults_ReleaseTheBank) {
+  start(mb4::SpiCheck::kCrc);
+  const auto ends_with = [this](Error error) {
+    EXPECT_TRUE(step({kAgs}, {}));
+    EXPECT_EQ(read.result().error(), error);
+  };
+  plan();
+  EXPECT_FALSE(step(kChain, {}, false));
+  ends_with(Error::kTransport);
+  plan();
+  EXPECT_FALSE(step(kChain, {kWord, zeros(6)}));
+  ends_with(Error::kNotDetected);
+  plan();
+  EXPECT_FALSE(step(kChain, {kWord, Bytes(6, 0xFF)}));
+  ends_with(Error::kNotDetected);
+  plan();
+  EXPECT_FALSE(step(kChain, {kWord, {0, 0xFA, 0x02, 0, 0, 0x01}}));  // HOLDBANK = 0
+  ends_with(Error::kCorrupted);
+  // The release fails too.
+  plan();
+  EXPECT_FALSE(step(kChain, {}, false));
+  EXPECT_TRUE(step({kAgs}, {}, false));
+  EXPECT_EQ(read.result().error(), Error::kTransport);
+  // The marking fails.
+  plan();
+  EXPECT_FALSE(step(kChain, {kBadWord, kBad}));
+  EXPECT_FALSE(step(kHeld, {kBadWord, kBad}));
+  EXPECT_FALSE(step({{0x02, 0x07, mb4test::kCrc6}, kAgs}, {}, false));
+  ends_with(Error::kTransport);
+}
+
+// AGS may have ended by an error.
+TEST_F(Chain, AgsOff_IsNoFaultOfSpi) {
+  start(mb4::SpiCheck::kCrc);
+  plan();
+  EXPECT_TRUE(step(kChain, {kWord, {0, 0xFA, 0x02, 0, 0, 0x40}}));
+  EXPECT_TRUE(read.result().ok());
+}
+
+// No frame for 16 periods; with a frame that was left out (nAGSERR = 0) for two. The timeout of
+// this configuration is 218 us, and frames follow back to back.
+TEST_F(Chain, FramesStayAway_IsAnAlarm) {
+  start(mb4::SpiCheck::kCrc);
+  const std::uint32_t pitch_us = mb4::frame_timeout_us(device.config());
+  const Bytes omitted = held(0x3A, 0x00);
+  const Bytes look = join({{0x05}, zeros(9)});
+  const auto lines = [](std::uint8_t f8) { return join({zeros(9), {f8}}); };
+  plan();
+  now_us = 1000 + 2 * pitch_us + 33;
+  EXPECT_TRUE(step(kChain, {kWord, omitted}));
+  EXPECT_EQ(read.result().error(), Error::kNoData);
+  plan();
+  ++now_us;
+  EXPECT_FALSE(step(kChain, {kWord, omitted}));
+  EXPECT_TRUE(step({look}, {lines(0x01)}));  // SL1 = 1
+  EXPECT_EQ(read.result().error(), Error::kTimeout);
+  plan();
+  EXPECT_FALSE(step(kChain, {kWord, omitted}));
+  EXPECT_TRUE(step({look}, {lines(0x00)}));
+  EXPECT_EQ(read.result().error(), Error::kLineError);
+  plan();
+  EXPECT_FALSE(step(kChain, {kWord, omitted}));
+  EXPECT_TRUE(step({look}, {}, false));
+  EXPECT_EQ(read.result().error(), Error::kTransport);
+  // Without the flag.
+  now_us = 1000 + 16 * pitch_us + 33;
+  plan();
+  EXPECT_TRUE(step(kChain, {kWord, kNone}));
+  EXPECT_EQ(read.result().error(), Error::kNoData);
+  ++now_us;
+  plan();
+  EXPECT_FALSE(step(kChain, {kWord, kNone}));
+  EXPECT_TRUE(step({look}, {lines(0x01)}));
+  EXPECT_EQ(read.result().error(), Error::kTimeout);
+  // A good frame ends it.
+  plan();
+  EXPECT_TRUE(step(kChain, {kWord, kNew}));
+  plan();
+  EXPECT_TRUE(step(kChain, {kWord, kNone}));
+  EXPECT_EQ(read.result().error(), Error::kNoData);
+}
+
+// Without a stored CRC nothing tells a bad word from an old one, except that there is no other.
+TEST_F(Chain, BadFrameUnchecked_IsCrcUntilAGoodOneComes) {
+  start(mb4::SpiCheck::kOff);
+  const std::vector<Bytes> chain{kHold, mb4test::kReadData4, kReadStatus, kClearValid1AndRelease};
+  for (int i = 0; i < 2; ++i) {
+    plan();
+    EXPECT_TRUE(step(chain, {mb4test::kData4, kBad}));
+    EXPECT_EQ(read.result().error(), Error::kCrc);
+  }
+  plan();
+  EXPECT_TRUE(step(chain, {mb4test::kData4, kNew}));
+  EXPECT_TRUE(read.result().ok());
+  EXPECT_FALSE(read.result()->crc_stored);
+}
+
+// Given up half way: the bank is released.
+TEST_F(Chain, GivenUp_EndsWithTransport) {
+  start(mb4::SpiCheck::kCrc);
+  plan();
+  EXPECT_FALSE(device.automatic().finish(read, false, now_us));
+  EXPECT_TRUE(device.automatic().finish(read, false, now_us));
+  EXPECT_EQ(read.result().error(), Error::kTransport);
+}
+
+// With kFull each step decides; a failed step releases the bank.
+TEST_F(Full, EachStepFails_ReleasesTheBank) {
+  start(mb4::SpiCheck::kFull);
+  const Bytes read_word = join({{0x09}, Bytes(8, 0x5A)});
+  const std::vector<std::vector<Bytes>> frames{
+      {kHold, kReadStatus}, {read_word, kReadStatus}, {kClearValid1, kReadStatus}, {kAgs}};
+  const std::vector<std::vector<Bytes>> answers{{kNew}, {kWord, kNew}, {kNone}, {}};
+  for (std::size_t failing = 0; failing < frames.size(); ++failing) {
+    plan();
+    for (std::size_t i = 0; i < failing; ++i) {
+      EXPECT_FALSE(step(frames[i], answers[i])) << failing;
+    }
+    const bool release_fails = failing + 1 == frames.size();
+    EXPECT_EQ(step(frames[failing], {}, false), release_fails) << failing;
+    if (!release_fails) {
+      EXPECT_TRUE(step({kAgs}, {}));
+    }
+    EXPECT_EQ(read.result().error(), Error::kTransport) << failing;
+  }
+}
+
+}  // namespace
