@@ -44,6 +44,9 @@ DRIVER = tuple(name for layer in DRIVER_HEADERS for name in layer if "/detail/" 
 MAY_USE = {
     "regmap/": (),
     "drivers/c/": (*DRIVER, "regmap/"),
+    "drivers/include/biss_axi/": ("drivers/include/enc/", "regmap/"),
+    "drivers/include/biss_c.h": (),
+    "drivers/c/biss_c": ("drivers/include/biss_axi/", "drivers/include/biss_c.h", "regmap/"),
     "sim/core/": (),
     "sim/lines/registers/": ("sim/core/",),
     "sim/lines/": ("sim/core/", "sim/lines/registers/"),
@@ -88,7 +91,8 @@ for level, layer in enumerate(DRIVER_HEADERS):
 # Uses that break the table for the time being. Each of them must still exist.
 STILL = {}
 # Folders in which an include in quotes or angle brackets is looked for, after the file's own.
-INCLUDE_FOLDERS = ("sim/include/", "drivers/include/", "regmap/generated/mb4/", "sim/model/",
+INCLUDE_FOLDERS = ("sim/include/", "drivers/include/", "regmap/generated/mb4/",
+                   "regmap/generated/axi/", "sim/model/",
                    "tools/mb4sim/", "drivers/c/", "")
 CPP = (".cpp", ".hpp", ".c", ".h")
 

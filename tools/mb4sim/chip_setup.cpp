@@ -93,6 +93,17 @@ void add_protocol(const sim::SlaveConfig& slave, SlaveConfig& target, Config& co
 
 }  // namespace
 
+sim::Scenario load_chip_scenario(const std::string& path) {
+  sim::Scenario scenario = sim::load_scenario(path);
+  if (scenario.master->type != "ic-mb4") {
+    throw sim::ScenarioError(scenario.name, {}, "type",
+                             fmt::format("mb4sim configures the iC-MB4, not \"{}\"; C++ programs "
+                                         "can use this master (sim/README.md)",
+                                         scenario.master->type));
+  }
+  return scenario;
+}
+
 std::vector<ConnectedSlave> connected_slaves(const sim::Scenario& scenario) {
   constexpr unsigned kFirstOfChannel2 = 5;
   std::vector<ConnectedSlave> found;

@@ -14,6 +14,10 @@
 
 namespace mb4::tool {
 
+// Loads a scenario. Throws sim::ScenarioError if it cannot be read, or if its master is not the
+// iC-MB4, which is the only one that the commands configure.
+sim::Scenario load_chip_scenario(const std::string& path);
+
 // A slave of the scenario and its number in the chip, 1..8 as in SCDATAx.
 struct ConnectedSlave {
   unsigned number;

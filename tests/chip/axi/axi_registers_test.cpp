@@ -131,5 +131,27 @@ TEST(Axi, ZeroInDividersAndBits_ActsAsOneAndAs32) {
   EXPECT_EQ(rise[1] - rise[0], 2 * bench.period);
 }
 
+TEST(AxiScenario, WhatTheMasterDoesNotHave_IsRefusedByKey) {
+  const auto error = [](const std::string& text) -> std::string {
+    try {
+      sim::parse_scenario(text, "test.toml");
+    } catch (const sim::ScenarioError& failure) {
+      return failure.what();
+    }
+    return "";
+  };
+  const std::string master = "[master]\ntype = \"axi\"\n";
+  const std::string slave = "[[channel.slave]]\nprotocol = \"biss-c\"\ndata_bits = 28\n";
+  const std::string channel = "[[channel]]\nnumber = 1\n";
+  EXPECT_EQ(error(master + channel + slave), "");
+  EXPECT_NE(error(master + channel + slave + slave).find("more than 1 slave on a channel"),
+            std::string::npos);
+  EXPECT_NE(error(master + "[[channel]]\nnumber = 17\n").find("key 'number'"), std::string::npos);
+  EXPECT_NE(error(master + "[host]\ninterface = \"spi\"\n").find("axi"), std::string::npos);
+  EXPECT_NE(error(master + "[host]\nma_hz = 3_000_000\n").find("key 'ma_hz'"), std::string::npos);
+  EXPECT_NE(error(master + "[chip.quirks]\nREVISION = 0x20\n").find("key 'REVISION'"),
+            std::string::npos);
+}
+
 }  // namespace
 }  // namespace mb4test

@@ -77,6 +77,14 @@ class Cli(CliTest):
             self.assert_one_line(result, 2, re.escape(bad) + r":3:1: key 'f_osk_hz': unknown key")
             self.assertEqual(result.stdout, "")
 
+    def test_another_master_is_refused_by_name(self):
+        text = "[master]\ntype = \"axi\"\n[[channel]]\nnumber = 1\n[[channel.slave]]\nprotocol = \"biss-c\"\n"
+        other = self.path("axi.toml", text + "data_bits = 28\n")
+        for command in (["run"], ["spi"], ["regs"], ["scan"], ["sweep"], ["regress"], ["plot"]):
+            result = run(*command, other)
+            self.assertEqual(result.returncode, 2, command)
+            self.assertRegex(result.stderr, "key 'type': mb4sim configures the iC-MB4")
+
     def test_missing_scenario(self):
         for command in ("run", "spi", "regs"):
             self.assert_one_line(run(command, "/no/such.toml"), 2,

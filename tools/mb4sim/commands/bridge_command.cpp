@@ -10,6 +10,7 @@
 
 #include "bridge/bridge_server.hpp"
 #include "bridge/file_descriptor.hpp"
+#include "chip_setup.hpp"
 #include "commands/commands.hpp"
 #include "mb4sim/model_stopped.hpp"
 #include "mb4sim/simulator.hpp"
@@ -38,7 +39,7 @@ int bridge_command(const BridgeOptions& options) {
   if (options.unix_path.empty() == options.tcp.empty()) {
     throw UseError("bridge needs either --unix or --tcp");
   }
-  const sim::Scenario scenario = sim::load_scenario(options.scenario);
+  const sim::Scenario scenario = load_chip_scenario(options.scenario);
   const TraceFile trace(options.trace, options.scenario, scenario);
   sim::SimulatorOptions sim_options;
   sim_options.seed = options.seed;

@@ -187,7 +187,7 @@ void check(const PlotOptions& options, const sim::Scenario& scenario) {
 }  // namespace
 
 int plot_command(const PlotOptions& options) {
-  const sim::Scenario scenario = sim::load_scenario(options.scenario);
+  const sim::Scenario scenario = load_chip_scenario(options.scenario);
   const Config config = make_config(scenario);
   check(options, scenario);
   std::vector<Output> outputs;

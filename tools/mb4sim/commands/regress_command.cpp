@@ -12,6 +12,7 @@
 #include <string_view>
 #include <vector>
 
+#include "chip_setup.hpp"
 #include "commands/commands.hpp"
 #include "mb4sim/simulator.hpp"
 #include "report/exit_status.hpp"
@@ -209,7 +210,7 @@ int run_shard(const RegressOptions& options) {
   const Shard shard(options.shard);
   std::vector<sim::Scenario> scenarios;
   for (const std::string& path : options.scenarios) {
-    scenarios.push_back(sim::load_scenario(path));
+    scenarios.push_back(load_chip_scenario(path));
     make_config(scenarios.back());
   }
   const Batch batch{scenarios.size(), options.seeds, options.first_seed, options.frames,

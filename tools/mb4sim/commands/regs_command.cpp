@@ -96,7 +96,7 @@ void print_json(const Dump& dump) {
 }  // namespace
 
 int regs_command(const RegsOptions& options) {
-  const sim::Scenario scenario = sim::load_scenario(options.scenario);
+  const sim::Scenario scenario = load_chip_scenario(options.scenario);
   sim::Simulator simulator(scenario);
   bool good = true;
   if (!options.reset) {

@@ -10,6 +10,7 @@
 #include <string>
 #include <utility>
 
+#include "chip_setup.hpp"
 #include "commands/commands.hpp"
 #include "interrupts.hpp"
 #include "mb4sim/simulator.hpp"
@@ -135,7 +136,7 @@ std::optional<SessionFrame> read_frames(const RunOptions& options, const Interru
 }  // namespace
 
 int run_command(const RunOptions& options) {
-  const sim::Scenario scenario = sim::load_scenario(options.scenario);
+  const sim::Scenario scenario = load_chip_scenario(options.scenario);
   make_config(scenario);
   // Everything is checked before the first file is touched.
   RunOutputs outputs = open_outputs(options, scenario);

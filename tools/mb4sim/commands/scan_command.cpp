@@ -153,7 +153,7 @@ void print_json(const std::vector<Found>& list, const std::string& notes) {
 }  // namespace
 
 int scan_command(const ScanOptions& options) {
-  const sim::Scenario scenario = sim::load_scenario(options.scenario);
+  const sim::Scenario scenario = load_chip_scenario(options.scenario);
   if (scenario.channels.empty()) {
     throw sim::ScenarioError(scenario.name, scenario.source.table, "channel",
                              "missing: there is no bus to scan");

@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "chip_setup.hpp"
 #include "commands/commands.hpp"
 #include "mb4sim/simulator.hpp"
 #include "report/exit_status.hpp"
@@ -93,7 +94,7 @@ void execute(sim::Simulator& simulator, SimBus& bus, const std::vector<std::stri
 }  // namespace
 
 int spi_command(const SpiOptions& options) {
-  const sim::Scenario scenario = sim::load_scenario(options.scenario);
+  const sim::Scenario scenario = load_chip_scenario(options.scenario);
   sim::Simulator simulator(scenario);
   SimBus bus(simulator);
   std::string line;

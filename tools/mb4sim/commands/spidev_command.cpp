@@ -18,6 +18,7 @@
 
 #include "bridge/bridge_server.hpp"
 #include "bridge/file_descriptor.hpp"
+#include "chip_setup.hpp"
 #include "commands/commands.hpp"
 #include "mb4sim/simulator.hpp"
 #include "report/exit_status.hpp"
@@ -204,7 +205,7 @@ int spidev_command(const SpidevOptions& options) {
   if (options.program.empty()) throw UseError("spidev needs a program: mb4sim spidev -- PROGRAM");
   const sim::Scenario scenario = options.scenario.empty()
                                      ? sim::parse_scenario(kDefaultScenario, "built-in scenario")
-                                     : sim::load_scenario(options.scenario);
+                                     : load_chip_scenario(options.scenario);
   if (scenario.host.parallel()) {
     throw sim::ScenarioError(scenario.name, scenario.host.source.of("interface"), "interface",
                              "spidev needs a host on SPI");

@@ -112,7 +112,7 @@ SweepPlane sweep_plane(sim::Scenario scenario, unsigned freqs, const Sweep& swee
 }  // namespace
 
 int sweep_command(const SweepOptions& options) {
-  const sim::Scenario scenario = sim::load_scenario(options.scenario);
+  const sim::Scenario scenario = load_chip_scenario(options.scenario);
   Sweep sweep;
   sweep.scenario = sim::one_line(options.scenario);
   sweep.seed = options.seed.value_or(scenario.seed);

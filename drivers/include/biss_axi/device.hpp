@@ -1,0 +1,237 @@
+// SPDX-FileCopyrightText: 2026 The openmb4 authors
+// SPDX-License-Identifier: Apache-2.0
+
+// Driver of biss_axi, the BiSS C master with N channels on AXI4-Lite. Freestanding C++17: no heap,
+// no exceptions, no static state. Several devices may be used at once. A device must not be used
+// from two contexts (an interrupt and the main program) at the same time: the words of a channel
+// go by an index register.
+
+#ifndef BISS_AXI_DEVICE_HPP_
+#define BISS_AXI_DEVICE_HPP_
+
+#include <cstdint>
+#include <type_traits>
+#include <utility>
+
+#include "axi_regs.hpp"
+#include "enc/bus.hpp"
+#include "enc/result.hpp"
+
+namespace biss_axi {
+
+// What went wrong. The master was touched, unless it says otherwise.
+enum class Error : std::uint8_t {
+  kNone = 0,
+  kConfig,   // the configuration is wrong; see ErrorInfo::field; the master was not touched
+  kChannel,  // no such channel; the master was not touched
+  kBus,      // the port reported a failed access
+  kTimeout,  // no good word came in time: no encoder, a wrong CRC, or a busy line
+};
+
+// The member of Config that is wrong.
+enum class Field : std::uint8_t { kNone = 0, kClkHz, kMaHz, kPositionBits, kChannels, kSampleHz };
+
+struct ErrorInfo {
+  constexpr ErrorInfo(Error error = Error::kNone, Field where = Field::kNone)
+      : code(error), field(where) {}
+  Error code;
+  Field field;
+  static constexpr std::uint32_t pack(ErrorInfo info) {
+    return static_cast<std::uint32_t>(info.code) | static_cast<std::uint32_t>(info.field) << 8U;
+  }
+  static constexpr ErrorInfo unpack(std::uint32_t word) {
+    return {static_cast<Error>(word & 0xFFU), static_cast<Field>(word >> 8U & 0xFFU)};
+  }
+};
+
+template <typename T>
+using Result = enc::Result<T, ErrorInfo>;
+
+// The port contract. A type `Port` has
+//
+//   bool write(std::uint32_t offset, std::uint32_t value);
+//   bool read(std::uint32_t offset, std::uint32_t& value);
+//
+// One call is one access of 32 bits at a byte offset from the master's base address. It returns
+// false if the access failed.
+template <typename Port, typename = void>
+inline constexpr bool kIsPort = false;
+
+template <typename Port>
+inline constexpr bool kIsPort<
+    Port, std::void_t<decltype(std::declval<Port&>().write(std::uint32_t{}, std::uint32_t{})),
+                      decltype(std::declval<Port&>().read(std::uint32_t{},
+                                                          std::declval<std::uint32_t&>()))>> =
+    std::is_same_v<decltype(std::declval<Port&>().write(std::uint32_t{}, std::uint32_t{})), bool>;
+
+enum class Start : std::uint8_t {
+  kSinglePoint,    // read_single()
+  kInternalClock,  // the divider, sample_hz
+  kExternalClock,  // pin ext_sample_clk
+};
+
+struct Config {
+  std::uint32_t f_clk_hz = 100'000'000;  // axi_aclk; 1 kHz to 1 GHz
+  // Clock at pin ma: f_clk_hz / (2 M) with M = 1 to 255, exactly.
+  std::uint32_t ma_hz = 10'000'000;
+  std::uint8_t position_bits = 26;  // 1 to 32
+  std::uint32_t channels = 1;       // bit c: channel c is enabled; 16 bits
+  bool check_crc = true;
+  Start start = Start::kSinglePoint;
+  // kInternalClock only: f_clk_hz / (2 N) with N = 1 to 268435455, exactly.
+  std::uint32_t sample_hz = 0;
+};
+
+// The divider M or N for a frequency, or 0 if the master cannot make it.
+[[nodiscard]] constexpr std::uint32_t divider(std::uint32_t f_clk_hz, std::uint32_t hz,
+                                              std::uint32_t most) {
+  if (hz == 0 || hz > f_clk_hz / 2U || f_clk_hz % hz != 0 || f_clk_hz / hz % 2U != 0) return 0;
+  return f_clk_hz / hz / 2U <= most ? f_clk_hz / hz / 2U : 0;
+}
+
+[[nodiscard]] constexpr ErrorInfo validate(const Config& config) {
+  if (config.f_clk_hz < 1'000U || config.f_clk_hz > 1'000'000'000U)
+    return {Error::kConfig, Field::kClkHz};
+  if (divider(config.f_clk_hz, config.ma_hz, regs::MA_DIVIDER::kMax) == 0)
+    return {Error::kConfig, Field::kMaHz};
+  if (config.position_bits < 1 || config.position_bits > 32)
+    return {Error::kConfig, Field::kPositionBits};
+  if (config.channels == 0 || config.channels > regs::CHANNEL_ENABLE::kMax)
+    return {Error::kConfig, Field::kChannels};
+  if (config.start == Start::kInternalClock &&
+      divider(config.f_clk_hz, config.sample_hz, regs::SAMPLE_DIVIDER::kMax) == 0)
+    return {Error::kConfig, Field::kSampleHz};
+  return {};
+}
+
+// How long a single-point frame and the encoders' timeouts can last.
+struct WaitTimes {
+  std::uint32_t frame_us = 0;
+  std::uint32_t timeout_us = 0;
+};
+
+// For a master with START_LIMIT and TIMEOUT_LIMIT as they are by default. The frame has the longest
+// processing time that the master waits for and the longest line delay. `f_clk_hz` is not 0.
+[[nodiscard]] constexpr WaitTimes wait_times(std::uint32_t f_clk_hz, std::uint32_t ma_divider,
+                                             std::uint32_t position_bits) {
+  constexpr std::uint64_t kStartLimit = 1024;    // MA periods
+  constexpr std::uint64_t kOtherBits = 16;       // edges, flags, CRC
+  constexpr std::uint64_t kDelayLimit = 1023;    // clocks
+  constexpr std::uint64_t kTimeoutLimit = 4000;  // clocks
+  constexpr std::uint32_t kEncoderTimeoutUs = 40;
+  const std::uint64_t frame =
+      2U * std::uint64_t{ma_divider} * (kStartLimit + position_bits + kOtherBits) + kDelayLimit;
+  const std::uint64_t timeout_us = kTimeoutLimit * 1'000'000U / f_clk_hz + 1U;
+  return {
+      static_cast<std::uint32_t>(frame * 1'000'000U / f_clk_hz) + 1U,
+      timeout_us < kEncoderTimeoutUs ? static_cast<std::uint32_t>(timeout_us) : kEncoderTimeoutUs};
+}
+
+// One single-point frame: clears all results, lets the encoders' timeouts pass, makes the rising
+// edge at REQUEST and waits for the word of `channel` (0 to 15). The clock is polled at most
+// 1'000'000 times, so one that stands still cannot block the call for ever.
+template <typename Port, typename Clock>
+Result<std::uint32_t> single_point(Port& port, Clock& clock, const WaitTimes& times,
+                                   unsigned channel) {
+  constexpr std::uint32_t kMostPolls = 1'000'000;
+  if (!port.write(regs::kAddrRequest, 0) || !port.write(regs::kAddrSoftReset, 1) ||
+      !port.write(regs::kAddrSoftReset, 0)) {
+    return Error::kBus;
+  }
+  std::uint32_t value = 0;
+  std::uint32_t begin = clock.now_us();
+  for (std::uint32_t n = 0; n < kMostPolls && clock.now_us() - begin <= times.timeout_us; ++n) {
+    if (!port.read(regs::kAddrSoftReset, value)) return Error::kBus;
+  }
+  if (!port.write(regs::kAddrRequest, 1)) return Error::kBus;
+  begin = clock.now_us();
+  bool last = false;
+  for (std::uint32_t n = 0; n < kMostPolls && !last; ++n) {
+    last = clock.now_us() - begin > times.frame_us;  // and look once more
+    if (!port.read(regs::kAddrSinglePointValid, value)) return Error::kBus;
+    if ((value >> channel & 1U) == 0) continue;
+    if (!port.write(regs::kAddrChannelIndex, channel) ||
+        !port.read(regs::kAddrSinglePointData, value)) {
+      return Error::kBus;
+    }
+    return value;
+  }
+  return Error::kTimeout;
+}
+
+// Port: see kIsPort. Clock: see enc/bus.hpp. Both live as long as the device.
+template <typename Port, typename Clock>
+class Device {
+  static_assert(kIsPort<Port>,
+                "Port needs bool write(offset, value) and bool read(offset, value&)");
+  static_assert(enc::kIsClock<Clock>, "Clock needs std::uint32_t now_us()");
+
+ public:
+  Device(Port& port, Clock& clock) : port_(port), clock_(clock) {}
+
+  // Ends what runs, clears all results, and sets everything. The channels are enabled last.
+  Result<void> configure(const Config& config) {
+    if (const ErrorInfo wrong = validate(config); wrong.code != Error::kNone) return wrong;
+    const bool single = config.start == Start::kSinglePoint;
+    const std::uint32_t sample =
+        config.start == Start::kInternalClock
+            ? divider(config.f_clk_hz, config.sample_hz, regs::SAMPLE_DIVIDER::kMax)
+            : 0;
+    const std::uint32_t ma = divider(config.f_clk_hz, config.ma_hz, regs::MA_DIVIDER::kMax);
+    const bool done =
+        write(regs::kAddrSoftReset, 1) && write(regs::kAddrMode, 1) &&
+        write(regs::kAddrRequest, 0) && write(regs::kAddrSampleDivider, sample) &&
+        write(regs::kAddrMaDivider, ma) && write(regs::kAddrPositionBits, config.position_bits) &&
+        write(regs::kAddrCrcCheck, config.check_crc ? 1 : 0) &&
+        write(regs::kAddrSampleClock, config.start == Start::kExternalClock ? 1 : 0) &&
+        write(regs::kAddrChannelEnable, config.channels) &&
+        write(regs::kAddrMode, single ? 1 : 0) && write(regs::kAddrSoftReset, 0);
+    if (!done) return Error::kBus;
+    times_ = wait_times(config.f_clk_hz, ma, config.position_bits);
+    channels_ = config.channels;
+    return {};
+  }
+
+  // Starts one frame on all enabled channels, in single-point mode, and waits for the word of one.
+  // The words of the others are there as well: position(). The call clears all results first, so
+  // that an old word is never taken for a new one.
+  Result<std::uint32_t> read_single(unsigned channel) {
+    if (channel >= regs::kChannels || (channels_ >> channel & 1U) == 0) return Error::kChannel;
+    return single_point(port_, clock_, times_, channel);
+  }
+
+  // The word of the channel's last good single-point frame.
+  Result<std::uint32_t> position(unsigned channel) {
+    return of_channel(channel, regs::kAddrSinglePointData);
+  }
+  // Round trip from MA to SLO in clocks, of the channel's last frame; 1023: no acknowledge.
+  Result<std::uint32_t> line_delay(unsigned channel) {
+    return of_channel(channel, regs::kAddrLineDelay);
+  }
+  // Bit c: the single-point word of channel c is good and of the last request.
+  Result<std::uint32_t> valid() {
+    std::uint32_t value = 0;
+    if (!read(regs::kAddrSinglePointValid, value)) return Error::kBus;
+    return value;
+  }
+
+ private:
+  bool write(std::uint32_t offset, std::uint32_t value) { return port_.write(offset, value); }
+  bool read(std::uint32_t offset, std::uint32_t& value) { return port_.read(offset, value); }
+
+  Result<std::uint32_t> of_channel(unsigned channel, std::uint32_t offset) {
+    if (channel >= regs::kChannels) return Error::kChannel;
+    std::uint32_t value = 0;
+    if (!write(regs::kAddrChannelIndex, channel) || !read(offset, value)) return Error::kBus;
+    return value;
+  }
+
+  Port& port_;
+  Clock& clock_;
+  WaitTimes times_;
+  std::uint32_t channels_ = 0;
+};
+
+}  // namespace biss_axi
+
+#endif  // BISS_AXI_DEVICE_HPP_

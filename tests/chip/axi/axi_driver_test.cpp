@@ -1,0 +1,188 @@
+// SPDX-FileCopyrightText: 2026 The openmb4 authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// The driver of the BiSS C master on AXI, in C++ and with the C calls of the hello-fpga manual
+// (2.5), on the simulated master.
+#include "biss_axi/device.hpp"
+#include "biss_c.h"
+#include "tests/chip/axi/axi_bench.hpp"
+
+namespace mb4test {
+namespace {
+
+// What the C calls work on.
+struct World {
+  AxiBench* bench = nullptr;
+  bool bus_fails = false;
+  unsigned writes = 0;
+};
+World world;
+
+struct SimPort {
+  AxiBench& bench;
+  bool write(std::uint32_t offset, std::uint32_t value) const {
+    return bench.host.write(static_cast<std::uint8_t>(offset), value) == std::uint8_t{0};
+  }
+  bool read(std::uint32_t offset, std::uint32_t& value) const {
+    return bench.host.read(static_cast<std::uint8_t>(offset), value) == std::uint8_t{0};
+  }
+};
+
+struct SimTime {
+  AxiBench& bench;
+  std::uint32_t now_us() const {
+    return static_cast<std::uint32_t>(bench.simulator.now() / sim::kPsPerUs);
+  }
+};
+
+using Device = biss_axi::Device<SimPort, SimTime>;
+
+std::vector<AxiEncoder> two() { return {{.delay_ns = 35}, {.delay_ns = 435}}; }
+
+TEST(AxiDriver, ReadSingle_BringsTheWordsOfAllChannelsAndTheirDelays) {
+  AxiBench bench(axi_scenario(two()));
+  SimPort port{bench};
+  SimTime time{bench};
+  Device device(port, time);
+  biss_axi::Config config;
+  config.channels = 3;
+  ASSERT_TRUE(device.configure(config).ok());
+  for (std::uint32_t n = 1; n < 20; ++n) {
+    bench.simulator.slave(1)->set_data(raw_word(n));
+    bench.simulator.slave(2)->set_data(raw_word(1000 + n));
+    const auto word = device.read_single(1);
+    ASSERT_TRUE(word.ok());
+    EXPECT_EQ(*word, 1000 + n);
+    EXPECT_EQ(device.position(0).value_or(0), n);
+    EXPECT_EQ(device.valid().value_or(0), 3U);
+  }
+  EXPECT_NEAR(device.line_delay(0).value_or(0), 3, 1);
+  EXPECT_NEAR(device.line_delay(1).value_or(0), 43, 1);
+  EXPECT_EQ(device.read_single(2).error(), biss_axi::Error::kChannel);
+  EXPECT_EQ(device.position(16).error(), biss_axi::Error::kChannel);
+}
+
+TEST(AxiDriver, EncoderThatIsGone_IsATimeoutAndNeverAnOldWord) {
+  AxiBench bench(axi_scenario(two()));
+  SimPort port{bench};
+  SimTime time{bench};
+  Device device(port, time);
+  biss_axi::Config config;
+  ASSERT_TRUE(device.configure(config).ok());
+  ASSERT_TRUE(device.read_single(0).ok());
+  bench.simulator.inject("[[fault]]\nkind = \"unplug\"\nslave = 1\nat_us = 0\n");
+  bench.simulator.advance(100 * sim::kPsPerUs);
+  EXPECT_EQ(device.read_single(0).error(), biss_axi::Error::kTimeout);
+  EXPECT_EQ(device.valid().value_or(9), 0U);
+}
+
+TEST(AxiDriver, WrongConfiguration_IsNamedAndNothingIsWritten) {
+  AxiBench bench(axi_scenario(two()));
+  SimPort port{bench};
+  SimTime time{bench};
+  Device device(port, time);
+  using biss_axi::Config;
+  using biss_axi::Field;
+  const std::pair<Config, Field> cases[] = {
+      {Config{.f_clk_hz = 0}, Field::kClkHz},
+      {Config{.ma_hz = 0}, Field::kMaHz},
+      {Config{.ma_hz = 3'000'000}, Field::kMaHz},
+      {Config{.ma_hz = 100'000}, Field::kMaHz},
+      {Config{.position_bits = 0}, Field::kPositionBits},
+      {Config{.position_bits = 33}, Field::kPositionBits},
+      {Config{.channels = 0}, Field::kChannels},
+      {Config{.channels = 0x1'0000}, Field::kChannels},
+      {Config{.start = biss_axi::Start::kInternalClock}, Field::kSampleHz}};
+  for (const auto& [config, field] : cases) {
+    const auto result = device.configure(config);
+    EXPECT_EQ(result.error(), biss_axi::Error::kConfig);
+    EXPECT_EQ(result.info().field, field);
+  }
+  for (unsigned address = 0; address < 0x40; address += 4) {
+    EXPECT_EQ(bench.read(static_cast<std::uint8_t>(address)), 0U);
+  }
+}
+
+TEST(AxiDriver, InternalClock_SamplesAtItsFrequency) {
+  AxiBench bench(axi_scenario(two()));
+  SimPort port{bench};
+  SimTime time{bench};
+  Device device(port, time);
+  biss_axi::Config config;
+  config.channels = 3;
+  config.start = biss_axi::Start::kInternalClock;
+  config.sample_hz = 20'000;
+  ASSERT_TRUE(device.configure(config).ok());
+  bench.simulator.advance(sim::kPsPerSecond / 100);
+  EXPECT_NEAR(static_cast<double>(bench.host.beats_waiting()), 200.0, 1.0);
+}
+
+TEST(AxiDriver, CallsOfTheManual_DoWhatItPrints) {
+  AxiBench bench(axi_scenario(two()));
+  world = {&bench};
+  ASSERT_EQ(BISS_C_Init(7), 0);
+  EXPECT_EQ(bench.read(axireg::kAddrMaDivider), 5U);  // 10 MHz
+  ASSERT_EQ(BISS_C_ConfigPositionDatabits(7, 26), 0);
+  ASSERT_EQ(BISS_C_ConfigChannels(7, 0x3), 0);
+  ASSERT_EQ(BISS_C_ConfigMAClk(7, 10), 0);
+  EXPECT_EQ(bench.read(axireg::kAddrMaDivider), 10U);
+  bench.simulator.slave(1)->set_data(raw_word(0x111));
+  bench.simulator.slave(2)->set_data(raw_word(0x222));
+  unsigned data = 0;
+  bool valid = false;
+  ASSERT_EQ(BISS_C_ReadSinglePoint(7, 1, &data, &valid), 0);
+  EXPECT_TRUE(valid);
+  EXPECT_EQ(data, 0x222U);
+  int ticks = -1;
+  ASSERT_EQ(BISS_C_CheckAjustDelay(7, 1, &ticks), 0);
+  EXPECT_NEAR(ticks, 43, 1);
+  // 1 = ignore: 0x1C becomes 0.
+  ASSERT_EQ(BISS_C_IgnoreCRC(7, 1), 0);
+  EXPECT_EQ(bench.read(axireg::kAddrCrcCheck), 0U);
+  ASSERT_EQ(BISS_C_IgnoreCRC(7, 0), 0);
+  EXPECT_EQ(bench.read(axireg::kAddrCrcCheck), 1U);
+  bench.simulator.line(1)->faults().stick(true);
+  bench.simulator.refresh_lines();
+  ASSERT_EQ(BISS_C_ReadSinglePoint(7, 0, &data, &valid), 0);
+  EXPECT_FALSE(valid);
+  EXPECT_EQ(data, 0U);
+  ASSERT_EQ(BISS_C_ConfigSampleClk(7, 2500, false), 0);
+  EXPECT_EQ(bench.read(axireg::kAddrSampleDivider), 2500U);
+  EXPECT_EQ(bench.read(axireg::kAddrMode), 0U);
+  ASSERT_EQ(BISS_C_ConfigSampleClk(7, 0, true), 0);
+  EXPECT_EQ(bench.read(axireg::kAddrSampleClock), 1U);
+  const unsigned writes = world.writes;
+  EXPECT_NE(BISS_C_ConfigMAClk(7, 0), 0);
+  EXPECT_NE(BISS_C_ConfigMAClk(7, 256), 0);
+  EXPECT_NE(BISS_C_ConfigPositionDatabits(7, 33), 0);
+  EXPECT_NE(BISS_C_ConfigChannels(7, -1), 0);
+  EXPECT_NE(BISS_C_ConfigSampleClk(7, 0, false), 0);
+  EXPECT_NE(BISS_C_ReadSinglePoint(7, 16, &data, &valid), 0);
+  EXPECT_NE(BISS_C_CheckAjustDelay(7, 0, nullptr), 0);
+  EXPECT_EQ(world.writes, writes);
+  world.bus_fails = true;
+  EXPECT_EQ(BISS_C_Init(7), BISS_C_BUS);
+  EXPECT_EQ(BISS_C_ReadSinglePoint(7, 0, &data, &valid), BISS_C_BUS);
+  world = {};
+}
+
+}  // namespace
+}  // namespace mb4test
+
+int biss_c_port_write(int hdev, uint32_t offset, uint32_t value) {
+  using mb4test::world;
+  ++world.writes;
+  if (hdev != 7 || world.bus_fails) return 1;
+  return world.bench->host.write(static_cast<std::uint8_t>(offset), value) == std::uint8_t{0} ? 0
+                                                                                              : 1;
+}
+int biss_c_port_read(int hdev, uint32_t offset, uint32_t* value) {
+  using mb4test::world;
+  if (hdev != 7 || world.bus_fails) return 1;
+  return world.bench->host.read(static_cast<std::uint8_t>(offset), *value) == std::uint8_t{0} ? 0
+                                                                                              : 1;
+}
+uint32_t biss_c_port_now_us(int /*hdev*/) {
+  return static_cast<uint32_t>(mb4test::world.bench->simulator.now() / mb4::sim::kPsPerUs);
+}
+uint32_t biss_c_port_clk_hz(int /*hdev*/) { return 100'000'000; }
