@@ -22,18 +22,19 @@ import sv_widths  # noqa: E402
 DRIVER_LAYERS = (
     ("enc/",),
     ("mb4/bus.hpp", "mb4/crc.hpp", "mb4/error.hpp", "mb4/frequency.hpp", "mb4/position.hpp",
-     "mb4/result.hpp", "mb4/span.hpp", "mb4/version.hpp"),
-    ("mb4/opcodes.hpp", "mb4/fields.hpp", "mb4/status.hpp", "mb4/parallel_bus.hpp", "mb4/ports/"),
+     "mb4/result.hpp", "mb4/span.hpp", "mb4/version.hpp", "mb4.h"),
+    ("mb4/opcodes.hpp", "mb4/fields.hpp", "mb4/status.hpp", "mb4/parallel_bus.hpp", "mb4/ports/",
+     "mb4_cyclic.h"),
     ("mb4/config/", "mb4/config.hpp", "mb4/register_image.hpp", "mb4/slave_address.hpp",
      "mb4/command.hpp", "mb4/detail/control_time.hpp"),
-    ("mb4/reading.hpp", "mb4/frame.hpp", "mb4/line_delay.hpp", "mb4/detail/fetch.hpp"),
+    ("mb4/reading.hpp", "mb4/cyclic.hpp", "mb4/frame.hpp", "mb4/line_delay.hpp", "mb4/detail/fetch.hpp"),
     ("mb4/detail/chip.hpp", "mb4/detail/checked_registers.hpp"),
     ("mb4/automatic.hpp", "mb4/control.hpp", "mb4/control_steps.hpp",
      "mb4/detail/actuator_write.hpp", "mb4/detail/control_checks.hpp",
      "mb4/detail/control_pace.hpp", "mb4/detail/frame_poll.hpp", "mb4/detail/image_writer.hpp",
      "mb4/detail/initialization.hpp", "mb4/detail/single_shot.hpp"),
     ("mb4/device.hpp", "mb4/scan.hpp"),
-    ("mb4/mb4.hpp", "mb4/acquisition.hpp", "mb4.h"),
+    ("mb4/mb4.hpp", "mb4/acquisition.hpp"),
 )
 DRIVER_HEADERS = [[f"drivers/include/{name}" for name in layer] for layer in DRIVER_LAYERS]
 DRIVER = tuple(name for layer in DRIVER_HEADERS for name in layer if "/detail/" not in name)
@@ -44,6 +45,7 @@ DRIVER = tuple(name for layer in DRIVER_HEADERS for name in layer if "/detail/" 
 MAY_USE = {
     "regmap/": (),
     "drivers/c/": (*DRIVER, "regmap/"),
+    "drivers/arduino/": (*DRIVER, "regmap/"),
     "drivers/include/biss_axi/": ("drivers/include/enc/", "regmap/"),
     "drivers/include/biss_c.h": (),
     "drivers/c/biss_c": ("drivers/include/biss_axi/", "drivers/include/biss_c.h", "regmap/"),
