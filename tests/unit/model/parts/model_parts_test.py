@@ -152,14 +152,14 @@ class Parts(unittest.TestCase):
             part, = self.parts([text], [("fast", "b")], widths)
             self.assertEqual((part.bits, part.key), (0, ()))
 
-    def test_flags_of_a_key_stay_in_a_word(self):
+    def test_every_part_with_a_key_has_a_row_of_its_own(self):
         texts = [f"vlSelf->m{i}__DOT__a = vlSelf->k{i % 8};" for i in range(30)]
         parts = self.parts(texts, [("fast", f"k{i}") for i in range(8)],
                            {f"k{i}": 3 for i in range(8)})
-        self.assertEqual(len(parts), 30)
-        for part in parts:
-            self.assertEqual(part.flag // 64, (part.flag + part.bits - 1) // 64)
-        self.assertEqual(len({part.flag + i for part in parts for i in range(part.bits)}), 240)
+        self.assertEqual([part.bits for part in parts], [8] * 30)
+        self.assertEqual({part.flag for part in parts}, set(range(30)))
+        self.assertIn("keyed[31][8];", self.writer({f"k{i}": 3 for i in range(8)},
+                                                   {"rise": parts}).header(False))
 
     def header(self, texts, busy, widths):
         lists = {"rise": self.parts(texts, busy, widths)}
@@ -168,9 +168,11 @@ class Parts(unittest.TestCase):
     def test_other_values_of_a_key_are_looked_at_again(self):
         text = self.header(["vlSelf->a = (vlSelf->b & vlSelf->c);", "vlSelf->c = vlSelf->d;"],
                            [("fast", "b")], {"b": 2})
-        self.assertIn("at = 0 + (static_cast<unsigned>(vlSelf->b) << 0);", text)
-        self.assertIn("if ((before0 != vlSelf->a)) { kept.changed[0] |= 0xfULL & ~here; }", text)
-        self.assertIn("if ((before0 != vlSelf->c)) { kept.changed[0] |= 0xfULL; }", text)
+        self.assertIn("if (auto& here = kept.keyed[0][(unsigned{vlSelf->b} << 0)];", text)
+        self.assertIn("if (vlSelf->a != now0) { std::memset(kept.keyed[0], 1, 4); here = 0; "
+                      "vlSelf->a = now0; }", text)
+        self.assertIn("if (vlSelf->c != now0) { std::memset(kept.keyed[0], 1, 4); "
+                      "vlSelf->c = now0; }", text)
 
     def test_a_host_pin_marks_registers_and_other_values_of_keys(self):
         keyed, = self.parts(["vlSelf->y = (vlSelf->k & vlSelf->x);"], [("fast", "k")], {"k": 1})
@@ -205,7 +207,8 @@ class Parts(unittest.TestCase):
     def test_a_comparison_counts_when_it_changes(self):
         text = self.header(["vlSelf->a = (2U == (IData)(vlSelf->b));", "vlSelf->b = vlSelf->c;"],
                            [("fast", "b")], {"b": 8})
-        self.assertIn("if (((before0 == 2U) != (vlSelf->b == 2U))) {", text)
+        self.assertIn("if ((vlSelf->b == 2U) != (now0 == 2U)) { kept.changed[0] |= 0x1ULL;", text)
+        self.assertIn("if (vlSelf->b != now0) {  vlSelf->b = now0; }", text)
 
 
 class Counts(unittest.TestCase):
@@ -303,13 +306,13 @@ class SecondModel(unittest.TestCase):
         (self.folder / "counts").write_text(self.compare(), encoding="utf-8")
         text, _ = self.parts("--busy", "counts", "--check")
         # turn_o moves at each clock, and what reads it has a flag for each of its values.
-        self.assertRegex(text, r"at = \d \+ \(static_cast<unsigned>\(vlSelf->turn_o\) << 0\);")
+        self.assertRegex(text, r"here = kept\.keyed\[\d+\]\[\(unsigned\{vlSelf->turn_o\} << 0\)\];")
         self.assertEqual(self.compare(), "")
 
     def test_without_counts_and_falling_edges_too(self):
         self.verilate(RISING)
         text, told = self.parts()
-        self.assertEqual((told, text.count("static_cast<unsigned>(vlSelf->")), ("", 0))
+        self.assertEqual((told, text.count("auto& here = kept.keyed")), ("", 0))
         self.assertEqual(self.compare(), "")
 
     def test_a_clock_made_by_the_clock_is_refused(self):
@@ -351,7 +354,7 @@ class Chip(unittest.TestCase):
         self.assertNotIn("MODEL_RUNS_WHOLE", text)
         self.assertGreater(text.count("__builtin_expect"), 20)
         # Some parts have a flag for each value of fast variables: the chip's counts were taken.
-        self.assertGreater(text.count("static_cast<unsigned>(vlSelf->"), 10)
+        self.assertGreater(text.count("auto& here = kept.keyed"), 10)
 
 
 unittest.main(argv=sys.argv[:1])
