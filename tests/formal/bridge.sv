@@ -9,8 +9,8 @@
 //   if the core gave none for a whole limit; the queue never overflows; memories are read only when
 //   the core has taken all bytes; the enabled bytes of a write act once, that of 0xF4 last
 // clocks: one
-// depth: 20
-// cover: 24
+// depth: 26
+// cover: 26
 // unbounded: no: the queue's count is tied to the model's only through 3 clocks of history
 // keep: mb4/host/mb4_bridge.sv | parameter int unsigned WaitLimit = 1024 | parameter int unsigned WaitLimit = 4
 // keep: mb4/host/mb4_bridge.sv | localparam logic [7:0]  ROOM    = 8'd124; | localparam logic [7:0]  ROOM    = 8'd4;
