@@ -31,7 +31,7 @@ added=()
 while read -r file; do
   added+=("--add-file=$file")
 done < <(python3 -B tools/synth/plain_verilog.py "$plain")
-if [ "${#added[@]}" -ne 3 ]; then
+if [ "${#added[@]}" -ne 5 ]; then
   echo "release: the plain Verilog could not be made" >&2
   exit 1
 fi
