@@ -26,6 +26,7 @@ enum class Error : std::uint8_t {
   kChannel,  // no such channel; the master was not touched
   kBus,      // the port reported a failed access
   kTimeout,  // no good word came in time: no encoder, a wrong CRC, or a busy line
+  kNoData,   // position(): the last request has brought no good word of this channel, or not yet
 };
 
 // The member of Config that is wrong.
@@ -104,7 +105,8 @@ struct Config {
   return {};
 }
 
-// How long a single-point frame and the encoders' timeouts can last.
+// How long a single-point frame can last, and how long the master or an encoder may be in its timeout:
+// the master for TIMEOUT_LIMIT clocks while SLO stays low, an encoder for 40 us.
 struct WaitTimes {
   std::uint32_t frame_us = 0;
   std::uint32_t timeout_us = 0;
@@ -124,7 +126,7 @@ struct WaitTimes {
   const std::uint64_t timeout_us = kTimeoutLimit * 1'000'000U / f_clk_hz + 1U;
   return {
       static_cast<std::uint32_t>(frame * 1'000'000U / f_clk_hz) + 1U,
-      timeout_us < kEncoderTimeoutUs ? static_cast<std::uint32_t>(timeout_us) : kEncoderTimeoutUs};
+      timeout_us > kEncoderTimeoutUs ? static_cast<std::uint32_t>(timeout_us) : kEncoderTimeoutUs};
 }
 
 // One single-point frame: clears all results, lets the encoders' timeouts pass, makes the rising
@@ -193,15 +195,19 @@ class Device {
   }
 
   // Starts one frame on all enabled channels, in single-point mode, and waits for the word of one.
-  // The words of the others are there as well: position(). The call clears all results first, so
-  // that an old word is never taken for a new one.
+  // position() has the words of the others; one with a longer cable or processing time may still
+  // come. The call clears all results first, so that an old word is never taken for a new one.
   Result<std::uint32_t> read_single(unsigned channel) {
     if (channel >= regs::kChannels || (channels_ >> channel & 1U) == 0) return Error::kChannel;
     return single_point(port_, clock_, times_, channel);
   }
 
-  // The word of the channel's last good single-point frame.
+  // The channel's word of the last single-point request; kNoData while it has brought no good one.
   Result<std::uint32_t> position(unsigned channel) {
+    if (channel >= regs::kChannels) return Error::kChannel;
+    const Result<std::uint32_t> good = valid();
+    if (!good.ok()) return good;
+    if ((*good >> channel & 1U) == 0) return Error::kNoData;
     return of_channel(channel, regs::kAddrSinglePointData);
   }
   // Round trip from MA to SLO in clocks, of the channel's last frame; 1023: no acknowledge.

@@ -62,6 +62,37 @@ TEST(AxiDriver, ReadSingle_BringsTheWordsOfAllChannelsAndTheirDelays) {
   EXPECT_EQ(device.position(16).error(), biss_axi::Error::kChannel);
 }
 
+TEST(AxiDriver, WordThatIsStillComing_IsNoPosition) {
+  AxiBench bench(axi_scenario({{.delay_ns = 35}, {.slave = "busy_periods = 50\n"}}));
+  SimPort port{bench};
+  SimTime time{bench};
+  Device device(port, time);
+  biss_axi::Config config;
+  config.channels = 3;
+  ASSERT_TRUE(device.configure(config).ok());
+  bench.simulator.slave(1)->set_data(raw_word(1));
+  bench.simulator.slave(2)->set_data(raw_word(2));
+  ASSERT_EQ(device.read_single(0).value_or(0), 1U);
+  EXPECT_EQ(device.position(1).error(), biss_axi::Error::kNoData);
+  bench.simulator.advance(20 * sim::kPsPerUs);
+  EXPECT_EQ(device.position(1).value_or(0), 2U);
+}
+
+// At 200 MHz 4000 clocks are 20 us; an encoder may need 40.
+TEST(AxiDriver, TimeoutOfTheEncoder_PassesBeforeTheNextRequest) {
+  AxiBench bench(axi_scenario({{.slave = "timeout = 39.0\n"}}, 200'000'000));
+  SimPort port{bench};
+  SimTime time{bench};
+  Device device(port, time);
+  biss_axi::Config config;
+  config.f_clk_hz = 200'000'000;
+  ASSERT_TRUE(device.configure(config).ok());
+  for (std::uint32_t n = 1; n < 5; ++n) {
+    bench.simulator.slave(1)->set_data(raw_word(n));
+    EXPECT_EQ(device.read_single(0).value_or(0), n);
+  }
+}
+
 TEST(AxiDriver, EncoderThatIsGone_IsATimeoutAndNeverAnOldWord) {
   AxiBench bench(axi_scenario(two()));
   SimPort port{bench};
