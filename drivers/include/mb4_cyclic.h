@@ -238,7 +238,7 @@ typedef struct {
 
 /* One read. Set the object to zero once; then the members up to `chain` are the caller's. The
  * frames of a chain stay in the plan, so that the next read need not write them again: clear
- * `built` when the plan's memory or one of these members has changed. */
+ * `built` when the plan's memory, one of these members or `*word` has changed. */
 typedef struct {
   const mb4_word *word;
   mb4_watch *watch;
@@ -694,7 +694,7 @@ static inline uint8_t mb4_cyclic_watch(mb4_cyclic *read, mb4_plan *plan, uint8_t
  *   MB4_CORRUPTED, MB4_NOT_DETECTED, MB4_TRANSPORT, MB4_BANK_SWITCHED, MB4_TIMEOUT, MB4_LINE_ERROR
  *                      as Automatic::poll() in mb4/automatic.hpp describes them
  *
- * At most three calls a read without MB4_SPI_CHECK_FULL, six with it or unheld. */
+ * At most four calls a read without MB4_SPI_CHECK_FULL, six with it or unheld. */
 static inline uint8_t mb4_cyclic_finish(mb4_cyclic *read, mb4_plan *plan, bool transferred,
                                         uint32_t now_us, uint8_t with) {
   const uint8_t stage = read->stage;

@@ -105,8 +105,8 @@ struct Config {
   return {};
 }
 
-// How long a single-point frame can last, and how long the master or an encoder may be in its timeout:
-// the master for TIMEOUT_LIMIT clocks while SLO stays low, an encoder for 40 us.
+// How long a single-point frame can last, and how long the master or an encoder may be in its
+// timeout: the master for TIMEOUT_LIMIT clocks while SLO stays low, an encoder for 40 us.
 struct WaitTimes {
   std::uint32_t frame_us = 0;
   std::uint32_t timeout_us = 0;

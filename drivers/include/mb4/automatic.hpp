@@ -306,10 +306,13 @@ class Automatic {
       return Error::kUnsupported;
     }
     const bool unheld = control_runs() && !chip_.config.hold_beside_access;
-    if (read.read_.word != &chip_.words[slave - 1U] || unheld) {
+    // configure() may have changed the length of the word.
+    const mb4_word& word = chip_.words[slave - 1U];
+    if (read.read_.word != &word || unheld ||
+        read.plan_.size[1] != word.bytes + (slave == 1 ? 1U : 2U)) {
       read.read_.built = nullptr;
     }
-    read.read_.word = &chip_.words[slave - 1U];
+    read.read_.word = &word;
     read.read_.watch = &chip_.watch;
     read.read_.spi_check = static_cast<std::uint8_t>(chip_.config.spi_check);
     read.read_.unheld = unheld;

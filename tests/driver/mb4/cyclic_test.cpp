@@ -110,6 +110,22 @@ TEST_F(Chain, NewFrame_IsOnePlan) {
   EXPECT_EQ(bytes, 23U);
 }
 
+// The frames of an old plan are not those of a new configuration.
+TEST_F(Chain, ConfiguredAnew_PlanIsNew) {
+  start(mb4::SpiCheck::kCrc);
+  plan();
+  EXPECT_TRUE(step(kChain, {kWord, kNew}));
+  bus.expect_write({0x07, 0x00});
+  ASSERT_TRUE(device.automatic().stop().ok());
+  start(mb4::SpiCheck::kOff);
+  plan();
+  EXPECT_TRUE(step({kHold, join({{0x09}, zeros(4)}), kReadStatus, kClearValid1AndRelease},
+                   {join({{0}, Bytes(kWord.begin() + 1, kWord.begin() + 5)}), kNew}));
+  ASSERT_TRUE(read.result().ok());
+  EXPECT_EQ(read.result()->position, mb4test::kPosition);
+  EXPECT_FALSE(read.result()->crc_stored);
+}
+
 TEST_F(Chain, NothingNew_IsNoData) {
   start(mb4::SpiCheck::kCrc);
   plan();
