@@ -10,13 +10,14 @@
 // - A request copies the time, or all words of the snapshot of one data channel, into a shadow
 //   memory that the bus reads. If the banks switch meanwhile, or the line writes to the very word
 //   (one bank), the copy begins again. So it has one frame's data, flags, number and time, and
-//   nothing is held: frames and banks do not notice.
+//   nothing is held: frames and banks do not notice. The eighth copy ends in any case: it then has
+//   SVALID = 0, number and time 0.
 //
 // Clock domains: clk_i (core). page_i and shadow_* are of the bus: page_i.req changes with
 // the rest of page_i, which then stays; ack_o follows it when the shadow is filled.
 // Latency: at most 20 clocks for the time, 33 for a snapshot. A copy begins 16 clocks after its
 // request, when the core has acted on all writes to 0xF4 that came before. One that begins again
-// needs 15 clocks more.
+// needs up to 15 clocks more, seven times at most.
 // Misuse: none. A snapshot with one bank while its word is being received has SVALID = 0.
 // Source: datasheet pages 12..16; decision 45.
 
@@ -68,6 +69,8 @@ module mb4_page (
   logic        has_tag_q;
   // copy
   logic        host_q;
+  logic [2:0]  tries_q;
+  logic        last;
   logic        disturbed;
   logic [1:0]  hit;
   logic [15:0] pair;
@@ -179,6 +182,8 @@ module mb4_page (
   assign disturbed = tap_i.banks.host != host_q || !tap_i.ready || late_q ||
                      (tap_i.banks.host == tap_i.banks.eng && hit != 2'b00);
 
+  assign last      = &tries_q;
+
   assign rd_en_o   = state_q == COPY && !step_q[3];
   assign rd_addr_o = {page_i.channel[1:0], step_q[2:0]};
   assign pair      = page_i.channel[2] ? tap_i.hi : tap_i.lo;
@@ -204,22 +209,22 @@ module mb4_page (
           row_wr   = 1'b1;
           row      = 3'd2;
           row_data = {29'd0, tap_i.swbank_fail, tap_i.cds[{tap_i.banks.host, line2}],
-                      tap_i.svalid[{tap_i.banks.host, page_i.channel}]};
+                      tap_i.svalid[{tap_i.banks.host, page_i.channel}] && !last};
         end
         4'd11: begin
           row_wr   = 1'b1;
           row      = 3'd3;
-          row_data = tag[TAG_W-1:64] & {32{has_tag_q}};
+          row_data = tag[TAG_W-1:64] & {32{has_tag_q && !last}};
         end
         4'd12: begin
           row_wr   = 1'b1;
           row      = 3'd4;
-          row_data = tag[31:0] & {32{has_tag_q}};
+          row_data = tag[31:0] & {32{has_tag_q && !last}};
         end
         4'd13: begin
           row_wr   = 1'b1;
           row      = 3'd5;
-          row_data = tag[63:32] & {32{has_tag_q}};
+          row_data = tag[63:32] & {32{has_tag_q && !last}};
         end
         default: row_wr = 1'b0;
       endcase
@@ -233,6 +238,7 @@ module mb4_page (
       ack_q   <= 1'b0;
       host_q  <= 1'b0;
       word_q  <= '0;
+      tries_q <= '0;
     end else begin
       host_q <= tap_i.banks.host;
       step_q <= step_q + 4'd1;
@@ -240,7 +246,8 @@ module mb4_page (
       unique case (state_q)
         REST: begin
           // The bus has asked for nothing.
-          step_q <= 4'd0;
+          step_q  <= 4'd0;
+          tries_q <= 3'd0;
           if (req != ack_q) state_q <= SETTLE;
         end
         SETTLE: begin
@@ -249,8 +256,9 @@ module mb4_page (
         end
         COPY: begin
           // The bytes of the word, then its flags and its tag.
-          if (disturbed) begin
-            step_q <= 4'd0;
+          if (disturbed && !last) begin
+            step_q  <= 4'd0;
+            tries_q <= tries_q + 3'd1;
           end else if (step_q == 4'd13) begin
             state_q <= REST;
             ack_q   <= req;
