@@ -223,8 +223,8 @@ TYPED_TEST(WordBus, SnapshotsWhileFramesRun_AreOfOneFrame) {
 }
 
 // One bank: the line writes where the host reads. A snapshot that says valid is whole.
-// SSI frames without data on an open line follow each other faster than a snapshot can be copied. Its
-// read ends nevertheless, and shows no valid word.
+// SSI frames without data on an open line follow each other faster than a snapshot can be copied.
+// Its read ends nevertheless, and shows no valid word.
 TYPED_TEST(WordBus, SnapshotWhileBanksSwitchAllTheTime_EndsWithoutAWord) {
   for (const Clocks clocks : kClocks) {
     WordBusBench<TypeParam> bus(clocks.bus, clocks.core, 1);
