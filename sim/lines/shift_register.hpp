@@ -18,6 +18,8 @@ class ShiftRegister {
  public:
   // A channel has at most a stop bit, 64 bits of data and a CRC of 16 bits.
   static constexpr std::size_t kMaxBits = 128;
+  // The bit that leaves first is the highest.
+  __extension__ using Bits = unsigned __int128;
 
   // `bits` is 1 to kMaxBits.
   explicit ShiftRegister(std::size_t bits) : size_(bits), in_(place(bits - 1)) {
@@ -43,16 +45,20 @@ class ShiftRegister {
     ++shifts_;
   }
 
+  // The same as `shifts` calls of shift(). `bits` is what is then in the register.
+  void set_shifted(Bits bits, std::size_t shifts) {
+    bits_ = bits;
+    shifts_ += shifts;
+  }
+
   std::size_t size() const { return size_; }
+  Bits bits() const { return bits_; }
   // Bit `i` in the order in which the bits leave.
   bool at(std::size_t i) const { return (bits_ & place(i)) != 0; }
   // True when all of its bits came in at SLI.
   bool filled() const { return shifts_ >= size_; }
 
  private:
-  __extension__ using Bits = unsigned __int128;
-
-  // The bit that leaves first is the highest.
   static constexpr Bits place(std::size_t i) { return Bits{1} << (kMaxBits - 1 - i); }
 
   Bits bits_ = 0;

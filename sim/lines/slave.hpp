@@ -54,12 +54,14 @@ class Slave {
   bool slo() const { return slo_; }
   // True between two frames: the timeout has elapsed.
   bool idle() const { return idle_; }
-  // True in the data of a frame. There a rising edge of MA shifts, and nothing else happens before
-  // the timeout. Then the chain may call shift() at rising edges instead of ma_edge(). It must call
-  // last_edge() before any other call.
-  bool shifting() const { return shifting_ != nullptr; }
-  void shift(bool sli_before) {
-    shifting_->shift(sli_before && takes_sli_);
+  // The register that a rising edge of MA shifts in the data of a frame, where nothing else happens
+  // before the timeout. Null at other times. The chain may leave out calls of ma_edge() there. It
+  // then must call set_shifted() and last_edge() before any other call.
+  const ShiftRegister* shifting() const { return shifting_; }
+  // While shifting: bits from SLI come in; otherwise zeros come in.
+  bool takes_sli() const { return takes_sli_; }
+  void set_shifted(ShiftRegister::Bits bits, std::size_t shifts) {
+    shifting_->set_shifted(bits, shifts);
     slo_ = shifting_->out();
   }
   // The last edge of MA was at `edge`; `ma` is its level since then.
@@ -108,11 +110,14 @@ class Slave {
  protected:
   void set_slo(bool level) { slo_ = level; }
   void set_idle(bool idle) { idle_ = idle; }
-  // `data`: the register to shift, null if the slave is not shifting. `takes_sli`: bits from SLI
-  // come in; otherwise zeros come in.
+  // `data`: the register to shift, null if the slave is not shifting.
   void set_shifting(ShiftRegister* data, bool takes_sli) {
     shifting_ = data;
     takes_sli_ = takes_sli;
+  }
+  void shift(bool sli_before) {
+    shifting_->shift(sli_before && takes_sli_);
+    slo_ = shifting_->out();
   }
   void set_deadline(Time deadline) { deadline_ = deadline; }
   void count_frame() {

@@ -14,16 +14,12 @@ void SlaveChain::add(std::unique_ptr<Slave> slave) {
 
 void SlaveChain::drive(Time now, bool ma, bool mo) {
   if (ma != ma_) {
-    if (shifting_) {
-      const bool before = reported_;
-      if (shift(now, ma, mo) != before) output_(now, receiver_, reported_);
-      return;
-    }
+    catch_up();
     const Standing standing = drive_slaves(now, ma, mo);
-    shifting_ = standing.shifting && !standing.idle && attached_ == slaves_.size();
+    finish(now, standing);
+    shifting_ = standing.shifting && !standing.idle && in_one_row();
     timeout_ = standing.deadline - now;
     last_edge_ = now;
-    finish(now, standing);
   } else if (mo != mo_) {
     catch_up();
     mo_ = mo;
@@ -53,11 +49,39 @@ SlaveChain::Standing SlaveChain::drive_slaves(Time now, bool ma, bool mo) {
   return standing;
 }
 
-// Ends the short way of shift() until the next edge of MA. The slaves learn the time of the last
-// edge.
+// True if each bit that leaves a slave comes in at the next one.
+bool SlaveChain::in_one_row() const {
+  for (std::size_t i = 0; i < slaves_.size(); ++i) {
+    if (slaves_[i]->faults().silent || (i != 0 && !slaves_[i - 1]->takes_sli())) return false;
+  }
+  return !slaves_.empty() && attached_ == slaves_.size();
+}
+
+void SlaveChain::fill_row() {
+  empty_row();
+  row_.restart();
+  for (const auto& slave : slaves_)
+    row_.append(slave->shifting()->bits(), slave->shifting()->size());
+  takes_mo_ = slaves_.back()->takes_sli();
+}
+
+// Gives the bits back to the slaves.
+void SlaveChain::empty_row() {
+  std::size_t place = 0;
+  for (std::size_t i = 0; i < slaves_.size() && row_.shifts() != 0; ++i) {
+    const std::size_t size = slaves_[i]->shifting()->size();
+    slaves_[i]->set_shifted(row_.bits(place, size), row_.shifts());
+    place += size;
+  }
+  row_.stop();
+}
+
+// Ends the short way of shift() until the next edge of MA. The slaves learn what they have shifted
+// and the time of the last edge.
 void SlaveChain::catch_up() {
   if (!shifting_) return;
   shifting_ = false;
+  empty_row();
   for (const auto& slave : slaves_) slave->last_edge(last_edge_, ma_);
 }
 

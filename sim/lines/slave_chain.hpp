@@ -14,6 +14,7 @@
 
 #include "sim/core/event_queue.hpp"
 #include "sim/core/time.hpp"
+#include "sim/lines/bit_row.hpp"
 #include "sim/lines/slave.hpp"
 
 namespace mb4::sim {
@@ -33,24 +34,21 @@ class SlaveChain {
 
   // Sets the levels of MA and MO as they arrive at the slaves. Both change at once.
   void drive(Time now, bool ma, bool mo);
-  // True in the data of a frame, which is the longest part of a frame. There shift() does what
-  // drive() does when MA changes, without a call of the output. It returns SLO.
+  // True in the data of a frame, which is the longest part of a frame, if nothing disturbs it.
+  // There shift() does what drive() does when MA changes, without a call of the output. It returns
+  // SLO.
   bool shifting() const { return shifting_; }
   bool shift(Time now, bool ma, bool mo) {
     last_edge_ = now;
     deadline_ = now + timeout_;
     if (armed_at_ == now) postpone();
-    bool sli = mo_;
+    if (ma) {
+      if (row_.full()) fill_row();
+      reported_ = row_.shift(mo_ && takes_mo_);
+    }
     ma_ = ma;
     mo_ = mo;
-    if (!ma) return reported_ = slo();
-    for (std::size_t i = attached_; i-- > 0;) {
-      Slave& slave = *slaves_[i];
-      const bool before = slave.slo() || slave.faults().silent;
-      slave.shift(sli);
-      sli = before;
-    }
-    return reported_ = slo();
+    return reported_;
   }
   // Unplugs slave `index` (0 = slave 1) and those behind it: they see MA = 1, time out and become
   // idle. The last slave that is left sees SLI = 1. With index = size() all slaves are plugged in.
@@ -65,7 +63,10 @@ class SlaveChain {
   Slave& slave(std::size_t index) { return *slaves_[index]; }
   const Slave& slave(std::size_t index) const { return *slaves_[index]; }
   // Level of SLO of slave 1. Without slaves it is 1, from the pull-up.
-  bool slo() const { return attached_ == 0 || slo_of(0); }
+  bool slo() const {
+    if (shifting_) return reported_;
+    return attached_ == 0 || slo_of(0);
+  }
   bool ma() const { return ma_; }
   bool mo() const { return mo_; }
   // True when all slaves have timed out.
@@ -90,10 +91,13 @@ class SlaveChain {
     void add(const Slave& slave) {
       deadline = slave.deadline() < deadline ? slave.deadline() : deadline;
       idle = idle && slave.idle();
-      shifting = shifting && slave.shifting();
+      shifting = shifting && slave.shifting() != nullptr;
     }
   };
   Standing drive_slaves(Time now, bool ma, bool mo);
+  bool in_one_row() const;
+  void fill_row();
+  void empty_row();
   void catch_up();
   Standing settle_sli(Time now);
   void finish(Time now, const Standing& standing);
@@ -111,10 +115,12 @@ class SlaveChain {
   bool idle_ = true;
   Time deadline_ = kNever;  // the earliest deadline of the slaves
   Time armed_at_ = kNever;  // time of the timer event that is valid; later ones are stale
-  bool shifting_ = false;   // all slaves shift and are plugged in; they must be told last_edge_
+  bool shifting_ = false;   // all slaves shift in one row; they must be told about it
   Time timeout_ = 0;        // shifting: the shortest timeout, from each edge of MA on
   Time last_edge_ = 0;      // shifting: last edge of MA
   bool reported_ = true;
+  bool takes_mo_ = false;  // the last slave takes bits from MO
+  BitRow row_;             // shifting: the registers of all slaves, if not full
 };
 
 }  // namespace mb4::sim

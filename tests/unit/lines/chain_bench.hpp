@@ -39,9 +39,15 @@ class ChainBench {
     while (queue.next_time() <= time) queue.run_next();
     now = time;
   }
+  // The short way of shift() where the chain allows it, as a line does.
   void ma(Time time, bool level) {
     run_until(time);
-    chain.drive(time, level, mo);
+    if (!chain.shifting() || level == chain.ma() || mo != chain.mo()) {
+      chain.drive(time, level, mo);
+      return;
+    }
+    const bool before = chain.slo();
+    if (chain.shift(time, level, mo) != before) record(time, this, !before);
   }
   // One frame from time `start`: first falling edge there, then `rising` rising edges with 50 %
   // duty; MA rests high, or low after one more falling edge.

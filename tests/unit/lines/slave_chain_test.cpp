@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Chains (datasheet page 15; docs/choices.md, 10): slave 1, next to the master, comes first; each slave is a
-// shift register of its own length.
+// Chains (datasheet page 15; docs/choices.md, 10): slave 1, next to the master, comes first; each
+// slave is a shift register of its own length.
 #include "sim/lines/slave_chain.hpp"
 
 #include <gtest/gtest.h>
@@ -247,6 +247,59 @@ TEST(SlaveChain, NoSlaves_LineRestsHigh) {
   bench.frame(kStart, kPeriod, 10);
   EXPECT_TRUE(bench.chain.slo());
   EXPECT_TRUE(bench.slo.empty());
+}
+
+// Each bit of MO leaves slave 1 after as many clocks as the slaves have bits, however long the
+// frame is: the chain keeps 2,048 bits in a row before it begins a new one.
+TEST(SlaveChain, LongFrameWithMo_BitsOfMoComeBehindTheWords) {
+  constexpr unsigned kHead = 6;  // rising edges up to the CDS bit
+  constexpr unsigned kBits = 8 + 13 + 3;
+  ChainBench bench;
+  bench.add(constant_slave(8, 0xA5, 0));
+  bench.add(constant_slave(13, 0x1234, 0));
+  bench.add(constant_slave(3, 0x5, 0));
+  bench.mo = true;
+  bench.chain.drive(0, true, true);
+  bench.ma(kStart, false);
+  std::string sent;
+  std::string came;
+  for (unsigned i = 1; i <= 5000; ++i) {
+    // Acknowledge and start bit as above; then long levels and short ones.
+    const bool level = i <= kHead ? i == 1 || i == 5 : i % 700 < 3 || i % 1300 > 1000;
+    if (i > kHead + 1) sent += bench.mo ? '1' : '0';
+    bench.mo = level;
+    bench.ma(kStart + i * kPeriod - kPeriod / 2, true);
+    if (i > kHead) came += bench.chain.slo() ? '1' : '0';
+    bench.ma(kStart + i * kPeriod, false);
+  }
+  const std::string words = binary(0xA5, 8) + binary(0x1234, 13) + binary(0x5, 3);
+  EXPECT_EQ(came.substr(0, kBits), words);
+  EXPECT_EQ(came.substr(kBits), sent.substr(0, came.size() - kBits));
+}
+
+// A slave that is silent from the middle of a frame on sends 1. Those before it pass on what they
+// have.
+TEST(SlaveChain, SilentInTheData_RestOfTheFrameIsOne) {
+  ChainBench bench;
+  bench.add(constant_slave(4, 0x0, 0));
+  BissCSlave& far = bench.add(constant_slave(8, 0x00, 0));
+  bench.ma(kStart, false);
+  std::string bits;
+  for (unsigned i = 1; i <= 16; ++i) {
+    if (i == 8) {
+      far.faults().silent = true;
+      bench.chain.refresh(bench.now);
+    }
+    bench.ma(kStart + i * kPeriod - kPeriod / 2, true);
+    bits += bench.chain.slo() ? '1' : '0';
+    bench.ma(kStart + i * kPeriod, false);
+  }
+  // The near slave's four bits, the two bits of the far one that it has taken before, then ones.
+  EXPECT_EQ(bits,
+            "1010"
+            "0000"
+            "00"
+            "111111");
 }
 
 }  // namespace
