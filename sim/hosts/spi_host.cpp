@@ -50,6 +50,12 @@ void SpiHost::set_mode(const SpiMode& mode) {
   pins_.set_pin(wires_.sclk, mode_.cpol);
 }
 
+inline void SpiHost::drive_mosi(bool level) {
+  if (bits_in_frame_ != 0 && level == mosi_) return;
+  mosi_ = level;
+  pins_.set_pin(wires_.mosi, level);
+}
+
 // Makes one clock. With CPHA = 0 MOSI changes at the end of the clock before, and chip and host
 // take data at the first edge. With CPHA = 1 MOSI changes at the first edge, and both take data at
 // the second one.
@@ -66,13 +72,13 @@ bool SpiHost::clock_bit(bool mosi) {
     if (first) wait(timing_.ncs_setup);
     // MOSI changes after the edge: a chip that takes data at this edge gets the bit before.
     pins_.set_pin(wires_.sclk, !mode_.cpol);
-    pins_.set_pin(wires_.mosi, mosi);
+    drive_mosi(mosi);
     wait(pulse);
     miso = pins_.pin(wires_.miso);
     pins_.set_pin(wires_.sclk, mode_.cpol);
     wait(rest);
   } else {
-    pins_.set_pin(wires_.mosi, mosi);
+    drive_mosi(mosi);
     wait(first ? std::max(rest, timing_.ncs_setup) : rest);
     miso = pins_.pin(wires_.miso);
     pins_.set_pin(wires_.sclk, !mode_.cpol);

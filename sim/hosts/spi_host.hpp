@@ -72,6 +72,7 @@ class SpiHost final : public HostModel {
  private:
   void abort(std::span<const std::uint8_t> tx, std::span<std::uint8_t> rx);
   void wait(Time duration) { pins_.run_until(pins_.now() + duration); }
+  void drive_mosi(bool level);
   bool clock_bit(bool mosi);
 
   HostPins& pins_;
@@ -79,6 +80,7 @@ class SpiHost final : public HostModel {
   SpiTiming timing_;
   SpiMode mode_;
   bool selected_ = false;
+  bool mosi_ = false;  // as driven in this frame
   bool deselected_once_ = false;
   Time deselected_at_ = 0;
   Time last_edge_ = 0;

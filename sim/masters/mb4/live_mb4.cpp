@@ -67,7 +67,7 @@ bool LiveMb4::input(Pin pin) const {
   return levels_[index_of(pin)];
 }
 
-void LiveMb4::drive(Time now, Pin pin, bool level) {
+inline void LiveMb4::drive(Time now, Pin pin, bool level) {
   const bool was_paired = chip_->paired();
   chip_->set_input(now, pin, level);
   // CFGIF decides whether MA2 is the inverse of another pin.
@@ -77,14 +77,17 @@ void LiveMb4::drive(Time now, Pin pin, bool level) {
 }
 
 void LiveMb4::set_pin(Time now, Pin pin, bool level) {
-  if (pin < Pin::kClk && levels_[index_of(pin)] == level) return;
-  if (!can_set(pin)) return;
-  if (pin == Pin::kNer) {
-    ner_pulled_ = !level;
-    drive(now, pin, this->pin(pin));
-    return;
+  if (pin < Pin::kClk) {  // these are always inputs
+    if (levels_[index_of(pin)] == level) return;
+  } else {
+    if (!can_set(pin)) return;
+    if (pin == Pin::kNer) {
+      ner_pulled_ = !level;
+      drive(now, pin, this->pin(pin));
+      return;
+    }
+    if (input(pin) == level) return;
   }
-  if (input(pin) == level) return;
   levels_[index_of(pin)] = level;
   host_check_.edge(now, pin, level);
   if (observer_ != nullptr) observer_->pin_changed(pin, level);
@@ -108,6 +111,10 @@ void LiveMb4::set_observer(PinObserver* observer) {
 }
 
 bool LiveMb4::pin(Pin pin) const {
+  const std::size_t index = index_of(pin);
+  if (index <= index_of(Pin::kDb7) && ((chip_->db_enable() >> index) & 1U) != 0) {
+    return ((chip_->db_out() >> index) & 1U) != 0;
+  }
   const MasterModel::Outputs outputs = chip_->outputs();
   switch (pin) {
     case Pin::kEot:
@@ -125,13 +132,8 @@ bool LiveMb4::pin(Pin pin) const {
     case Pin::kNer:
       return !ner_pulled_ && (outputs & ChipModel::kNerLow) == 0;
     default:
-      break;
+      return input(pin);
   }
-  const std::size_t index = index_of(pin);
-  if (index <= index_of(Pin::kDb7) && ((chip_->db_enable() >> index) & 1U) != 0) {
-    return ((chip_->db_out() >> index) & 1U) != 0;
-  }
-  return input(pin);
 }
 
 }  // namespace mb4::sim

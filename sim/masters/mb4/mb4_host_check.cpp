@@ -38,21 +38,8 @@ void Mb4HostCheck::edge(Time now, Pin pin, bool level) {
 }
 
 void Mb4HostCheck::check_serial(Time now, Serial& serial, Pin pin, bool level) {
-  const bool selected = !this->level(serial.ncs);
-  if (pin == serial.ncs) {
-    if (level) {
-      need(now, "I202", "NCS low after SCLK has fallen for", changed(serial.sclk), kPhase);
-    } else {
-      need(now, "I209", "NCS high for", changed(serial.ncs), kPhase);
-      serial.bits = 0;
-      serial.opcode = 0;
-      serial.address_high = kNever;
-    }
-  } else if (pin == serial.mosi) {
-    if (selected && this->level(serial.sclk)) {
-      need(now, "I206", "MOSI stable after SCLK has risen for", changed(serial.sclk), kMosi);
-    }
-  } else if (pin == serial.sclk && selected) {
+  if (pin == serial.sclk) {
+    if (this->level(serial.ncs)) return;
     if (!level) {
       need(now, "I204", "SCLK high for", changed(serial.sclk), kPhase);
       if (serial.bits == kAddressBits && serial.opcode == kOpcodeRead) {
@@ -70,6 +57,19 @@ void Mb4HostCheck::check_serial(Time now, Serial& serial, Pin pin, bool level) {
            kAddressHigh);
     }
     ++serial.bits;
+  } else if (pin == serial.mosi) {
+    if (!this->level(serial.ncs) && this->level(serial.sclk)) {
+      need(now, "I206", "MOSI stable after SCLK has risen for", changed(serial.sclk), kMosi);
+    }
+  } else if (pin == serial.ncs) {
+    if (level) {
+      need(now, "I202", "NCS low after SCLK has fallen for", changed(serial.sclk), kPhase);
+    } else {
+      need(now, "I209", "NCS high for", changed(serial.ncs), kPhase);
+      serial.bits = 0;
+      serial.opcode = 0;
+      serial.address_high = kNever;
+    }
   }
 }
 

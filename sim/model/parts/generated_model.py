@@ -197,6 +197,10 @@ def analyse(text, function, local):
                 raise NotUnderstood(f"{function}: {bare[found.start():end + 4]}")
             statement.reads.add(name)
             statement.looks.add((name, numbers.get(found.start())))
+    if parts := branches(text):
+        statement.defines = set.intersection(*(
+            set().union(*(analyse(piece, function, local).defines for piece in split(side)))
+            for side in parts[1:]))
     return statement
 
 

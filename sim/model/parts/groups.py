@@ -40,14 +40,13 @@ class Part:
     """Groups that run together. There are three cases: they run always (`bits` is 0); one flag
     controls them; or one flag for each value of the variables in `key` does, `bits` flags in
     place `flag` of a table. `when`: they run only after one of these events (bits); `always`: then
-    they run if the clock has had an edge; `section`: a number for a few events in a row."""
+    they run if the clock has had an edge."""
 
-    def __init__(self, groups, flag=0, bits=0, key=(), when=0, always=False, section=0,
-                 rare=False):
+    def __init__(self, groups, flag=0, bits=0, key=(), when=0, always=False, rare=False):
         self.rows = [row for group in groups for row in group.rows]
         self.name = groups[0].name if groups else ""
         self.flag, self.bits, self.key = flag, bits, key
-        self.when, self.always, self.section, self.rare = when, always, section, rare
+        self.when, self.always, self.rare = when, always, rare
         self.reads = inputs(self.rows)
         self.looks = {look for look in looks(self.rows) if look[0] not in key}
         self.writes = set().union(*(row.writes for row in self.rows))
@@ -233,23 +232,23 @@ def combinational(row):
 def parts_of(groups, kinds, count, flags=0):
     """(the parts of the edge in their order, number of flags). `flags`: the first flag."""
     schedule = Schedule(groups)
-    found, events, keyed = [], 0, 0
+    found, keyed, last = [], 0, ()
     while schedule.open:
         run = schedule.run(None, kinds)
         if run:
             found.append(Part(run))
             continue
         kind = max(sorted({kinds(group) for group in schedule.open}),
-                   key=lambda k: schedule.reach(k, kinds))
+                   key=lambda k: (k[2:3] == last, schedule.reach(k, kinds)))
+        last = kind[2:3]
         key, _, when, always = (*kind, 0, False)[:4]
         bits = 1 << sum(kinds.widths[name] for name in key)
-        events += not found or found[-1].when != when
         bundle = []
         for group in schedule.run(kind, kinds) + [None]:
             if bundle and (group is None or count or
                            sum(one.size for one in bundle) + group.size > BUNDLE):
                 found.append(Part(bundle, keyed if key else flags, bits, key, when, always,
-                                  events // 8, kinds.rare(kind)))
+                                  kinds.rare(kind)))
                 keyed, flags = keyed + (key != ()), flags + (key == ())
                 bundle = []
             bundle.append(group)

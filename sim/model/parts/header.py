@@ -13,7 +13,7 @@ from groups import KEY_BITS, Part, combinational, look_name, looks
 
 CHECKED = 13  # one of so many rising edges has a check
 # What the parts have in common that one test leaves out: the event, runs of flags.
-GATES = (lambda part: part.section, lambda part: part.when,
+GATES = (lambda part: part.when,
          lambda part: part.rare and part.flag // 64 + 1,
          lambda part: part.rare and part.flag // 8 + 1)
 
@@ -134,9 +134,11 @@ class Writer:
         """Code that makes all parts run that read one of the variables."""
         return marked(set().union(*(self.reading(name) for name in names)))
 
-    def compare(self, name, old, new, also=""):
+    def compare(self, name, old, new, also="", writer=None):
         """Sets the marks of the parts that read a variable, if it has changed from `old` to `new`.
-        `also` belongs to the last test, that for any change."""
+        `also` belongs to the last test, that for any change. `writer`: the part that has written
+        it. To compute that part once more would change nothing, unless it really reads it."""
+        again = writer is None or any(name in row.reads for row in writer.rows)
         for number, parts in sorted(self.readers[name].items(),
                                     key=lambda item: (item[0] is None, str(item[0]))):
             test = f"{old} != {new}" if number is None else \
@@ -144,7 +146,8 @@ class Writer:
             if self.count:
                 self.lines.append(f"counts.moves[{len(self.moves)}] += {test};")
                 self.moves.append(look_name(name, number))
-            self.lines.append(f"if ({test}) {{ {marked(parts)} {also if number is None else ''} }}")
+            seen = parts if again else parts - {writer}
+            self.lines.append(f"if ({test}) {{ {marked(seen)} {also if number is None else ''} }}")
 
     def bits_of(self, part):
         """(variable of the part's key, place of its bits in the key's value), one after the
@@ -194,9 +197,9 @@ class Writer:
                 store = f"{old} = {now};"
                 also = again * bool(part.key)
                 if None in self.readers[name]:
-                    self.compare(name, old, now, also + store)
+                    self.compare(name, old, now, also + store, part)
                 else:
-                    self.compare(name, old, now)
+                    self.compare(name, old, now, writer=part)
                     self.lines.append(f"if ({old} != {now}) {{ {also} {store} }}")
         if self.readers is self.by_host:
             self.look_for(part.writes)
@@ -219,7 +222,7 @@ class Writer:
         for gate, many in groupby(parts, tests[0]):
             many = list(many)
             when = reduce(int.__or__, (part.when for part in many))
-            if tests[2:]:
+            if tests is GATES:
                 self.lines.append(f"if ((now & {when:#x}) != 0) {{" if when else "{")
             else:
                 word = f"kept.changed[{many[0].flag // 64}]"
