@@ -47,6 +47,17 @@ class Owned {
   Model model_{context_.get()};
 };
 
+// A pulse of an asynchronous reset on a model that has not been evaluated yet, with its clocks low.
+template <typename Model>
+void pulse_reset(Model& model) {
+  model.rst_ni = 1;
+  model.eval();  // what the first call finds is no edge
+  model.rst_ni = 0;
+  model.eval();
+  model.rst_ni = 1;
+  model.eval();
+}
+
 // A model of one module with one clock, or none.
 template <typename Model>
 class Block {

@@ -95,6 +95,16 @@ TEST(Simulator, ManyAtOnce_DoNotDisturbEachOther) {
   EXPECT_EQ(exchange(second, {reg::kSpiOpcodeReadRegisters, reg::kAddrFreq, 0})[2], 0x00);
 }
 
+// Slave 1 as examples/resolute-26.toml has it, MA at 10 MHz.
+void configure_resolute(Simulator& simulator) {
+  exchange(simulator, {reg::kSpiOpcodeWriteRegisters, reg::slave_cfg_address(1),
+                       reg::kEnscdYes | 27, reg::kScrclenCrc6, 0, 0});
+  exchange(simulator, {reg::kSpiOpcodeWriteRegisters, reg::kAddrCtrl, reg::kRegversBissC,
+                       reg::FREQR::of(5), 0, reg::kFreqagsAgsMin});
+  exchange(simulator, {reg::kSpiOpcodeWriteRegisters, reg::kAddrCfgch,
+                       reg::kCfgch1BissC | reg::kCfgch2Unused});
+}
+
 TEST(Simulator, SameSeed_GivesTheSameRun) {
   Scenario scenario = load("/resolute-26.toml");
   scenario.channels[0].slaves[0].device.as<BissCSlaveConfig>().timeout.sample_period = 9'000;
@@ -102,12 +112,7 @@ TEST(Simulator, SameSeed_GivesTheSameRun) {
     SimulatorOptions options;
     options.seed = seed;
     Simulator simulator(scenario, options);
-    exchange(simulator, {reg::kSpiOpcodeWriteRegisters, reg::slave_cfg_address(1),
-                         reg::kEnscdYes | 27, reg::kScrclenCrc6, 0, 0});
-    exchange(simulator, {reg::kSpiOpcodeWriteRegisters, reg::kAddrCtrl, reg::kRegversBissC,
-                         reg::FREQR::of(5), 0, reg::kFreqagsAgsMin});
-    exchange(simulator, {reg::kSpiOpcodeWriteRegisters, reg::kAddrCfgch,
-                         reg::kCfgch1BissC | reg::kCfgch2Unused});
+    configure_resolute(simulator);
     Time end = 0;
     for (int i = 0; i < 5; ++i) {
       exchange(simulator, {reg::kSpiOpcodeWriteInstruction, reg::kInstrCdm0});
@@ -202,12 +207,7 @@ TEST(Simulator, OneFrame_MonitorSeesTheChipsClock) {
   Scenario scenario = load("/resolute-26.toml");
   scenario.channels[0].delay = 0;
   Simulator simulator(scenario);
-  exchange(simulator, {reg::kSpiOpcodeWriteRegisters, reg::slave_cfg_address(1),
-                       reg::kEnscdYes | 27, reg::kScrclenCrc6, 0, 0});
-  exchange(simulator, {reg::kSpiOpcodeWriteRegisters, reg::kAddrCtrl, reg::kRegversBissC,
-                       reg::FREQR::of(5), 0, reg::kFreqagsAgsMin});
-  exchange(simulator, {reg::kSpiOpcodeWriteRegisters, reg::kAddrCfgch,
-                       reg::kCfgch1BissC | reg::kCfgch2Unused});
+  configure_resolute(simulator);
   exchange(simulator, {reg::kSpiOpcodeWriteInstruction, reg::kInstrCdm0});
   simulator.advance(50 * kPsPerUs);
   const MaFrame frame = simulator.line(1)->monitor().last(simulator.now());

@@ -35,12 +35,7 @@ class CfgRegsBlock : public testing::Test {
   CfgRegsBlock() {
     m.hclk_i = 0;
     m.host_i = 0;
-    m.rst_ni = 1;
-    m.eval();  // what the first call finds is no edge
-    m.rst_ni = 0;
-    m.eval();
-    m.rst_ni = 1;
-    m.eval();
+    mb4test::pulse_reset(m);
   }
   void write(unsigned address, unsigned byte, bool enable = true) {
     // mb4_pkg::host_t: wr_en, wr_addr, wr_data, rd_en, rd_addr.

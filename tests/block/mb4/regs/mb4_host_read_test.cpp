@@ -121,12 +121,7 @@ TEST(HostReadBlock, EveryAddressAndRandomSources_ReadsAsTable6) {
   Vmb4_host_read& m = *owner;
   m.rclk_i = 0;
   m.host_i = 0;
-  m.rst_ni = 1;
-  m.eval();  // what the first call finds is no edge
-  m.rst_ni = 0;
-  m.eval();
-  m.rst_ni = 1;
-  m.eval();
+  mb4test::pulse_reset(m);
   EXPECT_EQ(m.rd_data_o, 0);
   for (int round = 0; round < 100; ++round) {
     for (unsigned address = 0; address < 256; ++address) {

@@ -18,12 +18,7 @@ TEST(ReadPort2Block, RandomReads_ByteIsOfTheBankAtTheEdge) {
   Vmb4_read_port2& m = *owner;
   m.rclk_i = m.rd_en_i = m.bank_i = m.ram_ready_i = 0;
   m.data_i = 0xFFFF;
-  m.rst_ni = 1;
-  m.eval();  // what the first call finds is no edge
-  m.rst_ni = 0;
-  m.eval();
-  m.rst_ni = 1;
-  m.eval();
+  mb4test::pulse_reset(m);
   EXPECT_EQ(m.rd_data_o, 0);
   bool ready = false;
   bool bank = false;

@@ -31,12 +31,7 @@ class RecentBlock : public testing::Test {
     m.hclk_i = m.rclk_i = m.bank_i = m.marked_i = 0;
     m.host_i = 0;
     m.empty_i = 1;
-    m.rst_ni = 1;
-    m.eval();  // what the first call finds is no edge
-    m.rst_ni = 0;
-    m.eval();
-    m.rst_ni = 1;
-    m.eval();
+    mb4test::pulse_reset(m);
   }
   bool empty() const { return taken == log.size(); }
   // The core takes the oldest byte that waits.

@@ -41,15 +41,10 @@ class SlaveCfgBlock : public testing::Test {
   SlaveCfgBlock() {
     m.hclk_i = m.rclk_i = m.clk_i = m.list_en_i = 0;
     m.host_i = 0;
-    m.rst_ni = 1;
-    m.eval();  // what the first call finds is no edge
     reset();
   }
   void reset() {
-    m.rst_ni = 0;
-    m.eval();
-    m.rst_ni = 1;
-    m.eval();
+    mb4test::pulse_reset(m);
     bytes.fill(0);
   }
   void write(unsigned address, unsigned byte) {
