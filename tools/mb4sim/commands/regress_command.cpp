@@ -34,10 +34,10 @@ constexpr std::uint64_t kMaxRuns = 1'000'000;
 constexpr std::string_view kFormat = "mb4sim-regress-1";  // first word of a shard
 constexpr std::string_view kEnd = "end";                  // its last line
 
-std::vector<std::string> fields_of(const std::string& line) {
+std::vector<std::string> fields_of(const std::string& line, char separator = '\t') {
   std::vector<std::string> fields;
   for (std::size_t at = 0; at <= line.size();) {
-    const std::size_t end = std::min(line.find('\t', at), line.size());
+    const std::size_t end = std::min(line.find(separator, at), line.size());
     fields.push_back(line.substr(at, end - at));
     at = end + 1;
   }
@@ -95,10 +95,9 @@ struct Row {
     row.status = static_cast<int>(status);
     row.scenario = fields[2];
     row.state = fields[8];
-    for (std::size_t at = 0; at < fields[9].size();) {
-      const std::size_t end = std::min(fields[9].find(' ', at), fields[9].size());
-      if (!take(fields[9].substr(at, end - at), row.coverage.emplace_back())) return std::nullopt;
-      at = end + 1;
+    if (fields[9].empty()) return row;
+    for (const std::string& count : fields_of(fields[9], ' ')) {
+      if (!take(count, row.coverage.emplace_back())) return std::nullopt;
     }
     return row;
   }
