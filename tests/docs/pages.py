@@ -153,12 +153,14 @@ def pages(root):
 
 @contextlib.contextmanager
 def workspace(root, mb4sim):
-    """A copy of the repository. Its build/ holds only bin/mb4sim."""
+    """A copy of the repository. Its build/ holds only bin/mb4sim and the libraries."""
     with tempfile.TemporaryDirectory() as folder:
         copy = Path(folder, "openmb4")
         shutil.copytree(root, copy, symlinks=True, ignore=foreign)
         (copy / "build" / "bin").mkdir(parents=True)
-        (copy / "build" / "bin" / "mb4sim").symlink_to(Path(mb4sim).resolve())
+        built = Path(mb4sim).resolve()
+        (copy / "build" / "bin" / "mb4sim").symlink_to(built)
+        (copy / "build" / "lib").symlink_to(built.parents[1] / "lib")
         yield copy
 
 
