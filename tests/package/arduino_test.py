@@ -10,16 +10,16 @@ Without Arduino's own builder the test does its part: it hands src/ to the compi
 and compiles the .ino as C++ and each .c beside it as C."""
 
 import json
-import re
 import shutil
-import subprocess
 import sys
 import tempfile
 import unittest
 import zipfile
 from pathlib import Path
 
-ROOT = Path(__file__).resolve().parents[2]
+import programs
+from programs import ROOT, call
+
 STUB = Path(__file__).resolve().parent / "arduino"
 CORE = Path("/usr/share/arduino/hardware/arduino/avr")
 LIBRARY, CC, CXX = Path(sys.argv[1]).resolve(), sys.argv[2], sys.argv[3]
@@ -38,20 +38,12 @@ data = {data}
 """
 
 
-def run(*command):
-    done = subprocess.run([str(part) for part in command], check=False, text=True,
-                          capture_output=True)
-    if done.returncode:
-        raise AssertionError(f"{' '.join(map(str, command))}\n{done.stdout}{done.stderr}")
-    return done.stdout
-
-
 class Library(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
         cls.folder = tempfile.TemporaryDirectory()
         cls.work = Path(cls.folder.name)
-        archive = run(sys.executable, "-B", ROOT / "tools/arduino.py", cls.work).strip()
+        archive = call(sys.executable, "-B", ROOT / "tools/arduino.py", cls.work).strip()
         cls.bytes = Path(archive).read_bytes()
         with zipfile.ZipFile(archive) as opened:
             opened.extractall(cls.work)
@@ -66,11 +58,11 @@ class Library(unittest.TestCase):
         program = self.work / f"{name}-program"
         if not program.exists():
             objects = self.build(name, CC, CXX, [], "-std=c++17", [STUB])
-            run(CXX, "-std=c++17", *WARNINGS, f"-I{STUB}", f"-I{ROOT / 'sim/include'}",
+            call(CXX, "-std=c++17", *WARNINGS, f"-I{STUB}", f"-I{ROOT / 'sim/include'}",
                 STUB / "board.cpp", *objects, LIBRARY, f"-Wl,-rpath,{LIBRARY.parent}", "-o", program)
         path = self.work / "scenario.toml"
         path.write_text(scenario)
-        return run(program, path, "4").splitlines()
+        return call(program, path, "4").splitlines()
 
     def build(self, name, cc, cxx, flags, standard, includes):
         """Compiles a sketch; returns its objects."""
@@ -80,16 +72,16 @@ class Library(unittest.TestCase):
             out = self.work / f"{name}-{path.name}.o"
             folders = [f"-I{one}" for one in (*includes, self.library / "src", sketch)]
             if path.suffix == ".ino":
-                run(cxx, "-x", "c++", standard, *WARNINGS, *flags, *folders, "-c", path, "-o", out)
+                call(cxx, "-x", "c++", standard, *WARNINGS, *flags, *folders, "-c", path, "-o", out)
             elif path.suffix == ".c":
-                run(cc, "-std=c99", "-Wpedantic", *WARNINGS, *flags, *folders, "-c", path, "-o", out)
+                call(cc, "-std=c99", "-Wpedantic", *WARNINGS, *flags, *folders, "-c", path, "-o", out)
             else:
                 continue
             objects.append(out)
         return objects
 
     def test_archive_is_what_the_tools_expect(self):
-        version = re.search(r"openmb4 VERSION ([\d.]+)", (ROOT / "CMakeLists.txt").read_text())[1]
+        version = programs.version()
         pairs = dict(line.split("=", 1) for line in
                      (self.library / "library.properties").read_text().splitlines())
         # Arduino's library specification 1.5 asks for these.
@@ -107,7 +99,7 @@ class Library(unittest.TestCase):
             self.assertTrue((self.library / name).exists(), name)
 
     def test_same_sources_give_the_same_bytes(self):
-        again = run(sys.executable, "-B", ROOT / "tools/arduino.py", self.work / "again").strip()
+        again = call(sys.executable, "-B", ROOT / "tools/arduino.py", self.work / "again").strip()
         self.assertEqual(Path(again).read_bytes(), self.bytes)
 
     def test_sketch_for_avr_compiles_with_arduinos_core(self):
@@ -117,7 +109,7 @@ class Library(unittest.TestCase):
                                                       "libraries/SPI/src")]
         objects = self.build("PositionAvr", "avr-gcc", "avr-g++", flags + core, "-std=gnu++11", [])
         self.assertEqual(len(objects), 2)
-        text, data, bss = map(int, run("avr-size", "--totals", *objects).splitlines()[-1].split()[:3])
+        text, data, bss = map(int, call("avr-size", "--totals", *objects).splitlines()[-1].split()[:3])
         self.assertLess(text + data, 8 * 1024)  # an Uno has 32 KiB, and 2 KiB of RAM
         self.assertLess(data + bss, 512)
 

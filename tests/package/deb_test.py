@@ -13,20 +13,16 @@ what they depend on, and the command runs on this machine's libraries."""
 import os
 import re
 import shutil
-import subprocess
 import sys
 import tempfile
 import unittest
 from pathlib import Path
 
+from programs import call
+
 BUILD, CMAKE = Path(sys.argv[1]).resolve(), sys.argv[2]
 NAMES = {"openmb4", "libmb4sim0", "libmb4sim-dev", "openmb4-driver-dev", "openmb4-rtl"}
 SCENARIO = "usr/share/openmb4/examples/resolute-26.toml"
-
-
-def run(*command, **keys):
-    return subprocess.run([str(part) for part in command], check=True, text=True,
-                          capture_output=True, **keys).stdout
 
 
 def files_of(folder):
@@ -40,9 +36,9 @@ class Packages(unittest.TestCase):
     def setUpClass(cls):
         cls.folder = tempfile.TemporaryDirectory()
         cls.work = Path(cls.folder.name)
-        run(Path(CMAKE).parent / "cpack", "-G", "DEB", "--config", BUILD / "CPackConfig.cmake",
+        call(Path(CMAKE).parent / "cpack", "-G", "DEB", "--config", BUILD / "CPackConfig.cmake",
             "-B", cls.work, cwd=BUILD)
-        cls.debs = {run("dpkg-deb", "-f", deb, "Package").strip(): deb
+        cls.debs = {call("dpkg-deb", "-f", deb, "Package").strip(): deb
                     for deb in cls.work.glob("*.deb")}
 
     @classmethod
@@ -51,13 +47,13 @@ class Packages(unittest.TestCase):
 
     def contents(self, name):
         folder = self.work / f"contents-{name}"
-        run("dpkg-deb", "-x", self.debs[name], folder)
+        call("dpkg-deb", "-x", self.debs[name], folder)
         return files_of(folder)
 
     def test_packages_hold_all_that_is_installed_once(self):
         self.assertEqual(set(self.debs), NAMES)
         whole = self.work / "whole"
-        run(CMAKE, "--install", BUILD, "--prefix", whole / "usr")
+        call(CMAKE, "--install", BUILD, "--prefix", whole / "usr")
         parts = {name: self.contents(name) for name in NAMES}
         self.assertEqual(set().union(*parts.values()), files_of(whole))
         self.assertEqual(sum(map(len, parts.values())), len(files_of(whole)))
@@ -67,10 +63,10 @@ class Packages(unittest.TestCase):
 
     def test_programs_depend_on_their_libraries(self):
         for name in ("openmb4", "libmb4sim0"):
-            depends = run("dpkg-deb", "-f", self.debs[name], "Depends")
+            depends = call("dpkg-deb", "-f", self.debs[name], "Depends")
             self.assertRegex(depends, r"libc6 \(>= [\d.]+\).*libstdc\+\+6")
-        version = run("dpkg-deb", "-f", self.debs["libmb4sim-dev"], "Version").strip()
-        self.assertEqual(run("dpkg-deb", "-f", self.debs["libmb4sim-dev"], "Depends").strip(),
+        version = call("dpkg-deb", "-f", self.debs["libmb4sim-dev"], "Version").strip()
+        self.assertEqual(call("dpkg-deb", "-f", self.debs["libmb4sim-dev"], "Depends").strip(),
                          f"libmb4sim0 (= {version}), openmb4-driver-dev (= {version})")
 
     def try_root(self, root, install, remove, program):
@@ -90,9 +86,9 @@ class Packages(unittest.TestCase):
         (root / "var/lib/dpkg/status").touch()
         (root / "usr").mkdir()
         dpkg = ("dpkg", f"--root={root}", "--force-depends", "--force-script-chrootless")
-        self.try_root(root, lambda: run(*dpkg, "-i", *self.debs.values()),
-                      lambda: run(*dpkg, "--purge", *NAMES),
-                      lambda *arguments: run(root / "usr/bin/mb4sim", *arguments, cwd=root))
+        self.try_root(root, lambda: call(*dpkg, "-i", *self.debs.values()),
+                      lambda: call(*dpkg, "--purge", *NAMES),
+                      lambda *arguments: call(root / "usr/bin/mb4sim", *arguments, cwd=root))
 
     @unittest.skipUnless(os.environ.get("MB4_CLEAN_ROOT"), "MB4_CLEAN_ROOT names no folder")
     def test_installed_and_removed_in_a_clean_debian(self):
@@ -105,12 +101,12 @@ class Packages(unittest.TestCase):
         inside = ("chroot", root, "env", "DEBIAN_FRONTEND=noninteractive", "PATH=/usr/sbin:/usr/bin")
         # The libraries that they need stay; so they come first.
         needed = set(re.findall(r"\b(libc6|libfmt\d+|libgcc-s1|libstdc\+\+6|zlib1g)\b", " ".join(
-            run("dpkg-deb", "-f", deb, "Depends") for deb in self.debs.values())))
-        run(*inside, "apt-get", "install", "-y", "-q", *needed)
-        self.try_root(root, lambda: run(*inside, "apt-get", "install", "-y", "-q", *(
+            call("dpkg-deb", "-f", deb, "Depends") for deb in self.debs.values())))
+        call(*inside, "apt-get", "install", "-y", "-q", *needed)
+        self.try_root(root, lambda: call(*inside, "apt-get", "install", "-y", "-q", *(
                           f"/var/openmb4/{Path(deb).name}" for deb in self.debs.values())),
-                      lambda: run(*inside, "apt-get", "purge", "-y", "-q", *NAMES),
-                      lambda *arguments: run(*inside, "mb4sim", *arguments))
+                      lambda: call(*inside, "apt-get", "purge", "-y", "-q", *NAMES),
+                      lambda *arguments: call(*inside, "mb4sim", *arguments))
 
 
 if __name__ == "__main__":

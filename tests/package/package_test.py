@@ -12,6 +12,8 @@ import sys
 import tempfile
 import unittest
 
+from programs import call
+
 BUILD, CMAKE, CC = sys.argv[1:4]
 CHIP = "revision 0x20, version 0x84\n"  # tables 41 and 42
 
@@ -85,14 +87,6 @@ int main() {
   return 0;
 }
 """
-
-
-def call(*command, **options):
-    done = subprocess.run(command, capture_output=True, text=True, timeout=200, check=False,
-                          **options)
-    if done.returncode != 0:
-        raise AssertionError(f"{' '.join(command)}\n{done.stdout}\n{done.stderr}")
-    return done.stdout
 
 
 class Package(unittest.TestCase):

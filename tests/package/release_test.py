@@ -12,7 +12,9 @@ import tempfile
 import tomllib
 from pathlib import Path
 
-ROOT = Path(__file__).resolve().parents[2]
+import programs
+from programs import ROOT
+
 SKIPPED = 77
 
 
@@ -47,8 +49,7 @@ def main():
     if shutil.which("yosys") is None:
         print("skipped: yosys is not installed")
         sys.exit(SKIPPED)
-    version = re.search(r"project\(openmb4 VERSION ([\d.]+)",
-                        (ROOT / "CMakeLists.txt").read_text()).group(1)
+    version = programs.version()
     with tempfile.TemporaryDirectory() as folder:
         # A clone: the working tree at hand may be in the middle of something.
         clone = Path(folder) / "clone"

