@@ -93,14 +93,17 @@ void add_protocol(const sim::SlaveConfig& slave, SlaveConfig& target, Config& co
 
 }  // namespace
 
+void require_ic_mb4(const sim::Scenario& scenario) {
+  if (scenario.master->type == "ic-mb4") return;
+  throw sim::ScenarioError(scenario.name, {}, "type",
+                           fmt::format("mb4sim configures the iC-MB4, not \"{}\"; C++ programs "
+                                       "can use this master (sim/README.md)",
+                                       scenario.master->type));
+}
+
 sim::Scenario load_chip_scenario(const std::string& path) {
   sim::Scenario scenario = sim::load_scenario(path);
-  if (scenario.master->type != "ic-mb4") {
-    throw sim::ScenarioError(scenario.name, {}, "type",
-                             fmt::format("mb4sim configures the iC-MB4, not \"{}\"; C++ programs "
-                                         "can use this master (sim/README.md)",
-                                         scenario.master->type));
-  }
+  require_ic_mb4(scenario);
   return scenario;
 }
 
@@ -118,6 +121,7 @@ std::vector<ConnectedSlave> connected_slaves(const sim::Scenario& scenario) {
 }
 
 Config clock_config(const sim::Scenario& scenario) {
+  require_ic_mb4(scenario);
   Config config;
   config.f_clk_hz = static_cast<std::uint32_t>(scenario.chip.system_hz());
   config.clock_source =
@@ -127,6 +131,7 @@ Config clock_config(const sim::Scenario& scenario) {
 }
 
 Config make_config(const sim::Scenario& scenario) {
+  require_ic_mb4(scenario);
   if (scenario.channels.empty()) {
     fail(scenario, scenario.source, "channel", "missing: there is no slave to read");
   }

@@ -14,8 +14,10 @@
 
 namespace mb4::tool {
 
-// Loads a scenario. Throws sim::ScenarioError if it cannot be read, or if its master is not the
-// iC-MB4, which is the only one that the commands configure.
+// Throws sim::ScenarioError if the master is another one.
+void require_ic_mb4(const sim::Scenario& scenario);
+
+// Loads a scenario of the iC-MB4. Throws sim::ScenarioError.
 sim::Scenario load_chip_scenario(const std::string& path);
 
 // A slave of the scenario and its number in the chip, 1..8 as in SCDATAx.
@@ -28,7 +30,8 @@ struct ConnectedSlave {
 // All slaves of a scenario, in the order of their numbers.
 std::vector<ConnectedSlave> connected_slaves(const sim::Scenario& scenario);
 
-// A configuration with only the clocks of the scenario.
+// A configuration with only the clocks of the scenario. Throws sim::ScenarioError for another
+// master than the iC-MB4.
 Config clock_config(const sim::Scenario& scenario);
 
 // Configuration that reads all slaves. Throws sim::ScenarioError with the scenario's key that chip

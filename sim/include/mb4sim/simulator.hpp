@@ -97,10 +97,15 @@ class Simulator final : public HostPins {
   void set_observer(PinObserver* observer);
 
   // --- hosts, lines, slaves ------------------------------------------------------------------
-  // A host that the master offers, by its name and class. Throws std::bad_cast if there is none.
+  // A host that the master offers, by its name and class. Null if there is none.
+  template <typename Host>
+  Host* find_host(std::string_view name) {
+    return dynamic_cast<Host*>(master_->host(name));
+  }
+  // The same for callers that know the master. Throws std::bad_cast if there is none.
   template <typename Host>
   Host& host(std::string_view name) {
-    auto* found = dynamic_cast<Host*>(master_->host(name));
+    auto* found = find_host<Host>(name);
     if (found == nullptr) throw std::bad_cast();
     return *found;
   }
