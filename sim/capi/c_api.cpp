@@ -19,6 +19,7 @@
 #include "sim/capi/frame_watch.hpp"
 #include "sim/capi/report.hpp"
 #include "sim/core/version.hpp"
+#include "sim/hosts/word_host.hpp"
 
 using mb4::sim::FrameWatch;
 using mb4::sim::ModelStopped;
@@ -26,6 +27,7 @@ using mb4::sim::ParallelHost;
 using mb4::sim::Scenario;
 using mb4::sim::Simulator;
 using mb4::sim::SpiHost;
+using mb4::sim::WordHost;
 
 // What a handle points to.
 struct mb4sim {
@@ -114,6 +116,19 @@ int hosted(mb4sim* sim, Call call, Keep keep = Keep::kNo) {
   return guarded(sim, with_host, keep);
 }
 
+// The same with a host on a bus of 32-bit words. `call` returns the answer of the bus.
+template <typename Call>
+int word_access(mb4sim* sim, uint32_t address, Call call) {
+  return guarded(sim, [&](Simulator& simulator) {
+    auto* const host = simulator.find_host<WordHost>(simulator.scenario().host.interface.key);
+    if (host == nullptr) return int{MB4SIM_ERROR_HOST};
+    if (address > host->last_address() || address % 4 != 0) return int{MB4SIM_ERROR_VALUE};
+    const std::optional<std::uint8_t> answer = call(*host);
+    if (!answer) return int{MB4SIM_ERROR_SILENT};
+    return *answer == 0 ? 0 : 1;
+  });
+}
+
 // A pin by its name; nothing for null pointers and other names.
 std::optional<mb4::sim::Pin> find_pin(const mb4sim* sim, const char* name) {
   if (sim == nullptr || name == nullptr) return std::nullopt;
@@ -130,6 +145,8 @@ const char* error_text(const mb4sim& sim, int error) {
       return "the scenario's host has another interface";
     case MB4SIM_ERROR_CALLBACK:
       return "not allowed in a callback";
+    case MB4SIM_ERROR_SILENT:
+      return "the bus has not answered";
     default:
       return "out of memory or another failure; only closing is left";
   }
@@ -308,6 +325,23 @@ int mb4sim_bus_read(mb4sim* sim, uint8_t address, uint8_t* data) {
   return hosted<ParallelHost>(sim, [&](ParallelHost& bus) {
     *data = bus.read(address);
     return 0;
+  });
+}
+
+int mb4sim_axi_write(mb4sim* sim, uint32_t address, uint32_t data, uint8_t strobe) {
+  constexpr uint8_t kAllBytes = 0xF;
+  if (sim != nullptr && strobe > kAllBytes) return MB4SIM_ERROR_VALUE;
+  return word_access(sim, address,
+                     [&](WordHost& host) { return host.write(address, data, strobe); });
+}
+
+int mb4sim_axi_read(mb4sim* sim, uint32_t address, uint32_t* data) {
+  if (data == nullptr) return MB4SIM_ERROR_UNKNOWN;
+  return word_access(sim, address, [&](WordHost& host) {
+    std::uint32_t value = 0;
+    const std::optional<std::uint8_t> answer = host.read(address, value);
+    if (answer) *data = value;
+    return answer;
   });
 }
 

@@ -73,7 +73,7 @@ class VerilatedAxi final : public AxiModel {
       const Outputs before = outputs_;
       const bool valid = m.s_axis_tvalid != 0;
       if (valid && m.rst_ni != 0) take_beat(now);
-      const bool moves = !access_.done;
+      const bool moves = !access_.done || late_ != 0;
       if (moves) look_at_answer();
       m.clk_i = 1;
       m.eval();
@@ -104,11 +104,20 @@ class VerilatedAxi final : public AxiModel {
   void set_reset(bool active) override {
     Verilated::threadContextp(context_.get());
     model_->rst_ni = active ? 0 : 1;
+    late_ = 0;
+    taken_ = false;
     model_->eval();
     pack();
   }
   void set_ext_sample_clk(bool level) override { model_->ext_sample_clk_i = level ? 1 : 0; }
   void set_sample_en(bool level) override { model_->sample_en_i = level ? 1 : 0; }
+  void give_up() override {
+    Model& m = *model_;
+    m.s_axi_awvalid = m.s_axi_wvalid = m.s_axi_arvalid = 0;
+    if (taken_) ++late_;
+    taken_ = handed_ = fresh_ = false;
+    access_.done = true;
+  }
   bool ext_sample_clk() const override { return model_->ext_sample_clk_i != 0; }
   bool sample_en() const override { return model_->sample_en_i != 0; }
   bool slo(unsigned line) const override { return ((model_->slo_i >> line) & 1U) != 0; }
@@ -140,7 +149,13 @@ class VerilatedAxi final : public AxiModel {
     const Model& m = *model_;
     handed_ = (m.s_axi_awvalid != 0 && m.s_axi_awready != 0) ||
               (m.s_axi_arvalid != 0 && m.s_axi_arready != 0);
+    taken_ = taken_ || handed_;
     if (m.s_axi_bvalid == 0 && m.s_axi_rvalid == 0) return;
+    if (late_ != 0) {
+      --late_;
+      return;
+    }
+    taken_ = false;
     access_.answer = m.s_axi_bvalid != 0 ? m.s_axi_bresp : m.s_axi_rresp;
     if (!access_.write) access_.data = m.s_axi_rdata;
     access_.done = true;
@@ -180,7 +195,9 @@ class VerilatedAxi final : public AxiModel {
   std::unique_ptr<VerilatedContext> context_;
   std::unique_ptr<Model> model_;
   ClockSource clock_;
-  bool handed_ = false;
+  bool handed_ = false;  // the edge that is about to come takes address and data
+  bool taken_ = false;   // the running access has been taken
+  unsigned late_ = 0;    // answers of accesses that have been given up
   bool done_ = false;
   bool beat_ = false;
 };

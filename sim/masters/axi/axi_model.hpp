@@ -62,6 +62,9 @@ class AxiModel : public MasterModel {
     fresh_ = true;
   }
   const AxiAccess& access() const { return access_; }
+  // Ends an access that has no answer: takes the valids back. If the master has taken it, its late
+  // answer is dropped.
+  virtual void give_up() = 0;
 
   // Beats that the sink has taken. The oldest ones are dropped when there are too many.
   std::deque<AxiBeat>& beats() { return beats_; }
