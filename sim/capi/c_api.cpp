@@ -19,7 +19,6 @@
 #include "sim/capi/frame_watch.hpp"
 #include "sim/capi/report.hpp"
 #include "sim/core/version.hpp"
-#include "sim/hosts/word_host.hpp"
 
 using mb4::sim::FrameWatch;
 using mb4::sim::ModelStopped;
@@ -120,7 +119,7 @@ int hosted(mb4sim* sim, Call call, Keep keep = Keep::kNo) {
 template <typename Call>
 int word_access(mb4sim* sim, uint32_t address, Call call) {
   return guarded(sim, [&](Simulator& simulator) {
-    auto* const host = simulator.find_host<WordHost>(simulator.scenario().host.interface.key);
+    WordHost* const host = simulator.word_bus();
     if (host == nullptr) return int{MB4SIM_ERROR_HOST};
     if (address > host->last_address() || address % 4 != 0) return int{MB4SIM_ERROR_VALUE};
     const std::optional<std::uint8_t> answer = call(*host);

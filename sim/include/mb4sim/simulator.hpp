@@ -24,6 +24,7 @@
 #include "sim/hosts/host_pins.hpp"
 #include "sim/hosts/parallel_host.hpp"
 #include "sim/hosts/spi_host.hpp"
+#include "sim/hosts/word_host.hpp"
 #include "sim/lines/line.hpp"
 #include "sim/lines/ma_pulse_check.hpp"
 #include "sim/lines/slave.hpp"
@@ -113,6 +114,8 @@ class Simulator final : public HostPins {
   SpiHost& spi() { return host<SpiHost>("spi"); }
   SpiHost& spi2() { return host<SpiHost>("spi2"); }
   ParallelHost& bus() { return host<ParallelHost>("bus"); }
+  // The host on the bus of 32-bit words that the scenario's interface names. Null if it is none.
+  WordHost* word_bus() { return find_host<WordHost>(scenario_.host.interface.key); }
   // Violations of the master's limits at the host pins so far.
   HostCheck& host_check() { return master_->host_check(); }
   // The line of a channel, from 1 on. Null if the scenario does not have this channel.
