@@ -80,9 +80,9 @@ class AxiModel : public MasterModel {
 };
 
 // `channels`: those that the scenario needs. The next larger of the models that are built (1, 4,
-// 16 channels) is taken.
+// 16 channels) is taken. `plain`: each edge is evaluated in the simplest way.
 std::unique_ptr<AxiModel> make_axi_model(const ChipConfig& chip, unsigned channels,
-                                         std::uint64_t seed);
+                                         std::uint64_t seed, bool plain);
 
 }  // namespace mb4::sim
 

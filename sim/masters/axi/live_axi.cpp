@@ -86,7 +86,7 @@ std::optional<AxiBeat> AxiHost::next_beat() {
 LiveAxi::LiveAxi(const MasterSetup& setup)
     : outside_(setup.outside),
       lines_(setup.lines),
-      model_(make_axi_model(setup.chip, channels_of(setup.lines), setup.seed)),
+      model_(make_axi_model(setup.chip, channels_of(setup.lines), setup.seed, setup.plain)),
       host_(outside_, *model_,
             setup.chip.f_clk_hz == 0 ? kPsPerUs : kPsPerSecond / setup.chip.f_clk_hz + 1) {}
 
