@@ -36,9 +36,7 @@ bool within(int value, int least, std::uint32_t most) {
 }  // namespace
 
 int BISS_C_Init(int hdev) {
-  biss_axi::Config config;
-  config.f_clk_hz = biss_c_port_clk_hz(hdev);
-  const std::uint32_t half = (config.f_clk_hz + 2U * kMostMaHz - 1U) / (2U * kMostMaHz);
+  const std::uint32_t half = biss_axi::divider_at_most(biss_c_port_clk_hz(hdev), kMostMaHz);
   const Port port{hdev};
   const bool done = half >= 1 && half <= regs::MA_DIVIDER::kMax &&
                     port.write(regs::kAddrSoftReset, 1) && port.write(regs::kAddrMode, 1) &&
@@ -56,13 +54,11 @@ int BISS_C_IgnoreCRC(int hdev, int ignoreCRC) {
 int BISS_C_CheckAjustDelay(int hdev, int channelIndex, int* maSloDelayTicks) {
   if (maSloDelayTicks == nullptr || !within(channelIndex, 0, regs::kChannels - 1))
     return BISS_C_ARGUMENT;
-  const Port port{hdev};
-  std::uint32_t value = 0;
-  if (!port.write(regs::kAddrChannelIndex, static_cast<std::uint32_t>(channelIndex)) ||
-      !port.read(regs::kAddrLineDelay, value)) {
-    return BISS_C_BUS;
-  }
-  *maSloDelayTicks = static_cast<int>(value);
+  Port port{hdev};
+  const auto delay =
+      biss_axi::channel_word(port, static_cast<unsigned>(channelIndex), regs::kAddrLineDelay);
+  if (!delay) return BISS_C_BUS;
+  *maSloDelayTicks = static_cast<int>(*delay);
   return 0;
 }
 
@@ -106,12 +102,13 @@ int BISS_C_ReadSinglePoint(int hdev, int channelIndex, unsigned int* data, bool*
   }
   const biss_axi::WaitTimes times = biss_axi::wait_times(
       biss_c_port_clk_hz(hdev), divider == 0 ? 1 : divider, bits == 0 || bits > 32 ? 32 : bits);
-  const biss_axi::Result<std::uint32_t> word =
-      biss_axi::single_point(port, clock, times, static_cast<unsigned>(channelIndex));
-  if (word) {
-    *data = *word;
-    *isValid = true;
-    return 0;
-  }
-  return word.error() == biss_axi::Error::kTimeout ? 0 : BISS_C_BUS;
+  const auto channel = static_cast<unsigned>(channelIndex);
+  const auto good = biss_axi::single_point(port, clock, times, 1U << channel);
+  if (!good) return BISS_C_BUS;
+  if ((*good >> channel & 1U) == 0) return 0;
+  const auto word = biss_axi::channel_word(port, channel, regs::kAddrSinglePointData);
+  if (!word) return BISS_C_BUS;
+  *data = *word;
+  *isValid = true;
+  return 0;
 }

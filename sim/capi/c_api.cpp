@@ -11,6 +11,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 #include "mb4sim.h"
@@ -21,8 +22,11 @@
 
 using mb4::sim::FrameWatch;
 using mb4::sim::ModelStopped;
+using mb4::sim::ParallelHost;
 using mb4::sim::Scenario;
 using mb4::sim::Simulator;
+using mb4::sim::SpiHost;
+using mb4::sim::WordHost;
 
 // What a handle points to.
 struct mb4sim {
@@ -99,15 +103,29 @@ int guarded(mb4sim* sim, Call call, Keep keep = Keep::kNo) {
   return result;
 }
 
-// The same for a scenario whose host is on SPI, or on the parallel bus.
-enum class Wires { kSpi, kParallel };
-template <typename Call>
-int hosted(mb4sim* sim, Wires wires, Call call, Keep keep = Keep::kNo) {
+// The same with the master's host on SPI, or on the parallel bus, as the scenario says.
+template <typename Host, typename Call>
+int hosted(mb4sim* sim, Call call, Keep keep = Keep::kNo) {
+  constexpr bool kParallel = std::is_same_v<Host, ParallelHost>;
   const auto with_host = [&](Simulator& simulator) {
-    const bool parallel = simulator.scenario().host.parallel();
-    return parallel == (wires == Wires::kParallel) ? call(simulator) : int{MB4SIM_ERROR_HOST};
+    const bool wired = simulator.scenario().host.parallel() == kParallel;
+    Host* const host = simulator.find_host<Host>(kParallel ? "bus" : "spi");
+    return wired && host != nullptr ? call(*host) : int{MB4SIM_ERROR_HOST};
   };
   return guarded(sim, with_host, keep);
+}
+
+// The same with a host on a bus of 32-bit words. `call` returns the answer of the bus.
+template <typename Call>
+int word_access(mb4sim* sim, uint32_t address, Call call) {
+  return guarded(sim, [&](Simulator& simulator) {
+    WordHost* const host = simulator.word_bus();
+    if (host == nullptr) return int{MB4SIM_ERROR_HOST};
+    if (address > host->last_address() || address % 4 != 0) return int{MB4SIM_ERROR_VALUE};
+    const std::optional<std::uint8_t> answer = call(*host);
+    if (!answer) return int{MB4SIM_ERROR_SILENT};
+    return *answer == 0 ? 0 : 1;
+  });
 }
 
 // A pin by its name; nothing for null pointers and other names.
@@ -126,6 +144,8 @@ const char* error_text(const mb4sim& sim, int error) {
       return "the scenario's host has another interface";
     case MB4SIM_ERROR_CALLBACK:
       return "not allowed in a callback";
+    case MB4SIM_ERROR_SILENT:
+      return "the bus has not answered";
     default:
       return "out of memory or another failure; only closing is left";
   }
@@ -165,23 +185,23 @@ void mb4sim_close(mb4sim* sim) {
 
 int mb4sim_spi_transfer(mb4sim* sim, const uint8_t* tx, uint8_t* rx, size_t n) {
   if (tx == nullptr && n != 0) return MB4SIM_ERROR_UNKNOWN;
-  return hosted(sim, Wires::kSpi, [&](Simulator& simulator) {
-    simulator.spi().transfer(std::span(tx, n), std::span(rx, rx == nullptr ? 0 : n));
+  return hosted<SpiHost>(sim, [&](SpiHost& spi) {
+    spi.transfer(std::span(tx, n), std::span(rx, rx == nullptr ? 0 : n));
     return 0;
   });
 }
 
 void mb4sim_spi_select(mb4sim* sim, int active) {
-  const auto call = [&](Simulator& simulator) {
-    simulator.spi().select(active != 0);
+  const auto call = [&](SpiHost& spi) {
+    spi.select(active != 0);
     return 0;
   };
-  hosted(sim, Wires::kSpi, call, Keep::kYes);
+  hosted<SpiHost>(sim, call, Keep::kYes);
 }
 
 uint8_t mb4sim_spi_byte(mb4sim* sim, uint8_t mosi) {
-  const auto call = [&](Simulator& simulator) { return int{simulator.spi().byte(mosi)}; };
-  const int value = hosted(sim, Wires::kSpi, call, Keep::kYes);
+  const auto call = [&](SpiHost& spi) { return int{spi.byte(mosi)}; };
+  const int value = hosted<SpiHost>(sim, call, Keep::kYes);
   return value < 0 ? uint8_t{0} : static_cast<uint8_t>(value);
 }
 
@@ -293,17 +313,34 @@ int mb4sim_run_until(mb4sim* sim, const char* pin, int level, uint64_t limit_ns)
 }
 
 int mb4sim_bus_write(mb4sim* sim, uint8_t address, uint8_t data) {
-  return hosted(sim, Wires::kParallel, [&](Simulator& simulator) {
-    simulator.bus().write(address, data);
+  return hosted<ParallelHost>(sim, [&](ParallelHost& bus) {
+    bus.write(address, data);
     return 0;
   });
 }
 
 int mb4sim_bus_read(mb4sim* sim, uint8_t address, uint8_t* data) {
   if (data == nullptr) return MB4SIM_ERROR_UNKNOWN;
-  return hosted(sim, Wires::kParallel, [&](Simulator& simulator) {
-    *data = simulator.bus().read(address);
+  return hosted<ParallelHost>(sim, [&](ParallelHost& bus) {
+    *data = bus.read(address);
     return 0;
+  });
+}
+
+int mb4sim_axi_write(mb4sim* sim, uint32_t address, uint32_t data, uint8_t strobe) {
+  constexpr uint8_t kAllBytes = 0xF;
+  if (sim != nullptr && strobe > kAllBytes) return MB4SIM_ERROR_VALUE;
+  return word_access(sim, address,
+                     [&](WordHost& host) { return host.write(address, data, strobe); });
+}
+
+int mb4sim_axi_read(mb4sim* sim, uint32_t address, uint32_t* data) {
+  if (data == nullptr) return MB4SIM_ERROR_UNKNOWN;
+  return word_access(sim, address, [&](WordHost& host) {
+    std::uint32_t value = 0;
+    const std::optional<std::uint8_t> answer = host.read(address, value);
+    if (answer) *data = value;
+    return answer;
   });
 }
 

@@ -35,14 +35,17 @@ typedef struct mb4sim mb4sim;
 
 /* Errors: the negative values that calls return. */
 enum {
-  MB4SIM_ERROR_UNKNOWN = -1, /* no such pin or slave, or a null pointer */
-  MB4SIM_ERROR_VALUE = -2,   /* level not 0 or 1; word longer than the slave's data; a text with a
-                                mistake; a frame that is not kept */
-  MB4SIM_ERROR_DRIVEN = -3,  /* the pin is an output or driven by the simulation */
-  MB4SIM_ERROR_STOPPED = -4, /* an assertion in the chip's RTL has failed; an MA pulse too short */
-  MB4SIM_ERROR_FAILED = -5,  /* out of memory or another failure; only closing is left */
-  MB4SIM_ERROR_HOST = -6,    /* the scenario's host has another interface */
-  MB4SIM_ERROR_CALLBACK = -7 /* a callback has called what changes something */
+  MB4SIM_ERROR_UNKNOWN = -1,  /* no such pin or slave, or a null pointer */
+  MB4SIM_ERROR_VALUE = -2,    /* level not 0 or 1; word longer than the slave's data; a text with a
+                                 mistake; a frame that is not kept; an address or a
+                                 strobe that the bus does not have */
+  MB4SIM_ERROR_DRIVEN = -3,   /* the pin is an output or driven by the simulation */
+  MB4SIM_ERROR_STOPPED = -4,  /* an assertion in the chip's RTL has failed; an MA pulse too short */
+  MB4SIM_ERROR_FAILED = -5,   /* out of memory or another failure; only closing is left */
+  MB4SIM_ERROR_HOST = -6,     /* the scenario's host has another interface */
+  MB4SIM_ERROR_CALLBACK = -7, /* a callback has called what changes something */
+  MB4SIM_ERROR_SILENT = -8 /* the bus has not answered: the clock stands still, or the master is in
+                              reset */
 };
 
 /* Opens a simulator from the TOML text of a scenario (sim/README.md). File names in the text are
@@ -123,6 +126,18 @@ MB4SIM_API int mb4sim_run_until(mb4sim *sim, const char *pin, int level, uint64_
  * MB4SIM_ERROR_HOST if the host of the scenario is not on the parallel bus. */
 MB4SIM_API int mb4sim_bus_write(mb4sim *sim, uint8_t address, uint8_t data);
 MB4SIM_API int mb4sim_bus_read(mb4sim *sim, uint8_t address, uint8_t *data);
+
+/* One access of a bus of 32-bit words, for a master with such a host (AXI4-Lite: biss_axi;
+ * sim/README.md tells the interfaces). `address` is a byte address, a multiple of 4 inside the
+ * master's range (biss_axi: 0 to 0xFC). `strobe` has the bits 0 to 3: bit b lets byte b (bits
+ * 8b+7..8b) be written. Simulated time advances by the duration of the access.
+ *
+ * Returns 0; 1 if the bus answered with an error, or a negative error: MB4SIM_ERROR_VALUE for
+ * another address or strobe, and nothing has been accessed; MB4SIM_ERROR_HOST if the scenario's
+ * host is on no such bus; MB4SIM_ERROR_SILENT if no answer came (biss_axi: within 1000 clocks).
+ * `*data` is written only with 0 and 1. */
+MB4SIM_API int mb4sim_axi_write(mb4sim *sim, uint32_t address, uint32_t data, uint8_t strobe);
+MB4SIM_API int mb4sim_axi_read(mb4sim *sim, uint32_t address, uint32_t *data);
 
 /* A frame on a line. The struct may grow at its end; `size` tells what there is. */
 typedef struct mb4sim_frame {

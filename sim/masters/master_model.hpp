@@ -7,6 +7,7 @@
 #ifndef MB4SIM_MASTER_MODEL_HPP_
 #define MB4SIM_MASTER_MODEL_HPP_
 
+#include <algorithm>
 #include <cstdint>
 
 #include "sim/core/time.hpp"
@@ -62,6 +63,13 @@ class MasterModel {
   virtual void finish_trace() {}
 
  protected:
+  // Period of a clock, rounded down to a picosecond; 0 without a clock.
+  static constexpr Time period_of(std::uint64_t hz) { return hz == 0 ? 0 : kPsPerSecond / hz; }
+  // The system clock may have this frequency from now on; 0: it stands still.
+  void may_run_at(std::uint64_t hz) {
+    if (hz != 0 && min_clock_ != 0) min_clock_ = std::min(min_clock_, period_of(hz));
+  }
+
   // These are read at every edge of MA, so they are not virtual.
   Outputs outputs_ = 0;
   Outputs followers_ = 0;

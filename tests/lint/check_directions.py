@@ -75,6 +75,9 @@ MAY_USE = {
                           "sim/scenario/", "sim/include/"),
     "sim/capi/": ("sim/core/", "sim/include/"),
     "tools/": ("sim/", *DRIVER, "regmap/"),
+    # The only place of the commands that names masters: session.hpp is what the others use.
+    "tools/mb4sim/masters/": ("tools/", "sim/", *DRIVER, "drivers/include/biss_axi/", "regmap/"),
+    "tools/mb4sim/workload.cpp": ("tools/", "tools/mb4sim/masters/", "sim/", *DRIVER, "regmap/"),
     "examples/": ("sim/", *DRIVER),
     "rtl/common/": (),
     "rtl/biss/": ("rtl/common/",),

@@ -40,11 +40,6 @@ Protocol protocol_of(const sim::LineProtocol& protocol) {
                                   : Protocol::kBissC;
 }
 
-[[noreturn]] void fail(const sim::Scenario& scenario, const sim::TableSource& source,
-                       std::string_view key, const std::string& message) {
-  throw sim::ScenarioError(scenario.name, source.of(key), key, message);
-}
-
 // Sets the members that depend on the slave's protocol.
 void add_protocol(const sim::SlaveConfig& slave, SlaveConfig& target, Config& config) {
   constexpr unsigned kMostBusy = 255;
@@ -67,57 +62,47 @@ void add_protocol(const sim::SlaveConfig& slave, SlaveConfig& target, Config& co
   const sim::SlaveConfig& slave = *(of_slave != slaves.end() ? *of_slave : slaves.front()).config;
   switch (error.field) {
     case ConfigField::kClkHz:
-      fail(scenario, scenario.chip.source, scenario.chip.f_clk_hz != 0 ? "f_clk_hz" : "f_osc_hz",
-           fmt::format("{} is outside what the driver takes, 1 to 25 MHz (internal: 10 to 25 MHz)",
-                       scenario.chip.system_hz()));
+      fail_at(
+          scenario, scenario.chip.source, scenario.chip.f_clk_hz != 0 ? "f_clk_hz" : "f_osc_hz",
+          fmt::format("{} is outside what the driver takes, 1 to 25 MHz (internal: 10 to 25 MHz)",
+                      scenario.chip.system_hz()));
     case ConfigField::kMaHz:
-      fail(scenario, scenario.host.source, "ma_hz",
-           fmt::format("the chip cannot make {} Hz", scenario.host.ma_hz));
+      fail_at(scenario, scenario.host.source, "ma_hz",
+              fmt::format("the chip cannot make {} Hz", scenario.host.ma_hz));
     case ConfigField::kDataBits:
-      fail(scenario, slave.source, "data_bits",
-           fmt::format("the chip cannot take {}", slave.data_bits()));
+      fail_at(scenario, slave.source, "data_bits",
+              fmt::format("the chip cannot take {}", slave.data_bits()));
     case ConfigField::kFlags:
-      fail(scenario, slave.source, "flag_bits",
-           fmt::format("the driver cannot take {}", slave.flag_bits()));
+      fail_at(scenario, slave.source, "flag_bits",
+              fmt::format("the driver cannot take {}", slave.flag_bits()));
     case ConfigField::kCrcPolynomial:
-      fail(scenario, slave.source, "crc",
-           fmt::format("the chip cannot calculate 0x{:X}, only degree 1 to 7, 0x12F and 0x190D9",
-                       slave.crc().polynomial));
+      fail_at(scenario, slave.source, "crc",
+              fmt::format("the chip cannot calculate 0x{:X}, only degree 1 to 7, 0x12F and 0x190D9",
+                          slave.crc().polynomial));
     case ConfigField::kCrcStart:
-      fail(scenario, slave.source, "crc_start", "must be 0 without CRC (crc = 0)");
+      fail_at(scenario, slave.source, "crc_start", "must be 0 without CRC (crc = 0)");
     default:
       break;
   }
-  fail(scenario, scenario.source, "channel", describe(error));
+  fail_at(scenario, scenario.source, "channel", describe(error));
 }
 
 }  // namespace
 
+void require_ic_mb4(const sim::Scenario& scenario) {
+  if (scenario.master->type == "ic-mb4") return;
+  throw sim::ScenarioError(scenario.name, {}, "type",
+                           fmt::format("this needs the iC-MB4, not \"{}\"", scenario.master->type));
+}
+
 sim::Scenario load_chip_scenario(const std::string& path) {
   sim::Scenario scenario = sim::load_scenario(path);
-  if (scenario.master->type != "ic-mb4") {
-    throw sim::ScenarioError(scenario.name, {}, "type",
-                             fmt::format("mb4sim configures the iC-MB4, not \"{}\"; C++ programs "
-                                         "can use this master (sim/README.md)",
-                                         scenario.master->type));
-  }
+  require_ic_mb4(scenario);
   return scenario;
 }
 
-std::vector<ConnectedSlave> connected_slaves(const sim::Scenario& scenario) {
-  constexpr unsigned kFirstOfChannel2 = 5;
-  std::vector<ConnectedSlave> found;
-  for (unsigned number = 1; number <= kChannels; ++number) {
-    const sim::ChannelConfig* channel = scenario.channel(number);
-    if (channel == nullptr) continue;
-    unsigned slave = number == 1 ? 1 : kFirstOfChannel2;
-    for (const sim::SlaveConfig& config : channel->slaves)
-      found.push_back({slave++, number, &config});
-  }
-  return found;
-}
-
 Config clock_config(const sim::Scenario& scenario) {
+  require_ic_mb4(scenario);
   Config config;
   config.f_clk_hz = static_cast<std::uint32_t>(scenario.chip.system_hz());
   config.clock_source =
@@ -127,13 +112,8 @@ Config clock_config(const sim::Scenario& scenario) {
 }
 
 Config make_config(const sim::Scenario& scenario) {
-  if (scenario.channels.empty()) {
-    fail(scenario, scenario.source, "channel", "missing: there is no slave to read");
-  }
-  for (const sim::ChannelConfig& channel : scenario.channels) {
-    if (channel.slaves.empty())
-      fail(scenario, channel.source, "slave", "missing: there is no slave to read");
-  }
+  require_ic_mb4(scenario);
+  require_slaves(scenario);
   Config config = clock_config(scenario);
   config.spi_check = SpiCheck::kCrc;
   config.frame_timeout_us = frame_timeout(scenario);

@@ -1,49 +1,118 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// A scenario with a host that reads all its slaves through the driver, frame by frame: what `run`
-// and `regress` have in common.
+// A scenario with a host that configures the master through its driver and reads all slaves, frame
+// by frame: what the commands need of any master. Each master has its own (masters/), and names
+// itself in MasterSupport.
 #ifndef MB4SIM_TOOL_SESSION_HPP_
 #define MB4SIM_TOOL_SESSION_HPP_
 
-#include <array>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
-#include "chip_setup.hpp"
-#include "mb4/device.hpp"
+#include "connected_slaves.hpp"
 #include "mb4sim/simulator.hpp"
 #include "report/fault_report.hpp"
-#include "report/frame_report.hpp"
 #include "sim/scenario/scenario.hpp"
-#include "sim_bus.hpp"
 
 namespace mb4::tool {
+
+// A word that the master has delivered as good.
+struct Word {
+  std::uint64_t bits = 0;       // right aligned
+  unsigned data_bits = 0;       // how many they are
+  unsigned flag_bits = 0;       // the lowest of them, which are not part of the position
+  std::optional<bool> n_error;  // nE and nW, where the master tells them
+  std::optional<bool> n_warning;
+  std::optional<unsigned> crc;  // not inverted, where the master tells it
+};
+
+struct SlaveResult {
+  std::optional<Word> word;
+  std::string error;  // why there is no word: "CRC error", ...
+};
 
 struct SessionFrame {
   std::uint64_t number = 1;
   sim::Time begin = 0;  // when the host asked for it
   sim::Time end = 0;    // when the host had the results
+  std::string error;    // why no slave could be read; empty: each result tells
   // By slave, in the order of Session::slaves().
-  std::vector<Result<Reading>> results;
-  std::vector<std::optional<std::uint64_t>> sent;  // the slave's word, where it is known
+  std::vector<SlaveResult> results;
+  std::vector<std::optional<std::uint64_t>> sent;  // Word::bits as the slave sent them, if known
 
   SlaveOutcome::Kind kind(std::size_t index) const;
   bool bad() const;
   std::vector<SlaveOutcome> outcomes(const std::vector<ConnectedSlave>& slaves) const;
 };
 
+struct RunSummary {
+  sim::Time time = 0;
+  std::uint64_t clocks = 0;
+  std::uint64_t seed = 0;
+};
+
+// The registers as the host reads them.
+struct RegisterMap {
+  struct Field {
+    std::string name;
+    std::string alternate;  // other meaning of the same bits; empty: none
+    unsigned address = 0;
+    unsigned lsb = 0;
+    unsigned width = 1;
+    std::uint32_t word = 0;  // the whole register
+    std::string description;
+    bool data = false;  // part of a longer value, which `data_text` shows
+
+    std::uint32_t value() const;
+  };
+  unsigned bits = 8;                 // of a register: 8 or 32
+  std::vector<std::uint32_t> words;  // all registers, the lowest address first
+  std::string data_text;             // what is shown before the fields
+  std::vector<Field> fields;
+};
+
+// An access to registers of slaves, or a command to them.
+struct ControlRequest {
+  enum class Kind { kRead, kWrite, kCommand };
+  Kind kind = Kind::kRead;
+  unsigned channel = 1;
+  unsigned id = 0;                  // kRead, kWrite
+  std::uint8_t address = 0;         // kRead, kWrite
+  std::vector<std::uint8_t> bytes;  // to write; to be read: as many
+  std::uint8_t code = 0;            // kCommand
+  std::uint8_t ids = 0;             // kCommand: bit n is ID n; 0: all
+};
+
+struct SessionOptions {
+  sim::SimulatorOptions simulator;
+  bool bus_log = false;
+  // Actuators are written and the host is checked as the scenario's faults need it. false: only
+  // sensors are read.
+  bool actuators = true;
+};
+
 class Session {
  public:
-  // Throws sim::ScenarioError, sim::TraceError, sim::ModelStopped, as every call.
-  Session(const sim::Scenario& scenario, const sim::SimulatorOptions& options,
-          bool bus_log = false);
+  // Throw sim::ScenarioError, sim::TraceError, sim::ModelStopped, as every call.
+  Session(const sim::Scenario& scenario, const SessionOptions& options);
+  Session(const Session&) = delete;
+  Session& operator=(const Session&) = delete;
+  virtual ~Session() = default;
 
-  Result<void> configure() { return device_.configure(config_); }
-  SessionFrame read(std::uint64_t number);
+  // Configures the master as the scenario says. Returns why this failed, or empty.
+  virtual std::string configure() = 0;
+  // The next frame of all channels.
+  virtual SessionFrame read(std::uint64_t number) = 0;
+  virtual RegisterMap registers() = 0;
+  // For masters with MasterSupport::control. Returns why this failed, or empty.
+  virtual std::string access(const ControlRequest& request);
+
   // Adds a frame to the report, and makes the register access that a fault of an ID needs.
   void report(const SessionFrame& frame, FaultReport& faults);
 
@@ -53,22 +122,43 @@ class Session {
   // What the driver has sent and received since the last call.
   std::string take_bus_log() { return std::exchange(bus_log_, {}); }
 
- private:
-  std::string check_id(unsigned slave);
-  // nullptr: the slave is a sensor.
-  const sim::Actuator* actuator(const ConnectedSlave& slave) const;
-  Result<void> write_actuators();
-  void wait_for_actuators();
+ protected:
+  // Null unless the bus is to be logged.
+  std::string* log() { return logged_ ? &bus_log_ : nullptr; }
+  // Compares the ID that a slave tells with its own. Returns the error, or empty.
+  virtual std::string check_id(unsigned /*slave*/) { return ""; }
 
-  Config config_;
   sim::Simulator simulator_;
-  std::vector<ConnectedSlave> slaves_;
-  std::array<std::uint64_t, kSlaves + 1> set_points_{};  // of actuators, by slave
+  std::vector<ConnectedSlave> slaves_;  // that are read
+
+ private:
   std::string bus_log_;
-  SimBus bus_;
-  SimClock clock_;
-  Device<SimBus, SimClock> device_;
+  bool logged_;
 };
+
+// The codes of the MA frequency in the registers.
+struct MaCodes {
+  std::string_view name;     // of the field
+  unsigned most;             // the highest code
+  std::string_view refuses;  // "... code 16"
+  // Clocks in a period of MA; 0 if master or driver cannot make it.
+  unsigned (*divider)(std::uint64_t clk_hz, unsigned code);
+};
+
+// What the commands know of a master.
+struct MasterSupport {
+  std::string_view type;  // as sim::Master::type
+  // Throws sim::ScenarioError with the scenario's key that master or driver does not support.
+  void (*check)(const sim::Scenario& scenario);
+  std::unique_ptr<Session> (*open)(const sim::Scenario& scenario, const SessionOptions& options);
+  MaCodes ma;
+  std::string_view jitter_item;  // where it is written that jitter up to 25 % is allowed
+  bool control;                  // Session::access()
+  bool coverage;                 // sim::FunctionalCoverage knows it
+};
+
+// Throws sim::ScenarioError if the commands do not know the scenario's master.
+const MasterSupport& support_of(const sim::Scenario& scenario);
 
 }  // namespace mb4::tool
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The driver's bus and clock on top of a simulator.
+// The bus of the iC-MB4's driver on top of a simulator.
 #ifndef MB4SIM_TOOL_SIM_BUS_HPP_
 #define MB4SIM_TOOL_SIM_BUS_HPP_
 
@@ -14,6 +14,7 @@
 #include "mb4/span.hpp"
 #include "mb4_regs.hpp"
 #include "mb4sim/simulator.hpp"
+#include "sim_clock.hpp"
 
 namespace mb4::tool {
 
@@ -98,21 +99,6 @@ class SimBus {
   SimPort port_;
   ParallelBus<SimPort> parallel_;
   std::string* log_;
-};
-
-// Each reading of the clock takes simulated time, as on a processor. Otherwise a driver that only
-// reads the clock while it waits would wait for ever.
-class SimClock {
- public:
-  explicit SimClock(sim::Simulator& simulator) : simulator_(simulator) {}
-
-  std::uint32_t now_us() {
-    simulator_.advance(100 * sim::kPsPerNs);
-    return static_cast<std::uint32_t>(simulator_.now() / sim::kPsPerUs);
-  }
-
- private:
-  sim::Simulator& simulator_;
 };
 
 }  // namespace mb4::tool

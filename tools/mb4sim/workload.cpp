@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "chip_setup.hpp"
+#include "masters/axi_workload.hpp"
 #include "mb4/device.hpp"
 #include "mb4/opcodes.hpp"
 #include "mb4sim/simulator.hpp"
@@ -304,6 +305,10 @@ constexpr WorkloadInfo kWorkloads[] = {
      []() -> std::unique_ptr<Workload> { return std::make_unique<Firmware>(kReadAutomatic); }},
     {'G', "start-up: a new simulator, configuration, first frame",
      []() -> std::unique_ptr<Workload> { return std::make_unique<StartUp>(); }},
+    {'H', "biss_axi: 1 encoder, frames back to back, 100 MHz",
+     []() -> std::unique_ptr<Workload> { return make_axi_workload(1); }},
+    {'I', "biss_axi: 4 encoders, frames back to back, 100 MHz",
+     []() -> std::unique_ptr<Workload> { return make_axi_workload(4); }},
 };
 
 }  // namespace

@@ -90,6 +90,14 @@ struct Config {
   return f_clk_hz / hz / 2U <= most ? f_clk_hz / hz / 2U : 0;
 }
 
+// The smallest divider M for which MA is not faster than `most_hz`, which is not 0. It may be more
+// than the register holds.
+[[nodiscard]] constexpr std::uint32_t divider_at_most(std::uint32_t f_clk_hz,
+                                                      std::uint32_t most_hz) {
+  const std::uint64_t period = 2U * std::uint64_t{most_hz};
+  return static_cast<std::uint32_t>((f_clk_hz + period - 1U) / period);
+}
+
 [[nodiscard]] constexpr ErrorInfo validate(const Config& config) {
   if (config.f_clk_hz < 1'000U || config.f_clk_hz > 1'000'000'000U)
     return {Error::kConfig, Field::kClkHz};
@@ -129,12 +137,22 @@ struct WaitTimes {
       timeout_us > kEncoderTimeoutUs ? static_cast<std::uint32_t>(timeout_us) : kEncoderTimeoutUs};
 }
 
+// A word of one channel (0 to 15), which goes by the index register.
+template <typename Port>
+Result<std::uint32_t> channel_word(Port& port, unsigned channel, std::uint32_t offset) {
+  std::uint32_t value = 0;
+  if (!port.write(regs::kAddrChannelIndex, channel) || !port.read(offset, value))
+    return Error::kBus;
+  return value;
+}
+
 // One single-point frame: clears all results, lets the encoders' timeouts pass, makes the rising
-// edge at REQUEST and waits for the word of `channel` (0 to 15). The clock is polled at most
-// 1'000'000 times, so one that stands still cannot block the call for ever.
+// edge at REQUEST and waits until the words of all `channels` (bit c: channel c) have come, at most
+// as long as a frame can last. Returns bit c: the word of channel c has come and is good. The clock
+// is polled at most 1'000'000 times, so one that stands still cannot block the call for ever.
 template <typename Port, typename Clock>
 Result<std::uint32_t> single_point(Port& port, Clock& clock, const WaitTimes& times,
-                                   unsigned channel) {
+                                   std::uint32_t channels) {
   constexpr std::uint32_t kMostPolls = 1'000'000;
   if (!port.write(regs::kAddrRequest, 0) || !port.write(regs::kAddrSoftReset, 1) ||
       !port.write(regs::kAddrSoftReset, 0)) {
@@ -151,14 +169,9 @@ Result<std::uint32_t> single_point(Port& port, Clock& clock, const WaitTimes& ti
   for (std::uint32_t n = 0; n < kMostPolls && !last; ++n) {
     last = clock.now_us() - begin > times.frame_us;  // and look once more
     if (!port.read(regs::kAddrSinglePointValid, value)) return Error::kBus;
-    if ((value >> channel & 1U) == 0) continue;
-    if (!port.write(regs::kAddrChannelIndex, channel) ||
-        !port.read(regs::kAddrSinglePointData, value)) {
-      return Error::kBus;
-    }
-    return value;
+    last = last || (value & channels) == channels;
   }
-  return Error::kTimeout;
+  return value;
 }
 
 // Port: see kIsPort. Clock: see enc/bus.hpp. Both live as long as the device.
@@ -199,8 +212,15 @@ class Device {
   // come. The call clears all results first, so that an old word is never taken for a new one.
   Result<std::uint32_t> read_single(unsigned channel) {
     if (channel >= regs::kChannels || (channels_ >> channel & 1U) == 0) return Error::kChannel;
-    return single_point(port_, clock_, times_, channel);
+    const Result<std::uint32_t> good = single_point(port_, clock_, times_, 1U << channel);
+    if (!good.ok()) return good;
+    if ((*good >> channel & 1U) == 0) return Error::kTimeout;
+    return channel_word(port_, channel, regs::kAddrSinglePointData);
   }
+
+  // The same for all enabled channels. Returns bit c: channel c has a good word, and position() has
+  // it. Without one of the words the call lasts as long as a frame can.
+  Result<std::uint32_t> read_all() { return single_point(port_, clock_, times_, channels_); }
 
   // The channel's word of the last single-point request; kNoData while it has brought no good one.
   Result<std::uint32_t> position(unsigned channel) {
@@ -208,11 +228,12 @@ class Device {
     const Result<std::uint32_t> good = valid();
     if (!good.ok()) return good;
     if ((*good >> channel & 1U) == 0) return Error::kNoData;
-    return of_channel(channel, regs::kAddrSinglePointData);
+    return channel_word(port_, channel, regs::kAddrSinglePointData);
   }
   // Round trip from MA to SLO in clocks, of the channel's last frame; 1023: no acknowledge.
   Result<std::uint32_t> line_delay(unsigned channel) {
-    return of_channel(channel, regs::kAddrLineDelay);
+    if (channel >= regs::kChannels) return Error::kChannel;
+    return channel_word(port_, channel, regs::kAddrLineDelay);
   }
   // Bit c: the single-point word of channel c is good and of the last request.
   Result<std::uint32_t> valid() {
@@ -224,13 +245,6 @@ class Device {
  private:
   bool write(std::uint32_t offset, std::uint32_t value) { return port_.write(offset, value); }
   bool read(std::uint32_t offset, std::uint32_t& value) { return port_.read(offset, value); }
-
-  Result<std::uint32_t> of_channel(unsigned channel, std::uint32_t offset) {
-    if (channel >= regs::kChannels) return Error::kChannel;
-    std::uint32_t value = 0;
-    if (!write(regs::kAddrChannelIndex, channel) || !read(offset, value)) return Error::kBus;
-    return value;
-  }
 
   Port& port_;
   Clock& clock_;

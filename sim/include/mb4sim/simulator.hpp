@@ -24,6 +24,7 @@
 #include "sim/hosts/host_pins.hpp"
 #include "sim/hosts/parallel_host.hpp"
 #include "sim/hosts/spi_host.hpp"
+#include "sim/hosts/word_host.hpp"
 #include "sim/lines/line.hpp"
 #include "sim/lines/ma_pulse_check.hpp"
 #include "sim/lines/slave.hpp"
@@ -97,10 +98,15 @@ class Simulator final : public HostPins {
   void set_observer(PinObserver* observer);
 
   // --- hosts, lines, slaves ------------------------------------------------------------------
-  // A host that the master offers, by its name and class. Throws std::bad_cast if there is none.
+  // A host that the master offers, by its name and class. Null if there is none.
+  template <typename Host>
+  Host* find_host(std::string_view name) {
+    return dynamic_cast<Host*>(master_->host(name));
+  }
+  // The same for callers that know the master. Throws std::bad_cast if there is none.
   template <typename Host>
   Host& host(std::string_view name) {
-    auto* found = dynamic_cast<Host*>(master_->host(name));
+    auto* found = find_host<Host>(name);
     if (found == nullptr) throw std::bad_cast();
     return *found;
   }
@@ -108,6 +114,8 @@ class Simulator final : public HostPins {
   SpiHost& spi() { return host<SpiHost>("spi"); }
   SpiHost& spi2() { return host<SpiHost>("spi2"); }
   ParallelHost& bus() { return host<ParallelHost>("bus"); }
+  // The host on the bus of 32-bit words that the scenario's interface names. Null if it is none.
+  WordHost* word_bus() { return find_host<WordHost>(scenario_.host.interface.key); }
   // Violations of the master's limits at the host pins so far.
   HostCheck& host_check() { return master_->host_check(); }
   // The line of a channel, from 1 on. Null if the scenario does not have this channel.

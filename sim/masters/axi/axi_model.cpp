@@ -11,8 +11,25 @@
 #include <verilated.h>
 
 #include <type_traits>
+#include <utility>
 
+#include "sim/masters/axi/axi_steps.hpp"
 #include "sim/model/clock_source.hpp"
+#include "sim/model/verilated_context.hpp"
+
+// Some packages of Verilator leave this number empty. The headers hold what 5.006 writes.
+#if VERILATOR_VERSION_INTEGER + 0 == 5006000
+#include <Vaxi_1_edge.hpp>
+#ifndef MODEL_RUNS_WHOLE
+#define MB4_AXI_1_IN_PARTS
+#endif
+#undef MODEL_RUNS_WHOLE
+#include <Vaxi_4_edge.hpp>
+#ifndef MODEL_RUNS_WHOLE
+#define MB4_AXI_4_IN_PARTS
+#endif
+#undef MODEL_RUNS_WHOLE
+#endif
 
 namespace mb4::sim {
 namespace {
@@ -20,18 +37,44 @@ namespace {
 // Place of half_len in axi_pkg::frame_t.
 constexpr unsigned kHalfLenLsb = 16;
 
-template <typename Model, unsigned kChannels>
+#ifdef MB4_AXI_1_IN_PARTS
+struct Edge1 {
+  using Kept = axi_1::Kept;
+  static void rise(Vaxi_1___024root* root, Kept& kept) { axi_1::rise(root, kept); }
+  static void fall(Vaxi_1___024root* root, Kept& kept) { axi_1::fall(root, kept); }
+  static void slo(Vaxi_1___024root* root, Kept& kept) {
+    axi_1::follow_slo(root, kept);
+    axi_1::slo_has_changed(kept);
+  }
+};
+using Steps1 = AxiPartSteps<Vaxi_1, Edge1>;
+#else
+using Steps1 = AxiWholeSteps<Vaxi_1>;
+#endif
+#ifdef MB4_AXI_4_IN_PARTS
+struct Edge4 {
+  using Kept = axi_4::Kept;
+  static void rise(Vaxi_4___024root* root, Kept& kept) { axi_4::rise(root, kept); }
+  static void fall(Vaxi_4___024root* root, Kept& kept) { axi_4::fall(root, kept); }
+  static void slo(Vaxi_4___024root* root, Kept& kept) {
+    axi_4::follow_slo(root, kept);
+    axi_4::slo_has_changed(kept);
+  }
+};
+using Steps4 = AxiPartSteps<Vaxi_4, Edge4>;
+#else
+using Steps4 = AxiWholeSteps<Vaxi_4>;
+#endif
+using Steps16 = AxiWholeSteps<Vaxi_16>;
+
+template <typename Model, unsigned kChannels, typename Steps>
 class VerilatedAxi final : public AxiModel {
   using Slo = std::conditional_t<(kChannels > 8), SData, CData>;
 
  public:
   VerilatedAxi(const ChipConfig& chip, std::uint64_t seed)
-      : context_(std::make_unique<VerilatedContext>()), clock_(chip.f_clk_hz) {
-    min_clock_ = chip.f_clk_hz == 0 ? 0 : kPsPerSecond / chip.f_clk_hz;
-    // Memories without reset get random values. randSeed() demands 31 bits that are not 0.
-    context_->randReset(2);
-    context_->randSeed(static_cast<int>(seed % 0x7FFFFFFEU) + 1);
-    context_->threads(1);  // else every context starts a pool of unused threads
+      : context_(make_verilated_context(seed)), clock_(chip.f_clk_hz) {
+    min_clock_ = period_of(chip.f_clk_hz);
     model_ = std::make_unique<Model>(context_.get(), "biss_axi");
     Model& m = *model_;
     m.clk_i = 0;
@@ -47,7 +90,7 @@ class VerilatedAxi final : public AxiModel {
     m.rst_ni = 1;
     m.eval();
     m.rst_ni = 0;
-    m.eval();
+    steps_.inputs(m);
     context_->assertOn(true);
     pack();
   }
@@ -64,19 +107,18 @@ class VerilatedAxi final : public AxiModel {
     while (clock_.next() <= limit) {
       const Time now = clock_.next();
       if (!clock_.edge()) {
-        m.clk_i = 0;
-        m.eval();
+        steps_.fall(m);
         continue;
       }
+      if (std::exchange(moved_, false)) steps_.inputs(m);
       ++cycles_;
       // What is on the pins before the edge is what the edge transfers.
       const Outputs before = outputs_;
       const bool valid = m.s_axis_tvalid != 0;
       if (valid && m.rst_ni != 0) take_beat(now);
-      const bool moves = !access_.done;
+      const bool moves = !access_.done || late_ != 0;
       if (moves) look_at_answer();
-      m.clk_i = 1;
-      m.eval();
+      steps_.rise(m);
       if (moves && m.rst_ni != 0) drive();
       pack();
       if (outputs_ != before) return now;
@@ -88,11 +130,12 @@ class VerilatedAxi final : public AxiModel {
     if (line >= kChannels) return;
     const auto bit = static_cast<Slo>(1U << line);
     model_->slo_i = static_cast<Slo>(level ? model_->slo_i | bit : model_->slo_i & ~bit);
+    steps_.slo(*model_);
   }
   void set_clock(Time now, std::uint64_t hz) override {
     if (min_clock_ == 0) return;
     clock_.retune(hz, now);
-    if (hz != 0 && kPsPerSecond / hz < min_clock_) min_clock_ = kPsPerSecond / hz;
+    may_run_at(hz);
   }
   unsigned half_clocks(unsigned /*line*/) const override {
     const unsigned half =
@@ -104,11 +147,27 @@ class VerilatedAxi final : public AxiModel {
   void set_reset(bool active) override {
     Verilated::threadContextp(context_.get());
     model_->rst_ni = active ? 0 : 1;
-    model_->eval();
+    late_ = 0;
+    taken_ = false;
+    steps_.inputs(*model_);
     pack();
   }
-  void set_ext_sample_clk(bool level) override { model_->ext_sample_clk_i = level ? 1 : 0; }
-  void set_sample_en(bool level) override { model_->sample_en_i = level ? 1 : 0; }
+  void set_ext_sample_clk(bool level) override {
+    model_->ext_sample_clk_i = level ? 1 : 0;
+    moved_ = true;
+  }
+  void set_sample_en(bool level) override {
+    model_->sample_en_i = level ? 1 : 0;
+    moved_ = true;
+  }
+  void give_up() override {
+    Model& m = *model_;
+    m.s_axi_awvalid = m.s_axi_wvalid = m.s_axi_arvalid = 0;
+    moved_ = true;
+    if (taken_) ++late_;
+    taken_ = handed_ = fresh_ = false;
+    access_.done = true;
+  }
   bool ext_sample_clk() const override { return model_->ext_sample_clk_i != 0; }
   bool sample_en() const override { return model_->sample_en_i != 0; }
   bool slo(unsigned line) const override { return ((model_->slo_i >> line) & 1U) != 0; }
@@ -140,7 +199,13 @@ class VerilatedAxi final : public AxiModel {
     const Model& m = *model_;
     handed_ = (m.s_axi_awvalid != 0 && m.s_axi_awready != 0) ||
               (m.s_axi_arvalid != 0 && m.s_axi_arready != 0);
+    taken_ = taken_ || handed_;
     if (m.s_axi_bvalid == 0 && m.s_axi_rvalid == 0) return;
+    if (late_ != 0) {
+      --late_;
+      return;
+    }
+    taken_ = false;
     access_.answer = m.s_axi_bvalid != 0 ? m.s_axi_bresp : m.s_axi_rresp;
     if (!access_.write) access_.data = m.s_axi_rdata;
     access_.done = true;
@@ -157,17 +222,19 @@ class VerilatedAxi final : public AxiModel {
       m.s_axi_awvalid = m.s_axi_wvalid = access_.write ? 1 : 0;
       m.s_axi_arvalid = access_.write ? 0 : 1;
       fresh_ = false;
+      moved_ = true;
     } else if (handed_) {
       m.s_axi_awvalid = m.s_axi_wvalid = m.s_axi_arvalid = 0;
       handed_ = false;
+      moved_ = true;
     }
   }
 
   void pack() {
     const Model& m = *model_;
-    Outputs out = 0;
-    for (unsigned line = 0; line < kAxiChannels; ++line) {
-      if (line >= kChannels || ((m.ma_o >> line) & 1U) != 0) out |= ma_of(line);
+    Outputs out = kAbsent;
+    for (unsigned line = 0; line < kChannels; ++line) {
+      if (((m.ma_o >> line) & 1U) != 0) out |= ma_of(line);
     }
     if (m.error_no != 0) out |= kError;
     if (m.warn_no != 0) out |= kWarn;
@@ -177,21 +244,40 @@ class VerilatedAxi final : public AxiModel {
     outputs_ = out;
   }
 
+  // MA of lines that the model does not have.
+  static constexpr Outputs kAbsent = [] {
+    Outputs out = 0;
+    for (unsigned line = kChannels; line < kAxiChannels; ++line) out |= ma_of(line);
+    return out;
+  }();
+
   std::unique_ptr<VerilatedContext> context_;
   std::unique_ptr<Model> model_;
+  Steps steps_;
   ClockSource clock_;
-  bool handed_ = false;
+  bool moved_ = false;   // inputs have changed since the last edge, beside SLO
+  bool handed_ = false;  // the edge that is about to come takes address and data
+  bool taken_ = false;   // the running access has been taken
+  unsigned late_ = 0;    // answers of accesses that have been given up
   bool done_ = false;
   bool beat_ = false;
 };
 
+template <typename Model, unsigned kChannels, typename Steps>
+std::unique_ptr<AxiModel> make(const ChipConfig& chip, std::uint64_t seed, bool plain) {
+  if (plain) {
+    return std::make_unique<VerilatedAxi<Model, kChannels, AxiWholeSteps<Model>>>(chip, seed);
+  }
+  return std::make_unique<VerilatedAxi<Model, kChannels, Steps>>(chip, seed);
+}
+
 }  // namespace
 
 std::unique_ptr<AxiModel> make_axi_model(const ChipConfig& chip, unsigned channels,
-                                         std::uint64_t seed) {
-  if (channels <= 1) return std::make_unique<VerilatedAxi<Vaxi_1, 1>>(chip, seed);
-  if (channels <= 4) return std::make_unique<VerilatedAxi<Vaxi_4, 4>>(chip, seed);
-  return std::make_unique<VerilatedAxi<Vaxi_16, kAxiChannels>>(chip, seed);
+                                         std::uint64_t seed, bool plain) {
+  if (channels <= 1) return make<Vaxi_1, 1, Steps1>(chip, seed, plain);
+  if (channels <= 4) return make<Vaxi_4, 4, Steps4>(chip, seed, plain);
+  return make<Vaxi_16, kAxiChannels, Steps16>(chip, seed, plain);
 }
 
 }  // namespace mb4::sim

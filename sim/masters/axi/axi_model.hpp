@@ -62,6 +62,9 @@ class AxiModel : public MasterModel {
     fresh_ = true;
   }
   const AxiAccess& access() const { return access_; }
+  // Ends an access that has no answer: takes the valids back. If the master has taken it, its late
+  // answer is dropped.
+  virtual void give_up() = 0;
 
   // Beats that the sink has taken. The oldest ones are dropped when there are too many.
   std::deque<AxiBeat>& beats() { return beats_; }
@@ -77,9 +80,9 @@ class AxiModel : public MasterModel {
 };
 
 // `channels`: those that the scenario needs. The next larger of the models that are built (1, 4,
-// 16 channels) is taken.
+// 16 channels) is taken. `plain`: each edge is evaluated in the simplest way.
 std::unique_ptr<AxiModel> make_axi_model(const ChipConfig& chip, unsigned channels,
-                                         std::uint64_t seed);
+                                         std::uint64_t seed, bool plain);
 
 }  // namespace mb4::sim
 

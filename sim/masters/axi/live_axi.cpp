@@ -49,22 +49,28 @@ std::optional<std::uint8_t> AxiHost::run(const AxiAccess& access) {
   for (unsigned clock = 0; clock < kLongestAccess && !model_.access().done; ++clock) {
     outside_.run_until(outside_.now() + period_);
   }
-  if (!model_.access().done) return std::nullopt;
+  if (!model_.access().done) {
+    model_.give_up();
+    return std::nullopt;
+  }
   return model_.access().answer;
 }
 
-std::optional<std::uint8_t> AxiHost::write(std::uint8_t address, std::uint32_t data,
+std::optional<std::uint8_t> AxiHost::write(std::uint32_t address, std::uint32_t data,
                                            std::uint8_t strobe) {
-  return run({.write = true, .address = address, .data = data, .strobe = strobe});
+  return run({.write = true,
+              .address = static_cast<std::uint8_t>(address),
+              .data = data,
+              .strobe = strobe});
 }
 
-std::optional<std::uint8_t> AxiHost::read(std::uint8_t address, std::uint32_t& data) {
-  const auto answer = run({.write = false, .address = address});
+std::optional<std::uint8_t> AxiHost::read(std::uint32_t address, std::uint32_t& data) {
+  const auto answer = run({.write = false, .address = static_cast<std::uint8_t>(address)});
   data = answer ? model_.access().data : 0;
   return answer;
 }
 
-std::uint32_t AxiHost::read(std::uint8_t address) {
+std::uint32_t AxiHost::read(std::uint32_t address) {
   std::uint32_t data = 0;
   read(address, data);
   return data;
@@ -80,7 +86,7 @@ std::optional<AxiBeat> AxiHost::next_beat() {
 LiveAxi::LiveAxi(const MasterSetup& setup)
     : outside_(setup.outside),
       lines_(setup.lines),
-      model_(make_axi_model(setup.chip, channels_of(setup.lines), setup.seed)),
+      model_(make_axi_model(setup.chip, channels_of(setup.lines), setup.seed, setup.plain)),
       host_(outside_, *model_,
             setup.chip.f_clk_hz == 0 ? kPsPerUs : kPsPerSecond / setup.chip.f_clk_hz + 1) {}
 

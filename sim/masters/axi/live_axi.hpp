@@ -11,6 +11,7 @@
 #include <string_view>
 
 #include "sim/hosts/host_pins.hpp"
+#include "sim/hosts/word_host.hpp"
 #include "sim/masters/axi/axi_model.hpp"
 #include "sim/masters/live_master.hpp"
 
@@ -18,18 +19,22 @@ namespace mb4::sim {
 
 // A manager of AXI4-Lite and the sink of the stream. An access lets time pass until it has its
 // answer.
-class AxiHost final : public HostModel {
+class AxiHost final : public WordHost {
  public:
   AxiHost(HostPins& outside, AxiModel& model, Time period)
       : outside_(outside), model_(model), period_(period) {}
 
-  // Return BRESP and RRESP, or nothing if there is no answer within 1000 clocks (a clock that
-  // stands still). `strobe`: bit b lets byte b be written.
-  std::optional<std::uint8_t> write(std::uint8_t address, std::uint32_t data,
-                                    std::uint8_t strobe = 0xF);
-  std::optional<std::uint8_t> read(std::uint8_t address, std::uint32_t& data);
-  // The same for callers that know that the clock runs: the value, or 0 without an answer.
-  std::uint32_t read(std::uint8_t address);
+  // Return BRESP and RRESP, or nothing if there is no answer within 1000 clocks.
+  std::optional<std::uint8_t> write(std::uint32_t address, std::uint32_t data,
+                                    std::uint8_t strobe) override;
+  std::optional<std::uint8_t> read(std::uint32_t address, std::uint32_t& data) override;
+  std::uint32_t last_address() const override { return 0xFF; }
+  // All four bytes.
+  std::optional<std::uint8_t> write(std::uint32_t address, std::uint32_t data) {
+    return write(address, data, 0xF);
+  }
+  // For callers that know that the clock runs: the value, or 0 without an answer.
+  std::uint32_t read(std::uint32_t address);
 
   // The oldest beat of the stream that has not been read. A sink that is always ready has taken it.
   std::optional<AxiBeat> next_beat();

@@ -53,8 +53,24 @@ def functions(folder, prefix):
     found = {}
     for path in sources(folder, prefix):
         if not path.name.endswith("__Slow.cpp"):
-            found.update(pattern.findall(path.read_text(encoding="utf-8")))
+            found.update((name, in_words(body))
+                         for name, body in pattern.findall(path.read_text(encoding="utf-8")))
     return found
+
+
+def in_words(body):
+    """A body in which a wide local variable is one variable for each word, if it is only used by
+    words of constant number."""
+    for words, name in re.findall(r"^\s*VlWide<(\d+)>/\*\d+:\d+\*/ (\w+);$", body, re.M):
+        head, _, rest = body.partition("// Body\n")
+        if re.search(rf"(?<!>)\b{name}\b(?!\[\d+U\])", rest):
+            continue
+        head = re.sub(rf"^(\s*)VlWide<\d+>/\*\d+:\d+\*/ {name};$",
+                      lambda row: "\n".join(f"{row[1]}IData/*31:0*/ {name}__{word};"
+                                            for word in range(int(words))), head, flags=re.M)
+        head = re.sub(rf"^\s*VL_ZERO_W\(\d+, {name}\);\n", "", head, flags=re.M)
+        body = head + "// Body\n" + re.sub(rf"(?<!>)\b{name}\[(\d+)U\]", rf"{name}__\1", rest)
+    return body
 
 
 def constants(folder, prefix):

@@ -39,12 +39,19 @@ using Device = biss_axi::Device<SimPort, SimTime>;
 
 std::vector<AxiEncoder> two() { return {{.delay_ns = 35}, {.delay_ns = 435}}; }
 
-TEST(AxiDriver, ReadSingle_BringsTheWordsOfAllChannelsAndTheirDelays) {
-  AxiBench bench(axi_scenario(two()));
+// A simulated master with a driver.
+struct Driven {
+  explicit Driven(const std::string& scenario = axi_scenario(two())) : bench(scenario) {}
+  AxiBench bench;
   SimPort port{bench};
   SimTime time{bench};
-  Device device(port, time);
+  Device device{port, time};
   biss_axi::Config config;
+};
+
+class AxiDriver : public testing::Test, protected Driven {};
+
+TEST_F(AxiDriver, ReadSingle_BringsTheWordsOfAllChannelsAndTheirDelays) {
   config.channels = 3;
   ASSERT_TRUE(device.configure(config).ok());
   for (std::uint32_t n = 1; n < 20; ++n) {
@@ -62,43 +69,46 @@ TEST(AxiDriver, ReadSingle_BringsTheWordsOfAllChannelsAndTheirDelays) {
   EXPECT_EQ(device.position(16).error(), biss_axi::Error::kChannel);
 }
 
-TEST(AxiDriver, WordThatIsStillComing_IsNoPosition) {
-  AxiBench bench(axi_scenario({{.delay_ns = 35}, {.slave = "busy_periods = 50\n"}}));
-  SimPort port{bench};
-  SimTime time{bench};
-  Device device(port, time);
-  biss_axi::Config config;
-  config.channels = 3;
-  ASSERT_TRUE(device.configure(config).ok());
-  bench.simulator.slave(1)->set_data(raw_word(1));
-  bench.simulator.slave(2)->set_data(raw_word(2));
-  ASSERT_EQ(device.read_single(0).value_or(0), 1U);
-  EXPECT_EQ(device.position(1).error(), biss_axi::Error::kNoData);
-  bench.simulator.advance(20 * sim::kPsPerUs);
-  EXPECT_EQ(device.position(1).value_or(0), 2U);
+TEST_F(AxiDriver, WordThatIsStillComing_IsNoPosition) {
+  Driven slow(axi_scenario({{.delay_ns = 35}, {.slave = "busy_periods = 50\n"}}));
+  slow.config.channels = 3;
+  ASSERT_TRUE(slow.device.configure(slow.config).ok());
+  slow.bench.simulator.slave(1)->set_data(raw_word(1));
+  slow.bench.simulator.slave(2)->set_data(raw_word(2));
+  ASSERT_EQ(slow.device.read_single(0).value_or(0), 1U);
+  EXPECT_EQ(slow.device.position(1).error(), biss_axi::Error::kNoData);
+  slow.bench.simulator.advance(20 * sim::kPsPerUs);
+  EXPECT_EQ(slow.device.position(1).value_or(0), 2U);
 }
 
 // At 200 MHz 4000 clocks are 20 us; an encoder may need 40.
-TEST(AxiDriver, TimeoutOfTheEncoder_PassesBeforeTheNextRequest) {
-  AxiBench bench(axi_scenario({{.slave = "timeout = 39.0\n"}}, 200'000'000));
-  SimPort port{bench};
-  SimTime time{bench};
-  Device device(port, time);
-  biss_axi::Config config;
-  config.f_clk_hz = 200'000'000;
-  ASSERT_TRUE(device.configure(config).ok());
+TEST_F(AxiDriver, TimeoutOfTheEncoder_PassesBeforeTheNextRequest) {
+  Driven fast(axi_scenario({{.slave = "timeout = 39.0\n"}}, 200'000'000));
+  fast.config.f_clk_hz = 200'000'000;
+  ASSERT_TRUE(fast.device.configure(fast.config).ok());
   for (std::uint32_t n = 1; n < 5; ++n) {
-    bench.simulator.slave(1)->set_data(raw_word(n));
-    EXPECT_EQ(device.read_single(0).value_or(0), n);
+    fast.bench.simulator.slave(1)->set_data(raw_word(n));
+    EXPECT_EQ(fast.device.read_single(0).value_or(0), n);
   }
 }
 
-TEST(AxiDriver, EncoderThatIsGone_IsATimeoutAndNeverAnOldWord) {
-  AxiBench bench(axi_scenario(two()));
-  SimPort port{bench};
-  SimTime time{bench};
-  Device device(port, time);
-  biss_axi::Config config;
+TEST_F(AxiDriver, ReadAll_WaitsForTheLastWordAndTellsWhichAreGood) {
+  Driven slow(axi_scenario({{.delay_ns = 35}, {.slave = "busy_periods = 50\n"}}));
+  slow.config.channels = 3;
+  ASSERT_TRUE(slow.device.configure(slow.config).ok());
+  slow.bench.simulator.slave(1)->set_data(raw_word(1));
+  slow.bench.simulator.slave(2)->set_data(raw_word(2));
+  EXPECT_EQ(slow.device.read_all().value_or(0), 3U);
+  EXPECT_EQ(slow.device.position(0).value_or(0), 1U);
+  EXPECT_EQ(slow.device.position(1).value_or(0), 2U);
+  slow.bench.simulator.inject("[[fault]]\nkind = \"unplug\"\nslave = 1\nat_us = 0\n");
+  slow.bench.simulator.advance(100 * sim::kPsPerUs);
+  EXPECT_EQ(slow.device.read_all().value_or(0), 2U);
+  EXPECT_EQ(slow.device.position(0).error(), biss_axi::Error::kNoData);
+  EXPECT_EQ(slow.device.position(1).value_or(0), 2U);
+}
+
+TEST_F(AxiDriver, EncoderThatIsGone_IsATimeoutAndNeverAnOldWord) {
   ASSERT_TRUE(device.configure(config).ok());
   ASSERT_TRUE(device.read_single(0).ok());
   bench.simulator.inject("[[fault]]\nkind = \"unplug\"\nslave = 1\nat_us = 0\n");
@@ -107,11 +117,7 @@ TEST(AxiDriver, EncoderThatIsGone_IsATimeoutAndNeverAnOldWord) {
   EXPECT_EQ(device.valid().value_or(9), 0U);
 }
 
-TEST(AxiDriver, WrongConfiguration_IsNamedAndNothingIsWritten) {
-  AxiBench bench(axi_scenario(two()));
-  SimPort port{bench};
-  SimTime time{bench};
-  Device device(port, time);
+TEST_F(AxiDriver, WrongConfiguration_IsNamedAndNothingIsWritten) {
   using biss_axi::Config;
   using biss_axi::Field;
   const std::pair<Config, Field> cases[] = {
@@ -124,8 +130,8 @@ TEST(AxiDriver, WrongConfiguration_IsNamedAndNothingIsWritten) {
       {Config{.channels = 0}, Field::kChannels},
       {Config{.channels = 0x1'0000}, Field::kChannels},
       {Config{.start = biss_axi::Start::kInternalClock}, Field::kSampleHz}};
-  for (const auto& [config, field] : cases) {
-    const auto result = device.configure(config);
+  for (const auto& [wrong, field] : cases) {
+    const auto result = device.configure(wrong);
     EXPECT_EQ(result.error(), biss_axi::Error::kConfig);
     EXPECT_EQ(result.info().field, field);
   }
@@ -134,12 +140,7 @@ TEST(AxiDriver, WrongConfiguration_IsNamedAndNothingIsWritten) {
   }
 }
 
-TEST(AxiDriver, InternalClock_SamplesAtItsFrequency) {
-  AxiBench bench(axi_scenario(two()));
-  SimPort port{bench};
-  SimTime time{bench};
-  Device device(port, time);
-  biss_axi::Config config;
+TEST_F(AxiDriver, InternalClock_SamplesAtItsFrequency) {
   config.channels = 3;
   config.start = biss_axi::Start::kInternalClock;
   config.sample_hz = 20'000;
@@ -148,8 +149,7 @@ TEST(AxiDriver, InternalClock_SamplesAtItsFrequency) {
   EXPECT_NEAR(static_cast<double>(bench.host.beats_waiting()), 200.0, 1.0);
 }
 
-TEST(AxiDriver, CallsOfTheManual_DoWhatItPrints) {
-  AxiBench bench(axi_scenario(two()));
+TEST_F(AxiDriver, CallsOfTheManual_DoWhatItPrints) {
   world = {&bench};
   ASSERT_EQ(BISS_C_Init(7), 0);
   EXPECT_EQ(bench.read(axireg::kAddrMaDivider), 5U);  // 10 MHz

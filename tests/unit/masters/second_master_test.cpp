@@ -11,9 +11,11 @@
 #include <string>
 #include <typeinfo>
 
+#include "mb4sim.h"
 #include "mb4sim/simulator.hpp"
 #include "sim/core/scenario_error.hpp"
 #include "sim/core/toml_reader.hpp"
+#include "sim/hosts/word_host.hpp"
 #include "sim/masters/live_master.hpp"
 #include "sim/masters/master.hpp"
 #include "sim/scenario/scenario.hpp"
@@ -84,21 +86,35 @@ class FrameMaker final : public MasterModel {
   std::uint64_t word_ = 0;
 };
 
-// Address 0: any write makes a frame; reading gives 1 while it runs. Address 1: the word, or all
-// ones without a start bit. An access takes 10 ns.
-class MemoryHost final : public HostModel {
+// kFrame: any write makes a frame; reading gives 1 while it runs. kWord: the word, or all ones
+// without a start bit. kRefused answers with an error, kSilent never. An access takes 10 ns.
+class MemoryHost final : public WordHost {
  public:
   MemoryHost(HostPins& outside, FrameMaker& maker) : outside_(outside), maker_(maker) {}
-  void write(std::uint32_t address, std::uint32_t /*data*/) {
+  std::optional<std::uint8_t> write(std::uint32_t address, std::uint32_t /*data*/,
+                                    std::uint8_t /*strobe*/) override {
     pass();
-    if (address == 0) maker_.start(outside_.now());
+    if (address == kFrame) maker_.start(outside_.now());
+    return answer(address);
   }
-  std::uint32_t read(std::uint32_t address) {
+  std::optional<std::uint8_t> read(std::uint32_t address, std::uint32_t& data) override {
     pass();
-    return address == 0 ? maker_.busy() : static_cast<std::uint32_t>(maker_.word().value_or(~0U));
+    data =
+        address == kFrame ? maker_.busy() : static_cast<std::uint32_t>(maker_.word().value_or(~0U));
+    return answer(address);
   }
+  std::uint32_t last_address() const override { return kSilent + 3; }
+
+  static constexpr std::uint32_t kFrame = 0;
+  static constexpr std::uint32_t kWord = 4;
+  static constexpr std::uint32_t kRefused = 8;
+  static constexpr std::uint32_t kSilent = 12;
 
  private:
+  static std::optional<std::uint8_t> answer(std::uint32_t address) {
+    if (address == kSilent) return std::nullopt;
+    return address == kRefused ? std::uint8_t{2} : std::uint8_t{0};
+  }
   void pass() { outside_.run_until(outside_.now() + 10 * kPsPerNs); }
 
   HostPins& outside_;
@@ -160,10 +176,12 @@ std::string error_of(const std::string& rest) {
 
 std::uint32_t frame(Simulator& simulator) {
   auto& memory = simulator.host<MemoryHost>("memory");
-  memory.write(0, 1);
-  while (memory.read(0) != 0) simulator.advance(kPsPerUs);
+  std::uint32_t data = 0;
+  memory.write(MemoryHost::kFrame, 1, 0xF);
+  while (memory.read(MemoryHost::kFrame, data), data != 0) simulator.advance(kPsPerUs);
   simulator.advance(100 * kPsPerUs);  // the slave's timeout
-  return memory.read(1);
+  memory.read(MemoryHost::kWord, data);
+  return data;
 }
 
 TEST(SecondMaster, EachWrite_IsAFrameWithTheWordOfTheSlave) {
@@ -189,6 +207,25 @@ TEST(SecondMaster, CableAndFaults_AreThoseOfEveryMaster) {
   EXPECT_EQ(simulator.faults().size(), 1U);
   simulator.run_until(310 * kPsPerUs);
   EXPECT_EQ(frame(simulator), ~0U);
+}
+
+TEST(SecondMaster, WordBusOfTheCInterface_IsThatOfItsHost) {
+  scenario("");  // adds the master
+  char error[200];
+  mb4sim* const sim = mb4sim_open(
+      (std::string("[master]\ntype = \"one-line\"\n") + kChannel).c_str(), error, sizeof error);
+  ASSERT_NE(sim, nullptr) << error;
+  uint32_t data = 77;
+  EXPECT_EQ(mb4sim_axi_read(sim, MemoryHost::kWord, &data), 0);
+  EXPECT_EQ(data, ~0U);
+  EXPECT_EQ(mb4sim_axi_write(sim, MemoryHost::kRefused, 0, 0xF), 1);
+  EXPECT_EQ(mb4sim_axi_read(sim, MemoryHost::kRefused, &data), 1);
+  data = 77;
+  EXPECT_EQ(mb4sim_axi_write(sim, MemoryHost::kSilent, 0, 0xF), MB4SIM_ERROR_SILENT);
+  EXPECT_EQ(mb4sim_axi_read(sim, MemoryHost::kSilent, &data), MB4SIM_ERROR_SILENT);
+  EXPECT_EQ(mb4sim_axi_read(sim, MemoryHost::kSilent + 4, &data), MB4SIM_ERROR_VALUE);
+  EXPECT_EQ(data, 77U);
+  mb4sim_close(sim);
 }
 
 TEST(SecondMaster, WhatItDoesNotHave_IsRefused) {

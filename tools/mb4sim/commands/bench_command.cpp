@@ -95,7 +95,8 @@ std::vector<const WorkloadInfo*> chosen(const std::string& letters) {
         std::find_if(workloads().begin(), workloads().end(),
                      [&](const WorkloadInfo& info) { return info.letter == letter; });
     if (found == workloads().end()) {
-      throw UseError(fmt::format("--workload: there is no workload '{}', only A to G", c));
+      throw UseError(fmt::format("--workload: there is no workload '{}', only {} to {}", c,
+                                 workloads().front().letter, workloads().back().letter));
     }
     list.push_back(&*found);
   }

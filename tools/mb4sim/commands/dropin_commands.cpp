@@ -70,14 +70,15 @@ void add_bridge(CLI::App& app, Action& action) {
 
 void add_plot(CLI::App& app, Action& action) {
   constexpr unsigned kMaxFrames = 10'000;
+  constexpr unsigned kMaxChannels = 24;
   std::shared_ptr<PlotOptions> options;
   CLI::App& plot =
       *add_command(app, action, "plot", "Draw a frame or a control frame as a timing diagram (SVG)",
                    &plot_command, options);
   add_scenario(plot, options->scenario);
   plot.add_option("--channel", options->channel, "Channel (default 1)")
-      ->type_name("1|2")
-      ->transform(whole_number(1, 2));
+      ->type_name("N")
+      ->transform(whole_number(1, kMaxChannels));
   plot.add_option("--frame", options->frame, "Which frame (default 1, the first)")
       ->type_name("N")
       ->transform(whole_number(1, kMaxFrames));

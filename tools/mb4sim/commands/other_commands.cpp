@@ -25,7 +25,7 @@ void add_bench(CLI::App& app, Action& action) {
   std::shared_ptr<BenchOptions> options;
   CLI::App& bench = *add_command(app, action, "bench", "Measure how fast this machine simulates",
                                  &bench_command, options);
-  bench.add_option("--workload", options->workloads, "Which of A to G, as in AB (default all)")
+  bench.add_option("--workload", options->workloads, "Which of A to I, as in AB (default all)")
       ->type_name("LETTERS");
   bench.add_option("--repeats", options->repeats, "Repeats of which the median counts (default 5)")
       ->type_name("N")
@@ -34,7 +34,7 @@ void add_bench(CLI::App& app, Action& action) {
       ->type_name("MS")
       ->transform(whole_number(1, kMaxMilliseconds));
   bench.add_flag("--json", options->json, "Print JSON instead of the table");
-  std::string about = "The workloads, all with CLK = 20 MHz:\n";
+  std::string about = "The workloads, A to G with CLK = 20 MHz:\n";
   for (const WorkloadInfo& info : workloads()) {
     about += std::string("  ") + info.letter + "  " + info.description + '\n';
   }

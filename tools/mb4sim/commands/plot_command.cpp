@@ -9,10 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "chip_setup.hpp"
 #include "commands/commands.hpp"
-#include "mb4/device.hpp"
-#include "mb4sim/simulator.hpp"
 #include "plot/control_diagram.hpp"
 #include "plot/frame_diagram.hpp"
 #include "plot/line_recording.hpp"
@@ -20,8 +17,8 @@
 #include "report/exit_status.hpp"
 #include "report/output_file.hpp"
 #include "report/trace_file.hpp"
+#include "session.hpp"
 #include "sim/scenario/scenario.hpp"
-#include "sim_bus.hpp"
 
 namespace mb4::tool {
 namespace {
@@ -51,14 +48,10 @@ std::pair<std::string, std::string> halves(const std::string& text, char between
   return {text.substr(0, at), text.substr(at + 1)};
 }
 
-struct Access {
-  std::uint8_t address = 0;
-  std::vector<std::uint8_t> bytes;  // to write; to be read: as many
-};
-
-Access read_access(const std::string& text) {
+ControlRequest read_access(const std::string& text) {
   const auto [address, count] = halves(text, ':');
-  Access access;
+  ControlRequest access;
+  access.kind = ControlRequest::Kind::kRead;
   access.address = static_cast<std::uint8_t>(number(address, 0x7F, "--read"));
   const unsigned bytes = count.empty() && !text.ends_with(':') ? 1 : number(count, 64, "--read");
   if (bytes == 0) throw UseError("--read: a count of 1 to 64 is needed");
@@ -66,9 +59,10 @@ Access read_access(const std::string& text) {
   return access;
 }
 
-Access write_access(const std::string& text) {
+ControlRequest write_access(const std::string& text) {
   auto [address, values] = halves(text, ':');
-  Access access;
+  ControlRequest access;
+  access.kind = ControlRequest::Kind::kWrite;
   access.address = static_cast<std::uint8_t>(number(address, 0x7F, "--write"));
   for (bool more = true; more;) {
     more = values.find(',') != std::string::npos;
@@ -80,10 +74,10 @@ Access write_access(const std::string& text) {
   return access;
 }
 
-Command command_of(const PlotOptions& options) {
-  const auto [code, ids] = halves(options.command, ':');
-  Command command;
-  command.channels = static_cast<std::uint8_t>(options.channel);  // bit 0 and bit 1
+ControlRequest command_of(const std::string& text) {
+  const auto [code, ids] = halves(text, ':');
+  ControlRequest command;
+  command.kind = ControlRequest::Kind::kCommand;
   command.code = static_cast<std::uint8_t>(number(code, 3, "--command"));
   for (const char id : ids) {
     if (id == ',') continue;
@@ -97,25 +91,16 @@ bool is_control(const PlotOptions& options) {
   return !options.read.empty() || !options.write.empty() || !options.command.empty();
 }
 
-// --- doing it ------------------------------------------------------------------------------------
-
-using TheDevice = Device<SimBus, SimClock>;
-
-Result<void> access(const PlotOptions& options, TheDevice& device) {
-  const SlaveAddress slave{static_cast<std::uint8_t>(options.channel),
-                           static_cast<std::uint8_t>(options.id)};
-  if (!options.read.empty()) {
-    Access read = read_access(options.read);
-    return device.control().read_registers(slave, read.address,
-                                           {read.bytes.data(), read.bytes.size()});
-  }
-  if (!options.write.empty()) {
-    const Access write = write_access(options.write);
-    return device.control().write_registers(slave, write.address,
-                                            {write.bytes.data(), write.bytes.size()});
-  }
-  return device.control().send(command_of(options));
+ControlRequest request_of(const PlotOptions& options) {
+  ControlRequest request = !options.read.empty()    ? read_access(options.read)
+                           : !options.write.empty() ? write_access(options.write)
+                                                    : command_of(options.command);
+  request.channel = options.channel;
+  request.id = options.id;
+  return request;
 }
+
+// --- doing it ------------------------------------------------------------------------------------
 
 // Lets the last frame end: its slaves are idle again.
 void finish(sim::Simulator& simulator, sim::Line& line) {
@@ -178,17 +163,20 @@ void check(const PlotOptions& options, const sim::Scenario& scenario) {
   if (is_control(options) && !channel->protocol().control) {
     throw UseError("control frames are drawn of BiSS C only");
   }
+  if (is_control(options) && !support_of(scenario).control) {
+    throw UseError(fmt::format("{}: the master \"{}\" makes no control frames", options.scenario,
+                               scenario.master->type));
+  }
   // Mistakes in numbers show before anything is written.
-  if (!options.read.empty()) read_access(options.read);
-  if (!options.write.empty()) write_access(options.write);
-  if (!options.command.empty()) command_of(options);
+  if (is_control(options)) request_of(options);
 }
 
 }  // namespace
 
 int plot_command(const PlotOptions& options) {
-  const sim::Scenario scenario = load_chip_scenario(options.scenario);
-  const Config config = make_config(scenario);
+  const sim::Scenario scenario = sim::load_scenario(options.scenario);
+  const MasterSupport& support = support_of(scenario);
+  support.check(scenario);
   check(options, scenario);
   std::vector<Output> outputs;
   for (const auto& [name, path] : {std::pair{"--svg", options.svg}, {"--vcd", options.vcd}}) {
@@ -202,26 +190,24 @@ int plot_command(const PlotOptions& options) {
   if (!options.svg.empty()) svg = std::make_unique<OutputFile>(options.svg);
   if (!options.vcd.empty()) vcd = std::make_unique<OutputFile>(options.vcd);
 
-  sim::SimulatorOptions sim_options;
-  sim_options.seed = options.seed;
-  sim::Simulator simulator(scenario, sim_options);
-  std::vector<std::unique_ptr<LineRecording>> recordings(2);
+  SessionOptions session_options;
+  session_options.simulator.seed = options.seed;
+  session_options.actuators = false;
+  const std::unique_ptr<Session> session = support.open(scenario, session_options);
+  sim::Simulator& simulator = session->simulator();
+  std::vector<std::unique_ptr<LineRecording>> recordings(scenario.master->channels);
   for (const sim::ChannelConfig& channel : scenario.channels) {
     recordings[channel.number - 1] =
         std::make_unique<LineRecording>(*simulator.line(channel.number));
   }
-  SimBus bus(simulator);
-  SimClock clock(simulator);
-  TheDevice device(bus, clock);
-  Result<void> done = device.configure(config);
-  Frame frame;
-  if (done && is_control(options)) {
-    done = access(options, device);
+  std::string error = session->configure();
+  if (error.empty() && is_control(options)) {
+    error = session->access(request_of(options));
     // The host goes on with frames without control communication, so that the picture shows its
     // end.
-    for (unsigned i = 0; i < kFramesBehind; ++i) static_cast<void>(device.read_all(frame));
+    for (unsigned i = 1; i <= kFramesBehind; ++i) session->read(i);
   } else {
-    for (unsigned i = 0; done && i < options.frame; ++i) done = device.read_all(frame);
+    for (unsigned i = 1; error.empty() && i <= options.frame; ++i) error = session->read(i).error;
   }
   finish(simulator, *simulator.line(options.channel));
 
@@ -230,14 +216,14 @@ int plot_command(const PlotOptions& options) {
   const Picture picture = is_control(options)
                               ? control_picture(options, recording, channel, simulator.now())
                               : frame_picture(options, recording, channel, simulator.now());
-  if (!done) fmt::print(stderr, "mb4sim: {}\n", describe(done.info()));
+  if (!error.empty()) fmt::print(stderr, "mb4sim: {}\n", error);
   if (vcd != nullptr) vcd->commit(lines_vcd(recordings, simulator.now()));
   if (svg != nullptr) {
     svg->commit(picture.svg);
   } else if (vcd == nullptr) {
     fmt::print("{}", picture.svg);
   }
-  return done && picture.good ? kGood : kBad;
+  return error.empty() && picture.good ? kGood : kBad;
 }
 
 }  // namespace mb4::tool

@@ -12,7 +12,6 @@
 #include <string_view>
 #include <vector>
 
-#include "chip_setup.hpp"
 #include "commands/commands.hpp"
 #include "mb4sim/simulator.hpp"
 #include "report/exit_status.hpp"
@@ -111,24 +110,24 @@ Row run_one(const std::string& path, const sim::Scenario& scenario, std::uint64_
   FrameReport report(scenario);
   sim::FunctionalCoverage coverage;
   try {
-    sim::SimulatorOptions options;
-    options.seed = seed;
-    Session session(scenario, options);
-    if (cover) session.simulator().set_observer(&coverage);
-    if (const Result<void> configured = session.configure(); !configured) {
-      row.state = "cannot configure the chip: " + describe(configured.info());
+    SessionOptions options;
+    options.simulator.seed = seed;
+    const std::unique_ptr<Session> session = support_of(scenario).open(scenario, options);
+    if (cover) session->simulator().set_observer(&coverage);
+    if (const std::string why = session->configure(); !why.empty()) {
+      row.state = "cannot configure the chip: " + why;
       row.status = kBad;
     }
-    FaultReport fault_report(session.simulator().scenario(), session.simulator().faults());
+    FaultReport fault_report(session->simulator().scenario(), session->simulator().faults());
     for (std::uint64_t number = 1; row.status == kGood && number <= frames; ++number) {
-      const SessionFrame frame = session.read(number);
-      for (std::size_t i = 0; i < session.slaves().size(); ++i) {
-        report.add(number, frame.end, session.slaves()[i].number, frame.results[i], frame.sent[i]);
+      const SessionFrame frame = session->read(number);
+      for (std::size_t i = 0; i < session->slaves().size(); ++i) {
+        report.add(frame, session->slaves()[i].number, i);
       }
-      session.report(frame, fault_report);
+      session->report(frame, fault_report);
     }
     fault_report.finish();
-    row.faults = session.simulator().faults().size();
+    row.faults = session->simulator().faults().size();
     row.missed = fault_report.count(FaultReport::Fate::kMissed);
     if (row.status == kGood && (report.bad() != 0 || !fault_report.ids_good())) {
       row.status = kBad;
@@ -209,8 +208,12 @@ int run_shard(const RegressOptions& options) {
   const Shard shard(options.shard);
   std::vector<sim::Scenario> scenarios;
   for (const std::string& path : options.scenarios) {
-    scenarios.push_back(load_chip_scenario(path));
-    make_config(scenarios.back());
+    const sim::Scenario& scenario = scenarios.emplace_back(sim::load_scenario(path));
+    support_of(scenario).check(scenario);
+    if (!options.cover_path.empty() && !support_of(scenario).coverage) {
+      throw UseError(fmt::format("--cover: {}: there are no points for the master \"{}\"",
+                                 sim::one_line(path), scenario.master->type));
+    }
   }
   const Batch batch{scenarios.size(), options.seeds, options.first_seed, options.frames,
                     !options.cover_path.empty()};

@@ -10,7 +10,6 @@
 #include <string>
 #include <utility>
 
-#include "chip_setup.hpp"
 #include "commands/commands.hpp"
 #include "interrupts.hpp"
 #include "mb4sim/simulator.hpp"
@@ -48,8 +47,7 @@ class RunPrinter {
     progress_.clear();
     if (!options_.json) fmt::print("{}", faults_->new_lines());
     for (std::size_t i = 0; i < session.slaves().size(); ++i) {
-      frames_.add(frame.number, frame.end, session.slaves()[i].number, frame.results[i],
-                  frame.sent[i]);
+      frames_.add(frame, session.slaves()[i].number, i);
       fmt::print("{}", options_.json ? frames_.json_row() : frames_.table_row());
       if (outputs_.csv != nullptr) outputs_.csv->append(frames_.csv_row());
     }
@@ -81,15 +79,16 @@ class RunPrinter {
   Progress progress_;
 };
 
-sim::SimulatorOptions simulator_options(const RunOptions& options, const RunOutputs& outputs) {
-  sim::SimulatorOptions sim_options;
-  sim_options.seed = options.seed;
+SessionOptions session_options(const RunOptions& options, const RunOutputs& outputs) {
+  SessionOptions session;
+  session.bus_log = outputs.bus_log != nullptr;
+  session.simulator.seed = options.seed;
   if (!options.trace.empty() && !options.trace_error_us) {
-    sim_options.trace_path = outputs.trace.path();
-    if (options.trace_from_us) sim_options.trace_from = sim::from_us(*options.trace_from_us);
-    if (options.trace_to_us) sim_options.trace_to = sim::from_us(*options.trace_to_us);
+    session.simulator.trace_path = outputs.trace.path();
+    if (options.trace_from_us) session.simulator.trace_from = sim::from_us(*options.trace_from_us);
+    if (options.trace_to_us) session.simulator.trace_to = sim::from_us(*options.trace_to_us);
   }
-  return sim_options;
+  return session;
 }
 
 // Repeats the run until a little after its first bad frame, with a waveform around that frame.
@@ -97,20 +96,21 @@ void trace_around(const RunOptions& options, const sim::Scenario& scenario,
                   const Interrupts& interrupts, const RunOutputs& outputs,
                   const SessionFrame& bad) {
   const sim::Time margin = sim::from_us(*options.trace_error_us);
-  sim::SimulatorOptions sim_options = simulator_options(options, outputs);
-  sim_options.trace_path = outputs.trace.path();
-  sim_options.trace_from = bad.begin > margin ? bad.begin - margin : 0;
-  sim_options.trace_to = bad.end + margin;
-  Session session(scenario, sim_options);
-  if (!session.configure()) return;
+  SessionOptions around = session_options(options, outputs);
+  around.bus_log = false;
+  around.simulator.trace_path = outputs.trace.path();
+  around.simulator.trace_from = bad.begin > margin ? bad.begin - margin : 0;
+  around.simulator.trace_to = bad.end + margin;
+  const std::unique_ptr<Session> session = support_of(scenario).open(scenario, around);
+  if (!session->configure().empty()) return;
   // The register accesses that faults ask for belong to the course of events.
-  FaultReport faults(session.simulator().scenario(), session.simulator().faults());
+  FaultReport faults(session->simulator().scenario(), session->simulator().faults());
   for (std::uint64_t number = 1; number < bad.number; ++number) {
     interrupts.check();
-    session.report(session.read(number), faults);
+    session->report(session->read(number), faults);
   }
-  session.read(bad.number);
-  session.simulator().run_until(sim_options.trace_to);
+  session->read(bad.number);
+  session->simulator().run_until(around.simulator.trace_to);
 }
 
 // Reads all frames; returns the first bad one. What is printed ends properly whatever happens.
@@ -136,8 +136,9 @@ std::optional<SessionFrame> read_frames(const RunOptions& options, const Interru
 }  // namespace
 
 int run_command(const RunOptions& options) {
-  const sim::Scenario scenario = load_chip_scenario(options.scenario);
-  make_config(scenario);
+  const sim::Scenario scenario = sim::load_scenario(options.scenario);
+  const MasterSupport& support = support_of(scenario);
+  support.check(scenario);
   // Everything is checked before the first file is touched.
   RunOutputs outputs = open_outputs(options, scenario);
   const Interrupts interrupts;
@@ -145,21 +146,22 @@ int run_command(const RunOptions& options) {
   bool good = false;
   const bool traced = !options.trace.empty() && !options.trace_error_us;
   try {
-    Session session(scenario, simulator_options(options, outputs), outputs.bus_log != nullptr);
-    if (const Result<void> configured = session.configure(); !configured) {
-      const std::string error = "cannot configure the chip: " + describe(configured.info());
+    const std::unique_ptr<Session> session =
+        support.open(scenario, session_options(options, outputs));
+    if (const std::string why = session->configure(); !why.empty()) {
+      const std::string error = "cannot configure the chip: " + why;
       print_error(options.json, error, kBad);
-      if (traced) session.simulator().flush_trace();
+      if (traced) session->simulator().flush_trace();
       outputs.csv.reset();
       outputs.bus_log.reset();
       if (options.json) {
         RunPrinter printer(options, scenario, outputs);
-        printer.begin(session);
-        printer.end(session, error);
+        printer.begin(*session);
+        printer.end(*session, error);
       }
     } else {
       RunPrinter printer(options, scenario, outputs);
-      first_bad = read_frames(options, interrupts, session, printer, good);
+      first_bad = read_frames(options, interrupts, *session, printer, good);
     }
   } catch (const sim::ModelStopped&) {
     // The waveform file is complete when the simulator has gone.

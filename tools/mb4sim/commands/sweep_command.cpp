@@ -8,20 +8,16 @@
 #include <utility>
 #include <vector>
 
-#include "chip_setup.hpp"
 #include "commands/commands.hpp"
-#include "mb4/device.hpp"
-#include "mb4sim/simulator.hpp"
 #include "number_list.hpp"
 #include "report/exit_status.hpp"
 #include "report/output_file.hpp"
 #include "report/sweep_report.hpp"
 #include "report/trace_file.hpp"
+#include "session.hpp"
 #include "sim/core/one_line.hpp"
 #include "sim/core/random.hpp"
-#include "sim/masters/mb4/ma_frequency.hpp"
 #include "sim/scenario/scenario.hpp"
-#include "sim_bus.hpp"
 
 namespace mb4::tool {
 namespace {
@@ -29,70 +25,66 @@ namespace {
 constexpr double kMaxDelayNs = 1e6;
 constexpr double kMaxJitterPercent = 1000;
 constexpr std::uint64_t kMaxPoints = 1'000'000;
-constexpr unsigned kMaxCode = 31;
+std::vector<unsigned> all_codes(const MaCodes& ma, std::uint64_t clk_hz) {
+  std::vector<unsigned> codes;
+  for (unsigned code = 0; code <= ma.most; ++code) {
+    if (ma.divider(clk_hz, code) != 0) codes.push_back(code);
+  }
+  return codes;
+}
 
-std::vector<unsigned> freqs_codes(const std::string& text, const sim::Scenario& scenario) {
+std::vector<unsigned> codes_of(const std::string& text, const sim::Scenario& scenario) {
+  const MaCodes& ma = support_of(scenario).ma;
+  const std::uint64_t clk_hz = scenario.chip.system_hz();
+  if (text == "all") return all_codes(ma, clk_hz);
   if (text.empty()) {
-    return {sim::freqs_code(scenario.chip.system_hz(), scenario.host.ma_hz).value_or(0)};
+    for (const unsigned code : all_codes(ma, clk_hz)) {
+      if (clk_hz / ma.divider(clk_hz, code) == scenario.host.ma_hz) return {code};
+    }
+    return {0};
   }
   std::vector<unsigned> codes;
-  if (text == "all") {
-    for (unsigned code = 0; code <= kMaxCode; ++code) {
-      if (sim::ma_divider(code) != 0) codes.push_back(code);
-    }
-    return codes;
-  }
-  for (const long long value : number_list(text, {"--freqs", 0, kMaxCode, true})) {
+  for (const long long value :
+       number_list(text, {"--freqs", 0, static_cast<double>(ma.most), true})) {
     const auto code = static_cast<unsigned>(value / 1000);
-    if (sim::ma_divider(code) == 0) {
-      throw UseError(fmt::format("--freqs: Table 35 does not permit code {}", code));
+    if (ma.divider(clk_hz, code) == 0) {
+      throw UseError(fmt::format("--freqs: {} {}", ma.refuses, code));
     }
     codes.push_back(code);
   }
   return codes;
 }
 
-SweepPoint measure(const sim::Scenario& scenario, const Config& config, std::uint64_t frames,
-                   std::uint64_t seed) {
-  sim::SimulatorOptions options;
-  options.seed = seed;
-  sim::Simulator simulator(scenario, options);
-  SimBus bus(simulator);
-  SimClock clock(simulator);
-  Device device(bus, clock);
-  std::vector<ConnectedSlave> slaves = connected_slaves(scenario);
-  std::erase_if(slaves, [&](const ConnectedSlave& slave) {
-    return !is_in(sensors(config), static_cast<std::uint8_t>(slave.number));
-  });
-  SweepPoint point;
-  point.words = frames * slaves.size();
-  if (const Result<void> configured = device.configure(config); !configured) {
-    throw UseError("cannot configure the chip: " + describe(configured.info()));
+SweepPoint measure(const sim::Scenario& scenario, std::uint64_t frames, std::uint64_t seed) {
+  SessionOptions options;
+  options.actuators = false;
+  options.simulator.seed = seed;
+  const std::unique_ptr<Session> session = support_of(scenario).open(scenario, options);
+  if (const std::string why = session->configure(); !why.empty()) {
+    throw UseError("cannot configure the chip: " + why);
   }
-  for (std::uint64_t i = 0; i < frames; ++i) {
-    Frame frame;
-    const Result<void> read = device.read_all(frame);
-    for (const ConnectedSlave& slave : slaves) {
-      if (!read || !frame[slave.number]) {
-        ++point.flagged;
-      } else if (const auto sent = std::as_const(simulator).slave(slave.number)->sent_word();
-                 sent && *sent != frame[slave.number]->raw) {
-        ++point.wrong;
-      }
+  SweepPoint point;
+  for (std::uint64_t number = 1; number <= frames; ++number) {
+    const SessionFrame frame = session->read(number);
+    for (std::size_t i = 0; i < frame.results.size(); ++i) {
+      ++point.words;
+      if (frame.kind(i) == SlaveOutcome::Kind::kFlagged) ++point.flagged;
+      if (frame.kind(i) == SlaveOutcome::Kind::kWrong) ++point.wrong;
     }
   }
   return point;
 }
 
 // One chip for each point, all with random choices of their own.
-SweepPlane sweep_plane(sim::Scenario scenario, unsigned freqs, const Sweep& sweep) {
+SweepPlane sweep_plane(sim::Scenario scenario, unsigned code, const Sweep& sweep) {
+  const std::uint64_t clk_hz = scenario.chip.system_hz();
+  const unsigned divider = support_of(scenario).ma.divider(clk_hz, code);
   SweepPlane plane;
-  plane.freqs = freqs;
-  plane.ma_hz = sim::ma_frequency(scenario.chip.system_hz(), freqs);
+  plane.code = code;
+  plane.ma_hz = clk_hz / divider;
   scenario.host.ma_hz = plane.ma_hz;
-  const double period_ps =
-      1e12 * sim::ma_divider(freqs) / static_cast<double>(scenario.chip.system_hz());
-  std::uint64_t part = std::uint64_t{freqs} << 32U;
+  const double period_ps = 1e12 * divider / static_cast<double>(clk_hz);
+  std::uint64_t part = std::uint64_t{code} << 32U;
   for (const long long delay : sweep.delays_ps) {
     std::vector<SweepPoint> row;
     for (const long long jitter : sweep.jitters_mpercent) {
@@ -101,8 +93,7 @@ SweepPlane sweep_plane(sim::Scenario scenario, unsigned freqs, const Sweep& swee
         channel.cable.sl.jitter =
             static_cast<sim::Time>(period_ps * static_cast<double>(jitter) / 100'000);
       }
-      row.push_back(measure(scenario, make_config(scenario), sweep.frames,
-                            sim::derive_seed(sweep.seed, ++part)));
+      row.push_back(measure(scenario, sweep.frames, sim::derive_seed(sweep.seed, ++part)));
     }
     plane.points.push_back(std::move(row));
   }
@@ -112,14 +103,17 @@ SweepPlane sweep_plane(sim::Scenario scenario, unsigned freqs, const Sweep& swee
 }  // namespace
 
 int sweep_command(const SweepOptions& options) {
-  const sim::Scenario scenario = load_chip_scenario(options.scenario);
+  const sim::Scenario scenario = sim::load_scenario(options.scenario);
+  const MasterSupport& support = support_of(scenario);
   Sweep sweep;
+  sweep.code_name = support.ma.name;
+  sweep.jitter_item = support.jitter_item;
   sweep.scenario = sim::one_line(options.scenario);
   sweep.seed = options.seed.value_or(scenario.seed);
   sweep.frames = options.frames;
   sweep.delays_ps = number_list(options.delays, {"--delays", 0, kMaxDelayNs});
   sweep.jitters_mpercent = number_list(options.jitters, {"--jitters", 0, kMaxJitterPercent});
-  const std::vector<unsigned> codes = freqs_codes(options.freqs, scenario);
+  const std::vector<unsigned> codes = codes_of(options.freqs, scenario);
   const std::uint64_t points =
       codes.size() * sweep.delays_ps.size() * sweep.jitters_mpercent.size();
   if (points > kMaxPoints) {
@@ -127,8 +121,9 @@ int sweep_command(const SweepOptions& options) {
   }
   for (const unsigned code : codes) {
     sim::Scenario each = scenario;
-    each.host.ma_hz = sim::ma_frequency(scenario.chip.system_hz(), code);
-    make_config(each);
+    const unsigned divider = support.ma.divider(scenario.chip.system_hz(), code);
+    if (divider != 0) each.host.ma_hz = scenario.chip.system_hz() / divider;
+    support.check(each);
   }
   std::vector<Output> outputs;
   for (const auto& [name, path] : {std::pair{"--csv", options.csv}, {"--svg", options.svg}}) {

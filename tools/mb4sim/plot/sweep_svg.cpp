@@ -106,7 +106,7 @@ std::string panel(const Sweep& sweep, const SweepPlane& plane, double top) {
   const auto rows = borders(jitters);
   const Axis x{columns.front(), columns.back(), kLeft, kLeft + kPlotWidth};
   const Axis y{rows.front(), rows.back(), top + kPlotHeight, top};
-  std::string out = text(kLeft, top - 8, "head", plane_title(plane));
+  std::string out = text(kLeft, top - 8, "head", plane_title(sweep, plane));
   for (std::size_t d = 0; d < delays.size(); ++d) {
     for (std::size_t j = 0; j < jitters.size(); ++j) {
       out +=
@@ -123,7 +123,8 @@ std::string panel(const Sweep& sweep, const SweepPlane& plane, double top) {
         "<line x1=\"{}\" y1=\"{:.2f}\" x2=\"{}\" y2=\"{:.2f}\" stroke=\"#000\" "
         "stroke-dasharray=\"6 4\"/>\n",
         kLeft, y(i305), kLeft + kPlotWidth, y(i305));
-    out += text(kLeft + kPlotWidth + 4, y(i305) + 4, "small", "I305");
+    out += text(kLeft + kPlotWidth + 4, y(i305) + 4, "small",
+                sweep.jitter_item.empty() ? "25 %" : sweep.jitter_item);
   }
   for (const long long delay : ticks(delays)) {
     out += text(x(static_cast<double>(delay)), top + kPlotHeight + 16, "mid", thousandths(delay));

@@ -15,11 +15,13 @@ constexpr const char* kTableRow = "{:>5}  {:>12}  {:>5}  {:>{}}  {:>{}}  {:>2}  
 
 constexpr const char* kWrongData = "wrong data, not what the slave sent";
 
-std::string state_of(const Result<Reading>& result) {
-  if (!result) return describe(result.info());
-  if (result->error && result->warning) return "ok (encoder error, warning)";
-  if (result->error) return "ok (encoder error)";
-  if (result->warning) return "ok (encoder warning)";
+std::string state_of(const SlaveResult& result) {
+  if (!result.word) return result.error;
+  const bool error = !result.word->n_error.value_or(true);
+  const bool warning = !result.word->n_warning.value_or(true);
+  if (error && warning) return "ok (encoder error, warning)";
+  if (error) return "ok (encoder error)";
+  if (warning) return "ok (encoder warning)";
   return "ok";
 }
 
@@ -34,27 +36,21 @@ struct FrameReport::Cells {
   std::string crc;
 };
 
-FrameReport::Cells FrameReport::cells(const FrameRow& row) const {
+FrameReport::Cells FrameReport::cells(const FrameRow& row) {
   Cells cells;
-  if (!row.reading) return cells;
-  const Reading& reading = *row.reading;
-  const auto of_slave =
-      std::find_if(slaves_.begin(), slaves_.end(),
-                   [&](const ConnectedSlave& one) { return one.number == row.slave; });
-  const sim::SlaveConfig& slave = *of_slave->config;
-  const unsigned flags = slave.flag_bits();
-  cells.raw = fmt::format("0x{:0{}X}", reading.raw, (slave.data_bits() + 3) / 4);
-  cells.position = fmt::format("{}", flags >= 64 ? 0 : reading.raw >> flags);
-  if (flags == 2) {
-    cells.error = fmt::format("{:d}", (reading.raw & 2U) != 0);
-    cells.warning = fmt::format("{:d}", (reading.raw & 1U) != 0);
-  }
-  if (reading.crc_stored) cells.crc = fmt::format("0x{:02X}", reading.crc);
+  if (!row.word) return cells;
+  const Word& word = *row.word;
+  cells.raw = fmt::format("0x{:0{}X}", word.bits, (word.data_bits + 3) / 4);
+  cells.position = fmt::format("{}", word.flag_bits >= 64 ? 0 : word.bits >> word.flag_bits);
+  if (word.n_error) cells.error = fmt::format("{:d}", *word.n_error);
+  if (word.n_warning) cells.warning = fmt::format("{:d}", *word.n_warning);
+  if (word.crc) cells.crc = fmt::format("0x{:02X}", *word.crc);
   return cells;
 }
 
-FrameReport::FrameReport(const sim::Scenario& scenario) : slaves_(connected_slaves(scenario)) {
-  for (const ConnectedSlave& one : slaves_) counts_.push_back({one.number, 0, 0});
+FrameReport::FrameReport(const sim::Scenario& scenario) {
+  for (const ConnectedSlave& one : connected_slaves(scenario))
+    counts_.push_back({one.number, 0, 0});
 }
 
 std::uint64_t FrameReport::good() const {
@@ -69,15 +65,12 @@ std::uint64_t FrameReport::bad() const {
   return sum;
 }
 
-const FrameRow& FrameReport::add(std::uint64_t frame, sim::Time time, unsigned slave,
-                                 const Result<Reading>& result, std::optional<std::uint64_t> sent) {
+const FrameRow& FrameReport::add(const SessionFrame& frame, unsigned slave, std::size_t index) {
+  const SlaveResult& result = frame.results[index];
   any_ = any_ || row_.frame != 0;
-  row_ = {frame, time, slave, std::nullopt, false, state_of(result)};
-  if (result) {
-    row_.reading = *result;
-    row_.wrong = sent && *sent != result->raw;
-    if (row_.wrong) row_.state = kWrongData;
-  }
+  row_ = {frame.number, frame.end, slave, result.word, false, state_of(result)};
+  row_.wrong = frame.kind(index) == SlaveOutcome::Kind::kWrong;
+  if (row_.wrong) row_.state = kWrongData;
   for (SlaveCount& count : counts_) {
     if (count.slave == slave) ++(row_.good() ? count.good : count.bad);
   }

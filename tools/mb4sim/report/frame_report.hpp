@@ -11,9 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "chip_setup.hpp"
-#include "mb4/reading.hpp"
-#include "mb4/result.hpp"
+#include "session.hpp"
 #include "sim/core/time.hpp"
 #include "sim/scenario/scenario.hpp"
 
@@ -24,18 +22,12 @@ struct FrameRow {
   std::uint64_t frame = 0;  // counted from 1
   sim::Time time = 0;       // when the host had the result
   unsigned slave = 1;
-  std::optional<Reading> reading;  // absent: bad frame
+  std::optional<Word> word;  // absent: bad frame
   // Delivered as good, but not the word that the slave has sent.
   bool wrong = false;
   std::string state;  // "ok", "encoder error", "CRC error", ...
 
-  bool good() const { return reading.has_value() && !wrong; }
-};
-
-struct RunSummary {
-  sim::Time time = 0;
-  std::uint64_t clocks = 0;
-  std::uint64_t seed = 0;
+  bool good() const { return word.has_value() && !wrong; }
 };
 
 // The counts of the frames of one slave by result.
@@ -47,12 +39,10 @@ struct SlaveCount {
 
 class FrameReport {
  public:
-  // The scenario must outlive the report.
   explicit FrameReport(const sim::Scenario& scenario);
 
-  // `sent`: the slave's word, where it is known.
-  const FrameRow& add(std::uint64_t frame, sim::Time time, unsigned slave,
-                      const Result<Reading>& result, std::optional<std::uint64_t> sent = {});
+  // `index`: of the slave in this frame.
+  const FrameRow& add(const SessionFrame& frame, unsigned slave, std::size_t index);
   // Sums over all slaves.
   std::uint64_t good() const;
   std::uint64_t bad() const;
@@ -74,10 +64,9 @@ class FrameReport {
 
  private:
   struct Cells;
-  Cells cells(const FrameRow& row) const;
+  static Cells cells(const FrameRow& row);
 
-  std::vector<ConnectedSlave> slaves_;
-  std::vector<SlaveCount> counts_;               // as slaves_
+  std::vector<SlaveCount> counts_;               // by slave
   std::map<std::string, std::uint64_t> errors_;  // bad results by what was wrong
   FrameRow row_;                                 // added last
   bool any_ = false;

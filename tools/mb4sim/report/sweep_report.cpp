@@ -5,6 +5,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 
 namespace mb4::tool {
@@ -25,8 +26,8 @@ std::string plane_text(const Sweep& sweep, const SweepPlane& plane) {
   for (const long long jitter : sweep.jitters_mpercent) {
     width = std::max(width, thousandths(jitter).size() + 2);
   }
-  std::string out = fmt::format("\n{}; bad words by delay and jitter\n{:>{}}", plane_title(plane),
-                                "delay/ns", kFirstColumn);
+  std::string out = fmt::format("\n{}; bad words by delay and jitter\n{:>{}}",
+                                plane_title(sweep, plane), "delay/ns", kFirstColumn);
   for (const long long jitter : sweep.jitters_mpercent) {
     out += fmt::format("{:>{}}", thousandths(jitter) + "%", width);
   }
@@ -50,8 +51,8 @@ std::string thousandths(long long value) {
   return text;
 }
 
-std::string plane_title(const SweepPlane& plane) {
-  return fmt::format("FREQS 0x{:02X}: MA {} kHz, T_MA {} ns", plane.freqs,
+std::string plane_title(const Sweep& sweep, const SweepPlane& plane) {
+  return fmt::format("{} 0x{:02X}: MA {} kHz, T_MA {} ns", sweep.code_name, plane.code,
                      thousandths(static_cast<long long>(plane.ma_hz)),
                      thousandths(std::llround(1e12 / static_cast<double>(plane.ma_hz))));
 }
@@ -89,8 +90,9 @@ std::string sweep_text(const Sweep& sweep) {
       *std::min_element(sweep.jitters_mpercent.begin(), sweep.jitters_mpercent.end()) <= kI305;
   out += fmt::format(
       "\n. = all good, ! = wrong words delivered as good (CRC aliases) among them\n"
-      "words {}, flagged {}, wrong but delivered {}; jitter up to 25 % (I305): {}; seed {}\n",
+      "words {}, flagged {}, wrong but delivered {}; jitter up to 25 %{}: {}; seed {}\n",
       sum.words, sum.flagged, sum.wrong,
+      sweep.jitter_item.empty() ? "" : fmt::format(" ({})", sweep.jitter_item),
       !any                  ? "not tried"
       : sweep.within_i305() ? "all good"
                             : "BAD",
@@ -99,12 +101,14 @@ std::string sweep_text(const Sweep& sweep) {
 }
 
 std::string sweep_csv(const Sweep& sweep) {
-  std::string out = "freqs,ma_hz,delay_ns,jitter_percent,words,flagged,wrong\n";
+  std::string out = sweep.code_name + ",ma_hz,delay_ns,jitter_percent,words,flagged,wrong\n";
+  std::transform(out.begin(), out.end(), out.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   for (const SweepPlane& plane : sweep.planes) {
     for (std::size_t d = 0; d < sweep.delays_ps.size(); ++d) {
       for (std::size_t j = 0; j < sweep.jitters_mpercent.size(); ++j) {
         const SweepPoint& point = plane.points[d][j];
-        out += fmt::format("{},{},{},{},{},{},{}\n", plane.freqs, plane.ma_hz,
+        out += fmt::format("{},{},{},{},{},{},{}\n", plane.code, plane.ma_hz,
                            thousandths(sweep.delays_ps[d]), thousandths(sweep.jitters_mpercent[j]),
                            point.words, point.flagged, point.wrong);
       }

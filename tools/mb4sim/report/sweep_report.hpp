@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The results of a sweep over delay, jitter and FREQS: as text, CSV and picture.
+// The results of a sweep over delay, jitter and codes of the MA frequency (FREQS): as text, CSV and
+// picture.
 #ifndef MB4SIM_TOOL_SWEEP_REPORT_HPP_
 #define MB4SIM_TOOL_SWEEP_REPORT_HPP_
 
@@ -21,15 +22,17 @@ struct SweepPoint {
   std::uint64_t bad() const { return flagged + wrong; }
 };
 
-// One FREQS code; points[delay][jitter].
+// One code of the MA frequency; points[delay][jitter].
 struct SweepPlane {
-  unsigned freqs = 0;
+  unsigned code = 0;
   std::uint64_t ma_hz = 0;
   std::vector<std::vector<SweepPoint>> points;
 };
 
 struct Sweep {
   std::string scenario;
+  std::string code_name;    // "FREQS"
+  std::string jitter_item;  // where the limit of the jitter is written ("I305"); empty: nowhere
   std::uint64_t seed = 0;
   std::uint64_t frames = 0;          // per point
   std::vector<long long> delays_ps;  // round trip
@@ -37,7 +40,7 @@ struct Sweep {
   std::vector<long long> jitters_mpercent;
   std::vector<SweepPlane> planes;
 
-  // Every word was good wherever the jitter is within item I305 (25 % of T_MA).
+  // Every word was good wherever the jitter is at most 25 % of T_MA (item I305).
   bool within_i305() const;
 };
 
@@ -52,7 +55,7 @@ std::string sweep_csv(const Sweep& sweep);
 std::string sweep_svg(const Sweep& sweep);
 
 // "FREQS 0x00: MA 10000 kHz, T_MA 100 ns".
-std::string plane_title(const SweepPlane& plane);
+std::string plane_title(const Sweep& sweep, const SweepPlane& plane);
 
 // "20 frames at each point".
 std::string frames_text(const Sweep& sweep);

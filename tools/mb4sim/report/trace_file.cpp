@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "report/trace_file.hpp"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cctype>
 #include <string_view>
@@ -43,6 +45,9 @@ TraceFile::TraceFile(const std::string& option, const std::string& scenario_path
                      const sim::Scenario& scenario)
     : path_(option), master_(scenario.master), host_(scenario.host) {
   if (path_.empty()) return;
+  if (master_->wave_groups == nullptr) {
+    throw UseError(fmt::format("--trace: the master \"{}\" writes no waveform", master_->type));
+  }
   if (is_vcd(path_)) {
     throw UseError(
         "--trace: " + path_ +
@@ -65,7 +70,7 @@ std::optional<std::string> TraceFile::path() const {
 }
 
 void TraceFile::write_view(std::optional<sim::Time> marker) const {
-  if (path_.empty() || master_->wave_groups == nullptr) return;
+  if (path_.empty()) return;
   sim::write_wave_view(path_, view_path(path_), master_->wave_groups(host_), marker);
 }
 

@@ -1,10 +1,10 @@
 # SPDX-FileCopyrightText: 2026 The openmb4 authors
 # SPDX-License-Identifier: Apache-2.0
-"""Registers and fields of the chip by their generated names (regmap/generated/mb4)."""
+"""Registers and fields of a master by their generated names (regmap/generated)."""
 
 import json
 import re
-from typing import TYPE_CHECKING, Any, Dict, List, Union
+from typing import TYPE_CHECKING, Any, Dict, List, Protocol, Union
 
 from ._library import HERE, Error
 
@@ -14,61 +14,101 @@ if TYPE_CHECKING:
 READ, WRITE = 0x03, 0x02  # SPI opcodes
 
 
-def _addresses() -> Dict[str, int]:
+class Bus(Protocol):
+    """How the registers of a master are reached. Both calls take simulated time."""
+
+    bits: int  # of a register
+    simulator: "Simulator"
+
+    def read(self, address: int) -> int: ...
+
+    def write(self, address: int, value: int) -> None: ...
+
+
+class ChipBus:
+    """The iC-MB4 through SPI or, where the scenario's host is one, the parallel bus."""
+
+    bits = 8
+
+    def __init__(self, simulator: "Simulator"):
+        self.simulator = simulator
+
+    def read(self, address: int) -> int:
+        try:
+            return self.simulator.spi(bytes((READ, address, 0)))[2]
+        except Error as error:
+            if error.code != "MB4SIM_ERROR_HOST":
+                raise
+            return self.simulator.bus_read(address)
+
+    def write(self, address: int, value: int) -> None:
+        try:
+            self.simulator.spi(bytes((WRITE, address, value)))
+        except Error as error:
+            if error.code != "MB4SIM_ERROR_HOST":
+                raise
+            self.simulator.bus_write(address, value)
+
+
+class AxiBus:
+    """A master on AXI4-Lite."""
+
+    bits = 32
+
+    def __init__(self, simulator: "Simulator"):
+        self.simulator = simulator
+
+    def read(self, address: int) -> int:
+        return self.simulator.axi_read(address)
+
+    def write(self, address: int, value: int) -> None:
+        self.simulator.axi_write(address, value)
+
+
+def _addresses(master: str) -> Dict[str, int]:
     """{register: address}; those of a data channel as "SLAVE_CFG_CRC3"."""
-    header = (HERE / "mb4_regs.h").read_text(encoding="utf-8")
+    header = (HERE / f"{master}_regs.h").read_text(encoding="utf-8")
+    prefix = master.upper()
     found = {name: int(number, 16)
-             for name, number in re.findall(r"#define MB4_ADDR_(\w+) (0x\w+)U", header)}
-    base = found.pop("SLAVE_CFG")
-    for name, offset in re.findall(r"#define MB4_(SLAVE_CFG_\w+)_OFFSET (\d+)U", header):
+             for name, number in re.findall(rf"#define {prefix}_ADDR_(\w+) (0x\w+)U", header)}
+    for name, offset in re.findall(rf"#define {prefix}_(SLAVE_CFG_\w+)_OFFSET (\d+)U", header):
         for channel in range(8):
-            found[f"{name}{channel + 1}"] = base + 4 * channel + int(offset)
-    for name, size in (("SCDATA", 64), ("RDATA", 64)):
+            found[f"{name}{channel + 1}"] = found["SLAVE_CFG"] + 4 * channel + int(offset)
+    found.pop("SLAVE_CFG", None)
+    for name in found.keys() & {"SCDATA", "RDATA"}:
         first = found.pop(name)
-        found.update({f"{name}_BYTE{i + 1}": first + i for i in range(size)})
+        found.update({f"{name}_BYTE{i + 1}": first + i for i in range(64)})
     return found
 
 
 class Register:
-    """A byte of the chip, read and written through SPI or, where the scenario's host is one, the
-    parallel bus. Both take simulated time."""
+    """A byte of the chip, or a word of a master on AXI. Reading and writing take simulated time."""
 
-    def __init__(self, simulator: "Simulator", name: str, address: int):
-        self._simulator, self.name, self.address = simulator, name, address
+    def __init__(self, bus: Bus, name: str, address: int):
+        self._bus, self.name, self.address = bus, name, address
 
     def __repr__(self) -> str:
         return f"<register {self.name} at 0x{self.address:02X}>"
 
     def read(self) -> int:
-        try:
-            return self._simulator.spi(bytes((READ, self.address, 0)))[2]
-        except Error as error:
-            if error.code != "MB4SIM_ERROR_HOST":
-                raise
-            return self._simulator.bus_read(self.address)
+        return self._bus.read(self.address)
 
     def write(self, value: int) -> None:
-        """Writes all eight bits."""
-        if not 0 <= value < 256:
-            raise Error(f"{self.name}: {value} is no byte")
-        try:
-            self._simulator.spi(bytes((WRITE, self.address, value)))
-        except Error as error:
-            if error.code != "MB4SIM_ERROR_HOST":
-                raise
-            self._simulator.bus_write(self.address, value)
+        """Writes all bits."""
+        if not 0 <= value < 1 << self._bus.bits:
+            raise Error(f"{self.name}: {value} is no {'byte' if self._bus.bits == 8 else 'word'}")
+        self._bus.write(self.address, value)
 
 
 class Field:
     """Some bits of a register, or of several bytes in a row (SCDATA, SCRCSTART)."""
 
-    def __init__(self, simulator: "Simulator", name: str, parts: List[dict],
-                 registers: Dict[int, Register]):
+    def __init__(self, bus: Bus, name: str, parts: List[dict], registers: Dict[int, Register]):
         self.name = name
         self.access: str = parts[0]["access"]
         self.width: int = sum(part["width"] for part in parts)
         self._parts = [(registers[part["address"]], part["lsb"], part["width"]) for part in parts]
-        self._simulator = simulator
+        self._bus = bus
 
     def __repr__(self) -> str:
         return f"<field {self.name}, {self.width} bits in {self.register!r}>"
@@ -96,10 +136,10 @@ class Field:
                         f"write the whole register, regs.{self.name}.register.write()")
         if not 0 <= value < 1 << self.width:
             raise Error(f"{self.name}: {value} has more than {self.width} bits")
-        with self._simulator._lock:
+        with self._bus.simulator._lock:
             for register, lsb, width in self._parts:
                 mask = (1 << width) - 1
-                if width == 8:
+                if width == self._bus.bits:
                     register.write(value & mask)
                 else:
                     register.write(register.read() & ~(mask << lsb) | (value & mask) << lsb)
@@ -112,19 +152,19 @@ class Registers:
     Where field and register have one name it is the field; `regs.REGADR.register` is the register.
     """
 
-    def __init__(self, simulator: "Simulator"):
-        registers = {name: Register(simulator, name, address)
-                     for name, address in _addresses().items()}
+    def __init__(self, bus: Bus, master: str):
+        registers = {name: Register(bus, name, address)
+                     for name, address in _addresses(master).items()}
         by_address = {register.address: register for register in registers.values()}
         fields: Dict[str, List[dict]] = {}
-        table = json.loads((HERE / "mb4_regs.json").read_text(encoding="utf-8"))
-        for field in table["fields"] + table["alternate_fields"]:
+        table = json.loads((HERE / f"{master}_regs.json").read_text(encoding="utf-8"))
+        for field in table["fields"] + table.get("alternate_fields", []):
             if field["access"] != "rom":
                 name = re.sub(r"\(.*", "", field["label"])
                 name = field["ident"] if name == "CHSEL" else name
                 fields.setdefault(name, []).append(field)
         self._names: Dict[str, Union[Register, Field]] = {
-            **registers, **{name: Field(simulator, name, parts, by_address)
+            **registers, **{name: Field(bus, name, parts, by_address)
                             for name, parts in fields.items()}}
 
     def __getitem__(self, name: str) -> Any:

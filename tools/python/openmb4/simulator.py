@@ -83,7 +83,8 @@ class Simulator:
             raise Error(ffi.string(error).decode(errors="replace"))
         self._sim = ffi.gc(sim, lib.mb4sim_close)
         self.driver = driver.Driver(self)
-        self.regs = registers.Registers(self)
+        self.regs = registers.Registers(registers.ChipBus(self), "mb4")
+        self.axi_regs = registers.Registers(registers.AxiBus(self), "axi")
 
     def close(self) -> None:
         """Ends the simulator; a second call does nothing."""
@@ -138,6 +139,18 @@ class Simulator:
         """One read cycle of the parallel bus."""
         value = ffi.new("uint8_t *")
         self._do("bus_read", lib.mb4sim_bus_read, address, value)
+        return value[0]
+
+    def axi_write(self, address: int, value: int, strobe: int = 0xF) -> None:
+        """One write of a bus of 32-bit words (AXI4-Lite); bit b of strobe lets byte b be written."""
+        if self._do(f"axi_write 0x{address:02X}", lib.mb4sim_axi_write, address, value, strobe):
+            raise Error(f"axi_write 0x{address:02X}: the bus answered with an error")
+
+    def axi_read(self, address: int) -> int:
+        """One read of a bus of 32-bit words (AXI4-Lite)."""
+        value = ffi.new("uint32_t *")
+        if self._do(f"axi_read 0x{address:02X}", lib.mb4sim_axi_read, address, value):
+            raise Error(f"axi_read 0x{address:02X}: the bus answered with an error")
         return value[0]
 
     # --- time ---

@@ -15,6 +15,7 @@
 
 #include "chip_model.hpp"
 #include "sim/model/clock_source.hpp"
+#include "sim/model/verilated_context.hpp"
 
 namespace mb4::sim {
 
@@ -34,17 +35,12 @@ template <typename Model, typename Trace, typename Inside, typename Steps>
 class VerilatedChip final : public ChipModel {
  public:
   VerilatedChip(const ChipConfig& config, std::uint64_t seed, const TraceFile& trace)
-      : context_(std::make_unique<VerilatedContext>()),
+      : context_(make_verilated_context(seed)),
         pin_clock_(config.f_clk_hz),
         oscillator_(config.f_osc_hz),
         pin_clock_connected_(config.f_clk_hz != 0),
         osc_period_(kPsPerSecond / config.f_osc_hz) {
-    min_clock_ = config.f_clk_hz == 0 ? 0 : kPsPerSecond / config.f_clk_hz;
-    // Flops and memories without reset get random values at power-on. randSeed() demands a seed of
-    // 31 bits that is not 0.
-    context_->randReset(2);
-    context_->randSeed(static_cast<int>(seed % 0x7FFFFFFEU) + 1);
-    context_->threads(1);  // else every context starts a pool of unused threads
+    min_clock_ = period_of(config.f_clk_hz);
     context_->timeunit(-12);
     context_->timeprecision(-12);
     if constexpr (kTraced) context_->traceEverOn(true);
@@ -223,7 +219,7 @@ class VerilatedChip final : public ChipModel {
     if (!pin_clock_connected_) return;
     stirred();
     pin_clock_.retune(hz, now);
-    if (hz != 0 && min_clock_ != 0) min_clock_ = std::min(min_clock_, kPsPerSecond / hz);
+    may_run_at(hz);
   }
   bool clk() const override { return model_->clk_i != 0; }
   bool sl(unsigned line) const override { return (line == 0 ? model_->sl1_i : model_->sl2_i) != 0; }

@@ -18,7 +18,7 @@ sys.path.insert(0, FOLDER)
 
 from busy import Busy, busy_of  # noqa: E402
 from description import Description  # noqa: E402
-from generated_model import NotUnderstood, analyse, apart, split, statements  # noqa: E402
+from generated_model import NotUnderstood, analyse, apart, in_words, split, statements  # noqa: E402
 from groups import HostKinds, Kinds, groups_of, inputs, looks, parts_of  # noqa: E402
 from header import Writer  # noqa: E402
 
@@ -44,6 +44,17 @@ class Statements(unittest.TestCase):
         row, = rows("vlSelf->m[(IData)(vlSelf->i)] = vlSelf->m[0U];")
         self.assertEqual((row.reads, row.writes, row.defines, row.arrays),
                          ({"i", "m"}, {"m"}, set(), {"m"}))
+
+    def test_wide_local_variable_is_one_for_each_word(self):
+        head = "    VlWide<2>/*63:0*/ w;\n    VL_ZERO_W(64, w);\n    // Body\n"
+        body = head + "w[0U] = vlSelf->a;\nw[1U] = w[0U];\nvlSelf->b = (w[1U] + vlSelf->w[1U]);\n"
+        local, found = statements("f", in_words(body))
+        self.assertEqual(local, {"f.w__0": "IData", "f.w__1": "IData"})
+        self.assertEqual([(row.reads, row.writes, row.arrays) for row in found],
+                         [({"a"}, {"f.w__0"}, set()), ({"f.w__0"}, {"f.w__1"}, set()),
+                          ({"f.w__1", "w"}, {"b"}, set())])
+        for use in ("w[(IData)(vlSelf->i)] = 1U;", "VL_ASSIGN_W(64, vlSelf->b, w);"):
+            self.assertEqual(in_words(head + use), head + use)
 
     def test_comparison_is_no_write(self):
         row, = rows("vlSelf->a = (vlSelf->b == vlSelf->c);")

@@ -1,0 +1,32 @@
+// SPDX-FileCopyrightText: 2026 The openmb4 authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// A host on a bus of 32-bit words, for example a manager of AXI4-Lite. A master offers it under the
+// name of its interface (HostInterface::key).
+#ifndef MB4SIM_WORD_HOST_HPP_
+#define MB4SIM_WORD_HOST_HPP_
+
+#include <cstdint>
+#include <optional>
+
+#include "sim/hosts/host_pins.hpp"
+
+namespace mb4::sim {
+
+class WordHost : public HostModel {
+ public:
+  // One access at a byte address, which is a multiple of 4 and not above last_address(). It lets
+  // time pass until the bus has answered. Returns the answer, 0 for a good one, or nothing if none
+  // comes: the clock stands still, or the master is in reset. The access is then over.
+  // `strobe`: bit b lets byte b be written.
+  virtual std::optional<std::uint8_t> write(std::uint32_t address, std::uint32_t data,
+                                            std::uint8_t strobe) = 0;
+  // `data` becomes 0 without an answer.
+  virtual std::optional<std::uint8_t> read(std::uint32_t address, std::uint32_t& data) = 0;
+  // The highest byte address.
+  virtual std::uint32_t last_address() const = 0;
+};
+
+}  // namespace mb4::sim
+
+#endif  // MB4SIM_WORD_HOST_HPP_

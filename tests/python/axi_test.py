@@ -1,0 +1,71 @@
+# SPDX-FileCopyrightText: 2026 The openmb4 authors
+# SPDX-License-Identifier: Apache-2.0
+"""A master on AXI from Python."""
+
+import openmb4
+import pytest
+
+SCENARIO = ('[master]\ntype = "axi"\n[chip]\nf_clk_hz = 100_000_000\n[[channel]]\nnumber = 1\n'
+            'delay_ns = 35\n[[channel.slave]]\nprotocol = "biss-c"\ncrc = 0x43\ndata_bits = 28\n')
+
+
+@pytest.fixture
+def chip():
+    with openmb4.Simulator(SCENARIO) as opened:
+        yield opened
+
+
+def test_driver_of_another_master_says_so(chip):
+    with pytest.raises(openmb4.Error, match="key 'type': .*iC-MB4.*\"axi\""):
+        chip.driver.configure()
+    with pytest.raises(openmb4.Error) as error:
+        chip.spi(b"\x05\x00")
+    assert error.value.code == "MB4SIM_ERROR_HOST"
+    chip.advance_ns(1000)
+
+
+def test_registers_have_their_generated_names(chip):
+    regs = chip.axi_regs
+    assert regs.MA_DIVIDER.register.address == 0x14
+    regs.MODE.write(1)
+    assert regs.SINGLE_POINT.read() == chip.axi_read(0x08) == 1
+    regs.SAMPLE_DIVIDER.modify(0x234_5678)
+    chip.axi_write(0x10, 0xFFFF_FFFF, 0x2)
+    assert regs.SAMPLE_DIVIDER.read() == 0x234_FF78
+    with pytest.raises(openmb4.Error, match="SINGLE_POINT_DATA: can only be read"):
+        regs.SINGLE_POINT_DATA.modify(1)
+    with pytest.raises(openmb4.Error, match="4294967296 is no word"):
+        regs.MODE.write(1 << 32)
+
+
+def test_frame_brings_the_word_of_the_encoder(chip):
+    regs = chip.axi_regs
+    for name, value in (("SINGLE_POINT", 1), ("MA_DIVIDER", 5), ("POSITION_BITS", 26), ("CRC_CHECK", 1),
+                        ("CHANNEL_ENABLE", 1)):
+        regs[name].register.write(value)
+    chip.set_data(1, 0x123_4567 << 2 | 3)
+    regs.REQUEST.modify(1)
+    chip.advance_ns(20_000)
+    assert regs.SINGLE_POINT_VALID.read() == 1
+    assert regs.SINGLE_POINT_DATA.read() == 0x123_4567
+    assert regs.LINE_DELAY.read() in (3, 4)  # 35 ns in clocks of 10 ns
+
+
+@pytest.mark.parametrize("address, strobe", [(0x01, 15), (0x100, 15), (0x00, 16)])
+def test_wrong_accesses_are_told(chip, address, strobe):
+    with pytest.raises(openmb4.Error) as error:
+        chip.axi_write(address, 0, strobe)
+    assert error.value.code == "MB4SIM_ERROR_VALUE"
+
+
+def test_other_masters_have_no_such_bus():
+    with openmb4.Simulator("") as chip, pytest.raises(openmb4.Error) as error:
+        chip.axi_read(0)
+    assert error.value.code == "MB4SIM_ERROR_HOST"
+
+
+def test_bus_without_a_clock_is_an_error():
+    with openmb4.Simulator(SCENARIO.replace("100_000_000", "0")) as chip:
+        with pytest.raises(openmb4.Error) as error:
+            chip.axi_read(0)
+        assert error.value.code == "MB4SIM_ERROR_SILENT"

@@ -1,0 +1,192 @@
+# SPDX-FileCopyrightText: 2026 The openmb4 authors
+# SPDX-License-Identifier: Apache-2.0
+"""The commands with a master on AXI. Positions are those of the scenario, MA and delays those of its keys.
+
+  cli_axi_test.py MB4SIM EXAMPLES
+"""
+
+import json
+import re
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+from cli import run
+
+HEAD = '[master]\ntype = "axi"\n[chip]\nf_clk_hz = 100_000_000\n'
+
+
+def channel(number, *, keys="", slave="", bits=28):
+    return (f'[[channel]]\nnumber = {number}\n{keys}[[channel.slave]]\nprotocol = "biss-c"\n'
+            f"crc = 0x43\ndata_bits = {bits}\n{slave}")
+
+
+def ramp(start, step=1):
+    return f'source = "ramp"\nstart = {start}\nstep = {step}\n'
+
+
+class Axi(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = Path(folder.name)
+
+    def path(self, text):
+        path = self.folder / "axi.toml"
+        path.write_text(HEAD + text, encoding="utf-8")
+        return str(path)
+
+    def frames(self, scenario, *options):
+        result = run("run", scenario, "--json", *options)
+        self.assertEqual(result.stderr, "")
+        return result.returncode, json.loads(result.stdout)
+
+    def test_run_reads_all_channels_with_their_cables(self):
+        scenario = self.path("".join(
+            channel(c, keys=f"delay_ns = {100 * c}\n", slave=ramp(1000 * c, c)) for c in range(1, 7)))
+        status, got = self.frames(scenario, "--frames", "4")
+        self.assertEqual(status, 0)
+        rows = [(row["slave"], row["position"], row["state"]) for row in got["frames"]]
+        self.assertEqual(rows, [(c, 1000 * c + c * n, "ok") for n in range(4) for c in range(1, 7)])
+        self.assertEqual(got["summary"]["good"], 24)
+
+    def test_run_shows_position_flags_and_crc_of_one_encoder(self):
+        for flags in range(4):
+            word = 0x1234564 | flags
+            rest = 0  # of the CRC x^6 + x + 1 over 28 bits, not inverted
+            for bit in range(27, -1, -1):
+                top = (rest >> 5 ^ word >> bit) & 1
+                rest = rest << 1 & 0x3F ^ (3 if top else 0)
+            status, got = self.frames(self.path(channel(1, slave=f"data = {word}\n")), "--frames", "1")
+            row = got["frames"][0]
+            self.assertEqual((status, row["position"], row["nE"], row["nW"], row["crc"]),
+                             (0, word >> 2, flags >> 1, flags & 1, f"0x{rest:02X}"))
+
+    def test_flags_of_several_encoders_are_told_only_where_they_are_known(self):
+        good = channel(1, slave="data = 7\n")
+        bad = channel(2, slave="data = 4\n")
+        _, got = self.frames(self.path(good + channel(2, slave="data = 7\n")), "--frames", "1")
+        self.assertEqual([(row["nE"], row["nW"]) for row in got["frames"]], [(1, 1), (1, 1)])
+        _, got = self.frames(self.path(good + bad), "--frames", "1")
+        self.assertEqual([(row["nE"], row["nW"]) for row in got["frames"]], [(None, None)] * 2)
+
+    def test_bad_frames_say_what_was_wrong(self):
+        cases = (('kind = "bit-flip"\nchannel = 1\nbits = [5]\n', "CRC error"),
+                 ('kind = "silent"\nslave = 1\nfor_us = 100\n', "no acknowledge"),
+                 ('kind = "busy"\nslave = 1\nfor_us = 200\n', "no start bit, or SLO was 0 at the start"),
+                 ('kind = "stuck"\nchannel = 1\nlevel = 0\nfor_us = 200\n',
+                  "no start bit, or SLO was 0 at the start"))
+        for keys, state in cases:
+            scenario = self.path(channel(1, slave=ramp(5)) + channel(2, slave=ramp(9)) +
+                                 f"[[fault]]\nat_us = 30\n{keys}")
+            with self.subTest(keys):
+                result = run("run", scenario, "--frames", "1")
+                self.assertEqual((result.returncode, result.stderr), (1, ""))
+                self.assertRegex(result.stdout, rf"1 +[\d.]+ +1 +- +- +- +- +- +{state}\n")
+                self.assertRegex(result.stdout, r"1 +[\d.]+ +2 +0x0000009 +9 +1 +1 +0x.. +ok\n")
+
+    def test_bus_log_holds_the_accesses(self):
+        log = self.folder / "bus.log"
+        result = run("run", self.path(channel(1)), "--frames", "1", "--bus-log", str(log))
+        self.assertEqual((result.returncode, result.stderr), (0, ""))
+        lines = log.read_text(encoding="utf-8").splitlines()
+        for line in lines:
+            self.assertRegex(line, "^(write|read) [0-9A-F]{2} [0-9A-F]{8}$")
+        self.assertIn("write 14 00000005", lines)  # MA_DIVIDER: 100 MHz / 10
+        self.assertIn("write 18 0000001A", lines)  # POSITION_BITS
+
+    def test_regs_names_registers_and_channels(self):
+        scenario = self.path(channel(1, keys="delay_ns = 35\n", slave="data = 0x37\n") +
+                             channel(3, keys="delay_ns = 435\n", slave="data = 0x87\n"))
+        got = json.loads(run("regs", scenario, "--frames", "1", "--json").stdout)
+        values = {field["name"]: field["value"] for field in got["fields"]}
+        expected = {"MA_DIVIDER": 5, "POSITION_BITS": 26, "CHANNEL_ENABLE": 0b101,
+                    "SINGLE_POINT_VALID": 0b101, "SINGLE_POINT_DATA[0]": 0xD,
+                    "SINGLE_POINT_DATA[2]": 0x21}
+        self.assertEqual({name: values[name] for name in expected}, expected)
+        self.assertAlmostEqual(values["LINE_DELAY[0]"], 3, delta=1)  # clocks of 10 ns
+        self.assertAlmostEqual(values["LINE_DELAY[2]"], 43, delta=1)
+        self.assertEqual(len(got["registers"]), 16)
+        result = run("regs", scenario)
+        self.assertRegex(result.stdout, r"(?m)^0x14  0x00000005  MA_DIVIDER +7:0 +0x00000005  MA is ")
+        got = json.loads(run("regs", scenario, "--reset", "--json").stdout)
+        self.assertFalse(any(got["registers"]))
+
+    def test_sweep_takes_codes_of_ma_divider(self):
+        scenario = self.path(channel(1) + channel(2))
+        result = run("sweep", scenario, "--delays", "0,400", "--jitters", "0,20", "--freqs", "5,50",
+                     "--frames", "3", "--csv", str(self.folder / "s.csv"))
+        self.assertEqual((result.returncode, result.stderr), (0, ""))
+        self.assertIn("MA_DIVIDER 0x05: MA 10000 kHz, T_MA 100 ns", result.stdout)
+        self.assertIn("words 48, flagged 0, wrong but delivered 0; jitter up to 25 %: all good",
+                      result.stdout)
+        lines = (self.folder / "s.csv").read_text(encoding="utf-8").splitlines()
+        self.assertEqual(lines[0], "ma_divider,ma_hz,delay_ns,jitter_percent,words,flagged,wrong")
+        self.assertEqual(lines[1], "5,10000000,0,0,6,0,0")
+        self.assertEqual(len(lines), 9)
+        for code in ("0", "4", "7"):  # 0 Hz, 12.5 MHz, no whole number
+            result = run("sweep", scenario, "--freqs", code)
+            self.assertEqual(result.returncode, 2, code)
+            self.assertRegex(result.stderr, f"--freqs: .*MA_DIVIDER.* {code}$")
+
+    def test_plot_draws_a_frame_of_any_channel(self):
+        scenario = self.path(channel(1) + channel(6, slave="data = 0x1234567\n"))
+        result = run("plot", scenario, "--channel", "6")
+        self.assertEqual((result.returncode, result.stderr), (0, ""))
+        self.assertIn("Frame 1 of channel 6", result.stdout)
+        result = run("plot", scenario, "--channel", "2")
+        self.assertEqual(result.returncode, 2)
+        self.assertIn("no slave on channel 2", result.stderr)
+
+    def test_regress_counts_the_frames(self):
+        scenario = self.path(channel(1, slave=ramp(0)))
+        result = run("regress", scenario, "--seeds", "2", "--frames", "5", "--jobs", "1")
+        self.assertEqual((result.returncode, result.stderr), (0, ""))
+        self.assertIn("runs 2, failed 0", result.stdout)
+
+    def test_what_the_master_does_not_have_is_one_clear_error(self):
+        scenario = self.path(channel(1))
+        chip = "key 'type': this needs the iC-MB4, not \"axi\""
+        cases = ((["spi", scenario], chip), (["scan", scenario], chip),
+                 (["bridge", "--tcp", "0", scenario], chip),
+                 (["plot", scenario, "--read", "0x44"], "\"axi\" makes no control frames"),
+                 (["run", scenario, "--trace", str(self.folder / "x.fst")],
+                  "--trace: the master \"axi\" writes no waveform"),
+                 (["regress", scenario, "--cover", str(self.folder / "x")],
+                  "--cover: .*: there are no points for the master \"axi\""))
+        for command, message in cases:
+            result = run(*command)
+            self.assertEqual((result.returncode, result.stdout), (2, ""), command)
+            self.assertRegex(result.stderr, f"^mb4sim: .*{message}\n$")
+        self.assertEqual(list(self.folder.iterdir()), [Path(scenario)])  # nothing was written
+
+    def test_scenarios_that_the_driver_does_not_take_name_the_key(self):
+        def slave(keys, bits=28):
+            return ('[[channel]]\nnumber = 1\n[[channel.slave]]\nprotocol = "biss-c"\n'
+                    f"data_bits = {bits}\n{keys}")
+        cases = (("", "channel", "there is no slave"),
+                 ("[[channel]]\nnumber = 1\n", "slave", "there is no slave"),
+                 (slave("", 40), "data_bits", "3 to 34"),
+                 (slave("crc = 0x25\n"), "crc", "CRC 0x43"),
+                 (slave("crc_start = 1\n"), "crc_start", "start value 0"),
+                 (slave("flag_bits = 0\n"), "flag_bits", "2 flags"),
+                 (channel(1) + channel(2, bits=20), "data_bits", "one length"),
+                 (slave("").replace("biss-c", "ssi"), "protocol", "BiSS C only"),
+                 ("[chip.quirks]\nENABLE_ACTIVE_LOW = true\n" + channel(1), "quirks",
+                  "ENABLE_ACTIVE_LOW"))
+        for text, key, message in cases:
+            scenario = self.path(text)
+            for command in ("run", "plot", "sweep", "regress", "regs"):
+                result = run(command, scenario)
+                with self.subTest(command=command, text=text):
+                    self.assertEqual((result.returncode, result.stdout), (2, ""))
+                    self.assertRegex(result.stderr,
+                                     rf"^mb4sim: {re.escape(scenario)}(:\d+:\d+)?: key '{key}': .*{message}.*\n$")
+        clock = self.folder / "clock.toml"
+        clock.write_text(HEAD.replace("100_000_000", "0") + channel(1), encoding="utf-8")
+        self.assertRegex(run("run", str(clock)).stderr, "key 'f_clk_hz'")
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1])

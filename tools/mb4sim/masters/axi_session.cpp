@@ -1,0 +1,225 @@
+// SPDX-FileCopyrightText: 2026 The openmb4 authors
+// SPDX-License-Identifier: Apache-2.0
+#include "masters/axi_session.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <array>
+
+#include "axi_regs_table.hpp"
+#include "biss_axi/device.hpp"
+#include "masters/axi_port.hpp"
+#include "sim_clock.hpp"
+
+namespace mb4::tool {
+namespace {
+
+namespace regs = biss_axi::regs;
+
+constexpr unsigned kFlagBits = 2;  // nE and nW
+constexpr unsigned kCrcBits = 6;
+constexpr std::uint32_t kNoAcknowledge = regs::LINE_DELAY::kMax;
+
+// Words of one channel, which the index register chooses.
+constexpr bool of_channel(unsigned address) {
+  return address == regs::kAddrReceivedCrc || address == regs::kAddrCalculatedCrc ||
+         address == regs::kAddrSinglePointData || address == regs::kAddrLineDelay;
+}
+
+std::string describe(const biss_axi::ErrorInfo& error) {
+  switch (error.code) {
+    case biss_axi::Error::kNone:
+      return "";
+    case biss_axi::Error::kBus:
+      return "AXI: no answer, or an error answer";
+    case biss_axi::Error::kTimeout:
+    case biss_axi::Error::kNoData:
+      return "no good word";
+    default:
+      return "invalid configuration";
+  }
+}
+
+void check_slave(const sim::Scenario& scenario, const sim::SlaveConfig& slave, unsigned bits) {
+  if (slave.traits().protocol.key != "biss-c") {
+    fail_at(scenario, slave.source, "protocol", "the master reads BiSS C only");
+  }
+  if (slave.crc().polynomial != 0x43 || slave.crc().start != 0) {
+    fail_at(scenario, slave.source, slave.crc().polynomial != 0x43 ? "crc" : "crc_start",
+            "the master checks CRC 0x43 with start value 0 only");
+  }
+  if (slave.flag_bits() != kFlagBits) {
+    fail_at(
+        scenario, slave.source, "flag_bits",
+        fmt::format("the master takes {} flags, nE and nW, not {}", kFlagBits, slave.flag_bits()));
+  }
+  if (slave.data_bits() != bits) {
+    fail_at(scenario, slave.source, "data_bits",
+            fmt::format("{}, but {} in the first channel: the master reads all channels with one "
+                        "length",
+                        slave.data_bits(), bits));
+  }
+}
+
+biss_axi::Config make_config(const sim::Scenario& scenario) {
+  require_slaves(scenario);
+  constexpr unsigned kSwitchesOfDriver = 1;  // VALID_UNTIL_REQUEST: the driver takes both
+  if ((scenario.chip.quirks & ~kSwitchesOfDriver) != 0) {
+    fail_at(scenario, scenario.chip.source, "quirks",
+            "the driver knows neither ENABLE_ACTIVE_LOW nor CRC_BIT_IGNORES");
+  }
+  const sim::SlaveConfig& first = scenario.channels.front().slaves.front();
+  biss_axi::Config config;
+  config.f_clk_hz = static_cast<std::uint32_t>(scenario.chip.f_clk_hz);
+  config.ma_hz = static_cast<std::uint32_t>(scenario.host.ma_hz);
+  config.channels = 0;
+  for (const sim::ChannelConfig& channel : scenario.channels) {
+    config.channels |= 1U << (channel.number - 1);
+    check_slave(scenario, channel.slaves.front(), first.data_bits());
+  }
+  config.position_bits = static_cast<std::uint8_t>(first.data_bits() - kFlagBits);
+  switch (biss_axi::validate(config).field) {
+    case biss_axi::Field::kClkHz:
+      fail_at(scenario, scenario.chip.source, "f_clk_hz",
+              fmt::format("{} is outside what the driver takes, 1 kHz to 1 GHz", config.f_clk_hz));
+    case biss_axi::Field::kMaHz:
+      fail_at(scenario, scenario.host.source, "ma_hz",
+              fmt::format("the driver cannot make exactly {} Hz from {} Hz", config.ma_hz,
+                          config.f_clk_hz));
+    case biss_axi::Field::kPositionBits:
+      fail_at(
+          scenario, first.source, "data_bits",
+          fmt::format("the master takes 3 to 34, position and flags, not {}", first.data_bits()));
+    default:
+      return config;
+  }
+}
+
+class AxiSession final : public Session {
+ public:
+  AxiSession(const sim::Scenario& scenario, const SessionOptions& options)
+      : Session(scenario, options),
+        port_(simulator_, log()),
+        clock_(simulator_),
+        device_(port_, clock_) {}
+
+  std::string configure() override {
+    config_ = make_config(simulator_.scenario());
+    return describe(device_.configure(config_).info());
+  }
+  SessionFrame read(std::uint64_t number) override;
+  RegisterMap registers() override;
+
+ private:
+  SlaveResult result_of(unsigned channel, bool good);
+  std::optional<bool> flag(const char* pin) const;
+
+  biss_axi::Config config_;
+  AxiPort port_;
+  SimClock clock_;
+  biss_axi::Device<AxiPort, SimClock> device_;
+};
+
+// Pins error and warn are the AND of nE and of nW of all channels: a 0 belongs to a channel only if
+// there is one.
+std::optional<bool> AxiSession::flag(const char* pin) const {
+  const bool level = simulator_.pin(*simulator_.pin_by_name(pin));
+  if (!level && slaves_.size() > 1) return std::nullopt;
+  return level;
+}
+
+SlaveResult AxiSession::result_of(unsigned channel, bool good) {
+  const auto received = biss_axi::channel_word(port_, channel, regs::kAddrReceivedCrc);
+  if (!received) return {std::nullopt, describe(received.info())};
+  if (good) {
+    const auto position = device_.position(channel);
+    if (!position) return {std::nullopt, describe(position.info())};
+    Word word;
+    word.bits = *position;
+    word.data_bits = config_.position_bits;
+    word.n_error = flag("error");
+    word.n_warning = flag("warn");
+    word.crc = ~*received & ((1U << kCrcBits) - 1);
+    return {word, ""};
+  }
+  // The request has cleared these words.
+  const auto delay = device_.line_delay(channel);
+  const auto calculated = biss_axi::channel_word(port_, channel, regs::kAddrCalculatedCrc);
+  if (!delay || !calculated) return {std::nullopt, describe(biss_axi::Error::kBus)};
+  if (*delay == kNoAcknowledge) return {std::nullopt, "no acknowledge"};
+  if (*received != *calculated) return {std::nullopt, "CRC error"};
+  return {std::nullopt, "no start bit, or SLO was 0 at the start"};
+}
+
+SessionFrame AxiSession::read(std::uint64_t number) {
+  SessionFrame out;
+  out.number = number;
+  out.begin = simulator_.now();
+  const auto good = device_.read_all();
+  out.error = describe(good.info());
+  for (const ConnectedSlave& slave : slaves_) {
+    const unsigned channel = slave.channel - 1;
+    out.results.push_back(good ? result_of(channel, (*good >> channel & 1U) != 0)
+                               : SlaveResult{std::nullopt, out.error});
+    out.sent.push_back(simulator_.slave(slave.number)->sent_word());
+    if (out.sent.back()) *out.sent.back() >>= kFlagBits;
+  }
+  out.end = simulator_.now();
+  return out;
+}
+
+RegisterMap AxiSession::registers() {
+  RegisterMap map;
+  map.bits = 32;
+  const auto read = [this](unsigned address) {
+    std::uint32_t value = 0;
+    port_.read(address, value);
+    return value;
+  };
+  const std::uint32_t index = read(regs::kAddrChannelIndex);
+  for (unsigned address = 0; address <= regs::kAddrLineDelay; address += sizeof(std::uint32_t)) {
+    map.words.push_back(read(address));
+  }
+  for (const regs::FieldInfo& field : regs::kFields) {
+    RegisterMap::Field shown{
+        field.name,  field.alternate == nullptr ? "" : field.alternate, field.address,    field.lsb,
+        field.width, map.words[field.address / sizeof(std::uint32_t)],  field.description};
+    if (!of_channel(field.address)) {
+      map.fields.push_back(shown);
+      continue;
+    }
+    for (const ConnectedSlave& slave : slaves_) {
+      port_.write(regs::kAddrChannelIndex, slave.channel - 1);
+      shown.name = fmt::format("{}[{}]", field.name, slave.channel - 1);
+      shown.word = read(field.address);
+      map.fields.push_back(shown);
+    }
+  }
+  port_.write(regs::kAddrChannelIndex, index);
+  return map;
+}
+
+unsigned ma_divider(std::uint64_t clk_hz, unsigned code) {
+  const unsigned period = 2 * code;
+  constexpr std::uint64_t kMostMaHz = 10'000'000;
+  return code != 0 && clk_hz % period == 0 && clk_hz / period <= kMostMaHz ? period : 0;
+}
+
+}  // namespace
+
+const MasterSupport kAxiSupport{
+    .type = "axi",
+    .check = [](const sim::Scenario& scenario) { make_config(scenario); },
+    .open = [](const sim::Scenario& scenario, const SessionOptions& options)
+        -> std::unique_ptr<Session> { return std::make_unique<AxiSession>(scenario, options); },
+    .ma = {.name = "MA_DIVIDER",
+           .most = regs::MA_DIVIDER::kMax,
+           .refuses =
+               "MA is the clock divided by twice MA_DIVIDER, exactly and at most 10 MHz; not",
+           .divider = ma_divider},
+    .jitter_item = "",
+    .control = false,
+    .coverage = false};
+
+}  // namespace mb4::tool

@@ -1,0 +1,69 @@
+// SPDX-FileCopyrightText: 2026 The openmb4 authors
+// SPDX-License-Identifier: Apache-2.0
+#include "masters/axi_workload.hpp"
+
+#include <fmt/core.h>
+
+#include <stdexcept>
+#include <string>
+
+#include "biss_axi/device.hpp"
+#include "masters/axi_port.hpp"
+#include "mb4sim/simulator.hpp"
+#include "sim/scenario/scenario.hpp"
+#include "sim_clock.hpp"
+
+namespace mb4::tool {
+namespace {
+
+std::string scenario_of(unsigned channels) {
+  std::string text = "[master]\ntype = \"axi\"\n[chip]\nf_clk_hz = 100_000_000\n";
+  for (unsigned number = 1; number <= channels; ++number) {
+    text += fmt::format(
+        "[[channel]]\nnumber = {}\ncable_m = {}.0\n[[channel.slave]]\nprotocol = \"biss-c\"\n"
+        "data_bits = 28\nsource = \"ramp\"\n",
+        number, 5 * number);
+  }
+  return text;
+}
+
+class AxiFrames final : public Workload {
+ public:
+  explicit AxiFrames(unsigned channels)
+      : simulator_(sim::parse_scenario(scenario_of(channels), "workload")) {
+    constexpr sim::Time kUntilFrames = 100 * sim::kPsPerUs;
+    AxiPort port(simulator_);
+    SimClock clock(simulator_);
+    biss_axi::Device device(port, clock);
+    biss_axi::Config config;
+    config.channels = (1U << channels) - 1U;
+    config.start = biss_axi::Start::kInternalClock;
+    config.sample_hz = 1'000'000;
+    if (!device.configure(config)) throw std::runtime_error("workload: configuration");
+    simulator_.advance(kUntilFrames);
+    if (count().frames == 0) throw std::runtime_error("workload: there are no frames");
+  }
+
+  void run(sim::Time duration) override { simulator_.advance(duration); }
+
+  WorkCount count() const override {
+    WorkCount count;
+    count.clocks = simulator_.clk_cycles();
+    count.time = simulator_.now();
+    for (unsigned number = 1; number <= simulator_.scenario().channels.size(); ++number) {
+      count.frames += simulator_.slave(number)->frames();
+    }
+    return count;
+  }
+
+ private:
+  sim::Simulator simulator_;
+};
+
+}  // namespace
+
+std::unique_ptr<Workload> make_axi_workload(unsigned channels) {
+  return std::make_unique<AxiFrames>(channels);
+}
+
+}  // namespace mb4::tool

@@ -1,0 +1,25 @@
+// SPDX-FileCopyrightText: 2026 The openmb4 authors
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/core.h>
+
+#include "masters/axi_session.hpp"
+#include "masters/mb4_session.hpp"
+#include "sim/masters/master.hpp"
+
+namespace mb4::tool {
+namespace {
+
+// The only list of the masters that the commands know.
+constexpr const MasterSupport* kAll[] = {&kMb4Support, &kAxiSupport};
+
+}  // namespace
+
+const MasterSupport& support_of(const sim::Scenario& scenario) {
+  for (const MasterSupport* each : kAll) {
+    if (each->type == scenario.master->type) return *each;
+  }
+  throw sim::ScenarioError(scenario.name, {}, "type",
+                           fmt::format("mb4sim cannot configure \"{}\"", scenario.master->type));
+}
+
+}  // namespace mb4::tool
