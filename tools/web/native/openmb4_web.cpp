@@ -75,16 +75,19 @@ void keep_frame(void*, const mb4sim_frame* frame) { frames.push_back(*frame); }
 
 extern "C" {
 
-// The encoders that are known by name, and their data bits: 0 where a scenario must give them.
+// The encoders that are known by name: [{name, description, protocol, start_bit, control: there is
+// CDS, data_bits: 0 where a scenario must give them, flag_bits, crc_bits}].
 EMSCRIPTEN_KEEPALIVE const char* web_presets() {
+  using mb4::sim::json_text;
   std::string text;
   for (const mb4::sim::Preset& preset : mb4::sim::presets()) {
+    const mb4::sim::DeviceTraits traits = preset.device->traits();
     text += fmt::format(
-        "{}{{\"name\":{},\"description\":{},\"protocol\":{},\"data_bits\":{},\"flag_bits\":{}}}",
-        text.empty() ? "" : ",", mb4::sim::json_text(preset.name),
-        mb4::sim::json_text(preset.description),
-        mb4::sim::json_text(preset.device->traits().protocol.key), preset.device->data_bits,
-        preset.device->flag_bits);
+        "{}{{\"name\":{},\"description\":{},\"protocol\":{},\"start_bit\":{},\"control\":{},"
+        "\"data_bits\":{},\"flag_bits\":{},\"crc_bits\":{}}}",
+        text.empty() ? "" : ",", json_text(preset.name), json_text(preset.description),
+        json_text(traits.protocol.key), traits.protocol.start_bit, traits.protocol.control,
+        preset.device->data_bits, preset.device->flag_bits, preset.device->crc.width());
   }
   return tell("[" + text + "]");
 }
