@@ -168,10 +168,10 @@ enum {
 typedef void (*mb4sim_edge_callback)(void *context, unsigned channel, unsigned place,
                                      uint64_t time_ps, int level);
 
-/* From now on `callback` is called at every edge of the lines of the scenario, inside the call that
- * lets time pass; inside this call already with the present level of every place. NULL ends it. Several
- * edges may have the same time; those of one place alternate. Returns 0 or a negative error. The
- * callback must not do what that of mb4sim_on_frame() must not. */
+/* From now on `callback` is called at every edge of the scenario's lines, inside the call that lets
+ * time pass. This call itself tells the present level of every place. NULL ends it. Several edges
+ * may have the same time; those of one place alternate. Returns 0 or a negative error. The callback
+ * must not do what that of mb4sim_on_frame() must not. */
 MB4SIM_API int mb4sim_on_edge(mb4sim *sim, mb4sim_edge_callback callback, void *context);
 
 /* Writes what has gone wrong so far as JSON to `json`, cut to `size` bytes with the terminating 0:

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 The openmb4 authors
 # SPDX-License-Identifier: Apache-2.0
-"""Runs the tests of the page: run.py PACKAGE PAGE. Exit status 77: what they need is missing."""
+"""Runs the tests of the page: run.py PACKAGE PAGE [ARGUMENT of pytest...]. Exit status 77: what they need is missing."""
 
 import importlib.util
 import os
@@ -27,7 +27,8 @@ def main() -> int:
     import pytest
     sys.path.insert(0, str(package))
     os.environ["MB4_WEB_PAGE"] = str(page.resolve())
-    return pytest.main(["-q", "-p", "no:cacheprovider", str(Path(__file__).parent / "page_test.py")])
+    return pytest.main(["-q", "-p", "no:cacheprovider", str(Path(__file__).parent / "page_test.py"),
+                        *sys.argv[3:]])
 
 
 if __name__ == "__main__":

@@ -71,8 +71,8 @@ class Chip {
   // Edges and frames since the last call: [{time, place, level}] of channel 1, and web_frames().
   taken() {
     const count = this.number("web_edge_count");
-    const numbers = new Float64Array(this.module.HEAPU8.buffer, this.number("web_edges"),
-                                     4 * count);
+    const first = this.number("web_edges");
+    const numbers = new Float64Array(this.module.HEAPU8.buffer, first, 4 * count);
     const edges = [];
     for (let i = 0; i < numbers.length; i += 4) {
       if (numbers[i + 1] === 1) {

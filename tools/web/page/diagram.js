@@ -110,7 +110,7 @@ class Diagram {
       context.fillRect(x(end), TOP, 2, BOTTOM - TOP);
     }
     context.textAlign = "start";
-    if (picture.title) {
+    if (this.until >= picture.to) {
       context.fillStyle = colour(picture.good ? "--text" : "--bad");
       context.fillText(picture.title, LEFT, 10);
     }

@@ -7,7 +7,6 @@
 const CLK_HZ = 20_000_000, SCLK_HZ = 10_000_000, NS_PER_M = 5.3;
 const MAX_POINTS = 1000, TABLE_ROWS = 8, LOG_LINES = 50;
 const BUDGET_MS = 12, REFRESH_MS = 250;
-const MA = 0, SL = 2, SLO = 3;  // MB4SIM_EDGE_...
 const TITLES = {"biss-c": "BiSS C", "biss-b": "BiSS B", ssi: "SSI"};
 
 const $ = (id) => document.getElementById(id);
@@ -34,7 +33,7 @@ function problem(text) {
   $("problem").textContent = text;
 }
 
-// A line for the user; a problem also stops a run.
+// A line for the user.
 function say(text, bad) {
   $("said").textContent = text;
   $("said").classList.toggle("bad", Boolean(bad));
@@ -86,7 +85,8 @@ function showControls(setup) {
 }
 
 function fragment(setup) {
-  return "#" + new URLSearchParams(setup);
+  const {bits, ...rest} = setup;
+  return "#" + new URLSearchParams(presets.get(setup.encoder).data_bits === 0 ? {...rest, bits} : rest);
 }
 
 // The set-up of a link; what it does not name is as in `otherwise`. Throws for what the page does
@@ -128,6 +128,7 @@ function open(wanted) {
   $("link").value = location.href;
   $("frames").replaceChildren();
   $("spi-log").textContent = "";
+  $("rate").textContent = "–";
   points = {time: [], position: [], bad: []};
   say("");
   try {
@@ -168,7 +169,7 @@ function readFrame() {
   const picture = {
     edges, before, good, zero: frame.start_ns, from: frame.start_ns - margin, to: seen + 2 * margin,
     brackets: brackets(edges, frame, encoder, encoder.data_bits, roundTrip),
-    title: good ? `slave 1: ${hex(BigInt(word.raw), Math.ceil(encoder.data_bits / 4))}` : `slave 1: ${word.text || row.text}`};
+    title: good ? `raw word ${hex(BigInt(word.raw), Math.ceil(encoder.data_bits / 4))}` : `no word: ${word.text || row.text}`};
   return {row, word, good, picture};
 }
 
@@ -282,7 +283,6 @@ function setRunning(on) {
   running = on;
   $("run").textContent = on ? "Stop" : "Run";
   $("step").disabled = on;
-  $("rate").textContent = "–";
   if (on) {
     say("");
     rate = {since: performance.now(), clocks: chip.clocks};
@@ -410,11 +410,12 @@ function makePlot() {
     getComputedStyle(document.documentElement).getPropertyValue(name).trim();
   const axis = {stroke: colour("--text"), grid: {stroke: colour("--faint"), width: 1},
                 ticks: {stroke: colour("--faint"), width: 1}};
+  const short = new Intl.NumberFormat("en", {notation: "compact", maximumSignificantDigits: 5});
   const size = () => ({width: $("plot").clientWidth, height: 240});
   plot = new uPlot({
     ...size(),
     scales: {x: {time: false}},
-    axes: [{...axis, label: "simulated time, ms", labelSize: 20}, {...axis, size: 96}],
+    axes: [{...axis, label: "simulated time, ms", labelSize: 20}, {...axis, size: 64, values: (_, all) => all.map((value) => short.format(value))}],
     series: [{label: "ms"},
              {label: "position", stroke: colour("--row1"), width: 1.5, points: {show: (_, __, from, to) => to - from < 60}},
              {label: "bad frame", stroke: colour("--bad"), paths: () => null,
@@ -453,7 +454,8 @@ async function begin() {
   for (const preset of presets.values()) {
     const title = TITLES[preset.protocol] ?? preset.protocol;
     if (!groups.has(title)) groups.set(title, html("optgroup", {label: title}));
-    groups.get(title).append(html("option", {value: preset.name, textContent: preset.description}));
+    groups.get(title).append(html("option", {value: preset.name, 
+                                           textContent: preset.description.replace(/, give data_bits$/, "")}));
   }
   $("encoder").append(...groups.values());
   for (const hz of chip.frequencies(CLK_HZ)) {
