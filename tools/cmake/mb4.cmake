@@ -117,6 +117,8 @@ function(mb4_verilated_library target)
     ${VERILATOR_ROOT}/include ${VERILATOR_ROOT}/include/vltstd)
 endfunction()
 
+set(MB4_TRACE ON)  # the simulator can write waveform files
+set(MB4_AXI ON)    # the simulator has the master on AXI
 if(EMSCRIPTEN)
   include(${CMAKE_CURRENT_LIST_DIR}/emscripten.cmake)
 endif()

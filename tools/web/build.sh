@@ -3,7 +3,8 @@
 # SPDX-License-Identifier: Apache-2.0
 #
 # Builds the page build/web/openmb4.html and prints its size. Usage: tools/web/build.sh [FOLDER]
-# `tools/setup.sh web` installs what it needs. The first build takes minutes.
+# `tools/setup.sh web` installs what it needs. The first build takes minutes. Exit status 3: npm
+# cannot fetch the package that the page needs.
 set -euo pipefail
 
 root=$(cd "$(dirname "$0")/../.." && pwd)
@@ -17,7 +18,7 @@ mkdir -p "$folder"
 export NODE_PATH=/usr/share/nodejs${NODE_PATH:+:$NODE_PATH}
 if [ ! -f "$folder/build.ninja" ]; then
   emcmake cmake -S "$root" -B "$folder" -G Ninja -Wno-dev -DCMAKE_BUILD_TYPE=Release \
-    -DMB4_TRACE=OFF -DMB4_AXI=OFF -DMB4_WERROR=OFF >"$folder/configure.log" 2>&1 ||
+    -DMB4_WERROR=OFF >"$folder/configure.log" 2>&1 ||
     { cat "$folder/configure.log" >&2; exit 1; }
 fi
 cmake --build "$folder" --target openmb4_web -- --quiet
@@ -27,7 +28,8 @@ if ! cmp -s "$root/tools/web/package-lock.json" "$folder/package-lock.json"; the
   (cd "$folder" && cp "$root/tools/web/package-lock.json" new-lock.json &&
     mv new-lock.json package-lock.json &&
     npm ci --ignore-scripts --no-audit --no-fund --loglevel=error) >&2 ||
-    { rm -f "$folder/package-lock.json"; exit 1; }
+    { rm -f "$folder/package-lock.json"
+      echo "web: npm cannot fetch what tools/web/package-lock.json names" >&2; exit 3; }
 fi
 python3 -B "$root/tools/web/page.py" "$folder/bin/openmb4.js" "$folder/bin/openmb4.wasm" \
   "$folder/node_modules/uplot" "$folder/openmb4.html"
