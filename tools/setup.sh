@@ -2,10 +2,11 @@
 # SPDX-FileCopyrightText: 2026 The openmb4 authors
 # SPDX-License-Identifier: Apache-2.0
 #
-# Installs the Debian 12 packages that are missing. Usage: tools/setup.sh [demo|test|python]
+# Installs the Debian 12 packages that are missing. Usage: tools/setup.sh [demo|test|python|web]
 #   demo    what the build and the command line need (default)
 #   test    that, and what the tests use besides
 #   python  what `pip install tools/python` needs
+#   web     what tools/web/build.sh and the test of its page need; a node that brings npm is kept
 set -euo pipefail
 
 demo_packages=(
@@ -25,12 +26,21 @@ python_packages=(
   cmake g++ libfmt-dev libtomlplusplus-dev ninja-build python3 python3-pip python3-venv verilator zlib1g-dev
 )
 
+web_packages=(
+  ca-certificates ccache chromium chromium-driver cmake emscripten libfast-float-dev libfmt-dev
+  libtomlplusplus-dev ninja-build nodejs python3 python3-cffi python3-numpy python3-pytest python3-selenium
+  python3-tqdm verilator
+)
+# Other nodes than Debian's hold npm themselves, and Debian's npm does not go with them.
+command -v npm >/dev/null || web_packages+=(npm)
+
 case "${1:-demo}" in
   demo) packages=("${demo_packages[@]}") ;;
   test) packages=("${demo_packages[@]}" "${test_packages[@]}") ;;
   python) packages=("${python_packages[@]}") ;;
+  web) packages=("${web_packages[@]}") ;;
   *)
-    echo "usage: tools/setup.sh [demo|test|python]" >&2
+    echo "usage: tools/setup.sh [demo|test|python|web]" >&2
     exit 2
     ;;
 esac

@@ -366,6 +366,20 @@ int mb4sim_on_frame(mb4sim* sim, mb4sim_frame_callback callback, void* context) 
   });
 }
 
+int mb4sim_on_edge(mb4sim* sim, mb4sim_edge_callback callback, void* context) {
+  return guarded(sim, [&](Simulator&) {
+    if (callback == nullptr) {
+      if (sim->frames != nullptr) sim->frames->set_edges({});
+      return 0;
+    }
+    sim->watch().set_edges([callback, context](unsigned channel, mb4::sim::EdgePlace place,
+                                               mb4::sim::Time now, bool level) {
+      callback(context, channel, static_cast<unsigned>(place), now, level ? 1 : 0);
+    });
+    return 0;
+  });
+}
+
 int mb4sim_report(const mb4sim* sim, char* json, size_t size) {
   if (sim == nullptr) return MB4SIM_ERROR_UNKNOWN;
   try {

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sim/capi/frame_watch.hpp"
 
+#include <string>
+
 namespace mb4::sim {
 
 FrameWatch::FrameWatch(Simulator& simulator)
@@ -39,10 +41,44 @@ const std::vector<FaultStory>& FrameWatch::stories() {
   return stories_;
 }
 
-// The monitor has seen the edge before.
-void FrameWatch::on_edge(Time /*now*/, void* receiver, Line::Signal signal, bool /*level*/) {
-  if (signal != Line::Signal::kMa) return;
+void FrameWatch::set_edges(EdgeCallback callback) {
+  edges_ = std::move(callback);
+  for (const auto& channel : channels_) {
+    channel->line->set_probe(edges_ ? &FrameWatch::on_probe : nullptr, channel.get());
+    if (!edges_) continue;
+    const Time now = simulator_.now();
+    const std::string number = std::to_string(channel->number);
+    const auto pin = [&](const std::string& name, bool otherwise) {
+      const auto found = simulator_.pin_by_name(name + number);
+      return found ? simulator_.pin(*found) : otherwise;
+    };
+    channel->levels = {pin("MA", true), pin("MO", false), channel->line->sl(),
+                       channel->line->chain().slo()};
+    for (std::size_t place = 0; place < kEdgePlaces; ++place)
+      edges_(channel->number, static_cast<EdgePlace>(place), now, channel->levels[place]);
+  }
+}
+
+void FrameWatch::tell(Channel& channel, EdgePlace place, Time now, bool level) {
+  bool& told = channel.levels[static_cast<std::size_t>(place)];
+  if (told == level) return;
+  told = level;
+  edges_(channel.number, place, now, level);
+}
+
+void FrameWatch::on_probe(Time now, void* receiver) {
   auto& channel = *static_cast<Channel*>(receiver);
+  channel.watch->tell(channel, EdgePlace::kSlo, now, channel.line->chain().slo());
+}
+
+// The monitor has seen the edge before.
+void FrameWatch::on_edge(Time now, void* receiver, Line::Signal signal, bool level) {
+  auto& channel = *static_cast<Channel*>(receiver);
+  if (channel.watch->edges_) {
+    constexpr EdgePlace kPlaces[] = {EdgePlace::kMa, EdgePlace::kMo, EdgePlace::kSl};
+    channel.watch->tell(channel, kPlaces[static_cast<std::size_t>(signal)], now, level);
+  }
+  if (signal != Line::Signal::kMa) return;
   const std::uint64_t frames = channel.line->monitor().frames();
   if (frames != channel.begun) channel.watch->take_ner();
   channel.begun = frames;

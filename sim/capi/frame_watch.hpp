@@ -1,13 +1,14 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Tells the end of every frame on the lines of a simulator, and counts for each fault the frames
-// that it touched. A frame is over when MA has rested for 1.5 periods (MaMonitor). The master tells
-// its errors later: at EOT = 1, or when the next frame starts. The watch takes the tap of each line
-// and the simulator's observer.
+// Tells the end of every frame on the lines of a simulator, and if asked every edge; counts for
+// each fault the frames that it touched. A frame is over when MA has rested for 1.5 periods
+// (MaMonitor). The master tells its errors later: at EOT = 1, or when the next frame starts. The
+// watch takes the tap of each line, the simulator's observer, and for edges the probe of each line.
 #ifndef MB4SIM_FRAME_WATCH_HPP_
 #define MB4SIM_FRAME_WATCH_HPP_
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -35,9 +36,15 @@ struct FaultStory {
   std::uint64_t ner_low = 0;  // of these, with pin NER low after their end
 };
 
+// Where an edge is: at a pin of the master, or SLO of the slave next to SL, at its end of the
+// cable.
+enum class EdgePlace : unsigned { kMa, kMo, kSl, kSlo };
+constexpr std::size_t kEdgePlaces = 4;
+
 class FrameWatch final : private PinObserver {
  public:
   using Callback = std::function<void(const SeenFrame& frame)>;
+  using EdgeCallback = std::function<void(unsigned channel, EdgePlace place, Time now, bool level)>;
 
   // The simulator must outlive the watch, and must not run any more when the watch has gone.
   explicit FrameWatch(Simulator& simulator);
@@ -47,6 +54,9 @@ class FrameWatch final : private PinObserver {
 
   // Is called for every frame; an empty one is not.
   void set_callback(Callback callback) { callback_ = std::move(callback); }
+  // Is called for the present level of every place at once, and then for every change. An empty one
+  // is not.
+  void set_edges(EdgeCallback callback);
   // In the order of Simulator::faults().
   const std::vector<FaultStory>& stories();
 
@@ -59,11 +69,14 @@ class FrameWatch final : private PinObserver {
     std::uint64_t begun = 0;  // frames that have begun
     Time due = kNever;        // the next look
     std::size_t settled = 0;  // all faults before this one have ended before the running frame
+    std::array<bool, kEdgePlaces> levels{};  // that have been told
   };
 
   void pin_changed(Pin pin, bool level) override;
   void take_ner();
   static void on_edge(Time now, void* receiver, Line::Signal signal, bool level);
+  static void on_probe(Time now, void* receiver);
+  void tell(Channel& channel, EdgePlace place, Time now, bool level);
   void plan(Channel& channel);
   void look(Channel& channel);
   bool touched(Channel& channel, const MaFrame& frame);
@@ -72,6 +85,7 @@ class FrameWatch final : private PinObserver {
   std::optional<Pin> ner_;
   std::optional<Pin> eot_;
   Callback callback_;
+  EdgeCallback edges_;
   std::vector<std::unique_ptr<Channel>> channels_;
   std::vector<FaultStory> stories_;
   std::vector<std::size_t> waiting_;  // faults of frames after which NER has not been read

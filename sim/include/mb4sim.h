@@ -170,6 +170,25 @@ typedef void (*mb4sim_frame_callback)(void *context, const mb4sim_frame *frame);
  * MB4SIM_ERROR_CALLBACK in it, mb4sim_on_frame() too. */
 MB4SIM_API int mb4sim_on_frame(mb4sim *sim, mb4sim_frame_callback callback, void *context);
 
+/* Where an edge of a line is. */
+enum {
+  MB4SIM_EDGE_MA = 0, /* pins of the chip */
+  MB4SIM_EDGE_MO = 1,
+  MB4SIM_EDGE_SL = 2,
+  MB4SIM_EDGE_SLO = 3 /* output of the slave next to SL, at its end of the cable */
+};
+
+/* A line has a new level, 0 or 1, since `time_ps` picoseconds after power-on. `channel` is 1 or 2,
+ * `place` is MB4SIM_EDGE_... */
+typedef void (*mb4sim_edge_callback)(void *context, unsigned channel, unsigned place,
+                                     uint64_t time_ps, int level);
+
+/* From now on `callback` is called at every edge of the scenario's lines, inside the call that lets
+ * time pass. This call itself tells the present level of every place. NULL ends it. Several edges
+ * may have the same time; those of one place alternate. Returns 0 or a negative error. The callback
+ * must not do what that of mb4sim_on_frame() must not. */
+MB4SIM_API int mb4sim_on_edge(mb4sim *sim, mb4sim_edge_callback callback, void *context);
+
 /* Writes what has gone wrong so far as JSON to `json`, cut to `size` bytes with the terminating 0:
  *
  *   time_ns          now

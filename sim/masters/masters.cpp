@@ -8,7 +8,12 @@ namespace {
 
 // The only list of the masters of this library.
 std::vector<const Master*>& list() {
-  static std::vector<const Master*> all{&kMb4Master, &kAxiMaster};
+  static std::vector<const Master*> all{
+      &kMb4Master,
+#if MB4SIM_WITH_AXI
+      &kAxiMaster,
+#endif
+  };
   return all;
 }
 

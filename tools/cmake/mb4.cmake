@@ -117,6 +117,11 @@ function(mb4_verilated_library target)
     ${VERILATOR_ROOT}/include ${VERILATOR_ROOT}/include/vltstd)
 endfunction()
 
+set(MB4_TRACE ON)  # the simulator can write waveform files
+set(MB4_AXI ON)    # the simulator has the master on AXI
+if(EMSCRIPTEN)
+  include(${CMAKE_CURRENT_LIST_DIR}/emscripten.cmake)
+endif()
 # The cache keeps VERILATOR_ROOT of the environment, because CMake may configure again without it.
 if(DEFINED ENV{VERILATOR_ROOT})
   set(VERILATOR_ROOT $ENV{VERILATOR_ROOT} CACHE PATH "Folder of Verilator")

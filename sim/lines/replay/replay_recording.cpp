@@ -2,8 +2,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sim/lines/replay/replay_recording.hpp"
 
+#ifdef __EMSCRIPTEN__
+#include <fast_float/fast_float.h>
+#endif
+
 #include <charconv>
 #include <cmath>
+#include <type_traits>
 
 namespace mb4::sim {
 namespace {
@@ -23,8 +28,18 @@ std::vector<std::string_view> words_of(std::string_view line) {
 }
 
 template <typename T>
+auto read_number(const char* begin, const char* end, T& value) {
+#ifdef __EMSCRIPTEN__  // std::from_chars of its library takes whole numbers only
+  if constexpr (std::is_floating_point_v<T>)
+    return fast_float::from_chars(begin, end, value);
+  else
+#endif
+    return std::from_chars(begin, end, value);
+}
+
+template <typename T>
 bool parse_number(std::string_view word, T& value) {
-  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+  const auto [end, error] = read_number(word.data(), word.data() + word.size(), value);
   return error == std::errc() && end == word.data() + word.size();
 }
 

@@ -51,6 +51,7 @@ int main(void) {
       check(mb4sim_slave_reg_read(sim, 1, 0x44, &value) == 0 && value == 7, "slave_reg_read");
   failures += check(mb4sim_slave_frames(sim, 1) == 0, "slave_frames");
   failures += check(mb4sim_on_frame(sim, count_frame, &frames) == 0, "on_frame");
+  failures += check(mb4sim_on_edge(sim, NULL, NULL) == 0, "on_edge");
   failures += check(mb4sim_inject(sim, "[[fault]]\n", error, sizeof error) < 0, "inject");
   failures += check(mb4sim_slave_sent(sim, 1, 1, &raw) < 0, "slave_sent");
   failures += check(mb4sim_run_until(sim, "EOT", 0, 1000) == 0, "run_until");

@@ -276,6 +276,79 @@ TEST_F(CApiFirmware, OnFrame_TellsEveryCyclicFrameOnce) {
   }
 }
 
+struct Edge {
+  unsigned channel;
+  unsigned place;
+  uint64_t time_ps;
+  int level;
+};
+
+void keep_edge(void* context, unsigned channel, unsigned place, uint64_t time_ps, int level) {
+  static_cast<std::vector<Edge>*>(context)->push_back({channel, place, time_ps, level});
+}
+
+// The edges of a place of channel 1, behind its level when the recording began.
+std::vector<Edge> of_place(const std::vector<Edge>& edges, unsigned place) {
+  std::vector<Edge> found;
+  for (const Edge& edge : edges) {
+    if (edge.channel == 1 && edge.place == place) found.push_back(edge);
+  }
+  EXPECT_FALSE(found.empty());
+  return found;
+}
+
+TEST_F(CApiFirmware, OnEdge_TellsWhatThePinsShow) {
+  send({reg::kSpiOpcodeWriteInstruction, reg::kInstrCdm0});
+  std::vector<uint64_t> seen;  // as the pin shows it
+  for (int level = 0; mb4sim_run_until(sim, "MA1", level, 100'000) == 1; level = 1 - level)
+    seen.push_back(mb4sim_time_ns(sim));
+
+  mb4sim_advance_ns(sim, 60'000);
+  std::vector<Edge> edges;
+  ASSERT_EQ(mb4sim_on_edge(sim, &keep_edge, &edges), 0);
+  ASSERT_EQ(edges.size(), 8U);  // four places of two channels: their levels now
+  for (const Edge& edge : edges) {
+    EXPECT_EQ(edge.level, edge.place == MB4SIM_EDGE_MO ? 0 : 1);
+    EXPECT_EQ(edge.time_ps / 1000, mb4sim_time_ns(sim));
+  }
+  frame();
+  const std::vector<Edge> ma = of_place(edges, MB4SIM_EDGE_MA);
+  ASSERT_EQ(ma.size(), seen.size() + 1);
+  for (size_t i = 1; i < ma.size(); ++i) {
+    EXPECT_EQ(ma[i].level, 1 - ma[i - 1].level);
+    EXPECT_EQ(ma[i].time_ps / 1000 - ma[1].time_ps / 1000, seen[i - 1] - seen[0]);
+  }
+
+  ASSERT_EQ(mb4sim_on_edge(sim, nullptr, nullptr), 0);
+  const size_t before = edges.size();
+  frame();
+  EXPECT_EQ(edges.size(), before);
+  EXPECT_EQ(mb4sim_on_edge(nullptr, &keep_edge, &edges), MB4SIM_ERROR_UNKNOWN);
+}
+
+TEST_F(CApiFirmware, EdgesOfACable_ComeAfterHalfOfItsDelay) {
+  mb4sim_close(sim);
+  sim = mb4sim_open(
+      "[[channel]]\nnumber = 1\ndelay_ns = 100.001\n"
+      "[[channel.slave]]\nprotocol = \"biss-c\"\ndata_bits = 28\ndata = 0x1234567\n",
+      nullptr, 0);
+  ASSERT_NE(sim, nullptr);
+  configure();
+  std::vector<Edge> edges;
+  ASSERT_EQ(mb4sim_on_edge(sim, &keep_edge, &edges), 0);
+  frame();
+  const std::vector<Edge> sl = of_place(edges, MB4SIM_EDGE_SL);
+  const std::vector<Edge> slo = of_place(edges, MB4SIM_EDGE_SLO);
+  ASSERT_EQ(sl.size(), slo.size());
+  ASSERT_GT(sl.size(), 10U);
+  for (size_t i = 1; i < sl.size(); ++i) {
+    EXPECT_EQ(sl[i].level, slo[i].level);
+    EXPECT_EQ(sl[i].time_ps, slo[i].time_ps + 50'001);  // the odd picosecond is on the way back
+  }
+  // The acknowledge: the second rising edge of MA makes SLO 0.
+  EXPECT_EQ(slo[1].time_ps, of_place(edges, MB4SIM_EDGE_MA)[4].time_ps + 50'000);
+}
+
 TEST_F(CApiFirmware, CallsThatLetTimePass_AreRefusedInACallback) {
   Seen seen;
   seen.sim = sim;

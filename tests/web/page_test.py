@@ -1,0 +1,444 @@
+# SPDX-FileCopyrightText: 2026 The openmb4 authors
+# SPDX-License-Identifier: Apache-2.0
+"""The page in Chromium, without a network: every control, and its results against the native
+simulator (the Python package, which is on the C interface)."""
+
+import functools
+import http.server
+import os
+import threading
+import time
+from pathlib import Path
+
+import openmb4
+import pytest
+from selenium import webdriver
+from selenium.webdriver.chrome.service import Service
+from selenium.webdriver.common.keys import Keys
+from selenium.webdriver.support.ui import Select
+
+PAGE = Path(os.environ["MB4_WEB_PAGE"])
+ENOUGH_S = 60  # on a machine that is busy with other tests
+LINKS = ["", "#encoder=resolute-36&movement=ramp&cable=100&ma=5000000",
+         "#encoder=ic-mu&bits=20&movement=still&cable=0&ma=1000000",
+         "#encoder=ic-nq&movement=sine&cable=2&ma=2500000",
+         "#encoder=lika-amm36&bits=38&movement=ramp&cable=333.5&ma=10000000"]
+STATUS = (0xF0, 12)  # the group of registers that is read after each step
+
+
+class Browser:
+    """The page, by the ids of its elements."""
+
+    def __init__(self, driver, address):
+        self.driver, self.address = driver, address
+
+    def __getitem__(self, name):
+        return self.driver.find_element("id", name)
+
+    def run(self, script, *arguments):
+        return self.driver.execute_script(script, *arguments)
+
+    def text(self, name):
+        return self[name].text
+
+    def wait(self, script):
+        end = time.monotonic() + ENOUGH_S
+        while not (found := self.run(f"return {script}")):
+            assert time.monotonic() < end, script
+            time.sleep(0.02)
+        return found
+
+    def open(self, link=""):
+        self.driver.get("about:blank")
+        self.driver.get(self.address + link)
+        return int(self.wait("document.documentElement.dataset.firstFrameMs"))
+
+    def choose(self, name, value):
+        Select(self[name]).select_by_value(value)
+
+    def enter(self, name, text, key=Keys.ENTER):
+        self.run("arguments[0].scrollIntoView({block: 'center'}); arguments[0].select()", self[name])
+        self[name].send_keys(text, key)
+
+    def click(self, name):
+        self.run("arguments[0].scrollIntoView({block: 'center'})", self[name])
+        self[name].click()
+
+    def said(self):
+        return self.text("said")
+
+    def good(self):
+        return int(self.text("good"))
+
+    def frames(self):
+        """The table of the last frames, the oldest first."""
+        return self.run("return [...document.querySelectorAll('#frames tr')].map("
+                        "row => [...row.cells].map(cell => cell.textContent)).reverse()")
+
+    def errors(self):
+        return [entry for entry in self.driver.get_log("browser")
+                if entry["level"] in ("SEVERE", "WARNING")]
+
+
+@pytest.fixture(scope="session")
+def server():
+    class Quiet(http.server.SimpleHTTPRequestHandler):
+        def log_message(self, *_):
+            pass
+
+    handler = functools.partial(Quiet, directory=str(PAGE.parent))
+    with http.server.ThreadingHTTPServer(("127.0.0.1", 0), handler) as one:
+        threading.Thread(target=one.serve_forever, daemon=True).start()
+        yield f"http://127.0.0.1:{one.server_port}/{PAGE.name}"
+        one.shutdown()
+
+
+@pytest.fixture(scope="session")
+def driver(tmp_path_factory):
+    options = webdriver.ChromeOptions()
+    for argument in ("--headless=new", "--no-sandbox", "--disable-gpu", "--disable-dev-shm-usage",
+                     "--window-size=1200,900", f"--user-data-dir={tmp_path_factory.mktemp('profile')}",
+                     # No network but the test's own server.
+                     "--host-resolver-rules=MAP * ~NOTFOUND, EXCLUDE 127.0.0.1",
+                     "--disable-background-networking"):
+        options.add_argument(argument)
+    options.set_capability("goog:loggingPrefs", {"browser": "ALL"})
+    one = webdriver.Chrome(service=Service("/usr/bin/chromedriver"), options=options)
+    one.set_script_timeout(ENOUGH_S)
+    yield one
+    one.quit()
+
+
+@pytest.fixture
+def page(driver, server):
+    one = Browser(driver, server)
+    one.open()
+    yield one
+    assert one.errors() == []
+
+
+def native_frame(chip):
+    """A frame in the words of the page's table."""
+    row = chip.driver.read_all(1)[0]
+    frame = row["frame"]
+    cells = [f"{int(row['time_ns']) / 1000:.3f}", "1"]
+    if row["result"]["code"] or frame["code"][0]:
+        return cells
+    reading = frame["reading"][0]
+    return cells + [int(reading["raw"]), int(reading["position"]), int(not reading["error"]),
+                    int(not reading["warning"]), int(reading["crc"]), "ok"]
+
+
+def as_numbers(cells):
+    """A row of the page's table in the form of native_frame()."""
+    if cells[-1] != "ok":
+        assert cells[-1] != "" and cells[2:7] == [""] * 5, cells
+        return cells[:2]
+    return [cells[0], cells[1], int(cells[2], 16), int(cells[3]), int(cells[4]), int(cells[5]),
+            int(cells[6], 16), cells[7]]
+
+
+@pytest.mark.parametrize("link", LINKS)
+def test_frames_and_spi_answers_equal_the_native_simulator(page, link):
+    page.open(link)
+    assert page.run("return document.getElementById('problem').textContent") == ""
+    faults = [option.get_attribute("value") for option in Select(page["fault-kind"]).options]
+    good = 0
+    with openmb4.Simulator(page.run("return document.getElementById('scenario').textContent")) as chip:
+        chip.driver.configure()
+        assert [native_frame(chip)] == [as_numbers(row) for row in page.frames()]
+
+        for _ in range(5):
+            page.click("step")
+        assert [native_frame(chip) for _ in range(5)] == [as_numbers(row) for row in page.frames()[1:]]
+
+        # Registers are open from here on: after each action the page reads them.
+        page.run("document.querySelector('#register-groups details').open = true")
+        page.wait("document.getElementById('field-EOT')?.dataset.shown")
+        read_status = bytes([0x03, STATUS[0], *[0] * STATUS[1]])
+        status = chip.spi(read_status)[2:]
+
+        for kind in faults:
+            table = page.run("return faultTable(arguments[0])", kind)
+            said = page.run("$('fault-kind').value = arguments[0]; $('fault').click();"
+                            "const said = $('said').textContent;"
+                            "for (let i = 0; i < 3; ++i) $('step').click();"
+                            "return said", kind)
+            assert "in the next frame" in said
+            chip.inject(table)
+            expected = []
+            for _ in range(3):
+                expected.append(native_frame(chip))
+                status = chip.spi(read_status)[2:]
+            shown = [as_numbers(row) for row in page.frames()[-3:]]
+            assert shown == expected, kind
+            good += sum(len(row) > 2 for row in shown)
+            for name, address, bit in (("EOT", 0xF0, 0), ("nSCDERR", 0xF0, 4), ("CDMTIMEOUT", 0xF3, 7)):
+                value = status[address - STATUS[0]] >> bit & 1
+                assert page[f"field-{name}"].get_attribute("value") == str(value), kind
+        assert 0 < good < 3 * len(faults)  # faults were seen, and were over
+
+        for text in ("03 EA 00 00", "02 ED 01", "03 C0 " + "00 " * 32, "07 02", "05 00 00 00 00 00"):
+            page.run("document.getElementById('spi-log').textContent = ''")
+            page.enter("spi-bytes", text)
+            answer = chip.spi(bytes.fromhex(text))
+            assert page.run("return document.getElementById('spi-log').textContent").splitlines() == [
+                "> " + bytes.fromhex(text).hex(" ").upper(), "< " + answer.hex(" ").upper()]
+            chip.spi(read_status)
+        assert chip.time_ns == page.run("return chip.timeNs")
+        assert chip.clk_cycles == page.run("return chip.clocks")
+
+
+def test_clock_rate_as_a_part_of_the_native_one(page, capsys):
+    rates = {"browser": [], "native": []}
+    with openmb4.Simulator(page.run("return scenario(setup)")) as chip:
+        chip.driver.configure()
+        page.run("chip.open(scenario(setup)); chip.configure()")
+        for _ in range(4):
+            rates["browser"].append(page.run(
+                "const clocks = chip.clocks, begin = performance.now(); chip.module._web_read_only(1500);"
+                "return (chip.clocks - clocks) / (performance.now() - begin) * 1000"))
+            clocks, begin = chip.clk_cycles, time.perf_counter()
+            chip.driver.read_all(4000)
+            rates["native"].append((chip.clk_cycles - clocks) / (time.perf_counter() - begin))
+        assert native_frame(chip)[2:] != []
+    browser, native = max(rates["browser"]), max(rates["native"])
+    with capsys.disabled():
+        print(f"\nclocks a second: browser {browser:,.0f}, native {native:,.0f}: "
+              f"{browser / native:.2f}")
+    assert browser > 0
+
+
+def test_first_frame_comes_soon_from_a_server_and_from_a_file(driver, server, capsys):
+    for address in (server, PAGE.as_uri()):
+        one = Browser(driver, address)
+        ms = one.open()
+        with capsys.disabled():
+            print(f"\nfirst frame {ms} ms after opening {address.split(':')[0]}")
+        assert one.good() == 1 and one.text("state") == "ok"
+        assert one.run("return performance.getEntriesByType('resource').filter("
+                       "entry => !entry.name.startsWith('data:')).length") == 0
+        assert one.errors() == []
+
+
+def test_every_encoder_and_frequency(page):
+    page.choose("frequency", "1000000")
+    assert "ma_hz = 1000000\n" in page.run("return $('scenario').textContent")
+    for name in ("encoder", "frequency"):
+        for value in page.run("return [...$(arguments[0]).options].map(one => one.value)", name):
+            page.run("$(arguments[0]).value = arguments[1];"
+                     "$(arguments[0]).dispatchEvent(new Event('change', {bubbles: true}))", name, value)
+            assert page["problem"].is_displayed() is False, page.text("problem")
+            assert f"{'ma' if name == 'frequency' else name}={value}" in page["link"].get_attribute("value")
+            if name == "encoder":
+                assert page.text("state") == "ok", value
+        page.choose(name, "resolute-26" if name == "encoder" else "10000000")
+    page.choose("encoder", "ic-mu")
+    page.enter("bits", "30")
+    assert "data_bits = 30" in page.run("return document.getElementById('scenario').textContent")
+    assert page.text("state") == "ok"
+
+
+def test_movement_and_cable(page):
+    def positions():
+        for _ in range(3):
+            page.click("step")
+        return [int(row[3]) for row in page.frames()[-3:]]
+
+    page.choose("movement", "still")
+    assert len(set(positions())) == 1
+    page.choose("movement", "ramp")
+    first, second, third = positions()
+    assert second - first == third - second == 2 ** 26 // 300 + 1
+    page.choose("movement", "sine")
+    assert len(set(positions())) == 3
+    page.enter("cable", "250")
+    assert "cable_m = 250" in page.run("return document.getElementById('scenario').textContent")
+    before = page["link"].get_attribute("value")
+    page.enter("cable", "99999")
+    assert "key 'cable_m'" in page.text("problem")
+    assert page["link"].get_attribute("value") == before  # the chip before stays
+    page.enter("cable", "10")
+    assert not page["problem"].is_displayed()
+
+
+def test_run_stop_and_pace(page):
+    page.click("run")
+    assert page.text("run") == "Stop" and not page["step"].is_enabled()
+    page.wait("Number(document.getElementById('good').textContent) > 50")
+    page.wait("document.getElementById('rate').textContent !== '–'")
+    page.click("run")
+    count = page.good()
+    time.sleep(0.1)
+    assert page.good() == count and page.text("run") == "Run"
+    assert page.run("return plot.data[0].length") == min(count, 1000)
+
+    page.choose("pace", "1")
+    page.click("step")
+    page.wait("replay !== null && diagram.until < diagram.picture.to")  # it is being drawn
+    page.wait("replay === null")
+    assert page.good() == count + 1
+    page.click("run")
+    page.wait(f"Number(document.getElementById('good').textContent) > {count + 2}")
+    page.choose("pace", "8")
+    page.click("run")
+    assert page.run("return replay") is None
+
+
+def test_diagram_shows_the_parts_of_a_frame(page):
+    parts = page.run("return diagram.picture.brackets.map(part => [part.text, part.to - part.from])")
+    assert [text for text, _ in parts] == ["acknowledge", "start", "CDS", "position, 26 bits", "nE nW",
+                                           "CRC, 6"]
+    assert [round(ns / 100) for _, ns in parts[1:]] == [1, 1, 26, 2, 6]  # periods of 10 MHz
+    # SL is SLO half of 106 ns later.
+    edges = page.run("return diagram.picture.edges")
+    sl, slo = ([edge["time"] for edge in edges if edge["place"] == place] for place in (2, 3))
+    assert len(sl) == len(slo) > 10 and all(round(a - b, 3) == 53 for a, b in zip(sl, slo))
+    # Something is drawn, in more than one colour.
+    assert page.run(
+        "const c = document.getElementById('diagram'), seen = new Set();"
+        "const d = new Uint32Array(c.getContext('2d').getImageData(0, 0, c.width, c.height).data.buffer);"
+        "d.forEach(one => seen.add(one)); return seen.size") > 10
+
+
+def test_registers_by_field(page):
+    for details in page.driver.find_elements("css selector", "#register-groups summary"):
+        page.run("arguments[0].click()", details)
+    page.wait("document.getElementById('field-RDATA64')?.dataset.shown")
+    fields = page.run("return [...document.querySelectorAll('.fields input')].map(one => one.id.slice(6))")
+    assert sorted(fields) == sorted(page.run("return [...registers.fields.keys()]"))
+    # The names and the bits are those of the Python package.
+    with openmb4.Simulator(page.run("return scenario(setup)")) as chip:
+        chip.driver.configure()
+        chip.driver.read_all(1)
+        for name in ("FREQS", "SCDLEN1", "SCRCPOLY1", "ENSCD1", "CFGCH1", "SLAVELOC5", "FREQAGS"):
+            assert int(page[f"field-{name}"].get_attribute("value"), 0) == chip.regs[name].read(), name
+        with pytest.raises(AttributeError):
+            chip.regs.NONSENSE
+
+    page.enter("field-FREQS", "4")
+    assert page.said() == "FREQS is written"
+    assert page["field-FREQS"].get_attribute("value") == "4"
+    page.enter("field-SCDATA2", "0x123456789ABCDEF0")
+    assert page["field-SCDATA2"].get_attribute("value") == "0x123456789ABCDEF0"
+    page.enter("field-FREQS", "32")
+    assert "32 has more than 5 bits" in page.said()
+    page.enter("field-FREQS", "four")
+    assert "this is no number" in page.said()
+    assert page["field-FREQS"].get_attribute("value") == "4"
+    for name in ("AGS", "INSTR", "SVALID1", "BREAK"):
+        page.enter(f"field-{name}", "1")
+        assert "does harm; write the whole register" in page.said(), name
+        assert page[f"field-{name}"].get_attribute("value") == "0"
+    assert not page["field-EOT"].get_attribute("readonly") in (None, "")
+    page.enter("field-FREQS", "7", Keys.ESCAPE)
+    assert page["field-FREQS"].get_attribute("value") == "4"
+
+
+def test_whole_registers(page):
+    page.enter("register-name", "VERSION", Keys.TAB)
+    page.click("register-read")
+    assert page.said() == "VERSION = 0x84"
+    page.enter("register-name", "FREQAGS", Keys.TAB)
+    page.enter("register-value", "0x7C", Keys.TAB)
+    page.click("register-write")
+    assert page.said() == "FREQAGS is written"
+    page.click("register-read")
+    assert page.said() == "FREQAGS = 0x7C"
+    page.enter("register-name", "0xEB", Keys.TAB)
+    page.click("register-read")
+    assert page.said() == "VERSION = 0x84"
+    for name, value, words in (("NONSENSE", "1", "no register 'NONSENSE'"),
+                               ("FREQ", "256", "FREQ: this is no byte"),
+                               ("FREQ", "x", "FREQ: this is no byte")):
+        page.enter("register-name", name, Keys.TAB)
+        page.enter("register-value", value, Keys.TAB)
+        page.click("register-write")
+        assert page.said() == words
+    # A frame by hand: instruction 100 (table 41), then its data are valid.
+    page.enter("register-name", "INSTR", Keys.TAB)
+    page.enter("register-value", "0x08", Keys.TAB)
+    count = page.run("return chip.report().time_ns")
+    page.click("register-write")
+    assert page.said() == "INSTR is written" and page.run("return chip.report().time_ns") > count
+
+
+def test_wrong_bytes_are_refused(page):
+    clock = page.run("return chip.timeNs")
+    for text, wrong in (("03 GG", "GG"), ("123", "123"), ("", "")):
+        page.run("document.getElementById('spi-bytes').value = ''")
+        page.enter("spi-bytes", text)
+        assert page.said() == f"SPI: '{wrong}' is no byte; example: 03 EA 00 00"
+    assert page.run("return chip.timeNs") == clock
+
+
+def test_links(page, driver):
+    page.choose("encoder", "lenz-irs")
+    page.enter("cable", "42.5")
+    link = page["link"].get_attribute("value")
+    assert link == driver.current_url
+    text = page.run("return document.getElementById('scenario').textContent")
+    page.click("copy")
+    page.wait("document.getElementById('said').textContent.includes('the link is')")
+    page.open("#" + link.split("#")[1])
+    assert page.run("return document.getElementById('scenario').textContent") == text
+    assert page["encoder"].get_attribute("value") == "lenz-irs"
+    page.run("location.hash = '#encoder=lma10'")  # by hand in the open page
+    page.wait("setup.encoder === 'lma10'")
+    for fragment, words in (("#what=1", "link: unknown key 'what'"),
+                            ("#encoder=none", "link: encoder 'none' is not possible"),
+                            ("#ma=3", "link: ma '3' is not possible"),
+                            ("#bits=99", "link: bits '99' is not possible"),
+                            ("#cable=far", "link: cable 'far' is not possible"),
+                            ("#cable=-3", "cable_m")):
+        page.open(fragment)
+        assert words in page.text("problem"), fragment
+        assert page.good() == 1  # the usual set-up runs
+
+
+def test_keyboard(page):
+    body = page.driver.find_element("tag name", "body")
+    count = page.good()
+    body.send_keys("s")
+    assert page.good() == count + 1
+    body.send_keys("f")
+    assert "in the next frame" in page.said()
+    body.send_keys("s")
+    assert page.text("bad") == "1"
+    body.send_keys("r")
+    page.wait(f"Number(document.getElementById('good').textContent) > {count + 5}")
+    body.send_keys("r")
+    assert page.text("run") == "Run"
+    # Every control can be reached with Tab.
+    page.run("document.activeElement.blur(); scrollTo(0, 0)")
+    reached = set()
+    for _ in range(60):
+        page.driver.switch_to.active_element.send_keys(Keys.TAB)
+        reached.add(page.run("return document.activeElement.id || document.activeElement.tagName"))
+    assert reached >= {"encoder", "movement", "cable", "frequency", "copy", "run", "step", "pace",
+                       "fault", "fault-kind", "SUMMARY", "register-name", "register-write",
+                       "register-read", "spi-bytes"}
+
+
+@pytest.mark.parametrize("scheme", ["light", "dark"])
+@pytest.mark.parametrize("width", [360, 768, 1200])
+def test_nothing_is_cut(page, width, scheme):
+    page.driver.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", {
+        "width": width, "height": 800, "deviceScaleFactor": 1, "mobile": width < 500})
+    page.driver.execute_cdp_cmd("Emulation.setEmulatedMedia", {
+        "features": [{"name": "prefers-color-scheme", "value": scheme}]})
+    try:
+        page.open()
+        page.run("document.querySelectorAll('details').forEach(one => one.open = true)")
+        page.wait("document.getElementById('field-RDATA64')?.dataset.shown")
+        assert page.run("return document.documentElement.scrollWidth") <= width
+        outside = page.run(
+            "return [...document.querySelectorAll('button, input, select, canvas')].filter(one =>"
+            "one.offsetParent && (one.getBoundingClientRect().right > innerWidth ||"
+            "one.getBoundingClientRect().left < 0)).map(one => one.id)")
+        assert outside == []
+        ground = page.run("return getComputedStyle(document.body).backgroundColor")
+        assert (sum(map(int, ground[4:-1].split(","))) < 200) == (scheme == "dark")
+    finally:
+        page.driver.execute_cdp_cmd("Emulation.clearDeviceMetricsOverride", {})
+        page.driver.execute_cdp_cmd("Emulation.setEmulatedMedia", {"features": []})

@@ -1,0 +1,63 @@
+# SPDX-FileCopyrightText: 2026 The openmb4 authors
+# SPDX-License-Identifier: Apache-2.0
+"""Puts the parts of the page into one HTML file: page.py MODULE.js MODULE.wasm UPLOT OUTPUT.
+
+UPLOT is the folder of npm's package uplot."""
+
+import base64
+import gzip
+import json
+import re
+import sys
+from pathlib import Path
+
+HERE = Path(__file__).parent
+REGISTERS = HERE.parent.parent / "regmap" / "generated" / "mb4"
+
+
+def addresses() -> dict:
+    """{register: address}, as in the Python package (tools/python/openmb4/registers.py)."""
+    header = (REGISTERS / "mb4_regs.h").read_text(encoding="utf-8")
+    found = {name: int(number, 16)
+             for name, number in re.findall(r"#define MB4_ADDR_(\w+) (0x\w+)U", header)}
+    base = found.pop("SLAVE_CFG")
+    for name, offset in re.findall(r"#define MB4_(SLAVE_CFG_\w+)_OFFSET (\d+)U", header):
+        for channel in range(8):
+            found[f"{name}{channel + 1}"] = base + 4 * channel + int(offset)
+    for name in ("SCDATA", "RDATA"):
+        first = found.pop(name)
+        found.update({f"{name}_BYTE{i + 1}": first + i for i in range(64)})
+    return found
+
+
+def main() -> None:
+    module, wasm, uplot, output = map(Path, sys.argv[1:])
+    licence = (uplot / "LICENSE").read_text(encoding="utf-8").strip()
+    table = json.loads((REGISTERS / "mb4_regs.json").read_text(encoding="utf-8"))
+    parts = {
+        "uplot.css": (uplot / "dist" / "uPlot.min.css").read_text(encoding="utf-8"),
+        "uplot.js": f"/*! uPlot\n{licence}\n*/\n"
+                    + (uplot / "dist" / "uPlot.iife.min.js").read_text(encoding="utf-8"),
+        "openmb4.js": module.read_text(encoding="utf-8"),
+        "openmb4.wasm": base64.b64encode(gzip.compress(wasm.read_bytes(), 9, mtime=0)).decode(),
+        "registers": json.dumps({kind: table[kind] for kind in ("fields", "alternate_fields")},
+                                separators=(",", ":")),
+        "addresses": json.dumps(addresses(), separators=(",", ":")),
+    }
+    for name in ("style.css", "chip.js", "registers.js", "diagram.js", "page.js"):
+        parts[name] = (HERE / "page" / name).read_text(encoding="utf-8")
+    for name, text in parts.items():
+        if name != "openmb4.wasm" and "</script" in text:
+            sys.exit(f"page.py: {name} holds </script")
+    page = (HERE / "page" / "index.html").read_text(encoding="utf-8")
+    page = re.sub(r"/\*\{\{([\w.]+)\}\}\*/|\{\{([\w.]+)\}\}",
+                  lambda match: parts[match[1] or match[2]], page)
+    output.parent.mkdir(parents=True, exist_ok=True)
+    output.write_text(page, encoding="utf-8")
+    packed = len(gzip.compress(page.encode(), 9))
+    print(f"{output}: {len(page.encode()):,} bytes, {packed:,} with gzip; "
+          f"WebAssembly {wasm.stat().st_size:,} bytes")
+
+
+if __name__ == "__main__":
+    main()

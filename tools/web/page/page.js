@@ -1,0 +1,477 @@
+// SPDX-FileCopyrightText: 2026 The openmb4 authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// The page: set-up, run, plot, SPI by hand.
+"use strict";
+
+const CLK_HZ = 20_000_000, SCLK_HZ = 10_000_000, NS_PER_M = 5.3;
+const MAX_POINTS = 1000, TABLE_ROWS = 8, LOG_LINES = 50;
+const BUDGET_MS = 12, REFRESH_MS = 250;
+const TITLES = {"biss-c": "BiSS C", "biss-b": "BiSS B", ssi: "SSI"};
+
+const $ = (id) => document.getElementById(id);
+const html = (name, properties = {}, ...children) => {
+  const element = Object.assign(document.createElement(name), properties);
+  element.append(...children);
+  return element;
+};
+
+let chip, registers, view, diagram, plot;
+let presets = new Map();
+let setup = null;       // of the open chip
+let running = false;
+let levels = {};        // of the lines after the last frame
+let lead = null;        // of the last frame: its start after the read began, and its length, ns
+let replay = null;      // a frame that is being shown slowly
+let counts = {good: 0, bad: 0};
+let points = {};        // the arrays of the plot
+let lastRefresh = 0;
+let rate = {since: 0, clocks: 0};
+
+function problem(text) {
+  $("problem").hidden = text === "";
+  $("problem").textContent = text;
+}
+
+// A line for the user.
+function say(text, bad) {
+  $("said").textContent = text;
+  $("said").classList.toggle("bad", Boolean(bad));
+}
+
+// --- set-up ----------------------------------------------------------------------------------
+
+function encoderOf(setup) {
+  const preset = presets.get(setup.encoder);
+  return {...preset, data_bits: preset.data_bits || setup.bits};
+}
+
+function scenario(setup) {
+  const encoder = encoderOf(setup);
+  const positions = 2n ** BigInt(encoder.data_bits - encoder.flag_bits);
+  const lines = [
+    "[chip]", `f_clk_hz = ${CLK_HZ}`, "",
+    "[host]", `sclk_hz = ${SCLK_HZ}`, `ma_hz = ${setup.ma}`, "",
+    "[[channel]]", "number = 1", `cable_m = ${setup.cable}`, "",
+    "[[channel.slave]]", `protocol = "${encoder.protocol}"`, `preset = "${encoder.name}"`];
+  if (presets.get(setup.encoder).data_bits === 0) lines.push(`data_bits = ${setup.bits}`);
+  if (setup.movement === "sine") {
+    lines.push('source = "sine"', `amplitude = ${least(positions / 4n)}`,
+               `offset = ${least(positions / 2n)}`, "period_us = 20000");
+  } else {
+    lines.push('source = "ramp"', `start = ${least(positions / 3n)}`,
+               `step = ${setup.movement === "ramp" ? least(positions / 300n + 1n) : 0}`);
+  }
+  return lines.join("\n") + "\n";
+}
+
+// A number that TOML and the simulator take.
+function least(value) {
+  const most = 4n * 10n ** 18n;
+  return value < most ? value : most;
+}
+
+function readControls() {
+  return {encoder: $("encoder").value, bits: Number($("bits").value), movement: $("movement").value,
+          cable: Number($("cable").value), ma: Number($("frequency").value)};
+}
+
+function showControls(setup) {
+  $("encoder").value = setup.encoder;
+  $("bits").value = setup.bits;
+  $("movement").value = setup.movement;
+  $("cable").value = setup.cable;
+  $("frequency").value = setup.ma;
+}
+
+function fragment(setup) {
+  const {bits, ...rest} = setup;
+  return "#" + new URLSearchParams(presets.get(setup.encoder).data_bits === 0 ? {...rest, bits} : rest);
+}
+
+// The set-up of a link; what it does not name is as in `otherwise`. Throws for what the page does
+// not know.
+function fromFragment(text, otherwise) {
+  const found = {...otherwise};
+  for (const [key, value] of new URLSearchParams(text.replace(/^#/, ""))) {
+    if (!(key in otherwise)) throw new Error(`link: unknown key '${key}'`);
+    const known = {
+      encoder: () => presets.has(value),
+      movement: () => [...$("movement").options].some((option) => option.value === value),
+      ma: () => [...$("frequency").options].some((option) => option.value === value),
+      bits: () => /^[0-9]+$/.test(value) && Number(value) >= 3 && Number(value) <= 64,
+      cable: () => value.trim() !== "" && Number.isFinite(Number(value)),
+    };
+    if (!known[key]()) throw new Error(`link: ${key} '${value}' is not possible`);
+    found[key] = typeof otherwise[key] === "number" ? Number(value) : value;
+  }
+  return found;
+}
+
+// Opens a chip with this set-up and shows its first frame. On error the chip before stays.
+function open(wanted) {
+  const text = scenario(wanted);
+  try {
+    chip.open(text);
+    problem("");
+  } catch (error) {
+    problem(error.message);
+    return false;
+  }
+  setup = wanted;
+  replay = null;
+  counts = {good: 0, bad: 0};
+  lead = null;
+  $("scenario").textContent = text;
+  $("bits-label").hidden = presets.get(setup.encoder).data_bits !== 0;
+  history.replaceState(null, "", fragment(setup));
+  $("link").value = location.href;
+  $("frames").replaceChildren();
+  $("spi-log").textContent = "";
+  $("rate").textContent = "–";
+  points = {time: [], position: [], bad: []};
+  say("");
+  try {
+    chip.configure();
+    chip.record(true);
+    takeLevels();
+    rate = {since: performance.now(), clocks: chip.clocks};
+    show(readFrame());
+    afterStep();
+  } catch (error) {
+    stopFor(error);
+  }
+  return true;
+}
+
+// --- frames ----------------------------------------------------------------------------------
+
+function takeLevels() {
+  for (const edge of chip.taken().edges) levels[edge.place] = edge.level;
+}
+
+// Reads one frame through the driver. Returns its row and its picture.
+function readFrame() {
+  const before = {...levels};
+  const begin = chip.timeNs;
+  const [row] = chip.read();
+  const {edges, frames} = chip.taken();
+  for (const edge of edges) levels[edge.place] = edge.level;
+  const encoder = encoderOf(setup);
+  const roundTrip = 2 * NS_PER_M * setup.cable;
+  const frame = frames.find((one) => one.channel === 1 && one.start_ns >= begin - 1) ??
+    {start_ns: begin, end_ns: Math.max(row.time_ns, begin + 1)};
+  lead = {start: frame.start_ns - begin, length: frame.end_ns - frame.start_ns};
+  const seen = frame.end_ns + roundTrip;
+  const margin = (seen - frame.start_ns) * 0.04;
+  const [word] = row.slaves;
+  const good = row.text === "" && word.text === "";
+  const picture = {
+    edges, before, good, zero: frame.start_ns, from: frame.start_ns - margin, to: seen + 2 * margin,
+    brackets: brackets(edges, frame, encoder, encoder.data_bits, roundTrip),
+    title: good ? `raw word ${hex(BigInt(word.raw), Math.ceil(encoder.data_bits / 4))}` : `no word: ${word.text || row.text}`};
+  return {row, word, good, picture};
+}
+
+function publish({row, word, good}) {
+  counts[good ? "good" : "bad"] += 1;
+  $("position").textContent = good ? word.position : "–";
+  $("state").textContent = good ? "ok" : word.text || row.text;
+  $("state").classList.toggle("bad", !good);
+  $("good").textContent = counts.good;
+  $("bad").textContent = counts.bad;
+  const cells = [(row.time_ns / 1000).toFixed(3), word.slave,
+                 ...(good ? [hex(BigInt(word.raw), Math.ceil(encoderOf(setup).data_bits / 4)), word.position,
+                             word.error ? 0 : 1, word.warning ? 0 : 1, hex(word.crc, 2), "ok"]
+                           : ["", "", "", "", "", word.text || row.text])];
+  const line = html("tr", {className: good ? "" : "bad"},
+                    ...cells.map((text) => html("td", {textContent: text})));
+  $("frames").prepend(line);
+  while ($("frames").rows.length > TABLE_ROWS) $("frames").lastElementChild.remove();
+  points.time.push(row.time_ns / 1e6);
+  points.position.push(good ? Number(word.position) : null);
+  const last = points.position.findLast((position) => position !== null) ?? 0;
+  points.bad.push(good ? null : last);
+  for (const array of Object.values(points)) {
+    if (array.length > MAX_POINTS) array.shift();
+  }
+}
+
+// Shows a frame at once.
+function show(frame) {
+  publish(frame);
+  diagram.show(frame.picture);
+  if (!document.documentElement.dataset.firstFrameMs) {
+    requestAnimationFrame(() => {
+      document.documentElement.dataset.firstFrameMs = Math.round(performance.now());
+    });
+  }
+}
+
+function afterStep() {
+  plot.setData([points.time, points.position, points.bad]);
+  $("time").textContent = `${(chip.timeNs / 1e6).toFixed(4)} ms`;
+  view.refresh();
+  lastRefresh = performance.now();
+}
+
+function stopFor(error) {
+  setRunning(false);
+  replay = null;
+  say(error.message, true);
+}
+
+function pace() {
+  return matchMedia("(prefers-reduced-motion: reduce)").matches ? 0 : Number($("pace").value);
+}
+
+function beginFrame() {
+  const frame = readFrame();
+  if (pace() === 0) {
+    show(frame);
+    return;
+  }
+  replay = {frame, begin: performance.now(), ms: 1000 * pace()};
+}
+
+// Draws a slow frame as far as it has come. Returns whether it is over.
+function goOn(now) {
+  const {frame, begin, ms} = replay;
+  const part = (now - begin) / ms;
+  const {from, to} = frame.picture;
+  if (part < 1) {
+    diagram.show(frame.picture, from + part * (to - from));
+    return false;
+  }
+  replay = null;
+  show(frame);
+  afterStep();
+  return true;
+}
+
+function tick() {
+  if (!running && replay === null) return;
+  requestAnimationFrame(tick);
+  const now = performance.now();
+  try {
+    if (replay !== null && !goOn(now)) return;
+    if (!running) return;
+    if (pace() !== 0) {
+      beginFrame();
+      return;
+    }
+    let frame;
+    do {
+      frame = readFrame();
+      publish(frame);
+    } while (performance.now() - now < BUDGET_MS);
+    diagram.show(frame.picture);
+    plot.setData([points.time, points.position, points.bad]);
+    if (now - lastRefresh > REFRESH_MS) {
+      const clocks = chip.clocks;
+      $("rate").textContent = Math.round((clocks - rate.clocks) / (now - rate.since) * 1000)
+        .toLocaleString("en");
+      rate = {since: now, clocks};
+      afterStep();
+    }
+  } catch (error) {
+    stopFor(error);
+  }
+}
+
+function setRunning(on) {
+  running = on;
+  $("run").textContent = on ? "Stop" : "Run";
+  $("step").disabled = on;
+  if (on) {
+    say("");
+    rate = {since: performance.now(), clocks: chip.clocks};
+    requestAnimationFrame(tick);
+  } else {
+    replay = null;
+    afterStep();
+  }
+}
+
+function step() {
+  if (running || replay !== null) return;
+  say("");
+  try {
+    beginFrame();
+    if (replay === null) afterStep();
+    else requestAnimationFrame(tick);
+  } catch (error) {
+    stopFor(error);
+  }
+}
+
+// --- faults, SPI, registers -------------------------------------------------------------------
+
+// The table of a fault that meets the next frame.
+function faultTable(kind) {
+  const {start, length} = lead;
+  const us = (ns) => (Math.max(ns, 1) / 1000).toFixed(3);
+  const lasts = `at_us = 0\nfor_us = ${us(2 * (start + length))}\n`;
+  const head = `[[fault]]\nkind = "${kind}"\n`;
+  switch (kind) {
+    case "bit-flip": return head + "at_us = 0\nbits = [5]\n";
+    case "glitch": return `${head}at_us = ${us(start + 0.6 * length)}\nwidth_ns = ${us(length * 20)}\n`;
+    case "stuck": return head + lasts + "level = 0\n";
+    case "jitter": return head + lasts + "jitter_ns = 60\n";
+    case "clock-stop": return head + lasts;
+    default: return head + lasts + "slave = 1\n";
+  }
+}
+
+function fault() {
+  try {
+    chip.inject(faultTable($("fault-kind").value));
+    say(`fault: ${$("fault-kind").selectedOptions[0].textContent}, in the next frame`);
+  } catch (error) {
+    say(error.message, true);
+  }
+}
+
+function log(text) {
+  const lines = `${$("spi-log").textContent}${text}\n`.split("\n");
+  $("spi-log").textContent = lines.slice(-LOG_LINES - 1).join("\n");
+  $("spi-log").scrollTop = $("spi-log").scrollHeight;
+}
+
+const bytesText = (bytes) =>
+  [...bytes].map((byte) => byte.toString(16).toUpperCase().padStart(2, "0")).join(" ");
+
+function sendBytes(text) {
+  const words = text.trim().split(/\s+/);
+  const wrong = words.find((word) => !/^(0x)?[0-9a-f]{1,2}$/i.test(word));
+  if (wrong !== undefined) throw new Error(`SPI: '${wrong}' is no byte; example: 03 EA 00 00`);
+  const sent = words.map((word) => parseInt(word, 16));
+  const answer = chip.spi(sent);
+  log(`> ${bytesText(sent)}\n< ${bytesText(answer)}`);
+}
+
+// What takes effect between two frames; then the page follows.
+function act(action) {
+  return (event) => {
+    event?.preventDefault();
+    if (!chip) return;
+    say("");
+    try {
+      action();
+      if (!running) afterStep();
+    } catch (error) {
+      say(error.message, true);
+    }
+  };
+}
+
+function listen() {
+  $("setup").addEventListener("change", (event) => {
+    if (event.target.id === "link") return;
+    const wanted = readControls();
+    if (!open(wanted)) $("link").value = location.href;
+  });
+  $("setup").addEventListener("submit", (event) => event.preventDefault());
+  addEventListener("hashchange", () => openLink());
+  $("copy").addEventListener("click", async () => {
+    $("link").select();
+    try {
+      await navigator.clipboard.writeText($("link").value);
+      say("the link is in the clipboard");
+    } catch {
+      say("the link is selected: copy it from there");
+    }
+  });
+  $("run").addEventListener("click", () => setRunning(!running));
+  $("step").addEventListener("click", step);
+  $("fault").addEventListener("click", fault);
+  $("spi").addEventListener("submit", act(() => sendBytes($("spi-bytes").value)));
+  $("register").addEventListener("submit", act(() => {
+    const address = registers.address($("register-name").value);
+    registers.write(address, parseNumber($("register-value").value));
+    say(`${registers.names[address] ?? hex(address, 2)} is written`);
+  }));
+  $("register-read").addEventListener("click", act(() => {
+    const address = registers.address($("register-name").value);
+    const [value] = registers.read(address);
+    $("register-value").value = hex(value, 2);
+    say(`${registers.names[address] ?? hex(address, 2)} = ${hex(value, 2)}`);
+  }));
+  addEventListener("keydown", (event) => {
+    const typing = event.target.matches("input, select, textarea");
+    if (typing || event.ctrlKey || event.altKey || event.metaKey) return;
+    const button = {r: "run", s: "step", f: "fault"}[event.key];
+    if (button) $(button).click();
+  });
+}
+
+function makePlot() {
+  const colour = (name) => () =>
+    getComputedStyle(document.documentElement).getPropertyValue(name).trim();
+  const axis = {stroke: colour("--text"), grid: {stroke: colour("--faint"), width: 1},
+                ticks: {stroke: colour("--faint"), width: 1}};
+  const short = new Intl.NumberFormat("en", {notation: "compact", maximumSignificantDigits: 5});
+  const size = () => ({width: $("plot").clientWidth, height: 240});
+  plot = new uPlot({
+    ...size(),
+    scales: {x: {time: false}},
+    axes: [{...axis, label: "simulated time, ms", labelSize: 20}, {...axis, size: 64, values: (_, all) => all.map((value) => short.format(value))}],
+    series: [{label: "ms"},
+             {label: "position", stroke: colour("--row1"), width: 1.5, points: {show: (_, __, from, to) => to - from < 60}},
+             {label: "bad frame", stroke: colour("--bad"), paths: () => null,
+              points: {show: true, size: 7, fill: colour("--bad")}}],
+  }, [[], [], []], $("plot"));
+  new ResizeObserver(() => plot.setSize(size())).observe($("plot"));
+  matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => plot.redraw());
+}
+
+function openLink() {
+  const usual = {encoder: "resolute-26", bits: 26, movement: "sine", cable: 10, ma: 10_000_000};
+  let wanted = usual, wrong = "";
+  try {
+    wanted = fromFragment(location.hash, usual);
+  } catch (error) {
+    wrong = error.message;
+  }
+  showControls(wanted);
+  if (!open(wanted) && setup === null) {  // a link whose set-up is refused
+    wrong = $("problem").textContent;
+    showControls(usual);
+    open(usual);
+  }
+  if (wrong !== "") problem(wrong);
+}
+
+async function begin() {
+  try {
+    chip = await Chip.load(PARTS.wasm);
+  } catch (error) {
+    problem(`The chip does not start in this browser: ${error.message}`);
+    return;
+  }
+  for (const preset of chip.presets()) presets.set(preset.name, preset);
+  const groups = new Map();
+  for (const preset of presets.values()) {
+    const title = TITLES[preset.protocol] ?? preset.protocol;
+    if (!groups.has(title)) groups.set(title, html("optgroup", {label: title}));
+    groups.get(title).append(html("option", {value: preset.name, 
+                                           textContent: preset.description.replace(/, give data_bits$/, "")}));
+  }
+  $("encoder").append(...groups.values());
+  for (const hz of chip.frequencies(CLK_HZ)) {
+    const text = hz >= 1e6 ? `${+(hz / 1e6).toFixed(3)} MHz` : `${+(hz / 1e3).toFixed(2)} kHz`;
+    $("frequency").append(html("option", {value: hz, textContent: text}));
+  }
+  registers = new Registers(chip, PARTS.table, PARTS.addresses);
+  $("register-names").append(
+    ...Object.keys(PARTS.addresses).map((name) => html("option", {value: name})));
+  view = new RegisterView(registers, $("register-groups"), say);
+  diagram = new Diagram($("diagram"));
+  makePlot();
+  $("version").textContent = chip.version();
+  listen();
+  openLink();
+  for (const button of ["run", "step", "fault"]) $(button).disabled = false;
+}
+
+begin();
