@@ -7,7 +7,7 @@
  *
  * A read is one or more plans. A plan holds SPI frames; the caller makes them, by DMA or otherwise:
  *
- *   mb4_cyclic_plan(&read, &plan);                    // begins a read
+ *   mb4_cyclic_plan(&read, &plan, MB4_WITH_ALL);      // begins a read
  *   do {
  *     bool done = ...;                                // plan.size[i] bytes from plan.tx[i] to
  *                                                     // plan.rx[i], NCS low for each frame
@@ -232,6 +232,8 @@ typedef struct {
   uint32_t silent_us;  /* longest time without a frame; 0: only the caller knows */
   uint8_t lines;       /* bits of 0xF8 that are 1 while the lines are idle: SL1, SL2 */
   bool several;        /* other slaves deliver data too */
+  bool held;           /* a read has ended without the release of the bank: the next one begins with
+                          it; clear it when frames are started */
   uint8_t taken;       /* slaves (bit 0 is slave 1) of which a read has taken a good word */
   uint32_t good_us[MB4_SLAVES]; /* when; set them when frames are started */
 } mb4_watch;
@@ -244,10 +246,11 @@ typedef struct {
   mb4_watch *watch;
   uint8_t spi_check; /* MB4_SPI_CHECK_..., as configured */
   bool unheld;       /* a register access runs, and the chip allows no HOLDBANK beside it */
+  bool access;       /* a register access has begun, and its end has not been seen */
   bool chain;        /* one plan of four frames; not with MB4_SPI_CHECK_FULL, not unheld */
   /* Results. */
   bool bad;     /* a new word came with a wrong CRC; with MB4_OK a good one has followed */
-  bool running; /* a register access is running: REGEND = 0 in the last status */
+  bool running; /* with `access`: REGEND = 0 in the last status, it runs */
   uint8_t status[MB4_STATUS_BYTES]; /* the last one */
   /* Private. */
   uint8_t stage;
@@ -271,7 +274,8 @@ enum {
   MB4_STAGE_UNHELD, /* SVALID = 0, data, status; then, if need be, data and status again */
   MB4_STAGE_CLEAR,  /* FULL: data again, SVALID = 0, status; then, if need be, status again */
   MB4_STAGE_END,    /* the bank is released; the result is known */
-  MB4_STAGE_LINES   /* are the lines idle? */
+  MB4_STAGE_LINES,  /* are the lines idle? */
+  MB4_STAGE_FREE    /* the bank was still held: release, SVALID = 0 */
 };
 
 static inline void mb4_cyclic_add_data(const mb4_cyclic *read, mb4_plan *plan) {
@@ -322,11 +326,12 @@ MB4_APART uint8_t mb4_cyclic_release(mb4_cyclic *read, mb4_plan *plan, uint8_t c
 }
 
 /* Begins a try. */
-MB4_APART uint8_t mb4_cyclic_try(mb4_cyclic *read, mb4_plan *plan) {
-  const bool full = read->spi_check == MB4_SPI_CHECK_FULL;
-  (void)mb4_cyclic_next(read, plan, full || read->unheld ? MB4_STAGE_LOOK : MB4_STAGE_DATA,
+MB4_APART uint8_t mb4_cyclic_try(mb4_cyclic *read, mb4_plan *plan, uint8_t with) {
+  const bool full = (with & MB4_WITH_FULL) != 0 && read->spi_check == MB4_SPI_CHECK_FULL;
+  const bool unheld = (with & MB4_WITH_UNHELD) != 0 && read->unheld;
+  (void)mb4_cyclic_next(read, plan, full || unheld ? MB4_STAGE_LOOK : MB4_STAGE_DATA,
                         MB4_NO_DATA);
-  if (!read->unheld) {
+  if (!unheld) {
     mb4_cyclic_add_instruction(plan, MB4_CYCLIC_HOLD);
   } else if (full) {
     mb4_cyclic_add_status(plan);
@@ -341,19 +346,27 @@ MB4_APART uint8_t mb4_cyclic_try(mb4_cyclic *read, mb4_plan *plan) {
   return MB4_MORE;
 }
 
-/* Begins a read: writes its first frames to `plan`. */
-static inline void mb4_cyclic_plan(mb4_cyclic *read, mb4_plan *plan) {
+/* Begins a read: writes its first frames to `plan`. `with`: as of mb4_cyclic_finish(). */
+static inline void mb4_cyclic_plan(mb4_cyclic *read, mb4_plan *plan, uint8_t with) {
   plan->pause_us = 0;
   read->again = false;
   read->bad = false;
   read->running = false;
   read->unproven = false;
-  if (read->built == plan) {
+  if (read->watch->held) {
+    /* Words that have waited in a held bank, or behind it, are old. INSTR = 000 beside an access is
+     * for chips that allow it; the access itself has begun with HOLDBANK = 0. */
+    (void)mb4_cyclic_next(read, plan, MB4_STAGE_FREE, MB4_NO_DATA);
+    if ((with & MB4_WITH_UNHELD) == 0 || !read->unheld) {
+      mb4_cyclic_add_instruction(plan, MB4_CYCLIC_AGS);
+    }
+    mb4_cyclic_add_clear(read, plan, 4);
+  } else if (read->built == plan) {
     read->stage = MB4_STAGE_DATA;
     read->code = MB4_NO_DATA;
     plan->rx[2][1] = 0;
   } else {
-    (void)mb4_cyclic_try(read, plan);
+    (void)mb4_cyclic_try(read, plan, with);
     read->built = read->chain ? plan : 0;
   }
 }
@@ -368,7 +381,7 @@ static inline uint8_t mb4_cyclic_take_status(mb4_cyclic *read, const uint8_t *rx
   if ((rx[1] & MB4_CYCLIC_CONST0) == 0 || ((rx[2] | rx[3]) & MB4_CYCLIC_CONST1) != 0) {
     return MB4_NOT_DETECTED;
   }
-  read->running = (rx[1] & MB4_CYCLIC_REGEND) == 0;
+  read->running = read->access && (rx[1] & MB4_CYCLIC_REGEND) == 0;
   /* The chip must hold exactly what was written; AGS may have ended by an error. Without HOLDBANK
    * the bytes may come from two frames; with SWBANK or INIT they are other data. */
   return read->unheld || (rx[5] | MB4_CYCLIC_AGS) == MB4_CYCLIC_HOLD ? MB4_OK : MB4_CORRUPTED;
@@ -532,7 +545,7 @@ static inline uint8_t mb4_cyclic_held(mb4_cyclic *read, mb4_plan *plan, uint8_t 
     read->code = mb4_cyclic_judge(read, plan, with);
     if (chained && read->bad) {
       read->again = true;
-      return mb4_cyclic_try(read, plan);
+      return mb4_cyclic_try(read, plan, with);
     }
   }
   if (chained) {
@@ -558,10 +571,11 @@ static inline uint8_t mb4_cyclic_held(mb4_cyclic *read, mb4_plan *plan, uint8_t 
  * before the data was read and is still 0: no good frame has ended meanwhile. nSCDERR is 1: no bad
  * frame has ended either. Directly after a switch of the banks there is the time of a frame until
  * the next one, so a second try follows. */
-static inline uint8_t mb4_cyclic_unheld(mb4_cyclic *read, mb4_plan *plan, uint8_t code) {
+static inline uint8_t mb4_cyclic_unheld(mb4_cyclic *read, mb4_plan *plan, uint8_t code,
+                                        uint8_t with) {
   if ((code == MB4_NO_DATA || code == MB4_BANK_SWITCHED) && !read->again) {
     read->again = true;
-    return mb4_cyclic_try(read, plan);
+    return mb4_cyclic_try(read, plan, with);
   }
   return code;
 }
@@ -575,7 +589,7 @@ static inline uint8_t mb4_cyclic_take_unheld(mb4_cyclic *read, mb4_plan *plan, u
     return code;
   }
   if (mb4_cyclic_valid(read) || mb4_cyclic_frame_bad(read)) {
-    return mb4_cyclic_unheld(read, plan, MB4_BANK_SWITCHED);
+    return mb4_cyclic_unheld(read, plan, MB4_BANK_SWITCHED, with);
   }
   mb4_cyclic_load(read, plan, (uint8_t)(plan->frames - 2), &low, &high);
   if (repeated) {
@@ -609,7 +623,7 @@ static inline uint8_t mb4_cyclic_take_look(mb4_cyclic *read, mb4_plan *plan, uin
       return code;
     }
     if (!read->fresh) {
-      return mb4_cyclic_unheld(read, plan, MB4_NO_DATA);
+      return mb4_cyclic_unheld(read, plan, MB4_NO_DATA, with);
     }
     (void)mb4_cyclic_next(read, plan, MB4_STAGE_UNHELD, MB4_OK);
     mb4_cyclic_add_clear(read, plan, 4);
@@ -694,7 +708,9 @@ static inline uint8_t mb4_cyclic_watch(mb4_cyclic *read, mb4_plan *plan, uint8_t
  *   MB4_CORRUPTED, MB4_NOT_DETECTED, MB4_TRANSPORT, MB4_BANK_SWITCHED, MB4_TIMEOUT, MB4_LINE_ERROR
  *                      as Automatic::poll() in mb4/automatic.hpp describes them
  *
- * At most four calls a read without MB4_SPI_CHECK_FULL, six with it or unheld. */
+ * At most four calls a read without MB4_SPI_CHECK_FULL, six with it or unheld; one more after a read
+ * that has ended without the release of the bank. A read may be given up: call this function with
+ * transferred = false, without the frames, until it does not return MB4_MORE. */
 static inline uint8_t mb4_cyclic_finish(mb4_cyclic *read, mb4_plan *plan, bool transferred,
                                         uint32_t now_us, uint8_t with) {
   const uint8_t stage = read->stage;
@@ -704,11 +720,17 @@ static inline uint8_t mb4_cyclic_finish(mb4_cyclic *read, mb4_plan *plan, bool t
     const bool idle = (plan->rx[0][MB4_CYCLIC_LINES] & lines) == lines;
     return transferred && !idle ? (uint8_t)MB4_LINE_ERROR : code;
   }
+  if (stage == MB4_STAGE_FREE) {
+    read->watch->held = !transferred;
+    read->watch->news_us = now_us; /* no bank was switched meanwhile */
+    return transferred ? mb4_cyclic_try(read, plan, with) : code;
+  }
   if (stage == MB4_STAGE_END) {
     /* The release was the last frame. If it was not alone, it may not have been tried. */
     if (!transferred && (plan->frames > 1 || plan->size[0] > 2)) {
       return mb4_cyclic_release(read, plan, code);
     }
+    read->watch->held = !transferred;
     if (read->bad && code == MB4_NO_DATA) {
       code = MB4_CRC; /* chain: the bank has gone before the word was marked */
     }

@@ -25,9 +25,9 @@ namespace mb4 {
 
 // Most SPI transfers of one Automatic::poll_slave(), whatever the chip answers: 8, with
 // SpiCheck::kFull 14, beside a control communication without Config::hold_beside_access.
-inline constexpr unsigned kMaxPollSlaveTransfers = 6;
+inline constexpr unsigned kMaxPollSlaveTransfers = 8;
 // The same with SpiCheck::kFull.
-inline constexpr unsigned kMaxPollSlaveTransfersChecked = 9;
+inline constexpr unsigned kMaxPollSlaveTransfersChecked = 11;
 
 // Automatic frames, at the rate or on the event that Config::frame_start selects (table 44):
 //
@@ -38,8 +38,9 @@ inline constexpr unsigned kMaxPollSlaveTransfersChecked = 9;
 // Why the bytes of a position belong together:
 //  * HOLDBANK holds the bank while the driver reads it (page 33, table 69).
 //  * HOLDBANK takes effect some system clocks after the write. With SCLK above 2 f_CLK, bytes read
-//    at once could still come from the old bank. So the driver reads the status between HOLDBANK
-//    and the data, which takes at least 48 SCLK periods.
+//    at once could still come from the old bank. So poll(), and all calls with SpiCheck::kFull, read
+//    the status between HOLDBANK and the data, which takes at least 48 SCLK periods. poll_slave()
+//    and plan_slave() with kCrc and kOff read the data at once: they need SCLK of at most 2 f_CLK.
 //  * While a control communication runs, the byte with HOLDBANK has INSTR = 000: INSTR = 100,
 //    written back at the wrong moment, would start the access again. The access goes on. Where a
 //    chip does not allow this (Config::hold_beside_access = false) the driver reads without
@@ -188,6 +189,7 @@ class Automatic {
     if (!allowed) {
       return allowed.failure();
     }
+    mb4_cyclic_plan(&read.read_, &read.plan_, With);
     bool transferred = false;
     do {
       transferred = read.run(chip_.opcodes.bus());
@@ -211,7 +213,12 @@ class Automatic {
   // Not touched: kInvalidArgument, kWrongMode, kUnsupported as for poll_slave().
   template <std::uint8_t With = MB4_WITH_ALL>
   Result<void> plan_slave(std::uint8_t slave, CyclicRead& read) {
-    return begin(slave, read, chip_.config.spi_check != SpiCheck::kFull, With);
+    const Result<void> allowed =
+        begin(slave, read, chip_.config.spi_check != SpiCheck::kFull, With);
+    if (allowed) {
+      mb4_cyclic_plan(&read.read_, &read.plan_, With);
+    }
+    return allowed;
   }
 
   // Takes what came back. `transferred`: every frame of `read` was made. `now_us`: the time, as
@@ -316,12 +323,12 @@ class Automatic {
     read.read_.watch = &chip_.watch;
     read.read_.spi_check = static_cast<std::uint8_t>(chip_.config.spi_check);
     read.read_.unheld = unheld;
+    read.read_.access = control_runs();
     if (read.read_.chain != (chain && !unheld)) {
       read.read_.built = nullptr;
     }
     read.read_.chain = chain && !unheld;
     chip_.control.overwritten = chip_.control.overwritten || !unheld;
-    mb4_cyclic_plan(&read.read_, &read.plan_);
     return {};
   }
 

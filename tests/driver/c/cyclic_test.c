@@ -93,7 +93,7 @@ static uint8_t read_position(drive_t *drive) {
   unsigned calls = 0;
   drive->transfers = 0;
   drive->bytes = 0;
-  mb4_cyclic_plan(&drive->read, &drive->plan);
+  mb4_cyclic_plan(&drive->read, &drive->plan, drive->parts);
   do {
     uint8_t i;
     for (i = 0; i < drive->plan.frames; ++i) {
@@ -202,6 +202,64 @@ static void test_faults(bool omits, bool chain, unsigned stuck_level, uint8_t al
   mb4sim_close(drive.simulator);
 }
 
+/* REGEND is 0 before any access too, so only the caller knows that one has begun. */
+static void test_running(void) {
+  drive_t drive;
+  const uint8_t channel[] = {0x02, MB4_ADDR_CHSEL, 0x01};
+  const uint8_t access[] = {0x07, 0x09}; /* AGS = 1, INSTR = 100 (table 45) */
+  unsigned i;
+  unsigned seen = 0;
+  start(&drive, false, MB4_SPI_CHECK_CRC, true, false);
+  if (drive.simulator == NULL) {
+    return;
+  }
+  mb4sim_advance_ns(drive.simulator, 3 * kPeriodNs);
+  CHECK(read_position(&drive) == MB4_OK);
+  CHECK(!drive.read.running);
+  write_bytes(&drive, channel, sizeof channel);
+  write_bytes(&drive, access, sizeof access);
+  drive.read.access = true;
+  for (i = 0; i < 100 && (i == 0 || drive.read.running); ++i) {
+    mb4sim_advance_ns(drive.simulator, kPeriodNs);
+    CHECK(read_position(&drive) == MB4_OK);
+    seen += drive.read.running ? 1 : 0;
+  }
+  CHECK(seen >= 14 && i < 100); /* 14 frames with CDM = 0 begin it (page 28) */
+  mb4sim_close(drive.simulator);
+}
+
+/* The read is given up between HOLDBANK and its release, or the release fails: the next read
+ * releases the bank, and what is in it is old by then. */
+static void test_given_up(bool omits, bool chain) {
+  drive_t drive;
+  uint8_t status[6] = {0x05, 0, 0, 0, 0, 0};
+  unsigned i;
+  start(&drive, omits, MB4_SPI_CHECK_CRC, chain, false);
+  if (drive.simulator == NULL) {
+    return;
+  }
+  mb4sim_advance_ns(drive.simulator, 3 * kPeriodNs);
+  CHECK(read_position(&drive) == MB4_OK);
+  mb4sim_advance_ns(drive.simulator, kPeriodNs);
+  mb4_cyclic_plan(&drive.read, &drive.plan, drive.parts);
+  write_bytes(&drive, drive.plan.tx[0], drive.plan.size[0]); /* HOLDBANK */
+  CHECK(mb4_cyclic_finish(&drive.read, &drive.plan, false, now_us(&drive), drive.parts) == MB4_MORE);
+  CHECK(mb4_cyclic_finish(&drive.read, &drive.plan, false, now_us(&drive), drive.parts) ==
+        MB4_TRANSPORT);
+  for (i = 0; i < 4; ++i) {
+    uint8_t code;
+    mb4sim_advance_ns(drive.simulator, 20 * kPeriodNs);
+    code = read_position(&drive);
+    CHECK(code == (i == 0 ? MB4_NO_DATA : MB4_OK));
+    if (code == MB4_OK) {
+      CHECK(mb4sim_slave_frames(drive.simulator, 1) - drive.read.reading.position <= 3);
+    }
+  }
+  CHECK(mb4sim_spi_transfer(drive.simulator, status, status, sizeof status) == 0);
+  CHECK(status[5] == 0x01); /* HOLDBANK = 0 */
+  mb4sim_close(drive.simulator);
+}
+
 int main(void) {
   test_phases(false, MB4_SPI_CHECK_CRC, true, false);
   test_phases(true, MB4_SPI_CHECK_CRC, true, true);
@@ -210,6 +268,10 @@ int main(void) {
   test_phases(false, MB4_SPI_CHECK_FULL, false, false);
   test_faults(false, true, 1, MB4_TIMEOUT);
   test_faults(true, false, 0, MB4_LINE_ERROR);
+  test_running();
+  test_given_up(false, true);
+  test_given_up(true, true);
+  test_given_up(true, false);
   printf("%u failures\n", failures);
   return failures != 0;
 }

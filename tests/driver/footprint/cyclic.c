@@ -20,7 +20,7 @@ uint8_t firmware(mb4_cyclic *read, mb4_plan *plan, uint64_t *position);
 
 uint8_t firmware(mb4_cyclic *read, mb4_plan *plan, uint64_t *position) {
   uint8_t code;
-  mb4_cyclic_plan(read, plan);
+  mb4_cyclic_plan(read, plan, PARTS);
   do {
     bool done = true;
     uint8_t i;

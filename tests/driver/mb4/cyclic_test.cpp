@@ -217,6 +217,14 @@ TEST_F(Chain, Faults_ReleaseTheBank) {
   EXPECT_FALSE(step(kChain, {}, false));
   EXPECT_TRUE(step({kAgs}, {}, false));
   EXPECT_EQ(read.result().error(), Error::kTransport);
+  // Then the next read releases the bank, tries it again if need be, and drops what waited.
+  plan();
+  EXPECT_TRUE(step({kAgs, kClearValid1}, {}, false));
+  EXPECT_EQ(read.result().error(), Error::kTransport);
+  plan();
+  EXPECT_FALSE(step({kAgs, kClearValid1}, {}));
+  EXPECT_TRUE(step(kChain, {kWord, kNone}));
+  EXPECT_EQ(read.result().error(), Error::kNoData);
   // The marking fails.
   plan();
   EXPECT_FALSE(step(kChain, {kBadWord, kBad}));
@@ -319,6 +327,9 @@ TEST_F(Full, EachStepFails_ReleasesTheBank) {
     }
     EXPECT_EQ(read.result().error(), Error::kTransport) << failing;
   }
+  plan();
+  EXPECT_FALSE(step({kAgs, kClearValid1}, {}));
+  EXPECT_FALSE(step(frames[0], {kNone}));
 }
 
 }  // namespace

@@ -43,7 +43,7 @@ void encoder_begin(encoder_transfer transfer, uint32_t now_us) {
 
 uint8_t encoder_read(uint32_t now_us, uint32_t *position) {
   uint8_t code;
-  mb4_cyclic_plan(&cyclic, &plan);
+  mb4_cyclic_plan(&cyclic, &plan, 0);
   do {
     uint8_t i;
     for (i = 0; i < plan.frames; ++i) {

@@ -137,6 +137,7 @@ struct Chip {
   void started(std::uint32_t now_us) {
     watch.news_us = now_us;
     watch.taken = 0;
+    watch.held = false;
     for (std::uint32_t& good_us : watch.good_us) {
       good_us = now_us;
     }
