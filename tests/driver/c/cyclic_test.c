@@ -33,7 +33,11 @@ typedef struct {
   mb4_word word;
   mb4_watch watch;
   mb4_cyclic read;
+  mb4_slot slot;
+  mb4_reading reading;
   mb4_plan plan;
+  uint32_t tx[MB4_PLAN_WORDS(1)];
+  uint32_t rx[MB4_PLAN_WORDS(1)];
   uint32_t table[16];
   uint8_t parts;
   unsigned transfers;
@@ -81,7 +85,10 @@ static void start(drive_t *drive, bool omits, uint8_t spi_check, bool chain, boo
   drive->watch.omitted_us = 2 * kPeriodNs / 1000 + 2;
   drive->watch.silent_us = 16 * kPeriodNs / 1000;
   drive->watch.lines = 1;
-  drive->read.word = &drive->word;
+  drive->read.words = &drive->word;
+  drive->read.slots = &drive->slot;
+  drive->read.count = 1;
+  mb4_plan_memory(&drive->plan, drive->tx, drive->rx);
   drive->read.watch = &drive->watch;
   drive->read.spi_check = spi_check;
   drive->read.chain = chain;
@@ -99,13 +106,17 @@ static uint8_t read_position(drive_t *drive) {
     for (i = 0; i < drive->plan.frames; ++i) {
       const uint8_t size = drive->plan.size[i];
       CHECK(size <= 25);
-      CHECK(mb4sim_spi_transfer(drive->simulator, drive->plan.tx[i], drive->plan.rx[i], size) == 0);
+      CHECK(mb4sim_spi_transfer(drive->simulator, mb4_plan_tx(&drive->plan, i),
+                                mb4_plan_rx(&drive->plan, i), size) == 0);
       ++drive->transfers;
       drive->bytes += size;
     }
     code = mb4_cyclic_finish(&drive->read, &drive->plan, true, now_us(drive), drive->parts);
     CHECK(++calls <= 6);
   } while (code == MB4_MORE);
+  if (code == MB4_OK) {
+    mb4_slot_reading(&drive->word, &drive->slot, &drive->reading, drive->parts);
+  }
   return code;
 }
 
@@ -134,13 +145,13 @@ static void test_phases(bool omits, uint8_t spi_check, bool chain, bool by_table
       before = mb4sim_time_ns(drive.simulator);
       code = read_position(&drive);
       if (code == MB4_OK) {
-        const uint64_t position = drive.read.reading.position;
+        const uint64_t position = drive.reading.position;
         uint64_t sent = 0;
         CHECK(mb4sim_slave_sent(drive.simulator, 1, position + 1, &sent) == 0);
-        CHECK(sent == drive.read.reading.raw);
+        CHECK(sent == drive.reading.raw);
         CHECK(ticks == 0 || position > last);
         CHECK(mb4sim_slave_frames(drive.simulator, 1) - position <= 4);
-        CHECK(!drive.read.reading.error && !drive.read.reading.warning);
+        CHECK(!drive.reading.error && !drive.reading.warning);
         last = position;
         ++good;
         if (chain) {
@@ -242,7 +253,7 @@ static void test_given_up(bool omits, bool chain) {
   CHECK(read_position(&drive) == MB4_OK);
   mb4sim_advance_ns(drive.simulator, kPeriodNs);
   mb4_cyclic_plan(&drive.read, &drive.plan, drive.parts);
-  write_bytes(&drive, drive.plan.tx[0], drive.plan.size[0]); /* HOLDBANK */
+  write_bytes(&drive, mb4_plan_tx(&drive.plan, 0), drive.plan.size[0]); /* HOLDBANK */
   CHECK(mb4_cyclic_finish(&drive.read, &drive.plan, false, now_us(&drive), drive.parts) == MB4_MORE);
   CHECK(mb4_cyclic_finish(&drive.read, &drive.plan, false, now_us(&drive), drive.parts) ==
         MB4_TRANSPORT);
@@ -252,7 +263,7 @@ static void test_given_up(bool omits, bool chain) {
     code = read_position(&drive);
     CHECK(code == (i == 0 ? MB4_NO_DATA : MB4_OK));
     if (code == MB4_OK) {
-      CHECK(mb4sim_slave_frames(drive.simulator, 1) - drive.read.reading.position <= 3);
+      CHECK(mb4sim_slave_frames(drive.simulator, 1) - drive.reading.position <= 3);
     }
   }
   CHECK(mb4sim_spi_transfer(drive.simulator, status, status, sizeof status) == 0);
