@@ -1,22 +1,22 @@
 /* SPDX-FileCopyrightText: 2026 The openmb4 authors
  * SPDX-License-Identifier: Apache-2.0
  *
- * The read path of a control loop, in C99 and C++: positions of one slave from automatic frames.
- * Automatic::poll_slave() is a loop over it. A program in C needs this header, mb4.h and the
- * generated mb4_regs.h, and no C++ compiler. There is no heap, static data, callback or clock.
+ * The read path of a control loop, in C99 and C++: positions of 1 to 8 slaves from automatic frames.
+ * Automatic::poll_slave() and poll() are loops over it. A program in C needs this header, mb4.h and
+ * the generated mb4_regs.h, and no C++ compiler. There is no heap, static data, callback or clock.
  *
  * A read is one or more plans. A plan holds SPI frames; the caller makes them, by DMA or otherwise:
  *
  *   mb4_cyclic_plan(&read, &plan, MB4_WITH_ALL);      // begins a read
  *   do {
- *     bool done = ...;                                // plan.size[i] bytes from plan.tx[i] to
- *                                                     // plan.rx[i], NCS low for each frame
+ *     bool done = ...;    // plan.size[i] bytes from mb4_plan_tx(&plan, i) to mb4_plan_rx(&plan, i),
+ *                         // NCS low for each frame, i < plan.frames
  *     code = mb4_cyclic_finish(&read, &plan, done, now_us, MB4_WITH_ALL);
  *   } while (code == MB4_MORE);
- *   if (code == MB4_OK) { read.reading ... }
+ *   if (code == MB4_OK) { mb4_slot_reading(&word, &slot, &reading, MB4_WITH_ALL); ... }
  *
- * With `chain` set, a read is one plan of four frames (table 69 of the datasheet): 0x07 HOLDBANK,
- * 0x09 or 0x03 data, 0x05 status, 0x02 SVALID = 0 and HOLDBANK = 0. Only a bad word needs another
+ * With `chain` set, a read is one plan (table 69 of the datasheet): 0x07 HOLDBANK, 0x09 or 0x03 data
+ * of one slave or several, 0x05 status, 0x02 SVALID = 0 and HOLDBANK = 0. Only a bad word needs another
  * plan. Without `chain` the 0x02 is a plan of its own, and a bad word needs one frame more.
  *
  * No function may be interrupted by another one on the same object.
@@ -87,8 +87,8 @@ enum {
   MB4_MORE = 255         /* of mb4_cyclic_finish(): make the frames of the plan */
 };
 
-/* Words of 32 bits for tx, and for rx, of a read of `slaves` slaves. */
-#define MB4_PLAN_WORDS(slaves) (4U * (slaves) + 4U)
+/* Words of 32 bits for tx, and for rx, of a read of `slaves` slaves: a size of an array. */
+#define MB4_PLAN_WORDS(slaves) (4U * (slaves) + 4U) /* NOLINT(cppcoreguidelines-macro-usage) */
 
 /* SPI frames to make one after the other, each with NCS low: mb4_plan_tx() to mb4_plan_rx(),
  * size[i] bytes. Every frame begins at a whole word. Write only rx. */
@@ -101,10 +101,10 @@ typedef struct {
   uint8_t at[MB4_PLAN_FRAMES];   /* where each frame begins in tx and rx */
 } mb4_plan;
 
-/* Gives the plan its memory: MB4_PLAN_WORDS() words each. */
-static inline void mb4_plan_memory(mb4_plan *plan, uint32_t *tx, uint32_t *rx) {
-  plan->tx = (uint8_t *)tx;
-  plan->rx = (uint8_t *)rx;
+/* Gives the plan its memory: MB4_PLAN_WORDS() words of 32 bits each. */
+static inline void mb4_plan_memory(mb4_plan *plan, void *tx, void *rx) {
+  plan->tx = (uint8_t *)tx; /* NOLINT(cppcoreguidelines-pro-type-cstyle-cast) */
+  plan->rx = (uint8_t *)rx; /* NOLINT(cppcoreguidelines-pro-type-cstyle-cast) */
 }
 
 static inline uint8_t *mb4_plan_tx(const mb4_plan *plan, uint8_t frame) {
@@ -192,7 +192,8 @@ enum {
   MB4_WITH_UNHELD = 8,   /* without HOLDBANK beside a register access */
   MB4_WITH_SEVERAL = 16, /* more than one slave delivers data */
   MB4_WITH_ALL = 31,
-  MB4_WITH_TABLE = 32 /* CRC by word->table, four bits a step, where it is not null */
+  MB4_WITH_TABLE = 32, /* CRC by word->table, four bits a step, where it is not null */
+  MB4_WITH_COUNTS = 64 /* watch->counts, where it is not null */
 };
 
 /* `steps` (1..32) bits, of a CRC that is left aligned and has the data added to it. */
@@ -249,6 +250,30 @@ MB4_APART uint16_t mb4_word_crc(const mb4_word *word, uint32_t low, uint32_t hig
 
 /* ---- Reading --------------------------------------------------------------------------------- */
 
+/* What the reads of one chip have met: with MB4_WITH_COUNTS, each finished read of one slave or of
+ * all. Set the object to zero once. The chip counts nothing: nAGSERR stays 0 from the first frame
+ * that it has left out until BREAK or INIT, and SWBANKFAIL (0xFB) is 1 only until the next switch. So
+ * what is lost is counted by time: the periods between two good reads. This is exact for frames with
+ * a fixed period, while the loop's phase to them moves by less than half a period from one good read
+ * to the next, and as long as the caller's clock and the chip's agree: each half period between them
+ * is one count. */
+typedef struct {
+  uint32_t period_ns; /* the caller's: of the frames, at most 10^9; 0: nothing is counted as lost */
+  uint32_t good;      /* reads with a new word */
+  uint32_t crc;       /* reads with a bad word */
+  uint32_t lost;      /* samples that no read has brought: left out, overwritten or bad; known with the
+                         next good one */
+  uint32_t sequence;  /* number of the last good sample; the first one is 1 */
+  uint32_t switched;  /* MB4_BANK_SWITCHED */
+  uint32_t late;      /* reads that ended more than 1.5 periods after the last one */
+  uint32_t faults;    /* other errors */
+  bool omits;         /* nAGSERR = 0: the chip has left out a frame */
+  /* Private. */
+  uint32_t last_us; /* good */
+  uint32_t read_us;
+  uint32_t rest_ns;
+} mb4_counts;
+
 /* What all slaves of one chip share. */
 typedef struct {
   uint32_t news_us;    /* when the last frame was seen; set it when frames are started */
@@ -260,6 +285,7 @@ typedef struct {
                           it; clear it when frames are started */
   uint8_t taken;       /* slaves (bit 0 is slave 1) of which a read of one has taken a good word */
   uint32_t good_us[MB4_SLAVES]; /* when; set them when frames are started */
+  mb4_counts *counts;           /* for MB4_WITH_COUNTS; may be null */
 } mb4_watch;
 
 /* The word of one slave, from one read. */
@@ -325,7 +351,9 @@ static inline uint16_t mb4_word_flag(const mb4_word *word) {
 
 /* The slaves of this try whose SVALID is 1 in the last status. */
 static inline uint16_t mb4_cyclic_valid(const mb4_cyclic *read) {
-  return (uint16_t)((read->status[1] | read->status[2] << 8) & read->flags);
+  const uint16_t low = read->status[1];
+  const uint16_t high = (uint16_t)(read->status[2] << 8);
+  return (uint16_t)((low | high) & read->flags);
 }
 
 static inline bool mb4_cyclic_frame_bad(const mb4_cyclic *read) {
@@ -880,24 +908,9 @@ static inline uint8_t mb4_cyclic_watch(mb4_cyclic *read, mb4_plan *plan, uint8_t
   return MB4_MORE;
 }
 
-/* Takes what came back. `transferred`: all frames of the plan were made, in order. `now_us`: the
- * time, a counter of microseconds that wraps at 2^32. `with`: MB4_WITH_..., a constant.
- *
- * Returns MB4_MORE (make the frames of the new plan, then call it again) or the result, which is
- * that of the slave, or of all (`told` is false). With several slaves it is MB4_OK if one slot is:
- *
- *   MB4_OK             mb4_slot_reading() gives the new position
- *   MB4_NO_DATA        no frame with data of this slave has ended since the last read
- *   MB4_CRC            one has, and its CRC was wrong; told once for each frame. Without a stored
- *                      CRC: by each read until a frame is good, if the slave is the only one
- *   MB4_CORRUPTED, MB4_NOT_DETECTED, MB4_TRANSPORT, MB4_BANK_SWITCHED, MB4_TIMEOUT, MB4_LINE_ERROR
- *                      as Automatic::poll() in mb4/automatic.hpp describes them
- *
- * At most four calls a read without MB4_SPI_CHECK_FULL, six with it or unheld; one more after a read
- * that has ended without the release of the bank. A read may be given up: call this function with
- * transferred = false, without the frames, until it does not return MB4_MORE. */
-static inline uint8_t mb4_cyclic_finish(mb4_cyclic *read, mb4_plan *plan, bool transferred,
-                                        uint32_t now_us, uint8_t with) {
+/* mb4_cyclic_finish() without the counts. */
+static inline uint8_t mb4_cyclic_step(mb4_cyclic *read, mb4_plan *plan, bool transferred,
+                                      uint32_t now_us, uint8_t with) {
   const uint8_t stage = read->stage;
   uint8_t code = transferred ? read->code : (uint8_t)MB4_TRANSPORT;
   if (stage == MB4_STAGE_LINES) {
@@ -937,6 +950,75 @@ static inline uint8_t mb4_cyclic_finish(mb4_cyclic *read, mb4_plan *plan, bool t
     code = mb4_cyclic_held(read, plan, (uint8_t)(frame - 1), with);
   }
   return code == MB4_MORE ? code : mb4_cyclic_watch(read, plan, code, now_us, with);
+}
+
+/* A read has ended with `code`. */
+MB4_APART void mb4_cyclic_count_read(const mb4_cyclic *read, uint8_t code, uint32_t now_us) {
+  mb4_counts *counts = read->watch->counts;
+  const uint32_t period_ns = counts->period_ns;
+  const uint32_t since_us = now_us - counts->read_us;
+  uint32_t left_us = now_us - counts->last_us;
+  uint32_t periods = 0;
+  if (counts->read_us != 0 && period_ns != 0 && since_us > period_ns / 1000 * 3 / 2) {
+    ++counts->late;
+  }
+  counts->read_us = now_us | 1U;
+  counts->omits = counts->omits || (read->status[0] & MB4_CYCLIC_AGSERR) == 0;
+  if (read->bad || code == MB4_CRC) {
+    ++counts->crc;
+  } else if (code == MB4_BANK_SWITCHED) {
+    ++counts->switched;
+  } else if (code != MB4_OK && code != MB4_NO_DATA) {
+    ++counts->faults;
+  }
+  if (code != MB4_OK) {
+    return;
+  }
+  ++counts->good;
+  counts->last_us = now_us;
+  if (counts->sequence == 0 || period_ns == 0) {
+    counts->sequence = counts->good;
+    counts->rest_ns = period_ns / 2;
+    return;
+  }
+  do {
+    const uint32_t part_us = left_us > 2000000U ? 2000000U : left_us;
+    const uint32_t time_ns = counts->rest_ns + part_us * 1000U;
+    periods += time_ns / period_ns;
+    counts->rest_ns = time_ns % period_ns;
+    left_us -= part_us;
+  } while (left_us != 0);
+  if (periods == 0) { /* a new word is a new sample */
+    periods = 1;
+    counts->rest_ns = 0;
+  }
+  counts->sequence += periods;
+  counts->lost += periods - 1;
+}
+
+/* Takes what came back. `transferred`: all frames of the plan were made, in order. `now_us`: the
+ * time, a counter of microseconds that wraps at 2^32. `with`: MB4_WITH_..., a constant.
+ *
+ * Returns MB4_MORE (make the frames of the new plan, then call it again) or the result, which is
+ * that of the slave, or of all (`told` is false). With several slaves it is MB4_OK if one slot is:
+ *
+ *   MB4_OK             mb4_slot_reading() gives the new position
+ *   MB4_NO_DATA        no frame with data of this slave has ended since the last read
+ *   MB4_CRC            one has, and its CRC was wrong; told once for each frame. Without a stored
+ *                      CRC: by each read until a frame is good, if the slave is the only one
+ *   MB4_CORRUPTED, MB4_NOT_DETECTED, MB4_TRANSPORT, MB4_BANK_SWITCHED, MB4_TIMEOUT, MB4_LINE_ERROR
+ *                      as Automatic::poll() in mb4/automatic.hpp describes them
+ *
+ * At most four calls a read without MB4_SPI_CHECK_FULL, six with it or unheld; one more after a read
+ * that has ended without the release of the bank. A read may be given up: call this function with
+ * transferred = false, without the frames, until it does not return MB4_MORE. */
+static inline uint8_t mb4_cyclic_finish(mb4_cyclic *read, mb4_plan *plan, bool transferred,
+                                        uint32_t now_us, uint8_t with) {
+  const uint8_t code = mb4_cyclic_step(read, plan, transferred, now_us, with);
+  if ((with & MB4_WITH_COUNTS) != 0 && code != MB4_MORE && read->watch->counts != 0) {
+    mb4_cyclic_count_read(read, code, now_us);
+  }
+  return code;
 }
 
 #undef MB4_APART

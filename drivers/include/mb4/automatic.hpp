@@ -235,8 +235,24 @@ class Automatic {
     read.read_.wide = wide;
     return begin(read, chip_.config.spi_check != SpiCheck::kFull);
   }
+  template <std::uint8_t With = MB4_WITH_ALL>
   [[nodiscard]] bool finish(FrameRead& read, bool transferred, std::uint32_t now_us) {
-    return take<MB4_WITH_ALL>(read, transferred, now_us);
+    return take<With>(read, transferred, now_us);
+  }
+
+  // Counts the reads from now on in `counts` (mb4_cyclic.h), which must outlive the Device or the
+  // next call; nullptr ends it. Only calls with MB4_WITH_COUNTS in `With` count, the others do not
+  // contain the code: poll_slave<MB4_WITH_ALL | MB4_WITH_COUNTS>(), finish<...>(). What is lost is
+  // counted with FrameStart::kPeriodic.
+  void count(mb4_counts* counts) {
+    chip_.watch.counts = counts;
+    if (counts != nullptr) {
+      const Config& config = chip_.config;
+      counts->period_ns = config.frame_start != FrameStart::kPeriodic
+                              ? 0
+                              : static_cast<std::uint32_t>(std::uint64_t{config.frame_period_clk} *
+                                                           1'000'000'000U / config.f_clk_hz);
+    }
   }
 
   // Device::write_actuator() for a control loop that writes a word for each frame. Never waits;
