@@ -286,7 +286,8 @@ static void test_two(bool omits) {
   static const char text[] =
       "[chip.quirks]\nAGSERR_ON_HOLDBANK = %s\n[host]\nsclk_hz = 10_000_000\n[[channel]]\nnumber = 1\n"
       "[[channel.slave]]\nprotocol = \"biss-c\"\ndata_bits = 28\nsource = \"ramp\"\nstep = 1\n"
-      "[[channel.slave]]\nprotocol = \"biss-c\"\ndata_bits = 28\nsource = \"ramp\"\nstep = 1\n";
+      "[[channel.slave]]\nprotocol = \"biss-c\"\ndata_bits = 28\nsource = \"ramp\"\nstep = 1\n"
+      "start = 5000\n";
   const mb4_slave_config slave = {true, 28, MB4_FLAGS_ERROR_WARNING, 0, 0x43, false, false, false};
   const uint8_t part[] = {0x02, 0xC4, 0x5B, 0x06}; /* the second slave as the first */
   const uint8_t with = MB4_WITH_ALL | MB4_WITH_COUNTS;
@@ -333,7 +334,7 @@ static void test_two(bool omits) {
       CHECK(drive.transfers == 4 && drive.bytes == 31);
       mb4_slot_reading(&words[0], &slots[0], &first, with);
       mb4_slot_reading(&words[1], &slots[1], &second, with);
-      CHECK(first.position == second.position && first.slave == 1 && second.slave == 2);
+      CHECK(first.position + 5000 == second.position && first.slave == 1 && second.slave == 2);
     }
     CHECK(counts.good >= 38 && counts.crc == 0 && counts.faults == 0);
     CHECK(counts.lost >= 10 && counts.lost <= 13);
