@@ -1,22 +1,22 @@
 /* SPDX-FileCopyrightText: 2026 The openmb4 authors
  * SPDX-License-Identifier: Apache-2.0
  *
- * The read path of a control loop, in C99 and C++: positions of one slave from automatic frames.
- * Automatic::poll_slave() is a loop over it. A program in C needs this header, mb4.h and the
- * generated mb4_regs.h, and no C++ compiler. There is no heap, static data, callback or clock.
+ * The read path of a control loop, in C99 and C++: positions of 1 to 8 slaves from automatic frames.
+ * Automatic::poll_slave() and poll() are loops over it. A program in C needs this header, mb4.h and
+ * the generated mb4_regs.h, and no C++ compiler. There is no heap, static data, callback or clock.
  *
  * A read is one or more plans. A plan holds SPI frames; the caller makes them, by DMA or otherwise:
  *
- *   mb4_cyclic_plan(&read, &plan);                    // begins a read
+ *   mb4_cyclic_plan(&read, &plan, MB4_WITH_ALL);      // begins a read
  *   do {
- *     bool done = ...;                                // plan.size[i] bytes from plan.tx[i] to
- *                                                     // plan.rx[i], NCS low for each frame
+ *     bool done = ...;    // plan.size[i] bytes from mb4_plan_tx(&plan, i) to mb4_plan_rx(&plan, i),
+ *                         // NCS low for each frame, i < plan.frames
  *     code = mb4_cyclic_finish(&read, &plan, done, now_us, MB4_WITH_ALL);
  *   } while (code == MB4_MORE);
- *   if (code == MB4_OK) { read.reading ... }
+ *   if (code == MB4_OK) { mb4_slot_reading(&word, &slot, &reading, MB4_WITH_ALL); ... }
  *
- * With `chain` set, a read is one plan of four frames (table 69 of the datasheet): 0x07 HOLDBANK,
- * 0x09 or 0x03 data, 0x05 status, 0x02 SVALID = 0 and HOLDBANK = 0. Only a bad word needs another
+ * With `chain` set, a read is one plan (table 69 of the datasheet): 0x07 HOLDBANK, 0x09 or 0x03 data
+ * of one slave or several, 0x05 status, 0x02 SVALID = 0 and HOLDBANK = 0. Only a bad word needs another
  * plan. Without `chain` the 0x02 is a plan of its own, and a bad word needs one frame more.
  *
  * No function may be interrupted by another one on the same object.
@@ -82,39 +82,63 @@ extern "C" {
 /* ---- Plans ----------------------------------------------------------------------------------- */
 
 enum {
-  MB4_PLAN_FRAMES = 4,
-  MB4_PLAN_FRAME_BYTES = 12, /* longest frame: 10 bytes, rounded up to whole words */
-  MB4_MORE = 255             /* of mb4_cyclic_finish(): make the frames of the plan */
+  MB4_PLAN_FRAMES = 18,  /* most frames of a plan, with eight slaves */
+  MB4_PLAN_LONGEST = 25, /* bytes of the longest frame, unless mb4_cyclic.wide asks for more */
+  MB4_MORE = 255         /* of mb4_cyclic_finish(): make the frames of the plan */
 };
 
-/* SPI frames to make one after the other, each with NCS low. Every frame begins at a whole word.
- * Place the object where DMA reaches it. Write only rx. */
+/* Words of 32 bits for tx, and for rx, of a read of `slaves` slaves: a size of an array. */
+#define MB4_PLAN_WORDS(slaves) (4U * (slaves) + 4U) /* NOLINT(cppcoreguidelines-macro-usage) */
+
+/* SPI frames to make one after the other, each with NCS low: mb4_plan_tx() to mb4_plan_rx(),
+ * size[i] bytes. Every frame begins at a whole word. Write only rx. */
 typedef struct {
   uint32_t pause_us; /* the next plan must not begin earlier than this after the last frame */
-  uint8_t frames;    /* 1..MB4_PLAN_FRAMES */
-  uint8_t size[MB4_PLAN_FRAMES]; /* bytes of each frame, 2..10 */
-  uint8_t unused[3];
-  uint8_t tx[MB4_PLAN_FRAMES][MB4_PLAN_FRAME_BYTES];
-  uint8_t rx[MB4_PLAN_FRAMES][MB4_PLAN_FRAME_BYTES];
+  uint8_t *tx;       /* the caller's memory, where DMA reaches it */
+  uint8_t *rx;
+  uint8_t frames;                /* 1..MB4_PLAN_FRAMES */
+  uint8_t size[MB4_PLAN_FRAMES]; /* bytes of each frame, 2..25 */
+  uint8_t at[MB4_PLAN_FRAMES];   /* where each frame begins in tx and rx */
 } mb4_plan;
 
-/* Adds a frame of `size` bytes that begins with `first` and `second`; the rest is `filler`. */
-static inline void mb4_plan_add(mb4_plan *plan, uint8_t size, uint8_t first, uint8_t second,
+/* Gives the plan its memory: MB4_PLAN_WORDS() words of 32 bits each. */
+static inline void mb4_plan_memory(mb4_plan *plan, void *tx, void *rx) {
+  plan->tx = (uint8_t *)tx; /* NOLINT(cppcoreguidelines-pro-type-cstyle-cast) */
+  plan->rx = (uint8_t *)rx; /* NOLINT(cppcoreguidelines-pro-type-cstyle-cast) */
+}
+
+static inline uint8_t *mb4_plan_tx(const mb4_plan *plan, uint8_t frame) {
+  return plan->tx + plan->at[frame];
+}
+
+static inline uint8_t *mb4_plan_rx(const mb4_plan *plan, uint8_t frame) {
+  return plan->rx + plan->at[frame];
+}
+
+/* Adds a frame of `size` bytes that begins with `first` and `second`; the rest is `filler`. Returns
+ * it. */
+MB4_APART uint8_t *mb4_plan_add(mb4_plan *plan, uint8_t size, uint8_t first, uint8_t second,
                                 uint8_t filler) {
-  uint8_t *tx = plan->tx[plan->frames];
+  const uint8_t frame = plan->frames;
+  uint8_t *tx = 0;
   uint8_t i = 0;
-  plan->size[plan->frames] = size;
+  plan->at[frame] =
+      frame == 0 ? 0 : (uint8_t)(plan->at[frame - 1] + ((plan->size[frame - 1] + 3U) & ~3U));
+  plan->size[frame] = size;
   ++plan->frames;
+  tx = mb4_plan_tx(plan, frame);
   tx[0] = first;
   tx[1] = second;
   for (i = 2; i < size; ++i) {
     tx[i] = filler;
   }
+  return tx;
 }
 
 /* False: the frame writes, so what comes back need not be stored. */
 static inline bool mb4_plan_reads(const mb4_plan *plan, uint8_t frame) {
-  return plan->tx[frame][0] != MB4_CYCLIC_WRITE && plan->tx[frame][0] != MB4_CYCLIC_INSTRUCT;
+  const uint8_t opcode = mb4_plan_tx(plan, frame)[0];
+  return opcode != MB4_CYCLIC_WRITE && opcode != MB4_CYCLIC_INSTRUCT;
 }
 
 /* ---- The word of one slave ------------------------------------------------------------------- */
@@ -166,9 +190,10 @@ enum {
   MB4_WITH_GRAY = 2,     /* SSI with Gray code */
   MB4_WITH_FULL = 4,     /* MB4_SPI_CHECK_FULL */
   MB4_WITH_UNHELD = 8,   /* without HOLDBANK beside a register access */
-  MB4_WITH_SEVERAL = 16, /* other slaves deliver data too */
+  MB4_WITH_SEVERAL = 16, /* more than one slave delivers data */
   MB4_WITH_ALL = 31,
-  MB4_WITH_TABLE = 32 /* CRC by word->table, four bits a step, where it is not null */
+  MB4_WITH_TABLE = 32, /* CRC by word->table, four bits a step, where it is not null */
+  MB4_WITH_COUNTS = 64 /* watch->counts, where it is not null */
 };
 
 /* `steps` (1..32) bits, of a CRC that is left aligned and has the data added to it. */
@@ -225,43 +250,82 @@ MB4_APART uint16_t mb4_word_crc(const mb4_word *word, uint32_t low, uint32_t hig
 
 /* ---- Reading --------------------------------------------------------------------------------- */
 
+/* What the reads of one chip have met: with MB4_WITH_COUNTS, each finished read of one slave or of
+ * all. Set the object to zero once. The chip counts nothing: nAGSERR stays 0 from the first frame
+ * that it has left out until BREAK or INIT, and SWBANKFAIL (0xFB) is 1 only until the next switch. So
+ * what is lost is counted by time: the periods between two good reads. This is exact for frames with
+ * a fixed period, while the loop's phase to them moves by less than half a period from one good read
+ * to the next, and as long as the caller's clock and the chip's agree: each half period between them
+ * is one count. */
+typedef struct {
+  uint32_t period_ns; /* the caller's: of the frames, at most 10^9; 0: nothing is counted as lost */
+  uint32_t good;      /* reads with a new word */
+  uint32_t crc;       /* reads with a bad word */
+  uint32_t lost;      /* samples that no read has brought: left out, overwritten or bad; known with the
+                         next good one */
+  uint32_t sequence;  /* number of the last good sample; the first one is 1 */
+  uint32_t switched;  /* MB4_BANK_SWITCHED */
+  uint32_t late;      /* reads that ended more than 1.5 periods after the last one */
+  uint32_t faults;    /* other errors */
+  bool omits;         /* nAGSERR = 0: the chip has left out a frame */
+  /* Private. */
+  uint32_t last_us; /* good */
+  uint32_t read_us;
+  uint32_t rest_ns;
+} mb4_counts;
+
 /* What all slaves of one chip share. */
 typedef struct {
   uint32_t news_us;    /* when the last frame was seen; set it when frames are started */
   uint32_t omitted_us; /* longest time without a frame after the chip has left some out */
   uint32_t silent_us;  /* longest time without a frame; 0: only the caller knows */
   uint8_t lines;       /* bits of 0xF8 that are 1 while the lines are idle: SL1, SL2 */
-  bool several;        /* other slaves deliver data too */
-  uint8_t taken;       /* slaves (bit 0 is slave 1) of which a read has taken a good word */
+  bool several;        /* more than one slave delivers data */
+  bool held;           /* a read has ended without the release of the bank: the next one begins with
+                          it; clear it when frames are started */
+  uint8_t taken;       /* slaves (bit 0 is slave 1) of which a read of one has taken a good word */
   uint32_t good_us[MB4_SLAVES]; /* when; set them when frames are started */
+  mb4_counts *counts;           /* for MB4_WITH_COUNTS; may be null */
 } mb4_watch;
+
+/* The word of one slave, from one read. */
+typedef struct {
+  uint32_t low; /* SCDATAx */
+  uint32_t high;
+  uint16_t crc; /* that fits the data */
+  uint8_t code; /* MB4_OK, MB4_NO_DATA, MB4_CRC, MB4_CORRUPTED */
+  bool bad;     /* private: the word of this try has a wrong CRC */
+} mb4_slot;
 
 /* One read. Set the object to zero once; then the members up to `chain` are the caller's. The
  * frames of a chain stay in the plan, so that the next read need not write them again: clear
- * `built` when the plan's memory, one of these members or `*word` has changed. */
+ * `built` when the plan's memory, one of these members or a word has changed. */
 typedef struct {
-  const mb4_word *word;
+  const mb4_word *words; /* of the slaves to read, in ascending order */
+  mb4_slot *slots;       /* one for each word */
   mb4_watch *watch;
+  uint8_t count;     /* words, 1..8; more than one needs MB4_WITH_SEVERAL */
   uint8_t spi_check; /* MB4_SPI_CHECK_..., as configured */
+  bool wide;         /* SPI frames may be longer than 25 bytes: up to 66 */
   bool unheld;       /* a register access runs, and the chip allows no HOLDBANK beside it */
-  bool chain;        /* one plan of four frames; not with MB4_SPI_CHECK_FULL, not unheld */
+  bool access;       /* a register access has begun, and its end has not been seen */
+  bool chain;        /* one plan; not with MB4_SPI_CHECK_FULL, not unheld */
   /* Results. */
-  bool bad;     /* a new word came with a wrong CRC; with MB4_OK a good one has followed */
-  bool running; /* a register access is running: REGEND = 0 in the last status */
+  /* These two with MB4_WITH_SEVERAL: */
+  bool told;      /* the slots hold the result of each slave; otherwise the code is that of all */
+  bool one_frame; /* all words that are MB4_OK belong to one frame */
+  bool bad;       /* a new word came with a wrong CRC; with MB4_OK a good one has followed */
+  bool running;   /* with `access`: REGEND = 0 in the last status, it runs */
   uint8_t status[MB4_STATUS_BYTES]; /* the last one */
   /* Private. */
   uint8_t stage;
-  uint8_t code;  /* the result, once it is known */
-  bool fresh;    /* SVALID was 1 before the data was read */
-  bool again;    /* the second try, or the second reading, runs */
-  bool unproven; /* a bad frame, and no stored CRC tells whose */
+  uint8_t code;    /* the result, once it is known; MB4_OK: the slots tell */
+  bool again;      /* the second try, or the second reading, runs */
+  bool unproven;   /* a bad frame, and no stored CRC tells whose */
+  uint16_t flags;  /* SVALID of the slaves that this try reads */
+  uint16_t fresh;  /* those that were 1 before the data was read; then those read twice */
   /* The caller's again. */
   const mb4_plan *built; /* holds the frames of the chain; null: none */
-  /* Private: SCDATAx. */
-  uint32_t low;
-  uint32_t high;
-  /* Result. */
-  mb4_reading reading; /* valid with MB4_OK */
 } mb4_cyclic;
 
 enum {
@@ -271,39 +335,90 @@ enum {
   MB4_STAGE_UNHELD, /* SVALID = 0, data, status; then, if need be, data and status again */
   MB4_STAGE_CLEAR,  /* FULL: data again, SVALID = 0, status; then, if need be, status again */
   MB4_STAGE_END,    /* the bank is released; the result is known */
-  MB4_STAGE_LINES   /* are the lines idle? */
+  MB4_STAGE_LINES,  /* are the lines idle? */
+  MB4_STAGE_FREE    /* the bank was still held: release, SVALID = 0 */
 };
 
-static inline void mb4_cyclic_add_data(const mb4_cyclic *read, mb4_plan *plan) {
+/* Number of words, a constant where there is only one. */
+static inline uint8_t mb4_cyclic_count(const mb4_cyclic *read, uint8_t with) {
+  return (with & MB4_WITH_SEVERAL) != 0 ? read->count : 1;
+}
+
+/* SVALID of a slave in 0xF2 and 0xF1, high and low byte. */
+static inline uint16_t mb4_word_flag(const mb4_word *word) {
+  return (uint16_t)(2UL << 2 * (word->slave - 1));
+}
+
+/* The slaves of this try whose SVALID is 1 in the last status. */
+static inline uint16_t mb4_cyclic_valid(const mb4_cyclic *read) {
+  const uint16_t low = read->status[1];
+  const uint16_t high = (uint16_t)(read->status[2] << 8);
+  return (uint16_t)((low | high) & read->flags);
+}
+
+static inline bool mb4_cyclic_frame_bad(const mb4_cyclic *read) {
+  return (read->status[0] & MB4_CYCLIC_SCDERR) == 0;
+}
+
+/* Is the slave one of `flags`, a part of read->flags? */
+static inline bool mb4_word_in(const mb4_word *word, uint16_t flags, uint8_t with) {
+  return (with & MB4_WITH_SEVERAL) != 0 ? (mb4_word_flag(word) & flags) != 0 : flags != 0;
+}
+
+/* Adds the frames that read the data of the slaves `flags`. Neighbours share a frame when the bytes between
+ * them cost no more than another opcode and address. */
+MB4_APART void mb4_cyclic_add_data(const mb4_cyclic *read, mb4_plan *plan, uint16_t flags,
+                                   uint8_t with) {
   /* With FULL the filler is what a disturbed opcode would write: not zeros, which may pass. */
-  const uint8_t filler = read->spi_check == MB4_SPI_CHECK_FULL ? 0x5A : 0;
-  const mb4_word *word = read->word;
-  if (word->slave == 1) { /* one byte shorter, and at any SCLK (I204) */
-    mb4_plan_add(plan, (uint8_t)(word->bytes + 1), MB4_CYCLIC_READ0, filler, filler);
-  } else {
-    mb4_plan_add(plan, (uint8_t)(word->bytes + 2), MB4_CYCLIC_READ, (uint8_t)(8 * word->slave - 8),
-                 filler);
+  const uint8_t filler = (with & MB4_WITH_FULL) != 0 && read->spi_check == MB4_SPI_CHECK_FULL
+                             ? 0x5A : 0;
+  const uint8_t limit = read->wide ? 255 : MB4_PLAN_LONGEST;
+  const mb4_word *word = read->words;
+  const mb4_word *last = word + mb4_cyclic_count(read, with);
+  while (word != last) {
+    const uint8_t from = (uint8_t)(8 * word->slave - 8);
+    /* For slave 1 one byte shorter, and at any SCLK (I204). */
+    const uint8_t header = from == 0 ? 1 : 2;
+    uint8_t size = (uint8_t)(header + word->bytes);
+    const bool wanted = (with & MB4_WITH_SEVERAL) == 0 || mb4_word_in(word, flags, with);
+    ++word;
+    if (!wanted) {
+      continue;
+    }
+    for (; (with & MB4_WITH_SEVERAL) != 0 && word != last; ++word) {
+      const uint8_t end = (uint8_t)(header + 8 * word->slave - 8 - from);
+      if (!mb4_word_in(word, flags, with)) {
+        continue;
+      }
+      if (end - size > 2 || end + word->bytes > limit) {
+        break;
+      }
+      size = (uint8_t)(end + word->bytes);
+    }
+    mb4_plan_add(plan, size, header == 1 ? MB4_CYCLIC_READ0 : MB4_CYCLIC_READ,
+                 header == 1 ? filler : from, filler);
   }
 }
 
 MB4_APART void mb4_cyclic_add_status(mb4_plan *plan) {
   /* A bus that stores nothing must not turn an old answer into a new one: this is no status. */
-  plan->rx[plan->frames][1] = 0;
   mb4_plan_add(plan, 1 + MB4_STATUS_BYTES, MB4_CYCLIC_STATUS, 0, 0);
+  mb4_plan_rx(plan, (uint8_t)(plan->frames - 1))[1] = 0;
 }
 
-/* Clears SVALID of the slave. With `size` 6 it also writes 0xF4, HOLDBANK = 0; 0xF3 between them is
- * read-only. */
+/* Clears SVALID of the slaves of this try. With `size` 6 it also writes 0xF4, HOLDBANK = 0; 0xF3
+ * between them is read-only. */
 static inline void mb4_cyclic_add_clear(const mb4_cyclic *read, mb4_plan *plan, uint8_t size) {
-  const uint8_t index = (uint8_t)(read->word->slave - 1);
-  uint8_t *tx = plan->tx[plan->frames];
-  mb4_plan_add(plan, size, MB4_CYCLIC_WRITE, MB4_CYCLIC_SVALID, 0xFF);
-  tx[2 + index / 4] = (uint8_t) ~(2U << 2 * (index % 4));
-  tx[5] = MB4_CYCLIC_AGS;
+  uint8_t *tx = mb4_plan_add(plan, size, MB4_CYCLIC_WRITE, MB4_CYCLIC_SVALID, 0xFF);
+  tx[2] = (uint8_t)~read->flags;
+  tx[3] = (uint8_t)(~(uint32_t)read->flags >> 8);
+  if (size == 6) {
+    tx[5] = MB4_CYCLIC_AGS;
+  }
 }
 
 static inline void mb4_cyclic_add_instruction(mb4_plan *plan, uint8_t instruction) {
-  mb4_plan_add(plan, 2, MB4_CYCLIC_INSTRUCT, instruction, 0);
+  (void)mb4_plan_add(plan, 2, MB4_CYCLIC_INSTRUCT, instruction, 0);
 }
 
 /* The next plan begins: `code` is the result if nothing else happens. */
@@ -322,17 +437,17 @@ MB4_APART uint8_t mb4_cyclic_release(mb4_cyclic *read, mb4_plan *plan, uint8_t c
 }
 
 /* Begins a try. */
-MB4_APART uint8_t mb4_cyclic_try(mb4_cyclic *read, mb4_plan *plan) {
-  const bool full = read->spi_check == MB4_SPI_CHECK_FULL;
-  (void)mb4_cyclic_next(read, plan, full || read->unheld ? MB4_STAGE_LOOK : MB4_STAGE_DATA,
-                        MB4_NO_DATA);
-  if (!read->unheld) {
+MB4_APART uint8_t mb4_cyclic_try(mb4_cyclic *read, mb4_plan *plan, uint8_t with) {
+  const bool full = (with & MB4_WITH_FULL) != 0 && read->spi_check == MB4_SPI_CHECK_FULL;
+  const bool unheld = (with & MB4_WITH_UNHELD) != 0 && read->unheld;
+  (void)mb4_cyclic_next(read, plan, full || unheld ? MB4_STAGE_LOOK : MB4_STAGE_DATA, MB4_OK);
+  if (!unheld) {
     mb4_cyclic_add_instruction(plan, MB4_CYCLIC_HOLD);
   } else if (full) {
     mb4_cyclic_add_status(plan);
   }
   if (read->stage == MB4_STAGE_DATA) {
-    mb4_cyclic_add_data(read, plan);
+    mb4_cyclic_add_data(read, plan, read->flags, with);
   }
   mb4_cyclic_add_status(plan);
   if (read->chain && !read->again) {
@@ -341,25 +456,52 @@ MB4_APART uint8_t mb4_cyclic_try(mb4_cyclic *read, mb4_plan *plan) {
   return MB4_MORE;
 }
 
-/* Begins a read: writes its first frames to `plan`. */
-static inline void mb4_cyclic_plan(mb4_cyclic *read, mb4_plan *plan) {
+/* All slaves of the read belong to the next try. */
+static inline void mb4_cyclic_all(mb4_cyclic *read, uint8_t with) {
+  uint8_t i = 0;
+  read->flags = 0;
+  for (; i < mb4_cyclic_count(read, with); ++i) {
+    read->flags = (uint16_t)(read->flags | mb4_word_flag(&read->words[i]));
+    read->slots[i].code = MB4_NO_DATA;
+    read->slots[i].bad = false;
+  }
+}
+
+/* Begins a read: writes its first frames to `plan`, whose memory is for as many slaves
+ * (mb4_plan_memory()). `with`: as of mb4_cyclic_finish(). */
+static inline void mb4_cyclic_plan(mb4_cyclic *read, mb4_plan *plan, uint8_t with) {
   plan->pause_us = 0;
   read->again = false;
   read->bad = false;
   read->running = false;
   read->unproven = false;
-  if (read->built == plan) {
+  if ((with & MB4_WITH_SEVERAL) != 0) {
+    read->told = false;
+    read->one_frame = true;
+  }
+  mb4_cyclic_all(read, with);
+  if (read->watch->held) {
+    /* Words that have waited in a held bank, or behind it, are old. INSTR = 000 beside an access is
+     * for chips that allow it; the access itself has begun with HOLDBANK = 0. */
+    (void)mb4_cyclic_next(read, plan, MB4_STAGE_FREE, MB4_OK);
+    if ((with & MB4_WITH_UNHELD) == 0 || !read->unheld) {
+      mb4_cyclic_add_instruction(plan, MB4_CYCLIC_AGS);
+    }
+    mb4_cyclic_add_clear(read, plan, 4);
+  } else if (read->built == plan) {
     read->stage = MB4_STAGE_DATA;
-    read->code = MB4_NO_DATA;
-    plan->rx[2][1] = 0;
+    read->code = MB4_OK;
+    mb4_plan_rx(plan, (uint8_t)(plan->frames - 2))[1] = 0;
   } else {
-    (void)mb4_cyclic_try(read, plan);
+    (void)mb4_cyclic_try(read, plan, with);
     read->built = read->chain ? plan : 0;
   }
 }
 
 /* Takes a status. Returns MB4_OK, or what is wrong with it. */
-static inline uint8_t mb4_cyclic_take_status(mb4_cyclic *read, const uint8_t *rx) {
+static inline uint8_t mb4_cyclic_take_status(mb4_cyclic *read, const mb4_plan *plan,
+                                             uint8_t frame) {
+  const uint8_t *rx = mb4_plan_rx(plan, frame);
   uint8_t i = 0;
   for (i = 0; i < MB4_STATUS_BYTES; ++i) {
     read->status[i] = rx[1 + i];
@@ -368,39 +510,46 @@ static inline uint8_t mb4_cyclic_take_status(mb4_cyclic *read, const uint8_t *rx
   if ((rx[1] & MB4_CYCLIC_CONST0) == 0 || ((rx[2] | rx[3]) & MB4_CYCLIC_CONST1) != 0) {
     return MB4_NOT_DETECTED;
   }
-  read->running = (rx[1] & MB4_CYCLIC_REGEND) == 0;
+  read->running = read->access && (rx[1] & MB4_CYCLIC_REGEND) == 0;
   /* The chip must hold exactly what was written; AGS may have ended by an error. Without HOLDBANK
    * the bytes may come from two frames; with SWBANK or INIT they are other data. */
   return read->unheld || (rx[5] | MB4_CYCLIC_AGS) == MB4_CYCLIC_HOLD ? MB4_OK : MB4_CORRUPTED;
 }
 
-static inline bool mb4_cyclic_valid(const mb4_cyclic *read) {
-  const uint8_t index = (uint8_t)(read->word->slave - 1);
-  return ((uint8_t)(read->status[1 + index / 4] >> 2 * (index % 4)) & 2U) != 0;
-}
-
-static inline bool mb4_cyclic_frame_bad(const mb4_cyclic *read) {
-  return (read->status[0] & MB4_CYCLIC_SCDERR) == 0;
-}
-
-/* The bytes of SCDATAx, which end frame `frame` of `plan`. */
-static inline void mb4_cyclic_load(const mb4_cyclic *read, const mb4_plan *plan, uint8_t frame,
-                                   uint32_t *low, uint32_t *high) {
-  const uint8_t *bytes = &plan->rx[frame][plan->size[frame]];
-  uint8_t left = read->word->bytes;
+/* Takes the bytes of SCDATAx. */
+static inline void mb4_slot_load(const mb4_word *word, mb4_slot *slot, const uint8_t *bytes) {
+  uint8_t left = word->bytes;
   uint32_t part = 0;
-  *high = 0;
+  bytes += left;
+  slot->high = 0;
   if (left > 4) {
     do {
       part = part << 8 | *--bytes;
     } while (--left > 4);
-    *high = part;
+    slot->high = part;
     part = 0;
   }
   do {
     part = part << 8 | *--bytes;
   } while (--left > 0);
-  *low = part;
+  slot->low = part;
+}
+
+/* Takes SCDATAx of `word`. With one word it ends frame `frame`; otherwise it is looked for. */
+static inline void mb4_cyclic_load(const mb4_plan *plan, uint8_t frame, const mb4_word *word,
+                                   mb4_slot *slot, uint8_t with) {
+  uint8_t offset = (uint8_t)(plan->size[frame] - word->bytes);
+  if ((with & MB4_WITH_SEVERAL) != 0) {
+    uint8_t header = 0;
+    frame = 0xFF;
+    do {
+      const uint8_t *tx = mb4_plan_tx(plan, ++frame);
+      header = tx[0] == MB4_CYCLIC_READ0 ? 1 : tx[0] == MB4_CYCLIC_READ ? 2 : 0xFF;
+      offset = (uint8_t)(8 * word->slave - 8 - (header == 2 ? tx[1] : 0));
+    } while (offset + header >= plan->size[frame]);
+    offset = (uint8_t)(offset + header);
+  }
+  mb4_slot_load(word, slot, mb4_plan_rx(plan, frame) + offset);
 }
 
 /* Keeps the data bits of `low`, `high`. False: a bit above them, in the same byte, is 1 although
@@ -425,29 +574,29 @@ static inline bool mb4_cyclic_cut(const mb4_word *word, uint32_t *low, uint32_t 
   return (bits & 7U) == 0 || (cut >> bits & (0xFFU >> (bits & 7U))) == 0;
 }
 
-/* The CRC that the chip has stored, in the top byte(s) (page 26). */
-static inline uint16_t mb4_cyclic_stored_crc(const mb4_cyclic *read) {
-  return (uint16_t)(read->high >> (read->word->crc_bits > 8 ? 16 : 24));
+/* The word in `slot`. False: it contradicts itself, in its CRC, which the chip has stored in the top
+ * byte(s) (page 26), or in bits that the chip makes 0. */
+MB4_APART bool mb4_slot_good(const mb4_word *word, mb4_slot *slot, uint8_t with) {
+  uint32_t low = slot->low;
+  uint32_t high = slot->high;
+  const bool fits = mb4_cyclic_cut(word, &low, &high, with);
+  slot->crc = 0;
+  if (word->crc_bits == 0) {
+    return fits;
+  }
+  slot->crc = mb4_word_crc(word, low, high, with);
+  return fits && slot->crc == (uint16_t)(slot->high >> (word->crc_bits > 8 ? 16 : 24));
 }
 
-/* Fills read->reading. False: the word contradicts itself. */
-static inline bool mb4_cyclic_decode(mb4_cyclic *read, uint8_t with) {
-  const mb4_word *word = read->word;
-  mb4_reading *reading = &read->reading;
-  uint32_t low = read->low;
-  uint32_t high = read->high;
+/* Works out the reading of a slot with MB4_OK. */
+static inline void mb4_slot_reading(const mb4_word *word, const mb4_slot *slot,
+                                    mb4_reading *reading, uint8_t with) {
+  uint32_t low = slot->low;
+  uint32_t high = slot->high;
   uint32_t sent = 0;
-  if (!mb4_cyclic_cut(word, &low, &high, with)) {
-    return false;
-  }
+  (void)mb4_cyclic_cut(word, &low, &high, with);
   reading->crc_stored = word->crc_bits != 0;
-  reading->crc = 0;
-  if (reading->crc_stored) {
-    reading->crc = mb4_cyclic_stored_crc(read);
-    if (reading->crc != mb4_word_crc(word, low, high, with)) {
-      return false;
-    }
-  }
+  reading->crc = slot->crc;
   /* With Gray code the chip converts the flags together with the position. */
   sent = (with & MB4_WITH_GRAY) != 0 && word->gray ? low ^ low >> 1 : low;
   reading->slave = word->slave;
@@ -462,93 +611,154 @@ static inline bool mb4_cyclic_decode(mb4_cyclic *read, uint8_t with) {
     reading->raw = (uint64_t)high << 32 | low;
     reading->position = reading->raw;
   }
-  return true;
 }
 
 /* FULL: data that only a second reading proves. Without a stored CRC this is any data. With a CRC
  * it is all zeros and all ones: a line that was stuck for a moment makes them, and the CRC may
  * accept them. */
-static inline bool mb4_cyclic_needs_second(const mb4_cyclic *read, uint8_t with) {
-  uint32_t low = read->low;
-  uint32_t high = read->high;
+static inline bool mb4_slot_needs_second(const mb4_word *word, const mb4_slot *slot,
+                                         uint8_t with) {
+  uint32_t low = slot->low;
+  uint32_t high = slot->high;
   uint32_t ones_low = 0xFFFFFFFFU;
   uint32_t ones_high = 0xFFFFFFFFU;
-  if (read->word->crc_bits == 0) {
+  if (word->crc_bits == 0) {
     return true;
   }
-  (void)mb4_cyclic_cut(read->word, &low, &high, with);
-  (void)mb4_cyclic_cut(read->word, &ones_low, &ones_high, with);
+  (void)mb4_cyclic_cut(word, &low, &high, with);
+  (void)mb4_cyclic_cut(word, &ones_low, &ones_high, with);
   return (low | high) == 0 || (low == ones_low && high == ones_high);
 }
 
-/* The word in the held bank has no SVALID, and the last frame was bad. A stored CRC tells whether
- * this word is the bad one; otherwise it was good and has been read before. A bad word gets the CRC
- * that fits, so that it counts once; the next frame overwrites it. Adds the frame for this to
- * `plan`. */
-MB4_APART uint8_t mb4_cyclic_judge(mb4_cyclic *read, mb4_plan *plan, uint8_t with) {
-  const mb4_word *word = read->word;
-  uint32_t low = read->low;
-  uint32_t high = read->high;
-  uint16_t crc = 0;
-  uint8_t bytes = 0;
-  uint8_t *tx = 0;
-  if (word->crc_bits == 0) {
-    read->unproven = true;
-    return (with & MB4_WITH_SEVERAL) != 0 && read->watch->several ? MB4_NO_DATA : MB4_CRC;
+/* Takes the data of this try; that of the slaves `flags` is new. FULL: returns the slaves of which
+ * only a second reading proves it. */
+static inline uint16_t mb4_cyclic_take(mb4_cyclic *read, const mb4_plan *plan, uint8_t frame,
+                                       uint16_t flags, uint8_t with) {
+  uint16_t second = 0;
+  uint8_t i = 0;
+  for (; i < mb4_cyclic_count(read, with); ++i) {
+    const mb4_word *word = &read->words[i];
+    mb4_slot *slot = &read->slots[i];
+    if (!mb4_word_in(word, read->flags, with)) {
+      continue;
+    }
+    mb4_cyclic_load(plan, frame, word, slot, with);
+    if (mb4_word_in(word, flags, with)) {
+      slot->code = mb4_slot_good(word, slot, with) ? MB4_OK : MB4_CORRUPTED;
+      if ((with & MB4_WITH_FULL) != 0 && read->spi_check == MB4_SPI_CHECK_FULL &&
+          slot->code == MB4_OK && mb4_slot_needs_second(word, slot, with)) {
+        second = (uint16_t)(second | mb4_word_flag(word));
+      }
+    }
   }
-  (void)mb4_cyclic_cut(word, &low, &high, with);
-  crc = mb4_word_crc(word, low, high, with);
-  if (crc == mb4_cyclic_stored_crc(read)) {
-    return MB4_NO_DATA;
+  return second;
+}
+
+/* The second reading of the slaves `flags`. */
+static inline void mb4_cyclic_compare(mb4_cyclic *read, const mb4_plan *plan, uint8_t frame,
+                                      uint16_t flags, uint8_t with) {
+  uint8_t i = 0;
+  for (; i < mb4_cyclic_count(read, with); ++i) {
+    mb4_slot *slot = &read->slots[i];
+    mb4_slot other;
+    if (mb4_word_in(&read->words[i], flags, with)) {
+      mb4_cyclic_load(plan, frame, &read->words[i], &other, with);
+      if (other.low != slot->low || other.high != slot->high) {
+        slot->code = MB4_CORRUPTED;
+      }
+    }
   }
-  read->bad = true;
-  if (read->chain && !read->again) {
-    return MB4_CRC; /* the bank is free already; it must be held while the word is marked */
+}
+
+/* The words in the held bank without SVALID, and the last frame was bad. A stored CRC tells whether
+ * such a word is the bad one; otherwise it was good and has been read before. Without one the bad
+ * frame concerns this slave if there is no other, or if a good word of another one (`news`) shows
+ * that the frame is new and a read of one slave has not taken this one's word of it. */
+static inline void mb4_cyclic_judge(mb4_cyclic *read, uint16_t missing, bool news, uint8_t with) {
+  uint8_t i = 0;
+  for (; i < mb4_cyclic_count(read, with); ++i) {
+    const mb4_word *word = &read->words[i];
+    mb4_slot *slot = &read->slots[i];
+    if (!mb4_word_in(word, missing, with)) {
+      continue;
+    }
+    if (word->crc_bits == 0) {
+      const bool several = (with & MB4_WITH_SEVERAL) != 0 && read->watch->several;
+      read->unproven = true;
+      if (!several || (news && (read->watch->taken >> (word->slave - 1) & 1) == 0)) {
+        slot->code = MB4_CRC;
+      }
+    } else if (!mb4_slot_good(word, slot, with)) {
+      slot->code = MB4_CRC;
+      slot->bad = true;
+      read->bad = true;
+    }
   }
-  bytes = word->crc_bits > 8 ? 2 : 1;
-  tx = plan->tx[plan->frames];
-  mb4_plan_add(plan, (uint8_t)(2 + bytes), MB4_CYCLIC_WRITE, (uint8_t)(8 * word->slave - bytes),
-               (uint8_t)crc);
-  if (bytes == 2) {
-    tx[3] = (uint8_t)(crc >> 8);
+}
+
+/* Gives the bad words of the held bank the CRC that fits, so that they count once; the next frame
+ * overwrites them. */
+static inline void mb4_cyclic_mark(const mb4_cyclic *read, mb4_plan *plan, uint8_t with) {
+  uint8_t i = 0;
+  for (; i < mb4_cyclic_count(read, with); ++i) {
+    const mb4_word *word = &read->words[i];
+    const mb4_slot *slot = &read->slots[i];
+    if (slot->bad) {
+      const uint8_t bytes = word->crc_bits > 8 ? 2 : 1;
+      uint8_t *tx = mb4_plan_add(plan, (uint8_t)(2 + bytes), MB4_CYCLIC_WRITE,
+                                 (uint8_t)(8 * word->slave - bytes), (uint8_t)slot->crc);
+      if (bytes == 2) {
+        tx[3] = (uint8_t)(slot->crc >> 8);
+      }
+    }
   }
-  return MB4_CRC;
 }
 
 /* Data and status of a held bank are here. */
-static inline uint8_t mb4_cyclic_held(mb4_cyclic *read, mb4_plan *plan, uint8_t with) {
+static inline uint8_t mb4_cyclic_held(mb4_cyclic *read, mb4_plan *plan, uint8_t frame,
+                                      uint8_t with) {
   const bool full = (with & MB4_WITH_FULL) != 0 && read->spi_check == MB4_SPI_CHECK_FULL;
-  const bool valid = mb4_cyclic_valid(read);
   const bool chained = read->chain && !read->again;
-  uint8_t code = MB4_NO_DATA;
-  if (valid && (!full || read->fresh)) {
-    code = mb4_cyclic_decode(read, with) ? MB4_OK : MB4_CORRUPTED;
-  }
-  if (!chained) {
-    (void)mb4_cyclic_next(read, plan, MB4_STAGE_END, code);
-  }
-  read->code = code;
-  if (!valid && !(full && read->fresh) && mb4_cyclic_frame_bad(read)) {
-    read->code = mb4_cyclic_judge(read, plan, with);
-    if (chained && read->bad) {
-      read->again = true;
-      return mb4_cyclic_try(read, plan);
-    }
+  const uint16_t valid = mb4_cyclic_valid(read);
+  const uint16_t fresh = full ? read->fresh : 0;
+  const uint16_t second =
+      mb4_cyclic_take(read, plan, frame, full ? (uint16_t)(valid & fresh) : valid, with);
+  if (mb4_cyclic_frame_bad(read)) {
+    mb4_cyclic_judge(read, (uint16_t)(read->flags & ~(valid | fresh)), valid != 0, with);
   }
   if (chained) {
-    return read->code;
+    if (read->bad) {
+      /* The bank is free already; it must be held while the words are marked. */
+      uint8_t i = 0;
+      read->again = true;
+      for (; i < mb4_cyclic_count(read, with); ++i) {
+        mb4_slot *slot = &read->slots[i];
+        if ((with & MB4_WITH_SEVERAL) != 0 && !slot->bad) {
+          read->flags = (uint16_t)(read->flags & ~mb4_word_flag(&read->words[i]));
+          read->one_frame = read->one_frame && slot->code != MB4_OK;
+        }
+        slot->bad = false;
+      }
+      return mb4_cyclic_try(read, plan, with);
+    }
+    return MB4_OK;
   }
-  if (full && (valid || read->fresh)) {
+  (void)mb4_cyclic_next(read, plan, MB4_STAGE_END, MB4_OK);
+  mb4_cyclic_mark(read, plan, with);
+  if (full && (valid | fresh) != 0) {
     read->stage = MB4_STAGE_CLEAR;
-    read->again = read->code == MB4_OK && mb4_cyclic_needs_second(read, with);
-    if (read->again) {
-      mb4_cyclic_add_data(read, plan);
+    read->fresh = second;
+    if (second != 0) {
+      mb4_cyclic_add_data(read, plan, second, with);
     }
     mb4_cyclic_add_clear(read, plan, 4);
     mb4_cyclic_add_status(plan);
-  } else if (valid) {
+  } else if (valid != 0) {
     mb4_cyclic_add_clear(read, plan, 6);
   } else {
+    if ((with & MB4_WITH_SEVERAL) != 0) {
+      read->one_frame = true; /* no word has come since the first try */
+    }
     mb4_cyclic_add_instruction(plan, MB4_CYCLIC_AGS);
   }
   return MB4_MORE;
@@ -558,40 +768,38 @@ static inline uint8_t mb4_cyclic_held(mb4_cyclic *read, mb4_plan *plan, uint8_t 
  * before the data was read and is still 0: no good frame has ended meanwhile. nSCDERR is 1: no bad
  * frame has ended either. Directly after a switch of the banks there is the time of a frame until
  * the next one, so a second try follows. */
-static inline uint8_t mb4_cyclic_unheld(mb4_cyclic *read, mb4_plan *plan, uint8_t code) {
-  if ((code == MB4_NO_DATA || code == MB4_BANK_SWITCHED) && !read->again) {
+static inline uint8_t mb4_cyclic_unheld(mb4_cyclic *read, mb4_plan *plan, uint8_t code,
+                                        uint8_t with) {
+  if (!read->again) {
     read->again = true;
-    return mb4_cyclic_try(read, plan);
+    return mb4_cyclic_try(read, plan, with);
   }
   return code;
 }
 
 static inline uint8_t mb4_cyclic_take_unheld(mb4_cyclic *read, mb4_plan *plan, uint8_t with) {
-  const bool repeated = plan->frames == 2;
-  uint32_t low = 0;
-  uint32_t high = 0;
-  uint8_t code = mb4_cyclic_take_status(read, plan->rx[plan->frames - 1]);
+  const bool repeated = mb4_plan_tx(plan, 0)[0] != MB4_CYCLIC_WRITE;
+  const uint8_t frame = (uint8_t)(plan->frames - 2);
+  const uint8_t code = mb4_cyclic_take_status(read, plan, (uint8_t)(plan->frames - 1));
   if (code != MB4_OK) {
     return code;
   }
-  if (mb4_cyclic_valid(read) || mb4_cyclic_frame_bad(read)) {
-    return mb4_cyclic_unheld(read, plan, MB4_BANK_SWITCHED);
+  if (mb4_cyclic_valid(read) != 0 || mb4_cyclic_frame_bad(read)) {
+    mb4_cyclic_all(read, with);
+    return mb4_cyclic_unheld(read, plan, MB4_BANK_SWITCHED, with);
   }
-  mb4_cyclic_load(read, plan, (uint8_t)(plan->frames - 2), &low, &high);
   if (repeated) {
-    return low == read->low && high == read->high ? read->code : (uint8_t)MB4_CORRUPTED;
+    mb4_cyclic_compare(read, plan, frame, read->fresh, with);
+    return MB4_OK;
   }
-  read->low = low;
-  read->high = high;
-  code = mb4_cyclic_decode(read, with) ? MB4_OK : MB4_CORRUPTED;
-  if (read->spi_check == MB4_SPI_CHECK_FULL && code == MB4_OK &&
-      mb4_cyclic_needs_second(read, with)) {
-    (void)mb4_cyclic_next(read, plan, MB4_STAGE_UNHELD, code);
-    mb4_cyclic_add_data(read, plan);
-    mb4_cyclic_add_status(plan);
-    return MB4_MORE;
+  read->fresh = mb4_cyclic_take(read, plan, frame, read->fresh, with);
+  if (read->fresh == 0) {
+    return MB4_OK;
   }
-  return code;
+  (void)mb4_cyclic_next(read, plan, MB4_STAGE_UNHELD, MB4_OK);
+  mb4_cyclic_add_data(read, plan, read->fresh, with);
+  mb4_cyclic_add_status(plan);
+  return MB4_MORE;
 }
 
 /* LOOK: is there a new frame? */
@@ -599,76 +807,91 @@ static inline uint8_t mb4_cyclic_take_look(mb4_cyclic *read, mb4_plan *plan, uin
   const bool unheld = (with & MB4_WITH_UNHELD) != 0 && read->unheld;
   uint8_t frame = unheld ? 0 : 1;
   uint8_t code = MB4_OK;
-  read->fresh = true;
+  read->fresh = read->flags;
   for (; frame < plan->frames && code == MB4_OK; ++frame) {
-    code = mb4_cyclic_take_status(read, plan->rx[frame]);
-    read->fresh = read->fresh && mb4_cyclic_valid(read);
+    code = mb4_cyclic_take_status(read, plan, frame);
+    read->fresh = (uint16_t)(read->fresh & mb4_cyclic_valid(read));
   }
   if (unheld) {
     if (code != MB4_OK) {
       return code;
     }
-    if (!read->fresh) {
-      return mb4_cyclic_unheld(read, plan, MB4_NO_DATA);
+    if (read->fresh == 0) {
+      return mb4_cyclic_unheld(read, plan, MB4_OK, with);
     }
     (void)mb4_cyclic_next(read, plan, MB4_STAGE_UNHELD, MB4_OK);
     mb4_cyclic_add_clear(read, plan, 4);
   } else {
-    if (code != MB4_OK || (!read->fresh && !mb4_cyclic_frame_bad(read))) {
-      return mb4_cyclic_release(read, plan, code != MB4_OK ? code : (uint8_t)MB4_NO_DATA);
+    if (code != MB4_OK || (read->fresh == 0 && !mb4_cyclic_frame_bad(read))) {
+      return mb4_cyclic_release(read, plan, code);
     }
     (void)mb4_cyclic_next(read, plan, MB4_STAGE_SECOND, MB4_OK);
   }
-  mb4_cyclic_add_data(read, plan);
+  mb4_cyclic_add_data(read, plan, read->flags, with);
   mb4_cyclic_add_status(plan);
   return MB4_MORE;
 }
 
 /* CLEAR: was the second reading the same, and is SVALID 0? The chip takes some system clocks for
  * this, so the status is read twice before it counts as a fault. */
-static inline uint8_t mb4_cyclic_take_clear(mb4_cyclic *read, mb4_plan *plan) {
+static inline uint8_t mb4_cyclic_take_clear(mb4_cyclic *read, mb4_plan *plan, uint8_t with) {
   const bool last = plan->frames == 1;
-  uint32_t low = 0;
-  uint32_t high = 0;
-  uint8_t code = mb4_cyclic_take_status(read, plan->rx[plan->frames - 1]);
-  if (plan->frames == 3) {
-    mb4_cyclic_load(read, plan, 0, &low, &high);
-    if (low != read->low || high != read->high) {
-      read->code = MB4_CORRUPTED;
-    }
+  uint8_t code = mb4_cyclic_take_status(read, plan, (uint8_t)(plan->frames - 1));
+  if (!last && read->fresh != 0) {
+    mb4_cyclic_compare(read, plan, (uint8_t)(plan->frames - 3), read->fresh, with);
   }
-  if (code == MB4_OK && mb4_cyclic_valid(read)) {
+  if (code == MB4_OK && mb4_cyclic_valid(read) != 0) {
     if (!last) {
-      (void)mb4_cyclic_next(read, plan, MB4_STAGE_CLEAR, read->code);
+      (void)mb4_cyclic_next(read, plan, MB4_STAGE_CLEAR, MB4_OK);
       mb4_cyclic_add_status(plan);
       return MB4_MORE;
     }
     code = MB4_CORRUPTED;
   }
-  return mb4_cyclic_release(read, plan, code == MB4_OK ? read->code : code);
+  return mb4_cyclic_release(read, plan, code);
 }
 
-/* The result is `code`. Frames that stay away for too long turn it into an alarm. A word that is
- * new, good or bad, proves that frames come. nSCDERR = 0 stays when no more frames end, so a bad
- * frame without a stored CRC proves nothing. */
+/* The slots tell the result. Returns the code of the read. */
+static inline uint8_t mb4_cyclic_tell(mb4_cyclic *read, uint32_t now_us, uint8_t with) {
+  mb4_watch *watch = read->watch;
+  const bool several = (with & MB4_WITH_SEVERAL) != 0 && watch->several;
+  uint8_t result = MB4_NO_DATA;
+  uint8_t i = 0;
+  if ((with & MB4_WITH_SEVERAL) != 0) {
+    read->told = true;
+  }
+  for (; i < mb4_cyclic_count(read, with); ++i) {
+    mb4_slot *slot = &read->slots[i];
+    const uint8_t index = (uint8_t)(read->words[i].slave - 1);
+    if (several && slot->code == MB4_OK) {
+      watch->taken = (uint8_t)(read->count > 1 ? 0 : watch->taken | 1U << index);
+      watch->good_us[index] = now_us;
+    } else if (several && read->unproven && read->words[i].crc_bits == 0 &&
+               now_us - watch->good_us[index] > watch->omitted_us) {
+      /* Other slaves keep news_us young. Bad frames without a good word of this one are its own. */
+      slot->code = MB4_CRC;
+    }
+    if (result == MB4_NO_DATA || slot->code == MB4_OK) {
+      result = slot->code;
+    }
+  }
+  return result;
+}
+
+/* The result is `code`, or what the slots tell. Frames that stay away for too long turn it into an
+ * alarm. A word that is new, good or bad, proves that frames come. nSCDERR = 0 stays when no more
+ * frames end, so a bad frame without a stored CRC proves nothing. */
 static inline uint8_t mb4_cyclic_watch(mb4_cyclic *read, mb4_plan *plan, uint8_t code,
                                        uint32_t now_us, uint8_t with) {
   mb4_watch *watch = read->watch;
   const bool omitted = (read->status[0] & MB4_CYCLIC_AGSERR) == 0;
-  const bool several = (with & MB4_WITH_SEVERAL) != 0 && watch->several;
-  const uint8_t index = (uint8_t)(read->word->slave - 1);
   uint32_t limit_us = 0;
-  if (several && code == MB4_OK) {
-    watch->taken = (uint8_t)(watch->taken | 1U << index);
-    watch->good_us[index] = now_us;
+  if (code == MB4_OK) {
+    code = mb4_cyclic_tell(read, now_us, with);
   }
   if (read->unheld || code == MB4_OK || read->bad || code == MB4_CORRUPTED) {
     watch->news_us = now_us;
     return code;
-  }
-  /* Other slaves keep news_us young. Bad frames without a good word of this one are its own. */
-  if (several && read->unproven && now_us - watch->good_us[index] > watch->omitted_us) {
-    code = MB4_CRC;
   }
   limit_us = omitted || read->unproven ? watch->omitted_us : watch->silent_us;
   if ((code != MB4_NO_DATA && code != MB4_CRC) || watch->silent_us == 0 ||
@@ -677,41 +900,35 @@ static inline uint8_t mb4_cyclic_watch(mb4_cyclic *read, mb4_plan *plan, uint8_t
   }
   (void)mb4_cyclic_next(read, plan, MB4_STAGE_LINES,
                         read->unproven && !omitted ? MB4_CRC : MB4_TIMEOUT);
-  plan->rx[0][MB4_CYCLIC_LINES] = 0;
+  if ((with & MB4_WITH_SEVERAL) != 0) {
+    read->told = false;
+  }
   mb4_plan_add(plan, 1 + MB4_CYCLIC_LINES, MB4_CYCLIC_STATUS, 0, 0);
+  mb4_plan_rx(plan, 0)[MB4_CYCLIC_LINES] = 0;
   return MB4_MORE;
 }
 
-/* Takes what came back. `transferred`: all frames of the plan were made, in order. `now_us`: the
- * time, a counter of microseconds that wraps at 2^32. `with`: MB4_WITH_..., a constant.
- *
- * Returns MB4_MORE (make the frames of the new plan, then call it again) or the result:
- *
- *   MB4_OK             read->reading is a new position
- *   MB4_NO_DATA        no frame with data of this slave has ended since the last read
- *   MB4_CRC            one has, and its CRC was wrong; told once for each frame. Without a stored
- *                      CRC: by each read until a frame is good, if the slave is the only one
- *   MB4_CORRUPTED, MB4_NOT_DETECTED, MB4_TRANSPORT, MB4_BANK_SWITCHED, MB4_TIMEOUT, MB4_LINE_ERROR
- *                      as Automatic::poll() in mb4/automatic.hpp describes them
- *
- * At most four calls a read without MB4_SPI_CHECK_FULL, six with it or unheld. */
-static inline uint8_t mb4_cyclic_finish(mb4_cyclic *read, mb4_plan *plan, bool transferred,
-                                        uint32_t now_us, uint8_t with) {
+/* mb4_cyclic_finish() without the counts. */
+static inline uint8_t mb4_cyclic_step(mb4_cyclic *read, mb4_plan *plan, bool transferred,
+                                      uint32_t now_us, uint8_t with) {
   const uint8_t stage = read->stage;
   uint8_t code = transferred ? read->code : (uint8_t)MB4_TRANSPORT;
   if (stage == MB4_STAGE_LINES) {
     const uint8_t lines = read->watch->lines;
-    const bool idle = (plan->rx[0][MB4_CYCLIC_LINES] & lines) == lines;
+    const bool idle = (mb4_plan_rx(plan, 0)[MB4_CYCLIC_LINES] & lines) == lines;
     return transferred && !idle ? (uint8_t)MB4_LINE_ERROR : code;
+  }
+  if (stage == MB4_STAGE_FREE) {
+    read->watch->held = !transferred;
+    read->watch->news_us = now_us; /* no bank was switched meanwhile */
+    return transferred ? mb4_cyclic_try(read, plan, with) : code;
   }
   if (stage == MB4_STAGE_END) {
     /* The release was the last frame. If it was not alone, it may not have been tried. */
     if (!transferred && (plan->frames > 1 || plan->size[0] > 2)) {
       return mb4_cyclic_release(read, plan, code);
     }
-    if (read->bad && code == MB4_NO_DATA) {
-      code = MB4_CRC; /* chain: the bank has gone before the word was marked */
-    }
+    read->watch->held = !transferred;
   } else if ((with & MB4_WITH_UNHELD) != 0 && read->unheld) {
     if (transferred) {
       code = stage == MB4_STAGE_LOOK ? mb4_cyclic_take_look(read, plan, with)
@@ -722,17 +939,86 @@ static inline uint8_t mb4_cyclic_finish(mb4_cyclic *read, mb4_plan *plan, bool t
   } else if ((with & MB4_WITH_FULL) != 0 && stage == MB4_STAGE_LOOK) {
     return mb4_cyclic_take_look(read, plan, with);
   } else if ((with & MB4_WITH_FULL) != 0 && stage == MB4_STAGE_CLEAR) {
-    return mb4_cyclic_take_clear(read, plan);
+    return mb4_cyclic_take_clear(read, plan, with);
   } else {
-    const uint8_t frame = stage == MB4_STAGE_DATA ? 1 : 0;
-    code = mb4_cyclic_take_status(read, plan->rx[frame + 1]);
+    const uint8_t end = read->chain && !read->again ? 2 : 1;
+    const uint8_t frame = (uint8_t)(plan->frames - end);
+    code = mb4_cyclic_take_status(read, plan, frame);
     if (code != MB4_OK) {
       return mb4_cyclic_release(read, plan, code);
     }
-    mb4_cyclic_load(read, plan, frame, &read->low, &read->high);
-    code = mb4_cyclic_held(read, plan, with);
+    code = mb4_cyclic_held(read, plan, (uint8_t)(frame - 1), with);
   }
   return code == MB4_MORE ? code : mb4_cyclic_watch(read, plan, code, now_us, with);
+}
+
+/* A read has ended with `code`. */
+MB4_APART void mb4_cyclic_count_read(const mb4_cyclic *read, uint8_t code, uint32_t now_us) {
+  mb4_counts *counts = read->watch->counts;
+  const uint32_t period_ns = counts->period_ns;
+  const uint32_t since_us = now_us - counts->read_us;
+  uint32_t left_us = now_us - counts->last_us;
+  uint32_t periods = 0;
+  if (counts->read_us != 0 && period_ns != 0 && since_us > period_ns / 1000 * 3 / 2) {
+    ++counts->late;
+  }
+  counts->read_us = now_us | 1U;
+  counts->omits = counts->omits || (read->status[0] & MB4_CYCLIC_AGSERR) == 0;
+  if (read->bad || code == MB4_CRC) {
+    ++counts->crc;
+  } else if (code == MB4_BANK_SWITCHED) {
+    ++counts->switched;
+  } else if (code != MB4_OK && code != MB4_NO_DATA) {
+    ++counts->faults;
+  }
+  if (code != MB4_OK) {
+    return;
+  }
+  ++counts->good;
+  counts->last_us = now_us;
+  if (counts->sequence == 0 || period_ns == 0) {
+    counts->sequence = counts->good;
+    counts->rest_ns = period_ns / 2;
+    return;
+  }
+  do {
+    const uint32_t part_us = left_us > 2000000U ? 2000000U : left_us;
+    const uint32_t time_ns = counts->rest_ns + part_us * 1000U;
+    periods += time_ns / period_ns;
+    counts->rest_ns = time_ns % period_ns;
+    left_us -= part_us;
+  } while (left_us != 0);
+  if (periods == 0) { /* a new word is a new sample */
+    periods = 1;
+    counts->rest_ns = 0;
+  }
+  counts->sequence += periods;
+  counts->lost += periods - 1;
+}
+
+/* Takes what came back. `transferred`: all frames of the plan were made, in order. `now_us`: the
+ * time, a counter of microseconds that wraps at 2^32. `with`: MB4_WITH_..., a constant.
+ *
+ * Returns MB4_MORE (make the frames of the new plan, then call it again) or the result, which is
+ * that of the slave, or of all (`told` is false). With several slaves it is MB4_OK if one slot is:
+ *
+ *   MB4_OK             mb4_slot_reading() gives the new position
+ *   MB4_NO_DATA        no frame with data of this slave has ended since the last read
+ *   MB4_CRC            one has, and its CRC was wrong; told once for each frame. Without a stored
+ *                      CRC: by each read until a frame is good, if the slave is the only one
+ *   MB4_CORRUPTED, MB4_NOT_DETECTED, MB4_TRANSPORT, MB4_BANK_SWITCHED, MB4_TIMEOUT, MB4_LINE_ERROR
+ *                      as Automatic::poll() in mb4/automatic.hpp describes them
+ *
+ * At most four calls a read without MB4_SPI_CHECK_FULL, six with it or unheld; one more after a read
+ * that has ended without the release of the bank. A read may be given up: call this function with
+ * transferred = false, without the frames, until it does not return MB4_MORE. */
+static inline uint8_t mb4_cyclic_finish(mb4_cyclic *read, mb4_plan *plan, bool transferred,
+                                        uint32_t now_us, uint8_t with) {
+  const uint8_t code = mb4_cyclic_step(read, plan, transferred, now_us, with);
+  if ((with & MB4_WITH_COUNTS) != 0 && code != MB4_MORE && read->watch->counts != 0) {
+    mb4_cyclic_count_read(read, code, now_us);
+  }
+  return code;
 }
 
 #undef MB4_APART

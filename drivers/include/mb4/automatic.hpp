@@ -14,8 +14,6 @@
 #include "mb4/cyclic.hpp"
 #include "mb4/detail/actuator_write.hpp"
 #include "mb4/detail/chip.hpp"
-#include "mb4/detail/fetch.hpp"
-#include "mb4/detail/frame_poll.hpp"
 #include "mb4/frame.hpp"
 #include "mb4/result.hpp"
 #include "mb4/status.hpp"
@@ -25,9 +23,9 @@ namespace mb4 {
 
 // Most SPI transfers of one Automatic::poll_slave(), whatever the chip answers: 8, with
 // SpiCheck::kFull 14, beside a control communication without Config::hold_beside_access.
-inline constexpr unsigned kMaxPollSlaveTransfers = 6;
+inline constexpr unsigned kMaxPollSlaveTransfers = 8;
 // The same with SpiCheck::kFull.
-inline constexpr unsigned kMaxPollSlaveTransfersChecked = 9;
+inline constexpr unsigned kMaxPollSlaveTransfersChecked = 11;
 
 // Automatic frames, at the rate or on the event that Config::frame_start selects (table 44):
 //
@@ -38,8 +36,9 @@ inline constexpr unsigned kMaxPollSlaveTransfersChecked = 9;
 // Why the bytes of a position belong together:
 //  * HOLDBANK holds the bank while the driver reads it (page 33, table 69).
 //  * HOLDBANK takes effect some system clocks after the write. With SCLK above 2 f_CLK, bytes read
-//    at once could still come from the old bank. So the driver reads the status between HOLDBANK
-//    and the data, which takes at least 48 SCLK periods.
+//    at once could still come from the old bank. So with SpiCheck::kFull the driver reads the
+//    status between HOLDBANK and the data, which takes at least 48 SCLK periods. With kCrc and kOff
+//    it reads the data at once, which needs SCLK of at most 2 f_CLK.
 //  * While a control communication runs, the byte with HOLDBANK has INSTR = 000: INSTR = 100,
 //    written back at the wrong moment, would start the access again. The access goes on. Where a
 //    chip does not allow this (Config::hold_beside_access = false) the driver reads without
@@ -114,20 +113,21 @@ class Automatic {
   // True when the driver has set AGS = 1 and nothing has stopped it.
   [[nodiscard]] bool running() const { return chip_.automatic; }
 
-  // Fetches the last complete frame if it has not been fetched yet. Never waits. Transfers without
-  // SpiCheck::kFull, whatever the chip answers: at most 5 + n for n enabled slaves, 3 when nothing
-  // is new. In order:
+  // Fetches the last complete frame if it has not been fetched yet. Never waits. A loop over plan()
+  // and finish(), so the code is that of poll_slave(). Transfers without SpiCheck::kFull, whatever
+  // the chip answers: 3 + b for b bursts of data, at most one for each slave; after a bad word one
+  // more for each. In order:
   //   0x07        HOLDBANK = 1, AGS = 1
-  //   0x05        0xF0..0xF4: is a frame new? HOLDBANK takes effect meanwhile
-  //   0x09, 0x03  SCDATA of the enabled slaves, 1..n bursts; only the bytes that hold data
-  //   0x05        0xF0..0xF4: SVALID after reading (table 69)
-  //   0x02        SVALID of the enabled slaves = 0
-  //   0x07        HOLDBANK = 0, AGS = 1; also after a failed transfer
-  // SpiCheck::kFull adds at most n + 2: data again where a stored CRC does not prove it, and one or
-  // two 0x05 after the 0x02. Beside a control communication without Config::hold_beside_access the
-  // order is 0x05, 0x02, data, 0x05, twice at most: 6 + 2 n, and with kFull 2 n + 2 more.
+  //   0x09, 0x03  SCDATA of the enabled slaves; only the bytes that hold data, neighbours together,
+  //               at most 25 bytes in a transfer
+  //   0x05        0xF0..0xF4: SVALID (table 69)
+  //   0x02        SVALID of the enabled slaves = 0, HOLDBANK = 0, AGS = 1; without news 0x07 alone
+  // SpiCheck::kFull reads the status before the data (3 transfers when nothing is new), data again
+  // where a stored CRC does not prove it, and the status once or twice after a 0x02 of its own.
+  // Beside a control communication without Config::hold_beside_access the order is 0x05, 0x02,
+  // data, 0x05, twice at most. After a read that could not release the bank, 2 more come first.
   //
-  // After a frame with a bad word (nSCDERR = 0) it reads the data of the slaves without SVALID as
+  // After a frame with a bad word (nSCDERR = 0) it checks the data of the slaves without SVALID as
   // well: a stored CRC that fits shows a word that has been read before. A bad word then gets the
   // CRC that fits, so that it counts once: one 0x02 more for each. When frames stay away: one 0x05
   // more, up to 0xF8.
@@ -144,7 +144,7 @@ class Automatic {
   // have ended (table 69). This call does not restart; next() does.
   //
   // Errors: kWrongMode (automatic frames do not run; not touched), kTransport, kNotDetected,
-  // kBankSwitched; kCorrupted with SpiCheck::kFull. On error `frame` holds no Reading.
+  // kBankSwitched; kCorrupted (HOLDBANK is not in the chip). On error `frame` holds no Reading.
   // kTimeout, kLineError (SL is 0): frames stay away for more than two periods and the step of
   // the clock (enc::clock_step_us), if the chip has left frames out, otherwise for 16 periods. With
   // Config::frame_timeout_us it is that time and one period if this is longer than two: a chip that
@@ -155,17 +155,12 @@ class Automatic {
   // and the chip has left none out.
   Result<void> poll(Frame& frame) {
     frame.clear();
-    if (!chip_.automatic) {
-      return Error::kWrongMode;
+    FrameRead read;
+    if (const Result<void> allowed = begin(read, false); !allowed) {
+      return allowed;
     }
-    detail::Outcome outcome;
-    detail::FetchedData data;
-    const Result<void> read = detail::FramePoll<Bus, Clock>(chip_).read(
-        chip_.sensor_flags, control_runs(), outcome, fetch_all, &data);
-    if (read) {
-      detail::decode_all(chip_.config, chip_.sensors, outcome, data, frame);
-    }
-    return read;
+    run(read);
+    return read.result(frame);
   }
 
   // As poll(), for one slave (1..8). At most kMaxPollSlaveTransfers transfers, with SpiCheck::kFull
@@ -188,10 +183,8 @@ class Automatic {
     if (!allowed) {
       return allowed.failure();
     }
-    bool transferred = false;
-    do {
-      transferred = read.run(chip_.opcodes.bus());
-    } while (!finish<With>(read, transferred, chip_.clock->now_us()));
+    mb4_cyclic_plan(&read.read_, &read.plan_, With);
+    run<With>(read);
     return read.result();
   }
 
@@ -211,7 +204,12 @@ class Automatic {
   // Not touched: kInvalidArgument, kWrongMode, kUnsupported as for poll_slave().
   template <std::uint8_t With = MB4_WITH_ALL>
   Result<void> plan_slave(std::uint8_t slave, CyclicRead& read) {
-    return begin(slave, read, chip_.config.spi_check != SpiCheck::kFull, With);
+    const Result<void> allowed =
+        begin(slave, read, chip_.config.spi_check != SpiCheck::kFull, With);
+    if (allowed) {
+      mb4_cyclic_plan(&read.read_, &read.plan_, With);
+    }
+    return allowed;
   }
 
   // Takes what came back. `transferred`: every frame of `read` was made. `now_us`: the time, as
@@ -220,12 +218,41 @@ class Automatic {
   // time.
   template <std::uint8_t With = MB4_WITH_ALL>
   [[nodiscard]] bool finish(CyclicRead& read, bool transferred, std::uint32_t now_us) {
-    read.code_ = mb4_cyclic_finish(&read.read_, &read.plan_, transferred, now_us, With);
-    if (read.code_ == MB4_MORE) {
+    if (!take<With>(read, transferred, now_us)) {
       return false;
     }
-    chip_.control.seen_running = read.read_.running;
+    if (read.code_ == MB4_OK) {
+      mb4_slot_reading(read.read_.words, &read.slot_, &read.reading_, With);
+    }
     return true;
+  }
+
+  // As plan_slave(), for all enabled sensors, in one chain: 0x07; 0x09 and 0x03, 1..n frames, the
+  // neighbours in one; 0x05; 0x02. No frame is longer than 25 bytes, unless `wide` allows 66. Then
+  // finish() until it returns true, and FrameRead::result(). kWrongMode (not touched).
+  Result<void> plan(FrameRead& read, bool wide = false) {
+    read.read_.built = read.read_.wide == wide ? read.read_.built : nullptr;
+    read.read_.wide = wide;
+    return begin(read, chip_.config.spi_check != SpiCheck::kFull);
+  }
+  template <std::uint8_t With = MB4_WITH_ALL>
+  [[nodiscard]] bool finish(FrameRead& read, bool transferred, std::uint32_t now_us) {
+    return take<With>(read, transferred, now_us);
+  }
+
+  // Counts the reads from now on in `counts` (mb4_cyclic.h), which must outlive the Device or the
+  // next call; nullptr ends it. Only calls with MB4_WITH_COUNTS in `With` count, the others do not
+  // contain the code: poll_slave<MB4_WITH_ALL | MB4_WITH_COUNTS>(), finish<...>(). What is lost is
+  // counted with FrameStart::kPeriodic.
+  void count(mb4_counts* counts) {
+    chip_.watch.counts = counts;
+    if (counts != nullptr) {
+      const Config& config = chip_.config;
+      counts->period_ns = config.frame_start != FrameStart::kPeriodic
+                              ? 0
+                              : static_cast<std::uint32_t>(std::uint64_t{config.frame_period_clk} *
+                                                           1'000'000'000U / config.f_clk_hz);
+    }
   }
 
   // Device::write_actuator() for a control loop that writes a word for each frame. Never waits;
@@ -278,22 +305,6 @@ class Automatic {
  private:
   static constexpr std::uint8_t kAgs = regs::AGS::encode<1>();
 
-  static Result<void> fetch_all(detail::Chip<Bus, Clock>& chip, void* to, std::uint16_t missing,
-                                std::uint16_t& bad) {
-    detail::FetchedData& data = *static_cast<detail::FetchedData*>(to);
-    const bool news = missing != chip.sensor_flags;
-    Result<void> done;
-    if (news || chip.config.spi_check != SpiCheck::kOff) {
-      done = detail::fetch_data(chip.opcodes, chip.config, chip.sensor_flags, data);
-    }
-    for (std::uint8_t slave = 1; slave <= kSlaves && done; ++slave) {
-      if ((missing & flag_of(slave)) != 0) {
-        done = detail::judge(chip, slave, &data.image[regs::scdata_address(slave)], news, bad);
-      }
-    }
-    chip.watch.taken = news ? 0 : chip.watch.taken;
-    return done;
-  }
   [[gnu::noinline]] Result<void> begin(std::uint8_t slave, CyclicRead& read, bool chain,
                                        std::uint8_t with) {
     if (!is_in(chip_.sensors, slave)) {
@@ -305,24 +316,60 @@ class Automatic {
     if ((chip_.needs & ~unsigned{with}) != 0) {
       return Error::kUnsupported;
     }
-    const bool unheld = control_runs() && !chip_.config.hold_beside_access;
-    // configure() may have changed the length of the word.
-    const mb4_word& word = chip_.words[slave - 1U];
-    if (read.read_.word != &word || unheld ||
-        read.plan_.size[1] != word.bytes + (slave == 1 ? 1U : 2U)) {
-      read.read_.built = nullptr;
-    }
-    read.read_.word = &word;
-    read.read_.watch = &chip_.watch;
-    read.read_.spi_check = static_cast<std::uint8_t>(chip_.config.spi_check);
-    read.read_.unheld = unheld;
-    if (read.read_.chain != (chain && !unheld)) {
-      read.read_.built = nullptr;
-    }
-    read.read_.chain = chain && !unheld;
-    chip_.control.overwritten = chip_.control.overwritten || !unheld;
-    mb4_cyclic_plan(&read.read_, &read.plan_);
+    begin(read, chip_.word_of(slave), 1, chain);
     return {};
+  }
+
+  Result<void> begin(FrameRead& read, bool chain) {
+    if (!chip_.automatic) {
+      return Error::kWrongMode;
+    }
+    begin(read, chip_.words.data(), chip_.count, chain);
+    mb4_cyclic_plan(&read.read_, &read.plan_, MB4_WITH_ALL);
+    return {};
+  }
+
+  void begin(ReadSteps& steps, const mb4_word* words, std::uint8_t count, bool chain) {
+    mb4_cyclic& read = steps.read_;
+    const bool unheld = control_runs() && !chip_.config.hold_beside_access;
+    chain = chain && !unheld;
+    if (read.words != words || read.chain != chain ||
+        steps.configuration_ != chip_.configurations) {
+      read.built = nullptr;
+    }
+    steps.configuration_ = chip_.configurations;
+    read.words = words;
+    read.count = count;
+    read.watch = &chip_.watch;
+    read.spi_check = static_cast<std::uint8_t>(chip_.config.spi_check);
+    read.unheld = unheld;
+    read.access = control_runs();
+    read.chain = chain;
+    chip_.control.overwritten = chip_.control.overwritten || !unheld;
+  }
+
+  template <std::uint8_t With>
+  bool take(ReadSteps& steps, bool transferred, std::uint32_t now_us) {
+    steps.code_ = mb4_cyclic_finish(&steps.read_, &steps.plan_, transferred, now_us, With);
+    if (steps.code_ == MB4_MORE) {
+      return false;
+    }
+    chip_.control.seen_running = steps.read_.running;
+    return true;
+  }
+
+  template <std::uint8_t With>
+  void run(CyclicRead& read) {
+    bool transferred = false;
+    do {
+      transferred = read.run(chip_.opcodes.bus());
+    } while (!finish<With>(read, transferred, chip_.clock->now_us()));
+  }
+  void run(FrameRead& read) {
+    bool transferred = false;
+    do {
+      transferred = read.run(chip_.opcodes.bus());
+    } while (!finish(read, transferred, chip_.clock->now_us()));
   }
 
   [[nodiscard]] bool control_runs() const {

@@ -1,17 +1,19 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 
-// One read of a position in steps: the driver plans SPI frames, the caller makes them, by DMA or
+// One read of positions in steps: the driver plans SPI frames, the caller makes them, by DMA or
 // otherwise, and the driver takes what came back. The code is that of mb4_cyclic.h.
 
 #ifndef MB4_CYCLIC_HPP_
 #define MB4_CYCLIC_HPP_
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 
 #include "mb4/config.hpp"
 #include "mb4/error.hpp"
+#include "mb4/frame.hpp"
 #include "mb4/reading.hpp"
 #include "mb4/result.hpp"
 #include "mb4/span.hpp"
@@ -20,26 +22,27 @@
 
 namespace mb4 {
 
-// Memory for one read, in the caller's hands: Automatic::plan_slave() begins the read,
-// Automatic::finish() continues it. The object may be used again and again, and must stay where it
-// is until the read has ended. Place it where DMA reaches it; each frame begins at a whole word.
-class CyclicRead {
- public:
-  CyclicRead() = default;
-  CyclicRead(const CyclicRead&) = delete;
-  CyclicRead& operator=(const CyclicRead&) = delete;
+namespace detail {
+template <typename Bus, typename Clock>
+class SingleShot;
+}
 
-  static constexpr std::size_t kMaxFrames = MB4_PLAN_FRAMES;
-  static constexpr std::size_t kMaxFrameBytes = 10;
+// The SPI frames of a read in steps. Its memory is that of a CyclicRead or FrameRead.
+class ReadSteps {
+ public:
+  ReadSteps(const ReadSteps&) = delete;
+  ReadSteps& operator=(const ReadSteps&) = delete;
 
   // SPI frames to make now, in this order, each with NCS low: tx(i) goes out while rx(i) comes in.
   // rx(i) is as long as tx(i), or empty for a write. i < frames() <= kMaxFrames.
+  static constexpr std::size_t kMaxFrames = MB4_PLAN_FRAMES;
   [[nodiscard]] std::size_t frames() const { return plan_.frames; }
   [[nodiscard]] Span<const std::uint8_t> tx(std::size_t i) const {
-    return {plan_.tx[i], plan_.size[i]};
+    return {mb4_plan_tx(&plan_, static_cast<std::uint8_t>(i)), plan_.size[i]};
   }
   [[nodiscard]] Span<std::uint8_t> rx(std::size_t i) {
-    return {plan_.rx[i], mb4_plan_reads(&plan_, static_cast<std::uint8_t>(i)) ? plan_.size[i] : 0U};
+    const std::uint8_t frame = static_cast<std::uint8_t>(i);
+    return {mb4_plan_rx(&plan_, frame), mb4_plan_reads(&plan_, frame) ? plan_.size[i] : 0U};
   }
 
   // Makes the frames on a bus (bus.hpp), one after the other. False: one has failed, and those
@@ -54,53 +57,102 @@ class CyclicRead {
     return true;
   }
 
+ protected:
+  ReadSteps() = default;
+  ~ReadSteps() = default;
+  void attach(std::uint32_t* tx, std::uint32_t* rx, mb4_slot* slots) {
+    mb4_plan_memory(&plan_, tx, rx);
+    read_.slots = slots;
+  }
+
+  template <typename Bus, typename Clock>
+  friend class Automatic;
+  template <typename Bus, typename Clock>
+  friend class detail::SingleShot;
+
+  mb4_plan plan_{};
+  mb4_cyclic read_{};
+  std::uint8_t code_ = MB4_NO_DATA;
+  std::uint8_t configuration_ = 0;  // the plan belongs to
+};
+
+// Memory for reads of one slave, in the caller's hands: Automatic::plan_slave() begins the read,
+// Automatic::finish() continues it. The object may be used again and again, and must stay where it
+// is until the read has ended. Place it where DMA reaches it; each frame begins at a whole word.
+class CyclicRead : public ReadSteps {
+ public:
+  CyclicRead() { attach(tx_.data(), rx_.data(), &slot_); }
+
+  static constexpr std::size_t kMaxFrameBytes = 10;
+
   // After finish() has returned true. kNone: position() is new, without the flag bits. Smaller code
   // than result().
   [[nodiscard]] Error error() const { return static_cast<Error>(code_); }
-  [[nodiscard]] std::uint64_t position() const { return read_.reading.position; }
+  [[nodiscard]] std::uint64_t position() const { return reading_.position; }
   // nE and nW of the slave, as in a Reading.
-  [[nodiscard]] bool slave_error() const { return read_.reading.error; }
-  [[nodiscard]] bool slave_warning() const { return read_.reading.warning; }
+  [[nodiscard]] bool slave_error() const { return reading_.error; }
+  [[nodiscard]] bool slave_warning() const { return reading_.warning; }
 
   // The same with everything else: what Automatic::poll_slave() returns.
   [[nodiscard]] Result<Reading> result() const {
-    if (code_ != MB4_OK) {
-      return static_cast<Error>(code_);
-    }
-    const mb4_reading& from = read_.reading;
-    Reading reading;
-    reading.raw = from.raw;
-    reading.position = from.position;
-    reading.crc = from.crc;
-    reading.crc_stored = from.crc_stored;
-    reading.error = from.error;
-    reading.warning = from.warning;
-    reading.slave = from.slave;
-    return reading;
+    return code_ != MB4_OK ? Result<Reading>(static_cast<Error>(code_))
+                           : detail::to_result(reading_);
   }
 
  private:
   template <typename Bus, typename Clock>
   friend class Automatic;
+  template <typename Bus, typename Clock>
+  friend class detail::SingleShot;
 
-  mb4_plan plan_;
-  mb4_cyclic read_{};
-  std::uint8_t code_ = MB4_NO_DATA;
+  std::array<std::uint32_t, MB4_PLAN_WORDS(1)> tx_;
+  std::array<std::uint32_t, MB4_PLAN_WORDS(1)> rx_;
+  mb4_slot slot_{};
+  mb4_reading reading_{};
+};
+
+// The same for all slaves at once: Automatic::plan() and finish(). About 450 bytes.
+class FrameRead : public ReadSteps {
+ public:
+  FrameRead() { attach(tx_.data(), rx_.data(), slots_.data()); }
+
+  static constexpr std::size_t kMaxFrameBytes = MB4_PLAN_LONGEST;
+
+  // After finish() has returned true: what Automatic::poll() returns, and the results of the
+  // slaves.
+  Result<void> result(Frame& frame) const {
+    frame.clear();
+    if (!read_.told) {
+      return static_cast<Error>(code_);
+    }
+    fill(frame);
+    return {};
+  }
+  // All readings of the result are of one frame. Always true, except after a bad word, whose slave
+  // may have sent a good one meanwhile.
+  [[nodiscard]] bool one_frame() const { return read_.one_frame; }
+
+ private:
+  template <typename Bus, typename Clock>
+  friend class detail::SingleShot;
+
+  void fill(Frame& frame) const {
+    std::array<std::uint8_t, Status::kBytes> bytes{};
+    for (std::size_t i = 0; i < bytes.size(); ++i) {
+      bytes[i] = read_.status[i];
+    }
+    frame.status = Status(bytes);
+    for (std::size_t i = 0; i < read_.count; ++i) {
+      frame.set(read_.words[i].slave, detail::to_result(read_.words[i], slots_[i]));
+    }
+  }
+
+  std::array<std::uint32_t, MB4_PLAN_WORDS(kSlaves)> tx_;
+  std::array<std::uint32_t, MB4_PLAN_WORDS(kSlaves)> rx_;
+  std::array<mb4_slot, kSlaves> slots_{};
 };
 
 namespace detail {
-
-// `slave` 1..8 of a valid configuration.
-inline void set_word(const Config& config, std::uint8_t slave, mb4_word& word) {
-  const SlaveConfig& from = config.slaves[slave - 1U];
-  mb4_slave_config one{};
-  one.data_bits = from.data_bits;
-  one.flags = static_cast<std::uint8_t>(from.flags);
-  one.crc_start = from.crc_start;
-  one.crc_polynomial = from.crc_polynomial;
-  one.gray = from.gray;
-  mb4_word_set(&word, slave, &one, static_cast<std::uint8_t>(config.spi_check));
-}
 
 // The parts of the read path, MB4_WITH_..., that `slave` needs.
 constexpr unsigned needed(const Config& config, std::uint8_t slave) {
@@ -110,10 +162,6 @@ constexpr unsigned needed(const Config& config, std::uint8_t slave) {
   parts |= config.spi_check == SpiCheck::kFull ? unsigned{MB4_WITH_FULL} : 0U;
   return parts | (config.hold_beside_access ? 0U : unsigned{MB4_WITH_UNHELD});
 }
-
-static_assert(static_cast<int>(Error::kCorrupted) == MB4_CORRUPTED);
-static_assert(static_cast<int>(Error::kBankSwitched) == MB4_BANK_SWITCHED);
-static_assert(static_cast<int>(SpiCheck::kFull) == MB4_SPI_CHECK_FULL);
 
 }  // namespace detail
 }  // namespace mb4

@@ -113,10 +113,13 @@ class Device {
     chip_.frame_us = frame_timeout_us(config);
     chip_.pitch_us = detail::frame_pitch_us(config);
     chip_.needs = (chip_.sensors & (chip_.sensors - 1U)) != 0 ? MB4_WITH_SEVERAL : 0;
+    chip_.count = 0;
+    ++chip_.configurations;
     for (std::uint8_t slave = 1; slave <= kSlaves; ++slave) {
-      detail::set_word(config, slave, chip_.words[slave - 1U]);
-      chip_.needs = static_cast<std::uint8_t>(
-          chip_.needs | (is_in(chip_.sensors, slave) ? detail::needed(config, slave) : 0));
+      if (is_in(chip_.sensors, slave)) {
+        detail::set_word(config, slave, chip_.words[chip_.count++]);
+        chip_.needs = static_cast<std::uint8_t>(chip_.needs | detail::needed(config, slave));
+      }
     }
     chip_.set_watch();
     chip_.configured = true;

@@ -10,9 +10,9 @@
 #include <cstdint>
 
 #include "mb4/config.hpp"
-#include "mb4/crc.hpp"
 #include "mb4/result.hpp"
 #include "mb4/span.hpp"
+#include "mb4_cyclic.h"
 
 namespace mb4 {
 
@@ -44,81 +44,59 @@ struct Reading {
 
 namespace detail {
 
-// CRC of the data bits as they were on the line. Where the chip has converted Gray code, the bits
-// are converted back. As enc::CrcShift, but left aligned: the highest bit of the polynomial is
-// shifted out, and no step needs a mask.
-[[gnu::noinline]] constexpr std::uint32_t crc_on_line(const SlaveConfig& slave,
-                                                      const std::uint8_t* bytes) {
-  std::uint32_t polynomial = slave.crc_polynomial;
-  std::uint32_t remainder = slave.crc_start;
-  unsigned unused = 0;
-  for (bool top = false; !top; ++unused) {
-    top = (polynomial & 0x80000000U) != 0;
-    polynomial <<= 1;
-    remainder <<= 1;
-  }
-  unsigned above = 0;
-  for (unsigned i = slave.data_bits; i-- > 0;) {
-    const unsigned bit = bytes[i / 8] >> i % 8 & 1U;
-    const bool differs = remainder >> 31 != (bit ^ above);
-    remainder = remainder << 1 ^ (differs ? polynomial : 0);
-    above = slave.gray ? bit : 0;
-  }
-  return remainder >> unused;
+// `slave` 1..8 of a valid configuration.
+inline void set_word(const Config& config, std::uint8_t slave, mb4_word& word) {
+  const SlaveConfig& from = config.slaves[slave - 1U];
+  mb4_slave_config one{};
+  one.data_bits = from.data_bits;
+  one.flags = static_cast<std::uint8_t>(from.flags);
+  one.crc_start = from.crc_start;
+  one.crc_polynomial = from.crc_polynomial;
+  one.gray = from.gray;
+  mb4_word_set(&word, slave, &one, static_cast<std::uint8_t>(config.spi_check));
 }
 
-}  // namespace detail
-
-namespace detail {
-
-// The CRC in the top byte(s) of SCDATAx (page 26).
-constexpr std::uint16_t stored_crc(const SlaveConfig& slave, const std::uint8_t* bytes) {
-  return crc_bytes(slave) > 1 ? static_cast<std::uint16_t>(bytes[7] << 8 | bytes[6]) : bytes[7];
-}
-
-// decode_reading() without a check of its arguments.
-constexpr Result<Reading> decode_bytes(const Config& config, std::uint8_t slave,
-                                       const std::uint8_t* bytes) {
-  const SlaveConfig& slave_config = config.slaves[slave - 1U];
-  const unsigned bits = slave_config.data_bits;
-  const unsigned count = data_bytes(slave_config);
-  if (bits % 8 != 0 && bytes[count - 1] >> bits % 8 != 0) {
-    return Error::kCorrupted;
-  }
+inline Result<Reading> to_result(const mb4_reading& from) {
   Reading reading;
-  reading.slave = slave;
-  for (unsigned i = count; i-- > 0;) {
-    reading.raw = reading.raw << 8 | bytes[i];
-  }
-  if (crc_is_stored(config, slave_config)) {
-    reading.crc_stored = true;
-    reading.crc = stored_crc(slave_config, bytes);
-    if (reading.crc != crc_on_line(slave_config, bytes)) {
-      return Error::kCorrupted;
-    }
-  }
-  reading.position = reading.raw;
-  if (slave_config.flags == Flags::kErrorWarning) {
-    // With Gray code the chip converts the flags together with the position.
-    const unsigned sent = slave_config.gray ? bytes[0] ^ (bytes[0] >> 1) : bytes[0];
-    reading.error = (sent & 2U) == 0;
-    reading.warning = (sent & 1U) == 0;
-    reading.raw ^= (bytes[0] ^ sent) & 3U;
-    reading.position >>= 2;
-  }
+  reading.raw = from.raw;
+  reading.position = from.position;
+  reading.crc = from.crc;
+  reading.crc_stored = from.crc_stored;
+  reading.error = from.error;
+  reading.warning = from.warning;
+  reading.slave = from.slave;
   return reading;
 }
+
+inline Result<Reading> to_result(const mb4_word& word, const mb4_slot& slot) {
+  if (slot.code != MB4_OK) {
+    return static_cast<Error>(slot.code);
+  }
+  mb4_reading reading;
+  mb4_slot_reading(&word, &slot, &reading, MB4_WITH_ALL);
+  return to_result(reading);
+}
+
+static_assert(static_cast<int>(Error::kCorrupted) == MB4_CORRUPTED);
+static_assert(static_cast<int>(Error::kBankSwitched) == MB4_BANK_SWITCHED);
+static_assert(static_cast<int>(SpiCheck::kFull) == MB4_SPI_CHECK_FULL);
 
 }  // namespace detail
 
 // Decodes `bytes` (the first reading_bytes() bytes of SCDATAx, page 26) of slave 1..8 of a valid
 // `config`. kCorrupted when bits that the chip sets to 0 are not 0 or when the stored CRC does not
 // belong to the data. kInvalidArgument: `slave` is not 1..8, or there are fewer bytes.
-[[nodiscard]] constexpr Result<Reading> decode_reading(const Config& config, std::uint8_t slave,
-                                                       Span<const std::uint8_t> bytes) {
-  return is_in(0xFF, slave) && bytes.size() >= reading_bytes(config, slave)
-             ? detail::decode_bytes(config, slave, bytes.data())
-             : Result<Reading>(Error::kInvalidArgument);
+[[nodiscard]] inline Result<Reading> decode_reading(const Config& config, std::uint8_t slave,
+                                                    Span<const std::uint8_t> bytes) {
+  if (!is_in(0xFF, slave) || bytes.size() < reading_bytes(config, slave)) {
+    return Error::kInvalidArgument;
+  }
+  mb4_word word;
+  mb4_slot slot{};
+  detail::set_word(config, slave, word);
+  mb4_slot_load(&word, &slot, bytes.data());
+  slot.code = mb4_slot_good(&word, &slot, MB4_WITH_ALL) ? MB4_OK : MB4_CORRUPTED;
+  return detail::to_result(word, slot);
 }
 
 }  // namespace mb4

@@ -20,15 +20,19 @@ uint8_t firmware(mb4_cyclic *read, mb4_plan *plan, uint64_t *position);
 
 uint8_t firmware(mb4_cyclic *read, mb4_plan *plan, uint64_t *position) {
   uint8_t code;
-  mb4_cyclic_plan(read, plan);
+  mb4_cyclic_plan(read, plan, PARTS);
   do {
     bool done = true;
     uint8_t i;
     for (i = 0; i < plan->frames && done; ++i) {
-      done = board_transfer(plan->tx[i], plan->rx[i], plan->size[i]);
+      done = board_transfer(mb4_plan_tx(plan, i), mb4_plan_rx(plan, i), plan->size[i]);
     }
     code = mb4_cyclic_finish(read, plan, done, board_now_us(), PARTS);
   } while (code == MB4_MORE);
-  *position = read->reading.position;
+  if (code == MB4_OK) {
+    mb4_reading reading;
+    mb4_slot_reading(read->words, read->slots, &reading, PARTS);
+    *position = reading.position;
+  }
   return code;
 }

@@ -531,14 +531,20 @@ TEST(Names, EveryErrorAndField_HasOne) {
   EXPECT_STREQ(mb4::to_string(static_cast<ConfigField>(250)), "unknown");
 }
 
-// Table 68, entry 2: actuators on both channels with different SCD length, before revision Y.
-TEST(Revision, ActuatorsOnBothChannelsOfDifferentLength_NeedRevisionY) {
+// Actuators of 28 and 27 bits on the two channels.
+Config two_actuators() {
   Config config = mb4test::encoder26();
   config.mo = true;
   config.channels[1].protocol = mb4::Protocol::kBissC;
   config.slaves[0].actuator = true;
   config.slaves[4] = config.slaves[0];
   config.slaves[4].data_bits = 27;
+  return config;
+}
+
+// Table 68, entry 2: actuators on both channels with different SCD length, before revision Y.
+TEST(Revision, ActuatorsOnBothChannelsOfDifferentLength_NeedRevisionY) {
+  Config config = two_actuators();
   const mb4::ErrorInfo wrong = mb4::validate(config, 0x11).info();
   EXPECT_EQ(wrong.code, Error::kInvalidConfig);
   EXPECT_EQ(wrong.field, ConfigField::kActuator);
@@ -557,12 +563,7 @@ TEST(Revision, ActuatorsOnBothChannelsOfDifferentLength_NeedRevisionY) {
 
 // configure() asks the chip before it writes.
 TEST(Revision, ConfigureOnAnOldChip_IsRefusedBeforeAnyWrite) {
-  Config config = mb4test::encoder26();
-  config.mo = true;
-  config.channels[1].protocol = mb4::Protocol::kBissC;
-  config.slaves[0].actuator = true;
-  config.slaves[4] = config.slaves[0];
-  config.slaves[4].data_bits = 27;
+  Config config = two_actuators();
   for (const unsigned revision : {0x10U, 0x11U}) {
     mb4test::StrictBus bus;
     mb4test::FakeClock clock;

@@ -8,8 +8,12 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cstdint>
+#include <cstdio>
+#include <fstream>
 #include <initializer_list>
+#include <iterator>
 #include <string>
 #include <vector>
 
@@ -71,16 +75,21 @@ class CyclicTest : public testing::Test {
   // read of the plan. Returns finish().
   bool step(const std::vector<Bytes>& frames, const std::vector<Bytes>& answers,
             bool transferred = true) {
-    EXPECT_EQ(read.frames(), frames.size());
+    return step(read, frames, answers, transferred);
+  }
+  template <typename Read>
+  bool step(Read& one, const std::vector<Bytes>& frames, const std::vector<Bytes>& answers,
+            bool transferred = true) {
+    EXPECT_EQ(one.frames(), frames.size());
     std::size_t next = 0;
-    for (std::size_t i = 0; i < read.frames() && i < frames.size(); ++i) {
-      EXPECT_EQ(hex(Bytes(read.tx(i).begin(), read.tx(i).end())), hex(frames[i])) << i;
-      if (read.rx(i).empty() || next >= answers.size()) continue;
-      EXPECT_EQ(read.rx(i).size(), answers[next].size()) << "slip in the test";
-      for (std::size_t k = 0; k < answers[next].size(); ++k) read.rx(i)[k] = answers[next][k];
+    for (std::size_t i = 0; i < one.frames() && i < frames.size(); ++i) {
+      EXPECT_EQ(hex(Bytes(one.tx(i).begin(), one.tx(i).end())), hex(frames[i])) << i;
+      if (one.rx(i).empty() || next >= answers.size()) continue;
+      EXPECT_EQ(one.rx(i).size(), answers[next].size()) << "slip in the test";
+      for (std::size_t k = 0; k < answers[next].size(); ++k) one.rx(i)[k] = answers[next][k];
       ++next;
     }
-    return device.automatic().finish(read, transferred, now_us);
+    return device.automatic().finish(one, transferred, now_us);
   }
   void plan() { ASSERT_TRUE(device.automatic().plan_slave(1, read).ok()); }
 
@@ -95,6 +104,7 @@ class CyclicTest : public testing::Test {
 
 using Chain = CyclicTest;
 using Full = CyclicTest;
+using Several = CyclicTest;
 
 // 4 transfers, 23 bytes.
 TEST_F(Chain, NewFrame_IsOnePlan) {
@@ -217,6 +227,14 @@ TEST_F(Chain, Faults_ReleaseTheBank) {
   EXPECT_FALSE(step(kChain, {}, false));
   EXPECT_TRUE(step({kAgs}, {}, false));
   EXPECT_EQ(read.result().error(), Error::kTransport);
+  // Then the next read releases the bank, tries it again if need be, and drops what waited.
+  plan();
+  EXPECT_TRUE(step({kAgs, kClearValid1}, {}, false));
+  EXPECT_EQ(read.result().error(), Error::kTransport);
+  plan();
+  EXPECT_FALSE(step({kAgs, kClearValid1}, {}));
+  EXPECT_TRUE(step(kChain, {kWord, kNone}));
+  EXPECT_EQ(read.result().error(), Error::kNoData);
   // The marking fails.
   plan();
   EXPECT_FALSE(step(kChain, {kBadWord, kBad}));
@@ -300,6 +318,130 @@ TEST_F(Chain, GivenUp_EndsWithTransport) {
   EXPECT_EQ(read.result().error(), Error::kTransport);
 }
 
+// Two slaves of one frame in four transfers, 31 bytes; 17 of them bring both words.
+const Bytes kReadBoth = join({{0x09}, zeros(16)});
+const Bytes kClearBoth{0x02, 0xF1, 0xF5, 0xFF, 0xFF, 0x01};
+
+Bytes both(const Bytes& first, const Bytes& second) {
+  return join({Bytes(first.begin(), first.end()), Bytes(second.begin() + 1, second.end())});
+}
+
+TEST_F(Several, NewFrame_IsOnePlan) {
+  start(mb4::SpiCheck::kCrc, 2);
+  mb4::FrameRead all;
+  mb4::Frame frame;
+  const std::vector<Bytes> chain{kHold, kReadBoth, kReadStatus, kClearBoth};
+  for (int i = 0; i < 2; ++i) {  // the second read finds its frames in the plan
+    ASSERT_TRUE(device.automatic().plan(all).ok());
+    EXPECT_TRUE(step(all, chain, {both(kWord, kWord), held(0xFA, 0x0A)}));
+    ASSERT_TRUE(all.result(frame).ok());
+    EXPECT_EQ(frame[1]->position, mb4test::kPosition);
+    EXPECT_EQ(frame[2]->position, mb4test::kPosition);
+    EXPECT_EQ(frame[2]->slave, 2);
+    EXPECT_TRUE(all.one_frame());
+  }
+  // Only one is new.
+  ASSERT_TRUE(device.automatic().plan(all).ok());
+  EXPECT_TRUE(step(all, chain, {both(kWord, kWord), held(0xFA, 0x08)}));
+  ASSERT_TRUE(all.result(frame).ok());
+  EXPECT_EQ(frame[1].error(), Error::kNoData);
+  EXPECT_TRUE(frame[2].ok());
+  // One contradicts its CRC.
+  ASSERT_TRUE(device.automatic().plan(all).ok());
+  EXPECT_TRUE(step(all, chain, {both(kWord, kBadWord), held(0xFA, 0x0A)}));
+  ASSERT_TRUE(all.result(frame).ok());
+  EXPECT_TRUE(frame[1].ok());
+  EXPECT_EQ(frame[2].error(), Error::kCorrupted);
+}
+
+// The second try concerns the bad word only: it neither reads nor clears what slave 1 has brought.
+TEST_F(Several, OneWordBad_TheOtherIsKept) {
+  start(mb4::SpiCheck::kCrc, 2);
+  mb4::FrameRead all;
+  mb4::Frame frame;
+  const std::vector<Bytes> chain{kHold, kReadBoth, kReadStatus, kClearBoth};
+  const std::vector<Bytes> again{kHold, join({{0x03, 0x08}, zeros(8)}), kReadStatus};
+  const Bytes bad = join({{0}, Bytes(kBadWord.begin(), kBadWord.end())});
+  const Bytes good = join({{0}, Bytes(kWord.begin(), kWord.end())});
+  for (const bool follows : {false, true}) {
+    ASSERT_TRUE(device.automatic().plan(all).ok());
+    EXPECT_FALSE(step(all, chain, {both(kWord, kBadWord), held(0x6A, 0x02)}));
+    if (follows) {  // a good word of the next frame
+      EXPECT_FALSE(step(all, again, {good, held(0xFA, 0x0A)}));
+      EXPECT_TRUE(step(all, {{0x02, 0xF1, 0xF7, 0xFF, 0xFF, 0x01}}, {}));
+    } else {
+      EXPECT_FALSE(step(all, again, {bad, held(0x6A, 0x00)}));
+      EXPECT_TRUE(step(all, {{0x02, 0x0F, mb4test::kCrc6}, kAgs}, {}));
+    }
+    ASSERT_TRUE(all.result(frame).ok());
+    EXPECT_TRUE(frame[1].ok());
+    EXPECT_EQ(frame[2].error(), follows ? Error::kNone : Error::kCrc);
+    EXPECT_EQ(all.one_frame(), !follows);
+  }
+}
+
+// What concerns the whole read is no result of a slave.
+TEST_F(Several, Faults_LeaveNoReading) {
+  start(mb4::SpiCheck::kCrc, 2);
+  mb4::FrameRead all;
+  mb4::Frame frame;
+  const std::vector<Bytes> chain{kHold, kReadBoth, kReadStatus, kClearBoth};
+  ASSERT_TRUE(device.automatic().plan(all).ok());
+  EXPECT_FALSE(step(all, chain, {both(kWord, kWord), zeros(6)}));
+  EXPECT_TRUE(step(all, {kAgs}, {}));
+  EXPECT_EQ(all.result(frame).error(), Error::kNotDetected);
+  EXPECT_EQ(frame[1].error(), Error::kInvalidArgument);
+  bus.expect_write({0x07, 0x00});
+  ASSERT_TRUE(device.automatic().stop().ok());
+  EXPECT_EQ(device.automatic().plan(all).error(), Error::kWrongMode);
+}
+
+// docs/driver.md: one good read, from its planned frames. Opcode 0x03 goes at 5 MHz at most (I204).
+TEST(Timing, Table_IsThatOfThePlans) {
+  std::ifstream file(MB4_MANUAL);
+  const std::string manual((std::istreambuf_iterator<char>(file)), {});
+  for (const unsigned slaves : {1U, 2U, 8U}) {
+    std::array<mb4_word, 8> words{};
+    std::array<mb4_slot, 8> slots{};
+    std::array<std::uint32_t, MB4_PLAN_WORDS(8)> tx{};
+    std::array<std::uint32_t, MB4_PLAN_WORDS(8)> rx{};
+    const mb4_slave_config encoder{true, 28, MB4_FLAGS_ERROR_WARNING, 0, 0x43, false, false, false};
+    for (std::uint8_t i = 0; i < 8; ++i) {
+      mb4_word_set(&words[i], static_cast<std::uint8_t>(i + 1), &encoder, MB4_SPI_CHECK_CRC);
+    }
+    mb4_watch watch{};
+    mb4_plan plan{};
+    mb4_plan_memory(&plan, tx.data(), rx.data());
+    mb4_cyclic read{};
+    read.words = words.data();
+    read.slots = slots.data();
+    read.watch = &watch;
+    read.count = static_cast<std::uint8_t>(slaves);
+    read.spi_check = MB4_SPI_CHECK_CRC;
+    read.chain = true;
+    mb4_cyclic_plan(&read, &plan, MB4_WITH_ALL);
+    unsigned bytes = 0;
+    for (std::uint8_t i = 0; i < plan.frames; ++i) {
+      EXPECT_LE(plan.size[i], 25);
+      EXPECT_EQ(plan.at[i] % 4, 0);
+      EXPECT_LE(plan.at[i] + plan.size[i], sizeof(std::uint32_t) * MB4_PLAN_WORDS(slaves));
+      bytes += plan.size[i];
+    }
+    std::string row = "| " + std::to_string(slaves) + " | " + std::to_string(plan.frames) + " | " +
+                      std::to_string(bytes) + " |";
+    for (const unsigned mhz : {5U, 10U, 20U, 50U}) {
+      double us = 0;
+      for (std::uint8_t i = 0; i < plan.frames; ++i) {
+        us += 8.0 * plan.size[i] / (mb4_plan_tx(&plan, i)[0] == 0x03 ? 5 : mhz);
+      }
+      std::array<char, 32> cell{};
+      std::snprintf(cell.data(), cell.size(), " %.1f |", us);
+      row += cell.data();
+    }
+    EXPECT_NE(manual.find("\n" + row + "\n"), std::string::npos) << row;
+  }
+}
+
 // With kFull each step decides; a failed step releases the bank.
 TEST_F(Full, EachStepFails_ReleasesTheBank) {
   start(mb4::SpiCheck::kFull);
@@ -319,6 +461,9 @@ TEST_F(Full, EachStepFails_ReleasesTheBank) {
     }
     EXPECT_EQ(read.result().error(), Error::kTransport) << failing;
   }
+  plan();
+  EXPECT_FALSE(step({kAgs, kClearValid1}, {}));
+  EXPECT_FALSE(step(frames[0], {kNone}));
 }
 
 }  // namespace

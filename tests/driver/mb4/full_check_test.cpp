@@ -146,13 +146,8 @@ TEST_F(FullCheck, SecondReadingDiffersInAPoll_IsCorrupted) {
     bus.expect_write(kHold);
     bus.expect_read(kReadStatus, kNew);
     bus.expect_read(kReadAll, zeros(9));
-    if (one) {
-      bus.expect_read(kReadStatus, kNew);
-      bus.expect_read(kReadAll, kAllOf);
-    } else {
-      bus.expect_read(kReadAll, kAllOf);
-      bus.expect_read(kReadStatus, kNew);
-    }
+    bus.expect_read(kReadStatus, kNew);
+    bus.expect_read(kReadAll, kAllOf);
     bus.expect_write(kClearValid1);
     bus.expect_read(kReadStatus, kCleared);
     bus.expect_write(kAgs);
@@ -187,7 +182,7 @@ TEST_F(FullCheck, BankSwitchedBetweenTwoReadings_SecondTryIsGood) {
       if (!second) {
         bus.expect_read(kReadAll, zeros(9));
       }
-      if (second || !one) {
+      if (second) {
         bus.expect_read(kReadAll, kAllOf);
       }
       bus.expect_read(kReadStatus, second ? still : fresh);

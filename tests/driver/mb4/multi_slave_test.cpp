@@ -5,8 +5,12 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "mb4/device.hpp"
 #include "mb4/register_image.hpp"
@@ -258,22 +262,50 @@ TEST_F(MultiSlave, LineOfChannel2StaysLow_IsLineError) {
   EXPECT_EQ(device.read_all(frame).error(), Error::kLineError);
 }
 
-// All eight with 6 bytes each: gaps of 2 bytes, one burst. Slaves 1 and 8 alone: two.
+// Eight slaves with 6 bytes each, gaps of 2 bytes: three share a burst of 23 bytes, as more would
+// be longer than 25; or all, if the caller allows it. With 5 bytes each the gaps are too wide.
+// Slaves 1 and 8 alone: two bursts, as for slaves that are left out.
 TEST(ReadData, NeighboursWithSmallGap_ShareOneBurst) {
   Config config = mb4test::encoder26();
-  for (mb4::SlaveConfig& slave : config.slaves) {
-    slave = config.slaves[0];
-    slave.data_bits = 48;
-  }
-  StrictBus bus;
-  mb4::Opcodes<StrictBus> opcodes(bus);
-  bus.expect_read(join({{0x09}, zeros(62)}), zeros(63));
-  mb4::detail::DataImage image{};
-  EXPECT_TRUE(mb4::detail::read_data(opcodes, config, 0xFFFF, image).ok());
-  bus.expect_read({0x09, 0, 0, 0, 0, 0, 0}, zeros(7));
-  bus.expect_read(join({{0x03, 0x38}, zeros(6)}), zeros(8));
-  EXPECT_TRUE(
-      mb4::detail::read_data(opcodes, config, mb4::flag_of(1) | mb4::flag_of(8), image).ok());
+  std::array<mb4_word, 8> words{};
+  const auto bursts = [&](std::uint8_t bits, std::uint8_t count, bool wide, std::uint16_t flags) {
+    config.slaves[0].data_bits = bits;
+    for (std::uint8_t i = 0; i < 8; ++i) {
+      config.slaves[i] = config.slaves[0];
+      mb4::detail::set_word(config, static_cast<std::uint8_t>(i + 1), words[i]);
+    }
+    if (count == 2) words[1] = words[7];
+    mb4_cyclic read{};
+    mb4_plan plan{};
+    std::array<std::uint32_t, MB4_PLAN_WORDS(8)> tx{};
+    std::array<std::uint32_t, MB4_PLAN_WORDS(8)> rx{};
+    mb4_plan_memory(&plan, tx.data(), rx.data());
+    read.words = words.data();
+    read.count = count;
+    read.wide = wide;
+    mb4_cyclic_add_data(&read, &plan, flags, MB4_WITH_ALL);
+    std::string list;
+    for (std::uint8_t i = 0; i < plan.frames; ++i) {
+      const std::uint8_t* frame = mb4_plan_tx(&plan, i);
+      list += hex(Bytes(frame, frame + (frame[0] == 0x09 ? 1 : 2))) + ":" +
+              std::to_string(plan.size[i]) + " ";
+    }
+    return list;
+  };
+  const auto all = [](const std::vector<std::pair<Bytes, int>>& expected) {
+    std::string list;
+    for (const auto& [head, size] : expected) list += hex(head) + ":" + std::to_string(size) + " ";
+    return list;
+  };
+  EXPECT_EQ(bursts(48, 8, true, 0xFFFF), all({{{0x09}, 63}}));
+  EXPECT_EQ(bursts(48, 8, false, 0xFFFF),
+            all({{{0x09}, 23}, {{0x03, 0x18}, 24}, {{0x03, 0x30}, 16}}));
+  EXPECT_EQ(bursts(40, 3, false, 0xFFFF), all({{{0x09}, 6}, {{0x03, 0x08}, 7}, {{0x03, 0x10}, 7}}));
+  EXPECT_EQ(bursts(64, 8, false, 0xFFFF),
+            all({{{0x09}, 25}, {{0x03, 0x18}, 18}, {{0x03, 0x28}, 18}, {{0x03, 0x38}, 10}}));
+  const std::vector<std::pair<Bytes, int>> two{{{0x09}, 7}, {{0x03, 0x38}, 8}};
+  EXPECT_EQ(bursts(48, 2, true, 0xFFFF), all(two));
+  EXPECT_EQ(bursts(48, 8, true, mb4::flag_of(1) | mb4::flag_of(8)), all(two));
 }
 
 }  // namespace

@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-FileCopyrightText: 2026 The openmb4 authors
 # SPDX-License-Identifier: Apache-2.0
-"""The driver's quick starts as printed in the manual, compiled for Linux and run on the simulated chip:
-driver, spidev and chip together.
+"""The driver's quick starts as printed in the manual and examples/spidev, compiled for Linux and run on
+the simulated chip: driver, spidev and chip together.
 
   quick_start_test.py MB4SIM ROOT COMPILER
 """
@@ -20,11 +20,12 @@ MB4SIM, ROOT, COMPILER = sys.argv[1], Path(sys.argv[2]), sys.argv[3]
 POSITION = 0x2ABCDEF  # of golden.toml
 
 
-def run(manual, work):
-    blocks = pages.blocks(manual.read_text(encoding="utf-8"))
+def run(page, work):
+    text = page.read_text(encoding="utf-8")
     source, program = work / "unit.cpp", work / "unit"
-    source.write_text("".join(block.text for block in blocks if block.language == "cpp"),
-                      encoding="utf-8")
+    if page.suffix == ".md":
+        text = "".join(block.text for block in pages.blocks(text) if block.language == "cpp")
+    source.write_text(text, encoding="utf-8")
     subprocess.run([COMPILER, "-std=c++17", "-O2", f"-I{ROOT}/drivers/include",
                     f"-I{ROOT}/regmap/generated/mb4", str(source), "-o", str(program)], check=True,
                    timeout=120)
@@ -34,12 +35,13 @@ def run(manual, work):
 
 def main():
     failed = False
-    for manual in (ROOT / "docs" / "driver.md", ROOT / "drivers" / "README.md"):
+    for page, positions in ((ROOT / "docs" / "driver.md", 1), (ROOT / "drivers" / "README.md", 1),
+                            (ROOT / "examples" / "spidev" / "chain.cpp", 3)):
         with tempfile.TemporaryDirectory() as folder:
-            done = run(manual, Path(folder))
-        print(f"{manual.name}: {done.stdout.strip()} (status {done.returncode}) {done.stderr}")
+            done = run(page, Path(folder))
+        print(f"{page.name}: {done.stdout.strip()} (status {done.returncode}) {done.stderr}")
         # Nothing on standard error: no limit of the chip's for its host has been broken.
-        failed |= (done.returncode, done.stdout, done.stderr) != (0, f"{POSITION}\n", "")
+        failed |= (done.returncode, done.stdout, done.stderr) != (0, f"{POSITION}\n" * positions, "")
     return 1 if failed else 0
 
 

@@ -10,7 +10,9 @@ static encoder_transfer frame;
 static mb4_word word;
 static mb4_watch watch;
 static mb4_cyclic cyclic;
+static mb4_slot slot;
 static mb4_plan plan;
+static uint32_t tx[MB4_PLAN_WORDS(1)], rx[MB4_PLAN_WORDS(1)];
 
 static void write_register(uint8_t address, uint8_t value) {
   const uint8_t bytes[3] = {MB4_SPI_OPCODE_WRITE_REGISTERS, address, value};
@@ -34,7 +36,10 @@ void encoder_begin(encoder_transfer transfer, uint32_t now_us) {
   watch.omitted_us = 3000;
   watch.silent_us = 16000;
   watch.lines = 1;
-  cyclic.word = &word;
+  cyclic.words = &word;
+  cyclic.slots = &slot;
+  cyclic.count = 1;
+  mb4_plan_memory(&plan, tx, rx);
   cyclic.watch = &watch;
   cyclic.spi_check = MB4_SPI_CHECK_CRC;
   cyclic.chain = true;
@@ -43,17 +48,19 @@ void encoder_begin(encoder_transfer transfer, uint32_t now_us) {
 
 uint8_t encoder_read(uint32_t now_us, uint32_t *position) {
   uint8_t code;
-  mb4_cyclic_plan(&cyclic, &plan);
+  mb4_cyclic_plan(&cyclic, &plan, 0);
   do {
     uint8_t i;
     for (i = 0; i < plan.frames; ++i) {
-      frame(plan.tx[i], plan.rx[i], plan.size[i]);
+      frame(mb4_plan_tx(&plan, i), mb4_plan_rx(&plan, i), plan.size[i]);
     }
     /* One slave of 28 bits, HOLDBANK at each read: the parts for other cases are left out. */
     code = mb4_cyclic_finish(&cyclic, &plan, true, now_us, 0);
   } while (code == MB4_MORE);
   if (code == MB4_OK) {
-    *position = (uint32_t)cyclic.reading.position;
+    mb4_reading reading;
+    mb4_slot_reading(&word, &slot, &reading, 0);
+    *position = (uint32_t)reading.position;
     return ENCODER_GOOD;
   }
   return code == MB4_NO_DATA ? ENCODER_NOTHING_NEW : ENCODER_ERROR;

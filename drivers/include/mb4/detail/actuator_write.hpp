@@ -13,7 +13,6 @@
 #include "mb4/config.hpp"
 #include "mb4/detail/checked_registers.hpp"
 #include "mb4/detail/chip.hpp"
-#include "mb4/detail/frame_poll.hpp"
 #include "mb4/result.hpp"
 #include "mb4/span.hpp"
 #include "mb4_regs.hpp"

@@ -69,6 +69,9 @@ void pause(Clock& clock, std::uint32_t time_us) {
   }
 }
 
+// 0xF4 while a bank is held.
+inline constexpr std::uint8_t kHoldAndAgs = regs::AGS::encode<1>() | regs::HOLDBANK::encode<1>();
+
 // Time for a slave whose frame BREAK has ended, until it is ready again. A slave needs its timeout
 // for this; 12.5 to 40 us are common.
 inline constexpr std::uint32_t kLineRecoveryUs = 100;
@@ -104,7 +107,9 @@ struct Chip {
   std::uint8_t sensors = 0;               // slaves of `config` that deliver data; bit 0 is slave 1
   std::uint16_t sensor_flags = 0;         // the same as flag_of()
   std::uint8_t actuators = 0;             // slaves of `config` that take words; bit 0 is slave 1
-  std::array<mb4_word, kSlaves> words{};  // how the data of each slave is read
+  std::array<mb4_word, kSlaves> words{};  // how the data of each of `sensors` is read, in order
+  std::uint8_t count = 0;                 // of `words`
+  std::uint8_t configurations = 0;        // made so far
   std::uint8_t needs = 0;                 // MB4_WITH_..., for any slave
   mb4_watch watch{};                      // are automatic frames coming?
   std::uint32_t frame_us = 0;             // frame_timeout_us(), worked out once
@@ -118,6 +123,15 @@ struct Chip {
   // The caller wants automatic frames, but they need BREAK and a new start first (table 69).
   bool restart = false;
   ControlState control{};
+
+  // How the data of `slave`, one of `sensors`, is read.
+  [[nodiscard]] const mb4_word* word_of(std::uint8_t slave) const {
+    const mb4_word* word = words.data();
+    while (word->slave != slave) {
+      ++word;
+    }
+    return word;
+  }
 
   // Works out when frames have stayed away for too long: Automatic::poll(). A slave that needs
   // longer than a period says so by Config::frame_timeout_us.
@@ -137,6 +151,7 @@ struct Chip {
   void started(std::uint32_t now_us) {
     watch.news_us = now_us;
     watch.taken = 0;
+    watch.held = false;
     for (std::uint32_t& good_us : watch.good_us) {
       good_us = now_us;
     }

@@ -10,8 +10,8 @@
 #include <cstdint>
 
 #include "mb4/config.hpp"
+#include "mb4/cyclic.hpp"
 #include "mb4/detail/chip.hpp"
-#include "mb4/detail/fetch.hpp"
 #include "mb4/error.hpp"
 #include "mb4/frame.hpp"
 #include "mb4/reading.hpp"
@@ -45,17 +45,12 @@ class SingleShot {
 
   // The chip is configured and `slave` 1..8 delivers data.
   Result<Reading> read(std::uint8_t slave) {
-    Outcome outcome;
-    FetchedData data;
-    if (const Result<void> done = run(flag_of(slave), outcome, data); !done) {
+    CyclicRead memory;
+    const mb4_word* word = chip_.word_of(slave);
+    if (const Result<void> done = run(word, 1, memory); !done) {
       return done.failure();
     }
-    if (outcome.good == 0) {
-      return outcome.bad != 0 ? Error::kCrc : Error::kNoData;
-    }
-    const Result<Reading> reading =
-        decode(chip_.config, slave, &data.image[regs::scdata_address(slave)],
-               (data.stable & flag_of(slave)) != 0);
+    const Result<Reading> reading = to_result(*word, memory.slot_);
     // After kCorrupted the status, which came over the same SPI, is doubtful too.
     chip_.recover_first = !reading;
     return reading;
@@ -64,53 +59,79 @@ class SingleShot {
   // The chip is configured.
   Result<void> read_all(Frame& frame) {
     frame.clear();
-    Outcome outcome;
-    FetchedData data;
-    const Result<void> done = run(chip_.sensor_flags, outcome, data);
+    FrameRead memory;
+    const Result<void> done = run(chip_.words.data(), chip_.count, memory);
     if (done) {
-      decode_all(chip_.config, chip_.sensors, outcome, data, frame);
+      memory.fill(frame);
       chip_.recover_first = !frame.good(chip_.sensors);
     }
     return done;
   }
 
  private:
-  // Runs one frame and fetches the data of those slaves of `mask` that are good.
+  // Runs one frame and fetches the data of those slaves of `words` that are good.
   //
   // SVALIDx was cleared before the request, so SVALIDx = 1 proves that the requested frame ran,
   // with any value of nAGSERR. A chip may set nAGSERR = 0 at each write of 0xF4 (page 34 can be
   // read so; AGSERR_ON_INSTR_WRITE = 1). The driver looks at nAGSERR only if there is no data and
   // nSCDERR = 1; nSCDERR = 0 shows that a frame ran. On such a chip kNoData appears as kLineError.
-  Result<void> run(std::uint16_t mask, Outcome& out, FetchedData& data) {
-    Status& status = out.status;
+  Result<void> run(const mb4_word* words, std::uint8_t count, ReadSteps& steps) {
+    Status status;
     if (const Result<void> ended = run_frame(status); !ended) {
       return ended;
     }
+    mb4_cyclic& read = steps.read_;
+    read.words = words;
+    read.count = count;
+    read.wide = true;
+    read.spi_check = static_cast<std::uint8_t>(chip_.config.spi_check);
+    mb4_cyclic_all(&read, MB4_WITH_ALL);
+    for (std::size_t i = 0; i < Status::kBytes; ++i) {
+      read.status[i] = status.bytes()[i];
+    }
     // SVALID was cleared before the request, so every slave without it was bad in this frame.
-    out.bad = status.scd_error() ? 0xFFFF : 0;
+    for (std::uint8_t i = 0; i < count; ++i) {
+      read.slots[i].code = status.scd_error() ? MB4_CRC : MB4_NO_DATA;
+    }
     const unsigned valid = status.valid_flags() & unsigned{chip_.sensor_flags};
     // nSCDERR = 0: the CRC of a slave was wrong, and SVALIDx = 0 identifies the slave (page 34). If
     // every SVALIDx is 1, the chip contradicts itself and the driver uses no data.
-    if (!status.scd_error() || valid != chip_.sensor_flags) {
-      out.good = static_cast<std::uint16_t>(valid & mask);
-    }
-    if (out.good == 0) {
+    const bool contradicts = status.scd_error() && valid == chip_.sensor_flags;
+    read.flags = contradicts ? 0 : mb4_cyclic_valid(&read);
+    if (read.flags == 0) {
       // Without a sensor only nAGSERR can show a refused frame. With kWaitForLine the chip refuses
       // no frame.
-      const bool refusable = mask != 0 || chip_.config.frame_start != FrameStart::kWaitForLine;
+      const bool refusable = count != 0 || chip_.config.frame_start != FrameStart::kWaitForLine;
       return refusable && status.start_error() && !status.scd_error()
                  ? chip_.stop_frame(Error::kLineError)
                  : Result<void>();
     }
-    Result<void> done = fetch_data(chip_.opcodes, chip_.config, out.good, data);
+    Result<void> done = fetch(steps);
     if (done && chip_.checks_all()) {
       Status after;
       done = chip_.look(after);
-      if (done && (!after.idle() || (out.good & ~unsigned{after.valid_flags()}) != 0)) {
+      if (done && (!after.idle() || (read.flags & ~unsigned{after.valid_flags()}) != 0)) {
         return Error::kCorrupted;
       }
     }
     return done ? chip_.clear_valid_checked(chip_.sensor_flags) : done;
+  }
+
+  // Reads the data of the slaves read.flags; twice what only a second reading proves.
+  Result<void> fetch(ReadSteps& steps) {
+    mb4_cyclic& read = steps.read_;
+    mb4_plan& plan = steps.plan_;
+    mb4_cyclic_add_data(&read, &plan, read.flags, MB4_WITH_ALL);
+    bool done = steps.run(chip_.opcodes.bus());
+    const std::uint16_t second =
+        done ? mb4_cyclic_take(&read, &plan, 0, read.flags, MB4_WITH_ALL) : std::uint16_t{0};
+    if (second != 0) {
+      plan.frames = 0;
+      mb4_cyclic_add_data(&read, &plan, second, MB4_WITH_ALL);
+      done = steps.run(chip_.opcodes.bus());
+      mb4_cyclic_compare(&read, &plan, 0, second, MB4_WITH_ALL);
+    }
+    return done ? Error::kNone : Error::kTransport;
   }
 
   // Requests a frame and polls until it has ended or was refused. Stops the frame if it does not
