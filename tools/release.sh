@@ -10,7 +10,7 @@
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
-if [ $# -gt 1 ]; then
+if [ $# -gt 1 ] || [[ ${1:-} == -* ]]; then
   echo "usage: tools/release.sh [FOLDER]" >&2
   exit 2
 fi
