@@ -344,6 +344,20 @@ int mb4sim_axi_read(mb4sim* sim, uint32_t address, uint32_t* data) {
   });
 }
 
+int mb4sim_stream_read(mb4sim* sim, uint32_t* words, size_t n, uint32_t* user) {
+  if (words == nullptr && n != 0) return MB4SIM_ERROR_UNKNOWN;
+  return guarded(sim, [&](Simulator& simulator) {
+    WordHost* const host = simulator.word_bus();
+    mb4::sim::StreamSink* const stream = host == nullptr ? nullptr : host->stream();
+    if (stream == nullptr) return int{MB4SIM_ERROR_HOST};
+    const auto beat = stream->next_beat();
+    if (!beat) return 0;
+    std::copy_n(beat->words.begin(), std::min(n, beat->words.size()), words);
+    if (user != nullptr) *user = beat->user;
+    return static_cast<int>(beat->words.size());
+  });
+}
+
 int mb4sim_on_frame(mb4sim* sim, mb4sim_frame_callback callback, void* context) {
   return guarded(sim, [&](Simulator&) {
     if (callback == nullptr) {

@@ -8,10 +8,30 @@
 
 #include <cstdint>
 #include <optional>
+#include <vector>
 
+#include "sim/core/time.hpp"
 #include "sim/hosts/host_pins.hpp"
 
 namespace mb4::sim {
+
+// One beat of a stream of words beside the bus.
+struct StreamBeat {
+  Time time = 0;  // of the clock edge that took it
+  std::vector<std::uint32_t> words;
+  std::uint32_t user = 0;
+  bool last = false;
+};
+
+// The sink of a stream that is always ready.
+class StreamSink {
+ public:
+  // The oldest beat that has not been read.
+  virtual std::optional<StreamBeat> next_beat() = 0;
+
+ protected:
+  ~StreamSink() = default;
+};
 
 class WordHost : public HostModel {
  public:
@@ -25,6 +45,8 @@ class WordHost : public HostModel {
   virtual std::optional<std::uint8_t> read(std::uint32_t address, std::uint32_t& data) = 0;
   // The highest byte address.
   virtual std::uint32_t last_address() const = 0;
+  // Null if the master has none.
+  virtual StreamSink* stream() { return nullptr; }
 };
 
 }  // namespace mb4::sim

@@ -2,8 +2,15 @@
 # SPDX-License-Identifier: Apache-2.0
 """A master on AXI from Python."""
 
+import os
+import subprocess
+import sys
+from pathlib import Path
+
 import openmb4
 import pytest
+
+ROOT = Path(__file__).resolve().parents[2]
 
 SCENARIO = ('[master]\ntype = "axi"\n[chip]\nf_clk_hz = 100_000_000\n[[channel]]\nnumber = 1\n'
             'delay_ns = 35\n[[channel.slave]]\nprotocol = "biss-c"\ncrc = 0x43\ndata_bits = 28\n')
@@ -69,3 +76,21 @@ def test_bus_without_a_clock_is_an_error():
         with pytest.raises(openmb4.Error) as error:
             chip.axi_read(0)
         assert error.value.code == "MB4SIM_ERROR_SILENT"
+
+
+def test_stream_of_other_masters_is_none(chip):
+    assert chip.stream_read() is None
+    with openmb4.Simulator("") as other, pytest.raises(openmb4.Error) as error:
+        other.stream_read()
+    assert error.value.code == "MB4SIM_ERROR_HOST"
+
+
+def test_example_prints_what_the_page_shows():
+    """The encoders count by 1 and by 5 from their start; the line delays do not matter."""
+    path = os.pathsep.join(sys.path)
+    done = subprocess.run([sys.executable, ROOT / "examples" / "axi" / "external_clock.py"],
+                          capture_output=True, text=True, check=True,
+                          env={**os.environ, "PYTHONPATH": path})
+    for n, line in enumerate(done.stdout.splitlines()):
+        assert f"positions [{1000 + n}, {2000 + 5 * n}], good 11" in line
+    assert f"```text\n{done.stdout}```" in (ROOT / "docs" / "axi.md").read_text(encoding="utf-8")

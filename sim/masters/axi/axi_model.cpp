@@ -186,7 +186,7 @@ class VerilatedAxi final : public AxiModel {
       beats_.pop_front();
       ++beats_dropped_;
     }
-    AxiBeat& beat = beats_.emplace_back();
+    StreamBeat& beat = beats_.emplace_back();
     beat.time = now;
     for (unsigned channel = 0; channel < kChannels; ++channel) beat.words.push_back(word(channel));
     beat.user = model_->s_axis_tuser;

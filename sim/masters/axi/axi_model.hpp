@@ -8,23 +8,15 @@
 #include <cstdint>
 #include <deque>
 #include <memory>
-#include <vector>
 
 #include "sim/core/time.hpp"
+#include "sim/hosts/word_host.hpp"
 #include "sim/masters/chip_config.hpp"
 #include "sim/masters/master_model.hpp"
 
 namespace mb4::sim {
 
 inline constexpr unsigned kAxiChannels = 16;
-
-// One beat of the stream in mode 0.
-struct AxiBeat {
-  Time time = 0;                     // of the clock edge that took it
-  std::vector<std::uint32_t> words;  // one for each channel of the model
-  std::uint32_t user = 0;            // bit c: the word of channel c is of this frame and good
-  bool last = false;
-};
 
 // An AXI4-Lite access that runs or has ended.
 struct AxiAccess {
@@ -66,8 +58,10 @@ class AxiModel : public MasterModel {
   // answer is dropped.
   virtual void give_up() = 0;
 
-  // Beats that the sink has taken. The oldest ones are dropped when there are too many.
-  std::deque<AxiBeat>& beats() { return beats_; }
+  // Beats of the stream in mode 0 that the sink has taken: a word for each channel of the model,
+  // and in `user` bit c: the word of channel c is of this frame and good. The oldest ones are
+  // dropped when there are too many.
+  std::deque<StreamBeat>& beats() { return beats_; }
   std::uint64_t beats_dropped() const { return beats_dropped_; }
 
  protected:
@@ -75,7 +69,7 @@ class AxiModel : public MasterModel {
 
   AxiAccess access_;
   bool fresh_ = false;  // the access has not been put on the pins
-  std::deque<AxiBeat> beats_;
+  std::deque<StreamBeat> beats_;
   std::uint64_t beats_dropped_ = 0;
 };
 

@@ -76,9 +76,9 @@ std::uint32_t AxiHost::read(std::uint32_t address) {
   return data;
 }
 
-std::optional<AxiBeat> AxiHost::next_beat() {
+std::optional<StreamBeat> AxiHost::next_beat() {
   if (model_.beats().empty()) return std::nullopt;
-  AxiBeat beat = std::move(model_.beats().front());
+  StreamBeat beat = std::move(model_.beats().front());
   model_.beats().pop_front();
   return beat;
 }

@@ -19,7 +19,7 @@ namespace mb4::sim {
 
 // A manager of AXI4-Lite and the sink of the stream. An access lets time pass until it has its
 // answer.
-class AxiHost final : public WordHost {
+class AxiHost final : public WordHost, public StreamSink {
  public:
   AxiHost(HostPins& outside, AxiModel& model, Time period)
       : outside_(outside), model_(model), period_(period) {}
@@ -33,11 +33,12 @@ class AxiHost final : public WordHost {
   std::optional<std::uint8_t> write(std::uint32_t address, std::uint32_t data) {
     return write(address, data, 0xF);
   }
+  StreamSink* stream() override { return this; }
   // For callers that know that the clock runs: the value, or 0 without an answer.
   std::uint32_t read(std::uint32_t address);
 
   // The oldest beat of the stream that has not been read. A sink that is always ready has taken it.
-  std::optional<AxiBeat> next_beat();
+  std::optional<StreamBeat> next_beat() override;
   std::size_t beats_waiting() const { return model_.beats().size(); }
 
  private:

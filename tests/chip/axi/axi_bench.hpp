@@ -84,7 +84,7 @@ class AxiBench {
     write(axireg::kAddrRequest, 1);
   }
   // A request, its frames and the encoders' timeouts. Returns the beat, if there was exactly one.
-  std::optional<sim::AxiBeat> frame(sim::Time duration = 100 * sim::kPsPerUs) {
+  std::optional<sim::StreamBeat> frame(sim::Time duration = 100 * sim::kPsPerUs) {
     while (host.next_beat()) {
     }
     request();

@@ -92,6 +92,42 @@ TEST_F(CApiAxi, Frame_BringsTheWordOfTheEncoder) {
   EXPECT_EQ(raw, 0x1234567U);
 }
 
+// A pulse at the sample clock is a frame; its word comes by the stream only.
+TEST_F(CApiAxi, Stream_BringsTheFramesOfTheExternalClock) {
+  const struct {
+    uint32_t address, value;
+  } steps[] = {{reg::kAddrMaDivider, 5}, {reg::kAddrPositionBits, 26},
+               {reg::kAddrCrcCheck, 1},  {reg::kAddrSampleClock, 1},
+               {reg::kAddrMode, 0},      {reg::kAddrChannelEnable, 1}};
+  for (const auto& step : steps) EXPECT_EQ(mb4sim_axi_write(sim, step.address, step.value, 0xF), 0);
+  uint32_t words[2] = {77, 77};
+  uint32_t user = 77;
+  mb4sim_advance_ns(sim, 100'000);
+  while (mb4sim_stream_read(sim, nullptr, 0, nullptr) > 0) {
+  }
+  for (uint32_t n = 1; n <= 3; ++n) {
+    EXPECT_EQ(mb4sim_slave_set_data(sim, 1, n << 2 | 3), 0);
+    EXPECT_EQ(mb4sim_pin_write(sim, "ext_sample_clk", 1), 0);
+    mb4sim_advance_ns(sim, 50'000);
+    EXPECT_EQ(mb4sim_pin_write(sim, "ext_sample_clk", 0), 0);
+    mb4sim_advance_ns(sim, 50'000);
+  }
+  const uint64_t now = mb4sim_time_ns(sim);
+  for (uint32_t n = 1; n <= 3; ++n) {
+    EXPECT_EQ(mb4sim_stream_read(sim, words, 2, &user), 1);
+    EXPECT_EQ(words[0], n);
+    EXPECT_EQ(words[1], 77U);
+    EXPECT_EQ(user, 1U);
+  }
+  EXPECT_EQ(mb4sim_stream_read(sim, words, 2, &user), 0);
+  EXPECT_EQ(mb4sim_time_ns(sim), now);
+  EXPECT_EQ(mb4sim_stream_read(sim, nullptr, 1, &user), MB4SIM_ERROR_UNKNOWN);
+  mb4sim* const chip = mb4sim_open("", nullptr, 0);
+  ASSERT_NE(chip, nullptr);
+  EXPECT_EQ(mb4sim_stream_read(chip, words, 2, &user), MB4SIM_ERROR_HOST);
+  mb4sim_close(chip);
+}
+
 TEST_F(CApiAxi, WrongAccesses_AreToldAndChangeNothing) {
   uint32_t data = 77;
   const uint64_t before = mb4sim_time_ns(sim);

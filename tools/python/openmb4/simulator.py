@@ -6,7 +6,7 @@ import json
 import os
 import threading
 from numbers import Integral
-from typing import Any, Callable, Dict, Mapping, NamedTuple, Optional, Sequence, Tuple, Union
+from typing import Any, Callable, Dict, List, Mapping, NamedTuple, Optional, Sequence, Tuple, Union
 
 import numpy as np
 
@@ -14,6 +14,7 @@ from . import driver, registers
 from ._library import Error, ffi, lib, simulator_error
 
 ERROR_BYTES = 1000
+STREAM_WORDS = 64  # more than any master has in a beat
 
 
 def to_toml(value: Any) -> str:
@@ -152,6 +153,12 @@ class Simulator:
         if self._do(f"axi_read 0x{address:02X}", lib.mb4sim_axi_read, address, value):
             raise Error(f"axi_read 0x{address:02X}: the bus answered with an error")
         return value[0]
+
+    def stream_read(self) -> Optional[Tuple[List[int], int]]:
+        """The next beat of the stream of a master on AXI, (words, user); None if none waits."""
+        words, user = ffi.new("uint32_t[]", STREAM_WORDS), ffi.new("uint32_t *")
+        count = self._do("stream_read", lib.mb4sim_stream_read, words, STREAM_WORDS, user)
+        return (list(words[0:count]), user[0]) if count else None
 
     # --- time ---
 
