@@ -38,7 +38,8 @@ inline constexpr unsigned kMaxPollSlaveTransfersChecked = 11;
 //  * HOLDBANK takes effect some system clocks after the write. With SCLK above 2 f_CLK, bytes read
 //    at once could still come from the old bank. So with SpiCheck::kFull the driver reads the
 //    status between HOLDBANK and the data, which takes at least 48 SCLK periods. With kCrc and kOff
-//    it reads the data at once, which needs SCLK of at most 2 f_CLK.
+//    it reads the data at once, which needs SCLK of at most 2 f_CLK; on a parallel bus four system
+//    clocks between the two cycles.
 //  * While a control communication runs, the byte with HOLDBANK has INSTR = 000: INSTR = 100,
 //    written back at the wrong moment, would start the access again. The access goes on. Where a
 //    chip does not allow this (Config::hold_beside_access = false) the driver reads without
