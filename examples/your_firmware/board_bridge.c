@@ -10,7 +10,6 @@
 #include <string.h>
 #include <sys/socket.h>
 #include <sys/un.h>
-#include <unistd.h>
 
 #include "board.h"
 
@@ -35,7 +34,8 @@ static int bridge(void) {
  * `answer`. */
 static void request(char kind, const uint8_t *payload, uint8_t *answer, size_t size) {
   uint8_t head[3] = {(uint8_t)kind, (uint8_t)size, (uint8_t)(size >> 8)};
-  if (write(bridge(), head, 3) != 3 || write(bridge(), payload, size) != (ssize_t)size ||
+  if (send(bridge(), head, 3, MSG_NOSIGNAL) != 3 ||
+      send(bridge(), payload, size, MSG_NOSIGNAL) != (ssize_t)size ||
       recv(bridge(), head, 3, MSG_WAITALL) != 3 || head[0] != 0 ||
       recv(bridge(), answer, size, MSG_WAITALL) != (ssize_t)size) {
     fail("the simulator refuses or has gone");
@@ -46,6 +46,6 @@ void board_transfer(const uint8_t *tx, uint8_t *rx, size_t size) { request('T', 
 
 void board_wait_us(unsigned us) {
   uint8_t time[8] = {0};
-  for (int i = 0; i < 4; ++i) time[i] = (uint8_t)((us * 1000ULL) >> (8 * i));
+  for (int i = 0; i < 8; ++i) time[i] = (uint8_t)((us * 1000ULL) >> (8 * i));
   request('W', time, time, sizeof time);
 }

@@ -3,6 +3,7 @@
  *
  * A Linux board with the chip at /dev/spidev0.0. Nothing in it knows a simulator.
  */
+#define _DEFAULT_SOURCE /* usleep() */
 #include <fcntl.h>
 #include <linux/spi/spidev.h>
 #include <stdio.h>

@@ -4,6 +4,10 @@
  * A small program for the chip, written byte by byte as in docs/programmers_guide.md: it reads five
  * positions of one BiSS C encoder (26 bits, nE, nW, CRC of 6 bits) on channel 1 at 10 MHz. It knows
  * its board only by board.h, so the same file runs on a board and on the simulator.
+ * docs/firmware.md shows three boards; with the simulator in the same process:
+ *
+ *   cc firmware.c board_simulator.c $(pkg-config --cflags --libs mb4sim) && CHIP=encoder.toml
+ * ./a.out
  */
 #include <stdbool.h>
 #include <stdio.h>

@@ -50,8 +50,10 @@ void SpiHost::set_mode(const SpiMode& mode) {
   pins_.set_pin(wires_.sclk, mode_.cpol);
 }
 
+// Somebody else may have driven the pin since the last word.
 inline void SpiHost::drive_mosi(bool level) {
-  if (bits_in_frame_ != 0 && level == mosi_) return;
+  if (!first_of_word_ && level == mosi_) return;
+  first_of_word_ = false;
   mosi_ = level;
   pins_.set_pin(wires_.mosi, level);
 }
@@ -94,6 +96,7 @@ bool SpiHost::clock_bit(bool mosi) {
 
 std::uint32_t SpiHost::word(std::uint32_t mosi, unsigned bits) {
   std::uint32_t miso = 0;
+  first_of_word_ = true;
   for (unsigned bit = bits; bit-- > 0;) {
     miso = (miso << 1U) | (clock_bit(((mosi >> bit) & 1U) != 0) ? 1U : 0U);
   }

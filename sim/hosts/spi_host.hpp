@@ -80,7 +80,8 @@ class SpiHost final : public HostModel {
   SpiTiming timing_;
   SpiMode mode_;
   bool selected_ = false;
-  bool mosi_ = false;  // as driven in this frame
+  bool mosi_ = false;  // as driven in this word
+  bool first_of_word_ = true;
   bool deselected_once_ = false;
   Time deselected_at_ = 0;
   Time last_edge_ = 0;

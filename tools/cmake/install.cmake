@@ -50,7 +50,7 @@ endforeach()
 install(DIRECTORY ${MB4_ROOT}/rtl DESTINATION ${data} COMPONENT rtl
   FILES_MATCHING PATTERN "*.sv" PATTERN "*.svh" PATTERN "*.f" PATTERN "*.vlt")
 install(DIRECTORY ${MB4_ROOT}/examples DESTINATION ${data} COMPONENT tool
-  FILES_MATCHING PATTERN "*.toml" PATTERN "*.edges" PATTERN "*.c" PATTERN "firmware" EXCLUDE)
+  FILES_MATCHING PATTERN "*.toml" PATTERN "*.edges" PATTERN "*.c" PATTERN "*.h" PATTERN "firmware" EXCLUDE)
 install(DIRECTORY ${MB4_ROOT}/tools/sigrok DESTINATION ${data} COMPONENT tool
   PATTERN __pycache__ EXCLUDE)
 

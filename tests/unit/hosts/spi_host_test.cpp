@@ -140,5 +140,17 @@ TEST(SpiHost, ByteByByte_IsTheSameWaveform) {
   }
 }
 
+// The host drives MOSI at the beginning of each byte, whatever somebody else has done to the pin.
+TEST(SpiHost, MosiDrivenByOthersBetweenTwoBytes_NextByteIsTheHosts) {
+  RecordingPins pins;
+  SpiHost host(pins, SpiTiming::for_frequency(1'000'000), kSpiPins);
+  host.select(true);
+  host.byte(0x00);
+  pins.set_pin(Pin::kDb0, true);
+  host.byte(0x00);
+  EXPECT_FALSE(pins.pin(Pin::kDb0));
+  EXPECT_EQ(host.byte(0x00), 0x00);  // the byte before, shifted back
+}
+
 }  // namespace
 }  // namespace mb4test

@@ -186,6 +186,16 @@ class Axi(unittest.TestCase):
         clock = self.folder / "clock.toml"
         clock.write_text(HEAD.replace("100_000_000", "0") + channel(1), encoding="utf-8")
         self.assertRegex(run("run", str(clock)).stderr, "key 'f_clk_hz'")
+        # Without an answer there is no map.
+        result = run("regs", str(clock), "--reset")
+        self.assertEqual((result.returncode, result.stdout), (2, ""))
+        self.assertRegex(result.stderr, "^mb4sim: the master does not answer at 0x")
+
+    def test_sweep_takes_the_frequency_of_the_scenario_above_10_mhz(self):
+        scenario = self.path(channel(1) + "[host]\nma_hz = 25_000_000\n")
+        result = run("sweep", scenario, "--delays", "0", "--jitters", "0", "--frames", "2")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertIn("MA_DIVIDER 0x02: MA 25000 kHz", result.stdout)
 
 
 if __name__ == "__main__":

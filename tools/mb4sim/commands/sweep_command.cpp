@@ -41,7 +41,8 @@ std::vector<unsigned> codes_of(const std::string& text, const sim::Scenario& sce
     for (const unsigned code : all_codes(ma, clk_hz)) {
       if (clk_hz / ma.divider(clk_hz, code) == scenario.host.ma_hz) return {code};
     }
-    return {0};
+    throw UseError(fmt::format("no {} gives the scenario's {} Hz; name codes with --freqs", ma.name,
+                               scenario.host.ma_hz));
   }
   std::vector<unsigned> codes;
   for (const long long value :
