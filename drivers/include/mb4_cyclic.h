@@ -1,23 +1,26 @@
 /* SPDX-FileCopyrightText: 2026 The openmb4 authors
  * SPDX-License-Identifier: Apache-2.0
  *
- * The read path of a control loop, in C99 and C++: positions of 1 to 8 slaves from automatic frames.
- * Automatic::poll_slave() and poll() are loops over it. A program in C needs this header, mb4.h and
- * the generated mb4_regs.h, and no C++ compiler. There is no heap, static data, callback or clock.
+ * The read path of a control loop, in C99 and C++: positions of 1 to 8 slaves from automatic
+ * frames. Automatic::poll_slave() and poll() are loops over it. A program in C needs this header,
+ * mb4.h and the generated mb4_regs.h, and no C++ compiler. There is no heap, static data, callback
+ * or clock.
  *
  * A read is one or more plans. A plan holds SPI frames; the caller makes them, by DMA or otherwise:
  *
  *   mb4_cyclic_plan(&read, &plan, MB4_WITH_ALL);      // begins a read
  *   do {
- *     bool done = ...;    // plan.size[i] bytes from mb4_plan_tx(&plan, i) to mb4_plan_rx(&plan, i),
+ *     bool done = ...;    // plan.size[i] bytes from mb4_plan_tx(&plan, i) to mb4_plan_rx(&plan,
+ * i),
  *                         // NCS low for each frame, i < plan.frames
  *     code = mb4_cyclic_finish(&read, &plan, done, now_us, MB4_WITH_ALL);
  *   } while (code == MB4_MORE);
  *   if (code == MB4_OK) { mb4_slot_reading(&word, &slot, &reading, MB4_WITH_ALL); ... }
  *
- * With `chain` set, a read is one plan (table 69 of the datasheet): 0x07 HOLDBANK, 0x09 or 0x03 data
- * of one slave or several, 0x05 status, 0x02 SVALID = 0 and HOLDBANK = 0. Only a bad word needs another
- * plan. Without `chain` the 0x02 is a plan of its own, and a bad word needs one frame more.
+ * With `chain` set, a read is one plan (table 69 of the datasheet): 0x07 HOLDBANK, 0x09 or 0x03
+ * data of one slave or several, 0x05 status, 0x02 SVALID = 0 and HOLDBANK = 0. Only a bad word
+ * needs another plan. Without `chain` the 0x02 is a plan of its own, and a bad word needs one frame
+ * more.
  *
  * No function may be interrupted by another one on the same object.
  */
@@ -40,6 +43,7 @@ enum {
   MB4_CYCLIC_REGEND = mb4::regs::REGEND::kMask,
   MB4_CYCLIC_CONST0 = mb4::regs::kConstStatus0,
   MB4_CYCLIC_CONST1 = mb4::regs::kConstSvalidLo,
+  MB4_CYCLIC_ALL_SVALID = 0xAAAA, /* SVALID1 to 8 in 0xF2 and 0xF1 */
   MB4_CYCLIC_SVALID = mb4::regs::kAddrSvalidLo,
   MB4_CYCLIC_WRITE = mb4::regs::kSpiOpcodeWriteRegisters,
   MB4_CYCLIC_READ = mb4::regs::kSpiOpcodeReadRegisters,
@@ -58,6 +62,7 @@ enum {
   MB4_CYCLIC_REGEND = MB4_REGEND_MASK,
   MB4_CYCLIC_CONST0 = MB4_CONST_STATUS0,
   MB4_CYCLIC_CONST1 = MB4_CONST_SVALID_LO,
+  MB4_CYCLIC_ALL_SVALID = 0xAAAA, /* SVALID1 to 8 in 0xF2 and 0xF1 */
   MB4_CYCLIC_SVALID = MB4_ADDR_SVALID_LO,
   MB4_CYCLIC_WRITE = MB4_SPI_OPCODE_WRITE_REGISTERS,
   MB4_CYCLIC_READ = MB4_SPI_OPCODE_READ_REGISTERS,
@@ -94,10 +99,11 @@ enum {
  * size[i] bytes. Every frame begins at a whole word. Write only rx. */
 typedef struct {
   uint32_t pause_us; /* the next plan must not begin earlier than this after the last frame */
-  uint8_t *tx;       /* the caller's memory, where DMA reaches it */
+  uint8_t *tx; /* the caller's memory, where DMA reaches it. The plan writes into rx too: with a
+                  data cache clean and invalidate both before the frames of a plan are made */
   uint8_t *rx;
   uint8_t frames;                /* 1..MB4_PLAN_FRAMES */
-  uint8_t size[MB4_PLAN_FRAMES]; /* bytes of each frame, 2..25 */
+  uint8_t size[MB4_PLAN_FRAMES]; /* bytes of each frame, 2..25, with `wide` 2..66 */
   uint8_t at[MB4_PLAN_FRAMES];   /* where each frame begins in tx and rx */
 } mb4_plan;
 
@@ -252,22 +258,24 @@ MB4_APART uint16_t mb4_word_crc(const mb4_word *word, uint32_t low, uint32_t hig
 
 /* What the reads of one chip have met: with MB4_WITH_COUNTS, each finished read of one slave or of
  * all. Set the object to zero once. The chip counts nothing: nAGSERR stays 0 from the first frame
- * that it has left out until BREAK or INIT, and SWBANKFAIL (0xFB) is 1 only until the next switch. So
- * what is lost is counted by time: the periods between two good reads. This is exact for frames with
- * a fixed period, while the loop's phase to them moves by less than half a period from one good read
- * to the next, and as long as the caller's clock and the chip's agree: each half period between them
- * is one count. */
+ * that it has left out until BREAK or INIT, and SWBANKFAIL (0xFB) is 1 only until the next switch.
+ * So what is lost is counted by time: the periods between two good reads. This is exact for frames
+ * with a fixed period, while the loop's phase to them stays within half a period of that of the
+ * first good read, and as long as the caller's clock and the chip's agree: each half period between
+ * them is one count. One object is for reads of one and the same slave, or for reads of all: reads
+ * of several slaves one by one hide from each other what is lost. A read of all is good if one word
+ * is. */
 typedef struct {
   uint32_t period_ns; /* the caller's: of the frames, at most 10^9; 0: nothing is counted as lost */
   uint32_t good;      /* reads with a new word */
   uint32_t crc;       /* reads with a bad word */
-  uint32_t lost;      /* samples that no read has brought: left out, overwritten or bad; known with the
-                         next good one */
-  uint32_t sequence;  /* number of the last good sample; the first one is 1 */
-  uint32_t switched;  /* MB4_BANK_SWITCHED */
-  uint32_t late;      /* reads that ended more than 1.5 periods after the last one */
-  uint32_t faults;    /* other errors */
-  bool omits;         /* nAGSERR = 0: the chip has left out a frame */
+  uint32_t lost; /* samples that no read has brought: left out, overwritten or bad; known with the
+                    next good one */
+  uint32_t sequence; /* number of the last good sample; the first one is 1 */
+  uint32_t switched; /* MB4_BANK_SWITCHED */
+  uint32_t late;     /* reads that ended more than 1.5 periods after the last one */
+  uint32_t faults;   /* other errors */
+  bool omits;        /* nAGSERR = 0: the chip has left out a frame */
   /* Private. */
   uint32_t last_us; /* good */
   uint32_t read_us;
@@ -319,11 +327,11 @@ typedef struct {
   uint8_t status[MB4_STATUS_BYTES]; /* the last one */
   /* Private. */
   uint8_t stage;
-  uint8_t code;    /* the result, once it is known; MB4_OK: the slots tell */
-  bool again;      /* the second try, or the second reading, runs */
-  bool unproven;   /* a bad frame, and no stored CRC tells whose */
-  uint16_t flags;  /* SVALID of the slaves that this try reads */
-  uint16_t fresh;  /* those that were 1 before the data was read; then those read twice */
+  uint8_t code;   /* the result, once it is known; MB4_OK: the slots tell */
+  bool again;     /* the second try, or the second reading, runs */
+  bool unproven;  /* a bad frame, and no stored CRC tells whose */
+  uint16_t flags; /* SVALID of the slaves that this try reads */
+  uint16_t fresh; /* those that were 1 before the data was read; then those read twice */
   /* The caller's again. */
   const mb4_plan *built; /* holds the frames of the chain; null: none */
 } mb4_cyclic;
@@ -352,7 +360,7 @@ static inline uint16_t mb4_word_flag(const mb4_word *word) {
 /* The slaves of this try whose SVALID is 1 in the last status. */
 static inline uint16_t mb4_cyclic_valid(const mb4_cyclic *read) {
   const uint16_t low = read->status[1];
-  const uint16_t high = (uint16_t)(read->status[2] << 8);
+  const uint16_t high = (uint16_t)((uint16_t)read->status[2] << 8);
   return (uint16_t)((low | high) & read->flags);
 }
 
@@ -365,13 +373,13 @@ static inline bool mb4_word_in(const mb4_word *word, uint16_t flags, uint8_t wit
   return (with & MB4_WITH_SEVERAL) != 0 ? (mb4_word_flag(word) & flags) != 0 : flags != 0;
 }
 
-/* Adds the frames that read the data of the slaves `flags`. Neighbours share a frame when the bytes between
- * them cost no more than another opcode and address. */
+/* Adds the frames that read the data of the slaves `flags`. Neighbours share a frame when the bytes
+ * between them cost no more than another opcode and address. */
 MB4_APART void mb4_cyclic_add_data(const mb4_cyclic *read, mb4_plan *plan, uint16_t flags,
                                    uint8_t with) {
   /* With FULL the filler is what a disturbed opcode would write: not zeros, which may pass. */
-  const uint8_t filler = (with & MB4_WITH_FULL) != 0 && read->spi_check == MB4_SPI_CHECK_FULL
-                             ? 0x5A : 0;
+  const uint8_t filler =
+      (with & MB4_WITH_FULL) != 0 && read->spi_check == MB4_SPI_CHECK_FULL ? 0x5A : 0;
   const uint8_t limit = read->wide ? 255 : MB4_PLAN_LONGEST;
   const mb4_word *word = read->words;
   const mb4_word *last = word + mb4_cyclic_count(read, with);
@@ -408,10 +416,10 @@ MB4_APART void mb4_cyclic_add_status(mb4_plan *plan) {
 
 /* Clears SVALID of the slaves of this try. With `size` 6 it also writes 0xF4, HOLDBANK = 0; 0xF3
  * between them is read-only. */
-static inline void mb4_cyclic_add_clear(const mb4_cyclic *read, mb4_plan *plan, uint8_t size) {
+static inline void mb4_cyclic_add_clear(mb4_plan *plan, uint16_t flags, uint8_t size) {
   uint8_t *tx = mb4_plan_add(plan, size, MB4_CYCLIC_WRITE, MB4_CYCLIC_SVALID, 0xFF);
-  tx[2] = (uint8_t)~read->flags;
-  tx[3] = (uint8_t)(~(uint32_t)read->flags >> 8);
+  tx[2] = (uint8_t)~flags;
+  tx[3] = (uint8_t)(~(uint32_t)flags >> 8);
   if (size == 6) {
     tx[5] = MB4_CYCLIC_AGS;
   }
@@ -451,7 +459,7 @@ MB4_APART uint8_t mb4_cyclic_try(mb4_cyclic *read, mb4_plan *plan, uint8_t with)
   }
   mb4_cyclic_add_status(plan);
   if (read->chain && !read->again) {
-    mb4_cyclic_add_clear(read, plan, 6);
+    mb4_cyclic_add_clear(plan, read->flags, 6);
   }
   return MB4_MORE;
 }
@@ -487,7 +495,7 @@ static inline void mb4_cyclic_plan(mb4_cyclic *read, mb4_plan *plan, uint8_t wit
     if ((with & MB4_WITH_UNHELD) == 0 || !read->unheld) {
       mb4_cyclic_add_instruction(plan, MB4_CYCLIC_AGS);
     }
-    mb4_cyclic_add_clear(read, plan, 4);
+    mb4_cyclic_add_clear(plan, MB4_CYCLIC_ALL_SVALID, 4); /* of the other slaves too */
   } else if (read->built == plan) {
     read->stage = MB4_STAGE_DATA;
     read->code = MB4_OK;
@@ -574,8 +582,8 @@ static inline bool mb4_cyclic_cut(const mb4_word *word, uint32_t *low, uint32_t 
   return (bits & 7U) == 0 || (cut >> bits & (0xFFU >> (bits & 7U))) == 0;
 }
 
-/* The word in `slot`. False: it contradicts itself, in its CRC, which the chip has stored in the top
- * byte(s) (page 26), or in bits that the chip makes 0. */
+/* The word in `slot`. False: it contradicts itself, in its CRC, which the chip has stored in the
+ * top byte(s) (page 26), or in bits that the chip makes 0. */
 MB4_APART bool mb4_slot_good(const mb4_word *word, mb4_slot *slot, uint8_t with) {
   uint32_t low = slot->low;
   uint32_t high = slot->high;
@@ -616,8 +624,7 @@ static inline void mb4_slot_reading(const mb4_word *word, const mb4_slot *slot,
 /* FULL: data that only a second reading proves. Without a stored CRC this is any data. With a CRC
  * it is all zeros and all ones: a line that was stuck for a moment makes them, and the CRC may
  * accept them. */
-static inline bool mb4_slot_needs_second(const mb4_word *word, const mb4_slot *slot,
-                                         uint8_t with) {
+static inline bool mb4_slot_needs_second(const mb4_word *word, const mb4_slot *slot, uint8_t with) {
   uint32_t low = slot->low;
   uint32_t high = slot->high;
   uint32_t ones_low = 0xFFFFFFFFU;
@@ -751,10 +758,10 @@ static inline uint8_t mb4_cyclic_held(mb4_cyclic *read, mb4_plan *plan, uint8_t 
     if (second != 0) {
       mb4_cyclic_add_data(read, plan, second, with);
     }
-    mb4_cyclic_add_clear(read, plan, 4);
+    mb4_cyclic_add_clear(plan, read->flags, 4);
     mb4_cyclic_add_status(plan);
   } else if (valid != 0) {
-    mb4_cyclic_add_clear(read, plan, 6);
+    mb4_cyclic_add_clear(plan, read->flags, 6);
   } else {
     if ((with & MB4_WITH_SEVERAL) != 0) {
       read->one_frame = true; /* no word has come since the first try */
@@ -820,7 +827,7 @@ static inline uint8_t mb4_cyclic_take_look(mb4_cyclic *read, mb4_plan *plan, uin
       return mb4_cyclic_unheld(read, plan, MB4_OK, with);
     }
     (void)mb4_cyclic_next(read, plan, MB4_STAGE_UNHELD, MB4_OK);
-    mb4_cyclic_add_clear(read, plan, 4);
+    mb4_cyclic_add_clear(plan, read->flags, 4);
   } else {
     if (code != MB4_OK || (read->fresh == 0 && !mb4_cyclic_frame_bad(read))) {
       return mb4_cyclic_release(read, plan, code);
@@ -963,7 +970,9 @@ MB4_APART void mb4_cyclic_count_read(const mb4_cyclic *read, uint8_t code, uint3
     ++counts->late;
   }
   counts->read_us = now_us | 1U;
-  counts->omits = counts->omits || (read->status[0] & MB4_CYCLIC_AGSERR) == 0;
+  if (code != MB4_TRANSPORT && code != MB4_NOT_DETECTED) { /* there is a status */
+    counts->omits = counts->omits || (read->status[0] & MB4_CYCLIC_AGSERR) == 0;
+  }
   if (read->bad || code == MB4_CRC) {
     ++counts->crc;
   } else if (code == MB4_BANK_SWITCHED) {
@@ -1009,9 +1018,9 @@ MB4_APART void mb4_cyclic_count_read(const mb4_cyclic *read, uint8_t code, uint3
  *   MB4_CORRUPTED, MB4_NOT_DETECTED, MB4_TRANSPORT, MB4_BANK_SWITCHED, MB4_TIMEOUT, MB4_LINE_ERROR
  *                      as Automatic::poll() in mb4/automatic.hpp describes them
  *
- * At most four calls a read without MB4_SPI_CHECK_FULL, six with it or unheld; one more after a read
- * that has ended without the release of the bank. A read may be given up: call this function with
- * transferred = false, without the frames, until it does not return MB4_MORE. */
+ * At most four calls a read without MB4_SPI_CHECK_FULL, six with it or unheld; one more after a
+ * read that has ended without the release of the bank. A read may be given up: call this function
+ * with transferred = false, without the frames, until it does not return MB4_MORE. */
 static inline uint8_t mb4_cyclic_finish(mb4_cyclic *read, mb4_plan *plan, bool transferred,
                                         uint32_t now_us, uint8_t with) {
   const uint8_t code = mb4_cyclic_step(read, plan, transferred, now_us, with);

@@ -21,8 +21,8 @@
 
 namespace mb4 {
 
-// Most SPI transfers of one Automatic::poll_slave(), whatever the chip answers: 8, with
-// SpiCheck::kFull 14, beside a control communication without Config::hold_beside_access.
+// Most SPI transfers of one Automatic::poll_slave(), whatever the chip answers. Beside a control
+// communication without Config::hold_beside_access it takes up to 9, with SpiCheck::kFull 15.
 inline constexpr unsigned kMaxPollSlaveTransfers = 8;
 // The same with SpiCheck::kFull.
 inline constexpr unsigned kMaxPollSlaveTransfersChecked = 11;
@@ -216,7 +216,7 @@ class Automatic {
   // Takes what came back. `transferred`: every frame of `read` was made. `now_us`: the time, as
   // Clock::now_us() counts it. True: the read has ended, see CyclicRead::result(). False: make the
   // frames that `read` holds now, and call it again. It makes no transfer and does not ask for the
-  // time.
+  // time. `With` is that of plan_slave(); only MB4_WITH_COUNTS may be added.
   template <std::uint8_t With = MB4_WITH_ALL>
   [[nodiscard]] bool finish(CyclicRead& read, bool transferred, std::uint32_t now_us) {
     if (!take<With>(read, transferred, now_us)) {
@@ -238,11 +238,12 @@ class Automatic {
   }
   template <std::uint8_t With = MB4_WITH_ALL>
   [[nodiscard]] bool finish(FrameRead& read, bool transferred, std::uint32_t now_us) {
-    return take<With>(read, transferred, now_us);
+    return take<MB4_WITH_ALL | With>(read, transferred, now_us);  // as plan()
   }
 
-  // Counts the reads from now on in `counts` (mb4_cyclic.h), which must outlive the Device or the
-  // next call; nullptr ends it. Only calls with MB4_WITH_COUNTS in `With` count, the others do not
+  // Call it again after configure() and start(): period and time are those of the moment. Counts
+  // the reads from now on in `counts` (mb4_cyclic.h), which must outlive the Device or the next
+  // call; nullptr ends it. Only calls with MB4_WITH_COUNTS in `With` count, the others do not
   // contain the code: poll_slave<MB4_WITH_ALL | MB4_WITH_COUNTS>(), finish<...>(). What is lost is
   // counted with FrameStart::kPeriodic.
   void count(mb4_counts* counts) {
@@ -308,6 +309,7 @@ class Automatic {
 
   [[gnu::noinline]] Result<void> begin(std::uint8_t slave, CyclicRead& read, bool chain,
                                        std::uint8_t with) {
+    read.code_ = MB4_NO_DATA;
     if (!is_in(chip_.sensors, slave)) {
       return Error::kInvalidArgument;
     }
@@ -322,6 +324,8 @@ class Automatic {
   }
 
   Result<void> begin(FrameRead& read, bool chain) {
+    read.code_ = MB4_NO_DATA;
+    read.read_.told = false;
     if (!chip_.automatic) {
       return Error::kWrongMode;
     }

@@ -77,8 +77,9 @@ class ReadSteps {
 };
 
 // Memory for reads of one slave, in the caller's hands: Automatic::plan_slave() begins the read,
-// Automatic::finish() continues it. The object may be used again and again, and must stay where it
-// is until the read has ended. Place it where DMA reaches it; each frame begins at a whole word.
+// Automatic::finish() continues it. The object may be used again and again with one Device, which
+// must not be made anew meanwhile, and must stay where it is until the read has ended. Place it
+// where DMA reaches it; each frame begins at a whole word.
 class CyclicRead : public ReadSteps {
  public:
   CyclicRead() { attach(tx_.data(), rx_.data(), &slot_); }
