@@ -23,6 +23,7 @@ let running = false;
 let levels = {};        // of the lines after the last frame
 let lead = null;        // of the last frame: its start after the read began, and its length, ns
 let replay = null;      // a frame that is being shown slowly
+let pending = null;  // the animation frame that will call tick()
 let counts = {good: 0, bad: 0};
 let points = {};        // the arrays of the plot
 let lastRefresh = 0;
@@ -94,7 +95,7 @@ function fragment(setup) {
 function fromFragment(text, otherwise) {
   const found = {...otherwise};
   for (const [key, value] of new URLSearchParams(text.replace(/^#/, ""))) {
-    if (!(key in otherwise)) throw new Error(`link: unknown key '${key}'`);
+    if (!Object.hasOwn(otherwise, key)) throw new Error(`link: unknown key '${key}'`);
     const known = {
       encoder: () => presets.has(value),
       movement: () => [...$("movement").options].some((option) => option.value === value),
@@ -110,8 +111,9 @@ function fromFragment(text, otherwise) {
 
 // Opens a chip with this set-up and shows its first frame. On error the chip before stays.
 function open(wanted) {
-  const text = scenario(wanted);
+  let text;
   try {
+    text = scenario(wanted);
     chip.open(text);
     problem("");
   } catch (error) {
@@ -249,9 +251,15 @@ function goOn(now) {
   return true;
 }
 
+// Asks for one call of tick(), however often it is called before.
+function ask() {
+  pending ??= requestAnimationFrame(tick);
+}
+
 function tick() {
+  pending = null;
   if (!running && replay === null) return;
-  requestAnimationFrame(tick);
+  ask();
   const now = performance.now();
   try {
     if (replay !== null && !goOn(now)) return;
@@ -286,8 +294,9 @@ function setRunning(on) {
   if (on) {
     say("");
     rate = {since: performance.now(), clocks: chip.clocks};
-    requestAnimationFrame(tick);
+    ask();
   } else {
+    if (replay !== null) show(replay.frame);  // the chip has read it
     replay = null;
     afterStep();
   }
@@ -299,7 +308,7 @@ function step() {
   try {
     beginFrame();
     if (replay === null) afterStep();
-    else requestAnimationFrame(tick);
+    else ask();
   } catch (error) {
     stopFor(error);
   }
@@ -326,7 +335,7 @@ function faultTable(kind) {
 function fault() {
   try {
     chip.inject(faultTable($("fault-kind").value));
-    say(`fault: ${$("fault-kind").selectedOptions[0].textContent}, in the next frame`);
+    say(`fault: ${$("fault-kind").selectedOptions[0].textContent}, in the next frame if it comes at once`);
   } catch (error) {
     say(error.message, true);
   }
