@@ -43,7 +43,6 @@ enum {
   MB4_CYCLIC_REGEND = mb4::regs::REGEND::kMask,
   MB4_CYCLIC_CONST0 = mb4::regs::kConstStatus0,
   MB4_CYCLIC_CONST1 = mb4::regs::kConstSvalidLo,
-  MB4_CYCLIC_ALL_SVALID = 0xAAAA, /* SVALID1 to 8 in 0xF2 and 0xF1 */
   MB4_CYCLIC_SVALID = mb4::regs::kAddrSvalidLo,
   MB4_CYCLIC_WRITE = mb4::regs::kSpiOpcodeWriteRegisters,
   MB4_CYCLIC_READ = mb4::regs::kSpiOpcodeReadRegisters,
@@ -62,7 +61,6 @@ enum {
   MB4_CYCLIC_REGEND = MB4_REGEND_MASK,
   MB4_CYCLIC_CONST0 = MB4_CONST_STATUS0,
   MB4_CYCLIC_CONST1 = MB4_CONST_SVALID_LO,
-  MB4_CYCLIC_ALL_SVALID = 0xAAAA, /* SVALID1 to 8 in 0xF2 and 0xF1 */
   MB4_CYCLIC_SVALID = MB4_ADDR_SVALID_LO,
   MB4_CYCLIC_WRITE = MB4_SPI_OPCODE_WRITE_REGISTERS,
   MB4_CYCLIC_READ = MB4_SPI_OPCODE_READ_REGISTERS,
@@ -495,7 +493,7 @@ static inline void mb4_cyclic_plan(mb4_cyclic *read, mb4_plan *plan, uint8_t wit
     if ((with & MB4_WITH_UNHELD) == 0 || !read->unheld) {
       mb4_cyclic_add_instruction(plan, MB4_CYCLIC_AGS);
     }
-    mb4_cyclic_add_clear(plan, MB4_CYCLIC_ALL_SVALID, 4); /* of the other slaves too */
+    mb4_cyclic_add_clear(plan, 0xAAAAU, 4); /* SVALID1 to 8: of the other slaves too */
   } else if (read->built == plan) {
     read->stage = MB4_STAGE_DATA;
     read->code = MB4_OK;
