@@ -6,8 +6,7 @@
  * its board only by board.h, so the same file runs on a board and on the simulator.
  * docs/firmware.md shows three boards; with the simulator in the same process:
  *
- *   cc firmware.c board_simulator.c $(pkg-config --cflags --libs mb4sim) && CHIP=encoder.toml
- * ./a.out
+ *   cc firmware.c board_simulator.c $(pkg-config --cflags --libs mb4sim) && CHIP=ramp.toml ./a.out
  */
 #include <stdbool.h>
 #include <stdio.h>

@@ -16,7 +16,7 @@ from programs import call
 
 BUILD, CMAKE, CC = sys.argv[1:4]
 CHIP = "revision 0x20, version 0x84\n"  # tables 41 and 42
-FIRMWARE = "".join(f"position {1000 + k}\n" for k in range(5))  # the ramp of encoder.toml
+FIRMWARE = "".join(f"position {1000 + k}\n" for k in range(5))  # the ramp of ramp.toml
 
 PROJECT = """
 cmake_minimum_required(VERSION 3.25)
