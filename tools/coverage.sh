@@ -16,10 +16,16 @@ cmake --build "$build" --target coverage_programs -- --quiet
 # take most of the time.
 export MB4_RANDOM_CONFIGS=100 MB4_HOST_FRAMES=300
 skipped='Lockstep.*:HostFuzz.*:ChipFaults.*:ControlWeak.*:Table37Slow/*:Percent/*:*HundredThousand*'
-for program in chip_test protocol_test chip_host_test; do
-  echo "coverage: $program" >&2
-  MB4_COVERAGE=$out/$program.dat "$build/bin/cover_$program" --gtest_brief=1 \
-    --gtest_filter="${MB4_COVERAGE_FILTER:--$skipped}" >"$out/$program.log" 2>&1 ||
-    { tail -20 "$out/$program.log"; exit 1; }
-done
+# run PROGRAM SHARD: a quarter of a program's tests.
+run() {
+  echo "coverage: $1, part $2 of 4" >&2
+  MB4_COVERAGE=$out/$1.$2.dat GTEST_TOTAL_SHARDS=4 GTEST_SHARD_INDEX=$(($2 - 1)) \
+    "$build/bin/cover_$1" --gtest_brief=1 --gtest_filter="$filter" >"$out/$1.$2.log" 2>&1 ||
+    { tail -20 "$out/$1.$2.log"; return 255; }
+}
+export -f run
+export build out filter="${MB4_COVERAGE_FILTER:--$skipped}"
+rm -f "$out"/*.dat
+printf '%s\n' {chip_test,protocol_test,chip_host_test}' '{1,2,3,4} |
+  xargs -P "$(nproc)" -L 1 bash -c 'run "$@"' run
 python3 -B "$root/tests/coverage/report.py" "$out/index.html" "$out"/*.dat

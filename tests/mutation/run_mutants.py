@@ -9,8 +9,9 @@
 
 First all tests run without a fault: they must pass, and what takes long is known then. All
 faults meet the quick test suites of all programs first; what these do not catch meets longer ones.
-What does not end counts as caught: it may take three times the processor time of the run without a
-fault."""
+A fault of equivalent.txt meets the first suites only: should they catch it, its reason is wrong and
+the run fails. What does not end counts as caught: it may take three times the processor time of the
+run without a fault."""
 
 import json
 import os
@@ -27,11 +28,14 @@ sys.path.insert(0, str(HERE.parents[1] / "tools" / "synth"))
 
 import project  # noqa: E402
 
-# Lockstep compares two chips, of which one has no fault; other tests look at the same behaviour.
-LEFT_OUT = "-Lockstep.*:HostFuzz.*"
+# Lockstep compares two chips, of which one has no fault. The others repeat many frames for their
+# statistics (tools/coverage.sh leaves out the same ones): what they see, shorter tests see as well.
+LEFT_OUT = ("-Lockstep.*:HostFuzz.*:ChipFaults.*:ControlWeak.*:Table37Slow/*:Percent/*:"
+            "*HundredThousand*")
 SMALL = {"MB4_RANDOM_CONFIGS": "100", "MB4_FAULT_FRAMES": "2000", "MB4_LINE_FRAMES": "1210",
          "MB4_HOST_FRAMES": "300"}
 FIRST_BATCH = 2.0  # seconds; each batch takes twice as long as the one before
+EQUIVALENT_MEETS = 4  # batches
 EXPECTED = HERE / "equivalent.txt"
 
 
@@ -47,21 +51,27 @@ def start(program, tests, number, seconds=0, output=None):
                           stderr=subprocess.DEVNULL).returncode
 
 
-def batches(programs):
+def suite_times(program):
+    """[(seconds, program, suite)] without a fault."""
+    with tempfile.TemporaryDirectory() as folder:
+        if start(program, LEFT_OUT, 0, output=f"{folder}/times.json") != 0:
+            raise SystemExit(f"{program}: tests fail without a fault")
+        report = json.loads(Path(f"{folder}/times.json").read_text(encoding="utf-8"))
+    print(f"{Path(program).name}: {report['tests']} tests, {report['time']}", flush=True)
+    return [(float(suite["time"].rstrip("s")), program, suite["name"])
+            for suite in report["testsuites"]]
+
+
+def batches(programs, jobs):
     """[[(program, filter, processor seconds that it may take)]], quick suites first."""
-    suites = []
-    for program in programs:
-        with tempfile.TemporaryDirectory() as folder:
-            before = resource.getrusage(resource.RUSAGE_CHILDREN)
-            if start(program, LEFT_OUT, 0, output=f"{folder}/times.json") != 0:
-                raise SystemExit(f"{program}: tests fail without a fault")
-            after = resource.getrusage(resource.RUSAGE_CHILDREN)
-            report = json.loads(Path(f"{folder}/times.json").read_text(encoding="utf-8"))
-        cpu = after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
-        wall = max(float(report["time"].rstrip("s")), 1e-3)
-        suites += [(float(suite["time"].rstrip("s")) * cpu / wall, program, suite["name"])
-                   for suite in report["testsuites"]]
-        print(f"{Path(program).name}: {report['tests']} tests, {cpu:.0f} s", flush=True)
+    before = resource.getrusage(resource.RUSAGE_CHILDREN)
+    with ThreadPoolExecutor(jobs) as pool:
+        suites = [row for rows in pool.map(suite_times, programs) for row in rows]
+    after = resource.getrusage(resource.RUSAGE_CHILDREN)
+    # Where other work runs beside, less of this time was processor time.
+    cpu = after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
+    share = cpu / max(sum(seconds for seconds, _, _ in suites), 1e-3)
+    suites = [(seconds * share, program, name) for seconds, program, name in suites]
     found, room = [{}], FIRST_BATCH
     for seconds, program, name in sorted(suites):
         if sum(s for s, _ in found[-1].values()) + seconds > room and found[-1]:
@@ -98,6 +108,7 @@ def main():
     head, *listing = Path(arguments[0]).read_text(encoding="utf-8").splitlines()
     print(head, flush=True)
     goal, programs = float(arguments[1]), arguments[2:]
+    jobs = int(options.get("--jobs", 1))
     log = Path(options.get("--log", os.devnull))
     kept = [line.split(": ", 1) for line in
             (log.read_text(encoding="utf-8") if log.is_file() else "").splitlines()]
@@ -113,13 +124,19 @@ def main():
     os.nice(15)
     stages = next((json.loads(said) for key, said in kept if key == "stages"), None)
     if stages is None:
-        stages = batches(programs)
+        stages = batches(programs, jobs)
         note(f"stages: {json.dumps(stages)}")
     faults = dict(line.split(" ", 1) for line in listing)
-    with ThreadPoolExecutor(int(options.get("--jobs", 1))) as pool:
+    reason_of = reasons()
+    argued = {number: reason_of[text] for number, text in
+              ((number, re.sub(r"^(\w+):\d+", r"\1", text)) for number, text in faults.items())
+              if text in reason_of}
+    with ThreadPoolExecutor(jobs) as pool:
         for place, stage in enumerate(stages, 1):
             def run(number, place=place, stage=stage):
                 if number in done or (place, number) in seen:
+                    return
+                if number in argued and place > EQUIVALENT_MEETS:
                     return
                 said = "passed"
                 if caught(stage, number):
@@ -131,25 +148,26 @@ def main():
             list(pool.map(run, faults))
             print(f"  stage {place} of {len(stages)}: {len(done)} of {len(faults)} caught",
                   flush=True)
-    equivalent = reasons()
-    argued = 0
     places = {module: str(path.parent.relative_to(project.RTL))
               for module, path in project.rtl_modules().items()}
     rooms = {room: [0, 0] for room in sorted({*places.values(), "all"})}
     for number, text in faults.items():
-        reason = equivalent.get(re.sub(r"^(\w+):\d+", r"\1", text))
         for room in ("all", places[text.split(":")[0]]):
             rooms[room][0] += number in done
-            rooms[room][1] += number in done or reason is None
+            rooms[room][1] += number in done or number not in argued
         if number not in done:
-            argued += reason is not None
+            reason = argued.get(number)
             print(f"not caught: {text}" + (f"\n  because {reason}" if reason else ""))
+    wrong = sorted(done & argued.keys(), key=int)
+    for number in wrong:
+        print(f"{EXPECTED.name} says that no test sees it: {faults[number]}")
     for room, (found, of) in rooms.items():
         if of:
             print(f"in {room}: {found} of {of} faults caught, {100 * found / of:.1f} %")
-    share = 100 * len(done) / (len(faults) - argued)
-    print(f"{len(done)} of {len(faults)} faults caught, {argued} change nothing: {share:.1f} %")
-    sys.exit(0 if share >= goal else 1)
+    share = 100 * len(done) / (len(faults) - len(argued))
+    print(f"{len(done)} of {len(faults)} faults caught, {len(argued)} change nothing: "
+          f"{share:.1f} %")
+    sys.exit(0 if share >= goal and not wrong else 1)
 
 
 main()
