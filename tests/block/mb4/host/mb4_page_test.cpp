@@ -288,7 +288,7 @@ TEST_F(PageBlock, WriteToTheWordDuringACopy_ItBeginsAgain) {
       const unsigned channel = kFirstChannel[line] + 1;
       set(kSlave, 6, same ? channel << 3 * line : 0);
       request(channel);
-      while (m.rd_en_o == 0) clock();
+      for (int i = 0; m.rd_en_o == 0 && i < 100; ++i) clock();
       clocks(7);
       scdata[0][channel] = ~scdata[0][channel];
       pulse(kWr + line, 1, 1);
