@@ -81,7 +81,8 @@ class ControlFrameBlock : public testing::Test {
     ended = reg_error = delay_error = false;
     written.clear();
     for (unsigned i = 0; i < 64; ++i) rdata[i] = random.below(256);
-    if (access.command) rdata[0] = access.ids;
+    // Bytes that are on their way have not replaced the old ones.
+    if (access.command) rdata[0] = m.post_busy_i != 0 ? ~access.ids & 0xFFU : access.ids;
     for (unsigned i = 0; access.write && i < access.bytes.size(); ++i) rdata[i] = access.bytes[i];
     m.access_i = access.port();
     m.select_i = static_cast<std::uint8_t>(select);
@@ -262,14 +263,15 @@ TEST_F(ControlFrameBlock, Commands_AreAsOnTheLine) {
 
 // Page 34: an error in IDA; tested, the command is not executed on that line (page 29).
 TEST_F(ControlFrameBlock, OneWrongAcknowledge_IsAnErrorAndNotExecuted) {
-  for (unsigned ida = 0; ida < 8; ++ida) {
+  for (unsigned ida = 0; ida < 16; ++ida) {
+    const unsigned ids = ida < 8 ? 0xA5 : 0xA4;
     for (const unsigned lines : {1U, 2U, 3U}) {
       for (const bool tested : {false, true}) {
-        begin(command(0xA5, 1, tested), 3);
+        begin(command(ids, 1, tested), 3);
         zeros_before();
         for (unsigned at = 0; at < script.cdm.size(); ++at) {
           const unsigned cds = script.cds[at] == '1' ? 3U : 0U;
-          const unsigned cdm = frame(at == 17 + ida ? cds ^ lines : cds);
+          const unsigned cdm = frame(at == 17 + ida % 8 ? cds ^ lines : cds);
           const unsigned sent = script.cdm[at] == '1' ? 3U : 0U;
           ASSERT_EQ(cdm, tested && at == 24 ? sent & ~lines : sent) << at;
         }
@@ -381,10 +383,8 @@ TEST_F(ControlFrameBlock, BeginInAFrame_CountsFromTheNextOne) {
     m.start_i = 0;
     m.post_busy_i = 1;
     begin(command(random.below(256), 2, false));
-    const unsigned ids = rdata[0];
-    rdata[0] = ~ids & 0xFFU;
     clocks(5);
-    rdata[0] = ids;
+    rdata[0] = access.ids;
     clocks(2);
     m.post_busy_i = 0;
     m.frame_end_i = 1;
