@@ -318,6 +318,20 @@ TEST_F(ControlCommBlock, SilentSlave_IsGivenUpAfterTheLimit) {
   EXPECT_EQ(good_bytes(), 1U);
 }
 
+// Frames that the host does not ask for are no stall: the next one ends the access.
+TEST_F(ControlCommBlock, SilentSlaveWithoutFrames_IsGivenUpWithTheNextOne) {
+  const ControlAccess silent{.bytes = {7}, .busy = {1000}};
+  set_access(silent, 1);
+  clocks(2);
+  begin(silent);
+  play(19 + 2);
+  m.live_i = 0;
+  clocks(2 * kStall);
+  ASSERT_EQ(ends, 0U);
+  frame(0);
+  EXPECT_TRUE(ends == 1 && delay_error && !reg_error);
+}
+
 // A frame that does not end is given up after an eighth more, if frames run; else the host may take
 // its time.
 TEST_F(ControlCommBlock, FrameThatDoesNotEnd_IsGivenUpOnlyWhileFramesRun) {
