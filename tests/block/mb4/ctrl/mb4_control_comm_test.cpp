@@ -36,7 +36,7 @@ class ControlCommBlock : public testing::Test {
     for (auto& word : m.cfg_i.m_storage) word = 0;
     m.quirks_i = m.instr_i = m.rdata_i = m.post_busy_i = 0;
     m.begin_i = m.register_want_i = m.void_i = m.refused_i = m.clear_i = m.init_clear_i = 0;
-    m.go_i = m.use_i = m.frame_end_i = m.automatic_i = 0;
+    m.go_i = m.start_use_i = m.frame_end_i = m.automatic_i = 0;
     m.status_i = 0x231;  // idle, SL = 1
     m.live_i = m.tick_i = 1;
     lines(kBissC, kBissC);
@@ -425,7 +425,7 @@ TEST_F(ControlCommBlock, BissBWithoutHandOver_IsAnAgsError) {
   clocks(3);
   ASSERT_EQ(m.kind_o & 7U, 2U) << "a BiSS B register access";
   ends = ags_errors = 0;
-  m.use_i = 1;
+  m.start_use_i = 1;
   m.register_want_i = 1;
   start(0x08);
   m.register_want_i = 0;
