@@ -29,7 +29,6 @@ INSTEAD = {
     "biss_sl_capture": "through biss_sl_sampler",
     "enc_axil": "proof axil",
     "enc_axis_fifo": "proof axis",
-    "enc_irq": "proof irq",
     "enc_ram": "through mb4_memory",
     "enc_ram_pair": "through mb4_memory",
     "enc_ram_row": "through mb4_slave_cfg",
@@ -39,7 +38,6 @@ INSTEAD = {
     "enc_wb": "proof wb",
     "mb4_control": "test tests/chip/control/control_fault_test.cpp",  # time base between frames
     "mb4_engine": "test tests/chip/registers/register_test.cpp",   # resets
-    "mb4_sequencer": "proof sequencer",
     "mb4_spi_cmd": "through mb4_spi",
     "mb4_spi_shift": "through mb4_spi",
 }
