@@ -157,35 +157,14 @@ class ControlFrameBlock : public testing::Test {
   int wrong_frame = -1;
 };
 
-// protocol examples: "write 0x06 to 0x60, ID 0", "read 0x67 from ID 0, the slave answers 0x5F".
-TEST(ControlScript, WorkedFrames_AreAsPrinted) {
+// TI TIDEP0022, Table 7: the CDM of slots 1 to 32 for a read of 0x67, and for a write of 0x06 to
+// 0x60 (with the CRC of the header and the bits R and W set right).
+TEST(ControlScript, PublishedFrames_AreMadeAsPrinted) {
   const auto read = script_of({.address = 0x67, .bytes = {0x5F}, .busy = {0}});
-  EXPECT_EQ(read.cdm,
-            "1"
-            "10001100111"
-            "0010"
-            "101"
-            "000000000000"
-            "0"
-            "0");
-  EXPECT_EQ(read.cds,
-            "0"
-            "10000000"
-            "00000000"
-            "10"
-            "1"
-            "01011111"
-            "1111"
-            "0");
+  EXPECT_EQ(read.cdm, "1" + mb4test::bits_of(0x8CE54000, 32));
+  EXPECT_EQ(read.cds, std::string("010000000000000001") + "01" + "01011111" + "1111" + "0");
   const auto write = script_of({.write = true, .address = 0x60, .bytes = {0x06}, .busy = {0}});
-  EXPECT_EQ(write.cdm,
-            "1"
-            "10001100000"
-            "1011"
-            "011"
-            "000001100101"
-            "0"
-            "0");
+  EXPECT_EQ(write.cdm, "1" + mb4test::bits_of(0x8C16C194, 32));
 }
 
 // Figure 20, Tables 28 to 31.

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Events and interrupts alone, between two clocks: the table of the page of a bus top, words +0x0C
-// and +0x10 (docs/, regmap/mb4_page.rdl).
+// Events and interrupts alone, between two clocks: IRQ_STATUS and IRQ_ENABLE of a bus top's page
+// (docs/buses.md, regmap/mb4_page.rdl).
 #include <gtest/gtest.h>
 
 #include <array>

@@ -200,6 +200,7 @@ TEST_F(SequencerBlock, Init_LastsUntilTheTimeoutHasEnded) {
       write(kInit);
       ASSERT_EQ(inits.size(), 1U);
       EXPECT_EQ(clears, 1U);
+      write(0);  // does not end it
       while (left[1] > 1) {
         EXPECT_EQ(held(), kInit);
         EXPECT_TRUE(busy());
@@ -304,7 +305,9 @@ TEST_F(SequencerBlock, MissedFrame_IsAnErrorAndAgsStays) {
 // With the quirk a frame that is due while a switch waits is left out.
 TEST_F(SequencerBlock, Holdbank_LeavesAFrameOutOnlyWithTheQuirk) {
   write(kSwbank);
+  EXPECT_EQ(swaps, 1U);
   write(kSwbank | kHoldbank);
+  EXPECT_EQ(swaps, 1U);
   write(kHoldbank);
   EXPECT_EQ(swaps, 2U);
   EXPECT_EQ(held(), kHoldbank);

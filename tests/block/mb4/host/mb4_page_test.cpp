@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The core half of the page at 0x100 alone: time, frame numbers, snapshots and events, as the table
-// of the page (docs/, regmap/mb4_page.rdl) and decision 45 have them. The test plays lines, banks,
+// The core half of the page at 0x100 alone: time, frame numbers, snapshots and events, as
+// docs/buses.md, regmap/mb4_page.rdl and decision 45 have them. The test plays lines, banks,
 // the memory of SCDATA and the bus.
 #include <gtest/gtest.h>
 
