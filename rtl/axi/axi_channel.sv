@@ -21,7 +21,8 @@
 //   half period.
 // After a frame SLO = 0 counts as timeout for at most TimeoutLimit clocks.
 //
-// Misuse: start_i while busy_o is 1 does nothing. frame_i must not change while frame_o is 1.
+// Misuse: start_i while busy_o is 1 starts no frame; word_o.good and word_o.crc_bad go to 0.
+// frame_i must not change while frame_o is 1.
 // Source: hello-fpga BiSS-C master manual 1.1 and 2.4; docs/axi.md.
 
 `include "enc_check.svh"
@@ -89,6 +90,7 @@ module axi_channel #(
   logic [5:0]  calculated_q;
   logic        fits_q;         // the CRC bits so far fit
   logic        ended_q;        // the last CRC bit has been taken
+  logic        start;
   logic        begin_frame;
   logic        no_ack;
   logic        no_start;
@@ -108,7 +110,7 @@ module axi_channel #(
     .rst_ni,
     .sl_i        (slo_i),
     .half_len_i  (frame_i.half_len),
-    .clear_i     (start_i),
+    .clear_i     (start),
     .armed_i     (state_q == ACK),
     .sl_o        (sl),
     .ack_o       (ack),
@@ -155,7 +157,9 @@ module axi_channel #(
     .top_o   (crc_top)
   );
 
-  assign begin_frame = start_i && enabled_i && state_q == IDLE;
+  // A disabled channel may still wait for its stop bit when a frame begins on the others.
+  assign start       = start_i && state_q == IDLE;
+  assign begin_frame = start && enabled_i;
   assign running     = state_q != IDLE && state_q != TIMEOUT && state_q != STOP;
   assign no_ack      = state_q == ACK && !ack && late;
   assign no_start    = state_q == START && bit_valid && !sl_bit && count_q == START_LAST;
@@ -234,7 +238,7 @@ module axi_channel #(
     end else if (rise && !all_sent) begin
       ahead_d = ahead_q + 7'd1;
     end
-    if (start_i) ahead_d = '0;
+    if (start) ahead_d = '0;
   end
 
   assign good = fits_q || !frame_i.check;

@@ -12,8 +12,8 @@
 //   rise_i       takes one edge away
 //
 // Latency: a word counts from the second clock after len_valid_i. Until then no edge is the last
-// one. mo_busy_i counts from the second clock after begin_i. All outputs except two_next_o are ready
-// early in the clock, because they decide what MA does next.
+// one. mo_busy_i counts from the second clock after begin_i. All outputs except two_next_o are
+// ready early in the clock, because they decide what MA does next.
 //
 // Misuse: MA may make one edge more than needed before a word is told. The count keeps this edge
 // (-1) and subtracts it from the word. The count does not keep further surplus edges.

@@ -335,10 +335,9 @@ TEST_F(AxiChannelBlock, DisabledChannel_DoesNotStart) {
   EXPECT_TRUE(falls.empty());
 }
 
-// Disabled while it waits for the stop bit, with a start for the other channels: it must rest in
-// the end. DISABLED: the start clears the sampler, so the stop bit never comes. busy_o stays 1, and
-// a soft reset does not help.
-TEST_F(AxiChannelBlock, DISABLED_StartWhileADisabledChannelWaitsForTheStopBit_ItRestsLater) {
+// Disabled while it waits for the stop bit, with a start for the other channels: the stop bit must
+// still come, and the channel rests.
+TEST_F(AxiChannelBlock, StartWhileADisabledChannelWaitsForTheStopBit_ItRestsLater) {
   start({});
   for (int i = 0; m.frame_o != 0 && i < 10'000; ++i) clock();
   ASSERT_NE(m.busy_o, 0);
@@ -346,9 +345,6 @@ TEST_F(AxiChannelBlock, DISABLED_StartWhileADisabledChannelWaitsForTheStopBit_It
   m.start_i = 1;
   clock();
   m.start_i = 0;
-  clocks(kTimeoutLimit + 100);
-  EXPECT_EQ(m.busy_o, 0);
-  m.clear_i = 1;
   clocks(kTimeoutLimit + 100);
   EXPECT_EQ(m.busy_o, 0);
 }
