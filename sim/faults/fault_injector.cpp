@@ -16,8 +16,8 @@ FaultInjector::FaultInjector(FaultTarget& target, EventQueue& queue,
   add_new();
 }
 
-// A fault that came earlier may act on this channel now. This fault must remember the cable as it is
-// without that one.
+// A fault that came earlier may act on this channel now. This fault must remember the cable as it
+// is without that one.
 void FaultInjector::remember_cable(Source& source) {
   const unsigned channel = faults_[source.config].channel;
   for (const auto& before : sources_) {
