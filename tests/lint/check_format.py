@@ -47,15 +47,15 @@ def findings(program, files, folder=project.ROOT):
 
 def self_test(program):
     good = "int f(int a) { return a; }\n"
-    cases = {"good.cpp": (good, 0), "indented.cpp": ("int f(int a) {\n    return a;\n}\n", 1),
-             "long.hpp": (f"// {'x ' * 60}\n{good}", 1), "brace.cpp": ("int f(int a){ return a; }\n", 1)}
+    cases = {"good.cpp": (good, False), "indented.cpp": ("int f(int a) {\n    return a;\n}\n", True),
+             "long.hpp": (f"// {'x ' * 60}\n{good}", True), "brace.cpp": ("int f(int a){ return a; }\n", True)}
     wrong = []
     with tempfile.TemporaryDirectory() as folder:
-        for name, (text, count) in cases.items():
+        for name, (text, bad) in cases.items():
             (Path(folder) / name).write_text(text, encoding="utf-8")
             found = findings(program, [name], folder)
-            if len(found) != count:
-                wrong.append(f"{name}: expected {count} finding(s), got {found}")
+            if bool(found) != bad:
+                wrong.append(f"{name}: got {found}")
         if not findings(program, ["absent.cpp"], folder):
             wrong.append("absent.cpp: nothing is said of a file that is not there")
     project.finish(wrong, "planted faults, all reported")
