@@ -189,7 +189,7 @@ module axi_channel #(
         end
       end
       CDS: begin
-        // The bit behind the start bit.
+        // The bit after the start bit.
         count_d = '0;
         if (bit_valid) state_d = DATA;
       end

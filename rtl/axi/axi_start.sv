@@ -36,7 +36,7 @@ module axi_start (
   output logic            sample_clk_o
 );
 
-  // A word has 2 flags and 6 CRC bits; 4 edges of MA belong to no bit behind the start bit.
+  // A word has 2 flags and 6 CRC bits; 4 edges of MA belong to no bit after the start bit.
   localparam logic [6:0] FLAGS      = 7'd2;
   localparam logic [6:0] MORE_EDGES = 7'd12;
 

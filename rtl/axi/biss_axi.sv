@@ -3,7 +3,7 @@
 //
 // BiSS C master with N channels: AXI4-Lite registers, words of all channels as an AXI4-Stream.
 // Parameters and ports have the names of the document (hello-fpga BiSS-C master manual, 2.2 and
-// 2.3); STREAM_MODE and the parameters behind it are this project's.
+// 2.3); STREAM_MODE and the parameters after it are this project's.
 //
 // Clock domain: axi_aclk. slo, ext_sample_clk and sample_en are asynchronous. axi_aresetn must rise
 // with axi_aclk, as AXI asks; it may fall at any time.

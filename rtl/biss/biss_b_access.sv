@@ -2,12 +2,12 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // BiSS B register access and initialisation, master side. One module serves all lines; it drives
-// the lines that use_i names with start_i.
+// the lines that start_use_i names with start_i.
 //
 // Clock domain: core. ma_o tells the level of MA from the next tick on. The parts of an access:
 //
-// - Hand-over: MA is high, then low until all slaves answer with SL = 0. In an access with mo_i
-//   (EN_MO) MA is low for half a register clock instead, with any SL. INIT ends here.
+// - Hand-over: MA is high, then low until all slaves answer with SL = 0. In an access with
+//   mo_i MA is low for half a register clock instead, with any SL. INIT ends here.
 // - Cells: a cell lasts one register clock, 2^(FREQR+1) MA periods, and begins with a rising edge.
 //   MA is high for a quarter of it (bit 0), three quarters (bit 1) or a half (read-out).
 // - SL is taken at the rising edges. In a write it repeats the bit of two cells before; in a read
@@ -30,10 +30,10 @@ module biss_b_access (
   // configuration
   input  logic [2:0] freqr_i,
   input  biss_pkg::access_t access_i,
-  input  logic       mo_i,           // EN_MO
+  input  logic       mo_i,           // the slaves get MO
   // control
   input  logic       start_i,
-  input  logic [1:0] use_i,          // with start_i: lines {2, 1}; SL of the lower one is read
+  input  logic [1:0] start_use_i,    // with start_i: lines {2, 1}; SL of the lower one is read
   input  logic       init_i,         // with start_i: hand-over only
   input  logic       abort_i,
   input  logic       tick_i,
@@ -44,7 +44,7 @@ module biss_b_access (
   input  logic [1:0] sl_i,           // synchronised
   output biss_pkg::register_ma_t ma_o,
   output logic [1:0] mo_low_o,
-  // RDATA: the byte is valid one clock after its address
+  // data of the access: the byte is valid one clock after its address
   output biss_pkg::access_byte_t byte_o,
   input  logic [7:0] rdata_i,
   // result
@@ -280,7 +280,7 @@ module biss_b_access (
       index_q  <= index_d;
       fail_q   <= fail_d;
       sample_q <= {sample_q[0], boundary};
-      if (start_i && state_q == IDLE) {use_q, init_q, mo_q} <= {use_i, init_i, mo_i};
+      if (start_i && state_q == IDLE) {use_q, init_q, mo_q} <= {start_use_i, init_i, mo_i};
       if (state_q == IDLE || state_q == REQUEST || quarter) pre_q <= (7'd1 << freqr_i) - 7'd1;
       else if (tick_i)                                      pre_q <= pre_q - 7'd1;
       if (state_q == IDLE || state_q == REQUEST || (state_q == HAND_OVER && state_d == ADDRESS))

@@ -13,13 +13,13 @@
 // - frame_end_i takes CDS. CDS of a slot answers CDM of the slot before.
 // - Slot 0 lasts until 14 zeros have been sent (cdm_timeout_i). Slot 19 lasts until the start bit
 //   of the slave.
-// - IDS is the first byte of RDATA. It is taken when the bytes have arrived that the host wrote
+// - IDS is the first byte of the data. It is taken when the bytes have arrived that the host wrote
 //   before begin_i.
 //
 // Latency: end_o comes one clock after the step that finished or failed.
 // Misuse: a register access needs exactly one line in select_i. The configuration must be stable
 // while active_o is high.
-// Silent slave: without echo of R and W nREGERR = 0. Without start bit nDELAYERR = 0 with the first
+// Silent slave: without echo of R and W reg_error. Without start bit delay_error with the first
 // frame that ends with expired_i. Frames that do not end (stalled_i) also end the control frame.
 // Datasheet: pages 27..29, 34, 35, Figures 20..22; decisions 5, 12, 20, 22..24, 31.
 
@@ -33,13 +33,13 @@ module biss_control_frame (
   input  logic       ida_invert_i,   // quirk: IDA_TEST has the opposite polarity
   input  logic [1:0] select_i,       // lines {2, 1} that carry the control frame
   input  logic       blind_i,        // SSI: no CDS, every answer to a write counts as right
-  // RDATA: the byte is valid one clock after its address
+  // data of the access: the byte is valid one clock after its address
   output biss_pkg::access_byte_t byte_o,
   input  logic [7:0] rdata_i,
-  input  logic       post_busy_i,    // bytes of the host are on their way to RDATA
+  input  logic       post_busy_i,    // bytes of the host are on their way to the data
   // frames
   input  logic       begin_i,
-  input  logic       abort_i,        // BREAK, INIT, or the access cannot run any more
+  input  logic       abort_i,        // stopped, or the access cannot run any more
   input  logic       start_i,        // a frame starts
   input  logic       frame_end_i,    // the frame has ended
   input  logic [1:0] cds_i,          // CDS of the frame, lines {2, 1}

@@ -5,14 +5,14 @@
 //
 // Clock domain: core.
 //
-//   begin_i      sets the need to that of the protocol (BiSS C 5, BiSS B 4, SSI 1), plus MO_BUSY on
+//   begin_i      sets the need to that of the protocol (BiSS C 5, BiSS B 4, SSI 1), plus mo_busy on
 //                a line with actuators
 //   len_valid_i  adds the length of a word (not in the clock of begin_i)
 //   wait_i       adds a processing clock
 //   rise_i       takes one edge away
 //
 // Latency: a word counts from the second clock after len_valid_i. Until then no edge is the last
-// one. MO_BUSY counts from the second clock after begin_i. All outputs except two_next_o are ready
+// one. mo_busy_i counts from the second clock after begin_i. All outputs except two_next_o are ready
 // early in the clock, because they decide what MA does next.
 //
 // Misuse: MA may make one edge more than needed before a word is told. The count keeps this edge
@@ -44,7 +44,7 @@ module biss_edge_count #(
   output logic       one_left_o    // one edge is left, or none
 );
 
-  // The longest frame: 5 edges, MO_BUSY, and words with stop bit and CRC.
+  // The longest frame: 5 edges, mo_busy_i, and words with stop bit and CRC.
   localparam int unsigned MOST = 5 + (Mo ? 255 : 0) + Slaves * (DataBits + 17);
   localparam int unsigned W    = $clog2((MOST > 127 ? MOST : 127) + 1) + 1;  // a length has 7 bits
 
@@ -54,7 +54,7 @@ module biss_edge_count #(
   logic signed [W-1:0] need_d;
   logic signed [W-1:0] need_q;     // edges needed; -1: one too many was sent
   logic               len_valid_q;
-  logic [7:0]         len_q;       // one clock after begin_i: MO_BUSY
+  logic [7:0]         len_q;       // one clock after begin_i: mo_busy_i
   logic               bus;
   logic [2:0]         base;        // edges of the protocol
   logic               take;
@@ -103,7 +103,7 @@ module biss_edge_count #(
       need_q  <= need_d;
       none_q  <= none_d;
       one_q   <= one_d;
-      len_valid_q <= len_valid_i && !begin_i;   // not a word of a frame that BREAK has ended
+      len_valid_q <= len_valid_i && !begin_i;   // not a word of a frame that was stopped
       len_q       <= begin_i ? mo_busy_i & {8{bus}} : {1'b0, len_i & {7{len_valid_i}}};
     end
   end

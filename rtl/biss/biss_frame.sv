@@ -13,17 +13,17 @@
 // - the edges already sent when the start bit comes back over a long line (decision 17),
 // - the edges already sent when CDS comes back, if CDM depends on it.
 //
-// With bus_i actuators are on MO, and more edges would shift their words. So MO_BUSY counts as the
+// With bus_i actuators are on MO, and more edges would shift their words. So mo_busy counts as the
 // number of processing clocks, and MA does not wait for the start bit.
 //
 //   go_i.reduced         the frame ends after CDS (decision 14)
-//   event_o.frame_end    the last data bit has been taken; status_o.cds is valid from the next
+//   event_o.line_end     the last data bit has been taken; status_o.cds is valid from the next
 //                        clock on (0 in BiSS B and SSI)
 //   go_i.init            the line makes the two-pulse initialisation instead of a frame:
 //                        event_o.init_done comes with the acknowledge, event_o.init_fail with
 //                        late_i (without it for as long as the line delay can be)
 //   go_i.register_access MA belongs to the BiSS B register access (biss_b_access) until
-//                        register_ma_i.ends, which makes event_o.frame_end
+//                        register_ma_i.ends, which makes event_o.line_end
 //
 // Changes of protocol and bus_i count from the next start on. A line that is taken out of use
 // (UNUSED) does not wait for SL in its timeout.
@@ -130,7 +130,7 @@ module biss_frame #(
   logic               bus_q;
   logic               unused;      // the line is out of use
   logic               sl_high;     // the slaves' timeout has ended, or no longer counts
-  logic               frame_end, init_done, init_fail;
+  logic               line_end, init_done, init_fail;
   state_e             new_state;
   logic [1:0]         new_cdm;
   logic               new_reduced, new_init, abort;
@@ -200,7 +200,7 @@ module biss_frame #(
     .one_left_o  (one_left)
   );
 
-  // What begins with go_i.start, and what go_i.stop ends. MA may be low in IDLE (HOLDCDM).
+  // What begins with go_i.start, and what go_i.stop ends. MA may be low in IDLE (hold_cdm).
   assign new_state   = BissB && go_i.register_access ? REGISTER : REQUEST;
   assign new_cdm     = (go_i.init || !(biss_c || ssi)) ? 2'b00 : {start_i.cdm1, start_i.cdm0};
   assign new_reduced = go_i.reduced && !go_i.init;
@@ -219,13 +219,13 @@ module biss_frame #(
     load_d      = 1'b0;
     waited      = 1'b0;
     word_bit_o  = 1'b0;
-    frame_end   = 1'b0;
+    line_end    = 1'b0;
     init_done   = 1'b0;
     init_fail   = 1'b0;
 
     unique case (state_q)
       IDLE: begin
-        // The line rests; MA is high, or keeps its level with HOLDCDM.
+        // The line rests; MA is high, or keeps its level with hold_cdm.
         if (begin_frame) begin
           state_d   = new_state;
           cdm_d     = new_cdm;
@@ -254,7 +254,7 @@ module biss_frame #(
           if (!waited) begin
             started_d   = 1'b1;
             load_d      = offer_i.any && !reduced_q;
-            frame_end   = !load_d;
+            line_end    = !load_d;
             state_d     = load_d ? DATA : ssi ? TIMEOUT : STOP;
           end
         end
@@ -264,7 +264,7 @@ module biss_frame #(
         if (bit_valid_i) begin
           cds_d     = bit_i;
           load_d    = offer_i.any && !reduced_q;
-          frame_end = !load_d;
+          line_end = !load_d;
           state_d     = load_d ? DATA : STOP;
         end
       end
@@ -273,7 +273,7 @@ module biss_frame #(
         word_bit_o = bit_valid_i;
         if (word_done_i) begin
           load_d    = !offer_i.last;
-          frame_end = offer_i.last;
+          line_end = offer_i.last;
           if (offer_i.last) state_d = STOP;
         end
       end
@@ -283,7 +283,7 @@ module biss_frame #(
       end
       REGISTER: begin
         // The BiSS B register access drives MA.
-        frame_end = register_ma_i.ends;
+        line_end = register_ma_i.ends;
         if (register_ma_i.ends) state_d = TIMEOUT;
       end
       TIMEOUT: begin
@@ -335,7 +335,7 @@ module biss_frame #(
   assign clocks_o    = ma_clocks;
   assign biss_c_o    = biss_c;
   assign status_o    = {state_q == IDLE && !released, state_q == TIMEOUT, cds_q, cdm, sl_i};
-  assign event_o     = {frame_end, init_done, init_fail};
+  assign event_o     = {line_end, init_done, init_fail};
 
   `ENC_ASSERT_IF(IdleDoesNotClock_A, clk_i, rst_ni, state_q == IDLE, !ma_clocks)
 

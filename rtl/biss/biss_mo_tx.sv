@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Drives MO of one line: the master acts as one more slave in front of the chain. It acknowledges
-// with the slaves, sends the start bit after MO_BUSY more periods, and then a slot for each word:
+// with the slaves, sends the start bit after mo_busy more periods, and then a slot for each word:
 // the word of an actuator (stop bit if configured, data, inverted CRC), or zeros for a sensor.
 //
 // Clock domain: core. In a frame MO changes with the rising MA edges, otherwise with cmd_i.mo_en.
@@ -12,8 +12,8 @@
 //
 // With FreeCrc = 0 a word with another CRC than 0x43 and 16 bits is sent with a wrong one.
 //
-// Misuse: a frame may end before the last slot (MO is not connected to the slaves, or MO_BUSY is
-// larger than theirs). Then it ends here too (line_idle_i). BiSS B at f_CLK / 2 with MO_BUSY = 0
+// Misuse: a frame may end before the last slot (MO is not connected to the slaves, or mo_busy is
+// larger than theirs). Then it ends here too (line_idle_i). BiSS B at f_CLK / 2 with mo_busy = 0
 // has time for six words: with seven or eight the first slot comes before the list is ready, and
 // its contents are undefined.
 // Datasheet: pages 15, 25, 31, Figure 12, Tables 17, 18, 39, 40; protocol of the chain.
@@ -119,7 +119,7 @@ module biss_mo_tx #(
 
     unique case (state_q)
       IDLE: begin
-        // No frame. MO is EN_MO, but 0 in a BiSS B register access.
+        // No frame. MO is mo_en, but 0 in a BiSS B register access.
         mo_d     = 1'b1;
         second_d = 1'b0;
         if (begin_i && cmd_i.mo_en) state_d = REQUEST;
@@ -136,7 +136,7 @@ module biss_mo_tx #(
         end
       end
       WAIT: begin
-        // MO is 0 for MO_BUSY periods, then it sends the start bit.
+        // MO is 0 for mo_busy periods, then it sends the start bit.
         if (rise_i) begin
           busy_d = busy_q - 8'd1;
           mo_d   = busy_q == 8'd0;

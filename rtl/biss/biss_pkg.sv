@@ -5,8 +5,8 @@
 // master can use the line.
 //
 // A frame begins on all lines at once, so all lines share one line_go_t, register_ma_t and
-// sample_t. Of the other line types each line has its own; a vector of two of them has line 1 in
-// its lower half. access_t, access_byte_t and access_end_t belong to the control communication.
+// sample_t. Each line has its own value of the other line types. In a vector of two, line 1 is the
+// lower half. access_t, access_byte_t and access_end_t belong to the control communication.
 
 package biss_pkg;
 
@@ -105,7 +105,7 @@ package biss_pkg;
 
   // Ends, each high for one clock. Combinational.
   typedef struct packed {
-    logic        frame_end;  // the last data bit has been taken
+    logic        line_end;   // the last data bit has been taken
     logic        init_done;  // the slaves have acknowledged INIT
     logic        init_fail;  // they have not
   } line_event_t;

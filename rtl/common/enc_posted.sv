@@ -4,7 +4,7 @@
 // Posted writes from the host domain into the core domain. The bytes wait in a dual-clock memory;
 // the Gray-coded write count is the only signal that crosses with them.
 //
-// Clock domains: hclk_i for wr_* and mark_i; clk_i for the rest.
+// Clock domains: wr_clk_i for wr_* and mark_i; clk_i for the rest.
 // Latency: a byte is offered 3..4 clk_i periods after it was written, if no other byte waits before
 // it. ready_i takes it. Waiting bytes follow one a clock.
 //
@@ -16,15 +16,15 @@
 // They take effect when the core goes on.
 // Misuse: with more than 2^AddrW waiting bytes the queue wraps and bytes are lost.
 // Constraint: false path to the first flops of the count; the bits of the count must arrive within
-// one hclk_i period of each other. A byte is in the memory before the count that announces it.
+// one wr_clk_i period of each other. A byte is in the memory before the count that announces it.
 
 module enc_posted #(
   parameter int unsigned Width = 16,
   parameter int unsigned AddrW = 7
 ) (
   // host domain
-  input  logic             hclk_i,
-  input  logic             hrst_ni,
+  input  logic             wr_clk_i,
+  input  logic             wr_rst_ni,
   input  logic             wr_en_i,
   input  logic [Width-1:0] wr_data_i,
   output logic             empty_o,
@@ -57,8 +57,8 @@ module enc_posted #(
 
   assign wr_d = wr_q + (AddrW+1)'(1);
 
-  always_ff @(posedge hclk_i or negedge hrst_ni) begin
-    if (!hrst_ni) begin
+  always_ff @(posedge wr_clk_i or negedge wr_rst_ni) begin
+    if (!wr_rst_ni) begin
       wr_q      <= '0;
       wr_gray_q <= '0;
     end else if (wr_en_i) begin
@@ -87,11 +87,11 @@ module enc_posted #(
   assign fetch   = wr_sync != rd_gray && (!valid_q || ready_i);
 
   enc_ram #(.Width(Width), .AddrW(AddrW)) u_ram (
-    .wclk_i    (hclk_i),
+    .wr_clk_i,
     .wr_en_i,
     .wr_addr_i (wr_q[AddrW-1:0]),
     .wr_data_i,
-    .rclk_i    (clk_i),
+    .rd_clk_i  (clk_i),
     .rd_en_i   (fetch),
     .rd_addr_i (rd_q[AddrW-1:0]),
     .rd_data_o (data_o)

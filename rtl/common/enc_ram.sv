@@ -3,8 +3,8 @@
 //
 // Memory with one write port and one read port, each with its own clock. It maps to block RAM.
 //
-// Clock domains: wclk_i writes, rclk_i reads.
-// Latency: read data are valid after the rclk_i edge that samples rd_en_i and rd_addr_i.
+// Clock domains: wr_clk_i writes, rd_clk_i reads.
+// Latency: read data are valid after the rd_clk_i edge that samples rd_en_i and rd_addr_i.
 // Misuse: the contents are undefined until they are written; the owner clears them. A read of an
 // address at the edge that writes it gives an undefined byte.
 
@@ -12,11 +12,11 @@ module enc_ram #(
   parameter int unsigned Width = 8,
   parameter int unsigned AddrW = 6
 ) (
-  input  logic             wclk_i,
+  input  logic             wr_clk_i,
   input  logic             wr_en_i,
   input  logic [AddrW-1:0] wr_addr_i,
   input  logic [Width-1:0] wr_data_i,
-  input  logic             rclk_i,
+  input  logic             rd_clk_i,
   input  logic             rd_en_i,
   input  logic [AddrW-1:0] rd_addr_i,
   output logic [Width-1:0] rd_data_o
@@ -25,11 +25,11 @@ module enc_ram #(
   (* no_rw_check *) logic [Width-1:0] mem [0:(1 << AddrW)-1];
   logic [Width-1:0] rd_data_q;
 
-  always_ff @(posedge wclk_i) begin
+  always_ff @(posedge wr_clk_i) begin
     if (wr_en_i) mem[wr_addr_i] <= wr_data_i;
   end
 
-  always_ff @(posedge rclk_i) begin
+  always_ff @(posedge rd_clk_i) begin
     if (rd_en_i) rd_data_q <= mem[rd_addr_i];
   end
 

@@ -8,11 +8,11 @@
 // no clock switch, so CLKENI only goes to clkeni_o.
 // Reset: s_axi_aresetn resets all but MA and its time base; por_ni is the power-on reset and is
 // asserted together with it. Both are asynchronous.
-// Latency: enc_axil and mb4_bridge. An access waits for the core at most while its clock runs, and
-// WaitLimit clocks of s_axi_aclk after the core's clock has stopped: then it ends with SLVERR.
-// irq_o is active high and of s_axi_aclk.
+// Latency: enc_axil and mb4_bridge. While the core's clock runs, an access waits for the core and
+// then ends. After that clock has stopped, the access waits WaitLimit clocks of s_axi_aclk and is
+// ended with SLVERR. irq_o is active high and changes with s_axi_aclk.
 //
-// Misuse: of the bus, enc_axil; addresses that hold nothing read 0 and ignore writes.
+// Misuse of the bus: see enc_axil. Addresses that hold nothing read 0 and ignore writes.
 // Source: decision 45; AMBA AXI and ACE protocol specification (IHI0022), part B1.
 
 module mb4_axil #(

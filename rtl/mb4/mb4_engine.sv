@@ -7,8 +7,9 @@
 //
 // Clock domains: wr_clk_i and rd_clk_i (host), rd2_clk_i (second reader, with Port2) and clk_i
 // (core). While the core clock stands still the host can read all registers 0xC0..0xFB, and write
-// all but SVALID and 0xF4: these writes wait for it, as do those to the data memories. Of 0xF4,
-// SWBANK and HOLDBANK choose the bank that the host reads at once. Frames need the core clock.
+// all but SVALID and 0xF4: these writes wait for it, as do those to the data memories. SWBANK and
+// HOLDBANK in 0xF4 need no core clock: they choose at once the bank that the host reads. Frames
+// need the core clock.
 // Latency: a rising edge of wr_clk_i or rd_clk_i samples an access. Read data are valid after this
 // edge until the next read.
 // Reset: rst_ni is asynchronous. It goes unchanged to the host domain, because the host clocks
@@ -124,9 +125,9 @@ module mb4_engine #(
   mb4_reg_file #(.Port2(Port2), .Tap(Tap)) u_regs (
     .clk_i,
     .rst_ni         (rst_core_n),
-    .hrst_ni        (rst_ni),
-    .hclk_i         (wr_clk_i),
-    .rclk_i         (rd_clk_i),
+    .host_rst_ni    (rst_ni),
+    .wr_clk_i,
+    .rd_clk_i,
     .host_i         ({wr_en_i, wr_addr_i, wr_data_i, rd_en_i, rd_addr_i}),
     .rd_data_o,
     .rd2_clk_i,

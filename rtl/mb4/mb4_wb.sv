@@ -8,11 +8,11 @@
 // no clock switch, so CLKENI only goes to clkeni_o.
 // Reset: wb_rst_i (active high, without glitches) resets all but MA and its time base; por_ni is
 // the power-on reset and is asserted together with it.
-// Latency: enc_wb and mb4_bridge. An access waits for the core at most while its clock runs, and
-// WaitLimit clocks of wb_clk_i after the core's clock has stopped: then wb_err_o ends it.
-// irq_o is active high and of wb_clk_i.
+// Latency: enc_wb and mb4_bridge. While the core's clock runs, an access waits for the core and
+// then ends. After that clock has stopped, the access waits WaitLimit clocks of wb_clk_i and is
+// ended by wb_err_o. irq_o is active high and changes with wb_clk_i.
 //
-// Misuse: of the bus, enc_wb; addresses that hold nothing read 0 and ignore writes.
+// Misuse of the bus: see enc_wb. Addresses that hold nothing read 0 and ignore writes.
 // Source: decision 45; Wishbone B4.
 
 module mb4_wb #(

@@ -22,7 +22,7 @@ def main():
     status, text = project.run(
         [project.tool("verilator"), "--cc", "--build", "-j", "2", "-fno-const-bit-op-tree",
          *project.verilator_flags(), "--coverage-line", "--coverage-toggle", f"-I{project.INCLUDE}",
-         "-CFLAGS", f"-O1 -std=c++20 -DVL_USER_STOP -include {hooks}",
+         "-MAKEFLAGS", "OPT_FAST=-O3", "-CFLAGS", f"-std=c++20 -DVL_USER_STOP -include {hooks}",
          "--top-module", "mb4_chip", "--prefix", "Vmb4_cover", "--Mdir", folder,
          project.WAIVERS, project.ROOT / "sim/masters/mb4/model/public.vlt",
          *project.rtl_files()], cwd=folder)

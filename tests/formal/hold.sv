@@ -20,7 +20,7 @@
 //   | assign swap   = want;
 
 module proof (
-  input logic       hclk_i,
+  input logic       wr_clk_i,
   input logic       clk_i,
   input logic       rst_ni,
   input logic       write_i,
@@ -32,13 +32,13 @@ module proof (
 
   (* gclk *) logic gclk;
   logic started = 1'b0;
-  logic hclk_q, clk_q, rst_q;
-  always @(posedge gclk) {started, hclk_q, clk_q, rst_q} <= {1'b1, hclk_i, clk_i, rst_ni};
+  logic wr_clk_q, clk_q, rst_q;
+  always @(posedge gclk) {started, wr_clk_q, clk_q, rst_q} <= {1'b1, wr_clk_i, clk_i, rst_ni};
   always @* begin
-    if (!started) assume (!rst_ni && !hclk_i && !clk_i);
+    if (!started) assume (!rst_ni && !wr_clk_i && !clk_i);
     if (started) assume (rst_ni);
     // The core's clock moves at every instant at which the host's does not.
-    if (started) assume ((hclk_i != hclk_q) ^ (clk_i != clk_q));
+    if (started) assume ((wr_clk_i != wr_clk_q) ^ (clk_i != clk_q));
     // INSTR = 0, no BREAK, INIT, AGS: the subject is the banks.
     assume ((data_i & 8'h9F) == 8'h00);
   end
@@ -59,7 +59,7 @@ module proof (
   assign frame_end = frame_end_i && end_q == 3'd7;
 
   mb4_instr_reg u_instr (
-    .hclk_i, .rst_ni, .host_i({write_i, 8'hF4, data_i, 9'd0}), .rd_data_o(rd_data),
+    .wr_clk_i, .rst_ni, .host_i({write_i, 8'hF4, data_i, 9'd0}), .rd_data_o(rd_data),
     .pending_o(pending), .instr_o(asked), .instr_i(answer),
     .base_i(base), .newest_i(newest), .bank_o(bank), .kept_o(kept)
   );
@@ -79,7 +79,7 @@ module proof (
 
   // The bank that the host has from its last write on.
   logic held_q, bank_q, swbank_q, alone_q, before_q;
-  always @(posedge hclk_i or negedge rst_ni) begin
+  always @(posedge wr_clk_i or negedge rst_ni) begin
     if (!rst_ni) {held_q, bank_q, swbank_q, alone_q, before_q} <= '0;
     else if (write_i) begin
       held_q   <= data_i[6];

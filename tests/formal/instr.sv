@@ -27,7 +27,7 @@
 // mutation: mb4/regs/mb4_instr_reg.sv | if (count_q != ~instr_i.ack) count_q | if (count_q == instr_i.ack) count_q
 
 module proof (
-  input logic       hclk_i,
+  input logic       wr_clk_i,
   input logic       clk_i,
   input logic       rst_ni,
   input logic       write_i,
@@ -38,19 +38,19 @@ module proof (
 
   (* gclk *) logic gclk;
   logic started = 1'b0;
-  logic hclk_q, clk_q, rst_q, write_q, pulse_q, mixed_q;
+  logic wr_clk_q, clk_q, rst_q, write_q, pulse_q, mixed_q;
   always @(posedge gclk) begin
-    {started, hclk_q, clk_q, rst_q} <= {1'b1, hclk_i, clk_i, rst_ni};
+    {started, wr_clk_q, clk_q, rst_q} <= {1'b1, wr_clk_i, clk_i, rst_ni};
     {write_q, pulse_q, mixed_q} <= {write_i, pulse, later_i != 8'h00};
   end
   logic wrote, ticked;   // at this instant
-  assign wrote  = hclk_i && !hclk_q && write_q;
+  assign wrote  = wr_clk_i && !wr_clk_q && write_q;
   assign ticked = clk_i && !clk_q;
   // One reset, in the beginning.
   always @* begin
-    if (!started) assume (!rst_ni && !hclk_i && !clk_i);
+    if (!started) assume (!rst_ni && !wr_clk_i && !clk_i);
     if (started && rst_q) assume (rst_ni);
-    if (started && rst_ni != rst_q) assume (hclk_i == hclk_q && clk_i == clk_q);
+    if (started && rst_ni != rst_q) assume (wr_clk_i == wr_clk_q && clk_i == clk_q);
     if (started && mixed_q && ticked) assume (wrote);
   end
 
@@ -60,7 +60,7 @@ module proof (
   mb4_pkg::instr_t written;
 
   mb4_instr_reg u_instr (
-    .hclk_i, .rst_ni, .host_i({write_i, 8'hF4, data_i, 9'd0}),
+    .wr_clk_i, .rst_ni, .host_i({write_i, 8'hF4, data_i, 9'd0}),
     .pending_o(pending), .instr_o({count, written}), .instr_i({ack, 8'h00}),
     .base_i(1'b0), .newest_i(1'b0)
   );
@@ -70,7 +70,7 @@ module proof (
   // rest; one BREAK out of all.
   logic [6:0] last_q;
   logic       alone_q, break_q, watched_q;
-  always @(posedge hclk_i or negedge rst_ni) begin
+  always @(posedge wr_clk_i or negedge rst_ni) begin
     if (!rst_ni) {last_q, alone_q, break_q, watched_q} <= '0;
     else if (write_i) begin
       last_q    <= data_i[6:0];

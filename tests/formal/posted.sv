@@ -43,7 +43,7 @@
 // mutation: common/enc_posted.sv | empty_o = wr_gray_q == taken_q; | empty_o = wr_sync == taken_q;
 
 module proof (
-  input logic       hclk_i,
+  input logic       wr_clk_i,
   input logic       clk_i,
   input logic       rst_ni,
   input logic       write_i,
@@ -55,16 +55,16 @@ module proof (
 
   (* gclk *) logic gclk;
   logic started = 1'b0;
-  logic hclk_q, clk_q, rst_q, ready_q, write_q;
+  logic wr_clk_q, clk_q, rst_q, ready_q, write_q;
   logic [2:0] data_q;
   always @(posedge gclk) begin
-    {started, hclk_q, clk_q, rst_q} <= {1'b1, hclk_i, clk_i, rst_ni};
+    {started, wr_clk_q, clk_q, rst_q} <= {1'b1, wr_clk_i, clk_i, rst_ni};
     {ready_q, write_q, data_q} <= {ready_i, write_i, data_i};
   end
   always @* begin
-    if (!started) assume (!rst_ni && !hclk_i && !clk_i);
+    if (!started) assume (!rst_ni && !wr_clk_i && !clk_i);
     if (started && rst_q) assume (rst_ni);
-    if (started) assume ({1'b0, hclk_i != hclk_q} + {1'b0, clk_i != clk_q} +
+    if (started) assume ({1'b0, wr_clk_i != wr_clk_q} + {1'b0, clk_i != clk_q} +
                          {1'b0, rst_ni != rst_q} < 2'd2);
   end
 
@@ -77,7 +77,7 @@ module proof (
   assign wait_n = in_q - out_q;
   assign write  = write_i && wait_n < 3'd4;
 
-  always @(posedge hclk_i or negedge rst_ni) begin
+  always @(posedge wr_clk_i or negedge rst_ni) begin
     if (!rst_ni) in_q <= '0;
     else if (write) begin
       in_q            <= in_q + 3'd1;
@@ -95,7 +95,7 @@ module proof (
   logic [2:0] place_q;
   logic       watch;
   assign watch = write && chosen_i && !watched_q;
-  always @(posedge hclk_i or negedge rst_ni) begin
+  always @(posedge wr_clk_i or negedge rst_ni) begin
     if (!rst_ni) {mark_q, watched_q, before_q, place_q} <= '0;
     else begin
       if (watch) {watched_q, place_q} <= {1'b1, in_q};
@@ -111,7 +111,7 @@ module proof (
   end
 
   enc_posted #(.Width(3), .AddrW(2)) u_dut (
-    .hclk_i, .hrst_ni(rst_ni), .wr_en_i(write), .wr_data_i(data_i),
+    .wr_clk_i, .wr_rst_ni(rst_ni), .wr_en_i(write), .wr_data_i(data_i),
     .empty_o(empty), .mark_i(mark_q), .mark_o(marked), .clk_i, .rst_ni,
     .valid_o(valid), .data_o(data), .ready_i
   );

@@ -26,7 +26,8 @@ def main():
             [project.tool("verilator"), "--cc", "--build", "-j", "2", "-fno-const-bit-op-tree",
              *project.verilator_flags(), "-Wno-fatal", "-Wno-lint", "-Wno-style",
              f"-I{project.INCLUDE}",
-             "-CFLAGS", f"-O1 -std=c++20 -DVL_USER_STOP -include {HERE / 'mutant.h'} -include "
+             "-MAKEFLAGS", "OPT_FAST=-O3",
+             "-CFLAGS", f"-std=c++20 -DVL_USER_STOP -include {HERE / 'mutant.h'} -include "
              f"{project.ROOT / 'sim' / 'model' / 'verilated_hooks.h'}",
              "--top-module", "mb4_chip", "--prefix", "Vmb4_mutant", "--Mdir", folder,
              project.ROOT / "sim/masters/mb4/model/public.vlt",

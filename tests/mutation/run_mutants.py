@@ -121,7 +121,6 @@ def main():
         with log.open("a", encoding="utf-8") as file:
             file.write(text + "\n")
 
-    os.nice(15)
     stages = next((json.loads(said) for key, said in kept if key == "stages"), None)
     if stages is None:
         stages = batches(programs, jobs)

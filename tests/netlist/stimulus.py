@@ -206,13 +206,13 @@ def slave_cfg_store(steps):
     steps.reset(["rst_ni"])
     for address in range(32):
         steps.step(host_i=pack((1, 1), (0xC0 | address, 8), (steps.rng.getrandbits(8), 8), (0, 9)))
-        steps.clock("hclk_i")
+        steps.clock("wr_clk_i")
     steps.step(host_i=1 << 8, list_en_i=0xF)
-    steps.clock("rclk_i")
+    steps.clock("rd_clk_i")
     steps.clock("clk_i")
     steps.compare_from = len(steps.steps)
     # A write and a read of one row never share a clock edge: which byte is read is left open.
-    play(steps, ["hclk_i", "rclk_i", "clk_i"], ["rst_ni"], 12000,
+    play(steps, ["wr_clk_i", "rd_clk_i", "clk_i"], ["rst_ni"], 12000,
          host(lambda s: 0xC0 | s.rng.getrandbits(5 + int(s.chance(0.2))),
               # 0x10 is the CRC of 16 bits, 0x81 that of one bit.
               lambda s: s.rng.choice([0x10, 0x81]) if s.chance(0.2) else s.rng.getrandbits(8)),
@@ -225,7 +225,7 @@ def memory(steps):
         steps.step(clear_i=pack((1, 1), (address, 6), (0, 8)))
         steps.clock("clk_i")
     steps.step(clear_i=0, rd_i=1 << 6, eng_rd_i=1 << 6)
-    steps.clock("rclk_i")
+    steps.clock("rd_clk_i")
     steps.clock("clk_i")
     steps.compare_from = len(steps.steps)
     # Few bytes, the same in both banks.
@@ -238,19 +238,19 @@ def memory(steps):
     for port in ("eng_rd_i", "rd_i", "rd2_i"):
         few |= struct(port, (0.5, 1), (place, 6))
     # A write and a read of one address never share a clock edge: which byte is read is left open.
-    play(steps, ["clk_i", "rclk_i"], [], 6000, few, one_clock=True)
+    play(steps, ["clk_i", "rd_clk_i"], [], 6000, few, one_clock=True)
 
 
 def posted(steps):
     """The data output is unknown until the first byte has come."""
-    steps.reset(["hrst_ni", "rst_ni"])
+    steps.reset(["host_rst_ni", "rst_ni"])
     steps.step(wr_en_i=1, wr_data_i=0x1234)
-    steps.clock("hclk_i")
+    steps.clock("wr_clk_i")
     steps.step(wr_en_i=0)
     for _ in range(5):
         steps.clock("clk_i")
     steps.compare_from = len(steps.steps)
-    play(steps, ["hclk_i", "clk_i"], ["hrst_ni", "rst_ni"], 6000, {"wr_en_i": 0.2},
+    play(steps, ["wr_clk_i", "clk_i"], ["host_rst_ni", "rst_ni"], 6000, {"wr_en_i": 0.2},
          reset_rate=0.0, one_clock=True)
 
 
@@ -262,7 +262,7 @@ def kind(steps):
 
 
 def line_event(steps):
-    """line_event_t of biss_pkg: frame_end, init_done, init_fail."""
+    """line_event_t of biss_pkg: line_end, init_done, init_fail."""
     return steps.rng.getrandbits(2) << 1 | steps.chance(0.07)
 
 
@@ -381,7 +381,7 @@ def biss_b(steps):
     steps.reset(["rst_ni"])
     for number in range(6):
         write, value, count = number & 1, steps.rng.getrandbits(8), steps.rng.choice([3, 64, 64])
-        steps.step(freqr_i=0, access_i=access(steps, 1, write, count), mo_i=number >> 1 & 1, use_i=1 + number % 3,
+        steps.step(freqr_i=0, access_i=access(steps, 1, write, count), mo_i=number >> 1 & 1, start_use_i=1 + number % 3,
                    rdata_i=value, init_i=0, start_i=1, sl_i=3, tick_i=1, expired_i=0)
         steps.clock("clk_i")
         steps.step(start_i=0, sl_i=0)
@@ -401,7 +401,7 @@ def biss_b(steps):
         "freqr_i": rarely("freqr_i", 0.003, lambda s: s.rng.choice([0, 0, 1])),
         "access_i": rarely("access_i", 0.01, lambda s: access(
             s, 1, s.rng.getrandbits(1), s.rng.choice([1, 2]))),
-        "mo_i": rarely("mo_i", 0.01), "use_i": rarely("use_i", 0.003),
+        "mo_i": rarely("mo_i", 0.01), "start_use_i": rarely("start_use_i", 0.003),
         "rdata_i": rarely("rdata_i", 0.003)})
 
 
@@ -467,7 +467,7 @@ def core(steps):
 
 
 CORE = (["clk_i"], ["rst_ni"])
-HOST = (["hclk_i"], ["rst_ni"])
+HOST = (["wr_clk_i"], ["rst_ni"])
 
 MODULES = {
     "enc_clk_mux": simple(["clk0_i", "clk1_i"], ["rst_ni"], 4000,
@@ -483,7 +483,7 @@ MODULES = {
     "mb4_slave_cfg": slave_cfg_store,
     "mb4_instr_reg": simple(*HOST, 4000, host(
         lambda s: 0xF4 ^ (int(s.chance(0.3)) << s.rng.randrange(8)))),
-    "mb4_host_read": simple(["rclk_i"], ["rst_ni"], 6000, host()),
+    "mb4_host_read": simple(["rd_clk_i"], ["rst_ni"], 6000, host()),
     "mb4_bank_ctrl": simple(*CORE, 4000, struct(
         "bank_i", (0.5, 1), (None, 1), (0.2, 1), (None, 1), (0.1, 1), (None, 1))),
     "mb4_crc_decode": crc_decode,

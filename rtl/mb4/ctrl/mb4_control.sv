@@ -131,7 +131,7 @@ module mb4_control (
     .clear_i       (frame_flags.clear),
     .init_clear_i  (init_clear),
     .go_i          (go_o),
-    .use_i         (start_use),
+    .start_use_i   (start_use),
     .frame_end_i   (bank_o.frame_end),
     .live_i        (live),
     .automatic_i   (automatic_frames),

@@ -27,7 +27,7 @@ module mb4_control_comm (
   input  logic       clear_i,          // BREAK, INIT
   input  logic       init_clear_i,     // INIT begins
   input  biss_pkg::line_go_t go_i,
-  input  logic [1:0] use_i,            // lines that go_i.start is for
+  input  logic [1:0] start_use_i,      // lines that go_i.start is for
   input  logic       frame_end_i,
   input  logic       live_i,           // frames run, or will come by themselves
   input  logic       automatic_i,      // no frame depends on INSTR
@@ -131,7 +131,7 @@ module mb4_control_comm (
     .access_i  (access),
     .mo_i      (cfg_i.en_mo),
     .start_i   (register_start),
-    .use_i,
+    .start_use_i,
     .init_i    (go_i.init),
     .abort_i   (go_i.stop),
     .tick_i,

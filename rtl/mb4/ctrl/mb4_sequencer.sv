@@ -23,10 +23,11 @@
 // - A frame is due while HOLDBANK holds back a switch: the frame runs into the other bank and the
 //   switch is lost (mb4_bank_ctrl). With QUIRK_AGSERR_ON_HOLDBANK there is no frame,
 //   SWBANKFAIL = 1 and nAGSERR = 0 (decision 15).
-// - A control communication that cannot run ends at once (decision 37). So does a BiSS B access
-//   that waits for its automatic frame when its lines or REGVERS are changed.
+// - A control communication that cannot run ends at once (decision 37). A BiSS B access that waits
+//   for its automatic frame ends too when its lines or REGVERS are changed.
 // - A BiSS B access without AGS cannot begin while SL is low: the first request after the limit of
-//   the watchdog ends it (decision 42). A BiSS C access has begun: biss_control_frame ends it.
+//   the watchdog ends it (decision 42). A BiSS C access begins even while SL is low;
+//   biss_control_frame ends it.
 // - INSTR written with the code whose frame runs does not ask for another frame.
 //
 // Datasheet: pages 31..33, Tables 44..49; decisions 1, 3, 8, 14, 15, 19, 23, 25, 26, 37, 42.
@@ -126,7 +127,7 @@ module mb4_sequencer (
   assign {event2, event1}   = event_i;
   assign asked     = instr_i.written;
   assign idle      = {status2.idle, status1.idle};
-  assign line_end  = {event2.frame_end, event1.frame_end};
+  assign line_end  = {event2.line_end, event1.line_end};
   assign init_done = {event2.init_done, event1.init_done};
   assign init_fail = {event2.init_fail, event1.init_fail};
 

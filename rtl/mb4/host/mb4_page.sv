@@ -151,11 +151,11 @@ module mb4_page (
                                   : late_q ? late_addr_q : {tap_i.banks.eng, tap_i.slave[5:3]};
 
   enc_ram #(.Width(TAG_W), .AddrW(4)) u_tags (
-    .wclk_i    (clk_i),
+    .wr_clk_i  (clk_i),
     .wr_en_i   (tag_wr),
     .wr_addr_i (tag_addr),
     .wr_data_i (tap_i.done[0] ? tag1_q : tag2_q),
-    .rclk_i    (clk_i),
+    .rd_clk_i  (clk_i),
     .rd_en_i   (rd_en_o),
     .rd_addr_i ({tap_i.banks.host, page_i.channel}),
     .rd_data_o (tag)
@@ -277,11 +277,11 @@ module mb4_page (
   end
 
   enc_ram #(.Width(32), .AddrW(6)) u_shadow (
-    .wclk_i    (clk_i),
+    .wr_clk_i  (clk_i),
     .wr_en_i   (row_wr),
     .wr_addr_i ({page_i.channel & {3{!page_i.stamp}}, row}),
     .wr_data_i (row_data),
-    .rclk_i    (shadow_clk_i),
+    .rd_clk_i  (shadow_clk_i),
     .rd_en_i   (shadow_en_i),
     .rd_addr_i (shadow_addr_i),
     .rd_data_o (shadow_data_o)

@@ -12,7 +12,7 @@
 //   I112).
 //
 // Misuse: with NCS high nothing happens. NRD and NWR low together are a write. NCS or a strobe that
-// changes at the wrong time may end an access early; no state but the address stays behind. NRES
+// changes at the wrong time may end an access early; afterwards only the address is kept. NRES
 // must rise while the strobes rest: a strobe that ends after NRES has risen writes.
 // Datasheet: pages 9, 10, 17, Table 2.
 

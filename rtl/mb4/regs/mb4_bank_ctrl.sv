@@ -17,8 +17,8 @@
 //   HOLDBANK and set it again gets the swap that was pending, even if the 0 never arrives here.
 //
 // The base is the host's bank without the inversions of SWBANK.
-// Misuse: the ends of two frames between the host's write of HOLDBANK and its arrival here; a swap
-// may then be lost.
+// Misuse: if two frames end after the host has written HOLDBANK and before it arrives here, a swap
+// may be lost.
 // Datasheet: pages 26, 31, 33, Tables 38, 48, 49; decisions 15, 41.
 
 module mb4_bank_ctrl (

@@ -4,7 +4,7 @@
 // Configuration registers 0xE2..0xE9, 0xEC..0xEF and 0xF5. The registers of the data channels are
 // in mb4_slave_cfg.
 //
-// Clock domain: host (hclk_i: SCLK or bus strobe); no system clock is needed. An edge of hclk_i
+// Clock domain: host (wr_clk_i: SCLK or bus strobe); no system clock is needed. An edge of wr_clk_i
 // with host_i.wr_en writes; rd_data_o is combinational from host_i.rd_addr. The outputs are
 // quasi-static for the core: the datasheet (page 28) asks the host to keep them stable while frames
 // run. An instruction that the host writes after them reaches the core when they have settled
@@ -14,7 +14,7 @@
 // Datasheet: pages 21..31, Tables 6..43.
 
 module mb4_cfg_regs (
-  input  logic       hclk_i,
+  input  logic       wr_clk_i,
   input  logic       rst_ni,
   // host byte bus
   input  mb4_pkg::host_t host_i,
@@ -42,7 +42,7 @@ module mb4_cfg_regs (
 
   assign rd_addr = host_i.rd_addr;
 
-  always_ff @(posedge hclk_i or negedge rst_ni) begin
+  always_ff @(posedge wr_clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
       regadr_q    <= '0;
       regnum_q    <= '0;

@@ -3,7 +3,7 @@
 //
 // Host read side: chooses the source of every address and holds the byte for the host interface.
 //
-// Clock domain: host reads (rclk_i).
+// Clock domain: host reads (rd_clk_i).
 // Latency: rd_data_o is valid after the edge with host_i.rd_en, until the next read.
 //
 // The status bits of the core and the bank that the host owns are asynchronous here. One flop (the
@@ -15,7 +15,7 @@
 // Datasheet: pages 21, 22, 34..36, Tables 6, 41, 42, 54..67.
 
 module mb4_host_read (
-  input  logic       rclk_i,
+  input  logic       rd_clk_i,
   input  logic       rst_ni,
   // host byte bus
   input  mb4_pkg::host_t host_i,
@@ -135,7 +135,7 @@ module mb4_host_read (
     endcase
   end
 
-  always_ff @(posedge rclk_i or negedge rst_ni) begin
+  always_ff @(posedge rd_clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
       reg_sel_q   <= 1'b0;
       slave_sel_q <= 1'b0;

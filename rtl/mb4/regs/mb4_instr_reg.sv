@@ -3,7 +3,7 @@
 //
 // Instruction register 0xF4, host half: keeps the written byte for the core and reads it back.
 //
-// Clock domain: host (hclk_i). instr_o.count, a Gray count, tells the core of a write. The core
+// Clock domain: host (wr_clk_i). instr_o.count, a Gray count, tells the core of a write. The core
 // acts once for each step and answers with its own count, instr_i.ack. Until both counts are equal:
 //
 // - the register reads as written (BREAK never reads 1),
@@ -14,17 +14,17 @@
 // last step comes with the last byte. A BREAK among these writes stays in the byte until the core
 // has acted.
 //
-// The bank of the host follows the order of the writes. SWBANK acts at its write. The rest is the
-// base: the bank without the inversions of SWBANK. A write that sets, keeps or clears HOLDBANK
+// The bank of the host follows the order of the writes. SWBANK acts at its write. The base is the
+// bank without the inversions of SWBANK. A write that sets, keeps or clears HOLDBANK
 // keeps a base until the core has acted: with HOLDBANK = 1 the one that the host had, with
 // HOLDBANK = 0 that of the newest word. kept_o tells the core which base it is (mb4_bank_ctrl).
 //
-// Misuse: a write at the moment in which the core takes the previous one. The core may then take
-// some bits of the older byte; it takes the later byte three clocks later.
+// Misuse: the host writes while the core takes the previous byte. The core may then take some bits
+// of the older byte; three clocks later it takes the new one.
 // Datasheet: pages 32, 33, Tables 44..49; decisions 25, 26, 41.
 
 module mb4_instr_reg (
-  input  logic       hclk_i,
+  input  logic       wr_clk_i,
   input  logic       rst_ni,
   // host byte bus
   input  mb4_pkg::host_t host_i,
@@ -47,7 +47,7 @@ module mb4_instr_reg (
   logic       hold_q;     // the byte, or one that the core has not answered, has HOLDBANK = 1
   logic       base;
 
-  always_ff @(posedge hclk_i or negedge rst_ni) begin
+  always_ff @(posedge wr_clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
       byte_q  <= '0;
       count_q <= '0;

@@ -5,7 +5,7 @@
 // the other. Three of them exist: SCDATA1..4, SCDATA5..8 (two banks each; the core reads data for
 // MO) and RDATA (the core is the control communication).
 //
-// Clock domains: the core clock for writes and for the reads of the core, rclk_i for the reads of
+// Clock domains: the core clock for writes and for the reads of the core, rd_clk_i for the reads of
 // the host. With Port2 there is one more copy for a second host reader with its own clock.
 // Latency: data are valid one edge after their address. With Banks the highest address bit is the
 // bank, and a host read gives the bytes of both banks, so that it does not depend on the bank that
@@ -33,7 +33,7 @@ module mb4_memory #(
   input  mb4_pkg::mem_wr_t host_wr_i,
   output logic       host_ready_o,
   // host read port
-  input  logic        rclk_i,
+  input  logic        rd_clk_i,
   input  mb4_pkg::mem_rd_t rd_i,
   output logic [15:0] rd_data_o,     // bank 1 in the upper byte
   // second read port
@@ -55,23 +55,23 @@ module mb4_memory #(
 
   if (Banks) begin : gen_banks
     enc_ram_pair #(.AddrW(5)) u_host (
-      .wclk_i    (clk_i),
+      .wr_clk_i  (clk_i),
       .wr_en_i   (wr_en),
       .wr_side_i (wr_addr[5]),
       .wr_addr_i (wr_addr[4:0]),
       .wr_data_i (wr_data),
-      .rclk_i,
+      .rd_clk_i,
       .rd_en_i   (rd_i.en),
       .rd_addr_i (rd_i.addr[4:0]),
       .rd_data_o
     );
   end else begin : gen_no_banks
     enc_ram #(.Width(8), .AddrW(6)) u_host (
-      .wclk_i    (clk_i),
+      .wr_clk_i  (clk_i),
       .wr_en_i   (wr_en),
       .wr_addr_i (wr_addr),
       .wr_data_i (wr_data),
-      .rclk_i,
+      .rd_clk_i,
       .rd_en_i   (rd_i.en),
       .rd_addr_i (rd_i.addr),
       .rd_data_o (rd_data_o[7:0])
@@ -80,11 +80,11 @@ module mb4_memory #(
   end
 
   enc_ram #(.Width(8), .AddrW(6)) u_engine (
-    .wclk_i    (clk_i),
+    .wr_clk_i  (clk_i),
     .wr_en_i   (wr_en),
     .wr_addr_i (wr_addr),
     .wr_data_i (wr_data),
-    .rclk_i    (clk_i),
+    .rd_clk_i  (clk_i),
     .rd_en_i   (eng_rd_i.en),
     .rd_addr_i (eng_rd_i.addr),
     .rd_data_o (eng_data_o)
@@ -92,12 +92,12 @@ module mb4_memory #(
 
   if (Port2) begin : gen_port2
     enc_ram_pair #(.AddrW(5)) u_ram (
-      .wclk_i    (clk_i),
+      .wr_clk_i  (clk_i),
       .wr_en_i   (wr_en),
       .wr_side_i (wr_addr[5]),
       .wr_addr_i (wr_addr[4:0]),
       .wr_data_i (wr_data),
-      .rclk_i    (rd2_clk_i),
+      .rd_clk_i  (rd2_clk_i),
       .rd_en_i   (rd2_i.en),
       .rd_addr_i (rd2_i.addr[4:0]),
       .rd_data_o (rd2_data_o)

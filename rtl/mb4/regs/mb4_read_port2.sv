@@ -3,13 +3,13 @@
 //
 // Second host read port: chooses the byte of the host's bank, as mb4_host_read does.
 //
-// Clock domain: its own rclk_i. bank_i and ram_ready_i are asynchronous here; one flop each samples
-// them at the edge that reads the memory.
+// Clock domain: its own rd_clk_i. bank_i and ram_ready_i are asynchronous here; one flop each
+// samples them at the edge that reads the memory.
 // Until the memories are cleared the port reads 0.
 // Datasheet: page 19.
 
 module mb4_read_port2 (
-  input  logic        rclk_i,
+  input  logic        rd_clk_i,
   input  logic        rst_ni,
   input  logic        rd_en_i,
   output logic [7:0]  rd_data_o,
@@ -21,7 +21,7 @@ module mb4_read_port2 (
   logic bank_q;
   logic ready_q;
 
-  always_ff @(posedge rclk_i or negedge rst_ni) begin
+  always_ff @(posedge rd_clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
       bank_q  <= 1'b0;
       ready_q <= 1'b0;

@@ -6,27 +6,27 @@
 // addresses are kept, the newest first. An address includes the host's bank of SCDATA, so a switch
 // of the banks hides no byte and shows none of the other bank.
 //
-// Clock domains: host; writes in hclk_i, reads in rclk_i. These are one clock, or two strobes of
-// which one rests while the other has edges.
+// Clock domains: host; writes in wr_clk_i, reads in rd_clk_i. These are one clock, or two strobes
+// of which one rests while the other has edges.
 // Latency: hit_o and data_o are valid after the edge with host_i.rd_en, until the next read.
 //
 // An entry ends when the core has taken its byte (enc_posted); the memory answers from then on.
 // Three things tell this at the read:
 //
 // - empty_i: all bytes have been taken,
-// - no byte waited at the last edge of hclk_i: only a byte written with that edge may wait,
+// - no byte waited at the last edge of wr_clk_i: only a byte written with that edge may wait,
 // - marked_i = mark_o: the bytes written before the last change of mark_o have been taken. mark_o
-//   changes with an edge of hclk_i, when marked_i has followed.
+//   changes with an edge of wr_clk_i, when marked_i has followed.
 //
 // Misuse: none; older addresses read what the memory holds. A byte that was written after the last
 // change of mark_o, with less than 8 clocks of the core between the writes, may answer until all
-// bytes of this row of writes have been taken.
+// bytes of this sequence of writes have been taken.
 // Source: decision 36.
 
 module mb4_recent (
-  input  logic       hclk_i,
+  input  logic       wr_clk_i,
   input  logic       rst_ni,
-  input  logic       rclk_i,
+  input  logic       rd_clk_i,
   input  mb4_pkg::host_t host_i,
   input  logic       bank_i,      // bank of SCDATA that the host has
   output logic       hit_o,
@@ -42,14 +42,14 @@ module mb4_recent (
   logic [31:0] addr_q;    // four addresses, the newest lowest
   logic [3:0]  valid_q;
   logic [3:0]  old_q;     // written before the mark
-  logic [3:0]  drained;   // no byte waited at the last edge of hclk_i, nor was this one written
+  logic [3:0]  drained;   // at the last edge of wr_clk_i no byte waited, and this was not written
   logic [3:0]  valid;     // valid_q without the bytes that the core has taken
   logic [3:0]  old;
   logic        passed;
   logic        mark_q;
   logic        marked_q;
   logic        empty_q;
-  logic        fresh_q;   // the newest entry was written at the last edge of hclk_i
+  logic        fresh_q;   // the newest entry was written at the last edge of wr_clk_i
   logic        hit_q;
   logic [2:0]  wr_match;
   logic [3:0]  rd_match;
@@ -77,7 +77,7 @@ module mb4_recent (
   assign valid  = valid_q & ~(old_q & {4{passed}}) & ~drained;
   assign old    = old_q | {4{passed}};
 
-  always_ff @(posedge hclk_i or negedge rst_ni) begin
+  always_ff @(posedge wr_clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
       addr_q   <= '0;
       valid_q  <= '0;
@@ -101,17 +101,17 @@ module mb4_recent (
   end
 
   enc_ram #(.Width(8), .AddrW(8)) u_ram (
-    .wclk_i    (hclk_i),
+    .wr_clk_i,
     .wr_en_i   (wr_en),
     .wr_addr_i (wr_addr),
     .wr_data_i (host_i.wr_data),
-    .rclk_i,
+    .rd_clk_i,
     .rd_en_i   (host_i.rd_en),
     .rd_addr_i (rd_addr),
     .rd_data_o (data_o)
   );
 
-  always_ff @(posedge rclk_i or negedge rst_ni) begin
+  always_ff @(posedge rd_clk_i or negedge rst_ni) begin
     if (!rst_ni)           hit_q <= 1'b0;
     else if (host_i.rd_en) hit_q <= !host_i.rd_addr[6] && rd_match != 4'b0000 && !empty_i;
   end

@@ -5,11 +5,11 @@
 // banks, validity flags, and the read side. The file connects these modules and decodes the
 // addresses of posted writes; it has no flops of its own.
 //
-// Clock domains: host (hclk_i writes, rclk_i reads) and core (clk_i). hclk_i and rclk_i are one
-// clock, or two strobes of which one rests while the other has edges. SCDATA, RDATA and SVALID are
-// in the core domain: host writes to them are posted and wait for a running core clock. All other
-// registers work without it. With Port2 there is one more read port for SCDATA5..8 with its own
-// clock (rd2_clk_i).
+// Clock domains: host (wr_clk_i writes, rd_clk_i reads, host_rst_ni) and core (clk_i, rst_ni).
+// wr_clk_i and rd_clk_i are one clock, or two strobes of which one rests while the other has edges.
+// SCDATA, RDATA and SVALID are in the core domain: host writes to them are posted and wait for a
+// running core clock. All other registers work without it. With Port2 there is one more read port
+// for SCDATA5..8 with its own clock (rd2_clk_i).
 // Vectors: bit i of a vector {2, 1} is for line i + 1.
 // Datasheet: pages 21..36. Crossings: docs/crossings.md.
 
@@ -19,10 +19,10 @@ module mb4_reg_file #(
 ) (
   input  logic       clk_i,
   input  logic       rst_ni,          // core domain
-  input  logic       hrst_ni,         // host domain
-  // host byte bus, sampled at the rising edge of hclk_i and rclk_i
-  input  logic       hclk_i,
-  input  logic       rclk_i,
+  input  logic       host_rst_ni,     // host domain
+  // host byte bus, sampled at the rising edge of wr_clk_i and rd_clk_i
+  input  logic       wr_clk_i,
+  input  logic       rd_clk_i,
   input  mb4_pkg::host_t host_i,
   output logic [7:0] rd_data_o,
   // second read port
@@ -87,18 +87,18 @@ module mb4_reg_file #(
   // ---- registers ----------------------------------------------------------------------------
 
   mb4_cfg_regs u_cfg (
-    .hclk_i,
-    .rst_ni      (hrst_ni),
+    .wr_clk_i,
+    .rst_ni      (host_rst_ni),
     .host_i,
     .rd_data_o   (cfg_data),
     .cfg_o
   );
 
   mb4_slave_cfg u_slave_cfg (
-    .hclk_i,
-    .rst_ni       (hrst_ni),
+    .wr_clk_i,
+    .rst_ni       (host_rst_ni),
     .host_i,
-    .rclk_i,
+    .rd_clk_i,
     .rd_data_o    (slave_data),
     .clk_i,
     .enscd_o,
@@ -108,8 +108,8 @@ module mb4_reg_file #(
   );
 
   mb4_instr_reg u_instr (
-    .hclk_i,
-    .rst_ni      (hrst_ni),
+    .wr_clk_i,
+    .rst_ni      (host_rst_ni),
     .host_i,
     .rd_data_o   (instr_data),
     .pending_o   (instr_pending),
@@ -123,8 +123,8 @@ module mb4_reg_file #(
   );
 
   mb4_host_read u_read (
-    .rclk_i,
-    .rst_ni (hrst_ni),
+    .rd_clk_i,
+    .rst_ni (host_rst_ni),
     .host_i,
     .rd_data_o,
     .ram_ready_i     (!clear.en),
@@ -147,8 +147,8 @@ module mb4_reg_file #(
   );
 
   mb4_read_port2 u_read2 (
-    .rclk_i      (rd2_clk_i),
-    .rst_ni      (hrst_ni),
+    .rd_clk_i    (rd2_clk_i),
+    .rst_ni      (host_rst_ni),
     .rd_en_i     (rd2_i.en),
     .rd_data_o   (rd2_data_o),
     .ram_ready_i (!clear.en && Port2),
@@ -166,8 +166,8 @@ module mb4_reg_file #(
                                     host_i.wr_addr == mb4_regs_pkg::ADDR_SVALID_HI);
 
   enc_posted #(.Width(16)) u_posted (
-    .hclk_i,
-    .hrst_ni,
+    .wr_clk_i,
+    .wr_rst_ni (host_rst_ni),
     .wr_en_i   (post_wr),
     .wr_data_i ({host_i.wr_addr[7], host_i.wr_addr[6] || (!host_i.wr_addr[7] && bank_seen),
                  host_i.wr_addr[6] ? bank_seen : host_i.wr_addr[5], host_i.wr_addr[4:0],
@@ -185,9 +185,9 @@ module mb4_reg_file #(
 
   // Until posted bytes of SCDATA and RDATA have arrived, reads of them are answered here.
   mb4_recent u_recent (
-    .hclk_i,
-    .rst_ni    (hrst_ni),
-    .rclk_i,
+    .wr_clk_i,
+    .rst_ni    (host_rst_ni),
+    .rd_clk_i,
     .host_i,
     .bank_i    (bank_seen),
     .hit_o     (recent_hit),
@@ -216,7 +216,7 @@ module mb4_reg_file #(
     .post_valid_i (post_valid),
     .post_i       (post_data),
     .post_ready_o (ready_scd),
-    .rclk_i,
+    .rd_clk_i,
     .rd_i         (rd),
     .rd_lo_data_o (scd_lo_data),
     .rd_hi_data_o (scd_hi_data),
@@ -239,7 +239,7 @@ module mb4_reg_file #(
     .eng_data_o   (rdata_o),
     .host_wr_i    ({post_rdata, post_data[13:0]}),
     .host_ready_o (ready_rdata),
-    .rclk_i,
+    .rd_clk_i,
     .rd_i         (rd),
     .rd_data_o    (rdata_data),
     .rd2_clk_i    (1'b0),

@@ -11,9 +11,10 @@
 // and the word is not valid (decision 34). Bytes of the clock of bank_i.swap still go to the old
 // bank; a word that ends in this clock is complete.
 //
-// Clock domains: core; rclk_i for the reads of the host; rd2_clk_i for the second read port
-// (SCDATA5..8, only with Port2;
-// SCDATA1..4 with Tap).
+// Clock domains:
+// - core,
+// - rd_clk_i: reads of the host,
+// - rd2_clk_i: second read port (SCDATA5..8 with Port2, SCDATA1..4 with Tap).
 // Latency: read data are valid after the edge with the enable. A read gives the bytes and flags of
 // both banks, bank 1 above bank 0.
 // Vectors: bit i of a vector {2, 1} is for line i + 1. Host writes and clears act on the bank that
@@ -35,7 +36,7 @@ module mb4_scd_store #(
   input  logic [15:0] post_i,
   output logic       post_ready_o,    // also 1 if the byte is not for this module
   // host read port
-  input  logic        rclk_i,
+  input  logic        rd_clk_i,
   input  mb4_pkg::mem_rd_t rd_i,
   output logic [15:0] rd_lo_data_o,
   output logic [15:0] rd_hi_data_o,
@@ -125,7 +126,7 @@ module mb4_scd_store #(
     .eng_data_o   (lo_mo_data),
     .host_wr_i    ({post_lo, post_i[14], post_i[12:0]}),
     .host_ready_o (ready_lo),
-    .rclk_i,
+    .rd_clk_i,
     .rd_i,
     .rd_data_o    (rd_lo_data_o),
     .rd2_clk_i,
@@ -141,7 +142,7 @@ module mb4_scd_store #(
     .eng_data_o   (hi_mo_data),
     .host_wr_i    ({post_hi, post_i[14], post_i[12:0]}),
     .host_ready_o (ready_hi),
-    .rclk_i,
+    .rd_clk_i,
     .rd_i,
     .rd_data_o    (rd_hi_data_o),
     .rd2_clk_i,

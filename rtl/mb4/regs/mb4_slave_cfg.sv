@@ -5,8 +5,8 @@
 // copy of it. Each word list reads a copy of its own, in which the CRC choice is decoded
 // (mb4_crc_code, mb4_crc_decode): the host's write does it once for all of them.
 //
-// Clock domains: host (hclk_i writes, rclk_i reads); the word lists read in the core clock. Only
-// the word lists need the core clock.
+// Clock domains: host (wr_clk_i writes, rd_clk_i reads); the word lists read in the core clock.
+// Only the word lists need the core clock.
 // Latency: read data are valid after the edge with the enable, until the next read.
 //
 // A reset does not clear a memory. rows_q tells which rows have been written since the reset; the
@@ -19,10 +19,10 @@ module mb4_slave_cfg #(
   parameter int unsigned Lists = 4
 ) (
   // host
-  input  logic        hclk_i,
+  input  logic        wr_clk_i,
   input  logic        rst_ni,
   input  mb4_pkg::host_t host_i,
-  input  logic        rclk_i,
+  input  logic        rd_clk_i,
   output logic [7:0]  rd_data_o,
   // word lists, one slice for each
   input  logic        clk_i,
@@ -57,7 +57,7 @@ module mb4_slave_cfg #(
 
   assign crc_byte = wr_data[32'd8 * 32'(mb4_regs_pkg::SLAVE_CFG_CRC_OFFSET) +: 8];
 
-  always_ff @(posedge hclk_i or negedge rst_ni) begin
+  always_ff @(posedge wr_clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
       rows_q  <= '0;
       enscd_q <= '0;
@@ -86,18 +86,18 @@ module mb4_slave_cfg #(
   assign unused = crc_poly[0];   // every polynomial ends in 1
 
   enc_ram_row u_host (
-    .wclk_i    (hclk_i),
+    .wr_clk_i,
     .wr_en_i   (wr_en),
     .wr_addr_i (row),
     .wr_data_i (wr_data),
-    .rclk_i,
+    .rd_clk_i,
     .rd_en_i   (host_i.rd_en),
     .rd_addr_i (host_i.rd_addr[4:2]),
     .rd_data_o (rd_data)
   );
 
   // One select bit for each byte: half an SCLK period is left for the path to MISO.
-  always_ff @(posedge rclk_i or negedge rst_ni) begin
+  always_ff @(posedge rd_clk_i or negedge rst_ni) begin
     if (!rst_ni) sel_q <= '0;
     else if (host_i.rd_en) begin
       sel_q <= {4{rows_q[host_i.rd_addr[4:2]]}} & (4'b0001 << host_i.rd_addr[1:0]);
@@ -109,11 +109,11 @@ module mb4_slave_cfg #(
 
   for (genvar i = 0; i < Lists; i++) begin : gen_list
     enc_ram_row #(.Field1(20)) u_list (
-      .wclk_i    (hclk_i),
+      .wr_clk_i,
       .wr_en_i   (wr_en),
       .wr_addr_i (row),
       .wr_data_i ({wr_data[31:16], crc_on, crc_last, crc_poly[7:1], crc_top, wr_data[7:0]}),
-      .rclk_i    (clk_i),
+      .rd_clk_i  (clk_i),
       .rd_en_i   (list_en_i[i]),
       .rd_addr_i (list_slave_i[3*i +: 3]),
       .rd_data_o (list_cfg_o[mb4_pkg::SLAVE_CFG_W*i +: mb4_pkg::SLAVE_CFG_W])

@@ -64,7 +64,7 @@ class BAccessBlock : public testing::Test {
   BAccessBlock() {
     m.freqr_i = m.mo_i = 0;
     m.access_i = 0;
-    m.start_i = m.use_i = m.init_i = m.abort_i = m.tick_i = m.expired_i = 0;
+    m.start_i = m.start_use_i = m.init_i = m.abort_i = m.tick_i = m.expired_i = 0;
     m.sl_i = 3;
     m.rdata_i = 0;
     block.reset();
@@ -103,7 +103,7 @@ class BAccessBlock : public testing::Test {
     m.freqr_i = static_cast<std::uint8_t>(access.freqr);
     m.access_i = access.port();
     m.mo_i = access.mo;
-    m.use_i = static_cast<std::uint8_t>(access.lines);
+    m.start_use_i = static_cast<std::uint8_t>(access.lines);
     m.init_i = init;
     m.expired_i = 0;
     m.start_i = 1;

@@ -214,7 +214,7 @@ class FrameBenchOf {
       ++result_.words;
       if (model->word_ok_o != 0) ++result_.good;
     }
-    if (model->frame_end_o != 0) {
+    if (model->line_end_o != 0) {
       result_.ended = true;
       result_.end_time = time_;
     }

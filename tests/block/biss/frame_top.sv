@@ -31,7 +31,7 @@ module frame_top #(
   output logic         word_done_o,
   output logic         word_ok_o,
   output logic         cds_o,
-  output logic         frame_end_o,
+  output logic         line_end_o,
   output logic         init_done_o,
   output logic         init_fail_o,
   output logic [7:0]   quarters_o,
@@ -203,7 +203,7 @@ module frame_top #(
   assign quarters_o  = data.delay;
   assign cds_o       = status.cds;
   assign timeout_o   = status.timeout;
-  assign frame_end_o = ends.frame_end;
+  assign line_end_o = ends.line_end;
   assign init_done_o = ends.init_done;
   assign init_fail_o = ends.init_fail;
 

@@ -19,20 +19,20 @@ TEST(PostedBlock, HostBytesOf160nsAndAnyCoreClock_NoneIsLostOrDoubled) {
     for (unsigned phase = 0; phase < clk_ps; phase += clk_ps / 13) {
       mb4test::Owned<Venc_posted> owner;
       Venc_posted& posted = *owner;
-      posted.hclk_i = posted.clk_i = 0;
-      posted.hrst_ni = posted.rst_ni = 0;
+      posted.wr_clk_i = posted.clk_i = 0;
+      posted.wr_rst_ni = posted.rst_ni = 0;
       posted.wr_en_i = posted.mark_i = 0;
       posted.ready_i = 1;
       posted.eval();
       for (int i = 0; i < 3; ++i) {
         posted.clk_i = 1;
-        posted.hclk_i = 1;
+        posted.wr_clk_i = 1;
         posted.eval();
         posted.clk_i = 0;
-        posted.hclk_i = 0;
+        posted.wr_clk_i = 0;
         posted.eval();
       }
-      posted.hrst_ni = posted.rst_ni = 1;
+      posted.wr_rst_ni = posted.rst_ni = 1;
       posted.eval();
       // A byte lasts eight SCLK periods of 20 ns; its write comes with the last rising edge.
       std::uint64_t host_edge = 160'000;
@@ -46,9 +46,9 @@ TEST(PostedBlock, HostBytesOf160nsAndAnyCoreClock_NoneIsLostOrDoubled) {
             posted.wr_data_i = static_cast<std::uint16_t>(random());
             sent.push_back(posted.wr_data_i);
           }
-          posted.hclk_i = 1;
+          posted.wr_clk_i = 1;
           posted.eval();
-          posted.hclk_i = 0;
+          posted.wr_clk_i = 0;
           posted.wr_en_i = 0;
           posted.eval();
           host_edge += 160'000;
@@ -71,11 +71,11 @@ TEST(PostedBlock, HostBytesOf160nsAndAnyCoreClock_NoneIsLostOrDoubled) {
 TEST(PostedBlock, CoreClockStandsStill_128BytesWaitAndNoneIsLost) {
   mb4test::Owned<Venc_posted> owner;
   Venc_posted& posted = *owner;
-  posted.hclk_i = posted.clk_i = 0;
+  posted.wr_clk_i = posted.clk_i = 0;
   posted.wr_en_i = 0;
   posted.ready_i = 1;
   for (const int level : {1, 0, 1}) {
-    posted.hrst_ni = posted.rst_ni = static_cast<std::uint8_t>(level);
+    posted.wr_rst_ni = posted.rst_ni = static_cast<std::uint8_t>(level);
     posted.eval();
   }
   std::vector<std::uint16_t> sent, received;
@@ -92,9 +92,9 @@ TEST(PostedBlock, CoreClockStandsStill_128BytesWaitAndNoneIsLost) {
       posted.wr_en_i = 1;
       posted.wr_data_i = static_cast<std::uint16_t>(round * 1000 + i);
       sent.push_back(posted.wr_data_i);
-      posted.hclk_i = 1;
+      posted.wr_clk_i = 1;
       posted.eval();
-      posted.hclk_i = 0;
+      posted.wr_clk_i = 0;
       posted.wr_en_i = 0;
       posted.eval();
     }

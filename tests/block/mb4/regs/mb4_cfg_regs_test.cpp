@@ -33,16 +33,16 @@ constexpr Field kFields[] = {
 class CfgRegsBlock : public testing::Test {
  protected:
   CfgRegsBlock() {
-    m.hclk_i = 0;
+    m.wr_clk_i = 0;
     m.host_i = 0;
     mb4test::pulse_reset(m);
   }
   void write(unsigned address, unsigned byte, bool enable = true) {
     // mb4_pkg::host_t: wr_en, wr_addr, wr_data, rd_en, rd_addr.
     m.host_i = (enable ? 1U << 25 : 0) | address << 17 | byte << 9;
-    m.hclk_i = 1;
+    m.wr_clk_i = 1;
     m.eval();
-    m.hclk_i = 0;
+    m.wr_clk_i = 0;
     m.eval();
   }
   unsigned read(unsigned address) {

@@ -119,7 +119,7 @@ TEST(HostReadBlock, EveryAddressAndRandomSources_ReadsAsTable6) {
   mb4test::Dice random;
   mb4test::Owned<Vmb4_host_read> owner;
   Vmb4_host_read& m = *owner;
-  m.rclk_i = 0;
+  m.rd_clk_i = 0;
   m.host_i = 0;
   mb4test::pulse_reset(m);
   EXPECT_EQ(m.rd_data_o, 0);
@@ -131,18 +131,18 @@ TEST(HostReadBlock, EveryAddressAndRandomSources_ReadsAsTable6) {
       drive(m, s);
       m.host_i = kRead | address;
       m.eval();
-      m.rclk_i = 1;
+      m.rd_clk_i = 1;
       m.eval();
       drive_memories(m, s);
-      m.rclk_i = 0;
+      m.rd_clk_i = 0;
       m.eval();
       ASSERT_EQ(m.rd_data_o, s.read(address)) << std::hex << address;
       // Nothing changes the byte until the next read.
       drive(m, random_sources(random));
       m.host_i = random.below(256);
-      m.rclk_i = 1;
+      m.rd_clk_i = 1;
       m.eval();
-      m.rclk_i = 0;
+      m.rd_clk_i = 0;
       m.eval();
       ASSERT_EQ(m.rd_data_o, s.read(address)) << std::hex << address;
     }

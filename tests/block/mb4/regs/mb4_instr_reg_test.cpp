@@ -21,7 +21,7 @@ constexpr std::uint8_t kBreak = 0x80, kHoldBank = 0x40, kSwBank = 0x20;
 class Instr : public mb4test::Owned<Vmb4_instr_reg> {
  public:
   Instr() : m(**this) {
-    m.hclk_i = 0;
+    m.wr_clk_i = 0;
     m.host_i = 0;
     m.instr_i = m.base_i = m.newest_i = 0;
     for (const int level : {1, 0, 1}) {
@@ -32,9 +32,9 @@ class Instr : public mb4test::Owned<Vmb4_instr_reg> {
   void write(std::uint8_t data, std::uint8_t address = reg::kAddrInstr) {
     // mb4_pkg::host_t: wr_en, wr_addr, wr_data, rd_en, rd_addr.
     m.host_i = 1U << 25 | unsigned{address} << 17 | unsigned{data} << 9;
-    m.hclk_i = 1;
+    m.wr_clk_i = 1;
     m.eval();
-    m.hclk_i = 0;
+    m.wr_clk_i = 0;
     m.host_i = 0;
     m.eval();
   }

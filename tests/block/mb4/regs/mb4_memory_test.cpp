@@ -28,7 +28,7 @@ TEST(MemoryBlock, EveryMixOfWriters_BothSidesReadTheByteOfTheFirst) {
   mb4test::Owned<Vmb4_memory> owner;
   Vmb4_memory& m = *owner;
   const auto low = [&] {
-    m.clk_i = m.rclk_i = 0;
+    m.clk_i = m.rd_clk_i = 0;
     m.eval();
   };
   m.eng_wr_i = m.host_wr_i = 0;
@@ -83,11 +83,11 @@ TEST(MemoryBlock, EveryMixOfWriters_BothSidesReadTheByteOfTheFirst) {
     low();
     m.eng_rd_i = read_port(false, core_reads);
     m.rd_i = read_port(true, host_reads);
-    m.rclk_i = 1;
+    m.rd_clk_i = 1;
     m.eval();
     low();
     m.rd_i = read_port(false, (host_reads + 1) % 32);
-    m.rclk_i = m.clk_i = 1;  // neither side asks: both keep their byte
+    m.rd_clk_i = m.clk_i = 1;  // neither side asks: both keep their byte
     m.eval();
     low();
     ASSERT_EQ(m.eng_data_o, bytes[core_reads]);

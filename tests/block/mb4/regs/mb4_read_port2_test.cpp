@@ -16,7 +16,7 @@ TEST(ReadPort2Block, RandomReads_ByteIsOfTheBankAtTheEdge) {
   mb4test::Dice random;
   mb4test::Owned<Vmb4_read_port2> owner;
   Vmb4_read_port2& m = *owner;
-  m.rclk_i = m.rd_en_i = m.bank_i = m.ram_ready_i = 0;
+  m.rd_clk_i = m.rd_en_i = m.bank_i = m.ram_ready_i = 0;
   m.data_i = 0xFFFF;
   mb4test::pulse_reset(m);
   EXPECT_EQ(m.rd_data_o, 0);
@@ -30,12 +30,12 @@ TEST(ReadPort2Block, RandomReads_ByteIsOfTheBankAtTheEdge) {
       ready = m.ram_ready_i != 0;
       bank = m.bank_i != 0;
     }
-    m.rclk_i = 1;
+    m.rd_clk_i = 1;
     m.eval();
     if (m.rd_en_i != 0) m.data_i = static_cast<std::uint16_t>(random.below(65536));
     m.bank_i = random.below(2) != 0;  // too late for this byte
     m.ram_ready_i = random.below(2) != 0;
-    m.rclk_i = 0;
+    m.rd_clk_i = 0;
     m.eval();
     ASSERT_EQ(m.rd_data_o, !ready ? 0 : bank ? m.data_i >> 8 : m.data_i & 0xFF) << step;
   }

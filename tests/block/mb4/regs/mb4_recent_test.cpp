@@ -28,7 +28,7 @@ unsigned any_address(mb4test::Dice& random, unsigned limit) {
 class RecentBlock : public testing::Test {
  protected:
   RecentBlock() {
-    m.hclk_i = m.rclk_i = m.bank_i = m.marked_i = 0;
+    m.wr_clk_i = m.rd_clk_i = m.bank_i = m.marked_i = 0;
     m.host_i = 0;
     m.empty_i = 1;
     mb4test::pulse_reset(m);
@@ -44,11 +44,11 @@ class RecentBlock : public testing::Test {
     const bool mark = m.mark_o != 0;
     empty_at_edge = empty();
     before_edge = log.size();
-    m.hclk_i = 1;
-    if (one_clock) m.rclk_i = 1;
+    m.wr_clk_i = 1;
+    if (one_clock) m.rd_clk_i = 1;
     m.eval();
-    m.hclk_i = 0;
-    if (one_clock) m.rclk_i = 0;
+    m.wr_clk_i = 0;
+    if (one_clock) m.rd_clk_i = 0;
     m.eval();
     if ((m.mark_o != 0) != mark) marked_up_to = before_edge, ++marks;
     if (writing) log.push_back(now);
@@ -87,9 +87,9 @@ class RecentBlock : public testing::Test {
     if (one_clock) {
       edge(true);
     } else {
-      m.rclk_i = 1;
+      m.rd_clk_i = 1;
       m.eval();
-      m.rclk_i = 0;
+      m.rd_clk_i = 0;
       m.eval();
     }
     m.host_i = 0;

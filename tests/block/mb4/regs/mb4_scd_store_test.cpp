@@ -43,7 +43,7 @@ class ScdStore : public mb4test::Block<Vmb4_scd_store> {
     model.slaveloc5_i = model.banks_i = model.bank_i = model.post_valid_i = 0;
     model.post_i = 0;
     model.clear_i = 0;
-    model.rclk_i = model.rd_i = model.rd2_clk_i = model.rd2_i = 0;
+    model.rd_clk_i = model.rd_i = model.rd2_clk_i = model.rd2_i = 0;
     model.mo_read_i = 0;
     model.data_i = 0;
     reset();
@@ -60,9 +60,9 @@ class ScdStore : public mb4test::Block<Vmb4_scd_store> {
   // The byte of a bank at an address of Table 20, as the host reads it.
   unsigned read(unsigned bank, unsigned address) {
     model.rd_i = static_cast<std::uint8_t>(0x40 | (address & 31));
-    model.rclk_i = 1;
+    model.rd_clk_i = 1;
     model.eval();
-    model.rclk_i = 0;
+    model.rd_clk_i = 0;
     model.eval();
     const unsigned both = address < 32 ? model.rd_lo_data_o : model.rd_hi_data_o;
     return both >> (8 * bank) & 0xFF;

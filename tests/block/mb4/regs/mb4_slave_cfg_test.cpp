@@ -39,7 +39,7 @@ std::uint64_t list_row(unsigned length, unsigned crc, unsigned start) {
 class SlaveCfgBlock : public testing::Test {
  protected:
   SlaveCfgBlock() {
-    m.hclk_i = m.rclk_i = m.clk_i = m.list_en_i = 0;
+    m.wr_clk_i = m.rd_clk_i = m.clk_i = m.list_en_i = 0;
     m.host_i = 0;
     reset();
   }
@@ -50,18 +50,18 @@ class SlaveCfgBlock : public testing::Test {
   void write(unsigned address, unsigned byte) {
     // mb4_pkg::host_t: wr_en, wr_addr, wr_data, rd_en, rd_addr.
     m.host_i = 1U << 25 | (0xC0 | address) << 17 | byte << 9;
-    m.hclk_i = 1;
+    m.wr_clk_i = 1;
     m.eval();
-    m.hclk_i = 0;
+    m.wr_clk_i = 0;
     m.host_i = 0;
     m.eval();
     bytes[address] = byte;
   }
   unsigned read(unsigned address) {
     m.host_i = 1U << 8 | 0xC0 | address;
-    m.rclk_i = 1;
+    m.rd_clk_i = 1;
     m.eval();
-    m.rclk_i = 0;
+    m.rd_clk_i = 0;
     m.host_i = 0xC0 | (address ^ 1);  // asks nothing
     m.eval();
     return m.rd_data_o;
