@@ -16,7 +16,7 @@ demo_packages=(
 test_packages=(
   clang ghdl git groff gtkwave libbenchmark-dev iverilog liblz4-dev librsvg2-bin pkg-config
   sigrok-cli spi-tools valgrind yosys z3 zsh
-  clang-tidy gcovr
+  clang-format clang-tidy gcovr
   gcc-arm-none-eabi libnewlib-arm-none-eabi libstdc++-arm-none-eabi-newlib linux-libc-dev
   arduino-core-avr avr-libc gcc-avr gcc-riscv64-unknown-elf picolibc-riscv64-unknown-elf qemu-system-arm
   python3-cffi python3-distributed python3-ipykernel python3-matplotlib python3-nbclient python3-numpy

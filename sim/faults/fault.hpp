@@ -39,8 +39,8 @@ bool is_of_clock(FaultKind kind);
 
 struct FaultConfig {
   FaultKind kind = FaultKind::kGlitch;
-  unsigned channel = 0;  // 1 or 2, also for a slave's fault; 0: host and clock
-  unsigned slave = 0;    // as in SCDATAx; 0: none
+  unsigned channel = 0;  // from 1 on, also for a slave's fault; 0: host and clock
+  unsigned slave = 0;    // from 1 on, as in SCDATAx; 0: none
   bool on_ma = false;    // glitch, stuck, jitter: MA at the slaves instead of SL at the chip
   bool level = false;    // stuck
   Time width = 0;        // glitch, jitter, ps

@@ -16,7 +16,8 @@ FaultInjector::FaultInjector(FaultTarget& target, EventQueue& queue,
   add_new();
 }
 
-// A fault that was there before on this channel may act now: the cable without it is what it knows.
+// A fault that came earlier may act on this channel now. This fault must remember the cable as it
+// is without that one.
 void FaultInjector::remember_cable(Source& source) {
   const unsigned channel = faults_[source.config].channel;
   for (const auto& before : sources_) {

@@ -1,5 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
+#include <iterator>
+#include <vector>
+
 #include "sim/masters/axi/axi_master.hpp"
 #include "sim/masters/mb4/mb4_master.hpp"
 
@@ -7,13 +10,16 @@ namespace mb4::sim {
 namespace {
 
 // The only list of the masters of this library.
-std::vector<const Master*>& list() {
-  static std::vector<const Master*> all{
-      &kMb4Master,
+constexpr const Master* kMasters[] = {
+    &kMb4Master,
 #if MB4SIM_WITH_AXI
-      &kAxiMaster,
+    &kAxiMaster,
 #endif
-  };
+};
+
+// Those of the list, and those that the program has added.
+std::vector<const Master*>& list() {
+  static std::vector<const Master*> all(std::begin(kMasters), std::end(kMasters));
   return all;
 }
 

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -85,17 +86,28 @@ void read_flips(TomlReader& reader, ChannelConfig& channel) {
   }
 }
 
+struct ActionName {
+  CableEvent::Action action;
+  std::string_view name;
+};
+constexpr ActionName kActions[] = {
+    {CableEvent::Action::kUnplug, "unplug"},  {CableEvent::Action::kPlug, "plug"},
+    {CableEvent::Action::kSlLow, "sl-low"},   {CableEvent::Action::kSlHigh, "sl-high"},
+    {CableEvent::Action::kSlFree, "sl-free"}, {CableEvent::Action::kMaLow, "ma-low"},
+    {CableEvent::Action::kMaHigh, "ma-high"}, {CableEvent::Action::kMaFree, "ma-free"},
+};
+
 CableEvent read_event(const toml::table& table, TomlFile& file) {
   TomlReader reader(table, file);
   CableEvent event;
   const auto at = reader.number("at_us", 0, kMaxEventUs);
   if (!at) reader.missing("at_us");
   event.time = from_us(at.value_or(0));
-  // The order is that of CableEvent::Action.
-  const auto action = reader.choice(
-      "action", {"unplug", "plug", "sl-low", "sl-high", "sl-free", "ma-low", "ma-high", "ma-free"});
+  std::vector<std::string_view> names;
+  for (const ActionName& each : kActions) names.push_back(each.name);
+  const auto action = reader.choice("action", names);
   if (!action) reader.missing("action");
-  event.action = static_cast<CableEvent::Action>(action.value_or(0));
+  event.action = kActions[action.value_or(0)].action;
   reader.finish();
   return event;
 }

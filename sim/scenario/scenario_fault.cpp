@@ -34,7 +34,11 @@ void refuse(TomlReader& reader, FaultKind kind, const char* key) {
 
 void read_line(TomlReader& reader, const Scenario& scenario, FaultConfig& fault) {
   const auto number = reader.integer("channel", 1, scenario.master->channels);
-  if (!number && scenario.channels.size() > 1) reader.missing("channel", "missing: there are two");
+  if (!number && scenario.channels.size() > 1) {
+    const std::size_t count = scenario.channels.size();
+    const std::string there = count == 2 ? "two" : std::to_string(count);
+    reader.missing("channel", "missing: there are " + there);
+  }
   if (!number && scenario.channels.empty()) reader.fail("channel", "the scenario has none");
   fault.channel = number ? static_cast<unsigned>(*number) : scenario.channels.front().number;
   const ChannelConfig* channel = scenario.channel(fault.channel);

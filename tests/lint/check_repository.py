@@ -22,9 +22,11 @@ import sys
 from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
+sys.path.insert(0, str(HERE.parents[1] / "tools"))
 sys.path.insert(0, str(HERE.parents[1] / "tools" / "synth"))
 
 import project  # noqa: E402
+from set_version import VERSION_COPIES, VERSION_FILE, VERSION_LINE  # noqa: E402
 
 FLAG = "-fno-const-bit-op-tree"
 HELPER = "tools/cmake/mb4.cmake"
@@ -39,17 +41,7 @@ MACHINE_PATH = re.compile(
 # A mode option says that a line calls Verilator; --version or a mere mention does not.
 MODE = re.compile(r"(?<![\w-])--(?:cc|sc|binary|lint-only|xml-only|dpi-hdr-only)\b")
 
-# CMake takes the version from its line (mb4sim --version, libmb4sim, pkg-config, openmb4Config.cmake),
-# and so do tools/release.sh and regmap/generator. These cannot: FuseSoC reads the core file as it
-# stands, the driver works as a copied folder, and the files of each register map are checked in.
-VERSION_FILE = "CMakeLists.txt"
-VERSION_LINE = r"(?m)^project\(openmb4 VERSION (\d+)\.(\d+)\.(\d+)\b"
-VERSION_COPIES = {
-    "openmb4.core": r"(?m)^name: openmb4:ip:mb4:(\d+)\.(\d+)\.(\d+)$",
-    "openmb4-axi.core": r"(?m)^name: openmb4:ip:biss_axi:(\d+)\.(\d+)\.(\d+)$",
-    "drivers/include/mb4/version.hpp":
-        r"VersionMajor = (\d+);[^;]*VersionMinor = (\d+);[^;]*VersionPatch = (\d+);",
-}
+# The files of each register map are checked in; tools/set_version.py has the others.
 IPXACT = ".ipxact.xml", r"<ipxact:version>(\d+)\.(\d+)\.(\d+)</ipxact:version>"
 # The newest release; a tree before its first release has none.
 RELEASE = {"CHANGELOG.md": r"(?m)^## \[(\d+)\.(\d+)\.(\d+)\]"}

@@ -109,6 +109,19 @@ class SignOff(unittest.TestCase):
             self.assertEqual(self.row("Lint")[0], "**open**")
             self.assertIn(text, self.row("Lint")[1])
 
+    def test_new_block_needs_a_newer_report(self):
+        self.put("items.toml", TABLE.replace('about = "X."', 'about = "X."\nsince = 2026-05-03'))
+        self.taken("normal", self.put("a.xml", report(GOOD)))
+        self.assertIn("older than 2026-05-03", self.row("Lint")[1])
+        self.taken("normal", self.put("a.xml", report(GOOD, "2026-05-03")))
+        self.assertEqual(self.row("Lint")[0], "done")
+
+    def test_page_tells_how_much_of_a_run_was_reported(self):
+        self.taken("normal", self.put("a.xml", report({**GOOD, "Lint.B": "failed"})))
+        page = (self.path / "page.md").read_text(encoding="utf-8")
+        for line in ("| normal | 1 | 0 |", "| sanitize | 0 | 0 |", "| nightly | 0 | 1 |"):
+            self.assertIn(line + "\n", page)
+
     def test_all_skipped_is_not_run(self):
         self.taken("normal", self.put("a.xml", report({name: "skipped" for name in GOOD})))
         self.assertEqual(self.row("Lint")[0], "*not run*")
@@ -154,7 +167,8 @@ class SignOff(unittest.TestCase):
         for old, new in (('stage = "D1"', 'stage = "D9"'), ('block = ["x"]', 'block = ["y"]'),
                          ("tests = [", "test = ["), ('run = "normal"', ""),
                          ('open = "not tried"', 'open = "a"\nevidence = ["none"]'),
-                         ("since = ", "since = ="), ("since = ", "day = "), ('title = "Block X"', "")):
+                         ("since = ", "since = ="), ("since = ", "day = "),
+                         ('about = "X."', 'about = "X."\nsince = "x"'), ('title = "Block X"', "")):
             self.put("items.toml", TABLE.replace(old, new, 1))
             self.refused("items.toml: ", "page")
 

@@ -9,7 +9,9 @@
   signoff.py page               writes docs/signoff.md from items.toml and docs/signoff.json
   signoff.py check              docs/signoff.md is what `page` writes
 
-tools/test.sh leaves both files of a run in build/: junit.xml and ctest.log.
+tools/test.sh leaves both files of a run, junit.xml and ctest.log, in build/, with --sanitize in
+build-sanitize/. The normal and the nightly run write the same files: `take` comes between them. Only
+whole runs show everything: a report of some tests alone leaves the others without one.
 
 --table, --data and --page name other files. items.toml tells what is in it. An item is done if a
 report, not older than items.toml demands, holds each of its tests and all of them passed, and if its
@@ -131,7 +133,9 @@ def read_table(path):
     except tomllib.TOMLDecodeError as error:
         raise Fault(f"{path}: {error}") from error
     if not isinstance(table.get("since"), datetime.date) or any(
-            {"name", "title", "about"} - block.keys() for block in table.get("block", [{}])):
+            {"name", "title", "about"} - block.keys()
+            or not isinstance(block.get("since", table["since"]), datetime.date)
+            for block in table.get("block", [{}])):
         raise Fault(f"{path}: no day `since`, or a block without name, title or about")
     blocks = {block["name"]: block for block in table["block"]}
     items = []
@@ -151,7 +155,7 @@ def read_table(path):
         for name in row["block"]:
             if name not in blocks:
                 raise fault(f"unknown block '{name}'")
-            item = {"since": table["since"], **row, "block": name}
+            item = {"since": blocks[name].get("since", table["since"]), **row, "block": name}
             item["tests"] = row.get("tests", []) + row.get("tests_of", {}).get(name, [])
             if "run" in row and not item["tests"]:
                 raise fault(f"no tests of block '{name}'")
@@ -217,6 +221,11 @@ def stage_reached(letter, results):
 
 def page(blocks, items, data, folder):
     judged = [(item, *judge(item, data)) for item in items]
+
+    def reported(run, there):
+        return sum(item.get("run") == run and (state != "not run") == there
+                   for item, state, *_ in judged)
+
     out = ["<!--", "SPDX-FileCopyrightText: 2026 The openmb4 authors",
            "SPDX-License-Identifier: Apache-2.0", "-->", "", "# Sign-off", "",
            "For those who decide whether a block is good enough for their use. After this page you "
@@ -228,6 +237,10 @@ def page(blocks, items, data, folder):
            "The stages follow those of OpenTitan: D for design, V for verification, S for release. "
            "A block has reached", "a stage if all items of this stage and of the earlier ones of the "
            "same letter are done.", "",
+           "The report of a run replaces the one before. A report of a part of its tests leaves the "
+           "other items without", "one:", "",
+           "| run | items with a report | items without a report |", "|---|---|---|",
+           *[f"| {run} | {reported(run, True)} | {reported(run, False)} |" for run in RUNS], "",
            "| stage | what it asks for |", "|---|---|",
            *[f"| {stage} | {text} |" for stage, text in STAGES.items()], "",
            "| block | design | verification | release | done | open | not run |",

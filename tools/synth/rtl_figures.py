@@ -3,8 +3,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """How much of the RTL is wiring, and how full the folders are.
 
-  rtl_figures.py    prints the share of code lines that are wiring, the modules with most ports, and
-                    the folders with most files
+  rtl_figures.py    prints the share of code lines that are wiring, in all rooms and in each; the
+                    modules with most ports, and the folders with most files
 
 A code line is one with more than comments. Wiring is a code line that declares a port, is a
 .name connection, or only copies a signal into or out of a struct (assign a.b = c; or assign c = a.b;),
@@ -49,15 +49,19 @@ def folders():
 
 def main():
     project.Arguments(__doc__).parse_args()
-    lines = found = 0
-    ports = Counter()
-    for path in project.rtl_files():
+    lines, found, ports = Counter(), Counter(), Counter()
+    for path in project.all_rtl_files():
         if project.RTL not in path.parents:
             continue  # generated
         own, wires, own_ports = wiring(path.read_text(encoding="utf-8"))
-        lines, found = lines + own, found + wires
+        room = path.parent.relative_to(project.ROOT).as_posix()
+        lines[room] += own
+        found[room] += wires
         ports.update(own_ports)
-    print(f"wiring: {found} of {lines} code lines of the RTL, {100 * found / lines:.1f} %")
+    print(f"wiring: {found.total()} of {lines.total()} code lines of the RTL, "
+          f"{100 * found.total() / lines.total():.1f} %")
+    for room in sorted(lines):
+        print(f"        {room} {found[room]} of {lines[room]}, {100 * found[room] / lines[room]:.1f} %")
     print("ports:  " + ", ".join(f"{name} {number}" for name, number in ports.most_common(5)))
     print("files:  " + ", ".join(f"{name} {number}" for name, number in folders().most_common(6)))
 

@@ -21,7 +21,7 @@ unsigned BissBSlaveConfig::set_ids_behind(unsigned ids) {
   return access.ids;
 }
 
-BissBSlave::BissBSlave(const BissBSlaveConfig &config, std::uint64_t seed)
+BissBSlave::BissBSlave(const BissBSlaveConfig& config, std::uint64_t seed)
     : BissSlave(config, config.word_bits(), seed), access_(config_.access, registers()) {
   registers().set_layout(config.access);
 }
@@ -38,8 +38,7 @@ void BissBSlave::wait() {
   } else if (state_ != State::kRegister) {
     set_deadline(last_edge_ + timeout_.value());
   } else {
-    // The master may wait any time between the change to register mode and its
-    // start bit.
+    // The master may wait any time between the change to register mode and its start bit.
     set_deadline(access_.cells() == 0 ? kNever : last_edge_ + register_timeout());
   }
 }
@@ -62,8 +61,7 @@ void BissBSlave::ma_edge(Time now, bool ma, bool sli_before, bool sli) {
 
 void BissBSlave::first_falling(Time now, bool sli) {
   timeout_.begin(now);
-  // SLI = 0 that was 1 shortly before comes from MO. SLI of the last slave has
-  // always been 0.
+  // SLI = 0 that was 1 shortly before comes from MO. SLI of the last slave has always been 0.
   const bool fell = !sli && (sli_ || (sli_fell_ != kNever && now - sli_fell_ <= timeout_.value()));
   is_last_ = !sli && !fell;
   state_ = State::kArmed;
@@ -103,8 +101,7 @@ void BissBSlave::follow(Time now, bool sli) {
   sli_ = sli;
   switch (state_) {
     case State::kArmed:
-      // The master sees register mode only after all slaves of the chain have
-      // confirmed it.
+      // The master sees register mode only after all slaves of the chain have confirmed it.
       set_slo(true);
       break;
     case State::kIdle:
@@ -115,8 +112,7 @@ void BissBSlave::follow(Time now, bool sli) {
       follow_busy(sli);
       break;
     case State::kRegister:
-      // The master sees SL = 0 when all slaves have confirmed. Later one of them
-      // sends.
+      // The master sees SL = 0 when all slaves have confirmed. Later one of them sends.
       set_slo(access_.out() || (!is_last_ && sli));
       break;
     case State::kStart:

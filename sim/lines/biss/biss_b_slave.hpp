@@ -3,10 +3,10 @@
 //
 // A BiSS B sensor. Its frame is that of BiSS C without CDS and CDM.
 //
-// Two events select register mode. If MA stays low after the first falling edge
-// until the sensor timeout, the slave confirms register mode with SLO = 0. On a
-// bus MO selects it by a fall just before the first falling edge of MA.
-// Register mode ends when MA has rested for the register timeout.
+// Two events select register mode. If MA stays low after the first falling edge until the sensor
+// timeout, the slave confirms register mode with SLO = 0. On a bus MO selects it by a fall just
+// before the first falling edge of MA. Register mode ends when MA has rested for the register
+// timeout.
 //
 // Source: iC-MB4 Rev D2, pages 12, 13, 16.
 #ifndef MB4SIM_BISS_B_SLAVE_HPP_
@@ -29,8 +29,8 @@ struct BissBSlaveConfig : BissSlaveConfig {
     timeout.fixed = 16 * kPsPerUs;
   }
 
-  // Timeout of register mode, ps. 0: 1.5 periods of the register clock,
-  // measured in the start bit; before that `register_initial`.
+  // Timeout of register mode, ps. 0: 1.5 periods of the register clock, measured in the start bit;
+  // before that `register_initial`.
   Time register_timeout = 0;
   Time register_initial = 1000 * kPsPerUs;
   BissBRegisterConfig access;
@@ -42,7 +42,7 @@ struct BissBSlaveConfig : BissSlaveConfig {
 
 class BissBSlave final : public BissSlave<BissBSlaveConfig> {
  public:
-  BissBSlave(const BissBSlaveConfig &config, std::uint64_t seed);
+  BissBSlave(const BissBSlaveConfig& config, std::uint64_t seed);
 
   void ma_edge(Time now, bool ma, bool sli_before, bool sli) override;
   void sli_changed(Time now, bool sli) override;
@@ -54,7 +54,7 @@ class BissBSlave final : public BissSlave<BissBSlaveConfig> {
   // How often the timeout has selected register mode, and how often MO has.
   std::uint64_t handshakes() const { return handshakes_; }
   std::uint64_t mo_selections() const { return mo_selections_; }
-  BissBRegisters &access() { return access_; }
+  BissBRegisters& access() { return access_; }
 
  private:
   void rising(Time now, bool sli_before, bool sli);

@@ -22,7 +22,7 @@ std::string_view BissCSlaveConfig::refuses(SlaveFault fault) const {
   return BissSlaveConfig::refuses(fault);
 }
 
-BissCSlave::BissCSlave(const BissCSlaveConfig &config, std::uint64_t seed)
+BissCSlave::BissCSlave(const BissCSlaveConfig& config, std::uint64_t seed)
     : BissSlave(config, config.channel_bits(), seed), control_(config_.control, registers()) {
   registers().set_layout(config.control);
   actuator_.preset(config_.word(0, 0));
@@ -39,8 +39,7 @@ void BissCSlave::ma_edge(Time now, bool ma, bool sli_before, bool sli) {
   if (ma) {
     rising(now, sli_before, sli);
   } else if (state_ == State::kIdle) {
-    // A rising edge in idle is not part of a frame: MA may have rested low
-    // (HOLDCDM).
+    // A rising edge in idle is not part of a frame: MA may have rested low (HOLDCDM).
     is_last_ = !sli;
     timeout_.begin(now);
     state_ = State::kArmed;
@@ -52,8 +51,7 @@ void BissCSlave::ma_edge(Time now, bool ma, bool sli_before, bool sli) {
   if (state_ != State::kIdle) set_deadline(now + timeout_.value());
 }
 
-// The slave samples SLI with the edge: `sli_before` is SLI in the period of MA
-// that ends here.
+// The slave samples SLI with the edge: `sli_before` is SLI in the period of MA that ends here.
 void BissCSlave::rising(Time now, bool sli_before, bool sli) {
   switch (state_) {
     case State::kArmed:
@@ -103,8 +101,8 @@ void BissCSlave::end_cds(bool sli) {
 
 void BissCSlave::sli_changed(Time /*now*/, bool sli) { follow(sli); }
 
-// Outside the data phase a slave passes SLI on, also between the edges of MA.
-// The last slave has nothing to pass on.
+// Outside the data phase a slave passes SLI on, also between the edges of MA. The last slave has
+// nothing to pass on.
 void BissCSlave::follow(bool sli) {
   switch (state_) {
     case State::kIdle:
@@ -132,8 +130,7 @@ void BissCSlave::follow(bool sli) {
 
 void BissCSlave::timer(Time now, bool sli) {
   if (now < deadline()) return;
-  // Two pulses and a rest (INIT) are not a frame. A CDM belongs to a frame with
-  // a start bit.
+  // Two pulses and a rest (INIT) are not a frame. A CDM belongs to a frame with a start bit.
   const bool frame = state_ >= State::kStart;
   if (state_ == State::kCds) end_cds(sli);
   if (state_ == State::kData && config_.actuator && shift_.filled()) {

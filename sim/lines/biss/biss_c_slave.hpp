@@ -1,16 +1,15 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// A BiSS C sensor or actuator. It follows the frame of the datasheet's BiSS C
-// chapter:
+// A BiSS C sensor or actuator. It follows the frame of the datasheet's BiSS C chapter:
 //
 //   request, acknowledge, start bit   biss_slave.hpp
 //   after the start bit               CDS, data and inverted CRC, MSB first
 //
-// A slave that is not the last one passes the start bit on, and also the
-// acknowledge if `passes_acknowledge` is set. In a chain the slave is a shift
-// register of its own length. If a command has switched its data channel off,
-// it passes SLI on instead. ControlSlave handles CDS and CDM.
+// A slave that is not the last one passes the start bit on, and also the acknowledge if
+// `passes_acknowledge` is set. In a chain the slave is a shift register of its own length. If a
+// command has switched its data channel off, it passes SLI on instead. ControlSlave handles CDS and
+// CDM.
 //
 // Source: iC-MB4 Rev D2, page 15, figures 11 and 12.
 #ifndef MB4SIM_BISS_C_SLAVE_HPP_
@@ -33,8 +32,8 @@ struct BissCSlaveConfig : BissSlaveConfig {
   BissCSlaveConfig() { name = "biss-c"; }
 
   ControlConfig control;
-  // An actuator takes the word that MO brings for it and sends the word that it
-  // had before. `source` gives the first of these.
+  // An actuator takes the word that MO brings for it and sends the word that it had before.
+  // `source` gives the first of these.
   bool actuator = false;
   bool stop_bit = true;  // actuator: a 0 precedes its data (LSTOP)
 
@@ -48,7 +47,7 @@ struct BissCSlaveConfig : BissSlaveConfig {
 
 class BissCSlave final : public BissSlave<BissCSlaveConfig> {
  public:
-  BissCSlave(const BissCSlaveConfig &config, std::uint64_t seed);
+  BissCSlave(const BissCSlaveConfig& config, std::uint64_t seed);
 
   void ma_edge(Time now, bool ma, bool sli_before, bool sli) override;
   void last_edge(Time edge, bool ma) override;
@@ -56,12 +55,12 @@ class BissCSlave final : public BissSlave<BissCSlaveConfig> {
   void timer(Time now, bool sli) override;
 
   bool set_data(std::uint64_t raw) override;
-  ControlSlave *control() override { return config_.control.present ? &control_ : nullptr; }
+  ControlSlave* control() override { return config_.control.present ? &control_ : nullptr; }
   void set_fault(SlaveFault fault, bool on) override {
     if (fault == SlaveFault::kWrongId) control_.faults().set_wrong_id(on);
     BissSlave::set_fault(fault, on);
   }
-  const Actuator *actuator() const override { return config_.actuator ? &actuator_ : nullptr; }
+  const Actuator* actuator() const override { return config_.actuator ? &actuator_ : nullptr; }
 
   // The word latched for the current or last frame.
   std::uint64_t latched() const { return word_; }

@@ -1,17 +1,14 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What BiSS B and BiSS C slaves share: a frame from the request to the start
-// bit.
+// What BiSS B and BiSS C slaves share: a frame from the request to the start bit.
 //
 //   first falling edge of MA   a request
 //   first rising edge          the slave latches its word
 //   second rising edge         the slave acknowledges
-//   after its busy periods     the last slave sends the start bit; the others
-//   pass it on
+//   after its busy periods     the last slave sends the start bit; the others pass it on
 //
-// SLI of a slave that is not the last one comes from another slave or from pin
-// MO.
+// SLI of a slave that is not the last one comes from another slave or from pin MO.
 #ifndef MB4SIM_BISS_SLAVE_HPP_
 #define MB4SIM_BISS_SLAVE_HPP_
 
@@ -31,13 +28,13 @@ template <typename Config>
 class BissSlave : public Slave {
  public:
   // `channel_bits`: length of the data channel on the line.
-  BissSlave(const Config &config, unsigned channel_bits, std::uint64_t seed)
+  BissSlave(const Config& config, unsigned channel_bits, std::uint64_t seed)
       : config_(config), timeout_(config.timeout, seed), shift_(channel_bits) {}
 
   unsigned data_bits() const override { return config_.data_bits; }
   std::optional<std::uint64_t> sent_word() const override { return word_; }
 
-  const Config &config() const { return config_; }
+  const Config& config() const { return config_; }
   // SLI was 0 at the start of the last frame.
   bool is_last() const { return is_last_; }
 
@@ -45,9 +42,8 @@ class BissSlave : public Slave {
   // BiSS B has kRegister, BiSS C has kCds and kPass.
   enum class State { kIdle, kArmed, kAckWait, kBusy, kStart, kCds, kData, kPass, kRegister };
 
-  // A rising edge of MA in kArmed, kAckWait, kBusy or kStart. `word` is latched
-  // in kArmed. Returns true if the start bit is over. Else the caller lets SLO
-  // follow.
+  // A rising edge of MA in kArmed, kAckWait, kBusy or kStart. `word` is latched in kArmed. Returns
+  // true if the start bit is over. Else the caller lets SLO follow.
   bool rising_before_data(Time now, bool sli_before, bool sli) {
     switch (state_) {
       case State::kAckWait:
@@ -81,11 +77,9 @@ class BissSlave : public Slave {
     word_ = word;
     state_ = State::kAckWait;
   }
-  // SLO follows SLI while the slave waits for the start bit. The last slave has
-  // nothing to pass on.
+  // SLO follows SLI while the slave waits for the start bit. The last slave has nothing to pass on.
   void follow_busy(bool sli) {
-    // The acknowledge of MO may come late. So a 1 is the start bit only after a
-    // 0.
+    // The acknowledge of MO may come late. So a 1 is the start bit only after a 0.
     if (is_last_) return;
     if (!sli) sli_was_low_ = true;
     set_slo(sli && (sli_was_low_ ? !faults().busy : config_.passes_acknowledge));

@@ -40,7 +40,7 @@ struct ControlCounters {
 };
 
 // An executed BiSS command.
-struct BissCommand {
+struct ControlCommand {
   std::uint8_t ids = 0;   // bit 7 = ID 0, as register 0x80 of the chip; 0 = broadcast
   std::uint8_t code = 0;  // 0 to 3
 };
@@ -66,7 +66,7 @@ class ControlSlave {
   // The IDs that are locked in the running or last control frame: bit k = ID k.
   unsigned ids() const { return ids_; }
   const ControlCounters& counters() const { return counters_; }
-  const BissCommand& last_command() const { return command_; }
+  const ControlCommand& last_command() const { return command_; }
   ControlFaults& faults() { return faults_; }
 
  private:
@@ -117,8 +117,8 @@ class ControlSlave {
   unsigned count_ = 0;    // bits of kData done
   unsigned answer_ = 0;   // data and CRC of a read
   unsigned ex_slot_ = 0;  // slot in which EX has come; 0: not yet
-  BissCommand pending_;
-  BissCommand command_;
+  ControlCommand pending_;
+  ControlCommand command_;
   BusyTimer access_busy_;
   BusyTimer store_busy_;
   bool data_active_ = true;

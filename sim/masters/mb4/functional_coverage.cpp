@@ -40,28 +40,45 @@ constexpr unsigned kBissB = 0;
 constexpr unsigned kBissC = 1;
 constexpr unsigned kSsi = 2;
 
-constexpr std::array<const char*, kKinds> kNames{"BiSS B frame, one",
-                                                 "BiSS B frame, AGS",
-                                                 "BiSS B frame, AGSMIN",
-                                                 "BiSS B frame, AGSINFINITE",
-                                                 "BiSS C frame, one",
-                                                 "BiSS C frame, AGS",
-                                                 "BiSS C frame, AGSMIN",
-                                                 "BiSS C frame, AGSINFINITE",
-                                                 "SSI frame, one",
-                                                 "SSI frame, AGS",
-                                                 "SSI frame, AGSMIN",
-                                                 "SSI frame, AGSINFINITE",
-                                                 "BiSS C register read",
-                                                 "BiSS C register write",
-                                                 "BiSS C addressed command",
-                                                 "BiSS C broadcast command",
-                                                 "BiSS C reduced control",
-                                                 "BiSS B register read",
-                                                 "BiSS B register write",
-                                                 "SSI register write",
-                                                 "BiSS B INIT",
-                                                 "BiSS C INIT"};
+struct KindName {
+  unsigned kind;
+  const char* name;
+};
+
+// The frames of protocol P, which starts kStart, have the number P * kStarts + kStart.
+constexpr std::array<KindName, kKinds> kKindNames{{
+    {kBissB * kStarts + kSingle, "BiSS B frame, one"},
+    {kBissB * kStarts + kRate, "BiSS B frame, AGS"},
+    {kBissB * kStarts + kMin, "BiSS B frame, AGSMIN"},
+    {kBissB * kStarts + kInfinite, "BiSS B frame, AGSINFINITE"},
+    {kBissC * kStarts + kSingle, "BiSS C frame, one"},
+    {kBissC * kStarts + kRate, "BiSS C frame, AGS"},
+    {kBissC * kStarts + kMin, "BiSS C frame, AGSMIN"},
+    {kBissC * kStarts + kInfinite, "BiSS C frame, AGSINFINITE"},
+    {kSsi * kStarts + kSingle, "SSI frame, one"},
+    {kSsi * kStarts + kRate, "SSI frame, AGS"},
+    {kSsi * kStarts + kMin, "SSI frame, AGSMIN"},
+    {kSsi * kStarts + kInfinite, "SSI frame, AGSINFINITE"},
+    {kReadC, "BiSS C register read"},
+    {kWriteC, "BiSS C register write"},
+    {kCommand, "BiSS C addressed command"},
+    {kBroadcast, "BiSS C broadcast command"},
+    {kReduced, "BiSS C reduced control"},
+    {kReadB, "BiSS B register read"},
+    {kWriteB, "BiSS B register write"},
+    {kWriteSsi, "SSI register write"},
+    {kInitB, "BiSS B INIT"},
+    {kInitC, "BiSS C INIT"},
+}};
+
+// The table has each kind once, at the place of its number.
+constexpr bool kinds_in_order() {
+  for (unsigned kind = 0; kind < kKinds; ++kind) {
+    if (kKindNames[kind].kind != kind) return false;
+  }
+  return true;
+}
+static_assert(kinds_in_order());
 
 constexpr bool is_access(unsigned kind) { return kind >= kReadC && kind <= kWriteSsi; }
 constexpr bool is_init(unsigned kind) { return kind == kInitB || kind == kInitC; }
@@ -279,8 +296,8 @@ std::string FunctionalCoverage::text() const {
   for (unsigned kind = 0; kind < kKinds; ++kind) {
     for (const auto& [field, first] : table().pairs[kind]) {
       for (unsigned index = 0; index < classes(*field); ++index) {
-        lines += std::to_string(counts_[first + index]) + "\t" + kNames[kind] + "\t" + field->name +
-                 "=" + class_name(*field, index) + "\n";
+        lines += std::to_string(counts_[first + index]) + "\t" + kKindNames[kind].name + "\t" +
+                 field->name + "=" + class_name(*field, index) + "\n";
       }
     }
   }

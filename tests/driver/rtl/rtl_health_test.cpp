@@ -347,7 +347,8 @@ TEST(DriverWatch, FastFramesAndFineClock_AlarmIsTheThirdTick) {
 // tells that this is no fault.
 TEST(DriverWatch, SlaveSlowerThanAPeriod_IsNoAlarm) {
   for (const bool told : {true, false}) {
-    Chip chip("[[channel]]\nnumber = 1\n" + slave("source = \"ramp\"\nstep = 1\nbusy_periods = 1600"));
+    Chip chip("[[channel]]\nnumber = 1\n" +
+              slave("source = \"ramp\"\nstep = 1\nbusy_periods = 1600"));
     Config slow = config26(10'000'000);
     slow.spi_check = mb4::SpiCheck::kCrc;
     slow.frame_start = mb4::FrameStart::kPeriodic;

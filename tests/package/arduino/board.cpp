@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// A board whose SPI ends at a simulated chip: runs setup() and then loop() N times. BOARD SCENARIO N.
+// BOARD SCENARIO N: a board whose SPI ends at a simulated chip; runs setup(), then loop() N times.
 #include <cstdio>
 #include <cstdlib>
 

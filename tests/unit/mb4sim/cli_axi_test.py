@@ -71,6 +71,14 @@ class Axi(unittest.TestCase):
         _, got = self.frames(self.path(good + bad), "--frames", "1")
         self.assertEqual([(row["nE"], row["nW"]) for row in got["frames"]], [(None, None)] * 2)
 
+    def test_fault_without_its_channel_tells_how_many_there_are(self):
+        for count, told in ((2, "two"), (3, "3"), (16, "16")):
+            scenario = self.path("".join(channel(c) for c in range(1, count + 1)) +
+                                 '[[fault]]\nkind = "glitch"\nwidth_ns = 5\nat_us = 1\n')
+            result = run("run", scenario)
+            self.assertEqual(result.returncode, 2)
+            self.assertTrue(result.stderr.endswith(f"key 'channel': missing: there are {told}\n"), result.stderr)
+
     def test_bad_frames_say_what_was_wrong(self):
         cases = (('kind = "bit-flip"\nchannel = 1\nbits = [5]\n', "CRC error"),
                  ('kind = "silent"\nslave = 1\nfor_us = 100\n', "no acknowledge"),
