@@ -44,8 +44,9 @@ LiveMb4::~LiveMb4() = default;
 
 void LiveMb4::start_trace(const TraceFile& file) {
   auto traced = make_traced_chip(config_, *chip_, file);
+  const bool pair = drives_pair();
   auto watched = std::make_unique<WatchedChip>(std::move(chip_), std::move(traced));
-  watched->drive_pair(drives_pair());
+  watched->drive_pair(pair);
   watched_ = watched.get();
   chip_ = std::move(watched);
 }

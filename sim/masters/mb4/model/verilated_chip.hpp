@@ -123,7 +123,8 @@ class VerilatedChip final : public ChipModel {
     osc_selected_ = chip.osc_selected;
     osc_running_ = chip.osc_running;
     osc_tail_ = chip.osc_tail;
-    evaluate(now);
+    context_->time(now);
+    steps_.inputs(*model_);
     outputs_ = pack();
     followers_ = Inside::paired(*model_) ? kMa2 : 0;
   }
