@@ -5,6 +5,7 @@
 #include <Vmb4_chip_trace__Syms.h>
 
 #include <chip_state.hpp>
+#include <fstream>
 #include <memory>
 #include <optional>
 
@@ -51,6 +52,10 @@ std::unique_ptr<ChipModel> make_traced_chip(const ChipConfig& config, const Chip
                                             const TraceFile& trace) {
   const std::optional<RunningChip> running = chip.running();
   if (!running) throw TraceError(trace.path + ": this model of the chip writes no waveform");
+  // Not every Verilator tells that it cannot open the file.
+  if (!std::ofstream(trace.path, std::ios::app)) {
+    throw TraceError(trace.path + ": cannot write the waveform");
+  }
   constexpr std::uint64_t kSeed = 1;  // every flop takes its value from `running`
   auto traced = std::make_unique<Chip>(config, kSeed, trace);
   traced->go_on_from(trace.from, *running, &copy);
