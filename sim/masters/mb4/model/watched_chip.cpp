@@ -5,8 +5,6 @@
 #include <stdexcept>
 #include <utility>
 
-#include "mb4sim/model_stopped.hpp"
-
 namespace mb4::sim {
 
 WatchedChip::WatchedChip(std::unique_ptr<ChipModel> chip, std::unique_ptr<ChipModel> traced)
@@ -38,10 +36,10 @@ template <typename Step, typename Follow>
 void WatchedChip::both(Step step, Follow follow) {
   try {
     step();
-  } catch (const ModelStopped&) {
+  } catch (...) {
     try {
       follow();
-    } catch (const ModelStopped&) {
+    } catch (...) {
     }
     throw;
   }
