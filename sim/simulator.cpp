@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "sim/core/random.hpp"
+#include "sim/core/trace_error.hpp"
 #include "sim/faults/fault_target.hpp"
 #include "sim/masters/master.hpp"
 #include "sim/scenario/injection.hpp"
@@ -79,12 +80,8 @@ Simulator::Simulator(const Scenario& scenario, const SimulatorOptions& options)
       {scenario_.chip, scenario_.host, connected, *this, derive_seed(seed_, kMasterSeed),
        options.trace_path ? &trace_ : nullptr, options.plain_evaluation});
   model_ = &master_->model();
-  if (options.trace_path) {
-    for (const LineEnd& end : lines_) {
-      if (end.line != nullptr) end.line->set_probe(&Simulator::on_probe, this);
-    }
-    on_probe(0, this);
-  }
+  tracing_ = options.trace_path.has_value();
+  if (tracing_) set_probes(&Simulator::on_probe);
   fault_target_ = std::make_unique<SimulatorFaults>(*this);
   injector_ = std::make_unique<FaultInjector>(*fault_target_, queue_, scenario_.faults,
                                               derive_seed(seed_, kFaultSeed));
@@ -216,6 +213,13 @@ void Simulator::on_probe(Time now, void* receiver) {
   simulator->model_->set_probes(now, ma, slo, idle);
 }
 
+void Simulator::set_probes(Line::Probe probe) {
+  for (const LineEnd& end : lines_) {
+    if (end.line != nullptr) end.line->set_probe(probe, this);
+  }
+  if (probe != nullptr) probe(now_, this);
+}
+
 std::optional<Pin> Simulator::pin_by_name(std::string_view name) const {
   const auto find = scenario_.master->pin_by_name;
   return find == nullptr ? std::nullopt : find(name);
@@ -286,5 +290,23 @@ void Simulator::inject(std::string_view text) {
 }
 
 void Simulator::flush_trace() { model_->finish_trace(); }
+
+void Simulator::start_trace(const std::string& path) {
+  check_alive();
+  if (tracing_) throw TraceError(path + ": a waveform is being written already");
+  master_->start_trace({path, now_, kNever});
+  model_ = &master_->model();
+  tracing_ = part_ = true;
+  set_probes(&Simulator::on_probe);
+}
+
+bool Simulator::stop_trace() {
+  if (!part_) return false;
+  tracing_ = part_ = false;
+  set_probes(nullptr);
+  master_->stop_trace();
+  model_ = &master_->model();
+  return true;
+}
 
 }  // namespace mb4::sim

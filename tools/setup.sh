@@ -2,11 +2,12 @@
 # SPDX-FileCopyrightText: 2026 The openmb4 authors
 # SPDX-License-Identifier: Apache-2.0
 #
-# Installs the Debian 12 packages that are missing. Usage: tools/setup.sh [demo|test|python|web]
+# Installs the Debian 12 packages that are missing. Usage: tools/setup.sh [demo|test|python|web|site]
 #   demo    what the build and the command line need (default)
 #   test    that, and what the tests use besides
 #   python  what `pip install tools/python` needs
 #   web     what tools/web/build.sh and the test of its page need; a node that brings npm is kept
+#   site    what tools/site/build.sh needs; it fetches Sphinx from PyPI
 set -euo pipefail
 
 demo_packages=(
@@ -34,13 +35,16 @@ web_packages=(
 # Other nodes than Debian's hold npm themselves, and Debian's npm does not go with them.
 command -v npm >/dev/null || web_packages+=(npm)
 
+site_packages=(ca-certificates python3 python3-venv)
+
 case "${1:-demo}" in
   demo) packages=("${demo_packages[@]}") ;;
   test) packages=("${demo_packages[@]}" "${test_packages[@]}") ;;
   python) packages=("${python_packages[@]}") ;;
   web) packages=("${web_packages[@]}") ;;
+  site) packages=("${site_packages[@]}") ;;
   *)
-    echo "usage: tools/setup.sh [demo|test|python|web]" >&2
+    echo "usage: tools/setup.sh [demo|test|python|web|site]" >&2
     exit 2
     ;;
 esac

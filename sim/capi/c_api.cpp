@@ -18,6 +18,7 @@
 #include "mb4sim/simulator.hpp"
 #include "sim/capi/frame_watch.hpp"
 #include "sim/capi/report.hpp"
+#include "sim/core/trace_error.hpp"
 #include "sim/core/version.hpp"
 
 using mb4::sim::FrameWatch;
@@ -40,11 +41,12 @@ struct mb4sim {
   }
   Simulator simulator;
   std::unique_ptr<FrameWatch> frames;
-  bool failed = false;   // by an exception that leaves the simulator in an unknown state
-  bool inside = false;   // a call that lets time pass is running
-  bool closing = false;  // a callback has closed the handle: it goes when that call returns
-  int last_error = 0;    // of the last call that cannot return one
-  std::string reason;    // why the simulator has stopped
+  bool failed = false;      // by an exception that leaves the simulator in an unknown state
+  bool inside = false;      // a call that lets time pass is running
+  bool closing = false;     // a callback has closed the handle: it goes when that call returns
+  int last_error = 0;       // of the last call that cannot return one
+  std::string reason;       // why the simulator has stopped
+  std::string trace_error;  // why the latest call of a waveform has failed
 };
 
 namespace {
@@ -85,34 +87,43 @@ int run(mb4sim& sim, Call call) {
 }
 
 // Runs `call` on the simulator. Every exception becomes a negative error. A callback must not let
-// time pass, because time is passing already. `keep`: for mb4sim_last_error().
-enum class Keep { kNo, kYes };
-template <typename Call>
-int guarded(mb4sim* sim, Call call, Keep keep = Keep::kNo) {
+// time pass, because time is passing already. `note` receives the simulator and the result, while
+// the simulator still exists: a callback may have closed it.
+template <typename Call, typename Note>
+int guarded(mb4sim* sim, Call call, Note note) {
   if (sim == nullptr) return MB4SIM_ERROR_UNKNOWN;
-  const auto kept = [&](int result) {
-    if (keep == Keep::kYes) sim->last_error = std::min(result, 0);
+  const auto noted = [&](int result) {
+    note(*sim, result);
     return result;
   };
-  if (sim->failed) return kept(MB4SIM_ERROR_FAILED);
-  if (sim->inside) return kept(MB4SIM_ERROR_CALLBACK);
+  if (sim->failed) return noted(MB4SIM_ERROR_FAILED);
+  if (sim->inside) return noted(MB4SIM_ERROR_CALLBACK);
   sim->inside = true;
-  const int result = kept(run(*sim, call));
+  const int result = noted(run(*sim, call));
   sim->inside = false;
   if (sim->closing) delete sim;
   return result;
 }
 
+constexpr auto kNoNote = [](mb4sim& /*sim*/, int /*result*/) {};
+// For mb4sim_last_error().
+constexpr auto kKeep = [](mb4sim& sim, int result) { sim.last_error = std::min(result, 0); };
+
+template <typename Call>
+int guarded(mb4sim* sim, Call call) {
+  return guarded(sim, call, kNoNote);
+}
+
 // The same with the master's host on SPI, or on the parallel bus, as the scenario says.
-template <typename Host, typename Call>
-int hosted(mb4sim* sim, Call call, Keep keep = Keep::kNo) {
+template <typename Host, typename Call, typename Note = decltype(kNoNote)>
+int hosted(mb4sim* sim, Call call, Note note = kNoNote) {
   constexpr bool kParallel = std::is_same_v<Host, ParallelHost>;
   const auto with_host = [&](Simulator& simulator) {
     const bool wired = simulator.scenario().host.parallel() == kParallel;
     Host* const host = simulator.find_host<Host>(kParallel ? "bus" : "spi");
     return wired && host != nullptr ? call(*host) : int{MB4SIM_ERROR_HOST};
   };
-  return guarded(sim, with_host, keep);
+  return guarded(sim, with_host, note);
 }
 
 // The same with a host on a bus of 32-bit words. `call` returns the answer of the bus.
@@ -144,6 +155,8 @@ const char* error_text(const mb4sim& sim, int error) {
       return "the scenario's host has another interface";
     case MB4SIM_ERROR_CALLBACK:
       return "not allowed in a callback";
+    case MB4SIM_ERROR_TRACE:
+      return sim.trace_error.c_str();
     case MB4SIM_ERROR_SILENT:
       return "the bus has not answered";
     default:
@@ -196,12 +209,12 @@ void mb4sim_spi_select(mb4sim* sim, int active) {
     spi.select(active != 0);
     return 0;
   };
-  hosted<SpiHost>(sim, call, Keep::kYes);
+  hosted<SpiHost>(sim, call, kKeep);
 }
 
 uint8_t mb4sim_spi_byte(mb4sim* sim, uint8_t mosi) {
   const auto call = [&](SpiHost& spi) { return int{spi.byte(mosi)}; };
-  const int value = hosted<SpiHost>(sim, call, Keep::kYes);
+  const int value = hosted<SpiHost>(sim, call, kKeep);
   return value < 0 ? uint8_t{0} : static_cast<uint8_t>(value);
 }
 
@@ -210,7 +223,7 @@ void mb4sim_advance_ns(mb4sim* sim, uint64_t ns) {
     simulator.advance(duration(ns));
     return 0;
   };
-  guarded(sim, call, Keep::kYes);
+  guarded(sim, call, kKeep);
 }
 
 uint64_t mb4sim_time_ns(const mb4sim* sim) {
@@ -274,7 +287,7 @@ int mb4sim_inject(mb4sim* sim, const char* toml, char* error, size_t error_size)
     put_error("inject: no text", error, error_size);
     return MB4SIM_ERROR_UNKNOWN;
   }
-  const int result = guarded(sim, [&](Simulator& simulator) {
+  const auto call = [&](Simulator& simulator) {
     try {
       sim->watch();
       simulator.inject(toml);
@@ -283,11 +296,12 @@ int mb4sim_inject(mb4sim* sim, const char* toml, char* error, size_t error_size)
       return int{MB4SIM_ERROR_VALUE};
     }
     return 0;
-  });
-  if (result < 0 && result != MB4SIM_ERROR_VALUE) {
-    put_error(sim == nullptr ? "no simulator" : error_text(*sim, result), error, error_size);
-  }
-  return result;
+  };
+  const auto tell = [&](const mb4sim& handle, int result) {
+    if (result != MB4SIM_ERROR_VALUE) put_error(error_text(handle, result), error, error_size);
+  };
+  if (sim == nullptr) put_error("no simulator", error, error_size);
+  return guarded(sim, call, tell);
 }
 
 int mb4sim_slave_sent(const mb4sim* sim, unsigned slave, uint64_t frame, uint64_t* raw) {
@@ -392,6 +406,29 @@ int mb4sim_on_edge(mb4sim* sim, mb4sim_edge_callback callback, void* context) {
     });
     return 0;
   });
+}
+
+int mb4sim_trace_start(mb4sim* sim, const char* path) {
+  if (path == nullptr) return MB4SIM_ERROR_UNKNOWN;
+  const auto call = [&](Simulator& simulator) {
+    try {
+      simulator.start_trace(path);
+    } catch (const mb4::sim::TraceError& failure) {
+      sim->trace_error = failure.what();
+      return int{MB4SIM_ERROR_TRACE};
+    }
+    return 0;
+  };
+  return guarded(sim, call, kKeep);
+}
+
+int mb4sim_trace_stop(mb4sim* sim) {
+  const auto call = [&](Simulator& simulator) {
+    if (simulator.stop_trace()) return 0;
+    sim->trace_error = "no waveform is being written";
+    return int{MB4SIM_ERROR_TRACE};
+  };
+  return guarded(sim, call, kKeep);
 }
 
 int mb4sim_report(const mb4sim* sim, char* json, size_t size) {

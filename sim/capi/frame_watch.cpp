@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sim/capi/frame_watch.hpp"
 
-#include <string>
-
 namespace mb4::sim {
 
 FrameWatch::FrameWatch(Simulator& simulator)
@@ -47,13 +45,8 @@ void FrameWatch::set_edges(EdgeCallback callback) {
     channel->line->set_probe(edges_ ? &FrameWatch::on_probe : nullptr, channel.get());
     if (!edges_) continue;
     const Time now = simulator_.now();
-    const std::string number = std::to_string(channel->number);
-    const auto pin = [&](const std::string& name, bool otherwise) {
-      const auto found = simulator_.pin_by_name(name + number);
-      return found ? simulator_.pin(*found) : otherwise;
-    };
-    channel->levels = {pin("MA", true), pin("MO", false), channel->line->sl(),
-                       channel->line->chain().slo()};
+    channel->levels = {simulator_.ma(channel->number), simulator_.mo(channel->number),
+                       channel->line->sl(), channel->line->chain().slo()};
     for (std::size_t place = 0; place < kEdgePlaces; ++place)
       edges_(channel->number, static_cast<EdgePlace>(place), now, channel->levels[place]);
   }

@@ -44,8 +44,9 @@ enum {
   MB4SIM_ERROR_FAILED = -5,   /* out of memory or another failure; only closing is left */
   MB4SIM_ERROR_HOST = -6,     /* the scenario's host has another interface */
   MB4SIM_ERROR_CALLBACK = -7, /* a callback has called what changes something */
-  MB4SIM_ERROR_SILENT = -8 /* the bus has not answered: the clock stands still, or the master is in
-                              reset */
+  MB4SIM_ERROR_SILENT = -8,   /* the bus has not answered: the clock stands still, or the master is
+                                 in reset */
+  MB4SIM_ERROR_TRACE = -9     /* no waveform; mb4sim_last_error() tells why */
 };
 
 /* Opens a simulator from the TOML text of a scenario (sim/README.md). File names in the text are
@@ -166,7 +167,8 @@ enum {
 typedef void (*mb4sim_frame_callback)(void *context, const mb4sim_frame *frame);
 
 /* From now on `callback` is called at the end of every frame of a channel, inside the call that
- * lets time pass. NULL ends it. Returns 0 or a negative error.
+ * lets time pass. NULL ends it. Returns 0 or a negative error. mb4sim_on_edge() tells the single
+ * edges of a frame; both may be in use at once.
  *
  * A frame is over when MA has rested for 1.5 of its periods (40 us before its second rising edge).
  * So MA below 12.5 kHz, or a clock that changes inside a frame, splits a frame; slaves with a
@@ -196,6 +198,21 @@ typedef void (*mb4sim_edge_callback)(void *context, unsigned channel, unsigned p
  * must not do what that of mb4sim_on_frame() must not. */
 MB4SIM_API int mb4sim_on_edge(mb4sim *sim, mb4sim_edge_callback callback, void *context);
 
+/* Begins a waveform now: an FST file (GTKWave, Surfer) at `path`, as `mb4sim run --trace` writes
+ * it, with the pins, the registers inside the chip, and the levels at the slaves. Its times are
+ * those since power-on in ps. An existing file is replaced. The simulation goes on as without a
+ * waveform, but takes about ten times as long.
+ *
+ * Returns 0, or MB4SIM_ERROR_TRACE, and then nothing has changed: the file cannot be written; a
+ * waveform is being written already; the master writes none (biss_axi); the library was built
+ * without waveforms. MB4SIM_ERROR_UNKNOWN for a null pointer, MB4SIM_ERROR_CALLBACK in a
+ * callback. */
+MB4SIM_API int mb4sim_trace_start(mb4sim *sim, const char *path);
+/* Ends the waveform and completes its file; mb4sim_close() does so too. It works after
+ * MB4SIM_ERROR_STOPPED: the file then ends where the simulator stopped. Returns 0, or
+ * MB4SIM_ERROR_TRACE if no waveform is being written, MB4SIM_ERROR_CALLBACK in a callback. */
+MB4SIM_API int mb4sim_trace_stop(mb4sim *sim);
+
 /* Writes what has gone wrong so far as JSON to `json`, cut to `size` bytes with the terminating 0:
  *
  *   time_ns          now
@@ -210,8 +227,9 @@ MB4SIM_API int mb4sim_on_edge(mb4sim *sim, mb4sim_edge_callback callback, void *
  * scenario with [[fault]] from power-on. */
 MB4SIM_API int mb4sim_report(const mb4sim *sim, char *json, size_t size);
 
-/* The error of the latest call of mb4sim_spi_select(), mb4sim_spi_byte() or mb4sim_advance_ns(),
- * 0 if it had none. `text` receives it in words, cut to `size` bytes; it may be NULL. */
+/* The error of the latest call of mb4sim_spi_select(), mb4sim_spi_byte(), mb4sim_advance_ns(),
+ * mb4sim_trace_start() or mb4sim_trace_stop(), 0 if it had none. `text` receives it in words, cut
+ * to `size` bytes; it may be NULL. */
 MB4SIM_API int mb4sim_last_error(const mb4sim *sim, char *text, size_t size);
 
 /* Version of the library, "major.minor.patch". */

@@ -37,7 +37,13 @@ void Line::drive_all(Time now, bool ma, bool mo, unsigned levels) {
     tap_(now, tap_receiver_, Signal::kMo, mo);
   }
   out_.drive(now, levels);
-  lane_ = tap_ == nullptr && probe_ == nullptr && plugged_ && out_.ideal();
+  lane_ = tap_ == nullptr && probes_.empty() && plugged_ && out_.ideal();
+}
+
+void Line::set_probe(Probe probe, void* receiver) {
+  lane_ = false;
+  std::erase_if(probes_, [&](const auto& each) { return each.second == receiver; });
+  if (probe != nullptr) probes_.emplace_back(probe, receiver);
 }
 
 void Line::set_round_trip(Time round_trip) {
@@ -55,7 +61,7 @@ void Line::set_faults(const WireFaults& ma, const WireFaults& sl) {
 // send_back() and to_slaves() run at least once at every edge. They stand before their callers so
 // that the compiler can inline them.
 inline void Line::send_back(Time now) {
-  if (probe_ != nullptr) probe_(now, probe_receiver_);
+  for (const auto& [probe, receiver] : probes_) probe(now, receiver);
   const bool slo = chain_.slo();
   faults_.levels(slo, chain_.idle());
   const bool level = plugged_ ? faults_.wire(slo) : open_level_;
@@ -108,7 +114,7 @@ void Line::act(Time now, CableEvent::Action action) {
 
 void Line::at_slaves(Time now, void* receiver, unsigned levels) {
   auto* line = static_cast<Line*>(receiver);
-  if (line->plugged_ && line->probe_ == nullptr && line->shifts(levels)) {
+  if (line->plugged_ && line->probes_.empty() && line->shifts(levels)) {
     line->shift(now, levels);
     return;
   }

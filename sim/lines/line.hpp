@@ -7,6 +7,8 @@
 #define MB4SIM_LINE_HPP_
 
 #include <cstdint>
+#include <utility>
+#include <vector>
 
 #include "sim/core/cable.hpp"
 #include "sim/core/event_queue.hpp"
@@ -70,12 +72,9 @@ class Line {
   void act(Time now, CableEvent::Action action);
   bool plugged() const { return plugged_; }
 
-  // The probe is for waveforms. There is at most one.
-  void set_probe(Probe probe, void* receiver) {
-    lane_ = false;
-    probe_ = probe;
-    probe_receiver_ = receiver;
-  }
+  // Probes are for waveforms and recordings. Each receiver has at most one, and a null pointer
+  // takes it away.
+  void set_probe(Probe probe, void* receiver);
 
   // The tap is for recordings. There is at most one. It is called for MA and MO when either of them
   // may have changed.
@@ -127,8 +126,7 @@ class Line {
   SlFaults faults_;
   Output output_;
   void* receiver_;
-  Probe probe_ = nullptr;
-  void* probe_receiver_ = nullptr;
+  std::vector<std::pair<Probe, void*>> probes_;  // with their receivers
   Tap tap_ = nullptr;
   void* tap_receiver_ = nullptr;
   bool open_level_;

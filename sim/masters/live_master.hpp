@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <string_view>
 
+#include "sim/core/trace_error.hpp"
 #include "sim/core/trace_file.hpp"
 #include "sim/hosts/host_check.hpp"
 #include "sim/hosts/host_config.hpp"
@@ -52,6 +53,15 @@ class LiveMaster {
 
   // See Simulator::set_observer().
   virtual void set_observer(PinObserver* /*observer*/) {}
+
+  // --- waveform of a part of the run -------------------------------------------------------------
+  // From now on model() is another one. Throws TraceError if the file cannot be written, or if the
+  // master has no waveform; then nothing has changed.
+  virtual void start_trace(const TraceFile& file) {
+    throw TraceError(file.path + ": this master writes no waveform");
+  }
+  // Completes the file. model() is another one again.
+  virtual void stop_trace() {}
 
   // --- hosts -------------------------------------------------------------------------------------
   // The host of a name, for example "spi". Null if the master has none of this name.

@@ -142,6 +142,30 @@ def test_injected_fault_is_met_and_reported():
             chip.inject({"fault": [{"kind": "nonsense"}]})
 
 
+def test_waveform_holds_what_lies_between(tmp_path):
+    first, second = tmp_path / "first.fst", tmp_path / "second.fst"
+    with openmb4.Simulator(TEXT) as chip:
+        chip.driver.configure()
+        with chip.trace(first):
+            assert chip.driver.read_frame(1).raw == 0x2ABCDEF
+            with pytest.raises(openmb4.Error, match="second.fst: a waveform is being written") as told:
+                chip.trace_start(second)
+            assert told.value.code == "MB4SIM_ERROR_TRACE"
+        written = first.read_bytes()
+        assert len(written) > 1000
+        assert chip.driver.read_frame(1).raw == 0x2ABCDEF
+        with pytest.raises(openmb4.Error, match="^trace_stop: no waveform is being written"):
+            chip.trace_stop()
+        with pytest.raises(openmb4.Error, match="^trace_start: .*cannot write the waveform"):
+            chip.trace_start(tmp_path / "no-such-folder" / "x.fst")
+        with pytest.raises(ZeroDivisionError), chip.trace(second):
+            chip.driver.read_frame(1)
+            1 / 0
+        assert first.read_bytes() == written and second.stat().st_size > 1000
+        with chip.trace(second):
+            chip.close()
+
+
 def test_closed_simulator_refuses_every_call():
     chip = openmb4.Simulator(TEXT)
     chip.close()

@@ -127,6 +127,13 @@ class Simulator final : public HostPins {
   // Guard of pin MA of a channel of the master. It exists also for a channel that the scenario does
   // not have.
   MaPulseCheck& ma_check(unsigned channel) { return lines_.at(channel - 1).ma_check; }
+  // Levels of the master's pins MA and MO of a channel, 1 to the number of the master's channels.
+  bool ma(unsigned channel) const {
+    return (model_->outputs() & MasterModel::ma_of(channel - 1)) != 0;
+  }
+  bool mo(unsigned channel) const {
+    return (model_->outputs() & MasterModel::mo_of(channel - 1)) != 0;
+  }
   // Applies changed line faults (SlFaults::stick) to the SL pins at once.
   void refresh_lines();
 
@@ -141,6 +148,13 @@ class Simulator final : public HostPins {
   std::uint64_t seed() const { return seed_; }
   // Writes the waveform file completely up to the present time.
   void flush_trace();
+  // Begins a waveform now, in a simulator without SimulatorOptions::trace_path. It changes nothing
+  // in the simulation, which is slower meanwhile. Throws TraceError if the file cannot be written,
+  // if the master or this build writes no waveform, and if one is being written; then nothing has
+  // changed. Must not be called from inside a callback.
+  void start_trace(const std::string& path);
+  // Ends that waveform and completes its file. Returns false if there is none.
+  bool stop_trace();
 
  private:
   friend class SimulatorFaults;
@@ -153,6 +167,7 @@ class Simulator final : public HostPins {
     MaPulseCheck ma_check;
   };
   static void on_probe(Time now, void* receiver);
+  void set_probes(Line::Probe probe);
   static void on_sl(Time now, void* receiver, bool level);
 
   bool step(Time limit);
@@ -175,6 +190,8 @@ class Simulator final : public HostPins {
   MasterModel::Outputs seen_ = 0;  // outputs that have been handled
   MasterModel::Outputs followers_ = 0;
   bool settling_ = false;
+  bool tracing_ = false;  // a waveform is being written
+  bool part_ = false;     // it is one of start_trace()
   std::optional<ModelStopped> stopped_;
 };
 

@@ -2,6 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sim/masters/mb4/live_mb4.hpp"
 
+#include <utility>
+
+#include "sim/masters/mb4/model/watched_chip.hpp"
+
 namespace mb4::sim {
 namespace {
 
@@ -19,6 +23,7 @@ std::unique_ptr<ChipModel> make_chip(const MasterSetup& setup) {
 
 LiveMb4::LiveMb4(const MasterSetup& setup)
     : outside_(setup.outside),
+      config_(setup.chip),
       interface_(setup.host.interface),
       lines_(setup.lines),
       clk_connected_(setup.chip.f_clk_hz != 0),
@@ -33,6 +38,25 @@ LiveMb4::LiveMb4(const MasterSetup& setup)
     levels_[index] = pulled_up(pin) || pin == Pin::kCfgspi;  // CFGSPI is a strap
     if (levels_[index]) host_check_.edge(0, pin, true);
   }
+}
+
+LiveMb4::~LiveMb4() = default;
+
+void LiveMb4::start_trace(const TraceFile& file) {
+  auto traced = make_traced_chip(config_, *chip_, file);
+  const bool pair = drives_pair();
+  auto watched = std::make_unique<WatchedChip>(std::move(chip_), std::move(traced));
+  watched->drive_pair(pair);
+  watched_ = watched.get();
+  chip_ = std::move(watched);
+}
+
+void LiveMb4::stop_trace() {
+  if (watched_ == nullptr) return;
+  const bool pair = drives_pair();
+  std::unique_ptr<ChipModel> chip = std::exchange(watched_, nullptr)->release();
+  chip->drive_pair(pair);
+  chip_ = std::move(chip);
 }
 
 void LiveMb4::power_on() {

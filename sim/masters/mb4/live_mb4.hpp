@@ -19,9 +19,12 @@
 
 namespace mb4::sim {
 
+class WatchedChip;
+
 class LiveMb4 final : public LiveMaster {
  public:
   explicit LiveMb4(const MasterSetup& setup);
+  ~LiveMb4() override;
 
   MasterModel& model() override { return *chip_; }
   // NRES is low for 500 ns (E08: at least 250 ns).
@@ -36,6 +39,8 @@ class LiveMb4 final : public LiveMaster {
   bool pin(Pin pin) const override;
   void own_outputs_changed(Time now, MasterModel::Outputs changed) override;
   void set_observer(PinObserver* observer) override;
+  void start_trace(const TraceFile& file) override;
+  void stop_trace() override;
 
   HostModel* host(std::string_view name) override;
   HostCheck& host_check() override { return host_check_; }
@@ -48,6 +53,7 @@ class LiveMb4 final : public LiveMaster {
   void drive(Time now, Pin pin, bool level);
 
   HostPins& outside_;
+  const ChipConfig& config_;
   HostInterface interface_;
   MasterModel::Outputs lines_;
   bool clk_connected_;
@@ -56,6 +62,7 @@ class LiveMb4 final : public LiveMaster {
   ParallelHost bus_;
   Mb4HostCheck host_check_;
   std::unique_ptr<ChipModel> chip_;
+  WatchedChip* watched_ = nullptr;  // chip_ while start_trace() writes a waveform
   PinObserver* observer_ = nullptr;
   bool ner_pulled_ = false;        // by something outside
   std::array<bool, 32> levels_{};  // of input pins but SL, index is Pin

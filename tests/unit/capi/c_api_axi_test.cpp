@@ -6,6 +6,7 @@
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include "axi_regs.hpp"
 #include "mb4sim.h"
@@ -58,6 +59,33 @@ TEST_F(CApiAxi, CallsOfOtherHosts_AreRefusedAndTheHandleLivesOn) {
   EXPECT_EQ(mb4sim_last_error(sim, nullptr, 0), 0);
   EXPECT_EQ(mb4sim_time_ns(sim), before + 1000);
   EXPECT_EQ(mb4sim_slave_set_data(sim, 1, 7), 0);
+}
+
+// The pins of this master have names of their own.
+TEST_F(CApiAxi, OnEdge_TellsTheLevelsOfTheLines) {
+  const struct {
+    uint32_t address, value;
+  } steps[] = {{reg::kAddrMode, 1},     {reg::kAddrMaDivider, 5},     {reg::kAddrPositionBits, 26},
+               {reg::kAddrCrcCheck, 1}, {reg::kAddrChannelEnable, 1}, {reg::kAddrRequest, 1}};
+  for (const auto& step : steps) EXPECT_EQ(mb4sim_axi_write(sim, step.address, step.value, 0xF), 0);
+  const auto keep = [](void* context, unsigned, unsigned place, uint64_t, int level) {
+    static_cast<std::vector<int>*>(context)->at(place) = level;
+  };
+  for (const int ma : {0, 1}) {
+    ASSERT_EQ(mb4sim_run_until(sim, "ma0", ma, 20'000), 1);
+    std::vector<int> levels(4, -1);
+    ASSERT_EQ(mb4sim_on_edge(sim, keep, &levels), 0);
+    EXPECT_EQ(levels, (std::vector<int>{ma, 0, 1, 1}));
+    ASSERT_EQ(mb4sim_on_edge(sim, nullptr, nullptr), 0);
+  }
+}
+
+TEST_F(CApiAxi, Waveform_IsRefused) {
+  char why[200];
+  EXPECT_EQ(mb4sim_trace_start(sim, "axi.fst"), MB4SIM_ERROR_TRACE);
+  EXPECT_EQ(mb4sim_last_error(sim, why, sizeof why), MB4SIM_ERROR_TRACE);
+  EXPECT_STREQ(why, "axi.fst: this master writes no waveform");
+  EXPECT_EQ(mb4sim_trace_stop(sim), MB4SIM_ERROR_TRACE);
 }
 
 TEST_F(CApiAxi, Registers_AreReadAndWritten) {

@@ -52,6 +52,10 @@ int main(void) {
   failures += check(mb4sim_slave_frames(sim, 1) == 0, "slave_frames");
   failures += check(mb4sim_on_frame(sim, count_frame, &frames) == 0, "on_frame");
   failures += check(mb4sim_on_edge(sim, NULL, NULL) == 0, "on_edge");
+  failures +=
+      check(mb4sim_trace_start(sim, "/no/such/folder/x.fst") == MB4SIM_ERROR_TRACE, "trace_start");
+  failures += check(mb4sim_trace_stop(sim) == MB4SIM_ERROR_TRACE, "trace_stop");
+  mb4sim_advance_ns(sim, 1);
   failures += check(mb4sim_inject(sim, "[[fault]]\n", error, sizeof error) < 0, "inject");
   failures += check(mb4sim_slave_sent(sim, 1, 1, &raw) < 0, "slave_sent");
   failures += check(mb4sim_run_until(sim, "EOT", 0, 1000) == 0, "run_until");

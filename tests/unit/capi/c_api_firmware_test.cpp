@@ -3,9 +3,13 @@
 //
 // The calls of the C interface for programs that test firmware, through the shared library.
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <cstdint>
+#include <filesystem>
+#include <fstream>
 #include <initializer_list>
+#include <iterator>
 #include <string>
 #include <vector>
 
@@ -377,6 +381,86 @@ TEST_F(CApiFirmware, CallsThatLetTimePass_AreRefusedInACallback) {
   mb4sim_advance_ns(sim, 1);
   EXPECT_EQ(mb4sim_last_error(sim, nullptr, 0), 0);
 }
+
+#ifdef MB4_TRACE
+std::string read_file(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+// Two waveforms after each other; frames are simulated as before, between and after them.
+TEST_F(CApiFirmware, Trace_WritesAWaveformOfWhatLiesBetween) {
+  const std::string folder = testing::TempDir() + "c_api_trace_" + std::to_string(getpid());
+  const std::string first = folder + "_1.fst";
+  const std::string second = folder + "_2.fst";
+  frame();
+  ASSERT_EQ(mb4sim_trace_start(sim, first.c_str()), 0);
+  char why[300];
+  EXPECT_EQ(mb4sim_trace_start(sim, second.c_str()), MB4SIM_ERROR_TRACE);
+  EXPECT_EQ(mb4sim_last_error(sim, why, sizeof why), MB4SIM_ERROR_TRACE);
+  EXPECT_EQ(why, second + ": a waveform is being written already");
+  frame();
+  EXPECT_EQ(mb4sim_trace_stop(sim), 0);
+  EXPECT_EQ(mb4sim_last_error(sim, why, sizeof why), 0);
+  EXPECT_STREQ(why, "");
+  EXPECT_EQ(mb4sim_trace_stop(sim), MB4SIM_ERROR_TRACE);
+  EXPECT_EQ(mb4sim_last_error(sim, why, sizeof why), MB4SIM_ERROR_TRACE);
+  EXPECT_STREQ(why, "no waveform is being written");
+  frame();
+  ASSERT_EQ(mb4sim_trace_start(sim, second.c_str()), 0);
+  frame();
+  EXPECT_EQ(mb4sim_slave_frames(sim, 1), 4U);
+  EXPECT_EQ(valid(), std::make_pair(true, true));
+  mb4sim_close(sim);  // completes the file
+  sim = nullptr;
+  const std::string one = read_file(first);
+  const std::string two = read_file(second);
+  EXPECT_GT(one.size(), 1000U);
+  EXPECT_GT(two.size(), 1000U);
+  EXPECT_NE(one, two);
+  std::filesystem::remove(first);
+  std::filesystem::remove(second);
+}
+
+TEST_F(CApiFirmware, TraceBesideEdges_LeavesThemAsTheyAre) {
+  const std::string path = testing::TempDir() + "c_api_edges_" + std::to_string(getpid()) + ".fst";
+  std::vector<Edge> edges;
+  ASSERT_EQ(mb4sim_on_edge(sim, &keep_edge, &edges), 0);
+  frame();
+  const size_t plain = edges.size();
+  ASSERT_EQ(mb4sim_trace_start(sim, path.c_str()), 0);
+  frame();
+  const size_t traced = edges.size() - plain;
+  ASSERT_EQ(mb4sim_trace_stop(sim), 0);
+  edges.clear();
+  EXPECT_GT(traced, 100U);
+  frame();
+  const std::vector<Edge> slo = of_place(edges, MB4SIM_EDGE_SLO);  // the probe is still there
+  EXPECT_GT(slo.size(), 10U);
+  std::filesystem::remove(path);
+}
+
+TEST_F(CApiFirmware, TraceThatCannotBe_IsToldAndLeavesTheHandleAlive) {
+  char why[300];
+  EXPECT_EQ(mb4sim_trace_start(sim, "/no/such/folder/x.fst"), MB4SIM_ERROR_TRACE);
+  EXPECT_EQ(mb4sim_last_error(sim, why, sizeof why), MB4SIM_ERROR_TRACE);
+  EXPECT_STREQ(why, "/no/such/folder/x.fst: cannot write the waveform");
+  EXPECT_EQ(mb4sim_trace_start(sim, nullptr), MB4SIM_ERROR_UNKNOWN);
+  EXPECT_EQ(mb4sim_trace_start(nullptr, "x.fst"), MB4SIM_ERROR_UNKNOWN);
+  EXPECT_EQ(mb4sim_trace_stop(nullptr), MB4SIM_ERROR_UNKNOWN);
+  const auto call = [](void* context, const mb4sim_frame*) {
+    auto* inside = static_cast<Seen*>(context);
+    EXPECT_EQ(mb4sim_trace_start(inside->sim, "x.fst"), MB4SIM_ERROR_CALLBACK);
+    EXPECT_EQ(mb4sim_trace_stop(inside->sim), MB4SIM_ERROR_CALLBACK);
+    ++inside->calls;
+  };
+  Seen seen;
+  seen.sim = sim;
+  ASSERT_EQ(mb4sim_on_frame(sim, call, &seen), 0);
+  frame();
+  EXPECT_EQ(seen.calls, 2);
+}
+#endif
 
 // Closed inside, the simulator goes when the call that lets time pass returns.
 TEST_F(CApiFirmware, ClosedInACallback_EndsWithTheCall) {

@@ -12,6 +12,7 @@
 #include <typeinfo>
 
 #include "mb4sim.h"
+#include "mb4sim/model_stopped.hpp"
 #include "mb4sim/simulator.hpp"
 #include "sim/core/scenario_error.hpp"
 #include "sim/core/toml_reader.hpp"
@@ -26,6 +27,9 @@ namespace {
 constexpr unsigned kDataBits = 28;
 constexpr unsigned kCrcBits = 6;
 constexpr unsigned kLatestStart = 64;  // bits to wait for the start bit
+
+constexpr char kSlLowTooEarly[] =
+    "SL has gone low before the first frame, which stops this master with a message of its own";
 
 // MA has half of the clock's frequency. SL is taken at the rising edges of MA.
 class FrameMaker final : public MasterModel {
@@ -57,7 +61,10 @@ class FrameMaker final : public MasterModel {
     if ((outputs_ & ma_of(0)) != 0) take_bit();
     return now;
   }
-  void set_sl(Time /*now*/, unsigned /*line*/, bool level) override { sl_ = level; }
+  void set_sl(Time /*now*/, unsigned /*line*/, bool level) override {
+    sl_ = level;
+    if (!level && cycles_ == 0) throw ModelStopped(kSlLowTooEarly);
+  }
   void set_clock(Time /*now*/, std::uint64_t hz) override {
     if (hz != 0) period_ = kPsPerSecond / hz;
   }
@@ -226,6 +233,25 @@ TEST(SecondMaster, WordBusOfTheCInterface_IsThatOfItsHost) {
   EXPECT_EQ(mb4sim_axi_read(sim, MemoryHost::kSilent + 4, &data), MB4SIM_ERROR_VALUE);
   EXPECT_EQ(data, 77U);
   mb4sim_close(sim);
+}
+
+// The simulator goes when the call returns, and the call still tells why it has stopped.
+TEST(SecondMaster, ClosedInACallback_InjectTellsItsError) {
+  scenario("");  // adds the master
+  const std::string text = std::string("[master]\ntype = \"one-line\"\n") + kChannel;
+  mb4sim* const sim = mb4sim_open(text.c_str(), nullptr, 0);
+  ASSERT_NE(sim, nullptr);
+  const auto close = [](void* context, unsigned, unsigned place, uint64_t, int level) {
+    if (place == MB4SIM_EDGE_SL && level == 0) mb4sim_close(static_cast<mb4sim*>(context));
+  };
+  ASSERT_EQ(mb4sim_on_edge(sim, close, sim), 0);
+  char error[200];
+  EXPECT_EQ(mb4sim_inject(sim,
+                          "[[channel]]\nnumber = 1\n"
+                          "[[channel.event]]\nat_us = 0\naction = \"sl-low\"\n",
+                          error, sizeof error),
+            MB4SIM_ERROR_STOPPED);
+  EXPECT_STREQ(error, kSlLowTooEarly);
 }
 
 TEST(SecondMaster, WhatItDoesNotHave_IsRefused) {

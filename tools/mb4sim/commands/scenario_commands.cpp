@@ -66,9 +66,10 @@ void add_spi(CLI::App& app, Action& action) {
 
 void add_sweep(CLI::App& app, Action& action) {
   std::shared_ptr<SweepOptions> options;
-  CLI::App& sweep = *add_command(app, action, "sweep",
-                                 "Count bad frames over line delay, jitter and FREQS (eye margin)",
-                                 &sweep_command, options);
+  CLI::App& sweep =
+      *add_command(app, action, "sweep",
+                   "Count bad frames over line delay, jitter and frequency of MA (eye margin)",
+                   &sweep_command, options);
   add_scenario(sweep, options->scenario);
   const auto add_list = [&](const char* name, std::string& list, const char* description) {
     sweep.add_option(name, list, description)->type_name("LIST");
@@ -77,7 +78,9 @@ void add_sweep(CLI::App& app, Action& action) {
            "Round-trip delays in ns, on all channels (default 0:400:20)");
   add_list("--jitters", options->jitters,
            "Jitter of SL in % of T_MA, peak to peak (default 0:50:5)");
-  add_list("--freqs", options->freqs, "FREQS codes, or all (default: the scenario's ma_hz)");
+  add_list("--freqs", options->freqs,
+           "Codes of the frequency of MA: FREQS, on biss_axi MA_DIVIDER; or all (default: the "
+           "scenario's ma_hz)");
   add_frames(sweep, options->frames, "Frames at each point (default 20)", 1);
   add_output(sweep, "--csv", options->csv, "Also write one line a point");
   add_output(sweep, "--svg", options->svg, "Also draw the eye margin", "F.svg");

@@ -2,11 +2,12 @@
 # SPDX-License-Identifier: Apache-2.0
 """A simulated chip with its host and encoders."""
 
+import contextlib
 import json
 import os
 import threading
 from numbers import Integral
-from typing import Any, Callable, Dict, List, Mapping, NamedTuple, Optional, Sequence, Tuple, Union
+from typing import Any, Callable, Dict, Iterator, List, Mapping, NamedTuple, Optional, Sequence, Tuple, Union
 
 import numpy as np
 
@@ -267,6 +268,41 @@ class Simulator:
                 "mb4sim_frame_callback", pass_on, onerror=keep)
             self._do("on_frame", lib.mb4sim_on_frame, function, ffi.NULL)
             self._callback = function  # C keeps no reference
+
+    def trace_start(self, path: Union[str, os.PathLike]) -> None:
+        """Begins a waveform now: an FST file for GTKWave or Surfer, as `mb4sim run --trace` writes
+        it. The run goes on as without it, but slowly. Raises Error with the reason, and then nothing
+        has changed."""
+        file = os.fsencode(path)
+        if b"\0" in file:
+            raise Error("trace_start: the path holds a character of code 0")
+        self._trace("trace_start", lib.mb4sim_trace_start, file)
+
+    def trace_stop(self) -> None:
+        """Ends the waveform and completes its file; close() does so too."""
+        self._trace("trace_stop", lib.mb4sim_trace_stop)
+
+    @contextlib.contextmanager
+    def trace(self, path: Union[str, os.PathLike]) -> Iterator[None]:
+        """A waveform of what the `with` block does, also if the block raises. close() inside the
+        block ends it."""
+        self.trace_start(path)
+        try:
+            yield
+        finally:
+            if self._sim is not None:
+                self.trace_stop()
+
+    def _trace(self, what: str, function: Callable[..., int], *arguments: Any) -> None:
+        with self._lock:
+            result = self._call(function, self._sim, *arguments)
+            if result == lib.MB4SIM_ERROR_TRACE:
+                why = ffi.new("char[]", ERROR_BYTES)
+                lib.mb4sim_last_error(self._sim, why, ERROR_BYTES)
+                raise Error(f"{what}: {ffi.string(why).decode(errors='replace')}",
+                            "MB4SIM_ERROR_TRACE")
+            if result < 0:
+                raise simulator_error(result, what)
 
     def report(self) -> dict:
         """Faults, how they were met, and violations of the host's timing, as mb4sim_report() of

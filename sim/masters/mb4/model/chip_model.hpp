@@ -7,14 +7,29 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 
 #include "sim/core/time.hpp"
 #include "sim/core/trace_file.hpp"
 #include "sim/masters/chip_config.hpp"
 #include "sim/masters/master_model.hpp"
 #include "sim/masters/mb4/pins.hpp"
+#include "sim/model/clock_source.hpp"
+
+class Vmb4_chip;  // of Verilator
+class Vmb4_chip___024root;
 
 namespace mb4::sim {
+
+// A chip that runs, for another model that goes on from there.
+struct RunningChip {
+  const Vmb4_chip___024root& signals;
+  ClockSource pin_clock;
+  ClockSource oscillator;
+  bool osc_selected;
+  bool osc_running;
+  unsigned osc_tail;
+};
 
 class ChipModel : public MasterModel {
  public:
@@ -38,6 +53,8 @@ class ChipModel : public MasterModel {
   bool paired() const { return followers_ != 0; }
   // From now on set_sl() of line 1 also drives SL2 with the inverse.
   void drive_pair(bool on) { drives_pair_ = on; }
+  // Nothing for a model whose state cannot be taken over.
+  virtual std::optional<RunningChip> running() const { return std::nullopt; }
 
  protected:
   bool drives_pair_ = false;
@@ -50,6 +67,11 @@ class ChipModel : public MasterModel {
 std::unique_ptr<ChipModel> make_fast_chip(const ChipConfig& config, std::uint64_t seed);
 std::unique_ptr<ChipModel> make_plain_chip(const ChipConfig& config, std::uint64_t seed);
 std::unique_ptr<ChipModel> make_traced_chip(const ChipConfig& config, std::uint64_t seed,
+                                            const TraceFile& trace);
+// A traced model that goes on from the present state of `chip`, which must have been made by
+// make_fast_chip() or make_plain_chip() from the same config. The waveform begins at `trace.from`,
+// the present time. Throws TraceError.
+std::unique_ptr<ChipModel> make_traced_chip(const ChipConfig& config, const ChipModel& chip,
                                             const TraceFile& trace);
 
 }  // namespace mb4::sim

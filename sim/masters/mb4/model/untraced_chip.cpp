@@ -11,4 +11,9 @@ std::unique_ptr<ChipModel> make_traced_chip(const ChipConfig& /*config*/, std::u
   throw TraceError(trace.path + ": this build writes no waveforms");
 }
 
+std::unique_ptr<ChipModel> make_traced_chip(const ChipConfig& /*config*/, const ChipModel& /*chip*/,
+                                            const TraceFile& trace) {
+  throw TraceError(trace.path + ": this build writes no waveforms");
+}
+
 }  // namespace mb4::sim

@@ -11,7 +11,9 @@
 #include <cstddef>
 #include <iterator>
 #include <memory>
+#include <optional>
 #include <string>
+#include <type_traits>
 
 #include "chip_model.hpp"
 #include "sim/model/clock_source.hpp"
@@ -99,6 +101,32 @@ class VerilatedChip final : public ChipModel {
     // has several simulators, that context may be another simulator's or already deleted.
     Verilated::threadContextp(context_.get());
     model_->final();
+  }
+
+  std::optional<RunningChip> running() const override {
+    if constexpr (std::is_same_v<Model, Vmb4_chip>) {
+      return RunningChip{*model_->rootp, pin_clock_,   oscillator_,
+                         osc_selected_,  osc_running_, osc_tail_};
+    } else {
+      return std::nullopt;
+    }
+  }
+
+  // Takes over the state of another chip at time `now`. `copy` writes its signals into the model,
+  // so that the next eval() computes all others.
+  template <typename Copy>
+  void go_on_from(Time now, const RunningChip& chip, Copy copy) {
+    Verilated::threadContextp(context_.get());
+    copy(chip.signals, *model_);
+    pin_clock_ = chip.pin_clock;
+    oscillator_ = chip.oscillator;
+    osc_selected_ = chip.osc_selected;
+    osc_running_ = chip.osc_running;
+    osc_tail_ = chip.osc_tail;
+    context_->time(now);
+    steps_.inputs(*model_);
+    outputs_ = pack();
+    followers_ = Inside::paired(*model_) ? kMa2 : 0;
   }
 
   Time run_clocks(Time limit) override {
