@@ -273,6 +273,7 @@ typedef struct {
   uint32_t switched; /* MB4_BANK_SWITCHED */
   uint32_t late;     /* reads that ended more than 1.5 periods after the last one */
   uint32_t faults;   /* other errors */
+  uint32_t restarts; /* of the C++ calls next(), restart() and plan_restart() */
   bool omits;        /* nAGSERR = 0: the chip has left out a frame */
   /* Private. */
   uint32_t last_us; /* good */

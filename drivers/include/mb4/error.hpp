@@ -35,7 +35,8 @@ enum class Error : std::uint8_t {
   // The configuration reads back differently; ErrorInfo::address() is the first register that
   // differs. Touched: the configuration in the chip must not be used.
   kVerify = 7,
-  // The frame, or a register access (time limit: ControlSteps::poll()), has not ended in time and SL
+  // The frame, or a register access (time limit: ControlSteps::poll()), has not ended in time and
+  // SL
   // is not stuck: the slave does not answer or takes longer
   // than the timeout, or the chip has no system clock. Touched: BREAK has been sent, the chip is
   // idle; only Automatic::poll() and poll_slave() leave that to the caller.

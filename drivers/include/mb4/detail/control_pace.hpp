@@ -24,13 +24,12 @@ void restart_time(Chip<Bus, Clock>& chip, std::uint32_t timeout_us) {
 // For accesses without automatic frames, where the host sets the pace. True when the access cannot
 // end well any more: all frames that it needs have run and the time of a busy slave is over. A
 // frame takes more than a microsecond, so a clock that stands still ends it too.
-template <typename Bus, typename Clock>
-[[nodiscard]] bool enough_frames(Chip<Bus, Clock>& chip) {
+[[nodiscard]] inline bool enough_frames(const ChipState& chip, std::uint32_t now_us) {
   const ControlState& state = chip.control;
   const std::uint32_t needed = control_frames(state.count);
   return state.frames >= needed &&
          (state.frames - needed > register_busy_us(chip.config) ||
-          chip.clock->now_us() - state.access_us >= control_timeout_us(chip.config, state.count));
+          now_us - state.access_us >= control_timeout_us(chip.config, state.count));
 }
 
 }  // namespace mb4::detail
