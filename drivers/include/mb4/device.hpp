@@ -116,6 +116,7 @@ class Device {
     chip_.actuators = actuators(config);
     chip_.frame_us = frame_timeout_us(config);
     chip_.pitch_us = detail::frame_pitch_us(config);
+    chip_.busy_us = detail::register_busy_us(config);
     chip_.needs = (chip_.sensors & (chip_.sensors - 1U)) != 0 ? MB4_WITH_SEVERAL : 0;
     chip_.count = 0;
     ++chip_.configurations;

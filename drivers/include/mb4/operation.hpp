@@ -58,8 +58,8 @@ class Operation : public Steps {
  private:
   friend struct detail::Procedures;
 
-  // Most bytes of registers in one frame.
-  static constexpr std::uint8_t kPart = kMaxFrameBytes - 2;
+  // Most bytes of an access in one frame: plan and finish() of one step stay short.
+  static constexpr std::uint8_t kPart = 8;
   static constexpr std::size_t kWords = 12;
 
   // Takes what came back and adds the next frames. Without frames the operation has ended.

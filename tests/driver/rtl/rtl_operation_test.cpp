@@ -30,7 +30,7 @@ template <typename Between>
 Result<void> complete(FaultyChip& chip, Operation& op, Between between) {
   bool ended = false;
   for (unsigned steps = 0; !ended; ++steps) {
-    if (steps > 5'000) {
+    if (steps > 10'000) {
       ADD_FAILURE() << "the operation does not end";
       return op.result();
     }
@@ -45,7 +45,7 @@ Result<void> complete(FaultyChip& chip, Operation& op, Between between) {
   return op.result();
 }
 Result<void> complete(FaultyChip& chip, Operation& op) {
-  return complete(chip, op, [] {});
+  return complete(chip, op, [&chip] { chip.simulator.advance(10 * sim::kPsPerUs); });
 }
 
 void stick(FaultyChip& chip, std::optional<bool> level) {
@@ -247,7 +247,7 @@ TEST_P(DriverOperation, ReadBesideEveryPhase_PositionsGoOn) {
         transferred = read.run(chip.bus);
       } while (!chip.device.automatic().finish(read, transferred, chip.clock.now_us()));
       if (read.error() == Error::kNone) {
-        EXPECT_GT(read.position(), last);
+        EXPECT_TRUE(positions == 0 || read.position() > last);
         last = read.position();
         ++positions;
       }

@@ -28,7 +28,7 @@ inline constexpr std::uint8_t kControlFrame =
   if (state.biss_b) {
     return biss_b_timeout_us(chip.config, state.count);
   }
-  return chip.automatic ? control_timeout_us(chip.config, state.count) : chip.frame_us;
+  return chip.automatic ? longest_access_us(chip) : chip.frame_us;
 }
 
 // How the access has ended.
@@ -113,13 +113,13 @@ inline std::uint8_t Procedures::part(const Operation& op) {
   return left < Operation::kPart ? left : Operation::kPart;
 }
 
+// With SpiCheck::kFull each part is read in two steps, the first one with a status: a line that is
+// stuck from here on makes both readings equal, but no status.
 inline void Procedures::add_take(ChipState& chip, Operation& op) {
-  const std::uint8_t address = static_cast<std::uint8_t>(regs::kAddrRdata + op.at_);
-  const std::uint8_t size = part(op);
   op.stage_ = kTake;
-  add_read(op, address, size);
+  add_read(op, static_cast<std::uint8_t>(regs::kAddrRdata + op.at_), part(op));
   if (chip.checks_all()) {
-    add_read(op, address, size);
+    mb4_cyclic_add_status(&op.plan_);
   }
 }
 
@@ -229,19 +229,27 @@ inline Result<void> Procedures::access(ChipState& chip, Operation& op, std::uint
     case kPollAgain:
       return poll(chip, op, now_us);
     case kTake: {
-      if (const Result<void> read = same(chip, op); !read) {
-        return read;
+      if (chip.checks_all()) {
+        if (const Result<void> seen = look(op); !seen) {
+          return seen;
+        }
+        --op.made_;
       }
-      const std::uint8_t size = part(op);
-      for (unsigned i = 0; i < size; ++i) {
-        op.out_[op.at_ + i] = received(op)[2 + i];
+      const std::uint8_t* from = received(op) + 2;
+      std::uint8_t* to = op.out_ + op.at_;
+      for (std::uint8_t* end = to + part(op); to != end;) {
+        *to++ = *from++;
       }
-      op.at_ += size;
-      if (op.at_ < op.count_) {
-        add_take(chip, op);
+      if (chip.checks_all()) {
+        add_read(op, static_cast<std::uint8_t>(regs::kAddrRdata + op.at_), part(op));
+        op.stage_ = kTakeAgain;
+        return {};
       }
-      return {};
+      return taken(chip, op);
     }
+    case kTakeAgain:
+      return equal(op.out_ + op.at_, received(op) + 2, part(op)) ? taken(chip, op)
+                                                                 : Result<void>(Error::kCorrupted);
     case kClear:
       chip.recover_first = !op.good_;
       return ended(chip, op);
@@ -251,6 +259,15 @@ inline Result<void> Procedures::access(ChipState& chip, Operation& op, std::uint
       return !op.good_ && own ? Result<void>(Error::kTransport) : op.cause_;
     }
   }
+}
+
+// A part of the registers is here.
+inline Result<void> Procedures::taken(ChipState& chip, Operation& op) {
+  op.at_ += part(op);
+  if (op.at_ < op.count_) {
+    add_take(chip, op);
+  }
+  return {};
 }
 
 // Has the access ended, or the frame?

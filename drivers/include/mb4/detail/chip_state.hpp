@@ -59,6 +59,7 @@ struct ChipState {
   std::uint8_t actuators = 0;      // slaves of `config` that take words; bit 0 is slave 1
   ControlState control{};
   std::uint32_t frame_us = 0;             // frame_timeout_us(), worked out once
+  std::uint32_t busy_us = 0;              // register_busy_us()
   std::uint32_t pitch_us = 0;             // frame_pitch_us()
   mb4_watch watch{};                      // are automatic frames coming?
   std::uint8_t count = 0;                 // of `words`

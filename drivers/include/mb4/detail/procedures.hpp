@@ -39,6 +39,7 @@ struct Procedures {
     kDelays,     // INIT: what it has measured
     kClear,      // SVALID = 0
     kTake,       // an access: RDATA
+    kTakeAgain,  // ... once more
     kStopped     // BREAK; the result is known
   };
 
@@ -113,22 +114,19 @@ struct Procedures {
     mb4_cyclic_add_instruction(&op.plan_, instruction);
   }
 
-  // Reads `size` registers. A bus that stores nothing gives zeros.
+  // Reads `size` registers. A bus that stores nothing must not turn an old answer into a new one:
+  // the first byte is 0, and no longer that of the answer before.
   [[gnu::noinline]] static void add_read(Operation& op, std::uint8_t address, std::size_t size) {
-    const std::uint8_t bytes = static_cast<std::uint8_t>(size + 2);
-    mb4_plan_add(&op.plan_, bytes, MB4_CYCLIC_READ, address, 0);
-    std::uint8_t* rx = mb4_plan_rx(&op.plan_, static_cast<std::uint8_t>(op.plan_.frames - 1));
-    for (std::uint8_t i = 2; i < bytes; ++i) {
-      rx[i] = 0;
-    }
+    mb4_plan_add(&op.plan_, static_cast<std::uint8_t>(size + 2), MB4_CYCLIC_READ, address, 0);
+    mb4_plan_rx(&op.plan_, static_cast<std::uint8_t>(op.plan_.frames - 1))[2] = 0;
   }
   [[gnu::noinline]] static void add_write(const ChipState& chip, Operation& op,
                                           std::uint8_t address, const std::uint8_t* data,
                                           std::size_t size) {
-    std::uint8_t* tx =
-        mb4_plan_add(&op.plan_, static_cast<std::uint8_t>(size + 2), MB4_CYCLIC_WRITE, address, 0);
-    for (std::size_t i = 0; i < size; ++i) {
-      tx[2 + i] = data[i];
+    std::uint8_t* tx = mb4_plan_add(&op.plan_, 2, MB4_CYCLIC_WRITE, address, 0) + 2;
+    op.plan_.size[op.plan_.frames - 1] = static_cast<std::uint8_t>(size + 2);
+    for (const std::uint8_t* end = data + size; data != end;) {
+      *tx++ = *data++;
     }
     if (chip.checks_all()) {
       add_read(op, address, size);
@@ -166,10 +164,8 @@ struct Procedures {
     if (!op.good_) {
       return Error::kTransport;
     }
-    std::array<std::uint8_t, Status::kBytes> bytes{};
-    for (std::size_t i = 0; i < bytes.size(); ++i) {
-      bytes[i] = received(op)[1 + i];
-    }
+    const std::uint8_t* rx = received(op);
+    const std::array<std::uint8_t, Status::kBytes> bytes{rx[1], rx[2], rx[3], rx[4], rx[5]};
     op.status_ = Status(bytes);
     return op.status_.plausible() ? Error::kNone : Error::kNotDetected;
   }
@@ -268,6 +264,7 @@ struct Procedures {
   static Result<void> access(ChipState& chip, Operation& op, std::uint32_t now_us);
   static Result<void> poll(ChipState& chip, Operation& op, std::uint32_t now_us);
   static Result<void> conclude(ChipState& chip, Operation& op, std::uint32_t now_us);
+  static Result<void> taken(ChipState& chip, Operation& op);
   static Result<void> ended(ChipState& chip, Operation& op);
 };
 

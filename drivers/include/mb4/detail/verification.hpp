@@ -26,6 +26,7 @@ inline void Procedures::plan_verify(ChipState& chip, Operation& op) {
   begin(chip, op, verify_step, false);
   op.at_ = kFirstCompared;
   add_read(op, kFirstCompared, kPartCompared);
+  mb4_plan_rx(&op.plan_, 0)[2 + regs::kAddrVersion - kFirstCompared] = 0;
 }
 
 inline Result<void> Procedures::verify_step(ChipState& chip, Operation& op,
