@@ -125,7 +125,7 @@ MB4_APART uint8_t *mb4_plan_add(mb4_plan *plan, uint8_t size, uint8_t first, uin
                                 uint8_t filler) {
   const uint8_t frame = plan->frames;
   uint8_t *tx = 0;
-  uint8_t i = 0;
+  uint8_t *next = 0;
   plan->at[frame] =
       frame == 0 ? 0 : (uint8_t)(plan->at[frame - 1] + ((plan->size[frame - 1] + 3U) & ~3U));
   plan->size[frame] = size;
@@ -133,8 +133,8 @@ MB4_APART uint8_t *mb4_plan_add(mb4_plan *plan, uint8_t size, uint8_t first, uin
   tx = mb4_plan_tx(plan, frame);
   tx[0] = first;
   tx[1] = second;
-  for (i = 2; i < size; ++i) {
-    tx[i] = filler;
+  for (next = tx + size; next != tx + 2;) {
+    *--next = filler;
   }
   return tx;
 }
@@ -203,11 +203,7 @@ enum {
 /* `steps` (1..32) bits, of a CRC that is left aligned and has the data added to it. */
 static inline uint32_t mb4_crc_steps(uint32_t crc, uint32_t polynomial, uint8_t steps) {
   do {
-    const uint32_t top = crc & 0x80000000U;
-    crc <<= 1;
-    if (top != 0) {
-      crc ^= polynomial;
-    }
+    crc = crc << 1 ^ (polynomial & (0U - (crc >> 31))); /* without a branch */
   } while (--steps != 0);
   return crc;
 }
@@ -273,6 +269,7 @@ typedef struct {
   uint32_t switched; /* MB4_BANK_SWITCHED */
   uint32_t late;     /* reads that ended more than 1.5 periods after the last one */
   uint32_t faults;   /* other errors */
+  uint32_t restarts; /* of the C++ calls next(), restart() and plan_restart() */
   bool omits;        /* nAGSERR = 0: the chip has left out a frame */
   /* Private. */
   uint32_t last_us; /* good */

@@ -14,7 +14,9 @@
 #include "mb4/cyclic.hpp"
 #include "mb4/detail/actuator_write.hpp"
 #include "mb4/detail/chip.hpp"
+#include "mb4/detail/procedures.hpp"
 #include "mb4/frame.hpp"
+#include "mb4/operation.hpp"
 #include "mb4/result.hpp"
 #include "mb4/status.hpp"
 #include "mb4_regs.hpp"
@@ -58,17 +60,8 @@ class Automatic {
   // Not touched: kNotConfigured, kWrongMode (AGS is on already), kBusy, kUnsupported with
   // kSingleBank. Touched: kTransport (AGS may be on; call stop() or start() again).
   Result<void> start() {
-    if (!chip_.configured) {
-      return Error::kNotConfigured;
-    }
-    if (control_runs()) {
-      return Error::kBusy;
-    }
-    if (chip_.automatic) {
-      return Error::kWrongMode;
-    }
-    if (chip_.config.single_bank) {
-      return ErrorInfo(Error::kUnsupported, ConfigField::kSingleBank, 0);
+    if (const Result<void> allowed = start_allowed(); !allowed) {
+      return allowed;
     }
     if (chip_.recover_first) {
       if (const Result<void> recovered = chip_.recover(); !recovered) {
@@ -86,6 +79,18 @@ class Automatic {
     return {};
   }
 
+  // Begins start() without a transfer: the caller makes the frames of `operation` and calls
+  // Device::finish() until it returns true. One step of one frame; after a failed read and after
+  // stop() two, of which the second begins after a pause. Not touched: kNotConfigured, kWrongMode,
+  // kBusy, kUnsupported as of start(). operation.result(): kTransport.
+  Result<void> plan_start(Operation& operation) {
+    const Result<void> allowed = start_allowed();
+    if (allowed) {
+      detail::Procedures::plan_start(chip_, operation);
+    }
+    return allowed;
+  }
+
   // Sets AGS = 0: the running frame ends normally and no other frame follows. One transfer. The
   // call is allowed when no frames run. kBusy (not touched); kTransport (touched, AGS may be on or
   // off).
@@ -101,14 +106,26 @@ class Automatic {
 
   // Starts automatic frames again (table 69): BREAK, 100 us for the slaves' timeout, SVALID = 0,
   // AGS = 1. BiSS B adds register_timeout_us. Three transfers. Not for interrupts, because it
-  // waits. Errors as of start(), but AGS may be on.
+  // waits. Errors as of start(), but AGS may be on. With MB4_WITH_COUNTS in `With` it counts.
+  template <std::uint8_t With = MB4_WITH_ALL>
   Result<void> restart() {
     if (control_runs()) {
       return Error::kBusy;
     }
-    chip_.automatic = false;
-    chip_.recover_first = true;
+    prepare_restart<With>();
     return start();
+  }
+
+  // Begins restart() without a transfer, as plan_start(). Two steps: BREAK; then, after the pause,
+  // SVALID = 0 and AGS = 1. It may be called in an interrupt. Not touched: kNotConfigured, kBusy,
+  // kUnsupported.
+  template <std::uint8_t With = MB4_WITH_ALL>
+  Result<void> plan_restart(Operation& operation) {
+    if (control_runs()) {
+      return Error::kBusy;
+    }
+    prepare_restart<With>();
+    return plan_start(operation);
   }
 
   // True when the driver has set AGS = 1 and nothing has stopped it.
@@ -283,13 +300,14 @@ class Automatic {
   // kLineError: no frame has ended in time; BREAK was sent, which also ends a control
   // communication. kNoData: no pulse at pin GETSENS in that time (FrameStart::kOnPin); nothing is
   // changed.
+  template <std::uint8_t With = MB4_WITH_ALL>
   Result<void> next(Frame& frame) {
     frame.clear();
     if (!chip_.automatic && !chip_.restart) {
       return Error::kWrongMode;
     }
     if (chip_.restart && !control_runs()) {
-      if (const Result<void> again = restart(); !again) {
+      if (const Result<void> again = restart<With>(); !again) {
         chip_.restart = true;
         return again;
       }
@@ -379,6 +397,29 @@ class Automatic {
 
   [[nodiscard]] bool control_runs() const {
     return chip_.control.kind != detail::ControlState::Kind::kNone;
+  }
+
+  [[nodiscard]] Result<void> start_allowed() const {
+    if (!chip_.configured) {
+      return Error::kNotConfigured;
+    }
+    if (control_runs()) {
+      return Error::kBusy;
+    }
+    if (chip_.automatic) {
+      return Error::kWrongMode;
+    }
+    return chip_.config.single_bank ? ErrorInfo(Error::kUnsupported, ConfigField::kSingleBank, 0)
+                                    : ErrorInfo();
+  }
+
+  template <std::uint8_t With>
+  void prepare_restart() {
+    chip_.automatic = false;
+    chip_.recover_first = true;
+    if ((With & MB4_WITH_COUNTS) != 0 && chip_.watch.counts != nullptr) {
+      ++chip_.watch.counts->restarts;
+    }
   }
 
   // Polls until a frame has ended, good or bad.

@@ -11,16 +11,20 @@
 
 #include "mb4/command.hpp"
 #include "mb4/control_steps.hpp"
+#include "mb4/detail/access.hpp"
 #include "mb4/detail/chip.hpp"
+#include "mb4/operation.hpp"
 #include "mb4/result.hpp"
 #include "mb4/slave_address.hpp"
 #include "mb4/span.hpp"
 
 namespace mb4 {
 
-// The calls of ControlSteps, and their blocking forms:
+// The calls of ControlSteps; their blocking forms; and the whole access in steps for DMA, which
+// needs no bus (operation.hpp):
 //
 //   device.control().read_registers({1, 0}, 0x78, id);       // channel 1, ID 0
+//   device.control().plan_read(operation, {1, 0}, 0x78, id);
 //
 // A call ends within the time limit of ControlSteps::poll(), whatever chip and slave do.
 template <typename Bus, typename Clock>
@@ -48,6 +52,50 @@ class Control : public ControlSteps<Bus, Clock> {
 
   // Sends a command and waits for its end. Errors of begin_command() and poll().
   Result<void> send(const Command& command) { return wait(Steps::begin_command(command)); }
+
+  // Begins to read out.size() (1..64) registers without a transfer: the caller makes the frames of
+  // `operation` and calls Device::finish() until it returns true. `out` must stay until then; it is
+  // valid on success only. With automatic frames the steps after the request only read the status,
+  // and positions are read between the steps. Without them each frame of the line takes two steps.
+  //
+  // Not touched, nothing has begun: kNotConfigured, kInvalidArgument, kBusy, kUnsupported,
+  // kWrongMode as of the begin calls. operation.result(): kTransport, kNotDetected, kCorrupted as
+  // of begin_read() and take(), kTimeout, kRegister, kRegisterDelay as of poll(). After kTransport
+  // and kNotDetected the last step was BREAK, if an access ran. The time limit is that of poll(),
+  // by `now_us` of finish(); after it the status is read once more.
+  Result<void> plan_read(Operation& operation, SlaveAddress slave, std::uint8_t address,
+                         Span<std::uint8_t> out) {
+    const Result<void> possible = Steps::check_access(slave, address, out.size(), Protocol::kSsi);
+    if (possible) {
+      detail::Procedures::plan_access(Steps::chip_, operation, slave, address, nullptr, out.data(),
+                                      out.size());
+    }
+    return possible;
+  }
+
+  // As plan_read(), but writes data.size() (1..64) registers. `data` must stay until the end.
+  // Not touched: kNotConfigured, kInvalidArgument, kBusy, kUnsupported, kWrongMode.
+  // operation.result(): kTransport, kNotDetected, kCorrupted, kTimeout, kRegister, kRegisterDelay.
+  Result<void> plan_write(Operation& operation, SlaveAddress slave, std::uint8_t address,
+                          Span<const std::uint8_t> data) {
+    const Result<void> possible =
+        Steps::check_access(slave, address, data.size(), Protocol::kUnused);
+    if (possible) {
+      detail::Procedures::plan_access(Steps::chip_, operation, slave, address, data.data(), nullptr,
+                                      data.size());
+    }
+    return possible;
+  }
+
+  // As plan_read(), but sends a command. Not touched: kNotConfigured, kInvalidArgument, kBusy,
+  // kUnsupported. operation.result(): kTransport, kNotDetected, kCorrupted, kTimeout, kCommand.
+  Result<void> plan_command(Operation& operation, const Command& command) {
+    const Result<void> possible = Steps::check_command(command);
+    if (possible) {
+      detail::Procedures::plan_command(Steps::chip_, operation, command);
+    }
+    return possible;
+  }
 
  private:
   // Waits for the end of what a begin call has begun; `begun` is the result of that call. After an

@@ -14,6 +14,7 @@
 
 #include "mb4/command.hpp"
 #include "mb4/config.hpp"
+#include "mb4/detail/access.hpp"
 #include "mb4/detail/checked_registers.hpp"
 #include "mb4/detail/chip.hpp"
 #include "mb4/detail/control_checks.hpp"
@@ -62,7 +63,7 @@ namespace mb4 {
 //                 each write: one transfer more for each write of registers, and, while automatic
 //                 frames run, one or two for the instruction
 template <typename Bus, typename Clock>
-class ControlSteps : private detail::ControlChecks<Bus, Clock> {
+class ControlSteps : protected detail::ControlChecks<Bus, Clock> {
  public:
   using detail::ControlChecks<Bus, Clock>::ControlChecks;
 
@@ -94,21 +95,8 @@ class ControlSteps : private detail::ControlChecks<Bus, Clock> {
 
   // Begins a command; see Command for the ranges of its members. Three transfers.
   Result<void> begin_command(const Command& command) {
-    if (const Result<void> free = Checks::check_free(); !free) {
-      return free;
-    }
-    const bool broadcast = command.ids == 0;
-    if (command.channels < 1 || command.channels > 3 || command.code > regs::CMD::kMax ||
-        (broadcast && (command.test_acknowledge || command.code == regs::CMD::kMax))) {
-      return Error::kInvalidArgument;
-    }
-    for (std::uint8_t channel = 1; channel <= kChannels; ++channel) {
-      const Result<void> possible = (command.channels & channel) == 0
-                                        ? Result<void>()
-                                        : Checks::check_protocol(channel, Protocol::kBissB);
-      if (!possible) {
-        return possible;
-      }
+    if (const Result<void> possible = Checks::check_command(command); !possible) {
+      return possible;
     }
     const std::uint8_t ids = detail::reversed(command.ids);  // IDS0 is bit 7 (table 32)
     if (const Result<void> addressed =
@@ -196,7 +184,7 @@ class ControlSteps : private detail::ControlChecks<Bus, Clock> {
       return false;
     }
     state.first_frame = false;
-    if (detail::enough_frames(chip_)) {
+    if (detail::enough_frames(chip_, chip_.clock->now_us())) {
       return give_up();
     }
     ++state.frames;
@@ -231,12 +219,13 @@ class ControlSteps : private detail::ControlChecks<Bus, Clock> {
   }
 
  protected:
+  using Checks = detail::ControlChecks<Bus, Clock>;
+  using Checks::chip_;
+
   // True while an access or a command that was begun has not ended.
   [[nodiscard]] bool running() const { return chip_.control.kind != Kind::kNone; }
 
  private:
-  using Checks = detail::ControlChecks<Bus, Clock>;
-  using Checks::chip_;
   using Kind = detail::ControlState::Kind;
 
   static constexpr std::uint8_t kFrame =
@@ -275,13 +264,7 @@ class ControlSteps : private detail::ControlChecks<Bus, Clock> {
     state.first_frame = true;
     state.frames = 1;
     state.access_us = chip_.clock->now_us();
-    std::uint32_t timeout_us = chip_.frame_us;
-    if (biss_b) {
-      timeout_us = detail::biss_b_timeout_us(chip_.config, registers);
-    } else if (chip_.automatic) {
-      timeout_us = detail::control_timeout_us(chip_.config, registers);
-    }
-    detail::restart_time(chip_, timeout_us);
+    detail::restart_time(chip_, detail::access_us(chip_));
     const Result<void> written = chip_.write_instruction(
         chip_.automatic ? static_cast<std::uint8_t>(kFrame | regs::AGS::encode<1>()) : kFrame);
     return written && chip_.automatic && chip_.checks_all() ? confirm_begun() : written;
@@ -313,22 +296,8 @@ class ControlSteps : private detail::ControlChecks<Bus, Clock> {
         chip_.recover_first = false;
       }
     }
-    ErrorInfo error;
-    // nAGSERR = 0 has two possible causes. (1) No slave has taken part in the hand-over; then the
-    // access has lasted as long as the chip's limit. (2) The chip sets nAGSERR = 0 at each write of
-    // 0xF4 (page 34 can be read so); then the access was shorter. A quarter of the limit separates
-    // them, because the internal oscillator may be faster than f_clk_hz says (D05).
-    if (state.biss_b && status.start_error() &&
-        chip_.clock->now_us() - state.access_us >= detail::register_limit_us(chip_.config) / 4) {
-      return Error::kRegister;
-    }
-    if (status.delay_error() && kind != Kind::kCommand) {
-      error = Error::kRegisterDelay;
-    } else if (status.control_error()) {
-      error = kind == Kind::kCommand ? Error::kCommand : Error::kRegister;
-    }
+    const ErrorInfo error = detail::access_error(chip_, kind, status, chip_.clock->now_us());
     if (error.code != Error::kNone) {
-      error.detail = kind == Kind::kCommand ? std::uint8_t{0} : status.get<regs::REGBYTES>();
       return error;
     }
     state.readable = kind == Kind::kRead ? state.count : std::uint8_t{0};

@@ -18,6 +18,7 @@
 #include "mb4/result.hpp"
 #include "mb4/span.hpp"
 #include "mb4/status.hpp"
+#include "mb4/steps.hpp"
 #include "mb4_cyclic.h"
 
 namespace mb4 {
@@ -27,36 +28,8 @@ template <typename Bus, typename Clock>
 class SingleShot;
 }
 
-// The SPI frames of a read in steps. Its memory is that of a CyclicRead or FrameRead.
-class ReadSteps {
- public:
-  ReadSteps(const ReadSteps&) = delete;
-  ReadSteps& operator=(const ReadSteps&) = delete;
-
-  // SPI frames to make now, in this order, each with NCS low: tx(i) goes out while rx(i) comes in.
-  // rx(i) is as long as tx(i), or empty for a write. i < frames() <= kMaxFrames.
-  static constexpr std::size_t kMaxFrames = MB4_PLAN_FRAMES;
-  [[nodiscard]] std::size_t frames() const { return plan_.frames; }
-  [[nodiscard]] Span<const std::uint8_t> tx(std::size_t i) const {
-    return {mb4_plan_tx(&plan_, static_cast<std::uint8_t>(i)), plan_.size[i]};
-  }
-  [[nodiscard]] Span<std::uint8_t> rx(std::size_t i) {
-    const std::uint8_t frame = static_cast<std::uint8_t>(i);
-    return {mb4_plan_rx(&plan_, frame), mb4_plan_reads(&plan_, frame) ? plan_.size[i] : 0U};
-  }
-
-  // Makes the frames on a bus (bus.hpp), one after the other. False: one has failed, and those
-  // after it were not made.
-  template <typename Bus>
-  [[nodiscard]] bool run(Bus& bus) {
-    for (std::size_t i = 0; i < frames(); ++i) {
-      if (!bus.transfer(tx(i), rx(i))) {
-        return false;
-      }
-    }
-    return true;
-  }
-
+// The SPI frames of a read in steps.
+class ReadSteps : public Steps {
  protected:
   ReadSteps() = default;
   ~ReadSteps() = default;
@@ -70,7 +43,6 @@ class ReadSteps {
   template <typename Bus, typename Clock>
   friend class detail::SingleShot;
 
-  mb4_plan plan_{};
   mb4_cyclic read_{};
   std::uint8_t code_ = MB4_NO_DATA;
   std::uint8_t configuration_ = 0;  // the plan belongs to

@@ -18,12 +18,16 @@
 #include "mb4/detail/chip.hpp"
 #include "mb4/detail/image_writer.hpp"
 #include "mb4/detail/initialization.hpp"
+#include "mb4/detail/initialization_steps.hpp"
+#include "mb4/detail/procedures.hpp"
 #include "mb4/detail/single_shot.hpp"
+#include "mb4/detail/verification.hpp"
 #include "mb4/error.hpp"
 #include "mb4/fields.hpp"
 #include "mb4/frame.hpp"
 #include "mb4/line_delay.hpp"
 #include "mb4/opcodes.hpp"
+#include "mb4/operation.hpp"
 #include "mb4/reading.hpp"
 #include "mb4/register_image.hpp"
 #include "mb4/result.hpp"
@@ -112,6 +116,7 @@ class Device {
     chip_.actuators = actuators(config);
     chip_.frame_us = frame_timeout_us(config);
     chip_.pitch_us = detail::frame_pitch_us(config);
+    chip_.busy_us = detail::register_busy_us(config);
     chip_.needs = (chip_.sensors & (chip_.sensors - 1U)) != 0 ? MB4_WITH_SEVERAL : 0;
     chip_.count = 0;
     ++chip_.configurations;
@@ -121,7 +126,7 @@ class Device {
         chip_.needs = static_cast<std::uint8_t>(chip_.needs | detail::needed(config, slave));
       }
     }
-    chip_.set_watch();
+    chip_.set_watch(detail::clock_step_us<Clock>);
     chip_.configured = true;
     chip_.recover_first = false;
     return {};
@@ -136,12 +141,32 @@ class Device {
     if (!chip_.configured) {
       return Error::kNotConfigured;
     }
-    const Result<void> same = detail::ImageWriter<Bus, Clock>(chip_).compare(
-        encode_registers(chip_.config), encode_interface(chip_.config), true);
+    const Result<void> same = detail::ImageWriter<Bus, Clock>(chip_).compare(true);
     if (same.error() == Error::kNotDetected || same.error() == Error::kVerify) {
       chip_.configured = false;
     }
     return same;
+  }
+
+  // Begins verify() without a transfer: the caller makes the frames of `operation` and calls
+  // finish() until it returns true. Three steps of one frame of 20 bytes (0x03 from 0xE4, 0xC0 and
+  // 0xD2), which may stand beside reads of positions and a control communication that runs.
+  // kNotConfigured (not touched). operation.result(): kTransport, kNotDetected, kVerify as of
+  // verify().
+  Result<void> plan_verify(Operation& operation) {
+    if (!chip_.configured) {
+      return Error::kNotConfigured;
+    }
+    detail::Procedures::plan_verify(chip_, operation);
+    return {};
+  }
+
+  // Takes what came back for an operation that a plan call has begun (operation.hpp).
+  // `transferred`: all its frames were made, in order. `now_us`: the time, as Clock::now_us()
+  // counts it. True: the operation has ended, see its result(). False: make the frames that it
+  // holds now, and call it again. It makes no transfer and does not ask for the time.
+  [[nodiscard]] bool finish(Operation& operation, bool transferred, std::uint32_t now_us) {
+    return detail::Procedures::finish(chip_, operation, transferred, now_us);
   }
 
   // Sends BREAK, then writes all registers of the configuration to their value after power-on
@@ -177,6 +202,19 @@ class Device {
     LineDelay delay;
     const Result<void> done = detail::Initialization<Bus, Clock>(chip_).run(delay);
     return done ? Result<LineDelay>(delay) : Result<LineDelay>(done.failure());
+  }
+
+  // Begins initialize() without a transfer: the caller makes the frames of `operation` and calls
+  // finish() until it returns true; then operation.line_delay(). After a failed read one step
+  // begins after a pause, with BiSS B another one. kNotConfigured, kWrongMode, kBusy: not touched.
+  // operation.result(): kTransport, kNotDetected, kTimeout, kLineDelay, kLineError, kNoData,
+  // kCorrupted as of initialize().
+  Result<void> plan_initialize(Operation& operation) {
+    const Result<void> allowed = single_frame_allowed();
+    if (allowed) {
+      detail::Procedures::plan_initialize(chip_, operation);
+    }
+    return allowed;
   }
 
   // Requests one frame with CDM = 0, waits for its end and returns the data of `slave` (1..8, an

@@ -5,6 +5,8 @@
 
   cycles.py TARGET CRC INCLUDE_DIR...  TARGET: cortex-m0plus (-Os, cycles), cortex-m4 (-O2,
                                        instructions); CRC: bits, table
+  cycles.py TARGET steps INCLUDE_DIR...  the longest plan and finish of all operations in steps
+                                       (operation_main.cpp)
   cycles.py self-test                 the sum can be wrong
 
 The board's own functions are not counted. The cycles are those of the Cortex-M0+ Technical
@@ -95,11 +97,67 @@ def count(trace, code):
     sys.exit("firmware does not return")
 
 
+def longest(trace, code):
+    """{function: (cycles, instructions)} of the longest call of each function measured_...()."""
+    found = {}
+    index = 0
+    while index < len(trace):
+        name, _, _, _ = code.get(trace[index], ("", "", "", 0))
+        title = re.search(r"measured_[a-z_]+", name)
+        # Not where a branch leads back to the begin of the function.
+        if not title or index == 0 or code.get(trace[index - 1], name)[0] == name:
+            index += 1
+            continue
+        back = code[trace[index - 1]][3]  # behind the call
+        steps = cycles = 0
+        while trace[index] != back:
+            _, mnemonic, operands, following = code[trace[index]]
+            steps += 1
+            cycles += cost(mnemonic, operands, trace[index + 1] != following)
+            index += 1
+        found[title.group()] = max(found.get(title.group(), (0, 0)), (cycles, steps))
+    return found
+
+
+def traced(elf, machine, work):
+    run(["qemu-system-arm", "-M", machine, "-nographic", "-semihosting", "-singlestep",
+         "-d", "exec,nochain", "-D", work / "trace", "-kernel", elf], timeout=60)
+    return [int(found, 16) for found in
+            re.findall(r"\[[0-9a-f]+/([0-9a-f]+)/", (work / "trace").read_text())]
+
+
+def measure_steps(target, includes):
+    machine, optimize, unit = TARGETS[target]
+    with tempfile.TemporaryDirectory() as folder:
+        work = Path(folder)
+        (work / "link.ld").write_text(LINK)
+        run(["arm-none-eabi-g++", f"-mcpu={target}", "-mthumb", "-std=c++17", "-ffreestanding",
+             "-fno-exceptions", "-fno-rtti", "-fno-threadsafe-statics", "-ffunction-sections",
+             *[f"-I{path}" for path in includes], optimize, "-nostartfiles", "--specs=nano.specs",
+             "--specs=nosys.specs", "-Wl,--gc-sections", "-T", work / "link.ld",
+             HERE / "operation_main.cpp", "-o", work / "unit.elf"])
+        code = functions(run(["arm-none-eabi-objdump", "-d", work / "unit.elf"]))
+        found = longest(traced(work / "unit.elf", machine, work), code)
+    limit = tomllib.loads((HERE / "budget.toml").read_text())["time"][target]["steps"]
+    if len(found) != 4:
+        sys.exit(f"{sorted(found)}: four functions were to be measured")
+    result = 0
+    for name, (cycles, steps) in sorted(found.items()):
+        value = cycles if unit == "cycles" else steps
+        print(f"{target} {optimize}, {name[9:]}: at most {value} {unit}")
+        if value > limit:
+            print(f"  more than the budget of {limit}")
+            result = 1
+    return result
+
+
 def measure(target, crc, includes):
     for tool in ("qemu-system-arm", "arm-none-eabi-gcc"):
         if not shutil.which(tool):
             print(f"skipped: {tool} is not installed")
             return SKIPPED
+    if crc == "steps":
+        return measure_steps(target, includes)
     machine, optimize, unit = TARGETS[target]
     flags = [f"-mcpu={target}", "-mthumb", "-std=gnu99", "-ffreestanding", "-ffunction-sections",
              *[f"-I{path}" for path in includes]]
@@ -113,10 +171,7 @@ def measure(target, crc, includes):
              "-T", work / "link.ld", HERE / "cycles_main.c", work / "cyclic.o", "-o",
              work / "unit.elf"])
         code = functions(run(["arm-none-eabi-objdump", "-d", work / "unit.elf"]))
-        run(["qemu-system-arm", "-M", machine, "-nographic", "-semihosting", "-singlestep",
-             "-d", "exec,nochain", "-D", work / "trace", "-kernel", work / "unit.elf"], timeout=60)
-        trace = [int(found, 16) for found in
-                 re.findall(r"\[[0-9a-f]+/([0-9a-f]+)/", (work / "trace").read_text())]
+        trace = traced(work / "unit.elf", machine, work)
     steps, cycles, each = count(trace, code)
     print(f"{target} {optimize}, CRC by {crc}: {steps} instructions, {cycles} cycles of a Cortex-M0+")
     for name, value in sorted(each.items(), key=lambda item: -item[1]):
@@ -137,6 +192,8 @@ def self_test():
     listing = ("00000000 <firmware>:\n   0:\tb510 \tpush\t{r4, lr}\n   2:\tbd10 \tpop\t{r4, pc}\n"
                "00000010 <reset>:\n  10:\tbf00 \tnop\n")
     assert count([0x10, 0, 2, 0x10, 0x10], functions(listing))[:2] == (2, 8)
+    code = functions(listing.replace("firmware", "measured_plan").replace("<reset>:\n", "<reset>:\n   e:\te7f6 \tbl\t0\n"))
+    assert longest([0x0E, 0, 2, 0x10, 0x0E, 0, 2, 0x10], code) == {"measured_plan": (8, 2)}
     print("the sum can be wrong")
     return 0
 

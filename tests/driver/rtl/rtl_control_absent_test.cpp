@@ -74,8 +74,10 @@ class DriverControlAbsent : public testing::TestWithParam<Mode> {
     const sim::Time start = chip.simulator.now();
     const ErrorInfo info = call().info();
     const auto us = static_cast<double>(chip.simulator.now() - start) / sim::kPsPerUs;
-    EXPECT_LT(us, 1.1 * mb4::detail::control_timeout_us(config, count) +
-                      2.0 * mb4::frame_timeout_us(config));
+    const std::uint32_t limit_us =
+        mb4::detail::control_frames(count) * mb4::detail::frame_pitch_us(config) +
+        mb4::detail::register_busy_us(config) + mb4::kFrameMarginUs;
+    EXPECT_LT(us, 1.1 * limit_us + 2.0 * mb4::frame_timeout_us(config));
     std::printf("%s after %.0f us\n", mb4::to_string(info.code), us);
     return info;
   }

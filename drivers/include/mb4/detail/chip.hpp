@@ -13,7 +13,7 @@
 
 #include "mb4/bus.hpp"
 #include "mb4/config.hpp"
-#include "mb4/cyclic.hpp"
+#include "mb4/detail/chip_state.hpp"
 #include "mb4/opcodes.hpp"
 #include "mb4/register_image.hpp"
 #include "mb4/result.hpp"
@@ -24,14 +24,6 @@
 namespace mb4::detail {
 
 using enc::clock_step_us;
-
-// Coarsest step of a time source, that of 32 kHz, and the rounding of its readings (enc/bus.hpp).
-// Two readings may differ by this much more than the time between them. Every wait is longer by it.
-inline constexpr std::uint32_t kClockStepUs = enc::kMaxClockStepUs;
-
-// Polls of the status that `time_us` (up to 1'000'000'000) may hold. The fastest poll is five
-// cycles of the parallel bus: 0.25 us, because a cycle takes at least 55 ns (I104 to I116).
-constexpr std::uint32_t polls_of(std::uint32_t time_us) { return 4 * (time_us + kClockStepUs); }
 
 // Ends a polling loop after `timeout_us`, never before. It also counts the polls, so that the loop
 // ends when the time source stands still.
@@ -69,33 +61,8 @@ void pause(Clock& clock, std::uint32_t time_us) {
   }
 }
 
-// 0xF4 while a bank is held.
-inline constexpr std::uint8_t kHoldAndAgs = regs::AGS::encode<1>() | regs::HOLDBANK::encode<1>();
-
-// Time for a slave whose frame BREAK has ended, until it is ready again. A slave needs its timeout
-// for this; 12.5 to 40 us are common.
-inline constexpr std::uint32_t kLineRecoveryUs = 100;
-
-// The control communication that is running, and the registers of the last read.
-struct ControlState {
-  enum class Kind : std::uint8_t { kNone, kRead, kWrite, kCommand };
-
-  Kind kind = Kind::kNone;
-  std::uint8_t readable = 0;    // registers that a finished read has left in RDATA
-  std::uint8_t count = 0;       // registers of this access, 1..64
-  bool biss_b = false;          // one instruction runs the whole access, without frames
-  bool overwritten = false;     // a read of positions has written INSTR = 000 meanwhile
-  bool seen_running = false;    // ... and has seen REGEND = 0 since the last poll
-  bool first_frame = false;     // REGEND may belong to the access before; BiSS B: not ended yet
-  std::uint32_t start_us = 0;   // of this frame; with automatic frames of the access
-  std::uint32_t access_us = 0;  // start of the access
-  std::uint32_t timeout_us = 0;
-  std::uint32_t frames = 0;      // begun so far, without automatic frames
-  std::uint32_t polls_left = 0;  // limit for a time source that stands still
-};
-
 template <typename Bus, typename Clock>
-struct Chip {
+struct Chip : ChipState {
   static_assert(kIsClock<Clock>,
                 "mb4: the Clock type needs 'std::uint32_t now_us()'; see mb4/bus.hpp");
 
@@ -103,60 +70,6 @@ struct Chip {
 
   Opcodes<Bus> opcodes;
   Clock* clock;
-  Config config{};
-  std::uint8_t sensors = 0;               // slaves of `config` that deliver data; bit 0 is slave 1
-  std::uint16_t sensor_flags = 0;         // the same as flag_of()
-  std::uint8_t actuators = 0;             // slaves of `config` that take words; bit 0 is slave 1
-  std::array<mb4_word, kSlaves> words{};  // how the data of each of `sensors` is read, in order
-  std::uint8_t count = 0;                 // of `words`
-  std::uint8_t configurations = 0;        // made so far
-  std::uint8_t needs = 0;                 // MB4_WITH_..., for any slave
-  mb4_watch watch{};                      // are automatic frames coming?
-  std::uint32_t frame_us = 0;             // frame_timeout_us(), worked out once
-  std::uint32_t pitch_us = 0;             // frame_pitch_us()
-  bool configured = false;
-  // AGS = 1 was written, and nothing has stopped it.
-  bool automatic = false;
-  // A frame may still run and SVALID is unknown: recover() comes before the next request. Every
-  // error after the first transfer of a call sets this flag.
-  bool recover_first = true;
-  // The caller wants automatic frames, but they need BREAK and a new start first (table 69).
-  bool restart = false;
-  ControlState control{};
-
-  // How the data of `slave`, one of `sensors`, is read.
-  [[nodiscard]] const mb4_word* word_of(std::uint8_t slave) const {
-    const mb4_word* word = words.data();
-    while (word->slave != slave) {
-      ++word;
-    }
-    return word;
-  }
-
-  // Works out when frames have stayed away for too long: Automatic::poll(). A slave that needs
-  // longer than a period says so by Config::frame_timeout_us.
-  void set_watch() {
-    const std::uint32_t two_us = 2 * pitch_us;
-    const std::uint32_t slow_us = config.frame_timeout_us + pitch_us;
-    const bool on_pin = config.frame_start == FrameStart::kOnPin;
-    watch.omitted_us = (two_us > slow_us ? two_us : slow_us) + clock_step_us<Clock>;
-    watch.silent_us = on_pin ? 0 : 14 * pitch_us + watch.omitted_us;
-    watch.lines = static_cast<std::uint8_t>(
-        (config.channels[0].protocol == Protocol::kUnused ? 0 : regs::SL1::kMask) |
-        (config.channels[1].protocol == Protocol::kUnused ? 0 : regs::SL2::kMask));
-    watch.several = (sensors & (sensors - 1U)) != 0;
-  }
-
-  // Automatic frames begin now.
-  void started(std::uint32_t now_us) {
-    watch.news_us = now_us;
-    watch.taken = 0;
-    watch.held = false;
-    for (std::uint32_t& good_us : watch.good_us) {
-      good_us = now_us;
-    }
-  }
-
   // Reads the status once. kTransport, kNotDetected.
   Result<void> look(Status& status) {
     std::array<std::uint8_t, Status::kBytes> bytes{};
@@ -186,8 +99,6 @@ struct Chip {
                                            static_cast<std::uint8_t>(keep >> 8U)};
     return mask == 0 ? Result<void>() : opcodes.write_registers(regs::kAddrSvalidLo, both);
   }
-
-  [[nodiscard]] bool checks_all() const { return config.spi_check == SpiCheck::kFull; }
 
   // As clear_valid(). With SpiCheck::kFull it then reads the status once or twice until the flags
   // are 0: the chip takes some system clocks to clear them. kCorrupted: they are still 1.
@@ -265,13 +176,6 @@ struct Chip {
     std::array<std::uint8_t, regs::SL1::kAddress - regs::kAddrStatus0 + 1> bytes{};
     const Result<void> read = opcodes.read_status(bytes);
     return read && !lines_are_high(bytes[bytes.size() - 1]) ? Error::kLineError : read;
-  }
-
-  // Time from BREAK until all slaves are ready. Slaves of BiSS B may be in register mode and need
-  // longer.
-  [[nodiscard]] std::uint32_t recovery_us() const {
-    return any_channel_is(config, Protocol::kBissB) ? kLineRecoveryUs + config.register_timeout_us
-                                                    : kLineRecoveryUs;
   }
 
  private:

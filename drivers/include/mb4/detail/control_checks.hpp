@@ -9,6 +9,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "mb4/command.hpp"
 #include "mb4/config.hpp"
 #include "mb4/detail/chip.hpp"
 #include "mb4/result.hpp"
@@ -70,6 +71,26 @@ class ControlChecks {
       }
     }
     return check_protocol(slave.channel, without);
+  }
+
+  [[nodiscard]] Result<void> check_command(const Command& command) const {
+    if (const Result<void> free = check_free(); !free) {
+      return free;
+    }
+    const bool broadcast = command.ids == 0;
+    if (command.channels < 1 || command.channels > 3 || command.code > regs::CMD::kMax ||
+        (broadcast && (command.test_acknowledge || command.code == regs::CMD::kMax))) {
+      return Error::kInvalidArgument;
+    }
+    for (std::uint8_t channel = 1; channel <= kChannels; ++channel) {
+      const Result<void> possible = (command.channels & channel) == 0
+                                        ? Result<void>()
+                                        : check_protocol(channel, Protocol::kBissB);
+      if (!possible) {
+        return possible;
+      }
+    }
+    return {};
   }
 
   Chip<Bus, Clock>& chip_;

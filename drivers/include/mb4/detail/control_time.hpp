@@ -33,13 +33,8 @@ constexpr std::uint32_t register_busy_us(const Config& config) {
              : with_spread(config, periods_us(config, 5120U * config.register_divider));
 }
 
-// Longest time of an access, in microseconds: at most 930 * 1 s + 13 s, which fits 32 bits.
-constexpr std::uint32_t control_timeout_us(const Config& config, std::uint8_t count) {
-  return control_frames(count) * frame_pitch_us(config) + register_busy_us(config) + kFrameMarginUs;
-}
-
-// The same for BiSS B, which needs no frames: the hand-over, 18 register clocks for the address, 14
-// for each register.
+// Longest time of an access of BiSS B, which needs no frames: the hand-over, 18 register clocks for
+// the address, 14 for each register.
 constexpr std::uint32_t biss_b_timeout_us(const Config& config, std::uint8_t count) {
   const std::uint32_t clocks = 5120U + 18U + 14U * count;
   return with_spread(config, periods_us(config, clocks * config.register_divider)) +

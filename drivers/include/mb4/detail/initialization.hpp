@@ -23,6 +23,26 @@
 
 namespace mb4::detail {
 
+// INIT measures something.
+[[nodiscard]] inline bool measures(const ChipState& chip) {
+  return any_channel_is(chip.config, Protocol::kBissC);
+}
+// It measures `channel` (0, 1).
+[[nodiscard]] inline bool measures(const ChipState& chip, unsigned channel) {
+  const Protocol protocol = chip.config.channels[channel].protocol;
+  return measures(chip) && protocol != Protocol::kUnused && protocol != Protocol::kSsi;
+}
+
+// Longest time of INIT: the limits of the delay and of the slaves' timeout (docs/choices.md), or,
+// without BiSS C, the limit of the hand-over.
+[[nodiscard]] inline std::uint32_t initialization_us(const ChipState& chip) {
+  constexpr std::uint32_t kPeriods = 255 + 64 + 1024;
+  const Config& config = chip.config;
+  const std::uint32_t us =
+      measures(chip) ? periods_us(config, kPeriods) : register_limit_us(config);
+  return with_spread(config, us) + kFrameMarginUs;
+}
+
 // Used through Device::initialize(), which documents the errors.
 template <typename Bus, typename Clock>
 class Initialization {
@@ -78,8 +98,7 @@ class Initialization {
   // SCDATA1 and SCDATA5 (page 33) of the channels that INIT has measured.
   Result<void> read_delay(unsigned channel, std::uint8_t& quarters) {
     constexpr unsigned kSlavesOfChannel = kSlaves / kChannels;
-    const Protocol protocol = chip_.config.channels[channel].protocol;
-    if (!measures() || protocol == Protocol::kUnused || protocol == Protocol::kSsi) {
+    if (!measures(chip_, channel)) {
       return {};
     }
     const Result<void> read =
@@ -89,19 +108,8 @@ class Initialization {
     return read && quarters == 0 ? Error::kNoData : read;
   }
 
-  [[nodiscard]] bool measures() const { return any_channel_is(chip_.config, Protocol::kBissC); }
-
-  // Longest time of INIT: the limits of the delay and of the slaves' timeout (docs/choices.md), or,
-  // without BiSS C, the limit of the hand-over.
-  [[nodiscard]] std::uint32_t timeout_us() const {
-    constexpr std::uint32_t kPeriods = 255 + 64 + 1024;
-    const Config& config = chip_.config;
-    const std::uint32_t us = measures() ? periods_us(config, kPeriods) : register_limit_us(config);
-    return with_spread(config, us) + kFrameMarginUs;
-  }
-
   Result<void> wait() {
-    Deadline<Clock> deadline(*chip_.clock, timeout_us());
+    Deadline<Clock> deadline(*chip_.clock, initialization_us(chip_));
     for (bool last = false; !last;) {
       last = deadline.last_poll();
       Status status;
@@ -111,11 +119,11 @@ class Initialization {
       if (status.idle() && status.get<regs::INIT>() == 0) {
         // INIT has set the flags to 1 at its beginning.
         if (status.start_error()) {
-          return measures() ? Error::kLineDelay : Error::kLineError;
+          return measures(chip_) ? Error::kLineDelay : Error::kLineError;
         }
         // INIT also ends with a line that is stuck low (page 33), so the line is checked here. In
         // BiSS B the slaves are in register mode now and first need their timeout.
-        if (!measures()) {
+        if (!measures(chip_)) {
           pause(*chip_.clock, chip_.recovery_us());
         }
         return chip_.diagnose_line();

@@ -1,0 +1,352 @@
+// SPDX-FileCopyrightText: 2026 The openmb4 authors
+// SPDX-License-Identifier: Apache-2.0
+
+// A control communication from its request to its end: registers of the slaves, and commands.
+// Source: datasheet pages 16, 27 to 29, 34, 35.
+
+#ifndef MB4_DETAIL_ACCESS_HPP_
+#define MB4_DETAIL_ACCESS_HPP_
+
+#include <cstddef>
+#include <cstdint>
+
+#include "mb4/config.hpp"
+#include "mb4/detail/control_pace.hpp"
+#include "mb4/detail/control_time.hpp"
+#include "mb4/detail/procedures.hpp"
+#include "mb4/register_image.hpp"
+
+namespace mb4::detail {
+
+inline constexpr std::uint8_t kControlFrame =
+    regs::INSTR::encode<static_cast<std::uint8_t>(regs::Instr::kControl)>();
+
+// Time limit of the access that chip.control describes, from its instruction on; of its first frame
+// without automatic frames.
+[[nodiscard]] inline std::uint32_t access_us(const ChipState& chip) {
+  const ControlState& state = chip.control;
+  if (state.biss_b) {
+    return biss_b_timeout_us(chip.config, state.count);
+  }
+  return chip.automatic ? longest_access_us(chip) : chip.frame_us;
+}
+
+// How the access has ended.
+[[nodiscard]] inline ErrorInfo access_error(const ChipState& chip, ControlState::Kind kind,
+                                            const Status& status, std::uint32_t now_us) {
+  // nAGSERR = 0 has two possible causes. (1) No slave has taken part in the hand-over; then the
+  // access has lasted as long as the chip's limit. (2) The chip sets nAGSERR = 0 at each write of
+  // 0xF4 (page 34 can be read so); then the access was shorter. A quarter of the limit separates
+  // them, because the internal oscillator may be faster than f_clk_hz says (D05).
+  if (chip.control.biss_b && status.start_error() &&
+      now_us - chip.control.access_us >= register_limit_us(chip.config) / 4) {
+    return Error::kRegister;
+  }
+  ErrorInfo error;
+  if (status.delay_error() && kind != ControlState::Kind::kCommand) {
+    error = Error::kRegisterDelay;
+  } else if (status.control_error()) {
+    error = kind == ControlState::Kind::kCommand ? Error::kCommand : Error::kRegister;
+  }
+  if (error.code != Error::kNone) {
+    error.detail =
+        kind == ControlState::Kind::kCommand ? std::uint8_t{0} : status.get<regs::REGBYTES>();
+  }
+  return error;
+}
+
+// Control documents arguments and errors; its checks have been made. Writes `data`, or, if that is
+// null, reads `count` registers into `out`.
+inline void Procedures::plan_access(ChipState& chip, Operation& op, SlaveAddress slave,
+                                    std::uint8_t address, const std::uint8_t* data,
+                                    std::uint8_t* out, std::size_t count) {
+  ControlState& state = chip.control;
+  begin(chip, op, access_step, false);
+  state.kind = data != nullptr ? ControlState::Kind::kWrite : ControlState::Kind::kRead;
+  state.count = static_cast<std::uint8_t>(count);
+  state.biss_b = chip.config.channels[slave.channel - 1U].protocol == Protocol::kBissB;
+  op.data_ = data;
+  op.out_ = out;
+  op.count_ = count;
+  const std::uint8_t regadr =
+      regs::WNR::insert(regs::REGADR::insert(0, address), data != nullptr ? 1 : 0);
+  const std::uint8_t control = encode_ctrl(chip.config, state.biss_b);
+  op.request_ = {regadr, static_cast<std::uint8_t>(state.count - 1U), slave.channel,
+                 regs::CTS::insert(regs::SLAVEID::insert(control, slave.id), 1)};
+  add_request(chip, op);
+}
+
+inline void Procedures::plan_command(ChipState& chip, Operation& op, const Command& command) {
+  ControlState& state = chip.control;
+  begin(chip, op, access_step, false);
+  state.kind = ControlState::Kind::kCommand;
+  state.count = 1;
+  state.biss_b = false;
+  const std::uint8_t control = regs::CMD::insert(encode_ctrl(chip.config, false), command.code);
+  op.request_ = {0, reversed(command.ids),  // IDS0 is bit 7 (table 32)
+                 command.channels,
+                 regs::IDA_TEST::insert(control, command.test_acknowledge ? 1 : 0)};
+  op.data_ = &op.request_[1];
+  op.count_ = 1;
+  add_request(chip, op);
+}
+
+// RDATA, or IDS of a command; then the request.
+inline void Procedures::add_request(ChipState& chip, Operation& op) {
+  const ControlState& state = chip.control;
+  if (state.kind != ControlState::Kind::kRead && op.at_ < op.count_) {
+    op.stage_ = kFill;
+    add_write(chip, op, static_cast<std::uint8_t>(regs::kAddrRdata + op.at_), op.data_ + op.at_,
+              part(op));
+    return;
+  }
+  // A command leaves 0xE2 and 0xE3 as they are.
+  const std::uint8_t from = state.kind == ControlState::Kind::kCommand ? 2 : 0;
+  op.stage_ = kSet;
+  add_write(chip, op, static_cast<std::uint8_t>(regs::kAddrRegadr + from), &op.request_[from],
+            op.request_.size() - from);
+}
+
+// Bytes of the next frame.
+inline std::uint8_t Procedures::part(const Operation& op) {
+  const std::uint8_t left = static_cast<std::uint8_t>(op.count_ - op.at_);
+  return left < Operation::kPart ? left : Operation::kPart;
+}
+
+// With SpiCheck::kFull each part is read in two steps, the first one with a status: a line that is
+// stuck from here on makes both readings equal, but no status.
+inline void Procedures::add_take(ChipState& chip, Operation& op) {
+  op.stage_ = kTake;
+  add_read(op, static_cast<std::uint8_t>(regs::kAddrRdata + op.at_), part(op));
+  if (chip.checks_all()) {
+    mb4_cyclic_add_status(&op.plan_);
+  }
+}
+
+// Ends the access at once. `cause` is the result when BREAK is sent.
+inline void Procedures::add_abort(ChipState& chip, Operation& op, const Result<void>& cause) {
+  chip.restart = chip.automatic || chip.restart;
+  chip.recover_first = true;
+  chip.stopped();
+  add_instruction(op, regs::BREAK::encode<1>());
+  op.stage_ = kStopped;
+  op.cause_ = cause;
+}
+
+inline void Procedures::add_access(ChipState& chip, Operation& op) {
+  ControlState& state = chip.control;
+  chip.recover_first = true;
+  state.readable = 0;
+  state.overwritten = false;
+  state.seen_running = false;
+  state.first_frame = true;
+  state.frames = 1;
+  op.stage_ = kStart;
+  add_instruction(op, static_cast<std::uint8_t>(
+                          chip.automatic ? kControlFrame | regs::AGS::encode<1>() : kControlFrame));
+  if (chip.automatic && chip.checks_all()) {
+    mb4_cyclic_add_status(&op.plan_);
+  }
+}
+
+inline void Procedures::again(Operation& op, std::uint32_t now_us) {
+  op.limit_.note(now_us);
+  add_poll(op);
+}
+
+inline Result<void> Procedures::access_step(ChipState& chip, Operation& op, std::uint32_t now_us) {
+  const Result<void> done = access(chip, op, now_us);
+  if (done || chip.control.kind == ControlState::Kind::kNone) {
+    return done;
+  }
+  if (op.stage_ == kFill || op.stage_ == kSet || op.stage_ == kRecover) {
+    chip.control.kind = ControlState::Kind::kNone;  // nothing was begun
+    return done;
+  }
+  clear_plan(op);
+  add_abort(chip, op, done);
+  return {};
+}
+
+inline Result<void> Procedures::access(ChipState& chip, Operation& op, std::uint32_t now_us) {
+  ControlState& state = chip.control;
+  if (!op.good_ && op.stage_ != kClear && op.stage_ != kStopped) {
+    return Error::kTransport;
+  }
+  switch (op.stage_) {
+    case kFill:
+    case kSet: {
+      if (const Result<void> set = same(chip, op); !set) {
+        return set;
+      }
+      if (op.stage_ == kFill) {
+        op.at_ += part(op);
+        add_request(chip, op);
+        return {};
+      }
+      // After a failed read its frame may still run and would execute the new instruction. For BiSS
+      // B BREAK also resets REGEND and nAGSERR, so that both describe this access.
+      const ControlState::Kind kind = state.kind;
+      if (state.biss_b || (!chip.automatic && chip.recover_first)) {
+        add_recovery(chip, op);
+        state.kind = kind;
+        return {};
+      }
+      add_access(chip, op);
+      return {};
+    }
+    case kRecover:
+      recovered(chip, op);
+      add_access(chip, op);
+      return {};
+    case kStart: {
+      state.access_us = now_us;
+      op.limit_.begin(now_us, access_us(chip));
+      // REGEND falls with the instruction, and reads 0 while it waits. If it is still 1, the
+      // instruction was lost and the access before would count as this one; or this access has
+      // failed at once (nREGERR = 0). One disturbed status must not hide an access that runs.
+      if (chip.automatic && chip.checks_all()) {
+        if (const Result<void> seen = look(op); !seen) {
+          return seen;
+        }
+        if (op.status_.control_ended() && !op.status_.control_error()) {
+          if (op.made_ == 1) {
+            state.kind = ControlState::Kind::kNone;
+            return Error::kCorrupted;
+          }
+          mb4_cyclic_add_status(&op.plan_);
+          return {};
+        }
+      }
+      again(op, now_us);
+      return {};
+    }
+    case kNextFrame:
+      op.limit_.begin(now_us, chip.frame_us);
+      again(op, now_us);
+      return {};
+    case kPoll:
+    case kPollAgain:
+      return poll(chip, op, now_us);
+    case kTake: {
+      if (chip.checks_all()) {
+        if (const Result<void> seen = look(op); !seen) {
+          return seen;
+        }
+        --op.made_;
+      }
+      const std::uint8_t* from = received(op) + 2;
+      std::uint8_t* to = op.out_ + op.at_;
+      for (std::uint8_t* end = to + part(op); to != end;) {
+        *to++ = *from++;
+      }
+      if (chip.checks_all()) {
+        add_read(op, static_cast<std::uint8_t>(regs::kAddrRdata + op.at_), part(op));
+        op.stage_ = kTakeAgain;
+        return {};
+      }
+      return taken(chip, op);
+    }
+    case kTakeAgain:
+      return equal(op.out_ + op.at_, received(op) + 2, part(op)) ? taken(chip, op)
+                                                                 : Result<void>(Error::kCorrupted);
+    case kClear:
+      chip.recover_first = !op.good_;
+      return ended(chip, op);
+    default: {  // kStopped: an error that came before BREAK stays the result
+      const Error cause = op.cause_.error();
+      const bool own = cause == Error::kNone || cause == Error::kTimeout;
+      return !op.good_ && own ? Result<void>(Error::kTransport) : op.cause_;
+    }
+  }
+}
+
+// A part of the registers is here.
+inline Result<void> Procedures::taken(ChipState& chip, Operation& op) {
+  op.at_ += part(op);
+  if (op.at_ < op.count_) {
+    add_take(chip, op);
+  }
+  return {};
+}
+
+// Has the access ended, or the frame?
+inline Result<void> Procedures::poll(ChipState& chip, Operation& op, std::uint32_t now_us) {
+  ControlState& state = chip.control;
+  if (const Result<void> seen = look(op); !seen) {
+    return seen;
+  }
+  const Status& status = op.status_;
+  const bool frame_over = status.instruction_done() && (chip.automatic || status.idle());
+  // Where several frames follow each other, REGEND = 1 in the first one may still belong to the
+  // access before. In BiSS B the BREAK at the beginning has reset REGEND.
+  const bool alone = chip.automatic || state.biss_b;
+  const bool stale = !alone && state.first_frame;
+  if (frame_over && status.control_ended() && !stale) {
+    // INSTR = 000 tells nothing where a read of positions has written it. One disturbed bit must
+    // not end the access.
+    if (state.overwritten && chip.checks_all() && op.stage_ == kPoll) {
+      add_poll(op);
+      op.stage_ = kPollAgain;
+      return {};
+    }
+    // Now the slaves' register timeout runs. The line does not show its end.
+    if (state.biss_b && state.first_frame) {
+      state.first_frame = false;
+      op.limit_.begin(now_us, chip.config.register_timeout_us);
+      again(op, now_us);
+      return {};
+    }
+    if (!state.biss_b || op.limit_.over) {
+      return conclude(chip, op, now_us);
+    }
+    again(op, now_us);
+    return {};
+  }
+  if (!op.limit_.over) {
+    if (alone || !frame_over) {
+      again(op, now_us);
+      return {};
+    }
+    state.first_frame = false;
+    if (!enough_frames(chip, now_us)) {
+      ++state.frames;
+      add_instruction(op, kControlFrame);
+      op.stage_ = kNextFrame;
+      return {};
+    }
+  }
+  add_abort(chip, op, Error::kTimeout);
+  return {};
+}
+
+// The access has ended; how?
+inline Result<void> Procedures::conclude(ChipState& chip, Operation& op, std::uint32_t now_us) {
+  ControlState& state = chip.control;
+  const ErrorInfo error = access_error(chip, state.kind, op.status_, now_us);
+  op.cause_ = error;
+  state.readable = error.code == Error::kNone && state.kind == ControlState::Kind::kRead
+                       ? state.count
+                       : std::uint8_t{0};
+  state.kind = ControlState::Kind::kNone;
+  // Without AGS the frames of the access have set SVALID, and the next single frame needs SVALID =
+  // 0. With AGS the reads of positions clear the flags.
+  if (!chip.automatic) {
+    op.stage_ = kClear;
+    mb4_cyclic_add_clear(&op.plan_, chip.sensor_flags, 4);
+    return {};
+  }
+  return ended(chip, op);
+}
+
+inline Result<void> Procedures::ended(ChipState& chip, Operation& op) {
+  if (op.cause_ && chip.control.readable != 0) {
+    op.at_ = 0;
+    add_take(chip, op);
+  }
+  return op.cause_;
+}
+
+}  // namespace mb4::detail
+
+#endif  // MB4_DETAIL_ACCESS_HPP_

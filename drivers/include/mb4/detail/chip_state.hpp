@@ -1,0 +1,129 @@
+// SPDX-FileCopyrightText: 2026 The openmb4 authors
+// SPDX-License-Identifier: Apache-2.0
+
+// What the driver knows about a chip, without its bus and clock.
+
+#ifndef MB4_DETAIL_CHIP_STATE_HPP_
+#define MB4_DETAIL_CHIP_STATE_HPP_
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+#include "mb4/config.hpp"
+#include "mb4/cyclic.hpp"
+#include "mb4/detail/time_limit.hpp"
+#include "mb4/register_image.hpp"
+#include "mb4_regs.hpp"
+
+namespace mb4::detail {
+
+// 0xF4 while a bank is held.
+inline constexpr std::uint8_t kHoldAndAgs = regs::AGS::encode<1>() | regs::HOLDBANK::encode<1>();
+
+// Time for a slave whose frame BREAK has ended, until it is ready again. A slave needs its timeout
+// for this; 12.5 to 40 us are common.
+inline constexpr std::uint32_t kLineRecoveryUs = 100;
+
+// The control communication that is running, and the registers of the last read.
+struct ControlState {
+  enum class Kind : std::uint8_t { kNone, kRead, kWrite, kCommand };
+
+  Kind kind = Kind::kNone;
+  std::uint8_t readable = 0;    // registers that a finished read has left in RDATA
+  std::uint8_t count = 0;       // registers of this access, 1..64
+  bool biss_b = false;          // one instruction runs the whole access, without frames
+  bool overwritten = false;     // a read of positions has written INSTR = 000 meanwhile
+  bool seen_running = false;    // ... and has seen REGEND = 0 since the last poll
+  bool first_frame = false;     // REGEND may belong to the access before; BiSS B: not ended yet
+  std::uint32_t start_us = 0;   // of this frame; with automatic frames of the access
+  std::uint32_t access_us = 0;  // start of the access
+  std::uint32_t timeout_us = 0;
+  std::uint32_t frames = 0;      // begun so far, without automatic frames
+  std::uint32_t polls_left = 0;  // limit for a time source that stands still
+};
+
+// All that the calls on one chip share, except its bus and its clock.
+struct ChipState {
+  // First what most calls look at: short offsets make short code.
+  bool configured = false;
+  // AGS = 1 was written, and nothing has stopped it.
+  bool automatic = false;
+  // A frame may still run and SVALID is unknown: BREAK comes before the next request. Every error
+  // after the first transfer of a call sets this flag.
+  bool recover_first = true;
+  // The caller wants automatic frames, but they need BREAK and a new start first (table 69).
+  bool restart = false;
+  std::uint16_t sensor_flags = 0;  // flag_of() of `sensors`
+  std::uint8_t sensors = 0;        // slaves of `config` that deliver data; bit 0 is slave 1
+  std::uint8_t actuators = 0;      // slaves of `config` that take words; bit 0 is slave 1
+  ControlState control{};
+  std::uint32_t frame_us = 0;             // frame_timeout_us(), worked out once
+  std::uint32_t busy_us = 0;              // register_busy_us()
+  std::uint32_t pitch_us = 0;             // frame_pitch_us()
+  mb4_watch watch{};                      // are automatic frames coming?
+  std::uint8_t count = 0;                 // of `words`
+  std::uint8_t configurations = 0;        // made so far
+  std::uint8_t needs = 0;                 // MB4_WITH_..., for any slave
+  std::array<mb4_word, kSlaves> words{};  // how the data of each of `sensors` is read, in order
+  // 0xC0..0xF5 as configure() has written them; 0xF3 and 0xF4 are not used.
+  std::array<std::uint8_t, regs::kAddrIface - kImageFirst + 1> image{};
+  Config config{};
+
+  // How the data of `slave`, one of `sensors`, is read.
+  [[nodiscard]] const mb4_word* word_of(std::uint8_t slave) const {
+    const mb4_word* word = words.data();
+    while (word->slave != slave) {
+      ++word;
+    }
+    return word;
+  }
+
+  // Works out when frames have stayed away for too long: Automatic::poll(). A slave that needs
+  // longer than a period says so by Config::frame_timeout_us.
+  // `step_us`: of the clock.
+  void set_watch(std::uint32_t step_us) {
+    const std::uint32_t two_us = 2 * pitch_us;
+    const std::uint32_t slow_us = config.frame_timeout_us + pitch_us;
+    const bool on_pin = config.frame_start == FrameStart::kOnPin;
+    watch.omitted_us = (two_us > slow_us ? two_us : slow_us) + step_us;
+    watch.silent_us = on_pin ? 0 : 14 * pitch_us + watch.omitted_us;
+    watch.lines = static_cast<std::uint8_t>(
+        (config.channels[0].protocol == Protocol::kUnused ? 0 : regs::SL1::kMask) |
+        (config.channels[1].protocol == Protocol::kUnused ? 0 : regs::SL2::kMask));
+    watch.several = (sensors & (sensors - 1U)) != 0;
+  }
+
+  // Automatic frames begin now.
+  void started(std::uint32_t now_us) {
+    watch.news_us = now_us;
+    watch.taken = 0;
+    watch.held = false;
+    for (std::uint32_t& good_us : watch.good_us) {
+      good_us = now_us;
+    }
+  }
+
+  [[nodiscard]] bool checks_all() const { return config.spi_check == SpiCheck::kFull; }
+
+  [[nodiscard]] std::uint8_t interface_byte() const {
+    return image[regs::kAddrIface - kImageFirst];
+  }
+
+  // Time from BREAK until all slaves are ready. Slaves of BiSS B may be in register mode and need
+  // longer.
+  [[nodiscard]] std::uint32_t recovery_us() const {
+    return any_channel_is(config, Protocol::kBissB) ? kLineRecoveryUs + config.register_timeout_us
+                                                    : kLineRecoveryUs;
+  }
+
+  // What BREAK ends.
+  void stopped() {
+    automatic = false;
+    control.kind = ControlState::Kind::kNone;
+  }
+};
+
+}  // namespace mb4::detail
+
+#endif  // MB4_DETAIL_CHIP_STATE_HPP_

@@ -1,0 +1,273 @@
+// SPDX-FileCopyrightText: 2026 The openmb4 authors
+// SPDX-License-Identifier: Apache-2.0
+
+// The operations in steps, without bus and clock: what all of them share.
+
+#ifndef MB4_DETAIL_PROCEDURES_HPP_
+#define MB4_DETAIL_PROCEDURES_HPP_
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+#include "mb4/command.hpp"
+#include "mb4/detail/chip_state.hpp"
+#include "mb4/error.hpp"
+#include "mb4/operation.hpp"
+#include "mb4/result.hpp"
+#include "mb4/slave_address.hpp"
+#include "mb4/status.hpp"
+#include "mb4_regs.hpp"
+
+namespace mb4::detail {
+
+// A procedure consists of a function that plans its first frames, and of its step, which looks at
+// what came back, adds the frames of the next step, and returns success or an error. It ends when
+// it adds no frame. A program has only the procedures that it begins. The blocking calls make the
+// same transfers.
+struct Procedures {
+  // Where an operation is: what the frames do that are made now.
+  enum Stage : std::uint8_t {
+    kRecover,    // send BREAK; the slaves need their timeout afterwards
+    kStart,      // the first frames of the operation's own
+    kPoll,       // read the status until what was started has ended
+    kPollAgain,  // an access: is the end true?
+    kLines,      // read the lines until SL is 1
+    kFill,       // an access: RDATA or IDS
+    kSet,        // an access: 0xE2..0xE5
+    kNextFrame,  // an access: the next frame
+    kDelays,     // INIT: what it has measured
+    kClear,      // SVALID = 0
+    kTake,       // an access: RDATA
+    kTakeAgain,  // ... once more
+    kStopped     // BREAK; the result is known
+  };
+
+  // What came back is here. True: the operation has ended. False: there are other frames to make.
+  [[gnu::noinline]] static bool finish(ChipState& chip, Operation& op, bool transferred,
+                                       std::uint32_t now_us) {
+    op.made_ = op.plan_.frames;
+    op.good_ = transferred;
+    clear_plan(op);
+    op.result_ = op.step_(chip, op, now_us);
+    return op.plan_.frames == 0;
+  }
+  // ---- Automatic frames: automatic.hpp ----
+
+  // Sets AGS = 1, after BREAK if need be.
+  static void plan_start(ChipState& chip, Operation& op) {
+    begin(chip, op, start_step, chip.recover_first);
+    // The next single frame begins with BREAK, because an automatic frame may still run then.
+    chip.recover_first = true;
+    if (op.stage_ == kStart) {
+      add_instruction(op, regs::AGS::encode<1>());
+    }
+  }
+
+  // ---- The others: verification.hpp, initialization_steps.hpp, access.hpp ----
+
+  static void plan_verify(ChipState& chip, Operation& op);
+  static void plan_initialize(ChipState& chip, Operation& op);
+  static void plan_access(ChipState& chip, Operation& op, SlaveAddress slave, std::uint8_t address,
+                          const std::uint8_t* data, std::uint8_t* out, std::size_t count);
+  static void plan_command(ChipState& chip, Operation& op, const Command& command);
+
+ private:
+  // ---- Frames ----
+
+  static void clear_plan(Operation& op) {
+    op.plan_.frames = 0;
+    op.plan_.pause_us = 0;
+  }
+
+  // `recover`: the operation begins with BREAK, and goes on in `step` at kRecover; otherwise at
+  // kStart.
+  [[gnu::noinline]] static void begin(ChipState& chip, Operation& op, Operation::Step step,
+                                      bool recover) {
+    clear_plan(op);
+    op.step_ = step;
+    op.stage_ = kStart;
+    op.at_ = 0;
+    op.cause_ = {};
+    if (recover) {
+      add_recovery(chip, op);
+    }
+  }
+
+  // BREAK. With SpiCheck::kFull it also writes 0xF5, the register after 0xF4: the failed transfer
+  // may have been a read of the status that reached the chip as a write. Afterwards recovered().
+  [[gnu::noinline]] static void add_recovery(ChipState& chip, Operation& op) {
+    op.stage_ = kRecover;
+    chip.stopped();
+    mb4_plan_add(&op.plan_, chip.checks_all() ? 3 : 2, MB4_CYCLIC_INSTRUCT,
+                 regs::BREAK::encode<1>(), chip.interface_byte());
+  }
+  // The frames that follow come after the slaves' timeout. The first one clears the flags of frames
+  // that ran.
+  [[gnu::noinline]] static void recovered(ChipState& chip, Operation& op) {
+    op.plan_.pause_us = chip.recovery_us();
+    op.stage_ = kStart;
+    mb4_cyclic_add_clear(&op.plan_, chip.sensor_flags, 4);
+  }
+
+  static void add_instruction(Operation& op, std::uint8_t instruction) {
+    mb4_cyclic_add_instruction(&op.plan_, instruction);
+  }
+
+  // Reads `size` registers. A bus that stores nothing must not turn an old answer into a new one:
+  // the first byte is 0, and no longer that of the answer before.
+  [[gnu::noinline]] static void add_read(Operation& op, std::uint8_t address, std::size_t size) {
+    mb4_plan_add(&op.plan_, static_cast<std::uint8_t>(size + 2), MB4_CYCLIC_READ, address, 0);
+    mb4_plan_rx(&op.plan_, static_cast<std::uint8_t>(op.plan_.frames - 1))[2] = 0;
+  }
+  [[gnu::noinline]] static void add_write(const ChipState& chip, Operation& op,
+                                          std::uint8_t address, const std::uint8_t* data,
+                                          std::size_t size) {
+    std::uint8_t* tx = mb4_plan_add(&op.plan_, 2, MB4_CYCLIC_WRITE, address, 0) + 2;
+    op.plan_.size[op.plan_.frames - 1] = static_cast<std::uint8_t>(size + 2);
+    for (const std::uint8_t* end = data + size; data != end;) {
+      *tx++ = *data++;
+    }
+    if (chip.checks_all()) {
+      add_read(op, address, size);
+    }
+  }
+
+  static void add_clear(ChipState& chip, Operation& op) {
+    op.stage_ = kClear;
+    mb4_cyclic_add_clear(&op.plan_, chip.sensor_flags, 4);
+    if (chip.checks_all()) {
+      mb4_cyclic_add_status(&op.plan_);
+    }
+  }
+
+  static void add_poll(Operation& op) {
+    op.stage_ = kPoll;
+    mb4_cyclic_add_status(&op.plan_);
+  }
+
+  static void add_lines(Operation& op) {
+    op.stage_ = kLines;
+    mb4_plan_add(&op.plan_, 1 + MB4_CYCLIC_LINES, MB4_CYCLIC_STATUS, 0, 0);
+    mb4_plan_rx(&op.plan_, static_cast<std::uint8_t>(op.plan_.frames - 1))[MB4_CYCLIC_LINES] = 0;
+  }
+
+  // ---- What came back ----
+
+  // Bytes of the last frame, and of the one `before` it, of the step before.
+  static const std::uint8_t* received(const Operation& op, unsigned before = 0) {
+    return mb4_plan_rx(&op.plan_, static_cast<std::uint8_t>(op.made_ - 1U - before));
+  }
+
+  // The status of the last frame. kTransport; kNotDetected.
+  [[gnu::noinline]] static Result<void> look(Operation& op) {
+    if (!op.good_) {
+      return Error::kTransport;
+    }
+    const std::uint8_t* rx = received(op);
+    const std::array<std::uint8_t, Status::kBytes> bytes{rx[1], rx[2], rx[3], rx[4], rx[5]};
+    op.status_ = Status(bytes);
+    return op.status_.plausible() ? Error::kNone : Error::kNotDetected;
+  }
+
+  [[gnu::noinline]] static bool equal(const std::uint8_t* one, const std::uint8_t* other,
+                                      unsigned size) {
+    for (; size > 0; --size) {
+      if (*one++ != *other++) {
+        return false;
+      }
+    }
+    return true;
+  }
+
+  // With SpiCheck::kFull the last two frames belong together: the second has read what the first
+  // has written or read. kTransport; kCorrupted: it differs.
+  [[gnu::noinline]] static Result<void> same(const ChipState& chip, const Operation& op) {
+    if (!op.good_) {
+      return Error::kTransport;
+    }
+    if (!chip.checks_all()) {
+      return {};
+    }
+    const std::uint8_t first = static_cast<std::uint8_t>(op.made_ - 2);
+    const std::uint8_t* before =
+        mb4_plan_reads(&op.plan_, first) ? received(op, 1) : mb4_plan_tx(&op.plan_, first);
+    return equal(before + 2, received(op) + 2, op.plan_.size[first] - 2U) ? Error::kNone
+                                                                          : Error::kCorrupted;
+  }
+
+  // SL of the channels in use is 1, which it must be when the slaves' timeout is over. Otherwise it
+  // looks again, for a while. kTransport; kLineError: a line is stuck low.
+  [[gnu::noinline]] static Result<void> lines(const ChipState& chip, Operation& op,
+                                              std::uint32_t now_us) {
+    if (!op.good_) {
+      return Error::kTransport;
+    }
+    if ((received(op)[MB4_CYCLIC_LINES] & chip.watch.lines) == chip.watch.lines) {
+      return {};
+    }
+    if (op.limit_.over) {
+      return Error::kLineError;
+    }
+    if (op.limit_.polls_left == 0) {
+      op.limit_.begin(now_us, kLineRecoveryUs);
+    }
+    op.limit_.note(now_us);
+    add_lines(op);
+    return {};
+  }
+
+  // ---- Steps ----
+
+  static Result<void> start_step(ChipState& chip, Operation& op, std::uint32_t now_us) {
+    if (!op.good_) {
+      return Error::kTransport;
+    }
+    if (op.stage_ == kRecover) {
+      recovered(chip, op);
+      add_instruction(op, regs::AGS::encode<1>());
+      return {};
+    }
+    chip.started(now_us);
+    chip.automatic = true;
+    chip.restart = false;
+    return {};
+  }
+
+  [[gnu::noinline]] static Result<void> clear_step(ChipState& chip, Operation& op,
+                                                   std::uint32_t /*now_us*/) {
+    if (!op.good_ || !chip.checks_all()) {
+      return op.good_ ? Error::kNone : Error::kTransport;
+    }
+    const Result<void> seen = look(op);
+    if (!seen || (op.status_.valid_flags() & chip.sensor_flags) == 0) {
+      return seen;
+    }
+    if (op.made_ == 1) {
+      return Error::kCorrupted;
+    }
+    mb4_cyclic_add_status(&op.plan_);
+    return {};
+  }
+
+  static Result<void> verify_step(ChipState& chip, Operation& op, std::uint32_t now_us);
+  static Result<void> initialize_step(ChipState& chip, Operation& op, std::uint32_t now_us);
+  static Result<void> access_step(ChipState& chip, Operation& op, std::uint32_t now_us);
+  // Parts of initialization_steps.hpp and access.hpp.
+  static void prepare(ChipState& chip, Operation& op);
+  static void add_request(ChipState& chip, Operation& op);
+  static std::uint8_t part(const Operation& op);
+  static void add_take(ChipState& chip, Operation& op);
+  static void add_abort(ChipState& chip, Operation& op, const Result<void>& cause);
+  static void add_access(ChipState& chip, Operation& op);
+  static void again(Operation& op, std::uint32_t now_us);
+  static Result<void> access(ChipState& chip, Operation& op, std::uint32_t now_us);
+  static Result<void> poll(ChipState& chip, Operation& op, std::uint32_t now_us);
+  static Result<void> conclude(ChipState& chip, Operation& op, std::uint32_t now_us);
+  static Result<void> taken(ChipState& chip, Operation& op);
+  static Result<void> ended(ChipState& chip, Operation& op);
+};
+
+}  // namespace mb4::detail
+
+#endif  // MB4_DETAIL_PROCEDURES_HPP_

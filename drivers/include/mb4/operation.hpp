@@ -1,0 +1,89 @@
+// SPDX-FileCopyrightText: 2026 The openmb4 authors
+// SPDX-License-Identifier: Apache-2.0
+
+// One operation in steps: start or restart, INIT, the comparison of the configuration, an access to
+// registers of a slave or a command. The driver plans SPI frames, the caller makes them, and the
+// driver takes what came back.
+
+#ifndef MB4_OPERATION_HPP_
+#define MB4_OPERATION_HPP_
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+#include "mb4/detail/time_limit.hpp"
+#include "mb4/error.hpp"
+#include "mb4/line_delay.hpp"
+#include "mb4/result.hpp"
+#include "mb4/status.hpp"
+#include "mb4/steps.hpp"
+
+namespace mb4 {
+
+namespace detail {
+struct ChipState;
+struct Procedures;
+}  // namespace detail
+
+// Memory for an operation, in the caller's hands; about 250 bytes. A plan call begins the operation
+// and Device::finish() continues it:
+//
+//   mb4::Operation operation;
+//   if (device.automatic().plan_restart(operation)) {
+//     do {
+//       ...  // wait operation.pause_us(), then tx(i) -> rx(i) for i < operation.frames()
+//     } while (!device.finish(operation, transferred, now_us));
+//   }
+//   operation.result();
+//
+// The driver makes no transfer and does not ask for the time meanwhile. The frames of a step have
+// at most kMaxFrameBytes. Between two steps the caller may do other work of any length, which
+// includes whole reads of positions (Automatic::plan_slave(), plan()) if automatic frames run. No
+// other call on the Device may come between the plan call and the end.
+//
+// The object may be used again and again. To give an operation up, call finish() with transferred =
+// false until it returns true. If a control communication runs, the frame that remains is BREAK.
+class Operation : public Steps {
+ public:
+  Operation() { mb4_plan_memory(&plan_, tx_.data(), rx_.data()); }
+
+  static constexpr std::size_t kMaxFrameBytes = 20;
+
+  // After finish() has returned true: what the blocking call of the same name returns.
+  [[nodiscard]] Result<void> result() const { return result_; }
+  // After a successful Device::plan_initialize().
+  [[nodiscard]] LineDelay line_delay() const { return delay_; }
+
+ private:
+  friend struct detail::Procedures;
+
+  // Most bytes of an access in one frame: plan and finish() of one step stay short.
+  static constexpr std::uint8_t kPart = 8;
+  static constexpr std::size_t kWords = 12;
+
+  // Takes what came back and adds the next frames. Without frames the operation has ended.
+  using Step = Result<void> (*)(detail::ChipState&, Operation&, std::uint32_t now_us);
+
+  // Words: short code on small cores.
+  Step step_ = nullptr;
+  std::uint32_t stage_ = 0;
+  std::uint32_t at_ = 0;    // bytes done
+  std::size_t count_ = 0;   // of them all
+  std::uint32_t made_ = 0;  // frames of the step before
+  bool good_ = false;       // they were made
+  Result<void> result_{Error::kWrongMode};
+  Result<void> cause_{};                // is the result when the frames planned now are made
+  const std::uint8_t* data_ = nullptr;  // to write, the caller's
+  std::uint8_t* out_ = nullptr;         // to read into, the caller's
+  detail::TimeLimit limit_{};
+  Status status_{};
+  LineDelay delay_{};
+  std::array<std::uint8_t, 4> request_{};  // 0xE2..0xE5 of an access
+  std::array<std::uint32_t, kWords> tx_{};
+  std::array<std::uint32_t, kWords> rx_{};
+};
+
+}  // namespace mb4
+
+#endif  // MB4_OPERATION_HPP_

@@ -1,0 +1,520 @@
+// SPDX-FileCopyrightText: 2026 The openmb4 authors
+// SPDX-License-Identifier: Apache-2.0
+
+// Operations in steps, frame by frame: no transfer is made and no time is asked for. Expected bytes
+// come from the datasheet (tables 3, 31 to 34, 44 to 47, 54 to 63, 69; pages 27 to 29, 33).
+
+#include "mb4/operation.hpp"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "mb4/device.hpp"
+#include "tests/driver/mb4/encoder26.hpp"
+#include "tests/driver/mb4/strict_bus.hpp"
+
+namespace {
+
+using mb4::Error;
+using mb4test::Bytes;
+using mb4test::FakeClock;
+using mb4test::hex;
+using mb4test::join;
+using mb4test::kBreak;
+using mb4test::kClearValid1;
+using mb4test::kReadStatus;
+using mb4test::status;
+using mb4test::StrictBus;
+using mb4test::zeros;
+
+const Bytes kAgs{0x07, 0x01};
+const Bytes kInit{0x07, 0x10};      // INIT: bit 4 of 0xF4 (table 46)
+const Bytes kFrame{0x07, 0x08};     // INSTR = 100
+const Bytes kFrameAgs{0x07, 0x09};  // with AGS = 1
+const Bytes kRuns = status(0xFA, 0x00, 0x08);
+const Bytes kOver = status(0xFB, 0x00);
+const Bytes kDone = status(0xFF, 0x00);
+const Bytes kRunsAgs = status(0xFB, 0x00, 0x09);
+const Bytes kDoneAgs = status(0xFF, 0x00, 0x01);
+const Bytes kReadLines = join({{0x05}, zeros(9)});
+const Bytes kIdleLines{0, 0xFB, 0, 0, 0, 0, 0, 0, 0, 0x11};  // SL1, SL2 in 0xF8
+const Bytes kRequest{0x02, 0xE2, 0x44, 0x01, 0x01, 0xC0};
+const Bytes kReadRequest{0x03, 0xE2, 0, 0, 0, 0};
+// SpiCheck::kFull: with a status, which no stuck line makes; and again.
+const std::vector<Bytes> kTakeFirst{{0x03, 0x80, 0, 0}, kReadStatus};
+const std::vector<Bytes> kTakeAgain{{0x03, 0x80, 0, 0}};
+
+class OperationTest : public testing::Test {
+ protected:
+  void configure(mb4::SpiCheck check = mb4::SpiCheck::kOff) {
+    mb4::Config config = mb4test::encoder26();
+    config.spi_check = check;
+    mb4test::expect_configure(bus, 0xE7, check == mb4::SpiCheck::kOff ? 0x02 : 0x00);
+    ASSERT_TRUE(device.configure(config).ok());
+  }
+  void start() {
+    bus.expect_write(kAgs);
+    ASSERT_TRUE(device.automatic().start().ok());
+  }
+  // The step must be `frames`, after `pause_us`; the chip answers with `answers`, one for each
+  // frame that reads. Returns finish().
+  bool step(const std::vector<Bytes>& frames, const std::vector<Bytes>& answers,
+            bool transferred = true, std::uint32_t pause_us = 0) {
+    EXPECT_EQ(op.frames(), frames.size());
+    EXPECT_EQ(op.pause_us(), pause_us);
+    std::size_t next = 0;
+    for (std::size_t i = 0; i < op.frames() && i < frames.size(); ++i) {
+      EXPECT_EQ(hex(Bytes(op.tx(i).begin(), op.tx(i).end())), hex(frames[i])) << i;
+      EXPECT_LE(op.tx(i).size(), mb4::Operation::kMaxFrameBytes);
+      EXPECT_EQ(reinterpret_cast<std::uintptr_t>(op.tx(i).data()) % 4, 0U);
+      if (op.rx(i).empty() || next >= answers.size()) continue;
+      EXPECT_EQ(op.rx(i).size(), answers[next].size()) << "slip in the test";
+      for (std::size_t k = 0; k < answers[next].size(); ++k) op.rx(i)[k] = answers[next][k];
+      ++next;
+    }
+    return device.finish(op, transferred, now_us);
+  }
+  void ends_with(Error error) { EXPECT_EQ(op.result().error(), error); }
+  void read(std::size_t count = 2) {
+    ASSERT_TRUE(
+        device.control().plan_read(op, {1, 0}, 0x44, mb4::Span<std::uint8_t>(out.data(), count)));
+  }
+
+  StrictBus bus;
+  FakeClock clock;
+  mb4::Device<StrictBus, FakeClock> device{bus, clock};
+  mb4::Operation op;
+  std::uint32_t now_us = 5000;
+  std::array<std::uint8_t, 64> out{};
+};
+
+using Restart = OperationTest;
+using Verify = OperationTest;
+using Initialize = OperationTest;
+using Access = OperationTest;
+
+// ---- Restart: table 69 --------------------------------------------------------------------------
+
+TEST_F(Restart, BreakPauseStart_AreTwoSteps) {
+  EXPECT_EQ(device.automatic().plan_restart(op).error(), Error::kNotConfigured);
+  configure();
+  start();
+  ASSERT_TRUE(device.automatic().plan_restart(op).ok());
+  EXPECT_FALSE(device.automatic().running());
+  EXPECT_FALSE(step({kBreak}, {}));
+  EXPECT_TRUE(step({kClearValid1, kAgs}, {}, true, 100));
+  ends_with(Error::kNone);
+  EXPECT_TRUE(device.automatic().running());
+  EXPECT_EQ(device.automatic().plan_start(op).error(), Error::kWrongMode);
+}
+
+TEST_F(Restart, Start_IsOneStepOrRecoversFirst) {
+  configure();
+  ASSERT_TRUE(device.automatic().plan_start(op).ok());
+  EXPECT_TRUE(step({kAgs}, {}, false));
+  ends_with(Error::kTransport);
+  EXPECT_FALSE(device.automatic().running());
+  ASSERT_TRUE(device.automatic().plan_start(op).ok());
+  EXPECT_TRUE(step({kBreak}, {}, false));
+  ends_with(Error::kTransport);
+  ASSERT_TRUE(device.automatic().plan_start(op).ok());
+  EXPECT_FALSE(step({kBreak}, {}));
+  EXPECT_TRUE(step({kClearValid1, kAgs}, {}, true, 100));
+  EXPECT_TRUE(device.automatic().running());
+}
+
+// SpiCheck::kFull writes 0xF5 too.
+TEST_F(Restart, Counted_WithCountsOnly) {
+  configure(mb4::SpiCheck::kFull);
+  start();
+  mb4_counts counts{};
+  device.automatic().count(&counts);
+  ASSERT_TRUE(device.automatic().plan_restart(op).ok());
+  EXPECT_EQ(counts.restarts, 0U);
+  ASSERT_TRUE(device.automatic().plan_restart<MB4_WITH_ALL | MB4_WITH_COUNTS>(op).ok());
+  EXPECT_FALSE(step({{0x07, 0x80, 0x00}}, {}));
+  EXPECT_TRUE(step({kClearValid1, kAgs}, {}, true, 100));
+  EXPECT_EQ(counts.restarts, 1U);
+  bus.expect_write({0x07, 0x80, 0x00});
+  bus.expect_write(kClearValid1);
+  bus.expect_write(kAgs);
+  ASSERT_TRUE((device.automatic().restart<MB4_WITH_ALL | MB4_WITH_COUNTS>()).ok());
+  EXPECT_EQ(counts.restarts, 2U);
+}
+
+// ---- Verify -------------------------------------------------------------------------------------
+
+class VerifySteps : public OperationTest {
+ protected:
+  static Bytes part(std::uint8_t from) { return join({{0x03, from}, zeros(18)}); }
+  Bytes answer(int from) const {
+    return join({zeros(2), Bytes(chip.begin() + from - 0xC0, chip.begin() + from - 0xC0 + 18)});
+  }
+  Bytes chip = mb4test::read_back();
+};
+
+TEST_F(VerifySteps, Good_IsThreeSteps) {
+  EXPECT_EQ(device.plan_verify(op).error(), Error::kNotConfigured);
+  configure();
+  ASSERT_TRUE(device.plan_verify(op).ok());
+  // Status, instruction and what an access writes are not compared; nor reserved registers.
+  for (const int address : {0xE0, 0xE1, 0xE2, 0xE5, 0xEE, 0xF0, 0xF4}) chip[address - 0xC0] ^= 0xFF;
+  EXPECT_FALSE(step({part(0xE4)}, {answer(0xE4)}));
+  EXPECT_FALSE(step({part(0xC0)}, {answer(0xC0)}));
+  EXPECT_TRUE(step({part(0xD2)}, {answer(0xD2)}));
+  ends_with(Error::kNone);
+  EXPECT_TRUE(device.configured());
+}
+
+TEST_F(VerifySteps, EachWrongRegister_IsNamed) {
+  for (const int address : {0xC0, 0xC1, 0xD1, 0xD2, 0xDF, 0xE6, 0xE7, 0xEF, 0xF5}) {
+    configure();
+    chip = mb4test::read_back();
+    chip[address - 0xC0] ^= 0x04;
+    ASSERT_TRUE(device.plan_verify(op).ok());
+    bool ended = step({part(0xE4)}, {answer(0xE4)});
+    if (!ended) ended = step({part(0xC0)}, {answer(0xC0)});
+    if (!ended) ended = step({part(0xD2)}, {answer(0xD2)});
+    EXPECT_TRUE(ended);
+    EXPECT_EQ(op.result().error(), Error::kVerify) << address;
+    EXPECT_EQ(op.result().info().address(), address);
+    EXPECT_FALSE(device.configured());
+  }
+}
+
+TEST_F(VerifySteps, NoChipOrFailure_IsReported) {
+  configure();
+  ASSERT_TRUE(device.plan_verify(op).ok());
+  EXPECT_TRUE(step({part(0xE4)}, {}, false));
+  ends_with(Error::kTransport);
+  EXPECT_TRUE(device.configured());
+  // A bus that stores nothing: nothing of the last answer is taken again.
+  ASSERT_TRUE(device.plan_verify(op).ok());
+  EXPECT_FALSE(step({part(0xE4)}, {answer(0xE4)}));
+  ASSERT_TRUE(device.plan_verify(op).ok());
+  EXPECT_TRUE(step({part(0xE4)}, {}));
+  ends_with(Error::kNotDetected);
+  EXPECT_FALSE(device.configured());
+}
+
+// ---- INIT: page 33 ------------------------------------------------------------------------------
+
+const Bytes kZero1{0x02, 0x00, 0x00};
+const Bytes kZero5{0x02, 0x20, 0x00};
+const Bytes kInitRuns = status(0xFA, 0x00, 0x10);
+
+TEST_F(Initialize, Good_ReturnsTheDelay) {
+  EXPECT_EQ(device.plan_initialize(op).error(), Error::kNotConfigured);
+  configure();
+  ASSERT_TRUE(device.plan_initialize(op).ok());
+  EXPECT_FALSE(step({kZero1, kZero5}, {}));
+  EXPECT_FALSE(step({kInit}, {}));
+  EXPECT_FALSE(step({kReadStatus}, {kInitRuns}));
+  EXPECT_FALSE(step({kReadStatus}, {kOver}));
+  EXPECT_FALSE(step({kReadLines}, {{0, 0xFB, 0, 0, 0, 0, 0, 0, 0, 0x00}}));  // SL1 = 0 for a while
+  EXPECT_FALSE(step({kReadLines}, {kIdleLines}));
+  EXPECT_FALSE(step({{0x03, 0x00, 0x00}}, {{0, 0, 7}}));
+  EXPECT_TRUE(step({kClearValid1}, {}));
+  ends_with(Error::kNone);
+  EXPECT_EQ(op.line_delay().quarters[0], 7);
+  EXPECT_EQ(op.line_delay().quarters[1], 0);
+}
+
+TEST_F(Initialize, Full_ReadsTwice) {
+  configure(mb4::SpiCheck::kFull);
+  for (const int fault : {0, 1, 2}) {
+    ASSERT_TRUE(device.plan_initialize(op).ok());
+    if (fault == 2) {  // after a failed one
+      EXPECT_FALSE(step({{0x07, 0x80, 0x00}}, {}));
+      EXPECT_FALSE(step({kClearValid1, kZero1, kZero5}, {}, true, 100));
+    } else {
+      EXPECT_FALSE(step({kZero1, kZero5}, {}));
+    }
+    EXPECT_FALSE(step({kInit}, {}));
+    EXPECT_FALSE(step({kReadStatus}, {kOver}));
+    EXPECT_FALSE(step({kReadLines}, {kIdleLines}));
+    const Bytes second{0, 0, static_cast<std::uint8_t>(fault == 1 ? 9 : 7)};
+    const bool ended = step({{0x03, 0x00, 0x00}, {0x03, 0x00, 0x00}}, {{0, 0, 7}, second});
+    EXPECT_EQ(ended, fault == 1);
+    if (fault == 1) {
+      ends_with(Error::kCorrupted);
+      continue;
+    }
+    EXPECT_FALSE(step({kClearValid1, kReadStatus}, {status(0xFB, 0x02)}));
+    EXPECT_TRUE(step({kReadStatus}, {fault == 0 ? kOver : status(0xFB, 0x02)}));
+    ends_with(fault == 0 ? Error::kNone : Error::kCorrupted);
+  }
+}
+
+TEST_F(Initialize, Faults_AreTold) {
+  configure();
+  const auto to_status = [this](bool recover) {
+    ASSERT_TRUE(device.plan_initialize(op).ok());
+    if (recover) {
+      EXPECT_FALSE(step({kBreak}, {}));
+      EXPECT_FALSE(step({kClearValid1, kZero1, kZero5}, {}, true, 100));
+    } else {
+      EXPECT_FALSE(step({kZero1, kZero5}, {}));
+    }
+    EXPECT_FALSE(step({kInit}, {}));
+  };
+  to_status(false);
+  EXPECT_TRUE(step({kReadStatus}, {status(0x3B, 0x00)}));  // nAGSERR = 0
+  ends_with(Error::kLineDelay);
+  to_status(true);
+  EXPECT_TRUE(step({kReadStatus}, {zeros(6)}));
+  ends_with(Error::kNotDetected);
+  to_status(true);
+  EXPECT_FALSE(step({kReadStatus}, {kOver}));
+  EXPECT_FALSE(step({kReadLines}, {zeros(10)}));
+  now_us += 133;  // 100 us and the step of the coarsest clock
+  EXPECT_FALSE(step({kReadLines}, {zeros(10)}));
+  EXPECT_TRUE(step({kReadLines}, {zeros(10)}));
+  ends_with(Error::kLineError);
+  to_status(true);
+  EXPECT_FALSE(step({kReadStatus}, {kOver}));
+  EXPECT_FALSE(step({kReadLines}, {kIdleLines}));
+  EXPECT_TRUE(step({{0x03, 0x00, 0x00}}, {{0, 0, 0}}));
+  ends_with(Error::kNoData);
+  // 1343 periods of 0.5 us, 200 us and the clock's step. Then the status is read once more.
+  to_status(true);
+  EXPECT_FALSE(step({kReadStatus}, {kInitRuns}));
+  now_us += 1000;
+  EXPECT_FALSE(step({kReadStatus}, {kInitRuns}));
+  EXPECT_FALSE(step({kReadStatus}, {kInitRuns}));
+  EXPECT_TRUE(step({kBreak}, {}));
+  ends_with(Error::kTimeout);
+}
+
+// ---- Registers ----------------------------------------------------------------------------------
+
+TEST_F(Access, ReadBesideAutomaticFrames_OneInstruction) {
+  configure();
+  start();
+  read();
+  EXPECT_EQ(device.control().plan_read(op, {1, 0}, 0, {out.data(), 1}).error(), Error::kBusy);
+  EXPECT_FALSE(step({kRequest}, {}));
+  EXPECT_FALSE(step({kFrameAgs}, {}));
+  EXPECT_FALSE(step({kReadStatus}, {kRunsAgs}));
+  EXPECT_FALSE(step({kReadStatus}, {kDoneAgs}));
+  EXPECT_TRUE(step({{0x03, 0x80, 0, 0}}, {{0, 0, 0x12, 0x34}}));
+  ends_with(Error::kNone);
+  EXPECT_EQ(out[0], 0x12);
+  EXPECT_EQ(out[1], 0x34);
+  EXPECT_TRUE(device.automatic().running());
+}
+
+TEST_F(Access, ReadWithoutAutomaticFrames_OneInstructionAFrame) {
+  configure();
+  read();
+  EXPECT_FALSE(step({kRequest}, {}));
+  EXPECT_FALSE(step({kFrame}, {}));
+  EXPECT_FALSE(step({kReadStatus}, {kRuns}));
+  EXPECT_FALSE(step({kReadStatus}, {kDone}));  // REGEND = 1 of the access before
+  EXPECT_FALSE(step({kFrame}, {}));
+  EXPECT_FALSE(step({kReadStatus}, {kDone}));
+  EXPECT_FALSE(step({kClearValid1}, {}));
+  EXPECT_TRUE(step({{0x03, 0x80, 0, 0}}, {{0, 0, 1, 2}}));
+  ends_with(Error::kNone);
+  // The next one begins without BREAK; its SVALID = 0 fails, and then the one after it does not.
+  read();
+  EXPECT_FALSE(step({kRequest}, {}));
+  EXPECT_FALSE(step({kFrame}, {}));
+  EXPECT_FALSE(step({kReadStatus}, {kOver}));
+  EXPECT_FALSE(step({kFrame}, {}));
+  EXPECT_FALSE(step({kReadStatus}, {status(0x77, 0x00)}));  // nREGERR = 0
+  EXPECT_TRUE(step({kClearValid1}, {}, false));
+  ends_with(Error::kRegister);
+  read();
+  EXPECT_FALSE(step({kRequest}, {}));
+  EXPECT_FALSE(step({kBreak}, {}));
+  EXPECT_FALSE(step({kClearValid1, kFrame}, {}, true, 100));
+}
+
+// Parts of eight: each step is short.
+TEST_F(Access, Write64_GoesInParts) {
+  configure(mb4::SpiCheck::kFull);
+  start();
+  std::array<std::uint8_t, 64> data{};
+  for (std::size_t i = 0; i < data.size(); ++i) data[i] = static_cast<std::uint8_t>(i + 1);
+  ASSERT_TRUE(device.control().plan_write(op, {1, 0}, 0x40, data).ok());
+  for (std::size_t at = 0; at < 64; at += 8) {
+    const std::size_t end = at + 8;
+    const Bytes part(data.begin() + static_cast<int>(at), data.begin() + static_cast<int>(end));
+    const std::uint8_t address = static_cast<std::uint8_t>(0x80 + at);
+    EXPECT_FALSE(step({join({{0x02, address}, part}), join({{0x03, address}, zeros(part.size())})},
+                      {join({zeros(2), part})}));
+  }
+  const Bytes request{0x02, 0xE2, 0xC0, 0x3F, 0x01, 0xC0};
+  EXPECT_FALSE(step({request, kReadRequest}, {{0, 0, 0xC0, 0x3F, 0x01, 0xC0}}));
+  EXPECT_FALSE(step({kFrameAgs, kReadStatus}, {kRunsAgs}));
+  EXPECT_TRUE(step({kReadStatus}, {kDoneAgs}));
+  ends_with(Error::kNone);
+}
+
+// What was written differs: nothing begins, and nothing has to be stopped.
+TEST_F(Access, DisturbedRequest_IsCorruptedAndBeginsNothing) {
+  configure(mb4::SpiCheck::kFull);
+  start();
+  read();
+  EXPECT_TRUE(step({kRequest, kReadRequest}, {{0, 0, 0x44, 0x01, 0x01, 0xC1}}));
+  ends_with(Error::kCorrupted);
+  read();
+  EXPECT_FALSE(step({kRequest, kReadRequest}, {{0, 0, 0x44, 0x01, 0x01, 0xC0}}));
+  // The instruction was lost.
+  EXPECT_FALSE(step({kFrameAgs, kReadStatus}, {kDoneAgs}));
+  EXPECT_TRUE(step({kReadStatus}, {kDoneAgs}));
+  ends_with(Error::kCorrupted);
+  // The second reading of the registers differs.
+  read();
+  EXPECT_FALSE(step({kRequest, kReadRequest}, {{0, 0, 0x44, 0x01, 0x01, 0xC0}}));
+  EXPECT_FALSE(step({kFrameAgs, kReadStatus}, {kRunsAgs}));
+  EXPECT_FALSE(step({kReadStatus}, {kDoneAgs}));
+  EXPECT_FALSE(step(kTakeFirst, {{0, 0, 1, 2}, kDoneAgs}));
+  EXPECT_TRUE(step(kTakeAgain, {{0, 0, 1, 3}}));
+  ends_with(Error::kCorrupted);
+  // MISO is stuck from here on.
+  read();
+  EXPECT_FALSE(step({kRequest, kReadRequest}, {{0, 0, 0x44, 0x01, 0x01, 0xC0}}));
+  EXPECT_FALSE(step({kFrameAgs, kReadStatus}, {kRunsAgs}));
+  EXPECT_FALSE(step({kReadStatus}, {kDoneAgs}));
+  EXPECT_TRUE(step(kTakeFirst, {zeros(4), zeros(6)}));
+  ends_with(Error::kNotDetected);
+  EXPECT_TRUE(device.automatic().running());
+}
+
+// A read of positions has written INSTR = 000: REGEND counts when it is seen twice.
+TEST_F(Access, EndBesideReads_IsSeenTwice) {
+  configure(mb4::SpiCheck::kFull);
+  start();
+  read();
+  EXPECT_FALSE(step({kRequest, kReadRequest}, {{0, 0, 0x44, 0x01, 0x01, 0xC0}}));
+  EXPECT_FALSE(step({kFrameAgs, kReadStatus}, {kRunsAgs}));
+  bus.expect_write({0x07, 0x41});
+  bus.expect_read(kReadStatus, status(0xFB, 0x00, 0x41));
+  bus.expect_write(kAgs);
+  EXPECT_EQ(device.automatic().poll_slave(1).error(), Error::kNoData);
+  EXPECT_FALSE(step({kReadStatus}, {kDoneAgs}));
+  EXPECT_FALSE(step({kReadStatus}, {status(0xFB, 0x00, 0x01)}));
+  EXPECT_FALSE(step({kReadStatus}, {kDoneAgs}));
+  EXPECT_FALSE(step({kReadStatus}, {kDoneAgs}));
+  EXPECT_FALSE(step(kTakeFirst, {{0, 0, 1, 2}, kDoneAgs}));
+  EXPECT_TRUE(step(kTakeAgain, {{0, 0, 1, 2}}));
+  ends_with(Error::kNone);
+}
+
+// After an error the access may still run: BREAK is the last step, and the first error the result.
+TEST_F(Access, Failures_EndWithBreak) {
+  configure();
+  for (const bool break_too : {true, false}) {
+    start();
+    read();
+    EXPECT_TRUE(step({kRequest}, {}, false));  // nothing has begun
+    ends_with(Error::kTransport);
+    read();
+    EXPECT_FALSE(step({kRequest}, {}));
+    EXPECT_FALSE(step({kFrameAgs}, {}, false));
+    EXPECT_TRUE(step({kBreak}, {}, break_too));
+    ends_with(Error::kTransport);
+    EXPECT_FALSE(device.automatic().running());
+    bus.expect_write(kBreak);
+    bus.expect_write(kClearValid1);
+    start();
+    read();
+    EXPECT_FALSE(step({kRequest}, {}));
+    EXPECT_FALSE(step({kFrameAgs}, {}));
+    EXPECT_FALSE(step({kReadStatus}, {Bytes(6, 0xFF)}));
+    EXPECT_TRUE(step({kBreak}, {}, break_too));
+    ends_with(Error::kNotDetected);
+    bus.expect_write(kBreak);
+    bus.expect_write(kClearValid1);
+    bus.expect_write(kAgs);
+    ASSERT_TRUE(device.automatic().restart().ok());
+    bus.expect_write({0x07, 0x00});
+    ASSERT_TRUE(device.automatic().stop().ok());
+    bus.expect_write(kBreak);
+    bus.expect_write(kClearValid1);
+  }
+  start();
+}
+
+// 50 frames of 220 us, 4096 * 64 periods of MA and a quarter, 200 us.
+TEST_F(Access, NeverEnding_IsTimeoutAfterAnotherLook) {
+  configure();
+  start();
+  read(1);
+  EXPECT_FALSE(step({{0x02, 0xE2, 0x44, 0x00, 0x01, 0xC0}}, {}));
+  EXPECT_FALSE(step({kFrameAgs}, {}));
+  now_us += 174'800;
+  EXPECT_FALSE(step({kReadStatus}, {kRunsAgs}));
+  now_us += 100;
+  EXPECT_FALSE(step({kReadStatus}, {kRunsAgs}));
+  EXPECT_FALSE(step({kReadStatus}, {kRunsAgs}));
+  EXPECT_TRUE(step({kBreak}, {}));
+  ends_with(Error::kTimeout);
+  EXPECT_FALSE(device.automatic().running());
+}
+
+// A clock that stands still: the polls and the frames are counted.
+TEST(AccessCounted, ClockStandsStill_IsTimeout) {
+  StrictBus bus;
+  FakeClock clock;
+  mb4::Device<StrictBus, FakeClock> device(bus, clock);
+  mb4::Config config = mb4test::encoder26();
+  config.register_busy_us = 39;
+  mb4test::expect_configure(bus);
+  ASSERT_TRUE(device.configure(config).ok());
+  mb4::Operation op;
+  std::uint8_t out = 0;
+  ASSERT_TRUE(device.control().plan_read(op, {1, 0}, 0x10, {&out, 1}).ok());
+  std::size_t frames = 0;
+  for (bool ended = false; !ended;) {
+    frames += op.tx(0)[0] == 0x07 && op.tx(0)[1] == 0x08 ? 1 : 0;
+    if (!op.rx(0).empty()) {
+      for (std::size_t k = 0; k < 6; ++k) op.rx(0)[k] = kOver[k];
+    }
+    ended = device.finish(op, true, 0);
+    ASSERT_LT(frames, 200U);
+  }
+  EXPECT_EQ(op.result().error(), Error::kTimeout);
+  EXPECT_EQ(frames, 49U + 39U + 1U);
+}
+
+// ---- Commands -----------------------------------------------------------------------------------
+
+TEST_F(Access, Command_HasItsFields) {
+  configure();
+  start();
+  mb4::Command command;
+  command.ids = 0x05;
+  command.code = 1;
+  command.test_acknowledge = true;
+  ASSERT_TRUE(device.control().plan_command(op, command).ok());
+  EXPECT_FALSE(step({{0x02, 0x80, 0xA0}}, {}));
+  EXPECT_FALSE(step({{0x02, 0xE4, 0x01, 0x58}}, {}));
+  EXPECT_FALSE(step({kFrameAgs}, {}));
+  EXPECT_TRUE(step({kReadStatus}, {status(0x77, 0x00, 0x01)}));
+  ends_with(Error::kCommand);
+  command.code = 4;
+  EXPECT_EQ(device.control().plan_command(op, command).error(), Error::kInvalidArgument);
+}
+
+TEST_F(Access, WrongArguments_PlanNothing) {
+  EXPECT_EQ(device.control().plan_read(op, {1, 0}, 0, {out.data(), 1}).error(),
+            Error::kNotConfigured);
+  configure();
+  const mb4::Span<std::uint8_t> all(out);
+  EXPECT_EQ(device.control().plan_read(op, {1, 0}, 0, all.first(0)).error(),
+            Error::kInvalidArgument);
+  EXPECT_EQ(device.control().plan_read(op, {1, 8}, 0, all.first(1)).error(),
+            Error::kInvalidArgument);
+  EXPECT_EQ(device.control().plan_write(op, {1, 0}, 0x41, all).error(), Error::kInvalidArgument);
+  EXPECT_EQ(op.frames(), 0U);
+  EXPECT_EQ(op.result().error(), Error::kWrongMode);
+}
+
+}  // namespace

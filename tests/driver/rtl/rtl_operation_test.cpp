@@ -1,0 +1,331 @@
+// SPDX-FileCopyrightText: 2026 The openmb4 authors
+// SPDX-License-Identifier: Apache-2.0
+
+// Operations in steps on the Verilated chip: the test makes the frames and keeps the time, as DMA
+// and a timer would. Source of the procedures: datasheet pages 27 to 29, 33, table 69.
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "tests/driver/rtl/protocol_bus.hpp"
+#include "tests/driver/rtl/rtl_calls.hpp"
+
+namespace {
+
+using namespace mb4test;  // NOLINT: scenarios and configurations
+using mb4::Operation;
+using mb4::Result;
+using mb4::Span;
+using mb4::SpiCheck;
+namespace sim = mb4::sim;
+
+// Makes all steps; `between` is other work after each step.
+template <typename Between>
+Result<void> complete(FaultyChip& chip, Operation& op, Between between) {
+  bool ended = false;
+  for (unsigned steps = 0; !ended; ++steps) {
+    if (steps > 10'000) {
+      ADD_FAILURE() << "the operation does not end";
+      return op.result();
+    }
+    for (std::size_t i = 0; i < op.frames(); ++i) {
+      EXPECT_LE(op.tx(i).size(), Operation::kMaxFrameBytes);
+    }
+    chip.simulator.advance(op.pause_us() * sim::kPsPerUs);
+    const bool transferred = op.run(chip.bus);
+    ended = chip.device.finish(op, transferred, chip.clock.now_us());
+    if (!ended) between();
+  }
+  return op.result();
+}
+Result<void> complete(FaultyChip& chip, Operation& op) {
+  return complete(chip, op, [&chip] { chip.simulator.advance(10 * sim::kPsPerUs); });
+}
+
+void stick(FaultyChip& chip, std::optional<bool> level) {
+  chip.simulator.line(1)->faults().stick(level);
+  chip.simulator.refresh_lines();
+}
+
+// ---- Start and restart --------------------------------------------------------------------------
+
+class DriverOperation : public testing::TestWithParam<SpiCheck> {
+ protected:
+  static Config config(bool automatic) {
+    Config one = encoder(automatic);
+    one.spi_check = GetParam();
+    return one;
+  }
+};
+
+std::string name_of(const testing::TestParamInfo<SpiCheck>& test) {
+  if (test.param == SpiCheck::kOff) return "Off";
+  return test.param == SpiCheck::kCrc ? "Crc" : "Full";
+}
+INSTANTIATE_TEST_SUITE_P(Checks, DriverOperation,
+                         testing::Values(SpiCheck::kOff, SpiCheck::kCrc, SpiCheck::kFull), name_of);
+
+TEST_P(DriverOperation, Restart_BringsPositionsBack) {
+  FaultyChip chip(kEncoder);
+  ASSERT_TRUE(chip.device.configure(config(true)).ok());
+  Operation op;
+  ASSERT_TRUE(chip.device.automatic().plan_start(op).ok());
+  ASSERT_TRUE(complete(chip, op).ok());
+  for (int i = 0; i < 3; ++i) {
+    chip.simulator.advance(250 * sim::kPsPerUs);
+    ASSERT_TRUE(chip.device.automatic().poll_slave(1).ok());
+    stick(chip, false);
+    Error error = Error::kNoData;
+    for (int tick = 0; tick < 100 && error != Error::kLineError; ++tick) {
+      chip.simulator.advance(100 * sim::kPsPerUs);
+      error = chip.device.automatic().poll_slave(1).error();
+    }
+    EXPECT_EQ(error, Error::kLineError);
+    stick(chip, std::nullopt);
+    ASSERT_TRUE(chip.device.automatic().plan_restart(op).ok());
+    const sim::Time begin = chip.simulator.now();
+    ASSERT_TRUE(complete(chip, op).ok());
+    EXPECT_GE(chip.simulator.now() - begin, 100 * sim::kPsPerUs);
+    EXPECT_EQ(chip.device.automatic().poll_slave(1).error(), Error::kNoData) << "an old position";
+    chip.simulator.advance(250 * sim::kPsPerUs);
+    const Result<mb4::Reading> reading = chip.device.automatic().poll_slave(1);
+    ASSERT_TRUE(reading.ok()) << mb4::to_string(reading.error());
+    EXPECT_EQ(reading->position, 0xAAF37BFU >> 2U);
+  }
+}
+
+// ---- INIT and verify ----------------------------------------------------------------------------
+
+TEST_P(DriverOperation, Initialize_MeasuresAsTheBlockingCall) {
+  const auto line = [](const std::string& delay, const std::string& number) {
+    return "[[channel]]\nnumber = " + number + "\ndelay_ns = " + delay +
+           "\n[[channel.slave]]\nprotocol = \"biss-c\"\ndata_bits = 28\n";
+  };
+  FaultyChip chip(line("520", "1") + line("1020", "2"));
+  Config both = config(false);
+  both.channels[1].protocol = mb4::Protocol::kBissC;
+  both.slaves[4] = both.slaves[0];
+  ASSERT_TRUE(chip.device.configure(both).ok());
+  const Result<mb4::LineDelay> blocking = chip.device.initialize();
+  ASSERT_TRUE(blocking.ok());
+  Operation op;
+  ASSERT_TRUE(chip.device.plan_initialize(op).ok());
+  EXPECT_TRUE(complete(chip, op).ok());
+  EXPECT_EQ(op.line_delay().quarters, blocking->quarters);
+  EXPECT_GT(op.line_delay().quarters[1], op.line_delay().quarters[0]);
+  EXPECT_TRUE(chip.device.read_frame().ok());
+}
+
+TEST_P(DriverOperation, InitializeFaults_AreTold) {
+  FaultyChip chip(kEncoder);
+  ASSERT_TRUE(chip.device.configure(config(false)).ok());
+  Operation op;
+  for (const auto& [level, error] : {std::pair{std::optional(false), Error::kLineError},
+                                     std::pair{std::optional(true), Error::kLineDelay},
+                                     std::pair{std::optional<bool>(), Error::kNone}}) {
+    stick(chip, level);
+    ASSERT_TRUE(chip.device.plan_initialize(op).ok());
+    EXPECT_EQ(complete(chip, op).error(), error);
+  }
+  FaultyChip dead("[chip]\nf_clk_hz = 0\n" + kEncoder);
+  ASSERT_TRUE(dead.device.configure(config(false)).ok());
+  ASSERT_TRUE(dead.device.plan_initialize(op).ok());
+  EXPECT_EQ(complete(dead, op).error(), Error::kTimeout);
+}
+
+TEST_P(DriverOperation, Verify_BesidePositionsFindsAChange) {
+  FaultyChip chip(kEncoder);
+  ASSERT_TRUE(chip.device.configure(config(true)).ok());
+  ASSERT_TRUE(chip.device.automatic().start().ok());
+  Operation op;
+  unsigned positions = 0;
+  const auto tick = [&] {
+    chip.simulator.advance(110 * sim::kPsPerUs);
+    positions += chip.device.automatic().poll_slave(1).ok() ? 1 : 0;
+  };
+  ASSERT_TRUE(chip.device.plan_verify(op).ok());
+  EXPECT_TRUE(complete(chip, op, tick).ok());
+  EXPECT_EQ(positions, 2U);
+  const std::uint8_t other = 0x1A;
+  ASSERT_TRUE(chip.device.opcodes().write_registers(0xC8, Span<const std::uint8_t>(&other, 1)));
+  ASSERT_TRUE(chip.device.plan_verify(op).ok());
+  EXPECT_EQ(complete(chip, op).error(), Error::kVerify);
+  EXPECT_EQ(op.result().info().address(), 0xC8);
+  EXPECT_FALSE(chip.device.configured());
+}
+
+// ---- Registers ----------------------------------------------------------------------------------
+
+TEST_P(DriverOperation, Registers_AreWrittenAndRead) {
+  for (const bool automatic : {false, true}) {
+    FaultyChip chip(kEncoder);
+    ASSERT_TRUE(chip.device.configure(config(automatic)).ok());
+    if (automatic) {
+      ASSERT_TRUE(chip.device.automatic().start().ok());
+    }
+    Operation op;
+    for (const std::size_t count : {1U, 2U, 18U, 19U, 37U, 64U}) {
+      std::vector<std::uint8_t> bytes(count);
+      for (std::size_t i = 0; i < count; ++i)
+        bytes[i] = static_cast<std::uint8_t>(0x35 * i + count);
+      ASSERT_TRUE(chip.device.control().plan_write(op, {1, 0}, 0x04, {bytes.data(), count}).ok());
+      ASSERT_TRUE(complete(chip, op).ok()) << count;
+      for (std::size_t i = 0; i < count; ++i) {
+        ASSERT_EQ(chip.simulator.slave(1)->reg_read(static_cast<std::uint8_t>(4 + i)), bytes[i]);
+      }
+      std::vector<std::uint8_t> back(count);
+      ASSERT_TRUE(chip.device.control().plan_read(op, {1, 0}, 0x04, {back.data(), count}).ok());
+      ASSERT_TRUE(complete(chip, op).ok()) << count;
+      EXPECT_EQ(back, bytes);
+    }
+    ASSERT_TRUE(chip.device.control().plan_command(op, activate()).ok());
+    EXPECT_TRUE(complete(chip, op).ok());
+    // No slave has ID 5.
+    std::uint8_t none = 0;
+    ASSERT_TRUE(chip.device.control().plan_read(op, {1, 5}, 0x44, {&none, 1}).ok());
+    EXPECT_EQ(complete(chip, op).error(), Error::kRegister);
+    if (!automatic) {
+      EXPECT_TRUE(chip.device.read_frame().ok());
+    }
+  }
+}
+
+TEST_P(DriverOperation, BissB_RegistersByTheHandOver) {
+  FaultyChip chip(biss_b_bus(false, "data = 0xABCDEF7"));
+  Config one = biss_b_config(false);
+  one.spi_check = GetParam();
+  ASSERT_TRUE(chip.device.configure(one).ok());
+  const mb4::SlaveAddress slave = mb4::slave_address(one, 1);
+  Operation op;
+  std::array<std::uint8_t, 3> back{};
+  ASSERT_TRUE(chip.device.control().plan_write(op, slave, 0x20, Span<const std::uint8_t>(kBytes)));
+  ASSERT_TRUE(complete(chip, op).ok());
+  ASSERT_TRUE(chip.device.control().plan_read(op, slave, 0x21, back).ok());
+  ASSERT_TRUE(complete(chip, op).ok());
+  EXPECT_EQ(back, (std::array<std::uint8_t, 3>{2, 3, 4}));
+  ASSERT_TRUE(chip.device.plan_initialize(op).ok());
+  EXPECT_TRUE(complete(chip, op).ok());
+  EXPECT_TRUE(chip.device.read_frame().ok());
+}
+
+// A loop that ticks with the frames: in each tick a chain for the position, then one step of the
+// access. At least 99 % of the ticks bring a position, at each of 25 phases.
+TEST_P(DriverOperation, ReadBesideEveryPhase_PositionsGoOn) {
+  for (unsigned phase = 0; phase < 25; ++phase) {
+    FaultyChip chip(
+        "[host]\nsclk_hz = 10_000_000\n[[channel]]\nnumber = 1\n[[channel.slave]]\n"
+        "protocol = \"biss-c\"\ndata_bits = 28\nsource = \"ramp\"\nstep = 1\n"
+        "control = true\nregisters = { 0x44 = [0x00, 0xD9, 0x01, 0x32] }\n");
+    Config one = mb4test::config26(10'000'000);
+    one.spi_check = GetParam();
+    one.frame_start = mb4::FrameStart::kPeriodic;
+    one.frame_period_clk = mb4::frame_period_clk_at_least(one.f_clk_hz, 50'000);
+    ASSERT_TRUE(chip.device.configure(one).ok());
+    const sim::Time period = one.frame_period_clk * (sim::kPsPerSecond / one.f_clk_hz);
+    ASSERT_TRUE(chip.device.automatic().start().ok());
+    sim::Time tick = chip.simulator.now() + 2 * period + period * phase / 25;
+    mb4::CyclicRead read;
+    Operation op;
+    std::array<std::uint8_t, 4> serial{};
+    ASSERT_TRUE(chip.device.control().plan_read(op, {1, 0}, 0x44, serial).ok());
+    unsigned ticks = 0;
+    unsigned positions = 0;
+    std::uint64_t last = 0;
+    for (bool ended = false; !ended; ++ticks) {
+      ASSERT_LT(ticks, 500U);
+      chip.simulator.run_until(tick);
+      tick += period;
+      ASSERT_TRUE(chip.device.automatic().plan_slave(1, read).ok());
+      bool transferred = false;
+      do {
+        transferred = read.run(chip.bus);
+      } while (!chip.device.automatic().finish(read, transferred, chip.clock.now_us()));
+      if (read.error() == Error::kNone) {
+        EXPECT_TRUE(positions == 0 || read.position() > last);
+        last = read.position();
+        ++positions;
+      }
+      transferred = op.run(chip.bus);
+      ended = chip.device.finish(op, transferred, chip.clock.now_us());
+    }
+    ASSERT_TRUE(op.result().ok()) << mb4::to_string(op.result().error());
+    EXPECT_EQ(serial, (std::array<std::uint8_t, 4>{0x00, 0xD9, 0x01, 0x32}));
+    EXPECT_GE(ticks, 80U);
+    EXPECT_GE((positions + 2) * 100, ticks * 99) << "phase " << phase;
+  }
+}
+
+// ---- Faults of the bus --------------------------------------------------------------------------
+
+// Each transfer refused, and each one made but reported as failed: an error, and afterwards the
+// chip works. Only SVALID = 0 behind the access may fail without one.
+TEST_P(DriverOperation, EachTransferFails_IsTransportAndTheChipGoesOn) {
+  for (const FaultKind kind : {FaultKind::kRefused, FaultKind::kFailedAfter}) {
+    for (std::size_t index = 0; index < 400; index += index < 8 ? 1 : 13) {
+      FaultyChip chip(kEncoder);
+      ASSERT_TRUE(chip.device.configure(config(false)).ok());
+      Operation op;
+      std::array<std::uint8_t, 2> out{};
+      chip.bus.plan({kind, index, index, 0});
+      ASSERT_TRUE(chip.device.control().plan_read(op, {1, 0}, 0x45, out).ok());
+      const Error error =
+          complete(chip, op, [&] { chip.simulator.advance(10 * sim::kPsPerUs); }).error();
+      const bool met = chip.bus.count() > index;
+      EXPECT_TRUE(error == Error::kNone || (met && error == Error::kTransport)) << index;
+      if (error == Error::kNone) {
+        EXPECT_EQ(out[0], 0xD9);
+      }
+      chip.bus.plan({});
+      EXPECT_TRUE(chip.device.read_frame().ok()) << index;
+      EXPECT_TRUE(chip.device.control().read_registers({1, 0}, 0x44, buffer).ok()) << index;
+      if (!met) break;
+    }
+  }
+}
+
+// SpiCheck::kFull: no single disturbed transfer and no stuck line makes a wrong register, nor a
+// good result of an operation that has not been made.
+TEST(DriverOperationFault, AnyFault_NoWrongRegisterAndNoFalseSuccess) {
+  std::vector<std::size_t> bits;
+  const auto run = [&](const Fault& fault, bool write) {
+    FaultyChip chip(kEncoder);
+    EXPECT_TRUE(chip.device.configure(encoder(true)).ok());
+    EXPECT_TRUE(chip.device.automatic().start().ok());
+    Operation op;
+    std::array<std::uint8_t, 2> out{};
+    const std::array<std::uint8_t, 2> data{0xA7, 0x3C};
+    chip.bus.plan(fault);
+    EXPECT_TRUE((write ? chip.device.control().plan_write(op, {1, 0}, 0x50, data)
+                       : chip.device.control().plan_read(op, {1, 0}, 0x45, out))
+                    .ok());
+    const Result<void> done =
+        complete(chip, op, [&] { chip.simulator.advance(1'500 * sim::kPsPerUs); });
+    bits = chip.bus.bits();
+    if (done && write) {
+      EXPECT_EQ(chip.simulator.slave(1)->reg_read(0x50), 0xA7) << fault.text();
+      EXPECT_EQ(chip.simulator.slave(1)->reg_read(0x51), 0x3C) << fault.text();
+    } else if (done) {
+      EXPECT_EQ(out, (std::array<std::uint8_t, 2>{0xD9, 0x01})) << fault.text();
+    }
+    EXPECT_EQ(chip.simulator.slave(1)->reg_read(0x45), 0xD9) << fault.text();
+    // Afterwards the chip works. A lost BREAK is repeated by the restart.
+    chip.bus.plan({});
+    EXPECT_TRUE(chip.device.automatic().restart().ok()) << fault.text();
+    chip.simulator.advance(250 * sim::kPsPerUs);
+    EXPECT_TRUE(chip.device.automatic().poll_slave(1).ok()) << fault.text();
+    return done;
+  };
+  for (const bool write : {false, true}) {
+    ASSERT_TRUE(run({}, write).ok());
+    EXPECT_LT(bits.size(), 40U);
+    for (const Fault& fault : all_faults(bits, 17)) static_cast<void>(run(fault, write));
+  }
+}
+
+}  // namespace
