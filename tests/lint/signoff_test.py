@@ -131,6 +131,15 @@ class SignOff(unittest.TestCase):
         self.taken("normal", self.put("a.xml", report({"Other.A": "passed"})))
         self.assertEqual(self.row("Lint")[0], "*not run*")
 
+    def test_added_report_keeps_the_other_pieces(self):
+        self.taken("nightly", self.put("a.xml", report({"Nightly.Coverage": "passed"})),
+                   self.put("a.log", LOG.format("99.0")))
+        self.put("items.toml", TABLE.replace('run = "normal"', 'run = "nightly"'))
+        self.taken("nightly", "--add", self.put("b.xml", report(GOOD)))
+        self.assertEqual([self.row("Lint")[0], self.row("Coverage")[0]], ["done", "done"])
+        self.refused("Lint.*: the report shows fewer tests than are kept", "take", "nightly",
+                     "--add", self.put("c.xml", report({"Lint.A": "passed"})))
+
     def test_two_reports_worse_result_and_older_day_count(self):
         self.taken("normal", self.put("a.xml", report({**GOOD, "Lint.A": "failed"})),
                    self.put("b.xml", report({"Lint.A": "passed"}, "2026-05-09")))

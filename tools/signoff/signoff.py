@@ -5,7 +5,8 @@
 
   signoff.py take RUN FILE...   RUN is normal, sanitize or nightly. FILEs are all JUnit reports (.xml)
                                 and CTest logs (figures) of this run; they replace what was kept
-                                of it in docs/signoff.json. Then as `page`.
+                                of it in docs/signoff.json. With --add they replace only what they
+                                show: a long run may come in pieces. Then as `page`.
   signoff.py page               writes docs/signoff.md from items.toml and docs/signoff.json
   signoff.py check              docs/signoff.md is what `page` writes
 
@@ -120,6 +121,18 @@ def digest(items, run, files):
         if "figure" in item and (found := re.search(item["figure"], text, re.M)):
             kept["figures"][item["figure"]] = found[1]
     return {kind: dict(sorted(rows.items())) for kind, rows in kept.items()}
+
+
+def added(kept, found):
+    """What a piece of a run has found, beside what is kept of the other pieces."""
+    def total(row):
+        return sum(row.get(state, 0) for state in ("passed", "failed", "skipped"))
+
+    for pattern, row in found["tests"].items():
+        # A piece that shows some of the tests would hide how the others have ended.
+        if total(row) < total(kept.get("tests", {}).get(pattern, {})):
+            raise Fault(f"{pattern}: the report shows fewer tests than are kept")
+    return {kind: {**kept.get(kind, {}), **rows} for kind, rows in found.items()}
 
 
 # ---- table ---------------------------------------------------------------------------------------
@@ -300,6 +313,7 @@ def main():
     commands = parser.add_subparsers(dest="command", required=True)
     take = commands.add_parser("take")
     take.add_argument("run", choices=RUNS)
+    take.add_argument("--add", action="store_true")
     take.add_argument("files", nargs="+", type=Path)
     commands.add_parser("page")
     commands.add_parser("check")
@@ -308,7 +322,8 @@ def main():
         blocks, items = read_table(options.table)
         data = read_data(options.data) if options.data.exists() or options.command != "take" else {}
         if options.command == "take":
-            data[options.run] = digest(items, options.run, options.files)
+            found = digest(items, options.run, options.files)
+            data[options.run] = added(data.get(options.run, {}), found) if options.add else found
             options.data.write_text(json.dumps(data, indent=1, sort_keys=True) + "\n",
                                     encoding="utf-8")
         text = page(blocks, items, data, options.page.resolve().parent)
