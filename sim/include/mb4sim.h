@@ -199,9 +199,10 @@ typedef void (*mb4sim_edge_callback)(void *context, unsigned channel, unsigned p
 MB4SIM_API int mb4sim_on_edge(mb4sim *sim, mb4sim_edge_callback callback, void *context);
 
 /* Begins a waveform now: an FST file (GTKWave, Surfer) at `path`, as `mb4sim run --trace` writes
- * it, with the pins, the registers inside the chip, and the levels at the slaves. Its times are
- * those since power-on in ps. An existing file is replaced. The simulation goes on as without a
- * waveform, but takes about ten times as long.
+ * it, with the pins, the registers inside the chip, and the levels at the slaves. Edges that are on
+ * a cable when it begins may appear early at the slaves. Its times are those since power-on in ps.
+ * An existing file is replaced. The simulation goes on as without a waveform, at a few per cent of
+ * its speed.
  *
  * Returns 0, or MB4SIM_ERROR_TRACE, and then nothing has changed: the file cannot be written; a
  * waveform is being written already; the master writes none (biss_axi); the library was built
