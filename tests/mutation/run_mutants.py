@@ -8,8 +8,8 @@
      FILE  takes what has been found; a run that was ended goes on from there
 
 First all tests run without a fault: they must pass, and what takes long is known then. All
-faults meet the quick test suites of all programs first; what these do not catch meets longer ones.
-A fault of equivalent.txt meets the first suites only: should they catch it, its reason is wrong and
+faults meet the quick tests of all programs first; what these do not catch meets longer ones.
+A fault of equivalent.txt meets the first tests only: should they catch it, its reason is wrong and
 the run fails. What does not end counts as caught: it may take three times the processor time of the
 run without a fault."""
 
@@ -28,9 +28,10 @@ sys.path.insert(0, str(HERE.parents[1] / "tools" / "synth"))
 
 import project  # noqa: E402
 
-# Lockstep compares two chips, of which one has no fault. The others repeat many frames for their
-# statistics (tools/coverage.sh leaves out the same ones): what they see, shorter tests see as well.
-LEFT_OUT = ("-Lockstep.*:HostFuzz.*:ChipFaults.*:ControlWeak.*:Table37Slow/*:Percent/*:"
+# Lockstep compares two chips, of which one has no fault; other tests look at the same behaviour.
+# The others repeat many frames for their statistics (tools/coverage.sh leaves them out too): what
+# they see, shorter tests see as well.
+LEFT_OUT = ("-*Lockstep*:HostFuzz.*:ChipFaults.*:ControlWeak.*:Table37Slow/*:Percent/*:"
             "*HundredThousand*")
 SMALL = {"MB4_RANDOM_CONFIGS": "100", "MB4_FAULT_FRAMES": "2000", "MB4_LINE_FRAMES": "1210",
          "MB4_HOST_FRAMES": "300"}
@@ -51,34 +52,34 @@ def start(program, tests, number, seconds=0, output=None):
                           stderr=subprocess.DEVNULL).returncode
 
 
-def suite_times(program):
-    """[(seconds, program, suite)] without a fault."""
+def test_times(program):
+    """[(seconds, program, test)] without a fault."""
     with tempfile.TemporaryDirectory() as folder:
         if start(program, LEFT_OUT, 0, output=f"{folder}/times.json") != 0:
             raise SystemExit(f"{program}: tests fail without a fault")
         report = json.loads(Path(f"{folder}/times.json").read_text(encoding="utf-8"))
     print(f"{Path(program).name}: {report['tests']} tests, {report['time']}", flush=True)
-    return [(float(suite["time"].rstrip("s")), program, suite["name"])
-            for suite in report["testsuites"]]
+    return [(float(test["time"].rstrip("s")), program, f"{suite['name']}.{test['name']}")
+            for suite in report["testsuites"] for test in suite["testsuite"]]
 
 
 def batches(programs, jobs):
-    """[[(program, filter, processor seconds that it may take)]], quick suites first."""
+    """[[(program, filter, processor seconds that it may take)]], quick tests first."""
     before = resource.getrusage(resource.RUSAGE_CHILDREN)
     with ThreadPoolExecutor(jobs) as pool:
-        suites = [row for rows in pool.map(suite_times, programs) for row in rows]
+        tests = [row for rows in pool.map(test_times, programs) for row in rows]
     after = resource.getrusage(resource.RUSAGE_CHILDREN)
     # Where other work runs beside, less of this time was processor time.
     cpu = after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
-    share = cpu / max(sum(seconds for seconds, _, _ in suites), 1e-3)
-    suites = [(seconds * share, program, name) for seconds, program, name in suites]
+    share = cpu / max(sum(seconds for seconds, _, _ in tests), 1e-3)
+    tests = [(seconds * share, program, name) for seconds, program, name in tests]
     found, room = [{}], FIRST_BATCH
-    for seconds, program, name in sorted(suites):
+    for seconds, program, name in sorted(tests):
         if sum(s for s, _ in found[-1].values()) + seconds > room and found[-1]:
             found.append({})
             room *= 2
         taken, names = found[-1].get(program, (0.0, []))
-        found[-1][program] = (taken + seconds, [*names, f"{name}.*"])
+        found[-1][program] = (taken + seconds, [*names, name])
     return [[(program, ":".join(names), int(3 * seconds) + 10)
              for program, (seconds, names) in batch.items()] for batch in found]
 
