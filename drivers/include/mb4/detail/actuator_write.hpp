@@ -65,7 +65,12 @@ class ActuatorWrite {
     if (written) {
       written = write_checked(chip_, address, bytes);
     }
-    const Result<void> released = chip_.write_instruction(kAgs);
+    Result<void> released = chip_.write_instruction(kAgs);
+    // What has waited in a bank that an earlier call could not release is old.
+    if (released && chip_.watch.held) {
+      released = chip_.clear_valid(kAllValid);
+    }
+    chip_.watch.held = !released;
     return written ? released : written;
   }
 
@@ -117,6 +122,7 @@ class ActuatorWrite {
   }
 
   static constexpr std::uint32_t kSwitchUs = 10;
+  static constexpr std::uint16_t kAllValid = 0xAAAA;  // SVALID1 to 8
 
   Chip<Bus, Clock>& chip_;
 };
