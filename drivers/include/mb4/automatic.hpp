@@ -384,7 +384,6 @@ class Automatic {
     if (steps.with_ != (With & MB4_WITH_ALL)) {
       // Parts that the plan needs may not be here. The next read releases the bank.
       chip_.watch.held = true;
-      steps.read_.built = nullptr;
       steps.code_ = MB4_UNSUPPORTED;
       return true;
     }
