@@ -150,6 +150,9 @@ class Automatic {
   // CRC that fits, so that it counts once: one 0x02 more for each. When frames stay away: one 0x05
   // more, up to 0xF8.
   //
+  // With SpiCheck::kFull one disturbed bit of the first status may hide a new frame: this call says
+  // kNoData, and the next one brings the word, if no later frame has overwritten it.
+  //
   // An interrupt may call it, if it interrupts no other call on the same Device. It calls now_us()
   // of the Clock, so this must be safe in the interrupt too.
   //
@@ -237,6 +240,12 @@ class Automatic {
   // read ends with kUnsupported.
   template <std::uint8_t With = MB4_WITH_ALL>
   [[nodiscard]] bool finish(CyclicRead& read, bool transferred, std::uint32_t now_us) {
+    if (read.with_ != (With & MB4_WITH_ALL)) {
+      // Parts that the plan needs may not be here. The next read releases the bank.
+      chip_.watch.held = true;
+      read.code_ = MB4_UNSUPPORTED;
+      return true;
+    }
     if (!take<With>(read, transferred, now_us)) {
       return false;
     }
@@ -349,7 +358,6 @@ class Automatic {
     if (!chip_.automatic) {
       return Error::kWrongMode;
     }
-    read.with_ = MB4_WITH_ALL;
     begin(read, chip_.words.data(), chip_.count, chain);
     mb4_cyclic_plan(&read.read_, &read.plan_, MB4_WITH_ALL);
     return {};
@@ -381,12 +389,6 @@ class Automatic {
 
   template <std::uint8_t With>
   bool take(ReadSteps& steps, bool transferred, std::uint32_t now_us) {
-    if (steps.with_ != (With & MB4_WITH_ALL)) {
-      // Parts that the plan needs may not be here. The next read releases the bank.
-      chip_.watch.held = true;
-      steps.code_ = MB4_UNSUPPORTED;
-      return true;
-    }
     steps.code_ = mb4_cyclic_finish(&steps.read_, &steps.plan_, transferred, now_us, With);
     if (steps.code_ == MB4_MORE) {
       return false;

@@ -69,7 +69,7 @@ class ActuatorWrite {
     // What has waited in a bank that an earlier call could not release is old. No bank was switched
     // meanwhile, so nobody could see frames.
     if (released && chip_.watch.held) {
-      released = chip_.clear_valid(kAllValid);
+      released = chip_.clear_valid(chip_.sensor_flags);
       chip_.watch.news_us = chip_.clock->now_us();
     }
     chip_.watch.held = !released;
@@ -124,7 +124,6 @@ class ActuatorWrite {
   }
 
   static constexpr std::uint32_t kSwitchUs = 10;
-  static constexpr std::uint16_t kAllValid = 0xAAAA;  // SVALID1 to 8
 
   Chip<Bus, Clock>& chip_;
 };
