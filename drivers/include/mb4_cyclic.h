@@ -128,7 +128,7 @@ MB4_APART uint8_t *mb4_plan_add(mb4_plan *plan, uint8_t size, uint8_t first, uin
   uint8_t *tx = 0;
   uint8_t *next = 0;
   if (frame != 0) {
-    at = (uint8_t)((plan->at[frame - 1] + plan->size[frame - 1] + 3U) & ~3U);
+    at = (uint8_t)(((unsigned)plan->at[frame - 1] + plan->size[frame - 1] + 3U) & ~3U);
   }
   plan->at[frame] = at;
   plan->size[frame] = size;
