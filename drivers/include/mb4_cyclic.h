@@ -124,13 +124,16 @@ static inline uint8_t *mb4_plan_rx(const mb4_plan *plan, uint8_t frame) {
 MB4_APART uint8_t *mb4_plan_add(mb4_plan *plan, uint8_t size, uint8_t first, uint8_t second,
                                 uint8_t filler) {
   const uint8_t frame = plan->frames;
+  uint8_t at = 0;
   uint8_t *tx = 0;
   uint8_t *next = 0;
-  plan->at[frame] =
-      frame == 0 ? 0 : (uint8_t)(plan->at[frame - 1] + ((plan->size[frame - 1] + 3U) & ~3U));
+  if (frame != 0) {
+    at = (uint8_t)(((unsigned)plan->at[frame - 1] + plan->size[frame - 1] + 3U) & ~3U);
+  }
+  plan->at[frame] = at;
   plan->size[frame] = size;
-  ++plan->frames;
-  tx = mb4_plan_tx(plan, frame);
+  plan->frames = (uint8_t)(frame + 1);
+  tx = plan->tx + at;
   tx[0] = first;
   tx[1] = second;
   for (next = tx + size; next != tx + 2;) {
@@ -202,9 +205,10 @@ enum {
 
 /* `steps` (1..32) bits, of a CRC that is left aligned and has the data added to it. */
 static inline uint32_t mb4_crc_steps(uint32_t crc, uint32_t polynomial, uint8_t steps) {
+  uint_fast8_t left = steps;
   do {
     crc = crc << 1 ^ (polynomial & (0U - (crc >> 31))); /* without a branch */
-  } while (--steps != 0);
+  } while (--left != 0);
   return crc;
 }
 

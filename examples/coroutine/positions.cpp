@@ -37,14 +37,14 @@ struct Task {
 };
 
 struct Dma {  // the frames that run, and who waits for them
-  mb4::ReadSteps* steps = nullptr;
+  mb4::Steps* steps = nullptr;
   std::coroutine_handle<> waiting;
   bool transferred = false;
 };
 
 struct Transfer {  // co_await: starts the frames, true if they were made
   Dma& dma;
-  mb4::ReadSteps& steps;
+  mb4::Steps& steps;
   bool await_ready() const { return false; }
   void await_suspend(std::coroutine_handle<> caller) {
     dma.steps = &steps;

@@ -29,8 +29,15 @@ struct Uart {
     }
     at(0x00) = byte;
   }
+  static bool has_byte() { return (at(0x04) & 2U) != 0; }  // STATE: receive buffer full
+  // From now on uart_received() is called for what comes in (IRQ 0).
+  static void interrupt_on_receive() {
+    at(0x08) = 3 | 8;                                             // CTRL: receive interrupt
+    *reinterpret_cast<volatile std::uint32_t*>(0xE000E100U) = 1;  // NVIC_ISER0
+  }
+  static void clear_received() { at(0x0C) = 2; }  // INTCLEAR
   static std::uint8_t get() {
-    while ((at(0x04) & 2U) == 0) {  // STATE: receive buffer full
+    while (!has_byte()) {
     }
     return static_cast<std::uint8_t>(at(0x00));
   }

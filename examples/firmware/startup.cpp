@@ -28,16 +28,19 @@ int main();
   board::exit(255);
 }
 
+// IRQ 0, of a firmware that asks for it.
+[[gnu::weak]] void uart_received() { fault_handler(); }
+
 using Handler = void (*)();
 struct Vectors {
   std::uint32_t* stack;
-  Handler handlers[15];
+  Handler handlers[16];
 };
 extern const Vectors vectors;
 [[gnu::section(".vectors"), gnu::used]] const Vectors vectors{
     &stack_top,
     {reset_handler, fault_handler, fault_handler, fault_handler, fault_handler, fault_handler,
      nullptr, nullptr, nullptr, nullptr, fault_handler, fault_handler, nullptr, fault_handler,
-     fault_handler}};
+     fault_handler, uart_received}};
 
 }  // extern "C"

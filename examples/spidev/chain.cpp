@@ -35,8 +35,8 @@ constexpr mb4::Config encoder() {
 static_assert(mb4::validate(encoder()).ok());
 
 // All frames of a step at once; NCS goes high between them (cs_change).
-bool transfer_all(int file, mb4::ReadSteps& steps) {
-  spi_ioc_transfer messages[mb4::ReadSteps::kMaxFrames] = {};
+bool transfer_all(int file, mb4::Steps& steps) {
+  spi_ioc_transfer messages[mb4::Steps::kMaxFrames] = {};
   std::size_t bytes = 0;
   for (std::size_t i = 0; i < steps.frames(); ++i) {
     messages[i].tx_buf = reinterpret_cast<std::uintptr_t>(steps.tx(i).data());

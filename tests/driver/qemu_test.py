@@ -4,7 +4,8 @@
 """Machine code of a Cortex-M against the RTL: examples/firmware in qemu-system-arm, its UART joined to
 `mb4sim bridge`, by the commands of docs/bridge.md.
 
-  qemu_test.py MACHINE CPU MB4SIM ROOT     MACHINE: of QEMU; CPU: of the compiler
+  qemu_test.py MACHINE CPU MB4SIM ROOT [dma]   MACHINE: of QEMU; CPU: of the compiler; dma: the
+                                               firmware dma.cpp instead of main.cpp
 
 Exit status 77: a tool is missing.
 """
@@ -21,13 +22,15 @@ SKIPPED = 77
 WARNINGS = "-Wall -Wextra -Wpedantic -Wconversion -Wshadow -Werror"
 
 
-def commands_of(manual, machine, cpu):
+def commands_of(manual, machine, cpu, dma):
     """The page's commands, for another machine and compiler, with warnings."""
     found = [block.text for block in pages.blocks(manual.read_text(encoding="utf-8"))
              if block.language == "sh" and "qemu-system-arm" in block.text]
     if len(found) != 1:
         raise SystemExit(f"{manual}: {len(found)} blocks of commands for QEMU")
-    for old, new in (("mps2-an385", machine), ("-mcpu=cortex-m3", f"-mcpu={cpu} {WARNINGS}")):
+    source = "firmware/dma.cpp" if dma else "firmware/main.cpp"
+    for old, new in (("mps2-an385", machine), ("-mcpu=cortex-m3", f"-mcpu={cpu} {WARNINGS}"),
+                     ("firmware/main.cpp", source)):
         if found[0].count(old) != 1:
             raise SystemExit(f"{manual}: '{old}' occurs {found[0].count(old)} times")
         found[0] = found[0].replace(old, new)
@@ -54,21 +57,37 @@ def findings(printed):
             yield f"no line '{line}'"
 
 
+def dma_findings(printed):
+    lines = printed.splitlines()
+    values = [int(line.split()[1], 16) for line in lines if line.startswith("position")]
+    if len(values) != 4 or any(value < 0x100000 or value > 0x102000 for value in values):
+        yield f"the positions are {values}"
+    if values != sorted(set(values)):
+        yield f"a position is old: {values}"
+    expected = [f"{what}: none" for what in ("configure", "initialize", "verify", "start",
+                                             "plan_read", "read", "restart")]
+    for line in expected + ["serial 00D90132"]:
+        if line not in lines:
+            yield f"no line '{line}'"
+
+
 def main():
-    machine, cpu, mb4sim, root = sys.argv[1:]
+    machine, cpu, mb4sim, root = sys.argv[1:5]
+    dma = sys.argv[5:] == ["dma"]
+    check = dma_findings if dma else findings
     for tool in ("qemu-system-arm", "arm-none-eabi-g++"):
         if not shutil.which(tool):
             print(f"skipped: {tool} is not installed")
             return SKIPPED
     # The check must be able to fail.
-    if not list(findings("single 0100000\nsingle 0100000\n")):
+    if not list(check("single 0100000\nsingle 0100000\n")):
         print("the check does not notice old positions")
         return 1
     with pages.workspace(root, mb4sim) as folder:
         status, printed = pages.shell(
-            commands_of(folder / "docs" / "bridge.md", machine, cpu), folder)
+            commands_of(folder / "docs" / "bridge.md", machine, cpu, dma), folder)
     print(printed)
-    found = list(findings(printed))
+    found = list(check(printed))
     if status != 0:
         found.append(f"the commands ended with {status}")
     for line in found:

@@ -243,14 +243,14 @@ def memory(steps):
 
 def posted(steps):
     """The data output is unknown until the first byte has come."""
-    steps.reset(["host_rst_ni", "rst_ni"])
+    steps.reset(["wr_rst_ni", "rst_ni"])
     steps.step(wr_en_i=1, wr_data_i=0x1234)
     steps.clock("wr_clk_i")
     steps.step(wr_en_i=0)
     for _ in range(5):
         steps.clock("clk_i")
     steps.compare_from = len(steps.steps)
-    play(steps, ["wr_clk_i", "clk_i"], ["host_rst_ni", "rst_ni"], 6000, {"wr_en_i": 0.2},
+    play(steps, ["wr_clk_i", "clk_i"], ["wr_rst_ni", "rst_ni"], 6000, {"wr_en_i": 0.2},
          reset_rate=0.0, one_clock=True)
 
 

@@ -150,6 +150,9 @@ class Automatic {
   // CRC that fits, so that it counts once: one 0x02 more for each. When frames stay away: one 0x05
   // more, up to 0xF8.
   //
+  // With SpiCheck::kFull one disturbed bit of the first status may hide a new frame: this call says
+  // kNoData, and the next one brings the word, if no later frame has overwritten it.
+  //
   // An interrupt may call it, if it interrupts no other call on the same Device. It calls now_us()
   // of the Clock, so this must be safe in the interrupt too.
   //
@@ -233,9 +236,16 @@ class Automatic {
   // Takes what came back. `transferred`: every frame of `read` was made. `now_us`: the time, as
   // Clock::now_us() counts it. True: the read has ended, see CyclicRead::result(). False: make the
   // frames that `read` holds now, and call it again. It makes no transfer and does not ask for the
-  // time. `With` is that of plan_slave(); only MB4_WITH_COUNTS may be added.
+  // time. `With` is that of plan_slave(); only MB4_WITH_COUNTS may be added. With another one the
+  // read ends with kUnsupported.
   template <std::uint8_t With = MB4_WITH_ALL>
   [[nodiscard]] bool finish(CyclicRead& read, bool transferred, std::uint32_t now_us) {
+    if (read.with_ != (With & MB4_WITH_ALL)) {
+      // Parts that the plan needs may not be here. The next read releases the bank.
+      chip_.watch.held = true;
+      read.code_ = MB4_UNSUPPORTED;
+      return true;
+    }
     if (!take<With>(read, transferred, now_us)) {
       return false;
     }
@@ -337,6 +347,7 @@ class Automatic {
     if ((chip_.needs & ~unsigned{with}) != 0) {
       return Error::kUnsupported;
     }
+    read.with_ = with & MB4_WITH_ALL;
     begin(read, chip_.word_of(slave), 1, chain);
     return {};
   }
@@ -356,11 +367,16 @@ class Automatic {
     mb4_cyclic& read = steps.read_;
     const bool unheld = control_runs() && !chip_.config.hold_beside_access;
     chain = chain && !unheld;
-    if (read.words != words || read.chain != chain ||
-        steps.configuration_ != chip_.configurations) {
+    // The frames of the plan depend on this alone. So a plan of another configuration, or of a
+    // Device that was made anew at the same place, is not taken for one of this.
+    std::uint32_t shape = 0;
+    for (std::uint8_t i = 0; i < count; ++i) {
+      shape |= std::uint32_t{words[i].bytes} << (4U * (words[i].slave - 1U));
+    }
+    if (steps.shape_ != shape || read.chain != chain) {
       read.built = nullptr;
     }
-    steps.configuration_ = chip_.configurations;
+    steps.shape_ = shape;
     read.words = words;
     read.count = count;
     read.watch = &chip_.watch;

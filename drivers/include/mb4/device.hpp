@@ -119,7 +119,6 @@ class Device {
     chip_.busy_us = detail::register_busy_us(config);
     chip_.needs = (chip_.sensors & (chip_.sensors - 1U)) != 0 ? MB4_WITH_SEVERAL : 0;
     chip_.count = 0;
-    ++chip_.configurations;
     for (std::uint8_t slave = 1; slave <= kSlaves; ++slave) {
       if (is_in(chip_.sensors, slave)) {
         detail::set_word(config, slave, chip_.words[chip_.count++]);
@@ -141,7 +140,8 @@ class Device {
     if (!chip_.configured) {
       return Error::kNotConfigured;
     }
-    const Result<void> same = detail::ImageWriter<Bus, Clock>(chip_).compare(true);
+    const Result<void> same =
+        detail::ImageWriter<Bus, Clock>(chip_).compare(encode_interface(chip_.config), true);
     if (same.error() == Error::kNotDetected || same.error() == Error::kVerify) {
       chip_.configured = false;
     }

@@ -26,8 +26,8 @@ struct ChipState;
 struct Procedures;
 }  // namespace detail
 
-// Memory for an operation, in the caller's hands; about 250 bytes. A plan call begins the operation
-// and Device::finish() continues it:
+// Memory for an operation, in the caller's hands; 216 bytes on a Cortex-M. A plan call begins the
+// operation and Device::finish() continues it:
 //
 //   mb4::Operation operation;
 //   if (device.automatic().plan_restart(operation)) {

@@ -14,6 +14,7 @@
 #include <fstream>
 #include <initializer_list>
 #include <iterator>
+#include <new>
 #include <string>
 #include <vector>
 
@@ -136,6 +137,32 @@ TEST_F(Chain, ConfiguredAnew_PlanIsNew) {
   ASSERT_TRUE(read.result().ok());
   EXPECT_EQ(read.result()->position, mb4test::kPosition);
   EXPECT_FALSE(read.result()->crc_stored);
+}
+
+// A Device that was made anew at the same place, with another configuration of the same count.
+TEST_F(Chain, DeviceMadeAnew_PlanIsNew) {
+  start(mb4::SpiCheck::kCrc);
+  plan();
+  EXPECT_TRUE(step(kChain, {kWord, kNew}));
+  device.~Device();
+  new (&device) mb4::Device<StrictBus, FakeClock>(bus, clock);
+  start(mb4::SpiCheck::kOff);
+  plan();
+  EXPECT_TRUE(step({kHold, join({{0x09}, zeros(4)}), kReadStatus, kClearValid1AndRelease},
+                   {join({{0}, Bytes(kWord.begin() + 1, kWord.begin() + 5)}), kNew}));
+  EXPECT_EQ(read.result()->position, mb4test::kPosition);
+}
+
+// finish<>() without a part that plan_slave() had: an error, and the next read releases the bank.
+TEST_F(Chain, OtherPartsInFinish_IsUnsupported) {
+  start(mb4::SpiCheck::kCrc);
+  plan();
+  EXPECT_TRUE(device.automatic().finish<0>(read, true, now_us));
+  EXPECT_EQ(read.result().error(), Error::kUnsupported);
+  plan();
+  EXPECT_FALSE(step({kAgs, kClearAllValid}, {}));
+  EXPECT_TRUE(step(kChain, {kWord, kNew}));
+  EXPECT_TRUE(read.result().ok());
 }
 
 TEST_F(Chain, NothingNew_IsNoData) {

@@ -260,6 +260,26 @@ TEST(DriverActuatorErrors, EachTransferDisturbed_IsAnErrorOrTheWordArrives) {
   }
 }
 
+// The release of the bank fails: positions that have waited in the held bank, or behind it, are not
+// told as new, neither by the next read nor after the next word.
+TEST(DriverActuatorErrors, ReleaseFails_NoOldPosition) {
+  for (const bool again : {false, true}) {
+    Actuated one(true);
+    mb4::Automatic automatic = one.chip.device.automatic();
+    const std::size_t release = 4;  // 0x07, status, 0x02, comparison, 0x07
+    one.chip.bus.plan({FaultKind::kRefused, release, release, 0});
+    EXPECT_EQ(automatic.write_actuator(1, 0x5A5).error(), Error::kTransport);
+    one.chip.bus.plan({});
+    one.chip.simulator.advance(5'000 * mb4::sim::kPsPerUs);
+    if (again) {
+      EXPECT_TRUE(automatic.write_actuator(1, 0x123).ok());
+    }
+    EXPECT_EQ(automatic.poll_slave(2).error(), Error::kNoData);
+    one.chip.simulator.advance(1'000 * mb4::sim::kPsPerUs);
+    EXPECT_TRUE(automatic.poll_slave(2).ok());
+  }
+}
+
 // What the check is for: success means that all frames carry the word.
 TEST(DriverActuatorErrors, EachTransferLost_SuccessMeansThatItArrives) {
   for (std::size_t index = 0; index < 8; ++index) {

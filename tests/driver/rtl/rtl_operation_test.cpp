@@ -261,6 +261,126 @@ TEST_P(DriverOperation, ReadBesideEveryPhase_PositionsGoOn) {
   }
 }
 
+// ---- Wrong use ----------------------------------------------------------------------------------
+
+// Every plan call in turn, with good arguments.
+constexpr unsigned kKinds = 7;
+Result<void> plan(FaultyChip& chip, Operation& op, unsigned kind, mb4::SlaveAddress slave) {
+  static std::array<std::uint8_t, 2> bytes;
+  switch (kind) {
+    case 0:
+      return chip.device.automatic().plan_start(op);
+    case 1:
+      return chip.device.automatic().plan_restart(op);
+    case 2:
+      return chip.device.plan_verify(op);
+    case 3:
+      return chip.device.plan_initialize(op);
+    case 4:
+      return chip.device.control().plan_read(op, slave, 0x44, bytes);
+    case 5:
+      return chip.device.control().plan_write(op, slave, 0x50, Span<const std::uint8_t>(bytes));
+    default:
+      return chip.device.control().plan_command(op, activate());
+  }
+}
+
+TEST(DriverOperationUse, WrongUse_PlansNothing) {
+  Operation op;
+  FaultyChip chip(kEncoder);
+  for (unsigned kind = 0; kind < kKinds; ++kind) {
+    EXPECT_EQ(plan(chip, op, kind, {1, 0}).error(), Error::kNotConfigured) << kind;
+  }
+  prepare(chip, State::kAutomatic);
+  EXPECT_EQ(plan(chip, op, 0, {1, 0}).error(), Error::kWrongMode);
+  EXPECT_EQ(plan(chip, op, 3, {1, 0}).error(), Error::kWrongMode);
+  chip.bus.plan({});
+  for (const mb4::SlaveAddress slave : {mb4::SlaveAddress{0, 0}, {3, 0}, {1, 8}, {2, 0}}) {
+    EXPECT_EQ(plan(chip, op, 4, slave).error(), Error::kInvalidArgument);
+    EXPECT_EQ(plan(chip, op, 5, slave).error(), Error::kInvalidArgument);
+  }
+  mb4::Command command;
+  command.channels = 4;
+  EXPECT_EQ(chip.device.control().plan_command(op, command).error(), Error::kInvalidArgument);
+  EXPECT_EQ(chip.bus.count(), 0U);
+  ASSERT_TRUE(chip.device.control().begin_read({1, 0}, 0x44, 1).ok());
+  for (unsigned kind = 0; kind < kKinds; ++kind) {
+    EXPECT_EQ(plan(chip, op, kind, {1, 0}).error(), kind == 2 ? Error::kNone : Error::kBusy)
+        << kind;
+  }
+  FaultyChip other(kEncoder);
+  Config config = encoder(false);
+  config.single_bank = true;
+  config.frame_start = mb4::FrameStart::kRequireIdleLine;
+  ASSERT_TRUE(other.device.configure(config).ok());
+  for (const unsigned kind : {0U, 1U, 4U, 5U, 6U}) {
+    EXPECT_EQ(plan(other, op, kind, {1, 0}).error(), Error::kUnsupported) << kind;
+  }
+  FaultyChip biss_b(biss_b_bus(false));
+  Config periodic = biss_b_config(false);
+  ASSERT_TRUE(biss_b.device.configure(periodic).ok());
+  ASSERT_TRUE(biss_b.device.automatic().start().ok());
+  const mb4::SlaveAddress slave = mb4::slave_address(periodic, 1);
+  EXPECT_EQ(plan(biss_b, op, 4, slave).error(), Error::kWrongMode);
+  EXPECT_EQ(plan(biss_b, op, 5, slave).error(), Error::kWrongMode);
+}
+
+// The first transfer fails; MISO is stuck from the first one on.
+TEST(DriverOperationUse, FaultOfTheBus_EachOperationTellsIt) {
+  for (unsigned kind = 0; kind < kKinds; ++kind) {
+    for (const FaultKind fault : {FaultKind::kRefused, FaultKind::kMisoLow, FaultKind::kMisoHigh}) {
+      FaultyChip chip(kEncoder);
+      Config config = encoder(kind == 0 || kind == 1);
+      config.spi_check = SpiCheck::kFull;
+      ASSERT_TRUE(chip.device.configure(config).ok());
+      Operation op;
+      chip.bus.plan({fault, 0, kForEver, 0});
+      ASSERT_TRUE(plan(chip, op, kind, {1, 0}).ok());
+      const Error error = complete(chip, op).error();
+      if (fault == FaultKind::kRefused) {
+        EXPECT_EQ(error, Error::kTransport) << kind;
+      } else if (kind > 1) {  // start and restart read nothing
+        EXPECT_TRUE(error == Error::kNotDetected || error == Error::kCorrupted) << kind;
+      }
+    }
+  }
+}
+
+// Without a system clock nothing ends.
+TEST(DriverOperationUse, NoClock_IsTimeout) {
+  FaultyChip chip("[chip]\nf_clk_hz = 0\n" + kEncoder);
+  ASSERT_TRUE(chip.device.configure(encoder(false)).ok());
+  Operation op;
+  for (const unsigned kind : {4U, 5U, 6U}) {
+    ASSERT_TRUE(plan(chip, op, kind, {1, 0}).ok());
+    EXPECT_EQ(complete(chip, op).error(), Error::kTimeout) << kind;
+  }
+}
+
+// The slave has no register 0x50; no slave has ID 5; nobody acknowledges the command to ID 3.
+TEST(DriverOperationUse, SlaveRefuses_IsTold) {
+  FaultyChip chip(
+      "[[channel]]\nnumber = 1\n[[channel.slave]]\nprotocol = \"biss-c\"\n"
+      "data_bits = 28\ncontrol = true\nmissing = [0x50]\n");
+  prepare(chip, State::kAutomatic);
+  Operation op;
+  for (const unsigned kind : {4U, 5U}) {
+    ASSERT_TRUE(plan(chip, op, kind, {1, 5}).ok());
+    EXPECT_EQ(complete(chip, op).error(), Error::kRegister);
+  }
+  std::array<std::uint8_t, 2> bytes{};
+  ASSERT_TRUE(chip.device.control().plan_read(op, {1, 0}, 0x4F, bytes).ok());
+  EXPECT_EQ(complete(chip, op).error(), Error::kRegisterDelay);
+  EXPECT_EQ(op.result().info().bytes(), 1);
+  ASSERT_TRUE(
+      chip.device.control().plan_write(op, {1, 0}, 0x4F, Span<const std::uint8_t>(bytes)).ok());
+  EXPECT_EQ(complete(chip, op).error(), Error::kRegisterDelay);
+  mb4::Command command = activate();
+  command.ids = 0x08;
+  ASSERT_TRUE(chip.device.control().plan_command(op, command).ok());
+  EXPECT_EQ(complete(chip, op).error(), Error::kCommand);
+}
+
 // ---- Faults of the bus --------------------------------------------------------------------------
 
 // Each transfer refused, and each one made but reported as failed: an error, and afterwards the

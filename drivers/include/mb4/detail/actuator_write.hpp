@@ -65,7 +65,14 @@ class ActuatorWrite {
     if (written) {
       written = write_checked(chip_, address, bytes);
     }
-    const Result<void> released = chip_.write_instruction(kAgs);
+    Result<void> released = chip_.write_instruction(kAgs);
+    // What has waited in a bank that an earlier call could not release is old. No bank was switched
+    // meanwhile, so nobody could see frames.
+    if (released && chip_.watch.held) {
+      released = chip_.clear_valid(chip_.sensor_flags);
+      chip_.watch.news_us = chip_.clock->now_us();
+    }
+    chip_.watch.held = !released;
     return written ? released : written;
   }
 

@@ -62,12 +62,10 @@ struct ChipState {
   std::uint32_t busy_us = 0;              // register_busy_us()
   std::uint32_t pitch_us = 0;             // frame_pitch_us()
   mb4_watch watch{};                      // are automatic frames coming?
-  std::uint8_t count = 0;                 // of `words`
-  std::uint8_t configurations = 0;        // made so far
-  std::uint8_t needs = 0;                 // MB4_WITH_..., for any slave
   std::array<mb4_word, kSlaves> words{};  // how the data of each of `sensors` is read, in order
-  // 0xC0..0xF5 as configure() has written them; 0xF3 and 0xF4 are not used.
-  std::array<std::uint8_t, regs::kAddrIface - kImageFirst + 1> image{};
+  RegisterImage image{};                  // 0xC0..0xF2 as configure() has written them
+  std::uint8_t count = 0;                 // of `words`
+  std::uint8_t needs = 0;                 // MB4_WITH_..., for any slave
   Config config{};
 
   // How the data of `slave`, one of `sensors`, is read.
@@ -105,10 +103,6 @@ struct ChipState {
   }
 
   [[nodiscard]] bool checks_all() const { return config.spi_check == SpiCheck::kFull; }
-
-  [[nodiscard]] std::uint8_t interface_byte() const {
-    return image[regs::kAddrIface - kImageFirst];
-  }
 
   // Time from BREAK until all slaves are ready. Slaves of BiSS B may be in register mode and need
   // longer.

@@ -18,13 +18,11 @@
 namespace mb4::detail {
 
 // REVISION and VERSION are constant. 0xE0, 0xE1 and 0xEE are reserved, and the datasheet does not
-// say what they read. 0xE2..0xE5 change with each control communication: `running`. 0xF0..0xF4 are
-// status and instruction.
+// say what they read. 0xE2..0xE5 change with each control communication: `running`.
 constexpr bool is_compared(unsigned address, bool running) {
   const bool control = address >= regs::kAddrRegadr && address <= regs::kAddrCtrl;
-  const bool status = address >= regs::kAddrStatus0 && address <= regs::kAddrInstr;
-  return !(control && running) && !status && (address < 0xE0 || address > 0xE1) &&
-         address != 0xEE && address != regs::kAddrRevision && address != regs::kAddrVersion;
+  return !(control && running) && (address < 0xE0 || address > 0xE1) && address != 0xEE &&
+         address != regs::kAddrRevision && address != regs::kAddrVersion;
 }
 
 template <typename Bus, typename Clock>
@@ -34,10 +32,7 @@ class ImageWriter {
 
   // Three transfers: BREAK, all registers, comparison.
   Result<void> write(const RegisterImage& image, std::uint8_t interface_byte) {
-    for (std::size_t i = 0; i < image.size(); ++i) {
-      chip_.image[i] = image[i];
-    }
-    chip_.image[chip_.image.size() - 1] = interface_byte;
+    chip_.image = image;
     const std::array<std::uint8_t, 2> stop_and_interface{regs::BREAK::encode<1>(), interface_byte};
     if (const Result<void> write = chip_.opcodes.write_instruction(stop_and_interface); !write) {
       return write;
@@ -45,12 +40,12 @@ class ImageWriter {
     if (const Result<void> write = chip_.opcodes.write_registers(kImageFirst, image); !write) {
       return write;
     }
-    return compare(false);
+    return compare(interface_byte, false);
   }
 
-  // With what was written last.
-  [[gnu::noinline]] Result<void> compare(bool running) {
-    decltype(chip_.image) bytes{};
+  // With the image that was written last.
+  [[gnu::noinline]] Result<void> compare(std::uint8_t interface_byte, bool running) {
+    std::array<std::uint8_t, regs::kAddrIface - kImageFirst + 1> bytes{};
     if (const Result<void> read = chip_.opcodes.read_registers(kImageFirst, bytes); !read) {
       return read;
     }
@@ -59,10 +54,14 @@ class ImageWriter {
         static_cast<std::uint8_t>(regs::DeviceVersion::kIcMb4)) {
       return Error::kNotDetected;
     }
-    for (unsigned i = 0; i < bytes.size(); ++i) {
-      if (bytes[i] != chip_.image[i] && is_compared(kImageFirst + i, running)) {
-        return ErrorInfo::at_register(Error::kVerify, static_cast<std::uint8_t>(kImageFirst + i));
+    for (unsigned address = kImageFirst; address < regs::kAddrStatus0; ++address) {
+      if (is_compared(address, running) &&
+          bytes[address - kImageFirst] != chip_.image[address - kImageFirst]) {
+        return ErrorInfo::at_register(Error::kVerify, static_cast<std::uint8_t>(address));
       }
+    }
+    if (bytes[regs::kAddrIface - kImageFirst] != interface_byte) {
+      return ErrorInfo::at_register(Error::kVerify, regs::kAddrIface);
     }
     return {};
   }

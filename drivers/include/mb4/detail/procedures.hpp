@@ -14,6 +14,7 @@
 #include "mb4/detail/chip_state.hpp"
 #include "mb4/error.hpp"
 #include "mb4/operation.hpp"
+#include "mb4/register_image.hpp"
 #include "mb4/result.hpp"
 #include "mb4/slave_address.hpp"
 #include "mb4/status.hpp"
@@ -100,7 +101,7 @@ struct Procedures {
     op.stage_ = kRecover;
     chip.stopped();
     mb4_plan_add(&op.plan_, chip.checks_all() ? 3 : 2, MB4_CYCLIC_INSTRUCT,
-                 regs::BREAK::encode<1>(), chip.interface_byte());
+                 regs::BREAK::encode<1>(), encode_interface(chip.config));
   }
   // The frames that follow come after the slaves' timeout. The first one clears the flags of frames
   // that ran.

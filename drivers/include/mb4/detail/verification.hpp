@@ -42,11 +42,17 @@ inline Result<void> Procedures::verify_step(ChipState& chip, Operation& op,
     chip.configured = false;
     return Error::kNotDetected;
   }
-  for (unsigned i = 0; i < kPartCompared; ++i) {
+  // Status and instruction, 0xF0..0xF4, end the last part but 0xF5.
+  const unsigned size = first ? unsigned{regs::kAddrStatus0 - kFirstCompared} : kPartCompared;
+  for (unsigned i = 0; i < size; ++i) {
     if (is[i] != want[i] && is_compared(op.at_ + i, true)) {
       chip.configured = false;
       return ErrorInfo::at_register(Error::kVerify, static_cast<std::uint8_t>(op.at_ + i));
     }
+  }
+  if (first && is[kPartCompared - 1] != encode_interface(chip.config)) {
+    chip.configured = false;
+    return ErrorInfo::at_register(Error::kVerify, regs::kAddrIface);
   }
   op.at_ = first ? std::uint32_t{kImageFirst} : op.at_ + kPartCompared;
   if (op.at_ != kFirstCompared) {
