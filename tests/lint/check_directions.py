@@ -49,6 +49,7 @@ MAY_USE = {
     "regmap/": (),
     "drivers/c/": (*DRIVER, "regmap/"),
     "drivers/arduino/": (*DRIVER, "regmap/"),
+    "drivers/zephyr/": (*DRIVER, "regmap/"),
     "drivers/include/biss_axi/": ("drivers/include/enc/", "regmap/"),
     "drivers/include/biss_c.h": (),
     "drivers/c/biss_c": ("drivers/include/biss_axi/", "drivers/include/biss_c.h", "regmap/"),
