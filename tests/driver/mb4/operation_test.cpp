@@ -457,6 +457,13 @@ TEST_F(Access, NeverEnding_IsTimeoutAfterAnotherLook) {
   EXPECT_TRUE(step({kBreak}, {}));
   ends_with(Error::kTimeout);
   EXPECT_FALSE(device.automatic().running());
+  // next() starts the frames again.
+  bus.expect_write(kBreak);
+  bus.expect_write(kClearValid1);
+  bus.expect_write(kAgs);
+  bus.expect_read(kReadStatus, {0, 0xFB, 0x02, 0, 0, 1}).fail_last();
+  mb4::Frame frame;
+  EXPECT_EQ(device.automatic().next(frame).error(), Error::kTransport);
 }
 
 // A clock that stands still: the polls and the frames are counted.
@@ -482,6 +489,26 @@ TEST(AccessCounted, ClockStandsStill_IsTimeout) {
   }
   EXPECT_EQ(op.result().error(), Error::kTimeout);
   EXPECT_EQ(frames, 49U + 39U + 1U);
+}
+
+TEST_F(Access, ClockStandsStillBesideAutomaticFrames_PollsAreCounted) {
+  mb4::Config config = mb4test::encoder26();
+  config.register_busy_us = 1;
+  mb4test::expect_configure(bus);
+  ASSERT_TRUE(device.configure(config).ok());
+  start();
+  read();
+  std::size_t polls = 0;
+  for (bool ended = false; !ended; ++polls) {
+    if (!op.rx(0).empty()) {
+      for (std::size_t k = 0; k < 6; ++k) op.rx(0)[k] = kRunsAgs[k];
+    }
+    ended = device.finish(op, true, 0);
+    ASSERT_LT(polls, 100'000U);
+  }
+  ends_with(Error::kTimeout);
+  // At least four for each microsecond of 63 frames of 218 us.
+  EXPECT_GT(polls, 4U * 63 * 218);
 }
 
 // ---- Commands -----------------------------------------------------------------------------------
