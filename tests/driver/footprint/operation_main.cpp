@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Runs each operation in steps once in QEMU, and one read of a position, against registers in memory
-// that answer as a chip does. cycles.py counts each call of a function measured_...(). Ends through
-// semihosting: 0x18 with 0x20026 is success.
+// Runs each operation in steps once in QEMU, and one read of a position, against registers in
+// memory that answer as a chip does. cycles.py counts each call of a function measured_...(). Ends
+// through semihosting: 0x18 with 0x20026 is success.
 
 #include "board.hpp"
 
