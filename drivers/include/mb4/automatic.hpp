@@ -60,7 +60,8 @@ class Automatic {
   // Not touched: kNotConfigured, kWrongMode (AGS is on already), kBusy, kUnsupported with
   // kSingleBank. Touched: kTransport (AGS may be on; call stop() or start() again).
   Result<void> start() {
-    if (const Result<void> allowed = start_allowed(); !allowed) {
+    const Result<void> allowed = start_allowed(false);
+    if (!allowed) {
       return allowed;
     }
     if (chip_.recover_first) {
@@ -82,9 +83,9 @@ class Automatic {
   // Begins start() without a transfer: the caller makes the frames of `operation` and calls
   // Device::finish() until it returns true. One step of one frame; after a failed read and after
   // stop() two, of which the second begins after a pause. Not touched: kNotConfigured, kWrongMode,
-  // kBusy, kUnsupported as of start(). operation.result(): kTransport.
+  // kBusy, kUnsupported as of start(). operation.result(): kTransport; kWrongMode (operation.hpp).
   Result<void> plan_start(Operation& operation) {
-    const Result<void> allowed = start_allowed();
+    const Result<void> allowed = detail::Procedures::possible(operation, start_allowed(false));
     if (allowed) {
       detail::Procedures::plan_start(chip_, operation);
     }
@@ -106,7 +107,8 @@ class Automatic {
 
   // Starts automatic frames again (table 69): BREAK, 100 us for the slaves' timeout, SVALID = 0,
   // AGS = 1. BiSS B adds register_timeout_us. Three transfers. Not for interrupts, because it
-  // waits. Errors as of start(), but AGS may be on. With MB4_WITH_COUNTS in `With` it counts.
+  // waits. Errors as of start(), but AGS may be on; next() then tries again. With
+  // MB4_WITH_COUNTS in `With` it counts.
   template <std::uint8_t With = MB4_WITH_ALL>
   Result<void> restart() {
     if (control_runs()) {
@@ -117,15 +119,16 @@ class Automatic {
   }
 
   // Begins restart() without a transfer, as plan_start(). Two steps: BREAK; then, after the pause,
-  // SVALID = 0 and AGS = 1. It may be called in an interrupt. Not touched: kNotConfigured, kBusy,
-  // kUnsupported.
+  // SVALID = 0 and AGS = 1. It may be called in an interrupt. Not touched, frames that run go on:
+  // kNotConfigured, kBusy, kUnsupported. After a failure next() tries again.
   template <std::uint8_t With = MB4_WITH_ALL>
   Result<void> plan_restart(Operation& operation) {
-    if (control_runs()) {
-      return Error::kBusy;
+    const Result<void> allowed = detail::Procedures::possible(operation, start_allowed(true));
+    if (allowed) {
+      prepare_restart<With>();
+      detail::Procedures::plan_start(chip_, operation);
     }
-    prepare_restart<With>();
-    return plan_start(operation);
+    return allowed;
   }
 
   // True when the driver has set AGS = 1 and nothing has stopped it.
@@ -318,7 +321,6 @@ class Automatic {
     }
     if (chip_.restart && !control_runs()) {
       if (const Result<void> again = restart<With>(); !again) {
-        chip_.restart = true;
         return again;
       }
     }
@@ -415,14 +417,15 @@ class Automatic {
     return chip_.control.kind != detail::ControlState::Kind::kNone;
   }
 
-  [[nodiscard]] Result<void> start_allowed() const {
+  // `again`: frames may run.
+  [[nodiscard]] Result<void> start_allowed(bool again) const {
     if (!chip_.configured) {
       return Error::kNotConfigured;
     }
     if (control_runs()) {
       return Error::kBusy;
     }
-    if (chip_.automatic) {
+    if (chip_.automatic && !again) {
       return Error::kWrongMode;
     }
     return chip_.config.single_bank ? ErrorInfo(Error::kUnsupported, ConfigField::kSingleBank, 0)
@@ -433,6 +436,7 @@ class Automatic {
   void prepare_restart() {
     chip_.automatic = false;
     chip_.recover_first = true;
+    chip_.restart = true;
     if ((With & MB4_WITH_COUNTS) != 0 && chip_.watch.counts != nullptr) {
       ++chip_.watch.counts->restarts;
     }

@@ -65,7 +65,8 @@ class Control : public ControlSteps<Bus, Clock> {
   // by `now_us` of finish(); after it the status is read once more.
   Result<void> plan_read(Operation& operation, SlaveAddress slave, std::uint8_t address,
                          Span<std::uint8_t> out) {
-    const Result<void> possible = Steps::check_access(slave, address, out.size(), Protocol::kSsi);
+    const Result<void> possible = detail::Procedures::possible(
+        operation, Steps::check_access(slave, address, out.size(), Protocol::kSsi));
     if (possible) {
       detail::Procedures::plan_access(Steps::chip_, operation, slave, address, nullptr, out.data(),
                                       out.size());
@@ -78,8 +79,8 @@ class Control : public ControlSteps<Bus, Clock> {
   // operation.result(): kTransport, kNotDetected, kCorrupted, kTimeout, kRegister, kRegisterDelay.
   Result<void> plan_write(Operation& operation, SlaveAddress slave, std::uint8_t address,
                           Span<const std::uint8_t> data) {
-    const Result<void> possible =
-        Steps::check_access(slave, address, data.size(), Protocol::kUnused);
+    const Result<void> possible = detail::Procedures::possible(
+        operation, Steps::check_access(slave, address, data.size(), Protocol::kUnused));
     if (possible) {
       detail::Procedures::plan_access(Steps::chip_, operation, slave, address, data.data(), nullptr,
                                       data.size());
@@ -90,7 +91,8 @@ class Control : public ControlSteps<Bus, Clock> {
   // As plan_read(), but sends a command. Not touched: kNotConfigured, kInvalidArgument, kBusy,
   // kUnsupported. operation.result(): kTransport, kNotDetected, kCorrupted, kTimeout, kCommand.
   Result<void> plan_command(Operation& operation, const Command& command) {
-    const Result<void> possible = Steps::check_command(command);
+    const Result<void> possible =
+        detail::Procedures::possible(operation, Steps::check_command(command));
     if (possible) {
       detail::Procedures::plan_command(Steps::chip_, operation, command);
     }

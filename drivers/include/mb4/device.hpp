@@ -51,8 +51,8 @@ struct Identity {
 //
 // Interrupt safety: no call may be interrupted by another call on the same Device, and all calls
 // of one Device belong in one context (main loop or one interrupt). Different devices are
-// independent if their buses are. Calls block until their transfers are done; the comment of each
-// call states the number of transfers.
+// independent if their buses are. Calls block until their transfers are done, except plan calls and
+// finish(), which make none; the comment of each call states the number of transfers.
 template <typename Bus, typename Clock>
 class Device {
  public:
@@ -152,13 +152,14 @@ class Device {
   // finish() until it returns true. Three steps of one frame of 20 bytes (0x03 from 0xE4, 0xC0 and
   // 0xD2), which may stand beside reads of positions and a control communication that runs.
   // kNotConfigured (not touched). operation.result(): kTransport, kNotDetected, kVerify as of
-  // verify().
+  // verify(). Wrong use: operation.hpp.
   Result<void> plan_verify(Operation& operation) {
-    if (!chip_.configured) {
-      return Error::kNotConfigured;
+    const Result<void> allowed = detail::Procedures::possible(
+        operation, chip_.configured ? Error::kNone : Error::kNotConfigured);
+    if (allowed) {
+      detail::Procedures::plan_verify(chip_, operation);
     }
-    detail::Procedures::plan_verify(chip_, operation);
-    return {};
+    return allowed;
   }
 
   // Takes what came back for an operation that a plan call has begun (operation.hpp).
@@ -206,11 +207,11 @@ class Device {
 
   // Begins initialize() without a transfer: the caller makes the frames of `operation` and calls
   // finish() until it returns true; then operation.line_delay(). After a failed read one step
-  // begins after a pause, with BiSS B another one. kNotConfigured, kWrongMode, kBusy: not touched.
-  // operation.result(): kTransport, kNotDetected, kTimeout, kLineDelay, kLineError, kNoData,
-  // kCorrupted as of initialize().
+  // begins after a pause; another one if no channel is BiSS C. kNotConfigured, kWrongMode, kBusy:
+  // not touched. operation.result(): kTransport, kNotDetected, kTimeout, kLineDelay, kLineError,
+  // kNoData, kCorrupted as of initialize(); kWrongMode (operation.hpp).
   Result<void> plan_initialize(Operation& operation) {
-    const Result<void> allowed = single_frame_allowed();
+    const Result<void> allowed = detail::Procedures::possible(operation, single_frame_allowed());
     if (allowed) {
       detail::Procedures::plan_initialize(chip_, operation);
     }

@@ -26,7 +26,7 @@ struct ChipState;
 struct Procedures;
 }  // namespace detail
 
-// Memory for an operation, in the caller's hands; 216 bytes on a Cortex-M. A plan call begins the
+// Memory for an operation, in the caller's hands; 220 bytes on a Cortex-M. A plan call begins the
 // operation and Device::finish() continues it:
 //
 //   mb4::Operation operation;
@@ -39,18 +39,29 @@ struct Procedures;
 //
 // The driver makes no transfer and does not ask for the time meanwhile. The frames of a step have
 // at most kMaxFrameBytes. Between two steps the caller may do other work of any length, which
-// includes whole reads of positions (Automatic::plan_slave(), plan()) if automatic frames run. No
-// other call on the Device may come between the plan call and the end.
+// includes whole reads of positions (Automatic::plan_slave(), plan(), poll(), poll_slave()) if
+// automatic frames run. A plan_verify() of another object is allowed then too. No other call on the
+// Device may come between the plan call and the end.
+//
+// Wrong use has an answer, and no frame is made for it:
+//  * finish() of an object without an operation (never begun, or ended: a late interrupt) returns
+//    true and changes nothing.
+//  * A plan call with an object whose operation has not ended is kBusy, and the operation goes on.
+//  * finish() by another Device than the one that has begun it: the operation ends with kWrongMode.
+//    So does an access after abort(), break_transmission(), configure() or reset(), and
+//    plan_verify() after reset() or a failed configure().
 //
 // The object may be used again and again. To give an operation up, call finish() with transferred =
-// false until it returns true. If a control communication runs, the frame that remains is BREAK.
+// false. While it returns false, a BREAK that stops a control communication remains to be made:
+// make the frames, then call finish() with what became of them, until it returns true.
 class Operation : public Steps {
  public:
   Operation() { mb4_plan_memory(&plan_, tx_.data(), rx_.data()); }
 
   static constexpr std::size_t kMaxFrameBytes = 20;
 
-  // After finish() has returned true: what the blocking call of the same name returns.
+  // After finish() has returned true: what the blocking call of the same name returns. kBusy while
+  // the operation is under way; kWrongMode before the first one.
   [[nodiscard]] Result<void> result() const { return result_; }
   // After a successful Device::plan_initialize().
   [[nodiscard]] LineDelay line_delay() const { return delay_; }
@@ -66,7 +77,8 @@ class Operation : public Steps {
   using Step = Result<void> (*)(detail::ChipState&, Operation&, std::uint32_t now_us);
 
   // Words: short code on small cores.
-  Step step_ = nullptr;
+  Step step_ = nullptr;                      // nullptr: no operation is under way
+  const detail::ChipState* chip_ = nullptr;  // that of the operation
   std::uint32_t stage_ = 0;
   std::uint32_t at_ = 0;    // bytes done
   std::size_t count_ = 0;   // of them all

@@ -135,7 +135,11 @@ TEST_F(Restart, Counted_WithCountsOnly) {
   device.automatic().count(&counts);
   ASSERT_TRUE(device.automatic().plan_restart(op).ok());
   EXPECT_EQ(counts.restarts, 0U);
-  ASSERT_TRUE(device.automatic().plan_restart<MB4_WITH_ALL | MB4_WITH_COUNTS>(op).ok());
+  EXPECT_EQ((device.automatic().plan_restart<MB4_WITH_ALL | MB4_WITH_COUNTS>(op)).error(),
+            Error::kBusy);
+  EXPECT_EQ(counts.restarts, 0U);
+  EXPECT_TRUE(step({{0x07, 0x80, 0x00}}, {}, false));
+  ASSERT_TRUE((device.automatic().plan_restart<MB4_WITH_ALL | MB4_WITH_COUNTS>(op)).ok());
   EXPECT_FALSE(step({{0x07, 0x80, 0x00}}, {}));
   EXPECT_TRUE(step({kClearValid1, kAgs}, {}, true, 100));
   EXPECT_EQ(counts.restarts, 1U);
@@ -144,6 +148,157 @@ TEST_F(Restart, Counted_WithCountsOnly) {
   bus.expect_write(kAgs);
   ASSERT_TRUE((device.automatic().restart<MB4_WITH_ALL | MB4_WITH_COUNTS>()).ok());
   EXPECT_EQ(counts.restarts, 2U);
+}
+
+// Nothing is touched: the frames go on, and no restart is counted.
+TEST_F(Restart, NotAllowed_TouchesNothing) {
+  configure();
+  start();
+  mb4_counts counts{};
+  device.automatic().count(&counts);
+  ASSERT_TRUE(device.plan_verify(op).ok());
+  EXPECT_TRUE(step({join({{0x03, 0xE4}, zeros(18)})}, {}));
+  EXPECT_FALSE(device.configured());
+  constexpr std::uint8_t kCounted = MB4_WITH_ALL | MB4_WITH_COUNTS;
+  EXPECT_EQ(device.automatic().plan_restart<kCounted>(op).error(), Error::kNotConfigured);
+  EXPECT_TRUE(device.automatic().running());
+  EXPECT_EQ(counts.restarts, 0U);
+}
+
+TEST_F(Restart, Failed_NextTriesAgain) {
+  configure();
+  start();
+  mb4::Frame frame;
+  for (const bool blocking : {false, true}) {
+    if (blocking) {
+      bus.expect_write(kBreak).fail_last();
+      EXPECT_EQ(device.automatic().restart().error(), Error::kTransport);
+    } else {
+      ASSERT_TRUE(device.automatic().plan_restart(op).ok());
+      EXPECT_TRUE(step({kBreak}, {}, false));
+      ends_with(Error::kTransport);
+    }
+    bus.expect_write(kBreak);
+    bus.expect_write(kClearValid1);
+    bus.expect_write(kAgs);
+    bus.expect_read(kReadStatus, {0, 0xFB, 0x02, 0, 0, 1}).fail_last();
+    EXPECT_EQ(device.automatic().next(frame).error(), Error::kTransport);
+    EXPECT_TRUE(device.automatic().running());
+  }
+}
+
+// ---- Wrong use ----------------------------------------------------------------------------------
+
+class Use : public OperationTest {
+ public:
+  using OperationTest::bus;
+  using OperationTest::configure;
+  using OperationTest::device;
+};
+
+TEST_F(Use, FinishWithoutOperation_ChangesNothing) {
+  EXPECT_TRUE(device.finish(op, true, now_us));
+  ends_with(Error::kWrongMode);
+  configure();
+  ASSERT_TRUE(device.automatic().plan_start(op).ok());
+  ends_with(Error::kBusy);
+  EXPECT_TRUE(step({kAgs}, {}));
+  bus.expect_write({0x07, 0x00});
+  ASSERT_TRUE(device.automatic().stop().ok());
+  EXPECT_TRUE(device.finish(op, true, now_us));  // a late interrupt
+  ends_with(Error::kNone);
+  EXPECT_FALSE(device.automatic().running());
+}
+
+TEST_F(Use, FinishAfterVerify_KeepsTheConfiguration) {
+  configure();
+  const Bytes chip = mb4test::read_back();
+  ASSERT_TRUE(device.plan_verify(op).ok());
+  for (const int from : {0xE4, 0xC0, 0xD2}) {
+    ends_with(Error::kBusy);
+    const Bytes frame = join({{0x03, static_cast<std::uint8_t>(from)}, zeros(18)});
+    const Bytes answer =
+        join({zeros(2), Bytes(chip.begin() + from - 0xC0, chip.begin() + from - 0xC0 + 18)});
+    EXPECT_EQ(step({frame}, {answer}), from == 0xD2);
+  }
+  EXPECT_TRUE(device.finish(op, true, now_us));
+  ends_with(Error::kNone);
+  EXPECT_TRUE(device.configured());
+}
+
+// The operation that runs goes on to its end, and the next one is possible.
+TEST_F(Use, SecondPlan_IsBusy) {
+  configure();
+  start();
+  read();
+  EXPECT_FALSE(step({kRequest}, {}));
+  EXPECT_EQ(device.plan_verify(op).error(), Error::kBusy);
+  ends_with(Error::kBusy);
+  EXPECT_FALSE(step({kFrameAgs}, {}));
+  EXPECT_FALSE(step({kReadStatus}, {kDoneAgs}));
+  EXPECT_TRUE(step({{0x03, 0x80, 0, 0}}, {{0, 0, 0x12, 0x34}}));
+  ends_with(Error::kNone);
+  ASSERT_TRUE(device.plan_verify(op).ok());
+  EXPECT_EQ(device.control().plan_read(op, {1, 0}, 0, {out.data(), 1}).error(), Error::kBusy);
+  EXPECT_EQ(device.control().plan_write(op, {1, 0}, 0, {out.data(), 1}).error(), Error::kBusy);
+  EXPECT_EQ(device.control().plan_command(op, mb4::Command{}).error(), Error::kBusy);
+  EXPECT_EQ(device.automatic().plan_restart(op).error(), Error::kBusy);
+  EXPECT_TRUE(device.automatic().running());
+  bus.expect_write({0x07, 0x00});
+  ASSERT_TRUE(device.automatic().stop().ok());
+  EXPECT_EQ(device.automatic().plan_start(op).error(), Error::kBusy);
+  EXPECT_EQ(device.plan_initialize(op).error(), Error::kBusy);
+}
+
+// An operation whose Device has gone on without it plans no other frame.
+TEST_F(Use, BreakOrConfigure_EndsTheOperation) {
+  const std::vector<void (*)(Use&)> others{[](Use& test) {
+                                             test.bus.expect_write(kBreak);
+                                             EXPECT_TRUE(test.device.control().abort().ok());
+                                           },
+                                           [](Use& test) {
+                                             test.bus.expect_write(kBreak);
+                                             EXPECT_TRUE(test.device.break_transmission().ok());
+                                           },
+                                           [](Use& test) { test.configure(); }};
+  for (const auto other : others) {
+    configure();
+    read();
+    EXPECT_FALSE(step({kRequest}, {}));
+    EXPECT_FALSE(step({kFrame}, {}));
+    EXPECT_FALSE(step({kReadStatus}, {kRuns}));
+    other(*this);
+    EXPECT_TRUE(step({kReadStatus}, {kOver}));
+    ends_with(Error::kWrongMode);
+    EXPECT_EQ(op.frames(), 0U);
+  }
+}
+
+TEST_F(Use, AnotherDevice_EndsTheOperation) {
+  configure();
+  mb4::Device<StrictBus, FakeClock> other(bus, clock);
+  mb4test::expect_configure(bus);
+  ASSERT_TRUE(other.configure(mb4test::encoder26()).ok());
+  ASSERT_TRUE(device.automatic().plan_start(op).ok());
+  EXPECT_TRUE(other.finish(op, true, now_us));
+  ends_with(Error::kWrongMode);
+  EXPECT_FALSE(other.automatic().running());
+  EXPECT_FALSE(device.automatic().running());
+}
+
+// The comparison goes on beside an abort, but not without a configuration.
+TEST_F(Use, VerifyWithoutConfiguration_IsWrongMode) {
+  configure();
+  ASSERT_TRUE(device.plan_verify(op).ok());
+  bus.expect_write(kBreak);
+  EXPECT_TRUE(device.control().abort().ok());
+  const Bytes chip = mb4test::read_back();
+  EXPECT_FALSE(step({join({{0x03, 0xE4}, zeros(18)})},
+                    {join({zeros(2), Bytes(chip.begin() + 0x24, chip.begin() + 0x36)})}));
+  bus.expect_write({0x07, 0x80, 0x00}).fail_last();
+  EXPECT_EQ(device.reset().error(), Error::kTransport);
+  EXPECT_TRUE(step({join({{0x03, 0xC0}, zeros(18)})}, {zeros(20)}));
+  ends_with(Error::kWrongMode);
 }
 
 // ---- Verify -------------------------------------------------------------------------------------
@@ -195,6 +350,7 @@ TEST_F(VerifySteps, NoChipOrFailure_IsReported) {
   // A bus that stores nothing: nothing of the last answer is taken again.
   ASSERT_TRUE(device.plan_verify(op).ok());
   EXPECT_FALSE(step({part(0xE4)}, {answer(0xE4)}));
+  EXPECT_TRUE(step({part(0xC0)}, {}, false));
   ASSERT_TRUE(device.plan_verify(op).ok());
   EXPECT_TRUE(step({part(0xE4)}, {}));
   ends_with(Error::kNotDetected);
@@ -330,9 +486,78 @@ TEST_F(Access, ReadWithoutAutomaticFrames_OneInstructionAFrame) {
   EXPECT_TRUE(step({kClearValid1}, {}, false));
   ends_with(Error::kRegister);
   read();
-  EXPECT_FALSE(step({kRequest}, {}));
   EXPECT_FALSE(step({kBreak}, {}));
-  EXPECT_FALSE(step({kClearValid1, kFrame}, {}, true, 100));
+  EXPECT_FALSE(step({kClearValid1, kRequest}, {}, true, 100));
+  EXPECT_FALSE(step({kFrame}, {}));
+}
+
+// The access may run when its BREAK was lost. The next one writes nothing before BREAK is sent.
+TEST_F(Access, BreakLost_NextOneBeginsWithBreak) {
+  const std::array<std::uint8_t, 2> data{9, 10};
+  {
+    configure();
+    start();
+    read();
+    EXPECT_FALSE(step({kRequest}, {}));
+    EXPECT_FALSE(step({kFrameAgs}, {}, false));
+    EXPECT_TRUE(step({kBreak}, {}, false));
+    ends_with(Error::kTransport);
+    ASSERT_TRUE(device.control().plan_write(op, {1, 0}, 0x50, data).ok());
+    EXPECT_FALSE(step({kBreak}, {}));
+    EXPECT_FALSE(step({kClearValid1, {0x02, 0x80, 9, 10}}, {}, true, 100));
+    EXPECT_FALSE(step({{0x02, 0xE2, 0xD0, 0x01, 0x01, 0xC0}}, {}));
+    EXPECT_FALSE(step({kFrame}, {}));
+    EXPECT_FALSE(step({kReadStatus}, {kRuns}, false));
+    EXPECT_TRUE(step({kBreak}, {}));
+  }
+}
+
+// RDATA holds other bytes then.
+TEST_F(Access, AfterAWriteThatFails_NothingIsTaken) {
+  const mb4::Span<std::uint8_t> two(out.data(), 2);
+  mb4::Command command;
+  command.ids = 1;
+  for (unsigned kind = 0; kind < 2; ++kind) {
+    configure();
+    start();
+    read();
+    EXPECT_FALSE(step({kRequest}, {}));
+    EXPECT_FALSE(step({kFrameAgs}, {}));
+    EXPECT_FALSE(step({kReadStatus}, {kDoneAgs}));
+    EXPECT_TRUE(step({{0x03, 0x80, 0, 0}}, {{0, 0, 1, 2}}));
+    bus.expect_read({0x03, 0x80, 0, 0}, {0, 0, 1, 2});
+    EXPECT_TRUE(device.control().take(two).ok());
+    if (kind == 0) {
+      ASSERT_TRUE(device.control().plan_write(op, {1, 0}, 0x50, two).ok());
+      EXPECT_TRUE(step({{0x02, 0x80, 1, 2}}, {}, false));
+    } else if (kind == 1) {
+      ASSERT_TRUE(device.control().plan_command(op, command).ok());
+      EXPECT_TRUE(step({{0x02, 0x80, 0x80}}, {}, false));
+    }
+    EXPECT_EQ(device.control().take(two).error(), Error::kInvalidArgument) << kind;
+  }
+}
+
+// The disturbed write may have set 0xF4: without automatic frames BREAK comes first, beside them
+// next() starts them again.
+TEST_F(Access, DisturbedRequest_IsFollowedByBreak) {
+  for (const bool automatic : {false, true}) {
+    {
+      configure(mb4::SpiCheck::kFull);
+      if (automatic) start();
+      const Bytes wrong{0, 0, 0x44, 0x01, 0x01, 0xC1};
+      read();
+      EXPECT_TRUE(step({kRequest, kReadRequest}, {wrong}));
+      ends_with(Error::kCorrupted);
+      bus.expect_write({0x07, 0x80, 0x00}).fail_last();
+      if (automatic) {
+        mb4::Frame frame;
+        EXPECT_EQ(device.automatic().next(frame).error(), Error::kTransport);
+      } else {
+        EXPECT_EQ(device.read_frame().error(), Error::kTransport);
+      }
+    }
+  }
 }
 
 // Parts of eight: each step is short.

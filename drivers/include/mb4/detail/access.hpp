@@ -55,40 +55,53 @@ inline constexpr std::uint8_t kControlFrame =
   return error;
 }
 
+// An access before, or the frame of a failed read, may still run and would take the new bytes and
+// execute the new instruction. For BiSS B BREAK also resets REGEND and nAGSERR, so that both
+// describe this access.
+inline void Procedures::begin_access(ChipState& chip, Operation& op, bool biss_b) {
+  begin(chip, op, access_step, biss_b || (!chip.automatic && chip.recover_first));
+  chip.recover_first = true;
+  chip.control.readable = 0;
+  chip.control.biss_b = biss_b;
+}
+
 // Control documents arguments and errors; its checks have been made. Writes `data`, or, if that is
 // null, reads `count` registers into `out`.
 inline void Procedures::plan_access(ChipState& chip, Operation& op, SlaveAddress slave,
                                     std::uint8_t address, const std::uint8_t* data,
                                     std::uint8_t* out, std::size_t count) {
   ControlState& state = chip.control;
-  begin(chip, op, access_step, false);
+  const bool biss_b = chip.config.channels[slave.channel - 1U].protocol == Protocol::kBissB;
+  begin_access(chip, op, biss_b);
   state.kind = data != nullptr ? ControlState::Kind::kWrite : ControlState::Kind::kRead;
   state.count = static_cast<std::uint8_t>(count);
-  state.biss_b = chip.config.channels[slave.channel - 1U].protocol == Protocol::kBissB;
   op.data_ = data;
   op.out_ = out;
   op.count_ = count;
   const std::uint8_t regadr =
       regs::WNR::insert(regs::REGADR::insert(0, address), data != nullptr ? 1 : 0);
-  const std::uint8_t control = encode_ctrl(chip.config, state.biss_b);
+  const std::uint8_t control = encode_ctrl(chip.config, biss_b);
   op.request_ = {regadr, static_cast<std::uint8_t>(state.count - 1U), slave.channel,
                  regs::CTS::insert(regs::SLAVEID::insert(control, slave.id), 1)};
-  add_request(chip, op);
+  if (op.stage_ == kStart) {
+    add_request(chip, op);
+  }
 }
 
 inline void Procedures::plan_command(ChipState& chip, Operation& op, const Command& command) {
   ControlState& state = chip.control;
-  begin(chip, op, access_step, false);
+  begin_access(chip, op, false);
   state.kind = ControlState::Kind::kCommand;
   state.count = 1;
-  state.biss_b = false;
   const std::uint8_t control = regs::CMD::insert(encode_ctrl(chip.config, false), command.code);
   op.request_ = {0, reversed(command.ids),  // IDS0 is bit 7 (table 32)
                  command.channels,
                  regs::IDA_TEST::insert(control, command.test_acknowledge ? 1 : 0)};
   op.data_ = &op.request_[1];
   op.count_ = 1;
-  add_request(chip, op);
+  if (op.stage_ == kStart) {
+    add_request(chip, op);
+  }
 }
 
 // RDATA, or IDS of a command; then the request.
@@ -135,8 +148,6 @@ inline void Procedures::add_abort(ChipState& chip, Operation& op, const Result<v
 
 inline void Procedures::add_access(ChipState& chip, Operation& op) {
   ControlState& state = chip.control;
-  chip.recover_first = true;
-  state.readable = 0;
   state.overwritten = false;
   state.seen_running = false;
   state.first_frame = true;
@@ -155,12 +166,18 @@ inline void Procedures::again(Operation& op, std::uint32_t now_us) {
 }
 
 inline Result<void> Procedures::access_step(ChipState& chip, Operation& op, std::uint32_t now_us) {
+  // abort(), BREAK or configure() has ended the access meanwhile.
+  if (op.stage_ < kDelays && chip.control.kind == ControlState::Kind::kNone) {
+    return Error::kWrongMode;
+  }
   const Result<void> done = access(chip, op, now_us);
   if (done || chip.control.kind == ControlState::Kind::kNone) {
     return done;
   }
   if (op.stage_ == kFill || op.stage_ == kSet || op.stage_ == kRecover) {
-    chip.control.kind = ControlState::Kind::kNone;  // nothing was begun
+    // Nothing was begun. But the write may have reached other registers, 0xF4 among them.
+    chip.control.kind = ControlState::Kind::kNone;
+    chip.restart = chip.automatic || chip.restart;
     return done;
   }
   clear_plan(op);
@@ -184,20 +201,12 @@ inline Result<void> Procedures::access(ChipState& chip, Operation& op, std::uint
         add_request(chip, op);
         return {};
       }
-      // After a failed read its frame may still run and would execute the new instruction. For BiSS
-      // B BREAK also resets REGEND and nAGSERR, so that both describe this access.
-      const ControlState::Kind kind = state.kind;
-      if (state.biss_b || (!chip.automatic && chip.recover_first)) {
-        add_recovery(chip, op);
-        state.kind = kind;
-        return {};
-      }
       add_access(chip, op);
       return {};
     }
     case kRecover:
       recovered(chip, op);
-      add_access(chip, op);
+      add_request(chip, op);
       return {};
     case kStart: {
       state.access_us = now_us;

@@ -47,12 +47,28 @@ struct Procedures {
   // What came back is here. True: the operation has ended. False: there are other frames to make.
   [[gnu::noinline]] static bool finish(ChipState& chip, Operation& op, bool transferred,
                                        std::uint32_t now_us) {
+    if (op.step_ == nullptr) {
+      return true;
+    }
     op.made_ = op.plan_.frames;
     op.good_ = transferred;
     clear_plan(op);
-    op.result_ = op.step_(chip, op, now_us);
-    return op.plan_.frames == 0;
+    const Result<void> result =
+        op.chip_ == &chip ? op.step_(chip, op, now_us) : Result<void>(Error::kWrongMode);
+    if (op.plan_.frames != 0) {
+      return false;
+    }
+    op.step_ = nullptr;
+    op.result_ = result;
+    return true;
   }
+
+  // Success, or why the plan call is not possible: `allowed`, or kBusy if the operation of the
+  // object has not ended.
+  [[gnu::always_inline]] static Result<void> possible(const Operation& op, Result<void> allowed) {
+    return allowed && op.step_ != nullptr ? Result<void>(Error::kBusy) : allowed;
+  }
+
   // ---- Automatic frames: automatic.hpp ----
 
   // Sets AGS = 1, after BREAK if need be.
@@ -87,6 +103,8 @@ struct Procedures {
                                       bool recover) {
     clear_plan(op);
     op.step_ = step;
+    op.chip_ = &chip;
+    op.result_ = Error::kBusy;
     op.stage_ = kStart;
     op.at_ = 0;
     op.cause_ = {};
@@ -259,6 +277,7 @@ struct Procedures {
   static void add_request(ChipState& chip, Operation& op);
   static std::uint8_t part(const Operation& op);
   static void add_take(ChipState& chip, Operation& op);
+  static void begin_access(ChipState& chip, Operation& op, bool biss_b);
   static void add_abort(ChipState& chip, Operation& op, const Result<void>& cause);
   static void add_access(ChipState& chip, Operation& op);
   static void again(Operation& op, std::uint32_t now_us);

@@ -31,8 +31,8 @@ inline void Procedures::plan_verify(ChipState& chip, Operation& op) {
 
 inline Result<void> Procedures::verify_step(ChipState& chip, Operation& op,
                                             std::uint32_t /*now_us*/) {
-  if (!op.good_) {
-    return Error::kTransport;
+  if (!op.good_ || !chip.configured) {
+    return op.good_ ? Error::kWrongMode : Error::kTransport;
   }
   const std::uint8_t* is = received(op) + 2;
   const std::uint8_t* want = chip.image.data() + (op.at_ - kImageFirst);
