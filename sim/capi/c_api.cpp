@@ -86,11 +86,15 @@ int run(mb4sim& sim, Call call) {
   }
 }
 
+constexpr auto kNoNote = [](mb4sim& /*sim*/, int /*result*/) {};
+// For mb4sim_last_error().
+constexpr auto kKeep = [](mb4sim& sim, int result) { sim.last_error = std::min(result, 0); };
+
 // Runs `call` on the simulator. Every exception becomes a negative error. A callback must not let
 // time pass, because time is passing already. `note` receives the simulator and the result, while
 // the simulator still exists: a callback may have closed it.
-template <typename Call, typename Note>
-int guarded(mb4sim* sim, Call call, Note note) {
+template <typename Call, typename Note = decltype(kNoNote)>
+int guarded(mb4sim* sim, Call call, Note note = kNoNote) {
   if (sim == nullptr) return MB4SIM_ERROR_UNKNOWN;
   const auto noted = [&](int result) {
     note(*sim, result);
@@ -103,15 +107,6 @@ int guarded(mb4sim* sim, Call call, Note note) {
   sim->inside = false;
   if (sim->closing) delete sim;
   return result;
-}
-
-constexpr auto kNoNote = [](mb4sim& /*sim*/, int /*result*/) {};
-// For mb4sim_last_error().
-constexpr auto kKeep = [](mb4sim& sim, int result) { sim.last_error = std::min(result, 0); };
-
-template <typename Call>
-int guarded(mb4sim* sim, Call call) {
-  return guarded(sim, call, kNoNote);
 }
 
 // The same with the master's host on SPI, or on the parallel bus, as the scenario says.

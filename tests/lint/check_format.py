@@ -62,8 +62,11 @@ def self_test(program):
 
 
 def main():
+    arguments = project.Arguments(__doc__)
+    arguments.add_argument("--self-test", action="store_true", dest="self_test")
+    options = arguments.parse_args()
     program = formatter()
-    if sys.argv[1:] == ["--self-test"]:
+    if options.self_test:
         self_test(program)
     files = [name for name in project.tracked()
              if SOURCE.search(name) and not GENERATED.search(name) and (project.ROOT / name).is_file()]

@@ -28,11 +28,9 @@ sys.path.insert(0, str(HERE.parents[1] / "tools" / "synth"))
 
 import project  # noqa: E402
 
-# Lockstep compares two chips, of which one has no fault; other tests look at the same behaviour.
-# The others repeat many frames for their statistics (tools/coverage.sh leaves them out too): what
-# they see, shorter tests see as well.
-LEFT_OUT = ("-*Lockstep*:HostFuzz.*:ChipFaults.*:ControlWeak.*:Table37Slow/*:Percent/*:"
-            "*HundredThousand*")
+LEFT_OUT = "-" + ":".join(
+    line for line in (HERE.parent / "support" / "statistics.txt").read_text("utf-8").splitlines()
+    if not line.startswith("#"))
 SMALL = {"MB4_RANDOM_CONFIGS": "100", "MB4_FAULT_FRAMES": "2000", "MB4_LINE_FRAMES": "1210",
          "MB4_HOST_FRAMES": "300"}
 FIRST_BATCH = 2.0  # seconds; each batch takes twice as long as the one before

@@ -63,8 +63,7 @@ Sensor make_sensor(Random& random, RandomCase& result, const LinePlan& plan, uns
   return sensor;
 }
 
-// "adaptive" or a time that is longer than half a period of MA at the slowest FREQS made here, 3
-// us.
+// "adaptive", or a time longer than 3 us, half a period of MA at the slowest FREQS made here.
 std::string timeout_key(Random& random) {
   if (!random.one_in(3)) return "timeout = \"adaptive\"\n";
   std::ostringstream text;

@@ -120,17 +120,7 @@ class ControlFrameBlock : public testing::Test {
     return at;
   }
   unsigned good_bytes() const { return m.end_o & 0x3FU; }
-  ControlAccess random_access(bool write) {
-    ControlAccess made;
-    made.write = write;
-    made.id = random.below(8);
-    made.address = random.below(128);
-    for (unsigned i = 1 + random.below(4); i > 0; --i) {
-      made.bytes.push_back(random.below(256));
-      made.busy.push_back(random.below(4));
-    }
-    return made;
-  }
+  ControlAccess random_access(bool write) { return mb4test::random_access(random, write, 4); }
   ControlAccess command(unsigned ids, unsigned cmd, bool tested) {
     ControlAccess made;
     made.command = true;

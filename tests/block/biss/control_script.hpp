@@ -36,6 +36,19 @@ struct ControlAccess {
   }
 };
 
+// Registers: 1 to `longest` of them.
+inline ControlAccess random_access(Dice& dice, bool write, unsigned longest) {
+  ControlAccess made;
+  made.write = write;
+  made.id = dice.below(8);
+  made.address = dice.below(128);
+  for (unsigned i = 1 + dice.below(longest); i > 0; --i) {
+    made.bytes.push_back(dice.below(256));
+    made.busy.push_back(dice.below(4));
+  }
+  return made;
+}
+
 // Strings with one character a frame. place: 'h' header, 'w' S is awaited, 's' S comes, 'd' data or
 // acknowledge, 'p' stop bit, 'z' after it. byte: of a register access, from 0 on.
 struct ControlScript {

@@ -24,8 +24,8 @@ namespace mb4::detail {
 
 // A procedure consists of a function that plans its first frames, and of its step, which looks at
 // what came back, adds the frames of the next step, and returns success or an error. It ends when
-// it adds no frame. A program has only the procedures that it begins. The blocking calls make the
-// same transfers.
+// it adds no frame. A program has only the procedures that it begins. The blocking calls do the
+// same with frames of their own.
 struct Procedures {
   // Where an operation is: what the frames do that are made now.
   enum Stage : std::uint8_t {

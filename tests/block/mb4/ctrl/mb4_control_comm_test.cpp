@@ -143,24 +143,24 @@ class ControlCommBlock : public testing::Test {
       if (disturb) disturb();
     }
   }
-  ControlAccess random_access(bool write) {
-    ControlAccess made;
-    made.write = write;
-    made.id = random.below(8);
-    made.address = random.below(128);
-    for (unsigned i = 1 + random.below(3); i > 0; --i) {
-      made.bytes.push_back(random.below(256));
-      made.busy.push_back(random.below(4));
-    }
-    return made;
-  }
+  ControlAccess random_access(bool write) { return mb4test::random_access(random, write, 3); }
   void settle() {
     m.instr_i = 0;
     clocks(4);
     for (int i = 0; i < 14; ++i) frame(0);
   }
   unsigned good_bytes() const { return m.state_o & 0x3FU; }
+  // An access that succeeds, and its end.
+  void write_two_bytes() {
+    set_access(two_bytes, 1);
+    clocks(2);
+    begin(two_bytes);
+    play();
+    ASSERT_EQ(good_bytes(), 2U);
+    settle();
+  }
 
+  const ControlAccess two_bytes{.write = true, .bytes = {1, 2}, .busy = {0, 0}};
   mb4test::Dice random;
   mb4test::Block<Vmb4_control_comm> block;
   Vmb4_control_comm& m = block.model;
@@ -389,13 +389,7 @@ TEST_F(ControlCommBlock, RefusedRequests_EndWithTheFirstAfterTheLimit) {
 
 // Decision 37: an access that cannot run ends with nREGERR = 0 and no bytes. BREAK gives no result.
 TEST_F(ControlCommBlock, VoidAccess_EndsWithAnError) {
-  const ControlAccess good{.write = true, .bytes = {1, 2}, .busy = {0, 0}};
-  set_access(good, 1);
-  clocks(2);
-  begin(good);
-  play();
-  ASSERT_EQ(good_bytes(), 2U);
-  settle();
+  ASSERT_NO_FATAL_FAILURE(write_two_bytes());
   ends = begins = 0;
   m.register_want_i = 1;
   clock();
@@ -412,15 +406,9 @@ TEST_F(ControlCommBlock, VoidAccess_EndsWithAnError) {
 // Decision 6, BiSS B: no answer to the hand-over is nAGSERR = 0. REGBYTES is that of the access
 // that ran last.
 TEST_F(ControlCommBlock, BissBWithoutHandOver_IsAnAgsError) {
-  const ControlAccess good{.write = true, .bytes = {1, 2}, .busy = {0, 0}};
-  set_access(good, 1);
-  clocks(2);
-  begin(good);
-  play();
-  ASSERT_EQ(good_bytes(), 2U);
-  settle();
+  ASSERT_NO_FATAL_FAILURE(write_two_bytes());
   lines(0, kUnused);
-  set_access(good, 1, false);
+  set_access(two_bytes, 1, false);
   m.instr_i = reg::INSTR::of(reg::Instr::kControl) >> reg::INSTR::kLsb;
   clocks(3);
   ASSERT_EQ(m.kind_o & 7U, 2U) << "a BiSS B register access";
