@@ -78,7 +78,7 @@ module biss_frame #(
   output logic       biss_c_o,     // protocol of this frame
   output logic       rise_o,       // a rising MA edge of a frame
   output logic       final_o,      // ... the last one, as far as it is known
-  output logic       clocks_o,     // MA is clocking
+  output logic       clocks_o,     // MA is clocking; 1 in INIT, which ends MO itself
   output biss_pkg::line_status_t status_o,
   output biss_pkg::line_event_t  event_o,
   output logic       ma_o
@@ -332,7 +332,7 @@ module biss_frame #(
   assign ssi_o       = ssi;
   assign rise_o      = rise;
   assign final_o     = rise && (started_q || bus) && one_left && cdm_known;
-  assign clocks_o    = ma_clocks;
+  assign clocks_o    = ma_clocks || init_q;
   assign biss_c_o    = biss_c;
   assign status_o    = {state_q == IDLE && !released, state_q == TIMEOUT, cds_q, cdm, sl_i};
   assign event_o     = {line_end, init_done, init_fail};

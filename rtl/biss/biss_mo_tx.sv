@@ -13,9 +13,9 @@
 // With FreeCrc = 0 a word with another CRC than 0x43 and 16 bits is sent with a wrong one.
 //
 // Misuse: a frame may end before the last slot (MO is not connected to the slaves, or mo_busy is
-// larger than theirs). Then it ends here too (line_idle_i). BiSS B at f_CLK / 2 with mo_busy = 0
-// has time for six words: with seven or eight the first slot comes before the list is ready, and
-// its contents are undefined.
+// larger than theirs). Then it ends here too, when MA stops: MO must not keep a line low that
+// repeats it. BiSS B at f_CLK / 2 with mo_busy = 0 has time for six words: with seven or eight the
+// first slot comes before the list is ready, and its contents are undefined.
 // Datasheet: pages 15, 25, 31, Figure 12, Tables 17, 18, 39, 40; protocol of the chain.
 
 module biss_mo_tx #(
@@ -31,7 +31,7 @@ module biss_mo_tx #(
   input  logic       biss_c_i,
   input  logic       rise_i,        // a rising MA edge of the frame
   input  logic       final_i,       // ... the last one
-  input  logic       clocks_i,      // MA is clocking
+  input  logic       clocks_i,      // MA is clocking; 1 in INIT
   input  logic       line_idle_i,
   // words
   input  biss_pkg::offer_t offer_i,
@@ -73,13 +73,15 @@ module biss_mo_tx #(
   logic       shift;
   logic       reduced_q;  // the frame ends after CDS
   logic       none;       // no words in this frame
-  logic       ends;       // ... even before its last slot
+  logic       answers;    // MO has sent the acknowledge: MA clocks up to the end of the frame
+  logic       ends;       // the frame ends, even before its last slot
 
   // Bits of left_q that are in use: 16 CRC bits need four.
   localparam logic [5:0] LEFT = 6'((32'd1 << (DataBits > 16 ? $clog2(DataBits) : 4)) - 32'd1);
 
   assign word     = offer_i.word;
-  assign ends     = line_idle_i || go_i.mo_return || go_i.stop;
+  assign answers  = state_q != IDLE && state_q != REQUEST;
+  assign ends     = line_idle_i || go_i.mo_return || go_i.stop || (answers && !clocks_i);
   // go_i.reduced comes late. It does not change between the start of a frame and its CDS.
   assign none     = !offer_i.any || reduced_q;
   assign byte_now = load_q ? word.data_last[5:3] : left_q[5:3];
@@ -177,7 +179,7 @@ module biss_mo_tx #(
         // The last bit is on MO. On a line that is longer than the frame MA goes on, and a 1 would
         // pass through the slaves: MO sends zeros.
         if (rise_i) mo_d = 1'b0;
-        if (final_i || !clocks_i) state_d = IDLE;
+        if (final_i) state_d = IDLE;
       end
       default: state_d = IDLE;
     endcase

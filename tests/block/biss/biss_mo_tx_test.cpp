@@ -190,6 +190,29 @@ TEST_F(MoTxBlock, FrameThatEndsEarly_MoReturnsToOne) {
   }
 }
 
+// A frame whose MA stops before MO has sent its last slot: MO is 1 at once. SL follows MO after the
+// slaves' timeout, so a 0 here would keep the line low up to BREAK.
+TEST_F(MoTxBlock, MaStopsBeforeTheLastSlot_MoReturnsToOne) {
+  for (int round = 0; round < 500; ++round) {
+    SCOPED_TRACE(testing::Message() << "round " << round);
+    random_words();
+    const unsigned busy = random.below(4);
+    const bool biss_c = random.below(2) != 0;
+    begin(biss_c, busy, false);
+    const std::size_t all = 3 + busy + (biss_c ? 1 : 0) + payload().size();
+    const std::size_t count = 2 + random.below(static_cast<unsigned>(all - 2));
+    for (std::size_t i = 0; i < count; ++i) rise();
+    now.clocks = false;
+    clock();
+    ASSERT_EQ(m.mo_o, 1);
+    for (unsigned rest = random.below(50); rest > 0; --rest) clock();
+    ASSERT_EQ(m.mo_o, 1);
+    m.line_idle_i = 1;
+    clock();
+    ASSERT_EQ(m.mo_o, 1);
+  }
+}
+
 // Table 39, and BiSS B register accesses: MO is 0 with EN_MO = 0, also in a frame, and 0 from
 // before such an access to its end.
 TEST_F(MoTxBlock, EnMoZeroOrRegisterAccess_MoIsZero) {

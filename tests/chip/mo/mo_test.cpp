@@ -110,6 +110,28 @@ TEST(ChipMo, WaveformInBissB_IsAcknowledgeBusyStartWords) {
   }
 }
 
+// docs/choices.md, MO: BiSS B at f_CLK / 2 with MO_BUSY = 0 has time for six words. The slots of a
+// longer chain are undefined, but its frames end: MO does not stay 0, which the slaves would pass
+// on.
+TEST(ChipMo, LongChainInBissBWithoutProcessingTime_FramesEnd) {
+  for (unsigned slaves = 6; slaves <= 8; ++slaves) {
+    for (unsigned long_one = 0; long_one < slaves; ++long_one) {
+      std::string scenario = channel(1);
+      for (unsigned i = 0; i < slaves; ++i)
+        scenario += "[[channel.slave]]\nprotocol = \"biss-b\"\nflag_bits = 0\ndata_bits = " +
+                    std::to_string(i == long_one ? 64 : 3) + "\n";
+      for (const unsigned acts : {0x00U, 0x01U, 0x40U, 0x55U, 0xFFU}) {
+        ProtocolChip chip(scenario, {.freqs = 0, .biss_c_registers = false, .en_mo = true});
+        chip.write(reg::kAddrActnsens, {static_cast<std::uint8_t>(acts)});
+        for (unsigned x = 1; x <= slaves; ++x) write_both_banks(chip, x, 0);
+        for (unsigned i = 0; i < 3; ++i)
+          ASSERT_TRUE(chip.frame()) << slaves << " slaves, the long one is " << long_one
+                                    << ", ACTnSENS " << acts << ", frame " << i;
+      }
+    }
+  }
+}
+
 TEST(ChipMo, EnMoOff_HoldsMoLow) {
   ProtocolChip chip(channel(1) + sensor(12, 0xA5C), {.freqs = 4, .mo_busy = 7});
   ASSERT_TRUE(chip.frame());
