@@ -3,8 +3,11 @@
 # SPDX-License-Identifier: Apache-2.0
 """How much of the RTL is wiring, and how full the folders are.
 
-  rtl_figures.py    prints the share of code lines that are wiring, in all rooms and in each; the
-                    modules with most ports, and the folders with most files
+  rtl_figures.py    prints the share of code lines that are wiring: in all rooms, below the tops, and
+                    in each room; the modules with most ports, and the folders with most files
+
+Tops are modules that no module of the RTL uses. Their ports are fixed: pins of the chip, and buses
+as their standards spell them.
 
 A code line is one with more than comments. Wiring is a code line that declares a port, is a
 .name connection, or only copies a signal into or out of a struct (assign a.b = c; or assign c = a.b;),
@@ -47,21 +50,29 @@ def folders():
                    if "generated/" not in name and not name.endswith((".svg", ".png")))
 
 
+def share(found, lines):
+    return f"{found} of {lines}, {100 * found / lines:.1f} %"
+
+
 def main():
     project.Arguments(__doc__).parse_args()
     lines, found, ports = Counter(), Counter(), Counter()
-    for path in project.all_rtl_files():
-        if project.RTL not in path.parents:
-            continue  # generated
-        own, wires, own_ports = wiring(path.read_text(encoding="utf-8"))
+    texts = {path: path.read_text(encoding="utf-8") for path in project.all_rtl_files()
+             if project.RTL in path.parents}  # without the generated ones
+    used = set(re.findall(r"^\s*(\w+)\s+(?:#\(|u_\w+\s*\()", "\n".join(texts.values()), re.MULTILINE))
+    below, below_found = 0, 0
+    for path, text in texts.items():
+        own, wires, own_ports = wiring(text)
+        if path.stem in used or path.stem.endswith("_pkg"):
+            below, below_found = below + own, below_found + wires
         room = path.parent.relative_to(project.ROOT).as_posix()
         lines[room] += own
         found[room] += wires
         ports.update(own_ports)
-    print(f"wiring: {found.total()} of {lines.total()} code lines of the RTL, "
-          f"{100 * found.total() / lines.total():.1f} %")
+    print(f"wiring: {share(found.total(), lines.total())} of the RTL's code lines")
+    print(f"        below the tops {share(below_found, below)}")
     for room in sorted(lines):
-        print(f"        {room} {found[room]} of {lines[room]}, {100 * found[room] / lines[room]:.1f} %")
+        print(f"        {room} {share(found[room], lines[room])}")
     print("ports:  " + ", ".join(f"{name} {number}" for name, number in ports.most_common(5)))
     print("files:  " + ", ".join(f"{name} {number}" for name, number in folders().most_common(6)))
 
