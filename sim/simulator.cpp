@@ -16,8 +16,8 @@ namespace {
 
 using Outputs = MasterModel::Outputs;
 
-// Part numbers of derive_seed(). Slaves 1 to 8 and lines 1 and 2 have the numbers between those of
-// the master and of the faults.
+// Part numbers of derive_seed(): master 0, slaves 1 to 8, lines 1 and 2 at 9 and 10, faults 11.
+// Further slaves have numbers above 0x100, further lines above 0x200.
 constexpr std::uint64_t kMasterSeed = 0;
 constexpr std::uint64_t kFaultSeed = 11;
 constexpr std::uint64_t slave_seed(unsigned number) {

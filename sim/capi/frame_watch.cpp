@@ -22,7 +22,7 @@ FrameWatch::FrameWatch(Simulator& simulator)
 
 FrameWatch::~FrameWatch() { simulator_.set_observer(nullptr); }
 
-// The errors of the frames before are told at the pins now.
+// Now the pins show the errors of the earlier frames.
 void FrameWatch::take_ner() {
   if (!waiting_.empty() && ner_ && !simulator_.pin(*ner_)) {
     for (const std::size_t fault : waiting_) ++stories_[fault].ner_low;
@@ -78,8 +78,8 @@ void FrameWatch::on_edge(Time now, void* receiver, Line::Signal signal, bool lev
   channel.watch->plan(channel);
 }
 
-// Looks again when the running frame may be over. Each edge of MA puts this time off, which the
-// look itself notices; only the second rising edge, which measures the period, brings it forward.
+// Plans a look at the time when the running frame may be over. An edge of MA moves this time later,
+// and the look notices it. Only the second rising edge, which measures the period, moves it nearer.
 void FrameWatch::plan(Channel& channel) {
   const Time end = channel.line->monitor().ends_at();
   if (!channel.line->monitor().running(simulator_.now()) || end >= channel.due) return;

@@ -52,10 +52,10 @@ class FrameWatch final : private PinObserver {
   FrameWatch(const FrameWatch&) = delete;
   FrameWatch& operator=(const FrameWatch&) = delete;
 
-  // Is called for every frame; an empty one is not.
+  // `callback` is called for every frame. An empty callback is never called.
   void set_callback(Callback callback) { callback_ = std::move(callback); }
-  // Is called for the present level of every place at once, and then for every change. An empty one
-  // is not.
+  // `callback` is called at once for the present level of every place, then for every change. An
+  // empty callback is never called.
   void set_edges(EdgeCallback callback);
   // In the order of Simulator::faults().
   const std::vector<FaultStory>& stories();

@@ -13,7 +13,7 @@
 
 namespace mb4::sim {
 
-// One way to connect a host. A master lists those that it has; it may make one of its own.
+// One way to connect a host. A master lists the ways that it has; it may define one of its own.
 struct HostInterface {
   std::string_view key;  // value of `interface` in the scenario
   bool parallel = false;

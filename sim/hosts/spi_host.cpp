@@ -50,7 +50,7 @@ void SpiHost::set_mode(const SpiMode& mode) {
   pins_.set_pin(wires_.sclk, mode_.cpol);
 }
 
-// Somebody else may have driven the pin since the last word.
+// Other code may have driven the pin since the last word.
 inline void SpiHost::drive_mosi(bool level) {
   if (!first_of_word_ && level == mosi_) return;
   first_of_word_ = false;

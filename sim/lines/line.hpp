@@ -136,7 +136,7 @@ class Line {
   bool mo_arrived_ = false;
   bool mo_leaving_ = false;  // level of MO put into mo_late_
   bool driving_ = false;     // inside SlaveChain::drive(): SLO is sent after it has settled
-  bool lane_ = false;        // nobody looks at an edge of MA on its way to the slaves
+  bool lane_ = false;        // nothing watches an edge of MA on its way to the slaves
   bool sent_ = true;         // level sent into the way back
   bool received_ = true;     // level that has come out of it
   bool pin_ = true;

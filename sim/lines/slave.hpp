@@ -50,8 +50,8 @@ class Slave {
   // The next time at which the slave wants a call of timer() if nothing happens before; kNever if
   // it wants none.
   Time deadline() const { return deadline_; }
-  // Level of pin SLO. In the data of a frame it may be that before the data: the chain knows it
-  // (SlaveChain::slo()).
+  // Level of pin SLO. In the data of a frame this may still be the level from before the data;
+  // SlaveChain::slo() has the present one.
   bool slo() const { return slo_; }
   // True between two frames: the timeout has elapsed.
   bool idle() const { return idle_; }

@@ -115,7 +115,7 @@ class SlaveChain {
   bool idle_ = true;
   Time deadline_ = kNever;  // the earliest deadline of the slaves
   Time armed_at_ = kNever;  // time of the timer event that is valid; later ones are stale
-  bool shifting_ = false;   // all slaves shift in one row; they must be told about it
+  bool shifting_ = false;   // all slaves shift in one row; catch_up() tells them
   Time timeout_ = 0;        // shifting: the shortest timeout, from each edge of MA on
   Time last_edge_ = 0;      // shifting: last edge of MA
   bool reported_ = true;

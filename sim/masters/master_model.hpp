@@ -43,8 +43,8 @@ class MasterModel {
   // scenario has no clock.
   virtual void set_clock(Time now, std::uint64_t hz) = 0;
 
-  // --- what the guard of MA's pulses needs (MaPulseCheck)
-  // ----------------------------------------- Number of rising edges of the system clock so far.
+  // --- what the guard of MA's pulses needs (MaPulseCheck) ----------------------------------------
+  // Number of rising edges of the system clock so far.
   std::uint64_t cycles() const { return cycles_; }
   // Shortest period that the system clock can have had so far, ps; 0 = unknown.
   Time min_clock() const { return min_clock_; }

@@ -94,7 +94,7 @@ class Simulator final : public HostPins {
   // False for pins that set_pin() ignores.
   bool can_set(Pin pin) const;
   // Tells the observer the levels of all pins that set_pin() drives and of EOT, at once and then at
-  // every change. Null: nobody. The observer must live as long as it is set.
+  // every change. Null: no observer. The observer must live as long as it is set.
   void set_observer(PinObserver* observer);
 
   // --- hosts, lines, slaves ------------------------------------------------------------------
@@ -110,7 +110,7 @@ class Simulator final : public HostPins {
     if (found == nullptr) throw std::bad_cast();
     return *found;
   }
-  // Those that most masters call the same.
+  // The hosts whose names most masters share.
   SpiHost& spi() { return host<SpiHost>("spi"); }
   SpiHost& spi2() { return host<SpiHost>("spi2"); }
   ParallelHost& bus() { return host<ParallelHost>("bus"); }

@@ -194,7 +194,7 @@ class VerilatedAxi final : public AxiModel {
     beat_ = !beat_;
   }
 
-  // Before an edge: what it takes. BREADY and RREADY are always 1.
+  // Looks, before an edge, at what the edge takes. BREADY and RREADY are always 1.
   void look_at_answer() {
     const Model& m = *model_;
     handed_ = (m.s_axi_awvalid != 0 && m.s_axi_awready != 0) ||
@@ -212,7 +212,7 @@ class VerilatedAxi final : public AxiModel {
     done_ = !done_;
   }
 
-  // After an edge: the manager's pins.
+  // Drives the manager's pins after an edge.
   void drive() {
     Model& m = *model_;
     if (fresh_) {

@@ -73,8 +73,8 @@ class AxiModel : public MasterModel {
   std::uint64_t beats_dropped_ = 0;
 };
 
-// `channels`: those that the scenario needs. The next larger of the models that are built (1, 4,
-// 16 channels) is taken. `plain`: each edge is evaluated in the simplest way.
+// `channels`: as many as the scenario needs. Of the models that are built (1, 4, 16 channels) the
+// smallest one that is enough is made. `plain`: each edge is evaluated in the simplest way.
 std::unique_ptr<AxiModel> make_axi_model(const ChipConfig& chip, unsigned channels,
                                          std::uint64_t seed, bool plain);
 

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // The pins of the chip by their datasheet names (iC-MB4 Rev D2, page 3), and the level of a pin
-// that nobody drives.
+// that is not driven.
 #ifndef MB4SIM_PINS_HPP_
 #define MB4SIM_PINS_HPP_
 
@@ -54,7 +54,7 @@ inline constexpr ParallelPins kParallelPins{Pin::kDb0,  Pin::kNcs,    Pin::kAle,
 
 constexpr bool is_output(Pin pin) { return pin >= Pin::kEot; }
 
-// Level of an input that nobody drives. The chip pulls up NCS, NRD_RNW and NWR_E (A07), SL1 and
+// Level of an input that is not driven. The chip pulls up NCS, NRD_RNW and NWR_E (A07), SL1 and
 // SL2_NSL1 (B01), and NER (C07). It pulls down CFGSPI, INT_NMOT, ALE and DB7..0 (A06), GETSENS
 // (C06), CLK (D06) and NRES (E07).
 constexpr bool pulled_up(Pin pin) {

@@ -26,7 +26,8 @@ def inside_out(text):
             return text
         conditions.insert(0, parts[0])
         body = parts[1].strip()
-    # VL_STOP_MT() throws. Told so, the compiler keeps what it knows about the variables.
+    # VL_STOP_MT() throws. abort() tells this to the compiler, which then keeps what it knows about the
+    # variables.
     end = "std::abort();" if "VL_STOP_MT" in body else ""
     return f"if ({' && '.join(conditions)}) {{ {body} {end} }}"
 
@@ -136,8 +137,8 @@ class Writer:
 
     def compare(self, name, old, new, also="", writer=None):
         """Sets the marks of the parts that read a variable, if it has changed from `old` to `new`.
-        `also` belongs to the last test, that for any change. `writer`: the part that has written
-        it. To compute that part once more would change nothing, unless it really reads it."""
+        `also`: code for any change, in the last test. `writer`: the part that has written the
+        variable. Its mark is set only if the part also reads the variable."""
         again = writer is None or any(name in row.reads for row in writer.rows)
         for number, parts in sorted(self.readers[name].items(),
                                     key=lambda item: (item[0] is None, str(item[0]))):

@@ -32,10 +32,10 @@ that writes one runs always. Other groups are put into bundles of two kinds:
 If a variable is only compared with numbers, it counts as changed when the result of a comparison
 changes.
 
-host() has a flag for each group. Each side computes what has no clock of its own changes, so a flag
-of host() is set by host() only, and an edge of a host pin sets those flags of rise() that stand for
-registers and for keys. A register on a clock of the host that reads what rise() writes is computed
-again after each edge of the clock."""
+host() has a flag for each group. Each side computes the logic without a clock that depends on its own
+changes. So only host() sets a flag of host(), and an edge of a host pin sets only those flags of
+rise() that stand for registers and for keys. A register on a clock of the host that reads what rise()
+writes is computed again after each edge of the clock."""
 
 import argparse
 import re
@@ -128,7 +128,7 @@ def made(described, folder, busy, count, checked):
     types, rows_of = {}, {INPUTS: []}
     clock = described.events("posedge") | described.events("negedge")
     for function, events in [(INPUTS, set())] * (INPUTS in bodies) + functions_of:
-        # An edge of a host pin changes little, so there it is worth to look at each variable.
+        # An edge of a host pin changes little, so it pays to look at each variable there.
         local, rows_of[function] = statements(function, bodies[function],
                                               LONG if events & clock else 0)
         types |= local
@@ -147,7 +147,7 @@ def made(described, folder, busy, count, checked):
         by_clock |= {name for row in late for name in row.writes} | set(members(pins))
     pins, rows, when, events = of_host(described, names, functions_of, rows_of)
     for name, many in (("pins", pins), ("events", rows)):
-        # What only one statement sees is no variable of the model: it may be old.
+        # A local variable may be old in a later run, so all statements that use it share a group.
         local = {name for row in many for name in row.reads if "." in name}
         lists[name], flags = parts_of(groups_of(many, local), HostKinds(when, by_clock), False,
                                       flags + -flags % 64)

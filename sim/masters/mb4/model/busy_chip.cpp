@@ -53,7 +53,7 @@ void run() {
   send({kWriteRegisters, 0xE5, 0x40, 0xA0, 0x00, 0x7C});
   send({kWriteRegisters, 0xEC, 0x11, 0x05});
   send({kWriteInstruction, kAgs});
-  // 64 registers take 13 ms. The host looks whether they are there every 0.1 ms.
+  // 64 registers take 13 ms. The host looks every 0.1 ms whether they are there.
   send({kWriteRegisters, 0xE2, 0x40, 0x3F, 0x01, 0xC0});  // from register 0x40 on, of slave 1
   send({kWriteInstruction, kAgsAndRegister});
   for (int look = 0; look < 150; ++look) {

@@ -45,8 +45,8 @@ class DirectSteps {
     late_ = false;
     kept_.all(*model.rootp);
   }
-  // Pins of the host have changed. Returns false if neither the next edge of CLK nor anyone who
-  // waits for the chip's outputs sees a change.
+  // Pins of the host have changed. Returns false if no output has changed, and nothing that the
+  // next edge of CLK reads.
   bool host(Vmb4_chip& model) {
     if (!on_clk(*model.rootp)) {
       inputs(model);
@@ -85,7 +85,7 @@ class DirectSteps {
 
   // Stores the state of the chip before a rising edge of CLK.
   void mark(Vmb4_chip& model) {
-    // Only an edge of the system clock is taken ahead: while CLK is not it, eval() needs to see it.
+    // The edge is taken ahead only if CLK is the system clock. Otherwise eval() must see the edge.
     if (on_clk(*model.rootp)) set_clock(*model.rootp, true);
     before_.resize(sizeof(Root));
     std::memcpy(before_.data(), bytes(*model.rootp), sizeof(Root));
