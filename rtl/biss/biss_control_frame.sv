@@ -49,7 +49,7 @@ module biss_control_frame (
   input  logic       stalled_start_i, // ... if a frame starts in this clock
   output logic       active_o,
   output logic       active_start_o, // active_o, if a frame starts in this clock; it comes earlier
-  output logic       running_o,      // active_o one clock late in its rise
+  output logic       running_o,      // as active_o, but rises one clock later
   output logic       in_body_o,      // the slot is between S and the stop bit
   output logic       wait_o,         // waiting for the slave's start bit
   output logic       moved_o,        // a frame ends, but not while S is awaited

@@ -20,8 +20,8 @@
 //   event_o.line_end     the last data bit has been taken; status_o.cds is valid from the next
 //                        clock on (0 in BiSS B and SSI)
 //   go_i.init            the line makes the two-pulse initialisation instead of a frame:
-//                        event_o.init_done comes with the acknowledge, event_o.init_fail with
-//                        late_i (without it for as long as the line delay can be)
+//                        event_o.init_done comes with the acknowledge. event_o.init_fail comes with
+//                        late_i, if there is no acknowledge by then; on an SSI line at once
 //   go_i.register_access MA belongs to the BiSS B register access (biss_b_access) until
 //                        register_ma_i.ends, which makes event_o.line_end
 //

@@ -20,7 +20,7 @@
 // Misuse: a manager that takes back AWVALID, WVALID or ARVALID before its ready takes back
 // word_req_o in the same clock and gets no answer; a write may then have been done or not. Address
 // bits 1..0 do not exist here: the word that holds the byte is accessed. A manager that changes its
-// payload under VALID gets the answer of the access that has begun.
+// payload under VALID changes it on the word bus too.
 // Source: AMBA AXI and ACE protocol specification (IHI0022), part B1, and A3.
 
 module enc_axil #(

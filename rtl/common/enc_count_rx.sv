@@ -5,7 +5,7 @@
 // step of count_i gives one pulse_o in clk_i.
 //
 // Clock domain: clk_i; count_i comes from another domain.
-// Latency: pulse_o comes 2..3 clocks after the step, but at least three clocks after the previous
+// Latency: pulse_o comes 1..2 clocks after the step, but at least three clocks after the previous
 // pulse. Data that the sender holds from the step on may be captured with pulse_o. ack_o is the
 // count of the steps taken. It follows two clocks after the capture, when the receiver has acted.
 //

@@ -5,7 +5,7 @@
 // the Gray-coded write count is the only signal that crosses with them.
 //
 // Clock domains: wr_clk_i for wr_* and mark_i; clk_i for the rest.
-// Latency: a byte is offered 3..4 clk_i periods after it was written, if no other byte waits before
+// Latency: a byte is offered 2..3 clk_i periods after it was written, if no other byte waits before
 // it. ready_i takes it. Waiting bytes follow one a clock.
 //
 //   busy_o   1 while any byte waits, one clock late

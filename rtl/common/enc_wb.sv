@@ -18,7 +18,7 @@
 //
 // Misuse: a master may end its cycle (CYC = 0) or take back STB before the access is done. This
 // takes back word_req_o in the same clock, and no answer comes; a write may then have been done or
-// not. A master that changes address or data under STB gets the answer of the access that runs.
+// not. A master that changes address or data under STB changes them on the word bus too.
 // Source: Wishbone B4, sections 3.1.3 to 3.2.
 
 module enc_wb #(
