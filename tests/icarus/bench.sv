@@ -3,8 +3,8 @@
 //
 // mb4_core in Icarus, a second simulator: SPI, registers, a BiSS C frame, a register access. It is
 // plain SystemVerilog. No expected value comes from the RTL: the CRC is that of the table in
-// docs/theory.md, the control frame that of the BiSS C protocol description (C5). With +speed=N
-// workload A for N clocks.
+// docs/theory.md, the control frame that of the BiSS C protocol description. With +speed=N the
+// bench runs workload A for N clocks.
 `timescale 1ns/1ps
 
 module bench;

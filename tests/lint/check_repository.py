@@ -150,7 +150,7 @@ def version_findings(files):
         if copy is None or copy.groups() != line.groups():
             said = "none" if copy is None else ".".join(copy.groups())
             findings.append(f"{name}:1: version {said}; {VERSION_FILE} says {version}")
-    # "==1.2.3" is the version of somebody else's package.
+    # "==1.2.3" is the version of another project's package.
     literal = re.compile(rf"(?<![\w.=]){re.escape(version)}(?!\w|\.\d)")
     for name in files.keys() - {VERSION_FILE, *copies, *RELEASE}:
         for number, row in enumerate((files[name] or "").splitlines(), 1):

@@ -198,7 +198,7 @@ def check_connections(file):
 
 
 # Falling edges of clocks: SL is sampled twice a clock, clocks are switched while they are low, SPI
-# sends behind them, the bus latches the address. Everything else takes the rising edge.
+# sends after them, the bus latches the address. Everything else takes the rising edge.
 FALLING = {"biss_sl_capture.sv", "enc_clk_mux.sv", "mb4_spi_shift.sv", "mb4_spi.sv",
            "mb4_par_bus.sv"}
 

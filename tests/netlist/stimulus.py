@@ -9,8 +9,8 @@ simulator has to decide a race; several clocks may."""
 # read and write from address 0.
 OPCODES = [0x02, 0x03, 0x05, 0x07, 0x09, 0x0B]
 
-# SCRCLEN codes of Table 14, one that it does not permit, own polynomials (bit 7).
-# As the host writes them, and as mb4_crc_code makes them.
+# SCRCLEN codes of Table 14, one that it does not permit, own polynomials (bit 7), as the host writes
+# them; then polynomials as mb4_crc_code makes them.
 CRC_CODES = [0x00, 0x03, 0x04, 0x05, 0x06, 0x07, 0x08, 0x10, 0x21, 0x81, 0x83, 0xA1, 0xC9]
 CRC_POLYNOMIALS = [0x00, 0x05, 0x09, 0x12, 0x21, 0x44, 0x97, 0xEC, 0x01, 0x03, 0x49]
 

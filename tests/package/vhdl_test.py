@@ -25,7 +25,7 @@ PACKAGE = {"ghdl": "ghdl", "iverilog": "iverilog", "yosys": "yosys"}
 
 def run(command, folder):
     status, text = project.run(command, cwd=folder)
-    # Of the warnings, those about ports.
+    # The warnings about ports.
     return text if status != 0 or re.search(r"warning:.* port|Resizing", text, re.I) else ""
 
 

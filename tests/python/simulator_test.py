@@ -45,7 +45,7 @@ def test_mistake_in_scenario_is_named(scenario, message):
 
 def test_spi_reads_the_version():
     with openmb4.Simulator(TEXT) as chip:
-        # Opcode 0x03, address 0xEA: REVISION and VERSION = 0x84 (tables 38, 39).
+        # Opcode 0x03, address 0xEA: REVISION and VERSION = 0x84 (tables 41, 42).
         assert chip.spi(bytes((0x03, 0xEA, 0, 0)))[3] == 0x84
 
 

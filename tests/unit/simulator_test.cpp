@@ -162,7 +162,7 @@ TEST(Simulator, UndrivenPins_RestAtTheirPulls) {
   EXPECT_FALSE(simulator.pin(Pin::kMo1));
 }
 
-// A06: nobody drives the data bus between two cycles; an open GETSENS (C06) asks for no frame, an
+// A06: the data bus is not driven between two cycles; an open GETSENS (C06) asks for no frame, an
 // open SL (B01) is ready for one.
 TEST(Simulator, BusLetGo_ReturnsToItsPullDowns) {
   Simulator simulator(parse_scenario("[host]\ninterface = \"intel\"\n", "open.toml"));

@@ -355,7 +355,7 @@ def test_whole_registers(page):
         page.enter("register-value", value, Keys.TAB)
         page.click("register-write")
         assert page.said() == words
-    # A frame by hand: instruction 100 (table 41), then its data are valid.
+    # A whole register: INSTR = 100 (table 45). The write takes simulated time.
     page.enter("register-name", "INSTR", Keys.TAB)
     page.enter("register-value", "0x08", Keys.TAB)
     count = page.run("return chip.report().time_ns")

@@ -60,7 +60,7 @@ TEST(SamplerBlock, DelayOfKQuarters_CountsKPlusOneAndTakesBitsMidway) {
               static_cast<std::uint8_t>((point_a ? 4 : 0) | (point_b ? 2 : 0) | (half & 1U));
           m.sample_half_i = level_ma ? 1 : 0;
         };
-        // The engine's own flags: armed from rising edge 2 on, seen one clock early by point b.
+        // The flags of biss_frame: armed from rising edge 2 on, for point b one clock early.
         m.armed_a_i = n >= 1 ? 1 : 0;
         m.armed_b_i = n >= 0 ? 1 : 0;
         marks(n - 2);

@@ -123,7 +123,7 @@ class FrameBenchOf {
   struct Result {
     std::vector<std::uint64_t> rises;  // time of MA edges in sixteenths of a clock
     std::vector<std::uint64_t> falls;
-    std::uint64_t end_time = 0;  // frame_end
+    std::uint64_t end_time = 0;  // of line_end_o
     bool ended = false;
     bool idle = false;
     int ma_in_timeout = -1;

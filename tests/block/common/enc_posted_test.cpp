@@ -99,7 +99,7 @@ TEST(PostedBlock, CoreClockStandsStill_128BytesWaitAndNoneIsLost) {
       posted.eval();
     }
     for (unsigned i = 0; i < 400; ++i) {
-      posted.ready_i = i % 3 != 0;  // the engine takes its turn
+      posted.ready_i = i % 3 != 0;  // sometimes the core takes no byte
       core_clock();
     }
     ASSERT_EQ(received, sent) << "round " << round;

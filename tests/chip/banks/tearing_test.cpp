@@ -3,8 +3,7 @@
 //
 // A host reads a word byte by byte while automatic frames run. With HOLDBANK all bytes come from
 // one frame at any phase. Without it the bytes come from two frames when the banks switch (pages
-// 26, 33, Table 48). SCLK up to 2 f_CLK: see
-// docs/crossings.md.
+// 26, 33, Table 48). SCLK up to 2 f_CLK: see docs/crossings.md.
 #include <gtest/gtest.h>
 
 #include <algorithm>

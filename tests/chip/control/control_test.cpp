@@ -453,8 +453,7 @@ TEST(Control, HoldCdm_WorksWithAWrongOrAbsentDataChannel) {
   }
 }
 
-// ---- commands
-// -------------------------------------------------------------------------------------
+// ---- commands ---------------------------------------------------------------------------------
 
 // Headers of commands worked out by hand (page 29; rule of the CRC: docs/theory.md): CTS, IDS0..7,
 // CMD1..0 and the inverted CRC.
@@ -516,7 +515,7 @@ TEST(Command, MissingId_IsExecutedOnlyWithoutTheTest) {
     Chip chip(chain(2));
     configure(chip, 2);
     ControlHost host(chip);
-    host.set_command(0x80 | 0x04, 3, tested);  // ID 5 is nobody's
+    host.set_command(0x80 | 0x04, 3, tested);  // no slave has ID 5
     ASSERT_NE(host.run_single(60), 0U);
     EXPECT_EQ(host.status(),
               (reg::kResetStatus0 | reg::kRegendDone) & ~reg::nREGERR::kMask & ~reg::nERR::kMask);
@@ -536,7 +535,7 @@ TEST(Command, IdaTestInvertQuirk_SwapsThePolarity) {
       EXPECT_EQ(host.run_single(60), tested ? 14U + 26U : 14U + 25U) << invert << ida_test;
       EXPECT_EQ(host.status(), kAllGood);
       EXPECT_EQ(chip.simulator.slave(1)->control()->counters().commands, 1U);
-      host.set_command(0x80 | 0x04, 3, ida_test);  // ID 5 is nobody's
+      host.set_command(0x80 | 0x04, 3, ida_test);  // no slave has ID 5
       ASSERT_NE(host.run_single(60), 0U);
       EXPECT_EQ(host.status(),
                 (reg::kResetStatus0 | reg::kRegendDone) & ~reg::nREGERR::kMask & ~reg::nERR::kMask);
@@ -657,8 +656,7 @@ TEST(Command, ReducedFramesWithoutAgs_LeaveBothBanks) {
   EXPECT_EQ(chip.read(reg::kAddrSvalidLo), reg::SVALID<1>::kMask);
 }
 
-// ---- by hand
-// --------------------------------------------------------------------------------------
+// ---- by hand ----------------------------------------------------------------------------------
 
 // A CDM that depends on CDS also arrives over a long line and with the shortest frame.
 TEST(ControlByHand, CdmByCds_ComesRightAtAnyDelay) {

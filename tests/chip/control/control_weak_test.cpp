@@ -25,10 +25,10 @@ std::string word_of(unsigned value) {
   return mb4test::word_on_line(value, 8, mb4test::crc_choice(0x04), 0);
 }
 
-// The slave's start bit of a write is lost. The master repeats S,
-// the slave takes it for D7, and its echo for the master looks like the start bit; all echoes
-// fit, one frame late. The slave's CRC stops the write. Only a last CRC bit of 1 shows: the slave
-// has it where P belongs. So a host that must be sure reads back.
+// The slave's start bit of a write is lost. The master repeats S, the slave takes it for D7, and
+// the master takes its echo for the start bit. All echoes fit, one frame late. The slave's CRC
+// stops the write. The master notices it only if the last CRC bit is 1, because the slave sees this
+// bit in the slot of P. So a host that must be sure reads back.
 TEST(ControlWeak, LostStartBitOfAWrite_IsSeenByTheLastCrcBitOnly) {
   for (unsigned value = 0; value < 256; ++value) {
     FaultBench bench(Way::kCds, 19);

@@ -43,7 +43,7 @@ void FuzzRun::ensure_clock() {
   if (!host_.wait_clocks(4)) fail("clock", "stands still after CLKENI = 1");
 }
 
-// Until `done`, which looks at status_, or `bound` clocks have passed.
+// Waits until done(), which looks at status_, or until `bound` clocks have passed.
 template <typename Done>
 FuzzRun::End FuzzRun::wait_until(std::uint64_t bound, Done done) {
   const std::uint64_t start = host_.clocks();
@@ -76,7 +76,8 @@ std::uint64_t FuzzRun::frame_bound() const {
   return bound;
 }
 
-// Of BiSS C with frames that follow each other; a frame that hangs ends it after 9/8 of the limit.
+// Longest time of an access of BiSS C whose frames follow each other. A frame that hangs ends it
+// after 9/8 of the limit.
 std::uint64_t FuzzRun::access_bound() const {
   const Possible& possible = host_.possible();
   return (60 + 20 * possible.bytes) *
@@ -85,12 +86,12 @@ std::uint64_t FuzzRun::access_bound() const {
          (possible.bytes + 3) * possible.limit * 9 / 8 + frame_bound();
 }
 
-// By the status read last.
+// As the status that was read last says.
 bool FuzzRun::access_ended() const {
   return (status_[0] & reg::REGEND::kMask) != 0 && !is_control(status_[4]);
 }
 
-// Until no frame and no INIT runs; with AGS = 1 until a frame has ended or none runs.
+// Waits until no frame and no INIT runs; with AGS = 1 until a frame has ended or none runs.
 FuzzRun::End FuzzRun::wait_end() {
   ensure_clock();
   if (!host_.wait_clocks(kSettleClocks)) ensure_clock();
@@ -107,7 +108,7 @@ void FuzzRun::not_ended(End end) {
   classify_wait();
 }
 
-// An instruction has not ended: is it a line that does not answer?
+// An instruction has not ended. Finds out whether a line does not answer.
 void FuzzRun::classify_wait() {
   const Possible& possible = host_.possible();
   struct Seen {
@@ -177,7 +178,7 @@ void FuzzRun::classify_wait() {
     }
     return end_by_break(FuzzCounts::kWaitsSlave);
   }
-  // A fault of a line that was over just now: the frame goes on.
+  // A fault of a line has just ended: the frame goes on.
   if ((lines[0].sl_changed || lines[1].sl_changed) && wait_end() == End::kDone) return;
   fail("instruction", "does not end, 0xF0 to 0xF4 read" + hex(status_));
 }
@@ -217,7 +218,7 @@ void FuzzRun::check_cannot_run() {
   host_.access_ended();
 }
 
-// Requests until the access has ended.
+// Sends requests until the access has ended.
 void FuzzRun::drive_on(bool by_getsens) {
   const Possible& possible = host_.possible();
   const std::uint64_t most = access_bound();
@@ -333,7 +334,7 @@ void FuzzRun::check_ended() {
   if (at_rest()) host_.at_rest();
 }
 
-// Until the slaves' timeouts are over and, after INIT, SL is 1.
+// Waits until the slaves' timeouts are over and, after INIT, SL is 1.
 void FuzzRun::wait_slaves(bool sl_high) {
   const auto idle = [&](unsigned line, Pin sl) {
     return !chip_.lines[line].present || (host_.simulator().line(line + 1)->chain().idle() &&
@@ -345,7 +346,7 @@ void FuzzRun::wait_slaves(bool sl_high) {
   }
 }
 
-// Configuration written anew, clock running, force bits 0, BREAK, INIT, a frame: it works.
+// Configures anew with a running clock and force bits 0; then BREAK, INIT and a frame must work.
 void FuzzRun::recover() {
   auto& simulator = host_.simulator();
   if (const std::uint64_t now_ns = simulator.now() / sim::kPsPerNs; now_ns < chip_.faults_end_ns) {

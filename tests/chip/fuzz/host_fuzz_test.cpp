@@ -265,9 +265,8 @@ struct KeptCase {
   const char* bytes;
 };
 constexpr KeptCase kKept[] = {
-    // A reset ends CFGIF = 11 while MA2 itself is low and its pin, the inverse of MA1, high: the
-    // rest
-    // of the low half period is no pulse of the frame.
+    // A reset ends CFGIF = 11 while MA2 itself is low and its pin, the inverse of MA1, is high: the
+    // rest of the low half period is no pulse of the frame.
     {927898,
      "B493C3EEC7C8FB904EF883BE2C0DFAA6872B8C71BB6A1F67C8DAED48F5E2E1CADDCB4C77202042C51ADA2E4C"
      "B4268A85F87113D806749E29A78AAA1C80A6F32B9EF334296EF52CA71FFFF3B9F547476DE5AAC95DCC02FD7B"

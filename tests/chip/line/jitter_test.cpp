@@ -114,7 +114,7 @@ Tally run(sim::Time jitter, std::uint64_t frames, std::uint64_t seed) {
       const std::uint32_t got_crc = bytes[7];
       const unsigned wrong_bits =
           static_cast<unsigned>(std::popcount(got ^ sent) + std::popcount(got_crc ^ crc6(sent)));
-      // Right or wrong: valid is exactly what its CRC allows.
+      // A word is valid exactly if its CRC fits, right or wrong.
       EXPECT_EQ(valid, crc6(got) == got_crc) << "sent " << sent << " got " << got;
       if (wrong_bits != 0) {
         ++tally.wrong;

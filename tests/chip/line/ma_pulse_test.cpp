@@ -28,7 +28,7 @@ sim::Time half_ns(unsigned freqs, sim::Time clk_ns) {
   return (freqs < 0x10 ? freqs + 1 : 10 * (freqs - 15)) * clk_ns;
 }
 
-// A good frame, as a proof that everything has recovered. Ends a chip that was reset.
+// A good frame shows that everything has recovered.
 void expect_good_frame(Chip& chip, std::uint8_t freqs, const std::string& what) {
   chip.configure_slave1(28, reg::kScrclenCrc6, freqs);
   chip.advance_us(100);

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // The simulator evaluates the chip with as little work as possible, and omits clocks in which the
-// chip is at rest (sim/masters/mb4/model/direct_steps.hpp). Two of them run side by side through
+// chip is at rest (sim/masters/mb4/model/direct_steps.hpp). Two simulators run side by side through
 // random sessions, one as usual and one with Verilator's eval() at every edge: all pins at every
 // time, all registers and all slaves must be the same.
 #include <gtest/gtest.h>

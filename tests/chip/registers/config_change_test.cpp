@@ -118,7 +118,6 @@ std::string name_of(const Change& change, unsigned phase) {
          std::to_string(phase);
 }
 
-// In a frame of about 6 us, at steps that meet each of its parts.
 // With AGS = 1 a request waits for a line. The frame that begins in the clock in which CFGCH names
 // the protocol is one of this protocol.
 TEST(ConfigChange, LineTakenIntoUseUnderAgs_FirstFrameIsRight) {
@@ -172,6 +171,7 @@ TEST(ConfigChange, ProtocolInAnSsiFrame_WordIsDecodedAsItBegan) {
   }
 }
 
+// In a frame of about 6 us, at steps that meet each of its parts.
 TEST(ConfigChange, InAFrame_ItEndsAndEverythingWorksAgain) {
   for (const unsigned instruction : {reg::kInstrCdm0, reg::kInstrCdm1, reg::kInitStart}) {
     for (const Change& change : kChanges) {

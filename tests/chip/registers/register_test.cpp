@@ -149,7 +149,7 @@ TEST(ChipNoClock, ClkNotConnected_ConfigurationIsWrittenAndRead) {
   EXPECT_EQ(chip.simulator.clk_cycles(), 0U);
 }
 
-// Table 7: the internal oscillator is switched on through the very interface.
+// Table 7: a host without a system clock can switch the internal oscillator on.
 TEST(ChipNoClock, ClkeniSet_FramesRunFromTheOscillator) {
   Chip chip(one_slave("data_bits = 28\ncrc = 0x43\ndata = 0xAAF37BF", "", "f_clk_hz = 0"));
   mb4::Config config = mb4test::config26(10'000'000);

@@ -125,8 +125,8 @@ TEST(ChipStatus, Nagserr_MissedFrameSetsItInitAndBreakClearIt) {
   }
 }
 
-// Table 60, page 34: NER is open drain: whoever pulls wins, nERR shows the pin, and an error of
-// another component touches no other flag.
+// Table 60, page 34: NER is open drain: chip and outside can each pull it low. nERR shows the pin,
+// and an error of another component touches no other flag.
 TEST(ChipStatus, NerPin_InternalAndExternalErrorsAreWiredOr) {
   Chip chip(one_slave(kEncoder26));
   chip.configure_slave1(28, reg::kScrclenCrc6, 0x00, reg::kFreqagsAgsMin);

@@ -4,7 +4,7 @@
 """A foreign SPI decoder on the waveform of `mb4sim run`: sigrok's must find exactly the bytes that
 the driver has sent and received.
 
-  sigrok_test.py MB4SIM SCENARIO
+  sigrok_spi_test.py MB4SIM SCENARIO
 
 Exit status 77: sigrok-cli or fst2vcd (GTKWave) is not installed.
 """

@@ -1,7 +1,7 @@
 /* SPDX-FileCopyrightText: 2026 The openmb4 authors
  * SPDX-License-Identifier: Apache-2.0
  *
- * A program for spidev as anybody writes it: it knows nothing of a simulator. It brings an encoder
+ * An ordinary program for spidev: it knows nothing of a simulator. It brings an encoder
  * of 26 bits into operation and tries what the interface offers; sizes and errors are those of
  * Linux (Documentation/spi/spidev.rst), register values those of the datasheet (Rev D2) and the
  * word of golden.toml. It uses no header of this project, so registers and opcodes are numbers.
@@ -282,7 +282,7 @@ static void bad_pointers(int fd) {
   CHECK(writev(fd, parts, 3) == 2); /* up to the part that cannot be read */
   CHECK(readv(fd, parts, 0) == 0);
 
-  /* Also where the library has to look at what others are asked for. */
+  /* Bad pointers also in calls of other functions, whose arguments the library looks at. */
   char *const path = (char *)edge(8);
   struct stat status;
   struct timespec time;
@@ -312,12 +312,12 @@ static void looks(int fd) {
   CHECK(fstatat(fd, "", &status, AT_EMPTY_PATH) == 0 && S_ISCHR(status.st_mode));
   CHECK(statx(fd, "", AT_EMPTY_PATH, STATX_TYPE, &extended) == 0 && S_ISCHR(extended.stx_mode));
   CHECK(statx(AT_FDCWD, device, 0, STATX_TYPE, &extended) == 0 && S_ISCHR(extended.stx_mode));
-  /* Others are what they are. */
+  /* Other files are not changed. */
   CHECK(fstat(STDERR_FILENO, &status) == 0 && status.st_rdev != by_name.st_rdev);
   CHECK(fstatat(AT_FDCWD, "/", &status, 0) == 0 && S_ISDIR(status.st_mode));
 }
 
-/* It has no positions and no memory, and nothing to be cut or stored. */
+/* The device has no positions and no memory, and nothing to be cut or stored. */
 static void is_no_file(int fd) {
   uint8_t byte = 0;
   const struct iovec part = {&byte, 1};
@@ -359,7 +359,7 @@ static void is_no_file(int fd) {
   CHECK(own != MAP_FAILED && munmap(own, size) == 0);
 }
 
-/* Descriptors go the ways that all descriptors go; a closed one is nobody's. */
+/* Descriptors of the device are copied like any others; a closed one is no longer the device's. */
 static void copies(int fd) {
   const int copy = dup(fd);
   identify(copy);

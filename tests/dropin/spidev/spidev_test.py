@@ -188,7 +188,7 @@ class Spidev(unittest.TestCase):
                                    stdout=subprocess.PIPE, env=dict(os.environ, TMPDIR=folder))
             self.assertEqual(run.stdout.readline(), b"ready\n")
             run.send_signal(signal.SIGTERM)
-            self.assertEqual(run.stdout.read(), b"")  # nobody has it open any more
+            self.assertEqual(run.stdout.read(), b"")  # no process has it open any more
             run.stdout.close()
             self.assertEqual(run.wait(20), 128 + signal.SIGTERM)
             self.assertEqual(os.listdir(folder), [])

@@ -95,7 +95,7 @@ TEST_F(CApiAxi, Registers_AreReadAndWritten) {
   const uint64_t before = mb4sim_time_ns(sim);
   EXPECT_EQ(mb4sim_axi_write(sim, reg::kAddrSampleDivider, 0x0234'5678, 0xF), 0);
   EXPECT_GT(mb4sim_time_ns(sim), before);
-  // Only the bytes of the strobe.
+  // The access writes only the bytes of the strobe.
   EXPECT_EQ(mb4sim_axi_write(sim, reg::kAddrSampleDivider, 0xFFFF'FFFF, 0x2), 0);
   EXPECT_EQ(mb4sim_axi_read(sim, reg::kAddrSampleDivider, &data), 0);
   EXPECT_EQ(data, 0x0234'FF78U);

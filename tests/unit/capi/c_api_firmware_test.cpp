@@ -462,7 +462,7 @@ TEST_F(CApiFirmware, TraceThatCannotBe_IsToldAndLeavesTheHandleAlive) {
 }
 #endif
 
-// Closed inside, the simulator goes when the call that lets time pass returns.
+// A simulator that a callback closes goes when the call that lets time pass returns.
 TEST_F(CApiFirmware, ClosedInACallback_EndsWithTheCall) {
   const auto call = [](void* context, const mb4sim_frame*) {
     mb4sim_close(static_cast<mb4sim*>(context));

@@ -140,7 +140,7 @@ TEST(SpiHost, ByteByByte_IsTheSameWaveform) {
   }
 }
 
-// The host drives MOSI at the beginning of each byte, whatever somebody else has done to the pin.
+// The host drives MOSI at the beginning of each byte, whatever other code has done to the pin.
 TEST(SpiHost, MosiDrivenByOthersBetweenTwoBytes_NextByteIsTheHosts) {
   RecordingPins pins;
   SpiHost host(pins, SpiTiming::for_frequency(1'000'000), kSpiPins);

@@ -232,14 +232,14 @@ class Interrupted(CliTest):
 
 
 class Workers(CliTest):
-    """regress does not leave anybody behind."""
+    """regress leaves no process behind."""
 
     def workers_of(self, process):
         with open(f"/proc/{process.pid}/task/{process.pid}/children", encoding="ascii") as file:
             return [int(word) for word in file.read().split()]
 
     def alive(self, worker):
-        """Also not as a zombie that nobody has waited for."""
+        """A zombie counts as alive, because no process has waited for it."""
         return os.path.exists(f"/proc/{worker}")
 
     def started(self, **options):
@@ -297,7 +297,7 @@ class Workers(CliTest):
 
 
 class Files(CliTest):
-    """Files without end and of a size that nobody wrote by hand."""
+    """Files without end, and files too large to be written by hand."""
 
     def limited(self, *arguments, stdin=subprocess.DEVNULL):
         """With 20 s and, unless it is built with AddressSanitizer, 1 GiB of memory."""

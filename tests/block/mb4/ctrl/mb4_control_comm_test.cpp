@@ -174,7 +174,7 @@ class ControlCommBlock : public testing::Test {
 };
 
 // Tables 23, 28 to 31: a register access runs on line 1 if both fit; bytes go to and come from
-// RDATA. Decision 38: what the host changes meanwhile does not count, and then it does.
+// RDATA. Decision 38: what the host changes meanwhile counts for the next access only.
 TEST_F(ControlCommBlock, RandomRegisterAccesses_KeepTheirSettings) {
   for (int round = 0; round < 60; ++round) {
     SCOPED_TRACE(testing::Message() << "round " << round);

@@ -15,7 +15,7 @@
 #include "Vmb4_wb_pipelined.h"
 #include "mb4_page_regs.hpp"
 #include "tests/block/mb4/word_bus_bench.hpp"
-// Verilator's own header is not ours to keep free of warnings.
+// This project does not write Verilator's own header, so its warnings do not count.
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wpedantic"
 #include "Vmb4_axil___024root.h"

@@ -35,7 +35,7 @@ TEST(MemoryBlock, EveryMixOfWriters_BothSidesReadTheByteOfTheFirst) {
   m.eng_rd_i = m.rd_i = m.rd2_i = m.rd2_clk_i = 0;
   low();
   std::array<unsigned, 64> bytes{};
-  // Page 22: all RAM registers are 0 after power-on. Somebody else counts the addresses.
+  // Page 22: all RAM registers are 0 after power-on. mb4_ram_clear counts the addresses.
   for (unsigned address = 0; address < 64; ++address) {
     m.clear_i = write_port(true, address, 0);
     m.host_wr_i = write_port(true, 0, 0xA5);  // waits

@@ -39,7 +39,7 @@ class RecentBlock : public testing::Test {
     if (!empty()) ++taken;
     follow();
   }
-  // One edge of the host clock, of `rclk` too if host and reads have one clock.
+  // One edge of the host clock; of rd_clk_i too if writes and reads have one clock.
   void edge(bool one_clock) {
     const bool mark = m.mark_o != 0;
     empty_at_edge = empty();
