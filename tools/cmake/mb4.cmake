@@ -112,7 +112,7 @@ function(mb4_verilated_library target)
   target_compile_options(${target} PRIVATE
     "SHELL:-include ${MB4_ROOT}/sim/model/verilated_hooks.h" -Wno-sign-compare)
   target_include_directories(${target} PUBLIC ${MB4_ROOT}/sim/model)
-  # Verilator's headers are not ours to keep free of warnings.
+  # This project does not write Verilator's headers, so their warnings do not count.
   target_include_directories(${target} SYSTEM PUBLIC
     ${VERILATOR_ROOT}/include ${VERILATOR_ROOT}/include/vltstd)
 endfunction()

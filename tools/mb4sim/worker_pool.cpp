@@ -42,7 +42,7 @@ void write_all(int pipe, const std::string& text) {
   }
 }
 
-// Signals that interrupt the command: they come while it waits for a worker, else they wait.
+// Signals that interrupt the command. They are blocked except while it waits for a worker.
 class Signals {
  public:
   Signals() {
@@ -55,7 +55,8 @@ class Signals {
   Signals& operator=(const Signals&) = delete;
   ~Signals() { ::sigprocmask(SIG_SETMASK, &mask_, nullptr); }
 
-  // Until one of these has something to read; without any only the signals. Throws Interrupted.
+  // Waits until one of these has something to read. Without any it only takes signals that have
+  // come. Throws Interrupted.
   void wait(std::vector<pollfd>& some) const {
     const timespec none{0, 0};
     while (::ppoll(some.data(), some.size(), some.empty() ? &none : nullptr, &mask_) < 0) {
@@ -64,7 +65,7 @@ class Signals {
     }
     interrupts_.check();
   }
-  // In a worker: as they were for the command, and the worker ends with it.
+  // For a worker: signals are again as they were for the command, and the worker ends with it.
   void leave(pid_t command) const {
     interrupts_.restore();
     ::prctl(PR_SET_PDEATHSIG, SIGKILL);

@@ -94,7 +94,7 @@ def digest(items, run, files):
         if path.suffix == ".xml":
             day, found, output = read_report(path)
             for name, state in found.items():
-                # Of a test in two reports the worse result counts, with the older day.
+                # If a test is in two reports, the worse result counts, with the older day.
                 if name not in states or (states[name] == "passed" and state != "passed"):
                     states[name] = state
                 days[name] = min(day, days.get(name, day))

@@ -228,8 +228,8 @@ EXPORT ssize_t __pread64_chk(int fd, void *buffer, size_t size, off64_t offset, 
   return pread64(fd, buffer, size, offset);
 }
 
-/* And no memory. The kernel finds the other mistakes first; it looks for them at the empty file, at
- * a place of its own choice. */
+/* The device has no memory either. The kernel finds other mistakes first, so this maps the empty
+ * file, at a place that the kernel chooses. */
 static void *refuse_map(size_t size, int protection, int flags, int fd, off64_t offset) {
   const int elsewhere = flags & ~(MAP_FIXED | MAP_FIXED_NOREPLACE);
   void *const map = NEXT(mmap64)(NULL, size, protection, elsewhere, fd, offset);

@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: 2026 The openmb4 authors
 # SPDX-License-Identifier: Apache-2.0
-"""What the scripts under tests/netlist, tests/lint and tests/canary know about the project: the
-file list, Verilator's flags, and how a missing tool is reported.
+"""What the scripts in tools/ and tests/ know about the project: the file lists, Verilator's flags,
+and how a missing tool is reported.
 
   project.py   prints the RTL files in their order, for a tool's command line
 """

@@ -100,7 +100,7 @@ def sweep(function: Callable[[Point], Any], grid: Grid, client: Any = None, *,
     progress  True or False: a bar on standard error; None: where standard error is a terminal
 
     A result is what JSON holds: numbers, texts, lists, dicts. The function must depend on its point
-    only. What it raises comes out of sweep(); the results that came before are kept in `file`.
+    only. Its exception comes out of sweep(); the results that came before are kept in `file`.
     """
     todo = points(grid)
     if workers is not None and workers < 1:

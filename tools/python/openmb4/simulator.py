@@ -252,8 +252,8 @@ class Simulator:
             raise Error(said, "MB4SIM_ERROR_VALUE") if said else simulator_error(result, "inject")
 
     def on_frame(self, callback: Optional[Callable[[Frame], Any]]) -> None:
-        """Calls `callback` at the end of every frame of a line; None ends it. What it raises, the
-        call raises that let time pass."""
+        """Calls `callback` at the end of every frame of a line; None ends it. An exception of the
+        callback comes out of the call that lets time pass."""
 
         def keep(kind: Any, value: BaseException, trace: Any) -> None:
             self._raised = self._raised or value

@@ -3,7 +3,7 @@
 '''
 BiSS C is a serial interface between drives and position encoders. The master clocks the encoders
 over MA; SL brings acknowledge, start bit, the CDS bit and, of each encoder of the chain, position,
-error and warning bit and an inverted CRC. The level of MA behind the frame is the inverted CDM bit:
+error and warning bit and an inverted CRC. The level of MA after the frame is the inverted CDM bit:
 CDM and CDS bits of many frames make up control frames, which access registers of the encoders and
 carry commands.
 

@@ -61,7 +61,7 @@ class Frame:
         return level
 
     def acknowledge(self):
-        '''Sample at which SL falls behind the second rising edge; None if it does not.'''
+        '''Sample at which SL falls after the second rising edge; None if it does not.'''
         if len(self.rising) < 2:
             return None
         for when, level in self.sl:
@@ -168,7 +168,7 @@ class Decoded:
 
 
 def data_end(frame, words):
-    '''Sample behind the last bit of the data as far as it is known; None before the start bit.'''
+    '''Sample after the last bit of the data as far as it is known; None before the start bit.'''
     ack = frame.acknowledge()
     if ack is None:
         return None

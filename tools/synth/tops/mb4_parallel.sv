@@ -2,8 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // The chip with the parallel host bus alone, Intel or Motorola: bus pins before mb4_engine
-// (instances only). It serves to measure the area of a design without SPI, and as an example of
-// one.
+// (instances only). It is an example of a design without SPI, and serves to measure its area.
 //
 // Clock domains: the strobes (mb4_par_bus) and clk_i (mb4_engine).
 // Datasheet: pages 9, 10, 17, Table 2.
@@ -38,7 +37,7 @@ module mb4_parallel #(
 
   logic       wr_clk, rd_clk, clkeni, paired;
   logic [7:0] addr, rd2_data;
-  mb4_pkg::tap_t tap;   // of bus tops
+  mb4_pkg::tap_t tap;   // only bus tops use it
 
   mb4_par_bus u_bus (
     .rst_ni,
