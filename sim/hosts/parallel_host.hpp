@@ -30,7 +30,8 @@ struct ParallelTiming {
   Time release = 25'000;        // I009, I111: the chip lets go of the data bus after a read
 
   // Timing of a bus that begins a cycle every `cycle` ps, which must not be below the shortest
-  // read. Half of the remaining time is added to the address phase, half to the strobe.
+  // read. Half of the time that a read leaves is added to the address phase, the rest to the
+  // strobe.
   static ParallelTiming for_cycle(Time cycle);
   Time read_cycle() const;
   Time write_cycle() const;

@@ -8,7 +8,8 @@
  * A simulator can stop for good. Its time then stands still, and calls return this error:
  *
  *   MB4SIM_ERROR_STOPPED  an assertion in the chip's RTL has failed, or a pulse at MA was too
- *                         short: all calls that let time pass, mb4sim_pin_write(), mb4sim_inject()
+ *                         short: all calls that let time pass, mb4sim_pin_write(), mb4sim_inject(),
+ *                         mb4sim_trace_start()
  *   MB4SIM_ERROR_FAILED   a call ran out of memory or failed in another unforeseen way: all calls
  *                         that change something
  *
@@ -224,8 +225,8 @@ MB4SIM_API int mb4sim_trace_stop(mb4sim *sim);
  *   host_violations  count, and first: a list of up to 100 with item ("I205") and text
  *
  * Returns the length that the whole text needs, without the 0, or a negative error. `json` may be
- * NULL with size 0. Frames are counted from the first mb4sim_inject() or mb4sim_on_frame() on; in a
- * scenario with [[fault]] from power-on. */
+ * NULL with size 0. Frames are counted from power-on if the scenario has [[fault]], else from the
+ * first mb4sim_inject(), mb4sim_on_frame() or mb4sim_on_edge() on. */
 MB4SIM_API int mb4sim_report(const mb4sim *sim, char *json, size_t size);
 
 /* The error of the latest call of mb4sim_spi_select(), mb4sim_spi_byte(), mb4sim_advance_ns(),

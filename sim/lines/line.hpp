@@ -25,7 +25,7 @@ class Line {
   // Called when the level of the chip's SL pin changes.
   using Output = void (*)(Time now, void* receiver, bool sl);
 
-  // Called when a pin of the chip on this line changes.
+  // Called with the level of a pin of the chip on this line.
   enum class Signal { kMa, kMo, kSl };
   using Tap = void (*)(Time now, void* receiver, Signal signal, bool level);
 
@@ -76,8 +76,8 @@ class Line {
   // takes it away.
   void set_probe(Probe probe, void* receiver);
 
-  // The tap is for recordings. There is at most one. It is called for MA and MO when either of them
-  // may have changed.
+  // The tap is for recordings. There is at most one. It is called when SL changes, and for MA and
+  // MO when either of them may have changed.
   void set_tap(Tap tap, void* receiver) {
     lane_ = false;
     tap_ = tap;

@@ -76,8 +76,8 @@ class Slave {
   virtual bool set_data(std::uint64_t raw) = 0;
   // The raw word of the current or last frame. Nothing if the device does not know it (replay).
   virtual std::optional<std::uint64_t> sent_word() const { return std::nullopt; }
-  // SlaveChain::refresh() applies a changed `silent`. The other faults are valid from the next
-  // frame on.
+  // SlaveChain::refresh() applies a changed `silent`. The other faults act from the next
+  // start bit on; with SSI from the next frame on.
   SlaveFaults& faults() { return faults_; }
   // Begins or ends a fault that DeviceConfig::refuses() does not refuse.
   virtual void set_fault(SlaveFault fault, bool on) {

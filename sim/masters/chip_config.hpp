@@ -14,7 +14,7 @@ namespace mb4::sim {
 struct ChipConfig {
   std::uint64_t f_clk_hz = 20'000'000;  // pin CLK; 0 = not connected, the pin stays 0
   std::uint64_t f_osc_hz = 20'000'000;  // internal oscillator
-  // Port quirks_i of the chip; the package of the master's RTL names the bits.
+  // Port quirks_i of the iC-MB4 or switches_i of biss_axi. The package of the RTL names the bits.
   unsigned quirks = 0;
   TableSource source;
 

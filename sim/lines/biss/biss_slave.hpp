@@ -42,8 +42,8 @@ class BissSlave : public Slave {
   // BiSS B has kRegister, BiSS C has kCds and kPass.
   enum class State { kIdle, kArmed, kAckWait, kBusy, kStart, kCds, kData, kPass, kRegister };
 
-  // A rising edge of MA in kArmed, kAckWait, kBusy or kStart. `word` is latched in kArmed. Returns
-  // true if the start bit is over. Else the caller lets SLO follow.
+  // A rising edge of MA in kAckWait, kBusy or kStart. Returns true if the start bit is over. Else
+  // the caller lets SLO follow.
   bool rising_before_data(Time now, bool sli_before, bool sli) {
     switch (state_) {
       case State::kAckWait:

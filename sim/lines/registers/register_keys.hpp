@@ -35,7 +35,7 @@ void read_busy(TomlReader& reader, std::string_view frames_key, std::string_view
 // Reads a busy time that has a key in microseconds only.
 void read_busy_us(TomlReader& reader, std::string_view us_key, BusyTime& busy);
 
-// Reads the keys of control communication: all of the above.
+// Reads the keys of control communication: all of the above but `registers`.
 void read_control(TomlReader& reader, ControlConfig& control);
 void know_control_keys(TomlReader& reader);
 

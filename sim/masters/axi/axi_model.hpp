@@ -47,7 +47,8 @@ class AxiModel : public MasterModel {
   virtual bool sample_en() const = 0;
   virtual bool slo(unsigned line) const = 0;
 
-  // Begins an access: the valids rise after the next clock edge at the latest. Only one runs.
+  // Begins an access: the valids rise after the next rising edge of the clock. Only one access runs
+  // at a time.
   void begin(const AxiAccess& access) {
     access_ = access;
     access_.done = false;

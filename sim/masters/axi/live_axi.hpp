@@ -29,7 +29,7 @@ class AxiHost final : public WordHost, public StreamSink {
                                     std::uint8_t strobe) override;
   std::optional<std::uint8_t> read(std::uint32_t address, std::uint32_t& data) override;
   std::uint32_t last_address() const override { return 0xFF; }
-  // All four bytes.
+  // Writes all four bytes.
   std::optional<std::uint8_t> write(std::uint32_t address, std::uint32_t data) {
     return write(address, data, 0xF);
   }

@@ -13,8 +13,8 @@ namespace {
 
 namespace reg = mb4::regs;
 
-// Frames of a protocol, in the order of CFGCH, by what starts them; then what an instruction asks
-// for beside them.
+// The frames of each protocol, in the order of CFGCH, by what starts them. Then the other requests
+// of an instruction.
 enum Kind : unsigned {
   kSingle,
   kRate,
@@ -45,7 +45,7 @@ struct KindName {
   const char* name;
 };
 
-// The frames of protocol P, which starts kStart, have the number P * kStarts + kStart.
+// The frames of protocol P that kSingle to kInfinite start have the number P * kStarts + start.
 constexpr std::array<KindName, kKinds> kKindNames{{
     {kBissB * kStarts + kSingle, "BiSS B frame, one"},
     {kBissB * kStarts + kRate, "BiSS B frame, AGS"},
@@ -83,7 +83,7 @@ static_assert(kinds_in_order());
 constexpr bool is_access(unsigned kind) { return kind >= kReadC && kind <= kWriteSsi; }
 constexpr bool is_init(unsigned kind) { return kind == kInitB || kind == kInitC; }
 
-// The field makes a frame this kind, so only one of its values can meet it.
+// True if a frame is of this kind because of the field. Then only one of its values can meet it.
 bool makes(const reg::FieldInfo& field, unsigned kind) {
   const std::string_view name = field.name;
   if (name == "REGVERS") return is_access(kind) || is_init(kind);
@@ -96,7 +96,7 @@ bool makes(const reg::FieldInfo& field, unsigned kind) {
   return false;
 }
 
-// What the host configures; AGS says how frames start.
+// True for a field that the host configures. AGS is not one: it tells how frames start.
 bool is_configuration(const reg::FieldInfo& field) {
   return field.address >= reg::kAddrSlaveCfg && field.access == reg::Access::kReadWrite &&
          std::string_view(field.name) != "AGS";

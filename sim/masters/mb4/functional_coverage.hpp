@@ -27,7 +27,7 @@ class FunctionalCoverage final : public PinObserver {
  public:
   FunctionalCoverage();
 
-  // Another chip, after its reset; what was counted stays.
+  // Begins with another chip after its reset. The counts stay.
   void restart();
   void pin_changed(Pin pin, bool level) override;
 

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The waveform view of the iC-MB4: host, registers, control, line and slaves. Pins have the names
-// that the datasheet gives them with this interface (page 3).
+// The waveform view of the iC-MB4: host, line, slaves, then the chip's inside and the straps. Pins
+// have the names that the datasheet gives them with this interface (page 3).
 #ifndef MB4SIM_MB4_WAVE_GROUPS_HPP_
 #define MB4SIM_MB4_WAVE_GROUPS_HPP_
 
