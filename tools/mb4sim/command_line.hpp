@@ -29,7 +29,7 @@ std::vector<std::string> command_names(const CLI::App& app);
 
 // --- for those who add commands ------------------------------------------------------------
 
-// Commands that run a scenario: run, spi, regs, sweep, scan.
+// Commands that run a scenario: run, spi, regs, scan, sweep, regress.
 void add_scenario_commands(CLI::App& app, Action& action);
 // Commands without a scenario: presets, bench, completion, man, help.
 void add_other_commands(CLI::App& app, Action& action);

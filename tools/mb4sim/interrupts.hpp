@@ -23,9 +23,9 @@ class Interrupted : public std::runtime_error {
   int signal_;
 };
 
-// While this object exists, it stores these signals, each once. A second one ends the process in
-// the usual way. Signals that were ignored before stay ignored. Only one object may exist at a
-// time.
+// While this object exists, it stores these signals, each once. The same signal again ends the
+// process in the usual way. Signals that were ignored before stay ignored. Only one object may
+// exist at a time.
 class Interrupts {
  public:
   static constexpr std::array<int, 3> kSignals{SIGINT, SIGTERM, SIGHUP};

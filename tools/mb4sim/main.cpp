@@ -19,7 +19,8 @@
 namespace mb4::tool {
 namespace {
 
-// Works also for a command line with mistakes. Words after "--" belong to a program.
+// True if the command line has --json, also if it has mistakes. Words after "--" belong to a
+// program.
 bool wants_json(int argc, char** argv) {
   char** const end = std::find(argv, argv + argc, std::string_view("--"));
   return std::find(argv, end, std::string_view("--json")) != end;

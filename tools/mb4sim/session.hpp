@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // A scenario with a host that configures the master through its driver and reads all slaves, frame
-// by frame: what the commands need of any master. Each master has its own (masters/), and names
-// itself in MasterSupport.
+// by frame: what the commands need of any master. Each master has a session of its own (masters/),
+// which its MasterSupport names.
 #ifndef MB4SIM_TOOL_SESSION_HPP_
 #define MB4SIM_TOOL_SESSION_HPP_
 
@@ -99,7 +99,7 @@ struct SessionOptions {
 
 class Session {
  public:
-  // Throw sim::ScenarioError, sim::TraceError, sim::ModelStopped, as every call.
+  // Every call may throw sim::ScenarioError, sim::TraceError or sim::ModelStopped.
   Session(const sim::Scenario& scenario, const SessionOptions& options);
   Session(const Session&) = delete;
   Session& operator=(const Session&) = delete;

@@ -51,8 +51,8 @@ class SimPort {
 // through SPI2; with "intel" and "motorola" as bus cycles.
 class SimBus {
  public:
-  // `log`: takes one line for each frame, "bytes sent > bytes received" in hex, where they are
-  // wanted by the caller.
+  // `log`: takes one line for each frame, "bytes sent > bytes received" in hex. Received bytes are
+  // there only if the caller takes them.
   explicit SimBus(sim::Simulator& simulator, std::string* log = nullptr)
       : simulator_(simulator), port_(simulator), parallel_(port_), log_(log) {}
 

@@ -11,8 +11,9 @@
 
 namespace mb4::tool {
 
-// ", did you mean 'run'?": the shortest of `known` that begins with `word`, else the one that the
-// fewest letters added, left out, changed or swapped make of it. Empty if nothing is near.
+// ", did you mean 'run'?": the shortest of `known` that begins with `word` (three letters or more),
+// else the one that the fewest letters added, left out, changed or swapped make of it. Empty if
+// nothing is near.
 std::string suggestion(std::string_view word, const std::vector<std::string>& known);
 
 }  // namespace mb4::tool

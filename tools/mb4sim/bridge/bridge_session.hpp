@@ -24,7 +24,7 @@ namespace mb4::tool {
 // How simulated time passes in addition to the time of the requests.
 enum class Pace {
   kRequests,  // not at all
-  kGaps,      // kRequestGap with each request, as a system call would take
+  kGaps,      // kRequestGap before each request, as a system call would take
   kWall,      // as the program's real time: from each answer to the next request
 };
 
@@ -35,7 +35,7 @@ class BridgeChip {
 
   BridgeChip(sim::Simulator& simulator, Pace pace);
 
-  // Lets the time of `pace` pass before a request.
+  // Lets the time of `pace` pass before a request that drives pins or frames (P, S, X, T, M).
   void keep_pace();
   void answered() {
     last_answer_ = std::chrono::steady_clock::now();

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The commands of mb4sim. Each returns an exit status and throws UseError, sim::ScenarioError,
-// sim::TraceError or sim::ModelStopped.
+// The commands of mb4sim. Each returns an exit status and throws UseError, Interrupted,
+// sim::ScenarioError, sim::TraceError or sim::ModelStopped.
 #ifndef MB4SIM_TOOL_COMMANDS_HPP_
 #define MB4SIM_TOOL_COMMANDS_HPP_
 

@@ -70,7 +70,7 @@ void print_json() {
 void print_scenario(const sim::Preset& preset) {
   const Cells c = cells(preset);
   fmt::print("# {}\n\n", preset.description);
-  // The slaves of SSI and BiSS B have to be asked no faster than they can follow.
+  // SSI and BiSS B slaves follow a slow MA only.
   if (c.protocol != "biss-c") fmt::print("[host]\nma_hz = 1_000_000\n\n");
   fmt::print("[[channel]]\nnumber = 1\ncable_m = 10\n\n");
   fmt::print("[[channel.slave]]\nprotocol = \"{}\"\npreset = \"{}\"\n", c.protocol, preset.name);

@@ -26,7 +26,7 @@
 namespace mb4::tool {
 namespace {
 
-// Prints and writes what a session brings.
+// Prints and writes what a session delivers.
 class RunPrinter {
  public:
   RunPrinter(const RunOptions& options, const sim::Scenario& scenario, RunOutputs& outputs)
@@ -55,7 +55,7 @@ class RunPrinter {
     progress_.update(frame.number);
   }
 
-  // `error`: what has kept the run from its end. Returns whether everything was good.
+  // `error`: why the run ended early. Returns true if everything was good.
   bool end(const Session& session, const std::string& error = "") {
     progress_.clear();
     faults_->finish();
@@ -103,7 +103,7 @@ void trace_around(const RunOptions& options, const sim::Scenario& scenario,
   around.simulator.trace_to = bad.end + margin;
   const std::unique_ptr<Session> session = support_of(scenario).open(scenario, around);
   if (!session->configure().empty()) return;
-  // The register accesses that faults ask for belong to the course of events.
+  // The register accesses that faults need take time too, so they are repeated.
   FaultReport faults(session->simulator().scenario(), session->simulator().faults());
   for (std::uint64_t number = 1; number < bad.number; ++number) {
     interrupts.check();
@@ -113,7 +113,7 @@ void trace_around(const RunOptions& options, const sim::Scenario& scenario,
   session->simulator().run_until(around.simulator.trace_to);
 }
 
-// Reads all frames; returns the first bad one. What is printed ends properly whatever happens.
+// Reads all frames; returns the first bad one. The output ends properly even if the run ends early.
 std::optional<SessionFrame> read_frames(const RunOptions& options, const Interrupts& interrupts,
                                         Session& session, RunPrinter& printer, bool& good) {
   std::optional<SessionFrame> first_bad;
@@ -139,7 +139,7 @@ int run_command(const RunOptions& options) {
   const sim::Scenario scenario = sim::load_scenario(options.scenario);
   const MasterSupport& support = support_of(scenario);
   support.check(scenario);
-  // Everything is checked before the first file is touched.
+  // The scenario has been checked before the first file is opened.
   RunOutputs outputs = open_outputs(options, scenario);
   const Interrupts interrupts;
   std::optional<SessionFrame> first_bad;

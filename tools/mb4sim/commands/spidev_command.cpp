@@ -30,8 +30,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int kNotFound = 127;       // as shells have it: there is no such program,
-constexpr int kNotExecutable = 126;  // it cannot be started,
+constexpr int kNotFound = 127;       // as in shells: there is no such program
+constexpr int kNotExecutable = 126;  // as in shells: the program cannot be started
 
 // One encoder of 26 bits on 10 m of cable: examples/resolute-26.toml.
 constexpr const char* kDefaultScenario = R"(
@@ -141,11 +141,11 @@ void pass_on(int signal) {
   if (g_program > 0) ::kill(static_cast<pid_t>(g_program), signal);
 }
 
-// Signals for the program. Signals of the terminal reach it directly. This process passes on the
-// signals that are sent to itself. In both cases this process lives as long as the program.
+// Signals for the program. SIGINT and SIGQUIT of the terminal reach it directly; this process
+// ignores them. It passes on SIGTERM and SIGHUP. So this process lives as long as the program.
 class ProgramSignals {
  public:
-  // Signals wait until the program is known.
+  // SIGTERM and SIGHUP wait until the program is known.
   ProgramSignals() {
     sigset_t passed;
     ::sigemptyset(&passed);
@@ -167,7 +167,7 @@ class ProgramSignals {
     g_program = program;
     ::sigprocmask(SIG_SETMASK, &mask_, nullptr);
   }
-  // As they were before.
+  // Restores the earlier handlers and mask.
   void restore() const {
     for (std::size_t i = 0; i < kCount; ++i) std::signal(kSignals[i].number, before_[i]);
     ::sigprocmask(SIG_SETMASK, &mask_, nullptr);

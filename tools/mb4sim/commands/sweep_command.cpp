@@ -76,7 +76,7 @@ SweepPoint measure(const sim::Scenario& scenario, std::uint64_t frames, std::uin
   return point;
 }
 
-// One chip for each point, all with random choices of their own.
+// Each point has a chip and random choices of its own.
 SweepPlane sweep_plane(sim::Scenario scenario, unsigned code, const Sweep& sweep) {
   const std::uint64_t clk_hz = scenario.chip.system_hz();
   const unsigned divider = support_of(scenario).ma.divider(clk_hz, code);

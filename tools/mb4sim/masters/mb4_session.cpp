@@ -104,7 +104,7 @@ SessionFrame Mb4Session::read(std::uint64_t number) {
     out.sent.push_back(device != nullptr ? device->sent_word() : std::nullopt);
     if (out.sent.back()) out.sent.back() = as_stored(*slave.config, *out.sent.back());
     if (const sim::Actuator* const target = actuator(slave); target != nullptr) {
-      // Compares the word that it has taken with the word that the host has written.
+      // An actuator: the word that it has taken must be the word that the host has written.
       out.sent.back() = set_points_[slave.number];
       if (read) {
         Reading taken;
@@ -139,7 +139,7 @@ Result<void> Mb4Session::write_actuators() {
   return {};
 }
 
-// They take their words when MA has rested for their timeout.
+// Actuators take their words when MA has rested for their timeout.
 void Mb4Session::wait_for_actuators() {
   for (const ConnectedSlave& slave : slaves_) {
     if (actuator(slave) == nullptr) continue;

@@ -42,7 +42,7 @@ struct FrameTrace {
 
 class LineRecording {
  public:
-  // Records `line` from now on; both stay where they are.
+  // Records `line` from now on. Neither of the two may be moved.
   explicit LineRecording(sim::Line& line);
   LineRecording(const LineRecording&) = delete;
   LineRecording& operator=(const LineRecording&) = delete;

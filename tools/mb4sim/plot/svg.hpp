@@ -11,7 +11,7 @@
 
 namespace mb4::tool::svg {
 
-// As XML text; control characters become '?'.
+// `text` as XML; control characters become '?'.
 std::string escaped(std::string_view text);
 // `style`: a class of the style sheet.
 std::string text(double x, double y, std::string_view style, std::string_view content);

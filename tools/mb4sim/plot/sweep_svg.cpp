@@ -78,7 +78,7 @@ std::vector<long long> ticks(const std::vector<long long>& values) {
   return result;
 }
 
-// Ascending values and, beside them, where they stand in the sweep.
+// The places in `values`, by ascending values. A repeated value has one place.
 std::vector<std::size_t> order_of(const std::vector<long long>& values) {
   std::vector<std::size_t> order(values.size());
   for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;

@@ -154,7 +154,7 @@ class Line {
       out += fmt::format("<path d=\"M{:.1f} {:.1f}v4\" class=\"axis\"/>\n", x(tick.at), y);
       out += svg::text(x(tick.at), y + 15, "digit", tick.text);
     }
-    // Beside the axis itself: the first number may stand at its very beginning.
+    // The unit stands beside the axis, because the first number may stand at its very beginning.
     out += svg::text(kLeft - 8, y + 3, "unit", diagram.axis);
     return out;
   }

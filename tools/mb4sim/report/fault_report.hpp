@@ -32,9 +32,10 @@ std::string fault_lines(const std::vector<sim::FaultRecord>& records, std::size_
 void print_faults(bool json, const std::vector<sim::FaultRecord>& records, std::size_t from = 0);
 
 // The frames of a fault are those that end after the fault begins, up to the first frame that
-// begins after the fault ends. The first bad result of its channel in these frames detects the
-// fault; for faults of host and clock any channel counts. If all these frames are good and right,
-// the fault had no effect. If one of them delivered a wrong word as good, the fault was missed.
+// begins after the fault ends. The first of them with a bad result on the fault's channel decides;
+// for faults of host and clock any channel counts. If this frame delivered a wrong word as good,
+// the fault was missed; else it was detected. If there is no such frame, the fault had no effect.
+// A wrong-id fault is detected by a register access.
 class FaultReport {
  public:
   enum class Fate { kOpen, kNoEffect, kDetected, kMissed };
@@ -48,13 +49,13 @@ class FaultReport {
   // Both outlive the report.
   FaultReport(const sim::Scenario& scenario, const std::vector<sim::FaultRecord>& records);
 
-  // A frame that the host requested at `begin` and received at `end`.
+  // A frame that the host requested at `begin`.
   void frame(std::uint64_t number, sim::Time begin, const std::vector<SlaveOutcome>& outcomes);
   // The slave of a wrong-id fault that no register access has checked yet, or 0.
   unsigned unchecked_id() const;
   // Takes the result of a register access to this slave: an error, or empty.
   void id_checked(unsigned slave, const std::string& error);
-  // No register access was refused or answered by the wrong slave.
+  // True if no register access was refused or answered by the wrong slave.
   bool ids_good() const { return ids_good_; }
   std::uint64_t count(Fate fate) const;
   // The end of the run: faults without a result had no effect.
