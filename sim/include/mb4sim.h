@@ -92,9 +92,9 @@ MB4SIM_API int mb4sim_pin_read(mb4sim *sim, const char *pin);
  * go. Returns 0, or MB4SIM_ERROR_UNKNOWN, _VALUE or _DRIVEN. */
 MB4SIM_API int mb4sim_pin_write(mb4sim *sim, const char *pin, int level);
 
-/* Sets the raw word (flags included) that slave `slave` latches from now on. `slave` is 1 to 8 as
- * in SCDATAx. Returns 0 or a negative error: MB4SIM_ERROR_VALUE if the word is too long, and for a
- * replay slave, which has no data of its own. */
+/* Sets the raw word (flags included) that slave `slave` latches from now on. Slaves count from 1:
+ * iC-MB4: as in SCDATAx; biss_axi: the channel. Returns 0 or a negative error: MB4SIM_ERROR_VALUE
+ * if the word is too long, and for a replay slave, which has no data of its own. */
 MB4SIM_API int mb4sim_slave_set_data(mb4sim *sim, unsigned slave, uint64_t raw);
 /* Reads and writes the slave's own register file, without any traffic on the line. Below address
  * 0x40 this is bank 0. Returns 0 or a negative error. */
@@ -113,9 +113,9 @@ MB4SIM_API uint64_t mb4sim_slave_frames(const mb4sim *sim, unsigned slave);
  * is added. */
 MB4SIM_API int mb4sim_inject(mb4sim *sim, const char *toml, char *error, size_t error_size);
 
-/* The raw word (flags included) that slave `slave` (1 to 8) latched for its frame number `frame`,
- * from 1 to mb4sim_slave_frames(). It sent this word, unless the frame was reduced or cut. Returns
- * 0; MB4SIM_ERROR_VALUE if there was no such frame, if it is not one of the last 1024, or for a
+/* The raw word (flags included) that slave `slave` latched for its frame number `frame`, from 1 to
+ * mb4sim_slave_frames(). It sent this word, unless the frame was reduced or cut. Returns 0;
+ * MB4SIM_ERROR_VALUE if there was no such frame, if it is not one of the last 1024, or for a
  * slave that does not know its words (replay). */
 MB4SIM_API int mb4sim_slave_sent(const mb4sim *sim, unsigned slave, uint64_t frame, uint64_t *raw);
 

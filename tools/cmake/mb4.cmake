@@ -1,8 +1,8 @@
 # SPDX-FileCopyrightText: 2026 The openmb4 authors
 # SPDX-License-Identifier: Apache-2.0
 #
-# Helpers used by every room. They are the only place that calls Verilator's verilate() or that
-# chooses warning and sanitizer flags.
+# Helpers used by every room: its models and tests get Verilator's flags, warnings and sanitizers
+# here. Only tests/canary calls verilate() itself.
 
 set(MB4_ROOT "${CMAKE_CURRENT_LIST_DIR}/../..")
 cmake_path(ABSOLUTE_PATH MB4_ROOT NORMALIZE)

@@ -220,7 +220,7 @@ def judge(item, data):
 # ---- page ----------------------------------------------------------------------------------------
 
 def stage_reached(letter, results):
-    """The highest stage of D, V or S of which nothing is open, nor of those before it."""
+    """The highest stage of D, V or S whose items are all done, as are those of the stages before."""
     reached = f"{letter}0"
     for stage in STAGES:
         if stage.startswith(letter):

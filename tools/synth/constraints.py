@@ -222,7 +222,7 @@ def page_findings(table, page):
 
 
 def self_test(table, folder):
-    """Findings that planted faults do not make."""
+    """The planted faults that make no finding."""
     page = PAGE.read_text(encoding="utf-8")
     missed = []
     first = next(line for line in table if line["row"] == "base kept")

@@ -43,7 +43,7 @@ class _Store:
         if path is None:
             return
         if path.exists():
-            # What a killed process left of a line has no end.
+            # A line that a killed process has not finished has no end.
             lines = path.read_text(encoding="utf-8").splitlines(keepends=True)
             lines = [line for line in lines if line.endswith("\n")]
             if lines and lines[0] != self._head:
@@ -92,7 +92,7 @@ def sweep(function: Callable[[Point], Any], grid: Grid, client: Any = None, *,
     """Calls `function(point)` for every point of `grid` and returns the results in grid order.
 
     grid      {name: values}: every combination; or a list of points, which are dicts
-    client    who calls the function: a Dask `distributed.Client`, or an executor of
+    client    what calls the function: a Dask `distributed.Client`, or an executor of
               concurrent.futures; None: `workers` processes of this machine
     file      keeps each result when it comes. A sweep that was ended goes on from there; the finished
               file is sorted by point and the same for any order of the results

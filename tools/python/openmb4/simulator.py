@@ -215,7 +215,7 @@ class Simulator:
         self._do(f"set_pin {name}", lib.mb4sim_pin_write, name.encode(), level)
 
     def set_data(self, slave: int, raw: int) -> None:
-        """The raw word, flags included, that slave 1..8 latches from now on."""
+        """The raw word, flags included, that the slave latches from now on."""
         self._do(f"set_data {slave}", lib.mb4sim_slave_set_data, slave, raw)
 
     def slave_register(self, slave: int, address: int) -> int:
@@ -305,8 +305,8 @@ class Simulator:
                 raise simulator_error(result, what)
 
     def report(self) -> dict:
-        """Faults, how they were met, and violations of the host's timing, as mb4sim_report() of
-        mb4sim.h tells."""
+        """Faults, what they touched, and violations of the host's timing: what mb4sim_report() of
+        mb4sim.h writes."""
         with self._lock:
             size = self._do("report", lib.mb4sim_report, ffi.NULL, 0) + 1
             text = ffi.new("char[]", size)

@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // The C interfaces of simulator and driver as the page calls them: one chip, numbers and JSON texts
-// instead of structs. All it calls is mb4sim.h, mb4.h and openmb4_session.h, as the Python package
-// does. A text that a function returns is valid until the next call. Numbers of 64 bits are decimal
-// texts in JSON, where a JavaScript number would round them.
+// instead of structs. It calls mb4sim.h, mb4.h and openmb4_session.h, as the Python package does,
+// and the lists of encoders and frequencies. A text that a function returns is valid until the next
+// call. Numbers of 64 bits are decimal texts in JSON, where a JavaScript number would round them.
 #include <emscripten/emscripten.h>
 #include <fmt/format.h>
 
@@ -23,7 +23,7 @@
 namespace {
 
 constexpr std::size_t kErrorBytes = 1000;
-constexpr std::size_t kMaxEdges = 200'000;  // of one call that lets time pass; later ones are lost
+constexpr std::size_t kMaxEdges = 200'000;  // until web_edges() takes them; later ones are lost
 
 struct Edge {
   double time_ns;
@@ -163,7 +163,7 @@ EMSCRIPTEN_KEEPALIVE const char* web_read(int count) {
   return tell(fmt::format("{{\"error\":{},\"rows\":[{}]}}", mb4::sim::json_text(error), text));
 }
 
-// Reads `count` frames and keeps nothing: how fast it is.
+// Reads `count` frames and keeps nothing, to measure the speed. Returns the number of frames read.
 EMSCRIPTEN_KEEPALIVE int web_read_only(int count) {
   openmb4_row row;
   int done = 0;

@@ -359,7 +359,7 @@ function sendBytes(text) {
   log(`> ${bytesText(sent)}\n< ${bytesText(answer)}`);
 }
 
-// What takes effect between two frames; then the page follows.
+// A handler of events: `action` takes effect between two frames, then the page follows.
 function act(action) {
   return (event) => {
     event?.preventDefault();
