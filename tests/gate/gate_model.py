@@ -15,7 +15,7 @@ sys.path.insert(0, str(TOOLS))
 
 import project  # noqa: E402
 
-# Netlists have signals that are not used, and cells that are not, too.
+# Netlists have unused signals and cells.
 QUIET = ["-Wno-DECLFILENAME", "-Wno-UNDRIVEN", "-Wno-UNUSEDSIGNAL", "-Wno-UNUSEDPARAM"]
 
 
@@ -28,7 +28,7 @@ def main():
     folder = Path(sys.argv[1]).resolve()
     status, text = project.run([sys.executable, "-B", TOOLS / "gate_netlist.py", folder])
     if status == 0:
-        # The cells' default values of inputs are more than Verilator reads.
+        # Verilator does not read the default values of the cells' inputs.
         status, text = project.run(
             [project.tool("verilator"), "--cc", "--build", "-j", "2", "-fno-const-bit-op-tree",
              *project.verilator_flags(), *QUIET, "-DNO_ICE40_DEFAULT_ASSIGNMENTS", "-O3",

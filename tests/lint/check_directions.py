@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-FileCopyrightText: 2026 The openmb4 authors
 # SPDX-License-Identifier: Apache-2.0
-"""Who may use whom: the directions of includes and of module instances, in one table.
+"""Which room may use which: the directions of includes and of module instances, in one table.
 
   check_directions.py              every include of C++ and C, every instance and package of the RTL
   check_directions.py --self-test  planted faults are reported

@@ -3,8 +3,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """Verilator's lint of the RTL and the waivers.
 
-  check_verilator.py lint        every module as top, the project's flags, and smaller instances of
-                                 what siblings use smaller: no message
+  check_verilator.py lint        every module as top with the project's flags, and smaller instances
+                                 of some (SMALLER): no message
   check_verilator.py waivers     each waiver of rtl/waivers.vlt stands under its reason, none is idle,
                                  none names UNOPTFLAT; no lint_off inside the RTL
   check_verilator.py self-test   planted faults are reported
@@ -20,12 +20,12 @@ sys.path.insert(0, str(HERE.parents[1] / "tools" / "synth"))
 
 import project  # noqa: E402
 
-# The generated package is a list of constants of which a design uses a part: its one pair.
+# The generated packages are lists of constants, of which a design uses a part: one pair for each.
 INLINE_ALLOWED = {("axi_regs_pkg.sv", "UNUSEDPARAM"): 1, ("mb4_regs_pkg.sv", "UNUSEDPARAM"): 1,
                   ("mb4_page_regs_pkg.sv", "UNUSEDPARAM"): 1}
 
 
-# Each parameter of a line smaller than in the chip, alone and all together.
+# Parameters that are smaller than in the chip, or other choices: each alone, and all together.
 SMALLER = {"biss_line": ["BissB=0", "Ssi=0", "Mo=0", "FreeCrc=0", "Slaves=1", "DataBits=32", "DelayW=6"],
            "biss_axi": ["BISS_CHANNEL_WIDTH=5", "STREAM_MODE=1", "ENABLE_ACTIVE_LOW=1'b1"]}
 

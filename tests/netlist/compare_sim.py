@@ -8,7 +8,7 @@ bit compared after every step. Two readers of the source, two simulators, nothin
 
 Unknown bits of the netlist count as different. Every output bit must have been 0 and 1.
 --invert-gates breaks COUNT gates, one at a time, and demands that nine in ten are reported. Not all
-can be: in biss_frame one gate only makes a counter that is compared with 2 go 0, 3, 2.
+can be: one gate of biss_frame only changes the values of a counter on its way from 0 to 2.
 """
 
 import argparse

@@ -21,7 +21,7 @@ class BitReader {
       for (int bit = 3; bit >= 0; --bit) bits_ += ((value >> bit) & 1) != 0 ? '1' : '0';
     }
   }
-  // The line holds whole digits: the bits in front of the first port are no port's.
+  // The line holds whole digits: the bits in front of the first port belong to no port.
   void skip_to_last(std::size_t count) { next_ = bits_.size() - count; }
 
   template <class Port>

@@ -3,8 +3,8 @@
 //
 // Computes what an iC-MB4 shows its host after a frame, and what it sends on MO, from the registers
 // that the host wrote and the bits on the lines. The source is the datasheet (pages 14..16,
-// 23..26, 31, 33..35) and decisions 8, 9, 11, 15, 18, 28, 29, 30; it shares no code with the RTL,
-// the simulator or the driver.
+// 23..27, 31, 33..35) and decisions 8, 9, 11, 15, 16, 18, 28..30, 34, 35, 37, 43. It shares no code
+// with the RTL, the simulator or the driver.
 #ifndef TESTS_REFERENCE_REFERENCE_HPP_
 #define TESTS_REFERENCE_REFERENCE_HPP_
 

@@ -34,7 +34,7 @@ class Chip {
         clock(simulator),
         device(bus, clock) {}
 
-  // No host model breaks the datasheet's timing.
+  // Checks that no host model has broken the datasheet's timing.
   ~Chip() {
     for (const auto& violation : simulator.host_check().violations()) {
       ADD_FAILURE() << violation.text;

@@ -43,8 +43,8 @@ class ControlHost {
                                                            (ida_test ? reg::kIdaTestTested : 0))});
   }
 
-  // AGS = 0: one frame for each write of INSTR, until REGEND = 1. Number of frames, 0 if `limit`
-  // was not enough. Every frame's CDM as MA showed it goes to cdm().
+  // AGS = 0: one frame for each write of INSTR, until REGEND = 1. Returns the number of frames, 0
+  // if `limit` was not enough. Every frame's CDM as MA showed it goes to cdm().
   unsigned run_single(unsigned limit, std::uint8_t instruction = reg::kInstrControl,
                       unsigned line = 1) {
     cdm_.clear();

@@ -138,7 +138,7 @@ class ProtocolChip : public Chip {
     for (unsigned i = 0; i < 8; ++i) word |= std::uint64_t{bytes[i]} << (8 * i);
     return word;
   }
-  // Its low bits.
+  // The low bits of SCDATAx.
   std::uint64_t scdata(unsigned x, unsigned bits) {
     const std::uint64_t word = scdata(x);
     return bits == 64 ? word : word & ((std::uint64_t{1} << bits) - 1);

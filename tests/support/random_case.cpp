@@ -157,7 +157,7 @@ std::string channel_text(Random& random, RandomCase& result, const LinePlan& pla
 
 Protocol any_protocol(Random& random) { return static_cast<Protocol>(random.below(3)); }
 
-// What the two lines are; everything as before without `all_protocols`.
+// Chooses what the two lines are. Without `all_protocols` both have BiSS C sensors and no MO.
 std::array<LinePlan, 2> make_plans(Random& random, RandomCase& result, bool all_protocols) {
   std::array<LinePlan, 2> plans;
   if (all_protocols) {

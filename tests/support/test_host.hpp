@@ -25,7 +25,8 @@ inline std::string test_host() {
   return name == nullptr ? "spi" : name;
 }
 
-// Tests look at the flags right after an instruction, as SPI lets them: 5 T must pass meanwhile.
+// Tests look at the flags right after an instruction, as SPI lets them: five clocks must pass
+// meanwhile.
 // What the shortest cycles do is shown in host_test.cpp. A scenario may ask for longer ones.
 inline constexpr mb4::sim::Time kTestCycle = 1000 * mb4::sim::kPsPerNs;
 
