@@ -67,7 +67,7 @@ class FaultBench {
     EXPECT_TRUE(bad || delay || good == 0) << "Table 63";
     return {bad ? Flag::kRegErr : delay ? Flag::kDelayErr : Flag::kNone, good};
   }
-  // Register access and commands work.
+  // Checks that register access and commands work.
   void check_next() {
     const std::vector<std::uint8_t> out{0x3C, 0xC3};
     host.set_write(0, 0x50, out);
@@ -88,7 +88,8 @@ class FaultBench {
   void set_reg(unsigned address, std::uint8_t value) {
     chip.simulator.slave(2)->reg_write(static_cast<std::uint8_t>(address), value);
   }
-  // No register of the two slaves has changed except those at `allowed` addresses.
+  // Checks that no register of the two slaves has changed, except `count` of the far one from
+  // `first_allowed` on.
   void check_untouched(unsigned first_allowed, unsigned count) {
     for (unsigned address = 0; address < 128; ++address) {
       if (address >= first_allowed && address < first_allowed + count) continue;

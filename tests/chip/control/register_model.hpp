@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The registers of a BiSS C slave with one ID, as README.md of the simulator describes them: what a
-// test expects, written without the simulator's own RegisterFile.
+// The registers of a BiSS C slave with one ID, as sim/README.md describes them: what a test
+// expects, written without the simulator's own RegisterFile.
 #ifndef TESTS_CHIP_CONTROL_REGISTER_MODEL_HPP_
 #define TESTS_CHIP_CONTROL_REGISTER_MODEL_HPP_
 

@@ -51,13 +51,13 @@ struct FuzzCounts {
     kWordsRead,       // shown as valid, compared with what was sent
     kSwbankInFrame,   // SWBANK inverted while EOT = 0
     kAliases,         // the line has brought the word with its CRC
-    kAliasesUnclear,  // the clock has changed: CRC below 12 bits, not to be told
+    kAliasesUnclear,  // with a CRC below 12 bits; not known because the clock has changed
     kRecoveries,
     kRecoveredWords,
     kWhats
   };
   static const char* name(unsigned what);
-  // A few hundred sessions come to it.
+  // True for what a few hundred sessions reach.
   static bool is_common(unsigned what);
 
   std::array<std::uint64_t, kWhats> total{};
@@ -141,7 +141,7 @@ class FuzzRun {
   std::array<LineRecord, 2> records_;
   std::array<std::uint64_t, FuzzCounts::kWhats> counts_{};
   std::array<std::uint8_t, 5> status_{};  // 0xF0 to 0xF4 as read last
-  // Word phase: a channel of the line is configured otherwise than its slave, not those in front.
+  // Word phase, by line: the bit of the data channel that is configured otherwise than its slave.
   std::array<unsigned, 2> misfit_{};
   bool clock_changed_ = false;
   std::uint64_t most_clocks_ = 0;  // a limit above it is not waited for

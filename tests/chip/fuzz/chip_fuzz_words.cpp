@@ -21,7 +21,7 @@ namespace sim = mb4::sim;
 
 constexpr unsigned kSettleClocks = 30;
 constexpr unsigned kLeastCrc = 5;  // bits, of a channel whose words are looked at
-constexpr unsigned kSureCrc = 12;  // bits, with which an alias is no explanation
+constexpr unsigned kSureCrc = 12;  // bits; an alias is too rare to explain a wrong word
 
 bool valid(const std::vector<std::uint8_t>& svalid, unsigned channel) {
   return (svalid[channel / 4] >> (2 * (channel % 4) + 1) & 1U) != 0;

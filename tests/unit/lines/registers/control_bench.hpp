@@ -74,8 +74,8 @@ class ControlBench : public ChainBench {
   }
   void zeros(unsigned count = 14) { send(std::string(count, '0')); }
 
-  // CDM up to the slave's S: repeats S while the slave is busy; false after `limit` frames. The
-  // S of the slave comes with the frame that carries `next`, the bit after S.
+  // CDM up to the slave's S: repeats S while the slave is busy; false after `limit` frames. The S
+  // of the slave comes with the frame that carries `first_of_data`, the bit after S.
   bool wait_for_start(bool first_of_data, unsigned limit) {
     exchange(true);  // S
     for (unsigned i = 0; i < limit; ++i) {
