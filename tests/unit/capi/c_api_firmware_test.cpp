@@ -127,7 +127,7 @@ TEST_F(CApiFirmware, InjectedFault_ActsFromNowOnAndIsReported) {
   EXPECT_NE(text.find("\"kind\": \"wrong-crc\", \"channel\": 2, \"slave\": 5"), std::string::npos)
       << text;
   EXPECT_NE(text.find("\"begin_ns\": " + std::to_string(begin) + "."), std::string::npos) << text;
-  // The second one made the chip pull NER low; the first one lasted in a frame that it missed.
+  // The second fault made the chip pull NER low. The first fault began too late for its frame.
   EXPECT_NE(text.find("\"frames\": 1, \"ner_low\": 1"), std::string::npos) << text;
   EXPECT_NE(text.find("\"frames\": 1, \"ner_low\": 0"), std::string::npos) << text;
 }

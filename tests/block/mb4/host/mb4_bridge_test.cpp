@@ -222,7 +222,6 @@ TYPED_TEST(WordBus, SnapshotsWhileFramesRun_AreOfOneFrame) {
   }
 }
 
-// One bank: the line writes where the host reads. A snapshot that says valid is whole.
 // SSI frames without data on an open line follow each other faster than a snapshot can be copied.
 // Its read ends nevertheless, and shows no valid word.
 TYPED_TEST(WordBus, SnapshotWhileBanksSwitchAllTheTime_EndsWithoutAWord) {
@@ -244,6 +243,7 @@ TYPED_TEST(WordBus, SnapshotWhileBanksSwitchAllTheTime_EndsWithoutAWord) {
   }
 }
 
+// One bank: the line writes where the host reads. A snapshot that says valid is whole.
 TYPED_TEST(WordBus, SnapshotsWithOneBank_ValidOnesAreWhole) {
   WordBusBench<TypeParam> bus(20'000, 40'000, 3);
   bus.configure();
