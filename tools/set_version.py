@@ -20,8 +20,8 @@ ROOT = Path(__file__).resolve().parents[1]
 
 VERSION_FILE = "CMakeLists.txt"
 VERSION_LINE = r"(?m)^project\(openmb4 VERSION (\d+)\.(\d+)\.(\d+)\b"
-# What cannot take the version from the line: FuseSoC reads the core files as they stand, and the driver
-# works as a copied folder. The files of the register maps are checked in; their generator takes it.
+# Files that cannot take the version from the line: FuseSoC reads the core files as they stand, and the
+# driver works as a copied folder. The register maps' files are checked in; their generator takes it.
 VERSION_COPIES = {
     "openmb4.core": r"(?m)^name: openmb4:ip:mb4:(\d+)\.(\d+)\.(\d+)$",
     "openmb4-axi.core": r"(?m)^name: openmb4:ip:biss_axi:(\d+)\.(\d+)\.(\d+)$",

@@ -207,7 +207,7 @@ module biss_frame #(
   assign new_init    = go_i.init && !go_i.register_access;
   assign abort       = go_i.stop && (state_q == IDLE ? !ma_o : state_q != RELEASE);
 
-  // What SL brings moves the frame on.
+  // The bits on SL move the frame to its next state.
   always_comb begin
     state_d     = state_q;
     cdm_d       = cdm_q;

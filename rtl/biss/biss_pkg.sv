@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What a line of BiSS or SSI is told and what it tells. No register map stands in it, so that any
-// master can use the line.
+// Commands to a line of BiSS or SSI, and the answers of the line. No register map stands here, so
+// any master can use the line.
 //
 // A frame begins on all lines at once, so all lines share one line_go_t, register_ma_t and
 // sample_t. Each line has its own value of the other line types. In a vector of two, line 1 is the

@@ -25,7 +25,7 @@ struct LineProtocol {
   std::string_view key;    // as in the scenario: "biss-c"
   std::string_view title;  // for the user: "BiSS C"
   bool start_bit = true;   // slaves acknowledge and send a start bit before their data
-  bool control = false;    // CDS follows the start bit: a master can ask who is there
+  bool control = false;    // CDS follows the start bit: a master can ask which slaves are there
 
   // Bits of a frame before the data.
   unsigned leading_bits() const { return (start_bit ? 1U : 0U) + (control ? 1U : 0U); }

@@ -50,7 +50,7 @@ def counted(workload_count, mb4sim, scenario):
     one, two = (instructions([mb4sim, "run", scenario, "--frames", frames])[0]
                 for frames in RUN_FRAMES)
     found["run frame"] = round((two - one) / (RUN_FRAMES[1] - RUN_FRAMES[0]))
-    # What is not E: the driver, what looks at the frame, the table.
+    # The work of `run` that E does not have: the driver, the look at the frame, the table.
     found["driver and table frame"] = found["run frame"] - found["E frame"]
     return found
 

@@ -66,7 +66,7 @@ module proof (
   end
   always @* if (!started) assume (!rst_ni);
 
-  // What the host has asked for and what is not done yet makes EOT 0 as well.
+  // A request of the host that is not done yet makes EOT 0 as well.
   assign asked = busy && !running && !start;
 
   always @(posedge clk_i or negedge rst_ni) begin

@@ -1,12 +1,12 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The queue of posted bytes (enc_posted): everything written comes out once, in order and whole, at
-// any phase and ratio of the clocks; it is empty when everything written has been taken, and only
-// then; the mark follows when everything written up to its change, and with it, has been taken.
-// Contract: no more bytes wait than the queue holds; the mark changes with the host's clock, and
-// when it has been followed. Here the queue holds four bytes of three bits; the count and its Gray
-// code are what crosses.
+// The queue of posted bytes (enc_posted): each byte comes out once, in order and whole, at any phase
+// and ratio of the clocks. The queue is empty exactly when all bytes have been taken. The mark's copy
+// follows a change when all bytes written before the change, or with it, have been taken.
+// Contract: no more bytes wait than the queue holds; the mark changes with the host's clock, and only
+// after the copy has followed. Here the queue holds four bytes of three bits; the counts cross in
+// Gray code.
 //
 // claim: all bytes once, in order, whole; empty and the mark come only after all bytes (up to
 //   the mark) are taken; any clocks
@@ -68,7 +68,7 @@ module proof (
                          {1'b0, rst_ni != rst_q} < 2'd2);
   end
 
-  // What has been written and what has been taken, modulo 8; at most four wait.
+  // Numbers of bytes written and bytes taken, modulo 8; at most four wait.
   logic [2:0] in_q, out_q, wait_n;
   logic [2:0] sent_q [0:3];
   logic       write, valid, empty, marked;
@@ -161,7 +161,7 @@ module proof (
       if (dut_seek) Mark6_A: assert (ahead_n < (from_gray(dut_target) - out_q) &&
                                      (from_gray(dut_target) - out_q) <= (second - out_q));
     end
-    // What waits is in the memory.
+    // Each byte that waits is in the memory.
     if ({1'b0, 2'd0 - out_q[1:0]} < wait_n) Memory0_A: assert (dut_mem0 == sent_q[0]);
     if ({1'b0, 2'd1 - out_q[1:0]} < wait_n) Memory1_A: assert (dut_mem1 == sent_q[1]);
     if ({1'b0, 2'd2 - out_q[1:0]} < wait_n) Memory2_A: assert (dut_mem2 == sent_q[2]);

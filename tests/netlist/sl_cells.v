@@ -53,7 +53,7 @@ module bench;
   initial begin
     for (clocks = 0; clocks < 10000; clocks = clocks + 1) begin
       half(1'b1);
-      // What a reset leaves in the second stage differs, the first time.
+      // The first clocks do not count: a reset leaves different values in the second stages.
       if (clocks > 4) begin
         if (pos !== {4{pos[0]}} || neg !== {4{neg[0]}} || ^{pos, neg} === 1'bx)
           differences = differences + 1;

@@ -78,7 +78,7 @@ def main():
         sdists = [Path(folder, out, "python", archive.name).read_bytes() for out in ("a", "b")]
         assert sdists[0] == sdists[1], "two sdists of one commit differ"
         check_sdist(Path(folder), version)
-        # What it does is shown by tests/icarus.
+        # tests/icarus shows that the plain file works.
         assert "`timescale" in plain and len(re.findall(r"^module ", plain, re.M)) == 1, plain[:500]
         (clone / "README.md").write_text("changed")
         done = subprocess.run([script, Path(folder) / "c"], capture_output=True, text=True,

@@ -36,6 +36,6 @@ if(NOT VERILATOR_ROOT)
 endif()
 list(APPEND CMAKE_FIND_ROOT_PATH ${VERILATOR_ROOT})
 set(verilator_DIR ${VERILATOR_ROOT})
-# What find_package(verilator) would find out by compiling ten times.
+# find_package(verilator) would compile ten times to find these out.
 set(VERILATOR_CFLAGS "")
 set(VERILATOR_MT_CFLAGS "")

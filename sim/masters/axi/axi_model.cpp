@@ -112,7 +112,7 @@ class VerilatedAxi final : public AxiModel {
       }
       if (std::exchange(moved_, false)) steps_.inputs(m);
       ++cycles_;
-      // What is on the pins before the edge is what the edge transfers.
+      // An edge transfers the levels that the pins have before it.
       const Outputs before = outputs_;
       const bool valid = m.s_axis_tvalid != 0;
       if (valid && m.rst_ni != 0) take_beat(now);

@@ -12,7 +12,7 @@ from generated_model import NotUnderstood, branches
 from groups import KEY_BITS, Part, combinational, look_name, looks
 
 CHECKED = 13  # one of so many rising edges has a check
-# What the parts have in common that one test leaves out: the event, runs of flags.
+# One test leaves out all parts that have one of these in common: the event, runs of flags.
 GATES = (lambda part: part.when,
          lambda part: part.rare and part.flag // 64 + 1,
          lambda part: part.rare and part.flag // 8 + 1)

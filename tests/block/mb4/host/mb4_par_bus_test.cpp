@@ -36,7 +36,7 @@ class ParBus : public testing::TestWithParam<bool> {
     last_rd = bus.rd_clk_o != 0;
   }
 
-  // What the registers behind it would take at each rising clock edge.
+  // Notes what the registers would take at each rising edge of wr_clk_o and rd_clk_o.
   void eval() {
     bus.eval();
     if (bus.wr_clk_o != 0 && !last_wr) seen.push_back({true, bus.addr_o, bus.db_i});
