@@ -1,12 +1,12 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The queue of posted bytes (enc_posted): each byte comes out once, in order and whole, at any phase
-// and ratio of the clocks. The queue is empty exactly when all bytes have been taken. The mark's copy
-// follows a change when all bytes written before the change, or with it, have been taken.
-// Contract: no more bytes wait than the queue holds; the mark changes with the host's clock, and only
-// after the copy has followed. Here the queue holds four bytes of three bits; the counts cross in
-// Gray code.
+// The queue of posted bytes (enc_posted): each byte comes out once, in order and whole, at any
+// phase and ratio of the clocks. The queue is empty exactly when all bytes have been taken. The
+// mark's copy follows a change when all bytes written before it, or with it, have been taken.
+// Contract: no more bytes wait than the queue holds; the mark changes with the host's clock, and
+// only after the copy has followed. Here the queue holds four bytes of three bits; the counts
+// cross in Gray code.
 //
 // claim: all bytes once, in order, whole; empty and the mark come only after all bytes (up to
 //   the mark) are taken; any clocks
