@@ -75,7 +75,7 @@ def type_of(name, text):
 def explicit_sensitivity(text):
     """always_comb runs at first and whenever one of the signals changes that it reads and does not
     write, and shows what it has computed at its end. (Icarus 11 also runs it when it has written a
-    part of a vector, and shows other blocks a default before the result: both may go on for ever.)"""
+    part of a vector, and shows others a default before the result: both may go on for ever.)"""
     position = 0
     while (start := text.find("always_comb begin", position)) >= 0:
         depth, end = 0, start

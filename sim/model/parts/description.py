@@ -6,7 +6,7 @@
   namespace  the C++ namespace of the header
   clocks     the clock's pin, and variables that are this clock while the edge functions are in use
   host       optional: pins whose edges host() evaluates
-  seen       optional: variables. host() tells a change of them, and of what an edge of the clock reads
+  seen       optional: variables. host() tells their changes, and those of what a clock's edge reads
   released   optional: clocks or resets that an edge of the clock may change: the code that uses the
              header looks for the change, or the change starts nothing
   [follow]   optional: FUNCTION = [pins]. Such a pin changes without eval(). The function computes

@@ -203,8 +203,8 @@ class Kinds:
 
 class HostKinds:
     """The same for edges of host pins. `events` has the bits of the events of each function. A
-    register that reads what an edge of the clock writes is computed after each such edge. The edge of
-    the clock itself computes what it writes, and what reads this without a clock."""
+    register that reads what an edge of the clock writes is computed after each such edge. The edge
+    of the clock itself computes what it writes, and what reads this without a clock."""
 
     widths = {}
 

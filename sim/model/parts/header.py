@@ -26,8 +26,8 @@ def inside_out(text):
             return text
         conditions.insert(0, parts[0])
         body = parts[1].strip()
-    # VL_STOP_MT() throws. abort() tells this to the compiler, which then keeps what it knows about the
-    # variables.
+    # VL_STOP_MT() throws. abort() tells this to the compiler, which then keeps what it knows about
+    # the variables.
     end = "std::abort();" if "VL_STOP_MT" in body else ""
     return f"if ({' && '.join(conditions)}) {{ {body} {end} }}"
 

@@ -32,10 +32,10 @@ that writes one runs always. Other groups are put into bundles of two kinds:
 If a variable is only compared with numbers, it counts as changed when the result of a comparison
 changes.
 
-host() has a flag for each group. Each side computes the logic without a clock that depends on its own
-changes. So only host() sets a flag of host(), and an edge of a host pin sets only those flags of
-rise() that stand for registers and for keys. A register on a clock of the host that reads what rise()
-writes is computed again after each edge of the clock."""
+host() has a flag for each group. Each side computes the logic without a clock that depends on its
+own changes. So only host() sets a flag of host(), and an edge of a host pin sets only those flags
+of rise() that stand for registers and for keys. A register on a clock of the host that reads what
+rise() writes is computed again after each edge of the clock."""
 
 import argparse
 import re
