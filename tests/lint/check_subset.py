@@ -65,7 +65,7 @@ def code_only(text):
     text = blank(text, r"\(\*(?!\)).*?\*\)")
     text = blank(text, r"^\s*`ifdef\s+FORMAL\b.*?^\s*`(?:else|endif)\b")
     text = blank(text, r"^\s*`(?:include|define|undef|ifdef|ifndef|else|elsif|endif)\b[^\n]*")
-    return blank(text, r"`MB4_(?:ASSERT|COVER|ASSUME)\w*\s*\([^;]*?\)\s*$")
+    return blank(text, r"`ENC_(?:ASSERT|COVER|ASSUME)\w*\s*\([^;]*?\)\s*$")
 
 
 class File:
