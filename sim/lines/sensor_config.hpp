@@ -14,8 +14,8 @@
 
 namespace mb4::sim {
 
-// A counter in the lowest bits of a word: it goes one step on with each frame, from its highest value
-// to `first` (BiSS Safety: sign of life).
+// A counter in the lowest bits of a word: it goes one step on with each frame, from its highest
+// value to `first` (BiSS Safety: sign of life).
 struct LifeCounter {
   unsigned bits = 0;  // 0: none; at most kMaxBits
   unsigned first = 0;

@@ -50,8 +50,8 @@ SlaveChain::Standing SlaveChain::drive_slaves(Time now, bool ma, bool mo) {
   return standing;
 }
 
-// Where the data begin, SlaveFaults::swapped_words takes effect: the data and CRC of the slave behind
-// leave first. Slaves of different length then have another border than the master expects.
+// Where the data begin, SlaveFaults::swapped_words takes effect: the data and CRC of the slave
+// behind leave first. Slaves of different length then have another border than the master expects.
 void SlaveChain::swap_words() {
   for (std::size_t i = 0; i + 1 < attached_; ++i) {
     Slave& near = *slaves_[i];
