@@ -24,6 +24,10 @@ enum class FaultKind {
   kBusy,
   kWrongCrc,
   kWrongId,
+  kStuckWord,
+  kStuckCounter,
+  kSkippedWord,
+  kSwappedWords,
   kUnplug,
   kAbort,           // host: an SPI frame ends early
   kClockFrequency,  // pin CLK

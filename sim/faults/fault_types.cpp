@@ -147,9 +147,17 @@ std::string begin_slave(Scene scene) {
     case SlaveFault::kWrongCrc:
       return "wrong CRC from " + who(scene.config);
     case SlaveFault::kWrongId:
+      return who(scene.config) + " answers to a wrong ID";
+    case SlaveFault::kStuckWord:
+      return who(scene.config) + " sends its last word again";
+    case SlaveFault::kStuckCounter:
+      return "life counter of " + who(scene.config) + " stands still";
+    case SlaveFault::kSkippedWord:
+      return "life counter of " + who(scene.config) + " goes two steps at once";
+    case SlaveFault::kSwappedWords:
       break;
   }
-  return who(scene.config) + " answers to a wrong ID";
+  return "words of " + who(scene.config) + " and of the one behind it swapped";
 }
 
 template <SlaveFault kFault>
@@ -240,6 +248,10 @@ constexpr FaultType kTypes[] = {
     slave_type<SlaveFault::kBusy>(FaultKind::kBusy, "busy"),
     slave_type<SlaveFault::kWrongCrc>(FaultKind::kWrongCrc, "wrong-crc"),
     slave_type<SlaveFault::kWrongId>(FaultKind::kWrongId, "wrong-id"),
+    slave_type<SlaveFault::kStuckWord>(FaultKind::kStuckWord, "stuck-word"),
+    slave_type<SlaveFault::kStuckCounter>(FaultKind::kStuckCounter, "stuck-counter"),
+    slave_type<SlaveFault::kSkippedWord>(FaultKind::kSkippedWord, "skipped-word"),
+    slave_type<SlaveFault::kSwappedWords>(FaultKind::kSwappedWords, "swapped-words"),
     {FaultKind::kUnplug,
      "unplug",
      FaultPlace::kSlave,

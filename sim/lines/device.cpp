@@ -14,6 +14,12 @@ std::string_view DeviceConfig::refuses(SlaveFault fault) const {
       return crc.width() == 0 ? "this slave sends no CRC" : "";
     case SlaveFault::kWrongId:
       return "this slave has no ID";
+    case SlaveFault::kStuckWord:
+    case SlaveFault::kSwappedWords:
+      return "only a BiSS C sensor can have it";
+    case SlaveFault::kStuckCounter:
+    case SlaveFault::kSkippedWord:
+      return "this slave has no life counter";
   }
   return "";
 }

@@ -150,7 +150,12 @@ void read_lengths(TomlReader& reader, unsigned& data_bits, unsigned& flag_bits,
 void read_sensor(TomlReader& reader, SensorConfig& config, unsigned default_flags,
                  std::string& file) {
   read_lengths(reader, config.data_bits, config.flag_bits, default_flags);
-  config.flags = fits(0b11, config.flag_bits) ? 0b11U : (1U << config.flag_bits) - 1U;
+  const unsigned counter = config.life_counter.bits;
+  if (counter > config.flag_bits) {
+    reader.fail("life_counter_bits", std::to_string(counter) + " is more than flag_bits");
+  }
+  const unsigned flag_bits = config.flag_bits - counter;
+  config.flags = (fits(0b11, flag_bits) ? 0b11U : (1U << flag_bits) - 1U) << counter;
   if (const auto flags = reader.word("flags")) {
     if (!fits(*flags, config.flag_bits)) {
       reader.fail("flags", "does not fit into flag_bits = " + std::to_string(config.flag_bits));

@@ -57,6 +57,12 @@ class ShiftRegister {
   bool at(std::size_t i) const { return (bits_ & place(i)) != 0; }
   // True when all of its bits came in at SLI.
   bool filled() const { return shifts_ >= size_; }
+  // True from load() to the first shift.
+  bool loaded() const { return shifts_ == 0; }
+  // The first `count` (at least 1) bits that leave; the others are 0.
+  static constexpr Bits first(Bits bits, std::size_t count) {
+    return bits & ~Bits{0} << (kMaxBits - count);
+  }
 
  private:
   static constexpr Bits place(std::size_t i) { return Bits{1} << (kMaxBits - 1 - i); }

@@ -21,7 +21,16 @@ class Actuator;
 class ControlSlave;
 
 // Faults that a scenario can ask of a slave.
-enum class SlaveFault { kSilent, kBusy, kWrongCrc, kWrongId };
+enum class SlaveFault {
+  kSilent,
+  kBusy,
+  kWrongCrc,
+  kWrongId,
+  kStuckWord,
+  kStuckCounter,
+  kSkippedWord,
+  kSwappedWords,
+};
 
 // Faults of a slave. A member is true as long as the fault lasts. SlaveChain::detach() and
 // ControlFaults make other faults.
@@ -29,6 +38,11 @@ struct SlaveFaults {
   bool silent = false;     // SLO is 1, whatever the slave sends
   bool busy = false;       // BiSS: the acknowledge does not end
   bool wrong_crc = false;  // the last bit of the CRC after the data is inverted
+  // BiSS C:
+  bool stuck_word = false;     // the slave sends the word of its last frame again
+  bool stuck_counter = false;  // its life counter stands still
+  bool skipped_word = false;   // its life counter goes two steps on with each frame
+  bool swapped_words = false;  // its data and those of the slave behind it come in exchanged order
 };
 
 class Slave {
@@ -84,6 +98,10 @@ class Slave {
     if (fault == SlaveFault::kSilent) faults_.silent = on;
     if (fault == SlaveFault::kBusy) faults_.busy = on;
     if (fault == SlaveFault::kWrongCrc) faults_.wrong_crc = on;
+    if (fault == SlaveFault::kStuckWord) faults_.stuck_word = on;
+    if (fault == SlaveFault::kStuckCounter) faults_.stuck_counter = on;
+    if (fault == SlaveFault::kSkippedWord) faults_.skipped_word = on;
+    if (fault == SlaveFault::kSwappedWords) faults_.swapped_words = on;
   }
   const SlaveFaults& faults() const { return faults_; }
   // Number of frames in which the slave has sent its start bit.

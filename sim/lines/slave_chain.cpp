@@ -46,7 +46,31 @@ SlaveChain::Standing SlaveChain::drive_slaves(Time now, bool ma, bool mo) {
     sli = slo_of(i);
     standing.add(slave);
   }
+  if (ma) swap_words();
   return standing;
+}
+
+// Where the data begin, SlaveFaults::swapped_words takes effect: the data and CRC of the slave
+// behind leave first. Slaves of different length then have another border than the master expects.
+void SlaveChain::swap_words() {
+  for (std::size_t i = 0; i + 1 < attached_; ++i) {
+    Slave& near = *slaves_[i];
+    Slave& far = *slaves_[i + 1];
+    if (!near.faults().swapped_words || near.shifting() == nullptr || far.shifting() == nullptr ||
+        !near.shifting()->loaded() || !far.shifting()->loaded()) {
+      continue;
+    }
+    const ShiftRegister::Bits was_near = near.shifting()->bits();
+    const ShiftRegister::Bits was_far = far.shifting()->bits();
+    const std::size_t near_size = near.shifting()->size();
+    const std::size_t far_size = far.shifting()->size();
+    near.set_shifted(ShiftRegister::first(was_far | was_near >> far_size, near_size), 0);
+    far.set_shifted(near_size < far_size
+                        ? ShiftRegister::first(
+                              was_far << near_size | was_near >> (far_size - near_size), far_size)
+                        : was_near << (near_size - far_size),
+                    0);
+  }
 }
 
 // True if each bit that leaves a slave comes in at the next one.

@@ -95,6 +95,7 @@ class SlaveChain {
     }
   };
   Standing drive_slaves(Time now, bool ma, bool mo);
+  void swap_words();
   bool in_one_row() const;
   void fill_row();
   void empty_row();

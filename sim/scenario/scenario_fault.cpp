@@ -61,6 +61,11 @@ void read_slave_fault(TomlReader& reader, const Scenario& scenario, FaultConfig&
   if (!of_slave) return;
   const std::string_view refusal = slave->device->refuses(*of_slave);
   if (!refusal.empty()) reader.fail("slave", std::string(refusal));
+  if (*of_slave == SlaveFault::kSwappedWords &&
+      (scenario.slave(fault.slave + 1) == nullptr ||
+       scenario.channel_of(fault.slave + 1) != fault.channel)) {
+    reader.fail("slave", "there is no slave behind it");
+  }
 }
 
 void read_place(TomlReader& reader, const Scenario& scenario, FaultConfig& fault) {

@@ -33,6 +33,7 @@ fi
 printf '#include "mb4/ports/arduino.hpp"\n#include "mb4/ports/spidev.hpp"\n' > "$work/ports.cpp"
 status=0
 for file in "$root/drivers/c/mb4_c.cpp" "$root/tests/driver/footprint/whole.cpp" \
+  "$root/tests/driver/footprint/safety.cpp" "$root/tests/driver/footprint/guarded.cpp" \
   "$work/ports.cpp"; do
   run "$file" 2> "$work/log" || { status=1; grep -E 'warning|error' "$work/log"; }
 done

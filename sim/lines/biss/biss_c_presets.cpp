@@ -103,6 +103,16 @@ std::vector<Preset> biss_c_presets() {
                       {0x44, {0x00, 0x00, 0x00, 0x01}},
                       {0x78, {'M', 'B', '4', 'S', 'I', 'M'}},
                       {0x7E, {'M', '4'}}}));
+  // BiSS Safety (BP3): two words of one sensor. Both hold position, nE and nW, in this order from
+  // the highest bit; the second one ends in the sign of life, which counts from 0 to 63.
+  add("bp3-cpw", "no product: BiSS Safety, control position word, 26 bits", 26);
+  BissCSlaveConfig& spw =
+      add("bp3-spw", "no product: BiSS Safety, safety position word, 26 bits", 26);
+  spw.life_counter.bits = 6;
+  spw.data_bits += spw.life_counter.bits;
+  spw.flag_bits += spw.life_counter.bits;
+  spw.flags <<= spw.life_counter.bits;
+  spw.crc.polynomial = 0x190D9;
   return list;
 }
 

@@ -18,7 +18,21 @@ DeviceTraits BissCSlaveConfig::traits() const {
 }
 
 std::string_view BissCSlaveConfig::refuses(SlaveFault fault) const {
-  if (fault == SlaveFault::kWrongId && control.present) return "";
+  switch (fault) {
+    case SlaveFault::kWrongId:
+      if (control.present) return "";
+      break;
+    case SlaveFault::kStuckWord:
+    case SlaveFault::kSwappedWords:
+      if (!actuator) return "";
+      break;
+    case SlaveFault::kStuckCounter:
+    case SlaveFault::kSkippedWord:
+      if (life_counter.bits != 0) return "";
+      break;
+    default:
+      break;
+  }
   return BissSlaveConfig::refuses(fault);
 }
 
@@ -32,6 +46,16 @@ bool BissCSlave::set_data(std::uint64_t raw) {
   if (!config_.hold(raw)) return false;
   actuator_.preset(raw);
   return true;
+}
+
+// The word of the frame that begins. The counter goes on with each frame that had a start bit.
+std::uint64_t BissCSlave::next_word(Time now) {
+  if (config_.actuator) return actuator_.word();
+  const std::uint64_t frames = Slave::frames() - counted_frames_;
+  counted_frames_ += frames;
+  if (!faults().stuck_counter) life_steps_ += faults().skipped_word ? 2 * frames : frames;
+  if (faults().stuck_word && counted_frames_ != 0) return word_;
+  return config_.life_counter.in_word(config_.word(now, counted_frames_), life_steps_);
 }
 
 void BissCSlave::ma_edge(Time now, bool ma, bool sli_before, bool sli) {
@@ -55,7 +79,7 @@ void BissCSlave::ma_edge(Time now, bool ma, bool sli_before, bool sli) {
 void BissCSlave::rising(Time now, bool sli_before, bool sli) {
   switch (state_) {
     case State::kArmed:
-      latch(config_.actuator ? actuator_.word() : config_.word(now, frames()));
+      latch(next_word(now));
       follow(sli);
       break;
     case State::kAckWait:

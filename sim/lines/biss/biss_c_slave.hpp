@@ -68,6 +68,7 @@ class BissCSlave final : public BissSlave<BissCSlaveConfig> {
   Time timeout() const { return timeout_.value(); }
 
  private:
+  std::uint64_t next_word(Time now);
   void rising(Time now, bool sli_before, bool sli);
   void begin_cds();
   void end_cds(bool sli);
@@ -76,6 +77,8 @@ class BissCSlave final : public BissSlave<BissCSlaveConfig> {
   ControlSlave control_;
   Actuator actuator_;
   bool cds_flip_ = false;
+  std::uint64_t counted_frames_ = 0;  // frames that the life counter knows of
+  std::uint64_t life_steps_ = 0;
 };
 
 }  // namespace mb4::sim

@@ -39,10 +39,25 @@ void read_actuator(TomlReader& reader, BissCSlaveConfig& config) {
   }
 }
 
+void read_life_counter(TomlReader& reader, LifeCounter& counter) {
+  if (const auto bits = reader.integer("life_counter_bits", 0, LifeCounter::kMaxBits)) {
+    counter.bits = static_cast<unsigned>(*bits);
+  }
+  if (const auto first = reader.integer("life_counter_first", 0, 1)) {
+    if (counter.bits == 0) reader.fail("life_counter_first", "there is no life counter");
+    counter.first = static_cast<unsigned>(*first);
+  }
+}
+
 void read_biss_c(TomlReader& reader, DeviceConfig& device, std::string& file) {
   auto& config = static_cast<BissCSlaveConfig&>(device);
   read_actuator(reader, config);
-  read_sensor(reader, config, config.actuator ? 0 : kFlagsOfEncoders, file);
+  read_life_counter(reader, config.life_counter);
+  if (config.actuator && config.life_counter.bits != 0) {
+    reader.fail("life_counter_bits", "an actuator has none");
+  }
+  read_sensor(reader, config, config.actuator ? 0 : kFlagsOfEncoders + config.life_counter.bits,
+              file);
   read_timeout(reader, config.timeout);
   read_request(reader, config);
   read_control(reader, config.control);
@@ -51,7 +66,7 @@ void read_biss_c(TomlReader& reader, DeviceConfig& device, std::string& file) {
 void know_biss_c_keys(TomlReader& reader) {
   know_biss_keys(reader);
   know_control_keys(reader);
-  reader.know({"actuator", "stop_bit"});
+  reader.know({"actuator", "stop_bit", "life_counter_bits", "life_counter_first"});
 }
 
 // Reads the keys of the register mode of BiSS B.

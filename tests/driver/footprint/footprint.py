@@ -4,7 +4,7 @@
 """Builds driver code for a microcontroller, prints what it takes, compares with budget.toml.
 
   footprint.py TARGET PROGRAM INCLUDE_DIR...     TARGET: cortex-m0plus cortex-m4 rv32imc
-                                                 PROGRAM: cyclic position single steps whole
+                                                 PROGRAM: cyclic position single steps safety whole
   footprint.py self-test                         the checks of stack and budget can fail
 
 Rejects every symbol that a driver without heap, exceptions and static constructors cannot need.
@@ -102,7 +102,7 @@ def over(budget, figures):
 
 
 PROGRAMS = {"cyclic": "read path in C99", "position": "position read path", "single": "one encoder, single frames",
-            "steps": "everything in steps",
+            "steps": "everything in steps", "safety": "BiSS Safety and a snapshot",
             "whole": "everything"}
 
 

@@ -48,6 +48,9 @@ class DriverPreset : public testing::TestWithParam<std::string> {
     Config config = config26(5'000'000);
     config.slaves[0].data_bits = static_cast<std::uint8_t>(bits);
     config.slaves[0].crc_polynomial = device.crc.polynomial;
+    if (device.flag_bits != 2) {
+      config.slaves[0].flags = mb4::Flags::kNone;
+    }
     ASSERT_TRUE(chip.device.configure(config).ok());
     ASSERT_TRUE(chip.device.automatic().start().ok());
   }

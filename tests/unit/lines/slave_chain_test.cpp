@@ -302,5 +302,34 @@ TEST(SlaveChain, SilentInTheData_RestOfTheFrameIsOne) {
             "111111");
 }
 
+// The fault "swapped words": data and CRC of the far slave leave first, for slaves of any lengths.
+TEST(SlaveChain, SwappedWords_FarSlaveLeavesFirst) {
+  struct Lengths {
+    unsigned near, far;
+  };
+  for (const auto& [near, far] : {Lengths{8, 8}, Lengths{5, 12}, Lengths{12, 5}, Lengths{64, 64}}) {
+    ChainBench bench;
+    const std::uint64_t one = 0xA5C3'96F0'5A3C'69E1U >> (64 - near);
+    const std::uint64_t two = 0xF00D'1234'5678'9ABDU >> (64 - far);
+    BissCSlave& slave = bench.add(constant_slave(near, one, 0x43));
+    bench.add(constant_slave(far, two, 0x43));
+    const unsigned risings = near + far + 2 * 6 + 5;
+    const auto frame = [&] {
+      const Time start = bench.now + 20 * kPeriod;
+      const std::string bits = bench.frame(start, kPeriod, risings);
+      bench.run_until(bench.now + 20 * kPeriod);
+      return bits.substr(4);
+    };
+    const std::string first = binary(one, near) + binary(Crc{0x43, 0}.line_bits(one, near), 6);
+    const std::string second = binary(two, far) + binary(Crc{0x43, 0}.line_bits(two, far), 6);
+    EXPECT_EQ(frame(), first + second + "0") << near << ", " << far;
+    slave.set_fault(SlaveFault::kSwappedWords, true);
+    EXPECT_EQ(frame(), second + first + "0") << near << ", " << far;
+    EXPECT_EQ(frame(), second + first + "0") << near << ", " << far;
+    slave.set_fault(SlaveFault::kSwappedWords, false);
+    EXPECT_EQ(frame(), first + second + "0") << near << ", " << far;
+  }
+}
+
 }  // namespace
 }  // namespace mb4test

@@ -113,6 +113,38 @@ class Faults(CliTest):
         # 300 us at half the speed.
         self.assertAlmostEqual(slower * report["summary"]["time_us"], 300 * 10, delta=60)
 
+    # --- BiSS Safety ---------------------------------------------------------------------------
+
+    def words(self, kind, number, status):
+        """The raw words of both slaves with a fault of `number` for frames 5 to 9."""
+        pair = "".join(f"[[channel.slave]]\nprotocol = \"biss-c\"\npreset = \"{name}\"\n"
+                       "source = \"ramp\"\n" for name in ("bp3-cpw", "bp3-spw"))
+        scenario = "[[channel]]\nnumber = 1\n" + pair
+        plain, _ = self.report("kind = \"silent\"\nslave = 1\nat_us = 1e9", 12, scenario)
+        ends = [row["time_us"] for row in plain["frames"] if row["slave"] == 1]
+        report, was = self.report(f"kind = \"{kind}\"\nslave = {number}\nat_us = {ends[3] + 1}\n"
+                                  f"for_us = {ends[8] - ends[3]}", 12, scenario)
+        self.assertEqual(was, status)
+        return [[row["raw"] and int(row["raw"], 16) for row in report["frames"]
+                 if row["slave"] == slave_of] for slave_of in (1, 2)], report
+
+    def test_faults_of_words_with_a_life_counter(self):
+        good = [[n << 2 | 3 for n in range(12)], [n << 8 | 0xC0 | n for n in range(12)]]
+        # Nothing but the counter shows them, so `run` calls them good.
+        words, _ = self.words("stuck-counter", 2, 0)
+        counts = [0, 1, 2, 3, 3, 3, 3, 3, 3, 4, 5, 6]
+        self.assertEqual(words, [good[0], [n << 8 | 0xC0 | counts[n] for n in range(12)]])
+        words, _ = self.words("skipped-word", 2, 0)
+        counts = [0, 1, 2, 3, 5, 7, 9, 11, 13, 14, 15, 16]
+        self.assertEqual(words, [good[0], [n << 8 | 0xC0 | counts[n] for n in range(12)]])
+        words, _ = self.words("stuck-word", 2, 0)
+        self.assertEqual(words, [good[0], good[1][:4] + [good[1][3]] * 5 + good[1][9:]])
+        # Words of different length: no border is where it should be. A failed read takes longer, so
+        # these are fewer frames.
+        words, report = self.words("swapped-words", 1, 1)
+        self.assertEqual(words, [side[:4] + [None] * 2 + side[6:] for side in good])
+        self.assertEqual(self.only(report)["fate"], "detected")
+
     # --- what is said ------------------------------------------------------------------------
 
     def test_wrong_data_without_crc_is_missed_and_bad(self):
@@ -236,6 +268,13 @@ class Faults(CliTest):
                  "key 'slave': only a BiSS C slave with control"),
                 (slave("data_bits = 8").replace("biss-c", "ssi"),
                  "kind = \"wrong-id\"\nslave = 1\nat_us = 1", "key 'slave': this slave has no ID"),
+                (ENCODER, "kind = \"swapped-words\"\nslave = 1\nat_us = 1",
+                 "key 'slave': there is no slave behind it"),
+                (ENCODER, "kind = \"stuck-counter\"\nslave = 1\nat_us = 1",
+                 "key 'slave': this slave has no life counter"),
+                (slave("data_bits = 8").replace("biss-c", "biss-b"),
+                 "kind = \"stuck-word\"\nslave = 1\nat_us = 1",
+                 "key 'slave': only a BiSS C sensor can have it"),
                 (slave("data_bits = 8").replace("biss-c", "ssi"),
                  "kind = \"busy\"\nslave = 1\nat_us = 1", "key 'slave': this slave has no busy time")):
             with self.subTest(message):

@@ -112,6 +112,31 @@ TEST(ScenarioProtocols, ActuatorAndMo_AreReadCompletely) {
   EXPECT_EQ(far.channel_bits(), 15U);
 }
 
+TEST(ScenarioProtocols, LifeCounter_IsReadCompletely) {
+  const std::string keys = "data_bits = 20\nlife_counter_bits = 6\nlife_counter_first = 1\n";
+  const Scenario scenario =
+      parse_scenario(channel("", slave("biss-c", keys) + slave("biss-c", keys + "flag_bits = 7\n") +
+                                     slave("biss-c", "preset = \"bp3-spw\"")),
+                     "s");
+  const auto& config = config_of<BissCSlaveConfig>(scenario);
+  EXPECT_EQ(config.life_counter.bits, 6U);
+  EXPECT_EQ(config.life_counter.first, 1U);
+  EXPECT_EQ(config.flag_bits, 8U) << "nE, nW and the counter";
+  EXPECT_EQ(config.flags, 0xC0U) << "no error, no warning";
+  EXPECT_EQ(config.source.constant, 0xC0U);
+  const auto& one_flag = config_of<BissCSlaveConfig>(scenario, 1);
+  EXPECT_EQ(one_flag.flag_bits, 7U);
+  EXPECT_EQ(one_flag.flags, 0x40U);
+  // BiSS Safety: position, nE, nW, sign of life of 6 bits; CRC of 16 bits.
+  const auto& safety = config_of<BissCSlaveConfig>(scenario, 2);
+  EXPECT_EQ(safety.data_bits, 26U + 2 + 6);
+  EXPECT_EQ(safety.flag_bits, 8U);
+  EXPECT_EQ(safety.source.constant, 0xC0U);
+  EXPECT_EQ(safety.life_counter.bits, 6U);
+  EXPECT_EQ(safety.life_counter.first, 0U);
+  EXPECT_EQ(safety.crc.polynomial, 0x190D9U);
+}
+
 TEST(ScenarioProtocols, EveryPreset_CanBeUsedWithItsProtocol) {
   const char* const protocols[] = {"biss-c", "biss-b", "ssi"};
   for (const Preset& preset : presets()) {
@@ -187,6 +212,21 @@ INSTANTIATE_TEST_SUITE_P(
                 "s.toml:3:1: key 'actuator': an actuator needs mo = true on its channel"},
         BadKeys{"StopBitOfASensor", channel("", slave("biss-c", "data_bits = 8\nstop_bit = true")),
                 "s.toml:6:12: key 'stop_bit': only an actuator has it"},
+        BadKeys{
+            "LifeCounterWithoutRoom",
+            channel("", slave("biss-c", "data_bits = 20\nflag_bits = 5\nlife_counter_bits = 6")),
+            "s.toml:7:21: key 'life_counter_bits': 6 is more than flag_bits"},
+        BadKeys{"FirstWithoutLifeCounter",
+                channel("", slave("biss-c", "data_bits = 20\nlife_counter_first = 1")),
+                "s.toml:6:22: key 'life_counter_first': there is no life counter"},
+        BadKeys{"LifeCounterOfAnActuator",
+                channel("mo = true\n", slave("biss-c",
+                                             "data_bits = 20\nactuator = true\n"
+                                             "life_counter_bits = 6")),
+                "s.toml:8:21: key 'life_counter_bits': an actuator has none"},
+        BadKeys{"LifeCounterOfBissB",
+                channel("", slave("biss-b", "data_bits = 20\nlife_counter_bits = 6")),
+                "s.toml:6:1: key 'life_counter_bits': unknown key"},
         BadKeys{"SourceOfAnActuator",
                 channel("mo = true\n",
                         slave("biss-c", "data_bits = 8\nactuator = true\nsource = \"ramp\"")),

@@ -185,5 +185,100 @@ TEST(BissCSlave, RegisterFile_KeepsAllBytes) {
     EXPECT_EQ(slave.reg_read(static_cast<std::uint8_t>(i)), 255 - i);
 }
 
+// A word of 4 position bits, nE, nW and a life counter of `bits` bits.
+BissCSlaveConfig counting_slave(unsigned bits, unsigned first) {
+  BissCSlaveConfig config = constant_slave(6 + bits, 0x27ULL << bits, 0);
+  config.life_counter = {bits, first};
+  return config;
+}
+
+// The life counters of the next `frames` frames. The rest of the word must be as `rest` says.
+std::vector<std::uint64_t> life_counters(ChainBench& bench, unsigned bits, unsigned frames,
+                                         std::uint64_t rest = 0x27) {
+  std::vector<std::uint64_t> values;
+  for (unsigned i = 0; i < frames; ++i) {
+    const Time start = bench.now + 20 * kPeriod;
+    const std::string sent = bench.frame(start, kPeriod, 6 + bits + 5).substr(4, 6 + bits);
+    bench.run_until(bench.now + 20 * kPeriod);
+    const std::uint64_t word = std::stoull(sent, nullptr, 2);
+    EXPECT_EQ(word >> bits, rest) << "frame " << i;
+    values.push_back(word % (1U << bits));
+  }
+  return values;
+}
+
+using Values = std::vector<std::uint64_t>;
+
+TEST(LifeCounter, CountsFramesAndGoesOnAtItsFirstValue) {
+  ChainBench bench;
+  bench.add(counting_slave(2, 0));
+  EXPECT_EQ(life_counters(bench, 2, 6), (Values{0, 1, 2, 3, 0, 1}));
+  ChainBench from_one;
+  from_one.add(counting_slave(2, 1));
+  EXPECT_EQ(life_counters(from_one, 2, 6), (Values{1, 2, 3, 1, 2, 3}));
+}
+
+TEST(LifeCounter, SixBits_Have64Values) {
+  ChainBench bench;
+  bench.add(counting_slave(6, 0));
+  const Values values = life_counters(bench, 6, 130);
+  for (unsigned i = 0; i < values.size(); ++i) EXPECT_EQ(values[i], i % 64);
+}
+
+// Two pulses and a rest (INIT) are no frame: the word that was latched is not sent.
+TEST(LifeCounter, FrameWithoutAStartBit_DoesNotCount) {
+  ChainBench bench;
+  const BissCSlave& slave = bench.add(counting_slave(3, 0));
+  EXPECT_EQ(life_counters(bench, 3, 2), (Values{0, 1}));
+  bench.frame(bench.now + 20 * kPeriod, kPeriod, 2);
+  bench.run_until(bench.now + 20 * kPeriod);
+  EXPECT_EQ(life_counters(bench, 3, 1), (Values{2}));
+  EXPECT_EQ(slave.sent_in(3), 0x27U << 3U | 2U);
+}
+
+TEST(LifeCounter, HeldWord_KeepsTheCounterOfTheSlave) {
+  ChainBench bench;
+  BissCSlave& slave = bench.add(counting_slave(3, 0));
+  life_counters(bench, 3, 2);
+  ASSERT_TRUE(slave.set_data(0x35U << 3U | 7U));
+  EXPECT_EQ(life_counters(bench, 3, 2, 0x35), (Values{2, 3}));
+}
+
+TEST(LifeCounter, StuckCounter_StandsStillAndGoesOn) {
+  ChainBench bench;
+  BissCSlave& slave = bench.add(counting_slave(3, 0));
+  life_counters(bench, 3, 2);
+  slave.set_fault(SlaveFault::kStuckCounter, true);
+  EXPECT_EQ(life_counters(bench, 3, 2), (Values{1, 1}));
+  slave.set_fault(SlaveFault::kStuckCounter, false);
+  EXPECT_EQ(life_counters(bench, 3, 2), (Values{2, 3}));
+}
+
+TEST(LifeCounter, SkippedWord_IsTwoStepsInEachFrame) {
+  ChainBench bench;
+  BissCSlave& slave = bench.add(counting_slave(3, 0));
+  life_counters(bench, 3, 2);
+  slave.set_fault(SlaveFault::kSkippedWord, true);
+  EXPECT_EQ(life_counters(bench, 3, 2), (Values{3, 5}));
+  slave.set_fault(SlaveFault::kSkippedWord, false);
+  EXPECT_EQ(life_counters(bench, 3, 1), (Values{6}));
+}
+
+// The sensor goes on meanwhile: after the fault its counter and its ramp are where they would be.
+TEST(LifeCounter, StuckWord_IsTheWholeWordAgain) {
+  ChainBench bench;
+  BissCSlaveConfig config = counting_slave(3, 0);
+  config.flag_bits = 5;
+  config.flags = 3U << 3U;
+  config.source.kind = DataSource::Kind::kRamp;
+  BissCSlave& slave = bench.add(config);
+  EXPECT_EQ(life_counters(bench, 3, 1, 0b0000'11), (Values{0}));
+  EXPECT_EQ(life_counters(bench, 3, 1, 0b0001'11), (Values{1}));
+  slave.set_fault(SlaveFault::kStuckWord, true);
+  EXPECT_EQ(life_counters(bench, 3, 2, 0b0001'11), (Values{1, 1}));
+  slave.set_fault(SlaveFault::kStuckWord, false);
+  EXPECT_EQ(life_counters(bench, 3, 1, 0b0100'11), (Values{4}));
+}
+
 }  // namespace
 }  // namespace mb4test
