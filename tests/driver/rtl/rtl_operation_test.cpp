@@ -214,6 +214,72 @@ TEST_P(DriverOperation, BissB_RegistersByTheHandOver) {
   EXPECT_TRUE(chip.device.read_frame().ok());
 }
 
+// nAGSERR = 0 means that no slave has taken part, but a chip may set it at each write of 0xF4. The
+// slaves' timeout after the access is no part of the time that tells the two apart, and a chip that
+// does not set it lets the caller be as slow as it likes. 4096 register clocks are 3.3 ms here.
+TEST_P(DriverOperation, BissBWithASlowCaller_IsNoFailedHandOver) {
+  struct Slow {
+    const char* quirk;
+    std::uint32_t register_timeout_us;
+    std::uint32_t tick_us;
+  };
+  for (const Slow& slow : {Slow{"true", 2000, 100}, Slow{"false", 2000, 100},
+                           Slow{"false", 5, 5000}}) {
+    FaultyChip chip(std::string("[chip.quirks]\nAGSERR_ON_INSTR_WRITE = ") + slow.quirk + "\n" +
+                    biss_b_bus(false, "data = 0xABCDEF7"));
+    Config one = biss_b_config(false);
+    one.spi_check = GetParam();
+    one.register_timeout_us = slow.register_timeout_us;
+    ASSERT_TRUE(chip.device.configure(one).ok());
+    const mb4::SlaveAddress slave = mb4::slave_address(one, 1);
+    const auto tick = [&] { chip.simulator.advance(slow.tick_us * sim::kPsPerUs); };
+    Operation op;
+    std::array<std::uint8_t, 4> back{};
+    ASSERT_TRUE(
+        chip.device.control().plan_write(op, slave, 0x20, Span<const std::uint8_t>(kBytes)));
+    EXPECT_TRUE(complete(chip, op, tick).ok()) << mb4::to_string(op.result().error());
+    ASSERT_TRUE(chip.device.control().plan_read(op, slave, 0x20, back).ok());
+    EXPECT_TRUE(complete(chip, op, tick).ok()) << mb4::to_string(op.result().error());
+    EXPECT_EQ(back, kBytes);
+    // Without a slave the hand-over fails.
+    stick(chip, true);
+    ASSERT_TRUE(chip.device.control().plan_read(op, slave, 0x20, back).ok());
+    EXPECT_EQ(complete(chip, op, tick).error(), Error::kRegister) << slow.quirk;
+  }
+}
+
+// The byte with INIT is lost, or one of its bits is flipped. With kFull no delay of another time and
+// no hand-over that was not made counts as done.
+TEST(DriverOperationInit, LostInstruction_IsNoSuccess) {
+  for (const mb4::Protocol protocol : {mb4::Protocol::kBissC, mb4::Protocol::kBissB}) {
+    for (const FaultKind kind : {FaultKind::kLost, FaultKind::kFlipMosi, FaultKind::kRefused}) {
+      for (std::size_t bit = 0; bit < (kind == FaultKind::kFlipMosi ? 16U : 1U); ++bit) {
+        const bool biss_b = protocol == mb4::Protocol::kBissB;
+        FaultyChip chip(biss_b ? biss_b_bus(false) : kEncoder);
+        Config one = biss_b ? biss_b_config(false) : encoder(false);
+        one.spi_check = SpiCheck::kFull;
+        ASSERT_TRUE(chip.device.configure(one).ok());
+        Operation op;
+        ASSERT_TRUE(chip.device.plan_initialize(op).ok());
+        bool faulty = false;
+        for (bool ended = false; !ended;) {
+          const bool init = op.tx(0)[0] == 0x07 && op.tx(0)[1] == 0x10;
+          chip.bus.plan(init ? Fault{kind, 0, 0, bit} : Fault{});
+          faulty = faulty || init;
+          chip.simulator.advance(op.pause_us() * sim::kPsPerUs);
+          const bool transferred = op.run(chip.bus);
+          ended = chip.device.finish(op, transferred, chip.clock.now_us());
+        }
+        ASSERT_TRUE(faulty);
+        if (kind == FaultKind::kFlipMosi && bit >= 8 && bit != 11) continue;  // INIT, and more
+        const Error error = op.result().error();
+        EXPECT_TRUE(error == (kind == FaultKind::kRefused ? Error::kTransport : Error::kCorrupted))
+            << mb4::to_string(error) << ", BiSS B " << biss_b << ", bit " << bit;
+      }
+    }
+  }
+}
+
 // A loop that ticks with the frames: in each tick a chain for the position, then one step of the
 // access. At least 99 % of the ticks bring a position, at each of 25 phases.
 TEST_P(DriverOperation, ReadBesideEveryPhase_PositionsGoOn) {
