@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The bus of the driver of biss_axi on top of a simulator.
-#ifndef MB4SIM_TOOL_AXI_PORT_HPP_
-#define MB4SIM_TOOL_AXI_PORT_HPP_
+// The port of a driver of 32-bit words on top of a simulator.
+#ifndef MB4SIM_TOOL_WORD_PORT_HPP_
+#define MB4SIM_TOOL_WORD_PORT_HPP_
 
 #include <fmt/core.h>
 
@@ -16,18 +16,20 @@
 
 namespace mb4::tool {
 
-class AxiPort {
+class WordPort {
  public:
   // `log`: takes one line for each access, "write 14 00000005" or "read 34 00000001" in hex, and
   // "failed" behind it if it did.
-  explicit AxiPort(sim::Simulator& simulator, std::string* log = nullptr)
-      : host_(simulator.host<sim::WordHost>("axi")), log_(log) {}
+  explicit WordPort(sim::Simulator& simulator, std::string* log = nullptr)
+      : host_(simulator.word_bus()), log_(log) {}
 
-  bool write(std::uint32_t offset, std::uint32_t value) {
-    return done("write", offset, value, host_.write(offset, value, 0xF));
+  // False without a host on such a bus.
+  bool write(std::uint32_t offset, std::uint32_t value, std::uint8_t strobes = 0xF) {
+    return host_ != nullptr && done("write", offset, value, host_->write(offset, value, strobes));
   }
   bool read(std::uint32_t offset, std::uint32_t& value) {
-    const auto answer = host_.read(offset, value);
+    if (host_ == nullptr) return false;
+    const auto answer = host_->read(offset, value);
     return done("read", offset, value, answer);
   }
 
@@ -41,10 +43,10 @@ class AxiPort {
     return good;
   }
 
-  sim::WordHost& host_;
+  sim::WordHost* host_;
   std::string* log_;
 };
 
 }  // namespace mb4::tool
 
-#endif  // MB4SIM_TOOL_AXI_PORT_HPP_
+#endif  // MB4SIM_TOOL_WORD_PORT_HPP_
