@@ -5,9 +5,9 @@
 #ifndef MB4SIM_TOOL_WORD_PORT_HPP_
 #define MB4SIM_TOOL_WORD_PORT_HPP_
 
-#include <fmt/core.h>
-
+#include <array>
 #include <cstdint>
+#include <cstdio>
 #include <optional>
 #include <string>
 
@@ -38,7 +38,10 @@ class WordPort {
             std::optional<std::uint8_t> answer) {
     const bool good = answer == std::uint8_t{0};
     if (log_ != nullptr) {
-      *log_ += fmt::format("{} {:02X} {:08X}{}\n", what, offset, value, good ? "" : " failed");
+      std::array<char, 40> line{};
+      std::snprintf(line.data(), line.size(), "%s %02X %08X%s\n", what, unsigned{offset},
+                    unsigned{value}, good ? "" : " failed");
+      *log_ += line.data();
     }
     return good;
   }

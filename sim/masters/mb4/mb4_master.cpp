@@ -19,11 +19,14 @@
 namespace mb4::sim {
 namespace {
 
-constexpr HostInterface kInterfaces[] = {HostInterface::kSpi, HostInterface::kSpi2,
-                                         HostInterface::kIntel, HostInterface::kMotorola,
+constexpr HostInterface kInterfaces[] = {
+    HostInterface::kSpi,
+    HostInterface::kSpi2,
+    HostInterface::kIntel,
+    HostInterface::kMotorola,
 #if MB4SIM_WITH_AXI
-                                         {"axi", false, "an AXI access is never aborted", true},
-                                         {"wb", false, "a Wishbone cycle is never aborted", true},
+    {"axi", false, "an AXI access is never aborted", true},
+    {"wb", false, "a Wishbone cycle is never aborted", true},
 #endif
 };
 constexpr std::int64_t kMaxClkHz = 200'000'000;

@@ -9,9 +9,9 @@
 
 #include "axi_regs_table.hpp"
 #include "biss_axi/device.hpp"
-#include "word_port.hpp"
 #include "report/exit_status.hpp"
 #include "sim_clock.hpp"
+#include "word_port.hpp"
 
 namespace mb4::tool {
 namespace {

@@ -8,10 +8,10 @@
 #include <string>
 
 #include "biss_axi/device.hpp"
-#include "word_port.hpp"
 #include "mb4sim/simulator.hpp"
 #include "sim/scenario/scenario.hpp"
 #include "sim_clock.hpp"
+#include "word_port.hpp"
 
 namespace mb4::tool {
 namespace {

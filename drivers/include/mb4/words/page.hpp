@@ -27,10 +27,10 @@ struct PageIdentity {
 struct Snapshot {
   std::uint64_t word = 0;     // SCDATAx
   std::uint64_t latched = 0;  // clock of the core at which the slave latched its position
-  std::uint32_t frame = 0;    // number of the line's frame that brought the word, from 1 on; 0: none
-  bool valid = false;         // SVALIDx
-  bool cds = false;           // of the line
-  bool bank_failed = false;   // SWBANKFAIL
+  std::uint32_t frame = 0;   // number of the line's frame that brought the word, from 1 on; 0: none
+  bool valid = false;        // SVALIDx
+  bool cds = false;          // of the line
+  bool bank_failed = false;  // SWBANKFAIL
 };
 
 // Events, a bit each: page::FRAME::kMask, ERROR, REGISTER_END, SENSE, LOST.
@@ -44,7 +44,8 @@ using Events = std::uint8_t;
 // calls may interrupt each other and those of a Device.
 template <typename Port>
 class Page {
-  static_assert(kIsWordPort<Port>, "mb4: the Port type needs read and write; see mb4/words/port.hpp");
+  static_assert(kIsWordPort<Port>,
+                "mb4: the Port type needs read and write; see mb4/words/port.hpp");
 
  public:
   // The port must outlive this object.

@@ -27,14 +27,14 @@ template <typename Port, typename = void>
 inline constexpr bool kIsWordPort = false;
 
 template <typename Port>
-inline constexpr bool
-    kIsWordPort<Port, std::void_t<decltype(std::declval<Port&>().read(
-                                      std::uint32_t{}, std::declval<std::uint32_t&>())),
-                                  decltype(std::declval<Port&>().write(
-                                      std::uint32_t{}, std::uint32_t{}, std::uint8_t{}))>> =
-        std::is_same_v<decltype(std::declval<Port&>().read(std::uint32_t{},
-                                                           std::declval<std::uint32_t&>())),
-                       bool> &&
+inline constexpr bool kIsWordPort<
+    Port,
+    std::void_t<
+        decltype(std::declval<Port&>().read(std::uint32_t{}, std::declval<std::uint32_t&>())),
+        decltype(std::declval<Port&>().write(std::uint32_t{}, std::uint32_t{}, std::uint8_t{}))>> =
+    std::is_same_v<decltype(std::declval<Port&>().read(std::uint32_t{},
+                                                       std::declval<std::uint32_t&>())),
+                   bool>&&
         std::is_same_v<decltype(std::declval<Port&>().write(std::uint32_t{}, std::uint32_t{},
                                                             std::uint8_t{})),
                        bool>;

@@ -19,7 +19,8 @@ namespace {
 
 // Half a period of MA in clocks (public.vlt).
 unsigned half_of(const Vmb4_axil& model) {
-  return model.rootp->mb4_axil__DOT__u_bus__DOT__u_engine__DOT__u_lines__DOT__u_timebase__DOT__len_q;
+  return model.rootp
+      ->mb4_axil__DOT__u_bus__DOT__u_engine__DOT__u_lines__DOT__u_timebase__DOT__len_q;
 }
 unsigned half_of(const Vmb4_wb& model) {
   return model.rootp->mb4_wb__DOT__u_bus__DOT__u_engine__DOT__u_lines__DOT__u_timebase__DOT__len_q;

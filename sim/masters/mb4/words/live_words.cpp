@@ -15,8 +15,7 @@ std::unique_ptr<BusModel> make_model(const MasterSetup& setup) {
   if (setup.trace != nullptr) {
     throw TraceError(setup.trace->path + ": a bus of words has no waveform");
   }
-  const auto make =
-      setup.host.interface.key == "axi" ? make_axi_bus_model : make_wb_bus_model;
+  const auto make = setup.host.interface.key == "axi" ? make_axi_bus_model : make_wb_bus_model;
   return make(setup.chip, setup.host.bus_hz, setup.seed);
 }
 
@@ -27,8 +26,8 @@ LiveWords::LiveWords(const MasterSetup& setup)
       interface_(setup.host.interface.key),
       lines_(setup.lines),
       model_(make_model(setup)),
-      host_(outside_, *model_, kPsPerSecond / setup.host.bus_hz + 1, kLongestAccess,
-            kLastAddress) {}
+      host_(outside_, *model_, kPsPerSecond / setup.host.bus_hz + 1, kLongestAccess, kLastAddress) {
+}
 
 void LiveWords::power_on() {
   outside_.run_until(kResetLow);
