@@ -68,8 +68,6 @@ class Wishbone:
                  "datrd": "dat_o", "ack": "ack_o", "sel": "sel_i", "err": "err_o"}
         self.master = WishboneMaster(dut, "wb", dut.wb_clk_i, width=32, timeout=2000,
                                      signals_dict=names)
-        for signal in ("cyc", "stb", "we", "adr", "dat"):
-            getattr(dut, f"wb_{signal}_i").value = 0
 
     async def cycle(self, **operation):
         pause = self.rng.choice((0, 0, 1, self.rng.randrange(20)))
@@ -103,8 +101,9 @@ async def start(dut, encoder, rng):
     for name in ("ner_i", "sl1_i", "sl2_i"):
         getattr(dut, name).value = 1
     reset, active = (dut.s_axi_aresetn, 0) if axi else (dut.wb_rst_i, 1)
-    reset.value = active
-    dut.por_ni.value = 0
+    reset.value, dut.por_ni.value = active, 0
+    # A master writes its pins at once. At time 0 Icarus 11 would lose what depends on them.
+    await Timer(1, "ns")
     bus = Axi(dut, rng) if axi else Wishbone(dut, rng)
     cocotb.start_soon(Clock(dut.s_axi_aclk if axi else dut.wb_clk_i, BUS_NS, "ns").start())
     cocotb.start_soon(Clock(dut.clk_i, CORE_NS, "ns").start())

@@ -105,11 +105,33 @@ TEST(MemoryBus, FirstAccessAfterAnInstruction_WaitsForTheCore) {
   EXPECT_EQ(port.accesses, "W0F4 00000001/1 R114 R0F0 R0F0 ");
   // 0xF5 alone is no instruction; 0xF4 within a longer write is one.
   port.accesses.clear();
+  byte = {0x11};
   ASSERT_TRUE(opcodes.write_registers(0xF5, byte).ok());
   std::array<std::uint8_t, 4> four{};
   ASSERT_TRUE(opcodes.write_registers(0xF1, four).ok());
   ASSERT_TRUE(opcodes.write_instruction(byte).ok());
-  EXPECT_EQ(port.accesses, "W0F4 00000000/2 W0F0 00000000/E W0F4 00000000/1 R114 W0F4 00000000/1 ");
+  EXPECT_EQ(port.accesses, "W0F4 00001100/2 W0F0 00000000/E W0F4 00000000/1 R114 W0F4 00000011/1 ");
+}
+
+// Data are in the memory when they are read, not only when the status tells of them.
+TEST(MemoryBus, DataAfterAStatus_WaitForTheCore) {
+  Port port;
+  mb4::MemoryBus<Port> bus(port);
+  mb4::Opcodes<mb4::MemoryBus<Port>> opcodes(bus);
+  std::array<std::uint8_t, 1> byte{};
+  ASSERT_TRUE(opcodes.read_status(byte).ok());
+  ASSERT_TRUE(opcodes.read_status(byte).ok());
+  ASSERT_TRUE(opcodes.read_registers(0xC0, byte).ok());
+  EXPECT_EQ(port.accesses, "R0F0 R0F0 R0C0 ");
+  for (const std::uint8_t address : {0x00, 0x3F, 0x80, 0xBF}) {
+    ASSERT_TRUE(opcodes.read_status(byte).ok());
+    port.accesses.clear();
+    ASSERT_TRUE(opcodes.read_registers(address, byte).ok());
+    EXPECT_EQ(port.accesses.substr(0, 5), "R114 ");
+    port.accesses.clear();
+    ASSERT_TRUE(opcodes.read_registers0(byte).ok());
+    EXPECT_EQ(port.accesses, "R000 ");
+  }
 }
 
 TEST(MemoryBus, FailedAccess_EndsTheTransfer) {
@@ -196,6 +218,7 @@ TEST(Page, WrongUseAndFailedAccess_AreErrors) {
 
 mb4::Config two_slaves() {
   mb4::Config config;
+  config.ma_hz = 5'000'000;
   config.channels[0].protocol = mb4::Protocol::kBissC;
   for (const unsigned slave : {0U, 1U}) {
     config.slaves[slave].enabled = true;
@@ -279,6 +302,7 @@ TEST_F(SnapshotsTest, WrongUse_IsRefused) {
   mb4::Config config = two_slaves();
   config.single_bank = true;
   config.frame_start = mb4::FrameStart::kWaitForLine;
+  config.frame_period_clk = 0;
   EXPECT_EQ(snapshots.begin(config).error(), Error::kInvalidConfig);
   EXPECT_EQ(snapshots.begin(config).info().field, mb4::ConfigField::kSingleBank);
   config = two_slaves();

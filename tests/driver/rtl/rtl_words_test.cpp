@@ -69,7 +69,7 @@ TEST_P(DriverWords, FramesRegistersAndIdentity_AreRead) {
   ASSERT_TRUE(chip.device.verify().ok());
   for (std::uint64_t i = 0; i < 5; ++i) {
     const auto reading = chip.device.read_frame(1);
-    ASSERT_TRUE(reading.ok());
+    ASSERT_TRUE(reading.ok()) << mb4::to_string(reading.error());
     EXPECT_EQ(reading->position, 5 * i);
   }
   std::array<std::uint8_t, 2> id{};

@@ -22,10 +22,11 @@ namespace mb4 {
 //
 // * Bytes of a frame that share a word are one access. 0xF4 and the bytes behind it act with 0xF4
 //   last, whatever their order on SPI.
-// * A frame on SPI gives the chip time to act on a write to 0xF4 before the next frame. Words are
-//   faster. So the first access after such a write waits for the core: it reads TIME_LOW, which
-//   takes about 20 clocks of the core and replaces the copy in TIME_HIGH. Nothing waits if the
-//   program has done something else for so long.
+// * A frame on SPI gives the chip time: to act on a write to 0xF4 before the next frame, and to
+//   bring data into its memory between a status that tells of them and their read. Words are
+//   faster. So the first access after such a write, and the first one to SCDATA or RDATA after a
+//   read of the status, wait for the core: they read TIME_LOW before, which takes about 20 clocks
+//   of the core and replaces the copy in TIME_HIGH.
 // * transfer() returns false when an access has failed. The first bytes of a write may have taken
 //   effect.
 template <typename Port>
@@ -49,7 +50,7 @@ class MemoryBus {
     for (std::size_t i = frame.first; i < tx.size();) {
       const std::uint8_t word = address & 0xFCU;
       std::uint32_t value = 0;
-      if (!settle() || (frame.reads && !port_->read(word, value))) {
+      if (!settle(word) || (frame.reads && !port_->read(word, value))) {
         return false;
       }
       std::uint8_t strobes = 0;
@@ -64,8 +65,13 @@ class MemoryBus {
         ++i;
         ++address;
       } while (i < tx.size() && (address & 3U) != 0);
+      if (frame.reads && word == regs::kAddrStatus0) {
+        wait_ = Wait::kBeforeData;
+      }
       if (!frame.reads) {
-        instructed_ = word == regs::kAddrInstr && (strobes & 1U) != 0;
+        if (word == regs::kAddrInstr && (strobes & 1U) != 0) {
+          wait_ = Wait::kAlways;
+        }
         if (!port_->write(word, value, strobes)) {
           return false;
         }
@@ -75,18 +81,25 @@ class MemoryBus {
   }
 
  private:
-  // After it the core has acted on the last write to 0xF4.
-  bool settle() {
+  // What the next access has to wait for.
+  enum class Wait : std::uint8_t { kNever, kBeforeData, kAlways };
+
+  // After it the core has acted on all that came before the access to `word`.
+  bool settle(std::uint8_t word) {
+    constexpr unsigned kNoData = 0x40;  // of an address: neither SCDATA nor RDATA
     std::uint32_t time = 0;
-    if (instructed_ && !port_->read(page::kAddrTimeLow, time)) {
+    if (wait_ == Wait::kNever || (wait_ == Wait::kBeforeData && (word & kNoData) != 0)) {
+      return true;
+    }
+    if (!port_->read(page::kAddrTimeLow, time)) {
       return false;
     }
-    instructed_ = false;
+    wait_ = Wait::kNever;
     return true;
   }
 
   Port* port_;
-  bool instructed_ = false;
+  Wait wait_ = Wait::kNever;
 };
 
 }  // namespace mb4

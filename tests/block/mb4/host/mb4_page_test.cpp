@@ -333,6 +333,8 @@ TEST_F(PageBlock, EveryCopyDisturbed_EndsWithoutAWord) {
 TEST_F(PageBlock, PinsAtTheEndOfTheReset_AreNoEvents) {
   m.getsens_i = 1;
   m.ner_i = 0;
+  m.rst_ni = 0;
+  m.eval();
   block.reset();
   events = 0;
   clocks(20);
