@@ -10,7 +10,7 @@ from openmb4.biss import BissCEncoder
 from openmb4.registers import Registers
 
 READ, WRITE, INSTRUCTION = 0x03, 0x02, 0x07  # opcodes of table 69
-NAMES = Registers(None)  # names and addresses, without a simulator
+NAMES = Registers(None, "mb4")  # names and addresses, without a simulator
 WORD = 0x2ABCDEF
 SCLK_NS = 200
 TIMEOUT_NS = 1000

@@ -1,12 +1,13 @@
 #!/usr/bin/env python3
 # SPDX-FileCopyrightText: 2026 The openmb4 authors
 # SPDX-License-Identifier: Apache-2.0
-"""Runs the cocotb test bench of mb4_core with Icarus Verilog.
+"""Runs a cocotb test bench with Icarus Verilog: mb4_core_test.py, or mb4_bus_test.py for the tops with
+a bus of words.
 
-  run.py VERILOG FOLDER    VERILOG is mb4_core.v of a release, or of tools/synth/plain_verilog.py;
-                           FOLDER takes the build
+  run.py VERILOG FOLDER    VERILOG is mb4_core.v, mb4_axil.v or mb4_wb.v of a release, or of
+                           tools/synth/plain_verilog.py; FOLDER takes the build
 
-Needs cocotb 2.1 and the openmb4 package."""
+Needs cocotb 2.1 and the openmb4 package; mb4_axil cocotbext-axi, mb4_wb cocotbext-wishbone."""
 
 import sys
 from pathlib import Path
@@ -25,9 +26,11 @@ def main():
         return 2
     folder.mkdir(parents=True, exist_ok=True)
     # Icarus takes the unit of time from the source only; a release's Verilog has it.
+    top = verilog.stem
+    bench = "mb4_core_test" if top == "mb4_core" else "mb4_bus_test"
     runner = get_runner("icarus")
-    runner.build(sources=[verilog.resolve()], hdl_toplevel="mb4_core", build_dir=folder, always=True)
-    results = runner.test(hdl_toplevel="mb4_core", test_module="mb4_core_test", build_dir=folder,
+    runner.build(sources=[verilog.resolve()], hdl_toplevel=top, build_dir=folder, always=True)
+    results = runner.test(hdl_toplevel=top, test_module=bench, build_dir=folder,
                           test_dir=Path(__file__).resolve().parent,
                           results_xml=str(folder / "results.xml"))
     tests, failed = get_results(results)

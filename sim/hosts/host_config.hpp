@@ -18,6 +18,7 @@ struct HostInterface {
   std::string_view key;  // value of `interface` in the scenario
   bool parallel = false;
   std::string_view refuses_abort = "";  // why the host cannot abort a transfer; empty: it can
+  bool words = false;                   // a bus of 32-bit words (word_host.hpp)
 
   constexpr bool operator==(const HostInterface& other) const { return key == other.key; }
 
@@ -39,8 +40,10 @@ struct HostConfig {
   std::uint64_t sclk_hz = 10'000'000;   // SPI
   std::uint64_t sclk2_hz = 10'000'000;  // SPI2
   Time cycle = 1000 * kPsPerNs;         // of the parallel bus, ps
+  std::uint64_t bus_hz = 0;             // clock of a bus of words
 
   bool parallel() const { return interface.parallel; }
+  bool serial() const { return !interface.parallel && !interface.words; }
   // MA frequency that `mb4sim run` sets up. The master can always make it.
   std::uint64_t ma_hz = 10'000'000;
   TableSource source;

@@ -13,6 +13,8 @@ constexpr std::int64_t kMinSclkHz = 1'000;
 constexpr std::int64_t kMaxSclkHz = 50'000'000;  // I203, I204: 10 ns each
 constexpr std::int64_t kMinCycleNs = 110;        // 15 + 15 + 54 + 25 ns of a read
 constexpr std::int64_t kMaxCycleNs = 1'000'000;
+constexpr std::int64_t kMinBusHz = 1'000;
+constexpr std::int64_t kMaxBusHz = 500'000'000;
 
 }  // namespace
 
@@ -34,6 +36,13 @@ void read_spi_keys(TomlReader& reader, HostConfig& host) {
 void read_parallel_keys(TomlReader& reader, HostConfig& host) {
   if (const auto ns = reader.integer("cycle_ns", kMinCycleNs, kMaxCycleNs)) {
     host.cycle = static_cast<Time>(*ns) * kPsPerNs;
+  }
+}
+
+void read_word_keys(TomlReader& reader, std::uint64_t clk_hz, HostConfig& host) {
+  host.bus_hz = clk_hz;
+  if (const auto hz = reader.integer("bus_hz", kMinBusHz, kMaxBusHz)) {
+    host.bus_hz = static_cast<std::uint64_t>(*hz);
   }
 }
 

@@ -5,6 +5,7 @@
 #ifndef MB4SIM_HOST_KEYS_HPP_
 #define MB4SIM_HOST_KEYS_HPP_
 
+#include <cstdint>
 #include <span>
 
 #include "sim/core/toml_reader.hpp"
@@ -19,6 +20,8 @@ void read_interface(TomlReader& reader, std::span<const HostInterface> accepted,
 // For a master with such hosts: the keys of SPI and SPI2, and those of the parallel bus.
 void read_spi_keys(TomlReader& reader, HostConfig& host);
 void read_parallel_keys(TomlReader& reader, HostConfig& host);
+// Those of a bus of words, whose clock is `clk_hz` without a key.
+void read_word_keys(TomlReader& reader, std::uint64_t clk_hz, HostConfig& host);
 
 }  // namespace mb4::sim
 

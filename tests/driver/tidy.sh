@@ -18,7 +18,7 @@ if ! command -v "$tidy" > /dev/null 2>&1; then
 fi
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
-flags="-std=c++17 -fno-exceptions -fno-rtti -I$root/drivers/include -I$root/regmap/generated/mb4"
+flags="-std=c++17 -fno-exceptions -fno-rtti -I$root/drivers/include -I$root/regmap/generated/mb4 -I$root/regmap/generated/mb4_page"
 
 run() {
   "$tidy" --quiet --config-file="$root/drivers/.clang-tidy" "$1" -- $flags
@@ -30,7 +30,7 @@ if run "$work/planted.cpp" > "$work/log" 2>&1 || ! grep -q 'macro-usage' "$work/
   echo "a planted fault is not reported"
   exit 1
 fi
-printf '#include "mb4/ports/arduino.hpp"\n#include "mb4/ports/spidev.hpp"\n' > "$work/ports.cpp"
+printf '#include "mb4/ports/arduino.hpp"\n#include "mb4/ports/spidev.hpp"\n#include "mb4/words/memory_bus.hpp"\n#include "mb4/words/snapshots.hpp"\n' > "$work/ports.cpp"
 status=0
 for file in "$root/drivers/c/mb4_c.cpp" "$root/tests/driver/footprint/whole.cpp" \
   "$root/tests/driver/footprint/safety.cpp" "$root/tests/driver/footprint/guarded.cpp" \

@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: 2026 The openmb4 authors
 # SPDX-License-Identifier: Apache-2.0
-"""The cocotb example passes on the release's Verilog, and fails where MA is stuck:
-cocotb_test.py PACKAGE PYTHON FOLDER. Exit status 77: PYTHON has no cocotb."""
+"""The cocotb examples pass on the release's Verilog, and fail on Verilog with a fault:
+cocotb_test.py PACKAGE PYTHON FOLDER TOP. Exit status 77: PYTHON has no cocotb, or not what TOP needs."""
 
 import os
 import re
@@ -10,24 +10,29 @@ import sys
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
-package, python, folder = sys.argv[1:]
+package, python, folder, top = sys.argv[1:]
+
+# Packages of Python; the fault, which fails every test of the bench.
+NEEDS = {"mb4_core": "cocotb", "mb4_axil": "cocotbext.axi", "mb4_wb": "cocotbext.wishbone"}
+FAULT = {"mb4_core": (r"(?m)^(\s*assign ma1_o = ).*;$", r"\1 1'b1;"),  # MA never moves
+         "mb4_axil": (r"(?m)^(\s*assign s_axi_rdata = )(.*);$", r"\1 (\2) ^ 32'h10;"),
+         "mb4_wb": (r"(?m)^(\s*assign wb_dat_o = )(.*);$", r"\1 (\2) ^ 32'h10;")}
 
 
 def main():
-    if not Path(python).exists() or subprocess.run([python, "-c", "import cocotb, cffi, numpy, tqdm"],
-                                                   check=False, capture_output=True).returncode:
-        print("skipped: no cocotb; python3 -m venv build/cocotb && "
-              "build/cocotb/bin/pip install cocotb==2.1.0 cffi numpy tqdm")
+    needs = f"import cffi, cocotb, numpy, tqdm, {NEEDS[top]}"
+    if not Path(python).exists() or subprocess.run([python, "-c", needs], check=False,
+                                                   capture_output=True).returncode:
+        print("skipped: no cocotb; python3 -m venv build/cocotb && build/cocotb/bin/pip install "
+              "cocotb==2.1.0 cffi numpy tqdm cocotbext-axi==0.1.28 cocotbext-wishbone==2.0.1")
         return 77
+    sys.path.insert(0, str(ROOT / "tools/synth"))
+    import plain_verilog
     out = Path(folder)
     out.mkdir(parents=True, exist_ok=True)
-    subprocess.run([sys.executable, "-B", ROOT / "tools/synth/plain_verilog.py", out], check=True,
-                   stdout=subprocess.DEVNULL)
-    good = out / "mb4_core.v"
-    # MA that never moves: both tests must fail.
-    text, count = re.subn(r"(?m)^(\s*assign ma1_o = ).*;$", r"\1 1'b1;",
-                          good.read_text(encoding="utf-8"))
-    bad = out / "stuck" / "mb4_core.v"
+    good = plain_verilog.write(top, out)
+    text, count = re.subn(*FAULT[top], good.read_text(encoding="utf-8"))
+    bad = out / "fault" / good.name
     bad.parent.mkdir(exist_ok=True)
     bad.write_text(text, encoding="utf-8")
     assert count == 1

@@ -12,6 +12,7 @@
 #include <string>
 
 #include "mb4_regs.hpp"
+#include "sim/masters/master.hpp"
 #include "sim/scenario/scenario.hpp"
 
 namespace mb4test {
@@ -19,7 +20,7 @@ namespace mb4test {
 // Registers and bits in tests: reg::kAddrInstr, reg::INSTR::kMask, reg::kInstrCdm0.
 namespace reg = mb4::regs;
 
-// "spi", "intel" or "motorola".
+// "spi", "intel", "motorola", "axi" or "wb".
 inline std::string test_host() {
   const char* const name = std::getenv("MB4_HOST");
   return name == nullptr ? "spi" : name;
@@ -42,15 +43,15 @@ inline mb4::sim::Scenario with_test_host(mb4::sim::Scenario scenario) {
   if (scenario.host.interface != HostInterface::kSpi) return scenario;
   const std::string name = test_host();
   scenario.host.cycle = std::max(scenario.host.cycle, kTestCycle);
-  if (name == "intel") {
-    scenario.host.interface = HostInterface::kIntel;
-  } else if (name == "motorola") {
-    scenario.host.interface = HostInterface::kMotorola;
-  } else if (name != "spi") {
-    std::fprintf(stderr, "MB4_HOST: spi, intel or motorola, not %s\n", name.c_str());
-    std::exit(EXIT_FAILURE);
+  for (const HostInterface& each : scenario.master->interfaces) {
+    if (each.key != name) continue;
+    scenario.host.interface = each;
+    // "axi": one clock, "wb": two.
+    if (name == "wb" || scenario.host.bus_hz == 0) scenario.host.bus_hz = 100'000'000;
+    return scenario;
   }
-  return scenario;
+  std::fprintf(stderr, "MB4_HOST: the chip has no host %s\n", name.c_str());
+  std::exit(EXIT_FAILURE);
 }
 
 }  // namespace mb4test

@@ -118,7 +118,7 @@ function(mb4_verilated_library target)
 endfunction()
 
 set(MB4_TRACE ON)  # the simulator can write waveform files
-set(MB4_AXI ON)    # the simulator has the master on AXI
+set(MB4_AXI ON)    # the simulator has what is on AXI or Wishbone
 if(EMSCRIPTEN)
   include(${CMAKE_CURRENT_LIST_DIR}/emscripten.cmake)
 endif()

@@ -12,9 +12,11 @@
 
 #include "mb4/parallel_bus.hpp"
 #include "mb4/span.hpp"
+#include "mb4/words/memory_bus.hpp"
 #include "mb4_regs.hpp"
 #include "mb4sim/simulator.hpp"
 #include "sim_clock.hpp"
+#include "word_port.hpp"
 
 namespace mb4::tool {
 
@@ -48,13 +50,18 @@ class SimPort {
 };
 
 // SPI frames over whatever the scenario's interface is: SPI; with "spi2" reads of SCDATA5..8
-// through SPI2; with "intel" and "motorola" as bus cycles.
+// through SPI2; with "intel" and "motorola" as bus cycles; with "axi" and "wb" as words.
 class SimBus {
  public:
   // `log`: takes one line for each frame, "bytes sent > bytes received" in hex. Received bytes are
-  // there only if the caller takes them.
+  // there only if the caller takes them. Of words it takes a line for each access (WordPort).
   explicit SimBus(sim::Simulator& simulator, std::string* log = nullptr)
-      : simulator_(simulator), port_(simulator), parallel_(port_), log_(log) {}
+      : simulator_(simulator),
+        port_(simulator),
+        parallel_(port_),
+        words_(simulator, log),
+        memory_(words_),
+        log_(simulator.scenario().host.interface.words ? nullptr : log) {}
 
   bool transfer(Span<const std::uint8_t> tx, Span<std::uint8_t> rx) {
     const bool done = exchange(tx, rx);
@@ -65,6 +72,7 @@ class SimBus {
  private:
   bool exchange(Span<const std::uint8_t> tx, Span<std::uint8_t> rx) {
     if (simulator_.scenario().host.parallel()) return parallel_.transfer(tx, rx);
+    if (simulator_.scenario().host.interface.words) return memory_.transfer(tx, rx);
     sim::SpiHost& host = through_spi2(tx) ? simulator_.spi2() : simulator_.spi();
     host.transfer(std::span(tx.data(), tx.size()), std::span(rx.data(), rx.size()));
     return true;
@@ -98,6 +106,8 @@ class SimBus {
   sim::Simulator& simulator_;
   SimPort port_;
   ParallelBus<SimPort> parallel_;
+  WordPort words_;
+  MemoryBus<WordPort> memory_;
   std::string* log_;
 };
 

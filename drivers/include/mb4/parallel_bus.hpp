@@ -9,8 +9,8 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "mb4/detail/spi_frame.hpp"
 #include "mb4/span.hpp"
-#include "mb4_regs.hpp"
 
 namespace mb4 {
 
@@ -37,44 +37,14 @@ class ParallelBus {
     for (std::uint8_t& byte : rx) {
       byte = 0;
     }
-    if (tx.empty()) {
-      return true;
-    }
-    std::uint8_t address = 0;
-    std::size_t first = 1;
-    bool reads = false;
-    switch (static_cast<regs::SpiOpcode>(tx[0])) {
-      case regs::SpiOpcode::kReadRegisters:
-        reads = true;
-        [[fallthrough]];
-      case regs::SpiOpcode::kWriteRegisters:
-        if (tx.size() < 2) {
-          return true;
-        }
-        address = tx[1];
-        first = 2;
-        break;
-      case regs::SpiOpcode::kReadStatus:
-        reads = true;
-        address = regs::kAddrStatus0;
-        break;
-      case regs::SpiOpcode::kWriteInstruction:
-        address = regs::kAddrInstr;
-        break;
-      case regs::SpiOpcode::kReadRegisters0:
-        reads = true;
-        break;
-      case regs::SpiOpcode::kWriteRegisters0:
-        break;
-      default:
-        return true;
-    }
-    for (std::size_t i = first; i < tx.size(); ++i) {
+    const detail::SpiFrame frame = detail::decode_frame(tx);
+    std::uint8_t address = frame.address;
+    for (std::size_t i = frame.first; i < tx.size(); ++i) {
       std::uint8_t value = 0;
-      if (!(reads ? port_->read(address, value) : port_->write(address, tx[i]))) {
+      if (!(frame.reads ? port_->read(address, value) : port_->write(address, tx[i]))) {
         return false;
       }
-      if (reads && i < rx.size()) {
+      if (frame.reads && i < rx.size()) {
         rx[i] = value;
       }
       ++address;

@@ -221,15 +221,15 @@ module mb4_bridge #(
       end
       ASK: begin
         // The core may still have to answer a request that was given up.
-        if (free) begin
+        if (free && word_req_i) begin
           state_d = ANSWER;
           ask     = 1'b1;
           shown_d[shadow] = 1'b0;
         end
       end
       ANSWER: begin
-        // The core fills the shadow.
-        if (free) begin
+        // The core fills the shadow. The address may have gone with the request.
+        if (free && word_req_i) begin
           state_d = SHADOW;
           shown_d[shadow] = 1'b1;
         end

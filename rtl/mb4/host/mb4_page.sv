@@ -82,6 +82,8 @@ module mb4_page (
   logic [2:0]  row;
   // events
   logic        getsens, getsens_q, ner;
+  logic [1:0]  blind_q;                // clocks until the pins have come through after a reset
+  logic        pins;
   logic [4:0]  good, good_q;
   logic        regend_q;
   logic        unused;
@@ -296,15 +298,19 @@ module mb4_page (
       good_q    <= '1;
       regend_q  <= 1'b0;
       getsens_q <= 1'b0;
+      blind_q   <= 2'd3;
     end else begin
+      blind_q   <= blind_q - {1'b0, blind_q != 2'd0};
       good_q    <= good;
       regend_q  <= tap_i.regend;
       getsens_q <= getsens;
     end
   end
 
-  assign event_o = {tap_i.lost, getsens && !getsens_q, tap_i.regend && !regend_q,
-                    (good_q & ~good) != 5'd0, tap_i.frame_end};
+  // A level that a pin has at the end of a reset is no event.
+  assign pins    = blind_q == 2'd0;
+  assign event_o = {tap_i.lost, getsens && !getsens_q && pins, tap_i.regend && !regend_q,
+                    (good_q & ~good & {pins, 4'hF}) != 5'd0, tap_i.frame_end};
   assign ack_o   = ack_q;
   assign beat_o  = now[3];
 

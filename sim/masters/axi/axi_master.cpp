@@ -12,7 +12,7 @@
 namespace mb4::sim {
 namespace {
 
-constexpr HostInterface kInterfaces[] = {{"axi", false, "an AXI access is never aborted"}};
+constexpr HostInterface kInterfaces[] = {{"axi", false, "an AXI access is never aborted", true}};
 constexpr std::int64_t kMaxClkHz = 500'000'000;
 constexpr std::uint64_t kMaxMaHz = 10'000'000;
 constexpr std::uint64_t kLongestHalf = 255;  // clocks of half an MA period

@@ -14,12 +14,21 @@
 #include "sim/masters/mb4/ma_frequency.hpp"
 #include "sim/masters/mb4/pins.hpp"
 #include "sim/masters/mb4/wave_groups.hpp"
+#include "sim/masters/mb4/words/live_words.hpp"
 
 namespace mb4::sim {
 namespace {
 
-constexpr HostInterface kInterfaces[] = {HostInterface::kSpi, HostInterface::kSpi2,
-                                         HostInterface::kIntel, HostInterface::kMotorola};
+constexpr HostInterface kInterfaces[] = {
+    HostInterface::kSpi,
+    HostInterface::kSpi2,
+    HostInterface::kIntel,
+    HostInterface::kMotorola,
+#if MB4SIM_WITH_AXI
+    {"axi", false, "an AXI access is never aborted", true},
+    {"wb", false, "a Wishbone cycle is never aborted", true},
+#endif
+};
 constexpr std::int64_t kMaxClkHz = 200'000'000;
 
 // Bits of quirks_i, as in mb4_pkg.
@@ -49,6 +58,10 @@ void read_quirks(TomlReader& reader, ChipConfig& chip) {
 void read_host(TomlReader& reader, const ChipConfig& chip, HostConfig& host) {
   read_spi_keys(reader, host);
   read_parallel_keys(reader, host);
+  read_word_keys(reader, chip.f_clk_hz, host);
+  if (host.interface.words && chip.f_clk_hz == 0) {
+    reader.fail("interface", "a bus of words has no oscillator: f_clk_hz must not be 0");
+  }
   host.ma_hz = default_ma_frequency(chip.system_hz());
   if (const auto hz = reader.integer("ma_hz", 1, kMaxClkHz)) {
     host.ma_hz = static_cast<std::uint64_t>(*hz);
@@ -66,6 +79,9 @@ void read_host(TomlReader& reader, const ChipConfig& chip, HostConfig& host) {
 }
 
 std::unique_ptr<LiveMaster> make(const MasterSetup& setup) {
+#if MB4SIM_WITH_AXI
+  if (setup.host.interface.words) return std::make_unique<LiveWords>(setup);
+#endif
   return std::make_unique<LiveMb4>(setup);
 }
 

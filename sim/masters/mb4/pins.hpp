@@ -39,7 +39,9 @@ enum class Pin : int {
   kMa1,
   kMa2,
   kMo1,
-  kMo2,  // outputs from here on
+  kMo2,
+  kIrq,
+  kClkeni,  // outputs from here on; the last two are of the tops with a bus of words
 };
 
 // Returns the pin of a name such as "NCS", "ALE", "SL2_NSL1". "SCLK", "MOSI", "MISO" and the short

@@ -35,14 +35,15 @@ class WordBusBench {
     std::uint64_t latch_clock = 0;  // number of the core's edge at which the slave latched
   };
 
-  WordBusBench(std::uint64_t bus_ps, std::uint64_t core_ps, std::uint64_t phase_ps = 0)
+  WordBusBench(std::uint64_t bus_ps, std::uint64_t core_ps, std::uint64_t phase_ps = 0,
+               unsigned quirks = 0)
       : bus_ps_(bus_ps), core_ps_(core_ps), next_bus_(1000), next_core_(1000 + phase_ps) {
     for (Slave& slave : slaves_) slave.timeout = 12 * core_ps;
     model->clk_i = 0;
     model->por_ni = 0;
     model->ner_i = 1;
     model->getsens_i = 0;
-    model->quirks_i = 0;
+    model->quirks_i = static_cast<std::uint8_t>(quirks);
     model->sl1_i = model->sl2_i = 1;
     bus_clock(false);
     // A reset is an edge to Verilator: the bus is reset first, so that the reset of the core has
@@ -92,16 +93,51 @@ class WordBusBench {
     core_runs_ = true;
     if (next_core_ < now_) next_core_ = now_ + core_ps_;
   }
+  bool core_runs() const { return core_runs_; }
   // One clock of the bus.
   void clock() {
     before_edge();
     edge();
+  }
+  // Begins a read and takes it back after some clocks. The address changes with it. Returns whether
+  // it was taken back in time.
+  bool withdraw(std::uint32_t address, unsigned clocks, std::uint32_t next) {
+    if constexpr (kAxi) {
+      model->s_axi_araddr = static_cast<std::uint16_t>(address);
+      model->s_axi_arvalid = model->s_axi_rready = 1;
+      bool taken = false;
+      for (unsigned i = 0; i < clocks && !taken; ++i) {
+        before_edge();
+        taken = model->s_axi_arready;
+        edge();
+      }
+      model->s_axi_arvalid = 0;
+      model->s_axi_araddr = static_cast<std::uint16_t>(next);
+      for (unsigned i = 0; i < 4; ++i) clock();
+      model->s_axi_rready = 0;
+      return !taken;
+    } else {
+      model->wb_adr_i = static_cast<std::uint16_t>(address >> 2);
+      model->wb_we_i = 0;
+      model->wb_cyc_i = model->wb_stb_i = 1;
+      bool done = false;
+      for (unsigned i = 0; i < clocks && !done; ++i) {
+        before_edge();
+        done = model->wb_ack_o || model->wb_err_o;
+        edge();
+      }
+      model->wb_cyc_i = model->wb_stb_i = 0;
+      model->wb_adr_i = static_cast<std::uint16_t>(next >> 2);
+      for (unsigned i = 0; i < 4; ++i) clock();
+      return !done;
+    }
   }
 
   Owned<Model> model;
   std::array<std::vector<Frame>, 2> frames;  // of the lines
   std::uint64_t core_edges = 0;
   std::function<void()> after_core_edge;
+  std::function<void()> before_bus_edge;
 
  private:
   static constexpr bool kAxi = requires(Model & m) { m.s_axi_aclk; };
@@ -139,6 +175,7 @@ class WordBusBench {
     }
     now_ = next_bus_;
     model->eval();
+    if (before_bus_edge) before_bus_edge();
   }
   void edge() {
     bus_clock(true);

@@ -90,8 +90,8 @@ void BridgeChip::keep_pace() {
 }
 
 SpiPort& BridgeChip::port() {
-  if (simulator_.scenario().host.parallel()) {
-    throw RefusedValue("the scenario's host is on the parallel bus");
+  if (!simulator_.scenario().host.serial()) {
+    throw RefusedValue("the scenario's host is not on SPI");
   }
   return port_;
 }
@@ -190,7 +190,7 @@ void BridgeSession::execute(char request, Payload payload, std::vector<std::uint
   if (request == 'X') return bytes(payload, answer);
   if (request == 'M') return message(payload, answer);
   answer.resize(payload.size());
-  if (!simulator.scenario().host.parallel()) {
+  if (simulator.scenario().host.serial()) {
     const std::uint64_t hz = simulator.scenario().host.sclk_hz;
     simulator.spi().set_timing(sim::SpiTiming::for_frequency(hz));
   }

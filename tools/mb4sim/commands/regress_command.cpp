@@ -214,6 +214,10 @@ int run_shard(const RegressOptions& options) {
       throw UseError(fmt::format("--cover: {}: there are no points for the master \"{}\"",
                                  sim::one_line(path), scenario.master->type));
     }
+    if (!options.cover_path.empty() && scenario.host.interface.words) {
+      throw UseError(fmt::format("--cover: {}: there are no points for the interface \"{}\"",
+                                 sim::one_line(path), scenario.host.interface.key));
+    }
   }
   const Batch batch{scenarios.size(), options.seeds, options.first_seed, options.frames,
                     !options.cover_path.empty()};

@@ -206,7 +206,7 @@ int spidev_command(const SpidevOptions& options) {
   const sim::Scenario scenario = options.scenario.empty()
                                      ? sim::parse_scenario(kDefaultScenario, "built-in scenario")
                                      : load_chip_scenario(options.scenario);
-  if (scenario.host.parallel()) {
+  if (!scenario.host.serial()) {
     throw sim::ScenarioError(scenario.name, scenario.host.source.of("interface"), "interface",
                              "spidev needs a host on SPI");
   }

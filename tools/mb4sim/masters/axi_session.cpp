@@ -9,9 +9,9 @@
 
 #include "axi_regs_table.hpp"
 #include "biss_axi/device.hpp"
-#include "masters/axi_port.hpp"
 #include "report/exit_status.hpp"
 #include "sim_clock.hpp"
+#include "word_port.hpp"
 
 namespace mb4::tool {
 namespace {
@@ -117,9 +117,9 @@ class AxiSession final : public Session {
   std::optional<bool> flag(const char* pin) const;
 
   biss_axi::Config config_;
-  AxiPort port_;
+  WordPort port_;
   SimClock clock_;
-  biss_axi::Device<AxiPort, SimClock> device_;
+  biss_axi::Device<WordPort, SimClock> device_;
 };
 
 // Pins error and warn are the AND of nE and of nW of all channels: a 0 belongs to a channel only if

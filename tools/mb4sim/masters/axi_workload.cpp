@@ -8,10 +8,10 @@
 #include <string>
 
 #include "biss_axi/device.hpp"
-#include "masters/axi_port.hpp"
 #include "mb4sim/simulator.hpp"
 #include "sim/scenario/scenario.hpp"
 #include "sim_clock.hpp"
+#include "word_port.hpp"
 
 namespace mb4::tool {
 namespace {
@@ -32,7 +32,7 @@ class AxiFrames final : public Workload {
   explicit AxiFrames(unsigned channels)
       : simulator_(sim::parse_scenario(scenario_of(channels), "workload")) {
     constexpr sim::Time kUntilFrames = 100 * sim::kPsPerUs;
-    AxiPort port(simulator_);
+    WordPort port(simulator_);
     SimClock clock(simulator_);
     biss_axi::Device device(port, clock);
     biss_axi::Config config;

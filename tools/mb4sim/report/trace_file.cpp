@@ -48,6 +48,10 @@ TraceFile::TraceFile(const std::string& option, const std::string& scenario_path
   if (master_->wave_groups == nullptr) {
     throw UseError(fmt::format("--trace: the master \"{}\" writes no waveform", master_->type));
   }
+  if (host_.interface.words) {
+    throw UseError(fmt::format("--trace: with the interface \"{}\" there is no waveform",
+                               host_.interface.key));
+  }
   if (is_vcd(path_)) {
     throw UseError(
         "--trace: " + path_ +

@@ -329,6 +329,28 @@ TEST_F(PageBlock, EveryCopyDisturbed_EndsWithoutAWord) {
   EXPECT_EQ(snapshot(0).flags & 1U, 1U) << "the next one is whole";
 }
 
+// What a pin has when the reset ends is no change of it.
+TEST_F(PageBlock, PinsAtTheEndOfTheReset_AreNoEvents) {
+  m.getsens_i = 1;
+  m.ner_i = 0;
+  m.rst_ni = 0;
+  m.eval();
+  block.reset();
+  events = 0;
+  clocks(20);
+  EXPECT_EQ(events, 0U);
+  m.getsens_i = 0;
+  m.ner_i = 1;
+  clocks(5);
+  EXPECT_EQ(events, 0U);
+  m.getsens_i = 1;
+  clocks(5);
+  EXPECT_EQ(events, 8U);
+  m.ner_i = 0;
+  clocks(5);
+  EXPECT_EQ(events, 10U);
+}
+
 // Events as in enc_irq: 0 frame end, 1 one of the flags or NER went to 0, 2 REGEND rose, 3 GETSENS
 // rose, 4 a frame was lost. Each for one clock, and nothing with the other edge.
 TEST_F(PageBlock, Events_ComeWithTheirEdgeOnce) {
