@@ -14,12 +14,15 @@
 // came back over a long line, MA stops with the start bit.
 //
 // A frame is bad, and changes neither position nor flags, if
-// - SLO is 0 at start_i (MA does not move; the channel rests at once),
+// - SLO is 0 at start_i (MA does not move; the channel rests at once; the delay is 1023),
 // - the acknowledge does not come within 1023 clocks, or the start bit not within StartLimit bits,
 // - the CRC is wrong and frame_i.check is 1,
 // - the channel is disabled or clear_i comes while it runs. MA then returns to 1 at the end of a
 //   half period.
-// After a frame SLO = 0 counts as timeout for at most TimeoutLimit clocks.
+// A frame that ends before its CRC leaves 0 as CRC in the results.
+// After a frame SLO = 0 counts as timeout for at most TimeoutLimit clocks. After a frame that was
+// ended by enabled_i or clear_i the channel waits for TimeoutLimit clocks whatever SLO is, because
+// the encoder may be in a bit that is 1.
 //
 // Misuse: start_i while busy_o is 1 starts no frame; word_o.good and word_o.crc_bad go to 0.
 // frame_i must not change while frame_o is 1.
@@ -29,7 +32,7 @@
 
 module axi_channel #(
   parameter int unsigned StartLimit   = 1024,  // bits, 1 to 4095
-  parameter int unsigned TimeoutLimit = 4000   // clocks, 1 to 4095
+  parameter int unsigned TimeoutLimit = 4000   // clocks, 1 to 1048575
 ) (
   input  logic       clk_i,
   input  logic       rst_ni,
@@ -53,14 +56,17 @@ module axi_channel #(
   input  logic       slo_i
 );
 
-  localparam logic [11:0] START_LAST   = 12'(StartLimit - 1);
-  localparam logic [11:0] TIMEOUT_LAST = 12'(TimeoutLimit - 1);
-  localparam logic [11:0] CRC_LAST     = 12'd5;
+  localparam int unsigned MOST = StartLimit > TimeoutLimit ? StartLimit : TimeoutLimit;
+  localparam int unsigned COUNT_W = MOST > 128 ? $clog2(MOST) : 7;
+  localparam logic [COUNT_W-1:0] START_LAST   = COUNT_W'(StartLimit - 1);
+  localparam logic [COUNT_W-1:0] TIMEOUT_LAST = COUNT_W'(TimeoutLimit - 1);
+  localparam logic [COUNT_W-1:0] CRC_LAST     = COUNT_W'(5);
+  localparam logic [COUNT_W-1:0] ONE          = COUNT_W'(1);
 
 `ifndef __ICARUS__  // Icarus 11 knows no $error here
-  if (StartLimit < 1 || StartLimit > 4095 || TimeoutLimit < 1 || TimeoutLimit > 4095)
+  if (StartLimit < 1 || StartLimit > 4095 || TimeoutLimit < 1 || TimeoutLimit > 1_048_575)
   begin : gen_limits
-    $error("StartLimit and TimeoutLimit are 1 to 4095");
+    $error("StartLimit is 1 to 4095, TimeoutLimit 1 to 1048575");
   end
 `endif
 
@@ -73,14 +79,15 @@ module axi_channel #(
     DATA,
     CRC,
     STOP,
-    TIMEOUT
+    TIMEOUT,
+    BROKEN
   } state_e;
 
   state_e      state_d;
   state_e      state_q;
   logic        first_q;        // one rising MA edge has come
-  logic [11:0] count_d;
-  logic [11:0] count_q;        // bits of a part, or clocks of the timeout
+  logic [COUNT_W-1:0] count_d;
+  logic [COUNT_W-1:0] count_q; // bits of a part, or clocks of the timeout
   logic [6:0]  ahead_d;
   logic [6:0]  ahead_q;        // rising MA edges minus bits before the start bit
   logic        all_sent;       // ahead_q has reached frame_i.edges
@@ -94,8 +101,12 @@ module axi_channel #(
   logic        begin_frame;
   logic        no_ack;
   logic        no_start;
+  logic        breaks;         // the frame is ended by the host
   logic        fail;           // the frame ends as a bad one
+  logic        late_start;
   logic        running;        // the frame waits for bits
+  logic        limit;          // the timeout has lasted as long as it can
+  logic        rests;          // MA is 1 and stays 1
   logic        sl, ack, late, bit_valid, sl_bit;
   logic [9:0]  delay;
   logic        rise, ma_clocks, ma, unused_released;
@@ -132,7 +143,7 @@ module axi_channel #(
     .stop_i        (fail),
     .enough_i      (enough),
     .cdm_i         (1'b0),
-    .high_i        (state_q == TIMEOUT),
+    .high_i        (state_q == TIMEOUT || state_q == BROKEN),
     .register_i    (1'b0),
     .register_ma_i (1'b1),
     .force_i       (1'b0),
@@ -160,10 +171,15 @@ module axi_channel #(
   // A disabled channel may still wait for its stop bit when a frame begins on the others.
   assign start       = start_i && state_q == IDLE;
   assign begin_frame = start && enabled_i;
-  assign running     = state_q != IDLE && state_q != TIMEOUT && state_q != STOP;
+  assign late_start  = begin_frame && !sl;
+  assign running     = state_q != IDLE && state_q != TIMEOUT && state_q != STOP &&
+                       state_q != BROKEN;
   assign no_ack      = state_q == ACK && !ack && late;
   assign no_start    = state_q == START && bit_valid && !sl_bit && count_q == START_LAST;
-  assign fail        = no_ack || no_start || (running && (clear_i || !enabled_i));
+  assign breaks      = running && (clear_i || !enabled_i);
+  assign fail        = no_ack || no_start || breaks;
+  assign limit       = count_q == TIMEOUT_LAST;
+  assign rests       = !ma_clocks && ma;
   assign all_sent    = ahead_q == frame_i.edges;
   assign enough      = all_sent && (state_q == CDS || state_q == DATA || state_q == CRC ||
                                     state_q == STOP || state_q == TIMEOUT);
@@ -188,7 +204,7 @@ module axi_channel #(
       START: begin
         // SLO is 0 for as long as the encoder processes, then 1 for one bit.
         if (bit_valid) begin
-          count_d = count_q + 12'd1;
+          count_d = count_q + ONE;
           if (sl_bit) state_d = CDS;
         end
       end
@@ -200,7 +216,7 @@ module axi_channel #(
       DATA: begin
         // Position, error, warning.
         if (bit_valid) begin
-          count_d = count_q + 12'd1;
+          count_d = count_q + ONE;
           if (count_q[6:0] == frame_i.data_last) begin
             state_d = CRC;
             count_d = '0;
@@ -209,7 +225,7 @@ module axi_channel #(
       end
       CRC: begin
         if (bit_valid) begin
-          count_d = count_q + 12'd1;
+          count_d = count_q + ONE;
           if (count_q == CRC_LAST) state_d = STOP;
         end
       end
@@ -220,13 +236,18 @@ module axi_channel #(
       end
       TIMEOUT: begin
         // SLO is 0 until the encoder is ready.
-        count_d = count_q + 12'(count_q != TIMEOUT_LAST);
-        if ((sl || count_q == TIMEOUT_LAST) && !ma_clocks && ma) state_d = IDLE;
+        count_d = count_q + COUNT_W'(!limit);
+        if ((sl || limit) && rests) state_d = IDLE;
+      end
+      BROKEN: begin
+        // The encoder is in the middle of its word: SLO does not show when its timeout begins.
+        count_d = count_q + COUNT_W'(!limit);
+        if (limit && rests) state_d = IDLE;
       end
       default: state_d = IDLE;
     endcase
     if (fail) begin
-      state_d = TIMEOUT;
+      state_d = breaks ? BROKEN : TIMEOUT;
       count_d = '0;
     end
   end
@@ -288,10 +309,10 @@ module axi_channel #(
       if (clear_i) begin
         result_q <= '0;
       end else begin
-        if (ended_q || no_ack) result_q.delay <= delay;
-        if (ended_q) begin
-          result_q.received   <= received_q;
-          result_q.calculated <= calculated_q;
+        if (ended_q || fail || late_start) begin
+          result_q.delay      <= delay | {10{!ack || late_start}};
+          result_q.received   <= received_q & {6{ended_q}};
+          result_q.calculated <= calculated_q & {6{ended_q}};
         end
         if (ended_q && good && frame_i.single) result_q.single <= shift_q[33:2];
       end
@@ -318,7 +339,7 @@ module axi_channel #(
   assign word_o         = word_q;
   assign ma_o           = ma;
 
-  `ENC_ASSERT(StateInRange_A, clk_i, rst_ni, state_q <= TIMEOUT)
-  `ENC_ASSERT_IF(RestIsHigh_A, clk_i, rst_ni, state_q == IDLE, ma && !ma_clocks)
+  `ENC_ASSERT(StateInRange_A, clk_i, rst_ni, state_q <= BROKEN)
+  `ENC_ASSERT_IF(RestIsHigh_A, clk_i, rst_ni, state_q == IDLE, rests)
 
 endmodule

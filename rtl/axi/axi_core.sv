@@ -86,7 +86,7 @@ module axi_core #(
   logic start, done, skip;
   logic tick, half_next, unused_half;
   biss_pkg::sample_t unused_sample;
-  logic overrun;
+  logic sending, overrun;
   logic error_q, warn_q;
   logic unused;
 
@@ -144,7 +144,7 @@ module axi_core #(
     .cfg_i      (cfg),
     .check_i    (cfg.crc_check ^ switches_i.crc_bit_ignores),
     .any_i      (|enabled),
-    .busy_i     (|(busy & enabled)),
+    .busy_i     (|(busy & enabled) || sending),
     .in_frame_i (|(in_frame & enabled)),
     .start_o    (start),
     .done_o     (done),
@@ -200,6 +200,7 @@ module axi_core #(
     .done_i    (done),
     .enabled_i (enabled),
     .words_i   (words),
+    .busy_o    (sending),
     .overrun_o (overrun),
     .s_axis_tvalid,
     .s_axis_tready,

@@ -24,7 +24,8 @@ module axi_start (
   input  axi_pkg::cfg_t   cfg_i,
   input  logic            check_i,      // a wrong CRC makes a word bad
   input  logic            any_i,        // a channel is enabled
-  input  logic            busy_i,       // an enabled channel is in a frame or its timeout
+  input  logic            busy_i,       // an enabled channel is in a frame or its timeout, or the
+                                        // words of the last read are still needed
   input  logic            in_frame_i,   // an enabled channel is in a frame
   output logic            start_o,
   output logic            done_o,

@@ -9,7 +9,7 @@
 //   s_axis_tready does not count. TLAST is 1. TUSER has a bit for each channel: 1 = its word is of
 //   this frame and good. Bits of a disabled channel are 0.
 // Mode 1: one beat for each enabled channel in ascending order, the first 2 clocks after done_i,
-//   one channel a clock. TLAST comes with the last one. TUSER: 0 good, 1 nE, 2 nW, 3 CRC wrong,
+//   one channel a clock; busy_o is high meanwhile, and the words must stay. TLAST comes with the last one. TUSER: 0 good, 1 nE, 2 nW, 3 CRC wrong,
 //   15..8 channel.
 //   Beats that the sink does not take wait in a FIFO. overrun_o is high for one clock if one was
 //   lost because the FIFO was full.
@@ -32,6 +32,7 @@ module axi_stream #(
   input  logic                done_i,
   input  logic [Channels-1:0] enabled_i,
   input  logic [Channels*axi_pkg::WORD_W-1:0] words_i,
+  output logic                busy_o,
   output logic                overrun_o,
   // AXI4-Stream
   output logic                s_axis_tvalid,
@@ -64,6 +65,7 @@ module axi_stream #(
     end
 
     assign unused        = s_axis_tready ^ (^words_i);
+    assign busy_o        = 1'b0;
     assign overrun_o     = 1'b0;
     assign s_axis_tvalid = valid_q;
     assign s_axis_tuser  = user_q;
@@ -78,6 +80,7 @@ module axi_stream #(
     logic               later;      // one of the channels behind it is
     logic [axi_pkg::WORD_W-1:0] word;
 
+    assign busy_o     = run_q;
     assign last_index = index_q == INDEX_W'(Channels - 1);
 
     always_comb begin

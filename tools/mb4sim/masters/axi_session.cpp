@@ -148,9 +148,9 @@ SlaveResult AxiSession::result_of(unsigned channel, bool good) {
   const auto delay = device_.line_delay(channel);
   const auto calculated = biss_axi::channel_word(port_, channel, regs::kAddrCalculatedCrc);
   if (!delay || !calculated) return {std::nullopt, describe(biss_axi::Error::kBus)};
-  if (*delay == kNoAcknowledge) return {std::nullopt, "no acknowledge"};
+  if (*delay == kNoAcknowledge) return {std::nullopt, "no acknowledge, or SLO was 0 at the start"};
   if (*received != *calculated) return {std::nullopt, "CRC error"};
-  return {std::nullopt, "no start bit, or SLO was 0 at the start"};
+  return {std::nullopt, "no start bit"};
 }
 
 SessionFrame AxiSession::read(std::uint64_t number) {
