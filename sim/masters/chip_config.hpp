@@ -16,6 +16,7 @@ struct ChipConfig {
   std::uint64_t f_osc_hz = 20'000'000;  // internal oscillator
   // Port quirks_i of the chip; the package of the master's RTL names the bits.
   unsigned quirks = 0;
+  unsigned features = 0;  // place in Master::features
   TableSource source;
 
   // The frequency that the chip is meant to run from: pin CLK if it is connected, else the

@@ -45,6 +45,10 @@ class AxiChannelBlock : public testing::Test {
 
   AxiChannelBlock() {
     m.frame_i = Frame{}.port();
+    // axi_pkg::rule_t: the CRC does not count here, the timeout is adaptive.
+    for (auto& word : m.rule_i.m_storage) word = 0;
+    m.rule_i[0] = kTimeoutLimit - 1;
+    m.cdm_i = 0;
     m.clear_i = m.enabled_i = m.start_i = m.request_i = m.tick_i = 0;
     m.half_next_i = m.slo_i = 1;
     block.reset();
@@ -301,8 +305,8 @@ TEST_F(AxiChannelBlock, LineThatStaysLow_EndsAfterTheLimits) {
 }
 
 // A channel that is disabled, or a soft reset, in any clock of a frame: it ends at once, and MA
-// returns to 1 at the end of a half period. A disabled channel's word is 0. The encoder may be in the
-// middle of its word, so the channel rests after TIMEOUT_LIMIT clocks, whatever SLO is.
+// returns to 1 at the end of a half period. A disabled channel's word is 0. The encoder may be in
+// the middle of its word, so the channel rests after TIMEOUT_LIMIT clocks, whatever SLO is.
 TEST_F(AxiChannelBlock, DisabledOrCleared_EndsAtOnce) {
   for (const bool disable : {true, false}) {
     for (unsigned at = 1; at < 400; at += 7) {

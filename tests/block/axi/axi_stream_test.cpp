@@ -43,6 +43,7 @@ void begin(Stream& stream) {
   m.enabled_i = 0;
   m.s_axis_tready = 1;
   for (auto& word : m.words_i.m_storage) word = 0;
+  for (auto& word : m.mores_i.m_storage) word = 0;
   stream.reset();
 }
 

@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The top biss_axi with numbers of channels that the simulator has no model for: three channels, and
-// five with stream mode 1 and a longer TIMEOUT_LIMIT.
+// The top biss_axi with numbers of channels that the simulator has no model for: three channels,
+// five with stream mode 1 and a longer TIMEOUT_LIMIT, and two with extras and 64 bits of stream
+// mode 1.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -11,6 +12,7 @@
 
 #include "Vbiss_axi_3.h"
 #include "Vbiss_axi_beats.h"
+#include "Vbiss_axi_full.h"
 #include "tests/block/axi/biss_axi_bench.hpp"
 
 namespace {
@@ -19,6 +21,7 @@ namespace reg = biss_axi::regs;
 using mb4test::Dice;
 using Three = mb4test::BissAxiBench<Vbiss_axi_3, 3>;
 using Beats = mb4test::BissAxiBench<Vbiss_axi_beats, 5>;
+using Full = mb4test::BissAxiBench<Vbiss_axi_full, 2>;
 
 constexpr unsigned kBits = 12;
 
@@ -98,8 +101,9 @@ TEST(BissAxiTop, LineStuckLowInAFrame_HoldsStartsBackForTheLimit) {
   EXPECT_NEAR(static_cast<double>(bench.now - ended), 8000, 40);
 }
 
-// A soft reset, or a channel that is disabled, in a word whose bits are 1: SLO does not show that the
-// encoder has not ended its frame. The channel holds starts back for as long as a timeout can last.
+// A soft reset, or a channel that is disabled, in a word whose bits are 1: SLO does not show that
+// the encoder has not ended its frame. The channel holds starts back for as long as a timeout can
+// last.
 TEST(BissAxiTop, FrameThatWasEnded_HoldsStartsBackForTheLimit) {
   for (const bool soft : {true, false}) {
     Three bench;
@@ -125,6 +129,82 @@ TEST(BissAxiTop, FrameThatWasEnded_HoldsStartsBackForTheLimit) {
     bench.clocks(3000);
     for (unsigned c = 0; c < 3; ++c) EXPECT_EQ(bench.read(c, reg::kAddrSinglePointData), 0xFFFU);
   }
+}
+
+// Extras: 64 bits of position and a CRC of 16 bits, one beat of 64 bits for each channel.
+TEST(BissAxiTop, PositionsOf64Bits_ComeInOneBeat) {
+  Dice dice;
+  Full bench;
+  EXPECT_EQ(bench.read(reg::kAddrFeatures), 2U << 16U | 1U << 9U | 0xFFU);
+  for (int round = 0; round < 40; ++round) {
+    const unsigned bits = round < 8 ? 64 : 1 + dice.below(64);
+    const std::uint32_t polynomial = round % 2 != 0 ? 0x190D9 : 0x43;
+    bench.set_up(bits, 2 + dice.below(4), 60);
+    bench.write(reg::kAddrCrcPolynomial, polynomial);
+    std::uint64_t sent[2];
+    for (unsigned c = 0; c < 2; ++c) {
+      sent[c] = 0;
+      for (int part = 0; part < 4; ++part) sent[c] = sent[c] << 16 | dice.below(0x10000);
+      sent[c] = bits == 64 ? sent[c] : sent[c] & ((std::uint64_t{1} << bits) - 1);
+      bench.set_word(c, sent[c], bits, 3 - c, polynomial);
+      bench.encoders[c].delay = dice.below(100);
+    }
+    bench.clocks(130);
+    bench.frame(1500);
+    ASSERT_EQ(bench.beats.size(), 2U) << round;
+    for (unsigned c = 0; c < 2; ++c) {
+      EXPECT_EQ(bench.beats[c].words[0], sent[c]) << round << " bits " << bits;
+      const unsigned flags = c == 0 ? 6U : 2U;  // nW, nE
+      EXPECT_EQ(bench.beats[c].user, c << 8U | flags | 1U);
+      EXPECT_EQ(bench.read(c, reg::kAddrSinglePointData), static_cast<std::uint32_t>(sent[c]));
+      EXPECT_EQ(bench.read(c, reg::kAddrPositionHigh), static_cast<std::uint32_t>(sent[c] >> 32U));
+    }
+  }
+}
+
+// A sink that stops: beats are lost, STREAM_STATUS and LOST say so.
+TEST(BissAxiTop, SinkThatStops_IsTold) {
+  Full bench;
+  bench.set_up(kBits, 2, 60);
+  for (unsigned c = 0; c < 2; ++c) bench.set_word(c, 0x100 + c, kBits);
+  bench.m.s_axis_tready = 0;
+  for (int i = 0; i < 2; ++i) bench.frame(400);
+  EXPECT_EQ(bench.read(reg::kAddrStreamStatus), 0U);
+  bench.write(reg::kAddrIrqStatus, 0x1F);
+  for (int i = 0; i < 2; ++i) {
+    bench.frame(400);
+    bench.write(reg::kAddrIrqStatus, 1);
+  }
+  EXPECT_EQ(bench.read(reg::kAddrStreamStatus), 1U);
+  EXPECT_EQ(bench.read(reg::kAddrIrqStatus), 0x10U);
+  bench.m.s_axis_tready = 1;
+  bench.beats.clear();
+  bench.clocks(20);
+  EXPECT_EQ(bench.beats.size(), 5U);  // 4 in the FIFO, one at the output
+}
+
+// A cable that gets longer while frames run.
+TEST(BissAxiTop, DelayThatMoves_IsAnAlarm) {
+  Full bench;
+  bench.set_up(kBits, 5, 200);
+  for (unsigned c = 0; c < 2; ++c) bench.set_word(c, 0x100 + c, kBits);
+  bench.encoders[1].delay = 40;
+  bench.clocks(50);
+  bench.frame(1500);
+  bench.write(reg::kAddrDelayTolerance, 2);
+  for (unsigned c = 0; c < 2; ++c) {
+    const std::uint32_t delay = bench.read(c, reg::kAddrLineDelay);
+    bench.write(reg::kAddrDelayReference, delay | 1U << 31U);
+  }
+  bench.write(reg::kAddrIrqEnable, 2);
+  for (const unsigned delay : {40U, 42U, 38U, 43U}) {
+    EXPECT_EQ(bench.read(reg::kAddrDelayAlarm), 0U) << delay;
+    EXPECT_EQ(bench.m.irq, 0);
+    bench.encoders[1].delay = delay;
+    bench.frame(1500);
+  }
+  EXPECT_EQ(bench.read(reg::kAddrDelayAlarm), 2U);
+  EXPECT_EQ(bench.m.irq, 1);
 }
 
 }  // namespace
