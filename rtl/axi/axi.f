@@ -5,9 +5,15 @@
 -F ../biss/biss.f
 axi_pkg.sv
 ../../regmap/generated/axi/axi_regs_pkg.sv
+axi_crc.sv
+axi_rule.sv
 axi_channel.sv
 axi_start.sv
 axi_regs.sv
 axi_stream.sv
+axi_page.sv
+axi_counters.sv
+axi_delays.sv
+axi_access.sv
 axi_core.sv
 biss_axi.sv

@@ -14,27 +14,38 @@
 // came back over a long line, MA stops with the start bit.
 //
 // A frame is bad, and changes neither position nor flags, if
-// - SLO is 0 at start_i (MA does not move; the channel rests at once),
+// - SLO is 0 at start_i (MA does not move; the channel rests at once; the delay is 1023),
 // - the acknowledge does not come within 1023 clocks, or the start bit not within StartLimit bits,
 // - the CRC is wrong and frame_i.check is 1,
 // - the channel is disabled or clear_i comes while it runs. MA then returns to 1 at the end of a
 //   half period.
-// After a frame SLO = 0 counts as timeout for at most TimeoutLimit clocks.
+// A frame that ends before its CRC leaves 0 as CRC in the results.
+// After a frame SLO = 0 counts as timeout for at most rule_i.timeout_last + 1 clocks. With
+// rule_i.fixed, and after a frame that was ended by enabled_i or clear_i, the channel waits for all
+// these clocks whatever SLO is: the encoder may be in a bit that is 1.
+//
+// Access = 1: the frame carries the CDM bit cdm_i[CDS], taken when it begins. MA shows it inverted
+// until the timeout has ended.
 //
 // Misuse: start_i while busy_o is 1 starts no frame; word_o.good and word_o.crc_bad go to 0.
-// frame_i must not change while frame_o is 1.
+// frame_i must not change while frame_o is 1, nor rule_i while busy_o is 1.
 // Source: hello-fpga BiSS-C master manual 1.1 and 2.4; docs/axi.md.
 
 `include "enc_check.svh"
 
 module axi_channel #(
-  parameter int unsigned StartLimit   = 1024,  // bits, 1 to 4095
-  parameter int unsigned TimeoutLimit = 4000   // clocks, 1 to 4095
+  parameter int unsigned StartLimit = 1024,  // bits, 1 to 4095
+  parameter int unsigned CountW     = 12,    // bits of StartLimit and of the timeout, 7 to 20
+  parameter bit          Wide       = 1'b0,  // up to 64 bits of position
+  parameter bit          AnyCrc     = 1'b0,  // 0: rule_i.crc_* are those of 0x43, whatever they are
+  parameter bit          Access     = 1'b0   // CDM
 ) (
   input  logic       clk_i,
   input  logic       rst_ni,
   // frames
   input  axi_pkg::frame_t frame_i,
+  input  axi_pkg::rule_t  rule_i,
+  input  logic [1:0] cdm_i,             // CDM to send if CDS of the frame is 1, 0
   input  logic       clear_i,           // soft reset
   input  logic       enabled_i,
   input  logic       start_i,
@@ -48,19 +59,23 @@ module axi_channel #(
   output logic       single_valid_o,
   output axi_pkg::result_t result_o,
   output axi_pkg::word_t   word_o,
+  output axi_pkg::more_t   more_o,
+  output axi_pkg::event_t  event_o,
   // pins
   output logic       ma_o,
   input  logic       slo_i
 );
 
-  localparam logic [11:0] START_LAST   = 12'(StartLimit - 1);
-  localparam logic [11:0] TIMEOUT_LAST = 12'(TimeoutLimit - 1);
-  localparam logic [11:0] CRC_LAST     = 12'd5;
+  localparam int unsigned SHIFT_W = Wide ? 66 : 34;
+  localparam int unsigned CRC_W   = AnyCrc ? 16 : 6;
+  localparam logic [CountW-1:0] START_LAST = CountW'(StartLimit - 1);
+  localparam logic [CountW-1:0] ONE        = CountW'(1);
 
 `ifndef __ICARUS__  // Icarus 11 knows no $error here
-  if (StartLimit < 1 || StartLimit > 4095 || TimeoutLimit < 1 || TimeoutLimit > 4095)
+  if (StartLimit < 1 || StartLimit > 4095 || CountW < 7 || CountW > 20 ||
+      StartLimit > (32'd1 << CountW))
   begin : gen_limits
-    $error("StartLimit and TimeoutLimit are 1 to 4095");
+    $error("StartLimit is 1 to 4095, CountW 7 to 20 and enough for it");
   end
 `endif
 
@@ -73,33 +88,45 @@ module axi_channel #(
     DATA,
     CRC,
     STOP,
-    TIMEOUT
+    TIMEOUT,
+    BROKEN
   } state_e;
 
   state_e      state_d;
   state_e      state_q;
   logic        first_q;        // one rising MA edge has come
-  logic [11:0] count_d;
-  logic [11:0] count_q;        // bits of a part, or clocks of the timeout
+  logic [CountW-1:0] count_d;
+  logic [CountW-1:0] count_q; // bits of a part, or clocks of the timeout
   logic [6:0]  ahead_d;
   logic [6:0]  ahead_q;        // rising MA edges minus bits before the start bit
   logic        all_sent;       // ahead_q has reached frame_i.edges
   logic        enough;
-  logic [33:0] shift_q;        // position, error, warning
-  logic [5:0]  received_q;
-  logic [5:0]  calculated_q;
+  logic [SHIFT_W-1:0] shift_q; // position, error, warning
+  logic [CRC_W-1:0] received_q;
+  logic [CRC_W-1:0] calculated_q;
   logic        fits_q;         // the CRC bits so far fit
   logic        ended_q;        // the last CRC bit has been taken
   logic        start;
   logic        begin_frame;
   logic        no_ack;
   logic        no_start;
+  logic        breaks;         // the frame is ended by the host
   logic        fail;           // the frame ends as a bad one
+  logic        late_start;
   logic        running;        // the frame waits for bits
+  logic        over;           // MA may return to 1
+  logic        limit;          // the timeout has lasted as long as it can
+  logic        rests;          // MA is 1 and stays 1
   logic        sl, ack, late, bit_valid, sl_bit;
   logic [9:0]  delay;
   logic        rise, ma_clocks, ma, unused_released;
   logic        crc_top;
+  logic [1:0]  cdm;            // for CDS = 1, 0
+  logic        cds;            // of this frame
+  logic        sent;           // CDM of this frame
+  logic        patient;        // SLO does not end the timeout
+  logic [3:0]  rule_crc_last;
+  logic        unused;
   logic        good;
   axi_pkg::result_t result_q;
   axi_pkg::word_t   word_q;
@@ -131,8 +158,8 @@ module axi_channel #(
     .clocked_i     (1'b1),
     .stop_i        (fail),
     .enough_i      (enough),
-    .cdm_i         (1'b0),
-    .high_i        (state_q == TIMEOUT),
+    .cdm_i         (sent),
+    .high_i        (over || state_q == BROKEN),
     .register_i    (1'b0),
     .register_ma_i (1'b1),
     .force_i       (1'b0),
@@ -143,30 +170,77 @@ module axi_channel #(
     .ma_o          (ma)
   );
 
-  enc_crc #(.Free(1'b0)) u_crc (
-    .clk_i,
-    .rst_ni,
-    .crc16_i (1'b0),
-    .poly_i  (8'h43),
-    .top_i   (8'h20),
-    .start_i (16'h0000),
-    .load_i  (state_q == CDS),
-    .shift_i (bit_valid),
-    .feed_i  (state_q == DATA),
-    .bit_i   (sl_bit),
-    .top_o   (crc_top)
-  );
+  if (AnyCrc) begin : gen_any_crc
+    axi_crc u_crc (
+      .clk_i,
+      .rst_ni,
+      .poly_i  (rule_i.crc_poly),
+      .mask_i  (rule_i.crc_top),
+      .start_i (rule_i.crc_start),
+      .load_i  (state_q == CDS),
+      .shift_i (bit_valid),
+      .feed_i  (state_q == DATA),
+      .bit_i   (sl_bit),
+      .top_o   (crc_top)
+    );
+  end else begin : gen_crc6
+    enc_crc #(.Free(1'b0)) u_crc (
+      .clk_i,
+      .rst_ni,
+      .crc16_i (1'b0),
+      .poly_i  (8'h43),
+      .top_i   (8'h20),
+      .start_i (16'h0000),
+      .load_i  (state_q == CDS),
+      .shift_i (bit_valid),
+      .feed_i  (state_q == DATA),
+      .bit_i   (sl_bit),
+      .top_o   (crc_top)
+    );
+  end
+
+  // If CDM depends on CDS, MA goes on until CDS has come.
+  if (Access) begin : gen_access
+    logic [1:0] cdm_q;
+    logic       cds_q;
+
+    always_ff @(posedge clk_i or negedge rst_ni) begin
+      if (!rst_ni) begin
+        cdm_q <= '0;
+        cds_q <= 1'b0;
+      end else begin
+        if (begin_frame)                        cdm_q <= cdm_i;
+        if (begin_frame)                        cds_q <= 1'b0;
+        else if (state_q == CDS && bit_valid)   cds_q <= sl_bit;
+      end
+    end
+
+    assign cdm  = cdm_q;
+    assign cds  = cds_q;
+    assign sent = cds_q ? cdm_q[1] : cdm_q[0];
+  end else begin : gen_no_access
+    assign cdm  = 2'b00;
+    assign cds  = 1'b0;
+    assign sent = 1'b0;
+  end
 
   // A disabled channel may still wait for its stop bit when a frame begins on the others.
   assign start       = start_i && state_q == IDLE;
   assign begin_frame = start && enabled_i;
-  assign running     = state_q != IDLE && state_q != TIMEOUT && state_q != STOP;
+  assign late_start  = begin_frame && !sl;
+  assign running     = state_q != IDLE && state_q != TIMEOUT && state_q != STOP &&
+                       state_q != BROKEN;
   assign no_ack      = state_q == ACK && !ack && late;
   assign no_start    = state_q == START && bit_valid && !sl_bit && count_q == START_LAST;
-  assign fail        = no_ack || no_start || (running && (clear_i || !enabled_i));
+  assign breaks      = running && (clear_i || !enabled_i);
+  assign fail        = no_ack || no_start || breaks;
+  assign limit       = count_q == rule_i.timeout_last[CountW-1:0];
+  assign patient     = rule_i.fixed;
+  assign over        = state_q == TIMEOUT && ((sl && !patient) || limit || !sent);
+  assign rests       = !ma_clocks && ma;
   assign all_sent    = ahead_q == frame_i.edges;
-  assign enough      = all_sent && (state_q == CDS || state_q == DATA || state_q == CRC ||
-                                    state_q == STOP || state_q == TIMEOUT);
+  assign enough      = all_sent && ((state_q == CDS && cdm[1] == cdm[0]) || state_q == DATA ||
+                                    state_q == CRC || state_q == STOP || state_q == TIMEOUT);
 
   always_comb begin
     state_d = state_q;
@@ -188,7 +262,7 @@ module axi_channel #(
       START: begin
         // SLO is 0 for as long as the encoder processes, then 1 for one bit.
         if (bit_valid) begin
-          count_d = count_q + 12'd1;
+          count_d = count_q + ONE;
           if (sl_bit) state_d = CDS;
         end
       end
@@ -200,7 +274,7 @@ module axi_channel #(
       DATA: begin
         // Position, error, warning.
         if (bit_valid) begin
-          count_d = count_q + 12'd1;
+          count_d = count_q + ONE;
           if (count_q[6:0] == frame_i.data_last) begin
             state_d = CRC;
             count_d = '0;
@@ -209,8 +283,8 @@ module axi_channel #(
       end
       CRC: begin
         if (bit_valid) begin
-          count_d = count_q + 12'd1;
-          if (count_q == CRC_LAST) state_d = STOP;
+          count_d = count_q + ONE;
+          if (count_q[3:0] == rule_crc_last) state_d = STOP;
         end
       end
       STOP: begin
@@ -220,13 +294,18 @@ module axi_channel #(
       end
       TIMEOUT: begin
         // SLO is 0 until the encoder is ready.
-        count_d = count_q + 12'(count_q != TIMEOUT_LAST);
-        if ((sl || count_q == TIMEOUT_LAST) && !ma_clocks && ma) state_d = IDLE;
+        count_d = count_q + CountW'(!limit);
+        if (((sl && !patient) || limit) && rests) state_d = IDLE;
+      end
+      BROKEN: begin
+        // The encoder is in the middle of its word: SLO does not show when its timeout begins.
+        count_d = count_q + CountW'(!limit);
+        if (limit && rests) state_d = IDLE;
       end
       default: state_d = IDLE;
     endcase
     if (fail) begin
-      state_d = TIMEOUT;
+      state_d = breaks ? BROKEN : TIMEOUT;
       count_d = '0;
     end
   end
@@ -267,12 +346,15 @@ module axi_channel #(
       fits_q       <= 1'b0;
     end else begin
       if (state_q == CDS)                    shift_q <= '0;
-      else if (bit_valid && state_q == DATA) shift_q <= {shift_q[32:0], sl_bit};
+      else if (bit_valid && state_q == DATA) shift_q <= {shift_q[SHIFT_W-2:0], sl_bit};
       if (state_q == CDS) fits_q <= 1'b1;
       else if (bit_valid && state_q == CRC) fits_q <= fits_q && sl_bit != crc_top;
-      if (bit_valid && state_q == CRC) begin
-        received_q   <= {received_q[4:0], sl_bit};
-        calculated_q <= {calculated_q[4:0], !crc_top};
+      if (AnyCrc && state_q == CDS) begin
+        received_q   <= '0;
+        calculated_q <= '0;
+      end else if (bit_valid && state_q == CRC) begin
+        received_q   <= {received_q[CRC_W-2:0], sl_bit};
+        calculated_q <= {calculated_q[CRC_W-2:0], !crc_top};
       end
     end
   end
@@ -288,15 +370,15 @@ module axi_channel #(
       if (clear_i) begin
         result_q <= '0;
       end else begin
-        if (ended_q || no_ack) result_q.delay <= delay;
-        if (ended_q) begin
-          result_q.received   <= received_q;
-          result_q.calculated <= calculated_q;
+        if (ended_q || fail || late_start) begin
+          result_q.delay      <= delay | {10{!ack || late_start}};
+          result_q.received   <= received_q[5:0] & {6{ended_q}};
+          result_q.calculated <= calculated_q[5:0] & {6{ended_q}};
         end
-        if (ended_q && good && frame_i.single) result_q.single <= shift_q[33:2];
+        if (ended_q && good && frame_i.single) result_q.single <= shift_q[2 +: 32];
       end
       if (clear_i || !enabled_i)  word_q.position <= '0;
-      else if (ended_q && good)   word_q.position <= shift_q[33:2];
+      else if (ended_q && good)   word_q.position <= shift_q[2 +: 32];
       if (clear_i) begin
         word_q.nerr  <= 1'b1;
         word_q.nwarn <= 1'b1;
@@ -311,6 +393,60 @@ module axi_channel #(
     end
   end
 
+  // ---- extras -------------------------------------------------------------------------------
+
+  if (Wide) begin : gen_wide
+    logic [31:0] single_q;
+    logic [31:0] position_q;
+
+    always_ff @(posedge clk_i or negedge rst_ni) begin
+      if (!rst_ni) begin
+        single_q   <= '0;
+        position_q <= '0;
+      end else begin
+        if (clear_i)                                  single_q <= '0;
+        else if (ended_q && good && frame_i.single)   single_q <= shift_q[SHIFT_W-1 -: 32];
+        if (clear_i || !enabled_i)                    position_q <= '0;
+        else if (ended_q && good)                     position_q <= shift_q[SHIFT_W-1 -: 32];
+      end
+    end
+
+    assign more_o.single_high   = single_q;
+    assign more_o.position_high = position_q;
+  end else begin : gen_narrow
+    assign more_o.single_high   = '0;
+    assign more_o.position_high = '0;
+  end
+
+  if (AnyCrc) begin : gen_crc_high
+    logic [9:0] received_high_q;
+    logic [9:0] calculated_high_q;
+
+    always_ff @(posedge clk_i or negedge rst_ni) begin
+      if (!rst_ni) begin
+        received_high_q   <= '0;
+        calculated_high_q <= '0;
+      end else if (clear_i) begin
+        received_high_q   <= '0;
+        calculated_high_q <= '0;
+      end else if (ended_q || fail || late_start) begin
+        received_high_q   <= received_q[CRC_W-1 -: 10] & {10{ended_q}};
+        calculated_high_q <= calculated_q[CRC_W-1 -: 10] & {10{ended_q}};
+      end
+    end
+
+    assign rule_crc_last          = rule_i.crc_last;
+    assign more_o.received_high   = received_high_q;
+    assign more_o.calculated_high = calculated_high_q;
+  end else begin : gen_no_crc_high
+    assign rule_crc_last          = 4'd5;
+    assign more_o.received_high   = '0;
+    assign more_o.calculated_high = '0;
+  end
+
+  assign event_o = {begin_frame && sl, ended_q, fail, ended_q && !fits_q, late_start, cds, sent};
+  assign unused  = (^rule_i) ^ (^cdm_i);
+
   assign busy_o         = state_q != IDLE;
   assign frame_o        = running || ended_q;
   assign single_valid_o = single_valid_q;
@@ -318,7 +454,7 @@ module axi_channel #(
   assign word_o         = word_q;
   assign ma_o           = ma;
 
-  `ENC_ASSERT(StateInRange_A, clk_i, rst_ni, state_q <= TIMEOUT)
-  `ENC_ASSERT_IF(RestIsHigh_A, clk_i, rst_ni, state_q == IDLE, ma && !ma_clocks)
+  `ENC_ASSERT(StateInRange_A, clk_i, rst_ni, state_q <= BROKEN)
+  `ENC_ASSERT_IF(RestIsHigh_A, clk_i, rst_ni, state_q == IDLE, rests)
 
 endmodule

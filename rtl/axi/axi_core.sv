@@ -3,7 +3,8 @@
 //
 // BiSS C master with N channels behind AXI4-Lite (instances, the common time base, the pins of
 // error and warning). biss_axi is the top with the document's names; switches_i is what its
-// parameters tie off.
+// parameters tie off. Extras says what there is beyond the document (axi_pkg::EXTRA_*); any of them
+// brings the page.
 //
 // Clock domain: clk_i. slo_i, ext_sample_clk_i and sample_en_i are asynchronous.
 // error_no and warn_no are 0 while the last good frame of an enabled channel had nE = 0 or nW = 0;
@@ -16,7 +17,9 @@
 module axi_core #(
   parameter int unsigned Channels     = 1,     // 1 to 16
   parameter int unsigned StreamMode   = 0,
-  parameter int unsigned StreamDataW  = 32 * Channels,
+  parameter logic [axi_pkg::EXTRAS_W-1:0] Extras = '0,
+  parameter int unsigned StreamLane   = Extras[axi_pkg::EXTRA_WIDE] ? 64 : 32,  // mode 0
+  parameter int unsigned StreamDataW  = StreamLane * Channels,
   parameter int unsigned StreamUserW  = Channels,
   parameter int unsigned StreamDepth  = 16,
   parameter int unsigned StartLimit   = 1024,
@@ -57,10 +60,24 @@ module axi_core #(
   output logic             sample_clk_o,
   input  logic             sample_en_i,
   output logic             error_no,
-  output logic             warn_no
+  output logic             warn_no,
+  output logic             irq_o
 );
 
+  localparam bit PAGE    = Extras != '0;
+  localparam bit WIDE    = Extras[axi_pkg::EXTRA_WIDE];
+  localparam bit CRC     = Extras[axi_pkg::EXTRA_CRC];
+  localparam bit TIMEOUT = Extras[axi_pkg::EXTRA_TIMEOUT];
+  localparam bit WATCH   = Extras[axi_pkg::EXTRA_ALARM];
+  localparam bit ACCESS  = Extras[axi_pkg::EXTRA_ACCESS];
+  localparam bit ALIGN   = Extras[axi_pkg::EXTRA_ALIGN];
+  localparam int unsigned LONGEST = StartLimit > TimeoutLimit ? StartLimit : TimeoutLimit;
+  localparam int unsigned COUNT_W = TIMEOUT ? 20 : LONGEST > 128 ? $clog2(LONGEST) : 7;
+
 `ifndef __ICARUS__  // Icarus 11 knows no $error here
+  if (TimeoutLimit < 1 || TimeoutLimit > 1_048_575) begin : gen_timeout_limit
+    $error("TimeoutLimit is 1 to 1048575");
+  end
   if (Channels < 1 || Channels > 16) begin : gen_channels
     $error("Channels is 1 to 16");
   end
@@ -83,10 +100,24 @@ module axi_core #(
   logic [Channels-1:0] nwarn;
   logic [Channels*axi_pkg::RESULT_W-1:0] results;
   logic [Channels*axi_pkg::WORD_W-1:0]   words;
-  logic start, done, skip;
-  logic tick, half_next, unused_half;
+  logic [Channels*axi_pkg::MORE_W-1:0]   mores;
+  logic [Channels*axi_pkg::EVENT_W-1:0]  events;
+  logic [Channels*2-1:0]                 cdm;
+  logic [Channels-1:0] channel_start;
+  logic [Channels-1:0] pending;          // a shifted start is to come
+  logic [Channels-1:0] good;
+  logic [3:0]          index;
+  axi_pkg::bus_t       bus;
+  axi_pkg::page_t      page;
+  axi_pkg::rule_t      rule;
+  logic [4:0]          crc_bits;
+  logic [31:0]         page_data, counter_data, delay_data, access_data;
+  logic take, start, done, skip, sense;
+  logic tick, half_next;
+  logic sending, measuring, overrun;
+  logic alarm, access_end;
   biss_pkg::sample_t unused_sample;
-  logic overrun;
+  logic unused_half;
   logic error_q, warn_q;
   logic unused;
 
@@ -132,27 +163,43 @@ module axi_core #(
     .cfg_o          (cfg),
     .enable_o       (enable),
     .ma_shift_o     (ma_shift),
+    .index_o        (index),
+    .page_data_i    (page_data | counter_data | delay_data | access_data),
     .single_valid_i (single_valid),
-    .results_i      (results)
+    .results_i      (results),
+    .mores_i        (mores)
   );
 
   assign enabled = enable ^ {Channels{switches_i.enable_active_low}};
+  assign bus     = {req && !write, req && write && be == 4'hF, addr, 2'b00, wdata};
 
-  axi_start u_start (
+  axi_start #(.Wide(WIDE)) u_start (
     .clk_i,
     .rst_ni,
     .cfg_i      (cfg),
     .check_i    (cfg.crc_check ^ switches_i.crc_bit_ignores),
+    .crc_bits_i (crc_bits),
     .any_i      (|enabled),
-    .busy_i     (|(busy & enabled)),
-    .in_frame_i (|(in_frame & enabled)),
+    .busy_i     (|((busy | pending) & enabled) || sending || measuring),
+    .in_frame_i (|((in_frame | pending) & enabled)),
+    .take_o     (take),
     .start_o    (start),
     .done_o     (done),
     .skip_o     (skip),
+    .sense_o    (sense),
     .frame_o    (frame),
     .ext_sample_clk_i,
     .sample_en_i,
     .sample_clk_o
+  );
+
+  axi_rule #(.TimeoutLimit(TimeoutLimit), .AnyCrc(CRC), .Timeout(TIMEOUT)) u_rule (
+    .clk_i,
+    .rst_ni,
+    .page_i     (page),
+    .take_i     (take),
+    .rule_o     (rule),
+    .crc_bits_o (crc_bits)
   );
 
   biss_timebase u_timebase (
@@ -168,31 +215,149 @@ module axi_core #(
   );
 
   for (genvar i = 0; i < Channels; i++) begin : gen_channel
-    axi_channel #(.StartLimit(StartLimit), .TimeoutLimit(TimeoutLimit)) u_channel (
+    logic ma_tick, ma_half_next;
+
+    // A channel whose start is shifted has a time base of its own.
+    if (ALIGN) begin : gen_own_timebase
+      biss_pkg::sample_t own_sample;
+      logic              own_half, unused_own;
+      biss_timebase u_timebase (
+        .clk_i,
+        .rst_ni,
+        .half_len_i    (frame.half_len),
+        .run_i         (1'b1),
+        .restart_i     (channel_start[i]),
+        .tick_o        (ma_tick),
+        .half_next_o   (ma_half_next),
+        .sample_o      (own_sample),
+        .sample_half_o (own_half)
+      );
+      assign unused_own = (^own_sample) ^ own_half;
+    end else begin : gen_common_timebase
+      assign ma_tick      = tick;
+      assign ma_half_next = half_next;
+    end
+
+    axi_channel #(
+      .StartLimit(StartLimit), .CountW(COUNT_W), .Wide(WIDE), .AnyCrc(CRC), .Access(ACCESS)
+    ) u_channel (
       .clk_i,
       .rst_ni,
       .frame_i        (frame),
+      .rule_i         (rule),
+      .cdm_i          (cdm[2*i +: 2]),
       .clear_i        (cfg.soft_reset),
       .enabled_i      (enabled[i]),
-      .start_i        (start),
+      .start_i        (channel_start[i]),
       .request_i      (frame.single && switches_i.valid_until_request),
-      .tick_i         (tick),
-      .half_next_i    (half_next),
+      .tick_i         (ma_tick),
+      .half_next_i    (ma_half_next),
       .busy_o         (busy[i]),
       .frame_o        (in_frame[i]),
       .single_valid_o (single_valid[i]),
       .result_o       (results[i*axi_pkg::RESULT_W +: axi_pkg::RESULT_W]),
       .word_o         (words[i*axi_pkg::WORD_W +: axi_pkg::WORD_W]),
+      .more_o         (mores[i*axi_pkg::MORE_W +: axi_pkg::MORE_W]),
+      .event_o        (events[i*axi_pkg::EVENT_W +: axi_pkg::EVENT_W]),
       .ma_o           (ma_o[i]),
       .slo_i          (slo_i[i])
     );
+    assign good[i]  = words[i*axi_pkg::WORD_W + axi_pkg::WORD_GOOD];
     assign nerr[i]  = words[i*axi_pkg::WORD_W + axi_pkg::WORD_NERR];
     assign nwarn[i] = words[i*axi_pkg::WORD_W + axi_pkg::WORD_NWARN];
   end
 
+  // ---- extras -------------------------------------------------------------------------------
+
+  if (PAGE) begin : gen_page
+    axi_page #(.Channels(Channels), .Extras(Extras)) u_page (
+      .clk_i,
+      .rst_ni,
+      .switches_i,
+      .clear_i      (cfg.soft_reset),
+      .bus_i        (bus),
+      .data_o       (page_data),
+      .page_o       (page),
+      .start_i      (start),
+      .skip_i       (skip),
+      .done_i       (done),
+      .bad_i        ((enabled & ~good) != '0),
+      .alarm_i      (alarm),
+      .access_end_i (access_end),
+      .sense_i      (sense),
+      .overrun_i    (overrun),
+      .tick_i       (tick),
+      .half_next_i  (half_next),
+      .irq_o
+    );
+  end else begin : gen_no_page
+    assign page_data = '0;
+    assign page      = '0;
+    assign irq_o     = 1'b0;
+  end
+
+  if (Extras[axi_pkg::EXTRA_COUNTERS]) begin : gen_counters
+    axi_counters #(.Channels(Channels)) u_counters (
+      .clk_i,
+      .rst_ni,
+      .clear_i  (cfg.soft_reset),
+      .bus_i    (bus),
+      .index_i  (index),
+      .events_i (events),
+      .data_o   (counter_data)
+    );
+  end else begin : gen_no_counters
+    assign counter_data = '0;
+  end
+
+  if (WATCH || ALIGN) begin : gen_delays
+    axi_delays #(.Channels(Channels), .Watch(WATCH), .Align(ALIGN)) u_delays (
+      .clk_i,
+      .rst_ni,
+      .clear_i   (cfg.soft_reset),
+      .bus_i     (bus),
+      .index_i   (index),
+      .data_o    (delay_data),
+      .done_i    (done),
+      .enabled_i (enabled),
+      .results_i (results),
+      .shift_i   (ma_shift & {Channels{switches_i.align_latch}}),
+      .start_i   (start),
+      .start_o   (channel_start),
+      .pending_o (pending),
+      .busy_o    (measuring),
+      .alarm_o   (alarm)
+    );
+  end else begin : gen_no_delays
+    assign delay_data    = '0;
+    assign channel_start = {Channels{start}};
+    assign pending       = '0;
+    assign measuring     = 1'b0;
+    assign alarm         = 1'b0;
+  end
+
+  if (ACCESS) begin : gen_access
+    axi_access #(.Channels(Channels)) u_access (
+      .clk_i,
+      .rst_ni,
+      .clear_i  (cfg.soft_reset),
+      .bus_i    (bus),
+      .data_o   (access_data),
+      .events_i (events),
+      .cdm_o    (cdm),
+      .end_o    (access_end)
+    );
+  end else begin : gen_no_access
+    assign access_data = '0;
+    assign cdm         = '0;
+    assign access_end  = 1'b0;
+  end
+
+  // ---- outputs ------------------------------------------------------------------------------
+
   axi_stream #(
-    .Channels(Channels), .Mode(StreamMode), .DataW(StreamDataW), .UserW(StreamUserW),
-    .Depth(StreamDepth)
+    .Channels(Channels), .Mode(StreamMode), .Lane(StreamLane), .DataW(StreamDataW),
+    .UserW(StreamUserW), .Depth(StreamDepth)
   ) u_stream (
     .clk_i,
     .rst_ni,
@@ -200,6 +365,8 @@ module axi_core #(
     .done_i    (done),
     .enabled_i (enabled),
     .words_i   (words),
+    .mores_i   (mores),
+    .busy_o    (sending),
     .overrun_o (overrun),
     .s_axis_tvalid,
     .s_axis_tready,
@@ -220,7 +387,8 @@ module axi_core #(
 
   assign error_no = error_q;
   assign warn_no  = warn_q;
-  assign unused   = skip ^ overrun ^ (^ma_shift) ^ switches_i.align_latch ^
+  assign unused   = skip ^ overrun ^ sense ^ alarm ^ access_end ^ (^ma_shift) ^ (^events) ^ (^good) ^
+                    switches_i.align_latch ^ (^bus) ^ (^index) ^
                     (^{s_axi_awaddr[1:0], s_axi_araddr[1:0], unused_sample, unused_half});
 
 endmodule

@@ -5,6 +5,18 @@
 
 package axi_pkg;
 
+  // Extras beyond the document: places in parameter EXTRAS of biss_axi and in register FEATURES.
+  localparam int unsigned EXTRA_PAGE      = 0;  // identity, time, interrupt, skipped starts
+  localparam int unsigned EXTRA_WIDE      = 1;  // positions of up to 64 bits
+  localparam int unsigned EXTRA_CRC       = 2;  // any CRC polynomial up to 16 bits
+  localparam int unsigned EXTRA_TIMEOUT   = 3;  // timeout by a register, adaptive or fixed
+  localparam int unsigned EXTRA_COUNTERS  = 4;  // frames, CRC errors, late starts of each channel
+  localparam int unsigned EXTRA_STAMP     = 5;  // time of the sampling instant
+  localparam int unsigned EXTRA_ALARM     = 6;  // line delays that move
+  localparam int unsigned EXTRA_ACCESS    = 7;  // registers of encoders
+  localparam int unsigned EXTRA_ALIGN     = 8;  // ALIGN_LATCH
+  localparam int unsigned EXTRAS_W        = 9;
+
   // What a frame is, the same for all channels. Registers, taken when the frame starts.
   typedef struct packed {
     logic [7:0] half_len;   // half an MA period in clocks, not 0
@@ -13,6 +25,17 @@ package axi_pkg;
     logic       check;      // a wrong CRC makes a word bad
     logic       single;     // single-point mode
   } frame_t;
+
+  // CRC and timeout of a frame, the same for all channels. Constants, or registers that are taken
+  // when the frame starts.
+  typedef struct packed {
+    logic [15:0] crc_poly;      // without the highest power
+    logic [15:0] crc_top;       // one-hot: highest bit of the remainder
+    logic [15:0] crc_start;
+    logic [3:0]  crc_last;      // bits minus 1
+    logic        fixed;         // the timeout lasts for all its clocks, whatever SLO is
+    logic [19:0] timeout_last;  // clocks of the longest timeout minus 1
+  } rule_t;
 
   // The configuration registers that are the same for all channels. All registers.
   typedef struct packed {
@@ -51,6 +74,41 @@ package axi_pkg;
     logic        good;
   } word_t;
 
+  // What extras add to the results of a channel. All registers, or 0 without the extra.
+  typedef struct packed {
+    logic [31:0] single_high;   // bits 63..32
+    logic [31:0] position_high;
+    logic [9:0]  received_high; // bits 15..6
+    logic [9:0]  calculated_high;
+  } more_t;
+
+  // What happens in a channel. Each of the first five is high for one clock.
+  typedef struct packed {
+    logic        begun;         // a frame begins and takes CDM
+    logic        ended;         // its last CRC bit has come
+    logic        failed;        // it ends before
+    logic        crc_error;     // with ended
+    logic        late;          // SLO was 0 at the start: no frame begins
+    logic        cds;           // with ended: CDS and CDM of this frame
+    logic        cdm;
+  } event_t;
+
+  // An access of the host to the page. The words of the page are written whole.
+  typedef struct packed {
+    logic        rd;
+    logic        wr;
+    logic [7:0]  addr;
+    logic [31:0] data;
+  } bus_t;
+
+  // Configuration of the page.
+  typedef struct packed {
+    logic [16:0] crc_polynomial;
+    logic [15:0] crc_start;
+    logic        timeout_fixed;
+    logic [19:0] timeout_limit;
+  } page_t;
+
   // Widths of the types, for vectors of them, and places in word_t.
   localparam int unsigned RESULT_W      = 54;
   localparam int unsigned WORD_W        = 36;
@@ -58,5 +116,16 @@ package axi_pkg;
   localparam int unsigned WORD_GOOD     = 0;
   localparam int unsigned WORD_NERR     = 1;
   localparam int unsigned WORD_NWARN    = 2;
+  localparam int unsigned RESULT_DELAY  = 12;  // place in result_t
+  localparam int unsigned MORE_W        = 84;
+  localparam int unsigned MORE_POSITION = 20;  // place in more_t
+  localparam int unsigned EVENT_W       = 7;
+  localparam int unsigned EVENT_BEGUN     = 6;  // places in event_t
+  localparam int unsigned EVENT_ENDED     = 5;
+  localparam int unsigned EVENT_FAILED    = 4;
+  localparam int unsigned EVENT_CRC_ERROR = 3;
+  localparam int unsigned EVENT_LATE      = 2;
+  localparam int unsigned EVENT_CDS       = 1;
+  localparam int unsigned EVENT_CDM       = 0;
 
 endpackage

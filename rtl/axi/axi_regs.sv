@@ -5,7 +5,7 @@
 //
 // Clock domain: core. An access never waits and is done in the clock of word_req_i. Bits that a
 // register does not have read 0. Words for each channel show the channel of CHANNEL_INDEX; an index
-// beyond the last channel reads 0.
+// beyond the last channel reads 0. page_data_i is what the page answers, 0 for other addresses.
 //
 // Misuse: addresses without a register read 0 and ignore writes.
 // Source: regmap/axi.rdl; hello-fpga BiSS-C master manual 2.4.
@@ -26,9 +26,13 @@ module axi_regs #(
   output axi_pkg::cfg_t         cfg_o,
   output logic [Channels-1:0]   enable_o,        // as written
   output logic [Channels-1:0]   ma_shift_o,
+  output logic [3:0]            index_o,
+  // page
+  input  logic [31:0]           page_data_i,
   // results
   input  logic [Channels-1:0]   single_valid_i,
-  input  logic [Channels*axi_pkg::RESULT_W-1:0] results_i
+  input  logic [Channels*axi_pkg::RESULT_W-1:0] results_i,
+  input  logic [Channels*axi_pkg::MORE_W-1:0]   mores_i
 );
 
   localparam int unsigned INDEX_W = Channels > 1 ? $clog2(Channels) : 1;
@@ -42,6 +46,8 @@ module axi_regs #(
   logic [15:0]         ma_shift_q;
   logic [INDEX_W-1:0]  index_q;
   axi_pkg::result_t    result;
+  axi_pkg::more_t      more;
+  logic                unused;
   logic [31:0]         rdata;
 
   assign addr = {word_addr_i, 2'b00};
@@ -82,8 +88,13 @@ module axi_regs #(
 
   always_comb begin
     result = '0;
-    for (int unsigned i = 0; i < Channels; i++)
-      if (index_q == INDEX_W'(i)) result = results_i[i*axi_pkg::RESULT_W +: axi_pkg::RESULT_W];
+    more   = '0;
+    for (int unsigned i = 0; i < Channels; i++) begin
+      if (index_q == INDEX_W'(i)) begin
+        result = results_i[i*axi_pkg::RESULT_W +: axi_pkg::RESULT_W];
+        more   = mores_i[i*axi_pkg::MORE_W +: axi_pkg::MORE_W];
+      end
+    end
   end
 
   always_comb begin
@@ -100,17 +111,22 @@ module axi_regs #(
       axi_regs_pkg::ADDR_CHANNEL_ENABLE:     rdata[15:0] = enable_q;
       axi_regs_pkg::ADDR_CHANNEL_INDEX:      rdata[INDEX_W-1:0] = index_q;
       axi_regs_pkg::ADDR_MA_SHIFT:           rdata[15:0] = ma_shift_q;
-      axi_regs_pkg::ADDR_RECEIVED_CRC:       rdata[5:0]  = result.received;
-      axi_regs_pkg::ADDR_CALCULATED_CRC:     rdata[5:0]  = result.calculated;
+      axi_regs_pkg::ADDR_RECEIVED_CRC:
+        rdata[15:0] = {more.received_high, result.received};
+      axi_regs_pkg::ADDR_CALCULATED_CRC:
+        rdata[15:0] = {more.calculated_high, result.calculated};
       axi_regs_pkg::ADDR_SINGLE_POINT_VALID: rdata[Channels-1:0] = single_valid_i;
       axi_regs_pkg::ADDR_SINGLE_POINT_DATA:  rdata       = result.single;
       axi_regs_pkg::ADDR_LINE_DELAY:         rdata[9:0]  = result.delay;
+      axi_regs_pkg::ADDR_POSITION_HIGH:      rdata       = more.single_high;
       default:                               rdata       = '0;
     endcase
   end
 
-  assign word_data_o = rdata;
+  assign word_data_o = rdata | page_data_i;
   assign cfg_o       = cfg_q;
+  assign index_o     = 4'(index_q);
+  assign unused      = ^more;
   assign enable_o    = enable_q[Channels-1:0];
   assign ma_shift_o  = ma_shift_q[Channels-1:0];
 

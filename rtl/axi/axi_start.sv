@@ -18,17 +18,23 @@
 // Misuse: a sample clock faster than half of clk_i loses edges.
 // Source: hello-fpga BiSS-C master manual 2.3.4 and 2.4; docs/axi.md.
 
-module axi_start (
+module axi_start #(
+  parameter bit Wide = 1'b0      // up to 64 bits of position
+) (
   input  logic            clk_i,
   input  logic            rst_ni,
   input  axi_pkg::cfg_t   cfg_i,
   input  logic            check_i,      // a wrong CRC makes a word bad
+  input  logic [4:0]      crc_bits_i,   // of the CRC
   input  logic            any_i,        // a channel is enabled
-  input  logic            busy_i,       // an enabled channel is in a frame or its timeout
+  input  logic            busy_i,       // an enabled channel is in a frame or its timeout, or the
+                                        // words of the last read are still needed
   input  logic            in_frame_i,   // an enabled channel is in a frame
+  output logic            take_o,       // the clock before start_o: what the registers say counts
   output logic            start_o,
   output logic            done_o,
   output logic            skip_o,
+  output logic            sense_o,      // the external sample clock has risen
   output axi_pkg::frame_t frame_o,
   // pins
   input  logic            ext_sample_clk_i,
@@ -36,9 +42,10 @@ module axi_start (
   output logic            sample_clk_o
 );
 
-  // A word has 2 flags and 6 CRC bits; 4 edges of MA belong to no bit after the start bit.
+  // A word has 2 flags; 4 edges of MA belong to no bit after the start bit.
   localparam logic [6:0] FLAGS      = 7'd2;
-  localparam logic [6:0] MORE_EDGES = 7'd12;
+  localparam logic [6:0] MORE_EDGES = 7'd6;
+  localparam logic [7:0] MOST_BITS  = Wide ? 8'd64 : 8'd32;
 
   logic        ext_clk;
   logic        sample_en;
@@ -55,7 +62,7 @@ module axi_start (
   logic        start_q;
   logic        run_q;       // a read runs
   logic        skip_q;
-  logic        all_bits;
+  logic        take;
   logic [6:0]  bits;
   axi_pkg::frame_t frame_q;
 
@@ -79,8 +86,11 @@ module axi_start (
   assign sample_clk = cfg_i.external_clock ? ext_clk : internal_q;
   assign free       = !busy_i && !run_q;
 
-  assign all_bits = cfg_i.position_bits == 8'd0 || cfg_i.position_bits > 8'd32;
-  assign bits     = all_bits ? 7'd32 : cfg_i.position_bits[6:0];
+  assign take       = edge_q && free;
+
+  // 0 acts as 32, more than the most as the most.
+  assign bits = cfg_i.position_bits == 8'd0      ? 7'd32 :
+                cfg_i.position_bits > MOST_BITS  ? MOST_BITS[6:0] : cfg_i.position_bits[6:0];
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
@@ -104,21 +114,23 @@ module axi_start (
       edge_q        <= any_i && !cfg_i.soft_reset &&
                        (cfg_i.single_point ? cfg_i.request && !request_q
                                            : sample_clk && !sample_clk_q && sample_en);
-      start_q       <= edge_q && free;
+      start_q       <= take;
       skip_q        <= edge_q && !free;
-      run_q         <= (edge_q && free) || (run_q && !done_o);
-      if (edge_q && free) begin
+      run_q         <= take || (run_q && !done_o);
+      if (take) begin
         frame_q.half_len  <= {cfg_i.ma_divider[7:1],
                               cfg_i.ma_divider[0] || cfg_i.ma_divider == 8'd0};
         frame_q.data_last <= bits + FLAGS - 7'd1;
-        frame_q.edges     <= bits + MORE_EDGES;
+        frame_q.edges     <= bits + MORE_EDGES + 7'(crc_bits_i);
         frame_q.check     <= check_i;
         frame_q.single    <= edge_single_q;
       end
     end
   end
 
+  assign take_o       = take;
   assign start_o      = start_q;
+  assign sense_o      = cfg_i.external_clock && sample_clk && !sample_clk_q;
   assign done_o       = run_q && !start_q && !in_frame_i;
   assign skip_o       = skip_q;
   assign frame_o      = frame_q;

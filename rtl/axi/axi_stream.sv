@@ -5,11 +5,11 @@
 //
 // Clock domain: core. done_i says that all enabled channels have ended their frames.
 //
-// Mode 0: one beat for each read, in the next clock, 32 bits for each channel (channel 0 lowest).
+// Mode 0: one beat for each read, in the next clock, Lane bits for each channel (channel 0 lowest).
 //   s_axis_tready does not count. TLAST is 1. TUSER has a bit for each channel: 1 = its word is of
 //   this frame and good. Bits of a disabled channel are 0.
 // Mode 1: one beat for each enabled channel in ascending order, the first 2 clocks after done_i,
-//   one channel a clock. TLAST comes with the last one. TUSER: 0 good, 1 nE, 2 nW, 3 CRC wrong,
+//   one channel a clock; busy_o is high meanwhile, and the words must stay. TLAST comes with the last one. TUSER: 0 good, 1 nE, 2 nW, 3 CRC wrong,
 //   15..8 channel.
 //   Beats that the sink does not take wait in a FIFO. overrun_o is high for one clock if one was
 //   lost because the FIFO was full.
@@ -22,7 +22,8 @@
 module axi_stream #(
   parameter int unsigned Channels = 1,
   parameter int unsigned Mode     = 0,
-  parameter int unsigned DataW    = 32 * Channels,  // mode 0: 32 * Channels; mode 1: 32 or 64
+  parameter int unsigned Lane     = 32,             // mode 0: 32 or 64
+  parameter int unsigned DataW    = Lane * Channels,  // mode 0: Lane * Channels; mode 1: 32 or 64
   parameter int unsigned UserW    = Channels,  // mode 0: Channels; mode 1: 16
   parameter int unsigned Depth    = 16   // of the FIFO of mode 1
 ) (
@@ -32,6 +33,8 @@ module axi_stream #(
   input  logic                done_i,
   input  logic [Channels-1:0] enabled_i,
   input  logic [Channels*axi_pkg::WORD_W-1:0] words_i,
+  input  logic [Channels*axi_pkg::MORE_W-1:0] mores_i,
+  output logic                busy_o,
   output logic                overrun_o,
   // AXI4-Stream
   output logic                s_axis_tvalid,
@@ -49,7 +52,11 @@ module axi_stream #(
 
     for (genvar i = 0; i < Channels; i++) begin : gen_channel
       localparam int unsigned AT = i * axi_pkg::WORD_W;
-      assign s_axis_tdata[i*32 +: 32] = words_i[AT + axi_pkg::WORD_POSITION +: 32];
+      localparam int unsigned MORE_AT = i * axi_pkg::MORE_W + axi_pkg::MORE_POSITION;
+      assign s_axis_tdata[i*Lane +: 32] = words_i[AT + axi_pkg::WORD_POSITION +: 32];
+      if (Lane == 64) begin : gen_high
+        assign s_axis_tdata[i*Lane+32 +: 32] = mores_i[MORE_AT +: 32];
+      end
       assign good[i]                  = words_i[AT + axi_pkg::WORD_GOOD];
     end
 
@@ -63,7 +70,8 @@ module axi_stream #(
       end
     end
 
-    assign unused        = s_axis_tready ^ (^words_i);
+    assign unused        = s_axis_tready ^ (^words_i) ^ (^mores_i);
+    assign busy_o        = 1'b0;
     assign overrun_o     = 1'b0;
     assign s_axis_tvalid = valid_q;
     assign s_axis_tuser  = user_q;
@@ -77,16 +85,22 @@ module axi_stream #(
     logic               now;        // the channel is enabled
     logic               later;      // one of the channels behind it is
     logic [axi_pkg::WORD_W-1:0] word;
+    logic [31:0]        high;
+    logic               unused;
 
+    assign busy_o     = run_q;
+    assign unused     = ^mores_i;
     assign last_index = index_q == INDEX_W'(Channels - 1);
 
     always_comb begin
       word  = '0;
+      high  = '0;
       now   = 1'b0;
       later = 1'b0;
       for (int unsigned i = 0; i < Channels; i++) begin
         if (index_q == INDEX_W'(i)) begin
           word = words_i[i*axi_pkg::WORD_W +: axi_pkg::WORD_W];
+          high = mores_i[i*axi_pkg::MORE_W + axi_pkg::MORE_POSITION +: 32];
           now  = enabled_i[i];
         end
         if (index_q < INDEX_W'(i)) later = later || enabled_i[i];
@@ -108,7 +122,7 @@ module axi_stream #(
       .rst_ni,
       .clear_i,
       .push_i    (run_q && now),
-      .data_i    (DataW'(word[axi_pkg::WORD_POSITION +: 32])),
+      .data_i    (DataW'({high, word[axi_pkg::WORD_POSITION +: 32]})),
       .user_i    ({8'(index_q), 4'd0, word[axi_pkg::WORD_POSITION-1:0]}),
       .last_i    (!later),
       .overrun_o,

@@ -24,8 +24,10 @@ module biss_axi #(
   parameter bit          VALID_UNTIL_REQUEST = 1'b1,  // an accepted request clears 0x34
   parameter int unsigned START_LIMIT         = 1024,  // MA periods up to the start bit
   parameter int unsigned TIMEOUT_LIMIT       = 4000,  // clocks of an encoder's timeout
-  parameter int unsigned S_AXIS_TDATA_WIDTH  = STREAM_MODE == 0 ? 32 * BISS_CHANNEL_WIDTH
-                                                                : STREAM_WIDTH,
+  parameter bit          ALIGN_LATCH         = 1'b0,  // 0x28 acts
+  parameter int unsigned EXTRAS              = 0,     // bits as in axi_pkg and register FEATURES
+  parameter int unsigned S_AXIS_TDATA_WIDTH  =
+    STREAM_MODE == 1 ? STREAM_WIDTH : ((EXTRAS & 2) != 0 ? 64 : 32) * BISS_CHANNEL_WIDTH,
   parameter int unsigned S_AXIS_TUSER_WIDTH  = STREAM_MODE == 0 ? BISS_CHANNEL_WIDTH : 16
 ) (
   input  logic        axi_aclk,
@@ -63,18 +65,28 @@ module biss_axi #(
   input  logic        sample_en,
   // others, active low
   output logic        error,
-  output logic        warn
+  output logic        warn,
+  // page: active high, 0 without it
+  output logic        irq
 );
+
+  localparam logic [axi_pkg::EXTRAS_W-1:0] ALL_EXTRAS =
+    axi_pkg::EXTRAS_W'(EXTRAS) | (axi_pkg::EXTRAS_W'(ALIGN_LATCH) << axi_pkg::EXTRA_ALIGN) |
+    axi_pkg::EXTRAS_W'(EXTRAS != 0 || ALIGN_LATCH);
 
 `ifndef __ICARUS__  // Icarus 11 knows no $error here
   if (STREAM_MODE > 1 || (STREAM_WIDTH != 32 && STREAM_WIDTH != 64)) begin : gen_stream
     $error("STREAM_MODE is 0 or 1, STREAM_WIDTH is 32 or 64");
+  end
+  if (EXTRAS >= 1 << axi_pkg::EXTRAS_W) begin : gen_extras
+    $error("EXTRAS has 9 bits");
   end
 `endif
 
   axi_core #(
     .Channels     (BISS_CHANNEL_WIDTH),
     .StreamMode   (STREAM_MODE),
+    .Extras       (ALL_EXTRAS),
     .StreamDataW  (S_AXIS_TDATA_WIDTH),
     .StreamUserW  (S_AXIS_TUSER_WIDTH),
     .StreamDepth  (STREAM_DEPTH),
@@ -83,7 +95,7 @@ module biss_axi #(
   ) u_core (
     .clk_i            (axi_aclk),
     .rst_ni           (axi_aresetn),
-    .switches_i       ({ENABLE_ACTIVE_LOW, CRC_BIT_IGNORES, 1'b0, VALID_UNTIL_REQUEST}),
+    .switches_i       ({ENABLE_ACTIVE_LOW, CRC_BIT_IGNORES, ALIGN_LATCH, VALID_UNTIL_REQUEST}),
     .s_axi_awvalid    (S_AXI_AWVALID),
     .s_axi_awready    (S_AXI_AWREADY),
     .s_axi_awaddr     (S_AXI_AWADDR),
@@ -112,7 +124,8 @@ module biss_axi #(
     .sample_clk_o     (sample_clk_output),
     .sample_en_i      (sample_en),
     .error_no         (error),
-    .warn_no          (warn)
+    .warn_no          (warn),
+    .irq_o            (irq)
   );
 
 endmodule

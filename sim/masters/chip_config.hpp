@@ -16,6 +16,7 @@ struct ChipConfig {
   std::uint64_t f_osc_hz = 20'000'000;  // internal oscillator
   // Port quirks_i of the iC-MB4 or switches_i of biss_axi. The package of the RTL names the bits.
   unsigned quirks = 0;
+  unsigned features = 0;  // place in Master::features
   TableSource source;
 
   // The frequency that the chip is meant to run from: pin CLK if it is connected, else the

@@ -35,8 +35,10 @@ struct Master {
   std::int64_t max_clk_hz;
   std::int64_t min_osc_hz;
   std::int64_t max_osc_hz;
+  // Values of `features` in [chip]; the first is the default. Without any there is no such key.
+  std::span<const std::string_view> features = {};
   unsigned quirks = 0;  // ChipConfig::quirks without [chip.quirks]
-  // Reads [chip.quirks].
+  // Reads [chip.quirks]; `chip` has the keys of [chip].
   void (*read_quirks)(TomlReader& reader, ChipConfig& chip);
   // Reads the keys of [host] but `interface`, which is known.
   void (*read_host)(TomlReader& reader, const ChipConfig& chip, HostConfig& host);

@@ -75,9 +75,13 @@ struct Config {
   std::uint32_t f_clk_hz = 100'000'000;  // axi_aclk; 1 kHz to 1 GHz
   // Clock at pin ma: f_clk_hz / (2 M) with M = 1 to 255, exactly.
   std::uint32_t ma_hz = 10'000'000;
-  std::uint8_t position_bits = 26;  // 1 to 32
+  std::uint8_t position_bits = 26;  // 1 to 32; with `wide` to 64
   std::uint32_t channels = 1;       // bit c: channel c is enabled; 16 bits
   bool check_crc = true;
+  // Parameters of the master: the extra WIDE, ENABLE_ACTIVE_LOW, CRC_BIT_IGNORES.
+  bool wide = false;
+  bool enable_active_low = false;
+  bool crc_bit_ignores = false;
   Start start = Start::kSinglePoint;
   // kInternalClock only: f_clk_hz / (2 N) with N = 1 to 268435455, exactly.
   std::uint32_t sample_hz = 0;
@@ -103,7 +107,7 @@ struct Config {
     return {Error::kConfig, Field::kClkHz};
   if (divider(config.f_clk_hz, config.ma_hz, regs::MA_DIVIDER::kMax) == 0)
     return {Error::kConfig, Field::kMaHz};
-  if (config.position_bits < 1 || config.position_bits > 32)
+  if (config.position_bits < 1 || config.position_bits > (config.wide ? 64 : 32))
     return {Error::kConfig, Field::kPositionBits};
   if (config.channels == 0 || config.channels > regs::CHANNEL_ENABLE::kMax)
     return {Error::kConfig, Field::kChannels};
@@ -146,14 +150,83 @@ Result<std::uint32_t> channel_word(Port& port, unsigned channel, std::uint32_t o
   return value;
 }
 
+// Register FEATURES, or 0 if the master has no page.
+template <typename Port>
+Result<std::uint32_t> features(Port& port) {
+  std::uint32_t id = 0;
+  std::uint32_t value = 0;
+  if (!port.read(regs::kAddrId, id) || !port.read(regs::kAddrFeatures, value)) return Error::kBus;
+  return id == regs::kResetId ? value : 0;
+}
+
+// The clock is polled at most so often, so one that stands still cannot block a call for ever.
+inline constexpr std::uint32_t kMostPolls = 1'000'000;
+
+// Frames and starts of a channel so far, modulo 2^32: it changes with the end of each frame and
+// with each start at which SLO is 0.
+template <typename Port>
+bool read_ends(Port& port, unsigned channel, std::uint32_t& ends) {
+  std::uint32_t lates = 0;
+  if (!port.write(regs::kAddrChannelIndex, channel) || !port.read(regs::kAddrFrameCount, ends) ||
+      !port.read(regs::kAddrLateCount, lates)) {
+    return false;
+  }
+  ends += lates;
+  return true;
+}
+
+// single_point() for a master with counters that clears SINGLE_POINT_VALID at a request. Nothing is
+// reset, and it ends when the channels have ended their frames.
+template <typename Port, typename Clock>
+Result<std::uint32_t> single_point_by_counters(Port& port, Clock& clock, const WaitTimes& times,
+                                               std::uint32_t channels) {
+  std::uint32_t before[regs::kChannels] = {};
+  for (unsigned c = 0; c < regs::kChannels; ++c) {
+    if ((channels >> c & 1U) != 0 && !read_ends(port, c, before[c])) return Error::kBus;
+  }
+  std::uint32_t skips = 0;
+  std::uint32_t value = 0;
+  if (!port.read(regs::kAddrSkipCount, skips)) return Error::kBus;
+  // An edge in a timeout, or in a frame of another mode, is skipped.
+  std::uint32_t begin = clock.now_us();
+  const std::uint32_t longest = times.timeout_us + times.frame_us;
+  bool skipped = true;
+  for (std::uint32_t n = 0; n < kMostPolls && skipped && clock.now_us() - begin <= longest; ++n) {
+    if (!port.write(regs::kAddrRequest, 0) || !port.write(regs::kAddrRequest, 1) ||
+        !port.read(regs::kAddrSinglePointValid, value) || !port.read(regs::kAddrSkipCount, value)) {
+      return Error::kBus;
+    }
+    skipped = value != skips;
+    skips = value;
+  }
+  if (skipped) return std::uint32_t{0};
+  begin = clock.now_us();
+  std::uint32_t waited = channels;
+  for (std::uint32_t n = 0; n < kMostPolls && waited != 0; ++n) {
+    const bool last = clock.now_us() - begin > times.frame_us;  // and look once more
+    for (unsigned c = 0; c < regs::kChannels; ++c) {
+      std::uint32_t ends = 0;
+      if ((waited >> c & 1U) == 0) continue;
+      if (!read_ends(port, c, ends)) return Error::kBus;
+      if (ends != before[c]) waited &= ~(1U << c);
+    }
+    if (last) waited = 0;
+  }
+  if (!port.read(regs::kAddrSinglePointValid, value)) return Error::kBus;
+  return value;
+}
+
 // One single-point frame: clears all results, lets the encoders' timeouts pass, makes the rising
 // edge at REQUEST and waits until the words of all `channels` (bit c: channel c) have come, at most
-// as long as a frame can last. Returns bit c: the word of channel c has come and is good. The clock
-// is polled at most 1'000'000 times, so one that stands still cannot block the call for ever.
+// as long as a frame can last. Returns bit c: the word of channel c has come and is good. With
+// counters (FEATURES) it resets nothing; see single_point_by_counters().
 template <typename Port, typename Clock>
 Result<std::uint32_t> single_point(Port& port, Clock& clock, const WaitTimes& times,
                                    std::uint32_t channels) {
-  constexpr std::uint32_t kMostPolls = 1'000'000;
+  const Result<std::uint32_t> has = features(port);
+  if (!has.ok()) return has;
+  if (regs::HAS_COUNTERS::get(*has) != 0 && regs::CLEARS_VALID::get(*has) != 0)
+    return single_point_by_counters(port, clock, times, channels);
   if (!port.write(regs::kAddrRequest, 0) || !port.write(regs::kAddrSoftReset, 1) ||
       !port.write(regs::kAddrSoftReset, 0)) {
     return Error::kBus;
@@ -197,9 +270,11 @@ class Device {
         write(regs::kAddrSoftReset, 1) && write(regs::kAddrMode, 1) &&
         write(regs::kAddrRequest, 0) && write(regs::kAddrSampleDivider, sample) &&
         write(regs::kAddrMaDivider, ma) && write(regs::kAddrPositionBits, config.position_bits) &&
-        write(regs::kAddrCrcCheck, config.check_crc ? 1 : 0) &&
+        write(regs::kAddrCrcCheck, config.check_crc != config.crc_bit_ignores ? 1 : 0) &&
         write(regs::kAddrSampleClock, config.start == Start::kExternalClock ? 1 : 0) &&
-        write(regs::kAddrChannelEnable, config.channels) &&
+        write(regs::kAddrChannelEnable, config.enable_active_low
+                                            ? ~config.channels & regs::CHANNEL_ENABLE::kMax
+                                            : config.channels) &&
         write(regs::kAddrMode, single ? 1 : 0) && write(regs::kAddrSoftReset, 0);
     if (!done) return Error::kBus;
     times_ = wait_times(config.f_clk_hz, ma, config.position_bits);
@@ -209,7 +284,8 @@ class Device {
 
   // Starts one frame on all enabled channels, in single-point mode, and waits for the word of one.
   // position() has the words of the others; one with a longer cable or processing time may still
-  // come. The call clears all results first, so that an old word is never taken for a new one.
+  // come. An old word is never taken for a new one: the call clears all results first, or the
+  // request does.
   Result<std::uint32_t> read_single(unsigned channel) {
     if (channel >= regs::kChannels || (channels_ >> channel & 1U) == 0) return Error::kChannel;
     const Result<std::uint32_t> good = single_point(port_, clock_, times_, 1U << channel);

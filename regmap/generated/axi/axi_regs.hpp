@@ -31,6 +31,30 @@ inline constexpr std::uint8_t kAddrCalculatedCrc = 0x30;  // Calculated CRC
 inline constexpr std::uint8_t kAddrSinglePointValid = 0x34;  // Single-point data valid
 inline constexpr std::uint8_t kAddrSinglePointData = 0x38;  // Single-point data
 inline constexpr std::uint8_t kAddrLineDelay = 0x3C;  // Line delay
+inline constexpr std::uint8_t kAddrId = 0x40;  // Identity
+inline constexpr std::uint8_t kAddrVersion = 0x44;  // Version of the project
+inline constexpr std::uint8_t kAddrFeatures = 0x48;  // Features
+inline constexpr std::uint8_t kAddrIrqStatus = 0x4C;  // Interrupt status
+inline constexpr std::uint8_t kAddrIrqEnable = 0x50;  // Interrupt enable
+inline constexpr std::uint8_t kAddrTimeLow = 0x54;  // Time, low word
+inline constexpr std::uint8_t kAddrTimeHigh = 0x58;  // Time, high word
+inline constexpr std::uint8_t kAddrPositionHigh = 0x60;  // Position, high word
+inline constexpr std::uint8_t kAddrCrcPolynomial = 0x64;  // CRC polynomial
+inline constexpr std::uint8_t kAddrCrcStart = 0x68;  // CRC start value
+inline constexpr std::uint8_t kAddrTimeout = 0x6C;  // Timeout
+inline constexpr std::uint8_t kAddrFrameCount = 0x70;  // Frames
+inline constexpr std::uint8_t kAddrCrcErrorCount = 0x74;  // CRC errors
+inline constexpr std::uint8_t kAddrLateCount = 0x78;  // Late starts
+inline constexpr std::uint8_t kAddrSkipCount = 0x7C;  // Skipped starts
+inline constexpr std::uint8_t kAddrSampleTimeLow = 0x80;  // Sampling instant, low word
+inline constexpr std::uint8_t kAddrSampleTimeHigh = 0x84;  // Sampling instant, high word
+inline constexpr std::uint8_t kAddrDelayTolerance = 0x88;  // Delay tolerance
+inline constexpr std::uint8_t kAddrDelayReference = 0x8C;  // Delay reference
+inline constexpr std::uint8_t kAddrDelayAlarm = 0x90;  // Delay alarm
+inline constexpr std::uint8_t kAddrAccess = 0x94;  // Register access
+inline constexpr std::uint8_t kAddrAccessData = 0x98;  // Register data
+inline constexpr std::uint8_t kAddrAccessStatus = 0x9C;  // Register access status
+inline constexpr std::uint8_t kAddrStreamStatus = 0xA0;  // Stream status
 
 inline constexpr unsigned kChannels = 16;  // Most channels
 
@@ -84,12 +108,85 @@ inline constexpr std::uint32_t kConstSinglePointData = 0x00000000;
 inline constexpr std::uint32_t kResetLineDelay = 0x00000000;
 inline constexpr std::uint32_t kWmaskLineDelay = 0x00000000;
 inline constexpr std::uint32_t kConstLineDelay = 0x00000000;
+inline constexpr std::uint32_t kResetId = 0x454E4302;
+inline constexpr std::uint32_t kWmaskId = 0x00000000;
+inline constexpr std::uint32_t kConstId = 0xFFFFFFFF;
+inline constexpr std::uint32_t kResetVersion = 0x00010000;
+inline constexpr std::uint32_t kWmaskVersion = 0x00000000;
+inline constexpr std::uint32_t kConstVersion = 0xFFFFFFFF;
+inline constexpr std::uint32_t kResetFeatures = 0x00000000;
+inline constexpr std::uint32_t kWmaskFeatures = 0x00000000;
+inline constexpr std::uint32_t kConstFeatures = 0x00000000;
+inline constexpr std::uint32_t kResetIrqStatus = 0x00000000;
+inline constexpr std::uint32_t kWmaskIrqStatus = 0x0000001F;
+inline constexpr std::uint32_t kConstIrqStatus = 0x00000000;
+inline constexpr std::uint32_t kResetIrqEnable = 0x00000000;
+inline constexpr std::uint32_t kWmaskIrqEnable = 0x0000001F;
+inline constexpr std::uint32_t kConstIrqEnable = 0x00000000;
+inline constexpr std::uint32_t kResetTimeLow = 0x00000000;
+inline constexpr std::uint32_t kWmaskTimeLow = 0x00000000;
+inline constexpr std::uint32_t kConstTimeLow = 0x00000000;
+inline constexpr std::uint32_t kResetTimeHigh = 0x00000000;
+inline constexpr std::uint32_t kWmaskTimeHigh = 0x00000000;
+inline constexpr std::uint32_t kConstTimeHigh = 0x00000000;
+inline constexpr std::uint32_t kResetPositionHigh = 0x00000000;
+inline constexpr std::uint32_t kWmaskPositionHigh = 0x00000000;
+inline constexpr std::uint32_t kConstPositionHigh = 0x00000000;
+inline constexpr std::uint32_t kResetCrcPolynomial = 0x00000000;
+inline constexpr std::uint32_t kWmaskCrcPolynomial = 0x0001FFFF;
+inline constexpr std::uint32_t kConstCrcPolynomial = 0x00000000;
+inline constexpr std::uint32_t kResetCrcStart = 0x00000000;
+inline constexpr std::uint32_t kWmaskCrcStart = 0x0000FFFF;
+inline constexpr std::uint32_t kConstCrcStart = 0x00000000;
+inline constexpr std::uint32_t kResetTimeout = 0x00000000;
+inline constexpr std::uint32_t kWmaskTimeout = 0x800FFFFF;
+inline constexpr std::uint32_t kConstTimeout = 0x00000000;
+inline constexpr std::uint32_t kResetFrameCount = 0x00000000;
+inline constexpr std::uint32_t kWmaskFrameCount = 0x00000000;
+inline constexpr std::uint32_t kConstFrameCount = 0x00000000;
+inline constexpr std::uint32_t kResetCrcErrorCount = 0x00000000;
+inline constexpr std::uint32_t kWmaskCrcErrorCount = 0x00000000;
+inline constexpr std::uint32_t kConstCrcErrorCount = 0x00000000;
+inline constexpr std::uint32_t kResetLateCount = 0x00000000;
+inline constexpr std::uint32_t kWmaskLateCount = 0x00000000;
+inline constexpr std::uint32_t kConstLateCount = 0x00000000;
+inline constexpr std::uint32_t kResetSkipCount = 0x00000000;
+inline constexpr std::uint32_t kWmaskSkipCount = 0x00000000;
+inline constexpr std::uint32_t kConstSkipCount = 0x00000000;
+inline constexpr std::uint32_t kResetSampleTimeLow = 0x00000000;
+inline constexpr std::uint32_t kWmaskSampleTimeLow = 0x00000000;
+inline constexpr std::uint32_t kConstSampleTimeLow = 0x00000000;
+inline constexpr std::uint32_t kResetSampleTimeHigh = 0x00000000;
+inline constexpr std::uint32_t kWmaskSampleTimeHigh = 0x00000000;
+inline constexpr std::uint32_t kConstSampleTimeHigh = 0x00000000;
+inline constexpr std::uint32_t kResetDelayTolerance = 0x00000000;
+inline constexpr std::uint32_t kWmaskDelayTolerance = 0x000003FF;
+inline constexpr std::uint32_t kConstDelayTolerance = 0x00000000;
+inline constexpr std::uint32_t kResetDelayReference = 0x00000000;
+inline constexpr std::uint32_t kWmaskDelayReference = 0x800003FF;
+inline constexpr std::uint32_t kConstDelayReference = 0x00000000;
+inline constexpr std::uint32_t kResetDelayAlarm = 0x00000000;
+inline constexpr std::uint32_t kWmaskDelayAlarm = 0x0000FFFF;
+inline constexpr std::uint32_t kConstDelayAlarm = 0x00000000;
+inline constexpr std::uint32_t kResetAccess = 0x00000000;
+inline constexpr std::uint32_t kWmaskAccess = 0x8001F77F;
+inline constexpr std::uint32_t kConstAccess = 0x00000000;
+inline constexpr std::uint32_t kResetAccessData = 0x00000000;
+inline constexpr std::uint32_t kWmaskAccessData = 0x000000FF;
+inline constexpr std::uint32_t kConstAccessData = 0x00000000;
+inline constexpr std::uint32_t kResetAccessStatus = 0x00000000;
+inline constexpr std::uint32_t kWmaskAccessStatus = 0x00000000;
+inline constexpr std::uint32_t kConstAccessStatus = 0x00000000;
+inline constexpr std::uint32_t kResetStreamStatus = 0x00000000;
+inline constexpr std::uint32_t kWmaskStreamStatus = 0x00000001;
+inline constexpr std::uint32_t kConstStreamStatus = 0x00000000;
 
 // ---- Field types --------------------------------------------------------------------------------
 
 enum class Access : std::uint8_t {
   kReadWrite,
   kReadOnly,
+  kWriteOneClears,  // writing 1 clears, writing 0 changes nothing
 };
 
 // A field of a register. Values are right aligned unless `in place` is said.
@@ -153,6 +250,7 @@ using SAMPLE_DIVIDER = Field<0x10, 0, 28, Access::kReadWrite, 0>;
 // MA is the bus clock divided by twice this value. 0 acts as 1.
 using MA_DIVIDER = Field<0x14, 0, 8, Access::kReadWrite, 0>;
 // Bits of the position, 1 to 32, without error, warning and CRC bits. 0 and more than 32 act as 32.
+// With the extra WIDE up to 64; more than 64 act as 64.
 using POSITION_BITS = Field<0x18, 0, 8, Access::kReadWrite, 0>;
 // Check of the CRC. With CRC_BIT_IGNORES = 1 the meanings are swapped.
 using CRC_CHECK = Field<0x1C, 0, 1, Access::kReadWrite, 0>;
@@ -165,18 +263,128 @@ using CHANNEL_INDEX = Field<0x24, 0, 4, Access::kReadWrite, 0>;
 // half the difference to the largest line delay of the enabled channels, so that all encoders latch
 // at the same instant. Else without effect.
 using MA_SHIFT = Field<0x28, 0, 16, Access::kReadWrite, 0>;
-// CRC of the channel's last frame, as the encoder sent it (inverted).
-using RECEIVED_CRC = Field<0x2C, 0, 6, Access::kReadOnly, 0>;
-// CRC that fits the bits of the channel's last frame, inverted as an encoder sends it.
-using CALCULATED_CRC = Field<0x30, 0, 6, Access::kReadOnly, 0>;
+// CRC of the channel's last frame, as the encoder sent it (inverted). 0 if the frame ended before
+// it. Bits 15 to 6 only with the extra ANY_CRC.
+using RECEIVED_CRC = Field<0x2C, 0, 16, Access::kReadOnly, 0>;
+// CRC that fits the bits of the channel's last frame, inverted as an encoder sends it. 0 if the
+// frame ended before it. Bits 15 to 6 only with the extra ANY_CRC.
+using CALCULATED_CRC = Field<0x30, 0, 16, Access::kReadOnly, 0>;
 // Bit c is channel c, whatever CHANNEL_INDEX is. Set at the end of a good single-point frame;
 // cleared by resets and, with VALID_UNTIL_REQUEST = 1, by the next request that is accepted.
 using SINGLE_POINT_VALID = Field<0x34, 0, 16, Access::kReadOnly, 0>;
 // Position of the channel's last good single-point frame, right aligned.
 using SINGLE_POINT_DATA = Field<0x38, 0, 32, Access::kReadOnly, 0>;
 // From the second rising MA edge of the channel's last frame to the acknowledge on SLO, in whole
-// bus clocks. 1023: there was no acknowledge.
+// bus clocks. 1023: there was no acknowledge, or SLO was 0 at the start.
 using LINE_DELAY = Field<0x3C, 0, 10, Access::kReadOnly, 0>;
+// Number of channels.
+using CHANNEL_COUNT = Field<0x48, 16, 5, Access::kReadOnly, 0>;
+// ENABLE_ACTIVE_LOW: a 0 in CHANNEL_ENABLE enables a channel.
+using ACTIVE_LOW = Field<0x48, 12, 1, Access::kReadOnly, 0>;
+// CRC_BIT_IGNORES: a 1 in CRC_CHECK switches the check off.
+using CRC_IGNORES = Field<0x48, 11, 1, Access::kReadOnly, 0>;
+// ALIGN_LATCH: MA_SHIFT acts.
+using SHIFT_ACTS = Field<0x48, 10, 1, Access::kReadOnly, 0>;
+// VALID_UNTIL_REQUEST: a request clears SINGLE_POINT_VALID.
+using CLEARS_VALID = Field<0x48, 9, 1, Access::kReadOnly, 0>;
+// MA_SHIFT can act; see SHIFT_ACTS.
+using HAS_ALIGN = Field<0x48, 8, 1, Access::kReadOnly, 0>;
+// Register access.
+using HAS_ACCESS = Field<0x48, 7, 1, Access::kReadOnly, 0>;
+// Alarm for a line delay that moves.
+using HAS_ALARM = Field<0x48, 6, 1, Access::kReadOnly, 0>;
+// Time of the sampling instant.
+using HAS_STAMP = Field<0x48, 5, 1, Access::kReadOnly, 0>;
+// Counters of each channel.
+using HAS_COUNTERS = Field<0x48, 4, 1, Access::kReadOnly, 0>;
+// Timeout by a register.
+using HAS_TIMEOUT = Field<0x48, 3, 1, Access::kReadOnly, 0>;
+// Any CRC polynomial up to 16 bits.
+using HAS_ANY_CRC = Field<0x48, 2, 1, Access::kReadOnly, 0>;
+// Positions of up to 64 bits.
+using HAS_WIDE = Field<0x48, 1, 1, Access::kReadOnly, 0>;
+// This page. 1 if it can be read.
+using HAS_PAGE = Field<0x48, 0, 1, Access::kReadOnly, 0>;
+// A frame ended while FRAME was still set, a start was skipped, or a beat of the stream was lost.
+using LOST = Field<0x4C, 4, 1, Access::kWriteOneClears, 0>;
+// The external sample clock rose, while it is the one that is selected.
+using SENSE = Field<0x4C, 3, 1, Access::kWriteOneClears, 0>;
+// A register access ended.
+using REGISTER_END = Field<0x4C, 2, 1, Access::kWriteOneClears, 0>;
+// A frame ended with a bad word of an enabled channel, or a line delay has moved.
+using ERROR = Field<0x4C, 1, 1, Access::kWriteOneClears, 0>;
+// All enabled channels have ended their frames.
+using FRAME = Field<0x4C, 0, 1, Access::kWriteOneClears, 0>;
+// Enables LOST.
+using LOST_ENABLE = Field<0x50, 4, 1, Access::kReadWrite, 0>;
+// Enables SENSE.
+using SENSE_ENABLE = Field<0x50, 3, 1, Access::kReadWrite, 0>;
+// Enables REGISTER_END.
+using REGISTER_END_ENABLE = Field<0x50, 2, 1, Access::kReadWrite, 0>;
+// Enables ERROR.
+using ERROR_ENABLE = Field<0x50, 1, 1, Access::kReadWrite, 0>;
+// Enables FRAME.
+using FRAME_ENABLE = Field<0x50, 0, 1, Access::kReadWrite, 0>;
+// Bits 31 to 0 of the time.
+using TIME_LOW = Field<0x54, 0, 32, Access::kReadOnly, 0>;
+// Bits 63 to 32 of the time, as copied with the low word.
+using TIME_HIGH = Field<0x58, 0, 32, Access::kReadOnly, 0>;
+// Bits 63 to 32 of the channel's SINGLE_POINT_DATA. Extra WIDE.
+using POSITION_HIGH = Field<0x60, 0, 32, Access::kReadOnly, 0>;
+// Polynomial with its highest power, degree 1 to 16; 0x43 is x^6 + x + 1. A degree of 0 acts as
+// 0x43. It counts from the next frame on. Extra ANY_CRC.
+using CRC_POLYNOMIAL = Field<0x64, 0, 17, Access::kReadWrite, 0>;
+// Start value of the CRC, right aligned. Extra ANY_CRC.
+using CRC_START = Field<0x68, 0, 16, Access::kReadWrite, 0>;
+// 1: for all clocks of TIMEOUT_LIMIT. 0: until SLO is 1, and no longer than these clocks.
+using TIMEOUT_FIXED = Field<0x6C, 31, 1, Access::kReadWrite, 0>;
+// Bus clocks; 0 acts as parameter TIMEOUT_LIMIT.
+using TIMEOUT_LIMIT = Field<0x6C, 0, 20, Access::kReadWrite, 0>;
+// Frames of the channel that have ended, good or not. It wraps; a soft reset clears it. Extra
+// COUNTERS.
+using FRAME_COUNT = Field<0x70, 0, 32, Access::kReadOnly, 0>;
+// Frames of the channel with a wrong CRC, checked or not. It wraps; a soft reset clears it. Extra
+// COUNTERS.
+using CRC_ERROR_COUNT = Field<0x74, 0, 16, Access::kReadOnly, 0>;
+// Starts at which SLO of the channel was 0, so that it began no frame. It wraps; a soft reset
+// clears it. Extra COUNTERS.
+using LATE_COUNT = Field<0x78, 0, 16, Access::kReadOnly, 0>;
+// Edges that started no read because one ran, or a timeout. It wraps; a soft reset clears it.
+using SKIP_COUNT = Field<0x7C, 0, 16, Access::kReadOnly, 0>;
+// Bits 31 to 0.
+using SAMPLE_TIME_LOW = Field<0x80, 0, 32, Access::kReadOnly, 0>;
+// Bits 63 to 32, as copied with the low word.
+using SAMPLE_TIME_HIGH = Field<0x84, 0, 32, Access::kReadOnly, 0>;
+// Largest difference between a line delay and its reference that is no alarm, in bus clocks. Extra
+// ALARM.
+using DELAY_TOLERANCE = Field<0x88, 0, 10, Access::kReadWrite, 0>;
+// The channel's line delay is watched.
+using DELAY_WATCH = Field<0x8C, 31, 1, Access::kReadWrite, 0>;
+// Line delay that the channel should have, in bus clocks.
+using DELAY_REFERENCE = Field<0x8C, 0, 10, Access::kReadWrite, 0>;
+// A line delay of the channel was not that of DELAY_REFERENCE. Writing 1 and a soft reset clear it.
+using DELAY_ALARM = Field<0x90, 0, 16, Access::kWriteOneClears, 0>;
+// Begins or ends an access.
+using ACCESS_START = Field<0x94, 31, 1, Access::kReadWrite, 0>;
+// 1 writes, 0 reads.
+using ACCESS_WRITE = Field<0x94, 16, 1, Access::kReadWrite, 0>;
+// Channel, whatever CHANNEL_INDEX is.
+using ACCESS_CHANNEL = Field<0x94, 12, 4, Access::kReadWrite, 0>;
+// ID of the slave on the channel; 0 is the only one or the last one of a chain.
+using ACCESS_SLAVE = Field<0x94, 8, 3, Access::kReadWrite, 0>;
+// Address of the register.
+using ACCESS_ADDRESS = Field<0x94, 0, 7, Access::kReadWrite, 0>;
+// Byte to write; after a read the byte that came. Extra ACCESS.
+using ACCESS_DATA = Field<0x98, 0, 8, Access::kReadWrite, 0>;
+// The encoder did not answer within 1024 frames.
+using ACCESS_SILENT = Field<0x9C, 2, 1, Access::kReadOnly, 0>;
+// Wrong echo or CRC, a frame that failed, a channel that does not exist, or ended by the host.
+using ACCESS_ERROR = Field<0x9C, 1, 1, Access::kReadOnly, 0>;
+// The access runs.
+using ACCESS_ACTIVE = Field<0x9C, 0, 1, Access::kReadOnly, 0>;
+// Stream mode 1: a beat was lost, because the sink was too slow. Writing 1 and a soft reset clear
+// it.
+using STREAM_LOST = Field<0xA0, 0, 1, Access::kWriteOneClears, 0>;
 
 // ---- Codes --------------------------------------------------------------------------------------
 
@@ -204,6 +412,14 @@ enum class CrcCheck : std::uint32_t {
   kChecked = 1,
 };
 
+// ACCESS_START
+enum class Start : std::uint32_t {
+  // No access runs. Written: ends one that runs.
+  kEnded = 0,
+  // An access runs. Written: begins one.
+  kRunning = 1,
+};
+
 // Codes in place: k, field, code.
 inline constexpr std::uint32_t kExternalClockInternal = 0x00000000;
 inline constexpr std::uint32_t kExternalClockExternal = 0x00000001;
@@ -211,6 +427,8 @@ inline constexpr std::uint32_t kSinglePointSampleClock = 0x00000000;
 inline constexpr std::uint32_t kSinglePointSinglePoint = 0x00000001;
 inline constexpr std::uint32_t kCrcCheckNotChecked = 0x00000000;
 inline constexpr std::uint32_t kCrcCheckChecked = 0x00000001;
+inline constexpr std::uint32_t kAccessStartEnded = 0x00000000;
+inline constexpr std::uint32_t kAccessStartRunning = 0x80000000;
 
 }  // namespace biss_axi::regs
 

@@ -35,6 +35,30 @@ package axi_regs_pkg;
   localparam logic [7:0] ADDR_SINGLE_POINT_VALID = 8'h34;
   localparam logic [7:0] ADDR_SINGLE_POINT_DATA = 8'h38;
   localparam logic [7:0] ADDR_LINE_DELAY = 8'h3C;
+  localparam logic [7:0] ADDR_ID = 8'h40;
+  localparam logic [7:0] ADDR_VERSION = 8'h44;
+  localparam logic [7:0] ADDR_FEATURES = 8'h48;
+  localparam logic [7:0] ADDR_IRQ_STATUS = 8'h4C;
+  localparam logic [7:0] ADDR_IRQ_ENABLE = 8'h50;
+  localparam logic [7:0] ADDR_TIME_LOW = 8'h54;
+  localparam logic [7:0] ADDR_TIME_HIGH = 8'h58;
+  localparam logic [7:0] ADDR_POSITION_HIGH = 8'h60;
+  localparam logic [7:0] ADDR_CRC_POLYNOMIAL = 8'h64;
+  localparam logic [7:0] ADDR_CRC_START = 8'h68;
+  localparam logic [7:0] ADDR_TIMEOUT = 8'h6C;
+  localparam logic [7:0] ADDR_FRAME_COUNT = 8'h70;
+  localparam logic [7:0] ADDR_CRC_ERROR_COUNT = 8'h74;
+  localparam logic [7:0] ADDR_LATE_COUNT = 8'h78;
+  localparam logic [7:0] ADDR_SKIP_COUNT = 8'h7C;
+  localparam logic [7:0] ADDR_SAMPLE_TIME_LOW = 8'h80;
+  localparam logic [7:0] ADDR_SAMPLE_TIME_HIGH = 8'h84;
+  localparam logic [7:0] ADDR_DELAY_TOLERANCE = 8'h88;
+  localparam logic [7:0] ADDR_DELAY_REFERENCE = 8'h8C;
+  localparam logic [7:0] ADDR_DELAY_ALARM = 8'h90;
+  localparam logic [7:0] ADDR_ACCESS = 8'h94;
+  localparam logic [7:0] ADDR_ACCESS_DATA = 8'h98;
+  localparam logic [7:0] ADDR_ACCESS_STATUS = 8'h9C;
+  localparam logic [7:0] ADDR_STREAM_STATUS = 8'hA0;
 
   localparam logic [31:0] CHANNELS = 32'd16;  // Most channels
 
@@ -88,6 +112,78 @@ package axi_regs_pkg;
   localparam logic [31:0] RESET_LINE_DELAY = 32'h00000000;
   localparam logic [31:0] WMASK_LINE_DELAY = 32'h00000000;
   localparam logic [31:0] CONST_LINE_DELAY = 32'h00000000;
+  localparam logic [31:0] RESET_ID = 32'h454E4302;
+  localparam logic [31:0] WMASK_ID = 32'h00000000;
+  localparam logic [31:0] CONST_ID = 32'hFFFFFFFF;
+  localparam logic [31:0] RESET_VERSION = 32'h00010000;
+  localparam logic [31:0] WMASK_VERSION = 32'h00000000;
+  localparam logic [31:0] CONST_VERSION = 32'hFFFFFFFF;
+  localparam logic [31:0] RESET_FEATURES = 32'h00000000;
+  localparam logic [31:0] WMASK_FEATURES = 32'h00000000;
+  localparam logic [31:0] CONST_FEATURES = 32'h00000000;
+  localparam logic [31:0] RESET_IRQ_STATUS = 32'h00000000;
+  localparam logic [31:0] WMASK_IRQ_STATUS = 32'h0000001F;
+  localparam logic [31:0] CONST_IRQ_STATUS = 32'h00000000;
+  localparam logic [31:0] RESET_IRQ_ENABLE = 32'h00000000;
+  localparam logic [31:0] WMASK_IRQ_ENABLE = 32'h0000001F;
+  localparam logic [31:0] CONST_IRQ_ENABLE = 32'h00000000;
+  localparam logic [31:0] RESET_TIME_LOW = 32'h00000000;
+  localparam logic [31:0] WMASK_TIME_LOW = 32'h00000000;
+  localparam logic [31:0] CONST_TIME_LOW = 32'h00000000;
+  localparam logic [31:0] RESET_TIME_HIGH = 32'h00000000;
+  localparam logic [31:0] WMASK_TIME_HIGH = 32'h00000000;
+  localparam logic [31:0] CONST_TIME_HIGH = 32'h00000000;
+  localparam logic [31:0] RESET_POSITION_HIGH = 32'h00000000;
+  localparam logic [31:0] WMASK_POSITION_HIGH = 32'h00000000;
+  localparam logic [31:0] CONST_POSITION_HIGH = 32'h00000000;
+  localparam logic [31:0] RESET_CRC_POLYNOMIAL = 32'h00000000;
+  localparam logic [31:0] WMASK_CRC_POLYNOMIAL = 32'h0001FFFF;
+  localparam logic [31:0] CONST_CRC_POLYNOMIAL = 32'h00000000;
+  localparam logic [31:0] RESET_CRC_START = 32'h00000000;
+  localparam logic [31:0] WMASK_CRC_START = 32'h0000FFFF;
+  localparam logic [31:0] CONST_CRC_START = 32'h00000000;
+  localparam logic [31:0] RESET_TIMEOUT = 32'h00000000;
+  localparam logic [31:0] WMASK_TIMEOUT = 32'h800FFFFF;
+  localparam logic [31:0] CONST_TIMEOUT = 32'h00000000;
+  localparam logic [31:0] RESET_FRAME_COUNT = 32'h00000000;
+  localparam logic [31:0] WMASK_FRAME_COUNT = 32'h00000000;
+  localparam logic [31:0] CONST_FRAME_COUNT = 32'h00000000;
+  localparam logic [31:0] RESET_CRC_ERROR_COUNT = 32'h00000000;
+  localparam logic [31:0] WMASK_CRC_ERROR_COUNT = 32'h00000000;
+  localparam logic [31:0] CONST_CRC_ERROR_COUNT = 32'h00000000;
+  localparam logic [31:0] RESET_LATE_COUNT = 32'h00000000;
+  localparam logic [31:0] WMASK_LATE_COUNT = 32'h00000000;
+  localparam logic [31:0] CONST_LATE_COUNT = 32'h00000000;
+  localparam logic [31:0] RESET_SKIP_COUNT = 32'h00000000;
+  localparam logic [31:0] WMASK_SKIP_COUNT = 32'h00000000;
+  localparam logic [31:0] CONST_SKIP_COUNT = 32'h00000000;
+  localparam logic [31:0] RESET_SAMPLE_TIME_LOW = 32'h00000000;
+  localparam logic [31:0] WMASK_SAMPLE_TIME_LOW = 32'h00000000;
+  localparam logic [31:0] CONST_SAMPLE_TIME_LOW = 32'h00000000;
+  localparam logic [31:0] RESET_SAMPLE_TIME_HIGH = 32'h00000000;
+  localparam logic [31:0] WMASK_SAMPLE_TIME_HIGH = 32'h00000000;
+  localparam logic [31:0] CONST_SAMPLE_TIME_HIGH = 32'h00000000;
+  localparam logic [31:0] RESET_DELAY_TOLERANCE = 32'h00000000;
+  localparam logic [31:0] WMASK_DELAY_TOLERANCE = 32'h000003FF;
+  localparam logic [31:0] CONST_DELAY_TOLERANCE = 32'h00000000;
+  localparam logic [31:0] RESET_DELAY_REFERENCE = 32'h00000000;
+  localparam logic [31:0] WMASK_DELAY_REFERENCE = 32'h800003FF;
+  localparam logic [31:0] CONST_DELAY_REFERENCE = 32'h00000000;
+  localparam logic [31:0] RESET_DELAY_ALARM = 32'h00000000;
+  localparam logic [31:0] WMASK_DELAY_ALARM = 32'h0000FFFF;
+  localparam logic [31:0] CONST_DELAY_ALARM = 32'h00000000;
+  localparam logic [31:0] RESET_ACCESS = 32'h00000000;
+  localparam logic [31:0] WMASK_ACCESS = 32'h8001F77F;
+  localparam logic [31:0] CONST_ACCESS = 32'h00000000;
+  localparam logic [31:0] RESET_ACCESS_DATA = 32'h00000000;
+  localparam logic [31:0] WMASK_ACCESS_DATA = 32'h000000FF;
+  localparam logic [31:0] CONST_ACCESS_DATA = 32'h00000000;
+  localparam logic [31:0] RESET_ACCESS_STATUS = 32'h00000000;
+  localparam logic [31:0] WMASK_ACCESS_STATUS = 32'h00000000;
+  localparam logic [31:0] CONST_ACCESS_STATUS = 32'h00000000;
+  localparam logic [31:0] RESET_STREAM_STATUS = 32'h00000000;
+  localparam logic [31:0] WMASK_STREAM_STATUS = 32'h00000001;
+  localparam logic [31:0] CONST_STREAM_STATUS = 32'h00000000;
 
   // ---- Single fields --------------------------------------------------------------------------
 
@@ -135,7 +231,7 @@ package axi_regs_pkg;
   localparam logic [7:0] MA_DIVIDER_RESET = 8'd0;
 
   // Bits of the position, 1 to 32, without error, warning and CRC bits. 0 and more than 32 act as
-  // 32.
+  // 32. With the extra WIDE up to 64; more than 64 act as 64.
   localparam logic [7:0] POSITION_BITS_ADDR = 8'h18;
   localparam logic [31:0] POSITION_BITS_LSB = 32'd0;
   localparam logic [31:0] POSITION_BITS_W = 32'd8;
@@ -173,19 +269,21 @@ package axi_regs_pkg;
   localparam logic [31:0] MA_SHIFT_MASK = 32'h0000FFFF;
   localparam logic [15:0] MA_SHIFT_RESET = 16'd0;
 
-  // CRC of the channel's last frame, as the encoder sent it (inverted).
+  // CRC of the channel's last frame, as the encoder sent it (inverted). 0 if the frame ended before
+  // it. Bits 15 to 6 only with the extra ANY_CRC.
   localparam logic [7:0] RECEIVED_CRC_ADDR = 8'h2C;
   localparam logic [31:0] RECEIVED_CRC_LSB = 32'd0;
-  localparam logic [31:0] RECEIVED_CRC_W = 32'd6;
-  localparam logic [31:0] RECEIVED_CRC_MASK = 32'h0000003F;
-  localparam logic [5:0] RECEIVED_CRC_RESET = 6'd0;
+  localparam logic [31:0] RECEIVED_CRC_W = 32'd16;
+  localparam logic [31:0] RECEIVED_CRC_MASK = 32'h0000FFFF;
+  localparam logic [15:0] RECEIVED_CRC_RESET = 16'd0;
 
-  // CRC that fits the bits of the channel's last frame, inverted as an encoder sends it.
+  // CRC that fits the bits of the channel's last frame, inverted as an encoder sends it. 0 if the
+  // frame ended before it. Bits 15 to 6 only with the extra ANY_CRC.
   localparam logic [7:0] CALCULATED_CRC_ADDR = 8'h30;
   localparam logic [31:0] CALCULATED_CRC_LSB = 32'd0;
-  localparam logic [31:0] CALCULATED_CRC_W = 32'd6;
-  localparam logic [31:0] CALCULATED_CRC_MASK = 32'h0000003F;
-  localparam logic [5:0] CALCULATED_CRC_RESET = 6'd0;
+  localparam logic [31:0] CALCULATED_CRC_W = 32'd16;
+  localparam logic [31:0] CALCULATED_CRC_MASK = 32'h0000FFFF;
+  localparam logic [15:0] CALCULATED_CRC_RESET = 16'd0;
 
   // Bit c is channel c, whatever CHANNEL_INDEX is. Set at the end of a good single-point frame;
   // cleared by resets and, with VALID_UNTIL_REQUEST = 1, by the next request that is accepted.
@@ -203,12 +301,376 @@ package axi_regs_pkg;
   localparam logic [31:0] SINGLE_POINT_DATA_RESET = 32'd0;
 
   // From the second rising MA edge of the channel's last frame to the acknowledge on SLO, in whole
-  // bus clocks. 1023: there was no acknowledge.
+  // bus clocks. 1023: there was no acknowledge, or SLO was 0 at the start.
   localparam logic [7:0] LINE_DELAY_ADDR = 8'h3C;
   localparam logic [31:0] LINE_DELAY_LSB = 32'd0;
   localparam logic [31:0] LINE_DELAY_W = 32'd10;
   localparam logic [31:0] LINE_DELAY_MASK = 32'h000003FF;
   localparam logic [9:0] LINE_DELAY_RESET = 10'd0;
+
+  // Number of channels.
+  localparam logic [7:0] CHANNEL_COUNT_ADDR = 8'h48;
+  localparam logic [31:0] CHANNEL_COUNT_LSB = 32'd16;
+  localparam logic [31:0] CHANNEL_COUNT_W = 32'd5;
+  localparam logic [31:0] CHANNEL_COUNT_MASK = 32'h001F0000;
+  localparam logic [4:0] CHANNEL_COUNT_RESET = 5'd0;
+
+  // ENABLE_ACTIVE_LOW: a 0 in CHANNEL_ENABLE enables a channel.
+  localparam logic [7:0] ACTIVE_LOW_ADDR = 8'h48;
+  localparam logic [31:0] ACTIVE_LOW_LSB = 32'd12;
+  localparam logic [31:0] ACTIVE_LOW_W = 32'd1;
+  localparam logic [31:0] ACTIVE_LOW_MASK = 32'h00001000;
+  localparam logic [0:0] ACTIVE_LOW_RESET = 1'd0;
+
+  // CRC_BIT_IGNORES: a 1 in CRC_CHECK switches the check off.
+  localparam logic [7:0] CRC_IGNORES_ADDR = 8'h48;
+  localparam logic [31:0] CRC_IGNORES_LSB = 32'd11;
+  localparam logic [31:0] CRC_IGNORES_W = 32'd1;
+  localparam logic [31:0] CRC_IGNORES_MASK = 32'h00000800;
+  localparam logic [0:0] CRC_IGNORES_RESET = 1'd0;
+
+  // ALIGN_LATCH: MA_SHIFT acts.
+  localparam logic [7:0] SHIFT_ACTS_ADDR = 8'h48;
+  localparam logic [31:0] SHIFT_ACTS_LSB = 32'd10;
+  localparam logic [31:0] SHIFT_ACTS_W = 32'd1;
+  localparam logic [31:0] SHIFT_ACTS_MASK = 32'h00000400;
+  localparam logic [0:0] SHIFT_ACTS_RESET = 1'd0;
+
+  // VALID_UNTIL_REQUEST: a request clears SINGLE_POINT_VALID.
+  localparam logic [7:0] CLEARS_VALID_ADDR = 8'h48;
+  localparam logic [31:0] CLEARS_VALID_LSB = 32'd9;
+  localparam logic [31:0] CLEARS_VALID_W = 32'd1;
+  localparam logic [31:0] CLEARS_VALID_MASK = 32'h00000200;
+  localparam logic [0:0] CLEARS_VALID_RESET = 1'd0;
+
+  // MA_SHIFT can act; see SHIFT_ACTS.
+  localparam logic [7:0] HAS_ALIGN_ADDR = 8'h48;
+  localparam logic [31:0] HAS_ALIGN_LSB = 32'd8;
+  localparam logic [31:0] HAS_ALIGN_W = 32'd1;
+  localparam logic [31:0] HAS_ALIGN_MASK = 32'h00000100;
+  localparam logic [0:0] HAS_ALIGN_RESET = 1'd0;
+
+  // Register access.
+  localparam logic [7:0] HAS_ACCESS_ADDR = 8'h48;
+  localparam logic [31:0] HAS_ACCESS_LSB = 32'd7;
+  localparam logic [31:0] HAS_ACCESS_W = 32'd1;
+  localparam logic [31:0] HAS_ACCESS_MASK = 32'h00000080;
+  localparam logic [0:0] HAS_ACCESS_RESET = 1'd0;
+
+  // Alarm for a line delay that moves.
+  localparam logic [7:0] HAS_ALARM_ADDR = 8'h48;
+  localparam logic [31:0] HAS_ALARM_LSB = 32'd6;
+  localparam logic [31:0] HAS_ALARM_W = 32'd1;
+  localparam logic [31:0] HAS_ALARM_MASK = 32'h00000040;
+  localparam logic [0:0] HAS_ALARM_RESET = 1'd0;
+
+  // Time of the sampling instant.
+  localparam logic [7:0] HAS_STAMP_ADDR = 8'h48;
+  localparam logic [31:0] HAS_STAMP_LSB = 32'd5;
+  localparam logic [31:0] HAS_STAMP_W = 32'd1;
+  localparam logic [31:0] HAS_STAMP_MASK = 32'h00000020;
+  localparam logic [0:0] HAS_STAMP_RESET = 1'd0;
+
+  // Counters of each channel.
+  localparam logic [7:0] HAS_COUNTERS_ADDR = 8'h48;
+  localparam logic [31:0] HAS_COUNTERS_LSB = 32'd4;
+  localparam logic [31:0] HAS_COUNTERS_W = 32'd1;
+  localparam logic [31:0] HAS_COUNTERS_MASK = 32'h00000010;
+  localparam logic [0:0] HAS_COUNTERS_RESET = 1'd0;
+
+  // Timeout by a register.
+  localparam logic [7:0] HAS_TIMEOUT_ADDR = 8'h48;
+  localparam logic [31:0] HAS_TIMEOUT_LSB = 32'd3;
+  localparam logic [31:0] HAS_TIMEOUT_W = 32'd1;
+  localparam logic [31:0] HAS_TIMEOUT_MASK = 32'h00000008;
+  localparam logic [0:0] HAS_TIMEOUT_RESET = 1'd0;
+
+  // Any CRC polynomial up to 16 bits.
+  localparam logic [7:0] HAS_ANY_CRC_ADDR = 8'h48;
+  localparam logic [31:0] HAS_ANY_CRC_LSB = 32'd2;
+  localparam logic [31:0] HAS_ANY_CRC_W = 32'd1;
+  localparam logic [31:0] HAS_ANY_CRC_MASK = 32'h00000004;
+  localparam logic [0:0] HAS_ANY_CRC_RESET = 1'd0;
+
+  // Positions of up to 64 bits.
+  localparam logic [7:0] HAS_WIDE_ADDR = 8'h48;
+  localparam logic [31:0] HAS_WIDE_LSB = 32'd1;
+  localparam logic [31:0] HAS_WIDE_W = 32'd1;
+  localparam logic [31:0] HAS_WIDE_MASK = 32'h00000002;
+  localparam logic [0:0] HAS_WIDE_RESET = 1'd0;
+
+  // This page. 1 if it can be read.
+  localparam logic [7:0] HAS_PAGE_ADDR = 8'h48;
+  localparam logic [31:0] HAS_PAGE_LSB = 32'd0;
+  localparam logic [31:0] HAS_PAGE_W = 32'd1;
+  localparam logic [31:0] HAS_PAGE_MASK = 32'h00000001;
+  localparam logic [0:0] HAS_PAGE_RESET = 1'd0;
+
+  // A frame ended while FRAME was still set, a start was skipped, or a beat of the stream was lost.
+  localparam logic [7:0] LOST_ADDR = 8'h4C;
+  localparam logic [31:0] LOST_LSB = 32'd4;
+  localparam logic [31:0] LOST_W = 32'd1;
+  localparam logic [31:0] LOST_MASK = 32'h00000010;
+  localparam logic [0:0] LOST_RESET = 1'd0;
+
+  // The external sample clock rose, while it is the one that is selected.
+  localparam logic [7:0] SENSE_ADDR = 8'h4C;
+  localparam logic [31:0] SENSE_LSB = 32'd3;
+  localparam logic [31:0] SENSE_W = 32'd1;
+  localparam logic [31:0] SENSE_MASK = 32'h00000008;
+  localparam logic [0:0] SENSE_RESET = 1'd0;
+
+  // A register access ended.
+  localparam logic [7:0] REGISTER_END_ADDR = 8'h4C;
+  localparam logic [31:0] REGISTER_END_LSB = 32'd2;
+  localparam logic [31:0] REGISTER_END_W = 32'd1;
+  localparam logic [31:0] REGISTER_END_MASK = 32'h00000004;
+  localparam logic [0:0] REGISTER_END_RESET = 1'd0;
+
+  // A frame ended with a bad word of an enabled channel, or a line delay has moved.
+  localparam logic [7:0] ERROR_ADDR = 8'h4C;
+  localparam logic [31:0] ERROR_LSB = 32'd1;
+  localparam logic [31:0] ERROR_W = 32'd1;
+  localparam logic [31:0] ERROR_MASK = 32'h00000002;
+  localparam logic [0:0] ERROR_RESET = 1'd0;
+
+  // All enabled channels have ended their frames.
+  localparam logic [7:0] FRAME_ADDR = 8'h4C;
+  localparam logic [31:0] FRAME_LSB = 32'd0;
+  localparam logic [31:0] FRAME_W = 32'd1;
+  localparam logic [31:0] FRAME_MASK = 32'h00000001;
+  localparam logic [0:0] FRAME_RESET = 1'd0;
+
+  // Enables LOST.
+  localparam logic [7:0] LOST_ENABLE_ADDR = 8'h50;
+  localparam logic [31:0] LOST_ENABLE_LSB = 32'd4;
+  localparam logic [31:0] LOST_ENABLE_W = 32'd1;
+  localparam logic [31:0] LOST_ENABLE_MASK = 32'h00000010;
+  localparam logic [0:0] LOST_ENABLE_RESET = 1'd0;
+
+  // Enables SENSE.
+  localparam logic [7:0] SENSE_ENABLE_ADDR = 8'h50;
+  localparam logic [31:0] SENSE_ENABLE_LSB = 32'd3;
+  localparam logic [31:0] SENSE_ENABLE_W = 32'd1;
+  localparam logic [31:0] SENSE_ENABLE_MASK = 32'h00000008;
+  localparam logic [0:0] SENSE_ENABLE_RESET = 1'd0;
+
+  // Enables REGISTER_END.
+  localparam logic [7:0] REGISTER_END_ENABLE_ADDR = 8'h50;
+  localparam logic [31:0] REGISTER_END_ENABLE_LSB = 32'd2;
+  localparam logic [31:0] REGISTER_END_ENABLE_W = 32'd1;
+  localparam logic [31:0] REGISTER_END_ENABLE_MASK = 32'h00000004;
+  localparam logic [0:0] REGISTER_END_ENABLE_RESET = 1'd0;
+
+  // Enables ERROR.
+  localparam logic [7:0] ERROR_ENABLE_ADDR = 8'h50;
+  localparam logic [31:0] ERROR_ENABLE_LSB = 32'd1;
+  localparam logic [31:0] ERROR_ENABLE_W = 32'd1;
+  localparam logic [31:0] ERROR_ENABLE_MASK = 32'h00000002;
+  localparam logic [0:0] ERROR_ENABLE_RESET = 1'd0;
+
+  // Enables FRAME.
+  localparam logic [7:0] FRAME_ENABLE_ADDR = 8'h50;
+  localparam logic [31:0] FRAME_ENABLE_LSB = 32'd0;
+  localparam logic [31:0] FRAME_ENABLE_W = 32'd1;
+  localparam logic [31:0] FRAME_ENABLE_MASK = 32'h00000001;
+  localparam logic [0:0] FRAME_ENABLE_RESET = 1'd0;
+
+  // Bits 31 to 0 of the time.
+  localparam logic [7:0] TIME_LOW_ADDR = 8'h54;
+  localparam logic [31:0] TIME_LOW_LSB = 32'd0;
+  localparam logic [31:0] TIME_LOW_W = 32'd32;
+  localparam logic [31:0] TIME_LOW_MASK = 32'hFFFFFFFF;
+  localparam logic [31:0] TIME_LOW_RESET = 32'd0;
+
+  // Bits 63 to 32 of the time, as copied with the low word.
+  localparam logic [7:0] TIME_HIGH_ADDR = 8'h58;
+  localparam logic [31:0] TIME_HIGH_LSB = 32'd0;
+  localparam logic [31:0] TIME_HIGH_W = 32'd32;
+  localparam logic [31:0] TIME_HIGH_MASK = 32'hFFFFFFFF;
+  localparam logic [31:0] TIME_HIGH_RESET = 32'd0;
+
+  // Bits 63 to 32 of the channel's SINGLE_POINT_DATA. Extra WIDE.
+  localparam logic [7:0] POSITION_HIGH_ADDR = 8'h60;
+  localparam logic [31:0] POSITION_HIGH_LSB = 32'd0;
+  localparam logic [31:0] POSITION_HIGH_W = 32'd32;
+  localparam logic [31:0] POSITION_HIGH_MASK = 32'hFFFFFFFF;
+  localparam logic [31:0] POSITION_HIGH_RESET = 32'd0;
+
+  // Polynomial with its highest power, degree 1 to 16; 0x43 is x^6 + x + 1. A degree of 0 acts as
+  // 0x43. It counts from the next frame on. Extra ANY_CRC.
+  localparam logic [7:0] CRC_POLYNOMIAL_ADDR = 8'h64;
+  localparam logic [31:0] CRC_POLYNOMIAL_LSB = 32'd0;
+  localparam logic [31:0] CRC_POLYNOMIAL_W = 32'd17;
+  localparam logic [31:0] CRC_POLYNOMIAL_MASK = 32'h0001FFFF;
+  localparam logic [16:0] CRC_POLYNOMIAL_RESET = 17'd0;
+
+  // Start value of the CRC, right aligned. Extra ANY_CRC.
+  localparam logic [7:0] CRC_START_ADDR = 8'h68;
+  localparam logic [31:0] CRC_START_LSB = 32'd0;
+  localparam logic [31:0] CRC_START_W = 32'd16;
+  localparam logic [31:0] CRC_START_MASK = 32'h0000FFFF;
+  localparam logic [15:0] CRC_START_RESET = 16'd0;
+
+  // 1: for all clocks of TIMEOUT_LIMIT. 0: until SLO is 1, and no longer than these clocks.
+  localparam logic [7:0] TIMEOUT_FIXED_ADDR = 8'h6C;
+  localparam logic [31:0] TIMEOUT_FIXED_LSB = 32'd31;
+  localparam logic [31:0] TIMEOUT_FIXED_W = 32'd1;
+  localparam logic [31:0] TIMEOUT_FIXED_MASK = 32'h80000000;
+  localparam logic [0:0] TIMEOUT_FIXED_RESET = 1'd0;
+
+  // Bus clocks; 0 acts as parameter TIMEOUT_LIMIT.
+  localparam logic [7:0] TIMEOUT_LIMIT_ADDR = 8'h6C;
+  localparam logic [31:0] TIMEOUT_LIMIT_LSB = 32'd0;
+  localparam logic [31:0] TIMEOUT_LIMIT_W = 32'd20;
+  localparam logic [31:0] TIMEOUT_LIMIT_MASK = 32'h000FFFFF;
+  localparam logic [19:0] TIMEOUT_LIMIT_RESET = 20'd0;
+
+  // Frames of the channel that have ended, good or not. It wraps; a soft reset clears it. Extra
+  // COUNTERS.
+  localparam logic [7:0] FRAME_COUNT_ADDR = 8'h70;
+  localparam logic [31:0] FRAME_COUNT_LSB = 32'd0;
+  localparam logic [31:0] FRAME_COUNT_W = 32'd32;
+  localparam logic [31:0] FRAME_COUNT_MASK = 32'hFFFFFFFF;
+  localparam logic [31:0] FRAME_COUNT_RESET = 32'd0;
+
+  // Frames of the channel with a wrong CRC, checked or not. It wraps; a soft reset clears it. Extra
+  // COUNTERS.
+  localparam logic [7:0] CRC_ERROR_COUNT_ADDR = 8'h74;
+  localparam logic [31:0] CRC_ERROR_COUNT_LSB = 32'd0;
+  localparam logic [31:0] CRC_ERROR_COUNT_W = 32'd16;
+  localparam logic [31:0] CRC_ERROR_COUNT_MASK = 32'h0000FFFF;
+  localparam logic [15:0] CRC_ERROR_COUNT_RESET = 16'd0;
+
+  // Starts at which SLO of the channel was 0, so that it began no frame. It wraps; a soft reset
+  // clears it. Extra COUNTERS.
+  localparam logic [7:0] LATE_COUNT_ADDR = 8'h78;
+  localparam logic [31:0] LATE_COUNT_LSB = 32'd0;
+  localparam logic [31:0] LATE_COUNT_W = 32'd16;
+  localparam logic [31:0] LATE_COUNT_MASK = 32'h0000FFFF;
+  localparam logic [15:0] LATE_COUNT_RESET = 16'd0;
+
+  // Edges that started no read because one ran, or a timeout. It wraps; a soft reset clears it.
+  localparam logic [7:0] SKIP_COUNT_ADDR = 8'h7C;
+  localparam logic [31:0] SKIP_COUNT_LSB = 32'd0;
+  localparam logic [31:0] SKIP_COUNT_W = 32'd16;
+  localparam logic [31:0] SKIP_COUNT_MASK = 32'h0000FFFF;
+  localparam logic [15:0] SKIP_COUNT_RESET = 16'd0;
+
+  // Bits 31 to 0.
+  localparam logic [7:0] SAMPLE_TIME_LOW_ADDR = 8'h80;
+  localparam logic [31:0] SAMPLE_TIME_LOW_LSB = 32'd0;
+  localparam logic [31:0] SAMPLE_TIME_LOW_W = 32'd32;
+  localparam logic [31:0] SAMPLE_TIME_LOW_MASK = 32'hFFFFFFFF;
+  localparam logic [31:0] SAMPLE_TIME_LOW_RESET = 32'd0;
+
+  // Bits 63 to 32, as copied with the low word.
+  localparam logic [7:0] SAMPLE_TIME_HIGH_ADDR = 8'h84;
+  localparam logic [31:0] SAMPLE_TIME_HIGH_LSB = 32'd0;
+  localparam logic [31:0] SAMPLE_TIME_HIGH_W = 32'd32;
+  localparam logic [31:0] SAMPLE_TIME_HIGH_MASK = 32'hFFFFFFFF;
+  localparam logic [31:0] SAMPLE_TIME_HIGH_RESET = 32'd0;
+
+  // Largest difference between a line delay and its reference that is no alarm, in bus clocks.
+  // Extra ALARM.
+  localparam logic [7:0] DELAY_TOLERANCE_ADDR = 8'h88;
+  localparam logic [31:0] DELAY_TOLERANCE_LSB = 32'd0;
+  localparam logic [31:0] DELAY_TOLERANCE_W = 32'd10;
+  localparam logic [31:0] DELAY_TOLERANCE_MASK = 32'h000003FF;
+  localparam logic [9:0] DELAY_TOLERANCE_RESET = 10'd0;
+
+  // The channel's line delay is watched.
+  localparam logic [7:0] DELAY_WATCH_ADDR = 8'h8C;
+  localparam logic [31:0] DELAY_WATCH_LSB = 32'd31;
+  localparam logic [31:0] DELAY_WATCH_W = 32'd1;
+  localparam logic [31:0] DELAY_WATCH_MASK = 32'h80000000;
+  localparam logic [0:0] DELAY_WATCH_RESET = 1'd0;
+
+  // Line delay that the channel should have, in bus clocks.
+  localparam logic [7:0] DELAY_REFERENCE_ADDR = 8'h8C;
+  localparam logic [31:0] DELAY_REFERENCE_LSB = 32'd0;
+  localparam logic [31:0] DELAY_REFERENCE_W = 32'd10;
+  localparam logic [31:0] DELAY_REFERENCE_MASK = 32'h000003FF;
+  localparam logic [9:0] DELAY_REFERENCE_RESET = 10'd0;
+
+  // A line delay of the channel was not that of DELAY_REFERENCE. Writing 1 and a soft reset clear
+  // it.
+  localparam logic [7:0] DELAY_ALARM_ADDR = 8'h90;
+  localparam logic [31:0] DELAY_ALARM_LSB = 32'd0;
+  localparam logic [31:0] DELAY_ALARM_W = 32'd16;
+  localparam logic [31:0] DELAY_ALARM_MASK = 32'h0000FFFF;
+  localparam logic [15:0] DELAY_ALARM_RESET = 16'd0;
+
+  // Begins or ends an access.
+  localparam logic [7:0] ACCESS_START_ADDR = 8'h94;
+  localparam logic [31:0] ACCESS_START_LSB = 32'd31;
+  localparam logic [31:0] ACCESS_START_W = 32'd1;
+  localparam logic [31:0] ACCESS_START_MASK = 32'h80000000;
+  localparam logic [0:0] ACCESS_START_RESET = 1'd0;
+
+  // 1 writes, 0 reads.
+  localparam logic [7:0] ACCESS_WRITE_ADDR = 8'h94;
+  localparam logic [31:0] ACCESS_WRITE_LSB = 32'd16;
+  localparam logic [31:0] ACCESS_WRITE_W = 32'd1;
+  localparam logic [31:0] ACCESS_WRITE_MASK = 32'h00010000;
+  localparam logic [0:0] ACCESS_WRITE_RESET = 1'd0;
+
+  // Channel, whatever CHANNEL_INDEX is.
+  localparam logic [7:0] ACCESS_CHANNEL_ADDR = 8'h94;
+  localparam logic [31:0] ACCESS_CHANNEL_LSB = 32'd12;
+  localparam logic [31:0] ACCESS_CHANNEL_W = 32'd4;
+  localparam logic [31:0] ACCESS_CHANNEL_MASK = 32'h0000F000;
+  localparam logic [3:0] ACCESS_CHANNEL_RESET = 4'd0;
+
+  // ID of the slave on the channel; 0 is the only one or the last one of a chain.
+  localparam logic [7:0] ACCESS_SLAVE_ADDR = 8'h94;
+  localparam logic [31:0] ACCESS_SLAVE_LSB = 32'd8;
+  localparam logic [31:0] ACCESS_SLAVE_W = 32'd3;
+  localparam logic [31:0] ACCESS_SLAVE_MASK = 32'h00000700;
+  localparam logic [2:0] ACCESS_SLAVE_RESET = 3'd0;
+
+  // Address of the register.
+  localparam logic [7:0] ACCESS_ADDRESS_ADDR = 8'h94;
+  localparam logic [31:0] ACCESS_ADDRESS_LSB = 32'd0;
+  localparam logic [31:0] ACCESS_ADDRESS_W = 32'd7;
+  localparam logic [31:0] ACCESS_ADDRESS_MASK = 32'h0000007F;
+  localparam logic [6:0] ACCESS_ADDRESS_RESET = 7'd0;
+
+  // Byte to write; after a read the byte that came. Extra ACCESS.
+  localparam logic [7:0] ACCESS_DATA_ADDR = 8'h98;
+  localparam logic [31:0] ACCESS_DATA_LSB = 32'd0;
+  localparam logic [31:0] ACCESS_DATA_W = 32'd8;
+  localparam logic [31:0] ACCESS_DATA_MASK = 32'h000000FF;
+  localparam logic [7:0] ACCESS_DATA_RESET = 8'd0;
+
+  // The encoder did not answer within 1024 frames.
+  localparam logic [7:0] ACCESS_SILENT_ADDR = 8'h9C;
+  localparam logic [31:0] ACCESS_SILENT_LSB = 32'd2;
+  localparam logic [31:0] ACCESS_SILENT_W = 32'd1;
+  localparam logic [31:0] ACCESS_SILENT_MASK = 32'h00000004;
+  localparam logic [0:0] ACCESS_SILENT_RESET = 1'd0;
+
+  // Wrong echo or CRC, a frame that failed, a channel that does not exist, or ended by the host.
+  localparam logic [7:0] ACCESS_ERROR_ADDR = 8'h9C;
+  localparam logic [31:0] ACCESS_ERROR_LSB = 32'd1;
+  localparam logic [31:0] ACCESS_ERROR_W = 32'd1;
+  localparam logic [31:0] ACCESS_ERROR_MASK = 32'h00000002;
+  localparam logic [0:0] ACCESS_ERROR_RESET = 1'd0;
+
+  // The access runs.
+  localparam logic [7:0] ACCESS_ACTIVE_ADDR = 8'h9C;
+  localparam logic [31:0] ACCESS_ACTIVE_LSB = 32'd0;
+  localparam logic [31:0] ACCESS_ACTIVE_W = 32'd1;
+  localparam logic [31:0] ACCESS_ACTIVE_MASK = 32'h00000001;
+  localparam logic [0:0] ACCESS_ACTIVE_RESET = 1'd0;
+
+  // Stream mode 1: a beat was lost, because the sink was too slow. Writing 1 and a soft reset clear
+  // it.
+  localparam logic [7:0] STREAM_LOST_ADDR = 8'hA0;
+  localparam logic [31:0] STREAM_LOST_LSB = 32'd0;
+  localparam logic [31:0] STREAM_LOST_W = 32'd1;
+  localparam logic [31:0] STREAM_LOST_MASK = 32'h00000001;
+  localparam logic [0:0] STREAM_LOST_RESET = 1'd0;
 
   // ---- Codes ----------------------------------------------------------------------------------
 
@@ -223,6 +685,10 @@ package axi_regs_pkg;
   // CRC_CHECK
   localparam logic [0:0] CRC_CHECK_NOT_CHECKED = 1'h0;
   localparam logic [0:0] CRC_CHECK_CHECKED = 1'h1;
+
+  // ACCESS_START
+  localparam logic [0:0] START_ENDED = 1'h0;
+  localparam logic [0:0] START_RUNNING = 1'h1;
 
 endpackage
 // verilator lint_on UNUSEDPARAM

@@ -4,6 +4,7 @@
 
 #include <memory>
 #include <string>
+#include <string_view>
 #include <utility>
 
 #include "sim/core/toml_reader.hpp"
@@ -18,13 +19,22 @@ constexpr std::uint64_t kMaxMaHz = 10'000'000;
 constexpr std::uint64_t kLongestHalf = 255;  // clocks of half an MA period
 
 // Bits of axi_pkg::switch_t: the parameters of biss_axi.
-constexpr std::pair<const char*, unsigned> kSwitches[] = {
-    {"VALID_UNTIL_REQUEST", 0}, {"CRC_BIT_IGNORES", 2}, {"ENABLE_ACTIVE_LOW", 3}};
+constexpr unsigned kAlignLatch = 1;
+constexpr std::pair<const char*, unsigned> kSwitches[] = {{"VALID_UNTIL_REQUEST", 0},
+                                                          {"ALIGN_LATCH", kAlignLatch},
+                                                          {"CRC_BIT_IGNORES", 2},
+                                                          {"ENABLE_ACTIVE_LOW", 3}};
 constexpr unsigned kDefaultSwitches = 1;
+
+// In the order of kAxiDocument, kAxiFull.
+constexpr std::string_view kFeatures[] = {"document", "full"};
 
 void read_quirks(TomlReader& reader, ChipConfig& chip) {
   for (const auto& [name, bit] : kSwitches) {
     if (const auto on = reader.boolean(name)) {
+      if (*on && bit == kAlignLatch && chip.features != kAxiFull) {
+        reader.fail(name, "the master has it with features = \"full\" only");
+      }
       chip.quirks = (chip.quirks & ~(1U << bit)) | (static_cast<unsigned>(*on) << bit);
     }
   }
@@ -58,6 +68,7 @@ const Master kAxiMaster{.type = "axi",
                         .max_clk_hz = kMaxClkHz,
                         .min_osc_hz = 0,
                         .max_osc_hz = 0,
+                        .features = kFeatures,
                         .quirks = kDefaultSwitches,
                         .read_quirks = read_quirks,
                         .read_host = read_host,

@@ -8,8 +8,15 @@
 #include <Vaxi_1___024root.h>
 #include <Vaxi_4.h>
 #include <Vaxi_4___024root.h>
+#include <Vaxi_full_1.h>
+#include <Vaxi_full_16.h>
+#include <Vaxi_full_16___024root.h>
+#include <Vaxi_full_1___024root.h>
+#include <Vaxi_full_4.h>
+#include <Vaxi_full_4___024root.h>
 #include <verilated.h>
 
+#include <iterator>
 #include <type_traits>
 #include <utility>
 
@@ -173,14 +180,6 @@ class VerilatedAxi final : public AxiModel {
   bool slo(unsigned line) const override { return ((model_->slo_i >> line) & 1U) != 0; }
 
  private:
-  std::uint32_t word(unsigned channel) const {
-    if constexpr (kChannels == 1) {
-      return model_->s_axis_tdata;
-    } else {
-      return model_->s_axis_tdata[channel];
-    }
-  }
-
   void take_beat(Time now) {
     if (beats_.size() == kMostBeats) {
       beats_.pop_front();
@@ -188,7 +187,14 @@ class VerilatedAxi final : public AxiModel {
     }
     StreamBeat& beat = beats_.emplace_back();
     beat.time = now;
-    for (unsigned channel = 0; channel < kChannels; ++channel) beat.words.push_back(word(channel));
+    const auto& data = model_->s_axis_tdata;
+    if constexpr (std::is_same_v<std::decay_t<decltype(data)>, IData>) {
+      beat.words = {data};
+    } else if constexpr (std::is_same_v<std::decay_t<decltype(data)>, QData>) {
+      beat.words = {static_cast<std::uint32_t>(data), static_cast<std::uint32_t>(data >> 32U)};
+    } else {
+      beat.words.assign(std::begin(data.m_storage), std::end(data.m_storage));
+    }
     beat.user = model_->s_axis_tuser;
     beat.last = model_->s_axis_tlast != 0;
     beat_ = !beat_;
@@ -239,6 +245,7 @@ class VerilatedAxi final : public AxiModel {
     if (m.error_no != 0) out |= kError;
     if (m.warn_no != 0) out |= kWarn;
     if (m.sample_clk_o != 0) out |= kSampleClk;
+    if (m.irq_o != 0) out |= kIrq;
     if (done_) out |= kDone;
     if (beat_) out |= kBeat;
     outputs_ = out;
@@ -275,6 +282,11 @@ std::unique_ptr<AxiModel> make(const ChipConfig& chip, std::uint64_t seed, bool 
 
 std::unique_ptr<AxiModel> make_axi_model(const ChipConfig& chip, unsigned channels,
                                          std::uint64_t seed, bool plain) {
+  if (chip.features == kAxiFull) {
+    if (channels <= 1) return make<Vaxi_full_1, 1, AxiWholeSteps<Vaxi_full_1>>(chip, seed, plain);
+    if (channels <= 4) return make<Vaxi_full_4, 4, AxiWholeSteps<Vaxi_full_4>>(chip, seed, plain);
+    return make<Vaxi_full_16, kAxiChannels, AxiWholeSteps<Vaxi_full_16>>(chip, seed, plain);
+  }
   if (channels <= 1) return make<Vaxi_1, 1, Steps1>(chip, seed, plain);
   if (channels <= 4) return make<Vaxi_4, 4, Steps4>(chip, seed, plain);
   return make<Vaxi_16, kAxiChannels, Steps16>(chip, seed, plain);

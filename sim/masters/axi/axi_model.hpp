@@ -18,6 +18,10 @@ namespace mb4::sim {
 
 inline constexpr unsigned kAxiChannels = 16;
 
+// ChipConfig::features: what the document has, or all extras (EXTRAS of biss_axi).
+inline constexpr unsigned kAxiDocument = 0;
+inline constexpr unsigned kAxiFull = 1;
+
 // An AXI4-Lite access that runs or has ended.
 struct AxiAccess {
   bool write = false;
@@ -36,6 +40,7 @@ class AxiModel : public MasterModel {
   static constexpr Outputs kSampleClk = own(2);  // pin sample_clk_output
   static constexpr Outputs kDone = own(3);       // changes at the end of each access
   static constexpr Outputs kBeat = own(4);       // changes with each beat of the stream
+  static constexpr Outputs kIrq = own(5);        // pin irq
 
   // Number of channels that the model has: at least those of the scenario.
   virtual unsigned channels() const = 0;
@@ -59,9 +64,9 @@ class AxiModel : public MasterModel {
   // answer is dropped.
   virtual void give_up() = 0;
 
-  // Beats of the stream in mode 0 that the sink has taken: a word for each channel of the model,
-  // and in `user` bit c: the word of channel c is of this frame and good. The oldest ones are
-  // dropped when there are too many.
+  // Beats of the stream in mode 0 that the sink has taken: a word for each channel of the model
+  // (with all extras two, the lower first), and in `user` bit c: the word of channel c is of this
+  // frame and good. The oldest ones are dropped when there are too many.
   std::deque<StreamBeat>& beats() { return beats_; }
   std::uint64_t beats_dropped() const { return beats_dropped_; }
 
@@ -74,8 +79,9 @@ class AxiModel : public MasterModel {
   std::uint64_t beats_dropped_ = 0;
 };
 
-// `channels`: as many as the scenario needs. Of the models that are built (1, 4, 16 channels) the
-// smallest one that is enough is made. `plain`: each edge is evaluated in the simplest way.
+// `channels`: as many as the scenario needs. Of the models that are built (1, 4, 16 channels, each as
+// the document and with all extras) the smallest one that is enough is made. `plain`: each edge is
+// evaluated in the simplest way.
 std::unique_ptr<AxiModel> make_axi_model(const ChipConfig& chip, unsigned channels,
                                          std::uint64_t seed, bool plain);
 

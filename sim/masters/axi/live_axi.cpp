@@ -19,13 +19,17 @@ constexpr Pin kSampleEn{2};
 constexpr Pin kError{3};
 constexpr Pin kWarn{4};
 constexpr Pin kSampleClkOutput{5};
+constexpr Pin kIrq{6};
 constexpr int kMa0 = 16;
 constexpr int kSlo0 = 32;
 
-constexpr std::pair<std::string_view, Pin> kPins[] = {
-    {"axi_aresetn", kAresetn}, {"ext_sample_clk", kExtSampleClk},
-    {"sample_en", kSampleEn},  {"error", kError},
-    {"warn", kWarn},           {"sample_clk_output", kSampleClkOutput}};
+constexpr std::pair<std::string_view, Pin> kPins[] = {{"axi_aresetn", kAresetn},
+                                                      {"ext_sample_clk", kExtSampleClk},
+                                                      {"sample_en", kSampleEn},
+                                                      {"error", kError},
+                                                      {"warn", kWarn},
+                                                      {"sample_clk_output", kSampleClkOutput},
+                                                      {"irq", kIrq}};
 
 // Number of a line pin whose first one is `first`.
 std::optional<unsigned> line_of(Pin pin, int first) {
@@ -127,6 +131,7 @@ bool LiveAxi::pin(Pin pin) const {
   if (pin == kSampleEn) return model_->sample_en();
   if (pin == kError) return (outputs & AxiModel::kError) != 0;
   if (pin == kWarn) return (outputs & AxiModel::kWarn) != 0;
+  if (pin == kIrq) return (outputs & AxiModel::kIrq) != 0;
   return (outputs & AxiModel::kSampleClk) != 0;
 }
 

@@ -46,6 +46,8 @@ class AxiRegsBlock : public testing::Test {
     m.word_data_i = 0;
     m.single_valid_i = 0;
     for (auto& word : m.results_i.m_storage) word = 0;
+    for (auto& word : m.mores_i.m_storage) word = 0;
+    m.page_data_i = 0;
     block.reset();
   }
   std::uint32_t read(unsigned address) {

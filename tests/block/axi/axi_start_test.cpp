@@ -39,6 +39,7 @@ class AxiStartBlock : public testing::Test {
     m.cfg_i = config.port();
     m.check_i = m.busy_i = m.in_frame_i = m.any_i = 0;
     m.ext_sample_clk_i = m.sample_en_i = 0;
+    m.crc_bits_i = 6;
     block.reset();
     m.any_i = m.sample_en_i = 1;
   }

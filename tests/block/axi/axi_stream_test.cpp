@@ -43,6 +43,7 @@ void begin(Stream& stream) {
   m.enabled_i = 0;
   m.s_axis_tready = 1;
   for (auto& word : m.words_i.m_storage) word = 0;
+  for (auto& word : m.mores_i.m_storage) word = 0;
   stream.reset();
 }
 
@@ -79,10 +80,18 @@ TEST(AxiStreamBlock, RandomReadsAndSinks_GiveOneBeatForEachEnabledChannelInOrder
           expected.push_back({position, c << 8U | flags, (enabled >> (c + 1)) == 0});
         }
       }
+      EXPECT_EQ(m.busy_o, 0);
       m.done_i = 1;
       clock();
       m.done_i = 0;
-      for (unsigned i = 0; i < 60; ++i) clock();
+      // The words must stay for one clock a channel.
+      for (unsigned i = 0; i < 60; ++i) {
+        EXPECT_EQ(m.busy_o, i < kChannels);
+        if (m.busy_o == 0) {
+          for (unsigned c = 0; c < kChannels; ++c) set_word(m, c, random(), random() % 16);
+        }
+        clock();
+      }
     }
     EXPECT_GT(beats, 1000U);
   }

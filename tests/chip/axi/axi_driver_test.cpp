@@ -4,6 +4,7 @@
 // The driver of the BiSS C master on AXI, in C++ and with the C calls of the hello-fpga manual
 // (2.5), on the simulated master.
 #include "biss_axi/device.hpp"
+#include "biss_axi/page.hpp"
 #include "biss_c.h"
 #include "tests/chip/axi/axi_bench.hpp"
 
@@ -147,6 +148,132 @@ TEST_F(AxiDriver, InternalClock_SamplesAtItsFrequency) {
   ASSERT_TRUE(device.configure(config).ok());
   bench.simulator.advance(sim::kPsPerSecond / 100);
   EXPECT_NEAR(static_cast<double>(bench.host.beats_waiting()), 200.0, 1.0);
+}
+
+// ---- the page, [chip] features = "full"
+// ----------------------------------------------------------
+
+std::string full(std::string text) {
+  text.insert(text.find("f_clk_hz"), "features = \"full\"\n");
+  return text;
+}
+
+// With counters nothing is reset, and a request in a timeout is made again.
+TEST_F(AxiDriver, ReadSingleWithCounters_ResetsNothingAndWaitsForTheTimeout) {
+  Driven paged(
+      full(axi_scenario({{.delay_ns = 35, .slave = "timeout = 30\n"}, {.delay_ns = 435}})));
+  biss_axi::Page page(paged.port);
+  EXPECT_EQ(page.features().value_or(0) & 0x1FFU, 0x1FFU);
+  paged.config.channels = 3;
+  ASSERT_TRUE(paged.device.configure(paged.config).ok());
+  for (std::uint32_t n = 1; n <= 10; ++n) {
+    paged.bench.simulator.slave(1)->set_data(raw_word(n));
+    paged.bench.simulator.slave(2)->set_data(raw_word(1000 + n));
+    EXPECT_EQ(paged.device.read_single(1).value_or(0), 1000 + n);
+    EXPECT_EQ(paged.device.position(0).value_or(0), n);
+  }
+  EXPECT_EQ(page.counters(0)->frames, 10U);
+  EXPECT_EQ(page.counters(1)->frames, 10U);
+  EXPECT_GT(page.skipped_starts().value_or(0), 0U);
+  EXPECT_EQ(paged.device.read_all().value_or(0), 3U);
+  // An encoder that is gone, or whose SLO is 0: no old word, and no wait for the longest frame.
+  paged.bench.simulator.inject("[[fault]]\nkind = \"unplug\"\nslave = 1\nat_us = 0\n");
+  paged.bench.simulator.advance(100 * sim::kPsPerUs);
+  const sim::Time begin = paged.bench.simulator.now();
+  EXPECT_EQ(paged.device.read_all().value_or(0), 2U);
+  EXPECT_LT(paged.bench.simulator.now() - begin, 60 * sim::kPsPerUs);
+  EXPECT_EQ(paged.device.position(0).error(), biss_axi::Error::kNoData);
+  paged.bench.simulator.inject("[[fault]]\nkind = \"stuck\"\nchannel = 2\nlevel = 0\nat_us = 0\n");
+  paged.bench.simulator.advance(100 * sim::kPsPerUs);
+  EXPECT_EQ(paged.device.read_all().value_or(9), 0U);
+  EXPECT_EQ(page.counters(1)->late_starts, 1U);
+}
+
+// Without VALID_UNTIL_REQUEST the flag of an old word stays, so the driver resets as without the
+// page.
+TEST_F(AxiDriver, MasterThatKeepsValid_IsReadWithAReset) {
+  Driven keeps(full(axi_scenario({{}}, 100'000'000, "", "VALID_UNTIL_REQUEST = false\n")));
+  ASSERT_TRUE(keeps.device.configure(keeps.config).ok());
+  keeps.bench.simulator.slave(1)->set_data(raw_word(5));
+  EXPECT_EQ(keeps.device.read_single(0).value_or(0), 5U);
+  keeps.bench.simulator.inject("[[fault]]\nkind = \"unplug\"\nslave = 1\nat_us = 0\n");
+  keeps.bench.simulator.advance(100 * sim::kPsPerUs);
+  EXPECT_EQ(keeps.device.read_single(0).error(), biss_axi::Error::kTimeout);
+}
+
+TEST_F(AxiDriver, SwitchesOfTheMaster_AreMembersOfTheConfiguration) {
+  Driven other(
+      axi_scenario(two(), 100'000'000, "", "ENABLE_ACTIVE_LOW = true\nCRC_BIT_IGNORES = true\n"));
+  other.config.channels = 2;
+  other.config.enable_active_low = other.config.crc_bit_ignores = true;
+  ASSERT_TRUE(other.device.configure(other.config).ok());
+  other.bench.simulator.slave(2)->set_data(raw_word(77));
+  const auto frames = other.bench.frames(1);
+  EXPECT_EQ(other.device.read_single(1).value_or(0), 77U);
+  EXPECT_EQ(other.bench.frames(1), frames);
+  other.bench.simulator.inject(
+      "[[fault]]\nkind = \"bit-flip\"\nchannel = 2\nat_us = 0\nbits = [5]\n");
+  EXPECT_EQ(other.device.read_single(1).error(), biss_axi::Error::kTimeout);
+}
+
+TEST_F(AxiDriver, Page_ReachesEveryExtra) {
+  using biss_axi::AccessState;
+  Driven wide(full(axi_scenario(
+      {{.bits = 40, .delay_ns = 155, .slave = "crc_start = 3\nregisters = { 0x20 = [0x5A] }\n"}})));
+  biss_axi::Page page(wide.port);
+  wide.config.position_bits = 40;
+  EXPECT_EQ(wide.device.configure(wide.config).info().field, biss_axi::Field::kPositionBits);
+  wide.config.wide = true;
+  ASSERT_TRUE(wide.device.configure(wide.config).ok());
+  ASSERT_TRUE(page.set_crc(0x43, 3).ok());
+  EXPECT_EQ(page.set_crc(1, 0).error(), biss_axi::Error::kConfig);
+  EXPECT_EQ(page.set_crc(0x20000, 0).error(), biss_axi::Error::kConfig);
+  wide.bench.simulator.slave(1)->set_data(raw_word(0xA5'1234'5678));
+  EXPECT_EQ(wide.device.read_single(0).value_or(0), 0x1234'5678U);
+  EXPECT_EQ(page.position(0).value_or(0), 0xA5'1234'5678U);
+  EXPECT_EQ(page.position(1).error(), biss_axi::Error::kNoData);
+  const auto stamp = page.sample_time();
+  const auto now = page.time();
+  ASSERT_TRUE(stamp.ok() && now.ok());
+  EXPECT_GT(*now, *stamp);
+  EXPECT_LT(*now, *stamp + 2000);
+  EXPECT_EQ(page.take_events().value_or(0), biss_axi::kEventFrame);
+  ASSERT_TRUE(page.enable_interrupt(biss_axi::kEventError).ok());
+  ASSERT_TRUE(page.watch_delay(0, 20, 3).ok());  // it is 15
+  EXPECT_TRUE(wide.device.read_single(0).ok());
+  EXPECT_TRUE(wide.bench.pin("irq"));
+  EXPECT_EQ(page.take_alarms().value_or(0), 1U);
+  EXPECT_EQ(page.take_alarms().value_or(9), 0U);
+  ASSERT_TRUE(page.set_timeout(1'000, true).ok());
+  EXPECT_EQ(wide.bench.read(axireg::kAddrTimeout), 1U << 31U | 1'000U);
+  EXPECT_EQ(page.set_timeout(1'048'576, true).error(), biss_axi::Error::kConfig);
+  const auto finish = [&] {
+    for (int i = 0; i < 200; ++i) {
+      EXPECT_TRUE(wide.device.read_single(0).ok());
+      const auto result = page.access_result();
+      if (result->state != AccessState::kRunning) return *result;
+    }
+    return biss_axi::AccessResult{};
+  };
+  ASSERT_TRUE(page.begin_access({.address = 0x20}).ok());
+  EXPECT_EQ(page.begin_access({.address = 0x21}).error(), biss_axi::Error::kConfig) << "one runs";
+  const auto got = finish();
+  EXPECT_EQ(got.state, AccessState::kDone);
+  EXPECT_EQ(got.value, 0x5A);
+  ASSERT_TRUE(page.begin_access({.address = 0x22, .write = true, .value = 0xC7}).ok());
+  EXPECT_EQ(finish().state, AccessState::kDone);
+  EXPECT_EQ(wide.bench.simulator.slave(1)->reg_read(0x22), 0xC7);
+  ASSERT_TRUE(page.begin_access({.address = 0x22}).ok());
+  ASSERT_TRUE(page.end_access().ok());
+  EXPECT_EQ(page.access_result()->state, AccessState::kFailed);
+  EXPECT_EQ(page.begin_access({.channel = 16}).error(), biss_axi::Error::kChannel);
+  EXPECT_EQ(page.begin_access({.address = 0x80}).error(), biss_axi::Error::kConfig);
+  EXPECT_EQ(page.begin_access({.slave = 8}).error(), biss_axi::Error::kConfig);
+}
+
+TEST_F(AxiDriver, MasterWithoutPage_HasNoFeatures) {
+  biss_axi::Page page(port);
+  EXPECT_EQ(page.features().value_or(9), 0U);
 }
 
 TEST_F(AxiDriver, CallsOfTheManual_DoWhatItPrints) {

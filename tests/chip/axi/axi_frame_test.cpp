@@ -16,26 +16,41 @@ std::uint32_t position_of(unsigned bits, sim::Random& random) {
   return bits == 32 ? all : all & ((1U << bits) - 1);
 }
 
-// 16 cables of 0 to 100 m: 5 ns a metre, both ways.
+// 16 cables of 0 to 100 m: 5 ns a metre, both ways. One edge of the sample clock starts all of them at
+// one instant.
 TEST(Axi, F3SixteenCablesUpTo100m_OneBeatWithAllWordsAndTheirDelays) {
+  const auto tap = [](sim::Time now, void* receiver, sim::Line::Signal signal, bool level) {
+    auto& first = *static_cast<sim::Time*>(receiver);
+    if (signal == sim::Line::Signal::kMa && !level && first == 0) first = now;
+  };
   for (const unsigned divider : {50U, 10U, 5U}) {
     std::vector<AxiEncoder> encoders;
     for (unsigned c = 0; c < 16; ++c) encoders.push_back({.delay_ns = 1000.0 * c / 15});
     AxiBench bench(axi_scenario(encoders));
     bench.set_up(26, divider);
+    bench.write(axireg::kAddrSampleClock, 1);
+    bench.write(axireg::kAddrMode, 0);
     sim::Random random(divider);
     for (unsigned round = 0; round < 4; ++round) {
       std::vector<std::uint32_t> sent;
+      std::vector<sim::Time> begun(16);
       for (unsigned c = 0; c < 16; ++c) {
         sent.push_back(position_of(26, random));
         bench.simulator.slave(c + 1)->set_data(raw_word(sent.back()));
+        bench.simulator.line(c + 1)->set_tap(tap, &begun[c]);
       }
-      const auto beat = bench.frame();
-      ASSERT_TRUE(beat) << "MA divider " << divider;
+      bench.set_pin("ext_sample_clk", true);
+      bench.simulator.advance(50 * sim::kPsPerUs);
+      bench.set_pin("ext_sample_clk", false);
+      bench.simulator.advance(50 * sim::kPsPerUs);
+      ASSERT_EQ(bench.host.beats_waiting(), 1U) << "MA divider " << divider;
+      const auto beat = bench.host.next_beat();
       EXPECT_EQ(beat->words, sent) << "MA divider " << divider;
       EXPECT_EQ(beat->user, 0xFFFFU);
       EXPECT_TRUE(beat->last);
+      EXPECT_GT(begun[0], sim::Time{0});
       for (unsigned c = 0; c < 16; ++c) {
+        EXPECT_EQ(begun[c], begun[0]) << "channel " << c;
         const double clocks = encoders[c].delay_ns / 10.0;
         EXPECT_NEAR(bench.read(c, axireg::kAddrLineDelay), clocks, 1.0) << "channel " << c;
       }
@@ -290,6 +305,60 @@ TEST(Axi, SoftResetAndDisableInAFrame_EndItWithoutAShortPulse) {
       ASSERT_TRUE(beat) << clocks;
       EXPECT_EQ(beat->user, 3U) << clocks;
       EXPECT_EQ(beat->words[0], clocks + 1);
+    }
+  }
+}
+
+// SLO of one channel falls in the middle of a word and stays low: the others deliver every word, and
+// the next read starts after the longest timeout, 4000 clocks.
+TEST(Axi, LineStuckLowInAFrame_StopsNoOther) {
+  AxiBench bench(axi_scenario({{}, {.delay_ns = 200}}));
+  bench.set_up(26, 5);
+  bench.simulator.slave(2)->set_data(raw_word(100));
+  bench.simulator.inject("[[fault]]\nkind = \"stuck\"\nchannel = 1\nlevel = 0\nat_us = 8\n");
+  bench.simulator.advance(5 * sim::kPsPerUs);
+  const auto beat = bench.frame(30 * sim::kPsPerUs);
+  ASSERT_TRUE(beat);
+  EXPECT_EQ(beat->user, 2U);
+  EXPECT_EQ(beat->words[1], 100U);
+  EXPECT_FALSE(bench.frame(20 * sim::kPsPerUs)) << "held back by channel 1";
+  bench.simulator.slave(2)->set_data(raw_word(101));
+  const auto next = bench.frame(50 * sim::kPsPerUs);
+  ASSERT_TRUE(next);
+  EXPECT_EQ(next->user, 2U);
+  EXPECT_EQ(next->words[1], 101U);
+}
+
+// 0x2C, 0x30 and 0x3C are of the last start, also if it brought no word.
+TEST(Axi, DebugRegistersOfAFrameWithoutCrc_AreNotThoseOfAnEarlierOne) {
+  AxiBench bench(axi_scenario({{.delay_ns = 70}}));
+  bench.set_up(26, 5);
+  bench.simulator.slave(1)->set_data(raw_word(0x123'4567));
+  for (const char* level : {"0", "1"}) {
+    ASSERT_TRUE(bench.frame());
+    ASSERT_NE(bench.read(axireg::kAddrReceivedCrc), 0U);
+    bench.simulator.inject(
+        std::string("[[fault]]\nkind = \"stuck\"\nchannel = 1\nat_us = 1\nfor_us = 60\nlevel = ") +
+        level + "\n");
+    bench.simulator.advance(5 * sim::kPsPerUs);
+    ASSERT_TRUE(bench.frame()) << level;
+    EXPECT_EQ(bench.read(axireg::kAddrReceivedCrc), 0U) << level;
+    EXPECT_EQ(bench.read(axireg::kAddrCalculatedCrc), 0U) << level;
+    EXPECT_EQ(bench.read(axireg::kAddrLineDelay), 1023U) << level;
+  }
+}
+
+// A bit of two clocks is sampled behind its middle, up to its end, but never in the next one.
+TEST(Axi, MaDividerOf1_ReadsEveryDelayWithoutJitter) {
+  for (unsigned tenth = 0; tenth <= 200; tenth += 3) {
+    AxiBench bench(axi_scenario({{.delay_ns = tenth * 5.0}}, 20'000'000));
+    bench.set_up(26, 1);
+    for (const std::uint32_t word : {0x155'5555U, 0x2AA'AAAAU, 0x333'3333U}) {
+      bench.simulator.slave(1)->set_data(raw_word(word));
+      const auto beat = bench.frame();
+      ASSERT_TRUE(beat) << tenth;
+      EXPECT_EQ(beat->user, 1U) << "delay of " << tenth << " tenths of a clock";
+      EXPECT_EQ(beat->words[0], word) << tenth;
     }
   }
 }

@@ -81,10 +81,10 @@ class Axi(unittest.TestCase):
 
     def test_bad_frames_say_what_was_wrong(self):
         cases = (('kind = "bit-flip"\nchannel = 1\nbits = [5]\n', "CRC error"),
-                 ('kind = "silent"\nslave = 1\nfor_us = 100\n', "no acknowledge"),
-                 ('kind = "busy"\nslave = 1\nfor_us = 200\n', "no start bit, or SLO was 0 at the start"),
+                 ('kind = "silent"\nslave = 1\nfor_us = 100\n', "no acknowledge, or SLO was 0 at the start"),
+                 ('kind = "busy"\nslave = 1\nfor_us = 200\n', "no start bit"),
                  ('kind = "stuck"\nchannel = 1\nlevel = 0\nfor_us = 200\n',
-                  "no start bit, or SLO was 0 at the start"))
+                  "no acknowledge, or SLO was 0 at the start"))
         for keys, state in cases:
             scenario = self.path(channel(1, slave=ramp(5)) + channel(2, slave=ramp(9)) +
                                  f"[[fault]]\nat_us = 30\n{keys}")

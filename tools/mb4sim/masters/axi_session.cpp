@@ -9,6 +9,7 @@
 
 #include "axi_regs_table.hpp"
 #include "biss_axi/device.hpp"
+#include "biss_axi/page.hpp"
 #include "report/exit_status.hpp"
 #include "sim_clock.hpp"
 #include "word_port.hpp"
@@ -19,14 +20,20 @@ namespace {
 namespace regs = biss_axi::regs;
 
 constexpr unsigned kFlagBits = 2;  // nE and nW
-constexpr unsigned kCrcBits = 6;
+constexpr unsigned kCrc = 0x43;    // of the document
 constexpr std::uint32_t kNoAcknowledge = regs::LINE_DELAY::kMax;
 
 // Words of one channel, which the index register chooses.
 constexpr bool of_channel(unsigned address) {
-  return address == regs::kAddrReceivedCrc || address == regs::kAddrCalculatedCrc ||
-         address == regs::kAddrSinglePointData || address == regs::kAddrLineDelay;
+  constexpr unsigned kAll[] = {
+      regs::kAddrReceivedCrc,   regs::kAddrCalculatedCrc, regs::kAddrSinglePointData,
+      regs::kAddrLineDelay,     regs::kAddrPositionHigh,  regs::kAddrFrameCount,
+      regs::kAddrCrcErrorCount, regs::kAddrLateCount,     regs::kAddrDelayReference};
+  return std::find(std::begin(kAll), std::end(kAll), address) != std::end(kAll);
 }
+
+// [chip] features = "full".
+bool has_extras(const sim::Scenario& scenario) { return scenario.chip.features != 0; }
 
 std::string describe(const biss_axi::ErrorInfo& error) {
   switch (error.code) {
@@ -42,13 +49,22 @@ std::string describe(const biss_axi::ErrorInfo& error) {
   }
 }
 
-void check_slave(const sim::Scenario& scenario, const sim::SlaveConfig& slave, unsigned bits) {
+void check_slave(const sim::Scenario& scenario, const sim::SlaveConfig& slave,
+                 const sim::SlaveConfig& first) {
+  const unsigned bits = first.data_bits();
   if (slave.traits().protocol.key != "biss-c") {
     fail_at(scenario, slave.source, "protocol", "the master reads BiSS C only");
   }
-  if (slave.crc().polynomial != 0x43 || slave.crc().start != 0) {
-    fail_at(scenario, slave.source, slave.crc().polynomial != 0x43 ? "crc" : "crc_start",
-            "the master checks CRC 0x43 with start value 0 only");
+  const bool any = has_extras(scenario);
+  const std::uint32_t polynomial = any ? first.crc().polynomial : kCrc;
+  const std::uint32_t start = any ? first.crc().start : 0;
+  if (slave.crc().polynomial != polynomial || slave.crc().start != start) {
+    fail_at(scenario, slave.source, slave.crc().polynomial != polynomial ? "crc" : "crc_start",
+            any ? "the master checks one CRC for all channels"
+                : "the master checks CRC 0x43 with start value 0 only");
+  }
+  if (any && polynomial == 0) {
+    fail_at(scenario, slave.source, "crc", "the master reads words with a CRC only");
   }
   if (slave.flag_bits() != kFlagBits) {
     fail_at(
@@ -77,8 +93,9 @@ biss_axi::Config make_config(const sim::Scenario& scenario) {
   config.channels = 0;
   for (const sim::ChannelConfig& channel : scenario.channels) {
     config.channels |= 1U << (channel.number - 1);
-    check_slave(scenario, channel.slaves.front(), first.data_bits());
+    check_slave(scenario, channel.slaves.front(), first);
   }
+  config.wide = has_extras(scenario);
   config.position_bits = static_cast<std::uint8_t>(first.data_bits() - kFlagBits);
   switch (biss_axi::validate(config).field) {
     case biss_axi::Field::kClkHz:
@@ -89,9 +106,9 @@ biss_axi::Config make_config(const sim::Scenario& scenario) {
               fmt::format("the driver cannot make exactly {} Hz from {} Hz", config.ma_hz,
                           config.f_clk_hz));
     case biss_axi::Field::kPositionBits:
-      fail_at(
-          scenario, first.source, "data_bits",
-          fmt::format("the master takes 3 to 34, position and flags, not {}", first.data_bits()));
+      fail_at(scenario, first.source, "data_bits",
+              fmt::format("the master takes 3 to {}, position and flags, not {}",
+                          (config.wide ? 64 : 32) + kFlagBits, first.data_bits()));
     default:
       return config;
   }
@@ -103,10 +120,18 @@ class AxiSession final : public Session {
       : Session(scenario, options),
         port_(simulator_, log()),
         clock_(simulator_),
-        device_(port_, clock_) {}
+        device_(port_, clock_),
+        page_(port_) {}
 
   std::string configure() override {
-    config_ = make_config(simulator_.scenario());
+    const sim::Scenario& scenario = simulator_.scenario();
+    config_ = make_config(scenario);
+    const sim::Crc& crc = scenario.channels.front().slaves.front().crc();
+    crc_bits_ = crc.width();
+    if (has_extras(scenario)) {
+      const auto set = page_.set_crc(crc.polynomial, crc.start);
+      if (!set) return describe(set.info());
+    }
     return describe(device_.configure(config_).info());
   }
   SessionFrame read(std::uint64_t number) override;
@@ -120,6 +145,8 @@ class AxiSession final : public Session {
   WordPort port_;
   SimClock clock_;
   biss_axi::Device<WordPort, SimClock> device_;
+  biss_axi::Page<WordPort> page_;
+  unsigned crc_bits_ = 0;
 };
 
 // Pins error and warn are the AND of nE and of nW of all channels: a 0 belongs to a channel only if
@@ -134,23 +161,23 @@ SlaveResult AxiSession::result_of(unsigned channel, bool good) {
   const auto received = biss_axi::channel_word(port_, channel, regs::kAddrReceivedCrc);
   if (!received) return {std::nullopt, describe(received.info())};
   if (good) {
-    const auto position = device_.position(channel);
+    const auto position = page_.position(channel);
     if (!position) return {std::nullopt, describe(position.info())};
     Word word;
     word.bits = *position;
     word.data_bits = config_.position_bits;
     word.n_error = flag("error");
     word.n_warning = flag("warn");
-    word.crc = ~*received & ((1U << kCrcBits) - 1);
+    word.crc = ~*received & ((1U << crc_bits_) - 1);
     return {word, ""};
   }
-  // The request has cleared these words.
+  // These words are of this request.
   const auto delay = device_.line_delay(channel);
   const auto calculated = biss_axi::channel_word(port_, channel, regs::kAddrCalculatedCrc);
   if (!delay || !calculated) return {std::nullopt, describe(biss_axi::Error::kBus)};
-  if (*delay == kNoAcknowledge) return {std::nullopt, "no acknowledge"};
+  if (*delay == kNoAcknowledge) return {std::nullopt, "no acknowledge, or SLO was 0 at the start"};
   if (*received != *calculated) return {std::nullopt, "CRC error"};
-  return {std::nullopt, "no start bit, or SLO was 0 at the start"};
+  return {std::nullopt, "no start bit"};
 }
 
 SessionFrame AxiSession::read(std::uint64_t number) {
@@ -182,10 +209,13 @@ RegisterMap AxiSession::registers() {
     return value;
   };
   const std::uint32_t index = read(regs::kAddrChannelIndex);
-  for (unsigned address = 0; address <= regs::kAddrLineDelay; address += sizeof(std::uint32_t)) {
+  const unsigned last =
+      has_extras(simulator_.scenario()) ? regs::kAddrStreamStatus : regs::kAddrLineDelay;
+  for (unsigned address = 0; address <= last; address += sizeof(std::uint32_t)) {
     map.words.push_back(read(address));
   }
   for (const regs::FieldInfo& field : regs::kFields) {
+    if (field.address > last) continue;
     RegisterMap::Field shown{
         field.name,  field.alternate == nullptr ? "" : field.alternate, field.address,    field.lsb,
         field.width, map.words[field.address / sizeof(std::uint32_t)],  field.description};

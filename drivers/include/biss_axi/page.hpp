@@ -1,0 +1,211 @@
+// SPDX-FileCopyrightText: 2026 The openmb4 authors
+// SPDX-License-Identifier: Apache-2.0
+
+// The page of biss_axi behind 0x40: what a master with extras (parameter EXTRAS) has beyond the
+// manual. Freestanding C++17. No call waits; an access to an encoder's register is begun and asked
+// for. A page must not be used at the same time as a Device of the same master: both use its index
+// register.
+
+#ifndef BISS_AXI_PAGE_HPP_
+#define BISS_AXI_PAGE_HPP_
+
+#include <cstdint>
+
+#include "biss_axi/device.hpp"
+
+namespace biss_axi {
+
+struct Counters {
+  std::uint32_t frames = 0;  // ended, good or not
+  std::uint16_t crc_errors = 0;
+  std::uint16_t late_starts = 0;  // SLO was 0 at the start
+};
+
+// An access to a register of an encoder.
+struct RegisterAccess {
+  std::uint8_t channel = 0;  // 0 to 15
+  std::uint8_t slave = 0;    // ID; 0 is the only one on the channel
+  std::uint8_t address = 0;  // 0 to 127
+  bool write = false;
+  std::uint8_t value = 0;  // to write
+};
+
+enum class AccessState : std::uint8_t {
+  kRunning,  // its bits go with the frames of the channel
+  kDone,
+  kFailed,  // wrong echo or CRC, a frame that failed, no such channel, or ended by end_access()
+  kSilent,  // the encoder has not answered
+};
+
+struct AccessResult {
+  AccessState state = AccessState::kRunning;
+  std::uint8_t value = 0;  // kDone after a read
+};
+
+// Events, as bits of take_events() and enable_interrupt().
+inline constexpr std::uint32_t kEventFrame = regs::FRAME::kMask;
+inline constexpr std::uint32_t kEventError = regs::ERROR::kMask;
+inline constexpr std::uint32_t kEventAccess = regs::REGISTER_END::kMask;
+inline constexpr std::uint32_t kEventSense = regs::SENSE::kMask;
+inline constexpr std::uint32_t kEventLost = regs::LOST::kMask;
+
+// Port: see kIsPort. It lives as long as the page.
+template <typename Port>
+class Page {
+  static_assert(kIsPort<Port>,
+                "Port needs bool write(offset, value) and bool read(offset, value&)");
+
+ public:
+  explicit Page(Port& port) : port_(port) {}
+
+  // Register FEATURES (regs::HAS_..., regs::CHANNEL_COUNT); 0 for a master without extras.
+  Result<std::uint32_t> features() { return biss_axi::features(port_); }
+
+  // ---- extra ANY_CRC: from the next frame on ----
+  // `polynomial` with its highest power, degree 1 to 16; kConfig if it has none of these.
+  Result<void> set_crc(std::uint32_t polynomial, std::uint32_t start = 0) {
+    if (polynomial < 2 || polynomial > regs::CRC_POLYNOMIAL::kMax || start > regs::CRC_START::kMax)
+      return Error::kConfig;
+    return set(regs::kAddrCrcPolynomial, polynomial, regs::kAddrCrcStart, start);
+  }
+
+  // ---- extra TIMEOUT: from the next frame on ----
+  // `fixed`: wait for all `clocks`; else until SLO is 1, and no longer than `clocks` (0: the
+  // parameter TIMEOUT_LIMIT).
+  Result<void> set_timeout(std::uint32_t clocks, bool fixed) {
+    if (clocks > regs::TIMEOUT_LIMIT::kMax) return Error::kConfig;
+    return set(regs::kAddrTimeout, regs::TIMEOUT_FIXED::insert(clocks, fixed ? 1 : 0));
+  }
+
+  // ---- time ----
+  // Clocks since the reset.
+  Result<std::uint64_t> time() { return pair(regs::kAddrTimeLow, regs::kAddrTimeHigh); }
+  // Extra STAMP: the instant at which the encoders latched in the last frame.
+  Result<std::uint64_t> sample_time() {
+    return pair(regs::kAddrSampleTimeLow, regs::kAddrSampleTimeHigh);
+  }
+
+  // ---- counters ----
+  Result<std::uint32_t> skipped_starts() { return get(regs::kAddrSkipCount); }
+  // Extra COUNTERS.
+  Result<Counters> counters(unsigned channel) {
+    if (channel >= regs::kChannels) return Error::kChannel;
+    std::uint32_t frames = 0, crc_errors = 0, lates = 0;
+    if (!port_.write(regs::kAddrChannelIndex, channel) ||
+        !port_.read(regs::kAddrFrameCount, frames) ||
+        !port_.read(regs::kAddrCrcErrorCount, crc_errors) ||
+        !port_.read(regs::kAddrLateCount, lates)) {
+      return Error::kBus;
+    }
+    Counters counters;
+    counters.frames = frames;
+    counters.crc_errors = static_cast<std::uint16_t>(crc_errors);
+    counters.late_starts = static_cast<std::uint16_t>(lates);
+    return counters;
+  }
+
+  // ---- interrupt ----
+  Result<void> enable_interrupt(std::uint32_t events) { return set(regs::kAddrIrqEnable, events); }
+  // The events that have come, and clears these.
+  Result<std::uint32_t> take_events() {
+    std::uint32_t events = 0;
+    if (!port_.read(regs::kAddrIrqStatus, events) || !port_.write(regs::kAddrIrqStatus, events))
+      return Error::kBus;
+    return events;
+  }
+
+  // ---- extra ALARM ----
+  // Watches the delay of a channel from the next frame on. `tolerance` is that of all channels.
+  Result<void> watch_delay(unsigned channel, std::uint32_t clocks, std::uint32_t tolerance) {
+    if (channel >= regs::kChannels) return Error::kChannel;
+    if (clocks > regs::DELAY_REFERENCE::kMax || tolerance > regs::DELAY_TOLERANCE::kMax)
+      return Error::kConfig;
+    if (!port_.write(regs::kAddrChannelIndex, channel)) return Error::kBus;
+    return set(regs::kAddrDelayTolerance, tolerance, regs::kAddrDelayReference,
+               regs::DELAY_WATCH::insert(clocks, 1));
+  }
+  // Bit c: the delay of channel c has moved. Clears what it returns.
+  Result<std::uint32_t> take_alarms() {
+    std::uint32_t alarms = 0;
+    if (!port_.read(regs::kAddrDelayAlarm, alarms) || !port_.write(regs::kAddrDelayAlarm, alarms))
+      return Error::kBus;
+    return alarms;
+  }
+
+  // ---- extra WIDE ----
+  // The channel's word of the last single-point request; see Device::position().
+  Result<std::uint64_t> position(unsigned channel) {
+    if (channel >= regs::kChannels) return Error::kChannel;
+    std::uint32_t valid = 0, low = 0, high = 0;
+    if (!port_.write(regs::kAddrChannelIndex, channel) ||
+        !port_.read(regs::kAddrSinglePointValid, valid)) {
+      return Error::kBus;
+    }
+    if ((valid >> channel & 1U) == 0) return Error::kNoData;
+    if (!port_.read(regs::kAddrSinglePointData, low) || !port_.read(regs::kAddrPositionHigh, high))
+      return Error::kBus;
+    return std::uint64_t{high} << 32U | low;
+  }
+
+  // ---- extra ACCESS ----
+  // Begins an access. kConfig if one runs or if it names no register.
+  Result<void> begin_access(const RegisterAccess& access) {
+    if (access.channel >= regs::kChannels) return Error::kChannel;
+    if (access.slave > regs::ACCESS_SLAVE::kMax || access.address > regs::ACCESS_ADDRESS::kMax)
+      return Error::kConfig;
+    const Result<AccessResult> before = access_result();
+    if (!before.ok()) return before.error();
+    if (before->state == AccessState::kRunning) return Error::kConfig;
+    std::uint32_t word = access.address;
+    word = regs::ACCESS_SLAVE::insert(word, access.slave);
+    word = regs::ACCESS_CHANNEL::insert(word, access.channel);
+    word = regs::ACCESS_WRITE::insert(word, access.write ? 1 : 0);
+    word = regs::ACCESS_START::insert(word, 1);
+    return set(regs::kAddrAccessData, access.value, regs::kAddrAccess, word);
+  }
+  Result<AccessResult> access_result() {
+    std::uint32_t status = 0, data = 0;
+    if (!port_.read(regs::kAddrAccessStatus, status) || !port_.read(regs::kAddrAccessData, data))
+      return Error::kBus;
+    AccessResult result;
+    result.value = static_cast<std::uint8_t>(data);
+    if (regs::ACCESS_ACTIVE::get(status) != 0) {
+      result.state = AccessState::kRunning;
+    } else if (regs::ACCESS_SILENT::get(status) != 0) {
+      result.state = AccessState::kSilent;
+    } else {
+      result.state =
+          regs::ACCESS_ERROR::get(status) != 0 ? AccessState::kFailed : AccessState::kDone;
+    }
+    return result;
+  }
+  Result<void> end_access() { return set(regs::kAddrAccess, 0); }
+
+ private:
+  Result<std::uint32_t> get(std::uint32_t offset) {
+    std::uint32_t value = 0;
+    if (!port_.read(offset, value)) return Error::kBus;
+    return value;
+  }
+  Result<void> set(std::uint32_t offset, std::uint32_t value) {
+    if (!port_.write(offset, value)) return Error::kBus;
+    return {};
+  }
+  Result<void> set(std::uint32_t first, std::uint32_t value, std::uint32_t second,
+                   std::uint32_t other) {
+    if (!port_.write(first, value)) return Error::kBus;
+    return set(second, other);
+  }
+  // Reading the low word copies the high one.
+  Result<std::uint64_t> pair(std::uint32_t low_offset, std::uint32_t high_offset) {
+    std::uint32_t low = 0, high = 0;
+    if (!port_.read(low_offset, low) || !port_.read(high_offset, high)) return Error::kBus;
+    return std::uint64_t{high} << 32U | low;
+  }
+
+  Port& port_;
+};
+
+}  // namespace biss_axi
+
+#endif  // BISS_AXI_PAGE_HPP_

@@ -1,0 +1,66 @@
+#!/usr/bin/env python3
+# SPDX-FileCopyrightText: 2026 The openmb4 authors
+# SPDX-License-Identifier: Apache-2.0
+"""The price of each extra of biss_axi on iCE40, in LUT4 and flops: the table in docs/axi.md.
+
+  axi_extras.py FOLDER [--check]   FOLDER is for what Yosys leaves. --check: only biss_axi as the
+                                   document has it, with one channel, against MOST_LUT4
+"""
+
+import json
+import sys
+from pathlib import Path
+
+HERE = Path(__file__).resolve().parent
+sys.path.insert(0, str(HERE))
+
+import project  # noqa: E402
+import yosys  # noqa: E402
+
+MOST_LUT4 = 544
+CHANNELS = (1, 4, 16)
+# Name and the value of EXTRAS; each of them has the page, bit 0.
+EXTRAS = {
+    "none": 0, "PAGE": 0x001, "WIDE": 0x003, "ANY_CRC": 0x005, "TIMEOUT": 0x009, "COUNTERS": 0x011,
+    "STAMP": 0x021, "ALARM": 0x041, "ACCESS": 0x081, "ALIGN": 0x101, "all": 0x1FF,
+}
+
+
+def size(extras, channels, folder):
+    """LUT4 and flops."""
+    files = project.listed(project.RTL / "axi" / "axi.f")
+    status, text = yosys.execute(
+        yosys.read(files) + [f"chparam -set EXTRAS {extras} -set BISS_CHANNEL_WIDTH {channels} biss_axi",
+                             "synth_ice40 -top biss_axi", "check -assert",
+                             "tee -q -o stat.json stat -json"], folder, "synth")
+    if status != 0:
+        raise SystemExit(text)
+    cells = json.loads((folder / "stat.json").read_text(encoding="utf-8"))["design"]["num_cells_by_type"]
+    return cells.get("SB_LUT4", 0), sum(n for cell, n in cells.items() if cell.startswith("SB_DFF"))
+
+
+def main():
+    parser = project.Arguments(__doc__)
+    parser.add_argument("folder", type=parser.folder)
+    parser.add_argument("--check", action="store_true")
+    arguments = parser.parse_args()
+    if arguments.check:
+        luts, _ = size(0, 1, arguments.folder / "check")
+        project.finish([] if luts <= MOST_LUT4 else [f"biss_axi: {luts} LUT4, wanted {MOST_LUT4} at most"],
+                       f"biss_axi with one channel: {luts} LUT4")
+    print("| extra | " + " | ".join(f"N = {n}" for n in CHANNELS) + " |", flush=True)
+    base = {}
+    for name, bits in EXTRAS.items():
+        row = []
+        for n in CHANNELS:
+            luts, flops = size(bits, n, arguments.folder / f"{name}_{n}")
+            if name in ("none", "PAGE"):
+                base[name, n] = luts, flops
+            below = base.get(("none" if name == "PAGE" else "PAGE", n))
+            row.append(f"{luts} / {flops}" if name in ("none", "all")
+                       else f"+{luts - below[0]} / +{flops - below[1]}")
+        print(f"| `{name}` | " + " | ".join(row) + " |", flush=True)
+
+
+if __name__ == "__main__":
+    main()
