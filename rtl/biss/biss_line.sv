@@ -11,6 +11,7 @@
 //   BissB, Ssi  0: the line does not know the protocol, which acts as UNUSED (decision 44)
 //   Mo          0: no actuators, MO is 0
 //   FreeCrc     0: only the CRCs 0x43 and 0x190D9; a word with another one is bad
+//   Gray        0: no Gray code; a word with it is bad
 //   Slaves, DataBits, DelayW  sizes of counters
 //
 // Misuse: more or longer words than Slaves and DataBits allow end the frame in a wrong place.
@@ -23,6 +24,7 @@ module biss_line #(
   parameter bit          Ssi      = 1'b1,
   parameter bit          Mo       = 1'b1,  // words on MO
   parameter bit          FreeCrc  = 1'b1,  // any CRC; 0: only 0x43 and 16 bits
+  parameter bit          Gray     = 1'b1,  // decodes Gray coded data
   parameter int unsigned Slaves   = 8,     // most words of a frame, 1 to 8
   parameter int unsigned DataBits = 64,    // the longest word, 1 to 64
   parameter int unsigned DelayW   = 8      // bits of the line delay, 1 to 8
@@ -122,7 +124,7 @@ module biss_line #(
     .bit_o       (sl_bit)
   );
 
-  biss_rx_word #(.DataBits(DataBits), .FreeCrc(FreeCrc)) u_word (
+  biss_rx_word #(.DataBits(DataBits), .FreeCrc(FreeCrc), .Gray(Gray)) u_word (
     .clk_i,
     .rst_ni,
     .offer_i     (rx_offer_i),

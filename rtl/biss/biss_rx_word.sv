@@ -10,7 +10,8 @@
 // - Bytes: a byte is offered for one clock when its lowest bit has come. Data go from the highest
 //   used byte down to byte 0; unused bits of a written byte are 0. Then the received CRC,
 //   re-inverted and right aligned, goes to byte 7 (a 16-bit CRC to bytes 7 and 6).
-// - Gray coded data are decoded. The CRC covers them as they are sent.
+// - Gray coded data are decoded. The CRC covers them as they are sent. With Gray = 0 such a word is
+//   not decoded, and it is bad.
 // - next_o comes with the last bit of every word. rx_o tells only of the words of sensors: the
 //   slot of an actuator is counted, but gives no bytes and no result.
 // - A CRC that FreeCrc = 0 leaves out is taken with its length, and the word is bad.
@@ -21,7 +22,8 @@
 
 module biss_rx_word #(
   parameter int unsigned DataBits = 64,   // the longest word
-  parameter bit          FreeCrc  = 1'b1  // any CRC; 0: only 0x43 and 16 bits
+  parameter bit          FreeCrc  = 1'b1, // any CRC; 0: only 0x43 and 16 bits
+  parameter bit          Gray     = 1'b1  // decodes Gray coded data
 ) (
   input  logic       clk_i,
   input  logic       rst_ni,
@@ -83,7 +85,7 @@ module biss_rx_word #(
   assign word = offer_i.word;
 
   // CRC bits are sent inverted.
-  assign value    = bit_i ^ (in_crc_q || (word.gray && bin_q));
+  assign value    = bit_i ^ (in_crc_q || (Gray && word.gray && bin_q));
   assign crc_fits = good_q && value == crc_top && known;
   assign known    = FreeCrc || word.crc_last[3] ||
                     (word.crc_top == 8'h20 && word.crc_poly[5:0] == 6'h03);
@@ -151,9 +153,10 @@ module biss_rx_word #(
     end
   end
 
+  // A word that cannot be decoded is bad with any CRC, or without one.
   assign rx_o = {offer_i.slave, wr_en && sensor_q, wr_byte, part_q, value,
                  bit_valid_i && fresh_q && sensor_q,
                  run_i && !load_i && (bit_valid_i || !fresh_q) && !next_o && sensor_q,
-                 next_o && sensor_q, ok};
+                 next_o && sensor_q, ok && (Gray || !word.gray)};
 
 endmodule

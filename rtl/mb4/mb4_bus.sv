@@ -13,7 +13,8 @@
 
 module mb4_bus #(
   parameter logic [1:0]  SlCells   = biss_pkg::SL_FLOPS,
-  parameter int unsigned WaitLimit = 1024
+  parameter int unsigned WaitLimit = 1024,
+  parameter logic [31:0] Features = mb4_page_regs_pkg::FEATURES_FULL
 ) (
   // bus
   input  logic        bus_clk_i,
@@ -101,10 +102,10 @@ module mb4_bus #(
     .irq_data_o    (irq_data),
     .status_i      (irq_status),
     .enable_i      (irq_enable),
-    .features_i    (mb4_page_regs_pkg::RESET_FEATURES)
+    .features_i    (Features)
   );
 
-  mb4_page u_page (
+  mb4_page #(.Features(Features)) u_page (
     .clk_i,
     .rst_ni        (rst_core_n),
     .tap_i         (tap),
@@ -136,7 +137,12 @@ module mb4_bus #(
     .irq_o
   );
 
-  mb4_engine #(.Port2(1'b1), .Tap(1'b1), .SlCells(SlCells)) u_engine (
+  mb4_engine #(
+    .Port2(1'b1),
+    .Tap(1'b1),
+    .SlCells(SlCells),
+    .Features(Features)
+  ) u_engine (
     .clk_i,
     .rst_ni     (bus_rst_sync_no),
     .por_ni,

@@ -18,7 +18,20 @@
 // every flop of the core. A shorter pulse resets too, if the flops see its edge.
 // Datasheet: pages 3, 8, 17..19, 23, Tables 1, 2, 4, 7, 9.
 
-module mb4_chip (
+module mb4_chip #(
+  // Features (docs/integration.md, "Features"): a preset, and what differs from it
+  parameter logic [31:0] Features = mb4_page_regs_pkg::FEATURES_FULL,
+  parameter int unsigned Lines   = Features[mb4_page_regs_pkg::TWO_LINES_LSB] ? 2 : 1,
+  parameter int unsigned Slaves  = 32'(Features[mb4_page_regs_pkg::SLAVES_LSB +: 4]),
+  parameter bit          BissB   = Features[mb4_page_regs_pkg::BISS_B_LSB],
+  parameter bit          Ssi     = Features[mb4_page_regs_pkg::SSI_LSB],
+  parameter bit          Mo      = Features[mb4_page_regs_pkg::MO_LSB],
+  parameter bit          Control = Features[mb4_page_regs_pkg::CONTROL_LSB],
+  parameter bit          Gray    = Features[mb4_page_regs_pkg::GRAY_LSB],
+  parameter bit          Force   = Features[mb4_page_regs_pkg::FORCE_LSB],
+  parameter bit          FreeCrc = Features[mb4_page_regs_pkg::FREE_CRC_LSB],
+  parameter int unsigned Banks   = Features[mb4_page_regs_pkg::TWO_BANKS_LSB] ? 2 : 1
+) (
   // clocks and reset
   input  logic       clk_i,       // pin CLK
   input  logic       osc_i,       // internal oscillator
@@ -50,6 +63,9 @@ module mb4_chip (
   // constants
   input  logic [mb4_pkg::QUIRKS_W-1:0] quirks_i
 );
+
+  localparam logic [31:0] FEATURES = mb4_pkg::features(Lines, Slaves, Banks, Force, Gray, BissB, Ssi,
+                                                       Mo, Control, FreeCrc);
 
   logic clk;
   logic clkeni;
@@ -90,7 +106,7 @@ module mb4_chip (
     .rd2_data_i (rd2_data)
   );
 
-  mb4_engine #(.Port2(1'b1)) u_engine (
+  mb4_engine #(.Port2(1'b1), .Features(FEATURES)) u_engine (
     .clk_i      (clk),
     .rst_ni     (nres_i),
     .por_ni     (npor_i),

@@ -10,7 +10,19 @@
 // Datasheet: pages 15..36. Crossings: docs/crossings.md.
 
 module mb4_core #(
-  parameter logic [1:0] SlCells = biss_pkg::SL_FLOPS   // SL: flops or DDR cells (biss_sl_capture)
+  parameter logic [1:0] SlCells = biss_pkg::SL_FLOPS,  // SL: flops or DDR cells (biss_sl_capture)
+  // Features (docs/integration.md, "Features"): a preset, and what differs from it
+  parameter logic [31:0] Features = mb4_page_regs_pkg::FEATURES_FULL,
+  parameter int unsigned Lines   = Features[mb4_page_regs_pkg::TWO_LINES_LSB] ? 2 : 1,
+  parameter int unsigned Slaves  = 32'(Features[mb4_page_regs_pkg::SLAVES_LSB +: 4]),
+  parameter bit          BissB   = Features[mb4_page_regs_pkg::BISS_B_LSB],
+  parameter bit          Ssi     = Features[mb4_page_regs_pkg::SSI_LSB],
+  parameter bit          Mo      = Features[mb4_page_regs_pkg::MO_LSB],
+  parameter bit          Control = Features[mb4_page_regs_pkg::CONTROL_LSB],
+  parameter bit          Gray    = Features[mb4_page_regs_pkg::GRAY_LSB],
+  parameter bit          Force   = Features[mb4_page_regs_pkg::FORCE_LSB],
+  parameter bit          FreeCrc = Features[mb4_page_regs_pkg::FREE_CRC_LSB],
+  parameter int unsigned Banks   = Features[mb4_page_regs_pkg::TWO_BANKS_LSB] ? 2 : 1
 ) (
   input  logic       clk_i,
   input  logic       rst_ni,
@@ -39,6 +51,9 @@ module mb4_core #(
   input  logic [mb4_pkg::QUIRKS_W-1:0] quirks_i
 );
 
+  localparam logic [31:0] FEATURES = mb4_pkg::features(Lines, Slaves, Banks, Force, Gray, BissB, Ssi,
+                                                       Mo, Control, FreeCrc);
+
   mb4_pkg::host_t host;
   logic [7:0] rd_data;
 
@@ -59,7 +74,7 @@ module mb4_core #(
   logic       unused;
   assign unused = ^{rd2_data, tap};
 
-  mb4_engine #(.SlCells(SlCells)) u_engine (
+  mb4_engine #(.SlCells(SlCells), .Features(FEATURES)) u_engine (
     .clk_i,
     .rst_ni,
     .por_ni,

@@ -16,6 +16,9 @@
 // stand still while a reset ends, and synchronised to the core. por_ni resets MA and its time base
 // at power-on. With rst_ni alone MA first ends its present level.
 //
+// What the parameters leave out costs nothing and behaves as decision 44 rules. Without line 2 SL2 is
+// not looked at, and register 0xF8 shows it as 0.
+//
 // Misuse: wr_clk_i and rd_clk_i may be one clock. If they are two clocks, one must stand still
 // while the other has edges; otherwise the data of a read are undefined.
 // Datasheet: pages 15..36. Crossings: docs/crossings.md.
@@ -23,7 +26,19 @@
 module mb4_engine #(
   parameter bit Port2 = 1'b0,    // second read port: SCDATA5..8
   parameter bit Tap   = 1'b0,    // for bus tops: tap_o, and 0xF4 acts later (decision 45)
-  parameter logic [1:0] SlCells = biss_pkg::SL_FLOPS  // SL: flops or DDR cells (biss_sl_capture)
+  parameter logic [1:0] SlCells = biss_pkg::SL_FLOPS,  // SL: flops or DDR cells (biss_sl_capture)
+  // Features (docs/integration.md, "Features"): a preset, and what differs from it
+  parameter logic [31:0] Features = mb4_page_regs_pkg::FEATURES_FULL,
+  parameter int unsigned Lines   = Features[mb4_page_regs_pkg::TWO_LINES_LSB] ? 2 : 1,
+  parameter int unsigned Slaves  = 32'(Features[mb4_page_regs_pkg::SLAVES_LSB +: 4]),
+  parameter bit          BissB   = Features[mb4_page_regs_pkg::BISS_B_LSB],
+  parameter bit          Ssi     = Features[mb4_page_regs_pkg::SSI_LSB],
+  parameter bit          Mo      = Features[mb4_page_regs_pkg::MO_LSB],
+  parameter bit          Control = Features[mb4_page_regs_pkg::CONTROL_LSB],
+  parameter bit          Gray    = Features[mb4_page_regs_pkg::GRAY_LSB],
+  parameter bit          Force   = Features[mb4_page_regs_pkg::FORCE_LSB],
+  parameter bit          FreeCrc = Features[mb4_page_regs_pkg::FREE_CRC_LSB],
+  parameter int unsigned Banks   = Features[mb4_page_regs_pkg::TWO_BANKS_LSB] ? 2 : 1
 ) (
   input  logic       clk_i,
   input  logic       rst_ni,
@@ -61,6 +76,19 @@ module mb4_engine #(
   // constants
   input  logic [mb4_pkg::QUIRKS_W-1:0] quirks_i
 );
+
+  localparam logic [31:0] FEATURES = mb4_pkg::features(Lines, Slaves, Banks, Force, Gray, BissB, Ssi,
+                                                       Mo, Control, FreeCrc);
+
+`ifndef __ICARUS__  // Icarus 11 knows no $error here
+  if (FEATURES[mb4_page_regs_pkg::SLAVES_LSB +: 4] == 4'd0) begin : gen_range
+    $error("Lines is 1 or 2, Banks 1 or 2, Slaves 1 to 8, with two lines 1 to 4 or 8");
+  end
+  if (mb4_pkg::features(2, 8, 2, 1'b1, 1'b1, 1'b1, 1'b1, 1'b1, 1'b1, 1'b1) !=
+      mb4_page_regs_pkg::RESET_FEATURES) begin : gen_bits
+    $error("mb4_pkg::features has not the bits of FEATURES in mb4_page.rdl");
+  end
+`endif
 
   logic       rst_core_n;
   logic       por_core_n;
@@ -122,7 +150,7 @@ module mb4_engine #(
 
   // ---- registers ----------------------------------------------------------------------------
 
-  mb4_reg_file #(.Port2(Port2), .Tap(Tap)) u_regs (
+  mb4_reg_file #(.Port2(Port2), .Tap(Tap), .Features(FEATURES)) u_regs (
     .clk_i,
     .rst_ni         (rst_core_n),
     .host_rst_ni    (rst_ni),
@@ -170,7 +198,7 @@ module mb4_engine #(
 
   // ---- control ------------------------------------------------------------------------------
 
-  mb4_control u_control (
+  mb4_control #(.Features(FEATURES)) u_control (
     .clk_i,
     .rst_ni         (rst_core_n),
     .instr_i        (instr_seen),
@@ -201,7 +229,7 @@ module mb4_engine #(
 
   // ---- lines --------------------------------------------------------------------------------
 
-  mb4_lines #(.SlCells(SlCells)) u_lines (
+  mb4_lines #(.SlCells(SlCells), .Features(FEATURES)) u_lines (
     .clk_i,
     .rst_ni         (rst_core_n),
     .por_ni         (por_core_n),
@@ -232,13 +260,14 @@ module mb4_engine #(
   assign eot_o  = flags.eot;
   // With the DDR cell of an iCE40 no other logic can read the pin.
   assign {status2, status1} = line_status;
-  assign sl_pin = SlCells == biss_pkg::SL_ICE40 ? {status2.sl, status1.sl} : {sl2_i, sl1_i};
+  assign sl_pin = (SlCells == biss_pkg::SL_ICE40 ? {status2.sl, status1.sl} : {sl2_i, sl1_i}) &
+                  {Lines == 2, 1'b1};
   assign status = {flags, ner_i && !ner_low_o, sl_pin};
   assign {data2, data1} = line_data;
   assign frame_starts   = go.start && !go.init && !go.register_access;
   // takes_part is the highest bit of biss_pkg::line_start_t.
   assign tap_o = {reg_tap, !mem.clears, cfg.slaveloc5,
-                  cfg.cfgch2 == biss_pkg::SSI, cfg.cfgch1 == biss_pkg::SSI,
+                  Ssi && cfg.cfgch2 == biss_pkg::SSI, Ssi && cfg.cfgch1 == biss_pkg::SSI,
                   frame_starts && line_start[2*biss_pkg::LINE_START_W-1],
                   frame_starts && line_start[biss_pkg::LINE_START_W-1], go.stop,
                   ma2_o, ma1_o, data2.rx.wr_en, data1.rx.wr_en, data2.rx.done, data1.rx.done,

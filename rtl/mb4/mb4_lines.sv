@@ -1,19 +1,23 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Both lines with their word lists, and the time base that they share: one frame start, and the
+// The lines with their word lists, and the time base that they share: one frame start, and the
 // same phase of MA on both. Each line has one list for the words on SL and one for the words on MO;
-// the MO list also counts the bits of the frame.
+// the MO list also counts the bits of the frame. Without MO, and with few enough words, the list for
+// SL counts them, and there is no other one.
 //
 // Clock domain: core. Latency, misuse and datasheet sections: biss_timebase, mb4_word_list and
 // biss_line. With SLAVELOC5 = 1 line 2 has the data channels 5..8, otherwise line 1 has all eight.
+// Features leaves out a line, data channels and protocols (decision 44). Without line 2 its outputs
+// are those of a line that rests: MA is 1 and MO is 0.
 // Reset: por_ni is asserted together with rst_ni at power-on. With rst_ni alone, an MA that is low
 // stays low to the end of its half period.
 // Vectors: bit i of a vector {2, 1} is for line i + 1; wider fields are slices.
 // Datasheet: pages 15, 16, 23..26, Tables 10, 17.
 
 module mb4_lines #(
-  parameter logic [1:0] SlCells = biss_pkg::SL_FLOPS
+  parameter logic [1:0] SlCells = biss_pkg::SL_FLOPS,
+  parameter logic [31:0] Features = mb4_page_regs_pkg::FEATURES_FULL
 ) (
   input  logic        clk_i,
   input  logic        rst_ni,
@@ -53,6 +57,23 @@ module mb4_lines #(
   localparam int unsigned DATA_W   = biss_pkg::LINE_DATA_W;
   localparam int unsigned READ_W   = biss_pkg::MO_READ_W;
 
+  localparam bit TWO_LINES = Features[mb4_page_regs_pkg::TWO_LINES_LSB];
+  localparam bit SSI       = Features[mb4_page_regs_pkg::SSI_LSB];
+  localparam bit MO        = Features[mb4_page_regs_pkg::MO_LSB];
+  localparam logic [3:0] SLAVES = Features[mb4_page_regs_pkg::SLAVES_LSB +: 4];
+  localparam logic [7:0] PRESENT = mb4_pkg::channels(TWO_LINES, SLAVES);
+
+  // Data channels that line 2 has, and those that line 1 can have.
+  localparam logic [7:0] UPPER = 8'hF0;
+  localparam logic [7:0] LOWER = (TWO_LINES && !SLAVES[3]) ? ~UPPER : 8'hFF;
+
+  // The walk of a list takes a clock for each word. The first word of SSI begins earlier than that
+  // of BiSS.
+  localparam bit          ONE_LIST = !MO && (SLAVES == 4'd1 || (!SSI && SLAVES <= 4'd4));
+  localparam int unsigned LINES    = TWO_LINES ? 2 : 1;
+  localparam int unsigned LISTS    = ONE_LIST ? 2 : 4;
+  localparam int unsigned SUM      = ONE_LIST ? 0 : 2;  // list of line 1 that counts the bits
+
   biss_pkg::line_status_t status1, status2;
   biss_pkg::sample_t sample;
   logic [7:0]  half_len;
@@ -87,15 +108,15 @@ module mb4_lines #(
     .sample_half_o (sample_half)
   );
 
-  for (genvar k = 0; k < 4; k++) begin : gen_list
-    localparam int unsigned LINE  = k % 2;
-    localparam logic [7:0]  UPPER = 8'hF0;   // data channels of line 2 with SLAVELOC5 = 1
+  for (genvar k = 0; k < LISTS; k = k + (3 - LINES)) begin : gen_list
+    localparam int unsigned LINE = k % 2;
+    localparam logic [7:0]  OWN  = PRESENT & (LINE == 0 ? LOWER : UPPER);
 
-    mb4_word_list #(.Sum(k >= 2), .Channels(LINE == 0 ? 8'hFF : UPPER)) u_list (
+    mb4_word_list #(.Sum(ONE_LIST || k >= 2), .Channels(OWN)) u_list (
       .clk_i,
       .rst_ni,
-      .enscd_i     (enscd_i & (LINE == 0 ? ~(UPPER & {8{cfg_i.slaveloc5}})
-                                          : UPPER & {8{cfg_i.slaveloc5}})),
+      .enscd_i     (enscd_i & OWN & (LINE == 0 ? ~(UPPER & {8{cfg_i.slaveloc5}})
+                                                : UPPER & {8{cfg_i.slaveloc5}})),
       .actnsens_i  (cfg_i.actnsens),
       .ssi_i       (ssi[LINE]),
       .nocrc_i     (cfg_i.nocrc),
@@ -111,8 +132,24 @@ module mb4_lines #(
     );
   end
 
-  for (genvar i = 0; i < 2; i++) begin : gen_line
-    biss_line #(.SlCells(SlCells)) u_line (
+  for (genvar k = 0; k < 4; k++) begin : gen_no_list
+    if (k >= LISTS || k % 2 >= LINES) begin : gen_outputs
+      assign cfg_en_o[k] = 1'b0;
+      assign {cfg_slave_o[k*3 +: 3], actuator[k], len_valid[k], len[k*7 +: 7]} = '0;
+      assign offer[k*OFFER_W +: OFFER_W] = '0;
+    end
+  end
+
+  for (genvar i = 0; i < LINES; i++) begin : gen_line
+    biss_line #(
+      .SlCells(SlCells),
+      .BissB(Features[mb4_page_regs_pkg::BISS_B_LSB]),
+      .Ssi(SSI),
+      .Mo(MO),
+      .FreeCrc(Features[mb4_page_regs_pkg::FREE_CRC_LSB]),
+      .Gray(Features[mb4_page_regs_pkg::GRAY_LSB]),
+      .Slaves(32'(SLAVES))
+    ) u_line (
       .clk_i,
       .rst_ni,
       .por_ni,
@@ -128,8 +165,8 @@ module mb4_lines #(
       .sample_i    (sample),
       .sample_half_i (sample_half),
       .ssi_o       (ssi[i]),
-      .len_valid_i (len_valid[2 + i]),
-      .len_i       (len[(2 + i)*7 +: 7]),
+      .len_valid_i (len_valid[SUM + i]),
+      .len_i       (len[(SUM + i)*7 +: 7]),
       .rx_offer_i  (offer[i*OFFER_W +: OFFER_W]),
       .rx_next_o   (next[i]),
       .mo_bus_i    (actuator[2 + i] && cfg_i.en_mo),
@@ -143,7 +180,18 @@ module mb4_lines #(
     );
   end
 
-  // Only the MO list counts the bits.
-  assign unused = ^{actuator[1:0], len_valid[1:0], len[13:0]};
+  if (!TWO_LINES) begin : gen_one_line
+    assign status_o[STATUS_W +: STATUS_W] = 5'b10001;   // it is idle, and SL is 1
+    assign event_o[EVENT_W +: EVENT_W]    = 3'b100;     // its part of a frame has always ended
+    assign data_o[DATA_W +: DATA_W]       = '0;
+    assign mo_read_o[READ_W +: READ_W]    = '0;
+    assign {ssi[1], next[3], next[1]}     = 3'b000;
+    assign ma_o[1] = 1'b1;
+    assign mo_o[1] = 1'b0;
+  end
+
+  // Of the lists of a line one counts the bits. A line that is left out takes nothing.
+  assign unused = ^{actuator, len_valid, len, next, ssi, offer, cmd_i, start_i, slave_cfg_i,
+                    mo_data_i, sl_i};
 
 endmodule

@@ -242,6 +242,30 @@ package mb4_pkg;
     logic [2:0]  channel;
   } page_req_t;
 
+  // Features of a core (decision 44). They travel as one number: the word FEATURES of the page of a
+  // bus top, bit by bit. SLAVES is 0 if a number is out of its range; mb4_engine then stops.
+  function automatic logic [31:0] features(
+      input logic [31:0] lines, input logic [31:0] slaves, input logic [31:0] banks,
+      input logic force_bits, input logic gray, input logic biss_b, input logic ssi,
+      input logic mo, input logic control, input logic free_crc);
+    features = {16'd0, slaves[3:0], 2'b00, banks == 32'd2, force_bits, gray, lines == 32'd2,
+                biss_b, ssi, mo, control, slaves != 32'd1, free_crc};
+    if (lines < 32'd1 || lines > 32'd2 || banks < 32'd1 || banks > 32'd2 || slaves > 32'd8 ||
+        (lines == 32'd2 && slaves > 32'd4 && slaves != 32'd8)) features[15:12] = 4'd0;
+  endfunction
+
+  // Data channels of a core; those of one line if the other one has data channels 5..8.
+  function automatic logic [7:0] channels(input logic two_lines, input logic [3:0] slaves);
+    channels = (8'h01 << slaves) - 8'h01;
+    if (two_lines && !slaves[3]) channels[7:4] = channels[3:0];
+  endfunction
+
+  // The core has SCDATA or RDATA at this address.
+  function automatic logic in_memory(input logic [7:3] addr, input logic [7:0] present,
+                                     input logic control);
+    in_memory = !addr[6] && (addr[7] ? control : present[addr[5:3]]);
+  endfunction
+
   // Quirks: a static input vector that adapts the chip to real silicon (docs/choices.md).
   localparam int unsigned QUIRKS_W                   = 6;
   localparam int unsigned QUIRK_IDA_TEST_INVERT      = 0;

@@ -18,7 +18,19 @@
 module mb4_wb #(
   parameter bit          Pipelined = 1'b0,
   parameter logic [1:0]  SlCells   = biss_pkg::SL_FLOPS,  // SL: flops or DDR cells
-  parameter int unsigned WaitLimit = 1024
+  parameter int unsigned WaitLimit = 1024,
+  // Features (docs/integration.md, "Features"): a preset, and what differs from it
+  parameter logic [31:0] Features = mb4_page_regs_pkg::FEATURES_FULL,
+  parameter int unsigned Lines   = Features[mb4_page_regs_pkg::TWO_LINES_LSB] ? 2 : 1,
+  parameter int unsigned Slaves  = 32'(Features[mb4_page_regs_pkg::SLAVES_LSB +: 4]),
+  parameter bit          BissB   = Features[mb4_page_regs_pkg::BISS_B_LSB],
+  parameter bit          Ssi     = Features[mb4_page_regs_pkg::SSI_LSB],
+  parameter bit          Mo      = Features[mb4_page_regs_pkg::MO_LSB],
+  parameter bit          Control = Features[mb4_page_regs_pkg::CONTROL_LSB],
+  parameter bit          Gray    = Features[mb4_page_regs_pkg::GRAY_LSB],
+  parameter bit          Force   = Features[mb4_page_regs_pkg::FORCE_LSB],
+  parameter bit          FreeCrc = Features[mb4_page_regs_pkg::FREE_CRC_LSB],
+  parameter int unsigned Banks   = Features[mb4_page_regs_pkg::TWO_BANKS_LSB] ? 2 : 1
 ) (
   // Wishbone
   input  logic        wb_clk_i,
@@ -54,6 +66,9 @@ module mb4_wb #(
   input  logic [mb4_pkg::QUIRKS_W-1:0] quirks_i
 );
 
+  localparam logic [31:0] FEATURES = mb4_pkg::features(Lines, Slaves, Banks, Force, Gray, BissB, Ssi,
+                                                       Mo, Control, FreeCrc);
+
   logic        rst_n;
   logic        word_req, word_write, word_ready, word_error;
   logic [11:2] word_addr;
@@ -83,7 +98,7 @@ module mb4_wb #(
     .word_error_i (word_error)
   );
 
-  mb4_bus #(.SlCells(SlCells), .WaitLimit(WaitLimit)) u_bus (
+  mb4_bus #(.SlCells(SlCells), .WaitLimit(WaitLimit), .Features(FEATURES)) u_bus (
     .bus_clk_i       (wb_clk_i),
     .bus_rst_ni      (!wb_rst_i),
     .bus_rst_sync_no (rst_n),

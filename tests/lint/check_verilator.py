@@ -3,8 +3,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """Verilator's lint of the RTL and the waivers.
 
-  check_verilator.py lint        every module as top with the project's flags, and smaller instances
-                                 of some (SMALLER): no message
+  check_verilator.py lint        every module as top with the project's flags, smaller instances of
+                                 some (SMALLER), each parameter of the features alone, and each
+                                 preset: no message
   check_verilator.py waivers     each waiver of rtl/waivers.vlt stands under its reason, none is idle,
                                  none names UNOPTFLAT; no lint_off inside the RTL
   check_verilator.py self-test   planted faults are reported
@@ -26,9 +27,15 @@ INLINE_ALLOWED = {("axi_regs_pkg.sv", "UNUSEDPARAM"): 1, ("mb4_regs_pkg.sv", "UN
 
 
 # Parameters that are smaller than in the chip, or other choices: each alone, and all together.
-SMALLER = {"biss_line": ["BissB=0", "Ssi=0", "Mo=0", "FreeCrc=0", "Slaves=1", "DataBits=32", "DelayW=6"],
+SMALLER = {"biss_line": ["BissB=0", "Ssi=0", "Mo=0", "FreeCrc=0", "Gray=0", "Slaves=1", "DataBits=32", "DelayW=6"],
            "biss_axi": ["BISS_CHANNEL_WIDTH=5", "STREAM_MODE=1", "ENABLE_ACTIVE_LOW=1'b1",
                         "EXTRAS=255", "ALIGN_LATCH=1'b1"]}
+
+# Features of the tops (decision 44), each alone. Wrong numbers end the elaboration.
+FEATURES = ["Lines=1", "Slaves=1", "Slaves=2", "Slaves=3", "Slaves=4", "BissB=0", "Ssi=0", "Mo=0",
+            "Control=0", "Gray=0", "Force=0", "FreeCrc=0", "Banks=1"]
+TOPS = ["mb4_core", "mb4_engine", "mb4_chip", "mb4_axil", "mb4_wb"]
+WRONG = ["Lines=0", "Lines=3", "Slaves=0", "Slaves=5", "Slaves=7", "Slaves=9", "Banks=0", "Banks=3"]
 
 
 def lint(top, files, waivers, parameters=()):
@@ -102,10 +109,18 @@ def check_lint():
     findings = [line for top in modules for line in lint(top, files, [project.WAIVERS])]
     smaller = [(top, values) for top, all_values in SMALLER.items()
                for values in [*([value] for value in all_values), all_values]]
+    # mb4_axil has the engine with all its ports. The tops pass the features on as one number.
+    presets = [f"Features={value}" for value in project.presets().values()]
+    smaller += [("mb4_axil", [value]) for value in [*FEATURES, *presets]]
+    smaller += [("mb4_axil", ["Lines=1", f"Slaves={n}"]) for n in (1, 5, 7)]
+    smaller += [(top, ["Lines=1", "Mo=0"]) for top in TOPS]
     for top, values in smaller:
         findings += lint(top, files, [project.WAIVERS], values)
-    project.finish(findings, f"{len(modules)} modules as top and {len(smaller)} smaller instances: "
-                             "no message")
+    for value in WRONG:
+        if not any("Lines is 1 or 2" in text for text in lint("mb4_core", files, [project.WAIVERS], [value])):
+            findings.append(f"mb4_core {value}: no error")
+    project.finish(findings, f"{len(modules)} modules as top and {len(smaller)} smaller instances: no message; "
+                             f"{len(WRONG)} wrong numbers: an error each")
 
 
 def check_waivers():

@@ -71,6 +71,13 @@ def rtl_packages():
     return [path for path in rtl_files() if path.stem.endswith("_pkg")]
 
 
+def presets():
+    """Preset name to its value of the parameter Features, as regmap/mb4_page.rdl has them."""
+    text = (ROOT / "regmap" / "mb4_page.rdl").read_text(encoding="utf-8")
+    return {name.lower(): int(value, 16) for name, value in
+            re.findall(r'"FEATURES_(\w+)", value: (0x[0-9A-F]{4})', text)}
+
+
 def tracked():
     """The tracked files' names; ends as skipped where there is no git checkout."""
     git = tool("git")

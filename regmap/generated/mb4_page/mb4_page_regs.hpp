@@ -33,6 +33,11 @@ inline constexpr std::uint16_t kSnapshotTimeHighOffset = 20;  // Time of channel
 inline constexpr std::uint16_t kSnapshotStride = 24;
 inline constexpr unsigned kSnapshotCount = 8;
 inline constexpr unsigned kNumSnapshots = 8;  // Data channels
+inline constexpr unsigned kFeaturesByte = 127;  // Address of the byte that tells FEATURES(6:0) in a smaller core
+inline constexpr unsigned kFeaturesFull = 33791;  // FEATURES of the preset full
+inline constexpr unsigned kFeaturesDrive = 9031;  // FEATURES of the preset drive
+inline constexpr unsigned kFeaturesSingle = 4869;  // FEATURES of the preset single
+inline constexpr unsigned kFeaturesReader = 4608;  // FEATURES of the preset reader
 
 // Snapshot of data channel x: first address for x = 1..8, not checked.
 constexpr std::uint16_t snapshot_address(unsigned x) {

@@ -7,7 +7,9 @@
 // Clock domain: core. Latency, misuse and datasheet sections: see the modules.
 // Vectors: bit i of a vector {2, 1} is for line i + 1.
 
-module mb4_control (
+module mb4_control #(
+  parameter logic [31:0] Features = mb4_page_regs_pkg::FEATURES_FULL
+) (
   input  logic clk_i,
   input  logic rst_ni,
   // registers
@@ -53,7 +55,7 @@ module mb4_control (
   logic [1:0] start_use, cdm0, cdm1, mo_low, forced, force_level;
   logic force_change, force_any, keep_time, keep_time_q;
 
-  mb4_sequencer u_sequencer (
+  mb4_sequencer #(.BissB(Features[mb4_page_regs_pkg::BISS_B_LSB])) u_sequencer (
     .clk_i,
     .rst_ni,
     .instr_i,
@@ -114,7 +116,7 @@ module mb4_control (
     .ner_low_o
   );
 
-  mb4_control_comm u_comm (
+  mb4_control_comm #(.Features(Features)) u_comm (
     .clk_i,
     .rst_ni,
     .cfg_i,
@@ -159,7 +161,7 @@ module mb4_control (
   assign live = !flags_o.eot || (automatic_frames &&
                            !(instr_o.held.holdbank && quirks_i[mb4_pkg::QUIRK_AGSERR_ON_HOLDBANK]));
 
-  mb4_ma_force u_force (
+  mb4_ma_force #(.Force(Features[mb4_page_regs_pkg::FORCE_LSB])) u_force (
     .clk_i,
     .rst_ni,
     .mafs_i   (cfg_i.mafs),

@@ -5,10 +5,15 @@
 // and the time limits. It also keeps the configuration of an access while the access runs, and
 // tells what INSTR asks for with this configuration (kind_o).
 //
+// Features may leave out BiSS B, and both kinds of access (Control). The CDM bit by INSTR and its
+// time limit stay, and so does INIT of BiSS B.
+//
 // Clock domain: core. Latency, misuse and datasheet sections: see the modules.
 // Vectors: bit i of a vector {2, 1} is for line i + 1.
 
-module mb4_control_comm (
+module mb4_control_comm #(
+  parameter logic [31:0] Features = mb4_page_regs_pkg::FEATURES_FULL
+) (
   input  logic       clk_i,
   input  logic       rst_ni,
   input  mb4_pkg::cfg_t cfg_i,
@@ -49,6 +54,10 @@ module mb4_control_comm (
   output logic       ags_error_o
 );
 
+  localparam bit BISS_B  = Features[mb4_page_regs_pkg::BISS_B_LSB];
+  localparam bit MO      = Features[mb4_page_regs_pkg::MO_LSB];
+  localparam bit CONTROL = Features[mb4_page_regs_pkg::CONTROL_LSB];
+
   logic       time_d, time_q;
   logic       refused_d, refused_q;    // SL was low: no frame since the last request
   logic       counted;                 // the watchdog's limit has been reached
@@ -78,7 +87,7 @@ module mb4_control_comm (
   assign access = {access_q.cts, access_q.wnr, access_q.regadr, access_q.regnum,
                    access_q.slaveid};
 
-  mb4_frame_kind u_kind (
+  mb4_frame_kind #(.Features(Features)) u_kind (
     .instr_i,
     .access_i    (access_q),
     .slaveloc5_i (cfg_i.slaveloc5),
@@ -89,63 +98,74 @@ module mb4_control_comm (
 
   // ---- BiSS C -------------------------------------------------------------------------------
 
-  biss_control_frame u_frame (
-    .clk_i,
-    .rst_ni,
-    .access_i      (access),
-    .ida_invert_i  (quirks_i[mb4_pkg::QUIRK_IDA_TEST_INVERT]),
-    .select_i      (kind_o.select),
-    .blind_i       ((kind_o.select & kind_o.ssi) != 2'b00),
-    .byte_o        (control_byte),
-    .rdata_i,
-    .post_busy_i,
-    .begin_i,
-    .abort_i       (clear_i || void_q),
-    .start_i       (go_i.start && !go_i.init && !go_i.register_access),
-    .frame_end_i,
-    .cds_i         ({status2.cds, status1.cds} & kind_o.in_use),
-    .cdm_timeout_i (cdm_timeout),
-    .expired_i     (expired),
-    .stalled_i     (stalled_o),
-    .stalled_start_i (counted && !refused_q),
-    .active_o,
-    .active_start_o,
-    .running_o     (control_runs),
-    .in_body_o     (in_body),
-    .wait_o        (waiting),
-    .moved_o       (moved),
-    .cdm0_o        (control0),
-    .cdm1_o        (control1),
-    .begin_o       (control_begin),
-    .end_o         (control_end)
-  );
+  if (CONTROL) begin : gen_control
+    biss_control_frame u_frame (
+      .clk_i,
+      .rst_ni,
+      .access_i      (access),
+      .ida_invert_i  (quirks_i[mb4_pkg::QUIRK_IDA_TEST_INVERT]),
+      .select_i      (kind_o.select),
+      .blind_i       ((kind_o.select & kind_o.ssi) != 2'b00),
+      .byte_o        (control_byte),
+      .rdata_i,
+      .post_busy_i,
+      .begin_i,
+      .abort_i       (clear_i || void_q),
+      .start_i       (go_i.start && !go_i.init && !go_i.register_access),
+      .frame_end_i,
+      .cds_i         ({status2.cds, status1.cds} & kind_o.in_use),
+      .cdm_timeout_i (cdm_timeout),
+      .expired_i     (expired),
+      .stalled_i     (stalled_o),
+      .stalled_start_i (counted && !refused_q),
+      .active_o,
+      .active_start_o,
+      .running_o     (control_runs),
+      .in_body_o     (in_body),
+      .wait_o        (waiting),
+      .moved_o       (moved),
+      .cdm0_o        (control0),
+      .cdm1_o        (control1),
+      .begin_o       (control_begin),
+      .end_o         (control_end)
+    );
+  end else begin : gen_no_control
+    assign {control_byte, control_end}  = '0;
+    assign {active_o, active_start_o, control_runs, in_body, waiting, moved, control_begin} = '0;
+    assign {control0, control1} = '0;
+  end
 
   // ---- BiSS B register access ---------------------------------------------------------------
 
   assign register_start = go_i.start && go_i.register_access;
 
-  biss_b_access u_biss_b (
-    .clk_i,
-    .rst_ni,
-    .freqr_i   (cfg_i.freqr),
-    .access_i  (access),
-    .mo_i      (cfg_i.en_mo),
-    .start_i   (register_start),
-    .start_use_i,
-    .init_i    (go_i.init),
-    .abort_i   (go_i.stop),
-    .tick_i,
-    .expired_i (expired),
-    .wait_o    (register_wait),
-    .active_o  (register_active),
-    .sl_i      ({status2.sl, status1.sl}),
-    .ma_o      (register_ma_o),
-    .mo_low_o  (register_mo_o),
-    .byte_o    (register_byte),
-    .rdata_i,
-    .ags_error_o,
-    .end_o     (register_end)
-  );
+  if (BISS_B) begin : gen_biss_b
+    biss_b_access u_biss_b (
+      .clk_i,
+      .rst_ni,
+      .freqr_i   (cfg_i.freqr),
+      .access_i  (access),
+      .mo_i      (MO && cfg_i.en_mo),
+      .start_i   (register_start),
+      .start_use_i,
+      .init_i    (go_i.init),
+      .abort_i   (go_i.stop),
+      .tick_i,
+      .expired_i (expired),
+      .wait_o    (register_wait),
+      .active_o  (register_active),
+      .sl_i      ({status2.sl, status1.sl}),
+      .ma_o      (register_ma_o),
+      .mo_low_o  (register_mo_o),
+      .byte_o    (register_byte),
+      .rdata_i,
+      .ags_error_o,
+      .end_o     (register_end)
+    );
+  end else begin : gen_no_biss_b
+    assign {register_byte, register_end, register_ma_o, register_mo_o} = '0;
+    assign {register_active, register_wait, ags_error_o} = '0;
+  end
 
   assign rdata   = register_active ? register_byte : control_byte;
   assign rdata_o = {control_byte.wr_en || register_byte.wr_en, rdata.addr, rdata.wr_data,
@@ -184,17 +204,21 @@ module mb4_control_comm (
 
   assign time_o = time_q;
 
-  mb4_reg_watchdog u_watchdog (
-    .clk_i,
-    .rst_ni,
-    .freqr_i   (cfg_i.freqr),
-    .watch_i   (time_d || register_wait),
-    .clear_i   (moved || (go_i.start && refused_q)),
-    .live_i    (live_i || register_wait || refused_q),
-    .tick_i,
-    .expired_o (expired),
-    .stalled_o (counted)
-  );
+  if (CONTROL || BISS_B) begin : gen_watchdog
+    mb4_reg_watchdog u_watchdog (
+      .clk_i,
+      .rst_ni,
+      .freqr_i   (cfg_i.freqr),
+      .watch_i   (time_d || register_wait),
+      .clear_i   (moved || (go_i.start && refused_q)),
+      .live_i    (live_i || register_wait || refused_q),
+      .tick_i,
+      .expired_o (expired),
+      .stalled_o (counted)
+    );
+  end else begin : gen_no_watchdog
+    assign {expired, counted} = '0;
+  end
 
   assign stalled_o = counted && (!refused_q || refused_i);
   assign run       = active_o || register_active || register_start;
@@ -222,6 +246,8 @@ module mb4_control_comm (
     control_end.ends ? control_end.delay_error : register_end.delay_error
   };
   assign state_o = {cdm_timeout, register_q ? register_end.good_bytes : control_end.good_bytes};
-  assign unused  = rdata.wr_en;
+  // The last ones go to what may be left out.
+  assign unused  = ^{rdata.wr_en, access, quirks_i, rdata_i, post_busy_i, begin_i, start_use_i,
+                     tick_i, moved, expired, register_wait, cfg_i.freqr};
 
 endmodule

@@ -8,10 +8,13 @@
 // taken together when they have been equal for two clocks, at most 4 clocks after the write. The
 // lines take them one clock later (biss_ma_drive): change_o is high and any_o follows then. MA
 // follows with the next tick.
+// Without Force no line is ever forced.
 // Misuse: none.
 // Datasheet: page 33, Tables 50..53; CHSEL: page 27, Table 23.
 
-module mb4_ma_force (
+module mb4_ma_force #(
+  parameter bit Force = 1'b1
+) (
   input  logic       clk_i,
   input  logic       rst_ni,
   // configuration, host domain
@@ -52,9 +55,9 @@ module mb4_ma_force (
   end
 
   assign selected = held_q[1:0] == 2'b00 ? 2'b01 : held_q[1:0];
-  assign force_o  = ({2{held_q[5]}} & selected) | ({2{held_q[3]}} & ~selected);
+  assign force_o  = (({2{held_q[5]}} & selected) | ({2{held_q[3]}} & ~selected)) & {2{Force}};
   assign level_o  = ({2{held_q[4]}} & selected) | ({2{held_q[2]}} & ~selected);
-  assign change_o = change_q;
-  assign any_o    = any_q;
+  assign change_o = Force && change_q;
+  assign any_o    = Force && any_q;
 
 endmodule

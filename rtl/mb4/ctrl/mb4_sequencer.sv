@@ -23,8 +23,9 @@
 // - A frame is due while HOLDBANK holds back a switch: the frame runs into the other bank and the
 //   switch is lost (mb4_bank_ctrl). With QUIRK_AGSERR_ON_HOLDBANK there is no frame,
 //   SWBANKFAIL = 1 and nAGSERR = 0 (decision 15).
-// - A control communication that cannot run ends at once (decision 37). A BiSS B access that waits
-//   for its automatic frame ends too when its lines or REGVERS are changed.
+// - A control communication that cannot run ends at once (decision 37). So does INIT with
+//   REGVERS = 0 without BissB. A BiSS B access that waits for its automatic frame ends too when its
+//   lines or REGVERS are changed.
 // - A BiSS B access without AGS cannot begin while SL is low: the first request after the limit of
 //   the watchdog ends it (decision 42). A BiSS C access begins even while SL is low;
 //   biss_control_frame ends it.
@@ -34,7 +35,9 @@
 
 `include "enc_check.svh"
 
-module mb4_sequencer (
+module mb4_sequencer #(
+  parameter bit BissB = 1'b1
+) (
   input  logic       clk_i,
   input  logic       rst_ni,
   // instruction register, host half
@@ -142,7 +145,7 @@ module mb4_sequencer (
   assign register_begin_o = (begins && (kind_i.is_register ||
                                         (kind_i.is_control && stale_i && !control_stalled_i))) ||
                             (new_q && kind_i.is_void && !void_o);
-  assign register_access  = init ? !regvers_i : kind_i.is_register;
+  assign register_access  = BissB && (init ? !regvers_i : kind_i.is_register);
   assign register_d  = start ? register_access : register_q;
   assign start_use_o = init ? kind_i.init_use : kind_i.frame_use;
   assign reduced_d   = start ? control_start_i &&
@@ -186,9 +189,10 @@ module mb4_sequencer (
           void_o       = 1'b1;
         end
         if (held_q.init && !mem_i.clears) begin
-          if (kind_i.init_use == 2'b00) begin
+          if (kind_i.init_use == 2'b00 || (!BissB && !regvers_i)) begin
             held_d.init  = 1'b0;
             init_clear_o = 1'b1;
+            if (!BissB && !regvers_i) void_o = 1'b1;
           end else if (all_idle) begin
             start        = 1'b1;
             init         = 1'b1;

@@ -18,10 +18,13 @@
 // Latency: at most 20 clocks for the time, 33 for a snapshot. A copy begins 16 clocks after its
 // request, when the core has acted on all writes to 0xF4 that came before. One that begins again
 // needs up to 15 clocks more, seven times at most.
+// The words of a data channel that the core does not have are 0.
 // Misuse: none. A snapshot with one bank while its word is being received has SVALID = 0.
 // Source: datasheet pages 12..16; decision 45.
 
-module mb4_page (
+module mb4_page #(
+  parameter logic [31:0] Features = mb4_page_regs_pkg::FEATURES_FULL
+) (
   input  logic        clk_i,
   input  logic        rst_ni,
   input  mb4_pkg::tap_t tap_i,
@@ -43,6 +46,9 @@ module mb4_page (
 );
 
   localparam int unsigned TAG_W = 96;
+  localparam bit TWO_LINES = Features[mb4_page_regs_pkg::TWO_LINES_LSB];
+  localparam logic [7:0] PRESENT = mb4_pkg::channels(TWO_LINES,
+                                                     Features[mb4_page_regs_pkg::SLAVES_LSB +: 4]);
 
   typedef enum logic [1:0] {
     REST,
@@ -118,8 +124,9 @@ module mb4_page (
   // ---- frames -----------------------------------------------------------------------------------
 
   for (genvar i = 0; i < 2; i++) begin : gen_line
-    assign latch[i] = tap_i.ssi[i] ? fall_q[i] && ma_q[i] && !tap_i.ma[i]
-                                   : rise_q[i] && !ma_q[i] && tap_i.ma[i];
+    assign latch[i] = (TWO_LINES || i == 0) &&
+                      (tap_i.ssi[i] ? fall_q[i] && ma_q[i] && !tap_i.ma[i]
+                                    : rise_q[i] && !ma_q[i] && tap_i.ma[i]);
     always_ff @(posedge clk_i or negedge rst_ni) begin
       if (!rst_ni) begin
         ma_q[i]   <= 1'b1;
@@ -211,7 +218,8 @@ module mb4_page (
           row_wr   = 1'b1;
           row      = 3'd2;
           row_data = {29'd0, tap_i.swbank_fail, tap_i.cds[{tap_i.banks.host, line2}],
-                      tap_i.svalid[{tap_i.banks.host, page_i.channel}] && !last};
+                      tap_i.svalid[{tap_i.banks.host, page_i.channel}] && !last} &
+                     {32{PRESENT[page_i.channel]}};
         end
         4'd11: begin
           row_wr   = 1'b1;

@@ -17,11 +17,14 @@
 //   HOLDBANK and set it again gets the swap that was pending, even if the 0 never arrives here.
 //
 // The base is the host's bank without the inversions of SWBANK.
+// Without TwoBanks there is only bank 0, which both sides use; SWBANK and HOLDBANK change nothing.
 // Misuse: if two frames end after the host has written HOLDBANK and before it arrives here, a swap
 // may be lost.
 // Datasheet: pages 26, 31, 33, Tables 38, 48, 49; decisions 15, 41.
 
-module mb4_bank_ctrl (
+module mb4_bank_ctrl #(
+  parameter bit TwoBanks = 1'b1
+) (
   input  logic clk_i,
   input  logic rst_ni,
   input  logic singlebank_i,
@@ -82,10 +85,10 @@ module mb4_bank_ctrl (
     end
   end
 
-  assign pending_o   = pending_q;
-  assign event_o     = {swap || made_q, pending_q && bank_i.run};
-  assign base_o      = base_q;
-  assign newest_o    = newest_q;
-  assign banks_o     = {host_q, host_q ^ !singlebank_i};
+  assign pending_o   = TwoBanks && pending_q;
+  assign event_o     = {swap || made_q, pending_q && bank_i.run} & {2{TwoBanks}};
+  assign base_o      = TwoBanks && base_q;
+  assign newest_o    = TwoBanks && newest_q;
+  assign banks_o     = {host_q, host_q ^ !singlebank_i} & {2{TwoBanks}};
 
 endmodule

@@ -12,9 +12,14 @@
 // - With one bank the host sees the engine's value at once. The datasheet calls it valid only with
 //   two banks.
 //
+// Features may leave out line 2 or bank 1; their bits are 0.
+//
 // Datasheet: page 35, Tables 65, 66 and the note below them.
 
-module mb4_cds_bank (
+module mb4_cds_bank #(
+  parameter bit TwoLines = 1'b1,
+  parameter bit TwoBanks = 1'b1
+) (
   input  logic       clk_i,
   input  logic       rst_ni,
   input  mb4_pkg::banks_t    banks_i,
@@ -40,6 +45,6 @@ module mb4_cds_bank (
     end
   end
 
-  assign cds_o = {bank1_q, bank0_q};
+  assign cds_o = {bank1_q & {2{TwoBanks}}, bank0_q} & {2{TwoLines, 1'b1}};
 
 endmodule

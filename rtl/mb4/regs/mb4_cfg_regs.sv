@@ -9,11 +9,14 @@
 // quasi-static for the core: the datasheet (page 28) asks the host to keep them stable while frames
 // run. An instruction that the host writes after them reaches the core when they have settled
 // (docs/crossings.md).
+// Bits of features that the core does not have are like reserved ones (decision 44).
 // Misuse: reserved bits and addresses accept writes and read 0 (decision 13). Table 35 does not
 // permit FREQS code 0x10; it gives f_CLK / 20.
 // Datasheet: pages 21..31, Tables 6..43.
 
-module mb4_cfg_regs (
+module mb4_cfg_regs #(
+  parameter logic [31:0] Features = mb4_page_regs_pkg::FEATURES_FULL
+) (
   input  logic       wr_clk_i,
   input  logic       rst_ni,
   // host byte bus
@@ -22,6 +25,23 @@ module mb4_cfg_regs (
   // configuration
   output mb4_pkg::cfg_t cfg_o
 );
+
+  localparam bit CONTROL = Features[mb4_page_regs_pkg::CONTROL_LSB];
+  localparam bit MO      = Features[mb4_page_regs_pkg::MO_LSB];
+  localparam bit FORCE   = Features[mb4_page_regs_pkg::FORCE_LSB];
+  localparam logic [7:0] PRESENT = mb4_pkg::channels(Features[mb4_page_regs_pkg::TWO_LINES_LSB],
+                                                     Features[mb4_page_regs_pkg::SLAVES_LSB +: 4]);
+
+  // Bits that the host can write.
+  localparam logic [7:0] REGADR = mb4_regs_pkg::WMASK_REGADR & {8{CONTROL}};
+  localparam logic [7:0] REGNUM = mb4_regs_pkg::WMASK_REGNUM & {8{CONTROL}};
+  localparam logic [7:0] CTRL   = mb4_regs_pkg::WMASK_CTRL &
+      ~((mb4_regs_pkg::CTS_MASK | mb4_regs_pkg::SLAVEID_MASK) & {8{!CONTROL}});
+  localparam logic [7:0] MO_BUSY  = mb4_regs_pkg::WMASK_MO_BUSY & {8{MO}};
+  localparam logic [7:0] ACTNSENS = mb4_regs_pkg::WMASK_ACTNSENS & {8{MO}} & PRESENT;
+  localparam logic [7:0] IFACE    = mb4_regs_pkg::WMASK_IFACE &
+      ~((mb4_regs_pkg::MAFS_MASK | mb4_regs_pkg::MAVS_MASK | mb4_regs_pkg::MAFO_MASK |
+         mb4_regs_pkg::MAVO_MASK) & {8{!FORCE}});
 
   // Bits that the host cannot write stay 0.
   logic [7:0] regadr_q;
@@ -58,18 +78,18 @@ module mb4_cfg_regs (
       iface_q     <= '0;
     end else if (host_i.wr_en) begin
       unique case (host_i.wr_addr)
-        mb4_regs_pkg::ADDR_REGADR:    regadr_q    <= host_i.wr_data & mb4_regs_pkg::WMASK_REGADR;
-        mb4_regs_pkg::ADDR_REGNUM:    regnum_q    <= host_i.wr_data & mb4_regs_pkg::WMASK_REGNUM;
+        mb4_regs_pkg::ADDR_REGADR:    regadr_q    <= host_i.wr_data & REGADR;
+        mb4_regs_pkg::ADDR_REGNUM:    regnum_q    <= host_i.wr_data & REGNUM;
         mb4_regs_pkg::ADDR_CHSEL:     chsel_q     <= host_i.wr_data & mb4_regs_pkg::WMASK_CHSEL;
-        mb4_regs_pkg::ADDR_CTRL:      ctrl_q      <= host_i.wr_data & mb4_regs_pkg::WMASK_CTRL;
+        mb4_regs_pkg::ADDR_CTRL:      ctrl_q      <= host_i.wr_data & CTRL;
         mb4_regs_pkg::ADDR_FREQ:      freq_q      <= host_i.wr_data & mb4_regs_pkg::WMASK_FREQ;
         mb4_regs_pkg::ADDR_BANKCFG:   bankcfg_q   <= host_i.wr_data & mb4_regs_pkg::WMASK_BANKCFG;
         mb4_regs_pkg::ADDR_FREQAGS:   freqags_q   <= host_i.wr_data & mb4_regs_pkg::WMASK_FREQAGS;
-        mb4_regs_pkg::ADDR_MO_BUSY:   mo_busy_q   <= host_i.wr_data & mb4_regs_pkg::WMASK_MO_BUSY;
+        mb4_regs_pkg::ADDR_MO_BUSY:   mo_busy_q   <= host_i.wr_data & MO_BUSY;
         mb4_regs_pkg::ADDR_SLAVELOC5: slaveloc5_q <= host_i.wr_data & mb4_regs_pkg::WMASK_SLAVELOC5;
         mb4_regs_pkg::ADDR_CFGCH:     cfgch_q     <= host_i.wr_data & mb4_regs_pkg::WMASK_CFGCH;
-        mb4_regs_pkg::ADDR_ACTNSENS:  actnsens_q  <= host_i.wr_data & mb4_regs_pkg::WMASK_ACTNSENS;
-        mb4_regs_pkg::ADDR_IFACE:     iface_q     <= host_i.wr_data & mb4_regs_pkg::WMASK_IFACE;
+        mb4_regs_pkg::ADDR_ACTNSENS:  actnsens_q  <= host_i.wr_data & ACTNSENS;
+        mb4_regs_pkg::ADDR_IFACE:     iface_q     <= host_i.wr_data & IFACE;
         default: ;  // not kept here
       endcase
     end

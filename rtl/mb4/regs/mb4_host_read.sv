@@ -11,10 +11,14 @@
 // reaches MISO, or 23 ns before the data bus must be stable. The same edge takes data and SVALID of
 // both banks. The choice between the banks comes after the flops, so all bits of a byte are of one
 // bank. CDSSEL is chosen before its flop, because it is the only bit of its byte that has banks.
+// A core that does not have all features tells it at 0x7F, and memories that it does not have read 0
+// (decision 44).
 // Misuse: reserved addresses read 0 (decision 13).
 // Datasheet: pages 21, 22, 34..36, Tables 6, 41, 42, 54..67.
 
-module mb4_host_read (
+module mb4_host_read #(
+  parameter logic [31:0] Features = mb4_page_regs_pkg::FEATURES_FULL
+) (
   input  logic       rd_clk_i,
   input  logic       rst_ni,
   // host byte bus
@@ -40,6 +44,12 @@ module mb4_host_read (
   input  logic [1:0] revision_sel_i
 );
 
+  localparam logic [7:0] PRESENT = mb4_pkg::channels(Features[mb4_page_regs_pkg::TWO_LINES_LSB],
+                                                     Features[mb4_page_regs_pkg::SLAVES_LSB +: 4]);
+  localparam bit CONTROL = Features[mb4_page_regs_pkg::CONTROL_LSB];
+  localparam logic [7:0] FEATURES = Features == mb4_page_regs_pkg::FEATURES_FULL
+                                        ? 8'h00 : {1'b1, Features[6:0]};
+
   logic [7:0] rd_addr;
   // One select bit for each source. The three memories read 0 until they are cleared.
   logic       reg_sel_d, reg_sel_q;
@@ -59,9 +69,10 @@ module mb4_host_read (
   logic       ready_q;
 
   assign rd_addr     = host_i.rd_addr;
-  assign lo_sel_d    = rd_addr[7:5] == mb4_regs_pkg::ADDR_SCDATA[7:5];
-  assign hi_sel_d    = rd_addr[7:5] == mb4_regs_pkg::ADDR_SCDATA[7:5] + 3'd1;
-  assign rdata_sel_d = rd_addr[7:6] == mb4_regs_pkg::ADDR_RDATA[7:6];
+  assign lo_sel_d    = rd_addr[7:5] == mb4_regs_pkg::ADDR_SCDATA[7:5] && PRESENT[{1'b0, rd_addr[4:3]}];
+  assign hi_sel_d    = rd_addr[7:5] == mb4_regs_pkg::ADDR_SCDATA[7:5] + 3'd1 &&
+                       PRESENT[{1'b1, rd_addr[4:3]}];
+  assign rdata_sel_d = rd_addr[7:6] == mb4_regs_pkg::ADDR_RDATA[7:6] && CONTROL;
   assign slave_sel_d = rd_addr[7:5] == mb4_regs_pkg::ADDR_SLAVE_CFG[7:5];
   assign reg_sel_d   = !(lo_sel_d || hi_sel_d || rdata_sel_d || slave_sel_d);
 
@@ -118,7 +129,8 @@ module mb4_host_read (
       mb4_regs_pkg::ADDR_SWBANKFAIL:
         reg_d = 8'(status_i.flags.swbank_fail) << mb4_regs_pkg::SWBANKFAIL_LSB;
       default:
-        reg_d = cfg_data_i;
+        reg_d = cfg_data_i |
+                (FEATURES & {8{rd_addr == mb4_page_regs_pkg::FEATURES_BYTE[7:0]}});
     endcase
   end
 

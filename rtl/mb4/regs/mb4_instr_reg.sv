@@ -21,9 +21,12 @@
 //
 // Misuse: the host writes while the core takes the previous byte. The core may then take some bits
 // of the older byte; three clocks later it takes the new one.
+// Without TwoBanks the host's bank is always 0; SWBANK and HOLDBANK only read back.
 // Datasheet: pages 32, 33, Tables 44..49; decisions 25, 26, 41.
 
-module mb4_instr_reg (
+module mb4_instr_reg #(
+  parameter bit TwoBanks = 1'b1
+) (
   input  logic       wr_clk_i,
   input  logic       rst_ni,
   // host byte bus
@@ -68,8 +71,8 @@ module mb4_instr_reg (
       (byte_q[mb4_regs_pkg::INSTR_LSB +: 3] == mb4_regs_pkg::INSTR_CONTROL ||
        byte_q[mb4_regs_pkg::INSTR_LSB +: 3] == mb4_regs_pkg::INSTR_CONTROL_REDUCED);
   assign base      = (pending_o && hold_q) ? kept_q : base_i;
-  assign bank_o    = base ^ byte_q[mb4_regs_pkg::SWBANK_LSB];
-  assign kept_o    = kept_q;
+  assign bank_o    = TwoBanks && (base ^ byte_q[mb4_regs_pkg::SWBANK_LSB]);
+  assign kept_o    = TwoBanks && kept_q;
   assign rd_data_o = pending_o ? (byte_q & ~mb4_regs_pkg::BREAK_MASK) : instr_i.held;
 
 endmodule

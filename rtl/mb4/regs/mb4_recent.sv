@@ -21,9 +21,12 @@
 // Misuse: none; older addresses read what the memory holds. A byte that was written after the last
 // change of mark_o, with less than 8 clocks of the core between the writes, may answer until all
 // bytes of this sequence of writes have been taken.
+// Features tells which addresses the core has; no other one is kept.
 // Source: decision 36.
 
-module mb4_recent (
+module mb4_recent #(
+  parameter logic [31:0] Features = mb4_page_regs_pkg::FEATURES_FULL
+) (
   input  logic       wr_clk_i,
   input  logic       rst_ni,
   input  logic       rd_clk_i,
@@ -36,6 +39,16 @@ module mb4_recent (
   output logic       mark_o,      // a change asks when all bytes written so far have been taken
   input  logic       marked_i     // follows mark_o when they have been taken
 );
+
+  localparam bit CONTROL = Features[mb4_page_regs_pkg::CONTROL_LSB];
+  localparam bit BANKS   = Features[mb4_page_regs_pkg::TWO_BANKS_LSB];
+  localparam logic [7:0] PRESENT = mb4_pkg::channels(Features[mb4_page_regs_pkg::TWO_LINES_LSB],
+                                                     Features[mb4_page_regs_pkg::SLAVES_LSB +: 4]);
+  // Bits of an address that are not 0 in all addresses that the core has.
+  localparam logic [7:0] VARIES = {CONTROL, BANKS, CONTROL || PRESENT[7:4] != 4'h0,
+                                   CONTROL || {PRESENT[7:6], PRESENT[3:2]} != 4'h0,
+                                   CONTROL || {PRESENT[7], PRESENT[5], PRESENT[3], PRESENT[1]} != 4'h0,
+                                   3'b111};
 
   logic        wr_en;
   logic [7:0]  wr_addr, rd_addr;   // with the bank in bit 6
@@ -56,9 +69,9 @@ module mb4_recent (
   logic [3:0]  move;      // entry takes the address of its newer neighbour
 
   // Only addresses of SCDATA (bit 7 = 0) and RDATA have bit 6 = 0.
-  assign wr_en   = host_i.wr_en && !host_i.wr_addr[6];
-  assign wr_addr = {host_i.wr_addr[7], !host_i.wr_addr[7] && bank_i, host_i.wr_addr[5:0]};
-  assign rd_addr = {host_i.rd_addr[7], !host_i.rd_addr[7] && bank_i, host_i.rd_addr[5:0]};
+  assign wr_en   = host_i.wr_en && mb4_pkg::in_memory(host_i.wr_addr[7:3], PRESENT, CONTROL);
+  assign wr_addr = VARIES & {host_i.wr_addr[7], !host_i.wr_addr[7] && bank_i, host_i.wr_addr[5:0]};
+  assign rd_addr = VARIES & {host_i.rd_addr[7], !host_i.rd_addr[7] && bank_i, host_i.rd_addr[5:0]};
 
   for (genvar i = 0; i < 3; i++) begin : gen_write
     assign wr_match[i] = valid_q[i] && addr_q[8*i +: 8] == wr_addr;
@@ -113,7 +126,10 @@ module mb4_recent (
 
   always_ff @(posedge rd_clk_i or negedge rst_ni) begin
     if (!rst_ni)           hit_q <= 1'b0;
-    else if (host_i.rd_en) hit_q <= !host_i.rd_addr[6] && rd_match != 4'b0000 && !empty_i;
+    else if (host_i.rd_en) begin
+      hit_q <= mb4_pkg::in_memory(host_i.rd_addr[7:3], PRESENT, CONTROL) && rd_match != 4'b0000 &&
+               !empty_i;
+    end
   end
 
   assign hit_o  = hit_q;

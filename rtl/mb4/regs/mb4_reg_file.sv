@@ -15,7 +15,8 @@
 
 module mb4_reg_file #(
   parameter bit Port2 = 1'b0,
-  parameter bit Tap   = 1'b0     // the second read port reads SCDATA1..4 too, for tap_o
+  parameter bit Tap   = 1'b0,    // the second read port reads SCDATA1..4 too, for tap_o
+  parameter logic [31:0] Features = mb4_page_regs_pkg::FEATURES_FULL
 ) (
   input  logic       clk_i,
   input  logic       rst_ni,          // core domain
@@ -60,6 +61,12 @@ module mb4_reg_file #(
   output mb4_pkg::reg_tap_t tap_o
 );
 
+  localparam bit TWO_LINES = Features[mb4_page_regs_pkg::TWO_LINES_LSB];
+  localparam bit TWO_BANKS = Features[mb4_page_regs_pkg::TWO_BANKS_LSB];
+  localparam bit CONTROL   = Features[mb4_page_regs_pkg::CONTROL_LSB];
+  localparam logic [7:0] PRESENT =
+      mb4_pkg::channels(TWO_LINES, Features[mb4_page_regs_pkg::SLAVES_LSB +: 4]);
+
   mb4_pkg::mem_rd_t rd;
   mb4_pkg::mem_wr_t clear;
   mb4_pkg::banks_t  banks;           // core domain
@@ -86,7 +93,7 @@ module mb4_reg_file #(
 
   // ---- registers ----------------------------------------------------------------------------
 
-  mb4_cfg_regs u_cfg (
+  mb4_cfg_regs #(.Features(Features)) u_cfg (
     .wr_clk_i,
     .rst_ni      (host_rst_ni),
     .host_i,
@@ -94,7 +101,7 @@ module mb4_reg_file #(
     .cfg_o
   );
 
-  mb4_slave_cfg u_slave_cfg (
+  mb4_slave_cfg #(.Channels(PRESENT)) u_slave_cfg (
     .wr_clk_i,
     .rst_ni       (host_rst_ni),
     .host_i,
@@ -107,7 +114,7 @@ module mb4_reg_file #(
     .list_cfg_o   (slave_cfg_o)
   );
 
-  mb4_instr_reg u_instr (
+  mb4_instr_reg #(.TwoBanks(TWO_BANKS)) u_instr (
     .wr_clk_i,
     .rst_ni      (host_rst_ni),
     .host_i,
@@ -122,7 +129,7 @@ module mb4_reg_file #(
     .kept_o      (base_kept)
   );
 
-  mb4_host_read u_read (
+  mb4_host_read #(.Features(Features)) u_read (
     .rd_clk_i,
     .rst_ni (host_rst_ni),
     .host_i,
@@ -161,7 +168,7 @@ module mb4_reg_file #(
   // SCDATA, RDATA and SVALID are in the core domain; writes to them are posted. Only addresses of
   // SCDATA and RDATA have bit 6 = 0. Bytes of SCDATA and SVALID carry the bank that the host has:
   //   SCDATA 0, bank, address 5..0;   RDATA 1, 0, address 5..0;   SVALID 1, 1, bank, address 4..0
-  assign post_wr = host_i.wr_en && (!host_i.wr_addr[6] ||
+  assign post_wr = host_i.wr_en && (mb4_pkg::in_memory(host_i.wr_addr[7:3], PRESENT, CONTROL) ||
                                     host_i.wr_addr == mb4_regs_pkg::ADDR_SVALID_LO ||
                                     host_i.wr_addr == mb4_regs_pkg::ADDR_SVALID_HI);
 
@@ -184,7 +191,7 @@ module mb4_reg_file #(
   );
 
   // Until posted bytes of SCDATA and RDATA have arrived, reads of them are answered here.
-  mb4_recent u_recent (
+  mb4_recent #(.Features(Features)) u_recent (
     .wr_clk_i,
     .rst_ni    (host_rst_ni),
     .rd_clk_i,
@@ -197,7 +204,7 @@ module mb4_reg_file #(
     .marked_i  (marked)
   );
 
-  assign post_rdata = post_valid && post_data[15:14] == 2'b10;
+  assign post_rdata = CONTROL && post_valid && post_data[15:14] == 2'b10;
   assign post_ready = ready_scd && (ready_rdata || !post_rdata);
 
   mb4_ram_clear u_clear (
@@ -206,7 +213,7 @@ module mb4_reg_file #(
     .clear_o (clear)
   );
 
-  mb4_scd_store #(.Port2(Port2), .Tap(Tap)) u_scd (
+  mb4_scd_store #(.Port2(Port2), .Tap(Tap), .Features(Features)) u_scd (
     .clk_i,
     .rst_ni,
     .slaveloc5_i  (cfg_o.slaveloc5),
@@ -247,7 +254,7 @@ module mb4_reg_file #(
     .rd2_data_o   (rdata2_data)
   );
 
-  mb4_bank_ctrl u_bank (
+  mb4_bank_ctrl #(.TwoBanks(TWO_BANKS)) u_bank (
     .clk_i,
     .rst_ni,
     .singlebank_i   (cfg_o.singlebank),
@@ -261,7 +268,7 @@ module mb4_reg_file #(
     .banks_o        (banks)
   );
 
-  mb4_cds_bank u_cds (
+  mb4_cds_bank #(.TwoLines(TWO_LINES), .TwoBanks(TWO_BANKS)) u_cds (
     .clk_i,
     .rst_ni,
     .banks_i     (banks),

@@ -7,6 +7,9 @@
 // otherwise line 1 fills both. The line delay that INIT measures goes to byte 0 of the half of its
 // line, into the bank that the host reads (decision 16).
 //
+// Features may leave out data channels: a half without any is no memory. Two lines with at most four
+// data channels each have one half each. With one bank SWBANK splits no word.
+//
 // SWBANK may change the bank while a word is being received. Each bank then has a part of the word,
 // and the word is not valid (decision 34). Bytes of the clock of bank_i.swap still go to the old
 // bank; a word that ends in this clock is complete.
@@ -23,7 +26,8 @@
 
 module mb4_scd_store #(
   parameter bit Port2 = 1'b0,
-  parameter bit Tap   = 1'b0   // the second read port reads the lower half too
+  parameter bit Tap   = 1'b0,  // the second read port reads the lower half too
+  parameter logic [31:0] Features = mb4_page_regs_pkg::FEATURES_FULL
 ) (
   input  logic       clk_i,
   input  logic       rst_ni,
@@ -54,11 +58,19 @@ module mb4_scd_store #(
   output logic [1:0]  word_bad_o       // a word ends: its CRC is wrong, or it is split
 );
 
+  localparam bit TWO_LINES = Features[mb4_page_regs_pkg::TWO_LINES_LSB];
+  localparam bit TWO_BANKS = Features[mb4_page_regs_pkg::TWO_BANKS_LSB];
+  localparam logic [3:0] SLAVES  = Features[mb4_page_regs_pkg::SLAVES_LSB +: 4];
+  localparam logic [7:0] PRESENT = mb4_pkg::channels(TWO_LINES, SLAVES);
+  localparam bit         UPPER   = PRESENT[7:4] != 4'h0;
+
+  logic       post_bank;
   logic       post_lo, post_hi, post_svalid_lo, post_svalid_hi;
   logic [3:0] keep;
   logic       ready_lo, ready_hi;
   biss_pkg::line_data_t data1, data2;
   biss_pkg::mo_read_t   mo1, mo2, hi_mo;
+  logic       second;              // line 2 owns the upper half
   logic [1:0] split, ok, split_q;  // the word being received is split
   logic       hi_en, hi_first, hi_done, hi_ok, hi_split;
   logic [2:0] hi_slave, hi_byte;   // word of the line that owns the upper half
@@ -67,6 +79,8 @@ module mb4_scd_store #(
   logic [7:0] lo_wr_data, hi_wr_data;
   logic       mo_en;
   logic [7:0] lo_mo_data, hi_mo_data;
+  logic [15:0] hi_data;
+  mb4_pkg::mem_rd_t rd, rd2;
   logic [7:0] svalid_lo, svalid_hi;
 
   assign post_lo        = post_valid_i && !post_i[15] && !post_i[13];
@@ -79,12 +93,17 @@ module mb4_scd_store #(
     assign keep[i] = post_i[mb4_regs_pkg::SVALID_LSB + mb4_regs_pkg::SVALID_LSB_STEP * i];
   end
 
+  // A single bank is bank 0 of its memory.
+  assign post_bank = TWO_BANKS && post_i[14];
+  assign rd        = {rd_i.en, TWO_BANKS && rd_i.addr[5], rd_i.addr[4:0]};
+  assign rd2       = {rd2_i.en, TWO_BANKS && rd2_i.addr[5], rd2_i.addr[4:0]};
+
   assign {data2, data1} = data_i;
   assign {mo2, mo1}     = mo_read_i;
 
   // ---- words ----------------------------------------------------------------------------------
 
-  assign split      = {data2.rx.open, data1.rx.open} & {2{bank_i.swap}};
+  assign split      = {data2.rx.open, data1.rx.open} & {2{bank_i.swap && TWO_BANKS}};
   assign ok         = {data2.rx.ok, data1.rx.ok} & ~split_q;
   assign word_bad_o = {data2.rx.done, data1.rx.done} & ~ok;
 
@@ -93,13 +112,14 @@ module mb4_scd_store #(
     else         split_q <= (split_q | split) & {data2.rx.open, data1.rx.open};
   end
 
-  assign hi_slave = slaveloc5_i ? data2.rx.slave : data1.rx.slave;
-  assign hi_en    = slaveloc5_i ? data2.rx.wr_en : data1.rx.wr_en;
-  assign hi_byte  = slaveloc5_i ? data2.rx.wr_byte : data1.rx.wr_byte;
-  assign hi_first = slaveloc5_i ? data2.rx.first : data1.rx.first;
-  assign hi_done  = slaveloc5_i ? data2.rx.done : data1.rx.done;
-  assign hi_ok    = slaveloc5_i ? ok[1] : ok[0];
-  assign hi_split = slaveloc5_i ? split[1] : split[0];
+  assign second   = TWO_LINES && (slaveloc5_i || !SLAVES[3]);
+  assign hi_slave = second ? data2.rx.slave : data1.rx.slave;
+  assign hi_en    = second ? data2.rx.wr_en : data1.rx.wr_en;
+  assign hi_byte  = second ? data2.rx.wr_byte : data1.rx.wr_byte;
+  assign hi_first = second ? data2.rx.first : data1.rx.first;
+  assign hi_done  = second ? data2.rx.done : data1.rx.done;
+  assign hi_ok    = second ? ok[1] : ok[0];
+  assign hi_split = second ? split[1] : split[0];
 
   // Assignments field by field: the simulator then sees which fields matter.
   assign lo_wr_en   = data1.delay_en || (data1.rx.wr_en && !data1.rx.slave[2]);
@@ -110,48 +130,50 @@ module mb4_scd_store #(
   assign hi_wr_addr = data2.delay_en ? {banks_i.host, 5'd0}
                                      : {banks_i.eng, hi_slave[1:0], hi_byte};
   assign hi_wr_data = data2.delay_en ? data2.delay
-                                     : slaveloc5_i ? data2.rx.wr_data : data1.rx.wr_data;
+                                     : second ? data2.rx.wr_data : data1.rx.wr_data;
 
   // ---- memories -------------------------------------------------------------------------------
 
-  assign hi_mo     = slaveloc5_i ? mo2 : mo1;
+  assign hi_mo     = second ? mo2 : mo1;
   assign mo_en     = mo1.rd_en || mo2.rd_en;
   assign mo_data_o = {hi_mo_data, mo1.slave[2] ? hi_mo_data : lo_mo_data};
 
-  mb4_memory #(.Port2(Tap)) u_scd_lo (
+  mb4_memory #(.Banks(TWO_BANKS), .Port2(Tap)) u_scd_lo (
     .clk_i,
     .clear_i,
     .eng_wr_i     ({lo_wr_en, lo_wr_addr, lo_wr_data}),
     .eng_rd_i     ({mo_en, banks_i.eng, mo1.slave[1:0], mo1.place}),
     .eng_data_o   (lo_mo_data),
-    .host_wr_i    ({post_lo, post_i[14], post_i[12:0]}),
+    .host_wr_i    ({post_lo, post_bank, post_i[12:0]}),
     .host_ready_o (ready_lo),
     .rd_clk_i,
-    .rd_i,
+    .rd_i         (rd),
     .rd_data_o    (rd_lo_data_o),
     .rd2_clk_i,
-    .rd2_i,
+    .rd2_i        (rd2),
     .rd2_data_o   (rd2_lo_data_o)
   );
 
-  mb4_memory #(.Port2(Port2)) u_scd_hi (
+  mb4_memory #(.Banks(TWO_BANKS), .Port2(Port2 && UPPER)) u_scd_hi (
     .clk_i,
     .clear_i,
     .eng_wr_i     ({hi_wr_en, hi_wr_addr, hi_wr_data}),
     .eng_rd_i     ({mo_en, banks_i.eng, hi_mo.slave[1:0], hi_mo.place}),
     .eng_data_o   (hi_mo_data),
-    .host_wr_i    ({post_hi, post_i[14], post_i[12:0]}),
+    .host_wr_i    ({post_hi, post_bank, post_i[12:0]}),
     .host_ready_o (ready_hi),
     .rd_clk_i,
-    .rd_i,
-    .rd_data_o    (rd_hi_data_o),
+    .rd_i         (rd),
+    .rd_data_o    (hi_data),
     .rd2_clk_i,
-    .rd2_i,
+    .rd2_i        (rd2),
     .rd2_data_o
   );
 
+  assign rd_hi_data_o = hi_data & {16{UPPER}};
+
   // Validity flags of the lower and the upper four data channels.
-  mb4_svalid u_svalid_lo (
+  mb4_svalid #(.Channels(PRESENT[3:0]), .TwoBanks(TWO_BANKS)) u_svalid_lo (
     .clk_i,
     .rst_ni,
     .eng_bank_i  (banks_i.eng),
@@ -167,7 +189,7 @@ module mb4_scd_store #(
     .svalid_o    (svalid_lo)
   );
 
-  mb4_svalid u_svalid_hi (
+  mb4_svalid #(.Channels(PRESENT[7:4]), .TwoBanks(TWO_BANKS)) u_svalid_hi (
     .clk_i,
     .rst_ni,
     .eng_bank_i  (banks_i.eng),
@@ -187,6 +209,6 @@ module mb4_scd_store #(
 
   // The enables of MO are common.
   logic unused;
-  assign unused = ^{mo1, mo2, hi_mo};
+  assign unused = ^{mo1, mo2, hi_mo, rd_i, rd2_i};
 
 endmodule

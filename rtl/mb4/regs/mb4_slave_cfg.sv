@@ -13,10 +13,12 @@
 // first byte that is written to a row clears the other three. A word list reads only rows whose
 // ENSCDx is set, so it never uses a row that has not been written. Like mb4_cfg_regs the rows are
 // quasi-static for the core.
+// Data channels that are not in Channels read 0, and they are never enabled.
 // Datasheet: pages 23..26, Tables 11..19.
 
 module mb4_slave_cfg #(
-  parameter int unsigned Lists = 4
+  parameter int unsigned Lists = 4,
+  parameter logic [7:0]  Channels = 8'hFF
 ) (
   // host
   input  logic        wr_clk_i,
@@ -100,7 +102,7 @@ module mb4_slave_cfg #(
   always_ff @(posedge rd_clk_i or negedge rst_ni) begin
     if (!rst_ni) sel_q <= '0;
     else if (host_i.rd_en) begin
-      sel_q <= {4{rows_q[host_i.rd_addr[4:2]]}} & (4'b0001 << host_i.rd_addr[1:0]);
+      sel_q <= {4{rows_q[host_i.rd_addr[4:2]] && Channels[host_i.rd_addr[4:2]]}} & (4'b0001 << host_i.rd_addr[1:0]);
     end
   end
 
@@ -120,6 +122,6 @@ module mb4_slave_cfg #(
     );
   end
 
-  assign enscd_o = enscd_q;
+  assign enscd_o = enscd_q & Channels;
 
 endmodule

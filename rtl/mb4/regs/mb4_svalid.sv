@@ -12,9 +12,13 @@
 // - INIT of BiSS C clears all flags (decision 35).
 // - With one bank both sides act on the same flags. If they do so in one clock, the line wins.
 //
+// Flags that are not in Channels are 0, and so is bank 1 without TwoBanks.
 // Datasheet: page 35, Table 61.
 
-module mb4_svalid (
+module mb4_svalid #(
+  parameter logic [3:0] Channels = 4'hF,
+  parameter bit         TwoBanks = 1'b1
+) (
   input  logic       clk_i,
   input  logic       rst_ni,
   input  logic       eng_bank_i,
@@ -68,6 +72,6 @@ module mb4_svalid (
     end
   end
 
-  assign svalid_o = {bank1_q, bank0_q};
+  assign svalid_o = {bank1_q & {4{TwoBanks}}, bank0_q} & {2{Channels}};
 
 endmodule
