@@ -7,6 +7,7 @@ axi_pkg.sv
 ../../regmap/generated/axi/axi_regs_pkg.sv
 axi_crc.sv
 axi_rule.sv
+axi_word.sv
 axi_channel.sv
 axi_start.sv
 axi_regs.sv
@@ -15,5 +16,6 @@ axi_page.sv
 axi_counters.sv
 axi_delays.sv
 axi_access.sv
+axi_extras.sv
 axi_core.sv
 biss_axi.sv

@@ -5,8 +5,8 @@
 // all channels go on with their positions. biss_control_frame makes the control frame; this module
 // has the registers of the host, chooses the channel and counts what limits an access.
 //
-// Clock domain: core. An access of one register needs about 50 frames, and up to 14 more before it if
-// the encoder has not seen as many frames without CDM. end_o is high for one clock at its end.
+// Clock domain: core. An access of one register needs about 50 frames, and up to 14 more before it
+// if the encoder has not seen as many frames without CDM. end_o is high for one clock at its end.
 //
 // - Writing ACCESS with START = 1 begins an access; while one runs the write is ignored. START = 0
 //   ends one that runs, as ERROR.

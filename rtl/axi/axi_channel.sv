@@ -66,8 +66,6 @@ module axi_channel #(
   input  logic       slo_i
 );
 
-  localparam int unsigned SHIFT_W = Wide ? 66 : 34;
-  localparam int unsigned CRC_W   = AnyCrc ? 16 : 6;
   localparam logic [CountW-1:0] START_LAST = CountW'(StartLimit - 1);
   localparam logic [CountW-1:0] ONE        = CountW'(1);
 
@@ -101,10 +99,6 @@ module axi_channel #(
   logic [6:0]  ahead_q;        // rising MA edges minus bits before the start bit
   logic        all_sent;       // ahead_q has reached frame_i.edges
   logic        enough;
-  logic [SHIFT_W-1:0] shift_q; // position, error, warning
-  logic [CRC_W-1:0] received_q;
-  logic [CRC_W-1:0] calculated_q;
-  logic        fits_q;         // the CRC bits so far fit
   logic        ended_q;        // the last CRC bit has been taken
   logic        start;
   logic        begin_frame;
@@ -120,17 +114,13 @@ module axi_channel #(
   logic        sl, ack, late, bit_valid, sl_bit;
   logic [9:0]  delay;
   logic        rise, ma_clocks, ma, unused_released;
-  logic        crc_top;
+  logic        crc_error;
   logic [1:0]  cdm;            // for CDS = 1, 0
   logic        cds;            // of this frame
   logic        sent;           // CDM of this frame
   logic        patient;        // SLO does not end the timeout
-  logic [3:0]  rule_crc_last;
+  logic [3:0]  crc_last;
   logic        unused;
-  logic        good;
-  axi_pkg::result_t result_q;
-  axi_pkg::word_t   word_q;
-  logic        single_valid_q;
 
   biss_delay_sampler u_sampler (
     .clk_i,
@@ -170,34 +160,31 @@ module axi_channel #(
     .ma_o          (ma)
   );
 
-  if (AnyCrc) begin : gen_any_crc
-    axi_crc u_crc (
-      .clk_i,
-      .rst_ni,
-      .poly_i  (rule_i.crc_poly),
-      .mask_i  (rule_i.crc_top),
-      .start_i (rule_i.crc_start),
-      .load_i  (state_q == CDS),
-      .shift_i (bit_valid),
-      .feed_i  (state_q == DATA),
-      .bit_i   (sl_bit),
-      .top_o   (crc_top)
-    );
-  end else begin : gen_crc6
-    enc_crc #(.Free(1'b0)) u_crc (
-      .clk_i,
-      .rst_ni,
-      .crc16_i (1'b0),
-      .poly_i  (8'h43),
-      .top_i   (8'h20),
-      .start_i (16'h0000),
-      .load_i  (state_q == CDS),
-      .shift_i (bit_valid),
-      .feed_i  (state_q == DATA),
-      .bit_i   (sl_bit),
-      .top_o   (crc_top)
-    );
-  end
+  axi_word #(.Wide(Wide), .AnyCrc(AnyCrc)) u_word (
+    .clk_i,
+    .rst_ni,
+    .frame_i,
+    .rule_i,
+    .clear_i,
+    .enabled_i,
+    .start_i,
+    .request_i,
+    .load_i         (state_q == CDS),
+    .data_i         (state_q == DATA),
+    .crc_i          (state_q == CRC),
+    .bit_valid_i    (bit_valid),
+    .bit_i          (sl_bit),
+    .ended_i        (ended_q),
+    .failed_i       (fail),
+    .late_i         (late_start),
+    .ack_i          (ack),
+    .delay_i        (delay),
+    .crc_error_o    (crc_error),
+    .single_valid_o,
+    .result_o,
+    .word_o,
+    .more_o
+  );
 
   // If CDM depends on CDS, MA goes on until CDS has come.
   if (Access) begin : gen_access
@@ -235,6 +222,7 @@ module axi_channel #(
   assign breaks      = running && (clear_i || !enabled_i);
   assign fail        = no_ack || no_start || breaks;
   assign limit       = count_q == rule_i.timeout_last[CountW-1:0];
+  assign crc_last    = AnyCrc ? rule_i.crc_last : 4'd5;
   assign patient     = rule_i.fixed;
   assign over        = state_q == TIMEOUT && ((sl && !patient) || limit || !sent);
   assign rests       = !ma_clocks && ma;
@@ -284,7 +272,7 @@ module axi_channel #(
       CRC: begin
         if (bit_valid) begin
           count_d = count_q + ONE;
-          if (count_q[3:0] == rule_crc_last) state_d = STOP;
+          if (count_q[3:0] == crc_last) state_d = STOP;
         end
       end
       STOP: begin
@@ -320,8 +308,6 @@ module axi_channel #(
     if (start) ahead_d = '0;
   end
 
-  assign good = fits_q || !frame_i.check;
-
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
       state_q <= IDLE;
@@ -338,121 +324,12 @@ module axi_channel #(
     end
   end
 
-  always_ff @(posedge clk_i or negedge rst_ni) begin
-    if (!rst_ni) begin
-      shift_q      <= '0;
-      received_q   <= '0;
-      calculated_q <= '0;
-      fits_q       <= 1'b0;
-    end else begin
-      if (state_q == CDS)                    shift_q <= '0;
-      else if (bit_valid && state_q == DATA) shift_q <= {shift_q[SHIFT_W-2:0], sl_bit};
-      if (state_q == CDS) fits_q <= 1'b1;
-      else if (bit_valid && state_q == CRC) fits_q <= fits_q && sl_bit != crc_top;
-      if (AnyCrc && state_q == CDS) begin
-        received_q   <= '0;
-        calculated_q <= '0;
-      end else if (bit_valid && state_q == CRC) begin
-        received_q   <= {received_q[CRC_W-2:0], sl_bit};
-        calculated_q <= {calculated_q[CRC_W-2:0], !crc_top};
-      end
-    end
-  end
-
-  always_ff @(posedge clk_i or negedge rst_ni) begin
-    if (!rst_ni) begin
-      result_q       <= '0;
-      word_q         <= '0;
-      word_q.nerr    <= 1'b1;
-      word_q.nwarn   <= 1'b1;
-      single_valid_q <= 1'b0;
-    end else begin
-      if (clear_i) begin
-        result_q <= '0;
-      end else begin
-        if (ended_q || fail || late_start) begin
-          result_q.delay      <= delay | {10{!ack || late_start}};
-          result_q.received   <= received_q[5:0] & {6{ended_q}};
-          result_q.calculated <= calculated_q[5:0] & {6{ended_q}};
-        end
-        if (ended_q && good && frame_i.single) result_q.single <= shift_q[2 +: 32];
-      end
-      if (clear_i || !enabled_i)  word_q.position <= '0;
-      else if (ended_q && good)   word_q.position <= shift_q[2 +: 32];
-      if (clear_i) begin
-        word_q.nerr  <= 1'b1;
-        word_q.nwarn <= 1'b1;
-      end else if (ended_q && good) begin
-        word_q.nerr  <= shift_q[1];
-        word_q.nwarn <= shift_q[0];
-      end
-      word_q.good    <= !clear_i && !start_i && (ended_q ? good : word_q.good);
-      word_q.crc_bad <= !clear_i && !start_i && (ended_q ? !fits_q : word_q.crc_bad);
-      single_valid_q <= !clear_i && !(start_i && request_i) &&
-                        (single_valid_q || (ended_q && good && frame_i.single));
-    end
-  end
-
-  // ---- extras -------------------------------------------------------------------------------
-
-  if (Wide) begin : gen_wide
-    logic [31:0] single_q;
-    logic [31:0] position_q;
-
-    always_ff @(posedge clk_i or negedge rst_ni) begin
-      if (!rst_ni) begin
-        single_q   <= '0;
-        position_q <= '0;
-      end else begin
-        if (clear_i)                                  single_q <= '0;
-        else if (ended_q && good && frame_i.single)   single_q <= shift_q[SHIFT_W-1 -: 32];
-        if (clear_i || !enabled_i)                    position_q <= '0;
-        else if (ended_q && good)                     position_q <= shift_q[SHIFT_W-1 -: 32];
-      end
-    end
-
-    assign more_o.single_high   = single_q;
-    assign more_o.position_high = position_q;
-  end else begin : gen_narrow
-    assign more_o.single_high   = '0;
-    assign more_o.position_high = '0;
-  end
-
-  if (AnyCrc) begin : gen_crc_high
-    logic [9:0] received_high_q;
-    logic [9:0] calculated_high_q;
-
-    always_ff @(posedge clk_i or negedge rst_ni) begin
-      if (!rst_ni) begin
-        received_high_q   <= '0;
-        calculated_high_q <= '0;
-      end else if (clear_i) begin
-        received_high_q   <= '0;
-        calculated_high_q <= '0;
-      end else if (ended_q || fail || late_start) begin
-        received_high_q   <= received_q[CRC_W-1 -: 10] & {10{ended_q}};
-        calculated_high_q <= calculated_q[CRC_W-1 -: 10] & {10{ended_q}};
-      end
-    end
-
-    assign rule_crc_last          = rule_i.crc_last;
-    assign more_o.received_high   = received_high_q;
-    assign more_o.calculated_high = calculated_high_q;
-  end else begin : gen_no_crc_high
-    assign rule_crc_last          = 4'd5;
-    assign more_o.received_high   = '0;
-    assign more_o.calculated_high = '0;
-  end
-
-  assign event_o = {begin_frame && sl, ended_q, fail, ended_q && !fits_q, late_start, cds, sent};
+  assign event_o = {begin_frame && sl, ended_q, fail, crc_error, late_start, cds, sent};
   assign unused  = (^rule_i) ^ (^cdm_i);
 
-  assign busy_o         = state_q != IDLE;
-  assign frame_o        = running || ended_q;
-  assign single_valid_o = single_valid_q;
-  assign result_o       = result_q;
-  assign word_o         = word_q;
-  assign ma_o           = ma;
+  assign busy_o  = state_q != IDLE;
+  assign frame_o = running || ended_q;
+  assign ma_o    = ma;
 
   `ENC_ASSERT(StateInRange_A, clk_i, rst_ni, state_q <= BROKEN)
   `ENC_ASSERT_IF(RestIsHigh_A, clk_i, rst_ni, state_q == IDLE, rests)

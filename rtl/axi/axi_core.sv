@@ -64,11 +64,9 @@ module axi_core #(
   output logic             irq_o
 );
 
-  localparam bit PAGE    = Extras != '0;
   localparam bit WIDE    = Extras[axi_pkg::EXTRA_WIDE];
   localparam bit CRC     = Extras[axi_pkg::EXTRA_CRC];
   localparam bit TIMEOUT = Extras[axi_pkg::EXTRA_TIMEOUT];
-  localparam bit WATCH   = Extras[axi_pkg::EXTRA_ALARM];
   localparam bit ACCESS  = Extras[axi_pkg::EXTRA_ACCESS];
   localparam bit ALIGN   = Extras[axi_pkg::EXTRA_ALIGN];
   localparam int unsigned LONGEST = StartLimit > TimeoutLimit ? StartLimit : TimeoutLimit;
@@ -111,13 +109,14 @@ module axi_core #(
   axi_pkg::page_t      page;
   axi_pkg::rule_t      rule;
   logic [4:0]          crc_bits;
-  logic [31:0]         page_data, counter_data, delay_data, access_data;
+  logic [31:0]         page_data;
   logic take, start, done, skip, sense;
   logic tick, half_next;
   logic sending, measuring, overrun;
-  logic alarm, access_end;
   biss_pkg::sample_t unused_sample;
   logic unused_half;
+  logic [3*Channels-1:0] unused_samples;
+  logic [Channels-1:0]   unused_halves;
   logic error_q, warn_q;
   logic unused;
 
@@ -164,7 +163,7 @@ module axi_core #(
     .enable_o       (enable),
     .ma_shift_o     (ma_shift),
     .index_o        (index),
-    .page_data_i    (page_data | counter_data | delay_data | access_data),
+    .page_data_i    (page_data),
     .single_valid_i (single_valid),
     .results_i      (results),
     .mores_i        (mores)
@@ -219,8 +218,6 @@ module axi_core #(
 
     // A channel whose start is shifted has a time base of its own.
     if (ALIGN) begin : gen_own_timebase
-      biss_pkg::sample_t own_sample;
-      logic              own_half, unused_own;
       biss_timebase u_timebase (
         .clk_i,
         .rst_ni,
@@ -229,13 +226,14 @@ module axi_core #(
         .restart_i     (channel_start[i]),
         .tick_o        (ma_tick),
         .half_next_o   (ma_half_next),
-        .sample_o      (own_sample),
-        .sample_half_o (own_half)
+        .sample_o      (unused_samples[3*i +: 3]),
+        .sample_half_o (unused_halves[i])
       );
-      assign unused_own = (^own_sample) ^ own_half;
     end else begin : gen_common_timebase
       assign ma_tick      = tick;
       assign ma_half_next = half_next;
+      assign unused_samples[3*i +: 3] = 3'd0;
+      assign unused_halves[i]         = 1'b0;
     end
 
     axi_channel #(
@@ -267,93 +265,33 @@ module axi_core #(
     assign nwarn[i] = words[i*axi_pkg::WORD_W + axi_pkg::WORD_NWARN];
   end
 
-  // ---- extras -------------------------------------------------------------------------------
-
-  if (PAGE) begin : gen_page
-    axi_page #(.Channels(Channels), .Extras(Extras)) u_page (
-      .clk_i,
-      .rst_ni,
-      .switches_i,
-      .clear_i      (cfg.soft_reset),
-      .bus_i        (bus),
-      .data_o       (page_data),
-      .page_o       (page),
-      .start_i      (start),
-      .skip_i       (skip),
-      .done_i       (done),
-      .bad_i        ((enabled & ~good) != '0),
-      .alarm_i      (alarm),
-      .access_end_i (access_end),
-      .sense_i      (sense),
-      .overrun_i    (overrun),
-      .tick_i       (tick),
-      .half_next_i  (half_next),
-      .irq_o
-    );
-  end else begin : gen_no_page
-    assign page_data = '0;
-    assign page      = '0;
-    assign irq_o     = 1'b0;
-  end
-
-  if (Extras[axi_pkg::EXTRA_COUNTERS]) begin : gen_counters
-    axi_counters #(.Channels(Channels)) u_counters (
-      .clk_i,
-      .rst_ni,
-      .clear_i  (cfg.soft_reset),
-      .bus_i    (bus),
-      .index_i  (index),
-      .events_i (events),
-      .data_o   (counter_data)
-    );
-  end else begin : gen_no_counters
-    assign counter_data = '0;
-  end
-
-  if (WATCH || ALIGN) begin : gen_delays
-    axi_delays #(.Channels(Channels), .Watch(WATCH), .Align(ALIGN)) u_delays (
-      .clk_i,
-      .rst_ni,
-      .clear_i   (cfg.soft_reset),
-      .bus_i     (bus),
-      .index_i   (index),
-      .data_o    (delay_data),
-      .done_i    (done),
-      .enabled_i (enabled),
-      .results_i (results),
-      .shift_i   (ma_shift & {Channels{switches_i.align_latch}}),
-      .start_i   (start),
-      .start_o   (channel_start),
-      .pending_o (pending),
-      .busy_o    (measuring),
-      .alarm_o   (alarm)
-    );
-  end else begin : gen_no_delays
-    assign delay_data    = '0;
-    assign channel_start = {Channels{start}};
-    assign pending       = '0;
-    assign measuring     = 1'b0;
-    assign alarm         = 1'b0;
-  end
-
-  if (ACCESS) begin : gen_access
-    axi_access #(.Channels(Channels)) u_access (
-      .clk_i,
-      .rst_ni,
-      .clear_i  (cfg.soft_reset),
-      .bus_i    (bus),
-      .data_o   (access_data),
-      .events_i (events),
-      .cdm_o    (cdm),
-      .end_o    (access_end)
-    );
-  end else begin : gen_no_access
-    assign access_data = '0;
-    assign cdm         = '0;
-    assign access_end  = 1'b0;
-  end
-
-  // ---- outputs ------------------------------------------------------------------------------
+  axi_extras #(.Channels(Channels), .Extras(Extras)) u_extras (
+    .clk_i,
+    .rst_ni,
+    .switches_i,
+    .clear_i     (cfg.soft_reset),
+    .bus_i       (bus),
+    .index_i     (index),
+    .data_o      (page_data),
+    .page_o      (page),
+    .start_i     (start),
+    .skip_i      (skip),
+    .done_i      (done),
+    .sense_i     (sense),
+    .overrun_i   (overrun),
+    .enabled_i   (enabled),
+    .good_i      (good),
+    .events_i    (events),
+    .results_i   (results),
+    .ma_shift_i  (ma_shift),
+    .start_o     (channel_start),
+    .pending_o   (pending),
+    .measuring_o (measuring),
+    .cdm_o       (cdm),
+    .tick_i      (tick),
+    .half_next_i (half_next),
+    .irq_o
+  );
 
   axi_stream #(
     .Channels(Channels), .Mode(StreamMode), .Lane(StreamLane), .DataW(StreamDataW),
@@ -387,8 +325,7 @@ module axi_core #(
 
   assign error_no = error_q;
   assign warn_no  = warn_q;
-  assign unused   = skip ^ overrun ^ sense ^ alarm ^ access_end ^ (^ma_shift) ^ (^events) ^ (^good) ^
-                    switches_i.align_latch ^ (^bus) ^ (^index) ^
-                    (^{s_axi_awaddr[1:0], s_axi_araddr[1:0], unused_sample, unused_half});
+  assign unused   = (^{s_axi_awaddr[1:0], s_axi_araddr[1:0], unused_sample, unused_half,
+                       unused_samples, unused_halves});
 
 endmodule

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Counters of each channel: frames that have ended, good or not (32 bits), CRC errors and late starts
-// (16 bits each). They wrap. The words show the channel of index_i.
+// Counters of each channel: frames that have ended, good or not (32 bits), CRC errors and late
+// starts (16 bits each). They wrap. The words show the channel of index_i.
 //
 // Clock domain: core. A counter moves one clock after its event. clear_i sets all to 0.
 //

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What line delays are good for beside sampling: an alarm for a delay that moves (Watch), and starts
-// that are shifted so that all encoders latch at one instant (Align).
+// What line delays are good for beside sampling: an alarm for a delay that moves (Watch), and
+// starts that are shifted so that all encoders latch at one instant (Align).
 //
 // Clock domain: core. After done_i the delays are looked at, one channel a clock (with Align two
 // times). busy_o is high meanwhile: no start may come, and results must stay.

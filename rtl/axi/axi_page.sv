@@ -1,12 +1,12 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The page of the BiSS C master with N channels: identity, features, interrupt, time, skipped starts,
-// beats that were lost, the time of the sampling instant, and what configures extras.
+// The page of the BiSS C master with N channels: identity, features, interrupt, time, skipped
+// starts, beats that were lost, the time of the sampling instant, and what configures extras.
 //
-// Clock domain: core. An access never waits. Words of other modules, and words of extras that Extras
-// does not have, read 0 and ignore writes. Reading a low word copies the high word that belongs to it.
-// The stamp is the time of the first clock in which MA is 1 again after start_i.
+// Clock domain: core. An access never waits. Words of other modules, and words of extras that
+// Extras does not have, read 0 and ignore writes. Reading a low word copies the high word that
+// belongs to it. The stamp is the time of the first clock in which MA is 1 again after start_i.
 //
 // Misuse: none.
 // Source: regmap/axi.rdl; docs/axi.md.
@@ -44,7 +44,10 @@ module axi_page #(
   logic        wr_status, wr_enable, wr_lost;
   logic [4:0]  status, enable;
   logic [31:0] common, configuration, stamp;
+  logic [31:0] features;
   logic        unused;
+
+  assign features = {11'd0, 5'(Channels), 3'd0, switches_i, Extras};
 
   enc_time u_time (
     .clk_i,
@@ -55,7 +58,8 @@ module axi_page #(
   enc_irq u_irq (
     .clk_i,
     .rst_ni,
-    .event_i     ({skip_i || overrun_i, sense_i, access_end_i, (done_i && bad_i) || alarm_i, done_i}),
+    .event_i     ({skip_i || overrun_i, sense_i, access_end_i, (done_i && bad_i) || alarm_i,
+                   done_i}),
     .bus_clk_i   (clk_i),
     .bus_rst_ni  (rst_ni),
     .status_we_i (wr_status),
@@ -87,7 +91,7 @@ module axi_page #(
     unique case (bus_i.addr)
       axi_regs_pkg::ADDR_ID:            common       = axi_regs_pkg::RESET_ID;
       axi_regs_pkg::ADDR_VERSION:       common       = axi_regs_pkg::RESET_VERSION;
-      axi_regs_pkg::ADDR_FEATURES:      common       = {11'd0, 5'(Channels), 3'd0, switches_i, Extras};
+      axi_regs_pkg::ADDR_FEATURES:      common       = features;
       axi_regs_pkg::ADDR_IRQ_STATUS:    common[4:0]  = status;
       axi_regs_pkg::ADDR_IRQ_ENABLE:    common[4:0]  = enable;
       axi_regs_pkg::ADDR_TIME_LOW:      common       = now[31:0];

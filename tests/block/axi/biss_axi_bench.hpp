@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The top biss_axi, by its pins only: AXI4-Lite, stream, MA and SLO, with an encoder on each channel.
+// The top biss_axi, by its pins only: AXI4-Lite, stream, MA and SLO, with an encoder on each
+// channel.
 #ifndef TESTS_BLOCK_AXI_BISS_AXI_BENCH_HPP_
 #define TESTS_BLOCK_AXI_BISS_AXI_BENCH_HPP_
 
@@ -59,8 +60,8 @@ class BissAxiBench {
     unsigned slo = 0;
     for (unsigned c = 0; c < kChannels; ++c) {
       const Encoder& encoder = encoders[c];
-      const bool level = encoder.wire == Wire::kHigh ||
-                         (encoder.wire == Wire::kEncoder && encoder.history.back());
+      const bool level =
+          encoder.wire == Wire::kHigh || (encoder.wire == Wire::kEncoder && encoder.history.back());
       slo |= (level ? 1U : 0U) << c;
     }
     m.slo = static_cast<std::uint8_t>(slo);

@@ -16,8 +16,8 @@ std::uint32_t position_of(unsigned bits, sim::Random& random) {
   return bits == 32 ? all : all & ((1U << bits) - 1);
 }
 
-// 16 cables of 0 to 100 m: 5 ns a metre, both ways. One edge of the sample clock starts all of them at
-// one instant.
+// 16 cables of 0 to 100 m: 5 ns a metre, both ways. One edge of the sample clock starts all of them
+// at one instant.
 TEST(Axi, F3SixteenCablesUpTo100m_OneBeatWithAllWordsAndTheirDelays) {
   const auto tap = [](sim::Time now, void* receiver, sim::Line::Signal signal, bool level) {
     auto& first = *static_cast<sim::Time*>(receiver);
@@ -309,8 +309,8 @@ TEST(Axi, SoftResetAndDisableInAFrame_EndItWithoutAShortPulse) {
   }
 }
 
-// SLO of one channel falls in the middle of a word and stays low: the others deliver every word, and
-// the next read starts after the longest timeout, 4000 clocks.
+// SLO of one channel falls in the middle of a word and stays low: the others deliver every word,
+// and the next read starts after the longest timeout, 4000 clocks.
 TEST(Axi, LineStuckLowInAFrame_StopsNoOther) {
   AxiBench bench(axi_scenario({{}, {.delay_ns = 200}}));
   bench.set_up(26, 5);
