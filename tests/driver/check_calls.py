@@ -8,7 +8,7 @@
 
 A public call is a function of Device, Automatic, ControlSteps, Control, Fields or Opcodes that
 returns a Result, and scan_bus. Its errors are those that the comment above it names. Every function
-of mb4.h is called by c_binding_test.c.
+of mb4.h is called by c_binding_test.c. docs/locking.md says of each public call where it may run.
 """
 
 import fnmatch
@@ -88,7 +88,15 @@ def uncalled(header, test):
             yield f"mb4.h: {name}() is not called"
 
 
+def unplaced(calls, page):
+    for call in sorted(calls):
+        if f"`{call}`" not in page:
+            yield f"{call}: no row says where it may run"
+
+
 def self_test():
+    assert list(unplaced({"A::go", "A::goes"}, "| `A::goes` |")) == [
+        "A::go: no row says where it may run"]
     assert list(uncalled("void mb4_a(int x);\nint mb4_ab(void);\n", "mb4_a(1); mb4_abc();")) == [
         "mb4.h: mb4_ab() is not called"]
     text = ("class A {\n public:\n  // kOne; kTwo.\n  Result<void> go() {\n  }\n"
@@ -123,6 +131,8 @@ def main():
     found = [f"calls.toml: {line}" for line in found]
     found += [f"c_binding_test.c: {line}" for line in uncalled(
         (HEADERS.parent / "mb4.h").read_text(), (HERE / "c" / "c_binding_test.c").read_text())]
+    found += [f"locking.md: {line}" for line in unplaced(
+        calls, (HERE.parents[1] / "docs" / "locking.md").read_text())]
     for line in found:
         print(line)
     if not found:
