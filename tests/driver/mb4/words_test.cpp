@@ -110,7 +110,8 @@ TEST(MemoryBus, FirstAccessAfterAnInstruction_WaitsForTheCore) {
   std::array<std::uint8_t, 4> four{};
   ASSERT_TRUE(opcodes.write_registers(0xF1, four).ok());
   ASSERT_TRUE(opcodes.write_instruction(byte).ok());
-  EXPECT_EQ(port.accesses, "W0F4 00001100/2 W0F0 00000000/E W0F4 00000000/1 R114 W0F4 00000011/1 ");
+  EXPECT_EQ(port.accesses,
+            "R114 W0F4 00001100/2 W0F0 00000000/E W0F4 00000000/1 R114 W0F4 00000011/1 ");
 }
 
 TEST(MemoryBus, StatusAfterSvalidIsCleared_WaitsForTheCore) {

@@ -26,7 +26,7 @@ namespace mb4 {
 //   a status that tells of them. Words are faster. So some accesses wait for the core: they read
 //   TIME_LOW before, which takes about 20 clocks of the core and replaces the copy in TIME_HIGH.
 //   They are the first one after a write to 0xF4, the first read after a write to SVALID, and the
-//   first one to SCDATA or RDATA after a read of the status.
+//   first one to SCDATA or RDATA, or write to 0xF4, after a read of the status.
 // * transfer() returns false when an access has failed. The first bytes of a write may have taken
 //   effect.
 template <typename Port>
@@ -90,7 +90,9 @@ class MemoryBus {
   bool settle(std::uint8_t word, bool reads) {
     constexpr unsigned kNoData = 0x40;  // of an address: neither SCDATA nor RDATA
     std::uint32_t time = 0;
-    if (wait_ == Wait::kNever || (wait_ == Wait::kBeforeData && (word & kNoData) != 0) ||
+    const bool instructs = !reads && word == regs::kAddrInstr;
+    if (wait_ == Wait::kNever ||
+        (wait_ == Wait::kBeforeData && (word & kNoData) != 0 && !instructs) ||
         (wait_ == Wait::kBeforeRead && !reads)) {
       return true;
     }
