@@ -4,7 +4,7 @@
 #
 # Packs the committed tree as openmb4-VERSION.tar.gz with its checksum beside it; the same commit and
 # the same Yosys give the same bytes. In its folder verilog/ is plain Verilog of each top
-# (tools/synth/plain_verilog.py). Beside it python/ holds the sdist of the Python package, which
+# (tools/synth/plain_verilog.py), ipxact/ has IP-XACT of the bus tops (tools/synth/ipxact.py). Beside it python/ holds the sdist of the Python package, which
 # builds its library from the RTL that it carries, and the library for Arduino and PlatformIO
 # (tools/arduino.py).
 # Usage: tools/release.sh [--wheel] [FOLDER]   (default build/)
@@ -41,6 +41,15 @@ while read -r file; do
 done < <(python3 -B tools/synth/plain_verilog.py "$plain")
 if [ "${#added[@]}" -ne 5 ]; then
   echo "release: the plain Verilog could not be made" >&2
+  exit 1
+fi
+mkdir "$plain/ipxact"
+added+=("--prefix=openmb4-$version/ipxact/")
+while read -r file; do
+  added+=("--add-file=$file")
+done < <(python3 -B tools/synth/ipxact.py "$plain/ipxact")
+if [ "${#added[@]}" -ne 8 ]; then
+  echo "release: the IP-XACT could not be made" >&2
   exit 1
 fi
 name=openmb4-$version

@@ -22,7 +22,8 @@ import yosys  # noqa: E402
 
 MIN_MHZ = 50  # twice the chip's highest clock
 SEEDS = (1, 2, 3)
-TOPS = {"mb4_core": "SPI host", "mb4_parallel": "parallel host", "mb4_chip": "28-pin device"}
+TOPS = {"mb4_core": "SPI host", "mb4_parallel": "parallel host", "mb4_chip": "28-pin device",
+        "mb4_axil": "AXI4-Lite", "mb4_wb": "Wishbone"}
 DEVICES = {"HX8K": ["--hx8k", "--package", "ct256"], "UP5K": ["--up5k", "--package", "sg48"]}
 FAMILIES = {
     "ECP5": ("synth_ecp5", r"LUT4$", r"TRELLIS_FF$", r"DP16KD$|TRELLIS_DPR16X4$", "CCU2C"),
@@ -99,7 +100,7 @@ def mhz(runs, kind):
     values = [r[kind] for r in runs if r is not None]
     if values and max(values) == 0:
         return "strobes"  # no path from flop to flop
-    return f"{min(values):.0f}..{max(values):.0f}" if values else "too many pins"
+    return f"{min(values):.0f}..{max(values):.0f}" if values else "does not fit"
 
 
 def version(command):

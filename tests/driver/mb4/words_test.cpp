@@ -110,7 +110,19 @@ TEST(MemoryBus, FirstAccessAfterAnInstruction_WaitsForTheCore) {
   std::array<std::uint8_t, 4> four{};
   ASSERT_TRUE(opcodes.write_registers(0xF1, four).ok());
   ASSERT_TRUE(opcodes.write_instruction(byte).ok());
-  EXPECT_EQ(port.accesses, "W0F4 00001100/2 W0F0 00000000/E W0F4 00000000/1 R114 W0F4 00000011/1 ");
+  EXPECT_EQ(port.accesses,
+            "R114 W0F4 00001100/2 W0F0 00000000/E W0F4 00000000/1 R114 W0F4 00000011/1 ");
+}
+
+TEST(MemoryBus, StatusAfterSvalidIsCleared_WaitsForTheCore) {
+  Port port;
+  mb4::MemoryBus<Port> bus(port);
+  mb4::Opcodes<mb4::MemoryBus<Port>> opcodes(bus);
+  std::array<std::uint8_t, 1> byte{0xFD};
+  ASSERT_TRUE(opcodes.write_registers(0xF1, byte).ok());
+  ASSERT_TRUE(opcodes.write_registers(0xE6, byte).ok());
+  ASSERT_TRUE(opcodes.read_status(byte).ok());
+  EXPECT_EQ(port.accesses, "W0F0 0000FD00/2 W0E4 00FD0000/4 R114 R0F0 ");
 }
 
 // Data are in the memory when they are read, not only when the status tells of them.
@@ -123,10 +135,10 @@ TEST(MemoryBus, DataAfterAStatus_WaitForTheCore) {
   ASSERT_TRUE(opcodes.read_status(byte).ok());
   ASSERT_TRUE(opcodes.read_registers(0xC0, byte).ok());
   EXPECT_EQ(port.accesses, "R0F0 R0F0 R0C0 ");
-  for (const std::uint8_t address : {0x00, 0x3F, 0x80, 0xBF}) {
+  for (const unsigned address : {0x00U, 0x3FU, 0x80U, 0xBFU}) {
     ASSERT_TRUE(opcodes.read_status(byte).ok());
     port.accesses.clear();
-    ASSERT_TRUE(opcodes.read_registers(address, byte).ok());
+    ASSERT_TRUE(opcodes.read_registers(static_cast<std::uint8_t>(address), byte).ok());
     EXPECT_EQ(port.accesses.substr(0, 5), "R114 ");
     port.accesses.clear();
     ASSERT_TRUE(opcodes.read_registers0(byte).ok());

@@ -22,11 +22,11 @@ namespace mb4 {
 //
 // * Bytes of a frame that share a word are one access. 0xF4 and the bytes behind it act with 0xF4
 //   last, whatever their order on SPI.
-// * A frame on SPI gives the chip time: to act on a write to 0xF4 before the next frame, and to
-//   bring data into its memory between a status that tells of them and their read. Words are
-//   faster. So the first access after such a write, and the first one to SCDATA or RDATA after a
-//   read of the status, wait for the core: they read TIME_LOW before, which takes about 20 clocks
-//   of the core and replaces the copy in TIME_HIGH.
+// * A frame on SPI gives the chip time to act on a write, and to bring data into its memory behind
+//   a status that tells of them. Words are faster. So some accesses wait for the core: they read
+//   TIME_LOW before, which takes about 20 clocks of the core and replaces the copy in TIME_HIGH.
+//   They are the first one after a write to 0xF4, the first read after a write to SVALID, and the
+//   first one to SCDATA or RDATA, or write to 0xF4, after a read of the status.
 // * transfer() returns false when an access has failed. The first bytes of a write may have taken
 //   effect.
 template <typename Port>
@@ -50,7 +50,7 @@ class MemoryBus {
     for (std::size_t i = frame.first; i < tx.size();) {
       const std::uint8_t word = address & 0xFCU;
       std::uint32_t value = 0;
-      if (!settle(word) || (frame.reads && !port_->read(word, value))) {
+      if (!settle(word, frame.reads) || (frame.reads && !port_->read(word, value))) {
         return false;
       }
       std::uint8_t strobes = 0;
@@ -71,6 +71,8 @@ class MemoryBus {
       if (!frame.reads) {
         if (word == regs::kAddrInstr && (strobes & 1U) != 0) {
           wait_ = Wait::kAlways;
+        } else if (word == regs::kAddrStatus0) {
+          wait_ = Wait::kBeforeRead;
         }
         if (!port_->write(word, value, strobes)) {
           return false;
@@ -82,13 +84,16 @@ class MemoryBus {
 
  private:
   // What the next access has to wait for.
-  enum class Wait : std::uint8_t { kNever, kBeforeData, kAlways };
+  enum class Wait : std::uint8_t { kNever, kBeforeData, kBeforeRead, kAlways };
 
   // After it the core has acted on all that came before the access to `word`.
-  bool settle(std::uint8_t word) {
+  bool settle(std::uint8_t word, bool reads) {
     constexpr unsigned kNoData = 0x40;  // of an address: neither SCDATA nor RDATA
     std::uint32_t time = 0;
-    if (wait_ == Wait::kNever || (wait_ == Wait::kBeforeData && (word & kNoData) != 0)) {
+    const bool instructs = !reads && word == regs::kAddrInstr;
+    if (wait_ == Wait::kNever ||
+        (wait_ == Wait::kBeforeData && (word & kNoData) != 0 && !instructs) ||
+        (wait_ == Wait::kBeforeRead && !reads)) {
       return true;
     }
     if (!port_->read(page::kAddrTimeLow, time)) {

@@ -15,6 +15,7 @@
 #include "Vmb4_wb_pipelined.h"
 #include "mb4_page_regs.hpp"
 #include "tests/block/mb4/word_bus_bench.hpp"
+#include "tests/support/bits.hpp"
 // This project does not write Verilator's own header, so its warnings do not count.
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wpedantic"
@@ -324,8 +325,9 @@ TYPED_TEST(WordBus, Interrupts_FollowTheirEvents) {
 
 // Decision 45: the core takes 0xF4 when it has taken the force bits of the same word.
 TEST(WordBusOrder, InstructionWithForceBits_ActsAfterThem) {
+  const std::uint64_t phases = mb4test::number_from("MB4_WORD_PHASES", 23);
   for (const Clocks clocks : kClocks) {
-    for (std::uint64_t phase = 1; phase < clocks.core; phase += clocks.core / 23) {
+    for (std::uint64_t phase = 1; phase < clocks.core; phase += clocks.core / phases) {
       WordBusBench<Vmb4_axil> bus(clocks.bus, clocks.core, phase);
       bus.configure();
       const auto* root = bus.model->rootp;
