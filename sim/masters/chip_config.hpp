@@ -16,6 +16,8 @@ struct ChipConfig {
   std::uint64_t f_osc_hz = 20'000'000;  // internal oscillator
   // Port quirks_i of the chip; the package of the master's RTL names the bits.
   unsigned quirks = 0;
+  // What a smaller chip has, in bits of the master; 0 = all of it.
+  std::uint32_t features = 0;
   TableSource source;
 
   // The frequency that the chip is meant to run from: pin CLK if it is connected, else the

@@ -36,6 +36,8 @@ struct Master {
   std::int64_t min_osc_hz;
   std::int64_t max_osc_hz;
   unsigned quirks = 0;  // ChipConfig::quirks without [chip.quirks]
+  // Reads the keys of [chip] that other masters do not have. Null: none.
+  void (*read_chip)(TomlReader& reader, ChipConfig& chip) = nullptr;
   // Reads [chip.quirks].
   void (*read_quirks)(TomlReader& reader, ChipConfig& chip);
   // Reads the keys of [host] but `interface`, which is known.

@@ -6,6 +6,7 @@
 # A page has no use for them, and they would take half of the time to build.
 set(MB4_TRACE OFF)
 set(MB4_AXI OFF)
+set(MB4_PRESETS "")
 
 add_compile_options(-fwasm-exceptions)
 add_link_options(-fwasm-exceptions)

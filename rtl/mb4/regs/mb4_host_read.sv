@@ -11,8 +11,8 @@
 // reaches MISO, or 23 ns before the data bus must be stable. The same edge takes data and SVALID of
 // both banks. The choice between the banks comes after the flops, so all bits of a byte are of one
 // bank. CDSSEL is chosen before its flop, because it is the only bit of its byte that has banks.
-// A core that does not have all features tells it at 0x7F, and memories that it does not have read 0
-// (decision 44).
+// A core that does not have all features tells it at 0x7F, and memories that it does not have read
+// 0 (decision 44).
 // Misuse: reserved addresses read 0 (decision 13).
 // Datasheet: pages 21, 22, 34..36, Tables 6, 41, 42, 54..67.
 
