@@ -69,7 +69,8 @@ module mb4_host_read #(
   logic       ready_q;
 
   assign rd_addr     = host_i.rd_addr;
-  assign lo_sel_d    = rd_addr[7:5] == mb4_regs_pkg::ADDR_SCDATA[7:5] && PRESENT[{1'b0, rd_addr[4:3]}];
+  assign lo_sel_d    = rd_addr[7:5] == mb4_regs_pkg::ADDR_SCDATA[7:5] &&
+                       PRESENT[{1'b0, rd_addr[4:3]}];
   assign hi_sel_d    = rd_addr[7:5] == mb4_regs_pkg::ADDR_SCDATA[7:5] + 3'd1 &&
                        PRESENT[{1'b1, rd_addr[4:3]}];
   assign rdata_sel_d = rd_addr[7:6] == mb4_regs_pkg::ADDR_RDATA[7:6] && CONTROL;
