@@ -72,8 +72,8 @@ module mb4_axil #(
   input  logic [mb4_pkg::QUIRKS_W-1:0] quirks_i
 );
 
-  localparam logic [31:0] FEATURES = mb4_pkg::features(Lines, Slaves, Banks, Force, Gray, BissB, Ssi,
-                                                       Mo, Control, FreeCrc);
+  localparam logic [31:0] FEATURES =
+      mb4_pkg::features(Lines, Slaves, Banks, Force, Gray, BissB, Ssi, Mo, Control, FreeCrc);
 
   logic        rst_n;
   logic        word_req, word_write, word_ready, word_error;

@@ -51,8 +51,8 @@ module mb4_core #(
   input  logic [mb4_pkg::QUIRKS_W-1:0] quirks_i
 );
 
-  localparam logic [31:0] FEATURES = mb4_pkg::features(Lines, Slaves, Banks, Force, Gray, BissB, Ssi,
-                                                       Mo, Control, FreeCrc);
+  localparam logic [31:0] FEATURES =
+      mb4_pkg::features(Lines, Slaves, Banks, Force, Gray, BissB, Ssi, Mo, Control, FreeCrc);
 
   mb4_pkg::host_t host;
   logic [7:0] rd_data;

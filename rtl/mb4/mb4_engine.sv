@@ -16,8 +16,8 @@
 // stand still while a reset ends, and synchronised to the core. por_ni resets MA and its time base
 // at power-on. With rst_ni alone MA first ends its present level.
 //
-// What the parameters leave out costs nothing and behaves as decision 44 rules. Without line 2 SL2 is
-// not looked at, and register 0xF8 shows it as 0.
+// What the parameters leave out costs nothing and behaves as decision 44 rules. Without line 2 SL2
+// is not looked at, and register 0xF8 shows it as 0.
 //
 // Misuse: wr_clk_i and rd_clk_i may be one clock. If they are two clocks, one must stand still
 // while the other has edges; otherwise the data of a read are undefined.
@@ -26,7 +26,7 @@
 module mb4_engine #(
   parameter bit Port2 = 1'b0,    // second read port: SCDATA5..8
   parameter bit Tap   = 1'b0,    // for bus tops: tap_o, and 0xF4 acts later (decision 45)
-  parameter logic [1:0] SlCells = biss_pkg::SL_FLOPS,  // SL: flops or DDR cells (biss_sl_capture)
+  parameter logic [1:0] SlCells = biss_pkg::SL_FLOPS, // SL: flops or DDR cells (biss_sl_capture)
   // Features (docs/integration.md, "Features"): a preset, and what differs from it
   parameter logic [31:0] Features = mb4_page_regs_pkg::FEATURES_FULL,
   parameter int unsigned Lines   = Features[mb4_page_regs_pkg::TWO_LINES_LSB] ? 2 : 1,
@@ -77,8 +77,8 @@ module mb4_engine #(
   input  logic [mb4_pkg::QUIRKS_W-1:0] quirks_i
 );
 
-  localparam logic [31:0] FEATURES = mb4_pkg::features(Lines, Slaves, Banks, Force, Gray, BissB, Ssi,
-                                                       Mo, Control, FreeCrc);
+  localparam logic [31:0] FEATURES =
+      mb4_pkg::features(Lines, Slaves, Banks, Force, Gray, BissB, Ssi, Mo, Control, FreeCrc);
 
 `ifndef __ICARUS__  // Icarus 11 knows no $error here
   if (FEATURES[mb4_page_regs_pkg::SLAVES_LSB +: 4] == 4'd0) begin : gen_range

@@ -3,8 +3,8 @@
 //
 // The lines with their word lists, and the time base that they share: one frame start, and the
 // same phase of MA on both. Each line has one list for the words on SL and one for the words on MO;
-// the MO list also counts the bits of the frame. Without MO, and with few enough words, the list for
-// SL counts them, and there is no other one.
+// the MO list also counts the bits of the frame. Without MO, and with few enough words, the list
+// for SL counts them, and there is no other one.
 //
 // Clock domain: core. Latency, misuse and datasheet sections: biss_timebase, mb4_word_list and
 // biss_line. With SLAVELOC5 = 1 line 2 has the data channels 5..8, otherwise line 1 has all eight.
@@ -70,6 +70,7 @@ module mb4_lines #(
   // The walk of a list takes a clock for each word. The first word of SSI begins earlier than that
   // of BiSS.
   localparam bit          ONE_LIST = !MO && (SLAVES == 4'd1 || (!SSI && SLAVES <= 4'd4));
+  localparam int unsigned NUM_SLAVES = 32'(SLAVES);
   localparam int unsigned LINES    = TWO_LINES ? 2 : 1;
   localparam int unsigned LISTS    = ONE_LIST ? 2 : 4;
   localparam int unsigned SUM      = ONE_LIST ? 0 : 2;  // list of line 1 that counts the bits
@@ -148,7 +149,7 @@ module mb4_lines #(
       .Mo(MO),
       .FreeCrc(Features[mb4_page_regs_pkg::FREE_CRC_LSB]),
       .Gray(Features[mb4_page_regs_pkg::GRAY_LSB]),
-      .Slaves(32'(SLAVES))
+      .Slaves(NUM_SLAVES)
     ) u_line (
       .clk_i,
       .rst_ni,

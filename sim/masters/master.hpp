@@ -35,9 +35,9 @@ struct Master {
   std::int64_t max_clk_hz;
   std::int64_t min_osc_hz;
   std::int64_t max_osc_hz;
-  // Values of `features` in [chip]; the first is the default. Without any there is no such key.
-  std::span<const std::string_view> features = {};
   unsigned quirks = 0;  // ChipConfig::quirks without [chip.quirks]
+  // Reads the keys of [chip] that other masters do not have. Null: none.
+  void (*read_chip)(TomlReader& reader, ChipConfig& chip) = nullptr;
   // Reads [chip.quirks]; `chip` has the keys of [chip].
   void (*read_quirks)(TomlReader& reader, ChipConfig& chip);
   // Reads the keys of [host] but `interface`, which is known.

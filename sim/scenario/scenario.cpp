@@ -41,9 +41,7 @@ ChipConfig read_chip(const toml::table& table, TomlFile& file, const Master& mas
   if (const auto hz = reader.integer("f_osc_hz", master.min_osc_hz, master.max_osc_hz)) {
     chip.f_osc_hz = static_cast<std::uint64_t>(*hz);
   }
-  if (!master.features.empty()) {
-    chip.features = static_cast<unsigned>(reader.choice("features", master.features).value_or(0));
-  }
+  if (master.read_chip != nullptr) master.read_chip(reader, chip);
   if (const auto* quirks = reader.table("quirks")) {
     TomlReader quirks_reader(*quirks, file);
     master.read_quirks(quirks_reader, chip);

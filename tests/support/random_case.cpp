@@ -26,6 +26,7 @@ constexpr const char* kProtocolNames[] = {"biss-b", "biss-c", "ssi"};
 struct LinePlan {
   Protocol protocol = Protocol::kBissC;
   bool bus = false;        // MO is wired
+  bool free_crc = true;    // the core has every CRC
   bool actuators = false;  // some slaves may be actuators
 };
 
@@ -37,6 +38,8 @@ Sensor make_sensor(Random& random, RandomCase& result, const LinePlan& plan, uns
   const unsigned codes[] = {0x03, 0x04, 0x05, 0x06, 0x06, 0x07, 0x08, 0x10, 0x00};
   unsigned c1 = codes[random.below(9)];
   if (random.one_in(4)) c1 = 0x80 | random.below(128);
+  const unsigned few[] = {0x00, 0x06, 0x10, 0x80 | 0x21};
+  if (!plan.free_crc) c1 = few[random.below(4)];
   sensor.crc = mb4test::crc_choice(static_cast<std::uint8_t>(c1));
   if (sensor.crc.width != 0 && random.one_in(2)) {
     sensor.start = static_cast<std::uint16_t>(random.word());
@@ -201,7 +204,7 @@ mb4test::Lines RandomCase::frame(std::uint64_t frame) const {
   return result;
 }
 
-RandomCase make_case(Random& random, bool all_protocols) {
+RandomCase make_case(Random& random, bool all_protocols, const CoreLimits& limits) {
   RandomCase result;
   mb4test::Registers& registers = result.registers;
   registers.slaveloc5 = random.one_in(2);
@@ -212,14 +215,19 @@ RandomCase make_case(Random& random, bool all_protocols) {
                                      : random.below(6);
   result.f_clk_hz = random.one_in(2) ? 20'000'000 : random.one_in(2) ? 25'000'000 : 10'000'000;
   // With SLAVELOC5 = 1 sometimes one of the two lines is not used although slaves hang on it.
-  const unsigned unused = registers.slaveloc5 && random.one_in(4) ? 1 + random.below(2) : 0;
-  result.used = {unused != 1, registers.slaveloc5 && unused != 2};
+  const unsigned lines = registers.slaveloc5 ? limits.lines : 1;
+  const unsigned unused = lines == 2 && random.one_in(4) ? 1 + random.below(2) : 0;
+  result.used = {unused != 1, lines == 2 && unused != 2};
   result.chsel = static_cast<std::uint8_t>(random.below(4));
-  const std::array<LinePlan, 2> plans = make_plans(random, result, all_protocols);
-  std::string text =
-      "[chip]\nf_clk_hz = " + std::to_string(result.f_clk_hz) + "\n[host]\nsclk_hz = 20_000_000\n";
-  for (unsigned line = 0; line < (registers.slaveloc5 ? 2U : 1U); ++line) {
-    const unsigned room = registers.slaveloc5 ? 4 : 8;
+  std::array<LinePlan, 2> plans = make_plans(random, result, all_protocols);
+  for (LinePlan& plan : plans) plan.free_crc = limits.free_crc;
+  const unsigned mask1 = (1U << limits.slaves) - 1;
+  result.channels = static_cast<std::uint8_t>(
+      limits.lines == 2 && limits.slaves < 8 ? mask1 | mask1 << 4U : mask1);
+  std::string text = "[chip]\nf_clk_hz = " + std::to_string(result.f_clk_hz) + "\nfeatures = \"" +
+                     limits.features + "\"\n[host]\nsclk_hz = 20_000_000\n";
+  for (unsigned line = 0; line < lines; ++line) {
+    const unsigned room = std::min(registers.slaveloc5 ? 4U : 8U, limits.slaves);
     unsigned mask = 0;
     while (mask == 0) mask = random.below(1U << room);
     // One slave is the usual case.

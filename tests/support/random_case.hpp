@@ -55,6 +55,7 @@ struct RandomCase {
   std::uint8_t mo_busy = 0;
   unsigned freqs = 0;
   std::uint64_t f_clk_hz = 0;
+  std::uint8_t channels = 0xFF;  // data channels that the core has
   WordScenario scenario;
 
   // Bits of both lines in frame number `frame` (from 0), of BiSS C with CDS first; slots of
@@ -78,8 +79,16 @@ class Random {
   std::mt19937_64 engine_;
 };
 
+// What a smaller core can do (decision 44).
+struct CoreLimits {
+  std::string features = "full";  // [chip] features
+  unsigned lines = 2;
+  unsigned slaves = 8;  // data channels of a line
+  bool free_crc = true;
+};
+
 // BiSS C sensors only, or all protocols, MO, actuators, and two lines that differ.
-RandomCase make_case(Random& random, bool all_protocols);
+RandomCase make_case(Random& random, bool all_protocols, const CoreLimits& limits = {});
 
 }  // namespace mb4test
 

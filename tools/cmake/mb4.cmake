@@ -119,6 +119,8 @@ endfunction()
 
 set(MB4_TRACE ON)  # the simulator can write waveform files
 set(MB4_AXI ON)    # the simulator has what is on AXI or Wishbone
+# Chips with fewer features that the simulator has beside the full one: drive, single, reader.
+set(MB4_PRESETS single CACHE STRING "Smaller chips of the simulator")
 if(EMSCRIPTEN)
   include(${CMAKE_CURRENT_LIST_DIR}/emscripten.cmake)
 endif()

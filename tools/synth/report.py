@@ -36,8 +36,9 @@ def files():
     return project.rtl_files() + [HERE / "tops" / "mb4_parallel.sv"]
 
 
-def synthesise(command, top, folder, extra):
-    run(yosys.read(files()) + [f"{command} -top {top} {extra}", "check -assert",
+def synthesise(command, top, folder, extra, features=None):
+    chosen = [] if features is None else [f"chparam -set Features {features} {top}"]
+    run(yosys.read(files()) + chosen + [f"{command} -top {top} {extra}", "check -assert",
                                "tee -q -o stat.json stat -json"], folder)
     return json.loads((folder / "stat.json").read_text(encoding="utf-8"))
 
@@ -88,8 +89,8 @@ def breakdown(folder, depth=3):
     return sorted(((name, *row) for name, row in rows.items()), key=lambda r: -r[1])
 
 
-def ice40(top, folder, seeds):
-    stat = synthesise("synth_ice40", top, folder, "-json top.json")
+def ice40(top, folder, seeds, features=None):
+    stat = synthesise("synth_ice40", top, folder, "-json top.json", features)
     cells = stat["design"]["num_cells_by_type"]
     area = (cells.get("SB_LUT4", 0), count(cells, "^SB_DFF"), count(cells, "^SB_RAM40"),
             cells.get("SB_CARRY", 0))
@@ -106,6 +107,20 @@ def mhz(runs, kind):
 def version(command):
     done = subprocess.run(command, capture_output=True, text=True, check=False)
     return (done.stdout or done.stderr).splitlines()[0]
+
+
+def presets(folder):
+    """The part of the page about cores with fewer features."""
+    lines = ["## Presets", "",
+             "`mb4_core` with fewer features ([integration](integration.md#features)) on iCE40.", "",
+             "| preset | LUT4 | flops | block RAM | HX8K clk / MHz | HX8K host clock | "
+             "UP5K clk / MHz | UP5K host clock |", "|---|---|---|---|---|---|---|---|"]
+    for name, features in project.presets().items():
+        (luts, flops, rams, _), fmax = ice40("mb4_core", folder / "presets" / name, SEEDS, features)
+        cells = [mhz(fmax[d], k) for d in ("HX8K", "UP5K") for k in ("core", "host")]
+        lines.append(f"| {name} | {luts} | {flops} | {rams} | " + " | ".join(cells) + " |")
+        print(lines[-1], flush=True)
+    return lines
 
 
 def page(folder):
@@ -126,7 +141,7 @@ def page(folder):
         cells = [mhz(fmax[d], k) for d in ("HX8K", "UP5K") for k in ("core", "host")]
         lines.append(f"| `{top}`, {what} | {luts} | {flops} | {rams} | " + " | ".join(cells) + " |")
         print(lines[-1], flush=True)
-    lines += ["", "HX8K: 7680 LUT4, 32 block RAMs of 4 kbit; UP5K: 5280 and 30.", "",
+    lines += ["", "HX8K: 7680 LUT4, 32 block RAMs of 4 kbit; UP5K: 5280 and 30.", "", *presets(folder), "",
               "## ECP5 and Xilinx 7, synthesis", "",
               "| top | family | LUT | flops | RAM blocks | carry |", "|---|---|---|---|---|---|"]
     for top in TOPS:

@@ -171,8 +171,11 @@ def module_ports(path, packages, parameters=None):
     for part in split_commas(header.group(2) or ""):
         words = part.strip()
         local = words.startswith("localparam")
-        scope.constant(re.sub(r"^(parameter|localparam)\b", "", words), "",
-                       None if local else parameters)
+        try:
+            scope.constant(re.sub(r"^(parameter|localparam)\b", "", words), "",
+                           None if local else parameters)
+        except WidthError:
+            pass  # a port whose width needs this one is an error
     ports = {}
     for part in split_commas(header.group(3)):
         port = re.fullmatch(r"\s*(input|output|inout)\b(.*?)\b(\w+)\s*", part, re.S)

@@ -10,6 +10,7 @@
 #include "mb4/bus.hpp"
 #include "mb4/command.hpp"
 #include "mb4/config.hpp"
+#include "mb4/config/features.hpp"
 #include "mb4/control.hpp"
 #include "mb4/control_steps.hpp"
 #include "mb4/crc.hpp"

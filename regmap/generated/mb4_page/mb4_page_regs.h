@@ -38,7 +38,7 @@
 #define MB4_PAGE_SNAPSHOT_STRIDE 24U
 #define MB4_PAGE_SNAPSHOT_COUNT 8U
 #define MB4_PAGE_NUM_SNAPSHOTS 8U /* Data channels */
-#define MB4_PAGE_FEATURES_BYTE 127U /* Address of the byte that tells FEATURES(6:0) in a smaller core */
+#define MB4_PAGE_FEATURES_BYTE 127U /* Address of FEATURES(6:0), smaller cores */
 #define MB4_PAGE_FEATURES_FULL 33791U /* FEATURES of the preset full */
 #define MB4_PAGE_FEATURES_DRIVE 9031U /* FEATURES of the preset drive */
 #define MB4_PAGE_FEATURES_SINGLE 4869U /* FEATURES of the preset single */

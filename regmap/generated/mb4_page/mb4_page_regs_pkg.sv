@@ -37,7 +37,7 @@ package mb4_page_regs_pkg;
   localparam logic [11:0] SNAPSHOT_STRIDE = 12'h018;
   localparam logic [11:0] SNAPSHOT_COUNT = 12'h008;
   localparam logic [31:0] NUM_SNAPSHOTS = 32'd8;  // Data channels
-  localparam logic [31:0] FEATURES_BYTE = 32'd127;  // Address of the byte that tells FEATURES(6:0) in a smaller core
+  localparam logic [31:0] FEATURES_BYTE = 32'd127;  // Address of FEATURES(6:0), smaller cores
   localparam logic [31:0] FEATURES_FULL = 32'd33791;  // FEATURES of the preset full
   localparam logic [31:0] FEATURES_DRIVE = 32'd9031;  // FEATURES of the preset drive
   localparam logic [31:0] FEATURES_SINGLE = 32'd4869;  // FEATURES of the preset single

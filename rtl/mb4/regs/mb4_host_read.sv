@@ -11,8 +11,8 @@
 // reaches MISO, or 23 ns before the data bus must be stable. The same edge takes data and SVALID of
 // both banks. The choice between the banks comes after the flops, so all bits of a byte are of one
 // bank. CDSSEL is chosen before its flop, because it is the only bit of its byte that has banks.
-// A core that does not have all features tells it at 0x7F, and memories that it does not have read 0
-// (decision 44).
+// A core that does not have all features tells it at 0x7F, and memories that it does not have read
+// 0 (decision 44).
 // Misuse: reserved addresses read 0 (decision 13).
 // Datasheet: pages 21, 22, 34..36, Tables 6, 41, 42, 54..67.
 
@@ -69,7 +69,8 @@ module mb4_host_read #(
   logic       ready_q;
 
   assign rd_addr     = host_i.rd_addr;
-  assign lo_sel_d    = rd_addr[7:5] == mb4_regs_pkg::ADDR_SCDATA[7:5] && PRESENT[{1'b0, rd_addr[4:3]}];
+  assign lo_sel_d    = rd_addr[7:5] == mb4_regs_pkg::ADDR_SCDATA[7:5] &&
+                       PRESENT[{1'b0, rd_addr[4:3]}];
   assign hi_sel_d    = rd_addr[7:5] == mb4_regs_pkg::ADDR_SCDATA[7:5] + 3'd1 &&
                        PRESENT[{1'b1, rd_addr[4:3]}];
   assign rdata_sel_d = rd_addr[7:6] == mb4_regs_pkg::ADDR_RDATA[7:6] && CONTROL;

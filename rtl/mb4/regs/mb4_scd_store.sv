@@ -7,8 +7,8 @@
 // otherwise line 1 fills both. The line delay that INIT measures goes to byte 0 of the half of its
 // line, into the bank that the host reads (decision 16).
 //
-// Features may leave out data channels: a half without any is no memory. Two lines with at most four
-// data channels each have one half each. With one bank SWBANK splits no word.
+// Features may leave out data channels: a half without any is no memory. Two lines with at most
+// four data channels each have one half each. With one bank SWBANK splits no word.
 //
 // SWBANK may change the bank while a word is being received. Each bank then has a part of the word,
 // and the word is not valid (decision 34). Bytes of the clock of bank_i.swap still go to the old

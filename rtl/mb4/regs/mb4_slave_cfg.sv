@@ -102,7 +102,8 @@ module mb4_slave_cfg #(
   always_ff @(posedge rd_clk_i or negedge rst_ni) begin
     if (!rst_ni) sel_q <= '0;
     else if (host_i.rd_en) begin
-      sel_q <= {4{rows_q[host_i.rd_addr[4:2]] && Channels[host_i.rd_addr[4:2]]}} & (4'b0001 << host_i.rd_addr[1:0]);
+      sel_q <= {4{rows_q[host_i.rd_addr[4:2]] && Channels[host_i.rd_addr[4:2]]}} &
+               (4'b0001 << host_i.rd_addr[1:0]);
     end
   end
 

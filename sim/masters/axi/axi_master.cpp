@@ -29,6 +29,10 @@ constexpr unsigned kDefaultSwitches = 1;
 // In the order of kAxiDocument, kAxiFull.
 constexpr std::string_view kFeatures[] = {"document", "full"};
 
+void read_chip(TomlReader& reader, ChipConfig& chip) {
+  chip.features = static_cast<std::uint32_t>(reader.choice("features", kFeatures).value_or(0));
+}
+
 void read_quirks(TomlReader& reader, ChipConfig& chip) {
   for (const auto& [name, bit] : kSwitches) {
     if (const auto on = reader.boolean(name)) {
@@ -68,8 +72,8 @@ const Master kAxiMaster{.type = "axi",
                         .max_clk_hz = kMaxClkHz,
                         .min_osc_hz = 0,
                         .max_osc_hz = 0,
-                        .features = kFeatures,
                         .quirks = kDefaultSwitches,
+                        .read_chip = read_chip,
                         .read_quirks = read_quirks,
                         .read_host = read_host,
                         .pin_by_name = axi_pin_by_name,

@@ -4,6 +4,8 @@
 
 #include <utility>
 
+#include "sim/core/trace_error.hpp"
+#include "sim/masters/mb4/model/preset_chips.hpp"
 #include "sim/masters/mb4/model/watched_chip.hpp"
 
 namespace mb4::sim {
@@ -14,6 +16,12 @@ constexpr Time kResetLow = 500 * kPsPerNs;
 constexpr std::size_t index_of(Pin pin) { return static_cast<std::size_t>(pin); }
 
 std::unique_ptr<ChipModel> make_chip(const MasterSetup& setup) {
+  if (setup.chip.features != 0) {
+    if (setup.trace != nullptr) {
+      throw TraceError(setup.trace->path + ": only the full chip writes a waveform");
+    }
+    return make_preset_chip(setup.chip, setup.seed);
+  }
   if (setup.trace != nullptr) return make_traced_chip(setup.chip, setup.seed, *setup.trace);
   return setup.plain ? make_plain_chip(setup.chip, setup.seed)
                      : make_fast_chip(setup.chip, setup.seed);

@@ -6,12 +6,15 @@
 #include <iterator>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <utility>
+#include <vector>
 
 #include "sim/core/toml_reader.hpp"
 #include "sim/hosts/host_keys.hpp"
 #include "sim/masters/mb4/live_mb4.hpp"
 #include "sim/masters/mb4/ma_frequency.hpp"
+#include "sim/masters/mb4/model/preset_chips.hpp"
 #include "sim/masters/mb4/pins.hpp"
 #include "sim/masters/mb4/wave_groups.hpp"
 #include "sim/masters/mb4/words/live_words.hpp"
@@ -38,6 +41,19 @@ constexpr std::pair<const char*, unsigned> kQuirkBits[] = {{"IDA_TEST_INVERT", 0
                                                            {"AGS_CLEARED_ON_ERROR", 3}};
 constexpr unsigned kQuirkRevisionBit = 4;
 constexpr std::pair<std::int64_t, unsigned> kRevisions[] = {{0x20, 0}, {0x10, 1}, {0x11, 2}};
+
+void read_chip(TomlReader& reader, ChipConfig& chip) {
+  std::vector<std::string_view> names;
+  for (const ChipPreset& each : chip_presets()) names.push_back(each.name);
+  const auto found = reader.choice("features", names);
+  if (!found) return;
+  const ChipPreset& preset = chip_presets()[*found];
+  if (!preset.built) {
+    reader.fail("features", "this build has no \"" + std::string(preset.name) +
+                                "\"; the CMake variable MB4_PRESETS names what it has");
+  }
+  chip.features = preset.features;
+}
 
 void read_quirks(TomlReader& reader, ChipConfig& chip) {
   for (const auto& [name, bit] : kQuirkBits) {
@@ -97,6 +113,7 @@ const Master kMb4Master{.type = "ic-mb4",
                         .max_clk_hz = kMaxClkHz,
                         .min_osc_hz = 10'000'000,
                         .max_osc_hz = 25'000'000,
+                        .read_chip = read_chip,
                         .read_quirks = read_quirks,
                         .read_host = read_host,
                         .pin_by_name = pin_by_name,

@@ -43,6 +43,7 @@ class RandomRun {
 
  private:
   void configure();
+  void written(unsigned address, std::uint8_t value);
   void fill_bank();
   void instr_frame(unsigned hold);
   void automatic(RandomCounts::Action action);
