@@ -12,10 +12,9 @@
 
 #include "mb4/config.hpp"
 #include "mb4/cyclic.hpp"
-#include "mb4/detail/actuator.hpp"
+#include "mb4/detail/actuator_write.hpp"
 #include "mb4/detail/chip.hpp"
 #include "mb4/detail/procedures.hpp"
-#include "mb4/detail/single_frame.hpp"
 #include "mb4/frame.hpp"
 #include "mb4/operation.hpp"
 #include "mb4/result.hpp"
@@ -62,7 +61,23 @@ class Automatic {
   // kSingleBank. Touched: kTransport (AGS may be on; call stop() or start() again).
   Result<void> start() {
     const Result<void> allowed = start_allowed(false);
-    return allowed ? run_start() : allowed;
+    if (!allowed) {
+      return allowed;
+    }
+    if (chip_.recover_first) {
+      if (const Result<void> recovered = chip_.recover(); !recovered) {
+        return recovered;
+      }
+    }
+    chip_.started(chip_.clock->now_us());
+    // The next single frame begins with BREAK, because an automatic frame may still run then.
+    chip_.recover_first = true;
+    if (const Result<void> on = chip_.write_instruction(kAgs); !on) {
+      return on;
+    }
+    chip_.automatic = true;
+    chip_.restart = false;
+    return {};
   }
 
   // Begins start() without a transfer: the caller makes the frames of `operation` and calls
@@ -84,33 +99,23 @@ class Automatic {
     if (control_runs()) {
       return Error::kBusy;
     }
-    detail::Procedures::plan_stop(chip_, chip_.own, 0, false);
-    return chip_.run(chip_.own);
-  }
-
-  // Begins stop() without a transfer, as plan_start(): one step of one frame. kBusy (not touched);
-  // operation.result(): kTransport.
-  Result<void> plan_stop(Operation& operation) {
-    const Result<void> allowed =
-        detail::Procedures::possible(operation, control_runs() ? Error::kBusy : Error::kNone);
-    if (allowed) {
-      detail::Procedures::plan_stop(chip_, operation, 0, false);
-    }
-    return allowed;
+    chip_.automatic = false;
+    chip_.restart = false;
+    chip_.recover_first = true;
+    return chip_.write_instruction(0);
   }
 
   // Starts automatic frames again (table 69): BREAK, 100 us for the slaves' timeout, SVALID = 0,
   // AGS = 1. BiSS B adds register_timeout_us. Three transfers. Not for interrupts, because it
-  // waits. Not touched, frames that run go on: kNotConfigured, kBusy, kUnsupported. kTransport:
-  // next() then tries again. With MB4_WITH_COUNTS in `With` it counts.
+  // waits. Errors as of start(), but AGS may be on; next() then tries again. With
+  // MB4_WITH_COUNTS in `With` it counts.
   template <std::uint8_t With = MB4_WITH_ALL>
   Result<void> restart() {
-    const Result<void> allowed = start_allowed(true);
-    if (!allowed) {
-      return allowed;
+    if (control_runs()) {
+      return Error::kBusy;
     }
     prepare_restart<With>();
-    return run_start();
+    return start();
   }
 
   // Begins restart() without a transfer, as plan_start(). Two steps: BREAK; then, after the pause,
@@ -291,16 +296,13 @@ class Automatic {
   // Not touched: kWrongMode (automatic frames do not run), kBusy, kInvalidArgument. kTransport,
   // kNotDetected, kCorrupted as for Device::write_actuator().
   Result<void> write_actuator(std::uint8_t slave, std::uint64_t word) {
-    const Result<void> planned = plan_word(chip_.own, slave, word, actuator_allowed());
-    return planned ? chip_.run(chip_.own) : planned;
-  }
-
-  // Begins write_actuator() without a transfer, as plan_start(): one step of three frames, with
-  // SpiCheck::kFull three steps of one or two. Not touched: kWrongMode, kBusy, kInvalidArgument.
-  // operation.result(): kTransport, kNotDetected, kCorrupted.
-  Result<void> plan_actuator(Operation& operation, std::uint8_t slave, std::uint64_t word) {
-    return plan_word(operation, slave, word,
-                     detail::Procedures::possible(operation, actuator_allowed()));
+    if (!chip_.automatic) {
+      return Error::kWrongMode;
+    }
+    if (control_runs()) {
+      return Error::kBusy;
+    }
+    return detail::ActuatorWrite<Bus, Clock>(chip_).write(slave, word, false);
   }
 
   // Waits for the next new frame, at most frame_timeout_us() plus one frame period, and fetches it
@@ -322,9 +324,8 @@ class Automatic {
         return again;
       }
     }
-    detail::Procedures::plan_wait(chip_, chip_.own);
-    if (const Result<void> waited = chip_.run(chip_.own); !waited) {
-      chip_.restart = waited.error() != Error::kNoData;
+    const Result<void> waited = wait();
+    if (!waited) {
       return waited;
     }
     const Result<void> read = poll(frame);
@@ -334,6 +335,8 @@ class Automatic {
   }
 
  private:
+  static constexpr std::uint8_t kAgs = regs::AGS::encode<1>();
+
   [[gnu::noinline]] Result<void> begin(std::uint8_t slave, CyclicRead& read, bool chain,
                                        std::uint8_t with) {
     read.code_ = MB4_NO_DATA;
@@ -414,18 +417,6 @@ class Automatic {
     return chip_.control.kind != detail::ControlState::Kind::kNone;
   }
 
-  [[nodiscard]] Result<void> actuator_allowed() const {
-    if (!chip_.automatic) {
-      return Error::kWrongMode;
-    }
-    return control_runs() ? Error::kBusy : Error::kNone;
-  }
-  Result<void> plan_word(Operation& operation, std::uint8_t slave, std::uint64_t word,
-                         const Result<void>& allowed) {
-    return allowed ? detail::Procedures::plan_actuator(chip_, operation, slave, word, false)
-                   : allowed;
-  }
-
   // `again`: frames may run.
   [[nodiscard]] Result<void> start_allowed(bool again) const {
     if (!chip_.configured) {
@@ -441,11 +432,6 @@ class Automatic {
                                     : ErrorInfo();
   }
 
-  Result<void> run_start() {
-    detail::Procedures::plan_start(chip_, chip_.own);
-    return chip_.run(chip_.own);
-  }
-
   template <std::uint8_t With>
   void prepare_restart() {
     chip_.automatic = false;
@@ -454,6 +440,32 @@ class Automatic {
     if ((With & MB4_WITH_COUNTS) != 0 && chip_.watch.counts != nullptr) {
       ++chip_.watch.counts->restarts;
     }
+  }
+
+  // Polls until a frame has ended, good or bad.
+  Result<void> wait() {
+    detail::Deadline<Clock> deadline(*chip_.clock, chip_.frame_us + chip_.pitch_us);
+    bool idle = false;
+    for (bool last = false; !last;) {
+      last = deadline.last_poll();
+      Status status;
+      if (const Result<void> look = chip_.look(status); !look) {
+        chip_.restart = true;
+        return look;
+      }
+      idle = status.idle();
+      // A frame that was bad for all slaves shows only in nSCDERR. The BREAK of the restart sets
+      // nSCDERR to 1 again.
+      if ((status.valid_flags() & chip_.sensor_flags) != 0 || status.scd_error()) {
+        return {};
+      }
+    }
+    if (idle && chip_.config.frame_start == FrameStart::kOnPin) {
+      return Error::kNoData;
+    }
+    const Result<void> stopped = chip_.stop_and_diagnose();
+    chip_.restart = true;
+    return stopped;
   }
 
   detail::Chip<Bus, Clock>& chip_;

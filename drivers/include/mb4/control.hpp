@@ -35,10 +35,11 @@ class Control : public ControlSteps<Bus, Clock> {
   using Steps::Steps;
 
   // Reads out.size() (1..128) registers from `address`, in parts of 64; address + size <= 128.
-  // Errors of begin_read(), poll() and take(). ErrorInfo::bytes counts over all parts; on error
-  // `out` holds the registers of the parts before the one that has failed.
+  // Errors of begin_read(), poll() and take(). After kTransport and kNotDetected the call has tried
+  // to send BREAK. ErrorInfo::bytes counts over all parts; on error only that many bytes of `out`
+  // are valid.
   Result<void> read_registers(SlaveAddress slave, std::uint8_t address, Span<std::uint8_t> out) {
-    return in_parts(slave, address, nullptr, out.data(), out.size());
+    return in_parts(slave, address, out, Span<const std::uint8_t>(nullptr, out.size()));
   }
 
   // Writes data.size() (1..128) registers from `address`, in parts of 64; address + size <= 128.
@@ -46,14 +47,11 @@ class Control : public ControlSteps<Bus, Clock> {
   // ErrorInfo::bytes registers are written, and the next one may be.
   Result<void> write_registers(SlaveAddress slave, std::uint8_t address,
                                Span<const std::uint8_t> data) {
-    return in_parts(slave, address, data.data(), nullptr, data.size());
+    return in_parts(slave, address, Span<std::uint8_t>(), data);
   }
 
   // Sends a command and waits for its end. Errors of begin_command() and poll().
-  Result<void> send(const Command& command) {
-    const Result<void> possible = Steps::plan(command);
-    return possible ? Steps::chip_.run(Steps::chip_.own) : possible;
-  }
+  Result<void> send(const Command& command) { return wait(Steps::begin_command(command)); }
 
   // Begins to read out.size() (1..64) registers without a transfer: the caller makes the frames of
   // `operation` and calls Device::finish() until it returns true. `out` must stay until then; it is
@@ -102,9 +100,26 @@ class Control : public ControlSteps<Bus, Clock> {
   }
 
  private:
-  // Writes `size` registers; if `data` is null it reads them into `out`.
-  Result<void> in_parts(SlaveAddress slave, std::uint8_t address, const std::uint8_t* data,
-                        std::uint8_t* out, std::size_t size) {
+  // Waits for the end of what a begin call has begun; `begun` is the result of that call. After an
+  // error nothing runs. The first error is returned, even if BREAK fails after it.
+  Result<void> wait(const Result<void>& begun) {
+    if (!begun && begun.error() != Error::kTransport) {
+      return begun;
+    }
+    Result<bool> ended = begun ? Result<bool>(false) : Result<bool>(begun.failure());
+    while (ended && !*ended) {
+      ended = Steps::poll();
+    }
+    if (Steps::running()) {
+      static_cast<void>(Steps::abort());
+    }
+    return ended ? Result<void>() : Result<void>(ended.failure());
+  }
+
+  // Reads data.size() registers into `out`; if `out` is empty it writes `data`.
+  Result<void> in_parts(SlaveAddress slave, std::uint8_t address, Span<std::uint8_t> out,
+                        Span<const std::uint8_t> data) {
+    const std::size_t size = data.size();
     if (size > kSlaveRegisters || address + size > kSlaveRegisters) {
       return Error::kInvalidArgument;
     }
@@ -113,10 +128,12 @@ class Control : public ControlSteps<Bus, Clock> {
       const std::size_t left = size - done;
       const std::size_t count = left < kMaxRegistersPerAccess ? left : kMaxRegistersPerAccess;
       const std::uint8_t from = static_cast<std::uint8_t>(address + done);
-      Result<void> result = Steps::plan(slave, from, data != nullptr ? data + done : nullptr,
-                                        out != nullptr ? out + done : nullptr, count);
-      if (result) {
-        result = Steps::chip_.run(Steps::chip_.own);
+      Result<void> result =
+          wait(out.empty() ? Steps::begin_write(slave, from,
+                                                Span<const std::uint8_t>(data.data() + done, count))
+                           : Steps::begin_read(slave, from, count));
+      if (result && !out.empty()) {
+        result = Steps::take(Span<std::uint8_t>(out.data() + done, count));
       }
       if (!result) {
         ErrorInfo error = result.info();

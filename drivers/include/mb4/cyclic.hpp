@@ -24,7 +24,8 @@
 namespace mb4 {
 
 namespace detail {
-struct Procedures;
+template <typename Bus, typename Clock>
+class SingleShot;
 }
 
 // The SPI frames of a read in steps.
@@ -39,7 +40,8 @@ class ReadSteps : public Steps {
 
   template <typename Bus, typename Clock>
   friend class Automatic;
-  friend struct detail::Procedures;
+  template <typename Bus, typename Clock>
+  friend class detail::SingleShot;
 
   mb4_cyclic read_{};
   std::uint8_t code_ = MB4_NO_DATA;
@@ -75,13 +77,7 @@ class CyclicRead : public ReadSteps {
   template <typename Bus, typename Clock>
   friend class Automatic;
   template <typename Bus, typename Clock>
-  friend class Device;
-
-  // After a single frame: the result of the one word.
-  Result<Reading> single() const {
-    return code_ != MB4_OK ? Result<Reading>(static_cast<Error>(code_))
-                           : detail::to_result(*read_.words, slot_);
-  }
+  friend class detail::SingleShot;
 
   std::array<std::uint32_t, MB4_PLAN_WORDS(1)> tx_;
   std::array<std::uint32_t, MB4_PLAN_WORDS(1)> rx_;
@@ -89,8 +85,7 @@ class CyclicRead : public ReadSteps {
   mb4_reading reading_{};
 };
 
-// The same for all slaves at once: Automatic::plan() and finish(), or, by a single frame,
-// Device::plan_read_all(). About 450 bytes.
+// The same for all slaves at once: Automatic::plan() and finish(). About 450 bytes.
 class FrameRead : public ReadSteps {
  public:
   FrameRead() { attach(tx_.data(), rx_.data(), slots_.data()); }
@@ -112,6 +107,9 @@ class FrameRead : public ReadSteps {
   [[nodiscard]] bool one_frame() const { return read_.one_frame; }
 
  private:
+  template <typename Bus, typename Clock>
+  friend class detail::SingleShot;
+
   void fill(Frame& frame) const {
     std::array<std::uint8_t, Status::kBytes> bytes{};
     for (std::size_t i = 0; i < bytes.size(); ++i) {
