@@ -154,7 +154,7 @@ typedef uint32_t (*mb4_now_us)(void *context);
 
 /* One chip. The caller provides the memory and does not use its contents. */
 typedef struct {
-  uint64_t opaque[128];
+  uint64_t opaque[100];
 } mb4_device;
 
 /* Call it before every other call on `device`. It makes no transfer. The functions must not be
