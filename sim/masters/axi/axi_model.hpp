@@ -79,9 +79,9 @@ class AxiModel : public MasterModel {
   std::uint64_t beats_dropped_ = 0;
 };
 
-// `channels`: as many as the scenario needs. Of the models that are built (1, 4, 16 channels, each as
-// the document and with all extras) the smallest one that is enough is made. `plain`: each edge is
-// evaluated in the simplest way.
+// `channels`: as many as the scenario needs. Of the models that are built (1, 4, 16 channels, each
+// as the document and with all extras) the smallest one that is enough is made. `plain`: each edge
+// is evaluated in the simplest way.
 std::unique_ptr<AxiModel> make_axi_model(const ChipConfig& chip, unsigned channels,
                                          std::uint64_t seed, bool plain);
 
