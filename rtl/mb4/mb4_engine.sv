@@ -17,7 +17,7 @@
 // at power-on. With rst_ni alone MA first ends its present level.
 //
 // What the parameters leave out costs nothing and behaves as decision 44 rules. Without line 2 SL2
-// is not looked at, and register 0xF8 shows it as 0.
+// is not looked at, and register 0xF8 shows it as 1, as with an open pin.
 //
 // Misuse: wr_clk_i and rd_clk_i may be one clock. If they are two clocks, one must stand still
 // while the other has edges; otherwise the data of a read are undefined.
@@ -260,8 +260,8 @@ module mb4_engine #(
   assign eot_o  = flags.eot;
   // With the DDR cell of an iCE40 no other logic can read the pin.
   assign {status2, status1} = line_status;
-  assign sl_pin = (SlCells == biss_pkg::SL_ICE40 ? {status2.sl, status1.sl} : {sl2_i, sl1_i}) &
-                  {Lines == 2, 1'b1};
+  assign sl_pin = (SlCells == biss_pkg::SL_ICE40 ? {status2.sl, status1.sl} : {sl2_i, sl1_i}) |
+                  {Lines == 1, 1'b0};
   assign status = {flags, ner_i && !ner_low_o, sl_pin};
   assign {data2, data1} = line_data;
   assign frame_starts   = go.start && !go.init && !go.register_access;
