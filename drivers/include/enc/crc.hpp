@@ -48,18 +48,39 @@ class CrcShift {
   std::uint32_t remainder_;
 };
 
+namespace detail {
+
+// Shifts `steps` (0..32) bits of a CRC that stands in the highest bits of the word.
+constexpr std::uint32_t crc_steps(std::uint32_t crc, std::uint32_t polynomial, std::uint8_t steps) {
+  for (; steps > 0; --steps) {
+    crc = (crc >> 31U) != 0 ? crc << 1U ^ polynomial : crc << 1U;
+  }
+  return crc;
+}
+
+}  // namespace detail
+
 // CRC of the low `data_bits` (0..64) bits of `data`. `polynomial` in full, degree 1..16, otherwise
 // the result is 0.
 [[nodiscard]] constexpr std::uint16_t crc(std::uint32_t polynomial, std::uint16_t start,
                                           std::uint64_t data, std::uint8_t data_bits) {
-  if (crc_width_bits(polynomial) == 0) {
+  const std::uint8_t width = crc_width_bits(polynomial);
+  if (width == 0 || width > 16) {
     return 0;
   }
-  CrcShift shift(polynomial, start);
-  for (std::uint8_t bit = data_bits; bit > 0; --bit) {
-    shift.shift(static_cast<unsigned>(data >> (bit - 1)) & 1U);
+  const auto align = static_cast<std::uint8_t>(32U - width);
+  const std::uint32_t high_polynomial = polynomial << align;
+  std::uint32_t crc = std::uint32_t{start} << align;
+  if (data_bits > 32) {
+    const auto bits = static_cast<std::uint8_t>(data_bits - 32U);
+    crc ^= static_cast<std::uint32_t>(data >> 32U) << (32U - bits);
+    crc = detail::crc_steps(crc, high_polynomial, bits);
+    data_bits = 32;
   }
-  return shift.value();
+  if (data_bits > 0) {
+    crc ^= static_cast<std::uint32_t>(data) << (32U - data_bits);
+  }
+  return static_cast<std::uint16_t>(detail::crc_steps(crc, high_polynomial, data_bits) >> align);
 }
 
 }  // namespace enc

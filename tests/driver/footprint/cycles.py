@@ -7,6 +7,8 @@
                                        instructions); CRC: bits, table
   cycles.py TARGET steps INCLUDE_DIR...  the longest plan and finish of all operations in steps
                                        (operation_main.cpp)
+  cycles.py TARGET safety INCLUDE_DIR...  one check of BiSS Safety, a write and a read of a Snapshot
+                                       (safety_main.cpp)
   cycles.py self-test                 the sum can be wrong
 
 The board's own functions are not counted. The cycles are those of the Cortex-M0+ Technical
@@ -126,7 +128,12 @@ def traced(elf, machine, work):
             re.findall(r"\[[0-9a-f]+/([0-9a-f]+)/", (work / "trace").read_text())]
 
 
-def measure_steps(target, includes):
+# {argument: (program, number of functions measured_...())}
+LONGEST = {"steps": ("operation_main.cpp", 4), "safety": ("safety_main.cpp", 3)}
+
+
+def measure_longest(target, what, includes):
+    program, functions_wanted = LONGEST[what]
     machine, optimize, unit = TARGETS[target]
     with tempfile.TemporaryDirectory() as folder:
         work = Path(folder)
@@ -135,12 +142,12 @@ def measure_steps(target, includes):
              "-fno-exceptions", "-fno-rtti", "-fno-threadsafe-statics", "-ffunction-sections",
              *[f"-I{path}" for path in includes], optimize, "-nostartfiles", "--specs=nano.specs",
              "--specs=nosys.specs", "-Wl,--gc-sections", "-T", work / "link.ld",
-             HERE / "operation_main.cpp", "-o", work / "unit.elf"])
+             HERE / program, "-o", work / "unit.elf"])
         code = functions(run(["arm-none-eabi-objdump", "-d", work / "unit.elf"]))
         found = longest(traced(work / "unit.elf", machine, work), code)
-    limit = tomllib.loads((HERE / "budget.toml").read_text())["time"][target]["steps"]
-    if len(found) != 4:
-        sys.exit(f"{sorted(found)}: four functions were to be measured")
+    limit = tomllib.loads((HERE / "budget.toml").read_text())["time"][target][what]
+    if len(found) != functions_wanted:
+        sys.exit(f"{sorted(found)}: {functions_wanted} functions were to be measured")
     result = 0
     for name, (cycles, steps) in sorted(found.items()):
         value = cycles if unit == "cycles" else steps
@@ -156,8 +163,8 @@ def measure(target, crc, includes):
         if not shutil.which(tool):
             print(f"skipped: {tool} is not installed")
             return SKIPPED
-    if crc == "steps":
-        return measure_steps(target, includes)
+    if crc in LONGEST:
+        return measure_longest(target, crc, includes)
     machine, optimize, unit = TARGETS[target]
     flags = [f"-mcpu={target}", "-mthumb", "-std=gnu99", "-ffreestanding", "-ffunction-sections",
              *[f"-I{path}" for path in includes]]
