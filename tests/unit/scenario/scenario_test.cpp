@@ -266,7 +266,7 @@ INSTANTIATE_TEST_SUITE_P(
                     "s.toml:2:12: key 'cycle_ns': 109 is outside 110 to 1000000"},
         BadScenario{"Interface", "[host]\ninterface = \"i2c\"\n",
                     "s.toml:2:13: key 'interface': unknown value 'i2c', expected one of: spi, "
-                    "spi2, intel, motorola"},
+                    "spi2, intel, motorola, axi, wb"},
         BadScenario{"Sclk", "[host]\nsclk_hz = 60_000_000\n",
                     "s.toml:2:11: key 'sclk_hz': 60000000 is outside 1000 to 50000000"},
         BadScenario{"Ma", "[host]\nma_hz = 4_000_000\n",
@@ -372,7 +372,7 @@ INSTANTIATE_TEST_SUITE_P(
         BadScenario{
             "ControlCharacters", "[host]\ninterface = \"\\u001B\\u0000\\u0085\\r\"\n",
             "s.toml:2:13: key 'interface': unknown value '\\x1b\\x00\\x85\\r', expected one "
-            "of: spi, spi2, intel, motorola"},
+            "of: spi, spi2, intel, motorola, axi, wb"},
         BadScenario{"ControlCharactersInKey", "\"a\\n\\u0007\" = 1\n",
                     "s.toml:1:1: key 'a\\n\\x07': unknown key"},
         BadScenario{"NulInFileName",
