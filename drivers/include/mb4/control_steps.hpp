@@ -12,9 +12,8 @@
 #include <cstdint>
 
 #include "mb4/command.hpp"
-#include "mb4/detail/access.hpp"
+#include "mb4/detail/blocking.hpp"
 #include "mb4/detail/chip.hpp"
-#include "mb4/detail/control_checks.hpp"
 #include "mb4/operation.hpp"
 #include "mb4/result.hpp"
 #include "mb4/slave_address.hpp"
@@ -61,27 +60,27 @@ namespace mb4 {
 // first, before anything of the access is written: two transfers and 100 us more, if no automatic
 // frames run.
 template <typename Bus, typename Clock>
-class ControlSteps : protected detail::ControlChecks<Bus, Clock> {
+class ControlSteps {
  public:
-  using detail::ControlChecks<Bus, Clock>::ControlChecks;
+  explicit constexpr ControlSteps(detail::Chip<Bus, Clock>& chip) : chip_(chip) {}
 
   // Begins to read `count` (1..64) registers from `address`; address + count <= 128. `slave`:
   // channel 1 or 2, ID 0..7. Two transfers; three in BiSS B, and two for BREAK.
   Result<void> begin_read(SlaveAddress slave, std::uint8_t address, std::size_t count) {
-    return begin_access(slave, address, nullptr, nullptr, count);
+    return begin_access(slave, address, nullptr, count);
   }
 
   // Begins to write data.size() (1..64) registers from `address`; address + size <= 128. The data
   // is in the chip when the call returns. One transfer more for each eight registers.
   Result<void> begin_write(SlaveAddress slave, std::uint8_t address,
                            Span<const std::uint8_t> data) {
-    return begin_access(slave, address, data.data(), nullptr, data.size());
+    return begin_access(slave, address, data.data(), data.size());
   }
 
   // Begins a command; see Command for the ranges of its members. Three transfers.
   Result<void> begin_command(const Command& command) {
-    const Result<void> possible = plan(command);
-    return possible ? until_poll() : possible;
+    return detail::Blocking::until_poll(
+        chip_, detail::Procedures::plan_command(chip_, chip_.own, command));
   }
 
   // Reads the status once and does the next step of what was begun; it never waits. At most three
@@ -106,17 +105,7 @@ class ControlSteps : protected detail::ControlChecks<Bus, Clock> {
   // register_busy_us, from the begin call on, which counts when all frames needed have run. A
   // caller that polls seldom therefore uses up register_busy_us. After the limit the status is read
   // once more.
-  Result<bool> poll() {
-    Operation& op = chip_.own;
-    if (!running() || chip_.control.owner != &op) {
-      return Error::kWrongMode;
-    }
-    if (detail::Procedures::seen_running(chip_, op, chip_.clock->now_us())) {
-      return false;
-    }
-    const Result<void> done = until_poll();
-    return done ? Result<bool>(!running()) : Result<bool>(done.failure());
-  }
+  Result<bool> poll() { return detail::Blocking::poll_access(chip_); }
 
   // Copies the registers that the last read has fetched: out.size() is 1 up to their number. One
   // transfer for each eight, three with SpiCheck::kFull; the chip is only read.
@@ -124,11 +113,7 @@ class ControlSteps : protected detail::ControlChecks<Bus, Clock> {
   // read, or another access has begun since. kTransport, kNotDetected. kCorrupted: the second
   // reading (SpiCheck::kFull) differs from the first.
   Result<void> take(Span<std::uint8_t> out) {
-    if (out.empty() || out.size() > chip_.control.readable) {
-      return Error::kInvalidArgument;
-    }
-    detail::Procedures::plan_take(chip_, chip_.own, out.data(), out.size());
-    return chip_.run(chip_.own);
+    return detail::Blocking::take(chip_, out.data(), out.size());
   }
 
   // Sends BREAK: the access ends at once. Registers of the slave may be changed already. Automatic
@@ -137,52 +122,18 @@ class ControlSteps : protected detail::ControlChecks<Bus, Clock> {
   Result<void> abort() {
     detail::Procedures::plan_stop(chip_, chip_.own, regs::BREAK::encode<1>(),
                                   chip_.automatic || chip_.restart);
-    return chip_.run(chip_.own);
+    return detail::Blocking::run(chip_, chip_.own);
   }
 
  protected:
-  using Checks = detail::ControlChecks<Bus, Clock>;
-  using Checks::chip_;
-
-  // True while an access or a command that was begun has not ended.
-  [[nodiscard]] bool running() const {
-    return chip_.control.kind != detail::ControlState::Kind::kNone;
-  }
-
-  // `data`: to write; otherwise registers are read, into `out` if that is not null.
-  Result<void> plan(SlaveAddress slave, std::uint8_t address, const std::uint8_t* data,
-                    std::uint8_t* out, std::size_t count) {
-    const Result<void> possible = Checks::check_access(
-        slave, address, count, data != nullptr ? Protocol::kUnused : Protocol::kSsi);
-    if (possible) {
-      detail::Procedures::plan_access(chip_, chip_.own, slave, address, data, out, count);
-    }
-    return possible;
-  }
-  Result<void> plan(const Command& command) {
-    const Result<void> possible = Checks::check_command(command);
-    if (possible) {
-      detail::Procedures::plan_command(chip_, chip_.own, command);
-    }
-    return possible;
-  }
+  detail::Chip<Bus, Clock>& chip_;
 
  private:
   Result<void> begin_access(SlaveAddress slave, std::uint8_t address, const std::uint8_t* data,
-                            std::uint8_t* out, std::size_t count) {
-    const Result<void> possible = plan(slave, address, data, out, count);
-    return possible ? until_poll() : possible;
-  }
-
-  // Makes the steps up to the next look at the status, or to the end. Success: no error yet.
-  Result<void> until_poll() {
-    Operation& op = chip_.own;
-    while (!chip_.step(op)) {
-      if (detail::Procedures::polls(op)) {
-        return {};
-      }
-    }
-    return op.result();
+                            std::size_t count) {
+    return detail::Blocking::until_poll(
+        chip_,
+        detail::Procedures::plan_access(chip_, chip_.own, slave, address, data, nullptr, count));
   }
 };
 

@@ -24,8 +24,10 @@
 namespace mb4 {
 
 namespace detail {
+struct Blocking;
 struct Procedures;
-}
+struct Reads;
+}  // namespace detail
 
 // The SPI frames of a read in steps.
 class ReadSteps : public Steps {
@@ -37,9 +39,9 @@ class ReadSteps : public Steps {
     read_.slots = slots;
   }
 
-  template <typename Bus, typename Clock>
-  friend class Automatic;
+  friend struct detail::Blocking;
   friend struct detail::Procedures;
+  friend struct detail::Reads;
 
   mb4_cyclic read_{};
   std::uint8_t code_ = MB4_NO_DATA;
@@ -72,10 +74,8 @@ class CyclicRead : public ReadSteps {
   }
 
  private:
-  template <typename Bus, typename Clock>
-  friend class Automatic;
-  template <typename Bus, typename Clock>
-  friend class Device;
+  friend struct detail::Blocking;
+  friend struct detail::Reads;
 
   // After a single frame: the result of the one word.
   Result<Reading> single() const {
@@ -118,6 +118,7 @@ class FrameRead : public ReadSteps {
       bytes[i] = read_.status[i];
     }
     frame.status = Status(bytes);
+    frame.one_frame = read_.one_frame;
     for (std::size_t i = 0; i < read_.count; ++i) {
       frame.set(read_.words[i].slave, detail::to_result(read_.words[i], slots_[i]));
     }

@@ -14,12 +14,9 @@
 #include "mb4/bus.hpp"
 #include "mb4/config.hpp"
 #include "mb4/control.hpp"
-#include "mb4/detail/actuator.hpp"
+#include "mb4/detail/blocking.hpp"
 #include "mb4/detail/chip.hpp"
-#include "mb4/detail/configuration.hpp"
-#include "mb4/detail/initialization.hpp"
 #include "mb4/detail/procedures.hpp"
-#include "mb4/detail/single_frame.hpp"
 #include "mb4/error.hpp"
 #include "mb4/fields.hpp"
 #include "mb4/frame.hpp"
@@ -91,11 +88,10 @@ class Device {
   // starts none: call it at start-up or between frames.
   Result<void> configure(const Config& config) {
     const Result<void> valid = validate(config);
-    if (!valid) {
-      return valid;
+    if (valid) {
+      detail::Procedures::plan_configure(chip_, chip_.own, config);
     }
-    detail::Procedures::plan_configure(chip_, chip_.own, config);
-    return chip_.run(chip_.own);
+    return detail::Blocking::run(chip_, valid);
   }
 
   // Begins configure() without a transfer: the caller makes the frames of `operation` and calls
@@ -116,14 +112,7 @@ class Device {
   // registers of control communications are not compared.
   // kNotConfigured (not touched), kTransport. kNotDetected, kVerify: the Device then counts as not
   // configured; call configure() again.
-  Result<void> verify() {
-    if (!chip_.configured) {
-      return Error::kNotConfigured;
-    }
-    Operation operation;  // an access may use chip_.own
-    detail::Procedures::plan_verify(chip_, operation);
-    return chip_.run(operation);
-  }
+  Result<void> verify() { return detail::Blocking::verify(chip_); }
 
   // Begins verify() without a transfer: the caller makes the frames of `operation` and calls
   // finish() until it returns true. Three steps of two frames, as verify(), which may stand beside
@@ -153,7 +142,7 @@ class Device {
   // error, the Device counts as not configured.
   Result<void> reset() {
     detail::Procedures::plan_reset(chip_, chip_.own);
-    return chip_.run(chip_.own);
+    return detail::Blocking::run(chip_, chip_.own);
   }
 
   // Runs INIT (page 33): two pulses at MA in BiSS C. The call waits until the slaves are ready and
@@ -171,14 +160,7 @@ class Device {
   // (BREAK was sent); kLineDelay: the delay is more than 255 quarters of a period of MA;
   // kLineError: SL is stuck low, or in BiSS B no slave has answered; kNoData: nothing was measured,
   // because the chip has no system clock; kCorrupted.
-  Result<LineDelay> initialize() {
-    if (const Result<void> allowed = single_frame_allowed(); !allowed) {
-      return allowed.failure();
-    }
-    detail::Procedures::plan_initialize(chip_, chip_.own);
-    const Result<void> done = chip_.run(chip_.own);
-    return done ? Result<LineDelay>(chip_.own.line_delay()) : Result<LineDelay>(done.failure());
-  }
+  Result<LineDelay> initialize() { return detail::Blocking::initialize(chip_); }
 
   // Begins initialize() without a transfer: the caller makes the frames of `operation` and calls
   // finish() until it returns true; then operation.line_delay(). After a failed read one step
@@ -186,7 +168,8 @@ class Device {
   // not touched. operation.result(): kTransport, kNotDetected, kTimeout, kLineDelay, kLineError,
   // kNoData, kCorrupted as of initialize(); kWrongMode (operation.hpp).
   Result<void> plan_initialize(Operation& operation) {
-    const Result<void> allowed = detail::Procedures::possible(operation, single_frame_allowed());
+    const Result<void> allowed =
+        detail::Procedures::possible(operation, chip_.single_frame_allowed());
     if (allowed) {
       detail::Procedures::plan_initialize(chip_, operation);
     }
@@ -218,16 +201,7 @@ class Device {
   //
   // Sets HOLDBANK and SWBANK to 0, as any single frame does.
   Result<Reading> read_frame(std::uint8_t slave = 1) {
-    if (const Result<void> allowed = single_frame_allowed(); !allowed) {
-      return allowed.failure();
-    }
-    if (!is_in(chip_.sensors, slave)) {
-      return Error::kInvalidArgument;
-    }
-    CyclicRead read;
-    detail::Procedures::plan_frame(chip_, chip_.own, read, chip_.word_of(slave), 1);
-    static_cast<void>(chip_.run(chip_.own));
-    return read.single();
+    return detail::Blocking::read_frame(chip_, slave);
   }
 
   // Reads all enabled slaves with one frame. Transfers as for read_frame(), but 1..n for the data
@@ -237,15 +211,7 @@ class Device {
   // Success means that the frame has ended; frame[slave] holds the result of each slave. Errors of
   // the call concern the whole frame: those of read_frame() except kCrc and kNoData. On error
   // `frame` holds no Reading.
-  Result<void> read_all(Frame& frame) {
-    if (const Result<void> allowed = single_frame_allowed(); !allowed) {
-      return allowed;
-    }
-    FrameRead read;
-    detail::Procedures::plan_frame(chip_, chip_.own, read, chip_.words.data(), chip_.count);
-    static_cast<void>(chip_.run(chip_.own));
-    return read.result(frame);
-  }
+  Result<void> read_all(Frame& frame) { return detail::Blocking::read_all(chip_, frame); }
 
   // Begins read_all() without a transfer: the caller makes the frames of `operation`, whose memory
   // is that of `read`, and calls finish() until it returns true; then read.result(frame). Two steps
@@ -253,7 +219,8 @@ class Device {
   // SpiCheck::kFull needs up to four more. No frame is longer than 66 bytes. Not touched:
   // kNotConfigured, kWrongMode, kBusy. read.result(): the errors of read_all().
   Result<void> plan_read_all(Operation& operation, FrameRead& read) {
-    const Result<void> allowed = detail::Procedures::possible(operation, single_frame_allowed());
+    const Result<void> allowed =
+        detail::Procedures::possible(operation, chip_.single_frame_allowed());
     if (allowed) {
       detail::Procedures::plan_frame(chip_, operation, read, chip_.words.data(), chip_.count);
     }
@@ -274,8 +241,7 @@ class Device {
   // too many bits). Touched: kTransport, kNotDetected, kCorrupted; the chip may send the word or
   // not, write it again.
   Result<void> write_actuator(std::uint8_t slave, std::uint64_t word) {
-    const Result<void> planned = plan_word(chip_.own, slave, word, actuator_allowed());
-    return planned ? chip_.run(chip_.own) : planned;
+    return detail::Blocking::run(chip_, plan_word(chip_.own, slave, word, actuator_allowed()));
   }
 
   // Begins write_actuator() without a transfer: the caller makes the frames of `operation` and
@@ -293,7 +259,7 @@ class Device {
   // waits 100 us for the slaves' timeout.
   Result<void> break_transmission() {
     detail::Procedures::plan_stop(chip_, chip_.own, regs::BREAK::encode<1>(), false);
-    return chip_.run(chip_.own);
+    return detail::Blocking::run(chip_, chip_.own);
   }
 
   // Begins break_transmission() without a transfer: one step of one frame. It ends an access of
@@ -339,18 +305,8 @@ class Device {
   [[nodiscard]] const Config& config() const { return chip_.config; }
 
  private:
-  [[nodiscard]] Result<void> single_frame_allowed() const {
-    if (!chip_.configured) {
-      return Error::kNotConfigured;
-    }
-    if (chip_.control.kind != detail::ControlState::Kind::kNone) {
-      return Error::kBusy;
-    }
-    return chip_.automatic ? Error::kWrongMode : Error::kNone;
-  }
-
   [[nodiscard]] Result<void> actuator_allowed() const {
-    const Result<void> allowed = single_frame_allowed();
+    const Result<void> allowed = chip_.single_frame_allowed();
     return allowed.error() == Error::kWrongMode ? Result<void>() : allowed;
   }
   Result<void> plan_word(Operation& operation, std::uint8_t slave, std::uint64_t word,

@@ -391,6 +391,33 @@ TEST_F(Steps, PollOfAnOperation_IsWrongMode) {
   EXPECT_EQ(device.control().poll().error(), Error::kWrongMode);
 }
 
+// Positions are read meanwhile: by next() too, which waits for the end of a frame.
+TEST_F(RegistersAgs, NextMeanwhile_AccessGoesOn) {
+  start_automatic();
+  bus.expect_write({0x02, 0xE2, 0x44, 0x00, 0x01, 0xC0});
+  bus.expect_write(kFrameAgs);
+  ASSERT_TRUE(device.control().begin_read({1, 0}, 0x44, 1).ok());
+  bus.expect_read(kReadStatus, {0, 0xFB, 0x02, 0, 0, 0x09});
+  bus.expect_write({0x07, 0x41});
+  bus.expect_read(mb4test::kReadData4, mb4test::kData4);
+  bus.expect_read(kReadStatus, {0, 0xFB, 0x02, 0, 0, 0x41});
+  bus.expect_write(mb4test::kClearValid1AndRelease);
+  mb4::Frame frame;
+  ASSERT_TRUE(device.automatic().next(frame).ok());
+  EXPECT_TRUE(frame.one_frame);
+  EXPECT_FALSE(*device.control().poll());  // what next() has seen
+  // And so is the configuration compared.
+  const Bytes chip = mb4test::read_back();
+  for (const std::uint8_t from : {std::uint8_t{0xE4}, std::uint8_t{0xC0}, std::uint8_t{0xD2}}) {
+    const Bytes part(chip.begin() + from - 0xC0, chip.begin() + from - 0xC0 + 18);
+    bus.expect_read(join({{0x03, from}, zeros(18)}), join({zeros(2), part}));
+    bus.expect_read(kReadStatus, kRunsAgs);
+  }
+  EXPECT_TRUE(device.verify().ok());
+  bus.expect_read(kReadStatus, kDoneAgs);
+  EXPECT_TRUE(*device.control().poll());
+}
+
 // ---- After a failed call ------------------------------------------------------------------------
 
 // An access whose BREAK was lost may still run: it must not take the bytes of the next one.

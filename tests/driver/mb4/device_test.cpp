@@ -10,7 +10,10 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <string>
+#include <vector>
 
+#include "enc/trace.hpp"
 #include "tests/driver/mb4/encoder26.hpp"
 #include "tests/driver/mb4/strict_bus.hpp"
 
@@ -135,6 +138,24 @@ TEST_F(Configure, OtherVersion_IsNotDetected) {
   mb4test::expect_image(bus, mb4test::configuration(), answer, 0x00, 0xEB);
   EXPECT_EQ(device.configure(encoder26()).error(), Error::kNotDetected);
   EXPECT_FALSE(device.configured());
+}
+
+// A hook sees each frame, with what came back where it was wanted.
+TEST(Trace, EachFrame_IsSeen) {
+  StrictBus bus;
+  FakeClock clock;
+  std::vector<std::string> seen;
+  enc::TracedBus traced(bus, [&seen](mb4::Span<const std::uint8_t> tx,
+                                     mb4::Span<const std::uint8_t> rx, bool transferred) {
+    seen.push_back(mb4test::hex(Bytes(tx.begin(), tx.end())) + "> " +
+                   mb4test::hex(Bytes(rx.begin(), rx.end())) + (transferred ? "" : "failed"));
+  });
+  mb4::Device device(traced, clock);
+  bus.expect_read({0x03, 0xEA, 0x00, 0x00}, {0x00, 0x00, 0x20, 0x84});
+  EXPECT_TRUE(device.probe().ok());
+  bus.expect_write({0x07, 0x80}).fail_last();
+  EXPECT_EQ(device.break_transmission().error(), Error::kTransport);
+  EXPECT_EQ(seen, (std::vector<std::string>{"03 EA 00 00 > 00 00 20 84 ", "07 80 > failed"}));
 }
 
 // Table 47: BREAK is bit 7 of 0xF4; nothing else is set.

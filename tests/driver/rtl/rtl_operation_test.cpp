@@ -223,8 +223,8 @@ TEST_P(DriverOperation, BissBWithASlowCaller_IsNoFailedHandOver) {
     std::uint32_t register_timeout_us;
     std::uint32_t tick_us;
   };
-  for (const Slow& slow : {Slow{"true", 2000, 100}, Slow{"false", 2000, 100},
-                           Slow{"false", 5, 5000}}) {
+  for (const Slow& slow :
+       {Slow{"true", 2000, 100}, Slow{"false", 2000, 100}, Slow{"false", 5, 5000}}) {
     FaultyChip chip(std::string("[chip.quirks]\nAGSERR_ON_INSTR_WRITE = ") + slow.quirk + "\n" +
                     biss_b_bus(false, "data = 0xABCDEF7"));
     Config one = biss_b_config(false);
@@ -248,8 +248,8 @@ TEST_P(DriverOperation, BissBWithASlowCaller_IsNoFailedHandOver) {
   }
 }
 
-// The byte with INIT is lost, or one of its bits is flipped. With kFull no delay of another time and
-// no hand-over that was not made counts as done.
+// The byte with INIT is lost, or one of its bits is flipped. With kFull no delay of another time
+// and no hand-over that was not made counts as done.
 TEST(DriverOperationInit, LostInstruction_IsNoSuccess) {
   for (const mb4::Protocol protocol : {mb4::Protocol::kBissC, mb4::Protocol::kBissB}) {
     for (const FaultKind kind : {FaultKind::kLost, FaultKind::kFlipMosi, FaultKind::kRefused}) {
@@ -275,6 +275,150 @@ TEST(DriverOperationInit, LostInstruction_IsNoSuccess) {
         const Error error = op.result().error();
         EXPECT_TRUE(error == (kind == FaultKind::kRefused ? Error::kTransport : Error::kCorrupted))
             << mb4::to_string(error) << ", BiSS B " << biss_b << ", bit " << bit;
+      }
+    }
+  }
+}
+
+// ---- Configuration, single frames, stop and BREAK, actuators ------------------------------------
+
+TEST_P(DriverOperation, ConfigureAndSingleFrames_AsTheBlockingCalls) {
+  FaultyChip chip(kEncoder);
+  Operation op;
+  ASSERT_TRUE(chip.device.plan_configure(op, config(false)).ok());
+  EXPECT_FALSE(chip.device.configured());
+  ASSERT_TRUE(complete(chip, op).ok());
+  EXPECT_TRUE(chip.device.configured());
+  EXPECT_TRUE(chip.device.verify().ok());
+  mb4::FrameRead read;
+  Frame frame;
+  // The first one after a configuration, the second one directly after it, and one after a bad one.
+  for (int i = 0; i < 4; ++i) {
+    if (i == 2) {
+      stick(chip, false);
+      ASSERT_TRUE(chip.device.plan_read_all(op, read).ok());
+      EXPECT_EQ(complete(chip, op).error(), Error::kLineError);
+      EXPECT_EQ(read.result(frame).error(), Error::kLineError);
+      EXPECT_FALSE(frame.one_frame);
+      stick(chip, std::nullopt);
+    }
+    ASSERT_TRUE(chip.device.plan_read_all(op, read).ok());
+    EXPECT_TRUE(complete(chip, op).ok());
+    ASSERT_TRUE(read.result(frame).ok());
+    ASSERT_TRUE(frame[1].ok()) << mb4::to_string(frame[1].error());
+    EXPECT_EQ(frame[1]->position, 0x2ABCDEFU);
+    EXPECT_TRUE(frame.one_frame);
+  }
+}
+
+TEST_P(DriverOperation, StopAndBreak_EndTheFrames) {
+  FaultyChip chip(kEncoder);
+  ASSERT_TRUE(chip.device.configure(config(true)).ok());
+  Operation op;
+  for (const bool by_break : {false, true}) {
+    ASSERT_TRUE(chip.device.automatic().plan_start(op).ok());
+    ASSERT_TRUE(complete(chip, op).ok());
+    chip.simulator.advance(250 * sim::kPsPerUs);
+    const std::uint64_t running = chip.simulator.slave(1)->frames();
+    EXPECT_GT(running, 0U);
+    ASSERT_TRUE(
+        (by_break ? chip.device.plan_break(op) : chip.device.automatic().plan_stop(op)).ok());
+    ASSERT_TRUE(complete(chip, op).ok());
+    EXPECT_FALSE(chip.device.automatic().running());
+    chip.simulator.advance(110 * sim::kPsPerUs);
+    const std::uint64_t stopped = chip.simulator.slave(1)->frames();
+    chip.simulator.advance(500 * sim::kPsPerUs);
+    EXPECT_EQ(chip.simulator.slave(1)->frames(), stopped);
+  }
+}
+
+const std::string kActuator =
+    "[[channel]]\nnumber = 1\nmo = true\n[[channel.slave]]\nprotocol = \"biss-c\"\n"
+    "data_bits = 16\nactuator = true\n";
+
+Config actuator(bool automatic) {
+  Config one = encoder(automatic);
+  one.mo = true;
+  one.slaves[0].data_bits = 16;
+  one.slaves[0].flags = mb4::Flags::kNone;
+  one.slaves[0].actuator = true;
+  one.slaves[0].stop_bit = true;
+  return one;
+}
+
+// As in docs/driver.md: the next frame sends the word, and each one after it.
+TEST_P(DriverOperation, Actuator_WordIsSent) {
+  for (const bool automatic : {false, true}) {
+    FaultyChip chip(kActuator);
+    Config one = actuator(automatic);
+    one.spi_check = GetParam();
+    ASSERT_TRUE(chip.device.configure(one).ok());
+    Operation op;
+    if (automatic) {
+      ASSERT_TRUE(chip.device.automatic().plan_start(op).ok());
+      ASSERT_TRUE(complete(chip, op).ok());
+    }
+    for (const std::uint64_t word : {0x1234U, 0xFEDCU, 0x0000U}) {
+      ASSERT_TRUE(chip.device.plan_actuator(op, 1, word).ok());
+      ASSERT_TRUE(complete(chip, op).ok()) << mb4::to_string(op.result().error());
+      for (int i = 0; i < 4; ++i) {
+        mb4::FrameRead read;
+        if (!automatic) {
+          ASSERT_TRUE(chip.device.plan_read_all(op, read).ok());
+          ASSERT_TRUE(complete(chip, op).ok());
+        }
+        chip.simulator.advance(automatic && i == 0 ? 250 * sim::kPsPerUs : 100 * sim::kPsPerUs);
+        EXPECT_EQ(chip.simulator.slave(1)->actuator()->word(), word) << i;
+      }
+    }
+    if (!automatic) continue;
+    // A word for each frame, in a loop.
+    for (std::uint64_t word = 1; word < 20; ++word) {
+      ASSERT_TRUE(chip.device.automatic().plan_actuator(op, 1, word).ok());
+      ASSERT_TRUE(complete(chip, op).ok());
+      chip.simulator.advance(100 * sim::kPsPerUs);
+      const std::uint64_t sent = chip.simulator.slave(1)->actuator()->word();
+      EXPECT_TRUE(word < 3 || sent == word || sent == word - 1) << sent << " for " << word;
+    }
+  }
+}
+
+// The bus fails at each transfer in turn, for once or from then on; MISO is stuck.
+TEST(DriverOperationActuator, FaultOfTheBus_IsToldAndTheBankIsFree) {
+  for (const bool automatic : {false, true}) {
+    for (const SpiCheck check : {SpiCheck::kOff, SpiCheck::kFull}) {
+      for (const FaultKind kind :
+           {FaultKind::kRefused, FaultKind::kMisoLow, FaultKind::kMisoHigh, FaultKind::kFlipMosi}) {
+        if (check == SpiCheck::kOff && kind != FaultKind::kRefused) continue;
+        for (std::size_t at = 0; at < (kind == FaultKind::kRefused ? 3U : 1U); ++at) {
+          FaultyChip chip(kActuator);
+          Config one = actuator(automatic);
+          one.spi_check = check;
+          ASSERT_TRUE(chip.device.configure(one).ok());
+          if (automatic) {
+            ASSERT_TRUE(chip.device.automatic().start().ok());
+          }
+          Operation op;
+          // MOSI: a bit of the word, or of 0xF4.
+          const std::size_t last =
+              kind == FaultKind::kRefused || kind == FaultKind::kFlipMosi ? at : kForEver;
+          chip.bus.plan({kind, at, last, automatic ? 14U : 20U});
+          ASSERT_TRUE(chip.device.plan_actuator(op, 1, 0x1234).ok());
+          const Error error = complete(chip, op).error();
+          const Error stuck =
+              automatic ? Error::kNotDetected : Error::kCorrupted;  // a word is compared first
+          const Error want = kind == FaultKind::kRefused    ? Error::kTransport
+                             : kind == FaultKind::kFlipMosi ? Error::kCorrupted
+                                                            : stuck;
+          EXPECT_EQ(error, want) << automatic << " " << static_cast<int>(kind) << " " << at;
+          chip.bus.plan({});
+          ASSERT_TRUE(chip.device.plan_actuator(op, 1, 0x4321).ok());
+          EXPECT_TRUE(complete(chip, op).ok());
+          if (automatic) {
+            chip.simulator.advance(350 * sim::kPsPerUs);
+            EXPECT_EQ(chip.simulator.slave(1)->actuator()->word(), 0x4321U);
+          }
+        }
       }
     }
   }
@@ -410,6 +554,68 @@ TEST(DriverOperationUse, FaultOfTheBus_EachOperationTellsIt) {
       }
     }
   }
+}
+
+// The operations that configure, stop, read single frames and write words.
+TEST(DriverOperationUse, WrongUseOfTheOthers_PlansNothing) {
+  Operation op;
+  Operation busy;
+  mb4::FrameRead read;
+  FaultyChip chip(kEncoder);
+  chip.bus.plan({});
+  EXPECT_EQ(chip.device.plan_configure(op, Config()).error(), Error::kInvalidConfig);
+  EXPECT_EQ(chip.device.plan_read_all(op, read).error(), Error::kNotConfigured);
+  EXPECT_EQ(chip.device.plan_actuator(op, 1, 1).error(), Error::kNotConfigured);
+  EXPECT_EQ(chip.device.automatic().plan_actuator(op, 1, 1).error(), Error::kWrongMode);
+  EXPECT_EQ(chip.bus.count(), 0U);
+  prepare(chip, State::kAutomatic);
+  EXPECT_EQ(chip.device.plan_read_all(op, read).error(), Error::kWrongMode);
+  EXPECT_EQ(chip.device.plan_actuator(op, 1, 1).error(), Error::kInvalidArgument);
+  EXPECT_EQ(chip.device.automatic().plan_actuator(op, 9, 1).error(), Error::kInvalidArgument);
+  std::array<std::uint8_t, 1> byte{};
+  ASSERT_TRUE(chip.device.control().plan_read(busy, {1, 0}, 0x44, byte).ok());
+  EXPECT_EQ(chip.device.automatic().plan_stop(op).error(), Error::kBusy);
+  EXPECT_EQ(chip.device.automatic().plan_actuator(op, 1, 1).error(), Error::kBusy);
+  EXPECT_EQ(chip.device.plan_actuator(op, 1, 1).error(), Error::kBusy);
+  EXPECT_EQ(chip.device.plan_read_all(op, read).error(), Error::kBusy);
+  EXPECT_EQ(chip.device.plan_break(busy).error(), Error::kBusy);
+  // BREAK ends the access of the other object, which says so.
+  ASSERT_TRUE(chip.device.plan_break(op).ok());
+  EXPECT_TRUE(complete(chip, op).ok());
+  EXPECT_EQ(complete(chip, busy).error(), Error::kWrongMode);
+}
+
+// The first transfer fails; MISO is stuck; a part of the configuration is lost.
+TEST(DriverOperationUse, FaultOfTheBusInTheOthers_IsTold) {
+  const auto run = [](const Fault& fault, unsigned kind) {
+    FaultyChip chip(kEncoder);
+    Operation op;
+    mb4::FrameRead read;
+    Config one = encoder(kind == 1);
+    one.spi_check = SpiCheck::kFull;
+    EXPECT_TRUE(chip.device.configure(one).ok());
+    if (kind == 1) {
+      EXPECT_TRUE(chip.device.automatic().start().ok());
+    }
+    chip.bus.plan(fault);
+    const Result<void> planned = kind == 0   ? chip.device.plan_configure(op, one)
+                                 : kind == 1 ? chip.device.automatic().plan_stop(op)
+                                 : kind == 2 ? chip.device.plan_break(op)
+                                             : chip.device.plan_read_all(op, read);
+    EXPECT_TRUE(planned.ok());
+    const Error error = complete(chip, op).error();
+    EXPECT_EQ(chip.device.configured(), kind != 0);
+    return error;
+  };
+  for (unsigned kind = 0; kind < 4; ++kind) {
+    EXPECT_EQ(run({FaultKind::kRefused, 0, 0, 0}, kind), Error::kTransport) << kind;
+  }
+  for (const FaultKind stuck : {FaultKind::kMisoLow, FaultKind::kMisoHigh}) {
+    EXPECT_EQ(run({stuck, 0, kForEver, 0}, 0), Error::kNotDetected);
+    EXPECT_EQ(run({stuck, 0, kForEver, 0}, 3), Error::kNotDetected);
+  }
+  // 0xC0..0xD1: a bit of the first register.
+  EXPECT_EQ(run({FaultKind::kFlipMosi, 1, 1, 17}, 0), Error::kVerify);
 }
 
 // Without a system clock nothing ends.

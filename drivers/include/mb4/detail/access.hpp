@@ -11,6 +11,7 @@
 #include <cstdint>
 
 #include "mb4/config.hpp"
+#include "mb4/detail/control_checks.hpp"
 #include "mb4/detail/control_time.hpp"
 #include "mb4/detail/procedures.hpp"
 #include "mb4/register_image.hpp"
@@ -82,11 +83,17 @@ inline void Procedures::begin_access(ChipState& chip, Operation& op, bool biss_b
   chip.control.owner = &op;
 }
 
-// Control documents arguments and errors; its checks have been made. Writes `data`, or, if that is
-// null, reads `count` registers into `out`; if that is null too, they stay for plan_take().
-inline void Procedures::plan_access(ChipState& chip, Operation& op, SlaveAddress slave,
-                                    std::uint8_t address, const std::uint8_t* data,
-                                    std::uint8_t* out, std::size_t count) {
+// Control documents arguments and errors. Writes `data`, or, if that is null, reads `count`
+// registers into `out`; if that is null too, they stay for plan_take(). After an error nothing is
+// planned.
+inline Result<void> Procedures::plan_access(ChipState& chip, Operation& op, SlaveAddress slave,
+                                            std::uint8_t address, const std::uint8_t* data,
+                                            std::uint8_t* out, std::size_t count) {
+  if (const Result<void> possible = check_access(
+          chip, slave, address, count, data != nullptr ? Protocol::kUnused : Protocol::kSsi);
+      !possible) {
+    return possible;
+  }
   ControlState& state = chip.control;
   const bool biss_b = chip.config.channels[slave.channel - 1U].protocol == Protocol::kBissB;
   begin_access(chip, op, biss_b);
@@ -103,9 +110,14 @@ inline void Procedures::plan_access(ChipState& chip, Operation& op, SlaveAddress
   if (op.stage_ == kStart) {
     add_request(chip, op);
   }
+  return {};
 }
 
-inline void Procedures::plan_command(ChipState& chip, Operation& op, const Command& command) {
+inline Result<void> Procedures::plan_command(ChipState& chip, Operation& op,
+                                             const Command& command) {
+  if (const Result<void> possible = check_command(chip, command); !possible) {
+    return possible;
+  }
   ControlState& state = chip.control;
   begin_access(chip, op, false);
   state.kind = ControlState::Kind::kCommand;
@@ -119,6 +131,7 @@ inline void Procedures::plan_command(ChipState& chip, Operation& op, const Comma
   if (op.stage_ == kStart) {
     add_request(chip, op);
   }
+  return {};
 }
 
 // RDATA, or IDS of a command; then the request.

@@ -14,7 +14,6 @@
 #include "mb4/bus.hpp"
 #include "mb4/config.hpp"
 #include "mb4/detail/chip_state.hpp"
-#include "mb4/detail/procedures.hpp"
 #include "mb4/opcodes.hpp"
 #include "mb4/register_image.hpp"
 #include "mb4/result.hpp"
@@ -26,44 +25,19 @@ namespace mb4::detail {
 
 using enc::clock_step_us;
 
-// Waits without a transfer until the clock has advanced by `time_us` (up to 4'294'967), which holds
-// its step. A count of calls ends the wait when the time source stands still. Even if a call takes
-// only 1 ns, the count does not end before the time.
-template <typename Clock>
-void pause(Clock& clock, std::uint32_t time_us) {
-  const std::uint32_t start_us = clock.now_us();
-  std::uint32_t calls_left = time_us * 1000;
-  while (clock.now_us() - start_us < time_us && --calls_left != 0) {
-  }
-}
-
 template <typename Bus, typename Clock>
 struct Chip : ChipState {
   static_assert(kIsClock<Clock>,
                 "mb4: the Clock type needs 'std::uint32_t now_us()'; see mb4/bus.hpp");
 
   constexpr Chip(Bus& bus, Clock& the_clock) : opcodes(bus), clock(&the_clock) {
+    make = &Chip::make_on_bus;
+    ask_us = &Chip::ask_clock;
     step_us = clock_step_us<Clock>;
   }
 
   Opcodes<Bus> opcodes;
   Clock* clock;
-  Operation own;  // of the calls that make the frames themselves
-
-  // Makes the frames of one step of `op`. True: the operation has ended.
-  [[gnu::noinline]] bool step(Operation& op) {
-    if (op.pause_us() != 0) {
-      pause(*clock, op.pause_us());
-    }
-    const bool transferred = op.run(opcodes.bus());
-    return Procedures::finish(*this, op, transferred, clock->now_us());
-  }
-  // All steps.
-  [[gnu::noinline]] Result<void> run(Operation& op) {
-    while (!step(op)) {
-    }
-    return op.result();
-  }
 
   // Reads the status once. kTransport, kNotDetected.
   Result<void> look(Status& status) {
@@ -81,6 +55,14 @@ struct Chip : ChipState {
     const std::array<std::uint8_t, 2> both{static_cast<std::uint8_t>(keep),
                                            static_cast<std::uint8_t>(keep >> 8U)};
     return opcodes.write_registers(regs::kAddrSvalidLo, both);
+  }
+
+  // ChipState::make and ask_us.
+  static bool make_on_bus(ChipState& chip, Steps& steps) {
+    return steps.run(static_cast<Chip&>(chip).opcodes.bus());
+  }
+  static std::uint32_t ask_clock(ChipState& chip) {
+    return static_cast<Chip&>(chip).clock->now_us();
   }
 };
 

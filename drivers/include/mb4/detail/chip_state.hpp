@@ -50,6 +50,8 @@ struct ControlState {
 // All that the calls on one chip share, except its bus and its clock.
 struct ChipState {
   // First what most calls look at: short offsets make short code.
+  bool (*make)(ChipState&, Steps&) = nullptr;     // the frames of a step, on the bus
+  std::uint32_t (*ask_us)(ChipState&) = nullptr;  // asks the clock
   bool configured = false;
   // AGS = 1 was written, and nothing has stopped it.
   bool automatic = false;
@@ -73,6 +75,7 @@ struct ChipState {
   std::uint8_t count = 0;                 // of `words`
   std::uint8_t needs = 0;                 // MB4_WITH_..., for any slave
   Config config{};
+  Operation own;  // of the calls that make the frames themselves
 
   // How the data of `slave`, one of `sensors`, is read.
   [[nodiscard]] const mb4_word* word_of(std::uint8_t slave) const {
@@ -136,6 +139,28 @@ struct ChipState {
     for (std::uint32_t& good_us : watch.good_us) {
       good_us = now_us;
     }
+  }
+
+  [[nodiscard]] bool control_runs() const { return control.kind != ControlState::Kind::kNone; }
+
+  [[nodiscard]] Result<void> single_frame_allowed() const {
+    if (!configured) {
+      return Error::kNotConfigured;
+    }
+    if (control_runs()) {
+      return Error::kBusy;
+    }
+    return automatic ? Error::kWrongMode : Error::kNone;
+  }
+
+  // `again`: automatic frames may run.
+  [[nodiscard]] Result<void> start_allowed(bool again) const {
+    if (const Result<void> single = single_frame_allowed();
+        !single && (!again || single.error() != Error::kWrongMode)) {
+      return single;
+    }
+    return config.single_bank ? ErrorInfo(Error::kUnsupported, ConfigField::kSingleBank, 0)
+                              : ErrorInfo();
   }
 
   [[nodiscard]] bool checks_all() const { return config.spi_check == SpiCheck::kFull; }

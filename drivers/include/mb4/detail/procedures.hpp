@@ -84,6 +84,16 @@ struct Procedures {
     chip.recover_first = true;
   }
 
+  template <std::uint8_t With>
+  static void prepare_restart(ChipState& chip) {
+    chip.automatic = false;
+    chip.recover_first = true;
+    chip.restart = true;
+    if ((With & MB4_WITH_COUNTS) != 0 && chip.watch.counts != nullptr) {
+      ++chip.watch.counts->restarts;
+    }
+  }
+
   // AGS = 0, or BREAK: `instruction`. Nothing runs afterwards, or it ends by itself.
   static void plan_stop(ChipState& chip, Operation& op, std::uint8_t instruction, bool restart) {
     begin(chip, op, stop_step);
@@ -105,9 +115,10 @@ struct Procedures {
   static Result<void> plan_actuator(ChipState& chip, Operation& op, std::uint8_t slave,
                                     std::uint64_t word, bool both_banks);
   static void plan_initialize(ChipState& chip, Operation& op);
-  static void plan_access(ChipState& chip, Operation& op, SlaveAddress slave, std::uint8_t address,
-                          const std::uint8_t* data, std::uint8_t* out, std::size_t count);
-  static void plan_command(ChipState& chip, Operation& op, const Command& command);
+  static Result<void> plan_access(ChipState& chip, Operation& op, SlaveAddress slave,
+                                  std::uint8_t address, const std::uint8_t* data, std::uint8_t* out,
+                                  std::size_t count);
+  static Result<void> plan_command(ChipState& chip, Operation& op, const Command& command);
   static void plan_take(ChipState& chip, Operation& op, std::uint8_t* out, std::size_t count);
 
   // ---- An access whose caller polls: control_steps.hpp ----

@@ -45,6 +45,7 @@ inline void Procedures::plan_frame(ChipState& chip, Operation& op, ReadSteps& re
   cyclic.spi_check = static_cast<std::uint8_t>(chip.config.spi_check);
   cyclic.built = nullptr;
   cyclic.told = false;
+  cyclic.one_frame = true;
   mb4_cyclic_all(&cyclic, MB4_WITH_ALL);
   read.code_ = MB4_NO_DATA;
   if (chip.recover_first) {
