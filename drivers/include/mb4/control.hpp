@@ -69,7 +69,8 @@ class Control : public ControlSteps<Bus, Clock> {
   // by `now_us` of finish(); after it the status is read once more.
   Result<void> plan_read(Operation& operation, SlaveAddress slave, std::uint8_t address,
                          Span<std::uint8_t> out) {
-    return plan_access(operation, slave, address, nullptr, out.data(), out.size());
+    return detail::Procedures::plan_access(Steps::chip_, operation, slave, address, nullptr,
+                                           out.data(), out.size());
   }
 
   // As plan_read(), but writes data.size() (1..64) registers. `data` must stay until the end.
@@ -77,23 +78,14 @@ class Control : public ControlSteps<Bus, Clock> {
   // operation.result(): kTransport, kNotDetected, kCorrupted, kTimeout, kRegister, kRegisterDelay.
   Result<void> plan_write(Operation& operation, SlaveAddress slave, std::uint8_t address,
                           Span<const std::uint8_t> data) {
-    return plan_access(operation, slave, address, data.data(), nullptr, data.size());
+    return detail::Procedures::plan_access(Steps::chip_, operation, slave, address, data.data(),
+                                           nullptr, data.size());
   }
 
   // As plan_read(), but sends a command. Not touched: kNotConfigured, kInvalidArgument, kBusy,
   // kUnsupported. operation.result(): kTransport, kNotDetected, kCorrupted, kTimeout, kCommand.
   Result<void> plan_command(Operation& operation, const Command& command) {
-    const Result<void> free = detail::Procedures::possible(operation, Error::kNone);
-    return free ? detail::Procedures::plan_command(Steps::chip_, operation, command) : free;
-  }
-
- private:
-  Result<void> plan_access(Operation& operation, SlaveAddress slave, std::uint8_t address,
-                           const std::uint8_t* data, std::uint8_t* out, std::size_t count) {
-    const Result<void> free = detail::Procedures::possible(operation, Error::kNone);
-    return free ? detail::Procedures::plan_access(Steps::chip_, operation, slave, address, data,
-                                                  out, count)
-                : free;
+    return detail::Procedures::plan_command(Steps::chip_, operation, command);
   }
 };
 

@@ -207,8 +207,8 @@ TEST_P(DriverCall, EachTransferFails_IsTransport) {
       FaultyChip chip(kEncoder);
       prepare(chip, GetParam().state);
       chip.bus.plan({kind, index, index, 0});
-      const bool look = GetParam().patient && opcodes[index] == 0x05 &&
-                        count - index > GetParam().quiet;
+      const bool look =
+          GetParam().patient && opcodes[index] == 0x05 && count - index > GetParam().quiet;
       const bool quiet = look || count - index == GetParam().quiet;
       const Error want = quiet ? Error::kNone : Error::kTransport;
       EXPECT_EQ(GetParam().run(chip), want) << "transfer " << index << " of " << count;

@@ -13,6 +13,7 @@
 #include <utility>
 #include <vector>
 
+#include "sim/lines/biss/actuator.hpp"
 #include "tests/driver/rtl/protocol_bus.hpp"
 #include "tests/driver/rtl/rtl_calls.hpp"
 
@@ -378,7 +379,8 @@ TEST_P(DriverOperation, Actuator_WordIsSent) {
       ASSERT_TRUE(complete(chip, op).ok());
       chip.simulator.advance(100 * sim::kPsPerUs);
       const std::uint64_t sent = chip.simulator.slave(1)->actuator()->word();
-      EXPECT_TRUE(word < 3 || sent == word || sent == word - 1) << sent << " for " << word;
+      // The frame after the one that runs sends it. The loop is longer than a period.
+      EXPECT_TRUE(word < 3 || (sent <= word && sent + 2 >= word)) << sent << " for " << word;
     }
   }
 }

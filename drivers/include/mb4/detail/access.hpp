@@ -89,10 +89,12 @@ inline void Procedures::begin_access(ChipState& chip, Operation& op, bool biss_b
 inline Result<void> Procedures::plan_access(ChipState& chip, Operation& op, SlaveAddress slave,
                                             std::uint8_t address, const std::uint8_t* data,
                                             std::uint8_t* out, std::size_t count) {
-  if (const Result<void> possible = check_access(
-          chip, slave, address, count, data != nullptr ? Protocol::kUnused : Protocol::kSsi);
-      !possible) {
-    return possible;
+  const Result<void> allowed =
+      possible_in(chip, op,
+                  check_access(chip, slave, address, count,
+                               data != nullptr ? Protocol::kUnused : Protocol::kSsi));
+  if (!allowed) {
+    return allowed;
   }
   ControlState& state = chip.control;
   const bool biss_b = chip.config.channels[slave.channel - 1U].protocol == Protocol::kBissB;
@@ -115,8 +117,9 @@ inline Result<void> Procedures::plan_access(ChipState& chip, Operation& op, Slav
 
 inline Result<void> Procedures::plan_command(ChipState& chip, Operation& op,
                                              const Command& command) {
-  if (const Result<void> possible = check_command(chip, command); !possible) {
-    return possible;
+  const Result<void> allowed = possible_in(chip, op, check_command(chip, command));
+  if (!allowed) {
+    return allowed;
   }
   ControlState& state = chip.control;
   begin_access(chip, op, false);

@@ -70,6 +70,12 @@ struct Procedures {
     return allowed && op.step_ != nullptr ? Result<void>(Error::kBusy) : allowed;
   }
 
+  // The same, also for chip.own, which a blocking call may always take.
+  static Result<void> possible_in(const ChipState& chip, const Operation& op,
+                                  const Result<void>& allowed) {
+    return &op == &chip.own ? allowed : possible(op, allowed);
+  }
+
   // ---- Automatic frames: automatic.hpp ----
 
   // Sets AGS = 1, after BREAK if need be.
