@@ -75,11 +75,11 @@ class Device {
   }
 
   // Validates `config` completely, then stops all activity of the chip (BREAK, AGS off), writes all
-  // configuration registers, reads them back and compares them. Ten transfers:
+  // configuration registers, reads them back and compares them. Eight transfers:
   //   0x07        0xF4, 0xF5   BREAK, clock source and interface
   //   0x02 three  0xC0..0xF2   all other registers; clears SVALID 1 to 8
-  //   0x03 three  0xC0..0xF5   comparison of all bits that can be written, and of VERSION; each
-  //                            before a status
+  //   0x03 three  0xC0..0xF5   comparison of all bits that can be written, and of VERSION
+  //   0x05        status       which no stuck MISO makes
   // One more before them, which only reads, if actuators are on both channels and these have
   // frames of different length: VERSION and REVISION.
   // Not touched: kInvalidConfig. Read only: kInvalidConfig for what this revision cannot do
@@ -95,7 +95,7 @@ class Device {
   }
 
   // Begins configure() without a transfer: the caller makes the frames of `operation` and calls
-  // finish() until it returns true. Four steps. This call checks and encodes the configuration, so
+  // finish() until it returns true. Five steps. This call checks and encodes the configuration, so
   // it takes longer than other plan calls. Not touched: kInvalidConfig. operation.result():
   // kTransport, kNotDetected, kVerify, kInvalidConfig as of configure(). Wrong use: operation.hpp.
   Result<void> plan_configure(Operation& operation, const Config& config) {
@@ -107,15 +107,15 @@ class Device {
   }
 
   // Reads the configuration back and compares it as configure() does. It finds a configuration that
-  // a disturbed transfer or a supply dip has changed. Six transfers, three of 20 bytes (0x03 from
-  // 0xE4, 0xC0 and 0xD2), each before one of the status; it changes nothing in the chip. The
-  // registers of control communications are not compared.
+  // a disturbed transfer or a supply dip has changed. Four transfers, three of 20 bytes (0x03
+  // from 0xE4, 0xC0 and 0xD2) and a status; it changes nothing in the chip. The registers of control
+  // communications are not compared.
   // kNotConfigured (not touched), kTransport. kNotDetected, kVerify: the Device then counts as not
   // configured; call configure() again.
   Result<void> verify() { return detail::Blocking::verify(chip_); }
 
   // Begins verify() without a transfer: the caller makes the frames of `operation` and calls
-  // finish() until it returns true. Three steps of two frames, as verify(), which may stand beside
+  // finish() until it returns true. Four steps of one frame, as verify(), which may stand beside
   // reads of positions and a control communication that runs.
   // kNotConfigured (not touched). operation.result(): kTransport, kNotDetected, kVerify as of
   // verify(). Wrong use: operation.hpp.
@@ -137,7 +137,7 @@ class Device {
   }
 
   // Sends BREAK, then writes all registers of the configuration to their value after power-on
-  // (page 21: all 0) and compares them. Ten transfers, as configure(). The data memories keep
+  // (page 21: all 0) and compares them. Eight transfers, as configure(). The data memories keep
   // their contents. kTransport, kNotDetected, kVerify (touched). After the call, with or without
   // error, the Device counts as not configured.
   Result<void> reset() {

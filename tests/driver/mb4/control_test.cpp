@@ -411,8 +411,8 @@ TEST_F(RegistersAgs, NextMeanwhile_AccessGoesOn) {
   for (const std::uint8_t from : {std::uint8_t{0xE4}, std::uint8_t{0xC0}, std::uint8_t{0xD2}}) {
     const Bytes part(chip.begin() + from - 0xC0, chip.begin() + from - 0xC0 + 18);
     bus.expect_read(join({{0x03, from}, zeros(18)}), join({zeros(2), part}));
-    bus.expect_read(kReadStatus, kRunsAgs);
   }
+  bus.expect_read(kReadStatus, kRunsAgs);
   EXPECT_TRUE(device.verify().ok());
   bus.expect_read(kReadStatus, kDoneAgs);
   EXPECT_TRUE(*device.control().poll());

@@ -119,7 +119,8 @@ TEST(ConfigureFailure, AnyWrongBit_IsVerifyWithItsAddress) {
       Bytes answer = mb4test::read_back();
       std::uint8_t& byte = answer[address - 0xC0];
       byte = static_cast<std::uint8_t>(byte ^ (1U << bit));
-      mb4test::expect_image(bus, mb4test::configuration(), answer, 0x00, reserved ? 0xD2 : address);
+      mb4test::expect_image(bus, mb4test::configuration(), answer, 0x00,
+                            reserved ? mb4test::kAll : address);
       const mb4::ErrorInfo info = device.configure(encoder26()).info();
       if (reserved) {
         EXPECT_EQ(info.code, Error::kNone) << address;

@@ -528,6 +528,7 @@ TEST(DriverOperationUse, WrongUse_PlansNothing) {
   for (const unsigned kind : {0U, 1U, 4U, 5U, 6U}) {
     EXPECT_EQ(plan(other, op, kind, {1, 0}).error(), Error::kUnsupported) << kind;
   }
+  EXPECT_EQ(other.device.automatic().restart().error(), Error::kUnsupported);
   FaultyChip biss_b(biss_b_bus(false));
   Config periodic = biss_b_config(false);
   ASSERT_TRUE(biss_b.device.configure(periodic).ok());

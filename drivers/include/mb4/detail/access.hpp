@@ -74,9 +74,13 @@ inline constexpr std::uint32_t kBadLooks = 3;
 // describe this access.
 inline void Procedures::begin_access(ChipState& chip, Operation& op, bool biss_b) {
   begin(chip, op, access_step);
-  if (biss_b || (!chip.automatic && chip.recover_first)) {
+  // Beside automatic frames BREAK is followed by a new start of the frames, in the access itself.
+  op.bad_ = chip.automatic && chip.control.stray ? 1 : 0;
+  if (biss_b || op.bad_ != 0 || (!chip.automatic && chip.recover_first)) {
     add_recovery(chip, op);
   }
+  chip.restart = chip.restart || op.bad_ != 0;  // until the frames run again
+  chip.control.stray = false;
   chip.recover_first = true;
   chip.control.readable = 0;
   chip.control.biss_b = biss_b;
@@ -107,8 +111,10 @@ inline Result<void> Procedures::plan_access(ChipState& chip, Operation& op, Slav
   const std::uint8_t regadr =
       regs::WNR::insert(regs::REGADR::insert(0, address), data != nullptr ? 1 : 0);
   const std::uint8_t control = encode_ctrl(chip.config, biss_b);
-  op.request_ = {regadr, static_cast<std::uint8_t>(state.count - 1U), slave.channel,
-                 regs::CTS::insert(regs::SLAVEID::insert(control, slave.id), 1)};
+  op.request_[0] = regadr;
+  op.request_[1] = static_cast<std::uint8_t>(state.count - 1U);
+  op.request_[2] = slave.channel;
+  op.request_[3] = regs::CTS::insert(regs::SLAVEID::insert(control, slave.id), 1);
   if (op.stage_ == kStart) {
     add_request(chip, op);
   }
@@ -126,9 +132,9 @@ inline Result<void> Procedures::plan_command(ChipState& chip, Operation& op,
   state.kind = ControlState::Kind::kCommand;
   state.count = 1;
   const std::uint8_t control = regs::CMD::insert(encode_ctrl(chip.config, false), command.code);
-  op.request_ = {0, reversed(command.ids),  // IDS0 is bit 7 (table 32)
-                 command.channels,
-                 regs::IDA_TEST::insert(control, command.test_acknowledge ? 1 : 0)};
+  op.request_[1] = reversed(command.ids);  // IDS0 is bit 7 (table 32)
+  op.request_[2] = command.channels;
+  op.request_[3] = regs::IDA_TEST::insert(control, command.test_acknowledge ? 1 : 0);
   op.data_ = &op.request_[1];
   op.count_ = 1;
   if (op.stage_ == kStart) {
@@ -246,6 +252,13 @@ inline Result<void> Procedures::access(ChipState& chip, Operation& op, std::uint
     }
     case kRecover:
       recovered(chip, op);
+      if (op.bad_ != 0) {
+        add_instruction(op, regs::AGS::encode<1>());
+        chip.started(now_us);
+        chip.automatic = true;
+        chip.restart = false;
+        op.bad_ = 0;
+      }
       add_request(chip, op);
       return {};
     case kStart: {

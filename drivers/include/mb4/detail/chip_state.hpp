@@ -40,6 +40,7 @@ struct ControlState {
   bool overwritten = false;      // a read of positions has written INSTR = 000 meanwhile
   bool seen_running = false;     // ... and has seen REGEND = 0 since the last poll
   bool first_frame = false;      // REGEND may belong to the access before; BiSS B: not ended yet
+  bool stray = false;            // an access that nobody asked for may run
   bool no_hand_over = false;     // BiSS B: no slave has entered register mode
   bool agserr_at_start = false;  // BiSS B: the chip sets nAGSERR = 0 at each write of 0xF4
   std::uint32_t access_us = 0;   // start of the access

@@ -31,7 +31,7 @@ namespace mb4::detail {
   return {};
 }
 
-[[nodiscard]] inline Result<void> check_free(const ChipState& chip) {
+[[nodiscard, gnu::always_inline]] inline Result<void> check_free(const ChipState& chip) {
   if (!chip.configured) {
     return Error::kNotConfigured;
   }
@@ -44,9 +44,11 @@ namespace mb4::detail {
   return {};
 }
 
-[[nodiscard]] inline Result<void> check_access(const ChipState& chip, SlaveAddress slave,
-                                               std::uint8_t address, std::size_t count,
-                                               Protocol without) {
+[[nodiscard, gnu::always_inline]] inline Result<void> check_access(const ChipState& chip,
+                                                                   SlaveAddress slave,
+                                                                   std::uint8_t address,
+                                                                   std::size_t count,
+                                                                   Protocol without) {
   if (const Result<void> free = check_free(chip); !free) {
     return free;
   }

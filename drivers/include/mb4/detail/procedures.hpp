@@ -41,7 +41,7 @@ struct Procedures {
     kClear,      // SVALID = 0
     kTake,       // an access: RDATA; a single frame: its data; an actuator: the other bank's word
     kTakeAgain,  // ... once more
-    kProof,      // a single frame: the status after its data
+    kProof,      // a single frame, a configuration: the status after what was read
     kStopped     // BREAK; the result is known
   };
 
@@ -71,8 +71,8 @@ struct Procedures {
   }
 
   // The same, also for chip.own, which a blocking call may always take.
-  static Result<void> possible_in(const ChipState& chip, const Operation& op,
-                                  const Result<void>& allowed) {
+  [[gnu::always_inline]] static Result<void> possible_in(const ChipState& chip, const Operation& op,
+                                                         const Result<void>& allowed) {
     return &op == &chip.own ? allowed : possible(op, allowed);
   }
 

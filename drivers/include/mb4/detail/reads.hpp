@@ -65,6 +65,10 @@ struct Reads {
       return false;
     }
     chip.control.seen_running = steps.read_.running;
+    // A disturbed byte of 0xF4 with another INSTR may have started an access that nobody asked for.
+    if (steps.code_ == MB4_CORRUPTED) {
+      chip.control.stray = true;
+    }
     return true;
   }
 
