@@ -218,7 +218,7 @@ module axi_core #(
 
     // A channel whose start is shifted has a time base of its own.
     if (ALIGN) begin : gen_own_timebase
-      biss_timebase u_timebase (
+      biss_timebase u_own_timebase (
         .clk_i,
         .rst_ni,
         .half_len_i    (frame.half_len),
