@@ -144,8 +144,9 @@ MB4SIM_API int mb4sim_axi_read(mb4sim *sim, uint32_t address, uint32_t *data);
 /* The next beat of the stream beside that bus (biss_axi: s_axis, taken at once by a sink that keeps
  * 65,536 beats). At most n words are written; words may be NULL with n = 0. `user`, which may be
  * NULL, receives the side band (biss_axi: bit c: the word of channel c is of this frame and good).
- * Returns the number of words of the beat (biss_axi: 1, 4 or 16, the channels of the model), 0 if
- * none waits, or a negative error: MB4SIM_ERROR_HOST if there is no stream. No time passes. */
+ * Returns the number of words of the beat (biss_axi: 1, 4 or 16, the channels of the model; with
+ * features = "full" two for each, the lower first), 0 if none waits, or a negative error:
+ * MB4SIM_ERROR_HOST if there is no stream. No time passes. */
 MB4SIM_API int mb4sim_stream_read(mb4sim *sim, uint32_t *words, size_t n, uint32_t *user);
 
 /* A frame on a line. The struct may grow at its end; `size` tells what there is. */

@@ -18,7 +18,7 @@ import project  # noqa: E402
 import yosys  # noqa: E402
 
 MOST_LUT4 = 544
-CHANNELS = (1, 4, 16)
+CHANNELS = (1, 4)
 # Name and the value of EXTRAS; each of them has the page, bit 0.
 EXTRAS = {
     "none": 0, "PAGE": 0x001, "WIDE": 0x003, "ANY_CRC": 0x005, "TIMEOUT": 0x009, "COUNTERS": 0x011,
