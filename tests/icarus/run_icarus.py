@@ -48,6 +48,7 @@ def package_names(text):
     names = set(re.findall(r"\blocalparam\b[^;=]*?(\w+)\s*=", text))
     for members in re.findall(r"\benum\s[^{]*\{([^}]*)\}", re.sub(r"//[^\n]*", "", text)):
         names |= {member.split("=")[0].strip() for member in members.split(",")}
+    names |= set(re.findall(r"\bfunction\b[^;(]*?(\w+)\s*\(", text))
     return names | set(re.findall(r"\}\s*(\w+)\s*;", text))
 
 
