@@ -143,7 +143,8 @@ TEST_P(DriverAutomatic, PollAtEveryPhase_NeverTornNeverOld) {
     for (unsigned i = 0; i < 2000 && last < 200; ++i) {
       chip.simulator.advance((700 + 37 * (i % 331)) * sim::kPsPerNs);
       Frame frame;
-      ASSERT_TRUE(chip.device.automatic().poll(frame).ok());
+      const mb4::Result<void> polled = chip.device.automatic().poll(frame);
+      ASSERT_TRUE(polled.ok()) << to_string(polled.error()) << ", poll " << i << ", period " << period;
       if (!frame[1]) {
         ASSERT_EQ(frame[1].error(), Error::kNoData) << i;
         continue;
