@@ -144,7 +144,8 @@ TEST_P(DriverAutomatic, PollAtEveryPhase_NeverTornNeverOld) {
       chip.simulator.advance((700 + 37 * (i % 331)) * sim::kPsPerNs);
       Frame frame;
       const mb4::Result<void> polled = chip.device.automatic().poll(frame);
-      ASSERT_TRUE(polled.ok()) << to_string(polled.error()) << ", poll " << i << ", period " << period;
+      ASSERT_TRUE(polled.ok()) << to_string(polled.error()) << ", poll " << i << ", period "
+                               << period;
       if (!frame[1]) {
         ASSERT_EQ(frame[1].error(), Error::kNoData) << i;
         continue;
