@@ -1,9 +1,9 @@
 # SPDX-FileCopyrightText: 2026 The openmb4 authors
 # SPDX-License-Identifier: Apache-2.0
 #
-# Vivado: constraints of mb4_axil, made by tools/synth/constraints.py from crossings.toml: do not edit.
-# Not run in Vivado. The names of clocks and periods in the first lines are yours to change, as are ports if mb4_axil is
-# not the top of the design. The lines are point to point: with set_clock_groups the tool would ignore the delays.
+# Vivado: constraints of mb4_axil with the preset full, made by tools/synth/constraints.py from crossings.toml: do not
+# edit. Not run in Vivado. The names of clocks and periods in the first lines are yours to change, as are ports if mb4_axil
+# is not the top of the design. The lines are point to point: with set_clock_groups the tool would ignore the delays.
 
 set core_period 50.0
 create_clock -name core -period $core_period [get_ports clk_i]
@@ -20,13 +20,13 @@ set_false_path -from [get_cells -hierarchical -filter {NAME =~ *u_regs/u_cfg/chs
 set_max_delay -datapath_only -from [get_cells -hierarchical -filter {NAME =~ *u_regs/u_cfg/chsel_q* || NAME =~ *u_regs/u_cfg/iface_q*}] -to [get_cells -hierarchical -filter {NAME =~ *u_control/u_force/meta_q*}] $core_period
 
 # configuration of the data channels (`mb4_slave_cfg`)
-set_false_path -from [get_cells -hierarchical -filter {NAME =~ *u_regs/u_slave_cfg/gen_list*/u_list/mem*}] -to [get_clocks core]
+set_false_path -from [get_cells -hierarchical -filter {NAME =~ *u_regs/u_slave_cfg/gen_list*u_list/mem*}] -to [get_clocks core]
 
 # 0xF4 byte, `count`
 set_max_delay -datapath_only -from [get_cells -hierarchical -filter {NAME =~ *u_regs/u_instr/byte_q* || NAME =~ *u_regs/u_instr/count_q*}] -to [get_clocks core] $core_period
 
 # `ack`, held 0xF4 bits, status bits
-set_max_delay -datapath_only -from [get_cells -hierarchical -filter {NAME =~ *u_control/u_flags/eot_q* || NAME =~ *u_control/u_flags/fail_q* || NAME =~ *u_control/u_flags/n_agserr_q* || NAME =~ *u_control/u_flags/n_delayerr_q* || NAME =~ *u_control/u_flags/n_regerr_q* || NAME =~ *u_control/u_flags/n_scderr_q* || NAME =~ *u_control/u_flags/ner_low_q* || NAME =~ *u_control/u_flags/regend_q* || NAME =~ *u_control/u_sequencer/held_q* || NAME =~ *u_control/u_sequencer/u_written/ack_q* || NAME =~ *u_control/u_comm/register_q* || NAME =~ *u_control/u_comm/gen_biss_b/u_biss_b/index_q* || NAME =~ *u_control/u_comm/gen_control/u_frame/index_q* || NAME =~ *u_control/u_comm/u_cdm_timeout/zeros_q*}] -to [get_clocks host] $host_period
+set_max_delay -datapath_only -from [get_cells -hierarchical -filter {NAME =~ *u_control/u_flags/eot_q* || NAME =~ *u_control/u_flags/fail_q* || NAME =~ *u_control/u_flags/n_agserr_q* || NAME =~ *u_control/u_flags/n_delayerr_q* || NAME =~ *u_control/u_flags/n_regerr_q* || NAME =~ *u_control/u_flags/n_scderr_q* || NAME =~ *u_control/u_flags/ner_low_q* || NAME =~ *u_control/u_flags/regend_q* || NAME =~ *u_control/u_sequencer/held_q* || NAME =~ *u_control/u_sequencer/u_written/ack_q* || NAME =~ *u_control/u_comm/register_q* || NAME =~ *u_control/u_comm/gen_biss_b*u_biss_b/index_q* || NAME =~ *u_control/u_comm/gen_control*u_frame/index_q* || NAME =~ *u_control/u_comm/u_cdm_timeout/zeros_q*}] -to [get_clocks host] $host_period
 
 # posted bytes (SCDATA, RDATA, SVALID)
 set_max_delay -datapath_only -from [get_cells -hierarchical -filter {NAME =~ *u_regs/u_posted/wr_gray_q* || NAME =~ *u_regs/u_posted/u_ram/mem*}] -to [get_clocks core] $core_period
@@ -38,7 +38,7 @@ set_max_delay -datapath_only -from [get_cells -hierarchical -filter {NAME =~ *u_
 set_max_delay -datapath_only -from [get_cells -hierarchical -filter {NAME =~ *u_regs/u_recent/mark_q*}] -to [get_clocks core] $core_period
 
 # SCDATA, RDATA read data
-set_max_delay -datapath_only -from [get_cells -hierarchical -filter {NAME =~ *u_regs/u_rdata/gen_no_banks/u_host/mem* || NAME =~ *u_regs/u_scd/u_scd_hi/gen_banks/u_host/mem* || NAME =~ *u_regs/u_scd/u_scd_lo/gen_banks/u_host/mem*}] -to [get_clocks host] $host_period
+set_max_delay -datapath_only -from [get_cells -hierarchical -filter {NAME =~ *u_regs/u_rdata/gen_no_banks*u_host/mem* || NAME =~ *u_regs/u_scd/u_scd_hi/gen_banks*u_host/mem* || NAME =~ *u_regs/u_scd/u_scd_lo/gen_banks*u_host/mem*}] -to [get_clocks host] $host_period
 
 # `base` of the host's bank
 set_max_delay -datapath_only -from [get_cells -hierarchical -filter {NAME =~ *u_regs/u_bank/base_q*}] -to [get_clocks host] $host_period
@@ -90,3 +90,6 @@ set_false_path -from [get_ports {ner_i}] -to [get_clocks core]
 
 # bus reset
 set_false_path -from [get_ports {s_axi_aresetn}] -to [get_clocks host]
+
+# bus reset
+set_false_path -from [get_cells -hierarchical -filter {NAME =~ *u_bus_reset/sync_q*}] -to [get_clocks core]

@@ -1,9 +1,9 @@
 # SPDX-FileCopyrightText: 2026 The openmb4 authors
 # SPDX-License-Identifier: Apache-2.0
 #
-# Diamond: constraints of mb4_axil, made by tools/synth/constraints.py from crossings.toml: do not edit.
-# Not run in Diamond. The names of clocks and periods in the first lines are yours to change, as are ports if mb4_axil is
-# not the top of the design. The lines are point to point: with set_clock_groups the tool would ignore the delays.
+# Diamond: constraints of mb4_axil with the preset full, made by tools/synth/constraints.py from crossings.toml: do not
+# edit. Not run in Diamond. The names of clocks and periods in the first lines are yours to change, as are ports if mb4_axil
+# is not the top of the design. The lines are point to point: with set_clock_groups the tool would ignore the delays.
 
 set core_period 50.0
 create_clock -name core -period $core_period [get_ports clk_i]
@@ -21,15 +21,15 @@ set_max_delay -from [get_cells -hierarchical {*u_regs/u_cfg/chsel_q* *u_regs/u_c
 set_false_path -hold -from [get_cells -hierarchical {*u_regs/u_cfg/chsel_q* *u_regs/u_cfg/iface_q*}] -to [get_cells -hierarchical {*u_control/u_force/meta_q*}]
 
 # configuration of the data channels (`mb4_slave_cfg`)
-set_false_path -from [get_cells -hierarchical {*u_regs/u_slave_cfg/gen_list*/u_list/mem*}] -to [get_clocks core]
+set_false_path -from [get_cells -hierarchical {*u_regs/u_slave_cfg/gen_list*u_list/mem*}] -to [get_clocks core]
 
 # 0xF4 byte, `count`
 set_max_delay -from [get_cells -hierarchical {*u_regs/u_instr/byte_q* *u_regs/u_instr/count_q*}] -to [get_clocks core] $core_period
 set_false_path -hold -from [get_cells -hierarchical {*u_regs/u_instr/byte_q* *u_regs/u_instr/count_q*}] -to [get_clocks core]
 
 # `ack`, held 0xF4 bits, status bits
-set_max_delay -from [get_cells -hierarchical {*u_control/u_flags/eot_q* *u_control/u_flags/fail_q* *u_control/u_flags/n_agserr_q* *u_control/u_flags/n_delayerr_q* *u_control/u_flags/n_regerr_q* *u_control/u_flags/n_scderr_q* *u_control/u_flags/ner_low_q* *u_control/u_flags/regend_q* *u_control/u_sequencer/held_q* *u_control/u_sequencer/u_written/ack_q* *u_control/u_comm/register_q* *u_control/u_comm/gen_biss_b/u_biss_b/index_q* *u_control/u_comm/gen_control/u_frame/index_q* *u_control/u_comm/u_cdm_timeout/zeros_q*}] -to [get_clocks host] $host_period
-set_false_path -hold -from [get_cells -hierarchical {*u_control/u_flags/eot_q* *u_control/u_flags/fail_q* *u_control/u_flags/n_agserr_q* *u_control/u_flags/n_delayerr_q* *u_control/u_flags/n_regerr_q* *u_control/u_flags/n_scderr_q* *u_control/u_flags/ner_low_q* *u_control/u_flags/regend_q* *u_control/u_sequencer/held_q* *u_control/u_sequencer/u_written/ack_q* *u_control/u_comm/register_q* *u_control/u_comm/gen_biss_b/u_biss_b/index_q* *u_control/u_comm/gen_control/u_frame/index_q* *u_control/u_comm/u_cdm_timeout/zeros_q*}] -to [get_clocks host]
+set_max_delay -from [get_cells -hierarchical {*u_control/u_flags/eot_q* *u_control/u_flags/fail_q* *u_control/u_flags/n_agserr_q* *u_control/u_flags/n_delayerr_q* *u_control/u_flags/n_regerr_q* *u_control/u_flags/n_scderr_q* *u_control/u_flags/ner_low_q* *u_control/u_flags/regend_q* *u_control/u_sequencer/held_q* *u_control/u_sequencer/u_written/ack_q* *u_control/u_comm/register_q* *u_control/u_comm/gen_biss_b*u_biss_b/index_q* *u_control/u_comm/gen_control*u_frame/index_q* *u_control/u_comm/u_cdm_timeout/zeros_q*}] -to [get_clocks host] $host_period
+set_false_path -hold -from [get_cells -hierarchical {*u_control/u_flags/eot_q* *u_control/u_flags/fail_q* *u_control/u_flags/n_agserr_q* *u_control/u_flags/n_delayerr_q* *u_control/u_flags/n_regerr_q* *u_control/u_flags/n_scderr_q* *u_control/u_flags/ner_low_q* *u_control/u_flags/regend_q* *u_control/u_sequencer/held_q* *u_control/u_sequencer/u_written/ack_q* *u_control/u_comm/register_q* *u_control/u_comm/gen_biss_b*u_biss_b/index_q* *u_control/u_comm/gen_control*u_frame/index_q* *u_control/u_comm/u_cdm_timeout/zeros_q*}] -to [get_clocks host]
 
 # posted bytes (SCDATA, RDATA, SVALID)
 set_max_delay -from [get_cells -hierarchical {*u_regs/u_posted/wr_gray_q* *u_regs/u_posted/u_ram/mem*}] -to [get_clocks core] $core_period
@@ -44,8 +44,8 @@ set_max_delay -from [get_cells -hierarchical {*u_regs/u_recent/mark_q*}] -to [ge
 set_false_path -hold -from [get_cells -hierarchical {*u_regs/u_recent/mark_q*}] -to [get_clocks core]
 
 # SCDATA, RDATA read data
-set_max_delay -from [get_cells -hierarchical {*u_regs/u_rdata/gen_no_banks/u_host/mem* *u_regs/u_scd/u_scd_hi/gen_banks/u_host/mem* *u_regs/u_scd/u_scd_lo/gen_banks/u_host/mem*}] -to [get_clocks host] $host_period
-set_false_path -hold -from [get_cells -hierarchical {*u_regs/u_rdata/gen_no_banks/u_host/mem* *u_regs/u_scd/u_scd_hi/gen_banks/u_host/mem* *u_regs/u_scd/u_scd_lo/gen_banks/u_host/mem*}] -to [get_clocks host]
+set_max_delay -from [get_cells -hierarchical {*u_regs/u_rdata/gen_no_banks*u_host/mem* *u_regs/u_scd/u_scd_hi/gen_banks*u_host/mem* *u_regs/u_scd/u_scd_lo/gen_banks*u_host/mem*}] -to [get_clocks host] $host_period
+set_false_path -hold -from [get_cells -hierarchical {*u_regs/u_rdata/gen_no_banks*u_host/mem* *u_regs/u_scd/u_scd_hi/gen_banks*u_host/mem* *u_regs/u_scd/u_scd_lo/gen_banks*u_host/mem*}] -to [get_clocks host]
 
 # `base` of the host's bank
 set_max_delay -from [get_cells -hierarchical {*u_regs/u_bank/base_q*}] -to [get_clocks host] $host_period
@@ -108,3 +108,6 @@ set_false_path -from [get_ports {ner_i}] -to [get_clocks core]
 
 # bus reset
 set_false_path -from [get_ports {s_axi_aresetn}] -to [get_clocks host]
+
+# bus reset
+set_false_path -from [get_cells -hierarchical {*u_bus_reset/sync_q*}] -to [get_clocks core]
