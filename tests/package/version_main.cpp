@@ -1,11 +1,12 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The sim target of openmb4.core: mb4_core alone, clocked by hand, reads REVISION and VERSION
-// (opcode 0x03, address 0xEA) over SPI.
+// The sim targets of openmb4.core: mb4_core alone, clocked by hand, reads REVISION and VERSION
+// (opcode 0x03, address 0xEA) and the features (0x7F) over SPI.
 #include <Vmb4_core.h>
 #include <verilated.h>
 
+#include <array>
 #include <cstdint>
 #include <cstdio>
 #include <memory>
@@ -55,15 +56,21 @@ int main(int argc, char** argv) {
   core->rst_ni = core->por_ni = 1;
   for (int i = 0; i < 8; ++i) tick(*core);
   context.assertOn(true);
-  core->cs_ni = 0;
-  core->eval();
-  exchange(*core, 0x03);
-  exchange(*core, 0xEA);
-  const unsigned revision = exchange(*core, 0);
-  const unsigned version = exchange(*core, 0);
-  core->cs_ni = 1;
-  core->eval();
-  std::printf("revision 0x%02X, version 0x%02X\n", revision, version);
+  const auto read = [&](std::uint8_t address, std::array<unsigned, 2>& bytes) {
+    core->cs_ni = 0;
+    core->eval();
+    exchange(*core, 0x03);
+    exchange(*core, address);
+    for (unsigned& byte : bytes) byte = exchange(*core, 0);
+    core->cs_ni = 1;
+    core->eval();
+  };
+  std::array<unsigned, 2> bytes{};
+  read(0x7F, bytes);
+  const unsigned features = bytes[0];
+  read(0xEA, bytes);
+  const auto [revision, version] = bytes;
+  std::printf("revision 0x%02X, version 0x%02X, features 0x%02X\n", revision, version, features);
   core->final();
   return revision == 0x20 && version == 0x84 ? 0 : 1;
 }
