@@ -174,6 +174,37 @@ TEST_P(ChipFeatures, DataChannelsThatAreAbsent_ReadZeroAndIgnoreWrites) {
   }
 }
 
+// "... ignore writes": such writes take no place of the 128 that wait for the core's clock, and
+// hide no byte of the last four addresses, which read back at once. RDATA is absent without
+// control.
+TEST_P(ChipFeatures, WritesToAbsentDataChannels_TakeNoPlaceOfOthers) {
+  const Core& core = GetParam();
+  Chip chip(one_slave(kEncoder, "", key() + "\nf_clk_hz = 0"));
+  std::vector<std::uint8_t> absent;
+  for (unsigned x = 1; x <= 8; ++x) {
+    for (unsigned byte = 0; byte < 8 && !core.channel(x); ++byte) {
+      absent.push_back(static_cast<std::uint8_t>(reg::scdata_address(x) + byte));
+    }
+  }
+  for (unsigned byte = 0; byte < 64 && !core.control; ++byte) {
+    absent.push_back(static_cast<std::uint8_t>(reg::kAddrRdata + byte));
+  }
+  const std::vector<std::uint8_t> word{0x01, 0x23, 0x45, 0x67, 0x89, 0xAB, 0xCD, 0xEF};
+  chip.write(reg::scdata_address(1), {0x01, 0x23, 0x45, 0x67, 0x89, 0xAB, 0xCD, 0xEF});
+  const std::vector<std::uint8_t> last(word.begin() + 4, word.end());
+  for (std::size_t count = 0; count < 150 && !absent.empty(); count += absent.size()) {
+    for (const std::uint8_t address : absent) {
+      chip.write(address, {static_cast<std::uint8_t>(0x80 + address)});
+      ASSERT_EQ(chip.read(reg::scdata_address(1) + 4, 4), last) << unsigned{address};
+      ASSERT_EQ(chip.read(address), 0U) << unsigned{address};
+    }
+  }
+  chip.write(reg::kAddrIface, {reg::CLKENI::kMask});
+  chip.advance_us(50);
+  EXPECT_EQ(chip.read(reg::scdata_address(1), 8), word);
+  for (const std::uint8_t address : absent) EXPECT_EQ(chip.read(address), 0U) << unsigned{address};
+}
+
 // ENSCDx of an absent data channel is not written either: the chain's frame is that of one word.
 TEST_P(ChipFeatures, EnscdOfAnAbsentDataChannel_AddsNoWord) {
   Chip chip(scenario());
