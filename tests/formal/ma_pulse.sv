@@ -5,7 +5,8 @@
 // frames, BREAK, resets, register access and force bits do, whatever the lines answer, and whenever
 // the host changes FREQS, the protocol or the use of a line (datasheet page 12: I301..I303;
 // decision 40). A low level lasts half a period of the FREQS with which it began; a high one of
-// that with which it ends. Both lines as in the chip.
+// that with which it ends. Both lines as in the chip; presets with one line have ONE_LINE defined, MA of
+// the other one is 1.
 //
 // claim: every level of MA on two lines lasts half a period at least, whatever happens
 // clocks: one
@@ -76,6 +77,13 @@ module proof (
   wire [7:0] dut_len, dut_cnt;
   wire       dut_last, dut_clock1, dut_clock2;
   wire [2:0] dut_state1, dut_state2;
+`ifdef ONE_LINE
+  localparam logic One = 1'b1;
+  assign {dut_state2, dut_clock2} = 4'd0;
+  always @* if (started) Other_A: assert (ma[1]);
+`else
+  localparam logic One = 1'b0;
+`endif
 
   logic [7:0] len_q;
   logic       live_q;
@@ -90,7 +98,7 @@ module proof (
   end
 
   logic [1:0] rise;
-  line_proof #(.Covers(1'b1)) u_line1 (
+  line_proof #(.Covers(1'b1), .One(One)) u_line1 (
     .clk_i, .por_ni, .live_i(started && live_q), .reset_i(!rst_ni), .len_i(dut_len),
     .len_q_i(len_q), .cnt_i(dut_cnt - 8'd1), .ma_i(ma[0]), .idle_i(idle[0]), .force_i(forced_q[0]),
     .state_i(dut_state1), .clocking_i(dut_clock1), .other_i(dut_state2),
@@ -107,7 +115,8 @@ endmodule
 
 // One line: what has to hold, and what the induction needs.
 module line_proof #(
-  parameter logic Covers = 1'b0   // the cover points, once for both lines
+  parameter logic Covers = 1'b0,  // the cover points, once for both lines
+  parameter logic One = 1'b0      // there is no other line
 ) (
   input logic       clk_i, por_ni, live_i, reset_i,
   input logic [7:0] len_i, len_q_i, cnt_i,   // half period, now and a clock before; clocks of it
@@ -147,13 +156,13 @@ module line_proof #(
   if (Covers) begin : gen_covers
     always @(posedge clk_i) if (live_i && !reset_i) begin
       // Both lines at once.
-      Clock_C:  cover (rise && other_rise_i && len_i == 8'd2 && state_i == REQUEST &&
-                       other_i == REQUEST && clocking_i);
-      Broken_C: cover (rise && other_rise_i && len_i == 8'd2 && state_i == IDLE &&
+      Clock_C:  cover (rise && (other_rise_i || One) && len_i == 8'd2 && state_i == REQUEST &&
+                       (other_i == REQUEST || One) && clocking_i);
+      Broken_C: cover (rise && (other_rise_i || One) && len_i == 8'd2 && state_i == IDLE &&
                        other_i == IDLE && !force_i);
       // The other line has just started with a shorter half period: this one had ended before.
-      Other_C:  cover (rise && low_q == 8'd2 && len_i == 8'd1 && other_i == REQUEST);
-      Forced_C: cover (fall && force_i && other_i == REQUEST);
+      Other_C:  cover ((rise && low_q == 8'd2 && len_i == 8'd1 && other_i == REQUEST) || One);
+      Forced_C: cover (fall && force_i && (other_i == REQUEST || One));
     end
   end
 

@@ -3,8 +3,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """Proofs of single blocks: Yosys, yosys-smtbmc and z3; bounded search, cover points, induction.
 
-  prove.py NAME FOLDER [--bounds|--mutations|--short]   one proof; FOLDER is for what the tools leave;
-                                   --short: of the mutations only the first
+  prove.py NAME FOLDER [--bounds|--mutations|--short] [PRESET]   one proof; FOLDER is for what the tools leave;
+                                   --short: of the mutations only the first; PRESET: modules with the parameter
+                                   Features have this preset, without it the full chip
   prove.py table [--check FILE]                 the table of docs/proofs.md, or: FILE holds it
 
 A proof is NAME.sv here: a bench `proof` around the block, with lines `// key: value` in its header; a line
@@ -34,14 +35,16 @@ import project  # noqa: E402
 import yosys  # noqa: E402
 
 KEYS = {"checks", "claim", "clocks", "depth", "cover", "unbounded", "look", "keep", "mutation"}
+TWO_LINES = 0x40   # of the word FEATURES
 SOLVER = "z3"
 STEPS = 10
 PACKAGE = {"z3": "z3", "yosys-smtbmc": "yosys"}
 
 
 class Proof:
-    def __init__(self, name):
+    def __init__(self, name, preset="full"):
         self.name = name
+        self.preset = preset
         self.path = HERE / f"{name}.sv"
         self.values = {}
         head = self.path.read_text(encoding="utf-8").split("\nmodule ")[0]
@@ -71,6 +74,7 @@ def apply(change, sources, where):
 
 def model(proof, folder, mutation=None):
     """Writes the model of a proof, with one mutation or none."""
+    default = re.compile(r"(parameter logic \[31:0\] Features = mb4_page_regs_pkg::)FEATURES_FULL\b")
     if folder.exists():
         shutil.rmtree(folder)
     folder.mkdir(parents=True)
@@ -84,13 +88,15 @@ def model(proof, folder, mutation=None):
     for name, text in sources.items():
         target = folder / "rtl" / name
         target.parent.mkdir(parents=True, exist_ok=True)
-        target.write_text(text, encoding="utf-8")
+        target.write_text(default.sub(rf"\1FEATURES_{proof.preset.upper()}", text), encoding="utf-8")
         files.append(target)
     formal = "" if "checks" in proof.values else "-formal"
-    looks = [value.split(" = ") for value in proof.values.get("look", [])]
+    two_lines = project.presets()[proof.preset] & TWO_LINES
+    looks = [value.split(" = ") for value in proof.values.get("look", [])
+             if two_lines or "gen_line[1]" not in value]
     commands = [f"read_verilog -defer -sv {formal} -I{project.INCLUDE} " +
                 " ".join(str(f) for f in files),
-                f"read_verilog -sv -formal {proof.path}",
+                f"read_verilog -sv -formal {'' if two_lines else '-DONE_LINE'} {proof.path}",
                 "hierarchy -check -top proof", "proc", "flatten", "cd proof",
                 *[f"connect -nounset -set {wire} {path}" for wire, path in looks], "cd",
                 "opt_clean", "check",
@@ -153,14 +159,14 @@ def timed(what, function, *arguments):
     return [] if good else [f"{what} failed:\n{text[-4000:]}"]
 
 
-def prove(name, folder, part):
+def prove(name, folder, part, preset):
     for program in (SOLVER, "yosys", "yosys-smtbmc"):
         if shutil.which(program) is None:
             print(f"skipped: {program} is not installed (package {PACKAGE.get(program, program)}; "
                   f"tools/setup.sh test installs it)")
             sys.exit(project.SKIPPED)
-    proof = Proof(name)
-    print(f"{name}: {proof.one('claim')}", flush=True)
+    proof = Proof(name, preset)
+    print(f"{name}, {preset}: {proof.one('claim')}", flush=True)
     findings = []
     if part != "--mutations":
         model(proof, folder / "rtl_model")
@@ -198,7 +204,11 @@ def main():
                            "the table is that of the proofs")
         print(text)
         return
-    prove(sys.argv[1], Path(sys.argv[2]).resolve(), sys.argv[3] if len(sys.argv) > 3 else "")
+    parts = [word for word in sys.argv[3:] if word.startswith("--")]
+    presets = [word for word in sys.argv[3:] if word in project.presets()]
+    if len(parts) > 1 or len(presets) > 1 or len(parts) + len(presets) != len(sys.argv) - 3:
+        raise SystemExit(f"prove.py: {' '.join(sys.argv[3:])}: one of --bounds, --mutations, --short, and one preset")
+    prove(sys.argv[1], Path(sys.argv[2]).resolve(), (parts or [""])[0], (presets or ["full"])[0])
 
 
 main()

@@ -3,8 +3,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """Plain Verilog of each top, for tools that do not read SystemVerilog.
 
-  plain_verilog.py FOLDER   writes FOLDER/TOP.v for each top (mb4_core.v ...): one module each, with
-                            the default parameters, made by Yosys from the RTL
+  plain_verilog.py FOLDER [PRESET]   writes FOLDER/TOP.v for each top (mb4_core.v ...): one module each, made
+                                     by Yosys from the RTL; with the default parameters, or those of a preset
 """
 
 import sys
@@ -19,23 +19,28 @@ TOPS = ("mb4_core", "mb4_engine", "mb4_chip", "mb4_axil", "mb4_wb")
 HEAD = """// SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// {top} as plain Verilog (2005), one module, made from the RTL by tools/synth/plain_verilog.py:
+// {top} as plain Verilog (2005), {features}one module, made from the RTL by tools/synth/plain_verilog.py:
 // do not edit. Ports: rtl/mb4/{top}.sv; how to use it: docs/integration.md.
 `timescale 1ns/1ps
 
 """
 
 
-def write(top, folder, files=None):
+def write(top, folder, files=None, preset="full"):
     """FOLDER/TOP.v of the RTL, or of other files with the same modules."""
     path = folder / f"{top}.v"
+    chosen, named, features = [], [], ""
+    if preset != "full":
+        chosen = [f"chparam -set Features {project.presets()[preset]} {top}"]
+        named = [f"rename -top {top}"]
+        features = f"preset {preset}, "
     status, text = yosys.execute(
-        yosys.read(files) + [f"hierarchy -check -top {top}", "proc",
+        yosys.read(files) + chosen + [f"hierarchy -check -top {top}", "proc",
                              "flatten", "opt_expr", "opt_clean", "check -assert",
-                             f"write_verilog -noattr {path}"], folder, top)
+                             *named, f"write_verilog -noattr {path}"], folder, top)
     if status != 0:
         raise SystemExit(f"{top}: {text}")
-    path.write_text(HEAD.format(top=top) + path.read_text(encoding="utf-8"), encoding="utf-8")
+    path.write_text(HEAD.format(top=top, features=features) + path.read_text(encoding="utf-8"), encoding="utf-8")
     (folder / f"{top}.ys").unlink()
     return path
 
@@ -43,9 +48,10 @@ def write(top, folder, files=None):
 def main():
     parser = project.Arguments(__doc__)
     parser.add_argument("folder", type=parser.folder)
-    folder = parser.parse_args().folder
+    parser.add_argument("preset", nargs="?", default="full", choices=project.presets())
+    arguments = parser.parse_args()
     for top in TOPS:
-        print(write(top, folder))
+        print(write(top, arguments.folder, preset=arguments.preset))
 
 
 if __name__ == "__main__":

@@ -1,0 +1,87 @@
+# SPDX-FileCopyrightText: 2026 The openmb4 authors
+# SPDX-License-Identifier: Apache-2.0
+"""The iC-MB4-compatible master as a LiteX module, on Wishbone or AXI4-Lite (docs/buses.md).
+
+    self.mb4 = Mb4(platform, platform.request("encoder"), features="single")
+    self.bus.add_slave("mb4", self.mb4.bus, SoCRegion(size=Mb4.SIZE, cached=False))
+    if self.irq.enabled:
+        self.irq.add("mb4")
+"""
+
+import sys
+from pathlib import Path
+
+from litex.gen import LiteXModule
+from litex.soc.interconnect import axi, wishbone
+from litex.soc.interconnect.csr_eventmanager import EventManager, EventSourceLevel
+from migen import ClockSignal, Constant, Instance, ResetSignal, Signal
+
+ROOT = Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(ROOT / "tools" / "synth"))
+
+import project  # noqa: E402
+
+
+class Mb4(LiteXModule):
+    """pads: ma1, sl1; if they are there mo1, ma2, sl2, mo2, and ner (its level; the driver is ner_low), getsens.
+
+    bus_standard   "wishbone" or "axi-lite", as that of the SoC
+    features       preset of the core: "full", "drive", "single", "reader"
+    core           clock domain of the core, up to 25 MHz by the datasheet. The bus is in "sys". Give the tool the
+                   lines of rtl/mb4/constraints if the two differ
+    verilog        plain Verilog of the top with these features (tools/synth/plain_verilog.py), for tools that do not
+                   read SystemVerilog. None: the RTL of this repository
+    """
+
+    SIZE = 0x1000
+
+    def __init__(self, platform, pads, bus_standard="wishbone", features="full", core="sys", verilog=None):
+        self.irq = Signal()
+        self.eot = Signal()
+        self.ner_low = Signal()   # pull NER low
+        self.clkeni = Signal()
+        self.paired = Signal()
+        top = {"wishbone": "mb4_wb", "axi-lite": "mb4_axil"}[bus_standard]
+        ports = {"o_irq_o": self.irq, "i_clk_i": ClockSignal(core), "i_por_ni": ~ResetSignal("sys"),
+                 "o_eot_o": self.eot, "o_ner_low_o": self.ner_low, "i_ner_i": getattr(pads, "ner", ~self.ner_low),
+                 "o_clkeni_o": self.clkeni, "o_paired_o": self.paired, "i_getsens_i": getattr(pads, "getsens", Constant(0, 1)),
+                 "o_ma1_o": pads.ma1, "i_sl1_i": pads.sl1, "o_mo1_o": getattr(pads, "mo1", Signal()),
+                 "o_ma2_o": getattr(pads, "ma2", Signal()), "i_sl2_i": getattr(pads, "sl2", Constant(1, 1)),
+                 "o_mo2_o": getattr(pads, "mo2", Signal()),
+                 "i_quirks_i": Constant(0, 6)}   # mb4_pkg::QUIRKS_DEFAULT
+        ports.update(self._wishbone() if top == "mb4_wb" else self._axi_lite())
+        if verilog is None:
+            ports["p_Features"] = project.presets()[features]
+            platform.add_verilog_include_path(str(project.INCLUDE))
+            for path in project.rtl_files():
+                platform.add_source(str(path), language="systemverilog")
+        else:
+            platform.add_source(str(verilog), language="verilog")
+        self.specials += Instance(top, **ports)
+
+        self.ev = EventManager()
+        self.ev.interrupt = EventSourceLevel(description="irq_o: IRQ_STATUS tells what, and is cleared there")
+        self.ev.finalize()
+        self.comb += self.ev.interrupt.trigger.eq(self.irq)
+
+    def _wishbone(self):
+        self.bus = bus = wishbone.Interface(data_width=32, adr_width=10, addressing="word")
+        ack, err = Signal(), Signal()
+        # LiteX's masters wait for ACK and look at ERR with it.
+        self.comb += [bus.ack.eq(ack | err), bus.err.eq(err)]
+        return {"i_wb_clk_i": ClockSignal("sys"), "i_wb_rst_i": ResetSignal("sys"),
+                "i_wb_cyc_i": bus.cyc, "i_wb_stb_i": bus.stb, "i_wb_we_i": bus.we, "i_wb_adr_i": bus.adr,
+                "i_wb_dat_i": bus.dat_w, "i_wb_sel_i": bus.sel, "o_wb_dat_o": bus.dat_r,
+                "o_wb_ack_o": ack, "o_wb_err_o": err, "o_wb_stall_o": Signal()}
+
+    def _axi_lite(self):
+        self.bus = bus = axi.AXILiteInterface(data_width=32, address_width=12)
+        ports = {"i_s_axi_aclk": ClockSignal("sys"), "i_s_axi_aresetn": ~ResetSignal("sys")}
+        for name, channel, sent, received in (
+                ("aw", bus.aw, ("addr",), ()), ("w", bus.w, ("data", "strb"), ()), ("b", bus.b, (), ("resp",)),
+                ("ar", bus.ar, ("addr",), ()), ("r", bus.r, (), ("data", "resp"))):
+            ours = "o" if received else "i"   # the side that says valid
+            ports[f"{ours}_s_axi_{name}valid"] = channel.valid
+            ports[f"{'i' if received else 'o'}_s_axi_{name}ready"] = channel.ready
+            ports.update({f"{ours}_s_axi_{name}{field}": getattr(channel, field) for field in sent + received})
+        return ports
