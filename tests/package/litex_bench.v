@@ -131,6 +131,7 @@ module litex_bench;
       $finish;
     end
     expect_word(EvStatus, 32'h00000001, 32'h00000001);
+    expect_word(Origin + 32'h120, 32'hFFFFFFFF, 32'h00000000);  // takes the snapshot
     expect_word(Origin + 32'h128, 32'h00000001, 32'h00000001);
     write(Origin + 32'h10C, 32'hFFFFFFFF);
     expect_word(EvStatus, 32'h00000001, 32'h00000000);

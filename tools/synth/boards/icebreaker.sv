@@ -2,9 +2,12 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // mb4_core on an iCEBreaker (iCE40 UP5K): host on Pmod 1A (SPI, Pmod type 2), line transceivers on
-// Pmod 1B, the board's 12 MHz as system clock. Pins: icebreaker.pcf.
+// Pmod 1B. The PLL makes 19.875 MHz, the system clock, of the board's 12 MHz: MA up to 9.9 MHz.
+// Pins and clocks: icebreaker.pcf.
 
-module icebreaker (
+module icebreaker #(
+  parameter logic [31:0] Features = mb4_page_regs_pkg::FEATURES_FULL
+) (
   input  logic clk_i,      // 12 MHz
   input  logic button_ni,  // NRES
   // Pmod 1A: host
@@ -23,18 +26,33 @@ module icebreaker (
   output logic ner_io
 );
 
+  logic       clk, locked;
   logic       por_n;
   logic       miso, miso_oe, ner_low, ner;
   logic       clkeni, paired;
   logic [3:0] por_q;
 
-  // Flops are 0 after the configuration: 15 clocks of power-on reset.
-  always_ff @(posedge clk_i) if (por_q != 4'd15) por_q <= por_q + 4'd1;
+  SB_PLL40_PAD #(
+    .FEEDBACK_PATH ("SIMPLE"),
+    .DIVR          (4'd0),
+    .DIVF          (7'd52),
+    .DIVQ          (3'd5),
+    .FILTER_RANGE  (3'd1)
+  ) u_pll (
+    .PACKAGEPIN    (clk_i),
+    .PLLOUTGLOBAL  (clk),
+    .LOCK          (locked),
+    .RESETB        (1'b1),
+    .BYPASS        (1'b0)
+  );
+
+  // Flops are 0 after the configuration: 15 clocks of power-on reset after the PLL has locked.
+  always_ff @(posedge clk) if (locked && por_q != 4'd15) por_q <= por_q + 4'd1;
   assign por_n = por_q == 4'd15;
 
   // SL is taken in the I/O cells: both edges see the same delay from the pin.
-  mb4_core #(.SlCells(biss_pkg::SL_ICE40)) u_core (
-    .clk_i,
+  mb4_core #(.SlCells(biss_pkg::SL_ICE40), .Features(Features)) u_core (
+    .clk_i     (clk),
     .rst_ni    (por_n && button_ni),
     .por_ni    (por_n),
     .sclk_i,
