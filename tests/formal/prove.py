@@ -35,7 +35,9 @@ import project  # noqa: E402
 import yosys  # noqa: E402
 
 KEYS = {"checks", "claim", "clocks", "depth", "cover", "unbounded", "look", "keep", "mutation"}
-TWO_LINES = 0x40   # of the word FEATURES
+# Bits of the word FEATURES, and of those that modules have as a parameter of their own.
+TWO_LINES = 0x40
+PARAMETERS = {"BissB": 0x20, "Ssi": 0x10, "Mo": 0x08, "Control": 0x04, "FreeCrc": 0x01}
 SOLVER = "z3"
 STEPS = 10
 PACKAGE = {"z3": "z3", "yosys-smtbmc": "yosys"}
@@ -74,7 +76,11 @@ def apply(change, sources, where):
 
 def model(proof, folder, mutation=None):
     """Writes the model of a proof, with one mutation or none."""
-    default = re.compile(r"(parameter logic \[31:0\] Features = mb4_page_regs_pkg::)FEATURES_FULL\b")
+    features = project.presets()[proof.preset]
+    absent = "|".join(name for name, bit in PARAMETERS.items() if not features & bit) or "none"
+    defaults = ((re.compile(r"(parameter logic \[31:0\] Features = mb4_page_regs_pkg::)FEATURES_FULL\b"),
+                 rf"\1FEATURES_{proof.preset.upper()}"),
+                (re.compile(rf"(parameter bit +(?:{absent}) += )1'b1\b"), r"\g<1>1'b0"))
     if folder.exists():
         shutil.rmtree(folder)
     folder.mkdir(parents=True)
@@ -88,10 +94,12 @@ def model(proof, folder, mutation=None):
     for name, text in sources.items():
         target = folder / "rtl" / name
         target.parent.mkdir(parents=True, exist_ok=True)
-        target.write_text(default.sub(rf"\1FEATURES_{proof.preset.upper()}", text), encoding="utf-8")
+        for pattern, value in defaults:
+            text = pattern.sub(value, text)
+        target.write_text(text, encoding="utf-8")
         files.append(target)
     formal = "" if "checks" in proof.values else "-formal"
-    two_lines = project.presets()[proof.preset] & TWO_LINES
+    two_lines = features & TWO_LINES
     looks = [value.split(" = ") for value in proof.values.get("look", [])
              if two_lines or "gen_line[1]" not in value]
     commands = [f"read_verilog -defer -sv {formal} -I{project.INCLUDE} " +

@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
 # SPDX-FileCopyrightText: 2026 The openmb4 authors
 # SPDX-License-Identifier: Apache-2.0
-"""Makes the Verilated iCE40 netlist of mb4_chip: FOLDER/Vmb4_gate__ALL.a.
+"""Makes the Verilated iCE40 netlist of mb4_chip, of a preset if one is given: FOLDER/Vmb4_gate__ALL.a.
 
-  gate_model.py FOLDER
+  gate_model.py FOLDER [PRESET]
 """
 
 import sys
@@ -26,7 +26,7 @@ def cells():
 
 def main():
     folder = Path(sys.argv[1]).resolve()
-    status, text = project.run([sys.executable, "-B", TOOLS / "gate_netlist.py", folder])
+    status, text = project.run([sys.executable, "-B", TOOLS / "gate_netlist.py", folder, *sys.argv[2:]])
     if status == 0:
         # Verilator does not read the default values of the cells' inputs.
         status, text = project.run(

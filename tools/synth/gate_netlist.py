@@ -3,9 +3,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """The iCE40 netlist of mb4_chip for simulation, with the vendor's cells.
 
-  gate_netlist.py FOLDER   writes gates.v (single-bit nets: Verilator 5.006 is wrong about vectors
-                           of which bits depend on others) and mb4_gate_top.sv (the ports of
-                           mb4_chip around it, and what the simulator looks at)
+  gate_netlist.py FOLDER [PRESET]   writes gates.v (single-bit nets: Verilator 5.006 is wrong about vectors
+                                    of which bits depend on others) and mb4_gate_top.sv (the ports of
+                                    mb4_chip around it, and what the simulator looks at)
 """
 
 import json
@@ -28,9 +28,15 @@ PROBES = {"clkeni": "clkeni", "clk": "clk", "paired": "paired",
 def main():
     parser = project.Arguments(__doc__)
     parser.add_argument("folder", type=parser.folder)
-    folder = parser.parse_args().folder
+    parser.add_argument("preset", nargs="?", default="full", choices=project.presets())
+    arguments = parser.parse_args()
+    folder = arguments.folder
+    chosen = [f"hierarchy -check -top {TOP}"]
+    if arguments.preset != "full":
+        chosen = [f"chparam -set Features {project.presets()[arguments.preset]} {TOP}", *chosen,
+                  f"rename -top {TOP}"]
     commands = yosys.read() + [
-        f"hierarchy -check -top {TOP}", "proc", "flatten",
+        *chosen, "proc", "flatten",
         f"expose {' '.join(f'{TOP}/w:{name}' for name in PROBES)}",
         f"synth_ice40 -top {TOP}", "check -assert",
         "select -assert-none t:$dlatch t:$_DLATCH_* t:$_SR_*",
