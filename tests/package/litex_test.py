@@ -51,7 +51,7 @@ def run(folder, verilog, origin, status, features):
                               "plain.v"], cwd=folder / "gateware")
     if code != 0:
         return text
-    return project.run([project.tool("vvp"), "-n", program], cwd=folder / "gateware", timeout=200)[1]
+    return project.run([project.tool("vvp"), "-n", program], cwd=folder / "gateware", timeout=900)[1]
 
 
 def main():

@@ -16,6 +16,7 @@
 
 #include "mb4sim/simulator.hpp"
 #include "tests/support/bits.hpp"
+#include "tests/support/pin_changes.hpp"
 #include "tests/support/random_case.hpp"
 #include "tests/support/session.hpp"
 
@@ -24,31 +25,6 @@ namespace {
 
 namespace reg = mb4::regs;
 namespace sim = mb4::sim;
-
-constexpr sim::Pin kOutputs[] = {sim::Pin::kEot, sim::Pin::kMa1, sim::Pin::kMa2,
-                                 sim::Pin::kMo1, sim::Pin::kMo2, sim::Pin::kNer,
-                                 sim::Pin::kDb1, sim::Pin::kSl1, sim::Pin::kSl2};
-
-unsigned levels(const sim::Simulator& simulator) {
-  unsigned word = 0;
-  for (const sim::Pin pin : kOutputs) word = word << 1U | (simulator.pin(pin) ? 1U : 0U);
-  return word;
-}
-
-using Changes = std::vector<std::pair<sim::Time, unsigned>>;
-
-// Lets time pass and writes down every change of a pin.
-Changes advance(sim::Simulator& simulator, sim::Time duration) {
-  Changes changes;
-  const sim::Time end = simulator.now() + duration;
-  unsigned now = levels(simulator);
-  const auto changed = [&] { return levels(simulator) != now; };
-  while (simulator.run_while_waiting(changed, end)) {
-    now = levels(simulator);
-    changes.emplace_back(simulator.now(), now);
-  }
-  return changes;
-}
 
 sim::SimulatorOptions plain_options() {
   sim::SimulatorOptions options;
