@@ -34,8 +34,9 @@ module ulx3s #(
   always_ff @(posedge clk_i) if (por_q != 4'd15) por_q <= por_q + 4'd1;
   assign por_n = por_q == 4'd15;
 
-  // SL is taken in the I/O cells: both edges see the same delay from the pin.
-  mb4_core #(.SlCells(biss_pkg::SL_ECP5), .Features(Features)) u_core (
+  // SL is taken in flops: nextpnr-ecp5 places a DDR input cell only if its pin goes nowhere else, and
+  // register 0xF8 shows the pins.
+  mb4_core #(.Features(Features)) u_core (
     .clk_i,
     .rst_ni    (por_n && button_ni),
     .por_ni    (por_n),
