@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "mb4sim/simulator.hpp"
+#include "sim/masters/mb4/pins.hpp"
 
 namespace mb4test {
 
