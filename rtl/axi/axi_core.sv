@@ -68,7 +68,7 @@ module axi_core #(
   localparam bit CRC     = Extras[axi_pkg::EXTRA_CRC];
   localparam bit TIMEOUT = Extras[axi_pkg::EXTRA_TIMEOUT];
   localparam bit ACCESS  = Extras[axi_pkg::EXTRA_ACCESS];
-  localparam bit ALIGN   = Extras[axi_pkg::EXTRA_ALIGN];
+  localparam bit ALIGN   = Extras[axi_pkg::EXTRA_ALIGN] && Channels > 1;
   localparam int unsigned LONGEST = StartLimit > TimeoutLimit ? StartLimit : TimeoutLimit;
   localparam int unsigned COUNT_W = TIMEOUT ? 20 : LONGEST > 128 ? $clog2(LONGEST) : 7;
 

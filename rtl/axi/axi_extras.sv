@@ -42,13 +42,14 @@ module axi_extras #(
 );
 
   localparam bit WATCH = Extras[axi_pkg::EXTRA_ALARM];
-  localparam bit ALIGN = Extras[axi_pkg::EXTRA_ALIGN];
+  // A single channel has nothing to be aligned to.
+  localparam bit ALIGN = Extras[axi_pkg::EXTRA_ALIGN] && Channels > 1;
 
   logic [31:0] page_data, counter_data, delay_data, access_data;
   logic        alarm, access_end;
   logic        unused;
 
-  if (Extras != '0) begin : gen_page
+  if (Extras[axi_pkg::EXTRA_PAGE]) begin : gen_page
     axi_page #(.Channels(Channels), .Extras(Extras)) u_page (
       .clk_i,
       .rst_ni,
