@@ -9,7 +9,6 @@ the registers of their maps.
 """
 
 import copy
-import re
 import sys
 import xml.etree.ElementTree as ElementTree
 from pathlib import Path
@@ -147,20 +146,6 @@ def memory_map(component, top):
     return version
 
 
-def parameters_of(path):
-    """{name: (type, default, comment)} of a module's parameters, with the texts of the source."""
-    head = path.read_text(encoding="utf-8").split(") (\n")[0]
-    return {name: (kind, " ".join(value.split()), said) for kind, name, value, said in re.findall(
-        r"^  parameter (int unsigned|bit) +(\w+) *=\s*([^/]*?),?(?: *// (.*))?$", head, re.M)}
-
-
-def vectors_of(path):
-    """{port: text of its highest bit} of the ports whose width depends on a parameter."""
-    return {name: left for left, name in re.findall(
-        r"^  (?:input|output) +logic \[(\w*[A-Z]\w*-1):0\] *(\w+)", path.read_text(encoding="utf-8"),
-        re.M)}
-
-
 def component_parameters(component, parameters):
     if not parameters:
         return
@@ -222,8 +207,8 @@ def text(top):
     heads = ElementTree.Element("later")
     version = memory_map(heads, top)
     source = project.RTL / TOPS[top].folder / f"{top}.sv"
-    parameters = parameters_of(source) if top == "biss_axi" else {}
-    vectors = vectors_of(source) if parameters else {}
+    parameters = sv_widths.module_parameters(source) if top == "biss_axi" else {}
+    vectors = sv_widths.parameter_vectors(source) if parameters else {}
     names(component, "openmb4", "ip", top, version)
     bus_interfaces(component, top)
     component.extend(heads)
