@@ -3,7 +3,7 @@
 //
 // What the BiSS C master has beyond its document, as far as it is no part of a channel: the page,
 // counters, line delays, register access. Extras says which of them there are; without any nothing
-// is built, and start_o is start_i.
+// is built, and start_o is start_i. EXTRA_ALIGN acts without EXTRA_PAGE, the others do not.
 //
 // Clock domain: core. Latency and misuse: see the modules.
 // Source: regmap/axi.rdl; docs/axi.md.

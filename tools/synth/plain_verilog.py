@@ -26,11 +26,13 @@ HEAD = """// SPDX-FileCopyrightText: 2026 The openmb4 authors
 """
 
 
-def write(top, folder, files=None):
-    """FOLDER/TOP.v of the RTL, or of other files with the same modules."""
+def write(top, folder, files=None, parameters=None):
+    """FOLDER/TOP.v of the RTL, or of other files with the same modules; `parameters` of the top are
+    integers."""
     path = folder / f"{top}.v"
+    chosen = [f"chparam -set {name} {value} {top}" for name, value in (parameters or {}).items()]
     status, text = yosys.execute(
-        yosys.read(files) + [f"hierarchy -check -top {top}", "proc",
+        yosys.read(files) + chosen + [f"hierarchy -check -top {top}", "proc",
                              "flatten", "opt_expr", "opt_clean", "check -assert",
                              f"write_verilog -noattr {path}"], folder, top)
     if status != 0:
