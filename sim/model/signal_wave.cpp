@@ -98,9 +98,9 @@ class SignalWave::Writer {
     for (const std::string& name : names) name_texts.push_back(name.c_str());
     for (const std::string& value : values) value_texts.push_back(value.c_str());
     const std::string name = "enum" + std::to_string(tables_.size());
-    const fstEnumHandle handle = fstWriterCreateEnumTable(
-        file_, name.c_str(), static_cast<std::uint32_t>(names.size()), signal.bits,
-        name_texts.data(), value_texts.data());
+    const fstEnumHandle handle =
+        fstWriterCreateEnumTable(file_, name.c_str(), static_cast<std::uint32_t>(names.size()),
+                                 signal.bits, name_texts.data(), value_texts.data());
     tables_.emplace_back(signal.values, handle);
     return handle;
   }

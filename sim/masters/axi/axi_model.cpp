@@ -85,7 +85,8 @@ using Steps16 = AxiWholeSteps<Vaxi_16>;
 template <typename Model, unsigned kChannels, typename Steps>
 std::unique_ptr<AxiModel> make(const ChipConfig& chip, std::uint64_t seed, bool plain) {
   if (plain) {
-    return std::make_unique<VerilatedAxi<Model, kChannels, AxiWholeSteps<Model>, Inside>>(chip, seed);
+    return std::make_unique<VerilatedAxi<Model, kChannels, AxiWholeSteps<Model>, Inside>>(chip,
+                                                                                          seed);
   }
   return std::make_unique<VerilatedAxi<Model, kChannels, Steps, Inside>>(chip, seed);
 }

@@ -129,9 +129,9 @@ class VerilatedAxi final : public AxiModel {
     std::vector<WaveSignal> encoders;
     std::vector<std::string> names;
     names.reserve(3 * std::size_t{kChannels});
-    for (const auto& [name, levels] : {std::pair{"_ma", &encoders_ma_},
-                                       std::pair{"_slo", &encoders_slo_},
-                                       std::pair{"_ready", &encoders_ready_}}) {
+    for (const auto& [name, levels] :
+         {std::pair{"_ma", &encoders_ma_}, std::pair{"_slo", &encoders_slo_},
+          std::pair{"_ready", &encoders_ready_}}) {
       for (unsigned line = 0; line < kChannels; ++line) {
         names.push_back("encoder" + std::to_string(line) + name);
         encoders.push_back({names.back(), levels, sizeof *levels, line, 1});

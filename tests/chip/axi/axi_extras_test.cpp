@@ -335,8 +335,8 @@ TEST(AxiExtras, DelayAlarm_IsOneOfItsChannel) {
   EXPECT_EQ(bench.read(axireg::kAddrDelayAlarm), 0U);
 }
 
-// ALIGN_LATCH, 3.9: channels with their bit in MA_SHIFT latch at the instant of the slowest one. It is
-// a switch of the document, so it needs no extra.
+// ALIGN_LATCH, 3.9: channels with their bit in MA_SHIFT latch at the instant of the slowest one. It
+// is a switch of the document, so it needs no extra.
 class AxiAlign : public testing::TestWithParam<bool> {};
 
 TEST_P(AxiAlign, AlignLatch_MakesAllEncodersLatchTogether) {
@@ -401,7 +401,8 @@ TEST(AxiExtras, AlignLatchOfSixteenChannels_ActsAsOfFour) {
   for (unsigned c = 0; c < 16; ++c) {
     EXPECT_EQ(beat->words[c], c);
     const double latch = static_cast<double>(rises[c].all.front()) / 1e3 + encoders[c].delay_ns / 2;
-    const double last = static_cast<double>(rises[15].all.front()) / 1e3 + encoders[15].delay_ns / 2;
+    const double last =
+        static_cast<double>(rises[15].all.front()) / 1e3 + encoders[15].delay_ns / 2;
     EXPECT_NEAR(latch, last, 10.1) << "channel " << c;
   }
 }
@@ -534,8 +535,7 @@ TEST(AxiScenario, FeaturesAndAlignLatch_AreIndependentKeys) {
   EXPECT_EQ(error("[chip]\nfeatures = \"document\"\n[chip.quirks]\nALIGN_LATCH = true\n"), "");
   EXPECT_EQ(error("[chip.quirks]\nALIGN_LATCH = true\n"), "");
   EXPECT_NE(error("[chip]\nfeatures = \"most\"\n").find("key 'features'"), std::string::npos);
-  EXPECT_NE(error("[chip.quirks]\nALIGN_LATCH = 2\n").find("key 'ALIGN_LATCH'"),
-            std::string::npos);
+  EXPECT_NE(error("[chip.quirks]\nALIGN_LATCH = 2\n").find("key 'ALIGN_LATCH'"), std::string::npos);
 }
 
 }  // namespace

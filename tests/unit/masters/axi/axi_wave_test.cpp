@@ -109,7 +109,8 @@ const Changes& of(const Waveform& wave, const std::string& name) {
 }
 
 // The same changes, a time later. What happens at one time stands one picosecond apart.
-void expect_later(const Changes& first, const Changes& second, Time delay, const std::string& what) {
+void expect_later(const Changes& first, const Changes& second, Time delay,
+                  const std::string& what) {
   const Changes from = since(kPsPerUs, first);
   const Changes to = since(kPsPerUs, second);
   ASSERT_EQ(from.size(), to.size()) << what;
@@ -218,16 +219,17 @@ TEST_P(AxiWave, PartOfARun_HoldsWhatTheWholeWaveformHolds) {
   EXPECT_GT(edges, 10'000U);
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    Models, AxiWave,
-    testing::Values(Kind{"document_1", 1, ""}, Kind{"document_4", 3, ""},
-                    Kind{"document_16", 16, ""},
-                    Kind{"align_4", 4, "[chip.quirks]\nALIGN_LATCH = true\n"},
-                    Kind{"align_16", 5, "[chip.quirks]\nALIGN_LATCH = true\n"},
-                    Kind{"full_1", 1, "features = \"full\"\n"},
-                    Kind{"full_4", 4, "features = \"full\"\n"},
-                    Kind{"full_16", 16, "features = \"full\"\n"}),
-    [](const testing::TestParamInfo<Kind>& one) { return std::string(one.param.name); });
+INSTANTIATE_TEST_SUITE_P(Models, AxiWave,
+                         testing::Values(Kind{"document_1", 1, ""}, Kind{"document_4", 3, ""},
+                                         Kind{"document_16", 16, ""},
+                                         Kind{"align_4", 4, "[chip.quirks]\nALIGN_LATCH = true\n"},
+                                         Kind{"align_16", 5, "[chip.quirks]\nALIGN_LATCH = true\n"},
+                                         Kind{"full_1", 1, "features = \"full\"\n"},
+                                         Kind{"full_4", 4, "features = \"full\"\n"},
+                                         Kind{"full_16", 16, "features = \"full\"\n"}),
+                         [](const testing::TestParamInfo<Kind>& one) {
+                           return std::string(one.param.name);
+                         });
 
 // The run with a waveform in its middle is the run without one.
 TEST(AxiWaveOfAPart, Waveform_ChangesNothing) {
