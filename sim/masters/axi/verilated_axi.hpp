@@ -200,7 +200,7 @@ class VerilatedAxi final : public AxiModel {
     }
     beat.user = model_->s_axis_tuser;
     beat.last = model_->s_axis_tlast != 0;
-    beat_ = !beat_;
+    toggles_ ^= kBeat;
   }
 
   // Looks, before an edge, at what the edge takes. BREADY and RREADY are always 1.
@@ -218,7 +218,7 @@ class VerilatedAxi final : public AxiModel {
     access_.answer = m.s_axi_bvalid != 0 ? m.s_axi_bresp : m.s_axi_rresp;
     if (!access_.write) access_.data = m.s_axi_rdata;
     access_.done = true;
-    done_ = !done_;
+    toggles_ ^= kDone;
   }
 
   // Drives the manager's pins after an edge.
@@ -241,16 +241,11 @@ class VerilatedAxi final : public AxiModel {
 
   void pack() {
     const Model& m = *model_;
-    Outputs out = kAbsent;
+    Outputs out = kAbsent | toggles_ | m.error_no * kError | m.warn_no * kWarn |
+                  m.sample_clk_o * kSampleClk | m.irq_o * kIrq;
     for (unsigned line = 0; line < kChannels; ++line) {
-      if (((m.ma_o >> line) & 1U) != 0) out |= ma_of(line);
+      out |= Outputs{(m.ma_o >> line) & 1U} * ma_of(line);
     }
-    if (m.error_no != 0) out |= kError;
-    if (m.warn_no != 0) out |= kWarn;
-    if (m.sample_clk_o != 0) out |= kSampleClk;
-    if (m.irq_o != 0) out |= kIrq;
-    if (done_) out |= kDone;
-    if (beat_) out |= kBeat;
     outputs_ = out;
   }
 
@@ -269,8 +264,7 @@ class VerilatedAxi final : public AxiModel {
   bool handed_ = false;  // the edge that is about to come takes address and data
   bool taken_ = false;   // the running access has been taken
   unsigned late_ = 0;    // answers of accesses that have been given up
-  bool done_ = false;
-  bool beat_ = false;
+  Outputs toggles_ = 0;  // kDone, kBeat
   // Levels at the encoders, bit n = channel n, for the waveform.
   std::uint64_t encoders_ma_ = ~std::uint64_t{0};
   std::uint64_t encoders_slo_ = ~std::uint64_t{0};
