@@ -232,6 +232,7 @@ def main():
     parser = project.Arguments(__doc__)
     parser.add_argument("folder", type=parser.folder)
     folder = parser.parse_args().folder
+    folder.mkdir(parents=True, exist_ok=True)
     for top in TOPS:
         path = folder / f"{top}.xml"
         path.write_text(text(top), encoding="utf-8")
