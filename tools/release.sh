@@ -4,7 +4,8 @@
 #
 # Packs the committed tree as openmb4-VERSION.tar.gz with its checksum beside it; the same commit and
 # the same Yosys give the same bytes. In its folder verilog/ is plain Verilog of each top
-# (tools/synth/plain_verilog.py), ipxact/ has IP-XACT of the bus tops (tools/synth/ipxact.py). Beside it python/ holds the sdist of the Python package, which
+# (tools/synth/plain_verilog.py), ipxact/ has IP-XACT of the bus tops (tools/synth/ipxact.py) and
+# ipxact/vivado/ biss_axi for Vivado (tools/synth/vivado_ip.py). Beside it python/ holds the sdist of the Python package, which
 # builds its library from the RTL that it carries, and the library for Arduino and PlatformIO
 # (tools/arduino.py).
 # Usage: tools/release.sh [--wheel] [FOLDER]   (default build/)
@@ -48,7 +49,13 @@ added+=("--prefix=openmb4-$version/ipxact/")
 while read -r file; do
   added+=("--add-file=$file")
 done < <(python3 -B tools/synth/ipxact.py "$plain/ipxact")
-if [ "${#added[@]}" -ne 8 ]; then
+# The IP for Vivado's catalogue, and its Tcl one folder below.
+below=
+while read -r file; do
+  added+=("--prefix=openmb4-$version/ipxact/vivado/$below" "--add-file=$file")
+  below=xgui/
+done < <(python3 -B tools/synth/vivado_ip.py "$plain/vivado")
+if [ "${#added[@]}" -ne 13 ]; then
   echo "release: the IP-XACT could not be made" >&2
   exit 1
 fi

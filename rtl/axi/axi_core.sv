@@ -4,7 +4,7 @@
 // BiSS C master with N channels behind AXI4-Lite (instances, the common time base, the pins of
 // error and warning). biss_axi is the top with the document's names; switches_i is what its
 // parameters tie off. Extras says what there is beyond the document (axi_pkg::EXTRA_*); any of them
-// brings the page.
+// but EXTRA_ALIGN needs EXTRA_PAGE too.
 //
 // Clock domain: clk_i. slo_i, ext_sample_clk_i and sample_en_i are asynchronous.
 // error_no and warn_no are 0 while the last good frame of an enabled channel had nE = 0 or nW = 0;
@@ -68,7 +68,7 @@ module axi_core #(
   localparam bit CRC     = Extras[axi_pkg::EXTRA_CRC];
   localparam bit TIMEOUT = Extras[axi_pkg::EXTRA_TIMEOUT];
   localparam bit ACCESS  = Extras[axi_pkg::EXTRA_ACCESS];
-  localparam bit ALIGN   = Extras[axi_pkg::EXTRA_ALIGN];
+  localparam bit ALIGN   = Extras[axi_pkg::EXTRA_ALIGN] && Channels > 1;
   localparam int unsigned LONGEST = StartLimit > TimeoutLimit ? StartLimit : TimeoutLimit;
   localparam int unsigned COUNT_W = TIMEOUT ? 20 : LONGEST > 128 ? $clog2(LONGEST) : 7;
 

@@ -3,7 +3,7 @@
 //
 // What the BiSS C master has beyond its document, as far as it is no part of a channel: the page,
 // counters, line delays, register access. Extras says which of them there are; without any nothing
-// is built, and start_o is start_i.
+// is built, and start_o is start_i. EXTRA_ALIGN acts without EXTRA_PAGE, the others do not.
 //
 // Clock domain: core. Latency and misuse: see the modules.
 // Source: regmap/axi.rdl; docs/axi.md.
@@ -42,13 +42,14 @@ module axi_extras #(
 );
 
   localparam bit WATCH = Extras[axi_pkg::EXTRA_ALARM];
-  localparam bit ALIGN = Extras[axi_pkg::EXTRA_ALIGN];
+  // A single channel has nothing to be aligned to.
+  localparam bit ALIGN = Extras[axi_pkg::EXTRA_ALIGN] && Channels > 1;
 
   logic [31:0] page_data, counter_data, delay_data, access_data;
   logic        alarm, access_end;
   logic        unused;
 
-  if (Extras != '0) begin : gen_page
+  if (Extras[axi_pkg::EXTRA_PAGE]) begin : gen_page
     axi_page #(.Channels(Channels), .Extras(Extras)) u_page (
       .clk_i,
       .rst_ni,

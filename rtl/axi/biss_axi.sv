@@ -72,7 +72,7 @@ module biss_axi #(
 
   localparam logic [axi_pkg::EXTRAS_W-1:0] ALL_EXTRAS =
     axi_pkg::EXTRAS_W'(EXTRAS) | (axi_pkg::EXTRAS_W'(ALIGN_LATCH) << axi_pkg::EXTRA_ALIGN) |
-    axi_pkg::EXTRAS_W'(EXTRAS != 0 || ALIGN_LATCH);
+    axi_pkg::EXTRAS_W'(EXTRAS != 0);
 
 `ifndef __ICARUS__  // Icarus 11 knows no $error here
   if (STREAM_MODE > 1 || (STREAM_WIDTH != 32 && STREAM_WIDTH != 64)) begin : gen_stream

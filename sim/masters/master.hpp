@@ -45,7 +45,8 @@ struct Master {
   // Null if it has no pins.
   std::optional<Pin> (*pin_by_name)(std::string_view name);
   std::unique_ptr<LiveMaster> (*make)(const MasterSetup& setup);
-  // The groups of the waveform view (sim/model/wave_view.hpp). Null if it has no waveform.
+  // The groups of the waveform view (sim/model/wave_view.hpp). Null if it has no waveform; none if
+  // it has no waveform with this host.
   std::vector<WaveGroup> (*wave_groups)(const HostConfig& host);
 
   // Number of the first slave of a channel, from 1 on.

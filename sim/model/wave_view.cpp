@@ -35,7 +35,8 @@ bool belongs(const WaveGroup& group, const Signal& signal) {
   // Inside the chip the view has registers and outputs only. The other signals follow from them and
   // are in the file.
   const std::string name = signal.path.substr(0, signal.path.find('[', signal.path.rfind('.')));
-  if (!name.ends_with("_q") && !name.ends_with("_o")) return false;
+  const bool member = name.find("_q.") != std::string::npos;  // of a register
+  if (!member && !name.ends_with("_q") && !name.ends_with("_o")) return false;
   for (const std::string_view detail : {"_sync.", "sync.", ".u_ram."}) {
     if (signal.path.find(detail) != std::string::npos) return false;
   }
@@ -97,6 +98,16 @@ Waveform read_waveform(const std::string& fst_path) {
 Waveform read_waveform(const std::string& /*fst_path*/) { return {}; }
 #endif
 
+// The file has a signal of this group.
+bool has_signals(const WaveGroup& group, const std::vector<Signal>& signals) {
+  return std::any_of(signals.begin(), signals.end(), [&](const Signal& signal) {
+    return belongs(group, signal) ||
+           std::any_of(group.pins.begin(), group.pins.end(), [&](const WavePin& pin) {
+             return signal.path.substr(0, signal.path.find('[')) == pin.signal;
+           });
+  });
+}
+
 // Writes a pin. Writes nothing if the file has no such signal.
 void write_pin(std::ostream& out, const WavePin& pin, const std::vector<Signal>& signals) {
   for (const Signal& signal : signals) {
@@ -137,6 +148,8 @@ void write_wave_view(const std::string& fst_path, const std::string& view_path,
   for (int letter = 0; letter < 26; ++letter) out << " -1";
   out << '\n';
   for (const WaveGroup& group : groups) {
+    // A group for parts that this master does not have. Without a reader all groups are empty.
+    if (!waveform.signals.empty() && !has_signals(group, waveform.signals)) continue;
     out << (group.open ? "@800200\n-" : "@c00200\n-") << group.name << '\n';
     for (const WavePin& pin : group.pins) write_pin(out, pin, waveform.signals);
     for (const Signal& signal : waveform.signals) {

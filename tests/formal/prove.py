@@ -85,7 +85,7 @@ def model(proof, folder, mutation=None):
         shutil.rmtree(folder)
     folder.mkdir(parents=True)
     sources = {}
-    for path in project.rtl_files():
+    for path in project.all_rtl_files():
         name = path.name if project.RTL not in path.parents else str(path.relative_to(project.RTL))
         sources[name] = path.read_text(encoding="utf-8")
     for change in proof.changes("keep") + ([mutation] if mutation else []):

@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
 # SPDX-FileCopyrightText: 2026 The openmb4 authors
 # SPDX-License-Identifier: Apache-2.0
-"""Makes the Verilated iCE40 netlist of mb4_chip, of a preset if one is given: FOLDER/Vmb4_gate__ALL.a.
+"""Makes the Verilated iCE40 netlist of a design of gate_netlist.py: FOLDER/VDESIGN_gate__ALL.a.
 
-  gate_model.py FOLDER [PRESET]
+  gate_model.py FOLDER DESIGN [PRESET]
 """
 
 import sys
@@ -25,16 +25,18 @@ def cells():
 
 
 def main():
-    folder = Path(sys.argv[1]).resolve()
-    status, text = project.run([sys.executable, "-B", TOOLS / "gate_netlist.py", folder, *sys.argv[2:]])
+    folder, design = Path(sys.argv[1]).resolve(), sys.argv[2]
+    folder.mkdir(parents=True, exist_ok=True)
+    status, text = project.run([sys.executable, "-B", TOOLS / "gate_netlist.py", folder,
+                                *sys.argv[2:]])
     if status == 0:
         # Verilator does not read the default values of the cells' inputs.
         status, text = project.run(
             [project.tool("verilator"), "--cc", "--build", "-j", "2", "-fno-const-bit-op-tree",
              *project.verilator_flags(), *QUIET, "-DNO_ICE40_DEFAULT_ASSIGNMENTS", "-O3",
-             "-CFLAGS", "-O1 -std=c++20 -DVL_USER_STOP", "--top-module", "mb4_gate_top",
-             "--prefix", "Vmb4_gate", "--Mdir", folder, cells(), folder / "gates.v",
-             folder / "mb4_gate_top.sv"], cwd=folder)
+             "-CFLAGS", "-O1 -std=c++20 -DVL_USER_STOP", "--top-module", f"{design}_gate_top",
+             "--prefix", f"V{design}_gate", "--Mdir", folder, cells(), folder / "gates.v",
+             folder / f"{design}_gate_top.sv"], cwd=folder)
     if status != 0:
         raise SystemExit(text)
 

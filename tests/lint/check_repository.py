@@ -14,6 +14,8 @@
   check_repository.py rooms       README.md names every folder of rtl/, tests/ and tools/, docs/README.md
                                   every page of docs/
   check_repository.py decisions   docs/choices.md has a row for every "decision N"
+  check_repository.py masters     the simulator's rooms below the masters name no master on AXI: a master
+                                  registers what it accepts
   check_repository.py self-test   planted faults are reported
 """
 
@@ -187,6 +189,18 @@ def decision_findings(files):
     return findings
 
 
+def master_findings(files):
+    rooms = ("sim/core/", "sim/lines/", "sim/scenario/", "sim/faults/")
+    findings = []
+    for name, text in files.items():
+        if not name.startswith(rooms) or text is None:
+            continue
+        for number, line in enumerate(text.splitlines(), 1):
+            if re.search(r"(?<![A-Za-z])(?:axi|AXI|Axi)(?![a-z])|_axi(?![a-z])", line):
+                findings.append(f"{name}:{number}: names a master: {line.strip()}")
+    return findings
+
+
 def self_test():
     findings = []
 
@@ -236,6 +250,11 @@ def self_test():
     expect(1, room_findings({**rooms, "tests/chip/a.cpp": "", "tests/chip/b.cpp": ""}), "a new room")
     expect(1, room_findings({**rooms, "docs/new.md": ""}), "a new page")
 
+    for text, count in (("maximum axis", 0), ("class AxiHost", 1), ("AXI4-Lite", 1),
+                        ('"axi"', 1), ("biss_axi", 1)):
+        expect(count, master_findings({"sim/core/a.hpp": text}), f"master: {text}")
+    expect(0, master_findings({"sim/masters/axi/a.hpp": "AxiHost", "sim/core/b": None}), "its own room")
+
     choices = {CHOICES: "| no. | x |\n|---|---|\n| 1 | a |\n| 3 | b |\n| 4 | c |\n| 4 | d |\n| | e |\n"}
     for text, count in (("decision 1", 0), ("Decisions 1, 3 and 4, page 2", 0), ("decision 2", 1),
                         ("decisions 3..5", 1), ("decision\n// 2", 1), ("decisions 1,\n  # 2, 5", 2),
@@ -262,7 +281,7 @@ def main():
     check = {"licences": licence_findings, "paths": path_findings, "merged": merge_findings,
              "runnable": runnable_findings,
              "verilator": verilator_findings, "version": version_findings,
-             "rooms": room_findings, "decisions": decision_findings}[sys.argv[1]]
+             "rooms": room_findings, "masters": master_findings, "decisions": decision_findings}[sys.argv[1]]
     files = tracked()
     project.finish(check(files), f"{len(files)} tracked files")
 

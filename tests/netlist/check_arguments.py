@@ -14,7 +14,8 @@ sys.path.insert(0, str(SYNTH))
 
 import project  # noqa: E402
 
-SCRIPTS = ("report.py", "plain_verilog.py", "gate_netlist.py", "constraints.py")
+SCRIPTS = ("report.py", "plain_verilog.py", "gate_netlist.py", "constraints.py", "ipxact.py",
+           "vivado_ip.py")
 
 
 def main():

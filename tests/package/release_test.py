@@ -74,7 +74,8 @@ def main():
             plain = tar.extractfile(f"openmb4-{version}/verilog/mb4_chip.v").read().decode()
         tracked |= {f"verilog/{top}.v" for top in ("mb4_core", "mb4_engine", "mb4_chip", "mb4_axil",
                                                "mb4_wb")}
-        tracked |= {"ipxact/mb4_axil.xml", "ipxact/mb4_wb.xml"}
+        tracked |= {"ipxact/biss_axi.xml", "ipxact/mb4_axil.xml", "ipxact/mb4_wb.xml",
+                    "ipxact/vivado/component.xml", "ipxact/vivado/xgui/biss_axi.tcl"}
         assert packed == {f"openmb4-{version}/{name}" for name in tracked}, "other files"
         sdists = [Path(folder, out, "python", archive.name).read_bytes() for out in ("a", "b")]
         assert sdists[0] == sdists[1], "two sdists of one commit differ"

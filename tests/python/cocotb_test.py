@@ -13,10 +13,14 @@ ROOT = Path(__file__).resolve().parents[2]
 package, python, folder, top = sys.argv[1:]
 
 # Packages of Python; the fault, which fails every test of the bench.
-NEEDS = {"mb4_core": "cocotb", "mb4_axil": "cocotbext.axi", "mb4_wb": "cocotbext.wishbone"}
+NEEDS = {"mb4_core": "cocotb", "mb4_axil": "cocotbext.axi", "mb4_wb": "cocotbext.wishbone",
+         "biss_axi": "cocotbext.axi"}
 FAULT = {"mb4_core": (r"(?m)^(\s*assign ma1_o = ).*;$", r"\1 1'b1;"),  # MA never moves
          "mb4_axil": (r"(?m)^(\s*assign s_axi_rdata = )(.*);$", r"\1 (\2) ^ 32'h10;"),
-         "mb4_wb": (r"(?m)^(\s*assign wb_dat_o = )(.*);$", r"\1 (\2) ^ 32'h10;")}
+         "mb4_wb": (r"(?m)^(\s*assign wb_dat_o = )(.*);$", r"\1 (\2) ^ 32'h10;"),
+         "biss_axi": (r"(?m)^(\s*assign S_AXI_RDATA = )(.*);$", r"\1 (\2) ^ 32'h1;")}
+# Two channels; a beat for each, through a short FIFO; the counters and the page.
+PARAMETERS = {"BISS_CHANNEL_WIDTH": 2, "STREAM_MODE": 1, "STREAM_DEPTH": 4, "EXTRAS": 0x11}
 
 
 def main():
@@ -30,7 +34,11 @@ def main():
     import plain_verilog
     out = Path(folder)
     out.mkdir(parents=True, exist_ok=True)
-    good = plain_verilog.write(top, out)
+    if top == "biss_axi":
+        files = plain_verilog.project.listed(ROOT / "rtl/axi/axi.f")
+        good = plain_verilog.write(top, out, files, PARAMETERS)
+    else:
+        good = plain_verilog.write(top, out)
     text, count = re.subn(*FAULT[top], good.read_text(encoding="utf-8"))
     bad = out / "fault" / good.name
     bad.parent.mkdir(exist_ok=True)

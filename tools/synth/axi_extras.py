@@ -19,18 +19,19 @@ import yosys  # noqa: E402
 
 MOST_LUT4 = 544
 CHANNELS = (1, 4)
-# Name and the value of EXTRAS; each of them has the page, bit 0.
+# Name and the value of EXTRAS; each of them but ALIGN_LATCH, the parameter of its own, has the page, bit 0.
 EXTRAS = {
-    "none": 0, "PAGE": 0x001, "WIDE": 0x003, "ANY_CRC": 0x005, "TIMEOUT": 0x009, "COUNTERS": 0x011,
-    "STAMP": 0x021, "ALARM": 0x041, "ACCESS": 0x081, "ALIGN": 0x101, "all": 0x1FF,
+    "none": 0, "ALIGN_LATCH": 0, "PAGE": 0x001, "WIDE": 0x003, "ANY_CRC": 0x005, "TIMEOUT": 0x009, "COUNTERS": 0x011,
+    "STAMP": 0x021, "ALARM": 0x041, "ACCESS": 0x081, "all": 0x1FF,
 }
 
 
-def size(extras, channels, folder):
+def size(extras, channels, folder, align=0):
     """LUT4 and flops."""
     files = project.listed(project.RTL / "axi" / "axi.f")
     status, text = yosys.execute(
-        yosys.read(files) + [f"chparam -set EXTRAS {extras} -set BISS_CHANNEL_WIDTH {channels} biss_axi",
+        yosys.read(files) + [f"chparam -set EXTRAS {extras} -set BISS_CHANNEL_WIDTH {channels} "
+                             f"-set ALIGN_LATCH {align} biss_axi",
                              "synth_ice40 -top biss_axi", "check -assert",
                              "tee -q -o stat.json stat -json"], folder, "synth")
     if status != 0:
@@ -53,10 +54,10 @@ def main():
     for name, bits in EXTRAS.items():
         row = []
         for n in CHANNELS:
-            luts, flops = size(bits, n, arguments.folder / f"{name}_{n}")
+            luts, flops = size(bits, n, arguments.folder / f"{name}_{n}", int(name == "ALIGN_LATCH"))
             if name in ("none", "PAGE"):
                 base[name, n] = luts, flops
-            below = base.get(("none" if name == "PAGE" else "PAGE", n))
+            below = base.get(("none" if name in ("PAGE", "ALIGN_LATCH") else "PAGE", n))
             row.append(f"{luts} / {flops}" if name in ("none", "all")
                        else f"+{luts - below[0]} / +{flops - below[1]}")
         print(f"| `{name}` | " + " | ".join(row) + " |", flush=True)

@@ -1,11 +1,14 @@
 #!/usr/bin/env python3
 # SPDX-FileCopyrightText: 2026 The openmb4 authors
 # SPDX-License-Identifier: Apache-2.0
-"""The iCE40 netlist of mb4_chip for simulation, with the vendor's cells.
+"""The iCE40 netlist of mb4_chip or of biss_axi for simulation, with the vendor's cells.
 
-  gate_netlist.py FOLDER [PRESET]   writes gates.v (single-bit nets: Verilator 5.006 is wrong about vectors
-                                    of which bits depend on others) and mb4_gate_top.sv (the ports of
-                                    mb4_chip around it, and what the simulator looks at)
+  gate_netlist.py FOLDER [DESIGN [PRESET]]   writes gates.v (single-bit nets: Verilator 5.006 is
+                                     wrong about vectors of which bits depend on others) and
+                                     DESIGN_gate_top.sv (the ports of the RTL around it, and what the
+                                     simulator looks at). DESIGN is mb4 (the default; it has presets),
+                                     axi_4 or axi_full_4: the master with four channels as its
+                                     document, or with all extras
 """
 
 import json
@@ -19,48 +22,68 @@ sys.path.insert(0, str(HERE))
 import project  # noqa: E402
 import yosys  # noqa: E402
 
-TOP = "mb4_chip"
-# What sim/masters/mb4/model looks at, and its name at mb4_gate_top.
-PROBES = {"clkeni": "clkeni", "clk": "clk", "paired": "paired",
-          "u_engine.u_lines.u_timebase.len_q": "len_q"}
+
+
+class Design:
+    """Top, list of files, parameters; what the simulator looks at, and its name at the gate top."""
+
+    def __init__(self, top, files, parameters, probes):
+        self.top, self.files, self.parameters, self.probes = top, files, parameters, probes
+
+
+AXI_PROBES = {"u_start.frame_q": "frame_q"}
+DESIGNS = {
+    "mb4": Design("mb4_chip", "mb4/mb4.f", {}, {
+        "clkeni": "clkeni", "clk": "clk", "paired": "paired",
+        "u_engine.u_lines.u_timebase.len_q": "len_q"}),
+    "axi_4": Design("axi_core", "axi/axi.f", {"Channels": 4}, AXI_PROBES),
+    "axi_full_4": Design("axi_core", "axi/axi.f", {"Channels": 4, "Extras": 0x1FF}, AXI_PROBES),
+}
 
 
 def main():
     parser = project.Arguments(__doc__)
     parser.add_argument("folder", type=parser.folder)
+    parser.add_argument("design", nargs="?", default="mb4", choices=DESIGNS)
     parser.add_argument("preset", nargs="?", default="full", choices=project.presets())
     arguments = parser.parse_args()
-    folder = arguments.folder
-    chosen = [f"hierarchy -check -top {TOP}"]
+    folder, name = arguments.folder, arguments.design
+    design = DESIGNS[name]
+    top, parameters = design.top, dict(design.parameters)
     if arguments.preset != "full":
-        chosen = [f"chparam -set Features {project.presets()[arguments.preset]} {TOP}", *chosen,
-                  f"rename -top {TOP}"]
-    commands = yosys.read() + [
-        *chosen, "proc", "flatten",
-        f"expose {' '.join(f'{TOP}/w:{name}' for name in PROBES)}",
-        f"synth_ice40 -top {TOP}", "check -assert",
+        if name != "mb4":
+            parser.error(f"{name} has no presets")
+        parameters["Features"] = project.presets()[arguments.preset]
+    commands = yosys.read(project.listed(project.RTL / design.files))
+    if parameters:
+        values = " ".join(f"-set {key} {value}" for key, value in parameters.items())
+        commands += [f"chparam {values} {top}"]
+    commands += [
+        f"hierarchy -check -top {top}", f"rename -top {top}", "proc", "flatten",
+        f"expose {' '.join(f'{top}/w:{probe}' for probe in design.probes)}",
+        f"synth_ice40 -top {top}", "check -assert",
         "select -assert-none t:$dlatch t:$_DLATCH_* t:$_SR_*",
         "splitnets -ports", "setundef -zero", "opt_clean",
-        f"rename {TOP} mb4_gates", "write_json ports.json", "write_verilog -noattr gates.v"]
+        f"rename {top} {name}_gates", "write_json ports.json", "write_verilog -noattr gates.v"]
     status, text = yosys.execute(commands, folder, "gates")
     if status != 0:
         raise SystemExit(text)
     ports = json.loads((folder / "ports.json").read_text(encoding="utf-8"))
-    ports = ports["modules"]["mb4_gates"]["ports"]
+    ports = ports["modules"][f"{name}_gates"]["ports"]
     widths, connections = {}, []
     for port, data in ports.items():
         base, bit = re.fullmatch(r"(.*?)(?:\[(\d+)\])?", port).groups()
-        name = PROBES.get(base, base)
-        kind, width = widths.get(name, (data["direction"], 0))
-        widths[name] = (kind, max(width, int(bit or 0) + 1))
-        connections.append(f"    .\\{port} ({name}{f'[{bit}]' if bit else ''})")
-    lines = ["// Made by gate_netlist.py: the netlist behind the ports of mb4_chip.",
-             "module mb4_gate_top ("]
+        pin = design.probes.get(base, base)
+        kind, width = widths.get(pin, (data["direction"], 0))
+        widths[pin] = (kind, max(width, int(bit or 0) + 1))
+        connections.append(f"    .\\{port} ({pin}{f'[{bit}]' if bit else ''})")
+    lines = [f"// Made by gate_netlist.py: the netlist behind the ports of {top}.",
+             f"module {name}_gate_top ("]
     lines.append(",\n".join(
-        f"  {kind} wire {f'[{width - 1}:0] ' if width > 1 else ''}{name}"
-        for name, (kind, width) in widths.items()))
-    lines += [");", "  mb4_gates u_gates (", ",\n".join(connections), "  );", "endmodule", ""]
-    (folder / "mb4_gate_top.sv").write_text("\n".join(lines), encoding="utf-8")
+        f"  {kind} wire {f'[{width - 1}:0] ' if width > 1 else ''}{pin}"
+        for pin, (kind, width) in widths.items()))
+    lines += [");", f"  {name}_gates u_gates (", ",\n".join(connections), "  );", "endmodule", ""]
+    (folder / f"{name}_gate_top.sv").write_text("\n".join(lines), encoding="utf-8")
 
 
 main()

@@ -26,14 +26,16 @@ HEAD = """// SPDX-FileCopyrightText: 2026 The openmb4 authors
 """
 
 
-def write(top, folder, files=None, preset="full"):
-    """FOLDER/TOP.v of the RTL, or of other files with the same modules."""
+def write(top, folder, files=None, parameters=None, preset="full"):
+    """FOLDER/TOP.v of the RTL, or of other files with the same modules; `parameters` of the top are
+    integers."""
     path = folder / f"{top}.v"
-    chosen, named, features = [], [], ""
+    values, features = dict(parameters or {}), ""
     if preset != "full":
-        chosen = [f"chparam -set Features {project.presets()[preset]} {top}"]
-        named = [f"rename -top {top}"]
+        values["Features"] = project.presets()[preset]
         features = f"preset {preset}, "
+    chosen = [f"chparam -set {name} {value} {top}" for name, value in values.items()]
+    named = [f"rename -top {top}"] if values else []
     status, text = yosys.execute(
         yosys.read(files) + chosen + [f"hierarchy -check -top {top}", "proc",
                              "flatten", "opt_expr", "opt_clean", "check -assert",

@@ -3,9 +3,10 @@
 # SPDX-License-Identifier: Apache-2.0
 """Synthesis for iCE40 (placed, routed, packed), ECP5 and Xilinx 7 (area): docs/resources.md.
 
-  report.py FOLDER [--check]   writes docs/resources.md; FOLDER is for what the tools leave.
+  report.py FOLDER [--check|--axi]
+                               writes docs/resources.md; FOLDER is for what the tools leave.
                                --check: no file, but fails if mb4_core does not reach MIN_MHZ on
-                               the HX8K with one seed
+                               the HX8K with one seed. --axi: only the part about biss_axi anew
 """
 
 import json
@@ -32,13 +33,18 @@ FAMILIES = {
 }
 
 
-def files():
+AXI_CHANNELS = (1, 4, 16)
+
+
+def files(top):
+    if top.startswith("biss_axi"):
+        return project.listed(project.RTL / "axi" / "axi.f") + [HERE / "tops" / "biss_axi_narrow.sv"]
     return project.rtl_files() + [HERE / "tops" / "mb4_parallel.sv"]
 
 
-def synthesise(command, top, folder, extra, features=None):
-    chosen = [] if features is None else [f"chparam -set Features {features} {top}"]
-    run(yosys.read(files()) + chosen + [f"{command} -top {top} {extra}", "check -assert",
+def synthesise(command, top, folder, extra, parameters=None):
+    chosen = [f"chparam -set {name} {value} {top}" for name, value in (parameters or {}).items()]
+    run(yosys.read(files(top)) + chosen + [f"{command} -top {top} {extra}", "check -assert",
                                "tee -q -o stat.json stat -json"], folder)
     return json.loads((folder / "stat.json").read_text(encoding="utf-8"))
 
@@ -68,7 +74,7 @@ def route(top, folder, device, seed):
     clocks = json.loads((folder / f"{name}.json").read_text(encoding="utf-8"))["fmax"]
     found = {"core": 0.0, "host": 0.0}
     for clock, value in clocks.items():
-        kind = "core" if re.match(r"(u_clk_mux\.)?(clk|osc)", clock) else "host"
+        kind = "core" if re.match(r"(u_clk_mux\.)?(clk|osc)|axi_aclk", clock) else "host"
         found[kind] = min(found[kind] or 1e9, value["achieved"])
     status, text = project.run([project.tool("icepack"), f"{name}.asc", f"{name}.bin"], cwd=folder)
     if status != 0:
@@ -89,8 +95,8 @@ def breakdown(folder, depth=3):
     return sorted(((name, *row) for name, row in rows.items()), key=lambda r: -r[1])
 
 
-def ice40(top, folder, seeds, features=None):
-    stat = synthesise("synth_ice40", top, folder, "-json top.json", features)
+def ice40(top, folder, seeds, parameters=None):
+    stat = synthesise("synth_ice40", top, folder, "-json top.json", parameters)
     cells = stat["design"]["num_cells_by_type"]
     area = (cells.get("SB_LUT4", 0), count(cells, "^SB_DFF"), count(cells, "^SB_RAM40"),
             cells.get("SB_CARRY", 0))
@@ -116,9 +122,39 @@ def presets(folder):
              "| preset | LUT4 | flops | block RAM | HX8K clk / MHz | HX8K host clock | "
              "UP5K clk / MHz | UP5K host clock |", "|---|---|---|---|---|---|---|---|"]
     for name, features in project.presets().items():
-        (luts, flops, rams, _), fmax = ice40("mb4_core", folder / "presets" / name, SEEDS, features)
+        (luts, flops, rams, _), fmax = ice40(
+            "mb4_core", folder / "presets" / name, SEEDS, {"Features": features})
         cells = [mhz(fmax[d], k) for d in ("HX8K", "UP5K") for k in ("core", "host")]
         lines.append(f"| {name} | {luts} | {flops} | {rams} | " + " | ".join(cells) + " |")
+        print(lines[-1], flush=True)
+    return lines
+
+
+AXI_HEAD = "## biss_axi"
+
+
+def axi(folder):
+    """The part of the page about biss_axi with the features of its document."""
+    lines = [AXI_HEAD, "",
+             "[`biss_axi`](axi.md) with the features of its document, by its number of channels. The speed is "
+             "that of a design in which the stream ends in a register (`tools/synth/tops/biss_axi_narrow.sv`), "
+             "because the words of more than one channel have more bits than the HX8K has pins.", "",
+             "| channels | LUT4 | flops | block RAM | HX8K axi_aclk / MHz | ECP5 LUT | ECP5 flops | "
+             "Xilinx 7 LUT | Xilinx 7 flops |", "|---|---|---|---|---|---|---|---|---|"]
+    for channels in AXI_CHANNELS:
+        place = folder / f"axi_{channels}"
+        stat = synthesise("synth_ice40", "biss_axi", place / "ice40", "", {"BISS_CHANNEL_WIDTH": channels})
+        cells = stat["design"]["num_cells_by_type"]
+        row = [str(channels), cells.get("SB_LUT4", 0), count(cells, "^SB_DFF"), count(cells, "^SB_RAM40")]
+        synthesise("synth_ice40", "biss_axi_narrow", place / "narrow", "-json top.json",
+                   {"Channels": channels})
+        row.append(mhz([route("biss_axi_narrow", place / "narrow", "HX8K", seed) for seed in SEEDS], "core"))
+        for family, (command, lut, flop, _, _) in FAMILIES.items():
+            stat = synthesise(command, "biss_axi", place / family.replace(" ", "_"),
+                              "-flatten" if "xilinx" in command else "", {"BISS_CHANNEL_WIDTH": channels})
+            cells = stat["design"]["num_cells_by_type"]
+            row += [count(cells, lut), count(cells, flop)]
+        lines.append("| " + " | ".join(map(str, row)) + " |")
         print(lines[-1], flush=True)
     return lines
 
@@ -152,7 +188,7 @@ def page(folder):
             lines.append(f"| `{top}` | {family} | {count(cells, lut)} | {count(cells, flop)} | "
                          f"{count(cells, ram)} | {cells.get(carry, 0)} |")
             print(lines[-1], flush=True)
-    lines += ["", "## What takes the space", "",
+    lines += ["", *axi(folder), "", "## What takes the space", "",
               "`mb4_core` on iCE40, by the names of the cells after optimisation: a LUT that serves "
               "two modules counts for the one that names it.", "",
               "| instance | LUT4 | flops | block RAM |", "|---|---|---|---|"]
@@ -167,6 +203,7 @@ def main():
     parser = project.Arguments(__doc__)
     parser.add_argument("folder", type=parser.folder)
     parser.add_argument("--check", action="store_true")
+    parser.add_argument("--axi", action="store_true")
     arguments = parser.parse_args()
     folder = arguments.folder
     for program in ("yosys", "nextpnr-ice40", "icepack"):
@@ -178,8 +215,13 @@ def main():
         project.finish([] if good else [f"mb4_core: {fmax}, wanted {MIN_MHZ} MHz on the HX8K and "
                                         f"a fit on the UP5K"],
                        f"mb4_core: {hx8k['core']:.1f} MHz on the HX8K, fits the UP5K")
-    text = page(folder)
-    (project.ROOT / "docs" / "resources.md").write_text(text, encoding="utf-8")
+    path = project.ROOT / "docs" / "resources.md"
+    if arguments.axi:
+        before, _, after = path.read_text(encoding="utf-8").partition(f"{AXI_HEAD}\n")
+        text = before + "\n".join(axi(folder)) + "\n\n" + after[after.index("## "):]
+    else:
+        text = page(folder)
+    path.write_text(text, encoding="utf-8")
 
 
 if __name__ == "__main__":

@@ -183,3 +183,17 @@ def module_ports(path, packages, parameters=None):
             raise WidthError(f"{path.name}: port not understood: {part.strip()}")
         ports[port.group(3)] = (port.group(1), scope.width(port.group(2)))
     return ports
+
+
+def module_parameters(path):
+    """{name: (type, default, comment)} of a module's parameters, with the texts of the source."""
+    head = path.read_text(encoding="utf-8").split(") (\n")[0]
+    return {name: (kind, " ".join(value.split()), said) for kind, name, value, said in re.findall(
+        r"^  parameter (int unsigned|bit) +(\w+) *=\s*([^/]*?),?(?: *// (.*))?$", head, re.M)}
+
+
+def parameter_vectors(path):
+    """{port: text of its highest bit} of the ports whose width depends on a parameter."""
+    return {name: left for left, name in re.findall(
+        r"^  (?:input|output) +logic \[(\w*[A-Z]\w*-1):0\] *(\w+)", path.read_text(encoding="utf-8"),
+        re.M)}

@@ -3,7 +3,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """VHDL for each top: a component and an instance, from the ports of the RTL.
 
-  vhdl.py           writes rtl/mb4/vhdl/mb4_components.vhd and rtl/mb4/vhdl/TOP_example.vhd
+  vhdl.py           writes rtl/mb4/vhdl/mb4_components.vhd and rtl/mb4/vhdl/TOP_example.vhd, and the same
+                    of biss_axi with its parameters as generics in rtl/axi/vhdl
   vhdl.py --check   they are what it would write
 """
 
@@ -16,6 +17,7 @@ sys.path.insert(0, str(Path(__file__).resolve().parent))
 
 import plain_verilog  # noqa: E402
 import project  # noqa: E402
+import sv_widths  # noqa: E402
 import verilator_ports  # noqa: E402
 
 FOLDER = project.RTL / "mb4" / "vhdl"
@@ -57,6 +59,56 @@ begin
 end architecture;
 """
 
+AXI_FOLDER = project.RTL / "axi" / "vhdl"
+AXI_SOURCE = project.RTL / "axi" / "biss_axi.sv"
+AXI_COMPONENT = HEAD + """-- biss_axi as a VHDL component, made by tools/synth/vhdl.py: do not edit. The module behind it is
+-- rtl/axi/biss_axi.sv, for tools that read both languages. A default cannot follow another generic
+-- here: with more than one channel set S_AXIS_TDATA_WIDTH and S_AXIS_TUSER_WIDTH too.
+-- Clock, reset and misuse: the header of rtl/axi/biss_axi.sv.
+
+library ieee;
+use ieee.std_logic_1164.all;
+
+package biss_axi_component is
+
+  component biss_axi
+    generic (
+{generics}
+    );
+    port (
+{ports}
+    );
+  end component;
+
+end package;
+"""
+AXI_EXAMPLE = HEAD + """-- An instance of biss_axi with four channels to copy, made by tools/synth/vhdl.py: do not edit. The
+-- entity only passes the ports on.
+
+library ieee;
+use ieee.std_logic_1164.all;
+use work.biss_axi_component.all;
+
+entity biss_axi_example is
+  port (
+{ports}
+  );
+end entity;
+
+architecture rtl of biss_axi_example is
+begin
+  u_biss_axi : biss_axi
+    generic map (
+      BISS_CHANNEL_WIDTH => 4,
+      S_AXIS_TDATA_WIDTH => 128,
+      S_AXIS_TUSER_WIDTH => 4
+    )
+    port map (
+{connections}
+    );
+end architecture;
+"""
+
 
 def comments(top):
     """{port: what its line in the RTL says behind //}"""
@@ -65,11 +117,12 @@ def comments(top):
 
 
 def lines(ports, said, indent):
-    """The ports of a component or an entity."""
+    """The ports of a component or an entity. A width is a number, or the text of the highest bit."""
     longest = max(map(len, ports))
     result = []
     for number, (name, (direction, width)) in enumerate(ports.items(), 1):
-        kind = "std_logic" if width == 1 else f"std_logic_vector({width - 1} downto 0)"
+        left = width if isinstance(width, str) else width - 1
+        kind = "std_logic" if width == 1 else f"std_logic_vector({left} downto 0)"
         end = ";" if number < len(ports) else ""
         comment = f"  -- {said[name]}" if name in said else ""
         way = {"input": "in ", "output": "out"}[direction]
@@ -77,9 +130,39 @@ def lines(ports, said, indent):
     return "\n".join(result)
 
 
+def axi_ports(values):
+    """{port: (direction, width)} of biss_axi with these parameters."""
+    packages = [path for path in project.all_rtl_files() if path.stem.endswith("_pkg")]
+    return sv_widths.module_ports(AXI_SOURCE, sv_widths.read_packages(packages), values)
+
+
+def axi_texts():
+    """Component and example of biss_axi. Ports follow the generics."""
+    parameters = sv_widths.module_parameters(AXI_SOURCE)
+    vectors = sv_widths.parameter_vectors(AXI_SOURCE)
+    rows = []
+    longest = max(map(len, parameters))
+    derived = {"S_AXIS_TDATA_WIDTH": "32", "S_AXIS_TUSER_WIDTH": "1"}
+    for number, (name, (kind, value, said)) in enumerate(parameters.items(), 1):
+        value = derived.get(name, value.replace("1'b", ""))
+        limits = "natural range 0 to 1" if kind == "bit" else "natural"
+        comment = f"  -- {said}" if said else ""
+        rows.append(f"      {name:<{longest}} : {limits} := {value}"
+                    f"{';' if number < len(parameters) else ''}{comment}")
+    fixed = axi_ports({name: 2 for name in parameters})
+    names = {name: (way, vectors.get(name, width)) for name, (way, width) in fixed.items()}
+    four = axi_ports({"BISS_CHANNEL_WIDTH": 4, "S_AXIS_TDATA_WIDTH": 128, "S_AXIS_TUSER_WIDTH": 4})
+    longest = max(map(len, names))
+    connections = ",\n".join(f"      {name:<{longest}} => {name}" for name in names)
+    return {AXI_FOLDER / "biss_axi_component.vhd": AXI_COMPONENT.format(
+                generics="\n".join(rows), ports=lines(names, {}, " " * 6)),
+            AXI_FOLDER / "biss_axi_example.vhd": AXI_EXAMPLE.format(
+                ports=lines(four, {}, " " * 4), connections=connections)}
+
+
 def texts():
     """{path: what stands in it}"""
-    found = {}
+    found = axi_texts()
     components = []
     with tempfile.TemporaryDirectory() as folder:
         for top in plain_verilog.TOPS:

@@ -9,6 +9,7 @@
 
 #include "sim/core/toml_reader.hpp"
 #include "sim/masters/axi/live_axi.hpp"
+#include "sim/masters/axi/wave_groups.hpp"
 
 namespace mb4::sim {
 namespace {
@@ -18,13 +19,12 @@ constexpr std::int64_t kMaxClkHz = 500'000'000;
 constexpr std::uint64_t kMaxMaHz = 10'000'000;
 constexpr std::uint64_t kLongestHalf = 255;  // clocks of half an MA period
 
-// Bits of axi_pkg::switch_t: the parameters of biss_axi.
-constexpr unsigned kAlignLatch = 1;
-constexpr std::pair<const char*, unsigned> kSwitches[] = {{"VALID_UNTIL_REQUEST", 0},
-                                                          {"ALIGN_LATCH", kAlignLatch},
-                                                          {"CRC_BIT_IGNORES", 2},
-                                                          {"ENABLE_ACTIVE_LOW", 3}};
-constexpr unsigned kDefaultSwitches = 1;
+constexpr std::pair<const char*, unsigned> kSwitches[] = {
+    {"VALID_UNTIL_REQUEST", kAxiValidUntilRequest},
+    {"ALIGN_LATCH", kAxiAlignLatch},
+    {"CRC_BIT_IGNORES", kAxiCrcBitIgnores},
+    {"ENABLE_ACTIVE_LOW", kAxiEnableActiveLow}};
+constexpr unsigned kDefaultSwitches = kAxiValidUntilRequest;
 
 // In the order of kAxiDocument, kAxiFull.
 constexpr std::string_view kFeatures[] = {"document", "full"};
@@ -36,10 +36,7 @@ void read_chip(TomlReader& reader, ChipConfig& chip) {
 void read_quirks(TomlReader& reader, ChipConfig& chip) {
   for (const auto& [name, bit] : kSwitches) {
     if (const auto on = reader.boolean(name)) {
-      if (*on && bit == kAlignLatch && chip.features != kAxiFull) {
-        reader.fail(name, "the master has it with features = \"full\" only");
-      }
-      chip.quirks = (chip.quirks & ~(1U << bit)) | (static_cast<unsigned>(*on) << bit);
+      chip.quirks = *on ? chip.quirks | bit : chip.quirks & ~bit;
     }
   }
 }
@@ -80,6 +77,6 @@ const Master kAxiMaster{.type = "axi",
                         .make = [](const MasterSetup& setup) -> std::unique_ptr<LiveMaster> {
                           return std::make_unique<LiveAxi>(setup);
                         },
-                        .wave_groups = nullptr};
+                        .wave_groups = axi_wave_groups};
 
 }  // namespace mb4::sim

@@ -10,6 +10,7 @@
 #include <memory>
 
 #include "sim/core/time.hpp"
+#include "sim/core/trace_file.hpp"
 #include "sim/hosts/word_host.hpp"
 #include "sim/masters/chip_config.hpp"
 #include "sim/masters/master_model.hpp"
@@ -21,6 +22,11 @@ inline constexpr unsigned kAxiChannels = 16;
 // ChipConfig::features: what the document has, or all extras (EXTRAS of biss_axi).
 inline constexpr unsigned kAxiDocument = 0;
 inline constexpr unsigned kAxiFull = 1;
+// ChipConfig::quirks: bits of axi_pkg::switch_t, the parameters of biss_axi.
+inline constexpr unsigned kAxiValidUntilRequest = 1;
+inline constexpr unsigned kAxiAlignLatch = 2;
+inline constexpr unsigned kAxiCrcBitIgnores = 4;
+inline constexpr unsigned kAxiEnableActiveLow = 8;
 
 // An AXI4-Lite access that runs or has ended.
 struct AxiAccess {
@@ -45,12 +51,17 @@ class AxiModel : public MasterModel {
   // Number of channels that the model has: at least those of the scenario.
   virtual unsigned channels() const = 0;
 
-  virtual void set_reset(bool active) = 0;
-  virtual void set_ext_sample_clk(bool level) = 0;
-  virtual void set_sample_en(bool level) = 0;
+  virtual void set_reset(Time now, bool active) = 0;
+  virtual void set_ext_sample_clk(Time now, bool level) = 0;
+  virtual void set_sample_en(Time now, bool level) = 0;
   virtual bool ext_sample_clk() const = 0;
   virtual bool sample_en() const = 0;
   virtual bool slo(unsigned line) const = 0;
+
+  // A waveform of pins, registers and encoders from now on. Throws TraceError if it cannot be
+  // written.
+  virtual void start_wave(const TraceFile& file) = 0;
+  virtual void stop_wave() = 0;
 
   // Begins an access: the valids rise after the next rising edge of the clock. Only one access runs
   // at a time.
@@ -80,8 +91,8 @@ class AxiModel : public MasterModel {
 };
 
 // `channels`: as many as the scenario needs. Of the models that are built (1, 4, 16 channels, each
-// as the document and with all extras) the smallest one that is enough is made. `plain`: each edge
-// is evaluated in the simplest way.
+// as the document, as the document with ALIGN_LATCH, and with all extras) the smallest one that is
+// enough is made. `plain`: each edge is evaluated in the simplest way.
 std::unique_ptr<AxiModel> make_axi_model(const ChipConfig& chip, unsigned channels,
                                          std::uint64_t seed, bool plain);
 

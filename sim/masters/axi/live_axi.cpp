@@ -92,7 +92,9 @@ LiveAxi::LiveAxi(const MasterSetup& setup)
       lines_(setup.lines),
       model_(make_axi_model(setup.chip, channels_of(setup.lines), setup.seed, setup.plain)),
       host_(outside_, *model_,
-            setup.chip.f_clk_hz == 0 ? kPsPerUs : kPsPerSecond / setup.chip.f_clk_hz + 1) {}
+            setup.chip.f_clk_hz == 0 ? kPsPerUs : kPsPerSecond / setup.chip.f_clk_hz + 1) {
+  if (setup.trace != nullptr) model_->start_wave(*setup.trace);
+}
 
 void LiveAxi::power_on() {
   outside_.run_until(kResetLow);
@@ -110,11 +112,11 @@ void LiveAxi::set_pin(Time now, Pin pin, bool level) {
   if (!can_set(pin)) return;
   if (pin == kAresetn) {
     aresetn_ = level;
-    model_->set_reset(!level);
+    model_->set_reset(now, !level);
   } else if (pin == kExtSampleClk) {
-    model_->set_ext_sample_clk(level);
+    model_->set_ext_sample_clk(now, level);
   } else if (pin == kSampleEn) {
-    model_->set_sample_en(level);
+    model_->set_sample_en(now, level);
   } else if (const auto line = line_of(pin, kSlo0)) {
     model_->set_sl(now, *line, level);
   }

@@ -61,6 +61,9 @@ class LiveAxi final : public LiveMaster {
   void set_pin(Time now, Pin pin, bool level) override;
   bool pin(Pin pin) const override;
 
+  void start_trace(const TraceFile& file) override { model_->start_wave(file); }
+  void stop_trace() override { model_->stop_wave(); }
+
   HostModel* host(std::string_view name) override { return name == "axi" ? &host_ : nullptr; }
 
  private:

@@ -40,6 +40,7 @@ WaveGroup host_group(const HostInterface& interface) {
 
 // The groups in the order of the view. The first ones are those that a user of the chip sees.
 std::vector<WaveGroup> mb4_wave_groups(const HostConfig& host) {
+  if (host.interface.words) return {};
   return {
       host_group(host.interface),
       {"line", true, {{"MA1", "ma1_o"}, {"SL1", "sl1_i"}, {"MA2", "ma2_o"}, {"SL2", "sl2_i"}}, {}},

@@ -13,6 +13,7 @@
 
 namespace mb4::sim {
 
+// None if the chip is on a bus of words: then it writes no waveform.
 std::vector<WaveGroup> mb4_wave_groups(const HostConfig& host);
 
 }  // namespace mb4::sim

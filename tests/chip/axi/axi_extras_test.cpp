@@ -335,14 +335,19 @@ TEST(AxiExtras, DelayAlarm_IsOneOfItsChannel) {
   EXPECT_EQ(bench.read(axireg::kAddrDelayAlarm), 0U);
 }
 
-// ALIGN_LATCH, 3.9: channels with their bit in MA_SHIFT latch at the instant of the slowest one.
-TEST(AxiExtras, AlignLatch_MakesAllEncodersLatchTogether) {
+// ALIGN_LATCH, 3.9: channels with their bit in MA_SHIFT latch at the instant of the slowest one. It
+// is a switch of the document, so it needs no extra.
+class AxiAlign : public testing::TestWithParam<bool> {};
+
+TEST_P(AxiAlign, AlignLatch_MakesAllEncodersLatchTogether) {
+  const bool all_extras = GetParam();
   const std::vector<double> delays{20, 330, 1000, 640};
   std::vector<AxiEncoder> encoders;
   for (const double delay : delays) encoders.push_back({.delay_ns = delay});
   for (const bool on : {true, false}) {
-    AxiBench bench(full(axi_scenario(encoders, 100'000'000, "",
-                                     std::string("ALIGN_LATCH = ") + (on ? "true\n" : "false\n"))));
+    const std::string scenario = axi_scenario(
+        encoders, 100'000'000, "", std::string("ALIGN_LATCH = ") + (on ? "true\n" : "false\n"));
+    AxiBench bench(all_extras ? full(scenario) : scenario);
     bench.set_up(26, 5);
     bench.write(axireg::kAddrMaShift, 0xF);
     for (unsigned round = 0; round < 4; ++round) {
@@ -356,7 +361,7 @@ TEST(AxiExtras, AlignLatch_MakesAllEncodersLatchTogether) {
       ASSERT_TRUE(beat);
       EXPECT_EQ(beat->user, 0xFU);
       for (unsigned c = 0; c < 4; ++c) {
-        EXPECT_EQ(beat->words[2 * c], 1000 * round + c);
+        EXPECT_EQ(beat->words[all_extras ? 2 * c : c], 1000 * round + c);
         EXPECT_NEAR(bench.read(c, axireg::kAddrLineDelay), delays[c] / 10, 1);
         ASSERT_FALSE(rises[c].all.empty());
         // Edge at the master and half the round trip.
@@ -368,7 +373,55 @@ TEST(AxiExtras, AlignLatch_MakesAllEncodersLatchTogether) {
         EXPECT_NEAR(latch(c) - latch(2), expected, 10.1) << "channel " << c << " round " << round;
       }
     }
+    // The page is an extra.
+    EXPECT_EQ(bench.read(axireg::kAddrId) != 0, all_extras);
   }
+}
+
+INSTANTIATE_TEST_SUITE_P(Features, AxiAlign, testing::Bool(), [](const auto& one) {
+  return std::string(one.param ? "full" : "document");
+});
+
+// The next larger model, and the first frame of each size.
+TEST(AxiExtras, AlignLatchOfSixteenChannels_ActsAsOfFour) {
+  std::vector<AxiEncoder> encoders(16);
+  for (unsigned c = 0; c < 16; ++c) encoders[c].delay_ns = 20 + 60 * c;
+  AxiBench bench(axi_scenario(encoders, 100'000'000, "", "ALIGN_LATCH = true\n"));
+  bench.set_up(26, 5);
+  bench.write(axireg::kAddrMaShift, 0xFFFF);
+  ASSERT_TRUE(bench.frame());
+  std::array<Rises, 16> rises;
+  for (unsigned c = 0; c < 16; ++c) {
+    bench.simulator.line(c + 1)->set_tap(&Rises::tap, &rises[c]);
+    bench.simulator.slave(c + 1)->set_data(raw_word(c));
+  }
+  const auto beat = bench.frame();
+  ASSERT_TRUE(beat);
+  EXPECT_EQ(beat->user, 0xFFFFU);
+  for (unsigned c = 0; c < 16; ++c) {
+    EXPECT_EQ(beat->words[c], c);
+    const double latch = static_cast<double>(rises[c].all.front()) / 1e3 + encoders[c].delay_ns / 2;
+    const double last =
+        static_cast<double>(rises[15].all.front()) / 1e3 + encoders[15].delay_ns / 2;
+    EXPECT_NEAR(latch, last, 10.1) << "channel " << c;
+  }
+}
+
+// One channel has nothing to be aligned to: the switch changes nothing.
+TEST(AxiExtras, AlignLatchOfOneChannel_ChangesNothing) {
+  std::array<std::vector<sim::Time>, 2> edges;
+  for (const bool on : {false, true}) {
+    AxiBench bench(axi_scenario({{.delay_ns = 500}}, 100'000'000, "",
+                                std::string("ALIGN_LATCH = ") + (on ? "true\n" : "false\n")));
+    bench.set_up(26, 5);
+    bench.write(axireg::kAddrMaShift, 1);
+    Rises rises;
+    bench.simulator.line(1)->set_tap(&Rises::tap, &rises);
+    for (int i = 0; i < 3; ++i) ASSERT_TRUE(bench.frame());
+    edges[on ? 1 : 0] = rises.all;
+  }
+  EXPECT_EQ(edges[0], edges[1]);
+  EXPECT_GT(edges[0].size(), 60U);
 }
 
 const std::string kSlave = "registers = { 0x20 = [0x5A], 0x21 = [0xC3] }\n";
@@ -469,7 +522,7 @@ TEST(AxiExtras, RegisterAccessThatFails_SaysHow) {
   EXPECT_EQ(access.data(), 0x5AU);
 }
 
-TEST(AxiScenario, FeaturesAndAlignLatch_AreRefusedByKey) {
+TEST(AxiScenario, FeaturesAndAlignLatch_AreIndependentKeys) {
   const auto error = [](const std::string& chip) -> std::string {
     try {
       sim::parse_scenario("[master]\ntype = \"axi\"\n" + chip, "test.toml");
@@ -479,10 +532,10 @@ TEST(AxiScenario, FeaturesAndAlignLatch_AreRefusedByKey) {
     return "";
   };
   EXPECT_EQ(error("[chip]\nfeatures = \"full\"\n[chip.quirks]\nALIGN_LATCH = true\n"), "");
-  EXPECT_EQ(error("[chip]\nfeatures = \"document\"\n[chip.quirks]\nALIGN_LATCH = false\n"), "");
+  EXPECT_EQ(error("[chip]\nfeatures = \"document\"\n[chip.quirks]\nALIGN_LATCH = true\n"), "");
+  EXPECT_EQ(error("[chip.quirks]\nALIGN_LATCH = true\n"), "");
   EXPECT_NE(error("[chip]\nfeatures = \"most\"\n").find("key 'features'"), std::string::npos);
-  EXPECT_NE(error("[chip.quirks]\nALIGN_LATCH = true\n").find("key 'ALIGN_LATCH'"),
-            std::string::npos);
+  EXPECT_NE(error("[chip.quirks]\nALIGN_LATCH = 2\n").find("key 'ALIGN_LATCH'"), std::string::npos);
 }
 
 }  // namespace

@@ -3,8 +3,10 @@
 //
 // The C interface with a master on AXI, through the shared library.
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <cstdint>
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -80,13 +82,21 @@ TEST_F(CApiAxi, OnEdge_TellsTheLevelsOfTheLines) {
   }
 }
 
-TEST_F(CApiAxi, Waveform_IsRefused) {
+#ifdef MB4_TRACE
+TEST_F(CApiAxi, Trace_WritesAWaveformOfWhatLiesBetween) {
+  const std::string path = testing::TempDir() + "c_api_axi_" + std::to_string(getpid()) + ".fst";
   char why[200];
-  EXPECT_EQ(mb4sim_trace_start(sim, "axi.fst"), MB4SIM_ERROR_TRACE);
+  EXPECT_EQ(mb4sim_trace_start(sim, "/no/such/folder/axi.fst"), MB4SIM_ERROR_TRACE);
   EXPECT_EQ(mb4sim_last_error(sim, why, sizeof why), MB4SIM_ERROR_TRACE);
-  EXPECT_STREQ(why, "axi.fst: this master writes no waveform");
+  EXPECT_STREQ(why, "/no/such/folder/axi.fst: cannot write the waveform");
   EXPECT_EQ(mb4sim_trace_stop(sim), MB4SIM_ERROR_TRACE);
+  ASSERT_EQ(mb4sim_trace_start(sim, path.c_str()), 0);
+  mb4sim_advance_ns(sim, 10'000);
+  EXPECT_EQ(mb4sim_trace_stop(sim), 0);
+  EXPECT_GT(std::filesystem::file_size(path), 500U);
+  std::filesystem::remove(path);
 }
+#endif
 
 TEST_F(CApiAxi, Registers_AreReadAndWritten) {
   uint32_t data = 1;

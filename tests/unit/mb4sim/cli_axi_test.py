@@ -153,14 +153,50 @@ class Axi(unittest.TestCase):
         self.assertEqual((result.returncode, result.stderr), (0, ""))
         self.assertIn("runs 2, failed 0", result.stdout)
 
+    def test_trace_writes_a_waveform_and_its_view_of_every_model(self):
+        for channels in (1, 3, 16):
+            for chip in ("", 'features = "full"\n', "[chip.quirks]\nALIGN_LATCH = true\n"):
+                scenario = self.path(chip + "".join(
+                    channel(c, keys=f"delay_ns = {20 * c}\n", slave=ramp(c))
+                    for c in range(1, channels + 1)))
+                wave = self.folder / "a.fst"
+                result = run("run", scenario, "--frames", "2", "--trace", str(wave))
+                self.assertEqual((result.returncode, result.stderr), (0, ""))
+                self.assertEqual(result.stdout, run("run", scenario, "--frames", "2").stdout)
+                self.assertGreater(wave.stat().st_size, 1000)
+                view = (self.folder / "a.gtkw").read_text(encoding="utf-8")
+                for c in range(channels):
+                    for name in (f"ma{c}", f"slo{c}", f"encoder{c}_ma", f"encoder{c}_slo",
+                                 f"gen_channel[{c}].u_channel.u_word.result_q.delay[9:0]"):
+                        self.assertIn(f"\nmb4sim.biss_axi.{name}\n", view)
+                    # The names of its states.
+                    self.assertIn("\n@100000028\nmb4sim.biss_axi."
+                                  f"gen_channel[{c}].u_channel.state_q[3:0]\n", view)
+                built = next(size for size in (1, 4, 16) if size >= channels)
+                self.assertEqual(view.count("\n-channel "), 2 * built)  # begin and end
+                self.assertEqual("\n-extras\n" in view, "full" in chip or
+                                 ("ALIGN" in chip and channels > 1))
+
+    def test_run_tells_the_driver_the_switches_of_the_master(self):
+        wrong = ('[[fault]]\nkind = "bit-flip"\nchannel = 2\nat_us = 60.0\nbits = [9]\n')
+        for switches in ("", "ENABLE_ACTIVE_LOW = true\n", "CRC_BIT_IGNORES = true\n",
+                         "ENABLE_ACTIVE_LOW = true\nCRC_BIT_IGNORES = true\nALIGN_LATCH = true\n"
+                         "VALID_UNTIL_REQUEST = false\n"):
+            scenario = self.path(f"[chip.quirks]\n{switches}" + "".join(
+                channel(c, slave=f"data = {4000 * c + 3}\n") for c in range(1, 4)) + wrong)
+            status, got = self.frames(scenario, "--frames", "3")
+            rows = [(row["slave"], row["position"]) for row in got["frames"] if row["state"] == "ok"]
+            self.assertEqual(status, 1)
+            self.assertEqual(sorted(rows), [(c, 1000 * c) for c in (1, 1, 1, 2, 2, 3, 3, 3)], switches)
+            self.assertEqual([(row["slave"], row["state"]) for row in got["frames"]
+                              if row["state"] != "ok"], [(2, "CRC error")], switches)
+
     def test_what_the_master_does_not_have_is_one_clear_error(self):
         scenario = self.path(channel(1))
         chip = "key 'type': this needs the iC-MB4, not \"axi\""
         cases = ((["spi", scenario], chip), (["scan", scenario], chip),
                  (["bridge", "--tcp", "0", scenario], chip),
                  (["plot", scenario, "--read", "0x44"], "\"axi\" makes no control frames"),
-                 (["run", scenario, "--trace", str(self.folder / "x.fst")],
-                  "--trace: the master \"axi\" writes no waveform"),
                  (["regress", scenario, "--cover", str(self.folder / "x")],
                   "--cover: .*: there are no points for the master \"axi\""))
         for command, message in cases:
@@ -180,9 +216,7 @@ class Axi(unittest.TestCase):
                  (slave("crc_start = 1\n"), "crc_start", "start value 0"),
                  (slave("flag_bits = 0\n"), "flag_bits", "2 flags"),
                  (channel(1) + channel(2, bits=20), "data_bits", "one length"),
-                 (slave("").replace("biss-c", "ssi"), "protocol", "BiSS C only"),
-                 ("[chip.quirks]\nENABLE_ACTIVE_LOW = true\n" + channel(1), "quirks",
-                  "ENABLE_ACTIVE_LOW"))
+                 (slave("").replace("biss-c", "ssi"), "protocol", "BiSS C only"))
         for text, key, message in cases:
             scenario = self.path(text)
             for command in ("run", "plot", "sweep", "regress", "regs"):

@@ -11,6 +11,7 @@
 #include "biss_axi/device.hpp"
 #include "biss_axi/page.hpp"
 #include "report/exit_status.hpp"
+#include "sim/masters/axi/axi_model.hpp"
 #include "sim_clock.hpp"
 #include "word_port.hpp"
 
@@ -81,11 +82,6 @@ void check_slave(const sim::Scenario& scenario, const sim::SlaveConfig& slave,
 
 biss_axi::Config make_config(const sim::Scenario& scenario) {
   require_slaves(scenario);
-  constexpr unsigned kSwitchesOfDriver = 1;  // VALID_UNTIL_REQUEST: the driver takes both
-  if ((scenario.chip.quirks & ~kSwitchesOfDriver) != 0) {
-    fail_at(scenario, scenario.chip.source, "quirks",
-            "the driver knows neither ENABLE_ACTIVE_LOW nor CRC_BIT_IGNORES");
-  }
   const sim::SlaveConfig& first = scenario.channels.front().slaves.front();
   biss_axi::Config config;
   config.f_clk_hz = static_cast<std::uint32_t>(scenario.chip.f_clk_hz);
@@ -96,6 +92,8 @@ biss_axi::Config make_config(const sim::Scenario& scenario) {
     check_slave(scenario, channel.slaves.front(), first);
   }
   config.wide = has_extras(scenario);
+  config.enable_active_low = (scenario.chip.quirks & sim::kAxiEnableActiveLow) != 0;
+  config.crc_bit_ignores = (scenario.chip.quirks & sim::kAxiCrcBitIgnores) != 0;
   config.position_bits = static_cast<std::uint8_t>(first.data_bits() - kFlagBits);
   switch (biss_axi::validate(config).field) {
     case biss_axi::Field::kClkHz:

@@ -48,7 +48,7 @@ TraceFile::TraceFile(const std::string& option, const std::string& scenario_path
   if (master_->wave_groups == nullptr) {
     throw UseError(fmt::format("--trace: the master \"{}\" writes no waveform", master_->type));
   }
-  if (host_.interface.words) {
+  if (master_->wave_groups(host_).empty()) {
     throw UseError(fmt::format("--trace: with the interface \"{}\" there is no waveform",
                                host_.interface.key));
   }

@@ -3,14 +3,11 @@
 //
 // A waveform of a part of a run holds what a waveform of the whole run holds of this part.
 #include <gtest/gtest.h>
-#include <gtkwave/fstapi.h>
 #include <unistd.h>
 
 #include <cstdint>
 #include <filesystem>
 #include <functional>
-#include <map>
-#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
@@ -19,6 +16,7 @@
 #include "mb4sim/simulator.hpp"
 #include "sim/core/trace_error.hpp"
 #include "sim/masters/mb4/pins.hpp"
+#include "tests/unit/model/waveform.hpp"
 
 namespace mb4test {
 
@@ -26,50 +24,6 @@ using namespace mb4::sim;
 namespace reg = mb4::regs;
 
 namespace {
-
-using Changes = std::vector<std::pair<std::uint64_t, std::string>>;  // times and values
-
-struct Waveform {
-  std::uint64_t begin = 0;
-  std::uint64_t end = 0;
-  std::map<std::string, Changes> changes;  // by the name of a signal
-};
-
-Waveform read(const std::string& path) {
-  void* const reader = fstReaderOpen(path.c_str());
-  if (reader == nullptr) throw std::runtime_error(path + " is no waveform");
-  Waveform wave;
-  wave.begin = fstReaderGetStartTime(reader);
-  wave.end = fstReaderGetEndTime(reader);
-  EXPECT_EQ(fstReaderGetTimescale(reader), -12);  // ps
-  std::map<fstHandle, std::string> names;
-  fstReaderResetScope(reader);
-  std::string scope;
-  while (const fstHier* entry = fstReaderIterateHier(reader)) {
-    if (entry->htyp == FST_HT_SCOPE)
-      scope = fstReaderPushScope(reader, entry->u.scope.name, nullptr);
-    if (entry->htyp == FST_HT_UPSCOPE) scope = fstReaderPopScope(reader);
-    if (entry->htyp == FST_HT_VAR) {
-      names.emplace(entry->u.var.handle, scope + "." + entry->u.var.name);
-    }
-  }
-  struct Context {
-    Waveform& wave;
-    const std::map<fstHandle, std::string>& names;
-  } context{wave, names};
-  fstReaderSetFacProcessMaskAll(reader);
-  fstReaderIterBlocks(
-      reader,
-      [](void* user, std::uint64_t time, fstHandle signal, const unsigned char* value) {
-        auto& to = *static_cast<Context*>(user);
-        auto& changes = to.wave.changes[to.names.at(signal)];
-        const std::string text = reinterpret_cast<const char*>(value);
-        if (changes.empty() || changes.back().second != text) changes.emplace_back(time, text);
-      },
-      &context, nullptr);
-  fstReaderClose(reader);
-  return wave;
-}
 
 // A run of two parts. All of it takes place, and the waveform begins between them.
 struct Case {
@@ -107,19 +61,6 @@ class TracedPart : public testing::TestWithParam<Case> {
   }
 };
 
-// The values from `begin` on. Several evaluations of one time stand one picosecond after the other,
-// and there may be one more at the begin of a file.
-Changes since(Time begin, const Changes& changes) {
-  constexpr Time kEvaluations = 20;
-  Changes found;
-  for (const auto& [time, value] : changes) {
-    const bool first = time <= begin + kEvaluations;
-    if (first) found.clear();
-    found.emplace_back(first ? begin : time, value);
-  }
-  return found;
-}
-
 constexpr Time kCable = 100 * kPsPerNs;  // more than the delay of each cable of the cases, one way
 
 // The chip's flops without a reset have the same random values in both runs, so all signals agree.
@@ -144,8 +85,8 @@ TEST_P(TracedPart, HoldsWhatTheWholeWaveformHolds) {
   ASSERT_EQ(whole.now(), part.now());
   EXPECT_EQ(whole.clk_cycles(), part.clk_cycles());
 
-  const Waveform seen = read(file("part"));
-  const Waveform expected = read(file("whole"));
+  const Waveform seen = read_waveform(file("part"));
+  const Waveform expected = read_waveform(file("whole"));
   EXPECT_EQ(seen.begin, begin);
   EXPECT_EQ(seen.end, expected.end);
   EXPECT_GT(seen.changes.size(), 500U);

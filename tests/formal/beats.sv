@@ -1,0 +1,108 @@
+// SPDX-FileCopyrightText: 2026 The openmb4 authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// The stream of the BiSS C master on AXI in mode 1 (axi_stream) up to its FIFO, for three channels with
+// any words, any enables, any reads and any soft reset. What the FIFO does with a beat is proof `axis`.
+// The words and the enables stay while busy_o is high, as the module asks.
+//
+// claim: each read puts one beat of each enabled channel into the FIFO, in ascending order, one channel a
+//   clock from the clock after next on, with the channel's word, flags and number, tlast at the last; and
+//   nothing else puts one in
+// clocks: one
+// depth: 12
+// cover: 12
+// unbounded: induction 4
+// look: dut_push = u_dut.gen_beats.u_fifo.push_i
+// look: dut_data = u_dut.gen_beats.u_fifo.data_i
+// look: dut_user = u_dut.gen_beats.u_fifo.user_i
+// look: dut_last = u_dut.gen_beats.u_fifo.last_i
+// look: dut_index = u_dut.gen_beats.index_q
+// mutation: axi/axi_stream.sv | .push_i    (run_q && now), | .push_i    (run_q),
+// mutation: axi/axi_stream.sv | now  = enabled_i[i]; | now  = enabled_i[0];
+// mutation: axi/axi_stream.sv | if (index_q < INDEX_W'(i)) later | if (index_q != INDEX_W'(i)) later
+// mutation: axi/axi_stream.sv | index_q + INDEX_W'(1) : '0; | index_q + INDEX_W'(1) : index_q;
+// mutation: axi/axi_stream.sv | .user_i    ({8'(index_q), 4'd0, | .user_i    ({8'(last_index), 4'd0,
+// mutation: axi/axi_stream.sv | run_q   <= !clear_i && (done_i || (run_q && !last_index));
+//   | run_q   <= !clear_i && (done_i || run_q);
+// mutation: axi/axi_stream.sv | word = words_i[i*axi_pkg::WORD_W +: axi_pkg::WORD_W];
+//   | word = words_i[axi_pkg::WORD_W +: axi_pkg::WORD_W];
+
+module proof (
+  input logic         clk_i,
+  input logic         rst_ni,
+  input logic         clear_i,
+  input logic         done_i,
+  input logic [2:0]   enabled_i,
+  input logic [107:0] words_i,
+  input logic         ready_i
+);
+
+  logic        busy, overrun, valid, last;
+  logic [31:0] data;
+  logic [15:0] user;
+  wire         dut_push, dut_last;
+  wire  [31:0] dut_data;
+  wire  [15:0] dut_user;
+  wire  [1:0]  dut_index;
+
+  axi_stream #(.Channels(3), .Mode(1), .DataW(32), .UserW(16), .Depth(2)) u_dut (
+    .clk_i, .rst_ni, .clear_i, .done_i, .enabled_i, .words_i,
+    .mores_i (252'd0),
+    .busy_o (busy), .overrun_o (overrun),
+    .s_axis_tvalid (valid), .s_axis_tready (ready_i), .s_axis_tdata (data),
+    .s_axis_tuser (user), .s_axis_tlast (last)
+  );
+
+  logic started = 1'b0;
+  always @(posedge clk_i) started <= 1'b1;
+  always @* if (!started) assume (!rst_ni);
+
+  // No read while the beats of the last one are made; words and enables stay.
+  logic         busy_q;
+  logic [2:0]   enabled_q;
+  logic [107:0] words_q;
+  always @(posedge clk_i) begin
+    busy_q    <= busy && rst_ni;
+    enabled_q <= enabled_i;
+    words_q   <= words_i;
+  end
+  always @* begin
+    if (busy) assume (!done_i);
+    if (busy_q) assume (enabled_i == enabled_q && words_i == words_q);
+  end
+
+  // Clocks since done_i: 1 to 3 are those of channel 0 to 2; 0: no read.
+  logic [1:0] place_q;
+  always @(posedge clk_i) begin
+    if (!rst_ni || clear_i)   place_q <= 2'd0;
+    else if (done_i)          place_q <= 2'd1;
+    else if (place_q != 2'd0) place_q <= place_q + 2'd1;   // 3 + 1 = 0
+  end
+
+  wire [1:0]  channel = place_q - 2'd1;
+  wire        reads   = place_q != 2'd0;
+  wire [35:0] word    = channel == 2'd0 ? words_i[35:0] :
+                        channel == 2'd1 ? words_i[71:36] : words_i[107:72];
+  wire        sends   = reads && (channel == 2'd0 ? enabled_i[0] :
+                                  channel == 2'd1 ? enabled_i[1] : enabled_i[2]);
+  wire        more    = (channel == 2'd0 && enabled_i[2:1] != 2'd0) ||
+                        (channel == 2'd1 && enabled_i[2]);
+
+  always @* if (rst_ni && started) begin
+    Busy_A: assert (busy == reads);
+    if (reads) Index_A: assert (dut_index == channel);
+    Push_A: assert (dut_push == sends);
+    if (dut_push) begin
+      Word_A: assert (dut_data == word[35:4] && dut_user == {6'd0, channel, 4'd0, word[3:0]});
+      Last_A: assert (dut_last == !more);
+    end
+  end
+
+  always @(posedge clk_i) if (rst_ni) begin
+    Three_C: cover (dut_push && dut_last && channel == 2'd2 && enabled_i == 3'd7);
+    First_C: cover (dut_push && dut_last && channel == 2'd0);
+    None_C:  cover (busy_q && !busy && enabled_i == 3'd0 && !clear_i);
+    Lost_C:  cover (overrun);
+  end
+
+endmodule
