@@ -53,6 +53,7 @@ inline mb4_result store(const mb4::Result<void>& result, const mb4::Frame& frame
   for (std::size_t i = 0; i < mb4::Status::kBytes; ++i) {
     out->status[i] = frame.status.bytes()[i];
   }
+  out->one_frame = frame.one_frame;
   return to_c(result);
 }
 

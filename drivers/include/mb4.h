@@ -126,6 +126,7 @@ typedef struct {
   mb4_reading reading[MB4_SLAVES];
   uint8_t code[MB4_SLAVES];
   uint8_t status[MB4_STATUS_BYTES];
+  bool one_frame; /* all readings are of one frame of the line */
 } mb4_frame;
 
 /* mb4::Command in mb4/command.hpp. */
@@ -154,7 +155,7 @@ typedef uint32_t (*mb4_now_us)(void *context);
 
 /* One chip. The caller provides the memory and does not use its contents. */
 typedef struct {
-  uint64_t opaque[100];
+  uint64_t opaque[128];
 } mb4_device;
 
 /* Call it before every other call on `device`. It makes no transfer. The functions must not be
@@ -210,6 +211,85 @@ MB4_RESULT mb4_slave_abort(mb4_device *device);
  * 0 on error. */
 MB4_RESULT mb4_scan(mb4_device *device, uint8_t channel, mb4_identity *identities, size_t size,
                     uint8_t *count);
+
+/* ---- Operations in steps ----
+ *
+ * The driver plans SPI frames, the caller makes them, by DMA or otherwise, and the driver takes what
+ * came back. The comments of mb4::Operation (mb4/operation.hpp) and of the C++ calls with
+ * the same name state steps, pauses and errors, and what wrong use answers:
+ *
+ *   mb4_operation_begin(&operation);                      // once
+ *   if (mb4_plan_restart(&device, &operation).code == MB4_OK) {
+ *     do {
+ *       size_t count = mb4_operation_frames(&operation, frames, &pause_us);
+ *       ...            // waits pause_us, then makes the frames one after the other, NCS low for each
+ *     } while (!mb4_finish(&device, &operation, transferred, now_us()));
+ *     result = mb4_operation_result(&operation);
+ *   }
+ *
+ * No call below makes a transfer or asks for the time. */
+
+enum { MB4_STEP_FRAMES = 18 /* most frames of a step; of an operation 4 */ };
+
+/* One SPI frame to make: `size` bytes from tx, while as many are received into rx; null: not
+ * needed. Each begins at a whole word. */
+typedef struct {
+  const uint8_t *tx;
+  uint8_t *rx;
+  size_t size;
+} mb4_spi_frame;
+
+/* The memory of an operation, where DMA reaches it. The caller does not use its contents; it stays
+ * where it is until the operation has ended. */
+typedef struct {
+  uint64_t opaque[40];
+} mb4_operation;
+/* The same for reads of the positions of all slaves: mb4::FrameRead. */
+typedef struct {
+  uint64_t opaque[72];
+} mb4_frame_read;
+
+/* Call it before the first other call on the object. */
+void mb4_operation_begin(mb4_operation *operation);
+void mb4_frame_read_begin(mb4_frame_read *read);
+
+MB4_RESULT mb4_plan_configure(mb4_device *device, mb4_operation *operation,
+                              const mb4_config *config);
+MB4_RESULT mb4_plan_verify(mb4_device *device, mb4_operation *operation);
+MB4_RESULT mb4_plan_initialize(mb4_device *device, mb4_operation *operation);
+/* `read` holds the frames; then mb4_frame_read_result(). */
+MB4_RESULT mb4_plan_read_all(mb4_device *device, mb4_operation *operation, mb4_frame_read *read);
+MB4_RESULT mb4_plan_actuator(mb4_device *device, mb4_operation *operation, uint8_t slave,
+                             uint64_t word);
+MB4_RESULT mb4_plan_break(mb4_device *device, mb4_operation *operation);
+MB4_RESULT mb4_plan_start(mb4_device *device, mb4_operation *operation);
+MB4_RESULT mb4_plan_stop(mb4_device *device, mb4_operation *operation);
+MB4_RESULT mb4_plan_restart(mb4_device *device, mb4_operation *operation);
+MB4_RESULT mb4_plan_automatic_actuator(mb4_device *device, mb4_operation *operation, uint8_t slave,
+                                       uint64_t word);
+/* `data` stays until the operation has ended. size 1..64. */
+MB4_RESULT mb4_plan_slave_read(mb4_device *device, mb4_operation *operation, uint8_t channel,
+                               uint8_t id, uint8_t address, uint8_t *data, size_t size);
+MB4_RESULT mb4_plan_slave_write(mb4_device *device, mb4_operation *operation, uint8_t channel,
+                                uint8_t id, uint8_t address, const uint8_t *data, size_t size);
+MB4_RESULT mb4_plan_slave_command(mb4_device *device, mb4_operation *operation,
+                                  const mb4_command *command);
+
+/* The frames to make now, at most MB4_STEP_FRAMES: fills `frames` and `pause_us` and returns their
+ * number. */
+size_t mb4_operation_frames(mb4_operation *operation, mb4_spi_frame *frames, uint32_t *pause_us);
+/* `transferred`: all of them were made, in order. True: the operation has ended. */
+bool mb4_finish(mb4_device *device, mb4_operation *operation, bool transferred, uint32_t now_us);
+MB4_RESULT mb4_operation_result(const mb4_operation *operation);
+/* After mb4_plan_initialize(): as of mb4_initialize(). */
+void mb4_operation_line_delay(const mb4_operation *operation, uint8_t quarters[MB4_CHANNELS]);
+
+/* mb4_automatic_poll() in steps: Automatic::plan(), finish() and FrameRead::result(). For one slave
+ * without the driver's library: mb4_cyclic.h. */
+MB4_RESULT mb4_plan_frame(mb4_device *device, mb4_frame_read *read, bool wide);
+size_t mb4_frame_read_frames(mb4_frame_read *read, mb4_spi_frame *frames);
+bool mb4_finish_frame(mb4_device *device, mb4_frame_read *read, bool transferred, uint32_t now_us);
+MB4_RESULT mb4_frame_read_result(const mb4_frame_read *read, mb4_frame *frame);
 
 /* SPI opcodes 0x02 and 0x03 without any protection of bits; size 1..64. */
 MB4_RESULT mb4_write_registers(mb4_device *device, uint8_t address, const uint8_t *data,

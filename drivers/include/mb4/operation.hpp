@@ -21,6 +21,7 @@
 
 namespace mb4 {
 
+class ReadSteps;
 namespace detail {
 struct ChipState;
 struct Procedures;
@@ -56,7 +57,7 @@ struct Procedures;
 // make the frames, then call finish() with what became of them, until it returns true.
 class Operation : public Steps {
  public:
-  Operation() { mb4_plan_memory(&plan_, tx_.data(), rx_.data()); }
+  constexpr Operation() = default;
 
   static constexpr std::size_t kMaxFrameBytes = 20;
 
@@ -83,7 +84,10 @@ class Operation : public Steps {
   std::uint32_t at_ = 0;    // bytes done
   std::size_t count_ = 0;   // of them all
   std::uint32_t made_ = 0;  // frames of the step before
-  bool good_ = false;       // they were made
+  // An access: looks at the status that have failed, one after the other. INIT: 1 if it was not
+  // seen. An actuator: banks that are to be written after this one.
+  std::uint32_t bad_ = 0;
+  bool good_ = false;  // they were made
   Result<void> result_{Error::kWrongMode};
   Result<void> cause_{};                // is the result when the frames planned now are made
   const std::uint8_t* data_ = nullptr;  // to write, the caller's
@@ -91,7 +95,8 @@ class Operation : public Steps {
   detail::TimeLimit limit_{};
   Status status_{};
   LineDelay delay_{};
-  std::array<std::uint8_t, 4> request_{};  // 0xE2..0xE5 of an access
+  std::array<std::uint8_t, 8> request_{};  // 0xE2..0xE5 of an access; the word of an actuator
+  ReadSteps* read_ = nullptr;              // the caller's, of a single frame
   std::array<std::uint32_t, kWords> tx_{};
   std::array<std::uint32_t, kWords> rx_{};
 };

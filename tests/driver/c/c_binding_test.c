@@ -184,6 +184,89 @@ static void test_automatic(mb4_device *device, mb4sim *simulator) {
   OK(mb4_automatic_stop(device));
 }
 
+/* Makes all steps of an operation; afterwards its result. */
+static mb4_result complete(mb4_device *device, bus_t *bus, mb4_operation *operation) {
+  mb4_spi_frame frames[MB4_STEP_FRAMES];
+  bool transferred = true;
+  unsigned steps = 0;
+  do {
+    uint32_t pause_us = 0;
+    const size_t count = mb4_operation_frames(operation, frames, &pause_us);
+    size_t i = 0;
+    mb4sim_advance_ns(bus->simulator, pause_us * UINT64_C(1000));
+    transferred = true;
+    for (i = 0; i < count && transferred; ++i) {
+      transferred = transfer(bus, frames[i].tx, frames[i].rx, frames[i].size);
+    }
+    CHECK(++steps < 10000);
+  } while (!mb4_finish(device, operation, transferred, now_us(bus)));
+  return mb4_operation_result(operation);
+}
+
+static void test_steps(mb4_device *device, bus_t *bus) {
+  static const uint8_t data[2] = {0x5A, 0xC3};
+  mb4_config config = encoder();
+  mb4_operation operation;
+  mb4_frame_read read;
+  mb4_frame frame;
+  mb4_spi_frame frames[MB4_STEP_FRAMES];
+  mb4_command command = {1, 0, 1, false};
+  uint8_t quarters[MB4_CHANNELS] = {0, 0};
+  uint8_t back[4] = {0, 0, 0, 0};
+  bool transferred = true;
+  mb4_operation_begin(&operation);
+  mb4_frame_read_begin(&read);
+  FAILS(mb4_operation_result(&operation), MB4_WRONG_MODE);
+  OK(mb4_plan_configure(device, &operation, &config));
+  OK(complete(device, bus, &operation));
+  OK(mb4_plan_verify(device, &operation));
+  OK(complete(device, bus, &operation));
+  OK(mb4_plan_initialize(device, &operation));
+  FAILS(mb4_plan_break(device, &operation), MB4_BUSY);
+  OK(complete(device, bus, &operation));
+  mb4_operation_line_delay(&operation, quarters);
+  CHECK(quarters[0] > 1);
+  OK(mb4_plan_read_all(device, &operation, &read));
+  OK(complete(device, bus, &operation));
+  OK(mb4_frame_read_result(&read, &frame));
+  CHECK(frame.code[0] == MB4_OK && frame.reading[0].position == 0x2ABCDEF && frame.one_frame);
+  OK(mb4_plan_slave_write(device, &operation, 1, 0, 0x60, data, sizeof data));
+  OK(complete(device, bus, &operation));
+  OK(mb4_plan_slave_read(device, &operation, 1, 0, 0x60, back, 2));
+  OK(complete(device, bus, &operation));
+  CHECK(back[0] == 0x5A && back[1] == 0xC3);
+  OK(mb4_plan_slave_command(device, &operation, &command));
+  OK(complete(device, bus, &operation));
+  FAILS(mb4_plan_actuator(device, &operation, 1, 1), MB4_INVALID_ARGUMENT);
+  FAILS(mb4_plan_automatic_actuator(device, &operation, 1, 1), MB4_WRONG_MODE);
+  config.frame_start = MB4_START_PERIODIC;
+  config.frame_period_clk = mb4_frame_period_clk_at_least(config.f_clk_hz, 100000);
+  OK(mb4_plan_configure(device, &operation, &config));
+  OK(complete(device, bus, &operation));
+  OK(mb4_plan_start(device, &operation));
+  OK(complete(device, bus, &operation));
+  OK(mb4_plan_restart(device, &operation));
+  OK(complete(device, bus, &operation));
+  mb4sim_advance_ns(bus->simulator, 150000);
+  OK(mb4_plan_frame(device, &read, false));
+  do {
+    const size_t count = mb4_frame_read_frames(&read, frames);
+    size_t i = 0;
+    for (i = 0; i < count; ++i) {
+      transferred = transferred && transfer(bus, frames[i].tx, frames[i].rx, frames[i].size);
+    }
+  } while (!mb4_finish_frame(device, &read, transferred, now_us(bus)));
+  OK(mb4_frame_read_result(&read, &frame));
+  CHECK(frame.code[0] == MB4_OK && frame.reading[0].position == 0x2ABCDEF && frame.one_frame);
+  OK(mb4_plan_stop(device, &operation));
+  OK(complete(device, bus, &operation));
+  FAILS(mb4_plan_frame(device, &read, false), MB4_WRONG_MODE);
+  OK(mb4_plan_break(device, &operation));
+  bus->broken = true;
+  FAILS(complete(device, bus, &operation), MB4_TRANSPORT);
+  bus->broken = false;
+}
+
 static void test_raw_and_reset(mb4_device *device, bus_t *bus) {
   const uint8_t byte = 0x5A;
   uint8_t data[2];
@@ -229,6 +312,7 @@ int main(void) {
   test_single(&device);
   test_slave_registers(&device);
   test_automatic(&device, bus.simulator);
+  test_steps(&device, &bus);
   test_raw_and_reset(&device, &bus);
   test_positions();
   test_actuator();

@@ -64,9 +64,7 @@ class CyclicTest : public testing::Test {
       }
     }
     if (slaves > 1) config.slaves[1] = config.slaves[0];
-    bus.expect_write({0x07, 0x80, 0x00});
-    bus.expect_write(join({{0x02, 0xC0}, image, zeros(3)}));
-    bus.expect_read(join({{0x03, 0xC0}, zeros(54)}), join({zeros(2), answer}));
+    mb4test::expect_image(bus, image, answer);
     ASSERT_TRUE(device.configure(config).ok());
     bus.expect_write(kAgs);
     clock.time_us = 1000;
