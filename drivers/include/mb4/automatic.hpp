@@ -141,8 +141,8 @@ class Automatic {
   //
   // After a frame with a bad word (nSCDERR = 0) it checks the data of the slaves without SVALID as
   // well: a stored CRC that fits shows a word that has been read before. A bad word then gets the
-  // CRC that fits, so that it counts once: one 0x02 more for each. When frames stay away: one 0x05
-  // more, up to 0xF8.
+  // CRC that fits, so that it counts once: one 0x02 more for each. When frames stay away: two 0x05
+  // more, up to 0xFB and to 0xF4.
   //
   // With SpiCheck::kFull one disturbed bit of the first status may hide a new frame: this call says
   // kNoData, and the next one brings the word, if no later frame has overwritten it.
@@ -163,11 +163,12 @@ class Automatic {
   // kTimeout, kLineError (SL is 0): frames stay away for more than two periods and the step of
   // the clock (enc::clock_step_us), if the chip has left frames out, otherwise for 16 periods. With
   // Config::frame_timeout_us it is that time and one period if this is longer than two: a chip that
-  // has lost its configuration or its clock sets no flag. Back to back a period is
-  // frame_timeout_us(). Never with FrameStart::kOnPin. Nothing is changed, and each call says so
-  // until a frame ends: call restart(). A dead line on one channel stops both, see
-  // without_channel(). kCrc, by each call: the same without a stored CRC, if the last frame was bad
-  // and the chip has left none out.
+  // has lost its configuration or its clock sets no flag. Where SWBANKFAIL = 1 says that a frame
+  // has ended while the bank was held: 64 periods. A loop whose transfers do not fit between the
+  // frames may meet the end of each one for so long. Back to back a period is frame_timeout_us().
+  // Never with FrameStart::kOnPin. Nothing is changed, and each call says so until a frame ends:
+  // call restart(). A dead line on one channel stops both, see without_channel(). kCrc, by each
+  // call: the same without a stored CRC, if the last frame was bad and the chip has left none out.
   Result<void> poll(Frame& frame) { return detail::Blocking::poll(chip_, frame); }
 
   // As poll(), for one slave (1..8). At most kMaxPollSlaveTransfers transfers, with SpiCheck::kFull
