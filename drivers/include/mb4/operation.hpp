@@ -63,7 +63,9 @@ class Operation : public Steps {
 
   // After finish() has returned true: what the blocking call of the same name returns. kBusy while
   // the operation is under way; kWrongMode before the first one.
-  [[nodiscard]] Result<void> result() const { return result_; }
+  [[nodiscard]] Result<void> result() const {
+    return chip_ == nullptr ? Error::kWrongMode : result_;
+  }
   // After a successful Device::plan_initialize().
   [[nodiscard]] LineDelay line_delay() const { return delay_; }
 
@@ -77,9 +79,9 @@ class Operation : public Steps {
   // Takes what came back and adds the next frames. Without frames the operation has ended.
   using Step = Result<void> (*)(detail::ChipState&, Operation&, std::uint32_t now_us);
 
-  // Words: short code on small cores.
+  // Words: short code on small cores. All bytes are 0 at first: a static object is in .bss.
   Step step_ = nullptr;                      // nullptr: no operation is under way
-  const detail::ChipState* chip_ = nullptr;  // that of the operation
+  const detail::ChipState* chip_ = nullptr;  // that of the operation, also of the last one
   std::uint32_t stage_ = 0;
   std::uint32_t at_ = 0;    // bytes done
   std::size_t count_ = 0;   // of them all
@@ -88,7 +90,7 @@ class Operation : public Steps {
   // seen. An actuator: banks that are to be written after this one.
   std::uint32_t bad_ = 0;
   bool good_ = false;  // they were made
-  Result<void> result_{Error::kWrongMode};
+  Result<void> result_{};
   Result<void> cause_{};                // is the result when the frames planned now are made
   const std::uint8_t* data_ = nullptr;  // to write, the caller's
   std::uint8_t* out_ = nullptr;         // to read into, the caller's

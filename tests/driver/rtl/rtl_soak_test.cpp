@@ -130,7 +130,7 @@ class Drive {
       const std::uint64_t sent = chip.simulator.slave(1)->frames();
       EXPECT_LT(word, sent);
       EXPECT_LE(sent - word, 3U) << "old: " << word << " of " << sent << ", tick " << i;
-      EXPECT_TRUE(!last_ || word > *last_) << "again: " << word << ", tick " << i;
+      EXPECT_TRUE(!last_ || word > *last_) << "again: " << word << ", tick " << i << story_;
       if (last_) {
         EXPECT_EQ(counts.sequence - sequence_, i - last_tick_) << "not counted, tick " << i;
         // In a period whose frame the chip has left out nothing was sampled. A disturbed bit of

@@ -30,11 +30,10 @@ struct Chip : ChipState {
   static_assert(kIsClock<Clock>,
                 "mb4: the Clock type needs 'std::uint32_t now_us()'; see mb4/bus.hpp");
 
-  constexpr Chip(Bus& bus, Clock& the_clock) : opcodes(bus), clock(&the_clock) {
-    make = &Chip::make_on_bus;
-    ask_us = &Chip::ask_clock;
-    step_us = clock_step_us<Clock>;
-  }
+  constexpr Chip(Bus& bus, Clock& the_clock)
+      : ChipState(&Chip::make_on_bus, &Chip::ask_clock, clock_step_us<Clock>),
+        opcodes(bus),
+        clock(&the_clock) {}
 
   Opcodes<Bus> opcodes;
   Clock* clock;

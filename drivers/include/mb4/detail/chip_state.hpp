@@ -50,9 +50,15 @@ struct ControlState {
 
 // All that the calls on one chip share, except its bus and its clock.
 struct ChipState {
+  using Make = bool (*)(ChipState&, Steps&);
+  using AskUs = std::uint32_t (*)(ChipState&);
+
+  constexpr ChipState(Make the_make, AskUs the_ask_us, std::uint32_t the_step_us)
+      : make(the_make), ask_us(the_ask_us), step_us(the_step_us) {}
+
   // First what most calls look at: short offsets make short code.
-  bool (*make)(ChipState&, Steps&) = nullptr;     // the frames of a step, on the bus
-  std::uint32_t (*ask_us)(ChipState&) = nullptr;  // asks the clock
+  Make make;     // the frames of a step, on the bus
+  AskUs ask_us;  // asks the clock
   bool configured = false;
   // AGS = 1 was written, and nothing has stopped it.
   bool automatic = false;
@@ -72,7 +78,7 @@ struct ChipState {
   std::array<mb4_word, kSlaves> words{};  // how the data of each of `sensors` is read, in order
   RegisterImage image{};                  // 0xC0..0xF2 as configure() has written them
   std::uint8_t interface_byte = 0;        // 0xF5, the same
-  std::uint32_t step_us = kClockStepUs;   // of the clock
+  std::uint32_t step_us;                  // of the clock
   std::uint8_t count = 0;                 // of `words`
   std::uint8_t needs = 0;                 // MB4_WITH_..., for any slave
   Config config{};

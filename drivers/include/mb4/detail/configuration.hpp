@@ -103,7 +103,8 @@ inline Result<void> Procedures::configure(ChipState& chip, Operation& op) {
     return op.good_ ? Error::kWrongMode : Error::kTransport;
   }
   if (op.stage_ == kFill) {
-    add_bytes(op, kLastPart, chip.image.data() + 2 * kPartBytes, kImageBytes - 2U * kPartBytes);
+    constexpr std::size_t kBefore = kLastPart - kImageFirst;
+    add_bytes(op, kLastPart, chip.image.data() + kBefore, kImageBytes - kBefore);
     add_compared(op, kLastPart);
     return {};
   }
