@@ -182,7 +182,8 @@ class Automatic {
   //
   // `With` leaves out parts that the configuration does not use: a constant, MB4_WITH_... of
   // mb4_cyclic.h. poll_slave<0>() is for one slave, BiSS of up to 32 data bits with SpiCheck::kCrc
-  // or kOff and Config::hold_beside_access. kUnsupported (not touched): the configuration needs
+  // or kOff and Config::hold_beside_access. Without MB4_WITH_BEATS it does not look at SWBANKFAIL,
+  // so the alarm always comes after 16 periods. kUnsupported (not touched): the configuration needs
   // such a part.
   template <std::uint8_t With = MB4_WITH_ALL>
   Result<Reading> poll_slave(std::uint8_t slave) {
