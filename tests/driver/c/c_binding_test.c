@@ -282,6 +282,103 @@ static void test_raw_and_reset(mb4_device *device, bus_t *bus) {
   bus->broken = false;
 }
 
+static const char kSafetyScenario[] =
+    "[[channel]]\nnumber = 1\n"
+    "[[channel.slave]]\nprotocol = \"biss-c\"\npreset = \"bp3-cpw\"\nsource = \"ramp\"\nstep = "
+    "100\n"
+    "[[channel.slave]]\nprotocol = \"biss-c\"\npreset = \"bp3-spw\"\ncrc_start = 0x1234\n"
+    "source = \"ramp\"\nstep = 100\n"
+    "[[fault]]\nkind = \"stuck-counter\"\nslave = 2\nat_us = 2000\nfor_us = 300\n";
+
+/* BiSS Safety: a stuck counter is found, and a verdict goes through a snapshot. */
+static void test_safety(void) {
+  char error[200];
+  bus_t bus = {mb4sim_open(kSafetyScenario, error, sizeof error), false};
+  mb4_device device;
+  mb4_safety safety;
+  mb4_safety_config words = mb4_bp3_safety(26, 26, 0, 0x1234);
+  mb4_safety_config wrong = words;
+  mb4_safety_verdict verdict;
+  mb4_safety_verdict seen;
+  mb4_config config = encoder();
+  mb4_frame frame;
+  mb4_result misfit;
+  uint32_t latest[MB4_SNAPSHOT_WORDS(sizeof(mb4_safety_verdict))] = {0};
+  uint64_t next_ns = 0;
+  unsigned tick = 0;
+  unsigned good = 0;
+  unsigned stuck = 0;
+  unsigned other = 0;
+  if (bus.simulator == NULL) {
+    check(0, error, __LINE__);
+    return;
+  }
+  CHECK(words.control.data_bits == 28 && words.safety.data_bits == 34 && words.life_bits == 6);
+  CHECK(words.safety.crc_polynomial == 0x190D9 && words.safety.crc_start == 0x1234);
+  config.spi_check = MB4_SPI_CHECK_CRC;
+  config.frame_start = MB4_START_PERIODIC;
+  config.frame_period_clk = mb4_frame_period_clk_at_least(config.f_clk_hz, 100000);
+  config.slaves[1].enabled = true;
+  config.slaves[1].data_bits = 34;
+  config.slaves[1].flags = MB4_FLAGS_NONE;
+  config.slaves[1].crc_polynomial = 0x190D9;
+  misfit = mb4_safety_fits(&config, 1, 2, &words);
+  CHECK(misfit.code == MB4_UNSUPPORTED && misfit.number == 2);
+  CHECK(strcmp(mb4_field_text(misfit.field), "crc_start") == 0);
+  config.slaves[1].crc_start = 0x1234;
+  OK(mb4_safety_fits(&config, 1, 2, &words));
+  FAILS(mb4_safety_fits(&config, 1, 1, &words), MB4_INVALID_ARGUMENT);
+  /* What is not configured passes nothing. */
+  wrong.life_bits = 9;
+  misfit = mb4_safety_configure(&safety, &wrong);
+  CHECK(misfit.code == MB4_INVALID_ARGUMENT && misfit.number == 9); /* SafetyField::kLife */
+  mb4_safety_check(&safety, NULL, 1, 2, 1, &verdict);
+  CHECK(verdict.checks_failed == 1U << MB4_SAFETY_CONFIGURED);
+  OK(mb4_safety_configure(&safety, &words));
+  mb4_safety_check(&safety, NULL, 1, 2, 1, &verdict);
+  CHECK(verdict.checks_failed == (1U << MB4_SAFETY_CONTROL_WORD | 1U << MB4_SAFETY_SAFETY_WORD));
+  mb4_open(&device, transfer, &bus, now_us, &bus);
+  OK(mb4_configure(&device, &config));
+  OK(mb4_automatic_start(&device));
+  mb4sim_advance_ns(bus.simulator, 150000);
+  next_ns = mb4sim_time_ns(bus.simulator);
+  CHECK(!mb4_snapshot_read(latest, &seen, sizeof seen) && mb4_snapshot_writes(latest) == 0);
+  for (tick = 0; tick < 40; ++tick) {
+    next_ns += 100000;
+    mb4sim_advance_ns(bus.simulator, next_ns - mb4sim_time_ns(bus.simulator));
+    OK(mb4_automatic_poll(&device, &frame));
+    if (tick == 30) mb4_safety_restart(&safety);
+    mb4_safety_check(&safety, &frame, 1, 2, 1, &verdict);
+    if (verdict.checks_failed == 0) {
+      ++good;
+      CHECK(verdict.position == frame.reading[0].position);
+      CHECK(verdict.safety_position == verdict.position);
+      CHECK(verdict.life == (frame.reading[1].raw & 63));
+    } else if (tick == 0 || tick == 30) {
+      CHECK(verdict.checks_failed == 1U << MB4_SAFETY_LIFE_KNOWN);
+    } else if (verdict.checks_failed == 1U << MB4_SAFETY_LIFE_STUCK) {
+      ++stuck;
+    } else { /* the counter goes on: one verdict */
+      ++other;
+    }
+    mb4_snapshot_write(latest, &verdict, sizeof verdict);
+    CHECK(mb4_snapshot_read(latest, &seen, sizeof seen));
+    CHECK(seen.position == verdict.position && seen.checks_failed == verdict.checks_failed);
+    CHECK(mb4_snapshot_writes(latest) == tick + 1);
+  }
+  CHECK(stuck >= 2 && stuck <= 4 && other <= 1 && good + stuck + other == 38);
+  /* Swapped words: the start values tell them apart. A slave that does not exist brings nothing. */
+  mb4_safety_check(&safety, &frame, 2, 1, 1, &verdict);
+  CHECK((verdict.checks_failed & 1U << MB4_SAFETY_CONTROL_CRC) != 0);
+  mb4_safety_check(&safety, &frame, 0, 9, 1, &verdict);
+  CHECK((verdict.checks_failed & 1U << MB4_SAFETY_SAFETY_WORD) != 0);
+  frame.code[0] = MB4_CRC;
+  mb4_safety_check(&safety, &frame, 1, 2, 1, &verdict);
+  CHECK((verdict.checks_failed & 1U << MB4_SAFETY_CONTROL_CRC) != 0 && verdict.position == 0);
+  CHECK(strcmp(mb4_safety_text(MB4_SAFETY_LIFE_STUCK), "life counter stuck") == 0);
+  mb4sim_close(bus.simulator);
+}
+
 static void test_positions(void) {
   uint64_t multi = 0;
   uint64_t single = 0;
@@ -315,6 +412,7 @@ int main(void) {
   test_steps(&device, &bus);
   test_raw_and_reset(&device, &bus);
   test_positions();
+  test_safety();
   test_actuator();
   mb4sim_close(bus.simulator);
   printf("%u failures\n", failures);
