@@ -27,8 +27,10 @@ rm -f -- *.gcda *.gcno *.o
 launcher=$(command -v ccache || true)
 tests=$root/tests/driver
 # Built without exceptions, as users build the driver: then no branch belongs to an exception.
-export FLAGS="-O0 --coverage -fno-inline -DMB4_EXAMPLES=\"$root/examples\" -I$root/drivers/include \
-  -I$root/regmap/generated/mb4 -I$root -I$root/sim/include -I$root/tools/mb4sim \
+export FLAGS="-O0 --coverage -fno-inline -DMB4_EXAMPLES=\"$root/examples\" \
+  -DMB4_MANUAL=\"$root/docs/driver.md\" -I$root/drivers/include \
+  -I$root/regmap/generated/mb4 -I$root/regmap/generated/mb4_page -I$root \
+  -I$root/sim/include -I$root/tools/mb4sim \
   -I$tests/ports"
 # compile COMPILER SOURCE...: one object each, two at once. A source that does not compile stops it.
 compile() {

@@ -113,9 +113,10 @@ class Drive {
       fault.kind = kKinds[below(kKinds.size())];
       fault.first = fault.last = below(9);
       fault.bit = below(16);  // every frame has two bytes
-      // INSTR = 100 in the 0x07 that releases the bank: the driver does not find it
+      // INSTR = 100 or SWBANK = 1 in the 0x07 that releases the bank: the driver does not find it
       // (docs/driver.md).
       if (fault.kind == FaultKind::kFlipMosi && fault.bit == 12) fault.bit = 13;
+      if (fault.kind == FaultKind::kFlipMosi && fault.bit == 10) fault.bit = 11;
       ++disturbed;
       spi_fault_ = i;
     }
