@@ -26,7 +26,8 @@ rm -f -- *.gcda *.gcno *.o
 
 launcher=$(command -v ccache || true)
 tests=$root/tests/driver
-# Built without exceptions, as users build the driver: then no branch belongs to an exception.
+# Built without exceptions where that is possible, as users build the driver: then no branch belongs
+# to an exception.
 export FLAGS="-O0 --coverage -fno-inline -DMB4_EXAMPLES=\"$root/examples\" \
   -DMB4_MANUAL=\"$root/docs/driver.md\" -I$root/drivers/include \
   -I$root/regmap/generated/mb4 -I$root/regmap/generated/mb4_page -I$root \
@@ -39,7 +40,8 @@ compile() {
   printf '%s\n' "$@" | xargs -P 2 -I{} sh -c \
     "$launcher $compiler"' $FLAGS -c "$1" -o "$(basename "$1").o"' - {}
 }
-compile "g++ -std=c++20 -fno-exceptions" "$tests"/{enc,mb4,rtl,ports}/*_test.cpp
+compile "g++ -std=c++20 -fno-exceptions" "$tests"/{enc,mb4}/*_test.cpp
+compile "g++ -std=c++20" "$tests"/{rtl,ports}/*_test.cpp  # headers of the simulator throw
 compile "g++ -std=c++17 -fno-exceptions -fno-rtti" "$root/drivers/c/mb4_c.cpp"
 compile "gcc -std=c99" "$tests/c/c_binding_test.c"
 
