@@ -41,17 +41,17 @@ compile() {
     "$launcher $compiler"' $FLAGS -c "$1" -o "$(basename "$1").o"' - {}
 }
 compile "g++ -std=c++20 -fno-exceptions" "$tests"/{enc,mb4}/*_test.cpp
-compile "g++ -std=c++20" "$tests"/{rtl,ports}/*_test.cpp  # headers of the simulator throw
+compile "g++ -std=c++20" "$tests"/{rtl,ports}/rtl_*_test.cpp  # headers of the simulator throw
 compile "g++ -std=c++17 -fno-exceptions -fno-rtti" "$root/drivers/c/mb4_c.cpp"
 compile "gcc -std=c99" "$tests/c/c_binding_test.c"
 
 simulator=("$build/lib/libmb4sim_core.a" "$build/lib/libmb4sim_chip.a" -lfmt -lz -lpthread -ldl)
 gtest=(-lgtest -lgtest_main -lpthread)
 mapfile -t unit < <(ls -- *_test.cpp.o | grep -v '^rtl_')
-mapfile -t rtl < <(ls -- rtl_*_test.cpp.o | grep -v ports)
+mapfile -t rtl < <(ls -- rtl_*_test.cpp.o | grep -v -e ports -e rtio)
 g++ --coverage "${unit[@]}" "${gtest[@]}" -o unit_tests
 g++ --coverage "${rtl[@]}" "${simulator[@]}" "${gtest[@]}" -o rtl_tests
-g++ --coverage rtl_ports_test.cpp.o "${simulator[@]}" "${gtest[@]}" -o ports_tests \
+g++ --coverage rtl_{ports,rtio}_test.cpp.o "${simulator[@]}" "${gtest[@]}" -o ports_tests \
   -Wl,--wrap=open,--wrap=close,--wrap=ioctl
 g++ --coverage c_binding_test.c.o mb4_c.cpp.o -L"$build/lib" -lmb4sim \
   -Wl,-rpath,"$build/lib" -o c_tests
