@@ -26,8 +26,7 @@ rm -f -- *.gcda *.gcno *.o
 
 launcher=$(command -v ccache || true)
 tests=$root/tests/driver
-# Built without exceptions where that is possible, as users build the driver: then no branch belongs
-# to an exception.
+# Built without exceptions, as users build the driver: then no branch belongs to an exception.
 export FLAGS="-O0 --coverage -fno-inline -DMB4_EXAMPLES=\"$root/examples\" \
   -DMB4_MANUAL=\"$root/docs/driver.md\" -I$root/drivers/include \
   -I$root/regmap/generated/mb4 -I$root/regmap/generated/mb4_page -I$root \
@@ -40,10 +39,10 @@ compile() {
   printf '%s\n' "$@" | xargs -P 2 -I{} sh -c \
     "$launcher $compiler"' $FLAGS -c "$1" -o "$(basename "$1").o"' - {}
 }
-compile "g++ -std=c++20 -fno-exceptions" "$tests"/{enc,mb4}/*_test.cpp
-compile "g++ -std=c++20" "$tests"/{rtl,ports}/rtl_*_test.cpp  # headers of the simulator throw
+compile "g++ -std=c++20 -fno-exceptions" "$tests"/{enc,mb4}/*_test.cpp \
+  "$tests"/{rtl,ports}/rtl_*_test.cpp
 compile "g++ -std=c++17 -fno-exceptions -fno-rtti" "$root/drivers/c/mb4_c.cpp"
-compile "gcc -std=c99" "$tests/c/c_binding_test.c"
+compile "gcc -std=c99" "$tests"/c/{c_binding,cyclic}_test.c
 
 simulator=("$build/lib/libmb4sim_core.a" "$build/lib/libmb4sim_chip.a" -lfmt -lz -lpthread -ldl)
 gtest=(-lgtest -lgtest_main -lpthread)
@@ -55,10 +54,12 @@ g++ --coverage rtl_{ports,rtio}_test.cpp.o "${simulator[@]}" "${gtest[@]}" -o po
   -Wl,--wrap=open,--wrap=close,--wrap=ioctl
 g++ --coverage c_binding_test.c.o mb4_c.cpp.o -L"$build/lib" -lmb4sim \
   -Wl,-rpath,"$build/lib" -o c_tests
+g++ --coverage cyclic_test.c.o -L"$build/lib" -lmb4sim -Wl,-rpath,"$build/lib" -o cyclic_tests
 
 ./unit_tests --gtest_brief=1
 ./ports_tests --gtest_brief=1
 ./c_tests
+./cyclic_tests
 # Left out: fault tests that take minutes. Other tests reach the same branches.
 ./rtl_tests --gtest_brief=1 --gtest_filter=-Ways/DriverFault.*
 # A parallel bus, with what needs the least time.

@@ -376,6 +376,7 @@ static void test_safety(void) {
   mb4_safety_check(&safety, &frame, 1, 2, 1, &verdict);
   CHECK((verdict.checks_failed & 1U << MB4_SAFETY_CONTROL_CRC) != 0 && verdict.position == 0);
   CHECK(strcmp(mb4_safety_text(MB4_SAFETY_LIFE_STUCK), "life counter stuck") == 0);
+  CHECK(strcmp(mb4_safety_text(99), "unknown") == 0);
   mb4sim_close(bus.simulator);
 }
 

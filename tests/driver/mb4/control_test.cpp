@@ -557,6 +557,66 @@ TEST_F(PollBesideControl, GoodFrameEndedTwice_IsBankSwitched) {
   EXPECT_FALSE(frame[1].ok());
 }
 
+TEST_F(PollBesideControl, SwitchedTwice_IsCounted) {
+  constexpr std::uint8_t kCounted = MB4_WITH_ALL | MB4_WITH_COUNTS;
+  mb4_counts counts{};
+  device.automatic().count(&counts);
+  expect_read({0, 0xFB, 0x02, 0, 0, 0x09});
+  expect_read({0, 0xFB, 0x02, 0, 0, 0x09});
+  EXPECT_EQ(device.automatic().poll_slave<kCounted>(1).error(), Error::kBankSwitched);
+  EXPECT_EQ(counts.switched, 1U);
+}
+
+TEST_F(PollBesideControl, NoStatus_IsNotDetected) {
+  bus.expect_read(kReadStatus, zeros(6));
+  EXPECT_EQ(device.automatic().poll(frame).error(), Error::kNotDetected);
+  expect_read(Bytes(6, 0xFF));
+  EXPECT_EQ(device.automatic().poll(frame).error(), Error::kNotDetected);
+  EXPECT_FALSE(frame[1].ok());
+}
+
+// SpiCheck::kFull reads a word without a stored CRC twice: 64 bits leave no room for it.
+TEST(PollBesideControlFull, WordWithoutCrc_IsReadTwice) {
+  for (const bool same : {true, false}) {
+    StrictBus bus;
+    FakeClock clock;
+    mb4::Device<StrictBus, FakeClock> device(bus, clock);
+    mb4::Config config = encoder26();
+    config.slaves[0].data_bits = 64;
+    config.spi_check = mb4::SpiCheck::kFull;
+    config.hold_beside_access = false;
+    Bytes image = mb4test::configuration();
+    Bytes answer = mb4test::read_back();
+    for (Bytes* bytes : {&image, &answer}) {
+      (*bytes)[0] = 0x40 | 63;
+      (*bytes)[0xE7 - 0xC0] = 0x00;
+    }
+    mb4test::expect_image(bus, image, answer);
+    ASSERT_TRUE(device.configure(config).ok());
+    bus.expect_write(kAgs);
+    ASSERT_TRUE(device.automatic().start().ok());
+    bus.expect_write({0x02, 0xE2, 0x44, 0x00, 0x01, 0xC0});
+    bus.expect_read({0x03, 0xE2, 0, 0, 0, 0}, {0, 0, 0x44, 0x00, 0x01, 0xC0});
+    bus.expect_write(kFrameAgs);
+    bus.expect_read(kReadStatus, kRunsAgs);
+    ASSERT_TRUE(device.control().begin_read({1, 0}, 0x44, 1).ok());
+    const Bytes read = join({{0x09}, zeros(8)});
+    const Bytes word{0, 3, 2, 3, 4, 5, 6, 7, 8};
+    Bytes again = word;
+    if (!same) again[8] ^= 1;
+    bus.expect_read(kReadStatus, {0, 0xFB, 0x02, 0, 0, 0x09});
+    bus.expect_read(kReadStatus, {0, 0xFB, 0x02, 0, 0, 0x09});
+    bus.expect_write(kClearValid1);
+    bus.expect_read(read, word);
+    bus.expect_read(kReadStatus, kRunsAgs);
+    bus.expect_read(read, again);
+    bus.expect_read(kReadStatus, kRunsAgs);
+    const mb4::Result<mb4::Reading> reading = device.automatic().poll_slave(1);
+    EXPECT_EQ(reading.error(), same ? Error::kNone : Error::kCorrupted);
+    if (reading) EXPECT_EQ(reading->raw, 0x0807060504030203U);
+  }
+}
+
 // So does a bad one, which leaves SVALID at 0.
 TEST_F(PollBesideControl, BadFrameEnded_IsBankSwitched) {
   expect_read({0, 0x6B, 0x00, 0, 0, 0x09});

@@ -352,6 +352,36 @@ TEST_F(Chain, FramesEndWhileTheBankIsHeld_IsNoAlarmForAWhile) {
   ends_with(banks(0xFA, 1), idle, Error::kLineError);
 }
 
+// A build may leave the look at SWBANKFAIL out.
+TEST_F(Chain, AlarmWithoutBeats_LooksAtTheLinesAlone) {
+  start(mb4::SpiCheck::kCrc);
+  clock.time_us = 1000 + 16 * mb4::frame_timeout_us(device.config()) + 33 + 1;
+  bus.expect_write(kHold);
+  bus.expect_read(kReadWord, kWord);
+  bus.expect_read(kReadStatus, kNone);
+  bus.expect_write(kAgs);
+  bus.expect_read(join({{0x05}, zeros(9)}), join({zeros(9), {0x01}}));
+  EXPECT_EQ(device.automatic().poll_slave<0>(1).error(), Error::kTimeout);
+}
+
+// A new word is a new sample, whatever the clock says.
+TEST_F(Chain, TwoNewWordsAtOneTime_AreTwoSamples) {
+  constexpr std::uint8_t kCounted = MB4_WITH_ALL | MB4_WITH_COUNTS;
+  start(mb4::SpiCheck::kCrc);
+  mb4_counts counts{};
+  device.automatic().count(&counts);
+  counts.period_ns = 100'000;
+  for (int i = 0; i < 2; ++i) {
+    bus.expect_write(kHold);
+    bus.expect_read(kReadWord, kWord);
+    bus.expect_read(kReadStatus, kNew);
+    bus.expect_write(kClearValid1AndRelease);
+    EXPECT_TRUE(device.automatic().poll_slave<kCounted>(1).ok());
+  }
+  EXPECT_EQ(counts.sequence, 2U);
+  EXPECT_EQ(counts.lost, 0U);
+}
+
 // Without a stored CRC nothing tells a bad word from an old one, except that there is no other.
 TEST_F(Chain, BadFrameUnchecked_IsCrcUntilAGoodOneComes) {
   start(mb4::SpiCheck::kOff);

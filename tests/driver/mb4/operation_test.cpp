@@ -746,6 +746,40 @@ TEST_F(Access, DisturbedStatus_StopsNothing) {
   ends_with(Error::kNotDetected);
 }
 
+// 0xF4 held something else than HOLDBANK: an access that nobody asked for may run, and BREAK ends
+// it before the next one. Then the frames run again.
+TEST_F(Access, AfterACorruptedRead_BeginsWithBreakAndANewStart) {
+  configure(mb4::SpiCheck::kFull);
+  start();
+  bus.expect_write({0x07, 0x41});
+  bus.expect_read(kReadStatus, status(0xFB, 0x00, 0x49));
+  bus.expect_write(kAgs);
+  EXPECT_EQ(device.automatic().poll_slave(1).error(), Error::kCorrupted);
+  for (const bool lost : {true, false}) {
+    read();
+    EXPECT_EQ(device.automatic().poll_slave(1).error(), Error::kWrongMode);
+    EXPECT_EQ(step({{0x07, 0x80, 0x00}}, {}, !lost), lost);
+    if (!lost) continue;
+    ends_with(Error::kTransport);  // nothing has begun
+    bus.expect_write({0x07, 0x80, 0x00});
+    bus.expect_write(kClearValid1);
+    bus.expect_write(kAgs);
+    ASSERT_TRUE(device.automatic().restart().ok());
+    bus.expect_write({0x07, 0x41});
+    bus.expect_read(kReadStatus, status(0xFB, 0x00, 0x49));
+    bus.expect_write(kAgs);
+    EXPECT_EQ(device.automatic().poll_slave(1).error(), Error::kCorrupted);
+  }
+  EXPECT_FALSE(step({kClearValid1, kAgs, kRequest, kReadRequest}, {{0, 0, 0x44, 0x01, 0x01, 0xC0}},
+                    true, kPause));
+  EXPECT_TRUE(device.automatic().running());
+  EXPECT_FALSE(step({kFrameAgs, kReadStatus}, {kRunsAgs}));
+  EXPECT_FALSE(step({kReadStatus}, {kDoneAgs}));
+  EXPECT_FALSE(step(kTakeFirst, {{0, 0, 1, 2}, kDoneAgs}));
+  EXPECT_TRUE(step(kTakeAgain, {{0, 0, 1, 2}}));
+  ends_with(Error::kNone);
+}
+
 // 50 frames of 220 us, 4096 * 64 periods of MA and a quarter, 200 us.
 TEST_F(Access, NeverEnding_IsTimeoutAfterAnotherLook) {
   configure();
