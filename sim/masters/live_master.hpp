@@ -57,7 +57,9 @@ class LiveMaster {
   // --- waveform of a part of the run -------------------------------------------------------------
   // From now on model() is another one. Throws TraceError if the file cannot be written, or if the
   // master has no waveform; then nothing has changed.
-  virtual void start_trace(const TraceFile& file);
+  virtual void start_trace(const TraceFile& file) {
+    throw TraceError(file.path + ": this master writes no waveform");
+  }
   // Completes the file. model() is another one again.
   virtual void stop_trace() {}
 

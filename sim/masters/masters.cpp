@@ -4,7 +4,6 @@
 #include <vector>
 
 #include "sim/masters/axi/axi_master.hpp"
-#include "sim/masters/live_master.hpp"
 #include "sim/masters/mb4/mb4_master.hpp"
 
 namespace mb4::sim {
@@ -29,9 +28,5 @@ std::vector<const Master*>& list() {
 std::span<const Master* const> masters() { return list(); }
 
 void add_master(const Master& master) { list().push_back(&master); }
-
-void LiveMaster::start_trace(const TraceFile& file) {
-  throw TraceError(file.path + ": this master writes no waveform");
-}
 
 }  // namespace mb4::sim

@@ -600,7 +600,7 @@ TEST(PollBesideControlFull, WordWithoutCrc_IsReadTwice) {
     bus.expect_write(kFrameAgs);
     bus.expect_read(kReadStatus, kRunsAgs);
     ASSERT_TRUE(device.control().begin_read({1, 0}, 0x44, 1).ok());
-    const Bytes read = join({{0x09}, zeros(8)});
+    const Bytes read = join({{0x09}, Bytes(8, 0x5A)});
     const Bytes word{0, 3, 2, 3, 4, 5, 6, 7, 8};
     Bytes again = word;
     if (!same) again[8] ^= 1;
