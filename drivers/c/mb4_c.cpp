@@ -8,8 +8,10 @@
 #include <cstdint>
 #include <type_traits>
 
+#include "enc/snapshot.hpp"
 #include "mb4.h"
 #include "mb4/mb4.hpp"
+#include "mb4/safety.hpp"
 #include "mb4_c_convert.hpp"
 
 namespace {
@@ -30,11 +32,44 @@ struct Opened {
 
 static_assert(sizeof(Opened) <= sizeof(mb4_device), "mb4: mb4_device in mb4.h is too small");
 static_assert(alignof(Opened) <= alignof(mb4_device));
+static_assert(sizeof(mb4::Operation) <= sizeof(mb4_operation));
+static_assert(sizeof(mb4::FrameRead) <= sizeof(mb4_frame_read));
+static_assert(std::is_trivially_destructible_v<mb4::Operation>);
+static_assert(std::is_trivially_destructible_v<mb4::FrameRead>);
+static_assert(mb4::Steps::kMaxFrames == MB4_STEP_FRAMES);
 static_assert(sizeof(mb4::PositionTracker) <= sizeof(mb4_tracker));
 static_assert(std::is_trivially_destructible_v<Opened>);
+static_assert(sizeof(mb4::Safety) <= sizeof(mb4_safety));
+static_assert(std::is_trivially_destructible_v<mb4::Safety>);
+static_assert(sizeof(mb4_safety_verdict) % sizeof(std::uint32_t) == 0);
+
+using Snapshot = enc::detail::SnapshotWords<enc::detail::SharedMemory>;
+// The caller's value, of any type.
+using Words [[gnu::may_alias]] = std::uint32_t;
 
 mb4::Device<mb4::FunctionBus, mb4::FunctionClock>& of(mb4_device* device) {
   return reinterpret_cast<Opened*>(device->opaque)->device;
+}
+
+mb4::Operation& of(mb4_operation* operation) {
+  return *reinterpret_cast<mb4::Operation*>(operation->opaque);
+}
+const mb4::Operation& of(const mb4_operation* operation) {
+  return *reinterpret_cast<const mb4::Operation*>(operation->opaque);
+}
+mb4::FrameRead& of(mb4_frame_read* read) {
+  return *reinterpret_cast<mb4::FrameRead*>(read->opaque);
+}
+
+mb4::Safety& of(mb4_safety* safety) { return *reinterpret_cast<mb4::Safety*>(safety->opaque); }
+
+std::size_t frames_of(mb4::Steps& steps, mb4_spi_frame* frames) {
+  for (std::size_t i = 0; i < steps.frames(); ++i) {
+    const mb4::Span<const std::uint8_t> tx = steps.tx(i);
+    const mb4::Span<std::uint8_t> rx = steps.rx(i);
+    frames[i] = {tx.data(), rx.empty() ? nullptr : rx.data(), tx.size()};
+  }
+  return steps.frames();
 }
 
 // The memory of an object that the caller provides. A small target may have no header <new>, so
@@ -181,6 +216,132 @@ mb4_result mb4_slave_take(mb4_device* device, uint8_t* data, size_t size) {
   return to_c(of(device).control().take(bytes(data, size)));
 }
 mb4_result mb4_slave_abort(mb4_device* device) { return to_c(of(device).control().abort()); }
+
+void mb4_operation_begin(mb4_operation* operation) {
+  ::new (Place{operation->opaque}) mb4::Operation();
+}
+void mb4_frame_read_begin(mb4_frame_read* read) { ::new (Place{read->opaque}) mb4::FrameRead(); }
+
+mb4_result mb4_plan_configure(mb4_device* device, mb4_operation* operation,
+                              const mb4_config* config) {
+  return to_c(of(device).plan_configure(of(operation), from_c(*config)));
+}
+mb4_result mb4_plan_verify(mb4_device* device, mb4_operation* operation) {
+  return to_c(of(device).plan_verify(of(operation)));
+}
+mb4_result mb4_plan_initialize(mb4_device* device, mb4_operation* operation) {
+  return to_c(of(device).plan_initialize(of(operation)));
+}
+mb4_result mb4_plan_read_all(mb4_device* device, mb4_operation* operation, mb4_frame_read* read) {
+  return to_c(of(device).plan_read_all(of(operation), of(read)));
+}
+mb4_result mb4_plan_actuator(mb4_device* device, mb4_operation* operation, uint8_t slave,
+                             uint64_t word) {
+  return to_c(of(device).plan_actuator(of(operation), slave, word));
+}
+mb4_result mb4_plan_break(mb4_device* device, mb4_operation* operation) {
+  return to_c(of(device).plan_break(of(operation)));
+}
+mb4_result mb4_plan_start(mb4_device* device, mb4_operation* operation) {
+  return to_c(of(device).automatic().plan_start(of(operation)));
+}
+mb4_result mb4_plan_stop(mb4_device* device, mb4_operation* operation) {
+  return to_c(of(device).automatic().plan_stop(of(operation)));
+}
+mb4_result mb4_plan_restart(mb4_device* device, mb4_operation* operation) {
+  return to_c(of(device).automatic().plan_restart(of(operation)));
+}
+mb4_result mb4_plan_automatic_actuator(mb4_device* device, mb4_operation* operation, uint8_t slave,
+                                       uint64_t word) {
+  return to_c(of(device).automatic().plan_actuator(of(operation), slave, word));
+}
+mb4_result mb4_plan_slave_read(mb4_device* device, mb4_operation* operation, uint8_t channel,
+                               uint8_t id, uint8_t address, uint8_t* data, size_t size) {
+  return to_c(
+      of(device).control().plan_read(of(operation), {channel, id}, address, bytes(data, size)));
+}
+mb4_result mb4_plan_slave_write(mb4_device* device, mb4_operation* operation, uint8_t channel,
+                                uint8_t id, uint8_t address, const uint8_t* data, size_t size) {
+  return to_c(
+      of(device).control().plan_write(of(operation), {channel, id}, address, bytes(data, size)));
+}
+mb4_result mb4_plan_slave_command(mb4_device* device, mb4_operation* operation,
+                                  const mb4_command* command) {
+  return to_c(of(device).control().plan_command(of(operation), from_c(*command)));
+}
+
+size_t mb4_operation_frames(mb4_operation* operation, mb4_spi_frame* frames, uint32_t* pause_us) {
+  *pause_us = of(operation).pause_us();
+  return frames_of(of(operation), frames);
+}
+bool mb4_finish(mb4_device* device, mb4_operation* operation, bool transferred, uint32_t now_us) {
+  return of(device).finish(of(operation), transferred, now_us);
+}
+mb4_result mb4_operation_result(const mb4_operation* operation) {
+  return to_c(of(operation).result());
+}
+void mb4_operation_line_delay(const mb4_operation* operation, uint8_t quarters[MB4_CHANNELS]) {
+  for (std::size_t i = 0; i < mb4::kChannels; ++i) {
+    quarters[i] = of(operation).line_delay().quarters[i];
+  }
+}
+
+mb4_result mb4_plan_frame(mb4_device* device, mb4_frame_read* read, bool wide) {
+  return to_c(of(device).automatic().plan(of(read), wide));
+}
+size_t mb4_frame_read_frames(mb4_frame_read* read, mb4_spi_frame* frames) {
+  return frames_of(of(read), frames);
+}
+bool mb4_finish_frame(mb4_device* device, mb4_frame_read* read, bool transferred, uint32_t now_us) {
+  return of(device).automatic().finish(of(read), transferred, now_us);
+}
+mb4_result mb4_frame_read_result(const mb4_frame_read* read, mb4_frame* frame) {
+  mb4::Frame out;
+  const mb4::Result<void> done = reinterpret_cast<const mb4::FrameRead*>(read->opaque)->result(out);
+  return store(done, out, frame);
+}
+
+mb4_safety_config mb4_bp3_safety(uint8_t control_bits, uint8_t safety_bits, uint16_t control_start,
+                                 uint16_t safety_start) {
+  return to_c(mb4::bp3_safety(control_bits, safety_bits, control_start, safety_start));
+}
+mb4_result mb4_safety_fits(const mb4_config* config, uint8_t control, uint8_t safety,
+                           const mb4_safety_config* words) {
+  return to_c(mb4::safety_fits(from_c(*config), control, safety, from_c(*words)));
+}
+mb4_result mb4_safety_configure(mb4_safety* safety, const mb4_safety_config* words) {
+  auto* check = ::new (Place{safety->opaque}) mb4::Safety;
+  const mb4::SafetyField wrong = check->configure(from_c(*words));
+  const bool good = wrong == mb4::SafetyField::kNone;
+  return {static_cast<std::uint8_t>(good ? MB4_OK : MB4_INVALID_ARGUMENT), 0,
+          static_cast<std::uint8_t>(wrong), 0};
+}
+void mb4_safety_restart(mb4_safety* safety) { of(safety).restart(); }
+void mb4_safety_check(mb4_safety* safety, const mb4_frame* frame, uint8_t control_slave,
+                      uint8_t safety_slave, uint32_t frames, mb4_safety_verdict* verdict) {
+  const mb4::SafetyVerdict found = of(safety).check(
+      {mb4_c::safety_word(frame, control_slave), mb4_c::safety_word(frame, safety_slave),
+       frame == nullptr || frame->one_frame},
+      frames);
+  *verdict = {found.position, found.safety_position, found.checks_failed, found.life,
+              found.warning};
+}
+const char* mb4_safety_text(uint8_t check) {
+  return enc::to_string(static_cast<mb4::SafetyCheck>(check));
+}
+
+void mb4_snapshot_write(uint32_t* snapshot, const void* value, size_t size) {
+  Snapshot::write(snapshot, static_cast<const Words*>(value), size / sizeof(std::uint32_t));
+}
+bool mb4_snapshot_read(const uint32_t* snapshot, void* value, size_t size) {
+  if (!Snapshot::is_written(snapshot)) {
+    return false;
+  }
+  while (!Snapshot::try_read(snapshot, static_cast<Words*>(value), size / sizeof(std::uint32_t))) {
+  }
+  return true;
+}
+uint32_t mb4_snapshot_writes(const uint32_t* snapshot) { return Snapshot::writes(snapshot); }
 
 mb4_result mb4_scan(mb4_device* device, uint8_t channel, mb4_identity* identities, size_t size,
                     uint8_t* count) {

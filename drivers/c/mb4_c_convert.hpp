@@ -11,6 +11,7 @@
 
 #include "mb4.h"
 #include "mb4/mb4.hpp"
+#include "mb4/safety.hpp"
 
 namespace mb4_c {
 
@@ -20,6 +21,9 @@ static_assert(static_cast<int>(mb4::LineInterface::kLvds) == MB4_LINE_LVDS);
 static_assert(static_cast<int>(mb4::ClockSource::kInternal) == MB4_CLOCK_INTERNAL);
 static_assert(static_cast<int>(mb4::FrameStart::kPeriodic) == MB4_START_PERIODIC);
 static_assert(static_cast<int>(mb4::SpiCheck::kFull) == MB4_SPI_CHECK_FULL);
+static_assert(static_cast<int>(mb4::SafetyCheck::kLifeKnown) == MB4_SAFETY_LIFE_KNOWN);
+static_assert(static_cast<int>(mb4::SafetyCheck::kSafetyError) == MB4_SAFETY_SAFETY_ERROR);
+static_assert(enc::kNoBit == MB4_NO_BIT);
 
 inline mb4_result to_c(const mb4::ErrorInfo& info) {
   return {static_cast<std::uint8_t>(info.code), static_cast<std::uint8_t>(info.field), info.number,
@@ -53,6 +57,7 @@ inline mb4_result store(const mb4::Result<void>& result, const mb4::Frame& frame
   for (std::size_t i = 0; i < mb4::Status::kBytes; ++i) {
     out->status[i] = frame.status.bytes()[i];
   }
+  out->one_frame = frame.one_frame;
   return to_c(result);
 }
 
@@ -97,6 +102,43 @@ inline mb4::Command from_c(const mb4_command& command) {
   out.code = command.code;
   out.test_acknowledge = command.test_acknowledge;
   return out;
+}
+
+inline mb4_safety_word to_c(const mb4::SafetyWord& word) {
+  return {word.data_bits,     word.position_bits, word.position_place, word.error_place,
+          word.warning_place, word.crc_start,     word.crc_polynomial};
+}
+inline mb4::SafetyWord from_c(const mb4_safety_word& word) {
+  return {word.data_bits,     word.position_bits,  word.position_place, word.error_place,
+          word.warning_place, word.crc_polynomial, word.crc_start};
+}
+inline mb4_safety_config to_c(const mb4::SafetyConfig& config) {
+  return {to_c(config.control), to_c(config.safety),  config.life_bits,    config.life_place,
+          config.life_first,    config.control_shift, config.safety_shift, config.safety_inverted,
+          config.compare_bits,  config.safety_offset, config.tolerance};
+}
+inline mb4::SafetyConfig from_c(const mb4_safety_config& config) {
+  return {from_c(config.control), from_c(config.safety),  config.life_bits,
+          config.life_place,      config.life_first,      config.control_shift,
+          config.safety_shift,    config.safety_inverted, config.compare_bits,
+          config.safety_offset,   config.tolerance};
+}
+
+// The word of a slave (1..8) in a frame; null: no frame.
+inline mb4::SafetyWordRead safety_word(const mb4_frame* frame, std::uint8_t slave) {
+  if (frame == nullptr || slave < 1 || slave > mb4::kSlaves) {
+    return {};
+  }
+  const auto error = static_cast<mb4::Error>(frame->code[slave - 1]);
+  if (error != mb4::Error::kNone) {
+    return mb4::safety_word(error);
+  }
+  const mb4_reading& from = frame->reading[slave - 1];
+  mb4::Reading reading;
+  reading.raw = from.raw;
+  reading.crc = from.crc;
+  reading.crc_stored = from.crc_stored;
+  return mb4::safety_word(reading);
 }
 
 inline mb4::Span<const std::uint8_t> bytes(const std::uint8_t* data, std::size_t size) {

@@ -126,6 +126,7 @@ typedef struct {
   mb4_reading reading[MB4_SLAVES];
   uint8_t code[MB4_SLAVES];
   uint8_t status[MB4_STATUS_BYTES];
+  bool one_frame; /* all readings are of one frame of the line */
 } mb4_frame;
 
 /* mb4::Command in mb4/command.hpp. */
@@ -154,7 +155,7 @@ typedef uint32_t (*mb4_now_us)(void *context);
 
 /* One chip. The caller provides the memory and does not use its contents. */
 typedef struct {
-  uint64_t opaque[100];
+  uint64_t opaque[128];
 } mb4_device;
 
 /* Call it before every other call on `device`. It makes no transfer. The functions must not be
@@ -210,6 +211,204 @@ MB4_RESULT mb4_slave_abort(mb4_device *device);
  * 0 on error. */
 MB4_RESULT mb4_scan(mb4_device *device, uint8_t channel, mb4_identity *identities, size_t size,
                     uint8_t *count);
+
+/* ---- Operations in steps ----
+ *
+ * The driver plans SPI frames, the caller makes them, by DMA or otherwise, and the driver takes what
+ * came back. The comments of mb4::Operation (mb4/operation.hpp) and of the C++ calls with
+ * the same name state steps, pauses and errors, and what wrong use answers:
+ *
+ *   mb4_operation_begin(&operation);                      // once
+ *   if (mb4_plan_restart(&device, &operation).code == MB4_OK) {
+ *     do {
+ *       size_t count = mb4_operation_frames(&operation, frames, &pause_us);
+ *       ...            // waits pause_us, then makes the frames one after the other, NCS low for each
+ *     } while (!mb4_finish(&device, &operation, transferred, now_us()));
+ *     result = mb4_operation_result(&operation);
+ *   }
+ *
+ * No call below makes a transfer or asks for the time. */
+
+enum { MB4_STEP_FRAMES = 18 /* most frames of a step; of an operation 4 */ };
+
+/* One SPI frame to make: `size` bytes from tx, while as many are received into rx; null: not
+ * needed. Each begins at a whole word. */
+typedef struct {
+  const uint8_t *tx;
+  uint8_t *rx;
+  size_t size;
+} mb4_spi_frame;
+
+/* The memory of an operation, where DMA reaches it. The caller does not use its contents; it stays
+ * where it is until the operation has ended. */
+typedef struct {
+  uint64_t opaque[40];
+} mb4_operation;
+/* The same for reads of the positions of all slaves: mb4::FrameRead. */
+typedef struct {
+  uint64_t opaque[72];
+} mb4_frame_read;
+
+/* Call it before the first other call on the object. */
+void mb4_operation_begin(mb4_operation *operation);
+void mb4_frame_read_begin(mb4_frame_read *read);
+
+MB4_RESULT mb4_plan_configure(mb4_device *device, mb4_operation *operation,
+                              const mb4_config *config);
+MB4_RESULT mb4_plan_verify(mb4_device *device, mb4_operation *operation);
+MB4_RESULT mb4_plan_initialize(mb4_device *device, mb4_operation *operation);
+/* `read` holds the frames; then mb4_frame_read_result(). */
+MB4_RESULT mb4_plan_read_all(mb4_device *device, mb4_operation *operation, mb4_frame_read *read);
+MB4_RESULT mb4_plan_actuator(mb4_device *device, mb4_operation *operation, uint8_t slave,
+                             uint64_t word);
+MB4_RESULT mb4_plan_break(mb4_device *device, mb4_operation *operation);
+MB4_RESULT mb4_plan_start(mb4_device *device, mb4_operation *operation);
+MB4_RESULT mb4_plan_stop(mb4_device *device, mb4_operation *operation);
+MB4_RESULT mb4_plan_restart(mb4_device *device, mb4_operation *operation);
+MB4_RESULT mb4_plan_automatic_actuator(mb4_device *device, mb4_operation *operation, uint8_t slave,
+                                       uint64_t word);
+/* `data` stays until the operation has ended. size 1..64. */
+MB4_RESULT mb4_plan_slave_read(mb4_device *device, mb4_operation *operation, uint8_t channel,
+                               uint8_t id, uint8_t address, uint8_t *data, size_t size);
+MB4_RESULT mb4_plan_slave_write(mb4_device *device, mb4_operation *operation, uint8_t channel,
+                                uint8_t id, uint8_t address, const uint8_t *data, size_t size);
+MB4_RESULT mb4_plan_slave_command(mb4_device *device, mb4_operation *operation,
+                                  const mb4_command *command);
+
+/* The frames to make now, at most MB4_STEP_FRAMES: fills `frames` and `pause_us` and returns their
+ * number. */
+size_t mb4_operation_frames(mb4_operation *operation, mb4_spi_frame *frames, uint32_t *pause_us);
+/* `transferred`: all of them were made, in order. True: the operation has ended. */
+bool mb4_finish(mb4_device *device, mb4_operation *operation, bool transferred, uint32_t now_us);
+MB4_RESULT mb4_operation_result(const mb4_operation *operation);
+/* After mb4_plan_initialize(): as of mb4_initialize(). */
+void mb4_operation_line_delay(const mb4_operation *operation, uint8_t quarters[MB4_CHANNELS]);
+
+/* mb4_automatic_poll() in steps: Automatic::plan(), finish() and FrameRead::result(). For one slave
+ * without the driver's library: mb4_cyclic.h. */
+MB4_RESULT mb4_plan_frame(mb4_device *device, mb4_frame_read *read, bool wide);
+size_t mb4_frame_read_frames(mb4_frame_read *read, mb4_spi_frame *frames);
+bool mb4_finish_frame(mb4_device *device, mb4_frame_read *read, bool transferred, uint32_t now_us);
+MB4_RESULT mb4_frame_read_result(const mb4_frame_read *read, mb4_frame *frame);
+
+/* ---- BiSS Safety (BP3) ----
+ *
+ * Two slaves bring the two words of one sensor. mb4/safety.hpp and enc/safety.hpp state members,
+ * checks and their order; docs/safety.md says what is found and what stays with the caller:
+ *
+ *   mb4_safety_config words = mb4_bp3_safety(26, 26, 0, 0x1234);
+ *   mb4_safety_fits(&config, 1, 2, &words);                // once: slave 1 is CPW, slave 2 is SPW
+ *   mb4_safety_configure(&safety, &words);
+ *   if (mb4_automatic_poll(&device, &frame).code == MB4_OK) ...
+ *   mb4_safety_check(&safety, &frame, 1, 2, 1, &verdict);  // for each frame that was due
+ *   if (verdict.checks_failed == 0) control(verdict.position);
+ *
+ * No call makes a transfer, waits or asks for the time. All calls on one mb4_safety belong in one
+ * context. */
+
+enum { MB4_NO_BIT = 0xFF }; /* the place of a flag that a word does not have */
+
+/* One word: enc::SafetyWord. */
+typedef struct {
+  uint8_t data_bits; /* without the CRC, 1..64 */
+  uint8_t position_bits;
+  uint8_t position_place; /* of the lowest position bit; place 0 is the lowest data bit */
+  uint8_t error_place;    /* nE, MB4_NO_BIT: none */
+  uint8_t warning_place;  /* nW, MB4_NO_BIT: none */
+  uint16_t crc_start;
+  uint32_t crc_polynomial; /* in full, degree 1..16 */
+} mb4_safety_word;
+
+/* Both words, the counter, and what the positions have to do with each other: enc::SafetyConfig. */
+typedef struct {
+  mb4_safety_word control;
+  mb4_safety_word safety;
+  uint8_t life_bits; /* 2..8 */
+  uint8_t life_place;
+  uint8_t life_first; /* 0, 1 */
+  uint8_t control_shift;
+  uint8_t safety_shift;
+  bool safety_inverted;
+  uint8_t compare_bits; /* 0: as many as both positions have after their shifts */
+  uint64_t safety_offset;
+  uint64_t tolerance; /* below half of 2^compare_bits */
+} mb4_safety_config;
+
+/* What one frame has shown: enc::SafetyVerdict. Its size is whole words of 32 bits. */
+typedef struct {
+  uint64_t position;        /* of the control word; 0 unless its CRC is right */
+  uint64_t safety_position; /* of the safety word; 0 unless its CRC is right */
+  uint16_t checks_failed;   /* bit n: the check n of MB4_SAFETY_...; 0: every check is passed */
+  uint8_t life;             /* sign of life; 0 unless the CRC of the safety word is right */
+  bool warning;             /* nW of a word with a right CRC is 0; no failure */
+} mb4_safety_verdict;
+
+/* enc::SafetyCheck, bits of checks_failed. */
+enum {
+  MB4_SAFETY_CONFIGURED = 0,
+  MB4_SAFETY_CONTROL_WORD,
+  MB4_SAFETY_SAFETY_WORD,
+  MB4_SAFETY_ONE_FRAME,
+  MB4_SAFETY_CONTROL_CRC,
+  MB4_SAFETY_SAFETY_CRC,
+  MB4_SAFETY_LIFE_KNOWN,
+  MB4_SAFETY_LIFE_VALUE,
+  MB4_SAFETY_LIFE_STUCK,
+  MB4_SAFETY_LIFE_SKIPPED,
+  MB4_SAFETY_LIFE_REPEATED,
+  MB4_SAFETY_POSITIONS,
+  MB4_SAFETY_CONTROL_ERROR,
+  MB4_SAFETY_SAFETY_ERROR
+};
+
+/* The check's memory. The caller does not use its contents. */
+typedef struct {
+  uint64_t opaque[12];
+} mb4_safety;
+
+/* The layout of BP3 for positions of so many bits, with the start values of both CRCs. */
+mb4_safety_config mb4_bp3_safety(uint8_t control_bits, uint8_t safety_bits, uint16_t control_start,
+                                 uint16_t safety_start);
+/* Slaves `control` and `safety` (1..8, not the same) of a valid `config` bring these words, each
+ * with its CRC. MB4_INVALID_ARGUMENT; MB4_UNSUPPORTED with field and number. */
+MB4_RESULT mb4_safety_fits(const mb4_config *config, uint8_t control, uint8_t safety,
+                           const mb4_safety_config *words);
+/* Call it before the first other call on the object. MB4_INVALID_ARGUMENT: `words` is not possible;
+ * `number` is the number of the wrong member, enc::SafetyField. Each check then fails. */
+MB4_RESULT mb4_safety_configure(mb4_safety *safety, const mb4_safety_config *words);
+/* The counter of the next word is compared with none before. */
+void mb4_safety_restart(mb4_safety *safety);
+/* Checks the words of the slaves `control_slave` and `safety_slave` (1..8; another number: the word
+ * is missing). `frame`: as a call has filled it that reads all slaves, also after its error; null:
+ * no frame. `frames`: those that the sensor has sent since the call before, 0 counts as 1. */
+void mb4_safety_check(mb4_safety *safety, const mb4_frame *frame, uint8_t control_slave,
+                      uint8_t safety_slave, uint32_t frames, mb4_safety_verdict *verdict);
+/* Short text of a check, MB4_SAFETY_...; never null. */
+const char *mb4_safety_text(uint8_t check);
+
+/* ---- A value for several contexts ----
+ *
+ * enc::Snapshot (enc/snapshot.hpp) in memory of the caller: one context writes, any number of
+ * others read, without a lock. A reader never gets parts of two values, and the writer never waits.
+ *
+ *   static uint32_t latest[MB4_SNAPSHOT_WORDS(sizeof(mb4_safety_verdict))];  // all 0 at first
+ *   mb4_snapshot_write(latest, &verdict, sizeof verdict);                    // in the interrupt
+ *   if (mb4_snapshot_read(latest, &verdict, sizeof verdict)) ...             // in a task
+ *
+ * `size` is the same in each call on one snapshot, a multiple of 4, and `value` begins at a whole
+ * word. */
+
+/* Words of a snapshot of a value of `size` bytes: a size of an array. */
+#define MB4_SNAPSHOT_WORDS(size) (2U + (size) / 2U) /* NOLINT(cppcoreguidelines-macro-usage) */
+
+/* Makes the value the newest. Never waits. All calls belong in one context. */
+void mb4_snapshot_write(uint32_t *snapshot, const void *value, size_t size);
+/* Copies the newest value. It copies again only if the writer comes twice meanwhile; for a writer
+ * that comes so often it would not end. False: nothing was written yet, `value` is unchanged. Any
+ * context may call it, also one that has interrupted the writer. */
+bool mb4_snapshot_read(const uint32_t *snapshot, void *value, size_t size);
+/* The number of writes, modulo 2^31: a reader tells by it whether there is a new value. */
+uint32_t mb4_snapshot_writes(const uint32_t *snapshot);
 
 /* SPI opcodes 0x02 and 0x03 without any protection of bits; size 1..64. */
 MB4_RESULT mb4_write_registers(mb4_device *device, uint8_t address, const uint8_t *data,

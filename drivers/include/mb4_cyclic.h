@@ -49,7 +49,9 @@ enum {
   MB4_CYCLIC_READ0 = mb4::regs::kSpiOpcodeReadRegisters0,
   MB4_CYCLIC_STATUS = mb4::regs::kSpiOpcodeReadStatus,
   MB4_CYCLIC_INSTRUCT = mb4::regs::kSpiOpcodeWriteInstruction,
-  MB4_CYCLIC_LINES = mb4::regs::SL1::kAddress - mb4::regs::kAddrStatus0 + 1
+  MB4_CYCLIC_LINES = mb4::regs::SL1::kAddress - mb4::regs::kAddrStatus0 + 1,
+  MB4_CYCLIC_BANKS = mb4::regs::SWBANKFAIL::kAddress - mb4::regs::kAddrStatus0 + 1,
+  MB4_CYCLIC_BANKFAIL = mb4::regs::SWBANKFAIL::kMask
 };
 #else
 #include "mb4_regs.h"
@@ -67,7 +69,9 @@ enum {
   MB4_CYCLIC_READ0 = MB4_SPI_OPCODE_READ_REGISTERS0,
   MB4_CYCLIC_STATUS = MB4_SPI_OPCODE_READ_STATUS,
   MB4_CYCLIC_INSTRUCT = MB4_SPI_OPCODE_WRITE_INSTRUCTION,
-  MB4_CYCLIC_LINES = MB4_SL_ADDR(1U) - MB4_ADDR_STATUS0 + 1
+  MB4_CYCLIC_LINES = MB4_SL_ADDR(1U) - MB4_ADDR_STATUS0 + 1,
+  MB4_CYCLIC_BANKS = MB4_SWBANKFAIL_ADDR - MB4_ADDR_STATUS0 + 1,
+  MB4_CYCLIC_BANKFAIL = MB4_SWBANKFAIL_MASK
 };
 #endif
 
@@ -198,7 +202,9 @@ enum {
   MB4_WITH_FULL = 4,     /* MB4_SPI_CHECK_FULL */
   MB4_WITH_UNHELD = 8,   /* without HOLDBANK beside a register access */
   MB4_WITH_SEVERAL = 16, /* more than one slave delivers data */
-  MB4_WITH_ALL = 31,
+  MB4_WITH_BEATS = 128,  /* no MB4_TIMEOUT where the reads meet the end of each frame for a while;
+                            no configuration needs it */
+  MB4_WITH_ALL = 159,
   MB4_WITH_TABLE = 32, /* CRC by word->table, four bits a step, where it is not null */
   MB4_WITH_COUNTS = 64 /* watch->counts, where it is not null */
 };
@@ -509,10 +515,11 @@ static inline void mb4_cyclic_plan(mb4_cyclic *read, mb4_plan *plan, uint8_t wit
 static inline uint8_t mb4_cyclic_take_status(mb4_cyclic *read, const mb4_plan *plan,
                                              uint8_t frame) {
   const uint8_t *rx = mb4_plan_rx(plan, frame);
-  uint8_t i = 0;
-  for (i = 0; i < MB4_STATUS_BYTES; ++i) {
-    read->status[i] = rx[1 + i];
-  }
+  read->status[0] = rx[1]; /* a loop would take longer and no less code */
+  read->status[1] = rx[2];
+  read->status[2] = rx[3];
+  read->status[3] = rx[4];
+  read->status[4] = rx[5];
   /* Constant bits (pages 21, 22): MISO stuck at 0 or 1 fails them. */
   if ((rx[1] & MB4_CYCLIC_CONST0) == 0 || ((rx[2] | rx[3]) & MB4_CYCLIC_CONST1) != 0) {
     return MB4_NOT_DETECTED;
@@ -909,9 +916,41 @@ static inline uint8_t mb4_cyclic_watch(mb4_cyclic *read, mb4_plan *plan, uint8_t
   if ((with & MB4_WITH_SEVERAL) != 0) {
     read->told = false;
   }
-  mb4_plan_add(plan, 1 + MB4_CYCLIC_LINES, MB4_CYCLIC_STATUS, 0, 0);
+  if ((with & MB4_WITH_BEATS) != 0) {
+    mb4_plan_add(plan, 1 + MB4_CYCLIC_BANKS, MB4_CYCLIC_STATUS, 0, 0);
+    mb4_plan_rx(plan, 0)[MB4_CYCLIC_BANKS] = 0;
+    mb4_cyclic_add_status(plan);
+  } else {
+    mb4_plan_add(plan, 1 + MB4_CYCLIC_LINES, MB4_CYCLIC_STATUS, 0, 0);
+  }
   mb4_plan_rx(plan, 0)[MB4_CYCLIC_LINES] = 0;
   return MB4_MORE;
+}
+
+/* LINES: why do frames stay away? All may be well: a loop whose reads always meet the end of a
+ * frame sees none. Then a frame ends now, or SWBANKFAIL = 1 says that one was lost because the bank
+ * was held. The flag stays 1 if the system clock stops, so it only makes the limit four times as
+ * long.
+ */
+static inline uint8_t mb4_cyclic_take_lines(mb4_cyclic *read, const mb4_plan *plan, uint32_t now_us,
+                                            uint8_t with) {
+  const mb4_watch *watch = read->watch;
+  const uint8_t *rx = mb4_plan_rx(plan, 0);
+  if ((with & MB4_WITH_BEATS) != 0 && read->code == MB4_TIMEOUT) {
+    const bool lost = (rx[MB4_CYCLIC_BANKS] & MB4_CYCLIC_BANKFAIL) != 0 &&
+                      (rx[1] & MB4_CYCLIC_AGSERR) != 0 &&
+                      now_us - watch->news_us <= 4 * watch->silent_us;
+    const bool ended =
+        mb4_cyclic_take_status(read, plan, 1) != MB4_NOT_DETECTED && mb4_cyclic_valid(read) != 0;
+    if (lost || ended) {
+      if ((with & MB4_WITH_SEVERAL) != 0) {
+        read->told = true;
+      }
+      return MB4_NO_DATA;
+    }
+  }
+  return (rx[MB4_CYCLIC_LINES] & watch->lines) == watch->lines ? read->code
+                                                               : (uint8_t)MB4_LINE_ERROR;
 }
 
 /* mb4_cyclic_finish() without the counts. */
@@ -920,9 +959,7 @@ static inline uint8_t mb4_cyclic_step(mb4_cyclic *read, mb4_plan *plan, bool tra
   const uint8_t stage = read->stage;
   uint8_t code = transferred ? read->code : (uint8_t)MB4_TRANSPORT;
   if (stage == MB4_STAGE_LINES) {
-    const uint8_t lines = read->watch->lines;
-    const bool idle = (mb4_plan_rx(plan, 0)[MB4_CYCLIC_LINES] & lines) == lines;
-    return transferred && !idle ? (uint8_t)MB4_LINE_ERROR : code;
+    return transferred ? mb4_cyclic_take_lines(read, plan, now_us, with) : code;
   }
   if (stage == MB4_STAGE_FREE) {
     read->watch->held = !transferred;

@@ -26,6 +26,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <type_traits>
+#include <utility>
 
 namespace enc {
 
@@ -43,6 +44,53 @@ struct SharedMemory {
   static void acquire() { __atomic_thread_fence(__ATOMIC_ACQUIRE); }
   // What was stored before is seen before what is stored after.
   static void release() { __atomic_thread_fence(__ATOMIC_RELEASE); }
+};
+
+// The procedure, on 2 + 2 * `words` words in anybody's memory, 0 at first: the stamp of the write
+// that has begun, that of the one that has ended, and two copies. Stamps are odd; 0: nothing was
+// written. Snapshot and the C binding (mb4.h) hold such words.
+template <typename Memory>
+struct SnapshotWords {
+  static constexpr std::size_t kStamps = 2;
+
+  // `Word`: std::uint32_t, or what may stand for any type.
+  template <typename Word>
+  static void write(std::uint32_t* all, const Word* from, std::size_t words) {
+    const std::uint32_t stamp = (Memory::load(all[1]) | 1U) + 2U;
+    Memory::store(all[0], stamp);
+    Memory::release();
+    std::uint32_t* copy = all + start(stamp, words);
+    for (std::size_t i = 0; i < words; ++i) {
+      Memory::store(copy[i], from[i]);
+    }
+    Memory::release();
+    Memory::store(all[1], stamp);
+  }
+
+  // False: `to` may hold anything.
+  template <typename Word>
+  static bool try_read(const std::uint32_t* all, Word* to, std::size_t words) {
+    const std::uint32_t stamp = Memory::load(all[1]);
+    Memory::acquire();
+    if (stamp == 0) {
+      return false;
+    }
+    const std::uint32_t* copy = all + start(stamp, words);
+    for (std::size_t i = 0; i < words; ++i) {
+      to[i] = Memory::load(copy[i]);
+    }
+    Memory::acquire();
+    // One step on, the writer fills the other copy.
+    return Memory::load(all[0]) - stamp <= 2U;
+  }
+
+  static bool is_written(const std::uint32_t* all) { return Memory::load(all[1]) != 0; }
+  static std::uint32_t writes(const std::uint32_t* all) { return Memory::load(all[1]) >> 1U; }
+
+ private:
+  static constexpr std::size_t start(std::uint32_t stamp, std::size_t words) {
+    return kStamps + ((stamp >> 1U & 1U) != 0 ? words : 0);
+  }
 };
 
 }  // namespace detail
@@ -68,34 +116,15 @@ class Snapshot {
   void write(const T& value) {
     Words words{};
     __builtin_memcpy(words.data(), &value, sizeof(T));
-    const std::uint32_t stamp = (Memory::load(done_) | 1U) + 2U;
-    Memory::store(begun_, stamp);
-    Memory::release();
-    Words& copy = copies_[index(stamp)];
-    for (std::size_t i = 0; i < words.size(); ++i) {
-      Memory::store(copy[i], words[i]);
-    }
-    Memory::release();
-    Memory::store(done_, stamp);
+    Procedure::write(all_.data(), words.data(), words.size());
   }
 
   // Copies the newest value. False: nothing was written yet, or the writer has written twice since
   // this call began; `value` is then unchanged. A reader that has interrupted the writer always
   // succeeds once something was written. Any context may call it.
   [[nodiscard]] bool try_read(T& value) const {
-    const std::uint32_t stamp = Memory::load(done_);
-    Memory::acquire();
-    if (stamp == 0) {
-      return false;
-    }
     Words words{};
-    const Words& copy = copies_[index(stamp)];
-    for (std::size_t i = 0; i < words.size(); ++i) {
-      words[i] = Memory::load(copy[i]);
-    }
-    Memory::acquire();
-    // One step on, the writer fills the other copy.
-    if (Memory::load(begun_) - stamp > 2U) {
+    if (!Procedure::try_read(all_.data(), words.data(), words.size())) {
       return false;
     }
     __builtin_memcpy(static_cast<void*>(&value), words.data(), sizeof(T));
@@ -106,7 +135,7 @@ class Snapshot {
   // only if the writer comes twice while it copies; for a writer that comes so often it would not
   // end.
   [[nodiscard]] bool read(T& value) const {
-    while (Memory::load(done_) != 0) {
+    while (Procedure::is_written(all_.data())) {
       if (try_read(value)) {
         return true;
       }
@@ -115,18 +144,14 @@ class Snapshot {
   }
 
   // The number of writes, modulo 2^31. A reader tells by it whether there is a new value.
-  [[nodiscard]] std::uint32_t writes() const { return Memory::load(done_) >> 1U; }
+  [[nodiscard]] std::uint32_t writes() const { return Procedure::writes(all_.data()); }
 
  private:
+  using Procedure = detail::SnapshotWords<Memory>;
   using Words =
       std::array<std::uint32_t, (sizeof(T) + sizeof(std::uint32_t) - 1) / sizeof(std::uint32_t)>;
 
-  static constexpr std::size_t index(std::uint32_t stamp) { return stamp >> 1U & 1U; }
-
-  // Stamps are odd; 0: nothing was written.
-  std::uint32_t begun_ = 0;
-  std::uint32_t done_ = 0;
-  std::array<Words, 2> copies_{};
+  std::array<std::uint32_t, Procedure::kStamps + 2 * std::tuple_size_v<Words>> all_{};
 };
 
 }  // namespace enc

@@ -12,9 +12,10 @@
 
 #include "mb4/config.hpp"
 #include "mb4/cyclic.hpp"
-#include "mb4/detail/actuator_write.hpp"
+#include "mb4/detail/blocking.hpp"
 #include "mb4/detail/chip.hpp"
 #include "mb4/detail/procedures.hpp"
+#include "mb4/detail/reads.hpp"
 #include "mb4/frame.hpp"
 #include "mb4/operation.hpp"
 #include "mb4/result.hpp"
@@ -60,24 +61,8 @@ class Automatic {
   // Not touched: kNotConfigured, kWrongMode (AGS is on already), kBusy, kUnsupported with
   // kSingleBank. Touched: kTransport (AGS may be on; call stop() or start() again).
   Result<void> start() {
-    const Result<void> allowed = start_allowed(false);
-    if (!allowed) {
-      return allowed;
-    }
-    if (chip_.recover_first) {
-      if (const Result<void> recovered = chip_.recover(); !recovered) {
-        return recovered;
-      }
-    }
-    chip_.started(chip_.clock->now_us());
-    // The next single frame begins with BREAK, because an automatic frame may still run then.
-    chip_.recover_first = true;
-    if (const Result<void> on = chip_.write_instruction(kAgs); !on) {
-      return on;
-    }
-    chip_.automatic = true;
-    chip_.restart = false;
-    return {};
+    const Result<void> allowed = chip_.start_allowed(false);
+    return allowed ? detail::Blocking::start(chip_) : allowed;
   }
 
   // Begins start() without a transfer: the caller makes the frames of `operation` and calls
@@ -85,7 +70,8 @@ class Automatic {
   // stop() two, of which the second begins after a pause. Not touched: kNotConfigured, kWrongMode,
   // kBusy, kUnsupported as of start(). operation.result(): kTransport; kWrongMode (operation.hpp).
   Result<void> plan_start(Operation& operation) {
-    const Result<void> allowed = detail::Procedures::possible(operation, start_allowed(false));
+    const Result<void> allowed =
+        detail::Procedures::possible(operation, chip_.start_allowed(false));
     if (allowed) {
       detail::Procedures::plan_start(chip_, operation);
     }
@@ -96,26 +82,31 @@ class Automatic {
   // call is allowed when no frames run. kBusy (not touched); kTransport (touched, AGS may be on or
   // off).
   Result<void> stop() {
-    if (control_runs()) {
+    if (chip_.control_runs()) {
       return Error::kBusy;
     }
-    chip_.automatic = false;
-    chip_.restart = false;
-    chip_.recover_first = true;
-    return chip_.write_instruction(0);
+    detail::Procedures::plan_stop(chip_, chip_.own, 0, false);
+    return detail::Blocking::run(chip_, chip_.own);
+  }
+
+  // Begins stop() without a transfer, as plan_start(): one step of one frame. kBusy (not touched);
+  // operation.result(): kTransport.
+  Result<void> plan_stop(Operation& operation) {
+    const Result<void> allowed =
+        detail::Procedures::possible(operation, chip_.control_runs() ? Error::kBusy : Error::kNone);
+    if (allowed) {
+      detail::Procedures::plan_stop(chip_, operation, 0, false);
+    }
+    return allowed;
   }
 
   // Starts automatic frames again (table 69): BREAK, 100 us for the slaves' timeout, SVALID = 0,
   // AGS = 1. BiSS B adds register_timeout_us. Three transfers. Not for interrupts, because it
-  // waits. Errors as of start(), but AGS may be on; next() then tries again. With
-  // MB4_WITH_COUNTS in `With` it counts.
+  // waits. Not touched, frames that run go on: kNotConfigured, kBusy, kUnsupported. kTransport:
+  // next() then tries again. With MB4_WITH_COUNTS in `With` it counts.
   template <std::uint8_t With = MB4_WITH_ALL>
   Result<void> restart() {
-    if (control_runs()) {
-      return Error::kBusy;
-    }
-    prepare_restart<With>();
-    return start();
+    return detail::Blocking::restart<With>(chip_);
   }
 
   // Begins restart() without a transfer, as plan_start(). Two steps: BREAK; then, after the pause,
@@ -123,9 +114,9 @@ class Automatic {
   // kNotConfigured, kBusy, kUnsupported. After a failure next() tries again.
   template <std::uint8_t With = MB4_WITH_ALL>
   Result<void> plan_restart(Operation& operation) {
-    const Result<void> allowed = detail::Procedures::possible(operation, start_allowed(true));
+    const Result<void> allowed = detail::Procedures::possible(operation, chip_.start_allowed(true));
     if (allowed) {
-      prepare_restart<With>();
+      detail::Procedures::prepare_restart<With>(chip_);
       detail::Procedures::plan_start(chip_, operation);
     }
     return allowed;
@@ -150,8 +141,8 @@ class Automatic {
   //
   // After a frame with a bad word (nSCDERR = 0) it checks the data of the slaves without SVALID as
   // well: a stored CRC that fits shows a word that has been read before. A bad word then gets the
-  // CRC that fits, so that it counts once: one 0x02 more for each. When frames stay away: one 0x05
-  // more, up to 0xF8.
+  // CRC that fits, so that it counts once: one 0x02 more for each. When frames stay away: two 0x05
+  // more, up to 0xFB and to 0xF4.
   //
   // With SpiCheck::kFull one disturbed bit of the first status may hide a new frame: this call says
   // kNoData, and the next one brings the word, if no later frame has overwritten it.
@@ -172,20 +163,13 @@ class Automatic {
   // kTimeout, kLineError (SL is 0): frames stay away for more than two periods and the step of
   // the clock (enc::clock_step_us), if the chip has left frames out, otherwise for 16 periods. With
   // Config::frame_timeout_us it is that time and one period if this is longer than two: a chip that
-  // has lost its configuration or its clock sets no flag. Back to back a period is
-  // frame_timeout_us(). Never with FrameStart::kOnPin. Nothing is changed, and each call says so
-  // until a frame ends: call restart(). A dead line on one channel stops both, see
-  // without_channel(). kCrc, by each call: the same without a stored CRC, if the last frame was bad
-  // and the chip has left none out.
-  Result<void> poll(Frame& frame) {
-    frame.clear();
-    FrameRead read;
-    if (const Result<void> allowed = begin(read, false); !allowed) {
-      return allowed;
-    }
-    run(read);
-    return read.result(frame);
-  }
+  // has lost its configuration or its clock sets no flag. Where SWBANKFAIL = 1 says that a frame
+  // has ended while the bank was held: 64 periods. A loop whose transfers do not fit between the
+  // frames may meet the end of each one for so long. Back to back a period is frame_timeout_us().
+  // Never with FrameStart::kOnPin. Nothing is changed, and each call says so until a frame ends:
+  // call restart(). A dead line on one channel stops both, see without_channel(). kCrc, by each
+  // call: the same without a stored CRC, if the last frame was bad and the chip has left none out.
+  Result<void> poll(Frame& frame) { return detail::Blocking::poll(chip_, frame); }
 
   // As poll(), for one slave (1..8). At most kMaxPollSlaveTransfers transfers, with SpiCheck::kFull
   // kMaxPollSlaveTransfersChecked. Its code is small and fast, for the
@@ -198,18 +182,12 @@ class Automatic {
   //
   // `With` leaves out parts that the configuration does not use: a constant, MB4_WITH_... of
   // mb4_cyclic.h. poll_slave<0>() is for one slave, BiSS of up to 32 data bits with SpiCheck::kCrc
-  // or kOff and Config::hold_beside_access. kUnsupported (not touched): the configuration needs
+  // or kOff and Config::hold_beside_access. Without MB4_WITH_BEATS it does not look at SWBANKFAIL,
+  // so the alarm always comes after 16 periods. kUnsupported (not touched): the configuration needs
   // such a part.
   template <std::uint8_t With = MB4_WITH_ALL>
   Result<Reading> poll_slave(std::uint8_t slave) {
-    CyclicRead read;
-    const Result<void> allowed = begin(slave, read, false, With);
-    if (!allowed) {
-      return allowed.failure();
-    }
-    mb4_cyclic_plan(&read.read_, &read.plan_, With);
-    run<With>(read);
-    return read.result();
+    return detail::Blocking::poll_slave<With>(chip_, slave);
   }
 
   // Begins to read one slave (1..8) without a transfer: the caller makes the frames of `read` and
@@ -228,12 +206,7 @@ class Automatic {
   // Not touched: kInvalidArgument, kWrongMode, kUnsupported as for poll_slave().
   template <std::uint8_t With = MB4_WITH_ALL>
   Result<void> plan_slave(std::uint8_t slave, CyclicRead& read) {
-    const Result<void> allowed =
-        begin(slave, read, chip_.config.spi_check != SpiCheck::kFull, With);
-    if (allowed) {
-      mb4_cyclic_plan(&read.read_, &read.plan_, With);
-    }
-    return allowed;
+    return detail::Reads::plan<With>(chip_, read, slave, chip_.config.spi_check != SpiCheck::kFull);
   }
 
   // Takes what came back. `transferred`: every frame of `read` was made. `now_us`: the time, as
@@ -243,32 +216,18 @@ class Automatic {
   // read ends with kUnsupported.
   template <std::uint8_t With = MB4_WITH_ALL>
   [[nodiscard]] bool finish(CyclicRead& read, bool transferred, std::uint32_t now_us) {
-    if (read.with_ != (With & MB4_WITH_ALL)) {
-      // Parts that the plan needs may not be here. The next read releases the bank.
-      chip_.watch.held = true;
-      read.code_ = MB4_UNSUPPORTED;
-      return true;
-    }
-    if (!take<With>(read, transferred, now_us)) {
-      return false;
-    }
-    if (read.code_ == MB4_OK) {
-      mb4_slot_reading(read.read_.words, &read.slot_, &read.reading_, With);
-    }
-    return true;
+    return detail::Reads::finish<With>(chip_, read, transferred, now_us);
   }
 
   // As plan_slave(), for all enabled sensors, in one chain: 0x07; 0x09 and 0x03, 1..n frames, the
   // neighbours in one; 0x05; 0x02. No frame is longer than 25 bytes, unless `wide` allows 66. Then
   // finish() until it returns true, and FrameRead::result(). kWrongMode (not touched).
   Result<void> plan(FrameRead& read, bool wide = false) {
-    read.read_.built = read.read_.wide == wide ? read.read_.built : nullptr;
-    read.read_.wide = wide;
-    return begin(read, chip_.config.spi_check != SpiCheck::kFull);
+    return detail::Reads::begin(chip_, read, chip_.config.spi_check != SpiCheck::kFull, wide);
   }
   template <std::uint8_t With = MB4_WITH_ALL>
   [[nodiscard]] bool finish(FrameRead& read, bool transferred, std::uint32_t now_us) {
-    return take<MB4_WITH_ALL | With>(read, transferred, now_us);  // as plan()
+    return detail::Reads::take<MB4_WITH_ALL | With>(chip_, read, transferred, now_us);  // as plan()
   }
 
   // Call it again after configure() and start(): period and time are those of the moment. Counts
@@ -296,13 +255,15 @@ class Automatic {
   // Not touched: kWrongMode (automatic frames do not run), kBusy, kInvalidArgument. kTransport,
   // kNotDetected, kCorrupted as for Device::write_actuator().
   Result<void> write_actuator(std::uint8_t slave, std::uint64_t word) {
-    if (!chip_.automatic) {
-      return Error::kWrongMode;
-    }
-    if (control_runs()) {
-      return Error::kBusy;
-    }
-    return detail::ActuatorWrite<Bus, Clock>(chip_).write(slave, word, false);
+    return detail::Blocking::run(chip_, plan_word(chip_.own, slave, word, actuator_allowed()));
+  }
+
+  // Begins write_actuator() without a transfer, as plan_start(): one step of three frames, with
+  // SpiCheck::kFull three steps of one or two. Not touched: kWrongMode, kBusy, kInvalidArgument.
+  // operation.result(): kTransport, kNotDetected, kCorrupted.
+  Result<void> plan_actuator(Operation& operation, std::uint8_t slave, std::uint64_t word) {
+    return plan_word(operation, slave, word,
+                     detail::Procedures::possible(operation, actuator_allowed()));
   }
 
   // Waits for the next new frame, at most frame_timeout_us() plus one frame period, and fetches it
@@ -315,157 +276,20 @@ class Automatic {
   // changed.
   template <std::uint8_t With = MB4_WITH_ALL>
   Result<void> next(Frame& frame) {
-    frame.clear();
-    if (!chip_.automatic && !chip_.restart) {
-      return Error::kWrongMode;
-    }
-    if (chip_.restart && !control_runs()) {
-      if (const Result<void> again = restart<With>(); !again) {
-        return again;
-      }
-    }
-    const Result<void> waited = wait();
-    if (!waited) {
-      return waited;
-    }
-    const Result<void> read = poll(frame);
-    // kBankSwitched needs no restart.
-    chip_.restart = read ? !frame.good(chip_.sensors) : read.error() != Error::kBankSwitched;
-    return read;
+    return detail::Blocking::next<With>(chip_, frame);
   }
 
  private:
-  static constexpr std::uint8_t kAgs = regs::AGS::encode<1>();
-
-  [[gnu::noinline]] Result<void> begin(std::uint8_t slave, CyclicRead& read, bool chain,
-                                       std::uint8_t with) {
-    read.code_ = MB4_NO_DATA;
-    if (!is_in(chip_.sensors, slave)) {
-      return Error::kInvalidArgument;
-    }
+  [[nodiscard]] Result<void> actuator_allowed() const {
     if (!chip_.automatic) {
       return Error::kWrongMode;
     }
-    if ((chip_.needs & ~unsigned{with}) != 0) {
-      return Error::kUnsupported;
-    }
-    read.with_ = with & MB4_WITH_ALL;
-    begin(read, chip_.word_of(slave), 1, chain);
-    return {};
+    return chip_.control_runs() ? Error::kBusy : Error::kNone;
   }
-
-  Result<void> begin(FrameRead& read, bool chain) {
-    read.code_ = MB4_NO_DATA;
-    read.read_.told = false;
-    if (!chip_.automatic) {
-      return Error::kWrongMode;
-    }
-    begin(read, chip_.words.data(), chip_.count, chain);
-    mb4_cyclic_plan(&read.read_, &read.plan_, MB4_WITH_ALL);
-    return {};
-  }
-
-  void begin(ReadSteps& steps, const mb4_word* words, std::uint8_t count, bool chain) {
-    mb4_cyclic& read = steps.read_;
-    const bool unheld = control_runs() && !chip_.config.hold_beside_access;
-    chain = chain && !unheld;
-    // The frames of the plan depend on this alone. So a plan of another configuration, or of a
-    // Device that was made anew at the same place, is not taken for one of this.
-    std::uint32_t shape = 0;
-    for (std::uint8_t i = 0; i < count; ++i) {
-      shape |= std::uint32_t{words[i].bytes} << (4U * (words[i].slave - 1U));
-    }
-    if (steps.shape_ != shape || read.chain != chain) {
-      read.built = nullptr;
-    }
-    steps.shape_ = shape;
-    read.words = words;
-    read.count = count;
-    read.watch = &chip_.watch;
-    read.spi_check = static_cast<std::uint8_t>(chip_.config.spi_check);
-    read.unheld = unheld;
-    read.access = control_runs();
-    read.chain = chain;
-    chip_.control.overwritten = chip_.control.overwritten || !unheld;
-  }
-
-  template <std::uint8_t With>
-  bool take(ReadSteps& steps, bool transferred, std::uint32_t now_us) {
-    steps.code_ = mb4_cyclic_finish(&steps.read_, &steps.plan_, transferred, now_us, With);
-    if (steps.code_ == MB4_MORE) {
-      return false;
-    }
-    chip_.control.seen_running = steps.read_.running;
-    return true;
-  }
-
-  template <std::uint8_t With>
-  void run(CyclicRead& read) {
-    bool transferred = false;
-    do {
-      transferred = read.run(chip_.opcodes.bus());
-    } while (!finish<With>(read, transferred, chip_.clock->now_us()));
-  }
-  void run(FrameRead& read) {
-    bool transferred = false;
-    do {
-      transferred = read.run(chip_.opcodes.bus());
-    } while (!finish(read, transferred, chip_.clock->now_us()));
-  }
-
-  [[nodiscard]] bool control_runs() const {
-    return chip_.control.kind != detail::ControlState::Kind::kNone;
-  }
-
-  // `again`: frames may run.
-  [[nodiscard]] Result<void> start_allowed(bool again) const {
-    if (!chip_.configured) {
-      return Error::kNotConfigured;
-    }
-    if (control_runs()) {
-      return Error::kBusy;
-    }
-    if (chip_.automatic && !again) {
-      return Error::kWrongMode;
-    }
-    return chip_.config.single_bank ? ErrorInfo(Error::kUnsupported, ConfigField::kSingleBank, 0)
-                                    : ErrorInfo();
-  }
-
-  template <std::uint8_t With>
-  void prepare_restart() {
-    chip_.automatic = false;
-    chip_.recover_first = true;
-    chip_.restart = true;
-    if ((With & MB4_WITH_COUNTS) != 0 && chip_.watch.counts != nullptr) {
-      ++chip_.watch.counts->restarts;
-    }
-  }
-
-  // Polls until a frame has ended, good or bad.
-  Result<void> wait() {
-    detail::Deadline<Clock> deadline(*chip_.clock, chip_.frame_us + chip_.pitch_us);
-    bool idle = false;
-    for (bool last = false; !last;) {
-      last = deadline.last_poll();
-      Status status;
-      if (const Result<void> look = chip_.look(status); !look) {
-        chip_.restart = true;
-        return look;
-      }
-      idle = status.idle();
-      // A frame that was bad for all slaves shows only in nSCDERR. The BREAK of the restart sets
-      // nSCDERR to 1 again.
-      if ((status.valid_flags() & chip_.sensor_flags) != 0 || status.scd_error()) {
-        return {};
-      }
-    }
-    if (idle && chip_.config.frame_start == FrameStart::kOnPin) {
-      return Error::kNoData;
-    }
-    const Result<void> stopped = chip_.stop_and_diagnose();
-    chip_.restart = true;
-    return stopped;
+  Result<void> plan_word(Operation& operation, std::uint8_t slave, std::uint64_t word,
+                         const Result<void>& allowed) {
+    return allowed ? detail::Procedures::plan_actuator(chip_, operation, slave, word, false)
+                   : allowed;
   }
 
   detail::Chip<Bus, Clock>& chip_;

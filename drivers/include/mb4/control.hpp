@@ -11,7 +11,7 @@
 
 #include "mb4/command.hpp"
 #include "mb4/control_steps.hpp"
-#include "mb4/detail/access.hpp"
+#include "mb4/detail/blocking.hpp"
 #include "mb4/detail/chip.hpp"
 #include "mb4/operation.hpp"
 #include "mb4/result.hpp"
@@ -35,11 +35,11 @@ class Control : public ControlSteps<Bus, Clock> {
   using Steps::Steps;
 
   // Reads out.size() (1..128) registers from `address`, in parts of 64; address + size <= 128.
-  // Errors of begin_read(), poll() and take(). After kTransport and kNotDetected the call has tried
-  // to send BREAK. ErrorInfo::bytes counts over all parts; on error only that many bytes of `out`
-  // are valid.
+  // Errors of begin_read(), poll() and take(). ErrorInfo::bytes counts over all parts; on error
+  // `out` holds the registers of the parts before the one that has failed.
   Result<void> read_registers(SlaveAddress slave, std::uint8_t address, Span<std::uint8_t> out) {
-    return in_parts(slave, address, out, Span<const std::uint8_t>(nullptr, out.size()));
+    return detail::Blocking::in_parts(Steps::chip_, slave, address, nullptr, out.data(),
+                                      out.size());
   }
 
   // Writes data.size() (1..128) registers from `address`, in parts of 64; address + size <= 128.
@@ -47,11 +47,15 @@ class Control : public ControlSteps<Bus, Clock> {
   // ErrorInfo::bytes registers are written, and the next one may be.
   Result<void> write_registers(SlaveAddress slave, std::uint8_t address,
                                Span<const std::uint8_t> data) {
-    return in_parts(slave, address, Span<std::uint8_t>(), data);
+    return detail::Blocking::in_parts(Steps::chip_, slave, address, data.data(), nullptr,
+                                      data.size());
   }
 
   // Sends a command and waits for its end. Errors of begin_command() and poll().
-  Result<void> send(const Command& command) { return wait(Steps::begin_command(command)); }
+  Result<void> send(const Command& command) {
+    return detail::Blocking::run(
+        Steps::chip_, detail::Procedures::plan_command(Steps::chip_, Steps::chip_.own, command));
+  }
 
   // Begins to read out.size() (1..64) registers without a transfer: the caller makes the frames of
   // `operation` and calls Device::finish() until it returns true. `out` must stay until then; it is
@@ -65,13 +69,8 @@ class Control : public ControlSteps<Bus, Clock> {
   // by `now_us` of finish(); after it the status is read once more.
   Result<void> plan_read(Operation& operation, SlaveAddress slave, std::uint8_t address,
                          Span<std::uint8_t> out) {
-    const Result<void> possible = detail::Procedures::possible(
-        operation, Steps::check_access(slave, address, out.size(), Protocol::kSsi));
-    if (possible) {
-      detail::Procedures::plan_access(Steps::chip_, operation, slave, address, nullptr, out.data(),
-                                      out.size());
-    }
-    return possible;
+    return detail::Procedures::plan_access(Steps::chip_, operation, slave, address, nullptr,
+                                           out.data(), out.size());
   }
 
   // As plan_read(), but writes data.size() (1..64) registers. `data` must stay until the end.
@@ -79,70 +78,14 @@ class Control : public ControlSteps<Bus, Clock> {
   // operation.result(): kTransport, kNotDetected, kCorrupted, kTimeout, kRegister, kRegisterDelay.
   Result<void> plan_write(Operation& operation, SlaveAddress slave, std::uint8_t address,
                           Span<const std::uint8_t> data) {
-    const Result<void> possible = detail::Procedures::possible(
-        operation, Steps::check_access(slave, address, data.size(), Protocol::kUnused));
-    if (possible) {
-      detail::Procedures::plan_access(Steps::chip_, operation, slave, address, data.data(), nullptr,
-                                      data.size());
-    }
-    return possible;
+    return detail::Procedures::plan_access(Steps::chip_, operation, slave, address, data.data(),
+                                           nullptr, data.size());
   }
 
   // As plan_read(), but sends a command. Not touched: kNotConfigured, kInvalidArgument, kBusy,
   // kUnsupported. operation.result(): kTransport, kNotDetected, kCorrupted, kTimeout, kCommand.
   Result<void> plan_command(Operation& operation, const Command& command) {
-    const Result<void> possible =
-        detail::Procedures::possible(operation, Steps::check_command(command));
-    if (possible) {
-      detail::Procedures::plan_command(Steps::chip_, operation, command);
-    }
-    return possible;
-  }
-
- private:
-  // Waits for the end of what a begin call has begun; `begun` is the result of that call. After an
-  // error nothing runs. The first error is returned, even if BREAK fails after it.
-  Result<void> wait(const Result<void>& begun) {
-    if (!begun && begun.error() != Error::kTransport) {
-      return begun;
-    }
-    Result<bool> ended = begun ? Result<bool>(false) : Result<bool>(begun.failure());
-    while (ended && !*ended) {
-      ended = Steps::poll();
-    }
-    if (Steps::running()) {
-      static_cast<void>(Steps::abort());
-    }
-    return ended ? Result<void>() : Result<void>(ended.failure());
-  }
-
-  // Reads data.size() registers into `out`; if `out` is empty it writes `data`.
-  Result<void> in_parts(SlaveAddress slave, std::uint8_t address, Span<std::uint8_t> out,
-                        Span<const std::uint8_t> data) {
-    const std::size_t size = data.size();
-    if (size > kSlaveRegisters || address + size > kSlaveRegisters) {
-      return Error::kInvalidArgument;
-    }
-    std::size_t done = 0;
-    do {
-      const std::size_t left = size - done;
-      const std::size_t count = left < kMaxRegistersPerAccess ? left : kMaxRegistersPerAccess;
-      const std::uint8_t from = static_cast<std::uint8_t>(address + done);
-      Result<void> result =
-          wait(out.empty() ? Steps::begin_write(slave, from,
-                                                Span<const std::uint8_t>(data.data() + done, count))
-                           : Steps::begin_read(slave, from, count));
-      if (result && !out.empty()) {
-        result = Steps::take(Span<std::uint8_t>(out.data() + done, count));
-      }
-      if (!result) {
-        ErrorInfo error = result.info();
-        error.detail = static_cast<std::uint8_t>(error.bytes() + done);
-        return error;
-      }
-      done += count;
-    } while (done < size);
-    return {};
+    return detail::Procedures::plan_command(Steps::chip_, operation, command);
   }
 };
 

@@ -24,9 +24,10 @@
 namespace mb4 {
 
 namespace detail {
-template <typename Bus, typename Clock>
-class SingleShot;
-}
+struct Blocking;
+struct Procedures;
+struct Reads;
+}  // namespace detail
 
 // The SPI frames of a read in steps.
 class ReadSteps : public Steps {
@@ -38,10 +39,9 @@ class ReadSteps : public Steps {
     read_.slots = slots;
   }
 
-  template <typename Bus, typename Clock>
-  friend class Automatic;
-  template <typename Bus, typename Clock>
-  friend class detail::SingleShot;
+  friend struct detail::Blocking;
+  friend struct detail::Procedures;
+  friend struct detail::Reads;
 
   mb4_cyclic read_{};
   std::uint8_t code_ = MB4_NO_DATA;
@@ -74,10 +74,14 @@ class CyclicRead : public ReadSteps {
   }
 
  private:
-  template <typename Bus, typename Clock>
-  friend class Automatic;
-  template <typename Bus, typename Clock>
-  friend class detail::SingleShot;
+  friend struct detail::Blocking;
+  friend struct detail::Reads;
+
+  // After a single frame: the result of the one word.
+  Result<Reading> single() const {
+    return code_ != MB4_OK ? Result<Reading>(static_cast<Error>(code_))
+                           : detail::to_result(*read_.words, slot_);
+  }
 
   std::array<std::uint32_t, MB4_PLAN_WORDS(1)> tx_;
   std::array<std::uint32_t, MB4_PLAN_WORDS(1)> rx_;
@@ -85,7 +89,8 @@ class CyclicRead : public ReadSteps {
   mb4_reading reading_{};
 };
 
-// The same for all slaves at once: Automatic::plan() and finish(). About 450 bytes.
+// The same for all slaves at once: Automatic::plan() and finish(), or, by a single frame,
+// Device::plan_read_all(). About 450 bytes.
 class FrameRead : public ReadSteps {
  public:
   FrameRead() { attach(tx_.data(), rx_.data(), slots_.data()); }
@@ -107,15 +112,13 @@ class FrameRead : public ReadSteps {
   [[nodiscard]] bool one_frame() const { return read_.one_frame; }
 
  private:
-  template <typename Bus, typename Clock>
-  friend class detail::SingleShot;
-
   void fill(Frame& frame) const {
     std::array<std::uint8_t, Status::kBytes> bytes{};
     for (std::size_t i = 0; i < bytes.size(); ++i) {
       bytes[i] = read_.status[i];
     }
     frame.status = Status(bytes);
+    frame.one_frame = read_.one_frame;
     for (std::size_t i = 0; i < read_.count; ++i) {
       frame.set(read_.words[i].slave, detail::to_result(read_.words[i], slots_[i]));
     }

@@ -14,14 +14,9 @@
 #include "mb4/bus.hpp"
 #include "mb4/config.hpp"
 #include "mb4/control.hpp"
-#include "mb4/detail/actuator_write.hpp"
+#include "mb4/detail/blocking.hpp"
 #include "mb4/detail/chip.hpp"
-#include "mb4/detail/image_writer.hpp"
-#include "mb4/detail/initialization.hpp"
-#include "mb4/detail/initialization_steps.hpp"
 #include "mb4/detail/procedures.hpp"
-#include "mb4/detail/single_shot.hpp"
-#include "mb4/detail/verification.hpp"
 #include "mb4/error.hpp"
 #include "mb4/fields.hpp"
 #include "mb4/frame.hpp"
@@ -80,10 +75,11 @@ class Device {
   }
 
   // Validates `config` completely, then stops all activity of the chip (BREAK, AGS off), writes all
-  // configuration registers, reads them back and compares them. Three transfers:
-  //   0x07  0xF4, 0xF5   BREAK, clock source and interface
-  //   0x02  0xC0..0xF2   all other registers; clears SVALID 1 to 8
-  //   0x03  0xC0..0xF5   comparison of all bits that can be written, and of VERSION
+  // configuration registers, reads them back and compares them. Eight transfers:
+  //   0x07        0xF4, 0xF5   BREAK, clock source and interface
+  //   0x02 three  0xC0..0xF2   all other registers; clears SVALID 1 to 8
+  //   0x03 three  0xC0..0xF5   comparison of all bits that can be written, and of VERSION
+  //   0x05        status       which no stuck MISO makes
   // One more before them, which only reads, if actuators are on both channels and these have
   // frames of different length: VERSION and REVISION.
   // Not touched: kInvalidConfig. Read only: kInvalidConfig for what this revision cannot do
@@ -91,66 +87,35 @@ class Device {
   // is not "not touched" the Device counts as not configured. The call ends a frame that runs and
   // starts none: call it at start-up or between frames.
   Result<void> configure(const Config& config) {
-    if (const Result<void> valid = validate(config); !valid) {
-      return valid;
+    const Result<void> valid = validate(config);
+    if (valid) {
+      detail::Procedures::plan_configure(chip_, chip_.own, config);
     }
-    forget();
-    if (detail::needs_revision_y(config)) {
-      const Result<Identity> identity = probe();
-      if (!identity) {
-        return identity.failure();
-      }
-      if (const ErrorInfo old = detail::check_revision(identity->revision);
-          old.code != Error::kNone) {
-        return old;
-      }
+    return detail::Blocking::run(chip_, valid);
+  }
+
+  // Begins configure() without a transfer: the caller makes the frames of `operation` and calls
+  // finish() until it returns true. Five steps. This call checks and encodes the configuration, so
+  // it takes longer than other plan calls. Not touched: kInvalidConfig. operation.result():
+  // kTransport, kNotDetected, kVerify, kInvalidConfig as of configure(). Wrong use: operation.hpp.
+  Result<void> plan_configure(Operation& operation, const Config& config) {
+    const Result<void> allowed = detail::Procedures::possible(operation, validate(config));
+    if (allowed) {
+      detail::Procedures::plan_configure(chip_, operation, config);
     }
-    if (const Result<void> written = detail::ImageWriter<Bus, Clock>(chip_).write(
-            encode_registers(config), encode_interface(config));
-        !written) {
-      return written;
-    }
-    chip_.config = config;
-    chip_.sensors = sensors(config);
-    chip_.sensor_flags = Status::valid_registers(chip_.sensors);
-    chip_.actuators = actuators(config);
-    chip_.frame_us = frame_timeout_us(config);
-    chip_.pitch_us = detail::frame_pitch_us(config);
-    chip_.busy_us = detail::register_busy_us(config);
-    chip_.needs = (chip_.sensors & (chip_.sensors - 1U)) != 0 ? MB4_WITH_SEVERAL : 0;
-    chip_.count = 0;
-    for (std::uint8_t slave = 1; slave <= kSlaves; ++slave) {
-      if (is_in(chip_.sensors, slave)) {
-        detail::set_word(config, slave, chip_.words[chip_.count++]);
-        chip_.needs = static_cast<std::uint8_t>(chip_.needs | detail::needed(config, slave));
-      }
-    }
-    chip_.set_watch(detail::clock_step_us<Clock>);
-    chip_.configured = true;
-    chip_.recover_first = false;
-    return {};
+    return allowed;
   }
 
   // Reads the configuration back and compares it as configure() does. It finds a configuration that
-  // a disturbed transfer or a supply dip has changed. One transfer of 56 bytes (0x03 from 0xC0); it
-  // changes nothing in the chip. The registers of control communications are not compared.
-  // kNotConfigured (not touched), kTransport. kNotDetected, kVerify: the Device then counts as not
-  // configured; call configure() again.
-  Result<void> verify() {
-    if (!chip_.configured) {
-      return Error::kNotConfigured;
-    }
-    const Result<void> same =
-        detail::ImageWriter<Bus, Clock>(chip_).compare(encode_interface(chip_.config), true);
-    if (same.error() == Error::kNotDetected || same.error() == Error::kVerify) {
-      chip_.configured = false;
-    }
-    return same;
-  }
+  // a disturbed transfer or a supply dip has changed. Four transfers, three of 20 bytes (0x03
+  // from 0xE4, 0xC0 and 0xD2) and a status; it changes nothing in the chip. The registers of
+  // control communications are not compared. kNotConfigured (not touched), kTransport.
+  // kNotDetected, kVerify: the Device then counts as not configured; call configure() again.
+  Result<void> verify() { return detail::Blocking::verify(chip_); }
 
   // Begins verify() without a transfer: the caller makes the frames of `operation` and calls
-  // finish() until it returns true. Three steps of one frame of 20 bytes (0x03 from 0xE4, 0xC0 and
-  // 0xD2), which may stand beside reads of positions and a control communication that runs.
+  // finish() until it returns true. Four steps of one frame, as verify(), which may stand beside
+  // reads of positions and a control communication that runs.
   // kNotConfigured (not touched). operation.result(): kTransport, kNotDetected, kVerify as of
   // verify(). Wrong use: operation.hpp.
   Result<void> plan_verify(Operation& operation) {
@@ -171,14 +136,12 @@ class Device {
   }
 
   // Sends BREAK, then writes all registers of the configuration to their value after power-on
-  // (page 21: all 0) and compares them. Three transfers, as configure(). The data memories keep
+  // (page 21: all 0) and compares them. Eight transfers, as configure(). The data memories keep
   // their contents. kTransport, kNotDetected, kVerify (touched). After the call, with or without
   // error, the Device counts as not configured.
   Result<void> reset() {
-    forget();
-    RegisterImage image{};
-    image[regs::kAddrSlaveloc5 - kImageFirst] = regs::kResetSlaveloc5;
-    return detail::ImageWriter<Bus, Clock>(chip_).write(image, 0);
+    detail::Procedures::plan_reset(chip_, chip_.own);
+    return detail::Blocking::run(chip_, chip_.own);
   }
 
   // Runs INIT (page 33): two pulses at MA in BiSS C. The call waits until the slaves are ready and
@@ -196,14 +159,7 @@ class Device {
   // (BREAK was sent); kLineDelay: the delay is more than 255 quarters of a period of MA;
   // kLineError: SL is stuck low, or in BiSS B no slave has answered; kNoData: nothing was measured,
   // because the chip has no system clock; kCorrupted.
-  Result<LineDelay> initialize() {
-    if (const Result<void> allowed = single_frame_allowed(); !allowed) {
-      return allowed.failure();
-    }
-    LineDelay delay;
-    const Result<void> done = detail::Initialization<Bus, Clock>(chip_).run(delay);
-    return done ? Result<LineDelay>(delay) : Result<LineDelay>(done.failure());
-  }
+  Result<LineDelay> initialize() { return detail::Blocking::initialize(chip_); }
 
   // Begins initialize() without a transfer: the caller makes the frames of `operation` and calls
   // finish() until it returns true; then operation.line_delay(). After a failed read one step
@@ -211,7 +167,8 @@ class Device {
   // not touched. operation.result(): kTransport, kNotDetected, kTimeout, kLineDelay, kLineError,
   // kNoData, kCorrupted as of initialize(); kWrongMode (operation.hpp).
   Result<void> plan_initialize(Operation& operation) {
-    const Result<void> allowed = detail::Procedures::possible(operation, single_frame_allowed());
+    const Result<void> allowed =
+        detail::Procedures::possible(operation, chip_.single_frame_allowed());
     if (allowed) {
       detail::Procedures::plan_initialize(chip_, operation);
     }
@@ -243,13 +200,7 @@ class Device {
   //
   // Sets HOLDBANK and SWBANK to 0, as any single frame does.
   Result<Reading> read_frame(std::uint8_t slave = 1) {
-    if (const Result<void> allowed = single_frame_allowed(); !allowed) {
-      return allowed.failure();
-    }
-    if (!is_in(chip_.sensors, slave)) {
-      return Error::kInvalidArgument;
-    }
-    return detail::SingleShot<Bus, Clock>(chip_).read(slave);
+    return detail::Blocking::read_frame(chip_, slave);
   }
 
   // Reads all enabled slaves with one frame. Transfers as for read_frame(), but 1..n for the data
@@ -259,11 +210,20 @@ class Device {
   // Success means that the frame has ended; frame[slave] holds the result of each slave. Errors of
   // the call concern the whole frame: those of read_frame() except kCrc and kNoData. On error
   // `frame` holds no Reading.
-  Result<void> read_all(Frame& frame) {
-    if (const Result<void> allowed = single_frame_allowed(); !allowed) {
-      return allowed.failure();
+  Result<void> read_all(Frame& frame) { return detail::Blocking::read_all(chip_, frame); }
+
+  // Begins read_all() without a transfer: the caller makes the frames of `operation`, whose memory
+  // is that of `read`, and calls finish() until it returns true; then read.result(frame). Two steps
+  // and one for each poll; after a failed read one more, and the next one begins after a pause.
+  // SpiCheck::kFull needs up to four more. No frame is longer than 66 bytes. Not touched:
+  // kNotConfigured, kWrongMode, kBusy. read.result(): the errors of read_all().
+  Result<void> plan_read_all(Operation& operation, FrameRead& read) {
+    const Result<void> allowed =
+        detail::Procedures::possible(operation, chip_.single_frame_allowed());
+    if (allowed) {
+      detail::Procedures::plan_frame(chip_, operation, read, chip_.words.data(), chip_.count);
     }
-    return detail::SingleShot<Bus, Clock>(chip_).read_all(frame);
+    return allowed;
   }
 
   // Writes the word that the chip sends to the actuator `slave` (1..8) with each frame, from the
@@ -272,28 +232,44 @@ class Device {
   // Transfers; SpiCheck::kFull reads back each write, except the last 0x07 of a bank with automatic
   // frames, by one more:
   //   without automatic frames  0x02, 0x07, 0x02, 0x07; with single_bank only 0x02
-  //   with automatic frames     0x07, 0x02, 0x07 for one bank; 0x03 until the end of a frame has
-  //                             switched the banks, at most frame_timeout_us() plus one frame
-  //                             period; 0x07, 0x02, 0x07 for the other bank
+  //   with automatic frames     0x07, 0x02, 0x07 for one bank; 0x03 and 0x05 until the end of a
+  //                             frame has switched the banks, at most frame_timeout_us() plus one
+  //                             frame period; 0x07, 0x02, 0x07 for the other bank
   //
   // Not touched: kNotConfigured, kBusy, kInvalidArgument (`slave` is no actuator, or the word has
   // too many bits). Touched: kTransport, kNotDetected, kCorrupted; the chip may send the word or
   // not, write it again.
   Result<void> write_actuator(std::uint8_t slave, std::uint64_t word) {
-    if (const Result<void> allowed = single_frame_allowed();
-        !allowed && allowed.error() != Error::kWrongMode) {
-      return allowed;
-    }
-    return detail::ActuatorWrite<Bus, Clock>(chip_).write(slave, word, true);
+    return detail::Blocking::run(chip_, plan_word(chip_.own, slave, word, actuator_allowed()));
+  }
+
+  // Begins write_actuator() without a transfer: the caller makes the frames of `operation` and
+  // calls finish() until it returns true. Four steps, the third after a pause; with automatic
+  // frames two, and one for each look at the other bank. SpiCheck::kFull needs three instead of one
+  // for a bank. Not touched: kNotConfigured, kBusy, kInvalidArgument. operation.result():
+  // kTransport, kNotDetected, kCorrupted as of write_actuator().
+  Result<void> plan_actuator(Operation& operation, std::uint8_t slave, std::uint64_t word) {
+    return plan_word(operation, slave, word,
+                     detail::Procedures::possible(operation, actuator_allowed()));
   }
 
   // Writes BREAK (page 33): it aborts a frame, a control communication and AGS at once; MA and the
   // error flags return to 1. The configuration stays. One transfer. kTransport. The next read first
   // waits 100 us for the slaves' timeout.
   Result<void> break_transmission() {
-    chip_.recover_first = true;
-    chip_.restart = false;
-    return chip_.write_break();
+    detail::Procedures::plan_stop(chip_, chip_.own, regs::BREAK::encode<1>(), false);
+    return detail::Blocking::run(chip_, chip_.own);
+  }
+
+  // Begins break_transmission() without a transfer: one step of one frame. It ends an access of
+  // another Operation, whose finish() then says so (operation.hpp). kBusy: the operation of this
+  // object has not ended. operation.result(): kTransport.
+  Result<void> plan_break(Operation& operation) {
+    const Result<void> allowed = detail::Procedures::possible(operation, Error::kNone);
+    if (allowed) {
+      detail::Procedures::plan_stop(chip_, operation, regs::BREAK::encode<1>(), false);
+    }
+    return allowed;
   }
 
   // Reads 0xF0..0xF4 in one transfer; changes nothing. kTransport, kNotDetected.
@@ -328,21 +304,14 @@ class Device {
   [[nodiscard]] const Config& config() const { return chip_.config; }
 
  private:
-  void forget() {
-    chip_.configured = false;
-    chip_.automatic = false;
-    chip_.restart = false;
-    chip_.control = {};
+  [[nodiscard]] Result<void> actuator_allowed() const {
+    const Result<void> allowed = chip_.single_frame_allowed();
+    return allowed.error() == Error::kWrongMode ? Result<void>() : allowed;
   }
-
-  [[nodiscard]] Result<void> single_frame_allowed() const {
-    if (!chip_.configured) {
-      return Error::kNotConfigured;
-    }
-    if (chip_.control.kind != detail::ControlState::Kind::kNone) {
-      return Error::kBusy;
-    }
-    return chip_.automatic ? Error::kWrongMode : Error::kNone;
+  Result<void> plan_word(Operation& operation, std::uint8_t slave, std::uint64_t word,
+                         const Result<void>& allowed) {
+    return allowed ? detail::Procedures::plan_actuator(chip_, operation, slave, word, true)
+                   : allowed;
   }
 
   detail::Chip<Bus, Clock> chip_;

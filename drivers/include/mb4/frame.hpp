@@ -33,6 +33,7 @@ class Frame {
       result = kNone;
     }
     status = Status();
+    one_frame = false;
   }
   // Slave 1..8; nothing happens for other numbers.
   void set(std::size_t slave, const Result<Reading>& result) {
@@ -53,6 +54,9 @@ class Frame {
 
   // Status read after the data.
   Status status;
+  // All Readings are of one frame of the line. False only where a bad word was read again and the
+  // slave has sent the next one meanwhile (Automatic::poll(), next()), and on an error of the call.
+  bool one_frame = false;
 
  private:
   static constexpr Error kNone = Error::kInvalidArgument;

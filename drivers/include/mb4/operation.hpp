@@ -21,6 +21,7 @@
 
 namespace mb4 {
 
+class ReadSteps;
 namespace detail {
 struct ChipState;
 struct Procedures;
@@ -56,13 +57,15 @@ struct Procedures;
 // make the frames, then call finish() with what became of them, until it returns true.
 class Operation : public Steps {
  public:
-  Operation() { mb4_plan_memory(&plan_, tx_.data(), rx_.data()); }
+  constexpr Operation() = default;
 
   static constexpr std::size_t kMaxFrameBytes = 20;
 
   // After finish() has returned true: what the blocking call of the same name returns. kBusy while
   // the operation is under way; kWrongMode before the first one.
-  [[nodiscard]] Result<void> result() const { return result_; }
+  [[nodiscard]] Result<void> result() const {
+    return chip_ == nullptr ? Error::kWrongMode : result_;
+  }
   // After a successful Device::plan_initialize().
   [[nodiscard]] LineDelay line_delay() const { return delay_; }
 
@@ -76,22 +79,26 @@ class Operation : public Steps {
   // Takes what came back and adds the next frames. Without frames the operation has ended.
   using Step = Result<void> (*)(detail::ChipState&, Operation&, std::uint32_t now_us);
 
-  // Words: short code on small cores.
+  // Words: short code on small cores. All bytes are 0 at first: a static object is in .bss.
   Step step_ = nullptr;                      // nullptr: no operation is under way
-  const detail::ChipState* chip_ = nullptr;  // that of the operation
+  const detail::ChipState* chip_ = nullptr;  // that of the operation, also of the last one
   std::uint32_t stage_ = 0;
   std::uint32_t at_ = 0;    // bytes done
   std::size_t count_ = 0;   // of them all
   std::uint32_t made_ = 0;  // frames of the step before
-  bool good_ = false;       // they were made
-  Result<void> result_{Error::kWrongMode};
+  // An access: looks at the status that have failed, one after the other. INIT: 1 if it was not
+  // seen. An actuator: banks that are to be written after this one.
+  std::uint32_t bad_ = 0;
+  bool good_ = false;  // they were made
+  Result<void> result_{};
   Result<void> cause_{};                // is the result when the frames planned now are made
   const std::uint8_t* data_ = nullptr;  // to write, the caller's
   std::uint8_t* out_ = nullptr;         // to read into, the caller's
   detail::TimeLimit limit_{};
   Status status_{};
   LineDelay delay_{};
-  std::array<std::uint8_t, 4> request_{};  // 0xE2..0xE5 of an access
+  std::array<std::uint8_t, 8> request_{};  // 0xE2..0xE5 of an access; the word of an actuator
+  ReadSteps* read_ = nullptr;              // the caller's, of a single frame
   std::array<std::uint32_t, kWords> tx_{};
   std::array<std::uint32_t, kWords> rx_{};
 };

@@ -34,8 +34,9 @@ class Steps {
     return {mb4_plan_rx(&plan_, frame), mb4_plan_reads(&plan_, frame) ? plan_.size[i] : 0U};
   }
 
-  // The first of these frames must not begin earlier than this after the last frame before them,
-  // in microseconds, up to 1'000'100. Most are 0. Later is always allowed.
+  // The first of these frames must not begin before a counter of microseconds has advanced by this
+  // since the last frame before them, up to 1'000'133. Most are 0. The step of the coarsest clock
+  // is in it (enc::kMaxClockStepUs), so the pause is never too short. Later is always allowed.
   [[nodiscard]] std::uint32_t pause_us() const { return plan_.pause_us; }
 
   // Makes the frames on a bus (bus.hpp), one after the other, without the pause. False: one has
@@ -51,7 +52,7 @@ class Steps {
   }
 
  protected:
-  Steps() = default;
+  constexpr Steps() = default;
   ~Steps() = default;
 
   mb4_plan plan_{};

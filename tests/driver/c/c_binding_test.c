@@ -184,6 +184,89 @@ static void test_automatic(mb4_device *device, mb4sim *simulator) {
   OK(mb4_automatic_stop(device));
 }
 
+/* Makes all steps of an operation; afterwards its result. */
+static mb4_result complete(mb4_device *device, bus_t *bus, mb4_operation *operation) {
+  mb4_spi_frame frames[MB4_STEP_FRAMES];
+  bool transferred = true;
+  unsigned steps = 0;
+  do {
+    uint32_t pause_us = 0;
+    const size_t count = mb4_operation_frames(operation, frames, &pause_us);
+    size_t i = 0;
+    mb4sim_advance_ns(bus->simulator, pause_us * UINT64_C(1000));
+    transferred = true;
+    for (i = 0; i < count && transferred; ++i) {
+      transferred = transfer(bus, frames[i].tx, frames[i].rx, frames[i].size);
+    }
+    CHECK(++steps < 10000);
+  } while (!mb4_finish(device, operation, transferred, now_us(bus)));
+  return mb4_operation_result(operation);
+}
+
+static void test_steps(mb4_device *device, bus_t *bus) {
+  static const uint8_t data[2] = {0x5A, 0xC3};
+  mb4_config config = encoder();
+  mb4_operation operation;
+  mb4_frame_read read;
+  mb4_frame frame;
+  mb4_spi_frame frames[MB4_STEP_FRAMES];
+  mb4_command command = {1, 0, 1, false};
+  uint8_t quarters[MB4_CHANNELS] = {0, 0};
+  uint8_t back[4] = {0, 0, 0, 0};
+  bool transferred = true;
+  mb4_operation_begin(&operation);
+  mb4_frame_read_begin(&read);
+  FAILS(mb4_operation_result(&operation), MB4_WRONG_MODE);
+  OK(mb4_plan_configure(device, &operation, &config));
+  OK(complete(device, bus, &operation));
+  OK(mb4_plan_verify(device, &operation));
+  OK(complete(device, bus, &operation));
+  OK(mb4_plan_initialize(device, &operation));
+  FAILS(mb4_plan_break(device, &operation), MB4_BUSY);
+  OK(complete(device, bus, &operation));
+  mb4_operation_line_delay(&operation, quarters);
+  CHECK(quarters[0] > 1);
+  OK(mb4_plan_read_all(device, &operation, &read));
+  OK(complete(device, bus, &operation));
+  OK(mb4_frame_read_result(&read, &frame));
+  CHECK(frame.code[0] == MB4_OK && frame.reading[0].position == 0x2ABCDEF && frame.one_frame);
+  OK(mb4_plan_slave_write(device, &operation, 1, 0, 0x60, data, sizeof data));
+  OK(complete(device, bus, &operation));
+  OK(mb4_plan_slave_read(device, &operation, 1, 0, 0x60, back, 2));
+  OK(complete(device, bus, &operation));
+  CHECK(back[0] == 0x5A && back[1] == 0xC3);
+  OK(mb4_plan_slave_command(device, &operation, &command));
+  OK(complete(device, bus, &operation));
+  FAILS(mb4_plan_actuator(device, &operation, 1, 1), MB4_INVALID_ARGUMENT);
+  FAILS(mb4_plan_automatic_actuator(device, &operation, 1, 1), MB4_WRONG_MODE);
+  config.frame_start = MB4_START_PERIODIC;
+  config.frame_period_clk = mb4_frame_period_clk_at_least(config.f_clk_hz, 100000);
+  OK(mb4_plan_configure(device, &operation, &config));
+  OK(complete(device, bus, &operation));
+  OK(mb4_plan_start(device, &operation));
+  OK(complete(device, bus, &operation));
+  OK(mb4_plan_restart(device, &operation));
+  OK(complete(device, bus, &operation));
+  mb4sim_advance_ns(bus->simulator, 150000);
+  OK(mb4_plan_frame(device, &read, false));
+  do {
+    const size_t count = mb4_frame_read_frames(&read, frames);
+    size_t i = 0;
+    for (i = 0; i < count; ++i) {
+      transferred = transferred && transfer(bus, frames[i].tx, frames[i].rx, frames[i].size);
+    }
+  } while (!mb4_finish_frame(device, &read, transferred, now_us(bus)));
+  OK(mb4_frame_read_result(&read, &frame));
+  CHECK(frame.code[0] == MB4_OK && frame.reading[0].position == 0x2ABCDEF && frame.one_frame);
+  OK(mb4_plan_stop(device, &operation));
+  OK(complete(device, bus, &operation));
+  FAILS(mb4_plan_frame(device, &read, false), MB4_WRONG_MODE);
+  OK(mb4_plan_break(device, &operation));
+  bus->broken = true;
+  FAILS(complete(device, bus, &operation), MB4_TRANSPORT);
+  bus->broken = false;
+}
+
 static void test_raw_and_reset(mb4_device *device, bus_t *bus) {
   const uint8_t byte = 0x5A;
   uint8_t data[2];
@@ -197,6 +280,104 @@ static void test_raw_and_reset(mb4_device *device, bus_t *bus) {
   FAILS(mb4_probe(device, &data[0], &data[1]), MB4_TRANSPORT);
   FAILS(mb4_reset(device), MB4_TRANSPORT);
   bus->broken = false;
+}
+
+static const char kSafetyScenario[] =
+    "[[channel]]\nnumber = 1\n"
+    "[[channel.slave]]\nprotocol = \"biss-c\"\npreset = \"bp3-cpw\"\nsource = \"ramp\"\nstep = "
+    "100\n"
+    "[[channel.slave]]\nprotocol = \"biss-c\"\npreset = \"bp3-spw\"\ncrc_start = 0x1234\n"
+    "source = \"ramp\"\nstep = 100\n"
+    "[[fault]]\nkind = \"stuck-counter\"\nslave = 2\nat_us = 2000\nfor_us = 300\n";
+
+/* BiSS Safety: a stuck counter is found, and a verdict goes through a snapshot. */
+static void test_safety(void) {
+  char error[200];
+  bus_t bus = {mb4sim_open(kSafetyScenario, error, sizeof error), false};
+  mb4_device device;
+  mb4_safety safety;
+  mb4_safety_config words = mb4_bp3_safety(26, 26, 0, 0x1234);
+  mb4_safety_config wrong = words;
+  mb4_safety_verdict verdict;
+  mb4_safety_verdict seen;
+  mb4_config config = encoder();
+  mb4_frame frame;
+  mb4_result misfit;
+  uint32_t latest[MB4_SNAPSHOT_WORDS(sizeof(mb4_safety_verdict))] = {0};
+  uint64_t next_ns = 0;
+  unsigned tick = 0;
+  unsigned good = 0;
+  unsigned stuck = 0;
+  unsigned other = 0;
+  if (bus.simulator == NULL) {
+    check(0, error, __LINE__);
+    return;
+  }
+  CHECK(words.control.data_bits == 28 && words.safety.data_bits == 34 && words.life_bits == 6);
+  CHECK(words.safety.crc_polynomial == 0x190D9 && words.safety.crc_start == 0x1234);
+  config.spi_check = MB4_SPI_CHECK_CRC;
+  config.frame_start = MB4_START_PERIODIC;
+  config.frame_period_clk = mb4_frame_period_clk_at_least(config.f_clk_hz, 100000);
+  config.slaves[1].enabled = true;
+  config.slaves[1].data_bits = 34;
+  config.slaves[1].flags = MB4_FLAGS_NONE;
+  config.slaves[1].crc_polynomial = 0x190D9;
+  misfit = mb4_safety_fits(&config, 1, 2, &words);
+  CHECK(misfit.code == MB4_UNSUPPORTED && misfit.number == 2);
+  CHECK(strcmp(mb4_field_text(misfit.field), "crc_start") == 0);
+  config.slaves[1].crc_start = 0x1234;
+  OK(mb4_safety_fits(&config, 1, 2, &words));
+  FAILS(mb4_safety_fits(&config, 1, 1, &words), MB4_INVALID_ARGUMENT);
+  /* What is not configured passes nothing. */
+  wrong.life_bits = 9;
+  misfit = mb4_safety_configure(&safety, &wrong);
+  CHECK(misfit.code == MB4_INVALID_ARGUMENT && misfit.number == 9); /* SafetyField::kLife */
+  mb4_safety_check(&safety, NULL, 1, 2, 1, &verdict);
+  CHECK(verdict.checks_failed == 1U << MB4_SAFETY_CONFIGURED);
+  OK(mb4_safety_configure(&safety, &words));
+  mb4_safety_check(&safety, NULL, 1, 2, 1, &verdict);
+  CHECK(verdict.checks_failed == (1U << MB4_SAFETY_CONTROL_WORD | 1U << MB4_SAFETY_SAFETY_WORD));
+  mb4_open(&device, transfer, &bus, now_us, &bus);
+  OK(mb4_configure(&device, &config));
+  OK(mb4_automatic_start(&device));
+  mb4sim_advance_ns(bus.simulator, 150000);
+  next_ns = mb4sim_time_ns(bus.simulator);
+  CHECK(!mb4_snapshot_read(latest, &seen, sizeof seen) && mb4_snapshot_writes(latest) == 0);
+  for (tick = 0; tick < 40; ++tick) {
+    next_ns += 100000;
+    mb4sim_advance_ns(bus.simulator, next_ns - mb4sim_time_ns(bus.simulator));
+    OK(mb4_automatic_poll(&device, &frame));
+    if (tick == 30) mb4_safety_restart(&safety);
+    mb4_safety_check(&safety, &frame, 1, 2, 1, &verdict);
+    if (verdict.checks_failed == 0) {
+      ++good;
+      CHECK(verdict.position == frame.reading[0].position);
+      CHECK(verdict.safety_position == verdict.position);
+      CHECK(verdict.life == (frame.reading[1].raw & 63));
+    } else if (tick == 0 || tick == 30) {
+      CHECK(verdict.checks_failed == 1U << MB4_SAFETY_LIFE_KNOWN);
+    } else if (verdict.checks_failed == 1U << MB4_SAFETY_LIFE_STUCK) {
+      ++stuck;
+    } else { /* the counter goes on: one verdict */
+      ++other;
+    }
+    mb4_snapshot_write(latest, &verdict, sizeof verdict);
+    CHECK(mb4_snapshot_read(latest, &seen, sizeof seen));
+    CHECK(seen.position == verdict.position && seen.checks_failed == verdict.checks_failed);
+    CHECK(mb4_snapshot_writes(latest) == tick + 1);
+  }
+  CHECK(stuck >= 2 && stuck <= 4 && other <= 1 && good + stuck + other == 38);
+  /* Swapped words: the start values tell them apart. A slave that does not exist brings nothing. */
+  mb4_safety_check(&safety, &frame, 2, 1, 1, &verdict);
+  CHECK((verdict.checks_failed & 1U << MB4_SAFETY_CONTROL_CRC) != 0);
+  mb4_safety_check(&safety, &frame, 0, 9, 1, &verdict);
+  CHECK((verdict.checks_failed & 1U << MB4_SAFETY_SAFETY_WORD) != 0);
+  frame.code[0] = MB4_CRC;
+  mb4_safety_check(&safety, &frame, 1, 2, 1, &verdict);
+  CHECK((verdict.checks_failed & 1U << MB4_SAFETY_CONTROL_CRC) != 0 && verdict.position == 0);
+  CHECK(strcmp(mb4_safety_text(MB4_SAFETY_LIFE_STUCK), "life counter stuck") == 0);
+  CHECK(strcmp(mb4_safety_text(99), "unknown") == 0);
+  mb4sim_close(bus.simulator);
 }
 
 static void test_positions(void) {
@@ -229,8 +410,10 @@ int main(void) {
   test_single(&device);
   test_slave_registers(&device);
   test_automatic(&device, bus.simulator);
+  test_steps(&device, &bus);
   test_raw_and_reset(&device, &bus);
   test_positions();
+  test_safety();
   test_actuator();
   mb4sim_close(bus.simulator);
   printf("%u failures\n", failures);

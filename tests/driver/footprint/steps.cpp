@@ -15,6 +15,11 @@ struct Work {
   std::uint8_t slave;
 };
 
+// The linker keeps it: what a Device reaches through its pointers counts.
+extern "C" BoardDevice firmware_open(BoardBus& bus, BoardClock& clock) {
+  return BoardDevice(bus, clock);
+}
+
 extern "C" bool firmware(BoardDevice& device, Work& work, unsigned what) {
   mb4::Operation& op = work.operation;
   mb4::Control<BoardBus, BoardClock> control = device.control();

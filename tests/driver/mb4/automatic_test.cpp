@@ -187,7 +187,7 @@ TEST(PollFailure, TransportAtEachTransfer_ReleasesTheBank) {
     bus.expect_read(kReadData4, kData4);
     bus.expect_read(kReadStatus, kHeldNew);
     bus.expect_write(kClearValid1AndRelease);
-    bus.fail_at(4 + index);
+    bus.fail_at(mb4test::kConfigureTransfers + 1 + index);
     bus.expect_write(kAgs);
     Frame frame;
     EXPECT_EQ(device.automatic().poll(frame).error(), Error::kTransport) << index;
@@ -256,7 +256,9 @@ void expect_line(StrictBus& bus, std::uint8_t level) {
 TEST_F(Next, NoFrameInTime_IsTimeoutAfterBreakAndRestarts) {
   start();
   clock.step_us = 100'000;
+  bus.expect_read(kReadStatus, kNothingNew);  // the time begins
   bus.expect_read(kReadStatus, kNothingNew);
+  bus.expect_read(kReadStatus, kNothingNew);  // after the time
   expect_line(bus, 0x51);
   EXPECT_EQ(device.automatic().next(frame).error(), Error::kTimeout);
   EXPECT_EQ(device.automatic().poll(frame).error(), Error::kWrongMode);
@@ -269,8 +271,12 @@ TEST_F(Next, NoFrameInTime_IsTimeoutAfterBreakAndRestarts) {
 TEST_F(Next, LineLow_IsLineError) {
   start();
   clock.step_us = 100'000;
-  bus.expect_read(kReadStatus, status(0x3B, 0x00, 0x01));
+  for (int look = 0; look < 3; ++look) {
+    bus.expect_read(kReadStatus, status(0x3B, 0x00, 0x01));
+  }
   expect_line(bus, 0x50);
+  bus.expect_read(join({{0x05}, zeros(9)}), join({zeros(9), {0x50}}));
+  bus.expect_read(join({{0x05}, zeros(9)}), join({zeros(9), {0x50}}));
   EXPECT_EQ(device.automatic().next(frame).error(), Error::kLineError);
 }
 
@@ -278,7 +284,7 @@ TEST_F(Next, LineLow_IsLineError) {
 TEST_F(Next, ClockStandsStill_EndsAfterBoundedPolls) {
   start();
   clock.step_us = 0;
-  for (int poll = 0; poll < 4 * (440 + 33); ++poll) {
+  for (int poll = 0; poll < 4 * (440 + 33) + 1; ++poll) {
     bus.expect_read(kReadStatus, kNothingNew);
   }
   expect_line(bus, 0x51);
@@ -306,7 +312,9 @@ TEST_F(Next, NoPulseAtGetsens_IsNoDataAndChangesNothing) {
   ASSERT_TRUE(device.configure(config).ok());
   ASSERT_TRUE(device.automatic().start().ok());
   clock.step_us = 100'000;
-  bus.expect_read(kReadStatus, status(0xFB, 0x00, 0x01));
+  for (int look = 0; look < 3; ++look) {
+    bus.expect_read(kReadStatus, status(0xFB, 0x00, 0x01));
+  }
   EXPECT_EQ(device.automatic().next(frame).error(), Error::kNoData);
   bus.expect_read(kReadStatus, kNew);
   expect_read();

@@ -62,6 +62,24 @@ class ControlTest : public testing::Test {
     bus.expect_write({0x02, 0xE2, e2, e3, e4, e5});
     bus.expect_write(kFrame);
   }
+  // Registers come in parts of eight.
+  void expect_taken(const Bytes& registers) {
+    for (std::size_t at = 0; at < registers.size(); at += 8) {
+      const std::size_t end = at + 8 < registers.size() ? at + 8 : registers.size();
+      const Bytes part(registers.begin() + static_cast<int>(at),
+                       registers.begin() + static_cast<int>(end));
+      bus.expect_read(join({{0x03, static_cast<std::uint8_t>(0x80 + at)}, zeros(part.size())}),
+                      join({zeros(2), part}));
+    }
+  }
+  void expect_filled(const Bytes& registers) {
+    for (std::size_t at = 0; at < registers.size(); at += 8) {
+      const std::size_t end = at + 8 < registers.size() ? at + 8 : registers.size();
+      bus.expect_write(join({{0x02, static_cast<std::uint8_t>(0x80 + at)},
+                             Bytes(registers.begin() + static_cast<int>(at),
+                                   registers.begin() + static_cast<int>(end))}));
+    }
+  }
   // Two more frames, then the end.
   void expect_frames(const Bytes& end = kDone) {
     bus.expect_read(kReadStatus, kFrameOver);
@@ -122,10 +140,10 @@ TEST_F(Registers, ReadAll128_IsSplit) {
   Bytes high(64, 0x5A);
   expect_begin(0x00, 0x3F, 0x01, 0xC0);
   expect_frames();
-  bus.expect_read(join({{0x03, 0x80}, zeros(64)}), join({zeros(2), low}));
+  expect_taken(low);
   expect_begin(0x40, 0x3F, 0x01, 0xC0);
   expect_frames();
-  bus.expect_read(join({{0x03, 0x80}, zeros(64)}), join({zeros(2), high}));
+  expect_taken(high);
   std::array<std::uint8_t, 128> bytes{};
   ASSERT_TRUE(device.control().read_registers({1, 0}, 0x00, bytes).ok());
   EXPECT_EQ(Bytes(bytes.begin(), bytes.end()), join({low, high}));
@@ -137,7 +155,7 @@ TEST_F(Registers, Write70_SecondPartContinues) {
   for (std::size_t i = 0; i < data.size(); ++i) {
     data[i] = static_cast<std::uint8_t>(i);
   }
-  bus.expect_write(join({{0x02, 0x80}, Bytes(data.begin(), data.begin() + 64)}));
+  expect_filled(Bytes(data.begin(), data.begin() + 64));
   expect_begin(0x80 | 0x10, 0x3F, 0x01, 0xC0);
   expect_frames();
   bus.expect_write({0x02, 0x80, 64, 65, 66, 67, 68, 69});
@@ -187,6 +205,7 @@ TEST_F(Registers, SilentSlave_IsTimeoutAfterBreak) {
   clock.step_us = 1000;
   expect_begin(0x10, 0x00, 0x01, 0xC0);
   bus.expect_read(kReadStatus, kFrameRuns);
+  bus.expect_read(kReadStatus, kFrameRuns);  // after the time
   bus.expect_write(kBreak);
   std::array<std::uint8_t, 1> bytes{};
   EXPECT_EQ(device.control().read_registers({1, 0}, 0x10, bytes).error(), Error::kTimeout);
@@ -223,6 +242,7 @@ TEST_F(Registers, RegendOfTheLastAccess_IsNotTheEnd) {
   EXPECT_TRUE(device.control().read_registers({1, 0}, 0x10, bytes).ok());
 }
 
+// A status that cannot be read is read again, up to twice; a transfer that writes is not repeated.
 TEST(RegistersFailure, TransportAtEachTransfer_IsReportedAndNothingKeepsRunning) {
   for (std::size_t index = 0; index < 9; ++index) {
     StrictBus bus;
@@ -240,7 +260,11 @@ TEST(RegistersFailure, TransportAtEachTransfer_IsReportedAndNothingKeepsRunning)
     bus.expect_write(kClearValid1);
     const bool all = index == 8;
     if (!all) {
-      bus.fail_at(3 + index);
+      bus.fail_at(mb4test::kConfigureTransfers + index);
+    }
+    const bool looks = index == 3 || index == 5 || index == 6;
+    for (int again = 0; looks && again < 2; ++again) {
+      bus.expect_read(kReadStatus, kFrameOver).fail_last();
     }
     const bool runs = index >= 2 && index <= 6;
     if (runs) {
@@ -309,11 +333,11 @@ TEST_F(Steps, Poll_NeverWaits) {
   bus.expect_read(kReadStatus, kFrameOver);
   bus.expect_write(kFrame);
   EXPECT_FALSE(*control.poll());
-  // A failed look changes nothing.
+  // A failed look changes nothing, twice in a row.
   bus.expect_read(kReadStatus, kDone).fail_last();
-  EXPECT_EQ(control.poll().error(), Error::kTransport);
+  EXPECT_FALSE(*control.poll());
   bus.expect_read(kReadStatus, Bytes(6, 0xFF));
-  EXPECT_EQ(control.poll().error(), Error::kNotDetected);
+  EXPECT_FALSE(*control.poll());
   bus.expect_read(kReadStatus, kDone);
   bus.expect_write(kClearValid1);
   EXPECT_TRUE(*control.poll());
@@ -332,11 +356,116 @@ TEST_F(Steps, Abort_BreaksAndFreesTheChip) {
   EXPECT_TRUE(device.control().abort().ok());
   EXPECT_EQ(device.control().poll().error(), Error::kWrongMode);
   // The aborted access may still run: BREAK and the slaves' timeout come first.
-  bus.expect_write({0x02, 0xE2, 0x11, 0x00, 0x01, 0xC0});
   bus.expect_write(kBreak);
   bus.expect_write(kClearValid1);
+  bus.expect_write({0x02, 0xE2, 0x11, 0x00, 0x01, 0xC0});
   bus.expect_write(kFrame);
   EXPECT_TRUE(device.control().begin_read({1, 0}, 0x11, 1).ok());
+}
+
+TEST_F(Steps, ThreeFailedLooks_AreTheEnd) {
+  configure();
+  expect_begin(0x10, 0x00, 0x01, 0xC0);
+  mb4::Control<StrictBus, FakeClock> control = device.control();
+  ASSERT_TRUE(control.begin_read({1, 0}, 0x10, 1).ok());
+  for (int look = 0; look < 2; ++look) {
+    bus.expect_read(kReadStatus, zeros(6));
+    EXPECT_FALSE(*control.poll());
+  }
+  bus.expect_read(kReadStatus, zeros(6));
+  bus.expect_write(kBreak);
+  EXPECT_EQ(control.poll().error(), Error::kNotDetected);
+  EXPECT_EQ(control.poll().error(), Error::kWrongMode);
+}
+
+// An access of an Operation is not that of poll().
+TEST_F(Steps, PollOfAnOperation_IsWrongMode) {
+  configure();
+  expect_begin(0x10, 0x00, 0x01, 0xC0);
+  ASSERT_TRUE(device.control().begin_read({1, 0}, 0x10, 1).ok());
+  bus.expect_write(kBreak);
+  ASSERT_TRUE(device.control().abort().ok());
+  mb4::Operation operation;
+  std::uint8_t value = 0;
+  ASSERT_TRUE(device.control().plan_read(operation, {1, 0}, 0x10, {&value, 1}).ok());
+  EXPECT_EQ(device.control().poll().error(), Error::kWrongMode);
+}
+
+// Positions are read meanwhile: by next() too, which waits for the end of a frame.
+TEST_F(RegistersAgs, NextMeanwhile_AccessGoesOn) {
+  start_automatic();
+  bus.expect_write({0x02, 0xE2, 0x44, 0x00, 0x01, 0xC0});
+  bus.expect_write(kFrameAgs);
+  ASSERT_TRUE(device.control().begin_read({1, 0}, 0x44, 1).ok());
+  bus.expect_read(kReadStatus, {0, 0xFB, 0x02, 0, 0, 0x09});
+  bus.expect_write({0x07, 0x41});
+  bus.expect_read(mb4test::kReadData4, mb4test::kData4);
+  bus.expect_read(kReadStatus, {0, 0xFB, 0x02, 0, 0, 0x41});
+  bus.expect_write(mb4test::kClearValid1AndRelease);
+  mb4::Frame frame;
+  ASSERT_TRUE(device.automatic().next(frame).ok());
+  EXPECT_TRUE(frame.one_frame);
+  EXPECT_FALSE(*device.control().poll());  // what next() has seen
+  // And so is the configuration compared.
+  const Bytes chip = mb4test::read_back();
+  for (const std::uint8_t from : {std::uint8_t{0xE4}, std::uint8_t{0xC0}, std::uint8_t{0xD2}}) {
+    const Bytes part(chip.begin() + from - 0xC0, chip.begin() + from - 0xC0 + 18);
+    bus.expect_read(join({{0x03, from}, zeros(18)}), join({zeros(2), part}));
+  }
+  bus.expect_read(kReadStatus, kRunsAgs);
+  EXPECT_TRUE(device.verify().ok());
+  bus.expect_read(kReadStatus, kDoneAgs);
+  EXPECT_TRUE(*device.control().poll());
+}
+
+// ---- After a failed call ------------------------------------------------------------------------
+
+// An access whose BREAK was lost may still run: it must not take the bytes of the next one.
+TEST_F(Registers, AfterALostBreak_BreakComesBeforeTheBytes) {
+  configure();
+  expect_begin(0x10, 0x00, 0x01, 0xC0);
+  bus.expect_read(kReadStatus, kFrameRuns);
+  for (int look = 0; look < 3; ++look) bus.expect_read(kReadStatus, kFrameRuns).fail_last();
+  bus.expect_write(kBreak).fail_last();
+  std::array<std::uint8_t, 1> bytes{0x77};
+  EXPECT_EQ(device.control().read_registers({1, 0}, 0x10, bytes).error(), Error::kTransport);
+  bus.expect_write(kBreak);
+  bus.expect_write(kClearValid1);
+  bus.expect_write({0x02, 0x80, 0x77});
+  bus.expect_write({0x02, 0xE2, 0xA0, 0x00, 0x01, 0xC0}).fail_last();
+  EXPECT_EQ(device.control().write_registers({1, 0}, 0x20, bytes).error(), Error::kTransport);
+}
+
+// Bytes of RDATA that arrive disturbed may have gone to other registers, 0xF4 among them: next()
+// starts the frames again.
+TEST_F(RegistersAgs, DisturbedFill_IsFollowedByARestart) {
+  mb4::Config config = encoder26();
+  config.spi_check = mb4::SpiCheck::kFull;
+  mb4test::expect_configure(bus, 0xE7, 0x00);
+  ASSERT_TRUE(device.configure(config).ok());
+  bus.expect_write(kAgs);
+  ASSERT_TRUE(device.automatic().start().ok());
+  const std::array<std::uint8_t, 1> data{0x12};
+  bus.expect_write({0x02, 0x80, 0x12});
+  bus.expect_read({0x03, 0x80, 0x00}, {0, 0, 0x02});
+  EXPECT_EQ(device.control().write_registers({1, 0}, 0x60, data).error(), Error::kCorrupted);
+  bus.expect_write({0x07, 0x80, 0x00}).fail_last();
+  mb4::Frame frame;
+  EXPECT_EQ(device.automatic().next(frame).error(), Error::kTransport);
+}
+
+// One status that cannot be read beside automatic frames: they go on.
+TEST_F(RegistersAgs, DisturbedStatus_FramesGoOn) {
+  start_automatic();
+  bus.expect_write({0x02, 0xE2, 0x44, 0x00, 0x01, 0xC0});
+  bus.expect_write(kFrameAgs);
+  bus.expect_read(kReadStatus, kRunsAgs).fail_last();
+  bus.expect_read(kReadStatus, Bytes(6, 0xFF));
+  bus.expect_read(kReadStatus, kDoneAgs);
+  bus.expect_read({0x03, 0x80, 0x00}, {0x00, 0x00, 0x77});
+  std::array<std::uint8_t, 1> bytes{};
+  EXPECT_TRUE(device.control().read_registers({1, 0}, 0x44, bytes).ok());
+  EXPECT_TRUE(device.automatic().running());
 }
 
 // ---- Registers beside automatic frames ----------------------------------------------------------
@@ -428,6 +557,66 @@ TEST_F(PollBesideControl, GoodFrameEndedTwice_IsBankSwitched) {
   EXPECT_FALSE(frame[1].ok());
 }
 
+TEST_F(PollBesideControl, SwitchedTwice_IsCounted) {
+  constexpr std::uint8_t kCounted = MB4_WITH_ALL | MB4_WITH_COUNTS;
+  mb4_counts counts{};
+  device.automatic().count(&counts);
+  expect_read({0, 0xFB, 0x02, 0, 0, 0x09});
+  expect_read({0, 0xFB, 0x02, 0, 0, 0x09});
+  EXPECT_EQ(device.automatic().poll_slave<kCounted>(1).error(), Error::kBankSwitched);
+  EXPECT_EQ(counts.switched, 1U);
+}
+
+TEST_F(PollBesideControl, NoStatus_IsNotDetected) {
+  bus.expect_read(kReadStatus, zeros(6));
+  EXPECT_EQ(device.automatic().poll(frame).error(), Error::kNotDetected);
+  expect_read(Bytes(6, 0xFF));
+  EXPECT_EQ(device.automatic().poll(frame).error(), Error::kNotDetected);
+  EXPECT_FALSE(frame[1].ok());
+}
+
+// SpiCheck::kFull reads a word without a stored CRC twice: 64 bits leave no room for it.
+TEST(PollBesideControlFull, WordWithoutCrc_IsReadTwice) {
+  for (const bool same : {true, false}) {
+    StrictBus bus;
+    FakeClock clock;
+    mb4::Device<StrictBus, FakeClock> device(bus, clock);
+    mb4::Config config = encoder26();
+    config.slaves[0].data_bits = 64;
+    config.spi_check = mb4::SpiCheck::kFull;
+    config.hold_beside_access = false;
+    Bytes image = mb4test::configuration();
+    Bytes answer = mb4test::read_back();
+    for (Bytes* bytes : {&image, &answer}) {
+      (*bytes)[0] = 0x40 | 63;
+      (*bytes)[0xE7 - 0xC0] = 0x00;
+    }
+    mb4test::expect_image(bus, image, answer);
+    ASSERT_TRUE(device.configure(config).ok());
+    bus.expect_write(kAgs);
+    ASSERT_TRUE(device.automatic().start().ok());
+    bus.expect_write({0x02, 0xE2, 0x44, 0x00, 0x01, 0xC0});
+    bus.expect_read({0x03, 0xE2, 0, 0, 0, 0}, {0, 0, 0x44, 0x00, 0x01, 0xC0});
+    bus.expect_write(kFrameAgs);
+    bus.expect_read(kReadStatus, kRunsAgs);
+    ASSERT_TRUE(device.control().begin_read({1, 0}, 0x44, 1).ok());
+    const Bytes read = join({{0x09}, Bytes(8, 0x5A)});
+    const Bytes word{0, 3, 2, 3, 4, 5, 6, 7, 8};
+    Bytes again = word;
+    if (!same) again[8] ^= 1;
+    bus.expect_read(kReadStatus, {0, 0xFB, 0x02, 0, 0, 0x09});
+    bus.expect_read(kReadStatus, {0, 0xFB, 0x02, 0, 0, 0x09});
+    bus.expect_write(kClearValid1);
+    bus.expect_read(read, word);
+    bus.expect_read(kReadStatus, kRunsAgs);
+    bus.expect_read(read, again);
+    bus.expect_read(kReadStatus, kRunsAgs);
+    const mb4::Result<mb4::Reading> reading = device.automatic().poll_slave(1);
+    EXPECT_EQ(reading.error(), same ? Error::kNone : Error::kCorrupted);
+    if (reading) EXPECT_EQ(reading->raw, 0x0807060504030203U);
+  }
+}
+
 // So does a bad one, which leaves SVALID at 0.
 TEST_F(PollBesideControl, BadFrameEnded_IsBankSwitched) {
   expect_read({0, 0x6B, 0x00, 0, 0, 0x09});
@@ -465,7 +654,7 @@ TEST(PollBesideControlFailure, TransportAtEachTransfer_LeavesNoReading) {
     bus.expect_write(kClearValid1);
     bus.expect_read(mb4test::kReadData4, mb4test::kData4);
     bus.expect_read(kReadStatus, kRunsAgs);
-    bus.fail_at(6 + index);
+    bus.fail_at(mb4test::kConfigureTransfers + 3 + index);
     mb4::Frame frame;
     EXPECT_EQ(device.automatic().poll(frame).error(), Error::kTransport) << index;
     EXPECT_FALSE(frame[1].ok()) << index;

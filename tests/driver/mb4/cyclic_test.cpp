@@ -64,9 +64,7 @@ class CyclicTest : public testing::Test {
       }
     }
     if (slaves > 1) config.slaves[1] = config.slaves[0];
-    bus.expect_write({0x07, 0x80, 0x00});
-    bus.expect_write(join({{0x02, 0xC0}, image, zeros(3)}));
-    bus.expect_read(join({{0x03, 0xC0}, zeros(54)}), join({zeros(2), answer}));
+    mb4test::expect_image(bus, image, answer);
     ASSERT_TRUE(device.configure(config).ok());
     bus.expect_write(kAgs);
     clock.time_us = 1000;
@@ -286,8 +284,10 @@ TEST_F(Chain, FramesStayAway_IsAnAlarm) {
   start(mb4::SpiCheck::kCrc);
   const std::uint32_t pitch_us = mb4::frame_timeout_us(device.config());
   const Bytes omitted = held(0x3A, 0x00);
-  const Bytes look = join({{0x05}, zeros(9)});
-  const auto lines = [](std::uint8_t f8) { return join({zeros(9), {f8}}); };
+  const std::vector<Bytes> look{join({{0x05}, zeros(12)}), kReadStatus};
+  const auto lines = [](std::uint8_t f8) {
+    return std::vector<Bytes>{join({zeros(9), {f8}, zeros(3)}), {0, 0xFA, 0x00, 0, 0, 0x40}};
+  };
   plan();
   now_us = 1000 + 2 * pitch_us + 33;
   EXPECT_TRUE(step(kChain, {kWord, omitted}));
@@ -295,15 +295,15 @@ TEST_F(Chain, FramesStayAway_IsAnAlarm) {
   plan();
   ++now_us;
   EXPECT_FALSE(step(kChain, {kWord, omitted}));
-  EXPECT_TRUE(step({look}, {lines(0x01)}));  // SL1 = 1
+  EXPECT_TRUE(step(look, lines(0x01)));  // SL1 = 1
   EXPECT_EQ(read.result().error(), Error::kTimeout);
   plan();
   EXPECT_FALSE(step(kChain, {kWord, omitted}));
-  EXPECT_TRUE(step({look}, {lines(0x00)}));
+  EXPECT_TRUE(step(look, lines(0x00)));
   EXPECT_EQ(read.result().error(), Error::kLineError);
   plan();
   EXPECT_FALSE(step(kChain, {kWord, omitted}));
-  EXPECT_TRUE(step({look}, {}, false));
+  EXPECT_TRUE(step(look, {}, false));
   EXPECT_EQ(read.result().error(), Error::kTransport);
   // Without the flag.
   now_us = 1000 + 16 * pitch_us + 33;
@@ -313,7 +313,7 @@ TEST_F(Chain, FramesStayAway_IsAnAlarm) {
   ++now_us;
   plan();
   EXPECT_FALSE(step(kChain, {kWord, kNone}));
-  EXPECT_TRUE(step({look}, {lines(0x01)}));
+  EXPECT_TRUE(step(look, lines(0x01)));
   EXPECT_EQ(read.result().error(), Error::kTimeout);
   // A good frame ends it.
   plan();
@@ -321,6 +321,65 @@ TEST_F(Chain, FramesStayAway_IsAnAlarm) {
   plan();
   EXPECT_TRUE(step(kChain, {kWord, kNone}));
   EXPECT_EQ(read.result().error(), Error::kNoData);
+}
+
+// Frames end while the loop holds the bank, each time: SWBANKFAIL = 1, or one ends directly after
+// the release. The former is an alarm after 64 periods.
+TEST_F(Chain, FramesEndWhileTheBankIsHeld_IsNoAlarmForAWhile) {
+  start(mb4::SpiCheck::kCrc);
+  const std::uint32_t limit_us = 16 * mb4::frame_timeout_us(device.config()) + 33;
+  const std::vector<Bytes> look{join({{0x05}, zeros(12)}), kReadStatus};
+  const Bytes idle{0, 0xFA, 0x00, 0, 0, 0x40};
+  // 0xF8: SL1 is 0, because a frame runs.
+  const auto banks = [](std::uint8_t f0, std::uint8_t fb) {
+    return Bytes{0, f0, 0, 0, 0, 0x40, 0, 0, 0, 0x00, 0, 0, fb};
+  };
+  const auto ends_with = [&](const Bytes& first, const Bytes& second, Error error) {
+    plan();
+    EXPECT_FALSE(step(kChain, {kWord, kNone}));
+    EXPECT_TRUE(step(look, {first, second}));
+    EXPECT_EQ(read.result().error(), error);
+  };
+  now_us = 1000 + limit_us + 1;
+  ends_with(banks(0xFA, 1), idle, Error::kNoData);
+  ends_with(banks(0xFA, 0), {0, 0xFA, 0x02, 0, 0, 0x40}, Error::kNoData);
+  ends_with(banks(0xFA, 0), {0, 0xFA, 0x08, 0, 0, 0x40}, Error::kLineError);  // of another slave
+  ends_with(banks(0x3A, 1), idle, Error::kLineError);                         // nAGSERR = 0
+  ends_with(banks(0xFA, 0), Bytes(6, 0xFF), Error::kLineError);
+  now_us = 1000 + 4 * limit_us;
+  ends_with(banks(0xFA, 1), idle, Error::kNoData);
+  ++now_us;
+  ends_with(banks(0xFA, 1), idle, Error::kLineError);
+}
+
+// A build may leave the look at SWBANKFAIL out.
+TEST_F(Chain, AlarmWithoutBeats_LooksAtTheLinesAlone) {
+  start(mb4::SpiCheck::kCrc);
+  clock.time_us = 1000 + 16 * mb4::frame_timeout_us(device.config()) + 33 + 1;
+  bus.expect_write(kHold);
+  bus.expect_read(kReadWord, kWord);
+  bus.expect_read(kReadStatus, kNone);
+  bus.expect_write(kAgs);
+  bus.expect_read(join({{0x05}, zeros(9)}), join({zeros(9), {0x01}}));
+  EXPECT_EQ(device.automatic().poll_slave<0>(1).error(), Error::kTimeout);
+}
+
+// A new word is a new sample, whatever the clock says.
+TEST_F(Chain, TwoNewWordsAtOneTime_AreTwoSamples) {
+  constexpr std::uint8_t kCounted = MB4_WITH_ALL | MB4_WITH_COUNTS;
+  start(mb4::SpiCheck::kCrc);
+  mb4_counts counts{};
+  device.automatic().count(&counts);
+  counts.period_ns = 100'000;
+  for (int i = 0; i < 2; ++i) {
+    bus.expect_write(kHold);
+    bus.expect_read(kReadWord, kWord);
+    bus.expect_read(kReadStatus, kNew);
+    bus.expect_write(kClearValid1AndRelease);
+    EXPECT_TRUE(device.automatic().poll_slave<kCounted>(1).ok());
+  }
+  EXPECT_EQ(counts.sequence, 2U);
+  EXPECT_EQ(counts.lost, 0U);
 }
 
 // Without a stored CRC nothing tells a bad word from an old one, except that there is no other.

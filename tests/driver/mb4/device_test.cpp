@@ -10,7 +10,10 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <string>
+#include <vector>
 
+#include "enc/trace.hpp"
 #include "tests/driver/mb4/encoder26.hpp"
 #include "tests/driver/mb4/strict_bus.hpp"
 
@@ -72,9 +75,7 @@ TEST_F(Configure, ValidConfig_WritesReadsBackAndCompares) {
 TEST_F(Configure, InternalClock_IsSwitchedOnFirst) {
   mb4::Config config = encoder26();
   config.clock_source = mb4::ClockSource::kInternal;
-  bus.expect_write({0x07, 0x80, 0x01});
-  bus.expect_write(join({{0x02, 0xC0}, mb4test::configuration(), {0x00, 0x00, 0x00}}));
-  bus.expect_read(join({{0x03, 0xC0}, zeros(54)}), join({zeros(2), mb4test::read_back(0x01)}));
+  mb4test::expect_image(bus, mb4test::configuration(), mb4test::read_back(0x01), 0x01);
   EXPECT_TRUE(device.configure(config).ok());
 }
 
@@ -87,14 +88,14 @@ TEST_F(Configure, InvalidConfigAfterGoodOne_KeepsTheGoodOne) {
 
 // Also when the chip was configured before: what is in it now is unknown.
 TEST(ConfigureFailure, TransportAtEachTransfer_IsReportedAndLeavesUnconfigured) {
-  for (std::size_t index = 0; index < 3; ++index) {
+  for (std::size_t index = 0; index < mb4test::kConfigureTransfers; ++index) {
     StrictBus bus;
     FakeClock clock;
     mb4::Device<StrictBus, FakeClock> device(bus, clock);
     mb4test::expect_configure(bus);
     ASSERT_TRUE(device.configure(encoder26()).ok());
     mb4test::expect_configure(bus);
-    bus.fail_at(3 + index);
+    bus.fail_at(mb4test::kConfigureTransfers + index);
     EXPECT_EQ(device.configure(encoder26()).error(), Error::kTransport) << index;
     EXPECT_FALSE(device.configured()) << index;
     EXPECT_EQ(device.read_frame().error(), Error::kNotConfigured) << index;
@@ -115,12 +116,11 @@ TEST(ConfigureFailure, AnyWrongBit_IsVerifyWithItsAddress) {
       StrictBus bus;
       FakeClock clock;
       mb4::Device<StrictBus, FakeClock> device(bus, clock);
-      bus.expect_write({0x07, 0x80, 0x00});
-      bus.expect_write(join({{0x02, 0xC0}, mb4test::configuration(), {0x00, 0x00, 0x00}}));
       Bytes answer = mb4test::read_back();
       std::uint8_t& byte = answer[address - 0xC0];
       byte = static_cast<std::uint8_t>(byte ^ (1U << bit));
-      bus.expect_read(join({{0x03, 0xC0}, zeros(54)}), join({zeros(2), answer}));
+      mb4test::expect_image(bus, mb4test::configuration(), answer, 0x00,
+                            reserved ? mb4test::kAll : address);
       const mb4::ErrorInfo info = device.configure(encoder26()).info();
       if (reserved) {
         EXPECT_EQ(info.code, Error::kNone) << address;
@@ -134,13 +134,29 @@ TEST(ConfigureFailure, AnyWrongBit_IsVerifyWithItsAddress) {
 }
 
 TEST_F(Configure, OtherVersion_IsNotDetected) {
-  bus.expect_write({0x07, 0x80, 0x00});
-  bus.expect_write(join({{0x02, 0xC0}, mb4test::configuration(), {0x00, 0x00, 0x00}}));
   Bytes answer = mb4test::read_back();
   answer[0xEB - 0xC0] = 0x83;
-  bus.expect_read(join({{0x03, 0xC0}, zeros(54)}), join({zeros(2), answer}));
+  mb4test::expect_image(bus, mb4test::configuration(), answer, 0x00, 0xEB);
   EXPECT_EQ(device.configure(encoder26()).error(), Error::kNotDetected);
   EXPECT_FALSE(device.configured());
+}
+
+// A hook sees each frame, with what came back where it was wanted.
+TEST(Trace, EachFrame_IsSeen) {
+  StrictBus bus;
+  FakeClock clock;
+  std::vector<std::string> seen;
+  enc::TracedBus traced(bus, [&seen](mb4::Span<const std::uint8_t> tx,
+                                     mb4::Span<const std::uint8_t> rx, bool transferred) {
+    seen.push_back(mb4test::hex(Bytes(tx.begin(), tx.end())) + "> " +
+                   mb4test::hex(Bytes(rx.begin(), rx.end())) + (transferred ? "" : "failed"));
+  });
+  mb4::Device device(traced, clock);
+  bus.expect_read({0x03, 0xEA, 0x00, 0x00}, {0x00, 0x00, 0x20, 0x84});
+  EXPECT_TRUE(device.probe().ok());
+  bus.expect_write({0x07, 0x80}).fail_last();
+  EXPECT_EQ(device.break_transmission().error(), Error::kTransport);
+  EXPECT_EQ(seen, (std::vector<std::string>{"03 EA 00 00 > 00 00 20 84 ", "07 80 > failed"}));
 }
 
 // Table 47: BREAK is bit 7 of 0xF4; nothing else is set.

@@ -53,25 +53,48 @@ inline Bytes configuration(Bytes identity = {0x00, 0x00}) {
   });
 }
 
-// What read_registers(0xC0, 54 bytes) returns after a good configure(): registers of revision Y,
+// What 0xC0..0xF5 read after a good configure(): registers of revision Y,
 // idle status 0xFB (pages 34, 35), 0xF1..0xF4 zero, 0xF5 = `interface_byte`.
 inline Bytes read_back(std::uint8_t interface_byte = 0x00) {
   return join({configuration({0x20, 0x84}), {0xFB, 0x00, 0x00, 0x00, 0x00}, {interface_byte}});
 }
 
-// The three transfers of configure(encoder26()), or of a configuration that differs from it in the
+inline constexpr std::size_t kConfigureTransfers = 8;
+
+inline constexpr unsigned kAll = 0;
+
+// The transfers that write `image`, 0xC0..0xEF, and compare it with `answer`, 0xC0..0xF5, in three
+// parts each. They end with the part that holds the register at `last`, in the order of comparison.
+inline void expect_image(StrictBus& bus, const Bytes& image, const Bytes& answer,
+                         std::uint8_t interface_byte = 0x00, unsigned last = kAll) {
+  const auto part = [](const Bytes& all, int from, int size) {
+    return Bytes(all.begin() + from, all.begin() + from + size);
+  };
+  // Opcode 0x07 (page 18): BREAK = 1 to 0xF4 (table 47), CLKENI and CFGIF to 0xF5.
+  bus.expect_write({0x07, 0x80, interface_byte});
+  // Opcode 0x02 (page 18): 0xC0..0xEF, then 0xF0 (read-only) and SVALID 1 to 8 cleared (table 61).
+  const Bytes all = join({image, {0x00, 0x00, 0x00}});
+  bus.expect_write(join({{0x02, 0xC0}, part(all, 0, 18)}));
+  bus.expect_write(join({{0x02, 0xD2}, part(all, 18, 18)}));
+  bus.expect_write(join({{0x02, 0xE4}, part(all, 36, 15)}));
+  // Opcode 0x03 (page 18): data follows the address without a dummy byte. Then a status.
+  for (const int from : {0x24, 0x00, 0x12}) {
+    bus.expect_read(join({{0x03, static_cast<std::uint8_t>(0xC0 + from)}, zeros(18)}),
+                    join({zeros(2), part(answer, from, 18)}));
+    const int offset = static_cast<int>(last) - 0xC0;
+    if (last != kAll && offset >= from && offset < from + 18) return;
+  }
+  bus.expect_read({0x05, 0, 0, 0, 0, 0}, {0x00, 0xFB, 0, 0, 0, 0});
+}
+
+// The transfers of configure(encoder26()), or of a configuration that differs from it in the
 // register at `address` alone.
 inline void expect_configure(StrictBus& bus, std::uint8_t address, std::uint8_t value) {
   Bytes image = configuration();
   Bytes answer = read_back();
   image[address - 0xC0U] = value;
   answer[address - 0xC0U] = value;
-  // Opcode 0x07 (page 18): BREAK = 1 to 0xF4 (table 47), CLKENI = 0 and CFGIF = TTL to 0xF5.
-  bus.expect_write({0x07, 0x80, 0x00});
-  // Opcode 0x02 (page 18): 0xC0..0xEF, then 0xF0 (read-only) and SVALID 1 to 8 cleared (table 61).
-  bus.expect_write(join({{0x02, 0xC0}, image, {0x00, 0x00, 0x00}}));
-  // Opcode 0x03 (page 18): data follows the address without a dummy byte.
-  bus.expect_read(join({{0x03, 0xC0}, zeros(54)}), join({zeros(2), answer}));
+  expect_image(bus, image, answer);
 }
 inline void expect_configure(StrictBus& bus) { expect_configure(bus, 0xC0, configuration()[0]); }
 

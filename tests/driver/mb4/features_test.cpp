@@ -40,6 +40,11 @@ void expect_refused(const Config& config, const Features& core, ConfigField fiel
   EXPECT_TRUE(mb4::validate(config, mb4::kFullCore).ok());
 }
 
+TEST(Features, WhatNoCoreCanDo_IsNamedFirst) {
+  const Config wrong = changed([](Config& c) { c.slaves[0].data_bits = 65; });
+  EXPECT_EQ(mb4::validate(wrong, mb4::kFullCore).info().field, ConfigField::kDataBits);
+}
+
 TEST(Features, WhatTheCoreLacks_IsNamed) {
   const Config biss_b = changed([](Config& c) { c.channels[0].protocol = mb4::Protocol::kBissB; });
   expect_refused(biss_b, mb4::kSingleCore, ConfigField::kChannelProtocol, 1);

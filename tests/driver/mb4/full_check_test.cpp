@@ -52,9 +52,7 @@ class FullCheck : public testing::Test {
       (*bytes)[0xE7 - 0xC0] = 0x00;  // NOCRC = 0 (table 21)
       (*bytes)[1] = crc ? 0x06 : 0x00;
     }
-    bus.expect_write({0x07, 0x80, 0x00});
-    bus.expect_write(join({{0x02, 0xC0}, image, zeros(3)}));
-    bus.expect_read(join({{0x03, 0xC0}, zeros(54)}), join({zeros(2), answer}));
+    mb4test::expect_image(bus, image, answer);
     EXPECT_TRUE(device.configure(config).ok());
   }
   void start() {
@@ -212,9 +210,7 @@ TEST(CrcCheckUnheld, BadWordOfTheOtherSlave_IsNotWritten) {
     (*bytes)[4] = 0x5B;            // slave 2 as slave 1
     (*bytes)[5] = 0x06;
   }
-  bus.expect_write({0x07, 0x80, 0x00});
-  bus.expect_write(join({{0x02, 0xC0}, image, zeros(3)}));
-  bus.expect_read(join({{0x03, 0xC0}, zeros(54)}), join({zeros(2), answer}));
+  mb4test::expect_image(bus, image, answer);
   ASSERT_TRUE(device.configure(config).ok());
   bus.expect_write(kAgs);
   ASSERT_TRUE(device.automatic().start().ok());
@@ -260,8 +256,6 @@ TEST_F(FullCheck, RecoveryFails_IsTransport) {
   fails_first([this] { return device.read_all(frame); });
   fails_first([this] { return device.initialize(); });
   fails_first([this] { return device.automatic().start(); });
-  bus.expect_write({0x02, 0xE2, 0x44, 0x00, 0x01, 0xC0});  // begin_read() writes its request first
-  bus.expect_read({0x03, 0xE2, 0, 0, 0, 0}, {0, 0, 0x44, 0x00, 0x01, 0xC0});
   fails_first([this] { return device.control().begin_read({1, 0}, 0x44, 1); });
 }
 

@@ -48,6 +48,9 @@ const Bytes kReadRequest{0x03, 0xE2, 0, 0, 0, 0};
 const std::vector<Bytes> kTakeFirst{{0x03, 0x80, 0, 0}, kReadStatus};
 const std::vector<Bytes> kTakeAgain{{0x03, 0x80, 0, 0}};
 
+// The slaves' timeout, and the step of the coarsest clock.
+constexpr std::uint32_t kPause = 100 + 33;
+
 class OperationTest : public testing::Test {
  protected:
   void configure(mb4::SpiCheck check = mb4::SpiCheck::kOff) {
@@ -106,7 +109,7 @@ TEST_F(Restart, BreakPauseStart_AreTwoSteps) {
   ASSERT_TRUE(device.automatic().plan_restart(op).ok());
   EXPECT_FALSE(device.automatic().running());
   EXPECT_FALSE(step({kBreak}, {}));
-  EXPECT_TRUE(step({kClearValid1, kAgs}, {}, true, 100));
+  EXPECT_TRUE(step({kClearValid1, kAgs}, {}, true, kPause));
   ends_with(Error::kNone);
   EXPECT_TRUE(device.automatic().running());
   EXPECT_EQ(device.automatic().plan_start(op).error(), Error::kWrongMode);
@@ -123,7 +126,7 @@ TEST_F(Restart, Start_IsOneStepOrRecoversFirst) {
   ends_with(Error::kTransport);
   ASSERT_TRUE(device.automatic().plan_start(op).ok());
   EXPECT_FALSE(step({kBreak}, {}));
-  EXPECT_TRUE(step({kClearValid1, kAgs}, {}, true, 100));
+  EXPECT_TRUE(step({kClearValid1, kAgs}, {}, true, kPause));
   EXPECT_TRUE(device.automatic().running());
 }
 
@@ -141,7 +144,7 @@ TEST_F(Restart, Counted_WithCountsOnly) {
   EXPECT_TRUE(step({{0x07, 0x80, 0x00}}, {}, false));
   ASSERT_TRUE((device.automatic().plan_restart<MB4_WITH_ALL | MB4_WITH_COUNTS>(op)).ok());
   EXPECT_FALSE(step({{0x07, 0x80, 0x00}}, {}));
-  EXPECT_TRUE(step({kClearValid1, kAgs}, {}, true, 100));
+  EXPECT_TRUE(step({kClearValid1, kAgs}, {}, true, kPause));
   EXPECT_EQ(counts.restarts, 1U);
   bus.expect_write({0x07, 0x80, 0x00});
   bus.expect_write(kClearValid1);
@@ -161,6 +164,7 @@ TEST_F(Restart, NotAllowed_TouchesNothing) {
   EXPECT_FALSE(device.configured());
   constexpr std::uint8_t kCounted = MB4_WITH_ALL | MB4_WITH_COUNTS;
   EXPECT_EQ(device.automatic().plan_restart<kCounted>(op).error(), Error::kNotConfigured);
+  EXPECT_EQ(device.automatic().restart<kCounted>().error(), Error::kNotConfigured);
   EXPECT_TRUE(device.automatic().running());
   EXPECT_EQ(counts.restarts, 0U);
 }
@@ -219,8 +223,9 @@ TEST_F(Use, FinishAfterVerify_KeepsTheConfiguration) {
     const Bytes frame = join({{0x03, static_cast<std::uint8_t>(from)}, zeros(18)});
     const Bytes answer =
         join({zeros(2), Bytes(chip.begin() + from - 0xC0, chip.begin() + from - 0xC0 + 18)});
-    EXPECT_EQ(step({frame}, {answer}), from == 0xD2);
+    EXPECT_EQ(step({frame}, {answer}), false);
   }
+  EXPECT_TRUE(step({kReadStatus}, {kOver}));
   EXPECT_TRUE(device.finish(op, true, now_us));
   ends_with(Error::kNone);
   EXPECT_TRUE(device.configured());
@@ -305,22 +310,23 @@ TEST_F(Use, VerifyWithoutConfiguration_IsWrongMode) {
 
 class VerifySteps : public OperationTest {
  protected:
-  static Bytes part(std::uint8_t from) { return join({{0x03, from}, zeros(18)}); }
-  Bytes answer(int from) const {
-    return join({zeros(2), Bytes(chip.begin() + from - 0xC0, chip.begin() + from - 0xC0 + 18)});
+  static std::vector<Bytes> part(std::uint8_t from) { return {join({{0x03, from}, zeros(18)})}; }
+  std::vector<Bytes> answer(int from) const {
+    return {join({zeros(2), Bytes(chip.begin() + from - 0xC0, chip.begin() + from - 0xC0 + 18)})};
   }
   Bytes chip = mb4test::read_back();
 };
 
-TEST_F(VerifySteps, Good_IsThreeSteps) {
+TEST_F(VerifySteps, Good_IsThreePartsAndAStatus) {
   EXPECT_EQ(device.plan_verify(op).error(), Error::kNotConfigured);
   configure();
   ASSERT_TRUE(device.plan_verify(op).ok());
   // Status, instruction and what an access writes are not compared; nor reserved registers.
   for (const int address : {0xE0, 0xE1, 0xE2, 0xE5, 0xEE, 0xF0, 0xF4}) chip[address - 0xC0] ^= 0xFF;
-  EXPECT_FALSE(step({part(0xE4)}, {answer(0xE4)}));
-  EXPECT_FALSE(step({part(0xC0)}, {answer(0xC0)}));
-  EXPECT_TRUE(step({part(0xD2)}, {answer(0xD2)}));
+  EXPECT_FALSE(step(part(0xE4), answer(0xE4)));
+  EXPECT_FALSE(step(part(0xC0), answer(0xC0)));
+  EXPECT_FALSE(step(part(0xD2), answer(0xD2)));
+  EXPECT_TRUE(step({kReadStatus}, {kOver}));
   ends_with(Error::kNone);
   EXPECT_TRUE(device.configured());
 }
@@ -331,9 +337,9 @@ TEST_F(VerifySteps, EachWrongRegister_IsNamed) {
     chip = mb4test::read_back();
     chip[address - 0xC0] ^= 0x04;
     ASSERT_TRUE(device.plan_verify(op).ok());
-    bool ended = step({part(0xE4)}, {answer(0xE4)});
-    if (!ended) ended = step({part(0xC0)}, {answer(0xC0)});
-    if (!ended) ended = step({part(0xD2)}, {answer(0xD2)});
+    bool ended = step(part(0xE4), answer(0xE4));
+    if (!ended) ended = step(part(0xC0), answer(0xC0));
+    if (!ended) ended = step(part(0xD2), answer(0xD2));
     EXPECT_TRUE(ended);
     EXPECT_EQ(op.result().error(), Error::kVerify) << address;
     EXPECT_EQ(op.result().info().address(), address);
@@ -344,17 +350,42 @@ TEST_F(VerifySteps, EachWrongRegister_IsNamed) {
 TEST_F(VerifySteps, NoChipOrFailure_IsReported) {
   configure();
   ASSERT_TRUE(device.plan_verify(op).ok());
-  EXPECT_TRUE(step({part(0xE4)}, {}, false));
+  EXPECT_TRUE(step(part(0xE4), {}, false));
   ends_with(Error::kTransport);
   EXPECT_TRUE(device.configured());
   // A bus that stores nothing: nothing of the last answer is taken again.
   ASSERT_TRUE(device.plan_verify(op).ok());
-  EXPECT_FALSE(step({part(0xE4)}, {answer(0xE4)}));
-  EXPECT_TRUE(step({part(0xC0)}, {}, false));
+  EXPECT_FALSE(step(part(0xE4), answer(0xE4)));
+  EXPECT_TRUE(step(part(0xC0), {}, false));
   ASSERT_TRUE(device.plan_verify(op).ok());
-  EXPECT_TRUE(step({part(0xE4)}, {}));
+  EXPECT_TRUE(step(part(0xE4), {}));
   ends_with(Error::kNotDetected);
   EXPECT_FALSE(device.configured());
+}
+
+// MISO is stuck from some frame on. 0xD2..0xE3 are all 0 in this configuration, so a MISO at 0
+// reads what was written; no status is all 0, or all 1.
+TEST_F(VerifySteps, MisoStuckFromAnyFrameOn_IsNotDetected) {
+  for (const std::uint8_t level : {std::uint8_t{0x00}, std::uint8_t{0xFF}}) {
+    for (int good = 0; good < 4; ++good) {
+      configure();
+      ASSERT_TRUE(device.plan_verify(op).ok());
+      int frame = 0;
+      bool ended = false;
+      for (const std::uint8_t from : {std::uint8_t{0xE4}, std::uint8_t{0xC0}, std::uint8_t{0xD2}}) {
+        if (ended) break;
+        std::vector<Bytes> answers = answer(from);
+        if (frame++ >= good) answers[0].assign(answers[0].size(), level);
+        ended = step(part(from), answers);
+      }
+      if (!ended) ended = step({kReadStatus}, {Bytes(6, level)});
+      EXPECT_TRUE(ended);
+      // After VERSION was read a part that differs says so.
+      const Error error = op.result().error();
+      EXPECT_TRUE(error == Error::kNotDetected || (error == Error::kVerify && good != 0)) << good;
+      EXPECT_FALSE(device.configured());
+    }
+  }
 }
 
 // ---- INIT: page 33 ------------------------------------------------------------------------------
@@ -386,11 +417,11 @@ TEST_F(Initialize, Full_ReadsTwice) {
     ASSERT_TRUE(device.plan_initialize(op).ok());
     if (fault == 2) {  // after a failed one
       EXPECT_FALSE(step({{0x07, 0x80, 0x00}}, {}));
-      EXPECT_FALSE(step({kClearValid1, kZero1, kZero5}, {}, true, 100));
+      EXPECT_FALSE(step({kClearValid1, kZero1, kZero5}, {}, true, kPause));
     } else {
       EXPECT_FALSE(step({kZero1, kZero5}, {}));
     }
-    EXPECT_FALSE(step({kInit}, {}));
+    EXPECT_FALSE(step({kInit, kReadStatus}, {kInitRuns}));
     EXPECT_FALSE(step({kReadStatus}, {kOver}));
     EXPECT_FALSE(step({kReadLines}, {kIdleLines}));
     const Bytes second{0, 0, static_cast<std::uint8_t>(fault == 1 ? 9 : 7)};
@@ -406,13 +437,32 @@ TEST_F(Initialize, Full_ReadsTwice) {
   }
 }
 
+// Neither INIT nor a delay was seen: the instruction was lost. A disturbed status is no proof.
+TEST_F(Initialize, Lost_IsCorrupted) {
+  configure(mb4::SpiCheck::kFull);
+  for (const bool disturbed : {false, true}) {
+    ASSERT_TRUE(device.plan_initialize(op).ok());
+    if (disturbed) {
+      EXPECT_FALSE(step({{0x07, 0x80, 0x00}}, {}));
+      EXPECT_FALSE(step({kClearValid1, kZero1, kZero5}, {}, true, kPause));
+    } else {
+      EXPECT_FALSE(step({kZero1, kZero5}, {}));
+    }
+    EXPECT_FALSE(step({kInit, kReadStatus}, {disturbed ? zeros(6) : kOver}));
+    EXPECT_FALSE(step({kReadStatus}, {kOver}));
+    EXPECT_FALSE(step({kReadLines}, {kIdleLines}));
+    EXPECT_TRUE(step({{0x03, 0x00, 0x00}, {0x03, 0x00, 0x00}}, {{0, 0, 0}, {0, 0, 0}}));
+    ends_with(disturbed ? Error::kNoData : Error::kCorrupted);
+  }
+}
+
 TEST_F(Initialize, Faults_AreTold) {
   configure();
   const auto to_status = [this](bool recover) {
     ASSERT_TRUE(device.plan_initialize(op).ok());
     if (recover) {
       EXPECT_FALSE(step({kBreak}, {}));
-      EXPECT_FALSE(step({kClearValid1, kZero1, kZero5}, {}, true, 100));
+      EXPECT_FALSE(step({kClearValid1, kZero1, kZero5}, {}, true, kPause));
     } else {
       EXPECT_FALSE(step({kZero1, kZero5}, {}));
     }
@@ -487,7 +537,7 @@ TEST_F(Access, ReadWithoutAutomaticFrames_OneInstructionAFrame) {
   ends_with(Error::kRegister);
   read();
   EXPECT_FALSE(step({kBreak}, {}));
-  EXPECT_FALSE(step({kClearValid1, kRequest}, {}, true, 100));
+  EXPECT_FALSE(step({kClearValid1, kRequest}, {}, true, kPause));
   EXPECT_FALSE(step({kFrame}, {}));
 }
 
@@ -504,10 +554,10 @@ TEST_F(Access, BreakLost_NextOneBeginsWithBreak) {
     ends_with(Error::kTransport);
     ASSERT_TRUE(device.control().plan_write(op, {1, 0}, 0x50, data).ok());
     EXPECT_FALSE(step({kBreak}, {}));
-    EXPECT_FALSE(step({kClearValid1, {0x02, 0x80, 9, 10}}, {}, true, 100));
+    EXPECT_FALSE(step({kClearValid1, {0x02, 0x80, 9, 10}}, {}, true, kPause));
     EXPECT_FALSE(step({{0x02, 0xE2, 0xD0, 0x01, 0x01, 0xC0}}, {}));
     EXPECT_FALSE(step({kFrame}, {}));
-    EXPECT_FALSE(step({kReadStatus}, {kRuns}, false));
+    for (int looks = 0; looks < 3; ++looks) EXPECT_FALSE(step({kReadStatus}, {kRuns}, false));
     EXPECT_TRUE(step({kBreak}, {}));
   }
 }
@@ -652,6 +702,8 @@ TEST_F(Access, Failures_EndWithBreak) {
     read();
     EXPECT_FALSE(step({kRequest}, {}));
     EXPECT_FALSE(step({kFrameAgs}, {}));
+    EXPECT_FALSE(step({kReadStatus}, {kRunsAgs}, false));
+    EXPECT_FALSE(step({kReadStatus}, {zeros(6)}));
     EXPECT_FALSE(step({kReadStatus}, {Bytes(6, 0xFF)}));
     EXPECT_TRUE(step({kBreak}, {}, break_too));
     ends_with(Error::kNotDetected);
@@ -665,6 +717,67 @@ TEST_F(Access, Failures_EndWithBreak) {
     bus.expect_write(kClearValid1);
   }
   start();
+}
+
+// Two looks that fail, one after the other, stop neither the access nor the automatic frames.
+TEST_F(Access, DisturbedStatus_StopsNothing) {
+  configure(mb4::SpiCheck::kFull);
+  start();
+  read();
+  EXPECT_FALSE(step({kRequest, kReadRequest}, {{0, 0, 0x44, 0x01, 0x01, 0xC0}}));
+  EXPECT_FALSE(step({kFrameAgs, kReadStatus}, {zeros(6)}));
+  EXPECT_FALSE(step({kReadStatus}, {kRunsAgs}));
+  for (int i = 0; i < 3; ++i) {
+    EXPECT_FALSE(step({kReadStatus}, {Bytes(6, 0xFF)}));
+    EXPECT_FALSE(step({kReadStatus}, {}, false));
+    EXPECT_FALSE(step({kReadStatus}, {kRunsAgs}));
+  }
+  EXPECT_FALSE(step({kReadStatus}, {kDoneAgs}));
+  EXPECT_FALSE(step(kTakeFirst, {{0, 0, 1, 2}, kDoneAgs}));
+  EXPECT_TRUE(step(kTakeAgain, {{0, 0, 1, 2}}));
+  ends_with(Error::kNone);
+  EXPECT_TRUE(device.automatic().running());
+  // Twice where only the status tells that the access has begun.
+  read();
+  EXPECT_FALSE(step({kRequest, kReadRequest}, {{0, 0, 0x44, 0x01, 0x01, 0xC0}}));
+  EXPECT_FALSE(step({kFrameAgs, kReadStatus}, {zeros(6)}));
+  EXPECT_FALSE(step({kReadStatus}, {zeros(6)}));
+  EXPECT_TRUE(step({{0x07, 0x80}}, {}));
+  ends_with(Error::kNotDetected);
+}
+
+// 0xF4 held something else than HOLDBANK: an access that nobody asked for may run, and BREAK ends
+// it before the next one. Then the frames run again.
+TEST_F(Access, AfterACorruptedRead_BeginsWithBreakAndANewStart) {
+  configure(mb4::SpiCheck::kFull);
+  start();
+  bus.expect_write({0x07, 0x41});
+  bus.expect_read(kReadStatus, status(0xFB, 0x00, 0x49));
+  bus.expect_write(kAgs);
+  EXPECT_EQ(device.automatic().poll_slave(1).error(), Error::kCorrupted);
+  for (const bool lost : {true, false}) {
+    read();
+    EXPECT_EQ(device.automatic().poll_slave(1).error(), Error::kWrongMode);
+    EXPECT_EQ(step({{0x07, 0x80, 0x00}}, {}, !lost), lost);
+    if (!lost) continue;
+    ends_with(Error::kTransport);  // nothing has begun
+    bus.expect_write({0x07, 0x80, 0x00});
+    bus.expect_write(kClearValid1);
+    bus.expect_write(kAgs);
+    ASSERT_TRUE(device.automatic().restart().ok());
+    bus.expect_write({0x07, 0x41});
+    bus.expect_read(kReadStatus, status(0xFB, 0x00, 0x49));
+    bus.expect_write(kAgs);
+    EXPECT_EQ(device.automatic().poll_slave(1).error(), Error::kCorrupted);
+  }
+  EXPECT_FALSE(step({kClearValid1, kAgs, kRequest, kReadRequest}, {{0, 0, 0x44, 0x01, 0x01, 0xC0}},
+                    true, kPause));
+  EXPECT_TRUE(device.automatic().running());
+  EXPECT_FALSE(step({kFrameAgs, kReadStatus}, {kRunsAgs}));
+  EXPECT_FALSE(step({kReadStatus}, {kDoneAgs}));
+  EXPECT_FALSE(step(kTakeFirst, {{0, 0, 1, 2}, kDoneAgs}));
+  EXPECT_TRUE(step(kTakeAgain, {{0, 0, 1, 2}}));
+  ends_with(Error::kNone);
 }
 
 // 50 frames of 220 us, 4096 * 64 periods of MA and a quarter, 200 us.

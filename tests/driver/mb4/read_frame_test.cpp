@@ -226,7 +226,7 @@ TEST(ReadFrameFailure, TransportAtEachTransfer_IsReportedWithoutPosition) {
     bus.expect_read(kReadStatus, kGoodFrame);
     bus.expect_read(kReadData4, kData4);
     bus.expect_write(kClearValid1);
-    bus.fail_at(3 + index);
+    bus.fail_at(mb4test::kConfigureTransfers + index);
     ASSERT_TRUE(device.configure(encoder26()).ok());
     const Result<Reading> reading = device.read_frame();
     EXPECT_FALSE(reading.ok()) << index;
@@ -392,8 +392,10 @@ TEST(ReadFrameRecovery, SlaveCutOffByBreak_GetsItsTimeoutBeforeTheRequest) {
   strict.expect_write(kClearValid1);
   strict.expect_write(kStartFrame).fail_last();
   EXPECT_EQ(device.read_frame().error(), Error::kTransport);
-  ASSERT_EQ(bus.times_us.size(), 8U);
-  EXPECT_GE(bus.times_us[7] - bus.times_us[5], 100U);
+  // Configuration, request and status; then BREAK, SVALID and the request.
+  constexpr std::size_t kBreakSent = mb4test::kConfigureTransfers + 2;
+  ASSERT_EQ(bus.times_us.size(), kBreakSent + 3);
+  EXPECT_GE(bus.times_us[kBreakSent + 1] - bus.times_us[kBreakSent], 100U);
 }
 
 TEST_F(ReadFrame, ClockStandsStillAfterFailedRead_RecoveryEnds) {
@@ -416,11 +418,12 @@ mb4::Config with_timeout(std::uint32_t timeout_us) {
 }
 
 // A clock of 32 kHz may show 133 us after 100 us (enc/bus.hpp). Asked at 0 (start), 45, 90, 135 us:
-// the third poll is the last.
+// the poll after the third is the last.
 TEST_F(ReadFrame, SilentSlave_IsTimeoutAfterBreak) {
   configure(with_timeout(100));
   clock.step_us = 45;
   bus.expect_write(kStartFrame);
+  bus.expect_read(kReadStatus, kRunning);
   bus.expect_read(kReadStatus, kRunning);
   bus.expect_read(kReadStatus, kRunning);
   bus.expect_read(kReadStatus, kRunning);
@@ -448,6 +451,7 @@ TEST_F(ReadFrame, ClockWraps_TimeoutIsUnchanged) {
   bus.expect_read(kReadStatus, kRunning);
   bus.expect_read(kReadStatus, kRunning);
   bus.expect_read(kReadStatus, kRunning);
+  bus.expect_read(kReadStatus, kRunning);
   bus.expect_write(kBreak);
   bus.expect_read(kReadLine, line_level(1));
   EXPECT_EQ(device.read_frame().error(), Error::kTimeout);
@@ -458,6 +462,7 @@ TEST_F(ReadFrame, LineReleasedAfterBreak_IsTimeout) {
   configure(with_timeout(100));
   clock.step_us = 67;
   bus.expect_write(kStartFrame);
+  bus.expect_read(kReadStatus, kRunning);
   bus.expect_read(kReadStatus, kRunning);
   bus.expect_read(kReadStatus, kRunning);
   bus.expect_write(kBreak);
@@ -472,9 +477,9 @@ TEST_F(ReadFrame, LineStaysLowAfterBreak_IsLineError) {
   bus.expect_write(kStartFrame);
   bus.expect_read(kReadStatus, kRunning);
   bus.expect_read(kReadStatus, kRunning);
+  bus.expect_read(kReadStatus, kRunning);
   bus.expect_write(kBreak);
-  bus.expect_read(kReadLine, line_level(0));
-  bus.expect_read(kReadLine, line_level(0));
+  for (int look = 0; look < 4; ++look) bus.expect_read(kReadLine, line_level(0));
   EXPECT_EQ(device.read_frame().error(), Error::kLineError);
 }
 
@@ -483,6 +488,7 @@ TEST_F(ReadFrame, InstructionNeverTaken_IsTimeout) {
   configure(with_timeout(100));
   clock.step_us = 133;
   bus.expect_write(kStartFrame);
+  bus.expect_read(kReadStatus, status(0xFB, 0x00, 0x04));
   bus.expect_read(kReadStatus, status(0xFB, 0x00, 0x04));
   bus.expect_write(kBreak);
   bus.expect_read(kReadLine, line_level(1));
@@ -511,9 +517,10 @@ TEST(TimeoutFailure, TransportWhileStopping_IsTransport) {
     mb4test::expect_configure(bus);
     bus.expect_write(kStartFrame);
     bus.expect_read(kReadStatus, kRunning);
+    bus.expect_read(kReadStatus, kRunning);
     bus.expect_write(kBreak);
     bus.expect_read(kReadLine, line_level(1));
-    bus.fail_at(5 + index);
+    bus.fail_at(mb4test::kConfigureTransfers + 3 + index);
     ASSERT_TRUE(device.configure(encoder26()).ok());
     EXPECT_EQ(device.read_frame().error(), Error::kTransport) << index;
   }
@@ -523,6 +530,7 @@ TEST_F(ReadFrame, BreakAfterTimeoutFailsInTransport_NextReadBreaksAgain) {
   configure(with_timeout(100));
   clock.step_us = 1000;
   bus.expect_write(kStartFrame);
+  bus.expect_read(kReadStatus, kRunning);
   bus.expect_read(kReadStatus, kRunning);
   bus.expect_write(kBreak).fail_last();
   EXPECT_EQ(device.read_frame().error(), Error::kTransport);

@@ -45,13 +45,10 @@ inline Bytes three_configuration(Bytes identity = {0x00, 0x00}) {
   });
 }
 
-// The three transfers of configure(three_slaves()).
+// The transfers of configure(three_slaves()).
 inline void expect_configure_three(StrictBus& bus) {
-  bus.expect_write({0x07, 0x80, 0x00});
-  bus.expect_write(join({{0x02, 0xC0}, three_configuration(), {0x00, 0x00, 0x00}}));
-  bus.expect_read(
-      join({{0x03, 0xC0}, zeros(54)}),
-      join({zeros(2), three_configuration({0x20, 0x84}), {0xFB, 0x00, 0x00, 0x00, 0x00, 0x00}}));
+  expect_image(bus, three_configuration(),
+               join({three_configuration({0x20, 0x84}), {0xFB, 0x00, 0x00, 0x00, 0x00, 0x00}}));
 }
 
 // SVALID1 and 2 are bits 1 and 3 of 0xF1, SVALID5 is bit 1 of 0xF2 (table 61).

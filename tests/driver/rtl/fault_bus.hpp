@@ -52,14 +52,17 @@ class FaultBus {
     fault_ = fault;
     count_ = 0;
     bits_.clear();
+    opcodes_.clear();
   }
-  // Transfers since plan(), and the bits of each.
+  // Transfers since plan(), the bits and the opcode of each.
   [[nodiscard]] std::size_t count() const { return count_; }
   [[nodiscard]] const std::vector<std::size_t>& bits() const { return bits_; }
+  [[nodiscard]] const std::vector<std::uint8_t>& opcodes() const { return opcodes_; }
 
   bool transfer(mb4::Span<const std::uint8_t> tx, mb4::Span<std::uint8_t> rx) {
     const std::size_t index = count_++;
     bits_.push_back(8 * tx.size());
+    opcodes_.push_back(tx[0]);
     if (fault_.kind == FaultKind::kNone || index < fault_.first || index > fault_.last) {
       return inner_.transfer(tx, rx);
     }
@@ -94,6 +97,7 @@ class FaultBus {
   Fault fault_;
   std::size_t count_ = 0;
   std::vector<std::size_t> bits_;
+  std::vector<std::uint8_t> opcodes_;
 };
 
 inline constexpr std::size_t kForEver = std::numeric_limits<std::size_t>::max();

@@ -142,13 +142,13 @@ TEST(DriverCallErrors, LostInstructionBesideFrames_IsCorrupted) {
   EXPECT_TRUE(chip.device.control().abort().ok());
   // MISO stuck from the instruction on.
   ASSERT_TRUE(chip.device.automatic().restart().ok());
-  chip.bus.plan({FaultKind::kMisoLow, 3, 3, 0});
+  chip.bus.plan({FaultKind::kMisoLow, 3, 4, 0});
   EXPECT_EQ(chip.device.control().begin_read({1, 0}, 0x46, 1).error(), Error::kNotDetected);
   EXPECT_TRUE(chip.device.control().abort().ok());
 }
 
 TEST(DriverCallErrors, FlippedRegisterBit_IsCorrupted) {
-  for (const std::size_t transfer : {0U, 1U}) {
+  for (const std::size_t transfer : {0U, 2U}) {  // a status is between the two readings
     FaultyChip chip(kEncoder);
     prepare(chip, State::kReadEnded);
     chip.bus.plan({FaultKind::kFlipMiso, transfer, transfer, 20});

@@ -12,6 +12,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "tests/driver/rtl/fault_bus.hpp"
 #include "tests/support/chip_fixture.hpp"
@@ -29,6 +30,8 @@ struct Call {
   // Number, from the end, of a transfer that reports nothing when it fails: SVALID is cleared
   // behind a register access; the next frame would begin with BREAK.
   std::size_t quiet = 0;
+  // Before that transfer one look at the status may fail.
+  bool patient = false;
 };
 
 // The position out of a frame, or what is wrong with it.
@@ -111,24 +114,31 @@ const Call kCalls[] = {
      [](FaultyChip& c) { return c.device.control().begin_command(activate()).error(); },
      Error::kCorrupted, Error::kCorrupted},
     {"ControlPoll", State::kReadBegun,
-     [](FaultyChip& c) { return c.device.control().poll().error(); }, kNo, kNo},
+     [](FaultyChip& c) {
+       Error error = Error::kNone;
+       for (int i = 0; i < 3 && error == Error::kNone; ++i) {
+         error = c.device.control().poll().error();
+       }
+       return error;
+     },
+     kNo, kNo, 0, true},
     {"Take", State::kReadEnded,
-     [](FaultyChip& c) { return bytes(c.device.control().take(buffer), kSerial); }, kOdd, kOdd},
+     [](FaultyChip& c) { return bytes(c.device.control().take(buffer), kSerial); }, kNo, kNo},
     {"Abort", State::kReadBegun, [](FaultyChip& c) { return c.device.control().abort().error(); },
      Error::kNone, Error::kNone},
     {"ReadRegisters", State::kConfigured,
      [](FaultyChip& c) {
        return bytes(c.device.control().read_registers({1, 0}, 0x44, buffer), kSerial);
      },
-     Error::kCorrupted, Error::kCorrupted, 3},
+     Error::kCorrupted, Error::kCorrupted, 4, true},
     {"WriteRegisters", State::kConfigured,
      [](FaultyChip& c) {
        return c.device.control().write_registers({1, 0}, 0x60, kBytes).error();
      },
-     Error::kCorrupted, Error::kCorrupted, 1},
+     Error::kCorrupted, Error::kCorrupted, 1, true},
     {"Send", State::kConfigured,
      [](FaultyChip& c) { return c.device.control().send(activate()).error(); }, Error::kCorrupted,
-     Error::kCorrupted, 1},
+     Error::kCorrupted, 1, true},
     {"FieldGet", State::kFresh,
      [](FaultyChip& c) {
        const auto value = c.device.fields().get<regs::VERSION>();
@@ -179,15 +189,17 @@ TEST_P(DriverCall, Success) {
   EXPECT_GE(chip.bus.count(), 1U);
 }
 
-// kTransport, whichever transfer fails.
+// kTransport, whichever transfer fails; but one look at an access that runs may fail.
 TEST_P(DriverCall, EachTransferFails_IsTransport) {
   std::size_t count = 0;
+  std::vector<std::uint8_t> opcodes;
   {
     FaultyChip chip(kEncoder);
     prepare(chip, GetParam().state);
     chip.bus.plan({});
     ASSERT_EQ(GetParam().run(chip), Error::kNone);
     count = chip.bus.count();
+    opcodes = chip.bus.opcodes();
   }
   // Of a register access the polls in the middle are all alike.
   for (std::size_t index = 0; index<count; index += count> 40 && index == 8 ? count - 20 : 1) {
@@ -195,7 +207,10 @@ TEST_P(DriverCall, EachTransferFails_IsTransport) {
       FaultyChip chip(kEncoder);
       prepare(chip, GetParam().state);
       chip.bus.plan({kind, index, index, 0});
-      const Error want = count - index != GetParam().quiet ? Error::kTransport : Error::kNone;
+      const bool look =
+          GetParam().patient && opcodes[index] == 0x05 && count - index > GetParam().quiet;
+      const bool quiet = look || count - index == GetParam().quiet;
+      const Error want = quiet ? Error::kNone : Error::kTransport;
       EXPECT_EQ(GetParam().run(chip), want) << "transfer " << index << " of " << count;
     }
   }

@@ -181,7 +181,7 @@ TEST_P(DriverHealth, DeadLine_IsToldWithinThreeFrames) {
       chip.simulator.advance(200 * sim::kPsPerUs);
       ASSERT_TRUE(chip.device.automatic().poll_slave(1).ok());
       stick(1, level);
-      // One frame may have been good before.
+      // One frame may have ended before, or end with a bad word because the line dies in it.
       Error last = Error::kNone;
       unsigned ticks = 0;
       unsigned good = 0;
@@ -190,7 +190,10 @@ TEST_P(DriverHealth, DeadLine_IsToldWithinThreeFrames) {
         Frame frame;
         last = all ? chip.device.automatic().poll(frame).error()
                    : chip.device.automatic().poll_slave(1).error();
-        if (last == Error::kNone && (!all || frame[1])) good = ticks + 1;
+        const bool read = last == Error::kNone && (!all || frame[1] || frame[5]);
+        const bool bad = (all ? frame[1].error() : last) == Error::kCrc;
+        // With kOff a bad word shows later, when no good one has come for two periods.
+        if (read || (bad && GetParam().check != mb4::SpiCheck::kOff)) good = ticks + 1;
       }
       EXPECT_EQ(last, level ? Error::kTimeout : Error::kLineError) << all;
       EXPECT_LE(ticks - good, 3U) << level << all;

@@ -13,6 +13,7 @@
 #include <utility>
 #include <vector>
 
+#include "sim/lines/biss/actuator.hpp"
 #include "tests/driver/rtl/protocol_bus.hpp"
 #include "tests/driver/rtl/rtl_calls.hpp"
 
@@ -151,7 +152,7 @@ TEST_P(DriverOperation, Verify_BesidePositionsFindsAChange) {
   };
   ASSERT_TRUE(chip.device.plan_verify(op).ok());
   EXPECT_TRUE(complete(chip, op, tick).ok());
-  EXPECT_EQ(positions, 2U);
+  EXPECT_EQ(positions, 3U);  // between four steps
   const std::uint8_t other = 0x1A;
   ASSERT_TRUE(chip.device.opcodes().write_registers(0xC8, Span<const std::uint8_t>(&other, 1)));
   ASSERT_TRUE(chip.device.plan_verify(op).ok());
@@ -212,6 +213,217 @@ TEST_P(DriverOperation, BissB_RegistersByTheHandOver) {
   ASSERT_TRUE(chip.device.plan_initialize(op).ok());
   EXPECT_TRUE(complete(chip, op).ok());
   EXPECT_TRUE(chip.device.read_frame().ok());
+}
+
+// nAGSERR = 0 means that no slave has taken part, but a chip may set it at each write of 0xF4. The
+// slaves' timeout after the access is no part of the time that tells the two apart, and a chip that
+// does not set it lets the caller be as slow as it likes. 4096 register clocks are 3.3 ms here.
+TEST_P(DriverOperation, BissBWithASlowCaller_IsNoFailedHandOver) {
+  struct Slow {
+    const char* quirk;
+    std::uint32_t register_timeout_us;
+    std::uint32_t tick_us;
+  };
+  for (const Slow& slow :
+       {Slow{"true", 2000, 100}, Slow{"false", 2000, 100}, Slow{"false", 5, 5000}}) {
+    FaultyChip chip(std::string("[chip.quirks]\nAGSERR_ON_INSTR_WRITE = ") + slow.quirk + "\n" +
+                    biss_b_bus(false, "data = 0xABCDEF7"));
+    Config one = biss_b_config(false);
+    one.spi_check = GetParam();
+    one.register_timeout_us = slow.register_timeout_us;
+    ASSERT_TRUE(chip.device.configure(one).ok());
+    const mb4::SlaveAddress slave = mb4::slave_address(one, 1);
+    const auto tick = [&] { chip.simulator.advance(slow.tick_us * sim::kPsPerUs); };
+    Operation op;
+    std::array<std::uint8_t, 4> back{};
+    ASSERT_TRUE(
+        chip.device.control().plan_write(op, slave, 0x20, Span<const std::uint8_t>(kBytes)));
+    EXPECT_TRUE(complete(chip, op, tick).ok()) << mb4::to_string(op.result().error());
+    ASSERT_TRUE(chip.device.control().plan_read(op, slave, 0x20, back).ok());
+    EXPECT_TRUE(complete(chip, op, tick).ok()) << mb4::to_string(op.result().error());
+    EXPECT_EQ(back, kBytes);
+    // Without a slave the hand-over fails.
+    stick(chip, true);
+    ASSERT_TRUE(chip.device.control().plan_read(op, slave, 0x20, back).ok());
+    EXPECT_EQ(complete(chip, op, tick).error(), Error::kRegister) << slow.quirk;
+  }
+}
+
+// The byte with INIT is lost, or one of its bits is flipped. With kFull no delay of another time
+// and no hand-over that was not made counts as done.
+TEST(DriverOperationInit, LostInstruction_IsNoSuccess) {
+  for (const mb4::Protocol protocol : {mb4::Protocol::kBissC, mb4::Protocol::kBissB}) {
+    for (const FaultKind kind : {FaultKind::kLost, FaultKind::kFlipMosi, FaultKind::kRefused}) {
+      for (std::size_t bit = 0; bit < (kind == FaultKind::kFlipMosi ? 16U : 1U); ++bit) {
+        const bool biss_b = protocol == mb4::Protocol::kBissB;
+        FaultyChip chip(biss_b ? biss_b_bus(false) : kEncoder);
+        Config one = biss_b ? biss_b_config(false) : encoder(false);
+        one.spi_check = SpiCheck::kFull;
+        ASSERT_TRUE(chip.device.configure(one).ok());
+        Operation op;
+        ASSERT_TRUE(chip.device.plan_initialize(op).ok());
+        bool faulty = false;
+        for (bool ended = false; !ended;) {
+          const bool init = op.tx(0)[0] == 0x07 && op.tx(0)[1] == 0x10;
+          chip.bus.plan(init ? Fault{kind, 0, 0, bit} : Fault{});
+          faulty = faulty || init;
+          chip.simulator.advance(op.pause_us() * sim::kPsPerUs);
+          const bool transferred = op.run(chip.bus);
+          ended = chip.device.finish(op, transferred, chip.clock.now_us());
+        }
+        ASSERT_TRUE(faulty);
+        if (kind == FaultKind::kFlipMosi && bit >= 8 && bit != 11) continue;  // INIT, and more
+        const Error error = op.result().error();
+        EXPECT_TRUE(error == (kind == FaultKind::kRefused ? Error::kTransport : Error::kCorrupted))
+            << mb4::to_string(error) << ", BiSS B " << biss_b << ", bit " << bit;
+      }
+    }
+  }
+}
+
+// ---- Configuration, single frames, stop and BREAK, actuators ------------------------------------
+
+TEST_P(DriverOperation, ConfigureAndSingleFrames_AsTheBlockingCalls) {
+  FaultyChip chip(kEncoder);
+  Operation op;
+  ASSERT_TRUE(chip.device.plan_configure(op, config(false)).ok());
+  EXPECT_FALSE(chip.device.configured());
+  ASSERT_TRUE(complete(chip, op).ok());
+  EXPECT_TRUE(chip.device.configured());
+  EXPECT_TRUE(chip.device.verify().ok());
+  mb4::FrameRead read;
+  Frame frame;
+  // The first one after a configuration, the second one directly after it, and one after a bad one.
+  for (int i = 0; i < 4; ++i) {
+    if (i == 2) {
+      stick(chip, false);
+      ASSERT_TRUE(chip.device.plan_read_all(op, read).ok());
+      EXPECT_EQ(complete(chip, op).error(), Error::kLineError);
+      EXPECT_EQ(read.result(frame).error(), Error::kLineError);
+      EXPECT_FALSE(frame.one_frame);
+      stick(chip, std::nullopt);
+    }
+    ASSERT_TRUE(chip.device.plan_read_all(op, read).ok());
+    EXPECT_TRUE(complete(chip, op).ok());
+    ASSERT_TRUE(read.result(frame).ok());
+    ASSERT_TRUE(frame[1].ok()) << mb4::to_string(frame[1].error());
+    EXPECT_EQ(frame[1]->position, 0x2ABCDEFU);
+    EXPECT_TRUE(frame.one_frame);
+  }
+}
+
+TEST_P(DriverOperation, StopAndBreak_EndTheFrames) {
+  FaultyChip chip(kEncoder);
+  ASSERT_TRUE(chip.device.configure(config(true)).ok());
+  Operation op;
+  for (const bool by_break : {false, true}) {
+    ASSERT_TRUE(chip.device.automatic().plan_start(op).ok());
+    ASSERT_TRUE(complete(chip, op).ok());
+    chip.simulator.advance(250 * sim::kPsPerUs);
+    const std::uint64_t running = chip.simulator.slave(1)->frames();
+    EXPECT_GT(running, 0U);
+    ASSERT_TRUE(
+        (by_break ? chip.device.plan_break(op) : chip.device.automatic().plan_stop(op)).ok());
+    ASSERT_TRUE(complete(chip, op).ok());
+    EXPECT_FALSE(chip.device.automatic().running());
+    chip.simulator.advance(110 * sim::kPsPerUs);
+    const std::uint64_t stopped = chip.simulator.slave(1)->frames();
+    chip.simulator.advance(500 * sim::kPsPerUs);
+    EXPECT_EQ(chip.simulator.slave(1)->frames(), stopped);
+  }
+}
+
+const std::string kActuator =
+    "[[channel]]\nnumber = 1\nmo = true\n[[channel.slave]]\nprotocol = \"biss-c\"\n"
+    "data_bits = 16\nactuator = true\n";
+
+Config actuator(bool automatic) {
+  Config one = encoder(automatic);
+  one.mo = true;
+  one.slaves[0].data_bits = 16;
+  one.slaves[0].flags = mb4::Flags::kNone;
+  one.slaves[0].actuator = true;
+  one.slaves[0].stop_bit = true;
+  return one;
+}
+
+// As in docs/driver.md: the next frame sends the word, and each one after it.
+TEST_P(DriverOperation, Actuator_WordIsSent) {
+  for (const bool automatic : {false, true}) {
+    FaultyChip chip(kActuator);
+    Config one = actuator(automatic);
+    one.spi_check = GetParam();
+    ASSERT_TRUE(chip.device.configure(one).ok());
+    Operation op;
+    if (automatic) {
+      ASSERT_TRUE(chip.device.automatic().plan_start(op).ok());
+      ASSERT_TRUE(complete(chip, op).ok());
+    }
+    for (const std::uint64_t word : {0x1234U, 0xFEDCU, 0x0000U}) {
+      ASSERT_TRUE(chip.device.plan_actuator(op, 1, word).ok());
+      ASSERT_TRUE(complete(chip, op).ok()) << mb4::to_string(op.result().error());
+      for (int i = 0; i < 4; ++i) {
+        mb4::FrameRead read;
+        if (!automatic) {
+          ASSERT_TRUE(chip.device.plan_read_all(op, read).ok());
+          ASSERT_TRUE(complete(chip, op).ok());
+        }
+        chip.simulator.advance(automatic && i == 0 ? 250 * sim::kPsPerUs : 100 * sim::kPsPerUs);
+        EXPECT_EQ(chip.simulator.slave(1)->actuator()->word(), word) << i;
+      }
+    }
+    if (!automatic) continue;
+    // A word for each frame, in a loop.
+    for (std::uint64_t word = 1; word < 20; ++word) {
+      ASSERT_TRUE(chip.device.automatic().plan_actuator(op, 1, word).ok());
+      ASSERT_TRUE(complete(chip, op).ok());
+      chip.simulator.advance(100 * sim::kPsPerUs);
+      const std::uint64_t sent = chip.simulator.slave(1)->actuator()->word();
+      // The frame after the one that runs sends it. The loop is longer than a period.
+      EXPECT_TRUE(word < 3 || (sent <= word && sent + 2 >= word)) << sent << " for " << word;
+    }
+  }
+}
+
+// The bus fails at each transfer in turn, for once or from then on; MISO is stuck.
+TEST(DriverOperationActuator, FaultOfTheBus_IsToldAndTheBankIsFree) {
+  for (const bool automatic : {false, true}) {
+    for (const SpiCheck check : {SpiCheck::kOff, SpiCheck::kFull}) {
+      for (const FaultKind kind :
+           {FaultKind::kRefused, FaultKind::kMisoLow, FaultKind::kMisoHigh, FaultKind::kFlipMosi}) {
+        if (check == SpiCheck::kOff && kind != FaultKind::kRefused) continue;
+        for (std::size_t at = 0; at < (kind == FaultKind::kRefused ? 3U : 1U); ++at) {
+          FaultyChip chip(kActuator);
+          Config one = actuator(automatic);
+          one.spi_check = check;
+          ASSERT_TRUE(chip.device.configure(one).ok());
+          if (automatic) {
+            ASSERT_TRUE(chip.device.automatic().start().ok());
+          }
+          Operation op;
+          // MOSI: a bit of the word, or of 0xF4.
+          const std::size_t last =
+              kind == FaultKind::kRefused || kind == FaultKind::kFlipMosi ? at : kForEver;
+          chip.bus.plan({kind, at, last, automatic ? 14U : 20U});
+          ASSERT_TRUE(chip.device.plan_actuator(op, 1, 0x1234).ok());
+          const Error error = complete(chip, op).error();
+          const Error stuck =
+              automatic ? Error::kNotDetected : Error::kCorrupted;  // a word is compared first
+          const Error want = kind == FaultKind::kRefused    ? Error::kTransport
+                             : kind == FaultKind::kFlipMosi ? Error::kCorrupted
+                                                            : stuck;
+          EXPECT_EQ(error, want) << automatic << " " << static_cast<int>(kind) << " " << at;
+          chip.bus.plan({});
+          ASSERT_TRUE(chip.device.plan_actuator(op, 1, 0x4321).ok());
+          EXPECT_TRUE(complete(chip, op).ok());
+          if (automatic) {
+            chip.simulator.advance(350 * sim::kPsPerUs);
+            EXPECT_EQ(chip.simulator.slave(1)->actuator()->word(), 0x4321U);
+          }
+        }
+      }
+    }
+  }
 }
 
 // A loop that ticks with the frames: in each tick a chain for the position, then one step of the
@@ -316,6 +528,7 @@ TEST(DriverOperationUse, WrongUse_PlansNothing) {
   for (const unsigned kind : {0U, 1U, 4U, 5U, 6U}) {
     EXPECT_EQ(plan(other, op, kind, {1, 0}).error(), Error::kUnsupported) << kind;
   }
+  EXPECT_EQ(other.device.automatic().restart().error(), Error::kUnsupported);
   FaultyChip biss_b(biss_b_bus(false));
   Config periodic = biss_b_config(false);
   ASSERT_TRUE(biss_b.device.configure(periodic).ok());
@@ -344,6 +557,68 @@ TEST(DriverOperationUse, FaultOfTheBus_EachOperationTellsIt) {
       }
     }
   }
+}
+
+// The operations that configure, stop, read single frames and write words.
+TEST(DriverOperationUse, WrongUseOfTheOthers_PlansNothing) {
+  Operation op;
+  Operation busy;
+  mb4::FrameRead read;
+  FaultyChip chip(kEncoder);
+  chip.bus.plan({});
+  EXPECT_EQ(chip.device.plan_configure(op, Config()).error(), Error::kInvalidConfig);
+  EXPECT_EQ(chip.device.plan_read_all(op, read).error(), Error::kNotConfigured);
+  EXPECT_EQ(chip.device.plan_actuator(op, 1, 1).error(), Error::kNotConfigured);
+  EXPECT_EQ(chip.device.automatic().plan_actuator(op, 1, 1).error(), Error::kWrongMode);
+  EXPECT_EQ(chip.bus.count(), 0U);
+  prepare(chip, State::kAutomatic);
+  EXPECT_EQ(chip.device.plan_read_all(op, read).error(), Error::kWrongMode);
+  EXPECT_EQ(chip.device.plan_actuator(op, 1, 1).error(), Error::kInvalidArgument);
+  EXPECT_EQ(chip.device.automatic().plan_actuator(op, 9, 1).error(), Error::kInvalidArgument);
+  std::array<std::uint8_t, 1> byte{};
+  ASSERT_TRUE(chip.device.control().plan_read(busy, {1, 0}, 0x44, byte).ok());
+  EXPECT_EQ(chip.device.automatic().plan_stop(op).error(), Error::kBusy);
+  EXPECT_EQ(chip.device.automatic().plan_actuator(op, 1, 1).error(), Error::kBusy);
+  EXPECT_EQ(chip.device.plan_actuator(op, 1, 1).error(), Error::kBusy);
+  EXPECT_EQ(chip.device.plan_read_all(op, read).error(), Error::kBusy);
+  EXPECT_EQ(chip.device.plan_break(busy).error(), Error::kBusy);
+  // BREAK ends the access of the other object, which says so.
+  ASSERT_TRUE(chip.device.plan_break(op).ok());
+  EXPECT_TRUE(complete(chip, op).ok());
+  EXPECT_EQ(complete(chip, busy).error(), Error::kWrongMode);
+}
+
+// The first transfer fails; MISO is stuck; a part of the configuration is lost.
+TEST(DriverOperationUse, FaultOfTheBusInTheOthers_IsTold) {
+  const auto run = [](const Fault& fault, unsigned kind) {
+    FaultyChip chip(kEncoder);
+    Operation op;
+    mb4::FrameRead read;
+    Config one = encoder(kind == 1);
+    one.spi_check = SpiCheck::kFull;
+    EXPECT_TRUE(chip.device.configure(one).ok());
+    if (kind == 1) {
+      EXPECT_TRUE(chip.device.automatic().start().ok());
+    }
+    chip.bus.plan(fault);
+    const Result<void> planned = kind == 0   ? chip.device.plan_configure(op, one)
+                                 : kind == 1 ? chip.device.automatic().plan_stop(op)
+                                 : kind == 2 ? chip.device.plan_break(op)
+                                             : chip.device.plan_read_all(op, read);
+    EXPECT_TRUE(planned.ok());
+    const Error error = complete(chip, op).error();
+    EXPECT_EQ(chip.device.configured(), kind != 0);
+    return error;
+  };
+  for (unsigned kind = 0; kind < 4; ++kind) {
+    EXPECT_EQ(run({FaultKind::kRefused, 0, 0, 0}, kind), Error::kTransport) << kind;
+  }
+  for (const FaultKind stuck : {FaultKind::kMisoLow, FaultKind::kMisoHigh}) {
+    EXPECT_EQ(run({stuck, 0, kForEver, 0}, 0), Error::kNotDetected);
+    EXPECT_EQ(run({stuck, 0, kForEver, 0}, 3), Error::kNotDetected);
+  }
+  // 0xC0..0xD1: a bit of the first register.
+  EXPECT_EQ(run({FaultKind::kFlipMosi, 1, 1, 17}, 0), Error::kVerify);
 }
 
 // Without a system clock nothing ends.

@@ -11,7 +11,7 @@
 #include <cstdint>
 
 #include "mb4/config.hpp"
-#include "mb4/detail/control_pace.hpp"
+#include "mb4/detail/control_checks.hpp"
 #include "mb4/detail/control_time.hpp"
 #include "mb4/detail/procedures.hpp"
 #include "mb4/register_image.hpp"
@@ -20,6 +20,25 @@ namespace mb4::detail {
 
 inline constexpr std::uint8_t kControlFrame =
     regs::INSTR::encode<static_cast<std::uint8_t>(regs::Instr::kControl)>();
+
+// Looks at the status that may fail one after the other before an access is given up. One disturbed
+// status must not stop it, and automatic frames with it.
+inline constexpr std::uint32_t kBadLooks = 3;
+
+// Longest time of the access, in microseconds: at most 930 * 1 s + 13 s, which fits 32 bits.
+[[nodiscard]] inline std::uint32_t longest_access_us(const ChipState& chip) {
+  return control_frames(chip.control.count) * chip.pitch_us + chip.busy_us + kFrameMarginUs;
+}
+
+// For accesses without automatic frames, where the host sets the pace. True when the access cannot
+// end well any more: all frames that it needs have run and the time of a busy slave is over. A
+// frame takes more than a microsecond, so a clock that stands still ends it too.
+[[nodiscard]] inline bool enough_frames(const ChipState& chip, std::uint32_t now_us) {
+  const ControlState& state = chip.control;
+  const std::uint32_t needed = control_frames(state.count);
+  return state.frames >= needed && (state.frames - needed > chip.busy_us ||
+                                    now_us - state.access_us >= longest_access_us(chip));
+}
 
 // Time limit of the access that chip.control describes, from its instruction on; of its first frame
 // without automatic frames.
@@ -33,13 +52,8 @@ inline constexpr std::uint8_t kControlFrame =
 
 // How the access has ended.
 [[nodiscard]] inline ErrorInfo access_error(const ChipState& chip, ControlState::Kind kind,
-                                            const Status& status, std::uint32_t now_us) {
-  // nAGSERR = 0 has two possible causes. (1) No slave has taken part in the hand-over; then the
-  // access has lasted as long as the chip's limit. (2) The chip sets nAGSERR = 0 at each write of
-  // 0xF4 (page 34 can be read so); then the access was shorter. A quarter of the limit separates
-  // them, because the internal oscillator may be faster than f_clk_hz says (D05).
-  if (chip.control.biss_b && status.start_error() &&
-      now_us - chip.control.access_us >= register_limit_us(chip.config) / 4) {
+                                            const Status& status) {
+  if (chip.control.biss_b && chip.control.no_hand_over) {
     return Error::kRegister;
   }
   ErrorInfo error;
@@ -59,17 +73,33 @@ inline constexpr std::uint8_t kControlFrame =
 // execute the new instruction. For BiSS B BREAK also resets REGEND and nAGSERR, so that both
 // describe this access.
 inline void Procedures::begin_access(ChipState& chip, Operation& op, bool biss_b) {
-  begin(chip, op, access_step, biss_b || (!chip.automatic && chip.recover_first));
+  begin(chip, op, access_step);
+  // Beside automatic frames BREAK is followed by a new start of the frames, in the access itself.
+  op.bad_ = chip.automatic && chip.control.stray ? 1 : 0;
+  if (biss_b || op.bad_ != 0 || (!chip.automatic && chip.recover_first)) {
+    add_recovery(chip, op);
+  }
+  chip.restart = chip.restart || op.bad_ != 0;  // until the frames run again
+  chip.control.stray = false;
   chip.recover_first = true;
   chip.control.readable = 0;
   chip.control.biss_b = biss_b;
+  chip.control.owner = &op;
 }
 
-// Control documents arguments and errors; its checks have been made. Writes `data`, or, if that is
-// null, reads `count` registers into `out`.
-inline void Procedures::plan_access(ChipState& chip, Operation& op, SlaveAddress slave,
-                                    std::uint8_t address, const std::uint8_t* data,
-                                    std::uint8_t* out, std::size_t count) {
+// Control documents arguments and errors. Writes `data`, or, if that is null, reads `count`
+// registers into `out`; if that is null too, they stay for plan_take(). After an error nothing is
+// planned.
+inline Result<void> Procedures::plan_access(ChipState& chip, Operation& op, SlaveAddress slave,
+                                            std::uint8_t address, const std::uint8_t* data,
+                                            std::uint8_t* out, std::size_t count) {
+  const Result<void> allowed =
+      possible_in(chip, op,
+                  check_access(chip, slave, address, count,
+                               data != nullptr ? Protocol::kUnused : Protocol::kSsi));
+  if (!allowed) {
+    return allowed;
+  }
   ControlState& state = chip.control;
   const bool biss_b = chip.config.channels[slave.channel - 1U].protocol == Protocol::kBissB;
   begin_access(chip, op, biss_b);
@@ -81,27 +111,36 @@ inline void Procedures::plan_access(ChipState& chip, Operation& op, SlaveAddress
   const std::uint8_t regadr =
       regs::WNR::insert(regs::REGADR::insert(0, address), data != nullptr ? 1 : 0);
   const std::uint8_t control = encode_ctrl(chip.config, biss_b);
-  op.request_ = {regadr, static_cast<std::uint8_t>(state.count - 1U), slave.channel,
-                 regs::CTS::insert(regs::SLAVEID::insert(control, slave.id), 1)};
+  op.request_[0] = regadr;
+  op.request_[1] = static_cast<std::uint8_t>(state.count - 1U);
+  op.request_[2] = slave.channel;
+  op.request_[3] = regs::CTS::insert(regs::SLAVEID::insert(control, slave.id), 1);
   if (op.stage_ == kStart) {
     add_request(chip, op);
   }
+  return {};
 }
 
-inline void Procedures::plan_command(ChipState& chip, Operation& op, const Command& command) {
+inline Result<void> Procedures::plan_command(ChipState& chip, Operation& op,
+                                             const Command& command) {
+  const Result<void> allowed = possible_in(chip, op, check_command(chip, command));
+  if (!allowed) {
+    return allowed;
+  }
   ControlState& state = chip.control;
   begin_access(chip, op, false);
   state.kind = ControlState::Kind::kCommand;
   state.count = 1;
   const std::uint8_t control = regs::CMD::insert(encode_ctrl(chip.config, false), command.code);
-  op.request_ = {0, reversed(command.ids),  // IDS0 is bit 7 (table 32)
-                 command.channels,
-                 regs::IDA_TEST::insert(control, command.test_acknowledge ? 1 : 0)};
+  op.request_[1] = reversed(command.ids);  // IDS0 is bit 7 (table 32)
+  op.request_[2] = command.channels;
+  op.request_[3] = regs::IDA_TEST::insert(control, command.test_acknowledge ? 1 : 0);
   op.data_ = &op.request_[1];
   op.count_ = 1;
   if (op.stage_ == kStart) {
     add_request(chip, op);
   }
+  return {};
 }
 
 // RDATA, or IDS of a command; then the request.
@@ -117,13 +156,22 @@ inline void Procedures::add_request(ChipState& chip, Operation& op) {
   const std::uint8_t from = state.kind == ControlState::Kind::kCommand ? 2 : 0;
   op.stage_ = kSet;
   add_write(chip, op, static_cast<std::uint8_t>(regs::kAddrRegadr + from), &op.request_[from],
-            op.request_.size() - from);
+            std::size_t{4} - from);
 }
 
 // Bytes of the next frame.
 inline std::uint8_t Procedures::part(const Operation& op) {
   const std::uint8_t left = static_cast<std::uint8_t>(op.count_ - op.at_);
   return left < Operation::kPart ? left : Operation::kPart;
+}
+
+// Takes `count` registers that an access has read.
+inline void Procedures::plan_take(ChipState& chip, Operation& op, std::uint8_t* out,
+                                  std::size_t count) {
+  begin(chip, op, access_step);
+  op.out_ = out;
+  op.count_ = count;
+  add_take(chip, op);
 }
 
 // With SpiCheck::kFull each part is read in two steps, the first one with a status: a line that is
@@ -155,14 +203,9 @@ inline void Procedures::add_access(ChipState& chip, Operation& op) {
   op.stage_ = kStart;
   add_instruction(op, static_cast<std::uint8_t>(
                           chip.automatic ? kControlFrame | regs::AGS::encode<1>() : kControlFrame));
-  if (chip.automatic && chip.checks_all()) {
+  if (state.biss_b || (chip.automatic && chip.checks_all())) {
     mb4_cyclic_add_status(&op.plan_);
   }
-}
-
-inline void Procedures::again(Operation& op, std::uint32_t now_us) {
-  op.limit_.note(now_us);
-  add_poll(op);
 }
 
 inline Result<void> Procedures::access_step(ChipState& chip, Operation& op, std::uint32_t now_us) {
@@ -187,7 +230,10 @@ inline Result<void> Procedures::access_step(ChipState& chip, Operation& op, std:
 
 inline Result<void> Procedures::access(ChipState& chip, Operation& op, std::uint32_t now_us) {
   ControlState& state = chip.control;
-  if (!op.good_ && op.stage_ != kClear && op.stage_ != kStopped) {
+  // These judge a failed transfer themselves.
+  const bool own =
+      op.stage_ == kPoll || op.stage_ == kPollAgain || op.stage_ == kClear || op.stage_ == kStopped;
+  if (!op.good_ && !own) {
     return Error::kTransport;
   }
   switch (op.stage_) {
@@ -206,25 +252,35 @@ inline Result<void> Procedures::access(ChipState& chip, Operation& op, std::uint
     }
     case kRecover:
       recovered(chip, op);
+      if (op.bad_ != 0) {
+        add_instruction(op, regs::AGS::encode<1>());
+        chip.started(now_us);
+        chip.automatic = true;
+        chip.restart = false;
+        op.bad_ = 0;
+      }
       add_request(chip, op);
       return {};
     case kStart: {
       state.access_us = now_us;
       op.limit_.begin(now_us, access_us(chip));
-      // REGEND falls with the instruction, and reads 0 while it waits. If it is still 1, the
-      // instruction was lost and the access before would count as this one; or this access has
-      // failed at once (nREGERR = 0). One disturbed status must not hide an access that runs.
-      if (chip.automatic && chip.checks_all()) {
-        if (const Result<void> seen = look(op); !seen) {
-          return seen;
-        }
-        if (op.status_.control_ended() && !op.status_.control_error()) {
-          if (op.made_ == 1) {
-            state.kind = ControlState::Kind::kNone;
-            return Error::kCorrupted;
+      if (state.biss_b) {
+        state.agserr_at_start = !look(op) || op.status_.start_error();
+      } else if (chip.automatic && chip.checks_all()) {
+        // REGEND falls with the instruction, and reads 0 while it waits. If it is still 1, the
+        // instruction was lost and the access before would count as this one; or this access has
+        // failed at once (nREGERR = 0). One disturbed status must not hide an access that runs.
+        const Result<void> seen = look(op);
+        if (!seen || (op.status_.control_ended() && !op.status_.control_error())) {
+          if (op.made_ != 1) {
+            mb4_cyclic_add_status(&op.plan_);
+            return {};
           }
-          mb4_cyclic_add_status(&op.plan_);
-          return {};
+          if (!seen) {
+            return seen;
+          }
+          state.kind = ControlState::Kind::kNone;
+          return Error::kCorrupted;
         }
       }
       again(op, now_us);
@@ -264,8 +320,8 @@ inline Result<void> Procedures::access(ChipState& chip, Operation& op, std::uint
       return ended(chip, op);
     default: {  // kStopped: an error that came before BREAK stays the result
       const Error cause = op.cause_.error();
-      const bool own = cause == Error::kNone || cause == Error::kTimeout;
-      return !op.good_ && own ? Result<void>(Error::kTransport) : op.cause_;
+      const bool last = cause == Error::kNone || cause == Error::kTimeout;
+      return !op.good_ && last ? Result<void>(Error::kTransport) : op.cause_;
     }
   }
 }
@@ -283,8 +339,13 @@ inline Result<void> Procedures::taken(ChipState& chip, Operation& op) {
 inline Result<void> Procedures::poll(ChipState& chip, Operation& op, std::uint32_t now_us) {
   ControlState& state = chip.control;
   if (const Result<void> seen = look(op); !seen) {
-    return seen;
+    if (++op.bad_ == kBadLooks) {
+      return seen;
+    }
+    again(op, now_us);
+    return {};
   }
+  op.bad_ = 0;
   const Status& status = op.status_;
   const bool frame_over = status.instruction_done() && (chip.automatic || status.idle());
   // Where several frames follow each other, REGEND = 1 in the first one may still belong to the
@@ -301,13 +362,21 @@ inline Result<void> Procedures::poll(ChipState& chip, Operation& op, std::uint32
     }
     // Now the slaves' register timeout runs. The line does not show its end.
     if (state.biss_b && state.first_frame) {
+      // nAGSERR = 0 has two possible causes. (1) No slave has taken part in the hand-over; then the
+      // access has lasted as long as the chip's limit. (2) The chip sets nAGSERR = 0 at each write
+      // of 0xF4 (page 34 can be read so), which the status directly after the instruction shows;
+      // then the time decides. A quarter of the limit separates the two, because the internal
+      // oscillator may be faster than f_clk_hz says (D05).
+      state.no_hand_over =
+          status.start_error() && (!state.agserr_at_start ||
+                                   now_us - state.access_us >= register_limit_us(chip.config) / 4);
       state.first_frame = false;
       op.limit_.begin(now_us, chip.config.register_timeout_us);
       again(op, now_us);
       return {};
     }
     if (!state.biss_b || op.limit_.over) {
-      return conclude(chip, op, now_us);
+      return conclude(chip, op);
     }
     again(op, now_us);
     return {};
@@ -330,9 +399,9 @@ inline Result<void> Procedures::poll(ChipState& chip, Operation& op, std::uint32
 }
 
 // The access has ended; how?
-inline Result<void> Procedures::conclude(ChipState& chip, Operation& op, std::uint32_t now_us) {
+inline Result<void> Procedures::conclude(ChipState& chip, Operation& op) {
   ControlState& state = chip.control;
-  const ErrorInfo error = access_error(chip, state.kind, op.status_, now_us);
+  const ErrorInfo error = access_error(chip, state.kind, op.status_);
   op.cause_ = error;
   state.readable = error.code == Error::kNone && state.kind == ControlState::Kind::kRead
                        ? state.count
@@ -349,7 +418,7 @@ inline Result<void> Procedures::conclude(ChipState& chip, Operation& op, std::ui
 }
 
 inline Result<void> Procedures::ended(ChipState& chip, Operation& op) {
-  if (op.cause_ && chip.control.readable != 0) {
+  if (op.cause_ && chip.control.readable != 0 && op.out_ != nullptr) {
     op.at_ = 0;
     add_take(chip, op);
   }

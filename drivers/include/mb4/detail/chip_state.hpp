@@ -12,8 +12,12 @@
 
 #include "mb4/config.hpp"
 #include "mb4/cyclic.hpp"
+#include "mb4/detail/control_time.hpp"
 #include "mb4/detail/time_limit.hpp"
+#include "mb4/operation.hpp"
+#include "mb4/reading.hpp"
 #include "mb4/register_image.hpp"
+#include "mb4/status.hpp"
 #include "mb4_regs.hpp"
 
 namespace mb4::detail {
@@ -30,22 +34,31 @@ struct ControlState {
   enum class Kind : std::uint8_t { kNone, kRead, kWrite, kCommand };
 
   Kind kind = Kind::kNone;
-  std::uint8_t readable = 0;    // registers that a finished read has left in RDATA
-  std::uint8_t count = 0;       // registers of this access, 1..64
-  bool biss_b = false;          // one instruction runs the whole access, without frames
-  bool overwritten = false;     // a read of positions has written INSTR = 000 meanwhile
-  bool seen_running = false;    // ... and has seen REGEND = 0 since the last poll
-  bool first_frame = false;     // REGEND may belong to the access before; BiSS B: not ended yet
-  std::uint32_t start_us = 0;   // of this frame; with automatic frames of the access
-  std::uint32_t access_us = 0;  // start of the access
-  std::uint32_t timeout_us = 0;
+  std::uint8_t readable = 0;     // registers that a finished read has left in RDATA
+  std::uint8_t count = 0;        // registers of this access, 1..64
+  bool biss_b = false;           // one instruction runs the whole access, without frames
+  bool overwritten = false;      // a read of positions has written INSTR = 000 meanwhile
+  bool seen_running = false;     // ... and has seen REGEND = 0 since the last poll
+  bool first_frame = false;      // REGEND may belong to the access before; BiSS B: not ended yet
+  bool stray = false;            // an access that nobody asked for may run
+  bool no_hand_over = false;     // BiSS B: no slave has entered register mode
+  bool agserr_at_start = false;  // BiSS B: the chip sets nAGSERR = 0 at each write of 0xF4
+  std::uint32_t access_us = 0;   // start of the access
   std::uint32_t frames = 0;      // begun so far, without automatic frames
-  std::uint32_t polls_left = 0;  // limit for a time source that stands still
+  const Operation* owner = nullptr;  // runs it
 };
 
 // All that the calls on one chip share, except its bus and its clock.
 struct ChipState {
+  using Make = bool (*)(ChipState&, Steps&);
+  using AskUs = std::uint32_t (*)(ChipState&);
+
+  constexpr ChipState(Make the_make, AskUs the_ask_us, std::uint32_t the_step_us)
+      : make(the_make), ask_us(the_ask_us), step_us(the_step_us) {}
+
   // First what most calls look at: short offsets make short code.
+  Make make;     // the frames of a step, on the bus
+  AskUs ask_us;  // asks the clock
   bool configured = false;
   // AGS = 1 was written, and nothing has stopped it.
   bool automatic = false;
@@ -64,9 +77,12 @@ struct ChipState {
   mb4_watch watch{};                      // are automatic frames coming?
   std::array<mb4_word, kSlaves> words{};  // how the data of each of `sensors` is read, in order
   RegisterImage image{};                  // 0xC0..0xF2 as configure() has written them
+  std::uint8_t interface_byte = 0;        // 0xF5, the same
+  std::uint32_t step_us;                  // of the clock
   std::uint8_t count = 0;                 // of `words`
   std::uint8_t needs = 0;                 // MB4_WITH_..., for any slave
   Config config{};
+  Operation own;  // of the calls that make the frames themselves
 
   // How the data of `slave`, one of `sensors`, is read.
   [[nodiscard]] const mb4_word* word_of(std::uint8_t slave) const {
@@ -77,10 +93,40 @@ struct ChipState {
     return word;
   }
 
+  // Before a new configuration.
+  void forget() {
+    configured = false;
+    automatic = false;
+    restart = false;
+    recover_first = true;
+    control = {};
+  }
+
+  // Works out what the calls need of a valid configuration.
+  void take(const Config& from) {
+    config = from;
+    image = encode_registers(from);
+    interface_byte = encode_interface(from);
+    sensors = mb4::sensors(from);
+    sensor_flags = Status::valid_registers(sensors);
+    actuators = mb4::actuators(from);
+    frame_us = frame_timeout_us(from);
+    pitch_us = frame_pitch_us(from);
+    busy_us = register_busy_us(from);
+    needs = (sensors & (sensors - 1U)) != 0 ? MB4_WITH_SEVERAL : 0;
+    count = 0;
+    for (std::uint8_t slave = 1; slave <= kSlaves; ++slave) {
+      if (is_in(sensors, slave)) {
+        set_word(from, slave, words[count++]);
+        needs = static_cast<std::uint8_t>(needs | needed(from, slave));
+      }
+    }
+    set_watch();
+  }
+
   // Works out when frames have stayed away for too long: Automatic::poll(). A slave that needs
   // longer than a period says so by Config::frame_timeout_us.
-  // `step_us`: of the clock.
-  void set_watch(std::uint32_t step_us) {
+  void set_watch() {
     const std::uint32_t two_us = 2 * pitch_us;
     const std::uint32_t slow_us = config.frame_timeout_us + pitch_us;
     const bool on_pin = config.frame_start == FrameStart::kOnPin;
@@ -102,13 +148,36 @@ struct ChipState {
     }
   }
 
+  [[nodiscard]] bool control_runs() const { return control.kind != ControlState::Kind::kNone; }
+
+  [[nodiscard]] Result<void> single_frame_allowed() const {
+    if (!configured) {
+      return Error::kNotConfigured;
+    }
+    if (control_runs()) {
+      return Error::kBusy;
+    }
+    return automatic ? Error::kWrongMode : Error::kNone;
+  }
+
+  // `again`: automatic frames may run.
+  [[nodiscard]] Result<void> start_allowed(bool again) const {
+    if (const Result<void> single = single_frame_allowed();
+        !single && (!again || single.error() != Error::kWrongMode)) {
+      return single;
+    }
+    return config.single_bank ? ErrorInfo(Error::kUnsupported, ConfigField::kSingleBank, 0)
+                              : ErrorInfo();
+  }
+
   [[nodiscard]] bool checks_all() const { return config.spi_check == SpiCheck::kFull; }
 
-  // Time from BREAK until all slaves are ready. Slaves of BiSS B may be in register mode and need
-  // longer.
+  // Time from BREAK until all slaves are ready, by any clock. Slaves of BiSS B may be in register
+  // mode and need longer.
   [[nodiscard]] std::uint32_t recovery_us() const {
-    return any_channel_is(config, Protocol::kBissB) ? kLineRecoveryUs + config.register_timeout_us
-                                                    : kLineRecoveryUs;
+    constexpr std::uint32_t kShortest = kLineRecoveryUs + kClockStepUs;
+    return any_channel_is(config, Protocol::kBissB) ? kShortest + config.register_timeout_us
+                                                    : kShortest;
   }
 
   // What BREAK ends.

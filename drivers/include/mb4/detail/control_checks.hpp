@@ -11,90 +11,81 @@
 
 #include "mb4/command.hpp"
 #include "mb4/config.hpp"
-#include "mb4/detail/chip.hpp"
+#include "mb4/detail/chip_state.hpp"
 #include "mb4/result.hpp"
 #include "mb4/slave_address.hpp"
 #include "mb4_regs.hpp"
 
 namespace mb4::detail {
 
-template <typename Bus, typename Clock>
-class ControlChecks {
- public:
-  explicit constexpr ControlChecks(Chip<Bus, Clock>& chip) : chip_(chip) {}
+// `without`: the protocol that does not have this kind of access.
+[[nodiscard]] inline Result<void> check_protocol(const ChipState& chip, std::uint8_t channel,
+                                                 Protocol without) {
+  const Protocol protocol = chip.config.channels[channel - 1U].protocol;
+  if (protocol == Protocol::kUnused) {
+    return Error::kInvalidArgument;
+  }
+  if (protocol == without) {
+    return ErrorInfo(Error::kUnsupported, ConfigField::kChannelProtocol, channel);
+  }
+  return {};
+}
 
- protected:
-  // `without`: the protocol that does not have this kind of access.
-  [[nodiscard]] Result<void> check_protocol(std::uint8_t channel, Protocol without) const {
-    const Protocol protocol = chip_.config.channels[channel - 1U].protocol;
-    if (protocol == Protocol::kUnused) {
+[[nodiscard, gnu::always_inline]] inline Result<void> check_free(const ChipState& chip) {
+  if (!chip.configured) {
+    return Error::kNotConfigured;
+  }
+  if (chip.control_runs()) {
+    return Error::kBusy;
+  }
+  if (!chip.automatic && chip.config.frame_start != FrameStart::kWaitForLine) {
+    return ErrorInfo(Error::kUnsupported, ConfigField::kFrameStart, 0);
+  }
+  return {};
+}
+
+[[nodiscard, gnu::always_inline]] inline Result<void> check_access(const ChipState& chip,
+                                                                   SlaveAddress slave,
+                                                                   std::uint8_t address,
+                                                                   std::size_t count,
+                                                                   Protocol without) {
+  if (const Result<void> free = check_free(chip); !free) {
+    return free;
+  }
+  if (slave.channel < 1 || slave.channel > kChannels || slave.id >= kSlaveIds || count < 1 ||
+      count > kMaxRegistersPerAccess || address + count > kSlaveRegisters) {
+    return Error::kInvalidArgument;
+  }
+  if (chip.config.channels[slave.channel - 1U].protocol == Protocol::kBissB) {
+    if (chip.config.mo && slave.id == 0) {
       return Error::kInvalidArgument;
     }
-    if (protocol == without) {
-      return ErrorInfo(Error::kUnsupported, ConfigField::kChannelProtocol, channel);
+    if (chip.automatic) {
+      return Error::kWrongMode;
     }
-    return {};
   }
+  return check_protocol(chip, slave.channel, without);
+}
 
-  [[nodiscard]] bool is_biss_b(std::uint8_t channel) const {
-    return chip_.config.channels[channel - 1U].protocol == Protocol::kBissB;
+[[nodiscard]] inline Result<void> check_command(const ChipState& chip, const Command& command) {
+  if (const Result<void> free = check_free(chip); !free) {
+    return free;
   }
-
-  [[nodiscard]] Result<void> check_free() const {
-    if (!chip_.configured) {
-      return Error::kNotConfigured;
-    }
-    if (chip_.control.kind != ControlState::Kind::kNone) {
-      return Error::kBusy;
-    }
-    if (!chip_.automatic && chip_.config.frame_start != FrameStart::kWaitForLine) {
-      return ErrorInfo(Error::kUnsupported, ConfigField::kFrameStart, 0);
-    }
-    return {};
+  const bool broadcast = command.ids == 0;
+  if (command.channels < 1 || command.channels > 3 || command.code > regs::CMD::kMax ||
+      (broadcast && (command.test_acknowledge || command.code == regs::CMD::kMax))) {
+    return Error::kInvalidArgument;
   }
-
-  [[nodiscard]] Result<void> check_access(SlaveAddress slave, std::uint8_t address,
-                                          std::size_t count, Protocol without) const {
-    if (const Result<void> free = check_free(); !free) {
-      return free;
+  for (std::uint8_t channel = 1; channel <= kChannels; ++channel) {
+    const Result<void> possible = (command.channels & channel) == 0
+                                      ? Result<void>()
+                                      : check_protocol(chip, channel, Protocol::kBissB);
+    if (!possible) {
+      return possible;
     }
-    if (slave.channel < 1 || slave.channel > kChannels || slave.id >= kSlaveIds || count < 1 ||
-        count > kMaxRegistersPerAccess || address + count > kSlaveRegisters) {
-      return Error::kInvalidArgument;
-    }
-    if (is_biss_b(slave.channel)) {
-      if (chip_.config.mo && slave.id == 0) {
-        return Error::kInvalidArgument;
-      }
-      if (chip_.automatic) {
-        return Error::kWrongMode;
-      }
-    }
-    return check_protocol(slave.channel, without);
   }
-
-  [[nodiscard]] Result<void> check_command(const Command& command) const {
-    if (const Result<void> free = check_free(); !free) {
-      return free;
-    }
-    const bool broadcast = command.ids == 0;
-    if (command.channels < 1 || command.channels > 3 || command.code > regs::CMD::kMax ||
-        (broadcast && (command.test_acknowledge || command.code == regs::CMD::kMax))) {
-      return Error::kInvalidArgument;
-    }
-    for (std::uint8_t channel = 1; channel <= kChannels; ++channel) {
-      const Result<void> possible = (command.channels & channel) == 0
-                                        ? Result<void>()
-                                        : check_protocol(channel, Protocol::kBissB);
-      if (!possible) {
-        return possible;
-      }
-    }
-    return {};
-  }
-
-  Chip<Bus, Clock>& chip_;
-};
+  return {};
+}
 
 }  // namespace mb4::detail
 

@@ -6,20 +6,11 @@
 #ifndef MB4_DETAIL_INITIALIZATION_HPP_
 #define MB4_DETAIL_INITIALIZATION_HPP_
 
-#include <array>
-#include <cstddef>
 #include <cstdint>
 
 #include "mb4/config.hpp"
-#include "mb4/detail/checked_registers.hpp"
-#include "mb4/detail/chip.hpp"
 #include "mb4/detail/control_time.hpp"
-#include "mb4/line_delay.hpp"
-#include "mb4/register_image.hpp"
-#include "mb4/result.hpp"
-#include "mb4/span.hpp"
-#include "mb4/status.hpp"
-#include "mb4_regs.hpp"
+#include "mb4/detail/procedures.hpp"
 
 namespace mb4::detail {
 
@@ -43,97 +34,136 @@ namespace mb4::detail {
   return with_spread(config, us) + kFrameMarginUs;
 }
 
-// Used through Device::initialize(), which documents the errors.
-template <typename Bus, typename Clock>
-class Initialization {
- public:
-  explicit constexpr Initialization(Chip<Bus, Clock>& chip) : chip_(chip) {}
-
-  // The chip must be configured, and no frames and no control communication may run.
-  Result<void> run(LineDelay& delay) {
-    if (chip_.recover_first) {
-      if (const Result<void> recovered = chip_.recover(); !recovered) {
-        return recovered;
-      }
-    }
-    chip_.recover_first = true;
-    // SCDATA1 and SCDATA5 become 0, so that an old value cannot look like a new one.
-    Result<void> done = write_zero(regs::scdata_address(1));
-    if (done) {
-      done = write_zero(regs::scdata_address(5));
-    }
-    if (done) {
-      done = set_protocol();
-    }
-    if (done) {
-      done = chip_.write_instruction(regs::INIT::encode<1>());
-    }
-    if (done) {
-      done = wait();
-    }
-    for (unsigned channel = 0; done && channel < kChannels; ++channel) {
-      done = read_delay(channel, delay.quarters[channel]);
-    }
-    if (done) {
-      done = chip_.clear_valid_checked(chip_.sensor_flags);
-    }
-    chip_.recover_first = !done;
-    return done;
+// Device::initialize() documents the errors. The chip must be configured, and no frames and no
+// control communication may run.
+inline void Procedures::plan_initialize(ChipState& chip, Operation& op) {
+  begin(chip, op, initialize_step);
+  if (chip.recover_first) {
+    add_recovery(chip, op);
+  } else {
+    prepare(chip, op);
   }
+  chip.recover_first = true;
+}
 
- private:
-  // A register access may have left another protocol in REGVERS.
-  Result<void> set_protocol() {
-    const std::uint8_t control = encode_ctrl(chip_.config, only_biss_b(chip_.config));
-    return any_channel_is(chip_.config, Protocol::kBissB)
-               ? write_checked(chip_, regs::kAddrCtrl, Span<const std::uint8_t>(&control, 1))
-               : Result<void>();
+// SCDATA1 and SCDATA5 become 0, so that an old value cannot look like a new one. A register access
+// may have left another protocol in REGVERS.
+inline void Procedures::prepare(ChipState& chip, Operation& op) {
+  constexpr std::uint8_t kScdata5 = regs::scdata_address(5);
+  mb4_plan_add(&op.plan_, 3, MB4_CYCLIC_WRITE, regs::scdata_address(1), 0);
+  mb4_plan_add(&op.plan_, 3, MB4_CYCLIC_WRITE, kScdata5, 0);
+  op.stage_ = kSet;
+  if (any_channel_is(chip.config, Protocol::kBissB)) {
+    add_write(chip, op, regs::kAddrCtrl, &chip.image[regs::kAddrCtrl - kImageFirst], 1);
+    op.stage_ = kFill;
   }
+}
 
-  Result<void> write_zero(std::uint8_t address) {
-    constexpr std::uint8_t kZero = 0;
-    return chip_.opcodes.write_registers(address, Span<const std::uint8_t>(&kZero, 1));
+inline Result<void> Procedures::initialize_step(ChipState& chip, Operation& op,
+                                                std::uint32_t now_us) {
+  if (!op.good_) {
+    return Error::kTransport;
   }
-
-  // SCDATA1 and SCDATA5 (page 33) of the channels that INIT has measured.
-  Result<void> read_delay(unsigned channel, std::uint8_t& quarters) {
-    constexpr unsigned kSlavesOfChannel = kSlaves / kChannels;
-    if (!measures(chip_, channel)) {
+  switch (op.stage_) {
+    case kRecover:
+      recovered(chip, op);
+      prepare(chip, op);
       return {};
-    }
-    const Result<void> read =
-        read_checked(chip_, regs::scdata_address(1 + channel * kSlavesOfChannel),
-                     Span<std::uint8_t>(&quarters, 1));
-    // An ideal line and slave give 1.
-    return read && quarters == 0 ? Error::kNoData : read;
-  }
-
-  Result<void> wait() {
-    Deadline<Clock> deadline(*chip_.clock, initialization_us(chip_));
-    for (bool last = false; !last;) {
-      last = deadline.last_poll();
-      Status status;
-      if (const Result<void> look = chip_.look(status); !look) {
-        return look;
+    case kFill:
+    case kSet: {
+      const Result<void> set = op.stage_ == kFill ? same(chip, op) : Result<void>();
+      if (set) {
+        add_instruction(op, regs::INIT::encode<1>());
+        op.stage_ = kStart;
+        if (chip.checks_all()) {
+          mb4_cyclic_add_status(&op.plan_);
+        }
       }
-      if (status.idle() && status.get<regs::INIT>() == 0) {
+      return set;
+    }
+    case kStart:
+      // INIT reads 1 for a while. In BiSS C it may be over already, but then it has measured. With
+      // SSI alone an INIT that is lost shows in the flags, if at all.
+      op.bad_ = chip.checks_all() && look(op).ok() && op.status_.idle() &&
+                        op.status_.get<regs::INIT>() == 0
+                    ? 1
+                    : 0;
+      if (op.bad_ != 0 && !measures(chip) && any_channel_is(chip.config, Protocol::kBissB)) {
+        return Error::kCorrupted;
+      }
+      op.limit_.begin(now_us, initialization_us(chip));
+      add_poll(op);
+      return {};
+    case kPoll: {
+      const Result<void> seen = look(op);
+      if (!seen) {
+        return seen;
+      }
+      if (op.status_.idle() && op.status_.get<regs::INIT>() == 0) {
         // INIT has set the flags to 1 at its beginning.
-        if (status.start_error()) {
-          return measures(chip_) ? Error::kLineDelay : Error::kLineError;
+        if (op.status_.start_error()) {
+          return measures(chip) ? Error::kLineDelay : Error::kLineError;
         }
         // INIT also ends with a line that is stuck low (page 33), so the line is checked here. In
         // BiSS B the slaves are in register mode now and first need their timeout.
-        if (!measures(chip_)) {
-          pause(*chip_.clock, chip_.recovery_us());
-        }
-        return chip_.diagnose_line();
+        op.limit_ = {};
+        add_lines(op);
+        op.plan_.pause_us = measures(chip) ? 0 : chip.recovery_us();
+        return {};
       }
+      if (op.limit_.over) {
+        chip.stopped();
+        add_instruction(op, regs::BREAK::encode<1>());
+        op.stage_ = kStopped;
+        return {};
+      }
+      op.limit_.note(now_us);
+      add_poll(op);
+      return {};
     }
-    return chip_.stop_frame(Error::kTimeout);
+    case kLines: {
+      const Result<void> line = lines(chip, op, now_us);
+      if (!line || op.plan_.frames != 0) {
+        return line;
+      }
+      op.at_ = 0;
+      break;
+    }
+    case kDelays: {
+      // An ideal line and slave give 1.
+      std::uint8_t& quarters = op.delay_.quarters[op.at_++];
+      quarters = received(op)[2];
+      const Result<void> read = same(chip, op);
+      if (!read || quarters == 0) {
+        const Error nothing = op.bad_ != 0 ? Error::kCorrupted : Error::kNoData;
+        return read ? nothing : read;
+      }
+      break;
+    }
+    case kClear: {
+      const Result<void> cleared = clear_step(chip, op, now_us);
+      chip.recover_first = !cleared || op.plan_.frames != 0;
+      return cleared;
+    }
+    default:
+      return Error::kTimeout;
   }
-
-  Chip<Bus, Clock>& chip_;
-};
+  // SCDATA1 and SCDATA5 (page 33) of the channels that INIT has measured.
+  for (; op.at_ < kChannels; ++op.at_) {
+    if (measures(chip, op.at_)) {
+      const std::uint8_t address = op.at_ == 0 ? regs::scdata_address(1) : regs::scdata_address(5);
+      op.stage_ = kDelays;
+      add_read(op, address, 1);
+      if (chip.checks_all()) {
+        add_read(op, address, 1);
+      }
+      return {};
+    }
+    op.delay_.quarters[op.at_] = 0;
+  }
+  add_clear(chip, op);
+  return {};
+}
 
 }  // namespace mb4::detail
 

@@ -24,8 +24,8 @@ namespace mb4::detail {
 
 // A procedure consists of a function that plans its first frames, and of its step, which looks at
 // what came back, adds the frames of the next step, and returns success or an error. It ends when
-// it adds no frame. A program has only the procedures that it begins. The blocking calls do the
-// same with frames of their own.
+// it adds no frame. A program has only the procedures that it begins. The blocking calls are loops
+// over the same steps (Chip::run()).
 struct Procedures {
   // Where an operation is: what the frames do that are made now.
   enum Stage : std::uint8_t {
@@ -34,13 +34,14 @@ struct Procedures {
     kPoll,       // read the status until what was started has ended
     kPollAgain,  // an access: is the end true?
     kLines,      // read the lines until SL is 1
-    kFill,       // an access: RDATA or IDS
-    kSet,        // an access: 0xE2..0xE5
+    kFill,       // an access: RDATA or IDS; an actuator: its word; all registers
+    kSet,        // an access: 0xE2..0xE5; an actuator: 0xF4
     kNextFrame,  // an access: the next frame
-    kDelays,     // INIT: what it has measured
+    kDelays,     // INIT: what it has measured; a configuration: REVISION, VERSION
     kClear,      // SVALID = 0
-    kTake,       // an access: RDATA
+    kTake,       // an access: RDATA; a single frame: its data; an actuator: the other bank's word
     kTakeAgain,  // ... once more
+    kProof,      // a single frame, a configuration: the status after what was read
     kStopped     // BREAK; the result is known
   };
 
@@ -69,25 +70,73 @@ struct Procedures {
     return allowed && op.step_ != nullptr ? Result<void>(Error::kBusy) : allowed;
   }
 
+  // The same, also for chip.own, which a blocking call may always take.
+  [[gnu::always_inline]] static Result<void> possible_in(const ChipState& chip, const Operation& op,
+                                                         const Result<void>& allowed) {
+    return &op == &chip.own ? allowed : possible(op, allowed);
+  }
+
   // ---- Automatic frames: automatic.hpp ----
 
   // Sets AGS = 1, after BREAK if need be.
   static void plan_start(ChipState& chip, Operation& op) {
-    begin(chip, op, start_step, chip.recover_first);
+    begin(chip, op, start_step);
+    if (chip.recover_first) {
+      add_recovery(chip, op);
+    } else {
+      add_instruction(op, regs::AGS::encode<1>());
+    }
     // The next single frame begins with BREAK, because an automatic frame may still run then.
     chip.recover_first = true;
-    if (op.stage_ == kStart) {
-      add_instruction(op, regs::AGS::encode<1>());
+  }
+
+  template <std::uint8_t With>
+  static void prepare_restart(ChipState& chip) {
+    chip.automatic = false;
+    chip.recover_first = true;
+    chip.restart = true;
+    if ((With & MB4_WITH_COUNTS) != 0 && chip.watch.counts != nullptr) {
+      ++chip.watch.counts->restarts;
     }
   }
 
-  // ---- The others: verification.hpp, initialization_steps.hpp, access.hpp ----
+  // AGS = 0, or BREAK: `instruction`. Nothing runs afterwards, or it ends by itself.
+  static void plan_stop(ChipState& chip, Operation& op, std::uint8_t instruction, bool restart) {
+    begin(chip, op, stop_step);
+    chip.stopped();
+    chip.restart = restart;
+    chip.recover_first = true;
+    add_instruction(op, instruction);
+  }
+
+  // ---- The others: configuration.hpp, initialization.hpp, single_frame.hpp, actuator.hpp,
+  // access.hpp ----
 
   static void plan_verify(ChipState& chip, Operation& op);
+  static void plan_configure(ChipState& chip, Operation& op, const Config& config);
+  static void plan_reset(ChipState& chip, Operation& op);
+  static void plan_frame(ChipState& chip, Operation& op, ReadSteps& read, const mb4_word* words,
+                         std::uint8_t count);
+  static void plan_wait(ChipState& chip, Operation& op);
+  static Result<void> plan_actuator(ChipState& chip, Operation& op, std::uint8_t slave,
+                                    std::uint64_t word, bool both_banks);
   static void plan_initialize(ChipState& chip, Operation& op);
-  static void plan_access(ChipState& chip, Operation& op, SlaveAddress slave, std::uint8_t address,
-                          const std::uint8_t* data, std::uint8_t* out, std::size_t count);
-  static void plan_command(ChipState& chip, Operation& op, const Command& command);
+  static Result<void> plan_access(ChipState& chip, Operation& op, SlaveAddress slave,
+                                  std::uint8_t address, const std::uint8_t* data, std::uint8_t* out,
+                                  std::size_t count);
+  static Result<void> plan_command(ChipState& chip, Operation& op, const Command& command);
+  static void plan_take(ChipState& chip, Operation& op, std::uint8_t* out, std::size_t count);
+
+  // ---- An access whose caller polls: control_steps.hpp ----
+
+  // The access has begun, and the next step reads the status for the first time after a frame.
+  static bool polls(const Operation& op) { return op.step_ != nullptr && op.stage_ == kPoll; }
+  // A read of positions has just seen that the access runs, and its time is not over.
+  static bool seen_running(ChipState& chip, Operation& op, std::uint32_t now_us) {
+    const bool seen = !op.limit_.look(now_us) && chip.control.seen_running;
+    chip.control.seen_running = false;
+    return seen;
+  }
 
  private:
   // ---- Frames ----
@@ -97,29 +146,26 @@ struct Procedures {
     op.plan_.pause_us = 0;
   }
 
-  // `recover`: the operation begins with BREAK, and goes on in `step` at kRecover; otherwise at
-  // kStart.
-  [[gnu::noinline]] static void begin(ChipState& chip, Operation& op, Operation::Step step,
-                                      bool recover) {
+  [[gnu::noinline]] static void begin(ChipState& chip, Operation& op, Operation::Step step) {
+    mb4_plan_memory(&op.plan_, op.tx_.data(), op.rx_.data());
     clear_plan(op);
     op.step_ = step;
     op.chip_ = &chip;
     op.result_ = Error::kBusy;
     op.stage_ = kStart;
     op.at_ = 0;
+    op.bad_ = 0;
     op.cause_ = {};
-    if (recover) {
-      add_recovery(chip, op);
-    }
   }
 
-  // BREAK. With SpiCheck::kFull it also writes 0xF5, the register after 0xF4: the failed transfer
-  // may have been a read of the status that reached the chip as a write. Afterwards recovered().
+  // BREAK, at kRecover. With SpiCheck::kFull it also writes 0xF5, the register after 0xF4: the
+  // failed transfer may have been a read of the status that reached the chip as a write. Afterwards
+  // recovered().
   [[gnu::noinline]] static void add_recovery(ChipState& chip, Operation& op) {
     op.stage_ = kRecover;
     chip.stopped();
     mb4_plan_add(&op.plan_, chip.checks_all() ? 3 : 2, MB4_CYCLIC_INSTRUCT,
-                 regs::BREAK::encode<1>(), encode_interface(chip.config));
+                 regs::BREAK::encode<1>(), chip.interface_byte);
   }
   // The frames that follow come after the slaves' timeout. The first one clears the flags of frames
   // that ran.
@@ -139,14 +185,19 @@ struct Procedures {
     mb4_plan_add(&op.plan_, static_cast<std::uint8_t>(size + 2), MB4_CYCLIC_READ, address, 0);
     mb4_plan_rx(&op.plan_, static_cast<std::uint8_t>(op.plan_.frames - 1))[2] = 0;
   }
-  [[gnu::noinline]] static void add_write(const ChipState& chip, Operation& op,
-                                          std::uint8_t address, const std::uint8_t* data,
-                                          std::size_t size) {
+  [[gnu::noinline]] static void add_bytes(Operation& op, std::uint8_t address,
+                                          const std::uint8_t* data, std::size_t size) {
     std::uint8_t* tx = mb4_plan_add(&op.plan_, 2, MB4_CYCLIC_WRITE, address, 0) + 2;
     op.plan_.size[op.plan_.frames - 1] = static_cast<std::uint8_t>(size + 2);
     for (const std::uint8_t* end = data + size; data != end;) {
       *tx++ = *data++;
     }
+  }
+  // With SpiCheck::kFull it reads back what it writes: same().
+  [[gnu::noinline]] static void add_write(const ChipState& chip, Operation& op,
+                                          std::uint8_t address, const std::uint8_t* data,
+                                          std::size_t size) {
+    add_bytes(op, address, data, size);
     if (chip.checks_all()) {
       add_read(op, address, size);
     }
@@ -163,6 +214,11 @@ struct Procedures {
   static void add_poll(Operation& op) {
     op.stage_ = kPoll;
     mb4_cyclic_add_status(&op.plan_);
+  }
+
+  static void again(Operation& op, std::uint32_t now_us) {
+    op.limit_.note(now_us);
+    add_poll(op);
   }
 
   static void add_lines(Operation& op) {
@@ -269,21 +325,47 @@ struct Procedures {
     return {};
   }
 
-  static Result<void> verify_step(ChipState& chip, Operation& op, std::uint32_t now_us);
+  static Result<void> stop_step(ChipState& /*chip*/, Operation& op, std::uint32_t /*now_us*/) {
+    return op.good_ ? Error::kNone : Error::kTransport;
+  }
+
+  static Result<void> configuration_step(ChipState& chip, Operation& op, std::uint32_t now_us);
+  static Result<void> frame_step(ChipState& chip, Operation& op, std::uint32_t now_us);
+  static Result<void> wait_step(ChipState& chip, Operation& op, std::uint32_t now_us);
+  static Result<void> switched_step(ChipState& chip, Operation& op, std::uint32_t now_us);
+  static Result<void> held_step(ChipState& chip, Operation& op, std::uint32_t now_us);
   static Result<void> initialize_step(ChipState& chip, Operation& op, std::uint32_t now_us);
   static Result<void> access_step(ChipState& chip, Operation& op, std::uint32_t now_us);
-  // Parts of initialization_steps.hpp and access.hpp.
+  // Parts of configuration.hpp, initialization.hpp,
+  static void add_image(ChipState& chip, Operation& op);
+  static void add_compared(Operation& op, std::uint8_t address);
+  static Result<void> configure(ChipState& chip, Operation& op);
   static void prepare(ChipState& chip, Operation& op);
+  // ... single_frame.hpp,
+  static void add_request_frame(Operation& op);
+  static Result<void> frame(ChipState& chip, Operation& op, std::uint32_t now_us);
+  static Result<void> frame_over(ChipState& chip, Operation& op);
+  static Result<void> frame_ended(ChipState& chip, const Operation& op);
+  static void add_stop(ChipState& chip, Operation& op, Error cause);
+  static Result<void> stopped_step(ChipState& chip, Operation& op, std::uint32_t now_us);
+  // ... actuator.hpp,
+  static void add_word(ChipState& chip, Operation& op, std::uint32_t stage);
+  static void add_confirmed(ChipState& chip, Operation& op, std::uint8_t instruction,
+                            std::uint32_t stage);
+  static Result<void> confirmed(ChipState& chip, Operation& op, std::uint8_t want);
+  static void add_held(ChipState& chip, Operation& op);
+  static void add_release(ChipState& chip, Operation& op, const Result<void>& cause);
+  static void add_other(Operation& op, std::uint32_t now_us);
+  // ... and access.hpp.
   static void add_request(ChipState& chip, Operation& op);
   static std::uint8_t part(const Operation& op);
   static void add_take(ChipState& chip, Operation& op);
   static void begin_access(ChipState& chip, Operation& op, bool biss_b);
   static void add_abort(ChipState& chip, Operation& op, const Result<void>& cause);
   static void add_access(ChipState& chip, Operation& op);
-  static void again(Operation& op, std::uint32_t now_us);
   static Result<void> access(ChipState& chip, Operation& op, std::uint32_t now_us);
   static Result<void> poll(ChipState& chip, Operation& op, std::uint32_t now_us);
-  static Result<void> conclude(ChipState& chip, Operation& op, std::uint32_t now_us);
+  static Result<void> conclude(ChipState& chip, Operation& op);
   static Result<void> taken(ChipState& chip, Operation& op);
   static Result<void> ended(ChipState& chip, Operation& op);
 };

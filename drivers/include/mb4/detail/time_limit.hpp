@@ -40,7 +40,14 @@ struct TimeLimit {
     over = false;
   }
   bool note(std::uint32_t now_us) {
-    if (--polls_left == 0 || now_us - start_us >= timeout_us) {
+    if (--polls_left == 0) {
+      over = true;
+    }
+    return look(now_us);
+  }
+  // The same without a poll.
+  bool look(std::uint32_t now_us) {
+    if (now_us - start_us >= timeout_us) {
       over = true;
     }
     return over;

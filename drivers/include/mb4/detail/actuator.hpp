@@ -1,0 +1,210 @@
+// SPDX-FileCopyrightText: 2026 The openmb4 authors
+// SPDX-License-Identifier: Apache-2.0
+
+// Writes the words of actuators (pages 15, 25, 31).
+
+#ifndef MB4_DETAIL_ACTUATOR_HPP_
+#define MB4_DETAIL_ACTUATOR_HPP_
+
+#include <cstddef>
+#include <cstdint>
+
+#include "mb4/config.hpp"
+#include "mb4/detail/procedures.hpp"
+
+namespace mb4::detail {
+
+// A switch of the banks takes some system clocks, each at most 1 us.
+inline constexpr std::uint32_t kSwitchUs = 10 + kClockStepUs;
+
+// Device::write_actuator() and Automatic::write_actuator() document the errors. The chip is
+// configured, and no control communication runs. `both_banks` = false: with automatic frames only
+// the host's bank is written. kInvalidArgument: nothing is planned.
+//
+// A frame sends the word in the chip's bank. The host writes into the other bank, and each end of a
+// frame switches the banks. So a word that is to stay must be written to both banks:
+//  * Without automatic frames no frame switches the banks; the driver does it with SWBANK.
+//  * With automatic frames the driver writes each bank under HOLDBANK, so that no frame sends half
+//    a word. It writes the second bank when the end of a frame has switched the banks. It sees this
+//    when it reads another word than it has written.
+inline Result<void> Procedures::plan_actuator(ChipState& chip, Operation& op, std::uint8_t slave,
+                                              std::uint64_t word, bool both_banks) {
+  if (!is_in(chip.actuators, slave)) {
+    return Error::kInvalidArgument;
+  }
+  const SlaveConfig& config = chip.config.slaves[slave - 1U];
+  std::array<std::uint8_t, regs::kScdataStride> bytes{};
+  unsigned bits_left = config.data_bits;
+  for (std::uint8_t& byte : bytes) {
+    byte = static_cast<std::uint8_t>(word);
+    word >>= 8;
+    if (bits_left < 8 && byte >> bits_left != 0) {
+      return Error::kInvalidArgument;
+    }
+    bits_left -= bits_left < 8 ? bits_left : 8;
+  }
+  begin(chip, op, chip.automatic ? held_step : switched_step);
+  op.request_ = bytes;
+  op.count_ = data_bytes(config);
+  op.at_ = regs::scdata_address(slave);
+  op.bad_ = both_banks ? 1 : 0;
+  if (chip.automatic) {
+    add_held(chip, op);
+  } else if (chip.recover_first) {
+    add_recovery(chip, op);
+  } else {
+    add_word(chip, op, kFill);
+  }
+  chip.recover_first = chip.recover_first || !chip.automatic;
+  return {};
+}
+
+inline void Procedures::add_word(ChipState& chip, Operation& op, std::uint32_t stage) {
+  op.stage_ = stage;
+  add_write(chip, op, static_cast<std::uint8_t>(op.at_), op.request_.data(), op.count_);
+}
+
+// 0xF4; with SpiCheck::kFull it is read back.
+inline void Procedures::add_confirmed(ChipState& chip, Operation& op, std::uint8_t instruction,
+                                      std::uint32_t stage) {
+  op.stage_ = stage;
+  add_instruction(op, instruction);
+  if (chip.checks_all()) {
+    mb4_cyclic_add_status(&op.plan_);
+  }
+}
+// AGS may have ended by an error. kTransport, kNotDetected, kCorrupted.
+inline Result<void> Procedures::confirmed(ChipState& chip, Operation& op, std::uint8_t want) {
+  if (!op.good_ || !chip.checks_all()) {
+    return op.good_ ? Error::kNone : Error::kTransport;
+  }
+  const Result<void> seen = look(op);
+  constexpr std::uint8_t kAgs = regs::AGS::encode<1>();
+  return seen && (op.status_.instruction() | kAgs) != (want | kAgs) ? Error::kCorrupted : seen;
+}
+
+// ---- Without automatic frames: two words, SWBANK inverted after each ----
+
+inline Result<void> Procedures::switched_step(ChipState& chip, Operation& op,
+                                              std::uint32_t /*now_us*/) {
+  constexpr std::uint8_t kSwitch = regs::SWBANK::encode<1>();
+  Result<void> done = op.good_ ? Error::kNone : Error::kTransport;
+  switch (op.stage_) {
+    case kRecover:
+      if (done) {
+        recovered(chip, op);
+        add_word(chip, op, kFill);
+      }
+      return done;
+    case kFill:    // the first bank
+    case kTake: {  // the second one
+      done = same(chip, op);
+      if (done && !chip.config.single_bank) {
+        const bool first = op.stage_ == kFill;
+        add_confirmed(chip, op, first ? kSwitch : std::uint8_t{0}, first ? kSet : kStopped);
+        return done;
+      }
+      break;
+    }
+    case kSet:
+      done = confirmed(chip, op, kSwitch);
+      if (done) {
+        add_word(chip, op, kTake);
+        op.plan_.pause_us = kSwitchUs;
+      }
+      return done;
+    default:  // kStopped; after two changes SWBANK is 0 again (page 33)
+      done = confirmed(chip, op, 0);
+      break;
+  }
+  chip.recover_first = !done;
+  return done;
+}
+
+// ---- With automatic frames: under HOLDBANK ----
+
+// With SpiCheck::kFull three steps, otherwise one.
+inline void Procedures::add_held(ChipState& chip, Operation& op) {
+  add_confirmed(chip, op, kHoldAndAgs, kSet);
+  if (!chip.checks_all()) {
+    add_word(chip, op, kFill);
+    add_release(chip, op, {});
+    op.stage_ = kStart;
+  }
+}
+
+// What has waited in a bank that an earlier call could not release is old. No bank was switched
+// meanwhile, so nobody could see frames.
+inline void Procedures::add_release(ChipState& chip, Operation& op, const Result<void>& cause) {
+  op.stage_ = kStopped;
+  op.cause_ = cause;
+  add_instruction(op, regs::AGS::encode<1>());
+  if (chip.watch.held) {
+    mb4_cyclic_add_clear(&op.plan_, chip.sensor_flags, 4);
+  }
+}
+
+inline Result<void> Procedures::held_step(ChipState& chip, Operation& op, std::uint32_t now_us) {
+  Result<void> done = op.good_ ? Error::kNone : Error::kTransport;
+  switch (op.stage_) {
+    case kSet:
+      done = confirmed(chip, op, kHoldAndAgs);
+      if (done) {
+        add_word(chip, op, kFill);
+      } else {
+        add_release(chip, op, done);
+      }
+      return {};
+    case kFill:
+      add_release(chip, op, same(chip, op));
+      return {};
+    case kPoll: {  // the other bank
+      const std::uint8_t* is = received(op, 1) + 2;
+      done = look(op);
+      if (!done) {
+        return done;
+      }
+      if (!equal(is, op.request_.data(), static_cast<unsigned>(op.count_))) {
+        op.bad_ = 0;
+        add_held(chip, op);
+      } else if (!op.limit_.over) {
+        add_other(op, now_us);
+      }  // otherwise both banks hold the word
+      return {};
+    }
+    case kStart:
+      if (!done) {
+        add_release(chip, op, done);
+        return {};
+      }
+      break;
+    default:  // kStopped: the release
+      if (op.cause_) {
+        op.cause_ = done;
+      }
+      break;
+  }
+  if (done && chip.watch.held) {
+    chip.watch.news_us = now_us;
+  }
+  chip.watch.held = !done;
+  done = op.cause_;
+  if (done && op.bad_ != 0) {
+    op.limit_.begin(now_us, chip.frame_us + chip.pitch_us);
+    add_other(op, now_us);
+  }
+  return done;
+}
+
+// Reads until the word differs, which shows the other bank. If no reading differs, both banks hold
+// the word. The status makes the two frames as long as the count of polls expects.
+inline void Procedures::add_other(Operation& op, std::uint32_t now_us) {
+  op.limit_.note(now_us);
+  op.stage_ = kPoll;
+  add_read(op, static_cast<std::uint8_t>(op.at_), op.count_);
+  mb4_cyclic_add_status(&op.plan_);
+}
+
+}  // namespace mb4::detail
+
+#endif  // MB4_DETAIL_ACTUATOR_HPP_

@@ -1,0 +1,151 @@
+// SPDX-FileCopyrightText: 2026 The openmb4 authors
+// SPDX-License-Identifier: Apache-2.0
+
+// Writes the registers of a configuration, and compares them with what the chip holds.
+
+#ifndef MB4_DETAIL_CONFIGURATION_HPP_
+#define MB4_DETAIL_CONFIGURATION_HPP_
+
+#include <cstdint>
+
+#include "mb4/config.hpp"
+#include "mb4/detail/procedures.hpp"
+#include "mb4/register_image.hpp"
+
+namespace mb4::detail {
+
+// What is written and compared goes in three parts. The last one is compared first, because VERSION
+// is in it: without a chip every register differs, and kVerify would say less. A status comes last,
+// because a MISO that is stuck from some part on may look like the right registers, but like no
+// status.
+inline constexpr std::uint8_t kPartBytes = Operation::kMaxFrameBytes - 2;
+inline constexpr std::uint8_t kLastPart = kImageFirst + 2 * kPartBytes;
+static_assert(kLastPart + kPartBytes == regs::kAddrIface + 1);
+
+// Purpose of the operation: Operation::count_.
+inline constexpr std::size_t kComparesOnly = 0;
+inline constexpr std::size_t kConfigures = 1;
+inline constexpr std::size_t kResets = 2;
+
+// REVISION and VERSION are constant. 0xE0, 0xE1 and 0xEE are reserved, and the datasheet does not
+// say what they read. 0xE2..0xE5 change with each control communication: `running`.
+constexpr bool is_compared(unsigned address, bool running) {
+  const bool control = address >= regs::kAddrRegadr && address <= regs::kAddrCtrl;
+  return !(control && running) && (address < 0xE0 || address > 0xE1) && address != 0xEE &&
+         address != regs::kAddrRevision && address != regs::kAddrVersion;
+}
+
+inline void Procedures::plan_verify(ChipState& chip, Operation& op) {
+  begin(chip, op, configuration_step);
+  op.count_ = kComparesOnly;
+  add_compared(op, kLastPart);
+}
+
+// `config` is valid.
+inline void Procedures::plan_configure(ChipState& chip, Operation& op, const Config& config) {
+  chip.forget();
+  chip.take(config);
+  begin(chip, op, configuration_step);
+  op.count_ = kConfigures;
+  if (needs_revision_y(config)) {
+    op.stage_ = kDelays;
+    add_read(op, regs::kAddrRevision, 2);
+  } else {
+    add_image(chip, op);
+  }
+}
+
+inline void Procedures::plan_reset(ChipState& chip, Operation& op) {
+  chip.forget();
+  chip.image = {};
+  chip.image[regs::kAddrSlaveloc5 - kImageFirst] = regs::kResetSlaveloc5;
+  chip.interface_byte = 0;
+  begin(chip, op, configuration_step);
+  op.count_ = kResets;
+  add_image(chip, op);
+}
+
+// BREAK, clock source and interface; then two parts.
+inline void Procedures::add_image(ChipState& chip, Operation& op) {
+  op.stage_ = kFill;
+  mb4_plan_add(&op.plan_, 3, MB4_CYCLIC_INSTRUCT, regs::BREAK::encode<1>(), chip.interface_byte);
+  add_bytes(op, kImageFirst, chip.image.data(), kPartBytes);
+  add_bytes(op, kImageFirst + kPartBytes, chip.image.data() + kPartBytes, kPartBytes);
+}
+
+inline void Procedures::add_compared(Operation& op, std::uint8_t address) {
+  op.stage_ = kStart;
+  op.at_ = address;
+  add_read(op, address, kPartBytes);
+  if (address == kLastPart) {  // a bus that stores nothing is no chip
+    mb4_plan_rx(&op.plan_, static_cast<std::uint8_t>(op.plan_.frames -
+                                                     1))[2 + regs::kAddrVersion - kLastPart] = 0;
+  }
+}
+
+inline Result<void> Procedures::configuration_step(ChipState& chip, Operation& op,
+                                                   std::uint32_t /*now_us*/) {
+  const Result<void> done = configure(chip, op);
+  const bool compares = op.count_ == kComparesOnly;
+  if (compares && (done.error() == Error::kNotDetected || done.error() == Error::kVerify)) {
+    chip.configured = false;
+  }
+  if (done && op.plan_.frames == 0 && op.count_ == kConfigures) {
+    chip.configured = true;
+    chip.recover_first = false;
+  }
+  return done;
+}
+
+inline Result<void> Procedures::configure(ChipState& chip, Operation& op) {
+  const bool compares = op.count_ == kComparesOnly;
+  if (!op.good_ || (compares && !chip.configured)) {
+    return op.good_ ? Error::kWrongMode : Error::kTransport;
+  }
+  if (op.stage_ == kFill) {
+    constexpr std::size_t kBefore = kLastPart - kImageFirst;
+    add_bytes(op, kLastPart, chip.image.data() + kBefore, kImageBytes - kBefore);
+    add_compared(op, kLastPart);
+    return {};
+  }
+  if (op.stage_ == kProof) {
+    return look(op);
+  }
+  const bool identity = op.stage_ == kDelays;
+  const std::uint8_t* is = received(op) + 2;
+  const bool last = op.at_ == kLastPart;
+  const unsigned version = identity ? 1 : unsigned{regs::kAddrVersion} - kLastPart;
+  if ((identity || last) && is[version] != static_cast<std::uint8_t>(regs::DeviceVersion::kIcMb4)) {
+    return Error::kNotDetected;
+  }
+  if (identity) {
+    const ErrorInfo old = check_revision(is[0]);
+    if (old.code == Error::kNone) {
+      add_image(chip, op);
+    }
+    return old;
+  }
+  // Status and instruction, 0xF0..0xF4, end the last part but 0xF5.
+  const unsigned size = last ? unsigned{regs::kAddrStatus0} - kLastPart : kPartBytes;
+  const std::uint8_t* want = chip.image.data() + (op.at_ - kImageFirst);
+  for (unsigned i = 0; i < size; ++i) {
+    if (is[i] != want[i] && is_compared(op.at_ + i, compares)) {
+      return ErrorInfo::at_register(Error::kVerify, static_cast<std::uint8_t>(op.at_ + i));
+    }
+  }
+  if (last && is[kPartBytes - 1] != chip.interface_byte) {
+    return ErrorInfo::at_register(Error::kVerify, regs::kAddrIface);
+  }
+  const std::uint32_t next = last ? std::uint32_t{kImageFirst} : op.at_ + kPartBytes;
+  if (next != kLastPart) {
+    add_compared(op, static_cast<std::uint8_t>(next));
+  } else {
+    add_poll(op);
+    op.stage_ = kProof;
+  }
+  return {};
+}
+
+}  // namespace mb4::detail
+
+#endif  // MB4_DETAIL_CONFIGURATION_HPP_
