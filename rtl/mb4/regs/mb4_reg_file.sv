@@ -70,7 +70,7 @@ module mb4_reg_file #(
   mb4_pkg::mem_rd_t rd;
   mb4_pkg::mem_wr_t clear;
   mb4_pkg::banks_t  banks;           // core domain
-  logic [7:0]  cfg_data;
+  logic [15:0] cfg_data;
   logic [7:0]  slave_data;
   logic [7:0]  instr_data;
   logic        instr_pending, control_pending;
