@@ -101,7 +101,9 @@ module mb4_reg_file #(
     .cfg_o
   );
 
-  mb4_slave_cfg #(.Channels(PRESENT)) u_slave_cfg (
+  mb4_slave_cfg #(
+    .Channels(PRESENT), .FreeCrc(Features[mb4_page_regs_pkg::FREE_CRC_LSB])
+  ) u_slave_cfg (
     .wr_clk_i,
     .rst_ni       (host_rst_ni),
     .host_i,

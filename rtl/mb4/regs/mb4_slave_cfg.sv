@@ -18,7 +18,8 @@
 
 module mb4_slave_cfg #(
   parameter int unsigned Lists = 4,
-  parameter logic [7:0]  Channels = 8'hFF
+  parameter logic [7:0]  Channels = 8'hFF,
+  parameter bit          FreeCrc  = 1'b1    // 0: only the CRCs 0x43 and 16 bits (biss_rx_word)
 ) (
   // host
   input  logic        wr_clk_i,
@@ -35,37 +36,46 @@ module mb4_slave_cfg #(
 );
 
   localparam bit ONE = Channels == 8'h01;   // one row
+  localparam int unsigned CODES = ONE ? 1 : 2;
+  localparam logic [7:0]  CODE_CRC6 = 8'h21;   // mb4_crc_code
   localparam int unsigned CFG_W = mb4_pkg::SLAVE_CFG_W;
 
   logic        write;
   logic [2:0]  row;
   logic [3:0]  byte_en;
   logic [7:0]  crc_byte;
-  logic [7:0]  crc_code;  // of crc_byte
-  logic        crc_on;
-  logic [3:0]  crc_last;
-  logic [7:0]  crc_poly, crc_top;
-  logic        unused;
+  logic [20*CODES-1:0] crc;  // of crc_byte with its bit 0 = 1, 0
 
   assign write   = host_i.wr_en && host_i.wr_addr[7:5] == mb4_regs_pkg::ADDR_SLAVE_CFG[7:5];
   assign row     = host_i.wr_addr[4:2];
   assign byte_en = 4'b0001 << host_i.wr_addr[1:0];
 
-  mb4_crc_code u_code (
-    .selcrc_i (crc_byte[mb4_regs_pkg::SELCRCS_LSB]),
-    .code_i   (crc_byte[mb4_regs_pkg::SCRCLEN_LSB +: mb4_regs_pkg::SCRCLEN_W]),
-    .poly_o   (crc_code)
-  );
+  // Bit 0 of a byte comes late over SPI. So the memories get the row of one of its two values.
+  for (genvar k = 0; k < CODES; k++) begin : gen_code
+    logic       on;
+    logic [3:0] last;
+    logic [7:0] code, poly, top;
+    logic       unused;
 
-  mb4_crc_decode u_decode (
-    .poly_i     (crc_code),
-    .crc_on_o   (crc_on),
-    .crc_last_o (crc_last),
-    .crc_poly_o (crc_poly),
-    .crc_top_o  (crc_top)
-  );
+    mb4_crc_code u_code (
+      .selcrc_i (crc_byte[mb4_regs_pkg::SELCRCS_LSB]),
+      .code_i   ({crc_byte[6:1], ONE ? crc_byte[0] : 1'(k)}),
+      .poly_o   (code)
+    );
 
-  assign unused = crc_poly[0];   // every polynomial ends in 1
+    mb4_crc_decode u_decode (
+      .poly_i     (code),
+      .crc_on_o   (on),
+      .crc_last_o (last),
+      .crc_poly_o (poly),
+      .crc_top_o  (top)
+    );
+
+    // Every polynomial ends in 1. Without FreeCrc enc_crc needs no polynomial, and biss_rx_word
+    // only tells the one of six bits from others.
+    assign crc[20*k +: 20] = {on, last, FreeCrc || code == CODE_CRC6 ? {poly[7:1], top} : 15'd0};
+    assign unused = poly[0];
+  end
 
   if (ONE) begin : gen_row
     // A single row is four registers.
@@ -100,7 +110,7 @@ module mb4_slave_cfg #(
 
       always_ff @(posedge clk_i) begin
         if (list_en_i[i]) begin
-          cfg_q <= {row_q[31:16], crc_on, crc_last, crc_poly[7:1], crc_top, row_q[7:0]};
+          cfg_q <= {row_q[31:16], crc, row_q[7:0]};
         end
       end
 
@@ -160,7 +170,8 @@ module mb4_slave_cfg #(
         .wr_clk_i,
         .wr_en_i   (wr_en),
         .wr_addr_i (row),
-        .wr_data_i ({wr_data[31:16], crc_on, crc_last, crc_poly[7:1], crc_top, wr_data[7:0]}),
+        .wr_data_i ({wr_data[31:16], crc_byte[0] ? crc[20*(CODES-1) +: 20] : crc[19:0],
+                     wr_data[7:0]}),
         .rd_clk_i  (clk_i),
         .rd_en_i   (list_en_i[i]),
         .rd_addr_i (list_slave_i[3*i +: 3]),
