@@ -30,16 +30,13 @@ module biss_timebase (
 );
 
   logic [7:0] len_q;
-  logic       one_q;       // len_q is 1
-  logic [7:0] cnt_next;
+  logic [7:0] cnt_d;
   logic [7:0] cnt_q;       // clock of the half period, 1 to len_q
   logic       last_d;
   logic       last_q;      // the last clock of a half period
   logic       half_d;
   logic       half_q;
   logic       tick;
-  logic       begins;      // the next clock is the first of a half period
-  logic       one_d;
   logic       middle;
   logic [1:0] a_q;
   logic [1:0] b_q;
@@ -47,22 +44,27 @@ module biss_timebase (
 
   // Much logic depends on tick in the same clock, so last_q is prepared one clock before.
   assign tick   = run_i && last_q;
-  assign cnt_next = cnt_q + 8'd1;
-  assign begins = restart_i || tick;
-  assign one_d  = restart_i ? half_len_i == 8'd1 : one_q;
-  assign middle = one_q ? tick : run_i && cnt_q == {1'b0, len_q[7:1]};
+  assign middle = (len_q == 8'd1) ? tick : run_i && cnt_q == {1'b0, len_q[7:1]};
 
   always_comb begin
+    cnt_d  = cnt_q;
     half_d = half_q;
-    if (restart_i)  half_d = 1'b1;
-    else if (tick)  half_d = !half_q;
-    last_d = begins ? one_d : run_i ? cnt_next == len_q : last_q;
+    if (restart_i) begin
+      cnt_d  = 8'd1;
+      half_d = 1'b1;
+    end else if (tick) begin
+      cnt_d  = 8'd1;
+      half_d = !half_q;
+    end else if (run_i) begin
+      cnt_d  = cnt_q + 8'd1;
+    end
+    last_d = restart_i ? half_len_i == 8'd1 : cnt_d == len_q;
   end
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
       len_q  <= 8'd1;
-      one_q  <= 1'b1;
+      cnt_q  <= 8'd1;
       last_q <= 1'b1;
       half_q <= 1'b1;
       a_q    <= '0;
@@ -70,7 +72,7 @@ module biss_timebase (
       h_q    <= '0;
     end else begin
       if (restart_i) len_q <= half_len_i;
-      one_q  <= one_d;
+      cnt_q  <= cnt_d;
       last_q <= last_d;
       half_q <= half_d;
       // A restart drops the sampling points that are still in the delay.
@@ -78,13 +80,6 @@ module biss_timebase (
       b_q    <= restart_i ? 2'b00 : {b_q[0], middle};
       h_q    <= {h_q[0], half_d};
     end
-  end
-
-  // After a reset the first clock that counts is the last of a half period (last_q), so cnt_q
-  // begins at 1 and needs no reset of its own.
-  always_ff @(posedge clk_i) begin
-    if (begins)     cnt_q <= 8'd1;
-    else if (run_i) cnt_q <= cnt_next;
   end
 
   assign tick_o        = tick;

@@ -59,9 +59,11 @@ module mb4_cfg_regs #(
   logic [7:0] iface_q;
 
   mb4_pkg::access_t access;
-  logic [7:0] rd_addr;
+  logic [4:1] rd_addr;
+  logic       unused;
 
-  assign rd_addr = host_i.rd_addr;
+  assign rd_addr = host_i.rd_addr[4:1];
+  assign unused  = ^host_i;   // the other bits
 
   always_ff @(posedge wr_clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
@@ -107,7 +109,8 @@ module mb4_cfg_regs #(
         mb4_regs_pkg::ADDR_BANKCFG:   rd_data_o[8*k +: 8] = bankcfg_q;
         mb4_regs_pkg::ADDR_FREQAGS:   rd_data_o[8*k +: 8] = freqags_q;
         mb4_regs_pkg::ADDR_MO_BUSY:   rd_data_o[8*k +: 8] = mo_busy_q;
-        mb4_regs_pkg::ADDR_SLAVELOC5: rd_data_o[8*k +: 8] = slaveloc5_q | mb4_regs_pkg::RESET_SLAVELOC5;
+        mb4_regs_pkg::ADDR_SLAVELOC5:
+          rd_data_o[8*k +: 8] = slaveloc5_q | mb4_regs_pkg::RESET_SLAVELOC5;
         mb4_regs_pkg::ADDR_CFGCH:     rd_data_o[8*k +: 8] = cfgch_q;
         mb4_regs_pkg::ADDR_ACTNSENS:  rd_data_o[8*k +: 8] = actnsens_q;
         mb4_regs_pkg::ADDR_IFACE:     rd_data_o[8*k +: 8] = iface_q;

@@ -46,6 +46,11 @@ module mb4_slave_cfg #(
   logic [7:0]  crc_byte;
   logic [20*CODES-1:0] crc;  // of crc_byte with its bit 0 = 1, 0
 
+  logic [CODES-1:0] ends;
+  logic        unused;
+
+  assign unused  = ^{list_slave_i, ends};   // one row needs no list_slave_i
+
   assign write   = host_i.wr_en && host_i.wr_addr[7:5] == mb4_regs_pkg::ADDR_SLAVE_CFG[7:5];
   assign row     = host_i.wr_addr[4:2];
   assign byte_en = 4'b0001 << host_i.wr_addr[1:0];
@@ -55,7 +60,6 @@ module mb4_slave_cfg #(
     logic       on;
     logic [3:0] last;
     logic [7:0] code, poly, top;
-    logic       unused;
 
     mb4_crc_code u_code (
       .selcrc_i (crc_byte[mb4_regs_pkg::SELCRCS_LSB]),
@@ -73,8 +77,8 @@ module mb4_slave_cfg #(
 
     // Every polynomial ends in 1. Without FreeCrc enc_crc needs no polynomial, and biss_rx_word
     // only tells the one of six bits from others.
+    assign ends[k] = poly[0];
     assign crc[20*k +: 20] = {on, last, FreeCrc || code == CODE_CRC6 ? {poly[7:1], top} : 15'd0};
-    assign unused = poly[0];
   end
 
   if (ONE) begin : gen_row
