@@ -113,7 +113,7 @@ module axi_channel #(
   logic        rests;          // MA is 1 and stays 1
   logic        sl, ack, late, bit_valid, sl_bit;
   logic [9:0]  delay;
-  logic        rise, ma_clocks, ma, unused_released;
+  logic        rise, ma_clocks, ma, unused_released, unused_release;
   logic        crc_error;
   logic [1:0]  cdm;            // for CDS = 1, 0
   logic        cds;            // of this frame
@@ -155,6 +155,7 @@ module axi_channel #(
     .force_i       (1'b0),
     .force_level_i (1'b1),
     .released_o    (unused_released),
+    .release_next_o (unused_release),
     .rise_o        (rise),
     .clocking_o    (ma_clocks),
     .ma_o          (ma)

@@ -116,7 +116,8 @@ module biss_frame #(
   logic               enough;
   logic               rise;
   logic               ma_clocks;
-  logic               released;
+  logic               released, release_next;
+  logic               idle_q;      // state_q is IDLE, and the line does not go to RELEASE
   logic               begin_frame;
   logic               waited;      // one more processing clock
   logic               cdm;
@@ -124,7 +125,6 @@ module biss_frame #(
   logic               biss_c;
   logic               ssi;
   logic               rests;       // no frame: the configuration may change
-  logic [1:0]         protocol;
   logic [1:0]         protocol_q;
   logic               bus;
   logic               bus_q;
@@ -145,10 +145,9 @@ module biss_frame #(
   );
 
   assign rests       = state_q == IDLE || state_q == TIMEOUT || state_q == RELEASE;
-  assign protocol    = rests ? cmd_i.protocol : protocol_q;
-  assign bus         = Mo && (rests ? bus_i : bus_q);
-  assign biss_c      = BissB ? protocol == biss_pkg::BISS_C : !ssi;
-  assign ssi         = Ssi && protocol == biss_pkg::SSI;
+  assign bus         = Mo && bus_q;
+  assign biss_c      = BissB ? protocol_q == biss_pkg::BISS_C : !ssi;
+  assign ssi         = Ssi && protocol_q == biss_pkg::SSI;
   assign sl_high     = sl_i || unused;
   assign begin_frame = go_i.start && start_i.takes_part && state_q == IDLE;
   // If CDM depends on CDS, it is known when CDS has come. Until then MA goes on.
@@ -176,6 +175,7 @@ module biss_frame #(
     .force_i       (cmd_i.forced),
     .force_level_i (cmd_i.force_level),
     .released_o    (released),
+    .release_next_o (release_next),
     .rise_o        (rise),
     .clocking_o    (ma_clocks),
     .ma_o
@@ -312,6 +312,7 @@ module biss_frame #(
       load_q     <= 1'b0;
       protocol_q <= '0;
       bus_q      <= 1'b0;
+      idle_q     <= 1'b0;
     end else begin
       state_q    <= state_d;
       cdm_q      <= cdm_d;
@@ -322,8 +323,11 @@ module biss_frame #(
       cds_q      <= cds_d;
       load_q     <= load_d;
       // A frame keeps the configuration with which it begins.
-      protocol_q <= protocol;
-      bus_q      <= bus;
+      if (rests) begin
+        protocol_q <= cmd_i.protocol;
+        bus_q      <= bus_i;
+      end
+      idle_q     <= state_d == IDLE && !release_next;
     end
   end
 
@@ -334,7 +338,7 @@ module biss_frame #(
   assign final_o     = rise && (started_q || bus) && one_left && cdm_known;
   assign clocks_o    = ma_clocks || init_q;
   assign biss_c_o    = biss_c;
-  assign status_o    = {state_q == IDLE && !released, state_q == TIMEOUT, cds_q, cdm, sl_i};
+  assign status_o    = {idle_q, state_q == TIMEOUT, cds_q, cdm, sl_i};
   assign event_o     = {line_end, init_done, init_fail};
 
   `ENC_ASSERT_IF(IdleDoesNotClock_A, clk_i, rst_ni, state_q == IDLE, !ma_clocks)

@@ -39,6 +39,7 @@ module biss_ma_drive (
   input  logic force_i,
   input  logic force_level_i,
   output logic released_o,
+  output logic release_next_o, // released_o of the next clock
   output logic rise_o,
   output logic clocking_o,
   output logic ma_o
@@ -87,7 +88,7 @@ module biss_ma_drive (
       clocking_q <= clocking_d;
       force_q    <= force_i;
       level_q    <= force_level_i;
-      released_q <= force_q && (!force_i || (tick_i && ma_q && !level_q));
+      released_q <= release_next_o;
     end
   end
 
@@ -100,6 +101,7 @@ module biss_ma_drive (
   // so rise_o is 0 in any case.
   assign rise_o = tick_i && clocking_q && half_next_i && !register_i && !(enough_i && cdm_i);
 
+  assign release_next_o = force_q && (!force_i || (tick_i && ma_q && !level_q));
   assign released_o = released_q;
   assign clocking_o = clocking_q;
   assign ma_o       = ma_q;

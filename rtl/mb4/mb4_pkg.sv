@@ -162,6 +162,7 @@ package mb4_pkg;
   // Requests of automatic frames.
   typedef struct packed {
     logic       due;         // a frame is requested
+    logic       asks;        // ..., if the lines are idle
     logic       agsmin;      // FREQAGS is AGSMIN, with AGS = 1 or 0
     logic       infinite;    // FREQAGS is AGSINFINITE
   } request_t;

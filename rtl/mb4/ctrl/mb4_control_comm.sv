@@ -72,6 +72,7 @@ module mb4_control_comm #(
   mb4_pkg::access_t       access_q;    // constant while an access runs
   biss_pkg::access_t      access;
   biss_pkg::access_byte_t control_byte, register_byte, rdata;
+  mb4_pkg::mem_wr_t       rdata_wr_q;
   biss_pkg::access_end_t  control_end, register_end;
   biss_pkg::line_status_t status1, status2;
 
@@ -167,9 +168,16 @@ module mb4_control_comm #(
     assign {register_active, register_wait, ags_error_o} = '0;
   end
 
+  // A byte is written one clock later, which keeps the memory and the queue of the host's writes out
+  // of the long paths. The host sees the end of the access two clocks after the last byte.
   assign rdata   = register_active ? register_byte : control_byte;
-  assign rdata_o = {control_byte.wr_en || register_byte.wr_en, rdata.addr, rdata.wr_data,
-                    active_o || register_active, rdata.addr};
+  assign rdata_o = {rdata_wr_q, active_o || register_active, rdata.addr};
+
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) rdata_wr_q <= '0;
+    else         rdata_wr_q <= {control_byte.wr_en || register_byte.wr_en, rdata.addr,
+                                rdata.wr_data};
+  end
 
   mb4_cdm_select u_cdm (
     .manual_i   (kind_o.manual),

@@ -40,6 +40,7 @@ module mb4_frame_request (
   logic [6:0] step_q;     // steps of the current period
   logic       pre_end;
   logic       due;
+  logic       by_time, by_pin;
   logic       pending_d;
   logic       pending_q;
   logic       armed_d;
@@ -84,9 +85,9 @@ module mb4_frame_request (
     end
   end
 
-  assign request_o = {ags_i && (agsmin || pending_q ||
-                                (infinite && getsens && lines_idle_i && (armed_q || !hold_cdm_i))),
-                      agsmin, infinite};
+  assign by_time = ags_i && (agsmin || pending_q);
+  assign by_pin  = ags_i && infinite && getsens && (armed_q || !hold_cdm_i);
+  assign request_o = {by_time || (by_pin && lines_idle_i), by_time || by_pin, agsmin, infinite};
   assign missed_o  = due && busy_i;
 
 endmodule

@@ -104,6 +104,8 @@ module mb4_sequencer #(
   biss_pkg::line_event_t event1, event2;
   logic [1:0]       idle, line_end, init_done, init_fail;
   logic [1:0]       ack;
+  logic             held_back;     // by HOLDBANK, with the quirk
+  logic             asks_init, asks_frame;
   logic             start, init, register_access, mo_return, abort;
   logic             frame_end, swap;
   logic             busy, clear_flags, scd_en, ags_error, bank_fail;
@@ -155,6 +157,19 @@ module mb4_sequencer #(
   assign awaits_d    = (new_q ? kind_i.is_register && held_q.ags && !stale_i : awaits_q) &&
                        !(written || start || void_o);
 
+  assign held_back   = mem_i.pending && held_q.holdbank && !kind_i.is_register &&
+                       quirks_i[mb4_pkg::QUIRK_AGSERR_ON_HOLDBANK];
+
+  // start is written apart from the cases below, because all lines wait for it: of the lines' idle,
+  // which comes late, it takes only all_idle. With all_idle a request by GETSENS is due, and SL
+  // counts on all lines in use.
+  assign asks_init   = held_q.init && !mem_i.clears;
+  assign asks_frame  = (by_instr || request_i.asks) && !mem_i.clears && kind_i.in_use != 2'b00 &&
+                       !(stale_i && held_q.instr != 3'b000) && !held_back &&
+                       (kind_i.in_use & ~{status2.sl, status1.sl}) == 2'b00;
+  assign start       = all_idle && state_q == IDLE && !(written && asked.brk) &&
+                       (asks_init ? kind_i.init_use != 2'b00 && (BissB || regvers_i) : asks_frame);
+
   always_comb begin
     state_d      = state_q;
     held_d       = held_q;
@@ -163,7 +178,6 @@ module mb4_sequencer #(
     done_d       = done_q;
     bad_d        = bad_q;
     wait_d       = (tick_i && wait_q != 11'd0) ? wait_q - 11'd1 : wait_q;
-    start        = 1'b0;
     init         = 1'b0;
     abort        = 1'b0;
     frame_end    = 1'b0;
@@ -194,7 +208,6 @@ module mb4_sequencer #(
             init_clear_o = 1'b1;
             if (!BissB && !regvers_i) void_o = 1'b1;
           end else if (all_idle) begin
-            start        = 1'b1;
             init         = 1'b1;
             init_clear_o = 1'b1;
             use_d        = kind_i.init_use;
@@ -205,8 +218,7 @@ module mb4_sequencer #(
           end
         end else if ((by_instr || request_i.due) && !mem_i.clears && kind_i.in_use != 2'b00 &&
                      !(stale_i && held_q.instr != 3'b000)) begin
-          if (mem_i.pending && held_q.holdbank && !kind_i.is_register &&
-              quirks_i[mb4_pkg::QUIRK_AGSERR_ON_HOLDBANK]) begin
+          if (held_back) begin
             taken_o   = 1'b1;
             ags_error = 1'b1;
             bank_fail = 1'b1;
@@ -221,7 +233,6 @@ module mb4_sequencer #(
             end
           end else if (all_idle) begin
             taken_o = 1'b1;
-            start   = 1'b1;
             use_d   = kind_i.frame_use;
             done_d  = ~kind_i.frame_use;
             bad_d   = 1'b0;
@@ -287,7 +298,6 @@ module mb4_sequencer #(
       if (asked.brk) begin
         abort       = 1'b1;
         break_o     = 1'b1;
-        start       = 1'b0;
         frame_end   = 1'b0;
         scd_en      = 1'b0;
         state_d     = IDLE;
@@ -341,6 +351,8 @@ module mb4_sequencer #(
   assign busy = state_d != IDLE || (new_d && (!held_d.ags || request_i.infinite)) || held_d.init;
 
   `ENC_ASSERT(BreakIsNotKept_A, clk_i, rst_ni, !held_q.brk)
+  `ENC_ASSERT_IF(StartAsDecided_A, clk_i, rst_ni, !(written && asked.brk),
+                 start == (init || (taken_o && state_d == FRAME && state_q == IDLE)))
   `ENC_ASSERT_IF(StartOnIdleLines_A, clk_i, rst_ni, start, all_idle)
 
 endmodule

@@ -5,7 +5,10 @@
 //
 // Clock domain: SCLK.
 // Latency: a write takes effect at the 8th rising edge of its byte. Read data must be in tx_byte_i
-// of the shifter after the edge at which host_o.rd_en is high.
+// of the shifter after the edge at which host_o.rd_en is high. A byte is also read with an opcode
+// that asks for none; nobody sees it.
+// The last bit of a byte comes from MOSI without a flop. Only host_o.rd_addr(0), host_o.wr_data(0)
+// and the next state depend on it.
 // Misuse: an unknown opcode is ignored until NCS rises. The address wraps from 0xFF to 0x00
 // (decision 13). With ReadOnly only the opcodes 0x03 and 0x09 are known (SPI2).
 // Datasheet: pages 17..19, Table 3.
@@ -38,50 +41,42 @@ module mb4_spi_cmd #(
   state_e     state_d;
   state_e     state_q;
   logic [7:0] addr_d;
-  logic [7:0] addr_q;
+  logic [7:0] addr_q;      // of the byte that the host writes now, or has read last
   logic [7:0] opcode;
+  logic [7:0] fixed;
   logic       wr_en, rd_en;
-  logic [7:0] rd_addr;
 
   // No opcode has the value 0x00.
   assign opcode = (ReadOnly && byte_i != mb4_regs_pkg::SPI_OPCODE_READ_REGISTERS &&
                    byte_i != mb4_regs_pkg::SPI_OPCODE_READ_REGISTERS0) ? 8'h00 : byte_i;
+
+  // Address of an opcode without an address byte. Three bits tell these opcodes apart, and none of
+  // them is the last bit, which comes late.
+  assign fixed = byte_i[3] ? Registers0
+                           : byte_i[1] ? mb4_regs_pkg::ADDR_INSTR : mb4_regs_pkg::ADDR_STATUS0;
 
   always_comb begin
     state_d   = state_q;
     addr_d    = addr_q;
     wr_en     = 1'b0;
     rd_en     = 1'b0;
-    rd_addr   = addr_q;
 
     if (byte_valid_i) begin
       unique case (state_q)
         OPCODE: begin
-          // The host sends the opcode. An opcode without an address byte has a fixed address, and
-          // its read begins at once.
+          // The host sends the opcode. A byte is read with every opcode; tx_en_o tells whether it
+          // is sent.
           unique case (opcode)
-            mb4_regs_pkg::SPI_OPCODE_WRITE_REGISTERS: state_d = ADDR_WRITE;
-            mb4_regs_pkg::SPI_OPCODE_READ_REGISTERS:  state_d = ADDR_READ;
-            mb4_regs_pkg::SPI_OPCODE_READ_STATUS: begin
-              state_d   = READ;
-              rd_en   = 1'b1;
-              rd_addr = mb4_regs_pkg::ADDR_STATUS0;
-            end
-            mb4_regs_pkg::SPI_OPCODE_READ_REGISTERS0: begin
-              state_d   = READ;
-              rd_en   = 1'b1;
-              rd_addr = Registers0;
-            end
-            mb4_regs_pkg::SPI_OPCODE_WRITE_INSTRUCTION: begin
-              state_d = WRITE;
-              addr_d  = mb4_regs_pkg::ADDR_INSTR;
-            end
-            mb4_regs_pkg::SPI_OPCODE_WRITE_REGISTERS0: begin
-              state_d = WRITE;
-              addr_d  = Registers0;
-            end
-            default: state_d = IGNORE;
+            mb4_regs_pkg::SPI_OPCODE_WRITE_REGISTERS:   state_d = ADDR_WRITE;
+            mb4_regs_pkg::SPI_OPCODE_READ_REGISTERS:    state_d = ADDR_READ;
+            mb4_regs_pkg::SPI_OPCODE_READ_STATUS:       state_d = READ;
+            mb4_regs_pkg::SPI_OPCODE_READ_REGISTERS0:   state_d = READ;
+            mb4_regs_pkg::SPI_OPCODE_WRITE_INSTRUCTION: state_d = WRITE;
+            mb4_regs_pkg::SPI_OPCODE_WRITE_REGISTERS0:  state_d = WRITE;
+            default:                                    state_d = IGNORE;
           endcase
+          rd_en   = 1'b1;
+          addr_d  = fixed;
         end
         ADDR_WRITE: begin
           // The host sends the address of a write.
@@ -91,25 +86,25 @@ module mb4_spi_cmd #(
         ADDR_READ: begin
           // The host sends the address of a read. The first data bit leaves with the next falling
           // edge.
-          state_d   = READ;
+          state_d = READ;
           rd_en   = 1'b1;
-          rd_addr = byte_i;
+          addr_d  = byte_i;
         end
         WRITE: begin
           // The host sends bytes. Each one is written, then the address counts up.
-          wr_en = 1'b1;
+          wr_en   = 1'b1;
           addr_d  = addr_q + 8'd1;
         end
         READ: begin
           // The host clocks bytes out. At the end of each byte the next address is read.
-          rd_en = 1'b1;
+          rd_en   = 1'b1;
+          addr_d  = addr_q + 8'd1;
         end
         IGNORE: begin
           // Nothing is read or written until NCS rises.
         end
         default: state_d = IGNORE;
       endcase
-      if (rd_en) addr_d = rd_addr + 8'd1;
     end
   end
 
@@ -124,7 +119,7 @@ module mb4_spi_cmd #(
   end
 
   assign tx_en_o = state_q == READ;
-  assign host_o  = {wr_en, addr_q, byte_i, rd_en, rd_addr};
+  assign host_o  = {wr_en, addr_q, byte_i, rd_en, addr_d};
 
   `ENC_ASSERT(StateInRange_A, sclk_i, frame_rst_ni, state_q <= IGNORE)
   `ENC_ASSERT(ReadOrWrite_A, sclk_i, frame_rst_ni, !(wr_en && rd_en))

@@ -5,7 +5,8 @@
 // in mb4_slave_cfg.
 //
 // Clock domain: host (wr_clk_i: SCLK or bus strobe); no system clock is needed. An edge of wr_clk_i
-// with host_i.wr_en writes; rd_data_o is combinational from host_i.rd_addr. The outputs are
+// with host_i.wr_en writes; rd_data_o is combinational from bits 4..1 of host_i.rd_addr and has the
+// registers of both addresses, the odd one in the upper byte. The outputs are
 // quasi-static for the core: the datasheet (page 28) asks the host to keep them stable while frames
 // run. An instruction that the host writes after them reaches the core when they have settled
 // (docs/crossings.md).
@@ -21,7 +22,7 @@ module mb4_cfg_regs #(
   input  logic       rst_ni,
   // host byte bus
   input  mb4_pkg::host_t host_i,
-  output logic [7:0] rd_data_o,
+  output logic [15:0] rd_data_o,
   // configuration
   output mb4_pkg::cfg_t cfg_o
 );
@@ -58,9 +59,11 @@ module mb4_cfg_regs #(
   logic [7:0] iface_q;
 
   mb4_pkg::access_t access;
-  logic [7:0] rd_addr;
+  logic [4:1] rd_addr;
+  logic       unused;
 
-  assign rd_addr = host_i.rd_addr;
+  assign rd_addr = host_i.rd_addr[4:1];
+  assign unused  = ^host_i;   // the other bits
 
   always_ff @(posedge wr_clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
@@ -96,21 +99,24 @@ module mb4_cfg_regs #(
   end
 
   always_comb begin
-    unique case (rd_addr)
-      mb4_regs_pkg::ADDR_REGADR:    rd_data_o = regadr_q;
-      mb4_regs_pkg::ADDR_REGNUM:    rd_data_o = regnum_q;
-      mb4_regs_pkg::ADDR_CHSEL:     rd_data_o = chsel_q;
-      mb4_regs_pkg::ADDR_CTRL:      rd_data_o = ctrl_q;
-      mb4_regs_pkg::ADDR_FREQ:      rd_data_o = freq_q;
-      mb4_regs_pkg::ADDR_BANKCFG:   rd_data_o = bankcfg_q;
-      mb4_regs_pkg::ADDR_FREQAGS:   rd_data_o = freqags_q;
-      mb4_regs_pkg::ADDR_MO_BUSY:   rd_data_o = mo_busy_q;
-      mb4_regs_pkg::ADDR_SLAVELOC5: rd_data_o = slaveloc5_q | mb4_regs_pkg::RESET_SLAVELOC5;
-      mb4_regs_pkg::ADDR_CFGCH:     rd_data_o = cfgch_q;
-      mb4_regs_pkg::ADDR_ACTNSENS:  rd_data_o = actnsens_q;
-      mb4_regs_pkg::ADDR_IFACE:     rd_data_o = iface_q;
-      default:                      rd_data_o = 8'h00;
-    endcase
+    for (int unsigned k = 0; k < 2; k++) begin
+      unique case ({mb4_regs_pkg::ADDR_REGADR[7:5], rd_addr[4:1], 1'(k)})
+        mb4_regs_pkg::ADDR_REGADR:    rd_data_o[8*k +: 8] = regadr_q;
+        mb4_regs_pkg::ADDR_REGNUM:    rd_data_o[8*k +: 8] = regnum_q;
+        mb4_regs_pkg::ADDR_CHSEL:     rd_data_o[8*k +: 8] = chsel_q;
+        mb4_regs_pkg::ADDR_CTRL:      rd_data_o[8*k +: 8] = ctrl_q;
+        mb4_regs_pkg::ADDR_FREQ:      rd_data_o[8*k +: 8] = freq_q;
+        mb4_regs_pkg::ADDR_BANKCFG:   rd_data_o[8*k +: 8] = bankcfg_q;
+        mb4_regs_pkg::ADDR_FREQAGS:   rd_data_o[8*k +: 8] = freqags_q;
+        mb4_regs_pkg::ADDR_MO_BUSY:   rd_data_o[8*k +: 8] = mo_busy_q;
+        mb4_regs_pkg::ADDR_SLAVELOC5:
+          rd_data_o[8*k +: 8] = slaveloc5_q | mb4_regs_pkg::RESET_SLAVELOC5;
+        mb4_regs_pkg::ADDR_CFGCH:     rd_data_o[8*k +: 8] = cfgch_q;
+        mb4_regs_pkg::ADDR_ACTNSENS:  rd_data_o[8*k +: 8] = actnsens_q;
+        mb4_regs_pkg::ADDR_IFACE:     rd_data_o[8*k +: 8] = iface_q;
+        default:                      rd_data_o[8*k +: 8] = 8'h00;
+      endcase
+    end
   end
 
   assign access.wnr     = regadr_q[mb4_regs_pkg::WNR_LSB];

@@ -33,7 +33,7 @@ module mb4_host_read #(
   input  logic       recent_hit_i,   // same edge: the byte of the host is still on its way
   input  logic [7:0] recent_data_i,
   input  logic [7:0] slave_data_i,   // configuration of the data channels, same edge
-  input  logic [7:0] cfg_data_i,     // combinational from host_i.rd_addr
+  input  logic [15:0] cfg_data_i,    // of an odd and an even address, from host_i.rd_addr(4:1)
   input  logic [7:0] instr_data_i,
   input  logic       instr_pending_i,
   input  logic       control_pending_i,
@@ -50,21 +50,21 @@ module mb4_host_read #(
   localparam logic [7:0] FEATURES = Features == mb4_page_regs_pkg::FEATURES_FULL
                                         ? 8'h00 : {1'b1, Features[6:0]};
 
+  localparam logic [2:0] TOP = mb4_regs_pkg::ADDR_REGADR[7:5];  // 0xE0 to 0xFF
+
   logic [7:0] rd_addr;
   // One select bit for each source. The three memories read 0 until they are cleared.
-  logic       reg_sel_d, reg_sel_q;
+  logic [1:0] reg_sel_d, reg_sel_q;   // odd and even address
   logic       slave_sel_d, slave_sel_q;
   logic       lo_sel_d, lo_sel_q;
   logic       hi_sel_d, hi_sel_q;
   logic       rdata_sel_d, rdata_sel_q;
-  logic [7:0] reg_data;
+  logic [15:0] reg_pair;
   logic [7:0] ram_data;
-  logic [7:0] reg_d;
-  logic [7:0] reg_q;
+  logic [15:0] pair, pair_q;   // registers of an odd and an even address
+  logic [7:0] flags, flags_q;  // bits of both at the places of SVALID and CDS, from bank 1
   logic [7:0] status0, status3, status8;
   logic [7:0] svalid_lo, svalid_hi;
-  logic [3:0] flags_d;   // bits at the places of SVALID and CDS, from bank 1
-  logic [3:0] flags_q;
   logic       bank_q;
   logic       ready_q;
 
@@ -75,7 +75,10 @@ module mb4_host_read #(
                        PRESENT[{1'b1, rd_addr[4:3]}];
   assign rdata_sel_d = rd_addr[7:6] == mb4_regs_pkg::ADDR_RDATA[7:6] && CONTROL;
   assign slave_sel_d = rd_addr[7:5] == mb4_regs_pkg::ADDR_SLAVE_CFG[7:5];
-  assign reg_sel_d   = !(lo_sel_d || hi_sel_d || rdata_sel_d || slave_sel_d);
+  assign reg_sel_d   = {rd_addr[0], !rd_addr[0]} &
+                       {2{rd_addr[7:5] == TOP ||
+                          (Features != mb4_page_regs_pkg::FEATURES_FULL &&
+                           rd_addr[7:1] == mb4_page_regs_pkg::FEATURES_BYTE[7:1])}};
 
   always_comb begin
     status0 = mb4_regs_pkg::RESET_STATUS0 & mb4_regs_pkg::CONST_STATUS0;
@@ -103,59 +106,52 @@ module mb4_host_read #(
     end
   end
 
+  // Bit 0 of the address comes late over SPI. So the registers of both addresses are taken, and the
+  // choice between them comes after the flops.
   always_comb begin
-    unique case (rd_addr)
-      mb4_regs_pkg::ADDR_REVISION:
-        unique case (revision_sel_i)
-          2'd1:    reg_d = mb4_regs_pkg::DEVICE_REVISION_Z;
-          2'd2:    reg_d = mb4_regs_pkg::DEVICE_REVISION_Z1;
-          default: reg_d = mb4_regs_pkg::RESET_REVISION;
-        endcase
-      mb4_regs_pkg::ADDR_VERSION:
-        reg_d = mb4_regs_pkg::RESET_VERSION;
-      mb4_regs_pkg::ADDR_STATUS0:
-        reg_d = status0;
-      mb4_regs_pkg::ADDR_SVALID_LO:
-        reg_d = svalid_lo;
-      mb4_regs_pkg::ADDR_SVALID_HI:
-        reg_d = svalid_hi;
-      mb4_regs_pkg::ADDR_STATUS3:
-        reg_d = status3;
-      mb4_regs_pkg::ADDR_INSTR:
-        reg_d = instr_data_i;
-      mb4_regs_pkg::ADDR_STATUS8:
-        reg_d = status8;
-      mb4_regs_pkg::ADDR_STATUS9:
-        reg_d = mb4_regs_pkg::RESET_STATUS9;
-      mb4_regs_pkg::ADDR_SWBANKFAIL:
-        reg_d = 8'(status_i.flags.swbank_fail) << mb4_regs_pkg::SWBANKFAIL_LSB;
-      default:
-        reg_d = cfg_data_i |
-                (FEATURES & {8{rd_addr == mb4_page_regs_pkg::FEATURES_BYTE[7:0]}});
-    endcase
-  end
-
-  always_comb begin
-    unique case (rd_addr)
-      mb4_regs_pkg::ADDR_SVALID_LO: flags_d = svalid_i[11:8];
-      mb4_regs_pkg::ADDR_SVALID_HI: flags_d = svalid_i[15:12];
-      mb4_regs_pkg::ADDR_STATUS8:   flags_d = {reg_d[7], reg_d[5], cds_i[3:2]};
-      default: begin
-        for (int unsigned i = 0; i < 4; i++) begin
-          flags_d[i] = reg_d[mb4_regs_pkg::SVALID_LSB + mb4_regs_pkg::SVALID_LSB_STEP * i];
+    for (int unsigned k = 0; k < 2; k++) begin
+      unique case ({TOP, rd_addr[4:1], 1'(k)})
+        mb4_regs_pkg::ADDR_REVISION:
+          unique case (revision_sel_i)
+            2'd1:    pair[8*k +: 8] = mb4_regs_pkg::DEVICE_REVISION_Z;
+            2'd2:    pair[8*k +: 8] = mb4_regs_pkg::DEVICE_REVISION_Z1;
+            default: pair[8*k +: 8] = mb4_regs_pkg::RESET_REVISION;
+          endcase
+        mb4_regs_pkg::ADDR_VERSION:    pair[8*k +: 8] = mb4_regs_pkg::RESET_VERSION;
+        mb4_regs_pkg::ADDR_STATUS0:    pair[8*k +: 8] = status0;
+        mb4_regs_pkg::ADDR_SVALID_LO:  pair[8*k +: 8] = svalid_lo;
+        mb4_regs_pkg::ADDR_SVALID_HI:  pair[8*k +: 8] = svalid_hi;
+        mb4_regs_pkg::ADDR_STATUS3:    pair[8*k +: 8] = status3;
+        mb4_regs_pkg::ADDR_INSTR:      pair[8*k +: 8] = instr_data_i;
+        mb4_regs_pkg::ADDR_STATUS8:    pair[8*k +: 8] = status8;
+        mb4_regs_pkg::ADDR_STATUS9:    pair[8*k +: 8] = mb4_regs_pkg::RESET_STATUS9;
+        mb4_regs_pkg::ADDR_SWBANKFAIL:
+          pair[8*k +: 8] = 8'(status_i.flags.swbank_fail) << mb4_regs_pkg::SWBANKFAIL_LSB;
+        {TOP, mb4_page_regs_pkg::FEATURES_BYTE[4:0]}:   // and 0xFF, which reads 0
+          pair[8*k +: 8] = FEATURES & {8{!rd_addr[7]}};
+        default:                       pair[8*k +: 8] = cfg_data_i[8*k +: 8];
+      endcase
+      unique case ({TOP, rd_addr[4:1], 1'(k)})
+        mb4_regs_pkg::ADDR_SVALID_LO: flags[4*k +: 4] = svalid_i[11:8];
+        mb4_regs_pkg::ADDR_SVALID_HI: flags[4*k +: 4] = svalid_i[15:12];
+        mb4_regs_pkg::ADDR_STATUS8:   flags[4*k +: 4] = {pair[8*k + 7], pair[8*k + 5], cds_i[3:2]};
+        default: begin
+          for (int unsigned i = 0; i < 4; i++) begin
+            flags[4*k + i] = pair[8*k + mb4_regs_pkg::SVALID_LSB + mb4_regs_pkg::SVALID_LSB_STEP*i];
+          end
         end
-      end
-    endcase
+      endcase
+    end
   end
 
   always_ff @(posedge rd_clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
-      reg_sel_q   <= 1'b0;
+      reg_sel_q   <= '0;
       slave_sel_q <= 1'b0;
       lo_sel_q    <= 1'b0;
       hi_sel_q    <= 1'b0;
       rdata_sel_q <= 1'b0;
-      reg_q    <= '0;
+      pair_q   <= '0;
       flags_q  <= '0;
       bank_q   <= 1'b0;
       ready_q  <= 1'b0;
@@ -165,18 +161,21 @@ module mb4_host_read #(
       lo_sel_q    <= lo_sel_d;
       hi_sel_q    <= hi_sel_d;
       rdata_sel_q <= rdata_sel_d;
-      reg_q    <= reg_d;
-      flags_q  <= flags_d;
+      pair_q   <= pair;
+      flags_q  <= flags;
       bank_q   <= bank_i;
       ready_q  <= ram_ready_i;
     end
   end
 
   always_comb begin
-    reg_data = reg_q;
-    for (int unsigned i = 0; i < 4; i++) begin
-      if (bank_q) begin
-        reg_data[mb4_regs_pkg::SVALID_LSB + mb4_regs_pkg::SVALID_LSB_STEP * i] = flags_q[i];
+    reg_pair = pair_q;
+    for (int unsigned k = 0; k < 2; k++) begin
+      for (int unsigned i = 0; i < 4; i++) begin
+        if (bank_q) begin
+          reg_pair[8*k + mb4_regs_pkg::SVALID_LSB + mb4_regs_pkg::SVALID_LSB_STEP*i] =
+              flags_q[4*k + i];
+        end
       end
     end
   end
@@ -189,6 +188,7 @@ module mb4_host_read #(
 
   assign rd_data_o = (ram_data & {8{ready_q && !recent_hit_i}}) |
                      (recent_data_i & {8{recent_hit_i}}) |
-                     (slave_data_i & {8{slave_sel_q}}) | (reg_data & {8{reg_sel_q}});
+                     (slave_data_i & {8{slave_sel_q}}) |
+                     (reg_pair[15:8] & {8{reg_sel_q[1]}}) | (reg_pair[7:0] & {8{reg_sel_q[0]}});
 
 endmodule

@@ -64,7 +64,9 @@ module mb4_recent #(
   logic        fresh_q;   // the newest entry was written at the last edge of wr_clk_i
   logic        hit_q;
   logic [2:0]  wr_match;
-  logic [3:0]  rd_match;
+  logic [3:0]  rd_match;  // without bit 0 of the address
+  logic [3:0]  odd;
+  logic [1:0]  hits;      // at the odd and at the even address
   logic [3:0]  move;      // entry takes the address of its newer neighbour
 
   // Only addresses of SCDATA (bit 7 = 0) and RDATA have bit 6 = 0.
@@ -76,10 +78,15 @@ module mb4_recent #(
     assign wr_match[i] = valid_q[i] && addr_q[8*i +: 8] == wr_addr;
   end
 
+  // Bit 0 of the address comes late over SPI, so it only chooses between two results.
   for (genvar i = 0; i < 4; i++) begin : gen_read
     assign rd_match[i] = valid_q[i] && !drained[i] && !(old_q[i] && marked_i == mark_q) &&
-                         addr_q[8*i +: 8] == rd_addr;
+                         addr_q[8*i + 1 +: 7] == rd_addr[7:1];
+    assign odd[i]      = addr_q[8*i];
   end
+
+  assign hits = {(rd_match & odd) != 4'b0000, (rd_match & ~odd) != 4'b0000} &
+                {2{mb4_pkg::in_memory(host_i.rd_addr[7:3], PRESENT, CONTROL) && !empty_i}};
 
   assign move = {wr_match == 3'b000, wr_match[1:0] == 2'b00, !wr_match[0], 1'b1} &
                 {4{wr_en}};
@@ -125,10 +132,7 @@ module mb4_recent #(
 
   always_ff @(posedge rd_clk_i or negedge rst_ni) begin
     if (!rst_ni)           hit_q <= 1'b0;
-    else if (host_i.rd_en) begin
-      hit_q <= mb4_pkg::in_memory(host_i.rd_addr[7:3], PRESENT, CONTROL) && rd_match != 4'b0000 &&
-               !empty_i;
-    end
+    else if (host_i.rd_en) hit_q <= rd_addr[0] ? hits[1] : hits[0];
   end
 
   assign hit_o  = hit_q;

@@ -70,7 +70,7 @@ module mb4_reg_file #(
   mb4_pkg::mem_rd_t rd;
   mb4_pkg::mem_wr_t clear;
   mb4_pkg::banks_t  banks;           // core domain
-  logic [7:0]  cfg_data;
+  logic [15:0] cfg_data;
   logic [7:0]  slave_data;
   logic [7:0]  instr_data;
   logic        instr_pending, control_pending;
@@ -101,7 +101,9 @@ module mb4_reg_file #(
     .cfg_o
   );
 
-  mb4_slave_cfg #(.Channels(PRESENT)) u_slave_cfg (
+  mb4_slave_cfg #(
+    .Channels(PRESENT), .FreeCrc(Features[mb4_page_regs_pkg::FREE_CRC_LSB])
+  ) u_slave_cfg (
     .wr_clk_i,
     .rst_ni       (host_rst_ni),
     .host_i,

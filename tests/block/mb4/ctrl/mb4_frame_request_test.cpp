@@ -22,7 +22,8 @@ class Requests : public mb4test::Block<Vmb4_frame_request> {
     reset();
   }
   // mb4_pkg::request_t.
-  bool due() const { return (model.request_o & 4) != 0; }
+  bool due() const { return (model.request_o & 8) != 0; }
+  bool asks() const { return (model.request_o & 4) != 0; }
   bool agsmin() const { return (model.request_o & 2) != 0; }
   bool infinite() const { return (model.request_o & 1) != 0; }
   // The clocks, counted from 1, that end with a request; each request is taken in the next clock.
@@ -123,6 +124,7 @@ TEST(FrameRequestBlock, Getsens_StartsAfterTwoClocksAndByHoldcdmOnceOrAgain) {
     requests.model.getsens_i = 1;
     requests.model.lines_idle_i = 0;
     EXPECT_TRUE(requests.run(20).empty()) << "lines at work";
+    EXPECT_TRUE(requests.asks());  // it would be due, if the lines were idle
   }
 }
 

@@ -23,7 +23,7 @@ constexpr unsigned kCdm0 = reg::INSTR::of(reg::Instr::kCdm0);
 constexpr unsigned kCdm1 = reg::INSTR::of(reg::Instr::kCdm1);
 constexpr unsigned kControl = reg::INSTR::of(reg::Instr::kControl);
 // Places in mb4_pkg: request_t, flags.
-constexpr unsigned kDue = 4, kAgsmin = 2, kInfinite = 1;
+constexpr unsigned kDue = 8 | 4, kAgsmin = 2, kInfinite = 1;
 constexpr unsigned kAgserrOnWrite = 2, kAgserrOnHoldbank = 4, kAgsCleared = 8;  // quirks
 
 class SequencerBlock : public testing::Test {

@@ -48,7 +48,7 @@ class CfgRegsBlock : public testing::Test {
   unsigned read(unsigned address) {
     m.host_i = address;
     m.eval();
-    return m.rd_data_o;
+    return (address & 1U) != 0 ? m.rd_data_o >> 8 : m.rd_data_o & 0xFFU;
   }
   // `written`: the last byte of each address. Decision 13: bits of no field read 0.
   void expect(const std::array<unsigned, 256>& written) {
@@ -65,7 +65,8 @@ class CfgRegsBlock : public testing::Test {
       }
       ASSERT_EQ(port, value) << field.name;
     }
-    for (unsigned address = 0; address < 256; ++address) {
+    // mb4_host_read takes the bytes for these addresses only.
+    for (unsigned address = 0xE0; address < 256; ++address) {
       ASSERT_EQ(read(address), reads[address]) << std::hex << address;
     }
   }

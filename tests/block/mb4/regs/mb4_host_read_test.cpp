@@ -23,7 +23,7 @@ struct Sources {
   bool cdssel2;
   unsigned revision;
 
-  // Table 6, and docs/choices.md: 13 (reserved addresses; cfg is 0 there), 26 (EOT and REGEND after
+  // Table 6, and docs/choices.md: 13 (reserved addresses; in cfg they are 0), 26 (EOT and REGEND after
   // an instruction), 36 (a byte that is on its way), "after reset".
   unsigned read(unsigned address) const {
     const auto of_bank = [&](unsigned two) { return bank ? two >> 8 : two & 0xFF; };
@@ -60,7 +60,7 @@ struct Sources {
       case 0xFB:
         return swbank_fail;
       default:
-        return cfg;
+        return address < 0xE0 || address == 0xFF ? 0 : (address & 1U) != 0 ? cfg >> 8 : cfg & 0xFFU;
     }
   }
 };
@@ -74,7 +74,7 @@ Sources random_sources(mb4test::Dice& random) {
   s.recent_hit = random.below(8) == 0;
   s.bank = bit();
   s.lo = word(), s.hi = word(), s.svalid = word();
-  s.rdata = byte(), s.recent = byte(), s.slave = byte(), s.cfg = byte(), s.instr = byte();
+  s.rdata = byte(), s.recent = byte(), s.slave = byte(), s.cfg = word(), s.instr = byte();
   s.instr_pending = bit(), s.control_pending = bit();
   s.n_agserr = bit(), s.n_delayerr = bit(), s.n_scderr = bit(), s.n_regerr = bit();
   s.regend = bit(), s.eot = bit(), s.swbank_fail = bit(), s.cdm_timeout = bit();
@@ -86,7 +86,7 @@ Sources random_sources(mb4test::Dice& random) {
 void drive(Vmb4_host_read& m, const Sources& s) {
   m.ram_ready_i = s.ready;
   m.bank_i = s.bank;
-  m.cfg_data_i = static_cast<std::uint8_t>(s.cfg);
+  m.cfg_data_i = static_cast<std::uint16_t>(s.cfg);
   m.instr_data_i = static_cast<std::uint8_t>(s.instr);
   m.instr_pending_i = s.instr_pending;
   m.control_pending_i = s.control_pending;
