@@ -169,7 +169,7 @@ module mb4_control_comm #(
   end
 
   // A byte is written one clock later. This keeps the memory, and the queue of the host's writes,
-  // out of the long paths. The end of an access reaches the flags one clock later still.
+  // out of the long paths. The end of an access reaches the flags no earlier.
   assign rdata   = register_active ? register_byte : control_byte;
   assign rdata_o = {rdata_wr_q, active_o || register_active, rdata.addr};
 

@@ -90,21 +90,19 @@ module mb4_sequencer #(
   state_e           state_d, state_q;
   mb4_pkg::instr_t  held_d, held_q;
   logic             new_d, new_q;  // INSTR was written, its frame has not started
-  logic [1:0]       use_d, use_q;
-  logic [1:0]       done_d, done_q;
+  logic [1:0]       use_d, use_q, done_d, done_q;
   logic             bad_d, bad_q;
   logic             reduced_d, reduced_q;  // the running frame ends after CDS
   logic [10:0]      wait_d, wait_q;  // half MA periods left for the return of SL to 1
   logic             written;
   mb4_pkg::instr_t  asked;         // the byte of the host
   biss_pkg::line_status_t status1, status2;
-  biss_pkg::line_event_t event1, event2;
+  biss_pkg::line_event_t  event1, event2;
   logic [1:0]       ack, idle, line_end, init_done, init_fail;
   logic             held_back, may_run;  // a frame is held back by HOLDBANK, may run
   logic             start, init, register_access, mo_return, abort;
-  logic             frame_end, swap;
+  logic             frame_end, swap, all_idle, sl_low;
   logic             busy, clear_flags, scd_en, ags_error, bank_fail;
-  logic             all_idle, sl_low;
   logic             by_instr, begins;  // INSTR asks for a frame, for a control communication
   logic             register_d, register_q;  // a BiSS B register access runs, not a frame
   logic             awaits_d, awaits_q;      // one waits for its automatic frame
