@@ -168,8 +168,8 @@ module mb4_control_comm #(
     assign {register_active, register_wait, ags_error_o} = '0;
   end
 
-  // A byte is written one clock later, which keeps the memory and the queue of the host's writes out
-  // of the long paths. The host sees the end of the access two clocks after the last byte.
+  // A byte is written one clock later. This keeps the memory, and the queue of the host's writes,
+  // out of the long paths. The end of an access reaches the flags no earlier.
   assign rdata   = register_active ? register_byte : control_byte;
   assign rdata_o = {rdata_wr_q, active_o || register_active, rdata.addr};
 

@@ -87,29 +87,22 @@ module mb4_sequencer #(
     INIT_TIMEOUT
   } state_e;
 
-  state_e           state_d;
-  state_e           state_q;
+  state_e           state_d, state_q;
   mb4_pkg::instr_t  held_d, held_q;
   logic             new_d, new_q;  // INSTR was written, its frame has not started
-  logic [1:0]       use_d, use_q;
-  logic [1:0]       done_d, done_q;
+  logic [1:0]       use_d, use_q, done_d, done_q;
   logic             bad_d, bad_q;
-  logic             reduced_d;
-  logic             reduced_q;     // the running frame ends after CDS
-  logic [10:0]      wait_d;
-  logic [10:0]      wait_q;        // half MA periods left for the return of SL to 1
+  logic             reduced_d, reduced_q;  // the running frame ends after CDS
+  logic [10:0]      wait_d, wait_q;  // half MA periods left for the return of SL to 1
   logic             written;
   mb4_pkg::instr_t  asked;         // the byte of the host
   biss_pkg::line_status_t status1, status2;
-  biss_pkg::line_event_t event1, event2;
-  logic [1:0]       idle, line_end, init_done, init_fail;
-  logic [1:0]       ack;
-  logic             held_back;     // by HOLDBANK, with the quirk
-  logic             asks_init, asks_frame;
+  biss_pkg::line_event_t  event1, event2;
+  logic [1:0]       ack, idle, line_end, init_done, init_fail;
+  logic             held_back, may_run;  // a frame is held back by HOLDBANK, may run
   logic             start, init, register_access, mo_return, abort;
-  logic             frame_end, swap;
+  logic             frame_end, swap, all_idle, sl_low;
   logic             busy, clear_flags, scd_en, ags_error, bank_fail;
-  logic             all_idle, sl_low;
   logic             by_instr, begins;  // INSTR asks for a frame, for a control communication
   logic             register_d, register_q;  // a BiSS B register access runs, not a frame
   logic             awaits_d, awaits_q;      // one waits for its automatic frame
@@ -159,16 +152,16 @@ module mb4_sequencer #(
 
   assign held_back   = mem_i.pending && held_q.holdbank && !kind_i.is_register &&
                        quirks_i[mb4_pkg::QUIRK_AGSERR_ON_HOLDBANK];
+  assign may_run     = !mem_i.clears && kind_i.in_use != 2'b00 &&
+                       !(stale_i && held_q.instr != 3'b000);
 
-  // start is written apart from the cases below, because all lines wait for it: of the lines' idle,
-  // which comes late, it takes only all_idle. With all_idle a request by GETSENS is due, and SL
-  // counts on all lines in use.
-  assign asks_init   = held_q.init && !mem_i.clears;
-  assign asks_frame  = (by_instr || request_i.asks) && !mem_i.clears && kind_i.in_use != 2'b00 &&
-                       !(stale_i && held_q.instr != 3'b000) && !held_back &&
-                       (kind_i.in_use & ~{status2.sl, status1.sl}) == 2'b00;
+  // start stands apart from the cases below: all lines wait for it, so it takes only all_idle of
+  // the lines. If all are idle, a request by GETSENS is due, and SL counts on each line in use.
   assign start       = all_idle && state_q == IDLE && !(written && asked.brk) &&
-                       (asks_init ? kind_i.init_use != 2'b00 && (BissB || regvers_i) : asks_frame);
+                       ((held_q.init && !mem_i.clears)
+                            ? kind_i.init_use != 2'b00 && (BissB || regvers_i)
+                            : may_run && (by_instr || request_i.asks) && !held_back &&
+                              (kind_i.in_use & ~{status2.sl, status1.sl}) == 2'b00);
 
   always_comb begin
     state_d      = state_q;
@@ -216,8 +209,7 @@ module mb4_sequencer #(
           end else if (wait_q == 11'd0) begin
             abort = 1'b1;
           end
-        end else if ((by_instr || request_i.due) && !mem_i.clears && kind_i.in_use != 2'b00 &&
-                     !(stale_i && held_q.instr != 3'b000)) begin
+        end else if ((by_instr || request_i.due) && may_run) begin
           if (held_back) begin
             taken_o   = 1'b1;
             ags_error = 1'b1;

@@ -23,8 +23,8 @@ struct Sources {
   bool cdssel2;
   unsigned revision;
 
-  // Table 6, and docs/choices.md: 13 (reserved addresses; in cfg they are 0), 26 (EOT and REGEND after
-  // an instruction), 36 (a byte that is on its way), "after reset".
+  // Table 6, and docs/choices.md: 13 (reserved addresses; in cfg they are 0), 26 (EOT and REGEND
+  // after an instruction), 36 (a byte that is on its way), "after reset".
   unsigned read(unsigned address) const {
     const auto of_bank = [&](unsigned two) { return bank ? two >> 8 : two & 0xFF; };
     if (address < 0xC0 && (address < 0x40 || address >= 0x80)) {
