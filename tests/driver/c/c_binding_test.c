@@ -74,6 +74,7 @@ static void test_single(mb4_device *device) {
   mb4_reading reading;
   mb4_frame frame;
   FAILS(mb4_read_frame(device, 1, &reading), MB4_NOT_CONFIGURED);
+  FAILS(mb4_initialize(device, quarters), MB4_NOT_CONFIGURED);
   OK(mb4_probe(device, &version, &revision));
   CHECK(version == 0x84 && revision == 0x20);
   OK(mb4_configure(device, &config));
@@ -270,6 +271,7 @@ static void test_steps(mb4_device *device, bus_t *bus) {
 static void test_raw_and_reset(mb4_device *device, bus_t *bus) {
   const uint8_t byte = 0x5A;
   uint8_t data[2];
+  uint8_t status[MB4_STATUS_BYTES];
   OK(mb4_write_registers(device, 0x80, &byte, 1));
   OK(mb4_read_registers(device, 0x80, data, 1));
   CHECK(data[0] == 0x5A);
@@ -279,6 +281,7 @@ static void test_raw_and_reset(mb4_device *device, bus_t *bus) {
   bus->broken = true;
   FAILS(mb4_probe(device, &data[0], &data[1]), MB4_TRANSPORT);
   FAILS(mb4_reset(device), MB4_TRANSPORT);
+  FAILS(mb4_read_status(device, status), MB4_TRANSPORT);
   bus->broken = false;
 }
 
@@ -372,6 +375,9 @@ static void test_safety(void) {
   CHECK((verdict.checks_failed & 1U << MB4_SAFETY_CONTROL_CRC) != 0);
   mb4_safety_check(&safety, &frame, 0, 9, 1, &verdict);
   CHECK((verdict.checks_failed & 1U << MB4_SAFETY_SAFETY_WORD) != 0);
+  frame.one_frame = false;
+  mb4_safety_check(&safety, &frame, 1, 2, 1, &verdict);
+  CHECK((verdict.checks_failed & 1U << MB4_SAFETY_ONE_FRAME) != 0);
   frame.code[0] = MB4_CRC;
   mb4_safety_check(&safety, &frame, 1, 2, 1, &verdict);
   CHECK((verdict.checks_failed & 1U << MB4_SAFETY_CONTROL_CRC) != 0 && verdict.position == 0);

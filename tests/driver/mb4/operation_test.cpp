@@ -437,6 +437,16 @@ TEST_F(Initialize, Full_ReadsTwice) {
   }
 }
 
+TEST_F(Initialize, LinesCannotBeRead_IsTransport) {
+  configure();
+  ASSERT_TRUE(device.plan_initialize(op).ok());
+  EXPECT_FALSE(step({kZero1, kZero5}, {}));
+  EXPECT_FALSE(step({kInit}, {}));
+  EXPECT_FALSE(step({kReadStatus}, {kOver}));
+  EXPECT_TRUE(step({kReadLines}, {}, false));
+  ends_with(Error::kTransport);
+}
+
 // Neither INIT nor a delay was seen: the instruction was lost. A disturbed status is no proof.
 TEST_F(Initialize, Lost_IsCorrupted) {
   configure(mb4::SpiCheck::kFull);
