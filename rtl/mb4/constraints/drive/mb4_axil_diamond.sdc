@@ -11,7 +11,7 @@ set host_period 10.0
 create_clock -name host -period $host_period [get_ports s_axi_aclk]
 
 # configuration (`enscd`, `cfg`)
-set_false_path -from [get_cells -hierarchical {*u_regs/u_cfg/actnsens_q* *u_regs/u_cfg/bankcfg_q* *u_regs/u_cfg/cfgch_q* *u_regs/u_cfg/ctrl_q* *u_regs/u_cfg/freq_q* *u_regs/u_cfg/freqags_q* *u_regs/u_cfg/mo_busy_q* *u_regs/u_cfg/regadr_q* *u_regs/u_cfg/regnum_q* *u_regs/u_cfg/slaveloc5_q*}] -to [get_clocks core]
+set_false_path -from [get_cells -hierarchical {*u_regs/u_cfg/actnsens_q* *u_regs/u_cfg/bankcfg_q* *u_regs/u_cfg/cfgch_q* *u_regs/u_cfg/ctrl_q* *u_regs/u_cfg/freq_q* *u_regs/u_cfg/freqags_q* *u_regs/u_cfg/mo_busy_q* *u_regs/u_cfg/regadr_q* *u_regs/u_cfg/regnum_q* *u_regs/u_cfg/slaveloc5_q* *u_regs/u_slave_cfg/gen_rows*enscd_q*}] -to [get_clocks core]
 
 # configuration (`enscd`, `cfg`)
 set_false_path -from [get_cells -hierarchical {*u_regs/u_cfg/chsel_q*}] -to [get_cells -hierarchical {*u_control/u_comm/access_q*}]
@@ -19,6 +19,9 @@ set_false_path -from [get_cells -hierarchical {*u_regs/u_cfg/chsel_q*}] -to [get
 # MA force bits, CHSEL for them
 set_max_delay -from [get_cells -hierarchical {*u_regs/u_cfg/chsel_q* *u_regs/u_cfg/iface_q*}] -to [get_cells -hierarchical {*u_control/u_force/meta_q*}] $core_period
 set_false_path -hold -from [get_cells -hierarchical {*u_regs/u_cfg/chsel_q* *u_regs/u_cfg/iface_q*}] -to [get_cells -hierarchical {*u_control/u_force/meta_q*}]
+
+# configuration of the data channels (`mb4_slave_cfg`)
+set_false_path -from [get_cells -hierarchical {*u_regs/u_slave_cfg/gen_rows*gen_list*u_list/mem*}] -to [get_clocks core]
 
 # 0xF4 byte, `count`
 set_max_delay -from [get_cells -hierarchical {*u_regs/u_instr/byte_q* *u_regs/u_instr/count_q*}] -to [get_clocks core] $core_period

@@ -19,13 +19,16 @@ set_output_delay -clock host -max $host_setup [get_ports miso_o]
 set_output_delay -clock host -min 0.0 [get_ports miso_o]
 
 # configuration (`enscd`, `cfg`)
-set_false_path -from [get_cells -hierarchical -filter {NAME =~ *u_regs/u_cfg/actnsens_q* || NAME =~ *u_regs/u_cfg/bankcfg_q* || NAME =~ *u_regs/u_cfg/cfgch_q* || NAME =~ *u_regs/u_cfg/ctrl_q* || NAME =~ *u_regs/u_cfg/freq_q* || NAME =~ *u_regs/u_cfg/freqags_q* || NAME =~ *u_regs/u_cfg/mo_busy_q* || NAME =~ *u_regs/u_cfg/regadr_q* || NAME =~ *u_regs/u_cfg/regnum_q* || NAME =~ *u_regs/u_cfg/slaveloc5_q*}] -to [get_clocks core]
+set_false_path -from [get_cells -hierarchical -filter {NAME =~ *u_regs/u_cfg/actnsens_q* || NAME =~ *u_regs/u_cfg/bankcfg_q* || NAME =~ *u_regs/u_cfg/cfgch_q* || NAME =~ *u_regs/u_cfg/ctrl_q* || NAME =~ *u_regs/u_cfg/freq_q* || NAME =~ *u_regs/u_cfg/freqags_q* || NAME =~ *u_regs/u_cfg/mo_busy_q* || NAME =~ *u_regs/u_cfg/regadr_q* || NAME =~ *u_regs/u_cfg/regnum_q* || NAME =~ *u_regs/u_cfg/slaveloc5_q* || NAME =~ *u_regs/u_slave_cfg/gen_rows*enscd_q*}] -to [get_clocks core]
 
 # configuration (`enscd`, `cfg`)
 set_false_path -from [get_cells -hierarchical -filter {NAME =~ *u_regs/u_cfg/chsel_q*}] -to [get_cells -hierarchical -filter {NAME =~ *u_control/u_comm/access_q*}]
 
 # MA force bits, CHSEL for them
 set_max_delay -datapath_only -from [get_cells -hierarchical -filter {NAME =~ *u_regs/u_cfg/chsel_q* || NAME =~ *u_regs/u_cfg/iface_q*}] -to [get_cells -hierarchical -filter {NAME =~ *u_control/u_force/meta_q*}] $core_period
+
+# configuration of the data channels (`mb4_slave_cfg`)
+set_false_path -from [get_cells -hierarchical -filter {NAME =~ *u_regs/u_slave_cfg/gen_rows*gen_list*u_list/mem*}] -to [get_clocks core]
 
 # 0xF4 byte, `count`
 set_max_delay -datapath_only -from [get_cells -hierarchical -filter {NAME =~ *u_regs/u_instr/byte_q* || NAME =~ *u_regs/u_instr/count_q*}] -to [get_clocks core] $core_period
