@@ -25,8 +25,8 @@
 //   go_i.register_access MA belongs to the BiSS B register access (biss_b_access) until
 //                        register_ma_i.ends, which makes event_o.line_end
 //
-// Changes of protocol and bus_i count from the next start on. A line that is taken out of use
-// (UNUSED) does not wait for SL in its timeout.
+// A frame has the protocol and the bus_i of the clock before its start. A line that is taken out of
+// use (UNUSED) does not wait for SL in its timeout.
 //
 // Parameters: a protocol that is left out acts as UNUSED (decision 44). Such a line must not take
 // part in a frame.

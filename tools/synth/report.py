@@ -3,10 +3,11 @@
 # SPDX-License-Identifier: Apache-2.0
 """Synthesis for iCE40 (placed, routed, packed), ECP5 and Xilinx 7 (area): docs/resources.md.
 
-  report.py FOLDER [--check|--axi]
+  report.py FOLDER [--check|--mb4|--axi]
                                writes docs/resources.md; FOLDER is for what the tools leave.
                                --check: no file, but fails if mb4_core does not reach MIN_MHZ on
-                               the HX8K with one seed. --axi: only the part about biss_axi anew
+                               the HX8K with one seed. --axi: only the part about biss_axi anew;
+                               --mb4: all but that part
 """
 
 import json
@@ -40,7 +41,7 @@ AXI_LARGE = 16  # takes long: one seed, and iCE40 only
 def files(top):
     if top.startswith("biss_axi"):
         return project.listed(project.RTL / "axi" / "axi.f") + [HERE / "tops" / "biss_axi_narrow.sv"]
-    return project.rtl_files() + [HERE / "tops" / "mb4_parallel.sv"]
+    return project.rtl_files() + [HERE / "tops" / f"{name}.sv" for name in ("mb4_parallel", "mb4_core_tied")]
 
 
 def synthesise(command, top, folder, extra, parameters=None):
@@ -62,7 +63,8 @@ def count(cells, pattern):
 
 
 def route(top, folder, device, seed):
-    """(MHz of clk, MHz of the host's clock), None where it does not fit."""
+    """MHz of clk and of the host's clock; ns from MOSI to SCLK's rising edge, and from SCLK's falling edge to MISO, both
+    without the delay of SCLK. None where it does not fit."""
     name = f"{device.lower()}_{seed}"
     status, text = project.run(
         [project.tool("nextpnr-ice40"), *DEVICES[device], "--json", "top.json", "--seed", str(seed),
@@ -72,9 +74,13 @@ def route(top, folder, device, seed):
         if re.search(r"[Uu]nable to place|no BELs remaining|Unable to find|IO.*exceed", text):
             return None
         raise SystemExit(f"{top} {device}: {text[-2000:]}")
-    clocks = json.loads((folder / f"{name}.json").read_text(encoding="utf-8"))["fmax"]
+    report = json.loads((folder / f"{name}.json").read_text(encoding="utf-8"))
     found = {"core": 0.0, "host": 0.0}
-    for clock, value in clocks.items():
+    for path in report["critical_paths"]:
+        for pin, start, end in (("mosi", "<async>", "posedge sclk_i"), ("miso", "negedge sclk_i", "<async>")):
+            if path["from"].startswith(start) and path["to"].startswith(end):
+                found[pin] = sum(part["delay"] for part in path["path"])
+    for clock, value in report["fmax"].items():
         kind = "core" if re.match(r"(u_clk_mux\.)?(clk|osc)|axi_aclk", clock) else "host"
         found[kind] = min(found[kind] or 1e9, value["achieved"])
     status, text = project.run([project.tool("icepack"), f"{name}.asc", f"{name}.bin"], cwd=folder)
@@ -111,6 +117,10 @@ def mhz(runs, kind):
     return f"{min(values):.0f}..{max(values):.0f}" if values else "does not fit"
 
 
+def worst_ns(runs, pin):
+    return "does not fit" if None in runs else f"{max(r[pin] for r in runs):.1f}"
+
+
 def version(command):
     done = subprocess.run(command, capture_output=True, text=True, check=False)
     return (done.stdout or done.stderr).splitlines()[0]
@@ -119,13 +129,17 @@ def version(command):
 def presets(folder):
     """The part of the page about cores with fewer features."""
     lines = ["## Presets", "",
-             "`mb4_core` with fewer features ([integration](integration.md#features)) on iCE40.", "",
-             "| preset | LUT4 | flops | block RAM | HX8K clk / MHz | HX8K host clock | "
-             "UP5K clk / MHz | UP5K host clock |", "|---|---|---|---|---|---|---|---|"]
+             "`mb4_core` with fewer features ([integration](integration.md#features)) on iCE40, with constant "
+             "`quirks_i` (`tools/synth/tops/mb4_core_tied.sv`). MOSI: the set-up before the rising edge of SCLK, where "
+             "the datasheet gives 7.5 ns (I205). MISO: its delay after the falling edge. Both are at the pins of "
+             "the FPGA and without the delay of SCLK itself.", "",
+             "| preset | LUT4 | flops | block RAM | HX8K clk / MHz | HX8K host clock | HX8K MOSI / ns | HX8K MISO / ns | "
+             "UP5K clk / MHz | UP5K host clock | UP5K MOSI / ns | UP5K MISO / ns |", "|---" * 12 + "|"]
     for name, features in project.presets().items():
         (luts, flops, rams, _), fmax = ice40(
-            "mb4_core", folder / "presets" / name, SEEDS, {"Features": features})
-        cells = [mhz(fmax[d], k) for d in ("HX8K", "UP5K") for k in ("core", "host")]
+            "mb4_core_tied", folder / "presets" / name, SEEDS, {"Features": features})
+        cells = [text for d in ("HX8K", "UP5K") for text in (
+            mhz(fmax[d], "core"), mhz(fmax[d], "host"), worst_ns(fmax[d], "mosi"), worst_ns(fmax[d], "miso"))]
         lines.append(f"| {name} | {luts} | {flops} | {rams} | " + " | ".join(cells) + " |")
         print(lines[-1], flush=True)
     return lines
@@ -164,7 +178,7 @@ def axi(folder):
     return lines
 
 
-def page(folder):
+def page(folder, axi_lines):
     lines = ["<!--", "SPDX-FileCopyrightText: 2026 The openmb4 authors",
              "SPDX-License-Identifier: Apache-2.0", "-->", "", "# Resources", "",
              "For FPGA engineers. After this page you know how much of a device each top takes, and "
@@ -193,7 +207,7 @@ def page(folder):
             lines.append(f"| `{top}` | {family} | {count(cells, lut)} | {count(cells, flop)} | "
                          f"{count(cells, ram)} | {cells.get(carry, 0)} |")
             print(lines[-1], flush=True)
-    lines += ["", *axi(folder), "", "## What takes the space", "",
+    lines += ["", *axi_lines, "", "## What takes the space", "",
               "`mb4_core` on iCE40, by the names of the cells after optimisation: a LUT that serves "
               "two modules counts for the one that names it.", "",
               "| instance | LUT4 | flops | block RAM |", "|---|---|---|---|"]
@@ -209,6 +223,7 @@ def main():
     parser.add_argument("folder", type=parser.folder)
     parser.add_argument("--check", action="store_true")
     parser.add_argument("--axi", action="store_true")
+    parser.add_argument("--mb4", action="store_true")
     arguments = parser.parse_args()
     folder = arguments.folder
     for program in ("yosys", "nextpnr-ice40", "icepack"):
@@ -221,11 +236,13 @@ def main():
                                         f"a fit on the UP5K"],
                        f"mb4_core: {hx8k['core']:.1f} MHz on the HX8K, fits the UP5K")
     path = project.ROOT / "docs" / "resources.md"
+    before, _, after = path.read_text(encoding="utf-8").partition(f"{AXI_HEAD}\n")
     if arguments.axi:
-        before, _, after = path.read_text(encoding="utf-8").partition(f"{AXI_HEAD}\n")
         text = before + "\n".join(axi(folder)) + "\n\n" + after[after.index("## "):]
+    elif arguments.mb4:
+        text = page(folder, [AXI_HEAD, *after[:after.index("\n## ")].splitlines()])
     else:
-        text = page(folder)
+        text = page(folder, axi(folder))
     path.write_text(text, encoding="utf-8")
 
 
