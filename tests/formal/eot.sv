@@ -56,6 +56,15 @@ module proof (
     .flags_o(shown)
   );
 
+  biss_pkg::line_status_t status1, status2;
+  assign {status2, status1} = status_i;
+
+  // mb4_frame_request: with idle lines each request is due, and what is due is a request.
+  always @* begin
+    assume (request_i.asks || !request_i.due);
+    if (status1.idle && status2.idle) assume (request_i.due == request_i.asks);
+  end
+
   logic started = 1'b0;
   logic start_q, live_q, asked;
   logic [2:0] quiet_q;       // clocks without frame, INIT or a request for one

@@ -58,6 +58,12 @@ module proof (
     .running_o(running), .go_o(go), .flags_o(flags)
   );
 
+  // mb4_frame_request: with idle lines each request is due, and what is due is a request.
+  always @* begin
+    assume (request_i.asks || !request_i.due);
+    if (status1.idle && status2.idle) assume (request_i.due == request_i.asks);
+  end
+
   logic started = 1'b0;
   always @(posedge clk_i) started <= 1'b1;
 

@@ -57,13 +57,16 @@ module mb4_slave_cfg #(
 
   // Bit 0 of a byte comes late over SPI. So the memories get the row of one of its two values.
   for (genvar k = 0; k < CODES; k++) begin : gen_code
+    logic       bit0;
     logic       on;
     logic [3:0] last;
     logic [7:0] code, poly, top;
 
+    assign bit0 = ONE ? crc_byte[0] : k != 0;
+
     mb4_crc_code u_code (
       .selcrc_i (crc_byte[mb4_regs_pkg::SELCRCS_LSB]),
-      .code_i   ({crc_byte[6:1], ONE ? crc_byte[0] : 1'(k)}),
+      .code_i   ({crc_byte[6:1], bit0}),
       .poly_o   (code)
     );
 
