@@ -5,8 +5,8 @@
 //
 // Clock domain: SCLK.
 // Latency: a write takes effect at the 8th rising edge of its byte. Read data must be in tx_byte_i
-// of the shifter after the edge at which host_o.rd_en is high. A byte is also read with some unknown
-// opcodes; nobody sees it.
+// of the shifter after the edge at which host_o.rd_en is high. A byte is also read with some
+// unknown opcodes; nobody sees it.
 // The last bit of a byte comes from MOSI without a flop. Only host_o.rd_addr(0), host_o.wr_data(0)
 // and the next state depend on it.
 // Misuse: an unknown opcode is ignored until NCS rises. The address wraps from 0xFF to 0x00
