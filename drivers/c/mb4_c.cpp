@@ -72,8 +72,9 @@ std::size_t frames_of(mb4::Steps& steps, mb4_spi_frame* frames) {
   return steps.frames();
 }
 
-// The memory of an object that the caller provides. A small target may have no header <new>, so
-// this file has its own placement operator.
+// The memory of an object that the caller provides, never null. A small target may have no header
+// <new>, so this file has its own placement operator. It throws nothing, but noexcept would make
+// each call ask for a null pointer.
 struct Place {
   void* memory;
 };
@@ -81,7 +82,7 @@ struct Place {
 }  // namespace
 
 // NOLINTNEXTLINE(cert-dcl54-cpp): placement into memory that is never deleted
-inline void* operator new(std::size_t /*size*/, Place place) noexcept { return place.memory; }
+inline void* operator new(std::size_t /*size*/, Place place) { return place.memory; }
 
 extern "C" {
 

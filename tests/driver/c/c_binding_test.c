@@ -126,6 +126,9 @@ static void test_slave_registers(mb4_device *device) {
   CHECK(missing.code == MB4_REGISTER && missing.detail == 0);
   OK(mb4_scan(device, 1, &identity, 1, &count));
   CHECK(count == 1);
+  count = 0;
+  OK(mb4_scan(device, 1, NULL, 0, &count));
+  CHECK(count == 1);
 }
 
 /* An actuator of 16 bits. */

@@ -66,8 +66,8 @@ static void start_with(drive_t *drive, const char *text, uint8_t spi_check, bool
     ++failures;
     return;
   }
-  image[2 + MB4_ADDR_CTRL - 0xC0] = 0x40;    /* REGVERS: BiSS C (table 26) */
-  image[2 + MB4_ADDR_FREQ - 0xC0] = 0xA0;    /* FREQS = 0: 20 MHz / 2 (table 35), FREQR = 5 */
+  image[2 + MB4_ADDR_CTRL - 0xC0] = 0x40; /* REGVERS: BiSS C (table 26) */
+  image[2 + MB4_ADDR_FREQ - 0xC0] = 0xA0; /* FREQS = 0: 20 MHz / 2 (table 35), FREQR = 5 */
   image[2 + MB4_ADDR_BANKCFG - 0xC0] = spi_check == MB4_SPI_CHECK_OFF ? 0x02 : 0x00; /* NOCRC */
   image[2 + MB4_ADDR_FREQAGS - 0xC0] = 50 - 1; /* 20 MHz / 20 / 50: every 50 us (table 37) */
   image[2 + MB4_ADDR_SLAVELOC5 - 0xC0] = 0x01;
@@ -264,7 +264,8 @@ static void test_given_up(bool omits, bool chain) {
   mb4sim_advance_ns(drive.simulator, kPeriodNs);
   mb4_cyclic_plan(&drive.read, &drive.plan, drive.parts);
   write_bytes(&drive, mb4_plan_tx(&drive.plan, 0), drive.plan.size[0]); /* HOLDBANK */
-  CHECK(mb4_cyclic_finish(&drive.read, &drive.plan, false, now_us(&drive), drive.parts) == MB4_MORE);
+  CHECK(mb4_cyclic_finish(&drive.read, &drive.plan, false, now_us(&drive), drive.parts) ==
+        MB4_MORE);
   CHECK(mb4_cyclic_finish(&drive.read, &drive.plan, false, now_us(&drive), drive.parts) ==
         MB4_TRANSPORT);
   for (i = 0; i < 4; ++i) {
@@ -284,7 +285,8 @@ static void test_given_up(bool omits, bool chain) {
 /* Two slaves on one line in one chain: the words of one frame, at each phase, and the counts. */
 static void test_two(bool omits) {
   static const char text[] =
-      "[chip.quirks]\nAGSERR_ON_HOLDBANK = %s\n[host]\nsclk_hz = 10_000_000\n[[channel]]\nnumber = 1\n"
+      "[chip.quirks]\nAGSERR_ON_HOLDBANK = %s\n[host]\nsclk_hz = 10_000_000\n[[channel]]\nnumber = "
+      "1\n"
       "[[channel.slave]]\nprotocol = \"biss-c\"\ndata_bits = 28\nsource = \"ramp\"\nstep = 1\n"
       "[[channel.slave]]\nprotocol = \"biss-c\"\ndata_bits = 28\nsource = \"ramp\"\nstep = 1\n"
       "start = 5000\n";

@@ -9,6 +9,8 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
+#include <csignal>
+#include <cstdlib>
 #include <functional>
 #include <thread>
 #include <type_traits>
@@ -138,9 +140,17 @@ TEST_F(Guarded, DriverInterruptedInATransfer_IsFound) {
   EXPECT_EQ(reentries, 1U);
 }
 
+// The trap is SIGILL or, on other processors, SIGTRAP. The handler makes it an exit, because a
+// process that a signal ends writes no coverage.
 TEST(GuardedDeathTest, StopOnReentry_StopsTheProgram) {
+  constexpr int kTrapped = 42;
   int made = 0;
   enc::Guarded<Device, enc::StopOnReentry, true> device(made);
+  const auto call_twice = [&] {
+    for (const int trap : {SIGILL, SIGTRAP}) std::signal(trap, [](int) { std::exit(kTrapped); });
+    device->part().call([&] { device->part().call(nullptr); });
+  };
+  EXPECT_EXIT(call_twice(), testing::ExitedWithCode(kTrapped), "");
   EXPECT_DEATH(device->part().call([&] { device->part().call(nullptr); }), "");
 }
 

@@ -321,4 +321,14 @@ TEST_F(Next, NoPulseAtGetsens_IsNoDataAndChangesNothing) {
   EXPECT_TRUE(device.automatic().next(frame).ok());
 }
 
+// SL is not looked at when BREAK could not be sent.
+TEST_F(Next, NoFrameInTimeAndBreakFails_IsTransport) {
+  start();
+  clock.step_us = 100'000;
+  for (int look = 0; look < 3; ++look) bus.expect_read(kReadStatus, kNothingNew);
+  bus.expect_write(kBreak).fail_last();
+  EXPECT_EQ(device.automatic().next(frame).error(), Error::kTransport);
+  EXPECT_FALSE(device.automatic().running());
+}
+
 }  // namespace

@@ -256,6 +256,47 @@ TEST(Config, BoundaryValues_AreValid) {
   }
 }
 
+// An actuator delivers no flags, so a word of two bits is long enough.
+TEST(Config, FlagsOfAnActuator_AreNotLookedAt) {
+  Config config = encoder26();
+  config.slaves[0].data_bits = 2;
+  EXPECT_EQ(mb4::validate(config).info().field, ConfigField::kFlags);
+  config.mo = config.slaves[0].actuator = true;
+  EXPECT_TRUE(mb4::validate(config).ok());
+}
+
+// Page 26: the top byte, for a CRC of 16 bits two of them; if the data leaves them free.
+TEST(Config, StoredCrc_NeedsACrcACheckAndRoom) {
+  Config config = encoder26();
+  const auto is_stored = [&config] { return mb4::crc_is_stored(config, config.slaves[0]); };
+  EXPECT_FALSE(is_stored());  // SpiCheck::kOff
+  config.spi_check = mb4::SpiCheck::kCrc;
+  for (const std::uint32_t polynomial : {0x43U, 0x190D9U}) {
+    config.slaves[0].crc_polynomial = polynomial;
+    const unsigned longest = polynomial == 0x43 ? 56 : 48;
+    config.slaves[0].data_bits = static_cast<std::uint8_t>(longest);
+    EXPECT_TRUE(is_stored());
+    config.slaves[0].data_bits = static_cast<std::uint8_t>(longest + 1);
+    EXPECT_FALSE(is_stored());
+  }
+  config.slaves[0].data_bits = 28;
+  config.slaves[0].crc_polynomial = 0;
+  EXPECT_FALSE(is_stored());
+}
+
+TEST(Config, WithoutChannel_LeavesTheOther) {
+  Config config = encoder26();
+  config.channels[1].protocol = mb4::Protocol::kBissC;
+  config.slaves[4] = config.slaves[0];
+  for (const unsigned channel : {0U, 1U, 2U, 3U}) {
+    const Config left = mb4::without_channel(config, static_cast<std::uint8_t>(channel));
+    EXPECT_EQ(left.channels[0].protocol == mb4::Protocol::kBissC, channel != 1);
+    EXPECT_EQ(left.channels[1].protocol == mb4::Protocol::kBissC, channel != 2);
+    EXPECT_EQ(left.slaves[0].enabled, channel != 1);
+  }
+  EXPECT_FALSE(mb4::without_channel(config, 2).slaves[4].enabled);
+}
+
 TEST(Config, MembersOfDisabledSlave_AreNotLookedAt) {
   Config config = encoder26();
   config.slaves[1].data_bits = 99;
@@ -305,6 +346,12 @@ TEST(FreqsCode, IllegalCodes_HaveNoDivider) {
   EXPECT_EQ(mb4::ma_divider(0x10), 0U);
   EXPECT_EQ(mb4::ma_divider(32), 0U);
   EXPECT_EQ(mb4::ma_divider(255), 0U);
+}
+
+// Less than 1 Hz is no frequency, although it rounds down to the 0 of a member that is not set.
+TEST(FreqsCode, Zero_IsNoFrequency) {
+  EXPECT_EQ(mb4::freqs_code(1, 0).info().field, ConfigField::kMaHz);
+  EXPECT_EQ(mb4::freqs_code(20'000'000, 0).info().field, ConfigField::kMaHz);
 }
 
 TEST(MaHzAtMost, BetweenTwoFrequencies_TakesTheLower) {
@@ -520,6 +567,18 @@ TEST(SlaveAddress, ThreeOnChannel1AndOneOnChannel2_CountFromTheFarEnd) {
   EXPECT_EQ(mb4::slave_address(config, 5).id, 0);
 }
 
+// Page 16: ID 0 of BiSS B is unused where MO is in use.
+TEST(SlaveAddress, WithMo_BissBCountsFrom1) {
+  Config config = encoder26();
+  for (const bool mo : {false, true}) {
+    config.mo = mo;
+    config.channels[0].protocol = mb4::Protocol::kBissC;
+    EXPECT_EQ(mb4::slave_address(config, 1).id, 0);
+    config.channels[0].protocol = mb4::Protocol::kBissB;
+    EXPECT_EQ(mb4::slave_address(config, 1).id, mo ? 1 : 0);
+  }
+}
+
 TEST(Names, EveryErrorAndField_HasOne) {
   for (std::uint8_t i = 0; i <= static_cast<std::uint8_t>(Error::kJump); ++i) {
     EXPECT_STRNE(mb4::to_string(static_cast<Error>(i)), "unknown");
@@ -556,6 +615,12 @@ TEST(Revision, ActuatorsOnBothChannelsOfDifferentLength_NeedRevisionY) {
   EXPECT_TRUE(mb4::validate(config, 0x11).ok());
   config.slaves[4].data_bits = 27;
   config.slaves[4].actuator = false;
+  EXPECT_TRUE(mb4::validate(config, 0x11).ok());
+  config.slaves[4].actuator = true;
+  config.slaves[0].actuator = false;
+  EXPECT_TRUE(mb4::validate(config, 0x11).ok());
+  config.slaves[0].actuator = true;
+  config.channels[1].protocol = mb4::Protocol::kUnused;  // both on channel 1
   EXPECT_TRUE(mb4::validate(config, 0x11).ok());
   config.ma_hz = 0;
   EXPECT_EQ(mb4::validate(config, 0x20).info().field, ConfigField::kMaHz);

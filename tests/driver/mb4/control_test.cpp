@@ -418,6 +418,49 @@ TEST_F(RegistersAgs, NextMeanwhile_AccessGoesOn) {
   EXPECT_TRUE(*device.control().poll());
 }
 
+// next() restarts after a bad frame, but not while an access runs: that would end it.
+TEST_F(RegistersAgs, NextAfterABadFrame_RestartsWhenTheAccessHasEnded) {
+  start_automatic();
+  mb4::Frame frame;
+  const auto expect_frame = [this](std::uint8_t f4, bool good) {
+    const std::uint8_t f0 = good ? 0xFB : 0x6B;  // nSCDERR = 0, nERR = 0
+    const std::uint8_t valid = good ? 0x02 : 0x00;
+    bus.expect_read(kReadStatus, {0, f0, valid, 0, 0, f4});
+    bus.expect_write({0x07, 0x41});
+    bus.expect_read(mb4test::kReadData4, mb4test::kData4);
+    bus.expect_read(kReadStatus, {0, f0, valid, 0, 0, 0x41});
+    bus.expect_write(good ? mb4test::kClearValid1AndRelease : kAgs);
+  };
+  for (const bool access : {true, false}) {
+    expect_frame(0x01, false);
+    ASSERT_TRUE(device.automatic().next(frame).ok());
+    EXPECT_EQ(frame[1].error(), Error::kCrc);
+    if (access) {
+      bus.expect_write({0x02, 0xE2, 0x44, 0x00, 0x01, 0xC0});
+      bus.expect_write(kFrameAgs);
+      ASSERT_TRUE(device.control().begin_read({1, 0}, 0x44, 1).ok());
+    } else {
+      bus.expect_write(kBreak);
+      bus.expect_write(kClearValid1);
+      bus.expect_write(kAgs);
+    }
+    expect_frame(access ? 0x09 : 0x01, true);
+    ASSERT_TRUE(device.automatic().next(frame).ok());
+    EXPECT_TRUE(frame[1].ok());
+    if (access) {
+      EXPECT_FALSE(*device.control().poll());  // what next() has seen
+      bus.expect_read(kReadStatus, kDoneAgs);
+      EXPECT_TRUE(*device.control().poll());
+      std::array<std::uint8_t, 1> value{};
+      EXPECT_EQ(device.control().take(mb4::Span<std::uint8_t>(value).first(0)).error(),
+                Error::kInvalidArgument);
+      bus.expect_read({0x03, 0x80, 0x00}, {0, 0, 0x77});
+      ASSERT_TRUE(device.control().take(value).ok());
+      EXPECT_EQ(value[0], 0x77);
+    }
+  }
+}
+
 // ---- After a failed call ------------------------------------------------------------------------
 
 // An access whose BREAK was lost may still run: it must not take the bytes of the next one.
@@ -617,6 +660,43 @@ TEST(PollBesideControlFull, WordWithoutCrc_IsReadTwice) {
       EXPECT_EQ(reading->raw, 0x0807060504030203U);
     }
   }
+}
+
+// The plan of a chain is not that of a read beside an access without HOLDBANK.
+TEST(PollBesideControlSteps, PlannedBefore_IsPlannedAnew) {
+  StrictBus bus;
+  FakeClock clock;
+  mb4::Device<StrictBus, FakeClock> device(bus, clock);
+  mb4::Config config = encoder26();
+  config.hold_beside_access = false;
+  mb4test::expect_configure(bus);
+  ASSERT_TRUE(device.configure(config).ok());
+  bus.expect_write(kAgs);
+  ASSERT_TRUE(device.automatic().start().ok());
+  mb4::CyclicRead read;
+  const auto answer = [&read](std::size_t frame, const Bytes& bytes) {
+    ASSERT_EQ(read.rx(frame).size(), bytes.size());
+    for (std::size_t i = 0; i < bytes.size(); ++i) read.rx(frame)[i] = bytes[i];
+  };
+  ASSERT_TRUE(device.automatic().plan_slave(1, read).ok());
+  ASSERT_EQ(read.frames(), 4U);
+  answer(1, mb4test::kData4);
+  answer(2, {0, 0xFB, 0x02, 0, 0, 0x41});
+  ASSERT_TRUE(device.automatic().finish(read, true, 2000));
+  EXPECT_EQ(read.result()->position, mb4test::kPosition);
+  bus.expect_write({0x02, 0xE2, 0x44, 0x00, 0x01, 0xC0});
+  bus.expect_write(kFrameAgs);
+  ASSERT_TRUE(device.control().begin_read({1, 0}, 0x44, 1).ok());
+  ASSERT_TRUE(device.automatic().plan_slave(1, read).ok());
+  ASSERT_EQ(read.frames(), 1U);
+  EXPECT_EQ(read.tx(0)[0], 0x05);
+  answer(0, {0, 0xFB, 0x02, 0, 0, 0x09});
+  ASSERT_FALSE(device.automatic().finish(read, true, 2000));
+  ASSERT_EQ(read.frames(), 3U);  // SVALID = 0, data, status
+  answer(1, mb4test::kData4);
+  answer(2, kRunsAgs);
+  ASSERT_TRUE(device.automatic().finish(read, true, 2000));
+  EXPECT_EQ(read.result()->position, mb4test::kPosition);
 }
 
 // So does a bad one, which leaves SVALID at 0.

@@ -8,7 +8,10 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cstdint>
+
+#include "mb4_cyclic.h"
 
 namespace {
 
@@ -49,6 +52,39 @@ TEST(Crc, Word101_GivesTheCheckWordOfTheGuide) {
 TEST(Crc, NoPolynomial_IsZero) {
   EXPECT_EQ(mb4::crc(0, 0, 0x1234, 16), 0);
   EXPECT_EQ(mb4::crc(1, 0, 0x1234, 16), 0);
+  EXPECT_EQ(mb4::crc(0x20001, 0, 0x1234, 16), 0);  // degree 17
+}
+
+TEST(Crc, NoData_IsTheStartValue) { EXPECT_EQ(mb4::crc(0x43, 0x2A, 0, 0), 0x2A); }
+
+// mb4_cyclic.h, with and without a table of four bits a step: golden words, then every length.
+TEST(CyclicCrc, Table_GivesTheSameCrc) {
+  constexpr std::uint8_t kTable = MB4_WITH_ALL | MB4_WITH_TABLE;
+  constexpr std::uint64_t kData = 0xA5C3'0F96'71E8'2D4B;
+  for (const Golden& golden : kGolden) {
+    mb4_slave_config config{true, 28, MB4_FLAGS_NONE, 0, golden.polynomial, false, false, false};
+    std::array<std::uint32_t, 16> table{};
+    mb4_word word{};
+    mb4_word_set(&word, 1, &config, MB4_SPI_CHECK_CRC);
+    EXPECT_EQ(mb4_word_crc(&word, 0xAAF37BF, 0, kTable), golden.start0);  // there is none yet
+    mb4_crc_table(&word, table.data());
+    EXPECT_EQ(mb4_word_crc(&word, 0xAAF37BF, 0, kTable), golden.start0);
+    config.data_bits = 21;
+    mb4_word_set(&word, 1, &config, MB4_SPI_CHECK_CRC);
+    mb4_crc_table(&word, table.data());
+    EXPECT_EQ(mb4_word_crc(&word, 0x15A5A5, 0, kTable), golden.short_word);
+    // The CRC takes the top byte, or two, of eight (page 26).
+    for (config.data_bits = 1; config.data_bits <= (golden.polynomial > 0x1FF ? 48 : 56);
+         ++config.data_bits) {
+      const std::uint64_t data = kData & ((std::uint64_t{1} << config.data_bits) - 1);
+      mb4_word_set(&word, 1, &config, MB4_SPI_CHECK_CRC);
+      mb4_crc_table(&word, table.data());
+      EXPECT_EQ(mb4_word_crc(&word, static_cast<std::uint32_t>(data),
+                             static_cast<std::uint32_t>(data >> 32), kTable),
+                mb4::crc(golden.polynomial, 0, data, config.data_bits))
+          << golden.polynomial << ' ' << unsigned{config.data_bits};
+    }
+  }
 }
 
 // Table 14, page 24: predefined polynomials by length.

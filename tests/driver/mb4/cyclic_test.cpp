@@ -382,6 +382,184 @@ TEST_F(Chain, TwoNewWordsAtOneTime_AreTwoSamples) {
   EXPECT_EQ(counts.lost, 0U);
 }
 
+// A build without counts in its Device, and one that ends them.
+TEST_F(Chain, CountsNotGiven_ReadsAreTheSame) {
+  constexpr std::uint8_t kCounted = MB4_WITH_ALL | MB4_WITH_COUNTS;
+  start(mb4::SpiCheck::kCrc);
+  mb4_counts counts{};
+  for (mb4_counts* given : {&counts, static_cast<mb4_counts*>(nullptr)}) {
+    device.automatic().count(given);
+    bus.expect_write(kHold);
+    bus.expect_read(kReadWord, kWord);
+    bus.expect_read(kReadStatus, kNew);
+    bus.expect_write(kClearValid1AndRelease);
+    EXPECT_EQ(device.automatic().poll_slave<kCounted>(1)->position, mb4test::kPosition);
+    EXPECT_EQ(counts.good, 1U);
+  }
+}
+
+// Without a period only what the reads have met is counted, and no read is late.
+TEST_F(Chain, WithoutPeriod_NothingIsLostOrLate) {
+  constexpr std::uint8_t kCounted = MB4_WITH_ALL | MB4_WITH_COUNTS;
+  start(mb4::SpiCheck::kOff);
+  mb4_counts counts{};
+  device.automatic().count(&counts);
+  EXPECT_EQ(counts.period_ns, 0U);
+  for (const bool good : {true, true, false, true}) {
+    bus.expect_write(kHold);
+    bus.expect_read(mb4test::kReadData4, mb4test::kData4);
+    bus.expect_read(kReadStatus, good ? kNew : kBad);
+    bus.expect_write(good ? kClearValid1AndRelease : kAgs);
+    EXPECT_EQ(device.automatic().poll_slave<kCounted>(1).error(),
+              good ? Error::kNone : Error::kCrc);
+    clock.time_us += 100;
+  }
+  EXPECT_EQ(counts.good, 3U);
+  EXPECT_EQ(counts.crc, 1U);
+  EXPECT_EQ(counts.sequence, 3U);
+  EXPECT_EQ(counts.lost, 0U);
+  EXPECT_EQ(counts.late, 0U);
+}
+
+// 5 s, more than 2^32 ns, are 50,000 periods of 100 us: 49,999 samples were not read.
+TEST_F(Chain, LongPause_IsCountedWhole) {
+  constexpr std::uint8_t kCounted = MB4_WITH_ALL | MB4_WITH_COUNTS;
+  start(mb4::SpiCheck::kCrc);
+  mb4_counts counts{};
+  device.automatic().count(&counts);
+  counts.period_ns = 100'000;
+  for (int i = 0; i < 2; ++i) {
+    bus.expect_write(kHold);
+    bus.expect_read(kReadWord, kWord);
+    bus.expect_read(kReadStatus, kNew);
+    bus.expect_write(kClearValid1AndRelease);
+    EXPECT_TRUE(device.automatic().poll_slave<kCounted>(1).ok());
+    clock.time_us += 5'000'000;
+  }
+  EXPECT_EQ(counts.sequence, 50'001U);
+  EXPECT_EQ(counts.lost, 49'999U);
+  EXPECT_EQ(counts.late, 1U);
+}
+
+// With FrameStart::kOnPin only the caller knows when a frame should come.
+TEST_F(Chain, FramesOnPinStayAway_IsNoAlarm) {
+  mb4::Config config = mb4test::encoder26();
+  config.frame_start = mb4::FrameStart::kOnPin;
+  mb4test::expect_configure(bus, 0xE8, 0x7D);
+  ASSERT_TRUE(device.configure(config).ok());
+  bus.expect_write(kAgs);
+  ASSERT_TRUE(device.automatic().start().ok());
+  now_us = 1'000'000'000;
+  plan();
+  EXPECT_TRUE(step({kHold, mb4test::kReadData4, kReadStatus, kClearValid1AndRelease},
+                   {mb4test::kData4, kNone}));
+  EXPECT_EQ(read.result().error(), Error::kNoData);
+}
+
+// ---- Parts left out -----------------------------------------------------------------------------
+
+// What a build leaves out changes nothing for a slave that does not need it.
+TEST_F(Chain, WithoutParts_ReadsAreTheSame) {
+  for (const mb4::SpiCheck check : {mb4::SpiCheck::kCrc, mb4::SpiCheck::kOff}) {
+    start(check);
+    const bool crc = check == mb4::SpiCheck::kCrc;
+    const Bytes read_word = crc ? kReadWord : mb4test::kReadData4;
+    const Bytes word = crc ? kWord : mb4test::kData4;
+    const std::vector<Bytes> chain{kHold, read_word, kReadStatus, kClearValid1AndRelease};
+    const auto finish = [&](const std::vector<Bytes>& frames, const std::vector<Bytes>& answers) {
+      ASSERT_EQ(read.frames(), frames.size());
+      std::size_t next = 0;
+      for (std::size_t i = 0; i < frames.size(); ++i) {
+        EXPECT_EQ(hex(Bytes(read.tx(i).begin(), read.tx(i).end())), hex(frames[i])) << i;
+        for (std::size_t k = 0; k < read.rx(i).size(); ++k) read.rx(i)[k] = answers[next][k];
+        next += read.rx(i).empty() ? 0 : 1;
+      }
+    };
+    const auto plan = [&] { ASSERT_TRUE(device.automatic().plan_slave<0>(1, read).ok()); };
+    const auto ended = [&] { return device.automatic().finish<0>(read, true, now_us); };
+    plan();
+    finish(chain, {word, kNew});
+    EXPECT_TRUE(ended());
+    ASSERT_TRUE(read.result().ok());
+    EXPECT_EQ(read.result()->position, mb4test::kPosition);
+    EXPECT_EQ(read.result()->raw, mb4test::kRaw);
+    EXPECT_EQ(read.result()->crc_stored, crc);
+    plan();
+    finish(chain, {word, kNone});
+    EXPECT_TRUE(ended());
+    EXPECT_EQ(read.result().error(), Error::kNoData);
+    plan();
+    if (crc) {
+      finish(chain, {kBadWord, kBad});
+      EXPECT_FALSE(ended());
+      finish({kHold, read_word, kReadStatus}, {kBadWord, kBad});
+      EXPECT_FALSE(ended());
+      finish({{0x02, 0x07, mb4test::kCrc6}, kAgs}, {});
+    } else {
+      finish(chain, {word, kBad});
+    }
+    EXPECT_TRUE(ended());
+    EXPECT_EQ(read.result().error(), Error::kCrc);
+    // The release of the bank fails; the next read begins with it.
+    plan();
+    EXPECT_FALSE(device.automatic().finish<0>(read, false, now_us));
+    EXPECT_TRUE(device.automatic().finish<0>(read, false, now_us));
+    EXPECT_EQ(read.result().error(), Error::kTransport);
+    plan();
+    finish({kAgs, kClearAllValid}, {});
+    EXPECT_FALSE(ended());
+    finish(chain, {word, kNew});
+    EXPECT_TRUE(ended());
+    EXPECT_TRUE(read.result().ok());
+    bus.expect_write({0x07, 0x00});
+    ASSERT_TRUE(device.automatic().stop().ok());
+  }
+}
+
+TEST_F(Full, OnlyThisPart_ReadsAreTheSame) {
+  start(mb4::SpiCheck::kFull);
+  const Bytes read_word = join({{0x09}, Bytes(8, 0x5A)});
+  bus.expect_write(kHold);
+  bus.expect_read(kReadStatus, kNew);
+  bus.expect_read(read_word, kWord);
+  bus.expect_read(kReadStatus, kNew);
+  bus.expect_write(kClearValid1);
+  bus.expect_read(kReadStatus, kNone);
+  bus.expect_write(kAgs);
+  EXPECT_EQ(device.automatic().poll_slave<MB4_WITH_FULL>(1)->position, mb4test::kPosition);
+}
+
+// The loop meets the end of each frame: SWBANKFAIL = 1 is no alarm, also for one slave alone.
+TEST_F(Chain, OnlyBeats_NoAlarmForAWhile) {
+  start(mb4::SpiCheck::kCrc);
+  clock.time_us = 1000 + 16 * mb4::frame_timeout_us(device.config()) + 33 + 1;
+  bus.expect_write(kHold);
+  bus.expect_read(kReadWord, kWord);
+  bus.expect_read(kReadStatus, kNone);
+  bus.expect_write(kAgs);
+  bus.expect_read(join({{0x05}, zeros(12)}), {0, 0xFA, 0, 0, 0, 0x40, 0, 0, 0, 0x00, 0, 0, 1});
+  bus.expect_read(kReadStatus, {0, 0xFA, 0x00, 0, 0, 0x40});
+  EXPECT_EQ(device.automatic().poll_slave<MB4_WITH_BEATS>(1).error(), Error::kNoData);
+}
+
+// With a stored CRC a second reading is for words of equal bits only, in all of their bits.
+TEST(SecondReading, LongWord_IsNeededWhenAllBitsAreEqual) {
+  const mb4_slave_config config{true, 40, MB4_FLAGS_NONE, 0, 0x43, false, false, false};
+  mb4_word word{};
+  mb4_word_set(&word, 1, &config, MB4_SPI_CHECK_FULL);
+  const struct {
+    std::uint32_t low, high;
+    bool needed;
+  } cases[] = {{0, 0, true},           {0xFFFFFFFF, 0xFF, true}, {0xFFFFFFFF, 0x7F, false},
+               {0xFFFFFFFF, 0, false}, {0, 0xFF, false},         {0x7FFFFFFF, 0xFF, false}};
+  for (const auto& one : cases) {
+    mb4_slot slot{};
+    slot.low = one.low;
+    slot.high = 0x12000000 | one.high;  // with the CRC in the top byte
+    EXPECT_EQ(mb4_slot_needs_second(&word, &slot, MB4_WITH_ALL), one.needed) << one.high;
+  }
+}
+
 // Without a stored CRC nothing tells a bad word from an old one, except that there is no other.
 TEST_F(Chain, BadFrameUnchecked_IsCrcUntilAGoodOneComes) {
   start(mb4::SpiCheck::kOff);
@@ -465,6 +643,50 @@ TEST_F(Several, OneWordBad_TheOtherIsKept) {
     EXPECT_TRUE(frame[1].ok());
     EXPECT_EQ(frame[2].error(), follows ? Error::kNone : Error::kCrc);
     EXPECT_EQ(all.one_frame(), !follows);
+  }
+}
+
+// Slave 2 has no CRC, so a bad frame may be its own: told when its last good word is too old. The
+// stored CRC of slave 1 says that its word was good.
+TEST_F(Several, BadFrameOfOneWithoutCrc_OtherOneIsNotBlamed) {
+  mb4::Config config = mb4test::encoder26();
+  config.spi_check = mb4::SpiCheck::kCrc;
+  config.slaves[1] = config.slaves[0];
+  config.slaves[1].crc_polynomial = 0;
+  Bytes image = mb4test::configuration();
+  Bytes answer = mb4test::read_back();
+  for (Bytes* bytes : {&image, &answer}) {
+    (*bytes)[0xE7 - 0xC0] = 0x00;  // NOCRC = 0 (table 21)
+    (*bytes)[4] = 0x5B;            // slave 2 as slave 1, without CRC
+  }
+  mb4test::expect_image(bus, image, answer);
+  ASSERT_TRUE(device.configure(config).ok());
+  bus.expect_write(kAgs);
+  clock.time_us = 1000;
+  clock.step_us = 0;
+  ASSERT_TRUE(device.automatic().start().ok());
+  mb4::FrameRead all;
+  mb4::Frame frame;
+  const std::vector<Bytes> chain{kHold, join({{0x09}, zeros(12)}), kReadStatus, kClearBoth};
+  const Bytes words = both(kWord, mb4test::kData4);
+  const auto read_all = [&](std::uint32_t time_us, const Bytes& data, const Bytes& after) {
+    now_us = time_us;
+    ASSERT_TRUE(device.automatic().plan(all).ok());
+    EXPECT_TRUE(step(all, chain, {data, after}));
+    EXPECT_TRUE(all.result(frame).ok());
+  };
+  const std::uint32_t limit_us = 2 * mb4::frame_timeout_us(device.config()) + 33;
+  read_all(1000, words, kBad);
+  EXPECT_EQ(frame[1].error(), Error::kNoData);
+  EXPECT_EQ(frame[2].error(), Error::kNoData);
+  // A word that SPI has disturbed shows that frames come.
+  read_all(1000 + limit_us, both(kBadWord, mb4test::kData4), kNew);
+  EXPECT_EQ(frame[1].error(), Error::kCorrupted);
+  EXPECT_EQ(frame[2].error(), Error::kNoData);
+  for (const bool late : {false, true}) {
+    read_all(1000 + limit_us + (late ? 1 : 0), words, kBad);
+    EXPECT_EQ(frame[1].error(), Error::kNoData);
+    EXPECT_EQ(frame[2].error(), late ? Error::kCrc : Error::kNoData);
   }
 }
 

@@ -74,6 +74,10 @@ TEST(Features, WhatTheCoreLacks_IsNamed) {
   EXPECT_TRUE(mb4::validate(crc, mb4::kSingleCore).ok());
   const Config crc16 = changed([](Config& c) { c.slaves[0].crc_polynomial = 0x190D9; });
   EXPECT_TRUE(mb4::validate(crc16, mb4::kReaderCore).ok());
+  const Config no_crc = changed([](Config& c) { c.slaves[0].crc_polynomial = 0; });
+  EXPECT_TRUE(mb4::validate(no_crc, mb4::kReaderCore).ok());
+  const Config crc6 = changed([](Config& c) { c.slaves[0].crc_polynomial = 0x43; });
+  EXPECT_TRUE(mb4::validate(crc6, mb4::kReaderCore).ok());
   expect_refused(changed([](Config& c) { c.mo = true; }), mb4::kSingleCore, ConfigField::kMo, 0);
   Features no_gray;
   no_gray.gray = false;

@@ -67,6 +67,7 @@ TEST(FramePeriodAtMostHz, DoesNotExceedTheRate) {
   EXPECT_EQ(mb4::frame_period_clk_at_most_hz(20'000'000, 10'000), 2'000U);
   EXPECT_EQ(mb4::frame_period_clk_at_most_hz(20'000'000, 9'999), 2'020U);
   EXPECT_EQ(mb4::frame_period_clk_at_most_hz(20'000'000, 8'000), 2'500U);  // 625 * 4
+  EXPECT_EQ(mb4::frame_period_clk_at_most_hz(20'000'000, 32'000), 625U);   // not 640
   EXPECT_EQ(mb4::frame_period_clk_at_most_hz(20'000'000, 0xFFFFFFFF), 20U);
   EXPECT_EQ(mb4::frame_period_clk_at_most_hz(20'000'000, 249), 0U);
 }

@@ -112,6 +112,24 @@ TEST_F(FullCheck, StatusBehindTheData_HasToBeTheSame) {
   EXPECT_TRUE(device.read_frame().ok());
 }
 
+// MISO is stuck from there on.
+TEST_F(FullCheck, NoStatusBehindTheData_IsNotDetected) {
+  for (const bool cleared : {false, true}) {
+    bus.expect_write(kStartFrame);
+    bus.expect_read(kReadStatus, kGoodFrame);
+    bus.expect_read(kReadAll, kAllOf);
+    bus.expect_read(kReadStatus, cleared ? kGoodFrame : zeros(6));
+    if (cleared) {
+      bus.expect_write(kClearValid1);
+      bus.expect_read(kReadStatus, Bytes(6, 0xFF));
+    }
+    EXPECT_EQ(device.read_frame().error(), Error::kNotDetected);
+    expect_recovery();
+  }
+  expect_good_frame();
+  EXPECT_TRUE(device.read_frame().ok());
+}
+
 // The chip may take a moment to clear the flag, but not longer.
 TEST_F(FullCheck, FlagNotCleared_IsLookedAtTwice) {
   for (const bool cleared : {true, false}) {
@@ -191,6 +209,26 @@ TEST_F(FullCheck, BankSwitchedBetweenTwoReadings_SecondTryIsGood) {
       ASSERT_TRUE(device.automatic().poll(frame).ok());
       EXPECT_EQ(frame[1].error(), Error::kNone);
     }
+  }
+}
+
+// Of two statuses that tell of a new frame one is none.
+TEST_F(FullCheck, NoStatusWithoutHoldbank_IsNotDetected) {
+  mb4::Config config = mb4test::encoder26();
+  config.spi_check = mb4::SpiCheck::kFull;
+  config.hold_beside_access = false;
+  configure(config);
+  start();
+  bus.expect_write({0x02, 0xE2, 0x44, 0x00, 0x01, 0xC0});
+  bus.expect_read({0x03, 0xE2, 0, 0, 0, 0}, {0, 0, 0x44, 0x00, 0x01, 0xC0});
+  bus.expect_write({0x07, 0x09});  // INSTR = 100
+  bus.expect_read(kReadStatus, status(0xFB, 0x00, 0x09));
+  ASSERT_TRUE(device.control().begin_read({1, 0}, 0x44, 1).ok());
+  const Bytes fresh = status(0xFB, 0x02, 0x09);
+  for (const bool first : {false, true}) {
+    bus.expect_read(kReadStatus, first ? zeros(6) : fresh);
+    bus.expect_read(kReadStatus, first ? fresh : zeros(6));
+    EXPECT_EQ(device.automatic().poll_slave(1).error(), Error::kNotDetected);
   }
 }
 

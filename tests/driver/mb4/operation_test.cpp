@@ -153,6 +153,20 @@ TEST_F(Restart, Counted_WithCountsOnly) {
   EXPECT_EQ(counts.restarts, 2U);
 }
 
+// Nobody has called count().
+TEST_F(Restart, WithoutCounts_CountsNothing) {
+  configure();
+  start();
+  mb4_counts counts{};
+  device.automatic().count(&counts);
+  device.automatic().count(nullptr);
+  ASSERT_TRUE((device.automatic().plan_restart<MB4_WITH_ALL | MB4_WITH_COUNTS>(op)).ok());
+  EXPECT_FALSE(step({kBreak}, {}));
+  EXPECT_TRUE(step({kClearValid1, kAgs}, {}, true, kPause));
+  ends_with(Error::kNone);
+  EXPECT_EQ(counts.restarts, 0U);
+}
+
 // Nothing is touched: the frames go on, and no restart is counted.
 TEST_F(Restart, NotAllowed_TouchesNothing) {
   configure();
@@ -248,11 +262,18 @@ TEST_F(Use, SecondPlan_IsBusy) {
   EXPECT_EQ(device.control().plan_write(op, {1, 0}, 0, {out.data(), 1}).error(), Error::kBusy);
   EXPECT_EQ(device.control().plan_command(op, mb4::Command{}).error(), Error::kBusy);
   EXPECT_EQ(device.automatic().plan_restart(op).error(), Error::kBusy);
+  EXPECT_EQ(device.automatic().plan_actuator(op, 1, 0).error(), Error::kBusy);
+  EXPECT_EQ(device.automatic().plan_stop(op).error(), Error::kBusy);
+  EXPECT_EQ(device.plan_configure(op, mb4test::encoder26()).error(), Error::kBusy);
+  EXPECT_EQ(device.plan_break(op).error(), Error::kBusy);
   EXPECT_TRUE(device.automatic().running());
   bus.expect_write({0x07, 0x00});
   ASSERT_TRUE(device.automatic().stop().ok());
+  mb4::FrameRead frame_read;
   EXPECT_EQ(device.automatic().plan_start(op).error(), Error::kBusy);
+  EXPECT_EQ(device.plan_actuator(op, 1, 0).error(), Error::kBusy);
   EXPECT_EQ(device.plan_initialize(op).error(), Error::kBusy);
+  EXPECT_EQ(device.plan_read_all(op, frame_read).error(), Error::kBusy);
 }
 
 // An operation whose Device has gone on without it plans no other frame.
@@ -435,6 +456,40 @@ TEST_F(Initialize, Full_ReadsTwice) {
     EXPECT_TRUE(step({kReadStatus}, {fault == 0 ? kOver : status(0xFB, 0x02)}));
     ends_with(fault == 0 ? Error::kNone : Error::kCorrupted);
   }
+}
+
+// EOT = 1 alone is not the end: INIT (bit 4 of 0xF4) is still 1.
+TEST_F(Initialize, InitStillOne_IsLookedAtAgain) {
+  const Bytes idle_with_init = status(0xFB, 0x00, 0x10);
+  configure(mb4::SpiCheck::kFull);
+  ASSERT_TRUE(device.plan_initialize(op).ok());
+  EXPECT_FALSE(step({kZero1, kZero5}, {}));
+  EXPECT_FALSE(step({kInit, kReadStatus}, {idle_with_init}));
+  EXPECT_FALSE(step({kReadStatus}, {idle_with_init}));
+  EXPECT_FALSE(step({kReadStatus}, {kOver}));
+  EXPECT_FALSE(step({kReadLines}, {kIdleLines}));
+  // INIT was seen, so it was not lost: 0 is a line without an answer.
+  EXPECT_TRUE(step({{0x03, 0x00, 0x00}, {0x03, 0x00, 0x00}}, {{0, 0, 0}, {0, 0, 0}}));
+  ends_with(Error::kNoData);
+}
+
+// BiSS B: REGVERS (bit 6 of 0xE5) is written before INIT and compared with SpiCheck::kFull.
+TEST_F(Initialize, ProtocolReadsBackDifferently_IsCorrupted) {
+  mb4::Config config = mb4test::encoder26();
+  config.channels[0].protocol = mb4::Protocol::kBissB;
+  config.spi_check = mb4::SpiCheck::kFull;
+  Bytes image = mb4test::configuration();
+  Bytes answer = mb4test::read_back();
+  for (Bytes* bytes : {&image, &answer}) {
+    (*bytes)[0xE5 - 0xC0] = 0x00;
+    (*bytes)[0xE7 - 0xC0] = 0x00;  // NOCRC = 0
+    (*bytes)[0xED - 0xC0] = 0x0C;  // CFGCH1 = 0, BiSS B (table 8)
+  }
+  mb4test::expect_image(bus, image, answer);
+  ASSERT_TRUE(device.configure(config).ok());
+  ASSERT_TRUE(device.plan_initialize(op).ok());
+  EXPECT_TRUE(step({kZero1, kZero5, {0x02, 0xE5, 0x00}, {0x03, 0xE5, 0x00}}, {{0, 0, 0x40}}));
+  ends_with(Error::kCorrupted);
 }
 
 TEST_F(Initialize, LinesCannotBeRead_IsTransport) {
@@ -672,6 +727,19 @@ TEST_F(Access, DisturbedRequest_IsCorruptedAndBeginsNothing) {
   EXPECT_TRUE(device.automatic().running());
 }
 
+// nREGERR = 0 at the first look: the instruction was not lost, the access has failed already.
+TEST_F(Access, FailedAtOnce_IsRegister) {
+  const Bytes failed = status(0x77, 0x00, 0x01);
+  configure(mb4::SpiCheck::kFull);
+  start();
+  read();
+  EXPECT_FALSE(step({kRequest, kReadRequest}, {{0, 0, 0x44, 0x01, 0x01, 0xC0}}));
+  EXPECT_FALSE(step({kFrameAgs, kReadStatus}, {failed}));
+  EXPECT_TRUE(step({kReadStatus}, {failed}));
+  ends_with(Error::kRegister);
+  EXPECT_TRUE(device.automatic().running());
+}
+
 // A read of positions has written INSTR = 000: REGEND counts when it is seen twice.
 TEST_F(Access, EndBesideReads_IsSeenTwice) {
   configure(mb4::SpiCheck::kFull);
@@ -874,6 +942,13 @@ TEST_F(Access, Command_HasItsFields) {
   EXPECT_FALSE(step({kFrameAgs}, {}));
   EXPECT_TRUE(step({kReadStatus}, {status(0x77, 0x00, 0x01)}));
   ends_with(Error::kCommand);
+  // nDELAYERR = 0 too: no slave has acknowledged, and a command has no register that is slow.
+  ASSERT_TRUE(device.control().plan_command(op, command).ok());
+  EXPECT_FALSE(step({{0x02, 0x80, 0xA0}}, {}));
+  EXPECT_FALSE(step({{0x02, 0xE4, 0x01, 0x58}}, {}));
+  EXPECT_FALSE(step({kFrameAgs}, {}));
+  EXPECT_TRUE(step({kReadStatus}, {status(0x57, 0x00, 0x01)}));
+  ends_with(Error::kCommand);
   command.code = 4;
   EXPECT_EQ(device.control().plan_command(op, command).error(), Error::kInvalidArgument);
 }
@@ -890,6 +965,40 @@ TEST_F(Access, WrongArguments_PlanNothing) {
   EXPECT_EQ(device.control().plan_write(op, {1, 0}, 0x41, all).error(), Error::kInvalidArgument);
   EXPECT_EQ(op.frames(), 0U);
   EXPECT_EQ(op.result().error(), Error::kWrongMode);
+}
+
+// ---- Actuators ----------------------------------------------------------------------------------
+
+// Beside automatic frames the word goes to both banks; the status behind each look at the other one
+// must be a status.
+TEST_F(Access, ActuatorWithoutStatus_IsReported) {
+  mb4::Config config = mb4test::encoder26();
+  config.mo = config.slaves[0].actuator = true;
+  Bytes image = mb4test::configuration();
+  Bytes answer = mb4test::read_back();
+  for (Bytes* bytes : {&image, &answer}) {
+    (*bytes)[0] = 0xDB;            // LSTOP1 = 1 (table 18)
+    (*bytes)[0xE5 - 0xC0] = 0x42;  // EN_MO (table 39)
+    (*bytes)[0xEF - 0xC0] = 0x01;  // ACTnSENS1 (table 17)
+  }
+  mb4test::expect_image(bus, image, answer);
+  ASSERT_TRUE(device.configure(config).ok());
+  start();
+  const std::vector<Bytes> hold{{0x07, 0x41}, {0x02, 0x00, 0xBF, 0x37, 0xAF, 0x0A}, kAgs};
+  const std::vector<Bytes> look{{0x03, 0x00, 0, 0, 0, 0}, kReadStatus};
+  const Bytes same{0, 0, 0xBF, 0x37, 0xAF, 0x0A};
+  for (const Error error : {Error::kNone, Error::kNotDetected, Error::kTransport}) {
+    ASSERT_TRUE(device.plan_actuator(op, 1, mb4test::kRaw).ok());
+    EXPECT_FALSE(step(hold, {}));
+    EXPECT_FALSE(step(look, {same, status(0xFB, 0x00, 0x01)}));
+    if (error == Error::kNone) {
+      EXPECT_FALSE(step(look, {{0, 0, 1, 2, 3, 4}, status(0xFB, 0x00, 0x01)}));
+      EXPECT_TRUE(step(hold, {}));
+    } else {
+      EXPECT_TRUE(step(look, {same, zeros(6)}, error == Error::kNotDetected));
+    }
+    ends_with(error);
+  }
 }
 
 }  // namespace

@@ -87,6 +87,14 @@ TEST(MemoryBus, UnknownOpcodeOrNoData_DoesNothing) {
   }
 }
 
+// A read whose answer nobody wants makes the same accesses.
+TEST(MemoryBus, ReadWithoutMiso_StoresNothing) {
+  const Transferred got = transfer({0x03, 0xE6, 0, 0, 0}, 0);
+  EXPECT_TRUE(got.done);
+  EXPECT_EQ(got.accesses, "R0E4 R0E8 ");
+  EXPECT_EQ(got.miso, "");
+}
+
 TEST(MemoryBus, AddressesWrap) {
   EXPECT_EQ(transfer({0x02, 0xFE, 1, 2, 3}, 0).accesses, "W0FC 02010000/C W000 00000003/1 ");
 }

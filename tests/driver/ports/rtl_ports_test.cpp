@@ -29,6 +29,7 @@ namespace reg = mb4::regs;
 
 mb4::sim::Simulator* chip = nullptr;  // what the wrapped calls below talk to
 bool fails = false;
+bool refuses_mode = false;
 std::uint64_t cycle_hz = 16'000'000;  // Zephyr's cycle counter
 std::uint32_t read_hz = 0;            // fastest SCLK of opcode 0x03
 std::uint32_t other_hz = 0;           // slowest SCLK of any other opcode
@@ -55,6 +56,7 @@ class DriverPort : public testing::Test {
   DriverPort() : simulator(mb4::sim::parse_scenario(mb4test::kEncoder, "test.toml")) {
     chip = &simulator;
     fails = false;
+    refuses_mode = false;
     cycle_hz = 16'000'000;
     read_hz = 0;
     other_hz = ~std::uint32_t{0};
@@ -109,7 +111,7 @@ int __wrap_ioctl(int file, unsigned long request, ...) {
   va_end(rest);
   if (file != kFile || fails) return -1;
   if (request == SPI_IOC_WR_MODE) {
-    return *static_cast<std::uint8_t*>(argument) == SPI_MODE_0 ? 0 : -1;
+    return *static_cast<std::uint8_t*>(argument) == SPI_MODE_0 && !refuses_mode ? 0 : -1;
   }
   const auto* message = static_cast<const spi_ioc_transfer*>(argument);
   if (request != SPI_IOC_MESSAGE(1)) return -1;
@@ -172,6 +174,16 @@ TEST_F(DriverPort, SpidevMissing_IsNotReadyAndTransport) {
   mb4::ports::SpidevBus bus("/dev/spidev9.9");
   EXPECT_FALSE(bus.ready());
   EXPECT_EQ(errno, ENOENT);
+  mb4::tool::SimClock clock(simulator);
+  mb4::Device<mb4::ports::SpidevBus, mb4::tool::SimClock> device(bus, clock);
+  EXPECT_EQ(device.probe().error(), mb4::Error::kTransport);
+}
+
+// A device file without SPI mode 0.
+TEST_F(DriverPort, SpidevWithoutMode0_IsNotReadyAndTransport) {
+  refuses_mode = true;
+  mb4::ports::SpidevBus bus("/dev/spidev0.0");
+  EXPECT_FALSE(bus.ready());
   mb4::tool::SimClock clock(simulator);
   mb4::Device<mb4::ports::SpidevBus, mb4::tool::SimClock> device(bus, clock);
   EXPECT_EQ(device.probe().error(), mb4::Error::kTransport);

@@ -271,13 +271,10 @@ struct Procedures {
                                                                           : Error::kCorrupted;
   }
 
-  // SL of the channels in use is 1, which it must be when the slaves' timeout is over. Otherwise it
-  // looks again, for a while. kTransport; kLineError: a line is stuck low.
+  // After a good transfer: SL of the channels in use is 1, as it must be after the slaves' timeout.
+  // Otherwise it looks again, for a while. kLineError: a line is stuck low.
   [[gnu::noinline]] static Result<void> lines(const ChipState& chip, Operation& op,
                                               std::uint32_t now_us) {
-    if (!op.good_) {
-      return Error::kTransport;
-    }
     if ((received(op)[MB4_CYCLIC_LINES] & chip.watch.lines) == chip.watch.lines) {
       return {};
     }
@@ -309,10 +306,11 @@ struct Procedures {
     return {};
   }
 
+  // After a good transfer.
   [[gnu::noinline]] static Result<void> clear_step(ChipState& chip, Operation& op,
                                                    std::uint32_t /*now_us*/) {
-    if (!op.good_ || !chip.checks_all()) {
-      return op.good_ ? Error::kNone : Error::kTransport;
+    if (!chip.checks_all()) {
+      return {};
     }
     const Result<void> seen = look(op);
     if (!seen || (op.status_.valid_flags() & chip.sensor_flags) == 0) {
