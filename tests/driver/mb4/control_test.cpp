@@ -656,7 +656,9 @@ TEST(PollBesideControlFull, WordWithoutCrc_IsReadTwice) {
     bus.expect_read(kReadStatus, kRunsAgs);
     const mb4::Result<mb4::Reading> reading = device.automatic().poll_slave(1);
     EXPECT_EQ(reading.error(), same ? Error::kNone : Error::kCorrupted);
-    if (reading) EXPECT_EQ(reading->raw, 0x0807060504030203U);
+    if (reading) {
+      EXPECT_EQ(reading->raw, 0x0807060504030203U);
+    }
   }
 }
 
