@@ -30,10 +30,9 @@ def size(extras, channels, folder, align=0):
     """LUT4 and flops."""
     files = project.listed(project.RTL / "axi" / "axi.f")
     status, text = yosys.execute(
-        yosys.read(files) + [f"chparam -set EXTRAS {extras} -set BISS_CHANNEL_WIDTH {channels} "
-                             f"-set ALIGN_LATCH {align} biss_axi",
-                             "synth_ice40 -top biss_axi", "check -assert",
-                             "tee -q -o stat.json stat -json"], folder, "synth")
+        yosys.read(files) + yosys.choose("biss_axi", {"EXTRAS": extras, "BISS_CHANNEL_WIDTH": channels,
+                                                      "ALIGN_LATCH": align}) +
+        ["synth_ice40 -top biss_axi", "check -assert", "tee -q -o stat.json stat -json"], folder, "synth")
     if status != 0:
         raise SystemExit(text)
     cells = json.loads((folder / "stat.json").read_text(encoding="utf-8"))["design"]["num_cells_by_type"]

@@ -63,7 +63,7 @@ def matches(names, register):
 def netlist(top, features, folder):
     folder.mkdir(parents=True, exist_ok=True)
     status, text = yosys.execute(
-        yosys.read() + [f"chparam -set Features {features} {top}", f"hierarchy -check -top {top}", "proc", "flatten",
+        yosys.read() + yosys.choose(top, {"Features": features}) + [f"hierarchy -check -top {top}", "proc", "flatten",
                         "opt_expr", "opt_clean", "memory -nomap", "opt_clean", f"rename -top {top}",
                         f"write_json {top}.json"], folder, top)
     if status != 0:

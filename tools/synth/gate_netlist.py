@@ -54,11 +54,7 @@ def main():
         if name != "mb4":
             parser.error(f"{name} has no presets")
         parameters["Features"] = project.presets()[arguments.preset]
-    commands = yosys.read(project.listed(project.RTL / design.files))
-    if parameters:
-        values = " ".join(f"-set {key} {value}" for key, value in parameters.items())
-        commands += [f"chparam {values} {top}"]
-    commands += [
+    commands = yosys.read(project.listed(project.RTL / design.files)) + yosys.choose(top, parameters) + [
         f"hierarchy -check -top {top}", f"rename -top {top}", "proc", "flatten",
         f"expose {' '.join(f'{top}/w:{probe}' for probe in design.probes)}",
         f"synth_ice40 -top {top}", "check -assert",

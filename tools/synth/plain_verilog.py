@@ -34,10 +34,9 @@ def write(top, folder, files=None, parameters=None, preset="full"):
     if preset != "full":
         values["Features"] = project.presets()[preset]
         features = f"preset {preset}, "
-    chosen = [f"chparam -set {name} {value} {top}" for name, value in values.items()]
     named = [f"rename -top {top}"] if values else []
     status, text = yosys.execute(
-        yosys.read(files) + chosen + [f"hierarchy -check -top {top}", "proc",
+        yosys.read(files) + yosys.choose(top, values) + [f"hierarchy -check -top {top}", "proc",
                              "flatten", "opt_expr", "opt_clean", "check -assert",
                              *named, f"write_verilog -noattr {path}"], folder, top)
     if status != 0:

@@ -41,13 +41,18 @@ AXI_LARGE = 16  # takes long: one seed, and iCE40 only
 def files(top):
     if top.startswith("biss_axi"):
         return project.listed(project.RTL / "axi" / "axi.f") + [HERE / "tops" / "biss_axi_narrow.sv"]
-    return project.rtl_files() + [HERE / "tops" / f"{name}.sv" for name in ("mb4_parallel", "mb4_core_tied")]
+    return project.rtl_files() + [HERE / "tops" / "mb4_parallel.sv"]
 
 
-def synthesise(command, top, folder, extra, parameters=None):
-    chosen = [f"chparam -set {name} {value} {top}" for name, value in (parameters or {}).items()]
-    run(yosys.read(files(top)) + chosen + [f"{command} -top {top} {extra}", "check -assert",
-                               "tee -q -o stat.json stat -json"], folder)
+def tied(top, port):
+    """Yosys commands that make an input of the top 0."""
+    return [f"hierarchy -check -top {top}", f"rename -top {top}", f"delete -input {top}/w:{port}", f"select {top}",
+            f"connect -set {port} 0", "select -clear"]
+
+
+def synthesise(command, top, folder, extra, parameters=None, zero=None):
+    run(yosys.read(files(top)) + yosys.choose(top, parameters or {}) + (tied(top, zero) if zero else []) +
+        [f"{command} -top {top} {extra}", "check -assert", "tee -q -o stat.json stat -json"], folder)
     return json.loads((folder / "stat.json").read_text(encoding="utf-8"))
 
 
@@ -102,8 +107,8 @@ def breakdown(folder, depth=3):
     return sorted(((name, *row) for name, row in rows.items()), key=lambda r: -r[1])
 
 
-def ice40(top, folder, seeds, parameters=None):
-    stat = synthesise("synth_ice40", top, folder, "-json top.json", parameters)
+def ice40(top, folder, seeds, parameters=None, zero=None):
+    stat = synthesise("synth_ice40", top, folder, "-json top.json", parameters, zero)
     cells = stat["design"]["num_cells_by_type"]
     area = (cells.get("SB_LUT4", 0), count(cells, "^SB_DFF"), count(cells, "^SB_RAM40"),
             cells.get("SB_CARRY", 0))
@@ -129,15 +134,15 @@ def version(command):
 def presets(folder):
     """The part of the page about cores with fewer features."""
     lines = ["## Presets", "",
-             "`mb4_core` with fewer features ([integration](integration.md#features)) on iCE40, with constant "
-             "`quirks_i` (`tools/synth/tops/mb4_core_tied.sv`). MOSI: the set-up before the rising edge of SCLK, where "
+             "`mb4_core` with fewer features ([integration](integration.md#features)) on iCE40, with "
+             "`quirks_i` = 0, a constant as in a product. MOSI: the set-up before the rising edge of SCLK, where "
              "the datasheet gives 7.5 ns (I205). MISO: its delay after the falling edge. Both are at the pins of "
              "the FPGA and without the delay of SCLK itself.", "",
              "| preset | LUT4 | flops | block RAM | HX8K clk / MHz | HX8K host clock | HX8K MOSI / ns | HX8K MISO / ns | "
              "UP5K clk / MHz | UP5K host clock | UP5K MOSI / ns | UP5K MISO / ns |", "|---" * 12 + "|"]
     for name, features in project.presets().items():
         (luts, flops, rams, _), fmax = ice40(
-            "mb4_core_tied", folder / "presets" / name, SEEDS, {"Features": features})
+            "mb4_core", folder / "presets" / name, SEEDS, {"Features": features}, "quirks_i")
         cells = [text for d in ("HX8K", "UP5K") for text in (
             mhz(fmax[d], "core"), mhz(fmax[d], "host"), worst_ns(fmax[d], "mosi"), worst_ns(fmax[d], "miso"))]
         lines.append(f"| {name} | {luts} | {flops} | {rams} | " + " | ".join(cells) + " |")

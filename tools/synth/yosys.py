@@ -17,6 +17,11 @@ def read(files=None):
     return [f"read_verilog -sv -I{INCLUDE} {names}"]
 
 
+def choose(top, parameters):
+    """Gives parameters of a top, {name: integer}, their values. The top has another name then: rename -top."""
+    return [f"chparam -set {name} {value} {top}" for name, value in parameters.items()]
+
+
 def check_as_top(module):
     """Elaborates one module as top and demands a clean structure of everything below it."""
     return [
