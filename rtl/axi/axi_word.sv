@@ -79,7 +79,7 @@ module axi_word #(
       .rst_ni,
       .crc16_i (1'b0),
       .poly_i  (8'h43),
-      .top_i   (8'h20),
+      .last_i  (3'd5),
       .start_i (16'h0000),
       .load_i,
       .shift_i (bit_valid_i),

@@ -8,12 +8,13 @@
 //   begin_i      sets the need to that of the protocol (BiSS C 5, BiSS B 4, SSI 1), plus mo_busy on
 //                a line with actuators
 //   len_valid_i  adds the length of a word (not in the clock of begin_i)
-//   wait_i       adds a processing clock
+//   wait_i       adds a processing clock (not in the clock of begin_i)
 //   rise_i       takes one edge away
 //
 // Latency: a word counts from the second clock after len_valid_i. Until then no edge is the last
-// one. mo_busy_i counts from the second clock after begin_i. All outputs except two_next_o are
-// ready early in the clock, because they decide what MA does next.
+// one. A processing clock counts from the second clock after wait_i; until then none_left_o and
+// one_left_o leave it out. mo_busy_i counts from the second clock after begin_i. All outputs except
+// two_next_o are ready early in the clock, because they decide what MA does next.
 //
 // Misuse: MA may make one edge more than needed before a word is told. The count keeps this edge
 // (-1) and subtracts it from the word. The count does not keep further surplus edges.
@@ -54,6 +55,7 @@ module biss_edge_count #(
   logic signed [W-1:0] need_d;
   logic signed [W-1:0] need_q;     // edges needed; -1: one too many was sent
   logic               len_valid_q;
+  logic               wait_q;
   logic [7:0]         len_q;       // one clock after begin_i: mo_busy_i
   logic               bus;
   logic [2:0]         base;        // edges of the protocol
@@ -64,9 +66,9 @@ module biss_edge_count #(
   logic               one_q;
   logic               unused;
 
-  // One adder: the bit below the sums carries wait_i into it.
-  assign {more, unused} = {need_q, 1'b1} + {W'(len_q), wait_i};
-  assign take = rise_i && !need_q[W-1];
+  // One adder: the bit below the sums carries wait_q into it.
+  assign {more, unused} = {need_q, 1'b1} + {W'(len_q), wait_q};
+  assign take = rise_i && (!need_q[W-1] || wait_q);
 
   assign bus  = Mo && bus_i;
   assign base = biss_c_i ? 3'd5 : ssi_i ? 3'd1 : 3'd4;
@@ -97,12 +99,14 @@ module biss_edge_count #(
       none_q  <= 1'b1;
       one_q   <= 1'b1;
       len_valid_q <= 1'b0;
+      wait_q      <= 1'b0;
       len_q       <= '0;
     end else begin
       rises_q <= rises_d;
       need_q  <= need_d;
       none_q  <= none_d;
       one_q   <= one_d;
+      wait_q      <= wait_i && !begin_i;
       len_valid_q <= len_valid_i && !begin_i;   // not a word of a frame that was stopped
       len_q       <= begin_i ? mo_busy_i & {8{bus}} : {1'b0, len_i & {7{len_valid_i}}};
     end

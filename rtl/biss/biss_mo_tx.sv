@@ -93,7 +93,7 @@ module biss_mo_tx #(
     .rst_ni,
     .crc16_i (word.crc_last[3]),
     .poly_i  (word.crc_poly),
-    .top_i   (word.crc_top),
+    .last_i  (word.crc_last[2:0]),
     .start_i (word.crc_start),
     .load_i  (load_q),
     .shift_i (shift),

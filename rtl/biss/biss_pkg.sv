@@ -30,7 +30,6 @@ package biss_pkg;
     logic        crc_on;
     logic [3:0]  crc_last;   // CRC bits minus 1: 0..7 or 15 (only 15 has bit 3 set)
     logic [7:0]  crc_poly;   // without the highest power; 16-bit CRC: the lower half
-    logic [7:0]  crc_top;    // one-hot: highest bit of the remainder; 16-bit CRC: 0
     logic [15:0] crc_start;
     logic        crc_store;  // the received CRC goes to the top byte(s)
     logic        gray;       // the data bits are Gray coded
@@ -177,8 +176,8 @@ package biss_pkg;
   localparam logic [3:0] CONTROL_CRC_POLY = 4'h3;
 
   // Widths of the types, for vectors of two.
-  localparam int unsigned WORD_W        = 47;
-  localparam int unsigned OFFER_W       = 52;
+  localparam int unsigned WORD_W        = 39;
+  localparam int unsigned OFFER_W       = 44;
   localparam int unsigned LINE_CMD_W    = 15;
   localparam int unsigned LINE_START_W  = 3;
   localparam int unsigned LINE_STATUS_W = 5;

@@ -39,6 +39,7 @@ module biss_rx_word #(
   biss_pkg::word_t word;
   logic       sensor_q;  // the word is not that of an actuator
   logic       store_q;   // its CRC is stored
+  logic [3:0] crc_last_q; // CRC bits minus 1; word brings them later in the clock
   logic       wr_en;
   logic [2:0] wr_byte;
   logic       ok;
@@ -71,9 +72,9 @@ module biss_rx_word #(
   enc_crc #(.Free(FreeCrc)) u_crc (
     .clk_i,
     .rst_ni,
-    .crc16_i (word.crc_last[3]),
+    .crc16_i (crc_last_q[3]),
     .poly_i  (word.crc_poly),
-    .top_i   (word.crc_top),
+    .last_i  (crc_last_q[2:0]),
     .start_i (word.crc_start),
     .load_i,
     .shift_i (bit_valid_i && !skip_q),
@@ -87,8 +88,8 @@ module biss_rx_word #(
   // CRC bits are sent inverted.
   assign value    = bit_i ^ (in_crc_q || (Gray && word.gray && bin_q));
   assign crc_fits = good_q && value == crc_top && known;
-  assign known    = FreeCrc || word.crc_last[3] ||
-                    (word.crc_top == 8'h20 && word.crc_poly[5:0] == 6'h03);
+  assign known    = FreeCrc || crc_last_q[3] ||
+                    (crc_last_q[2:0] == 3'd5 && word.crc_poly[5:0] == 6'h03);
 
   always_comb begin
     skip_d    = skip_q;
@@ -116,7 +117,7 @@ module biss_rx_word #(
         wr_en = left_q[2:0] == 3'd0;
         if (left_q == 6'd0) begin
           in_crc_d = 1'b1;
-          left_d   = 6'(word.crc_last);
+          left_d   = 6'(crc_last_q);
           next_o   = !word.crc_on;
         end
       end else begin
@@ -124,7 +125,7 @@ module biss_rx_word #(
         ok      = crc_fits;
         next_o    = left_q == 6'd0;
         wr_en   = store_q && left_q[2:0] == 3'd0;
-        wr_byte = (word.crc_last[3] && left_q == 6'd0) ? 3'd6 : 3'd7;
+        wr_byte = (crc_last_q[3] && left_q == 6'd0) ? 3'd6 : 3'd7;
       end
     end
   end
@@ -135,6 +136,7 @@ module biss_rx_word #(
       fresh_q  <= 1'b0;
       sensor_q <= 1'b0;
       store_q  <= 1'b0;
+      crc_last_q <= '0;
       bin_q    <= 1'b0;
       in_crc_q <= 1'b0;
       left_q   <= '0;
@@ -142,7 +144,11 @@ module biss_rx_word #(
       good_q   <= 1'b0;
     end else begin
       skip_q   <= skip_d;
-      if (load_i) {sensor_q, store_q} <= {!word.actuator, word.crc_store};
+      if (load_i) begin
+        sensor_q   <= !word.actuator;
+        store_q    <= word.crc_store;
+        crc_last_q <= word.crc_last;
+      end
       fresh_q  <= load_i || (fresh_q && !bit_valid_i);
       if (load_i)           bin_q <= 1'b0;
       else if (bit_valid_i) bin_q <= value;

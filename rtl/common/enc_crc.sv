@@ -9,7 +9,7 @@
 // the remainder. The bits above the degree of the polynomial have no meaning, and nothing looks at
 // them. So the upper half of the division can always use the polynomial of degree 16.
 // With Free = 0 the module knows two polynomials, x^6 + x + 1 (0x43) and the one of degree 16
-// (0x190D9), and does not look at poly_i and top_i.
+// (0x190D9), and does not look at poly_i and last_i.
 // Misuse: with shift_i and no load_i before it the division continues the word before.
 // Datasheet: pages 24, 25; algorithm and vectors: docs/theory.md.
 
@@ -20,7 +20,7 @@ module enc_crc #(
   input  logic        rst_ni,
   input  logic        crc16_i,
   input  logic [7:0]  poly_i,    // without the highest power; degree 16: the lower half
-  input  logic [7:0]  top_i,     // highest bit of the remainder, one-hot; 0 with crc16_i
+  input  logic [2:0]  last_i,    // number of the highest bit of the remainder; not with crc16_i
   input  logic [15:0] start_i,
   input  logic        load_i,
   input  logic        shift_i,
@@ -40,8 +40,7 @@ module enc_crc #(
   logic        divide;
 
   assign poly   = Free ? poly_i : crc16_i ? POLY16_LOWER : POLY6;
-  assign top    = Free ? (rem_q[7:0] & top_i) != 8'h00 || (crc16_i && rem_q[15])
-                       : crc16_i ? rem_q[15] : rem_q[5];
+  assign top    = crc16_i ? rem_q[15] : rem_q[Free ? {1'b0, last_i} : 4'd5];
   assign divide = feed_i & (bit_i ^ top);
 
   always_comb begin

@@ -121,6 +121,7 @@ module mb4_lines #(
       .actnsens_i  (cfg_i.actnsens),
       .ssi_i       (ssi[LINE]),
       .nocrc_i     (cfg_i.nocrc),
+      .idle_i      (idle),
       .start_i     (go_i.start),
       .next_i      (next[k]),
       .cfg_en_o    (cfg_en_o[k]),

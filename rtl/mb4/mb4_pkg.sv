@@ -9,7 +9,7 @@ package mb4_pkg;
   // Number of single-cycle data channels, and width in bits of the configuration of one of them.
   // Channel x has the four bytes 0xC0 + 4 (x - 1) .. + 3; the first byte is in bits 7:0.
   localparam int unsigned NUM_SLAVES  = 8;
-  localparam int unsigned SLAVE_CFG_W = 44;
+  localparam int unsigned SLAVE_CFG_W = 36;
 
   // Configuration of a data channel, as the word lists read it.
   typedef struct packed {
@@ -17,7 +17,6 @@ package mb4_pkg;
     logic        crc_on;     // CRC choice as mb4_crc_decode makes it
     logic [3:0]  crc_last;
     logic [6:0]  crc_poly;   // without its lowest bit, a 1
-    logic [7:0]  crc_top;
     logic        gray_lstop; // GRAYSx (SSI) or LSTOPx (actuator)
     logic        enscd;      // ENSCDx
     logic [5:0]  scdlen;     // SCDLENx: data bits minus 1
@@ -83,6 +82,16 @@ package mb4_pkg;
     logic [5:0] addr;
     logic [7:0] data;
   } mem_wr_t;
+
+  // What a line brings for SVALID: a word of a data channel (of four) begins, is complete, or is
+  // split by SWBANK.
+  typedef struct packed {
+    logic [1:0] slave;
+    logic       begins;
+    logic       done;
+    logic       ok;          // ... with a right CRC
+    logic       split;
+  } word_flag_t;
 
   typedef struct packed {
     logic       en;

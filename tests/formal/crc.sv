@@ -14,7 +14,7 @@
 // mutation: common/enc_crc.sv | feed_i & (bit_i ^ top) | feed_i & bit_i
 // mutation: common/enc_crc.sv | if (load_i) rem_d = start_i; | if (load_i) rem_d = {start_i[15:1], 1'b0};
 // mutation: mb4/regs/mb4_crc_code.sv | poly_o = 8'hEC; | poly_o = 8'hED;
-// mutation: mb4/regs/mb4_crc_decode.sv | top = 8'h01 << i; | top = 8'h02 << i;
+// mutation: mb4/regs/mb4_crc_decode.sv | last = 3'(i); | last = 3'(i + 1);
 
 module proof (
   input logic clk_i,
@@ -31,7 +31,7 @@ module proof (
 
   logic       on;
   logic [3:0] last;
-  logic [7:0] choice, poly, top;
+  logic [7:0] choice, poly;
   logic       out;
 
   mb4_crc_code u_code (
@@ -44,8 +44,7 @@ module proof (
     .poly_i     (choice),
     .crc_on_o   (on),
     .crc_last_o (last),
-    .crc_poly_o (poly),
-    .crc_top_o  (top)
+    .crc_poly_o (poly)
   );
 
   enc_crc u_dut (
@@ -53,7 +52,7 @@ module proof (
     .rst_ni,
     .crc16_i (last[3]),
     .poly_i  (poly),
-    .top_i   (top),
+    .last_i  (last[2:0]),
     .start_i (start),
     .load_i,
     .shift_i,

@@ -143,11 +143,10 @@ def crc_decode(steps):
 def slave_cfg(steps):
     """A data channel, mostly with a CRC that the chip knows."""
     crc = steps.rng.choice(CRC_POLYNOMIALS) if steps.chance(0.8) else steps.rng.getrandbits(8)
-    # mb4_pkg::slave_cfg_t: start, CRC on, bits minus 1, polynomial, highest bit, the other fields.
-    top = 0 if crc >= 0xC0 else 1 << crc.bit_length() - 1 if crc else 0
+    # mb4_pkg::slave_cfg_t: start, CRC on, bits minus 1, polynomial, the other fields.
     last = 15 if crc >= 0xC0 else max(crc.bit_length() - 1, 0)
     return pack((steps.rng.getrandbits(16), 16), (int(crc != 0), 1), (last, 4), (crc & 0x7F, 7),
-                (top, 8), (steps.rng.getrandbits(8), 8))
+                (steps.rng.getrandbits(8), 8))
 
 
 def spi_bytes(steps, values, between=lambda steps: None):
@@ -275,7 +274,6 @@ def word_cfg(steps, crc, store_gray, actuator, stop):
     """word_t of biss_pkg, data_last first, with a polynomial and start value of any kind."""
     word = steps.rng.getrandbits(6)
     for value, width in ((int(crc > 0), 1), (max(crc, 1) - 1, 4), (steps.rng.getrandbits(8), 8),
-                         (1 << crc - 1 if 1 <= crc <= 8 else 0, 8),
                          (steps.rng.getrandbits(16), 16), (store_gray, 2),
                          (int(actuator), 1), (int(stop), 1)):
         word = word << width | value
@@ -287,7 +285,7 @@ def rx_word(steps):
     for _ in range(120):
         crc = steps.rng.choice([0, 0, 1, 3, 5, 6, 7, 8, 16])
         word = word_cfg(steps, crc, steps.rng.getrandbits(2), steps.chance(0.2), steps.chance(0.2))
-        steps.step(offer_i=steps.rng.getrandbits(5) << 47 | word, load_i=1, bit_valid_i=0, run_i=int(steps.chance(0.9)))
+        steps.step(offer_i=steps.rng.getrandbits(5) << 39 | word, load_i=1, bit_valid_i=0, run_i=int(steps.chance(0.9)))
         steps.clock("clk_i")
         steps.step(load_i=0)
         for _ in range(steps.rng.randint(1, 90)):
@@ -365,7 +363,7 @@ def mo_tx(steps):
                                 steps.rng.getrandbits(1))
             # offer_t: any, last, slave, word.
             steps.step(offer_i=pack((steps.chance(0.9), 1), (steps.chance(0.3), 1),
-                                    (steps.rng.getrandbits(3), 3), (word, 47)),
+                                    (steps.rng.getrandbits(3), 3), (word, 39)),
                        data_i=any_value(steps, "data_i"), line_idle_i=int(steps.chance(0.005)),
                        clocks_i=int(steps.chance(0.95)),
                        final_i=int(steps.chance(0.3)), rise_i=1)
@@ -523,7 +521,7 @@ MODULES = {
         "wb_cyc_i": 0.95, "wb_stb_i": 0.8, "word_ready_i": 0.6, "word_error_i": 0.2}),
     "enc_crc": simple(*CORE, 4000, {
         "load_i": 0.02, "shift_i": 0.8, "feed_i": 0.8, "poly_i": rarely("poly_i", 0.02),
-        "top_i": rarely("top_i", 0.02, lambda s: (1 << s.rng.randrange(8)))}),
+        "last_i": rarely("last_i", 0.02)}),
     "biss_rx_word": rx_word,
     "biss_frame": simple(["clk_i"], ["rst_ni", "por_ni"], 12000, {
         # start, init, register_access, reduced, mo_return, stop.
@@ -533,7 +531,7 @@ MODULES = {
         "cmd_i": rarely("cmd_i", 0.01, lambda s: pack(
             (s.rng.choice([1, 1, 1, 0, 2, 3]), 2), (0, 1), (s.rng.getrandbits(8), 8),
             (s.chance(0.2), 1), (s.chance(0.2), 1), (s.rng.getrandbits(2), 2))),
-        **struct("offer_i", (None, 1), (0.3, 1), (None, 50)),
+        **struct("offer_i", (None, 1), (0.3, 1), (None, 42)),
         **struct("register_ma_i", (None, 1), (0.05, 1)), "bit_valid_i": 0.3,
         "tick_i": 0.5, "len_valid_i": 0.01, "len_i": rarely("len_i", 0.5, lambda s:
                                                             s.rng.choice([1, 7, 30, 80])),
@@ -556,7 +554,7 @@ MODULES = {
 CONSTANT = {
     "enc_axil": ["s_axi_bresp[0]", "s_axi_rresp[0]"],   # OKAY or SLVERR
     "mb4_crc_decode": ["crc_poly_o[0]"],  # every polynomial ends in 1
-    "mb4_word_list": ["offer_o[28]"],
+    "mb4_word_list": ["offer_o[20]"],
     # BREAK never reads 1; MO returns 1024 half periods after INIT's acknowledge
     "mb4_sequencer": ["instr_o[7]", "go_o[1]"],
     "mb4_memory": [f"rd2_data_o[{i}]" for i in range(16)],  # Port2 = 0

@@ -28,16 +28,23 @@ module mb4_reg_watchdog (
   logic [BASE+7:0] count_q;
   logic [7:0]      high;
   logic [7:0]      eighth;
+  logic            zero_q;     // the count is 0, whatever count_q is
 
   assign high      = count_q[BASE+7:BASE];
   assign eighth    = count_q[BASE+4:BASE-3];
-  assign expired_o = high[freqr_i];
+  assign expired_o = high[freqr_i] && !zero_q;
   assign stalled_o = expired_o && eighth[freqr_i];
 
+  // watch_i and clear_i come late, and the count has many flops.
   always_ff @(posedge clk_i or negedge rst_ni) begin
-    if (!rst_ni)                     count_q <= '0;
-    else if (!watch_i || clear_i)    count_q <= '0;
-    else if (tick_i && !stalled_o && (live_i || !expired_o)) count_q <= count_q + 22'd1;
+    if (!rst_ni) begin
+      zero_q  <= 1'b0;
+      count_q <= '0;
+    end else begin
+      zero_q <= !watch_i || clear_i;
+      if (zero_q)                                              count_q <= 22'(tick_i);
+      else if (tick_i && !stalled_o && (live_i || !expired_o)) count_q <= count_q + 22'd1;
+    end
   end
 
 endmodule

@@ -35,6 +35,7 @@ module mb4_status_flags (
   logic       fail_d;
   logic       fail_q;
   logic       ner_low_q;
+  (* keep *) logic ner_low;    // ... whatever frame_i.scd_bad is
 
   always_comb begin
     n_scderr_d   = n_scderr_q;
@@ -61,6 +62,10 @@ module mb4_status_flags (
     if (frame_i.bank_fail || bank_i.lost) fail_d = 1'b1;
   end
 
+  // frame_i.scd_bad comes late.
+  assign ner_low = !((frame_i.scd_en || n_scderr_q || frame_i.clear) && n_agserr_d && n_regerr_d &&
+                     n_delayerr_d);
+
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
       quiet_q      <= 2'b11;
@@ -81,7 +86,7 @@ module mb4_status_flags (
       n_delayerr_q <= n_delayerr_d;
       regend_q     <= regend_d;
       fail_q       <= fail_d;
-      ner_low_q    <= !(n_scderr_d && n_agserr_d && n_regerr_d && n_delayerr_d);
+      ner_low_q    <= ner_low || (frame_i.scd_en && frame_i.scd_bad);
     end
   end
 

@@ -26,6 +26,7 @@ module mb4_word_list #(
   input  logic       ssi_i,
   input  logic       nocrc_i,
   // control
+  input  logic       idle_i,      // no frame runs; start_i comes only then
   input  logic       start_i,
   input  logic       next_i,      // the current word is complete
   output logic       cfg_en_o,
@@ -50,12 +51,14 @@ module mb4_word_list #(
   endfunction
 
   localparam logic [2:0] LOWEST = lowest(8'h00);
+  localparam bit ONE = (Channels & (Channels - 8'd1)) == 8'h00;
 
   logic [7:0]  enscd_q;    // of this frame
   logic        any_d;
   logic        any_q;      // there is a current word
   logic [7:0]  rest;       // words after the current one
   logic        begins;     // next clock: the first word
+  logic        steps;      // next clock: another word, or none
   logic        summing_d;
   logic        summing_q;  // the walk that sums up the lengths
   logic [2:0]  first_new;
@@ -69,7 +72,7 @@ module mb4_word_list #(
   logic        unused;
 
   // Not needed: enscd_i tells the same, and no word precedes channel 0.
-  assign unused = cfg_i.enscd ^ enscd_q[0];
+  assign unused = cfg_i.enscd ^ enscd_q[0] ^ idle_i;
 
   assign rest[0] = 1'b0;
   for (genvar i = 1; i < 8; i++) begin : gen_rest
@@ -89,7 +92,10 @@ module mb4_word_list #(
     summing_d = Sum && (start_i ? enscd_i != 8'h00 : summing_q && !last);
   end
 
-  assign cfg_en_o    = start_i || next_i || summing_q;
+  // A list of one data channel needs no start_i, which comes late: while no frame runs it reads the
+  // configuration in every clock.
+  assign steps       = start_i || next_i || summing_q;
+  assign cfg_en_o    = ONE ? idle_i || next_i || summing_q : steps;
   assign cfg_slave_o = slave_d;
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
@@ -100,7 +106,7 @@ module mb4_word_list #(
       slave_q   <= LOWEST;
     end else begin
       if (start_i) enscd_q <= enscd_i;
-      if (cfg_en_o) begin
+      if (steps) begin
         any_q     <= any_d;
         summing_q <= summing_d;
         slave_q   <= slave_d;
@@ -124,7 +130,7 @@ module mb4_word_list #(
 
   assign offer_o = {any_q, last, slave_q,
                     cfg_i.scdlen, cfg_i.crc_on, cfg_i.crc_last, cfg_i.crc_poly, 1'b1,
-                    cfg_i.crc_top, cfg_i.crc_start,
+                    cfg_i.crc_start,
                     crc_room && !nocrc_i && cfg_i.crc_on,
                     ssi_i && cfg_i.gray_lstop, actuator, stop};
 

@@ -78,7 +78,7 @@ module mb4_page #(
   logic [2:0]  tries_q;
   logic        last;
   logic        disturbed;
-  logic [1:0]  hit;
+  logic [1:0]  hit, hit_q;
   logic [15:0] pair;
   logic [7:0]  data;
   logic [31:0] word_q;
@@ -188,8 +188,9 @@ module mb4_page #(
 
   assign hit[0] = (tap_i.wr[0] || tap_i.done[0]) && tap_i.slave[2:0] == page_i.channel;
   assign hit[1] = (tap_i.wr[1] || tap_i.done[1]) && tap_i.slave[5:3] == page_i.channel;
+  // The memory and SVALID change one clock after tap_i tells it.
   assign disturbed = tap_i.banks.host != host_q || !tap_i.ready || late_q ||
-                     (tap_i.banks.host == tap_i.banks.eng && hit != 2'b00);
+                     (tap_i.banks.host == tap_i.banks.eng && (hit | hit_q) != 2'b00);
 
   assign last      = &tries_q;
 
@@ -247,10 +248,12 @@ module mb4_page #(
       step_q  <= '0;
       ack_q   <= 1'b0;
       host_q  <= 1'b0;
+      hit_q   <= '0;
       word_q  <= '0;
       tries_q <= '0;
     end else begin
       host_q <= tap_i.banks.host;
+      hit_q  <= hit;
       step_q <= step_q + 4'd1;
       word_q <= state_q == STAMP ? now[63:32] : {data, word_q[31:8]};
       unique case (state_q)

@@ -12,11 +12,10 @@ module mb4_crc_decode (
   input  logic [7:0] poly_i,      // polynomial without its last 1; 0: no CRC
   output logic       crc_on_o,
   output logic [3:0] crc_last_o,  // CRC bits minus 1; 0 without CRC; only 16 bits set bit 3
-  output logic [7:0] crc_poly_o,
-  output logic [7:0] crc_top_o
+  output logic [7:0] crc_poly_o
 );
 
-  logic [7:0] top;
+  logic [2:0] last;
   logic       crc16;
 
   assign crc16    = poly_i[7] && poly_i[6];
@@ -27,14 +26,13 @@ module mb4_crc_decode (
   assign crc_poly_o = {poly_i[6:0], 1'b1};
 
   always_comb begin
-    top = 8'h00;
+    last = 3'd0;
     for (int i = 0; i < 8; i++) begin
-      if (poly_i[i]) top = 8'h01 << i;
+      if (poly_i[i]) last = 3'(i);
     end
   end
 
-  assign crc_top_o  = crc16 ? 8'h00 : top;
-  assign crc_last_o = {crc16, top[7:4] != 4'h0, {top[7:6], top[3:2]} != 4'h0,
-                       {top[7], top[5], top[3], top[1]} != 4'h0};
+  // The code of degree 16 has bit 7 set, as degree 8.
+  assign crc_last_o = {crc16, last};
 
 endmodule

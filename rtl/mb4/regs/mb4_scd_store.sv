@@ -18,7 +18,8 @@
 // - core,
 // - rd_clk_i: reads of the host,
 // - rd2_clk_i: second read port (SCDATA5..8 with Port2, SCDATA1..4 with Tap).
-// Latency: read data are valid after the edge with the enable. A read gives the bytes and flags of
+// Latency: the bytes of a line and the changes of SVALID take effect one clock late. Read data are
+// valid after the edge with the enable. A read gives the bytes and flags of
 // both banks, bank 1 above bank 0.
 // Vectors: bit i of a vector {2, 1} is for line i + 1. Host writes and clears act on the bank that
 // the host had at the write; it comes with them (mb4_reg_file).
@@ -74,9 +75,9 @@ module mb4_scd_store #(
   logic [1:0] split, ok, split_q;  // the word being received is split
   logic       hi_en, hi_first, hi_done, hi_ok, hi_split;
   logic [2:0] hi_slave, hi_byte;   // word of the line that owns the upper half
-  logic       lo_wr_en, hi_wr_en;
-  logic [5:0] lo_wr_addr, hi_wr_addr;
-  logic [7:0] lo_wr_data, hi_wr_data;
+  mb4_pkg::mem_wr_t lo_wr_d, lo_wr_q, hi_wr_d, hi_wr_q;
+  mb4_pkg::word_flag_t lo_flag_d, lo_flag_q, hi_flag_d, hi_flag_q;
+  logic       flag_bank_q;
   logic       mo_en;
   logic [7:0] lo_mo_data, hi_mo_data;
   logic [15:0] hi_data;
@@ -122,15 +123,36 @@ module mb4_scd_store #(
   assign hi_split = second ? split[1] : split[0];
 
   // Assignments field by field: the simulator then sees which fields matter.
-  assign lo_wr_en   = data1.delay_en || (data1.rx.wr_en && !data1.rx.slave[2]);
-  assign lo_wr_addr = data1.delay_en ? {banks_i.host, 5'd0}
-                                     : {banks_i.eng, data1.rx.slave[1:0], data1.rx.wr_byte};
-  assign lo_wr_data = data1.delay_en ? data1.delay : data1.rx.wr_data;
-  assign hi_wr_en   = data2.delay_en || (hi_slave[2] && hi_en);
-  assign hi_wr_addr = data2.delay_en ? {banks_i.host, 5'd0}
-                                     : {banks_i.eng, hi_slave[1:0], hi_byte};
-  assign hi_wr_data = data2.delay_en ? data2.delay
-                                     : second ? data2.rx.wr_data : data1.rx.wr_data;
+  assign lo_wr_d.en   = data1.delay_en || (data1.rx.wr_en && !data1.rx.slave[2]);
+  assign lo_wr_d.addr = data1.delay_en ? {banks_i.host, 5'd0}
+                                       : {banks_i.eng, data1.rx.slave[1:0], data1.rx.wr_byte};
+  assign lo_wr_d.data = data1.delay_en ? data1.delay : data1.rx.wr_data;
+  assign hi_wr_d.en   = data2.delay_en || (hi_slave[2] && hi_en);
+  assign hi_wr_d.addr = data2.delay_en ? {banks_i.host, 5'd0}
+                                       : {banks_i.eng, hi_slave[1:0], hi_byte};
+  assign hi_wr_d.data = data2.delay_en ? data2.delay
+                                       : second ? data2.rx.wr_data : data1.rx.wr_data;
+
+  assign lo_flag_d = {data1.rx.slave[1:0], data1.rx.first && !data1.rx.slave[2],
+                      data1.rx.done && !data1.rx.slave[2], ok[0],
+                      split[0] && !data1.rx.slave[2]};
+  assign hi_flag_d = {hi_slave[1:0], hi_first && hi_slave[2], hi_done && hi_slave[2], hi_ok,
+                      hi_split && hi_slave[2]};
+
+  // A byte of a line comes late in its clock, and the host's byte waits for it. So the memories and
+  // SVALID get what the lines bring one clock later. The end of the frame switches the banks no
+  // earlier than that.
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      {hi_wr_q, lo_wr_q}     <= '0;
+      {hi_flag_q, lo_flag_q} <= '0;
+      flag_bank_q            <= 1'b0;
+    end else begin
+      {hi_wr_q, lo_wr_q}     <= {hi_wr_d, lo_wr_d};
+      {hi_flag_q, lo_flag_q} <= {hi_flag_d, lo_flag_d};
+      flag_bank_q            <= banks_i.eng;
+    end
+  end
 
   // ---- memories -------------------------------------------------------------------------------
 
@@ -141,7 +163,7 @@ module mb4_scd_store #(
   mb4_memory #(.Banks(TWO_BANKS), .Port2(Tap)) u_scd_lo (
     .clk_i,
     .clear_i,
-    .eng_wr_i     ({lo_wr_en, lo_wr_addr, lo_wr_data}),
+    .eng_wr_i     (lo_wr_q),
     .eng_rd_i     ({mo_en, banks_i.eng, mo1.slave[1:0], mo1.place}),
     .eng_data_o   (lo_mo_data),
     .host_wr_i    ({post_lo, post_bank, post_i[12:0]}),
@@ -157,7 +179,7 @@ module mb4_scd_store #(
   mb4_memory #(.Banks(TWO_BANKS), .Port2(Port2 && UPPER)) u_scd_hi (
     .clk_i,
     .clear_i,
-    .eng_wr_i     ({hi_wr_en, hi_wr_addr, hi_wr_data}),
+    .eng_wr_i     (hi_wr_q),
     .eng_rd_i     ({mo_en, banks_i.eng, hi_mo.slave[1:0], hi_mo.place}),
     .eng_data_o   (hi_mo_data),
     .host_wr_i    ({post_hi, post_bank, post_i[12:0]}),
@@ -176,12 +198,12 @@ module mb4_scd_store #(
   mb4_svalid #(.Channels(PRESENT[3:0]), .TwoBanks(TWO_BANKS)) u_svalid_lo (
     .clk_i,
     .rst_ni,
-    .eng_bank_i  (banks_i.eng),
-    .begin_i     (data1.rx.first && !data1.rx.slave[2]),
-    .set_en_i    (data1.rx.done && !data1.rx.slave[2]),
-    .set_slave_i (data1.rx.slave[1:0]),
-    .set_valid_i (ok[0]),
-    .split_i     (split[0] && !data1.rx.slave[2]),
+    .eng_bank_i  (flag_bank_q),
+    .begin_i     (lo_flag_q.begins),
+    .set_en_i    (lo_flag_q.done),
+    .set_slave_i (lo_flag_q.slave),
+    .set_valid_i (lo_flag_q.ok),
+    .split_i     (lo_flag_q.split),
     .clear_i     (bank_i.clear),
     .keep_en_i   (post_svalid_lo),
     .keep_i      (keep),
@@ -192,12 +214,12 @@ module mb4_scd_store #(
   mb4_svalid #(.Channels(PRESENT[7:4]), .TwoBanks(TWO_BANKS)) u_svalid_hi (
     .clk_i,
     .rst_ni,
-    .eng_bank_i  (banks_i.eng),
-    .begin_i     (hi_first && hi_slave[2]),
-    .set_en_i    (hi_done && hi_slave[2]),
-    .set_slave_i (hi_slave[1:0]),
-    .set_valid_i (hi_ok),
-    .split_i     (hi_split && hi_slave[2]),
+    .eng_bank_i  (flag_bank_q),
+    .begin_i     (hi_flag_q.begins),
+    .set_en_i    (hi_flag_q.done),
+    .set_slave_i (hi_flag_q.slave),
+    .set_valid_i (hi_flag_q.ok),
+    .split_i     (hi_flag_q.split),
     .clear_i     (bank_i.clear),
     .keep_en_i   (post_svalid_hi),
     .keep_i      (keep),

@@ -44,7 +44,7 @@ module mb4_slave_cfg #(
   logic [2:0]  row;
   logic [3:0]  byte_en;
   logic [7:0]  crc_byte;
-  logic [20*CODES-1:0] crc;  // of crc_byte with its bit 0 = 1, 0
+  (* keep *) logic [12*CODES-1:0] crc;  // of crc_byte with its bit 0 = 1, 0
 
   logic [CODES-1:0] ends;
   logic        unused;
@@ -60,9 +60,10 @@ module mb4_slave_cfg #(
     logic       bit0;
     logic       on;
     logic [3:0] last;
-    logic [7:0] code, poly, top;
+    logic [7:0] code, poly;
 
-    assign bit0 = ONE ? crc_byte[0] : k != 0;
+    assign bit0 = ONE ? crc_byte[0]
+                      : k != 0 && byte_en[mb4_regs_pkg::SLAVE_CFG_CRC_OFFSET[1:0]];
 
     mb4_crc_code u_code (
       .selcrc_i (crc_byte[mb4_regs_pkg::SELCRCS_LSB]),
@@ -74,19 +75,20 @@ module mb4_slave_cfg #(
       .poly_i     (code),
       .crc_on_o   (on),
       .crc_last_o (last),
-      .crc_poly_o (poly),
-      .crc_top_o  (top)
+      .crc_poly_o (poly)
     );
 
     // Every polynomial ends in 1. Without FreeCrc enc_crc needs no polynomial, and biss_rx_word
     // only tells the one of six bits from others.
     assign ends[k] = poly[0];
-    assign crc[20*k +: 20] = {on, last, FreeCrc || code == CODE_CRC6 ? {poly[7:1], top} : 15'd0};
+    assign crc[12*k +: 12] = {on, last, FreeCrc || code == CODE_CRC6 ? poly[7:1] : 7'd0};
   end
 
   if (ONE) begin : gen_row
     // A single row is four registers.
     logic [31:0] row_q;
+    logic        row0;
+    (* keep *) logic [7:0] odd, even;
     logic [7:0]  rd_data_q;
 
     always_ff @(posedge wr_clk_i or negedge rst_ni) begin
@@ -99,10 +101,15 @@ module mb4_slave_cfg #(
       end
     end
 
+    // Bit 0 of the address comes late over SPI.
+    assign row0 = host_i.rd_addr[4:2] == 3'd0;
+    assign odd  = (host_i.rd_addr[1] ? row_q[31:24] : row_q[15:8]) & {8{row0}};
+    assign even = (host_i.rd_addr[1] ? row_q[23:16] : row_q[7:0]) & {8{row0}};
+
     always_ff @(posedge rd_clk_i or negedge rst_ni) begin
       if (!rst_ni) rd_data_q <= '0;
       else if (host_i.rd_en) begin
-        rd_data_q <= row_q[8 * host_i.rd_addr[1:0] +: 8] & {8{host_i.rd_addr[4:2] == 3'd0}};
+        rd_data_q <= host_i.rd_addr[0] ? odd : even;
       end
     end
 
@@ -173,11 +180,11 @@ module mb4_slave_cfg #(
                        (rd_data[23:16] & {8{sel_q[2]}}) | (rd_data[31:24] & {8{sel_q[3]}});
 
     for (genvar i = 0; i < Lists; i++) begin : gen_list
-      enc_ram_row #(.Field1(20)) u_list (
+      enc_ram_row #(.Field1(12)) u_list (
         .wr_clk_i,
         .wr_en_i   (wr_en),
         .wr_addr_i (row),
-        .wr_data_i ({wr_data[31:16], crc_byte[0] ? crc[20*(CODES-1) +: 20] : crc[19:0],
+        .wr_data_i ({wr_data[31:16], host_i.wr_data[0] ? crc[12*(CODES-1) +: 12] : crc[11:0],
                      wr_data[7:0]}),
         .rd_clk_i  (clk_i),
         .rd_en_i   (list_en_i[i]),

@@ -51,6 +51,7 @@ class Edges : public mb4test::Block<Vbiss_edge_count> {
       if (edges < waits) model.wait_i = 1;
       clock();
       model.wait_i = 0;
+      clock();
     }
     return edges;
   }

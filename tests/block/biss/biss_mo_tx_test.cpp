@@ -126,10 +126,10 @@ class MoTxBlock : public testing::Test {
     m.final_i = now.last;
     m.clocks_i = now.clocks;
     // biss_pkg::offer_t: any, last, slave, word.
-    m.offer_i = std::uint64_t{at + 1 >= slots.size()} << 50;
+    m.offer_i = std::uint64_t{at + 1 >= slots.size()} << 42;
     if (!slots.empty()) {
       m.offer_i |=
-          std::uint64_t{1} << 51 | std::uint64_t{slots[at].channel} << 47 | slots[at].word.port();
+          std::uint64_t{1} << 43 | std::uint64_t{slots[at].channel} << 39 | slots[at].word.port();
     }
   }
 };

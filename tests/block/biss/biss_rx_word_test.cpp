@@ -78,7 +78,7 @@ TEST(RxWordBlock, RandomWords_BytesFlagsAndCrcAreThoseOfTheLine) {
       }
     }
     const unsigned slave = random.below(8);
-    m.offer_i = std::uint64_t{slave} << 47 | word.port();
+    m.offer_i = std::uint64_t{slave} << 39 | word.port();
     m.run_i = m.load_i = 1;
     block.clock();
     m.load_i = 0;

@@ -63,7 +63,7 @@ module frame_top #(
   logic [2:0]  rx_cfg_slave, mo_cfg_slave;
   logic [31:0] rx_cfg_q, mo_cfg_q;
   logic [7:0]  rx_poly, mo_poly;
-  logic [19:0] rx_crc, mo_crc;
+  logic [11:0] rx_crc, mo_crc;
   logic        unused_rx, unused_mo;
 
   mb4_freqs_dec u_freqs (
@@ -102,18 +102,16 @@ module frame_top #(
 
   mb4_crc_decode u_rx_decode (
     .poly_i     (rx_poly),
-    .crc_on_o   (rx_crc[19]),
-    .crc_last_o (rx_crc[18:15]),
-    .crc_poly_o ({rx_crc[14:8], unused_rx}),
-    .crc_top_o  (rx_crc[7:0])
+    .crc_on_o   (rx_crc[11]),
+    .crc_last_o (rx_crc[10:7]),
+    .crc_poly_o ({rx_crc[6:0], unused_rx})
   );
 
   mb4_crc_decode u_mo_decode (
     .poly_i     (mo_poly),
-    .crc_on_o   (mo_crc[19]),
-    .crc_last_o (mo_crc[18:15]),
-    .crc_poly_o ({mo_crc[14:8], unused_mo}),
-    .crc_top_o  (mo_crc[7:0])
+    .crc_on_o   (mo_crc[11]),
+    .crc_last_o (mo_crc[10:7]),
+    .crc_poly_o ({mo_crc[6:0], unused_mo})
   );
 
   always_ff @(posedge clk_i) begin
@@ -128,6 +126,7 @@ module frame_top #(
     .actnsens_i  (8'h00),
     .ssi_i       (ssi),
     .nocrc_i,
+    .idle_i      (idle_o),
     .start_i,
     .next_i      (next),
     .cfg_en_o    (rx_cfg_en),
@@ -146,6 +145,7 @@ module frame_top #(
     .actnsens_i  (8'h00),
     .ssi_i       (ssi),
     .nocrc_i,
+    .idle_i      (idle_o),
     .start_i,
     .next_i      (mo_next),
     .cfg_en_o    (mo_cfg_en),

@@ -30,7 +30,6 @@ struct Word {
     add(crc != 0, 1);
     add(crc == 0 ? 0 : crc - 1, 4);
     add(polynomial & 0xFF, 8);
-    add(crc == 0 || crc == 16 ? 0 : 1U << (crc - 1), 8);
     add(start, 16);
     add(store, 1);
     add(gray, 1);

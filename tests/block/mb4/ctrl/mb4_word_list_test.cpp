@@ -24,12 +24,11 @@ struct Channel {
     static constexpr unsigned kFull[] = {0, 0, 0, 0xB, 0x13, 0x25, 0x43, 0x89, 0x12F};
     return (crc_bits == 16 ? 0x190D9U : kFull[crc_bits]) >> 1 & 0x7F;
   }
-  unsigned top() const { return crc_bits == 0 || crc_bits == 16 ? 0 : 1U << (crc_bits - 1); }
   // mb4_pkg::slave_cfg_t
   std::uint64_t port() const {
-    const std::uint64_t crc = (crc_bits != 0 ? 1U << 19 : 0) |
-                              (crc_bits != 0 ? crc_bits - 1 : 0) << 15 | polynomial() << 8 | top();
-    return std::uint64_t{crc_start} << 28 | crc << 8 | (gray_lstop ? 0x80U : 0) |
+    const std::uint64_t crc =
+        (crc_bits != 0 ? 1U << 11 : 0) | (crc_bits != 0 ? crc_bits - 1 : 0) << 7 | polynomial();
+    return std::uint64_t{crc_start} << 20 | crc << 8 | (gray_lstop ? 0x80U : 0) |
            (enabled ? 0x40U : 0) | (data_bits - 1);
   }
 };
@@ -99,15 +98,14 @@ TEST(WordListBlock, RandomConfigurations_WordsComeInOrderWithTheirLengths) {
     for (std::size_t i = 0; i < words.size(); ++i) {
       const Channel& c = list.channels[words[i]];
       const bool sends = c.actuator && !ssi;
-      ASSERT_EQ(list.field(51, 1), 1U) << "any";
-      ASSERT_EQ(list.field(50, 1), i + 1 == words.size()) << "last";
-      ASSERT_EQ(list.field(47, 3), words[i]) << "slave";
-      ASSERT_EQ(list.field(41, 6), c.data_bits - 1);
-      ASSERT_EQ(list.field(40, 1), c.crc_bits != 0);
-      ASSERT_EQ(list.field(36, 4), c.crc_bits == 0 ? 0 : c.crc_bits - 1);
+      ASSERT_EQ(list.field(43, 1), 1U) << "any";
+      ASSERT_EQ(list.field(42, 1), i + 1 == words.size()) << "last";
+      ASSERT_EQ(list.field(39, 3), words[i]) << "slave";
+      ASSERT_EQ(list.field(33, 6), c.data_bits - 1);
+      ASSERT_EQ(list.field(32, 1), c.crc_bits != 0);
+      ASSERT_EQ(list.field(28, 4), c.crc_bits == 0 ? 0 : c.crc_bits - 1);
       if (c.crc_bits != 0) {
-        ASSERT_EQ(list.field(28, 8), c.polynomial() << 1 | 1U);
-        ASSERT_EQ(list.field(20, 8), c.top());
+        ASSERT_EQ(list.field(20, 8), c.polynomial() << 1 | 1U);
       }
       ASSERT_EQ(list.field(4, 16), c.crc_start);
       // Page 26, Table 21: NOCRC = 0, and the data leave the top byte(s) free.
@@ -119,7 +117,7 @@ TEST(WordListBlock, RandomConfigurations_WordsComeInOrderWithTheirLengths) {
       m.next_i = 1;
       list.step();
     }
-    ASSERT_EQ(list.field(51, 1), 0U) << "no word follows";
+    ASSERT_EQ(list.field(43, 1), 0U) << "no word follows";
   }
 }
 

@@ -7,6 +7,8 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
+#include <utility>
 
 #include "Vmb4_scd_store.h"
 #include "tests/support/model_context.hpp"
@@ -99,6 +101,7 @@ TEST(ScdStoreBlock, RandomBytes_StandAtTheAddressesOfTable20) {
     store.apply(lines);
     store.clock();
     store.apply({});
+    store.clock();  // bytes are in the memory one clock late
     for (const unsigned address : {random.below(64), 0U, 32U}) {
       for (unsigned bank = 0; bank < 2; ++bank) {
         ASSERT_EQ(store.read(bank, address), expected[bank][address])
@@ -118,6 +121,7 @@ TEST(ScdStoreBlock, SwbankAtAnyTime_WordsItSplitsAreNotValidAndNoOthers) {
   unsigned slave[2] = {0, 4};
   unsigned seen_split = 0, seen_whole = 0;
   unsigned banks = 1;
+  std::array<std::optional<std::pair<unsigned, bool>>, 2> told;  // flag of a word that has ended
   for (int step = 0; step < 50'000; ++step) {
     const bool swap = random.below(10) == 0;
     std::array<Line, 2> lines;
@@ -135,11 +139,18 @@ TEST(ScdStoreBlock, SwbankAtAnyTime_WordsItSplitsAreNotValidAndNoOthers) {
     store.apply(lines);
     ASSERT_EQ(store.model.word_bad_o, bad) << "step " << step;
     store.clock();
+    // SVALID follows one clock after the word.
+    for (auto& one : told) {
+      if (one) {
+        ASSERT_EQ(store.model.svalid_o >> one->first & 1, one->second) << "step " << step;
+      }
+      one.reset();
+    }
     for (unsigned i = 0; i < 2; ++i) {
       const unsigned flag = (banks & 1) * 8 + slave[i];
       if (left[i] == 1) {
         ++(split[i] ? seen_split : seen_whole);
-        ASSERT_EQ(store.model.svalid_o >> flag & 1, split[i] ? 0 : 1) << "step " << step;
+        told[i] = {flag, !split[i]};
       }
       if (left[i] > 0) {
         --left[i];
@@ -164,6 +175,8 @@ TEST(ScdStoreBlock, WrongCrc_WordIsBad) {
     lines[0].ok = ok;
     store.apply(lines);
     EXPECT_EQ(store.model.word_bad_o, ok ? 0U : 1U);
+    store.clock();
+    store.apply({});
     store.clock();
     EXPECT_EQ(store.model.svalid_o & 1, ok ? 1 : 0);
   }

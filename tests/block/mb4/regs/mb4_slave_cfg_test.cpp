@@ -32,8 +32,7 @@ std::uint64_t list_row(unsigned length, unsigned crc, unsigned start) {
   while (full >> (bits + 1) != 0) ++bits;
   const std::uint64_t on = bits != 0, last = bits == 0 ? 0 : bits - 1;
   const std::uint64_t poly = full >> 1 & 0x7F;  // with the highest power, up to x^7
-  const std::uint64_t top = bits == 0 || bits == 16 ? 0 : 1U << (bits - 1);
-  return std::uint64_t{start} << 28 | on << 27 | last << 23 | poly << 16 | top << 8 | length;
+  return std::uint64_t{start} << 20 | on << 19 | last << 15 | poly << 8 | length;
 }
 
 class SlaveCfgBlock : public testing::Test {
@@ -78,8 +77,8 @@ class SlaveCfgBlock : public testing::Test {
     m.list_en_i = 0;
     m.eval();
     std::uint64_t row = 0;
-    for (unsigned i = 44 * list; i < 44 * (list + 1); ++i) {
-      row |= std::uint64_t{m.list_cfg_o[i / 32] >> i % 32 & 1U} << (i - 44 * list);
+    for (unsigned i = 36 * list; i < 36 * (list + 1); ++i) {
+      row |= std::uint64_t{m.list_cfg_o[i / 32] >> i % 32 & 1U} << (i - 36 * list);
     }
     return row;
   }
