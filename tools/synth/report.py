@@ -137,7 +137,9 @@ def presets(folder):
     """The part of the page about cores with fewer features."""
     lines = ["## Presets", "",
              "`mb4_core` with fewer features ([integration](integration.md#features)) on iCE40, with "
-             "`quirks_i` = 0, a constant as in a product. MOSI: the set-up before the rising edge of SCLK, where "
+             f"`quirks_i` = 0, a constant as in a product, and with `synth_ice40 {ICE40_FLAGS}`: the enable is the slowest "
+             "input of a cell, so a flop that shares it with no other gets it as logic (7 MHz more for full on HX8K than "
+             "without the option). MOSI: the set-up before the rising edge of SCLK, where "
              "the datasheet gives 7.5 ns (I205). MISO: its delay after the falling edge. Both are at the pins of "
              "the FPGA and without the delay of SCLK itself.", "",
              "| preset | LUT4 | flops | block RAM | HX8K clk / MHz | HX8K host clock | HX8K MOSI / ns | HX8K MISO / ns | "
@@ -196,8 +198,7 @@ def page(folder, axi_lines):
              ", ".join(map(str, SEEDS)) + ", after routing, for the slowest corner, without a timing "
              "constraint that would help.", "",
              "## iCE40, placed and routed", "",
-             f"With `synth_ice40 {ICE40_FLAGS}`: the enable is the slowest input of a cell, so a flop that shares it "
-             "with no other gets it as logic (7 MHz more for `mb4_core` on HX8K than without the option).", "",
+             f"With `synth_ice40 {ICE40_FLAGS}`, as below.", "",
              "| top | LUT4 | flops | block RAM | HX8K clk / MHz | HX8K host clock | "
              "UP5K clk / MHz | UP5K host clock |", "|---|---|---|---|---|---|---|---|"]
     for top, what in TOPS.items():
