@@ -13,8 +13,9 @@
 //
 // Latency: a word counts from the second clock after len_valid_i. Until then no edge is the last
 // one. A processing clock counts from the second clock after wait_i; until then none_left_o and
-// one_left_o leave it out. mo_busy_i counts from the second clock after begin_i. All outputs except
-// two_next_o are ready early in the clock, because they decide what MA does next.
+// one_left_o leave it out, and the caller must not look (biss_frame looks after the start bit).
+// mo_busy_i counts from the second clock after begin_i. All outputs except two_next_o are ready
+// early in the clock, because they decide what MA does next.
 //
 // Misuse: MA may make one edge more than needed before a word is told. The count keeps this edge
 // (-1) and subtracts it from the word. The count does not keep further surplus edges.

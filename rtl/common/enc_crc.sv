@@ -20,7 +20,7 @@ module enc_crc #(
   input  logic        rst_ni,
   input  logic        crc16_i,
   input  logic [7:0]  poly_i,    // without the highest power; degree 16: the lower half
-  input  logic [2:0]  last_i,    // number of the highest bit of the remainder; not with crc16_i
+  input  logic [2:0]  last_i,    // number of the highest bit of the remainder; crc16_i goes first
   input  logic [15:0] start_i,
   input  logic        load_i,
   input  logic        shift_i,

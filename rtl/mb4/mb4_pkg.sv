@@ -83,6 +83,11 @@ package mb4_pkg;
     logic [7:0] data;
   } mem_wr_t;
 
+  typedef struct packed {
+    logic       en;
+    logic [5:0] addr;
+  } mem_rd_t;
+
   // What a line brings for SVALID: a word of a data channel (of four) begins, is complete, or is
   // split by SWBANK.
   typedef struct packed {
@@ -92,11 +97,6 @@ package mb4_pkg;
     logic       ok;          // ... with a right CRC
     logic       split;
   } word_flag_t;
-
-  typedef struct packed {
-    logic       en;
-    logic [5:0] addr;
-  } mem_rd_t;
 
   // 0xF4 on its way to the core. Registers of the host domain.
   typedef struct packed {

@@ -13,8 +13,8 @@
 // mutation: mb4/ctrl/mb4_status_flags.sv | if (frame_i.scd_en)    n_scderr_d = !frame_i.scd_bad;
 //   | if (frame_i.scd_bad) n_scderr_d = 1'b0;
 // mutation: mb4/ctrl/mb4_status_flags.sv | fail_q && !bank_i.swapped | fail_q && !frame_i.clear
-// mutation: mb4/ctrl/mb4_status_flags.sv | !(n_scderr_d && n_agserr_d && n_regerr_d && n_delayerr_d)
-//   | !(n_scderr_d && n_agserr_d && n_regerr_d)
+// mutation: mb4/ctrl/mb4_status_flags.sv | && n_agserr_d && n_regerr_d &&
+//   | && n_regerr_d &&
 // mutation: mb4/ctrl/mb4_status_flags.sv | n_delayerr_d = !access_i.delay_error;
 //   | n_delayerr_d = !access_i.reg_error;
 

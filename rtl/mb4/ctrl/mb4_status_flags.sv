@@ -35,7 +35,9 @@ module mb4_status_flags (
   logic       fail_d;
   logic       fail_q;
   logic       ner_low_q;
-  (* keep *) logic ner_low;    // ... whatever frame_i.scd_bad is
+  // NER is pulled low whatever frame_i.scd_bad is. Kept: synthesis does not know that this comes
+  // late.
+  (* keep *) logic ner_low;
 
   always_comb begin
     n_scderr_d   = n_scderr_q;

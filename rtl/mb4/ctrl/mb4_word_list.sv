@@ -10,7 +10,8 @@
 // next_i. With Sum = 1 the module first walks through the list once: from the clock after start_i
 // on, len_o gives the bits of one word in each clock, with len_valid_o. offer_o is the first word
 // when len_valid_o has fallen.
-// Misuse: if the host changes the configuration between start_i and the end of the frame, the frame
+// Misuse: start_i without idle_i gives a list of one data channel an old row.
+// If the host changes the configuration between start_i and the end of the frame, the frame
 // may have other words or fail by its flags, but it ends (decision 38).
 // Datasheet: pages 23..26; order of the words: protocol of the chain, first slave first.
 

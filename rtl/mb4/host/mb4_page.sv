@@ -77,7 +77,7 @@ module mb4_page #(
   logic        host_q;
   logic [2:0]  tries_q;
   logic        last;
-  logic        disturbed;
+  logic        disturbed, again;
   logic [1:0]  hit, hit_q;
   logic [15:0] pair;
   logic [7:0]  data;
@@ -188,9 +188,11 @@ module mb4_page #(
 
   assign hit[0] = (tap_i.wr[0] || tap_i.done[0]) && tap_i.slave[2:0] == page_i.channel;
   assign hit[1] = (tap_i.wr[1] || tap_i.done[1]) && tap_i.slave[5:3] == page_i.channel;
-  // The memory and SVALID change one clock after tap_i tells it.
+  // The memory and SVALID change one clock after tap_i tells it: the copy begins again once more,
+  // which is no further try.
   assign disturbed = tap_i.banks.host != host_q || !tap_i.ready || late_q ||
-                     (tap_i.banks.host == tap_i.banks.eng && (hit | hit_q) != 2'b00);
+                     (tap_i.banks.host == tap_i.banks.eng && hit != 2'b00);
+  assign again     = disturbed || (tap_i.banks.host == tap_i.banks.eng && hit_q != 2'b00);
 
   assign last      = &tries_q;
 
@@ -269,9 +271,9 @@ module mb4_page #(
         end
         COPY: begin
           // The bytes of the word, then its flags and its tag.
-          if (disturbed && !last) begin
-            step_q  <= 4'd0;
-            tries_q <= tries_q + 3'd1;
+          if (again && !last) begin
+            step_q <= 4'd0;
+            if (disturbed) tries_q <= tries_q + 3'd1;
           end else if (step_q == 4'd13) begin
             state_q <= REST;
             ack_q   <= req;

@@ -66,7 +66,8 @@ module mb4_recent #(
   logic [2:0]  wr_match;
   logic [3:0]  rd_match;  // without bit 0 of the address
   logic [3:0]  odd;
-  (* keep *) logic [1:0] hits;  // at the odd and at the even address
+  // At the odd and at the even address. Kept: synthesis does not know that bit 0 comes late.
+  (* keep *) logic [1:0] hits;
   logic [3:0]  move;      // entry takes the address of its newer neighbour
 
   // Only addresses of SCDATA (bit 7 = 0) and RDATA have bit 6 = 0.

@@ -18,9 +18,9 @@
 // - core,
 // - rd_clk_i: reads of the host,
 // - rd2_clk_i: second read port (SCDATA5..8 with Port2, SCDATA1..4 with Tap).
-// Latency: the bytes of a line and the changes of SVALID take effect one clock late. Read data are
-// valid after the edge with the enable. A read gives the bytes and flags of
-// both banks, bank 1 above bank 0.
+// Latency: what a line brings (bytes, delays, flags of SVALID) takes effect one clock late, in the
+// bank of its own clock. Read data are valid after the edge with the enable. A read gives the bytes
+// and flags of both banks, bank 1 above bank 0.
 // Vectors: bit i of a vector {2, 1} is for line i + 1. Host writes and clears act on the bank that
 // the host had at the write; it comes with them (mb4_reg_file).
 // Datasheet: pages 23, 26, 32, 33, 35, Tables 10, 20, 49, 61.
@@ -140,8 +140,8 @@ module mb4_scd_store #(
                       hi_split && hi_slave[2]};
 
   // A byte of a line comes late in its clock, and the host's byte waits for it. So the memories and
-  // SVALID get what the lines bring one clock later. The end of the frame switches the banks no
-  // earlier than that.
+  // SVALID get what the lines bring one clock later, with the bank of its own clock. The end of a
+  // frame switches the banks after that.
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
       {hi_wr_q, lo_wr_q}     <= '0;

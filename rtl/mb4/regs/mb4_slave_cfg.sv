@@ -10,7 +10,7 @@
 // Latency: read data are valid after the edge with the enable, until the next read.
 //
 // A reset does not clear a memory. rows_q tells which rows have been written since the reset; the
-// first byte that is written to a row clears the other three. A word list reads only rows whose
+// first byte that is written to a row clears the other three. A word list uses only rows whose
 // ENSCDx is set, so it never uses a row that has not been written. Like mb4_cfg_regs the rows are
 // quasi-static for the core.
 // Data channels that are not in Channels read 0, and they are never enabled.
@@ -44,7 +44,8 @@ module mb4_slave_cfg #(
   logic [2:0]  row;
   logic [3:0]  byte_en;
   logic [7:0]  crc_byte;
-  (* keep *) logic [12*CODES-1:0] crc;  // of crc_byte with its bit 0 = 1, 0
+  // Of crc_byte with its bit 0 = 1, 0. Kept: synthesis does not know that bit 0 comes late.
+  (* keep *) logic [12*CODES-1:0] crc;
 
   logic [CODES-1:0] ends;
   logic        unused;
