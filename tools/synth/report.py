@@ -228,6 +228,12 @@ def page(folder, axi_lines):
     return "\n".join(lines) + "\n"
 
 
+def with_part(text, lines):
+    """The page with one part anew; lines[0] is its title, which the page has already."""
+    before, _, after = text.partition(f"{lines[0]}\n")
+    return before + "\n".join(lines) + "\n\n" + after[after.index("## "):]
+
+
 def main():
     parser = project.Arguments(__doc__)
     parser.add_argument("folder", type=parser.folder)
@@ -247,15 +253,13 @@ def main():
                                         f"a fit on the UP5K"],
                        f"mb4_core: {hx8k['core']:.1f} MHz on the HX8K, fits the UP5K")
     path = project.ROOT / "docs" / "resources.md"
+    text = path.read_text(encoding="utf-8")
     if arguments.presets:
-        head = presets(folder)   # begins with the title of the part
-        before, _, after = path.read_text(encoding="utf-8").partition(f"{head[0]}\n")
-        path.write_text(before + "\n".join(head) + "\n\n" + after[after.index("## "):], encoding="utf-8")
-        return
-    before, _, after = path.read_text(encoding="utf-8").partition(f"{AXI_HEAD}\n")
-    if arguments.axi:
-        text = before + "\n".join(axi(folder)) + "\n\n" + after[after.index("## "):]
+        text = with_part(text, presets(folder))
+    elif arguments.axi:
+        text = with_part(text, axi(folder))
     elif arguments.mb4:
+        after = text.partition(f"{AXI_HEAD}\n")[2]
         text = page(folder, [AXI_HEAD, *after[:after.index("\n## ")].splitlines()])
     else:
         text = page(folder, axi(folder))
