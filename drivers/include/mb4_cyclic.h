@@ -342,19 +342,26 @@ typedef struct {
 } mb4_cyclic;
 
 enum {
-  MB4_STAGE_DATA,   /* HOLDBANK, data, status; in a chain also the end */
-  MB4_STAGE_LOOK,   /* FULL: HOLDBANK, status; unheld: status, with FULL twice */
-  MB4_STAGE_SECOND, /* FULL: data, status */
-  MB4_STAGE_UNHELD, /* SVALID = 0, data, status; then, if need be, data and status again */
-  MB4_STAGE_CLEAR,  /* FULL: data again, SVALID = 0, status; then, if need be, status again */
-  MB4_STAGE_END,    /* the bank is released; the result is known */
-  MB4_STAGE_LINES,  /* are the lines idle? */
-  MB4_STAGE_FREE    /* the bank was still held: release, SVALID = 0 */
+  MB4_STAGE_DATA,      /* HOLDBANK, data, status; in a chain also the end */
+  MB4_STAGE_LOOK,      /* FULL: HOLDBANK, status; unheld: status, with FULL twice */
+  MB4_STAGE_SECOND,    /* FULL: data, status */
+  MB4_STAGE_UNHELD,    /* SVALID = 0, data, status; then, if need be, data and status again */
+  MB4_STAGE_CLEAR,     /* FULL: data again, SVALID = 0, status; then, if need be, status again */
+  MB4_STAGE_END,       /* the bank is released; the result is known */
+  MB4_STAGE_LINES,     /* are the lines idle? */
+  MB4_STAGE_FREE,      /* the bank was still held: release, SVALID = 0 */
+  MB4_STAGE_PROVE_END, /* FULL_AND_RELEASE, after END: status */
+  MB4_STAGE_PROVE_FREE /* the same after FREE */
 };
 
 /* Number of words, a constant where there is only one. */
 static inline uint8_t mb4_cyclic_count(const mb4_cyclic *read, uint8_t with) {
   return (with & MB4_WITH_SEVERAL) != 0 ? read->count : 1;
+}
+
+/* A plan with a status follows the release of the bank. */
+static inline bool mb4_cyclic_proves(const mb4_cyclic *read, uint8_t with) {
+  return (with & MB4_WITH_FULL) != 0 && read->spi_check == MB4_SPI_CHECK_FULL_AND_RELEASE;
 }
 
 /* SVALID of a slave in 0xF2 and 0xF1, high and low byte. */
@@ -384,7 +391,7 @@ MB4_APART void mb4_cyclic_add_data(const mb4_cyclic *read, mb4_plan *plan, uint1
                                    uint8_t with) {
   /* With FULL the filler is what a disturbed opcode would write: not zeros, which may pass. */
   const uint8_t filler =
-      (with & MB4_WITH_FULL) != 0 && read->spi_check == MB4_SPI_CHECK_FULL ? 0x5A : 0;
+      (with & MB4_WITH_FULL) != 0 && read->spi_check >= MB4_SPI_CHECK_FULL ? 0x5A : 0;
   const uint8_t limit = read->wide ? 255 : MB4_PLAN_LONGEST;
   const mb4_word *word = read->words;
   const mb4_word *last = word + mb4_cyclic_count(read, with);
@@ -449,9 +456,18 @@ MB4_APART uint8_t mb4_cyclic_release(mb4_cyclic *read, mb4_plan *plan, uint8_t c
   return MB4_MORE;
 }
 
+/* A status shows whether the bank is free; until then it counts as held. */
+static inline uint8_t mb4_cyclic_prove(mb4_cyclic *read, mb4_plan *plan, uint8_t stage,
+                                       uint8_t code) {
+  read->watch->held = true;
+  (void)mb4_cyclic_next(read, plan, stage, code);
+  mb4_cyclic_add_status(plan);
+  return MB4_MORE;
+}
+
 /* Begins a try. */
 MB4_APART uint8_t mb4_cyclic_try(mb4_cyclic *read, mb4_plan *plan, uint8_t with) {
-  const bool full = (with & MB4_WITH_FULL) != 0 && read->spi_check == MB4_SPI_CHECK_FULL;
+  const bool full = (with & MB4_WITH_FULL) != 0 && read->spi_check >= MB4_SPI_CHECK_FULL;
   const bool unheld = (with & MB4_WITH_UNHELD) != 0 && read->unheld;
   (void)mb4_cyclic_next(read, plan, full || unheld ? MB4_STAGE_LOOK : MB4_STAGE_DATA, MB4_OK);
   if (!unheld) {
@@ -511,6 +527,11 @@ static inline void mb4_cyclic_plan(mb4_cyclic *read, mb4_plan *plan, uint8_t wit
   }
 }
 
+/* Constant bits of a status (pages 21, 22): MISO stuck at 0 or 1 fails them. `rx`: the frame. */
+static inline bool mb4_status_constant(const uint8_t *rx) {
+  return (rx[1] & MB4_CYCLIC_CONST0) != 0 && ((rx[2] | rx[3]) & MB4_CYCLIC_CONST1) == 0;
+}
+
 /* Takes a status. Returns MB4_OK, or what is wrong with it. */
 static inline uint8_t mb4_cyclic_take_status(mb4_cyclic *read, const mb4_plan *plan,
                                              uint8_t frame) {
@@ -520,14 +541,28 @@ static inline uint8_t mb4_cyclic_take_status(mb4_cyclic *read, const mb4_plan *p
   read->status[2] = rx[3];
   read->status[3] = rx[4];
   read->status[4] = rx[5];
-  /* Constant bits (pages 21, 22): MISO stuck at 0 or 1 fails them. */
-  if ((rx[1] & MB4_CYCLIC_CONST0) == 0 || ((rx[2] | rx[3]) & MB4_CYCLIC_CONST1) != 0) {
+  if (!mb4_status_constant(rx)) {
     return MB4_NOT_DETECTED;
   }
   read->running = read->access && (rx[1] & MB4_CYCLIC_REGEND) == 0;
   /* The chip must hold exactly what was written; AGS may have ended by an error. Without HOLDBANK
    * the bytes may come from two frames; with SWBANK or INIT they are other data. */
   return read->unheld || (rx[5] | MB4_CYCLIC_AGS) == MB4_CYCLIC_HOLD ? MB4_OK : MB4_CORRUPTED;
+}
+
+/* The status behind a release. 0xF4 must be AGS alone: the bank is not held, SWBANK has not
+ * switched it, no access was started. AGS may have ended by an error. Returns the result of the
+ * read so far, or what is wrong. */
+static inline uint8_t mb4_cyclic_take_proof(const mb4_cyclic *read, const mb4_plan *plan) {
+  const uint8_t *rx = mb4_plan_rx(plan, 0);
+  uint8_t code = MB4_CORRUPTED;
+  if (!mb4_status_constant(rx)) {
+    code = MB4_NOT_DETECTED;
+  } else if ((rx[5] | MB4_CYCLIC_AGS) == MB4_CYCLIC_AGS) {
+    read->watch->held = false;
+    code = MB4_OK;
+  }
+  return read->code == MB4_OK ? code : read->code;
 }
 
 /* Takes the bytes of SCDATAx. */
@@ -658,7 +693,7 @@ static inline uint16_t mb4_cyclic_take(mb4_cyclic *read, const mb4_plan *plan, u
     mb4_cyclic_load(plan, frame, word, slot, with);
     if (mb4_word_in(word, flags, with)) {
       slot->code = mb4_slot_good(word, slot, with) ? MB4_OK : MB4_CORRUPTED;
-      if ((with & MB4_WITH_FULL) != 0 && read->spi_check == MB4_SPI_CHECK_FULL &&
+      if ((with & MB4_WITH_FULL) != 0 && read->spi_check >= MB4_SPI_CHECK_FULL &&
           slot->code == MB4_OK && mb4_slot_needs_second(word, slot, with)) {
         second = (uint16_t)(second | mb4_word_flag(word));
       }
@@ -730,7 +765,7 @@ static inline void mb4_cyclic_mark(const mb4_cyclic *read, mb4_plan *plan, uint8
 /* Data and status of a held bank are here. */
 static inline uint8_t mb4_cyclic_held(mb4_cyclic *read, mb4_plan *plan, uint8_t frame,
                                       uint8_t with) {
-  const bool full = (with & MB4_WITH_FULL) != 0 && read->spi_check == MB4_SPI_CHECK_FULL;
+  const bool full = (with & MB4_WITH_FULL) != 0 && read->spi_check >= MB4_SPI_CHECK_FULL;
   const bool chained = read->chain && !read->again;
   const uint16_t valid = mb4_cyclic_valid(read);
   const uint16_t fresh = full ? read->fresh : 0;
@@ -964,6 +999,9 @@ static inline uint8_t mb4_cyclic_step(mb4_cyclic *read, mb4_plan *plan, bool tra
   if (stage == MB4_STAGE_FREE) {
     read->watch->held = !transferred;
     read->watch->news_us = now_us; /* no bank was switched meanwhile */
+    if (transferred && mb4_cyclic_proves(read, with)) {
+      return mb4_cyclic_prove(read, plan, MB4_STAGE_PROVE_FREE, code);
+    }
     return transferred ? mb4_cyclic_try(read, plan, with) : code;
   }
   if (stage == MB4_STAGE_END) {
@@ -971,7 +1009,15 @@ static inline uint8_t mb4_cyclic_step(mb4_cyclic *read, mb4_plan *plan, bool tra
     if (!transferred && (plan->frames > 1 || plan->size[0] > 2)) {
       return mb4_cyclic_release(read, plan, code);
     }
+    if (transferred && mb4_cyclic_proves(read, with)) {
+      return mb4_cyclic_prove(read, plan, MB4_STAGE_PROVE_END, code);
+    }
     read->watch->held = !transferred;
+  } else if ((with & MB4_WITH_FULL) != 0 && stage >= MB4_STAGE_PROVE_END) {
+    code = transferred ? mb4_cyclic_take_proof(read, plan) : code;
+    if (stage == MB4_STAGE_PROVE_FREE && code == MB4_OK) {
+      return mb4_cyclic_try(read, plan, with);
+    }
   } else if ((with & MB4_WITH_UNHELD) != 0 && read->unheld) {
     if (transferred) {
       code = stage == MB4_STAGE_LOOK ? mb4_cyclic_take_look(read, plan, with)
@@ -1054,9 +1100,11 @@ MB4_APART void mb4_cyclic_count_read(const mb4_cyclic *read, uint8_t code, uint3
  *   MB4_CORRUPTED, MB4_NOT_DETECTED, MB4_TRANSPORT, MB4_BANK_SWITCHED, MB4_TIMEOUT, MB4_LINE_ERROR
  *                      as Automatic::poll() in mb4/automatic.hpp describes them
  *
- * At most four calls a read without MB4_SPI_CHECK_FULL, six with it or unheld; one more after a
- * read that has ended without the release of the bank. A read may be given up: call this function
- * with transferred = false, without the frames, until it does not return MB4_MORE. */
+ * At most four calls a read; six with MB4_SPI_CHECK_FULL or unheld, seven with
+ * MB4_SPI_CHECK_FULL_AND_RELEASE. After a read that has ended without the release of the bank one
+ * more, with MB4_SPI_CHECK_FULL_AND_RELEASE two.
+ * A read may be given up: call this function with transferred = false, without the frames, until it
+ * does not return MB4_MORE. */
 static inline uint8_t mb4_cyclic_finish(mb4_cyclic *read, mb4_plan *plan, bool transferred,
                                         uint32_t now_us, uint8_t with) {
   const uint8_t code = mb4_cyclic_step(read, plan, transferred, now_us, with);

@@ -27,7 +27,7 @@ namespace mb4 {
 // Most SPI transfers of one Automatic::poll_slave(), whatever the chip answers. Beside a control
 // communication without Config::hold_beside_access it takes up to 9, with SpiCheck::kFull 15.
 inline constexpr unsigned kMaxPollSlaveTransfers = 8;
-// The same with SpiCheck::kFull.
+// The same with SpiCheck::kFull. SpiCheck::kFullAndRelease needs up to 2 more.
 inline constexpr unsigned kMaxPollSlaveTransfersChecked = 11;
 
 // Automatic frames, at the rate or on the event that Config::frame_start selects (table 44):
@@ -138,6 +138,7 @@ class Automatic {
   // where a stored CRC does not prove it, and the status once or twice after a 0x02 of its own.
   // Beside a control communication without Config::hold_beside_access the order is 0x05, 0x02,
   // data, 0x05, twice at most. After a read that could not release the bank, 2 more come first.
+  // SpiCheck::kFullAndRelease reads the status after each 0x07 that releases the bank.
   //
   // After a frame with a bad word (nSCDERR = 0) it checks the data of the slaves without SVALID as
   // well: a stored CRC that fits shows a word that has been read before. A bad word then gets the
@@ -198,15 +199,15 @@ class Automatic {
   //   0x05        0xF0..0xF4
   //   0x02        0xF1..0xF4: SVALID of the slave = 0, HOLDBANK = 0, AGS = 1
   // A bad word needs two more steps, of three frames and two. SpiCheck::kFull and a control
-  // communication without Config::hold_beside_access need up to six steps, as poll_slave() does:
-  // they decide between the transfers.
+  // communication without Config::hold_beside_access need up to six steps, as poll_slave() does,
+  // and SpiCheck::kFullAndRelease up to seven: they decide between the transfers.
   //
   // No other call on the Device may come between this one and the end of the read. To give up a
   // read, call finish() with transferred = false until it returns true, without making its frames.
   // Not touched: kInvalidArgument, kWrongMode, kUnsupported as for poll_slave().
   template <std::uint8_t With = MB4_WITH_ALL>
   Result<void> plan_slave(std::uint8_t slave, CyclicRead& read) {
-    return detail::Reads::plan<With>(chip_, read, slave, chip_.config.spi_check != SpiCheck::kFull);
+    return detail::Reads::plan<With>(chip_, read, slave, !chip_.checks_all());
   }
 
   // Takes what came back. `transferred`: every frame of `read` was made. `now_us`: the time, as
@@ -223,7 +224,7 @@ class Automatic {
   // neighbours in one; 0x05; 0x02. No frame is longer than 25 bytes, unless `wide` allows 66. Then
   // finish() until it returns true, and FrameRead::result(). kWrongMode (not touched).
   Result<void> plan(FrameRead& read, bool wide = false) {
-    return detail::Reads::begin(chip_, read, chip_.config.spi_check != SpiCheck::kFull, wide);
+    return detail::Reads::begin(chip_, read, !chip_.checks_all(), wide);
   }
   template <std::uint8_t With = MB4_WITH_ALL>
   [[nodiscard]] bool finish(FrameRead& read, bool transferred, std::uint32_t now_us) {

@@ -136,7 +136,7 @@ constexpr unsigned needed(const Config& config, std::uint8_t slave) {
   const SlaveConfig& one = config.slaves[slave - 1U];
   unsigned parts = one.data_bits > 32 ? unsigned{MB4_WITH_LONG} : 0U;
   parts |= one.gray ? unsigned{MB4_WITH_GRAY} : 0U;
-  parts |= config.spi_check == SpiCheck::kFull ? unsigned{MB4_WITH_FULL} : 0U;
+  parts |= config.spi_check >= SpiCheck::kFull ? unsigned{MB4_WITH_FULL} : 0U;
   return parts | (config.hold_beside_access ? 0U : unsigned{MB4_WITH_UNHELD});
 }
 

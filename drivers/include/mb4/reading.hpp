@@ -80,6 +80,7 @@ inline Result<Reading> to_result(const mb4_word& word, const mb4_slot& slot) {
 static_assert(static_cast<int>(Error::kCorrupted) == MB4_CORRUPTED);
 static_assert(static_cast<int>(Error::kBankSwitched) == MB4_BANK_SWITCHED);
 static_assert(static_cast<int>(SpiCheck::kFull) == MB4_SPI_CHECK_FULL);
+static_assert(static_cast<int>(SpiCheck::kFullAndRelease) == MB4_SPI_CHECK_FULL_AND_RELEASE);
 
 }  // namespace detail
 

@@ -183,7 +183,7 @@ const BadConfig kBadConfigs[] = {
      [] { return changed([](Config& c) { c.slaves[0].crc_polynomial = 0x18005; }); },
      Error::kInvalidConfig, ConfigField::kCrcPolynomial, 1},
     {"UnknownSpiCheck",
-     [] { return changed([](Config& c) { c.spi_check = static_cast<mb4::SpiCheck>(3); }); },
+     [] { return changed([](Config& c) { c.spi_check = static_cast<mb4::SpiCheck>(4); }); },
      Error::kInvalidConfig, ConfigField::kSpiCheck, 0},
     // Table 19: an SSI encoder's.
     {"GrayWithBissC", [] { return changed([](Config& c) { c.slaves[0].gray = true; }); },

@@ -776,4 +776,80 @@ TEST_F(Full, EachStepFails_ReleasesTheBank) {
   EXPECT_FALSE(step(frames[0], {kNone}));
 }
 
+// A status follows each release: 0xF4 must be AGS alone, or 0 if the chip has ended AGS.
+TEST_F(Full, ReleaseProven_IsGood) {
+  for (const std::uint8_t f4 : {std::uint8_t{0x01}, std::uint8_t{0x00}}) {
+    start(mb4::SpiCheck::kFullAndRelease);
+    const Bytes read_word = join({{0x09}, Bytes(8, 0x5A)});
+    const Bytes proven{0, 0xFA, 0, 0, 0, f4};
+    plan();
+    EXPECT_FALSE(step({kHold, kReadStatus}, {kNew}));
+    EXPECT_FALSE(step({read_word, kReadStatus}, {kWord, kNew}));
+    EXPECT_FALSE(step({kClearValid1, kReadStatus}, {kNone}));
+    EXPECT_FALSE(step({kAgs}, {}));
+    EXPECT_TRUE(step({kReadStatus}, {proven}));
+    EXPECT_EQ(read.result()->position, mb4test::kPosition);
+    plan();
+    EXPECT_FALSE(step({kHold, kReadStatus}, {kNone}));
+    EXPECT_FALSE(step({kAgs}, {}));
+    EXPECT_TRUE(step({kReadStatus}, {proven}));
+    EXPECT_EQ(read.result().error(), Error::kNoData);
+    bus.expect_write({0x07, 0x00});
+    ASSERT_TRUE(device.automatic().stop().ok());
+  }
+}
+
+// Whatever is wrong with 0xF4, the next read begins with a release, as often as it takes, and drops
+// what waits. The error of a read comes before that of its release.
+TEST_F(Full, ReleaseUnproven_NextReadBeginsWithIt) {
+  start(mb4::SpiCheck::kFullAndRelease);
+  struct Case {
+    Bytes status;
+    bool transferred;
+    Error error;
+  };
+  const Bytes proven{0, 0xFA, 0, 0, 0, 0x01};
+  const std::vector<Case> cases{
+      {{0, 0xFA, 0, 0, 0, 0x41}, true, Error::kCorrupted},    // lost: HOLDBANK
+      {{0, 0xFA, 0, 0, 0, 0x21}, true, Error::kCorrupted},    // SWBANK
+      {{0, 0xFA, 0, 0, 0, 0x09}, true, Error::kCorrupted},    // INSTR = 100
+      {{0, 0x00, 0, 0, 0, 0x00}, true, Error::kNotDetected},  // MISO at 0
+      {{0, 0xFF, 0xFF, 0xFF, 0xFF, 0xFF}, true, Error::kNotDetected},
+      {{}, false, Error::kTransport}};
+  const std::vector<Bytes> free{kAgs, kClearAllValid};
+  for (const Case& one : cases) {
+    SCOPED_TRACE(hex(one.status));
+    const auto prove = [&](bool good) {
+      if (good) return step({kReadStatus}, {proven});
+      return one.transferred ? step({kReadStatus}, {one.status}) : step({kReadStatus}, {}, false);
+    };
+    plan();
+    EXPECT_FALSE(step({kHold, kReadStatus}, {kNone}));
+    EXPECT_FALSE(step({kAgs}, {}));
+    EXPECT_TRUE(prove(false));
+    EXPECT_EQ(read.result().error(), one.error);
+    plan();
+    EXPECT_FALSE(step(free, {}));
+    EXPECT_TRUE(prove(false));
+    EXPECT_EQ(read.result().error(), one.error);
+    plan();
+    EXPECT_TRUE(step(free, {}, false));
+    EXPECT_EQ(read.result().error(), Error::kTransport);
+    plan();
+    EXPECT_FALSE(step(free, {}));
+    EXPECT_FALSE(prove(true));
+    EXPECT_FALSE(step({kHold, kReadStatus}, {}, false));
+    EXPECT_FALSE(step({kAgs}, {}));
+    EXPECT_TRUE(prove(false));
+    EXPECT_EQ(read.result().error(), Error::kTransport);
+    plan();
+    EXPECT_FALSE(step(free, {}));
+    EXPECT_FALSE(prove(true));
+    EXPECT_FALSE(step({kHold, kReadStatus}, {kNone}));
+    EXPECT_FALSE(step({kAgs}, {}));
+    EXPECT_TRUE(prove(true));
+    EXPECT_EQ(read.result().error(), Error::kNoData);
+  }
+}
+
 }  // namespace

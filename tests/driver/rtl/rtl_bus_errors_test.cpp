@@ -105,8 +105,10 @@ TEST(DriverCallErrors, NoSlave_NextIsTimeout) {
 
 // What an interrupt may rely on, whatever is checked and whether or not the data has a CRC.
 TEST(DriverCall, PollSlave_KeepsToItsTransfers) {
-  for (const mb4::SpiCheck check :
-       {mb4::SpiCheck::kOff, mb4::SpiCheck::kCrc, mb4::SpiCheck::kFull}) {
+  for (const mb4::SpiCheck check : {mb4::SpiCheck::kOff, mb4::SpiCheck::kCrc, mb4::SpiCheck::kFull,
+                                    mb4::SpiCheck::kFullAndRelease}) {
+    const bool full = check >= mb4::SpiCheck::kFull;
+    const unsigned proof = check == mb4::SpiCheck::kFullAndRelease ? 1 : 0;
     FaultyChip chip(
         "[[channel]]\nnumber = 1\n[[channel.slave]]\nprotocol = \"biss-c\"\n"
         "data_bits = 28\ndata = 0\n");
@@ -118,12 +120,12 @@ TEST(DriverCall, PollSlave_KeepsToItsTransfers) {
     chip.bus.plan({});
     ASSERT_TRUE(chip.device.automatic().poll_slave(1).ok());
     // All zeros are read twice with kFull.
-    EXPECT_EQ(chip.bus.count(), check == mb4::SpiCheck::kFull ? 8U : 4U);
-    EXPECT_LE(chip.bus.count(), check == mb4::SpiCheck::kFull ? mb4::kMaxPollSlaveTransfersChecked
-                                                              : mb4::kMaxPollSlaveTransfers);
+    EXPECT_EQ(chip.bus.count(), full ? 8U + proof : 4U);
+    EXPECT_LE(chip.bus.count(),
+              full ? mb4::kMaxPollSlaveTransfersChecked + 2 * proof : mb4::kMaxPollSlaveTransfers);
     chip.bus.plan({});
     EXPECT_EQ(chip.device.automatic().poll_slave(1).error(), Error::kNoData);
-    EXPECT_EQ(chip.bus.count(), check == mb4::SpiCheck::kFull ? 3U : 4U);
+    EXPECT_EQ(chip.bus.count(), full ? 3U + proof : 4U);
   }
 }
 

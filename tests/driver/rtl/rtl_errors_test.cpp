@@ -123,7 +123,7 @@ TEST(DriverCallErrors, ImpossibleConfiguration_IsRefusedBeforeAnyWrite) {
   config.ma_hz = 3'000'000;  // not in table 35
   EXPECT_EQ(chip.device.configure(config).error(), Error::kInvalidConfig);
   config = encoder(false);
-  config.spi_check = static_cast<mb4::SpiCheck>(3);
+  config.spi_check = static_cast<mb4::SpiCheck>(4);
   EXPECT_EQ(chip.device.configure(config).info().field, mb4::ConfigField::kSpiCheck);
   EXPECT_EQ(chip.bus.count(), 0U);
 }

@@ -8,6 +8,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
@@ -39,6 +40,8 @@ struct Setup {
   std::uint32_t crc;
   std::uint8_t slave;  // 1, or 2 behind another one
   mb4::Protocol protocol = mb4::Protocol::kBissC;
+  mb4::SpiCheck check = mb4::SpiCheck::kFull;
+  unsigned period_us = 50;  // of automatic frames
 };
 
 std::string scenario(const Setup& setup) {
@@ -47,7 +50,9 @@ std::string scenario(const Setup& setup) {
   std::string keys = "biss-c\"\ncontrol = true";
   if (setup.protocol == mb4::Protocol::kBissB) keys = "biss-b\"\ntimeout = 2";
   if (setup.protocol == mb4::Protocol::kSsi) keys = "ssi\"\ntimeout = 2\ngray = true";
-  return "[[channel]]\nnumber = 1\n" + (setup.slave == 2 ? first : std::string()) +
+  // Then a read fits between two frames.
+  const std::string fast = setup.period_us == 50 ? "" : "[host]\nsclk_hz = 10_000_000\n";
+  return fast + "[[channel]]\nnumber = 1\n" + (setup.slave == 2 ? first : std::string()) +
          "[[channel.slave]]\nprotocol = \"" + keys +
          "\nflag_bits = 0\nsource = \"ramp\"\nstart = 0\nstep = 1\ndata_bits = " +
          std::to_string(setup.data_bits) + "\ncrc = " + std::to_string(setup.crc) + "\n";
@@ -68,9 +73,10 @@ Config config(const Setup& setup) {
   config.channels[0].protocol = setup.protocol;
   if (setup.way != Way::kSingle && setup.way != Way::kAll) {
     config.frame_start = mb4::FrameStart::kPeriodic;
-    config.frame_period_clk = 1000;  // 50 us
+    config.frame_period_clk = 20 * setup.period_us;
   }
   config.hold_beside_access = setup.way != Way::kPollUnheld;
+  config.spi_check = setup.check;
   return config;
 }
 
@@ -93,7 +99,8 @@ class Drive {
   // One read. The position, if there is one; checks that it is right and new.
   std::optional<std::uint64_t> read() {
     const std::uint64_t before = frames();
-    if (automatic() && setup_.way != Way::kNext) chip.simulator.advance(60 * mb4::sim::kPsPerUs);
+    if (automatic() && setup_.way != Way::kNext)
+      chip.simulator.advance((setup_.period_us + 10) * mb4::sim::kPsPerUs);
     const mb4::Result<mb4::Reading> reading = call();
     if (!reading) {
       EXPECT_NE(reading.error(), Error::kInvalidArgument);
@@ -171,7 +178,8 @@ TEST_P(DriverFault, EveryFault_NeverAWrongOrOldPosition) {
     run.chip.bus.plan(fault);
     unnoticed += run.read().has_value() ? 1 : 0;
     if (GetParam().way == Way::kPollSlave || GetParam().way == Way::kPollBeside) {
-      EXPECT_LE(run.chip.bus.count(), mb4::kMaxPollSlaveTransfersChecked);
+      EXPECT_LE(run.chip.bus.count(), mb4::kMaxPollSlaveTransfersChecked +
+                                          (GetParam().check == mb4::SpiCheck::kFull ? 0 : 2));
     }
     if (GetParam().way == Way::kPollUnheld) {
       EXPECT_LE(run.chip.bus.count(), 12U);
@@ -215,6 +223,8 @@ INSTANTIATE_TEST_SUITE_P(
                     Setup{"Next26Crc6", Way::kNext, 26, 0x43, 1},
                     Setup{"PollSlave26Crc6", Way::kPollSlave, 26, 0x43, 1},
                     Setup{"PollSlave64Crc16Slave2", Way::kPollSlave, 64, 0x190D9, 2},
+                    Setup{"PollSlave26Release", Way::kPollSlave, 26, 0x43, 1, mb4::Protocol::kBissC,
+                          mb4::SpiCheck::kFullAndRelease},
                     Setup{"PollSlave26Beside", Way::kPollBeside, 26, 0x43, 1},
                     Setup{"PollSlave26Unheld", Way::kPollUnheld, 26, 0x43, 1},
                     Setup{"SingleBissB", Way::kSingle, 26, 0x43, 1, mb4::Protocol::kBissB},
@@ -222,5 +232,31 @@ INSTANTIATE_TEST_SUITE_P(
                     Setup{"SingleSsi", Way::kSingle, 25, 0, 1, mb4::Protocol::kSsi},
                     Setup{"PollSlaveSsi", Way::kPollSlave, 25, 0x43, 1, mb4::Protocol::kSsi}),
     [](const auto& test) { return test.param.name; });
+
+const Setup kRelease{
+    "", Way::kPollSlave, 26, 0x43, 1, mb4::Protocol::kBissC, mb4::SpiCheck::kFullAndRelease, 100};
+
+// A read comes so late that a frame is lost, and a bit of a byte for 0xF4 is flipped: HOLDBANK, or
+// the release of a read without or with a new word. Only kFullAndRelease finds SWBANK = 1: the
+// other bank holds the word that nobody has read.
+TEST(DriverFaultRelease, LateAndFlipped_NeverAnOldPosition) {
+  for (unsigned at = 0; at < 10 * 3 * 8; ++at) {
+    Drive run(kRelease);
+    run.chip.bus.plan({});
+    run.read();
+    std::size_t release = run.chip.bus.opcodes().size() - 1;  // the last 0x07 of a good read
+    while (run.chip.bus.opcodes()[release] != 0x07) --release;
+    const unsigned late_us = 60 + at % 10 * 10;
+    const std::size_t transfer = std::array<std::size_t, 3>{0, 2, release}[at / 10 % 3];
+    const std::size_t bit = 8 + at / 30;
+    SCOPED_TRACE(std::to_string(late_us) + " us late, transfer " + std::to_string(transfer) +
+                 ", bit " + std::to_string(bit));
+    run.chip.simulator.advance(late_us * mb4::sim::kPsPerUs);
+    run.chip.bus.plan({FaultKind::kFlipMosi, transfer, transfer, bit});
+    run.read();
+    run.chip.bus.plan({});
+    for (unsigned i = 0; i < 4; ++i) run.read();
+  }
+}
 
 }  // namespace

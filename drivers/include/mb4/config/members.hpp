@@ -63,7 +63,12 @@ enum class SpiCheck : std::uint8_t {
   //  * the status is read again after the data, and once more after SVALID is cleared;
   //  * 0xF4 and the registers that start a register access are read back after the write;
   //  * registers of slaves are read twice from the chip.
+  // What is left: a disturbed release of the bank (docs/driver.md).
   kFull = 2,
+  // As kFull, and the status is read after each release of the bank: 6 bytes more a read. If 0xF4
+  // is wrong there, the read has failed, the next read begins with the release and drops the words
+  // that have waited, and the next register access begins with BREAK.
+  kFullAndRelease = 3,
 };
 
 // One single-cycle data channel of the chip.

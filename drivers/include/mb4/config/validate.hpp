@@ -55,7 +55,7 @@ constexpr ConfigField wrong_in_chip(const Config& config) {
   if (!is_code(config.line_interface, LineInterface::kLvds)) {
     return ConfigField::kLineInterface;
   }
-  if (!is_code(config.spi_check, SpiCheck::kFull)) {
+  if (!is_code(config.spi_check, SpiCheck::kFullAndRelease)) {
     return ConfigField::kSpiCheck;
   }
   if (config.frame_timeout_us > kMaxFrameTimeoutUs) {

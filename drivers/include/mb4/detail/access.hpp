@@ -271,6 +271,10 @@ inline Result<void> Procedures::access(ChipState& chip, Operation& op, std::uint
         // instruction was lost and the access before would count as this one; or this access has
         // failed at once (nREGERR = 0). One disturbed status must not hide an access that runs.
         const Result<void> seen = look(op);
+        // A disturbed SWBANK has switched the banks: the next read drops the words that wait.
+        if (seen && (op.status_.get<regs::SWBANK>() | op.status_.get<regs::HOLDBANK>()) != 0) {
+          chip.watch.held = true;
+        }
         if (!seen || (op.status_.control_ended() && !op.status_.control_error())) {
           if (op.made_ != 1) {
             mb4_cyclic_add_status(&op.plan_);

@@ -170,7 +170,7 @@ struct ChipState {
                               : ErrorInfo();
   }
 
-  [[nodiscard]] bool checks_all() const { return config.spi_check == SpiCheck::kFull; }
+  [[nodiscard]] bool checks_all() const { return config.spi_check >= SpiCheck::kFull; }
 
   // Time from BREAK until all slaves are ready, by any clock. Slaves of BiSS B may be in register
   // mode and need longer.
