@@ -199,7 +199,7 @@ static inline void mb4_word_set(mb4_word *word, uint8_t slave, const mb4_slave_c
 enum {
   MB4_WITH_LONG = 1,     /* data of more than 32 bits */
   MB4_WITH_GRAY = 2,     /* SSI with Gray code */
-  MB4_WITH_FULL = 4,     /* MB4_SPI_CHECK_FULL */
+  MB4_WITH_FULL = 4,     /* MB4_SPI_CHECK_FULL, _FULL_AND_RELEASE */
   MB4_WITH_UNHELD = 8,   /* without HOLDBANK beside a register access */
   MB4_WITH_SEVERAL = 16, /* more than one slave delivers data */
   MB4_WITH_BEATS = 128,  /* no MB4_TIMEOUT where the reads meet the end of each frame for a while;
@@ -295,7 +295,8 @@ typedef struct {
   uint8_t lines;       /* bits of 0xF8 that are 1 while the lines are idle: SL1, SL2 */
   bool several;        /* more than one slave delivers data */
   bool held;           /* a read has ended without the release of the bank: the next one begins with
-                          it; clear it when frames are started */
+                          it; when frames are started clear it, with MB4_SPI_CHECK_FULL_AND_RELEASE
+                          set it */
   uint8_t taken;       /* slaves (bit 0 is slave 1) of which a read of one has taken a good word */
   uint32_t good_us[MB4_SLAVES]; /* when; set them when frames are started */
   mb4_counts *counts;           /* for MB4_WITH_COUNTS; may be null */
@@ -322,7 +323,7 @@ typedef struct {
   bool wide;         /* SPI frames may be longer than 25 bytes: up to 66 */
   bool unheld;       /* a register access runs, and the chip allows no HOLDBANK beside it */
   bool access;       /* a register access has begun, and its end has not been seen */
-  bool chain;        /* one plan; not with MB4_SPI_CHECK_FULL, not unheld */
+  bool chain;        /* one plan; not with MB4_SPI_CHECK_FULL or _FULL_AND_RELEASE, not unheld */
   /* Results. */
   /* These two with MB4_WITH_SEVERAL: */
   bool told;      /* the slots hold the result of each slave; otherwise the code is that of all */
@@ -517,6 +518,9 @@ static inline void mb4_cyclic_plan(mb4_cyclic *read, mb4_plan *plan, uint8_t wit
       mb4_cyclic_add_instruction(plan, MB4_CYCLIC_AGS);
     }
     mb4_cyclic_add_clear(plan, 0xAAAAU, 4); /* SVALID1 to 8: of the other slaves too */
+    if (mb4_cyclic_proves(read, with)) {
+      mb4_cyclic_add_clear(plan, 0xAAAAU, 4); /* no status shows that one was lost */
+    }
   } else if (read->built == plan) {
     read->stage = MB4_STAGE_DATA;
     read->code = MB4_OK;
@@ -551,8 +555,8 @@ static inline uint8_t mb4_cyclic_take_status(mb4_cyclic *read, const mb4_plan *p
 }
 
 /* The status behind a release. 0xF4 must be AGS alone: the bank is not held, SWBANK has not
- * switched it, no access was started. AGS may have ended by an error. Returns the result of the
- * read so far, or what is wrong. */
+ * switched it, no access was started. AGS may have ended by an error. BREAK reads 0, so it is not
+ * seen: frames stay away then. Returns the result of the read so far, or what is wrong. */
 static inline uint8_t mb4_cyclic_take_proof(const mb4_cyclic *read, const mb4_plan *plan) {
   const uint8_t *rx = mb4_plan_rx(plan, 0);
   uint8_t code = MB4_CORRUPTED;
@@ -999,7 +1003,7 @@ static inline uint8_t mb4_cyclic_step(mb4_cyclic *read, mb4_plan *plan, bool tra
   if (stage == MB4_STAGE_FREE) {
     read->watch->held = !transferred;
     read->watch->news_us = now_us; /* no bank was switched meanwhile */
-    if (transferred && mb4_cyclic_proves(read, with)) {
+    if (transferred && !read->unheld && mb4_cyclic_proves(read, with)) {
       return mb4_cyclic_prove(read, plan, MB4_STAGE_PROVE_FREE, code);
     }
     return transferred ? mb4_cyclic_try(read, plan, with) : code;

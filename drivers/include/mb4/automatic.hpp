@@ -27,8 +27,9 @@ namespace mb4 {
 // Most SPI transfers of one Automatic::poll_slave(), whatever the chip answers. Beside a control
 // communication without Config::hold_beside_access it takes up to 9, with SpiCheck::kFull 15.
 inline constexpr unsigned kMaxPollSlaveTransfers = 8;
-// The same with SpiCheck::kFull. SpiCheck::kFullAndRelease needs up to 2 more.
-inline constexpr unsigned kMaxPollSlaveTransfersChecked = 11;
+// The same with SpiCheck::kFull. SpiCheck::kFullAndRelease needs up to 3 more: one at the end, two
+// after a read that could not release the bank.
+inline constexpr unsigned kMaxPollSlaveTransfersChecked = 12;
 
 // Automatic frames, at the rate or on the event that Config::frame_start selects (table 44):
 //
@@ -138,7 +139,8 @@ class Automatic {
   // where a stored CRC does not prove it, and the status once or twice after a 0x02 of its own.
   // Beside a control communication without Config::hold_beside_access the order is 0x05, 0x02,
   // data, 0x05, twice at most. After a read that could not release the bank, 2 more come first.
-  // SpiCheck::kFullAndRelease reads the status after each 0x07 that releases the bank.
+  // SpiCheck::kFullAndRelease reads the status after each 0x07 that releases the bank, and writes
+  // the 0x02 of the 2 more twice.
   //
   // After a frame with a bad word (nSCDERR = 0) it checks the data of the slaves without SVALID as
   // well: a stored CRC that fits shows a word that has been read before. A bad word then gets the

@@ -99,6 +99,8 @@ TEST_P(ChipFuzz, AnySession_EndsAndRecovers) {
     std::printf("%8llu in %6llu sessions  %s\n",
                 static_cast<unsigned long long>(counts.total[what]),
                 static_cast<unsigned long long>(counts.sessions[what]), FuzzCounts::name(what));
+    // Words that the test cannot judge are no aim.
+    if (what == FuzzCounts::kAliasesUnclear) continue;
     // Only longer runs reach rare events.
     if (counts.number >= 5000 || (counts.number >= 200 && FuzzCounts::is_common(what))) {
       EXPECT_GT(counts.total[what], 0U) << FuzzCounts::name(what);

@@ -46,11 +46,13 @@ const Bytes kBadWord = join({mb4test::kData4, {0, 0, 0, 0x3F}});
 Bytes held(std::uint8_t f0, std::uint8_t valid) { return {0, f0, valid, 0, 0, 0x41}; }
 const Bytes kNew = held(0xFA, 0x02);
 const Bytes kNone = held(0xFA, 0x00);
+const Bytes kProven{0, 0xFA, 0, 0, 0, 0x01};
 const Bytes kBad = held(0x6A, 0x00);  // nSCDERR = 0, nERR = 0
 
 class CyclicTest : public testing::Test {
  protected:
-  // Slave 1, and slaves 2.. with the same word if `slaves` is more than 1.
+  // Slave 1, and slaves 2.. with the same word if `slaves` is more than 1. With kFullAndRelease the
+  // first read begins with a release.
   void start(mb4::SpiCheck check, unsigned slaves = 1) {
     mb4::Config config = mb4test::encoder26();
     config.spi_check = check;
@@ -67,6 +69,7 @@ class CyclicTest : public testing::Test {
     mb4test::expect_image(bus, image, answer);
     ASSERT_TRUE(device.configure(config).ok());
     bus.expect_write(kAgs);
+    if (check == mb4::SpiCheck::kFullAndRelease) bus.expect_read(kReadStatus, kProven);
     clock.time_us = 1000;
     clock.step_us = 0;
     ASSERT_TRUE(device.automatic().start().ok());
@@ -100,6 +103,7 @@ class CyclicTest : public testing::Test {
   mb4::CyclicRead read;
   std::uint32_t now_us = 1000;
   const std::vector<Bytes> kChain{kHold, kReadWord, kReadStatus, kClearValid1AndRelease};
+  const std::vector<Bytes> kFree{kAgs, kClearAllValid, kClearAllValid};
   const std::vector<Bytes> kHeld{kHold, kReadWord, kReadStatus};
 };
 
@@ -783,6 +787,8 @@ TEST_F(Full, ReleaseProven_IsGood) {
     const Bytes read_word = join({{0x09}, Bytes(8, 0x5A)});
     const Bytes proven{0, 0xFA, 0, 0, 0, f4};
     plan();
+    EXPECT_FALSE(step(kFree, {}));
+    EXPECT_FALSE(step({kReadStatus}, {proven}));
     EXPECT_FALSE(step({kHold, kReadStatus}, {kNew}));
     EXPECT_FALSE(step({read_word, kReadStatus}, {kWord, kNew}));
     EXPECT_FALSE(step({kClearValid1, kReadStatus}, {kNone}));
@@ -808,7 +814,6 @@ TEST_F(Full, ReleaseUnproven_NextReadBeginsWithIt) {
     bool transferred;
     Error error;
   };
-  const Bytes proven{0, 0xFA, 0, 0, 0, 0x01};
   const std::vector<Case> cases{
       {{0, 0xFA, 0, 0, 0, 0x41}, true, Error::kCorrupted},    // lost: HOLDBANK
       {{0, 0xFA, 0, 0, 0, 0x21}, true, Error::kCorrupted},    // SWBANK
@@ -816,40 +821,55 @@ TEST_F(Full, ReleaseUnproven_NextReadBeginsWithIt) {
       {{0, 0x00, 0, 0, 0, 0x00}, true, Error::kNotDetected},  // MISO at 0
       {{0, 0xFF, 0xFF, 0xFF, 0xFF, 0xFF}, true, Error::kNotDetected},
       {{}, false, Error::kTransport}};
-  const std::vector<Bytes> free{kAgs, kClearAllValid};
+  plan();
+  EXPECT_FALSE(step(kFree, {}));
+  EXPECT_FALSE(step({kReadStatus}, {kProven}));
   for (const Case& one : cases) {
     SCOPED_TRACE(hex(one.status));
     const auto prove = [&](bool good) {
-      if (good) return step({kReadStatus}, {proven});
+      if (good) return step({kReadStatus}, {kProven});
       return one.transferred ? step({kReadStatus}, {one.status}) : step({kReadStatus}, {}, false);
     };
-    plan();
     EXPECT_FALSE(step({kHold, kReadStatus}, {kNone}));
     EXPECT_FALSE(step({kAgs}, {}));
     EXPECT_TRUE(prove(false));
     EXPECT_EQ(read.result().error(), one.error);
     plan();
-    EXPECT_FALSE(step(free, {}));
+    EXPECT_FALSE(step(kFree, {}));
     EXPECT_TRUE(prove(false));
     EXPECT_EQ(read.result().error(), one.error);
     plan();
-    EXPECT_TRUE(step(free, {}, false));
+    EXPECT_TRUE(step(kFree, {}, false));
     EXPECT_EQ(read.result().error(), Error::kTransport);
     plan();
-    EXPECT_FALSE(step(free, {}));
+    EXPECT_FALSE(step(kFree, {}));
     EXPECT_FALSE(prove(true));
     EXPECT_FALSE(step({kHold, kReadStatus}, {}, false));
     EXPECT_FALSE(step({kAgs}, {}));
     EXPECT_TRUE(prove(false));
     EXPECT_EQ(read.result().error(), Error::kTransport);
     plan();
-    EXPECT_FALSE(step(free, {}));
+    EXPECT_FALSE(step(kFree, {}));
     EXPECT_FALSE(prove(true));
     EXPECT_FALSE(step({kHold, kReadStatus}, {kNone}));
     EXPECT_FALSE(step({kAgs}, {}));
     EXPECT_TRUE(prove(true));
     EXPECT_EQ(read.result().error(), Error::kNoData);
+    plan();
   }
+}
+
+// AGS = 1 that is not in the chip: the start has failed, and the next one begins with BREAK.
+TEST_F(Full, StartUnproven_IsCorrupted) {
+  start(mb4::SpiCheck::kFullAndRelease);
+  bus.expect_write({0x07, 0x00});
+  ASSERT_TRUE(device.automatic().stop().ok());
+  bus.expect_write({0x07, 0x80, 0x00});
+  bus.expect_write(kClearValid1);
+  bus.expect_write(kAgs);
+  bus.expect_read(kReadStatus, {0, 0xFA, 0, 0, 0, 0x21});
+  EXPECT_EQ(device.automatic().start().error(), Error::kCorrupted);
+  EXPECT_FALSE(device.automatic().running());
 }
 
 }  // namespace

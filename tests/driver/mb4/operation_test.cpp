@@ -40,6 +40,7 @@ const Bytes kOver = status(0xFB, 0x00);
 const Bytes kDone = status(0xFF, 0x00);
 const Bytes kRunsAgs = status(0xFB, 0x00, 0x09);
 const Bytes kDoneAgs = status(0xFF, 0x00, 0x01);
+const Bytes kProven = status(0xFB, 0x00, 0x01);
 const Bytes kReadLines = join({{0x05}, zeros(9)});
 const Bytes kIdleLines{0, 0xFB, 0, 0, 0, 0, 0, 0, 0, 0x11};  // SL1, SL2 in 0xF8
 const Bytes kRequest{0x02, 0xE2, 0x44, 0x01, 0x01, 0xC0};
@@ -61,7 +62,17 @@ class OperationTest : public testing::Test {
   }
   void start() {
     bus.expect_write(kAgs);
+    if (device.config().spi_check == mb4::SpiCheck::kFullAndRelease) {
+      bus.expect_read(kReadStatus, kProven);
+    }
     ASSERT_TRUE(device.automatic().start().ok());
+  }
+  // A read of a position sees 0xF4 with INSTR = 100, which nobody has written.
+  void read_sees_stray() {
+    bus.expect_write({0x07, 0x41});
+    bus.expect_read(kReadStatus, status(0xFB, 0x00, 0x49));
+    bus.expect_write(kAgs);
+    EXPECT_EQ(device.automatic().poll_slave(1).error(), Error::kCorrupted);
   }
   // The step must be `frames`, after `pause_us`; the chip answers with `answers`, one for each
   // frame that reads. Returns finish().
@@ -829,10 +840,7 @@ TEST_F(Access, DisturbedStatus_StopsNothing) {
 TEST_F(Access, AfterACorruptedRead_BeginsWithBreakAndANewStart) {
   configure(mb4::SpiCheck::kFull);
   start();
-  bus.expect_write({0x07, 0x41});
-  bus.expect_read(kReadStatus, status(0xFB, 0x00, 0x49));
-  bus.expect_write(kAgs);
-  EXPECT_EQ(device.automatic().poll_slave(1).error(), Error::kCorrupted);
+  read_sees_stray();
   for (const bool lost : {true, false}) {
     read();
     EXPECT_EQ(device.automatic().poll_slave(1).error(), Error::kWrongMode);
@@ -843,10 +851,7 @@ TEST_F(Access, AfterACorruptedRead_BeginsWithBreakAndANewStart) {
     bus.expect_write(kClearValid1);
     bus.expect_write(kAgs);
     ASSERT_TRUE(device.automatic().restart().ok());
-    bus.expect_write({0x07, 0x41});
-    bus.expect_read(kReadStatus, status(0xFB, 0x00, 0x49));
-    bus.expect_write(kAgs);
-    EXPECT_EQ(device.automatic().poll_slave(1).error(), Error::kCorrupted);
+    read_sees_stray();
   }
   EXPECT_FALSE(step({kClearValid1, kAgs, kRequest, kReadRequest}, {{0, 0, 0x44, 0x01, 0x01, 0xC0}},
                     true, kPause));
@@ -856,6 +861,95 @@ TEST_F(Access, AfterACorruptedRead_BeginsWithBreakAndANewStart) {
   EXPECT_FALSE(step(kTakeFirst, {{0, 0, 1, 2}, kDoneAgs}));
   EXPECT_TRUE(step(kTakeAgain, {{0, 0, 1, 2}}));
   ends_with(Error::kNone);
+}
+
+// The access that nobody asked for may take the bytes of this one, so this one does not begin.
+TEST_F(Access, CorruptedReadBetweenSteps_BeginsNothing) {
+  configure(mb4::SpiCheck::kFull);
+  start();
+  read();
+  read_sees_stray();
+  EXPECT_TRUE(step({kRequest, kReadRequest}, {{0, 0, 0x44, 0x01, 0x01, 0xC0}}));
+  ends_with(Error::kCorrupted);
+  EXPECT_TRUE(device.automatic().running());
+  read();
+  EXPECT_FALSE(step({{0x07, 0x80, 0x00}}, {}));
+}
+
+// SWBANK = 1 in the instruction of an access: the next read drops what waits. Where a chip allows
+// no HOLDBANK beside an access no read can, and BREAK ends the access.
+TEST_F(Access, BankSwitchedByTheInstruction_IsReleasedOrEnds) {
+  for (const bool hold : {true, false}) {
+    mb4::Config config = mb4test::encoder26();
+    config.spi_check = mb4::SpiCheck::kFull;
+    config.hold_beside_access = hold;
+    mb4test::expect_configure(bus, 0xE7, 0x00);
+    ASSERT_TRUE(device.configure(config).ok());
+    start();
+    read();
+    EXPECT_FALSE(step({kRequest, kReadRequest}, {{0, 0, 0x44, 0x01, 0x01, 0xC0}}));
+    EXPECT_FALSE(step({kFrameAgs, kReadStatus}, {status(0xFB, 0x00, 0x29)}));
+    if (hold) {
+      bus.expect_write(kAgs);
+      bus.expect_write({0x02, 0xF1, 0x55, 0x55});
+      bus.expect_write({0x07, 0x41});
+      bus.expect_read(kReadStatus, status(0xFB, 0x00, 0x41));
+      bus.expect_write(kAgs);
+      EXPECT_EQ(device.automatic().poll_slave(1).error(), Error::kNoData);
+    }
+    EXPECT_TRUE(hold ? !step({kReadStatus}, {kRunsAgs}) : step({kBreak}, {}));
+    if (!hold) ends_with(Error::kCorrupted);
+    bus.expect_write(kBreak);
+    ASSERT_TRUE(device.break_transmission().ok());
+    EXPECT_TRUE(device.finish(op, false, now_us));
+  }
+}
+
+// ---- SpiCheck::kFullAndRelease ------------------------------------------------------------------
+
+// The request before becomes a read before new bytes of RDATA are in the chip; a read needs none.
+TEST_F(Access, ReleaseProven_WriteAndCommandReadFirst) {
+  configure(mb4::SpiCheck::kFullAndRelease);
+  start();
+  const std::uint8_t value = 0x5C;
+  ASSERT_TRUE(
+      device.control().plan_write(op, {1, 0}, 0x44, mb4::Span<const std::uint8_t>(&value, 1)).ok());
+  EXPECT_FALSE(
+      step({{0x02, 0xE2, 0x00, 0x00, 0x01, 0xC0}, kReadRequest}, {{0, 0, 0x00, 0x00, 0x01, 0xC0}}));
+  EXPECT_FALSE(step({{0x02, 0x80, 0x5C}, {0x03, 0x80, 0}}, {{0, 0, 0x5C}}));
+  EXPECT_FALSE(
+      step({{0x02, 0xE2, 0xC4, 0x00, 0x01, 0xC0}, kReadRequest}, {{0, 0, 0xC4, 0x00, 0x01, 0xC0}}));
+  EXPECT_FALSE(step({kFrameAgs, kReadStatus}, {kRunsAgs}));
+  EXPECT_TRUE(step({kReadStatus}, {kDoneAgs}));
+  ends_with(Error::kNone);
+  mb4::Command command;
+  command.ids = 0x05;
+  ASSERT_TRUE(device.control().plan_command(op, command).ok());
+  EXPECT_TRUE(step({{0x02, 0xE2, 0x00, 0x00, 0x01, 0xC0}, kReadRequest}, {zeros(6)}));
+  ends_with(Error::kCorrupted);
+  read();
+  EXPECT_FALSE(step({kRequest, kReadRequest}, {{0, 0, 0x44, 0x01, 0x01, 0xC0}}));
+}
+
+// After BREAK the frames run again; 0xF4 is proven before the request.
+TEST_F(Access, ReleaseProven_NewStartToo) {
+  for (const bool proven : {false, true}) {
+    configure(mb4::SpiCheck::kFullAndRelease);
+    start();
+    bus.expect_write(kAgs);
+    bus.expect_write({0x02, 0xF1, 0x55, 0x55});
+    bus.expect_write({0x02, 0xF1, 0x55, 0x55});
+    bus.expect_read(kReadStatus, status(0xFB, 0x00, 0x09));
+    EXPECT_EQ(device.automatic().poll_slave(1).error(), Error::kCorrupted);
+    read();
+    EXPECT_FALSE(step({{0x07, 0x80, 0x00}}, {}));
+    EXPECT_NE(step({kClearValid1, kAgs, kReadStatus}, {proven ? kProven : status(0xFB, 0x00, 0x21)},
+                   true, kPause),
+              proven);
+    if (proven) {
+      EXPECT_FALSE(step({kRequest, kReadRequest}, {{0, 0, 0x44, 0x01, 0x01, 0xC0}}));
+    }
+  }
 }
 
 // 50 frames of 220 us, 4096 * 64 periods of MA and a quarter, 200 us.
@@ -998,6 +1092,35 @@ TEST_F(Access, ActuatorWithoutStatus_IsReported) {
       EXPECT_TRUE(step(look, {same, zeros(6)}, error == Error::kNotDetected));
     }
     ends_with(error);
+  }
+}
+
+// The release of an actuator's bank is proven too; otherwise the next read drops what waits.
+TEST_F(Access, ActuatorsRelease_IsProven) {
+  mb4::Config config = mb4test::encoder26();
+  config.mo = config.slaves[0].actuator = true;
+  config.spi_check = mb4::SpiCheck::kFullAndRelease;
+  Bytes image = mb4test::configuration();
+  Bytes answer = mb4test::read_back();
+  for (Bytes* bytes : {&image, &answer}) {
+    (*bytes)[0] = 0xDB;            // LSTOP1 = 1 (table 18)
+    (*bytes)[0xE5 - 0xC0] = 0x42;  // EN_MO (table 39)
+    (*bytes)[0xE7 - 0xC0] = 0x00;  // NOCRC = 0 (table 21)
+    (*bytes)[0xEF - 0xC0] = 0x01;  // ACTnSENS1 (table 17)
+  }
+  mb4test::expect_image(bus, image, answer);
+  ASSERT_TRUE(device.configure(config).ok());
+  start();
+  const Bytes held = status(0xFB, 0x00, 0x41);
+  const std::vector<Bytes> word{{0x02, 0x00, 0xBF, 0x37, 0xAF, 0x0A}, {0x03, 0x00, 0, 0, 0, 0}};
+  for (const bool proven : {false, true}) {
+    ASSERT_TRUE(device.plan_actuator(op, 1, mb4test::kRaw).ok());
+    EXPECT_FALSE(step({{0x07, 0x41}, kReadStatus}, {held}));
+    EXPECT_FALSE(step(word, {{0, 0, 0xBF, 0x37, 0xAF, 0x0A}}));
+    const bool ended = step({kAgs, {0x02, 0xF1, 0xFF, 0xFF}, kReadStatus},
+                            {proven ? kProven : status(0xFB, 0x00, 0x21)});
+    EXPECT_EQ(ended, !proven);
+    if (ended) ends_with(Error::kCorrupted);
   }
 }
 

@@ -116,15 +116,22 @@ TEST(DriverCall, PollSlave_KeepsToItsTransfers) {
     config.spi_check = check;
     ASSERT_TRUE(chip.device.configure(config).ok());
     ASSERT_TRUE(chip.device.automatic().start().ok());
+    if (proof != 0) {  // the first read drops what has waited since the start
+      EXPECT_EQ(chip.device.automatic().poll_slave(1).error(), Error::kNoData);
+    }
     chip.simulator.advance(150 * mb4::sim::kPsPerUs);
     chip.bus.plan({});
     ASSERT_TRUE(chip.device.automatic().poll_slave(1).ok());
     // All zeros are read twice with kFull.
     EXPECT_EQ(chip.bus.count(), full ? 8U + proof : 4U);
     EXPECT_LE(chip.bus.count(),
-              full ? mb4::kMaxPollSlaveTransfersChecked + 2 * proof : mb4::kMaxPollSlaveTransfers);
-    chip.bus.plan({});
-    EXPECT_EQ(chip.device.automatic().poll_slave(1).error(), Error::kNoData);
+              full ? mb4::kMaxPollSlaveTransfersChecked + 3 * proof : mb4::kMaxPollSlaveTransfers);
+    Error again = Error::kNone;  // the first read may have been so long that a frame has ended
+    for (unsigned i = 0; i < 3 && again == Error::kNone; ++i) {
+      chip.bus.plan({});
+      again = chip.device.automatic().poll_slave(1).error();
+    }
+    EXPECT_EQ(again, Error::kNoData);
     EXPECT_EQ(chip.bus.count(), full ? 3U + proof : 4U);
   }
 }

@@ -171,11 +171,14 @@ class Drive {
   void access(std::uint64_t i) {
     if (!running_) {
       if (!chip.device.automatic().running()) return;
-      value_ = static_cast<std::uint8_t>(writes_ ? below(256) : value_);
+      if (writes_) {
+        address_ = static_cast<std::uint8_t>(0x60 + below(4));
+        value_ = static_cast<std::uint8_t>(below(256));
+      }
       const Result<void> planned =
-          writes_ ? chip.device.control().plan_write(op_, {1, 0}, 0x60,
+          writes_ ? chip.device.control().plan_write(op_, {1, 0}, address_,
                                                      mb4::Span<const std::uint8_t>(&value_, 1))
-                  : chip.device.control().plan_read(op_, {1, 0}, 0x60, {&back_, 1});
+                  : chip.device.control().plan_read(op_, {1, 0}, address_, {&back_, 1});
       EXPECT_TRUE(planned.ok()) << mb4::to_string(planned.error());
       running_ = true;
       begun_ = i;
@@ -186,7 +189,7 @@ class Drive {
     if (op_.result().ok()) {
       ++accesses;
       if (writes_) {
-        EXPECT_EQ(chip.simulator.slave(1)->reg_read(0x60), value_)
+        EXPECT_EQ(chip.simulator.slave(1)->reg_read(address_), value_)
             << "begun in tick " << begun_ << ", ended in " << i << story_;
       } else {
         EXPECT_EQ(back_, value_) << "begun in tick " << begun_ << ", ended in " << i << story_;
@@ -254,6 +257,7 @@ class Drive {
   Fault fault_;
   std::string story_;  // the last faults of SPI
   bool writes_ = true;
+  std::uint8_t address_ = 0x60;
   std::uint8_t value_ = 0;
   std::uint8_t back_ = 0;
 };

@@ -63,11 +63,13 @@ enum class SpiCheck : std::uint8_t {
   //  * the status is read again after the data, and once more after SVALID is cleared;
   //  * 0xF4 and the registers that start a register access are read back after the write;
   //  * registers of slaves are read twice from the chip.
-  // What is left: a disturbed release of the bank (docs/driver.md).
+  // What is left: disturbed bytes of 0xF4 that release the bank or start frames (docs/driver.md).
   kFull = 2,
-  // As kFull, and the status is read after each release of the bank: 6 bytes more a read. If 0xF4
-  // is wrong there, the read has failed, the next read begins with the release and drops the words
-  // that have waited, and the next register access begins with BREAK.
+  // As kFull, and the status is read after each byte of 0xF4 that releases the bank or starts
+  // automatic frames: 6 bytes more a read. If 0xF4 is wrong there, the call has failed, the next
+  // read begins with the release and drops the words that have waited, and the next register access
+  // begins with BREAK. The first read after a start drops what has waited too. A write of registers
+  // and a command begin with one step more, which makes the request before a read.
   kFullAndRelease = 3,
 };
 

@@ -7,6 +7,7 @@
 #ifndef MB4_DETAIL_ACCESS_HPP_
 #define MB4_DETAIL_ACCESS_HPP_
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 
@@ -74,12 +75,14 @@ inline constexpr std::uint32_t kBadLooks = 3;
 // describe this access.
 inline void Procedures::begin_access(ChipState& chip, Operation& op, bool biss_b) {
   begin(chip, op, access_step);
-  // Beside automatic frames BREAK is followed by a new start of the frames, in the access itself.
-  op.bad_ = chip.automatic && chip.control.stray ? 1 : 0;
-  if (biss_b || op.bad_ != 0 || (!chip.automatic && chip.recover_first)) {
+  if (chip.automatic && chip.control.stray) {
+    // Beside automatic frames BREAK is followed by a new start of the frames, in the access itself.
+    op.bad_ = 1;
+    chip.restart = true;  // until the frames run again
+    add_recovery(chip, op);
+  } else if (biss_b || (!chip.automatic && chip.recover_first)) {
     add_recovery(chip, op);
   }
-  chip.restart = chip.restart || op.bad_ != 0;  // until the frames run again
   chip.control.stray = false;
   chip.recover_first = true;
   chip.control.readable = 0;
@@ -143,10 +146,24 @@ inline Result<void> Procedures::plan_command(ChipState& chip, Operation& op,
   return {};
 }
 
+// A read of positions between two steps may start an access by a disturbed byte of 0xF4. With
+// SpiCheck::kFullAndRelease that reads register 0 until the whole request stands in the chip, so
+// that new bytes of RDATA do not go where the request before has sent its own.
+inline void Procedures::add_disarm(ChipState& chip, Operation& op) {
+  const std::array<std::uint8_t, 4> read{0, 0, op.request_[2],
+                                         regs::CTS::insert(op.request_[3], 1)};
+  op.stage_ = kDisarm;
+  add_write(chip, op, regs::kAddrRegadr, read.data(), read.size());
+}
+
 // RDATA, or IDS of a command; then the request.
 inline void Procedures::add_request(ChipState& chip, Operation& op) {
   const ControlState& state = chip.control;
   if (state.kind != ControlState::Kind::kRead && op.at_ < op.count_) {
+    if (chip.proves_release() && chip.automatic && op.at_ == 0 && op.stage_ != kDisarm) {
+      add_disarm(chip, op);
+      return;
+    }
     op.stage_ = kFill;
     add_write(chip, op, static_cast<std::uint8_t>(regs::kAddrRdata + op.at_), op.data_ + op.at_,
               part(op));
@@ -217,7 +234,7 @@ inline Result<void> Procedures::access_step(ChipState& chip, Operation& op, std:
   if (done || chip.control.kind == ControlState::Kind::kNone) {
     return done;
   }
-  if (op.stage_ == kFill || op.stage_ == kSet || op.stage_ == kRecover) {
+  if (op.stage_ <= kRestarted || (op.stage_ >= kFill && op.stage_ <= kSet)) {
     // Nothing was begun. But the write may have reached other registers, 0xF4 among them.
     chip.control.kind = ControlState::Kind::kNone;
     chip.restart = chip.automatic || chip.restart;
@@ -237,13 +254,17 @@ inline Result<void> Procedures::access(ChipState& chip, Operation& op, std::uint
     return Error::kTransport;
   }
   switch (op.stage_) {
+    case kDisarm:
     case kFill:
     case kSet: {
       if (const Result<void> set = same(chip, op); !set) {
         return set;
       }
-      if (op.stage_ == kFill) {
-        op.at_ += part(op);
+      if (state.stray) {
+        return Error::kCorrupted;  // it may take these bytes; the next access begins with BREAK
+      }
+      if (op.stage_ != kSet) {
+        op.at_ += op.stage_ == kFill ? part(op) : 0U;
         add_request(chip, op);
         return {};
       }
@@ -253,12 +274,21 @@ inline Result<void> Procedures::access(ChipState& chip, Operation& op, std::uint
     case kRecover:
       recovered(chip, op);
       if (op.bad_ != 0) {
-        add_instruction(op, regs::AGS::encode<1>());
-        chip.started(now_us);
-        chip.automatic = true;
-        chip.restart = false;
         op.bad_ = 0;
+        add_start(chip, op);
+        if (chip.proves_release()) {
+          op.stage_ = kRestarted;
+          return {};
+        }
+        chip.started(now_us);
       }
+      add_request(chip, op);
+      return {};
+    case kRestarted:
+      if (const Result<void> done = start_proven(chip, op); !done) {
+        return done;
+      }
+      chip.started(now_us);
       add_request(chip, op);
       return {};
     case kStart: {
@@ -273,6 +303,9 @@ inline Result<void> Procedures::access(ChipState& chip, Operation& op, std::uint
         const Result<void> seen = look(op);
         // A disturbed SWBANK has switched the banks: the next read drops the words that wait.
         if (seen && (op.status_.get<regs::SWBANK>() | op.status_.get<regs::HOLDBANK>()) != 0) {
+          if (!chip.config.hold_beside_access) {
+            return Error::kCorrupted;  // no read releases the bank before the access ends
+          }
           chip.watch.held = true;
         }
         if (!seen || (op.status_.control_ended() && !op.status_.control_error())) {

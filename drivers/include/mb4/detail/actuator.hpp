@@ -83,6 +83,11 @@ inline Result<void> Procedures::confirmed(ChipState& chip, Operation& op, std::u
   return seen && (op.status_.instruction() | kAgs) != (want | kAgs) ? Error::kCorrupted : seen;
 }
 
+// After a byte of 0xF4 that leaves AGS alone.
+inline Result<void> Procedures::start_proven(ChipState& chip, Operation& op) {
+  return chip.proves_release() ? confirmed(chip, op, regs::AGS::encode<1>()) : Result<void>();
+}
+
 // ---- Without automatic frames: two words, SWBANK inverted after each ----
 
 inline Result<void> Procedures::switched_step(ChipState& chip, Operation& op,
@@ -142,6 +147,9 @@ inline void Procedures::add_release(ChipState& chip, Operation& op, const Result
   if (chip.watch.held) {
     mb4_cyclic_add_clear(&op.plan_, chip.sensor_flags, 4);
   }
+  if (chip.proves_release()) {
+    mb4_cyclic_add_status(&op.plan_);
+  }
 }
 
 inline Result<void> Procedures::held_step(ChipState& chip, Operation& op, std::uint32_t now_us) {
@@ -179,6 +187,10 @@ inline Result<void> Procedures::held_step(ChipState& chip, Operation& op, std::u
       }
       break;
     default:  // kStopped: the release
+      if (done) {
+        done = start_proven(chip, op);
+        chip.control.stray = chip.control.stray || !done;
+      }
       if (op.cause_) {
         op.cause_ = done;
       }
@@ -187,7 +199,9 @@ inline Result<void> Procedures::held_step(ChipState& chip, Operation& op, std::u
   if (done && chip.watch.held) {
     chip.watch.news_us = now_us;
   }
-  chip.watch.held = !done;
+  // Words that have waited since a failed proof were dropped by one 0x02; the next read does it
+  // twice.
+  chip.watch.held = !done || (chip.watch.held && chip.proves_release());
   done = op.cause_;
   if (done && op.bad_ != 0) {
     op.limit_.begin(now_us, chip.frame_us + chip.pitch_us);

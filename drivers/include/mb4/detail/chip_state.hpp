@@ -140,9 +140,11 @@ struct ChipState {
 
   // Automatic frames begin now.
   void started(std::uint32_t now_us) {
+    automatic = true;
+    restart = false;
     watch.news_us = now_us;
     watch.taken = 0;
-    watch.held = false;
+    watch.held = proves_release();  // BREAK may have left words behind
     for (std::uint32_t& good_us : watch.good_us) {
       good_us = now_us;
     }
@@ -171,6 +173,10 @@ struct ChipState {
   }
 
   [[nodiscard]] bool checks_all() const { return config.spi_check >= SpiCheck::kFull; }
+  // A status follows each byte for 0xF4 with AGS = 1.
+  [[nodiscard]] bool proves_release() const {
+    return config.spi_check == SpiCheck::kFullAndRelease;
+  }
 
   // Time from BREAK until all slaves are ready, by any clock. Slaves of BiSS B may be in register
   // mode and need longer.

@@ -30,11 +30,13 @@ struct Procedures {
   // Where an operation is: what the frames do that are made now.
   enum Stage : std::uint8_t {
     kRecover,    // send BREAK; the slaves need their timeout afterwards
+    kRestarted,  // an access: BREAK has stopped automatic frames, and they run again
     kStart,      // the first frames of the operation's own
     kPoll,       // read the status until what was started has ended
     kPollAgain,  // an access: is the end true?
     kLines,      // read the lines until SL is 1
     kFill,       // an access: RDATA or IDS; an actuator: its word; all registers
+    kDisarm,     // an access: the request before becomes a read
     kSet,        // an access: 0xE2..0xE5; an actuator: 0xF4
     kNextFrame,  // an access: the next frame
     kDelays,     // INIT: what it has measured; a configuration: REVISION, VERSION
@@ -84,7 +86,7 @@ struct Procedures {
     if (chip.recover_first) {
       add_recovery(chip, op);
     } else {
-      add_instruction(op, regs::AGS::encode<1>());
+      add_start(chip, op);
     }
     // The next single frame begins with BREAK, because an automatic frame may still run then.
     chip.recover_first = true;
@@ -177,6 +179,14 @@ struct Procedures {
 
   static void add_instruction(Operation& op, std::uint8_t instruction) {
     mb4_cyclic_add_instruction(&op.plan_, instruction);
+  }
+
+  // AGS = 1. With SpiCheck::kFullAndRelease its status follows: start_proven().
+  static void add_start(const ChipState& chip, Operation& op) {
+    add_instruction(op, regs::AGS::encode<1>());
+    if (chip.proves_release()) {
+      mb4_cyclic_add_status(&op.plan_);
+    }
   }
 
   // Reads `size` registers. A bus that stores nothing must not turn an old answer into a new one:
@@ -297,12 +307,13 @@ struct Procedures {
     }
     if (op.stage_ == kRecover) {
       recovered(chip, op);
-      add_instruction(op, regs::AGS::encode<1>());
+      add_start(chip, op);
       return {};
     }
+    if (const Result<void> done = start_proven(chip, op); !done) {
+      return done;
+    }
     chip.started(now_us);
-    chip.automatic = true;
-    chip.restart = false;
     return {};
   }
 
@@ -353,8 +364,10 @@ struct Procedures {
   static Result<void> confirmed(ChipState& chip, Operation& op, std::uint8_t want);
   static void add_held(ChipState& chip, Operation& op);
   static void add_release(ChipState& chip, Operation& op, const Result<void>& cause);
+  static Result<void> start_proven(ChipState& chip, Operation& op);
   static void add_other(Operation& op, std::uint32_t now_us);
   // ... and access.hpp.
+  static void add_disarm(ChipState& chip, Operation& op);
   static void add_request(ChipState& chip, Operation& op);
   static std::uint8_t part(const Operation& op);
   static void add_take(ChipState& chip, Operation& op);

@@ -66,7 +66,8 @@ struct Reads {
     }
     chip.control.seen_running = steps.read_.running;
     // A disturbed byte of 0xF4 with another INSTR may have started an access that nobody asked for.
-    if ((With & MB4_WITH_FULL) != 0 && steps.code_ == MB4_CORRUPTED) {
+    if ((With & MB4_WITH_FULL) != 0 &&
+        (steps.code_ == MB4_CORRUPTED || (chip.proves_release() && chip.watch.held))) {
       chip.control.stray = true;
     }
     return true;
