@@ -38,6 +38,7 @@
 enum {
   MB4_CYCLIC_AGS = mb4::regs::AGS::encode<1>(),
   MB4_CYCLIC_HOLD = mb4::regs::HOLDBANK::encode<1>() | MB4_CYCLIC_AGS,
+  MB4_CYCLIC_NO_INSTR = 0xFF & ~(mb4::regs::INSTR::kMask | mb4::regs::AGS::kMask),
   MB4_CYCLIC_SCDERR = mb4::regs::nSCDERR::kMask,
   MB4_CYCLIC_AGSERR = mb4::regs::nAGSERR::kMask,
   MB4_CYCLIC_REGEND = mb4::regs::REGEND::kMask,
@@ -58,6 +59,7 @@ enum {
 enum {
   MB4_CYCLIC_AGS = MB4_AGS_MASK,
   MB4_CYCLIC_HOLD = MB4_HOLDBANK_MASK | MB4_AGS_MASK,
+  MB4_CYCLIC_NO_INSTR = 0xFF & ~(MB4_INSTR_MASK | MB4_AGS_MASK),
   MB4_CYCLIC_SCDERR = MB4_NSCDERR_MASK,
   MB4_CYCLIC_AGSERR = MB4_NAGSERR_MASK,
   MB4_CYCLIC_REGEND = MB4_REGEND_MASK,
@@ -550,8 +552,12 @@ static inline uint8_t mb4_cyclic_take_status(mb4_cyclic *read, const mb4_plan *p
   }
   read->running = read->access && (rx[1] & MB4_CYCLIC_REGEND) == 0;
   /* The chip must hold exactly what was written; AGS may have ended by an error. Without HOLDBANK
-   * the bytes may come from two frames; with SWBANK or INIT they are other data. */
-  return read->unheld || (rx[5] | MB4_CYCLIC_AGS) == MB4_CYCLIC_HOLD ? MB4_OK : MB4_CORRUPTED;
+   * the bytes may come from two frames; with SWBANK or INIT they are other data. Unheld, INSTR is
+   * that of the access. */
+  if (read->unheld) {
+    return (rx[5] & MB4_CYCLIC_NO_INSTR) == 0 ? MB4_OK : MB4_CORRUPTED;
+  }
+  return (rx[5] | MB4_CYCLIC_AGS) == MB4_CYCLIC_HOLD ? MB4_OK : MB4_CORRUPTED;
 }
 
 /* The status behind a release. 0xF4 must be AGS alone: the bank is not held, SWBANK has not

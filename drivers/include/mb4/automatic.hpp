@@ -25,7 +25,8 @@
 namespace mb4 {
 
 // Most SPI transfers of one Automatic::poll_slave(), whatever the chip answers. Beside a control
-// communication without Config::hold_beside_access it takes up to 9, with SpiCheck::kFull 15.
+// communication without Config::hold_beside_access it takes up to 9, with SpiCheck::kFull 15, with
+// kFullAndRelease 16.
 inline constexpr unsigned kMaxPollSlaveTransfers = 8;
 // The same with SpiCheck::kFull. SpiCheck::kFullAndRelease needs up to 3 more: one at the end, two
 // after a read that could not release the bank.
@@ -58,9 +59,10 @@ class Automatic {
   explicit constexpr Automatic(detail::Chip<Bus, Clock>& chip) : chip_(chip) {}
 
   // Sets AGS = 1. One transfer; after a failed read and after stop() 2 more and 100 us (BREAK,
-  // SVALID; BiSS B adds register_timeout_us).
+  // SVALID; BiSS B adds register_timeout_us). SpiCheck::kFullAndRelease adds 3, and 1 to the BREAK.
   // Not touched: kNotConfigured, kWrongMode (AGS is on already), kBusy, kUnsupported with
-  // kSingleBank. Touched: kTransport (AGS may be on; call stop() or start() again).
+  // kSingleBank. Touched: kTransport, with SpiCheck::kFullAndRelease kNotDetected and kCorrupted
+  // too (AGS may be on; call stop() or start() again).
   Result<void> start() {
     const Result<void> allowed = chip_.start_allowed(false);
     return allowed ? detail::Blocking::start(chip_) : allowed;
@@ -102,9 +104,10 @@ class Automatic {
   }
 
   // Starts automatic frames again (table 69): BREAK, 100 us for the slaves' timeout, SVALID = 0,
-  // AGS = 1. BiSS B adds register_timeout_us. Three transfers. Not for interrupts, because it
-  // waits. Not touched, frames that run go on: kNotConfigured, kBusy, kUnsupported. kTransport:
-  // next() then tries again. With MB4_WITH_COUNTS in `With` it counts.
+  // AGS = 1. BiSS B adds register_timeout_us. Three transfers, with SpiCheck::kFullAndRelease
+  // seven. Not for interrupts, because it waits. Not touched, frames that run go on:
+  // kNotConfigured, kBusy, kUnsupported. kTransport, with kFullAndRelease kNotDetected and
+  // kCorrupted too: next() then tries again. With MB4_WITH_COUNTS in `With` it counts.
   template <std::uint8_t With = MB4_WITH_ALL>
   Result<void> restart() {
     return detail::Blocking::restart<With>(chip_);
@@ -250,10 +253,10 @@ class Automatic {
   }
 
   // Device::write_actuator() for a control loop that writes a word for each frame. Never waits;
-  // three transfers, five with SpiCheck::kFull. `word` has at most data_bits bits. The chip sends
-  // the word with the frame after the one that runs. Only one of the two banks gets the word: if
-  // the caller writes no other word before the frame after that, that frame sends the previous
-  // word.
+  // three transfers, five with SpiCheck::kFull, six or seven with kFullAndRelease. `word` has at
+  // most data_bits bits. The chip sends the word with the frame after the one that runs. Only one
+  // of the two banks gets the word: if the caller writes no other word before the frame after that,
+  // that frame sends the previous word.
   //
   // Not touched: kWrongMode (automatic frames do not run), kBusy, kInvalidArgument. kTransport,
   // kNotDetected, kCorrupted as for Device::write_actuator().

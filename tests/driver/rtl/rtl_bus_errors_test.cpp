@@ -116,9 +116,6 @@ TEST(DriverCall, PollSlave_KeepsToItsTransfers) {
     config.spi_check = check;
     ASSERT_TRUE(chip.device.configure(config).ok());
     ASSERT_TRUE(chip.device.automatic().start().ok());
-    if (proof != 0) {  // the first read drops what has waited since the start
-      EXPECT_EQ(chip.device.automatic().poll_slave(1).error(), Error::kNoData);
-    }
     chip.simulator.advance(150 * mb4::sim::kPsPerUs);
     chip.bus.plan({});
     ASSERT_TRUE(chip.device.automatic().poll_slave(1).ok());

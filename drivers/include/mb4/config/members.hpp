@@ -65,11 +65,12 @@ enum class SpiCheck : std::uint8_t {
   //  * registers of slaves are read twice from the chip.
   // What is left: disturbed bytes of 0xF4 that release the bank or start frames (docs/driver.md).
   kFull = 2,
-  // As kFull, and the status is read after each byte of 0xF4 that releases the bank or starts
-  // automatic frames: 6 bytes more a read. If 0xF4 is wrong there, the call has failed, the next
-  // read begins with the release and drops the words that have waited, and the next register access
-  // begins with BREAK. The first read after a start drops what has waited too. A write of registers
-  // and a command begin with one step more, which makes the request before a read.
+  // As kFull, and the status is read after each byte of 0xF4 that releases the bank, starts
+  // automatic frames, or is BREAK before such a start: 6 bytes more a read, 14 more a start, 6 more
+  // its BREAK. If 0xF4 is wrong there, the call has failed, the next read begins with the release
+  // and drops the words that have waited, and the next register access begins with BREAK. A write
+  // of
+  // registers and a command begin with one step more, which makes the request before a read.
   kFullAndRelease = 3,
 };
 

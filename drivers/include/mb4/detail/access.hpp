@@ -79,7 +79,7 @@ inline void Procedures::begin_access(ChipState& chip, Operation& op, bool biss_b
     // Beside automatic frames BREAK is followed by a new start of the frames, in the access itself.
     op.bad_ = 1;
     chip.restart = true;  // until the frames run again
-    add_recovery(chip, op);
+    add_break(chip, op);
   } else if (biss_b || (!chip.automatic && chip.recover_first)) {
     add_recovery(chip, op);
   }
@@ -192,11 +192,13 @@ inline void Procedures::plan_take(ChipState& chip, Operation& op, std::uint8_t* 
 }
 
 // With SpiCheck::kFull each part is read in two steps, the first one with a status: a line that is
-// stuck from here on makes both readings equal, but no status.
+// stuck from here on makes both readings equal, but no status. A disturbed opcode that writes makes
+// them differ: it writes 0x5A while the chip answers 0.
 inline void Procedures::add_take(ChipState& chip, Operation& op) {
   op.stage_ = kTake;
-  add_read(op, static_cast<std::uint8_t>(regs::kAddrRdata + op.at_), part(op));
-  if (chip.checks_all()) {
+  const bool full = chip.checks_all();
+  add_read(op, static_cast<std::uint8_t>(regs::kAddrRdata + op.at_), part(op), full ? 0x5A : 0);
+  if (full) {
     mb4_cyclic_add_status(&op.plan_);
   }
 }
@@ -238,6 +240,7 @@ inline Result<void> Procedures::access_step(ChipState& chip, Operation& op, std:
     // Nothing was begun. But the write may have reached other registers, 0xF4 among them.
     chip.control.kind = ControlState::Kind::kNone;
     chip.restart = chip.automatic || chip.restart;
+    chip.control.stray = chip.control.stray || chip.proves_release();
     return done;
   }
   clear_plan(op);
@@ -260,7 +263,7 @@ inline Result<void> Procedures::access(ChipState& chip, Operation& op, std::uint
       if (const Result<void> set = same(chip, op); !set) {
         return set;
       }
-      if (state.stray) {
+      if (state.stray && chip.checks_all()) {
         return Error::kCorrupted;  // it may take these bytes; the next access begins with BREAK
       }
       if (op.stage_ != kSet) {
@@ -272,6 +275,11 @@ inline Result<void> Procedures::access(ChipState& chip, Operation& op, std::uint
       return {};
     }
     case kRecover:
+      if (op.bad_ != 0) {
+        if (const Result<void> done = instruction_proven(chip, op, 0); !done) {
+          return done;
+        }
+      }
       recovered(chip, op);
       if (op.bad_ != 0) {
         op.bad_ = 0;
@@ -285,13 +293,16 @@ inline Result<void> Procedures::access(ChipState& chip, Operation& op, std::uint
       add_request(chip, op);
       return {};
     case kRestarted:
-      if (const Result<void> done = start_proven(chip, op); !done) {
+      if (const Result<void> done = instruction_proven(chip, op, regs::AGS::encode<1>()); !done) {
         return done;
       }
       chip.started(now_us);
       add_request(chip, op);
       return {};
     case kStart: {
+      if (state.stray && chip.checks_all()) {
+        return Error::kCorrupted;  // a read since then may have changed the request in the chip
+      }
       state.access_us = now_us;
       op.limit_.begin(now_us, access_us(chip));
       if (state.biss_b) {
@@ -301,14 +312,16 @@ inline Result<void> Procedures::access(ChipState& chip, Operation& op, std::uint
         // instruction was lost and the access before would count as this one; or this access has
         // failed at once (nREGERR = 0). One disturbed status must not hide an access that runs.
         const Result<void> seen = look(op);
-        // A disturbed SWBANK has switched the banks: the next read drops the words that wait.
-        if (seen && (op.status_.get<regs::SWBANK>() | op.status_.get<regs::HOLDBANK>()) != 0) {
-          if (!chip.config.hold_beside_access) {
-            return Error::kCorrupted;  // no read releases the bank before the access ends
-          }
+        const bool lost = seen && op.status_.control_ended() && !op.status_.control_error();
+        // A disturbed SWBANK or HOLDBANK: the next read drops the words that wait. Where reads
+        // write no 0xF4 beside an access, none can.
+        bool stuck =
+            seen && (op.status_.get<regs::SWBANK>() | op.status_.get<regs::HOLDBANK>()) != 0;
+        if (stuck && chip.config.hold_beside_access) {
           chip.watch.held = true;
+          stuck = false;
         }
-        if (!seen || (op.status_.control_ended() && !op.status_.control_error())) {
+        if (!seen || lost || stuck) {
           if (op.made_ != 1) {
             mb4_cyclic_add_status(&op.plan_);
             return {};
@@ -316,7 +329,9 @@ inline Result<void> Procedures::access(ChipState& chip, Operation& op, std::uint
           if (!seen) {
             return seen;
           }
-          state.kind = ControlState::Kind::kNone;
+          if (lost) {
+            state.kind = ControlState::Kind::kNone;
+          }
           return Error::kCorrupted;
         }
       }

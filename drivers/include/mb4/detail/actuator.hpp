@@ -83,9 +83,10 @@ inline Result<void> Procedures::confirmed(ChipState& chip, Operation& op, std::u
   return seen && (op.status_.instruction() | kAgs) != (want | kAgs) ? Error::kCorrupted : seen;
 }
 
-// After a byte of 0xF4 that leaves AGS alone.
-inline Result<void> Procedures::start_proven(ChipState& chip, Operation& op) {
-  return chip.proves_release() ? confirmed(chip, op, regs::AGS::encode<1>()) : Result<void>();
+// With SpiCheck::kFullAndRelease: what the status behind `want` for 0xF4 says.
+inline Result<void> Procedures::instruction_proven(ChipState& chip, Operation& op,
+                                                   std::uint8_t want) {
+  return chip.proves_release() ? confirmed(chip, op, want) : Result<void>();
 }
 
 // ---- Without automatic frames: two words, SWBANK inverted after each ----
@@ -188,12 +189,13 @@ inline Result<void> Procedures::held_step(ChipState& chip, Operation& op, std::u
       break;
     default:  // kStopped: the release
       if (done) {
-        done = start_proven(chip, op);
-        chip.control.stray = chip.control.stray || !done;
+        done = instruction_proven(chip, op, regs::AGS::encode<1>());
       }
       if (op.cause_) {
         op.cause_ = done;
       }
+      // A disturbed byte of 0xF4 may have started an access.
+      chip.control.stray = chip.control.stray || (chip.proves_release() && !op.cause_);
       break;
   }
   if (done && chip.watch.held) {

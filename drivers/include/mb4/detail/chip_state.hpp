@@ -144,7 +144,8 @@ struct ChipState {
     restart = false;
     watch.news_us = now_us;
     watch.taken = 0;
-    watch.held = proves_release();  // BREAK may have left words behind
+    watch.held = false;
+    control.stray = false;  // BREAK has ended it
     for (std::uint32_t& good_us : watch.good_us) {
       good_us = now_us;
     }

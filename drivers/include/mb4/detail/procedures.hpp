@@ -84,7 +84,7 @@ struct Procedures {
   static void plan_start(ChipState& chip, Operation& op) {
     begin(chip, op, start_step);
     if (chip.recover_first) {
-      add_recovery(chip, op);
+      add_break(chip, op);
     } else {
       add_start(chip, op);
     }
@@ -181,9 +181,20 @@ struct Procedures {
     mb4_cyclic_add_instruction(&op.plan_, instruction);
   }
 
-  // AGS = 1. With SpiCheck::kFullAndRelease its status follows: start_proven().
+  // AGS = 1. With SpiCheck::kFullAndRelease the words of both banks are dropped, because a
+  // disturbed byte before may have switched them, and the status follows: instruction_proven().
   static void add_start(const ChipState& chip, Operation& op) {
     add_instruction(op, regs::AGS::encode<1>());
+    if (chip.proves_release()) {
+      mb4_cyclic_add_clear(&op.plan_, chip.sensor_flags, 4);
+      mb4_cyclic_add_clear(&op.plan_, chip.sensor_flags, 4); /* one may be lost */
+      mb4_cyclic_add_status(&op.plan_);
+    }
+  }
+  // BREAK beside automatic frames. With SpiCheck::kFullAndRelease the status follows:
+  // instruction_proven().
+  static void add_break(ChipState& chip, Operation& op) {
+    add_recovery(chip, op);
     if (chip.proves_release()) {
       mb4_cyclic_add_status(&op.plan_);
     }
@@ -191,8 +202,9 @@ struct Procedures {
 
   // Reads `size` registers. A bus that stores nothing must not turn an old answer into a new one:
   // the first byte is 0, and no longer that of the answer before.
-  [[gnu::noinline]] static void add_read(Operation& op, std::uint8_t address, std::size_t size) {
-    mb4_plan_add(&op.plan_, static_cast<std::uint8_t>(size + 2), MB4_CYCLIC_READ, address, 0);
+  [[gnu::noinline]] static void add_read(Operation& op, std::uint8_t address, std::size_t size,
+                                         std::uint8_t filler = 0) {
+    mb4_plan_add(&op.plan_, static_cast<std::uint8_t>(size + 2), MB4_CYCLIC_READ, address, filler);
     mb4_plan_rx(&op.plan_, static_cast<std::uint8_t>(op.plan_.frames - 1))[2] = 0;
   }
   [[gnu::noinline]] static void add_bytes(Operation& op, std::uint8_t address,
@@ -305,13 +317,15 @@ struct Procedures {
     if (!op.good_) {
       return Error::kTransport;
     }
-    if (op.stage_ == kRecover) {
+    const bool breaks = op.stage_ == kRecover;
+    const std::uint8_t want = breaks ? std::uint8_t{0} : regs::AGS::encode<1>();
+    if (const Result<void> done = instruction_proven(chip, op, want); !done) {
+      return done;
+    }
+    if (breaks) {
       recovered(chip, op);
       add_start(chip, op);
       return {};
-    }
-    if (const Result<void> done = start_proven(chip, op); !done) {
-      return done;
     }
     chip.started(now_us);
     return {};
@@ -364,7 +378,7 @@ struct Procedures {
   static Result<void> confirmed(ChipState& chip, Operation& op, std::uint8_t want);
   static void add_held(ChipState& chip, Operation& op);
   static void add_release(ChipState& chip, Operation& op, const Result<void>& cause);
-  static Result<void> start_proven(ChipState& chip, Operation& op);
+  static Result<void> instruction_proven(ChipState& chip, Operation& op, std::uint8_t want);
   static void add_other(Operation& op, std::uint32_t now_us);
   // ... and access.hpp.
   static void add_disarm(ChipState& chip, Operation& op);
