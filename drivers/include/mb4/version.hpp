@@ -11,7 +11,7 @@
 namespace mb4 {
 
 inline constexpr std::uint32_t kDriverVersionMajor = 0;
-inline constexpr std::uint32_t kDriverVersionMinor = 1;
+inline constexpr std::uint32_t kDriverVersionMinor = 2;
 inline constexpr std::uint32_t kDriverVersionPatch = 0;
 
 }  // namespace mb4

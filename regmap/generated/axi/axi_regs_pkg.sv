@@ -115,7 +115,7 @@ package axi_regs_pkg;
   localparam logic [31:0] RESET_ID = 32'h454E4302;
   localparam logic [31:0] WMASK_ID = 32'h00000000;
   localparam logic [31:0] CONST_ID = 32'hFFFFFFFF;
-  localparam logic [31:0] RESET_VERSION = 32'h00010000;
+  localparam logic [31:0] RESET_VERSION = 32'h00020000;
   localparam logic [31:0] WMASK_VERSION = 32'h00000000;
   localparam logic [31:0] CONST_VERSION = 32'hFFFFFFFF;
   localparam logic [31:0] RESET_FEATURES = 32'h00000000;

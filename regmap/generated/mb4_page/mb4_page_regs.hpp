@@ -49,7 +49,7 @@ constexpr std::uint16_t snapshot_address(unsigned x) {
 inline constexpr std::uint32_t kResetId = 0x454E4301;
 inline constexpr std::uint32_t kWmaskId = 0x00000000;
 inline constexpr std::uint32_t kConstId = 0xFFFFFFFF;
-inline constexpr std::uint32_t kResetVersion = 0x00010000;
+inline constexpr std::uint32_t kResetVersion = 0x00020000;
 inline constexpr std::uint32_t kWmaskVersion = 0x00000000;
 inline constexpr std::uint32_t kConstVersion = 0xFFFFFFFF;
 inline constexpr std::uint32_t kResetFeatures = 0x000083FF;
