@@ -12,16 +12,17 @@ import sys
 import tempfile
 import unittest
 
-from programs import call
+from programs import call, version
 
 BUILD, CMAKE, CC = sys.argv[1:4]
 CHIP = "revision 0x20, version 0x84\n"  # tables 41 and 42
 FIRMWARE = "".join(f"position {1000 + k}\n" for k in range(5))  # the ramp of ramp.toml
 
+MINOR = ".".join(version().split(".")[:2])
 PROJECT = """
 cmake_minimum_required(VERSION 3.25)
 project(foreign LANGUAGES C CXX)
-find_package(openmb4 0.1 REQUIRED)
+find_package(openmb4 @MINOR@ REQUIRED)
 add_executable(transfer transfer.c)
 target_link_libraries(transfer PRIVATE mb4::mb4sim)
 add_executable(position position.cpp)
@@ -29,16 +30,16 @@ target_link_libraries(position PRIVATE mb4::driver mb4::mb4sim)
 if(NOT EXISTS ${openmb4_RTL_DIR}/mb4/mb4.f)
   message(FATAL_ERROR "no RTL in ${openmb4_RTL_DIR}")
 endif()
-"""
+""".replace("@MINOR@", MINOR)
 
 # A program in C needs no C++ compiler.
 C_PROJECT = """
 cmake_minimum_required(VERSION 3.25)
 project(foreign LANGUAGES C)
-find_package(openmb4 0.1 REQUIRED)
+find_package(openmb4 @MINOR@ REQUIRED)
 add_executable(positions positions.c)
 target_link_libraries(positions PRIVATE mb4::c mb4::mb4sim)
-"""
+""".replace("@MINOR@", MINOR)
 # What the scenario of examples/simulator/positions.c sends: ramps from 1000 by 3 and from 500.
 POSITIONS = "".join(f"SSI {1000 + 3 * i}, BiSS C {500 + i}\n" for i in range(3))
 
