@@ -205,6 +205,12 @@ TEST_P(DriverFault, EveryFault_NeverAWrongOrOldPosition) {
         EXPECT_TRUE(run.chip.device.automatic().start().ok());
       }
       good = run.read().has_value();
+      // A slave of BiSS B that an INIT has put into register mode holds SL low: the read says
+      // kLineError, and restart() waits for its timeout.
+      if (!good && run.automatic()) {
+        EXPECT_TRUE(run.chip.device.automatic().restart().ok());
+        good = run.read().has_value();
+      }
     } else {
       ++recovered;
     }
