@@ -103,6 +103,32 @@ TEST(DriverCallErrors, NoSlave_NextIsTimeout) {
   EXPECT_EQ(done.error(), Error::kTimeout);
 }
 
+// AGS = 1 is the first transfer of a start and the fourth of a restart; its status comes last.
+TEST(DriverCallErrors, StartDisturbed_IsToldWithFullAndRelease) {
+  for (const bool again : {false, true}) {
+    for (const Error error : {Error::kCorrupted, Error::kNotDetected}) {
+      FaultyChip chip(kEncoder);
+      Config config = encoder(true);
+      config.spi_check = mb4::SpiCheck::kFullAndRelease;
+      ASSERT_TRUE(chip.device.configure(config).ok());
+      const std::size_t ags = again ? 3 : 0;
+      const std::size_t status = again ? 6 : 3;
+      chip.bus.plan(error == Error::kCorrupted ? Fault{FaultKind::kFlipMosi, ags, ags, 10}
+                                               : Fault{FaultKind::kMisoLow, status, status, 0});
+      const auto start = [&] {
+        return again ? chip.device.automatic().restart() : chip.device.automatic().start();
+      };
+      EXPECT_EQ(start().error(), error);
+      EXPECT_EQ(chip.bus.count(), status + 1);
+      EXPECT_FALSE(chip.device.automatic().running());
+      chip.bus.plan({});
+      EXPECT_TRUE(start().ok());
+      chip.simulator.advance(150 * mb4::sim::kPsPerUs);
+      EXPECT_TRUE(chip.device.automatic().poll_slave(1).ok());
+    }
+  }
+}
+
 // What an interrupt may rely on, whatever is checked and whether or not the data has a CRC.
 TEST(DriverCall, PollSlave_KeepsToItsTransfers) {
   for (const mb4::SpiCheck check : {mb4::SpiCheck::kOff, mb4::SpiCheck::kCrc, mb4::SpiCheck::kFull,
