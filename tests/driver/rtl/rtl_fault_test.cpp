@@ -122,6 +122,22 @@ class Drive {
     return word;
   }
 
+  // All steps of `op`, a read before each; the one before step `at` is `disturbed`.
+  template <typename Read>
+  bool finish(mb4::Operation& op, unsigned at, Read disturbed) {
+    for (unsigned i = 0; i < 300; ++i) {
+      chip.bus.plan({});
+      if (i == at) {
+        disturbed();
+      } else {
+        read();
+      }
+      chip.bus.plan({});
+      if (chip.device.finish(op, op.run(chip.bus), chip.clock.now_us())) return true;
+    }
+    return false;
+  }
+
   [[nodiscard]] bool automatic() const {
     return setup_.way != Way::kSingle && setup_.way != Way::kAll;
   }
@@ -249,6 +265,8 @@ INSTANTIATE_TEST_SUITE_P(
                     Setup{"PollSlaveSsi", Way::kPollSlave, 25, 0x43, 1, mb4::Protocol::kSsi}),
     [](const auto& test) { return test.param.name; });
 
+constexpr unsigned kNever = 1000;  // no step has this number
+
 const Setup kRelease{
     "", Way::kPollSlave, 26, 0x43, 1, mb4::Protocol::kBissC, mb4::SpiCheck::kFullAndRelease, 100};
 
@@ -294,32 +312,23 @@ TEST(DriverFaultRelease, StrayAccessBetweenSteps_IsNotTakenForTheNewOne) {
       mb4::sim::Slave& slave = *run.chip.simulator.slave(1);
       std::uint8_t value = 0x11;
       mb4::Operation op;
-      const auto access = [&](std::uint8_t address, bool disturbed) {
+      const auto access = [&](std::uint8_t address, unsigned at) {
         EXPECT_TRUE(
             writes ? run.chip.device.control().plan_write(op, {1, 0}, address, {&value, 1}).ok()
                    : run.chip.device.control().plan_read(op, {1, 0}, address, {&value, 1}).ok());
-        bool ended = false;
-        for (unsigned i = 0; !ended && i < 300; ++i) {
-          run.chip.bus.plan({});
-          if (disturbed && i == before) {
-            run.read();
-            // The release is the third transfer of a read that finds no new word.
-            run.chip.bus.plan({FaultKind::kFlipMosi, 2, 2, 12});
-            run.read(true);
-            run.chip.bus.plan({});
-          } else {
-            run.read();
-          }
-          ended = run.chip.device.finish(op, op.run(run.chip.bus), run.chip.clock.now_us());
-        }
-        EXPECT_TRUE(ended);
+        EXPECT_TRUE(run.finish(op, at, [&run] {
+          run.read();
+          // The release is the third transfer of a read that finds no new word.
+          run.chip.bus.plan({FaultKind::kFlipMosi, 2, 2, 12});
+          run.read(true);
+        }));
         return op.result().ok();
       };
       slave.reg_write(0x20, 0x20);
       slave.reg_write(0x30, 0x30);
-      EXPECT_TRUE(access(0x20, false));
+      EXPECT_TRUE(access(0x20, kNever));
       value = 0x33;
-      const bool done = access(0x30, true);
+      const bool done = access(0x30, before);
       run.chip.simulator.advance(20'000 * mb4::sim::kPsPerUs);  // the stray one ends too
       EXPECT_EQ(slave.reg_read(0x20), writes ? 0x11 : 0x20);
       if (done) {
@@ -351,15 +360,10 @@ TEST(DriverFaultRelease, SvalidGoesElsewhereBetweenSteps_OnlyTheRegisterMeantIsW
       ASSERT_TRUE(run.chip.device.control()
                       .plan_write(op, {1, 0}, 0x30, mb4::Span<const std::uint8_t>(&value, 1))
                       .ok());
-      bool ended = false;
-      for (unsigned i = 0; !ended && i < 300; ++i) {
-        run.chip.bus.plan({});
-        if (i == before) run.chip.bus.plan({FaultKind::kFlipMosi, 4, 4, bit});
+      EXPECT_TRUE(run.finish(op, before, [&run, bit] {
+        run.chip.bus.plan({FaultKind::kFlipMosi, 4, 4, bit});
         run.read();
-        run.chip.bus.plan({});
-        ended = run.chip.device.finish(op, op.run(run.chip.bus), run.chip.clock.now_us());
-      }
-      EXPECT_TRUE(ended);
+      }));
       run.chip.simulator.advance(20'000 * mb4::sim::kPsPerUs);
       for (unsigned i = 0; i < registers.size(); ++i) {
         const std::uint8_t now = slave.reg_read(static_cast<std::uint8_t>(i));

@@ -69,8 +69,7 @@ enum class SpiCheck : std::uint8_t {
   // automatic frames, or is BREAK before such a start: 6 bytes more a read, 14 more a start, 6 more
   // its BREAK. If 0xF4 is wrong there, the call has failed, the next read begins with the release
   // and drops the words that have waited, and the next register access begins with BREAK. A write
-  // of
-  // registers and a command begin with one step more, which makes the request before a read.
+  // of registers and a command begin with one step more, which makes the request before a read.
   kFullAndRelease = 3,
 };
 
