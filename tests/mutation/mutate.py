@@ -41,12 +41,25 @@ def operand_end(code, start):
     raise ValueError("no end of an operand")
 
 
+def constants(code):
+    """(start, end) of the local parameters, and of the functions that these call."""
+    found = [match.span() for match in re.finditer(r"\blocalparam\b[^;]*;", code)]
+    called = " ".join(code[start:end] for start, end in found)
+    for match in re.finditer(r"\bfunction\b[^;(]*\b(\w+)\s*[;(].*?\bendfunction\b", code, re.S):
+        if re.search(rf"\b{match[1]}\b", called):
+            found.append(match.span())
+    return found
+
+
 def logic_lines(code):
-    """(start, end) of text in which expressions may change: behind the ports, outside parameters,
+    """(start, end) of text in which expressions may change: behind the ports, outside constants,
     case labels, generates, checks and sensitivity lists."""
     body = code.index("\n);\n") + 4
+    fixed = constants(code)
     for match in re.compile(r"[^\n]+\n").finditer(code, body):
         line = match.group()
+        if any(start < match.end() and match.start() < end for start, end in fixed):
+            continue
         if re.search(r"localparam|parameter|`|\bfor\b|\bgenerate\b|always_ff|\$error|typedef|#\(|"
                      r"^\s*\.\w+|if \(!\w*rst|if \(!\w*por|if \(!alive|\bcase|begin : ", line):
             continue
