@@ -60,7 +60,7 @@ def logic_lines(code):
         line = match.group()
         if any(start < match.end() and match.start() < end for start, end in fixed):
             continue
-        if re.search(r"localparam|parameter|`|\bfor\b|\bgenerate\b|always_ff|\$error|typedef|#\(|"
+        if re.search(r"parameter|`|\bfor\b|\bgenerate\b|always_ff|\$error|typedef|#\(|"
                      r"^\s*\.\w+|if \(!\w*rst|if \(!\w*por|if \(!alive|\bcase|begin : ", line):
             continue
         yield match.start(), match.end()
