@@ -2,6 +2,7 @@
 # SPDX-FileCopyrightText: 2026 The openmb4 authors
 # SPDX-License-Identifier: Apache-2.0
 """Random faults in the RTL, all in one model: each is asleep until its number is chosen.
+Only modules of mb4_chip get faults: its tests are those that meet them.
 
   mutate.py FOLDER [--count N] [--seed S]   writes the changed RTL and mutants.txt to FOLDER
                                             (120 faults by default)
@@ -41,13 +42,30 @@ def operand_end(code, start):
     raise ValueError("no end of an operand")
 
 
-def constants(code):
-    """(start, end) of the local parameters, and of the functions that these call."""
-    found = [match.span() for match in re.finditer(r"\blocalparam\b[^;]*;", code)]
+def below(top, codes):
+    """The modules of a design, of {module: code}: the top, and what it instantiates."""
+    found, open_ones = set(), {top}
+    while open_ones:
+        module = open_ones.pop()
+        found.add(module)
+        open_ones |= {word for word in re.findall(r"^\s*(\w+)\s*(?:#\s*\(|u_\w+\s*\()", codes[module], re.M)
+                      if word in codes and word not in found}
+    return found
+
+
+def no_logic(code):
+    """(start, end) of what is no logic: local parameters and the functions that these call, conditions
+    of generated blocks, checks."""
+    parentheses = r"\([^()]*\)"
+    for _ in range(5):
+        parentheses = rf"\((?:[^()]|{parentheses})*\)"
+    found = [match.span() for match in re.finditer(r"\blocalparam\b[^;]*;|\bif \([^;]*?\bbegin : ", code)
+             if match.group().count("begin") <= 1]
     called = " ".join(code[start:end] for start, end in found)
     for match in re.finditer(r"\bfunction\b[^;(]*\b(\w+)\s*[;(].*?\bendfunction\b", code, re.S):
         if re.search(rf"\b{match[1]}\b", called):
             found.append(match.span())
+    found += [match.span() for match in re.finditer(rf"`ENC_\w+{parentheses}", code)]
     return found
 
 
@@ -55,7 +73,7 @@ def logic_lines(code):
     """(start, end) of text in which expressions may change: behind the ports, outside constants,
     case labels, generates, checks and sensitivity lists."""
     body = code.index("\n);\n") + 4
-    fixed = constants(code)
+    fixed = no_logic(code)
     for match in re.compile(r"[^\n]+\n").finditer(code, body):
         line = match.group()
         if any(start < match.end() and match.start() < end for start, end in fixed):
@@ -95,6 +113,8 @@ def sites(code):
     for m in re.compile(r"\bassign (\w+)\s*=\s*([^;]*);").finditer(code):
         if "'{" not in m.group(2) and m.group(1) != "unused":
             for value in ("'0", "'1"):
+                if value == m.group(2):
+                    continue
                 found.append(("stuck net", m.start(2), m.end(2), f"(M) ? {value} : ({m.group(2)})"))
     for m in re.compile(r"\b(\w+_q)\s*<=\s*(\w+_d);").finditer(code):
         found.append(("stuck flop", m.start(2), m.end(2), f"(M) ? {m.group(1)} : {m.group(2)}"))
@@ -106,10 +126,9 @@ def main():
     options = dict(zip(sys.argv[2::2], sys.argv[3::2]))
     seed = int(options.get("--seed", 20260102))
     chance = random.Random(seed)
-    pool = []
-    for module, path in project.rtl_modules().items():
-        code = blank_comments(path.read_text(encoding="utf-8"))
-        pool += [(module, *site) for site in sites(code)]
+    codes = {module: blank_comments(path.read_text(encoding="utf-8"))
+             for module, path in project.rtl_modules().items()}
+    pool = [(module, *site) for module in sorted(below("mb4_chip", codes)) for site in sites(codes[module])]
     chance.shuffle(pool)
     chosen = []
     for site in pool:
