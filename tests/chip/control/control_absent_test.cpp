@@ -25,13 +25,17 @@ struct Mode {
   Frames frames;
   unsigned open_level;
   std::uint8_t freqags;
+  bool holds = false;  // HOLDBANK = 1, which changes nothing: frames run on (decision 15)
+  [[nodiscard]] std::uint8_t ags(unsigned instr = 0) const {
+    return static_cast<std::uint8_t>(instr | reg::kAgsOn | (holds ? reg::kHoldbankPrevented : 0U));
+  }
 };
 std::string name_of(const Mode& mode) {
   const char* const names[] = {"Rate", "Agsmin", "Single"};
   const bool other = mode.frames == Frames::kSingle && mode.freqags != reg::kFreqagsAgsMin;
   return std::string(names[static_cast<unsigned>(mode.frames)]) +
          (other ? "Freqags" + std::to_string(mode.freqags) : "") + "_SlOpenIs" +
-         std::to_string(mode.open_level);
+         std::to_string(mode.open_level) + (mode.holds ? "_HoldBank" : "");
 }
 void PrintTo(const Mode& mode, std::ostream* out) { *out << name_of(mode); }
 
@@ -45,7 +49,7 @@ class ControlAbsent : public testing::TestWithParam<Mode> {
     chip.write(reg::slave_cfg_address(1), {reg::kEnscdYes | 13, reg::kScrclenCrc6, 0x00, 0x00});
     chip.write(reg::kAddrCtrl, {reg::kRegversBissC, 0, 0, GetParam().freqags});
     chip.write(reg::kAddrSlaveloc5, {reg::kResetSlaveloc5, reg::kCfgch2Unused | reg::kCfgch1BissC});
-    if (GetParam().frames != Frames::kSingle) chip.instruct(reg::kAgsOn);
+    if (GetParam().frames != Frames::kSingle) chip.instruct(GetParam().ags());
     chip.advance_us(60);
   }
   // Lets the control communication that is set up run until its CDM of `slot` has been taken, and
@@ -53,7 +57,7 @@ class ControlAbsent : public testing::TestWithParam<Mode> {
   void run_to_slot(unsigned slot) {
     const sim::Slave& slave = *chip.simulator.slave(1);
     const auto& counters = chip.simulator.slave(1)->control()->counters();
-    if (GetParam().frames != Frames::kSingle) chip.instruct(reg::kInstrControl | reg::kAgsOn);
+    if (GetParam().frames != Frames::kSingle) chip.instruct(GetParam().ags(reg::kInstrControl));
     const auto next = [&] {
       if (GetParam().frames == Frames::kSingle) chip.instruct(reg::kInstrControl);
       const auto count = slave.cdm_count();
@@ -130,7 +134,7 @@ class ControlAbsent : public testing::TestWithParam<Mode> {
 TEST_P(ControlAbsent, BeforeTheAccess_IsNRegErr) {
   unplug();
   host.set_read(0, 0x31, 1);
-  if (GetParam().frames != Frames::kSingle) chip.instruct(reg::kInstrControl | reg::kAgsOn);
+  if (GetParam().frames != Frames::kSingle) chip.instruct(GetParam().ags(reg::kInstrControl));
   expect_end(reg::nREGERR::kMask, kLimitUs * 9 / 8);
   plug_and_check();
 }
@@ -138,7 +142,7 @@ TEST_P(ControlAbsent, BeforeTheAccess_IsNRegErr) {
 TEST_P(ControlAbsent, BeforeACommand_IsNRegErr) {
   unplug();
   host.set_command(0x00, 2);
-  if (GetParam().frames != Frames::kSingle) chip.instruct(reg::kInstrControl | reg::kAgsOn);
+  if (GetParam().frames != Frames::kSingle) chip.instruct(GetParam().ags(reg::kInstrControl));
   expect_end(reg::nREGERR::kMask, kLimitUs * 9 / 8);
   plug_and_check();
 }
@@ -176,7 +180,7 @@ TEST_P(ControlAbsent, SilentSlave_IsNRegErrInTheSlotOfTheEcho) {
   if (GetParam().frames == Frames::kSingle) {
     EXPECT_EQ(host.run_single(60), 14U - 0U + 18U);
   } else {
-    chip.instruct(reg::kInstrControl | reg::kAgsOn);
+    chip.instruct(GetParam().ags(reg::kInstrControl));
     EXPECT_NE(end_of_it() & reg::REGEND::kMask, 0);
     EXPECT_LE(chip.simulator.slave(1)->cdm_count() - before, 14U + 18U + 2U);
   }
@@ -188,6 +192,7 @@ TEST_P(ControlAbsent, SilentSlave_IsNRegErrInTheSlotOfTheEcho) {
 INSTANTIATE_TEST_SUITE_P(
     Modes, ControlAbsent,
     testing::Values(Mode{Frames::kRate, 1, 0x18}, Mode{Frames::kRate, 0, 0x18},
+                    Mode{Frames::kRate, 1, 0x18, true}, Mode{Frames::kRate, 0, 0x18, true},
                     Mode{Frames::kMin, 1, reg::kFreqagsAgsMin},
                     Mode{Frames::kMin, 0, reg::kFreqagsAgsMin},
                     Mode{Frames::kSingle, 1, reg::kFreqagsAgsMin},
