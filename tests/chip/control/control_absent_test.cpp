@@ -41,7 +41,8 @@ std::string name_of(const Mode& mode) {
 }
 void PrintTo(const Mode& mode, std::ostream* out) { *out << name_of(mode); }
 
-// Table 58 at FREQR = 0, f_MA = 10 MHz (half of it with FREQS = 1): 4096 x 2 periods; an eighth more for frames that hang.
+// Table 58 at FREQR = 0, f_MA = 10 MHz (half of it with FREQS = 1): 4096 x 2 periods; an eighth
+// more for frames that hang.
 constexpr double kLimitUs = 4096 * 2 * 0.1;
 constexpr unsigned kPauseUs = 300;  // between two requests
 

@@ -271,8 +271,8 @@ TEST(ChipMo, CableLongerThanTheFrame_WordArrives) {
   }
 }
 
-// Sensors alone on such a cable, or some that do not listen to MO and process longer than mo_busy: MA
-// goes on until the start bit is back and the words are in (decision 17), and MO has to stay 0
+// Sensors alone on such a cable, or some that do not listen to MO and process longer than mo_busy:
+// MA goes on until the start bit is back and the words are in (decision 17), and MO has to stay 0
 // meanwhile. A 1 would run through the slaves after the data and look like their timeout.
 TEST(ChipMo, SensorsThatAnswerLate_SeeNoOneBehindTheirSlots) {
   for (const double delay_ns : {900.0, 2500.0, 10'000.0, 100.0}) {
