@@ -131,13 +131,11 @@ def includes(name, text, names):
                 break
 
 
-def instances(text, modules):
+def used_by_rtl(text, modules):
     """The files of the modules and packages that an RTL file uses."""
     text = sv_widths.without_comments(text)
-    for word in set(re.findall(r"^\s*(\w+)\s*(?:#\s*\(|u_\w+\s*\()", text, flags=re.M)
-                    + re.findall(r"(\w+_pkg)::", text)):
-        if word in modules:
-            yield modules[word]
+    packages = set(re.findall(r"(\w+_pkg)::", text)) & modules.keys()
+    return {modules[word] for word in project.instances(text, modules) | packages}
 
 
 def uses(files):
@@ -148,7 +146,7 @@ def uses(files):
         if name.endswith(CPP):
             used = includes(name, text, names)
         elif name.startswith("rtl/") and name.endswith(".sv"):
-            used = instances(text, modules)
+            used = used_by_rtl(text, modules)
         else:
             continue
         for other in used:

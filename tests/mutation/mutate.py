@@ -48,8 +48,7 @@ def below(top, codes):
     while open_ones:
         module = open_ones.pop()
         found.add(module)
-        open_ones |= {word for word in re.findall(r"^\s*(\w+)\s*(?:#\s*\(|u_\w+\s*\()", codes[module], re.M)
-                      if word in codes and word not in found}
+        open_ones |= project.instances(codes[module], codes) - found
     return found
 
 
@@ -59,8 +58,8 @@ def no_logic(code):
     parentheses = r"\([^()]*\)"
     for _ in range(5):
         parentheses = rf"\((?:[^()]|{parentheses})*\)"
-    found = [match.span() for match in re.finditer(r"\blocalparam\b[^;]*;|\bif \([^;]*?\bbegin : ", code)
-             if match.group().count("begin") <= 1]
+    found = [match.span() for match in re.finditer(
+        r"\blocalparam\b[^;]*;|\bif \((?:(?!\bbegin\b)[^;])*\bbegin : ", code)]
     called = " ".join(code[start:end] for start, end in found)
     for match in re.finditer(r"\bfunction\b[^;(]*\b(\w+)\s*[;(].*?\bendfunction\b", code, re.S):
         if re.search(rf"\b{match[1]}\b", called):
@@ -113,9 +112,8 @@ def sites(code):
     for m in re.compile(r"\bassign (\w+)\s*=\s*([^;]*);").finditer(code):
         if "'{" not in m.group(2) and m.group(1) != "unused":
             for value in ("'0", "'1"):
-                if value == m.group(2):
-                    continue
-                found.append(("stuck net", m.start(2), m.end(2), f"(M) ? {value} : ({m.group(2)})"))
+                if value != m.group(2):
+                    found.append(("stuck net", m.start(2), m.end(2), f"(M) ? {value} : ({m.group(2)})"))
     for m in re.compile(r"\b(\w+_q)\s*<=\s*(\w+_d);").finditer(code):
         found.append(("stuck flop", m.start(2), m.end(2), f"(M) ? {m.group(1)} : {m.group(2)}"))
     return found

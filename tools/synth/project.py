@@ -67,6 +67,11 @@ def rtl_modules():
     return {path.stem: path for path in rtl_files() if not path.stem.endswith("_pkg")}
 
 
+def instances(code, modules):
+    """Those of the modules that SystemVerilog code without comments instantiates."""
+    return {word for word in re.findall(r"^\s*(\w+)\s*(?:#\s*\(|u_\w+\s*\()", code, re.M) if word in modules}
+
+
 def rtl_packages():
     return [path for path in rtl_files() if path.stem.endswith("_pkg")]
 

@@ -59,7 +59,7 @@ def main():
     lines, found, ports = Counter(), Counter(), Counter()
     texts = {path: path.read_text(encoding="utf-8") for path in project.all_rtl_files()
              if project.RTL in path.parents}  # without the generated ones
-    used = set(re.findall(r"^\s*(\w+)\s+(?:#\(|u_\w+\s*\()", "\n".join(texts.values()), re.MULTILINE))
+    used = project.instances("\n".join(texts.values()), {path.stem for path in texts})
     below, below_found = 0, 0
     for path, text in texts.items():
         own, wires, own_ports = wiring(text)

@@ -275,14 +275,19 @@ TEST(ChipMo, CableLongerThanTheFrame_WordArrives) {
 // MA goes on until the start bit is back and the words are in (decision 17), and MO has to stay 0
 // meanwhile. A 1 would run through the slaves after the data and look like their timeout.
 TEST(ChipMo, SensorsThatAnswerLate_SeeNoOneBehindTheirSlots) {
-  for (const double delay_ns : {900.0, 2500.0, 10'000.0, 100.0}) {
-    const bool listens = delay_ns > 100.0;
-    const std::string busy = listens ? "" : "busy_periods = 20\n";
+  struct Case {
+    double delay_ns;
+    const char* channel_keys;
+    const char* slave_keys;
+  };
+  for (const auto& [delay_ns, channel_keys, slave_keys] :
+       {Case{900.0, kBus, ""}, Case{2500.0, kBus, ""}, Case{10'000.0, kBus, ""},
+        Case{100.0, "", "busy_periods = 20\n"}}) {
     for (const bool cdm : {false, true}) {
-      ProtocolChip chip(channel(1, (listens ? "mo = true\ndelay_ns = " : "delay_ns = ") +
-                                       std::to_string(delay_ns) + "\n") +
-                            sensor(8, 0x5A, busy) + sensor(5, 0x15, busy),
-                        {.freqs = 0, .en_mo = true, .mo_busy = 1});
+      ProtocolChip chip(
+          channel(1, std::string(channel_keys) + "delay_ns = " + std::to_string(delay_ns) + "\n") +
+              sensor(8, 0x5A, slave_keys) + sensor(5, 0x15, slave_keys),
+          {.freqs = 0, .en_mo = true, .mo_busy = 1});
       for (unsigned frame = 1; frame <= 3; ++frame) {
         ASSERT_TRUE(chip.frame(cdm ? reg::kInstrCdm1 : reg::kInstrCdm0));
         EXPECT_EQ(chip.scdata(1, 8), 0x5AU) << delay_ns;
