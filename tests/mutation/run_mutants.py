@@ -5,13 +5,13 @@
 
   run_mutants.py MUTANTS_TXT GOAL [--jobs N] [--log FILE] PROGRAM...
      GOAL  share in percent that must be caught, of the faults that are not in equivalent.txt
-     FILE  takes what has been found; a run that was ended goes on from there
+     FILE  takes what has been found; a run that was ended goes on from there. For one mutants.txt only
 
 First all tests run without a fault: they must pass, and what takes long is known then. All
 faults meet the quick tests of all programs first; what these do not catch meets longer ones.
-A fault of equivalent.txt meets the first tests only: should they catch it, its reason is wrong and
+A fault of equivalent.txt meets the first four batches only: should they catch it, its reason is wrong and
 the run fails. What does not end counts as caught: it may take three times the processor time of the
-run without a fault."""
+run without a fault, and ten seconds."""
 
 import json
 import os
