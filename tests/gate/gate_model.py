@@ -34,7 +34,8 @@ def main():
         status, text = project.run(
             [project.tool("verilator"), "--cc", "--build", "-j", "2", "-fno-const-bit-op-tree",
              *project.verilator_flags(), *QUIET, "-DNO_ICE40_DEFAULT_ASSIGNMENTS", "-O3",
-             "-CFLAGS", "-O1 -std=c++20 -DVL_USER_STOP", "--top-module", f"{design}_gate_top",
+             "-CFLAGS", "-std=c++20 -DVL_USER_STOP", "-MAKEFLAGS", "OPT_FAST=-O3 OPT_SLOW=-O0",
+             "--top-module", f"{design}_gate_top",
              "--prefix", f"V{design}_gate", "--Mdir", folder, cells(), folder / "gates.v",
              folder / f"{design}_gate_top.sv"], cwd=folder)
     if status != 0:

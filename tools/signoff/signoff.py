@@ -250,8 +250,8 @@ def page(blocks, items, data, folder):
            "The stages follow those of OpenTitan: D for design, V for verification, S for release. "
            "A block has reached", "a stage if all items of this stage and of the earlier ones of the "
            "same letter are done.", "",
-           "The report of a run replaces the one before. A report of a part of its tests leaves the "
-           "other items without", "one:", "",
+           "The report of a run replaces the one before; a part of a long run can be added to it (`take "
+           "... --add`).", "A report of a part of the tests leaves the other items without one:", "",
            "| run | items with a report | items without a report |", "|---|---|---|",
            *[f"| {run} | {reported(run, True)} | {reported(run, False)} |" for run in RUNS], "",
            "| stage | what it asks for |", "|---|---|",

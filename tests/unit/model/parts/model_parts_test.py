@@ -1,9 +1,9 @@
 # SPDX-FileCopyrightText: 2026 The openmb4 authors
 # SPDX-License-Identifier: Apache-2.0
-"""A model in parts: model_parts_test.py FOLDER HEADER VERILATOR CXX RUNTIME [FLAGS]
+"""A model in parts: model_parts_test.py FOLDER HEADER VERILATOR CXX RUNTIME
 
 FOLDER has the program (sim/model/parts), HEADER is what it has made of the chip, RUNTIME a library
-with Verilator's runtime, compiled with FLAGS. tests/chip/random/lockstep_test.cpp shows that the parts of
+with Verilator's runtime. tests/chip/random/lockstep_test.cpp shows that the parts of
 the chip compute what the whole does. Here are the rules, with statements made by hand, and a small
 model that is not the chip."""
 
@@ -13,7 +13,7 @@ import tempfile
 import unittest
 from pathlib import Path
 
-FOLDER, HEADER, VERILATOR, CXX, RUNTIME = sys.argv[1:6]
+FOLDER, HEADER, VERILATOR, CXX, RUNTIME = sys.argv[1:]
 sys.path.insert(0, FOLDER)
 
 from busy import Busy, busy_of  # noqa: E402
@@ -305,7 +305,7 @@ class SecondModel(unittest.TestCase):
                  *sorted((self.folder / "v").glob("*.cpp"))]
         (self.folder / "all.cpp").write_text(
             "".join(f'#include "{file}"\n' for file in files), encoding="utf-8")
-        self.run_in(CXX, "-std=c++20", "-O0", *sys.argv[6:], "-Iv", f"-isystem{root}/include",
+        self.run_in(CXX, "-std=c++20", "-O0", "-Iv", f"-isystem{root}/include",
                     f"-isystem{root}/include/vltstd", "-o", "sample", "all.cpp", RUNTIME,
                     "-pthread", "-latomic", "-lz")
         return self.run_in(self.folder / "sample")
