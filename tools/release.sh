@@ -65,8 +65,9 @@ git archive --format=tar --prefix="$name/verilog/" "${added[@]}" --prefix="$name
 mv "$archive.partial" "$archive"
 (cd "$folder" && sha256sum "$name.tar.gz" >"$name.tar.gz.sha256")
 
-# The sdist: pyproject.toml of tools/python at the top, and the rooms that its build reads.
-sed -e 's|"\.\./\.\."|"."|; s|"\.\./\.\./|"|; s|packages = \["|&tools/python/|' \
+# The sdist: pyproject.toml of tools/python at the top, and the rooms that its build reads. With build/ below
+# the sources, as in the repository, ccache knows what it has compiled there.
+sed -e '/^cmake.source-dir/a build-dir = "build"' -e 's|"\.\./\.\."|"."|; s|"\.\./\.\./|"|; s|packages = \["|&tools/python/|' \
   tools/python/pyproject.toml >"$plain/pyproject.toml"
 printf 'Metadata-Version: 2.1\nName: openmb4\nVersion: %s\nLicense: Apache-2.0\n' "$version" >"$plain/PKG-INFO"
 mkdir -p "$folder/python"
