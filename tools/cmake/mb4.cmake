@@ -4,8 +4,7 @@
 # Helpers used by every room: its models and tests get Verilator's flags, warnings and sanitizers
 # here. Only tests/canary calls verilate() itself.
 
-set(MB4_ROOT "${CMAKE_CURRENT_LIST_DIR}/../..")
-cmake_path(ABSOLUTE_PATH MB4_ROOT NORMALIZE)
+get_filename_component(MB4_ROOT "${CMAKE_CURRENT_LIST_DIR}/../.." ABSOLUTE)
 
 find_program(MB4_CCACHE ccache)
 if(MB4_CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
