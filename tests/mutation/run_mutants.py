@@ -61,7 +61,7 @@ def test_times(program):
             for suite in report["testsuites"] for test in suite["testsuite"]]
 
 
-def batches(programs, jobs):
+def in_batches(programs, jobs):
     """[[(program, filter, processor seconds that it may take)]], quick tests first."""
     before = resource.getrusage(resource.RUSAGE_CHILDREN)
     with ThreadPoolExecutor(jobs) as pool:
@@ -82,8 +82,8 @@ def batches(programs, jobs):
              for program, (seconds, names) in batch.items()] for batch in found]
 
 
-def caught(stage, number):
-    return any(start(program, tests, number, seconds) for program, tests, seconds in stage)
+def caught(batch, number):
+    return any(start(program, tests, number, seconds) for program, tests, seconds in batch)
 
 
 def reasons():
@@ -112,7 +112,7 @@ def main():
     kept = [line.split(": ", 1) for line in
             (log.read_text(encoding="utf-8") if log.is_file() else "").splitlines()]
     seen = {(int(place), number) for place, number in
-            (key.split()[1:] for key, _ in kept if key.startswith("stage "))}
+            (key.split()[1:] for key, _ in kept if key.startswith("batch "))}
     done = {number for _, number in seen for key, said in kept
             if key.endswith(f" {number}") and said.startswith("caught")}
 
@@ -120,31 +120,31 @@ def main():
         with log.open("a", encoding="utf-8") as file:
             file.write(text + "\n")
 
-    stages = next((json.loads(said) for key, said in kept if key == "stages"), None)
-    if stages is None:
-        stages = batches(programs, jobs)
-        note(f"stages: {json.dumps(stages)}")
+    batches = next((json.loads(said) for key, said in kept if key == "batches"), None)
+    if batches is None:
+        batches = in_batches(programs, jobs)
+        note(f"batches: {json.dumps(batches)}")
     faults = dict(line.split(" ", 1) for line in listing)
     reason_of = reasons()
     argued = {number: reason_of[text] for number, text in
               ((number, re.sub(r"^(\w+):\d+", r"\1", text)) for number, text in faults.items())
               if text in reason_of}
     with ThreadPoolExecutor(jobs) as pool:
-        for place, stage in enumerate(stages, 1):
-            def run(number, place=place, stage=stage):
+        for place, batch in enumerate(batches, 1):
+            def run(number, place=place, batch=batch):
                 if number in done or (place, number) in seen:
                     return
                 if number in argued and place > EQUIVALENT_MEETS:
                     return
                 said = "passed"
-                if caught(stage, number):
+                if caught(batch, number):
                     done.add(number)
                     said = f"caught: {faults[number]}"
-                    print(f"{number}: caught in stage {place}: {faults[number]}", flush=True)
-                note(f"stage {place} {number}: {said}")
+                    print(f"{number}: caught in batch {place}: {faults[number]}", flush=True)
+                note(f"batch {place} {number}: {said}")
 
             list(pool.map(run, faults))
-            print(f"  stage {place} of {len(stages)}: {len(done)} of {len(faults)} caught",
+            print(f"  batch {place} of {len(batches)}: {len(done)} of {len(faults)} caught",
                   flush=True)
     places = {module: str(path.parent.relative_to(project.RTL))
               for module, path in project.rtl_modules().items()}

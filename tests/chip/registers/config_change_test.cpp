@@ -171,6 +171,33 @@ TEST(ConfigChange, ProtocolInAnSsiFrame_WordIsDecodedAsItBegan) {
   }
 }
 
+// CFGCH written in the clocks around the start of an automatic frame without words: the frame is one
+// of the old protocol or one of the new one. Either ends, but not a mixture: one edge of MA, as SSI
+// needs, and no acknowledge (decision 38).
+TEST(ConfigChange, ProtocolAsAFrameStarts_ItEnds) {
+  constexpr std::uint8_t kProtocols[] = {reg::kCfgch1BissB, reg::kCfgch1BissC, reg::kCfgch1Ssi};
+  Chip chip(one_slave(kEncoder, "", "", "sclk_hz = 50_000_000"));
+  for (const std::uint8_t before : kProtocols) {
+    for (const std::uint8_t after : kProtocols) {
+      if (before == after) continue;
+      for (unsigned step = 0; step < 400; ++step) {
+        configure(chip);
+        chip.write(reg::slave_cfg_address(1), {0x00});
+        chip.write(reg::kAddrFreqags, {0x09});  // a frame each 10 us
+        chip.write(reg::kAddrCfgch, {static_cast<std::uint8_t>(reg::kCfgch2Unused | before)});
+        chip.instruct(reg::kBreakAbort);
+        chip.advance_us(60);
+        chip.instruct(reg::kAgsOn);
+        chip.simulator.advance(sim::Time{11'000'000} + step * 25'000);
+        chip.write(reg::kAddrCfgch, {static_cast<std::uint8_t>(reg::kCfgch2Unused | after)});
+        chip.instruct(0x00);
+        ASSERT_TRUE(chip.wait_eot(400)) << unsigned{before} << " to " << unsigned{after} << ", step "
+                                        << step;
+      }
+    }
+  }
+}
+
 // In a frame of about 6 us, at steps that meet each of its parts.
 TEST(ConfigChange, InAFrame_ItEndsAndEverythingWorksAgain) {
   for (const unsigned instruction : {reg::kInstrCdm0, reg::kInstrCdm1, reg::kInitStart}) {
