@@ -25,8 +25,8 @@
 //   go_i.register_access MA belongs to the BiSS B register access (biss_b_access) until
 //                        register_ma_i.ends, which makes event_o.line_end
 //
-// A frame has the protocol and the bus_i of the clock before its start. A line that is taken out of
-// use (UNUSED) does not wait for SL in its timeout.
+// A frame keeps the protocol and the bus_i of the clock of its start; both come from flops of clk_i.
+// A line that is taken out of use (UNUSED) does not wait for SL in its timeout.
 //
 // Parameters: a protocol that is left out acts as UNUSED (decision 44). Such a line must not take
 // part in a frame.
@@ -125,7 +125,8 @@ module biss_frame #(
   logic               biss_c;
   logic               ssi;
   logic               rests;       // no frame: the configuration may change
-  logic [1:0]         protocol_q;
+  logic               new_ssi, new_biss_c, new_bus;   // of a frame that begins
+  logic               ssi_q, biss_c_q;
   logic               bus;
   logic               bus_q;
   logic               unused;      // the line is out of use
@@ -145,9 +146,12 @@ module biss_frame #(
   );
 
   assign rests       = state_q == IDLE || state_q == TIMEOUT || state_q == RELEASE;
+  assign new_ssi     = Ssi && cmd_i.protocol == biss_pkg::SSI;
+  assign new_biss_c  = BissB ? cmd_i.protocol == biss_pkg::BISS_C : !new_ssi;
+  assign new_bus     = Mo && bus_i && !new_ssi;
+  assign ssi         = Ssi && ssi_q;
+  assign biss_c      = BissB ? biss_c_q : !ssi;
   assign bus         = Mo && bus_q;
-  assign biss_c      = BissB ? protocol_q == biss_pkg::BISS_C : !ssi;
-  assign ssi         = Ssi && protocol_q == biss_pkg::SSI;
   assign sl_high     = sl_i || unused;
   assign begin_frame = go_i.start && start_i.takes_part && state_q == IDLE;
   // If CDM depends on CDS, it is known when CDS has come. Until then MA goes on.
@@ -184,9 +188,9 @@ module biss_frame #(
   biss_edge_count #(.Slaves(Slaves), .DataBits(DataBits), .Mo(Mo)) u_edges (
     .clk_i,
     .rst_ni,
-    .biss_c_i    (biss_c),
-    .ssi_i       (ssi),
-    .bus_i       (bus),
+    .biss_c_i    (new_biss_c),
+    .ssi_i       (new_ssi),
+    .bus_i       (new_bus),
     .mo_busy_i   (cmd_i.mo_busy),
     .begin_i     (begin_frame),
     .run_i       (state_q != IDLE),
@@ -202,7 +206,7 @@ module biss_frame #(
 
   // What begins with go_i.start, and what go_i.stop ends. MA may be low in IDLE (hold_cdm).
   assign new_state   = BissB && go_i.register_access ? REGISTER : REQUEST;
-  assign new_cdm     = (go_i.init || !(biss_c || ssi)) ? 2'b00 : {start_i.cdm1, start_i.cdm0};
+  assign new_cdm     = (go_i.init || !(new_biss_c || new_ssi)) ? 2'b00 : {start_i.cdm1, start_i.cdm0};
   assign new_reduced = go_i.reduced && !go_i.init;
   assign new_init    = go_i.init && !go_i.register_access;
   assign abort       = go_i.stop && (state_q == IDLE ? !ma_o : state_q != RELEASE);
@@ -233,7 +237,7 @@ module biss_frame #(
           reduced_d = new_reduced;
           hold_d    = cmd_i.hold_cdm;
           init_d    = new_init;
-          started_d = ssi;
+          started_d = new_ssi;
         end else if (released) begin
           state_d = RELEASE;
         end
@@ -310,7 +314,8 @@ module biss_frame #(
       started_q  <= 1'b0;
       cds_q      <= 1'b0;
       load_q     <= 1'b0;
-      protocol_q <= '0;
+      ssi_q      <= 1'b0;
+      biss_c_q   <= 1'b0;
       bus_q      <= 1'b0;
       idle_q     <= 1'b0;
     end else begin
@@ -324,8 +329,9 @@ module biss_frame #(
       load_q     <= load_d;
       // A frame keeps the configuration with which it begins.
       if (rests) begin
-        protocol_q <= cmd_i.protocol;
-        bus_q      <= bus_i;
+        ssi_q    <= new_ssi;
+        biss_c_q <= new_biss_c;
+        bus_q    <= new_bus;
       end
       idle_q     <= state_d == IDLE && !release_next;
     end

@@ -144,7 +144,8 @@ module biss_line #(
       .rst_ni,
       .cmd_i,
       .go_i,
-      .begin_i     (go_i.start && start_i.takes_part && !go_i.register_access && !ssi_o),
+      .begin_i     (go_i.start && start_i.takes_part && !go_i.register_access &&
+                     cmd_i.protocol != biss_pkg::SSI),
       .rise_i      (rise),
       .final_i     (final_rise),
       .clocks_i    (ma_clocks),

@@ -82,6 +82,7 @@ module mb4_lines #(
   logic [1:0]  ssi;
   // word lists {MO 2, MO 1, SL 2, SL 1}
   logic [3:0]  next, actuator, len_valid;
+  logic [1:0]  bus_q;
   logic [27:0] len;
   logic [4*OFFER_W-1:0] offer;
   logic        unused;
@@ -142,6 +143,12 @@ module mb4_lines #(
     end
   end
 
+  // As the protocol in cmd_i, from one flop.
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) bus_q <= '0;
+    else         bus_q <= actuator[3:2] & {2{cfg_i.en_mo}};
+  end
+
   for (genvar i = 0; i < LINES; i++) begin : gen_line
     biss_line #(
       .SlCells(SlCells),
@@ -171,7 +178,7 @@ module mb4_lines #(
       .len_i       (len[(SUM + i)*7 +: 7]),
       .rx_offer_i  (offer[i*OFFER_W +: OFFER_W]),
       .rx_next_o   (next[i]),
-      .mo_bus_i    (actuator[2 + i] && cfg_i.en_mo),
+      .mo_bus_i    (bus_q[i]),
       .mo_offer_i  (offer[(2 + i)*OFFER_W +: OFFER_W]),
       .mo_next_o   (next[2 + i]),
       .mo_read_o   (mo_read_o[i*READ_W +: READ_W]),
@@ -193,7 +200,7 @@ module mb4_lines #(
   end
 
   // Of the lists of a line one counts the bits. A line that is left out takes nothing.
-  assign unused = ^{actuator, len_valid, len, next, ssi, offer, cmd_i, start_i, slave_cfg_i,
+  assign unused = ^{actuator, bus_q, len_valid, len, next, ssi, offer, cmd_i, start_i, slave_cfg_i,
                     mo_data_i, sl_i};
 
 endmodule

@@ -52,6 +52,7 @@ module mb4_control #(
   logic control_want, register_want, control_active, control_start, void_end, refused, access_stale;
   logic live, automatic_frames, stalled, access_ags_error;
   // lines
+  logic [3:0] protocol_q;
   logic [1:0] start_use, cdm0, cdm1, mo_low, forced, force_level;
   logic force_change, force_any, keep_time, keep_time_q;
 
@@ -121,6 +122,7 @@ module mb4_control #(
     .rst_ni,
     .cfg_i,
     .quirks_i,
+    .protocol_i    (protocol_q),
     .instr_i       (instr_o.held.instr),
     .kind_o        (kind),
     .rdata_o,
@@ -177,11 +179,17 @@ module mb4_control #(
 
   // ---- lines --------------------------------------------------------------------------------
 
-  // CFGCHx has the codes of biss_pkg::protocol_e. Line 2 is unused if SLAVELOC5 = 0.
+  // CFGCHx has the codes of biss_pkg::protocol_e. Line 2 is unused if SLAVELOC5 = 0. The host may
+  // write them at any time: what starts a frame and the line that makes it see one flop.
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) protocol_q <= {2{biss_pkg::UNUSED}};
+    else         protocol_q <= {cfg_i.cfgch2 | {2{!cfg_i.slaveloc5}}, cfg_i.cfgch1};
+  end
+
   assign cmd_o = {
-    cfg_i.cfgch2 | {2{!cfg_i.slaveloc5}}, cfg_i.en_mo, cfg_i.mo_busy,
+    protocol_q[3:2], cfg_i.en_mo, cfg_i.mo_busy,
     cfg_i.holdcdm, forced[1], force_level[1], mo_low[1],
-    cfg_i.cfgch1, cfg_i.en_mo, cfg_i.mo_busy,
+    protocol_q[1:0], cfg_i.en_mo, cfg_i.mo_busy,
     cfg_i.holdcdm, forced[0], force_level[0], mo_low[0]
   };
   assign start_o = {start_use[1], cdm0[1], cdm1[1], start_use[0], cdm0[0], cdm1[0]};

@@ -18,6 +18,7 @@ module mb4_control_comm #(
   input  logic       rst_ni,
   input  mb4_pkg::cfg_t cfg_i,
   input  logic [mb4_pkg::QUIRKS_W-1:0] quirks_i,
+  input  logic [3:0] protocol_i,       // codes of lines {2, 1}
   input  logic [2:0] instr_i,
   output mb4_pkg::kind_t kind_o,
   // RDATA
@@ -91,9 +92,7 @@ module mb4_control_comm #(
   mb4_frame_kind #(.Features(Features)) u_kind (
     .instr_i,
     .access_i    (access_q),
-    .slaveloc5_i (cfg_i.slaveloc5),
-    .cfgch1_i    (cfg_i.cfgch1),
-    .cfgch2_i    (cfg_i.cfgch2),
+    .protocol_i,
     .kind_o
   );
 

@@ -6,8 +6,7 @@
 // Combinational. CHSEL, CTS and REGVERS are those that mb4_control_comm keeps for an access; the
 // host may change the rest at any time (decision 38). Bit i of a vector {2, 1} is for line i + 1.
 //
-// - A line is in use unless CFGCHx is 11 or a protocol that the core does not have. Line 2 also
-//   needs SLAVELOC5 = 1.
+// - A line is in use unless its code is UNUSED or a protocol that the core does not have.
 // - Control communication runs on the lines that CHSEL names and whose protocol fits: BiSS B with
 //   REGVERS = 0, BiSS C or SSI with REGVERS = 1.
 // - If both lines fit, a BiSS C register access runs on line 1 alone. A command runs on both lines,
@@ -21,9 +20,7 @@ module mb4_frame_kind #(
 ) (
   input  logic [2:0] instr_i,
   input  mb4_pkg::access_t access_i,
-  input  logic       slaveloc5_i,
-  input  logic [1:0] cfgch1_i,
-  input  logic [1:0] cfgch2_i,
+  input  logic [3:0] protocol_i,   // codes of lines {2, 1}
   output mb4_pkg::kind_t kind_o
 );
 
@@ -32,7 +29,8 @@ module mb4_frame_kind #(
   localparam bit SSI       = Features[mb4_page_regs_pkg::SSI_LSB];
   localparam bit CONTROL   = Features[mb4_page_regs_pkg::CONTROL_LSB];
 
-  logic [1:0] ssi;      // CFGCHx as the host has written it
+  logic [1:0] unused;
+  logic [1:0] ssi;
   logic [1:0] biss_b;
   logic [1:0] manual;
   logic [1:0] select;
@@ -43,12 +41,13 @@ module mb4_frame_kind #(
   logic       is_register;
   logic       is_frame;
 
-  assign in_use = {cfgch2_i != mb4_regs_pkg::PROTOCOL_UNUSED && slaveloc5_i && TWO_LINES,
-                   cfgch1_i != mb4_regs_pkg::PROTOCOL_UNUSED} &
-                  ~(biss_b & {2{!BISS_B}}) & ~(ssi & {2{!SSI}});
-  assign ssi  = {cfgch2_i == mb4_regs_pkg::PROTOCOL_SSI, cfgch1_i == mb4_regs_pkg::PROTOCOL_SSI};
-  assign biss_b = {cfgch2_i == mb4_regs_pkg::PROTOCOL_BISS_B,
-                   cfgch1_i == mb4_regs_pkg::PROTOCOL_BISS_B};
+  for (genvar i = 0; i < 2; i++) begin : gen_line
+    assign unused[i] = protocol_i[2*i +: 2] == biss_pkg::UNUSED || (i == 1 && !TWO_LINES);
+    assign ssi[i]    = protocol_i[2*i +: 2] == biss_pkg::SSI;
+    assign biss_b[i] = protocol_i[2*i +: 2] == biss_pkg::BISS_B;
+  end
+
+  assign in_use = ~unused & ~(biss_b & {2{!BISS_B}}) & ~(ssi & {2{!SSI}});
 
   assign manual = access_i.chsel == 2'b00 ? 2'b01 : access_i.chsel;
   assign fits   = manual & in_use & (access_i.regvers ? ~biss_b : biss_b) & {2{CONTROL}};

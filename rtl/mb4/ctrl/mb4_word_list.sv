@@ -33,7 +33,7 @@ module mb4_word_list #(
   output logic       cfg_en_o,
   output logic [2:0] cfg_slave_o, // data channel whose configuration is needed
   input  mb4_pkg::slave_cfg_t cfg_i,  // its configuration, one clock later
-  output logic       actuator_o,  // the line has an actuator
+  output logic       actuator_o,  // the line has an actuator, unless it is SSI
   // frame length
   output logic       len_valid_o,
   output logic [6:0] len_o,
@@ -115,7 +115,7 @@ module mb4_word_list #(
     end
   end
 
-  assign actuator_o = (enscd_i & actnsens_i) != 8'h00 && !ssi_i;
+  assign actuator_o = (enscd_i & actnsens_i) != 8'h00;
 
   assign actuator = actnsens_i[slave_q] && !ssi_i;
   assign stop     = actuator && cfg_i.gray_lstop;

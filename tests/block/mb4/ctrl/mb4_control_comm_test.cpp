@@ -51,9 +51,7 @@ class ControlCommBlock : public testing::Test {
     }
   }
   void lines(unsigned cfgch1, unsigned cfgch2) {
-    set(16, 2, cfgch1);
-    set(18, 2, cfgch2);
-    set(20, 1, 1);  // SLAVELOC5
+    m.protocol_i = static_cast<std::uint8_t>(cfgch2 << 2 | cfgch1);
   }
   void set_access(const ControlAccess& made, unsigned chsel, bool biss_c = true) {
     const std::uint32_t port = made.port();

@@ -19,27 +19,24 @@ TEST(FrameKindBlock, EverySetting_LinesAndKindAreThoseOfTheTables) {
   const auto bits = [&](unsigned lsb, unsigned width) {
     return (static_cast<unsigned>(m.kind_o) >> lsb) & ((1U << width) - 1);
   };
-  for (unsigned setting = 0; setting < 4096; ++setting) {
+  for (unsigned setting = 0; setting < 2048; ++setting) {
     const unsigned instr = setting & 7;
     const unsigned chsel = (setting >> 3) & 3;
     const bool cts = (setting >> 5) & 1;
     const bool regvers = (setting >> 6) & 1;
-    const bool slaveloc5 = (setting >> 7) & 1;
-    const unsigned cfgch[2] = {(setting >> 8) & 3, (setting >> 10) & 3};
+    const unsigned cfgch[2] = {(setting >> 7) & 3, (setting >> 9) & 3};
     m.instr_i = static_cast<std::uint8_t>(instr);
     // mb4_pkg::access_t; the fields that say nothing of the kind are free.
     m.access_i = chsel << 19 | random.below(1U << 14) << 5 | (cts ? 1U << 4 : 0) |
                  (regvers ? 1U << 3 : 0) | random.below(8);
-    m.slaveloc5_i = slaveloc5;
-    m.cfgch1_i = static_cast<std::uint8_t>(cfgch[0]);
-    m.cfgch2_i = static_cast<std::uint8_t>(cfgch[1]);
+    m.protocol_i = static_cast<std::uint8_t>(cfgch[1] << 2 | cfgch[0]);
     m.eval();
 
     unsigned in_use = 0, ssi = 0, named = 0, select = 0;
     for (unsigned line = 0; line < 2; ++line) {
       const unsigned bit = 1U << line;
-      // Table 8: 3 is no device. Table 10: line 2 is connected with SLAVELOC5 = 1.
-      if (cfgch[line] != 3 && (line == 0 || slaveloc5)) in_use |= bit;
+      // Table 8: 3 is no device.
+      if (cfgch[line] != 3) in_use |= bit;
       if (cfgch[line] == 2) ssi |= bit;
       // Table 23: 00 is channel 1.
       if ((chsel & bit) != 0 || (chsel == 0 && line == 0)) named |= bit;
@@ -53,9 +50,8 @@ TEST(FrameKindBlock, EverySetting_LinesAndKindAreThoseOfTheTables) {
     const bool access = instr == 4 || instr == 7;
     const bool plain = instr >= 1 && instr <= 3;
 
-    SCOPED_TRACE(testing::Message()
-                 << "INSTR " << instr << " CHSEL " << chsel << " CTS " << cts << " REGVERS "
-                 << regvers << " SLAVELOC5 " << slaveloc5 << " CFGCH " << cfgch[0] << cfgch[1]);
+    SCOPED_TRACE(testing::Message() << "INSTR " << instr << " CHSEL " << chsel << " CTS " << cts
+                                    << " REGVERS " << regvers << " CFGCH " << cfgch[0] << cfgch[1]);
     const bool is_register = access && can_run && !regvers;
     ASSERT_EQ(bits(8, 2), select) << "lines of the access";
     ASSERT_EQ(bits(10, 2), named);

@@ -85,7 +85,7 @@ TEST(WordListBlock, RandomConfigurations_WordsComeInOrderWithTheirLengths) {
       words.push_back(i);
       // Table 18: the stop bit of an actuator; SSI has none.
       const bool sends = c.actuator && !ssi;
-      actuators = actuators || sends;
+      actuators = actuators || c.actuator;
       lengths.push_back(c.data_bits + c.crc_bits + (sends && c.gray_lstop ? 1 : 0));
     }
     m.start_i = 1;
