@@ -171,9 +171,9 @@ TEST(ConfigChange, ProtocolInAnSsiFrame_WordIsDecodedAsItBegan) {
   }
 }
 
-// CFGCH written in the clocks around the start of an automatic frame without words: the frame is one
-// of the old protocol or one of the new one. Either ends, but not a mixture: one edge of MA, as SSI
-// needs, and no acknowledge (decision 38).
+// CFGCH written in the clocks around the start of an automatic frame without words: the frame is
+// one of the old protocol or one of the new one. Either ends, but not a mixture: one edge of MA, as
+// SSI needs, and no acknowledge (decision 38).
 TEST(ConfigChange, ProtocolAsAFrameStarts_ItEnds) {
   constexpr std::uint8_t kProtocols[] = {reg::kCfgch1BissB, reg::kCfgch1BissC, reg::kCfgch1Ssi};
   Chip chip(one_slave(kEncoder, "", "", "sclk_hz = 50_000_000"));
@@ -191,8 +191,8 @@ TEST(ConfigChange, ProtocolAsAFrameStarts_ItEnds) {
         chip.simulator.advance(sim::Time{11'000'000} + step * 25'000);
         chip.write(reg::kAddrCfgch, {static_cast<std::uint8_t>(reg::kCfgch2Unused | after)});
         chip.instruct(0x00);
-        ASSERT_TRUE(chip.wait_eot(400)) << unsigned{before} << " to " << unsigned{after} << ", step "
-                                        << step;
+        ASSERT_TRUE(chip.wait_eot(400))
+            << unsigned{before} << " to " << unsigned{after} << ", step " << step;
       }
     }
   }
