@@ -25,8 +25,8 @@
 //   go_i.register_access MA belongs to the BiSS B register access (biss_b_access) until
 //                        register_ma_i.ends, which makes event_o.line_end
 //
-// A frame keeps the protocol and the bus_i of the clock of its start; both come from flops of clk_i.
-// A line that is taken out of use (UNUSED) does not wait for SL in its timeout.
+// A frame keeps the protocol and the bus_i of the clock of its start, which come from flops of
+// clk_i. A line that is taken out of use (UNUSED) does not wait for SL in its timeout.
 //
 // Parameters: a protocol that is left out acts as UNUSED (decision 44). Such a line must not take
 // part in a frame.
@@ -126,9 +126,7 @@ module biss_frame #(
   logic               ssi;
   logic               rests;       // no frame: the configuration may change
   logic               new_ssi, new_biss_c, new_bus;   // of a frame that begins
-  logic               ssi_q, biss_c_q;
-  logic               bus;
-  logic               bus_q;
+  logic               bus, bus_q, ssi_q, biss_c_q;
   logic               unused;      // the line is out of use
   logic               sl_high;     // the slaves' timeout has ended, or no longer counts
   logic               line_end, init_done, init_fail;
@@ -206,7 +204,7 @@ module biss_frame #(
 
   // What begins with go_i.start, and what go_i.stop ends. MA may be low in IDLE (hold_cdm).
   assign new_state   = BissB && go_i.register_access ? REGISTER : REQUEST;
-  assign new_cdm     = (go_i.init || !(new_biss_c || new_ssi)) ? 2'b00 : {start_i.cdm1, start_i.cdm0};
+  assign new_cdm     = {start_i.cdm1, start_i.cdm0} & {2{!go_i.init && (new_biss_c || new_ssi)}};
   assign new_reduced = go_i.reduced && !go_i.init;
   assign new_init    = go_i.init && !go_i.register_access;
   assign abort       = go_i.stop && (state_q == IDLE ? !ma_o : state_q != RELEASE);
