@@ -201,10 +201,11 @@ module axi_core #(
     .crc_bits_o (crc_bits)
   );
 
-  biss_timebase u_timebase (
+  biss_timebase #(.LastW(8)) u_timebase (
     .clk_i,
     .rst_ni,
-    .half_len_i    (frame.half_len),
+    .last_i        (frame.half_len - 8'd1),
+    .tens_i        (1'b0),
     .run_i         (1'b1),
     .restart_i     (start),
     .tick_o        (tick),
@@ -218,10 +219,11 @@ module axi_core #(
 
     // A channel whose start is shifted has a time base of its own.
     if (ALIGN) begin : gen_own_timebase
-      biss_timebase u_own_timebase (
+      biss_timebase #(.LastW(8)) u_own_timebase (
         .clk_i,
         .rst_ni,
-        .half_len_i    (frame.half_len),
+        .last_i        (frame.half_len - 8'd1),
+        .tens_i        (1'b0),
         .run_i         (1'b1),
         .restart_i     (channel_start[i]),
         .tick_o        (ma_tick),

@@ -103,6 +103,8 @@ module biss_b_access (
   logic [1:0]  check_q;     // ... must come back on SL
   logic [1:0]  sample_q;    // rising edge of MA, delayed two clocks as sl_i is
   logic        fresh_q;     // the read has not clocked the slave yet
+  logic        active_q;    // state_q is not IDLE
+  logic        begins;      // an access begins; state_d does not tell it
   logic        ma;
   logic        ends;
   logic        wr_en;
@@ -155,10 +157,7 @@ module biss_b_access (
         // No access. biss_frame drives MA.
         cell_d  = 5'd0;
         fail_d  = 1'b0;
-        if (start_i) begin
-          state_d = REQUEST;
-          index_d = 6'd0;
-        end
+        if (start_i) index_d = 6'd0;
       end
       REQUEST: begin
         // MA is high up to the next tick.
@@ -243,6 +242,9 @@ module biss_b_access (
     end
   end
 
+  // start_i comes late, and MA, which is 1 then, does not wait for it.
+  assign begins = state_q == IDLE && start_i && !abort_i;
+
   // Level of MA after the next tick.
   always_comb begin
     ma = 1'b1;
@@ -258,6 +260,7 @@ module biss_b_access (
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
       state_q  <= IDLE;
+      active_q <= 1'b0;
       init_q   <= 1'b0;
       use_q    <= '0;
       mo_q     <= 1'b0;
@@ -273,7 +276,8 @@ module biss_b_access (
       sample_q <= '0;
       fresh_q  <= 1'b0;
     end else begin
-      state_q  <= state_d;
+      state_q  <= begins ? REQUEST : state_d;
+      active_q <= begins || state_d != IDLE;
       cell_q   <= cell_d;
       bits_q   <= bits_d;
       crc_q    <= crc_d;
@@ -299,7 +303,7 @@ module biss_b_access (
   assign end_o    = {ends && !init_q, reg_error, delay_error, index_q};
   assign byte_o   = {wr_en, index_q, bits_q[7:0]};
   assign mo_low_o = use_q & {2{init_q ? state_q == HAND_OVER : state_q != IDLE}};
-  assign active_o = state_q != IDLE;
+  assign active_o = active_q;
   assign wait_o   = (state_q == HAND_OVER && (init_q || !mo_q)) ||
                            (state_q == READ && cell_q == 5'd0);
 

@@ -70,6 +70,7 @@ module biss_control_frame (
   logic [5:0] slot_d;
   logic [9:0] bits_q;       // header fields, IDS and CMD, or data byte; next bit on top
   logic [9:0] bits_d;
+  logic       bits_header, bits_byte, bits_shift;  // what bits_q takes
   logic [3:0] crc_q;
   logic [3:0] crc_d;
   logic [5:0] index_q;      // bytes done
@@ -206,15 +207,16 @@ module biss_control_frame (
     if (slot_q == biss_pkg::SLOT_START) crc_d = 4'h0;
   end
 
-  always_comb begin
-    bits_d = bits_q;
-    if (take)
-      bits_d = cts ? {access_i.slaveid, access_i.regadr} : {rdata_i, access_i.slaveid[2:1]};
-    else if (cts && (slot_q == biss_pkg::SLOT_BYTE || slot_q == biss_pkg::SLOT_NEXT))
-      bits_d = {rdata_i, 2'b00};
-    else if ((header && slot_q != biss_pkg::SLOT_CTS) || data || ida)
-      bits_d = {bits_q[8:0], (data && !wnr) ? cds : top};
-  end
+  // The header of a register access, a byte (with the end of the slave address of a command), or
+  // the next bit. At most one of the three is chosen.
+  assign bits_header = take && cts;
+  assign bits_byte   = take ? !cts : step && cts && (slot_q == biss_pkg::SLOT_BYTE ||
+                                                     slot_q == biss_pkg::SLOT_NEXT);
+  assign bits_shift  = !take && step &&
+                       ((header && slot_q != biss_pkg::SLOT_CTS) || data || ida);
+  assign bits_d = ({access_i.slaveid, access_i.regadr} & {10{bits_header}}) |
+                  ({rdata_i, access_i.slaveid[2:1] & {2{!cts}}} & {10{bits_byte}}) |
+                  ({bits_q[8:0], (data && !wnr) ? cds : top} & {10{bits_shift}});
 
   assign byte_o = {step && cts && !wnr && !fail && slot_q == biss_pkg::SLOT_STOP, index_q,
                    bits_q[7:0]};
@@ -295,7 +297,7 @@ module biss_control_frame (
       reg_error_q   <= reg_error_d;
       delay_error_q <= delay_error_d;
       if (take) broadcast_q <= rdata_i == 8'h00;
-      if (take || step) bits_q <= bits_d;
+      if (bits_header || bits_byte || bits_shift) bits_q <= bits_d;
       if (step) crc_q <= crc_d;
       if (begin_o)   ida_bad_q <= '0;
       else if (step) ida_bad_q <= ida_bad_d;

@@ -25,15 +25,15 @@
 //   go_i.register_access MA belongs to the BiSS B register access (biss_b_access) until
 //                        register_ma_i.ends, which makes event_o.line_end
 //
-// A frame keeps the protocol and the bus_i of the clock of its start, which come from flops of
-// clk_i. A line that is taken out of use (UNUSED) does not wait for SL in its timeout.
+// A frame keeps the protocol and the bus_i of the clock of its start. Both come from flops.
+// A line that is taken out of use (UNUSED) does not wait for SL in its timeout.
 //
 // Parameters: a protocol that is left out acts as UNUSED (decision 44). Such a line must not take
 // part in a frame.
 //
-// Misuse: go_i.start is ignored while status_o.idle is low. A slave that never answers keeps the
-// frame running until go_i.stop (decision 4). After go_i.stop, and after a reset, MA returns to 1
-// with the next tick.
+// Misuse: go_i.start while status_o.idle is low begins another frame in the middle of one. A slave
+// that never answers keeps the frame running until go_i.stop (decision 4). After go_i.stop, and
+// after a reset, MA returns to 1 with the next tick.
 // Datasheet: pages 12..16, 27, 32, 33, Figures 8..16.
 
 `include "enc_check.svh"
@@ -67,7 +67,7 @@ module biss_frame #(
   input  logic       bit_i,
   // words
   input  logic       len_valid_i,
-  input  logic [6:0] len_i,
+  input  logic [6:0] len_last_i,
   input  biss_pkg::offer_t offer_i,
   input  logic       word_done_i,
   output logic       word_load_o,  // the next bit is the first of a word
@@ -107,8 +107,7 @@ module biss_frame #(
   logic               init_q;
   logic               started_d;
   logic               started_q;   // the start bit has come
-  logic               none_left;   // no more MA edges needed
-  logic               one_left;    // one more needed, or none
+  logic               none_left, one_left;   // no more MA edges needed; at most one
   logic               cds_d;
   logic               cds_q;
   logic               load_d;
@@ -122,11 +121,11 @@ module biss_frame #(
   logic               waited;      // one more processing clock
   logic               cdm;
   logic               cdm_known;
-  logic               biss_c;
-  logic               ssi;
+  logic               biss_c, ssi;
   logic               rests;       // no frame: the configuration may change
   logic               new_ssi, new_biss_c, new_bus;   // of a frame that begins
-  logic               bus, bus_q, ssi_q, biss_c_q;
+  logic               ssi_q, biss_c_q;
+  logic               bus, bus_q;
   logic               unused;      // the line is out of use
   logic               sl_high;     // the slaves' timeout has ended, or no longer counts
   logic               line_end, init_done, init_fail;
@@ -151,7 +150,7 @@ module biss_frame #(
   assign biss_c      = BissB ? biss_c_q : !ssi;
   assign bus         = Mo && bus_q;
   assign sl_high     = sl_i || unused;
-  assign begin_frame = go_i.start && start_i.takes_part && state_q == IDLE;
+  assign begin_frame = go_i.start && start_i.takes_part;
   // If CDM depends on CDS, it is known when CDS has come. Until then MA goes on.
   assign cdm         = cds_q ? cdm_q[1] : cdm_q[0];
   assign cdm_known   = cdm_q[1] == cdm_q[0] || state_q == DATA || state_q == STOP ||
@@ -191,9 +190,8 @@ module biss_frame #(
     .bus_i       (new_bus),
     .mo_busy_i   (cmd_i.mo_busy),
     .begin_i     (begin_frame),
-    .run_i       (state_q != IDLE),
     .len_valid_i (len_valid_i && !reduced_q),
-    .len_i,
+    .len_last_i,
     .wait_i      (waited && !bus),
     .rise_i      (rise),
     .two_o       (armed_a_o),
@@ -204,7 +202,8 @@ module biss_frame #(
 
   // What begins with go_i.start, and what go_i.stop ends. MA may be low in IDLE (hold_cdm).
   assign new_state   = BissB && go_i.register_access ? REGISTER : REQUEST;
-  assign new_cdm     = {start_i.cdm1, start_i.cdm0} & {2{!go_i.init && (new_biss_c || new_ssi)}};
+  assign new_cdm     = (go_i.init || !(new_biss_c || new_ssi)) ? 2'b00
+                                                               : {start_i.cdm1, start_i.cdm0};
   assign new_reduced = go_i.reduced && !go_i.init;
   assign new_init    = go_i.init && !go_i.register_access;
   assign abort       = go_i.stop && (state_q == IDLE ? !ma_o : state_q != RELEASE);
@@ -228,17 +227,7 @@ module biss_frame #(
     unique case (state_q)
       IDLE: begin
         // The line rests; MA is high, or keeps its level with hold_cdm.
-        if (begin_frame) begin
-          state_d   = new_state;
-          cdm_d     = new_cdm;
-          cds_d     = 1'b0;
-          reduced_d = new_reduced;
-          hold_d    = cmd_i.hold_cdm;
-          init_d    = new_init;
-          started_d = new_ssi;
-        end else if (released) begin
-          state_d = RELEASE;
-        end
+        if (released) state_d = RELEASE;
       end
       REQUEST: begin
         // The slaves acknowledge and process, up to the start bit. With SSI the first word follows
@@ -298,6 +287,17 @@ module biss_frame #(
       end
       default: state_d = RELEASE;
     endcase
+
+    // go_i.start comes late, and the line is in IDLE then.
+    if (begin_frame) begin
+      state_d   = new_state;
+      cdm_d     = new_cdm;
+      cds_d     = 1'b0;
+      reduced_d = new_reduced;
+      hold_d    = cmd_i.hold_cdm;
+      init_d    = new_init;
+      started_d = new_ssi;
+    end
 
     if (abort) state_d = RELEASE;
   end

@@ -48,7 +48,7 @@ module biss_line #(
   // words on SL
   output logic       ssi_o,        // the frame is SSI
   input  logic       len_valid_i,
-  input  logic [6:0] len_i,
+  input  logic [6:0] len_last_i,   // bits of the word minus 1
   input  biss_pkg::offer_t rx_offer_i,
   output logic       rx_next_o,
   // words on MO
@@ -90,7 +90,7 @@ module biss_line #(
     .bit_valid_i (bit_valid),
     .bit_i       (sl_bit),
     .len_valid_i,
-    .len_i,
+    .len_last_i,
     .offer_i     (rx_offer_i),
     .word_done_i (rx_next_o),
     .word_load_o (word_load),

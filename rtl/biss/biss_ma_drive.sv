@@ -99,7 +99,7 @@ module biss_ma_drive (
 
   // rise_o follows the cases above, without begin_i. begin_i comes late, and clocking_q is 0 then,
   // so rise_o is 0 in any case.
-  assign rise_o = tick_i && clocking_q && half_next_i && !register_i && !(enough_i && cdm_i);
+  assign rise_o = tick_i && clocking_q && half_next_i && !(enough_i && cdm_i);
 
   assign release_next_o = force_q && (!force_i || (tick_i && ma_q && !level_q));
   assign released_o = released_q;

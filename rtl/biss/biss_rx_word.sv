@@ -47,12 +47,10 @@ module biss_rx_word #(
   logic       in_crc_q;
   logic [5:0] left_d;
   logic [5:0] left_q;    // bits of the current part that follow this one
-  logic [6:0] part_d;
-  logic [6:0] part_q;
+  logic [6:0] part_q;    // the bits before this one, decoded
   logic       skip_d;
   logic       skip_q;    // the stop bit of an actuator comes first
   logic       fresh_q;   // no bit of this word has come yet
-  logic       bin_q;     // the previous data bit, decoded
   logic       good_d;
   logic       good_q;
   logic       crc_top;
@@ -86,7 +84,7 @@ module biss_rx_word #(
   assign word = offer_i.word;
 
   // CRC bits are sent inverted.
-  assign value    = bit_i ^ (in_crc_q || (Gray && word.gray && bin_q));
+  assign value    = bit_i ^ (in_crc_q || (Gray && word.gray && part_q[0]));
   assign crc_fits = good_q && value == crc_top && known;
   assign known    = FreeCrc || crc_last_q[3] ||
                     (crc_last_q[2:0] == 3'd5 && word.crc_poly[5:0] == 6'h03);
@@ -95,7 +93,6 @@ module biss_rx_word #(
     skip_d    = skip_q;
     in_crc_d  = in_crc_q;
     left_d    = left_q;
-    part_d    = part_q;
     good_d    = good_q;
     wr_en   = 1'b0;
     wr_byte = left_q[5:3];
@@ -106,13 +103,11 @@ module biss_rx_word #(
       skip_d   = word.stop;
       in_crc_d = 1'b0;
       left_d   = word.data_last & LEFT;
-      part_d   = '0;
       good_d   = 1'b1;
     end else if (bit_valid_i && skip_q) begin
       skip_d = 1'b0;
     end else if (bit_valid_i) begin
       left_d = (left_q - 6'd1) & LEFT;
-      part_d = (left_q[2:0] == 3'd0) ? 7'h00 : {part_q[5:0], value};
       if (!in_crc_q) begin
         wr_en = left_q[2:0] == 3'd0;
         if (left_q == 6'd0) begin
@@ -137,10 +132,8 @@ module biss_rx_word #(
       sensor_q <= 1'b0;
       store_q  <= 1'b0;
       crc_last_q <= '0;
-      bin_q    <= 1'b0;
       in_crc_q <= 1'b0;
       left_q   <= '0;
-      part_q   <= '0;
       good_q   <= 1'b0;
     end else begin
       skip_q   <= skip_d;
@@ -150,12 +143,18 @@ module biss_rx_word #(
         crc_last_q <= word.crc_last;
       end
       fresh_q  <= load_i || (fresh_q && !bit_valid_i);
-      if (load_i)           bin_q <= 1'b0;
-      else if (bit_valid_i) bin_q <= value;
       in_crc_q <= in_crc_d;
       left_q   <= left_d;
-      part_q   <= part_d;
       good_q   <= good_d;
+    end
+  end
+
+  // A part of a word begins with zeros: the data with load_i, the CRC after the last data bit.
+  // Without an asynchronous reset this needs no logic cell.
+  always_ff @(posedge clk_i) begin
+    if (load_i || (bit_valid_i && !skip_q)) begin
+      if (load_i || (left_q == 6'd0 && !in_crc_q)) part_q <= '0;
+      else                                         part_q <= {part_q[5:0], value};
     end
   end
 

@@ -70,6 +70,9 @@ module biss_sl_sampler #(
   logic       skip_d;
   logic [DelayW-1:0] quarters_q;
   logic [DelayW-1:0] quarters_d;
+  logic              full;        // quarters_q has reached its end, or lacks one
+  logic              count_a, count_b;
+  logic              unused;
   logic       phase_known;
   logic       at_phase;
 
@@ -81,14 +84,9 @@ module biss_sl_sampler #(
     .neg_o (neg)
   );
 
-  always_ff @(posedge clk_i or negedge rst_ni) begin
-    if (!rst_ni) begin
-      armed_a_q <= '0;
-      armed_b_q <= '0;
-    end else begin
-      armed_a_q <= clear_i ? 2'b00 : {armed_a_q[0], armed_a_i};
-      armed_b_q <= clear_i ? 2'b00 : {armed_b_q[0], armed_b_i};
-    end
+  always_ff @(posedge clk_i) begin
+    if (clear_i) {armed_b_q, armed_a_q} <= '0;
+    else         {armed_b_q, armed_a_q} <= {armed_b_q[0], armed_b_i, armed_a_q[0], armed_a_i};
   end
 
   assign value_b = sample_i.b_neg ? neg : pos;
@@ -99,22 +97,24 @@ module biss_sl_sampler #(
 
   assign phase_known = ssi_i ? armed_b_q[1] : found_q;
 
+  // Point a comes before point b. At the highest MA frequency both come in one clock. The bit below
+  // the sum carries count_b into its only adder.
+  assign full    = (quarters_q | DelayW'(1)) == LONGEST;
+  assign count_a = look_a && !(full && quarters_q[0]);
+  assign count_b = look_b && !hit_a && !(full && (quarters_q[0] || count_a));
+  assign {quarters_d, unused} = {quarters_q, 1'b1} + (DelayW+1)'({count_a, count_b});
+
   always_comb begin
     at_phase   = phase_known && sample_half_i != phase_q[1] &&
                  (phase_q[0] ? sample_i.b : sample_i.a);
     found_d    = found_q;
     phase_d    = phase_q;
     skip_d     = skip_q && !at_phase;
-    quarters_d = quarters_q;
     if (clear_i) begin
       found_d    = 1'b0;
       phase_d    = 2'b00;
       skip_d     = 1'b0;
-      quarters_d = '0;
     end else if (!found_q && !ssi_i) begin
-      // Point a comes before point b. At the highest MA frequency both come in one clock.
-      if (look_a && quarters_d != LONGEST)           quarters_d = quarters_d + DelayW'(1);
-      if (look_b && !hit_a && quarters_d != LONGEST) quarters_d = quarters_d + DelayW'(1);
       found_d = hit_a || hit_b;
       // The phase of the bits is the point after the one that read 0. This point still lies in the
       // acknowledge, so it is skipped, unless it comes in this same clock.
@@ -138,7 +138,7 @@ module biss_sl_sampler #(
       found_q    <= found_d;
       phase_q    <= phase_d;
       skip_q     <= skip_d;
-      quarters_q <= quarters_d;
+      quarters_q <= clear_i ? '0 : quarters_d;
     end
   end
 

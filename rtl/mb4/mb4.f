@@ -3,9 +3,9 @@
 //
 // The iC-MB4. Paths are relative to this folder; packages come first.
 -F ../biss/biss.f
-mb4_pkg.sv
 ../../regmap/generated/mb4/mb4_regs_pkg.sv
 ../../regmap/generated/mb4_page/mb4_page_regs_pkg.sv
+mb4_pkg.sv
 host/mb4_spi_shift.sv
 host/mb4_spi_cmd.sv
 host/mb4_spi.sv
@@ -29,7 +29,6 @@ regs/mb4_bank_ctrl.sv
 regs/mb4_cds_bank.sv
 regs/mb4_scd_store.sv
 regs/mb4_reg_file.sv
-ctrl/mb4_freqs_dec.sv
 ctrl/mb4_word_list.sv
 ctrl/mb4_frame_request.sv
 ctrl/mb4_frame_kind.sv

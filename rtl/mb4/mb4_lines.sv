@@ -77,23 +77,17 @@ module mb4_lines #(
 
   biss_pkg::line_status_t status1, status2;
   biss_pkg::sample_t sample;
-  logic [7:0]  half_len;
   logic        half_next, sample_half, idle;
   logic [1:0]  ssi;
   // word lists {MO 2, MO 1, SL 2, SL 1}
   logic [3:0]  next, actuator, len_valid;
   logic [1:0]  bus_q;
-  logic [27:0] len;
+  logic [27:0] len_last;
   logic [4*OFFER_W-1:0] offer;
   logic        unused;
 
   assign {status2, status1} = status_o;
   assign idle = status1.idle && status2.idle;
-
-  mb4_freqs_dec u_freqs (
-    .freqs_i    (cfg_i.freqs),
-    .half_len_o (half_len)
-  );
 
   // The time base also runs between frames, for forced levels, which last whole half periods, and
   // for time limits. It restarts when they begin. Only por_ni resets it, so that after a reset a
@@ -101,7 +95,8 @@ module mb4_lines #(
   biss_timebase u_timebase (
     .clk_i,
     .rst_ni      (por_ni),
-    .half_len_i  (half_len),
+    .last_i      (cfg_i.freqs[3:0]),
+    .tens_i      (cfg_i.freqs[4]),
     .run_i       (!idle || time_run_i),
     .restart_i   (go_i.start || (idle && time_restart_i)),
     .tick_o,
@@ -130,7 +125,7 @@ module mb4_lines #(
       .cfg_i       (slave_cfg_i[k*CFG_W +: CFG_W]),
       .actuator_o  (actuator[k]),
       .len_valid_o (len_valid[k]),
-      .len_o       (len[k*7 +: 7]),
+      .len_last_o  (len_last[k*7 +: 7]),
       .offer_o     (offer[k*OFFER_W +: OFFER_W])
     );
   end
@@ -138,7 +133,7 @@ module mb4_lines #(
   for (genvar k = 0; k < 4; k++) begin : gen_no_list
     if (k >= LISTS || k % 2 >= LINES) begin : gen_outputs
       assign cfg_en_o[k] = 1'b0;
-      assign {cfg_slave_o[k*3 +: 3], actuator[k], len_valid[k], len[k*7 +: 7]} = '0;
+      assign {cfg_slave_o[k*3 +: 3], actuator[k], len_valid[k], len_last[k*7 +: 7]} = '0;
       assign offer[k*OFFER_W +: OFFER_W] = '0;
     end
   end
@@ -175,7 +170,7 @@ module mb4_lines #(
       .sample_half_i (sample_half),
       .ssi_o       (ssi[i]),
       .len_valid_i (len_valid[SUM + i]),
-      .len_i       (len[(SUM + i)*7 +: 7]),
+      .len_last_i  (len_last[(SUM + i)*7 +: 7]),
       .rx_offer_i  (offer[i*OFFER_W +: OFFER_W]),
       .rx_next_o   (next[i]),
       .mo_bus_i    (bus_q[i]),
@@ -200,7 +195,7 @@ module mb4_lines #(
   end
 
   // Of the lists of a line one counts the bits. A line that is left out takes nothing.
-  assign unused = ^{actuator, bus_q, len_valid, len, next, ssi, offer, cmd_i, start_i, slave_cfg_i,
-                    mo_data_i, sl_i};
+  assign unused = ^{actuator, bus_q, len_valid, len_last, next, ssi, offer, cmd_i, start_i,
+                    slave_cfg_i, mo_data_i, sl_i};
 
 endmodule

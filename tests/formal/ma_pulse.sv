@@ -15,7 +15,8 @@
 // unbounded: induction 2
 // checks: those of the bench alone
 // look: dut_len = u_lines.u_timebase.len_q
-// look: dut_cnt = u_lines.u_timebase.cnt_q
+// look: dut_step = u_lines.u_timebase.step_q
+// look: dut_clock = u_lines.u_timebase.clock_q
 // look: dut_last = u_lines.u_timebase.last_q
 // look: dut_state1 = u_lines.gen_line[0].u_line.u_frame.state_q
 // look: dut_state2 = u_lines.gen_line[1].u_line.u_frame.state_q
@@ -31,7 +32,7 @@
 // mutation: biss/biss_frame.sv | if (tick_i && sl_high && !ma_clocks) state_d = IDLE;
 //   | if (sl_high) state_d = IDLE;
 // mutation: biss/biss_frame.sv | if (tick_i) state_d = IDLE; | state_d = IDLE;
-// mutation: biss/biss_timebase.sv | if (restart_i) len_q <= half_len_i; | len_q <= half_len_i;
+// mutation: biss/biss_timebase.sv | if (restart_i) len_q <= {tens_i, last_i}; | len_q <= {tens_i, last_i};
 
 module proof (
   input logic clk_i, rst_ni, por_ni,
@@ -74,7 +75,8 @@ module proof (
     if (forced_q != 2'b00) assume (time_run_i && !time_restart_i);
   end
 
-  wire [7:0] dut_len, dut_cnt;
+  wire [4:0] dut_len;    // half period: tens_i, last_i
+  wire [3:0] dut_step, dut_clock;
   wire       dut_last, dut_clock1, dut_clock2;
   wire [2:0] dut_state1, dut_state2;
 `ifdef ONE_LINE
@@ -85,28 +87,32 @@ module proof (
   localparam logic One = 1'b0;
 `endif
 
+  logic [7:0] len, cnt;   // clocks of the half period; those before this one
+  assign len = (dut_len[4] ? 8'd10 : 8'd1) * (8'(dut_len[3:0]) + 8'd1);
+  assign cnt = dut_len[4] ? 8'd10 * 8'(dut_step) + 8'(dut_clock) : 8'(dut_step);
+
   logic [7:0] len_q;
   logic       live_q;
   always @(posedge clk_i or negedge por_ni) begin
     if (!por_ni) {len_q, live_q} <= {8'd1, 1'b0};
-    else         {len_q, live_q} <= {dut_len, 1'b1};
+    else         {len_q, live_q} <= {len, 1'b1};
   end
 
   always @* if (started && live_q) begin
-    Count_A: assert (dut_cnt != 8'd0 && dut_cnt <= dut_len && dut_len <= 8'd160);
-    Last_A:  assert (dut_last == (dut_cnt == dut_len));
+    Count_A: assert (dut_step <= dut_len[3:0] && dut_clock <= 4'd9);
+    Last_A:  assert (dut_last == (cnt == len - 8'd1));
   end
 
   logic [1:0] rise;
   line_proof #(.Covers(1'b1), .One(One)) u_line1 (
-    .clk_i, .por_ni, .live_i(started && live_q), .reset_i(!rst_ni), .len_i(dut_len),
-    .len_q_i(len_q), .cnt_i(dut_cnt - 8'd1), .ma_i(ma[0]), .idle_i(idle[0]), .force_i(forced_q[0]),
+    .clk_i, .por_ni, .live_i(started && live_q), .reset_i(!rst_ni), .len_i(len),
+    .len_q_i(len_q), .cnt_i(cnt), .ma_i(ma[0]), .idle_i(idle[0]), .force_i(forced_q[0]),
     .state_i(dut_state1), .clocking_i(dut_clock1), .other_i(dut_state2),
     .other_rise_i(rise[1]), .rise_o(rise[0])
   );
   line_proof u_line2 (
-    .clk_i, .por_ni, .live_i(started && live_q), .reset_i(!rst_ni), .len_i(dut_len),
-    .len_q_i(len_q), .cnt_i(dut_cnt - 8'd1), .ma_i(ma[1]), .idle_i(idle[1]), .force_i(forced_q[1]),
+    .clk_i, .por_ni, .live_i(started && live_q), .reset_i(!rst_ni), .len_i(len),
+    .len_q_i(len_q), .cnt_i(cnt), .ma_i(ma[1]), .idle_i(idle[1]), .force_i(forced_q[1]),
     .state_i(dut_state2), .clocking_i(dut_clock2), .other_i(dut_state1),
     .other_rise_i(rise[0]), .rise_o(rise[1])
   );

@@ -30,7 +30,8 @@
 //   | biss_pkg::SLOT_START: cdm0 = 1'b1;
 // mutation: biss/biss_control_frame.sv | fresh_q[1] && !post_busy_i; | fresh_q[1];
 // mutation: biss/biss_control_frame.sv | if (take) broadcast_q | if (step) broadcast_q
-// mutation: biss/biss_control_frame.sv | if (take || step) bits_q | if (step) bits_q
+// mutation: biss/biss_control_frame.sv | if (bits_header || bits_byte || bits_shift) bits_q
+//   | if (step) bits_q
 
 module proof (
   input logic clk_i, rst_ni,

@@ -11,12 +11,14 @@
 // cover: 15
 // unbounded: induction 3
 // look: dut_len = u_dut.len_q
-// look: dut_cnt = u_dut.cnt_q
+// look: dut_step = u_dut.step_q
+// look: dut_clock = u_dut.clock_q
 // look: dut_half = u_dut.half_q
-// mutation: biss/biss_timebase.sv | cnt_d == len_q; | cnt_q == len_q;
-// mutation: mb4/ctrl/mb4_freqs_dec.sv | {2'b00, steps, 1'b0} | {2'b00, steps, 1'b1}
-// mutation: biss/biss_timebase.sv | cnt_q == {1'b0, len_q[7:1]}; | cnt_q == {1'b0, len_q[7:1]} + 8'd1;
-// mutation: biss/biss_timebase.sv | half_d = !half_q; | half_d = half_q ^ !run_i;
+// mutation: biss/biss_timebase.sv | : step_d == last && | : step_q == last &&
+// mutation: biss/biss_timebase.sv | END    = 4'd9; | END    = 4'd8;
+// mutation: biss/biss_timebase.sv | (last[0] ? END : MIDDLE) | END
+// mutation: biss/biss_timebase.sv | (last[0] ? step_q : step_d) | step_q
+// mutation: biss/biss_timebase.sv | half_d = half_q ^ tick; | half_d = half_q ^ last_q;
 
 module proof (
   input logic       clk_i,
@@ -26,17 +28,15 @@ module proof (
   input logic       restart_i
 );
 
-  logic [7:0] half_len;
   logic       tick, half_next, smp_a, smp_b, smp_half, smp_b_neg;
   biss_pkg::sample_t sample;
   assign {smp_a, smp_b, smp_b_neg} = sample;
 
-  mb4_freqs_dec u_freqs (.freqs_i, .half_len_o(half_len));
-
   biss_timebase u_dut (
     .clk_i,
     .rst_ni,
-    .half_len_i  (half_len),
+    .last_i      (freqs_i[3:0]),
+    .tens_i      (freqs_i[4]),
     .run_i,
     .restart_i,
     .tick_o      (tick),
@@ -52,7 +52,6 @@ module proof (
   // f_MA = f_CLK / (2 (FREQS + 1)) up to 0x0F, f_CLK / (20 (FREQS - 15)) from 0x11 on.
   logic [8:0] table_len;
   assign table_len = freqs_i < 5'h10 ? 9'(freqs_i) + 9'd1 : 9'd10 * (9'(freqs_i) - 9'd15);
-  always @* HalfPeriodOfTable35_A: assert ({1'b0, half_len} == table_len);
 
   // Clocks of one whole MA period, from the rising edge on.
   logic [8:0] len_q, at_q;
@@ -87,13 +86,17 @@ module proof (
     Rise_C: cover (tick && len_q == 9'd5 && half_next);
   end
 
-  wire [7:0] dut_len, dut_cnt;
+  wire [4:0] dut_len;
+  wire [3:0] dut_step, dut_clock;
   wire       dut_half;
 
+  // A half period of up to 16 steps of ten clocks, or of one.
   always @* if (started) begin
-    SameLength_A: assert (dut_len == len_q[7:0] && len_q >= 9'd1 && len_q <= 9'd160);
+    SameLength_A: assert (len_q == (dut_len[4] ? 9'd10 : 9'd1) * (9'(dut_len[3:0]) + 9'd1));
     SameHalf_A: assert (dut_half == (at_q < len_q) && at_q < 2 * len_q);
-    SameCount_A: assert (dut_cnt == 8'(at_q < len_q ? at_q : at_q - len_q) + 8'd1);
+    SameCount_A: assert ((at_q < len_q ? at_q : at_q - len_q) ==
+                         (dut_len[4] ? 9'd10 * 9'(dut_step) + 9'(dut_clock) : 9'(dut_step)));
+    StepOfTen_A: assert (dut_clock <= 4'd9);
   end
 
 endmodule

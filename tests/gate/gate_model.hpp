@@ -16,7 +16,7 @@ struct GateInside {
   static bool osc_selected(const Vmb4_gate& model) { return model.clkeni != 0; }
   static bool clk(const Vmb4_gate& model) { return model.clk != 0; }
   static bool paired(const Vmb4_gate& model) { return model.paired != 0; }
-  static unsigned half_clocks(const Vmb4_gate& model) { return model.len_q; }
+  static unsigned freqs(const Vmb4_gate& model) { return model.len_q; }
 };
 
 inline std::unique_ptr<ChipModel> make_gate_chip(const ChipConfig& config, std::uint64_t seed) {

@@ -191,13 +191,13 @@ def spi(steps):
 
 
 def timebase(steps):
-    steps.step(half_len_i=1)
+    steps.step(last_i=0, tens_i=0)
     steps.reset(["rst_ni"])
-    lengths = [1, 2, 3, 4, 5, 7, 20]
+    lengths = [0, 1, 2, 3, 4, 6]
     play(steps, ["clk_i"], ["rst_ni"], 6000,
-         {"half_len_i": rarely("half_len_i", 0.01, lambda s: s.rng.choice(lengths)
-                               if s.chance(0.95) else s.rng.randint(1, 255)),
-          "run_i": 0.98, "restart_i": 0.02})
+         {"last_i": rarely("last_i", 0.01, lambda s: s.rng.choice(lengths)
+                           if s.chance(0.95) else s.rng.getrandbits(4)),
+          "tens_i": rarely("tens_i", 0.02, lambda s: s.chance(0.3)), "run_i": 0.98, "restart_i": 0.02})
 
 
 def slave_cfg_store(steps):
@@ -533,13 +533,13 @@ MODULES = {
             (s.chance(0.2), 1), (s.chance(0.2), 1), (s.rng.getrandbits(2), 2))),
         **struct("offer_i", (None, 1), (0.3, 1), (None, 42)),
         **struct("register_ma_i", (None, 1), (0.05, 1)), "bit_valid_i": 0.3,
-        "tick_i": 0.5, "len_valid_i": 0.01, "len_i": rarely("len_i", 0.5, lambda s:
-                                                            s.rng.choice([1, 7, 30, 80])),
+        "tick_i": 0.5, "len_valid_i": 0.01,
+        "len_last_i": rarely("len_last_i", 0.5, lambda s: s.rng.choice([0, 6, 29, 79])),
         "word_done_i": 0.2, "sl_i": 0.7, "bus_i": rarely("bus_i", 0.01),
         "ack_i": 0.2, "late_i": 0.002}),
     "biss_edge_count": simple(*CORE, 6000, {
-        "begin_i": 0.05, "run_i": 0.95, "rise_i": 0.5, "len_valid_i": 0.03, "wait_i": 0.05,
-        "len_i": rarely("len_i", 0.5, lambda s: s.rng.choice([1, 2, 7, 80])),
+        "begin_i": 0.05, "rise_i": 0.5, "len_valid_i": 0.03, "wait_i": 0.05,
+        "len_last_i": rarely("len_last_i", 0.5, lambda s: s.rng.choice([0, 1, 6, 79])),
         "mo_busy_i": rarely("mo_busy_i", 0.1, lambda s: s.rng.choice([0, 1, 5]))}),
     "biss_ma_drive": simple(["clk_i"], ["rst_ni", "por_ni"], 4000, {
         "begin_i": 0.05, "stop_i": 0.01, "tick_i": 0.6, "enough_i": 0.1,

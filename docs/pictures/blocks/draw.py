@@ -134,7 +134,7 @@ def read(text):
 
 PLANTED = {  # an arrow that is not true: what is found
     '"mb4_engine.u_regs" -> "mb4_engine.u_nobody";': "no instance",
-    '"mb4_lines.u_freqs" -> "mb4_engine.u_regs";': "no net",
+    '"mb4_lines.u_timebase" -> "mb4_engine.u_regs";': "no net",
     '"mb4_engine.u_regs" -> "mb4_engine.u_control" [label="start"];': "is no net of theirs",
     '"mb4_engine.u_control" -> pins [label="ma1_o"];': "is no net of theirs",
     "slave -> scenario;": "neither includes the other",

@@ -41,6 +41,8 @@ module mb4_frame_request (
   logic       pre_end;
   logic       due;
   logic       by_time, by_pin;
+  // Kept: with idle lines a request is due if it asks, and synthesis would wait for lines_idle_i.
+  (* keep *) logic asks;
   logic       pending_d;
   logic       pending_q;
   logic       armed_d;
@@ -87,7 +89,8 @@ module mb4_frame_request (
 
   assign by_time = ags_i && (agsmin || pending_q);
   assign by_pin  = ags_i && infinite && getsens && (armed_q || !hold_cdm_i);
-  assign request_o = {by_time || (by_pin && lines_idle_i), by_time || by_pin, agsmin, infinite};
+  assign asks    = by_time || by_pin;
+  assign request_o = {by_time || (by_pin && lines_idle_i), asks, agsmin, infinite};
   assign missed_o  = due && busy_i;
 
 endmodule

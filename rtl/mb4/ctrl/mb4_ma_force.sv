@@ -35,6 +35,7 @@ module mb4_ma_force #(
   logic [5:0] held_q;
   logic [1:0] selected;
   logic       change_q, any_q;
+  logic       stable, moved_q;
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
@@ -44,16 +45,19 @@ module mb4_ma_force #(
       held_q   <= '0;
       change_q <= 1'b0;
       any_q    <= 1'b0;
+      moved_q  <= 1'b0;
     end else begin
       meta_q   <= {mafs_i, mavs_i, mafo_i, mavo_i, chsel_i};
       sync_q   <= meta_q;
       last_q   <= sync_q;
-      if (sync_q == last_q) held_q <= sync_q;
-      change_q <= sync_q == last_q && held_q != sync_q;
+      if (stable) held_q <= sync_q;
+      change_q <= stable && moved_q;
+      moved_q  <= !stable;
       any_q    <= force_o != 2'b00;
     end
   end
 
+  assign stable   = sync_q == last_q;
   assign selected = held_q[1:0] == 2'b00 ? 2'b01 : held_q[1:0];
   assign force_o  = (({2{held_q[5]}} & selected) | ({2{held_q[3]}} & ~selected)) & {2{Force}};
   assign level_o  = ({2{held_q[4]}} & selected) | ({2{held_q[2]}} & ~selected);

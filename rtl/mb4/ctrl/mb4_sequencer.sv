@@ -102,6 +102,7 @@ module mb4_sequencer #(
   logic             held_back, may_run;  // a frame is held back by HOLDBANK, may run
   logic             start, init, register_access, mo_return, abort;
   logic             frame_end, swap, all_idle, sl_low;
+  logic             returned, runs;        // INIT's timeout is over; a frame or INIT goes on
   logic             busy, clear_flags, scd_en, ags_error, bank_fail;
   logic             by_instr, begins;  // INSTR asks for a frame, for a control communication
   logic             register_d, register_q;  // a BiSS B register access runs, not a frame
@@ -260,7 +261,7 @@ module mb4_sequencer #(
       end
       INIT_TIMEOUT: begin
         // The slaves are in their timeout. The host still reads INIT = 1.
-        if ((use_q & ~idle) == 2'b00 || wait_q == 11'd0) begin
+        if (returned) begin
           state_d     = IDLE;
           held_d.init = 1'b0;
         end
@@ -280,7 +281,7 @@ module mb4_sequencer #(
       // clock to the one before its end. A write does not cancel an INIT; automatic frames wait for
       // its end.
       new_d = asked.instr != 3'b000 &&
-              (new_d || (state_q != FRAME && state_d != FRAME) || asked.instr != held_q.instr);
+              (new_d || !(state_q == FRAME || (start && !init)) || asked.instr != held_q.instr);
       held_d.holdbank = asked.holdbank;
       held_d.swbank   = asked.swbank;
       held_d.ags      = asked.ags;
@@ -335,16 +336,22 @@ module mb4_sequencer #(
   assign instr_o     = {ack, held_q};
   assign go_o        = {start, init, register_access, reduced_d, mo_return, abort};
   assign bank_o      = {state_q == FRAME && !reduced_q && !register_q, frame_end,
-                        frame_end && !reduced_q, reduced_d, swap, init && regvers_i};
+                        frame_end && !reduced_q, reduced_q, swap, init && regvers_i};
   assign flags_o     = {busy, clear_flags, scd_en, bad_d, ags_error, bank_fail};
   assign running_o    = state_q != IDLE;
   assign lines_idle_o = all_idle;
-  // With AGS = 1 INSTR asks for no frame, unless FREQAGS is AGSINFINITE.
-  assign busy = state_d != IDLE || (new_d && (!held_d.ags || request_i.infinite)) || held_d.init;
+  // runs is state_d != IDLE without what the last bit of a frame and SL bring: they come late. With
+  // AGS = 1 INSTR asks for no frame, unless FREQAGS is AGSINFINITE.
+  assign returned = (use_q & ~idle) == 2'b00 || wait_q == 11'd0;
+  assign runs = start || (!(written && asked.brk) &&
+                          (state_q == FRAME || state_q == INIT ||
+                           (state_q == INIT_TIMEOUT && !returned)));
+  assign busy = runs || (new_d && (!held_d.ags || request_i.infinite)) || held_d.init;
 
   `ENC_ASSERT(BreakIsNotKept_A, clk_i, rst_ni, !held_q.brk)
   `ENC_ASSERT_IF(StartAsDecided_A, clk_i, rst_ni, !(written && asked.brk),
                  start == (init || (taken_o && state_d == FRAME && state_q == IDLE)))
+  `ENC_ASSERT(RunsAsDecided_A, clk_i, rst_ni, runs == (state_d != IDLE))
   `ENC_ASSERT_IF(StartOnIdleLines_A, clk_i, rst_ni, start, all_idle)
 
 endmodule

@@ -8,8 +8,8 @@
 // can have; enscd_i of the others must be 0.
 // Latency: offer_o is the current word. It is valid one clock after start_i and one clock after
 // next_i. With Sum = 1 the module first walks through the list once: from the clock after start_i
-// on, len_o gives the bits of one word in each clock, with len_valid_o. offer_o is the first word
-// when len_valid_o has fallen.
+// on, len_last_o gives the bits of one word, minus 1, in each clock, with len_valid_o. offer_o is
+// the first word when len_valid_o has fallen.
 // Misuse: start_i without idle_i gives a list of one data channel an old row.
 // If the host changes the configuration between start_i and the end of the frame, the frame
 // may have other words or fail by its flags, but it ends (decision 38).
@@ -36,7 +36,7 @@ module mb4_word_list #(
   output logic       actuator_o,  // the line has an actuator, unless it is SSI
   // frame length
   output logic       len_valid_o,
-  output logic [6:0] len_o,
+  output logic [6:0] len_last_o,  // bits of a word minus 1
   output biss_pkg::offer_t offer_o  // the current word
 );
 
@@ -64,6 +64,7 @@ module mb4_word_list #(
   logic        summing_q;  // the walk that sums up the lengths
   logic [2:0]  first_new;
   logic [2:0]  first_rest;
+  logic [2:0]  first_next;  // without start_i
   logic [2:0]  slave_d;
   logic [2:0]  slave_q;
   logic        actuator;
@@ -87,9 +88,11 @@ module mb4_word_list #(
   assign first_new  = lowest(enscd_i);
   assign first_rest = lowest(rest);
 
+  assign first_next = (summing_q && last) ? first_new : first_rest;
+
   always_comb begin
     any_d     = begins ? enscd_i != 8'h00 : rest != 8'h00;
-    slave_d   = begins ? first_new : first_rest;
+    slave_d   = start_i ? first_new : first_next;
     summing_d = Sum && (start_i ? enscd_i != 8'h00 : summing_q && !last);
   end
 
@@ -121,7 +124,7 @@ module mb4_word_list #(
   assign stop     = actuator && cfg_i.gray_lstop;
 
   assign len_valid_o = summing_q;
-  assign len_o       = 7'(cfg_i.scdlen) + 7'd1 + 7'(cfg_i.crc_last) + 7'(cfg_i.crc_on) +
+  assign len_last_o  = 7'(cfg_i.scdlen) + 7'(cfg_i.crc_last) + 7'(cfg_i.crc_on) +
                        7'(stop);
 
   assign last = rest == 8'h00;

@@ -50,6 +50,10 @@ module mb4_host_read #(
   localparam logic [7:0] FEATURES = Features == mb4_page_regs_pkg::FEATURES_FULL
                                         ? 8'h00 : {1'b1, Features[6:0]};
 
+  // Bits of flags that may differ from those of pair: SVALID and CDS.
+  localparam logic [7:0] BANKED = {PRESENT[3:0], PRESENT[7:4] |
+                                   {2'b00, Features[mb4_page_regs_pkg::TWO_LINES_LSB], 1'b1}};
+
   localparam logic [2:0] TOP = mb4_regs_pkg::ADDR_REGADR[7:5];  // 0xE0 to 0xFF
 
   logic [7:0] rd_addr;
@@ -74,7 +78,7 @@ module mb4_host_read #(
   assign hi_sel_d    = rd_addr[7:5] == mb4_regs_pkg::ADDR_SCDATA[7:5] + 3'd1 &&
                        PRESENT[{1'b1, rd_addr[4:3]}];
   assign rdata_sel_d = rd_addr[7:6] == mb4_regs_pkg::ADDR_RDATA[7:6] && CONTROL;
-  assign slave_sel_d = rd_addr[7:5] == mb4_regs_pkg::ADDR_SLAVE_CFG[7:5];
+  assign slave_sel_d = rd_addr[7:5] == mb4_regs_pkg::ADDR_SLAVE_CFG[7:5] && PRESENT != 8'h01;
   assign reg_sel_d   = {rd_addr[0], !rd_addr[0]} &
                        {2{rd_addr[7:5] == TOP ||
                           (Features != mb4_page_regs_pkg::FEATURES_FULL &&
@@ -172,7 +176,7 @@ module mb4_host_read #(
     reg_pair = pair_q;
     for (int unsigned k = 0; k < 2; k++) begin
       for (int unsigned i = 0; i < 4; i++) begin
-        if (bank_q) begin
+        if (bank_q && BANKED[4*k + i]) begin
           reg_pair[8*k + mb4_regs_pkg::SVALID_LSB + mb4_regs_pkg::SVALID_LSB_STEP*i] =
               flags_q[4*k + i];
         end

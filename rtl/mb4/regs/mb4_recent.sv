@@ -6,6 +6,10 @@
 // addresses are kept, the newest first. An address includes the host's bank of SCDATA, so a switch
 // of the banks hides no byte and shows none of the other bank.
 //
+// The same memory reads back the registers that have no reserved bit (mb4_pkg::kept_registers). It
+// costs less than their share of a multiplexer. written_q tells which of them have been written
+// since the reset; the others read 0.
+//
 // Clock domains: host; writes in wr_clk_i, reads in rd_clk_i. These are one clock, or two strobes
 // of which one rests while the other has edges.
 // Latency: hit_o and data_o are valid after the edge with host_i.rd_en, until the next read.
@@ -22,7 +26,7 @@
 // change of mark_o, with less than 8 clocks of the core between the writes, may answer until all
 // bytes of this sequence of writes have been taken.
 // Features tells which addresses the core has; no other one is kept.
-// Source: decision 36.
+// Source: decisions 13, 36.
 
 module mb4_recent #(
   parameter logic [31:0] Features = mb4_page_regs_pkg::FEATURES_FULL
@@ -45,12 +49,30 @@ module mb4_recent #(
   localparam logic [7:0] PRESENT = mb4_pkg::channels(Features[mb4_page_regs_pkg::TWO_LINES_LSB],
                                                      Features[mb4_page_regs_pkg::SLAVES_LSB +: 4]);
   // Bits of an address that are not 0 in all addresses that the core has.
-  localparam logic [7:0] VARIES = {CONTROL, BANKS, CONTROL || PRESENT[7:4] != 4'h0,
+  localparam logic [7:0] VARIES = {CONTROL, BANKS, BANKS || CONTROL || PRESENT[7:4] != 4'h0,
                                    CONTROL || {PRESENT[7:6], PRESENT[3:2]} != 4'h0,
                                    CONTROL || (PRESENT & 8'hAA) != 8'h00, 3'b111};
 
+  localparam logic [63:0] KEPT = mb4_pkg::kept_registers(Features);
+
+  // With at most four data channels SCDATA leaves bit 5 free for the bank.
+  localparam bit SHORT = PRESENT[7:4] == 4'h0;
+
+  // Address of a byte in the memory: SCDATA has the bank in bit 6.
+  function automatic logic [7:0] place(input logic [7:0] addr, input logic bank);
+    place = {addr[7], addr[7] ? addr[6] : bank, addr[5:0]};
+  endfunction
+
+  // What tells it from all others.
+  function automatic logic [7:0] key(input logic [7:0] at);
+    key = VARIES & (SHORT ? {at[7], 1'b0, at[7] ? at[5] : at[6], at[4:0]} : at);
+  endfunction
+
   logic        wr_en;
-  logic [7:0]  wr_addr, rd_addr;   // with the bank in bit 6
+  logic [63:0] reg_wr;             // the host writes a register that is kept here
+  logic [63:0] written_q;          // those that have been written
+  logic [7:0]  wr_place, rd_place;
+  logic [7:0]  wr_addr, rd_addr;   // their keys
   logic [31:0] addr_q;    // four addresses, the newest lowest
   logic [3:0]  valid_q;
   logic [3:0]  old_q;     // written before the mark
@@ -72,8 +94,14 @@ module mb4_recent #(
 
   // Only addresses of SCDATA (bit 7 = 0) and RDATA have bit 6 = 0.
   assign wr_en   = host_i.wr_en && mb4_pkg::in_memory(host_i.wr_addr[7:3], PRESENT, CONTROL);
-  assign wr_addr = VARIES & {host_i.wr_addr[7], !host_i.wr_addr[7] && bank_i, host_i.wr_addr[5:0]};
-  assign rd_addr = VARIES & {host_i.rd_addr[7], !host_i.rd_addr[7] && bank_i, host_i.rd_addr[5:0]};
+  assign wr_place = place(host_i.wr_addr, bank_i);
+  assign rd_place = place(host_i.rd_addr, bank_i);
+  assign wr_addr  = key(wr_place);
+  assign rd_addr  = key(rd_place);
+
+  for (genvar i = 0; i < 64; i++) begin : gen_register
+    assign reg_wr[i] = KEPT[i] && host_i.wr_en && host_i.wr_addr == 8'(192 + i);
+  end
 
   for (genvar i = 0; i < 3; i++) begin : gen_write
     assign wr_match[i] = valid_q[i] && addr_q[8*i +: 8] == wr_addr;
@@ -87,7 +115,8 @@ module mb4_recent #(
   end
 
   assign hits = {(rd_match & odd) != 4'b0000, (rd_match & ~odd) != 4'b0000} &
-                {2{mb4_pkg::in_memory(host_i.rd_addr[7:3], PRESENT, CONTROL) && !empty_i}};
+                {2{mb4_pkg::in_memory(host_i.rd_addr[7:3], PRESENT, CONTROL) && !empty_i}} |
+                written_q[{host_i.rd_addr[5:1], 1'b0} +: 2] & {2{host_i.rd_addr[7:6] == 2'b11}};
 
   assign move = {wr_match == 3'b000, wr_match[1:0] == 2'b00, !wr_match[0], 1'b1} &
                 {4{wr_en}};
@@ -102,6 +131,7 @@ module mb4_recent #(
       addr_q   <= '0;
       valid_q  <= '0;
       old_q    <= '0;
+      written_q <= '0;
       mark_q   <= 1'b0;
       marked_q <= 1'b0;
       empty_q  <= 1'b0;
@@ -111,6 +141,7 @@ module mb4_recent #(
       fresh_q  <= wr_en;
       if (passed && valid != 4'b0000) mark_q <= !mark_q;
       marked_q <= marked_i;
+      written_q <= written_q | reg_wr;
       if (move[0]) addr_q[7:0]   <= wr_addr;
       if (move[1]) addr_q[15:8]  <= addr_q[7:0];
       if (move[2]) addr_q[23:16] <= addr_q[15:8];
@@ -122,12 +153,12 @@ module mb4_recent #(
 
   enc_ram #(.Width(8), .AddrW(8)) u_ram (
     .wr_clk_i,
-    .wr_en_i   (wr_en),
-    .wr_addr_i (wr_addr),
+    .wr_en_i   (wr_en || reg_wr != 64'd0),
+    .wr_addr_i (wr_place),
     .wr_data_i (host_i.wr_data),
     .rd_clk_i,
     .rd_en_i   (host_i.rd_en),
-    .rd_addr_i (rd_addr),
+    .rd_addr_i (rd_place),
     .rd_data_o (data_o)
   );
 

@@ -2,8 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Configuration of the eight data channels, 0xC0..0xDF, in rows of four bytes. The host reads one
-// copy of it. Each word list reads a copy of its own, in which the CRC choice is decoded
-// (mb4_crc_code, mb4_crc_decode): the host's write does it once for all of them.
+// copy of it; with one data channel rd_data_o is 0, and mb4_recent reads the row back. Each word
+// list reads a copy of its own, in which the CRC choice is decoded (mb4_crc_code, mb4_crc_decode):
+// the host's write does it once for all of them.
 //
 // Clock domains: host (wr_clk_i writes, rd_clk_i reads); the word lists read in the core clock.
 // Only the word lists need the core clock.
@@ -50,7 +51,7 @@ module mb4_slave_cfg #(
   logic [CODES-1:0] ends;
   logic        unused;
 
-  assign unused  = ^{list_slave_i, ends};   // one row needs no list_slave_i
+  assign unused  = ^{list_slave_i, ends, host_i, rd_clk_i};   // one row needs less
 
   assign write   = host_i.wr_en && host_i.wr_addr[7:5] == mb4_regs_pkg::ADDR_SLAVE_CFG[7:5];
   assign row     = host_i.wr_addr[4:2];
@@ -88,9 +89,6 @@ module mb4_slave_cfg #(
   if (ONE) begin : gen_row
     // A single row is four registers.
     logic [31:0] row_q;
-    logic        row0;
-    (* keep *) logic [7:0] odd, even;
-    logic [7:0]  rd_data_q;
 
     always_ff @(posedge wr_clk_i or negedge rst_ni) begin
       if (!rst_ni) row_q <= '0;
@@ -102,20 +100,8 @@ module mb4_slave_cfg #(
       end
     end
 
-    // Bit 0 of the address comes late over SPI.
-    assign row0 = host_i.rd_addr[4:2] == 3'd0;
-    assign odd  = (host_i.rd_addr[1] ? row_q[31:24] : row_q[15:8]) & {8{row0}};
-    assign even = (host_i.rd_addr[1] ? row_q[23:16] : row_q[7:0]) & {8{row0}};
-
-    always_ff @(posedge rd_clk_i or negedge rst_ni) begin
-      if (!rst_ni) rd_data_q <= '0;
-      else if (host_i.rd_en) begin
-        rd_data_q <= host_i.rd_addr[0] ? odd : even;
-      end
-    end
-
     assign crc_byte  = row_q[32'd8 * 32'(mb4_regs_pkg::SLAVE_CFG_CRC_OFFSET) +: 8];
-    assign rd_data_o = rd_data_q;
+    assign rd_data_o = '0;   // mb4_recent has the bytes
     assign enscd_o   = {7'd0, row_q[32'd8 * 32'(mb4_regs_pkg::SLAVE_CFG_LENGTH_OFFSET) +
                                  mb4_regs_pkg::ENSCD_LSB]};
 

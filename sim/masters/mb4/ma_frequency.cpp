@@ -14,9 +14,8 @@ constexpr std::uint64_t kDefaultLimit = 10'000'000;
 }  // namespace
 
 unsigned ma_divider(unsigned freqs_code) {
-  if (freqs_code < kNotPermitted) return 2 * (freqs_code + 1);
   if (freqs_code == kNotPermitted || freqs_code >= kCodes) return 0;
-  return 20 * (freqs_code - 15);
+  return 2 * half_ma_clocks(freqs_code);
 }
 
 std::uint64_t ma_frequency(std::uint64_t system_hz, unsigned freqs_code) {

@@ -13,6 +13,12 @@
 
 namespace mb4::sim {
 
+// Returns the periods of the system clock in half a period of MA, for codes of 0 to 31. Code 16, which
+// is not permitted, gives 10 (docs/choices.md).
+inline unsigned half_ma_clocks(unsigned freqs_code) {
+  return (freqs_code < 16 ? 1 : 10) * (freqs_code % 16 + 1);
+}
+
 // Returns the periods of the system clock in one period of MA. 0 for code 16, which is not
 // permitted, and for codes above 31.
 unsigned ma_divider(unsigned freqs_code);

@@ -18,8 +18,7 @@ class Edges : public mb4test::Block<Vbiss_edge_count> {
  public:
   Edges() {
     model.biss_c_i = model.ssi_i = model.bus_i = model.mo_busy_i = 0;
-    model.begin_i = model.run_i = model.len_valid_i = model.len_i = 0;
-    model.wait_i = model.rise_i = 0;
+    model.begin_i = model.len_valid_i = model.len_last_i = model.wait_i = model.rise_i = 0;
     reset();
   }
   void begin(Protocol protocol) {
@@ -28,11 +27,10 @@ class Edges : public mb4test::Block<Vbiss_edge_count> {
     model.begin_i = 1;
     clock();
     model.begin_i = 0;
-    model.run_i = 1;
   }
   void word(unsigned bits) {
     model.len_valid_i = 1;
-    model.len_i = static_cast<std::uint8_t>(bits);
+    model.len_last_i = static_cast<std::uint8_t>(bits - 1);
     clock();
     model.len_valid_i = 0;
     clock();
@@ -91,7 +89,7 @@ TEST(EdgeCountBlock, OneEdgeTooMany_WordNeedsOneLess) {
   edges.clock();
   edges.model.rise_i = 0;
   edges.model.len_valid_i = 1;
-  edges.model.len_i = 13;
+  edges.model.len_last_i = 12;
   edges.clock();
   edges.model.len_valid_i = 0;
   edges.clock();
@@ -109,7 +107,7 @@ TEST(EdgeCountBlock, FrameBeginsAsAWordIsTold_WordIsForgotten) {
   Edges edges;
   edges.begin(Protocol::kBissC);
   edges.model.len_valid_i = 1;
-  edges.model.len_i = 30;
+  edges.model.len_last_i = 29;
   edges.begin(Protocol::kBissC);
   edges.model.len_valid_i = 0;
   EXPECT_EQ(edges.run(), 5U);

@@ -15,12 +15,16 @@ namespace {
 
 using mb4test::Block;
 
-// Page 12: four equally spaced sampling points in each MA period, two clocks late.
-TEST(TimebaseBlock, EveryHalfLength_TicksAndFourEvenSamplingPoints) {
-  for (const unsigned half : {1U, 2U, 3U, 4U, 5U, 6U, 7U, 15U, 16U, 20U, 30U, 150U, 160U}) {
+// Half an MA period in clocks: page 30, Table 35, for every code of FREQS. 0x10 is not permitted; the
+// choice is f_CLK / 20 (docs/choices.md). Page 12: four equally spaced sampling points in each MA period,
+// two clocks late.
+TEST(TimebaseBlock, EveryCodeOfFreqs_TicksAndFourEvenSamplingPoints) {
+  for (unsigned code = 0; code < 32; ++code) {
+    const unsigned half = code < 0x10 ? code + 1 : 10 * (code - 15);
     Block<Vbiss_timebase> base;
     auto& m = base.model;
-    m.half_len_i = static_cast<std::uint8_t>(half);
+    m.last_i = static_cast<std::uint8_t>(code % 16);
+    m.tens_i = static_cast<std::uint8_t>(code / 16);
     m.run_i = 0;
     m.restart_i = 0;
     base.reset();

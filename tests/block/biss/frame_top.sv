@@ -41,7 +41,6 @@ module frame_top #(
   input  logic         sl_i
 );
 
-  logic [7:0] half_len;
   logic       tick;
   logic       half_next;
   biss_pkg::sample_t sample;
@@ -66,15 +65,11 @@ module frame_top #(
   logic [11:0] rx_crc, mo_crc;
   logic        unused_rx, unused_mo;
 
-  mb4_freqs_dec u_freqs (
-    .freqs_i,
-    .half_len_o (half_len)
-  );
-
   biss_timebase u_timebase (
     .clk_i,
     .rst_ni,
-    .half_len_i  (half_len),
+    .last_i      (freqs_i[3:0]),
+    .tens_i      (freqs_i[4]),
     .run_i       (!idle_o),
     .restart_i   (start_i),
     .tick_o      (tick),
@@ -134,7 +129,7 @@ module frame_top #(
     .cfg_i       ({rx_cfg_q[31:16], rx_crc, rx_cfg_q[7:0]}),
     .actuator_o  (rx_actuator),
     .len_valid_o (rx_len_valid),
-    .len_o       (rx_len),
+    .len_last_o  (rx_len),
     .offer_o     (rx_offer)
   );
 
@@ -153,7 +148,7 @@ module frame_top #(
     .cfg_i       ({mo_cfg_q[31:16], mo_crc, mo_cfg_q[7:0]}),
     .actuator_o  (mo_actuator),
     .len_valid_o (len_valid),
-    .len_o       (len),
+    .len_last_o  (len),
     .offer_o     (mo_offer)
   );
 
@@ -179,7 +174,7 @@ module frame_top #(
     .sample_i    (sample),
     .sample_half_i (sample_half),
     .len_valid_i (len_valid),
-    .len_i       (len),
+    .len_last_i  (len),
     .ssi_o       (ssi),
     .rx_offer_i  (rx_offer),
     .rx_next_o   (next),

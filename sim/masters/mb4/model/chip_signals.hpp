@@ -13,7 +13,7 @@ struct ChipSignals {
   static bool osc_selected(const Model& model) { return model.rootp->mb4_chip__DOT__clkeni != 0; }
   static bool clk(const Model& model) { return model.rootp->mb4_chip__DOT__clk != 0; }
   static bool paired(const Model& model) { return model.rootp->mb4_chip__DOT__paired != 0; }
-  static unsigned half_clocks(const Model& model) {
+  static unsigned freqs(const Model& model) {
     return model.rootp->mb4_chip__DOT__u_engine__DOT__u_lines__DOT__u_timebase__DOT__len_q;
   }
 };

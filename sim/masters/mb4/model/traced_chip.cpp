@@ -27,7 +27,7 @@ struct Inside {
   static bool paired(const Vmb4_chip_trace& model) {
     return model.rootp->mb4sim_trace_top__DOT__u_chip__DOT__paired != 0;
   }
-  static unsigned half_clocks(const Vmb4_chip_trace& model) {
+  static unsigned freqs(const Vmb4_chip_trace& model) {
     return model.rootp
         ->mb4sim_trace_top__DOT__u_chip__DOT__u_engine__DOT__u_lines__DOT__u_timebase__DOT__len_q;
   }

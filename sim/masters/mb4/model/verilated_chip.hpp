@@ -16,6 +16,7 @@
 #include <type_traits>
 
 #include "chip_model.hpp"
+#include "sim/masters/mb4/ma_frequency.hpp"
 #include "sim/model/clock_source.hpp"
 #include "sim/model/verilated_context.hpp"
 
@@ -254,7 +255,9 @@ class VerilatedChip final : public ChipModel {
   unsigned db_out() const override { return model_->db_o; }
   unsigned db_enable() const override { return model_->db_oe_o; }
   std::uint64_t left_out() const override { return left_out_; }
-  unsigned half_clocks(unsigned /*line*/) const override { return Inside::half_clocks(*model_); }
+  unsigned half_clocks(unsigned /*line*/) const override {
+    return half_ma_clocks(Inside::freqs(*model_));
+  }
   void set_probes(Time now, std::uint64_t ma, std::uint64_t slo, std::uint64_t idle) override {
     if constexpr (kTraced) {
       model_->slaves_ma_i = static_cast<CData>(ma);

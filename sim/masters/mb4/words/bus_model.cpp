@@ -11,6 +11,7 @@
 #include <algorithm>
 
 #include "bus_managers.hpp"
+#include "sim/masters/mb4/ma_frequency.hpp"
 #include "sim/model/clock_source.hpp"
 #include "sim/model/verilated_context.hpp"
 
@@ -19,11 +20,12 @@ namespace {
 
 // Half a period of MA in clocks (public.vlt).
 unsigned half_of(const Vmb4_axil& model) {
-  return model.rootp
-      ->mb4_axil__DOT__u_bus__DOT__u_engine__DOT__u_lines__DOT__u_timebase__DOT__len_q;
+  return half_ma_clocks(
+      model.rootp->mb4_axil__DOT__u_bus__DOT__u_engine__DOT__u_lines__DOT__u_timebase__DOT__len_q);
 }
 unsigned half_of(const Vmb4_wb& model) {
-  return model.rootp->mb4_wb__DOT__u_bus__DOT__u_engine__DOT__u_lines__DOT__u_timebase__DOT__len_q;
+  return half_ma_clocks(
+      model.rootp->mb4_wb__DOT__u_bus__DOT__u_engine__DOT__u_lines__DOT__u_timebase__DOT__len_q);
 }
 
 template <typename Model, typename Manager>

@@ -92,7 +92,7 @@ TEST(WordListBlock, RandomConfigurations_WordsComeInOrderWithTheirLengths) {
     list.step();
     ASSERT_EQ(m.actuator_o, actuators);
     std::vector<unsigned> told;
-    for (; m.len_valid_o != 0 && told.size() < 9; list.step()) told.push_back(m.len_o);
+    for (; m.len_valid_o != 0 && told.size() < 9; list.step()) told.push_back(m.len_last_o + 1U);
     ASSERT_EQ(told, lengths);
 
     for (std::size_t i = 0; i < words.size(); ++i) {

@@ -2,10 +2,12 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // The bytes that the host wrote last, alone: docs/choices.md, 36. The test plays the queue of
-// posted bytes (enc_posted) with a core clock that may be slow or stopped.
+// posted bytes (enc_posted) with a core clock that may be slow or stopped. And the registers that
+// have no other place to be read from.
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -152,6 +154,45 @@ TEST_F(RecentBlock, CoreTakesBytes_MemoryAnswersFromThenOn) {
   }
   EXPECT_GT(hits, 1'000U);
   EXPECT_GT(marks, 100U);
+}
+
+// The registers with eight bits that the host can write: pages 27 to 31 and 33.
+TEST_F(RecentBlock, WholeRegisters_ReadBackAtAnyTimeUntilAReset) {
+  static constexpr std::array kWhole = {0xE2U, 0xE6U, 0xE8U, 0xE9U, 0xEFU, 0xF5U};
+  mb4test::Dice random;
+  std::array<int, 256> written{};
+  const auto look = [&](unsigned address) {
+    m.bank_i = random.below(2) != 0;
+    m.host_i = 1U << 8 | address;
+    m.eval();
+    m.rd_clk_i = 1;
+    m.eval();
+    m.rd_clk_i = 0;
+    m.eval();
+    ASSERT_EQ(m.hit_o, written[address] >= 0) << std::hex << address;
+    if (m.hit_o != 0) {
+      ASSERT_EQ(m.data_o, written[address]) << std::hex << address;
+    }
+  };
+  for (int step = 0; step < 20'000; ++step) {
+    SCOPED_TRACE(testing::Message() << "step " << step);
+    if (step % 500 == 0) {
+      written.fill(-1);
+      mb4test::pulse_reset(m);
+    }
+    const unsigned address =
+        random.below(2) == 0 ? kWhole[random.below(kWhole.size())] : 0xC0 + random.below(64);
+    const unsigned byte = random.below(256);
+    m.bank_i = random.below(2) != 0;
+    m.host_i = 1U << 25 | address << 17 | byte << 9;
+    edge(false);
+    if (std::count(kWhole.begin(), kWhole.end(), address) != 0) {
+      written[address] = static_cast<int>(byte);
+    }
+    look(kWhole[random.below(kWhole.size())]);
+    look(0xC0 + random.below(64));
+    if (HasFatalFailure()) return;
+  }
 }
 
 }  // namespace
