@@ -218,8 +218,8 @@ module biss_control_frame (
                   ({rdata_i, access_i.slaveid[2:1] & {2{!cts}}} & {10{bits_byte}}) |
                   ({bits_q[8:0], (data && !wnr) ? cds : top} & {10{bits_shift}});
 
-  assign byte_o = {step && cts && !wnr && !fail && slot_q == biss_pkg::SLOT_STOP, index_q,
-                   bits_q[7:0]};
+  assign byte_o = {step && cts && !wnr && !fail && slot_q == biss_pkg::SLOT_STOP && !abort_i,
+                   index_q, bits_q[7:0]};
 
   always_comb begin
     active_d      = active_q;

@@ -43,6 +43,9 @@ module mb4_control #(
   output logic       frame_lost_o     // a frame was left out or overwritten
 );
 
+  localparam bit BISS_B = Features[mb4_page_regs_pkg::BISS_B_LSB];
+  localparam bit SSI    = Features[mb4_page_regs_pkg::SSI_LSB];
+
   mb4_pkg::kind_t         kind;
   mb4_pkg::request_t      request;
   mb4_pkg::frame_flags_t  frame_flags;
@@ -50,13 +53,14 @@ module mb4_control #(
   mb4_pkg::access_state_t access_state;
   logic missed, taken, lines_idle, running, brk, init_clear;
   logic control_want, register_want, control_active, control_start, void_end, refused, access_stale;
+  logic frame_done;
   logic live, automatic_frames, stalled, access_ags_error;
   // lines
   logic [3:0] protocol_q;
   logic [1:0] start_use, cdm0, cdm1, mo_low, forced, force_level;
   logic force_change, force_any, keep_time, keep_time_q;
 
-  mb4_sequencer #(.BissB(Features[mb4_page_regs_pkg::BISS_B_LSB])) u_sequencer (
+  mb4_sequencer #(.BissB(BISS_B)) u_sequencer (
     .clk_i,
     .rst_ni,
     .instr_i,
@@ -78,6 +82,7 @@ module mb4_control #(
     .word_bad_i,
     .mem_i,
     .bank_o,
+    .frame_done_o      (frame_done),
     .flags_o           (frame_flags),
     .init_clear_o      (init_clear),
     .control_begin_o   (control_want),
@@ -136,7 +141,7 @@ module mb4_control #(
     .init_clear_i  (init_clear),
     .go_i          (go_o),
     .start_use_i   (start_use),
-    .frame_end_i   (bank_o.frame_end),
+    .frame_done_i  (frame_done),
     .live_i        (live),
     .automatic_i   (automatic_frames),
     .tick_i,
@@ -179,11 +184,22 @@ module mb4_control #(
 
   // ---- lines --------------------------------------------------------------------------------
 
-  // CFGCHx has the codes of biss_pkg::protocol_e. Line 2 is unused if SLAVELOC5 = 0. The host may
-  // write them at any time: what starts a frame and the line that makes it see one flop.
-  always_ff @(posedge clk_i or negedge rst_ni) begin
-    if (!rst_ni) protocol_q <= {2{biss_pkg::UNUSED}};
-    else         protocol_q <= {cfg_i.cfgch2 | {2{!cfg_i.slaveloc5}}, cfg_i.cfgch1};
+  // CFGCHx has the codes of biss_pkg::protocol_e. Line 2 is unused if SLAVELOC5 = 0, and a line
+  // whose protocol is left out is unused too. The host may write them at any time: what starts a
+  // frame and the line that makes it see one flop.
+  for (genvar i = 0; i < 2; i++) begin : gen_protocol
+    logic [1:0] code, protocol;
+
+    assign code     = i == 0 ? cfg_i.cfgch1 : cfg_i.cfgch2 | {2{!cfg_i.slaveloc5}};
+    assign protocol = code == biss_pkg::BISS_C             ? biss_pkg::BISS_C
+                    : (BISS_B && code == biss_pkg::BISS_B) ? biss_pkg::BISS_B
+                    : (SSI && code == biss_pkg::SSI)       ? biss_pkg::SSI
+                                                           : biss_pkg::UNUSED;
+
+    always_ff @(posedge clk_i or negedge rst_ni) begin
+      if (!rst_ni) protocol_q[2*i +: 2] <= biss_pkg::UNUSED;
+      else         protocol_q[2*i +: 2] <= protocol;
+    end
   end
 
   assign cmd_o = {

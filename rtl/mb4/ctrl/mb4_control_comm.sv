@@ -34,7 +34,7 @@ module mb4_control_comm #(
   input  logic       init_clear_i,     // INIT begins
   input  biss_pkg::line_go_t go_i,
   input  logic [1:0] start_use_i,      // lines that go_i.start is for
-  input  logic       frame_end_i,
+  input  logic       frame_done_i,     // a frame ends, unless clear_i comes with its end
   input  logic       live_i,           // frames run, or will come by themselves
   input  logic       automatic_i,      // no frame depends on INSTR
   input  logic       tick_i,
@@ -89,7 +89,7 @@ module mb4_control_comm #(
   assign access = {access_q.cts, access_q.wnr, access_q.regadr, access_q.regnum,
                    access_q.slaveid};
 
-  mb4_frame_kind #(.Features(Features)) u_kind (
+  mb4_frame_kind #(.Control(CONTROL)) u_kind (
     .instr_i,
     .access_i    (access_q),
     .protocol_i,
@@ -112,7 +112,7 @@ module mb4_control_comm #(
       .begin_i,
       .abort_i       (clear_i || void_q),
       .start_i       (go_i.start && !go_i.init && !go_i.register_access),
-      .frame_end_i,
+      .frame_end_i   (frame_done_i),
       .cds_i         ({status2.cds, status1.cds} & kind_o.in_use),
       .cdm_timeout_i (cdm_timeout),
       .expired_i     (expired),
@@ -237,7 +237,7 @@ module mb4_control_comm #(
   biss_cdm_timeout u_cdm_timeout (
     .clk_i,
     .rst_ni,
-    .frame_end_i,
+    .frame_end_i (frame_done_i && !clear_i),
     .cdm_i       (sent || in_body),
     .clear_i     (init_clear_i),
     .timeout_o   (cdm_timeout)

@@ -6,7 +6,8 @@
 // Combinational. CHSEL, CTS and REGVERS are those that mb4_control_comm keeps for an access; the
 // host may change the rest at any time (decision 38). Bit i of a vector {2, 1} is for line i + 1.
 //
-// - A line is in use unless its code is UNUSED or a protocol that the core does not have.
+// - A line is in use unless its code is UNUSED. The codes of a left-out line and of left-out
+//   protocols are UNUSED (mb4_control).
 // - Control communication runs on the lines that CHSEL names and whose protocol fits: BiSS B with
 //   REGVERS = 0, BiSS C or SSI with REGVERS = 1.
 // - If both lines fit, a BiSS C register access runs on line 1 alone. A command runs on both lines,
@@ -16,7 +17,7 @@
 // Datasheet: pages 23, 27, 28, 32, Tables 8, 10, 23, 45, 46; decision 43.
 
 module mb4_frame_kind #(
-  parameter logic [31:0] Features = mb4_page_regs_pkg::FEATURES_FULL
+  parameter bit Control = 1'b1
 ) (
   input  logic [2:0] instr_i,
   input  mb4_pkg::access_t access_i,
@@ -24,12 +25,6 @@ module mb4_frame_kind #(
   output mb4_pkg::kind_t kind_o
 );
 
-  localparam bit TWO_LINES = Features[mb4_page_regs_pkg::TWO_LINES_LSB];
-  localparam bit BISS_B    = Features[mb4_page_regs_pkg::BISS_B_LSB];
-  localparam bit SSI       = Features[mb4_page_regs_pkg::SSI_LSB];
-  localparam bit CONTROL   = Features[mb4_page_regs_pkg::CONTROL_LSB];
-
-  logic [1:0] unused;
   logic [1:0] ssi;
   logic [1:0] biss_b;
   logic [1:0] manual;
@@ -42,15 +37,13 @@ module mb4_frame_kind #(
   logic       is_frame;
 
   for (genvar i = 0; i < 2; i++) begin : gen_line
-    assign unused[i] = protocol_i[2*i +: 2] == biss_pkg::UNUSED || (i == 1 && !TWO_LINES);
+    assign in_use[i] = protocol_i[2*i +: 2] != biss_pkg::UNUSED;
     assign ssi[i]    = protocol_i[2*i +: 2] == biss_pkg::SSI;
     assign biss_b[i] = protocol_i[2*i +: 2] == biss_pkg::BISS_B;
   end
 
-  assign in_use = ~unused & ~(biss_b & {2{!BISS_B}}) & ~(ssi & {2{!SSI}});
-
   assign manual = access_i.chsel == 2'b00 ? 2'b01 : access_i.chsel;
-  assign fits   = manual & in_use & (access_i.regvers ? ~biss_b : biss_b) & {2{CONTROL}};
+  assign fits   = manual & in_use & (access_i.regvers ? ~biss_b : biss_b) & {2{Control}};
   assign select = {fits[1] && !(fits[0] && access_i.cts && access_i.regvers), fits[0]};
 
   assign control = instr_i == mb4_regs_pkg::INSTR_CONTROL ||
@@ -59,7 +52,7 @@ module mb4_frame_kind #(
   assign is_register = control && fits != 2'b00 && !access_i.regvers;
   assign is_control  = control && fits != 2'b00 && access_i.regvers;
   assign is_frame    = is_control || is_register || (instr_i != 3'b000 && !instr_i[2]);
-  assign kind_o      = {in_use, ssi & {2{SSI}}, manual, select, is_register ? select : in_use,
+  assign kind_o      = {in_use, ssi, manual, select, is_register ? select : in_use,
                         in_use & ~ssi, is_frame, is_control, is_register, control && fits == 2'b00};
 
 endmodule

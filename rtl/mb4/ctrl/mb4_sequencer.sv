@@ -64,6 +64,7 @@ module mb4_sequencer #(
   // banks
   input  mb4_pkg::mem_state_t mem_i,
   output mb4_pkg::bank_cmd_t bank_o,
+  output logic       frame_done_o,    // a frame ends, unless BREAK comes with its end
   // status
   output mb4_pkg::frame_flags_t flags_o,
   output logic       init_clear_o,    // INIT begins
@@ -109,8 +110,7 @@ module mb4_sequencer #(
   logic             awaits_d, awaits_q;      // one waits for its automatic frame
 
   // INIT does not test SL (page 33), but the slaves need their timeout before and after it. So SL
-  // has 1024 MA periods to return to 1. The longest timeout in the field is 40 us: 400 MA periods
-  // at 10 MHz.
+  // has 1024 MA periods to return to 1. The longest timeout in the field has 400 (40 us, 10 MHz).
   localparam logic [10:0] INIT_WAIT = 11'h7FF;
 
   // ack comes two clocks after new_q. REGEND has fallen by then.
@@ -174,7 +174,6 @@ module mb4_sequencer #(
     wait_d       = (tick_i && wait_q != 11'd0) ? wait_q - 11'd1 : wait_q;
     init         = 1'b0;
     abort        = 1'b0;
-    frame_end    = 1'b0;
     swap         = 1'b0;
     init_clear_o = 1'b0;
     scd_en       = 1'b0;
@@ -247,7 +246,6 @@ module mb4_sequencer #(
       FRAME_DONE: begin
         // All lines have brought their last bit. The banks switch in the next clock.
         state_d   = IDLE;
-        frame_end = !register_q;
         wait_d    = INIT_WAIT;
         if (!held_q.ags && !new_q) held_d.instr = 3'b000;
       end
@@ -291,7 +289,6 @@ module mb4_sequencer #(
       if (asked.brk) begin
         abort       = 1'b1;
         break_o     = 1'b1;
-        frame_end   = 1'b0;
         scd_en      = 1'b0;
         state_d     = IDLE;
         new_d       = asked.instr != 3'b000;
@@ -308,14 +305,7 @@ module mb4_sequencer #(
     if (!rst_ni) begin
       state_q    <= IDLE;
       held_q     <= '0;
-      new_q      <= 1'b0;
-      use_q      <= '0;
-      done_q     <= '0;
-      bad_q      <= 1'b0;
-      reduced_q  <= 1'b0;
-      register_q <= 1'b0;
-      awaits_q   <= 1'b0;
-      wait_q     <= '0;
+      {new_q, use_q, done_q, bad_q, reduced_q, register_q, awaits_q, wait_q} <= '0;
     end else begin
       state_q    <= state_d;
       held_q     <= held_d;
@@ -334,6 +324,8 @@ module mb4_sequencer #(
   // which covers the timeout, and SL has the other half to follow MO (decision 39).
   assign mo_return = state_q == INIT_TIMEOUT && !wait_q[10];
   assign instr_o     = {ack, held_q};
+  assign frame_done_o = state_q == FRAME_DONE && !register_q;
+  assign frame_end   = frame_done_o && !(written && asked.brk);
   assign go_o        = {start, init, register_access, reduced_d, mo_return, abort};
   assign bank_o      = {state_q == FRAME && !reduced_q && !register_q, frame_end,
                         frame_end && !reduced_q, reduced_q, swap, init && regvers_i};

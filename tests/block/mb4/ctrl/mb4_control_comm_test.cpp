@@ -36,7 +36,7 @@ class ControlCommBlock : public testing::Test {
     for (auto& word : m.cfg_i.m_storage) word = 0;
     m.quirks_i = m.instr_i = m.rdata_i = m.post_busy_i = 0;
     m.begin_i = m.register_want_i = m.void_i = m.refused_i = m.clear_i = m.init_clear_i = 0;
-    m.go_i = m.start_use_i = m.frame_end_i = m.automatic_i = 0;
+    m.go_i = m.start_use_i = m.frame_done_i = m.automatic_i = 0;
     m.status_i = 0x231;  // idle, SL = 1
     m.live_i = m.tick_i = 1;
     lines(kBissC, kBissC);
@@ -108,9 +108,9 @@ class ControlCommBlock : public testing::Test {
       const unsigned status = 0x11U | (cds >> line & 1U) << 2 | (cdm >> line & 1U) << 1;
       m.status_i |= static_cast<std::uint16_t>(status << 5 * line);
     }
-    m.frame_end_i = 1;
+    m.frame_done_i = 1;
     clock();
-    m.frame_end_i = 0;
+    m.frame_done_i = 0;
     clocks(2);
     return cdm;
   }
