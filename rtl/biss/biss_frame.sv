@@ -95,15 +95,11 @@ module biss_frame #(
     REGISTER
   } state_e;
 
-  state_e             state_d;
+  state_e             state_d, state_n;
   state_e             state_q;
-  logic [1:0]         cdm_d;
   logic [1:0]         cdm_q;       // for CDS = 1, 0
-  logic               reduced_d;
   logic               reduced_q;
-  logic               hold_d;
   logic               hold_q;
-  logic               init_d;
   logic               init_q;
   logic               started_d;
   logic               started_q;   // the start bit has come
@@ -211,10 +207,6 @@ module biss_frame #(
   // The bits on SL move the frame to its next state.
   always_comb begin
     state_d     = state_q;
-    cdm_d       = cdm_q;
-    reduced_d   = reduced_q;
-    hold_d      = hold_q;
-    init_d      = init_q;
     started_d   = started_q;
     cds_d       = cds_q;
     load_d      = 1'b0;
@@ -287,20 +279,9 @@ module biss_frame #(
       end
       default: state_d = RELEASE;
     endcase
-
-    // go_i.start comes late, and the line is in IDLE then.
-    if (begin_frame) begin
-      state_d   = new_state;
-      cdm_d     = new_cdm;
-      cds_d     = 1'b0;
-      reduced_d = new_reduced;
-      hold_d    = cmd_i.hold_cdm;
-      init_d    = new_init;
-      started_d = new_ssi;
-    end
-
-    if (abort) state_d = RELEASE;
   end
+
+  assign state_n = abort ? RELEASE : begin_frame ? new_state : state_d;
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
@@ -317,11 +298,7 @@ module biss_frame #(
       bus_q      <= 1'b0;
       idle_q     <= 1'b0;
     end else begin
-      state_q    <= state_d;
-      cdm_q      <= cdm_d;
-      reduced_q  <= reduced_d;
-      hold_q     <= hold_d;
-      init_q     <= init_d;
+      state_q    <= state_n;
       started_q  <= started_d;
       cds_q      <= cds_d;
       load_q     <= load_d;
@@ -331,7 +308,16 @@ module biss_frame #(
         biss_c_q <= new_biss_c;
         bus_q    <= new_bus;
       end
-      idle_q     <= state_d == IDLE && !release_next;
+      idle_q     <= state_n == IDLE && !release_next;
+      // go_i.start comes late, and the line is in IDLE then.
+      if (begin_frame) begin
+        cdm_q     <= new_cdm;
+        cds_q     <= 1'b0;
+        reduced_q <= new_reduced;
+        hold_q    <= cmd_i.hold_cdm;
+        init_q    <= new_init;
+        started_q <= new_ssi;
+      end
     end
   end
 

@@ -156,8 +156,11 @@ module mb4_sequencer #(
   assign may_run     = !mem_i.clears && kind_i.in_use != 2'b00 &&
                        !(stale_i && held_q.instr != 3'b000);
 
-  // start stands apart from the cases below: all lines wait for it, so it takes only all_idle of
-  // the lines. If all are idle, a request by GETSENS is due, and SL counts on each line in use.
+  // start and init stand apart from the cases below: all lines wait for them, so they take only
+  // all_idle of the lines. If all are idle, a request by GETSENS is due, and SL counts on each line
+  // in use.
+  assign init        = all_idle && state_q == IDLE && held_q.init && !mem_i.clears &&
+                       kind_i.init_use != 2'b00 && (BissB || regvers_i);
   assign start       = all_idle && state_q == IDLE && !(written && asked.brk) &&
                        ((held_q.init && !mem_i.clears)
                             ? kind_i.init_use != 2'b00 && (BissB || regvers_i)
@@ -172,7 +175,6 @@ module mb4_sequencer #(
     done_d       = done_q;
     bad_d        = bad_q;
     wait_d       = (tick_i && wait_q != 11'd0) ? wait_q - 11'd1 : wait_q;
-    init         = 1'b0;
     abort        = 1'b0;
     swap         = 1'b0;
     init_clear_o = 1'b0;
@@ -201,7 +203,6 @@ module mb4_sequencer #(
             init_clear_o = 1'b1;
             if (!BissB && !regvers_i) void_o = 1'b1;
           end else if (all_idle) begin
-            init         = 1'b1;
             init_clear_o = 1'b1;
             use_d        = kind_i.init_use;
             done_d       = ~kind_i.init_use;
