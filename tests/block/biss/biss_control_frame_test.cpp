@@ -302,19 +302,32 @@ TEST_F(ControlFrameBlock, FramesThatDoNotEnd_EndTheAccess) {
   }
 }
 
-// BREAK: at once and without a result. The next access begins with its zeros.
+// BREAK: at once and without a result, in the clock in which a frame ends too. The next access
+// begins with its zeros.
 TEST_F(ControlFrameBlock, Abort_EndsWithoutAResult) {
-  for (unsigned at = 0; at < 40; at += 3) {
+  for (unsigned round = 0; round < 84; ++round) {
+    SCOPED_TRACE(round);
+    const unsigned at = round / 2;
     ControlAccess stopped = random_access(false);
     stopped.bytes.resize(1);
     stopped.busy = {9};
     begin(stopped);
     zeros_before();
+    ASSERT_EQ(script.cds.size(), 42U);
     for (unsigned i = 0; i < at; ++i) frame(script.cds[i] == '1' ? 1 : 0);
+    const std::size_t bytes = written.size();
+    if (round % 2 != 0) {
+      m.start_i = 1;
+      clock();
+      m.start_i = 0;
+      m.cds_i = script.cds[at] == '1' ? 1 : 0;
+      m.frame_end_i = 1;
+    }
     m.abort_i = 1;
     clock();
-    m.abort_i = 0;
+    m.abort_i = m.frame_end_i = 0;
     clocks(3);
+    EXPECT_EQ(written.size(), bytes);
     EXPECT_FALSE(ended);
     EXPECT_EQ(m.active_o, 0);
     EXPECT_EQ(good_bytes(), 0U);
