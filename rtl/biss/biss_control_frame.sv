@@ -10,8 +10,8 @@
 //
 // - cdm0_o and cdm1_o are the CDM to send if CDS of the same frame is 0 or 1, one bit for each
 //   line.
-// - frame_end_i takes CDS. CDS of a slot answers CDM of the slot before. With abort_i it does
-//   nothing.
+// - frame_end_i takes CDS. CDS of a slot answers CDM of the slot before. With abort_i it has no
+//   result.
 // - Slot 0 lasts until 14 zeros have been sent (cdm_timeout_i). Slot 19 lasts until the start bit
 //   of the slave.
 // - IDS is the first byte of the data. It is taken when the bytes have arrived that the host wrote

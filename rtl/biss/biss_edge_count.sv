@@ -13,12 +13,13 @@
 //
 // Latency: a word counts from the second clock after len_valid_i. Until then no edge is the last
 // one. A processing clock counts with the next edge; until then none_left_o and one_left_o leave it
-// out, and the caller must not look (biss_frame looks after the start bit). mo_busy_i counts from
-// the second clock after begin_i. All outputs except two_next_o are ready early in the clock,
-// because they decide what MA does next.
+// out, and the caller must not look (biss_frame looks after the start bit). Between two processing
+// clocks there is an edge. mo_busy_i counts from the second clock after begin_i. All outputs except
+// two_next_o are ready early in the clock, because they decide what MA does next.
 //
 // Misuse: MA may make one edge more than needed before a word is told. The count keeps this edge
-// (-1) and subtracts it from the word. The count does not keep further surplus edges.
+// (need_q = -2) and subtracts it from the word. The count does not keep further surplus edges. Words
+// that are told while the line rests count until begin_i.
 // Datasheet: pages 12..16, Figures 8..16.
 
 `include "enc_check.svh"
@@ -35,7 +36,7 @@ module biss_edge_count #(
   input  logic       bus_i,
   input  logic [7:0] mo_busy_i,
   input  logic       begin_i,
-    input  logic       len_valid_i,
+  input  logic       len_valid_i,
   input  logic [6:0] len_last_i,   // bits of the word minus 1
   input  logic       wait_i,
   input  logic       rise_i,
@@ -96,7 +97,15 @@ module biss_edge_count #(
   assign none_left_o = need_q[W-1] && !word_q;
   assign one_left_o  = (need_q[W-1] || need_q == '0) && !word_q;
 
-  `ENC_ASSERT(NeedInRange_A, clk_i, rst_ni,
-              32'(need_q) >= -2 && 32'(need_q) < signed'(MOST))
+`ifdef ENC_CHECKED
+  logic [7:0] told_q;   // words since begin_i; while the line rests there may be any number
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni)                             told_q <= '0;
+    else if (begin_i)                        told_q <= '0;
+    else if (len_valid_i && told_q != 8'hFF) told_q <= told_q + 8'd1;
+  end
+`endif
+  `ENC_ASSERT_IF(NeedInRange_A, clk_i, rst_ni, 32'(told_q) <= Slaves,
+                 32'(need_q) >= -2 && 32'(need_q) < signed'(MOST))
 
 endmodule

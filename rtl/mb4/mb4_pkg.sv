@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Types and numbers that the whole chip shares. Register addresses and field positions are in the
-// generated package mb4_regs_pkg. Neither package refers to the other.
+// generated packages mb4_regs_pkg and mb4_page_regs_pkg, which do not refer to this one.
 
 package mb4_pkg;
 

@@ -43,8 +43,9 @@ module mb4_control #(
   output logic       frame_lost_o     // a frame was left out or overwritten
 );
 
-  localparam bit BISS_B = Features[mb4_page_regs_pkg::BISS_B_LSB];
-  localparam bit SSI    = Features[mb4_page_regs_pkg::SSI_LSB];
+  localparam bit TWO_LINES = Features[mb4_page_regs_pkg::TWO_LINES_LSB];
+  localparam bit BISS_B    = Features[mb4_page_regs_pkg::BISS_B_LSB];
+  localparam bit SSI       = Features[mb4_page_regs_pkg::SSI_LSB];
 
   mb4_pkg::kind_t         kind;
   mb4_pkg::request_t      request;
@@ -184,13 +185,13 @@ module mb4_control #(
 
   // ---- lines --------------------------------------------------------------------------------
 
-  // CFGCHx has the codes of biss_pkg::protocol_e. Line 2 is unused if SLAVELOC5 = 0, and a line
-  // whose protocol is left out is unused too. The host may write them at any time: what starts a
-  // frame and the line that makes it see one flop.
+  // CFGCHx has the codes of biss_pkg::protocol_e. Unused are also line 2 with SLAVELOC5 = 0, a line
+  // that is left out, and one whose protocol is left out. The host may write them at any time: what
+  // starts a frame and the line that makes it see one flop.
   for (genvar i = 0; i < 2; i++) begin : gen_protocol
     logic [1:0] code, protocol;
 
-    assign code     = i == 0 ? cfg_i.cfgch1 : cfg_i.cfgch2 | {2{!cfg_i.slaveloc5}};
+    assign code     = i == 0 ? cfg_i.cfgch1 : cfg_i.cfgch2 | {2{!cfg_i.slaveloc5 || !TWO_LINES}};
     assign protocol = code == biss_pkg::BISS_C             ? biss_pkg::BISS_C
                     : (BISS_B && code == biss_pkg::BISS_B) ? biss_pkg::BISS_B
                     : (SSI && code == biss_pkg::SSI)       ? biss_pkg::SSI

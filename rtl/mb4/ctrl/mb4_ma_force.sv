@@ -7,7 +7,7 @@
 // Clock domain: core. The host may write the bits at any time. They pass two flops, and they are
 // taken together when they have been equal for two clocks, at most 4 clocks after the write. The
 // lines take them one clock later (biss_ma_drive): change_o is high and any_o follows then. MA
-// follows with the next tick.
+// follows with the next tick. Bits that were different for one clock only give change_o too.
 // Without Force no line is ever forced.
 // Misuse: none.
 // Datasheet: page 33, Tables 50..53; CHSEL: page 27, Table 23.

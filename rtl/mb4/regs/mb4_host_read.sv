@@ -30,7 +30,7 @@ module mb4_host_read #(
   input  logic [15:0] scd_lo_data_i, // read registers of the memories, of the edge
   input  logic [15:0] scd_hi_data_i, // with host_i.rd_en; bank 1 in the upper byte
   input  logic [7:0] rdata_data_i,
-  input  logic       recent_hit_i,   // same edge: the byte of the host is still on its way
+  input  logic       recent_hit_i,   // same edge: mb4_recent answers
   input  logic [7:0] recent_data_i,
   input  logic [7:0] slave_data_i,   // configuration of the data channels, same edge
   input  logic [15:0] cfg_data_i,    // of an odd and an even address, from host_i.rd_addr(4:1)

@@ -13,13 +13,14 @@ module mb4_ram_clear (
   output mb4_pkg::mem_wr_t clear_o
 );
 
-  logic [6:0] addr_q;   // bit 6: done
+  logic [5:0] addr_q;
+  logic       done_q;
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
-    if (!rst_ni)         addr_q <= '0;
-    else if (!addr_q[6]) addr_q <= addr_q + 7'd1;
+    if (!rst_ni)      {done_q, addr_q} <= '0;
+    else if (!done_q) {done_q, addr_q} <= 7'(addr_q) + 7'd1;
   end
 
-  assign clear_o = {!addr_q[6], addr_q[5:0], 8'h00};
+  assign clear_o = {!done_q, addr_q, 8'h00};
 
 endmodule

@@ -48,7 +48,7 @@ module mb4_recent #(
   localparam bit BANKS   = Features[mb4_page_regs_pkg::TWO_BANKS_LSB];
   localparam logic [7:0] PRESENT = mb4_pkg::channels(Features[mb4_page_regs_pkg::TWO_LINES_LSB],
                                                      Features[mb4_page_regs_pkg::SLAVES_LSB +: 4]);
-  // Bits of an address that are not 0 in all addresses that the core has.
+  // Bits of a key that are not 0 in the keys of all addresses that the core has.
   localparam logic [7:0] VARIES = {CONTROL, BANKS, BANKS || CONTROL || PRESENT[7:4] != 4'h0,
                                    CONTROL || {PRESENT[7:6], PRESENT[3:2]} != 4'h0,
                                    CONTROL || (PRESENT & 8'hAA) != 8'h00, 3'b111};
