@@ -17,9 +17,10 @@
 // clocks there is an edge. mo_busy_i counts from the second clock after begin_i. All outputs except
 // two_next_o are ready early in the clock, because they decide what MA does next.
 //
-// Misuse: MA may make one edge more than needed before a word is told. The count keeps this edge
-// (need_q = -2) and subtracts it from the word. The count does not keep further surplus edges. Words
-// that are told while the line rests count until begin_i.
+// Misuse: ssi_i with bus_i counts one edge too many. MA may make one edge more than needed before a
+// word is told. The count keeps this edge (need_q = -2) and subtracts it from the word. The count
+// does not keep further surplus edges. Words that are told while the line rests count up to
+// begin_i.
 // Datasheet: pages 12..16, Figures 8..16.
 
 `include "enc_check.svh"

@@ -3,9 +3,9 @@
 //
 // The iC-MB4. Paths are relative to this folder; packages come first.
 -F ../biss/biss.f
+mb4_pkg.sv
 ../../regmap/generated/mb4/mb4_regs_pkg.sv
 ../../regmap/generated/mb4_page/mb4_page_regs_pkg.sv
-mb4_pkg.sv
 host/mb4_spi_shift.sv
 host/mb4_spi_cmd.sv
 host/mb4_spi.sv

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Types and numbers that the whole chip shares. Register addresses and field positions are in the
-// generated packages mb4_regs_pkg and mb4_page_regs_pkg, which do not refer to this one.
+// generated package mb4_regs_pkg. Neither package refers to the other.
 
 package mb4_pkg;
 
@@ -274,47 +274,6 @@ package mb4_pkg;
   function automatic logic in_memory(input logic [7:3] addr, input logic [7:0] present,
                                      input logic control);
     in_memory = !addr[6] && (addr[7] ? control : present[addr[5:3]]);
-  endfunction
-
-  // Bits of a configuration register (mb4_cfg_regs) that the host can write.
-  function automatic logic [7:0] cfg_mask(input logic [7:0] addr, input logic [31:0] set);
-    logic control, mo, force_bits;
-    control    = set[mb4_page_regs_pkg::CONTROL_LSB];
-    mo         = set[mb4_page_regs_pkg::MO_LSB];
-    force_bits = set[mb4_page_regs_pkg::FORCE_LSB];
-    unique case (addr)
-      mb4_regs_pkg::ADDR_REGADR:    cfg_mask = mb4_regs_pkg::WMASK_REGADR & {8{control}};
-      mb4_regs_pkg::ADDR_REGNUM:    cfg_mask = mb4_regs_pkg::WMASK_REGNUM & {8{control}};
-      mb4_regs_pkg::ADDR_CHSEL:     cfg_mask = mb4_regs_pkg::WMASK_CHSEL;
-      mb4_regs_pkg::ADDR_CTRL:
-        cfg_mask = mb4_regs_pkg::WMASK_CTRL &
-                   ~((mb4_regs_pkg::CTS_MASK | mb4_regs_pkg::SLAVEID_MASK) & {8{!control}});
-      mb4_regs_pkg::ADDR_FREQ:      cfg_mask = mb4_regs_pkg::WMASK_FREQ;
-      mb4_regs_pkg::ADDR_BANKCFG:   cfg_mask = mb4_regs_pkg::WMASK_BANKCFG;
-      mb4_regs_pkg::ADDR_FREQAGS:   cfg_mask = mb4_regs_pkg::WMASK_FREQAGS;
-      mb4_regs_pkg::ADDR_MO_BUSY:   cfg_mask = mb4_regs_pkg::WMASK_MO_BUSY & {8{mo}};
-      mb4_regs_pkg::ADDR_SLAVELOC5: cfg_mask = mb4_regs_pkg::WMASK_SLAVELOC5;
-      mb4_regs_pkg::ADDR_CFGCH:     cfg_mask = mb4_regs_pkg::WMASK_CFGCH;
-      mb4_regs_pkg::ADDR_ACTNSENS:
-        cfg_mask = mb4_regs_pkg::WMASK_ACTNSENS & {8{mo}} &
-                   channels(set[mb4_page_regs_pkg::TWO_LINES_LSB],
-                            set[mb4_page_regs_pkg::SLAVES_LSB +: 4]);
-      mb4_regs_pkg::ADDR_IFACE:
-        cfg_mask = mb4_regs_pkg::WMASK_IFACE &
-                   ~((mb4_regs_pkg::MAFS_MASK | mb4_regs_pkg::MAVS_MASK | mb4_regs_pkg::MAFO_MASK |
-                      mb4_regs_pkg::MAVO_MASK) & {8{!force_bits}});
-      default:                      cfg_mask = 8'h00;
-    endcase
-  endfunction
-
-  // Registers 0xC0 to 0xFF that mb4_recent reads back: those without a bit that reads 0, and the
-  // data channel of a core that has only one.
-  function automatic logic [63:0] kept_registers(input logic [31:0] set);
-    for (int i = 0; i < 64; i++) begin
-      kept_registers[i] = i < 32 ? i < 4 && channels(set[mb4_page_regs_pkg::TWO_LINES_LSB],
-                                             set[mb4_page_regs_pkg::SLAVES_LSB +: 4]) == 8'h01
-                                 : cfg_mask(8'(192 + i), set) == 8'hFF;
-    end
   endfunction
 
   // Quirks: a static input vector that adapts the chip to real silicon (docs/choices.md).

@@ -27,19 +27,22 @@ module mb4_cfg_regs #(
   output mb4_pkg::cfg_t cfg_o
 );
 
+  localparam bit CONTROL = Features[mb4_page_regs_pkg::CONTROL_LSB];
+  localparam bit MO      = Features[mb4_page_regs_pkg::MO_LSB];
+  localparam bit FORCE   = Features[mb4_page_regs_pkg::FORCE_LSB];
+  localparam logic [7:0] PRESENT = mb4_pkg::channels(Features[mb4_page_regs_pkg::TWO_LINES_LSB],
+                                                     Features[mb4_page_regs_pkg::SLAVES_LSB +: 4]);
+
   // Bits that the host can write.
-  localparam logic [7:0] REGADR    = mb4_pkg::cfg_mask(mb4_regs_pkg::ADDR_REGADR, Features);
-  localparam logic [7:0] REGNUM    = mb4_pkg::cfg_mask(mb4_regs_pkg::ADDR_REGNUM, Features);
-  localparam logic [7:0] CHSEL     = mb4_pkg::cfg_mask(mb4_regs_pkg::ADDR_CHSEL, Features);
-  localparam logic [7:0] CTRL      = mb4_pkg::cfg_mask(mb4_regs_pkg::ADDR_CTRL, Features);
-  localparam logic [7:0] FREQ      = mb4_pkg::cfg_mask(mb4_regs_pkg::ADDR_FREQ, Features);
-  localparam logic [7:0] BANKCFG   = mb4_pkg::cfg_mask(mb4_regs_pkg::ADDR_BANKCFG, Features);
-  localparam logic [7:0] FREQAGS   = mb4_pkg::cfg_mask(mb4_regs_pkg::ADDR_FREQAGS, Features);
-  localparam logic [7:0] MO_BUSY   = mb4_pkg::cfg_mask(mb4_regs_pkg::ADDR_MO_BUSY, Features);
-  localparam logic [7:0] SLAVELOC5 = mb4_pkg::cfg_mask(mb4_regs_pkg::ADDR_SLAVELOC5, Features);
-  localparam logic [7:0] CFGCH     = mb4_pkg::cfg_mask(mb4_regs_pkg::ADDR_CFGCH, Features);
-  localparam logic [7:0] ACTNSENS  = mb4_pkg::cfg_mask(mb4_regs_pkg::ADDR_ACTNSENS, Features);
-  localparam logic [7:0] IFACE     = mb4_pkg::cfg_mask(mb4_regs_pkg::ADDR_IFACE, Features);
+  localparam logic [7:0] REGADR = mb4_regs_pkg::WMASK_REGADR & {8{CONTROL}};
+  localparam logic [7:0] REGNUM = mb4_regs_pkg::WMASK_REGNUM & {8{CONTROL}};
+  localparam logic [7:0] CTRL   = mb4_regs_pkg::WMASK_CTRL &
+      ~((mb4_regs_pkg::CTS_MASK | mb4_regs_pkg::SLAVEID_MASK) & {8{!CONTROL}});
+  localparam logic [7:0] MO_BUSY  = mb4_regs_pkg::WMASK_MO_BUSY & {8{MO}};
+  localparam logic [7:0] ACTNSENS = mb4_regs_pkg::WMASK_ACTNSENS & {8{MO}} & PRESENT;
+  localparam logic [7:0] IFACE    = mb4_regs_pkg::WMASK_IFACE &
+      ~((mb4_regs_pkg::MAFS_MASK | mb4_regs_pkg::MAVS_MASK | mb4_regs_pkg::MAFO_MASK |
+         mb4_regs_pkg::MAVO_MASK) & {8{!FORCE}});
 
   // What is read here of a register: nothing if mb4_recent has it.
   function automatic logic [7:0] here(input logic [7:0] value, input logic [7:0] mask);
@@ -85,14 +88,14 @@ module mb4_cfg_regs #(
       unique case (host_i.wr_addr)
         mb4_regs_pkg::ADDR_REGADR:    regadr_q    <= host_i.wr_data & REGADR;
         mb4_regs_pkg::ADDR_REGNUM:    regnum_q    <= host_i.wr_data & REGNUM;
-        mb4_regs_pkg::ADDR_CHSEL:     chsel_q     <= host_i.wr_data & CHSEL;
+        mb4_regs_pkg::ADDR_CHSEL:     chsel_q     <= host_i.wr_data & mb4_regs_pkg::WMASK_CHSEL;
         mb4_regs_pkg::ADDR_CTRL:      ctrl_q      <= host_i.wr_data & CTRL;
-        mb4_regs_pkg::ADDR_FREQ:      freq_q      <= host_i.wr_data & FREQ;
-        mb4_regs_pkg::ADDR_BANKCFG:   bankcfg_q   <= host_i.wr_data & BANKCFG;
-        mb4_regs_pkg::ADDR_FREQAGS:   freqags_q   <= host_i.wr_data & FREQAGS;
+        mb4_regs_pkg::ADDR_FREQ:      freq_q      <= host_i.wr_data & mb4_regs_pkg::WMASK_FREQ;
+        mb4_regs_pkg::ADDR_BANKCFG:   bankcfg_q   <= host_i.wr_data & mb4_regs_pkg::WMASK_BANKCFG;
+        mb4_regs_pkg::ADDR_FREQAGS:   freqags_q   <= host_i.wr_data & mb4_regs_pkg::WMASK_FREQAGS;
         mb4_regs_pkg::ADDR_MO_BUSY:   mo_busy_q   <= host_i.wr_data & MO_BUSY;
-        mb4_regs_pkg::ADDR_SLAVELOC5: slaveloc5_q <= host_i.wr_data & SLAVELOC5;
-        mb4_regs_pkg::ADDR_CFGCH:     cfgch_q     <= host_i.wr_data & CFGCH;
+        mb4_regs_pkg::ADDR_SLAVELOC5: slaveloc5_q <= host_i.wr_data & mb4_regs_pkg::WMASK_SLAVELOC5;
+        mb4_regs_pkg::ADDR_CFGCH:     cfgch_q     <= host_i.wr_data & mb4_regs_pkg::WMASK_CFGCH;
         mb4_regs_pkg::ADDR_ACTNSENS:  actnsens_q  <= host_i.wr_data & ACTNSENS;
         mb4_regs_pkg::ADDR_IFACE:     iface_q     <= host_i.wr_data & IFACE;
         default: ;  // not kept here
@@ -104,16 +107,18 @@ module mb4_cfg_regs #(
     for (int unsigned k = 0; k < 2; k++) begin
       unique case ({mb4_regs_pkg::ADDR_REGADR[7:5], rd_addr[4:1], 1'(k)})
         mb4_regs_pkg::ADDR_REGADR:    rd_data_o[8*k +: 8] = here(regadr_q, REGADR);
-        mb4_regs_pkg::ADDR_REGNUM:    rd_data_o[8*k +: 8] = here(regnum_q, REGNUM);
-        mb4_regs_pkg::ADDR_CHSEL:     rd_data_o[8*k +: 8] = here(chsel_q, CHSEL);
-        mb4_regs_pkg::ADDR_CTRL:      rd_data_o[8*k +: 8] = here(ctrl_q, CTRL);
-        mb4_regs_pkg::ADDR_FREQ:      rd_data_o[8*k +: 8] = here(freq_q, FREQ);
-        mb4_regs_pkg::ADDR_BANKCFG:   rd_data_o[8*k +: 8] = here(bankcfg_q, BANKCFG);
-        mb4_regs_pkg::ADDR_FREQAGS:   rd_data_o[8*k +: 8] = here(freqags_q, FREQAGS);
+        mb4_regs_pkg::ADDR_REGNUM:    rd_data_o[8*k +: 8] = regnum_q;
+        mb4_regs_pkg::ADDR_CHSEL:     rd_data_o[8*k +: 8] = chsel_q;
+        mb4_regs_pkg::ADDR_CTRL:      rd_data_o[8*k +: 8] = ctrl_q;
+        mb4_regs_pkg::ADDR_FREQ:
+          rd_data_o[8*k +: 8] = here(freq_q, mb4_regs_pkg::WMASK_FREQ);
+        mb4_regs_pkg::ADDR_BANKCFG:   rd_data_o[8*k +: 8] = bankcfg_q;
+        mb4_regs_pkg::ADDR_FREQAGS:
+          rd_data_o[8*k +: 8] = here(freqags_q, mb4_regs_pkg::WMASK_FREQAGS);
         mb4_regs_pkg::ADDR_MO_BUSY:   rd_data_o[8*k +: 8] = here(mo_busy_q, MO_BUSY);
         mb4_regs_pkg::ADDR_SLAVELOC5:
           rd_data_o[8*k +: 8] = slaveloc5_q | mb4_regs_pkg::RESET_SLAVELOC5;
-        mb4_regs_pkg::ADDR_CFGCH:     rd_data_o[8*k +: 8] = here(cfgch_q, CFGCH);
+        mb4_regs_pkg::ADDR_CFGCH:     rd_data_o[8*k +: 8] = cfgch_q;
         mb4_regs_pkg::ADDR_ACTNSENS:  rd_data_o[8*k +: 8] = here(actnsens_q, ACTNSENS);
         mb4_regs_pkg::ADDR_IFACE:     rd_data_o[8*k +: 8] = here(iface_q, IFACE);
         default:                      rd_data_o[8*k +: 8] = 8'h00;

@@ -6,9 +6,9 @@
 // addresses are kept, the newest first. An address includes the host's bank of SCDATA, so a switch
 // of the banks hides no byte and shows none of the other bank.
 //
-// The same memory reads back the registers that have no reserved bit (mb4_pkg::kept_registers). It
-// costs less than their share of a multiplexer. written_q tells which of them have been written
-// since the reset; the others read 0.
+// The same memory reads back the registers without a reserved bit, and the configuration of the
+// data channel of a core with one (kept). It costs less than their share of a multiplexer.
+// written_q tells which of them have been written since the reset; the others read 0.
 //
 // Clock domains: host; writes in wr_clk_i, reads in rd_clk_i. These are one clock, or two strobes
 // of which one rests while the other has edges.
@@ -53,7 +53,12 @@ module mb4_recent #(
                                    CONTROL || {PRESENT[7:6], PRESENT[3:2]} != 4'h0,
                                    CONTROL || (PRESENT & 8'hAA) != 8'h00, 3'b111};
 
-  localparam logic [63:0] KEPT = mb4_pkg::kept_registers(Features);
+  localparam bit MO    = Features[mb4_page_regs_pkg::MO_LSB];
+  localparam bit FORCE = Features[mb4_page_regs_pkg::FORCE_LSB];
+  // Bits of a register that go with a feature that the core does not have are reserved (decision
+  // 44).
+  localparam logic [5:0] WHOLE = {FORCE, MO && PRESENT == 8'hFF, MO, 1'b1, 1'b1, CONTROL};
+  localparam int unsigned KEPT = PRESENT == 8'h01 ? 10 : 6;
 
   // With at most four data channels SCDATA leaves bit 5 free for the bank.
   localparam bit SHORT = PRESENT[7:4] == 4'h0;
@@ -68,9 +73,20 @@ module mb4_recent #(
     key = VARIES & (SHORT ? {at[7], 1'b0, at[7] ? at[5] : at[6], at[4:0]} : at);
   endfunction
 
+  // Registers that are read back here, one bit each: the one at this address.
+  function automatic logic [KEPT-1:0] kept(input logic [7:0] addr);
+    kept = KEPT'({addr == mb4_regs_pkg::ADDR_SLAVE_CFG + 8'd3,
+                  addr == mb4_regs_pkg::ADDR_SLAVE_CFG + 8'd2,
+                  addr == mb4_regs_pkg::ADDR_SLAVE_CFG + 8'd1,
+                  addr == mb4_regs_pkg::ADDR_SLAVE_CFG,
+                  WHOLE & {addr == mb4_regs_pkg::ADDR_IFACE, addr == mb4_regs_pkg::ADDR_ACTNSENS,
+                           addr == mb4_regs_pkg::ADDR_MO_BUSY, addr == mb4_regs_pkg::ADDR_FREQAGS,
+                           addr == mb4_regs_pkg::ADDR_FREQ, addr == mb4_regs_pkg::ADDR_REGADR}});
+  endfunction
+
   logic        wr_en;
-  logic [63:0] reg_wr;             // the host writes a register that is kept here
-  logic [63:0] written_q;          // those that have been written
+  logic [KEPT-1:0] reg_wr;         // the host writes a register that is kept here
+  logic [KEPT-1:0] written_q;      // those that have been written
   logic [7:0]  wr_place, rd_place;
   logic [7:0]  wr_addr, rd_addr;   // their keys
   logic [31:0] addr_q;    // four addresses, the newest lowest
@@ -88,6 +104,7 @@ module mb4_recent #(
   logic [2:0]  wr_match;
   logic [3:0]  rd_match;  // without bit 0 of the address
   logic [3:0]  odd;
+  logic [1:0]  reg_hits;  // registers at the odd and at the even address
   // At the odd and at the even address. Kept: synthesis does not know that bit 0 comes late.
   (* keep *) logic [1:0] hits;
   logic [3:0]  move;      // entry takes the address of its newer neighbour
@@ -99,24 +116,26 @@ module mb4_recent #(
   assign wr_addr  = key(wr_place);
   assign rd_addr  = key(rd_place);
 
-  for (genvar i = 0; i < 64; i++) begin : gen_register
-    assign reg_wr[i] = KEPT[i] && host_i.wr_en && host_i.wr_addr == 8'(192 + i);
-  end
+  assign reg_wr   = kept(host_i.wr_addr) & {KEPT{host_i.wr_en}};
 
   for (genvar i = 0; i < 3; i++) begin : gen_write
     assign wr_match[i] = valid_q[i] && addr_q[8*i +: 8] == wr_addr;
   end
 
   // Bit 0 of the address comes late over SPI, so it only chooses between two results.
+  for (genvar k = 0; k < 2; k++) begin : gen_register
+    assign reg_hits[k] = (kept({host_i.rd_addr[7:1], 1'(k)}) & written_q) != '0;
+  end
+
   for (genvar i = 0; i < 4; i++) begin : gen_read
     assign rd_match[i] = valid_q[i] && !drained[i] && !(old_q[i] && marked_i == mark_q) &&
                          addr_q[8*i + 1 +: 7] == rd_addr[7:1];
     assign odd[i]      = addr_q[8*i];
   end
 
-  assign hits = {(rd_match & odd) != 4'b0000, (rd_match & ~odd) != 4'b0000} &
-                {2{mb4_pkg::in_memory(host_i.rd_addr[7:3], PRESENT, CONTROL) && !empty_i}} |
-                written_q[{host_i.rd_addr[5:1], 1'b0} +: 2] & {2{host_i.rd_addr[7:6] == 2'b11}};
+  assign hits = ({(rd_match & odd) != 4'b0000, (rd_match & ~odd) != 4'b0000} &
+                {2{mb4_pkg::in_memory(host_i.rd_addr[7:3], PRESENT, CONTROL) && !empty_i}}) |
+                reg_hits;
 
   assign move = {wr_match == 3'b000, wr_match[1:0] == 2'b00, !wr_match[0], 1'b1} &
                 {4{wr_en}};
@@ -153,7 +172,7 @@ module mb4_recent #(
 
   enc_ram #(.Width(8), .AddrW(8)) u_ram (
     .wr_clk_i,
-    .wr_en_i   (wr_en || reg_wr != 64'd0),
+    .wr_en_i   (wr_en || reg_wr != '0),
     .wr_addr_i (wr_place),
     .wr_data_i (host_i.wr_data),
     .rd_clk_i,

@@ -13,8 +13,8 @@
 
 namespace mb4::sim {
 
-// Returns the periods of the system clock in half a period of MA, for codes of 0 to 31. Code 16, which
-// is not permitted, gives 10 (docs/choices.md).
+// Returns the periods of the system clock in half a period of MA, for codes of 0 to 31. Code 16,
+// which is not permitted, gives 10 (docs/choices.md).
 inline unsigned half_ma_clocks(unsigned freqs_code) {
   return (freqs_code < 16 ? 1 : 10) * (freqs_code % 16 + 1);
 }

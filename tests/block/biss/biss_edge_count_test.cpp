@@ -65,7 +65,7 @@ TEST(EdgeCountBlock, RandomFrames_EdgesAreThoseOfTheProtocol) {
     Edges edges;
     const auto protocol = static_cast<Protocol>(random.below(3));
     unsigned expected = protocol == Protocol::kBissC ? 5 : protocol == Protocol::kBissB ? 4 : 1;
-    edges.model.bus_i = random.below(2) != 0;
+    edges.model.bus_i = protocol != Protocol::kSsi && random.below(2) != 0;
     edges.model.mo_busy_i = static_cast<std::uint8_t>(random.below(16));
     if (edges.model.bus_i != 0) expected += edges.model.mo_busy_i;
     edges.begin(protocol);

@@ -15,9 +15,9 @@ namespace {
 
 using mb4test::Block;
 
-// Half an MA period in clocks: page 30, Table 35, for every code of FREQS. 0x10 is not permitted; the
-// choice is f_CLK / 20 (docs/choices.md). Page 12: four equally spaced sampling points in each MA period,
-// two clocks late.
+// Half an MA period in clocks: page 30, Table 35, for every code of FREQS. 0x10 is not permitted;
+// the choice is f_CLK / 20 (docs/choices.md). Page 12: four equally spaced sampling points in each
+// MA period, two clocks late.
 TEST(TimebaseBlock, EveryCodeOfFreqs_TicksAndFourEvenSamplingPoints) {
   for (unsigned code = 0; code < 32; ++code) {
     const unsigned half = code < 0x10 ? code + 1 : 10 * (code - 15);
