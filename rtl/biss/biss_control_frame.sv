@@ -242,12 +242,12 @@ module biss_control_frame (
         last_d  = index_q == access_i.regnum;
       end
       end_d         = fail || finish || late;
-      reg_error_d   = fail || (finish && ida_bad_d != 2'b00);
+      reg_error_d   = fail || ida_bad_d != 2'b00;
       delay_error_d = late;
     end else if (active_q && stalled_i) begin
       end_d         = 1'b1;
-      reg_error_d   = !wait_o;
-      delay_error_d = wait_o;
+      reg_error_d   = !(cts && slot_q == biss_pkg::SLOT_WAIT);
+      delay_error_d = cts && slot_q == biss_pkg::SLOT_WAIT;
     end
 
     // A frame may start in the clock of begin_i, so slot_q is 0 whenever no control frame runs.

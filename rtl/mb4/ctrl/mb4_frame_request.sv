@@ -13,7 +13,8 @@
 // - GETSENS = 1 is a request whenever the lines are idle. With hold_cdm_i each pulse gives one
 //   frame.
 //
-// Latency: 2 clocks from GETSENS to the start of a frame; MA falls half an MA period later.
+// Latency: 2 clocks from GETSENS to the start of a frame; MA falls half an MA period later. That
+// freqags_i is AGSMIN or AGSINFINITE counts one clock later.
 // Misuse: a GETSENS pulse that begins and ends while a frame runs is not remembered.
 // Datasheet: pages 30..32, Tables 37, 44, item C08; decision 19.
 
@@ -32,8 +33,8 @@ module mb4_frame_request (
   output logic       missed_o
 );
 
-  logic       agsmin;
-  logic       infinite;
+  logic       agsmin_q;
+  logic       infinite_q;
   logic       timed;
   logic       getsens;
   logic [9:0] pre_q;      // clocks of the current step
@@ -55,9 +56,18 @@ module mb4_frame_request (
     .data_o (getsens)
   );
 
-  assign agsmin   = freqags_i == mb4_regs_pkg::AGS_RATE_AGS_MIN;
-  assign infinite = freqags_i[7:2] == 6'b011111 && !agsmin;
-  assign timed      = ags_i && !agsmin && !infinite;
+  // Decoded in a flop: this comes before the start of a frame, the longest path of small cores.
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      agsmin_q   <= 1'b0;
+      infinite_q <= 1'b0;
+    end else begin
+      agsmin_q   <= freqags_i == mb4_regs_pkg::AGS_RATE_AGS_MIN;
+      infinite_q <= freqags_i[7:2] == 6'b011111 && freqags_i != mb4_regs_pkg::AGS_RATE_AGS_MIN;
+    end
+  end
+
+  assign timed   = ags_i && !agsmin_q && !infinite_q;
 
   assign pre_end = pre_q == (freqags_i[7] ? 10'd624 : 10'd19);
   assign due     = timed && !restart_i && pre_end && step_q == freqags_i[6:0];
@@ -87,10 +97,10 @@ module mb4_frame_request (
     end
   end
 
-  assign by_time = ags_i && (agsmin || pending_q);
-  assign by_pin  = ags_i && infinite && getsens && (armed_q || !hold_cdm_i);
+  assign by_time = ags_i && (agsmin_q || pending_q);
+  assign by_pin  = ags_i && infinite_q && getsens && (armed_q || !hold_cdm_i);
   assign asks    = by_time || by_pin;
-  assign request_o = {by_time || (by_pin && lines_idle_i), asks, agsmin, infinite};
+  assign request_o = {by_time || (by_pin && lines_idle_i), asks, agsmin_q, infinite_q};
   assign missed_o  = due && busy_i;
 
 endmodule

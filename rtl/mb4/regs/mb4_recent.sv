@@ -57,7 +57,7 @@ module mb4_recent #(
   localparam bit FORCE = Features[mb4_page_regs_pkg::FORCE_LSB];
   // Bits of a register that go with a feature that the core does not have are reserved (decision
   // 44).
-  localparam logic [5:0] WHOLE = {FORCE, MO && PRESENT == 8'hFF, MO, 1'b1, 1'b1, CONTROL};
+  localparam logic [5:0] WHOLE = {CONTROL, 1'b1, 1'b1, MO, MO && PRESENT == 8'hFF, FORCE};
   localparam int unsigned KEPT = PRESENT == 8'h01 ? 10 : 6;
 
   // With at most four data channels SCDATA leaves bit 5 free for the bank.
@@ -75,13 +75,10 @@ module mb4_recent #(
 
   // Registers that are read back here, one bit each: the one at this address.
   function automatic logic [KEPT-1:0] kept(input logic [7:0] addr);
-    kept = KEPT'({addr == mb4_regs_pkg::ADDR_SLAVE_CFG + 8'd3,
-                  addr == mb4_regs_pkg::ADDR_SLAVE_CFG + 8'd2,
-                  addr == mb4_regs_pkg::ADDR_SLAVE_CFG + 8'd1,
-                  addr == mb4_regs_pkg::ADDR_SLAVE_CFG,
-                  WHOLE & {addr == mb4_regs_pkg::ADDR_IFACE, addr == mb4_regs_pkg::ADDR_ACTNSENS,
-                           addr == mb4_regs_pkg::ADDR_MO_BUSY, addr == mb4_regs_pkg::ADDR_FREQAGS,
-                           addr == mb4_regs_pkg::ADDR_FREQ, addr == mb4_regs_pkg::ADDR_REGADR}});
+    kept = KEPT'({{3'b000, addr[7:2] == mb4_regs_pkg::ADDR_SLAVE_CFG[7:2]} << addr[1:0],
+                  WHOLE & {addr == mb4_regs_pkg::ADDR_REGADR, addr == mb4_regs_pkg::ADDR_FREQ,
+                           addr == mb4_regs_pkg::ADDR_FREQAGS, addr == mb4_regs_pkg::ADDR_MO_BUSY,
+                           addr == mb4_regs_pkg::ADDR_ACTNSENS, addr == mb4_regs_pkg::ADDR_IFACE}});
   endfunction
 
   logic        wr_en;
