@@ -19,8 +19,8 @@
 //
 // Misuse: ssi_i with bus_i counts one edge too many. MA may make one edge more than needed before a
 // word is told. The count keeps this edge (need_q = -2) and subtracts it from the word. The count
-// does not keep further surplus edges. Words that are told while the line rests count up to
-// begin_i.
+// does not keep further surplus edges. Words that are told while the line rests are counted too;
+// begin_i drops them.
 // Datasheet: pages 12..16, Figures 8..16.
 
 `include "enc_check.svh"

@@ -20,7 +20,8 @@
 // is not looked at, and register 0xF8 shows it as 1, as with an open pin.
 //
 // Misuse: wr_clk_i and rd_clk_i may be one clock. If they are two clocks, one must stand still
-// while the other has edges; otherwise the data of a read are undefined.
+// while the other has edges; otherwise the data of a read are undefined. So are those of a read at
+// the edge that writes the same byte.
 // Datasheet: pages 15..36. Crossings: docs/crossings.md.
 
 module mb4_engine #(

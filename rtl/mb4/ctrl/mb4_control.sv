@@ -185,9 +185,9 @@ module mb4_control #(
 
   // ---- lines --------------------------------------------------------------------------------
 
-  // CFGCHx has the codes of biss_pkg::protocol_e. Unused are also line 2 with SLAVELOC5 = 0, a line
-  // that is left out, and one whose protocol is left out. The host may write them at any time: what
-  // starts a frame and the line that makes it see one flop.
+  // CFGCHx has the codes of biss_pkg::protocol_e. Line 2 is unused too with SLAVELOC5 = 0 or if it
+  // is left out, and so is a line whose protocol is left out. The host may write CFGCHx at any
+  // time: what starts a frame and the line that makes it see one flop.
   for (genvar i = 0; i < 2; i++) begin : gen_protocol
     logic [1:0] code, protocol;
 

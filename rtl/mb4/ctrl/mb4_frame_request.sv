@@ -13,8 +13,8 @@
 // - GETSENS = 1 is a request whenever the lines are idle. With hold_cdm_i each pulse gives one
 //   frame.
 //
-// Latency: 2 clocks from GETSENS to the start of a frame; MA falls half an MA period later. That
-// freqags_i is AGSMIN or AGSINFINITE counts one clock later.
+// Latency: 2 clocks from GETSENS to the start of a frame; MA falls half an MA period later. Codes
+// AGSMIN and AGSINFINITE of freqags_i take effect one clock later.
 // Misuse: a GETSENS pulse that begins and ends while a frame runs is not remembered.
 // Datasheet: pages 30..32, Tables 37, 44, item C08; decision 19.
 
@@ -56,7 +56,7 @@ module mb4_frame_request (
     .data_o (getsens)
   );
 
-  // Decoded in a flop: this comes before the start of a frame, the longest path of small cores.
+  // Flops, because what decides on the start of a frame is the longest path of small cores.
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
       agsmin_q   <= 1'b0;
@@ -67,7 +67,7 @@ module mb4_frame_request (
     end
   end
 
-  assign timed   = ags_i && !agsmin_q && !infinite_q;
+  assign timed   = ags_i && !agsmin_q && !infinite_q && freqags_i[7:2] != 6'b011111;
 
   assign pre_end = pre_q == (freqags_i[7] ? 10'd624 : 10'd19);
   assign due     = timed && !restart_i && pre_end && step_q == freqags_i[6:0];

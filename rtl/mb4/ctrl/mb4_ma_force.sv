@@ -7,7 +7,8 @@
 // Clock domain: core. The host may write the bits at any time. They pass two flops, and they are
 // taken together when they have been equal for two clocks, at most 4 clocks after the write. The
 // lines take them one clock later (biss_ma_drive): change_o is high and any_o follows then. MA
-// follows with the next tick. Bits that were different for one clock only give change_o too.
+// follows with the next tick. If the bits change for one clock and change back, change_o is high
+// too, without a change.
 // Without Force no line is ever forced.
 // Misuse: none.
 // Datasheet: page 33, Tables 50..53; CHSEL: page 27, Table 23.

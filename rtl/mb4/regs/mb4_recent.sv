@@ -22,7 +22,8 @@
 // - marked_i = mark_o: the bytes written before the last change of mark_o have been taken. mark_o
 //   changes with an edge of wr_clk_i, when marked_i has followed.
 //
-// Misuse: none; older addresses read what the memory holds. A byte that was written after the last
+// Misuse: a read at the edge that writes the same byte is undefined. Older addresses read what the
+// memory holds. A byte that was written after the last
 // change of mark_o, with less than 8 clocks of the core between the writes, may answer until all
 // bytes of this sequence of writes have been taken.
 // Features tells which addresses the core has; no other one is kept.
@@ -73,7 +74,8 @@ module mb4_recent #(
     key = VARIES & (SHORT ? {at[7], 1'b0, at[7] ? at[5] : at[6], at[4:0]} : at);
   endfunction
 
-  // Registers that are read back here, one bit each: the one at this address.
+  // One bit for each register that is read back here. The bit of the register at this address is
+  // set.
   function automatic logic [KEPT-1:0] kept(input logic [7:0] addr);
     kept = KEPT'({{3'b000, addr[7:2] == mb4_regs_pkg::ADDR_SLAVE_CFG[7:2]} << addr[1:0],
                   WHOLE & {addr == mb4_regs_pkg::ADDR_REGADR, addr == mb4_regs_pkg::ADDR_FREQ,

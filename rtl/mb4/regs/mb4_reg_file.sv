@@ -192,8 +192,8 @@ module mb4_reg_file #(
     .mark_o    (marked)
   );
 
-  // Until posted bytes of SCDATA and RDATA have arrived, reads of them are answered here, and those
-  // of registers without reserved bits always.
+  // Answers reads of bytes of SCDATA and RDATA that have not arrived, and of registers that only it
+  // has.
   mb4_recent #(.Features(Features)) u_recent (
     .wr_clk_i,
     .rst_ni    (host_rst_ni),

@@ -186,8 +186,11 @@ class Writer:
         last = {name: row for row in part.rows for name in row.writes.intersection(told)}
         # A result has changed, so it is not known for other values of the key. Neither is it for
         # this value if the part reads its own result, as a shift register does.
+        def number(end):
+            return next(i for i, row in enumerate(part.rows) if row is end)
+
         own = {name for name, end in last.items()
-               if part.key and any(name in row.reads for row in part.rows[:part.rows.index(end) + 1])}
+               if part.key and any(name in row.reads for row in part.rows[:number(end) + 1])}
         again = f"{marked([part])} here = {'own' if own else 0};"
         if own:
             self.lines.append("std::uint8_t own = 0;")

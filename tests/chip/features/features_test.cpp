@@ -244,6 +244,8 @@ TEST_P(ChipFeatures, BitsThatChooseSomethingAbsent_ReadBack) {
   EXPECT_EQ(chip.read(reg::kAddrCtrl), ctrl);
   chip.write(reg::kAddrFreq, {0xFF, 0x00, 0xA5});
   EXPECT_EQ(chip.read(reg::kAddrFreq, 3), (std::vector<std::uint8_t>{0xFF, 0x00, 0xA5}));
+  chip.write(static_cast<std::uint8_t>(reg::slave_cfg_address(1) + 2), {0x34});
+  EXPECT_EQ(chip.read(reg::slave_cfg_address(1), 4), (std::vector<std::uint8_t>{0, 0, 0x34, 0}));
   for (const std::uint8_t crc : {std::uint8_t{0x92}, std::uint8_t{0x05}, std::uint8_t{0xA1}}) {
     chip.write(reg::slave_cfg_address(1), {reg::kGraysGray | 27, crc, 0x34, 0x12});
     EXPECT_EQ(chip.read(reg::slave_cfg_address(1), 4),
