@@ -91,7 +91,7 @@ class Writer:
                         users[name].append(part)
         # Local variables that keep their value from one part to the next or from edge to edge.
         self.kept = {name for name, many in users.items()
-                     if len(many) > 1 or any(name in part.reads for part in many)}
+                     if any(name in part.reads for part in many)}
         self.lines = []
         self.local = {}  # {variable: the local one that stands for it now}
 
