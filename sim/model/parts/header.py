@@ -91,7 +91,7 @@ class Writer:
                         users[name].append(part)
         # Local variables that keep their value from one part to the next or from edge to edge.
         self.kept = {name for name, many in users.items()
-                     if len(many) > 1 or any(name in part.reads for part in many)}
+                     if any(name in part.reads for part in many)}
         self.lines = []
         self.local = {}  # {variable: the local one that stands for it now}
 
@@ -184,8 +184,16 @@ class Writer:
             self.lines.append(f"++counts.runs[{part.flag}];")
         told = [name for name in self.lasting(part) if part.key or self.readers[name]]
         last = {name: row for row in part.rows for name in row.writes.intersection(told)}
-        # The result has changed, so it is not known for other values of the key.
-        again = f"{marked([part])} here = 0;"
+        # A result has changed, so it is not known for other values of the key. Neither is it for
+        # this value if the part reads its own result, as a shift register does.
+        def number(end):
+            return next(i for i, row in enumerate(part.rows) if row is end)
+
+        own = {name for name, end in last.items()
+               if part.key and any(name in row.reads for row in part.rows[:number(end) + 1])}
+        again = f"{marked([part])} here = {'own' if own else 0};"
+        if own:
+            self.lines.append("std::uint8_t own = 0;")
         for row in part.rows:
             for name in sorted(row.writes.intersection(told) - self.local.keys()):
                 now = f"now{told.index(name)}"
@@ -196,9 +204,9 @@ class Writer:
                 now = self.local.pop(name)
                 old = self.variable(name)
                 store = f"{old} = {now};"
-                also = again * bool(part.key)
+                also = ("own = 1; " * (name in own) + again) * bool(part.key)
                 if None in self.readers[name]:
-                    self.compare(name, old, now, also + store, part)
+                    self.compare(name, old, now, f"{also} {store}".strip(), part)
                 else:
                     self.compare(name, old, now, writer=part)
                     self.lines.append(f"if ({old} != {now}) {{ {also} {store} }}")

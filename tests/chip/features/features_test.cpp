@@ -244,6 +244,8 @@ TEST_P(ChipFeatures, BitsThatChooseSomethingAbsent_ReadBack) {
   EXPECT_EQ(chip.read(reg::kAddrCtrl), ctrl);
   chip.write(reg::kAddrFreq, {0xFF, 0x00, 0xA5});
   EXPECT_EQ(chip.read(reg::kAddrFreq, 3), (std::vector<std::uint8_t>{0xFF, 0x00, 0xA5}));
+  chip.write(static_cast<std::uint8_t>(reg::slave_cfg_address(1) + 2), {0x34});
+  EXPECT_EQ(chip.read(reg::slave_cfg_address(1), 4), (std::vector<std::uint8_t>{0, 0, 0x34, 0}));
   for (const std::uint8_t crc : {std::uint8_t{0x92}, std::uint8_t{0x05}, std::uint8_t{0xA1}}) {
     chip.write(reg::slave_cfg_address(1), {reg::kGraysGray | 27, crc, 0x34, 0x12});
     EXPECT_EQ(chip.read(reg::slave_cfg_address(1), 4),
@@ -366,10 +368,13 @@ TEST_P(ChipFeatures, InstructionThatNeedsSomethingAbsent_EndsAtOnce) {
       chip.write(reg::kAddrCfgch, {reg::kCfgch2Unused | reg::kCfgch1BissB});
       chip.write(reg::kAddrCtrl, {reg::kRegversBissB});
       if (!core.control || !core.biss_b) expect_ends_at_once(chip, code | ags, "no BiSS B");
-      chip.write(reg::kAddrCfgch, {reg::kCfgch2BissC | reg::kCfgch1BissC});
       chip.write(reg::kAddrCtrl, {reg::kRegversBissC});
       chip.write(reg::kAddrChsel, {reg::kChsel2Used});
-      if (core.lines == 1) expect_ends_at_once(chip, code | ags, "no line 2");
+      for (const std::uint8_t split : {reg::kSlaveloc5Split, reg::kSlaveloc5AllOnChannel1}) {
+        chip.write(reg::kAddrSlaveloc5, {static_cast<std::uint8_t>(reg::kResetSlaveloc5 | split),
+                                         reg::kCfgch2BissC | reg::kCfgch1BissC});
+        if (core.lines == 1) expect_ends_at_once(chip, code | ags, "no line 2");
+      }
     }
   }
   // INIT of BiSS B.
@@ -532,6 +537,40 @@ TEST_P(ChipFeatures, OneLine_WorksWithAnySlaveloc5) {
     EXPECT_EQ(chip.read(reg::kAddrStatus8) & (reg::SL<2>::kMask | reg::CDS<2>::kMask),
               reg::SL<2>::kMask);
   }
+}
+
+// "One line": codes of a line that is left out ask for no frame, so no bank is switched.
+TEST_P(ChipFeatures, OneLine_LeftOutLineTakesPartInNothing) {
+  const Core& core = GetParam();
+  if (core.lines != 1) GTEST_SKIP() << "a core with two lines";
+  Chip chip(scenario());
+  chip.configure_slave1(28, reg::kScrclenCrc6, 0x03, reg::kFreqagsAgsMin);
+  chip.instruct(reg::kInstrCdm0);
+  ASSERT_TRUE(chip.wait_eot());
+  const auto split = static_cast<std::uint8_t>(reg::kResetSlaveloc5 | reg::kSlaveloc5Split);
+  for (const std::uint8_t line2 :
+       {reg::kCfgch2BissB, reg::kCfgch2BissC, reg::kCfgch2Ssi, reg::kCfgch2Unused}) {
+    chip.write(reg::kAddrSlaveloc5, {split, static_cast<std::uint8_t>(line2 | reg::kCfgch1Unused)});
+    for (const std::uint8_t ags : {reg::kAgsOff, reg::kAgsOn}) {
+      chip.instruct(static_cast<std::uint8_t>(reg::kInstrCdm0 | ags));
+      EXPECT_EQ(ma_edges(chip, 1, 100), 0U) << unsigned{line2};
+      EXPECT_EQ(instr(chip), ags == 0 ? 0U : reg::kInstrCdm0 | ags) << unsigned{line2};
+      EXPECT_EQ(word28(chip, 1), kEncoderWord) << unsigned{line2};
+      EXPECT_EQ(chip.read(reg::kAddrSvalidLo), reg::SVALID<1>::kMask) << unsigned{line2};
+      chip.instruct(reg::kAgsOff);
+    }
+  }
+  if (!core.control) return;
+  // A command to both lines is one to line 1, which answers.
+  chip.write(reg::kAddrSlaveloc5, {split, reg::kCfgch2BissC | reg::kCfgch1BissC});
+  chip.write(reg::kAddrChsel, {reg::kChsel1Used | reg::kChsel2Used});
+  chip.write(reg::kAddrCtrl, {reg::kCtsCommand | reg::kRegversBissC});
+  chip.write(reg::kAddrRdata, {0x80});
+  chip.instruct(reg::kInstrControl | reg::kAgsOn);
+  for (unsigned i = 0; i < 200 && (chip.status() & reg::REGEND::kMask) == 0; ++i) {
+    chip.advance_us(20);
+  }
+  EXPECT_EQ(chip.status() | reg::EOT::kMask, 0xFFU);
 }
 
 // "One bank: acts as SINGLEBANK = 1, SWBANKFAIL = 0."

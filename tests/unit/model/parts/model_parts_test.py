@@ -185,6 +185,12 @@ class Parts(unittest.TestCase):
         self.assertIn("if (vlSelf->c != now0) { std::memset(kept.keyed[0], 1, 4); "
                       "vlSelf->c = now0; }", text)
 
+    def test_what_a_part_with_a_key_makes_of_its_own_result_is_not_known_yet(self):
+        text = self.header(["vlSelf->a = (vlSelf->a ^ vlSelf->b);", "vlSelf->c = vlSelf->a;"],
+                           [("fast", "b")], {"b": 1})
+        self.assertIn("own = 1; std::memset(kept.keyed[0], 1, 2); here = own; "
+                      "vlSelf->a = now0; }", text)
+
     def test_a_host_pin_marks_registers_and_other_values_of_keys(self):
         keyed, = self.parts(["vlSelf->y = (vlSelf->k & vlSelf->x);"], [("fast", "k")], {"k": 1})
         register = parts_of(groups_of(rows("vlSelf->q = vlSelf->x;", function="nba_sequent__0")),
