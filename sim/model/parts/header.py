@@ -183,24 +183,22 @@ class Writer:
         if self.count and part.bits:
             self.lines.append(f"++counts.runs[{part.flag}];")
         told = [name for name in self.lasting(part) if part.key or self.readers[name]]
-        last = {name: row for row in part.rows for name in row.writes.intersection(told)}
+        last = {name: place for place, row in enumerate(part.rows)
+                for name in row.writes.intersection(told)}
         # A result has changed, so it is not known for other values of the key. Neither is it for
         # this value if the part reads its own result, as a shift register does.
-        def number(end):
-            return next(i for i, row in enumerate(part.rows) if row is end)
-
         own = {name for name, end in last.items()
-               if part.key and any(name in row.reads for row in part.rows[:number(end) + 1])}
+               if part.key and any(name in row.reads for row in part.rows[:end + 1])}
         again = f"{marked([part])} here = {'own' if own else 0};"
         if own:
             self.lines.append("std::uint8_t own = 0;")
-        for row in part.rows:
+        for place, row in enumerate(part.rows):
             for name in sorted(row.writes.intersection(told) - self.local.keys()):
                 now = f"now{told.index(name)}"
                 self.lines.append(f"auto {now} = {self.variable(name)};")
                 self.local[name] = now
             self.lines.append(self.text(row))
-            for name in sorted(name for name in told if last[name] is row):
+            for name in sorted(name for name in told if last[name] == place):
                 now = self.local.pop(name)
                 old = self.variable(name)
                 store = f"{old} = {now};"

@@ -77,6 +77,14 @@ class ChipFeatures : public mb4test::CoreTest {
     chip.instruct(reg::kBreakAbort);
     chip.advance_us(100);
   }
+  // A control communication with automatic frames, as configured.
+  static void expect_ends_well(Chip& chip) {
+    chip.instruct(reg::kInstrControl | reg::kAgsOn);
+    for (unsigned i = 0; i < 200 && (chip.status() & reg::REGEND::kMask) == 0; ++i) {
+      chip.advance_us(20);
+    }
+    EXPECT_EQ(chip.status() | reg::EOT::kMask, 0xFFU);
+  }
 };
 
 TEST_P(ChipFeatures, Byte7F_TellsWhatTheCoreHas) {
@@ -412,11 +420,7 @@ TEST_P(ChipFeatures, RegisterOfTheSlave_IsReadAndWritten) {
   const auto access = [&](std::uint8_t regadr) {
     chip.write(reg::kAddrRegadr, {regadr, 1});
     chip.write(reg::kAddrCtrl, {reg::kCtsRegisterAccess | reg::kRegversBissC});
-    chip.instruct(reg::kInstrControl | reg::kAgsOn);
-    for (unsigned i = 0; i < 200 && (chip.status() & reg::REGEND::kMask) == 0; ++i) {
-      chip.advance_us(20);
-    }
-    EXPECT_EQ(chip.status() | reg::EOT::kMask, 0xFFU);
+    expect_ends_well(chip);
   };
   access(0x44);
   EXPECT_EQ(chip.read(reg::kAddrRdata, 2), (std::vector<std::uint8_t>{0x12, 0xD9}));
@@ -566,11 +570,7 @@ TEST_P(ChipFeatures, OneLine_LeftOutLineTakesPartInNothing) {
   chip.write(reg::kAddrChsel, {reg::kChsel1Used | reg::kChsel2Used});
   chip.write(reg::kAddrCtrl, {reg::kCtsCommand | reg::kRegversBissC});
   chip.write(reg::kAddrRdata, {0x80});
-  chip.instruct(reg::kInstrControl | reg::kAgsOn);
-  for (unsigned i = 0; i < 200 && (chip.status() & reg::REGEND::kMask) == 0; ++i) {
-    chip.advance_us(20);
-  }
-  EXPECT_EQ(chip.status() | reg::EOT::kMask, 0xFFU);
+  expect_ends_well(chip);
 }
 
 // "One bank: acts as SINGLEBANK = 1, SWBANKFAIL = 0."
