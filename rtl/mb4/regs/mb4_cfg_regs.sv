@@ -44,11 +44,6 @@ module mb4_cfg_regs #(
       ~((mb4_regs_pkg::MAFS_MASK | mb4_regs_pkg::MAVS_MASK | mb4_regs_pkg::MAFO_MASK |
          mb4_regs_pkg::MAVO_MASK) & {8{!FORCE}});
 
-  // What is read here of a register: nothing if mb4_recent has it.
-  function automatic logic [7:0] here(input logic [7:0] value, input logic [7:0] mask);
-    here = mask == 8'hFF ? 8'h00 : value;
-  endfunction
-
   // Bits that the host cannot write stay 0.
   logic [7:0] regadr_q;
   logic [7:0] regnum_q;
@@ -62,9 +57,6 @@ module mb4_cfg_regs #(
   logic [7:0] cfgch_q;
   logic [7:0] actnsens_q;
   logic [7:0] iface_q;
-
-  // The same for the host, if it reads them here.
-  logic [7:0] regadr_here, freq_here, freqags_here, mo_busy_here, actnsens_here, iface_here;
 
   mb4_pkg::access_t access;
   logic [4:1] rd_addr;
@@ -106,31 +98,25 @@ module mb4_cfg_regs #(
     end
   end
 
-  assign regadr_here   = here(regadr_q, REGADR);
-  assign freq_here     = here(freq_q, mb4_regs_pkg::WMASK_FREQ);
-  assign freqags_here  = here(freqags_q, mb4_regs_pkg::WMASK_FREQAGS);
-  assign mo_busy_here  = here(mo_busy_q, MO_BUSY);
-  assign actnsens_here = here(actnsens_q, ACTNSENS);
-  assign iface_here    = here(iface_q, IFACE);
-
+  // mb4_recent has the registers without a reserved bit.
   always_comb begin
     for (int unsigned k = 0; k < 2; k++) begin
       unique case ({mb4_regs_pkg::ADDR_REGADR[7:5], rd_addr[4:1], 1'(k)})
-        mb4_regs_pkg::ADDR_REGADR:    rd_data_o[8*k +: 8] = regadr_here;
+        mb4_regs_pkg::ADDR_REGADR:    rd_data_o[8*k +: 8] = REGADR == 8'hFF ? 8'h00 : regadr_q;
         mb4_regs_pkg::ADDR_REGNUM:    rd_data_o[8*k +: 8] = regnum_q;
         mb4_regs_pkg::ADDR_CHSEL:     rd_data_o[8*k +: 8] = chsel_q;
         mb4_regs_pkg::ADDR_CTRL:      rd_data_o[8*k +: 8] = ctrl_q;
         mb4_regs_pkg::ADDR_FREQ:
-          rd_data_o[8*k +: 8] = freq_here;
+          rd_data_o[8*k +: 8] = mb4_regs_pkg::WMASK_FREQ == 8'hFF ? 8'h00 : freq_q;
         mb4_regs_pkg::ADDR_BANKCFG:   rd_data_o[8*k +: 8] = bankcfg_q;
         mb4_regs_pkg::ADDR_FREQAGS:
-          rd_data_o[8*k +: 8] = freqags_here;
-        mb4_regs_pkg::ADDR_MO_BUSY:   rd_data_o[8*k +: 8] = mo_busy_here;
+          rd_data_o[8*k +: 8] = mb4_regs_pkg::WMASK_FREQAGS == 8'hFF ? 8'h00 : freqags_q;
+        mb4_regs_pkg::ADDR_MO_BUSY:   rd_data_o[8*k +: 8] = MO_BUSY == 8'hFF ? 8'h00 : mo_busy_q;
         mb4_regs_pkg::ADDR_SLAVELOC5:
           rd_data_o[8*k +: 8] = slaveloc5_q | mb4_regs_pkg::RESET_SLAVELOC5;
         mb4_regs_pkg::ADDR_CFGCH:     rd_data_o[8*k +: 8] = cfgch_q;
-        mb4_regs_pkg::ADDR_ACTNSENS:  rd_data_o[8*k +: 8] = actnsens_here;
-        mb4_regs_pkg::ADDR_IFACE:     rd_data_o[8*k +: 8] = iface_here;
+        mb4_regs_pkg::ADDR_ACTNSENS:  rd_data_o[8*k +: 8] = ACTNSENS == 8'hFF ? 8'h00 : actnsens_q;
+        mb4_regs_pkg::ADDR_IFACE:     rd_data_o[8*k +: 8] = IFACE == 8'hFF ? 8'h00 : iface_q;
         default:                      rd_data_o[8*k +: 8] = 8'h00;
       endcase
     end

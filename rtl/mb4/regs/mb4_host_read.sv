@@ -64,6 +64,7 @@ module mb4_host_read #(
   logic       hi_sel_d, hi_sel_q;
   logic       rdata_sel_d, rdata_sel_q;
   logic [15:0] reg_pair;
+  logic [2:0] ram_sel;     // of the memories: RDATA, upper and lower half of SCDATA
   logic [7:0] ram_data;
   logic [15:0] pair, pair_q;   // registers of an odd and an even address
   logic [7:0] flags, flags_q;  // bits of both at the places of SVALID and CDS, from bank 1
@@ -184,14 +185,15 @@ module mb4_host_read #(
     end
   end
 
-  // An AND-OR choice is short: half an SCLK period is left for the path to MISO.
+  // The memories answer when they are cleared, but for a byte that mb4_recent has. An AND-OR choice
+  // is short: half an SCLK period is left for the path to MISO.
+  assign ram_sel = {rdata_sel_q && CONTROL, hi_sel_q, lo_sel_q} & {3{ready_q && !recent_hit_i}};
   assign ram_data =
-      ((bank_q ? scd_lo_data_i[15:8] : scd_lo_data_i[7:0]) & {8{lo_sel_q}}) |
-      ((bank_q ? scd_hi_data_i[15:8] : scd_hi_data_i[7:0]) & {8{hi_sel_q}}) |
-      (rdata_data_i & {8{rdata_sel_q}});
+      ((bank_q ? scd_lo_data_i[15:8] : scd_lo_data_i[7:0]) & {8{ram_sel[0]}}) |
+      ((bank_q ? scd_hi_data_i[15:8] : scd_hi_data_i[7:0]) & {8{ram_sel[1]}}) |
+      (rdata_data_i & {8{ram_sel[2]}});
 
-  assign rd_data_o = (ram_data & {8{ready_q && !recent_hit_i}}) |
-                     (recent_data_i & {8{recent_hit_i}}) |
+  assign rd_data_o = ram_data | (recent_data_i & {8{recent_hit_i}}) |
                      (slave_data_i & {8{slave_sel_q}}) |
                      (reg_pair[15:8] & {8{reg_sel_q[1]}}) | (reg_pair[7:0] & {8{reg_sel_q[0]}});
 
