@@ -126,7 +126,7 @@ module axi_channel #(
     .clk_i,
     .rst_ni,
     .sl_i        (slo_i),
-    .half_len_i  (frame_i.half_len),
+    .half_last_i (frame_i.half_last),
     .clear_i     (start),
     .armed_i     (state_q == ACK),
     .sl_o        (sl),

@@ -204,7 +204,7 @@ module axi_core #(
   biss_timebase #(.LastW(8)) u_timebase (
     .clk_i,
     .rst_ni,
-    .last_i        (frame.half_len - 8'd1),
+    .last_i        (frame.half_last),
     .tens_i        (1'b0),
     .run_i         (1'b1),
     .restart_i     (start),
@@ -222,7 +222,7 @@ module axi_core #(
       biss_timebase #(.LastW(8)) u_own_timebase (
         .clk_i,
         .rst_ni,
-        .last_i        (frame.half_len - 8'd1),
+        .last_i        (frame.half_last),
         .tens_i        (1'b0),
         .run_i         (1'b1),
         .restart_i     (channel_start[i]),

@@ -19,7 +19,7 @@ package axi_pkg;
 
   // What a frame is, the same for all channels. Registers, taken when the frame starts.
   typedef struct packed {
-    logic [7:0] half_len;   // half an MA period in clocks, not 0
+    logic [7:0] half_last;  // clocks of half an MA period minus 1
     logic [6:0] data_last;  // bits of position, error and warning, minus 1
     logic [6:0] edges;      // rising MA edges from the start bit on; see axi_channel
     logic       check;      // a wrong CRC makes a word bad

@@ -118,8 +118,8 @@ module axi_start #(
       skip_q        <= edge_q && !free;
       run_q         <= take || (run_q && !done_o);
       if (take) begin
-        frame_q.half_len  <= {cfg_i.ma_divider[7:1],
-                              cfg_i.ma_divider[0] || cfg_i.ma_divider == 8'd0};
+        frame_q.half_last <= {cfg_i.ma_divider[7:1],
+                              cfg_i.ma_divider[0] || cfg_i.ma_divider == 8'd0} - 8'd1;
         frame_q.data_last <= bits + FLAGS - 7'd1;
         frame_q.edges     <= bits + MORE_EDGES + 7'(crc_bits_i);
         frame_q.check     <= check_i;

@@ -11,11 +11,11 @@
 //
 // - Delay: delay_o counts the whole clocks from the second rising MA edge (armed_i rises with it)
 //   to the acknowledge, SL = 0. Without line delay it is 0. late_o: it has reached 1023.
-// - Bits: the first bit is taken half_len_i clocks after the clock that saw the acknowledge, the
-//   others each two times half_len_i later: delay + (k + 1/2) MA periods. The first one still lies
+// - Bits: the first bit is taken half an MA period after the clock that saw the acknowledge, the
+//   others each a period later: delay + (k + 1/2) MA periods. The first one still lies
 //   in the acknowledge. bit_valid_o is high for one clock for each bit.
 //
-// Misuse: half_len_i = 0 acts as 1. It must not change while a frame runs. If SL is already low
+// Misuse: half_last_i must not change while a frame runs. If SL is already low
 // when armed_i rises, the delay is 0.
 // Source: hello-fpga BiSS-C master manual, register 0x3C; docs/axi.md.
 
@@ -25,7 +25,7 @@ module biss_delay_sampler (
   input  logic       clk_i,
   input  logic       rst_ni,
   input  logic       sl_i,         // pin
-  input  logic [7:0] half_len_i,   // half an MA period in clocks
+  input  logic [7:0] half_last_i,  // clocks of half an MA period minus 1
   // frame
   input  logic       clear_i,      // a frame begins
   input  logic       armed_i,      // the second rising MA edge has come
@@ -47,8 +47,8 @@ module biss_delay_sampler (
   logic       found_q;
   logic [9:0] delay_q;
   logic [7:0] left_q;    // clocks of a half bit so far, inverted
-  logic       more;      // half_len_i is larger than the clocks so far
-  logic [7:0] unused_sum;
+  logic       more;      // the half bit is longer
+  logic [8:0] unused_sum;
   logic       half_q;    // the second half of a bit
   logic       bit_valid_q;
   logic       bit_q;
@@ -64,8 +64,8 @@ module biss_delay_sampler (
   assign look = armed_q[1] && !found_q;
   assign hit  = look && !sl;
 
-  // The carry of this sum compares: half_len_i > clocks so far.
-  assign {more, unused_sum} = {1'b0, half_len_i} + {1'b0, left_q};
+  // The carry of this sum compares: half_last_i >= clocks so far.
+  assign {more, unused_sum} = {1'b0, half_last_i, 1'b1} + {1'b0, left_q, 1'b1};
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin

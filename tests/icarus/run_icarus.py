@@ -35,7 +35,7 @@ import project  # noqa: E402
 FAULTS = [
     ("mb4_spi_shift", "bit_q + 3'd1", "bit_q + 3'd3"),
     ("enc_crc", "feed_i & (bit_i ^ top)", "feed_i & bit_i"),
-    ("biss_edge_count", "biss_c_i ? 3'd5", "biss_c_i ? 3'd4"),
+    ("biss_edge_count", "biss_c_i ? {!bus, {2{bus}}}", "biss_c_i ? {2'b01, bus}"),
     ("biss_control_frame", "slot_q + 6'd1", "slot_q + 6'd2"),
     ("enc_posted", "rd_q + (AddrW+1)'(1)", "rd_q"),
 ]

@@ -136,6 +136,19 @@ def simple(clocks, resets, rounds=3000, ports=None, **options):
     return make
 
 
+def sl_sampler(steps):
+    # The flops of armed have no reset: a clock with clear_i gives them their value.
+    steps.step(clear_i=1)
+    steps.reset(["rst_ni"])
+    steps.clock("clk_i")
+    steps.compare_from = len(steps.steps)
+    play(steps, *CORE, 12000, {
+        "ssi_i": rarely("ssi_i", 0.002), "clear_i": 0.002,
+        **struct("sample_i", (0.4, 1), (0.4, 1), (None, 1)),
+        "sl_i": rarely("sl_i", 0.3, lambda s: int(s.chance(0.99))),
+        "armed_a_i": 0.95, "armed_b_i": 0.95}, reset_rate=0.0005)
+
+
 def crc_decode(steps):
     play(steps, [], [], 1000)
 
@@ -510,11 +523,7 @@ MODULES = {
     "biss_control_frame": control_frame,
     "mb4_cds_bank": simple(*CORE, 3000),
     "biss_timebase": timebase,
-    "biss_sl_sampler": simple(*CORE, 12000, {
-        "ssi_i": rarely("ssi_i", 0.002), "clear_i": 0.002,
-        **struct("sample_i", (0.4, 1), (0.4, 1), (None, 1)),
-        "sl_i": rarely("sl_i", 0.3, lambda s: int(s.chance(0.99))),
-        "armed_a_i": 0.95, "armed_b_i": 0.95}, reset_rate=0.0005),
+    "biss_sl_sampler": sl_sampler,
     # A manager that keeps its requests now and then, and breaks every rule in between.
     "enc_axil": simple(*CORE, 4000, {
         "s_axi_awvalid": 0.8, "s_axi_wvalid": 0.8, "s_axi_arvalid": 0.5, "s_axi_bready": 0.7,
@@ -556,6 +565,7 @@ MODULES = {
 CONSTANT = {
     "enc_axil": ["s_axi_bresp[0]", "s_axi_rresp[0]"],   # OKAY or SLVERR
     "mb4_crc_decode": ["crc_poly_o[0]"],  # every polynomial ends in 1
+    "mb4_cfg_regs": [f"rd_data_o[{i}]" for i in (7, 6, 5, 3, 2)],   # mb4_recent reads them back
     "mb4_word_list": ["offer_o[20]"],
     # BREAK never reads 1; MO returns 1024 half periods after INIT's acknowledge
     "mb4_sequencer": ["instr_o[7]", "go_o[1]"],

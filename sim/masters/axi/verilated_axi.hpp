@@ -31,8 +31,8 @@ namespace mb4::sim {
 // and registers for a waveform, none if the model cannot write one.
 template <typename Model, unsigned kChannels, typename Steps, typename Inside>
 class VerilatedAxi final : public AxiModel {
-  // Place of half_len in axi_pkg::frame_t.
-  static constexpr unsigned kHalfLenLsb = 16;
+  // Place of half_last in axi_pkg::frame_t.
+  static constexpr unsigned kHalfLastLsb = 16;
   using Slo = std::conditional_t<(kChannels > 8), SData, CData>;
 
  public:
@@ -83,8 +83,7 @@ class VerilatedAxi final : public AxiModel {
     may_run_at(hz);
   }
   unsigned half_clocks(unsigned /*line*/) const override {
-    const unsigned half = (Inside::frame(*model_) >> kHalfLenLsb) & 0xFFU;
-    return half == 0 ? 1 : half;
+    return ((Inside::frame(*model_) >> kHalfLastLsb) & 0xFFU) + 1;
   }
 
   unsigned channels() const override { return kChannels; }

@@ -77,7 +77,7 @@ class AxiStartBlock : public testing::Test {
     clocks(10);
   }
   // axi_pkg::frame_t.
-  unsigned half_len() const { return m.frame_o >> 16; }
+  unsigned half_last() const { return m.frame_o >> 16; }
   unsigned data_bits() const { return (m.frame_o >> 9 & 0x7FU) + 1; }
   unsigned ma_edges() const { return m.frame_o >> 2 & 0x7FU; }
   bool check() const { return (m.frame_o & 2U) != 0; }
@@ -239,7 +239,7 @@ TEST_F(AxiStartBlock, EveryCodeOfDividerAndBits_MakesTheFrame) {
     pulse_request();
     const unsigned bits =
         config.position_bits == 0 || config.position_bits > 32 ? 32 : config.position_bits;
-    EXPECT_EQ(half_len(), code == 0 ? 1 : code);
+    EXPECT_EQ(half_last(), code == 0 ? 0 : code - 1);
     EXPECT_EQ(data_bits(), bits + 2) << config.position_bits;
     EXPECT_EQ(ma_edges(), 4 + bits + 2 + 6) << config.position_bits;
     EXPECT_EQ(check(), code % 2 != 0);

@@ -21,7 +21,7 @@ TEST(DelaySamplerBlock, DelayOfKClocks_IsCountedAndBitsAreTakenInTheirMiddle) {
       Block<Vbiss_delay_sampler> sampler;
       auto& m = sampler.model;
       m.sl_i = 1;
-      m.half_len_i = static_cast<std::uint8_t>(half);
+      m.half_last_i = static_cast<std::uint8_t>(half - 1);
       m.armed_i = 0;
       m.clear_i = 1;
       sampler.reset();
@@ -53,7 +53,7 @@ TEST(DelaySamplerBlock, NoAcknowledge_IsLateAfter1023Clocks) {
   Block<Vbiss_delay_sampler> sampler;
   auto& m = sampler.model;
   m.sl_i = 1;
-  m.half_len_i = 5;
+  m.half_last_i = 4;
   m.armed_i = 0;
   m.clear_i = 1;
   sampler.reset();
