@@ -201,7 +201,7 @@ module axi_core #(
     .crc_bits_o (crc_bits)
   );
 
-  biss_timebase #(.LastW(8)) u_timebase (
+  biss_timebase #(.LastW(8), .Tens(1'b0)) u_timebase (
     .clk_i,
     .rst_ni,
     .last_i        (frame.half_last),
@@ -219,7 +219,7 @@ module axi_core #(
 
     // A channel whose start is shifted has a time base of its own.
     if (ALIGN) begin : gen_own_timebase
-      biss_timebase #(.LastW(8)) u_own_timebase (
+      biss_timebase #(.LastW(8), .Tens(1'b0)) u_own_timebase (
         .clk_i,
         .rst_ni,
         .last_i        (frame.half_last),

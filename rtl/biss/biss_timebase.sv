@@ -19,7 +19,8 @@
 `include "enc_check.svh"
 
 module biss_timebase #(
-  parameter int unsigned LastW = 4   // bits of last_i
+  parameter int unsigned LastW = 4,    // bits of last_i
+  parameter bit          Tens  = 1'b1  // tens_i may be 1
 ) (
   input  logic             clk_i,
   input  logic             rst_ni,
@@ -55,14 +56,14 @@ module biss_timebase #(
 
   // Much logic depends on tick in the same clock, so last_q is prepared one clock before.
   assign tick = run_i && last_q;
-  assign {tens, last} = len_q;
+  assign {tens, last} = len_q & {Tens, {LastW{1'b1}}};
 
   // restart_i comes late, so what follows without it is prepared.
   always_comb begin
     clock_d = clock_q;
     step_d  = step_q;
     if (run_i) begin
-      clock_d = clock_q == END ? 4'd0 : clock_q + 4'd1;
+      clock_d = !Tens || clock_q == END ? 4'd0 : clock_q + 4'd1;
       if (tick)                         step_d = '0;
       else if (!tens || clock_q == END) step_d = step_q + LastW'(1);
     end

@@ -29,7 +29,7 @@ struct Frame {
   int wrong_bit = -1;  // of position, flags and CRC
   // axi_pkg::frame_t, the last field lowest; edges as axi_channel's header has them.
   std::uint32_t port() const {
-    return half << 16 | (bits + 1) << 9 | (4 + bits + 2 + 6) << 2 | (check ? 2U : 0U) |
+    return (half - 1) << 16 | (bits + 1) << 9 | (4 + bits + 2 + 6) << 2 | (check ? 2U : 0U) |
            (single ? 1U : 0U);
   }
   std::string word() const {
