@@ -56,7 +56,7 @@ module biss_timebase #(
 
   // Much logic depends on tick in the same clock, so last_q is prepared one clock before.
   assign tick = run_i && last_q;
-  assign {tens, last} = len_q & {Tens, {LastW{1'b1}}};
+  assign {tens, last} = len_q;
 
   // restart_i comes late, so what follows without it is prepared.
   always_comb begin
@@ -74,8 +74,8 @@ module biss_timebase #(
 
   // The middle comes after half the clocks. With an even number of short steps it is the end of the
   // step before the one in the middle, with an odd number (last is even) also, rounded down.
-  assign middle = run_i && (tens ? step_q == last >> 1 && clock_q == (last[0] ? END : MIDDLE)
-                                   : (last[0] ? step_q : step_d) == last >> 1);
+  assign middle = run_i && (tens || last[0] ? step_q : step_d) == last >> 1 &&
+                  (!tens || clock_q == (last[0] ? END : MIDDLE));
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
