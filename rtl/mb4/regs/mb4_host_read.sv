@@ -187,7 +187,7 @@ module mb4_host_read #(
 
   // The memories answer when they are cleared, but for a byte that mb4_recent has. An AND-OR choice
   // is short: half an SCLK period is left for the path to MISO.
-  assign ram_sel = {rdata_sel_q && CONTROL, hi_sel_q, lo_sel_q} & {3{ready_q && !recent_hit_i}};
+  assign ram_sel = {rdata_sel_q, hi_sel_q, lo_sel_q} & {3{ready_q && !recent_hit_i}};
   assign ram_data =
       ((bank_q ? scd_lo_data_i[15:8] : scd_lo_data_i[7:0]) & {8{ram_sel[0]}}) |
       ((bank_q ? scd_hi_data_i[15:8] : scd_hi_data_i[7:0]) & {8{ram_sel[1]}}) |
