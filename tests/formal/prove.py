@@ -6,7 +6,8 @@
   prove.py NAME FOLDER [--bounds|--mutations|--short] [PRESET]   one proof; FOLDER is for what the tools leave;
                                    --short: of the mutations only the first; PRESET: modules with the parameter
                                    Features have this preset, without it the full chip
-  prove.py table [--check FILE]                 the table of docs/proofs.md, or: FILE holds it
+  prove.py table [--check FILE]                 the table of docs/proofs.md, or: FILE holds it,
+                                   and the RTL has each text that a proof changes
 
 A proof is NAME.sv here: a bench `proof` around the block, with lines `// key: value` in its header; a line
 that begins with `//   ` goes on with the one before:
@@ -66,12 +67,17 @@ class Proof:
                 for value in self.values.get(key, [])]
 
 
-def apply(change, sources, where):
-    """Replaces OLD, which must occur once, in the file FILE of {relative name: text}."""
-    file, old, new = change
-    if sources[file].count(old) != 1:
-        raise SystemExit(f"{where}: '{old}' occurs {sources[file].count(old)} times in {file}")
-    sources[file] = sources[file].replace(old, new)
+def read_rtl():
+    """{relative name: text} of the RTL."""
+    return {path.name if project.RTL not in path.parents else str(path.relative_to(project.RTL)):
+            path.read_text(encoding="utf-8") for path in project.all_rtl_files()}
+
+
+def misplaced(change, sources, where):
+    """What is wrong with a change: its OLD must occur once in the file FILE of the sources."""
+    file, old, _ = change
+    count = sources.get(file, "").count(old)
+    return [] if count == 1 else [f"{where}: '{old}' occurs {count} times in {file}"]
 
 
 def model(proof, folder, mutation=None):
@@ -84,12 +90,12 @@ def model(proof, folder, mutation=None):
     if folder.exists():
         shutil.rmtree(folder)
     folder.mkdir(parents=True)
-    sources = {}
-    for path in project.all_rtl_files():
-        name = path.name if project.RTL not in path.parents else str(path.relative_to(project.RTL))
-        sources[name] = path.read_text(encoding="utf-8")
+    sources = read_rtl()
     for change in proof.changes("keep") + ([mutation] if mutation else []):
-        apply(change, sources, proof.path.name)
+        for fault in misplaced(change, sources, proof.path.name):
+            raise SystemExit(fault)
+        file, old, new = change
+        sources[file] = sources[file].replace(old, new)
     files = []
     for name, text in sources.items():
         target = folder / "rtl" / name
@@ -208,8 +214,13 @@ def main():
         text = table()
         if len(sys.argv) > 2:
             held = text in Path(sys.argv[3]).read_text(encoding="utf-8")
-            project.finish([] if held else [f"{sys.argv[3]} does not hold this table:\n{text}"],
-                           "the table is that of the proofs")
+            findings = [] if held else [f"{sys.argv[3]} does not hold this table:\n{text}"]
+            sources = read_rtl()
+            for path in sorted(HERE.glob("*.sv")):
+                proof = Proof(path.stem)
+                for change in proof.changes("keep") + proof.changes("mutation"):
+                    findings += misplaced(change, sources, path.name)
+            project.finish(findings, "the table is that of the proofs, and the RTL has each text they change")
         print(text)
         return
     parts = [word for word in sys.argv[3:] if word.startswith("--")]

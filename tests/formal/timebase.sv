@@ -17,7 +17,7 @@
 // mutation: biss/biss_timebase.sv | : step_d == last && | : step_q == last &&
 // mutation: biss/biss_timebase.sv | END    = 4'd9; | END    = 4'd8;
 // mutation: biss/biss_timebase.sv | (last[0] ? END : MIDDLE) | END
-// mutation: biss/biss_timebase.sv | (last[0] ? step_q : step_d) | step_q
+// mutation: biss/biss_timebase.sv | (tens || last[0] ? step_q : step_d) | step_q
 // mutation: biss/biss_timebase.sv | half_d = half_q ^ tick; | half_d = half_q ^ last_q;
 
 module proof (
