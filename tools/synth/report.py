@@ -162,8 +162,8 @@ def axi(folder):
     lines = [AXI_HEAD, "",
              "[`biss_axi`](axi.md) with the features of its document, by its number of channels. The speed is "
              "that of a design in which the stream ends in a register (`tools/synth/tops/biss_axi_narrow.sv`), "
-             "because the words of more than one channel have more bits than the HX8K has pins. 16 channels are placed "
-             "with one seed.", "",
+             "because the words of more than one channel have more bits than the HX8K has pins. 16 channels are tried "
+             "with one seed. \"does not fit\": the placer finds no place for every cell.", "",
              "| channels | LUT4 | flops | block RAM | HX8K axi_aclk / MHz | ECP5 LUT | ECP5 flops | "
              "Xilinx 7 LUT | Xilinx 7 flops |", "|---|---|---|---|---|---|---|---|---|"]
     for channels in AXI_CHANNELS:
