@@ -32,7 +32,7 @@ module mb4_host_read #(
   input  logic [7:0] rdata_data_i,
   input  logic       recent_hit_i,   // same edge: mb4_recent answers
   input  logic [7:0] recent_data_i,
-  input  logic [7:0] slave_data_i,   // configuration of the data channels, same edge
+  input  logic [7:0] slave_data_i,   // configuration of the data channels, same edge; else 0
   input  logic [15:0] cfg_data_i,    // of an odd and an even address, from host_i.rd_addr(4:1)
   input  logic [7:0] instr_data_i,
   input  logic       instr_pending_i,
@@ -59,7 +59,6 @@ module mb4_host_read #(
   logic [7:0] rd_addr;
   // One select bit for each source. The three memories read 0 until they are cleared.
   logic [1:0] reg_sel_d, reg_sel_q;   // odd and even address
-  logic       slave_sel_d, slave_sel_q;
   logic       lo_sel_d, lo_sel_q;
   logic       hi_sel_d, hi_sel_q;
   logic       rdata_sel_d, rdata_sel_q;
@@ -79,7 +78,6 @@ module mb4_host_read #(
   assign hi_sel_d    = rd_addr[7:5] == mb4_regs_pkg::ADDR_SCDATA[7:5] + 3'd1 &&
                        PRESENT[{1'b1, rd_addr[4:3]}];
   assign rdata_sel_d = rd_addr[7:6] == mb4_regs_pkg::ADDR_RDATA[7:6] && CONTROL;
-  assign slave_sel_d = rd_addr[7:5] == mb4_regs_pkg::ADDR_SLAVE_CFG[7:5] && PRESENT != 8'h01;
   assign reg_sel_d   = {rd_addr[0], !rd_addr[0]} &
                        {2{rd_addr[7:5] == TOP ||
                           (Features != mb4_page_regs_pkg::FEATURES_FULL &&
@@ -152,7 +150,6 @@ module mb4_host_read #(
   always_ff @(posedge rd_clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
       reg_sel_q   <= '0;
-      slave_sel_q <= 1'b0;
       lo_sel_q    <= 1'b0;
       hi_sel_q    <= 1'b0;
       rdata_sel_q <= 1'b0;
@@ -162,7 +159,6 @@ module mb4_host_read #(
       ready_q  <= 1'b0;
     end else if (host_i.rd_en) begin
       reg_sel_q   <= reg_sel_d;
-      slave_sel_q <= slave_sel_d;
       lo_sel_q    <= lo_sel_d;
       hi_sel_q    <= hi_sel_d;
       rdata_sel_q <= rdata_sel_d;
@@ -193,8 +189,7 @@ module mb4_host_read #(
       ((bank_q ? scd_hi_data_i[15:8] : scd_hi_data_i[7:0]) & {8{ram_sel[1]}}) |
       (rdata_data_i & {8{ram_sel[2]}});
 
-  assign rd_data_o = ram_data | (recent_data_i & {8{recent_hit_i}}) |
-                     (slave_data_i & {8{slave_sel_q}}) |
+  assign rd_data_o = ram_data | (recent_data_i & {8{recent_hit_i}}) | slave_data_i |
                      (reg_pair[15:8] & {8{reg_sel_q[1]}}) | (reg_pair[7:0] & {8{reg_sel_q[0]}});
 
 endmodule

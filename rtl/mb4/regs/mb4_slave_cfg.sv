@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Configuration of the eight data channels, 0xC0..0xDF, in rows of four bytes. The host reads one
-// copy of it; with one data channel rd_data_o is 0, and mb4_recent reads the row back. Each word
-// list reads a copy of its own, in which the CRC choice is decoded (mb4_crc_code, mb4_crc_decode):
-// the host's write does it once for all of them.
+// copy of it; rd_data_o is 0 after a read of another address, and with one data channel, where
+// mb4_recent reads the row back. Each word list reads a copy of its own, in which the CRC choice is
+// decoded (mb4_crc_code, mb4_crc_decode): the host's write does it once for all of them.
 //
 // Clock domains: host (wr_clk_i writes, rd_clk_i reads); the word lists read in the core clock.
 // Only the word lists need the core clock.
@@ -123,7 +123,7 @@ module mb4_slave_cfg #(
     logic [3:0]  wr_en;
     logic [31:0] wr_data;
     logic [31:0] rd_data;
-    logic [3:0]  sel_q;     // byte of the row that the host reads; 0: row not written
+    logic [3:0]  sel_q;     // byte of the row that the host reads; 0: another address, not written
 
     assign wr_en   = write ? byte_en | {4{!rows_q[row]}} : 4'b0000;
     assign wr_data = {4{host_i.wr_data}} & {{8{byte_en[3]}}, {8{byte_en[2]}},
@@ -158,8 +158,9 @@ module mb4_slave_cfg #(
     always_ff @(posedge rd_clk_i or negedge rst_ni) begin
       if (!rst_ni) sel_q <= '0;
       else if (host_i.rd_en) begin
-        sel_q <= {4{rows_q[host_i.rd_addr[4:2]] && Channels[host_i.rd_addr[4:2]]}} &
-                 (4'b0001 << host_i.rd_addr[1:0]);
+        sel_q <= 4'(host_i.rd_addr[7:5] == mb4_regs_pkg::ADDR_SLAVE_CFG[7:5] &&
+                    rows_q[host_i.rd_addr[4:2]] && Channels[host_i.rd_addr[4:2]])
+                 << host_i.rd_addr[1:0];
       end
     end
 
