@@ -55,7 +55,7 @@ module biss_sl_sampler #(
 
   logic       pos;
   logic       neg;
-  logic [1:0] armed_a_q;
+  logic [1:0] armed_a_q;     // no reset: clear_i comes before a frame
   logic [1:0] armed_b_q;
   logic       value_b;
   logic       look_a;

@@ -12,8 +12,8 @@
 // come two clocks late, to match SL after its synchroniser. If the half period is one clock, both
 // come in the same clock. In an odd half period the middle is at a falling clock edge: b_neg.
 //
-// Misuse: none. last_i and tens_i come from the host domain and are read only with restart_i, so
-// the host may change them while slaves are still in their timeout.
+// Misuse: tens_i = 1 without Tens stops tick_o. last_i and tens_i come from the host domain and are
+// read only with restart_i, so the host may change them while slaves are still in their timeout.
 // Datasheet: page 12 (I301..I303 and sampling points), page 30.
 
 `include "enc_check.svh"
@@ -72,8 +72,8 @@ module biss_timebase #(
                        : step_d == last && (!tens || clock_d == END);
   end
 
-  // The middle comes after half the clocks. With an even number of short steps it is the end of the
-  // step before the one in the middle, with an odd number (last is even) also, rounded down.
+  // The middle is the end of the first half of the clocks. Of an odd number of short steps (last is
+  // even) the half is rounded down, and b_neg tells of the half clock that is left.
   assign middle = run_i && (tens || last[0] ? step_q : step_d) == last >> 1 &&
                   (!tens || clock_q == (last[0] ? END : MIDDLE));
 

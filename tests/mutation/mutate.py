@@ -6,6 +6,7 @@ Only modules of mb4_chip get faults: its tests are those that meet them.
 
   mutate.py FOLDER [--count N] [--seed S]   writes the changed RTL and mutants.txt to FOLDER
                                             (120 faults by default)
+  mutate.py --rows FILE                     each row of FILE (equivalent.txt) is a fault that the RTL can have
 
 Kinds: constant (a literal is another one), operator (== is !=, ! is nothing, one side of && or ||
 is left out), stuck net (an assigned net is 0 or 1), stuck flop (it keeps its value)."""
@@ -119,6 +120,23 @@ def sites(code):
     return found
 
 
+def told(code, site):
+    """(line, fault) of a site in a module's text."""
+    kind, start, end, new = site
+    text = code[code.rfind("\n", 0, start) + 1:code.index("\n", end)]
+    change = f"{code[start:end].strip()} -> {new.strip()}"
+    return code.count("\n", 0, start) + 1, " ".join(f"{kind}: {change} in: {text}".split())
+
+
+def check_rows(file, pool):
+    texts = {module: path.read_text(encoding="utf-8") for module, path in project.rtl_modules().items()}
+    known = {f"{module}: {told(texts[module], site)[1]}" for module, *site in pool}
+    rows = [line.split(" | because ")[0] for line in file.read_text(encoding="utf-8").splitlines()
+            if line and not line.startswith("#")]
+    project.finish([f"{file.name}: the RTL has no such place: {row}" for row in rows if row not in known],
+                   f"{len(rows)} rows, each a fault that the RTL can have")
+
+
 def main():
     folder = Path(sys.argv[1])
     options = dict(zip(sys.argv[2::2], sys.argv[3::2]))
@@ -127,6 +145,9 @@ def main():
     codes = {module: blank_comments(path.read_text(encoding="utf-8"))
              for module, path in project.rtl_modules().items()}
     pool = [(module, *site) for module in sorted(below("mb4_chip", codes)) for site in sites(codes[module])]
+    if sys.argv[1] == "--rows":
+        check_rows(Path(sys.argv[2]), pool)
+        return
     chance.shuffle(pool)
     chosen = []
     for site in pool:
@@ -141,12 +162,10 @@ def main():
         code = path.read_text(encoding="utf-8")
         mine = [(number, c) for number, c in enumerate(chosen, 1) if c[0] == path.stem]
         whole = code
-        for number, (_, kind, start, end, new) in sorted(mine, key=lambda c: -c[1][2]):
-            line = whole.count("\n", 0, start) + 1
-            text = whole[whole.rfind("\n", 0, start) + 1:whole.index("\n", end)]
-            change = f"{whole[start:end].strip()} -> {new.strip()}"
-            listing.append((number, " ".join(
-                f"{path.stem}:{line}: {kind}: {change} in: {text}".split())))
+        for number, (_, *site) in sorted(mine, key=lambda c: -c[1][2]):
+            _, start, end, new = site
+            line, fault = told(whole, site)
+            listing.append((number, f"{path.stem}:{line}: {fault}"))
             code = code[:start] + re.sub(r"\bM\b", f"(mutant == {number})", new) + code[end:]
         if mine:
             at = code.index("\n);\n") + 4

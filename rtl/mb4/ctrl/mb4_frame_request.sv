@@ -14,7 +14,7 @@
 //   frame.
 //
 // Latency: 2 clocks from GETSENS to the start of a frame; MA falls half an MA period later. Codes
-// AGSMIN and AGSINFINITE of freqags_i take effect one clock later.
+// AGSMIN and AGSINFINITE of freqags_i begin and cease to act one clock later.
 // Misuse: a GETSENS pulse that begins and ends while a frame runs is not remembered.
 // Datasheet: pages 30..32, Tables 37, 44, item C08; decision 19.
 

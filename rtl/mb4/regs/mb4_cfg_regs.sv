@@ -98,7 +98,7 @@ module mb4_cfg_regs #(
     end
   end
 
-  // mb4_recent has the registers without a reserved bit.
+  // mb4_recent reads the registers without a reserved bit back.
   always_comb begin
     for (int unsigned k = 0; k < 2; k++) begin
       unique case ({mb4_regs_pkg::ADDR_REGADR[7:5], rd_addr[4:1], 1'(k)})

@@ -23,9 +23,9 @@
 //   changes with an edge of wr_clk_i, when marked_i has followed.
 //
 // Misuse: a read at the edge that writes the same byte is undefined. Older addresses read what the
-// memory holds. A byte that was written after the last
-// change of mark_o, with less than 8 clocks of the core between the writes, may answer until all
-// bytes of this sequence of writes have been taken.
+// memory holds. A byte that was written after the last change of mark_o, with less than 8 clocks of
+// the core between the writes, may answer until all bytes of this sequence of writes have been
+// taken.
 // Features tells which addresses the core has; no other one is kept.
 // Source: decisions 13, 36.
 

@@ -192,8 +192,8 @@ module mb4_reg_file #(
     .mark_o    (marked)
   );
 
-  // Answers reads of bytes of SCDATA and RDATA that have not arrived, and of registers that only it
-  // has.
+  // Answers reads of bytes of SCDATA and RDATA that have not arrived, and of registers without a
+  // reserved bit.
   mb4_recent #(.Features(Features)) u_recent (
     .wr_clk_i,
     .rst_ni    (host_rst_ni),

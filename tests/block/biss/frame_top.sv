@@ -46,12 +46,12 @@ module frame_top #(
   biss_pkg::sample_t sample;
   logic       sample_half;
   logic       len_valid;
-  logic [6:0] len;
+  logic [6:0] len_last;
   logic       next;
   logic       mo_next, mo, ssi;
   biss_pkg::mo_read_t mo_read;
   logic       rx_len_valid, rx_actuator, mo_actuator;
-  logic [6:0] rx_len;
+  logic [6:0] rx_len_last;
   biss_pkg::offer_t     rx_offer, mo_offer;
   biss_pkg::line_cmd_t  cmd;
   biss_pkg::line_status_t status;
@@ -129,7 +129,7 @@ module frame_top #(
     .cfg_i       ({rx_cfg_q[31:16], rx_crc, rx_cfg_q[7:0]}),
     .actuator_o  (rx_actuator),
     .len_valid_o (rx_len_valid),
-    .len_last_o  (rx_len),
+    .len_last_o  (rx_len_last),
     .offer_o     (rx_offer)
   );
 
@@ -148,7 +148,7 @@ module frame_top #(
     .cfg_i       ({mo_cfg_q[31:16], mo_crc, mo_cfg_q[7:0]}),
     .actuator_o  (mo_actuator),
     .len_valid_o (len_valid),
-    .len_last_o  (len),
+    .len_last_o  (len_last),
     .offer_o     (mo_offer)
   );
 
@@ -174,7 +174,7 @@ module frame_top #(
     .sample_i    (sample),
     .sample_half_i (sample_half),
     .len_valid_i (len_valid),
-    .len_last_i  (len),
+    .len_last_i  (len_last),
     .ssi_o       (ssi),
     .rx_offer_i  (rx_offer),
     .rx_next_o   (next),
@@ -203,7 +203,8 @@ module frame_top #(
   assign init_fail_o = ends.init_fail;
 
   logic unused;
-  assign unused = ^{unused_rx, unused_mo, status, ends, data, mo, mo_read, rx_len_valid, rx_len,
+  assign unused = ^{unused_rx, unused_mo, status, ends, data, mo, mo_read, rx_len_valid,
+                    rx_len_last,
                     rx_actuator, mo_actuator};
 
 endmodule
