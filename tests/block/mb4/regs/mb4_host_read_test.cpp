@@ -126,6 +126,7 @@ TEST(HostReadBlock, EveryAddressAndRandomSources_ReadsAsTable6) {
   Vmb4_host_read& m = *owner;
   m.rd_clk_i = 0;
   m.host_i = 0;
+  m.slave_data_i = 0;  // mb4_slave_cfg after a reset
   mb4test::pulse_reset(m);
   EXPECT_EQ(m.rd_data_o, 0);
   for (int round = 0; round < 100; ++round) {
