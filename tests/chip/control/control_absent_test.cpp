@@ -56,14 +56,19 @@ class ControlAbsent : public testing::TestWithParam<Mode> {
     if (GetParam().frames != Frames::kSingle) chip.instruct(GetParam().ags());
     chip.advance_us(60);
   }
+  bool single() const { return GetParam().frames == Frames::kSingle; }
+  // With automatic frames one instruction is enough; single frames ask with each frame.
+  void begin() {
+    if (!single()) chip.instruct(GetParam().ags(reg::kInstrControl));
+  }
   // Lets the control communication that is set up run until its CDM of `slot` has been taken, and
   // the slave is idle again.
   void run_to_slot(unsigned slot) {
     const sim::Slave& slave = *chip.simulator.slave(1);
     const auto& counters = chip.simulator.slave(1)->control()->counters();
-    if (GetParam().frames != Frames::kSingle) chip.instruct(GetParam().ags(reg::kInstrControl));
+    begin();
     const auto next = [&] {
-      if (GetParam().frames == Frames::kSingle) chip.instruct(reg::kInstrControl);
+      if (single()) chip.instruct(reg::kInstrControl);
       const auto count = slave.cdm_count();
       ASSERT_TRUE(chip.simulator.run_while_waiting([&] { return slave.cdm_count() != count; },
                                                    chip.simulator.now() + 100 * sim::kPsPerUs));
@@ -79,13 +84,11 @@ class ControlAbsent : public testing::TestWithParam<Mode> {
   }
   // While SL = 0 the chip leaves out frames, unless FREQAGS is AGSMIN (decision 3). So the host
   // asks again and again (decision 42).
-  bool asks_again() const {
-    return GetParam().frames == Frames::kSingle && GetParam().freqags != reg::kFreqagsAgsMin;
-  }
+  bool asks_again() const { return single() && GetParam().freqags != reg::kFreqagsAgsMin; }
   // Returns 0xF0 with REGEND = 1, or 0 if REGEND stays 0. When the host has requested the frame
   // that does not end, it only reads.
   std::uint8_t end_of_it() {
-    if (GetParam().frames == Frames::kSingle) chip.instruct(reg::kInstrControl);
+    if (single()) chip.instruct(reg::kInstrControl);
     const sim::Time start = chip.simulator.now();
     sim::Time asked = start;
     while (chip.simulator.now() - start < 5000 * sim::kPsPerUs) {
@@ -108,7 +111,7 @@ class ControlAbsent : public testing::TestWithParam<Mode> {
     EXPECT_LT(took_us, kLimitUs * (1 + GetParam().freqs) + 60 + (asks_again() ? kPauseUs : 0));
     EXPECT_EQ(status & (reg::nREGERR::kMask | reg::nDELAYERR::kMask),
               (reg::nREGERR::kMask | reg::nDELAYERR::kMask) & ~flag);
-    if (GetParam().frames == Frames::kSingle) {
+    if (single()) {
       EXPECT_EQ(status & reg::nAGSERR::kMask,
                 asks_again() && GetParam().open_level == 0 ? 0 : reg::kNagserrGood)
           << "nAGSERR: decision 3";
@@ -138,7 +141,7 @@ class ControlAbsent : public testing::TestWithParam<Mode> {
 TEST_P(ControlAbsent, BeforeTheAccess_IsNRegErr) {
   unplug();
   host.set_read(0, 0x31, 1);
-  if (GetParam().frames != Frames::kSingle) chip.instruct(GetParam().ags(reg::kInstrControl));
+  begin();
   expect_end(reg::nREGERR::kMask);
   plug_and_check();
 }
@@ -146,7 +149,7 @@ TEST_P(ControlAbsent, BeforeTheAccess_IsNRegErr) {
 TEST_P(ControlAbsent, BeforeACommand_IsNRegErr) {
   unplug();
   host.set_command(0x00, 2);
-  if (GetParam().frames != Frames::kSingle) chip.instruct(GetParam().ags(reg::kInstrControl));
+  begin();
   expect_end(reg::nREGERR::kMask);
   plug_and_check();
 }
@@ -181,10 +184,10 @@ TEST_P(ControlAbsent, SilentSlave_IsNRegErrInTheSlotOfTheEcho) {
   chip.simulator.slave(1)->control()->faults().set_silent(true);
   host.set_read(0, 0x31, 1);
   const auto before = chip.simulator.slave(1)->cdm_count();
-  if (GetParam().frames == Frames::kSingle) {
-    EXPECT_EQ(host.run_single(60), 14U - 0U + 18U);
+  if (single()) {
+    EXPECT_EQ(host.run_single(60), 14U + 18U);
   } else {
-    chip.instruct(GetParam().ags(reg::kInstrControl));
+    begin();
     EXPECT_NE(end_of_it() & reg::REGEND::kMask, 0);
     EXPECT_LE(chip.simulator.slave(1)->cdm_count() - before, 14U + 18U + 2U);
   }
