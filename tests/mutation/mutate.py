@@ -128,11 +128,20 @@ def told(code, site):
     return code.count("\n", 0, start) + 1, " ".join(f"{kind}: {change} in: {text}".split())
 
 
+def reasons(file):
+    """{fault without its line: why no test can see it} of equivalent.txt."""
+    rows = {}
+    for line in file.read_text(encoding="utf-8").splitlines():
+        if line and not line.startswith("#"):
+            fault, reason = line.split(" | because ")
+            rows[fault.strip()] = reason.strip()
+    return rows
+
+
 def check_rows(file, pool):
     texts = {module: path.read_text(encoding="utf-8") for module, path in project.rtl_modules().items()}
     known = {f"{module}: {told(texts[module], site)[1]}" for module, *site in pool}
-    rows = [line.split(" | because ")[0] for line in file.read_text(encoding="utf-8").splitlines()
-            if line and not line.startswith("#")]
+    rows = reasons(file)
     project.finish([f"{file.name}: the RTL has no such place: {row}" for row in rows if row not in known],
                    f"{len(rows)} rows, each a fault that the RTL can have")
 
@@ -178,4 +187,5 @@ def main():
     print(head.strip())
 
 
-main()
+if __name__ == "__main__":
+    main()

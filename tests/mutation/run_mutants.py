@@ -26,6 +26,7 @@ from pathlib import Path
 HERE = Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE.parents[1] / "tools" / "synth"))
 
+import mutate  # noqa: E402
 import project  # noqa: E402
 
 LEFT_OUT = "-" + ":".join(
@@ -86,16 +87,6 @@ def caught(batch, number):
     return any(start(program, tests, number, seconds) for program, tests, seconds in batch)
 
 
-def reasons():
-    """{fault without its line: why no test can see it}."""
-    rows = {}
-    for line in EXPECTED.read_text(encoding="utf-8").splitlines():
-        if line and not line.startswith("#"):
-            fault, reason = line.split(" | because ")
-            rows[fault.strip()] = reason.strip()
-    return rows
-
-
 def main():
     arguments = sys.argv[1:]
     options = {}
@@ -125,7 +116,7 @@ def main():
         batches = in_batches(programs, jobs)
         note(f"batches: {json.dumps(batches)}")
     faults = dict(line.split(" ", 1) for line in listing)
-    reason_of = reasons()
+    reason_of = mutate.reasons(EXPECTED)
     argued = {number: reason_of[text] for number, text in
               ((number, re.sub(r"^(\w+):\d+", r"\1", text)) for number, text in faults.items())
               if text in reason_of}

@@ -204,7 +204,6 @@ module frame_top #(
 
   logic unused;
   assign unused = ^{unused_rx, unused_mo, status, ends, data, mo, mo_read, rx_len_valid,
-                    rx_len_last,
-                    rx_actuator, mo_actuator};
+                    rx_len_last, rx_actuator, mo_actuator};
 
 endmodule

@@ -53,7 +53,7 @@ class ControlAbsent : public testing::TestWithParam<Mode> {
     chip.write(reg::kAddrCtrl, {reg::kRegversBissC, static_cast<std::uint8_t>(GetParam().freqs), 0,
                                 GetParam().freqags});
     chip.write(reg::kAddrSlaveloc5, {reg::kResetSlaveloc5, reg::kCfgch2Unused | reg::kCfgch1BissC});
-    if (GetParam().frames != Frames::kSingle) chip.instruct(GetParam().ags());
+    if (!single()) chip.instruct(GetParam().ags());
     chip.advance_us(60);
   }
   bool single() const { return GetParam().frames == Frames::kSingle; }
