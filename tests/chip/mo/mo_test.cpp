@@ -274,7 +274,7 @@ TEST(ChipMo, CableLongerThanTheFrame_WordArrives) {
 // Sensors alone on such a cable, or some that do not listen to MO and process longer than mo_busy:
 // MA goes on until the start bit is back and the words are in (decision 17), and MO has to stay 0
 // meanwhile. A 1 would run through the slaves after the data and look like their timeout.
-TEST(ChipMo, SensorsThatAnswerLate_SeeNoOneBehindTheirSlots) {
+TEST(ChipMo, SensorsThatAnswerLate_SeeNoHighLevelAfterTheirSlots) {
   struct Case {
     double delay_ns;
     const char* channel_keys;
