@@ -333,7 +333,7 @@ module mb4_sequencer #(
   assign flags_o     = {busy, clear_flags, scd_en, bad_d, ags_error, bank_fail};
   assign running_o    = state_q != IDLE;
   assign lines_idle_o = all_idle;
-  // runs is state_d != IDLE without what the last bit of a frame and SL bring: they come late. With
+  // runs is state_d != IDLE, but the last bit of a frame and SL do not end it: they come late. With
   // AGS = 1 INSTR asks for no frame, unless FREQAGS is AGSINFINITE.
   assign returned = (use_q & ~idle) == 2'b00 || wait_q == 11'd0;
   assign runs = start || (!(written && asked.brk) &&

@@ -61,7 +61,7 @@ module mb4_recent #(
   localparam logic [5:0] WHOLE = {CONTROL, 1'b1, 1'b1, MO, MO && PRESENT == 8'hFF, FORCE};
   localparam int unsigned KEPT = PRESENT == 8'h01 ? 10 : 6;
 
-  // With at most four data channels SCDATA leaves bit 5 free for the bank.
+  // With at most four data channels SCDATA needs no bit 5: the bank takes it, and bit 6 is 0.
   localparam bit SHORT = PRESENT[7:4] == 4'h0;
 
   // Address of a byte in the memory: SCDATA has the bank in bit 6.
