@@ -85,7 +85,7 @@ module axi_access #(
     .begin_i       (begin_q && present),
     .abort_i       (abort),
     .start_i       (happens[axi_pkg::EVENT_BEGUN]),
-    .frame_end_i   (ended),
+    .frame_done_i  (ended),
     .cds_i         ({1'b0, happens[axi_pkg::EVENT_CDS]}),
     .cdm_timeout_i (timeout),
     .expired_i     (wait_q == WAIT_W'(WaitFrames - 1)),
@@ -106,10 +106,10 @@ module axi_access #(
   biss_cdm_timeout u_timeout (
     .clk_i,
     .rst_ni,
-    .frame_end_i (ended),
-    .cdm_i       (happens[axi_pkg::EVENT_CDM] || in_body),
-    .clear_i     (abort || (start && bus_i.data[15:12] != channel_q)),
-    .timeout_o   (timeout)
+    .frame_done_i (ended),
+    .cdm_i        (happens[axi_pkg::EVENT_CDM] || in_body),
+    .clear_i      (abort || (start && bus_i.data[15:12] != channel_q)),
+    .timeout_o    (timeout)
   );
 
   always_ff @(posedge clk_i or negedge rst_ni) begin

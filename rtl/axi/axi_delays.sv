@@ -11,10 +11,10 @@
 //   channel of index_i. A frame whose delay differs from it by more than DELAY_TOLERANCE sets the
 //   channel's bit of DELAY_ALARM, and alarm_o for one clock. Frames without acknowledge, and starts
 //   with SLO = 0, have a delay of 1023. Writing 1 clears a bit of DELAY_ALARM; so does clear_i.
-// - Align: a channel with shift_i starts half the difference to the largest delay of an enabled
-//   channel later. The delays are those of each channel's last frame with an acknowledge among the
-//   channels' last frames; without one a channel is not shifted. pending_o is high until its start.
-//   Without Align start_o is start_i.
+// - Align: a channel with shift_i starts later, by half the difference between the largest delay of
+//   all enabled channels and its own delay. The delays are those of the last frame. A channel that
+//   got no acknowledge in it is not shifted and does not count. pending_o is high until the shifted
+//   channel starts. Without Align start_o is start_i.
 //
 // Misuse: an index beyond the last channel reads 0 and ignores writes.
 // Source: regmap/axi.rdl; docs/axi.md.

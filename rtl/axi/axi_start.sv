@@ -42,7 +42,7 @@ module axi_start #(
   output logic            sample_clk_o
 );
 
-  // A word has 2 flags; 4 edges of MA belong to no bit after the start bit.
+  // A word has 2 flags, and 4 edges of MA in a frame belong to no bit of the word.
   localparam logic [6:0] FLAGS      = 7'd2;
   localparam logic [6:0] MORE_EDGES = 7'd6;
   localparam logic [7:0] MOST_BITS  = Wide ? 8'd64 : 8'd32;
@@ -88,7 +88,7 @@ module axi_start #(
 
   assign take       = edge_q && free;
 
-  // 0 acts as 32, more than the most as the most.
+  // 0 acts as 32. A value above MOST_BITS acts as MOST_BITS.
   assign bits = cfg_i.position_bits == 8'd0      ? 7'd32 :
                 cfg_i.position_bits > MOST_BITS  ? MOST_BITS[6:0] : cfg_i.position_bits[6:0];
 

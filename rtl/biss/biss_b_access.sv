@@ -8,8 +8,8 @@
 //
 // - Hand-over: MA is high, then low until all slaves answer with SL = 0. In an access with
 //   mo_i MA is low for half a register clock instead, with any SL. INIT ends here.
-// - Cells: a cell lasts one register clock, 2^(FREQR+1) MA periods, and begins with a rising edge.
-//   MA is high for a quarter of it (bit 0), three quarters (bit 1) or a half (read-out).
+// - Cells: a cell lasts one register clock, 2^(cell_shift_i + 1) MA periods. It begins with a
+//   rising edge. MA is high for a quarter of it (bit 0), three quarters (bit 1), a half (read-out).
 // - SL is taken at the rising edges. In a write it repeats the bit of two cells before; in a read
 //   it brings the bits of the slave.
 // - End: after the last stop bit MA stays at 1. The access ends two register clocks later: by then
@@ -28,7 +28,7 @@ module biss_b_access (
   input  logic       clk_i,
   input  logic       rst_ni,
   // configuration
-  input  logic [2:0] freqr_i,
+  input  logic [2:0] cell_shift_i,   // length of a cell
   input  biss_pkg::access_t access_i,
   input  logic       mo_i,           // the slaves get MO
   // control
@@ -127,7 +127,7 @@ module biss_b_access (
   assign in_crc     = state_q == ADDRESS ? ADDRESS_CRCS[cell_q] : BYTE_CRCS[cell_q];
   assign out        = cell_q == 5'd0 || (in_fields && bits_q[10]) || (in_crc && !crc_q[3]);
   assign sample     = sample_q[1];
-  assign last       = index_q == access_i.regnum;
+  assign last       = index_q == access_i.byte_last;
 
   // CRC over the fields: bits that are sent count cell by cell, received bits sample by sample.
   assign feed   = in_fields && (state_q == READ ? sample : boundary);
@@ -161,7 +161,7 @@ module biss_b_access (
       end
       REQUEST: begin
         // MA is high up to the next tick.
-        bits_d = {access_i.slaveid, access_i.regadr, access_i.wnr};
+        bits_d = {access_i.id, access_i.addr, access_i.write};
         if (tick_i) state_d = HAND_OVER;
       end
       HAND_OVER: begin
@@ -186,7 +186,7 @@ module biss_b_access (
           if (in_fields) bits_d = {bits_q[9:0], 1'b0};
           if (cell_q == ADDRESS_STOP) begin
             cell_d  = 5'd0;
-            state_d = access_i.wnr ? WRITE : READ;
+            state_d = access_i.write ? WRITE : READ;
           end
         end
       end
@@ -285,7 +285,7 @@ module biss_b_access (
       fail_q   <= fail_d;
       sample_q <= {sample_q[0], boundary};
       if (start_i && state_q == IDLE) {use_q, init_q, mo_q} <= {start_use_i, init_i, mo_i};
-      if (state_q == IDLE || state_q == REQUEST || quarter) pre_q <= (7'd1 << freqr_i) - 7'd1;
+      if (state_q == IDLE || state_q == REQUEST || quarter) pre_q <= (7'd1 << cell_shift_i) - 7'd1;
       else if (tick_i)                                      pre_q <= pre_q - 7'd1;
       if (state_q == IDLE || state_q == REQUEST || (state_q == HAND_OVER && state_d == ADDRESS))
         phase_q <= 2'd0;

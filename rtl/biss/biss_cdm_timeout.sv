@@ -10,7 +10,7 @@
 module biss_cdm_timeout (
   input  logic clk_i,
   input  logic rst_ni,
-  input  logic frame_end_i,
+  input  logic frame_done_i,
   input  logic cdm_i,       // sent by the frame that ends
   input  logic clear_i,     // INIT
   output logic timeout_o
@@ -23,9 +23,9 @@ module biss_cdm_timeout (
 
   always_comb begin
     zeros_d = zeros_q;
-    if (clear_i)                              zeros_d = 4'd0;
-    else if (frame_end_i && cdm_i)            zeros_d = 4'd0;
-    else if (frame_end_i && zeros_q != ZEROS) zeros_d = zeros_q + 4'd1;
+    if (clear_i)                               zeros_d = 4'd0;
+    else if (frame_done_i && cdm_i)            zeros_d = 4'd0;
+    else if (frame_done_i && zeros_q != ZEROS) zeros_d = zeros_q + 4'd1;
   end
 
   always_ff @(posedge clk_i or negedge rst_ni) begin

@@ -10,7 +10,7 @@
 //
 // - cdm0_o and cdm1_o are the CDM to send if CDS of the same frame is 0 or 1, one bit for each
 //   line.
-// - frame_end_i takes CDS. CDS of a slot answers CDM of the slot before. With abort_i it has no
+// - frame_done_i takes CDS. CDS of a slot answers CDM of the slot before. With abort_i it has no
 //   result.
 // - Slot 0 lasts until 14 zeros have been sent (cdm_timeout_i). Slot 19 lasts until the start bit
 //   of the slave.
@@ -42,7 +42,7 @@ module biss_control_frame (
   input  logic       begin_i,
   input  logic       abort_i,        // stopped, or the access cannot run any more
   input  logic       start_i,        // a frame starts
-  input  logic       frame_end_i,    // the frame has ended
+  input  logic       frame_done_i,   // the frame has ended
   input  logic [1:0] cds_i,          // CDS of the frame, lines {2, 1}
   input  logic       cdm_timeout_i,  // at least 14 frames with CDM = 0 before this one
   input  logic       expired_i,      // no start bit for too long
@@ -86,7 +86,7 @@ module biss_control_frame (
   logic       end_d, reg_error_d, delay_error_d;
 
   logic       cts;          // a register access, no command
-  logic       wnr;
+  logic       write;
   logic       step;
   logic       take;
   logic       tested;
@@ -105,10 +105,10 @@ module biss_control_frame (
   endfunction
 
   assign cts       = access_i.cts;
-  assign wnr       = access_i.wnr;
-  assign step      = carries_q && frame_end_i;
+  assign write     = access_i.write;
+  assign step      = carries_q && frame_done_i;
   assign take      = fresh_q[1] && !post_busy_i;
-  assign tested    = (access_i.slaveid[0] ^ ida_invert_i) && !broadcast_q;
+  assign tested    = (access_i.id[0] ^ ida_invert_i) && !broadcast_q;
   assign cds       = (blind_i && cts) ? sent_q : (cds_i & select_i) != 2'b00;
   assign top       = bits_q[9];
 
@@ -128,8 +128,8 @@ module biss_control_frame (
   assign ida      = !cts && !broadcast_q && ACK[slot_q];
   // CDS of a read comes one slot after CDM of a write.
   assign data     = cts && (DATA[slot_q] ||
-                    (slot_q == (wnr ? biss_pkg::SLOT_WAIT : biss_pkg::SLOT_DATA_CRC) &&
-                     (cds || !wnr)));
+                    (slot_q == (write ? biss_pkg::SLOT_WAIT : biss_pkg::SLOT_DATA_CRC) &&
+                     (cds || !write)));
   assign data_crc = echo && !data;
 
   // ---- CDM ----------------------------------------------------------------------------------
@@ -144,17 +144,17 @@ module biss_control_frame (
         cdm0 = top;
       6'd12, 6'd13, 6'd14, 6'd15:
         cdm0 = !crc_q[3];
-      biss_pkg::SLOT_READ:  cdm0 = cts ? !wnr : !tested;   // EX at once
-      biss_pkg::SLOT_WRITE: cdm0 = cts && wnr;
+      biss_pkg::SLOT_READ:  cdm0 = cts ? !write : !tested;   // EX at once
+      biss_pkg::SLOT_WRITE: cdm0 = cts && write;
       biss_pkg::SLOT_BYTE:  cdm0 = cts;
       biss_pkg::SLOT_WAIT, 6'd20, 6'd21, 6'd22, 6'd23, 6'd25, 6'd26:
-        cdm0 = cts && wnr && top;
+        cdm0 = cts && write && top;
       biss_pkg::SLOT_EX_TESTED: begin
-        cdm0   = cts && wnr && top;
+        cdm0   = cts && write && top;
         by_ida = !cts && tested;
       end
       6'd27, 6'd28, 6'd29, 6'd30:
-        cdm0 = wnr && !crc_q[3];
+        cdm0 = write && !crc_q[3];
       biss_pkg::SLOT_NEXT:  cdm0 = !last_q;
       default: cdm0 = 1'b0;
     endcase
@@ -180,17 +180,17 @@ module biss_control_frame (
     unique case (slot_q)
       biss_pkg::SLOT_START: stay = !sent;
       biss_pkg::SLOT_WRITE: begin
-        fail   = cts && (cds == wnr || (blind_i && !wnr));
+        fail   = cts && (cds == write || (blind_i && !write));
         finish = !cts && broadcast_q;
       end
-      biss_pkg::SLOT_BYTE:  fail   = cts && cds != wnr;
+      biss_pkg::SLOT_BYTE:  fail   = cts && cds != write;
       biss_pkg::SLOT_WAIT:  stay   = cts && !cds;
       biss_pkg::SLOT_STOP_TESTED: finish = !cts;
       biss_pkg::SLOT_NEXT:  finish = last_q;
       default: ;
     endcase
-    if (echo && wnr && cds != sent_q)        fail = 1'b1;
-    if (data_crc && !wnr && cds == crc_q[3]) fail = 1'b1;
+    if (echo && write && cds != sent_q)        fail = 1'b1;
+    if (data_crc && !write && cds == crc_q[3]) fail = 1'b1;
     if (ida) begin
       ida_bad_d = ida_bad_q | (select_i & (cds_i ^ {2{top}}));
       if (slot_q == biss_pkg::SLOT_EX_TESTED && !tested) finish = 1'b1;
@@ -200,7 +200,7 @@ module biss_control_frame (
   always_comb begin
     crc_feed  = header || data;
     crc_shift = CRC[slot_q] || data_crc;
-    crc_bit   = crc_q[3] ^ ((header || wnr) ? sent : cds);
+    crc_bit   = crc_q[3] ^ ((header || write) ? sent : cds);
     crc_d     = crc_q;
     if (crc_feed)       crc_d = {crc_q[2:0], 1'b0} ^ (crc_bit ? biss_pkg::CONTROL_CRC_POLY : 4'h0);
     else if (crc_shift) crc_d = {crc_q[2:0], 1'b0};
@@ -215,16 +215,16 @@ module biss_control_frame (
                                                      slot_q == biss_pkg::SLOT_NEXT);
   assign bits_shift  = !take && step &&
                        ((header && slot_q != biss_pkg::SLOT_CTS) || data || ida);
-  assign bits_d = ({access_i.slaveid, access_i.regadr} & {10{bits_header}}) |
-                  ({rdata_i, access_i.slaveid[2:1] & {2{!cts}}} & {10{bits_byte}}) |
-                  ({bits_q[8:0], (data && !wnr) ? cds : top} & {10{bits_shift}});
+  assign bits_d = ({access_i.id, access_i.addr} & {10{bits_header}}) |
+                  ({rdata_i, access_i.id[2:1] & {2{!cts}}} & {10{bits_byte}}) |
+                  ({bits_q[8:0], (data && !write) ? cds : top} & {10{bits_shift}});
 
-  assign byte_o = {step && cts && !wnr && !fail && slot_q == biss_pkg::SLOT_STOP && !abort_i,
+  assign byte_o = {step && cts && !write && !fail && slot_q == biss_pkg::SLOT_STOP && !abort_i,
                    index_q, bits_q[7:0]};
 
   always_comb begin
     active_d      = active_q;
-    carries_d     = start_i ? active_start_o : carries_q && !frame_end_i;
+    carries_d     = start_i ? active_start_o : carries_q && !frame_done_i;
     slot_d        = slot_q;
     index_d       = index_q;
     last_d        = last_q;
@@ -239,7 +239,7 @@ module biss_control_frame (
                                                              : slot_q + 6'd1;
       if (slot_q == biss_pkg::SLOT_STOP && !fail) begin
         index_d = index_q + 6'd1;
-        last_d  = index_q == access_i.regnum;
+        last_d  = index_q == access_i.byte_last;
       end
       end_d         = fail || finish || late;
       reg_error_d   = fail || ida_bad_d != 2'b00;

@@ -15,7 +15,7 @@
 // one. A processing clock counts with the next edge; until then none_left_o and one_left_o leave it
 // out, and the caller must not look (biss_frame looks after the start bit). Between two processing
 // clocks there is an edge. mo_busy_i counts from the second clock after begin_i. All outputs except
-// two_next_o are ready early in the clock, because they decide what MA does next.
+// two_edges_next_o are ready early in the clock, because they decide what MA does next.
 //
 // Misuse: ssi_i with bus_i counts one edge too many. MA may make one edge more than needed before a
 // word is told. The count keeps this edge (need_q = -2) and subtracts it from the word. The count
@@ -41,8 +41,8 @@ module biss_edge_count #(
   input  logic [6:0] len_last_i,   // bits of the word minus 1
   input  logic       wait_i,
   input  logic       rise_i,
-  output logic       two_o,        // two edges have been sent
-  output logic       two_next_o,   // two edges with the one of this clock
+  output logic       two_edges_o,      // two edges have been sent
+  output logic       two_edges_next_o, // two edges with the one of this clock
   output logic       none_left_o,
   output logic       one_left_o    // one edge is left, or none
 );
@@ -93,8 +93,8 @@ module biss_edge_count #(
     end
   end
 
-  assign two_o       = rises_q == 2'd2;
-  assign two_next_o  = rises_d == 2'd2;
+  assign two_edges_o      = rises_q == 2'd2;
+  assign two_edges_next_o = rises_d == 2'd2;
   assign none_left_o = need_q[W-1] && !word_q;
   assign one_left_o  = (need_q[W-1] || need_q == '0) && !word_q;
 

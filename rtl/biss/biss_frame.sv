@@ -13,8 +13,8 @@
 // - the edges already sent when the start bit comes back over a long line (decision 17),
 // - the edges already sent when CDS comes back, if CDM depends on it.
 //
-// With bus_i actuators are on MO, and more edges would shift their words. So mo_busy counts as the
-// number of processing clocks, and MA does not wait for the start bit.
+// With mo_bus_i actuators are on MO, and more edges would shift their words. So mo_busy counts as
+// the number of processing clocks, and MA does not wait for the start bit.
 //
 //   go_i.reduced         the frame ends after CDS (decision 14)
 //   event_o.line_end     the last data bit has been taken; status_o.cds is valid from the next
@@ -25,7 +25,7 @@
 //   go_i.register_access MA belongs to the BiSS B register access (biss_b_access) until
 //                        register_ma_i.ends, which makes event_o.line_end
 //
-// A frame keeps the protocol and the bus_i of the clock of its start. Both come from flops.
+// A frame keeps the protocol and the mo_bus_i of the clock of its start. Both come from flops.
 // A line that is taken out of use (UNUSED) does not wait for SL in its timeout.
 //
 // Parameters: a protocol that is left out acts as UNUSED (decision 44). Such a line must not take
@@ -41,7 +41,7 @@
 module biss_frame #(
   parameter bit          BissB    = 1'b1,
   parameter bit          Ssi      = 1'b1,
-  parameter bit          Mo       = 1'b1,  // the line may have actuators: bus_i
+  parameter bit          Mo       = 1'b1,  // the line may have actuators: mo_bus_i
   parameter int unsigned Slaves   = 8,     // most words of a frame
   parameter int unsigned DataBits = 64     // the longest word
 ) (
@@ -52,7 +52,7 @@ module biss_frame #(
   input  biss_pkg::line_cmd_t    cmd_i,
   input  biss_pkg::line_go_t     go_i,
   input  biss_pkg::line_start_t  start_i,
-  input  logic                   bus_i,
+  input  logic                   mo_bus_i,
   input  biss_pkg::register_ma_t register_ma_i,
   // time base
   input  logic       tick_i,
@@ -77,8 +77,8 @@ module biss_frame #(
   output logic       ssi_o,        // the frame is SSI
   output logic       biss_c_o,     // protocol of this frame
   output logic       rise_o,       // a rising MA edge of a frame
-  output logic       final_o,      // ... the last one, as far as it is known
-  output logic       clocks_o,     // MA is clocking; 1 in INIT, which ends MO itself
+  output logic       final_rise_o, // ... the last one, as far as it is known
+  output logic       ma_clocks_o,  // MA is clocking; 1 in INIT, which ends MO itself
   output biss_pkg::line_status_t status_o,
   output biss_pkg::line_event_t  event_o,
   output logic       ma_o
@@ -141,7 +141,7 @@ module biss_frame #(
   assign rests       = state_q == IDLE || state_q == TIMEOUT || state_q == RELEASE;
   assign new_ssi     = Ssi && cmd_i.protocol == biss_pkg::SSI;
   assign new_biss_c  = BissB ? cmd_i.protocol == biss_pkg::BISS_C : !new_ssi;
-  assign new_bus     = Mo && bus_i && !new_ssi;
+  assign new_bus     = Mo && mo_bus_i && !new_ssi;
   assign ssi         = Ssi && ssi_q;
   assign biss_c      = BissB ? biss_c_q : !ssi;
   assign bus         = Mo && bus_q;
@@ -190,8 +190,8 @@ module biss_frame #(
     .len_last_i,
     .wait_i      (waited && !bus),
     .rise_i      (rise),
-    .two_o       (armed_a_o),
-    .two_next_o  (armed_b_o),
+    .two_edges_o (armed_a_o),
+    .two_edges_next_o (armed_b_o),
     .none_left_o (none_left),
     .one_left_o  (one_left)
   );
@@ -325,8 +325,8 @@ module biss_frame #(
   assign word_run_o  = state_q == DATA && !go_i.stop;
   assign ssi_o       = ssi;
   assign rise_o      = rise;
-  assign final_o     = rise && (started_q || bus) && one_left && cdm_known;
-  assign clocks_o    = ma_clocks || init_q;
+  assign final_rise_o = rise && (started_q || bus) && one_left && cdm_known;
+  assign ma_clocks_o  = ma_clocks || init_q;
   assign biss_c_o    = biss_c;
   assign status_o    = {idle_q, state_q == TIMEOUT, cds_q, cdm, sl_i};
   assign event_o     = {line_end, init_done, init_fail};

@@ -30,8 +30,8 @@ module biss_mo_tx #(
   input  logic       begin_i,       // a BiSS frame or INIT begins
   input  logic       biss_c_i,
   input  logic       rise_i,        // a rising MA edge of the frame
-  input  logic       final_i,       // ... the last one
-  input  logic       clocks_i,      // MA is clocking; 1 in INIT
+  input  logic       final_rise_i,  // ... the last one
+  input  logic       ma_clocks_i,   // MA is clocking; 1 in INIT
   input  logic       line_idle_i,
   // words
   input  biss_pkg::offer_t offer_i,
@@ -81,7 +81,7 @@ module biss_mo_tx #(
 
   assign word     = offer_i.word;
   assign answers  = state_q != IDLE && state_q != REQUEST;
-  assign ends     = line_idle_i || go_i.mo_return || go_i.stop || (answers && !clocks_i);
+  assign ends     = line_idle_i || go_i.mo_return || go_i.stop || (answers && !ma_clocks_i);
   // go_i.reduced comes late. It does not change between the start of a frame and its CDS.
   assign none     = !offer_i.any || reduced_q;
   assign byte_now = load_q ? word.data_last[5:3] : left_q[5:3];
@@ -179,7 +179,7 @@ module biss_mo_tx #(
         // The last bit is on MO. On a line that is longer than the frame MA goes on, and a 1 would
         // pass through the slaves: MO sends zeros.
         if (rise_i) mo_d = 1'b0;
-        if (final_i) state_d = IDLE;
+        if (final_rise_i) state_d = IDLE;
       end
       default: state_d = IDLE;
     endcase

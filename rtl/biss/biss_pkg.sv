@@ -93,7 +93,7 @@ package biss_pkg;
     logic [2:0]  place;      // of the byte in the word
   } mo_read_t;
 
-  // What the sequence of frames needs to know. Registers of the line.
+  // What the sequence of frames needs to know. Flops of the line; timeout and cdm are decoded.
   typedef struct packed {
     logic        idle;       // no frame, and the slaves' timeout has ended
     logic        timeout;    // waiting for SL = 1
@@ -132,10 +132,10 @@ package biss_pkg;
   // A register access or a command.
   typedef struct packed {
     logic        cts;        // 0: command
-    logic        wnr;        // write
-    logic [6:0]  regadr;
-    logic [5:0]  regnum;     // bytes minus 1
-    logic [2:0]  slaveid;    // or CMD(1:0), IDA_TEST
+    logic        write;
+    logic [6:0]  addr;
+    logic [5:0]  byte_last;  // bytes minus 1
+    logic [2:0]  id;         // of the slave; of a command its code and whether IDA is tested
   } access_t;
 
   // The byte of an access: its place, and its value if the slave has sent it.

@@ -153,8 +153,8 @@ module mb4_engine #(
 
   mb4_reg_file #(.Port2(Port2), .Tap(Tap), .Features(FEATURES)) u_regs (
     .clk_i,
-    .rst_ni         (rst_core_n),
-    .host_rst_ni    (rst_ni),
+    .rst_ni,
+    .rst_core_ni    (rst_core_n),
     .wr_clk_i,
     .rd_clk_i,
     .host_i         ({wr_en_i, wr_addr_i, wr_data_i, rd_en_i, rd_addr_i}),

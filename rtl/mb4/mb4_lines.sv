@@ -194,7 +194,7 @@ module mb4_lines #(
     assign mo_o[1] = 1'b0;
   end
 
-  // Of the lists of a line one counts the bits. A line that is left out takes nothing.
+  // Only one list of each line counts bits. A line that is left out uses none of the rest.
   assign unused = ^{actuator, bus_q, len_valid, len_last, next, ssi, offer, cmd_i, start_i,
                     slave_cfg_i, mo_data_i, sl_i};
 

@@ -22,10 +22,10 @@
 // look: dut_broadcast = u_dut.broadcast_q
 // mutation: biss/biss_control_frame.sv | if (!stay) slot_d
 //   | if (!stay || slot_q == biss_pkg::SLOT_WAIT) slot_d
-// mutation: biss/biss_control_frame.sv | start_i ? active_start_o : carries_q && !frame_end_i
+// mutation: biss/biss_control_frame.sv | start_i ? active_start_o : carries_q && !frame_done_i
 //   | start_i ? active_start_o : carries_q
-// mutation: biss/biss_control_frame.sv | last_d  = index_q == access_i.regnum;
-//   | last_d  = index_d == access_i.regnum;
+// mutation: biss/biss_control_frame.sv | last_d  = index_q == access_i.byte_last;
+//   | last_d  = index_d == access_i.byte_last;
 // mutation: biss/biss_control_frame.sv | biss_pkg::SLOT_START: cdm0 = cdm_timeout_i;
 //   | biss_pkg::SLOT_START: cdm0 = 1'b1;
 // mutation: biss/biss_control_frame.sv | fresh_q[1] && !post_busy_i; | fresh_q[1];
@@ -35,7 +35,7 @@
 
 module proof (
   input logic clk_i, rst_ni,
-  input logic begin_i, abort_i, start_i, frame_end_i, cdm_timeout_i, expired_i, stalled_i,
+  input logic begin_i, abort_i, start_i, frame_done_i, cdm_timeout_i, expired_i, stalled_i,
   input logic post_busy_i,
   input logic [1:0] cds_i,
   input logic [7:0] rdata_i
@@ -60,7 +60,7 @@ module proof (
     .clk_i, .rst_ni, .access_i({cts, wnr, regadr, regnum, slaveid}),
     .ida_invert_i(ida_invert), .select_i(select), .blind_i(blind),
     .byte_o(bytes), .rdata_i, .post_busy_i, .begin_i, .abort_i,
-    .start_i, .frame_end_i, .cds_i, .cdm_timeout_i, .expired_i, .stalled_i,
+    .start_i, .frame_done_i, .cds_i, .cdm_timeout_i, .expired_i, .stalled_i,
     .stalled_start_i(stalled_i), .active_o(active),
     .in_body_o(body), .wait_o(waits), .moved_o(moved), .cdm0_o(cdm0), .cdm1_o(cdm1),
     .begin_o(begins), .end_o(result)
@@ -72,10 +72,10 @@ module proof (
     if (!started) assume (!rst_ni);
     assume (cts ? select == 2'b01 || select == 2'b10 : select != 2'b00);
     // A frame starts after the one before has ended; frames that start carry what begins with them.
-    if (start_i) assume (!frame_end_i && !running_q);
-    if (frame_end_i) assume (running_q);
+    if (start_i) assume (!frame_done_i && !running_q);
+    if (frame_done_i) assume (running_q);
     // post_busy_i ends: the fields are there before the frame after that of S ends.
-    if (frame_end_i && mine_q && dut_slot != 6'd0) assume (taken_q);
+    if (frame_done_i && mine_q && dut_slot != 6'd0) assume (taken_q);
   end
 
   // The fields: when they are taken, and what they were then.
@@ -99,7 +99,7 @@ module proof (
   always @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni)           running_q <= 1'b0;
     else if (start_i)      running_q <= 1'b1;
-    else if (frame_end_i || abort_i)  running_q <= 1'b0;
+    else if (frame_done_i || abort_i)  running_q <= 1'b0;
   end
 
   wire [5:0] dut_slot;
@@ -118,7 +118,7 @@ module proof (
     good_q    <= good;
     active_q  <= dut_active;
     live_q    <= rst_ni;
-    step_q    <= mine_q && frame_end_i;
+    step_q    <= mine_q && frame_done_i;
     abort_q   <= abort_i;
     begin_q   <= begins;
     stalled_q <= stalled_i;
@@ -130,10 +130,10 @@ module proof (
     if (!rst_ni)                                     mine_q <= 1'b0;
     else if (abort_i)                                mine_q <= 1'b0;
     else if (start_i && !ending)                     mine_q <= dut_active || begins;
-    else if (frame_end_i || ending)                  mine_q <= 1'b0;
+    else if (frame_done_i || ending)                  mine_q <= 1'b0;
   end
   logic ending;    // stalled: it ends without a frame
-  assign ending = dut_active && stalled_i && !(mine_q && frame_end_i);
+  assign ending = dut_active && stalled_i && !(mine_q && frame_done_i);
 
   logic [1:0] sent;
   assign sent = cdm0 | cdm1;

@@ -336,9 +336,9 @@ def control_frame(steps):
         for cds in answers:
             steps.step(start_i=1)
             steps.clock("clk_i")
-            steps.step(start_i=0, frame_end_i=1, cds_i=3 * cds)
+            steps.step(start_i=0, frame_done_i=1, cds_i=3 * cds)
             steps.clock("clk_i")
-            steps.step(frame_end_i=0)
+            steps.step(frame_done_i=0)
     # A slave whose start bit does not come.
     steps.step(access_i=access(steps, 1, 0, 1), begin_i=1)
     steps.clock("clk_i")
@@ -346,11 +346,11 @@ def control_frame(steps):
     for cds in [0] * 17 + [1] + [0] * 4:
         steps.step(start_i=1)
         steps.clock("clk_i")
-        steps.step(start_i=0, frame_end_i=1, cds_i=3 * cds, expired_i=1)
+        steps.step(start_i=0, frame_done_i=1, cds_i=3 * cds, expired_i=1)
         steps.clock("clk_i")
-        steps.step(frame_end_i=0)
+        steps.step(frame_done_i=0)
     play(steps, ["clk_i"], ["rst_ni"], 24000, {
-        "begin_i": 0.3, "post_busy_i": 0.3, "abort_i": 0.0005, "start_i": 0.7, "frame_end_i": 0.7,
+        "begin_i": 0.3, "post_busy_i": 0.3, "abort_i": 0.0005, "start_i": 0.7, "frame_done_i": 0.7,
         "cdm_timeout_i": 0.9, "expired_i": 0.4,
         "select_i": rarely("select_i", 0.01, lambda s: s.rng.choice([1, 1, 2, 3])),
         "access_i": rarely("access_i", 0.01, lambda s: access(
@@ -369,7 +369,7 @@ def mo_tx(steps):
         steps.step(cmd_i=pack((0, 2), (steps.chance(0.9), 1), (steps.rng.choice([0, 0, 1, 5]), 8),
                               (0, 3), (steps.chance(0.1), 1)),
                    go_i=pack((0, 3), (steps.chance(0.1), 1), (0, 2)), begin_i=1,
-                   line_idle_i=0, biss_c_i=steps.rng.getrandbits(1), clocks_i=1, rise_i=0)
+                   line_idle_i=0, biss_c_i=steps.rng.getrandbits(1), ma_clocks_i=1, rise_i=0)
         steps.clock("clk_i")
         steps.step(begin_i=0)
         for _ in range(steps.rng.randint(10, 150)):
@@ -380,10 +380,10 @@ def mo_tx(steps):
             steps.step(offer_i=pack((steps.chance(0.9), 1), (steps.chance(0.3), 1),
                                     (steps.rng.getrandbits(3), 3), (word, 39)),
                        data_i=any_value(steps, "data_i"), line_idle_i=int(steps.chance(0.005)),
-                       clocks_i=int(steps.chance(0.95)),
-                       final_i=int(steps.chance(0.3)), rise_i=1)
+                       ma_clocks_i=int(steps.chance(0.95)),
+                       final_rise_i=int(steps.chance(0.3)), rise_i=1)
             steps.clock("clk_i")
-            steps.step(final_i=0, rise_i=0)
+            steps.step(final_rise_i=0, rise_i=0)
             if steps.chance(0.003):
                 steps.step(go_i=steps.rng.choice([1, 2]))
             steps.clock("clk_i")
@@ -394,7 +394,7 @@ def biss_b(steps):
     steps.reset(["rst_ni"])
     for number in range(6):
         write, value, count = number & 1, steps.rng.getrandbits(8), steps.rng.choice([3, 64, 64])
-        steps.step(freqr_i=0, access_i=access(steps, 1, write, count), mo_i=number >> 1 & 1, start_use_i=1 + number % 3,
+        steps.step(cell_shift_i=0, access_i=access(steps, 1, write, count), mo_i=number >> 1 & 1, start_use_i=1 + number % 3,
                    rdata_i=value, init_i=0, start_i=1, sl_i=3, tick_i=1, expired_i=0)
         steps.clock("clk_i")
         steps.step(start_i=0, sl_i=0)
@@ -411,7 +411,7 @@ def biss_b(steps):
         steps.step(abort_i=0)
     play(steps, ["clk_i"], ["rst_ni"], 12000, {
         "start_i": 0.3, "abort_i": 0.0005, "tick_i": 0.9, "expired_i": 0.3, "init_i": 0.1,
-        "freqr_i": rarely("freqr_i", 0.003, lambda s: s.rng.choice([0, 0, 1])),
+        "cell_shift_i": rarely("cell_shift_i", 0.003, lambda s: s.rng.choice([0, 0, 1])),
         "access_i": rarely("access_i", 0.01, lambda s: access(
             s, 1, s.rng.getrandbits(1), s.rng.choice([1, 2]))),
         "mo_i": rarely("mo_i", 0.01), "start_use_i": rarely("start_use_i", 0.003),

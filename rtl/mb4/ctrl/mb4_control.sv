@@ -187,7 +187,7 @@ module mb4_control #(
 
   // CFGCHx has the codes of biss_pkg::protocol_e. Line 2 is unused too with SLAVELOC5 = 0 or if it
   // is left out, and so is a line whose protocol is left out. The host may write CFGCHx at any
-  // time: what starts a frame and the line that makes it see one flop.
+  // time: the sequencer and the line take the protocol of a frame from the same flop.
   for (genvar i = 0; i < 2; i++) begin : gen_protocol
     logic [1:0] code, protocol;
 

@@ -112,7 +112,7 @@ module mb4_control_comm #(
       .begin_i,
       .abort_i       (clear_i || void_q),
       .start_i       (go_i.start && !go_i.init && !go_i.register_access),
-      .frame_end_i   (frame_done_i),
+      .frame_done_i,
       .cds_i         ({status2.cds, status1.cds} & kind_o.in_use),
       .cdm_timeout_i (cdm_timeout),
       .expired_i     (expired),
@@ -143,7 +143,7 @@ module mb4_control_comm #(
     biss_b_access u_biss_b (
       .clk_i,
       .rst_ni,
-      .freqr_i   (cfg_i.freqr),
+      .cell_shift_i (cfg_i.freqr),
       .access_i  (access),
       .mo_i      (MO && cfg_i.en_mo),
       .start_i   (register_start),
@@ -237,10 +237,10 @@ module mb4_control_comm #(
   biss_cdm_timeout u_cdm_timeout (
     .clk_i,
     .rst_ni,
-    .frame_end_i (frame_done_i && !clear_i),
-    .cdm_i       (sent || in_body),
-    .clear_i     (init_clear_i),
-    .timeout_o   (cdm_timeout)
+    .frame_done_i (frame_done_i && !clear_i),
+    .cdm_i        (sent || in_body),
+    .clear_i      (init_clear_i),
+    .timeout_o    (cdm_timeout)
   );
 
   // ---- results ------------------------------------------------------------------------------
@@ -253,7 +253,7 @@ module mb4_control_comm #(
     control_end.ends ? control_end.delay_error : register_end.delay_error
   };
   assign state_o = {cdm_timeout, register_q ? register_end.good_bytes : control_end.good_bytes};
-  // The last ones go to what may be left out.
+  // Only modules that Features can leave out use the other signals.
   assign unused  = ^{rdata.wr_en, access, quirks_i, rdata_i, post_busy_i, begin_i, start_use_i,
                      tick_i, moved, expired, register_wait, cfg_i.freqr};
 

@@ -42,7 +42,7 @@ module mb4_frame_request (
   logic       pre_end;
   logic       due;
   logic       by_time, by_pin;
-  // Kept: with idle lines a request is due if it asks, and synthesis would wait for lines_idle_i.
+  // Kept apart from lines_idle_i, which comes late: synthesis would put both into one gate.
   (* keep *) logic asks;
   logic       pending_d;
   logic       pending_q;

@@ -137,7 +137,7 @@ module mb4_sequencer #(
                     (!held_q.ags || request_i.infinite);
   assign begins   = new_q && kind_i.in_use != 2'b00 && !held_q.init && state_q != INIT_TIMEOUT;
   assign control_begin_o  = begins && kind_i.is_control && state_q != INIT && !stale_i;
-  // A new instruction takes REGEND away at once. After a stall it is still the old one.
+  // A new instruction clears REGEND at once. After a stall held_q is still the old instruction.
   assign register_begin_o = (begins && (kind_i.is_register ||
                                         (kind_i.is_control && stale_i && !control_stalled_i))) ||
                             (new_q && kind_i.is_void && !void_o);

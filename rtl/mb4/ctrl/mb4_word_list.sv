@@ -10,7 +10,7 @@
 // next_i. With Sum = 1 the module first walks through the list once: from the clock after start_i
 // on, len_last_o gives the bits of one word, minus 1, in each clock, with len_valid_o. offer_o is
 // the first word when len_valid_o has fallen.
-// Misuse: start_i without idle_i gives a list of one data channel an old row.
+// Misuse: with start_i while idle_i = 0, a list of one data channel takes the row of the last frame.
 // If the host changes the configuration between start_i and the end of the frame, the frame
 // may have other words or fail by its flags, but it ends (decision 38).
 // Datasheet: pages 23..26; order of the words: protocol of the chain, first slave first.
@@ -40,7 +40,7 @@ module mb4_word_list #(
   output biss_pkg::offer_t offer_o  // the current word
 );
 
-  // The lowest of some data channels; of none the lowest that the line can have.
+  // The lowest data channel of a set. For the empty set it is the lowest that the line can have.
   function automatic logic [2:0] lowest(input logic [7:0] channels);
     lowest = 3'd0;
     for (int i = 7; i >= 0; i--) begin

@@ -5,8 +5,8 @@
 //
 // Clock domain: SCLK.
 // Latency: a write takes effect at the 8th rising edge of its byte. Read data must be in tx_byte_i
-// of the shifter after the edge at which host_o.rd_en is high. A byte is also read with some
-// unknown opcodes; nobody sees it.
+// of the shifter after the edge at which host_o.rd_en is high. Some unknown opcodes read a byte
+// too; it is not sent.
 // The last bit of a byte comes from MOSI without a flop. Only host_o.rd_addr(0), host_o.wr_data(0)
 // and the next state depend on it.
 // Misuse: an unknown opcode is ignored until NCS rises. The address wraps from 0xFF to 0x00
@@ -64,8 +64,8 @@ module mb4_spi_cmd #(
     if (byte_valid_i) begin
       unique case (state_q)
         OPCODE: begin
-          // The host sends the opcode. Two of them begin to read at once; of the others that read
-          // a byte here none sends it (tx_en_o).
+          // The host sends the opcode. Two opcodes start a read at once. Others may read a byte
+          // here too, but it is not sent (tx_en_o = 0).
           unique case (opcode)
             mb4_regs_pkg::SPI_OPCODE_WRITE_REGISTERS:   state_d = ADDR_WRITE;
             mb4_regs_pkg::SPI_OPCODE_READ_REGISTERS:    state_d = ADDR_READ;

@@ -181,7 +181,7 @@ module mb4_host_read #(
     end
   end
 
-  // The memories answer when they are cleared, but for a byte that mb4_recent has. An AND-OR choice
+  // The memories answer once they are cleared, unless mb4_recent has the byte. An AND-OR choice
   // is short: half an SCLK period is left for the path to MISO.
   assign ram_sel = {rdata_sel_q, hi_sel_q, lo_sel_q} & {3{ready_q && !recent_hit_i}};
   assign ram_data =

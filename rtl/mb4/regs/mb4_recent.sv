@@ -69,7 +69,7 @@ module mb4_recent #(
     place = {addr[7], addr[7] ? addr[6] : bank, addr[5:0]};
   endfunction
 
-  // What tells it from all others.
+  // The part of a place that differs between the addresses of this core.
   function automatic logic [7:0] key(input logic [7:0] at);
     key = VARIES & (SHORT ? {at[7], 1'b0, at[7] ? at[5] : at[6], at[4:0]} : at);
   endfunction

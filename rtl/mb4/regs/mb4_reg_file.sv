@@ -5,7 +5,7 @@
 // banks, validity flags, and the read side. The file connects these modules and decodes the
 // addresses of posted writes; it has no flops of its own.
 //
-// Clock domains: host (wr_clk_i writes, rd_clk_i reads, host_rst_ni) and core (clk_i, rst_ni).
+// Clock domains: host (wr_clk_i writes, rd_clk_i reads, rst_ni) and core (clk_i, rst_core_ni).
 // wr_clk_i and rd_clk_i are one clock, or two strobes of which one rests while the other has edges.
 // SCDATA, RDATA and SVALID are in the core domain: host writes to them are posted and wait for a
 // running core clock. All other registers work without it. With Port2 there is one more read port
@@ -19,8 +19,8 @@ module mb4_reg_file #(
   parameter logic [31:0] Features = mb4_page_regs_pkg::FEATURES_FULL
 ) (
   input  logic       clk_i,
-  input  logic       rst_ni,          // core domain
-  input  logic       host_rst_ni,     // host domain
+  input  logic       rst_ni,          // host domain
+  input  logic       rst_core_ni,     // core domain
   // host byte bus, sampled at the rising edge of wr_clk_i and rd_clk_i
   input  logic       wr_clk_i,
   input  logic       rd_clk_i,
@@ -95,7 +95,7 @@ module mb4_reg_file #(
 
   mb4_cfg_regs #(.Features(Features)) u_cfg (
     .wr_clk_i,
-    .rst_ni      (host_rst_ni),
+    .rst_ni,
     .host_i,
     .rd_data_o   (cfg_data),
     .cfg_o
@@ -105,7 +105,7 @@ module mb4_reg_file #(
     .Channels(PRESENT), .FreeCrc(Features[mb4_page_regs_pkg::FREE_CRC_LSB])
   ) u_slave_cfg (
     .wr_clk_i,
-    .rst_ni       (host_rst_ni),
+    .rst_ni,
     .host_i,
     .rd_clk_i,
     .rd_data_o    (slave_data),
@@ -118,7 +118,7 @@ module mb4_reg_file #(
 
   mb4_instr_reg #(.TwoBanks(TWO_BANKS)) u_instr (
     .wr_clk_i,
-    .rst_ni      (host_rst_ni),
+    .rst_ni,
     .host_i,
     .rd_data_o   (instr_data),
     .pending_o   (instr_pending),
@@ -133,7 +133,7 @@ module mb4_reg_file #(
 
   mb4_host_read #(.Features(Features)) u_read (
     .rd_clk_i,
-    .rst_ni (host_rst_ni),
+    .rst_ni,
     .host_i,
     .rd_data_o,
     .ram_ready_i     (!clear.en),
@@ -157,7 +157,7 @@ module mb4_reg_file #(
 
   mb4_read_port2 u_read2 (
     .rd_clk_i    (rd2_clk_i),
-    .rst_ni      (host_rst_ni),
+    .rst_ni,
     .rd_en_i     (rd2_i.en),
     .rd_data_o   (rd2_data_o),
     .ram_ready_i (!clear.en && Port2),
@@ -176,13 +176,13 @@ module mb4_reg_file #(
 
   enc_posted #(.Width(16)) u_posted (
     .wr_clk_i,
-    .wr_rst_ni (host_rst_ni),
+    .wr_rst_ni (rst_ni),
     .wr_en_i   (post_wr),
     .wr_data_i ({host_i.wr_addr[7], host_i.wr_addr[6] || (!host_i.wr_addr[7] && bank_seen),
                  host_i.wr_addr[6] ? bank_seen : host_i.wr_addr[5], host_i.wr_addr[4:0],
                  host_i.wr_data}),
     .clk_i,
-    .rst_ni,
+    .rst_ni    (rst_core_ni),
     .valid_o   (post_valid),
     .data_o    (post_data),
     .ready_i   (post_ready),
@@ -196,7 +196,7 @@ module mb4_reg_file #(
   // reserved bit.
   mb4_recent #(.Features(Features)) u_recent (
     .wr_clk_i,
-    .rst_ni    (host_rst_ni),
+    .rst_ni,
     .rd_clk_i,
     .host_i,
     .bank_i    (bank_seen),
@@ -212,13 +212,13 @@ module mb4_reg_file #(
 
   mb4_ram_clear u_clear (
     .clk_i,
-    .rst_ni,
+    .rst_ni (rst_core_ni),
     .clear_o (clear)
   );
 
   mb4_scd_store #(.Port2(Port2), .Tap(Tap), .Features(Features)) u_scd (
     .clk_i,
-    .rst_ni,
+    .rst_ni (rst_core_ni),
     .slaveloc5_i  (cfg_o.slaveloc5),
     .banks_i      (banks),
     .bank_i,
@@ -259,7 +259,7 @@ module mb4_reg_file #(
 
   mb4_bank_ctrl #(.TwoBanks(TWO_BANKS)) u_bank (
     .clk_i,
-    .rst_ni,
+    .rst_ni (rst_core_ni),
     .singlebank_i   (cfg_o.singlebank),
     .holdbank_i     (instr_i.held.holdbank),
     .kept_i         (base_kept),
@@ -273,7 +273,7 @@ module mb4_reg_file #(
 
   mb4_cds_bank #(.TwoLines(TWO_LINES), .TwoBanks(TWO_BANKS)) u_cds (
     .clk_i,
-    .rst_ni,
+    .rst_ni (rst_core_ni),
     .banks_i     (banks),
     .bank_i,
     .holdbank_i  (instr_i.held.holdbank),

@@ -45,7 +45,7 @@ module mb4_slave_cfg #(
   logic [2:0]  row;
   logic [3:0]  byte_en;
   logic [7:0]  crc_byte;
-  // Of crc_byte with its bit 0 = 1, 0. Kept: synthesis does not know that bit 0 comes late.
+  // crc_byte decoded for both values of its bit 0. Kept, because that bit comes late over SPI.
   (* keep *) logic [12*CODES-1:0] crc;
 
   logic [CODES-1:0] ends;

@@ -62,7 +62,7 @@ struct Access {
 class BAccessBlock : public testing::Test {
  protected:
   BAccessBlock() {
-    m.freqr_i = m.mo_i = 0;
+    m.cell_shift_i = m.mo_i = 0;
     m.access_i = 0;
     m.start_i = m.start_use_i = m.init_i = m.abort_i = m.tick_i = m.expired_i = 0;
     m.sl_i = 3;
@@ -100,7 +100,7 @@ class BAccessBlock : public testing::Test {
     history = {3, 3};
     pending.clear();
     sl = 3;
-    m.freqr_i = static_cast<std::uint8_t>(access.freqr);
+    m.cell_shift_i = static_cast<std::uint8_t>(access.freqr);
     m.access_i = access.port();
     m.mo_i = access.mo;
     m.start_use_i = static_cast<std::uint8_t>(access.lines);

@@ -12,15 +12,15 @@ namespace {
 class Timeout : public mb4test::Block<Vbiss_cdm_timeout> {
  public:
   Timeout() {
-    model.frame_end_i = model.cdm_i = model.clear_i = 0;
+    model.frame_done_i = model.cdm_i = model.clear_i = 0;
     reset();
   }
   void frames(unsigned count, bool cdm) {
     for (unsigned i = 0; i < count; ++i) {
-      model.frame_end_i = 1;
+      model.frame_done_i = 1;
       model.cdm_i = cdm;
       clock();
-      model.frame_end_i = 0;
+      model.frame_done_i = 0;
       model.cdm_i = 1;  // counts at the end of a frame only
       for (int k = 0; k < 3; ++k) clock();
     }

@@ -31,7 +31,7 @@ class ControlFrameBlock : public testing::Test {
   ControlFrameBlock() {
     m.access_i = 0;
     m.ida_invert_i = m.select_i = m.blind_i = m.rdata_i = m.post_busy_i = 0;
-    m.begin_i = m.abort_i = m.start_i = m.frame_end_i = m.cds_i = 0;
+    m.begin_i = m.abort_i = m.start_i = m.frame_done_i = m.cds_i = 0;
     m.cdm_timeout_i = m.expired_i = m.stalled_i = m.stalled_start_i = 0;
     block.reset();
   }
@@ -62,12 +62,12 @@ class ControlFrameBlock : public testing::Test {
     m.start_i = 0;
     clocks(random.below(3));
     m.cds_i = static_cast<std::uint8_t>(cds);
-    m.frame_end_i = 1;
+    m.frame_done_i = 1;
     m.eval();
     in_body = m.in_body_o != 0;
     waits = m.wait_o != 0;
     clock();
-    m.frame_end_i = 0;
+    m.frame_done_i = 0;
     m.cds_i = static_cast<std::uint8_t>(random.below(4));
     clocks(1 + random.below(3));
     // Page 35: CDMTIMEOUT.
@@ -321,11 +321,11 @@ TEST_F(ControlFrameBlock, Abort_EndsWithoutAResult) {
       clock();
       m.start_i = 0;
       m.cds_i = script.cds[at] == '1' ? 1 : 0;
-      m.frame_end_i = 1;
+      m.frame_done_i = 1;
     }
     m.abort_i = 1;
     clock();
-    m.abort_i = m.frame_end_i = 0;
+    m.abort_i = m.frame_done_i = 0;
     clocks(3);
     EXPECT_EQ(written.size(), bytes);
     EXPECT_FALSE(ended);
@@ -369,9 +369,9 @@ TEST_F(ControlFrameBlock, BeginInAFrame_CountsFromTheNextOne) {
     rdata[0] = access.ids;
     clocks(2);
     m.post_busy_i = 0;
-    m.frame_end_i = 1;
+    m.frame_done_i = 1;
     clock();
-    m.frame_end_i = 0;
+    m.frame_done_i = 0;
     clocks(3);
     EXPECT_EQ(play(), script.cdm.size());
     EXPECT_TRUE(ended && !reg_error);

@@ -42,8 +42,8 @@ class Edges : public mb4test::Block<Vbiss_edge_count> {
       last_told = model.one_left_o != 0;
       model.rise_i = 1;
       model.eval();
-      EXPECT_EQ(model.two_next_o, edges >= 1);
-      EXPECT_EQ(model.two_o, edges >= 2);
+      EXPECT_EQ(model.two_edges_next_o, edges >= 1);
+      EXPECT_EQ(model.two_edges_o, edges >= 2);
       clock();
       model.rise_i = 0;
       if (edges < waits) model.wait_i = 1;

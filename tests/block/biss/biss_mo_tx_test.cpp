@@ -123,8 +123,8 @@ class MoTxBlock : public testing::Test {
     m.go_i = static_cast<std::uint8_t>((now.reduced ? 4 : 0) | (now.returns ? 2 : 0));
     m.rise_i = now.rise;
     m.biss_c_i = now.biss_c;
-    m.final_i = now.last;
-    m.clocks_i = now.clocks;
+    m.final_rise_i = now.last;
+    m.ma_clocks_i = now.clocks;
     // biss_pkg::offer_t: any, last, slave, word.
     m.offer_i = std::uint64_t{at + 1 >= slots.size()} << 42;
     if (!slots.empty()) {
