@@ -4,10 +4,11 @@
 #
 # Uses drivers/ without the rest of the build.
 #
-#   standalone.sh beside_regmap|copied_with_header|copied_without_header CMAKE ROOT
+#   standalone.sh beside_regmap|copied_with_header|copied_without_header|headers_alone CMAKE ROOT
 #
-# The first two must configure and build a program against mb4::driver, the last one must stop with
-# a message that says what is missing.
+# The first two must configure and build a program against mb4::driver, the third must stop with a
+# message that says what is missing. headers_alone copies only what drivers/README.md names for use
+# without CMake, and compiles a program with it.
 
 set -u
 case=$1
@@ -15,6 +16,22 @@ cmake=$2
 root=$3
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
+
+cat > "$work/main.cpp" << END
+#include "mb4/mb4.hpp"
+int main() { return mb4::validate(mb4::Config()).ok() ? 1 : 0; }
+END
+
+if [ "$case" = headers_alone ]; then
+  sentence=$(sed -n '/^Or copy the folders/,/^$/p' "$root/drivers/README.md" | tr '\n' ' ')
+  mkdir "$work/include"
+  for part in $(echo "${sentence%% of *}" | grep -o '`[^`]*`' | tr -d '`'); do
+    cp -r "$root/drivers/include/$part" "$work/include/"
+  done
+  cp "$root/regmap/generated/mb4/mb4_regs.hpp" "$work/include/"
+  "${CXX:-c++}" -std=c++17 -Wall -Wextra -I "$work/include" "$work/main.cpp" -o "$work/main"
+  exit
+fi
 
 case $case in
   beside_regmap)
@@ -30,10 +47,7 @@ case $case in
 esac
 
 mkdir "$work/app"
-cat > "$work/app/main.cpp" << END
-#include "mb4/mb4.hpp"
-int main() { return mb4::validate(mb4::Config()).ok() ? 1 : 0; }
-END
+mv "$work/main.cpp" "$work/app/"
 cat > "$work/app/CMakeLists.txt" << END
 cmake_minimum_required(VERSION 3.25)
 project(app LANGUAGES CXX)

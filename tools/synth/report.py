@@ -198,7 +198,8 @@ def page(folder, axi_lines):
              ", ".join(map(str, SEEDS)) + ", after routing, for the slowest corner, without a timing "
              "constraint that would help.", "",
              "## iCE40, placed and routed", "",
-             f"With `synth_ice40 {ICE40_FLAGS}`, as below.", "",
+             f"With `synth_ice40 {ICE40_FLAGS}`, as below. `quirks_i` of `mb4_core` is a port here; with the constant of a "
+             "product `mb4_core` is the row full of the presets. `mb4_parallel` is `mb4_engine` with the parallel bus.", "",
              "| top | LUT4 | flops | block RAM | HX8K clk / MHz | HX8K host clock | "
              "UP5K clk / MHz | UP5K host clock |", "|---|---|---|---|---|---|---|---|"]
     for top, what in TOPS.items():
