@@ -32,6 +32,7 @@ constexpr sim::HostInterface kInterfaces[] = {sim::HostInterface::kSpi, sim::Hos
 
 struct FuzzCounts {
   std::uint64_t cases = 0;
+  std::uint64_t switched_off = 0;
   std::uint64_t operations = 0;
   std::uint64_t frames = 0;
   std::uint64_t accesses = 0;
@@ -143,6 +144,13 @@ void operate(mb4test::Chip& chip, Reader& reader) {
   }
 }
 
+// A command of the fuzz has switched off data or control communication of the encoder. A reset of
+// the chip does not switch them on again.
+bool switched_off(mb4test::Chip& chip) {
+  const auto* const control = chip.simulator.slave(1)->control();
+  return control != nullptr && (!control->data_active() || !control->control_active());
+}
+
 // Registers of the encoder are written and read back.
 void check_control(mb4test::Chip& chip) {
   mb4test::ControlHost host(chip);
@@ -179,6 +187,7 @@ void check_after_reset(mb4test::Chip& chip, sim::HostInterface interface) {
   chip.write(reg::rdata_address(6), {0x5A, 0xA5});
   chip.advance_us(1);
   ASSERT_EQ(chip.read(reg::rdata_address(6), 2), (Bytes{0x5A, 0xA5}));
+  if (switched_off(chip)) return;
   chip.instruct(reg::kInstrCdm0);
   ASSERT_TRUE(chip.wait_eot(500));
   ASSERT_EQ(chip.read(reg::kAddrScdata, 4), (Bytes{0xBF, 0x37, 0xAF, 0x0A}));
@@ -243,6 +252,7 @@ void run_case(const Bytes& bytes, std::uint64_t seed, FuzzCounts& counts, std::u
   counts.time += chip.simulator.now();
   if (const auto* const control = chip.simulator.slave(1)->control()) {
     counts.accesses += control->counters().starts;
+    if (switched_off(chip)) ++counts.switched_off;
   }
   ++counts.cases;
   chip.simulator.host_check().clear();  // illegal on purpose
@@ -338,9 +348,10 @@ TEST(HostFuzz, AnyPinActivity_NoAssertionAndACleanResetHelps) {
     if (counts.frames > frames + 2 && kept.size() < 500) kept.push_back(bytes);
   }
   std::printf(
-      "%llu cases, %llu operations, %llu frames, %llu accesses, %.1f ms simulated, %.1f s, "
-      "kept %zu\n",
+      "%llu cases, %llu of them with the encoder switched off, %llu operations, %llu frames, %llu "
+      "accesses, %.1f ms simulated, %.1f s, kept %zu\n",
       static_cast<unsigned long long>(counts.cases),
+      static_cast<unsigned long long>(counts.switched_off),
       static_cast<unsigned long long>(counts.operations),
       static_cast<unsigned long long>(counts.frames),
       static_cast<unsigned long long>(counts.accesses), static_cast<double>(counts.time) * 1e-9,
