@@ -199,7 +199,8 @@ void check_after_reset(mb4test::Chip& chip, sim::HostInterface interface) {
       chip.instruct(reg::kInstrCdm0);
       ASSERT_TRUE(chip.wait_eot(500));
     }
-    check_control(chip);
+    // A command whose EX came before the reset takes effect with the first of these frames.
+    if (!switched_off(chip)) check_control(chip);
   }
 }
 
