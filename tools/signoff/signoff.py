@@ -246,13 +246,13 @@ def page(blocks, items, data, folder):
            "`tools/signoff/signoff.py` makes this page from reports of test runs; do not edit it. "
            "The items stand in", "`tools/signoff/items.toml`. An item is done if all its tests have "
            f"passed in a report from {items[0]['since']} or later,", "and if its figure reaches the "
-           "goal. \"not run\" means that no test of the item is in a report. \"open\" has its reason in the row: the report is",
-           "older than that day (its result stands beside it; of several reports the oldest counts), a test was",
+           "goal. \"not run\" means that no test of the item is in a report.",
+           "\"open\" has its reason in the row: the report is older than that day (its result stands beside it; of several reports the oldest counts), a test was",
            "skipped, a goal is not met, or nothing can show it yet. \"N tests\" are those that passed.", "",
            "The stages follow those of OpenTitan: D for design, V for verification, S for release. "
            "A block has reached", "a stage if all items of this stage and of the earlier ones of the "
-           "same letter are done. D0, V0, S0: not even the first; one skipped test is enough. Empty: the block",
-           "has no item of this letter.", "",
+           "same letter are done.",
+           "D0, V0, S0: not even the first; one skipped test is enough. Empty: the block has no item of this letter.", "",
            "The report of a run replaces the one before; a part of a long run can be added to it (`take "
            "... --add`).", "A report of a part of the tests leaves the other items without one:", "",
            "| run | items with a report, of any day | items without a report |", "|---|---|---|",

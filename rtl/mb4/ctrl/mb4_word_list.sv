@@ -10,7 +10,7 @@
 // next_i. With Sum = 1 the module first walks through the list once: from the clock after start_i
 // on, len_last_o gives the bits of one word, minus 1, in each clock, with len_valid_o. offer_o is
 // the first word when len_valid_o has fallen.
-// Misuse: with start_i while idle_i = 0, a list of one data channel takes the row of the last frame.
+// Misuse: if start_i comes while idle_i = 0, a list of one data channel takes an old row.
 // If the host changes the configuration between start_i and the end of the frame, the frame
 // may have other words or fail by its flags, but it ends (decision 38).
 // Datasheet: pages 23..26; order of the words: protocol of the chain, first slave first.
