@@ -546,7 +546,7 @@ MODULES = {
         **struct("register_ma_i", (None, 1), (0.05, 1)), "bit_valid_i": 0.3,
         "tick_i": 0.5, "len_valid_i": 0.01,
         "len_last_i": rarely("len_last_i", 0.5, lambda s: s.rng.choice([0, 6, 29, 79])),
-        "word_done_i": 0.2, "sl_i": 0.7, "bus_i": rarely("bus_i", 0.01),
+        "word_done_i": 0.2, "sl_i": 0.7, "mo_bus_i": rarely("mo_bus_i", 0.01),
         "ack_i": 0.2, "late_i": 0.002}),
     "biss_edge_count": simple(*CORE, 6000, {
         "begin_i": 0.05, "rise_i": 0.5, "len_valid_i": 0.03, "wait_i": 0.05,
