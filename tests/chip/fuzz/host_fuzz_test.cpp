@@ -144,13 +144,6 @@ void operate(mb4test::Chip& chip, Reader& reader) {
   }
 }
 
-// A command of the fuzz has switched off data or control communication of the encoder. A reset of
-// the chip does not switch them on again.
-bool switched_off(mb4test::Chip& chip) {
-  const auto* const control = chip.simulator.slave(1)->control();
-  return control != nullptr && (!control->data_active() || !control->control_active());
-}
-
 // Registers of the encoder are written and read back.
 void check_control(mb4test::Chip& chip) {
   mb4test::ControlHost host(chip);
@@ -187,21 +180,23 @@ void check_after_reset(mb4test::Chip& chip, sim::HostInterface interface) {
   chip.write(reg::rdata_address(6), {0x5A, 0xA5});
   chip.advance_us(1);
   ASSERT_EQ(chip.read(reg::rdata_address(6), 2), (Bytes{0x5A, 0xA5}));
-  if (switched_off(chip)) return;
+  // A command of the fuzz may have switched off data or control communication of the encoder. A
+  // reset of the chip does not switch them on again.
+  const auto* const control = chip.simulator.slave(1)->control();
+  if (control != nullptr && !control->data_active()) return;
   chip.instruct(reg::kInstrCdm0);
   ASSERT_TRUE(chip.wait_eot(500));
   ASSERT_EQ(chip.read(reg::kAddrScdata, 4), (Bytes{0xBF, 0x37, 0xAF, 0x0A}));
   ASSERT_EQ(chip.status(), reg::kResetStatus0);
-  if (chip.simulator.slave(1)->control() != nullptr) {
-    // The reset may have cut a control frame. If its bits and the zeros after them are the header
-    // of a command, the encoder counts no zeros up to the slot of a late EX (decision 31).
-    for (unsigned frame = 0; frame < sim::control_slot::kExTested; ++frame) {
-      chip.instruct(reg::kInstrCdm0);
-      ASSERT_TRUE(chip.wait_eot(500));
-    }
-    // A command whose EX came before the reset takes effect with the first of these frames.
-    if (!switched_off(chip)) check_control(chip);
+  if (control == nullptr) return;
+  // The reset may have cut a control frame. If its bits and the zeros after them are the header of
+  // a command, the encoder counts no zeros up to the slot of a late EX (decision 31).
+  for (unsigned frame = 0; frame < sim::control_slot::kExTested; ++frame) {
+    chip.instruct(reg::kInstrCdm0);
+    ASSERT_TRUE(chip.wait_eot(500));
   }
+  // A command whose EX came before the reset takes effect with one of these frames.
+  if (control->data_active() && control->control_active()) check_control(chip);
 }
 
 std::string hex(const Bytes& bytes) {
@@ -253,7 +248,7 @@ void run_case(const Bytes& bytes, std::uint64_t seed, FuzzCounts& counts, std::u
   counts.time += chip.simulator.now();
   if (const auto* const control = chip.simulator.slave(1)->control()) {
     counts.accesses += control->counters().starts;
-    if (switched_off(chip)) ++counts.switched_off;
+    if (!control->data_active() || !control->control_active()) ++counts.switched_off;
   }
   ++counts.cases;
   chip.simulator.host_check().clear();  // illegal on purpose

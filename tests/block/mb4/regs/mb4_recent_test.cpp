@@ -28,14 +28,21 @@ unsigned any_address(mb4test::Dice& random, unsigned limit) {
   return kAddresses[random.below(limit)];
 }
 
-class RecentBlock : public testing::Test {
- protected:
-  RecentBlock() {
+// The module after a reset, with no byte in the queue.
+template <class Model>
+struct Recent {
+  Recent() {
     m.wr_clk_i = m.rd_clk_i = m.bank_i = m.marked_i = 0;
     m.host_i = 0;
     m.empty_i = 1;
     mb4test::pulse_reset(m);
   }
+  mb4test::Owned<Model> owner;
+  Model& m = *owner;
+};
+
+class RecentBlock : public testing::Test, protected Recent<Vmb4_recent> {
+ protected:
   bool empty() const { return taken == log.size(); }
   // The core takes the oldest byte that waits.
   void take() {
@@ -116,8 +123,6 @@ class RecentBlock : public testing::Test {
   bool writing = false;
   Written now{};
   unsigned hits = 0, marks = 0;
-  mb4test::Owned<Vmb4_recent> owner;
-  Vmb4_recent& m = *owner;
 
  private:
   void follow() {
@@ -160,11 +165,8 @@ TEST_F(RecentBlock, CoreTakesBytes_MemoryAnswersFromThenOn) {
 // Writes all registers, and reads those of `whole` back, until a reset; the others give no answer.
 template <class Model>
 void expect_read_back(const std::vector<unsigned>& whole) {
-  mb4test::Owned<Model> owner;
-  Model& m = *owner;
-  m.wr_clk_i = m.rd_clk_i = m.bank_i = m.marked_i = 0;
-  m.host_i = 0;
-  m.empty_i = 1;
+  Recent<Model> recent;
+  Model& m = recent.m;
   const auto edge = [&m](auto& clock) {
     m.eval();
     clock = 1;
