@@ -21,10 +21,11 @@ def main():
                                 *sys.argv[2:]])
     print(text.strip())
     if status == 0:
-        # A fault makes a signal idle, or a constant wider than what it replaces.
+        # A fault makes a signal idle, a constant wider than what it replaces, or an enum 0 or 1.
         status, text = project.run(
             [project.tool("verilator"), "--cc", "--build", "-j", "2", "-fno-const-bit-op-tree",
              *project.verilator_flags(), "-Wno-fatal", "-Wno-lint", "-Wno-style",
+             "-Wno-ENUMVALUE",
              f"-I{project.INCLUDE}",
              "-MAKEFLAGS", "OPT_FAST=-O3",
              "-CFLAGS", f"-std=c++20 -DVL_USER_STOP -include {HERE / 'mutant.h'} -include "
