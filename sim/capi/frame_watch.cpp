@@ -113,7 +113,7 @@ bool FrameWatch::touched(Channel& channel, const MaFrame& frame) {
   for (std::size_t i = channel.settled; i < records.size(); ++i) {
     const FaultRecord& record = records[i];
     const FaultConfig& fault = simulator_.scenario().faults[record.config];
-    const bool here = fault.channel == channel.number || is_of_clock(fault.kind);
+    const bool here = fault.channel == channel.number || fault.kind->place == FaultPlace::kClock;
     const bool waits = here && record.frame != 0;
     const bool ended = waits ? stories_[i].frames != 0 : record.end < frame.start;
     if (all_ended && ended) ++channel.settled;

@@ -12,39 +12,37 @@
 #include <vector>
 
 #include "sim/core/time.hpp"
+#include "sim/lines/slave_fault.hpp"
 
 namespace mb4::sim {
 
-enum class FaultKind {
-  kBitFlip,  // line: bits of the next frame
-  kGlitch,
-  kStuck,
-  kJitter,
-  kSilent,  // slave
-  kBusy,
-  kWrongCrc,
-  kWrongId,
-  kStuckWord,
-  kStuckCounter,
-  kSkippedWord,
-  kSwappedWords,
-  kUnplug,
-  kAbort,           // host: an SPI frame ends early
-  kClockFrequency,  // pin CLK
-  kClockStop,
+// Where a fault acts. This decides which of FaultConfig::channel and ::slave it has.
+enum class FaultPlace { kLine, kSlave, kHost, kClock };
+
+struct FaultConfig;
+struct FaultLimits;
+struct FaultScene;
+class TomlReader;
+
+// A kind of fault.
+struct FaultType {
+  std::string_view name;  // value of `kind` in the scenario
+  FaultPlace place;
+  bool momentary;  // it has no duration
+  // kSlave: the fault that the slave itself must be able to have. Null if any slave can.
+  const SlaveFault* of_slave;
+  // Reads the keys that only this kind has. Throws ScenarioError.
+  void (*read)(TomlReader& reader, const FaultLimits& limits, FaultConfig& fault);
+  // Makes the fault begin. Returns what it is, for the record, whose times are set.
+  std::string (*begin)(const FaultScene& scene);
+  // Makes the fault end. Null if it is momentary.
+  void (*end)(const FaultScene& scene);
 };
 
-// Name of a fault as in the scenario: "bit-flip", ...
-std::string_view to_string(FaultKind kind);
-// True for a fault that has no duration: bit-flip, glitch, abort.
-bool is_momentary(FaultKind kind);
-// True for a fault of the clock, which acts on all lines.
-bool is_of_clock(FaultKind kind);
-
 struct FaultConfig {
-  FaultKind kind = FaultKind::kGlitch;
-  unsigned channel = 0;  // from 1 on, also for a slave's fault; 0: host and clock
-  unsigned slave = 0;    // from 1 on, as in SCDATAx; 0: none
+  const FaultType* kind = nullptr;  // of fault_types()
+  unsigned channel = 0;             // from 1 on, also for a slave's fault; 0: host and clock
+  unsigned slave = 0;               // from 1 on, as in SCDATAx; 0: none
   bool on_ma = false;    // glitch, stuck, jitter: MA at the slaves instead of SL at the chip
   bool level = false;    // stuck
   Time width = 0;        // glitch, jitter, ps

@@ -22,7 +22,7 @@ void FaultInjector::remember_cable(Source& source) {
   const unsigned channel = faults_[source.config].channel;
   for (const auto& before : sources_) {
     const FaultConfig& fault = faults_[before->config];
-    if (before.get() == &source || fault_type(fault.kind).place != FaultPlace::kLine ||
+    if (before.get() == &source || fault.kind->place != FaultPlace::kLine ||
         fault.channel != channel) {
       continue;
     }
@@ -41,7 +41,7 @@ void FaultInjector::add_new() {
     sources_.push_back(
         std::make_unique<Source>(Source{this, i, Random(derive_seed(seed_, i)), {}, {}, {}}));
     Source& source = *sources_.back();
-    if (fault_type(fault.kind).place == FaultPlace::kLine) remember_cable(source);
+    if (fault.kind->place == FaultPlace::kLine) remember_cable(source);
     for (const Time at : fault.at) queue_.post(at, &FaultInjector::begin, &source);
     if (fault.at.empty()) post_random(source, fault.from);
   }
@@ -64,7 +64,7 @@ void FaultInjector::begin(Time now, void* receiver, std::uint64_t /*word*/) {
   auto& source = *static_cast<Source*>(receiver);
   FaultInjector& self = *source.injector;
   const FaultConfig& fault = self.faults_[source.config];
-  const FaultType& type = fault_type(fault.kind);
+  const FaultType& type = *fault.kind;
   FaultRecord record;
   record.config = source.config;
   record.begin = now;
@@ -88,7 +88,7 @@ void FaultInjector::end(Time now, void* receiver, std::uint64_t record) {
   self.records_[record].end = now;
   std::erase(source.lasting, record);
   if (!source.lasting.empty()) return;
-  fault_type(self.faults_[source.config].kind).end(self.scene(now, source, self.records_[record]));
+  self.faults_[source.config].kind->end(self.scene(now, source, self.records_[record]));
 }
 
 }  // namespace mb4::sim

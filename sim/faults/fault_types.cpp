@@ -9,6 +9,8 @@
 
 #include "sim/core/number_text.hpp"
 #include "sim/lines/line.hpp"
+#include "sim/lines/protocols.hpp"
+#include "sim/lines/slave.hpp"
 
 namespace mb4::sim {
 namespace {
@@ -130,40 +132,19 @@ void end_jitter(Scene scene) { set_jitter(scene, scene.ma_was.jitter, scene.sl_w
 
 // --- slave ---------------------------------------------------------------------------------
 
-template <SlaveFault kFault>
 void set_slave(Scene scene, bool on) {
-  scene.target.slave(scene.config.slave).set_fault(kFault, on);
-  if (kFault == SlaveFault::kSilent) line_of(scene).chain().refresh(scene.now);
+  const SlaveFault& fault = *scene.config.kind->of_slave;
+  scene.target.slave(scene.config.slave).set_fault(fault, on);
+  if (fault == slave_fault::kSilent) line_of(scene).chain().refresh(scene.now);
 }
 
-template <SlaveFault kFault>
 std::string begin_slave(Scene scene) {
-  set_slave<kFault>(scene, true);
-  switch (kFault) {
-    case SlaveFault::kSilent:
-      return who(scene.config) + " silent";
-    case SlaveFault::kBusy:
-      return who(scene.config) + " busy for ever";
-    case SlaveFault::kWrongCrc:
-      return "wrong CRC from " + who(scene.config);
-    case SlaveFault::kWrongId:
-      return who(scene.config) + " answers to a wrong ID";
-    case SlaveFault::kStuckWord:
-      return who(scene.config) + " sends its last word again";
-    case SlaveFault::kStuckCounter:
-      return "life counter of " + who(scene.config) + " stands still";
-    case SlaveFault::kSkippedWord:
-      return "life counter of " + who(scene.config) + " goes two steps at once";
-    case SlaveFault::kSwappedWords:
-      break;
-  }
-  return "words of " + who(scene.config) + " and of the one behind it swapped";
+  set_slave(scene, true);
+  std::string sentence(scene.config.kind->of_slave->happens);
+  return sentence.replace(sentence.find('%'), 1, who(scene.config));
 }
 
-template <SlaveFault kFault>
-void end_slave(Scene scene) {
-  set_slave<kFault>(scene, false);
-}
+void end_slave(Scene scene) { set_slave(scene, false); }
 
 // Unplugs the slave and those behind it, or plugs all of them in.
 void plug(Scene scene, bool in) {
@@ -219,90 +200,38 @@ std::string begin_clock_stop(Scene scene) {
 
 void end_clock(Scene scene) { scene.target.set_clock(scene.now, std::nullopt); }
 
-template <SlaveFault kFault>
-constexpr FaultType slave_type(FaultKind kind, std::string_view name) {
-  return {kind,   name,         FaultPlace::kSlave,  false,
-          kFault, read_nothing, begin_slave<kFault>, end_slave<kFault>};
-}
-
-constexpr FaultType kTypes[] = {
-    {FaultKind::kBitFlip,
-     "bit-flip",
-     FaultPlace::kLine,
-     true,
-     {},
-     read_bit_flip,
-     begin_bit_flip,
-     nullptr},
-    {FaultKind::kGlitch, "glitch", FaultPlace::kLine, true, {}, read_glitch, begin_glitch, nullptr},
-    {FaultKind::kStuck, "stuck", FaultPlace::kLine, false, {}, read_stuck, begin_stuck, end_stuck},
-    {FaultKind::kJitter,
-     "jitter",
-     FaultPlace::kLine,
-     false,
-     {},
-     read_jitter,
-     begin_jitter,
-     end_jitter},
-    slave_type<SlaveFault::kSilent>(FaultKind::kSilent, "silent"),
-    slave_type<SlaveFault::kBusy>(FaultKind::kBusy, "busy"),
-    slave_type<SlaveFault::kWrongCrc>(FaultKind::kWrongCrc, "wrong-crc"),
-    slave_type<SlaveFault::kWrongId>(FaultKind::kWrongId, "wrong-id"),
-    slave_type<SlaveFault::kStuckWord>(FaultKind::kStuckWord, "stuck-word"),
-    slave_type<SlaveFault::kStuckCounter>(FaultKind::kStuckCounter, "stuck-counter"),
-    slave_type<SlaveFault::kSkippedWord>(FaultKind::kSkippedWord, "skipped-word"),
-    slave_type<SlaveFault::kSwappedWords>(FaultKind::kSwappedWords, "swapped-words"),
-    {FaultKind::kUnplug,
-     "unplug",
-     FaultPlace::kSlave,
-     false,
-     {},
-     read_nothing,
-     begin_unplug,
-     end_unplug},
-    {FaultKind::kAbort, "abort", FaultPlace::kHost, true, {}, read_abort, begin_abort, nullptr},
-    {FaultKind::kClockFrequency,
-     "clock-frequency",
-     FaultPlace::kClock,
-     false,
-     {},
-     read_clock_frequency,
-     begin_clock_frequency,
-     end_clock},
-    {FaultKind::kClockStop,
-     "clock-stop",
-     FaultPlace::kClock,
-     false,
-     {},
-     read_nothing,
-     begin_clock_stop,
-     end_clock},
+constexpr FaultType kOfLine[] = {
+    {"bit-flip", FaultPlace::kLine, true, nullptr, read_bit_flip, begin_bit_flip, nullptr},
+    {"glitch", FaultPlace::kLine, true, nullptr, read_glitch, begin_glitch, nullptr},
+    {"stuck", FaultPlace::kLine, false, nullptr, read_stuck, begin_stuck, end_stuck},
+    {"jitter", FaultPlace::kLine, false, nullptr, read_jitter, begin_jitter, end_jitter},
 };
 
-// The rows hold the kinds 0, 1, 2 ... without a gap, in any order.
-constexpr bool every_kind_once() {
-  for (std::size_t kind = 0; kind < std::size(kTypes); ++kind) {
-    const auto is_kind = [&](const FaultType& type) {
-      return static_cast<std::size_t>(type.kind) == kind;
-    };
-    if (std::count_if(std::begin(kTypes), std::end(kTypes), is_kind) != 1) return false;
-  }
-  return true;
+constexpr FaultType of_slave(const SlaveFault& fault) {
+  return {fault.name, FaultPlace::kSlave, false, &fault, read_nothing, begin_slave, end_slave};
 }
-static_assert(every_kind_once());
+
+constexpr FaultType kOthers[] = {
+    {"unplug", FaultPlace::kSlave, false, nullptr, read_nothing, begin_unplug, end_unplug},
+    {"abort", FaultPlace::kHost, true, nullptr, read_abort, begin_abort, nullptr},
+    {"clock-frequency", FaultPlace::kClock, false, nullptr, read_clock_frequency,
+     begin_clock_frequency, end_clock},
+    {"clock-stop", FaultPlace::kClock, false, nullptr, read_nothing, begin_clock_stop, end_clock},
+};
 
 }  // namespace
 
-std::span<const FaultType> fault_types() { return kTypes; }
-
-const FaultType& fault_type(FaultKind kind) {
-  return *std::find_if(std::begin(kTypes), std::end(kTypes),
-                       [&](const FaultType& type) { return type.kind == kind; });
+std::span<const FaultType> fault_types() {
+  static const std::vector<FaultType> list = [] {
+    std::vector<FaultType> all(std::begin(kOfLine), std::end(kOfLine));
+    for (const SlaveFault* fault : slave_fault::kOfAnyProtocol) all.push_back(of_slave(*fault));
+    for (const Protocol* protocol : protocols()) {
+      for (const SlaveFault* fault : protocol->faults) all.push_back(of_slave(*fault));
+    }
+    all.insert(all.end(), std::begin(kOthers), std::end(kOthers));
+    return all;
+  }();
+  return list;
 }
-
-std::string_view to_string(FaultKind kind) { return fault_type(kind).name; }
-
-bool is_momentary(FaultKind kind) { return fault_type(kind).momentary; }
-bool is_of_clock(FaultKind kind) { return fault_type(kind).place == FaultPlace::kClock; }
 
 }  // namespace mb4::sim

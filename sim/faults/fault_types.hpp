@@ -1,28 +1,21 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The kinds of fault: name, keys and effect of each. fault_types.cpp holds the only list of them.
+// The list of all kinds of fault, and what their functions are given. The faults that a slave
+// itself has come from sim/lines (slave_fault.hpp and the protocols).
 #ifndef MB4SIM_FAULT_TYPES_HPP_
 #define MB4SIM_FAULT_TYPES_HPP_
 
 #include <cstdint>
-#include <optional>
 #include <span>
-#include <string>
-#include <string_view>
 
 #include "sim/core/cable.hpp"
 #include "sim/core/random.hpp"
 #include "sim/core/time.hpp"
-#include "sim/core/toml_reader.hpp"
 #include "sim/faults/fault.hpp"
 #include "sim/faults/fault_target.hpp"
-#include "sim/lines/slave.hpp"
 
 namespace mb4::sim {
-
-// Where a fault acts. This decides which of FaultConfig::channel and ::slave it has.
-enum class FaultPlace { kLine, kSlave, kHost, kClock };
 
 // One [[fault]] table at work.
 struct FaultScene {
@@ -41,24 +34,8 @@ struct FaultLimits {
   std::int64_t max_clk_hz;
 };
 
-struct FaultType {
-  FaultKind kind;
-  std::string_view name;  // value of `kind` in the scenario
-  FaultPlace place;
-  bool momentary;  // it has no duration
-  // kSlave: the fault that the slave itself must be able to have.
-  std::optional<SlaveFault> of_slave;
-  // Reads the keys that only this kind has. Throws ScenarioError.
-  void (*read)(TomlReader& reader, const FaultLimits& limits, FaultConfig& fault);
-  // Makes the fault begin. Returns what it is, for the record, whose times are set.
-  std::string (*begin)(const FaultScene& scene);
-  // Makes the fault end. Null if it is momentary.
-  void (*end)(const FaultScene& scene);
-};
-
-// In the order in which they are listed to the user.
+// In the order in which they are listed to the user. A pointer into it holds for ever.
 std::span<const FaultType> fault_types();
-const FaultType& fault_type(FaultKind kind);
 
 }  // namespace mb4::sim
 

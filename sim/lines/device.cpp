@@ -4,24 +4,9 @@
 
 namespace mb4::sim {
 
-std::string_view DeviceConfig::refuses(SlaveFault fault) const {
-  switch (fault) {
-    case SlaveFault::kSilent:
-      return "";
-    case SlaveFault::kBusy:
-      return "this slave has no busy time";
-    case SlaveFault::kWrongCrc:
-      return crc.width() == 0 ? "this slave sends no CRC" : "";
-    case SlaveFault::kWrongId:
-      return "this slave has no ID";
-    case SlaveFault::kStuckWord:
-    case SlaveFault::kSwappedWords:
-      return "only a BiSS C sensor can have it";
-    case SlaveFault::kStuckCounter:
-    case SlaveFault::kSkippedWord:
-      return "this slave has no life counter";
-  }
-  return "";
+std::string_view DeviceConfig::refuses(const SlaveFault& fault) const {
+  if (fault == slave_fault::kWrongCrc && crc.width() != 0) return "";
+  return fault.refusal;
 }
 
 }  // namespace mb4::sim

@@ -29,6 +29,8 @@ struct Protocol {
   // preset's, or blank() with data_bits = 0: then the user must give the length. `file` becomes the
   // path of the file that the slave names, if there is one. Throws ScenarioError.
   void (*read)(TomlReader& reader, DeviceConfig& device, std::string& file);
+  // The faults that only its slaves can have.
+  std::span<const SlaveFault* const> faults{};
 };
 
 // In the order in which they are listed to the user.

@@ -14,36 +14,12 @@
 #include "sim/core/time.hpp"
 #include "sim/lines/registers/register_file.hpp"
 #include "sim/lines/shift_register.hpp"
+#include "sim/lines/slave_fault.hpp"
 
 namespace mb4::sim {
 
 class Actuator;
 class ControlSlave;
-
-// Faults that a scenario can ask of a slave.
-enum class SlaveFault {
-  kSilent,
-  kBusy,
-  kWrongCrc,
-  kWrongId,
-  kStuckWord,
-  kStuckCounter,
-  kSkippedWord,
-  kSwappedWords,
-};
-
-// Faults of a slave. A member is true as long as the fault lasts. SlaveChain::detach() and
-// ControlFaults make other faults.
-struct SlaveFaults {
-  bool silent = false;     // SLO is 1, whatever the slave sends
-  bool busy = false;       // BiSS: the acknowledge does not end
-  bool wrong_crc = false;  // the last bit of the CRC after the data is inverted
-  // BiSS C:
-  bool stuck_word = false;     // the slave sends the word of its last frame again
-  bool stuck_counter = false;  // its life counter stands still
-  bool skipped_word = false;   // its life counter goes two steps on with each frame
-  bool swapped_words = false;  // its data and those of the slave behind it come in exchanged order
-};
 
 class Slave {
  public:
@@ -90,20 +66,17 @@ class Slave {
   virtual bool set_data(std::uint64_t raw) = 0;
   // The raw word of the current or last frame. Nothing if the device does not know it (replay).
   virtual std::optional<std::uint64_t> sent_word() const { return std::nullopt; }
-  // SlaveChain::refresh() applies a changed `silent`. The other faults act from the next
-  // start bit on; with SSI from the next frame on.
-  SlaveFaults& faults() { return faults_; }
-  // Begins or ends a fault that DeviceConfig::refuses() does not refuse.
-  virtual void set_fault(SlaveFault fault, bool on) {
-    if (fault == SlaveFault::kSilent) faults_.silent = on;
-    if (fault == SlaveFault::kBusy) faults_.busy = on;
-    if (fault == SlaveFault::kWrongCrc) faults_.wrong_crc = on;
-    if (fault == SlaveFault::kStuckWord) faults_.stuck_word = on;
-    if (fault == SlaveFault::kStuckCounter) faults_.stuck_counter = on;
-    if (fault == SlaveFault::kSkippedWord) faults_.skipped_word = on;
-    if (fault == SlaveFault::kSwappedWords) faults_.swapped_words = on;
+  // Begins or ends a fault that DeviceConfig::refuses() does not refuse. SlaveChain::refresh()
+  // applies a changed kSilent. The other faults act from the next start bit on; with SSI from the
+  // next frame on.
+  virtual void set_fault(const SlaveFault& fault, bool on) {
+    if (fault == slave_fault::kSilent) silent_ = on;
+    if (fault == slave_fault::kBusy) busy_for_ever_ = on;
+    if (fault == slave_fault::kWrongCrc) wrong_crc_ = on;
   }
-  const SlaveFaults& faults() const { return faults_; }
+  bool silent() const { return silent_; }
+  // Its data and those of the slave behind it come in exchanged order. SlaveChain does it.
+  bool swapped_words() const { return swapped_words_; }
   // Number of frames in which the slave has sent its start bit.
   std::uint64_t frames() const { return frames_; }
   // The raw word that the slave latched for its frame `frame`, from 1 on. Nothing if there was no
@@ -127,6 +100,9 @@ class Slave {
   virtual const Actuator* actuator() const { return nullptr; }
 
  protected:
+  bool busy_for_ever() const { return busy_for_ever_; }
+  bool wrong_crc() const { return wrong_crc_; }
+  void set_swapped_words(bool on) { swapped_words_ = on; }
   void set_slo(bool level) { slo_ = level; }
   void set_idle(bool idle) { idle_ = idle; }
   // `data`: the register to shift, null if the slave is not shifting.
@@ -155,8 +131,12 @@ class Slave {
   bool slo_ = true;
   bool idle_ = true;
   bool takes_sli_ = false;
+  // Faults: true as long as they last.
+  bool silent_ = false;
+  bool busy_for_ever_ = false;
+  bool wrong_crc_ = false;
+  bool swapped_words_ = false;
   ShiftRegister* shifting_ = nullptr;
-  SlaveFaults faults_;
   RegisterFile registers_;
   std::uint64_t frames_ = 0;
   std::vector<std::optional<std::uint64_t>> kept_;  // sent_word() of the last frames

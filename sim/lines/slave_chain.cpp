@@ -50,13 +50,13 @@ SlaveChain::Standing SlaveChain::drive_slaves(Time now, bool ma, bool mo) {
   return standing;
 }
 
-// Where the data begin, SlaveFaults::swapped_words takes effect: the data and CRC of the slave
+// Where the data begin, Slave::swapped_words() takes effect: the data and CRC of the slave
 // behind leave first. Slaves of different length then have another border than the master expects.
 void SlaveChain::swap_words() {
   for (std::size_t i = 0; i + 1 < attached_; ++i) {
     Slave& near = *slaves_[i];
     Slave& far = *slaves_[i + 1];
-    if (!near.faults().swapped_words || near.shifting() == nullptr || far.shifting() == nullptr ||
+    if (!near.swapped_words() || near.shifting() == nullptr || far.shifting() == nullptr ||
         !near.shifting()->loaded() || !far.shifting()->loaded()) {
       continue;
     }
@@ -76,7 +76,7 @@ void SlaveChain::swap_words() {
 // True if each bit that leaves a slave comes in at the next one.
 bool SlaveChain::in_one_row() const {
   for (std::size_t i = 0; i < slaves_.size(); ++i) {
-    if (slaves_[i]->faults().silent || (i != 0 && !slaves_[i - 1]->takes_sli())) return false;
+    if (slaves_[i]->silent() || (i != 0 && !slaves_[i - 1]->takes_sli())) return false;
   }
   return !slaves_.empty() && attached_ == slaves_.size();
 }

@@ -53,7 +53,7 @@ class SlaveChain {
   // Unplugs slave `index` (0 = slave 1) and those behind it: they see MA = 1, time out and become
   // idle. The last slave that is left sees SLI = 1. With index = size() all slaves are plugged in.
   void detach(Time now, std::size_t index);
-  // Applies changed SlaveFaults.
+  // Applies a changed SlaveFault.
   void refresh(Time now);
 
   std::size_t size() const { return slaves_.size(); }
@@ -74,9 +74,7 @@ class SlaveChain {
 
  private:
   static void on_timer(Time now, void* receiver, std::uint64_t word);
-  bool slo_of(std::size_t index) const {
-    return slaves_[index]->slo() || slaves_[index]->faults().silent;
-  }
+  bool slo_of(std::size_t index) const { return slaves_[index]->slo() || slaves_[index]->silent(); }
   bool sli_of(std::size_t index) const {
     if (index + 1 == attached_) return end_level(mo_);
     return index + 1 < slaves_.size() ? slo_of(index + 1) : mo_;

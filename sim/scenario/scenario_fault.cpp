@@ -27,9 +27,9 @@ unsigned frame_bits(const ChannelConfig& channel) {
 }
 
 // Refuses a key that only other kinds of fault have.
-void refuse(TomlReader& reader, FaultKind kind, const char* key) {
+void refuse(TomlReader& reader, const FaultType& kind, const char* key) {
   if (!reader.has(key)) return;
-  reader.fail(key, "a fault of kind '" + std::string(to_string(kind)) + "' has no such key");
+  reader.fail(key, "a fault of kind '" + std::string(kind.name) + "' has no such key");
 }
 
 void read_line(TomlReader& reader, const Scenario& scenario, FaultConfig& fault) {
@@ -57,19 +57,18 @@ void read_slave_fault(TomlReader& reader, const Scenario& scenario, FaultConfig&
   if (slave == nullptr) {
     reader.fail("slave", "the scenario has no slave " + std::to_string(fault.slave));
   }
-  const auto of_slave = fault_type(fault.kind).of_slave;
-  if (!of_slave) return;
+  const SlaveFault* of_slave = fault.kind->of_slave;
+  if (of_slave == nullptr) return;
   const std::string_view refusal = slave->device->refuses(*of_slave);
   if (!refusal.empty()) reader.fail("slave", std::string(refusal));
-  if (*of_slave == SlaveFault::kSwappedWords &&
-      (scenario.slave(fault.slave + 1) == nullptr ||
-       scenario.channel_of(fault.slave + 1) != fault.channel)) {
+  if (of_slave->needs_next && (scenario.slave(fault.slave + 1) == nullptr ||
+                               scenario.channel_of(fault.slave + 1) != fault.channel)) {
     reader.fail("slave", "there is no slave behind it");
   }
 }
 
 void read_place(TomlReader& reader, const Scenario& scenario, FaultConfig& fault) {
-  switch (fault_type(fault.kind).place) {
+  switch (fault.kind->place) {
     case FaultPlace::kLine:
       return read_line(reader, scenario, fault);
     case FaultPlace::kSlave:
@@ -122,8 +121,8 @@ void read_when(TomlReader& reader, FaultConfig& fault) {
     if (const auto to = reader.number("to_us", 0, kMaxTimeUs)) fault.to = from_us(*to);
     if (fault.to < fault.from) reader.fail("to_us", "is before from_us");
   }
-  if (is_momentary(fault.kind)) {
-    refuse(reader, fault.kind, "for_us");
+  if (fault.kind->momentary) {
+    refuse(reader, *fault.kind, "for_us");
     return;
   }
   if (const auto us = reader.number("for_us", 0.001, kMaxTimeUs)) {
@@ -149,7 +148,7 @@ FaultConfig read_fault(const toml::table& table, const Scenario& scenario, TomlF
     return fault;
   }
   const FaultType& type = fault_types()[*kind];
-  fault.kind = type.kind;
+  fault.kind = &type;
   read_place(reader, scenario, fault);
   type.read(reader, {scenario.master->min_clk_hz, scenario.master->max_clk_hz}, fault);
   read_when(reader, fault);

@@ -17,21 +17,13 @@ DeviceTraits BissCSlaveConfig::traits() const {
           .registers = control.present};
 }
 
-std::string_view BissCSlaveConfig::refuses(SlaveFault fault) const {
-  switch (fault) {
-    case SlaveFault::kWrongId:
-      if (control.present) return "";
-      break;
-    case SlaveFault::kStuckWord:
-    case SlaveFault::kSwappedWords:
-      if (!actuator) return "";
-      break;
-    case SlaveFault::kStuckCounter:
-    case SlaveFault::kSkippedWord:
-      if (life_counter.bits != 0) return "";
-      break;
-    default:
-      break;
+std::string_view BissCSlaveConfig::refuses(const SlaveFault& fault) const {
+  using namespace slave_fault;
+  const bool counts = fault == kStuckCounter || fault == kSkippedWord;
+  const bool of_sensor = fault == kStuckWord || fault == kSwappedWords;
+  if ((fault == kWrongId && control.present) || (of_sensor && !actuator) ||
+      (counts && life_counter.bits != 0)) {
+    return "";
   }
   return BissSlaveConfig::refuses(fault);
 }
@@ -40,6 +32,15 @@ BissCSlave::BissCSlave(const BissCSlaveConfig& config, std::uint64_t seed)
     : BissSlave(config, config.channel_bits(), seed), control_(config_.control, registers()) {
   registers().set_layout(config.control);
   actuator_.preset(config_.word(0, 0));
+}
+
+void BissCSlave::set_fault(const SlaveFault& fault, bool on) {
+  if (fault == slave_fault::kWrongId) control_.faults().set_wrong_id(on);
+  if (fault == slave_fault::kStuckWord) stuck_word_ = on;
+  if (fault == slave_fault::kStuckCounter) stuck_counter_ = on;
+  if (fault == slave_fault::kSkippedWord) skipped_word_ = on;
+  if (fault == slave_fault::kSwappedWords) set_swapped_words(on);
+  BissSlave::set_fault(fault, on);
 }
 
 bool BissCSlave::set_data(std::uint64_t raw) {
@@ -53,8 +54,8 @@ std::uint64_t BissCSlave::next_word(Time now) {
   if (config_.actuator) return actuator_.word();
   const std::uint64_t frames = Slave::frames() - counted_frames_;
   counted_frames_ += frames;
-  if (!faults().stuck_counter) life_steps_ += faults().skipped_word ? 2 * frames : frames;
-  if (faults().stuck_word && counted_frames_ != 0) return word_;
+  if (!stuck_counter_) life_steps_ += skipped_word_ ? 2 * frames : frames;
+  if (stuck_word_ && counted_frames_ != 0) return word_;
   return config_.life_counter.in_word(config_.word(now, counted_frames_), life_steps_);
 }
 

@@ -20,7 +20,7 @@
 #include <string_view>
 
 #include "sim/core/time.hpp"
-#include "sim/lines/biss/actuator.hpp"
+#include "sim/lines/actuator.hpp"
 #include "sim/lines/biss/biss_slave.hpp"
 #include "sim/lines/biss/biss_slave_config.hpp"
 #include "sim/lines/registers/control_slave.hpp"
@@ -42,7 +42,7 @@ struct BissCSlaveConfig : BissSlaveConfig {
 
   std::unique_ptr<Slave> make_slave(std::uint64_t seed) const override;
   DeviceTraits traits() const override;
-  std::string_view refuses(SlaveFault fault) const override;
+  std::string_view refuses(const SlaveFault& fault) const override;
 };
 
 class BissCSlave final : public BissSlave<BissCSlaveConfig> {
@@ -56,10 +56,7 @@ class BissCSlave final : public BissSlave<BissCSlaveConfig> {
 
   bool set_data(std::uint64_t raw) override;
   ControlSlave* control() override { return config_.control.present ? &control_ : nullptr; }
-  void set_fault(SlaveFault fault, bool on) override {
-    if (fault == SlaveFault::kWrongId) control_.faults().set_wrong_id(on);
-    BissSlave::set_fault(fault, on);
-  }
+  void set_fault(const SlaveFault& fault, bool on) override;
   const Actuator* actuator() const override { return config_.actuator ? &actuator_ : nullptr; }
 
   // The word latched for the current or last frame.
@@ -77,6 +74,9 @@ class BissCSlave final : public BissSlave<BissCSlaveConfig> {
   ControlSlave control_;
   Actuator actuator_;
   bool cds_flip_ = false;
+  bool stuck_word_ = false;  // faults, see biss_c_faults.hpp
+  bool stuck_counter_ = false;
+  bool skipped_word_ = false;
   std::uint64_t counted_frames_ = 0;  // frames that the life counter knows of
   std::uint64_t life_steps_ = 0;
 };

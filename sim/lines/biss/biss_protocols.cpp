@@ -3,6 +3,7 @@
 #include "sim/lines/biss/biss_protocols.hpp"
 
 #include "sim/lines/biss/biss_b_slave.hpp"
+#include "sim/lines/biss/biss_c_faults.hpp"
 #include "sim/lines/biss/biss_c_slave.hpp"
 #include "sim/lines/biss/biss_presets.hpp"
 #include "sim/lines/registers/register_keys.hpp"
@@ -107,8 +108,9 @@ void know_biss_b_keys(TomlReader& reader) {
 
 }  // namespace
 
-const Protocol kBissCProtocol{"biss-c", know_biss_c_keys, [] { return Device(BissCSlaveConfig()); },
-                              biss_c_presets, read_biss_c};
+const Protocol kBissCProtocol{
+    "biss-c",       know_biss_c_keys, [] { return Device(BissCSlaveConfig()); },
+    biss_c_presets, read_biss_c,      slave_fault::kOfBissC};
 const Protocol kBissBProtocol{"biss-b", know_biss_b_keys, [] { return Device(BissBSlaveConfig()); },
                               biss_b_presets, read_biss_b};
 

@@ -56,13 +56,13 @@ class BissSlave : public Slave {
       case State::kBusy:
         if (!is_last_) {
           // The start bit has already passed between the edges.
-          if (!sli_was_low_ || !sli_before || faults().busy) return false;
+          if (!sli_was_low_ || !sli_before || busy_for_ever()) return false;
           count_frame();
           return true;
         }
         if (busy_left_ > 0) {
           --busy_left_;
-        } else if (!faults().busy) {
+        } else if (!busy_for_ever()) {
           set_slo(true);
           state_ = State::kStart;
           count_frame();
@@ -82,10 +82,10 @@ class BissSlave : public Slave {
     // The acknowledge of MO may come late. So a 1 is the start bit only after a 0.
     if (is_last_) return;
     if (!sli) sli_was_low_ = true;
-    set_slo(sli && (sli_was_low_ ? !faults().busy : config_.passes_acknowledge));
+    set_slo(sli && (sli_was_low_ ? !busy_for_ever() : config_.passes_acknowledge));
   }
   void load_data() {
-    shift_.load(word_, config_.data_bits, config_.crc, faults().wrong_crc);
+    shift_.load(word_, config_.data_bits, config_.crc, wrong_crc());
     set_slo(shift_.out());
     state_ = State::kData;
   }

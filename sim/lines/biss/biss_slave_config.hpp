@@ -7,6 +7,7 @@
 
 #include <string_view>
 
+#include "sim/lines/biss/biss_c_faults.hpp"
 #include "sim/lines/sensor_config.hpp"
 #include "sim/lines/slave_timeout.hpp"
 
@@ -19,9 +20,9 @@ struct BissSlaveConfig : SensorConfig {
   // false: the second rising edge of MA makes SLO 0, whatever SLI is.
   bool passes_acknowledge = false;
 
-  std::string_view refuses(SlaveFault fault) const override {
-    if (fault == SlaveFault::kBusy) return "";
-    if (fault == SlaveFault::kWrongId) {
+  std::string_view refuses(const SlaveFault& fault) const override {
+    if (fault == slave_fault::kBusy) return "";
+    if (fault == slave_fault::kWrongId) {
       return "only a BiSS C slave with control communication has an ID";
     }
     return SensorConfig::refuses(fault);

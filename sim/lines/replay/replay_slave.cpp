@@ -17,9 +17,9 @@ DeviceTraits ReplaySlaveConfig::traits() const {
           .alone = "a replay slave"};
 }
 
-std::string_view ReplaySlaveConfig::refuses(SlaveFault fault) const {
-  return fault == SlaveFault::kWrongCrc ? "a recording cannot be changed"
-                                        : DeviceConfig::refuses(fault);
+std::string_view ReplaySlaveConfig::refuses(const SlaveFault& fault) const {
+  return fault == slave_fault::kWrongCrc ? "a recording cannot be changed"
+                                         : DeviceConfig::refuses(fault);
 }
 
 ReplaySlave::ReplaySlave(const ReplaySlaveConfig& config)

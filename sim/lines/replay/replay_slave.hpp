@@ -42,7 +42,7 @@ struct ReplaySlaveConfig : DeviceConfig {
 
   std::unique_ptr<Slave> make_slave(std::uint64_t seed) const override;
   DeviceTraits traits() const override;
-  std::string_view refuses(SlaveFault fault) const override;
+  std::string_view refuses(const SlaveFault& fault) const override;
 };
 
 class ReplaySlave final : public Slave {

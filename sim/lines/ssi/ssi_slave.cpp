@@ -56,7 +56,7 @@ void SsiSlave::begin(Time now) {
   rising_ = 0;
   raw_ = config_.word(now, frames());
   data_ = line_word(raw_);
-  crc_ = config_.crc.line_bits(data_, config_.data_bits) ^ (faults().wrong_crc ? 1U : 0U);
+  crc_ = config_.crc.line_bits(data_, config_.data_bits) ^ (wrong_crc() ? 1U : 0U);
 }
 
 bool SsiSlave::bit(std::uint64_t index) const {

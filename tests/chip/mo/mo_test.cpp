@@ -4,7 +4,7 @@
 // The bus connection on the whole chip: pages 15, 25 (Tables 17, 18), 31 (Tables 39, 40).
 #include <gtest/gtest.h>
 
-#include "sim/lines/biss/actuator.hpp"
+#include "sim/lines/actuator.hpp"
 #include "tests/support/bits.hpp"
 #include "tests/support/protocol_chip.hpp"
 

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "sim/lines/biss/actuator.hpp"
+#include "sim/lines/actuator.hpp"
 #include "tests/support/bits.hpp"
 
 namespace mb4test {

@@ -13,7 +13,7 @@
 #include <utility>
 #include <vector>
 
-#include "sim/lines/biss/actuator.hpp"
+#include "sim/lines/actuator.hpp"
 #include "tests/driver/rtl/protocol_bus.hpp"
 #include "tests/driver/rtl/rtl_calls.hpp"
 

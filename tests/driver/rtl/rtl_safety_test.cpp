@@ -148,7 +148,7 @@ TEST(DriverSafety, All64LifeValues_AreRight) {
 TEST(DriverSafety, StuckCounter_IsFoundInOneFrameAtEachValue) {
   Drive drive;
   for (unsigned i = 0; i < 64; ++i) {
-    const SafetyVerdict stuck = drive.next_with(kSafety, SlaveFault::kStuckCounter);
+    const SafetyVerdict stuck = drive.next_with(kSafety, slave_fault::kStuckCounter);
     EXPECT_EQ(failures(stuck), "life counter stuck") << i;
     EXPECT_EQ(stuck.life, i);
     EXPECT_TRUE(drive.next().ok()) << i;
@@ -158,21 +158,22 @@ TEST(DriverSafety, StuckCounter_IsFoundInOneFrameAtEachValue) {
 TEST(DriverSafety, EachFaultOfTheEncoder_HasItsName) {
   Drive drive;
   for (unsigned i = 0; i < 2; ++i) {
-    EXPECT_EQ(failures(drive.next_with(kSafety, SlaveFault::kSkippedWord)), "safety word left out");
+    EXPECT_EQ(failures(drive.next_with(kSafety, slave_fault::kSkippedWord)),
+              "safety word left out");
     EXPECT_TRUE(drive.next().ok());
-    EXPECT_EQ(failures(drive.next_with(kControl, SlaveFault::kStuckWord)), "positions differ");
+    EXPECT_EQ(failures(drive.next_with(kControl, slave_fault::kStuckWord)), "positions differ");
     EXPECT_TRUE(drive.next().ok());
-    EXPECT_EQ(failures(drive.next_with(kSafety, SlaveFault::kStuckWord)),
+    EXPECT_EQ(failures(drive.next_with(kSafety, slave_fault::kStuckWord)),
               "life counter stuck, positions differ");
     EXPECT_EQ(failures(drive.next()), "safety word left out") << "the sensor has gone on";
     EXPECT_TRUE(drive.next().ok());
-    EXPECT_EQ(failures(drive.next_with(kControl, SlaveFault::kWrongCrc)),
+    EXPECT_EQ(failures(drive.next_with(kControl, slave_fault::kWrongCrc)),
               "CRC error of the control word");
     EXPECT_TRUE(drive.next().ok());
-    EXPECT_EQ(failures(drive.next_with(kSafety, SlaveFault::kWrongCrc)),
+    EXPECT_EQ(failures(drive.next_with(kSafety, slave_fault::kWrongCrc)),
               "CRC error of the safety word");
     EXPECT_TRUE(drive.next().ok());
-    EXPECT_EQ(failures(drive.next_with(kControl, SlaveFault::kSwappedWords)),
+    EXPECT_EQ(failures(drive.next_with(kControl, slave_fault::kSwappedWords)),
               "CRC error of the control word, CRC error of the safety word");
     EXPECT_TRUE(drive.next().ok());
   }
@@ -299,8 +300,8 @@ TEST(DriverSafetyFaults, NoneIsUndetected) {
     }
     return bits;
   };
-  constexpr SlaveFault kOfSlaves[] = {SlaveFault::kStuckCounter, SlaveFault::kSkippedWord,
-                                      SlaveFault::kStuckWord, SlaveFault::kWrongCrc};
+  constexpr SlaveFault kOfSlaves[] = {slave_fault::kStuckCounter, slave_fault::kSkippedWord,
+                                      slave_fault::kStuckWord, slave_fault::kWrongCrc};
   Drive drive;
   unsigned undetected = 0;
   for (unsigned done = 0; done < faults && undetected < 10; ++done) {
@@ -321,9 +322,9 @@ TEST(DriverSafetyFaults, NoneIsUndetected) {
           return drive.next_with(kSafety, kOfSlaves[up_to(3)]);
         case 6:
           return drive.next_with(kControl,
-                                 up_to(1) == 0 ? SlaveFault::kStuckWord : SlaveFault::kWrongCrc);
+                                 up_to(1) == 0 ? slave_fault::kStuckWord : slave_fault::kWrongCrc);
         default:
-          return drive.next_with(kControl, SlaveFault::kSwappedWords);
+          return drive.next_with(kControl, slave_fault::kSwappedWords);
       }
     }();
     if (verdict.ok()) {

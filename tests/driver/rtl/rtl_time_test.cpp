@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <string>
 
-#include "sim/lines/biss/actuator.hpp"
+#include "sim/lines/actuator.hpp"
 #include "tests/support/chip_fixture.hpp"
 
 namespace {

@@ -9,12 +9,14 @@
 #include <array>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
 #include "clock_source.hpp"
 #include "mb4sim/simulator.hpp"
 #include "sim/core/wire.hpp"
+#include "sim/faults/fault_types.hpp"
 #include "sim/hosts/spi_host.hpp"
 #include "sim/lines/biss/biss_c_slave.hpp"
 #include "sim/lines/slave_chain.hpp"
@@ -26,6 +28,27 @@ namespace mb4test {
 using namespace mb4::sim;
 
 namespace {
+
+// The order is that of the message which lists the kinds; each protocol's own come after those of
+// all.
+TEST(FaultParts, Kinds_AreListedOnce) {
+  std::vector<std::string_view> names;
+  for (const FaultType& type : fault_types()) names.push_back(type.name);
+  const std::vector<std::string_view> expected = {
+      "bit-flip",  "glitch",   "stuck",           "jitter",        "silent",       "busy",
+      "wrong-crc", "wrong-id", "stuck-word",      "stuck-counter", "skipped-word", "swapped-words",
+      "unplug",    "abort",    "clock-frequency", "clock-stop"};
+  EXPECT_EQ(names, expected);
+}
+
+TEST(FaultParts, FaultOfASlave_HasAPlaceForItsNameAndAReasonAgainstIt) {
+  for (const FaultType& type : fault_types()) {
+    if (type.of_slave == nullptr) continue;
+    EXPECT_EQ(std::count(type.of_slave->happens.begin(), type.of_slave->happens.end(), '%'), 1)
+        << type.name;
+    EXPECT_EQ(type.of_slave->refusal.empty(), type.name == "silent") << type.name;
+  }
+}
 
 TEST(FaultParts, Glitch_InvertsTheLevelForItsWidth) {
   EventQueue queue;
@@ -137,7 +160,7 @@ TEST(FaultParts, DetachedSlaves_IdleAndHearNothing) {
 
 TEST(FaultParts, SilentSlave_HoldsSlo) {
   Chain bus;
-  bus.chain.slave(0).faults().silent = true;
+  bus.chain.slave(0).set_fault(slave_fault::kSilent, true);
   bus.chain.refresh(0);
   for (Time now = 1000; now < 20'000; now += 1000) {
     bus.chain.drive(now, (now / 1000) % 2 == 0, false);
@@ -162,9 +185,9 @@ TEST(FaultParts, Simulator_RecordsItsFaults) {
   EXPECT_EQ(simulator.faults()[1].end, from_us(25) + from_ns(40));
   EXPECT_EQ(simulator.faults()[1].what, "glitch of 40 ns on SL of channel 1");
   EXPECT_EQ(simulator.faults()[2].end, kNever);
-  EXPECT_TRUE(simulator.slave(1)->faults().silent) << "the second one goes on";
+  EXPECT_TRUE(simulator.slave(1)->silent()) << "the second one goes on";
   simulator.run_until(from_us(46));
-  EXPECT_FALSE(simulator.slave(1)->faults().silent);
+  EXPECT_FALSE(simulator.slave(1)->silent());
 }
 
 }  // namespace

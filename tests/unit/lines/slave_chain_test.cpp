@@ -229,7 +229,7 @@ TEST(SlaveChain, BusyFault_KeepsMosStartBit) {
     ChainBench bench;
     BissCSlaveConfig config = constant_slave(8, 0xA5, 0);
     config.passes_acknowledge = passes;
-    bench.add(config).faults().busy = true;
+    bench.add(config).set_fault(slave_fault::kBusy, true);
     bench.mo = true;
     bench.chain.drive(0, true, true);
     bench.ma(kStart, false);
@@ -287,7 +287,7 @@ TEST(SlaveChain, SilentInTheData_RestOfTheFrameIsOne) {
   std::string bits;
   for (unsigned i = 1; i <= 16; ++i) {
     if (i == 8) {
-      far.faults().silent = true;
+      far.set_fault(slave_fault::kSilent, true);
       bench.chain.refresh(bench.now);
     }
     bench.ma(kStart + i * kPeriod - kPeriod / 2, true);
@@ -323,10 +323,10 @@ TEST(SlaveChain, SwappedWords_FarSlaveLeavesFirst) {
     const std::string first = binary(one, near) + binary(Crc{0x43, 0}.line_bits(one, near), 6);
     const std::string second = binary(two, far) + binary(Crc{0x43, 0}.line_bits(two, far), 6);
     EXPECT_EQ(frame(), first + second + "0") << near << ", " << far;
-    slave.set_fault(SlaveFault::kSwappedWords, true);
+    slave.set_fault(slave_fault::kSwappedWords, true);
     EXPECT_EQ(frame(), second + first + "0") << near << ", " << far;
     EXPECT_EQ(frame(), second + first + "0") << near << ", " << far;
-    slave.set_fault(SlaveFault::kSwappedWords, false);
+    slave.set_fault(slave_fault::kSwappedWords, false);
     EXPECT_EQ(frame(), first + second + "0") << near << ", " << far;
   }
 }

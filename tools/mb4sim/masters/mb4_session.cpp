@@ -12,7 +12,7 @@
 #include "mb4/position.hpp"
 #include "mb4/scan.hpp"
 #include "mb4_regs_table.hpp"
-#include "sim/lines/biss/actuator.hpp"
+#include "sim/lines/actuator.hpp"
 #include "sim/masters/mb4/ma_frequency.hpp"
 #include "sim_bus.hpp"
 
@@ -80,9 +80,9 @@ std::string Mb4Session::configure() {
   const sim::Scenario& scenario = simulator_.scenario();
   config_ = make_config(scenario);
   // A host that loses SPI frames needs all the checks that the driver has.
-  const bool host_faults =
-      std::any_of(scenario.faults.begin(), scenario.faults.end(),
-                  [](const sim::FaultConfig& f) { return f.kind == sim::FaultKind::kAbort; });
+  const bool host_faults = std::any_of(
+      scenario.faults.begin(), scenario.faults.end(),
+      [](const sim::FaultConfig& f) { return f.kind->place == sim::FaultPlace::kHost; });
   if (actuators_ && host_faults) config_.spi_check = SpiCheck::kFull;
   return error_of(device_.configure(config_));
 }

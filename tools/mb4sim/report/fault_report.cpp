@@ -32,6 +32,12 @@ struct KindCount {
   std::map<std::string, std::uint64_t> detected_by;  // error
 };
 
+// True for a fault that only accesses to registers show.
+bool in_accesses(const sim::FaultConfig& fault) {
+  const sim::SlaveFault* const of_slave = fault.kind->of_slave;
+  return of_slave != nullptr && of_slave->in_accesses;
+}
+
 void add_to(KindCount& kind, const FaultReport::Entry& entry) {
   ++kind.injected;
   ++kind.fates[static_cast<std::size_t>(entry.fate)];
@@ -78,7 +84,7 @@ void FaultReport::frame(std::uint64_t number, sim::Time begin,
     if (entry.fate != Fate::kOpen) continue;
     const sim::FaultRecord& record = records_[i];
     const sim::FaultConfig& fault = scenario_.faults[record.config];
-    if (fault.kind == sim::FaultKind::kWrongId) continue;
+    if (in_accesses(fault)) continue;
     const SlaveOutcome* worst = nullptr;
     for (const SlaveOutcome& outcome : outcomes) {
       if (outcome.kind == SlaveOutcome::Kind::kRight) continue;
@@ -99,8 +105,7 @@ void FaultReport::frame(std::uint64_t number, sim::Time begin,
 unsigned FaultReport::unchecked_id() const {
   for (std::size_t i = first_open_; i < entries_.size(); ++i) {
     const sim::FaultConfig& fault = scenario_.faults[records_[i].config];
-    if (fault.kind == sim::FaultKind::kWrongId && entries_[i].fate == Fate::kOpen &&
-        !entries_[i].id_checked) {
+    if (in_accesses(fault) && entries_[i].fate == Fate::kOpen && !entries_[i].id_checked) {
       return fault.slave;
     }
   }
@@ -111,8 +116,7 @@ void FaultReport::id_checked(unsigned slave, const std::string& error) {
   for (std::size_t i = first_open_; i < entries_.size(); ++i) {
     const sim::FaultConfig& fault = scenario_.faults[records_[i].config];
     Entry& entry = entries_[i];
-    if (fault.kind != sim::FaultKind::kWrongId || fault.slave != slave ||
-        entry.fate != Fate::kOpen) {
+    if (!in_accesses(fault) || fault.slave != slave || entry.fate != Fate::kOpen) {
       continue;
     }
     entry.id_checked = true;
@@ -145,7 +149,8 @@ std::string FaultReport::new_lines() {
 std::string FaultReport::summary() const {
   if (!any()) return "";
   KindCount all;
-  std::map<sim::FaultKind, KindCount> kinds;
+  // Ordered as they are listed to the user: all kinds lie in one list.
+  std::map<const sim::FaultType*, KindCount> kinds;
   for (const sim::FaultConfig& fault : scenario_.faults) kinds[fault.kind];
   for (std::size_t i = 0; i < entries_.size(); ++i) {
     add_to(all, entries_[i]);
@@ -158,7 +163,7 @@ std::string FaultReport::summary() const {
   };
   std::string out = fmt::format("faults: {}\n", line(all));
   for (const auto& [kind, counts] : kinds) {
-    out += fmt::format("  {:<15}  {}\n", sim::to_string(kind), line(counts));
+    out += fmt::format("  {:<15}  {}\n", kind->name, line(counts));
     for (const auto& [error, number] : counts.detected_by) {
       out += fmt::format("  {:<15}    detected by: {} ({})\n", "", error, number);
     }
@@ -175,7 +180,7 @@ std::string FaultReport::json() const {
         "{}\n  {{\"fault\": {}, \"line\": {}, \"kind\": \"{}\", \"time_us\": {:.6f}, \"end_us\": "
         "{}, \"what\": {}, \"fate\": \"{}\", \"by\": {}}}",
         i == 0 ? "" : ",", i + 1, scenario_.faults[record.config].scenario_line,
-        sim::to_string(scenario_.faults[record.config].kind), sim::to_us(record.begin),
+        scenario_.faults[record.config].kind->name, sim::to_us(record.begin),
         record.end == sim::kNever ? "null" : fmt::format("{:.6f}", sim::to_us(record.end)),
         json_text(record.what), to_string(entry.fate),
         entry.by.empty() ? "null" : json_text(entry.by));

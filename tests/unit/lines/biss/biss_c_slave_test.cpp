@@ -248,9 +248,9 @@ TEST(LifeCounter, StuckCounter_StandsStillAndGoesOn) {
   ChainBench bench;
   BissCSlave& slave = bench.add(counting_slave(3, 0));
   life_counters(bench, 3, 2);
-  slave.set_fault(SlaveFault::kStuckCounter, true);
+  slave.set_fault(slave_fault::kStuckCounter, true);
   EXPECT_EQ(life_counters(bench, 3, 2), (Values{1, 1}));
-  slave.set_fault(SlaveFault::kStuckCounter, false);
+  slave.set_fault(slave_fault::kStuckCounter, false);
   EXPECT_EQ(life_counters(bench, 3, 2), (Values{2, 3}));
 }
 
@@ -258,9 +258,9 @@ TEST(LifeCounter, SkippedWord_IsTwoStepsInEachFrame) {
   ChainBench bench;
   BissCSlave& slave = bench.add(counting_slave(3, 0));
   life_counters(bench, 3, 2);
-  slave.set_fault(SlaveFault::kSkippedWord, true);
+  slave.set_fault(slave_fault::kSkippedWord, true);
   EXPECT_EQ(life_counters(bench, 3, 2), (Values{3, 5}));
-  slave.set_fault(SlaveFault::kSkippedWord, false);
+  slave.set_fault(slave_fault::kSkippedWord, false);
   EXPECT_EQ(life_counters(bench, 3, 1), (Values{6}));
 }
 
@@ -274,9 +274,9 @@ TEST(LifeCounter, StuckWord_IsTheWholeWordAgain) {
   BissCSlave& slave = bench.add(config);
   EXPECT_EQ(life_counters(bench, 3, 1, 0b0000'11), (Values{0}));
   EXPECT_EQ(life_counters(bench, 3, 1, 0b0001'11), (Values{1}));
-  slave.set_fault(SlaveFault::kStuckWord, true);
+  slave.set_fault(slave_fault::kStuckWord, true);
   EXPECT_EQ(life_counters(bench, 3, 2, 0b0001'11), (Values{1, 1}));
-  slave.set_fault(SlaveFault::kStuckWord, false);
+  slave.set_fault(slave_fault::kStuckWord, false);
   EXPECT_EQ(life_counters(bench, 3, 1, 0b0100'11), (Values{4}));
 }
 

@@ -4,7 +4,7 @@
 // A bus with MO (datasheet pages 15, 25, 31; docs/theory.md, MO and actuators): the master acts as
 // one more slave at the far end. It acknowledges with rising edge 2, sends its start bit MO_BUSY
 // periods later than a slave could, then CDS = 0, then the words (slave 1 first), then 1.
-#include "sim/lines/biss/actuator.hpp"
+#include "sim/lines/actuator.hpp"
 
 #include <gtest/gtest.h>
 
