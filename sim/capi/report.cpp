@@ -10,7 +10,7 @@ namespace {
 
 std::string fault_json(const FaultConfig& fault, const FaultRecord& record,
                        const FaultStory& story) {
-  return "{\"kind\": " + json_text(to_string(fault.kind)) +
+  return "{\"kind\": " + json_text(fault.kind->name) +
          ", \"channel\": " + std::to_string(fault.channel) +
          ", \"slave\": " + std::to_string(fault.slave) + ", \"what\": " + json_text(record.what) +
          ", \"begin_ns\": " + ns_text(record.begin) +
