@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "mb4/safety.hpp"
+#include "sim/lines/biss/biss_c_faults.hpp"
 #include "tests/support/chip_fixture.hpp"
 
 namespace {
@@ -26,6 +27,7 @@ using mb4::SafetyVerdict;
 using mb4test::Chip;
 
 namespace sim = mb4::sim;
+namespace slave_fault = sim::slave_fault;
 using sim::SlaveFault;
 
 constexpr std::uint8_t kControl = 1;
@@ -107,7 +109,7 @@ struct Drive {
     return safety.check(mb4::safety_sample(frame[kControl], frame[kSafety]));
   }
   // The verdict on the next frame with a fault that the slave has for this frame.
-  SafetyVerdict next_with(unsigned number, SlaveFault fault) {
+  SafetyVerdict next_with(unsigned number, const SlaveFault& fault) {
     slave(number).set_fault(fault, true);
     const SafetyVerdict verdict = next();
     slave(number).set_fault(fault, false);
