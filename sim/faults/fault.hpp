@@ -29,7 +29,7 @@ struct FaultType {
   std::string_view name;  // value of `kind` in the scenario
   FaultPlace place;
   bool momentary;  // it has no duration
-  // kSlave: the fault that the slave itself must be able to have. Null if any slave can.
+  // The fault that the slave itself has. Null if something else has it: unplug is one of the cable.
   const SlaveFault* of_slave;
   // Reads the keys that only this kind has. Throws ScenarioError.
   void (*read)(TomlReader& reader, const FaultLimits& limits, FaultConfig& fault);
@@ -65,7 +65,7 @@ struct FaultRecord {
   std::size_t config = 0;  // index into Scenario::faults
   Time begin = 0;
   Time end = kNever;  // of a fault with a duration: kNever until it is over
-  // Not 0: the fault waits for this frame and hits it alone, by SlFaults::frames().
+  // Not 0: the fault waits for this frame and hits it alone; frames count as in SlFaults::frames().
   std::uint64_t frame = 0;
   std::string what;  // "glitch of 10 ns on SL of channel 1"
 };

@@ -224,7 +224,7 @@ constexpr FaultType kOthers[] = {
 std::span<const FaultType> fault_types() {
   static const std::vector<FaultType> list = [] {
     std::vector<FaultType> all(std::begin(kOfLine), std::end(kOfLine));
-    for (const SlaveFault* fault : slave_fault::kOfAnyProtocol) all.push_back(of_slave(*fault));
+    for (const SlaveFault* fault : slave_fault::kShared) all.push_back(of_slave(*fault));
     for (const Protocol* protocol : protocols()) {
       for (const SlaveFault* fault : protocol->faults) all.push_back(of_slave(*fault));
     }

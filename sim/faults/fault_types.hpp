@@ -22,7 +22,7 @@ struct FaultScene {
   const FaultConfig& config;
   FaultTarget& target;
   Random& random;            // of this table
-  const WireFaults& ma_was;  // faults of the cable without those of this table
+  const WireFaults& ma_was;  // faults of the cable without those of any table
   const WireFaults& sl_was;
   Time now;
   FaultRecord& record;  // of the fault that begins or ends

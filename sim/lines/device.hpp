@@ -56,7 +56,8 @@ struct DeviceConfig {
   // `seed`: of the random values of this slave.
   virtual std::unique_ptr<Slave> make_slave(std::uint64_t seed) const = 0;
   virtual DeviceTraits traits() const = 0;
-  // Returns why the device cannot have this fault; empty if it can.
+  // Returns why the device cannot have this fault; empty if it can. By default it can have kSilent,
+  // and kWrongCrc if it has a CRC.
   virtual std::string_view refuses(const SlaveFault& fault) const;
   // The slave learns the number of IDs behind it. Returns the number of its own IDs that are fixed.
   virtual unsigned set_ids_behind(unsigned /*ids*/) { return 0; }

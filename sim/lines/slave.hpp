@@ -66,16 +66,17 @@ class Slave {
   virtual bool set_data(std::uint64_t raw) = 0;
   // The raw word of the current or last frame. Nothing if the device does not know it (replay).
   virtual std::optional<std::uint64_t> sent_word() const { return std::nullopt; }
-  // Begins or ends a fault that DeviceConfig::refuses() does not refuse. SlaveChain::refresh()
-  // applies a changed kSilent. The other faults act from the next start bit on; with SSI from the
-  // next frame on.
+  // Begins or ends a fault. Only for faults that the device can have (DeviceConfig::refuses()); the
+  // slave ignores others. A frame that is past the place where a fault acts goes on as it was;
+  // kSilent acts at once, with SlaveChain::refresh().
   virtual void set_fault(const SlaveFault& fault, bool on) {
     if (fault == slave_fault::kSilent) silent_ = on;
     if (fault == slave_fault::kBusy) busy_for_ever_ = on;
     if (fault == slave_fault::kWrongCrc) wrong_crc_ = on;
   }
   bool silent() const { return silent_; }
-  // Its data and those of the slave behind it come in exchanged order. SlaveChain does it.
+  // Its data and those of the slave behind it come in exchanged order. Here because SlaveChain does
+  // it.
   bool swapped_words() const { return swapped_words_; }
   // Number of frames in which the slave has sent its start bit.
   std::uint64_t frames() const { return frames_; }

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// A fault that a scenario can ask of a slave. Those that a slave of any protocol may have stand
+// A fault that a scenario can ask of a slave. Those that slaves of several protocols can have stand
 // here. A protocol keeps its own ones in its room and lists them in Protocol::faults.
 #ifndef MB4SIM_SLAVE_FAULT_HPP_
 #define MB4SIM_SLAVE_FAULT_HPP_
@@ -13,7 +13,7 @@ namespace mb4::sim {
 struct SlaveFault {
   std::string_view name;     // value of `kind` in the scenario, and what tells two faults apart
   std::string_view happens;  // for the record; % stands for the slave: "wrong CRC from %"
-  std::string_view refusal;  // said of a device that cannot have it
+  std::string_view refusal;  // said of a device that cannot have it; empty: any device can
   bool needs_next = false;   // it needs a slave behind
   bool in_accesses = false;  // no frame shows it, only an access to the slave's registers
 
@@ -30,7 +30,7 @@ inline constexpr SlaveFault kBusy{"busy", "% busy for ever", "this slave has no 
 inline constexpr SlaveFault kWrongCrc{"wrong-crc", "wrong CRC from %", "this slave sends no CRC"};
 
 // In the order in which they are listed to the user, before those of the protocols.
-inline constexpr const SlaveFault* kOfAnyProtocol[] = {&kSilent, &kBusy, &kWrongCrc};
+inline constexpr const SlaveFault* kShared[] = {&kSilent, &kBusy, &kWrongCrc};
 
 }  // namespace slave_fault
 
