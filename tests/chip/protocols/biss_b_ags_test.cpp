@@ -109,6 +109,33 @@ TEST(ChipBissBAgs, AccessWithAnError_FramesGoOnBehindTheRegisterTimeout) {
   }
 }
 
+// Runs until MA of line 1 has risen `count` times.
+bool ma_rises(ProtocolChip& chip, unsigned count) {
+  bool ma = true;
+  return chip.simulator.run_while_waiting(
+      [&] {
+        const bool level = chip.simulator.pin(sim::Pin::kMa1);
+        if (level && !ma) --count;
+        ma = level;
+        return count == 0;
+      },
+      chip.simulator.now() + 100 * sim::kPsPerUs);
+}
+
+bool access_ends(ProtocolChip& chip) {
+  return chip.simulator.run_while_waiting([&] { return (chip.status() & reg::REGEND::kMask) != 0; },
+                                          chip.simulator.now() + 200 * sim::kPsPerUs);
+}
+
+// SL is 1 for this time, whatever the slave sends.
+void hold_sl_high(ProtocolChip& chip, sim::Time time) {
+  chip.simulator.line(1)->faults().stick(true);
+  chip.simulator.refresh_lines();
+  chip.simulator.advance(time);
+  chip.simulator.line(1)->faults().stick(std::nullopt);
+  chip.simulator.refresh_lines();
+}
+
 // The chip ignores SL during the address part, because a slave may send the address back.
 TEST(ChipBissBAgs, SlInTheAddressPart_IsNotLookedAt) {
   for (const bool write : {true, false}) {
@@ -117,29 +144,34 @@ TEST(ChipBissBAgs, SlInTheAddressPart_IsNotLookedAt) {
     chip.write_rdata({0xC3});
     chip.set_access(0, 0x10, 1, write);
     chip.instruct(reg::kInstrControl);
-    unsigned rising = 0;
-    bool ma = true;
-    ASSERT_TRUE(chip.simulator.run_while_waiting(
-        [&] {
-          const bool level = chip.simulator.pin(sim::Pin::kMa1);
-          if (level && !ma) ++rising;
-          ma = level;
-          return rising == 2;
-        },
-        chip.simulator.now() + 100 * sim::kPsPerUs));
-    chip.simulator.line(1)->faults().stick(true);
-    chip.simulator.refresh_lines();
+    ASSERT_TRUE(ma_rises(chip, 2));
     // 17 cells; up to an eighth after the first edge of the byte.
-    chip.simulator.advance(16 * chip.t_mar + chip.t_mar / 8);
-    chip.simulator.line(1)->faults().stick(std::nullopt);
-    chip.simulator.refresh_lines();
-    ASSERT_TRUE(
-        chip.simulator.run_while_waiting([&] { return (chip.status() & reg::REGEND::kMask) != 0; },
-                                         chip.simulator.now() + 200 * sim::kPsPerUs));
+    hold_sl_high(chip, 16 * chip.t_mar + chip.t_mar / 8);
+    ASSERT_TRUE(access_ends(chip));
     EXPECT_EQ(chip.status(), reg::kResetStatus0 | reg::kRegendDone) << write;
     EXPECT_EQ(chip.read(reg::kAddrRdata), write ? 0xC3 : 0x5A);
     EXPECT_EQ(slave(chip).reg_read(0x10), write ? 0xC3 : 0x5A);
   }
+}
+
+// Decision 6, docs/choices.md: what comes back of the stop bits of a write is not checked.
+TEST(ChipBissBAgs, SlInTheStopBitOfAWrite_IsNotLookedAt) {
+  constexpr unsigned kAddressCells = 17;
+  constexpr unsigned kByteCells = 14;
+  ProtocolChip chip(bus("", "timeout = 2\nregisters = { 0x10 = 0x5A, 0x11 = 0xA5 }\n"),
+                    {.freqs = 0, .freqr = 3, .biss_c_registers = false});
+  chip.write_rdata({0xC3, 0x3C});
+  chip.set_access(0, 0x10, 2, true);
+  chip.instruct(reg::kInstrControl);
+  // The stop bit of the first byte comes back in the cell behind it, the first of the second byte.
+  ASSERT_TRUE(ma_rises(chip, kAddressCells + kByteCells + 1));
+  chip.simulator.advance(chip.t_mar / 2);
+  ASSERT_FALSE(chip.simulator.line(1)->sl());
+  hold_sl_high(chip, chip.t_mar);
+  ASSERT_TRUE(access_ends(chip));
+  EXPECT_EQ(chip.status(), reg::kResetStatus0 | reg::kRegendDone);
+  EXPECT_EQ(slave(chip).reg_read(0x10), 0xC3);
+  EXPECT_EQ(slave(chip).reg_read(0x11), 0x3C);
 }
 
 // Table 56: REGEND = 0 from the instruction on, although the access has to wait for its turn.
