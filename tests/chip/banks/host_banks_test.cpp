@@ -188,6 +188,36 @@ TEST_P(HostBanks, WordBehindBytesOfTheHost_IsNotHidden) {
   }
 }
 
+// The same in the middle of many writes, of which some wait all the time. With one bank the frame
+// writes where the host does.
+TEST_P(HostBanks, WordBehindAByteOfManyThatWait_IsNotHidden) {
+  constexpr unsigned kWrites = 120;
+  Frames host(GetParam(), 1.0);
+  auto& chip = host.chip();
+  host.write(reg::SINGLEBANK::kAddress, {reg::kSinglebankOneBank});
+  const auto run_to_end = [&] {
+    ASSERT_TRUE(chip.run_while_waiting([&] { return chip.pin(sim::Pin::kEot); },
+                                       chip.now() + 5000 * host.period));
+  };
+  host.start(0);
+  const sim::Time before = chip.now();
+  run_to_end();
+  const sim::Time length = chip.now() - before;
+  for (unsigned step = 0; step < 8; ++step) {
+    host.settle();
+    host.start(0);
+    // The core takes one byte in each clock, the host writes faster. The byte is there before that
+    // of the word, which comes at the end of the frame.
+    chip.advance(length - (kWrites - 20 - 4 * step) * host.period);
+    const sim::Time first = chip.now();
+    host.write(reg::kAddrScdata, {0x77});
+    for (unsigned i = 0; i < kWrites; ++i) host.write(reg::rdata_address(9 + i % 2), {0});
+    run_to_end();
+    ASSERT_LT(chip.now() - first, kWrites * host.period) << "no byte waits, step " << step;
+    ASSERT_EQ(host.read(reg::kAddrScdata), host.frames() - 1) << step;
+  }
+}
+
 // Decision 41: the host writes HOLDBANK 1, 0, 1 after a frame, as fast as it can. The switch that
 // HOLDBANK held back is done, and from then on the host reads one word. Around the end of the frame
 // this is the old or the new word.
