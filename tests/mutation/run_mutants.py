@@ -5,7 +5,8 @@
 
   run_mutants.py MUTANTS_TXT GOAL [--jobs N] [--log FILE] PROGRAM...
      GOAL  share in percent that must be caught, of the faults that are not in equivalent.txt
-     FILE  takes what has been found; a run that was ended goes on from there. For one mutants.txt only
+     FILE  takes what has been found; a run that was ended goes on from there. For one mutants.txt only.
+           A run that goes on with programs that have new tests shows these to what is not caught yet
 
 First all tests run without a fault: they must pass, and what takes long is known then. All
 faults meet the quick tests of all programs first; what these do not catch meets longer ones.
@@ -51,10 +52,24 @@ def start(program, tests, number, seconds=0, output=None):
                           stderr=subprocess.DEVNULL).returncode
 
 
-def test_times(program):
+def names_of(program):
+    """The tests of a program."""
+    listing = subprocess.run([program, "--gtest_list_tests", f"--gtest_filter={LEFT_OUT}"], check=True,
+                             capture_output=True, text=True).stdout
+    names, suite = [], ""
+    for line in listing.splitlines():
+        word = line.split("#")[0].strip()
+        if line.startswith("  "):
+            names.append(suite + word)
+        elif word.endswith("."):
+            suite = word
+    return names
+
+
+def test_times(program, tests):
     """[(seconds, program, test)] without a fault."""
     with tempfile.TemporaryDirectory() as folder:
-        if start(program, LEFT_OUT, 0, output=f"{folder}/times.json") != 0:
+        if start(program, tests, 0, output=f"{folder}/times.json") != 0:
             raise SystemExit(f"{program}: tests fail without a fault")
         report = json.loads(Path(f"{folder}/times.json").read_text(encoding="utf-8"))
     print(f"{Path(program).name}: {report['tests']} tests, {report['time']}", flush=True)
@@ -62,11 +77,13 @@ def test_times(program):
             for suite in report["testsuites"] for test in suite["testsuite"]]
 
 
-def in_batches(programs, jobs):
-    """[[(program, filter, processor seconds that it may take)]], quick tests first."""
+def in_batches(filters, jobs):
+    """[[(program, filter, processor seconds that it may take)]] of {program: filter}, quick tests
+    first."""
     before = resource.getrusage(resource.RUSAGE_CHILDREN)
     with ThreadPoolExecutor(jobs) as pool:
-        tests = [row for rows in pool.map(test_times, programs) for row in rows]
+        tests = [row for rows in pool.map(test_times, filters, filters.values())
+                 for row in rows]
     after = resource.getrusage(resource.RUSAGE_CHILDREN)
     # Where other work runs beside, less of this time was processor time.
     cpu = after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
@@ -111,9 +128,17 @@ def main():
         with log.open("a", encoding="utf-8") as file:
             file.write(text + "\n")
 
-    batches = next((json.loads(said) for key, said in kept if key == "batches"), None)
-    if batches is None:
-        batches = in_batches(programs, jobs)
+    batches = next((json.loads(said) for key, said in reversed(kept) if key == "batches"), [])
+    if batches:
+        known = {(program, name) for batch in batches for program, tests, _ in batch
+                 for name in tests.split(":")}
+        added = {program: [name for name in names_of(program) if (program, name) not in known]
+                 for program in programs}
+        filters = {program: ":".join(names) for program, names in added.items() if names}
+    else:
+        filters = dict.fromkeys(programs, LEFT_OUT)
+    if filters:
+        batches += in_batches(filters, jobs)
         note(f"batches: {json.dumps(batches)}")
     faults = dict(line.split(" ", 1) for line in listing)
     reason_of = mutate.reasons(EXPECTED)
