@@ -40,7 +40,7 @@ struct FaultType {
 };
 
 struct FaultConfig {
-  const FaultType* kind = nullptr;  // of fault_types()
+  const FaultType* kind = nullptr;  // of fault_types(); must be set
   unsigned channel = 0;             // from 1 on, also for a slave's fault; 0: host and clock
   unsigned slave = 0;               // from 1 on, as in SCDATAx; 0: none
   bool on_ma = false;    // glitch, stuck, jitter: MA at the slaves instead of SL at the chip

@@ -66,9 +66,9 @@ class Slave {
   virtual bool set_data(std::uint64_t raw) = 0;
   // The raw word of the current or last frame. Nothing if the device does not know it (replay).
   virtual std::optional<std::uint64_t> sent_word() const { return std::nullopt; }
-  // Begins or ends a fault. Only for faults that the device can have (DeviceConfig::refuses()); the
-  // slave ignores others. A frame that is past the place where a fault acts goes on as it was;
-  // kSilent acts at once, with SlaveChain::refresh().
+  // Begins or ends a fault, one that DeviceConfig::refuses() says the device can have. A frame that
+  // is past the place where a fault acts goes on as it was; kSilent acts at once, with
+  // SlaveChain::refresh().
   virtual void set_fault(const SlaveFault& fault, bool on) {
     if (fault == slave_fault::kSilent) silent_ = on;
     if (fault == slave_fault::kBusy) busy_for_ever_ = on;

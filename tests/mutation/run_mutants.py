@@ -5,13 +5,14 @@
 
   run_mutants.py MUTANTS_TXT GOAL [--jobs N] [--log FILE] PROGRAM...
      GOAL  share in percent that must be caught, of the faults that are not in equivalent.txt
-     FILE  takes what has been found; a run that was ended goes on from there. For one mutants.txt only.
-           A run that goes on with programs that have new tests shows these to what is not caught yet
+     FILE  takes what has been found; a run that was ended goes on from there. For one mutants.txt only
 
 First all tests run without a fault: they must pass, and what takes long is known then. All
 faults meet the quick tests of all programs first; what these do not catch meets longer ones.
-A fault of equivalent.txt meets the first four batches only: should they catch it, its reason is wrong and
-the run fails. What does not end counts as caught: it may take three times the processor time of the
+A run that goes on does so with the tests that the programs have got since, by name: what is not caught yet
+meets these first. A changed test of the same name is not run again.
+A fault of equivalent.txt meets the first four batches and such new tests only: should they catch it, its
+reason is wrong and the run fails. What does not end counts as caught: it may take three times the processor time of the
 run without a fault, and ten seconds."""
 
 import json
@@ -137,20 +138,23 @@ def main():
         filters = {program: ":".join(names) for program, names in added.items() if names}
     else:
         filters = dict.fromkeys(programs, LEFT_OUT)
+    old = len(batches)
     if filters:
         batches += in_batches(filters, jobs)
         note(f"batches: {json.dumps(batches)}")
+    first_run = old or len(batches)
+    order = [*range(old, len(batches)), *range(old)]
     faults = dict(line.split(" ", 1) for line in listing)
     reason_of = mutate.reasons(EXPECTED)
     argued = {number: reason_of[text] for number, text in
               ((number, re.sub(r"^(\w+):\d+", r"\1", text)) for number, text in faults.items())
               if text in reason_of}
     with ThreadPoolExecutor(jobs) as pool:
-        for place, batch in enumerate(batches, 1):
+        for place, batch in ((index + 1, batches[index]) for index in order):
             def run(number, place=place, batch=batch):
                 if number in done or (place, number) in seen:
                     return
-                if number in argued and place > EQUIVALENT_MEETS:
+                if number in argued and EQUIVALENT_MEETS < place <= first_run:
                     return
                 said = "passed"
                 if caught(batch, number):

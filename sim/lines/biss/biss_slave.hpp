@@ -39,8 +39,8 @@ class BissSlave : public Slave {
   bool is_last() const { return is_last_; }
 
  protected:
-  // In the order of a frame: from kStart on the start bit has been sent. BiSS B has kRegister, BiSS
-  // C has kCds and kPass.
+  // In the order of a sensor frame: from kStart to kPass the start bit has been sent. BiSS C has
+  // kCds and kPass. BiSS B has kRegister, its register mode.
   enum class State { kIdle, kArmed, kAckWait, kBusy, kStart, kCds, kData, kPass, kRegister };
 
   // A rising edge of MA in kAckWait, kBusy or kStart. Returns true if the start bit is over. Else

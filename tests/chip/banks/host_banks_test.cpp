@@ -195,13 +195,13 @@ TEST_P(HostBanks, WordBehindAByteOfManyThatWait_IsNotHidden) {
   Frames host(GetParam(), 1.0);
   auto& chip = host.chip();
   host.write(reg::SINGLEBANK::kAddress, {reg::kSinglebankOneBank});
-  const auto run_to_end = [&] {
-    ASSERT_TRUE(chip.run_while_waiting([&] { return chip.pin(sim::Pin::kEot); },
-                                       chip.now() + 5000 * host.period));
+  const auto ends = [&] {
+    return chip.run_while_waiting([&] { return chip.pin(sim::Pin::kEot); },
+                                  chip.now() + 5000 * host.period);
   };
   host.start(0);
   const sim::Time before = chip.now();
-  run_to_end();
+  ASSERT_TRUE(ends());
   const sim::Time length = chip.now() - before;
   for (unsigned step = 0; step < 8; ++step) {
     host.settle();
@@ -212,9 +212,35 @@ TEST_P(HostBanks, WordBehindAByteOfManyThatWait_IsNotHidden) {
     const sim::Time first = chip.now();
     host.write(reg::kAddrScdata, {0x77});
     for (unsigned i = 0; i < kWrites; ++i) host.write(reg::rdata_address(9 + i % 2), {0});
-    run_to_end();
+    ASSERT_TRUE(ends());
     ASSERT_LT(chip.now() - first, kWrites * host.period) << "no byte waits, step " << step;
     ASSERT_EQ(host.read(reg::kAddrScdata), host.frames() - 1) << step;
+  }
+}
+
+// Decision 41: two writes without HOLDBANK, at any time around the end of a frame. HOLDBANK = 1
+// after the frame then keeps its word.
+TEST_P(HostBanks, HoldBankAfterTwoWritesAtTheEndOfAFrame_KeepsItsWord) {
+  for (const double mhz : {1.0, 10.0}) {
+    Frames host(GetParam(), mhz);
+    auto& chip = host.chip();
+    for (unsigned step = 0; step < 400; ++step) {
+      host.write(reg::kAddrInstr, {0});
+      host.settle();
+      chip.run_until((chip.now() / host.period + 20) * host.period);
+      host.start(0);
+      // 64 bits, acknowledge, start bit, CDS, at two clocks a bit: the frame ends in these 50
+      // clocks.
+      chip.advance(110 * host.period + step * host.period / 8);
+      host.write(reg::kAddrInstr, {0});
+      host.write(reg::kAddrInstr, {0});
+      ASSERT_TRUE(chip.run_while_waiting([&] { return chip.pin(sim::Pin::kEot); },
+                                         chip.now() + 5000 * host.period));
+      host.write(reg::kAddrInstr, {kHold});
+      chip.advance(30'000'000);
+      host.settle();
+      ASSERT_EQ(host.word(), host.frames()) << mhz << " MHz, step " << step;
+    }
   }
 }
 

@@ -125,18 +125,26 @@ TEST(ChipAgs, RateTooHigh_FramesAreOmittedAndFlagged) {
   EXPECT_EQ(chip.read(reg::kAddrSvalidLo), reg::SVALID<1>::kMask);
 }
 
-// BREAK clears nAGSERR, also if it comes in the clock in which a frame is due and left out.
+// BREAK clears nAGSERR, also if it comes in the clock in which a frame is due and left out, because
+// another one runs or because SL is 0.
 TEST(ChipAgs, BreakWhileFramesAreLeftOut_NoErrorStays) {
-  Chip chip(one_slave(kEncoder26));
-  chip.configure_slave1(28, reg::kScrclenCrc6, 0x00, 0x01);  // 2 us are 40 clocks
-  for (unsigned clock = 0; clock < 40; ++clock) {
-    chip.instruct(reg::kAgsOn);
-    chip.advance_us(20);
-    ASSERT_EQ(chip.status() & reg::nAGSERR::kMask, 0) << clock;
-    chip.simulator.advance(clock * kClk);
-    chip.instruct(reg::kBreakAbort);
-    EXPECT_EQ(chip.status() & reg::nAGSERR::kMask, unsigned{reg::kNagserrGood}) << clock;
-    chip.advance_us(10);
+  for (const bool sl_low : {false, true}) {
+    Chip chip(one_slave(kEncoder26));
+    chip.configure_slave1(28, reg::kScrclenCrc6, 0x00, 0x01);  // 2 us are 40 clocks
+    if (sl_low) {
+      chip.simulator.line(1)->faults().stick(false);
+      chip.simulator.refresh_lines();
+    }
+    for (unsigned clock = 0; clock < 40; ++clock) {
+      chip.instruct(reg::kAgsOn);
+      chip.advance_us(20);
+      ASSERT_EQ(chip.status() & reg::nAGSERR::kMask, 0) << clock;
+      chip.simulator.advance(clock * kClk);
+      chip.instruct(reg::kBreakAbort);
+      EXPECT_EQ(chip.status() & reg::nAGSERR::kMask, unsigned{reg::kNagserrGood})
+          << clock << " clocks, SL low " << sl_low;
+      chip.advance_us(10);
+    }
   }
 }
 
@@ -224,7 +232,7 @@ TEST(ChipAgs, AgsMin_NeedsFramesThatAreClockedOut) {
 // C08, page 32: GETSENS to the falling edge of MA takes 2 / f_CLK + 1 / (2 f_MA), counted from the
 // clock edge that sees GETSENS, for a pulse of one clock at any phase.
 TEST(ChipGetsens, PulseOfOneClock_MaFallsAfterTwoClocksAndHalfAPeriod) {
-  // 0x10 is not permitted (page 27); docs/choices.md says what it does.
+  // 0x10 is not permitted (page 30); docs/choices.md says what it does.
   for (const unsigned code : {0U, 1U, 3U, 9U, 0x10U, 0x11U, 0x1FU}) {
     Chip chip(one_slave(kEncoder26));
     chip.configure_slave1(28, reg::kScrclenCrc6, static_cast<std::uint8_t>(code),

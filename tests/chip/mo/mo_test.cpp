@@ -319,6 +319,28 @@ TEST(ChipMo, SensorsThatAnswerLate_SeeNoHighLevelAfterTheirSlots) {
   }
 }
 
+// docs/choices.md: MO changes with rising edges of MA, and at the end of the frame. Sensors alone
+// on cables and with processing times of the chip of any length, so that MA ends at each place of
+// what MO sends.
+TEST(ChipMo, ChangesWithRisingEdgesOfMaAlone) {
+  for (unsigned delay = 0; delay <= 3000; delay += 150) {
+    for (unsigned mo_busy = 1; mo_busy <= 40; ++mo_busy) {
+      ProtocolChip chip(
+          channel(1, "delay_ns = " + std::to_string(delay) + ".0\n") + sensor(8, 0x5A, ""),
+          {.freqs = 0, .en_mo = true, .mo_busy = static_cast<std::uint8_t>(mo_busy)});
+      ASSERT_TRUE(chip.frame(reg::kInstrCdm1));
+      const auto& mo = chip.mo[0];
+      ASSERT_FALSE(mo.empty());
+      EXPECT_TRUE(mo.back().level);
+      for (std::size_t i = 0; i + 1 < mo.size(); ++i) {
+        EXPECT_TRUE(std::any_of(chip.ma[0].begin(), chip.ma[0].end(),
+                                [&](const auto& ma) { return ma.level && ma.time == mo[i].time; }))
+            << delay << " ns, " << mo_busy << " periods, change " << i;
+      }
+    }
+  }
+}
+
 // --- INIT in BiSS C (decision 39) -------------------------------------------------------------
 
 constexpr sim::Time kSlaveTimeout = 40 * sim::kPsPerUs;  // the longest in the field

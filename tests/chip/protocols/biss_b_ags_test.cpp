@@ -163,7 +163,7 @@ TEST(ChipBissBAgs, SlInTheStopBitOfAWrite_IsNotLookedAt) {
   chip.write_rdata({0xC3, 0x3C});
   chip.set_access(0, 0x10, 2, true);
   chip.instruct(reg::kInstrControl);
-  // The stop bit of the first byte comes back in the cell behind it, the first of the second byte.
+  // The stop bit of the first byte comes back in the next cell, the first of the second byte.
   ASSERT_TRUE(ma_rises(chip, kAddressCells + kByteCells + 1));
   chip.simulator.advance(chip.t_mar / 2);
   ASSERT_FALSE(chip.simulator.line(1)->sl());

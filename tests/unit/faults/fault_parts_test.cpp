@@ -29,8 +29,8 @@ using namespace mb4::sim;
 
 namespace {
 
-// The order is that of the message which lists the kinds; each protocol's own come after those of
-// all.
+// The order is that of the message which lists the kinds; each protocol's own come after the shared
+// ones.
 TEST(FaultParts, Kinds_AreListedOnce) {
   std::vector<std::string_view> names;
   for (const FaultType& type : fault_types()) names.push_back(type.name);
