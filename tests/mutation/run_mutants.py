@@ -9,11 +9,11 @@
 
 First all tests run without a fault: they must pass, and what takes long is known then. All
 faults meet the quick tests of all programs first; what these do not catch meets longer ones.
-A run that goes on does so with the tests that the programs have got since, by name: what is not caught yet
-meets these first. A changed test of the same name is not run again.
-A fault of equivalent.txt meets the first four batches and such new tests only: should they catch it, its
-reason is wrong and the run fails. What does not end counts as caught: it may take three times the processor time of the
-run without a fault, and ten seconds."""
+A run that goes on does so with the tests that the programs have got since, by name: what is not
+caught yet meets these first. A changed test of the same name is not run again.
+A fault of equivalent.txt meets the first four batches and such new tests only: should they catch
+it, its reason is wrong and the run fails. What does not end counts as caught: it may take three
+times the processor time of the run without a fault, and ten seconds."""
 
 import json
 import os
@@ -41,41 +41,33 @@ EQUIVALENT_MEETS = 4  # batches
 EXPECTED = HERE / "equivalent.txt"
 
 
-def start(program, tests, number, seconds=0, output=None):
+def start(program, tests, number, seconds=0, options=()):
     """Exit status of a run with this fault (0: none)."""
     environment = {**os.environ, **SMALL, "MB4_MUTANT": str(number)}
-    command = [program, f"--gtest_filter={tests}", "--gtest_fail_fast", "--gtest_brief=1"]
-    if output:
-        command.append(f"--gtest_output=json:{output}")
+    command = [program, f"--gtest_filter={tests}", "--gtest_fail_fast", "--gtest_brief=1",
+               *options]
     if seconds:
         command = ["prlimit", f"--cpu={seconds}", *command]
     return subprocess.run(command, env=environment, check=False, stdout=subprocess.DEVNULL,
                           stderr=subprocess.DEVNULL).returncode
 
 
-def names_of(program):
-    """The tests of a program."""
-    listing = subprocess.run([program, "--gtest_list_tests", f"--gtest_filter={LEFT_OUT}"], check=True,
-                             capture_output=True, text=True).stdout
-    names, suite = [], ""
-    for line in listing.splitlines():
-        word = line.split("#")[0].strip()
-        if line.startswith("  "):
-            names.append(suite + word)
-        elif word.endswith("."):
-            suite = word
-    return names
+def report(program, tests, *options):
+    """{test: what gtest says of it} of a run without a fault."""
+    with tempfile.TemporaryDirectory() as folder:
+        output = f"--gtest_output=json:{folder}/report.json"
+        if start(program, tests, 0, options=(output, *options)) != 0:
+            raise SystemExit(f"{program}: tests fail without a fault")
+        suites = json.loads(Path(folder, "report.json").read_text(encoding="utf-8"))["testsuites"]
+    return {f"{suite['name']}.{test['name']}": test for suite in suites for test in suite["testsuite"]}
 
 
 def test_times(program, tests):
     """[(seconds, program, test)] without a fault."""
-    with tempfile.TemporaryDirectory() as folder:
-        if start(program, tests, 0, output=f"{folder}/times.json") != 0:
-            raise SystemExit(f"{program}: tests fail without a fault")
-        report = json.loads(Path(f"{folder}/times.json").read_text(encoding="utf-8"))
-    print(f"{Path(program).name}: {report['tests']} tests, {report['time']}", flush=True)
-    return [(float(test["time"].rstrip("s")), program, f"{suite['name']}.{test['name']}")
-            for suite in report["testsuites"] for test in suite["testsuite"]]
+    times = [(float(test["time"].rstrip("s")), program, name)
+             for name, test in report(program, tests).items()]
+    print(f"{Path(program).name}: {len(times)} tests, {sum(row[0] for row in times):.1f} s", flush=True)
+    return times
 
 
 def in_batches(filters, jobs):
@@ -133,7 +125,8 @@ def main():
     if batches:
         known = {(program, name) for batch in batches for program, tests, _ in batch
                  for name in tests.split(":")}
-        added = {program: [name for name in names_of(program) if (program, name) not in known]
+        added = {program: [name for name in report(program, LEFT_OUT, "--gtest_list_tests")
+                           if (program, name) not in known]
                  for program in programs}
         filters = {program: ":".join(names) for program, names in added.items() if names}
     else:

@@ -22,6 +22,33 @@ sim::BissBSlave& slave(ProtocolChip& chip) {
   return dynamic_cast<sim::BissBSlave&>(*chip.simulator.slave(1));
 }
 
+// Runs until MA of line 1 has risen `count` times.
+bool ma_rises(ProtocolChip& chip, unsigned count) {
+  bool ma = true;
+  return chip.simulator.run_while_waiting(
+      [&] {
+        const bool level = chip.simulator.pin(sim::Pin::kMa1);
+        if (level && !ma) --count;
+        ma = level;
+        return count == 0;
+      },
+      chip.simulator.now() + 100 * sim::kPsPerUs);
+}
+
+bool access_ends(ProtocolChip& chip) {
+  return chip.simulator.run_while_waiting([&] { return (chip.status() & reg::REGEND::kMask) != 0; },
+                                          chip.simulator.now() + 200 * sim::kPsPerUs);
+}
+
+// SL has this level for this time, whatever the slave sends.
+void hold_sl(ProtocolChip& chip, bool level, sim::Time time) {
+  chip.simulator.line(1)->faults().stick(level);
+  chip.simulator.refresh_lines();
+  chip.simulator.advance(time);
+  chip.simulator.line(1)->faults().stick(std::nullopt);
+  chip.simulator.refresh_lines();
+}
+
 // After a register access the slave gets its register timeout before the next frame begins, also if
 // the last bit on the cable is 1, or the next bit that the slave would send. On a bus the slaves
 // pass on MO = 1.
@@ -84,15 +111,9 @@ TEST(ChipBissBAgs, AccessWithAnError_FramesGoOnBehindTheRegisterTimeout) {
         ASSERT_TRUE(chip.simulator.run_while_waiting([&] { return slave(chip).in_register_mode(); },
                                                      chip.simulator.now() + 100 * sim::kPsPerUs));
         chip.simulator.advance((20 + value / 2) * chip.t_mar);
-        chip.simulator.line(1)->faults().stick(!chip.simulator.line(1)->sl());
-        chip.simulator.refresh_lines();
-        chip.simulator.advance(chip.t_mar);
-        chip.simulator.line(1)->faults().stick(std::nullopt);
-        chip.simulator.refresh_lines();
+        hold_sl(chip, !chip.simulator.line(1)->sl(), chip.t_mar);
       }
-      ASSERT_TRUE(chip.simulator.run_while_waiting(
-          [&] { return (chip.status() & reg::REGEND::kMask) != 0; },
-          chip.simulator.now() + 200 * sim::kPsPerUs));
+      ASSERT_TRUE(access_ends(chip));
       EXPECT_EQ(chip.status() & (reg::nREGERR::kMask | reg::REGEND::kMask), reg::kRegendDone)
           << value << write;
       // The rest of the byte has not gone out: the slave does not take it.
@@ -109,33 +130,6 @@ TEST(ChipBissBAgs, AccessWithAnError_FramesGoOnBehindTheRegisterTimeout) {
   }
 }
 
-// Runs until MA of line 1 has risen `count` times.
-bool ma_rises(ProtocolChip& chip, unsigned count) {
-  bool ma = true;
-  return chip.simulator.run_while_waiting(
-      [&] {
-        const bool level = chip.simulator.pin(sim::Pin::kMa1);
-        if (level && !ma) --count;
-        ma = level;
-        return count == 0;
-      },
-      chip.simulator.now() + 100 * sim::kPsPerUs);
-}
-
-bool access_ends(ProtocolChip& chip) {
-  return chip.simulator.run_while_waiting([&] { return (chip.status() & reg::REGEND::kMask) != 0; },
-                                          chip.simulator.now() + 200 * sim::kPsPerUs);
-}
-
-// SL is 1 for this time, whatever the slave sends.
-void hold_sl_high(ProtocolChip& chip, sim::Time time) {
-  chip.simulator.line(1)->faults().stick(true);
-  chip.simulator.refresh_lines();
-  chip.simulator.advance(time);
-  chip.simulator.line(1)->faults().stick(std::nullopt);
-  chip.simulator.refresh_lines();
-}
-
 // The chip ignores SL during the address part, because a slave may send the address back.
 TEST(ChipBissBAgs, SlInTheAddressPart_IsNotLookedAt) {
   for (const bool write : {true, false}) {
@@ -146,7 +140,7 @@ TEST(ChipBissBAgs, SlInTheAddressPart_IsNotLookedAt) {
     chip.instruct(reg::kInstrControl);
     ASSERT_TRUE(ma_rises(chip, 2));
     // 17 cells; up to an eighth after the first edge of the byte.
-    hold_sl_high(chip, 16 * chip.t_mar + chip.t_mar / 8);
+    hold_sl(chip, true, 16 * chip.t_mar + chip.t_mar / 8);
     ASSERT_TRUE(access_ends(chip));
     EXPECT_EQ(chip.status(), reg::kResetStatus0 | reg::kRegendDone) << write;
     EXPECT_EQ(chip.read(reg::kAddrRdata), write ? 0xC3 : 0x5A);
@@ -167,7 +161,7 @@ TEST(ChipBissBAgs, SlInTheStopBitOfAWrite_IsNotLookedAt) {
   ASSERT_TRUE(ma_rises(chip, kAddressCells + kByteCells + 1));
   chip.simulator.advance(chip.t_mar / 2);
   ASSERT_FALSE(chip.simulator.line(1)->sl());
-  hold_sl_high(chip, chip.t_mar);
+  hold_sl(chip, true, chip.t_mar);
   ASSERT_TRUE(access_ends(chip));
   EXPECT_EQ(chip.status(), reg::kResetStatus0 | reg::kRegendDone);
   EXPECT_EQ(slave(chip).reg_read(0x10), 0xC3);
