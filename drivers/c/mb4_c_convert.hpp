@@ -16,6 +16,7 @@
 namespace mb4_c {
 
 static_assert(static_cast<int>(mb4::Error::kJump) == MB4_JUMP);
+static_assert(static_cast<int>(mb4::Error::kNoWord) == MB4_NO_WORD);
 static_assert(static_cast<int>(mb4::Protocol::kUnused) == MB4_PROTOCOL_UNUSED);
 static_assert(static_cast<int>(mb4::LineInterface::kLvds) == MB4_LINE_LVDS);
 static_assert(static_cast<int>(mb4::ClockSource::kInternal) == MB4_CLOCK_INTERNAL);

@@ -56,7 +56,9 @@ enum {
   MB4_WRONG_MODE = 17,
   MB4_BANK_SWITCHED = 18,
   MB4_LINE_DELAY = 19,
-  MB4_JUMP = 20
+  MB4_JUMP = 20,
+  MB4_SLAVE_ERROR = 21,
+  MB4_NO_WORD = 22
 };
 
 /* Result of a call: mb4::ErrorInfo. */

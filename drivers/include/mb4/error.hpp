@@ -83,6 +83,14 @@ enum class Error : std::uint8_t {
   kLineDelay = 19,
   // PositionTracker: the position has moved further than the allowed step. No chip is involved.
   kJump = 20,
+  // The word has come with a right CRC, and its nE is 0: the encoder says that its position is not
+  // to be trusted. Result::value() refuses it, Result::reading() gives it. The frame was good in
+  // every other way: nothing is lost, the chip is idle or the frames go on.
+  kSlaveError = 21,
+  // BiSS C: the slave has acknowledged the frame and has sent no word: all data bits and the CRC's
+  // bits are 0 on the line, and SL is 1 again. Its single-cycle data is switched off (broadcast
+  // command 00; Control::activate()), or its output is dead. Touched as for kCrc.
+  kNoWord = 22,
 };
 
 // The Config member that an error concerns. Values are stable; new ones are added at the end.
@@ -202,6 +210,10 @@ struct alignas(4) ErrorInfo {
       return "line delay too long";
     case Error::kJump:
       return "position jumped";
+    case Error::kSlaveError:
+      return "encoder reports an error (nE = 0)";
+    case Error::kNoWord:
+      return "slave acknowledges and sends no word";
   }
   return "unknown";
 }

@@ -580,7 +580,7 @@ TEST(SlaveAddress, WithMo_BissBCountsFrom1) {
 }
 
 TEST(Names, EveryErrorAndField_HasOne) {
-  for (std::uint8_t i = 0; i <= static_cast<std::uint8_t>(Error::kJump); ++i) {
+  for (std::uint8_t i = 0; i <= static_cast<std::uint8_t>(Error::kNoWord); ++i) {
     EXPECT_STRNE(mb4::to_string(static_cast<Error>(i)), "unknown");
   }
   for (std::uint8_t i = 0; i <= static_cast<std::uint8_t>(ConfigField::kRegisterTimeoutUs); ++i) {

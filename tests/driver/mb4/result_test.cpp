@@ -51,7 +51,7 @@ TEST(Result, Detail_MeansWhatTheCodeSays) {
 }
 
 TEST(Result, Names_AreDifferentAndKnown) {
-  for (unsigned code = 0; code <= static_cast<unsigned>(Error::kJump); ++code) {
+  for (unsigned code = 0; code <= static_cast<unsigned>(Error::kNoWord); ++code) {
     EXPECT_STRNE(to_string(static_cast<Error>(code)), "unknown") << code;
   }
   EXPECT_STREQ(to_string(static_cast<Error>(0xFF)), "unknown");

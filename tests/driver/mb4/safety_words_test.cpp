@@ -16,7 +16,7 @@ using mb4::Error;
 using State = mb4::SafetyWordRead::State;
 
 TEST(SafetyWord, EachResult_HasItsState) {
-  for (std::uint8_t i = 1; i <= static_cast<std::uint8_t>(Error::kJump); ++i) {
+  for (std::uint8_t i = 1; i <= static_cast<std::uint8_t>(Error::kNoWord); ++i) {
     const Error error = static_cast<Error>(i);
     const bool bad = error == Error::kCrc || error == Error::kCorrupted;
     const mb4::SafetyWordRead word = mb4::safety_word(mb4::Result<mb4::Reading>(error));
