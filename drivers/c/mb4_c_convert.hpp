@@ -36,13 +36,13 @@ mb4_result to_c(const mb4::Result<T>& result) {
 }
 
 inline mb4_reading to_c(const mb4::Reading& reading) {
-  return {reading.raw,   reading.position, reading.crc,  reading.crc_stored,
-          reading.error, reading.warning,  reading.slave};
+  return {reading.raw,         reading.position,      reading.crc,  reading.crc_stored,
+          reading.slave_error, reading.slave_warning, reading.slave};
 }
 
 inline mb4_result store(const mb4::Result<mb4::Reading>& result, mb4_reading* reading) {
-  if (result) {
-    *reading = to_c(*result);
+  if (result.has_reading()) {
+    *reading = to_c(result.reading());
   }
   return to_c(result);
 }
@@ -51,8 +51,8 @@ inline mb4_result store(const mb4::Result<void>& result, const mb4::Frame& frame
   *out = mb4_frame{};
   for (std::size_t slave = 1; slave <= mb4::kSlaves; ++slave) {
     out->code[slave - 1] = static_cast<std::uint8_t>(frame[slave].error());
-    if (frame[slave]) {
-      out->reading[slave - 1] = to_c(*frame[slave]);
+    if (frame[slave].has_reading()) {
+      out->reading[slave - 1] = to_c(frame[slave].reading());
     }
   }
   for (std::size_t i = 0; i < mb4::Status::kBytes; ++i) {
@@ -131,7 +131,7 @@ inline mb4::SafetyWordRead safety_word(const mb4_frame* frame, std::uint8_t slav
     return {};
   }
   const auto error = static_cast<mb4::Error>(frame->code[slave - 1]);
-  if (error != mb4::Error::kNone) {
+  if (!mb4::detail::has_reading(frame->code[slave - 1])) {
     return mb4::safety_word(error);
   }
   const mb4_reading& from = frame->reading[slave - 1];

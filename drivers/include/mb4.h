@@ -96,19 +96,19 @@ typedef struct {
   uint32_t frame_period_clk; /* MB4_START_PERIODIC: mb4_frame_period_clk_at_least(), else 0 */
   uint32_t frame_timeout_us; /* 1..1'000'000; 0 = calculated */
   uint32_t register_busy_us; /* 1..10'000'000; 0 = the chip's own limit */
-  uint8_t clock_source;   /* MB4_CLOCK_... */
-  uint8_t line_interface; /* MB4_LINE_... */
-  uint8_t frame_start;    /* MB4_START_... */
-  uint8_t spi_check;      /* MB4_SPI_CHECK_... */
+  uint8_t clock_source;      /* MB4_CLOCK_... */
+  uint8_t line_interface;    /* MB4_LINE_... */
+  uint8_t frame_start;       /* MB4_START_... */
+  uint8_t spi_check;         /* MB4_SPI_CHECK_... */
   bool single_bank;
   bool hold_cdm;
-  bool mo;                      /* pin MO is wired to SLI of the last slave */
-  uint8_t mo_busy;              /* periods of MA; 0 without mo */
-  uint16_t register_divider;    /* f_MA / register clock of BiSS B: 2, 4, 8 ... 256 */
-  uint32_t register_timeout_us; /* longest timeout of the BiSS B slaves, up to 1'000'000 */
+  bool mo;                             /* pin MO is wired to SLI of the last slave */
+  uint8_t mo_busy;                     /* periods of MA; 0 without mo */
+  uint16_t register_divider;           /* f_MA / register clock of BiSS B: 2, 4, 8 ... 256 */
+  uint32_t register_timeout_us;        /* longest timeout of the BiSS B slaves, up to 1'000'000 */
   uint8_t protocol[MB4_CHANNELS];      /* MB4_PROTOCOL_...; [0] is channel 1 */
   mb4_slave_config slaves[MB4_SLAVES]; /* [0] is slave 1 */
-  bool hold_beside_access; /* HOLDBANK beside register accesses too */
+  bool hold_beside_access;             /* HOLDBANK beside register accesses too */
 } mb4_config;
 
 /* mb4::Reading in mb4/reading.hpp. */
@@ -117,13 +117,15 @@ typedef struct {
   uint64_t position; /* the data bits without flags, right aligned */
   uint16_t crc;      /* not inverted; 0 unless crc_stored */
   bool crc_stored;
-  bool error;    /* the encoder reports an error: do not trust the position */
-  bool warning;  /* the encoder reports a warning */
-  uint8_t slave; /* 1..8 */
+  bool slave_error;   /* nE = 0, the encoder reports an error: do not trust the position. The call
+                         that brings such a reading returns MB4_SLAVE_ERROR */
+  bool slave_warning; /* nW = 0, the encoder reports a warning */
+  uint8_t slave;      /* 1..8 */
 } mb4_reading;
 
-/* mb4::Frame: reading[i] is valid where code[i] is MB4_OK. [0] is slave 1. A call that takes a
- * mb4_frame always writes it. */
+/* mb4::Frame: reading[i] is valid where code[i] is MB4_OK. Where it is MB4_SLAVE_ERROR, reading[i]
+ * is what the slave has sent, and its position is not to be trusted. [0] is slave 1. A call that
+ * takes a mb4_frame always writes it. */
 typedef struct {
   mb4_reading reading[MB4_SLAVES];
   uint8_t code[MB4_SLAVES];
@@ -133,9 +135,9 @@ typedef struct {
 
 /* mb4::Command in mb4/command.hpp. */
 typedef struct {
-  uint8_t channels; /* bit 0 channel 1, bit 1 channel 2 */
-  uint8_t ids;      /* bit 0 is ID 0; 0 = broadcast */
-  uint8_t code;     /* 0..3 */
+  uint8_t channels;      /* bit 0 channel 1, bit 1 channel 2 */
+  uint8_t ids;           /* bit 0 is ID 0; 0 = broadcast */
+  uint8_t code;          /* 0..3 */
   bool test_acknowledge; /* IDA test; not with broadcast */
 } mb4_command;
 
@@ -216,17 +218,17 @@ MB4_RESULT mb4_scan(mb4_device *device, uint8_t channel, mb4_identity *identitie
 
 /* ---- Operations in steps ----
  *
- * The driver plans SPI frames, the caller makes them, by DMA or otherwise, and the driver takes what
- * came back. The comments of mb4::Operation (mb4/operation.hpp) and of the C++ calls with
- * the same name state steps, pauses and errors, and what wrong use answers:
+ * The driver plans SPI frames, the caller makes them, by DMA or otherwise, and the driver takes
+ * what came back. The comments of mb4::Operation (mb4/operation.hpp) and of the C++ calls with the
+ * same name state steps, pauses and errors, and what wrong use answers:
  *
  *   mb4_operation_begin(&operation);                      // once
  *   if (mb4_plan_restart(&device, &operation).code == MB4_OK) {
  *     do {
  *       size_t count = mb4_operation_frames(&operation, frames, &pause_us);
- *       ...            // waits pause_us, then makes the frames one after the other, NCS low for each
- *     } while (!mb4_finish(&device, &operation, transferred, now_us()));
- *     result = mb4_operation_result(&operation);
+ *       ...            // waits pause_us, then makes the frames one after the other, NCS low for
+ * each } while (!mb4_finish(&device, &operation, transferred, now_us())); result =
+ * mb4_operation_result(&operation);
  *   }
  *
  * No call below makes a transfer or asks for the time. */

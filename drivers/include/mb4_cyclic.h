@@ -17,6 +17,9 @@
  *   } while (code == MB4_MORE);
  *   if (code == MB4_OK) { mb4_slot_reading(&word, &slot, &reading, MB4_WITH_ALL); ... }
  *
+ * MB4_SLAVE_ERROR is a new word too, but its nE is 0: the encoder says that its position is not to
+ * be trusted. mb4_slot_reading() then gives what it sent, for a message or a log.
+ *
  * With `chain` set, a read is one plan (table 69 of the datasheet): 0x07 HOLDBANK, 0x09 or 0x03
  * data of one slave or several, 0x05 status, 0x02 SVALID = 0 and HOLDBANK = 0. Only a bad word
  * needs another plan. Without `chain` the 0x02 is a plan of its own, and a bad word needs one frame
@@ -265,26 +268,29 @@ MB4_APART uint16_t mb4_word_crc(const mb4_word *word, uint32_t low, uint32_t hig
 /* What the reads of one chip have met: with MB4_WITH_COUNTS, each finished read of one slave or of
  * all. Set the object to zero once. The chip counts nothing: nAGSERR stays 0 from the first frame
  * that it has left out until BREAK or INIT, and SWBANKFAIL (0xFB) is 1 only until the next switch.
- * So what is lost is counted by time: the periods between two good reads. This is exact for frames
- * with a fixed period, while the loop's phase to them stays within half a period of that of the
- * first good read, and as long as the caller's clock and the chip's agree: each half period between
- * them is one count. One object is for reads of one and the same slave, or for reads of all: reads
- * of several slaves one by one hide from each other what is lost. A read of all is good if one word
- * is. */
+ * So what is lost is counted by time: the periods between two reads with a new word. This is exact
+ * for frames with a fixed period, while the loop's phase to them stays within half a period of that
+ * of the first such read, and as long as the caller's clock and the chip's agree: each half period
+ * between them is one count. One object is for reads of one and the same slave, or for reads of
+ * all: reads of several slaves one by one hide from each other what is lost. A read of all is good
+ * if one word is. */
 typedef struct {
   uint32_t period_ns; /* the caller's: of the frames, at most 10^9; 0: nothing is counted as lost */
-  uint32_t good;      /* reads with a new word */
-  uint32_t crc;       /* reads with a bad word */
+  uint32_t good;      /* reads with a new position: MB4_OK */
+  uint32_t slave_errors; /* reads with a new word whose nE is 0. Such a sample is not lost: for one
+                            slave, sequence is good + slave_errors + lost. Of a read of all it may
+                            be one of its words, and the read is good by another one */
+  uint32_t crc;          /* reads with a bad word */
   uint32_t lost; /* samples that no read has brought: left out, overwritten or bad; known with the
-                    next good one */
-  uint32_t sequence; /* number of the last good sample; the first one is 1 */
+                    next new one */
+  uint32_t sequence; /* number of the last new sample; the first one is 1 */
   uint32_t switched; /* MB4_BANK_SWITCHED */
   uint32_t late;     /* reads that ended more than 1.5 periods after the last one */
   uint32_t faults;   /* other errors */
   uint32_t restarts; /* of the C++ calls next(), restart() and plan_restart() */
   bool omits;        /* nAGSERR = 0: the chip has left out a frame */
   /* Private. */
-  uint32_t last_us; /* good */
+  uint32_t last_us; /* a new word */
   uint32_t read_us;
   uint32_t rest_ns;
 } mb4_counts;
@@ -299,7 +305,7 @@ typedef struct {
   bool held;           /* a read has ended without the release of the bank: the next one begins with
                           it; when frames are started clear it, with MB4_SPI_CHECK_FULL_AND_RELEASE
                           set it */
-  uint8_t taken;       /* slaves (bit 0 is slave 1) of which a read of one has taken a good word */
+  uint8_t taken;       /* slaves (bit 0 is slave 1) of which a read of one has taken a new word */
   uint32_t good_us[MB4_SLAVES]; /* when; set them when frames are started */
   mb4_counts *counts;           /* for MB4_WITH_COUNTS; may be null */
 } mb4_watch;
@@ -309,7 +315,7 @@ typedef struct {
   uint32_t low; /* SCDATAx */
   uint32_t high;
   uint16_t crc; /* that fits the data */
-  uint8_t code; /* MB4_OK, MB4_NO_DATA, MB4_CRC, MB4_CORRUPTED */
+  uint8_t code; /* MB4_OK, MB4_NO_DATA, MB4_CRC, MB4_CORRUPTED, MB4_SLAVE_ERROR */
   bool bad;     /* private: the word of this try has a wrong CRC */
 } mb4_slot;
 
@@ -328,10 +334,11 @@ typedef struct {
   bool chain;        /* one plan; not with MB4_SPI_CHECK_FULL or _FULL_AND_RELEASE, not unheld */
   /* Results. */
   /* These two with MB4_WITH_SEVERAL: */
-  bool told;      /* the slots hold the result of each slave; otherwise the code is that of all */
-  bool one_frame; /* all words that are MB4_OK belong to one frame */
-  bool bad;       /* a new word came with a wrong CRC; with MB4_OK a good one has followed */
-  bool running;   /* with `access`: REGEND = 0 in the last status, it runs */
+  bool told;        /* the slots hold the result of each slave; otherwise the code is that of all */
+  bool one_frame;   /* all words that are MB4_OK or MB4_SLAVE_ERROR belong to one frame */
+  bool bad;         /* a new word came with a wrong CRC; with MB4_OK a good one has followed */
+  bool slave_error; /* a new word came with nE = 0; with MB4_OK another one is good */
+  bool running;     /* with `access`: REGEND = 0 in the last status, it runs */
   uint8_t status[MB4_STATUS_BYTES]; /* the last one */
   /* Private. */
   uint8_t stage;
@@ -505,6 +512,7 @@ static inline void mb4_cyclic_plan(mb4_cyclic *read, mb4_plan *plan, uint8_t wit
   plan->pause_us = 0;
   read->again = false;
   read->bad = false;
+  read->slave_error = false;
   read->running = false;
   read->unproven = false;
   if ((with & MB4_WITH_SEVERAL) != 0) {
@@ -647,20 +655,32 @@ MB4_APART bool mb4_slot_good(const mb4_word *word, mb4_slot *slot, uint8_t with)
   return fits && slot->crc == (uint16_t)(slot->high >> (word->crc_bits > 8 ? 16 : 24));
 }
 
-/* Works out the reading of a slot with MB4_OK. */
+/* The last bits, nE and nW, as the slave sent them. With Gray code the chip converts the flags
+ * together with the position. */
+static inline uint32_t mb4_slot_flags(const mb4_word *word, const mb4_slot *slot, uint8_t with) {
+  return (with & MB4_WITH_GRAY) != 0 && word->gray ? slot->low ^ slot->low >> 1 : slot->low;
+}
+
+/* A slot with MB4_OK whose nE is 0 becomes MB4_SLAVE_ERROR. Returns its code. */
+static inline uint8_t mb4_slot_tell(const mb4_word *word, mb4_slot *slot, uint8_t with) {
+  if (slot->code == MB4_OK && word->flags && (mb4_slot_flags(word, slot, with) & 2U) == 0) {
+    slot->code = MB4_SLAVE_ERROR;
+  }
+  return slot->code;
+}
+
+/* Works out the reading of a slot with MB4_OK or MB4_SLAVE_ERROR. */
 static inline void mb4_slot_reading(const mb4_word *word, const mb4_slot *slot,
                                     mb4_reading *reading, uint8_t with) {
   uint32_t low = slot->low;
   uint32_t high = slot->high;
-  uint32_t sent = 0;
+  const uint32_t sent = mb4_slot_flags(word, slot, with);
   (void)mb4_cyclic_cut(word, &low, &high, with);
   reading->crc_stored = word->crc_bits != 0;
   reading->crc = slot->crc;
-  /* With Gray code the chip converts the flags together with the position. */
-  sent = (with & MB4_WITH_GRAY) != 0 && word->gray ? low ^ low >> 1 : low;
   reading->slave = word->slave;
-  reading->error = word->flags && (sent & 2U) == 0;
-  reading->warning = word->flags && (sent & 1U) == 0;
+  reading->slave_error = word->flags && (sent & 2U) == 0;
+  reading->slave_warning = word->flags && (sent & 1U) == 0;
   if (word->flags) {
     reading->raw = (uint64_t)high << 32 | ((low & ~3U) | (sent & 3U));
     low = low >> 2 | high << 30;
@@ -929,7 +949,10 @@ static inline uint8_t mb4_cyclic_tell(mb4_cyclic *read, uint32_t now_us, uint8_t
       /* Other slaves keep news_us young. Bad frames without a good word of this one are its own. */
       slot->code = MB4_CRC;
     }
-    if (result == MB4_NO_DATA || slot->code == MB4_OK) {
+    if (mb4_slot_tell(&read->words[i], slot, with) == MB4_SLAVE_ERROR) {
+      read->slave_error = true;
+      result = result == MB4_OK ? result : slot->code;
+    } else if (result == MB4_NO_DATA || slot->code == MB4_OK) {
       result = slot->code;
     }
   }
@@ -947,7 +970,7 @@ static inline uint8_t mb4_cyclic_watch(mb4_cyclic *read, mb4_plan *plan, uint8_t
   if (code == MB4_OK) {
     code = mb4_cyclic_tell(read, now_us, with);
   }
-  if (read->unheld || code == MB4_OK || read->bad || code == MB4_CORRUPTED) {
+  if (code == MB4_OK || read->slave_error || read->unheld || read->bad || code == MB4_CORRUPTED) {
     watch->news_us = now_us;
     return code;
   }
@@ -1069,16 +1092,20 @@ MB4_APART void mb4_cyclic_count_read(const mb4_cyclic *read, uint8_t code, uint3
     ++counts->crc;
   } else if (code == MB4_BANK_SWITCHED) {
     ++counts->switched;
-  } else if (code != MB4_OK && code != MB4_NO_DATA) {
+  } else if (code != MB4_OK && code != MB4_NO_DATA && code != MB4_SLAVE_ERROR) {
     ++counts->faults;
   }
-  if (code != MB4_OK) {
+  if (read->slave_error) {
+    ++counts->slave_errors;
+  }
+  if (code == MB4_OK) {
+    ++counts->good;
+  } else if (code != MB4_SLAVE_ERROR) {
     return;
   }
-  ++counts->good;
   counts->last_us = now_us;
   if (counts->sequence == 0 || period_ns == 0) {
-    counts->sequence = counts->good;
+    ++counts->sequence;
     counts->rest_ns = period_ns / 2;
     return;
   }
@@ -1101,14 +1128,17 @@ MB4_APART void mb4_cyclic_count_read(const mb4_cyclic *read, uint8_t code, uint3
  * time, a counter of microseconds that wraps at 2^32. `with`: MB4_WITH_..., a constant.
  *
  * Returns MB4_MORE (make the frames of the new plan, then call it again) or the result, which is
- * that of the slave, or of all (`told` is false). With several slaves it is MB4_OK if one slot is:
+ * that of the slave, or of all (`told` is false). With several slaves it is MB4_OK if one slot is,
+ * else MB4_SLAVE_ERROR if one slot is; look at the code of each slot before its position is used:
  *
  *   MB4_OK             mb4_slot_reading() gives the new position
- *   MB4_NO_DATA        no frame with data of this slave has ended since the last read
- *   MB4_CRC            one has, and its CRC was wrong; told once for each frame. Without a stored
- *                      CRC: by each read until a frame is good, if the slave is the only one
- *   MB4_CORRUPTED, MB4_NOT_DETECTED, MB4_TRANSPORT, MB4_BANK_SWITCHED, MB4_TIMEOUT, MB4_LINE_ERROR
- *                      as Automatic::poll() in mb4/automatic.hpp describes them
+ *   MB4_SLAVE_ERROR    a new word whose nE is 0: mb4_slot_reading() gives it, its position is not
+ * to be trusted. In every other way the word is as good as one with MB4_OK MB4_NO_DATA        no
+ * frame with data of this slave has ended since the last read MB4_CRC            one has, and its
+ * CRC was wrong; told once for each frame. Without a stored CRC: by each read until a frame is
+ * good, if the slave is the only one MB4_CORRUPTED, MB4_NOT_DETECTED, MB4_TRANSPORT,
+ * MB4_BANK_SWITCHED, MB4_TIMEOUT, MB4_LINE_ERROR as Automatic::poll() in mb4/automatic.hpp
+ * describes them
  *
  * At most four calls a read; six with MB4_SPI_CHECK_FULL or unheld, seven with
  * MB4_SPI_CHECK_FULL_AND_RELEASE. After a read that has ended without the release of the bank one

@@ -179,7 +179,7 @@ int get(const device* dev, sensor_channel channel, sensor_value* value) {
       value->val1 = static_cast<std::int32_t>(position >> bits);
       break;
     case SENSOR_CHAN_OPENMB4_FLAGS:
-      value->val1 = (state.reading.error ? 1 : 0) | (state.reading.warning ? 2 : 0);
+      value->val1 = (state.reading.slave_error ? 1 : 0) | (state.reading.slave_warning ? 2 : 0);
       break;
     default:
       value->val1 = static_cast<std::int32_t>(static_cast<std::uint32_t>(position));

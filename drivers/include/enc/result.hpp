@@ -24,9 +24,23 @@ struct Failure {
   std::uint32_t packed;
 };
 
-// Either a value or an error, never both. Test it (`if (result)`) before value(). It holds the Info
-// in one word: with its members compilers split and join them at every return, which was a tenth of
-// a driver's size.
+namespace detail {
+
+// nE = 0 in a reading, or in a value that holds one.
+template <typename T>
+constexpr auto slave_error(const T& value) -> decltype(value.slave_error) {
+  return value.slave_error;
+}
+template <typename T>
+constexpr auto slave_error(const T& value) -> decltype(value.reading.slave_error) {
+  return value.reading.slave_error;
+}
+
+}  // namespace detail
+
+// Either a value or an error. Only kSlaveError has both, and value() refuses it; see reading().
+// Test it (`if (result)`) before value(). It holds the Info in one word: with its members compilers
+// split and join them at every return, which was a tenth of a driver's size.
 template <typename T, typename Info>
 class [[nodiscard]] Result {
  public:
@@ -40,6 +54,9 @@ class [[nodiscard]] Result {
   constexpr Result(Failure<Info> failure) : packed_(failure.packed) {
     require(error() != Error::kNone);
   }
+  // A reading with kSlaveError, see reading(), or with kNone.
+  constexpr Result(T value, Error error)
+      : value_(std::move(value)), packed_(static_cast<std::uint32_t>(error)) {}
 
   [[nodiscard]] constexpr bool ok() const { return error() == Error::kNone; }
   [[nodiscard]] constexpr explicit operator bool() const { return ok(); }
@@ -55,6 +72,17 @@ class [[nodiscard]] Result {
   }
   [[nodiscard]] constexpr const T& operator*() const { return value(); }
   [[nodiscard]] constexpr const T* operator->() const { return &value(); }
+
+  // There is a reading(): ok(), or kSlaveError with what the slave has sent.
+  [[nodiscard]] constexpr bool has_reading() const { return ok() || detail::slave_error(value_); }
+
+  // What the slave has sent, also if it reports an error (kSlaveError, nE = 0): for a message or a
+  // log, not for a drive. Any other error stops the program as in value(), and so does a
+  // kSlaveError that came from the failure() of another Result. Only for a T that holds a reading.
+  [[nodiscard]] constexpr const T& reading() const {
+    require(has_reading());
+    return value_;
+  }
 
   // The value, or `otherwise` for an error.
   [[nodiscard]] constexpr T value_or(T otherwise) const { return ok() ? value_ : otherwise; }

@@ -59,19 +59,17 @@ class CyclicRead : public ReadSteps {
 
   static constexpr std::size_t kMaxFrameBytes = 10;
 
-  // After finish() has returned true. kNone: position() is new, without the flag bits. Smaller code
+  // After finish() has returned true. kNone: position() is new, without the flag bits. kSlaveError:
+  // it is new, and nE is 0: it is not to be trusted. Other errors: it is an old one. Smaller code
   // than result().
   [[nodiscard]] Error error() const { return static_cast<Error>(code_); }
   [[nodiscard]] std::uint64_t position() const { return reading_.position; }
   // nE and nW of the slave, as in a Reading.
-  [[nodiscard]] bool slave_error() const { return reading_.error; }
-  [[nodiscard]] bool slave_warning() const { return reading_.warning; }
+  [[nodiscard]] bool slave_error() const { return reading_.slave_error; }
+  [[nodiscard]] bool slave_warning() const { return reading_.slave_warning; }
 
   // The same with everything else: what Automatic::poll_slave() returns.
-  [[nodiscard]] Result<Reading> result() const {
-    return code_ != MB4_OK ? Result<Reading>(static_cast<Error>(code_))
-                           : detail::to_result(reading_);
-  }
+  [[nodiscard]] Result<Reading> result() const { return detail::to_result(reading_, code_); }
 
  private:
   friend struct detail::Blocking;

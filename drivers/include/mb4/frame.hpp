@@ -22,8 +22,8 @@ namespace mb4 {
 class Frame {
  public:
   // The result of slave 1..8. It is a Reading or an error: kCrc, kNoData (no new frame since the
-  // last read, or none for this slave), kCorrupted. kInvalidArgument: the slave is not enabled, it
-  // is an actuator, or `slave` is not 1..8.
+  // last read, or none for this slave), kCorrupted, kSlaveError (nE = 0; reading() has the word).
+  // kInvalidArgument: the slave is not enabled, it is an actuator, or `slave` is not 1..8.
   [[nodiscard]] const Result<Reading>& operator[](std::size_t slave) const {
     return results_[slave <= kSlaves ? slave : 0];
   }
@@ -52,10 +52,22 @@ class Frame {
     return true;
   }
 
+  // True when every slave of `mask` has sent a whole word: a Reading, or kSlaveError.
+  [[nodiscard]] bool complete(std::uint8_t mask) const {
+    for (std::size_t slave = 1; slave <= kSlaves; ++slave) {
+      if (is_in(mask, static_cast<std::uint8_t>(slave)) && !results_[slave] &&
+          results_[slave].error() != Error::kSlaveError) {
+        return false;
+      }
+    }
+    return true;
+  }
+
   // Status read after the data.
   Status status;
-  // All Readings are of one frame of the line. False only where a bad word was read again and the
-  // slave has sent the next one meanwhile (Automatic::poll(), next()), and on an error of the call.
+  // All Readings, those with kSlaveError too, are of one frame of the line. False only where a bad
+  // word was read again and the slave has sent the next one meanwhile (Automatic::poll(), next()),
+  // and on an error of the call.
   bool one_frame = false;
 
  private:

@@ -16,8 +16,28 @@
 
 namespace mb4 {
 
+namespace detail {
+
+// Stands where a member had a name that is no longer in use.
+struct OldName {
+  constexpr OldName() = default;
+  OldName(const OldName&) = delete;
+  OldName& operator=(const OldName&) = delete;
+  ~OldName() = default;
+  template <typename T>
+  constexpr operator T() const {
+    static_assert(sizeof(T) == 0,
+                  "mb4: the members 'error' and 'warning' of a Reading are called 'slave_error' "
+                  "and 'slave_warning'; the error of the call is Result::error()");
+    return T();
+  }
+};
+
+}  // namespace detail
+
 // The data of one slave from one good frame. Exists only if the chip and the driver found the frame
-// good; a bad frame is an error, never a Reading.
+// good; a bad frame is an error, never a Reading. Where nE is 0 the Result that brings it has the
+// error kSlaveError, and Result::reading() gives it.
 struct Reading {
   // All data bits, right aligned: the position (Gray code as the chip has converted it) and the
   // flags as the slave sent them.
@@ -29,11 +49,14 @@ struct Reading {
   // Config::spi_check is not kOff and the chip had room for the CRC.
   bool crc_stored = false;
   // The slave reports an error (nE = 0): the position is not to be trusted. False without flags.
-  bool error = false;
+  bool slave_error = false;
   // The slave reports a warning (nW = 0). False without flags.
-  bool warning = false;
+  bool slave_warning = false;
   // Slave 1..8.
   std::uint8_t slave = 0;
+
+  static constexpr detail::OldName error{};    // does not compile where it is used
+  static constexpr detail::OldName warning{};  // nor does this
 };
 
 // How many bytes of SCDATAx a Reading needs: 1..7, or 8 with a stored CRC or 57..64 data bits.
@@ -56,29 +79,35 @@ inline void set_word(const Config& config, std::uint8_t slave, mb4_word& word) {
   mb4_word_set(&word, slave, &one, static_cast<std::uint8_t>(config.spi_check));
 }
 
-inline Result<Reading> to_result(const mb4_reading& from) {
+// What a slot or a read with this code has: a reading, whose nE may be 0.
+constexpr bool has_reading(std::uint8_t code) { return code == MB4_OK || code == MB4_SLAVE_ERROR; }
+
+inline Result<Reading> to_result(const mb4_reading& from, std::uint8_t code) {
+  if (!has_reading(code)) {
+    return static_cast<Error>(code);
+  }
   Reading reading;
   reading.raw = from.raw;
   reading.position = from.position;
   reading.crc = from.crc;
   reading.crc_stored = from.crc_stored;
-  reading.error = from.error;
-  reading.warning = from.warning;
+  reading.slave_error = from.slave_error;
+  reading.slave_warning = from.slave_warning;
   reading.slave = from.slave;
-  return reading;
+  return {reading, static_cast<Error>(code)};
 }
 
 inline Result<Reading> to_result(const mb4_word& word, const mb4_slot& slot) {
-  if (slot.code != MB4_OK) {
-    return static_cast<Error>(slot.code);
+  mb4_reading reading{};
+  if (has_reading(slot.code)) {
+    mb4_slot_reading(&word, &slot, &reading, MB4_WITH_ALL);
   }
-  mb4_reading reading;
-  mb4_slot_reading(&word, &slot, &reading, MB4_WITH_ALL);
-  return to_result(reading);
+  return to_result(reading, slot.code);
 }
 
 static_assert(static_cast<int>(Error::kCorrupted) == MB4_CORRUPTED);
 static_assert(static_cast<int>(Error::kBankSwitched) == MB4_BANK_SWITCHED);
+static_assert(static_cast<int>(Error::kSlaveError) == MB4_SLAVE_ERROR);
 static_assert(static_cast<int>(SpiCheck::kFull) == MB4_SPI_CHECK_FULL);
 static_assert(static_cast<int>(SpiCheck::kFullAndRelease) == MB4_SPI_CHECK_FULL_AND_RELEASE);
 
@@ -86,7 +115,8 @@ static_assert(static_cast<int>(SpiCheck::kFullAndRelease) == MB4_SPI_CHECK_FULL_
 
 // Decodes `bytes` (the first reading_bytes() bytes of SCDATAx, page 26) of slave 1..8 of a valid
 // `config`. kCorrupted when bits that the chip sets to 0 are not 0 or when the stored CRC does not
-// belong to the data. kInvalidArgument: `slave` is not 1..8, or there are fewer bytes.
+// belong to the data. kSlaveError: nE is 0; Result::reading() has the word. kInvalidArgument:
+// `slave` is not 1..8, or there are fewer bytes.
 [[nodiscard]] inline Result<Reading> decode_reading(const Config& config, std::uint8_t slave,
                                                     Span<const std::uint8_t> bytes) {
   if (!is_in(0xFF, slave) || bytes.size() < reading_bytes(config, slave)) {
@@ -97,6 +127,7 @@ static_assert(static_cast<int>(SpiCheck::kFullAndRelease) == MB4_SPI_CHECK_FULL_
   detail::set_word(config, slave, word);
   mb4_slot_load(&word, &slot, bytes.data());
   slot.code = mb4_slot_good(&word, &slot, MB4_WITH_ALL) ? MB4_OK : MB4_CORRUPTED;
+  (void)mb4_slot_tell(&word, &slot, MB4_WITH_ALL);
   return detail::to_result(word, slot);
 }
 

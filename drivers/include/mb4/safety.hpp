@@ -83,15 +83,16 @@ constexpr ConfigField safety_misfit(const Config& config, std::uint8_t slave,
   return {};
 }
 
-// A word from the result of its slave. A reading without a stored CRC counts as missing.
+// A word from the result of its slave. A reading without a stored CRC counts as missing. One with
+// kSlaveError is here: the check looks at nE itself.
 [[nodiscard]] constexpr SafetyWordRead safety_word(const Result<Reading>& reading) {
   SafetyWordRead word;
-  if (!reading) {
+  if (!reading.has_reading()) {
     const bool bad = reading.error() == Error::kCrc || reading.error() == Error::kCorrupted;
     word.state = bad ? SafetyWordRead::State::kBadCrc : SafetyWordRead::State::kMissing;
-  } else if (reading->crc_stored) {
-    word.data = reading->raw;
-    word.crc = reading->crc;
+  } else if (reading.reading().crc_stored) {
+    word.data = reading.reading().raw;
+    word.crc = reading.reading().crc;
     word.state = SafetyWordRead::State::kHere;
   }
   return word;

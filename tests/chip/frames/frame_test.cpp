@@ -33,8 +33,8 @@ TEST(ChipReplay, TiReferenceFrame_IsPosition0E08) {
     const auto reading = device.read_frame();
     ASSERT_TRUE(reading.ok());
     EXPECT_EQ(reading.value().position, 0x0E08U);
-    EXPECT_FALSE(reading.value().error);
-    EXPECT_FALSE(reading.value().warning);
+    EXPECT_FALSE(reading.value().slave_error);
+    EXPECT_FALSE(reading.value().slave_warning);
   }
 }
 
@@ -50,8 +50,8 @@ TEST_P(ChipFrequency, Encoder26_PositionEdgesAndDutyAreRight) {
     const auto reading = chip.device.read_frame();
     ASSERT_TRUE(reading.ok());
     EXPECT_EQ(reading.value().position, 0xAAF37BFU >> 2);
-    EXPECT_FALSE(reading.value().error);
-    EXPECT_FALSE(reading.value().warning);
+    EXPECT_FALSE(reading.value().slave_error);
+    EXPECT_FALSE(reading.value().slave_warning);
     const auto frame = chip.simulator.line(1)->monitor().last(chip.simulator.now());
     EXPECT_EQ(frame.rising, 34U + 5U);
     const sim::Time half = 1'000'000'000'000ULL / ma_hz / 2;
@@ -371,10 +371,10 @@ TEST(ChipDriver, EncoderReportsErrorBit_ReadingSaysSo) {
   Chip chip(one_slave("data_bits = 28\ncrc = 0x43\ndata = 0x4\n"));
   ASSERT_TRUE(chip.device.configure(config26(10'000'000)).ok());
   const auto reading = chip.device.read_frame();
-  ASSERT_TRUE(reading.ok());
-  EXPECT_EQ(reading.value().position, 1U);
-  EXPECT_TRUE(reading.value().error);
-  EXPECT_TRUE(reading.value().warning);
+  EXPECT_EQ(reading.error(), mb4::Error::kSlaveError);
+  EXPECT_EQ(reading.reading().position, 1U);
+  EXPECT_TRUE(reading.reading().slave_error);
+  EXPECT_TRUE(reading.reading().slave_warning);
 }
 
 // The same word whatever the length, CRC and frequency; the slave's data change from frame to

@@ -83,7 +83,8 @@ static void test_single(mb4_device *device) {
   CHECK(quarters[0] >= 10 && quarters[0] <= 12 && quarters[1] == 0);
   OK(mb4_read_frame(device, 1, &reading));
   CHECK(reading.position == 0x2ABCDEF && reading.raw == 0xAAF37BF && reading.slave == 1);
-  CHECK(!reading.error && !reading.warning && reading.crc_stored && reading.crc == 0x18);
+  CHECK(!reading.slave_error && !reading.slave_warning && reading.crc_stored &&
+        reading.crc == 0x18);
   FAILS(mb4_read_frame(device, 2, &reading), MB4_INVALID_ARGUMENT);
   OK(mb4_read_all(device, &frame));
   CHECK(frame.code[0] == MB4_OK && frame.reading[0].position == 0x2ABCDEF);

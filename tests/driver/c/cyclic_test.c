@@ -161,7 +161,7 @@ static void test_phases(bool omits, uint8_t spi_check, bool chain, bool by_table
         CHECK(sent == drive.reading.raw);
         CHECK(ticks == 0 || position > last);
         CHECK(mb4sim_slave_frames(drive.simulator, 1) - position <= 4);
-        CHECK(!drive.reading.error && !drive.reading.warning);
+        CHECK(!drive.reading.slave_error && !drive.reading.slave_warning);
         last = position;
         ++good;
         if (chain) {

@@ -232,6 +232,21 @@ TEST_F(Next, FrameComes_IsFetched) {
 }
 
 // Table 69: SVALID = 0 after reading: BREAK, then AGS again; here before the next frame.
+// nE = 0 is no fault of the line, so nothing is restarted.
+TEST_F(Next, SlaveError_IsFetchedWithoutRestart) {
+  start();
+  for (const std::uint8_t low : {std::uint8_t{0xBD}, std::uint8_t{0xBF}}) {
+    bus.expect_read(kReadStatus, kNew);
+    bus.expect_write(kHold);
+    bus.expect_read(kReadData4, {0x00, low, 0x37, 0xAF, 0x0A});
+    bus.expect_read(kReadStatus, kHeldNew);
+    bus.expect_write(kClearValid1AndRelease);
+    ASSERT_TRUE(device.automatic().next(frame).ok());
+    EXPECT_EQ(frame[1].error(), low == 0xBD ? Error::kSlaveError : Error::kNone);
+    EXPECT_EQ(frame[1].reading().position, mb4test::kPosition);
+  }
+}
+
 TEST_F(Next, BadFrame_NextOneBeginsWithRestart) {
   start();
   bus.expect_read(kReadStatus, kBad);

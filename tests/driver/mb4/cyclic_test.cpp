@@ -41,6 +41,7 @@ const Bytes kClearAllValid{0x02, 0xF1, 0x55, 0x55};
 const Bytes kHold{0x07, 0x41};
 const Bytes kReadWord = join({{0x09}, zeros(8)});
 const Bytes kWord = join({mb4test::kData4, {0, 0, 0, mb4test::kCrc6}});
+const Bytes kErrorWord = {0, 0xBD, 0x37, 0xAF, 0x0A, 0, 0, 0, 0x1E};  // nE = 0; CRC6 by hand
 const Bytes kBadWord = join({mb4test::kData4, {0, 0, 0, 0x3F}});
 
 Bytes held(std::uint8_t f0, std::uint8_t valid) { return {0, f0, valid, 0, 0, 0x41}; }
@@ -428,6 +429,85 @@ TEST_F(Chain, WithoutPeriod_NothingIsLostOrLate) {
   EXPECT_EQ(counts.late, 0U);
 }
 
+// A word whose nE is 0 is a new one: it ends the wait for frames, and neither it nor the sample is
+// lost, bad or a fault. The frames of the reads are those of good words.
+TEST_F(Chain, SlaveError_IsANewWordAndHasItsOwnCount) {
+  constexpr std::uint8_t kCounted = MB4_WITH_ALL | MB4_WITH_COUNTS;
+  start(mb4::SpiCheck::kCrc);
+  mb4_counts counts{};
+  device.automatic().count(&counts);
+  counts.period_ns = 100'000;
+  clock.time_us = 0xFFFF'FFFF - 100;
+  // Four reads of 0, 1 (nE = 0), nothing new, 3 (nE = 0), then 16 periods with nE = 0 alone.
+  const auto poll = [&](const Bytes& word, const Bytes& answer, const Bytes& end) {
+    bus.expect_write(kHold);
+    bus.expect_read(kReadWord, word);
+    bus.expect_read(kReadStatus, answer);
+    bus.expect_write(end);
+    const auto reading = device.automatic().poll_slave<kCounted>(1);
+    clock.time_us += 100;
+    return reading;
+  };
+  EXPECT_TRUE(poll(kWord, kNew, kClearValid1AndRelease).ok());
+  const auto first = poll(kErrorWord, kNew, kClearValid1AndRelease);
+  EXPECT_EQ(first.error(), Error::kSlaveError);
+  EXPECT_EQ(first.reading().position, mb4test::kPosition);
+  EXPECT_TRUE(first.reading().slave_error);
+  EXPECT_FALSE(first.reading().slave_warning);
+  EXPECT_EQ(poll(kErrorWord, kNone, kAgs).error(), Error::kNoData);
+  EXPECT_EQ(counts.sequence, 2U);
+  EXPECT_EQ(poll(kErrorWord, kNew, kClearValid1AndRelease).error(), Error::kSlaveError);
+  EXPECT_EQ(counts.good, 1U);
+  EXPECT_EQ(counts.slave_errors, 2U);
+  EXPECT_EQ(counts.sequence, 4U);
+  EXPECT_EQ(counts.lost, 1U);
+  const std::uint32_t pitch_us = mb4::frame_timeout_us(device.config());
+  for (unsigned n = 0; n < 40; ++n) {
+    clock.time_us += pitch_us;
+    EXPECT_EQ(poll(kErrorWord, kNew, kClearValid1AndRelease).error(), Error::kSlaveError);
+    EXPECT_EQ(poll(kErrorWord, kNone, kAgs).error(), Error::kNoData);
+  }
+  EXPECT_TRUE(poll(kWord, kNew, kClearValid1AndRelease).ok());
+  EXPECT_EQ(counts.good, 2U);
+  EXPECT_EQ(counts.slave_errors, 42U);
+  EXPECT_EQ(counts.sequence, counts.good + counts.slave_errors + counts.lost);
+  EXPECT_EQ(counts.crc, 0U);
+  EXPECT_EQ(counts.faults, 0U);
+}
+
+// One in Gray code: the chip has converted nE with the position.
+TEST(SlaveError, EachFlag_IsToldWithAndWithoutGray) {
+  for (const bool gray : {false, true}) {
+    for (std::uint32_t sent = 0; sent < 32; ++sent) {
+      mb4_slave_config config{};
+      config.data_bits = 5;
+      config.flags = MB4_FLAGS_ERROR_WARNING;
+      config.gray = gray;
+      mb4_word word{};
+      mb4_word_set(&word, 1, &config, MB4_SPI_CHECK_OFF);
+      mb4_slot slot{};
+      slot.low = sent;
+      for (unsigned shift = 1; gray && shift < 5; ++shift) slot.low ^= sent >> shift;
+      EXPECT_EQ(mb4_slot_tell(&word, &slot, MB4_WITH_ALL) == MB4_SLAVE_ERROR, (sent & 2U) == 0)
+          << gray << ' ' << sent;
+      mb4_reading reading{};
+      mb4_slot_reading(&word, &slot, &reading, MB4_WITH_ALL);
+      EXPECT_EQ(reading.slave_error, (sent & 2U) == 0);
+      EXPECT_EQ(reading.slave_warning, (sent & 1U) == 0);
+    }
+  }
+  mb4_slave_config config{};
+  config.data_bits = 5;
+  config.flags = MB4_FLAGS_NONE;
+  mb4_word word{};
+  mb4_word_set(&word, 1, &config, MB4_SPI_CHECK_OFF);
+  mb4_slot slot{};
+  EXPECT_EQ(mb4_slot_tell(&word, &slot, MB4_WITH_ALL), MB4_OK);
+  slot.code = MB4_CRC;
+  word.flags = true;
+  EXPECT_EQ(mb4_slot_tell(&word, &slot, MB4_WITH_ALL), MB4_CRC);
+}
+
 // 5 s, more than 2^32 ns, are 50,000 periods of 100 us: 49,999 samples were not read.
 TEST_F(Chain, LongPause_IsCountedWhole) {
   constexpr std::uint8_t kCounted = MB4_WITH_ALL | MB4_WITH_COUNTS;
@@ -613,6 +693,21 @@ TEST_F(Several, NewFrame_IsOnePlan) {
     EXPECT_EQ(frame[2]->slave, 2);
     EXPECT_TRUE(all.one_frame());
   }
+  // nE = 0 in one, then in both: each word is told as it is.
+  const Bytes answer = held(0xFA, 0x0A);
+  ASSERT_TRUE(device.automatic().plan(all).ok());
+  EXPECT_TRUE(step(all, chain, {both(kErrorWord, kWord), answer}));
+  ASSERT_TRUE(all.result(frame).ok());
+  EXPECT_EQ(frame[1].error(), Error::kSlaveError);
+  EXPECT_EQ(frame[1].reading().position, mb4test::kPosition);
+  EXPECT_TRUE(frame[2].ok());
+  EXPECT_FALSE(frame.good(3));
+  EXPECT_TRUE(frame.complete(3));
+  EXPECT_TRUE(all.one_frame());
+  ASSERT_TRUE(device.automatic().plan(all).ok());
+  EXPECT_TRUE(step(all, chain, {both(kErrorWord, kErrorWord), answer}));
+  ASSERT_TRUE(all.result(frame).ok());
+  EXPECT_EQ(frame[2].error(), Error::kSlaveError);
   // Only one is new.
   ASSERT_TRUE(device.automatic().plan(all).ok());
   EXPECT_TRUE(step(all, chain, {both(kWord, kWord), held(0xFA, 0x08)}));

@@ -121,11 +121,31 @@ TEST_F(MultiSlave, AllGood_OneFrameForAll) {
   ASSERT_TRUE(device.read_all(frame).ok());
   EXPECT_TRUE(frame.good(0x13));
   EXPECT_EQ(frame[1]->position, mb4test::kPosition);
-  EXPECT_EQ(frame[2]->raw, 0x1234U);
+  EXPECT_EQ(frame[2]->raw, 0x1237U);
   EXPECT_EQ(frame[5]->raw, 0xABCDEFU);
   EXPECT_EQ(frame[5]->slave, 5);
   EXPECT_EQ(frame[3].error(), Error::kInvalidArgument);
   EXPECT_TRUE(frame.status.valid(5));
+}
+
+// nE = 0 of one slave: its word is told apart, the others are read, and the frame was good, so the
+// next one needs no BREAK.
+TEST_F(MultiSlave, SlaveErrorOfOne_IsNoBadFrame) {
+  configure();
+  for (const std::uint8_t low : {std::uint8_t{0x35}, std::uint8_t{0x37}}) {
+    expect_frame(mb4test::kThreeValid);
+    bus.expect_read(mb4test::kReadData4, mb4test::kData4);
+    bus.expect_read({0x03, 0x08, 0, 0}, {0, 0, low, 0x12});
+    bus.expect_read({0x03, 0x20, 0, 0, 0}, {0, 0, 0xEF, 0xCD, 0xAB});
+    bus.expect_write(mb4test::kThreeClear);
+    ASSERT_TRUE(device.read_all(frame).ok());
+    EXPECT_EQ(frame[2].error(), low == 0x35 ? Error::kSlaveError : Error::kNone);
+    EXPECT_EQ(frame[2].reading().position, 0x1237U >> 2U);
+    EXPECT_EQ(frame.good(0x13), low == 0x37);
+    EXPECT_TRUE(frame.complete(0x13));
+    EXPECT_TRUE(frame[1].ok());
+    EXPECT_TRUE(frame[5].ok());
+  }
 }
 
 // Page 34: with nSCDERR = 0 the faulty one is identified by SVALIDx; the others' data is good. The
@@ -171,7 +191,7 @@ TEST_F(MultiSlave, CrcErrorWithAllValid_IsCrcForAll) {
 TEST_F(MultiSlave, NoDataOfOne_IsNoData) {
   configure();
   expect_frame({0x00, 0xFB, 0x08, 0x02, 0x00, 0x00});
-  bus.expect_read({0x03, 0x08, 0, 0}, {0, 0, 0x34, 0x12});
+  bus.expect_read({0x03, 0x08, 0, 0}, {0, 0, 0x37, 0x12});
   bus.expect_read({0x03, 0x20, 0, 0, 0}, {0, 0, 0xEF, 0xCD, 0xAB});
   bus.expect_write(mb4test::kThreeClear);
   ASSERT_TRUE(device.read_all(frame).ok());
@@ -232,9 +252,9 @@ TEST(MultiSlaveFailure, TransportAtEachTransfer_LeavesNoReading) {
 TEST_F(MultiSlave, OneOfSeveral_ReadsItsDataAndClearsAllFlags) {
   configure();
   expect_frame(mb4test::kThreeValid);
-  bus.expect_read({0x03, 0x08, 0, 0}, {0, 0, 0x34, 0x12});
+  bus.expect_read({0x03, 0x08, 0, 0}, {0, 0, 0x37, 0x12});
   bus.expect_write(mb4test::kThreeClear);
-  EXPECT_EQ(device.read_frame(2)->raw, 0x1234U);
+  EXPECT_EQ(device.read_frame(2)->raw, 0x1237U);
 }
 
 TEST_F(MultiSlave, CrcErrorOfAnother_DoesNotSpoilThisOne) {

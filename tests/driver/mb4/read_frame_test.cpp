@@ -79,8 +79,8 @@ TEST_F(ReadFrame, GoodFrame_ReturnsPosition) {
   ASSERT_TRUE(reading.ok());
   EXPECT_EQ(reading->raw, mb4test::kRaw);
   EXPECT_EQ(reading->position, mb4test::kPosition);
-  EXPECT_FALSE(reading->error);
-  EXPECT_FALSE(reading->warning);
+  EXPECT_FALSE(reading->slave_error);
+  EXPECT_FALSE(reading->slave_warning);
 }
 
 TEST_F(ReadFrame, FrameAlreadyOverAtFirstPoll_TakesFourTransfers) {
@@ -127,16 +127,23 @@ TEST_F(ReadFrame, StoredCrc_IsReadAndReturned) {
   EXPECT_EQ(reading->crc, 0x18);
 }
 
-TEST_F(ReadFrame, SlaveReportsError_IsPartOfTheReading) {
+TEST_F(ReadFrame, SlaveReportsError_IsSlaveErrorWithItsReading) {
   configure();
   bus.expect_write(kStartFrame);
   bus.expect_read(kReadStatus, kGoodFrame);
   bus.expect_read(kReadData4, {0x00, 0xBD, 0x37, 0xAF, 0x0A});  // nE = 0, nW = 1
   bus.expect_write(kClearValid1);
   const Result<Reading> reading = device.read_frame();
-  ASSERT_TRUE(reading.ok());
-  EXPECT_TRUE(reading->error);
-  EXPECT_FALSE(reading->warning);
+  EXPECT_EQ(reading.error(), Error::kSlaveError);
+  EXPECT_TRUE(reading.reading().slave_error);
+  EXPECT_FALSE(reading.reading().slave_warning);
+  EXPECT_EQ(reading.reading().position, mb4test::kPosition);
+  // The frame was good: the next one needs no BREAK.
+  bus.expect_write(kStartFrame);
+  bus.expect_read(kReadStatus, kGoodFrame);
+  bus.expect_read(kReadData4, mb4test::kData4);
+  bus.expect_write(kClearValid1);
+  EXPECT_TRUE(device.read_frame().ok());
 }
 
 // ---- Wrong use ----------------------------------------------------------------------------------

@@ -31,8 +31,8 @@ TEST(Reading, GoldenWord_SplitsIntoPositionAndFlags) {
   ASSERT_TRUE(reading.ok());
   EXPECT_EQ(reading->raw, mb4test::kRaw);
   EXPECT_EQ(reading->position, mb4test::kPosition);
-  EXPECT_FALSE(reading->error);
-  EXPECT_FALSE(reading->warning);
+  EXPECT_FALSE(reading->slave_error);
+  EXPECT_FALSE(reading->slave_warning);
   EXPECT_FALSE(reading->crc_stored);
   EXPECT_EQ(reading->slave, 1);
 }
@@ -42,10 +42,12 @@ TEST(Reading, FlagBits_AreActiveLow) {
   for (unsigned flags = 0; flags < 4; ++flags) {
     const Word bytes{static_cast<std::uint8_t>(0xBC | flags), 0x37, 0xAF, 0x0A};
     const Result<Reading> reading = decode(mb4test::encoder26(), bytes);
-    ASSERT_TRUE(reading.ok());
-    EXPECT_EQ(reading->position, mb4test::kPosition);
-    EXPECT_EQ(reading->error, flags == 0 || flags == 1);
-    EXPECT_EQ(reading->warning, flags == 0 || flags == 2);
+    const bool error = flags == 0 || flags == 1;
+    EXPECT_EQ(reading.error(), error ? mb4::Error::kSlaveError : mb4::Error::kNone);
+    EXPECT_EQ(reading.reading().position, mb4test::kPosition);
+    EXPECT_EQ(reading.reading().slave_error, error);
+    EXPECT_EQ(reading.reading().slave_warning, flags == 0 || flags == 2);
+    EXPECT_EQ(reading.value_or(Reading()).position, error ? 0 : mb4test::kPosition);
   }
 }
 
@@ -55,8 +57,8 @@ TEST(Reading, WithoutFlags_PositionIsTheWholeWord) {
   const Result<Reading> reading = decode(config, Word{0xBC, 0x37, 0xAF, 0x0A});
   ASSERT_TRUE(reading.ok());
   EXPECT_EQ(reading->position, 0xAAF37BCU);
-  EXPECT_FALSE(reading->error);
-  EXPECT_FALSE(reading->warning);
+  EXPECT_FALSE(reading->slave_error);
+  EXPECT_FALSE(reading->slave_warning);
 }
 
 // Page 26: bytes that the data does not need remain unchanged, so they must not count.
@@ -132,10 +134,10 @@ TEST(Reading, NoRoomForCrc_IsReadWithoutIt) {
       mb4::crc_is_stored(with_stored_crc(48, 0x190D9), with_stored_crc(48, 0x190D9).slaves[0]));
   EXPECT_FALSE(
       mb4::crc_is_stored(with_stored_crc(49, 0x190D9), with_stored_crc(49, 0x190D9).slaves[0]));
-  const Result<Reading> reading = decode(with_stored_crc(64, 0x43), Word{1, 2, 3, 4, 5, 6, 7, 8});
+  const Result<Reading> reading = decode(with_stored_crc(64, 0x43), Word{3, 2, 3, 4, 5, 6, 7, 8});
   ASSERT_TRUE(reading.ok());
   EXPECT_FALSE(reading->crc_stored);
-  EXPECT_EQ(reading->raw, 0x0807060504030201U);
+  EXPECT_EQ(reading->raw, 0x0807060504030203U);
 }
 
 // No byte is read outside the configuration and outside the caller's bytes.

@@ -12,6 +12,8 @@
 #include <cstdint>
 #include <string>
 
+#include "mb4/reading.hpp"
+
 namespace {
 
 using mb4::ConfigField;
@@ -61,19 +63,51 @@ TEST(Result, Names_AreDifferentAndKnown) {
 sigjmp_buf before_the_trap;
 void on_trap(int signal) { siglongjmp(before_the_trap, signal); }
 
-// What is not there is never handed out: the program stops.
-TEST(Result, ValueOfAnError_Traps) {
+template <typename Call>
+bool traps(Call call) {
   const int trap_signals[] = {SIGILL, SIGTRAP};  // of x86, and of others
   void (*before[2])(int) = {};
   for (int i = 0; i < 2; ++i) before[i] = std::signal(trap_signals[i], on_trap);
-  const Result<std::uint8_t> result = Error::kCrc;
   volatile bool trapped = true;
   if (sigsetjmp(before_the_trap, 1) == 0) {
-    static_cast<void>(result.value());
+    call();
     trapped = false;
   }
-  EXPECT_TRUE(trapped);
   for (int i = 0; i < 2; ++i) std::signal(trap_signals[i], before[i]);
+  return trapped;
+}
+
+// A reading whose nE is 0 comes with its error, and the value is refused.
+TEST(Result, SlaveError_IsNoValueButHasItsReading) {
+  mb4::Reading sent;
+  sent.position = 5;
+  sent.slave_error = true;
+  const Result<mb4::Reading> result{sent, Error::kSlaveError};
+  EXPECT_FALSE(result.ok());
+  EXPECT_FALSE(result);
+  EXPECT_EQ(result.error(), Error::kSlaveError);
+  EXPECT_EQ(result.info().bytes(), 0);
+  EXPECT_TRUE(result.has_reading());
+  EXPECT_EQ(result.reading().position, 5U);
+  EXPECT_EQ(result.value_or(mb4::Reading()).position, 0U);
+  EXPECT_TRUE(traps([&] { static_cast<void>(result.value()); }));
+  EXPECT_TRUE(traps([&] { static_cast<void>(*result); }));
+  EXPECT_TRUE(traps([&] { static_cast<void>(result->position); }));
+  // The error alone has no reading, also where it was passed on.
+  const Result<mb4::Reading> other = Error::kCrc;
+  EXPECT_FALSE(other.has_reading());
+  EXPECT_TRUE(traps([&] { static_cast<void>(other.reading()); }));
+  const Result<mb4::Reading> passed_on = result.failure();
+  EXPECT_EQ(passed_on.error(), Error::kSlaveError);
+  EXPECT_TRUE(traps([&] { static_cast<void>(passed_on.reading()); }));
+  const Result<mb4::Reading> good = mb4::Reading();
+  EXPECT_FALSE(good.reading().slave_error);
+}
+
+// What is not there is never handed out: the program stops.
+TEST(Result, ValueOfAnError_Traps) {
+  const Result<std::uint8_t> result = Error::kCrc;
+  EXPECT_TRUE(traps([&] { static_cast<void>(result.value()); }));
 }
 
 }  // namespace

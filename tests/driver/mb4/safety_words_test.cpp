@@ -32,6 +32,9 @@ TEST(SafetyWord, EachResult_HasItsState) {
   EXPECT_EQ(word.state, State::kHere);
   EXPECT_EQ(word.data, mb4test::kRaw);
   EXPECT_EQ(word.crc, mb4test::kCrc6);
+  // The check looks at nE itself.
+  reading.slave_error = true;
+  EXPECT_EQ(mb4::safety_word({reading, Error::kSlaveError}).state, State::kHere);
 }
 
 // The driver looks at bits 1 and 0 for nE and nW.

@@ -58,7 +58,7 @@ inline const Bytes kThreeClear{0x02, 0xF1, 0xF5, 0xFD};
 // SCDATA1 from 0x00, SCDATA2 from 0x08, SCDATA5 from 0x20 (table 20): 28, 14 and 24 bits.
 inline void expect_three_data(StrictBus& bus) {
   bus.expect_read(kReadData4, kData4);
-  bus.expect_read({0x03, 0x08, 0, 0}, {0, 0, 0x34, 0x12});
+  bus.expect_read({0x03, 0x08, 0, 0}, {0, 0, 0x37, 0x12});
   bus.expect_read({0x03, 0x20, 0, 0, 0}, {0, 0, 0xEF, 0xCD, 0xAB});
 }
 

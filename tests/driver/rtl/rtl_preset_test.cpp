@@ -70,7 +70,7 @@ TEST_P(DriverPreset, Position_IsRead) {
     ASSERT_TRUE(chip.device.automatic().next(frame).ok());
     ASSERT_TRUE(frame.good(1));
     EXPECT_GE(frame[1]->position, 5U);
-    EXPECT_FALSE(frame[1]->error);
+    EXPECT_FALSE(frame[1]->slave_error);
   }
 }
 

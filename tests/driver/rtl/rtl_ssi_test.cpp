@@ -59,11 +59,12 @@ TEST(DriverSsi, GrayWithFlagsAndCrc_EachComesOutRight) {
       for (const std::uint32_t position : {0x0000001U, 0x1ABCDEFU, 0x0FFFFFFU}) {
         ASSERT_TRUE(chip.simulator.slave(1)->set_data(position << 2 | flags));
         const mb4::Result<mb4::Reading> reading = chip.device.read_frame();
-        ASSERT_TRUE(reading.ok()) << mb4::to_string(reading.error());
-        EXPECT_EQ(reading->position, position);
-        EXPECT_EQ(reading->error, (flags & 2U) == 0);
-        EXPECT_EQ(reading->warning, (flags & 1U) == 0);
-        EXPECT_EQ(reading->crc_stored, crc != 0);
+        const bool error = (flags & 2U) == 0;
+        ASSERT_EQ(reading.error(), error ? mb4::Error::kSlaveError : mb4::Error::kNone);
+        EXPECT_EQ(reading.reading().position, position);
+        EXPECT_EQ(reading.reading().slave_error, error);
+        EXPECT_EQ(reading.reading().slave_warning, (flags & 1U) == 0);
+        EXPECT_EQ(reading.reading().crc_stored, crc != 0);
       }
     }
   }

@@ -155,7 +155,7 @@ EMSCRIPTEN_KEEPALIVE const char* web_read(int count) {
           separator, slave + 1,
           mb4::sim::json_text(good ? "" : mb4_error_text(row.frame.code[slave])),
           good ? reading.raw : 0, good ? reading.position : 0, good ? reading.crc : 0,
-          good && reading.error, good && reading.warning);
+          good && reading.slave_error, good && reading.slave_warning);
       separator = ",";
     }
     text += "]}";

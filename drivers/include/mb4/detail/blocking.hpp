@@ -150,7 +150,7 @@ struct Blocking {
     }
     const Result<void> read = poll(chip, frame);
     // kBankSwitched needs no restart.
-    chip.restart = read ? !frame.good(chip.sensors) : read.error() != Error::kBankSwitched;
+    chip.restart = read ? !frame.complete(chip.sensors) : read.error() != Error::kBankSwitched;
     return read;
   }
 

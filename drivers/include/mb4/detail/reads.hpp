@@ -84,7 +84,7 @@ struct Reads {
     if (!take<With>(chip, read, transferred, now_us)) {
       return false;
     }
-    if (read.code_ == MB4_OK) {
+    if (has_reading(read.code_)) {
       mb4_slot_reading(read.read_.words, &read.slot_, &read.reading_, With);
     }
     return true;

@@ -67,7 +67,8 @@ class Snapshots {
   // The newest word of a slave. Never waits; six accesses, which change nothing.
   // kInvalidArgument: the slave is no enabled sensor. kNoData: no frame with a word of this slave
   // has ended since the last call. kCrc: one has, and its word is not valid; told once for each
-  // frame. kCorrupted: the stored CRC does not belong to the data; told once. kTransport.
+  // frame. kCorrupted: the stored CRC does not belong to the data; told once. kSlaveError: nE is 0;
+  // Result::reading() has the word. kTransport.
   Result<TimedReading> poll(std::uint8_t slave) {
     if (!is_in(sensors_, slave)) {
       return Error::kInvalidArgument;
@@ -93,14 +94,15 @@ class Snapshots {
     slot.low = static_cast<std::uint32_t>(taken->word);
     slot.high = static_cast<std::uint32_t>(taken->word >> 32U);
     slot.code = mb4_slot_good(&word, &slot, MB4_WITH_ALL) ? MB4_OK : MB4_CORRUPTED;
+    (void)mb4_slot_tell(&word, &slot, MB4_WITH_ALL);
     const Result<Reading> reading = detail::to_result(word, slot);
-    if (!reading) {
+    if (!reading.has_reading()) {
       return reading.failure();
     }
-    timed.reading = *reading;
+    timed.reading = reading.reading();
     timed.latched = taken->latched;
     timed.frame = taken->frame;
-    return timed;
+    return {timed, reading.error()};
   }
 
  private:
