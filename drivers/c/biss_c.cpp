@@ -106,9 +106,17 @@ int BISS_C_ReadSinglePoint(int hdev, int channelIndex, unsigned int* data, bool*
   const auto good = biss_axi::single_point(port, clock, times, 1U << channel);
   if (!good) return BISS_C_BUS;
   if ((*good >> channel & 1U) == 0) return 0;
-  const auto word = biss_axi::channel_word(port, channel, regs::kAddrSinglePointData);
-  if (!word) return BISS_C_BUS;
-  *data = *word;
-  *isValid = true;
-  return 0;
+  const auto word = biss_axi::read_position<std::uint32_t>(port, channel);
+  if (word.has_reading()) *data = word.reading().position;
+  *isValid = word.ok();
+  switch (word.error()) {
+    case biss_axi::Error::kNone:
+      return 0;
+    case biss_axi::Error::kSlaveError:
+      return BISS_C_SLAVE_ERROR;
+    case biss_axi::Error::kCrc:
+      return BISS_C_CRC;
+    default:
+      return BISS_C_BUS;
+  }
 }

@@ -18,6 +18,8 @@ extern "C" {
 
 #define BISS_C_ARGUMENT 1
 #define BISS_C_BUS 2
+#define BISS_C_SLAVE_ERROR 3
+#define BISS_C_CRC 4
 
 /* Supplied by the program: one access of 32 bits at a byte offset of the master, 0 for success;
  * microseconds, counting up and wrapping at 2^32; the frequency of axi_aclk in hertz, not 0. */
@@ -43,7 +45,9 @@ int BISS_C_ConfigPositionDatabits(int hdev, int bitsNum);
 /* Bit c enables channel c: 0x03 enables channels 0 and 1. */
 int BISS_C_ConfigChannels(int hdev, int channelEnable);
 /* One frame in single-point mode, which the call chooses, and the word of one channel. 0 with
- * *isValid = false: no good word came; *data is then 0. Waits for at most one frame with the
+ * *isValid = false: no good word came; *data is then 0. BISS_C_SLAVE_ERROR: it came, and its nE is 0,
+ * so that its position is not to be trusted; *isValid is false, *data is what the encoder has sent.
+ * BISS_C_CRC: nE and nW do not follow from the word and register 0x30; *data is 0. Waits for at most one frame with the
  * longest processing time and 40 us. */
 int BISS_C_ReadSinglePoint(int hdev, int channelIndex, unsigned int *data, bool *isValid);
 

@@ -5,9 +5,10 @@
 // sensor_channel_get() converts it. Both may be called from several threads, not from an interrupt.
 //
 // sensor_sample_fetch() returns 0 or a negative error: -EIO, SPI does not work or no chip answers;
-// -ETIMEDOUT, a frame did not end; -EBADMSG, the encoder is silent or its CRC is wrong; -ENOTSUP,
-// no such channel. The last good sample stays. sensor_channel_get() returns -ENODATA before the
-// first good sample. If the chip does not answer, while the system starts or later, the next fetch
+// -ETIMEDOUT, a frame did not end; -EBADMSG, the encoder is silent or its CRC is wrong; -EPROTO, the
+// encoder itself reports an error (nE = 0); -ENOTSUP, no such channel. The last good sample stays;
+// after -EPROTO SENSOR_CHAN_OPENMB4_FLAGS is that of the word that was refused. sensor_channel_get()
+// returns -ENODATA before the first good sample. If the chip does not answer, while the system starts or later, the next fetch
 // configures it again.
 
 #define DT_DRV_COMPAT openmb4_ic_mb4
@@ -51,6 +52,8 @@ struct State {
   Parts* parts;
   bool configured;
   bool sampled;
+  bool told;           // flags are there
+  std::uint8_t flags;  // bit 0: nE = 0, bit 1: nW = 0
   mb4::Reading reading;
 };
 static_assert(std::is_trivially_destructible_v<State>, "nothing runs at exit");
@@ -97,6 +100,8 @@ int to_errno(mb4::Error error) {
     case mb4::Error::kNoData:
     case mb4::Error::kLineError:
       return -EBADMSG;
+    case mb4::Error::kSlaveError:
+      return -EPROTO;
     default:
       return -EIO;
   }
@@ -119,7 +124,7 @@ int start(const device* dev) {
   State& state = state_of(dev);
   k_mutex_init(&state.lock);
   if (!spi_is_ready_dt(&settings_of(dev).spi)) return -ENODEV;
-  state.configured = state.sampled = false;
+  state.configured = state.sampled = state.told = false;
   state.parts = new (state.memory) Parts(settings_of(dev).spi);
   static_cast<void>(configure(dev));  // the next fetch tries again
   return 0;
@@ -144,6 +149,12 @@ int fetch(const device* dev, sensor_channel channel) {
   State& state = lock.state;
   if (const int error = configure(dev); error != 0) return error;
   const mb4::Result<mb4::Reading> frame = state.parts->chip.read_frame();
+  if (frame.has_reading()) {
+    const mb4::Reading& sent = frame.reading();
+    state.flags = static_cast<std::uint8_t>((sent.slave_error ? 1U : 0U) |
+                                            (sent.slave_warning ? 2U : 0U));
+    state.told = true;
+  }
   if (!frame.ok()) {
     const int error = to_errno(frame.error());
     state.configured = error != -EIO;  // the chip may have lost its supply
@@ -166,6 +177,12 @@ int get(const device* dev, sensor_channel channel, sensor_value* value) {
   if (!is_known(channel) || channel == SENSOR_CHAN_ALL) return -ENOTSUP;
   const Lock lock(state_of(dev));
   const State& state = lock.state;
+  if (static_cast<int>(channel) == SENSOR_CHAN_OPENMB4_FLAGS) {
+    if (!state.told) return -ENODATA;
+    value->val1 = state.flags;
+    value->val2 = 0;
+    return 0;
+  }
   if (!state.sampled) return -ENODATA;
   const std::uint8_t bits = settings_of(dev).single_turn_bits;
   const std::uint64_t position = state.reading.position;
@@ -177,9 +194,6 @@ int get(const device* dev, sensor_channel channel, sensor_value* value) {
     case SENSOR_CHAN_OPENMB4_TURNS:
       if (position >> bits > INT32_MAX) return -ERANGE;
       value->val1 = static_cast<std::int32_t>(position >> bits);
-      break;
-    case SENSOR_CHAN_OPENMB4_FLAGS:
-      value->val1 = (state.reading.slave_error ? 1 : 0) | (state.reading.slave_warning ? 2 : 0);
       break;
     default:
       value->val1 = static_cast<std::int32_t>(static_cast<std::uint32_t>(position));

@@ -64,6 +64,9 @@ Task print_positions(Device& device, Board& board, Dma& dma, int count) {
     if (read.error() == mb4::Error::kNone) {
       std::printf("%llu\n", static_cast<unsigned long long>(read.position()));
       --count;
+    } else if (read.error() != mb4::Error::kNoData) {
+      std::printf("%s\n", mb4::to_string(read.error()));
+      co_return;
     }
   }
 }

@@ -159,7 +159,12 @@ void print_position(mb4::CyclicRead& read) {
     static_cast<void>(job.device->automatic().plan_slave(1, read));
     run(read);
   } while (read.error() == mb4::Error::kNoData);
-  if (read.error() != mb4::Error::kNone) board::exit(static_cast<std::uint32_t>(read.error()));
+  if (read.error() != mb4::Error::kNone) {
+    board::print("read: ");
+    board::print(mb4::to_string(read.error()));
+    board::print("\n");
+    board::exit(static_cast<std::uint32_t>(read.error()));
+  }
   board::print("position ");
   board::print_hex(read.position(), 7);
   board::print("\n");

@@ -40,7 +40,7 @@ void require(const mb4::Result<T>& result, const char* what) {
 void print_position(const char* what, const mb4::Reading& reading) {
   board::print(what);
   board::print_hex(reading.position, 7);
-  board::print(reading.slave_error ? " error\n" : "\n");
+  board::print(reading.slave_warning ? " warning\n" : "\n");
 }
 
 }  // namespace

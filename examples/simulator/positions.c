@@ -79,6 +79,10 @@ int main(void) {
       printf("SSI %" PRIu64 ", BiSS C %" PRIu64 "\n", frame.reading[0].position,
              frame.reading[4].position);
     } else {
+      if (status == 0) {
+        printf("SSI: %s, BiSS C: %s\n", mb4_error_text(frame.code[0]),
+               mb4_error_text(frame.code[4]));
+      }
       status = 1;
     }
   }

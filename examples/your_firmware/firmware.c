@@ -61,11 +61,16 @@ int main(void) {
       continue;
     }
     board_transfer(tx, rx, sizeof tx);
-    /* nW and nE are bits 0 and 1; both are 1 if the encoder has no warning and no error. */
+    /* nW and nE are bits 0 and 1; both are 1 if the encoder has no warning and no error. With nE = 0
+     * the encoder does not trust its position, so nobody else may. */
     const uint32_t word =
         rx[1] | (uint32_t)rx[2] << 8 | (uint32_t)rx[3] << 16 | (uint32_t)rx[4] << 24;
-    printf("position %lu%s\n", (unsigned long)(word >> 2), (word & 3) == 3 ? "" : ", not sure");
-    good += 1;
+    if ((word & 2) != 0) {
+      printf("position %lu%s\n", (unsigned long)(word >> 2), (word & 1) != 0 ? "" : ", warning");
+      good += 1;
+    } else {
+      puts("the encoder reports an error");
+    }
     board_wait_us(100);
   }
   return good == 5 ? 0 : 1;

@@ -4,8 +4,9 @@
 """Machine code of a Cortex-M against the RTL: examples/firmware in qemu-system-arm, its UART joined to
 `mb4sim bridge`, by the commands of docs/bridge.md.
 
-  qemu_test.py MACHINE CPU MB4SIM ROOT [dma]   MACHINE: of QEMU; CPU: of the compiler; dma: the
-                                               firmware dma.cpp instead of main.cpp
+  qemu_test.py MACHINE CPU MB4SIM ROOT [KIND]   MACHINE: of QEMU; CPU: of the compiler; KIND "dma": the
+                                                firmware dma.cpp instead of main.cpp; "slave-error":
+                                                both, and the encoder's nE is 0
 
 Exit status 77: a tool is missing.
 """
@@ -71,6 +72,37 @@ def dma_findings(printed):
             yield f"no line '{line}'"
 
 
+def refused(printed):
+    """With nE = 0: no position, and the word for it."""
+    lines = printed.splitlines()
+    for line in lines:
+        if line.startswith(("single", "automatic", "position")):
+            yield f"a position is handed out: {line}"
+    if not any(line.endswith("encoder reports an error (nE = 0)") for line in lines):
+        yield "nothing says that the encoder reports an error"
+
+
+def slave_error(machine, cpu, mb4sim, root):
+    found = []
+    for dma in (False, True):
+        with pages.workspace(root, mb4sim) as folder:
+            scenario = folder / "examples" / "firmware.toml"
+            ramp = 'source = "ramp"\nstart = 0x100000\nstep = 1\n'
+            text = scenario.read_text(encoding="utf-8")
+            assert text.count(ramp) == 1
+            scenario.unlink()  # it may be a link
+            scenario.write_text(text.replace(ramp, "data = 0x400001\n"), encoding="utf-8")
+            status, printed = pages.shell(
+                commands_of(folder / "docs" / "bridge.md", machine, cpu, dma), folder)
+        print(printed)
+        found += refused(printed)
+        if status == 0:
+            found.append("the program ends as if it had read its positions")
+    for line in found:
+        print(line)
+    return 1 if found else 0
+
+
 def main():
     machine, cpu, mb4sim, root = sys.argv[1:5]
     dma = sys.argv[5:] == ["dma"]
@@ -79,6 +111,8 @@ def main():
         if not shutil.which(tool):
             print(f"skipped: {tool} is not installed")
             return SKIPPED
+    if sys.argv[5:] == ["slave-error"]:
+        return slave_error(machine, cpu, mb4sim, root)
     # The check must be able to fail.
     if not list(check("single 0100000\nsingle 0100000\n")):
         print("the check does not notice old positions")

@@ -124,10 +124,17 @@ class Library(unittest.TestCase):
                 lines = self.lines_of(name, SCENARIO.format(data=hex(word)))
                 self.assertEqual(lines[1:], [str(word >> 2)] * 3, name)
 
+    def test_sketches_give_no_position_of_an_encoder_that_reports_an_error(self):
+        for name in SKETCHES:
+            for word in (0x2ABCDED, 0xFFFFFFC, 1):
+                lines = self.lines_of(name, SCENARIO.format(data=hex(word)))
+                self.assertTrue(all("encoder reports an error" in line for line in lines[1:]), lines)
+                self.assertNotIn(str(word >> 2), lines)
+
     def test_sketches_tell_an_encoder_that_is_silent(self):
         silent = '[[fault]]\nkind = "silent"\nslave = 1\nat_us = 0\nfor_us = 10_000_000\n'
         for name in SKETCHES:
-            lines = self.lines_of(name, SCENARIO.format(data=1) + silent)
+            lines = self.lines_of(name, SCENARIO.format(data=3) + silent)
             self.assertRegex(lines[-1], "^(error|frame did not end in time)$", name)
 
 

@@ -38,7 +38,33 @@ def test_frames_are_an_array_of_the_ramp(chip):
     assert np.array_equal(positions(rows), first + 3 * np.arange(1, 501))
     assert (np.diff(rows["time_ns"].astype(np.int64)) > 0).all()
     assert rows["time_ns"][-1] == chip.time_ns
-    assert not rows["frame"]["reading"]["error"][:, 0].any()
+    assert not rows["frame"]["reading"]["slave_error"][:, 0].any()
+
+
+def test_word_whose_ne_is_0_is_an_error_with_its_reading(chip):
+    chip.set_data(1, 500 << 2 | 1)
+    with pytest.raises(openmb4.Error) as error:
+        chip.driver.read_frame(1)
+    assert error.value.code == "MB4_SLAVE_ERROR"
+    reading = error.value.reading
+    assert (reading.position, reading.slave_error, reading.slave_warning) == (500, True, False)
+    row, = chip.driver.read_all()
+    assert row["frame"]["code"][0] == 21
+    assert row["frame"]["reading"]["slave_error"][0]
+    chip.driver.automatic_start()
+    rows = chip.driver.automatic_next(3)
+    chip.driver.automatic_stop()
+    assert (rows["frame"]["code"][:, 0] == 21).all()
+    assert not rows["result"]["code"].any()  # nothing is wrong with the frames
+
+
+def test_old_names_of_a_reading_are_refused_with_the_new_ones(chip):
+    reading = chip.driver.read_frame(1)
+    for name in ("error", "warning"):
+        with pytest.raises(AttributeError, match=f"'{name}' of a Reading is called 'slave_{name}'"):
+            getattr(reading, name)
+    with pytest.raises(AttributeError, match="no 'speed'"):
+        getattr(reading, "speed")
 
 
 def test_automatic_frames_follow_each_other(chip):

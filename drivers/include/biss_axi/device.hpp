@@ -15,6 +15,7 @@
 
 #include "axi_regs.hpp"
 #include "enc/bus.hpp"
+#include "enc/crc.hpp"
 #include "enc/result.hpp"
 
 namespace biss_axi {
@@ -27,6 +28,11 @@ enum class Error : std::uint8_t {
   kBus,      // the port reported a failed access
   kTimeout,  // no good word came in time: no encoder, a wrong CRC, or a busy line
   kNoData,   // position(): the last request has brought no good word of this channel, or not yet
+  // The word has come and its nE is 0: the encoder says that its position is not to be trusted.
+  // Result::value() refuses it, Result::reading() gives it.
+  kSlaveError,
+  // CALCULATED_CRC fits the word with none of the four pairs of nE and nW: they are not of one frame.
+  kCrc,
 };
 
 // The member of Config that is wrong.
@@ -47,6 +53,16 @@ struct ErrorInfo {
 
 template <typename T>
 using Result = enc::Result<T, ErrorInfo>;
+
+// The word of one channel; where its position is wanted it converts to it.
+template <typename T>
+struct Reading {
+  constexpr Reading(T word = 0) : position(word) {}
+  constexpr operator T() const { return position; }
+  T position;
+  bool slave_error = false;    // nE = 0: the position is not to be trusted
+  bool slave_warning = false;  // nW = 0
+};
 
 // The port contract. A type `Port` has
 //
@@ -157,6 +173,57 @@ Result<std::uint32_t> features(Port& port) {
   std::uint32_t value = 0;
   if (!port.read(regs::kAddrId, id) || !port.read(regs::kAddrFeatures, value)) return Error::kBus;
   return id == regs::kResetId ? value : 0;
+}
+
+// The channel's word of the last single-point request, as T, with its flags: kNoData, kSlaveError,
+// kCrc. The map does not show nE and nW. CALCULATED_CRC is that of the position and the flags as
+// they came, and each of the four pairs has a CRC of its own, so it tells which they were.
+// Polynomial and start are those of Page::set_crc(). At most ten accesses.
+template <typename T, typename Port>
+Result<Reading<T>> read_position(Port& port, unsigned channel) {
+  constexpr unsigned kPairs = 4;
+  std::uint32_t valid = 0, low = 0, high = 0, bits = 0, calculated = 0, polynomial = 0, start = 0;
+  if (channel >= regs::kChannels) return Error::kChannel;
+  if (!port.write(regs::kAddrChannelIndex, channel) ||
+      !port.read(regs::kAddrSinglePointValid, valid)) {
+    return Error::kBus;
+  }
+  if ((valid >> channel & 1U) == 0) return Error::kNoData;
+  const Result<std::uint32_t> has = features(port);
+  const bool wide = has.ok() && regs::HAS_WIDE::get(*has) != 0;
+  const bool any_crc = has.ok() && regs::HAS_ANY_CRC::get(*has) != 0;
+  if (!has.ok() || !port.read(regs::kAddrSinglePointData, low) ||
+      (wide && !port.read(regs::kAddrPositionHigh, high)) ||
+      !port.read(regs::kAddrPositionBits, bits) ||
+      !port.read(regs::kAddrCalculatedCrc, calculated) ||
+      (any_crc && (!port.read(regs::kAddrCrcPolynomial, polynomial) ||
+                   !port.read(regs::kAddrCrcStart, start)))) {
+    return Error::kBus;
+  }
+  const std::uint32_t most = wide ? 64U : 32U;
+  bits = bits == 0 ? 32U : bits > most ? most : bits;
+  polynomial = polynomial < 2U ? 0x43U : polynomial;
+  const std::uint64_t word = std::uint64_t{high} << 32U | low;
+  enc::CrcShift of_position(polynomial, static_cast<std::uint16_t>(start));
+  for (std::uint32_t bit = bits; bit > 0; --bit) {
+    of_position.shift(static_cast<unsigned>(word >> (bit - 1U) & 1U));
+  }
+  const std::uint32_t mask = (std::uint32_t{1} << enc::crc_width_bits(polynomial)) - 1U;
+  Reading<T> reading(static_cast<T>(word));
+  bool fits = false;
+  for (unsigned pair = 0; pair < kPairs; ++pair) {
+    enc::CrcShift crc = of_position;
+    crc.shift(pair >> 1U);
+    crc.shift(pair & 1U);
+    if ((~std::uint32_t{crc.value()} & mask) == (calculated & mask)) {
+      // A CRC of one bit fits several: then the worst of them counts.
+      reading.slave_error = reading.slave_error || (pair & 2U) == 0;
+      reading.slave_warning = reading.slave_warning || (pair & 1U) == 0;
+      fits = true;
+    }
+  }
+  if (!fits) return Error::kCrc;
+  return {reading, reading.slave_error ? Error::kSlaveError : Error::kNone};
 }
 
 // The clock is polled at most so often, so one that stands still cannot block a call for ever.
@@ -286,25 +353,23 @@ class Device {
   // position() has the words of the others; one with a longer cable or processing time may still
   // come. An old word is never taken for a new one: the call clears all results first, or the
   // request does.
-  Result<std::uint32_t> read_single(unsigned channel) {
+  // kSlaveError: the word has come with nE = 0.
+  Result<Reading<std::uint32_t>> read_single(unsigned channel) {
     if (channel >= regs::kChannels || (channels_ >> channel & 1U) == 0) return Error::kChannel;
     const Result<std::uint32_t> good = single_point(port_, clock_, times_, 1U << channel);
-    if (!good.ok()) return good;
+    if (!good.ok()) return good.failure();
     if ((*good >> channel & 1U) == 0) return Error::kTimeout;
-    return channel_word(port_, channel, regs::kAddrSinglePointData);
+    return read_position<std::uint32_t>(port_, channel);
   }
 
-  // The same for all enabled channels. Returns bit c: channel c has a good word, and position() has
-  // it. Without one of the words the call lasts as long as a frame can.
+  // The same for all enabled channels. Returns bit c: channel c has a word with a right CRC, and
+  // position() has it; nE is not looked at. Without one of the words the call lasts as long as a frame can.
   Result<std::uint32_t> read_all() { return single_point(port_, clock_, times_, channels_); }
 
-  // The channel's word of the last single-point request; kNoData while it has brought no good one.
-  Result<std::uint32_t> position(unsigned channel) {
-    if (channel >= regs::kChannels) return Error::kChannel;
-    const Result<std::uint32_t> good = valid();
-    if (!good.ok()) return good;
-    if ((*good >> channel & 1U) == 0) return Error::kNoData;
-    return channel_word(port_, channel, regs::kAddrSinglePointData);
+  // The channel's word of the last single-point request; kNoData while it has brought no good one,
+  // kSlaveError if its nE is 0.
+  Result<Reading<std::uint32_t>> position(unsigned channel) {
+    return read_position<std::uint32_t>(port_, channel);
   }
   // Round trip from MA to SLO in clocks, of the channel's last frame; 1023: no acknowledge.
   Result<std::uint32_t> line_delay(unsigned channel) {

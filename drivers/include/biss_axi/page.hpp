@@ -134,17 +134,8 @@ class Page {
 
   // ---- extra WIDE ----
   // The channel's word of the last single-point request; see Device::position().
-  Result<std::uint64_t> position(unsigned channel) {
-    if (channel >= regs::kChannels) return Error::kChannel;
-    std::uint32_t valid = 0, low = 0, high = 0;
-    if (!port_.write(regs::kAddrChannelIndex, channel) ||
-        !port_.read(regs::kAddrSinglePointValid, valid)) {
-      return Error::kBus;
-    }
-    if ((valid >> channel & 1U) == 0) return Error::kNoData;
-    if (!port_.read(regs::kAddrSinglePointData, low) || !port_.read(regs::kAddrPositionHigh, high))
-      return Error::kBus;
-    return std::uint64_t{high} << 32U | low;
+  Result<Reading<std::uint64_t>> position(unsigned channel) {
+    return read_position<std::uint64_t>(port_, channel);
   }
 
   // ---- extra ACCESS ----

@@ -156,8 +156,8 @@ class Automatic {
   // An interrupt may call it, if it interrupts no other call on the same Device. It calls now_us()
   // of the Clock, so this must be safe in the interrupt too.
   //
-  // Success: frame[slave] is a Reading, kNoData (nothing new), kCrc (a bad frame, told once) or
-  // kCorrupted for each enabled slave. With SpiCheck::kOff, and where the data leaves no room for a
+  // Success: frame[slave] is a Reading, kSlaveError (new, and nE is 0), kNoData (nothing new), kCrc
+  // (a bad frame, told once) or kCorrupted for each enabled slave. With SpiCheck::kOff, and where the data leaves no room for a
   // CRC, kCrc is told only together with a good word of another slave, and by each call if no good
   // word of the slave has come for two periods or if there is no other slave. frame.status shows
   // that frames were omitted (nAGSERR), not how many; frames that later ones have overwritten are
@@ -184,6 +184,7 @@ class Automatic {
   // Not touched: kInvalidArgument (the slave is no enabled sensor), kWrongMode (automatic frames do
   // not run). kNoData: no frame with data of this slave has ended since the last call. kCrc: one
   // has, and its CRC was wrong; told once for each frame, without a stored CRC as for poll().
+  // kSlaveError: one has, and its nE is 0; Result::reading() has it.
   // kTimeout, kLineError, kCorrupted, kTransport, kNotDetected, kBankSwitched as for poll().
   //
   // `With` leaves out parts that the configuration does not use: a constant, MB4_WITH_... of
@@ -274,7 +275,7 @@ class Automatic {
 
   // Waits for the next new frame, at most frame_timeout_us() plus one frame period, and fetches it
   // as poll() does. After an error, and after a frame in which a slave was not good (table 69), the
-  // next call begins with restart(), unless a control communication runs.
+  // next call begins with restart(), unless a control communication runs; not after kSlaveError.
   //
   // Errors: kWrongMode (automatic frames do not run; not touched) and those of poll(). kTimeout,
   // kLineError: no frame has ended in time; BREAK was sent, which also ends a control

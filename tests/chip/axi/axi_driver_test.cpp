@@ -118,6 +118,69 @@ TEST_F(AxiDriver, EncoderThatIsGone_IsATimeoutAndNeverAnOldWord) {
   EXPECT_EQ(device.valid().value_or(9), 0U);
 }
 
+// The map does not show nE and nW; the CRC of the position and each pair of them is one of four.
+TEST_F(AxiDriver, SlaveError_GivesNoPositionButAReading) {
+  world = {&bench};
+  for (const bool check : {true, false}) {
+    config.check_crc = check;
+    config.channels = 3;
+    ASSERT_TRUE(device.configure(config).ok());
+    for (std::uint32_t n = 0; n < 32; ++n) {
+      const std::uint32_t position = n * 0x9E3779B9U >> 6U;
+      const bool error = (n & 2U) == 0;
+      bench.simulator.slave(1)->set_data(std::uint64_t{position} << 2U | (n & 3U));
+      bench.simulator.slave(2)->set_data(raw_word(n));
+      const auto word = device.read_single(0);
+      ASSERT_EQ(word.error(), error ? biss_axi::Error::kSlaveError : biss_axi::Error::kNone) << n;
+      EXPECT_EQ(word.reading().position, position);
+      EXPECT_EQ(word.reading().slave_error, error);
+      EXPECT_EQ(word.reading().slave_warning, (n & 1U) == 0);
+      EXPECT_EQ(word.value_or(7), error ? 7U : position);
+      EXPECT_EQ(device.position(0).error(), word.error());
+      EXPECT_EQ(device.position(1).value_or(99), n);
+      EXPECT_EQ(device.read_all().value_or(0), 3U);
+      unsigned data = 0;
+      bool valid = !error;
+      EXPECT_EQ(BISS_C_ReadSinglePoint(7, 0, &data, &valid), error ? BISS_C_SLAVE_ERROR : 0);
+      EXPECT_EQ(valid, !error);
+      EXPECT_EQ(data, position);
+    }
+  }
+  world = {};
+}
+
+// CALCULATED_CRC that fits no pair of flags: the flips 0x03, 0x06 and 0x05 turn one pair into
+// another (x^6, x^7 modulo x^6 + x + 1); any other one is a CRC error.
+TEST_F(AxiDriver, CrcThatFitsNoPair_IsCrc) {
+  struct FlippedPort {
+    SimPort inner;
+    std::uint32_t flip = 0;
+    bool write(std::uint32_t offset, std::uint32_t value) const {
+      return inner.write(offset, value);
+    }
+    bool read(std::uint32_t offset, std::uint32_t& value) const {
+      const bool done = inner.read(offset, value);
+      if (offset == axireg::kAddrCalculatedCrc) value ^= flip;
+      return done;
+    }
+  };
+  FlippedPort flipped{port};
+  biss_axi::Device<FlippedPort, SimTime> other(flipped, time);
+  ASSERT_TRUE(other.configure(config).ok());
+  bench.simulator.slave(1)->set_data(raw_word(5));
+  ASSERT_TRUE(other.read_single(0).ok());
+  for (flipped.flip = 1; flipped.flip < 64; ++flipped.flip) {
+    const auto word = other.position(0);
+    const bool pair = flipped.flip == 3 || flipped.flip == 5 || flipped.flip == 6;
+    if (!pair) {
+      EXPECT_EQ(word.error(), biss_axi::Error::kCrc) << flipped.flip;
+    } else {
+      EXPECT_EQ(word.reading().slave_error, flipped.flip != 3);
+      EXPECT_EQ(word.reading().slave_warning, flipped.flip != 6);
+    }
+  }
+}
+
 TEST_F(AxiDriver, WrongConfiguration_IsNamedAndNothingIsWritten) {
   using biss_axi::Config;
   using biss_axi::Field;
@@ -232,6 +295,12 @@ TEST_F(AxiDriver, Page_ReachesEveryExtra) {
   EXPECT_EQ(wide.device.read_single(0).value_or(0), 0x1234'5678U);
   EXPECT_EQ(page.position(0).value_or(0), 0xA5'1234'5678U);
   EXPECT_EQ(page.position(1).error(), biss_axi::Error::kNoData);
+  wide.bench.simulator.slave(1)->set_data(std::uint64_t{0xA5'1234'5679} << 2U | 1U);
+  EXPECT_EQ(wide.device.read_single(0).error(), biss_axi::Error::kSlaveError);
+  EXPECT_EQ(page.position(0).error(), biss_axi::Error::kSlaveError);
+  EXPECT_EQ(page.position(0).reading().position, 0xA5'1234'5679U);
+  wide.bench.simulator.slave(1)->set_data(raw_word(0xA5'1234'5678));
+  EXPECT_TRUE(wide.device.read_single(0).ok());
   const auto stamp = page.sample_time();
   const auto now = page.time();
   ASSERT_TRUE(stamp.ok() && now.ok());

@@ -32,7 +32,7 @@ number = 1
 protocol = "biss-c"
 data_bits = 30
 crc = 0x43
-data = 0
+data = 3
 )";
 
 constexpr auto kPosition = static_cast<sensor_channel>(SENSOR_CHAN_OPENMB4_POSITION);
@@ -105,7 +105,7 @@ TEST_F(ZephyrSensor, Sample_IsAnglePositionTurnsAndFlags) {
   } rows[] = {{0, 0, 3, 0, 0, 0},
               {1, 1U << 25, 3, 180, 0, 0},
               {3, 0x3FF'FFFF, 2, 359, 999'994, 2},  // 360 / 2^26 below a turn; nW is 0
-              {2, 1, 1, 0, 5, 1}};                  // nE is 0
+              {2, 1, 3, 0, 5, 0}};
   for (const auto& row : rows) {
     const std::uint32_t position = row.turns << 26 | row.angle;
     ASSERT_TRUE(simulator.slave(1)->set_data(position << 2 | row.flags));
@@ -123,6 +123,24 @@ TEST_F(ZephyrSensor, Sample_IsAnglePositionTurnsAndFlags) {
   }
   EXPECT_EQ(fastest_hz, 5'000'000U);
   EXPECT_EQ(locks, 4 * 5);
+}
+
+// The encoder's own error: fetch fails, flags tell it, and no channel has the position.
+TEST_F(ZephyrSensor, SlaveError_IsAnErrorAndNoPosition) {
+  ASSERT_EQ(start(), 0);
+  ASSERT_TRUE(simulator.slave(1)->set_data(1000U << 2 | 1U));
+  EXPECT_EQ(sensor_sample_fetch(dev), -EPROTO);
+  EXPECT_EQ(get(kPosition), -ENODATA);
+  ASSERT_EQ(get(kFlags), 0);
+  EXPECT_EQ(value.val1, 1);
+  ASSERT_TRUE(simulator.slave(1)->set_data(2000U << 2 | 3U));
+  ASSERT_EQ(sensor_sample_fetch(dev), 0);
+  ASSERT_TRUE(simulator.slave(1)->set_data(3000U << 2 | 0U));
+  EXPECT_EQ(sensor_sample_fetch(dev), -EPROTO);
+  ASSERT_EQ(get(kPosition), 0);
+  EXPECT_EQ(value.val1, 2000);
+  ASSERT_EQ(get(kFlags), 0);
+  EXPECT_EQ(value.val1, 3);
 }
 
 TEST_F(ZephyrSensor, SilentEncoder_IsAnErrorAndTheLastSampleStays) {

@@ -159,10 +159,18 @@ SlaveResult AxiSession::result_of(unsigned channel, bool good) {
   const auto received = biss_axi::channel_word(port_, channel, regs::kAddrReceivedCrc);
   if (!received) return {std::nullopt, describe(received.info())};
   if (good) {
-    const auto position = page_.position(channel);
-    if (!position) return {std::nullopt, describe(position.info())};
+    // The flags come from the pins.
     Word word;
-    word.bits = *position;
+    std::uint32_t valid = 0, low = 0, high = 0;
+    if (!port_.write(regs::kAddrChannelIndex, channel) ||
+        !port_.read(regs::kAddrSinglePointValid, valid) ||
+        !port_.read(regs::kAddrSinglePointData, low) ||
+        !port_.read(regs::kAddrPositionHigh, high)) {
+      return {std::nullopt, describe(biss_axi::Error::kBus)};
+    }
+    if ((valid >> channel & 1U) == 0)
+      return {std::nullopt, describe(biss_axi::Error::kNoData)};
+    word.bits = std::uint64_t{high} << 32U | low;
     word.data_bits = config_.position_bits;
     word.n_error = flag("error");
     word.n_warning = flag("warn");

@@ -34,16 +34,16 @@ std::uint64_t as_stored(const sim::SlaveConfig& slave, std::uint64_t word) {
 std::string error_of(const Result<void>& result) { return result ? "" : describe(result.info()); }
 
 SlaveResult result_of(const sim::SlaveConfig& slave, const Result<Reading>& reading) {
-  if (!reading) return {std::nullopt, describe(reading.info())};
+  if (!reading.has_reading()) return {std::nullopt, describe(reading.info())};
   Word word;
-  word.bits = reading->raw;
+  word.bits = reading.reading().raw;
   word.data_bits = slave.data_bits();
   word.flag_bits = slave.flag_bits();
   if (word.flag_bits == 2) {
     word.n_error = (word.bits & 2U) != 0;
     word.n_warning = (word.bits & 1U) != 0;
   }
-  if (reading->crc_stored) word.crc = reading->crc;
+  if (reading.reading().crc_stored) word.crc = reading.reading().crc;
   return {word, ""};
 }
 

@@ -13,11 +13,13 @@ HERE = Path(__file__).parent
 
 class Error(Exception):
     """A call that failed. `code` is the C name of the error, such as "MB4SIM_ERROR_HOST" or
-    "MB4_CRC"; "" where the C interface has none."""
+    "MB4_CRC"; "" where the C interface has none. `reading`: what the slave has sent, where a read
+    of one slave is "MB4_SLAVE_ERROR"; otherwise None."""
 
     def __init__(self, message: str, code: str = ""):
         super().__init__(message)
         self.code = code
+        self.reading: Any = None
 
 
 def _declarations(name: str) -> str:

@@ -30,16 +30,25 @@ def _dtype(kind: Any) -> np.dtype:
 ROW = _dtype(ffi.typeof("openmb4_row"))
 
 
-class Reading(NamedTuple):
-    """mb4_reading of mb4.h."""
-
+class _Reading(NamedTuple):
     raw: int
     position: int
     crc: int
     crc_stored: bool
-    error: bool
-    warning: bool
+    slave_error: bool
+    slave_warning: bool
     slave: int
+
+
+class Reading(_Reading):
+    """mb4_reading of mb4.h."""
+
+    __slots__ = ()
+
+    def __getattr__(self, name: str) -> Any:
+        if name in ("error", "warning"):
+            raise AttributeError(f"'{name}' of a Reading is called 'slave_{name}'")
+        raise AttributeError(f"a Reading has no '{name}'")
 
 
 class Identity(NamedTuple):
@@ -111,8 +120,19 @@ class Driver:
         return list(quarters)
 
     def read_frame(self, slave: int) -> Reading:
+        """The word of one slave by a single frame. If its nE is 0 the Error has the code
+        MB4_SLAVE_ERROR, and its `reading` is what the slave has sent."""
         reading = ffi.new("mb4_reading *")
-        self._do(lib.mb4_read_frame, slave, reading)
+        try:
+            self._do(lib.mb4_read_frame, slave, reading)
+        except Error as error:
+            if error.code == "MB4_SLAVE_ERROR":
+                error.reading = self._reading(reading)
+            raise
+        return self._reading(reading)
+
+    @staticmethod
+    def _reading(reading: Any) -> Reading:
         return Reading(*(getattr(reading, name) for name in Reading._fields))
 
     def _rows(self, automatic: bool, count: int) -> np.ndarray:
@@ -129,7 +149,8 @@ class Driver:
     def read_all(self, count: int = 1) -> np.ndarray:
         """Reads frames of all slaves: an array of `count` rows of openmb4_row (native/). Its columns
         are rows["time_ns"], rows["result"] and of slave s rows["frame"]["reading"]["position"][:, s -
-        1] with rows["frame"]["code"][:, s - 1], which is 0 for a good word."""
+        1] with rows["frame"]["code"][:, s - 1], which is 0 for a good word. A word whose nE is 0 has
+        the code of MB4_SLAVE_ERROR, 21: its position is not to be trusted."""
         return self._rows(False, count)
 
     def write_actuator(self, slave: int, word: int) -> None:

@@ -39,6 +39,9 @@ void loop() {
     case ENCODER_GOOD:
       Serial.println(position);
       break;
+    case ENCODER_SLAVE_ERROR:
+      Serial.println("the encoder reports an error");
+      break;
     case ENCODER_ERROR:
       Serial.println("error");
       break;

@@ -63,5 +63,8 @@ uint8_t encoder_read(uint32_t now_us, uint32_t *position) {
     *position = (uint32_t)reading.position;
     return ENCODER_GOOD;
   }
+  if (code == MB4_SLAVE_ERROR) {
+    return ENCODER_SLAVE_ERROR;
+  }
   return code == MB4_NO_DATA ? ENCODER_NOTHING_NEW : ENCODER_ERROR;
 }

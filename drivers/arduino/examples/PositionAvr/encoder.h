@@ -20,9 +20,10 @@ typedef void (*encoder_transfer)(const uint8_t *tx, uint8_t *rx, uint8_t size);
  * after the chip's reset. */
 void encoder_begin(encoder_transfer transfer, uint32_t now_us);
 
-enum { ENCODER_GOOD, ENCODER_NOTHING_NEW, ENCODER_ERROR };
+enum { ENCODER_GOOD, ENCODER_NOTHING_NEW, ENCODER_ERROR, ENCODER_SLAVE_ERROR };
 
-/* The newest position, 0..2^26 - 1. Returns ENCODER_...; `position` is written with ENCODER_GOOD only. */
+/* The newest position, 0..2^26 - 1. Returns ENCODER_...; `position` is written with ENCODER_GOOD only.
+ * ENCODER_SLAVE_ERROR: a new word has come and its nE is 0, so the encoder does not trust it. */
 uint8_t encoder_read(uint32_t now_us, uint32_t *position);
 
 #ifdef __cplusplus

@@ -3,6 +3,7 @@
  *
  * Prints the angle of the encoder ten times a second, with Zephyr's sensor API. */
 #include <openmb4/sensor.h>
+#include <errno.h>
 #include <zephyr/device.h>
 #include <zephyr/devicetree.h>
 #include <zephyr/drivers/sensor.h>
@@ -27,7 +28,9 @@ int main(void) {
     }
     if (error == 0) {
       printk("%d.%06d degrees%s\n", (int)angle.val1, (int)angle.val2,
-             (flags.val1 & 1) != 0 ? ", the encoder reports an error" : "");
+             (flags.val1 & 2) != 0 ? ", the encoder warns" : "");
+    } else if (error == -EPROTO) { /* nE = 0: its position is not to be trusted */
+      printk("the encoder reports an error\n");
     } else {
       printk("error %d\n", error);
     }
