@@ -45,10 +45,10 @@ int BISS_C_ConfigPositionDatabits(int hdev, int bitsNum);
 /* Bit c enables channel c: 0x03 enables channels 0 and 1. */
 int BISS_C_ConfigChannels(int hdev, int channelEnable);
 /* One frame in single-point mode, which the call chooses, and the word of one channel. 0 with
- * *isValid = false: no good word came; *data is then 0. BISS_C_SLAVE_ERROR: it came, and its nE is 0,
- * so that its position is not to be trusted; *isValid is false, *data is what the encoder has sent.
- * BISS_C_CRC: nE and nW do not follow from the word and register 0x30; *data is 0. Waits for at most one frame with the
- * longest processing time and 40 us. */
+ * *isValid = false: no good word came; *data is then 0. BISS_C_SLAVE_ERROR: it came, and its nE is
+ * 0, so that its position is not to be trusted; *isValid is false, *data is what the encoder has
+ * sent. BISS_C_CRC: nE and nW do not follow from the word and register 0x30; *data is 0. Waits for
+ * at most one frame with the longest processing time and 40 us. */
 int BISS_C_ReadSinglePoint(int hdev, int channelIndex, unsigned int *data, bool *isValid);
 
 #ifdef __cplusplus

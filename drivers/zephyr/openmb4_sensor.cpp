@@ -5,11 +5,11 @@
 // sensor_channel_get() converts it. Both may be called from several threads, not from an interrupt.
 //
 // sensor_sample_fetch() returns 0 or a negative error: -EIO, SPI does not work or no chip answers;
-// -ETIMEDOUT, a frame did not end; -EBADMSG, the encoder is silent or its CRC is wrong; -EPROTO, the
-// encoder itself reports an error (nE = 0); -ENOTSUP, no such channel. The last good sample stays;
-// after -EPROTO SENSOR_CHAN_OPENMB4_FLAGS is that of the word that was refused. sensor_channel_get()
-// returns -ENODATA before the first good sample. If the chip does not answer, while the system starts or later, the next fetch
-// configures it again.
+// -ETIMEDOUT, a frame did not end; -EBADMSG, the encoder is silent or its CRC is wrong; -EPROTO,
+// the encoder itself reports an error (nE = 0); -ENOTSUP, no such channel. The last good sample
+// stays; after -EPROTO SENSOR_CHAN_OPENMB4_FLAGS is that of the word that was refused.
+// sensor_channel_get() returns -ENODATA before the first good sample. If the chip does not answer,
+// while the system starts or later, the next fetch configures it again.
 
 #define DT_DRV_COMPAT openmb4_ic_mb4
 
@@ -151,8 +151,8 @@ int fetch(const device* dev, sensor_channel channel) {
   const mb4::Result<mb4::Reading> frame = state.parts->chip.read_frame();
   if (frame.has_reading()) {
     const mb4::Reading& sent = frame.reading();
-    state.flags = static_cast<std::uint8_t>((sent.slave_error ? 1U : 0U) |
-                                            (sent.slave_warning ? 2U : 0U));
+    state.flags =
+        static_cast<std::uint8_t>((sent.slave_error ? 1U : 0U) | (sent.slave_warning ? 2U : 0U));
     state.told = true;
   }
   if (!frame.ok()) {

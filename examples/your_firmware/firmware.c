@@ -61,8 +61,8 @@ int main(void) {
       continue;
     }
     board_transfer(tx, rx, sizeof tx);
-    /* nW and nE are bits 0 and 1; both are 1 if the encoder has no warning and no error. With nE = 0
-     * the encoder does not trust its position, so nobody else may. */
+    /* nW and nE are bits 0 and 1; both are 1 if the encoder has no warning and no error. With nE =
+     * 0 the encoder does not trust its position, so nobody else may. */
     const uint32_t word =
         rx[1] | (uint32_t)rx[2] << 8 | (uint32_t)rx[3] << 16 | (uint32_t)rx[4] << 24;
     if ((word & 2) != 0) {

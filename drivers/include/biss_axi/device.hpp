@@ -31,7 +31,8 @@ enum class Error : std::uint8_t {
   // The word has come and its nE is 0: the encoder says that its position is not to be trusted.
   // Result::value() refuses it, Result::reading() gives it.
   kSlaveError,
-  // CALCULATED_CRC fits the word with none of the four pairs of nE and nW: they are not of one frame.
+  // CALCULATED_CRC fits the word with none of the four pairs of nE and nW: they are not of one
+  // frame.
   kCrc,
 };
 
@@ -363,7 +364,8 @@ class Device {
   }
 
   // The same for all enabled channels. Returns bit c: channel c has a word with a right CRC, and
-  // position() has it; nE is not looked at. Without one of the words the call lasts as long as a frame can.
+  // position() has it; nE is not looked at. Without one of the words the call lasts as long as a
+  // frame can.
   Result<std::uint32_t> read_all() { return single_point(port_, clock_, times_, channels_); }
 
   // The channel's word of the last single-point request; kNoData while it has brought no good one,

@@ -73,7 +73,7 @@ template <typename Info>
 // calls. It uses no heap and no clock; one object serves one encoder.
 //
 //   PositionTracker tracker(26);     // a driver names its own PositionTracker<Info>
-//   const Result<std::int64_t> total = tracker.update(reading.position);
+//   if (reading) total = tracker.update(reading->position);   // never a position whose nE is 0
 template <typename Info>
 class PositionTracker {
   using Error = decltype(Info::code);

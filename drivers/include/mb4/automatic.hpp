@@ -157,12 +157,13 @@ class Automatic {
   // of the Clock, so this must be safe in the interrupt too.
   //
   // Success: frame[slave] is a Reading, kSlaveError (new, and nE is 0), kNoData (nothing new), kCrc
-  // (a bad frame, told once) or kCorrupted for each enabled slave. With SpiCheck::kOff, and where the data leaves no room for a
-  // CRC, kCrc is told only together with a good word of another slave, and by each call if no good
-  // word of the slave has come for two periods or if there is no other slave. frame.status shows
-  // that frames were omitted (nAGSERR), not how many; frames that later ones have overwritten are
-  // not counted either. The datasheet asks for restart() when SVALID is 0 although a frame must
-  // have ended (table 69). This call does not restart; next() does.
+  // (a bad frame, told once) or kCorrupted for each enabled slave. With SpiCheck::kOff, and where
+  // the data leaves no room for a CRC, kCrc is told only together with a good word of another
+  // slave, and by each call if no good word of the slave has come for two periods or if there is no
+  // other slave. frame.status shows that frames were omitted (nAGSERR), not how many; frames that
+  // later ones have overwritten are not counted either. The datasheet asks for restart() when
+  // SVALID is 0 although a frame must have ended (table 69). This call does not restart; next()
+  // does.
   //
   // Errors: kWrongMode (automatic frames do not run; not touched), kTransport, kNotDetected,
   // kBankSwitched; kCorrupted (HOLDBANK is not in the chip). On error `frame` holds no Reading.

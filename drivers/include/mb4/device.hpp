@@ -208,10 +208,9 @@ class Device {
   // of n slaves; SpiCheck::kFull adds up to n. Only bytes that hold data are read; slaves share a
   // burst where this needs fewer bytes. No data is read if no slave is good.
   //
-  // Success means that the frame has ended; frame[slave] holds the result of each slave, kSlaveError
-  // where nE is 0. Errors of
-  // the call concern the whole frame: those of read_frame() except kCrc and kNoData. On error
-  // `frame` holds no Reading.
+  // Success means that the frame has ended; frame[slave] holds the result of each slave,
+  // kSlaveError where nE is 0. Errors of the call concern the whole frame: those of read_frame()
+  // except kCrc and kNoData. On error `frame` holds no Reading.
   Result<void> read_all(Frame& frame) { return detail::Blocking::read_all(chip_, frame); }
 
   // Begins read_all() without a transfer: the caller makes the frames of `operation`, whose memory

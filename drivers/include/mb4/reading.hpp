@@ -127,7 +127,7 @@ static_assert(static_cast<int>(SpiCheck::kFullAndRelease) == MB4_SPI_CHECK_FULL_
   detail::set_word(config, slave, word);
   mb4_slot_load(&word, &slot, bytes.data());
   slot.code = mb4_slot_good(&word, &slot, MB4_WITH_ALL) ? MB4_OK : MB4_CORRUPTED;
-  (void)mb4_slot_tell(&word, &slot, MB4_WITH_ALL);
+  static_cast<void>(mb4_slot_tell(&word, &slot, MB4_WITH_ALL));
   return detail::to_result(word, slot);
 }
 

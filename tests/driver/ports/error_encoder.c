@@ -1,8 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The openmb4 authors
  * SPDX-License-Identifier: Apache-2.0
  *
- * For the examples as they stand, with the linker's --wrap: whatever scenario they open, its encoders
- * report an error (nE = 0, nW = 1). */
+ * For the examples as they stand, with the linker's --wrap: whatever scenario they open, its
+ * encoders report an error (nE = 0, nW = 1). */
 #include <stddef.h>
 
 #include "mb4sim.h"

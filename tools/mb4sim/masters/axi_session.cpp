@@ -168,8 +168,7 @@ SlaveResult AxiSession::result_of(unsigned channel, bool good) {
         !port_.read(regs::kAddrPositionHigh, high)) {
       return {std::nullopt, describe(biss_axi::Error::kBus)};
     }
-    if ((valid >> channel & 1U) == 0)
-      return {std::nullopt, describe(biss_axi::Error::kNoData)};
+    if ((valid >> channel & 1U) == 0) return {std::nullopt, describe(biss_axi::Error::kNoData)};
     word.bits = std::uint64_t{high} << 32U | low;
     word.data_bits = config_.position_bits;
     word.n_error = flag("error");

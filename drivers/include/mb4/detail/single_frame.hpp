@@ -190,7 +190,7 @@ inline Result<void> Procedures::frame_ended(ChipState& chip, const Operation& op
   bool good = true;
   for (std::uint8_t i = 0; i < read.count; ++i) {
     good = good && read.slots[i].code == MB4_OK;
-    (void)mb4_slot_tell(&read.words[i], &read.slots[i], MB4_WITH_ALL);
+    static_cast<void>(mb4_slot_tell(&read.words[i], &read.slots[i], MB4_WITH_ALL));
   }
   // After kCorrupted the status, which came over the same SPI, is doubtful too.
   chip.recover_first = !good;

@@ -94,7 +94,7 @@ class Snapshots {
     slot.low = static_cast<std::uint32_t>(taken->word);
     slot.high = static_cast<std::uint32_t>(taken->word >> 32U);
     slot.code = mb4_slot_good(&word, &slot, MB4_WITH_ALL) ? MB4_OK : MB4_CORRUPTED;
-    (void)mb4_slot_tell(&word, &slot, MB4_WITH_ALL);
+    static_cast<void>(mb4_slot_tell(&word, &slot, MB4_WITH_ALL));
     const Result<Reading> reading = detail::to_result(word, slot);
     if (!reading.has_reading()) {
       return reading.failure();

@@ -2,8 +2,8 @@
  * SPDX-License-Identifier: Apache-2.0
  *
  * Prints the angle of the encoder ten times a second, with Zephyr's sensor API. */
-#include <openmb4/sensor.h>
 #include <errno.h>
+#include <openmb4/sensor.h>
 #include <zephyr/device.h>
 #include <zephyr/devicetree.h>
 #include <zephyr/drivers/sensor.h>
