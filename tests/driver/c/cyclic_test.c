@@ -345,7 +345,78 @@ static void test_two(bool omits) {
   }
 }
 
+/* nE = 0 of one of two slaves, then of both: each word is told, and none is lost. */
+static void test_slave_error(uint8_t spi_check, bool chain) {
+  const mb4_slave_config slave = {true, 28, MB4_FLAGS_ERROR_WARNING, 0, 0x43, false, false, false};
+  const uint8_t part[] = {0x02, 0xC4, 0x5B, 0x06}; /* the second slave as the first */
+  const char *const text =
+      "[host]\nsclk_hz = 10_000_000\n[[channel]]\nnumber = 1\n"
+      "[[channel.slave]]\nprotocol = \"biss-c\"\ndata_bits = 28\n"
+      "[[channel.slave]]\nprotocol = \"biss-c\"\ndata_bits = 28\n";
+  drive_t drive;
+  mb4_word words[2];
+  mb4_slot slots[2] = {{0, 0, 0, MB4_NO_DATA, false}, {0, 0, 0, MB4_NO_DATA, false}};
+  uint32_t tx[MB4_PLAN_WORDS(2)];
+  uint32_t rx[MB4_PLAN_WORDS(2)];
+  mb4_counts counts;
+  uint64_t due;
+  unsigned ticks;
+  unsigned good = 0;
+  unsigned errors = 0;
+  memset(&counts, 0, sizeof counts);
+  start_with(&drive, text, spi_check, chain, false);
+  if (drive.simulator == NULL) {
+    return;
+  }
+  write_bytes(&drive, part, sizeof part);
+  mb4_word_set(&words[0], 1, &slave, spi_check);
+  mb4_word_set(&words[1], 2, &slave, spi_check);
+  drive.read.words = words;
+  drive.read.slots = slots;
+  drive.read.count = 2;
+  mb4_plan_memory(&drive.plan, tx, rx);
+  drive.watch.several = true;
+  drive.watch.counts = &counts;
+  drive.parts = MB4_WITH_ALL | MB4_WITH_COUNTS;
+  counts.period_ns = kPeriodNs;
+  due = mb4sim_time_ns(drive.simulator) + 4 * kPeriodNs + kPeriodNs / 2;
+  for (ticks = 0; ticks < 120; ++ticks) {
+    const unsigned flags = ticks / 30; /* bit 0: nE of slave 1, bit 1: of slave 2 */
+    unsigned i;
+    uint8_t code;
+    CHECK(mb4sim_slave_set_data(drive.simulator, 1, 1000U << 2 | (flags & 1U) << 1 | 1U) == 0);
+    CHECK(mb4sim_slave_set_data(drive.simulator, 2, 2000U << 2 | (flags & 2U) | 1U) == 0);
+    mb4sim_advance_ns(drive.simulator, due - mb4sim_time_ns(drive.simulator));
+    due += kPeriodNs;
+    code = read_plans(&drive);
+    if (ticks % 30 < 3 || code == MB4_NO_DATA) { /* the old data may still be under way */
+      good += code == MB4_OK ? 1 : 0;
+      errors += drive.read.slave_error ? 1 : 0;
+      continue;
+    }
+    CHECK(code == (flags == 0 ? MB4_SLAVE_ERROR : MB4_OK));
+    CHECK(drive.read.told && drive.read.slave_error == (flags != 3));
+    good += flags == 0 ? 0 : 1;
+    errors += flags != 3 ? 1 : 0;
+    for (i = 0; i < 2; ++i) {
+      const bool error = (flags >> i & 1U) == 0;
+      mb4_reading reading;
+      CHECK(slots[i].code == (error ? MB4_SLAVE_ERROR : MB4_OK));
+      mb4_slot_reading(&words[i], &slots[i], &reading, drive.parts);
+      CHECK(reading.slave_error == error && !reading.slave_warning);
+      CHECK(reading.position == 1000U * (i + 1));
+    }
+  }
+  CHECK(good >= 80 && counts.good == good);
+  CHECK(errors >= 80 && counts.slave_errors == errors);
+  CHECK(counts.crc == 0 && counts.faults == 0 && counts.lost <= 1);
+  mb4sim_close(drive.simulator);
+}
+
 int main(void) {
+  test_slave_error(MB4_SPI_CHECK_CRC, true);
+  test_slave_error(MB4_SPI_CHECK_OFF, false);
+  test_slave_error(MB4_SPI_CHECK_FULL, false);
   test_phases(false, MB4_SPI_CHECK_CRC, true, false);
   test_phases(true, MB4_SPI_CHECK_CRC, true, true);
   test_phases(false, MB4_SPI_CHECK_OFF, true, false);
