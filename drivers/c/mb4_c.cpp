@@ -100,6 +100,7 @@ mb4_config mb4_config_default(void) {
   config.register_divider = from.register_divider;
   config.register_timeout_us = from.register_timeout_us;
   config.hold_beside_access = from.hold_beside_access;
+  config.activate_at_initialize = from.activate_at_initialize;
   for (std::size_t i = 0; i < mb4::kChannels; ++i) {
     config.protocol[i] = static_cast<std::uint8_t>(from.channels[i].protocol);
   }
@@ -197,6 +198,9 @@ mb4_result mb4_slave_write(mb4_device* device, uint8_t channel, uint8_t id, uint
 mb4_result mb4_slave_command(mb4_device* device, const mb4_command* command) {
   return to_c(of(device).control().send(from_c(*command)));
 }
+mb4_result mb4_slave_activate(mb4_device* device, uint8_t ids, uint8_t ids_2) {
+  return to_c(of(device).control().activate(ids, ids_2));
+}
 mb4_result mb4_slave_begin_read(mb4_device* device, uint8_t channel, uint8_t id, uint8_t address,
                                 size_t size) {
   return to_c(of(device).control().begin_read({channel, id}, address, size));
@@ -269,6 +273,11 @@ mb4_result mb4_plan_slave_write(mb4_device* device, mb4_operation* operation, ui
 mb4_result mb4_plan_slave_command(mb4_device* device, mb4_operation* operation,
                                   const mb4_command* command) {
   return to_c(of(device).control().plan_command(of(operation), from_c(*command)));
+}
+
+mb4_result mb4_plan_slave_activate(mb4_device* device, mb4_operation* operation, uint8_t ids,
+                                   uint8_t ids_2) {
+  return to_c(of(device).control().plan_activate(of(operation), ids, ids_2));
 }
 
 size_t mb4_operation_frames(mb4_operation* operation, mb4_spi_frame* frames, uint32_t* pause_us) {

@@ -109,6 +109,7 @@ typedef struct {
   uint8_t protocol[MB4_CHANNELS];      /* MB4_PROTOCOL_...; [0] is channel 1 */
   mb4_slave_config slaves[MB4_SLAVES]; /* [0] is slave 1 */
   bool hold_beside_access;             /* HOLDBANK beside register accesses too */
+  bool activate_at_initialize;         /* mb4_slave_activate() in mb4_initialize() */
 } mb4_config;
 
 /* mb4::Reading in mb4/reading.hpp. */
@@ -202,6 +203,8 @@ MB4_RESULT mb4_slave_read(mb4_device *device, uint8_t channel, uint8_t id, uint8
 MB4_RESULT mb4_slave_write(mb4_device *device, uint8_t channel, uint8_t id, uint8_t address,
                            const uint8_t *data, size_t size);
 MB4_RESULT mb4_slave_command(mb4_device *device, const mb4_command *command);
+/* `ids`, `ids_2`: bit 0 is ID 0, of channel 1 and 2; both 0: those of the enabled slaves. */
+MB4_RESULT mb4_slave_activate(mb4_device *device, uint8_t ids, uint8_t ids_2);
 MB4_RESULT mb4_slave_begin_read(mb4_device *device, uint8_t channel, uint8_t id, uint8_t address,
                                 size_t size);
 MB4_RESULT mb4_slave_begin_write(mb4_device *device, uint8_t channel, uint8_t id, uint8_t address,
@@ -278,6 +281,8 @@ MB4_RESULT mb4_plan_slave_write(mb4_device *device, mb4_operation *operation, ui
                                 uint8_t id, uint8_t address, const uint8_t *data, size_t size);
 MB4_RESULT mb4_plan_slave_command(mb4_device *device, mb4_operation *operation,
                                   const mb4_command *command);
+MB4_RESULT mb4_plan_slave_activate(mb4_device *device, mb4_operation *operation, uint8_t ids,
+                                   uint8_t ids_2);
 
 /* The frames to make now, at most MB4_STEP_FRAMES: fills `frames` and `pause_us` and returns their
  * number. */

@@ -15,8 +15,8 @@
 #include "board.h"
 
 static void write_bytes(uint8_t address, const uint8_t *data, size_t size) {
-  uint8_t tx[8] = {0x02, address}; /* opcode "write registers" */
-  uint8_t rx[8];
+  uint8_t tx[9] = {0x02, address}; /* opcode "write registers" */
+  uint8_t rx[9];
   memcpy(tx + 2, data, size);
   board_transfer(tx, rx, size + 2);
 }
@@ -42,14 +42,17 @@ static bool frame_is_good(void) {
 
 int main(void) {
   static const uint8_t encoder[] = {0x5B, 0x06, 0x00, 0x00}; /* 28 bits, CRC 6 */
-  static const uint8_t master[] = {0x40, 0xA0, 0x00, 0x7C};  /* BiSS C, 10 MHz, AGSMIN */
-  static const uint8_t channels[] = {0x01, 0x0D};            /* channel 1 BiSS C, 2 not used */
+  /* From 0xE2 on. First the request at rest, a read of register 0: one disturbed bit of 0xF4 can
+   * start what stands there, and four times 0 is the command "data off". */
+  static const uint8_t master[] = {0x00, 0x00, 0x00, 0xC0, /* BiSS C */
+                                   0xA0, 0x00, 0x7C};      /* 10 MHz, AGSMIN */
+  static const uint8_t channels[] = {0x01, 0x0D};          /* channel 1 BiSS C, 2 not used */
   static const uint8_t clear_svalid1[] = {0xFD};
   int good = 0;
 
   instruction(0x80); /* BREAK: known state */
   write_bytes(0xC0, encoder, sizeof encoder);
-  write_bytes(0xE5, master, sizeof master);
+  write_bytes(0xE2, master, sizeof master);
   write_bytes(0xEC, channels, sizeof channels);
   for (int i = 0; i < 5; ++i) {
     const uint8_t tx[5] = {0x09};

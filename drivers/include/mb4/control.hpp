@@ -57,6 +57,22 @@ class Control : public ControlSteps<Bus, Clock> {
         Steps::chip_, detail::Procedures::plan_command(Steps::chip_, Steps::chip_.own, command));
   }
 
+  // Switches on what broadcast commands can have switched off in the slaves of BiSS C: broadcast
+  // command 01 (they take part in control communication), then command 00 to the IDs given (they
+  // send their data), which exactly these must acknowledge. `ids`, `ids_2`: bit n is ID n of
+  // channel 1, of channel 2; both 0: those of the enabled slaves, one ID each. It needs no
+  // automatic frames, with any Config::frame_start, and uses them where they run. Without them it
+  // makes about 70 frames, or 100 with two channels; they send the words of actuators too. In a
+  // chain a slave that was off on purpose shifts the words of the others when it is on.
+  //
+  // Not touched: kNotConfigured, kBusy; kUnsupported (kChannelProtocol): no channel is BiSS C, or
+  // not the one that an ID was given for. kTransport, kNotDetected, kCorrupted, kTimeout as of
+  // begin_command() and poll(). kCommand: not all have acknowledged; those that did are on.
+  Result<void> activate(std::uint8_t ids = 0, std::uint8_t ids_2 = 0) {
+    return detail::Blocking::run(Steps::chip_, detail::Procedures::plan_activate(
+                                                   Steps::chip_, Steps::chip_.own, ids, ids_2));
+  }
+
   // Begins to read out.size() (1..64) registers without a transfer: the caller makes the frames of
   // `operation` and calls Device::finish() until it returns true. `out` must stay until then; it is
   // valid on success only. With automatic frames the steps after the request only read the status,
@@ -86,6 +102,12 @@ class Control : public ControlSteps<Bus, Clock> {
   // kUnsupported. operation.result(): kTransport, kNotDetected, kCorrupted, kTimeout, kCommand.
   Result<void> plan_command(Operation& operation, const Command& command) {
     return detail::Procedures::plan_command(Steps::chip_, operation, command);
+  }
+
+  // As plan_command(), but for activate(). Not touched: kNotConfigured, kBusy, kUnsupported.
+  // operation.result(): kTransport, kNotDetected, kCorrupted, kTimeout, kCommand.
+  Result<void> plan_activate(Operation& operation, std::uint8_t ids = 0, std::uint8_t ids_2 = 0) {
+    return detail::Procedures::plan_activate(Steps::chip_, operation, ids, ids_2);
   }
 };
 

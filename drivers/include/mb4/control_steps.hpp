@@ -42,8 +42,8 @@ namespace mb4 {
 //    cannot answer, so success says only that the chip has sent everything.
 //
 // Errors of all begin calls. The chip is not touched unless the line says so. After an error
-// nothing runs: if the access may have begun, the last transfer was BREAK, which also stops
-// automatic frames (Automatic::next() or restart() starts them again).
+// nothing runs: if the access may have begun, the last transfers were BREAK, which also stops
+// automatic frames (Automatic::next() or restart() starts them again), and the request at rest.
 //   kNotConfigured, kInvalidArgument
 //   kBusy         an access or a command is running
 //   kUnsupported  with kFrameStart: without automatic frames FrameStart::kWaitForLine is needed,
@@ -52,9 +52,13 @@ namespace mb4 {
 //   kWrongMode    BiSS B while automatic frames run
 //   kTransport    touched
 //   kNotDetected  touched; only with SpiCheck::kFull while automatic frames run
-//   kCorrupted    touched. Only with SpiCheck::kFull, which reads back each write: one transfer
-//                 more for each write of registers, and, while automatic frames run, one or two for
-//                 the instruction
+//   kCorrupted    touched: what was written reads back differently. With SpiCheck::kFull also the
+//                 instruction, while automatic frames run: one or two transfers more
+//
+// At the end of each access and command, good or bad, the request at rest is written: 0xE2..0xE5
+// ask for a read of register 0, so that a disturbed byte which starts an access does no harm. It is
+// one transfer, two with SpiCheck::kFull. If it fails three times the call is kTransport or
+// kCorrupted, automatic frames count as stopped, and the next call sends it first, behind BREAK.
 //
 // Registers go in parts of eight, each in a transfer of its own. After a failed call BREAK comes
 // first, before anything of the access is written: two transfers and 100 us more, if no automatic
@@ -65,29 +69,31 @@ class ControlSteps {
   explicit constexpr ControlSteps(detail::Chip<Bus, Clock>& chip) : chip_(chip) {}
 
   // Begins to read `count` (1..64) registers from `address`; address + count <= 128. `slave`:
-  // channel 1 or 2, ID 0..7. Two transfers; three in BiSS B, and two for BREAK.
+  // channel 1 or 2, ID 0..7. Three transfers; four in BiSS B, and two for BREAK.
   Result<void> begin_read(SlaveAddress slave, std::uint8_t address, std::size_t count) {
     return begin_access(slave, address, nullptr, count);
   }
 
   // Begins to write data.size() (1..64) registers from `address`; address + size <= 128. The data
-  // is in the chip when the call returns. One transfer more for each eight registers.
+  // is in the chip when the call returns. Two transfers more for each eight registers.
   Result<void> begin_write(SlaveAddress slave, std::uint8_t address,
                            Span<const std::uint8_t> data) {
     return begin_access(slave, address, data.data(), data.size());
   }
 
-  // Begins a command; see Command for the ranges of its members. Three transfers.
+  // Begins a command; see Command for the ranges of its members. Five transfers.
   Result<void> begin_command(const Command& command) {
     return detail::Blocking::until_poll(
         chip_, detail::Procedures::plan_command(chip_, chip_.own, command));
   }
 
   // Reads the status once and does the next step of what was begun; it never waits. At most three
-  // transfers: the status; then, without automatic frames, the next frame's instruction, or at the
-  // end SVALID = 0. None if Automatic::poll() or poll_slave() has seen since the last call that the
-  // access runs. With SpiCheck::kFull the end is read twice beside these calls. Call it until it
-  // returns true or an error.
+  // transfers, six with SpiCheck::kFull: the status; then, without automatic frames, the next
+  // frame's instruction; at the end the request at rest, and SVALID = 0 without automatic frames;
+  // kFull reads back, and RDATA1 for take(). A failed end is sent again, up to twice. None if
+  // Automatic::poll() or poll_slave() has seen since the last call that the access runs. With
+  // SpiCheck::kFull the end is read twice beside these calls. Call it until it returns true or an
+  // error.
   //
   //   false                      the access is still running; or the status could not be read, or
   //                              cannot come from an iC-MB4, for the first or second time in a row
@@ -111,14 +117,15 @@ class ControlSteps {
   // transfer for each eight, three with SpiCheck::kFull; the chip is only read.
   // kInvalidArgument (not touched): out.size() is out of range, the last access was no successful
   // read, or another access has begun since. kTransport, kNotDetected. kCorrupted: the second
-  // reading (SpiCheck::kFull) differs from the first.
+  // reading (SpiCheck::kFull) differs from the first, or the first register from what the end of
+  // the access has read.
   Result<void> take(Span<std::uint8_t> out) {
     return detail::Blocking::take(chip_, out.data(), out.size());
   }
 
   // Sends BREAK: the access ends at once. Registers of the slave may be changed already. Automatic
-  // frames stop as well; Automatic::next() or restart() starts them again. One transfer.
-  // kTransport.
+  // frames stop as well; Automatic::next() or restart() starts them again. One transfer,
+  // and the request at rest if an access ran. kTransport.
   Result<void> abort() {
     detail::Procedures::plan_stop(chip_, chip_.own, regs::BREAK::encode<1>(),
                                   chip_.automatic || chip_.restart);

@@ -108,8 +108,8 @@ class Device {
 
   // Reads the configuration back and compares it as configure() does. It finds a configuration that
   // a disturbed transfer or a supply dip has changed. Four transfers, three of 20 bytes (0x03
-  // from 0xE4, 0xC0 and 0xD2) and a status; it changes nothing in the chip. The registers of
-  // control communications are not compared. kNotConfigured (not touched), kTransport.
+  // from 0xE4, 0xC0 and 0xD2) and a status; it changes nothing in the chip. The request of a
+  // control communication that runs is not compared. kNotConfigured (not touched), kTransport.
   // kNotDetected, kVerify: the Device then counts as not configured; call configure() again.
   Result<void> verify() { return detail::Blocking::verify(chip_); }
 
@@ -150,22 +150,29 @@ class Device {
   // channel nothing is measured: in BiSS B INIT is the hand-over, with SSI alone it only resets
   // flags. No automatic frames and no control communication may run.
   //
+  // Where a slave of BiSS C has a CRC and no actuator is configured, one frame follows, whose data
+  // nobody gets: a slave whose data channel is off answers to INIT too. If a word was not sent, the
+  // result is kNoWord. Any other fault of this frame is left to the reads.
+  //
   // Transfers: 0x02 twice (SCDATA1, SCDATA5 = 0), with BiSS B 0x02 (0xE5), 0x07, 0x05 until INIT =
   // 0 and EOT = 1 within 1343 periods of MA (BiSS B alone: 4096 register clocks) and 200 us, 0x05
-  // until SL is 1, 0x03 for each channel that is measured, 0x02 (SVALID). SpiCheck::kFull reads
-  // some of them again.
+  // until SL is 1, 0x03 for each channel that is measured, 0x02 (SVALID); for the frame 0x07, 0x05
+  // until it has ended, 0x02 (SVALID), and 0x03 for each bad word. SpiCheck::kFull reads some of
+  // them again. With Config::activate_at_initialize the transfers of Control::activate() come
+  // before the frame.
   //
   // Not touched: kNotConfigured, kWrongMode, kBusy. Touched: kTransport, kNotDetected; kTimeout
   // (BREAK was sent); kLineDelay: the delay is more than 255 quarters of a period of MA;
   // kLineError: SL is stuck low, or in BiSS B no slave has answered; kNoData: nothing was measured,
-  // because the chip has no system clock; kCorrupted.
+  // because the chip has no system clock; kCorrupted; kNoWord;
+  // kCommand: as of Control::activate().
   Result<LineDelay> initialize() { return detail::Blocking::initialize(chip_); }
 
   // Begins initialize() without a transfer: the caller makes the frames of `operation` and calls
   // finish() until it returns true; then operation.line_delay(). After a failed read one step
   // begins after a pause; another one if no channel is BiSS C. kNotConfigured, kWrongMode, kBusy:
   // not touched. operation.result(): kTransport, kNotDetected, kTimeout, kLineDelay, kLineError,
-  // kNoData, kCorrupted as of initialize(); kWrongMode (operation.hpp).
+  // kNoData, kCorrupted, kNoWord, kCommand as of initialize(); kWrongMode (operation.hpp).
   Result<void> plan_initialize(Operation& operation) {
     const Result<void> allowed =
         detail::Procedures::possible(operation, chip_.single_frame_allowed());
@@ -255,16 +262,16 @@ class Device {
   }
 
   // Writes BREAK (page 33): it aborts a frame, a control communication and AGS at once; MA and the
-  // error flags return to 1. The configuration stays. One transfer. kTransport. The next read first
-  // waits 100 us for the slaves' timeout.
+  // error flags return to 1. The configuration stays. One transfer; one or two more if it ends a
+  // control communication. kTransport. The next read first waits 100 us for the slaves' timeout.
   Result<void> break_transmission() {
     detail::Procedures::plan_stop(chip_, chip_.own, regs::BREAK::encode<1>(), false);
     return detail::Blocking::run(chip_, chip_.own);
   }
 
-  // Begins break_transmission() without a transfer: one step of one frame. It ends an access of
-  // another Operation, whose finish() then says so (operation.hpp). kBusy: the operation of this
-  // object has not ended. operation.result(): kTransport.
+  // Begins break_transmission() without a transfer: one step of one frame, or up to three. It ends
+  // an access of another Operation, whose finish() then says so (operation.hpp). kBusy: the
+  // operation of this object has not ended. operation.result(): kTransport.
   Result<void> plan_break(Operation& operation) {
     const Result<void> allowed = detail::Procedures::possible(operation, Error::kNone);
     if (allowed) {

@@ -96,28 +96,29 @@ enum class Error : std::uint8_t {
 // The Config member that an error concerns. Values are stable; new ones are added at the end.
 enum class ConfigField : std::uint8_t {
   kNone = 0,
-  kClkHz,              // Config::f_clk_hz
-  kClockSource,        // Config::clock_source
-  kMaHz,               // Config::ma_hz
-  kLineInterface,      // Config::line_interface
-  kFrameStart,         // Config::frame_start
-  kFrameTimeoutUs,     // Config::frame_timeout_us
-  kChannelProtocol,    // Config::channels[number - 1].protocol
-  kSlaveEnabled,       // Config::slaves[number - 1].enabled
-  kDataBits,           // Config::slaves[number - 1].data_bits
-  kFlags,              // Config::slaves[number - 1].flags
-  kCrcPolynomial,      // Config::slaves[number - 1].crc_polynomial
-  kCrcStart,           // Config::slaves[number - 1].crc_start
-  kFramePeriodClk,     // Config::frame_period_clk
-  kSingleBank,         // Config::single_bank
-  kRegisterBusyUs,     // Config::register_busy_us
-  kSpiCheck,           // Config::spi_check
-  kGray,               // Config::slaves[number - 1].gray
-  kActuator,           // Config::slaves[number - 1].actuator
-  kMo,                 // Config::mo
-  kMoBusy,             // Config::mo_busy
-  kRegisterDivider,    // Config::register_divider
-  kRegisterTimeoutUs,  // Config::register_timeout_us
+  kClkHz,                 // Config::f_clk_hz
+  kClockSource,           // Config::clock_source
+  kMaHz,                  // Config::ma_hz
+  kLineInterface,         // Config::line_interface
+  kFrameStart,            // Config::frame_start
+  kFrameTimeoutUs,        // Config::frame_timeout_us
+  kChannelProtocol,       // Config::channels[number - 1].protocol
+  kSlaveEnabled,          // Config::slaves[number - 1].enabled
+  kDataBits,              // Config::slaves[number - 1].data_bits
+  kFlags,                 // Config::slaves[number - 1].flags
+  kCrcPolynomial,         // Config::slaves[number - 1].crc_polynomial
+  kCrcStart,              // Config::slaves[number - 1].crc_start
+  kFramePeriodClk,        // Config::frame_period_clk
+  kSingleBank,            // Config::single_bank
+  kRegisterBusyUs,        // Config::register_busy_us
+  kSpiCheck,              // Config::spi_check
+  kGray,                  // Config::slaves[number - 1].gray
+  kActuator,              // Config::slaves[number - 1].actuator
+  kMo,                    // Config::mo
+  kMoBusy,                // Config::mo_busy
+  kRegisterDivider,       // Config::register_divider
+  kRegisterTimeoutUs,     // Config::register_timeout_us
+  kActivateAtInitialize,  // Config::activate_at_initialize
 };
 
 // An error with the place that it concerns. It has four bytes and fits a processor register.
@@ -266,6 +267,8 @@ struct alignas(4) ErrorInfo {
       return "register_divider";
     case ConfigField::kRegisterTimeoutUs:
       return "register_timeout_us";
+    case ConfigField::kActivateAtInitialize:
+      return "activate_at_initialize";
   }
   return "unknown";
 }

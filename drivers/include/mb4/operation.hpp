@@ -87,7 +87,8 @@ class Operation : public Steps {
   std::size_t count_ = 0;   // of them all
   std::uint32_t made_ = 0;  // frames of the step before
   // An access: looks at the status that have failed, one after the other. INIT: 1 if it was not
-  // seen. An actuator: banks that are to be written after this one.
+  // seen. An actuator: banks that are to be written after this one. A comparison: 1 if the request
+  // of an access may have been in the chip.
   std::uint32_t bad_ = 0;
   bool good_ = false;  // they were made
   Result<void> result_{};

@@ -23,6 +23,8 @@ namespace mb4 {
 inline constexpr std::uint8_t kImageFirst = regs::kAddrSlaveCfg;
 inline constexpr std::uint8_t kImageLast = regs::kAddrSvalidHi;
 inline constexpr std::size_t kImageBytes = kImageLast - kImageFirst + 1;
+// The request of a control communication: 0xE2..0xE5.
+inline constexpr std::size_t kRequestBytes = regs::kAddrCtrl - regs::kAddrRegadr + 1;
 
 using RegisterImage = std::array<std::uint8_t, kImageBytes>;
 
@@ -71,7 +73,7 @@ constexpr std::uint8_t encode_freqr(const Config& config) {
   return static_cast<std::uint8_t>(crc_width_bits(config.register_divider) - 1);
 }
 
-// 0xE5 while no control communication runs: the bits that frames and INIT need.
+// The bits of 0xE5 that frames and INIT need.
 constexpr std::uint8_t encode_ctrl(const Config& config, bool biss_b) {
   return static_cast<std::uint8_t>(regs::REGVERS::insert(0, biss_b ? 0 : 1) |
                                    regs::EN_MO::insert(0, config.mo ? 1 : 0) |
@@ -89,7 +91,9 @@ constexpr std::uint8_t encode_ctrl(const Config& config, bool biss_b) {
       detail::put_slave(image, config.slaves[number - 1], number);
     }
   }
-  image[regs::kAddrCtrl - kImageFirst] = detail::encode_ctrl(config, only_biss_b(config));
+  // The request at rest is a read of register 0, of ID 0 (0xE2..0xE5).
+  image[regs::kAddrCtrl - kImageFirst] =
+      regs::CTS::insert(detail::encode_ctrl(config, only_biss_b(config)), 1);
   detail::put<regs::FREQR>(image, detail::encode_freqr(config));
   detail::put<regs::FREQS>(image, freqs_code(config.f_clk_hz, config.ma_hz).value_or(0));
   detail::put<regs::NOCRC>(image, config.spi_check == SpiCheck::kOff ? regs::CrcStorage::kDropped

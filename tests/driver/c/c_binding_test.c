@@ -123,6 +123,8 @@ static void test_slave_registers(mb4_device *device) {
   OK(mb4_slave_begin_command(device, &activate));
   OK(mb4_slave_abort(device));
   OK(mb4_slave_command(device, &activate));
+  OK(mb4_slave_activate(device, 0, 0));
+  CHECK(mb4_slave_activate(device, 0, 1).code == MB4_UNSUPPORTED); /* channel 2 is not used */
   const mb4_result missing = mb4_slave_read(device, 1, 5, 0x44, data, 1);
   CHECK(missing.code == MB4_REGISTER && missing.detail == 0);
   OK(mb4_scan(device, 1, &identity, 1, &count));
@@ -241,6 +243,8 @@ static void test_steps(mb4_device *device, bus_t *bus) {
   OK(complete(device, bus, &operation));
   CHECK(back[0] == 0x5A && back[1] == 0xC3);
   OK(mb4_plan_slave_command(device, &operation, &command));
+  OK(complete(device, bus, &operation));
+  OK(mb4_plan_slave_activate(device, &operation, 1, 0));
   OK(complete(device, bus, &operation));
   FAILS(mb4_plan_actuator(device, &operation, 1, 1), MB4_INVALID_ARGUMENT);
   FAILS(mb4_plan_automatic_actuator(device, &operation, 1, 1), MB4_WRONG_MODE);

@@ -435,16 +435,17 @@ TEST(RegisterImage, StoreCrc_ClearsNocrc) {
   EXPECT_EQ(image_byte(config, 0xE7), 0x00);
 }
 
-// Table 8: CFGCH1 in bits 1:0, CFGCH2 in 3:2 of 0xED; table 26: REGVERS, bit 6 of 0xE5, is 0 for
+// Table 8: CFGCH1 in bits 1:0, CFGCH2 in 3:2 of 0xED; table 24: CTS, bit 7 of 0xE5, is 1 at rest;
+// table 26: REGVERS, bit 6 of 0xE5, is 0 for
 // BiSS B registers; table 36: FREQR in bits 7:5 of 0xE6.
 TEST(RegisterImage, Protocols_AreCfgchRegversFreqr) {
   const struct {
     mb4::Protocol first, second;
     unsigned cfgch, ctrl;
-  } cases[] = {{mb4::Protocol::kBissB, mb4::Protocol::kUnused, 0x0C, 0x00},
-               {mb4::Protocol::kSsi, mb4::Protocol::kUnused, 0x0E, 0x40},
-               {mb4::Protocol::kSsi, mb4::Protocol::kBissB, 0x02, 0x00},
-               {mb4::Protocol::kBissB, mb4::Protocol::kBissC, 0x04, 0x40}};
+  } cases[] = {{mb4::Protocol::kBissB, mb4::Protocol::kUnused, 0x0C, 0x80},
+               {mb4::Protocol::kSsi, mb4::Protocol::kUnused, 0x0E, 0xC0},
+               {mb4::Protocol::kSsi, mb4::Protocol::kBissB, 0x02, 0x80},
+               {mb4::Protocol::kBissB, mb4::Protocol::kBissC, 0x04, 0xC0}};
   for (const auto& one : cases) {
     Config config = encoder26();
     config.channels[0].protocol = one.first;
@@ -486,7 +487,7 @@ TEST(RegisterImage, Actuators_AreActnsensLstopEnmoMobusy) {
   EXPECT_EQ(image_byte(config, 0xC0), 0x5B);
   EXPECT_EQ(image_byte(config, 0xC8), 0xDB);
   EXPECT_EQ(image_byte(config, 0xCC), 0x5B);
-  EXPECT_EQ(image_byte(config, 0xE5), 0x42);
+  EXPECT_EQ(image_byte(config, 0xE5), 0xC2);
   EXPECT_EQ(image_byte(config, 0xE9), 0xA5);
   EXPECT_EQ(mb4::sensors(config), 0x01);
 }

@@ -34,6 +34,7 @@ using mb4test::zeros;
 const Bytes kFrame{0x07, 0x08};     // INSTR = 100: bits 3:1 of 0xF4 (table 45)
 const Bytes kFrameAgs{0x07, 0x09};  // with AGS = 1
 const Bytes kAgs{0x07, 0x01};
+const Bytes kRest{0x02, 0xE2, 0x00, 0x00, 0x00, 0xC0};  // a read of register 0
 // 0xF0: nERR, nAGSERR, nDELAYERR, nSCDERR, nREGERR, REGEND, 1, EOT (tables 54 to 60); F3: REGBYTES.
 Bytes status(std::uint8_t f0, std::uint8_t f4 = 0x00, std::uint8_t f3 = 0x00) {
   return {0x00, f0, 0x00, 0x00, f3, f4};
@@ -59,7 +60,7 @@ class ControlTest : public testing::Test {
   }
   // 0xE2: WNR and REGADR; 0xE3: REGNUM = count - 1; 0xE4: CHSEL; 0xE5: CTS, REGVERS, SLAVEID.
   void expect_begin(std::uint8_t e2, std::uint8_t e3, std::uint8_t e4, std::uint8_t e5) {
-    bus.expect_write({0x02, 0xE2, e2, e3, e4, e5});
+    bus.expect_proven({0x02, 0xE2, e2, e3, e4, e5});
     bus.expect_write(kFrame);
   }
   // Registers come in parts of eight.
@@ -75,9 +76,9 @@ class ControlTest : public testing::Test {
   void expect_filled(const Bytes& registers) {
     for (std::size_t at = 0; at < registers.size(); at += 8) {
       const std::size_t end = at + 8 < registers.size() ? at + 8 : registers.size();
-      bus.expect_write(join({{0x02, static_cast<std::uint8_t>(0x80 + at)},
-                             Bytes(registers.begin() + static_cast<int>(at),
-                                   registers.begin() + static_cast<int>(end))}));
+      bus.expect_proven(join({{0x02, static_cast<std::uint8_t>(0x80 + at)},
+                              Bytes(registers.begin() + static_cast<int>(at),
+                                    registers.begin() + static_cast<int>(end))}));
     }
   }
   // Two more frames, then the end.
@@ -86,7 +87,15 @@ class ControlTest : public testing::Test {
     bus.expect_write(kFrame);
     bus.expect_read(kReadStatus, kFrameRuns);
     bus.expect_read(kReadStatus, end);
+    expect_end();
+  }
+  void expect_end() {
     bus.expect_write(kClearValid1);
+    bus.expect_write(kRest);
+  }
+  void expect_abort() {
+    bus.expect_write(kBreak);
+    bus.expect_write(kRest);
   }
 
   StrictBus bus;
@@ -126,7 +135,7 @@ TEST_F(Registers, ReadSixOfId5_HasItsFields) {
 // Page 28: RDATA is written before INSTR; WNR is bit 7 of 0xE2.
 TEST_F(Registers, WriteTwo_DataFirst) {
   configure();
-  bus.expect_write({0x02, 0x80, 0x12, 0x34});
+  bus.expect_proven({0x02, 0x80, 0x12, 0x34});
   expect_begin(0xE0, 0x01, 0x01, 0xC0);
   expect_frames();
   const std::array<std::uint8_t, 2> data{0x12, 0x34};
@@ -158,7 +167,7 @@ TEST_F(Registers, Write70_SecondPartContinues) {
   expect_filled(Bytes(data.begin(), data.begin() + 64));
   expect_begin(0x80 | 0x10, 0x3F, 0x01, 0xC0);
   expect_frames();
-  bus.expect_write({0x02, 0x80, 64, 65, 66, 67, 68, 69});
+  bus.expect_proven({0x02, 0x80, 64, 65, 66, 67, 68, 69});
   expect_begin(0x80 | 0x50, 0x05, 0x01, 0xC0);
   expect_frames(status(0x77, 0x00, 0x03));  // nREGERR = 0 after 3
   const ErrorInfo info = device.control().write_registers({1, 0}, 0x10, data).info();
@@ -206,7 +215,7 @@ TEST_F(Registers, SilentSlave_IsTimeoutAfterBreak) {
   expect_begin(0x10, 0x00, 0x01, 0xC0);
   bus.expect_read(kReadStatus, kFrameRuns);
   bus.expect_read(kReadStatus, kFrameRuns);  // after the time
-  bus.expect_write(kBreak);
+  expect_abort();
   std::array<std::uint8_t, 1> bytes{};
   EXPECT_EQ(device.control().read_registers({1, 0}, 0x10, bytes).error(), Error::kTimeout);
 }
@@ -219,12 +228,12 @@ TEST_F(Registers, NeverEnding_IsTimeoutAfterCountedFrames) {
   config.register_busy_us = 39;
   mb4test::expect_configure(bus);
   ASSERT_TRUE(device.configure(config).ok());
-  bus.expect_write({0x02, 0xE2, 0x10, 0x00, 0x01, 0xC0});
+  bus.expect_proven({0x02, 0xE2, 0x10, 0x00, 0x01, 0xC0});
   for (int frame = 0; frame < 49 + 39 + 1; ++frame) {
     bus.expect_write(kFrame);
     bus.expect_read(kReadStatus, kFrameOver);
   }
-  bus.expect_write(kBreak);
+  expect_abort();
   std::array<std::uint8_t, 1> bytes{};
   EXPECT_EQ(device.control().read_registers({1, 0}, 0x10, bytes).error(), Error::kTimeout);
 }
@@ -236,46 +245,74 @@ TEST_F(Registers, RegendOfTheLastAccess_IsNotTheEnd) {
   bus.expect_read(kReadStatus, kDone);
   bus.expect_write(kFrame);
   bus.expect_read(kReadStatus, kDone);
-  bus.expect_write(kClearValid1);
+  expect_end();
   bus.expect_read({0x03, 0x80, 0x00}, {0x00, 0x00, 0x01});
   std::array<std::uint8_t, 1> bytes{};
   EXPECT_TRUE(device.control().read_registers({1, 0}, 0x10, bytes).ok());
 }
 
-// A status that cannot be read is read again, up to twice; a transfer that writes is not repeated.
+// A status that cannot be read is read again, up to twice, and so is the end sent again, which
+// clears flags and brings the request at rest. A transfer that writes before is not repeated; if
+// the request may be in the chip, the one at rest follows.
 TEST(RegistersFailure, TransportAtEachTransfer_IsReportedAndNothingKeepsRunning) {
-  for (std::size_t index = 0; index < 9; ++index) {
+  for (std::size_t index = 0; index < 12; ++index) {
     StrictBus bus;
     FakeClock clock;
     mb4::Device<StrictBus, FakeClock> device(bus, clock);
     mb4test::expect_configure(bus);
     ASSERT_TRUE(device.configure(encoder26()).ok());
-    bus.expect_write({0x02, 0x80, 0x12});
-    bus.expect_write({0x02, 0xE2, 0xE0, 0x00, 0x01, 0xC0});
+    bus.expect_proven({0x02, 0x80, 0x12});
+    bus.expect_proven({0x02, 0xE2, 0xE0, 0x00, 0x01, 0xC0});
     bus.expect_write(kFrame);
     bus.expect_read(kReadStatus, kFrameOver);
     bus.expect_write(kFrame);
     bus.expect_read(kReadStatus, kFrameRuns);
     bus.expect_read(kReadStatus, kDone);
     bus.expect_write(kClearValid1);
-    const bool all = index == 8;
+    bus.expect_write(kRest);
+    const bool all = index == 11;
     if (!all) {
       bus.fail_at(mb4test::kConfigureTransfers + index);
     }
-    const bool looks = index == 3 || index == 5 || index == 6;
+    const bool looks = index == 5 || index == 7 || index == 8;
     for (int again = 0; looks && again < 2; ++again) {
       bus.expect_read(kReadStatus, kFrameOver).fail_last();
     }
-    const bool runs = index >= 2 && index <= 6;
+    const bool runs = index >= 4 && index <= 8;
     if (runs) {
       bus.expect_write(kBreak);
     }
+    if (index == 9 || index == 10) {
+      bus.expect_write(kClearValid1);
+    }
+    if (index >= 2 && !all) {
+      bus.expect_write(kRest);
+    }
     const std::array<std::uint8_t, 1> data{0x12};
     const mb4::Result<void> done = device.control().write_registers({1, 0}, 0x60, data);
-    // The last one only clears flags; the access itself was good.
-    EXPECT_EQ(done.error(), index >= 7 ? Error::kNone : Error::kTransport) << index;
+    EXPECT_EQ(done.error(), index >= 9 ? Error::kNone : Error::kTransport) << index;
     EXPECT_EQ(device.control().poll().error(), Error::kWrongMode) << index;
   }
+}
+
+// The end of a good access cannot be sent. Automatic frames must not go on beside a request that
+// one disturbed bit would start; the next call sends the one at rest first, behind BREAK.
+TEST_F(RegistersAgs, RequestAtRestLost_NextCallSendsItFirst) {
+  start_automatic();
+  const std::array<std::uint8_t, 1> data{0x12};
+  bus.expect_proven({0x02, 0x80, 0x12});
+  bus.expect_proven({0x02, 0xE2, 0xE0, 0x00, 0x01, 0xC0});
+  bus.expect_write(kFrameAgs);
+  bus.expect_read(kReadStatus, kDoneAgs);
+  for (int tries = 0; tries < 3; ++tries) bus.expect_write(kRest).fail_last();
+  EXPECT_EQ(device.control().write_registers({1, 0}, 0x60, data).error(), Error::kTransport);
+  EXPECT_FALSE(device.automatic().running());
+  expect_abort();
+  bus.expect_write(kClearValid1);
+  bus.expect_write(kAgs);
+  EXPECT_TRUE(device.automatic().restart().ok());
+  bus.expect_write(kBreak);
+  EXPECT_TRUE(device.break_transmission().ok());
 }
 
 // ---- Wrong use ----------------------------------------------------------------------------------
@@ -339,7 +376,7 @@ TEST_F(Steps, Poll_NeverWaits) {
   bus.expect_read(kReadStatus, Bytes(6, 0xFF));
   EXPECT_FALSE(*control.poll());
   bus.expect_read(kReadStatus, kDone);
-  bus.expect_write(kClearValid1);
+  expect_end();
   EXPECT_TRUE(*control.poll());
   std::array<std::uint8_t, 3> bytes{};
   EXPECT_EQ(control.take(bytes).error(), Error::kInvalidArgument);
@@ -352,13 +389,13 @@ TEST_F(Steps, Abort_BreaksAndFreesTheChip) {
   configure();
   expect_begin(0x10, 0x00, 0x01, 0xC0);
   ASSERT_TRUE(device.control().begin_read({1, 0}, 0x10, 1).ok());
-  bus.expect_write(kBreak);
+  expect_abort();
   EXPECT_TRUE(device.control().abort().ok());
   EXPECT_EQ(device.control().poll().error(), Error::kWrongMode);
   // The aborted access may still run: BREAK and the slaves' timeout come first.
   bus.expect_write(kBreak);
   bus.expect_write(kClearValid1);
-  bus.expect_write({0x02, 0xE2, 0x11, 0x00, 0x01, 0xC0});
+  bus.expect_proven({0x02, 0xE2, 0x11, 0x00, 0x01, 0xC0});
   bus.expect_write(kFrame);
   EXPECT_TRUE(device.control().begin_read({1, 0}, 0x11, 1).ok());
 }
@@ -373,7 +410,7 @@ TEST_F(Steps, ThreeFailedLooks_AreTheEnd) {
     EXPECT_FALSE(*control.poll());
   }
   bus.expect_read(kReadStatus, zeros(6));
-  bus.expect_write(kBreak);
+  expect_abort();
   EXPECT_EQ(control.poll().error(), Error::kNotDetected);
   EXPECT_EQ(control.poll().error(), Error::kWrongMode);
 }
@@ -383,7 +420,7 @@ TEST_F(Steps, PollOfAnOperation_IsWrongMode) {
   configure();
   expect_begin(0x10, 0x00, 0x01, 0xC0);
   ASSERT_TRUE(device.control().begin_read({1, 0}, 0x10, 1).ok());
-  bus.expect_write(kBreak);
+  expect_abort();
   ASSERT_TRUE(device.control().abort().ok());
   mb4::Operation operation;
   std::uint8_t value = 0;
@@ -394,7 +431,7 @@ TEST_F(Steps, PollOfAnOperation_IsWrongMode) {
 // Positions are read meanwhile: by next() too, which waits for the end of a frame.
 TEST_F(RegistersAgs, NextMeanwhile_AccessGoesOn) {
   start_automatic();
-  bus.expect_write({0x02, 0xE2, 0x44, 0x00, 0x01, 0xC0});
+  bus.expect_proven({0x02, 0xE2, 0x44, 0x00, 0x01, 0xC0});
   bus.expect_write(kFrameAgs);
   ASSERT_TRUE(device.control().begin_read({1, 0}, 0x44, 1).ok());
   bus.expect_read(kReadStatus, {0, 0xFB, 0x02, 0, 0, 0x09});
@@ -415,6 +452,7 @@ TEST_F(RegistersAgs, NextMeanwhile_AccessGoesOn) {
   bus.expect_read(kReadStatus, kRunsAgs);
   EXPECT_TRUE(device.verify().ok());
   bus.expect_read(kReadStatus, kDoneAgs);
+  bus.expect_write(kRest);
   EXPECT_TRUE(*device.control().poll());
 }
 
@@ -436,7 +474,7 @@ TEST_F(RegistersAgs, NextAfterABadFrame_RestartsWhenTheAccessHasEnded) {
     ASSERT_TRUE(device.automatic().next(frame).ok());
     EXPECT_EQ(frame[1].error(), Error::kCrc);
     if (access) {
-      bus.expect_write({0x02, 0xE2, 0x44, 0x00, 0x01, 0xC0});
+      bus.expect_proven({0x02, 0xE2, 0x44, 0x00, 0x01, 0xC0});
       bus.expect_write(kFrameAgs);
       ASSERT_TRUE(device.control().begin_read({1, 0}, 0x44, 1).ok());
     } else {
@@ -450,6 +488,7 @@ TEST_F(RegistersAgs, NextAfterABadFrame_RestartsWhenTheAccessHasEnded) {
     if (access) {
       EXPECT_FALSE(*device.control().poll());  // what next() has seen
       bus.expect_read(kReadStatus, kDoneAgs);
+      bus.expect_write(kRest);
       EXPECT_TRUE(*device.control().poll());
       std::array<std::uint8_t, 1> value{};
       EXPECT_EQ(device.control().take(mb4::Span<std::uint8_t>(value).first(0)).error(),
@@ -472,10 +511,11 @@ TEST_F(Registers, AfterALostBreak_BreakComesBeforeTheBytes) {
   bus.expect_write(kBreak).fail_last();
   std::array<std::uint8_t, 1> bytes{0x77};
   EXPECT_EQ(device.control().read_registers({1, 0}, 0x10, bytes).error(), Error::kTransport);
-  bus.expect_write(kBreak);
+  expect_abort();
   bus.expect_write(kClearValid1);
-  bus.expect_write({0x02, 0x80, 0x77});
+  bus.expect_proven({0x02, 0x80, 0x77});
   bus.expect_write({0x02, 0xE2, 0xA0, 0x00, 0x01, 0xC0}).fail_last();
+  bus.expect_write(kRest).fail_last();
   EXPECT_EQ(device.control().write_registers({1, 0}, 0x20, bytes).error(), Error::kTransport);
 }
 
@@ -500,11 +540,12 @@ TEST_F(RegistersAgs, DisturbedFill_IsFollowedByARestart) {
 // One status that cannot be read beside automatic frames: they go on.
 TEST_F(RegistersAgs, DisturbedStatus_FramesGoOn) {
   start_automatic();
-  bus.expect_write({0x02, 0xE2, 0x44, 0x00, 0x01, 0xC0});
+  bus.expect_proven({0x02, 0xE2, 0x44, 0x00, 0x01, 0xC0});
   bus.expect_write(kFrameAgs);
   bus.expect_read(kReadStatus, kRunsAgs).fail_last();
   bus.expect_read(kReadStatus, Bytes(6, 0xFF));
   bus.expect_read(kReadStatus, kDoneAgs);
+  bus.expect_write(kRest);
   bus.expect_read({0x03, 0x80, 0x00}, {0x00, 0x00, 0x77});
   std::array<std::uint8_t, 1> bytes{};
   EXPECT_TRUE(device.control().read_registers({1, 0}, 0x44, bytes).ok());
@@ -515,11 +556,12 @@ TEST_F(RegistersAgs, DisturbedStatus_FramesGoOn) {
 
 TEST_F(RegistersAgs, ReadOne_OneInstructionForAll) {
   start_automatic();
-  bus.expect_write({0x02, 0xE2, 0x44, 0x00, 0x01, 0xC0});
+  bus.expect_proven({0x02, 0xE2, 0x44, 0x00, 0x01, 0xC0});
   bus.expect_write(kFrameAgs);
   bus.expect_read(kReadStatus, kRunsAgs);
   bus.expect_read(kReadStatus, kRunsAgs);
   bus.expect_read(kReadStatus, kDoneAgs);
+  bus.expect_write(kRest);
   bus.expect_read({0x03, 0x80, 0x00}, {0x00, 0x00, 0x77});
   std::array<std::uint8_t, 1> bytes{};
   ASSERT_TRUE(device.control().read_registers({1, 0}, 0x44, bytes).ok());
@@ -530,7 +572,7 @@ TEST_F(RegistersAgs, ReadOne_OneInstructionForAll) {
 // 49 frames of 220 us, 4096 * 64 periods of MA and a quarter, 200 us of margin: 174 860 us.
 TEST_F(RegistersAgs, NeverEnding_IsTimeoutAndFramesCanBeRestarted) {
   start_automatic();
-  bus.expect_write({0x02, 0xE2, 0x44, 0x00, 0x01, 0xC0});
+  bus.expect_proven({0x02, 0xE2, 0x44, 0x00, 0x01, 0xC0});
   bus.expect_write(kFrameAgs);
   ASSERT_TRUE(device.control().begin_read({1, 0}, 0x44, 1).ok());
   clock.time_us += 174'800;
@@ -538,7 +580,7 @@ TEST_F(RegistersAgs, NeverEnding_IsTimeoutAndFramesCanBeRestarted) {
   EXPECT_FALSE(*device.control().poll());
   clock.time_us += 100;
   bus.expect_read(kReadStatus, kRunsAgs);
-  bus.expect_write(kBreak);
+  expect_abort();
   EXPECT_EQ(device.control().poll().error(), Error::kTimeout);
   EXPECT_FALSE(device.automatic().running());
   bus.expect_write(kBreak);
@@ -554,7 +596,7 @@ class PollBesideControl : public ControlTest {
  protected:
   void SetUp() override {
     start_automatic(false);
-    bus.expect_write({0x02, 0xE2, 0x44, 0x00, 0x01, 0xC0});
+    bus.expect_proven({0x02, 0xE2, 0x44, 0x00, 0x01, 0xC0});
     bus.expect_write(kFrameAgs);
     ASSERT_TRUE(device.control().begin_read({1, 0}, 0x44, 1).ok());
   }
@@ -638,8 +680,7 @@ TEST(PollBesideControlFull, WordWithoutCrc_IsReadTwice) {
     ASSERT_TRUE(device.configure(config).ok());
     bus.expect_write(kAgs);
     ASSERT_TRUE(device.automatic().start().ok());
-    bus.expect_write({0x02, 0xE2, 0x44, 0x00, 0x01, 0xC0});
-    bus.expect_read({0x03, 0xE2, 0, 0, 0, 0}, {0, 0, 0x44, 0x00, 0x01, 0xC0});
+    bus.expect_proven({0x02, 0xE2, 0x44, 0x00, 0x01, 0xC0});
     bus.expect_write(kFrameAgs);
     bus.expect_read(kReadStatus, kRunsAgs);
     ASSERT_TRUE(device.control().begin_read({1, 0}, 0x44, 1).ok());
@@ -684,7 +725,7 @@ TEST(PollBesideControlSteps, PlannedBefore_IsPlannedAnew) {
   answer(2, {0, 0xFB, 0x02, 0, 0, 0x41});
   ASSERT_TRUE(device.automatic().finish(read, true, 2000));
   EXPECT_EQ(read.result()->position, mb4test::kPosition);
-  bus.expect_write({0x02, 0xE2, 0x44, 0x00, 0x01, 0xC0});
+  bus.expect_proven({0x02, 0xE2, 0x44, 0x00, 0x01, 0xC0});
   bus.expect_write(kFrameAgs);
   ASSERT_TRUE(device.control().begin_read({1, 0}, 0x44, 1).ok());
   ASSERT_TRUE(device.automatic().plan_slave(1, read).ok());
@@ -725,7 +766,7 @@ TEST(PollBesideControlFailure, TransportAtEachTransfer_LeavesNoReading) {
     mb4::Device<StrictBus, FakeClock> device(bus, clock);
     mb4test::expect_configure(bus);
     bus.expect_write(kAgs);
-    bus.expect_write({0x02, 0xE2, 0x44, 0x00, 0x01, 0xC0});
+    bus.expect_proven({0x02, 0xE2, 0x44, 0x00, 0x01, 0xC0});
     bus.expect_write(kFrameAgs);
     mb4::Config config = encoder26();
     config.hold_beside_access = false;
@@ -736,7 +777,7 @@ TEST(PollBesideControlFailure, TransportAtEachTransfer_LeavesNoReading) {
     bus.expect_write(kClearValid1);
     bus.expect_read(mb4test::kReadData4, mb4test::kData4);
     bus.expect_read(kReadStatus, kRunsAgs);
-    bus.fail_at(mb4test::kConfigureTransfers + 3 + index);
+    bus.fail_at(mb4test::kConfigureTransfers + 4 + index);
     mb4::Frame frame;
     EXPECT_EQ(device.automatic().poll(frame).error(), Error::kTransport) << index;
     EXPECT_FALSE(frame[1].ok()) << index;
@@ -753,10 +794,7 @@ class HoldBesideControl : public ControlTest {
     ASSERT_TRUE(device.configure(config).ok());
     bus.expect_write(kAgs);
     ASSERT_TRUE(device.automatic().start().ok());
-    bus.expect_write({0x02, 0xE2, 0x44, 0x00, 0x01, 0xC0});
-    if (check == mb4::SpiCheck::kFull) {
-      bus.expect_read({0x03, 0xE2, 0, 0, 0, 0}, {0, 0, 0x44, 0x00, 0x01, 0xC0});
-    }
+    bus.expect_proven({0x02, 0xE2, 0x44, 0x00, 0x01, 0xC0});
     bus.expect_write(kFrameAgs);
     if (check == mb4::SpiCheck::kFull) {
       bus.expect_read(kReadStatus, {0, kRuns, 0, 0, 0, 0x09});
@@ -796,6 +834,7 @@ TEST_F(HoldBesideControl, StatusOfTheRead_ServesTheAccess) {
   expect_look(kEnded);
   EXPECT_EQ(device.automatic().poll_slave(1).error(), Error::kNoData);
   bus.expect_read(kReadStatus, {0, kEnded, 0, 0, 0, 0x01});
+  bus.expect_write(kRest);
   EXPECT_TRUE(*device.control().poll());
 }
 
@@ -806,7 +845,7 @@ TEST_F(HoldBesideControl, TimeOver_IsTimeoutAfterAnotherLook) {
   EXPECT_EQ(device.automatic().poll_slave(1).error(), Error::kNoData);
   clock.time_us += 200'000;
   bus.expect_read(kReadStatus, {0, kRuns, 0, 0, 0, 0x01});
-  bus.expect_write(kBreak);
+  expect_abort();
   EXPECT_EQ(device.control().poll().error(), Error::kTimeout);
 }
 
@@ -821,6 +860,8 @@ TEST_F(HoldBesideControl, FlippedRegend_DoesNotEndTheAccess) {
   EXPECT_FALSE(*device.control().poll());
   bus.expect_read(kReadStatus, {0, kEnded, 0, 0, 0, 0x01});
   bus.expect_read(kReadStatus, {0, kEnded, 0, 0, 0, 0x01});
+  bus.expect_read({0x03, 0x80, 0x00}, {0, 0, 0x77});  // RDATA1, which take() compares
+  bus.expect_proven(kRest);
   EXPECT_TRUE(*device.control().poll());
 }
 
@@ -829,8 +870,8 @@ TEST_F(HoldBesideControl, FlippedRegend_DoesNotEndTheAccess) {
 // Table 32: IDS0 is bit 7 of 0x80. Table 33: CMD in bits 5:4, table 34: IDA_TEST bit 3 of 0xE5.
 TEST_F(Commands, AddressedWithTest_HasItsFields) {
   configure();
-  bus.expect_write({0x02, 0x80, 0xA0});        // ID 0 and ID 2
-  bus.expect_write({0x02, 0xE4, 0x01, 0x58});  // CTS = 0, REGVERS = 1, CMD = 01, IDA_TEST = 1
+  bus.expect_proven({0x02, 0x80, 0xA0});        // ID 0 and ID 2
+  bus.expect_proven({0x02, 0xE4, 0x01, 0x58});  // CTS = 0, REGVERS = 1, CMD = 01, IDA_TEST = 1
   bus.expect_write(kFrame);
   expect_frames();
   mb4::Command command;
@@ -842,8 +883,8 @@ TEST_F(Commands, AddressedWithTest_HasItsFields) {
 
 TEST_F(Commands, Broadcast_HasNoIds) {
   configure();
-  bus.expect_write({0x02, 0x80, 0x00});
-  bus.expect_write({0x02, 0xE4, 0x01, 0x60});
+  bus.expect_proven({0x02, 0x80, 0x00});
+  bus.expect_proven({0x02, 0xE4, 0x01, 0x60});
   bus.expect_write(kFrame);
   expect_frames();
   mb4::Command command;
@@ -854,8 +895,8 @@ TEST_F(Commands, Broadcast_HasNoIds) {
 // Page 34: nREGERR is also the error in IDA.
 TEST_F(Commands, NotAcknowledged_IsCommand) {
   configure();
-  bus.expect_write({0x02, 0x80, 0x01});
-  bus.expect_write({0x02, 0xE4, 0x01, 0x40});
+  bus.expect_proven({0x02, 0x80, 0x01});
+  bus.expect_proven({0x02, 0xE4, 0x01, 0x40});
   bus.expect_write(kFrame);
   expect_frames(status(0x77));
   mb4::Command command;
@@ -869,8 +910,8 @@ TEST(CommandChannels, BothAtOnce_IsAllowed) {
   mb4::Device<StrictBus, FakeClock> device(bus, clock);
   mb4test::expect_configure_three(bus);
   ASSERT_TRUE(device.configure(mb4test::three_slaves()).ok());
-  bus.expect_write({0x02, 0x80, 0x00});
-  bus.expect_write({0x02, 0xE4, 0x03, 0x40});
+  bus.expect_proven({0x02, 0x80, 0x00});
+  bus.expect_proven({0x02, 0xE4, 0x03, 0x40});
   bus.expect_write(kFrame);
   mb4::Command command;
   command.channels = 3;

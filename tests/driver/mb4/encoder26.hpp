@@ -41,7 +41,7 @@ inline Bytes configuration(Bytes identity = {0x00, 0x00}) {
       zeros(28),           // 0xC4..0xDF: slaves 2 to 8 not enabled
       {0x00, 0x00},        // 0xE0, 0xE1: reserved
       {0x00, 0x00, 0x00},  // 0xE2..0xE4: no control communication
-      {0x40},              // 0xE5: REGVERS = 1, BiSS C (table 26)
+      {0xC0},              // 0xE5: CTS = 1, a register; REGVERS = 1, BiSS C (tables 24, 26)
       {0xA4},              // 0xE6: FREQR = 5 (table 36), FREQS = 4: 20 MHz / 2 / 5 (table 35)
       {0x02},              // 0xE7: NOCRC = 1 (table 21), SINGLEBANK = 0 (table 38)
       {0x7C},              // 0xE8: FREQAGS = AGSMIN (table 37; page 32)

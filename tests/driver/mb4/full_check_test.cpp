@@ -252,7 +252,7 @@ TEST(CrcCheckUnheld, BadWordOfTheOtherSlave_IsNotWritten) {
   ASSERT_TRUE(device.configure(config).ok());
   bus.expect_write(kAgs);
   ASSERT_TRUE(device.automatic().start().ok());
-  bus.expect_write({0x02, 0xE2, 0x44, 0x00, 0x01, 0xC0});
+  bus.expect_proven({0x02, 0xE2, 0x44, 0x00, 0x01, 0xC0});
   bus.expect_write({0x07, 0x09});
   ASSERT_TRUE(device.control().begin_read({1, 0}, 0x44, 1).ok());
   const Bytes word = join({mb4test::kData4, {0, 0, 0, mb4test::kCrc6}});

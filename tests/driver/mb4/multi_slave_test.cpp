@@ -67,7 +67,7 @@ TEST(MultiSlaveImage, SingleBankAndHoldCdm_HaveTheirBits) {
   Config config = three_slaves();
   config.single_bank = true;
   config.hold_cdm = true;
-  EXPECT_EQ(mb4::encode_registers(config)[0xE5 - 0xC0], 0x41);
+  EXPECT_EQ(mb4::encode_registers(config)[0xE5 - 0xC0], 0xC1);
   EXPECT_EQ(mb4::encode_registers(config)[0xE7 - 0xC0], 0x03);
 }
 

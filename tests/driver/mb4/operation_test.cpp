@@ -16,6 +16,7 @@
 #include "mb4/device.hpp"
 #include "tests/driver/mb4/encoder26.hpp"
 #include "tests/driver/mb4/strict_bus.hpp"
+#include "tests/driver/mb4/three_slaves.hpp"
 
 namespace {
 
@@ -46,6 +47,15 @@ const Bytes kReadLines = join({{0x05}, zeros(9)});
 const Bytes kIdleLines{0, 0xFB, 0, 0, 0, 0, 0, 0, 0, 0x11};  // SL1, SL2 in 0xF8
 const Bytes kRequest{0x02, 0xE2, 0x44, 0x01, 0x01, 0xC0};
 const Bytes kReadRequest{0x03, 0xE2, 0, 0, 0, 0};
+const std::vector<Bytes> kAsk{kRequest, kReadRequest};
+const std::vector<Bytes> kAsked{{0, 0, 0x44, 0x01, 0x01, 0xC0}};
+// The request at rest: a read of register 0. SpiCheck::kFull reads it back.
+const Bytes kRest{0x02, 0xE2, 0x00, 0x00, 0x00, 0xC0};
+const Bytes kRestBack{0, 0, 0x00, 0x00, 0x00, 0xC0};
+const std::vector<Bytes> kAtRest{kRest, kReadRequest};
+// The end of a read: RDATA1, with which the registers are compared. Then the request at rest.
+const std::vector<Bytes> kEnd{{0x03, 0x80, 0x00}};
+const std::vector<Bytes> kEnded{{0, 0, 1}};
 // SpiCheck::kFull: with a status, which no stuck line makes; and again.
 const std::vector<Bytes> kTakeFirst{{0x03, 0x80, 0x5A, 0x5A}, kReadStatus};
 const std::vector<Bytes> kTakeAgain{{0x03, 0x80, 0, 0}};
@@ -97,6 +107,24 @@ class OperationTest : public testing::Test {
       ++next;
     }
     return device.finish(op, transferred, now_us);
+  }
+  // initialize() up to SVALID = 0 behind the line's delay, 7; and up to its last frame.
+  void to_delays() {
+    const bool full = device.config().spi_check == mb4::SpiCheck::kFull;
+    const Bytes delay{0x03, 0x00, 0x00};
+    ASSERT_TRUE(device.plan_initialize(op).ok());
+    EXPECT_FALSE(step({{0x02, 0x00, 0x00}, {0x02, 0x20, 0x00}}, {}));
+    const Bytes init{0x07, 0x10};
+    const Bytes runs = status(0xFA, 0x00, 0x10);
+    EXPECT_FALSE(full ? step({init, kReadStatus}, {runs}) : step({init}, {}));
+    EXPECT_FALSE(step({kReadStatus}, {kOver}));
+    EXPECT_FALSE(step({kReadLines}, {kIdleLines}));
+    EXPECT_FALSE(full ? step({delay, delay}, {{0, 0, 7}, {0, 0, 7}}) : step({delay}, {{0, 0, 7}}));
+    EXPECT_FALSE(full ? step({kClearValid1, kReadStatus}, {kOver}) : step({kClearValid1}, {}));
+  }
+  void to_last_frame() {
+    to_delays();
+    EXPECT_FALSE(step({mb4test::kStartFrame}, {}));
   }
   void ends_with(Error error) { EXPECT_EQ(op.result().error(), error); }
   void read(std::size_t count = 2) {
@@ -267,11 +295,12 @@ TEST_F(Use, SecondPlan_IsBusy) {
   configure();
   start();
   read();
-  EXPECT_FALSE(step({kRequest}, {}));
+  EXPECT_FALSE(step(kAsk, kAsked));
   EXPECT_EQ(device.plan_verify(op).error(), Error::kBusy);
   ends_with(Error::kBusy);
   EXPECT_FALSE(step({kFrameAgs}, {}));
   EXPECT_FALSE(step({kReadStatus}, {kDoneAgs}));
+  EXPECT_FALSE(step({kRest}, {}));
   EXPECT_TRUE(step({{0x03, 0x80, 0, 0}}, {{0, 0, 0x12, 0x34}}));
   ends_with(Error::kNone);
   ASSERT_TRUE(device.plan_verify(op).ok());
@@ -297,17 +326,19 @@ TEST_F(Use, SecondPlan_IsBusy) {
 TEST_F(Use, BreakOrConfigure_EndsTheOperation) {
   const std::vector<void (*)(Use&)> others{[](Use& test) {
                                              test.bus.expect_write(kBreak);
+                                             test.bus.expect_write(kRest);
                                              EXPECT_TRUE(test.device.control().abort().ok());
                                            },
                                            [](Use& test) {
                                              test.bus.expect_write(kBreak);
+                                             test.bus.expect_write(kRest);
                                              EXPECT_TRUE(test.device.break_transmission().ok());
                                            },
                                            [](Use& test) { test.configure(); }};
   for (const auto other : others) {
     configure();
     read();
-    EXPECT_FALSE(step({kRequest}, {}));
+    EXPECT_FALSE(step(kAsk, kAsked));
     EXPECT_FALSE(step({kFrame}, {}));
     EXPECT_FALSE(step({kReadStatus}, {kRuns}));
     other(*this);
@@ -359,8 +390,8 @@ TEST_F(VerifySteps, Good_IsThreePartsAndAStatus) {
   EXPECT_EQ(device.plan_verify(op).error(), Error::kNotConfigured);
   configure();
   ASSERT_TRUE(device.plan_verify(op).ok());
-  // Status, instruction and what an access writes are not compared; nor reserved registers.
-  for (const int address : {0xE0, 0xE1, 0xE2, 0xE5, 0xEE, 0xF0, 0xF4}) chip[address - 0xC0] ^= 0xFF;
+  // Status and instruction are not compared; nor reserved registers.
+  for (const int address : {0xE0, 0xE1, 0xEE, 0xF0, 0xF4}) chip[address - 0xC0] ^= 0xFF;
   EXPECT_FALSE(step(part(0xE4), answer(0xE4)));
   EXPECT_FALSE(step(part(0xC0), answer(0xC0)));
   EXPECT_FALSE(step(part(0xD2), answer(0xD2)));
@@ -370,7 +401,7 @@ TEST_F(VerifySteps, Good_IsThreePartsAndAStatus) {
 }
 
 TEST_F(VerifySteps, EachWrongRegister_IsNamed) {
-  for (const int address : {0xC0, 0xC1, 0xD1, 0xD2, 0xDF, 0xE6, 0xE7, 0xEF, 0xF5}) {
+  for (const int address : {0xC0, 0xC1, 0xD1, 0xD2, 0xDF, 0xE2, 0xE5, 0xE6, 0xE7, 0xEF, 0xF5}) {
     configure();
     chip = mb4test::read_back();
     chip[address - 0xC0] ^= 0x04;
@@ -431,6 +462,9 @@ TEST_F(VerifySteps, MisoStuckFromAnyFrameOn_IsNotDetected) {
 const Bytes kZero1{0x02, 0x00, 0x00};
 const Bytes kZero5{0x02, 0x20, 0x00};
 const Bytes kInitRuns = status(0xFA, 0x00, 0x10);
+const Bytes kRunsFrame = status(0xFA, 0x00, 0x04);
+const Bytes kBadFrame = status(0x6B, 0x00);  // nSCDERR = 0, SVALID1 = 0
+const Bytes kReadWord = join({{0x03, 0x00}, zeros(8)});
 
 TEST_F(Initialize, Good_ReturnsTheDelay) {
   EXPECT_EQ(device.plan_initialize(op).error(), Error::kNotConfigured);
@@ -443,6 +477,11 @@ TEST_F(Initialize, Good_ReturnsTheDelay) {
   EXPECT_FALSE(step({kReadLines}, {{0, 0xFB, 0, 0, 0, 0, 0, 0, 0, 0x00}}));  // SL1 = 0 for a while
   EXPECT_FALSE(step({kReadLines}, {kIdleLines}));
   EXPECT_FALSE(step({{0x03, 0x00, 0x00}}, {{0, 0, 7}}));
+  EXPECT_FALSE(step({kClearValid1}, {}));
+  // One frame that nobody gets: does the slave send a word?
+  EXPECT_FALSE(step({mb4test::kStartFrame}, {}));
+  EXPECT_FALSE(step({kReadStatus}, {kRunsFrame}));
+  EXPECT_FALSE(step({kReadStatus}, {status(0xFB, 0x02)}));
   EXPECT_TRUE(step({kClearValid1}, {}));
   ends_with(Error::kNone);
   EXPECT_EQ(op.line_delay().quarters[0], 7);
@@ -470,9 +509,115 @@ TEST_F(Initialize, Full_ReadsTwice) {
       continue;
     }
     EXPECT_FALSE(step({kClearValid1, kReadStatus}, {status(0xFB, 0x02)}));
-    EXPECT_TRUE(step({kReadStatus}, {fault == 0 ? kOver : status(0xFB, 0x02)}));
+    EXPECT_EQ(step({kReadStatus}, {fault == 0 ? kOver : status(0xFB, 0x02)}), fault != 0);
+    if (fault == 0) {
+      EXPECT_FALSE(step({mb4test::kStartFrame}, {}));
+      EXPECT_FALSE(step({kReadStatus}, {status(0xFB, 0x02)}));
+      EXPECT_TRUE(step({kClearValid1, kReadStatus}, {kOver}));
+    }
     ends_with(fault == 0 ? Error::kNone : Error::kCorrupted);
   }
+}
+
+// The last frame of initialize(). Only a word that is all 0, whose CRC is wrong, while SL is 1
+// again, is an error; it is stored inverted, and not at all with SpiCheck::kOff.
+TEST_F(Initialize, WordNotSent_IsNoWord) {
+  using mb4::SpiCheck;
+  const auto crc_byte = [](std::uint8_t crc) { return join({zeros(9), {crc}}); };
+  const struct {
+    SpiCheck check;
+    Bytes word;
+    Error want;
+  } cases[] = {{SpiCheck::kOff, zeros(10), Error::kNoWord},
+               {SpiCheck::kOff, join({zeros(2), {1}, zeros(7)}), Error::kNone},
+               {SpiCheck::kCrc, crc_byte(0x3F), Error::kNoWord},
+               {SpiCheck::kCrc, crc_byte(0x3E), Error::kNone},
+               {SpiCheck::kCrc, zeros(10), Error::kNone},
+               {SpiCheck::kFull, crc_byte(0x3F), Error::kNoWord},
+               {SpiCheck::kFull, join({zeros(5), {8}, zeros(3), {0x3F}}), Error::kNone}};
+  for (const auto& one : cases) {
+    configure(one.check);
+    to_last_frame();
+    EXPECT_FALSE(step({kReadStatus}, {kBadFrame}));
+    EXPECT_FALSE(step({kReadWord}, {one.word}));
+    if (one.want != Error::kNone) {
+      EXPECT_FALSE(step({kReadLines}, {zeros(10)}));  // the slave's timeout
+      EXPECT_FALSE(step({kReadLines}, {kIdleLines}));
+    }
+    EXPECT_TRUE(one.check == SpiCheck::kFull ? step({kClearValid1, kReadStatus}, {kOver})
+                                             : step({kClearValid1}, {}));
+    ends_with(one.want);
+    // The next frame needs no BREAK.
+    ASSERT_TRUE(device.plan_initialize(op).ok());
+    EXPECT_TRUE(step({kZero1, kZero5}, {}, false));
+  }
+}
+
+// What else can happen to the frame is found by the reads: INIT has done its work.
+TEST_F(Initialize, LastFrameFails_IsSuccess) {
+  for (const int fault : {0, 1, 2}) {
+    configure();
+    to_last_frame();
+    if (fault == 0) {  // refused: SL was low
+      EXPECT_FALSE(step({kReadStatus}, {status(0x3B, 0x00)}));
+      EXPECT_TRUE(step({kClearValid1}, {}));
+    } else if (fault == 1) {  // SL stays low: all bits are 0
+      EXPECT_FALSE(step({kReadStatus}, {kBadFrame}));
+      EXPECT_FALSE(step({kReadWord}, {zeros(10)}));
+      EXPECT_FALSE(step({kReadLines}, {zeros(10)}));
+      now_us += 133;
+      EXPECT_FALSE(step({kReadLines}, {zeros(10)}));
+      EXPECT_FALSE(step({kReadLines}, {zeros(10)}));
+      EXPECT_TRUE(step({kClearValid1}, {}));
+    } else {  // without an end
+      EXPECT_FALSE(step({kReadStatus}, {kRunsFrame}));
+      now_us += 2000;
+      EXPECT_FALSE(step({kReadStatus}, {kRunsFrame}));
+      EXPECT_FALSE(step({kReadStatus}, {kRunsFrame}));
+      EXPECT_TRUE(step({kBreak}, {}));
+    }
+    ends_with(Error::kNone);
+    EXPECT_EQ(op.line_delay().quarters[0], 7);
+  }
+  configure();
+  to_last_frame();
+  EXPECT_TRUE(step({kReadStatus}, {}, false));
+  ends_with(Error::kTransport);
+}
+
+// Broadcast 01, then 00 to the slave's ID; then the frame.
+TEST_F(Initialize, Activates_WhenAskedTo) {
+  mb4::Config config = mb4test::encoder26();
+  config.activate_at_initialize = true;
+  mb4test::expect_configure(bus);
+  ASSERT_TRUE(device.configure(config).ok());
+  to_delays();
+  for (const bool broadcast : {true, false}) {
+    const std::uint8_t ids = broadcast ? 0x00 : 0x80;
+    const std::uint8_t ctrl = broadcast ? 0x50 : 0x40;
+    EXPECT_FALSE(step({{0x02, 0x80, ids}, {0x03, 0x80, 0}}, {{0, 0, ids}}));
+    EXPECT_FALSE(step({{0x02, 0xE4, 0x01, ctrl}, {0x03, 0xE4, 0, 0}}, {{0, 0, 0x01, ctrl}}));
+    EXPECT_FALSE(step({kFrame}, {}));
+    EXPECT_FALSE(step({kReadStatus}, {kOver}));
+    EXPECT_FALSE(step({kFrame}, {}));
+    EXPECT_FALSE(step({kReadStatus}, {kDone}));
+    EXPECT_FALSE(step({kClearValid1, kRest}, {}));
+  }
+  EXPECT_FALSE(step({mb4test::kStartFrame}, {}));
+  EXPECT_FALSE(step({kReadStatus}, {status(0xFB, 0x02)}));
+  EXPECT_TRUE(step({kClearValid1}, {}));
+  ends_with(Error::kNone);
+  EXPECT_EQ(op.line_delay().quarters[0], 7);
+  // Not acknowledged.
+  to_delays();
+  EXPECT_FALSE(step({{0x02, 0x80, 0}, {0x03, 0x80, 0}}, {zeros(3)}));
+  EXPECT_FALSE(step({{0x02, 0xE4, 0x01, 0x50}, {0x03, 0xE4, 0, 0}}, {{0, 0, 0x01, 0x50}}));
+  EXPECT_FALSE(step({kFrame}, {}));
+  EXPECT_FALSE(step({kReadStatus}, {kOver}));
+  EXPECT_FALSE(step({kFrame}, {}));
+  EXPECT_FALSE(step({kReadStatus}, {status(0x77, 0x00)}));
+  EXPECT_TRUE(step({kClearValid1, kRest}, {}));
+  ends_with(Error::kCommand);
 }
 
 // EOT = 1 alone is not the end: INIT (bit 4 of 0xF4) is still 1.
@@ -498,14 +643,14 @@ TEST_F(Initialize, ProtocolReadsBackDifferently_IsCorrupted) {
   Bytes image = mb4test::configuration();
   Bytes answer = mb4test::read_back();
   for (Bytes* bytes : {&image, &answer}) {
-    (*bytes)[0xE5 - 0xC0] = 0x00;
+    (*bytes)[0xE5 - 0xC0] = 0x80;
     (*bytes)[0xE7 - 0xC0] = 0x00;  // NOCRC = 0
     (*bytes)[0xED - 0xC0] = 0x0C;  // CFGCH1 = 0, BiSS B (table 8)
   }
   mb4test::expect_image(bus, image, answer);
   ASSERT_TRUE(device.configure(config).ok());
   ASSERT_TRUE(device.plan_initialize(op).ok());
-  EXPECT_TRUE(step({kZero1, kZero5, {0x02, 0xE5, 0x00}, {0x03, 0xE5, 0x00}}, {{0, 0, 0x40}}));
+  EXPECT_TRUE(step({kZero1, kZero5, {0x02, 0xE5, 0x80}, {0x03, 0xE5, 0x00}}, {{0, 0, 0xC0}}));
   ends_with(Error::kCorrupted);
 }
 
@@ -585,10 +730,11 @@ TEST_F(Access, ReadBesideAutomaticFrames_OneInstruction) {
   start();
   read();
   EXPECT_EQ(device.control().plan_read(op, {1, 0}, 0, {out.data(), 1}).error(), Error::kBusy);
-  EXPECT_FALSE(step({kRequest}, {}));
+  EXPECT_FALSE(step(kAsk, kAsked));
   EXPECT_FALSE(step({kFrameAgs}, {}));
   EXPECT_FALSE(step({kReadStatus}, {kRunsAgs}));
   EXPECT_FALSE(step({kReadStatus}, {kDoneAgs}));
+  EXPECT_FALSE(step({kRest}, {}));
   EXPECT_TRUE(step({{0x03, 0x80, 0, 0}}, {{0, 0, 0x12, 0x34}}));
   ends_with(Error::kNone);
   EXPECT_EQ(out[0], 0x12);
@@ -599,27 +745,30 @@ TEST_F(Access, ReadBesideAutomaticFrames_OneInstruction) {
 TEST_F(Access, ReadWithoutAutomaticFrames_OneInstructionAFrame) {
   configure();
   read();
-  EXPECT_FALSE(step({kRequest}, {}));
+  EXPECT_FALSE(step(kAsk, kAsked));
   EXPECT_FALSE(step({kFrame}, {}));
   EXPECT_FALSE(step({kReadStatus}, {kRuns}));
   EXPECT_FALSE(step({kReadStatus}, {kDone}));  // REGEND = 1 of the access before
   EXPECT_FALSE(step({kFrame}, {}));
   EXPECT_FALSE(step({kReadStatus}, {kDone}));
-  EXPECT_FALSE(step({kClearValid1}, {}));
+  EXPECT_FALSE(step({kClearValid1, kRest}, {}));
   EXPECT_TRUE(step({{0x03, 0x80, 0, 0}}, {{0, 0, 1, 2}}));
   ends_with(Error::kNone);
-  // The next one begins without BREAK; its SVALID = 0 fails, and then the one after it does not.
+  // The next one begins without BREAK; its end fails three times, and then the one after it does
+  // not. What the slave has answered stays the result.
   read();
-  EXPECT_FALSE(step({kRequest}, {}));
+  EXPECT_FALSE(step(kAsk, kAsked));
   EXPECT_FALSE(step({kFrame}, {}));
   EXPECT_FALSE(step({kReadStatus}, {kOver}));
   EXPECT_FALSE(step({kFrame}, {}));
   EXPECT_FALSE(step({kReadStatus}, {status(0x77, 0x00)}));  // nREGERR = 0
-  EXPECT_TRUE(step({kClearValid1}, {}, false));
+  EXPECT_FALSE(step({kClearValid1, kRest}, {}, false));
+  EXPECT_FALSE(step({kClearValid1, kRest}, {}, false));
+  EXPECT_TRUE(step({kClearValid1, kRest}, {}, false));
   ends_with(Error::kRegister);
   read();
-  EXPECT_FALSE(step({kBreak}, {}));
-  EXPECT_FALSE(step({kClearValid1, kRequest}, {}, true, kPause));
+  EXPECT_FALSE(step({kBreak, kRest}, {}));
+  EXPECT_FALSE(step({kClearValid1, kRequest, kReadRequest}, kAsked, true, kPause));
   EXPECT_FALSE(step({kFrame}, {}));
 }
 
@@ -630,17 +779,19 @@ TEST_F(Access, BreakLost_NextOneBeginsWithBreak) {
     configure();
     start();
     read();
-    EXPECT_FALSE(step({kRequest}, {}));
+    EXPECT_FALSE(step(kAsk, kAsked));
     EXPECT_FALSE(step({kFrameAgs}, {}, false));
-    EXPECT_TRUE(step({kBreak}, {}, false));
+    EXPECT_TRUE(step({kBreak, kRest}, {}, false));
     ends_with(Error::kTransport);
     ASSERT_TRUE(device.control().plan_write(op, {1, 0}, 0x50, data).ok());
-    EXPECT_FALSE(step({kBreak}, {}));
-    EXPECT_FALSE(step({kClearValid1, {0x02, 0x80, 9, 10}}, {}, true, kPause));
-    EXPECT_FALSE(step({{0x02, 0xE2, 0xD0, 0x01, 0x01, 0xC0}}, {}));
+    EXPECT_FALSE(step({kBreak, kRest}, {}));
+    EXPECT_FALSE(step({kClearValid1, {0x02, 0x80, 9, 10}, {0x03, 0x80, 0, 0}}, {{0, 0, 9, 10}},
+                      true, kPause));
+    EXPECT_FALSE(step({{0x02, 0xE2, 0xD0, 0x01, 0x01, 0xC0}, kReadRequest},
+                      {{0, 0, 0xD0, 0x01, 0x01, 0xC0}}));
     EXPECT_FALSE(step({kFrame}, {}));
     for (int looks = 0; looks < 3; ++looks) EXPECT_FALSE(step({kReadStatus}, {kRuns}, false));
-    EXPECT_TRUE(step({kBreak}, {}));
+    EXPECT_TRUE(step({kBreak, kRest}, {}));
   }
 }
 
@@ -653,18 +804,19 @@ TEST_F(Access, AfterAWriteThatFails_NothingIsTaken) {
     configure();
     start();
     read();
-    EXPECT_FALSE(step({kRequest}, {}));
+    EXPECT_FALSE(step(kAsk, kAsked));
     EXPECT_FALSE(step({kFrameAgs}, {}));
     EXPECT_FALSE(step({kReadStatus}, {kDoneAgs}));
+    EXPECT_FALSE(step({kRest}, {}));
     EXPECT_TRUE(step({{0x03, 0x80, 0, 0}}, {{0, 0, 1, 2}}));
     bus.expect_read({0x03, 0x80, 0, 0}, {0, 0, 1, 2});
     EXPECT_TRUE(device.control().take(two).ok());
     if (kind == 0) {
       ASSERT_TRUE(device.control().plan_write(op, {1, 0}, 0x50, two).ok());
-      EXPECT_TRUE(step({{0x02, 0x80, 1, 2}}, {}, false));
+      EXPECT_TRUE(step({{0x02, 0x80, 1, 2}, {0x03, 0x80, 0, 0}}, {}, false));
     } else if (kind == 1) {
       ASSERT_TRUE(device.control().plan_command(op, command).ok());
-      EXPECT_TRUE(step({{0x02, 0x80, 0x80}}, {}, false));
+      EXPECT_TRUE(step({{0x02, 0x80, 0x80}, {0x03, 0x80, 0}}, {}, false));
     }
     EXPECT_EQ(device.control().take(two).error(), Error::kInvalidArgument) << kind;
   }
@@ -679,7 +831,8 @@ TEST_F(Access, DisturbedRequest_IsFollowedByBreak) {
       if (automatic) start();
       const Bytes wrong{0, 0, 0x44, 0x01, 0x01, 0xC1};
       read();
-      EXPECT_TRUE(step({kRequest, kReadRequest}, {wrong}));
+      EXPECT_FALSE(step(kAsk, {wrong}));
+      EXPECT_TRUE(step(kAtRest, {kRestBack}));
       ends_with(Error::kCorrupted);
       bus.expect_write({0x07, 0x80, 0x00}).fail_last();
       if (automatic) {
@@ -709,7 +862,8 @@ TEST_F(Access, Write64_GoesInParts) {
   const Bytes request{0x02, 0xE2, 0xC0, 0x3F, 0x01, 0xC0};
   EXPECT_FALSE(step({request, kReadRequest}, {{0, 0, 0xC0, 0x3F, 0x01, 0xC0}}));
   EXPECT_FALSE(step({kFrameAgs, kReadStatus}, {kRunsAgs}));
-  EXPECT_TRUE(step({kReadStatus}, {kDoneAgs}));
+  EXPECT_FALSE(step({kReadStatus}, {kDoneAgs}));
+  EXPECT_TRUE(step(kAtRest, {kRestBack}));
   ends_with(Error::kNone);
 }
 
@@ -718,30 +872,74 @@ TEST_F(Access, DisturbedRequest_IsCorruptedAndBeginsNothing) {
   configure(mb4::SpiCheck::kFull);
   start();
   read();
-  EXPECT_TRUE(step({kRequest, kReadRequest}, {{0, 0, 0x44, 0x01, 0x01, 0xC1}}));
+  EXPECT_FALSE(step(kAsk, {{0, 0, 0x44, 0x01, 0x01, 0xC1}}));
+  EXPECT_TRUE(step(kAtRest, {kRestBack}));
   ends_with(Error::kCorrupted);
   read();
-  EXPECT_FALSE(step({kRequest, kReadRequest}, {{0, 0, 0x44, 0x01, 0x01, 0xC0}}));
+  EXPECT_FALSE(step(kAsk, kAsked));
   // The instruction was lost.
   EXPECT_FALSE(step({kFrameAgs, kReadStatus}, {kDoneAgs}));
-  EXPECT_TRUE(step({kReadStatus}, {kDoneAgs}));
+  EXPECT_FALSE(step({kReadStatus}, {kDoneAgs}));
+  EXPECT_TRUE(step(kAtRest, {kRestBack}));
   ends_with(Error::kCorrupted);
   // The second reading of the registers differs.
   read();
-  EXPECT_FALSE(step({kRequest, kReadRequest}, {{0, 0, 0x44, 0x01, 0x01, 0xC0}}));
+  EXPECT_FALSE(step(kAsk, kAsked));
   EXPECT_FALSE(step({kFrameAgs, kReadStatus}, {kRunsAgs}));
   EXPECT_FALSE(step({kReadStatus}, {kDoneAgs}));
+  EXPECT_FALSE(step(kEnd, kEnded));
+  EXPECT_FALSE(step(kAtRest, {kRestBack}));
   EXPECT_FALSE(step(kTakeFirst, {{0, 0, 1, 2}, kDoneAgs}));
   EXPECT_TRUE(step(kTakeAgain, {{0, 0, 1, 3}}));
   ends_with(Error::kCorrupted);
   // MISO is stuck from here on.
   read();
-  EXPECT_FALSE(step({kRequest, kReadRequest}, {{0, 0, 0x44, 0x01, 0x01, 0xC0}}));
+  EXPECT_FALSE(step(kAsk, kAsked));
   EXPECT_FALSE(step({kFrameAgs, kReadStatus}, {kRunsAgs}));
   EXPECT_FALSE(step({kReadStatus}, {kDoneAgs}));
+  EXPECT_FALSE(step(kEnd, kEnded));
+  EXPECT_FALSE(step(kAtRest, {kRestBack}));
   EXPECT_TRUE(step(kTakeFirst, {zeros(4), zeros(6)}));
   ends_with(Error::kNotDetected);
   EXPECT_TRUE(device.automatic().running());
+}
+
+// The end of a read: a transfer that fails is repeated. What stands in RDATA1 when the registers
+// are taken is what stood there then.
+TEST_F(Access, EndOfARead_IsRepeatedAndCompared) {
+  configure(mb4::SpiCheck::kFull);
+  start();
+  for (const bool other : {false, true}) {
+    read();
+    EXPECT_FALSE(step(kAsk, kAsked));
+    EXPECT_FALSE(step({kFrameAgs, kReadStatus}, {kRunsAgs}));
+    EXPECT_FALSE(step({kReadStatus}, {kDoneAgs}));
+    EXPECT_FALSE(step(kEnd, {}, false));
+    EXPECT_FALSE(step(kEnd, kEnded));
+    EXPECT_FALSE(step(kAtRest, {kAsked[0]}));  // it was lost
+    EXPECT_FALSE(step(kAtRest, {}, false));
+    EXPECT_FALSE(step(kAtRest, {kRestBack}));
+    // A disturbed byte has started the request at rest meanwhile: register 0 is in RDATA1.
+    const Bytes taken{0, 0, static_cast<std::uint8_t>(other ? 9 : 1), 2};
+    EXPECT_FALSE(step(kTakeFirst, {taken, kDoneAgs}));
+    EXPECT_TRUE(step(kTakeAgain, {taken}));
+    ends_with(other ? Error::kCorrupted : Error::kNone);
+  }
+  read();
+  EXPECT_FALSE(step(kAsk, kAsked));
+  EXPECT_FALSE(step({kFrameAgs, kReadStatus}, {kRunsAgs}));
+  EXPECT_FALSE(step({kReadStatus}, {kDoneAgs}));
+  EXPECT_FALSE(step(kEnd, kEnded));
+  EXPECT_FALSE(step(kAtRest, {kAsked[0]}));
+  EXPECT_FALSE(step(kAtRest, {kAsked[0]}));
+  EXPECT_TRUE(step(kAtRest, {kAsked[0]}));
+  ends_with(Error::kCorrupted);
+  EXPECT_FALSE(device.automatic().running());
+  bus.expect_write({0x07, 0x80, 0x00});
+  bus.expect_proven(kRest);
+  bus.expect_write(kClearValid1);
+  bus.expect_write(kAgs);
+  EXPECT_TRUE(device.automatic().restart().ok());
 }
 
 // nREGERR = 0 at the first look: the instruction was not lost, the access has failed already.
@@ -750,9 +948,10 @@ TEST_F(Access, FailedAtOnce_IsRegister) {
   configure(mb4::SpiCheck::kFull);
   start();
   read();
-  EXPECT_FALSE(step({kRequest, kReadRequest}, {{0, 0, 0x44, 0x01, 0x01, 0xC0}}));
+  EXPECT_FALSE(step(kAsk, kAsked));
   EXPECT_FALSE(step({kFrameAgs, kReadStatus}, {failed}));
-  EXPECT_TRUE(step({kReadStatus}, {failed}));
+  EXPECT_FALSE(step({kReadStatus}, {failed}));
+  EXPECT_TRUE(step(kAtRest, {kRestBack}));
   ends_with(Error::kRegister);
   EXPECT_TRUE(device.automatic().running());
 }
@@ -762,7 +961,7 @@ TEST_F(Access, EndBesideReads_IsSeenTwice) {
   configure(mb4::SpiCheck::kFull);
   start();
   read();
-  EXPECT_FALSE(step({kRequest, kReadRequest}, {{0, 0, 0x44, 0x01, 0x01, 0xC0}}));
+  EXPECT_FALSE(step(kAsk, kAsked));
   EXPECT_FALSE(step({kFrameAgs, kReadStatus}, {kRunsAgs}));
   bus.expect_write({0x07, 0x41});
   bus.expect_read(kReadStatus, status(0xFB, 0x00, 0x41));
@@ -772,6 +971,8 @@ TEST_F(Access, EndBesideReads_IsSeenTwice) {
   EXPECT_FALSE(step({kReadStatus}, {status(0xFB, 0x00, 0x01)}));
   EXPECT_FALSE(step({kReadStatus}, {kDoneAgs}));
   EXPECT_FALSE(step({kReadStatus}, {kDoneAgs}));
+  EXPECT_FALSE(step(kEnd, kEnded));
+  EXPECT_FALSE(step(kAtRest, {kRestBack}));
   EXPECT_FALSE(step(kTakeFirst, {{0, 0, 1, 2}, kDoneAgs}));
   EXPECT_TRUE(step(kTakeAgain, {{0, 0, 1, 2}}));
   ends_with(Error::kNone);
@@ -783,26 +984,29 @@ TEST_F(Access, Failures_EndWithBreak) {
   for (const bool break_too : {true, false}) {
     start();
     read();
-    EXPECT_TRUE(step({kRequest}, {}, false));  // nothing has begun
+    EXPECT_FALSE(step(kAsk, {}, false));
+    EXPECT_TRUE(step({kRest}, {}));  // nothing has begun
     ends_with(Error::kTransport);
     read();
-    EXPECT_FALSE(step({kRequest}, {}));
+    EXPECT_FALSE(step(kAsk, kAsked));
     EXPECT_FALSE(step({kFrameAgs}, {}, false));
-    EXPECT_TRUE(step({kBreak}, {}, break_too));
+    EXPECT_TRUE(step({kBreak, kRest}, {}, break_too));
     ends_with(Error::kTransport);
     EXPECT_FALSE(device.automatic().running());
     bus.expect_write(kBreak);
+    if (!break_too) bus.expect_write(kRest);
     bus.expect_write(kClearValid1);
     start();
     read();
-    EXPECT_FALSE(step({kRequest}, {}));
+    EXPECT_FALSE(step(kAsk, kAsked));
     EXPECT_FALSE(step({kFrameAgs}, {}));
     EXPECT_FALSE(step({kReadStatus}, {kRunsAgs}, false));
     EXPECT_FALSE(step({kReadStatus}, {zeros(6)}));
     EXPECT_FALSE(step({kReadStatus}, {Bytes(6, 0xFF)}));
-    EXPECT_TRUE(step({kBreak}, {}, break_too));
+    EXPECT_TRUE(step({kBreak, kRest}, {}, break_too));
     ends_with(Error::kNotDetected);
     bus.expect_write(kBreak);
+    if (!break_too) bus.expect_write(kRest);
     bus.expect_write(kClearValid1);
     bus.expect_write(kAgs);
     ASSERT_TRUE(device.automatic().restart().ok());
@@ -819,7 +1023,7 @@ TEST_F(Access, DisturbedStatus_StopsNothing) {
   configure(mb4::SpiCheck::kFull);
   start();
   read();
-  EXPECT_FALSE(step({kRequest, kReadRequest}, {{0, 0, 0x44, 0x01, 0x01, 0xC0}}));
+  EXPECT_FALSE(step(kAsk, kAsked));
   EXPECT_FALSE(step({kFrameAgs, kReadStatus}, {zeros(6)}));
   EXPECT_FALSE(step({kReadStatus}, {kRunsAgs}));
   for (int i = 0; i < 3; ++i) {
@@ -828,16 +1032,18 @@ TEST_F(Access, DisturbedStatus_StopsNothing) {
     EXPECT_FALSE(step({kReadStatus}, {kRunsAgs}));
   }
   EXPECT_FALSE(step({kReadStatus}, {kDoneAgs}));
+  EXPECT_FALSE(step(kEnd, kEnded));
+  EXPECT_FALSE(step(kAtRest, {kRestBack}));
   EXPECT_FALSE(step(kTakeFirst, {{0, 0, 1, 2}, kDoneAgs}));
   EXPECT_TRUE(step(kTakeAgain, {{0, 0, 1, 2}}));
   ends_with(Error::kNone);
   EXPECT_TRUE(device.automatic().running());
   // Twice where only the status tells that the access has begun.
   read();
-  EXPECT_FALSE(step({kRequest, kReadRequest}, {{0, 0, 0x44, 0x01, 0x01, 0xC0}}));
+  EXPECT_FALSE(step(kAsk, kAsked));
   EXPECT_FALSE(step({kFrameAgs, kReadStatus}, {zeros(6)}));
   EXPECT_FALSE(step({kReadStatus}, {zeros(6)}));
-  EXPECT_TRUE(step({{0x07, 0x80}}, {}));
+  EXPECT_TRUE(step({kBreak, kRest, kReadRequest}, {kRestBack}));
   ends_with(Error::kNotDetected);
 }
 
@@ -864,6 +1070,8 @@ TEST_F(Access, AfterACorruptedRead_BeginsWithBreakAndANewStart) {
   EXPECT_TRUE(device.automatic().running());
   EXPECT_FALSE(step({kFrameAgs, kReadStatus}, {kRunsAgs}));
   EXPECT_FALSE(step({kReadStatus}, {kDoneAgs}));
+  EXPECT_FALSE(step(kEnd, kEnded));
+  EXPECT_FALSE(step(kAtRest, {kRestBack}));
   EXPECT_FALSE(step(kTakeFirst, {{0, 0, 1, 2}, kDoneAgs}));
   EXPECT_TRUE(step(kTakeAgain, {{0, 0, 1, 2}}));
   ends_with(Error::kNone);
@@ -875,7 +1083,8 @@ TEST_F(Access, CorruptedReadBetweenSteps_BeginsNothing) {
   start();
   read();
   read_sees_stray();
-  EXPECT_TRUE(step({kRequest, kReadRequest}, {{0, 0, 0x44, 0x01, 0x01, 0xC0}}));
+  EXPECT_FALSE(step(kAsk, kAsked));
+  EXPECT_TRUE(step(kAtRest, {kRestBack}));
   ends_with(Error::kCorrupted);
   EXPECT_TRUE(device.automatic().running());
   read();
@@ -888,10 +1097,10 @@ TEST_F(Access, CorruptedReadBeforeTheInstruction_IsFollowedByBreak) {
   configure(mb4::SpiCheck::kFull);
   start();
   read();
-  EXPECT_FALSE(step({kRequest, kReadRequest}, {{0, 0, 0x44, 0x01, 0x01, 0xC0}}));
+  EXPECT_FALSE(step(kAsk, kAsked));
   read_sees_stray();
   EXPECT_FALSE(step({kFrameAgs, kReadStatus}, {kRunsAgs}));
-  EXPECT_TRUE(step({kBreak}, {}));
+  EXPECT_TRUE(step({kBreak, kRest, kReadRequest}, {kRestBack}));
   ends_with(Error::kCorrupted);
   EXPECT_FALSE(device.automatic().running());
 }
@@ -907,7 +1116,7 @@ TEST_F(Access, BankSwitchedByTheInstruction_IsReleasedOrEnds) {
     ASSERT_TRUE(device.configure(config).ok());
     start();
     read();
-    EXPECT_FALSE(step({kRequest, kReadRequest}, {{0, 0, 0x44, 0x01, 0x01, 0xC0}}));
+    EXPECT_FALSE(step(kAsk, kAsked));
     EXPECT_FALSE(step({kFrameAgs, kReadStatus}, {status(0xFB, 0x00, 0x29)}));
     if (!hold) {  // one disturbed status ends no access
       EXPECT_FALSE(step({kReadStatus}, {status(0xFB, 0x00, 0x29)}));
@@ -920,40 +1129,17 @@ TEST_F(Access, BankSwitchedByTheInstruction_IsReleasedOrEnds) {
       bus.expect_write(kAgs);
       EXPECT_EQ(device.automatic().poll_slave(1).error(), Error::kNoData);
     }
-    EXPECT_TRUE(hold ? !step({kReadStatus}, {kRunsAgs}) : step({kBreak}, {}));
+    EXPECT_TRUE(hold ? !step({kReadStatus}, {kRunsAgs})
+                     : step({kBreak, kRest, kReadRequest}, {kRestBack}));
     if (!hold) ends_with(Error::kCorrupted);
     bus.expect_write(kBreak);
+    if (hold) bus.expect_proven(kRest);
     ASSERT_TRUE(device.break_transmission().ok());
     EXPECT_TRUE(device.finish(op, false, now_us));
   }
 }
 
 // ---- SpiCheck::kFullAndRelease ------------------------------------------------------------------
-
-// The request before becomes a read before new bytes of RDATA are in the chip; a read needs none.
-TEST_F(Access, ReleaseProven_WriteAndCommandReadFirst) {
-  configure(mb4::SpiCheck::kFullAndRelease);
-  start();
-  const std::uint8_t value = 0x5C;
-  ASSERT_TRUE(
-      device.control().plan_write(op, {1, 0}, 0x44, mb4::Span<const std::uint8_t>(&value, 1)).ok());
-  EXPECT_FALSE(
-      step({{0x02, 0xE2, 0x00, 0x00, 0x01, 0xC0}, kReadRequest}, {{0, 0, 0x00, 0x00, 0x01, 0xC0}}));
-  EXPECT_FALSE(step({{0x02, 0x80, 0x5C}, {0x03, 0x80, 0}}, {{0, 0, 0x5C}}));
-  EXPECT_FALSE(
-      step({{0x02, 0xE2, 0xC4, 0x00, 0x01, 0xC0}, kReadRequest}, {{0, 0, 0xC4, 0x00, 0x01, 0xC0}}));
-  EXPECT_FALSE(step({kFrameAgs, kReadStatus}, {kRunsAgs}));
-  EXPECT_TRUE(step({kReadStatus}, {kDoneAgs}));
-  ends_with(Error::kNone);
-  mb4::Command command;
-  command.ids = 0x05;
-  ASSERT_TRUE(device.control().plan_command(op, command).ok());
-  EXPECT_TRUE(step({{0x02, 0xE2, 0x00, 0x00, 0x01, 0xC0}, kReadRequest}, {zeros(6)}));
-  ends_with(Error::kCorrupted);
-  // The read-back may have reached the chip as another byte of 0xF4.
-  read();
-  EXPECT_FALSE(step({{0x07, 0x80, 0x00}, kReadStatus}, {status(0xFF, 0x00, 0x00)}));
-}
 
 // After BREAK the frames run again; 0xF4 is proven before the request.
 TEST_F(Access, ReleaseProven_NewStartToo) {
@@ -980,7 +1166,7 @@ TEST_F(Access, ReleaseProven_NewStartToo) {
                    {proven ? kProven : status(0xFB, 0x00, 0x21)}, true, kPause),
               proven);
     if (proven) {
-      EXPECT_FALSE(step({kRequest, kReadRequest}, {{0, 0, 0x44, 0x01, 0x01, 0xC0}}));
+      EXPECT_FALSE(step(kAsk, kAsked));
     }
   }
 }
@@ -990,14 +1176,15 @@ TEST_F(Access, NeverEnding_IsTimeoutAfterAnotherLook) {
   configure();
   start();
   read(1);
-  EXPECT_FALSE(step({{0x02, 0xE2, 0x44, 0x00, 0x01, 0xC0}}, {}));
+  EXPECT_FALSE(
+      step({{0x02, 0xE2, 0x44, 0x00, 0x01, 0xC0}, kReadRequest}, {{0, 0, 0x44, 0x00, 0x01, 0xC0}}));
   EXPECT_FALSE(step({kFrameAgs}, {}));
   now_us += 174'800;
   EXPECT_FALSE(step({kReadStatus}, {kRunsAgs}));
   now_us += 100;
   EXPECT_FALSE(step({kReadStatus}, {kRunsAgs}));
   EXPECT_FALSE(step({kReadStatus}, {kRunsAgs}));
-  EXPECT_TRUE(step({kBreak}, {}));
+  EXPECT_TRUE(step({kBreak, kRest}, {}));
   ends_with(Error::kTimeout);
   EXPECT_FALSE(device.automatic().running());
   // next() starts the frames again.
@@ -1024,6 +1211,9 @@ TEST(AccessCounted, ClockStandsStill_IsTimeout) {
   std::size_t frames = 0;
   for (bool ended = false; !ended;) {
     frames += op.tx(0)[0] == 0x07 && op.tx(0)[1] == 0x08 ? 1 : 0;
+    if (op.frames() == 2 && !op.rx(1).empty()) {  // the request is read back
+      for (std::size_t k = 2; k < 6; ++k) op.rx(1)[k] = op.tx(0)[k];
+    }
     if (!op.rx(0).empty()) {
       for (std::size_t k = 0; k < 6; ++k) op.rx(0)[k] = kOver[k];
     }
@@ -1043,6 +1233,9 @@ TEST_F(Access, ClockStandsStillBesideAutomaticFrames_PollsAreCounted) {
   read();
   std::size_t polls = 0;
   for (bool ended = false; !ended; ++polls) {
+    if (op.frames() == 2 && !op.rx(1).empty()) {  // the request is read back
+      for (std::size_t k = 2; k < 6; ++k) op.rx(1)[k] = op.tx(0)[k];
+    }
     if (!op.rx(0).empty()) {
       for (std::size_t k = 0; k < 6; ++k) op.rx(0)[k] = kRunsAgs[k];
     }
@@ -1064,20 +1257,76 @@ TEST_F(Access, Command_HasItsFields) {
   command.code = 1;
   command.test_acknowledge = true;
   ASSERT_TRUE(device.control().plan_command(op, command).ok());
-  EXPECT_FALSE(step({{0x02, 0x80, 0xA0}}, {}));
-  EXPECT_FALSE(step({{0x02, 0xE4, 0x01, 0x58}}, {}));
+  EXPECT_FALSE(step({{0x02, 0x80, 0xA0}, {0x03, 0x80, 0}}, {{0, 0, 0xA0}}));
+  EXPECT_FALSE(step({{0x02, 0xE4, 0x01, 0x58}, {0x03, 0xE4, 0, 0}}, {{0, 0, 0x01, 0x58}}));
   EXPECT_FALSE(step({kFrameAgs}, {}));
-  EXPECT_TRUE(step({kReadStatus}, {status(0x77, 0x00, 0x01)}));
+  EXPECT_FALSE(step({kReadStatus}, {status(0x77, 0x00, 0x01)}));
+  EXPECT_TRUE(step({kRest}, {}));
   ends_with(Error::kCommand);
   // nDELAYERR = 0 too: no slave has acknowledged, and a command has no register that is slow.
   ASSERT_TRUE(device.control().plan_command(op, command).ok());
-  EXPECT_FALSE(step({{0x02, 0x80, 0xA0}}, {}));
-  EXPECT_FALSE(step({{0x02, 0xE4, 0x01, 0x58}}, {}));
+  EXPECT_FALSE(step({{0x02, 0x80, 0xA0}, {0x03, 0x80, 0}}, {{0, 0, 0xA0}}));
+  EXPECT_FALSE(step({{0x02, 0xE4, 0x01, 0x58}, {0x03, 0xE4, 0, 0}}, {{0, 0, 0x01, 0x58}}));
   EXPECT_FALSE(step({kFrameAgs}, {}));
-  EXPECT_TRUE(step({kReadStatus}, {status(0x57, 0x00, 0x01)}));
+  EXPECT_FALSE(step({kReadStatus}, {status(0x57, 0x00, 0x01)}));
+  EXPECT_TRUE(step({kRest}, {}));
   ends_with(Error::kCommand);
   command.code = 4;
   EXPECT_EQ(device.control().plan_command(op, command).error(), Error::kInvalidArgument);
+}
+
+// Two chains: broadcast 01 to both channels, then command 00 to each channel's IDs.
+TEST(Activate, TwoChannels_EachItsIds) {
+  StrictBus bus;
+  FakeClock clock;
+  mb4::Device<StrictBus, FakeClock> device(bus, clock);
+  EXPECT_EQ(device.control().activate().error(), Error::kNotConfigured);
+  mb4test::expect_configure_three(bus);
+  ASSERT_TRUE(device.configure(mb4test::three_slaves()).ok());
+  const auto expect_command = [&bus](std::uint8_t channels, std::uint8_t ids, std::uint8_t ctrl) {
+    bus.expect_proven({0x02, 0x80, ids});
+    bus.expect_proven({0x02, 0xE4, channels, ctrl});
+    bus.expect_write(kFrame);
+    bus.expect_read(kReadStatus, kOver);
+    bus.expect_write(kFrame);
+    bus.expect_read(kReadStatus, kDone);
+    bus.expect_write(mb4test::kThreeClear);
+    bus.expect_write(kRest);
+  };
+  expect_command(3, 0x00, 0x50);
+  expect_command(1, 0xC0, 0x40);  // slaves 1 and 2: ID 1 and ID 0, which is bit 7 (table 32)
+  expect_command(2, 0x80, 0x40);  // slave 5
+  EXPECT_TRUE(device.control().activate().ok());
+  expect_command(3, 0x00, 0x50);
+  expect_command(1, 0x40, 0x40);
+  EXPECT_TRUE(device.control().activate(0x02).ok());
+}
+
+// Frames that do not wait for SL = 1 are requested when the slaves' timeout is over.
+TEST(Activate, FramesThatDoNotWait_ComeAfterAPause) {
+  StrictBus bus;
+  FakeClock clock;
+  mb4::Device<StrictBus, FakeClock> device(bus, clock);
+  mb4::Config config = mb4test::encoder26();
+  config.frame_start = mb4::FrameStart::kOnPin;
+  mb4test::expect_configure(bus, 0xE8, 0x7D);
+  ASSERT_TRUE(device.configure(config).ok());
+  mb4::Operation op;
+  ASSERT_TRUE(device.control().plan_activate(op).ok());
+  unsigned frames = 0;
+  while (frames < 4) {
+    EXPECT_EQ(op.pause_us() >= 100, op.tx(0)[0] == 0x07 && frames != 0) << frames;
+    frames += op.tx(0)[0] == 0x07 ? 1 : 0;
+    for (std::size_t i = 0; i < op.frames(); ++i) {
+      if (op.rx(i).empty()) continue;
+      if (op.tx(i)[0] == 0x03) {  // what was written before
+        for (std::size_t k = 2; k < op.tx(i).size(); ++k) op.rx(i)[k] = op.tx(i - 1)[k];
+      } else {
+        for (std::size_t k = 0; k < 6; ++k) op.rx(i)[k] = kOver[k];
+      }
+    }
+    ASSERT_FALSE(device.finish(op, true, 5000));
+  }
 }
 
 TEST_F(Access, WrongArguments_PlanNothing) {
@@ -1105,7 +1354,7 @@ TEST_F(Access, ActuatorWithoutStatus_IsReported) {
   Bytes answer = mb4test::read_back();
   for (Bytes* bytes : {&image, &answer}) {
     (*bytes)[0] = 0xDB;            // LSTOP1 = 1 (table 18)
-    (*bytes)[0xE5 - 0xC0] = 0x42;  // EN_MO (table 39)
+    (*bytes)[0xE5 - 0xC0] = 0xC2;  // EN_MO (table 39)
     (*bytes)[0xEF - 0xC0] = 0x01;  // ACTnSENS1 (table 17)
   }
   mb4test::expect_image(bus, image, answer);
@@ -1137,7 +1386,7 @@ TEST_F(Access, ActuatorsRelease_IsProven) {
   Bytes answer = mb4test::read_back();
   for (Bytes* bytes : {&image, &answer}) {
     (*bytes)[0] = 0xDB;            // LSTOP1 = 1 (table 18)
-    (*bytes)[0xE5 - 0xC0] = 0x42;  // EN_MO (table 39)
+    (*bytes)[0xE5 - 0xC0] = 0xC2;  // EN_MO (table 39)
     (*bytes)[0xE7 - 0xC0] = 0x00;  // NOCRC = 0 (table 21)
     (*bytes)[0xEF - 0xC0] = 0x01;  // ACTnSENS1 (table 17)
   }

@@ -69,6 +69,15 @@ class StrictBus {
     expected_.push_back({std::move(mosi), std::move(miso), true});
     return *this;
   }
+  // A write of registers, and what reads it back.
+  StrictBus& expect_proven(const Bytes& mosi) {
+    Bytes back = mosi;
+    Bytes reads(mosi.size(), 0x00);
+    back[0] = back[1] = 0x00;
+    reads[0] = 0x03;
+    reads[1] = mosi[1];
+    return expect_write(mosi).expect_read(std::move(reads), std::move(back));
+  }
   // The transfer at `index` of the list fails and ends the list.
   StrictBus& fail_at(std::size_t index) {
     expected_.resize(index + 1);

@@ -270,4 +270,45 @@ TEST_P(DriverBissB, StepByStep_PollSaysWhenItHasEnded) {
   EXPECT_TRUE(chip.device.read_frame().ok());
 }
 
+// One flipped bit of HOLDBANK beside automatic frames starts the request at rest: here a register
+// access, during which no frame runs. It ends by itself within the register limit, nothing is
+// written, and what is missing is counted.
+TEST_P(DriverBissB, FlippedBitAtRest_IsAGapThatIsCounted) {
+  constexpr unsigned kPeriodUs = 100;
+  FaultyChip chip(biss_b_bus(GetParam(), "registers = { 0x30 = [7, 8] }"));
+  Config config = biss_b_config(GetParam());
+  config.frame_start = mb4::FrameStart::kPeriodic;
+  config.frame_period_clk = 20 * kPeriodUs;
+  ASSERT_TRUE(chip.device.configure(config).ok());
+  ASSERT_TRUE(chip.device.automatic().start().ok());
+  constexpr std::uint8_t kWith = MB4_WITH_ALL | MB4_WITH_COUNTS;
+  mb4_counts counts{};
+  counts.period_ns = 1000 * kPeriodUs;
+  chip.device.automatic().count(&counts);
+  const auto read = [&chip] {
+    chip.simulator.advance(kPeriodUs * mb4::sim::kPsPerUs - 30 * mb4::sim::kPsPerUs);
+    return chip.device.automatic().poll_slave<kWith>(1);
+  };
+  for (int i = 0; i < 5; ++i) static_cast<void>(read());
+  ASSERT_GE(counts.good, 2U);
+  chip.bus.plan({FaultKind::kFlipMosi, 0, 0, 12});  // 0x41 -> 0x49
+  static_cast<void>(read());
+  chip.bus.plan({});
+  const std::uint32_t began_us = chip.clock.now_us();
+  const std::uint32_t good = counts.good;
+  while (counts.good == good && chip.clock.now_us() - began_us < 100'000) {
+    static_cast<void>(read());
+  }
+  // 4096 register clocks of 4 us, the slave's timeout and two periods.
+  const std::uint32_t gap_us = chip.clock.now_us() - began_us;
+  EXPECT_LE(gap_us, 4096 * 4 + 5 + 3 * kPeriodUs);
+  EXPECT_GE(counts.lost + 3, gap_us / kPeriodUs);
+  std::uint32_t run = 0;
+  for (int i = 0; i < 20; ++i) run += read().ok() ? 1 : 0;
+  EXPECT_GE(run, 10U);  // the loop is faster than the frames
+  EXPECT_EQ(chip.simulator.slave(1)->reg_read(0x30), 7);
+  EXPECT_EQ(chip.simulator.slave(1)->reg_read(0x31), 8);
+  EXPECT_TRUE(chip.device.verify().ok());
+}
+
 }  // namespace

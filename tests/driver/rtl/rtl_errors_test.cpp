@@ -263,7 +263,8 @@ TEST(DriverInitialize, FlippedBitInTheDelay_IsCorrupted) {
   prepare(chip, State::kConfigured);
   chip.bus.plan({});
   ASSERT_TRUE(chip.device.initialize().ok());
-  const std::size_t delay = chip.bus.count() - 4;  // delay, delay, SVALID, status
+  std::size_t delay = 0;  // the first transfer that reads registers
+  while (chip.bus.opcodes()[delay] != 0x03) ++delay;
   chip.bus.plan({FaultKind::kFlipMiso, delay, delay, 20});
   EXPECT_EQ(chip.device.initialize().error(), Error::kCorrupted);
 }

@@ -196,6 +196,11 @@ class Driver:
         self._do(lib.mb4_slave_command,
                  ffi.new("mb4_command *", [channels, ids, code, test_acknowledge]))
 
+    def slave_activate(self, ids: int = 0, ids_2: int = 0) -> None:
+        """Switches the data and the control communication of BiSS C slaves on. Bit n of `ids` is
+        ID n of channel 1, of `ids_2` that of channel 2; both 0: those of the enabled slaves."""
+        self._do(lib.mb4_slave_activate, ids, ids_2)
+
     def scan(self, channel: int) -> List[Identity]:
         """The identities of the IDs that answer on a channel."""
         found, count = ffi.new("mb4_identity[8]"), ffi.new("uint8_t *")

@@ -61,15 +61,15 @@ enum class SpiCheck : std::uint8_t {
   // stuck, can then make neither a wrong nor an old position:
   //  * data without a stored CRC, and data of all zeros or all ones, is read twice;
   //  * the status is read again after the data, and once more after SVALID is cleared;
-  //  * 0xF4 and the registers that start a register access are read back after the write;
+  //  * 0xF4 is read back after the write, and so is what ends a register access; what starts one is
+  //    read back at each level;
   //  * registers of slaves are read twice from the chip.
   // What is left: disturbed bytes of 0xF4 that release the bank or start frames (docs/driver.md).
   kFull = 2,
   // As kFull, and the status is read after each byte of 0xF4 that releases the bank, starts
   // automatic frames, or is BREAK before such a start: 6 bytes more a read, 14 more a start, 6 more
   // its BREAK. If 0xF4 is wrong there, the call has failed, the next read begins with the release
-  // and drops the words that have waited, and the next register access begins with BREAK. A write
-  // of registers and a command begin with one step more, which makes the request before a read.
+  // and drops the words that have waited, and the next register access begins with BREAK.
   kFullAndRelease = 3,
 };
 
@@ -167,6 +167,12 @@ struct Config {
   // have switched meanwhile. A loop whose period is less than twice the time of the transfers then
   // loses positions.
   bool hold_beside_access = true;
+
+  // Device::initialize() also switches on what broadcast commands can have switched off in the
+  // slaves of BiSS C: Control::activate() with the IDs of the enabled slaves. About 70 frames. In a
+  // chain on which somebody has switched a slave off on purpose it shifts the words of the others.
+  // Not with an actuator: the frames would send words that nobody has written.
+  bool activate_at_initialize = false;
 
   std::array<ChannelConfig, kChannels> channels{};  // [0] is channel 1
   std::array<SlaveConfig, kSlaves> slaves{};        // [0] is slave 1, next to SL, SCDATA1

@@ -182,6 +182,10 @@ constexpr ErrorInfo check_revision(std::uint8_t revision) {
       return detail::invalid(wrong, number);
     }
   }
+  if (config.activate_at_initialize &&
+      (actuators(config) != 0 || !any_channel_is(config, Protocol::kBissC))) {
+    return detail::invalid(ConfigField::kActivateAtInitialize);
+  }
   // Last, because it needs the length of a frame.
   wrong = detail::wrong_in_frame_start(config);
   return detail::invalid(wrong);

@@ -127,9 +127,13 @@ inline Result<void> Procedures::plan_access(ChipState& chip, Operation& op, Slav
 inline Result<void> Procedures::plan_command(ChipState& chip, Operation& op,
                                              const Command& command) {
   const Result<void> allowed = possible_in(chip, op, check_command(chip, command));
-  if (!allowed) {
-    return allowed;
+  if (allowed) {
+    begin_command(chip, op, command);
   }
+  return allowed;
+}
+
+inline void Procedures::begin_command(ChipState& chip, Operation& op, const Command& command) {
   ControlState& state = chip.control;
   begin_access(chip, op, false);
   state.kind = ControlState::Kind::kCommand;
@@ -143,37 +147,71 @@ inline Result<void> Procedures::plan_command(ChipState& chip, Operation& op,
   if (op.stage_ == kStart) {
     add_request(chip, op);
   }
-  return {};
 }
 
-// A read of positions between two steps may start an access by a disturbed byte of 0xF4. With
-// SpiCheck::kFullAndRelease that reads register 0 until the whole request stands in the chip, so
-// that new bytes of RDATA do not go where the request before has sent its own.
-inline void Procedures::add_disarm(ChipState& chip, Operation& op) {
-  const std::array<std::uint8_t, 4> read{0, 0, op.request_[2],
-                                         regs::CTS::insert(op.request_[3], 1)};
-  op.stage_ = kDisarm;
-  add_write(chip, op, regs::kAddrRegadr, read.data(), read.size());
+// Control::activate() documents arguments and errors.
+inline Result<void> Procedures::plan_activate(ChipState& chip, Operation& op, std::uint8_t ids_1,
+                                              std::uint8_t ids_2) {
+  const Result<void> allowed = possible_in(chip, op, check_activate(chip, ids_1, ids_2));
+  if (allowed) {
+    begin_activate(chip, op, ids_1, ids_2);
+  }
+  return allowed;
 }
 
-// RDATA, or IDS of a command; then the request.
+// Broadcast command 01: all slaves take part in control communication. The commands that follow are
+// in request_[4] and [5]: the IDs of a channel.
+inline void Procedures::begin_activate(ChipState& chip, Operation& op, std::uint8_t ids_1,
+                                       std::uint8_t ids_2) {
+  const bool given = (ids_1 | ids_2) != 0;
+  Command command;
+  command.code = 1;
+  command.channels = 0;
+  for (std::uint8_t channel = 1; channel <= kChannels; ++channel) {
+    const bool biss_c = chip.config.channels[channel - 1U].protocol == Protocol::kBissC;
+    command.channels =
+        static_cast<std::uint8_t>(command.channels | (biss_c ? channel : std::uint8_t{0}));
+  }
+  begin_command(chip, op, command);
+  op.step_ = activate_step;
+  op.request_[4] = given ? ids_1 : biss_c_ids(chip, 1);
+  op.request_[5] = given ? ids_2 : biss_c_ids(chip, 2);
+}
+
+// Command 00, addressed: these slaves send their data. The channels one after the other, because
+// their IDs may differ.
+inline Result<void> Procedures::activate_step(ChipState& chip, Operation& op,
+                                              std::uint32_t now_us) {
+  const Result<void> done = access_step(chip, op, now_us);
+  const std::uint8_t channel = op.request_[4] != 0 ? 1 : 2;
+  std::uint8_t& ids = op.request_[3U + channel];
+  if (done && op.plan_.frames == 0 && ids != 0) {
+    Command command;
+    command.channels = channel;
+    command.ids = ids;
+    ids = 0;
+    begin_command(chip, op, command);
+    op.step_ = activate_step;
+  }
+  return done;
+}
+
+// RDATA, or IDS of a command; then the request. All is read back, whatever Config::spi_check says:
+// a byte that is lost here makes a command or a write that nobody asked for.
 inline void Procedures::add_request(ChipState& chip, Operation& op) {
-  const ControlState& state = chip.control;
+  ControlState& state = chip.control;
   if (state.kind != ControlState::Kind::kRead && op.at_ < op.count_) {
-    if (chip.proves_release() && chip.automatic && op.at_ == 0 && op.stage_ != kDisarm) {
-      add_disarm(chip, op);
-      return;
-    }
     op.stage_ = kFill;
-    add_write(chip, op, static_cast<std::uint8_t>(regs::kAddrRdata + op.at_), op.data_ + op.at_,
-              part(op));
+    add_proven(op, static_cast<std::uint8_t>(regs::kAddrRdata + op.at_), op.data_ + op.at_,
+               part(op));
     return;
   }
   // A command leaves 0xE2 and 0xE3 as they are.
   const std::uint8_t from = state.kind == ControlState::Kind::kCommand ? 2 : 0;
   op.stage_ = kSet;
-  add_write(chip, op, static_cast<std::uint8_t>(regs::kAddrRegadr + from), &op.request_[from],
-            std::size_t{4} - from);
+  state.armed = true;
+  add_proven(op, static_cast<std::uint8_t>(regs::kAddrRegadr + from), &op.request_[from],
+             kRequestBytes - from);
 }
 
 // Bytes of the next frame.
@@ -209,6 +247,7 @@ inline void Procedures::add_abort(ChipState& chip, Operation& op, const Result<v
   chip.recover_first = true;
   chip.stopped();
   add_instruction(op, regs::BREAK::encode<1>());
+  add_rest(chip, op);
   op.stage_ = kStopped;
   op.cause_ = cause;
 }
@@ -227,6 +266,18 @@ inline void Procedures::add_access(ChipState& chip, Operation& op) {
   }
 }
 
+// The access does not begin, but its request may be in the chip.
+inline Result<void> Procedures::not_begun(ChipState& chip, Operation& op,
+                                          const Result<void>& cause) {
+  if (!chip.control.armed) {
+    return cause;
+  }
+  add_rest(chip, op);
+  op.stage_ = kStopped;
+  op.cause_ = cause;
+  return {};
+}
+
 inline Result<void> Procedures::access_step(ChipState& chip, Operation& op, std::uint32_t now_us) {
   // abort(), BREAK or configure() has ended the access meanwhile.
   if (op.stage_ < kDelays && chip.control.kind == ControlState::Kind::kNone) {
@@ -241,7 +292,7 @@ inline Result<void> Procedures::access_step(ChipState& chip, Operation& op, std:
     chip.control.kind = ControlState::Kind::kNone;
     chip.restart = chip.automatic || chip.restart;
     chip.control.stray = chip.control.stray || chip.proves_release();
-    return done;
+    return not_begun(chip, op, done);
   }
   clear_plan(op);
   add_abort(chip, op, done);
@@ -251,16 +302,14 @@ inline Result<void> Procedures::access_step(ChipState& chip, Operation& op, std:
 inline Result<void> Procedures::access(ChipState& chip, Operation& op, std::uint32_t now_us) {
   ControlState& state = chip.control;
   // These judge a failed transfer themselves.
-  const bool own =
-      op.stage_ == kPoll || op.stage_ == kPollAgain || op.stage_ == kClear || op.stage_ == kStopped;
+  const bool own = op.stage_ >= kFirst || op.stage_ == kPoll || op.stage_ == kPollAgain;
   if (!op.good_ && !own) {
     return Error::kTransport;
   }
   switch (op.stage_) {
-    case kDisarm:
     case kFill:
     case kSet: {
-      if (const Result<void> set = same(chip, op); !set) {
+      if (const Result<void> set = equals(op); !set) {
         return set;
       }
       if (state.stray && chip.checks_all()) {
@@ -331,6 +380,7 @@ inline Result<void> Procedures::access(ChipState& chip, Operation& op, std::uint
           }
           if (lost) {
             state.kind = ControlState::Kind::kNone;
+            return not_begun(chip, op, Error::kCorrupted);
           }
           return Error::kCorrupted;
         }
@@ -365,12 +415,43 @@ inline Result<void> Procedures::access(ChipState& chip, Operation& op, std::uint
       return taken(chip, op);
     }
     case kTakeAgain:
-      return equal(op.out_ + op.at_, received(op) + 2, part(op)) ? taken(chip, op)
-                                                                 : Result<void>(Error::kCorrupted);
-    case kClear:
-      chip.recover_first = !op.good_;
+      // An access that a disturbed byte has started meanwhile has read register 0 into RDATA1.
+      return (op.at_ != 0 || *op.out_ == state.first) &&
+                     equal(op.out_ + op.at_, received(op) + 2, part(op))
+                 ? taken(chip, op)
+                 : Result<void>(Error::kCorrupted);
+    case kFirst:
+      if (!op.good_ && ++op.bad_ != kBadLooks) {
+        add_first(op);
+        return {};
+      }
+      op.bad_ = 0;
+      state.first = received(op)[2];
+      add_end(chip, op);
+      return {};
+    case kRest: {
+      const Result<void> set = same(chip, op);
+      if (!set && ++op.bad_ != kBadLooks) {
+        add_end(chip, op);
+        return {};
+      }
+      state.armed = !set;
+      if (!set) {
+        // Until it has been sent nothing may start what was asked for once more.
+        state.readable = 0;
+        chip.restart = chip.automatic || chip.restart;
+        chip.stopped();
+        return op.cause_ ? set : op.cause_;
+      }
+      chip.recover_first = chip.automatic;
       return ended(chip, op);
-    default: {  // kStopped: an error that came before BREAK stays the result
+    }
+    default: {  // kStopped: an error that came before stays the result
+      state.armed = !same(chip, op);
+      if (state.armed) {
+        chip.restart = chip.automatic || chip.restart;
+        chip.stopped();
+      }
       const Error cause = op.cause_.error();
       const bool last = cause == Error::kNone || cause == Error::kTimeout;
       return !op.good_ && last ? Result<void>(Error::kTransport) : op.cause_;
@@ -443,6 +524,10 @@ inline Result<void> Procedures::poll(ChipState& chip, Operation& op, std::uint32
       ++state.frames;
       add_instruction(op, kControlFrame);
       op.stage_ = kNextFrame;
+      if (chip.config.frame_start != FrameStart::kWaitForLine) {
+        // The chip refuses a frame before the slaves' timeout is over (activate()).
+        op.plan_.pause_us = kLineRecoveryUs + kClockStepUs;
+      }
       return {};
     }
   }
@@ -459,14 +544,29 @@ inline Result<void> Procedures::conclude(ChipState& chip, Operation& op) {
                        ? state.count
                        : std::uint8_t{0};
   state.kind = ControlState::Kind::kNone;
-  // Without AGS the frames of the access have set SVALID, and the next single frame needs SVALID =
-  // 0. With AGS the reads of positions clear the flags.
-  if (!chip.automatic) {
-    op.stage_ = kClear;
-    mb4_cyclic_add_clear(&op.plan_, chip.sensor_flags, 4);
-    return {};
+  op.bad_ = 0;
+  if (chip.checks_all() && state.readable != 0) {
+    add_first(op);
+  } else {
+    add_end(chip, op);
   }
-  return ended(chip, op);
+  return {};
+}
+
+// RDATA1, before another request may stand in the chip: take() compares it.
+inline void Procedures::add_first(Operation& op) {
+  op.stage_ = kFirst;
+  add_read(op, regs::kAddrRdata, 1);
+}
+
+// Without AGS the frames of the access have set SVALID, and the next single frame needs SVALID = 0.
+// With AGS the reads of positions clear the flags.
+inline void Procedures::add_end(const ChipState& chip, Operation& op) {
+  op.stage_ = kRest;
+  if (!chip.automatic) {
+    mb4_cyclic_add_clear(&op.plan_, chip.sensor_flags, 4);
+  }
+  add_rest(chip, op);
 }
 
 inline Result<void> Procedures::ended(ChipState& chip, Operation& op) {

@@ -36,6 +36,8 @@ struct ControlState {
   Kind kind = Kind::kNone;
   std::uint8_t readable = 0;     // registers that a finished read has left in RDATA
   std::uint8_t count = 0;        // registers of this access, 1..64
+  std::uint8_t first = 0;        // SpiCheck::kFull: the first of `readable`
+  bool armed = false;            // 0xE2..0xE5 may hold another request than the one at rest
   bool biss_b = false;           // one instruction runs the whole access, without frames
   bool overwritten = false;      // a read of positions has written INSTR = 000 meanwhile
   bool seen_running = false;     // ... and has seen REGEND = 0 since the last poll
@@ -152,6 +154,9 @@ struct ChipState {
   }
 
   [[nodiscard]] bool control_runs() const { return control.kind != ControlState::Kind::kNone; }
+
+  // 0xE2..0xE5 need not hold the request at rest.
+  [[nodiscard]] bool request_is_away() const { return control_runs() || control.armed; }
 
   [[nodiscard]] Result<void> single_frame_allowed() const {
     if (!configured) {

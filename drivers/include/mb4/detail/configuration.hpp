@@ -28,7 +28,7 @@ inline constexpr std::size_t kConfigures = 1;
 inline constexpr std::size_t kResets = 2;
 
 // REVISION and VERSION are constant. 0xE0, 0xE1 and 0xEE are reserved, and the datasheet does not
-// say what they read. 0xE2..0xE5 change with each control communication: `running`.
+// say what they read. 0xE2..0xE5 change while a control communication is `running`.
 constexpr bool is_compared(unsigned address, bool running) {
   const bool control = address >= regs::kAddrRegadr && address <= regs::kAddrCtrl;
   return !(control && running) && (address < 0xE0 || address > 0xE1) && address != 0xEE &&
@@ -38,6 +38,7 @@ constexpr bool is_compared(unsigned address, bool running) {
 inline void Procedures::plan_verify(ChipState& chip, Operation& op) {
   begin(chip, op, configuration_step);
   op.count_ = kComparesOnly;
+  op.bad_ = chip.request_is_away() ? 1 : 0;
   add_compared(op, kLastPart);
 }
 
@@ -99,6 +100,7 @@ inline Result<void> Procedures::configuration_step(ChipState& chip, Operation& o
 
 inline Result<void> Procedures::configure(ChipState& chip, Operation& op) {
   const bool compares = op.count_ == kComparesOnly;
+  op.bad_ |= chip.request_is_away() ? 1U : 0U;
   if (!op.good_ || (compares && !chip.configured)) {
     return op.good_ ? Error::kWrongMode : Error::kTransport;
   }
@@ -129,7 +131,7 @@ inline Result<void> Procedures::configure(ChipState& chip, Operation& op) {
   const unsigned size = last ? unsigned{regs::kAddrStatus0} - kLastPart : kPartBytes;
   const std::uint8_t* want = chip.image.data() + (op.at_ - kImageFirst);
   for (unsigned i = 0; i < size; ++i) {
-    if (is[i] != want[i] && is_compared(op.at_ + i, compares)) {
+    if (is[i] != want[i] && is_compared(op.at_ + i, op.bad_ != 0)) {
       return ErrorInfo::at_register(Error::kVerify, static_cast<std::uint8_t>(op.at_ + i));
     }
   }

@@ -31,12 +31,16 @@ namespace mb4::detail {
   return {};
 }
 
-[[nodiscard, gnu::always_inline]] inline Result<void> check_free(const ChipState& chip) {
+[[nodiscard, gnu::always_inline]] inline Result<void> check_idle(const ChipState& chip) {
   if (!chip.configured) {
     return Error::kNotConfigured;
   }
-  if (chip.control_runs()) {
-    return Error::kBusy;
+  return chip.control_runs() ? Error::kBusy : Error::kNone;
+}
+
+[[nodiscard, gnu::always_inline]] inline Result<void> check_free(const ChipState& chip) {
+  if (const Result<void> idle = check_idle(chip); !idle) {
+    return idle;
   }
   if (!chip.automatic && chip.config.frame_start != FrameStart::kWaitForLine) {
     return ErrorInfo(Error::kUnsupported, ConfigField::kFrameStart, 0);
@@ -85,6 +89,34 @@ namespace mb4::detail {
     }
   }
   return {};
+}
+
+// The IDs of the enabled slaves of `channel` (1, 2), if it is BiSS C: bit n is ID n. Each slave has
+// one.
+[[nodiscard]] inline std::uint8_t biss_c_ids(const ChipState& chip, std::uint8_t channel) {
+  unsigned ids = 0;
+  if (chip.config.channels[channel - 1U].protocol == Protocol::kBissC) {
+    for (unsigned left = slaves_of_channel(chip.config, channel); left != 0; left &= left - 1U) {
+      ids = ids << 1U | 1U;
+    }
+  }
+  return static_cast<std::uint8_t>(ids);
+}
+
+[[nodiscard]] inline Result<void> check_activate(const ChipState& chip, std::uint8_t ids_1,
+                                                 std::uint8_t ids_2) {
+  if (const Result<void> idle = check_idle(chip); !idle) {
+    return idle;
+  }
+  for (std::uint8_t channel = 1; channel <= kChannels; ++channel) {
+    const bool asked = (channel == 1 ? ids_1 : ids_2) != 0;
+    if (asked && chip.config.channels[channel - 1U].protocol != Protocol::kBissC) {
+      return ErrorInfo(Error::kUnsupported, ConfigField::kChannelProtocol, channel);
+    }
+  }
+  return any_channel_is(chip.config, Protocol::kBissC)
+             ? ErrorInfo()
+             : ErrorInfo(Error::kUnsupported, ConfigField::kChannelProtocol, 1);
 }
 
 }  // namespace mb4::detail

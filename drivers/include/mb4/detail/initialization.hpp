@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 
-// INIT, which makes the slaves ready and measures the line delay in BiSS C (pages 32, 33).
+// INIT, which makes the slaves ready and measures the line delay in BiSS C (pages 32, 33); then, in
+// BiSS C, one frame that shows whether each slave sends a word.
 
 #ifndef MB4_DETAIL_INITIALIZATION_HPP_
 #define MB4_DETAIL_INITIALIZATION_HPP_
@@ -143,6 +144,14 @@ inline Result<void> Procedures::initialize_step(ChipState& chip, Operation& op,
     case kClear: {
       const Result<void> cleared = clear_step(chip, op, now_us);
       chip.recover_first = !cleared || op.plan_.frames != 0;
+      if (!chip.recover_first) {
+        if (chip.config.activate_at_initialize) {
+          begin_activate(chip, op, 0, 0);
+          op.step_ = initialize_activate_step;
+        } else {
+          begin_look(chip, op);
+        }
+      }
       return cleared;
     }
     default:
@@ -160,6 +169,120 @@ inline Result<void> Procedures::initialize_step(ChipState& chip, Operation& op,
       return {};
     }
     op.delay_.quarters[op.at_] = 0;
+  }
+  add_clear(chip, op);
+  return {};
+}
+
+inline Result<void> Procedures::initialize_activate_step(ChipState& chip, Operation& op,
+                                                         std::uint32_t now_us) {
+  const Result<void> done = activate_step(chip, op, now_us);
+  if (op.plan_.frames != 0) {
+    op.step_ = initialize_activate_step;
+  } else if (done) {
+    begin_look(chip, op);
+  }
+  return done;
+}
+
+// ---- Does each slave send a word? One frame at the end ----
+
+// The slave of `word` can be kNoWord: BiSS C, and the chip checks its CRC.
+[[nodiscard]] inline bool may_send_nothing(const ChipState& chip, const mb4_word& word) {
+  return protocol_of(chip.config, word.slave) == Protocol::kBissC &&
+         chip.config.slaves[word.slave - 1U].crc_polynomial != 0;
+}
+
+// `bytes`: SCDATAx of a word whose CRC is wrong. All its bits were 0 on the line; the chip stores
+// the CRC inverted.
+[[nodiscard]] inline bool is_blank(const mb4_word& word, const std::uint8_t* bytes) {
+  const unsigned high = word.crc_bits > 8 ? unsigned{bytes[6]} : 0xFFU;
+  const unsigned crc = word.crc_bits > 8 ? bytes[7] * 256U + high : unsigned{bytes[7]};
+  unsigned data = word.crc_bits == 0 || crc == (1U << word.crc_bits) - 1U ? 0 : 1;
+  for (unsigned i = 0; i * 8 < word.bits; ++i) {
+    data |= bytes[i];
+  }
+  return data == 0;
+}
+
+// Where there are actuators no frame is made: it would send words that nobody has written.
+inline void Procedures::begin_look(ChipState& chip, Operation& op) {
+  bool needed = false;
+  for (std::uint8_t i = 0; i < chip.count; ++i) {
+    needed = needed || may_send_nothing(chip, chip.words[i]);
+  }
+  if (needed && chip.actuators == 0) {
+    begin(chip, op, look_step);
+    chip.recover_first = true;
+    add_request_frame(op);
+  }
+}
+
+// A frame that is refused, does not end or brings a wrong word is no error here: INIT has done its
+// work, and the reads tell what is wrong.
+inline Result<void> Procedures::look_step(ChipState& chip, Operation& op, std::uint32_t now_us) {
+  if (!op.good_) {
+    return Error::kTransport;
+  }
+  switch (op.stage_) {
+    case kStart:
+      op.limit_.begin(now_us, chip.frame_us);
+      again(op, now_us);
+      return {};
+    case kPoll: {
+      const Result<void> seen = look(op);
+      if (!seen) {
+        return seen;
+      }
+      if (!op.status_.idle() || !op.status_.instruction_done()) {
+        if (!op.limit_.over) {
+          again(op, now_us);
+        } else {
+          chip.stopped();
+          add_instruction(op, regs::BREAK::encode<1>());
+          op.stage_ = kStopped;
+        }
+        return {};
+      }
+      op.at_ = op.status_.scd_error() ? 0 : chip.count;
+      break;
+    }
+    case kTake:
+      if (is_blank(chip.words[op.at_ - 1], received(op) + 2)) {
+        op.limit_ = {};
+        add_lines(op);
+        return {};
+      }
+      break;
+    case kLines: {
+      // In the slaves' timeout SL is 0, and all bits are if it stays there.
+      const Result<void> line = lines(chip, op, now_us);
+      if (op.plan_.frames != 0) {
+        return {};
+      }
+      op.cause_ = line ? Error::kNoWord : Error::kNone;
+      op.at_ = chip.count;
+      break;
+    }
+    case kClear: {
+      const Result<void> cleared = clear_step(chip, op, now_us);
+      chip.recover_first = !cleared || op.plan_.frames != 0;
+      return cleared && !chip.recover_first ? op.cause_ : cleared;
+    }
+    default:  // kStopped
+      return {};
+  }
+  // The bad words one after the other.
+  for (; op.at_ < chip.count; ++op.at_) {
+    const mb4_word& word = chip.words[op.at_];
+    const unsigned flag =
+        Status::valid_registers(static_cast<std::uint8_t>(1U << (word.slave - 1U)));
+    if ((op.status_.valid_flags() & flag) == 0 && may_send_nothing(chip, word)) {
+      ++op.at_;
+      op.stage_ = kTake;
+      add_read(op, regs::scdata_address(word.slave), 8);
+      return {};
+    }
   }
   add_clear(chip, op);
   return {};

@@ -36,7 +36,6 @@ struct Procedures {
     kPollAgain,  // an access: is the end true?
     kLines,      // read the lines until SL is 1
     kFill,       // an access: RDATA or IDS; an actuator: its word; all registers
-    kDisarm,     // an access: the request before becomes a read
     kSet,        // an access: 0xE2..0xE5; an actuator: 0xF4
     kNextFrame,  // an access: the next frame
     kDelays,     // INIT: what it has measured; a configuration: REVISION, VERSION
@@ -44,6 +43,8 @@ struct Procedures {
     kTake,       // an access: RDATA; a single frame: its data; an actuator: the other bank's word
     kTakeAgain,  // ... once more
     kProof,      // a single frame, a configuration: the status after what was read
+    kFirst,      // an access that has ended: RDATA1
+    kRest,       // ... the request at rest
     kStopped     // BREAK; the result is known
   };
 
@@ -109,6 +110,10 @@ struct Procedures {
     chip.restart = restart;
     chip.recover_first = true;
     add_instruction(op, instruction);
+    if (instruction != 0 && chip.control.armed) {
+      op.stage_ = kStopped;
+      add_rest(chip, op);
+    }
   }
 
   // ---- The others: configuration.hpp, initialization.hpp, single_frame.hpp, actuator.hpp,
@@ -127,6 +132,8 @@ struct Procedures {
                                   std::uint8_t address, const std::uint8_t* data, std::uint8_t* out,
                                   std::size_t count);
   static Result<void> plan_command(ChipState& chip, Operation& op, const Command& command);
+  static Result<void> plan_activate(ChipState& chip, Operation& op, std::uint8_t ids_1,
+                                    std::uint8_t ids_2);
   static void plan_take(ChipState& chip, Operation& op, std::uint8_t* out, std::size_t count);
 
   // ---- An access whose caller polls: control_steps.hpp ----
@@ -168,10 +175,14 @@ struct Procedures {
     chip.stopped();
     mb4_plan_add(&op.plan_, chip.checks_all() ? 3 : 2, MB4_CYCLIC_INSTRUCT,
                  regs::BREAK::encode<1>(), chip.interface_byte);
+    if (chip.control.armed) {
+      add_rest(chip, op);
+    }
   }
   // The frames that follow come after the slaves' timeout. The first one clears the flags of frames
   // that ran.
   [[gnu::noinline]] static void recovered(ChipState& chip, Operation& op) {
+    chip.control.armed = false;
     op.plan_.pause_us = chip.recovery_us();
     op.stage_ = kStart;
     mb4_cyclic_add_clear(&op.plan_, chip.sensor_flags, 4);
@@ -215,6 +226,12 @@ struct Procedures {
       *tx++ = *data++;
     }
   }
+  // Reads back what it writes: equals().
+  [[gnu::noinline]] static void add_proven(Operation& op, std::uint8_t address,
+                                           const std::uint8_t* data, std::size_t size) {
+    add_bytes(op, address, data, size);
+    add_read(op, address, size);
+  }
   // With SpiCheck::kFull it reads back what it writes: same().
   [[gnu::noinline]] static void add_write(const ChipState& chip, Operation& op,
                                           std::uint8_t address, const std::uint8_t* data,
@@ -222,6 +239,14 @@ struct Procedures {
     add_bytes(op, address, data, size);
     if (chip.checks_all()) {
       add_read(op, address, size);
+    }
+  }
+  // The request at rest: a read of register 0. A disturbed byte of 0xF4 that starts an access then
+  // does no harm (docs/choices.md).
+  [[gnu::noinline]] static void add_rest(const ChipState& chip, Operation& op) {
+    add_bytes(op, regs::kAddrRegadr, &chip.image[regs::kAddrRegadr - kImageFirst], kRequestBytes);
+    if (chip.checks_all()) {
+      add_read(op, regs::kAddrRegadr, kRequestBytes);
     }
   }
 
@@ -277,14 +302,18 @@ struct Procedures {
     return true;
   }
 
-  // With SpiCheck::kFull the last two frames belong together: the second has read what the first
-  // has written or read. kTransport; kCorrupted: it differs.
+  // With SpiCheck::kFull: equals(). kTransport; kCorrupted.
   [[gnu::noinline]] static Result<void> same(const ChipState& chip, const Operation& op) {
+    if (!op.good_ || chip.checks_all()) {
+      return equals(op);
+    }
+    return {};
+  }
+  // The last two frames belong together: the second has read what the first has written or read.
+  // kTransport; kCorrupted: it differs.
+  [[gnu::noinline]] static Result<void> equals(const Operation& op) {
     if (!op.good_) {
       return Error::kTransport;
-    }
-    if (!chip.checks_all()) {
-      return {};
     }
     const std::uint8_t first = static_cast<std::uint8_t>(op.made_ - 2);
     const std::uint8_t* before =
@@ -348,7 +377,10 @@ struct Procedures {
     return {};
   }
 
-  static Result<void> stop_step(ChipState& /*chip*/, Operation& op, std::uint32_t /*now_us*/) {
+  static Result<void> stop_step(ChipState& chip, Operation& op, std::uint32_t /*now_us*/) {
+    if (op.stage_ == kStopped) {
+      chip.control.armed = !same(chip, op);
+    }
     return op.good_ ? Error::kNone : Error::kTransport;
   }
 
@@ -359,11 +391,16 @@ struct Procedures {
   static Result<void> held_step(ChipState& chip, Operation& op, std::uint32_t now_us);
   static Result<void> initialize_step(ChipState& chip, Operation& op, std::uint32_t now_us);
   static Result<void> access_step(ChipState& chip, Operation& op, std::uint32_t now_us);
+  static Result<void> activate_step(ChipState& chip, Operation& op, std::uint32_t now_us);
+  static Result<void> initialize_activate_step(ChipState& chip, Operation& op,
+                                               std::uint32_t now_us);
+  static Result<void> look_step(ChipState& chip, Operation& op, std::uint32_t now_us);
   // Parts of configuration.hpp, initialization.hpp,
   static void add_image(ChipState& chip, Operation& op);
   static void add_compared(Operation& op, std::uint8_t address);
   static Result<void> configure(ChipState& chip, Operation& op);
   static void prepare(ChipState& chip, Operation& op);
+  static void begin_look(ChipState& chip, Operation& op);
   // ... single_frame.hpp,
   static void add_request_frame(Operation& op);
   static Result<void> frame(ChipState& chip, Operation& op, std::uint32_t now_us);
@@ -381,12 +418,17 @@ struct Procedures {
   static Result<void> instruction_proven(ChipState& chip, Operation& op, std::uint8_t want);
   static void add_other(Operation& op, std::uint32_t now_us);
   // ... and access.hpp.
-  static void add_disarm(ChipState& chip, Operation& op);
   static void add_request(ChipState& chip, Operation& op);
   static std::uint8_t part(const Operation& op);
   static void add_take(ChipState& chip, Operation& op);
   static void begin_access(ChipState& chip, Operation& op, bool biss_b);
+  static void begin_command(ChipState& chip, Operation& op, const Command& command);
+  static void begin_activate(ChipState& chip, Operation& op, std::uint8_t ids_1,
+                             std::uint8_t ids_2);
   static void add_abort(ChipState& chip, Operation& op, const Result<void>& cause);
+  static void add_first(Operation& op);
+  static void add_end(const ChipState& chip, Operation& op);
+  static Result<void> not_begun(ChipState& chip, Operation& op, const Result<void>& cause);
   static void add_access(ChipState& chip, Operation& op);
   static Result<void> access(ChipState& chip, Operation& op, std::uint32_t now_us);
   static Result<void> poll(ChipState& chip, Operation& op, std::uint32_t now_us);
