@@ -580,11 +580,26 @@ TEST(SlaveAddress, WithMo_BissBCountsFrom1) {
   }
 }
 
+// The frames of activate() would send words that nobody has written; and they are those of BiSS C.
+TEST(Validate, ActivateAtInitialize_NeedsBissCAndNoActuator) {
+  Config config = encoder26();
+  config.activate_at_initialize = true;
+  EXPECT_TRUE(mb4::validate(config).ok());
+  config.mo = config.slaves[0].actuator = true;
+  EXPECT_EQ(mb4::validate(config).info().field, ConfigField::kActivateAtInitialize);
+  config = encoder26();
+  config.activate_at_initialize = true;
+  config.channels[0].protocol = mb4::Protocol::kSsi;
+  EXPECT_EQ(mb4::validate(config).info().code, Error::kInvalidConfig);
+  EXPECT_EQ(mb4::validate(config).info().field, ConfigField::kActivateAtInitialize);
+}
+
 TEST(Names, EveryErrorAndField_HasOne) {
   for (std::uint8_t i = 0; i <= static_cast<std::uint8_t>(Error::kNoWord); ++i) {
     EXPECT_STRNE(mb4::to_string(static_cast<Error>(i)), "unknown");
   }
-  for (std::uint8_t i = 0; i <= static_cast<std::uint8_t>(ConfigField::kRegisterTimeoutUs); ++i) {
+  for (std::uint8_t i = 0; i <= static_cast<std::uint8_t>(ConfigField::kActivateAtInitialize);
+       ++i) {
     EXPECT_STRNE(mb4::to_string(static_cast<ConfigField>(i)), "unknown");
   }
   EXPECT_STREQ(mb4::to_string(static_cast<Error>(250)), "unknown");
