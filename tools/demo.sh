@@ -29,7 +29,7 @@ mkdir -p build
 step "configuring" cmake --preset default
 step "building (the first time takes a minute or two)" cmake --build build --target mb4sim
 
-for example in resolute-26 ramp-sensor ti-tidep0022; do
+for example in resolute-26 ramp-sensor ti-tidm-1010; do
   printf '\n$ build/bin/mb4sim run examples/%s.toml --frames 5\n' "$example"
   build/bin/mb4sim run "examples/$example.toml" --frames 5
 done

@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::int64_t kMinSclkHz = 1'000;
 constexpr std::int64_t kMaxSclkHz = 50'000'000;  // I203, I204: 10 ns each
-constexpr std::int64_t kMinCycleNs = 110;        // 15 + 15 + 54 + 25 ns of a read
+constexpr std::int64_t kMinCycleNs = 60;         // 15 + 15 + 15 + 15 ns of a write
 constexpr std::int64_t kMaxCycleNs = 1'000'000;
 constexpr std::int64_t kMinBusHz = 1'000;
 constexpr std::int64_t kMaxBusHz = 500'000'000;

@@ -8,6 +8,7 @@ namespace mb4::sim {
 namespace {
 
 constexpr unsigned kBits = 8;
+constexpr Time kShortestRead = 110'000;  // what for_cycle() leaves a read, whatever a write takes
 
 }  // namespace
 
@@ -22,9 +23,10 @@ Time ParallelTiming::write_cycle() const {
 
 ParallelTiming ParallelTiming::for_cycle(Time cycle) {
   ParallelTiming timing;
-  const Time before = (cycle - std::min(cycle, timing.read_cycle())) / 2;
+  const Time read = std::max(cycle, kShortestRead);
+  const Time before = (std::max(cycle, timing.read_cycle()) - timing.read_cycle()) / 2;
   timing.ale_to_strobe += before;
-  timing.read_strobe += cycle - std::min(cycle, timing.read_cycle());
+  timing.read_strobe += read - timing.read_cycle();
   timing.write_strobe += cycle - std::min(cycle, timing.write_cycle());
   return timing;
 }

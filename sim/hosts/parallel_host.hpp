@@ -29,9 +29,9 @@ struct ParallelTiming {
   Time hold = 10'000;           // I006, I010, I012, I016, I106, I108, I114, from the strobe's end
   Time release = 25'000;        // I009, I111: the chip lets go of the data bus after a read
 
-  // Timing of a bus that begins a cycle every `cycle` ps, which must not be below the shortest
-  // read. Half of the time that a read leaves is added to the address phase, the rest to the
-  // strobe.
+  // Timing of a bus that begins a cycle every `cycle` ps, 60 ns or more. Below 110 ns only its
+  // writes are as short, and a read takes 110 ns. Half of the time that a read leaves is added to
+  // the address phase, the rest to the strobe.
   static ParallelTiming for_cycle(Time cycle);
   Time read_cycle() const;
   Time write_cycle() const;

@@ -21,7 +21,7 @@
 // look: dut_ack = u_dut.u_written.ack_q
 // mutation: mb4/ctrl/mb4_sequencer.sv | if (asked.brk) begin
 //   | if (asked.brk && state_q != INIT_TIMEOUT) begin
-// mutation: mb4/ctrl/mb4_sequencer.sv | (use_q & ~idle) == 2'b00 || wait_q == 11'd0;
+// mutation: mb4/ctrl/mb4_sequencer.sv | (use_q & ~idle) == 2'b00 || wait_q == 12'd0;
 //   | (use_q & ~idle) == 2'b00;
 // mutation: mb4/ctrl/mb4_sequencer.sv | default: state_d = IDLE; | default: state_d = state_q;
 
@@ -91,7 +91,7 @@ module proof (
   end
 
   wire [2:0] dut_state;
-  wire [10:0] dut_wait;
+  wire [11:0] dut_wait;
   wire [1:0] dut_sync0, dut_sync1, dut_taken, dut_late, dut_ack;
 
   // The count on its way, for the induction.
@@ -111,7 +111,7 @@ module proof (
     state_q  <= dut_state;
     live_q   <= rst_ni;
     abort_q  <= abort;
-    gave_up_q <= dut_state == 3'd4 && dut_wait == 11'd0;
+    gave_up_q <= dut_state == 3'd4 && dut_wait == 12'd0;
   end
 
   // check_i keeps the induction from assuming that the checks held before, so that the state before

@@ -19,9 +19,10 @@ namespace sim = mb4::sim;
 
 const char kEncoder26[] = "data_bits = 28\ncrc = 0x43\ndata = 0xAAF37BF\ntimeout = \"adaptive\"";
 
-// TI TIDEP0022: 13 data bits 0111000001000, nE = nW = 1, CRC line bits 101110, as recorded edges.
+// TI TIDM-1010, reference stimulus: 13 data bits 0111000001000, nE = nW = 1, CRC line bits 101110,
+// as recorded edges.
 TEST(ChipReplay, TiReferenceFrame_IsPosition0E08) {
-  sim::Scenario scenario = sim::load_scenario(MB4_EXAMPLES "/ti-tidep0022.toml");
+  sim::Scenario scenario = sim::load_scenario(MB4_EXAMPLES "/ti-tidm-1010.toml");
   sim::Simulator simulator(scenario);
   mb4::tool::SimBus bus(simulator);
   mb4::tool::SimClock clock(simulator);

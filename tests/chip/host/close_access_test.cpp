@@ -58,24 +58,34 @@ TEST_P(CloseAccess, ReadBehindAWrite_GivesWhatWasWritten) {
   }
 }
 
-// Bytes in a row as the host can write them, then all of them read back.
+// Decision 36: bytes in a row, then all of them read back. The parallel bus writes with cycles of
+// 100 ns, from 20 MHz on with its shortest ones, and up to four bytes with these at any clock.
 TEST_P(CloseAccess, ManyBytesWithClock_AllReadBack) {
-  for (const double mhz : {10.0, 12.5, 20.0, 25.0}) {
-    FastHost host(GetParam(), mhz);
-    const auto period = static_cast<sim::Time>(1e6 / mhz);
-    host.chip().advance(200 * period);
-    // A bus cycle that a host can make of these phases: item I110 makes reads the longest.
-    if (GetParam() != "spi") host.chip().bus().set_timing(sim::ParallelTiming::for_cycle(110'000));
-    Random random(2);
-    for (unsigned phase = 0; phase < kPhases; ++phase) {
-      host.phase(period, phase);
-      const unsigned count = 5 + phase % 60;
-      std::vector<std::uint8_t> bytes(count);
-      for (auto& byte : bytes) byte = static_cast<std::uint8_t>(random.below(256));
-      host.write(reg::kAddrRdata, bytes);
-      for (unsigned i = 0; i < count; ++i) {
-        ASSERT_EQ(host.read(reg::rdata_address(i + 1)), bytes[i])
-            << mhz << " MHz, phase " << phase << ", byte " << i << " of " << count;
+  for (const double mhz : {10.0, 12.5, 16.0, 20.0, 25.0}) {
+    for (const unsigned cycle_ns : {60U, 80U, 100U, 110U}) {
+      if (GetParam() == "spi" && cycle_ns != 60) break;
+      FastHost host(GetParam(), mhz, "cycle_ns = " + std::to_string(cycle_ns) + "\n");
+      const auto period = static_cast<sim::Time>(1e6 / mhz);
+      host.chip().advance(200 * period);
+      const auto cycle = sim::ParallelTiming::for_cycle(cycle_ns * sim::kPsPerNs);
+      if (GetParam() != "spi") host.chip().bus().set_timing(cycle);
+      const bool few = GetParam() != "spi" && mhz < 20 && cycle_ns < 100;
+      Random random(2);
+      for (unsigned phase = 0; phase < kPhases; ++phase) {
+        host.phase(period, phase);
+        const unsigned count = few ? 4 : phase % 2 == 0 ? 40 : 5 + phase % 60;
+        std::vector<std::uint8_t> bytes(count);
+        for (auto& byte : bytes) byte = static_cast<std::uint8_t>(random.below(256));
+        const sim::Time start = host.chip().now();
+        host.write(reg::kAddrRdata, bytes);
+        if (GetParam() != "spi") {
+          ASSERT_EQ(host.chip().now() - start, count * cycle_ns * sim::kPsPerNs);
+        }
+        for (unsigned i = 0; i < count; ++i) {
+          ASSERT_EQ(host.read(reg::rdata_address(i + 1)), bytes[i])
+              << mhz << " MHz, " << cycle_ns << " ns, phase " << phase << ", byte " << i << " of "
+              << count;
+        }
       }
     }
   }

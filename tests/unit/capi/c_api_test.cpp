@@ -186,7 +186,7 @@ TEST(CApiOpen, OtherProtocols_HaveDataAndRegisters) {
 
 TEST(CApiOpen, File_FindsItsEdgeFileBesideIt) {
   char error[200];
-  mb4sim* sim = mb4sim_open_file(MB4_EXAMPLES "/ti-tidep0022.toml", error, sizeof error);
+  mb4sim* sim = mb4sim_open_file(MB4_EXAMPLES "/ti-tidm-1010.toml", error, sizeof error);
   ASSERT_NE(sim, nullptr) << error;
   EXPECT_EQ(mb4sim_slave_set_data(sim, 1, 0), MB4SIM_ERROR_VALUE);  // a recording has no data
   mb4sim_close(sim);

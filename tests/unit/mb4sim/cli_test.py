@@ -187,7 +187,7 @@ class Cli(CliTest):
         words = self.path("words.txt", "1\n2\n")
         scenario = self.path("s.toml", slave('data_bits = 8\nsource = "file"\nfile = "words.txt"'))
         edges = self.path("ti.edges")
-        shutil.copy(os.path.join(EXAMPLES, "ti-tidep0022.edges"), edges)
+        shutil.copy(os.path.join(EXAMPLES, "ti-tidm-1010.edges"), edges)
         replay = self.path("replay.toml", "[host]\nma_hz = 1_000_000\n[[channel]]\nnumber = 1\n"
                            "[[channel.slave]]\nprotocol = \"replay\"\nedges = \"ti.edges\"\n"
                            "data_bits = 15\n")
@@ -336,7 +336,7 @@ class Cli(CliTest):
         self.assertEqual(first.stdout, run("run", RESOLUTE).stdout)
 
     def test_run_reads_the_recorded_frame_of_ti(self):
-        result = run("run", os.path.join(EXAMPLES, "ti-tidep0022.toml"), "--frames", "2", "--json")
+        result = run("run", os.path.join(EXAMPLES, "ti-tidm-1010.toml"), "--frames", "2", "--json")
         self.assertEqual(result.returncode, 0, result.stderr)
         for frame in json.loads(result.stdout)["frames"]:
             self.assertEqual(frame["position"], 0x0E08)
@@ -393,7 +393,7 @@ class Cli(CliTest):
 
     def test_run_with_bad_frames_is_status_1(self):
         # A recording whose CRC is wrong in one bit.
-        with open(os.path.join(EXAMPLES, "ti-tidep0022.edges"), encoding="utf-8") as file:
+        with open(os.path.join(EXAMPLES, "ti-tidm-1010.edges"), encoding="utf-8") as file:
             edges = file.read()
         bad = edges.replace("24500  0", "23500  0")
         self.assertNotEqual(bad, edges)

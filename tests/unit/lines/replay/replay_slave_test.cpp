@@ -19,16 +19,16 @@ namespace {
 constexpr Time kStart = 5 * kPsPerUs;
 
 ReplaySlaveConfig ti_frame() {
-  std::ifstream in(MB4_EXAMPLES "/ti-tidep0022.edges");
+  std::ifstream in(MB4_EXAMPLES "/ti-tidm-1010.edges");
   std::ostringstream text;
   text << in.rdbuf();
   ReplaySlaveConfig config;
-  config.recording = parse_recording(text.str(), "ti-tidep0022.edges");
+  config.recording = parse_recording(text.str(), "ti-tidm-1010.edges");
   config.data_bits = 15;
   return config;
 }
 
-// TI TIDEP0022: CDS 0, position 0111000001000, nE = nW = 1, CRC line bits 101110, stop 0.
+// TI TIDM-1010, reference stimulus: CDS 0, position 0111000001000, nE = nW = 1, CRC line bits 101110, stop 0.
 const char* const kTiBits =
     "1010"
     "0111000001000"
