@@ -14,7 +14,10 @@
 //   with FREQAGS = AGSINFINITE it also asks for a frame.
 // - A BiSS B register access (go_o.register_access) takes the place of a frame. INIT of BiSS B is
 //   only the hand-over of such an access.
-// - INIT waits for the slaves' timeout of the frame before it, but not without limit (INIT_WAIT).
+// - INIT waits for the slaves' timeout of the frame before it, but not without limit (WAIT).
+// - A BREAK that cuts something, and a reset, leave slaves that may still be in a frame, where SL
+//   tells nothing. INIT then waits until MA has rested and SL has been 1 on the lines in use for
+//   1024 clocks, or SL has been 0 for 2048 clocks (decision 46).
 //
 // Misuse and errors:
 //
@@ -31,7 +34,8 @@
 //   biss_control_frame ends it.
 // - INSTR written with the code whose frame runs does not ask for another frame.
 //
-// Datasheet: pages 31..33, Tables 44..49; decisions 1, 3, 8, 14, 15, 19, 23, 25, 26, 37, 42.
+// Datasheet: pages 31..33, Tables 44..49; decisions 1, 3, 8, 14, 15, 19, 23, 25, 26, 37, 42,
+// 46.
 
 `include "enc_check.svh"
 
@@ -94,7 +98,10 @@ module mb4_sequencer #(
   logic [1:0]       use_d, use_q, done_d, done_q;
   logic             bad_d, bad_q;
   logic             reduced_d, reduced_q;  // the running frame ends after CDS
-  logic [10:0]      wait_d, wait_q;  // half MA periods left for the return of SL to 1
+  logic             cut_d, cut_q;  // slaves may be in a frame that has been cut
+  // Half MA periods left for the return of SL to 1. After a cut: clocks, and the highest bit is 0
+  // while the lines rest.
+  logic [11:0]      wait_d, wait_q;
   logic             written;
   mb4_pkg::instr_t  asked;         // the byte of the host
   biss_pkg::line_status_t status1, status2;
@@ -103,6 +110,7 @@ module mb4_sequencer #(
   logic             held_back, may_run;  // a frame is held back by HOLDBANK, may run
   logic             start, init, register_access, mo_return, abort;
   logic             frame_end, swap, all_idle, sl_low;
+  logic             sl_high, rests, waited;
   logic             returned, runs;        // INIT's timeout is over; a frame or INIT goes on
   logic             busy, clear_flags, scd_en, ags_error, bank_fail;
   logic             by_instr, begins;  // INSTR asks for a frame, for a control communication
@@ -111,7 +119,8 @@ module mb4_sequencer #(
 
   // INIT does not test SL (page 33), but the slaves need their timeout before and after it. So SL
   // has 1024 MA periods to return to 1. The longest timeout in the field has 400 (40 us, 10 MHz).
-  localparam logic [10:0] INIT_WAIT = 11'h7FF;
+  // The highest bit does not count.
+  localparam logic [11:0] WAIT = 12'hFFF;
 
   // ack comes two clocks after new_q. REGEND has fallen by then.
   enc_count_rx u_written (
@@ -133,6 +142,9 @@ module mb4_sequencer #(
   assign all_idle = idle == 2'b11;   // also lines out of use: they share the time base
   assign sl_low   = (kind_i.in_use & (idle | {status2.timeout, status1.timeout}) &
                      ~{status2.sl, status1.sl}) != 2'b00;
+  assign sl_high  = (kind_i.in_use & ~{status2.sl, status1.sl}) == 2'b00;
+  assign rests    = all_idle && sl_high;
+  assign waited   = wait_q[10:0] == 11'd0;
   assign by_instr = new_q && kind_i.is_frame && kind_i.in_use != 2'b00 &&
                     (!held_q.ags || request_i.infinite);
   assign begins   = new_q && kind_i.in_use != 2'b00 && !held_q.init && state_q != INIT_TIMEOUT;
@@ -159,13 +171,12 @@ module mb4_sequencer #(
   // start and init stand apart from the cases below: all lines wait for them, so they take only
   // all_idle of the lines. If all are idle, a request by GETSENS is due, and SL counts on each line
   // in use.
-  assign init        = all_idle && state_q == IDLE && held_q.init && !mem_i.clears &&
+  assign init        = all_idle && state_q == IDLE && held_q.init && !cut_q &&
                        kind_i.init_use != 2'b00 && (BissB || regvers_i);
   assign start       = all_idle && state_q == IDLE && !(written && asked.brk) &&
-                       ((held_q.init && !mem_i.clears)
-                            ? kind_i.init_use != 2'b00 && (BissB || regvers_i)
-                            : may_run && (by_instr || request_i.asks) && !held_back &&
-                              (kind_i.in_use & ~{status2.sl, status1.sl}) == 2'b00);
+                       (held_q.init
+                            ? !cut_q && kind_i.init_use != 2'b00 && (BissB || regvers_i)
+                            : may_run && (by_instr || request_i.asks) && !held_back && sl_high);
 
   always_comb begin
     state_d      = state_q;
@@ -174,7 +185,8 @@ module mb4_sequencer #(
     use_d        = use_q;
     done_d       = done_q;
     bad_d        = bad_q;
-    wait_d       = (tick_i && wait_q != 11'd0) ? wait_q - 11'd1 : wait_q;
+    wait_d       = ((tick_i || cut_q) && !waited) ? wait_q - 12'd1 : wait_q;
+    cut_d        = cut_q;
     abort        = 1'b0;
     swap         = 1'b0;
     init_clear_o = 1'b0;
@@ -197,8 +209,12 @@ module mb4_sequencer #(
           held_d.instr = 3'b000;
           void_o       = 1'b1;
         end
-        if (held_q.init && !mem_i.clears) begin
-          if (kind_i.init_use == 2'b00 || (!BissB && !regvers_i)) begin
+        if (cut_q && wait_q[11] == rests) wait_d = {!rests, !rests, 10'h3FF};
+        else if (waited)                  cut_d  = 1'b0;
+        if (held_q.init) begin
+          if (cut_q) begin
+            // What has been cut comes to rest first. A reset has cut everything.
+          end else if (kind_i.init_use == 2'b00 || (!BissB && !regvers_i)) begin
             held_d.init  = 1'b0;
             init_clear_o = 1'b1;
             if (!BissB && !regvers_i) void_o = 1'b1;
@@ -207,7 +223,7 @@ module mb4_sequencer #(
             use_d        = kind_i.init_use;
             done_d       = ~kind_i.init_use;
             state_d      = INIT;
-          end else if (wait_q == 11'd0) begin
+          end else if (waited) begin
             abort = 1'b1;
           end
         end else if ((by_instr || request_i.due) && may_run) begin
@@ -239,6 +255,7 @@ module mb4_sequencer #(
         // A frame or a register access runs. It ends when the last of its lines has ended.
         bad_d  = bad_q || word_bad_i != 2'b00;
         done_d = done_q | line_end;
+        wait_d = WAIT;
         if (done_d == 2'b11) begin
           state_d = FRAME_DONE;
           scd_en  = !reduced_q && !register_q;
@@ -247,7 +264,7 @@ module mb4_sequencer #(
       FRAME_DONE: begin
         // All lines have brought their last bit. The banks switch in the next clock.
         state_d   = IDLE;
-        wait_d    = INIT_WAIT;
+        wait_d    = WAIT;
         if (!held_q.ags && !new_q) held_d.instr = 3'b000;
       end
       INIT: begin
@@ -255,7 +272,7 @@ module mb4_sequencer #(
         // the hand-over (BiSS B).
         done_d    = done_q | init_done | init_fail | line_end;
         ags_error = (init_fail & use_q) != 2'b00;
-        wait_d    = INIT_WAIT;
+        wait_d    = WAIT;
         if (done_d == 2'b11) state_d = INIT_TIMEOUT;
       end
       INIT_TIMEOUT: begin
@@ -295,7 +312,7 @@ module mb4_sequencer #(
         new_d       = asked.instr != 3'b000;
         held_d.init = asked.init;
         ags_error   = 1'b0;
-        wait_d      = INIT_WAIT;
+        if (state_q != IDLE || !all_idle || control_active_i) cut_d = 1'b1;
       end
       if (quirks_i[mb4_pkg::QUIRK_AGSERR_ON_INSTR_WR]) ags_error = 1'b1;
     end
@@ -306,7 +323,9 @@ module mb4_sequencer #(
     if (!rst_ni) begin
       state_q    <= IDLE;
       held_q     <= '0;
-      {new_q, use_q, done_q, bad_q, reduced_q, register_q, awaits_q, wait_q} <= '0;
+      {new_q, use_q, done_q, bad_q, reduced_q, register_q, awaits_q} <= '0;
+      cut_q      <= 1'b1;
+      wait_q     <= WAIT;
     end else begin
       state_q    <= state_d;
       held_q     <= held_d;
@@ -317,11 +336,12 @@ module mb4_sequencer #(
       reduced_q  <= reduced_d;
       register_q <= register_d;
       awaits_q   <= awaits_d;
+      cut_q      <= cut_d;
       wait_q     <= wait_d;
     end
   end
 
-  // Slaves that pass MO on do not show their timeout on SL. So MO stays low for half of INIT_WAIT,
+  // Slaves that pass MO on do not show their timeout on SL. So MO stays low for half of WAIT,
   // which covers the timeout, and SL has the other half to follow MO (decision 39).
   assign mo_return = state_q == INIT_TIMEOUT && !wait_q[10];
   assign instr_o     = {ack, held_q};
@@ -335,7 +355,7 @@ module mb4_sequencer #(
   assign lines_idle_o = all_idle;
   // runs is state_d != IDLE, but the last bit of a frame and SL do not end it: they come late. With
   // AGS = 1 INSTR asks for no frame, unless FREQAGS is AGSINFINITE.
-  assign returned = (use_q & ~idle) == 2'b00 || wait_q == 11'd0;
+  assign returned = (use_q & ~idle) == 2'b00 || waited;
   assign runs = start || (!(written && asked.brk) &&
                           (state_q == FRAME || state_q == INIT ||
                            (state_q == INIT_TIMEOUT && !returned)));

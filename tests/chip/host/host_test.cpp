@@ -156,6 +156,57 @@ TEST_P(ParallelHostChip, SpiFramesOnTheParallelStraps_ChangeNothing) {
 
 INSTANTIATE_TEST_SUITE_P(Hosts, ParallelHostChip, testing::Values("intel", "motorola"));
 
+// Table 1, the other way round: cycles of both buses to every address, with CFGSPI = 1. Each has an
+// NCS of its own, so ALE is a single SCLK edge of an incomplete byte (decision 13).
+TEST(ChipStraps, BusStrobesOnTheSpiStraps_ChangeNothing) {
+  for (const bool intel : {true, false}) {
+    Chip chip("[host]\ninterface = \"spi\"\n");
+    auto& simulator = chip.simulator;
+    simulator.set_pin(Pin::kIntNmot, intel);
+    chip.write(reg::slave_cfg_address(1), {reg::kEnscdYes | 27, reg::kScrclenCrc6, 0x12, 0x34});
+    const Bytes before = chip.read(0x00, 0x100);
+    const auto set = [&](Pin pin, bool level) {
+      simulator.set_pin(pin, level);
+      simulator.advance(50 * sim::kPsPerNs);
+    };
+    const auto strobe = [&](bool read, bool active) {
+      if (intel) {
+        set(read ? Pin::kNrdRnw : Pin::kNwrE, !active);
+      } else {
+        set(Pin::kNwrE, active);
+      }
+    };
+    const auto cycle = [&](bool read, unsigned address, unsigned value) {
+      drive_bus(simulator, address);
+      set(Pin::kNcs, false);
+      set(Pin::kAle, true);
+      set(Pin::kAle, false);
+      if (!intel) set(Pin::kNrdRnw, read);
+      drive_bus(simulator, value);
+      strobe(read, true);
+      for (unsigned bit = 2; bit < 7; ++bit) {
+        const auto pin = static_cast<Pin>(static_cast<unsigned>(Pin::kDb0) + bit);
+        EXPECT_EQ(simulator.pin(pin), ((value >> bit) & 1U) != 0) << "the chip drives DB" << bit;
+      }
+      strobe(read, false);
+      set(Pin::kNcs, true);
+      set(Pin::kNrdRnw, true);
+      drive_bus(simulator, 0);
+    };
+    simulator.set_pin(Pin::kNwrE, intel);
+    for (unsigned address = 0; address < 0x100; ++address) {
+      for (const unsigned value : {0x00U, 0xFFU, ~unsigned{before[address]} & 0xFFU}) {
+        cycle(false, address, value);
+      }
+      cycle(true, address, 0x00);
+      EXPECT_TRUE(simulator.pin(Pin::kEot)) << address;
+    }
+    simulator.set_pin(Pin::kNwrE, true);
+    EXPECT_EQ(chip.read(0x00, 0x100), before) << (intel ? "Intel" : "Motorola");
+    simulator.host_check().clear();
+  }
+}
+
 // HOLDBANK at once followed by a read, while frames end all the time: the word and its SVALID are
 // of one frame, at the shortest bus cycles and at the highest SCLK, also with a slow clock.
 struct HoldCase {
@@ -593,6 +644,40 @@ TEST(ChipNoClockWrites, DataBytes_TakeEffectWhenTheClockComes) {
   chip.write(reg::kAddrIface, {reg::kClkeniInternal});
   chip.advance_us(20);
   EXPECT_EQ(chip.read(reg::scdata_address(3), 9), (Bytes{1, 2, 3, 4, 5, 6, 7, 8, 9}));
+}
+
+// Page 30, Table 35: f_CLK is the clock that CLKENI selects. Both clocks run; T_MA and the pitch of
+// automatic frames (Table 37) are multiples of the periods of the selected one.
+TEST(ChipClockPin, ClkeniSelectsBetweenTwoLiveClocks_MaAndAgsFollow) {
+  struct Clocks {
+    const char* keys;
+    std::array<sim::Time, 2> period;  // of CLKENI = 0, 1, ps
+  };
+  for (const Clocks& clocks :
+       {Clocks{"f_clk_hz = 20000000\nf_osc_hz = 12500000", {50'000, 80'000}},
+        Clocks{"f_clk_hz = 10000000\nf_osc_hz = 25000000", {100'000, 40'000}}}) {
+    Chip chip(
+        one_slave("data_bits = 28\ncrc = 0x43\ndata = 0xAAF37BF\ntimeout = 5.0", "", clocks.keys));
+    chip.configure_slave1(28, reg::kScrclenCrc6, reg::FREQS::of(2), 0x31);  // 6 T, 1000 T
+    auto& monitor = chip.simulator.line(1)->monitor();
+    for (const unsigned clkeni : {0U, 1U, 0U, 1U}) {
+      const sim::Time period = clocks.period.at(clkeni);
+      chip.write(reg::kAddrIface, {clkeni != 0 ? reg::kClkeniInternal : std::uint8_t{0}});
+      chip.advance_us(200);
+      chip.instruct(reg::kAgsOn);
+      chip.simulator.advance(2500 * period);
+      const sim::MaFrame first = monitor.last(chip.simulator.now());
+      chip.simulator.advance(1000 * period);
+      const sim::MaFrame second = monitor.last(chip.simulator.now());
+      EXPECT_EQ(second.start - first.start, 1000 * period) << clocks.keys << ", " << clkeni;
+      for (const sim::Time width :
+           {second.min_high, second.max_high, second.min_low, second.max_low}) {
+        EXPECT_EQ(width, 3 * period) << clocks.keys << ", " << clkeni;
+      }
+      chip.instruct(0);
+      chip.advance_us(100);
+    }
+  }
 }
 
 // Decision 32, Table 7: a pin CLK that stops after it has run does not keep the oscillator away.

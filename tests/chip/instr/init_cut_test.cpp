@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// INIT after something has been cut: by BREAK, by a reset, or by taking a line out of use. The
-// slaves may still be in their frame or timeout then (decision 46; pages 16, 32, 33).
+// INIT after BREAK or a reset has cut something. The slaves may still be in their frame or timeout
+// then (decision 46; pages 16, 32, 33).
 #include <gtest/gtest.h>
 
 #include <array>
@@ -37,6 +37,7 @@ struct CutChip : Chip {
   explicit CutChip(unsigned timeout_us, const std::string& keys = "", std::uint8_t freqags = 0x00)
       : Chip(one_slave(keys.empty() ? slave_with(timeout_us) : keys, kDelay)) {
     simulator.spi().set_timing(sim::SpiTiming::for_frequency(50'000'000));
+    simulator.bus().set_timing({});
     configure_slave1(28, reg::kScrclenCrc6, 0x00, freqags);
     advance_us(100);  // the reset is long ago
   }
@@ -83,7 +84,7 @@ TEST(ChipInitCut, BehindABreakInAFrame_MeasuresTheDelayInEachPhase) {
 // A word of ones leaves SL at 1 in the middle of the frame: SL tells nothing of the slave, and only
 // the rest of MA counts.
 TEST(ChipInitCut, SlIsHighInTheSlavesFrame_InitWaitsFor1024Clocks) {
-  for (unsigned phase = 0; phase < 30; ++phase) {
+  for (unsigned phase = 0; phase < 22; ++phase) {
     CutChip chip(38, slave_with(38, "0xFFFFFFF"));
     chip.instruct(reg::kInstrCdm0);
     chip.simulator.advance((900 + phase * 90) * sim::kPsPerNs);
@@ -167,8 +168,7 @@ TEST(ChipInitCut, BreakThatCutNothing_DelaysNothing) {
     const sim::Time cut = chip.simulator.now();
     chip.advance_us(40);
     const sim::Time wait = chip.simulator.now() - cut + wait_of_init(chip, same_byte);
-    EXPECT_GE(wait, 1024 * kPeriod);
-    EXPECT_LE(wait, (1024 + 100) * kPeriod);
+    EXPECT_NEAR(static_cast<double>(wait / kPeriod), 1024, 100);
   }
 }
 
@@ -198,15 +198,14 @@ TEST(ChipInitCut, BreakInInitOrAccess_TheNextInitWaits) {
 // Frames of AGS after the BREAK: INIT waits for their end too.
 TEST(ChipInitCut, FramesAfterTheBreak_InitWaitsForRest) {
   for (unsigned phase = 0; phase < 40; ++phase) {
-    CutChip chip(20, "", reg::kFreqagsAgsMin);
+    CutChip chip(5, "", 0x09);  // 10 us
     chip.instruct(reg::kAgsOn);
     chip.simulator.advance((50'000 + phase * 700) * sim::kPsPerNs);
     chip.instruct(reg::kBreakAbort | reg::kAgsOn);
-    chip.simulator.advance(phase * 300 * sim::kPsPerNs);
+    chip.simulator.advance(phase * 700 * sim::kPsPerNs);
     chip.instruct(reg::kInitStart);
-    const auto until = chip.simulator.now() + 400 * sim::kPsPerUs;
-    ASSERT_TRUE(chip.simulator.run_while_waiting(
-        [&] { return (chip.read(reg::kAddrInstr) & reg::kInitStart) == 0; }, until));
+    unsigned polls = 0;
+    while ((chip.read(reg::kAddrInstr) & reg::kInitStart) != 0) ASSERT_LT(++polls, 1000U) << phase;
     EXPECT_EQ(chip.status() & reg::nAGSERR::kMask, reg::kNagserrGood) << phase;
     EXPECT_EQ(chip.read(reg::kAddrScdata), kDelayPoints) << phase;
     if (testing::Test::HasFailure()) return;
@@ -225,24 +224,6 @@ TEST(ChipInitCut, BehindAReset_MeasuresTheDelayInEachPhase) {
       chip.simulator.set_pin(sim::Pin::kNres, true);
       chip.simulator.advance(300 * sim::kPsPerNs);
       chip.configure_slave1(28, reg::kScrclenCrc6, 0x00, 0x00);
-      chip.instruct(reg::kInitStart);
-      chip.expect_init("timeout " + std::to_string(timeout_us) + " us, phase " +
-                       std::to_string(phase));
-      if (testing::Test::HasFailure()) return;
-    }
-  }
-}
-
-// Another brother: a line that is out of use does not wait for its slaves, and comes back.
-TEST(ChipInitCut, BehindALineThatWasOutOfUse_MeasuresTheDelayInEachPhase) {
-  for (const unsigned timeout_us : kTimeoutsUs) {
-    for (unsigned phase = 0; phase < 40; ++phase) {
-      CutChip chip(timeout_us);
-      chip.instruct(reg::kInstrCdm0);
-      chip.simulator.advance(phase * 160 * sim::kPsPerNs);
-      chip.write(reg::kAddrCfgch, {reg::kCfgch2Unused | reg::kCfgch1Unused});
-      chip.advance_us(5);  // the frame has ended
-      chip.write(reg::kAddrCfgch, {reg::kCfgch2Unused | reg::kCfgch1BissC});
       chip.instruct(reg::kInitStart);
       chip.expect_init("timeout " + std::to_string(timeout_us) + " us, phase " +
                        std::to_string(phase));

@@ -132,6 +132,39 @@ TEST(ChipRegisters, Entest_ReadsBackAndChangesNothing) {
   }
 }
 
+// Pages 18, 19, decision 13: from every address on the address grows by one with each byte, and
+// goes from 0xFF to 0x00, in writes and in reads.
+TEST(ChipRegisters, BurstFromEveryAddress_GrowsByOneAndWraps) {
+  Chip chip("");
+  chip.simulator.spi().set_timing(sim::SpiTiming::for_frequency(50'000'000));
+  chip.simulator.bus().set_timing({});
+  const auto value = [](unsigned first, unsigned address) {
+    // No instruction, no force bits, and SVALID keeps its zeros.
+    if (address >= reg::kAddrStatus0) return std::uint8_t{0};
+    return static_cast<std::uint8_t>(address * 37 + first * 11 + 5);
+  };
+  constexpr unsigned kCount = 0x100 + 8;
+  std::vector<std::uint8_t> tx(kCount + 2);
+  for (unsigned first = 0; first < 0x100; ++first) {
+    tx[0] = reg::kSpiOpcodeWriteRegisters;
+    tx[1] = static_cast<std::uint8_t>(first);
+    // The second round has other bytes: the last eight addresses hold those.
+    for (unsigned i = 0; i < kCount; ++i) {
+      tx[i + 2] = value(i < 0x100 ? first : first + 1, (first + i) & 0xFFU);
+    }
+    chip.spi(tx);
+    chip.advance_us(2);
+    const auto read = chip.read(static_cast<std::uint8_t>(first), kCount);
+    for (unsigned i = 0; i < kCount; ++i) {
+      const unsigned address = (first + i) & 0xFFU;
+      const bool again = ((address - first) & 0xFFU) < kCount - 0x100;
+      const Bits bits = table6(address);
+      ASSERT_EQ(read[i], (value(again ? first + 1 : first, address) & bits.writable) | bits.fixed)
+          << std::hex << "from " << first << ", address " << address;
+    }
+  }
+}
+
 // Decision 32: the host domain needs no system clock.
 TEST(ChipNoClock, ClkNotConnected_ConfigurationIsWrittenAndRead) {
   Chip chip("[chip]\nf_clk_hz = 0\n");
@@ -208,6 +241,58 @@ TEST(ChipSvalid, CrcOff_IsSetAfterTheFrame) {
   ASSERT_TRUE(chip.wait_eot());
   EXPECT_EQ(chip.read(reg::kAddrSvalidLo), reg::SVALID<1>::kMask);
   EXPECT_EQ(chip.read(reg::kAddrScdata, 2), (std::vector<std::uint8_t>{0xBC, 0x0A}));
+}
+
+// Page 35: the flag of a word without a CRC comes with its last bit, not before. With one bank the
+// host sees it all the time.
+TEST(ChipSvalid, CrcOff_IsZeroWhileTheWordComes) {
+  constexpr sim::Time kHalf = 8 * sim::kPsPerUs;  // of T_MA = 320 T
+  for (const bool ssi : {false, true}) {
+    const std::string kind = ssi ? "protocol = \"ssi\"\n" : "protocol = \"biss-c\"\n";
+    const std::string word = kind + "data_bits = 12\ncrc = 0\nflag_bits = 0\ntimeout = 400.0\n";
+    Chip chip("[host]\ninterface = \"spi\"\n[[channel]]\nnumber = 1\n[[channel.slave]]\n" + word +
+              (ssi ? "" : "[[channel.slave]]\n" + word));
+    const unsigned words = ssi ? 1 : 2;
+    chip.configure_slave1(12, 0, 0x1F, 0xFF);
+    chip.write(reg::kAddrBankcfg, {reg::kSinglebankOneBank});
+    if (ssi) chip.write(reg::kAddrCfgch, {reg::kCfgch2Unused | reg::kCfgch1Ssi});
+    if (!ssi) chip.write(reg::slave_cfg_address(2), {reg::kEnscdYes | 11, 0, 0, 0});
+    for (int frame = 0; frame < 2; ++frame) {
+      chip.instruct(reg::kInstrCdm0);
+      ASSERT_TRUE(
+          chip.simulator.run_while_waiting([&] { return !chip.simulator.pin(sim::Pin::kMa1); },
+                                           chip.simulator.now() + 50 * sim::kPsPerUs));
+      const sim::Time start = chip.simulator.now();
+      const auto edges = [&] {  // rising edges of MA so far
+        return static_cast<unsigned>((chip.simulator.now() - start + kHalf) / (2 * kHalf));
+      };
+      const unsigned before = ssi ? 0 : 4;  // edges before those of the words
+      const std::uint8_t flags[] = {reg::SVALID<1>::kMask, reg::SVALID<2>::kMask};
+      std::array<unsigned, 2> zeros{}, ones{};
+      while (!chip.simulator.pin(sim::Pin::kEot)) {
+        const unsigned edge = edges();
+        const std::uint8_t svalid = chip.read(reg::kAddrSvalidLo);
+        if (edges() != edge) continue;  // an edge in the read
+        for (unsigned k = 0; k < words; ++k) {
+          // Bit 1 of the word comes with the next edge after `last`, its last one 11 edges later.
+          const unsigned last = before + 12 * k;
+          if (edge > last + 1 && edge < last + 12) {
+            EXPECT_EQ(svalid & flags[k], 0) << "word " << k << ", edge " << edge;
+            ++zeros[k];
+          } else if (edge > last + 13) {
+            EXPECT_EQ(svalid & flags[k], flags[k]) << "word " << k << ", edge " << edge;
+            ++ones[k];
+          }
+        }
+      }
+      for (unsigned k = 0; k < words; ++k) {
+        EXPECT_GT(zeros.at(k), 30U) << k;
+      }
+      EXPECT_TRUE(words == 1 || ones.at(0) > 20U);
+      EXPECT_EQ(chip.read(reg::kAddrSvalidLo), words == 2 ? flags[0] | flags[1] : flags[0]);
+      chip.advance_us(1000);
+    }
+  }
 }
 
 // Table 48: HOLDBANK keeps data and SVALID; the switch follows when it is released.

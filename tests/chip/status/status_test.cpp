@@ -227,6 +227,45 @@ TEST(ChipStatus, CdsUnderHoldBank_SwitchesWithTheBank) {
   EXPECT_EQ(chip.read(reg::kAddrStatus8), 0x55);
 }
 
+// Table 49, page 35: CDS and CDSSEL belong to their bank. Each inversion of SWBANK shows those of
+// the other one at once, also in the middle of a frame, whose CDS goes to the frame's bank.
+TEST(ChipStatus, CdsUnderSwbank_SwitchesWithTheBank) {
+  for (const unsigned line : {1U, 2U}) {
+    Chip chip(two_lines());
+    configure_two_lines(chip);
+    chip.write(reg::kAddrChsel, {static_cast<std::uint8_t>(line)});
+    const auto expect_cds = [&](bool high, const char* when) {
+      EXPECT_EQ(chip.read(reg::kAddrStatus8), 0x55U | (high ? (line == 1 ? 0x02U : 0x08U) : 0U))
+          << when << ", line " << line;
+      EXPECT_EQ(chip.read(reg::kAddrStatus3) & reg::CDSSEL::kMask, high ? reg::kCdsselHigh : 0)
+          << when << ", line " << line;
+    };
+    frame_with_cds(chip, line);
+    expect_cds(true, "frame with CDS = 1");
+    frame(chip);
+    expect_cds(false, "frame with CDS = 0");
+    std::uint8_t swbank = 0;
+    for (int turn = 0; turn < 4; ++turn) {
+      swbank ^= reg::SWBANK::kMask;
+      chip.instruct(swbank);
+      chip.advance_us(1);
+      expect_cds(turn % 2 == 0, "SWBANK");
+    }
+    // The host has the bank of CDS = 0. After the inversion in the frame it has that of CDS = 1;
+    // the frame ends in the other one, and the switch at its end shows its CDS.
+    for (const bool high : {true, false}) {
+      if (high) chip.simulator.line(line)->faults().flip_next_frame({1});
+      chip.instruct(swbank | reg::kInstrCdm0);
+      chip.advance_us(2);
+      swbank ^= reg::SWBANK::kMask;
+      chip.instruct(swbank | reg::kInstrCdm0);
+      ASSERT_TRUE(chip.wait_eot());
+      expect_cds(high, "SWBANK in a frame");
+      chip.advance_us(10);
+    }
+  }
+}
+
 // Decision 14: a reduced frame changes only the CDS bits, at once. Under HOLDBANK the host's bank
 // does not change; the CDS bits go to the other bank.
 TEST(ChipStatus, CdsOfReducedFrames_ShowsAtOnceButNotUnderHoldBank) {

@@ -22,6 +22,7 @@ constexpr unsigned kAgs = 0x01, kInit = 0x10, kSwbank = 0x20, kHoldbank = 0x40, 
 constexpr unsigned kCdm0 = reg::INSTR::of(reg::Instr::kCdm0);
 constexpr unsigned kCdm1 = reg::INSTR::of(reg::Instr::kCdm1);
 constexpr unsigned kControl = reg::INSTR::of(reg::Instr::kControl);
+constexpr unsigned kCut = 1100;  // clocks after which INIT waits no more, and some
 // Places in mb4_pkg: request_t, flags.
 constexpr unsigned kDue = 8 | 4, kAgsmin = 2, kInfinite = 1;
 constexpr unsigned kAgserrOnWrite = 2, kAgserrOnHoldbank = 4, kAgsCleared = 8;  // quirks
@@ -35,7 +36,7 @@ class SequencerBlock : public testing::Test {
     m.regvers_i = m.tick_i = 1;
     m.status_i = 0x231;
     block.reset();
-    clocks(5);
+    clocks(kCut);  // INIT waits after a reset (decision 46)
     forget();
   }
   void clock() {
@@ -182,7 +183,7 @@ TEST_F(SequencerBlock, Break_EndsEverythingAtOnce) {
         for (const unsigned end : ends) EXPECT_LT(end, stops[0]);
         for (const unsigned result : results) EXPECT_LT(result, stops[0]);
         forget();
-        clocks(100);
+        clocks(kCut);
         EXPECT_TRUE(starts.empty() && inits.empty() && ends.empty());
         write(0);
       }
@@ -236,6 +237,35 @@ TEST_F(SequencerBlock, InitWithoutEndOfTheTimeout_IsNotHeldForEver) {
   EXPECT_NEAR(stops[0] - ends.at(0), 2 * 1024, 2);
   ASSERT_EQ(inits.size(), 1U);
   EXPECT_GT(inits[0], stops[0]);
+}
+
+// Decision 46: after a BREAK that cut something INIT waits for 1,024 clocks of SL = 1 in one piece,
+// at most 2,048 of SL = 0. One that cut nothing delays nothing.
+TEST_F(SequencerBlock, InitBehindBreak_WaitsFor1024ClocksOfRest) {
+  for (const unsigned cut : {kCdm1, kInit}) {
+    for (const unsigned low : {0U, 700U, 3000U}) {
+      for (const bool same_byte : {false, true}) {
+        write(cut);
+        clocks(12);
+        forget();
+        low_lines = low == 0 ? 0 : 2;
+        const unsigned begin = now;
+        write(same_byte ? kBreak | kInit : kBreak);
+        if (!same_byte) write(kInit);
+        while (now - begin < low) clock();
+        low_lines = 0;
+        clocks(2500);
+        ASSERT_EQ(inits.size(), 1U) << low;
+        EXPECT_NEAR(inits[0] - begin, low == 3000 ? 2048 : low + 1024, 20) << low;
+        EXPECT_EQ(held(), 0U);
+        EXPECT_EQ(ags_errors, 0U);
+        forget();
+        write(kBreak | kInit);
+        ASSERT_EQ(inits.size(), 1U) << "nothing was cut";
+        clocks(kCut);
+      }
+    }
+  }
 }
 
 // Decision 3: SL = 0 when a frame is due is nAGSERR = 0, or with AGSMIN waits for SL = 1.
