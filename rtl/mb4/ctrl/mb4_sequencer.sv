@@ -34,8 +34,7 @@
 //   biss_control_frame ends it.
 // - INSTR written with the code whose frame runs does not ask for another frame.
 //
-// Datasheet: pages 31..33, Tables 44..49; decisions 1, 3, 8, 14, 15, 19, 23, 25, 26, 37, 42,
-// 46.
+// Datasheet: pages 31..33, Tables 44..49; decisions 1, 3, 8, 14, 15, 19, 23, 25, 26, 37, 42, 46.
 
 `include "enc_check.svh"
 
@@ -84,13 +83,7 @@ module mb4_sequencer #(
   input  logic       stale_i          // kind_i still has the settings of an access that has ended
 );
 
-  typedef enum logic [2:0] {
-    IDLE,
-    FRAME,
-    FRAME_DONE,
-    INIT,
-    INIT_TIMEOUT
-  } state_e;
+  typedef enum logic [2:0] {IDLE, FRAME, FRAME_DONE, INIT, INIT_TIMEOUT} state_e;
 
   state_e           state_d, state_q;
   mb4_pkg::instr_t  held_d, held_q;
@@ -99,9 +92,7 @@ module mb4_sequencer #(
   logic             bad_d, bad_q;
   logic             reduced_d, reduced_q;  // the running frame ends after CDS
   logic             cut_d, cut_q;  // slaves may be in a frame that has been cut
-  // Half MA periods left for the return of SL to 1. After a cut: clocks, and the highest bit is 0
-  // while the lines rest.
-  logic [11:0]      wait_d, wait_q;
+  logic [11:0]      wait_d, wait_q;  // half MA periods left for the return of SL; clocks if cut_q
   logic             written;
   mb4_pkg::instr_t  asked;         // the byte of the host
   biss_pkg::line_status_t status1, status2;
@@ -109,8 +100,7 @@ module mb4_sequencer #(
   logic [1:0]       ack, idle, line_end, init_done, init_fail;
   logic             held_back, may_run;  // a frame is held back by HOLDBANK, may run
   logic             start, init, register_access, mo_return, abort;
-  logic             frame_end, swap, all_idle, sl_low;
-  logic             sl_high, rests, waited;
+  logic             frame_end, swap, all_idle, sl_low, sl_high, rests, waited;
   logic             returned, runs;        // INIT's timeout is over; a frame or INIT goes on
   logic             busy, clear_flags, scd_en, ags_error, bank_fail;
   logic             by_instr, begins;  // INSTR asks for a frame, for a control communication
@@ -119,16 +109,11 @@ module mb4_sequencer #(
 
   // INIT does not test SL (page 33), but the slaves need their timeout before and after it. So SL
   // has 1024 MA periods to return to 1. The longest timeout in the field has 400 (40 us, 10 MHz).
-  // The highest bit does not count.
-  localparam logic [11:0] WAIT = 12'hFFF;
+  localparam logic [11:0] WAIT = 12'hFFF;  // its highest bit counts with cut_q: 0 = lines rest
 
   // ack comes two clocks after new_q. REGEND has fallen by then.
   enc_count_rx u_written (
-    .clk_i,
-    .rst_ni,
-    .count_i (instr_i.count),
-    .pulse_o (written),
-    .ack_o   (ack)
+    .clk_i, .rst_ni, .count_i (instr_i.count), .pulse_o (written), .ack_o (ack)
   );
 
   assign {status2, status1} = status_i;
@@ -212,8 +197,7 @@ module mb4_sequencer #(
         if (cut_q && wait_q[11] == rests) wait_d = {!rests, !rests, 10'h3FF};
         else if (waited)                  cut_d  = 1'b0;
         if (held_q.init) begin
-          if (cut_q) begin
-            // What has been cut comes to rest first. A reset has cut everything.
+          if (cut_q) begin  // what has been cut comes to rest first
           end else if (kind_i.init_use == 2'b00 || (!BissB && !regvers_i)) begin
             held_d.init  = 1'b0;
             init_clear_o = 1'b1;
@@ -284,7 +268,6 @@ module mb4_sequencer #(
       end
       default: state_d = IDLE;
     endcase
-
     // With AGS = 1 the instruction ends with the control communication.
     if (control_end_i && held_q.instr[2] && (!new_q || control_stalled_i)) begin
       held_d.instr = 3'b000;
@@ -318,14 +301,12 @@ module mb4_sequencer #(
     end
     clear_flags = init_clear_o || break_o;
   end
-
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
       state_q    <= IDLE;
       held_q     <= '0;
       {new_q, use_q, done_q, bad_q, reduced_q, register_q, awaits_q} <= '0;
-      cut_q      <= 1'b1;
-      wait_q     <= WAIT;
+      {cut_q, wait_q} <= '1;
     end else begin
       state_q    <= state_d;
       held_q     <= held_d;
@@ -336,8 +317,7 @@ module mb4_sequencer #(
       reduced_q  <= reduced_d;
       register_q <= register_d;
       awaits_q   <= awaits_d;
-      cut_q      <= cut_d;
-      wait_q     <= wait_d;
+      {cut_q, wait_q} <= {cut_d, wait_d};
     end
   end
 

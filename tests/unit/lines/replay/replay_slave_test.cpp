@@ -28,7 +28,8 @@ ReplaySlaveConfig ti_frame() {
   return config;
 }
 
-// TI TIDM-1010, reference stimulus: CDS 0, position 0111000001000, nE = nW = 1, CRC line bits 101110, stop 0.
+// TI TIDM-1010, reference stimulus: CDS 0, position 0111000001000, nE = nW = 1, CRC line bits
+// 101110, stop 0.
 const char* const kTiBits =
     "1010"
     "0111000001000"
