@@ -139,6 +139,7 @@ TEST(DriverCall, PollSlave_KeepsToItsTransfers) {
         "[[channel]]\nnumber = 1\n[[channel.slave]]\nprotocol = \"biss-c\"\n"
         "data_bits = 28\ndata = 0\n");
     Config config = encoder(true);
+    config.slaves[0].flags = mb4::Flags::kNone;
     config.spi_check = check;
     ASSERT_TRUE(chip.device.configure(config).ok());
     ASSERT_TRUE(chip.device.automatic().start().ok());

@@ -38,7 +38,7 @@ struct Fast {
   Fast(const std::string& host, std::uint32_t step_us,
        const std::string& line =
            "[[channel.slave]]\nprotocol = \"biss-c\"\ndata_bits = 28\n"
-           "data = 0xABC\n")
+           "data = 0xABF\n")
       : simulator(sim::parse_scenario("[host]\n" + host + "\n[[channel]]\nnumber = 1\n" + line,
                                       "test.toml")),
         bus(simulator),
