@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // The page of the BiSS C master with N channels: identity, features, interrupt, time, skipped
-// starts, beats that were lost, the time of the sampling instant, and what configures extras.
+// starts, frames that were lost, the time of the sampling instant, and what configures extras.
 //
 // Clock domain: core. An access never waits. Words of other modules, and words of extras that
 // Extras does not have, read 0 and ignore writes. Reading a low word copies the high word that
@@ -30,7 +30,7 @@ module axi_page #(
   input  logic        alarm_i,      // a line delay has moved
   input  logic        access_end_i,
   input  logic        sense_i,      // the external sample clock rose
-  input  logic        overrun_i,    // a beat was lost
+  input  logic        overrun_i,    // a frame was lost
   // time base
   input  logic        tick_i,
   input  logic        half_next_i,
@@ -41,6 +41,7 @@ module axi_page #(
   logic [31:0] high_q;
   logic [15:0] skips_q;
   logic        lost_q;
+  logic [15:0] lost_frames_q;
   logic        wr_status, wr_enable, wr_lost;
   logic [4:0]  status, enable;
   logic [31:0] common, configuration, stamp;
@@ -76,13 +77,15 @@ module axi_page #(
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
-      high_q  <= '0;
-      skips_q <= '0;
-      lost_q  <= 1'b0;
+      high_q        <= '0;
+      skips_q       <= '0;
+      lost_q        <= 1'b0;
+      lost_frames_q <= '0;
     end else begin
       if (bus_i.rd && bus_i.addr == axi_regs_pkg::ADDR_TIME_LOW) high_q <= now[63:32];
       skips_q <= clear_i ? 16'd0 : skips_q + 16'(skip_i);
       lost_q  <= !clear_i && (overrun_i || (lost_q && !(wr_lost && bus_i.data[0])));
+      lost_frames_q <= clear_i ? 16'd0 : lost_frames_q + 16'(overrun_i);
     end
   end
 
@@ -97,7 +100,7 @@ module axi_page #(
       axi_regs_pkg::ADDR_TIME_LOW:      common       = now[31:0];
       axi_regs_pkg::ADDR_TIME_HIGH:     common       = high_q;
       axi_regs_pkg::ADDR_SKIP_COUNT:    common[15:0] = skips_q;
-      axi_regs_pkg::ADDR_STREAM_STATUS: common[0]    = lost_q;
+      axi_regs_pkg::ADDR_STREAM_STATUS: common       = {lost_frames_q, 15'd0, lost_q};
       default:                          common       = '0;
     endcase
   end

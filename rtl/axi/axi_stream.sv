@@ -8,15 +8,16 @@
 // Mode 0: one beat for each read, in the next clock, Lane bits for each channel (channel 0 lowest).
 //   s_axis_tready does not count. TLAST is 1. TUSER has a bit for each channel: 1 = its word is of
 //   this frame and good. Bits of a disabled channel are 0.
-// Mode 1: one beat for each enabled channel in ascending order, the first 2 clocks after done_i,
-//   one channel a clock; busy_o is high meanwhile, and the words must stay. TLAST comes with the
-//   last one. TUSER: 0 good, 1 nE, 2 nW, 3 CRC wrong, 15..8 channel.
-//   Beats that the sink does not take wait in a FIFO. overrun_o is high for one clock if one was
-//   lost because the FIFO was full.
+// Mode 1: one beat for each channel that is enabled at done_i, in ascending order, the first 2
+//   clocks after done_i, one channel a clock; busy_o is high meanwhile, and the words must stay.
+//   TLAST comes with the last one. TUSER: 0 good, 1 nE, 2 nW, 3 CRC wrong, 15..8 channel.
+//   Beats that the sink does not take wait in a FIFO. If the FIFO has no room at done_i for all
+//   beats of a frame, none of them is sent, and overrun_o is high for one clock.
+//   clear_i drops the frame that ends with it, and no beat of one that has ended.
 //
 // A word that is not good holds the position of the last good frame.
 //
-// Misuse: a channel that is enabled or disabled between done_i and its beat is sent or left out.
+// Misuse: Depth below Channels, as biss_axi never has it, may lose all frames.
 // Source: hello-fpga BiSS-C master manual 2.3.2; docs/axi.md.
 
 module axi_stream #(
@@ -79,53 +80,67 @@ module axi_stream #(
   end else begin : gen_beats
     localparam int unsigned INDEX_W = Channels > 1 ? $clog2(Channels) : 1;
 
-    logic               run_q;
-    logic [INDEX_W-1:0] index_q;
-    logic               last_index;
-    logic               now;        // the channel is enabled
-    logic               later;      // one of the channels behind it is
+    localparam int unsigned ROOM_W  = $clog2(Depth) + 1;
+
+    logic                run_q;
+    logic                overrun_q;
+    logic [Channels-1:0] enabled_q;
+    logic [4:0]          needed;    // beats of a frame
+    logic [ROOM_W-1:0]   room;      // for beats
+    logic                fits;
+    logic [INDEX_W-1:0]  index_q;
+    logic                last_index;
+    logic                now;       // the channel is enabled
+    logic                later;     // one of the channels behind it is
     logic [axi_pkg::WORD_W-1:0] word;
-    logic [31:0]        high;
-    logic               unused;
+    logic [31:0]         high;
+    logic                unused;
 
     assign busy_o     = run_q;
+    assign overrun_o  = overrun_q;
+    assign fits       = 32'(needed) <= 32'(room);
     assign unused     = ^mores_i;
     assign last_index = index_q == INDEX_W'(Channels - 1);
 
     always_comb begin
-      word  = '0;
-      high  = '0;
-      now   = 1'b0;
-      later = 1'b0;
+      word   = '0;
+      high   = '0;
+      now    = 1'b0;
+      later  = 1'b0;
+      needed = '0;
       for (int unsigned i = 0; i < Channels; i++) begin
         if (index_q == INDEX_W'(i)) begin
           word = words_i[i*axi_pkg::WORD_W +: axi_pkg::WORD_W];
           high = mores_i[i*axi_pkg::MORE_W + axi_pkg::MORE_POSITION +: 32];
-          now  = enabled_i[i];
+          now  = enabled_q[i];
         end
-        if (index_q < INDEX_W'(i)) later = later || enabled_i[i];
+        if (index_q < INDEX_W'(i)) later = later || enabled_q[i];
+        needed = needed + 5'(enabled_i[i]);
       end
     end
 
     always_ff @(posedge clk_i or negedge rst_ni) begin
       if (!rst_ni) begin
-        run_q   <= 1'b0;
-        index_q <= '0;
+        run_q     <= 1'b0;
+        overrun_q <= 1'b0;
+        enabled_q <= '0;
+        index_q   <= '0;
       end else begin
-        run_q   <= !clear_i && (done_i || (run_q && !last_index));
-        index_q <= (run_q && !last_index) ? index_q + INDEX_W'(1) : '0;
+        run_q     <= (done_i && !clear_i && fits) || (run_q && !last_index);
+        overrun_q <= done_i && !clear_i && !fits;
+        if (done_i) enabled_q <= enabled_i;
+        index_q   <= (run_q && !last_index) ? index_q + INDEX_W'(1) : '0;
       end
     end
 
     enc_axis_fifo #(.DataW(DataW), .UserW(UserW), .Depth(Depth)) u_fifo (
       .clk_i,
       .rst_ni,
-      .clear_i,
       .push_i    (run_q && now),
       .data_i    (DataW'({high, word[axi_pkg::WORD_POSITION +: 32]})),
       .user_i    ({8'(index_q), 4'd0, word[axi_pkg::WORD_POSITION-1:0]}),
       .last_i    (!later),
-      .overrun_o,
+      .room_o    (room),
       .m_axis_tvalid (s_axis_tvalid),
       .m_axis_tready (s_axis_tready),
       .m_axis_tdata  (s_axis_tdata),

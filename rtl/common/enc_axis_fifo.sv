@@ -6,10 +6,9 @@
 // Clock domain: clk_i. push_i puts one beat into the FIFO: data, user and last. Every output of the
 // stream is a flop (IHI0022 and IHI0051: TVALID does not wait for TREADY, and the beat stays until
 // TREADY). Latency: 1 clock from push_i to TVALID if the FIFO is empty. One beat a clock can leave.
+// room_o says how many beats surely fit; without push_i it never gets less.
 //
-// Misuse: a beat that is pushed while Depth beats wait is lost; overrun_o is high for the next
-// clock. The other beats keep their order. clear_i drops all beats that wait, except one at the
-// output, which AXI4-Stream does not let go.
+// Misuse: a beat that is pushed while Depth beats wait is lost; the others keep their order.
 // Source: AMBA AXI-Stream protocol specification (IHI0051), 2.2 and 2.7.
 
 `include "enc_check.svh"
@@ -21,12 +20,11 @@ module enc_axis_fifo #(
 ) (
   input  logic             clk_i,
   input  logic             rst_ni,
-  input  logic             clear_i,
   input  logic             push_i,
   input  logic [DataW-1:0] data_i,
   input  logic [UserW-1:0] user_i,
   input  logic             last_i,
-  output logic             overrun_o,
+  output logic [$clog2(Depth):0] room_o,
   // AXI4-Stream
   output logic             m_axis_tvalid,
   input  logic             m_axis_tready,
@@ -52,7 +50,6 @@ module enc_axis_fifo #(
   logic              take;       // the output takes the next beat
   logic              valid_q;
   logic [BEAT_W-1:0] beat_q;
-  logic              overrun_q;
   logic              store;
   logic              through;    // the beat goes past the memory
 
@@ -68,28 +65,21 @@ module enc_axis_fifo #(
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
-      wr_q      <= '0;
-      rd_q      <= '0;
-      valid_q   <= 1'b0;
-      beat_q    <= '0;
-      overrun_q <= 1'b0;
+      wr_q    <= '0;
+      rd_q    <= '0;
+      valid_q <= 1'b0;
+      beat_q  <= '0;
     end else begin
-      overrun_q <= push_i && full && !clear_i;
-      if (clear_i) begin
-        wr_q    <= rd_q;
-        valid_q <= valid_q && !m_axis_tready;
-      end else begin
-        if (store)         wr_q <= wr_q + (ADDR_W+1)'(1);
-        if (take && waits) rd_q <= rd_q + (ADDR_W+1)'(1);
-        if (take) begin
-          valid_q <= waits || push_i;
-          beat_q  <= waits ? beats_q[rd_q[ADDR_W-1:0]] : {data_i, user_i, last_i};
-        end
+      if (store)         wr_q <= wr_q + (ADDR_W+1)'(1);
+      if (take && waits) rd_q <= rd_q + (ADDR_W+1)'(1);
+      if (take) begin
+        valid_q <= waits || push_i;
+        beat_q  <= waits ? beats_q[rd_q[ADDR_W-1:0]] : {data_i, user_i, last_i};
       end
     end
   end
 
-  assign overrun_o     = overrun_q;
+  assign room_o        = (ADDR_W+1)'(Depth) - (wr_q - rd_q);
   assign m_axis_tvalid = valid_q;
   assign {m_axis_tdata, m_axis_tuser, m_axis_tlast} = beat_q;
 

@@ -1,11 +1,11 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The AXI4-Stream source with its FIFO (enc_axis_fifo) against a queue, for any pushes, any sink and
-// any clear. The FIFO of the proof holds 4 beats behind the output; a beat has 3 bits of data.
+// The AXI4-Stream source with its FIFO (enc_axis_fifo) against a queue, for any pushes and any sink.
+// The FIFO of the proof holds 4 beats behind the output; a beat has 3 bits of data.
 //
 // claim: what leaves is what was pushed, in that order, once; a beat at the output stays unchanged
-//   until it is taken; one is lost only if 4 wait, and then overrun_o says so
+//   until it is taken; one is lost only if 4 wait behind the output, and room_o says how many more fit
 // clocks: one
 // depth: 9
 // cover: 9
@@ -19,26 +19,24 @@
 //   | through = push_i && take;
 // mutation: common/enc_axis_fifo.sv | if (take && waits) rd_q | if (take) rd_q
 // mutation: common/enc_axis_fifo.sv | valid_q <= waits || push_i; | valid_q <= waits;
-// mutation: common/enc_axis_fifo.sv | valid_q <= valid_q && !m_axis_tready; | valid_q <= 1'b0;
-// mutation: common/enc_axis_fifo.sv | overrun_q <= push_i && full && !clear_i;
-//   | overrun_q <= push_i && full && !take;
+// mutation: common/enc_axis_fifo.sv | - (wr_q - rd_q); | - (rd_q - wr_q);
 
 module proof (
   input logic       clk_i,
   input logic       rst_ni,
-  input logic       clear_i,
   input logic       push_i,
   input logic [2:0] beat_i,   // data, last
   input logic       ready_i
 );
 
-  logic       overrun, valid, last, user;
+  logic       valid, last, user;
   logic [1:0] data;
+  logic [2:0] room;
 
   enc_axis_fifo #(.DataW(1), .UserW(1), .Depth(4)) u_dut (
-    .clk_i, .rst_ni, .clear_i, .push_i,
+    .clk_i, .rst_ni, .push_i,
     .data_i (beat_i[2]), .user_i (beat_i[1]), .last_i (beat_i[0]),
-    .overrun_o (overrun),
+    .room_o (room),
     .m_axis_tvalid (valid), .m_axis_tready (ready_i),
     .m_axis_tdata (data[0]), .m_axis_tuser (user), .m_axis_tlast (last)
   );
@@ -50,7 +48,6 @@ module proof (
   // The queue: the oldest beat lowest. It has room for the output and 4 more.
   logic [14:0] queue_q;
   logic [2:0]  count_q;
-  logic        lost_q;
   wire         pop    = count_q != 3'd0 && ready_i;
   wire         accept = push_i && count_q != 3'd5;
   wire [14:0]  rest   = pop ? {3'd0, queue_q[14:3]} : queue_q;
@@ -62,12 +59,7 @@ module proof (
       queue_q <= (rest & ~(15'd7 << 3 * left)) | ({12'd0, beat_i} << 3 * left);
       count_q <= left + 3'd1;
     end
-    if (clear_i) begin
-      queue_q <= queue_q;
-      count_q <= {2'd0, count_q != 3'd0 && !ready_i};
-    end
-    lost_q <= push_i && count_q == 3'd5 && !clear_i;
-    if (!rst_ni) {count_q, lost_q} <= '0;
+    if (!rst_ni) count_q <= '0;
   end
 
   // The output before this clock, if it was not taken.
@@ -82,13 +74,13 @@ module proof (
     Valid_A:   assert (valid == (count_q != 3'd0));
     if (valid) Beat_A: assert ({data[0], user, last} == queue_q[2:0]);
     if (held_q) Stays_A: assert (valid && {data[0], user, last} == was_q);
-    Overrun_A: assert (overrun == lost_q);
+    Room_A: assert (room == (count_q == 3'd0 ? 3'd4 : 3'd5 - count_q));
   end
 
   always @(posedge clk_i) if (rst_ni) begin
     Full_C:    cover (count_q == 3'd5 && ready_i);
-    Overrun_C: cover (overrun);
-    Clear_C:   cover (clear_i && count_q == 3'd4 && !ready_i);
+    Lost_C:    cover (push_i && count_q == 3'd5);
+    Past_C:    cover (push_i && count_q == 3'd1 && ready_i);
   end
 
 endmodule

@@ -2,12 +2,13 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // The stream of the BiSS C master on AXI in mode 1 (axi_stream) up to its FIFO, for three channels with
-// any words, any enables, any reads and any soft reset. What the FIFO does with a beat is proof `axis`.
-// The words and the enables stay while busy_o is high, as the module asks.
+// any words, any enables, any sink, any reads and any soft reset. What the FIFO does with a beat is proof
+// `axis`. The words stay while busy_o is high, as the module asks; the enables may change.
 //
-// claim: each read puts one beat of each enabled channel into the FIFO, in ascending order, one channel a
-//   clock from the clock after next on, with the channel's word, flags and number, tlast at the last; and
-//   nothing else puts one in
+// claim: each read puts one beat of each channel that is enabled with done_i into the FIFO, in ascending
+//   order, one channel a clock from the clock after next on, with the channel's word, flags and number, tlast
+//   at the last, or, if the FIFO has no room for all of them, none, and overrun_o tells; nothing else puts a
+//   beat in, and the FIFO takes each
 // clocks: one
 // depth: 12
 // cover: 12
@@ -18,12 +19,15 @@
 // look: dut_last = u_dut.gen_beats.u_fifo.last_i
 // look: dut_index = u_dut.gen_beats.index_q
 // mutation: axi/axi_stream.sv | .push_i    (run_q && now), | .push_i    (run_q),
-// mutation: axi/axi_stream.sv | now  = enabled_i[i]; | now  = enabled_i[0];
+// look: dut_room = u_dut.gen_beats.u_fifo.room_o
+// mutation: axi/axi_stream.sv | now  = enabled_q[i]; | now  = enabled_i[i];
 // mutation: axi/axi_stream.sv | if (index_q < INDEX_W'(i)) later | if (index_q != INDEX_W'(i)) later
+// mutation: axi/axi_stream.sv | 32'(needed) <= 32'(room) | 32'(needed) <= 32'(room) + 32'd1
+// mutation: axi/axi_stream.sv | needed = needed + 5'(enabled_i[i]); | needed = 5'(enabled_i[i]);
+// mutation: axi/axi_stream.sv | overrun_q <= done_i && !clear_i && !fits; | overrun_q <= done_i && !fits;
 // mutation: axi/axi_stream.sv | index_q + INDEX_W'(1) : '0; | index_q + INDEX_W'(1) : index_q;
 // mutation: axi/axi_stream.sv | .user_i    ({8'(index_q), 4'd0, | .user_i    ({8'(last_index), 4'd0,
-// mutation: axi/axi_stream.sv | run_q   <= !clear_i && (done_i || (run_q && !last_index));
-//   | run_q   <= !clear_i && (done_i || run_q);
+// mutation: axi/axi_stream.sv | fits) || (run_q && !last_index); | fits) || (run_q && !clear_i && !last_index);
 // mutation: axi/axi_stream.sv | word = words_i[i*axi_pkg::WORD_W +: axi_pkg::WORD_W];
 //   | word = words_i[axi_pkg::WORD_W +: axi_pkg::WORD_W];
 
@@ -44,8 +48,9 @@ module proof (
   wire  [31:0] dut_data;
   wire  [15:0] dut_user;
   wire  [1:0]  dut_index;
+  wire  [2:0]  dut_room;
 
-  axi_stream #(.Channels(3), .Mode(1), .DataW(32), .UserW(16), .Depth(2)) u_dut (
+  axi_stream #(.Channels(3), .Mode(1), .DataW(32), .UserW(16), .Depth(4)) u_dut (
     .clk_i, .rst_ni, .clear_i, .done_i, .enabled_i, .words_i,
     .mores_i (252'd0),
     .busy_o (busy), .overrun_o (overrun),
@@ -57,25 +62,33 @@ module proof (
   always @(posedge clk_i) started <= 1'b1;
   always @* if (!started) assume (!rst_ni);
 
-  // No read while the beats of the last one are made; words and enables stay.
+  // No read while the beats of the last one are made; words stay.
   logic         busy_q;
-  logic [2:0]   enabled_q;
   logic [107:0] words_q;
   always @(posedge clk_i) begin
-    busy_q    <= busy && rst_ni;
-    enabled_q <= enabled_i;
-    words_q   <= words_i;
+    busy_q  <= busy && rst_ni;
+    words_q <= words_i;
   end
   always @* begin
     if (busy) assume (!done_i);
-    if (busy_q) assume (enabled_i == enabled_q && words_i == words_q);
+    if (busy_q) assume (words_i == words_q);
+  end
+
+  // The channels that a read has, and whether the FIFO has room for them.
+  wire [2:0] beats = {2'd0, enabled_i[0]} + {2'd0, enabled_i[1]} + {2'd0, enabled_i[2]};
+  wire       fits  = beats <= dut_room;
+  logic [2:0] enabled_q;
+  logic       lost_q;
+  always @(posedge clk_i) begin
+    if (done_i) enabled_q <= enabled_i;
+    lost_q <= done_i && !clear_i && !fits && rst_ni;
   end
 
   // Clocks since done_i: 1 to 3 are those of channel 0 to 2; 0: no read.
   logic [1:0] place_q;
   always @(posedge clk_i) begin
-    if (!rst_ni || clear_i)   place_q <= 2'd0;
-    else if (done_i)          place_q <= 2'd1;
+    if (!rst_ni)                         place_q <= 2'd0;
+    else if (done_i && !clear_i && fits) place_q <= 2'd1;
     else if (place_q != 2'd0) place_q <= place_q + 2'd1;   // 3 + 1 = 0
   end
 
@@ -83,13 +96,19 @@ module proof (
   wire        reads   = place_q != 2'd0;
   wire [35:0] word    = channel == 2'd0 ? words_i[35:0] :
                         channel == 2'd1 ? words_i[71:36] : words_i[107:72];
-  wire        sends   = reads && (channel == 2'd0 ? enabled_i[0] :
-                                  channel == 2'd1 ? enabled_i[1] : enabled_i[2]);
-  wire        more    = (channel == 2'd0 && enabled_i[2:1] != 2'd0) ||
-                        (channel == 2'd1 && enabled_i[2]);
+  wire        sends   = reads && (channel == 2'd0 ? enabled_q[0] :
+                                  channel == 2'd1 ? enabled_q[1] : enabled_q[2]);
+  wire        more    = (channel == 2'd0 && enabled_q[2:1] != 2'd0) ||
+                        (channel == 2'd1 && enabled_q[2]);
+  // Beats of the read that are still to come.
+  wire [2:0]  left    = (channel == 2'd0 ? {2'd0, enabled_q[0]} : 3'd0) +
+                        (channel <= 2'd1 ? {2'd0, enabled_q[1]} : 3'd0) + {2'd0, enabled_q[2]};
 
   always @* if (rst_ni && started) begin
     Busy_A: assert (busy == reads);
+    Lost_A: assert (overrun == lost_q);
+    Most_A: assert (dut_room <= 3'd4);
+    if (reads) Room_A: assert (left <= dut_room);
     if (reads) Index_A: assert (dut_index == channel);
     Push_A: assert (dut_push == sends);
     if (dut_push) begin
@@ -99,9 +118,9 @@ module proof (
   end
 
   always @(posedge clk_i) if (rst_ni) begin
-    Three_C: cover (dut_push && dut_last && channel == 2'd2 && enabled_i == 3'd7);
+    Three_C: cover (dut_push && dut_last && channel == 2'd2 && enabled_q == 3'd7);
     First_C: cover (dut_push && dut_last && channel == 2'd0);
-    None_C:  cover (busy_q && !busy && enabled_i == 3'd0 && !clear_i);
+    None_C:  cover (busy_q && !busy && enabled_q == 3'd0);
     Lost_C:  cover (overrun);
   end
 

@@ -305,7 +305,7 @@ using HAS_ANY_CRC = Field<0x48, 2, 1, Access::kReadOnly, 0>;
 using HAS_WIDE = Field<0x48, 1, 1, Access::kReadOnly, 0>;
 // This page. 1 if it can be read.
 using HAS_PAGE = Field<0x48, 0, 1, Access::kReadOnly, 0>;
-// A frame ended while FRAME was still set, a start was skipped, or a beat of the stream was lost.
+// A frame ended while FRAME was still set, a start was skipped, or a frame of the stream was lost.
 using LOST = Field<0x4C, 4, 1, Access::kWriteOneClears, 0>;
 // The external sample clock rose, while it is the one that is selected.
 using SENSE = Field<0x4C, 3, 1, Access::kWriteOneClears, 0>;
@@ -382,8 +382,9 @@ using ACCESS_SILENT = Field<0x9C, 2, 1, Access::kReadOnly, 0>;
 using ACCESS_ERROR = Field<0x9C, 1, 1, Access::kReadOnly, 0>;
 // The access runs.
 using ACCESS_ACTIVE = Field<0x9C, 0, 1, Access::kReadOnly, 0>;
-// Stream mode 1: a beat was lost, because the sink was too slow. Writing 1 and a soft reset clear
-// it.
+// Frames that were lost. It wraps; a soft reset clears it.
+using STREAM_LOST_FRAMES = Field<0xA0, 16, 16, Access::kReadOnly, 0>;
+// A frame was lost. Writing 1 and a soft reset clear it.
 using STREAM_LOST = Field<0xA0, 0, 1, Access::kWriteOneClears, 0>;
 
 // ---- Codes --------------------------------------------------------------------------------------

@@ -406,7 +406,8 @@ package axi_regs_pkg;
   localparam logic [31:0] HAS_PAGE_MASK = 32'h00000001;
   localparam logic [0:0] HAS_PAGE_RESET = 1'd0;
 
-  // A frame ended while FRAME was still set, a start was skipped, or a beat of the stream was lost.
+  // A frame ended while FRAME was still set, a start was skipped, or a frame of the stream was
+  // lost.
   localparam logic [7:0] LOST_ADDR = 8'h4C;
   localparam logic [31:0] LOST_LSB = 32'd4;
   localparam logic [31:0] LOST_W = 32'd1;
@@ -664,8 +665,14 @@ package axi_regs_pkg;
   localparam logic [31:0] ACCESS_ACTIVE_MASK = 32'h00000001;
   localparam logic [0:0] ACCESS_ACTIVE_RESET = 1'd0;
 
-  // Stream mode 1: a beat was lost, because the sink was too slow. Writing 1 and a soft reset clear
-  // it.
+  // Frames that were lost. It wraps; a soft reset clears it.
+  localparam logic [7:0] STREAM_LOST_FRAMES_ADDR = 8'hA0;
+  localparam logic [31:0] STREAM_LOST_FRAMES_LSB = 32'd16;
+  localparam logic [31:0] STREAM_LOST_FRAMES_W = 32'd16;
+  localparam logic [31:0] STREAM_LOST_FRAMES_MASK = 32'hFFFF0000;
+  localparam logic [15:0] STREAM_LOST_FRAMES_RESET = 16'd0;
+
+  // A frame was lost. Writing 1 and a soft reset clear it.
   localparam logic [7:0] STREAM_LOST_ADDR = 8'hA0;
   localparam logic [31:0] STREAM_LOST_LSB = 32'd0;
   localparam logic [31:0] STREAM_LOST_W = 32'd1;

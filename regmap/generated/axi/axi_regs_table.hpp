@@ -26,7 +26,7 @@ struct FieldInfo {
 };
 
 // By address, most significant bit first; constant bits are left out.
-inline constexpr std::array<FieldInfo, 67> kFields{{
+inline constexpr std::array<FieldInfo, 68> kFields{{
     {"SOFT_RESET", nullptr, 0x00, 0, 1, Access::kReadWrite, 0,
      "1 ends running frames and clears results, valid flags and counters, for as long as it is 1. It changes no configuration."},
     {"EXTERNAL_CLOCK", nullptr, 0x04, 0, 1, Access::kReadWrite, 0,
@@ -88,7 +88,7 @@ inline constexpr std::array<FieldInfo, 67> kFields{{
     {"HAS_PAGE", nullptr, 0x48, 0, 1, Access::kReadOnly, 0,
      "This page. 1 if it can be read."},
     {"LOST", nullptr, 0x4C, 4, 1, Access::kWriteOneClears, 0,
-     "A frame ended while FRAME was still set, a start was skipped, or a beat of the stream was lost."},
+     "A frame ended while FRAME was still set, a start was skipped, or a frame of the stream was lost."},
     {"SENSE", nullptr, 0x4C, 3, 1, Access::kWriteOneClears, 0,
      "The external sample clock rose, while it is the one that is selected."},
     {"REGISTER_END", nullptr, 0x4C, 2, 1, Access::kWriteOneClears, 0,
@@ -159,8 +159,10 @@ inline constexpr std::array<FieldInfo, 67> kFields{{
      "Wrong echo or CRC, a frame that failed, a channel that does not exist, or ended by the host."},
     {"ACCESS_ACTIVE", nullptr, 0x9C, 0, 1, Access::kReadOnly, 0,
      "The access runs."},
+    {"STREAM_LOST_FRAMES", nullptr, 0xA0, 16, 16, Access::kReadOnly, 0,
+     "Frames that were lost. It wraps; a soft reset clears it."},
     {"STREAM_LOST", nullptr, 0xA0, 0, 1, Access::kWriteOneClears, 0,
-     "Stream mode 1: a beat was lost, because the sink was too slow. Writing 1 and a soft reset clear it."},
+     "A frame was lost. Writing 1 and a soft reset clear it."},
 }};
 
 }  // namespace biss_axi::regs

@@ -98,20 +98,24 @@ TEST_F(AxiPageBlock, EachEvent_SetsItsBit) {
   EXPECT_EQ(m.irq_o, 1);
 }
 
-TEST_F(AxiPageBlock, SkippedStartsAndLostBeats_AreKeptUntilCleared) {
+TEST_F(AxiPageBlock, SkippedStartsAndLostFrames_AreKeptUntilCleared) {
   for (int i = 0; i < 70'000; ++i) pulse(m.skip_i);
   EXPECT_EQ(read(reg::kAddrSkipCount), 70'000U & 0xFFFF);
+  const auto lost = [](unsigned frames, unsigned flag) { return frames << 16U | flag; };
   pulse(m.overrun_i);
-  EXPECT_EQ(read(reg::kAddrStreamStatus), 1U);
-  write(reg::kAddrStreamStatus, 0);
-  EXPECT_EQ(read(reg::kAddrStreamStatus), 1U);
+  EXPECT_EQ(read(reg::kAddrStreamStatus), lost(1, 1));
+  write(reg::kAddrStreamStatus, ~1U);
+  EXPECT_EQ(read(reg::kAddrStreamStatus), lost(1, 1));
   write(reg::kAddrStreamStatus, 1);
-  EXPECT_EQ(read(reg::kAddrStreamStatus), 0U);
-  // A beat that is lost while the host clears is not forgotten.
+  EXPECT_EQ(read(reg::kAddrStreamStatus), lost(1, 0));
+  // A frame that is lost while the host clears is not forgotten.
   m.overrun_i = 1;
   write(reg::kAddrStreamStatus, 1);
   m.overrun_i = 0;
-  EXPECT_EQ(read(reg::kAddrStreamStatus), 1U);
+  EXPECT_EQ(read(reg::kAddrStreamStatus) & 1U, 1U);
+  const unsigned before = read(reg::kAddrStreamStatus) >> 16U;
+  for (int i = 0; i < 70'000; ++i) pulse(m.overrun_i);
+  EXPECT_EQ(read(reg::kAddrStreamStatus), lost((70'000 + before) & 0xFFFF, 1));
   pulse(m.clear_i);
   EXPECT_EQ(read(reg::kAddrStreamStatus), 0U);
   EXPECT_EQ(read(reg::kAddrSkipCount), 0U);

@@ -4,7 +4,9 @@
 // The stream of the BiSS C master on AXI in mode 1 with five channels and a FIFO of 16 beats.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdint>
+#include <cstdlib>
 #include <deque>
 #include <vector>
 
@@ -97,7 +99,7 @@ TEST(AxiStreamBlock, RandomReadsAndSinks_GiveOneBeatForEachEnabledChannelInOrder
   }
 }
 
-TEST(AxiStreamBlock, SinkThatStops_LosesNewBeatsAndSaysSo) {
+TEST(AxiStreamBlock, SinkThatStops_LosesNewFramesAndSaysSo) {
   Stream stream;
   auto& m = stream.model;
   begin(stream);
@@ -124,6 +126,111 @@ TEST(AxiStreamBlock, SinkThatStops_LosesNewBeatsAndSaysSo) {
   }
   ASSERT_EQ(seen.size(), 17U);
   for (unsigned i = 0; i < 17; ++i) EXPECT_EQ(seen[i], i);
+}
+
+// A frame goes into the FIFO of 16 beats whole or not at all, whatever the sink does. Enables and
+// soft resets that come between the end of the frame and its last beat do not change its packet.
+TEST(AxiStreamBlock, RandomStops_LeavePacketsWholeAndInOrder) {
+  mb4test::Dice dice;
+  Stream stream;
+  auto& m = stream.model;
+  begin(stream);
+  std::deque<std::vector<Beat>> packets;  // that have ended and may come
+  std::vector<Beat> packet;
+  unsigned lost = 0, whole = 0, sent = 0, stop = 0;
+  const auto clock = [&] {
+    if (stop == 0 && dice.below(20) == 0) stop = dice.below(400);
+    m.s_axis_tready = stop != 0 ? 0 : dice.below(2);
+    if (stop != 0) --stop;
+    m.eval();
+    if (m.s_axis_tvalid != 0 && m.s_axis_tready != 0) {
+      packet.push_back({m.s_axis_tdata, m.s_axis_tuser, m.s_axis_tlast != 0});
+      if (m.s_axis_tlast != 0) {
+        ASSERT_FALSE(packets.empty());
+        ASSERT_EQ(packet, packets.front());
+        packets.pop_front();
+        packet.clear();
+        ++whole;
+      }
+    }
+    stream.clock();
+  };
+  for (unsigned read = 0; read < 20'000; ++read) {
+    const unsigned enabled = dice.below(31) + 1;
+    m.enabled_i = static_cast<std::uint8_t>(enabled);
+    std::vector<Beat> frame;
+    for (unsigned c = 0; c < kChannels; ++c) {
+      set_word(m, c, read, dice.below(16));
+      if ((enabled >> c & 1U) == 0) continue;
+      const unsigned place = c * kWordBits;
+      const std::uint64_t words = m.words_i[place / 32] | std::uint64_t{m.words_i[place / 32 + 1]}
+                                                              << 32U;
+      const auto flags = static_cast<unsigned>(words >> place % 32 & 15U);
+      frame.push_back({read, c << 8U | flags, (enabled >> (c + 1)) == 0});
+    }
+    m.done_i = 1;
+    ASSERT_NO_FATAL_FAILURE(clock());
+    m.done_i = 0;
+    m.eval();
+    ++sent;
+    if (m.overrun_o != 0) {
+      ++lost;
+      EXPECT_EQ(m.busy_o, 0);
+    } else {
+      packets.push_back(frame);
+    }
+    for (unsigned i = 0; i < kChannels + dice.below(20); ++i) {
+      m.clear_i = dice.below(8) == 0 ? 1 : 0;
+      m.enabled_i = static_cast<std::uint8_t>(dice.below(32));
+      ASSERT_NO_FATAL_FAILURE(clock());
+    }
+    m.clear_i = 0;
+    while (m.busy_o != 0) ASSERT_NO_FATAL_FAILURE(clock());
+  }
+  for (unsigned i = 0; i < 2000; ++i) ASSERT_NO_FATAL_FAILURE(clock());
+  EXPECT_TRUE(packets.empty());
+  EXPECT_TRUE(packet.empty());
+  EXPECT_EQ(whole + lost, sent);
+  EXPECT_GT(lost, 1000U);
+  EXPECT_GT(whole, 1000U);
+}
+
+// The FIFO is used up to its last place: a frame is lost only if its beats do not fit.
+TEST(AxiStreamBlock, FrameThatFits_IsNotLost) {
+  Stream stream;
+  auto& m = stream.model;
+  begin(stream);
+  m.s_axis_tready = 0;
+  const auto frame = [&](unsigned enabled) {
+    m.enabled_i = static_cast<std::uint8_t>(enabled);
+    m.done_i = 1;
+    stream.clock();
+    m.done_i = 0;
+    m.eval();
+    const bool kept = m.overrun_o == 0;
+    for (unsigned i = 0; i < 8; ++i) stream.clock();
+    return kept;
+  };
+  // One beat at the output, 14 in the FIFO.
+  for (int i = 0; i < 3; ++i) EXPECT_TRUE(frame(0b11111));
+  EXPECT_FALSE(frame(0b11100));
+  EXPECT_TRUE(frame(0b10010));
+  EXPECT_FALSE(frame(0b00100));
+  // A soft reset that comes with the end of a frame ends it as one that is not lost.
+  m.clear_i = 1;
+  EXPECT_TRUE(frame(0b00100));
+  EXPECT_EQ(m.busy_o, 0);
+  m.clear_i = 0;
+  m.s_axis_tready = 1;
+  unsigned beats = 0, lasts = 0;
+  for (unsigned i = 0; i < 40; ++i) {
+    m.eval();
+    beats += m.s_axis_tvalid;
+    lasts += m.s_axis_tvalid & m.s_axis_tlast;
+    stream.clock();
+  }
+  EXPECT_EQ(beats, 17U);
+  EXPECT_EQ(lasts, 4U);
 }
 
 }  // namespace
