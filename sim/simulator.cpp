@@ -155,7 +155,10 @@ inline void Simulator::check_ma(LineEnd& end, bool level) {
   }
   const std::string* violation = end.ma_check.edge(
       now_, level, model_->cycles(), model_->half_clocks(end.index), model_->min_clock());
-  if (violation != nullptr) stop_for_pulse(end.index, *violation);
+  const bool cut = model_->take_cut(MasterModel::ma_of(end.index));
+  if (violation == nullptr) return;
+  if (!cut) stop_for_pulse(end.index, *violation);
+  end.ma_check.count_cut();
 }
 
 // Tells each line whose MA or MO has changed, the first line first.

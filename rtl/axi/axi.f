@@ -18,4 +18,5 @@ axi_delays.sv
 axi_access.sv
 axi_extras.sv
 axi_core.sv
+axi_widths.sv
 biss_axi.sv

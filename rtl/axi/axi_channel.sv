@@ -21,8 +21,8 @@
 //   half period.
 // A frame that ends before its CRC leaves 0 as CRC in the results.
 // After a frame SLO = 0 counts as timeout for at most rule_i.timeout_last + 1 clocks. With
-// rule_i.fixed, and after a frame that was ended by enabled_i or clear_i, the channel waits for all
-// these clocks whatever SLO is: the encoder may be in a bit that is 1.
+// rule_i.fixed, after a frame that was ended by enabled_i or clear_i, and after a reset the channel
+// waits for all these clocks whatever SLO is: the encoder may be in a bit that is 1.
 //
 // Access = 1: the frame carries the CDM bit cdm_i[CDS], taken when it begins. MA shows it inverted
 // until the timeout has ended.
@@ -42,6 +42,7 @@ module axi_channel #(
 ) (
   input  logic       clk_i,
   input  logic       rst_ni,
+  input  logic       por_ni,            // resets MA
   // frames
   input  axi_pkg::frame_t frame_i,
   input  axi_pkg::rule_t  rule_i,
@@ -140,7 +141,7 @@ module axi_channel #(
   biss_ma_drive u_ma (
     .clk_i,
     .rst_ni,
-    .por_ni        (rst_ni),
+    .por_ni,
     .tick_i,
     .half_next_i,
     .start_i,
@@ -287,8 +288,9 @@ module axi_channel #(
         if (((sl && !patient) || limit) && rests) state_d = IDLE;
       end
       BROKEN: begin
-        // The encoder is in the middle of its word: SLO does not show when its timeout begins.
-        count_d = count_q + CountW'(!limit);
+        // The encoder is in the middle of its word: SLO does not show when its timeout begins. The
+        // timeout cannot begin before MA rests.
+        count_d = rests ? count_q + CountW'(!limit) : '0;
         if (limit && rests) state_d = IDLE;
       end
       default: state_d = IDLE;
@@ -311,7 +313,7 @@ module axi_channel #(
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
-      state_q <= IDLE;
+      state_q <= BROKEN;
       first_q <= 1'b0;
       count_q <= '0;
       ahead_q <= '0;

@@ -7,6 +7,9 @@
 // but EXTRA_ALIGN needs EXTRA_PAGE too.
 //
 // Clock domain: clk_i. slo_i, ext_sample_clk_i and sample_en_i are asynchronous.
+// Reset: rst_ni and por_ni may fall and rise at any time; both are released here with clk_i. por_ni
+// resets MA and its time base, rst_ni all the rest; while por_ni is 0 rst_ni must be 0. After a
+// reset each channel holds starts back for TimeoutLimit clocks.
 // error_no and warn_no are 0 while the last good frame of an enabled channel had nE = 0 or nW = 0;
 // they change one clock after the frame.
 //
@@ -27,6 +30,7 @@ module axi_core #(
 ) (
   input  logic             clk_i,
   input  logic             rst_ni,
+  input  logic             por_ni,      // MA and its time base
   input  axi_pkg::switch_t switches_i,
   // AXI4-Lite
   input  logic             s_axi_awvalid,
@@ -81,6 +85,7 @@ module axi_core #(
   end
 `endif
 
+  logic        rst_n, por_n;
   logic        req, write;
   logic [7:2]  addr;
   logic [31:0] wdata, rdata;
@@ -117,12 +122,23 @@ module axi_core #(
   logic unused_half;
   logic [3*Channels-1:0] unused_samples;
   logic [Channels-1:0]   unused_halves;
-  logic error_q, warn_q;
-  logic unused;
+  logic error_q, warn_q, unused;
+
+  enc_reset_sync u_reset (
+    .clk_i,
+    .rst_ni,
+    .rst_sync_no (rst_n)
+  );
+
+  enc_reset_sync u_power_on (
+    .clk_i,
+    .rst_ni      (por_ni),
+    .rst_sync_no (por_n)
+  );
 
   enc_axil #(.AddrW(8)) u_axil (
     .clk_i,
-    .rst_ni,
+    .rst_ni       (rst_n),
     .s_axi_awvalid,
     .s_axi_awready,
     .s_axi_awaddr (s_axi_awaddr[7:2]),
@@ -152,7 +168,7 @@ module axi_core #(
 
   axi_regs #(.Channels(Channels)) u_regs (
     .clk_i,
-    .rst_ni,
+    .rst_ni         (rst_n),
     .word_req_i     (req),
     .word_write_i   (write),
     .word_addr_i    (addr),
@@ -174,7 +190,7 @@ module axi_core #(
 
   axi_start #(.Wide(WIDE)) u_start (
     .clk_i,
-    .rst_ni,
+    .rst_ni     (rst_n),
     .cfg_i      (cfg),
     .check_i    (cfg.crc_check ^ switches_i.crc_bit_ignores),
     .crc_bits_i (crc_bits),
@@ -194,7 +210,7 @@ module axi_core #(
 
   axi_rule #(.TimeoutLimit(TimeoutLimit), .AnyCrc(CRC), .Timeout(TIMEOUT)) u_rule (
     .clk_i,
-    .rst_ni,
+    .rst_ni     (rst_n),
     .page_i     (page),
     .take_i     (take),
     .rule_o     (rule),
@@ -203,7 +219,7 @@ module axi_core #(
 
   biss_timebase #(.LastW(8), .Tens(1'b0)) u_timebase (
     .clk_i,
-    .rst_ni,
+    .rst_ni        (por_n),
     .last_i        (frame.half_last),
     .tens_i        (1'b0),
     .run_i         (1'b1),
@@ -221,7 +237,7 @@ module axi_core #(
     if (ALIGN) begin : gen_own_timebase
       biss_timebase #(.LastW(8), .Tens(1'b0)) u_own_timebase (
         .clk_i,
-        .rst_ni,
+        .rst_ni        (por_n),
         .last_i        (frame.half_last),
         .tens_i        (1'b0),
         .run_i         (1'b1),
@@ -242,7 +258,8 @@ module axi_core #(
       .StartLimit(StartLimit), .CountW(COUNT_W), .Wide(WIDE), .AnyCrc(CRC), .Access(ACCESS)
     ) u_channel (
       .clk_i,
-      .rst_ni,
+      .rst_ni         (rst_n),
+      .por_ni         (por_n),
       .frame_i        (frame),
       .rule_i         (rule),
       .cdm_i          (cdm[2*i +: 2]),
@@ -269,7 +286,7 @@ module axi_core #(
 
   axi_extras #(.Channels(Channels), .Extras(Extras)) u_extras (
     .clk_i,
-    .rst_ni,
+    .rst_ni      (rst_n),
     .switches_i,
     .clear_i     (cfg.soft_reset),
     .bus_i       (bus),
@@ -300,7 +317,7 @@ module axi_core #(
     .UserW(StreamUserW), .Depth(StreamDepth)
   ) u_stream (
     .clk_i,
-    .rst_ni,
+    .rst_ni    (rst_n),
     .clear_i   (cfg.soft_reset),
     .done_i    (done),
     .enabled_i (enabled),
@@ -315,8 +332,8 @@ module axi_core #(
     .s_axis_tlast
   );
 
-  always_ff @(posedge clk_i or negedge rst_ni) begin
-    if (!rst_ni) begin
+  always_ff @(posedge clk_i or negedge rst_n) begin
+    if (!rst_n) begin
       error_q <= 1'b1;
       warn_q  <= 1'b1;
     end else begin

@@ -5,8 +5,14 @@
 // Parameters and ports have the names of the document (hello-fpga BiSS-C master manual, 2.2 and
 // 2.3); STREAM_MODE and the parameters after it are this project's.
 //
-// Clock domain: axi_aclk. slo, ext_sample_clk and sample_en are asynchronous. axi_aresetn must rise
-// with axi_aclk, as AXI asks; it may fall at any time.
+// Clock domain: axi_aclk. slo, ext_sample_clk and sample_en are asynchronous.
+//
+// Reset: axi_aresetn and por_n may fall and rise at any time; they are released here with axi_aclk.
+// After a reset each channel holds starts back for TIMEOUT_LIMIT clocks, because an encoder may
+// still be in its frame.
+//   POR_PIN = 0: por_n does not count (tie it to 1). axi_aresetn cuts a low pulse of MA short.
+//   POR_PIN = 1: por_n resets everything. axi_aresetn alone leaves MA and its time base: MA returns
+//     to 1 at the end of its half period, so no pulse of MA is cut.
 //
 // The stream is a source although its names begin with s_axis. s_axis_tready does not count in
 // stream mode 0 (tie it to 1).
@@ -26,12 +32,14 @@ module biss_axi #(
   parameter int unsigned TIMEOUT_LIMIT       = 4000,  // clocks of an encoder's timeout
   parameter bit          ALIGN_LATCH         = 1'b0,  // 0x28 acts
   parameter int unsigned EXTRAS              = 0,     // bits as in axi_pkg and register FEATURES
+  parameter bit          POR_PIN             = 1'b0,  // 1: por_n alone resets MA
   parameter int unsigned S_AXIS_TDATA_WIDTH  =
     STREAM_MODE == 1 ? STREAM_WIDTH : ((EXTRAS & 2) != 0 ? 64 : 32) * BISS_CHANNEL_WIDTH,
   parameter int unsigned S_AXIS_TUSER_WIDTH  = STREAM_MODE == 0 ? BISS_CHANNEL_WIDTH : 16
 ) (
   input  logic        axi_aclk,
   input  logic        axi_aresetn,
+  input  logic        por_n,       // power-on reset; counts with POR_PIN = 1
   // AXI4-Lite
   input  logic [7:0]  S_AXI_AWADDR,
   input  logic        S_AXI_AWVALID,
@@ -70,6 +78,7 @@ module biss_axi #(
   output logic        irq
 );
 
+  localparam int unsigned LANE = (EXTRAS & 2) != 0 ? 64 : 32;  // bits of a channel, mode 0
   localparam logic [axi_pkg::EXTRAS_W-1:0] ALL_EXTRAS =
     axi_pkg::EXTRAS_W'(EXTRAS) | (axi_pkg::EXTRAS_W'(ALIGN_LATCH) << axi_pkg::EXTRA_ALIGN) |
     axi_pkg::EXTRAS_W'(EXTRAS != 0);
@@ -78,10 +87,23 @@ module biss_axi #(
   if (STREAM_MODE > 1 || (STREAM_WIDTH != 32 && STREAM_WIDTH != 64)) begin : gen_stream
     $error("STREAM_MODE is 0 or 1, STREAM_WIDTH is 32 or 64");
   end
+  if (STREAM_MODE == 1 && STREAM_WIDTH == 32 && ALL_EXTRAS[axi_pkg::EXTRA_WIDE]) begin : gen_wide
+    $error("STREAM_WIDTH must be 64 here: EXTRAS has WIDE, and a beat is a position of 64 bits");
+  end
+  if (STREAM_MODE == 1 && STREAM_DEPTH < BISS_CHANNEL_WIDTH) begin : gen_depth
+    $error("STREAM_DEPTH must be at least BISS_CHANNEL_WIDTH: a frame goes into the FIFO whole");
+  end
   if (EXTRAS >= 1 << axi_pkg::EXTRAS_W) begin : gen_extras
     $error("EXTRAS has 9 bits");
   end
 `endif
+
+  axi_widths #(
+    .DataW    (S_AXIS_TDATA_WIDTH),
+    .UserW    (S_AXIS_TUSER_WIDTH),
+    .NeedData (STREAM_MODE == 1 ? STREAM_WIDTH : LANE * BISS_CHANNEL_WIDTH),
+    .NeedUser (STREAM_MODE == 1 ? 16 : BISS_CHANNEL_WIDTH)
+  ) u_widths ();
 
   axi_core #(
     .Channels     (BISS_CHANNEL_WIDTH),
@@ -94,7 +116,8 @@ module biss_axi #(
     .TimeoutLimit (TIMEOUT_LIMIT)
   ) u_core (
     .clk_i            (axi_aclk),
-    .rst_ni           (axi_aresetn),
+    .rst_ni           (axi_aresetn && (por_n || !POR_PIN)),
+    .por_ni           (POR_PIN ? por_n : axi_aresetn),
     .switches_i       ({ENABLE_ACTIVE_LOW, CRC_BIT_IGNORES, ALIGN_LATCH, VALID_UNTIL_REQUEST}),
     .s_axi_awvalid    (S_AXI_AWVALID),
     .s_axi_awready    (S_AXI_AWREADY),

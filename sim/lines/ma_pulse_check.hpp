@@ -3,7 +3,8 @@
 //
 // Guards one MA pin of the chip in every simulation. No level may be shorter than half of the
 // configured period of MA. It does not matter what shortens it: BREAK, a reset, a change of FREQS
-// or of the clock. The simulator calls the guard at every edge and ends the run at a violation.
+// or of the clock. The simulator calls the guard at every edge and ends the run at a violation. It
+// only counts a pulse that a reset cut if the master is built so (MasterModel::take_cut()).
 //
 // Source: iC-MB4 Rev D2, I302, I303.
 #ifndef MB4SIM_MA_PULSE_CHECK_HPP_
@@ -63,6 +64,10 @@ class MaPulseCheck {
 
   // Shortest pulse so far in ps; kNever before the first pulse.
   Time shortest() const { return shortest_; }
+  // The level that has just ended was too short because a reset cut it, and the master says that its
+  // reset does so.
+  void count_cut() { ++cut_; }
+  std::uint64_t cut() const { return cut_; }
   // Number of pulses checked.
   std::uint64_t pulses() const { return pulses_; }
 
@@ -77,6 +82,7 @@ class MaPulseCheck {
   Time required_ = 0;
   Time shortest_ = kNever;
   std::uint64_t pulses_ = 0;
+  std::uint64_t cut_ = 0;
   std::string violation_;
 };
 

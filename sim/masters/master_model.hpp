@@ -53,6 +53,14 @@ class MasterModel {
   // ma_of() of the lines whose MA only follows another pin, and so has no pulses of its own.
   Outputs followers() const { return followers_; }
 
+  // True once for each edge of MA that is none of a pulse: a reset that may cut pulses short has made
+  // it. `ma` is ma_of() of the line.
+  bool take_cut(Outputs ma) {
+    const bool cut = (cut_ & ma) != 0;
+    cut_ &= ~ma;
+    return cut;
+  }
+
   // Number of clocks that were left out because the master was at rest.
   virtual std::uint64_t left_out() const { return 0; }
   // Levels at the slaves, for the waveform: MA (bit n = line n), SLO and idle (bit n = slave n +
@@ -73,6 +81,7 @@ class MasterModel {
   // These are read at every edge of MA, so they are not virtual.
   Outputs outputs_ = 0;
   Outputs followers_ = 0;
+  Outputs cut_ = 0;
   std::uint64_t cycles_ = 0;
   Time min_clock_ = 0;
 };

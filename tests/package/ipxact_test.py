@@ -41,6 +41,7 @@ PINS = {
         "s_axis": (STREAM_IN, STREAM_OUT, "s_axis_", {"ACLK": "axi_aclk", "ARESETn": "axi_aresetn"}),
         "axi_aclk": (["CLK"], [], "", {"CLK": "axi_aclk"}),
         "axi_aresetn": (["RST"], [], "", {"RST": "axi_aresetn"}),
+        "por_n": (["RST"], [], "", {"RST": "por_n"}),
         "irq": ([], ["INTERRUPT"], "", {"INTERRUPT": "irq"})},
 }
 # docs/buses.md, and the register manual of the chip.

@@ -77,6 +77,7 @@ TOPS = {
         signal("axi_aclk", "slave", "clock", "CLK", ASSOCIATED_BUSIF="S_AXI:s_axis",
                ASSOCIATED_RESET="axi_aresetn"),
         signal("axi_aresetn", "slave", "reset", "RST", POLARITY="ACTIVE_LOW"),
+        signal("por_n", "slave", "reset", "RST", POLARITY="ACTIVE_LOW"),
         signal("irq", "master", "interrupt", "INTERRUPT", SENSITIVITY="LEVEL_HIGH"))),
 }
 

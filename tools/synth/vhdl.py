@@ -63,7 +63,8 @@ AXI_FOLDER = project.RTL / "axi" / "vhdl"
 AXI_SOURCE = project.RTL / "axi" / "biss_axi.sv"
 AXI_COMPONENT = HEAD + """-- biss_axi as a VHDL component, made by tools/synth/vhdl.py: do not edit. The module behind it is
 -- rtl/axi/biss_axi.sv, for tools that read both languages. A default cannot follow another generic
--- here: with more than one channel set S_AXIS_TDATA_WIDTH and S_AXIS_TUSER_WIDTH too.
+-- here: with other parameters set S_AXIS_TDATA_WIDTH and S_AXIS_TUSER_WIDTH too, to what the formula
+-- beside each of them gives. Another width stops the elaboration, and the error names the right one.
 -- Clock, reset and misuse: the header of rtl/axi/biss_axi.sv.
 
 library ieee;
@@ -144,6 +145,8 @@ def axi_texts():
     longest = max(map(len, parameters))
     derived = {"S_AXIS_TDATA_WIDTH": "32", "S_AXIS_TUSER_WIDTH": "1"}
     for number, (name, (kind, value, said)) in enumerate(parameters.items(), 1):
+        if name in derived:
+            said = value  # the formula
         value = derived.get(name, value.replace("1'b", ""))
         limits = "natural range 0 to 1" if kind == "bit" else "natural"
         comment = f"  -- {said}" if said else ""

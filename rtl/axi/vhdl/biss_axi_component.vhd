@@ -3,7 +3,8 @@
 --
 -- biss_axi as a VHDL component, made by tools/synth/vhdl.py: do not edit. The module behind it is
 -- rtl/axi/biss_axi.sv, for tools that read both languages. A default cannot follow another generic
--- here: with more than one channel set S_AXIS_TDATA_WIDTH and S_AXIS_TUSER_WIDTH too.
+-- here: with other parameters set S_AXIS_TDATA_WIDTH and S_AXIS_TUSER_WIDTH too, to what the formula
+-- beside each of them gives. Another width stops the elaboration, and the error names the right one.
 -- Clock, reset and misuse: the header of rtl/axi/biss_axi.sv.
 
 library ieee;
@@ -24,12 +25,14 @@ package biss_axi_component is
       TIMEOUT_LIMIT       : natural := 4000;  -- clocks of an encoder's timeout
       ALIGN_LATCH         : natural range 0 to 1 := 0;  -- 0x28 acts
       EXTRAS              : natural := 0;  -- bits as in axi_pkg and register FEATURES
-      S_AXIS_TDATA_WIDTH  : natural := 32;
-      S_AXIS_TUSER_WIDTH  : natural := 1
+      POR_PIN             : natural range 0 to 1 := 0;  -- 1: por_n alone resets MA
+      S_AXIS_TDATA_WIDTH  : natural := 32;  -- STREAM_MODE == 1 ? STREAM_WIDTH : ((EXTRAS & 2) != 0 ? 64 : 32) * BISS_CHANNEL_WIDTH
+      S_AXIS_TUSER_WIDTH  : natural := 1  -- STREAM_MODE == 0 ? BISS_CHANNEL_WIDTH : 16
     );
     port (
       axi_aclk          : in  std_logic;
       axi_aresetn       : in  std_logic;
+      por_n             : in  std_logic;
       S_AXI_AWADDR      : in  std_logic_vector(7 downto 0);
       S_AXI_AWVALID     : in  std_logic;
       S_AXI_AWREADY     : out std_logic;

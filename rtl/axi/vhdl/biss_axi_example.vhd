@@ -12,6 +12,7 @@ entity biss_axi_example is
   port (
     axi_aclk          : in  std_logic;
     axi_aresetn       : in  std_logic;
+    por_n             : in  std_logic;
     S_AXI_AWADDR      : in  std_logic_vector(7 downto 0);
     S_AXI_AWVALID     : in  std_logic;
     S_AXI_AWREADY     : out std_logic;
@@ -56,6 +57,7 @@ begin
     port map (
       axi_aclk          => axi_aclk,
       axi_aresetn       => axi_aresetn,
+      por_n             => por_n,
       S_AXI_AWADDR      => S_AXI_AWADDR,
       S_AXI_AWVALID     => S_AXI_AWVALID,
       S_AXI_AWREADY     => S_AXI_AWREADY,

@@ -23,7 +23,8 @@ constexpr std::pair<const char*, unsigned> kSwitches[] = {
     {"VALID_UNTIL_REQUEST", kAxiValidUntilRequest},
     {"ALIGN_LATCH", kAxiAlignLatch},
     {"CRC_BIT_IGNORES", kAxiCrcBitIgnores},
-    {"ENABLE_ACTIVE_LOW", kAxiEnableActiveLow}};
+    {"ENABLE_ACTIVE_LOW", kAxiEnableActiveLow},
+    {"POR_PIN", kAxiPorPin}};
 constexpr unsigned kDefaultSwitches = kAxiValidUntilRequest;
 
 // In the order of kAxiDocument, kAxiFull.

@@ -22,11 +22,13 @@ inline constexpr unsigned kAxiChannels = 16;
 // ChipConfig::features: what the document has, or all extras (EXTRAS of biss_axi).
 inline constexpr unsigned kAxiDocument = 0;
 inline constexpr unsigned kAxiFull = 1;
-// ChipConfig::quirks: bits of axi_pkg::switch_t, the parameters of biss_axi.
+// ChipConfig::quirks: bits of axi_pkg::switch_t, and above them POR_PIN; parameters of biss_axi.
 inline constexpr unsigned kAxiValidUntilRequest = 1;
 inline constexpr unsigned kAxiAlignLatch = 2;
 inline constexpr unsigned kAxiCrcBitIgnores = 4;
 inline constexpr unsigned kAxiEnableActiveLow = 8;
+inline constexpr unsigned kAxiSwitches = 15;
+inline constexpr unsigned kAxiPorPin = 16;
 
 // An AXI4-Lite access that runs or has ended.
 struct AxiAccess {
@@ -51,7 +53,9 @@ class AxiModel : public MasterModel {
   // Number of channels that the model has: at least those of the scenario.
   virtual unsigned channels() const = 0;
 
+  // Pins axi_aresetn and por_n. The second counts only with kAxiPorPin.
   virtual void set_reset(Time now, bool active) = 0;
+  virtual void set_power_on_reset(Time now, bool active) = 0;
   virtual void set_ext_sample_clk(Time now, bool level) = 0;
   virtual void set_sample_en(Time now, bool level) = 0;
   virtual bool ext_sample_clk() const = 0;

@@ -20,10 +20,12 @@ constexpr Pin kError{3};
 constexpr Pin kWarn{4};
 constexpr Pin kSampleClkOutput{5};
 constexpr Pin kIrq{6};
+constexpr Pin kPorN{7};
 constexpr int kMa0 = 16;
 constexpr int kSlo0 = 32;
 
 constexpr std::pair<std::string_view, Pin> kPins[] = {{"axi_aresetn", kAresetn},
+                                                      {"por_n", kPorN},
                                                       {"ext_sample_clk", kExtSampleClk},
                                                       {"sample_en", kSampleEn},
                                                       {"error", kError},
@@ -98,6 +100,7 @@ LiveAxi::LiveAxi(const MasterSetup& setup)
 
 void LiveAxi::power_on() {
   outside_.run_until(kResetLow);
+  outside_.set_pin(kPorN, true);
   outside_.set_pin(kAresetn, true);
 }
 
@@ -105,7 +108,7 @@ bool LiveAxi::can_set(Pin pin) const {
   if (const auto line = line_of(pin, kSlo0)) {
     return *line < model_->channels() && (lines_ & MasterModel::ma_of(*line)) == 0;
   }
-  return pin == kAresetn || pin == kExtSampleClk || pin == kSampleEn;
+  return pin == kAresetn || pin == kPorN || pin == kExtSampleClk || pin == kSampleEn;
 }
 
 void LiveAxi::set_pin(Time now, Pin pin, bool level) {
@@ -113,6 +116,9 @@ void LiveAxi::set_pin(Time now, Pin pin, bool level) {
   if (pin == kAresetn) {
     aresetn_ = level;
     model_->set_reset(now, !level);
+  } else if (pin == kPorN) {
+    por_n_ = level;
+    model_->set_power_on_reset(now, !level);
   } else if (pin == kExtSampleClk) {
     model_->set_ext_sample_clk(now, level);
   } else if (pin == kSampleEn) {
@@ -129,6 +135,7 @@ bool LiveAxi::pin(Pin pin) const {
     return *line < model_->channels() && model_->slo(*line);
   }
   if (pin == kAresetn) return aresetn_;
+  if (pin == kPorN) return por_n_;
   if (pin == kExtSampleClk) return model_->ext_sample_clk();
   if (pin == kSampleEn) return model_->sample_en();
   if (pin == kError) return (outputs & AxiModel::kError) != 0;

@@ -54,7 +54,7 @@ class LiveAxi final : public LiveMaster {
   explicit LiveAxi(const MasterSetup& setup);
 
   MasterModel& model() override { return *model_; }
-  // axi_aresetn is low for 500 ns.
+  // axi_aresetn and por_n are low for 500 ns.
   void power_on() override;
 
   bool can_set(Pin pin) const override;
@@ -72,6 +72,7 @@ class LiveAxi final : public LiveMaster {
   std::unique_ptr<AxiModel> model_;
   AxiHost host_;
   bool aresetn_ = false;
+  bool por_n_ = false;
 };
 
 // Pins by the document's names; ma0 to ma15 and slo0 to slo15 are the lines.

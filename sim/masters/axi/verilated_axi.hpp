@@ -37,23 +37,28 @@ class VerilatedAxi final : public AxiModel {
 
  public:
   VerilatedAxi(const ChipConfig& chip, std::uint64_t seed)
-      : context_(make_verilated_context(seed)), clock_(chip.f_clk_hz) {
+      : context_(make_verilated_context(seed)),
+        clock_(chip.f_clk_hz),
+        por_pin_((chip.quirks & kAxiPorPin) != 0) {
     min_clock_ = period_of(chip.f_clk_hz);
     model_ = std::make_unique<Model>(context_.get(), "biss_axi");
     Model& m = *model_;
-    m.clk_i = 0;
-    m.switches_i = static_cast<CData>(chip.quirks);
+    m.switches_i = static_cast<CData>(chip.quirks & kAxiSwitches);
     m.s_axi_awvalid = m.s_axi_wvalid = m.s_axi_arvalid = 0;
     m.s_axi_bready = m.s_axi_rready = 1;
     m.s_axis_tready = 1;
     m.slo_i = static_cast<Slo>((1U << kChannels) - 1);
     m.ext_sample_clk_i = 0;
     m.sample_en_i = 1;
-    // Only an edge resets the flops of a Verilated model.
+    // Only an edge resets the flops of a Verilated model, and the synchronisers must be released
+    // before it.
     context_->assertOn(false);
-    m.rst_ni = 1;
-    m.eval();
-    m.rst_ni = 0;
+    m.rst_ni = m.por_ni = 1;
+    for (const unsigned level : {0U, 1U, 0U, 1U, 0U}) {
+      m.clk_i = static_cast<CData>(level);
+      m.eval();
+    }
+    m.rst_ni = m.por_ni = 0;
     steps_.inputs(m);
     context_->assertOn(true);
     pack();
@@ -88,13 +93,12 @@ class VerilatedAxi final : public AxiModel {
 
   unsigned channels() const override { return kChannels; }
   void set_reset(Time now, bool active) override {
-    Verilated::threadContextp(context_.get());
-    model_->rst_ni = active ? 0 : 1;
-    late_ = 0;
-    taken_ = false;
-    steps_.inputs(*model_);
-    pack();
-    show(now);
+    reset_ = active;
+    reset_changes(now);
+  }
+  void set_power_on_reset(Time now, bool active) override {
+    power_on_reset_ = active;
+    reset_changes(now);
   }
   void set_ext_sample_clk(Time now, bool level) override {
     model_->ext_sample_clk_i = level ? 1 : 0;
@@ -182,6 +186,24 @@ class VerilatedAxi final : public AxiModel {
     if (wave_ != nullptr) wave_->show(now);
   }
 
+  // As biss_axi makes the resets of axi_core from its pins.
+  void reset_changes(Time now) {
+    Verilated::threadContextp(context_.get());
+    Model& m = *model_;
+    const bool rises = m.rst_ni != 0;
+    m.rst_ni = reset_ || (por_pin_ && power_on_reset_) ? 0 : 1;
+    m.por_ni = (por_pin_ ? power_on_reset_ : reset_) ? 0 : 1;
+    if (rises && m.rst_ni == 0) {
+      late_ = 0;
+      taken_ = false;
+    }
+    const Outputs before = outputs_;
+    steps_.inputs(m);
+    pack();
+    cut_ |= outputs_ & ~before;
+    show(now);
+  }
+
   void take_beat(Time now) {
     if (beats_.size() == kMostBeats) {
       beats_.pop_front();
@@ -259,6 +281,9 @@ class VerilatedAxi final : public AxiModel {
   std::unique_ptr<Model> model_;
   Steps steps_;
   ClockSource clock_;
+  bool por_pin_;
+  bool reset_ = true;           // axi_aresetn is 0
+  bool power_on_reset_ = true;  // por_n is 0
   bool moved_ = false;   // inputs have changed since the last edge, beside SLO
   bool handed_ = false;  // the edge that is about to come takes address and data
   bool taken_ = false;   // the running access has been taken

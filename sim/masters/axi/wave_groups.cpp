@@ -46,7 +46,7 @@ const std::array<ChannelNames, kAxiChannels>& channel_names() {
 // The first groups are those that a user of the master sees.
 std::vector<WaveGroup> axi_wave_groups(const HostConfig& /*host*/) {
   std::vector<WaveGroup> groups{
-      {"clock and reset", true, {{"", "axi_aclk"}, {"", "axi_aresetn"}}, {}},
+      {"clock and reset", true, {{"", "axi_aclk"}, {"", "axi_aresetn"}, {"", "por_n"}}, {}},
       {"write",
        false,
        {{"", "S_AXI_AWVALID"},

@@ -30,6 +30,7 @@ template <typename Model, unsigned kChannels>
 class BissAxiBench {
  public:
   enum class Wire { kEncoder, kHigh, kLow };
+  static constexpr unsigned kLongestLimit = 8000;  // TIMEOUT_LIMIT of the tops here
 
   struct Encoder {
     Slave slave;
@@ -42,7 +43,7 @@ class BissAxiBench {
 
   BissAxiBench() {
     m.axi_aclk = 0;
-    m.axi_aresetn = 0;
+    m.axi_aresetn = m.por_n = 0;
     m.S_AXI_AWVALID = m.S_AXI_WVALID = m.S_AXI_ARVALID = 0;
     m.S_AXI_BREADY = m.S_AXI_RREADY = 1;
     m.S_AXI_WSTRB = 0xF;
@@ -51,9 +52,13 @@ class BissAxiBench {
     m.sample_en = 1;
     m.slo = (1U << kChannels) - 1;
     m.eval();  // what the first call finds is no edge
-    clocks(2);
-    m.axi_aresetn = 1;
-    clocks(2);
+    // The reset reaches the flops with the first clock.
+    m.contextp()->assertOn(false);
+    clocks(3);
+    m.contextp()->assertOn(true);
+    beats.clear();
+    m.axi_aresetn = m.por_n = 1;
+    clocks(kLongestLimit + 10);  // a reset holds starts back
   }
 
   void clock() {

@@ -2,17 +2,20 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // The top biss_axi with numbers of channels that the simulator has no model for: three channels,
-// five with stream mode 1 and a longer TIMEOUT_LIMIT, and two with extras and 64 bits of stream
-// mode 1.
+// five with stream mode 1 and a longer TIMEOUT_LIMIT, two with extras and 64 bits of stream mode 1,
+// and two with POR_PIN and ALIGN_LATCH.
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cstdint>
+#include <cstdio>
+#include <cstdlib>
 #include <vector>
 
 #include "Vbiss_axi_3.h"
 #include "Vbiss_axi_beats.h"
 #include "Vbiss_axi_full.h"
+#include "Vbiss_axi_por.h"
 #include "tests/block/axi/biss_axi_bench.hpp"
 
 namespace {
@@ -22,6 +25,7 @@ using mb4test::Dice;
 using Three = mb4test::BissAxiBench<Vbiss_axi_3, 3>;
 using Beats = mb4test::BissAxiBench<Vbiss_axi_beats, 5>;
 using Full = mb4test::BissAxiBench<Vbiss_axi_full, 2>;
+using Por = mb4test::BissAxiBench<Vbiss_axi_por, 2>;
 
 constexpr unsigned kBits = 12;
 
@@ -162,7 +166,7 @@ TEST(BissAxiTop, PositionsOf64Bits_ComeInOneBeat) {
   }
 }
 
-// A sink that stops: beats are lost, STREAM_STATUS and LOST say so.
+// A sink that stops: frames are lost whole, STREAM_STATUS and LOST say so.
 TEST(BissAxiTop, SinkThatStops_IsTold) {
   Full bench;
   bench.set_up(kBits, 2, 60);
@@ -175,12 +179,13 @@ TEST(BissAxiTop, SinkThatStops_IsTold) {
     bench.frame(400);
     bench.write(reg::kAddrIrqStatus, 1);
   }
-  EXPECT_EQ(bench.read(reg::kAddrStreamStatus), 1U);
+  EXPECT_EQ(bench.read(reg::kAddrStreamStatus), 2U << 16U | 1U);
   EXPECT_EQ(bench.read(reg::kAddrIrqStatus), 0x10U);
   bench.m.s_axis_tready = 1;
   bench.beats.clear();
   bench.clocks(20);
-  EXPECT_EQ(bench.beats.size(), 5U);  // 4 in the FIFO, one at the output
+  ASSERT_EQ(bench.beats.size(), 4U);  // 3 in the FIFO, one at the output
+  for (unsigned i = 0; i < 4; ++i) EXPECT_EQ(bench.beats[i].last, i % 2 != 0);
 }
 
 // A cable that gets longer while frames run.
@@ -205,6 +210,162 @@ TEST(BissAxiTop, DelayThatMoves_IsAnAlarm) {
   }
   EXPECT_EQ(bench.read(reg::kAddrDelayAlarm), 2U);
   EXPECT_EQ(bench.m.irq, 1);
+}
+
+// axi_aresetn at any clock of a frame, and a start 0 to 3 us after it, while the encoder's timeout
+// is 20 us: no word of the old frame comes as good. Without POR_PIN the reset cuts low pulses of
+// MA, with it none.
+template <typename Bench>
+void reset_in_frames(unsigned channels, bool por_pin, std::uint64_t& good) {
+  constexpr unsigned kHalf = 5;
+  Dice dice;
+  Bench bench;
+  unsigned cut = 0;
+  for (int round = 0; round < 150; ++round) {
+    SCOPED_TRACE(testing::Message() << "round " << round << " por_pin " << por_pin);
+    std::vector<std::uint64_t> sent;
+    const auto new_words = [&](unsigned ones) {
+      sent.clear();
+      for (unsigned c = 0; c < channels; ++c) {
+        sent.push_back(ones != 0 ? 0xFFF : dice.below(0x1000));
+        bench.set_word(c, sent.back(), kBits);
+      }
+    };
+    const auto set_up = [&] {
+      bench.set_up(kBits, kHalf, 2000);
+      if (round % 2 != 0) bench.write(reg::kAddrCrcCheck, 0);
+    };
+    new_words(dice.below(2));
+    set_up();
+    bench.clocks(4100);
+    for (auto& encoder : bench.encoders) {
+      encoder.rises.clear();
+      encoder.falls.clear();
+    }
+    bench.frame(dice.below(350));
+    bench.m.axi_aresetn = 0;
+    bench.clocks(1 + dice.below(20));
+    bench.m.axi_aresetn = 1;
+    bench.beats.clear();
+    set_up();
+    bench.clocks(dice.below(300));
+    bench.request();
+    bench.clocks(800);
+    for (const mb4test::AxiBeat& beat : bench.beats) EXPECT_EQ(beat.user, 0U) << "a wrong word";
+    for (const auto& encoder : bench.encoders) {
+      ASSERT_EQ(encoder.rises.size(), encoder.falls.size()) << "MA rests at 1";
+      for (std::size_t i = 0; i < encoder.falls.size(); ++i) {
+        if (encoder.rises[i] - encoder.falls[i] < kHalf) ++cut;
+        if (i != 0) {
+          EXPECT_GE(encoder.falls[i] - encoder.rises[i - 1], kHalf);
+        }
+      }
+    }
+    bench.clocks(3500);
+    new_words(0);
+    bench.frame(900);
+    ASSERT_EQ(bench.beats.size(), 1U);
+    EXPECT_EQ(bench.beats[0].user, (1U << channels) - 1);
+    EXPECT_EQ(bench.beats[0].words.size(), por_pin ? 1U : channels);
+    good += bench.beats.size();
+  }
+  if (por_pin) {
+    EXPECT_EQ(cut, 0U);
+  } else {
+    EXPECT_GT(cut, 0U);
+  }
+}
+
+TEST(BissAxiTop, ResetInAFrame_BringsNoWrongWord) {
+  std::uint64_t good = 0;
+  reset_in_frames<Three>(3, false, good);
+  reset_in_frames<Por>(2, true, good);
+  EXPECT_EQ(good, 300U);
+}
+
+// A sink that stops at random, five channels of which any are enabled, 16 beats in the FIFO. Each
+// packet is a frame, in order; what is missing was lost, and the page has counted it.
+// MB4_AXI_PACKETS: frames.
+template <typename Bench>
+void packets_of(unsigned channels, bool page, std::uint64_t frames) {
+  Dice dice;
+  Bench bench;
+  bench.set_up(kBits, 1, 20);
+  std::uint64_t lost = 0, whole = 0, packets = 0, counted = 0;
+  unsigned stop = 0;
+  std::uint64_t next = 0;  // the oldest frame that the next packet may be
+  std::uint64_t last = 0;  // the newest one that has begun
+  std::vector<std::uint64_t> enables(4096);
+  std::vector<mb4test::AxiBeat> packet;
+  const auto clocks = [&](unsigned count) {
+    for (; count != 0; --count) {
+      if (stop == 0 && dice.below(600) == 0) stop = dice.below(4000);
+      bench.m.s_axis_tready = stop != 0 ? 0 : dice.below(8) != 0 ? 1 : 0;
+      if (stop != 0) --stop;
+      bench.clock();
+    }
+    for (mb4test::AxiBeat& beat : bench.beats) {
+      packet.push_back(beat);
+      if (!beat.last) continue;
+      ++packets;
+      // The word is the frame's number, modulo 4096.
+      const std::uint64_t number = packet[0].words[0];
+      while (next <= last && next % 4096 != number) {
+        ++next;
+        ++lost;
+      }
+      ASSERT_LE(next, last) << "no frame " << number << ": out of order";
+      std::size_t place = 0;
+      for (unsigned c = 0; c < channels; ++c) {
+        if ((enables[number] >> c & 1U) == 0) continue;
+        ASSERT_LT(place, packet.size()) << "frame " << next << " is short";
+        ASSERT_EQ(packet[place].user, c << 8U | 7U) << "frame " << next;
+        ASSERT_EQ(packet[place].words[0], number);
+        ASSERT_EQ(packet[place].last, place + 1 == packet.size());
+        ++place;
+      }
+      ASSERT_EQ(place, packet.size()) << "frame " << next << " is long";
+      ++next;
+      ++whole;
+      packet.clear();
+    }
+    bench.beats.clear();
+  };
+  for (last = 0; last < frames; ++last) {
+    const unsigned enable = 1 + dice.below((1U << channels) - 1);
+    enables[last % 4096] = enable;
+    for (unsigned c = 0; c < channels; ++c) bench.set_word(c, last % 4096, kBits);
+    bench.write(reg::kAddrChannelEnable, enable);
+    bench.request();
+    ASSERT_NO_FATAL_FAILURE(clocks(140 + dice.below(60)));
+  }
+  --last;
+  stop = 0;
+  for (int i = 0; i < 200; ++i) {
+    bench.m.s_axis_tready = 1;
+    bench.clock();
+  }
+  stop = 1;
+  ASSERT_NO_FATAL_FAILURE(clocks(1));
+  EXPECT_TRUE(packet.empty());
+  lost += last + 1 - next;
+  if (page) {
+    counted = bench.read(reg::kAddrStreamStatus) >> 16U;
+    EXPECT_EQ(counted, lost & 0xFFFF);
+  }
+  EXPECT_EQ(whole + lost, frames);
+  EXPECT_GT(lost, frames / 50);
+  EXPECT_GT(whole, frames / 50);
+  std::printf("%llu frames: %llu packets, %llu whole, %llu frames lost\n",
+              static_cast<unsigned long long>(frames), static_cast<unsigned long long>(packets),
+              static_cast<unsigned long long>(whole), static_cast<unsigned long long>(lost));
+}
+
+TEST(BissAxiTop, SinkThatStopsAtRandom_GetsWholePackets) {
+  const char* text = std::getenv("MB4_AXI_PACKETS");
+  const std::uint64_t frames = text != nullptr ? std::strtoull(text, nullptr, 0) : 2000;
+  packets_of<Beats>(5, false, frames / 2);
+  packets_of<Full>(2, true, frames / 2);
 }
 
 }  // namespace

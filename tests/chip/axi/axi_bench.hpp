@@ -50,10 +50,14 @@ constexpr std::uint64_t raw_word(std::uint64_t position) { return position << 2U
 
 class AxiBench {
  public:
+  static constexpr unsigned kTimeoutLimit = 4000;  // parameter TIMEOUT_LIMIT, clocks
+
   explicit AxiBench(const std::string& scenario)
       : simulator(sim::parse_scenario(scenario, "test.toml")),
         host(simulator.host<sim::AxiHost>("axi")),
-        period(sim::kPsPerSecond / simulator.scenario().chip.f_clk_hz) {}
+        period(sim::kPsPerSecond / simulator.scenario().chip.f_clk_hz) {
+    simulator.advance(kTimeoutLimit * period);  // a reset holds starts back
+  }
 
   void write(std::uint8_t address, std::uint32_t data) {
     EXPECT_EQ(host.write(address, data), std::uint8_t{0});

@@ -47,6 +47,7 @@ module biss_axi_narrow #(
   biss_axi #(.BISS_CHANNEL_WIDTH(Channels)) u_biss_axi (
     .axi_aclk,
     .axi_aresetn,
+    .por_n         (1'b1),
     .S_AXI_AWADDR  (s_axi_awaddr),
     .S_AXI_AWVALID (s_axi_awvalid),
     .S_AXI_AWREADY (s_axi_awready),
