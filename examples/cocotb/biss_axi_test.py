@@ -61,6 +61,7 @@ class Bench:
         dut.ext_sample_clk.value = 0
         dut.sample_en.value = 1
         dut.axi_aresetn.value = 0
+        dut.por_n.value = 1
         # A master writes its pins at once. At time 0 Icarus 11 would lose what depends on them.
         await Timer(1, "ns")
         self.master = AxiLiteMaster(AxiLiteBus.from_prefix(dut, "S_AXI"), dut.axi_aclk,

@@ -64,8 +64,8 @@ class MaPulseCheck {
 
   // Shortest pulse so far in ps; kNever before the first pulse.
   Time shortest() const { return shortest_; }
-  // The level that has just ended was too short because a reset cut it, and the master says that its
-  // reset does so.
+  // The level that has just ended was too short because a reset cut it, and the master says that
+  // its reset does so.
   void count_cut() { ++cut_; }
   std::uint64_t cut() const { return cut_; }
   // Number of pulses checked.

@@ -53,8 +53,8 @@ class MasterModel {
   // ma_of() of the lines whose MA only follows another pin, and so has no pulses of its own.
   Outputs followers() const { return followers_; }
 
-  // True once for each edge of MA that is none of a pulse: a reset that may cut pulses short has made
-  // it. `ma` is ma_of() of the line.
+  // True once for each edge of MA that is none of a pulse: a reset that may cut pulses short has
+  // made it. `ma` is ma_of() of the line.
   bool take_cut(Outputs ma) {
     const bool cut = (cut_ & ma) != 0;
     cut_ &= ~ma;

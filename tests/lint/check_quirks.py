@@ -2,7 +2,8 @@
 # SPDX-FileCopyrightText: 2026 The openmb4 authors
 # SPDX-License-Identifier: Apache-2.0
 """Compares the quirks in the three places that name them: the package of the RTL (the source), the simulator's
-master, which reads them from a scenario, and the table of docs/choices.md. The package may shorten a name.
+master, which reads them from a scenario, and the table of docs/choices.md. The package may shorten a name. For
+biss_axi: the parameters of one bit (the source), its master, and the row of docs/axi.md.
 
   check_quirks.py               the places agree
   check_quirks.py --self-test   planted differences are reported
@@ -19,6 +20,7 @@ import project  # noqa: E402
 PACKAGE = "rtl/mb4/mb4_pkg.sv"
 MASTER = "sim/masters/mb4/mb4_master.cpp"
 TABLE = "docs/choices.md"
+AXI_PLACES = ("rtl/axi/biss_axi.sv", "sim/masters/axi/axi_master.cpp", "docs/axi.md")
 
 
 def package_quirks(text):
@@ -60,6 +62,18 @@ def findings(package, master, table):
     return found
 
 
+def axi_findings(top, master, page):
+    parameters = set(re.findall(r"(?m)^ +parameter bit +(\w+)", top))
+    table = re.search(r"kSwitches\[\] = \{(.*?)\};", master, re.S)
+    switches = set(re.findall(r'\{"(\w+)", ', table[1] if table else ""))
+    row = re.search(r"(?m)^\| `\[chip\.quirks\]` ([^|]*)\|", page)
+    shown = set(re.findall(r"`(\w+)`", row[1] if row else ""))
+    found = [] if parameters else [f"{AXI_PLACES[0]}: no parameters of one bit"]
+    for place, names in zip(AXI_PLACES[1:], (switches, shown)):
+        found += [f"{place} and {AXI_PLACES[0]}: only one of them has {name}" for name in sorted(names ^ parameters)]
+    return found
+
+
 def self_test():
     package = ("localparam int unsigned QUIRKS_W = 3;\nlocalparam int unsigned QUIRK_AB_WR = 0;\n"
                "localparam int unsigned QUIRK_REVISION_LSB = 1;\n")
@@ -79,14 +93,26 @@ def self_test():
             "nothing found": ("", "", "")}.items():
         if not findings(*places):
             wrong.append(f"{what}: not reported")
+    axi = ("  parameter bit          ONE = 1'b0,\n  parameter bit TWO = 1'b1\n",
+           'kSwitches[] = {\n {"ONE", kOne},\n {"TWO", kTwo}};', "| `[chip.quirks]` `ONE`, `TWO` | boolean |\n")
+    if found := axi_findings(*axi):
+        wrong.append(f"the good places of biss_axi: {found}")
+    for place in range(3):
+        planted = [text.replace("TWO", "TOO") if k == place else text for k, text in enumerate(axi)]
+        if not axi_findings(*planted):
+            wrong.append(f"a name in {AXI_PLACES[place]}: not reported")
     return wrong
+
+
+def read(names):
+    return [(project.ROOT / name).read_text(encoding="utf-8") for name in names]
 
 
 def main():
     if sys.argv[1:] == ["--self-test"]:
         project.finish(self_test(), "planted differences, all reported")
-    project.finish(findings(*((project.ROOT / name).read_text(encoding="utf-8")
-                              for name in (PACKAGE, MASTER, TABLE))), "the three places agree")
+    project.finish(findings(*read((PACKAGE, MASTER, TABLE))) + axi_findings(*read(AXI_PLACES)),
+                   "the places agree, for the iC-MB4 and for biss_axi")
 
 
 main()

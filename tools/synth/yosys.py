@@ -18,8 +18,10 @@ def read(files=None):
 
 
 def choose(top, parameters):
-    """Gives parameters of a top, {name: integer}, their values. The top has another name then: rename -top."""
-    return [f"chparam -set {name} {value} {top}" for name, value in parameters.items()]
+    """Gives parameters of a top, {name: integer}, their values, all at once: any part of them may be an error. The
+    top has another name then: rename -top."""
+    sets = " ".join(f"-set {name} {value}" for name, value in parameters.items())
+    return [f"chparam {sets} {top}"] if parameters else []
 
 
 def check_as_top(module):

@@ -284,11 +284,11 @@ class VerilatedAxi final : public AxiModel {
   bool por_pin_;
   bool reset_ = true;           // axi_aresetn is 0
   bool power_on_reset_ = true;  // por_n is 0
-  bool moved_ = false;   // inputs have changed since the last edge, beside SLO
-  bool handed_ = false;  // the edge that is about to come takes address and data
-  bool taken_ = false;   // the running access has been taken
-  unsigned late_ = 0;    // answers of accesses that have been given up
-  Outputs toggles_ = 0;  // kDone, kBeat
+  bool moved_ = false;          // inputs have changed since the last edge, beside SLO
+  bool handed_ = false;         // the edge that is about to come takes address and data
+  bool taken_ = false;          // the running access has been taken
+  unsigned late_ = 0;           // answers of accesses that have been given up
+  Outputs toggles_ = 0;         // kDone, kBeat
   // Levels at the encoders, bit n = channel n, for the waveform.
   std::uint64_t encoders_ma_ = ~std::uint64_t{0};
   std::uint64_t encoders_slo_ = ~std::uint64_t{0};
