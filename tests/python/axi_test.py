@@ -51,6 +51,7 @@ def test_frame_brings_the_word_of_the_encoder(chip):
                         ("CHANNEL_ENABLE", 1)):
         regs[name].register.write(value)
     chip.set_data(1, 0x123_4567 << 2 | 3)
+    chip.advance_ns(41_000)  # the reset holds starts back
     regs.REQUEST.modify(1)
     chip.advance_ns(20_000)
     assert regs.SINGLE_POINT_VALID.read() == 1

@@ -38,6 +38,7 @@ class CApiAxi : public testing::Test {
     char error[200];
     sim = mb4sim_open(kScenario, error, sizeof error);
     ASSERT_NE(sim, nullptr) << error;
+    mb4sim_advance_ns(sim, 41'000);  // a reset holds starts back
   }
   void TearDown() override { mb4sim_close(sim); }
 
