@@ -101,6 +101,7 @@ mb4_config mb4_config_default(void) {
   config.register_timeout_us = from.register_timeout_us;
   config.hold_beside_access = from.hold_beside_access;
   config.activate_at_initialize = from.activate_at_initialize;
+  config.pin_period_us = from.pin_period_us;
   for (std::size_t i = 0; i < mb4::kChannels; ++i) {
     config.protocol[i] = static_cast<std::uint8_t>(from.channels[i].protocol);
   }

@@ -81,6 +81,7 @@ inline mb4::Config from_c(const mb4_config& config) {
   out.register_timeout_us = config.register_timeout_us;
   out.hold_beside_access = config.hold_beside_access;
   out.activate_at_initialize = config.activate_at_initialize;
+  out.pin_period_us = config.pin_period_us;
   for (std::size_t i = 0; i < mb4::kChannels; ++i) {
     out.channels[i].protocol = static_cast<mb4::Protocol>(config.protocol[i]);
   }

@@ -110,6 +110,7 @@ typedef struct {
   mb4_slave_config slaves[MB4_SLAVES]; /* [0] is slave 1 */
   bool hold_beside_access;             /* HOLDBANK beside register accesses too */
   bool activate_at_initialize;         /* mb4_slave_activate() in mb4_initialize() */
+  uint32_t pin_period_us; /* MB4_START_ON_PIN: from pulse to pulse, 1..1'000'000; 0 = unknown */
 } mb4_config;
 
 /* mb4::Reading in mb4/reading.hpp. */

@@ -53,6 +53,8 @@ enum {
   MB4_CYCLIC_READ0 = mb4::regs::kSpiOpcodeReadRegisters0,
   MB4_CYCLIC_STATUS = mb4::regs::kSpiOpcodeReadStatus,
   MB4_CYCLIC_INSTRUCT = mb4::regs::kSpiOpcodeWriteInstruction,
+  MB4_CYCLIC_SL1 = mb4::regs::SL1::kMask,
+  MB4_CYCLIC_SL2 = mb4::regs::SL2::kMask,
   MB4_CYCLIC_LINES = mb4::regs::SL1::kAddress - mb4::regs::kAddrStatus0 + 1,
   MB4_CYCLIC_BANKS = mb4::regs::SWBANKFAIL::kAddress - mb4::regs::kAddrStatus0 + 1,
   MB4_CYCLIC_BANKFAIL = mb4::regs::SWBANKFAIL::kMask
@@ -74,6 +76,8 @@ enum {
   MB4_CYCLIC_READ0 = MB4_SPI_OPCODE_READ_REGISTERS0,
   MB4_CYCLIC_STATUS = MB4_SPI_OPCODE_READ_STATUS,
   MB4_CYCLIC_INSTRUCT = MB4_SPI_OPCODE_WRITE_INSTRUCTION,
+  MB4_CYCLIC_SL1 = MB4_SL_MASK(1U),
+  MB4_CYCLIC_SL2 = MB4_SL_MASK(2U),
   MB4_CYCLIC_LINES = MB4_SL_ADDR(1U) - MB4_ADDR_STATUS0 + 1,
   MB4_CYCLIC_BANKS = MB4_SWBANKFAIL_ADDR - MB4_ADDR_STATUS0 + 1,
   MB4_CYCLIC_BANKFAIL = MB4_SWBANKFAIL_MASK
@@ -96,7 +100,8 @@ extern "C" {
 enum {
   MB4_PLAN_FRAMES = 18,  /* most frames of a plan, with eight slaves */
   MB4_PLAN_LONGEST = 25, /* bytes of the longest frame, unless mb4_cyclic.wide asks for more */
-  MB4_MORE = 255         /* of mb4_cyclic_finish(): make the frames of the plan */
+  MB4_MORE = 255,        /* of mb4_cyclic_finish(): make the frames of the plan */
+  MB4_NOT_STORED = 0xFF  /* a byte of rx that the bus has not stored */
 };
 
 /* Words of 32 bits for tx, and for rx, of a read of `slaves` slaves: a size of an array. */
@@ -129,7 +134,8 @@ static inline uint8_t *mb4_plan_rx(const mb4_plan *plan, uint8_t frame) {
 }
 
 /* Adds a frame of `size` bytes that begins with `first` and `second`; the rest is `filler`. Returns
- * it. */
+ * it. The last byte in rx becomes what no answer ends with: a bus that reports success and has not
+ * stored all bytes must not turn an old answer into a new one. */
 MB4_APART uint8_t *mb4_plan_add(mb4_plan *plan, uint8_t size, uint8_t first, uint8_t second,
                                 uint8_t filler) {
   const uint8_t frame = plan->frames;
@@ -148,6 +154,7 @@ MB4_APART uint8_t *mb4_plan_add(mb4_plan *plan, uint8_t size, uint8_t first, uin
   for (next = tx + size; next != tx + 2;) {
     *--next = filler;
   }
+  plan->rx[at + size - 1] = MB4_NOT_STORED;
   return tx;
 }
 
@@ -170,6 +177,10 @@ typedef struct {
   uint8_t crc_bits;      /* of the stored CRC; 0: none is stored */
   bool flags;            /* the last two bits are nE, nW */
   bool gray;             /* the chip has converted Gray code */
+  uint8_t line;          /* of mb4_word_biss_c(); 0: a word that is all 0 has no code of its own */
+  uint8_t crc_high;      /* private: bits of the stored CRC below the last byte, 0 or 8 */
+  uint8_t guard;         /* private: bits of the last byte that become 1 once it is taken */
+  uint8_t flip;          /* private: bits that are inverted */
 } mb4_word;
 
 /* `slave` 1..8. The members of `config` must be those that the chip has (mb4_validate()).
@@ -197,21 +208,37 @@ static inline void mb4_word_set(mb4_word *word, uint8_t slave, const mb4_slave_c
   }
   word->flags = config->flags == MB4_FLAGS_ERROR_WARNING;
   word->gray = config->gray;
+  word->line = 0;
+  word->crc_high = word->crc_bits > 8 ? 8 : 0;
+  /* Bits that the chip makes 0. A stored CRC that leaves none in its byte is inverted. */
+  width = word->crc_bits != 0 ? word->crc_bits : word->bits;
+  word->guard = (width & 7U) != 0 ? (uint8_t)(0xFFU << (width & 7U)) : 0;
+  word->flip = word->crc_bits != 0 && (width & 7U) == 0 ? 0xFF : 0;
+}
+
+/* The slave is one of BiSS C on `channel` 1 or 2: a bad word that is all 0 on the line is
+ * MB4_NO_WORD (with MB4_WITH_BEATS). Nothing changes for a slave whose CRC the chip does not check.
+ */
+static inline void mb4_word_biss_c(mb4_word *word, const mb4_slave_config *config,
+                                   uint8_t channel) {
+  const uint8_t line = channel == 1 ? MB4_CYCLIC_SL1 : MB4_CYCLIC_SL2;
+  word->line = config->crc_polynomial != 0 ? line : 0;
 }
 
 /* Parts of the read path that a build may leave out: the last argument of mb4_cyclic_finish(). A
- * constant lets the compiler drop the rest. What is left out must not be configured. */
+ * constant lets the compiler drop the rest. What is left out must not be configured:
+ * mb4_cyclic_check(). */
 enum {
   MB4_WITH_LONG = 1,     /* data of more than 32 bits */
   MB4_WITH_GRAY = 2,     /* SSI with Gray code */
   MB4_WITH_FULL = 4,     /* MB4_SPI_CHECK_FULL, _FULL_AND_RELEASE */
   MB4_WITH_UNHELD = 8,   /* without HOLDBANK beside a register access */
   MB4_WITH_SEVERAL = 16, /* more than one slave delivers data */
-  MB4_WITH_BEATS = 128,  /* no MB4_TIMEOUT where the reads meet the end of each frame for a while;
-                            no configuration needs it */
-  MB4_WITH_ALL = 159,
-  MB4_WITH_TABLE = 32, /* CRC by word->table, four bits a step, where it is not null */
-  MB4_WITH_COUNTS = 64 /* watch->counts, where it is not null */
+  MB4_WITH_TABLE = 32,   /* CRC by word->table, four bits a step, where it is not null */
+  MB4_WITH_COUNTS = 64,  /* watch->counts, where it is not null */
+  MB4_WITH_BEATS = 128,  /* closer looks: no MB4_TIMEOUT where the reads meet the end of each frame
+                            for a while; MB4_NO_WORD. No configuration needs it */
+  MB4_WITH_ALL = 255
 };
 
 /* `steps` (1..32) bits, of a CRC that is left aligned and has the data added to it. */
@@ -288,6 +315,12 @@ typedef struct {
   uint32_t late;     /* reads that ended more than 1.5 periods after the last one */
   uint32_t faults;   /* other errors */
   uint32_t restarts; /* of the C++ calls next(), restart() and plan_restart() */
+  uint32_t no_word;  /* reads with MB4_NO_WORD for a slave; not in `crc` */
+  uint32_t doubtful; /* by so much `lost` and `sequence` may be wrong: how often the time since the
+                        good word before says another number of samples than the time since the
+                        first one. It rises with each sample that is lost or comes late if period_ns
+                        or a clock is wrong, and when a loop with another period than the frames
+                        slips by one */
   bool omits;        /* nAGSERR = 0: the chip has left out a frame */
   /* Private. */
   uint32_t last_us; /* a new word */
@@ -299,29 +332,34 @@ typedef struct {
 typedef struct {
   uint32_t news_us;    /* when the last frame was seen; set it when frames are started */
   uint32_t omitted_us; /* longest time without a frame after the chip has left some out */
-  uint32_t silent_us;  /* longest time without a frame; 0: only the caller knows */
-  uint8_t lines;       /* bits of 0xF8 that are 1 while the lines are idle: SL1, SL2 */
-  bool several;        /* more than one slave delivers data */
-  bool held;           /* a read has ended without the release of the bank: the next one begins with
-                          it; when frames are started clear it, with MB4_SPI_CHECK_FULL_AND_RELEASE
-                          set it */
-  uint8_t taken;       /* slaves (bit 0 is slave 1) of which a read of one has taken a new word */
+  uint32_t silent_us; /* longest time without a frame; MB4_NEVER: no alarm, only the caller knows */
+  uint8_t lines;      /* bits of 0xF8 that are 1 while the lines are idle: SL1, SL2 */
+  bool several;       /* more than one slave delivers data */
+  bool held;          /* a read has ended without the release of the bank: the next one begins with
+                         it; when frames are started clear it, with MB4_SPI_CHECK_FULL_AND_RELEASE
+                         set it */
+  uint8_t taken;      /* slaves (bit 0 is slave 1) of which a read of one has taken a new word */
   uint32_t good_us[MB4_SLAVES]; /* when; set them when frames are started */
   mb4_counts *counts;           /* for MB4_WITH_COUNTS; may be null */
+  uint16_t told[MB4_SLAVES];    /* private: low bits of the last bad word that was told */
 } mb4_watch;
+
+/* mb4_watch.silent_us: no alarm when frames stay away. */
+#define MB4_NEVER 0xFFFFFFFFU /* NOLINT(cppcoreguidelines-macro-usage) */
 
 /* The word of one slave, from one read. */
 typedef struct {
   uint32_t low; /* SCDATAx */
   uint32_t high;
   uint16_t crc; /* that fits the data */
-  uint8_t code; /* MB4_OK, MB4_NO_DATA, MB4_CRC, MB4_CORRUPTED, MB4_SLAVE_ERROR */
+  uint8_t code; /* MB4_OK, MB4_NO_DATA, MB4_CRC, MB4_NO_WORD, MB4_CORRUPTED, MB4_SLAVE_ERROR */
   bool bad;     /* private: the word of this try has a wrong CRC */
 } mb4_slot;
 
-/* One read. Set the object to zero once; then the members up to `chain` are the caller's. The
- * frames of a chain stay in the plan, so that the next read need not write them again: clear
- * `built` when the plan's memory, one of these members or a word has changed. */
+/* One read. Set the object to zero once; then the members up to `chain` are the caller's, and
+ * mb4_cyclic_check() looks at them. The frames of a chain stay in the plan, so that the next read
+ * need not write them again: when the plan's memory, one of these members or a word has changed,
+ * call mb4_cyclic_check() again, or clear `built`. */
 typedef struct {
   const mb4_word *words; /* of the slaves to read, in ascending order */
   mb4_slot *slots;       /* one for each word */
@@ -347,6 +385,8 @@ typedef struct {
   bool unproven;  /* a bad frame, and no stored CRC tells whose */
   uint16_t flags; /* SVALID of the slaves that this try reads */
   uint16_t fresh; /* those that were 1 before the data was read; then those read twice */
+  uint16_t blank; /* those whose bad word is all 0; bit 0: one of them is MB4_NO_WORD */
+  uint16_t parts; /* MB4_WITH_... that fit the set-up, and 0x100: mb4_cyclic_check() has said so */
   /* The caller's again. */
   const mb4_plan *built; /* holds the frames of the chain; null: none */
 } mb4_cyclic;
@@ -359,6 +399,7 @@ enum {
   MB4_STAGE_CLEAR,     /* FULL: data again, SVALID = 0, status; then, if need be, status again */
   MB4_STAGE_END,       /* the bank is released; the result is known */
   MB4_STAGE_LINES,     /* are the lines idle? */
+  MB4_STAGE_BLANK,     /* a word is all 0: is its line idle? */
   MB4_STAGE_FREE,      /* the bank was still held: release, SVALID = 0 */
   MB4_STAGE_PROVE_END, /* FULL_AND_RELEASE, after END: status */
   MB4_STAGE_PROVE_FREE /* the same after FREE */
@@ -406,6 +447,7 @@ MB4_APART void mb4_cyclic_add_data(const mb4_cyclic *read, mb4_plan *plan, uint1
   const mb4_word *word = read->words;
   const mb4_word *last = word + mb4_cyclic_count(read, with);
   while (word != last) {
+    const mb4_word *first = word;
     const uint8_t from = (uint8_t)(8 * word->slave - 8);
     /* For slave 1 one byte shorter, and at any SCLK (I204). */
     const uint8_t header = from == 0 ? 1 : 2;
@@ -427,13 +469,18 @@ MB4_APART void mb4_cyclic_add_data(const mb4_cyclic *read, mb4_plan *plan, uint1
     }
     mb4_plan_add(plan, size, header == 1 ? MB4_CYCLIC_READ0 : MB4_CYCLIC_READ,
                  header == 1 ? filler : from, filler);
+    /* The last byte of each word, as that of the frame. */
+    for (; (with & MB4_WITH_SEVERAL) != 0 && first != word; ++first) {
+      const uint8_t end = (uint8_t)(header + 8 * first->slave - 8 - from + first->bytes);
+      if (end <= size) {
+        mb4_plan_rx(plan, (uint8_t)(plan->frames - 1))[end - 1] = MB4_NOT_STORED;
+      }
+    }
   }
 }
 
 MB4_APART void mb4_cyclic_add_status(mb4_plan *plan) {
-  /* A bus that stores nothing must not turn an old answer into a new one: this is no status. */
-  mb4_plan_add(plan, 1 + MB4_STATUS_BYTES, MB4_CYCLIC_STATUS, 0, 0);
-  mb4_plan_rx(plan, (uint8_t)(plan->frames - 1))[1] = 0;
+  (void)mb4_plan_add(plan, 1 + MB4_STATUS_BYTES, MB4_CYCLIC_STATUS, 0, 0);
 }
 
 /* Clears SVALID of the slaves of this try. With `size` 6 it also writes 0xF4, HOLDBANK = 0; 0xF3
@@ -495,6 +542,9 @@ MB4_APART uint8_t mb4_cyclic_try(mb4_cyclic *read, mb4_plan *plan, uint8_t with)
   return MB4_MORE;
 }
 
+/* mb4_cyclic.parts */
+static inline uint16_t mb4_cyclic_parts(uint8_t with) { return (uint16_t)(0x100U | with); }
+
 /* All slaves of the read belong to the next try. */
 static inline void mb4_cyclic_all(mb4_cyclic *read, uint8_t with) {
   uint8_t i = 0;
@@ -506,8 +556,87 @@ static inline void mb4_cyclic_all(mb4_cyclic *read, uint8_t with) {
   }
 }
 
+/* MB4_OK, or what of a word and of the order of the words is wrong. `parts`: of MB4_WITH_..., those
+ * that the words before need; those of this one are added. */
+static inline uint8_t mb4_word_check(const mb4_word *word, const mb4_word *before, uint8_t *parts) {
+  const uint8_t data_bytes = (uint8_t)((word->bits + 7U) / 8U);
+  const uint8_t crc_bytes = word->crc_bits > 8 ? 2 : word->crc_bits > 0 ? 1 : 0;
+  if (word->slave < 1 || word->slave > MB4_SLAVES ||
+      (before != 0 && word->slave <= before->slave)) {
+    return MB4_INVALID_CONFIG;
+  }
+  if (word->bits < 1 || word->bits > 64 || word->crc_bits > 16 || data_bytes + crc_bytes > 8 ||
+      word->bytes != (crc_bytes != 0 ? 8 : data_bytes) || (word->flags && word->bits < 2)) {
+    return MB4_INVALID_CONFIG;
+  }
+  *parts |= (uint8_t)((word->bits > 32 ? MB4_WITH_LONG : 0) | (word->gray ? MB4_WITH_GRAY : 0) |
+                      (word->table != 0 ? MB4_WITH_TABLE : 0));
+  return MB4_OK;
+}
+
+/* Checks what a read is set up with, once all members are set (`unheld`: whether it may become
+ * true): before the first mb4_cyclic_plan(), and again after a change of a member (but for `unheld`
+ * and `access`), a word, a member of the watch or the plan's memory. Until it has returned MB4_OK
+ * for the same `with`, mb4_cyclic_finish() returns MB4_UNSUPPORTED. `words`: 32-bit words of the
+ * plan's tx, and of its rx. It makes no transfer.
+ *
+ *   MB4_UNSUPPORTED       the set-up needs a part that `with` leaves out
+ *   MB4_INVALID_ARGUMENT  a pointer is null; tx and rx overlap or are too short: MB4_PLAN_WORDS()
+ *   MB4_INVALID_CONFIG    a word that mb4_word_set() has not made; slaves not in ascending order;
+ *                         `count` or `spi_check` out of range; several words and watch->several =
+ *                         false; `chain` with MB4_SPI_CHECK_FULL or `unheld`; watch->lines is none;
+ *                         a limit of the watch is 0 (no alarm is MB4_NEVER) or shorter than
+ *                         period_ns; period_ns is above 10^9
+ *
+ * It cannot see what the chip is configured with. It clears `built`, and the codes of the slots
+ * become MB4_NO_DATA. */
+static inline uint8_t mb4_cyclic_check(mb4_cyclic *read, const mb4_plan *plan, uint16_t words,
+                                       uint8_t with) {
+  const mb4_watch *watch = read->watch;
+  const bool full = read->spi_check >= MB4_SPI_CHECK_FULL;
+  uint8_t parts = (uint8_t)((full ? MB4_WITH_FULL : 0) | (read->unheld ? MB4_WITH_UNHELD : 0));
+  uint8_t i = 0;
+  read->parts = 0;
+  read->built = 0;
+  if (read->words == 0 || read->slots == 0 || watch == 0 || plan->tx == 0 || plan->rx == 0 ||
+      words < MB4_PLAN_WORDS(read->count) ||
+      (plan->tx < plan->rx + 4U * words && plan->rx < plan->tx + 4U * words)) {
+    return MB4_INVALID_ARGUMENT;
+  }
+  if (read->count < 1 || read->count > MB4_SLAVES ||
+      read->spi_check > MB4_SPI_CHECK_FULL_AND_RELEASE || (read->chain && (full || read->unheld)) ||
+      (read->count > 1 && !watch->several) || watch->lines == 0 ||
+      (watch->lines & ~(unsigned)(MB4_CYCLIC_SL1 | MB4_CYCLIC_SL2)) != 0 ||
+      watch->omitted_us == 0 || watch->silent_us == 0) {
+    return MB4_INVALID_CONFIG;
+  }
+  if (watch->counts != 0) {
+    const uint32_t period_ns = watch->counts->period_ns;
+    parts |= MB4_WITH_COUNTS;
+    if (period_ns > 1000000000U || watch->omitted_us < period_ns / 1000U ||
+        watch->silent_us < period_ns / 1000U) {
+      return MB4_INVALID_CONFIG;
+    }
+  }
+  if (watch->several) {
+    parts |= MB4_WITH_SEVERAL;
+  }
+  for (; i < read->count; ++i) {
+    const uint8_t code = mb4_word_check(&read->words[i], i == 0 ? 0 : &read->words[i - 1], &parts);
+    if (code != MB4_OK) {
+      return code;
+    }
+    read->slots[i].code = MB4_NO_DATA;
+  }
+  if ((parts & ~(unsigned)with) != 0) {
+    return MB4_UNSUPPORTED;
+  }
+  read->parts = mb4_cyclic_parts(with);
+  return MB4_OK;
+}
+
 /* Begins a read: writes its first frames to `plan`, whose memory is for as many slaves
- * (mb4_plan_memory()). `with`: as of mb4_cyclic_finish(). */
+ * (mb4_plan_memory()). mb4_cyclic_check() has allowed `with`. */
 static inline void mb4_cyclic_plan(mb4_cyclic *read, mb4_plan *plan, uint8_t with) {
   plan->pause_us = 0;
   read->again = false;
@@ -515,6 +644,9 @@ static inline void mb4_cyclic_plan(mb4_cyclic *read, mb4_plan *plan, uint8_t wit
   read->slave_error = false;
   read->running = false;
   read->unproven = false;
+  if ((with & MB4_WITH_BEATS) != 0) {
+    read->blank = 0;
+  }
   if ((with & MB4_WITH_SEVERAL) != 0) {
     read->told = false;
     read->one_frame = true;
@@ -534,7 +666,8 @@ static inline void mb4_cyclic_plan(mb4_cyclic *read, mb4_plan *plan, uint8_t wit
   } else if (read->built == plan) {
     read->stage = MB4_STAGE_DATA;
     read->code = MB4_OK;
-    mb4_plan_rx(plan, (uint8_t)(plan->frames - 2))[1] = 0;
+    /* The last byte that the bus stores; this is no 0xF4. */
+    mb4_plan_rx(plan, (uint8_t)(plan->frames - 2))[MB4_STATUS_BYTES] = MB4_NOT_STORED;
   } else {
     (void)mb4_cyclic_try(read, plan, with);
     read->built = read->chain ? plan : 0;
@@ -602,9 +735,12 @@ static inline void mb4_slot_load(const mb4_word *word, mb4_slot *slot, const uin
   slot->low = part;
 }
 
-/* Takes SCDATAx of `word`. With one word it ends frame `frame`; otherwise it is looked for. */
+/* Takes SCDATAx of `word`. With one word it ends frame `frame`; otherwise it is looked for. What is
+ * left in rx contradicts itself, so a bus that stores nothing the next time does not make a new
+ * word of it. A word without CRC and unused bits stays as it is. */
 static inline void mb4_cyclic_load(const mb4_plan *plan, uint8_t frame, const mb4_word *word,
                                    mb4_slot *slot, uint8_t with) {
+  uint8_t *last = 0;
   uint8_t offset = (uint8_t)(plan->size[frame] - word->bytes);
   if ((with & MB4_WITH_SEVERAL) != 0) {
     uint8_t header = 0;
@@ -616,7 +752,10 @@ static inline void mb4_cyclic_load(const mb4_plan *plan, uint8_t frame, const mb
     } while (offset + header >= plan->size[frame]);
     offset = (uint8_t)(offset + header);
   }
-  mb4_slot_load(word, slot, mb4_plan_rx(plan, frame) + offset);
+  last = mb4_plan_rx(plan, frame) + offset;
+  mb4_slot_load(word, slot, last);
+  last += word->bytes - 1;
+  *last = (uint8_t)((*last ^ word->flip) | word->guard);
 }
 
 /* Keeps the data bits of `low`, `high`. False: a bit above them, in the same byte, is 1 although
@@ -694,7 +833,8 @@ static inline void mb4_slot_reading(const mb4_word *word, const mb4_slot *slot,
 
 /* FULL: data that only a second reading proves. Without a stored CRC this is any data. With a CRC
  * it is all zeros and all ones: a line that was stuck for a moment makes them, and the CRC may
- * accept them. */
+ * accept them. So may a CRC of 8 or 16 bits whose last byte is what a bus leaves there that has not
+ * stored all bytes. */
 static inline bool mb4_slot_needs_second(const mb4_word *word, const mb4_slot *slot, uint8_t with) {
   uint32_t low = slot->low;
   uint32_t high = slot->high;
@@ -705,7 +845,18 @@ static inline bool mb4_slot_needs_second(const mb4_word *word, const mb4_slot *s
   }
   (void)mb4_cyclic_cut(word, &low, &high, with);
   (void)mb4_cyclic_cut(word, &ones_low, &ones_high, with);
-  return (low | high) == 0 || (low == ones_low && high == ones_high);
+  return (low | high) == 0 || (low == ones_low && high == ones_high) ||
+         slot->high >> 24 == MB4_NOT_STORED;
+}
+
+/* A bad word that is all 0 on the line. Its data bits are 0, and so are the bits of its CRC, which
+ * the chip inverts before it stores them (page 26): they are all 1. */
+static inline bool mb4_slot_blank(const mb4_word *word, const mb4_slot *slot, uint8_t with) {
+  const uint32_t crc = ((uint32_t)1 << word->crc_bits) - 1;
+  uint32_t low = slot->low;
+  uint32_t high = slot->high;
+  return word->line != 0 && mb4_cyclic_cut(word, &low, &high, with) && (low | high) == 0 &&
+         (crc == 0 || slot->high >> (crc > 0xFF ? 16 : 24) == crc);
 }
 
 /* Takes the data of this try; that of the slaves `flags` is new. FULL: returns the slaves of which
@@ -748,6 +899,50 @@ static inline void mb4_cyclic_compare(mb4_cyclic *read, const mb4_plan *plan, ui
   }
 }
 
+/* For a single frame, whose bad words have MB4_CRC: the slaves with SVALID, and those whose bad
+ * word may be all 0. Then, once the data is taken, it looks for such a word and keeps those with
+ * SVALID.
+ */
+static inline uint16_t mb4_cyclic_readable(const mb4_cyclic *read, uint8_t with) {
+  uint16_t flags = mb4_cyclic_valid(read);
+  uint8_t i = 0;
+  for (; i < mb4_cyclic_count(read, with); ++i) {
+    if (read->slots[i].code == MB4_CRC && read->words[i].line != 0) {
+      flags = (uint16_t)(flags | mb4_word_flag(&read->words[i]));
+    }
+  }
+  return flags;
+}
+
+static inline void mb4_cyclic_find_blank(mb4_cyclic *read, uint8_t with) {
+  const uint16_t valid = mb4_cyclic_valid(read);
+  const uint16_t bad = (uint16_t)(read->flags & ~(unsigned)valid);
+  uint8_t i = 0;
+  for (; i < mb4_cyclic_count(read, with); ++i) {
+    if (mb4_word_in(&read->words[i], bad, with) &&
+        mb4_slot_blank(&read->words[i], &read->slots[i], with)) {
+      read->blank = (uint16_t)(read->blank | mb4_word_flag(&read->words[i]));
+    }
+  }
+  read->flags = valid;
+}
+
+/* The last byte of a bad word that was told: its CRC with all bits but one wrong. So it can never
+ * be good, whatever single bit of a transfer flips, and with a CRC that leaves bits free the chip
+ * does not make it. */
+static inline uint8_t mb4_slot_mark(const mb4_word *word, const mb4_slot *slot) {
+  return (uint8_t)(slot->crc >> word->crc_high ^ 0xFE);
+}
+
+/* The bad word has been told. A CRC of 8 or 16 bits leaves no bit free, so one in 256 bad words
+ * looks as if it had the mark; with MB4_WITH_BEATS only one with the same data. */
+static inline bool mb4_slot_told(const mb4_cyclic *read, const mb4_word *word, const mb4_slot *slot,
+                                 uint8_t with) {
+  return slot->high >> 24 == mb4_slot_mark(word, slot) &&
+         ((with & MB4_WITH_BEATS) == 0 ||
+          read->watch->told[word->slave - 1] == (uint16_t)slot->low);
+}
+
 /* The words in the held bank without SVALID, and the last frame was bad. A stored CRC tells whether
  * such a word is the bad one; otherwise it was good and has been read before. Without one the bad
  * frame concerns this slave if there is no other, or if a good word of another one (`news`) shows
@@ -766,28 +961,29 @@ static inline void mb4_cyclic_judge(mb4_cyclic *read, uint16_t missing, bool new
       if (!several || (news && (read->watch->taken >> (word->slave - 1) & 1) == 0)) {
         slot->code = MB4_CRC;
       }
-    } else if (!mb4_slot_good(word, slot, with)) {
+    } else if (!mb4_slot_good(word, slot, with) && !mb4_slot_told(read, word, slot, with)) {
       slot->code = MB4_CRC;
       slot->bad = true;
       read->bad = true;
     }
+    if ((with & MB4_WITH_BEATS) != 0 && slot->code == MB4_CRC && mb4_slot_blank(word, slot, with)) {
+      read->blank = (uint16_t)(read->blank | mb4_word_flag(word));
+    }
   }
 }
 
-/* Gives the bad words of the held bank the CRC that fits, so that they count once; the next frame
- * overwrites them. */
+/* Marks the bad words of the held bank, so that they count once; the next frame overwrites them. */
 static inline void mb4_cyclic_mark(const mb4_cyclic *read, mb4_plan *plan, uint8_t with) {
   uint8_t i = 0;
   for (; i < mb4_cyclic_count(read, with); ++i) {
     const mb4_word *word = &read->words[i];
     const mb4_slot *slot = &read->slots[i];
     if (slot->bad) {
-      const uint8_t bytes = word->crc_bits > 8 ? 2 : 1;
-      uint8_t *tx = mb4_plan_add(plan, (uint8_t)(2 + bytes), MB4_CYCLIC_WRITE,
-                                 (uint8_t)(8 * word->slave - bytes), (uint8_t)slot->crc);
-      if (bytes == 2) {
-        tx[3] = (uint8_t)(slot->crc >> 8);
+      if ((with & MB4_WITH_BEATS) != 0) {
+        read->watch->told[word->slave - 1] = (uint16_t)slot->low;
       }
+      (void)mb4_plan_add(plan, 3, MB4_CYCLIC_WRITE, (uint8_t)(8 * word->slave - 1),
+                         mb4_slot_mark(word, slot));
     }
   }
 }
@@ -929,6 +1125,48 @@ static inline uint8_t mb4_cyclic_take_clear(mb4_cyclic *read, mb4_plan *plan, ui
   return mb4_cyclic_release(read, plan, code);
 }
 
+/* Reads 0xF0..0xF8. A byte of 0xF8 that the bus does not store is no idle line. */
+static inline void mb4_cyclic_add_lines(mb4_plan *plan) {
+  (void)mb4_plan_add(plan, 1 + MB4_CYCLIC_LINES, MB4_CYCLIC_STATUS, 0, 0);
+  mb4_plan_rx(plan, (uint8_t)(plan->frames - 1))[MB4_CYCLIC_LINES] = 0;
+}
+
+/* A word was all 0, and 0xF0..0xF8 are in `rx`. Its slave has sent nothing if SL of its line is 1.
+ * True: a line is still 0. */
+static inline bool mb4_cyclic_tell_blank(mb4_cyclic *read, const uint8_t *rx, uint8_t with) {
+  bool more = false;
+  uint8_t i = 0;
+  for (; i < mb4_cyclic_count(read, with); ++i) {
+    const mb4_word *word = &read->words[i];
+    mb4_slot *slot = &read->slots[i];
+    if (slot->code == MB4_CRC && mb4_word_in(word, read->blank & 0xFFFEU, with)) {
+      if ((rx[MB4_CYCLIC_LINES] & word->line) != 0) {
+        slot->code = MB4_NO_WORD;
+        read->blank |= 1U;
+      } else {
+        more = true;
+      }
+    }
+  }
+  return more;
+}
+
+/* BLANK: in the slave's timeout and in a frame SL is 0, so the driver looks twice. */
+static inline bool mb4_cyclic_take_blank(mb4_cyclic *read, mb4_plan *plan, uint8_t with) {
+  bool more = true;
+  if (read->stage != MB4_STAGE_BLANK) {
+    read->fresh = 1; /* one more */
+  } else {
+    more = mb4_cyclic_tell_blank(read, mb4_plan_rx(plan, 0), with) && read->fresh != 0;
+    read->fresh = 0;
+  }
+  if (more) {
+    (void)mb4_cyclic_next(read, plan, MB4_STAGE_BLANK, MB4_OK);
+    mb4_cyclic_add_lines(plan);
+  }
+  return more;
+}
+
 /* The slots tell the result. Returns the code of the read. */
 static inline uint8_t mb4_cyclic_tell(mb4_cyclic *read, uint32_t now_us, uint8_t with) {
   mb4_watch *watch = read->watch;
@@ -975,23 +1213,28 @@ static inline uint8_t mb4_cyclic_watch(mb4_cyclic *read, mb4_plan *plan, uint8_t
     return code;
   }
   limit_us = omitted || read->unproven ? watch->omitted_us : watch->silent_us;
-  if ((code != MB4_NO_DATA && code != MB4_CRC) || watch->silent_us == 0 ||
-      now_us - watch->news_us <= limit_us) {
+  if ((code != MB4_NO_DATA && code != MB4_CRC &&
+       ((with & MB4_WITH_BEATS) == 0 || code != MB4_NO_WORD)) ||
+      watch->silent_us == MB4_NEVER || now_us - watch->news_us <= limit_us) {
     return code;
   }
-  (void)mb4_cyclic_next(read, plan, MB4_STAGE_LINES,
-                        read->unproven && !omitted ? MB4_CRC : MB4_TIMEOUT);
+  if (!read->unproven || omitted) {
+    code = MB4_TIMEOUT;
+  } else if ((with & MB4_WITH_BEATS) == 0 || code == MB4_NO_DATA) {
+    code = MB4_CRC;
+  }
+  (void)mb4_cyclic_next(read, plan, MB4_STAGE_LINES, code);
   if ((with & MB4_WITH_SEVERAL) != 0) {
     read->told = false;
   }
   if ((with & MB4_WITH_BEATS) != 0) {
-    mb4_plan_add(plan, 1 + MB4_CYCLIC_BANKS, MB4_CYCLIC_STATUS, 0, 0);
+    (void)mb4_plan_add(plan, 1 + MB4_CYCLIC_BANKS, MB4_CYCLIC_STATUS, 0, 0);
     mb4_plan_rx(plan, 0)[MB4_CYCLIC_BANKS] = 0;
+    mb4_plan_rx(plan, 0)[MB4_CYCLIC_LINES] = 0;
     mb4_cyclic_add_status(plan);
   } else {
-    mb4_plan_add(plan, 1 + MB4_CYCLIC_LINES, MB4_CYCLIC_STATUS, 0, 0);
+    mb4_cyclic_add_lines(plan);
   }
-  mb4_plan_rx(plan, 0)[MB4_CYCLIC_LINES] = 0;
   return MB4_MORE;
 }
 
@@ -1028,6 +1271,12 @@ static inline uint8_t mb4_cyclic_step(mb4_cyclic *read, mb4_plan *plan, bool tra
   uint8_t code = transferred ? read->code : (uint8_t)MB4_TRANSPORT;
   if (stage == MB4_STAGE_LINES) {
     return transferred ? mb4_cyclic_take_lines(read, plan, now_us, with) : code;
+  }
+  if ((with & MB4_WITH_BEATS) != 0 && stage == MB4_STAGE_BLANK) {
+    /* The words are here: without the look they are bad ones. */
+    return transferred && mb4_cyclic_take_blank(read, plan, with)
+               ? (uint8_t)MB4_MORE
+               : mb4_cyclic_watch(read, plan, MB4_OK, now_us, with);
   }
   if (stage == MB4_STAGE_FREE) {
     read->watch->held = !transferred;
@@ -1071,7 +1320,11 @@ static inline uint8_t mb4_cyclic_step(mb4_cyclic *read, mb4_plan *plan, bool tra
     }
     code = mb4_cyclic_held(read, plan, (uint8_t)(frame - 1), with);
   }
-  return code == MB4_MORE ? code : mb4_cyclic_watch(read, plan, code, now_us, with);
+  if (code == MB4_MORE || ((with & MB4_WITH_BEATS) != 0 && code == MB4_OK && read->blank != 0 &&
+                           mb4_cyclic_take_blank(read, plan, with))) {
+    return MB4_MORE;
+  }
+  return mb4_cyclic_watch(read, plan, code, now_us, with);
 }
 
 /* A read has ended with `code`. */
@@ -1079,8 +1332,10 @@ MB4_APART void mb4_cyclic_count_read(const mb4_cyclic *read, uint8_t code, uint3
   mb4_counts *counts = read->watch->counts;
   const uint32_t period_ns = counts->period_ns;
   const uint32_t since_us = now_us - counts->read_us;
+  const uint32_t before_ns = counts->rest_ns;
   uint32_t left_us = now_us - counts->last_us;
   uint32_t periods = 0;
+  uint32_t phase_ns = 0;
   if (counts->read_us != 0 && period_ns != 0 && since_us > period_ns / 1000 * 3 / 2) {
     ++counts->late;
   }
@@ -1088,7 +1343,9 @@ MB4_APART void mb4_cyclic_count_read(const mb4_cyclic *read, uint8_t code, uint3
   if (code != MB4_TRANSPORT && code != MB4_NOT_DETECTED) { /* there is a status */
     counts->omits = counts->omits || (read->status[0] & MB4_CYCLIC_AGSERR) == 0;
   }
-  if (read->bad || code == MB4_CRC) {
+  if ((read->blank & 1U) != 0) {
+    ++counts->no_word;
+  } else if (read->bad || code == MB4_CRC) {
     ++counts->crc;
   } else if (code == MB4_BANK_SWITCHED) {
     ++counts->switched;
@@ -1116,9 +1373,13 @@ MB4_APART void mb4_cyclic_count_read(const mb4_cyclic *read, uint8_t code, uint3
     counts->rest_ns = time_ns % period_ns;
     left_us -= part_us;
   } while (left_us != 0);
+  /* Rounded to whole periods, is the time since the last good read the same number? */
+  phase_ns = counts->rest_ns + period_ns / 2;
   if (periods == 0) { /* a new word is a new sample */
     periods = 1;
     counts->rest_ns = 0;
+  } else if (phase_ns < before_ns || phase_ns - before_ns >= period_ns) {
+    ++counts->doubtful;
   }
   counts->sequence += periods;
   counts->lost += periods - 1;
@@ -1132,22 +1393,30 @@ MB4_APART void mb4_cyclic_count_read(const mb4_cyclic *read, uint8_t code, uint3
  * else MB4_SLAVE_ERROR if one slot is; look at the code of each slot before its position is used:
  *
  *   MB4_OK             mb4_slot_reading() gives the new position
- *   MB4_SLAVE_ERROR    a new word whose nE is 0: mb4_slot_reading() gives it, its position is not
- * to be trusted. In every other way the word is as good as one with MB4_OK MB4_NO_DATA        no
- * frame with data of this slave has ended since the last read MB4_CRC            one has, and its
- * CRC was wrong; told once for each frame. Without a stored CRC: by each read until a frame is
- * good, if the slave is the only one MB4_CORRUPTED, MB4_NOT_DETECTED, MB4_TRANSPORT,
- * MB4_BANK_SWITCHED, MB4_TIMEOUT, MB4_LINE_ERROR as Automatic::poll() in mb4/automatic.hpp
- * describes them
+ *   MB4_SLAVE_ERROR    a new word whose nE is 0: mb4_slot_reading() gives it, but its position is
+ *                      not to be trusted. In every other way the word is as good as with MB4_OK
+ *   MB4_NO_DATA        no frame with data of this slave has ended since the last read
+ *   MB4_CRC            one has, and its CRC was wrong; told once for each frame. Without a stored
+ *                      CRC: by each read until a frame is good, if the slave is the only one
+ *   MB4_NO_WORD        as MB4_CRC, and the word of a slave of mb4_word_biss_c() is all 0, CRC too
+ *                      (without a stored one all data bits), while SL is 1 again: the slave
+ *                      acknowledges and sends nothing. With MB4_WITH_BEATS
+ *   MB4_UNSUPPORTED    mb4_cyclic_check() has not allowed `with`
+ *   MB4_CORRUPTED, MB4_NOT_DETECTED, MB4_TRANSPORT, MB4_BANK_SWITCHED, MB4_TIMEOUT, MB4_LINE_ERROR
+ *                      as Automatic::poll() in mb4/automatic.hpp describes them
  *
- * At most four calls a read; six with MB4_SPI_CHECK_FULL or unheld, seven with
+ * At most five calls a read; seven with MB4_SPI_CHECK_FULL or unheld, eight with
  * MB4_SPI_CHECK_FULL_AND_RELEASE. After a read that has ended without the release of the bank one
  * more, with MB4_SPI_CHECK_FULL_AND_RELEASE two.
  * A read may be given up: call this function with transferred = false, without the frames, until it
  * does not return MB4_MORE. */
 static inline uint8_t mb4_cyclic_finish(mb4_cyclic *read, mb4_plan *plan, bool transferred,
                                         uint32_t now_us, uint8_t with) {
-  const uint8_t code = mb4_cyclic_step(read, plan, transferred, now_us, with);
+  uint8_t code = MB4_UNSUPPORTED;
+  if (read->parts != mb4_cyclic_parts(with)) {
+    return code;
+  }
+  code = mb4_cyclic_step(read, plan, transferred, now_us, with);
   if ((with & MB4_WITH_COUNTS) != 0 && code != MB4_MORE && read->watch->counts != 0) {
     mb4_cyclic_count_read(read, code, now_us);
   }

@@ -7,6 +7,7 @@
 #ifndef MB4_AUTOMATIC_HPP_
 #define MB4_AUTOMATIC_HPP_
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 
@@ -27,7 +28,7 @@ namespace mb4 {
 // Most SPI transfers of one Automatic::poll_slave(), whatever the chip answers. Beside a control
 // communication without Config::hold_beside_access it takes up to 9, with SpiCheck::kFull 15, with
 // kFullAndRelease 16.
-inline constexpr unsigned kMaxPollSlaveTransfers = 8;
+inline constexpr unsigned kMaxPollSlaveTransfers = 10;
 // The same with SpiCheck::kFull. SpiCheck::kFullAndRelease needs up to 3 more: one at the end, two
 // after a read that could not release the bank.
 inline constexpr unsigned kMaxPollSlaveTransfersChecked = 12;
@@ -53,7 +54,11 @@ inline constexpr unsigned kMaxPollSlaveTransfersChecked = 12;
 //
 // Why data is never old: the driver clears SVALID of all enabled slaves after each read. SVALID = 1
 // therefore means that a frame has ended since then (note of table 61).
-template <typename Bus, typename Clock>
+//
+// `With` leaves out parts of the read path that the configuration does not use: MB4_WITH_... of
+// mb4_cyclic.h, for all calls of the object: device.automatic<0>(). A read whose configuration
+// needs a part that is not there is kUnsupported.
+template <typename Bus, typename Clock, std::uint8_t With = MB4_WITH_ALL>
 class Automatic {
  public:
   explicit constexpr Automatic(detail::Chip<Bus, Clock>& chip) : chip_(chip) {}
@@ -107,20 +112,20 @@ class Automatic {
   // AGS = 1. BiSS B adds register_timeout_us. Three transfers, with SpiCheck::kFullAndRelease
   // seven. Not for interrupts, because it waits. Not touched, frames that run go on:
   // kNotConfigured, kBusy, kUnsupported. kTransport, with kFullAndRelease kNotDetected and
-  // kCorrupted too: next() then tries again. With MB4_WITH_COUNTS in `With` it counts.
-  template <std::uint8_t With = MB4_WITH_ALL>
+  // kCorrupted too: next() then tries again. It counts: count().
+  template <std::uint8_t Parts = With>
   Result<void> restart() {
-    return detail::Blocking::restart<With>(chip_);
+    return detail::Blocking::restart<Parts>(chip_);
   }
 
   // Begins restart() without a transfer, as plan_start(). Two steps: BREAK; then, after the pause,
   // SVALID = 0 and AGS = 1. It may be called in an interrupt. Not touched, frames that run go on:
   // kNotConfigured, kBusy, kUnsupported. After a failure next() tries again.
-  template <std::uint8_t With = MB4_WITH_ALL>
+  template <std::uint8_t Parts = With>
   Result<void> plan_restart(Operation& operation) {
     const Result<void> allowed = detail::Procedures::possible(operation, chip_.start_allowed(true));
     if (allowed) {
-      detail::Procedures::prepare_restart<With>(chip_);
+      detail::Procedures::prepare_restart<Parts>(chip_);
       detail::Procedures::plan_start(chip_, operation);
     }
     return allowed;
@@ -147,8 +152,9 @@ class Automatic {
   //
   // After a frame with a bad word (nSCDERR = 0) it checks the data of the slaves without SVALID as
   // well: a stored CRC that fits shows a word that has been read before. A bad word then gets the
-  // CRC that fits, so that it counts once: one 0x02 more for each. When frames stay away: two 0x05
-  // more, up to 0xFB and to 0xF4.
+  // CRC that can never fit, so that it counts once: one 0x02 more for each. A word of BiSS C that
+  // is all 0: 0x05 up to 0xF8, twice at most. When frames stay away: two 0x05 more, up to 0xFB and
+  // to 0xF4.
   //
   // With SpiCheck::kFull one disturbed bit of the first status may hide a new frame: this call says
   // kNoData, and the next one brings the word, if no later frame has overwritten it.
@@ -157,13 +163,14 @@ class Automatic {
   // of the Clock, so this must be safe in the interrupt too.
   //
   // Success: frame[slave] is a Reading, kSlaveError (new, and nE is 0), kNoData (nothing new), kCrc
-  // (a bad frame, told once) or kCorrupted for each enabled slave. With SpiCheck::kOff, and where
-  // the data leaves no room for a CRC, kCrc is told only together with a good word of another
-  // slave, and by each call if no good word of the slave has come for two periods or if there is no
-  // other slave. frame.status shows that frames were omitted (nAGSERR), not how many; frames that
-  // later ones have overwritten are not counted either. The datasheet asks for restart() when
-  // SVALID is 0 although a frame must have ended (table 69). This call does not restart; next()
-  // does.
+  // (a bad frame, told once), kNoWord (the same, for a slave of BiSS C whose word is all 0, CRC too,
+  // while its line is at 1 again: it acknowledges and sends nothing) or kCorrupted for each enabled
+  // slave. With SpiCheck::kOff, and where the data leaves no room for a CRC, kCrc is told only
+  // together with a good word of another slave, and by each call if no good word of the slave has
+  // come for two periods or if there is no other slave. frame.status shows that frames were omitted
+  // (nAGSERR), not how many; frames that later ones have overwritten are not counted either. The
+  // datasheet asks for restart() when SVALID is 0 although a frame must have ended (table 69). This
+  // call does not restart; next() does.
   //
   // Errors: kWrongMode (automatic frames do not run; not touched), kTransport, kNotDetected,
   // kBankSwitched; kCorrupted (HOLDBANK is not in the chip). On error `frame` holds no Reading.
@@ -173,9 +180,10 @@ class Automatic {
   // has lost its configuration or its clock sets no flag. Where SWBANKFAIL = 1 says that a frame
   // has ended while the bank was held: 64 periods. A loop whose transfers do not fit between the
   // frames may meet the end of each one for so long. Back to back a period is frame_timeout_us().
-  // Never with FrameStart::kOnPin. Nothing is changed, and each call says so until a frame ends:
-  // call restart(). A dead line on one channel stops both, see without_channel(). kCrc, by each
-  // call: the same without a stored CRC, if the last frame was bad and the chip has left none out.
+  // With FrameStart::kOnPin only if Config::pin_period_us says how often pulses come. Nothing is
+  // changed, and each call says so until a frame ends: call restart(). A dead line on one channel
+  // stops both, see without_channel(). kCrc, by each call: the same without a stored CRC, if the
+  // last frame was bad and the chip has left none out.
   Result<void> poll(Frame& frame) { return detail::Blocking::poll(chip_, frame); }
 
   // As poll(), for one slave (1..8). At most kMaxPollSlaveTransfers transfers, with SpiCheck::kFull
@@ -186,16 +194,16 @@ class Automatic {
   // not run). kNoData: no frame with data of this slave has ended since the last call. kCrc: one
   // has, and its CRC was wrong; told once for each frame, without a stored CRC as for poll().
   // kSlaveError: one has, and its nE is 0; Result::reading() has it.
+  // kNoWord: as for poll().
   // kTimeout, kLineError, kCorrupted, kTransport, kNotDetected, kBankSwitched as for poll().
   //
-  // `With` leaves out parts that the configuration does not use: a constant, MB4_WITH_... of
-  // mb4_cyclic.h. poll_slave<0>() is for one slave, BiSS of up to 32 data bits with SpiCheck::kCrc
-  // or kOff and Config::hold_beside_access. Without MB4_WITH_BEATS it does not look at SWBANKFAIL,
-  // so the alarm always comes after 16 periods. kUnsupported (not touched): the configuration needs
-  // such a part.
-  template <std::uint8_t With = MB4_WITH_ALL>
+  // `Parts` is as With, for this call: poll_slave<0>() is for one slave, BiSS of up to 32 data bits
+  // with SpiCheck::kCrc or kOff and Config::hold_beside_access. Without MB4_WITH_BEATS it does not
+  // look at SWBANKFAIL, so the alarm always comes after 16 periods, and kNoWord is kCrc.
+  // kUnsupported (not touched): the configuration, count() or crc_table() needs such a part.
+  template <std::uint8_t Parts = With>
   Result<Reading> poll_slave(std::uint8_t slave) {
-    return detail::Blocking::poll_slave<With>(chip_, slave);
+    return detail::Blocking::poll_slave<Parts>(chip_, slave);
   }
 
   // Begins to read one slave (1..8) without a transfer: the caller makes the frames of `read` and
@@ -212,19 +220,18 @@ class Automatic {
   // No other call on the Device may come between this one and the end of the read. To give up a
   // read, call finish() with transferred = false until it returns true, without making its frames.
   // Not touched: kInvalidArgument, kWrongMode, kUnsupported as for poll_slave().
-  template <std::uint8_t With = MB4_WITH_ALL>
+  template <std::uint8_t Parts = With>
   Result<void> plan_slave(std::uint8_t slave, CyclicRead& read) {
-    return detail::Reads::plan<With>(chip_, read, slave, !chip_.checks_all());
+    return detail::Reads::plan<Parts>(chip_, read, slave, !chip_.checks_all());
   }
 
   // Takes what came back. `transferred`: every frame of `read` was made. `now_us`: the time, as
   // Clock::now_us() counts it. True: the read has ended, see CyclicRead::result(). False: make the
   // frames that `read` holds now, and call it again. It makes no transfer and does not ask for the
-  // time. `With` is that of plan_slave(); only MB4_WITH_COUNTS may be added. With another one the
-  // read ends with kUnsupported.
-  template <std::uint8_t With = MB4_WITH_ALL>
+  // time. `Parts` is that of plan_slave(). With another one the read ends with kUnsupported.
+  template <std::uint8_t Parts = With>
   [[nodiscard]] bool finish(CyclicRead& read, bool transferred, std::uint32_t now_us) {
-    return detail::Reads::finish<With>(chip_, read, transferred, now_us);
+    return detail::Reads::finish<Parts>(chip_, read, transferred, now_us);
   }
 
   // As plan_slave(), for all enabled sensors, in one chain: 0x07; 0x09 and 0x03, 1..n frames, the
@@ -233,25 +240,43 @@ class Automatic {
   Result<void> plan(FrameRead& read, bool wide = false) {
     return detail::Reads::begin(chip_, read, !chip_.checks_all(), wide);
   }
-  template <std::uint8_t With = MB4_WITH_ALL>
+  template <std::uint8_t Parts = With>
   [[nodiscard]] bool finish(FrameRead& read, bool transferred, std::uint32_t now_us) {
-    return detail::Reads::take<MB4_WITH_ALL | With>(chip_, read, transferred, now_us);  // as plan()
+    static_assert(Parts == With, "mb4: the read of all slaves has all parts");
+    return detail::Reads::take<MB4_WITH_ALL>(chip_, read, transferred, now_us);  // as plan()
+  }
+
+  // The same for an operation that this object has begun: Device::finish().
+  [[nodiscard]] bool finish(Operation& operation, bool transferred, std::uint32_t now_us) {
+    return detail::Procedures::finish(chip_, operation, transferred, now_us);
   }
 
   // Call it again after configure() and start(): period and time are those of the moment. Counts
   // the reads from now on in `counts` (mb4_cyclic.h), which must outlive the Device or the next
-  // call; nullptr ends it. Only calls with MB4_WITH_COUNTS in `With` count, the others do not
-  // contain the code: poll_slave<MB4_WITH_ALL | MB4_WITH_COUNTS>(), finish<...>(). What is lost is
-  // counted with FrameStart::kPeriodic.
+  // call; nullptr ends it. A call without MB4_WITH_COUNTS in its parts is kUnsupported meanwhile.
+  // What is lost is counted with FrameStart::kPeriodic and with Config::pin_period_us. If that is
+  // no whole number of microseconds, set counts->period_ns after this call.
   void count(mb4_counts* counts) {
-    chip_.watch.counts = counts;
+    static_assert((With & MB4_WITH_COUNTS) != 0,
+                  "mb4: this object cannot count; it needs the part MB4_WITH_COUNTS");
+    chip_.set_counts(counts);
     if (counts != nullptr) {
       const Config& config = chip_.config;
       counts->period_ns = config.frame_start != FrameStart::kPeriodic
-                              ? 0
+                              ? config.pin_period_us * 1000U
                               : static_cast<std::uint32_t>(std::uint64_t{config.frame_period_clk} *
                                                            1'000'000'000U / config.f_clk_hz);
     }
+  }
+
+  // From now on the CRC of `slave` goes by `table`, four bits a step: 64 bytes of RAM for half the
+  // time of a read. The driver fills the table, which must outlive the Device or the next
+  // configure(), which ends it. Not touched: kNotConfigured; kInvalidArgument: the slave is no
+  // enabled sensor, or no CRC of it is stored.
+  Result<void> crc_table(std::uint8_t slave, std::array<std::uint32_t, 16>& table) {
+    static_assert((With & MB4_WITH_TABLE) != 0,
+                  "mb4: this object has no table; it needs the part MB4_WITH_TABLE");
+    return detail::Reads::crc_table(chip_, slave, table.data());
   }
 
   // Device::write_actuator() for a control loop that writes a word for each frame. Never waits;
@@ -280,11 +305,11 @@ class Automatic {
   //
   // Errors: kWrongMode (automatic frames do not run; not touched) and those of poll(). kTimeout,
   // kLineError: no frame has ended in time; BREAK was sent, which also ends a control
-  // communication. kNoData: no pulse at pin GETSENS in that time (FrameStart::kOnPin); nothing is
-  // changed.
-  template <std::uint8_t With = MB4_WITH_ALL>
+  // communication. kNoData: no pulse at pin GETSENS in that time (FrameStart::kOnPin without
+  // Config::pin_period_us); nothing is changed.
+  template <std::uint8_t Parts = With>
   Result<void> next(Frame& frame) {
-    return detail::Blocking::next<With>(chip_, frame);
+    return detail::Blocking::next<Parts>(chip_, frame);
   }
 
  private:

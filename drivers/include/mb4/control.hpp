@@ -98,6 +98,11 @@ class Control : public ControlSteps<Bus, Clock> {
                                            nullptr, data.size());
   }
 
+  // Device::finish(), for an operation that this object has begun.
+  [[nodiscard]] bool finish(Operation& operation, bool transferred, std::uint32_t now_us) {
+    return detail::Procedures::finish(Steps::chip_, operation, transferred, now_us);
+  }
+
   // As plan_read(), but sends a command. Not touched: kNotConfigured, kInvalidArgument, kBusy,
   // kUnsupported. operation.result(): kTransport, kNotDetected, kCorrupted, kTimeout, kCommand.
   Result<void> plan_command(Operation& operation, const Command& command) {

@@ -45,7 +45,6 @@ class ReadSteps : public Steps {
 
   mb4_cyclic read_{};
   std::uint8_t code_ = MB4_NO_DATA;
-  std::uint8_t with_ = 0;    // of plan_slave()
   std::uint32_t shape_ = 0;  // bytes of each slave in the plan, four bits each
 };
 

@@ -202,9 +202,10 @@ class Device {
   //
   // Not touched: kNotConfigured, kInvalidArgument, kWrongMode (automatic frames run), kBusy.
   // Touched: kTransport; kNotDetected (the status cannot come from an iC-MB4); kTimeout, kLineError
-  // (BREAK was sent); kCrc, kNoData, kCorrupted. The call returns a Reading only for a good frame
-  // that began after this request. kSlaveError: so does one whose nE is 0; Result::reading() has
-  // it.
+  // (BREAK was sent); kCrc, kNoData, kCorrupted; kNoWord: BiSS C, the word is all 0, CRC too, while
+  // the line is at 1 again (1 transfer more, up to 100 us while it is 0). The call returns a Reading
+  // only for a good frame that began after this request. kSlaveError: so does one whose nE is 0;
+  // Result::reading() has it.
   //
   // Sets HOLDBANK and SWBANK to 0, as any single frame does.
   Result<Reading> read_frame(std::uint8_t slave = 1) {
@@ -213,7 +214,8 @@ class Device {
 
   // Reads all enabled slaves with one frame. Transfers as for read_frame(), but 1..n for the data
   // of n slaves; SpiCheck::kFull adds up to n. Only bytes that hold data are read; slaves share a
-  // burst where this needs fewer bytes. No data is read if no slave is good.
+  // burst where this needs fewer bytes. The data of a bad word is read for kNoWord only: BiSS C
+  // with a CRC.
   //
   // Success means that the frame has ended; frame[slave] holds the result of each slave,
   // kSlaveError where nE is 0. Errors of the call concern the whole frame: those of read_frame()
@@ -296,8 +298,12 @@ class Device {
     return chip_.clear_valid(flag_of(slave));
   }
 
-  // Automatic frames; see automatic.hpp. The returned object holds only a reference to this Device.
-  [[nodiscard]] Automatic<Bus, Clock> automatic() { return Automatic<Bus, Clock>(chip_); }
+  // Automatic frames; see automatic.hpp, `With` too. The returned object holds only a reference to
+  // this Device.
+  template <std::uint8_t With = MB4_WITH_ALL>
+  [[nodiscard]] Automatic<Bus, Clock, With> automatic() {
+    return Automatic<Bus, Clock, With>(chip_);
+  }
   // Registers of the slaves and commands; see control.hpp. The returned object holds only a
   // reference to this Device.
   [[nodiscard]] Control<Bus, Clock> control() { return Control<Bus, Clock>(chip_); }

@@ -119,6 +119,7 @@ enum class ConfigField : std::uint8_t {
   kRegisterDivider,       // Config::register_divider
   kRegisterTimeoutUs,     // Config::register_timeout_us
   kActivateAtInitialize,  // Config::activate_at_initialize
+  kPinPeriodUs,           // Config::pin_period_us
 };
 
 // An error with the place that it concerns. It has four bytes and fits a processor register.
@@ -269,6 +270,8 @@ struct alignas(4) ErrorInfo {
       return "register_timeout_us";
     case ConfigField::kActivateAtInitialize:
       return "activate_at_initialize";
+    case ConfigField::kPinPeriodUs:
+      return "pin_period_us";
   }
   return "unknown";
 }

@@ -77,6 +77,9 @@ inline void set_word(const Config& config, std::uint8_t slave, mb4_word& word) {
   one.crc_polynomial = from.crc_polynomial;
   one.gray = from.gray;
   mb4_word_set(&word, slave, &one, static_cast<std::uint8_t>(config.spi_check));
+  if (protocol_of(config, slave) == Protocol::kBissC) {
+    mb4_word_biss_c(&word, &one, channel_of(config, slave));
+  }
 }
 
 // What a slot or a read with this code has: a reading, whose nE may be 0.

@@ -82,14 +82,16 @@ class Status {
   }
 
   // The constant bits (table 6, page 22) read as they must: bit 1 of 0xF0 is 1, bits 0, 2, 4, 6 of
-  // 0xF1 and 0xF2 are 0. False for MISO stuck at 0 or at 1.
+  // 0xF1 and 0xF2 are 0. False for MISO stuck at 0 or at 1, also for the last byte alone: no chip has
+  // all instructions of 0xF4 at once, but a bus that has not stored this byte leaves 0xFF.
   [[nodiscard]] constexpr bool plausible() const {
     static_assert((regs::kResetStatus0 & regs::kConstStatus0) == regs::kConstStatus0);
     static_assert((regs::kResetSvalidLo & regs::kConstSvalidLo) == 0);
     static_assert((regs::kResetSvalidHi & regs::kConstSvalidHi) == 0);
     return (bytes_[0] & regs::kConstStatus0) != 0 &&
            (bytes_[regs::kAddrSvalidLo - regs::kAddrStatus0] & regs::kConstSvalidLo) == 0 &&
-           (bytes_[regs::kAddrSvalidHi - regs::kAddrStatus0] & regs::kConstSvalidHi) == 0;
+           (bytes_[regs::kAddrSvalidHi - regs::kAddrStatus0] & regs::kConstSvalidHi) == 0 &&
+           instruction() != 0xFF;
   }
 
   // The byte of 0xF4: the instruction bits that have not returned to 0, HOLDBANK, AGS.

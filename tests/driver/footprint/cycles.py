@@ -174,7 +174,7 @@ def measure(target, crc, includes):
         parts = "-DPARTS=" + {"bits": "0", "table": "MB4_WITH_TABLE"}[crc]
         run(["arm-none-eabi-gcc", *flags, optimize, parts, "-c", HERE / "cyclic.c", "-o",
              work / "cyclic.o"])
-        run(["arm-none-eabi-gcc", *flags, "-O1", "-nostartfiles", "--specs=nosys.specs",
+        run(["arm-none-eabi-gcc", *flags, "-O1", parts, "-nostartfiles", "--specs=nosys.specs",
              "-T", work / "link.ld", HERE / "cycles_main.c", work / "cyclic.o", "-o",
              work / "unit.elf"])
         code = functions(run(["arm-none-eabi-objdump", "-d", work / "unit.elf"]))

@@ -9,6 +9,10 @@
 
 #include "mb4_cyclic.h"
 
+#ifndef PARTS
+#define PARTS 0
+#endif
+
 extern uint32_t stack_top;
 
 uint8_t firmware(mb4_cyclic *read, mb4_plan *plan, uint64_t *position);
@@ -30,7 +34,7 @@ uint32_t board_now_us(void) { return 100; }
 
 void reset(void) {
   static mb4_word word;
-  static mb4_watch watch = {0, 1000, 1000, 1, false};
+  static mb4_watch watch;
   static mb4_cyclic read;
   static mb4_slot slot;
   static mb4_plan plan;
@@ -39,14 +43,23 @@ void reset(void) {
   static uint64_t position;
   const mb4_slave_config slave = {true, 28, MB4_FLAGS_ERROR_WARNING, 0, 0x43, false, false, false};
   mb4_word_set(&word, 1, &slave, MB4_SPI_CHECK_CRC);
-  mb4_crc_table(&word, table);
+  if ((PARTS & MB4_WITH_TABLE) != 0) {
+    mb4_crc_table(&word, table);
+  }
   read.words = &word;
   read.slots = &slot;
   read.count = 1;
   mb4_plan_memory(&plan, tx, rx);
+  watch.omitted_us = 1000;
+  watch.silent_us = 1000;
+  watch.lines = 1;
   read.watch = &watch;
   read.spi_check = MB4_SPI_CHECK_CRC;
   read.chain = true;
+  mb4_word_biss_c(&word, &slave, 1);
+  if (mb4_cyclic_check(&read, &plan, MB4_PLAN_WORDS(1), PARTS) != MB4_OK) {
+    position = 0;
+  }
   (void)firmware(&read, &plan, &position); /* the first read of all also writes the frames */
   const uint8_t code = firmware(&read, &plan, &position);
   register uint32_t operation __asm__("r0") = 0x18;

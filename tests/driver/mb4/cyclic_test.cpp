@@ -42,6 +42,10 @@ const Bytes kHold{0x07, 0x41};
 const Bytes kReadWord = join({{0x09}, zeros(8)});
 const Bytes kWord = join({mb4test::kData4, {0, 0, 0, mb4test::kCrc6}});
 const Bytes kErrorWord = {0, 0xBD, 0x37, 0xAF, 0x0A, 0, 0, 0, 0x1E};  // nE = 0; CRC6 by hand
+// What a bad word that was told has instead of its CRC: all bits of the right one but the lowest are
+// inverted, and so are the bits that the chip makes 0.
+constexpr std::uint8_t kMark = mb4test::kCrc6 ^ 0xFE;
+const Bytes kMarkedWord = join({mb4test::kData4, {0, 0, 0, kMark}});
 const Bytes kBadWord = join({mb4test::kData4, {0, 0, 0, 0x3F}});
 
 Bytes held(std::uint8_t f0, std::uint8_t valid) { return {0, f0, valid, 0, 0, 0x41}; }
@@ -216,11 +220,131 @@ TEST_F(Chain, BadWord_IsHeldAndMarked) {
   plan();
   EXPECT_FALSE(step(kChain, {kBadWord, kBad}));
   EXPECT_FALSE(step(kHeld, {kBadWord, kBad}));
-  EXPECT_TRUE(step({{0x02, 0x07, mb4test::kCrc6}, kAgs}, {}));
+  EXPECT_TRUE(step({{0x02, 0x07, kMark}, kAgs}, {}));
   EXPECT_EQ(read.result().error(), Error::kCrc);
+  plan();
+  EXPECT_TRUE(step(kChain, {kMarkedWord, kBad}));
+  EXPECT_EQ(read.result().error(), Error::kNoData);
+  // A good word that was read before.
   plan();
   EXPECT_TRUE(step(kChain, {kWord, kBad}));
   EXPECT_EQ(read.result().error(), Error::kNoData);
+}
+
+// One flipped bit of SVALID must not make a good word of a bad one that was told; nor one more
+// flipped bit of the mark, on its way to the chip or back.
+TEST_F(Chain, MarkedWordAndFlippedBits_IsNeverGood) {
+  start(mb4::SpiCheck::kCrc);
+  const Bytes valid = held(0x6A, 0x02);
+  for (unsigned bit = 0; bit < 9; ++bit) {
+    Bytes word = kMarkedWord;
+    word[8] = static_cast<std::uint8_t>(word[8] ^ (bit < 8 ? 1U << bit : 0U));
+    plan();
+    EXPECT_TRUE(step(kChain, {word, valid}));
+    EXPECT_EQ(read.result().error(), Error::kCorrupted) << bit;
+  }
+}
+
+// BiSS C, all data bits 0 and the CRC's bits 0 on the line, so that the chip stores 0x3F (page 26):
+// the slave has sent nothing if its line is at 1 again. In its timeout it is not: one look more.
+TEST_F(Chain, AllZero_IsNoWord) {
+  const Bytes blank = join({zeros(8), {0x3F}});
+  const std::vector<Bytes> look{join({{0x05}, zeros(9)})};
+  const auto lines = [](std::uint8_t f8) { return std::vector<Bytes>{join({zeros(9), {f8}})}; };
+  start(mb4::SpiCheck::kCrc);
+  mb4_counts counts{};
+  device.automatic().count(&counts);
+  const auto mark = [&] {
+    plan();
+    EXPECT_FALSE(step(kChain, {blank, kBad}));
+    EXPECT_FALSE(step(kHeld, {blank, kBad}));
+    EXPECT_FALSE(step({{0x02, 0x07, 0xFE}, kAgs}, {}));
+  };
+  mark();
+  EXPECT_TRUE(step(look, lines(0x01)));
+  EXPECT_EQ(read.result().error(), Error::kNoWord);
+  // The same word is told once.
+  plan();
+  EXPECT_TRUE(step(kChain, {join({zeros(8), {0xFE}}), kBad}));
+  EXPECT_EQ(read.result().error(), Error::kNoData);
+  mark();
+  EXPECT_FALSE(step(look, lines(0x00)));
+  EXPECT_TRUE(step(look, lines(0x01)));
+  EXPECT_EQ(read.result().error(), Error::kNoWord);
+  mark();
+  EXPECT_FALSE(step(look, lines(0x00)));
+  EXPECT_TRUE(step(look, lines(0x04)));  // of the other line
+  EXPECT_EQ(read.result().error(), Error::kCrc);
+  mark();
+  EXPECT_TRUE(step(look, {}, false));
+  EXPECT_EQ(read.result().error(), Error::kCrc);
+  // A bit of the data, or of the CRC, is 1.
+  for (const std::size_t byte : {1U, 4U, 8U}) {
+    Bytes word = blank;
+    word[byte] ^= 0x02;
+    plan();
+    EXPECT_FALSE(step(kChain, {word, kBad}));
+    EXPECT_FALSE(step(kHeld, {word, kBad}));
+    EXPECT_TRUE(device.automatic().finish(read, true, now_us)) << byte;
+    EXPECT_EQ(read.result().error(), Error::kCrc) << byte;
+  }
+  EXPECT_EQ(counts.no_word, 2U);
+  EXPECT_EQ(counts.crc, 5U);
+  EXPECT_EQ(counts.good, 0U);
+}
+
+// Without a stored CRC the chip's word that the CRC is wrong counts. Each read tells it.
+TEST_F(Chain, AllZeroWithoutCrc_IsNoWord) {
+  const Bytes read_word = mb4test::kReadData4;
+  const std::vector<Bytes> look{join({{0x05}, zeros(9)})};
+  const auto lines = [](std::uint8_t f8) { return std::vector<Bytes>{join({zeros(9), {f8}})}; };
+  start(mb4::SpiCheck::kOff);
+  for (int i = 0; i < 2; ++i) {
+    plan();
+    EXPECT_FALSE(step({kHold, read_word, kReadStatus, kClearValid1AndRelease}, {zeros(5), kBad}));
+    EXPECT_TRUE(step(look, lines(0x01)));
+    EXPECT_EQ(read.result().error(), Error::kNoWord);
+  }
+  // Position 0 that was read before: the last frame was good.
+  plan();
+  EXPECT_TRUE(step({kHold, read_word, kReadStatus, kClearValid1AndRelease}, {zeros(5), kNone}));
+  EXPECT_EQ(read.result().error(), Error::kNoData);
+  // No more frames end: the alarm says the same.
+  now_us += 16 * mb4::frame_timeout_us(device.config()) + 34;
+  plan();
+  EXPECT_FALSE(step({kHold, read_word, kReadStatus, kClearValid1AndRelease}, {zeros(5), kBad}));
+  EXPECT_FALSE(step(look, lines(0x01)));
+  EXPECT_TRUE(step({join({{0x05}, zeros(12)}), kReadStatus},
+                   {join({zeros(9), {0x01}, zeros(3)}), kBad}));
+  EXPECT_EQ(read.result().error(), Error::kNoWord);
+}
+
+// A bus that reports success and has not stored all bytes of a transfer of the chain: never the old
+// word again. kBytes: how many are stored.
+TEST_F(Chain, StoresTooLittle_OldWordIsNotNew) {
+  for (std::size_t frame = 1; frame <= 2; ++frame) {
+    const Bytes& whole = frame == 1 ? kWord : kNew;
+    for (std::size_t stored = 0; stored < whole.size(); ++stored) {
+      start(mb4::SpiCheck::kCrc);
+      plan();
+      EXPECT_TRUE(step(kChain, {kWord, kNew}));
+      EXPECT_TRUE(read.result().ok());
+      for (int again = 0; again < 3; ++again) {
+        plan();
+        for (const std::size_t i : {1U, 2U}) {
+          const Bytes& answer = i == 1 ? kWord : kNew;
+          for (std::size_t k = 0; k < (i == frame ? stored : answer.size()); ++k) {
+            read.rx(i)[k] = answer[k];
+          }
+        }
+        while (!device.automatic().finish(read, true, now_us)) {
+        }
+        EXPECT_EQ(read.result().error(), Error::kCorrupted) << frame << ", " << stored;
+      }
+      bus.expect_write({0x07, 0x00});
+      ASSERT_TRUE(device.automatic().stop().ok());
+    }
+  }
 }
 
 // Between the two plans the bank switches to a good word; or to one that was read before.
@@ -274,7 +398,7 @@ TEST_F(Chain, Faults_ReleaseTheBank) {
   plan();
   EXPECT_FALSE(step(kChain, {kBadWord, kBad}));
   EXPECT_FALSE(step(kHeld, {kBadWord, kBad}));
-  EXPECT_FALSE(step({{0x02, 0x07, mb4test::kCrc6}, kAgs}, {}, false));
+  EXPECT_FALSE(step({{0x02, 0x07, kMark}, kAgs}, {}, false));
   ends_with(Error::kTransport);
 }
 
@@ -374,7 +498,6 @@ TEST_F(Chain, AlarmWithoutBeats_LooksAtTheLinesAlone) {
 
 // A new word is a new sample, whatever the clock says.
 TEST_F(Chain, TwoNewWordsAtOneTime_AreTwoSamples) {
-  constexpr std::uint8_t kCounted = MB4_WITH_ALL | MB4_WITH_COUNTS;
   start(mb4::SpiCheck::kCrc);
   mb4_counts counts{};
   device.automatic().count(&counts);
@@ -384,7 +507,7 @@ TEST_F(Chain, TwoNewWordsAtOneTime_AreTwoSamples) {
     bus.expect_read(kReadWord, kWord);
     bus.expect_read(kReadStatus, kNew);
     bus.expect_write(kClearValid1AndRelease);
-    EXPECT_TRUE(device.automatic().poll_slave<kCounted>(1).ok());
+    EXPECT_TRUE(device.automatic().poll_slave(1).ok());
   }
   EXPECT_EQ(counts.sequence, 2U);
   EXPECT_EQ(counts.lost, 0U);
@@ -392,7 +515,6 @@ TEST_F(Chain, TwoNewWordsAtOneTime_AreTwoSamples) {
 
 // A build without counts in its Device, and one that ends them.
 TEST_F(Chain, CountsNotGiven_ReadsAreTheSame) {
-  constexpr std::uint8_t kCounted = MB4_WITH_ALL | MB4_WITH_COUNTS;
   start(mb4::SpiCheck::kCrc);
   mb4_counts counts{};
   for (mb4_counts* given : {&counts, static_cast<mb4_counts*>(nullptr)}) {
@@ -401,14 +523,13 @@ TEST_F(Chain, CountsNotGiven_ReadsAreTheSame) {
     bus.expect_read(kReadWord, kWord);
     bus.expect_read(kReadStatus, kNew);
     bus.expect_write(kClearValid1AndRelease);
-    EXPECT_EQ(device.automatic().poll_slave<kCounted>(1)->position, mb4test::kPosition);
+    EXPECT_EQ(device.automatic().poll_slave(1)->position, mb4test::kPosition);
     EXPECT_EQ(counts.good, 1U);
   }
 }
 
 // Without a period only what the reads have met is counted, and no read is late.
 TEST_F(Chain, WithoutPeriod_NothingIsLostOrLate) {
-  constexpr std::uint8_t kCounted = MB4_WITH_ALL | MB4_WITH_COUNTS;
   start(mb4::SpiCheck::kOff);
   mb4_counts counts{};
   device.automatic().count(&counts);
@@ -418,7 +539,7 @@ TEST_F(Chain, WithoutPeriod_NothingIsLostOrLate) {
     bus.expect_read(mb4test::kReadData4, mb4test::kData4);
     bus.expect_read(kReadStatus, good ? kNew : kBad);
     bus.expect_write(good ? kClearValid1AndRelease : kAgs);
-    EXPECT_EQ(device.automatic().poll_slave<kCounted>(1).error(),
+    EXPECT_EQ(device.automatic().poll_slave(1).error(),
               good ? Error::kNone : Error::kCrc);
     clock.time_us += 100;
   }
@@ -510,7 +631,6 @@ TEST(SlaveError, EachFlag_IsToldWithAndWithoutGray) {
 
 // 5 s, more than 2^32 ns, are 50,000 periods of 100 us: 49,999 samples were not read.
 TEST_F(Chain, LongPause_IsCountedWhole) {
-  constexpr std::uint8_t kCounted = MB4_WITH_ALL | MB4_WITH_COUNTS;
   start(mb4::SpiCheck::kCrc);
   mb4_counts counts{};
   device.automatic().count(&counts);
@@ -520,7 +640,7 @@ TEST_F(Chain, LongPause_IsCountedWhole) {
     bus.expect_read(kReadWord, kWord);
     bus.expect_read(kReadStatus, kNew);
     bus.expect_write(kClearValid1AndRelease);
-    EXPECT_TRUE(device.automatic().poll_slave<kCounted>(1).ok());
+    EXPECT_TRUE(device.automatic().poll_slave(1).ok());
     clock.time_us += 5'000'000;
   }
   EXPECT_EQ(counts.sequence, 50'001U);
@@ -581,7 +701,7 @@ TEST_F(Chain, WithoutParts_ReadsAreTheSame) {
       EXPECT_FALSE(ended());
       finish({kHold, read_word, kReadStatus}, {kBadWord, kBad});
       EXPECT_FALSE(ended());
-      finish({{0x02, 0x07, mb4test::kCrc6}, kAgs}, {});
+      finish({{0x02, 0x07, kMark}, kAgs}, {});
     } else {
       finish(chain, {word, kBad});
     }
@@ -739,7 +859,7 @@ TEST_F(Several, OneWordBad_TheOtherIsKept) {
       EXPECT_TRUE(step(all, {{0x02, 0xF1, 0xF7, 0xFF, 0xFF, 0x01}}, {}));
     } else {
       EXPECT_FALSE(step(all, again, {bad, held(0x6A, 0x00)}));
-      EXPECT_TRUE(step(all, {{0x02, 0x0F, mb4test::kCrc6}, kAgs}, {}));
+      EXPECT_TRUE(step(all, {{0x02, 0x0F, kMark}, kAgs}, {}));
     }
     ASSERT_TRUE(all.result(frame).ok());
     EXPECT_TRUE(frame[1].ok());

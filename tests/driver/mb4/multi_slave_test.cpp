@@ -154,6 +154,7 @@ TEST_F(MultiSlave, CrcErrorOfOne_OthersAreRead) {
   configure();
   expect_frame({0x00, 0x6B, 0x02, 0x02, 0x00, 0x00});
   bus.expect_read(mb4test::kReadData4, mb4test::kData4);
+  bus.expect_read({0x03, 0x08, 0, 0}, {0, 0, 0x34, 0x12});
   bus.expect_read({0x03, 0x20, 0, 0, 0}, {0, 0, 0xEF, 0xCD, 0xAB});
   bus.expect_write(mb4test::kThreeClear);
   ASSERT_TRUE(device.read_all(frame).ok());
@@ -170,9 +171,11 @@ TEST_F(MultiSlave, CrcErrorOfOne_OthersAreRead) {
   EXPECT_TRUE(frame.good(0x13));
 }
 
-TEST_F(MultiSlave, NoneGood_NothingIsRead) {
+// What is bad is read too: is it all 0?
+TEST_F(MultiSlave, NoneGood_NothingIsTaken) {
   configure();
   expect_frame({0x00, 0x6B, 0x00, 0x00, 0x00, 0x00});
+  mb4test::expect_three_data(bus);
   ASSERT_TRUE(device.read_all(frame).ok());
   for (const unsigned slave : {1U, 2U, 5U}) {
     EXPECT_EQ(frame[slave].error(), Error::kCrc);
@@ -268,6 +271,7 @@ TEST_F(MultiSlave, CrcErrorOfAnother_DoesNotSpoilThisOne) {
 TEST_F(MultiSlave, OwnCrcError_IsCrcWhateverTheOtherFlagSays) {
   configure();
   expect_frame({0x00, 0x2B, 0x08, 0x02, 0x00, 0x00});
+  bus.expect_read(mb4test::kReadData4, mb4test::kData4);
   EXPECT_EQ(device.read_frame(1).error(), Error::kCrc);
 }
 

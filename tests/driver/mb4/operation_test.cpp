@@ -181,20 +181,19 @@ TEST_F(Restart, Counted_WithCountsOnly) {
   start();
   mb4_counts counts{};
   device.automatic().count(&counts);
-  ASSERT_TRUE(device.automatic().plan_restart(op).ok());
+  ASSERT_TRUE(device.automatic().plan_restart<0>(op).ok());
   EXPECT_EQ(counts.restarts, 0U);
-  EXPECT_EQ((device.automatic().plan_restart<MB4_WITH_ALL | MB4_WITH_COUNTS>(op)).error(),
-            Error::kBusy);
+  EXPECT_EQ(device.automatic().plan_restart(op).error(), Error::kBusy);
   EXPECT_EQ(counts.restarts, 0U);
   EXPECT_TRUE(step({{0x07, 0x80, 0x00}}, {}, false));
-  ASSERT_TRUE((device.automatic().plan_restart<MB4_WITH_ALL | MB4_WITH_COUNTS>(op)).ok());
+  ASSERT_TRUE(device.automatic().plan_restart(op).ok());
   EXPECT_FALSE(step({{0x07, 0x80, 0x00}}, {}));
   EXPECT_TRUE(step({kClearValid1, kAgs}, {}, true, kPause));
   EXPECT_EQ(counts.restarts, 1U);
   bus.expect_write({0x07, 0x80, 0x00});
   bus.expect_write(kClearValid1);
   bus.expect_write(kAgs);
-  ASSERT_TRUE((device.automatic().restart<MB4_WITH_ALL | MB4_WITH_COUNTS>()).ok());
+  ASSERT_TRUE(device.automatic().restart().ok());
   EXPECT_EQ(counts.restarts, 2U);
 }
 
@@ -205,7 +204,7 @@ TEST_F(Restart, WithoutCounts_CountsNothing) {
   mb4_counts counts{};
   device.automatic().count(&counts);
   device.automatic().count(nullptr);
-  ASSERT_TRUE((device.automatic().plan_restart<MB4_WITH_ALL | MB4_WITH_COUNTS>(op)).ok());
+  ASSERT_TRUE(device.automatic().plan_restart(op).ok());
   EXPECT_FALSE(step({kBreak}, {}));
   EXPECT_TRUE(step({kClearValid1, kAgs}, {}, true, kPause));
   ends_with(Error::kNone);
@@ -221,9 +220,8 @@ TEST_F(Restart, NotAllowed_TouchesNothing) {
   ASSERT_TRUE(device.plan_verify(op).ok());
   EXPECT_TRUE(step({join({{0x03, 0xE4}, zeros(18)})}, {}));
   EXPECT_FALSE(device.configured());
-  constexpr std::uint8_t kCounted = MB4_WITH_ALL | MB4_WITH_COUNTS;
-  EXPECT_EQ(device.automatic().plan_restart<kCounted>(op).error(), Error::kNotConfigured);
-  EXPECT_EQ(device.automatic().restart<kCounted>().error(), Error::kNotConfigured);
+  EXPECT_EQ(device.automatic().plan_restart(op).error(), Error::kNotConfigured);
+  EXPECT_EQ(device.automatic().restart().error(), Error::kNotConfigured);
   EXPECT_TRUE(device.automatic().running());
   EXPECT_EQ(counts.restarts, 0U);
 }

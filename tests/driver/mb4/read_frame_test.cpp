@@ -161,11 +161,38 @@ TEST_F(ReadFrame, SlaveNotEnabledOrOutOfRange_IsInvalidArgumentWithoutTransfer) 
 
 // ---- Bad frames ---------------------------------------------------------------------------------
 
-// Table 55: nSCDERR is bit 4 of 0xF0; nERR, bit 7, follows it. The data is not even read.
+// Table 55: nSCDERR is bit 4 of 0xF0; nERR, bit 7, follows it. The data is read only to see whether
+// it is all 0.
 TEST_F(ReadFrame, CrcError_IsCrc) {
   configure();
   bus.expect_write(kStartFrame);
   bus.expect_read(kReadStatus, status(0x6B, 0x00));
+  bus.expect_read(kReadData4, kData4);
+  EXPECT_EQ(device.read_frame().error(), Error::kCrc);
+}
+
+// No CRC is stored, the chip says that the CRC is wrong, and all data bits are 0: the slave has sent
+// nothing if its line is at 1 again (0xF8). While it is not, the driver looks again, for 100 us.
+TEST_F(ReadFrame, AllZeroAndLineIdle_IsNoWord) {
+  const auto lines = [this](std::uint8_t f8) {
+    bus.expect_read(mb4test::join({{0x05}, mb4test::zeros(9)}),
+                    mb4test::join({mb4test::zeros(9), {f8}}));
+  };
+  configure();
+  bus.expect_write(kStartFrame);
+  bus.expect_read(kReadStatus, status(0x6B, 0x00));
+  bus.expect_read(kReadData4, mb4test::zeros(5));
+  lines(0x00);
+  lines(0x01);
+  EXPECT_EQ(device.read_frame().error(), Error::kNoWord);
+  expect_recovery();
+  bus.expect_write(kStartFrame);
+  bus.expect_read(kReadStatus, status(0x6B, 0x00));
+  bus.expect_read(kReadData4, mb4test::zeros(5));
+  clock.step_us = 1000;
+  lines(0x00);
+  lines(0x00);
+  lines(0x00);
   EXPECT_EQ(device.read_frame().error(), Error::kCrc);
 }
 
@@ -265,6 +292,7 @@ TEST_F(ReadFrame, StartErrorFlagFromTheWriteAndCrcError_IsCrc) {
   configure();
   bus.expect_write(kStartFrame);
   bus.expect_read(kReadStatus, status(0x2B, 0x00));
+  bus.expect_read(kReadData4, kData4);
   EXPECT_EQ(device.read_frame().error(), Error::kCrc);
 }
 
@@ -317,6 +345,7 @@ TEST_F(ReadFrame, BadFrame_NextReadBreaksAndClearsOldValidFlagFirst) {
   configure();
   bus.expect_write(kStartFrame);
   bus.expect_read(kReadStatus, status(0x6B, 0x00));
+  bus.expect_read(kReadData4, kData4);
   EXPECT_EQ(device.read_frame().error(), Error::kCrc);
   expect_recovery();
   expect_good_frame();

@@ -43,6 +43,8 @@ void encoder_begin(encoder_transfer transfer, uint32_t now_us) {
   cyclic.watch = &watch;
   cyclic.spi_check = MB4_SPI_CHECK_CRC;
   cyclic.chain = true;
+  /* All for the parts that encoder_read() has: MB4_OK, or each read is an error. */
+  (void)mb4_cyclic_check(&cyclic, &plan, MB4_PLAN_WORDS(1), 0);
   frame(run, 0, sizeof run);
 }
 

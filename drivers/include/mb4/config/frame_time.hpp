@@ -81,8 +81,12 @@ namespace detail {
 namespace detail {
 
 // Longest time from one automatic frame to the next, in microseconds. With FrameStart::kOnPin the
-// pulses at the pin decide; the function then returns the timeout of a frame.
+// pulses at the pin decide: without Config::pin_period_us the function returns the timeout of a
+// frame.
 constexpr std::uint32_t frame_pitch_us(const Config& config) {
+  if (config.pin_period_us != 0) {
+    return config.pin_period_us;
+  }
   return config.frame_start != FrameStart::kPeriodic
              ? frame_timeout_us(config)
              : with_spread(config, config.frame_period_clk / (config.f_clk_hz / 1'000'000U) + 1U);

@@ -174,11 +174,17 @@ struct Config {
   // Not with an actuator: the frames would send words that nobody has written.
   bool activate_at_initialize = false;
 
+  // FrameStart::kOnPin: the time from one pulse at pin GETSENS to the next, 1..1'000'000 us. The
+  // reads then tell when frames stay away, as with kPeriodic, and mb4_counts can count what is
+  // lost. 0: the driver does not know it, and there is no alarm. 0 with any other start.
+  std::uint32_t pin_period_us = 0;
+
   std::array<ChannelConfig, kChannels> channels{};  // [0] is channel 1
   std::array<SlaveConfig, kSlaves> slaves{};        // [0] is slave 1, next to SL, SCDATA1
 };
 
 inline constexpr std::uint32_t kMaxFrameTimeoutUs = 1'000'000;
+inline constexpr std::uint32_t kMaxPinPeriodUs = 1'000'000;
 inline constexpr std::uint32_t kMaxRegisterBusyUs = 10'000'000;
 
 }  // namespace mb4

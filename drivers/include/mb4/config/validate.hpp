@@ -83,6 +83,9 @@ constexpr ConfigField wrong_in_frame_start(const Config& config) {
   if (!is_code(config.frame_start, FrameStart::kPeriodic)) {
     return ConfigField::kFrameStart;
   }
+  if (config.pin_period_us > (config.frame_start == FrameStart::kOnPin ? kMaxPinPeriodUs : 0)) {
+    return ConfigField::kPinPeriodUs;
+  }
   if (config.frame_start != FrameStart::kPeriodic) {
     return config.frame_period_clk == 0 ? ConfigField::kNone : ConfigField::kFramePeriodClk;
   }

@@ -116,6 +116,7 @@ struct ChipState {
     pitch_us = frame_pitch_us(from);
     busy_us = register_busy_us(from);
     needs = (sensors & (sensors - 1U)) != 0 ? MB4_WITH_SEVERAL : 0;
+    set_counts(watch.counts);
     count = 0;
     for (std::uint8_t slave = 1; slave <= kSlaves; ++slave) {
       if (is_in(sensors, slave)) {
@@ -126,14 +127,21 @@ struct ChipState {
     set_watch();
   }
 
+  // Reads that cannot count do not begin then. Period and time are those of the moment.
+  void set_counts(mb4_counts* counts) {
+    watch.counts = counts;
+    needs = static_cast<std::uint8_t>(counts != nullptr ? needs | MB4_WITH_COUNTS
+                                                        : needs & ~unsigned{MB4_WITH_COUNTS});
+  }
+
   // Works out when frames have stayed away for too long: Automatic::poll(). A slave that needs
   // longer than a period says so by Config::frame_timeout_us.
   void set_watch() {
     const std::uint32_t two_us = 2 * pitch_us;
     const std::uint32_t slow_us = config.frame_timeout_us + pitch_us;
-    const bool on_pin = config.frame_start == FrameStart::kOnPin;
+    const bool on_pin = config.frame_start == FrameStart::kOnPin && config.pin_period_us == 0;
     watch.omitted_us = (two_us > slow_us ? two_us : slow_us) + step_us;
-    watch.silent_us = on_pin ? 0 : 14 * pitch_us + watch.omitted_us;
+    watch.silent_us = on_pin ? MB4_NEVER : 14 * pitch_us + watch.omitted_us;
     watch.lines = static_cast<std::uint8_t>(
         (config.channels[0].protocol == Protocol::kUnused ? 0 : regs::SL1::kMask) |
         (config.channels[1].protocol == Protocol::kUnused ? 0 : regs::SL2::kMask));

@@ -45,7 +45,8 @@ struct Procedures {
     kProof,      // a single frame, a configuration: the status after what was read
     kFirst,      // an access that has ended: RDATA1
     kRest,       // ... the request at rest
-    kStopped     // BREAK; the result is known
+    kStopped,    // BREAK; the result is known
+    kBlank       // a single frame: a word is all 0; read the lines until SL is 1
   };
 
   // What came back is here. True: the operation has ended. False: there are other frames to make.
@@ -405,7 +406,7 @@ struct Procedures {
   static void add_request_frame(Operation& op);
   static Result<void> frame(ChipState& chip, Operation& op, std::uint32_t now_us);
   static Result<void> frame_over(ChipState& chip, Operation& op);
-  static Result<void> frame_ended(ChipState& chip, const Operation& op);
+  static Result<void> frame_ended(ChipState& chip, Operation& op);
   static void add_stop(ChipState& chip, Operation& op, Error cause);
   static Result<void> stopped_step(ChipState& chip, Operation& op, std::uint32_t now_us);
   // ... actuator.hpp,

@@ -38,8 +38,7 @@ struct Reads {
     if ((chip.needs & ~unsigned{with}) != 0) {
       return Error::kUnsupported;
     }
-    read.with_ = with & MB4_WITH_ALL;
-    begin(chip, read, chip.word_of(slave), 1, chain);
+    begin(chip, read, chip.word_of(slave), 1, chain, with);
     return {};
   }
 
@@ -52,7 +51,7 @@ struct Reads {
     if (!chip.automatic) {
       return Error::kWrongMode;
     }
-    begin(chip, read, chip.words.data(), chip.count, chain);
+    begin(chip, read, chip.words.data(), chip.count, chain, MB4_WITH_ALL);
     mb4_cyclic_plan(&read.read_, &read.plan_, MB4_WITH_ALL);
     return {};
   }
@@ -64,6 +63,11 @@ struct Reads {
     if (steps.code_ == MB4_MORE) {
       return false;
     }
+    if (steps.code_ == MB4_UNSUPPORTED) {
+      // Parts that the plan needs may not be here. The next read releases the bank.
+      chip.watch.held = true;
+      return true;
+    }
     chip.control.seen_running = steps.read_.running;
     // A disturbed byte of 0xF4 with another INSTR may have started an access that nobody asked for.
     if ((With & MB4_WITH_FULL) != 0 &&
@@ -73,14 +77,22 @@ struct Reads {
     return true;
   }
 
+  static Result<void> crc_table(ChipState& chip, std::uint8_t slave, std::uint32_t* table) {
+    if (!chip.configured) {
+      return Error::kNotConfigured;
+    }
+    for (std::uint8_t i = 0; i < chip.count; ++i) {
+      if (chip.words[i].slave == slave && chip.words[i].crc_bits != 0) {
+        mb4_crc_table(&chip.words[i], table);
+        chip.needs |= MB4_WITH_TABLE;
+        return {};
+      }
+    }
+    return Error::kInvalidArgument;
+  }
+
   template <std::uint8_t With>
   static bool finish(ChipState& chip, CyclicRead& read, bool transferred, std::uint32_t now_us) {
-    if (read.with_ != (With & MB4_WITH_ALL)) {
-      // Parts that the plan needs may not be here. The next read releases the bank.
-      chip.watch.held = true;
-      read.code_ = MB4_UNSUPPORTED;
-      return true;
-    }
     if (!take<With>(chip, read, transferred, now_us)) {
       return false;
     }
@@ -92,7 +104,7 @@ struct Reads {
 
  private:
   static void begin(ChipState& chip, ReadSteps& steps, const mb4_word* words, std::uint8_t count,
-                    bool chain) {
+                    bool chain, std::uint8_t with) {
     mb4_cyclic& read = steps.read_;
     const bool unheld = chip.control_runs() && !chip.config.hold_beside_access;
     chain = chain && !unheld;
@@ -106,6 +118,7 @@ struct Reads {
       read.built = nullptr;
     }
     steps.shape_ = shape;
+    read.parts = mb4_cyclic_parts(with);  // the configuration has been checked
     read.words = words;
     read.count = count;
     read.watch = &chip.watch;

@@ -46,6 +46,7 @@ inline void Procedures::plan_frame(ChipState& chip, Operation& op, ReadSteps& re
   cyclic.built = nullptr;
   cyclic.told = false;
   cyclic.one_frame = true;
+  cyclic.blank = 0;
   mb4_cyclic_all(&cyclic, MB4_WITH_ALL);
   read.code_ = MB4_NO_DATA;
   if (chip.recover_first) {
@@ -110,9 +111,10 @@ inline Result<void> Procedures::frame(ChipState& chip, Operation& op, std::uint3
       return {};
     }
     case kTake:
-      read.fresh = mb4_cyclic_take(&read, &op.plan_, 0, read.flags, MB4_WITH_ALL);
-      if (!chip.checks_all()) {
-        return frame_ended(chip, op);  // SVALID is cleared already
+      read.fresh = mb4_cyclic_take(&read, &op.plan_, 0, mb4_cyclic_valid(&read), MB4_WITH_ALL);
+      mb4_cyclic_find_blank(&read, MB4_WITH_ALL);
+      if (!chip.checks_all() || read.flags == 0) {
+        return frame_ended(chip, op);  // SVALID is cleared already, or there is none
       }
       if (read.fresh == 0) {
         add_poll(op);
@@ -141,6 +143,14 @@ inline Result<void> Procedures::frame(ChipState& chip, Operation& op, std::uint3
       const Result<void> cleared = clear_step(chip, op, now_us);
       return cleared && op.plan_.frames == 0 ? frame_ended(chip, op) : cleared;
     }
+    case kBlank:
+      // A line that stays low is no reason to drop the good words.
+      static_cast<void>(lines(chip, op, now_us));
+      op.stage_ = kBlank;
+      if (op.plan_.frames == 0) {
+        (void)mb4_cyclic_tell_blank(&read, received(op), MB4_WITH_ALL);
+      }
+      return {};
     default:
       return stopped_step(chip, op, now_us);
   }
@@ -166,10 +176,11 @@ inline Result<void> Procedures::frame_over(ChipState& chip, Operation& op) {
   // every SVALIDx is 1, the chip contradicts itself and the driver uses no data.
   const unsigned valid = status.valid_flags() & unsigned{chip.sensor_flags};
   const bool contradicts = status.scd_error() && valid == chip.sensor_flags;
-  read.flags = contradicts ? std::uint16_t{0} : mb4_cyclic_valid(&read);
+  // The bad words are read too: one that is all 0 was not sent.
+  read.flags = contradicts ? std::uint16_t{0} : mb4_cyclic_readable(&read, MB4_WITH_ALL);
   if (read.flags != 0) {
     mb4_cyclic_add_data(&read, &op.plan_, read.flags, MB4_WITH_ALL);
-    if (!chip.checks_all()) {
+    if (!chip.checks_all() && mb4_cyclic_valid(&read) != 0) {
       mb4_cyclic_add_clear(&op.plan_, chip.sensor_flags, 4);
     }
     op.stage_ = kTake;
@@ -185,7 +196,7 @@ inline Result<void> Procedures::frame_over(ChipState& chip, Operation& op) {
   return frame_ended(chip, op);
 }
 
-inline Result<void> Procedures::frame_ended(ChipState& chip, const Operation& op) {
+inline Result<void> Procedures::frame_ended(ChipState& chip, Operation& op) {
   const mb4_cyclic& read = op.read_->read_;
   bool good = true;
   for (std::uint8_t i = 0; i < read.count; ++i) {
@@ -194,6 +205,11 @@ inline Result<void> Procedures::frame_ended(ChipState& chip, const Operation& op
   }
   // After kCorrupted the status, which came over the same SPI, is doubtful too.
   chip.recover_first = !good;
+  if (read.blank != 0) {
+    op.limit_ = {};
+    add_lines(op);
+    op.stage_ = kBlank;
+  }
   return {};
 }
 
@@ -217,7 +233,7 @@ inline Result<void> Procedures::wait_step(ChipState& chip, Operation& op, std::u
     again(op, now_us);
     return {};
   }
-  if (status.idle() && chip.config.frame_start == FrameStart::kOnPin) {
+  if (status.idle() && chip.watch.silent_us == MB4_NEVER) {
     return Error::kNoData;
   }
   add_stop(chip, op, Error::kTimeout);
