@@ -204,6 +204,16 @@ const BadConfig kBadConfigs[] = {
     {"RegisterTimeoutTooLong",
      [] { return changed([](Config& c) { c.register_timeout_us = 1'000'001; }); },
      Error::kInvalidConfig, ConfigField::kRegisterTimeoutUs, 0},
+    {"PinPeriodTooLong",
+     [] {
+       return changed([](Config& c) {
+         c.frame_start = mb4::FrameStart::kOnPin;
+         c.pin_period_us = 1'000'001;
+       });
+     },
+     Error::kInvalidConfig, ConfigField::kPinPeriodUs, 0},
+    {"PinPeriodWithoutPin", [] { return changed([](Config& c) { c.pin_period_us = 1; }); },
+     Error::kInvalidConfig, ConfigField::kPinPeriodUs, 0},
     // Table 36: 2 to 256 in powers of two, FREQR = 5 with BiSS C.
     {"RegisterDividerOne", [] { return biss_b(1); }, Error::kInvalidConfig,
      ConfigField::kRegisterDivider, 0},
@@ -598,8 +608,7 @@ TEST(Names, EveryErrorAndField_HasOne) {
   for (std::uint8_t i = 0; i <= static_cast<std::uint8_t>(Error::kNoWord); ++i) {
     EXPECT_STRNE(mb4::to_string(static_cast<Error>(i)), "unknown");
   }
-  for (std::uint8_t i = 0; i <= static_cast<std::uint8_t>(ConfigField::kActivateAtInitialize);
-       ++i) {
+  for (std::uint8_t i = 0; i <= static_cast<std::uint8_t>(ConfigField::kPinPeriodUs); ++i) {
     EXPECT_STRNE(mb4::to_string(static_cast<ConfigField>(i)), "unknown");
   }
   EXPECT_STREQ(mb4::to_string(static_cast<Error>(250)), "unknown");

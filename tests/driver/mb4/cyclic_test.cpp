@@ -42,8 +42,8 @@ const Bytes kHold{0x07, 0x41};
 const Bytes kReadWord = join({{0x09}, zeros(8)});
 const Bytes kWord = join({mb4test::kData4, {0, 0, 0, mb4test::kCrc6}});
 const Bytes kErrorWord = {0, 0xBD, 0x37, 0xAF, 0x0A, 0, 0, 0, 0x1E};  // nE = 0; CRC6 by hand
-// What a bad word that was told has instead of its CRC: all bits of the right one but the lowest are
-// inverted, and so are the bits that the chip makes 0.
+// What a bad word that was told has instead of its CRC: all bits of the right one but the lowest
+// are inverted, and so are the bits that the chip makes 0.
 constexpr std::uint8_t kMark = mb4test::kCrc6 ^ 0xFE;
 const Bytes kMarkedWord = join({mb4test::kData4, {0, 0, 0, kMark}});
 const Bytes kBadWord = join({mb4test::kData4, {0, 0, 0, 0x3F}});
@@ -314,9 +314,61 @@ TEST_F(Chain, AllZeroWithoutCrc_IsNoWord) {
   plan();
   EXPECT_FALSE(step({kHold, read_word, kReadStatus, kClearValid1AndRelease}, {zeros(5), kBad}));
   EXPECT_FALSE(step(look, lines(0x01)));
-  EXPECT_TRUE(step({join({{0x05}, zeros(12)}), kReadStatus},
-                   {join({zeros(9), {0x01}, zeros(3)}), kBad}));
+  EXPECT_TRUE(
+      step({join({{0x05}, zeros(12)}), kReadStatus}, {join({zeros(9), {0x01}, zeros(3)}), kBad}));
   EXPECT_EQ(read.result().error(), Error::kNoWord);
+}
+
+// By table, four bits a step; the longest CRC is checked in crc_test.cpp. A build without the part
+// does not pass over it.
+TEST_F(Chain, Table_GivesTheSameAndNeedsItsPart) {
+  std::array<std::uint32_t, 16> table{};
+  EXPECT_EQ(device.automatic().crc_table(1, table).error(), Error::kNotConfigured);
+  start(mb4::SpiCheck::kCrc);
+  EXPECT_EQ(device.automatic().crc_table(0, table).error(), Error::kInvalidArgument);
+  EXPECT_EQ(device.automatic().crc_table(2, table).error(), Error::kInvalidArgument);
+  ASSERT_TRUE(device.automatic().crc_table(1, table).ok());
+  EXPECT_EQ(table[1], 0x43U << 26);  // the polynomial, left aligned, without its highest bit
+  for (const bool good : {true, false}) {
+    plan();
+    EXPECT_TRUE(step(kChain, {good ? kWord : kBadWord, kNew}));
+    EXPECT_EQ(read.error(), good ? Error::kNone : Error::kCorrupted);
+  }
+  EXPECT_EQ(device.automatic<MB4_WITH_ALL & ~MB4_WITH_TABLE>().plan_slave(1, read).error(),
+            Error::kUnsupported);
+}
+
+// The parts are chosen with the object; the object that plans also finishes.
+TEST_F(Chain, PartsOfTheObject_AreThoseOfItsCalls) {
+  start(mb4::SpiCheck::kCrc);
+  auto reads = device.automatic<0>();
+  ASSERT_TRUE(reads.plan_slave(1, read).ok());
+  for (std::size_t k = 0; k < kWord.size(); ++k) read.rx(1)[k] = kWord[k];
+  for (std::size_t k = 0; k < kNew.size(); ++k) read.rx(2)[k] = kNew[k];
+  EXPECT_TRUE(reads.finish(read, true, now_us));
+  EXPECT_EQ(read.position(), mb4test::kPosition);
+  mb4::Operation op;
+  ASSERT_TRUE(reads.plan_stop(op).ok());
+  EXPECT_TRUE(reads.finish(op, true, now_us));
+  EXPECT_TRUE(op.result().ok());
+  ASSERT_TRUE(device.control().plan_command(op, {}).ok());
+  EXPECT_TRUE(device.control().finish(op, false, now_us));
+  EXPECT_EQ(op.result().error(), Error::kTransport);
+}
+
+// While count() is in force, a read that cannot count is refused; after configure() too.
+TEST_F(Chain, CountsWithoutTheirPart_IsUnsupported) {
+  mb4_counts counts{};
+  start(mb4::SpiCheck::kCrc);
+  device.automatic().count(&counts);
+  EXPECT_EQ(device.automatic().poll_slave<0>(1).error(), Error::kUnsupported);
+  EXPECT_EQ(device.automatic<0>().poll_slave(1).error(), Error::kUnsupported);
+  bus.expect_write({0x07, 0x00});
+  ASSERT_TRUE(device.automatic().stop().ok());
+  start(mb4::SpiCheck::kCrc);
+  EXPECT_EQ(device.automatic<0>().plan_slave(1, read).error(), Error::kUnsupported);
+  device.automatic().count(nullptr);
+  EXPECT_TRUE(device.automatic<0>().plan_slave(1, read).ok());
 }
 
 // A bus that reports success and has not stored all bytes of a transfer of the chain: never the old
@@ -539,8 +591,7 @@ TEST_F(Chain, WithoutPeriod_NothingIsLostOrLate) {
     bus.expect_read(mb4test::kReadData4, mb4test::kData4);
     bus.expect_read(kReadStatus, good ? kNew : kBad);
     bus.expect_write(good ? kClearValid1AndRelease : kAgs);
-    EXPECT_EQ(device.automatic().poll_slave(1).error(),
-              good ? Error::kNone : Error::kCrc);
+    EXPECT_EQ(device.automatic().poll_slave(1).error(), good ? Error::kNone : Error::kCrc);
     clock.time_us += 100;
   }
   EXPECT_EQ(counts.good, 3U);

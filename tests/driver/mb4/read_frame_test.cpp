@@ -171,8 +171,9 @@ TEST_F(ReadFrame, CrcError_IsCrc) {
   EXPECT_EQ(device.read_frame().error(), Error::kCrc);
 }
 
-// No CRC is stored, the chip says that the CRC is wrong, and all data bits are 0: the slave has sent
-// nothing if its line is at 1 again (0xF8). While it is not, the driver looks again, for 100 us.
+// No CRC is stored, the chip says that the CRC is wrong, and all data bits are 0: the slave has
+// sent nothing if its line is at 1 again (0xF8). While it is not, the driver looks again, for 100
+// us.
 TEST_F(ReadFrame, AllZeroAndLineIdle_IsNoWord) {
   const auto lines = [this](std::uint8_t f8) {
     bus.expect_read(mb4test::join({{0x05}, mb4test::zeros(9)}),

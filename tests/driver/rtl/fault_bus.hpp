@@ -29,6 +29,8 @@ enum class FaultKind : std::uint8_t {
   kMisoHigh,     // MISO is 1 throughout
   kFlipMiso,     // bit `bit` of MISO, from the first byte's top bit
   kFlipMosi,     // bit `bit` of MOSI
+  kStoresNot,    // transfer() returns true, the chip has seen it all, rx stays as it was
+  kStoresLate,   // the same, and rx is stored at the start of the next transfer
 };
 
 struct Fault {
@@ -61,6 +63,8 @@ class FaultBus {
 
   bool transfer(mb4::Span<const std::uint8_t> tx, mb4::Span<std::uint8_t> rx) {
     const std::size_t index = count_++;
+    for (std::size_t i = 0; i < late_.size(); ++i) late_to_[i] = late_[i];
+    late_.clear();
     bits_.push_back(8 * tx.size());
     opcodes_.push_back(tx[0]);
     if (fault_.kind == FaultKind::kNone || index < fault_.first || index > fault_.last) {
@@ -79,6 +83,15 @@ class FaultBus {
       default:
         break;
     }
+    if (fault_.kind == FaultKind::kStoresNot || fault_.kind == FaultKind::kStoresLate) {
+      std::vector<std::uint8_t> miso(rx.size());
+      inner_.transfer(tx, mb4::Span<std::uint8_t>(miso.data(), miso.size()));
+      if (fault_.kind == FaultKind::kStoresLate) {
+        late_ = miso;
+        late_to_ = rx.data();
+      }
+      return true;
+    }
     inner_.transfer(mb4::Span<const std::uint8_t>(mosi.data(), mosi.size()), rx);
     if (fault_.kind == FaultKind::kMisoLow) fill(rx, 0x00);
     if (fault_.kind == FaultKind::kMisoHigh) fill(rx, 0xFF);
@@ -96,6 +109,8 @@ class FaultBus {
   mb4::tool::SimBus inner_;
   Fault fault_;
   std::size_t count_ = 0;
+  std::vector<std::uint8_t> late_;  // bytes that are still to be stored, and where
+  std::uint8_t* late_to_ = nullptr;
   std::vector<std::size_t> bits_;
   std::vector<std::uint8_t> opcodes_;
 };
@@ -121,8 +136,9 @@ struct FaultyChip {
 inline std::vector<Fault> all_faults(const std::vector<std::size_t>& bits, std::size_t stride) {
   std::vector<Fault> faults;
   for (std::size_t index = 0; index < bits.size(); ++index) {
-    for (const FaultKind kind : {FaultKind::kRefused, FaultKind::kFailedAfter, FaultKind::kLost,
-                                 FaultKind::kMisoLow, FaultKind::kMisoHigh}) {
+    for (const FaultKind kind :
+         {FaultKind::kRefused, FaultKind::kFailedAfter, FaultKind::kLost, FaultKind::kMisoLow,
+          FaultKind::kMisoHigh, FaultKind::kStoresNot}) {
       faults.push_back({kind, index, index, 0});
       faults.push_back({kind, index, kForEver, 0});
     }

@@ -148,7 +148,7 @@ inline Result<void> Procedures::frame(ChipState& chip, Operation& op, std::uint3
       static_cast<void>(lines(chip, op, now_us));
       op.stage_ = kBlank;
       if (op.plan_.frames == 0) {
-        (void)mb4_cyclic_tell_blank(&read, received(op), MB4_WITH_ALL);
+        static_cast<void>(mb4_cyclic_tell_blank(&read, received(op), MB4_WITH_ALL));
       }
       return {};
     default:
