@@ -212,7 +212,7 @@ static inline void mb4_word_set(mb4_word *word, uint8_t slave, const mb4_slave_c
   word->crc_high = word->crc_bits > 8 ? 8 : 0;
   /* Bits that the chip makes 0. A stored CRC that leaves none in its byte is inverted. */
   width = word->crc_bits != 0 ? word->crc_bits : word->bits;
-  word->guard = (width & 7U) != 0 ? (uint8_t)(0xFFU << (width & 7U)) : 0;
+  word->guard = (uint8_t)((width & 7U) != 0 ? 0xFFU << (width & 7U) : 0U);
   word->flip = word->crc_bits != 0 && (width & 7U) == 0 ? 0xFF : 0;
 }
 
@@ -594,13 +594,14 @@ static inline uint8_t mb4_cyclic_check(mb4_cyclic *read, const mb4_plan *plan, u
                                        uint8_t with) {
   const mb4_watch *watch = read->watch;
   const bool full = read->spi_check >= MB4_SPI_CHECK_FULL;
+  const uint32_t bytes = (uint32_t)words * 4U;
   uint8_t parts = (uint8_t)((full ? MB4_WITH_FULL : 0) | (read->unheld ? MB4_WITH_UNHELD : 0));
   uint8_t i = 0;
   read->parts = 0;
   read->built = 0;
   if (read->words == 0 || read->slots == 0 || watch == 0 || plan->tx == 0 || plan->rx == 0 ||
       words < MB4_PLAN_WORDS(read->count) ||
-      (plan->tx < plan->rx + 4U * words && plan->rx < plan->tx + 4U * words)) {
+      (plan->tx < plan->rx + bytes && plan->rx < plan->tx + bytes)) {
     return MB4_INVALID_ARGUMENT;
   }
   if (read->count < 1 || read->count > MB4_SLAVES ||

@@ -65,6 +65,12 @@ def cost(mnemonic, operands, jumps):
     return 2 if jumps else 1
 
 
+def text_bytes(listing):
+    """Bytes of code and constants in the output of size -A."""
+    return sum(int(line.split()[1]) for line in listing.splitlines()
+               if line.startswith((".text", ".rodata")))
+
+
 def functions(listing):
     """{address: (function, mnemonic, operands, next address)} of objdump -d."""
     found = {}
@@ -177,16 +183,22 @@ def measure(target, crc, includes):
         run(["arm-none-eabi-gcc", *flags, "-O1", parts, "-nostartfiles", "--specs=nosys.specs",
              "-T", work / "link.ld", HERE / "cycles_main.c", work / "cyclic.o", "-o",
              work / "unit.elf"])
+        flash = text_bytes(run(["arm-none-eabi-size", "-A", work / "cyclic.o"]))
         code = functions(run(["arm-none-eabi-objdump", "-d", work / "unit.elf"]))
         trace = traced(work / "unit.elf", machine, work)
     steps, cycles, each = count(trace, code)
     print(f"{target} {optimize}, CRC by {crc}: {steps} instructions, {cycles} cycles of a Cortex-M0+")
     for name, value in sorted(each.items(), key=lambda item: -item[1]):
         print(f"  {name}: {value}")
-    limit = tomllib.loads((HERE / "budget.toml").read_text())["time"][target][crc]
+    limits = tomllib.loads((HERE / "budget.toml").read_text())["time"][target]
+    limit = limits[crc]
     value = cycles if unit == "cycles" else steps
     if value > limit:
         print(f"{value} {unit}, more than the budget of {limit}")
+        return 1
+    print(f"  code: {flash} bytes")
+    if crc == "table" and flash > limits.get("flash", flash):
+        print(f"{flash} bytes of code, more than the budget of {limits['flash']}")
         return 1
     return 0
 
