@@ -141,6 +141,7 @@ TEST(DriverCall, PollSlave_KeepsToItsTransfers) {
     Config config = encoder(true);
     config.slaves[0].flags = mb4::Flags::kNone;
     config.spi_check = check;
+    config.slaves[0].flags = mb4::Flags::kNone;  // nE of this word is 0
     ASSERT_TRUE(chip.device.configure(config).ok());
     ASSERT_TRUE(chip.device.automatic().start().ok());
     chip.simulator.advance(150 * mb4::sim::kPsPerUs);

@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -79,7 +80,7 @@ TEST_P(DriverStale, NothingStored_IsNeverAnOldPosition) {
           // can wait, and the bank may be held for some frames after a fault.
           EXPECT_GT(reading->position + 1, last[slave]) << "old";
           EXPECT_LE(chip.simulator.slave(slave)->frames() - reading->position, 8U) << "old";
-          last[slave] = reading->position + 2;
+          last[slave] = reading->position + 1;
           ++good;
         };
         const auto once = [&] {
@@ -138,7 +139,8 @@ INSTANTIATE_TEST_SUITE_P(Words, DriverStale,
 class DriverNoWord : public testing::TestWithParam<SpiCheck> {};
 
 // Broadcast command 00 (BiSS C, single-cycle data off): the slave acknowledges each frame and
-// passes its SLI on. Each read of a frame says so, in each way to read; command 01 ends it.
+// passes its SLI on. Each read of a frame says so, in each way to read; addressed command 00 ends
+// it.
 TEST_P(DriverNoWord, DataSwitchedOff_IsToldByEachRead) {
   const std::string kSlave =
       "[[channel.slave]]\nprotocol = \"biss-c\"\ncontrol = true\ndata_bits = 28\nsource = "
@@ -151,33 +153,43 @@ TEST_P(DriverNoWord, DataSwitchedOff_IsToldByEachRead) {
   mb4::Command off;
   off.code = 0;
   mb4::Command on;
-  on.code = 1;
+  on.ids = 0x01;  // addressed, code 0: data on
+  on.code = 0;
   Frame frame;
   ASSERT_TRUE(chip.device.configure(config).ok());
-  ASSERT_TRUE(chip.device.read_frame().ok());
-  ASSERT_TRUE(chip.device.control().send(off).ok());
+  std::array<std::uint32_t, 16> table{};
+  EXPECT_EQ(chip.device.automatic().crc_table(1, table).ok(), GetParam() != SpiCheck::kOff);
+  ASSERT_TRUE(chip.device.automatic().start().ok());
+  const auto sent = chip.device.control().send(off);
+  ASSERT_TRUE(sent.ok()) << mb4::to_string(sent.error());
+  // Frames that have ended before.
+  chip.simulator.advance(110 * sim::kPsPerUs);
+  static_cast<void>(chip.device.automatic().poll(frame));
+  mb4_counts counts{};
+  chip.device.automatic().count(&counts);
+  for (int i = 0; i < 20; ++i) {
+    chip.simulator.advance(110 * sim::kPsPerUs);
+    EXPECT_EQ(chip.device.automatic().poll_slave(1).error(), Error::kNoWord) << i;
+    chip.simulator.advance(110 * sim::kPsPerUs);
+    // Without a stored CRC the alarm says it after a while: the last frame was bad.
+    const mb4::Result<void> polled = chip.device.automatic().poll(frame);
+    EXPECT_EQ(polled ? frame[1].error() : polled.error(), Error::kNoWord) << i;
+  }
+  EXPECT_EQ(counts.no_word, 40U);
+  EXPECT_EQ(counts.crc, 0U);
+  const mb4::Result<void> next = chip.device.automatic().next(frame);
+  EXPECT_EQ(next ? frame[1].error() : next.error(), Error::kNoWord);
+  ASSERT_TRUE(chip.device.automatic().stop().ok());
+  chip.simulator.advance(210 * sim::kPsPerUs);
   for (int i = 0; i < 3; ++i) {
     EXPECT_EQ(chip.device.read_frame().error(), Error::kNoWord);
     ASSERT_TRUE(chip.device.read_all(frame).ok());
     EXPECT_EQ(frame[1].error(), Error::kNoWord);
   }
-  mb4_counts counts{};
   ASSERT_TRUE(chip.device.automatic().start().ok());
-  chip.device.automatic().count(&counts);
-  for (int i = 0; i < 20; ++i) {
-    chip.simulator.advance(110 * sim::kPsPerUs);
-    const Error one = chip.device.automatic().poll_slave(1).error();
-    EXPECT_EQ(one, Error::kNoWord) << i;
-    chip.simulator.advance(110 * sim::kPsPerUs);
-    ASSERT_TRUE(chip.device.automatic().poll(frame).ok());
-    EXPECT_EQ(frame[1].error(), Error::kNoWord) << i;
-  }
-  EXPECT_EQ(counts.no_word, 40U);
-  EXPECT_EQ(counts.crc, 0U);
-  ASSERT_TRUE(chip.device.automatic().next(frame).ok());
-  EXPECT_EQ(frame[1].error(), Error::kNoWord);
   ASSERT_TRUE(chip.device.control().send(on).ok());
   chip.simulator.advance(210 * sim::kPsPerUs);
+  EXPECT_TRUE(chip.device.automatic().next(frame).ok());
   EXPECT_TRUE(chip.device.automatic().next(frame).ok());
   EXPECT_TRUE(frame[1].ok());
   ASSERT_TRUE(chip.device.automatic().stop().ok());
