@@ -381,6 +381,7 @@ static void test_slave_error(uint8_t spi_check, bool chain) {
   drive.watch.counts = &counts;
   drive.parts = MB4_WITH_ALL | MB4_WITH_COUNTS;
   counts.period_ns = kPeriodNs;
+  CHECK(mb4_cyclic_check(&drive.read, &drive.plan, MB4_PLAN_WORDS(2), drive.parts) == MB4_OK);
   due = mb4sim_time_ns(drive.simulator) + 4 * kPeriodNs + kPeriodNs / 2;
   for (ticks = 0; ticks < 120; ++ticks) {
     const unsigned flags = ticks / 30; /* bit 0: nE of slave 1, bit 1: of slave 2 */
