@@ -9,7 +9,8 @@
 //   s_axis_tready does not count. TLAST is 1. TUSER has a bit for each channel: 1 = its word is of
 //   this frame and good. Bits of a disabled channel are 0.
 // Mode 1: one beat for each channel that is enabled at done_i, in ascending order, the first 2
-//   clocks after done_i, one channel a clock; busy_o is high meanwhile, and the words must stay.
+//   clocks after done_i, one channel a clock; busy_o is high meanwhile, and the words must stay. A
+//   channel that is disabled meanwhile sends position 0, not good.
 //   TLAST comes with the last one. TUSER: 0 good, 1 nE, 2 nW, 3 CRC wrong, 15..8 channel.
 //   Beats that the sink does not take wait in a FIFO. If the FIFO has no room at done_i for all
 //   beats of a frame, none of them is sent, and overrun_o is high for one clock.

@@ -9,6 +9,7 @@
 //
 // - ended_i: the word is good if the CRC fits or is not checked. A good word goes to the position
 //   and the flags, one of single-point mode to the single-point data too. A bad one changes none.
+// - A disabled channel has no word: its position is 0 and not good.
 // - failed_i, late_i: no CRC has come: both results are 0. Without acknowledge the delay is 1023.
 //
 // Misuse: bits without load_i before them continue the word before.
@@ -140,8 +141,8 @@ module axi_word #(
         word_q.nerr  <= shift_q[1];
         word_q.nwarn <= shift_q[0];
       end
-      word_q.good    <= !clear_i && !start_i && (ended_i ? good : word_q.good);
-      word_q.crc_bad <= !clear_i && !start_i && (ended_i ? !fits_q : word_q.crc_bad);
+      word_q.good    <= !clear_i && enabled_i && !start_i && (ended_i ? good : word_q.good);
+      word_q.crc_bad <= !clear_i && enabled_i && !start_i && (ended_i ? !fits_q : word_q.crc_bad);
       single_valid_q <= !clear_i && !(start_i && request_i) &&
                         (single_valid_q || (ended_i && good && frame_i.single));
     end

@@ -17,7 +17,7 @@
 // - INIT waits for the slaves' timeout of the frame before it, but not without limit (WAIT).
 // - A BREAK that cuts something, and a reset, leave slaves that may still be in a frame, where SL
 //   tells nothing. INIT then waits until MA has rested and SL has been 1 on the lines in use for
-//   1024 clocks, or SL has been 0 for 2048 clocks (decision 46).
+//   1024 clocks, or SL has been 0 for 2048 clocks (decision 46), unless it drives no line.
 //
 // Misuse and errors:
 //
@@ -197,11 +197,11 @@ module mb4_sequencer #(
         if (cut_q && wait_q[11] == rests) wait_d = {!rests, !rests, 10'h3FF};
         else if (waited)                  cut_d  = 1'b0;
         if (held_q.init) begin
-          if (cut_q) begin  // what has been cut comes to rest first
-          end else if (kind_i.init_use == 2'b00 || (!BissB && !regvers_i)) begin
+          if (kind_i.init_use == 2'b00 || (!BissB && !regvers_i)) begin
             held_d.init  = 1'b0;
             init_clear_o = 1'b1;
             if (!BissB && !regvers_i) void_o = 1'b1;
+          end else if (cut_q) begin  // what has been cut comes to rest first
           end else if (all_idle) begin
             init_clear_o = 1'b1;
             use_d        = kind_i.init_use;

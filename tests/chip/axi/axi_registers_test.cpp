@@ -152,5 +152,30 @@ TEST(AxiScenario, WhatTheMasterDoesNotHave_IsRefusedByKey) {
             std::string::npos);
 }
 
+// A channel that ends early waits for the slow one. Disabled and enabled again in this time, it has
+// no word of this frame: its position is 0, so it must not be good.
+TEST(Axi, ChannelDisabledBeforeTheOthersEnd_IsNotGood) {
+  for (const bool disabled : {false, true}) {
+    AxiBench bench(axi_scenario({{}, {.slave = "busy_periods = 400\n"}}));
+    bench.simulator.slave(1)->set_data(raw_word(0x1234567));
+    bench.simulator.slave(2)->set_data(raw_word(0x2345678));
+    bench.set_up(26, 5);  // MA = 10 MHz
+    ASSERT_TRUE(bench.frame(200 * sim::kPsPerUs));
+    bench.request();
+    bench.simulator.advance(20 * sim::kPsPerUs);  // channel 1 has ended, channel 2 is busy
+    ASSERT_EQ(bench.host.beats_waiting(), 0U);
+    if (disabled) {
+      bench.write(axireg::kAddrChannelEnable, 2);
+      bench.write(axireg::kAddrChannelEnable, 3);
+    }
+    bench.simulator.advance(200 * sim::kPsPerUs);
+    ASSERT_EQ(bench.host.beats_waiting(), 1U);
+    const auto beat = bench.host.next_beat();
+    EXPECT_EQ(beat->user, disabled ? 2U : 3U);
+    EXPECT_EQ(beat->words[0], disabled ? 0U : 0x1234567U);
+    EXPECT_EQ(beat->words[1], 0x2345678U);
+  }
+}
+
 }  // namespace
 }  // namespace mb4test
