@@ -230,9 +230,9 @@ MB4_RESULT mb4_scan(mb4_device *device, uint8_t channel, mb4_identity *identitie
  *   if (mb4_plan_restart(&device, &operation).code == MB4_OK) {
  *     do {
  *       size_t count = mb4_operation_frames(&operation, frames, &pause_us);
- *       ...            // waits pause_us, then makes the frames one after the other, NCS low for
- * each } while (!mb4_finish(&device, &operation, transferred, now_us())); result =
- * mb4_operation_result(&operation);
+ *       ...   // waits pause_us, then makes the frames one after the other, NCS low for each
+ *     } while (!mb4_finish(&device, &operation, transferred, now_us()));
+ *     result = mb4_operation_result(&operation);
  *   }
  *
  * No call below makes a transfer or asks for the time. */

@@ -10,9 +10,8 @@
  *
  *   mb4_cyclic_plan(&read, &plan, MB4_WITH_ALL);      // begins a read
  *   do {
- *     bool done = ...;    // plan.size[i] bytes from mb4_plan_tx(&plan, i) to mb4_plan_rx(&plan,
- * i),
- *                         // NCS low for each frame, i < plan.frames
+ *     bool done = ...;    // for each i < plan.frames, NCS low: plan.size[i] bytes
+ *                         // from mb4_plan_tx(&plan, i) to mb4_plan_rx(&plan, i)
  *     code = mb4_cyclic_finish(&read, &plan, done, now_us, MB4_WITH_ALL);
  *   } while (code == MB4_MORE);
  *   if (code == MB4_OK) { mb4_slot_reading(&word, &slot, &reading, MB4_WITH_ALL); ... }
@@ -601,7 +600,8 @@ static inline uint8_t mb4_cyclic_check(mb4_cyclic *read, const mb4_plan *plan, u
   read->built = 0;
   if (read->words == 0 || read->slots == 0 || watch == 0 || plan->tx == 0 || plan->rx == 0 ||
       words < MB4_PLAN_WORDS(read->count) ||
-      (plan->tx < plan->rx + bytes && plan->rx < plan->tx + bytes)) {
+      ((uintptr_t)plan->tx < (uintptr_t)plan->rx + bytes &&
+       (uintptr_t)plan->rx < (uintptr_t)plan->tx + bytes)) {
     return MB4_INVALID_ARGUMENT;
   }
   if (read->count < 1 || read->count > MB4_SLAVES ||
@@ -822,7 +822,7 @@ static inline void mb4_slot_reading(const mb4_word *word, const mb4_slot *slot,
   reading->slave_error = word->flags && (sent & 2U) == 0;
   reading->slave_warning = word->flags && (sent & 1U) == 0;
   if (word->flags) {
-    reading->raw = (uint64_t)high << 32 | ((low & ~3U) | (sent & 3U));
+    reading->raw = (uint64_t)high << 32 | ((low & ~(uint32_t)3) | (sent & 3U));
     low = low >> 2 | high << 30;
     high >>= 2;
     reading->position = (uint64_t)high << 32 | low;

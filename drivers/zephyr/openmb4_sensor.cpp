@@ -98,6 +98,7 @@ int to_errno(mb4::Error error) {
       return -ETIMEDOUT;
     case mb4::Error::kCrc:
     case mb4::Error::kNoData:
+    case mb4::Error::kNoWord:
     case mb4::Error::kLineError:
       return -EBADMSG;
     case mb4::Error::kSlaveError:
