@@ -1,0 +1,298 @@
+// SPDX-FileCopyrightText: 2026 The openmb4 authors
+// SPDX-License-Identifier: Apache-2.0
+
+// A drive that runs for long on a bad SPI bus, on the Verilated chip: in each call at most one
+// fault, a flipped bit or a transfer that stores nothing; the encoder's plug is pulled at any
+// instant of a frame and put back; registers are read and written beside the positions.
+//
+// A word that the plug has cut and whose CRC fits all the same is the protocol's limit (one in 64
+// for a CRC of 6 bits). It is counted apart, and only if the recorded line has carried just these
+// bits.
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cstdint>
+#include <cstdio>
+#include <cstdlib>
+#include <deque>
+#include <optional>
+#include <random>
+#include <string>
+#include <tuple>
+#include <vector>
+
+#include "sim/core/cable.hpp"
+#include "sim/lines/line.hpp"
+#include "tests/driver/rtl/sweep_rig.hpp"
+
+namespace {
+
+using namespace mb4test;  // NOLINT: the rig
+using Action = sim::CableEvent::Action;
+
+std::uint64_t number(const char* name, std::uint64_t otherwise) {
+  const char* text = std::getenv(name);
+  return text != nullptr ? std::strtoull(text, nullptr, 0) : otherwise;
+}
+
+// The bits of SL at the rising edges of MA, by frame.
+class Recorder {
+ public:
+  struct Frame {
+    std::vector<bool> bits;
+    std::optional<std::size_t> cut;  // the plug has moved while this bit was on the line
+  };
+
+  explicit Recorder(sim::Simulator& simulator) : simulator_(simulator) {
+    simulator.line(1)->set_tap(&Recorder::tap, this);
+  }
+  void plug_moves() {
+    if (frames_.empty() || simulator_.now() - last_edge_ > kGap) return;
+    frames_.back().cut = frames_.back().bits.size();
+  }
+
+  // A frame that the plug has cut and whose bits are `word` of 28 bits and its CRC. The bit that
+  // was on the line meanwhile, and its neighbours, may be either.
+  [[nodiscard]] bool has(std::uint64_t word, std::uint16_t crc) const {
+    const std::uint64_t want = word << 6U | (~std::uint64_t{crc} & 0x3FU);  // inverted on the line
+    for (const Frame& frame : frames_) {
+      if (!frame.cut) continue;
+      std::size_t at = 0;
+      while (at < frame.bits.size() && frame.bits[at]) ++at;   // before the acknowledge
+      while (at < frame.bits.size() && !frame.bits[at]) ++at;  // until the start bit
+      at += 2;                                                 // start bit, CDS
+      bool same = !frame.bits.empty();
+      for (std::size_t i = 0; i < 34 && same; ++i, ++at) {
+        const bool is = at < frame.bits.size() ? frame.bits[at] : frame.bits.back();
+        const bool moves = at + 1 >= *frame.cut && at <= *frame.cut + 1;
+        same = moves || is == ((want >> (33 - i) & 1U) != 0);
+      }
+      if (same) return true;
+    }
+    return false;
+  }
+
+ private:
+  static constexpr sim::Time kGap = 2 * sim::kPsPerUs;
+
+  static void tap(sim::Time now, void* self, sim::Line::Signal signal, bool level) {
+    static_cast<Recorder*>(self)->take(now, signal, level);
+  }
+  void take(sim::Time now, sim::Line::Signal signal, bool level) {
+    if (signal == sim::Line::Signal::kSl) sl_ = level;
+    if (signal != sim::Line::Signal::kMa || level == ma_) return;
+    ma_ = level;
+    if (!level) return;
+    if (frames_.empty() || now - last_edge_ > kGap) {
+      frames_.emplace_back();
+      if (frames_.size() > 8) frames_.pop_front();
+    }
+    frames_.back().bits.push_back(sl_);
+    last_edge_ = now;
+  }
+
+  sim::Simulator& simulator_;
+  bool ma_ = true;
+  bool sl_ = true;
+  sim::Time last_edge_ = 0;
+  std::deque<Frame> frames_;
+};
+
+class SoakRig : public Rig {
+ public:
+  SoakRig(const Setup& setup, std::uint64_t seed)
+      : Rig(setup), recorder_(simulator), random_(seed) {
+    bus.at_random(&random_, 1000);
+  }
+
+  void run(std::uint64_t ticks) {
+    for (std::uint64_t i = 0; i < ticks; ++i) {
+      plug();
+      bus.plan({});
+      read();
+      bus.plan({});
+      access();
+      bus.plan({});
+      if (last_error_ == Error::kCorrupted || i % 500 == 499) check();
+      recover();
+      judge_registers();
+    }
+    bus.at_random(nullptr, 1000);
+    bus.plan({});
+    move_plug(Action::kPlug);
+    simulator.advance(200 * sim::kPsPerUs);
+    check();
+    restart();
+    good_ = 0;
+    no_word_ = false;
+    for (unsigned i = 0; i < 20; ++i) read();
+    conclude();
+  }
+
+  std::uint64_t unplugged = 0;
+  std::uint64_t accesses = 0;
+  std::uint64_t failed_accesses = 0;
+  std::uint64_t configured = 0;
+  std::uint64_t restarts = 0;
+  [[nodiscard]] const mb4_counts& total() const { return counts_; }
+
+ protected:
+  [[nodiscard]] bool cut_on_the_line(const Word& word) const override {
+    return recorder_.has(word.raw, word.crc);
+  }
+
+ private:
+  std::uint64_t below(std::uint64_t limit) { return random_() % limit; }
+
+  void move_plug(Action action) {
+    recorder_.plug_moves();
+    simulator.line(1)->act(simulator.now(), action);
+    simulator.refresh_lines();
+  }
+  // Pulls or puts back the plug within this period, mostly while a frame runs.
+  void plug() {
+    if (pulled_ != 0 && --pulled_ == 0) {
+      at_some_time(back_action_);
+    } else if (pulled_ == 0 && below(300) == 0) {
+      constexpr std::array kWays{Action::kUnplug, Action::kSlLow, Action::kSlHigh};
+      const Action way = kWays[below(kWays.size())];
+      back_action_ = way == Action::kUnplug ? Action::kPlug : Action::kSlFree;
+      pulled_ = 2 + below(30);
+      ++unplugged;
+      at_some_time(way);
+    }
+  }
+  void at_some_time(Action action) {
+    const sim::Time period = period_time();
+    // The loop ticks a third of a period after the start of a frame.
+    const sim::Time from = below(4) == 0 ? below(period) : period * 2 / 3 + below(period / 10);
+    simulator.at(simulator.now() + from, [this, action] { move_plug(action); });
+  }
+
+  void recover() {
+    if (!device.configured()) {
+      configure();
+      ++configured;
+    }
+    if (last_error_ == Error::kTimeout || last_error_ == Error::kLineError ||
+        last_error_ == Error::kWrongMode || !device.automatic().running()) {
+      give_up();
+      bus.plan({});
+      restart();
+      ++restarts;
+      bus.plan({});
+    }
+  }
+  void check() {
+    bool good = true;
+    call_stack().run(bus, [&] { good = device.verify().ok(); });
+    bus.plan({});
+  }
+
+  // One step of a register access; a write and a read in turns.
+  void access() {
+    if (!running_) {
+      if (!device.automatic().running()) return;
+      // A write that has failed, and may still come to its end, is made again as it was.
+      if (writes_ && !failed_write_) {
+        for (std::uint8_t& value : values_) value = static_cast<std::uint8_t>(below(256));
+        named_ = values_;
+      }
+      failed_write_ = failed_write_ || writes_;
+      const Result<void> planned = writes_
+                                       ? device.control().plan_write(step_, {1, 0}, kNamed, values_)
+                                       : device.control().plan_read(step_, {1, 0}, 0x44, back_);
+      if (!planned) return;
+      running_ = true;
+      return;
+    }
+    if (!device.finish(step_, step_.run(bus), clock.now_us())) return;
+    running_ = false;
+    const bool done = step_.result().ok();
+    accesses += done ? 1 : 0;
+    failed_accesses += done ? 0 : 1;
+    if (writes_) failed_write_ = !done;
+    const sim::Slave& slave = *simulator.slave(1);
+    for (unsigned i = 0; i < kNamedCount && done; ++i) {
+      if (writes_ ? slave.reg_read(static_cast<std::uint8_t>(kNamed + i)) != values_[i]
+                  : slave.reg_read(static_cast<std::uint8_t>(0x44 + i)) != back_[i]) {
+        raise(Verdict::kUntrue, writes_ ? "nothing was written" : "another value was read");
+      }
+    }
+    writes_ = failed_write_ || !writes_;
+  }
+  void give_up() {
+    if (!running_) return;
+    while (!device.finish(step_, false, clock.now_us())) {
+    }
+    running_ = false;
+  }
+  void judge_registers() {
+    const Verdict before = verdict;
+    judge_slaves();
+    if (verdict > before) return;
+    // What a named write has done is the state from now on.
+    sim::Slave& slave = *simulator.slave(1);
+    for (unsigned i = 0; i < kNamedCount; ++i) {
+      registers_[0][kNamed + i] = slave.reg_read(static_cast<std::uint8_t>(kNamed + i));
+    }
+  }
+
+  Recorder recorder_;
+  std::mt19937_64 random_;
+  std::uint64_t pulled_ = 0;  // ticks until the plug is put back
+  Action back_action_ = Action::kPlug;
+  mb4::Operation step_;
+  bool running_ = false;
+  bool writes_ = true;
+  bool failed_write_ = false;  // the last one, or it was given up
+  std::array<std::uint8_t, kNamedCount> values_{};
+};
+
+class DriverBusSoak : public testing::TestWithParam<std::tuple<SpiCheck, bool>> {};
+
+TEST_P(DriverBusSoak, OneFaultACall_NoWrongPositionAndEachLossCounted) {
+  const std::uint64_t ticks = number("MB4_SOAK_FRAMES", 4'000);
+  const std::uint64_t seed = number("MB4_SEED", 56);
+  mb4test::Setup setup;
+  setup.check = std::get<0>(GetParam());
+  setup.omits = std::get<1>(GetParam());
+  SoakRig rig(setup, seed);
+  rig.telling = std::getenv("MB4_SOAK_TELLS") != nullptr;
+  if (rig.telling) rig.bus.log(&rig.story);
+  rig.run(ticks);
+  if (rig.telling) std::printf("%s", rig.story.c_str());
+  std::printf(
+      "%llu frames, MB4_SEED=%llu, %s: %llu faults, unplugged %llu times, %llu restarts, %llu "
+      "configured, %llu "
+      "accesses and %llu failed; cut on the line with a CRC that fits %llu",
+      static_cast<unsigned long long>(ticks), static_cast<unsigned long long>(seed),
+      setup.text().c_str(), static_cast<unsigned long long>(rig.bus.faults()),
+      static_cast<unsigned long long>(rig.unplugged), static_cast<unsigned long long>(rig.restarts),
+      static_cast<unsigned long long>(rig.configured),
+      static_cast<unsigned long long>(rig.accesses),
+      static_cast<unsigned long long>(rig.failed_accesses),
+      static_cast<unsigned long long>(rig.line_limits));
+  for (unsigned i = 1; i < kVerdicts; ++i) {
+    if (rig.seen[i] == 0) continue;
+    std::printf("; %s %llu", to_string(static_cast<Verdict>(i)),
+                static_cast<unsigned long long>(rig.seen[i]));
+    const Verdict what = static_cast<Verdict>(i);
+    EXPECT_FALSE(what >= Verdict::kRegister ||
+                 (setup.check >= SpiCheck::kFull && what >= Verdict::kUncounted))
+        << to_string(what) << " " << rig.seen[i] << " times";
+  }
+  std::printf("\n");
+}
+
+INSTANTIATE_TEST_SUITE_P(Checks, DriverBusSoak,
+                         testing::Combine(testing::Values(SpiCheck::kCrc, SpiCheck::kFull,
+                                                          SpiCheck::kFullAndRelease),
+                                          testing::Bool()),
+                         [](const auto& test) {
+                           return std::string(to_string(std::get<0>(test.param))).substr(1) +
+                                  (std::get<1>(test.param) ? "_Omits" : "_Overwrites");
+                         });
+
+}  // namespace

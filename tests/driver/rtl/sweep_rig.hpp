@@ -1,0 +1,1126 @@
+// SPDX-FileCopyrightText: 2026 The openmb4 authors
+// SPDX-License-Identifier: Apache-2.0
+
+// A drive on the Verilated chip for the sweeps over single faults of the bus: it brings the chip
+// into a state, makes one call with a fault, reads on, and judges all that was handed out. What is
+// right comes from the encoders alone: the words that each one has sent, by frame, its registers,
+// and whether it still sends.
+
+#ifndef TESTS_DRIVER_RTL_SWEEP_RIG_HPP_
+#define TESTS_DRIVER_RTL_SWEEP_RIG_HPP_
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "mb4/mb4.hpp"
+#include "mb4sim/simulator.hpp"
+#include "sim/lines/actuator.hpp"
+#include "sim/lines/registers/control_slave.hpp"
+#include "sim/scenario/scenario.hpp"
+#include "tests/driver/rtl/mean_bus.hpp"
+
+namespace mb4test {
+
+namespace sim = mb4::sim;
+using mb4::Config;
+using mb4::Error;
+using mb4::Result;
+using mb4::SpiCheck;
+
+// How positions are read.
+enum class Way : std::uint8_t {
+  kReadFrame,
+  kReadAll,
+  kPlanReadAll,
+  kPollSlave,
+  kPoll,
+  kNext,
+  kPlanSlave,
+  kPlan,
+  kC99,
+  kCount,
+};
+inline const char* to_string(Way way) {
+  constexpr const char* kNames[] = {"read_frame", "read_all", "plan_read_all",
+                                    "poll_slave", "poll",     "next",
+                                    "plan_slave", "plan",     "mb4_cyclic"};
+  return kNames[static_cast<unsigned>(way)];
+}
+inline bool is_single(Way way) { return way <= Way::kPlanReadAll; }
+inline bool is_of_one(Way way) {
+  return way == Way::kReadFrame || way == Way::kPollSlave || way == Way::kPlanSlave;
+}
+
+// What is on the bus.
+enum class Bus : std::uint8_t {
+  kOne,       // one encoder, 28 bits, CRC of 6 bits
+  kTwo,       // two of them
+  kEight,     // eight, 24 bits
+  kNoCrc,     // one of 40 bits without a CRC
+  kLong,      // one of 64 bits, whose CRC of 16 bits the chip has no room for
+  kChannels,  // one on each channel
+  kBissB,
+  kSsi,       // Gray code and a CRC
+  kActuator,  // an actuator, and one encoder behind it
+  kCount,
+};
+inline const char* to_string(Bus bus) {
+  constexpr const char* kNames[] = {"One",      "Two",   "Eight", "NoCrc",   "Long",
+                                    "Channels", "BissB", "Ssi",   "Actuator"};
+  return kNames[static_cast<unsigned>(bus)];
+}
+
+// What has happened before the call.
+enum class Before : std::uint8_t {
+  kFresh,
+  kRead,        // a register was read
+  kWrite,       // a register was written, and the encoder has changed it since
+  kCommand,     // addressed command 00, which switches data on
+  kBeside,      // two registers are being written
+  kNothingNew,  // the last frame has been read just before the call
+  kBadBefore,   // the same, and its word has come with a wrong CRC
+  kBadNow,      // the next frame's word comes with a wrong CRC
+  kCount,
+};
+inline bool is_bad(Before before) { return before >= Before::kBadBefore; }
+inline const char* to_string(Before before) {
+  constexpr const char* kNames[] = {
+      "fresh",       "after a read",      "after a write", "after a command", "beside an access",
+      "nothing new", "a bad word before", "a bad word now"};
+  return kNames[static_cast<unsigned>(before)];
+}
+
+inline const char* to_string(SpiCheck check) {
+  constexpr const char* kNames[] = {"kOff", "kCrc", "kFull", "kFullAndRelease"};
+  return kNames[static_cast<unsigned>(check)];
+}
+
+// The other calls.
+enum class Act : std::uint8_t {
+  kNone,
+  kStart,
+  kStop,
+  kRestart,
+  kVerify,
+  kConfigure,
+  kReset,
+  kInitialize,
+  kBreak,
+  kReadRegisters,
+  kWriteRegisters,
+  kSend,
+  kBeginRead,  // begin_read(), poll() and take(), with reads of positions between them
+  kBeginWrite,
+  kBeginCommand,
+  kWriteActuator,
+  kWriteNextActuator,  // Automatic::write_actuator()
+  kPlanStart,          // in steps, with reads of positions between them where frames run
+  kPlanRestart,
+  kPlanVerify,
+  kPlanConfigure,
+  kPlanInitialize,
+  kPlanRead,
+  kPlanWrite,
+  kPlanCommand,
+  kPlanActuator,
+  kCount,
+};
+inline const char* to_string(Act act) {
+  constexpr const char* kNames[] = {"none",
+                                    "start",
+                                    "stop",
+                                    "restart",
+                                    "verify",
+                                    "configure",
+                                    "reset",
+                                    "initialize",
+                                    "break",
+                                    "read_registers",
+                                    "write_registers",
+                                    "send",
+                                    "begin_read",
+                                    "begin_write",
+                                    "begin_command",
+                                    "write_actuator",
+                                    "automatic().write_actuator",
+                                    "plan_start",
+                                    "plan_restart",
+                                    "plan_verify",
+                                    "plan_configure",
+                                    "plan_initialize",
+                                    "plan_read",
+                                    "plan_write",
+                                    "plan_command",
+                                    "plan_actuator"};
+  return kNames[static_cast<unsigned>(act)];
+}
+
+struct Setup {
+  Way way = Way::kPollSlave;
+  Bus bus = Bus::kOne;
+  Before before = Before::kFresh;
+  SpiCheck check = SpiCheck::kFull;
+  bool omits = false;    // AGSERR_ON_HOLDBANK
+  Act act = Act::kNone;  // the disturbed call; kNone: a read of positions
+
+  [[nodiscard]] std::string text() const {
+    return (act != Act::kNone ? std::string(mb4test::to_string(act)) + ", " : std::string()) +
+           std::string(mb4test::to_string(way)) + ", " + mb4test::to_string(bus) + ", " +
+           mb4test::to_string(before) + ", " + mb4test::to_string(check) +
+           (omits ? ", omits" : ", overwrites");
+  }
+};
+
+// What came out of a case, the worst last.
+enum class Verdict : std::uint8_t {
+  kRight,      // no call shows the fault
+  kTold,       // an error
+  kHidden,     // a new word was not there: kNoData
+  kUncounted,  // a sample was lost and not counted
+  kDead,       // no position comes back, and no call says why
+  kUntrue,     // a control call has succeeded and not done what it says
+  kOld,        // an old position as new
+  kWrong,      // a position that the encoder has not sent
+  kRegister,   // a register of an encoder was written that no call named
+  kOff,        // an encoder is switched off, and no call says kNoWord
+  kStopped,    // the program has stopped
+  kCount,
+};
+inline constexpr unsigned kVerdicts = static_cast<unsigned>(Verdict::kCount);
+inline const char* to_string(Verdict verdict) {
+  constexpr const char* kNames[] = {"right", "told",  "hidden",   "not counted", "dead",   "untrue",
+                                    "old",   "wrong", "register", "encoder off", "stopped"};
+  return kNames[static_cast<unsigned>(verdict)];
+}
+
+inline unsigned bits_of(Bus bus) {
+  switch (bus) {
+    case Bus::kEight:
+      return 24;
+    case Bus::kNoCrc:
+      return 40;
+    case Bus::kLong:
+      return 64;
+    case Bus::kSsi:
+      return 25;
+    default:
+      return 28;
+  }
+}
+inline std::uint32_t crc_of(Bus bus) {
+  return bus == Bus::kNoCrc ? 0 : bus == Bus::kLong ? 0x190D9 : 0x43;
+}
+// The encoders, by the number of their SCDATAx.
+inline std::vector<std::uint8_t> sensors_of(Bus bus) {
+  switch (bus) {
+    case Bus::kTwo:
+      return {1, 2};
+    case Bus::kEight:
+      return {1, 2, 3, 4, 5, 6, 7, 8};
+    case Bus::kChannels:
+      return {1, 5};
+    case Bus::kActuator:
+      return {2};
+    default:
+      return {1};
+  }
+}
+inline bool is_biss_c(Bus bus) { return bus != Bus::kBissB && bus != Bus::kSsi; }
+
+// Each encoder has words of its own, far apart: a ramp with a large step.
+inline std::string scenario_of(const Setup& setup) {
+  const std::string channel = "[[channel]]\nnumber = ";
+  const auto encoder = [&setup](unsigned slave) {
+    std::string keys = "biss-c\"\ncontrol = true";
+    if (setup.bus == Bus::kBissB) keys = "biss-b\"\ntimeout = 2";
+    if (setup.bus == Bus::kSsi) keys = "ssi\"\ntimeout = 2\ngray = true";
+    unsigned start = 0x123457 * slave;
+    unsigned step = 0x5A3C1 + 0x2A6 * slave;
+    if (setup.bus == Bus::kTwo && slave == 2) {
+      // Its low byte is what a status leaves there that shares the memory.
+      start = 0x246841;
+      step = 0x5A900;
+    }
+    return "[[channel.slave]]\nprotocol = \"" + keys +
+           "\nflag_bits = 0\nsource = \"ramp\"\nstart = " + std::to_string(start) +
+           "\nstep = " + std::to_string(step) +
+           "\ndata_bits = " + std::to_string(bits_of(setup.bus)) +
+           "\ncrc = " + std::to_string(crc_of(setup.bus)) +
+           (is_biss_c(setup.bus) ? "\nregisters = { 0x44 = [0x00, 0xD9, 0x01, 0x32] }\n" : "\n");
+  };
+  std::string text = std::string("[chip.quirks]\nAGSERR_ON_HOLDBANK = ") +
+                     (setup.omits ? "true" : "false") + "\n[host]\nsclk_hz = 10_000_000\n" +
+                     channel + "1\n";
+  if (setup.bus == Bus::kActuator) {
+    text +=
+        "mo = true\n[[channel.slave]]\nprotocol = \"biss-c\"\nactuator = true\n"
+        "data_bits = 32\n" +
+        encoder(2);
+    return text;
+  }
+  for (const unsigned slave : sensors_of(setup.bus)) {
+    if (slave == 5 && setup.bus == Bus::kChannels) text += channel + "2\n";
+    text += encoder(slave);
+  }
+  return text;
+}
+
+inline std::uint32_t period_us(const Setup& setup) {
+  return setup.bus == Bus::kEight ? 300 : setup.bus == Bus::kTwo ? 100 : 70;
+}
+
+inline Config config_of(const Setup& setup) {
+  Config config;
+  config.ma_hz = 10'000'000;
+  config.channels[0].protocol = setup.bus == Bus::kBissB ? mb4::Protocol::kBissB
+                                : setup.bus == Bus::kSsi ? mb4::Protocol::kSsi
+                                                         : mb4::Protocol::kBissC;
+  if (setup.bus == Bus::kChannels) config.channels[1].protocol = mb4::Protocol::kBissC;
+  for (const std::uint8_t slave : sensors_of(setup.bus)) {
+    mb4::SlaveConfig& one = config.slaves[slave - 1];
+    one.enabled = true;
+    one.data_bits = static_cast<std::uint8_t>(bits_of(setup.bus));
+    one.flags = mb4::Flags::kNone;
+    one.crc_polynomial = crc_of(setup.bus);
+    one.gray = setup.bus == Bus::kSsi;
+  }
+  if (setup.bus == Bus::kActuator) {
+    mb4::SlaveConfig& one = config.slaves[0];
+    one.enabled = true;
+    one.data_bits = 32;
+    one.flags = mb4::Flags::kNone;
+    one.actuator = true;
+    config.mo = true;
+  }
+  if (!is_single(setup.way)) {
+    config.frame_start = mb4::FrameStart::kPeriodic;
+    config.frame_period_clk =
+        mb4::frame_period_clk_at_least(config.f_clk_hz, period_us(setup) * 1000);
+  }
+  config.spi_check = setup.check;
+  return config;
+}
+
+inline constexpr std::uint8_t kCounting = MB4_WITH_ALL | MB4_WITH_COUNTS | MB4_WITH_TABLE;
+
+// A read by mb4_cyclic.h alone, with buffers of its own, as a program in C has it.
+struct C99Read {
+  C99Read() { mb4_plan_memory(&plan, tx.data(), rx.data()); }
+
+  void set_up(const Config& config) {
+    read = {};
+    watch = {};
+    count = 0;
+    for (unsigned slave = 1; slave <= mb4::kSlaves; ++slave) {
+      const mb4::SlaveConfig& from = config.slaves[slave - 1];
+      if (!from.enabled || from.actuator) continue;
+      mb4_slave_config one{};
+      one.data_bits = from.data_bits;
+      one.crc_polynomial = from.crc_polynomial;
+      one.gray = from.gray;
+      mb4_word_set(&words[count], static_cast<std::uint8_t>(slave), &one,
+                   static_cast<std::uint8_t>(config.spi_check));
+      const bool second = slave > 4 && config.channels[1].protocol != mb4::Protocol::kUnused;
+      if (config.channels[0].protocol == mb4::Protocol::kBissC) {
+        mb4_word_biss_c(&words[count], &one, second ? 2 : 1);
+      }
+      if (words[count].crc_bits != 0) mb4_crc_table(&words[count], tables[count].data());
+      ++count;
+    }
+    read.words = words.data();
+    read.slots = slots.data();
+    read.watch = &watch;
+    read.count = count;
+    read.spi_check = static_cast<std::uint8_t>(config.spi_check);
+    read.chain = config.spi_check < SpiCheck::kFull;
+    watch.several = count > 1;
+    watch.lines =
+        mb4::regs::SL1::kMask |
+        (config.channels[1].protocol == mb4::Protocol::kUnused ? 0 : mb4::regs::SL2::kMask);
+    const std::uint32_t period_us = config.frame_period_clk / (config.f_clk_hz / 1'000'000U) + 1;
+    watch.omitted_us = 2 * period_us + 1;
+    watch.silent_us = 16 * period_us + 1;
+    watch.held = config.spi_check == SpiCheck::kFullAndRelease;
+    watch.counts = &counts;
+    counts.period_ns = static_cast<std::uint32_t>(std::uint64_t{config.frame_period_clk} *
+                                                  1'000'000'000U / config.f_clk_hz);
+    EXPECT_EQ(mb4_cyclic_check(&read, &plan, static_cast<std::uint16_t>(tx.size()), kCounting),
+              MB4_OK);
+  }
+  void started(std::uint32_t now_us) {
+    watch.news_us = now_us;
+    for (std::uint32_t& good_us : watch.good_us) good_us = now_us;
+  }
+
+  mb4_cyclic read{};
+  mb4_plan plan{};
+  mb4_watch watch{};
+  mb4_counts counts{};
+  std::uint8_t count = 0;
+  std::array<mb4_word, mb4::kSlaves> words{};
+  std::array<mb4_slot, mb4::kSlaves> slots{};
+  std::array<std::array<std::uint32_t, 16>, mb4::kSlaves> tables{};
+  std::array<std::uint32_t, MB4_PLAN_WORDS(mb4::kSlaves)> tx{};
+  std::array<std::uint32_t, MB4_PLAN_WORDS(mb4::kSlaves)> rx{};
+};
+
+class Rig {
+ public:
+  static constexpr std::uint8_t kNamed = 0x60;  // the first register that a call writes
+  static constexpr std::uint8_t kNamedCount = 2;
+  static constexpr std::array<std::uint8_t, kNamedCount> kValues{0x5C, 0xA3};
+  static constexpr std::uint64_t kActuatorWord = 0x12345678;
+  static constexpr unsigned kKept = 1000;  // frames of which a word may be, at most
+
+  virtual ~Rig() = default;
+  explicit Rig(const Setup& setup)
+      : setup_(setup),
+        simulator(sim::parse_scenario(scenario_of(setup), "sweep.toml")),
+        bus(simulator),
+        clock(simulator),
+        device(bus, clock),
+        sensors_(sensors_of(setup.bus)) {
+    configure();
+    if (!is_single(setup.way)) start();
+    prepare();
+    for (unsigned i = 0; i < 3; ++i) read();
+    EXPECT_EQ(verdict, Verdict::kRight)
+        << mb4test::to_string(verdict) << " before the fault: " << setup.text();
+    EXPECT_NE(good_, 0U) << setup.text() << ": no position before the fault";
+    if (is_bad(setup.before)) {
+      for (const unsigned channel : {1U, 2U}) {
+        // A bit of the first word; 0 is the start bit.
+        // The word of the second encoder begins 34 bits later, where there is one.
+        if (sim::Line* line = simulator.line(channel)) line->faults().flip_next_frame({9, 43});
+      }
+    }
+    if (setup.before == Before::kBadBefore) {
+      read();
+      verdict = Verdict::kRight;
+    }
+    snapshot();
+  }
+
+  // One disturbed or undisturbed read, at the next tick of the loop or at once.
+  void read(bool at_once = false) {
+    if (!at_once) next_tick();
+    std::vector<std::uint64_t> before;
+    for (const std::uint8_t slave : sensors_) before.push_back(frames(slave));
+    words_.clear();
+    whole_ = Error::kNone;
+    call_stack().run(bus, [this] { call(); });
+    judge(before);
+  }
+
+  // The disturbed call.
+  void disturb(const MeanFault& fault) {
+    const bool frames_run = !is_single(setup_.way);
+    if (setup_.act == Act::kStart || setup_.act == Act::kPlanStart) {
+      call_stack().run(bus, [this] { EXPECT_TRUE(device.automatic().stop().ok()); });
+    }
+    if (writes(setup_.act)) named_ = kValues;
+    command_ = setup_.act == Act::kSend || setup_.act == Act::kBeginCommand ||
+               setup_.act == Act::kPlanCommand;
+    bus.plan(fault);
+    if (setup_.act == Act::kNone) {
+      read(setup_.before == Before::kNothingNew || setup_.before == Before::kBadBefore);
+    } else {
+      act();
+    }
+    made_ = bus.made();
+    bus.plan({});
+    if (setup_.act == Act::kNone) return;
+    last_error_ = Error::kNone;
+    if (!device.configured()) configure();
+    if (frames_run && !device.automatic().running()) restart();
+  }
+
+  // What the user does about what the last read has said (docs/driver.md).
+  void react() {
+    if (is_single(setup_.way)) return;
+    const Error error = last_error_;
+    if (!device.configured()) {
+      configure();
+      start();
+    } else if (error == Error::kTimeout || error == Error::kLineError ||
+               error == Error::kWrongMode || !device.automatic().running()) {
+      if (setup_.way != Way::kNext || error == Error::kWrongMode) restart();
+    }
+  }
+
+  void reads(unsigned count) {
+    for (unsigned i = 0; i < count; ++i) {
+      read();
+      poll_access();
+      react();
+    }
+  }
+
+  // After the disturbed call: the rest of the case.
+  void go_on(unsigned count) {
+    bus.plan({});
+    react();
+    reads(count);
+    // Two registers are still being written, or an access runs that nobody has asked for.
+    for (unsigned i = 0; i < 90 && access_; ++i) reads(1);
+    if (access_starts() != starts_) reads(70);
+    if (access_) end_access();
+    bool verified = true;
+    call_stack().run(bus, [&] { verified = device.verify().ok(); });
+    if (!verified) configure();
+    bool initialized = false;
+    Error initialization = Error::kNone;
+    call_stack().run(bus, [&] {
+      if (!is_single(setup_.way)) static_cast<void>(device.automatic().stop());
+      const Result<mb4::LineDelay> done = device.initialize();
+      initialized = done.ok();
+      initialization = done.error();
+    });
+    note("initialize(): " + std::string(mb4::to_string(initialization)));
+    no_word_ = no_word_ || initialization == Error::kNoWord;
+    if (!is_single(setup_.way)) start();
+    good_ = 0;
+    reads(20);
+    conclude();
+  }
+
+  void raise(Verdict to, const std::string& what) {
+    note(std::string(mb4test::to_string(to)) + ": " + what);
+    verdict = std::max(verdict, to);
+    ++seen[static_cast<unsigned>(to)];
+  }
+
+  void configure() {
+    call_stack().run(bus, [this] {
+      const Result<void> done = device.configure(config_of(setup_));
+      if (!done) note(std::string("configure(): ") + mb4::to_string(done.error()));
+    });
+    if (setup_.way == Way::kC99) c99_.set_up(config_of(setup_));
+    counting_ = false;
+  }
+  void start() {
+    call_stack().run(bus, [this] {
+      const Result<void> done = device.automatic().start();
+      if (!done) note(std::string("start(): ") + mb4::to_string(done.error()));
+    });
+    started();
+  }
+  void restart() {
+    end_access();
+    call_stack().run(bus, [this] {
+      const Result<void> done = device.automatic().restart();
+      note(std::string("restart(): ") + mb4::to_string(done.error()));
+    });
+    started(true);
+  }
+  void started(bool again = false) {
+    if (!again) {
+      counts_ = {};
+      device.automatic().count(&counts_);
+      c99_.counts = {};
+      counting_ = false;
+    }
+    restarted_ = again;
+    if (setup_.way == Way::kC99) c99_.set_up(config_of(setup_));
+    c99_.started(clock.now_us());
+    first_read_ = true;
+    const sim::Time period = period_time();
+    tick_ = simulator.now() + 2 * period + period / 3;
+    tick_number_ += 3;
+  }
+
+  // The transfers of the disturbed call.
+  [[nodiscard]] const std::vector<Transfer>& made() const { return made_; }
+
+  // The encoders' registers as they must stay, but for those that a call has named.
+  void snapshot() {
+    registers_.clear();
+    commands_.clear();
+    for (const std::uint8_t slave : sensors_) {
+      std::array<std::uint8_t, 128> bytes{};
+      for (unsigned i = 0; i < bytes.size(); ++i) {
+        bytes[i] = simulator.slave(slave)->reg_read(static_cast<std::uint8_t>(i));
+      }
+      registers_.push_back(bytes);
+      sim::ControlSlave* control = simulator.slave(slave)->control();
+      commands_.push_back(control != nullptr ? control->counters().commands : 0);
+    }
+    starts_ = access_starts();
+  }
+
+  [[nodiscard]] std::uint64_t frames(std::uint8_t slave) const {
+    return simulator.slave(slave)->frames();
+  }
+  [[nodiscard]] const std::vector<std::uint8_t>& sensors() const { return sensors_; }
+  [[nodiscard]] std::uint64_t access_starts() const {
+    std::uint64_t sum = 0;
+    for (const std::uint8_t slave : sensors_) {
+      sim::ControlSlave* control = const_cast<sim::Simulator&>(simulator).slave(slave)->control();
+      if (control != nullptr) sum += control->counters().starts;
+    }
+    return sum;
+  }
+  static CallStack& call_stack() {
+    static CallStack stack;
+    return stack;
+  }
+  void note(const std::string& text) {
+    if (telling) story += text + "\n";
+  }
+
+  Verdict verdict = Verdict::kRight;
+  std::array<std::uint64_t, kVerdicts> seen{};  // how often each
+  std::uint64_t line_limits = 0;  // words that the plug has cut and whose CRC fits all the same
+  bool telling = false;
+  std::string story;
+
+ protected:
+  Setup setup_;
+
+ public:
+  sim::Simulator simulator;
+  MeanBus bus;
+  mb4::tool::SimClock clock;
+  mb4::Device<MeanBus, mb4::tool::SimClock> device;
+
+ protected:
+  struct Word {
+    std::uint8_t slave;
+    Error code;
+    std::uint64_t raw;
+    std::uint16_t crc;
+  };
+  // Did the line itself, cut by the plug, carry this word with the CRC that fits it?
+  [[nodiscard]] virtual bool cut_on_the_line(const Word& /*word*/) const { return false; }
+
+  [[nodiscard]] sim::Time period_time() const {
+    const Config config = config_of(setup_);
+    return is_single(setup_.way) ? 60 * sim::kPsPerUs
+                                 : config.frame_period_clk * (sim::kPsPerSecond / config.f_clk_hz);
+  }
+  void next_tick() {
+    const sim::Time period = period_time();
+    do {
+      tick_ += period;
+      ++tick_number_;
+    } while (tick_ < simulator.now());
+    simulator.run_until(tick_);
+  }
+
+  static bool writes(Act act) {
+    return act == Act::kWriteRegisters || act == Act::kBeginWrite || act == Act::kPlanWrite;
+  }
+  // ID of the first encoder: the slave next to SL has the highest one.
+  [[nodiscard]] std::uint8_t id() const {
+    return mb4::slave_address(config_of(setup_), sensors_[0]).id;
+  }
+  [[nodiscard]] mb4::Command addressed() const {
+    mb4::Command command;
+    command.ids = static_cast<std::uint8_t>(1U << id());
+    command.test_acknowledge = true;
+    return command;
+  }
+
+  // A blocking call.
+  template <typename Call>
+  void perform(Call call) {
+    Error error = Error::kNone;
+    call_stack().run(bus, [&] { error = call().error(); });
+    ended(error);
+  }
+  void ended(Error error) {
+    act_error_ = error;
+    note(std::string(mb4test::to_string(setup_.act)) + ": " + mb4::to_string(error));
+    if (error == Error::kNoWord) no_word_ = true;
+    if (error != Error::kNone) raise(Verdict::kTold, mb4::to_string(error));
+  }
+  // An operation in steps.
+  void steps(const Result<void>& planned) {
+    if (!planned) {
+      ended(planned.error());
+      return;
+    }
+    bool done = false;
+    for (unsigned i = 0; i < 2000 && !done; ++i) {
+      if (op_.pause_us() != 0) simulator.advance(op_.pause_us() * sim::kPsPerUs);
+      const bool transferred = op_.run(bus);
+      done = device.finish(op_, transferred, clock.now_us());
+      // Not beside an actuator, whose steps hold the bank that a read releases.
+      if (!done && device.automatic().running() && setup_.act != Act::kPlanActuator) read();
+    }
+    if (!done) raise(Verdict::kDead, "the operation does not end");
+    ended(op_.result().error());
+  }
+  void until_ended() {
+    bool ends = act_error_ != Error::kNone;
+    for (unsigned i = 0; i < 2000 && !ends; ++i) {
+      if (device.automatic().running()) {
+        read();
+      } else {
+        simulator.advance(20 * sim::kPsPerUs);
+      }
+      call_stack().run(bus, [&] {
+        const Result<bool> over = device.control().poll();
+        ends = !over || *over;
+        if (ends) ended(over.error());
+      });
+    }
+    if (!ends) raise(Verdict::kDead, "the access does not end");
+  }
+
+  void act() {
+    auto automatic = device.automatic();
+    auto control = device.control();
+    const mb4::SlaveAddress slave{1, id()};
+    const mb4::Span<const std::uint8_t> values(kValues.data(), kValues.size());
+    switch (setup_.act) {
+      case Act::kStart:
+        perform([&] { return automatic.start(); });
+        started();
+        break;
+      case Act::kStop:
+        perform([&] { return automatic.stop(); });
+        break;
+      case Act::kRestart:
+        perform([&] { return automatic.restart(); });
+        started(true);
+        break;
+      case Act::kVerify:
+        perform([&] { return device.verify(); });
+        break;
+      case Act::kConfigure:
+        perform([&] { return device.configure(config_of(setup_)); });
+        break;
+      case Act::kReset:
+        perform([&] { return device.reset(); });
+        break;
+      case Act::kInitialize:
+        perform([&] { return device.initialize(); });
+        break;
+      case Act::kBreak:
+        perform([&] { return device.break_transmission(); });
+        break;
+      case Act::kReadRegisters:
+        perform([&] { return control.read_registers(slave, 0x44, back_); });
+        break;
+      case Act::kWriteRegisters:
+        perform([&] { return control.write_registers(slave, kNamed, values); });
+        break;
+      case Act::kSend:
+        perform([&] { return control.send(addressed()); });
+        break;
+      case Act::kBeginRead:
+        perform([&] { return control.begin_read(slave, 0x44, back_.size()); });
+        until_ended();
+        if (act_error_ == Error::kNone) perform([&] { return control.take(back_); });
+        break;
+      case Act::kBeginWrite:
+        perform([&] { return control.begin_write(slave, kNamed, values); });
+        until_ended();
+        break;
+      case Act::kBeginCommand:
+        perform([&] { return control.begin_command(addressed()); });
+        until_ended();
+        break;
+      case Act::kWriteActuator:
+        perform([&] { return device.write_actuator(1, kActuatorWord); });
+        break;
+      case Act::kWriteNextActuator:
+        perform([&] { return automatic.write_actuator(1, kActuatorWord); });
+        break;
+      case Act::kPlanStart:
+        steps(automatic.plan_start(op_));
+        started();
+        break;
+      case Act::kPlanRestart:
+        steps(automatic.plan_restart(op_));
+        started(true);
+        break;
+      case Act::kPlanVerify:
+        steps(device.plan_verify(op_));
+        break;
+      case Act::kPlanConfigure:
+        steps(device.plan_configure(op_, config_of(setup_)));
+        break;
+      case Act::kPlanInitialize:
+        steps(device.plan_initialize(op_));
+        break;
+      case Act::kPlanRead:
+        steps(control.plan_read(op_, slave, 0x44, back_));
+        break;
+      case Act::kPlanWrite:
+        steps(control.plan_write(op_, slave, kNamed, values));
+        break;
+      case Act::kPlanCommand:
+        steps(control.plan_command(op_, addressed()));
+        break;
+      case Act::kPlanActuator:
+        steps(device.plan_actuator(op_, 1, kActuatorWord));
+        break;
+      default:
+        break;
+    }
+    judge_act();
+  }
+
+  // The call has succeeded: has it done what it says?
+  void judge_act() {
+    if (act_error_ != Error::kNone) return;
+    const sim::Slave& slave = *simulator.slave(sensors_[0]);
+    const bool reads = setup_.act == Act::kReadRegisters || setup_.act == Act::kBeginRead ||
+                       setup_.act == Act::kPlanRead;
+    for (unsigned i = 0; i < kNamedCount; ++i) {
+      if (reads && back_[i] != slave.reg_read(static_cast<std::uint8_t>(0x44 + i))) {
+        raise(Verdict::kUntrue, "another value was read");
+      }
+      if (writes(setup_.act) &&
+          slave.reg_read(static_cast<std::uint8_t>(kNamed + i)) != kValues[i]) {
+        raise(Verdict::kUntrue, "nothing was written");
+      }
+    }
+  }
+
+  void take(std::uint8_t slave, const Result<mb4::Reading>& reading) {
+    words_.push_back({slave, reading.error(), reading ? reading->raw : 0,
+                      reading ? reading->crc : std::uint16_t{0}});
+  }
+  void take(const Result<void>& done, const mb4::Frame& frame) {
+    whole_ = done.error();
+    for (const std::uint8_t slave : sensors_) {
+      if (done) take(slave, frame[slave]);
+    }
+  }
+  // Makes the frames of `steps` and asks `finish` until it is done.
+  template <typename Planned, typename Finish>
+  void make(Planned& steps, Finish finish) {
+    bool transferred = false;
+    do {
+      if (steps.pause_us() != 0) simulator.advance(steps.pause_us() * sim::kPsPerUs);
+      transferred = steps.run(bus);
+    } while (!finish(transferred, clock.now_us()));
+  }
+
+  void call() {
+    auto automatic = device.automatic();
+    mb4::Frame frame;
+    const std::uint8_t slave = sensors_.back();
+    switch (setup_.way) {
+      case Way::kReadFrame:
+        take(slave, device.read_frame(slave));
+        break;
+      case Way::kReadAll:
+        take(device.read_all(frame), frame);
+        break;
+      case Way::kPlanReadAll: {
+        Result<void> done = device.plan_read_all(op_, all_);
+        if (done) {
+          make(op_, [this](bool transferred, std::uint32_t now_us) {
+            return device.finish(op_, transferred, now_us);
+          });
+          done = all_.result(frame);
+        }
+        take(done, frame);
+        break;
+      }
+      case Way::kPollSlave:
+        take(slave, automatic.poll_slave<kCounting>(slave));
+        break;
+      case Way::kPoll:
+        take(automatic.poll(frame), frame);
+        break;
+      case Way::kNext:
+        take(automatic.next(frame), frame);
+        break;
+      case Way::kPlanSlave: {
+        const Result<void> done = automatic.plan_slave<kCounting>(slave, one_);
+        if (!done) {
+          take(slave, done.failure());
+          break;
+        }
+        make(one_, [this, &automatic](bool transferred, std::uint32_t now_us) {
+          return automatic.finish<kCounting>(one_, transferred, now_us);
+        });
+        take(slave, one_.result());
+        break;
+      }
+      case Way::kPlan: {
+        Result<void> done = automatic.plan(all_);
+        if (done) {
+          make(all_, [this, &automatic](bool transferred, std::uint32_t now_us) {
+            return automatic.finish<kCounting>(all_, transferred, now_us);
+          });
+          done = all_.result(frame);
+        }
+        take(done, frame);
+        break;
+      }
+      default:
+        call_c99();
+    }
+  }
+
+  void call_c99() {
+    if (!device.automatic().running()) {
+      whole_ = Error::kWrongMode;
+      return;
+    }
+    constexpr std::uint8_t kWith = kCounting;
+    c99_.read.access = access_;
+    mb4_cyclic_plan(&c99_.read, &c99_.plan, kWith);
+    std::uint8_t code = MB4_MORE;
+    do {
+      bool done = true;
+      for (std::uint8_t i = 0; i < c99_.plan.frames && done; ++i) {
+        const std::size_t size = c99_.plan.size[i];
+        done =
+            bus.transfer({mb4_plan_tx(&c99_.plan, i), size},
+                         {mb4_plan_rx(&c99_.plan, i), mb4_plan_reads(&c99_.plan, i) ? size : 0U});
+      }
+      code = mb4_cyclic_finish(&c99_.read, &c99_.plan, done, clock.now_us(), kWith);
+    } while (code == MB4_MORE);
+    if (!c99_.read.told) {
+      whole_ = static_cast<Error>(code);
+      return;
+    }
+    for (unsigned i = 0; i < c99_.count; ++i) {
+      Word word{c99_.words[i].slave, static_cast<Error>(c99_.slots[i].code), 0, 0};
+      if (word.code == Error::kNone) {
+        mb4_reading reading;
+        mb4_slot_reading(&c99_.words[i], &c99_.slots[i], &reading, kWith);
+        word.raw = reading.raw;
+        word.crc = reading.crc;
+      }
+      words_.push_back(word);
+    }
+  }
+
+  // The frame in which `slave` has sent `raw`, if it is one of the last ones.
+  [[nodiscard]] std::optional<std::uint64_t> frame_of(std::uint8_t slave, std::uint64_t raw) const {
+    const std::uint64_t sent = frames(slave);
+    for (std::uint64_t frame = sent; frame != 0 && frame + kKept > sent; --frame) {
+      if (simulator.slave(slave)->sent_in(frame) == raw) return frame;
+    }
+    return {};
+  }
+
+  void judge(const std::vector<std::uint64_t>& before) {
+    bool good = false;
+    bool late = false;
+    last_error_ = whole_;
+    if (whole_ != Error::kNone) told(whole_);
+    for (const Word& word : words_) {
+      const std::size_t index = static_cast<std::size_t>(
+          std::find(sensors_.begin(), sensors_.end(), word.slave) - sensors_.begin());
+      if (word.code != Error::kNone) {
+        last_error_ = word.code;
+        if (word.code == Error::kNoData && !is_single(setup_.way) &&
+            before[index] > seen_[word.slave]) {
+          if (first_read_) continue;  // it may drop what has waited since before the start
+          raise(Verdict::kHidden, "slave " + std::to_string(word.slave));
+        } else {
+          told(word.code);
+        }
+        continue;
+      }
+      good = true;
+      ++good_;
+      const std::optional<std::uint64_t> frame = frame_of(word.slave, word.raw);
+      std::optional<std::uint64_t>& last = last_[word.slave];
+      if (!frame && cut_on_the_line(word)) {
+        ++line_limits;
+        note("cut on the line: " + number(word.raw));
+      } else if (!frame) {
+        raise(Verdict::kWrong, number(word.raw) + " of slave " + std::to_string(word.slave));
+      } else {
+        const std::string text = number(word.raw) + " of frame " + std::to_string(*frame) + ", " +
+                                 std::to_string(before[index]) + " were sent";
+        const std::uint64_t oldest = is_single(setup_.way)
+                                         ? before[index] + 1
+                                         : std::max<std::uint64_t>(before[index], 1) - 1;
+        if (*frame < oldest || (last && *frame <= *last)) {
+          raise(Verdict::kOld, text);
+          late = true;
+        } else {
+          note("good: " + text);
+        }
+        last = std::max(last.value_or(0), *frame);
+      }
+    }
+    for (std::size_t i = 0; i < sensors_.size(); ++i) seen_[sensors_[i]] = before[i];
+    first_read_ = false;
+    if (good && !late && counts_lost()) judge_counts();
+  }
+
+  void told(Error error) {
+    no_word_ = no_word_ || error == Error::kNoWord;
+    if (error != Error::kNoData || is_single(setup_.way)) {
+      raise(Verdict::kTold, mb4::to_string(error));
+    }
+  }
+
+  [[nodiscard]] bool counts_lost() const {
+    return setup_.way == Way::kPollSlave || setup_.way == Way::kPlanSlave ||
+           setup_.way == Way::kPlan || setup_.way == Way::kC99;
+  }
+  // A good read: all samples since the one before are counted, and the periods.
+  void judge_counts() {
+    const mb4_counts& counts = setup_.way == Way::kC99 ? c99_.counts : counts_;
+    const std::uint64_t frame = last_[words_[0].slave].value_or(0);
+    if (counts.good + counts.lost != counts.sequence) {
+      raise(Verdict::kUncounted, "the sum is wrong");
+    }
+    if (counting_ && words_[0].code == Error::kNone) {
+      const std::uint64_t counted = counts.sequence - counted_sequence_;
+      const std::uint64_t ticks = tick_number_ - counted_tick_;
+      // After a restart the loop has another phase, so the periods between are no whole number.
+      const bool good = restarted_ ? counted + 1 >= frame - counted_frame_
+                                   : counted >= frame - counted_frame_ && counted == ticks;
+      if (!good) {
+        raise(Verdict::kUncounted, std::to_string(counted) + " counted, " + std::to_string(ticks) +
+                                       " ticks, " + std::to_string(frame - counted_frame_) +
+                                       " frames");
+      }
+    }
+    if (words_[0].code != Error::kNone) return;
+    counting_ = true;
+    restarted_ = false;
+    counted_sequence_ = counts.sequence;
+    counted_tick_ = tick_number_;
+    counted_frame_ = frame;
+  }
+
+  void prepare() {
+    auto control = device.control();
+    const std::uint8_t slave = id();
+    std::array<std::uint8_t, 2> bytes{0x11, 0x22};
+    Result<void> done;
+    switch (setup_.before) {
+      case Before::kRead:
+        done = control.read_registers({1, slave}, 0x44, bytes);
+        break;
+      case Before::kWrite:
+        done = control.write_registers({1, slave}, 0x50, bytes);
+        simulator.slave(sensors_[0])->reg_write(0x50, 0xEE);
+        simulator.slave(sensors_[0])->reg_write(0x51, 0xEE);
+        break;
+      case Before::kCommand:
+        done = control.send(addressed());
+        command_ = true;
+        break;
+      case Before::kBeside:
+        named_ = {0x11, 0x22};
+        done = control.begin_write({1, slave}, kNamed, *named_);
+        access_ = true;
+        break;
+      default:
+        break;
+    }
+    EXPECT_TRUE(done.ok()) << setup_.text() << ": " << mb4::to_string(done.error());
+  }
+
+  void poll_access() {
+    if (!access_) return;
+    call_stack().run(bus, [this] {
+      const Result<bool> ended = device.control().poll();
+      if (ended && !*ended) return;
+      access_ = false;
+      note(std::string("the access has ended: ") + mb4::to_string(ended.error()));
+      if (ended && setup_.check >= SpiCheck::kFull) {
+        for (unsigned i = 0; i < kNamedCount; ++i) {
+          if (simulator.slave(sensors_[0])->reg_read(static_cast<std::uint8_t>(kNamed + i)) !=
+              (*named_)[i]) {
+            raise(Verdict::kUntrue, "the access beside has not written what it says");
+          }
+        }
+      }
+    });
+  }
+  void end_access() {
+    if (!access_) return;
+    call_stack().run(bus, [this] { static_cast<void>(device.control().abort()); });
+    access_ = false;
+  }
+
+  void judge_slaves() {
+    for (std::size_t s = 0; s < sensors_.size(); ++s) {
+      sim::Slave& slave = *simulator.slave(sensors_[s]);
+      for (unsigned i = 0; i < registers_[s].size(); ++i) {
+        const std::uint8_t now = slave.reg_read(static_cast<std::uint8_t>(i));
+        const bool named = s == 0 && named_ && i >= kNamed && i < kNamed + kNamedCount &&
+                           now == (*named_)[i - kNamed];
+        if (now != registers_[s][i] && !named) {
+          raise(Verdict::kRegister, "register " + number(i) + " of slave " +
+                                        std::to_string(sensors_[s]) + " is " + number(now));
+        }
+      }
+      sim::ControlSlave* control = slave.control();
+      if (control == nullptr) continue;
+      if (!control->data_active() && !no_word_) {
+        raise(Verdict::kOff, "slave " + std::to_string(sensors_[s]));
+      }
+      const sim::ControlCommand& last = control->last_command();
+      if (control->counters().commands != commands_[s] &&
+          !(command_ && last.code == 0 && last.ids == 0x80U >> id())) {
+        raise(Verdict::kRegister, "command " + number(last.code) + " to " + number(last.ids));
+      }
+    }
+  }
+  void conclude() {
+    judge_slaves();
+    if (good_ == 0 && !no_word_) raise(Verdict::kDead, "no position after initialize()");
+  }
+
+  static std::string number(std::uint64_t value) {
+    constexpr const char* kDigits = "0123456789ABCDEF";
+    std::string text;
+    do {
+      text.insert(text.begin(), kDigits[value % 16]);
+      value /= 16;
+    } while (value != 0);
+    return "0x" + text;
+  }
+
+  std::vector<std::uint8_t> sensors_;
+  mb4::Operation op_;
+  mb4::FrameRead all_;
+  mb4::CyclicRead one_;
+  C99Read c99_;
+  mb4_counts counts_{};
+  sim::Time tick_ = 0;
+  std::uint64_t tick_number_ = 0;
+  std::vector<Word> words_;
+  Error whole_ = Error::kNone;
+  Error last_error_ = Error::kNone;
+  std::map<std::uint8_t, std::optional<std::uint64_t>> last_;  // frame of the last good word
+  std::map<std::uint8_t, std::uint64_t> seen_;                 // frames sent before the last read
+  unsigned good_ = 0;
+  bool no_word_ = false;
+  bool access_ = false;  // two registers are being written beside the reads
+  bool counting_ = false;
+  bool restarted_ = false;  // since the last good read
+  bool first_read_ = true;  // since the start of frames
+  std::uint32_t counted_sequence_ = 0;
+  std::uint64_t counted_tick_ = 0;
+  std::uint64_t counted_frame_ = 0;
+  std::vector<std::array<std::uint8_t, 128>> registers_;
+  std::optional<std::array<std::uint8_t, kNamedCount>> named_;
+  std::vector<std::uint64_t> commands_;  // executed by each encoder
+  bool command_ = false;                 // addressed 00 was sent
+  std::uint64_t starts_ = 0;
+  std::vector<Transfer> made_;
+  Error act_error_ = Error::kNone;
+  std::array<std::uint8_t, kNamedCount> back_{};
+};
+
+}  // namespace mb4test
+
+#endif  // TESTS_DRIVER_RTL_SWEEP_RIG_HPP_
