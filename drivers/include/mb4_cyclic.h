@@ -738,8 +738,9 @@ static inline void mb4_slot_load(const mb4_word *word, mb4_slot *slot, const uin
 
 /* Takes SCDATAx of `word`. With one word it ends frame `frame`; otherwise it is looked for. What is
  * left in rx contradicts itself, so a bus that stores nothing the next time does not make a new
- * word of it. A word without CRC and unused bits stays as it is. */
-static inline void mb4_cyclic_load(const mb4_plan *plan, uint8_t frame, const mb4_word *word,
+ * word of it. A word without CRC and unused bits stays as it is. True: the frame has sent an
+ * address. */
+static inline bool mb4_cyclic_load(const mb4_plan *plan, uint8_t frame, const mb4_word *word,
                                    mb4_slot *slot, uint8_t with) {
   uint8_t *last = 0;
   uint8_t offset = (uint8_t)(plan->size[frame] - word->bytes);
@@ -757,6 +758,7 @@ static inline void mb4_cyclic_load(const mb4_plan *plan, uint8_t frame, const mb
   mb4_slot_load(word, slot, last);
   last += word->bytes - 1;
   *last = (uint8_t)((*last ^ word->flip) | word->guard);
+  return mb4_plan_tx(plan, frame)[0] == MB4_CYCLIC_READ;
 }
 
 /* Keeps the data bits of `low`, `high`. False: a bit above them, in the same byte, is 1 although
@@ -832,10 +834,10 @@ static inline void mb4_slot_reading(const mb4_word *word, const mb4_slot *slot,
   }
 }
 
-/* FULL: data that only a second reading proves. Without a stored CRC this is any data. With a CRC
- * it is all zeros and all ones: a line that was stuck for a moment makes them, and the CRC may
- * accept them. So may a CRC of 8 or 16 bits whose last byte is what a bus leaves there that has not
- * stored all bytes. */
+/* FULL: data that only a second reading proves, also if opcode 0x09 has read it. Without a stored
+ * CRC this is any data. With a CRC it is all zeros and all ones: a line that was stuck for a moment
+ * makes them, and the CRC may accept them. So may a CRC of 8 or 16 bits whose last byte is what a
+ * bus leaves there that has not stored all bytes. */
 static inline bool mb4_slot_needs_second(const mb4_word *word, const mb4_slot *slot, uint8_t with) {
   uint32_t low = slot->low;
   uint32_t high = slot->high;
@@ -869,14 +871,16 @@ static inline uint16_t mb4_cyclic_take(mb4_cyclic *read, const mb4_plan *plan, u
   for (; i < mb4_cyclic_count(read, with); ++i) {
     const mb4_word *word = &read->words[i];
     mb4_slot *slot = &read->slots[i];
+    bool addressed = false;
     if (!mb4_word_in(word, read->flags, with)) {
       continue;
     }
-    mb4_cyclic_load(plan, frame, word, slot, with);
+    addressed = mb4_cyclic_load(plan, frame, word, slot, with);
     if (mb4_word_in(word, flags, with)) {
       slot->code = mb4_slot_good(word, slot, with) ? MB4_OK : MB4_CORRUPTED;
+      /* A disturbed address reads SCDATA of another slave, whose CRC fits too, or an old one. */
       if ((with & MB4_WITH_FULL) != 0 && read->spi_check >= MB4_SPI_CHECK_FULL &&
-          slot->code == MB4_OK && mb4_slot_needs_second(word, slot, with)) {
+          slot->code == MB4_OK && (addressed || mb4_slot_needs_second(word, slot, with))) {
         second = (uint16_t)(second | mb4_word_flag(word));
       }
     }
@@ -892,7 +896,7 @@ static inline void mb4_cyclic_compare(mb4_cyclic *read, const mb4_plan *plan, ui
     mb4_slot *slot = &read->slots[i];
     mb4_slot other;
     if (mb4_word_in(&read->words[i], flags, with)) {
-      mb4_cyclic_load(plan, frame, &read->words[i], &other, with);
+      (void)mb4_cyclic_load(plan, frame, &read->words[i], &other, with);
       if (other.low != slot->low || other.high != slot->high) {
         slot->code = MB4_CORRUPTED;
       }

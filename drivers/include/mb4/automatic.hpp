@@ -64,9 +64,9 @@ class Automatic {
   explicit constexpr Automatic(detail::Chip<Bus, Clock>& chip) : chip_(chip) {}
 
   // Sets AGS = 1. One transfer; after a failed read and after stop() 2 more and 100 us (BREAK,
-  // SVALID; BiSS B adds register_timeout_us). SpiCheck::kFullAndRelease adds 3, and 1 to the BREAK.
+  // SVALID; BiSS B adds register_timeout_us). SpiCheck::kFull adds 3, and 1 to the BREAK.
   // Not touched: kNotConfigured, kWrongMode (AGS is on already), kBusy, kUnsupported with
-  // kSingleBank. Touched: kTransport, with SpiCheck::kFullAndRelease kNotDetected and kCorrupted
+  // kSingleBank. Touched: kTransport, with SpiCheck::kFull kNotDetected and kCorrupted
   // too (AGS may be on; call stop() or start() again).
   Result<void> start() {
     const Result<void> allowed = chip_.start_allowed(false);
@@ -74,9 +74,10 @@ class Automatic {
   }
 
   // Begins start() without a transfer: the caller makes the frames of `operation` and calls
-  // Device::finish() until it returns true. One step of one frame; after a failed read and after
-  // stop() two, of which the second begins after a pause. Not touched: kNotConfigured, kWrongMode,
-  // kBusy, kUnsupported as of start(). operation.result(): kTransport; kWrongMode (operation.hpp).
+  // Device::finish() until it returns true. One step of one frame, with SpiCheck::kFull four; after
+  // a failed read and after stop() two steps, of which the second begins after a pause. Not
+  // touched: kNotConfigured, kWrongMode, kBusy, kUnsupported as of start(). operation.result():
+  // kTransport, kNotDetected, kCorrupted as of start(); kWrongMode (operation.hpp).
   Result<void> plan_start(Operation& operation) {
     const Result<void> allowed =
         detail::Procedures::possible(operation, chip_.start_allowed(false));
@@ -109,10 +110,10 @@ class Automatic {
   }
 
   // Starts automatic frames again (table 69): BREAK, 100 us for the slaves' timeout, SVALID = 0,
-  // AGS = 1. BiSS B adds register_timeout_us. Three transfers, with SpiCheck::kFullAndRelease
-  // seven. Not for interrupts, because it waits. Not touched, frames that run go on:
-  // kNotConfigured, kBusy, kUnsupported. kTransport, with kFullAndRelease kNotDetected and
-  // kCorrupted too: next() then tries again. It counts: count().
+  // AGS = 1. BiSS B adds register_timeout_us. Three transfers, with SpiCheck::kFull seven. Not for
+  // interrupts, because it waits. Not touched, frames that run go on: kNotConfigured, kBusy,
+  // kUnsupported. kTransport, with SpiCheck::kFull kNotDetected and kCorrupted too: next() then
+  // tries again. It counts: count().
   template <std::uint8_t Parts = With>
   Result<void> restart() {
     return detail::Blocking::restart<Parts>(chip_);
@@ -144,7 +145,8 @@ class Automatic {
   //   0x05        0xF0..0xF4: SVALID (table 69)
   //   0x02        SVALID of the enabled slaves = 0, HOLDBANK = 0, AGS = 1; without news 0x07 alone
   // SpiCheck::kFull reads the status before the data (3 transfers when nothing is new), data again
-  // where a stored CRC does not prove it, and the status once or twice after a 0x02 of its own.
+  // where a stored CRC does not prove it or an address was sent (0x03: a wrong one reads the word
+  // of another slave), and the status once or twice after a 0x02 of its own.
   // Beside a control communication without Config::hold_beside_access the order is 0x05, 0x02,
   // data, 0x05, twice at most. After a read that could not release the bank, 2 more come first.
   // SpiCheck::kFullAndRelease reads the status after each 0x07 that releases the bank, and writes
@@ -163,17 +165,18 @@ class Automatic {
   // of the Clock, so this must be safe in the interrupt too.
   //
   // Success: frame[slave] is a Reading, kSlaveError (new, and nE is 0), kNoData (nothing new), kCrc
-  // (a bad frame, told once), kNoWord (the same, for a slave of BiSS C whose word is all 0, CRC too,
-  // while its line is at 1 again: it acknowledges and sends nothing) or kCorrupted for each enabled
-  // slave. With SpiCheck::kOff, and where the data leaves no room for a CRC, kCrc is told only
-  // together with a good word of another slave, and by each call if no good word of the slave has
-  // come for two periods or if there is no other slave. frame.status shows that frames were omitted
-  // (nAGSERR), not how many; frames that later ones have overwritten are not counted either. The
-  // datasheet asks for restart() when SVALID is 0 although a frame must have ended (table 69). This
-  // call does not restart; next() does.
+  // (a bad frame, told once), kNoWord (the same, for a slave of BiSS C whose word is all 0, CRC
+  // too, while its line is at 1 again: it acknowledges and sends nothing) or kCorrupted for each
+  // enabled slave. With SpiCheck::kOff, and where the data leaves no room for a CRC, kCrc is told
+  // only together with a good word of another slave, and by each call if no good word of the slave
+  // has come for two periods or if there is no other slave. frame.status shows that frames were
+  // omitted (nAGSERR), not how many; frames that later ones have overwritten are not counted
+  // either. The datasheet asks for restart() when SVALID is 0 although a frame must have ended
+  // (table 69). This call does not restart; next() does.
   //
-  // Errors: kWrongMode (automatic frames do not run; not touched), kTransport, kNotDetected,
-  // kBankSwitched; kCorrupted (HOLDBANK is not in the chip). On error `frame` holds no Reading.
+  // Errors: kWrongMode (automatic frames do not run; not touched), kBusy (between the steps of
+  // plan_actuator() with SpiCheck::kFull; not touched), kTransport, kNotDetected, kBankSwitched;
+  // kCorrupted (HOLDBANK is not in the chip). On error `frame` holds no Reading.
   // kTimeout, kLineError (SL is 0): frames stay away for more than two periods and the step of
   // the clock (enc::clock_step_us), if the chip has left frames out, otherwise for 16 periods. With
   // Config::frame_timeout_us it is that time and one period if this is longer than two: a chip that
@@ -191,11 +194,11 @@ class Automatic {
   // interrupt of a control loop. It does not change SVALID of other slaves.
   //
   // Not touched: kInvalidArgument (the slave is no enabled sensor), kWrongMode (automatic frames do
-  // not run). kNoData: no frame with data of this slave has ended since the last call. kCrc: one
-  // has, and its CRC was wrong; told once for each frame, without a stored CRC as for poll().
-  // kSlaveError: one has, and its nE is 0; Result::reading() has it.
-  // kNoWord: as for poll().
-  // kTimeout, kLineError, kCorrupted, kTransport, kNotDetected, kBankSwitched as for poll().
+  // not run), kBusy as for poll(). kNoData: no frame with data of this slave has ended since the
+  // last call. kCrc: one has, and its CRC was wrong; told once for each frame, without a stored CRC
+  // as for poll(). kSlaveError: one has, and its nE is 0; Result::reading() has it. kNoWord: as for
+  // poll(). kTimeout, kLineError, kCorrupted, kTransport, kNotDetected, kBankSwitched as for
+  // poll().
   //
   // `Parts` is as With, for this call: poll_slave<0>() is for one slave, BiSS of up to 32 data bits
   // with SpiCheck::kCrc or kOff and Config::hold_beside_access. Without MB4_WITH_BEATS it does not
@@ -219,7 +222,7 @@ class Automatic {
   //
   // No other call on the Device may come between this one and the end of the read. To give up a
   // read, call finish() with transferred = false until it returns true, without making its frames.
-  // Not touched: kInvalidArgument, kWrongMode, kUnsupported as for poll_slave().
+  // Not touched: kInvalidArgument, kWrongMode, kBusy, kUnsupported as for poll_slave().
   template <std::uint8_t Parts = With>
   Result<void> plan_slave(std::uint8_t slave, CyclicRead& read) {
     return detail::Reads::plan<Parts>(chip_, read, slave, !chip_.checks_all());
@@ -236,7 +239,8 @@ class Automatic {
 
   // As plan_slave(), for all enabled sensors, in one chain: 0x07; 0x09 and 0x03, 1..n frames, the
   // neighbours in one; 0x05; 0x02. No frame is longer than 25 bytes, unless `wide` allows 66. Then
-  // finish() until it returns true, and FrameRead::result(). kWrongMode (not touched).
+  // finish() until it returns true, and FrameRead::result(). kWrongMode, kBusy (not touched) as for
+  // poll().
   Result<void> plan(FrameRead& read, bool wide = false) {
     return detail::Reads::begin(chip_, read, !chip_.checks_all(), wide);
   }
@@ -292,7 +296,8 @@ class Automatic {
   }
 
   // Begins write_actuator() without a transfer, as plan_start(): one step of three frames, with
-  // SpiCheck::kFull three steps of one or two. Not touched: kWrongMode, kBusy, kInvalidArgument.
+  // SpiCheck::kFull three steps of one or two, between which a read of positions is kBusy: it would
+  // free the bank. Not touched: kWrongMode, kBusy, kInvalidArgument.
   // operation.result(): kTransport, kNotDetected, kCorrupted.
   Result<void> plan_actuator(Operation& operation, std::uint8_t slave, std::uint64_t word) {
     return plan_word(operation, slave, word,

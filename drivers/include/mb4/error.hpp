@@ -69,7 +69,8 @@ enum class Error : std::uint8_t {
   // The addressed slaves did not acknowledge a command (nREGERR = 0, page 34). Touched: with the
   // IDA test the slaves have not executed it; without the test they may have.
   kCommand = 15,
-  // A control communication is running; poll or abort it first. Not touched.
+  // A control communication is running; poll or abort it first. A read of positions: an actuator
+  // holds the bank between the steps of its operation. Not touched.
   kBusy = 16,
   // The call needs automatic frames and they do not run, or they run and the call forbids them; or
   // ControlSteps::poll() finds nothing that was begun. Not touched.

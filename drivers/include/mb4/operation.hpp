@@ -41,7 +41,8 @@ struct Procedures;
 // The driver makes no transfer and does not ask for the time meanwhile. The frames of a step have
 // at most kMaxFrameBytes. Between two steps the caller may do other work of any length, which
 // includes whole reads of positions (Automatic::plan_slave(), plan(), poll(), poll_slave()) if
-// automatic frames run. A plan_verify() of another object is allowed then too. No other call on the
+// automatic frames run; kBusy while an actuator holds the bank, between the steps of its operation
+// with SpiCheck::kFull. A plan_verify() of another object is allowed then too. No other call on the
 // Device may come between the plan call and the end.
 //
 // Wrong use has an answer, and no frame is made for it:

@@ -527,6 +527,9 @@ TEST_F(RegistersAgs, DisturbedFill_IsFollowedByARestart) {
   mb4test::expect_configure(bus, 0xE7, 0x00);
   ASSERT_TRUE(device.configure(config).ok());
   bus.expect_write(kAgs);
+  bus.expect_write(kClearValid1);
+  bus.expect_write(kClearValid1);
+  bus.expect_read(kReadStatus, {0, 0xFB, 0, 0, 0, 0x01});
   ASSERT_TRUE(device.automatic().start().ok());
   const std::array<std::uint8_t, 1> data{0x12};
   bus.expect_write({0x02, 0x80, 0x12});
@@ -678,6 +681,9 @@ TEST(PollBesideControlFull, WordWithoutCrc_IsReadTwice) {
     mb4test::expect_image(bus, image, answer);
     ASSERT_TRUE(device.configure(config).ok());
     bus.expect_write(kAgs);
+    bus.expect_write(kClearValid1);
+    bus.expect_write(kClearValid1);
+    bus.expect_read(kReadStatus, {0, 0xFB, 0, 0, 0, 0x01});
     ASSERT_TRUE(device.automatic().start().ok());
     bus.expect_proven({0x02, 0xE2, 0x44, 0x00, 0x01, 0xC0});
     bus.expect_write(kFrameAgs);
@@ -792,6 +798,11 @@ class HoldBesideControl : public ControlTest {
     mb4test::expect_configure(bus, 0xE7, check == mb4::SpiCheck::kOff ? 0x02 : 0x00);
     ASSERT_TRUE(device.configure(config).ok());
     bus.expect_write(kAgs);
+    if (check == mb4::SpiCheck::kFull) {
+      bus.expect_write(kClearValid1);
+      bus.expect_write(kClearValid1);
+      bus.expect_read(kReadStatus, {0, 0xFB, 0, 0, 0, 0x01});
+    }
     ASSERT_TRUE(device.automatic().start().ok());
     bus.expect_proven({0x02, 0xE2, 0x44, 0x00, 0x01, 0xC0});
     bus.expect_write(kFrameAgs);

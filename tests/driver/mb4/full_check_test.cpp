@@ -57,6 +57,9 @@ class FullCheck : public testing::Test {
   }
   void start() {
     bus.expect_write(kAgs);
+    bus.expect_write(kClearValid1);
+    bus.expect_write(kClearValid1);
+    bus.expect_read(kReadStatus, status(0xFB, 0x00, 0x01));
     ASSERT_TRUE(device.automatic().start().ok());
   }
   // The next single frame begins with this.
@@ -210,6 +213,70 @@ TEST_F(FullCheck, BankSwitchedBetweenTwoReadings_SecondTryIsGood) {
       EXPECT_EQ(frame[1].error(), Error::kNone);
     }
   }
+}
+
+// Opcode 0x03 sends an address. One wrong bit of it reads the word of another slave, whose CRC
+// fits: only a second reading, with its own address, tells.
+TEST_F(FullCheck, WordByAddress_IsReadTwice) {
+  mb4::Config config = mb4test::encoder26();
+  config.spi_check = mb4::SpiCheck::kFull;
+  config.slaves[1] = config.slaves[0];
+  Bytes image = mb4test::configuration();
+  Bytes answer = mb4test::read_back();
+  for (Bytes* bytes : {&image, &answer}) {
+    (*bytes)[0xE7 - 0xC0] = 0x00;  // NOCRC = 0 (table 21)
+    (*bytes)[4] = 0x5B;            // slave 2 as slave 1
+    (*bytes)[5] = 0x06;
+  }
+  mb4test::expect_image(bus, image, answer);
+  ASSERT_TRUE(device.configure(config).ok());
+  const Bytes clear{0x02, 0xF1, 0xF5, 0xFF};
+  const Bytes by_address = join({{0x03, 0x08}, Bytes(8, 0x5A)});
+  const Bytes word = join({{0}, kAllOf});
+  const Bytes other = join({zeros(9), {mb4test::kCrc6}});
+  // A single frame.
+  for (const bool same : {true, false}) {
+    bus.expect_write(kStartFrame);
+    bus.expect_read(kReadStatus, status(0xFB, 0x0A));
+    bus.expect_read(by_address, word);
+    bus.expect_read(by_address, same ? word : other);
+    bus.expect_read(kReadStatus, status(0xFB, 0x0A));
+    bus.expect_write(clear);
+    bus.expect_read(kReadStatus, kIdleStatus);
+    EXPECT_EQ(device.read_frame(2).error(), same ? Error::kNone : Error::kCorrupted);
+  }
+  // Automatic frames.
+  bus.expect_write(kBreakAndInterface);
+  bus.expect_read(kReadStatus, status(0xFB, 0x00));
+  bus.expect_write(clear);
+  bus.expect_write(kAgs);
+  bus.expect_write(clear);
+  bus.expect_write(clear);
+  bus.expect_read(kReadStatus, status(0xFB, 0x00, 0x01));
+  ASSERT_TRUE(device.automatic().start().ok());
+  for (const bool same : {true, false}) {
+    bus.expect_write(kHold);
+    bus.expect_read(kReadStatus, status(0xFA, 0x0A, 0x41));
+    bus.expect_read(by_address, word);
+    bus.expect_read(kReadStatus, status(0xFA, 0x0A, 0x41));
+    bus.expect_read(by_address, same ? word : other);
+    bus.expect_write({0x02, 0xF1, 0xF7, 0xFF});
+    bus.expect_read(kReadStatus, status(0xFA, 0x02, 0x41));
+    bus.expect_write(kAgs);
+    EXPECT_EQ(device.automatic().poll_slave(2).error(), same ? Error::kNone : Error::kCorrupted);
+  }
+  // All slaves share one frame, which begins at register 0 and sends no address.
+  bus.expect_write(kHold);
+  bus.expect_read(kReadStatus, status(0xFA, 0x0A, 0x41));
+  bus.expect_read(join({{0x09}, Bytes(16, 0x5A)}),
+                  join({kAllOf, Bytes(kAllOf.begin() + 1, kAllOf.end())}));
+  bus.expect_read(kReadStatus, status(0xFA, 0x0A, 0x41));
+  bus.expect_write(clear);
+  bus.expect_read(kReadStatus, kCleared);
+  bus.expect_write(kAgs);
+  ASSERT_TRUE(device.automatic().poll(frame).ok());
+  EXPECT_TRUE(frame[1].ok());
+  EXPECT_TRUE(frame[2].ok());
 }
 
 // Of two statuses that tell of a new frame one is none.

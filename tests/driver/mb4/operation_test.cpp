@@ -71,16 +71,24 @@ class OperationTest : public testing::Test {
     mb4test::expect_configure(bus, 0xE7, check == mb4::SpiCheck::kOff ? 0x02 : 0x00);
     ASSERT_TRUE(device.configure(config).ok());
   }
-  void start() {
+  void expect_break() {
+    bus.expect_write({0x07, 0x80, 0x00});
+    bus.expect_read(kReadStatus, status(0xFF, 0x00, 0x00));
+  }
+  void expect_start() {
     bus.expect_write(kAgs);
-    if (proves()) {
+    if (full()) {
       const Bytes clear = device.config().slaves[0].actuator ? kClearNone : kClearValid1;
       bus.expect_write(clear);
       bus.expect_write(clear);
       bus.expect_read(kReadStatus, kProven);
     }
+  }
+  void start() {
+    expect_start();
     ASSERT_TRUE(device.automatic().start().ok());
   }
+  bool full() const { return device.config().spi_check >= mb4::SpiCheck::kFull; }
   bool proves() const { return device.config().spi_check == mb4::SpiCheck::kFullAndRelease; }
   // A read of a position sees 0xF4 with INSTR = 100, which nobody has written.
   void read_sees_stray() {
@@ -185,14 +193,15 @@ TEST_F(Restart, Counted_WithCountsOnly) {
   EXPECT_EQ(counts.restarts, 0U);
   EXPECT_EQ(device.automatic().plan_restart(op).error(), Error::kBusy);
   EXPECT_EQ(counts.restarts, 0U);
-  EXPECT_TRUE(step({{0x07, 0x80, 0x00}}, {}, false));
+  EXPECT_TRUE(step({{0x07, 0x80, 0x00}, kReadStatus}, {}, false));
   ASSERT_TRUE(device.automatic().plan_restart(op).ok());
-  EXPECT_FALSE(step({{0x07, 0x80, 0x00}}, {}));
-  EXPECT_TRUE(step({kClearValid1, kAgs}, {}, true, kPause));
+  EXPECT_FALSE(step({{0x07, 0x80, 0x00}, kReadStatus}, {status(0xFF, 0x00, 0x00)}));
+  EXPECT_TRUE(
+      step({kClearValid1, kAgs, kClearValid1, kClearValid1, kReadStatus}, {kProven}, true, kPause));
   EXPECT_EQ(counts.restarts, 1U);
-  bus.expect_write({0x07, 0x80, 0x00});
+  expect_break();
   bus.expect_write(kClearValid1);
-  bus.expect_write(kAgs);
+  expect_start();
   ASSERT_TRUE(device.automatic().restart().ok());
   EXPECT_EQ(counts.restarts, 2U);
 }
@@ -935,8 +944,9 @@ TEST_F(Access, EndOfARead_IsRepeatedAndCompared) {
   EXPECT_FALSE(device.automatic().running());
   bus.expect_write({0x07, 0x80, 0x00});
   bus.expect_proven(kRest);
+  bus.expect_read(kReadStatus, status(0xFF, 0x00, 0x00));
   bus.expect_write(kClearValid1);
-  bus.expect_write(kAgs);
+  expect_start();
   EXPECT_TRUE(device.automatic().restart().ok());
 }
 
@@ -1054,17 +1064,18 @@ TEST_F(Access, AfterACorruptedRead_BeginsWithBreakAndANewStart) {
   for (const bool lost : {true, false}) {
     read();
     EXPECT_EQ(device.automatic().poll_slave(1).error(), Error::kWrongMode);
-    EXPECT_EQ(step({{0x07, 0x80, 0x00}}, {}, !lost), lost);
+    EXPECT_EQ(step({{0x07, 0x80, 0x00}, kReadStatus}, {status(0xFF, 0x00, 0x00)}, !lost), lost);
     if (!lost) continue;
     ends_with(Error::kTransport);  // nothing has begun
-    bus.expect_write({0x07, 0x80, 0x00});
+    expect_break();
     bus.expect_write(kClearValid1);
-    bus.expect_write(kAgs);
+    expect_start();
     ASSERT_TRUE(device.automatic().restart().ok());
     read_sees_stray();
   }
-  EXPECT_FALSE(step({kClearValid1, kAgs, kRequest, kReadRequest}, {{0, 0, 0x44, 0x01, 0x01, 0xC0}},
-                    true, kPause));
+  EXPECT_FALSE(
+      step({kClearValid1, kAgs, kClearValid1, kClearValid1, kReadStatus}, {kProven}, true, kPause));
+  EXPECT_FALSE(step(kAsk, kAsked));
   EXPECT_TRUE(device.automatic().running());
   EXPECT_FALSE(step({kFrameAgs, kReadStatus}, {kRunsAgs}));
   EXPECT_FALSE(step({kReadStatus}, {kDoneAgs}));
@@ -1086,7 +1097,7 @@ TEST_F(Access, CorruptedReadBetweenSteps_BeginsNothing) {
   ends_with(Error::kCorrupted);
   EXPECT_TRUE(device.automatic().running());
   read();
-  EXPECT_FALSE(step({{0x07, 0x80, 0x00}}, {}));
+  EXPECT_FALSE(step({{0x07, 0x80, 0x00}, kReadStatus}, {status(0xFF, 0x00, 0x00)}));
 }
 
 // The read may have changed the request, which stood in the chip. BREAK ends the access before a

@@ -104,12 +104,13 @@ TEST(DriverCallErrors, NoSlave_NextIsTimeout) {
 }
 
 // AGS = 1 is the first transfer of a start and the fourth of a restart; its status comes last.
-TEST(DriverCallErrors, StartDisturbed_IsToldWithFullAndRelease) {
-  for (const bool again : {false, true}) {
+TEST(DriverCallErrors, StartDisturbed_IsToldFromFullOn) {
+  for (const int number : {0, 1, 2, 3}) {
+    const bool again = number % 2 != 0;
     for (const Error error : {Error::kCorrupted, Error::kNotDetected}) {
       FaultyChip chip(kEncoder);
       Config config = encoder(true);
-      config.spi_check = mb4::SpiCheck::kFullAndRelease;
+      config.spi_check = number < 2 ? mb4::SpiCheck::kFull : mb4::SpiCheck::kFullAndRelease;
       ASSERT_TRUE(chip.device.configure(config).ok());
       const std::size_t ags = again ? 3 : 0;
       const std::size_t status = again ? 6 : 3;

@@ -426,6 +426,49 @@ TEST(DriverOperationActuator, FaultOfTheBus_IsToldAndTheBankIsFree) {
   }
 }
 
+// A read would free the bank that the actuator holds: the word would be written without HOLDBANK.
+TEST(DriverOperationActuator, ReadBetweenItsSteps_IsBusy) {
+  for (const SpiCheck check : {SpiCheck::kFull, SpiCheck::kFullAndRelease}) {
+    FaultyChip chip(kActuator +
+                    "[[channel.slave]]\nprotocol = \"biss-c\"\ndata_bits = 28\ndata = 5\n");
+    Config one = actuator(true);
+    one.slaves[1] = one.slaves[0];
+    one.slaves[1].actuator = one.slaves[1].stop_bit = false;
+    one.slaves[1].data_bits = 28;
+    one.spi_check = check;
+    ASSERT_TRUE(chip.device.configure(one).ok());
+    auto automatic = chip.device.automatic();
+    ASSERT_TRUE(automatic.start().ok());
+    Operation op;
+    for (const bool ends : {true, false}) {
+      ASSERT_TRUE(automatic.plan_actuator(op, 1, 0x1234).ok());
+      mb4::Frame frame;
+      mb4::FrameRead read;
+      mb4::CyclicRead single;
+      chip.bus.plan({});
+      std::size_t made = 0;
+      do {
+        EXPECT_EQ(automatic.poll(frame).error(), Error::kBusy);
+        EXPECT_EQ(automatic.plan(read).error(), Error::kBusy);
+        EXPECT_EQ(automatic.poll_slave(2).error(), Error::kBusy);
+        EXPECT_EQ(automatic.plan_slave(2, single).error(), Error::kBusy);
+        EXPECT_EQ(chip.bus.count(), made);
+        made += op.frames();
+        if (!ends) break;
+      } while (!chip.device.finish(op, op.run(chip.bus), chip.clock.now_us()));
+      // An actuator that is given up frees the bank, or restart() does.
+      if (ends) {
+        EXPECT_TRUE(op.result().ok());
+      } else {
+        EXPECT_TRUE(automatic.restart().ok());
+      }
+      chip.simulator.advance(250 * sim::kPsPerUs);
+      EXPECT_TRUE(automatic.poll(frame).ok());
+      EXPECT_TRUE(automatic.plan(read).ok());
+    }
+  }
+}
+
 // A loop that ticks with the frames: in each tick a chain for the position, then one step of the
 // access. At least 99 % of the ticks bring a position, at each of 25 phases.
 TEST_P(DriverOperation, ReadBesideEveryPhase_PositionsGoOn) {

@@ -654,7 +654,7 @@ class Rig {
       if (op_.pause_us() != 0) simulator.advance(op_.pause_us() * sim::kPsPerUs);
       const bool transferred = op_.run(bus);
       done = device.finish(op_, transferred, clock.now_us());
-      // Not beside an actuator, whose steps hold the bank that a read releases.
+      // A read is kBusy between the steps of an actuator, which holds the bank.
       if (!done && device.automatic().running() && setup_.act != Act::kPlanActuator) read();
     }
     if (!done) raise(Verdict::kDead, "the operation does not end");

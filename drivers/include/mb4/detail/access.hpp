@@ -325,7 +325,7 @@ inline Result<void> Procedures::access(ChipState& chip, Operation& op, std::uint
     }
     case kRecover:
       if (op.bad_ != 0) {
-        if (const Result<void> done = instruction_proven(chip, op, 0); !done) {
+        if (const Result<void> done = confirmed(chip, op, 0); !done) {
           return done;
         }
       }
@@ -333,7 +333,7 @@ inline Result<void> Procedures::access(ChipState& chip, Operation& op, std::uint
       if (op.bad_ != 0) {
         op.bad_ = 0;
         add_start(chip, op);
-        if (chip.proves_release()) {
+        if (chip.checks_all()) {
           op.stage_ = kRestarted;
           return {};
         }
@@ -342,7 +342,7 @@ inline Result<void> Procedures::access(ChipState& chip, Operation& op, std::uint
       add_request(chip, op);
       return {};
     case kRestarted:
-      if (const Result<void> done = instruction_proven(chip, op, regs::AGS::encode<1>()); !done) {
+      if (const Result<void> done = confirmed(chip, op, regs::AGS::encode<1>()); !done) {
         return done;
       }
       chip.started(now_us);

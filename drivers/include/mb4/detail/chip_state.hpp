@@ -67,6 +67,8 @@ struct ChipState {
   // A frame may still run and SVALID is unknown: BREAK comes before the next request. Every error
   // after the first transfer of a call sets this flag.
   bool recover_first = true;
+  // An actuator holds the bank between its steps.
+  bool held_for_actuator = false;
   // The caller wants automatic frames, but they need BREAK and a new start first (table 69).
   bool restart = false;
   std::uint16_t sensor_flags = 0;  // flag_of() of `sensors`
@@ -99,6 +101,7 @@ struct ChipState {
   void forget() {
     configured = false;
     automatic = false;
+    held_for_actuator = false;
     restart = false;
     recover_first = true;
     control = {};
@@ -151,6 +154,7 @@ struct ChipState {
   // Automatic frames begin now.
   void started(std::uint32_t now_us) {
     automatic = true;
+    held_for_actuator = false;
     restart = false;
     watch.news_us = now_us;
     watch.taken = 0;
@@ -192,6 +196,14 @@ struct ChipState {
     return config.spi_check == SpiCheck::kFullAndRelease;
   }
 
+  // A read frees the bank that it has read.
+  [[nodiscard]] Result<void> read_allowed() const {
+    if (!automatic) {
+      return Error::kWrongMode;
+    }
+    return held_for_actuator ? Error::kBusy : Error::kNone;
+  }
+
   // Time from BREAK until all slaves are ready, by any clock. Slaves of BiSS B may be in register
   // mode and need longer.
   [[nodiscard]] std::uint32_t recovery_us() const {
@@ -203,6 +215,7 @@ struct ChipState {
   // What BREAK ends.
   void stopped() {
     automatic = false;
+    held_for_actuator = false;
     control.kind = ControlState::Kind::kNone;
   }
 };

@@ -193,21 +193,20 @@ struct Procedures {
     mb4_cyclic_add_instruction(&op.plan_, instruction);
   }
 
-  // AGS = 1. With SpiCheck::kFullAndRelease the words of both banks are dropped, because a
-  // disturbed byte before may have switched them, and the status follows: instruction_proven().
+  // AGS = 1. With SpiCheck::kFull the words of both banks are dropped, because a disturbed byte
+  // before may have switched them, and the status follows: confirmed().
   static void add_start(const ChipState& chip, Operation& op) {
     add_instruction(op, regs::AGS::encode<1>());
-    if (chip.proves_release()) {
+    if (chip.checks_all()) {
       mb4_cyclic_add_clear(&op.plan_, chip.sensor_flags, 4);
       mb4_cyclic_add_clear(&op.plan_, chip.sensor_flags, 4); /* one may be lost */
       mb4_cyclic_add_status(&op.plan_);
     }
   }
-  // BREAK beside automatic frames. With SpiCheck::kFullAndRelease the status follows:
-  // instruction_proven().
+  // BREAK beside automatic frames. With SpiCheck::kFull the status follows: confirmed().
   static void add_break(ChipState& chip, Operation& op) {
     add_recovery(chip, op);
-    if (chip.proves_release()) {
+    if (chip.checks_all()) {
       mb4_cyclic_add_status(&op.plan_);
     }
   }
@@ -349,7 +348,7 @@ struct Procedures {
     }
     const bool breaks = op.stage_ == kRecover;
     const std::uint8_t want = breaks ? std::uint8_t{0} : regs::AGS::encode<1>();
-    if (const Result<void> done = instruction_proven(chip, op, want); !done) {
+    if (const Result<void> done = confirmed(chip, op, want); !done) {
       return done;
     }
     if (breaks) {

@@ -32,8 +32,8 @@ struct Reads {
     if (!is_in(chip.sensors, slave)) {
       return Error::kInvalidArgument;
     }
-    if (!chip.automatic) {
-      return Error::kWrongMode;
+    if (const Result<void> allowed = chip.read_allowed(); !allowed) {
+      return allowed;
     }
     if ((chip.needs & ~unsigned{with}) != 0) {
       return Error::kUnsupported;
@@ -48,8 +48,8 @@ struct Reads {
     read.read_.wide = wide;
     read.code_ = MB4_NO_DATA;
     read.read_.told = false;
-    if (!chip.automatic) {
-      return Error::kWrongMode;
+    if (const Result<void> allowed = chip.read_allowed(); !allowed) {
+      return allowed;
     }
     begin(chip, read, chip.words.data(), chip.count, chain, MB4_WITH_ALL);
     mb4_cyclic_plan(&read.read_, &read.plan_, MB4_WITH_ALL);
