@@ -14,6 +14,9 @@ namespace {
 using mb4test::Protocol;
 
 constexpr const char* kProtocolNames[] = {"biss-b", "biss-c", "ssi"};
+constexpr std::uint64_t kLeastClockHz = 2'000'000;
+constexpr unsigned kLeastWriteNs = 60;  // I001 to I016, I101 to I114
+constexpr unsigned kLeastReadNs = 110;
 
 // Inverse of an odd number modulo 2^64.
 std::uint64_t inverse(std::uint64_t odd) {
@@ -65,6 +68,7 @@ std::string slave_text(Random& random, const FuzzLine& line, const FuzzSlave& sl
   }
   if (line.protocol != Protocol::kSsi) {
     text << "registers = { 0x20 = [0x5A, 0xC3, 0x0F] }\n";
+    if (random.one_in(3)) text << "acknowledge = \"passed-on\"\n";
     if (random.one_in(3)) text << "missing = [\"0x30-0x3F\"]\n";
   }
   return text.str();
@@ -123,9 +127,19 @@ std::string fault_text(Random& random, FuzzChip& chip) {
     }
   }
   if (chip.f_clk_hz != 0 && random.one_in(3)) {
+    chip.clk_stops = true;
     chip.clk_stops_for_ever = random.one_in(6);
     add("clock-stop", "", !chip.clk_stops_for_ever);
   }
+  if (chip.f_clk_hz != 0 && random.one_in(3)) {
+    for (unsigned left = 1 + random.below(4); left > 0; --left) {
+      const std::uint64_t hz = random.one_in(2) ? 10'000'000 + random.below(15'000'001)
+                                                : kLeastClockHz + random.below(8'000'000);
+      add("clock-frequency", "hz = " + std::to_string(hz) + "\n", random.one_in(2));
+      chip.clocks_hz.push_back(hz);
+    }
+  }
+  chip.clk_changes = text.str().find("\"clock-") != std::string::npos;
   return text.str();
 }
 
@@ -189,10 +203,13 @@ bool FuzzLine::has_actuator() const {
 
 FuzzChip make_fuzz_chip(Random& random, std::uint64_t seed) {
   FuzzChip chip;
-  static constexpr std::uint64_t kClocks[] = {20'000'000, 20'000'000, 25'000'000, 12'500'000,
-                                              10'000'000, 2'000'000,  0};
+  static constexpr std::uint64_t kClocks[] = {20'000'000, 20'000'000,    25'000'000, 12'500'000,
+                                              10'000'000, kLeastClockHz, 0};
   chip.f_clk_hz = kClocks[random.below(7)];
   chip.f_osc_hz = random.one_in(3) ? 12'500'000 + random.below(12'500'000) : 20'000'000;
+  for (const std::uint64_t hz : {chip.f_clk_hz, chip.f_osc_hz}) {
+    if (hz != 0) chip.clocks_hz.push_back(hz);
+  }
   chip.agserr_on_write = random.one_in(16);
   chip.agserr_on_hold = random.one_in(8);
   // SLAVELOC5 = 1 if line 2 is used; then each has its four data channels.
@@ -210,6 +227,9 @@ FuzzChip make_fuzz_chip(Random& random, std::uint64_t seed) {
   const unsigned host = random.below(5);
   chip.parallel = host >= 3;
   chip.motorola = host == 4;
+  chip.spi2 = host == 2;
+  chip.cycle_ns = random.one_in(2) ? kLeastWriteNs + random.below(kLeastReadNs - kLeastWriteNs)
+                                   : kLeastReadNs + random.below(3) * 400;
   static constexpr unsigned kSclk[] = {50'000'000, 20'000'000, 20'000'000, 5'000'000};
   std::ostringstream text;
   text << "[sim]\nseed = " << seed << "\n[chip]\nf_clk_hz = " << chip.f_clk_hz
@@ -217,7 +237,7 @@ FuzzChip make_fuzz_chip(Random& random, std::uint64_t seed) {
        << "\n[chip.quirks]\nAGSERR_ON_HOLDBANK = " << (chip.agserr_on_hold ? "true" : "false")
        << "\nAGSERR_ON_INSTR_WRITE = " << (chip.agserr_on_write ? "true" : "false")
        << "\n[host]\ninterface = \"" << kHosts[host] << "\"\nsclk_hz = " << kSclk[random.below(4)]
-       << "\ncycle_ns = " << 110 + random.below(3) * 400 << "\n";
+       << "\ncycle_ns = " << chip.cycle_ns << "\n";
   const std::string faults = fault_text(random, chip);
   for (const unsigned line : {0U, 1U}) {
     if (chip.lines[line].present) text << channel_text(random, chip, line);

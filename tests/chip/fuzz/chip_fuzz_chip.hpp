@@ -52,8 +52,13 @@ struct FuzzLine {
 struct FuzzChip {
   std::uint64_t f_clk_hz = 0;  // 0: pin CLK is not connected
   std::uint64_t f_osc_hz = 0;
+  std::vector<std::uint64_t> clocks_hz;  // each that the system clock may have
+  bool clk_stops = false;                // at some time, perhaps for ever
   bool clk_stops_for_ever = false;
+  bool clk_changes = false;  // pin CLK stops or gets another frequency at some time
   bool parallel = false;
+  bool spi2 = false;
+  unsigned cycle_ns = 0;  // of a write on the parallel bus
   bool motorola = false;
   bool agserr_on_write = false;  // quirk AGSERR_ON_INSTR_WRITE
   bool agserr_on_hold = false;   // quirk AGSERR_ON_HOLDBANK

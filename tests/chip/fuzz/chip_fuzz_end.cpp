@@ -304,6 +304,7 @@ void FuzzRun::check_end() {
   // Most sessions have no time for the slowest settings.
   most_clocks_ = one_in(64) ? 8'000'000 : 300'000;
   check_ended();
+  if (one_in(3) && at_rest()) check_read_back();
   if (one_in(2) || !at_rest()) return;
   // An access that nothing disturbs; the lines are as the phase has left them.
   if (one_in(4)) {
@@ -332,6 +333,30 @@ void FuzzRun::check_ended() {
     if (const End end = wait_end(); end != End::kDone) return not_ended(end);
   }
   if (at_rest()) host_.at_rest();
+}
+
+// Bytes of SCDATA or RDATA, read straight behind their writes, while nothing runs that writes them
+// too (decision 36). SPI2 reads only the memory.
+void FuzzRun::check_read_back() {
+  constexpr unsigned kAlways = 4;  // bytes, with any clock
+  constexpr unsigned kMost = 40;
+  constexpr std::uint64_t kSlowestNs = 100;  // 10 MHz
+  constexpr std::uint64_t kAnyCycleNs = 50;  // 20 MHz
+  constexpr unsigned kLeastCycleNs = 100;    // with a slower clock
+  if (chip_.spi2 || !host_.wait_clocks(64 * kSettleClocks)) return;
+  const bool all =
+      !chip_.clk_stops && host_.clock_ns() <= kSlowestNs &&
+      (!chip_.parallel || chip_.cycle_ns >= kLeastCycleNs || host_.clock_ns() <= kAnyCycleNs);
+  std::vector<std::uint8_t> bytes(1 + below(all ? kMost : kAlways));
+  for (auto& value : bytes) value = byte();
+  const unsigned first = (one_in(2) ? reg::kAddrScdata : reg::kAddrRdata) +
+                         below(static_cast<unsigned>(reg::kRdataCount - bytes.size() + 1));
+  host_.write(first, bytes);
+  if (host_.read(first, bytes.size()) != bytes) {
+    fail("read back", std::to_string(bytes.size()) + " bytes from " + std::to_string(first) +
+                          " do not read as they were written (36)");
+  }
+  count(FuzzCounts::kReadBacks);
 }
 
 // Waits until the slaves' timeouts are over and, after INIT, SL is 1.
@@ -383,19 +408,11 @@ void FuzzRun::recover() {
   }
   const unsigned bank = host_.banks() & reg::SWBANK::kMask;
   host_.instruct(bank | reg::INIT::kMask);
-  if (wait_end() != End::kDone) fail("recovery", "INIT does not end, status" + hex(status_));
-  const unsigned agserr = chip_.agserr_on_write ? reg::nAGSERR::kMask | reg::nERR::kMask : 0U;
-  if ((status_[0] | agserr) != (0xFBU | agserr)) fail("recovery", "after INIT" + hex(status_));
-  // An SSI line takes no part in INIT (docs/choices.md).
-  const bool biss_c = (host_.written(reg::kAddrCtrl) & reg::REGVERS::kMask) != 0 &&
-                      (host_.possible().biss[0] || host_.possible().biss[1]);
-  if (biss_c && (status_[1] != 0 || status_[2] != 0)) {
-    fail("SVALID after INIT (35)", "status" + hex(status_));
-  }
+  check_init();
   wait_slaves(true);
   host_.instruct(bank | reg::kInstrCdm0);
   if (wait_end() != End::kDone) fail("recovery", "the frame does not end, status" + hex(status_));
-  if ((status_[0] | agserr) != (0xFBU | agserr)) fail("recovery", "after the frame" + hex(status_));
+  if (!is_good()) fail("recovery", "after the frame" + hex(status_));
   const auto svalid = host_.read(reg::kAddrSvalidLo, 2);
   for (const auto& [slave, line] : there) {
     const unsigned x = slave->channel;
@@ -410,6 +427,78 @@ void FuzzRun::recover() {
       fail("recovery", "SCDATA" + std::to_string(x + 1) + " is not the word of the last frame");
     }
     count(FuzzCounts::kRecoveredWords);
+  }
+  check_init_behind_break();
+}
+
+// The status that was read last shows no error and nothing that runs.
+bool FuzzRun::is_good() const {
+  const unsigned agserr = chip_.agserr_on_write ? reg::nAGSERR::kMask | reg::nERR::kMask : 0U;
+  return (status_[0] | agserr) == (reg::kResetStatus0 | agserr);
+}
+
+// INIT has been written. Waits for its end and returns the line delays that it has measured.
+std::array<std::uint8_t, 2> FuzzRun::check_init() {
+  if (wait_end() != End::kDone) fail("INIT", "does not end, status" + hex(status_));
+  if (!is_good()) fail("INIT", "after its end" + hex(status_));
+  std::array<std::uint8_t, 2> delays{};
+  // Without BiSS C nothing is measured. An SSI line takes no part in INIT (docs/choices.md).
+  if ((host_.written(reg::kAddrCtrl) & reg::REGVERS::kMask) == 0) return delays;
+  const std::array<bool, 2>& biss = host_.possible().biss;
+  if ((biss[0] || biss[1]) && (status_[1] != 0 || status_[2] != 0)) {
+    fail("SVALID after INIT (35)", "status" + hex(status_));
+  }
+  for (const unsigned line : {0U, 1U}) {
+    if (biss[line]) delays[line] = host_.read(reg::scdata_address(4 * line + 1), 1)[0];
+  }
+  return delays;
+}
+
+// BREAK cuts a frame, automatic frames or INIT, or comes in the slaves' timeout. INIT comes in the
+// same byte or soon behind it: it ends without an error and measures the delays that INIT measures
+// on idle lines (decision 46).
+void FuzzRun::check_init_behind_break() {
+  const bool measures = (host_.written(reg::kAddrCtrl) & reg::REGVERS::kMask) != 0;
+  const unsigned bank = host_.banks() & reg::SWBANK::kMask;
+  wait_slaves(true);
+  host_.instruct(bank | reg::INIT::kMask);
+  const std::array<std::uint8_t, 2> delays = check_init();
+  for (unsigned left = 1 + below(4); left > 0; --left) {
+    // No delay is left from the INIT before.
+    for (const unsigned line : {0U, 1U}) {
+      host_.write(reg::scdata_address(4 * line + 1), {static_cast<std::uint8_t>(~delays[line])});
+    }
+    wait_slaves(true);
+    const unsigned kind = below(4);
+    host_.instruct(bank | (kind == 0 && measures ? reg::INIT::kMask
+                           : kind == 1           ? reg::AGS::kMask
+                                                 : reg::kInstrCdm0));
+    const std::uint64_t frame = std::uint64_t{host_.possible().frame_periods} *
+                                host_.possible().ma_clocks * host_.clock_ns();
+    host_.wait_ns(1 + below(static_cast<unsigned>(one_in(2) ? frame : frame + 30'000)));
+    switch (below(3)) {
+      case 0:
+        host_.instruct(bank | reg::BREAK::kMask | reg::INIT::kMask);
+        break;
+      case 1:
+        host_.instruct_twice(bank | reg::BREAK::kMask, bank | reg::INIT::kMask);
+        break;
+      default:
+        host_.instruct(bank | reg::BREAK::kMask);
+        host_.wait_ns(6 * host_.clock_ns() + below(60'000));
+        host_.instruct(bank | reg::INIT::kMask);
+        break;
+    }
+    const std::array<std::uint8_t, 2> again = check_init();
+    count(FuzzCounts::kInitsBehind);
+    for (const unsigned line : {0U, 1U}) {
+      if (again[line] != delays[line]) {
+        fail("INIT behind BREAK (46)", "delay of line " + std::to_string(line + 1) + " is " +
+                                           std::to_string(again[line]) + ", not " +
+                                           std::to_string(delays[line]));
+      }
+      if (measures && host_.possible().biss[line]) count(FuzzCounts::kDelaysAgain);
+    }
   }
 }
 

@@ -38,8 +38,7 @@ std::uint64_t start_bit_limit(unsigned freq_register) {
 
 FuzzHost::FuzzHost(const FuzzChip& chip, const std::filesystem::path& folder)
     : chip_(chip), session_(chip.scenario, folder) {
-  const std::uint64_t slowest =
-      chip.f_clk_hz == 0 ? chip.f_osc_hz : std::min(chip.f_clk_hz, chip.f_osc_hz);
+  const std::uint64_t slowest = *std::min_element(chip.clocks_hz.begin(), chip.clocks_hz.end());
   clock_ns_ = (1'000'000'000 + slowest - 1) / slowest;
   at_rest();
 }

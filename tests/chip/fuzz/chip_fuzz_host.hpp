@@ -67,7 +67,7 @@ class FuzzHost {
   // Lets `clocks` system clocks pass; false if the clock stands still meanwhile.
   bool wait_clocks(std::uint64_t clocks);
   std::uint64_t clocks() { return simulator().clk_cycles(); }
-  std::uint64_t clock_ns() const { return clock_ns_; }  // a clock period, the slower of the two
+  std::uint64_t clock_ns() const { return clock_ns_; }  // a clock period, the longest
 
   unsigned written(unsigned address) const { return image_[address]; }
   // 0xF4 as it should stand without INSTR, INIT and AGS.

@@ -36,7 +36,10 @@ const char* FuzzCounts::name(unsigned what) {
                                                  "CRC aliases",
                                                  "CRC aliases, unclear",
                                                  "recoveries",
-                                                 "words after a recovery"};
+                                                 "words after a recovery",
+                                                 "bursts read back (36)",
+                                                 "INIT behind BREAK (46)",
+                                                 "line delays measured again (46)"};
   return kNames[what];
 }
 
@@ -321,9 +324,16 @@ void FuzzRun::wild_operation() {
     case 7:
       ask_for_access();
       break;
-    case 8:
-      host_.instruct_twice(random_instruction(), random_instruction());
+    case 8: {
+      unsigned first = random_instruction();
+      unsigned second = random_instruction();
+      if (one_in(4)) {
+        first |= reg::BREAK::kMask;
+        second = (second & ~reg::BREAK::kMask) | reg::INIT::kMask;
+      }
+      host_.instruct_twice(first, second);
       break;
+    }
     case 9: {
       const unsigned address = below(0x100);
       host_.read(address, 1 + below(12));

@@ -54,6 +54,9 @@ struct FuzzCounts {
     kAliasesUnclear,  // with a CRC below 12 bits; not known because the clock has changed
     kRecoveries,
     kRecoveredWords,
+    kReadBacks,    // bytes read behind their writes
+    kInitsBehind,  // INIT behind a BREAK that may have cut something
+    kDelaysAgain,
     kWhats
   };
   static const char* name(unsigned what);
@@ -132,7 +135,11 @@ class FuzzRun {
   void drive_on(bool by_getsens);
   void check_cannot_run();
   void end_by_break(FuzzCounts::What wait);
+  void check_read_back();
   void recover();
+  bool is_good() const;
+  std::array<std::uint8_t, 2> check_init();
+  void check_init_behind_break();
   void wait_slaves(bool sl_high);
 
   const FuzzChip& chip_;

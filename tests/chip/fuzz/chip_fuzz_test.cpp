@@ -2,12 +2,14 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Fuzz of the whole chip: two lines, all protocols, control communication, EN_MO, force bits, every
-// configuration register written at any time, all hosts, NRES, a clock that stops, slaves and lines
-// that fail. In every session
+// configuration register written at any time, all hosts, NRES, a clock that stops or changes its
+// frequency, slaves and lines that fail. In every session
 //   * no assertion in the RTL fails and no pulse at MA is short (the simulator's guard),
 //   * every instruction and access ends, but for the waits that are counted, which BREAK ends,
 //   * a word shown as valid is one that its slave has sent, other than a CRC alias,
-//   * after configuration, BREAK and INIT a frame works.
+//   * SCDATA and RDATA are read back behind their writes (decision 36),
+//   * after configuration, BREAK and INIT a frame works,
+//   * INIT behind a BREAK in a frame or in the slaves' timeout measures the same line delays.
 // The sessions are split into parts. MB4_CHIP_FUZZ_SESSIONS: sessions of all parts (default 1000),
 // MB4_SEED: seed of the first, MB4_CHIP_FUZZ_SECONDS: instead of a number, for each part. A failure
 // prints its seed and leaves a scenario and a script for `mb4sim spi` in the folder MB4_FAILURES.

@@ -84,7 +84,7 @@ bool FuzzRun::begin_words() {
     host_.instruct(bank);
     if (!host_.wait_clocks(kSettleClocks)) return false;
   }
-  clock_changed_ = chip_.scenario.text.find("clock-stop") != std::string::npos;
+  clock_changed_ = chip_.clk_changes;
   return true;
 }
 
@@ -132,7 +132,7 @@ bool FuzzRun::word_operation() {
       return true;
     case 9:
       host_.instruct(host_.banks() | reg::BREAK::kMask | (one_in(2) ? reg::AGS::kMask : 0U) |
-                     (one_in(3) ? 4U : 0U));
+                     (one_in(3) ? 4U : 0U) | (one_in(4) ? reg::INIT::kMask : 0U));
       return true;
     case 10:
       host_.instruct(host_.banks() | reg::INIT::kMask | (one_in(3) ? reg::AGS::kMask : 0U));
@@ -252,8 +252,7 @@ void FuzzRun::compare_word(unsigned line, const FuzzSlave& slave,
   if (fits) {
     const unsigned code = host_.written(reg::kAddrFreq) & reg::FREQS::kMask;
     const std::uint32_t inverted = ~crc & ((1U << slave.crc.width) - 1U);
-    for (const std::uint64_t hz : {chip_.f_clk_hz, chip_.f_osc_hz}) {
-      if (hz == 0) continue;
+    for (const std::uint64_t hz : chip_.clocks_hz) {
       const sim::Time period = sim::ma_divider(code) * sim::kPsPerSecond / hz;
       if (records_[line].has_brought(slave.line_bits(word, inverted), period)) {
         count(FuzzCounts::kAliases);
