@@ -203,9 +203,9 @@ class Device {
   // Not touched: kNotConfigured, kInvalidArgument, kWrongMode (automatic frames run), kBusy.
   // Touched: kTransport; kNotDetected (the status cannot come from an iC-MB4); kTimeout, kLineError
   // (BREAK was sent); kCrc, kNoData, kCorrupted; kNoWord: BiSS C, the word is all 0, CRC too, while
-  // the line is at 1 again (1 transfer more, up to 100 us while it is 0). The call returns a Reading
-  // only for a good frame that began after this request. kSlaveError: so does one whose nE is 0;
-  // Result::reading() has it.
+  // the line is at 1 again (1 transfer more, up to 100 us while it is 0). The call returns a
+  // Reading only for a good frame that began after this request. kSlaveError: so does one whose nE
+  // is 0; Result::reading() has it.
   //
   // Sets HOLDBANK and SWBANK to 0, as any single frame does.
   Result<Reading> read_frame(std::uint8_t slave = 1) {

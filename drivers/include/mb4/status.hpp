@@ -82,8 +82,8 @@ class Status {
   }
 
   // The constant bits (table 6, page 22) read as they must: bit 1 of 0xF0 is 1, bits 0, 2, 4, 6 of
-  // 0xF1 and 0xF2 are 0. False for MISO stuck at 0 or at 1, also for the last byte alone: no chip has
-  // all instructions of 0xF4 at once, but a bus that has not stored this byte leaves 0xFF.
+  // 0xF1 and 0xF2 are 0. False for MISO stuck at 0 or at 1, also for the last byte alone: no chip
+  // has all instructions of 0xF4 at once, but a bus that has not stored this byte leaves 0xFF.
   [[nodiscard]] constexpr bool plausible() const {
     static_assert((regs::kResetStatus0 & regs::kConstStatus0) == regs::kConstStatus0);
     static_assert((regs::kResetSvalidLo & regs::kConstSvalidLo) == 0);
