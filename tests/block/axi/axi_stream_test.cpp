@@ -140,7 +140,7 @@ TEST(AxiStreamBlock, RandomStops_LeavePacketsWholeAndInOrder) {
   unsigned lost = 0, whole = 0, sent = 0, stop = 0;
   const auto clock = [&] {
     if (stop == 0 && dice.below(20) == 0) stop = dice.below(400);
-    m.s_axis_tready = stop != 0 ? 0 : dice.below(2);
+    m.s_axis_tready = static_cast<CData>(stop != 0 ? 0U : dice.below(2));
     if (stop != 0) --stop;
     m.eval();
     if (m.s_axis_tvalid != 0 && m.s_axis_tready != 0) {
