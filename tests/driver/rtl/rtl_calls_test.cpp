@@ -80,13 +80,11 @@ const Call kCalls[] = {
     {"ClearValid", State::kFresh, [](FaultyChip& c) { return c.device.clear_valid(1).error(); },
      Error::kNone, Error::kNone},
     {"Start", State::kConfigured,
-     [](FaultyChip& c) { return c.device.automatic().start().error(); }, Error::kNone,
-     Error::kNone},
+     [](FaultyChip& c) { return c.device.automatic().start().error(); }, kNo, kNo},
     {"Stop", State::kAutomatic, [](FaultyChip& c) { return c.device.automatic().stop().error(); },
      Error::kNone, Error::kNone},
     {"Restart", State::kAutomatic,
-     [](FaultyChip& c) { return c.device.automatic().restart().error(); }, Error::kNone,
-     Error::kNone},
+     [](FaultyChip& c) { return c.device.automatic().restart().error(); }, kNo, kNo},
     {"Poll", State::kAutomatic,
      [](FaultyChip& c) {
        Frame frame;

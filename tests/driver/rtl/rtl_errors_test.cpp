@@ -297,7 +297,8 @@ TEST(DriverCallErrors, BrokenAutomaticFrames_EachCallTellsWhatIsWrong) {
   EXPECT_EQ(frame[1].error(), Error::kNoData);
   chip.simulator.line(1)->faults().flip_next_frame({10});
   Error error = Error::kNoData;
-  for (int i = 0; i < 20 && error == Error::kNoData; ++i) {
+  // A frame that runs already ends well first.
+  for (int i = 0; i < 20 && (error == Error::kNoData || error == Error::kNone); ++i) {
     chip.simulator.advance(10 * mb4::sim::kPsPerUs);
     error = chip.device.automatic().poll_slave(1).error();
   }

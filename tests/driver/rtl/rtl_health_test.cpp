@@ -247,14 +247,16 @@ TEST_P(DriverHealth, ChipReset_IsTimeout) {
   ASSERT_TRUE(chip.device.opcodes().write_registers(0xC0, zeros).ok());
   Error last = Error::kNone;
   unsigned ticks = 0;
-  for (; ticks < 40 && last != Error::kTimeout; ++ticks) {
+  for (; ticks < 80 && last != Error::kTimeout; ++ticks) {
     chip.simulator.advance(100 * sim::kPsPerUs);
     last = chip.device.automatic().poll_slave(1).error();
   }
   EXPECT_EQ(last, Error::kTimeout);
   // The last good frame may come a tick or two after the reset. With the quirk the chip says
   // earlier that it leaves out frames.
-  EXPECT_LE(ticks, 16U + 3U);
+  // Frames of the lost configuration come back to back. By the phase one ends while the bank is
+  // held; then SWBANKFAIL makes the limit four times as long (automatic.hpp).
+  EXPECT_LE(ticks, 64U + 3U);
   EXPECT_GE(ticks, GetParam().omits ? 2U : 16U);
 }
 

@@ -177,8 +177,13 @@ TEST_P(DriverNoWord, DataSwitchedOff_IsToldByEachRead) {
   }
   EXPECT_EQ(counts.no_word, 40U);
   EXPECT_EQ(counts.crc, 0U);
-  const mb4::Result<void> next = chip.device.automatic().next(frame);
-  EXPECT_EQ(next ? frame[1].error() : next.error(), Error::kNoWord);
+  // nSCDERR = 0 of the frame that was told may end the first wait at once.
+  Error told = Error::kNoData;
+  for (int i = 0; i < 2 && told == Error::kNoData; ++i) {
+    const mb4::Result<void> next = chip.device.automatic().next(frame);
+    told = next ? frame[1].error() : next.error();
+  }
+  EXPECT_EQ(told, Error::kNoWord);
   ASSERT_TRUE(chip.device.automatic().stop().ok());
   chip.simulator.advance(210 * sim::kPsPerUs);
   for (int i = 0; i < 3; ++i) {
