@@ -28,7 +28,7 @@ INLINE_ALLOWED = {("axi_regs_pkg.sv", "UNUSEDPARAM"): 1, ("mb4_regs_pkg.sv", "UN
 
 # Parameters that are smaller than in the chip, or other choices: each alone, and all together.
 SMALLER = {"biss_line": ["BissB=0", "Ssi=0", "Mo=0", "FreeCrc=0", "Gray=0", "Slaves=1", "DataBits=32", "DelayW=6"],
-           "biss_axi": ["BISS_CHANNEL_WIDTH=5", "STREAM_MODE=1", "POR_PIN=1'b1", "ENABLE_ACTIVE_LOW=1'b1",
+           "biss_axi": ["BISS_CHANNEL_WIDTH=5", "STREAM_MODE=1", "STREAM_WIDTH=64", "POR_PIN=1'b1", "ENABLE_ACTIVE_LOW=1'b1",
                         "EXTRAS=255", "ALIGN_LATCH=1'b1"]}
 
 # Features of the tops (decision 44), each alone. Wrong numbers end the elaboration.
