@@ -28,7 +28,7 @@ def test_wrong_values_are_refused():
 
 @pytest.mark.parametrize("busy, bits, polynomial", [(0, 28, 0x43), (3, 17, 0x43), (1, 64, 0x190D9)])
 def test_levels_are_those_of_the_simulated_slave(busy, bits, polynomial):
-    word = 0xA5F0_1234_5678_9ABC & (1 << bits) - 1
+    word = 0xA5F0_1234_5678_9ABF & (1 << bits) - 1  # nE = nW = 1
     scenario = {"chip": {"f_clk_hz": 20_000_000}, "channel": [{"number": 1, "slave": [
         {"protocol": "biss-c", "data_bits": bits, "data": word, "crc": polynomial,
          "busy_periods": busy}]}]}

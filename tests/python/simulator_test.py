@@ -11,7 +11,7 @@ import pytest
 
 EXAMPLES = Path(__file__).resolve().parents[2] / "examples"
 TEXT = (EXAMPLES / "resolute-26.toml").read_text(encoding="utf-8")
-SLAVE = {"protocol": "biss-c", "data_bits": 64, "data": 0xFEDCBA9876543210,
+SLAVE = {"protocol": "biss-c", "data_bits": 64, "data": 0xFEDCBA9876543213,
          "registers": {0x44: [0x00, 0xD9]}}
 TABLES = {"chip": {"f_clk_hz": 20_000_000}, "channel": [{"number": 1, "slave": [SLAVE]}]}
 PARALLEL = {**TABLES, "host": {"interface": "intel"}}
@@ -30,7 +30,7 @@ def test_scenario_dict_may_hold_64_bits_and_register_addresses():
     with openmb4.Simulator(TABLES) as chip:
         assert chip.slave_register(1, 0x45) == 0xD9
         chip.driver.configure()
-        assert chip.driver.read_frame(1).raw == 0xFEDCBA9876543210
+        assert chip.driver.read_frame(1).raw == 0xFEDCBA9876543213
 
 
 @pytest.mark.parametrize("scenario, message", [
