@@ -367,7 +367,8 @@ typedef struct {
   uint8_t spi_check; /* MB4_SPI_CHECK_..., as configured */
   bool wide;         /* SPI frames may be longer than 25 bytes: up to 66 */
   bool unheld;       /* a register access runs, and the chip allows no HOLDBANK beside it */
-  bool access;       /* a register access has begun, and its end has not been seen */
+  bool access;       /* a register access has begun, and its end has not been seen; FULL: or the
+                        registers that it has read are still needed */
   bool chain;        /* one plan; not with MB4_SPI_CHECK_FULL or _FULL_AND_RELEASE, not unheld */
   /* Results. */
   /* These two with MB4_WITH_SEVERAL: */
@@ -573,6 +574,13 @@ static inline uint8_t mb4_word_check(const mb4_word *word, const mb4_word *befor
   return MB4_OK;
 }
 
+/* Two pieces of memory of `bytes` have some in common. */
+static inline bool mb4_memory_meets(const uint8_t *one, const uint8_t *other, uint32_t bytes) {
+  const uintptr_t first = (uintptr_t)one;    /* NOLINT(cppcoreguidelines-pro-type-cstyle-cast) */
+  const uintptr_t second = (uintptr_t)other; /* NOLINT(cppcoreguidelines-pro-type-cstyle-cast) */
+  return first < second + bytes && second < first + bytes;
+}
+
 /* Checks what a read is set up with, once all members are set (`unheld`: whether it may become
  * true): before the first mb4_cyclic_plan(), and again after a change of a member (but for `unheld`
  * and `access`), a word, a member of the watch or the plan's memory. Until it has returned MB4_OK
@@ -593,15 +601,13 @@ static inline uint8_t mb4_cyclic_check(mb4_cyclic *read, const mb4_plan *plan, u
                                        uint8_t with) {
   const mb4_watch *watch = read->watch;
   const bool full = read->spi_check >= MB4_SPI_CHECK_FULL;
-  const uint32_t bytes = (uint32_t)words * 4U;
   uint8_t parts = (uint8_t)((full ? MB4_WITH_FULL : 0) | (read->unheld ? MB4_WITH_UNHELD : 0));
   uint8_t i = 0;
   read->parts = 0;
   read->built = 0;
   if (read->words == 0 || read->slots == 0 || watch == 0 || plan->tx == 0 || plan->rx == 0 ||
       words < MB4_PLAN_WORDS(read->count) ||
-      ((uintptr_t)plan->tx < (uintptr_t)plan->rx + bytes &&
-       (uintptr_t)plan->rx < (uintptr_t)plan->tx + bytes)) {
+      mb4_memory_meets(plan->tx, plan->rx, (uint32_t)words * 4U)) {
     return MB4_INVALID_ARGUMENT;
   }
   if (read->count < 1 || read->count > MB4_SLAVES ||
@@ -934,9 +940,10 @@ static inline void mb4_cyclic_find_blank(mb4_cyclic *read, uint8_t with) {
 
 /* The last byte of a bad word that was told: its CRC with all bits but one wrong. So it can never
  * be good, whatever single bit of a transfer flips, and with a CRC that leaves bits free the chip
- * does not make it. */
+ * does not make it. It is not 0xFF, the CRC of a word that is all 0. */
 static inline uint8_t mb4_slot_mark(const mb4_word *word, const mb4_slot *slot) {
-  return (uint8_t)(slot->crc >> word->crc_high ^ 0xFE);
+  const uint8_t crc = (uint8_t)(slot->crc >> word->crc_high);
+  return crc != 1U ? (uint8_t)(crc ^ 0xFE) : (uint8_t)0x7E;
 }
 
 /* The bad word has been told. A CRC of 8 or 16 bits leaves no bit free, so one in 256 bad words
@@ -977,9 +984,13 @@ static inline void mb4_cyclic_judge(mb4_cyclic *read, uint16_t missing, bool new
   }
 }
 
-/* Marks the bad words of the held bank, so that they count once; the next frame overwrites them. */
+/* Marks the bad words of the held bank, so that they count once; the next frame overwrites them.
+ * FULL: not where one disturbed bit of the address would change a register of an access. */
 static inline void mb4_cyclic_mark(const mb4_cyclic *read, mb4_plan *plan, uint8_t with) {
   uint8_t i = 0;
+  if ((with & MB4_WITH_FULL) != 0 && read->spi_check >= MB4_SPI_CHECK_FULL && read->access) {
+    return;
+  }
   for (; i < mb4_cyclic_count(read, with); ++i) {
     const mb4_word *word = &read->words[i];
     const mb4_slot *slot = &read->slots[i];
@@ -1024,7 +1035,11 @@ static inline uint8_t mb4_cyclic_held(mb4_cyclic *read, mb4_plan *plan, uint8_t 
   }
   (void)mb4_cyclic_next(read, plan, MB4_STAGE_END, MB4_OK);
   mb4_cyclic_mark(read, plan, with);
-  if (full && (valid | fresh) != 0) {
+  if (full) {
+    /* One disturbed bit of a status must not drop a new word: without both the word waits. */
+    read->flags = (uint16_t)(valid & fresh);
+  }
+  if (full && read->flags != 0) {
     read->stage = MB4_STAGE_CLEAR;
     read->fresh = second;
     if (second != 0) {
@@ -1032,7 +1047,7 @@ static inline uint8_t mb4_cyclic_held(mb4_cyclic *read, mb4_plan *plan, uint8_t 
     }
     mb4_cyclic_add_clear(plan, read->flags, 4);
     mb4_cyclic_add_status(plan);
-  } else if (valid != 0) {
+  } else if (valid != 0 && !full) {
     mb4_cyclic_add_clear(plan, read->flags, 6);
   } else {
     if ((with & MB4_WITH_SEVERAL) != 0) {
@@ -1099,7 +1114,7 @@ static inline uint8_t mb4_cyclic_take_look(mb4_cyclic *read, mb4_plan *plan, uin
       return mb4_cyclic_unheld(read, plan, MB4_OK, with);
     }
     (void)mb4_cyclic_next(read, plan, MB4_STAGE_UNHELD, MB4_OK);
-    mb4_cyclic_add_clear(plan, read->flags, 4);
+    mb4_cyclic_add_clear(plan, read->fresh, 4);
   } else {
     if (code != MB4_OK || (read->fresh == 0 && !mb4_cyclic_frame_bad(read))) {
       return mb4_cyclic_release(read, plan, code);
@@ -1401,8 +1416,9 @@ MB4_APART void mb4_cyclic_count_read(const mb4_cyclic *read, uint8_t code, uint3
  *   MB4_SLAVE_ERROR    a new word whose nE is 0: mb4_slot_reading() gives it, but its position is
  *                      not to be trusted. In every other way the word is as good as with MB4_OK
  *   MB4_NO_DATA        no frame with data of this slave has ended since the last read
- *   MB4_CRC            one has, and its CRC was wrong; told once for each frame. Without a stored
- *                      CRC: by each read until a frame is good, if the slave is the only one
+ *   MB4_CRC            one has, and its CRC was wrong; told once for each frame, FULL beside a
+ *                      register access by each read until the next frame. Without a stored CRC: by
+ *                      each read until a frame is good, if the slave is the only one
  *   MB4_NO_WORD        as MB4_CRC, and the word of a slave of mb4_word_biss_c() is all 0, CRC too
  *                      (without a stored one all data bits), while SL is 1 again: the slave
  *                      acknowledges and sends nothing. With MB4_WITH_BEATS

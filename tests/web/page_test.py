@@ -125,8 +125,8 @@ def native_frame(chip):
     if row["result"]["code"] or frame["code"][0]:
         return cells
     reading = frame["reading"][0]
-    return cells + [int(reading["raw"]), int(reading["position"]), int(not reading["error"]),
-                    int(not reading["warning"]), int(reading["crc"]), "ok"]
+    return cells + [int(reading["raw"]), int(reading["position"]), int(not reading["slave_error"]),
+                    int(not reading["slave_warning"]), int(reading["crc"]), "ok"]
 
 
 def as_numbers(cells):

@@ -59,6 +59,8 @@ namespace mb4 {
 // ask for a read of register 0, so that a disturbed byte which starts an access does no harm. It is
 // one transfer, two with SpiCheck::kFull. If it fails three times the call is kTransport or
 // kCorrupted, automatic frames count as stopped, and the next call sends it first, behind BREAK.
+// kCorrupted, with SpiCheck::kFull: it reads back differently twice, so the write may have reached
+// another register (verify()); it is sent again.
 //
 // Registers go in parts of eight, each in a transfer of its own. After a failed call BREAK comes
 // first, before anything of the access is written: two transfers and 100 us more, if no automatic
@@ -88,12 +90,12 @@ class ControlSteps {
   }
 
   // Reads the status once and does the next step of what was begun; it never waits. At most three
-  // transfers, six with SpiCheck::kFull: the status; then, without automatic frames, the next
-  // frame's instruction; at the end the request at rest, and SVALID = 0 without automatic frames;
-  // kFull reads back, and RDATA1 for take(). A failed end is sent again, up to twice. None if
-  // Automatic::poll() or poll_slave() has seen since the last call that the access runs. With
-  // SpiCheck::kFull the end is read twice beside these calls. Call it until it returns true or an
-  // error.
+  // transfers, seven with SpiCheck::kFull: the status; then, without automatic frames, the next
+  // frame's instruction; at the end the request at rest, and SVALID = 0 without automatic frames.
+  // kFull reads the status of the end twice, RDATA1 for take(), and the request back, and clears
+  // SVALID twice. A failed end is sent again, up to twice. None if Automatic::poll() or
+  // poll_slave() has seen since the last call that the access runs. Call it until it returns true
+  // or an error.
   //
   //   false                      the access is still running; or the status could not be read, or
   //                              cannot come from an iC-MB4, for the first or second time in a row
@@ -103,6 +105,9 @@ class ControlSteps {
   //   kCommand                   the command was not acknowledged; the chip is ready for the next
   //   kTimeout                   the access has not ended in time; BREAK was sent
   //   kTransport, kNotDetected   ... for the third time; or a write has failed. BREAK was sent
+  //   kCorrupted                 SpiCheck::kFull: no two looks at the end agree, a read of positions
+  //                              was kCorrupted meanwhile, or automatic frames run that nobody has
+  //                              started: BREAK was sent. Or the request at rest has gone elsewhere
   //   kWrongMode                 nothing was begun
   //
   // Time limit, checked by poll(). With automatic frames: the time of the frames needed, plus
@@ -118,7 +123,7 @@ class ControlSteps {
   // kInvalidArgument (not touched): out.size() is out of range, the last access was no successful
   // read, or another access has begun since. kTransport, kNotDetected. kCorrupted: the second
   // reading (SpiCheck::kFull) differs from the first, or the first register from what the end of
-  // the access has read.
+  // the access has read, or a read of positions has been kCorrupted since.
   Result<void> take(Span<std::uint8_t> out) {
     return detail::Blocking::take(chip_, out.data(), out.size());
   }

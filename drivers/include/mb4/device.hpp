@@ -79,7 +79,7 @@ class Device {
   //   0x07        0xF4, 0xF5   BREAK, clock source and interface
   //   0x02 three  0xC0..0xF2   all other registers; clears SVALID 1 to 8
   //   0x03 three  0xC0..0xF5   comparison of all bits that can be written, and of VERSION
-  //   0x05        status       which no stuck MISO makes
+  //   0x05        status       which no stuck MISO makes; nothing runs, and SVALID is 0
   // One more before them, which only reads, if actuators are on both channels and these have
   // frames of different length: VERSION and REVISION.
   // Not touched: kInvalidConfig. Read only: kInvalidConfig for what this revision cannot do
@@ -189,7 +189,7 @@ class Device {
   //  * SpiCheck::kFull adds at most 4: 1 for data again where no stored CRC proves it or an address
   //    was sent (0x03), 1 status after the data, 1 or 2 after SVALID is cleared.
   //  * After a failed read that has made a transfer, 2 more and 100 us, because its frame may still
-  //    run. BiSS B adds register_timeout_us.
+  //    run. BiSS B adds register_timeout_us. SpiCheck::kFull: 4 more, a status and SVALID = 0 twice.
   //  * Each poll is 6 bytes. frame_timeout_us(config) limits p: at most 4 t + 132 polls for t
   //    microseconds, even if the clock stands still.
   // In order:

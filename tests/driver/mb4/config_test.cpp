@@ -212,6 +212,16 @@ const BadConfig kBadConfigs[] = {
        });
      },
      Error::kInvalidConfig, ConfigField::kPinPeriodUs, 0},
+    // 26 bits, a CRC of 6 and 5 periods of MA at 1 MHz are 37 us.
+    {"PinPeriodShorterThanAFrame",
+     [] {
+       return changed([](Config& c) {
+         c.frame_start = mb4::FrameStart::kOnPin;
+         c.ma_hz = 1'000'000;
+         c.pin_period_us = 36;
+       });
+     },
+     Error::kInvalidConfig, ConfigField::kPinPeriodUs, 0},
     {"PinPeriodWithoutPin", [] { return changed([](Config& c) { c.pin_period_us = 1; }); },
      Error::kInvalidConfig, ConfigField::kPinPeriodUs, 0},
     // Table 36: 2 to 256 in powers of two, FREQR = 5 with BiSS C.

@@ -245,6 +245,30 @@ TEST_F(Chain, MarkedWordAndFlippedBits_IsNeverGood) {
   }
 }
 
+// With a CRC that fills its byte, and any start value: the mark is neither the CRC that fits nor
+// 0xFF, the CRC of a word that is all 0 on the line, even with one more flipped bit of it.
+TEST(Mark, EachStartValue_IsNoWordThatTheChipStores) {
+  for (const std::uint32_t polynomial : {0x12FU, 0x190D9U}) {
+    const unsigned starts = polynomial > 0x1FF ? 0x10000 : 0x100;
+    for (unsigned start = 0; start < starts; ++start) {
+      mb4_slave_config config{};
+      config.data_bits = 28;
+      config.crc_polynomial = polynomial;
+      config.crc_start = static_cast<std::uint16_t>(start);
+      mb4_word word{};
+      mb4_word_set(&word, 1, &config, MB4_SPI_CHECK_CRC);
+      mb4_slot blank{};
+      blank.high = polynomial > 0x1FF ? 0xFFFF0000U : 0xFF000000U;
+      if (mb4_slot_good(&word, &blank, MB4_WITH_ALL)) continue;  // here it is a position
+      const unsigned mark = mb4_slot_mark(&word, &blank);
+      const unsigned fits = (blank.crc >> (polynomial > 0x1FF ? 8U : 0U)) & 0xFFU;
+      const unsigned off = mark ^ fits;
+      ASSERT_NE(mark, 0xFFU) << start;
+      ASSERT_NE(off & (off - 1), 0U) << start;  // two bits or more
+    }
+  }
+}
+
 // BiSS C, all data bits 0 and the CRC's bits 0 on the line, so that the chip stores 0x3F (page 26):
 // the slave has sent nothing if its line is at 1 again. In its timeout it is not: one look more.
 TEST_F(Chain, AllZero_IsNoWord) {

@@ -133,6 +133,17 @@ TEST(ConfigureFailure, AnyWrongBit_IsVerifyWithItsAddress) {
   }
 }
 
+// SVALID is cleared by writing 0; a disturbed 1 there changes nothing, and the first frame would
+// bring a word from before.
+TEST_F(Configure, SvalidStays_IsVerify) {
+  mb4test::expect_image(bus, mb4test::configuration(), mb4test::read_back(), 0x00, mb4test::kAll,
+                        0x02);
+  const mb4::ErrorInfo info = device.configure(encoder26()).info();
+  EXPECT_EQ(info.code, Error::kVerify);
+  EXPECT_EQ(info.address(), 0xF1);
+  EXPECT_FALSE(device.configured());
+}
+
 TEST_F(Configure, OtherVersion_IsNotDetected) {
   Bytes answer = mb4test::read_back();
   answer[0xEB - 0xC0] = 0x83;

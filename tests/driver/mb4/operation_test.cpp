@@ -134,6 +134,22 @@ class OperationTest : public testing::Test {
     to_delays();
     EXPECT_FALSE(step({mb4test::kStartFrame}, {}));
   }
+  // An access at kFull beside automatic frames, up to the two looks at its end.
+  void access_ends() {
+    EXPECT_FALSE(step(kAsk, kAsked));
+    EXPECT_FALSE(step({kFrameAgs, kReadStatus}, {kRunsAgs}));
+    EXPECT_FALSE(step({kReadStatus}, {kDoneAgs}));
+    EXPECT_FALSE(step({kReadStatus}, {kDoneAgs}));
+  }
+  // The request at rest is away: BREAK sends it before the frames start again.
+  void restart_after_rest() {
+    bus.expect_write({0x07, 0x80, 0x00});
+    bus.expect_proven(kRest);
+    bus.expect_read(kReadStatus, status(0xFF, 0x00, 0x00));
+    bus.expect_write(kClearValid1);
+    expect_start();
+    EXPECT_TRUE(device.automatic().restart().ok());
+  }
   void ends_with(Error error) { EXPECT_EQ(op.result().error(), error); }
   void read(std::size_t count = 2) {
     ASSERT_TRUE(
@@ -472,6 +488,7 @@ const Bytes kInitRuns = status(0xFA, 0x00, 0x10);
 const Bytes kRunsFrame = status(0xFA, 0x00, 0x04);
 const Bytes kBadFrame = status(0x6B, 0x00);  // nSCDERR = 0, SVALID1 = 0
 const Bytes kReadWord = join({{0x03, 0x00}, zeros(8)});
+const Bytes kReadData = join({{0x03, 0x00}, zeros(4)});  // no CRC is stored
 
 TEST_F(Initialize, Good_ReturnsTheDelay) {
   EXPECT_EQ(device.plan_initialize(op).error(), Error::kNotConfigured);
@@ -500,7 +517,7 @@ TEST_F(Initialize, Full_ReadsTwice) {
   for (const int fault : {0, 1, 2}) {
     ASSERT_TRUE(device.plan_initialize(op).ok());
     if (fault == 2) {  // after a failed one
-      EXPECT_FALSE(step({{0x07, 0x80, 0x00}}, {}));
+      EXPECT_FALSE(step({{0x07, 0x80, 0x00}, kReadStatus}, {kOver}));
       EXPECT_FALSE(step({kClearValid1, kZero1, kZero5}, {}, true, kPause));
     } else {
       EXPECT_FALSE(step({kZero1, kZero5}, {}));
@@ -535,8 +552,8 @@ TEST_F(Initialize, WordNotSent_IsNoWord) {
     SpiCheck check;
     Bytes word;
     Error want;
-  } cases[] = {{SpiCheck::kOff, zeros(10), Error::kNoWord},
-               {SpiCheck::kOff, join({zeros(2), {1}, zeros(7)}), Error::kNone},
+  } cases[] = {{SpiCheck::kOff, zeros(6), Error::kNoWord},
+               {SpiCheck::kOff, join({zeros(2), {1}, zeros(3)}), Error::kNone},
                {SpiCheck::kCrc, crc_byte(0x3F), Error::kNoWord},
                {SpiCheck::kCrc, crc_byte(0x3E), Error::kNone},
                {SpiCheck::kCrc, zeros(10), Error::kNone},
@@ -546,7 +563,7 @@ TEST_F(Initialize, WordNotSent_IsNoWord) {
     configure(one.check);
     to_last_frame();
     EXPECT_FALSE(step({kReadStatus}, {kBadFrame}));
-    EXPECT_FALSE(step({kReadWord}, {one.word}));
+    EXPECT_FALSE(step({one.check == SpiCheck::kOff ? kReadData : kReadWord}, {one.word}));
     if (one.want != Error::kNone) {
       EXPECT_FALSE(step({kReadLines}, {zeros(10)}));  // the slave's timeout
       EXPECT_FALSE(step({kReadLines}, {kIdleLines}));
@@ -570,7 +587,7 @@ TEST_F(Initialize, LastFrameFails_IsSuccess) {
       EXPECT_TRUE(step({kClearValid1}, {}));
     } else if (fault == 1) {  // SL stays low: all bits are 0
       EXPECT_FALSE(step({kReadStatus}, {kBadFrame}));
-      EXPECT_FALSE(step({kReadWord}, {zeros(10)}));
+      EXPECT_FALSE(step({kReadData}, {zeros(6)}));
       EXPECT_FALSE(step({kReadLines}, {zeros(10)}));
       now_us += 133;
       EXPECT_FALSE(step({kReadLines}, {zeros(10)}));
@@ -627,6 +644,29 @@ TEST_F(Initialize, Activates_WhenAskedTo) {
   ends_with(Error::kCommand);
 }
 
+// Where the chip refuses a frame before the slaves' timeout is over, an access without automatic
+// frames ends with this time: the frame behind it is not refused.
+TEST_F(Initialize, ActivatesAndLooks_BehindTheSlavesTimeout) {
+  mb4::Config config = mb4test::encoder26();
+  config.activate_at_initialize = true;
+  config.frame_start = mb4::FrameStart::kRequireIdleLine;
+  mb4test::expect_configure(bus, 0xE8, 0x7D);  // table 44: the frame is refused while SL is low
+  ASSERT_TRUE(device.configure(config).ok());
+  to_delays();
+  for (const bool broadcast : {true, false}) {
+    const std::uint8_t ids = broadcast ? 0x00 : 0x80;
+    const std::uint8_t ctrl = broadcast ? 0x50 : 0x40;
+    EXPECT_FALSE(step({{0x02, 0x80, ids}, {0x03, 0x80, 0}}, {{0, 0, ids}}));
+    EXPECT_FALSE(step({{0x02, 0xE4, 0x01, ctrl}, {0x03, 0xE4, 0, 0}}, {{0, 0, 0x01, ctrl}}));
+    EXPECT_FALSE(step({kFrame}, {}));
+    EXPECT_FALSE(step({kReadStatus}, {kOver}));
+    EXPECT_FALSE(step({kFrame}, {}, true, kPause));
+    EXPECT_FALSE(step({kReadStatus}, {kDone}));
+    EXPECT_FALSE(step({kClearValid1, kRest}, {}, true, kPause));
+  }
+  EXPECT_FALSE(step({mb4test::kStartFrame}, {}));
+}
+
 // EOT = 1 alone is not the end: INIT (bit 4 of 0xF4) is still 1.
 TEST_F(Initialize, InitStillOne_IsLookedAtAgain) {
   const Bytes idle_with_init = status(0xFB, 0x00, 0x10);
@@ -677,7 +717,7 @@ TEST_F(Initialize, Lost_IsCorrupted) {
   for (const bool disturbed : {false, true}) {
     ASSERT_TRUE(device.plan_initialize(op).ok());
     if (disturbed) {
-      EXPECT_FALSE(step({{0x07, 0x80, 0x00}}, {}));
+      EXPECT_FALSE(step({{0x07, 0x80, 0x00}, kReadStatus}, {kOver}));
       EXPECT_FALSE(step({kClearValid1, kZero1, kZero5}, {}, true, kPause));
     } else {
       EXPECT_FALSE(step({kZero1, kZero5}, {}));
@@ -870,6 +910,7 @@ TEST_F(Access, Write64_GoesInParts) {
   EXPECT_FALSE(step({request, kReadRequest}, {{0, 0, 0xC0, 0x3F, 0x01, 0xC0}}));
   EXPECT_FALSE(step({kFrameAgs, kReadStatus}, {kRunsAgs}));
   EXPECT_FALSE(step({kReadStatus}, {kDoneAgs}));
+  EXPECT_FALSE(step({kReadStatus}, {kDoneAgs}));
   EXPECT_TRUE(step(kAtRest, {kRestBack}));
   ends_with(Error::kNone);
 }
@@ -891,9 +932,7 @@ TEST_F(Access, DisturbedRequest_IsCorruptedAndBeginsNothing) {
   ends_with(Error::kCorrupted);
   // The second reading of the registers differs.
   read();
-  EXPECT_FALSE(step(kAsk, kAsked));
-  EXPECT_FALSE(step({kFrameAgs, kReadStatus}, {kRunsAgs}));
-  EXPECT_FALSE(step({kReadStatus}, {kDoneAgs}));
+  access_ends();
   EXPECT_FALSE(step(kEnd, kEnded));
   EXPECT_FALSE(step(kAtRest, {kRestBack}));
   EXPECT_FALSE(step(kTakeFirst, {{0, 0, 1, 2}, kDoneAgs}));
@@ -901,9 +940,7 @@ TEST_F(Access, DisturbedRequest_IsCorruptedAndBeginsNothing) {
   ends_with(Error::kCorrupted);
   // MISO is stuck from here on.
   read();
-  EXPECT_FALSE(step(kAsk, kAsked));
-  EXPECT_FALSE(step({kFrameAgs, kReadStatus}, {kRunsAgs}));
-  EXPECT_FALSE(step({kReadStatus}, {kDoneAgs}));
+  access_ends();
   EXPECT_FALSE(step(kEnd, kEnded));
   EXPECT_FALSE(step(kAtRest, {kRestBack}));
   EXPECT_TRUE(step(kTakeFirst, {zeros(4), zeros(6)}));
@@ -911,43 +948,192 @@ TEST_F(Access, DisturbedRequest_IsCorruptedAndBeginsNothing) {
   EXPECT_TRUE(device.automatic().running());
 }
 
-// The end of a read: a transfer that fails is repeated. What stands in RDATA1 when the registers
-// are taken is what stood there then.
+// The end of a read: a transfer that fails is repeated, and a reading that differs. What stands in
+// RDATA1 when the registers are taken is what stood there then.
 TEST_F(Access, EndOfARead_IsRepeatedAndCompared) {
   configure(mb4::SpiCheck::kFull);
   start();
   for (const bool other : {false, true}) {
     read();
-    EXPECT_FALSE(step(kAsk, kAsked));
-    EXPECT_FALSE(step({kFrameAgs, kReadStatus}, {kRunsAgs}));
-    EXPECT_FALSE(step({kReadStatus}, {kDoneAgs}));
+    access_ends();
     EXPECT_FALSE(step(kEnd, {}, false));
     EXPECT_FALSE(step(kEnd, kEnded));
-    EXPECT_FALSE(step(kAtRest, {kAsked[0]}));  // it was lost
-    EXPECT_FALSE(step(kAtRest, {}, false));
-    EXPECT_FALSE(step(kAtRest, {kRestBack}));
+    EXPECT_FALSE(step(kAtRest, {kAsked[0]}));
+    EXPECT_FALSE(step({kReadRequest}, {kRestBack}));  // only its reading was disturbed
     // A disturbed byte has started the request at rest meanwhile: register 0 is in RDATA1.
     const Bytes taken{0, 0, static_cast<std::uint8_t>(other ? 9 : 1), 2};
     EXPECT_FALSE(step(kTakeFirst, {taken, kDoneAgs}));
     EXPECT_TRUE(step(kTakeAgain, {taken}));
     ends_with(other ? Error::kCorrupted : Error::kNone);
   }
+  // A transfer that fails is made again, twice.
+  read();
+  access_ends();
+  EXPECT_FALSE(step(kEnd, kEnded));
+  EXPECT_FALSE(step(kAtRest, {}, false));
+  EXPECT_FALSE(step(kAtRest, {}, false));
+  EXPECT_TRUE(step(kAtRest, {}, false));
+  ends_with(Error::kTransport);
+  EXPECT_FALSE(device.automatic().running());
+  restart_after_rest();
+}
+
+// The request at rest is not in the chip: the write may have reached another register (0xE2 and
+// 0xE6, FREQ, differ in one bit). It is written again, and the result says it.
+TEST_F(Access, RequestAtRestLost_IsCorrupted) {
+  for (const bool once : {true, false}) {
+    configure(mb4::SpiCheck::kFull);
+    start();
+    read();
+    access_ends();
+    EXPECT_FALSE(step(kEnd, kEnded));
+    EXPECT_FALSE(step(kAtRest, {kAsked[0]}));
+    EXPECT_FALSE(step({kReadRequest}, {kAsked[0]}));
+    EXPECT_TRUE(step(kAtRest, {once ? kRestBack : kAsked[0]}));
+    ends_with(Error::kCorrupted);
+    EXPECT_EQ(device.automatic().running(), once);
+    if (!once) restart_after_rest();
+  }
+  // The same behind BREAK, and behind a BREAK without an access in steps.
+  configure(mb4::SpiCheck::kFull);
+  start();
+  read();
+  EXPECT_FALSE(step(kAsk, kAsked));
+  bus.expect_write({0x07, 0x80});
+  bus.expect_write(kRest);
+  bus.expect_read(kReadRequest, kAsked[0]);
+  bus.expect_read(kReadRequest, kAsked[0]);
+  bus.expect_proven(kRest);
+  EXPECT_EQ(device.control().abort().error(), Error::kCorrupted);
+  EXPECT_TRUE(step({kFrameAgs, kReadStatus}, {kRunsAgs}));
+  ends_with(Error::kWrongMode);
+}
+
+// It was away before a recovery, and is not in the chip behind it.
+TEST_F(Access, RequestAtRestLostBehindBreak_IsCorrupted) {
+  for (const bool automatic : {true, false}) {
+    configure(mb4::SpiCheck::kFull);
+    start();
+    read();
+    access_ends();
+    EXPECT_FALSE(step(kEnd, kEnded));
+    for (int i = 0; i < 3; ++i) EXPECT_EQ(step(kAtRest, {}, false), i == 2);
+    bus.expect_write({0x07, 0x80, 0x00});
+    bus.expect_write(kRest);
+    bus.expect_read(kReadRequest, kAsked[0]);
+    bus.expect_read(kReadStatus, status(0xFF, 0x00, 0x00));
+    EXPECT_EQ(automatic ? device.automatic().restart().error() : device.read_frame().error(),
+              Error::kCorrupted);
+    restart_after_rest();
+  }
+}
+
+// Each status of the end may be disturbed: nREGERR, nDELAYERR, REGBYTES, an instruction that is
+// not 0. Two that follow each other decide.
+TEST_F(Access, DisturbedEnd_IsReadAgain) {
+  const Bytes failed = status(0x77, 0x00, 0x01);  // nREGERR = 0
+  for (const bool fails : {true, false}) {
+    configure(mb4::SpiCheck::kFull);
+    start();
+    read();
+    EXPECT_FALSE(step(kAsk, kAsked));
+    EXPECT_FALSE(step({kFrameAgs, kReadStatus}, {kRunsAgs}));
+    EXPECT_FALSE(step({kReadStatus}, {fails ? kDoneAgs : failed}));
+    EXPECT_FALSE(step({kReadStatus}, {fails ? failed : kDoneAgs}));
+    EXPECT_FALSE(step({kReadStatus}, {fails ? failed : kDoneAgs}));
+    if (fails) {
+      EXPECT_TRUE(step(kAtRest, {kRestBack}));
+      ends_with(Error::kRegister);
+      continue;
+    }
+    EXPECT_FALSE(step(kEnd, kEnded));
+    EXPECT_FALSE(step(kAtRest, {kRestBack}));
+    EXPECT_FALSE(step(kTakeFirst, {{0, 0, 1, 2}, kDoneAgs}));
+    EXPECT_TRUE(step(kTakeAgain, {{0, 0, 1, 2}}));
+    ends_with(Error::kNone);
+  }
+  // No two agree.
   read();
   EXPECT_FALSE(step(kAsk, kAsked));
   EXPECT_FALSE(step({kFrameAgs, kReadStatus}, {kRunsAgs}));
   EXPECT_FALSE(step({kReadStatus}, {kDoneAgs}));
-  EXPECT_FALSE(step(kEnd, kEnded));
-  EXPECT_FALSE(step(kAtRest, {kAsked[0]}));
-  EXPECT_FALSE(step(kAtRest, {kAsked[0]}));
-  EXPECT_TRUE(step(kAtRest, {kAsked[0]}));
+  EXPECT_FALSE(step({kReadStatus}, {failed}));
+  EXPECT_FALSE(step({kReadStatus}, {kDoneAgs}));
+  EXPECT_TRUE(step({kBreak, kRest, kReadRequest}, {kRestBack}));
   ends_with(Error::kCorrupted);
-  EXPECT_FALSE(device.automatic().running());
+}
+
+// 0x08, the instruction of a frame with control communication, and 0x09, which begins automatic
+// frames too, differ in one bit.
+TEST_F(Access, AutomaticFramesThatNobodyStarted_AreCorrupted) {
+  const Bytes with_ags = status(0xFF, 0x00, 0x01);
+  configure(mb4::SpiCheck::kFull);
+  read();
+  EXPECT_FALSE(step(kAsk, kAsked));
+  EXPECT_FALSE(step({kFrame}, {}));
+  EXPECT_FALSE(step({kReadStatus}, {kOver}));
+  EXPECT_FALSE(step({kFrame}, {}));
+  EXPECT_FALSE(step({kReadStatus}, {with_ags}));
+  EXPECT_FALSE(step({kReadStatus}, {with_ags}));
+  EXPECT_TRUE(step({kBreak, kRest, kReadRequest}, {kRestBack}));
+  ends_with(Error::kCorrupted);
+  // The frame at the end of initialize().
+  configure(mb4::SpiCheck::kFull);
+  to_last_frame();
+  EXPECT_TRUE(step({kReadStatus}, {status(0xFB, 0x02, 0x01)}));
+  ends_with(Error::kCorrupted);
+}
+
+// A read of positions whose bytes were disturbed may have changed RDATA while the access ran, or
+// before the registers are taken.
+TEST_F(Access, CorruptedReadBesideIt_IsCorrupted) {
+  configure(mb4::SpiCheck::kFull);
+  start();
+  read();
+  EXPECT_FALSE(step(kAsk, kAsked));
+  EXPECT_FALSE(step({kFrameAgs, kReadStatus}, {kRunsAgs}));
+  read_sees_stray();
+  EXPECT_FALSE(step({kReadStatus}, {kDoneAgs}));
+  EXPECT_FALSE(step({kReadStatus}, {kDoneAgs}));
+  EXPECT_TRUE(step({kBreak, kRest, kReadRequest}, {kRestBack}));
+  ends_with(Error::kCorrupted);
   bus.expect_write({0x07, 0x80, 0x00});
-  bus.expect_proven(kRest);
   bus.expect_read(kReadStatus, status(0xFF, 0x00, 0x00));
   bus.expect_write(kClearValid1);
   expect_start();
-  EXPECT_TRUE(device.automatic().restart().ok());
+  ASSERT_TRUE(device.automatic().restart().ok());
+  read();
+  access_ends();
+  EXPECT_FALSE(step(kEnd, kEnded));
+  EXPECT_FALSE(step(kAtRest, {kRestBack}));
+  read_sees_stray();
+  EXPECT_TRUE(step(kTakeFirst, {{0, 0, 1, 2}, kDoneAgs}));
+  ends_with(Error::kCorrupted);
+  EXPECT_TRUE(device.automatic().running());
+}
+
+// BREAK, a new configuration and another access end an access in its last steps too.
+TEST_F(Access, BreakInTheLastSteps_EndsIt) {
+  for (const int at : {0, 1, 2, 3}) {
+    configure(mb4::SpiCheck::kFull);
+    start();
+    read();
+    access_ends();
+    if (at > 0) {
+      EXPECT_FALSE(step(kEnd, kEnded));
+    }
+    if (at > 1) {
+      EXPECT_FALSE(step(kAtRest, {kRestBack}));
+    }
+    if (at > 2) {
+      EXPECT_FALSE(step(kTakeFirst, {{0, 0, 1, 2}, kDoneAgs}));
+    }
+    bus.expect_write({0x07, 0x80});
+    if (at < 2) bus.expect_proven(kRest);
+    EXPECT_TRUE(device.control().abort().ok());
+    EXPECT_TRUE(device.finish(op, true, now_us)) << at;
+    ends_with(Error::kWrongMode);
+  }
 }
 
 // nREGERR = 0 at the first look: the instruction was not lost, the access has failed already.
@@ -959,12 +1145,13 @@ TEST_F(Access, FailedAtOnce_IsRegister) {
   EXPECT_FALSE(step(kAsk, kAsked));
   EXPECT_FALSE(step({kFrameAgs, kReadStatus}, {failed}));
   EXPECT_FALSE(step({kReadStatus}, {failed}));
+  EXPECT_FALSE(step({kReadStatus}, {failed}));
   EXPECT_TRUE(step(kAtRest, {kRestBack}));
   ends_with(Error::kRegister);
   EXPECT_TRUE(device.automatic().running());
 }
 
-// A read of positions has written INSTR = 000: REGEND counts when it is seen twice.
+// The end counts when it is seen twice, beside reads of positions, which write INSTR = 000, too.
 TEST_F(Access, EndBesideReads_IsSeenTwice) {
   configure(mb4::SpiCheck::kFull);
   start();
@@ -1040,6 +1227,7 @@ TEST_F(Access, DisturbedStatus_StopsNothing) {
     EXPECT_FALSE(step({kReadStatus}, {kRunsAgs}));
   }
   EXPECT_FALSE(step({kReadStatus}, {kDoneAgs}));
+  EXPECT_FALSE(step({kReadStatus}, {kDoneAgs}));
   EXPECT_FALSE(step(kEnd, kEnded));
   EXPECT_FALSE(step(kAtRest, {kRestBack}));
   EXPECT_FALSE(step(kTakeFirst, {{0, 0, 1, 2}, kDoneAgs}));
@@ -1078,6 +1266,7 @@ TEST_F(Access, AfterACorruptedRead_BeginsWithBreakAndANewStart) {
   EXPECT_FALSE(step(kAsk, kAsked));
   EXPECT_TRUE(device.automatic().running());
   EXPECT_FALSE(step({kFrameAgs, kReadStatus}, {kRunsAgs}));
+  EXPECT_FALSE(step({kReadStatus}, {kDoneAgs}));
   EXPECT_FALSE(step({kReadStatus}, {kDoneAgs}));
   EXPECT_FALSE(step(kEnd, kEnded));
   EXPECT_FALSE(step(kAtRest, {kRestBack}));

@@ -176,7 +176,8 @@ struct Config {
 
   // FrameStart::kOnPin: the time from one pulse at pin GETSENS to the next, 1..1'000'000 us. The
   // reads then tell when frames stay away, as with kPeriodic, and mb4_counts can count what is
-  // lost. 0: the driver does not know it, and there is no alarm. 0 with any other start.
+  // lost. Not shorter than a frame without processing time. 0: the driver does not know it, and
+  // there is no alarm. 0 with any other start.
   std::uint32_t pin_period_us = 0;
 
   std::array<ChannelConfig, kChannels> channels{};  // [0] is channel 1

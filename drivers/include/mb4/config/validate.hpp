@@ -83,7 +83,10 @@ constexpr ConfigField wrong_in_frame_start(const Config& config) {
   if (!is_code(config.frame_start, FrameStart::kPeriodic)) {
     return ConfigField::kFrameStart;
   }
-  if (config.pin_period_us > (config.frame_start == FrameStart::kOnPin ? kMaxPinPeriodUs : 0)) {
+  const bool on_pin = config.frame_start == FrameStart::kOnPin;
+  if (config.pin_period_us > (on_pin ? kMaxPinPeriodUs : 0) ||
+      (config.pin_period_us != 0 &&
+       config.pin_period_us + 1 < periods_us(config, frame_periods(config)))) {
     return ConfigField::kPinPeriodUs;
   }
   if (config.frame_start != FrameStart::kPeriodic) {

@@ -22,10 +22,6 @@ namespace mb4::detail {
 inline constexpr std::uint8_t kControlFrame =
     regs::INSTR::encode<static_cast<std::uint8_t>(regs::Instr::kControl)>();
 
-// Looks at the status that may fail one after the other before an access is given up. One disturbed
-// status must not stop it, and automatic frames with it.
-inline constexpr std::uint32_t kBadLooks = 3;
-
 // Longest time of the access, in microseconds: at most 930 * 1 s + 13 s, which fits 32 bits.
 [[nodiscard]] inline std::uint32_t longest_access_us(const ChipState& chip) {
   return control_frames(chip.control.count) * chip.pitch_us + chip.busy_us + kFrameMarginUs;
@@ -75,17 +71,19 @@ inline constexpr std::uint32_t kBadLooks = 3;
 // describe this access.
 inline void Procedures::begin_access(ChipState& chip, Operation& op, bool biss_b) {
   begin(chip, op, access_step);
-  if (chip.automatic && chip.control.stray) {
-    // Beside automatic frames BREAK is followed by a new start of the frames, in the access itself.
+  // Beside automatic frames BREAK is followed by a new start of the frames, in the access itself.
+  const bool restart = chip.automatic && chip.control.stray;
+  if (restart) {
     op.bad_ = 1;
     chip.restart = true;  // until the frames run again
-    add_break(chip, op);
-  } else if (biss_b || (!chip.automatic && chip.recover_first)) {
+  }
+  if (restart || biss_b || (!chip.automatic && chip.recover_first)) {
     add_recovery(chip, op);
   }
   chip.control.stray = false;
   chip.recover_first = true;
   chip.control.readable = 0;
+  chip.control.waits = false;
   chip.control.biss_b = biss_b;
   chip.control.owner = &op;
 }
@@ -224,6 +222,7 @@ inline std::uint8_t Procedures::part(const Operation& op) {
 inline void Procedures::plan_take(ChipState& chip, Operation& op, std::uint8_t* out,
                                   std::size_t count) {
   begin(chip, op, access_step);
+  chip.control.owner = &op;
   op.out_ = out;
   op.count_ = count;
   add_take(chip, op);
@@ -246,15 +245,16 @@ inline void Procedures::add_abort(ChipState& chip, Operation& op, const Result<v
   chip.restart = chip.automatic || chip.restart;
   chip.recover_first = true;
   chip.stopped();
+  chip.control.owner = &op;
   add_instruction(op, regs::BREAK::encode<1>());
   add_rest(chip, op);
   op.stage_ = kStopped;
+  op.bad_ = 0;
   op.cause_ = cause;
 }
 
 inline void Procedures::add_access(ChipState& chip, Operation& op) {
   ControlState& state = chip.control;
-  state.overwritten = false;
   state.seen_running = false;
   state.first_frame = true;
   state.frames = 1;
@@ -274,13 +274,14 @@ inline Result<void> Procedures::not_begun(ChipState& chip, Operation& op,
   }
   add_rest(chip, op);
   op.stage_ = kStopped;
+  op.bad_ = 0;
   op.cause_ = cause;
   return {};
 }
 
 inline Result<void> Procedures::access_step(ChipState& chip, Operation& op, std::uint32_t now_us) {
-  // abort(), BREAK or configure() has ended the access meanwhile.
-  if (op.stage_ < kDelays && chip.control.kind == ControlState::Kind::kNone) {
+  // abort(), BREAK, configure() or another access has ended this one meanwhile.
+  if (chip.control.owner != &op) {
     return Error::kWrongMode;
   }
   const Result<void> done = access(chip, op, now_us);
@@ -323,13 +324,11 @@ inline Result<void> Procedures::access(ChipState& chip, Operation& op, std::uint
       add_access(chip, op);
       return {};
     }
-    case kRecover:
-      if (op.bad_ != 0) {
-        if (const Result<void> done = confirmed(chip, op, 0); !done) {
-          return done;
-        }
+    case kRecover: {
+      const Result<void> done = recovered(chip, op);
+      if (!done) {
+        return done;
       }
-      recovered(chip, op);
       if (op.bad_ != 0) {
         op.bad_ = 0;
         add_start(chip, op);
@@ -341,6 +340,7 @@ inline Result<void> Procedures::access(ChipState& chip, Operation& op, std::uint
       }
       add_request(chip, op);
       return {};
+    }
     case kRestarted:
       if (const Result<void> done = confirmed(chip, op, regs::AGS::encode<1>()); !done) {
         return done;
@@ -397,6 +397,9 @@ inline Result<void> Procedures::access(ChipState& chip, Operation& op, std::uint
       return poll(chip, op, now_us);
     case kTake: {
       if (chip.checks_all()) {
+        if (state.stray) {
+          return Error::kCorrupted;  // a read since the end may have changed RDATA
+        }
         if (const Result<void> seen = look(op); !seen) {
           return seen;
         }
@@ -429,28 +432,22 @@ inline Result<void> Procedures::access(ChipState& chip, Operation& op, std::uint
       state.first = received(op)[2];
       add_end(chip, op);
       return {};
-    case kRest: {
-      const Result<void> set = same(chip, op);
-      if (!set && ++op.bad_ != kBadLooks) {
+    case kRest:
+      if (!op.good_ && ++op.bad_ != kBadLooks) {
         add_end(chip, op);
         return {};
       }
-      state.armed = !set;
-      if (!set) {
-        // Until it has been sent nothing may start what was asked for once more.
-        state.readable = 0;
-        chip.restart = chip.automatic || chip.restart;
-        chip.stopped();
-        return op.cause_ ? set : op.cause_;
+      if (!rested(chip, op)) {
+        return {};
       }
-      chip.recover_first = chip.automatic;
-      return ended(chip, op);
-    }
-    default: {  // kStopped: an error that came before stays the result
-      state.armed = !same(chip, op);
       if (state.armed) {
-        chip.restart = chip.automatic || chip.restart;
-        chip.stopped();
+        return op.cause_;
+      }
+      chip.recover_first = chip.automatic || op.cause_.error() == Error::kCorrupted;
+      return ended(chip, op);
+    default: {  // kStopped: an error that came before stays the result
+      if (!rested(chip, op)) {
+        return {};
       }
       const Error cause = op.cause_.error();
       const bool last = cause == Error::kNone || cause == Error::kTimeout;
@@ -462,7 +459,8 @@ inline Result<void> Procedures::access(ChipState& chip, Operation& op, std::uint
 // A part of the registers is here.
 inline Result<void> Procedures::taken(ChipState& chip, Operation& op) {
   op.at_ += part(op);
-  if (op.at_ < op.count_) {
+  chip.control.waits = op.at_ < op.count_;
+  if (chip.control.waits) {
     add_take(chip, op);
   }
   return {};
@@ -471,6 +469,7 @@ inline Result<void> Procedures::taken(ChipState& chip, Operation& op) {
 // Has the access ended, or the frame?
 inline Result<void> Procedures::poll(ChipState& chip, Operation& op, std::uint32_t now_us) {
   ControlState& state = chip.control;
+  const Status before = op.status_;
   if (const Result<void> seen = look(op); !seen) {
     if (++op.bad_ == kBadLooks) {
       return seen;
@@ -478,7 +477,6 @@ inline Result<void> Procedures::poll(ChipState& chip, Operation& op, std::uint32
     again(op, now_us);
     return {};
   }
-  op.bad_ = 0;
   const Status& status = op.status_;
   const bool frame_over = status.instruction_done() && (chip.automatic || status.idle());
   // Where several frames follow each other, REGEND = 1 in the first one may still belong to the
@@ -486,9 +484,12 @@ inline Result<void> Procedures::poll(ChipState& chip, Operation& op, std::uint32
   const bool alone = chip.automatic || state.biss_b;
   const bool stale = !alone && state.first_frame;
   if (frame_over && status.control_ended() && !stale) {
-    // INSTR = 000 tells nothing where a read of positions has written it. One disturbed bit must
-    // not end the access.
-    if (state.overwritten && chip.checks_all() && op.stage_ == kPoll) {
+    const bool decides = !state.biss_b || state.first_frame || op.limit_.over;
+    // One disturbed bit must not end the access, nor hide how it has ended.
+    if (decides && chip.checks_all() && !(op.stage_ == kPollAgain && agrees(chip, op, before))) {
+      if (++op.bad_ == kBadLooks) {
+        return Error::kCorrupted;
+      }
       add_poll(op);
       op.stage_ = kPollAgain;
       return {};
@@ -504,16 +505,18 @@ inline Result<void> Procedures::poll(ChipState& chip, Operation& op, std::uint32
           status.start_error() && (!state.agserr_at_start ||
                                    now_us - state.access_us >= register_limit_us(chip.config) / 4);
       state.first_frame = false;
+      op.bad_ = 0;
       op.limit_.begin(now_us, chip.config.register_timeout_us);
       again(op, now_us);
       return {};
     }
-    if (!state.biss_b || op.limit_.over) {
+    if (decides) {
       return conclude(chip, op);
     }
     again(op, now_us);
     return {};
   }
+  op.bad_ = 0;
   if (!op.limit_.over) {
     if (alone || !frame_over) {
       again(op, now_us);
@@ -535,14 +538,30 @@ inline Result<void> Procedures::poll(ChipState& chip, Operation& op, std::uint32
   return {};
 }
 
+// The status tells of the end what the one `before` has told. Beside automatic frames nAGSERR may
+// change at any time.
+inline bool Procedures::agrees(const ChipState& chip, const Operation& op, const Status& before) {
+  const unsigned end = regs::REGEND::kMask | regs::nREGERR::kMask | regs::nDELAYERR::kMask |
+                       (chip.automatic ? 0U : unsigned{regs::nAGSERR::kMask});
+  const Status& status = op.status_;
+  return ((status.bytes()[0] ^ before.bytes()[0]) & end) == 0 &&
+         status.bytes()[3] == before.bytes()[3] && status.instruction() == before.instruction();
+}
+
 // The access has ended; how?
 inline Result<void> Procedures::conclude(ChipState& chip, Operation& op) {
   ControlState& state = chip.control;
+  // A read whose bytes were disturbed may have changed RDATA; a disturbed instruction of this
+  // access may have started automatic frames.
+  if (chip.checks_all() && (state.stray || (!chip.automatic && op.status_.instruction() != 0))) {
+    return Error::kCorrupted;
+  }
   const ErrorInfo error = access_error(chip, state.kind, op.status_);
   op.cause_ = error;
   state.readable = error.code == Error::kNone && state.kind == ControlState::Kind::kRead
                        ? state.count
                        : std::uint8_t{0};
+  state.waits = state.readable != 0 && op.out_ == nullptr;
   state.kind = ControlState::Kind::kNone;
   op.bad_ = 0;
   if (chip.checks_all() && state.readable != 0) {
@@ -559,12 +578,17 @@ inline void Procedures::add_first(Operation& op) {
   add_read(op, regs::kAddrRdata, 1);
 }
 
-// Without AGS the frames of the access have set SVALID, and the next single frame needs SVALID = 0.
-// With AGS the reads of positions clear the flags.
+// Without AGS the frames of the access have set SVALID, and the next single frame needs SVALID = 0;
+// where the chip would refuse it before the slaves' timeout is over, this time passes first. With
+// AGS the reads of positions clear the flags.
 inline void Procedures::add_end(const ChipState& chip, Operation& op) {
   op.stage_ = kRest;
   if (!chip.automatic) {
     mb4_cyclic_add_clear(&op.plan_, chip.sensor_flags, 4);
+    clear_again(chip, op);
+    if (chip.config.frame_start != FrameStart::kWaitForLine) {
+      op.plan_.pause_us = kLineRecoveryUs + kClockStepUs;
+    }
   }
   add_rest(chip, op);
 }

@@ -79,8 +79,8 @@ inline Result<void> Procedures::confirmed(ChipState& chip, Operation& op, std::u
     return op.good_ ? Error::kNone : Error::kTransport;
   }
   const Result<void> seen = look(op);
-  constexpr std::uint8_t kAgs = regs::AGS::encode<1>();
-  return seen && (op.status_.instruction() | kAgs) != (want | kAgs) ? Error::kCorrupted : seen;
+  const unsigned ended = want & regs::AGS::kMask;
+  return seen && (op.status_.instruction() | ended) != want ? Error::kCorrupted : seen;
 }
 
 // With SpiCheck::kFullAndRelease: what the status behind `want` for 0xF4 says.
@@ -97,8 +97,9 @@ inline Result<void> Procedures::switched_step(ChipState& chip, Operation& op,
   Result<void> done = op.good_ ? Error::kNone : Error::kTransport;
   switch (op.stage_) {
     case kRecover:
+      done = recovered(chip, op);
       if (done) {
-        recovered(chip, op);
+        clear_again(chip, op);
         add_word(chip, op, kFill);
       }
       return done;

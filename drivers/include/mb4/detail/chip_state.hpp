@@ -37,17 +37,18 @@ struct ControlState {
   std::uint8_t readable = 0;     // registers that a finished read has left in RDATA
   std::uint8_t count = 0;        // registers of this access, 1..64
   std::uint8_t first = 0;        // SpiCheck::kFull: the first of `readable`
+  bool waits = false;            // ... and take() has not fetched them
   bool armed = false;            // 0xE2..0xE5 may hold another request than the one at rest
   bool biss_b = false;           // one instruction runs the whole access, without frames
-  bool overwritten = false;      // a read of positions has written INSTR = 000 meanwhile
-  bool seen_running = false;     // ... and has seen REGEND = 0 since the last poll
+  bool seen_running = false;     // a read of positions has seen REGEND = 0 since the last poll
   bool first_frame = false;      // REGEND may belong to the access before; BiSS B: not ended yet
   bool stray = false;            // an access that nobody asked for may run
   bool no_hand_over = false;     // BiSS B: no slave has entered register mode
   bool agserr_at_start = false;  // BiSS B: the chip sets nAGSERR = 0 at each write of 0xF4
   std::uint32_t access_us = 0;   // start of the access
   std::uint32_t frames = 0;      // begun so far, without automatic frames
-  const Operation* owner = nullptr;  // runs it
+  const Operation* owner =
+      nullptr;  // runs it, or takes its registers; null once BREAK has ended it
 };
 
 // All that the calls on one chip share, except its bus and its clock.
@@ -217,6 +218,7 @@ struct ChipState {
     automatic = false;
     held_for_actuator = false;
     control.kind = ControlState::Kind::kNone;
+    control.owner = nullptr;
   }
 };
 

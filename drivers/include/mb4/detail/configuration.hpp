@@ -98,6 +98,21 @@ inline Result<void> Procedures::configuration_step(ChipState& chip, Operation& o
   return done;
 }
 
+// The first frame needs a chip in which no frame runs or waits, and SVALID = 0: BREAK may be lost,
+// and a disturbed 1 in the place of SVALID changes nothing.
+[[nodiscard]] inline ErrorInfo at_rest(const ChipState& chip, const Status& status) {
+  const unsigned valid = status.valid_flags() & unsigned{chip.sensor_flags};
+  if (status.instruction() != 0) {
+    return ErrorInfo::at_register(Error::kVerify, regs::kAddrInstr);
+  }
+  if (!status.idle()) {
+    return ErrorInfo::at_register(Error::kVerify, regs::kAddrStatus0);
+  }
+  return valid == 0 ? ErrorInfo()
+                    : ErrorInfo::at_register(
+                          Error::kVerify, valid > 0xFF ? regs::kAddrSvalidHi : regs::kAddrSvalidLo);
+}
+
 inline Result<void> Procedures::configure(ChipState& chip, Operation& op) {
   const bool compares = op.count_ == kComparesOnly;
   op.bad_ |= chip.request_is_away() ? 1U : 0U;
@@ -111,7 +126,8 @@ inline Result<void> Procedures::configure(ChipState& chip, Operation& op) {
     return {};
   }
   if (op.stage_ == kProof) {
-    return look(op);
+    const Result<void> seen = look(op);
+    return seen && op.count_ == kConfigures ? at_rest(chip, op.status_) : seen;
   }
   const bool identity = op.stage_ == kDelays;
   const std::uint8_t* is = received(op) + 2;

@@ -66,10 +66,13 @@ inline Result<void> Procedures::initialize_step(ChipState& chip, Operation& op,
     return Error::kTransport;
   }
   switch (op.stage_) {
-    case kRecover:
-      recovered(chip, op);
-      prepare(chip, op);
-      return {};
+    case kRecover: {
+      const Result<void> done = recovered(chip, op);
+      if (done) {
+        prepare(chip, op);
+      }
+      return done;
+    }
     case kFill:
     case kSet: {
       const Result<void> set = op.stage_ == kFill ? same(chip, op) : Result<void>();
@@ -187,29 +190,11 @@ inline Result<void> Procedures::initialize_activate_step(ChipState& chip, Operat
 
 // ---- Does each slave send a word? One frame at the end ----
 
-// The slave of `word` can be kNoWord: BiSS C, and the chip checks its CRC.
-[[nodiscard]] inline bool may_send_nothing(const ChipState& chip, const mb4_word& word) {
-  return protocol_of(chip.config, word.slave) == Protocol::kBissC &&
-         chip.config.slaves[word.slave - 1U].crc_polynomial != 0;
-}
-
-// `bytes`: SCDATAx of a word whose CRC is wrong. All its bits were 0 on the line; the chip stores
-// the CRC inverted.
-[[nodiscard]] inline bool is_blank(const mb4_word& word, const std::uint8_t* bytes) {
-  const unsigned high = word.crc_bits > 8 ? unsigned{bytes[6]} : 0xFFU;
-  const unsigned crc = word.crc_bits > 8 ? bytes[7] * 256U + high : unsigned{bytes[7]};
-  unsigned data = word.crc_bits == 0 || crc == (1U << word.crc_bits) - 1U ? 0 : 1;
-  for (unsigned i = 0; i * 8 < word.bits; ++i) {
-    data |= bytes[i];
-  }
-  return data == 0;
-}
-
 // Where there are actuators no frame is made: it would send words that nobody has written.
 inline void Procedures::begin_look(ChipState& chip, Operation& op) {
   bool needed = false;
   for (std::uint8_t i = 0; i < chip.count; ++i) {
-    needed = needed || may_send_nothing(chip, chip.words[i]);
+    needed = needed || chip.words[i].line != 0;
   }
   if (needed && chip.actuators == 0) {
     begin(chip, op, look_step);
@@ -226,34 +211,25 @@ inline Result<void> Procedures::look_step(ChipState& chip, Operation& op, std::u
   }
   switch (op.stage_) {
     case kStart:
-      op.limit_.begin(now_us, chip.frame_us);
-      again(op, now_us);
-      return {};
     case kPoll: {
-      const Result<void> seen = look(op);
-      if (!seen) {
-        return seen;
-      }
-      if (!op.status_.idle() || !op.status_.instruction_done()) {
-        if (!op.limit_.over) {
-          again(op, now_us);
-        } else {
-          chip.stopped();
-          add_instruction(op, regs::BREAK::encode<1>());
-          op.stage_ = kStopped;
-        }
-        return {};
+      const Result<void> ended = await_frame(chip, op, now_us);
+      if (!ended || op.plan_.frames != 0) {
+        return ended;
       }
       op.at_ = op.status_.scd_error() ? 0 : chip.count;
       break;
     }
-    case kTake:
-      if (is_blank(chip.words[op.at_ - 1], received(op) + 2)) {
+    case kTake: {
+      const mb4_word& word = chip.words[op.at_ - 1];
+      mb4_slot slot;
+      mb4_slot_load(&word, &slot, received(op) + 2);
+      if (mb4_slot_blank(&word, &slot, MB4_WITH_ALL)) {
         op.limit_ = {};
         add_lines(op);
         return {};
       }
       break;
+    }
     case kLines: {
       // In the slaves' timeout SL is 0, and all bits are if it stays there.
       const Result<void> line = lines(chip, op, now_us);
@@ -277,10 +253,10 @@ inline Result<void> Procedures::look_step(ChipState& chip, Operation& op, std::u
     const mb4_word& word = chip.words[op.at_];
     const unsigned flag =
         Status::valid_registers(static_cast<std::uint8_t>(1U << (word.slave - 1U)));
-    if ((op.status_.valid_flags() & flag) == 0 && may_send_nothing(chip, word)) {
+    if ((op.status_.valid_flags() & flag) == 0 && word.line != 0) {
       ++op.at_;
       op.stage_ = kTake;
-      add_read(op, regs::scdata_address(word.slave), 8);
+      add_read(op, regs::scdata_address(word.slave), word.bytes);
       return {};
     }
   }

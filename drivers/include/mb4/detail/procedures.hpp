@@ -86,7 +86,7 @@ struct Procedures {
   static void plan_start(ChipState& chip, Operation& op) {
     begin(chip, op, start_step);
     if (chip.recover_first) {
-      add_break(chip, op);
+      add_recovery(chip, op);
     } else {
       add_start(chip, op);
     }
@@ -149,6 +149,10 @@ struct Procedures {
   }
 
  private:
+  // Times that a step which may fail is tried, one after the other. One disturbed status must not
+  // stop an access, and automatic frames with it.
+  static constexpr std::uint32_t kBadLooks = 3;
+
   // ---- Frames ----
 
   static void clear_plan(Operation& op) {
@@ -169,8 +173,8 @@ struct Procedures {
   }
 
   // BREAK, at kRecover. With SpiCheck::kFull it also writes 0xF5, the register after 0xF4: the
-  // failed transfer may have been a read of the status that reached the chip as a write. Afterwards
-  // recovered().
+  // failed transfer may have been a read of the status that reached the chip as a write; and the
+  // status follows. Afterwards recovered().
   [[gnu::noinline]] static void add_recovery(ChipState& chip, Operation& op) {
     op.stage_ = kRecover;
     chip.stopped();
@@ -179,38 +183,49 @@ struct Procedures {
     if (chip.control.armed) {
       add_rest(chip, op);
     }
+    if (chip.checks_all()) {
+      mb4_cyclic_add_status(&op.plan_);
+    }
   }
   // The frames that follow come after the slaves' timeout. The first one clears the flags of frames
-  // that ran.
-  [[gnu::noinline]] static void recovered(ChipState& chip, Operation& op) {
-    chip.control.armed = false;
-    op.plan_.pause_us = chip.recovery_us();
-    op.stage_ = kStart;
-    mb4_cyclic_add_clear(&op.plan_, chip.sensor_flags, 4);
+  // that ran. kTransport; with SpiCheck::kFull kNotDetected and kCorrupted: 0xF4 is not 0 (a byte
+  // with SWBANK = 1 would clear the flags of the other bank), or the request at rest reads back
+  // differently; the next call sends it again.
+  [[gnu::noinline]] static Result<void> recovered(ChipState& chip, Operation& op) {
+    Result<void> done = confirmed(chip, op, 0);
+    if (done && chip.control.armed && chip.checks_all() && !rests(chip, op, 1)) {
+      done = Error::kCorrupted;
+    }
+    if (done) {
+      chip.control.armed = false;
+      op.plan_.pause_us = chip.recovery_us();
+      op.stage_ = kStart;
+      mb4_cyclic_add_clear(&op.plan_, chip.sensor_flags, 4);
+    }
+    return done;
   }
 
   static void add_instruction(Operation& op, std::uint8_t instruction) {
     mb4_cyclic_add_instruction(&op.plan_, instruction);
   }
 
+  // With SpiCheck::kFull SVALID = 0 once more, before frames whose words must be new: one of the
+  // two transfers may be lost.
+  [[gnu::noinline]] static void clear_again(const ChipState& chip, Operation& op) {
+    if (chip.checks_all()) {
+      mb4_cyclic_add_clear(&op.plan_, chip.sensor_flags, 4);
+    }
+  }
   // AGS = 1. With SpiCheck::kFull the words of both banks are dropped, because a disturbed byte
   // before may have switched them, and the status follows: confirmed().
   static void add_start(const ChipState& chip, Operation& op) {
     add_instruction(op, regs::AGS::encode<1>());
     if (chip.checks_all()) {
       mb4_cyclic_add_clear(&op.plan_, chip.sensor_flags, 4);
-      mb4_cyclic_add_clear(&op.plan_, chip.sensor_flags, 4); /* one may be lost */
+      clear_again(chip, op);
       mb4_cyclic_add_status(&op.plan_);
     }
   }
-  // BREAK beside automatic frames. With SpiCheck::kFull the status follows: confirmed().
-  static void add_break(ChipState& chip, Operation& op) {
-    add_recovery(chip, op);
-    if (chip.checks_all()) {
-      mb4_cyclic_add_status(&op.plan_);
-    }
-  }
-
   // Reads `size` registers. A bus that stores nothing must not turn an old answer into a new one:
   // the first byte is 0, and no longer that of the answer before.
   [[gnu::noinline]] static void add_read(Operation& op, std::uint8_t address, std::size_t size,
@@ -244,10 +259,43 @@ struct Procedures {
   // The request at rest: a read of register 0. A disturbed byte of 0xF4 that starts an access then
   // does no harm (docs/choices.md).
   [[gnu::noinline]] static void add_rest(const ChipState& chip, Operation& op) {
-    add_bytes(op, regs::kAddrRegadr, &chip.image[regs::kAddrRegadr - kImageFirst], kRequestBytes);
-    if (chip.checks_all()) {
-      add_read(op, regs::kAddrRegadr, kRequestBytes);
+    add_write(chip, op, regs::kAddrRegadr, request_at_rest(chip), kRequestBytes);
+  }
+  static const std::uint8_t* request_at_rest(const ChipState& chip) {
+    return &chip.image[regs::kAddrRegadr - kImageFirst];
+  }
+  // The frame that was made with `behind` frames after it has read the request at rest.
+  [[gnu::noinline]] static bool rests(const ChipState& chip, const Operation& op, unsigned behind) {
+    return equal(request_at_rest(chip), received(op, behind) + 2, kRequestBytes);
+  }
+  // add_rest() was made. False: frames are still to be made. With SpiCheck::kFull a request that
+  // differs is read again. If it differs once more the write has failed, and may have reached
+  // another register: it is sent again, and op.cause_ becomes kCorrupted. If that fails, or a
+  // transfer, control.armed stays, which makes the next call send it; until then nothing may start
+  // what was asked for once more.
+  [[gnu::noinline]] static bool rested(ChipState& chip, Operation& op) {
+    const bool set = op.good_ && (!chip.checks_all() || rests(chip, op, 0));
+    if (!set && op.good_ && ++op.bad_ < kBadLooks) {
+      if (op.bad_ == 1) {
+        add_read(op, regs::kAddrRegadr, kRequestBytes);
+        return false;
+      }
+      if (op.cause_) {
+        op.cause_ = Error::kCorrupted;
+      }
+      add_rest(chip, op);
+      return false;
     }
+    chip.control.armed = !set;
+    if (!set) {
+      chip.control.readable = 0;
+      chip.restart = chip.automatic || chip.restart;
+      chip.stopped();
+      if (op.cause_) {
+        op.cause_ = op.good_ ? Error::kCorrupted : Error::kTransport;
+      }
+    }
+    return true;
   }
 
   static void add_clear(ChipState& chip, Operation& op) {
@@ -343,21 +391,15 @@ struct Procedures {
   // ---- Steps ----
 
   static Result<void> start_step(ChipState& chip, Operation& op, std::uint32_t now_us) {
-    if (!op.good_) {
-      return Error::kTransport;
-    }
     const bool breaks = op.stage_ == kRecover;
-    const std::uint8_t want = breaks ? std::uint8_t{0} : regs::AGS::encode<1>();
-    if (const Result<void> done = confirmed(chip, op, want); !done) {
-      return done;
-    }
-    if (breaks) {
-      recovered(chip, op);
+    const Result<void> done =
+        breaks ? recovered(chip, op) : confirmed(chip, op, regs::AGS::encode<1>());
+    if (done && breaks) {
       add_start(chip, op);
-      return {};
+    } else if (done) {
+      chip.started(now_us);
     }
-    chip.started(now_us);
-    return {};
+    return done;
   }
 
   // After a good transfer.
@@ -378,10 +420,10 @@ struct Procedures {
   }
 
   static Result<void> stop_step(ChipState& chip, Operation& op, std::uint32_t /*now_us*/) {
-    if (op.stage_ == kStopped) {
-      chip.control.armed = !same(chip, op);
+    if (op.stage_ != kStopped) {
+      return op.good_ ? Error::kNone : Error::kTransport;
     }
-    return op.good_ ? Error::kNone : Error::kTransport;
+    return rested(chip, op) ? op.cause_ : Result<void>();
   }
 
   static Result<void> configuration_step(ChipState& chip, Operation& op, std::uint32_t now_us);
@@ -403,6 +445,7 @@ struct Procedures {
   static void begin_look(ChipState& chip, Operation& op);
   // ... single_frame.hpp,
   static void add_request_frame(Operation& op);
+  static Result<void> await_frame(ChipState& chip, Operation& op, std::uint32_t now_us);
   static Result<void> frame(ChipState& chip, Operation& op, std::uint32_t now_us);
   static Result<void> frame_over(ChipState& chip, Operation& op);
   static Result<void> frame_ended(ChipState& chip, Operation& op);
@@ -428,6 +471,7 @@ struct Procedures {
   static void add_abort(ChipState& chip, Operation& op, const Result<void>& cause);
   static void add_first(Operation& op);
   static void add_end(const ChipState& chip, Operation& op);
+  static bool agrees(const ChipState& chip, const Operation& op, const Status& before);
   static Result<void> not_begun(ChipState& chip, Operation& op, const Result<void>& cause);
   static void add_access(ChipState& chip, Operation& op);
   static Result<void> access(ChipState& chip, Operation& op, std::uint32_t now_us);

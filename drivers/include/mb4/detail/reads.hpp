@@ -124,9 +124,8 @@ struct Reads {
     read.watch = &chip.watch;
     read.spi_check = static_cast<std::uint8_t>(chip.config.spi_check);
     read.unheld = unheld;
-    read.access = chip.control_runs();
+    read.access = chip.control_runs() || (chip.checks_all() && chip.control.waits);
     read.chain = chain;
-    chip.control.overwritten = chip.control.overwritten || !unheld;
   }
 };
 

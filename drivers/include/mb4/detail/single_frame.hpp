@@ -68,6 +68,30 @@ inline void Procedures::plan_wait(ChipState& chip, Operation& op) {
   mb4_cyclic_add_status(&op.plan_);
 }
 
+// A frame has been requested. Success without more frames: it has ended, or was refused. After its
+// time limit BREAK; then stopped_step(). kNotDetected; kCorrupted, with SpiCheck::kFull: the chip
+// has got another byte than the one sent.
+//
+// EOT = 1 alone does not show the end: EOT is also 1 before the chip has taken the instruction. A
+// refused frame resets INSTR too.
+inline Result<void> Procedures::await_frame(ChipState& chip, Operation& op, std::uint32_t now_us) {
+  if (op.stage_ == kStart) {
+    op.limit_.begin(now_us, chip.frame_us);
+    again(op, now_us);
+    return {};
+  }
+  const Result<void> seen = look(op);
+  if (seen && op.status_.idle() && op.status_.instruction_done()) {
+    return chip.checks_all() && op.status_.instruction() != 0 ? Error::kCorrupted : Error::kNone;
+  }
+  if (seen && op.limit_.over) {
+    add_stop(chip, op, Error::kTimeout);
+  } else if (seen) {
+    again(op, now_us);
+  }
+  return seen;
+}
+
 inline Result<void> Procedures::frame_step(ChipState& chip, Operation& op, std::uint32_t now_us) {
   const Result<void> done = frame(chip, op, now_us);
   if (op.plan_.frames == 0) {
@@ -83,32 +107,18 @@ inline Result<void> Procedures::frame(ChipState& chip, Operation& op, std::uint3
     return Error::kTransport;
   }
   switch (op.stage_) {
-    case kRecover:
-      recovered(chip, op);
-      add_request_frame(op);
-      return {};
+    case kRecover: {
+      const Result<void> done = recovered(chip, op);
+      if (done) {
+        clear_again(chip, op);
+        add_request_frame(op);
+      }
+      return done;
+    }
     case kStart:
-      op.limit_.begin(now_us, chip.frame_us);
-      again(op, now_us);
-      return {};
     case kPoll: {
-      const Result<void> seen = look(op);
-      if (!seen) {
-        return seen;
-      }
-      // EOT = 1 alone does not show the end: EOT is also 1 before the chip has taken the
-      // instruction. A refused frame resets INSTR too.
-      if (op.status_.idle() && op.status_.instruction_done()) {
-        // INSTR = 0, but another bit is 1: the chip received another byte than the one sent.
-        return chip.checks_all() && op.status_.instruction() != 0 ? Result<void>(Error::kCorrupted)
-                                                                  : frame_over(chip, op);
-      }
-      if (op.limit_.over) {
-        add_stop(chip, op, Error::kTimeout);
-      } else {
-        again(op, now_us);
-      }
-      return {};
+      const Result<void> ended = await_frame(chip, op, now_us);
+      return ended && op.plan_.frames == 0 ? frame_over(chip, op) : ended;
     }
     case kTake:
       read.fresh = mb4_cyclic_take(&read, &op.plan_, 0, mb4_cyclic_valid(&read), MB4_WITH_ALL);
