@@ -283,6 +283,32 @@ def line_status(steps):
     return pack((steps.chance(0.9), 1), (steps.rng.getrandbits(3), 3), (steps.chance(0.9), 1))
 
 
+def sequencer(steps):
+    """Any traffic; in between lines that rest for 1024 clocks, because INIT waits for this behind a
+    reset and a BREAK, and then traffic without either."""
+    def instruction(byte):
+        return steps.rng.getrandbits(2) << 8 | byte
+
+    busy = {
+        **struct("mem_i", (0.02, 1), (None, 1)), "tick_i": 0.9,
+        "status_i": rarely("status_i", 0.3, lambda s: line_status(s) << 5 | line_status(s)),
+        "regvers_i": rarely("regvers_i", 0.02), "kind_i": rarely("kind_i", 0.3, kind),
+        "event_i": rarely("event_i", 0.9, lambda s: line_event(s) << 3 | line_event(s)),
+        "quirks_i": rarely("quirks_i", 0.01)}
+    any_byte = rarely("instr_i", 0.1, lambda s: instruction(instruction_byte(s)))
+    no_break = rarely("instr_i", 0.1, lambda s: instruction(instruction_byte(s) & 0x7F))
+    idle = pack((1, 1), (0, 3), (1, 1))
+    clocks, resets = CORE
+    steps.reset(resets)
+    for _ in range(4):
+        play(steps, clocks, resets, 3000, {**busy, "instr_i": any_byte})
+        steps.step(status_i=idle << 5 | idle, event_i=0, instr_i=instruction(0x10))
+        play(steps, clocks, resets, 2200, {
+            "status_i": lambda s: None, "event_i": lambda s: None, "instr_i": lambda s: None,
+            "kind_i": lambda s: None}, reset_rate=0)
+        play(steps, clocks, resets, 600, {**busy, "instr_i": no_break}, reset_rate=0)
+
+
 def word_cfg(steps, crc, store_gray, actuator, stop):
     """word_t of biss_pkg, data_last first, with a polynomial and start value of any kind."""
     word = steps.rng.getrandbits(6)
@@ -503,14 +529,7 @@ MODULES = {
     "mb4_word_list": simple(*CORE, 6000, {
         "start_i": 0.02, "next_i": 0.2,
         "enscd_i": rarely("enscd_i", 0.02), "cfg_i": rarely("cfg_i", 0.5, slave_cfg)}),
-    "mb4_sequencer": simple(*CORE, 12000, {
-        "instr_i": rarely("instr_i", 0.1, lambda s: s.rng.getrandbits(2) << 8 | instruction_byte(s)),
-        **struct("mem_i", (0.02, 1), (None, 1)), "tick_i": 0.9,
-        "status_i": rarely("status_i", 0.3, lambda s: line_status(s) << 5 | line_status(s)),
-        "regvers_i": rarely("regvers_i", 0.02), "kind_i": rarely("kind_i", 0.3, kind),
-        "event_i": rarely("event_i", 0.9, lambda s: line_event(s) << 3 | line_event(s)),
-        "quirks_i": rarely("quirks_i", 0.01),
-    }),
+    "mb4_sequencer": sequencer,
     "mb4_frame_request": simple(*CORE, 12000, {
         "ags_i": 0.999, "restart_i": 0.001, "busy_i": 0.3, "taken_i": 0.05, "lines_idle_i": 0.8,
         "getsens_i": rarely("getsens_i", 0.1), "hold_cdm_i": rarely("hold_cdm_i", 0.01),

@@ -157,8 +157,8 @@ class Automatic {
   // CRC that can never fit, so that it counts once: one 0x02 more for each. A word of BiSS C that
   // is all 0: 0x05 up to 0xF8, twice at most. With SpiCheck::kFull, beside an access and until its
   // registers are taken, it gets no such CRC: one disturbed bit of the address would change RDATA.
-  // Each read tells it then, until the next frame. When frames stay away: two 0x05 more, up to 0xFB and
-  // to 0xF4.
+  // Each read tells it then, until the next frame. When frames stay away: two 0x05 more, up to 0xFB
+  // and to 0xF4.
   //
   // With SpiCheck::kFull one disturbed bit of the first status may hide a new frame: this call says
   // kNoData, and the next one brings the word, if no later frame has overwritten it.

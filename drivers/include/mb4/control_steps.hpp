@@ -105,9 +105,10 @@ class ControlSteps {
   //   kCommand                   the command was not acknowledged; the chip is ready for the next
   //   kTimeout                   the access has not ended in time; BREAK was sent
   //   kTransport, kNotDetected   ... for the third time; or a write has failed. BREAK was sent
-  //   kCorrupted                 SpiCheck::kFull: no two looks at the end agree, a read of positions
-  //                              was kCorrupted meanwhile, or automatic frames run that nobody has
-  //                              started: BREAK was sent. Or the request at rest has gone elsewhere
+  //   kCorrupted                 SpiCheck::kFull: a read of positions was kCorrupted meanwhile, or
+  //                              the request at rest has gone elsewhere. Or no two looks at the end
+  //                              agree, or automatic frames run that nobody has started: BREAK was
+  //                              sent
   //   kWrongMode                 nothing was begun
   //
   // Time limit, checked by poll(). With automatic frames: the time of the frames needed, plus
@@ -130,7 +131,7 @@ class ControlSteps {
 
   // Sends BREAK: the access ends at once. Registers of the slave may be changed already. Automatic
   // frames stop as well; Automatic::next() or restart() starts them again. One transfer,
-  // and the request at rest if an access ran. kTransport.
+  // and the request at rest if an access ran. kTransport; kCorrupted as of poll(), for the request.
   Result<void> abort() {
     detail::Procedures::plan_stop(chip_, chip_.own, regs::BREAK::encode<1>(),
                                   chip_.automatic || chip_.restart);

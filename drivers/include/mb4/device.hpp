@@ -79,7 +79,7 @@ class Device {
   //   0x07        0xF4, 0xF5   BREAK, clock source and interface
   //   0x02 three  0xC0..0xF2   all other registers; clears SVALID 1 to 8
   //   0x03 three  0xC0..0xF5   comparison of all bits that can be written, and of VERSION
-  //   0x05        status       which no stuck MISO makes; nothing runs, and SVALID is 0
+  //   0x05        status       which no stuck MISO makes; 0xF4 and SVALID are 0
   // One more before them, which only reads, if actuators are on both channels and these have
   // frames of different length: VERSION and REVISION.
   // Not touched: kInvalidConfig. Read only: kInvalidConfig for what this revision cannot do
@@ -189,7 +189,8 @@ class Device {
   //  * SpiCheck::kFull adds at most 4: 1 for data again where no stored CRC proves it or an address
   //    was sent (0x03), 1 status after the data, 1 or 2 after SVALID is cleared.
   //  * After a failed read that has made a transfer, 2 more and 100 us, because its frame may still
-  //    run. BiSS B adds register_timeout_us. SpiCheck::kFull: 4 more, a status and SVALID = 0 twice.
+  //    run. BiSS B adds register_timeout_us. SpiCheck::kFull: 4 more, a status and SVALID = 0
+  //    twice.
   //  * Each poll is 6 bytes. frame_timeout_us(config) limits p: at most 4 t + 132 polls for t
   //    microseconds, even if the clock stands still.
   // In order:
@@ -265,7 +266,8 @@ class Device {
 
   // Writes BREAK (page 33): it aborts a frame, a control communication and AGS at once; MA and the
   // error flags return to 1. The configuration stays. One transfer; one or two more if it ends a
-  // control communication. kTransport. The next read first waits 100 us for the slaves' timeout.
+  // control communication. kTransport; kCorrupted as of Control::poll(), for the request at rest.
+  // The next read first waits 100 us for the slaves' timeout.
   Result<void> break_transmission() {
     detail::Procedures::plan_stop(chip_, chip_.own, regs::BREAK::encode<1>(), false);
     return detail::Blocking::run(chip_, chip_.own);
@@ -273,7 +275,7 @@ class Device {
 
   // Begins break_transmission() without a transfer: one step of one frame, or up to three. It ends
   // an access of another Operation, whose finish() then says so (operation.hpp). kBusy: the
-  // operation of this object has not ended. operation.result(): kTransport.
+  // operation of this object has not ended. operation.result(): kTransport, kCorrupted.
   Result<void> plan_break(Operation& operation) {
     const Result<void> allowed = detail::Procedures::possible(operation, Error::kNone);
     if (allowed) {

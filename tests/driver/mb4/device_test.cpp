@@ -137,11 +137,24 @@ TEST(ConfigureFailure, AnyWrongBit_IsVerifyWithItsAddress) {
 // bring a word from before.
 TEST_F(Configure, SvalidStays_IsVerify) {
   mb4test::expect_image(bus, mb4test::configuration(), mb4test::read_back(), 0x00, mb4test::kAll,
-                        0x02);
+                        mb4test::status(0xFB, 0x02));
   const mb4::ErrorInfo info = device.configure(encoder26()).info();
   EXPECT_EQ(info.code, Error::kVerify);
   EXPECT_EQ(info.address(), 0xF1);
   EXPECT_FALSE(device.configured());
+}
+
+// A BREAK that was lost: an instruction waits, or a frame still runs. The first read then begins
+// with BREAK.
+TEST_F(Configure, SomethingRuns_IsVerifyOrBreak) {
+  mb4test::expect_image(bus, mb4test::configuration(), mb4test::read_back(), 0x00, mb4test::kAll,
+                        mb4test::status(0xFB, 0x00, 0x01));
+  EXPECT_EQ(device.configure(encoder26()).info().address(), 0xF4);
+  mb4test::expect_image(bus, mb4test::configuration(), mb4test::read_back(), 0x00, mb4test::kAll,
+                        mb4test::status(0xFA, 0x00));
+  ASSERT_TRUE(device.configure(encoder26()).ok());
+  bus.expect_write(mb4test::kBreak).fail_last();
+  EXPECT_EQ(device.read_frame().error(), Error::kTransport);
 }
 
 TEST_F(Configure, OtherVersion_IsNotDetected) {

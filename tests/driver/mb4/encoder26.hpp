@@ -67,7 +67,7 @@ inline constexpr unsigned kAll = 0;
 // parts each. They end with the part that holds the register at `last`, in the order of comparison.
 inline void expect_image(StrictBus& bus, const Bytes& image, const Bytes& answer,
                          std::uint8_t interface_byte = 0x00, unsigned last = kAll,
-                         std::uint8_t valid = 0x00) {
+                         const Bytes& proof = {0x00, 0xFB, 0, 0, 0, 0}) {
   const auto part = [](const Bytes& all, int from, int size) {
     return Bytes(all.begin() + from, all.begin() + from + size);
   };
@@ -85,7 +85,7 @@ inline void expect_image(StrictBus& bus, const Bytes& image, const Bytes& answer
     const int offset = static_cast<int>(last) - 0xC0;
     if (last != kAll && offset >= from && offset < from + 18) return;
   }
-  bus.expect_read({0x05, 0, 0, 0, 0, 0}, {0x00, 0xFB, valid, 0, 0, 0});
+  bus.expect_read({0x05, 0, 0, 0, 0, 0}, proof);
 }
 
 // The transfers of configure(encoder26()), or of a configuration that differs from it in the

@@ -994,19 +994,22 @@ TEST_F(Access, RequestAtRestLost_IsCorrupted) {
     EXPECT_EQ(device.automatic().running(), once);
     if (!once) restart_after_rest();
   }
-  // The same behind BREAK, and behind a BREAK without an access in steps.
-  configure(mb4::SpiCheck::kFull);
-  start();
-  read();
-  EXPECT_FALSE(step(kAsk, kAsked));
-  bus.expect_write({0x07, 0x80});
-  bus.expect_write(kRest);
-  bus.expect_read(kReadRequest, kAsked[0]);
-  bus.expect_read(kReadRequest, kAsked[0]);
-  bus.expect_proven(kRest);
-  EXPECT_EQ(device.control().abort().error(), Error::kCorrupted);
-  EXPECT_TRUE(step({kFrameAgs, kReadStatus}, {kRunsAgs}));
-  ends_with(Error::kWrongMode);
+  // The same behind BREAK.
+  for (const bool abort : {true, false}) {
+    configure(mb4::SpiCheck::kFull);
+    start();
+    read();
+    EXPECT_FALSE(step(kAsk, kAsked));
+    bus.expect_write({0x07, 0x80});
+    bus.expect_write(kRest);
+    bus.expect_read(kReadRequest, kAsked[0]);
+    bus.expect_read(kReadRequest, kAsked[0]);
+    bus.expect_proven(kRest);
+    EXPECT_EQ(abort ? device.control().abort().error() : device.break_transmission().error(),
+              Error::kCorrupted);
+    EXPECT_TRUE(step({kFrameAgs, kReadStatus}, {kRunsAgs}));
+    ends_with(Error::kWrongMode);
+  }
 }
 
 // It was away before a recovery, and is not in the chip behind it.
@@ -1056,9 +1059,9 @@ TEST_F(Access, DisturbedEnd_IsReadAgain) {
   read();
   EXPECT_FALSE(step(kAsk, kAsked));
   EXPECT_FALSE(step({kFrameAgs, kReadStatus}, {kRunsAgs}));
-  EXPECT_FALSE(step({kReadStatus}, {kDoneAgs}));
-  EXPECT_FALSE(step({kReadStatus}, {failed}));
-  EXPECT_FALSE(step({kReadStatus}, {kDoneAgs}));
+  for (const Bytes& look : {kDoneAgs, failed, kDoneAgs, failed}) {
+    EXPECT_FALSE(step({kReadStatus}, {look}));
+  }
   EXPECT_TRUE(step({kBreak, kRest, kReadRequest}, {kRestBack}));
   ends_with(Error::kCorrupted);
 }
@@ -1095,14 +1098,14 @@ TEST_F(Access, CorruptedReadBesideIt_IsCorrupted) {
   read_sees_stray();
   EXPECT_FALSE(step({kReadStatus}, {kDoneAgs}));
   EXPECT_FALSE(step({kReadStatus}, {kDoneAgs}));
-  EXPECT_TRUE(step({kBreak, kRest, kReadRequest}, {kRestBack}));
+  EXPECT_TRUE(step(kAtRest, {kRestBack}));
   ends_with(Error::kCorrupted);
-  bus.expect_write({0x07, 0x80, 0x00});
-  bus.expect_read(kReadStatus, status(0xFF, 0x00, 0x00));
-  bus.expect_write(kClearValid1);
-  expect_start();
-  ASSERT_TRUE(device.automatic().restart().ok());
+  EXPECT_TRUE(device.automatic().running());
+  // The next one begins with BREAK and a new start.
   read();
+  EXPECT_FALSE(step({{0x07, 0x80, 0x00}, kReadStatus}, {status(0xFF, 0x00, 0x00)}));
+  EXPECT_FALSE(
+      step({kClearValid1, kAgs, kClearValid1, kClearValid1, kReadStatus}, {kProven}, true, kPause));
   access_ends();
   EXPECT_FALSE(step(kEnd, kEnded));
   EXPECT_FALSE(step(kAtRest, {kRestBack}));

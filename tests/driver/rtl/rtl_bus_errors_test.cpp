@@ -45,7 +45,7 @@ TEST(DriverCallErrors, MissedFrames_AreNoData) {
   prepare(chip, State::kConfigured);
   chip.bus.plan({FaultKind::kLost, 0, 0, 0});
   EXPECT_EQ(chip.device.read_frame().error(), Error::kNoData);
-  chip.bus.plan({FaultKind::kLost, 2, 2, 0});  // behind BREAK and SVALID
+  chip.bus.plan({FaultKind::kLost, 4, 4, 0});  // behind BREAK, its status and SVALID twice
   Frame frame;
   ASSERT_TRUE(chip.device.read_all(frame).ok());
   EXPECT_EQ(frame[1].error(), Error::kNoData);

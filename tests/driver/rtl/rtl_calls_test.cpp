@@ -124,23 +124,23 @@ const Call kCalls[] = {
     {"Take", State::kReadEnded,
      [](FaultyChip& c) { return bytes(c.device.control().take(buffer), kSerial); }, kNo, kNo},
     {"Abort", State::kReadBegun, [](FaultyChip& c) { return c.device.control().abort().error(); },
-     Error::kNone, Error::kNone},
+     Error::kCorrupted, Error::kCorrupted},
     {"ReadRegisters", State::kConfigured,
      [](FaultyChip& c) {
        return bytes(c.device.control().read_registers({1, 0}, 0x44, buffer), kSerial);
      },
-     Error::kCorrupted, Error::kCorrupted, 4, 4, true},
+     Error::kCorrupted, Error::kCorrupted, 4, 5, true},
     {"WriteRegisters", State::kConfigured,
      [](FaultyChip& c) {
        return c.device.control().write_registers({1, 0}, 0x60, kBytes).error();
      },
-     Error::kCorrupted, Error::kCorrupted, 1, 3, true},
+     Error::kCorrupted, Error::kCorrupted, 1, 4, true},
     {"Send", State::kConfigured,
      [](FaultyChip& c) { return c.device.control().send(activate()).error(); }, Error::kCorrupted,
-     Error::kCorrupted, 1, 3, true},
+     Error::kCorrupted, 1, 4, true},
     {"Activate", State::kConfigured,
      [](FaultyChip& c) { return c.device.control().activate().error(); }, Error::kCorrupted,
-     Error::kCorrupted, 1, 3, true},
+     Error::kCorrupted, 1, 4, true},
     {"FieldGet", State::kFresh,
      [](FaultyChip& c) {
        const auto value = c.device.fields().get<regs::VERSION>();

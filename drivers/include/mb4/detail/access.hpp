@@ -471,7 +471,7 @@ inline Result<void> Procedures::poll(ChipState& chip, Operation& op, std::uint32
   ControlState& state = chip.control;
   const Status before = op.status_;
   if (const Result<void> seen = look(op); !seen) {
-    if (++op.bad_ == kBadLooks) {
+    if (++op.bad_ >= kBadLooks) {
       return seen;
     }
     again(op, now_us);
@@ -487,7 +487,7 @@ inline Result<void> Procedures::poll(ChipState& chip, Operation& op, std::uint32
     const bool decides = !state.biss_b || state.first_frame || op.limit_.over;
     // One disturbed bit must not end the access, nor hide how it has ended.
     if (decides && chip.checks_all() && !(op.stage_ == kPollAgain && agrees(chip, op, before))) {
-      if (++op.bad_ == kBadLooks) {
+      if (++op.bad_ > kBadLooks) {
         return Error::kCorrupted;
       }
       add_poll(op);
@@ -551,12 +551,14 @@ inline bool Procedures::agrees(const ChipState& chip, const Operation& op, const
 // The access has ended; how?
 inline Result<void> Procedures::conclude(ChipState& chip, Operation& op) {
   ControlState& state = chip.control;
-  // A read whose bytes were disturbed may have changed RDATA; a disturbed instruction of this
-  // access may have started automatic frames.
-  if (chip.checks_all() && (state.stray || (!chip.automatic && op.status_.instruction() != 0))) {
+  // 0x08, the instruction of a frame, and 0x09, which begins automatic frames, differ in one bit.
+  if (chip.checks_all() && !chip.automatic && op.status_.instruction() != 0) {
     return Error::kCorrupted;
   }
-  const ErrorInfo error = access_error(chip, state.kind, op.status_);
+  // A read whose bytes were disturbed may have changed RDATA.
+  const ErrorInfo error = chip.checks_all() && state.stray
+                              ? ErrorInfo(Error::kCorrupted)
+                              : access_error(chip, state.kind, op.status_);
   op.cause_ = error;
   state.readable = error.code == Error::kNone && state.kind == ControlState::Kind::kRead
                        ? state.count

@@ -93,24 +93,22 @@ inline Result<void> Procedures::configuration_step(ChipState& chip, Operation& o
   }
   if (done && op.plan_.frames == 0 && op.count_ == kConfigures) {
     chip.configured = true;
-    chip.recover_first = false;
+    // Without a system clock EOT is 0 too; then BREAK changes nothing.
+    chip.recover_first = !op.status_.idle();
   }
   return done;
 }
 
-// The first frame needs a chip in which no frame runs or waits, and SVALID = 0: BREAK may be lost,
-// and a disturbed 1 in the place of SVALID changes nothing.
+// The first frame needs a chip that waits for nothing, and SVALID = 0: BREAK may be lost, and a
+// disturbed 1 in the place of SVALID changes nothing.
 [[nodiscard]] inline ErrorInfo at_rest(const ChipState& chip, const Status& status) {
   const unsigned valid = status.valid_flags() & unsigned{chip.sensor_flags};
-  if (status.instruction() != 0) {
-    return ErrorInfo::at_register(Error::kVerify, regs::kAddrInstr);
+  if (status.instruction() == 0 && valid == 0) {
+    return {};
   }
-  if (!status.idle()) {
-    return ErrorInfo::at_register(Error::kVerify, regs::kAddrStatus0);
-  }
-  return valid == 0 ? ErrorInfo()
-                    : ErrorInfo::at_register(
-                          Error::kVerify, valid > 0xFF ? regs::kAddrSvalidHi : regs::kAddrSvalidLo);
+  return ErrorInfo::at_register(Error::kVerify, status.instruction() != 0 ? regs::kAddrInstr
+                                                : valid > 0xFF            ? regs::kAddrSvalidHi
+                                                                          : regs::kAddrSvalidLo);
 }
 
 inline Result<void> Procedures::configure(ChipState& chip, Operation& op) {
