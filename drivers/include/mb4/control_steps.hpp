@@ -90,10 +90,10 @@ class ControlSteps {
   }
 
   // Reads the status once and does the next step of what was begun; it never waits. At most three
-  // transfers, seven with SpiCheck::kFull: the status; then, without automatic frames, the next
+  // transfers, eight with SpiCheck::kFull: the status; then, without automatic frames, the next
   // frame's instruction; at the end the request at rest, and SVALID = 0 without automatic frames.
-  // kFull reads the status of the end twice, RDATA1 for take(), and the request back, and clears
-  // SVALID twice. A failed end is sent again, up to twice. None if Automatic::poll() or
+  // kFull reads the status of the end twice, RDATA1 for take(), and the request and SVALID
+  // back. A failed end is sent again, up to twice. None if Automatic::poll() or
   // poll_slave() has seen since the last call that the access runs. Call it until it returns true
   // or an error.
   //

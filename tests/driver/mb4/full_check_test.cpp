@@ -345,7 +345,6 @@ TEST_F(FullCheck, WordByAddress_IsReadTwice) {
   // Automatic frames.
   bus.expect_write(kBreakAndInterface);
   bus.expect_read(kReadStatus, status(0xFB, 0x00));
-  bus.expect_write(clear);
   bus.expect_write(kAgs);
   bus.expect_write(clear);
   bus.expect_write(clear);

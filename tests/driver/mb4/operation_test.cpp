@@ -146,7 +146,6 @@ class OperationTest : public testing::Test {
     bus.expect_write({0x07, 0x80, 0x00});
     bus.expect_proven(kRest);
     bus.expect_read(kReadStatus, status(0xFF, 0x00, 0x00));
-    bus.expect_write(kClearValid1);
     expect_start();
     EXPECT_TRUE(device.automatic().restart().ok());
   }
@@ -212,11 +211,9 @@ TEST_F(Restart, Counted_WithCountsOnly) {
   EXPECT_TRUE(step({{0x07, 0x80, 0x00}, kReadStatus}, {}, false));
   ASSERT_TRUE(device.automatic().plan_restart(op).ok());
   EXPECT_FALSE(step({{0x07, 0x80, 0x00}, kReadStatus}, {status(0xFF, 0x00, 0x00)}));
-  EXPECT_TRUE(
-      step({kClearValid1, kAgs, kClearValid1, kClearValid1, kReadStatus}, {kProven}, true, kPause));
+  EXPECT_TRUE(step({kAgs, kClearValid1, kClearValid1, kReadStatus}, {kProven}, true, kPause));
   EXPECT_EQ(counts.restarts, 1U);
   expect_break();
-  bus.expect_write(kClearValid1);
   expect_start();
   ASSERT_TRUE(device.automatic().restart().ok());
   EXPECT_EQ(counts.restarts, 2U);
@@ -488,7 +485,6 @@ const Bytes kInitRuns = status(0xFA, 0x00, 0x10);
 const Bytes kRunsFrame = status(0xFA, 0x00, 0x04);
 const Bytes kBadFrame = status(0x6B, 0x00);  // nSCDERR = 0, SVALID1 = 0
 const Bytes kReadWord = join({{0x03, 0x00}, zeros(8)});
-const Bytes kReadData = join({{0x03, 0x00}, zeros(4)});  // no CRC is stored
 
 TEST_F(Initialize, Good_ReturnsTheDelay) {
   EXPECT_EQ(device.plan_initialize(op).error(), Error::kNotConfigured);
@@ -552,8 +548,8 @@ TEST_F(Initialize, WordNotSent_IsNoWord) {
     SpiCheck check;
     Bytes word;
     Error want;
-  } cases[] = {{SpiCheck::kOff, zeros(6), Error::kNoWord},
-               {SpiCheck::kOff, join({zeros(2), {1}, zeros(3)}), Error::kNone},
+  } cases[] = {{SpiCheck::kOff, zeros(10), Error::kNoWord},
+               {SpiCheck::kOff, join({zeros(2), {1}, zeros(7)}), Error::kNone},
                {SpiCheck::kCrc, crc_byte(0x3F), Error::kNoWord},
                {SpiCheck::kCrc, crc_byte(0x3E), Error::kNone},
                {SpiCheck::kCrc, zeros(10), Error::kNone},
@@ -563,7 +559,7 @@ TEST_F(Initialize, WordNotSent_IsNoWord) {
     configure(one.check);
     to_last_frame();
     EXPECT_FALSE(step({kReadStatus}, {kBadFrame}));
-    EXPECT_FALSE(step({one.check == SpiCheck::kOff ? kReadData : kReadWord}, {one.word}));
+    EXPECT_FALSE(step({kReadWord}, {one.word}));
     if (one.want != Error::kNone) {
       EXPECT_FALSE(step({kReadLines}, {zeros(10)}));  // the slave's timeout
       EXPECT_FALSE(step({kReadLines}, {kIdleLines}));
@@ -587,7 +583,7 @@ TEST_F(Initialize, LastFrameFails_IsSuccess) {
       EXPECT_TRUE(step({kClearValid1}, {}));
     } else if (fault == 1) {  // SL stays low: all bits are 0
       EXPECT_FALSE(step({kReadStatus}, {kBadFrame}));
-      EXPECT_FALSE(step({kReadData}, {zeros(6)}));
+      EXPECT_FALSE(step({kReadWord}, {zeros(10)}));
       EXPECT_FALSE(step({kReadLines}, {zeros(10)}));
       now_us += 133;
       EXPECT_FALSE(step({kReadLines}, {zeros(10)}));
@@ -1087,6 +1083,31 @@ TEST_F(Access, AutomaticFramesThatNobodyStarted_AreCorrupted) {
   ends_with(Error::kCorrupted);
 }
 
+// The frames of an access without automatic frames set SVALID. Where it stays the access is good,
+// and the next frame begins with BREAK.
+TEST_F(Access, EndWithoutAutomaticFrames_ProvesSvalid) {
+  for (const bool stays : {false, true}) {
+    configure(mb4::SpiCheck::kFull);
+    read();
+    EXPECT_FALSE(step(kAsk, kAsked));
+    EXPECT_FALSE(step({kFrame}, {}));
+    EXPECT_FALSE(step({kReadStatus}, {kOver}));
+    EXPECT_FALSE(step({kFrame}, {}));
+    EXPECT_FALSE(step({kReadStatus}, {kDone}));
+    EXPECT_FALSE(step({kReadStatus}, {kDone}));
+    EXPECT_FALSE(step(kEnd, kEnded));
+    EXPECT_FALSE(step(kAtRest, {kRestBack}));
+    const Bytes valid = status(0xFF, 0x02);
+    EXPECT_FALSE(step({kClearValid1, kReadStatus}, {valid}));  // it takes some system clocks
+    EXPECT_FALSE(step({kReadStatus}, {stays ? valid : kDone}));
+    EXPECT_FALSE(step(kTakeFirst, {{0, 0, 1, 2}, kDone}));
+    EXPECT_TRUE(step(kTakeAgain, {{0, 0, 1, 2}}));
+    ends_with(Error::kNone);
+    bus.expect_write(stays ? Bytes{0x07, 0x80, 0x00} : mb4test::kStartFrame).fail_last();
+    EXPECT_EQ(device.read_frame().error(), Error::kTransport);
+  }
+}
+
 // A read of positions whose bytes were disturbed may have changed RDATA while the access ran, or
 // before the registers are taken.
 TEST_F(Access, CorruptedReadBesideIt_IsCorrupted) {
@@ -1104,8 +1125,7 @@ TEST_F(Access, CorruptedReadBesideIt_IsCorrupted) {
   // The next one begins with BREAK and a new start.
   read();
   EXPECT_FALSE(step({{0x07, 0x80, 0x00}, kReadStatus}, {status(0xFF, 0x00, 0x00)}));
-  EXPECT_FALSE(
-      step({kClearValid1, kAgs, kClearValid1, kClearValid1, kReadStatus}, {kProven}, true, kPause));
+  EXPECT_FALSE(step({kAgs, kClearValid1, kClearValid1, kReadStatus}, {kProven}, true, kPause));
   access_ends();
   EXPECT_FALSE(step(kEnd, kEnded));
   EXPECT_FALSE(step(kAtRest, {kRestBack}));
@@ -1259,13 +1279,11 @@ TEST_F(Access, AfterACorruptedRead_BeginsWithBreakAndANewStart) {
     if (!lost) continue;
     ends_with(Error::kTransport);  // nothing has begun
     expect_break();
-    bus.expect_write(kClearValid1);
     expect_start();
     ASSERT_TRUE(device.automatic().restart().ok());
     read_sees_stray();
   }
-  EXPECT_FALSE(
-      step({kClearValid1, kAgs, kClearValid1, kClearValid1, kReadStatus}, {kProven}, true, kPause));
+  EXPECT_FALSE(step({kAgs, kClearValid1, kClearValid1, kReadStatus}, {kProven}, true, kPause));
   EXPECT_FALSE(step(kAsk, kAsked));
   EXPECT_TRUE(device.automatic().running());
   EXPECT_FALSE(step({kFrameAgs, kReadStatus}, {kRunsAgs}));
@@ -1358,12 +1376,11 @@ TEST_F(Access, ReleaseProven_NewStartToo) {
     EXPECT_FALSE(device.automatic().running());
     bus.expect_write({0x07, 0x80, 0x00});
     bus.expect_read(kReadStatus, status(0xFF, 0x00, 0x00));
-    bus.expect_write(kClearValid1);
     start();
     read_sees_stray();
     read();
     EXPECT_FALSE(step({{0x07, 0x80, 0x00}, kReadStatus}, {status(0xFF, 0x00, 0x00)}));
-    EXPECT_NE(step({kClearValid1, kAgs, kClearValid1, kClearValid1, kReadStatus},
+    EXPECT_NE(step({kAgs, kClearValid1, kClearValid1, kReadStatus},
                    {proven ? kProven : status(0xFB, 0x00, 0x21)}, true, kPause),
               proven);
     if (proven) {

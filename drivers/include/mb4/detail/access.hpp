@@ -325,7 +325,7 @@ inline Result<void> Procedures::access(ChipState& chip, Operation& op, std::uint
       return {};
     }
     case kRecover: {
-      const Result<void> done = recovered(chip, op);
+      const Result<void> done = recovered(chip, op, op.bad_ != 0);
       if (!done) {
         return done;
       }
@@ -443,8 +443,21 @@ inline Result<void> Procedures::access(ChipState& chip, Operation& op, std::uint
       if (state.armed) {
         return op.cause_;
       }
-      chip.recover_first = chip.automatic || op.cause_.error() == Error::kCorrupted;
+      if (!chip.automatic && chip.checks_all()) {
+        add_clear(chip, op);
+        return {};
+      }
+      chip.recover_first = chip.automatic;
       return ended(chip, op);
+    case kClear: {
+      const Result<void> cleared = clear_step(chip, op, now_us);
+      if (op.plan_.frames == 0) {
+        // Otherwise the next frame begins with BREAK.
+        chip.recover_first = !cleared || op.cause_.error() == Error::kCorrupted;
+        return ended(chip, op);
+      }
+      return {};
+    }
     default: {  // kStopped: an error that came before stays the result
       if (!rested(chip, op)) {
         return {};
@@ -580,14 +593,16 @@ inline void Procedures::add_first(Operation& op) {
   add_read(op, regs::kAddrRdata, 1);
 }
 
-// Without AGS the frames of the access have set SVALID, and the next single frame needs SVALID = 0;
+// Without AGS the frames of the access have set SVALID, and the next single frame needs SVALID = 0,
+// which SpiCheck::kFull proves in a step of its own behind this one;
 // where the chip would refuse it before the slaves' timeout is over, this time passes first. With
 // AGS the reads of positions clear the flags.
 inline void Procedures::add_end(const ChipState& chip, Operation& op) {
   op.stage_ = kRest;
   if (!chip.automatic) {
-    mb4_cyclic_add_clear(&op.plan_, chip.sensor_flags, 4);
-    clear_again(chip, op);
+    if (!chip.checks_all()) {
+      mb4_cyclic_add_clear(&op.plan_, chip.sensor_flags, 4);
+    }
     if (chip.config.frame_start != FrameStart::kWaitForLine) {
       op.plan_.pause_us = kLineRecoveryUs + kClockStepUs;
     }

@@ -188,10 +188,12 @@ struct Procedures {
     }
   }
   // The frames that follow come after the slaves' timeout. The first one clears the flags of frames
-  // that ran. kTransport; with SpiCheck::kFull kNotDetected and kCorrupted: 0xF4 is not 0 (a byte
-  // with SWBANK = 1 would clear the flags of the other bank), or the request at rest reads back
-  // differently; the next call sends it again.
-  [[gnu::noinline]] static Result<void> recovered(ChipState& chip, Operation& op) {
+  // that ran, unless it is proven by a start of automatic frames: `starts`. kTransport; with
+  // SpiCheck::kFull kNotDetected and kCorrupted: 0xF4 is not 0 (a byte with SWBANK = 1 would clear
+  // the flags of the other bank), or the request at rest reads back differently; the next call
+  // sends it again.
+  [[gnu::noinline]] static Result<void> recovered(ChipState& chip, Operation& op,
+                                                  bool starts = false) {
     Result<void> done = confirmed(chip, op, 0);
     if (done && chip.control.armed && chip.checks_all() && !rests(chip, op, 1)) {
       done = Error::kCorrupted;
@@ -200,7 +202,9 @@ struct Procedures {
       chip.control.armed = false;
       op.plan_.pause_us = chip.recovery_us();
       op.stage_ = kStart;
-      mb4_cyclic_add_clear(&op.plan_, chip.sensor_flags, 4);
+      if (!starts || !chip.checks_all()) {
+        mb4_cyclic_add_clear(&op.plan_, chip.sensor_flags, 4);
+      }
     }
     return done;
   }
@@ -393,7 +397,7 @@ struct Procedures {
   static Result<void> start_step(ChipState& chip, Operation& op, std::uint32_t now_us) {
     const bool breaks = op.stage_ == kRecover;
     const Result<void> done =
-        breaks ? recovered(chip, op) : confirmed(chip, op, regs::AGS::encode<1>());
+        breaks ? recovered(chip, op, true) : confirmed(chip, op, regs::AGS::encode<1>());
     if (done && breaks) {
       add_start(chip, op);
     } else if (done) {
