@@ -1240,7 +1240,9 @@ static inline uint8_t mb4_cyclic_watch(mb4_cyclic *read, mb4_plan *plan, uint8_t
   }
   if (!read->unproven || omitted) {
     code = MB4_TIMEOUT;
-  } else if ((with & MB4_WITH_BEATS) == 0 || code == MB4_NO_DATA) {
+  } else if ((with & MB4_WITH_BEATS) != 0 && code == MB4_NO_WORD) {
+    return code; /* this read has seen SL = 1 */
+  } else {
     code = MB4_CRC;
   }
   (void)mb4_cyclic_next(read, plan, MB4_STAGE_LINES, code);

@@ -333,13 +333,12 @@ TEST_F(Chain, AllZeroWithoutCrc_IsNoWord) {
   plan();
   EXPECT_TRUE(step({kHold, read_word, kReadStatus, kClearValid1AndRelease}, {zeros(5), kNone}));
   EXPECT_EQ(read.result().error(), Error::kNoData);
-  // No more frames end: the alarm says the same.
+  // No more frames end: the alarm says the same, and does not look at SL again, which may be 0 then
+  // because a frame runs.
   now_us += 16 * mb4::frame_timeout_us(device.config()) + 34;
   plan();
   EXPECT_FALSE(step({kHold, read_word, kReadStatus, kClearValid1AndRelease}, {zeros(5), kBad}));
-  EXPECT_FALSE(step(look, lines(0x01)));
-  EXPECT_TRUE(
-      step({join({{0x05}, zeros(12)}), kReadStatus}, {join({zeros(9), {0x01}, zeros(3)}), kBad}));
+  EXPECT_TRUE(step(look, lines(0x01)));
   EXPECT_EQ(read.result().error(), Error::kNoWord);
 }
 

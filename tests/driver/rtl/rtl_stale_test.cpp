@@ -167,16 +167,26 @@ TEST_P(DriverNoWord, DataSwitchedOff_IsToldByEachRead) {
   static_cast<void>(chip.device.automatic().poll(frame));
   mb4_counts counts{};
   chip.device.automatic().count(&counts);
+  // Both looks of a read on a bus of words may meet the slave's timeout, in which SL is 0: docs/
+  // driver.md, "Left to the user". On SPI and the parallel bus one look lasts longer.
+  const bool fast = mb4test::test_host() == "axi" || mb4test::test_host() == "wb";
+  unsigned bad = 0;
+  const auto judge = [&](Error error, int i) {
+    bad += error == Error::kCrc ? 1 : 0;
+    EXPECT_TRUE(error == Error::kNoWord || (fast && error == Error::kCrc))
+        << i << ": " << mb4::to_string(error);
+  };
   for (int i = 0; i < 20; ++i) {
     chip.simulator.advance(110 * sim::kPsPerUs);
-    EXPECT_EQ(chip.device.automatic().poll_slave(1).error(), Error::kNoWord) << i;
+    judge(chip.device.automatic().poll_slave(1).error(), i);
     chip.simulator.advance(110 * sim::kPsPerUs);
     // Without a stored CRC the alarm says it after a while: the last frame was bad.
     const mb4::Result<void> polled = chip.device.automatic().poll(frame);
-    EXPECT_EQ(polled ? frame[1].error() : polled.error(), Error::kNoWord) << i;
+    judge(polled ? frame[1].error() : polled.error(), i);
   }
-  EXPECT_EQ(counts.no_word, 40U);
-  EXPECT_EQ(counts.crc, 0U);
+  EXPECT_LE(bad, fast ? 4U : 0U);
+  EXPECT_EQ(counts.no_word, 40U - bad);
+  EXPECT_EQ(counts.crc, bad);
   // nSCDERR = 0 of the frame that was told may end the first wait at once.
   Error told = Error::kNoData;
   for (int i = 0; i < 2 && told == Error::kNoData; ++i) {

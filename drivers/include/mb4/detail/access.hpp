@@ -303,7 +303,8 @@ inline Result<void> Procedures::access_step(ChipState& chip, Operation& op, std:
 inline Result<void> Procedures::access(ChipState& chip, Operation& op, std::uint32_t now_us) {
   ControlState& state = chip.control;
   // These judge a failed transfer themselves.
-  const bool own = op.stage_ >= kFirst || op.stage_ == kPoll || op.stage_ == kPollAgain;
+  const bool own =
+      op.stage_ >= kFirst || op.stage_ == kPoll || op.stage_ == kPollAgain || op.stage_ == kClear;
   if (!op.good_ && !own) {
     return Error::kTransport;
   }
