@@ -239,25 +239,35 @@ TEST_P(DriverHealth, DeadLineAfterABadFrame_IsTimeout) {
   }
 }
 
-// A chip that was reset sets no flag: FREQAGS and all slaves are 0. 16 periods are too long.
+// A chip that was reset sets no flag: FREQAGS and all slaves are 0. Frames of this configuration
+// come back to back. The alarm comes after 16 periods, with the quirk earlier, because the chip
+// says that it leaves out frames. At some phases, with kFull at more, a frame ends while the bank
+// is held for the look at the lines; then SWBANKFAIL says that frames end, and the alarm comes with
+// a later tick (automatic.hpp).
 TEST_P(DriverHealth, ChipReset_IsTimeout) {
-  chip.simulator.advance(250 * sim::kPsPerUs);
-  ASSERT_TRUE(chip.device.automatic().poll_slave(1).ok());
-  const std::array<std::uint8_t, 48> zeros{};
-  ASSERT_TRUE(chip.device.opcodes().write_registers(0xC0, zeros).ok());
-  Error last = Error::kNone;
-  unsigned ticks = 0;
-  for (; ticks < 80 && last != Error::kTimeout; ++ticks) {
-    chip.simulator.advance(100 * sim::kPsPerUs);
-    last = chip.device.automatic().poll_slave(1).error();
+  constexpr unsigned kPhases = 20;
+  unsigned late = 0;
+  for (unsigned phase = 0; phase < kPhases; ++phase) {
+    Chip one{two_channels(GetParam().omits)};
+    ASSERT_TRUE(one.device.configure(config(GetParam().check)).ok());
+    ASSERT_TRUE(one.device.automatic().start().ok());
+    one.simulator.advance((250'000 + 730 * phase) * sim::kPsPerNs);
+    ASSERT_TRUE(one.device.automatic().poll_slave(1).ok());
+    const std::array<std::uint8_t, 48> zeros{};
+    ASSERT_TRUE(one.device.opcodes().write_registers(0xC0, zeros).ok());
+    Error last = Error::kNone;
+    unsigned ticks = 0;
+    for (; ticks < 80 && last != Error::kTimeout; ++ticks) {
+      one.simulator.advance(100 * sim::kPsPerUs);
+      last = one.device.automatic().poll_slave(1).error();
+    }
+    EXPECT_EQ(last, Error::kTimeout) << phase;
+    // The last good frame may come a tick or two after the reset.
+    EXPECT_GE(ticks, GetParam().omits ? 2U : 16U) << phase;
+    EXPECT_LE(ticks, 64U + 3U) << phase;
+    late += ticks > 16U + 3U ? 1 : 0;
   }
-  EXPECT_EQ(last, Error::kTimeout);
-  // The last good frame may come a tick or two after the reset. With the quirk the chip says
-  // earlier that it leaves out frames.
-  // Frames of the lost configuration come back to back. By the phase one ends while the bank is
-  // held; then SWBANKFAIL makes the limit four times as long (automatic.hpp).
-  EXPECT_LE(ticks, 64U + 3U);
-  EXPECT_GE(ticks, GetParam().omits ? 2U : 16U);
+  EXPECT_LE(late, kPhases / 2);
 }
 
 // Frames that come late, at a tenth of the loop's rate, and loops slower than the frames: no alarm.
