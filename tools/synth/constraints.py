@@ -1,13 +1,16 @@
 #!/usr/bin/env python3
 # SPDX-FileCopyrightText: 2026 The openmb4 authors
 # SPDX-License-Identifier: Apache-2.0
-"""Timing constraints of mb4_core, mb4_axil and mb4_wb, with each preset, for Vivado, Quartus and Diamond.
+"""Timing constraints of mb4_core, mb4_axil and mb4_wb, with each preset, and of biss_axi, for Vivado, Quartus and
+Diamond.
 
-  constraints.py FOLDER             writes rtl/mb4/constraints/TOP.xdc, TOP_quartus.sdc, TOP_diamond.sdc for the full
-                                    chip, and PRESET/TOP.xdc ... for the other presets, from crossings.toml there
+  constraints.py FOLDER             writes rtl/ROOM/constraints/TOP.xdc, TOP_quartus.sdc, TOP_diamond.sdc for the full
+                                    chip and for biss_axi, and PRESET/TOP.xdc ... for the other presets of the chip,
+                                    from crossings.toml there
   constraints.py FOLDER --check     the files are what it would write; each register and port that a file names exists
-                                    in the netlist of its preset; each path between two clocks there has exactly one
-                                    line; the table has each row of docs/crossings.md, and no other
+                                    in the netlist of its preset; each path between two clocks, and from an
+                                    asynchronous port, has exactly one line there; the tables have each row of
+                                    docs/crossings.md, and no other
 
 FOLDER is for the netlists, which Yosys makes from the RTL.
 """
@@ -25,27 +28,51 @@ sys.path.insert(0, str(Path(__file__).resolve().parent))
 import project  # noqa: E402
 import yosys  # noqa: E402
 
-FOLDER = project.RTL / "mb4" / "constraints"
-TABLE = FOLDER / "crossings.toml"
 PAGE = project.ROOT / "docs" / "crossings.md"
 # Top: {domain: (clock port, default period in ns)}
 TOPS = {"mb4_core": {"core": ("clk_i", 50), "host": ("sclk_i", 20)},
         "mb4_axil": {"core": ("clk_i", 50), "host": ("s_axi_aclk", 10)},
         "mb4_wb": {"core": ("clk_i", 50), "host": ("wb_clk_i", 10)}}
+AXI_TOPS = {"biss_axi": {"host": ("axi_aclk", 10)}}
+# Room in rtl/: its tops.
+ROOMS = {"mb4": TOPS, "axi": AXI_TOPS}
+CLOCKS = {**TOPS, **AXI_TOPS}
+# With these biss_axi has a path from each asynchronous port. Other values take paths away only.
+AXI_PARAMETERS = {"BISS_CHANNEL_WIDTH": 2, "EXTRAS": 0x1FF, "ALIGN_LATCH": 1, "POR_PIN": 1}
 FILES = {"Vivado": "{}.xdc", "Quartus": "{}_quartus.sdc", "Diamond": "{}_diamond.sdc"}
 PREFIX = re.compile(r"^(u_bus\.)?(u_engine\.)?")
 CONSTANTS = {"port:quirks_i"}
 HEAD = """# SPDX-FileCopyrightText: 2026 The openmb4 authors
 # SPDX-License-Identifier: Apache-2.0
 #
-# {tool}: constraints of {top} with the preset {preset}, made by tools/synth/constraints.py from crossings.toml: do not
+# {tool}: constraints of {top} with {features}, made by tools/synth/constraints.py from crossings.toml: do not
 # edit. Not run in {tool}. The names of clocks and periods in the first lines are yours to change, as are ports if {top}
 # is not the top of the design. The lines are point to point: with set_clock_groups the tool would ignore the delays.
 """
 
 
+def folder_of(room):
+    return project.RTL / room / "constraints"
+
+
+def room_of(top):
+    return next(room for room, tops in ROOMS.items() if top in tops)
+
+
+def tables():
+    """The lines of all rooms, each with its tops."""
+    return [{"tops": list(tops), **line} for room, tops in ROOMS.items()
+            for line in tomllib.loads((folder_of(room) / "crossings.toml").read_text(encoding="utf-8"))["line"]]
+
+
+def cores():
+    """(preset, top, parameters) of each netlist. biss_axi has no presets and is "full"."""
+    return [(preset, top, {"Features": features}) for preset, features in project.presets().items() for top in TOPS] + \
+        [("full", top, AXI_PARAMETERS) for top in AXI_TOPS]
+
+
 def lines_of(top, table):
-    return [line for line in table if "none" not in line and top in line.get("tops", TOPS)]
+    return [line for line in table if "none" not in line and top in line["tops"]]
 
 
 def pattern(name):
@@ -60,10 +87,11 @@ def matches(names, register):
 # ---- netlist -------------------------------------------------------------------------------------
 
 
-def netlist(top, features, folder):
+def netlist(top, parameters, folder):
     folder.mkdir(parents=True, exist_ok=True)
+    room = room_of(top)
     status, text = yosys.execute(
-        yosys.read() + yosys.choose(top, {"Features": features}) + [f"hierarchy -check -top {top}", "proc", "flatten",
+        yosys.read(project.listed(project.RTL / room / f"{room}.f")) + yosys.choose(top, parameters) + [f"hierarchy -check -top {top}", "proc", "flatten",
                         "opt_expr", "opt_clean", "memory -nomap", "opt_clean", f"rename -top {top}",
                         f"write_json {top}.json"], folder, top)
     if status != 0:
@@ -76,7 +104,7 @@ class Netlist:
 
     def __init__(self, top, module):
         self.top = top
-        self.clocks = TOPS[top]
+        self.clocks = CLOCKS[top]
         self.ports = set(module["ports"])
         self.registers = set()   # with their whole names, memories among them
         # {(from, domain of the receiver): registers that receive}. A port is "port:NAME".
@@ -139,7 +167,7 @@ class Netlist:
     def crossings(self, asynchronous):
         """(from, domain, receiver) of each path that needs a line."""
         for (source, clock), receivers in sorted(self.paths.items()):
-            if source.startswith("port:") and source not in asynchronous and (
+            if source.startswith("port:") and not matches(asynchronous, source) and (
                     clock == "host" or source in CONSTANTS):
                 continue   # a port of the host's own interface, or a constant
             for receiver in sorted(receivers):
@@ -213,7 +241,7 @@ def fits(tool, thing, clock, name):
     if kind == "clocks":
         return patterns == [clock]
     if name.startswith("port:"):
-        return kind == "ports" and name.removeprefix("port:") in patterns
+        return kind == "ports" and any(fnmatch.fnmatchcase(name.removeprefix("port:"), pattern) for pattern in patterns)
     return kind != "ports" and any(
         all(fnmatch.fnmatchcase(form, pattern) for form in tool_names(tool, name)) for pattern in patterns)
 
@@ -227,7 +255,7 @@ def file_findings(name, tool, text, netlist, table):
         things = [collection(found.group(0)) for found in COLLECTION.finditer(command)]
         for kind, patterns in things:
             for pattern in patterns:
-                if kind == "ports" and pattern not in netlist.ports:
+                if kind == "ports" and not fnmatch.filter(netlist.ports, pattern):
                     findings.append(f"{name}: there is no port {pattern}")
                 elif kind in ("cells", "registers") and not any(
                         fits(tool, (kind, [pattern]), None, register) for register in netlist.registers):
@@ -273,8 +301,9 @@ set_output_delay -clock host -min 0.0 [get_ports miso_o]
 
 
 def text(tool, top, preset, lines):
-    out = [HEAD.format(tool=tool, top=top, preset=preset)]
-    for kind, (port, period) in TOPS[top].items():
+    features = f"the preset {preset}" if top in TOPS else "any parameters"
+    out = [HEAD.format(tool=tool, top=top, features=features)]
+    for kind, (port, period) in CLOCKS[top].items():
         out += [f"set {kind}_period {period}.0",
                 f"create_clock -name {kind} -period ${kind}_period [get_ports {port}]"]
     if top == "mb4_core":
@@ -300,7 +329,7 @@ def files(table, netlists):
     """{path: (tool, netlist, what stands in it)}"""
     found = {}
     for (preset, top), module in netlists.items():
-        folder = FOLDER if preset == "full" else FOLDER / preset
+        folder = folder_of(room_of(top)) / ("" if preset == "full" else preset)
         lines = [line for line in (present(line, module) for line in lines_of(top, table)) if line]
         for tool, name in FILES.items():
             found[folder / name.format(top)] = (tool, module, text(tool, top, preset, lines))
@@ -351,20 +380,20 @@ def main():
     parser.add_argument("folder", type=parser.folder)
     parser.add_argument("--check", action="store_true")
     arguments = parser.parse_args()
-    table = tomllib.loads(TABLE.read_text(encoding="utf-8"))["line"]
-    netlists = {(preset, top): Netlist(top, netlist(top, features, arguments.folder / preset))
-                for preset, features in project.presets().items() for top in TOPS}
+    table = tables()
+    netlists = {(preset, top): Netlist(top, netlist(top, parameters, arguments.folder / preset))
+                for preset, top, parameters in cores()}
     made = files(table, netlists)
     if not arguments.check:
         for path, (_, _, what) in made.items():
-            path.parent.mkdir(exist_ok=True)
+            path.parent.mkdir(parents=True, exist_ok=True)
             path.write_text(what, encoding="utf-8")
         return
     findings = page_findings(table, PAGE.read_text(encoding="utf-8"))
-    for top in TOPS:
+    for top in CLOCKS:
         findings += table_findings(table, netlists["full", top])
     for path, (tool, module, what) in made.items():
-        name = path.relative_to(FOLDER)
+        name = path.relative_to(project.RTL)
         if not path.exists():
             findings.append(f"{name}: is missing")
             continue
@@ -372,8 +401,8 @@ def main():
         if there != what:
             findings.append(f"{name}: is not what tools/synth/constraints.py writes")
         findings += file_findings(name, tool, there, module, table)
-    others = {path for path in FOLDER.rglob("*.*dc") if path not in made}
-    findings += [f"{path.relative_to(FOLDER)}: no tool reads it" for path in sorted(others)]
+    others = {path for room in ROOMS for path in folder_of(room).rglob("*.*dc") if path not in made}
+    findings += [f"{path.relative_to(project.RTL)}: no tool reads it" for path in sorted(others)]
     if not findings:   # the planted faults need a table and files without one
         findings = self_test(table, made, netlists)
     project.finish(findings, f"{len(made)} files: each name exists, each path between clocks has one line, planted "
