@@ -289,16 +289,14 @@ module axi_channel #(
       end
       BROKEN: begin
         // The encoder is in the middle of its word: SLO does not show when its timeout begins. The
-        // timeout cannot begin before MA rests.
-        count_d = rests ? count_q + CountW'(!limit) : '0;
+        // timeout cannot begin before MA rests (below).
+        count_d = count_q + CountW'(!limit);
         if (limit && rests) state_d = IDLE;
       end
       default: state_d = IDLE;
     endcase
-    if (fail) begin
-      state_d = breaks ? BROKEN : TIMEOUT;
-      count_d = '0;
-    end
+    if (fail) state_d = breaks ? BROKEN : TIMEOUT;
+    if (fail || (state_q == BROKEN && !rests)) count_d = '0;
   end
 
   always_comb begin

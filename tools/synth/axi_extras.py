@@ -17,7 +17,7 @@ sys.path.insert(0, str(HERE))
 import project  # noqa: E402
 import yosys  # noqa: E402
 
-MOST_LUT4 = 566
+MOST_LUT4 = 563
 CHANNELS = (1, 4)
 # Name and the value of EXTRAS; each of them but ALIGN_LATCH, the parameter of its own, has the page, bit 0.
 EXTRAS = {
