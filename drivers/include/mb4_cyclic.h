@@ -986,9 +986,10 @@ static inline void mb4_cyclic_judge(mb4_cyclic *read, uint16_t missing, bool new
 
 /* Marks the bad words of the held bank, so that they count once; the next frame overwrites them.
  * FULL: not where one disturbed bit of the address would change a register of an access. */
-static inline void mb4_cyclic_mark(const mb4_cyclic *read, mb4_plan *plan, uint8_t with) {
+static inline void mb4_cyclic_mark(mb4_cyclic *read, mb4_plan *plan, uint8_t with) {
   uint8_t i = 0;
   if ((with & MB4_WITH_FULL) != 0 && read->spi_check >= MB4_SPI_CHECK_FULL && read->access) {
+    read->bad = false; /* it may be the bad word of before: no proof that frames come */
     return;
   }
   for (; i < mb4_cyclic_count(read, with); ++i) {

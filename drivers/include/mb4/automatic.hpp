@@ -64,7 +64,7 @@ class Automatic {
   explicit constexpr Automatic(detail::Chip<Bus, Clock>& chip) : chip_(chip) {}
 
   // Sets AGS = 1. One transfer; after a failed read and after stop() 2 more and 100 us (BREAK,
-  // SVALID; BiSS B adds register_timeout_us). SpiCheck::kFull: 4, or 6 with BREAK.
+  // SVALID; BiSS B adds register_timeout_us). SpiCheck::kFull: 4, or 7 with BREAK.
   // Not touched: kNotConfigured, kWrongMode (AGS is on already), kBusy, kUnsupported with
   // kSingleBank. Touched: kTransport, with SpiCheck::kFull kNotDetected and kCorrupted
   // too (AGS may be on; call stop() or start() again).
@@ -110,7 +110,7 @@ class Automatic {
   }
 
   // Starts automatic frames again (table 69): BREAK, 100 us for the slaves' timeout, SVALID = 0,
-  // AGS = 1. BiSS B adds register_timeout_us. Three transfers, with SpiCheck::kFull six. Not for
+  // AGS = 1. BiSS B adds register_timeout_us. Three transfers, with SpiCheck::kFull seven. Not for
   // interrupts, because it waits. Not touched, frames that run go on: kNotConfigured, kBusy,
   // kUnsupported. kTransport, with SpiCheck::kFull kNotDetected and kCorrupted too: next() then
   // tries again. It counts: count().

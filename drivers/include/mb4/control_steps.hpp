@@ -63,15 +63,16 @@ namespace mb4 {
 // another register (verify()); it is sent again.
 //
 // Registers go in parts of eight, each in a transfer of its own. After a failed call BREAK comes
-// first, before anything of the access is written: two transfers and 100 us more, if no automatic
-// frames run.
+// first, before anything of the access is written: two transfers and 100 us more, three with
+// SpiCheck::kFull, if no automatic frames run.
 template <typename Bus, typename Clock>
 class ControlSteps {
  public:
   explicit constexpr ControlSteps(detail::Chip<Bus, Clock>& chip) : chip_(chip) {}
 
   // Begins to read `count` (1..64) registers from `address`; address + count <= 128. `slave`:
-  // channel 1 or 2, ID 0..7. Three transfers; four in BiSS B, and two for BREAK.
+  // channel 1 or 2, ID 0..7. Three transfers; four in BiSS B, and two for BREAK (SpiCheck::kFull:
+  // three).
   Result<void> begin_read(SlaveAddress slave, std::uint8_t address, std::size_t count) {
     return begin_access(slave, address, nullptr, count);
   }
@@ -90,12 +91,12 @@ class ControlSteps {
   }
 
   // Reads the status once and does the next step of what was begun; it never waits. At most three
-  // transfers, eight with SpiCheck::kFull: the status; then, without automatic frames, the next
-  // frame's instruction; at the end the request at rest, and SVALID = 0 without automatic frames.
-  // kFull reads the status of the end twice, RDATA1 for take(), and the request and SVALID
-  // back. A failed end is sent again, up to twice. None if Automatic::poll() or
-  // poll_slave() has seen since the last call that the access runs. Call it until it returns true
-  // or an error.
+  // transfers, eight with SpiCheck::kFull and nothing disturbed: the status; then, without
+  // automatic frames, the next frame's instruction; at the end the request at rest, and SVALID = 0
+  // without automatic frames. kFull reads the status of the end twice, RDATA1 for take(), and the
+  // request and SVALID back, and before each further frame the status twice. A failed end is sent
+  // again, up to twice. None if Automatic::poll() or poll_slave() has seen since the last call that
+  // the access runs. Call it until it returns true or an error.
   //
   //   false                      the access is still running; or the status could not be read, or
   //                              cannot come from an iC-MB4, for the first or second time in a row
@@ -124,7 +125,8 @@ class ControlSteps {
   // kInvalidArgument (not touched): out.size() is out of range, the last access was no successful
   // read, or another access has begun since. kTransport, kNotDetected. kCorrupted: the second
   // reading (SpiCheck::kFull) differs from the first, or the first register from what the end of
-  // the access has read, or a read of positions has been kCorrupted since.
+  // the access has read, or a read of positions has been kCorrupted since. The registers must be
+  // read again.
   Result<void> take(Span<std::uint8_t> out) {
     return detail::Blocking::take(chip_, out.data(), out.size());
   }

@@ -1153,7 +1153,8 @@ TEST_F(Full, StartUnproven_IsCorrupted) {
   bus.expect_write({0x07, 0x00});
   ASSERT_TRUE(device.automatic().stop().ok());
   bus.expect_write({0x07, 0x80, 0x00});
-  bus.expect_read(kReadStatus, {0, 0xFA, 0, 0, 0, 0x00});
+  bus.expect_write(kClearValid1);
+  bus.expect_read(kReadStatus, {0, 0xFB, 0, 0, 0, 0x00});
   bus.expect_write(kAgs);
   bus.expect_write(kClearValid1);
   bus.expect_write(kClearValid1);

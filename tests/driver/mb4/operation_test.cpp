@@ -11,6 +11,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <tuple>
 #include <vector>
 
 #include "mb4/device.hpp"
@@ -54,7 +55,7 @@ const Bytes kRest{0x02, 0xE2, 0x00, 0x00, 0x00, 0xC0};
 const Bytes kRestBack{0, 0, 0x00, 0x00, 0x00, 0xC0};
 const std::vector<Bytes> kAtRest{kRest, kReadRequest};
 // The end of a read: RDATA1, with which the registers are compared. Then the request at rest.
-const std::vector<Bytes> kEnd{{0x03, 0x80, 0x00}};
+const std::vector<Bytes> kEnd{{0x03, 0x80, 0x5A}};
 const std::vector<Bytes> kEnded{{0, 0, 1}};
 // SpiCheck::kFull: with a status, which no stuck line makes; and again.
 const std::vector<Bytes> kTakeFirst{{0x03, 0x80, 0x5A, 0x5A}, kReadStatus};
@@ -73,6 +74,7 @@ class OperationTest : public testing::Test {
   }
   void expect_break() {
     bus.expect_write({0x07, 0x80, 0x00});
+    bus.expect_write(kClearValid1);
     bus.expect_read(kReadStatus, status(0xFF, 0x00, 0x00));
   }
   void expect_start() {
@@ -134,6 +136,11 @@ class OperationTest : public testing::Test {
     to_delays();
     EXPECT_FALSE(step({mb4test::kStartFrame}, {}));
   }
+  // BREAK and a new start before the request.
+  void begins_with_break() {
+    EXPECT_FALSE(step({{0x07, 0x80, 0x00}, kClearValid1, kReadStatus}, {status(0xFF, 0x00, 0x00)}));
+    EXPECT_FALSE(step({kAgs, kClearValid1, kClearValid1, kReadStatus}, {kProven}, true, kPause));
+  }
   // An access at kFull beside automatic frames, up to the two looks at its end.
   void access_ends() {
     EXPECT_FALSE(step(kAsk, kAsked));
@@ -144,6 +151,7 @@ class OperationTest : public testing::Test {
   // The request at rest is away: BREAK sends it before the frames start again.
   void restart_after_rest() {
     bus.expect_write({0x07, 0x80, 0x00});
+    bus.expect_write(kClearValid1);
     bus.expect_proven(kRest);
     bus.expect_read(kReadStatus, status(0xFF, 0x00, 0x00));
     expect_start();
@@ -208,9 +216,9 @@ TEST_F(Restart, Counted_WithCountsOnly) {
   EXPECT_EQ(counts.restarts, 0U);
   EXPECT_EQ(device.automatic().plan_restart(op).error(), Error::kBusy);
   EXPECT_EQ(counts.restarts, 0U);
-  EXPECT_TRUE(step({{0x07, 0x80, 0x00}, kReadStatus}, {}, false));
+  EXPECT_TRUE(step({{0x07, 0x80, 0x00}, kClearValid1, kReadStatus}, {}, false));
   ASSERT_TRUE(device.automatic().plan_restart(op).ok());
-  EXPECT_FALSE(step({{0x07, 0x80, 0x00}, kReadStatus}, {status(0xFF, 0x00, 0x00)}));
+  EXPECT_FALSE(step({{0x07, 0x80, 0x00}, kClearValid1, kReadStatus}, {status(0xFF, 0x00, 0x00)}));
   EXPECT_TRUE(step({kAgs, kClearValid1, kClearValid1, kReadStatus}, {kProven}, true, kPause));
   EXPECT_EQ(counts.restarts, 1U);
   expect_break();
@@ -244,7 +252,6 @@ TEST_F(Restart, NotAllowed_TouchesNothing) {
   EXPECT_FALSE(device.configured());
   EXPECT_EQ(device.automatic().plan_restart(op).error(), Error::kNotConfigured);
   EXPECT_EQ(device.automatic().restart().error(), Error::kNotConfigured);
-  EXPECT_TRUE(device.automatic().running());
   EXPECT_EQ(counts.restarts, 0U);
 }
 
@@ -513,8 +520,8 @@ TEST_F(Initialize, Full_ReadsTwice) {
   for (const int fault : {0, 1, 2}) {
     ASSERT_TRUE(device.plan_initialize(op).ok());
     if (fault == 2) {  // after a failed one
-      EXPECT_FALSE(step({{0x07, 0x80, 0x00}, kReadStatus}, {kOver}));
-      EXPECT_FALSE(step({kClearValid1, kZero1, kZero5}, {}, true, kPause));
+      EXPECT_FALSE(step({{0x07, 0x80, 0x00}, kClearValid1, kReadStatus}, {kOver}));
+      EXPECT_FALSE(step({kZero1, kZero5}, {}, true, kPause));
     } else {
       EXPECT_FALSE(step({kZero1, kZero5}, {}));
     }
@@ -713,8 +720,8 @@ TEST_F(Initialize, Lost_IsCorrupted) {
   for (const bool disturbed : {false, true}) {
     ASSERT_TRUE(device.plan_initialize(op).ok());
     if (disturbed) {
-      EXPECT_FALSE(step({{0x07, 0x80, 0x00}, kReadStatus}, {kOver}));
-      EXPECT_FALSE(step({kClearValid1, kZero1, kZero5}, {}, true, kPause));
+      EXPECT_FALSE(step({{0x07, 0x80, 0x00}, kClearValid1, kReadStatus}, {kOver}));
+      EXPECT_FALSE(step({kZero1, kZero5}, {}, true, kPause));
     } else {
       EXPECT_FALSE(step({kZero1, kZero5}, {}));
     }
@@ -919,7 +926,9 @@ TEST_F(Access, DisturbedRequest_IsCorruptedAndBeginsNothing) {
   EXPECT_FALSE(step(kAsk, {{0, 0, 0x44, 0x01, 0x01, 0xC1}}));
   EXPECT_TRUE(step(kAtRest, {kRestBack}));
   ends_with(Error::kCorrupted);
+  // The bytes may have started an access.
   read();
+  begins_with_break();
   EXPECT_FALSE(step(kAsk, kAsked));
   // The instruction was lost.
   EXPECT_FALSE(step({kFrameAgs, kReadStatus}, {kDoneAgs}));
@@ -1018,6 +1027,7 @@ TEST_F(Access, RequestAtRestLostBehindBreak_IsCorrupted) {
     EXPECT_FALSE(step(kEnd, kEnded));
     for (int i = 0; i < 3; ++i) EXPECT_EQ(step(kAtRest, {}, false), i == 2);
     bus.expect_write({0x07, 0x80, 0x00});
+    bus.expect_write(kClearValid1);
     bus.expect_write(kRest);
     bus.expect_read(kReadRequest, kAsked[0]);
     bus.expect_read(kReadStatus, status(0xFF, 0x00, 0x00));
@@ -1071,6 +1081,7 @@ TEST_F(Access, AutomaticFramesThatNobodyStarted_AreCorrupted) {
   EXPECT_FALSE(step(kAsk, kAsked));
   EXPECT_FALSE(step({kFrame}, {}));
   EXPECT_FALSE(step({kReadStatus}, {kOver}));
+  EXPECT_FALSE(step({kReadStatus}, {kOver}));
   EXPECT_FALSE(step({kFrame}, {}));
   EXPECT_FALSE(step({kReadStatus}, {with_ags}));
   EXPECT_FALSE(step({kReadStatus}, {with_ags}));
@@ -1093,6 +1104,7 @@ TEST_F(Access, EndWithoutAutomaticFrames_ProvesSvalid) {
     EXPECT_FALSE(step(kAsk, kAsked));
     EXPECT_FALSE(step({kFrame}, {}));
     EXPECT_FALSE(step({kReadStatus}, {kOver}));
+    EXPECT_FALSE(step({kReadStatus}, {kOver}));
     EXPECT_FALSE(step({kFrame}, {}));
     EXPECT_FALSE(step({kReadStatus}, {kDone}));
     EXPECT_FALSE(step({kReadStatus}, {kDone}));
@@ -1113,6 +1125,71 @@ TEST_F(Access, EndWithoutAutomaticFrames_ProvesSvalid) {
   }
 }
 
+// One disturbed REGEND in the last frame: another frame would run the whole access again.
+TEST_F(Access, DisturbedRegend_MakesNoFrameMore) {
+  configure(mb4::SpiCheck::kFull);
+  read();
+  EXPECT_FALSE(step(kAsk, kAsked));
+  EXPECT_FALSE(step({kFrame}, {}));
+  EXPECT_FALSE(step({kReadStatus}, {kOver}));
+  EXPECT_FALSE(step({kReadStatus}, {kOver}));
+  EXPECT_FALSE(step({kFrame}, {}));
+  EXPECT_FALSE(step({kReadStatus}, {kOver}));  // REGEND was 1
+  EXPECT_FALSE(step({kReadStatus}, {kDone}));
+  EXPECT_FALSE(step({kReadStatus}, {kDone}));
+  EXPECT_FALSE(step(kEnd, kEnded));
+}
+
+// RDATA1 is read with a filler that a disturbed opcode writes while the chip answers 0. After a
+// reading that differs the registers are gone.
+TEST_F(Access, DisturbedTake_LeavesNothingToTake) {
+  configure(mb4::SpiCheck::kFull);
+  start();
+  read();
+  access_ends();
+  EXPECT_FALSE(step(kEnd, {{0, 0, 0}}));
+  EXPECT_FALSE(step(kAtRest, {kRestBack}));
+  EXPECT_FALSE(step(kTakeFirst, {{0, 0, 0x5A, 2}, kDoneAgs}));
+  EXPECT_TRUE(step(kTakeAgain, {{0, 0, 0x5A, 2}}));
+  ends_with(Error::kCorrupted);
+  EXPECT_EQ(device.control().take(mb4::Span<std::uint8_t>(out.data(), 2)).error(),
+            Error::kInvalidArgument);
+}
+
+// SVALID behind BREAK that stays, a frame that still runs, and 0xF4 that is not 0: the clear has
+// gone there, or BREAK was lost.
+TEST_F(Access, RecoveryUnproven_IsTold) {
+  for (const auto& [first, second, error] :
+       {std::tuple{status(0xFB, 0x00, 0x6F), Bytes(), Error::kCorrupted},
+        std::tuple{status(0xFB, 0x02), status(0xFB, 0x02), Error::kCorrupted},
+        std::tuple{status(0xFA, 0x00), status(0xFA, 0x00), Error::kTimeout},
+        std::tuple{status(0xFB, 0x02), kOver, Error::kNone}}) {
+    configure(mb4::SpiCheck::kFull);
+    start();
+    bus.expect_write({0x07, 0x00});
+    ASSERT_TRUE(device.automatic().stop().ok());
+    bus.expect_write({0x07, 0x80, 0x00});
+    bus.expect_write(kClearValid1);
+    bus.expect_read(kReadStatus, first);
+    if (!second.empty()) bus.expect_read(kReadStatus, second);
+    if (error == Error::kNone) bus.expect_write(mb4test::kStartFrame).fail_last();
+    EXPECT_EQ(device.read_frame().error(), error == Error::kNone ? Error::kTransport : error);
+  }
+}
+
+// A clear whose address is disturbed, 0xF3 for 0xF1, writes 0xF4: the bank is another one.
+TEST_F(Initialize, ClearGoesToTheInstruction_IsCorrupted) {
+  configure(mb4::SpiCheck::kFull);
+  ASSERT_TRUE(device.plan_initialize(op).ok());
+  EXPECT_FALSE(step({kZero1, kZero5}, {}));
+  EXPECT_FALSE(step({kInit, kReadStatus}, {kInitRuns}));
+  EXPECT_FALSE(step({kReadStatus}, {kOver}));
+  EXPECT_FALSE(step({kReadLines}, {kIdleLines}));
+  EXPECT_FALSE(step({{0x03, 0x00, 0x00}, {0x03, 0x00, 0x00}}, {{0, 0, 7}, {0, 0, 7}}));
+  EXPECT_TRUE(step({kClearValid1, kReadStatus}, {status(0xFA, 0x00, 0x6F)}));
+  ends_with(Error::kCorrupted);
+}
+
 // A read of positions whose bytes were disturbed may have changed RDATA while the access ran, or
 // before the registers are taken.
 TEST_F(Access, CorruptedReadBesideIt_IsCorrupted) {
@@ -1129,8 +1206,7 @@ TEST_F(Access, CorruptedReadBesideIt_IsCorrupted) {
   EXPECT_TRUE(device.automatic().running());
   // The next one begins with BREAK and a new start.
   read();
-  EXPECT_FALSE(step({{0x07, 0x80, 0x00}, kReadStatus}, {status(0xFF, 0x00, 0x00)}));
-  EXPECT_FALSE(step({kAgs, kClearValid1, kClearValid1, kReadStatus}, {kProven}, true, kPause));
+  begins_with_break();
   access_ends();
   EXPECT_FALSE(step(kEnd, kEnded));
   EXPECT_FALSE(step(kAtRest, {kRestBack}));
@@ -1280,7 +1356,9 @@ TEST_F(Access, AfterACorruptedRead_BeginsWithBreakAndANewStart) {
   for (const bool lost : {true, false}) {
     read();
     EXPECT_EQ(device.automatic().poll_slave(1).error(), Error::kWrongMode);
-    EXPECT_EQ(step({{0x07, 0x80, 0x00}, kReadStatus}, {status(0xFF, 0x00, 0x00)}, !lost), lost);
+    EXPECT_EQ(
+        step({{0x07, 0x80, 0x00}, kClearValid1, kReadStatus}, {status(0xFF, 0x00, 0x00)}, !lost),
+        lost);
     if (!lost) continue;
     ends_with(Error::kTransport);  // nothing has begun
     expect_break();
@@ -1312,7 +1390,7 @@ TEST_F(Access, CorruptedReadBetweenSteps_BeginsNothing) {
   ends_with(Error::kCorrupted);
   EXPECT_TRUE(device.automatic().running());
   read();
-  EXPECT_FALSE(step({{0x07, 0x80, 0x00}, kReadStatus}, {status(0xFF, 0x00, 0x00)}));
+  EXPECT_FALSE(step({{0x07, 0x80, 0x00}, kClearValid1, kReadStatus}, {status(0xFF, 0x00, 0x00)}));
 }
 
 // The read may have changed the request, which stood in the chip. BREAK ends the access before a
@@ -1376,15 +1454,14 @@ TEST_F(Access, ReleaseProven_NewStartToo) {
     bus.expect_read(kReadStatus, status(0xFB, 0x00, 0x09));
     EXPECT_EQ(device.automatic().poll_slave(1).error(), Error::kCorrupted);
     read();
-    EXPECT_TRUE(step({{0x07, 0x80, 0x00}, kReadStatus}, {status(0xFB, 0x00, 0x08)}));
+    EXPECT_TRUE(step({{0x07, 0x80, 0x00}, kClearValid1, kReadStatus}, {status(0xFB, 0x00, 0x08)}));
     ends_with(Error::kCorrupted);
     EXPECT_FALSE(device.automatic().running());
-    bus.expect_write({0x07, 0x80, 0x00});
-    bus.expect_read(kReadStatus, status(0xFF, 0x00, 0x00));
+    expect_break();
     start();
     read_sees_stray();
     read();
-    EXPECT_FALSE(step({{0x07, 0x80, 0x00}, kReadStatus}, {status(0xFF, 0x00, 0x00)}));
+    EXPECT_FALSE(step({{0x07, 0x80, 0x00}, kClearValid1, kReadStatus}, {status(0xFF, 0x00, 0x00)}));
     EXPECT_NE(step({kAgs, kClearValid1, kClearValid1, kReadStatus},
                    {proven ? kProven : status(0xFB, 0x00, 0x21)}, true, kPause),
               proven);

@@ -255,7 +255,7 @@ inline std::string scenario_of(const Setup& setup) {
            "\nstep = " + std::to_string(step) +
            "\ndata_bits = " + std::to_string(bits_of(setup.bus)) +
            "\ncrc = " + std::to_string(crc_of(setup.bus)) +
-           (is_biss_c(setup.bus) ? "\nregisters = { 0x44 = [0x00, 0xD9, 0x01, 0x32] }\n" : "\n");
+           (is_biss_c(setup.bus) ? "\nregisters = { 0x44 = [0x6E, 0xD9, 0x01, 0x32] }\n" : "\n");
   };
   std::string text = std::string("[chip.quirks]\nAGSERR_ON_HOLDBANK = ") +
                      (setup.omits ? "true" : "false") + "\n[host]\nsclk_hz = 10_000_000\n" +

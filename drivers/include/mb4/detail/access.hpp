@@ -292,7 +292,8 @@ inline Result<void> Procedures::access_step(ChipState& chip, Operation& op, std:
     // Nothing was begun. But the write may have reached other registers, 0xF4 among them.
     chip.control.kind = ControlState::Kind::kNone;
     chip.restart = chip.automatic || chip.restart;
-    chip.control.stray = chip.control.stray || chip.proves_release();
+    chip.control.stray = chip.control.stray || chip.checks_all();
+    chip.control.armed = chip.control.armed || (chip.checks_all() && op.stage_ == kFill);
     return not_begun(chip, op, done);
   }
   clear_plan(op);
@@ -326,8 +327,8 @@ inline Result<void> Procedures::access(ChipState& chip, Operation& op, std::uint
       return {};
     }
     case kRecover: {
-      const Result<void> done = recovered(chip, op, op.bad_ != 0);
-      if (!done) {
+      const Result<void> done = recovered(chip, op);
+      if (!has_recovered(done, op)) {
         return done;
       }
       if (op.bad_ != 0) {
@@ -399,7 +400,7 @@ inline Result<void> Procedures::access(ChipState& chip, Operation& op, std::uint
     case kTake: {
       if (chip.checks_all()) {
         if (state.stray) {
-          return Error::kCorrupted;  // a read since the end may have changed RDATA
+          return not_taken(chip);  // a read since the end may have changed RDATA
         }
         if (const Result<void> seen = look(op); !seen) {
           return seen;
@@ -423,7 +424,7 @@ inline Result<void> Procedures::access(ChipState& chip, Operation& op, std::uint
       return (op.at_ != 0 || *op.out_ == state.first) &&
                      equal(op.out_ + op.at_, received(op) + 2, part(op))
                  ? taken(chip, op)
-                 : Result<void>(Error::kCorrupted);
+                 : not_taken(chip);
     case kFirst:
       if (!op.good_ && ++op.bad_ != kBadLooks) {
         add_first(op);
@@ -470,12 +471,20 @@ inline Result<void> Procedures::access(ChipState& chip, Operation& op, std::uint
   }
 }
 
+// What stands in RDATA need not be what the slave has answered.
+inline Result<void> Procedures::not_taken(ChipState& chip) {
+  chip.control.readable = 0;
+  chip.control.waits = false;
+  return Error::kCorrupted;
+}
+
 // A part of the registers is here.
 inline Result<void> Procedures::taken(ChipState& chip, Operation& op) {
   op.at_ += part(op);
-  chip.control.waits = op.at_ < op.count_;
-  if (chip.control.waits) {
+  if (op.at_ < op.count_) {
     add_take(chip, op);
+  } else if (op.at_ == chip.control.readable) {
+    chip.control.waits = false;
   }
   return {};
 }
@@ -536,6 +545,12 @@ inline Result<void> Procedures::poll(ChipState& chip, Operation& op, std::uint32
       again(op, now_us);
       return {};
     }
+    // One disturbed bit must not make a frame more: it would run the whole access again.
+    if (chip.checks_all() && op.stage_ != kPollAgain) {
+      add_poll(op);
+      op.stage_ = kPollAgain;
+      return {};
+    }
     state.first_frame = false;
     if (!enough_frames(chip, now_us)) {
       ++state.frames;
@@ -577,7 +592,7 @@ inline Result<void> Procedures::conclude(ChipState& chip, Operation& op) {
   state.readable = error.code == Error::kNone && state.kind == ControlState::Kind::kRead
                        ? state.count
                        : std::uint8_t{0};
-  state.waits = state.readable != 0 && op.out_ == nullptr;
+  state.waits = state.readable != 0;
   state.kind = ControlState::Kind::kNone;
   op.bad_ = 0;
   if (chip.checks_all() && state.readable != 0) {
@@ -588,10 +603,11 @@ inline Result<void> Procedures::conclude(ChipState& chip, Operation& op) {
   return {};
 }
 
-// RDATA1, before another request may stand in the chip: take() compares it.
+// RDATA1, before another request may stand in the chip: take() compares it. A disturbed opcode that
+// writes makes them differ.
 inline void Procedures::add_first(Operation& op) {
   op.stage_ = kFirst;
-  add_read(op, regs::kAddrRdata, 1);
+  add_read(op, regs::kAddrRdata, 1, 0x5A);
 }
 
 // Without AGS the frames of the access have set SVALID, and the next single frame needs SVALID = 0,

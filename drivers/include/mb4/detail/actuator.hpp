@@ -98,8 +98,7 @@ inline Result<void> Procedures::switched_step(ChipState& chip, Operation& op,
   switch (op.stage_) {
     case kRecover:
       done = recovered(chip, op);
-      if (done) {
-        clear_again(chip, op);
+      if (has_recovered(done, op)) {
         add_word(chip, op, kFill);
       }
       return done;
@@ -198,7 +197,7 @@ inline Result<void> Procedures::held_step(ChipState& chip, Operation& op, std::u
         op.cause_ = done;
       }
       // A disturbed byte of 0xF4 may have started an access.
-      chip.control.stray = chip.control.stray || (chip.proves_release() && !op.cause_);
+      chip.control.stray = chip.control.stray || (chip.checks_all() && !op.cause_);
       break;
   }
   if (done && chip.watch.held) {

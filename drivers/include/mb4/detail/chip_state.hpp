@@ -219,6 +219,7 @@ struct ChipState {
     held_for_actuator = false;
     control.kind = ControlState::Kind::kNone;
     control.owner = nullptr;
+    control.waits = false;
   }
 };
 

@@ -89,7 +89,9 @@ inline Result<void> Procedures::configuration_step(ChipState& chip, Operation& o
   const Result<void> done = configure(chip, op);
   const bool compares = op.count_ == kComparesOnly;
   if (compares && (done.error() == Error::kNotDetected || done.error() == Error::kVerify)) {
+    // Reads of a chip that is configured otherwise may bring the word of another slave.
     chip.configured = false;
+    chip.stopped();
   }
   if (done && op.plan_.frames == 0 && op.count_ == kConfigures) {
     chip.configured = true;

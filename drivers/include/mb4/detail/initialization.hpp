@@ -68,7 +68,7 @@ inline Result<void> Procedures::initialize_step(ChipState& chip, Operation& op,
   switch (op.stage_) {
     case kRecover: {
       const Result<void> done = recovered(chip, op);
-      if (done) {
+      if (has_recovered(done, op)) {
         prepare(chip, op);
       }
       return done;

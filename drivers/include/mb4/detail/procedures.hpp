@@ -173,60 +173,74 @@ struct Procedures {
   }
 
   // BREAK, at kRecover. With SpiCheck::kFull it also writes 0xF5, the register after 0xF4: the
-  // failed transfer may have been a read of the status that reached the chip as a write; and the
-  // status follows. Afterwards recovered().
+  // failed transfer may have been a read of the status that reached the chip as a write; then
+  // SVALID = 0, and the status follows. Afterwards recovered().
   [[gnu::noinline]] static void add_recovery(ChipState& chip, Operation& op) {
     op.stage_ = kRecover;
     chip.stopped();
-    mb4_plan_add(&op.plan_, chip.checks_all() ? 3 : 2, MB4_CYCLIC_INSTRUCT,
-                 regs::BREAK::encode<1>(), chip.interface_byte);
+    const bool full = chip.checks_all();
+    mb4_plan_add(&op.plan_, full ? 3 : 2, MB4_CYCLIC_INSTRUCT, regs::BREAK::encode<1>(),
+                 chip.interface_byte);
+    if (full) {
+      mb4_cyclic_add_clear(&op.plan_, chip.sensor_flags, 4);
+    }
     if (chip.control.armed) {
       add_rest(chip, op);
     }
-    if (chip.checks_all()) {
+    if (full) {
       mb4_cyclic_add_status(&op.plan_);
     }
   }
-  // The frames that follow come after the slaves' timeout. The first one clears the flags of frames
-  // that ran, unless it is proven by a start of automatic frames: `starts`. kTransport; with
-  // SpiCheck::kFull kNotDetected and kCorrupted: 0xF4 is not 0 (a byte with SWBANK = 1 would clear
-  // the flags of the other bank), or the request at rest reads back differently; the next call
-  // sends it again.
-  [[gnu::noinline]] static Result<void> recovered(ChipState& chip, Operation& op,
-                                                  bool starts = false) {
-    Result<void> done = confirmed(chip, op, 0);
-    if (done && chip.control.armed && chip.checks_all() && !rests(chip, op, 1)) {
-      done = Error::kCorrupted;
-    }
-    if (done) {
-      chip.control.armed = false;
-      op.plan_.pause_us = chip.recovery_us();
-      op.stage_ = kStart;
-      if (!starts || !chip.checks_all()) {
-        mb4_cyclic_add_clear(&op.plan_, chip.sensor_flags, 4);
+  // The frames that follow come after the slaves' timeout. Without SpiCheck::kFull the first one
+  // clears the flags of frames that ran. Success with frames of stage kRecover: one more look.
+  // kTransport; with SpiCheck::kFull kNotDetected; kCorrupted: 0xF4 or SVALID is not 0, or the
+  // request at rest reads back differently (the next call sends it again); kTimeout: EOT = 0, a
+  // frame still runs, or there is no system clock.
+  [[gnu::noinline]] static Result<void> recovered(ChipState& chip, Operation& op) {
+    if (chip.checks_all()) {
+      const Result<void> seen = look(op);
+      const bool first = op.made_ != 1;
+      if (!seen) {
+        return seen;
       }
+      if (op.status_.instruction() != 0 || (first && chip.control.armed && !rests(chip, op, 1))) {
+        return Error::kCorrupted;
+      }
+      const bool valid = (op.status_.valid_flags() & chip.sensor_flags) != 0;
+      if (valid || !op.status_.idle()) {
+        if (first) {
+          mb4_cyclic_add_status(&op.plan_);
+          return {};
+        }
+        return op.status_.idle() ? Error::kCorrupted : Error::kTimeout;
+      }
+    } else if (!op.good_) {
+      return Error::kTransport;
     }
-    return done;
+    chip.control.armed = false;
+    op.plan_.pause_us = chip.recovery_us();
+    op.stage_ = kStart;
+    if (!chip.checks_all()) {
+      mb4_cyclic_add_clear(&op.plan_, chip.sensor_flags, 4);
+    }
+    return {};
+  }
+  // Nothing of a recovery remains to be made.
+  static bool has_recovered(const Result<void>& done, const Operation& op) {
+    return done && op.stage_ != kRecover;
   }
 
   static void add_instruction(Operation& op, std::uint8_t instruction) {
     mb4_cyclic_add_instruction(&op.plan_, instruction);
   }
 
-  // With SpiCheck::kFull SVALID = 0 once more, before frames whose words must be new: one of the
-  // two transfers may be lost.
-  [[gnu::noinline]] static void clear_again(const ChipState& chip, Operation& op) {
-    if (chip.checks_all()) {
-      mb4_cyclic_add_clear(&op.plan_, chip.sensor_flags, 4);
-    }
-  }
   // AGS = 1. With SpiCheck::kFull the words of both banks are dropped, because a disturbed byte
   // before may have switched them, and the status follows: confirmed().
   static void add_start(const ChipState& chip, Operation& op) {
     add_instruction(op, regs::AGS::encode<1>());
     if (chip.checks_all()) {
       mb4_cyclic_add_clear(&op.plan_, chip.sensor_flags, 4);
-      clear_again(chip, op);
+      mb4_cyclic_add_clear(&op.plan_, chip.sensor_flags, 4); /* one may be lost */
       mb4_cyclic_add_status(&op.plan_);
     }
   }
@@ -397,26 +411,28 @@ struct Procedures {
   static Result<void> start_step(ChipState& chip, Operation& op, std::uint32_t now_us) {
     const bool breaks = op.stage_ == kRecover;
     const Result<void> done =
-        breaks ? recovered(chip, op, true) : confirmed(chip, op, regs::AGS::encode<1>());
-    if (done && breaks) {
+        breaks ? recovered(chip, op) : confirmed(chip, op, regs::AGS::encode<1>());
+    if (breaks && has_recovered(done, op)) {
       add_start(chip, op);
-    } else if (done) {
+    } else if (done && !breaks) {
       chip.started(now_us);
     }
     return done;
   }
 
-  // After a good transfer.
+  // Without automatic frames.
   [[gnu::noinline]] static Result<void> clear_step(ChipState& chip, Operation& op,
                                                    std::uint32_t /*now_us*/) {
     if (!chip.checks_all()) {
       return {};
     }
     const Result<void> seen = look(op);
-    if (!seen || (op.status_.valid_flags() & chip.sensor_flags) == 0) {
+    // A disturbed address makes an instruction of the bytes: 0xF1 and 0xF3 differ in one bit.
+    const bool other = op.status_.instruction() != 0;
+    if (!seen || ((op.status_.valid_flags() & chip.sensor_flags) == 0 && !other)) {
       return seen;
     }
-    if (op.made_ == 1) {
+    if (op.made_ == 1 || other) {
       return Error::kCorrupted;
     }
     mb4_cyclic_add_status(&op.plan_);
@@ -482,6 +498,7 @@ struct Procedures {
   static Result<void> poll(ChipState& chip, Operation& op, std::uint32_t now_us);
   static Result<void> conclude(ChipState& chip, Operation& op);
   static Result<void> taken(ChipState& chip, Operation& op);
+  static Result<void> not_taken(ChipState& chip);
   static Result<void> ended(ChipState& chip, Operation& op);
 };
 

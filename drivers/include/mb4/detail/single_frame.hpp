@@ -109,8 +109,7 @@ inline Result<void> Procedures::frame(ChipState& chip, Operation& op, std::uint3
   switch (op.stage_) {
     case kRecover: {
       const Result<void> done = recovered(chip, op);
-      if (done) {
-        clear_again(chip, op);
+      if (has_recovered(done, op)) {
         add_request_frame(op);
       }
       return done;
