@@ -189,8 +189,7 @@ class Device {
   //  * SpiCheck::kFull adds at most 4: 1 for data again where no stored CRC proves it or an address
   //    was sent (0x03), 1 status after the data, 1 or 2 after SVALID is cleared.
   //  * After a failed read that has made a transfer, 2 more and 100 us, because its frame may still
-  //    run. BiSS B adds register_timeout_us. SpiCheck::kFull: a status
-  //    too.
+  //    run. BiSS B adds register_timeout_us. SpiCheck::kFull adds a status.
   //  * Each poll is 6 bytes. frame_timeout_us(config) limits p: at most 4 t + 132 polls for t
   //    microseconds, even if the clock stands still.
   // In order:

@@ -38,6 +38,8 @@ const Bytes kAllOf = join({mb4test::kData4, {0, 0, 0, mb4test::kCrc6}});
 const Bytes kNew = status(0xFA, 0x02, 0x41);
 const Bytes kCleared = status(0xFA, 0x00, 0x41);
 
+const Bytes kClearBoth{0x02, 0xF1, 0xF5, 0xFF};  // SVALID of slaves 1 and 2
+
 // Slave 2 as slave 1.
 void configure_two(StrictBus& bus, mb4::Device<StrictBus, FakeClock>& device, mb4::SpiCheck check,
                    bool hold_beside_access = true) {
@@ -78,6 +80,13 @@ class FullCheck : public testing::Test {
     bus.expect_write(kAgs);
     bus.expect_write(kClearValid1);
     bus.expect_write(kClearValid1);
+    bus.expect_read(kReadStatus, status(0xFB, 0x00, 0x01));
+    ASSERT_TRUE(device.automatic().start().ok());
+  }
+  void start_two() {
+    bus.expect_write(kAgs);
+    bus.expect_write(kClearBoth);
+    bus.expect_write(kClearBoth);
     bus.expect_read(kReadStatus, status(0xFB, 0x00, 0x01));
     ASSERT_TRUE(device.automatic().start().ok());
   }
@@ -194,12 +203,7 @@ TEST_F(FullCheck, SvalidDisturbed_KeepsTheWord) {
 // ... of one of two slaves: only the flag of the other one is cleared.
 TEST_F(FullCheck, SvalidOfOneDisturbed_KeepsItsWord) {
   configure_two(bus, device, mb4::SpiCheck::kFull);
-  const Bytes both{0x02, 0xF1, 0xF5, 0xFF};
-  bus.expect_write(kAgs);
-  bus.expect_write(both);
-  bus.expect_write(both);
-  bus.expect_read(kReadStatus, status(0xFB, 0x00, 0x01));
-  ASSERT_TRUE(device.automatic().start().ok());
+  start_two();
   for (const bool behind : {true, false}) {
     bus.expect_write(kHold);
     bus.expect_read(kReadStatus, status(0xFA, behind ? 0x0A : 0x02, 0x41));
@@ -326,7 +330,7 @@ TEST_F(FullCheck, BankSwitchedBetweenTwoReadings_SecondTryIsGood) {
 // fits: only a second reading, with its own address, tells.
 TEST_F(FullCheck, WordByAddress_IsReadTwice) {
   configure_two(bus, device, mb4::SpiCheck::kFull);
-  const Bytes clear{0x02, 0xF1, 0xF5, 0xFF};
+  const Bytes& clear = kClearBoth;
   const Bytes by_address = join({{0x03, 0x08}, Bytes(8, 0x5A)});
   const Bytes word = join({{0}, kAllOf});
   const Bytes other = join({zeros(9), {mb4test::kCrc6}});
@@ -345,11 +349,7 @@ TEST_F(FullCheck, WordByAddress_IsReadTwice) {
   bus.expect_write(kBreakAndInterface);
   bus.expect_write(clear);
   bus.expect_read(kReadStatus, status(0xFB, 0x00));
-  bus.expect_write(kAgs);
-  bus.expect_write(clear);
-  bus.expect_write(clear);
-  bus.expect_read(kReadStatus, status(0xFB, 0x00, 0x01));
-  ASSERT_TRUE(device.automatic().start().ok());
+  start_two();
   for (const bool same : {true, false}) {
     bus.expect_write(kHold);
     bus.expect_read(kReadStatus, status(0xFA, 0x0A, 0x41));

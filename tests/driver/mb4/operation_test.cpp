@@ -148,6 +148,26 @@ class OperationTest : public testing::Test {
     EXPECT_FALSE(step({kReadStatus}, {kDoneAgs}));
     EXPECT_FALSE(step({kReadStatus}, {kDoneAgs}));
   }
+  // An access at kFull without automatic frames, up to its second frame.
+  void to_second_frame() {
+    EXPECT_FALSE(step(kAsk, kAsked));
+    EXPECT_FALSE(step({kFrame}, {}));
+    EXPECT_FALSE(step({kReadStatus}, {kOver}));
+    EXPECT_FALSE(step({kReadStatus}, {kOver}));
+    EXPECT_FALSE(step({kFrame}, {}));
+  }
+  // One of the two commands of activate(), by single frames: broadcast 01, or 00 to the slave's ID.
+  void activates(bool broadcast, std::uint32_t pause_us) {
+    const std::uint8_t ids = broadcast ? 0x00 : 0x80;
+    const std::uint8_t ctrl = broadcast ? 0x50 : 0x40;
+    EXPECT_FALSE(step({{0x02, 0x80, ids}, {0x03, 0x80, 0}}, {{0, 0, ids}}));
+    EXPECT_FALSE(step({{0x02, 0xE4, 0x01, ctrl}, {0x03, 0xE4, 0, 0}}, {{0, 0, 0x01, ctrl}}));
+    EXPECT_FALSE(step({kFrame}, {}));
+    EXPECT_FALSE(step({kReadStatus}, {kOver}));
+    EXPECT_FALSE(step({kFrame}, {}, true, pause_us));
+    EXPECT_FALSE(step({kReadStatus}, {kDone}));
+    EXPECT_FALSE(step({kClearValid1, kRest}, {}, true, pause_us));
+  }
   // The request at rest is away: BREAK sends it before the frames start again.
   void restart_after_rest() {
     bus.expect_write({0x07, 0x80, 0x00});
@@ -252,6 +272,7 @@ TEST_F(Restart, NotAllowed_TouchesNothing) {
   EXPECT_FALSE(device.configured());
   EXPECT_EQ(device.automatic().plan_restart(op).error(), Error::kNotConfigured);
   EXPECT_EQ(device.automatic().restart().error(), Error::kNotConfigured);
+  EXPECT_FALSE(device.automatic().running());  // the failed comparison has stopped the reads
   EXPECT_EQ(counts.restarts, 0U);
 }
 
@@ -620,15 +641,7 @@ TEST_F(Initialize, Activates_WhenAskedTo) {
   ASSERT_TRUE(device.configure(config).ok());
   to_delays();
   for (const bool broadcast : {true, false}) {
-    const std::uint8_t ids = broadcast ? 0x00 : 0x80;
-    const std::uint8_t ctrl = broadcast ? 0x50 : 0x40;
-    EXPECT_FALSE(step({{0x02, 0x80, ids}, {0x03, 0x80, 0}}, {{0, 0, ids}}));
-    EXPECT_FALSE(step({{0x02, 0xE4, 0x01, ctrl}, {0x03, 0xE4, 0, 0}}, {{0, 0, 0x01, ctrl}}));
-    EXPECT_FALSE(step({kFrame}, {}));
-    EXPECT_FALSE(step({kReadStatus}, {kOver}));
-    EXPECT_FALSE(step({kFrame}, {}));
-    EXPECT_FALSE(step({kReadStatus}, {kDone}));
-    EXPECT_FALSE(step({kClearValid1, kRest}, {}));
+    activates(broadcast, 0);
   }
   EXPECT_FALSE(step({mb4test::kStartFrame}, {}));
   EXPECT_FALSE(step({kReadStatus}, {status(0xFB, 0x02)}));
@@ -657,15 +670,7 @@ TEST_F(Initialize, ActivatesAndLooks_BehindTheSlavesTimeout) {
   ASSERT_TRUE(device.configure(config).ok());
   to_delays();
   for (const bool broadcast : {true, false}) {
-    const std::uint8_t ids = broadcast ? 0x00 : 0x80;
-    const std::uint8_t ctrl = broadcast ? 0x50 : 0x40;
-    EXPECT_FALSE(step({{0x02, 0x80, ids}, {0x03, 0x80, 0}}, {{0, 0, ids}}));
-    EXPECT_FALSE(step({{0x02, 0xE4, 0x01, ctrl}, {0x03, 0xE4, 0, 0}}, {{0, 0, 0x01, ctrl}}));
-    EXPECT_FALSE(step({kFrame}, {}));
-    EXPECT_FALSE(step({kReadStatus}, {kOver}));
-    EXPECT_FALSE(step({kFrame}, {}, true, kPause));
-    EXPECT_FALSE(step({kReadStatus}, {kDone}));
-    EXPECT_FALSE(step({kClearValid1, kRest}, {}, true, kPause));
+    activates(broadcast, kPause);
   }
   EXPECT_FALSE(step({mb4test::kStartFrame}, {}));
 }
@@ -1078,11 +1083,7 @@ TEST_F(Access, AutomaticFramesThatNobodyStarted_AreCorrupted) {
   const Bytes with_ags = status(0xFF, 0x00, 0x01);
   configure(mb4::SpiCheck::kFull);
   read();
-  EXPECT_FALSE(step(kAsk, kAsked));
-  EXPECT_FALSE(step({kFrame}, {}));
-  EXPECT_FALSE(step({kReadStatus}, {kOver}));
-  EXPECT_FALSE(step({kReadStatus}, {kOver}));
-  EXPECT_FALSE(step({kFrame}, {}));
+  to_second_frame();
   EXPECT_FALSE(step({kReadStatus}, {with_ags}));
   EXPECT_FALSE(step({kReadStatus}, {with_ags}));
   EXPECT_TRUE(step({kBreak, kRest, kReadRequest}, {kRestBack}));
@@ -1101,11 +1102,7 @@ TEST_F(Access, EndWithoutAutomaticFrames_ProvesSvalid) {
     const bool stays = fault == 1;
     configure(mb4::SpiCheck::kFull);
     read();
-    EXPECT_FALSE(step(kAsk, kAsked));
-    EXPECT_FALSE(step({kFrame}, {}));
-    EXPECT_FALSE(step({kReadStatus}, {kOver}));
-    EXPECT_FALSE(step({kReadStatus}, {kOver}));
-    EXPECT_FALSE(step({kFrame}, {}));
+    to_second_frame();
     EXPECT_FALSE(step({kReadStatus}, {kDone}));
     EXPECT_FALSE(step({kReadStatus}, {kDone}));
     EXPECT_FALSE(step(kEnd, kEnded));
@@ -1129,11 +1126,7 @@ TEST_F(Access, EndWithoutAutomaticFrames_ProvesSvalid) {
 TEST_F(Access, DisturbedRegend_MakesNoFrameMore) {
   configure(mb4::SpiCheck::kFull);
   read();
-  EXPECT_FALSE(step(kAsk, kAsked));
-  EXPECT_FALSE(step({kFrame}, {}));
-  EXPECT_FALSE(step({kReadStatus}, {kOver}));
-  EXPECT_FALSE(step({kReadStatus}, {kOver}));
-  EXPECT_FALSE(step({kFrame}, {}));
+  to_second_frame();
   EXPECT_FALSE(step({kReadStatus}, {kOver}));  // REGEND was 1
   EXPECT_FALSE(step({kReadStatus}, {kDone}));
   EXPECT_FALSE(step({kReadStatus}, {kDone}));
