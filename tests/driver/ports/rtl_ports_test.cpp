@@ -126,13 +126,15 @@ int __wrap_ioctl(int file, unsigned long request, ...) {
 int spi_transceive_dt(const spi_dt_spec* spec, const spi_buf_set* tx, const spi_buf_set* rx) {
   if (spec->bus != chip || fails) return -EIO;
   const auto* const bytes = static_cast<const std::uint8_t*>(tx->buffers[0].buf);
-  const bool breaks = bytes[0] == reg::kSpiOpcodeWriteInstruction && bytes[1] == reg::BREAK::kMask;
+  // MA moves by an instruction only: the status behind a BREAK may follow at once.
+  const bool instructs = bytes[0] == reg::kSpiOpcodeWriteInstruction;
+  const bool breaks = instructs && bytes[1] == reg::BREAK::kMask;
   note_rate(bytes[0], spec->config.frequency);
-  if (break_ends != 0 && !breaks) {
+  if (break_ends != 0 && instructs && !breaks) {
     shortest_pause = std::min(shortest_pause, chip->now() - break_ends);
   }
   const auto received = exchange(bytes, tx->buffers[0].len);
-  break_ends = breaks ? chip->now() : 0;
+  if (instructs) break_ends = breaks ? chip->now() : 0;
   if (rx != nullptr) std::memcpy(rx->buffers[0].buf, received.data(), rx->buffers[0].len);
   return 0;
 }
