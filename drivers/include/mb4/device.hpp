@@ -80,6 +80,8 @@ class Device {
   //   0x02 three  0xC0..0xF2   all other registers; clears SVALID 1 to 8
   //   0x03 three  0xC0..0xF5   comparison of all bits that can be written, and of VERSION
   //   0x05        status       which no stuck MISO makes; 0xF4 and SVALID are 0
+  // Behind the first three it waits for the slaves' timeout: 100 us, with BiSS B also
+  // register_timeout_us, because BREAK may have cut a frame.
   // One more before them, which only reads, if actuators are on both channels and these have
   // frames of different length: VERSION and REVISION.
   // Not touched: kInvalidConfig. Read only: kInvalidConfig for what this revision cannot do

@@ -47,6 +47,25 @@ TEST(DriverSsi, EveryLength_BinaryAndGray) {
   }
 }
 
+// configure() ends a frame that runs; the slave then waits for the rest of its timeout. A read that
+// follows at once must not take the rest of the word for a new one: SSI without CRC would not tell.
+TEST(DriverSsi, ConfigureInAFrame_NextWordIsWhole) {
+  constexpr std::uint64_t kWord = 0x5A5A5A5;
+  for (const char* host : {"", "[host]\ninterface = \"axi\"\n"}) {
+    for (unsigned phase = 0; phase < 60; ++phase) {
+      FaultyChip chip(host + on_channel(1) + device("ssi", 27, "timeout = 90\nflag_bits = 0\n"));
+      ASSERT_TRUE(chip.simulator.slave(1)->set_data(kWord));
+      ASSERT_TRUE(chip.device.configure(ssi_config(27, false)).ok());
+      ASSERT_TRUE(chip.device.automatic().start().ok());
+      chip.simulator.advance((150 + 3 * phase) * mb4::sim::kPsPerUs);
+      ASSERT_TRUE(chip.device.configure(ssi_config(27, false)).ok());
+      const mb4::Result<mb4::Reading> reading = chip.device.read_frame();
+      ASSERT_TRUE(reading.ok()) << mb4::to_string(reading.error());
+      EXPECT_EQ(reading->position, kWord) << host << phase;
+    }
+  }
+}
+
 // The chip converts the whole word; error and warning bit behind a position in Gray code, and the
 // CRC over the bits on the line, come out right all the same.
 TEST(DriverSsi, GrayWithFlagsAndCrc_EachComesOutRight) {

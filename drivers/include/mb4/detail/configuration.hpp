@@ -121,6 +121,8 @@ inline Result<void> Procedures::configure(ChipState& chip, Operation& op) {
   }
   if (op.stage_ == kFill) {
     constexpr std::size_t kBefore = kLastPart - kImageFirst;
+    // BREAK may have cut a frame; the next one comes after the slaves' timeout.
+    op.plan_.pause_us = chip.recovery_us();
     add_bytes(op, kLastPart, chip.image.data() + kBefore, kImageBytes - kBefore);
     add_compared(op, kLastPart);
     return {};
