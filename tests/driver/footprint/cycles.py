@@ -135,7 +135,7 @@ def traced(elf, machine, work):
 
 
 # {argument: (program, number of functions measured_...())}
-LONGEST = {"steps": ("operation_main.cpp", 4), "safety": ("safety_main.cpp", 3)}
+LONGEST = {"steps": ("operation_main.cpp", 6), "safety": ("safety_main.cpp", 3)}
 
 
 def measure_longest(target, what, includes):
@@ -151,12 +151,13 @@ def measure_longest(target, what, includes):
              HERE / program, "-o", work / "unit.elf"])
         code = functions(run(["arm-none-eabi-objdump", "-d", work / "unit.elf"]))
         found = longest(traced(work / "unit.elf", machine, work), code)
-    limit = tomllib.loads((HERE / "budget.toml").read_text())["time"][target][what]
+    limits = tomllib.loads((HERE / "budget.toml").read_text())["time"][target]
     if len(found) != functions_wanted:
         sys.exit(f"{sorted(found)}: {functions_wanted} functions were to be measured")
     result = 0
     for name, (cycles, steps) in sorted(found.items()):
         value = cycles if unit == "cycles" else steps
+        limit = limits["guarded" if "guarded" in name else what]
         print(f"{target} {optimize}, {name[9:]}: at most {value} {unit}")
         if value > limit:
             print(f"  more than the budget of {limit}")

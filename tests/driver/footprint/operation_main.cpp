@@ -50,6 +50,15 @@ void write(unsigned address, std::uint8_t byte) {
 [[gnu::noinline]] bool measured_finish(BoardDevice& device, mb4::Operation& op) {
   return device.finish(op, true, 100);
 }
+// The same with several slaves on a line, where writes guard the configuration.
+[[gnu::noinline]] bool measured_guarded_plan(BoardDevice& device, mb4::Operation& op,
+                                             mb4::Span<std::uint8_t> bytes) {
+  return device.control().plan_write(op, {1, 0}, 0x10, bytes).ok();
+}
+[[gnu::noinline]] bool measured_guarded_finish(BoardDevice& device, mb4::Operation& op) {
+  asm volatile("");  // another function than measured_finish()
+  return device.finish(op, true, 100);
+}
 [[gnu::noinline]] bool measured_plan_slave(BoardDevice& device, mb4::CyclicRead& read) {
   return device.automatic().plan_slave<0>(1, read).ok();
 }
@@ -67,19 +76,42 @@ bool run(BoardDevice& device, BoardBus& bus, unsigned which) {
   return op.result().ok();
 }
 
-bool run_all(mb4::SpiCheck check) {
-  BoardBus bus;
-  BoardClock clock;
-  BoardDevice device(bus, clock);
+mb4::Config config_of(mb4::SpiCheck check, std::size_t second_slave) {
   mb4::Config config;
   config.ma_hz = mb4::ma_hz_at_most(config.f_clk_hz, 2'500'000);
   config.spi_check = check;
   config.channels[0].protocol = mb4::Protocol::kBissC;
-  config.channels[1].protocol = mb4::Protocol::kBissC;
-  for (const std::size_t slave : {0, 4}) {
+  if (second_slave == 4) config.channels[1].protocol = mb4::Protocol::kBissC;
+  for (const std::size_t slave : {std::size_t{0}, second_slave}) {
     config.slaves[slave].enabled = true;
     config.slaves[slave].data_bits = 28;
   }
+  return config;
+}
+
+bool run_guarded() {
+  static std::uint8_t bytes[64];
+  BoardBus bus;
+  BoardClock clock;
+  BoardDevice device(bus, clock);
+  mb4::Operation op;
+  bool good = device.configure(config_of(mb4::SpiCheck::kFull, 1)).ok();
+  for (const bool automatic : {false, true}) {
+    good = good && (!automatic || device.automatic().start());
+    good = good && measured_guarded_plan(device, op, {bytes, sizeof bytes});
+    do {
+      good = good && op.run(bus);
+    } while (good && !measured_guarded_finish(device, op));
+    good = good && op.result();
+  }
+  return good;
+}
+
+bool run_all(mb4::SpiCheck check) {
+  BoardBus bus;
+  BoardClock clock;
+  BoardDevice device(bus, clock);
+  mb4::Config config = config_of(check, 4);
   bool good = device.configure(config).ok();
   for (const unsigned which : {0U, 1U, 2U, 3U, 4U, 5U, 0U, 2U, 3U, 4U, 5U}) {
     good = run(device, bus, which) && good;
@@ -140,6 +172,7 @@ std::uint32_t board_now_us() {
        {mb4::SpiCheck::kOff, mb4::SpiCheck::kFull, mb4::SpiCheck::kCrc}) {
     good = run_all(check) && good;
   }
+  good = run_guarded() && good;
   register std::uint32_t operation asm("r0") = 0x18;
   register std::uint32_t reason asm("r1") = good ? 0x20026 : 0x20023;
   asm volatile("bkpt 0xAB" : : "r"(operation), "r"(reason));

@@ -988,6 +988,119 @@ TEST_F(Access, EndOfARead_IsRepeatedAndCompared) {
   restart_after_rest();
 }
 
+// Two slaves on a line at kFull: a write whose address has one wrong bit may land in the
+// configuration (0xE2 in 0xC2 or 0xEA, 0x80 in 0xC0), switch slave 1 off, and give slave 2 its
+// word. What is read back beside the write shows it; positions wait until all has been compared.
+class Guard : public OperationTest {
+ protected:
+  Guard() {
+    mb4::Config config = mb4test::encoder26();
+    config.spi_check = mb4::SpiCheck::kFull;
+    config.slaves[1] = config.slaves[0];
+    image = mb4test::configuration();
+    answer = mb4test::read_back();
+    for (Bytes* bytes : {&image, &answer}) {
+      (*bytes)[0xC4 - 0xC0] = 0x5B;
+      (*bytes)[0xC5 - 0xC0] = 0x06;
+      (*bytes)[0xE7 - 0xC0] = 0x00;  // NOCRC = 0
+    }
+    mb4test::expect_image(bus, image, answer);
+    EXPECT_TRUE(device.configure(config).ok());
+    bus.expect_write(kAgs);
+    for (int i = 0; i < 2; ++i) bus.expect_write({0x02, 0xF1, 0xF5, 0xFF});
+    bus.expect_read(kReadStatus, kProven);
+    EXPECT_TRUE(device.automatic().start().ok());
+  }
+  // Reads of `size` registers from `address` on, and what the chip answers; one may be `changed`.
+  static Bytes ask(unsigned address, std::size_t size) {
+    return join({{0x03, static_cast<std::uint8_t>(address)}, zeros(size)});
+  }
+  Bytes part(unsigned address, std::size_t size, unsigned changed = 0) const {
+    const auto begin = answer.begin() + (static_cast<int>(address) - 0xC0);
+    Bytes bytes = join({zeros(2), Bytes(begin, begin + static_cast<int>(size))});
+    if (changed >= address && changed < address + size) bytes[2 + changed - address] ^= 0x10;
+    return bytes;
+  }
+  // A request, what guards it, and its reading.
+  bool guarded(const Bytes& request, unsigned changed = 0) {
+    const Bytes behind = part(0xE6, 8, changed);
+    return step({request, ask(0xC2, 4), ask(0xE2, 12)},
+                {part(0xC2, 4, changed), join({zeros(2), Bytes(request.begin() + 2, request.end()),
+                                               Bytes(behind.begin() + 2, behind.end())})});
+  }
+  void expect_waiting() {
+    EXPECT_EQ(device.automatic().poll_slave(2).error(), Error::kBusy);
+    mb4::Frame frame;
+    EXPECT_EQ(device.automatic().poll(frame).error(), Error::kBusy);
+  }
+  // Positions are read again; this transfer fails.
+  void expect_reading() {
+    bus.expect_write({0x07, 0x41}).fail_last();
+    bus.expect_write(kAgs);
+    EXPECT_EQ(device.automatic().poll_slave(2).error(), Error::kTransport);
+  }
+  // The comparison of the whole configuration, in the operation itself.
+  bool compares(unsigned changed = 0) {
+    for (const unsigned from : {0xE4U, 0xC0U, 0xD2U}) {
+      expect_waiting();
+      if (step({ask(from, 18)}, {part(from, 18, changed)})) return true;
+    }
+    expect_waiting();
+    return step({kReadStatus}, {kProven});
+  }
+
+  Bytes image;
+  Bytes answer;
+};
+
+TEST_F(Guard, ReadingDisturbed_IsCorruptedAndPositionsGoOn) {
+  read();
+  EXPECT_FALSE(guarded(kRequest, 0xC5));
+  expect_waiting();
+  EXPECT_FALSE(guarded(kRest));
+  EXPECT_TRUE(compares());
+  ends_with(Error::kCorrupted);
+  EXPECT_TRUE(device.configured());
+  EXPECT_TRUE(device.automatic().running());
+  expect_reading();
+}
+
+TEST_F(Guard, ConfigurationChanged_IsVerifyAndPositionsStop) {
+  read();
+  EXPECT_FALSE(guarded(kRequest, 0xEC));  // SLAVELOC5
+  EXPECT_FALSE(guarded(kRest, 0xEC));
+  EXPECT_TRUE(compares(0xEC));
+  ends_with(Error::kVerify);
+  EXPECT_EQ(op.result().info().address(), 0xEC);
+  EXPECT_FALSE(device.configured());
+  EXPECT_EQ(device.automatic().poll_slave(2).error(), Error::kWrongMode);
+  EXPECT_EQ(device.read_frame(2).error(), Error::kNotConfigured);
+}
+
+// The data of a write: 0x80 becomes 0xC0.
+TEST_F(Guard, DataOfAWrite_AreGuardedToo) {
+  const std::array<std::uint8_t, 1> data{0x12};
+  ASSERT_TRUE(device.control().plan_write(op, {1, 0}, 0x50, data).ok());
+  EXPECT_FALSE(step({{0x02, 0x80, 0x12}, ask(0xC0, 1), {0x03, 0x80, 0x00}},
+                    {part(0xC0, 1, 0xC0), {0, 0, 0x12}}));
+  EXPECT_FALSE(guarded(kRest));
+  EXPECT_TRUE(compares());
+  ends_with(Error::kCorrupted);
+}
+
+// The caller gives the operation up: verify() ends the waiting.
+TEST_F(Guard, OperationGivenUp_VerifyEndsTheWaiting) {
+  read();
+  EXPECT_FALSE(guarded(kRequest, 0xC4));
+  expect_waiting();
+  for (const unsigned from : {0xE4U, 0xC0U, 0xD2U}) {
+    bus.expect_read(ask(from, 18), part(from, 18));
+  }
+  bus.expect_read(kReadStatus, kProven);
+  ASSERT_TRUE(device.verify().ok());
+  expect_reading();
+}
+
 // The request at rest is not in the chip: the write may have reached another register (0xE2 and
 // 0xE6, FREQ, differ in one bit). It is written again, and the result says it.
 TEST_F(Access, RequestAtRestLost_IsCorrupted) {

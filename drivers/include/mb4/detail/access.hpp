@@ -200,7 +200,7 @@ inline void Procedures::add_request(ChipState& chip, Operation& op) {
   ControlState& state = chip.control;
   if (state.kind != ControlState::Kind::kRead && op.at_ < op.count_) {
     op.stage_ = kFill;
-    add_proven(op, static_cast<std::uint8_t>(regs::kAddrRdata + op.at_), op.data_ + op.at_,
+    add_proven(chip, op, static_cast<std::uint8_t>(regs::kAddrRdata + op.at_), op.data_ + op.at_,
                part(op));
     return;
   }
@@ -208,7 +208,7 @@ inline void Procedures::add_request(ChipState& chip, Operation& op) {
   const std::uint8_t from = state.kind == ControlState::Kind::kCommand ? 2 : 0;
   op.stage_ = kSet;
   state.armed = true;
-  add_proven(op, static_cast<std::uint8_t>(regs::kAddrRegadr + from), &op.request_[from],
+  add_proven(chip, op, static_cast<std::uint8_t>(regs::kAddrRegadr + from), &op.request_[from],
              kRequestBytes - from);
 }
 
@@ -312,7 +312,7 @@ inline Result<void> Procedures::access(ChipState& chip, Operation& op, std::uint
   switch (op.stage_) {
     case kFill:
     case kSet: {
-      if (const Result<void> set = equals(op); !set) {
+      if (const Result<void> set = written(chip, op); !set) {
         return set;
       }
       if (state.stray && chip.checks_all()) {

@@ -132,7 +132,7 @@ inline Result<void> Procedures::switched_step(ChipState& chip, Operation& op,
 // With SpiCheck::kFull three steps, otherwise one.
 inline void Procedures::add_held(ChipState& chip, Operation& op) {
   add_confirmed(chip, op, kHoldAndAgs, kSet);
-  chip.held_for_actuator = chip.checks_all();
+  chip.set_waits(ChipState::kForActuator, chip.checks_all());
   if (!chip.checks_all()) {
     add_word(chip, op, kFill);
     add_release(chip, op, {});
@@ -189,7 +189,7 @@ inline Result<void> Procedures::held_step(ChipState& chip, Operation& op, std::u
       }
       break;
     default:  // kStopped: the release
-      chip.held_for_actuator = false;
+      chip.set_waits(ChipState::kForActuator, false);
       if (done) {
         done = instruction_proven(chip, op, regs::AGS::encode<1>());
       }

@@ -68,13 +68,19 @@ struct ChipState {
   // A frame may still run and SVALID is unknown: BREAK comes before the next request. Every error
   // after the first transfer of a call sets this flag.
   bool recover_first = true;
-  // An actuator holds the bank between its steps.
-  bool held_for_actuator = false;
+  // Why reads of positions are kBusy: an actuator holds the bank between its steps; a disturbed
+  // write may have changed the configuration, which the operation compares now.
+  static constexpr std::uint8_t kForActuator = 1;
+  static constexpr std::uint8_t kForProof = 2;
+  std::uint8_t reads_wait = 0;
   // The caller wants automatic frames, but they need BREAK and a new start first (table 69).
   bool restart = false;
   std::uint16_t sensor_flags = 0;  // flag_of() of `sensors`
   std::uint8_t sensors = 0;        // slaves of `config` that deliver data; bit 0 is slave 1
   std::uint8_t actuators = 0;      // slaves of `config` that take words; bit 0 is slave 1
+  // SpiCheck::kFull with several slaves on a channel: if a disturbed write switches one of them
+  // off, the others get the words of their neighbours, with a right CRC.
+  bool guards = false;
   ControlState control{};
   std::uint32_t frame_us = 0;             // frame_timeout_us(), worked out once
   std::uint32_t busy_us = 0;              // register_busy_us()
@@ -98,11 +104,15 @@ struct ChipState {
     return word;
   }
 
+  void set_waits(std::uint8_t why, bool waits) {
+    reads_wait = static_cast<std::uint8_t>(waits ? reads_wait | why : reads_wait & ~unsigned{why});
+  }
+
   // Before a new configuration.
   void forget() {
     configured = false;
     automatic = false;
-    held_for_actuator = false;
+    reads_wait = 0;
     restart = false;
     recover_first = true;
     control = {};
@@ -122,7 +132,14 @@ struct ChipState {
     needs = (sensors & (sensors - 1U)) != 0 ? MB4_WITH_SEVERAL : 0;
     set_counts(watch.counts);
     count = 0;
+    std::uint8_t before = 0;  // channel of the slave before
+    guards = false;
     for (std::uint8_t slave = 1; slave <= kSlaves; ++slave) {
+      if (from.slaves[slave - 1U].enabled) {
+        const std::uint8_t channel = channel_of(from, slave);
+        guards = guards || (checks_all() && channel == before);
+        before = channel;
+      }
       if (is_in(sensors, slave)) {
         set_word(from, slave, words[count++]);
         needs = static_cast<std::uint8_t>(needs | needed(from, slave));
@@ -155,7 +172,7 @@ struct ChipState {
   // Automatic frames begin now.
   void started(std::uint32_t now_us) {
     automatic = true;
-    held_for_actuator = false;
+    set_waits(kForActuator, false);
     restart = false;
     watch.news_us = now_us;
     watch.taken = 0;
@@ -168,6 +185,9 @@ struct ChipState {
 
   [[nodiscard]] bool control_runs() const { return control.kind != ControlState::Kind::kNone; }
 
+  // The configuration is compared, or must be.
+  [[nodiscard]] bool in_doubt() const { return (reads_wait & kForProof) != 0; }
+
   // 0xE2..0xE5 need not hold the request at rest.
   [[nodiscard]] bool request_is_away() const { return control_runs() || control.armed; }
 
@@ -175,7 +195,7 @@ struct ChipState {
     if (!configured) {
       return Error::kNotConfigured;
     }
-    if (control_runs()) {
+    if (control_runs() || in_doubt()) {
       return Error::kBusy;
     }
     return automatic ? Error::kWrongMode : Error::kNone;
@@ -202,7 +222,7 @@ struct ChipState {
     if (!automatic) {
       return Error::kWrongMode;
     }
-    return held_for_actuator ? Error::kBusy : Error::kNone;
+    return reads_wait != 0 ? Error::kBusy : Error::kNone;
   }
 
   // Time from BREAK until all slaves are ready, by any clock. Slaves of BiSS B may be in register
@@ -216,7 +236,7 @@ struct ChipState {
   // What BREAK ends.
   void stopped() {
     automatic = false;
-    held_for_actuator = false;
+    set_waits(kForActuator, false);
     control.kind = ControlState::Kind::kNone;
     control.owner = nullptr;
     control.waits = false;

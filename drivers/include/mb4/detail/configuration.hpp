@@ -27,19 +27,32 @@ inline constexpr std::size_t kComparesOnly = 0;
 inline constexpr std::size_t kConfigures = 1;
 inline constexpr std::size_t kResets = 2;
 
-// REVISION and VERSION are constant. 0xE0, 0xE1 and 0xEE are reserved, and the datasheet does not
-// say what they read. 0xE2..0xE5 change while a control communication is `running`.
-constexpr bool is_compared(unsigned address, bool running) {
-  const bool control = address >= regs::kAddrRegadr && address <= regs::kAddrCtrl;
-  return !(control && running) && (address < 0xE0 || address > 0xE1) && address != 0xEE &&
-         address != regs::kAddrRevision && address != regs::kAddrVersion;
-}
-
 inline void Procedures::plan_verify(ChipState& chip, Operation& op) {
   begin(chip, op, configuration_step);
   op.count_ = kComparesOnly;
   op.bad_ = chip.request_is_away() ? 1 : 0;
   add_compared(op, kLastPart);
+}
+
+// An operation has ended, and a write of it may have changed the configuration.
+inline void Procedures::plan_proof(ChipState& chip, Operation& op, const Result<void>& cause) {
+  plan_verify(chip, op);
+  op.step_ = proof_step;
+  op.cause_ = cause.info();
+}
+
+// The operation has the result that it had, or that of the comparison.
+inline Result<void> Procedures::proof_step(ChipState& chip, Operation& op, std::uint32_t now_us) {
+  const Result<void> done = configuration_step(chip, op, now_us);
+  if (op.plan_.frames != 0) {
+    return done;
+  }
+  if (!done) {
+    chip.configured = false;
+    chip.stopped();
+    return done;
+  }
+  return op.cause_;
 }
 
 // `config` is valid.
@@ -93,6 +106,9 @@ inline Result<void> Procedures::configuration_step(ChipState& chip, Operation& o
     chip.configured = false;
     chip.stopped();
   }
+  if (done && compares && op.plan_.frames == 0) {
+    chip.set_waits(ChipState::kForProof, false);
+  }
   if (done && op.plan_.frames == 0 && op.count_ == kConfigures) {
     chip.configured = true;
     // Without a system clock EOT is 0 too; then BREAK changes nothing.
@@ -145,13 +161,8 @@ inline Result<void> Procedures::configure(ChipState& chip, Operation& op) {
     }
     return old;
   }
-  // Status and instruction, 0xF0..0xF4, end the last part but 0xF5.
-  const unsigned size = last ? unsigned{regs::kAddrStatus0} - kLastPart : kPartBytes;
-  const std::uint8_t* want = chip.image.data() + (op.at_ - kImageFirst);
-  for (unsigned i = 0; i < size; ++i) {
-    if (is[i] != want[i] && is_compared(op.at_ + i, op.bad_ != 0)) {
-      return ErrorInfo::at_register(Error::kVerify, static_cast<std::uint8_t>(op.at_ + i));
-    }
+  if (const unsigned at = differs_at(chip, op.at_, is, kPartBytes, op.bad_ != 0); at != kNowhere) {
+    return ErrorInfo::at_register(Error::kVerify, static_cast<std::uint8_t>(at));
   }
   if (last && is[kPartBytes - 1] != chip.interface_byte) {
     return ErrorInfo::at_register(Error::kVerify, regs::kAddrIface);

@@ -55,7 +55,7 @@ inline void Procedures::prepare(ChipState& chip, Operation& op) {
   mb4_plan_add(&op.plan_, 3, MB4_CYCLIC_WRITE, kScdata5, 0);
   op.stage_ = kSet;
   if (any_channel_is(chip.config, Protocol::kBissB)) {
-    add_write(chip, op, regs::kAddrCtrl, &chip.image[regs::kAddrCtrl - kImageFirst], 1);
+    add_request_bytes(chip, op, regs::kAddrCtrl, &chip.image[regs::kAddrCtrl - kImageFirst], 1);
     op.stage_ = kFill;
   }
 }
@@ -75,7 +75,8 @@ inline Result<void> Procedures::initialize_step(ChipState& chip, Operation& op,
     }
     case kFill:
     case kSet: {
-      const Result<void> set = op.stage_ == kFill ? same(chip, op) : Result<void>();
+      const Result<void> set =
+          op.stage_ == kFill && chip.checks_all() ? written(chip, op) : Result<void>();
       if (set) {
         add_instruction(op, regs::INIT::encode<1>());
         op.stage_ = kStart;
