@@ -62,12 +62,15 @@ namespace mb4 {
 // kCorrupted, with SpiCheck::kFull: it reads back differently twice, so the write may have reached
 // another register (verify()); it is sent again.
 //
-// With SpiCheck::kFull and several slaves on a channel each of these writes has one transfer more,
-// which reads the configuration that one wrong bit of its address would have changed. If that is
-// not as it was written the call ends with kCorrupted, but first it compares the whole configuration
-// as Device::verify() does; meanwhile reads of positions are kBusy. If it differs, or cannot be
-// read, the call has the error of verify() (kVerify, kNotDetected, kTransport), and the Device counts
-// as not configured.
+// With SpiCheck::kFull, where something reads back differently, the disturbed transfer may have
+// reached the configuration, or have been an instruction. Then the call, before it ends, compares
+// the whole configuration as Device::verify() does, and looks whether automatic frames run;
+// meanwhile reads of positions are kBusy. It ends with the error that it had, or with kCorrupted
+// and needs a restart; if the configuration differs, or cannot be read, with the error of verify()
+// (kVerify, kNotDetected, kTransport), and the Device counts as not configured. With several slaves
+// on a channel each write of RDATA also reads the registers that one wrong bit of its address would
+// have changed. Without SpiCheck::kFull reads of positions are kBusy from the request to its
+// instruction.
 //
 // Registers go in parts of eight, each in a transfer of its own. After a failed call BREAK comes
 // first, before anything of the access is written: two transfers and 100 us more, three with

@@ -75,7 +75,7 @@ class Operation : public Steps {
 
   // Most bytes of an access in one frame: plan and finish() of one step stay short.
   static constexpr std::uint8_t kPart = 8;
-  static constexpr std::size_t kWords = 13;
+  static constexpr std::size_t kWords = 12;
 
   // Takes what came back and adds the next frames. Without frames the operation has ended.
   using Step = Result<void> (*)(detail::ChipState&, Operation&, std::uint32_t now_us);

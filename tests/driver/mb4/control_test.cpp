@@ -534,7 +534,15 @@ TEST_F(RegistersAgs, DisturbedFill_IsFollowedByARestart) {
   const std::array<std::uint8_t, 1> data{0x12};
   bus.expect_write({0x02, 0x80, 0x12});
   bus.expect_read({0x03, 0x80, 0x00}, {0, 0, 0x02});
-  bus.expect_proven(kRest);  // the bytes may be there
+  bus.expect_proven(kRest);  // the bytes may be there; the configuration is compared
+  Bytes answer = mb4test::read_back();
+  answer[0xE7 - 0xC0] = 0x00;
+  for (const int from : {0xE4, 0xC0, 0xD2}) {
+    const auto begin = answer.begin() + (from - 0xC0);
+    bus.expect_read(join({{0x03, static_cast<std::uint8_t>(from)}, zeros(18)}),
+                    join({zeros(2), Bytes(begin, begin + 18)}));
+  }
+  bus.expect_read(kReadStatus, {0, 0xFB, 0, 0, 0, 0x01});
   EXPECT_EQ(device.control().write_registers({1, 0}, 0x60, data).error(), Error::kCorrupted);
   bus.expect_write({0x07, 0x80, 0x00}).fail_last();
   mb4::Frame frame;
@@ -872,6 +880,7 @@ TEST_F(HoldBesideControl, FlippedRegend_DoesNotEndTheAccess) {
   bus.expect_read(kReadStatus, {0, kEnded, 0, 0, 0, 0x01});
   bus.expect_read(kReadStatus, {0, kEnded, 0, 0, 0, 0x01});
   bus.expect_read({0x03, 0x80, 0x5A}, {0, 0, 0x77});  // RDATA1, which take() compares
+  bus.expect_read(kReadStatus, {0, kEnded, 0, 0, 0, 0x01});
   bus.expect_proven(kRest);
   EXPECT_TRUE(*device.control().poll());
 }

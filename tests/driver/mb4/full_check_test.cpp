@@ -245,6 +245,7 @@ TEST_F(FullCheck, BadWordBesideAnAccess_IsNotMarked) {
   bus.expect_read(kReadStatus, done);
   bus.expect_read(kReadStatus, done);
   bus.expect_read({0x03, 0x80, 0x5A}, {0, 0, 0x77});
+  bus.expect_read(kReadStatus, done);
   bus.expect_proven({0x02, 0xE2, 0x00, 0x00, 0x00, 0xC0});
   ASSERT_TRUE(*device.control().poll());
   poll(false);

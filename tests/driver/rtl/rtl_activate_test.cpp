@@ -210,6 +210,9 @@ TEST(DriverActivateUse, BusFails_IsTold) {
     chip.bus.plan({kind, first, last, 0});
     const Error error = chip.device.control().activate().error();
     chip.bus.plan({});
+    if (!chip.device.configured()) {  // MISO was stuck where the configuration was compared
+      EXPECT_TRUE(chip.device.configure(mb4test::config26(10'000'000)).ok());
+    }
     EXPECT_TRUE(chip.device.control().activate().ok());
     EXPECT_TRUE(chip.device.initialize().ok());
     return error;

@@ -103,15 +103,14 @@ const Call kCalls[] = {
      [](FaultyChip& c) {
        return c.device.control().begin_read({1, 0}, 0x44, 4).error();
      },
-     Error::kCorrupted, Error::kCorrupted},
+     kNo, kNo},
     {"BeginWrite", State::kConfigured,
      [](FaultyChip& c) {
        return c.device.control().begin_write({1, 0}, 0x60, kBytes).error();
      },
-     Error::kCorrupted, Error::kCorrupted},
+     kNo, kNo},
     {"BeginCommand", State::kConfigured,
-     [](FaultyChip& c) { return c.device.control().begin_command(activate()).error(); },
-     Error::kCorrupted, Error::kCorrupted},
+     [](FaultyChip& c) { return c.device.control().begin_command(activate()).error(); }, kNo, kNo},
     {"ControlPoll", State::kReadBegun,
      [](FaultyChip& c) {
        Error error = Error::kNone;
@@ -124,23 +123,22 @@ const Call kCalls[] = {
     {"Take", State::kReadEnded,
      [](FaultyChip& c) { return bytes(c.device.control().take(buffer), kSerial); }, kNo, kNo},
     {"Abort", State::kReadBegun, [](FaultyChip& c) { return c.device.control().abort().error(); },
-     Error::kCorrupted, Error::kCorrupted},
+     kNo, kNo},
     {"ReadRegisters", State::kConfigured,
      [](FaultyChip& c) {
        return bytes(c.device.control().read_registers({1, 0}, 0x44, buffer), kSerial);
      },
-     Error::kCorrupted, Error::kCorrupted, 4, 5, true},
+     kNo, kNo, 4, 6, true},
     {"WriteRegisters", State::kConfigured,
      [](FaultyChip& c) {
        return c.device.control().write_registers({1, 0}, 0x60, kBytes).error();
      },
-     Error::kCorrupted, Error::kCorrupted, 1, 4, true},
+     kNo, kNo, 1, 4, true},
     {"Send", State::kConfigured,
-     [](FaultyChip& c) { return c.device.control().send(activate()).error(); }, Error::kCorrupted,
-     Error::kCorrupted, 1, 4, true},
+     [](FaultyChip& c) { return c.device.control().send(activate()).error(); }, kNo, kNo, 1, 4,
+     true},
     {"Activate", State::kConfigured,
-     [](FaultyChip& c) { return c.device.control().activate().error(); }, Error::kCorrupted,
-     Error::kCorrupted, 1, 4, true},
+     [](FaultyChip& c) { return c.device.control().activate().error(); }, kNo, kNo, 1, 4, true},
     {"FieldGet", State::kFresh,
      [](FaultyChip& c) {
        const auto value = c.device.fields().get<regs::VERSION>();

@@ -470,7 +470,8 @@ TEST(DriverOperationActuator, ReadBetweenItsSteps_IsBusy) {
 }
 
 // A loop that ticks with the frames: in each tick a chain for the position, then one step of the
-// access. At least 99 % of the ticks bring a position, at each of 25 phases.
+// access. At least 99 % of the ticks bring a position, at each of 25 phases, but one: without kFull
+// a read waits between the request and its instruction.
 TEST_P(DriverOperation, ReadBesideEveryPhase_PositionsGoOn) {
   for (unsigned phase = 0; phase < 25; ++phase) {
     FaultyChip chip(
@@ -491,17 +492,21 @@ TEST_P(DriverOperation, ReadBesideEveryPhase_PositionsGoOn) {
     ASSERT_TRUE(chip.device.control().plan_read(op, {1, 0}, 0x44, serial).ok());
     unsigned ticks = 0;
     unsigned positions = 0;
+    unsigned waits = 0;
     std::uint64_t last = 0;
     for (bool ended = false; !ended; ++ticks) {
       ASSERT_LT(ticks, 500U);
       chip.simulator.run_until(tick);
       tick += period;
-      ASSERT_TRUE(chip.device.automatic().plan_slave(1, read).ok());
+      const Error planned = chip.device.automatic().plan_slave(1, read).error();
+      ASSERT_TRUE(planned == Error::kNone || planned == Error::kBusy);
+      waits += planned == Error::kBusy ? 1 : 0;
       bool transferred = false;
-      do {
+      while (planned == Error::kNone) {
         transferred = read.run(chip.bus);
-      } while (!chip.device.automatic().finish(read, transferred, chip.clock.now_us()));
-      if (read.error() == Error::kNone) {
+        if (chip.device.automatic().finish(read, transferred, chip.clock.now_us())) break;
+      }
+      if (planned == Error::kNone && read.error() == Error::kNone) {
         EXPECT_TRUE(positions == 0 || read.position() > last);
         last = read.position();
         ++positions;
@@ -512,7 +517,8 @@ TEST_P(DriverOperation, ReadBesideEveryPhase_PositionsGoOn) {
     ASSERT_TRUE(op.result().ok()) << mb4::to_string(op.result().error());
     EXPECT_EQ(serial, (std::array<std::uint8_t, 4>{0x00, 0xD9, 0x01, 0x32}));
     EXPECT_GE(ticks, 80U);
-    EXPECT_GE((positions + 2) * 100, ticks * 99) << "phase " << phase;
+    EXPECT_EQ(waits, GetParam() < mb4::SpiCheck::kFull ? 1U : 0U);
+    EXPECT_GE((positions + 2 + waits) * 100, ticks * 99) << "phase " << phase;
   }
 }
 
@@ -754,6 +760,9 @@ TEST(DriverOperationFault, AnyFault_NoWrongRegisterAndNoFalseSuccess) {
     EXPECT_EQ(chip.simulator.slave(1)->reg_read(0x45), 0xD9) << fault.text();
     // Afterwards the chip works. A lost BREAK is repeated by the restart.
     chip.bus.plan({});
+    if (!chip.device.configured()) {  // MISO was stuck where the configuration was compared
+      EXPECT_TRUE(chip.device.configure(encoder(true)).ok()) << fault.text();
+    }
     EXPECT_TRUE(chip.device.automatic().restart().ok()) << fault.text();
     chip.simulator.advance(250 * sim::kPsPerUs);
     EXPECT_TRUE(chip.device.automatic().poll_slave(1).ok()) << fault.text();

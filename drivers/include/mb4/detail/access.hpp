@@ -200,16 +200,31 @@ inline void Procedures::add_request(ChipState& chip, Operation& op) {
   ControlState& state = chip.control;
   if (state.kind != ControlState::Kind::kRead && op.at_ < op.count_) {
     op.stage_ = kFill;
-    add_proven(chip, op, static_cast<std::uint8_t>(regs::kAddrRdata + op.at_), op.data_ + op.at_,
+    add_proven(op, static_cast<std::uint8_t>(regs::kAddrRdata + op.at_), op.data_ + op.at_,
                part(op));
+    if (chip.guards) {
+      add_read(op, static_cast<std::uint8_t>(kImageFirst + op.at_), part(op));
+    }
     return;
   }
   // A command leaves 0xE2 and 0xE3 as they are.
   const std::uint8_t from = state.kind == ControlState::Kind::kCommand ? 2 : 0;
   op.stage_ = kSet;
   state.armed = true;
-  add_proven(chip, op, static_cast<std::uint8_t>(regs::kAddrRegadr + from), &op.request_[from],
+  add_proven(op, static_cast<std::uint8_t>(regs::kAddrRegadr + from), &op.request_[from],
              kRequestBytes - from);
+}
+
+// RDATA may hold the bytes from before, and then reads back right although the write went to the
+// configuration: 0x80 and 0xC0 differ in one bit.
+inline bool Procedures::guarded(ChipState& chip, Operation& op) {
+  const unsigned from = kImageFirst + static_cast<unsigned>(op.at_);
+  const unsigned size = from + part(op) <= regs::kAddrStatus0 ? part(op) : 0U;
+  if (op.good_ && differs_at(chip, from, received(op) + 2, size, true) != kNowhere) {
+    doubt(chip);
+  }
+  --op.made_;
+  return !chip.in_doubt();
 }
 
 // Bytes of the next frame.
@@ -259,6 +274,7 @@ inline void Procedures::add_access(ChipState& chip, Operation& op) {
   state.first_frame = true;
   state.frames = 1;
   op.stage_ = kStart;
+  chip.set_waits(ChipState::kForRequest, chip.automatic && !chip.checks_all());
   add_instruction(op, static_cast<std::uint8_t>(
                           chip.automatic ? kControlFrame | regs::AGS::encode<1>() : kControlFrame));
   if (state.biss_b || (chip.automatic && chip.checks_all())) {
@@ -284,6 +300,7 @@ inline Result<void> Procedures::access_step(ChipState& chip, Operation& op, std:
   if (chip.control.owner != &op) {
     return Error::kWrongMode;
   }
+  chip.set_waits(ChipState::kForRequest, false);
   const Result<void> done = access(chip, op, now_us);
   if (done || chip.control.kind == ControlState::Kind::kNone) {
     return done;
@@ -312,6 +329,9 @@ inline Result<void> Procedures::access(ChipState& chip, Operation& op, std::uint
   switch (op.stage_) {
     case kFill:
     case kSet: {
+      if (op.stage_ == kFill && chip.guards && !guarded(chip, op)) {
+        return Error::kCorrupted;
+      }
       if (const Result<void> set = written(chip, op); !set) {
         return set;
       }
@@ -421,17 +441,22 @@ inline Result<void> Procedures::access(ChipState& chip, Operation& op, std::uint
     }
     case kTakeAgain:
       // An access that a disturbed byte has started meanwhile has read register 0 into RDATA1.
-      return (op.at_ != 0 || *op.out_ == state.first) &&
-                     equal(op.out_ + op.at_, received(op) + 2, part(op))
-                 ? taken(chip, op)
-                 : not_taken(chip);
+      if ((op.at_ != 0 || *op.out_ == state.first) &&
+          equal(op.out_ + op.at_, received(op) + 2, part(op))) {
+        return taken(chip, op);
+      }
+      doubt(chip);
+      return not_taken(chip);
     case kFirst:
-      if (!op.good_ && ++op.bad_ != kBadLooks) {
+      if (!look(op) && ++op.bad_ != kBadLooks) {
         add_first(op);
         return {};
       }
+      if (chip.automatic && op.status_.get<regs::AGS>() == 0) {
+        doubt(chip);  // the opcode was disturbed: 0x07 is an instruction
+      }
       op.bad_ = 0;
-      state.first = received(op)[2];
+      state.first = received(op, 1)[2];
       add_end(chip, op);
       return {};
     case kRest:
@@ -608,6 +633,7 @@ inline Result<void> Procedures::conclude(ChipState& chip, Operation& op) {
 inline void Procedures::add_first(Operation& op) {
   op.stage_ = kFirst;
   add_read(op, regs::kAddrRdata, 1, 0x5A);
+  mb4_cyclic_add_status(&op.plan_);
 }
 
 // Without AGS the frames of the access have set SVALID, and the next single frame needs SVALID = 0,

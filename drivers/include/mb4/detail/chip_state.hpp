@@ -69,9 +69,12 @@ struct ChipState {
   // after the first transfer of a call sets this flag.
   bool recover_first = true;
   // Why reads of positions are kBusy: an actuator holds the bank between its steps; a disturbed
-  // write may have changed the configuration, which the operation compares now.
+  // write may have changed the configuration, which the operation compares now; without
+  // SpiCheck::kFull, a request is in the chip and not yet begun, and the 0x02 of a read with one
+  // wrong bit (0xF1 and 0xE1) would make another one of it.
   static constexpr std::uint8_t kForActuator = 1;
   static constexpr std::uint8_t kForProof = 2;
+  static constexpr std::uint8_t kForRequest = 4;
   std::uint8_t reads_wait = 0;
   // The caller wants automatic frames, but they need BREAK and a new start first (table 69).
   bool restart = false;
@@ -172,7 +175,7 @@ struct ChipState {
   // Automatic frames begin now.
   void started(std::uint32_t now_us) {
     automatic = true;
-    set_waits(kForActuator, false);
+    set_waits(kForActuator | kForRequest, false);
     restart = false;
     watch.news_us = now_us;
     watch.taken = 0;
@@ -236,7 +239,7 @@ struct ChipState {
   // What BREAK ends.
   void stopped() {
     automatic = false;
-    set_waits(kForActuator, false);
+    set_waits(kForActuator | kForRequest, false);
     control.kind = ControlState::Kind::kNone;
     control.owner = nullptr;
     control.waits = false;

@@ -34,7 +34,8 @@ inline void Procedures::plan_verify(ChipState& chip, Operation& op) {
   add_compared(op, kLastPart);
 }
 
-// An operation has ended, and a write of it may have changed the configuration.
+// An operation has ended in doubt(): the configuration is compared, and a status says whether
+// automatic frames run as they should.
 inline void Procedures::plan_proof(ChipState& chip, Operation& op, const Result<void>& cause) {
   plan_verify(chip, op);
   op.step_ = proof_step;
@@ -51,6 +52,16 @@ inline Result<void> Procedures::proof_step(ChipState& chip, Operation& op, std::
     chip.configured = false;
     chip.stopped();
     return done;
+  }
+  chip.recover_first = true;
+  if (chip.automatic && op.status_.get<regs::AGS>() == 0) {
+    chip.restart = true;
+    chip.stopped();
+    if (op.cause_) {
+      op.cause_ = Error::kCorrupted;
+    }
+  } else if (op.status_.instruction() != regs::AGS::kMask) {
+    chip.watch.held = true;  // the next read drops the words that wait
   }
   return op.cause_;
 }

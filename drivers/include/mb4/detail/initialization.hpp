@@ -55,7 +55,7 @@ inline void Procedures::prepare(ChipState& chip, Operation& op) {
   mb4_plan_add(&op.plan_, 3, MB4_CYCLIC_WRITE, kScdata5, 0);
   op.stage_ = kSet;
   if (any_channel_is(chip.config, Protocol::kBissB)) {
-    add_request_bytes(chip, op, regs::kAddrCtrl, &chip.image[regs::kAddrCtrl - kImageFirst], 1);
+    add_write(chip, op, regs::kAddrCtrl, &chip.image[regs::kAddrCtrl - kImageFirst], 1);
     op.stage_ = kFill;
   }
 }

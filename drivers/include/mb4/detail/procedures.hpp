@@ -63,8 +63,7 @@ struct Procedures {
     if (op.plan_.frames != 0) {
       return false;
     }
-    if ((chip.reads_wait & ChipState::kForProof) != 0 && chip.configured &&
-        op.step_ != proof_step) {
+    if (chip.in_doubt() && chip.configured && op.step_ != proof_step) {
       plan_proof(chip, op, result);
       return false;
     }
@@ -208,13 +207,11 @@ struct Procedures {
       if (!seen) {
         return seen;
       }
-      if (first && chip.control.armed) {
-        guard(chip, op, 1);
-        if (chip.in_doubt()) {
-          return Error::kCorrupted;
-        }
+      if (first && chip.control.armed && !rests(chip, op, 1)) {
+        doubt(chip);
+        return Error::kCorrupted;
       }
-      if (op.status_.instruction() != 0 || (first && chip.control.armed && !rests(chip, op, 1))) {
+      if (op.status_.instruction() != 0) {
         return Error::kCorrupted;
       }
       const bool valid = (op.status_.valid_flags() & chip.sensor_flags) != 0;
@@ -270,68 +267,16 @@ struct Procedures {
       *tx++ = *data++;
     }
   }
-  // Writes RDATA or the request, and reads it back: written(). Where the chip guards several slaves
-  // it also reads the configuration that one wrong bit of the address writes instead.
-  [[gnu::noinline]] static void add_proven(const ChipState& chip, Operation& op,
-                                           std::uint8_t address, const std::uint8_t* data,
-                                           std::size_t size) {
+  // Reads back what it writes: written().
+  [[gnu::noinline]] static void add_proven(Operation& op, std::uint8_t address,
+                                           const std::uint8_t* data, std::size_t size) {
     add_bytes(op, address, data, size);
-    add_looks(chip, op, address, size);
+    add_read(op, address, size);
   }
-  // The request. Without SpiCheck::kFull nothing is read back.
-  [[gnu::noinline]] static void add_request_bytes(const ChipState& chip, Operation& op,
-                                                  std::uint8_t address, const std::uint8_t* data,
-                                                  std::size_t size) {
-    add_bytes(op, address, data, size);
-    if (chip.checks_all()) {
-      add_looks(chip, op, address, size);
-    }
-  }
-  [[gnu::always_inline]] static void add_looks(const ChipState& chip, Operation& op,
-                                               std::uint8_t address, std::size_t size) {
-    if (chip.guards) {
-      add_guard(op, address, size);
-    } else {
-      add_read(op, address, size);
-    }
-  }
-  [[gnu::noinline]] static void add_guard(Operation& op, std::uint8_t address, std::size_t size) {
-    add_read(op, twin_of(address), size);
-    add_read(op, address, address >= regs::kAddrRegadr ? std::size_t{kGuardEnd} - address : size);
-  }
-  // 0xE6..0xED follow the request: 0xE2 becomes 0xE6 or 0xEA, 0xE5 becomes 0xED by one bit.
-  static constexpr unsigned kGuardEnd = 0xEE;
-  // For the request the configuration of the slaves, for RDATA this or the request.
-  static constexpr std::uint8_t twin_of(std::uint8_t address) {
-    return static_cast<std::uint8_t>(address ^ (address >= regs::kAddrRegadr ? 0x20U : 0x40U));
-  }
-  // add_looks() was made last. kTransport; kCorrupted: what was read back differs.
-  [[gnu::always_inline]] static Result<void> written(ChipState& chip, const Operation& op) {
-    return chip.guards ? guarded(chip, op) : equals(op);
-  }
-  [[gnu::noinline]] static Result<void> guarded(ChipState& chip, const Operation& op) {
-    if (!op.good_) {
-      return Error::kTransport;
-    }
-    guard(chip, op, 0);
-    const std::uint8_t write = static_cast<std::uint8_t>(op.made_ - 3);
-    const bool same =
-        equal(mb4_plan_tx(&op.plan_, write) + 2, received(op) + 2, op.plan_.size[write] - 2U);
-    return same && !chip.in_doubt() ? Error::kNone : Error::kCorrupted;
-  }
-  // add_looks() was made, and `behind` frames. If the configuration there is not as it was written,
-  // no position is read until the operation has compared all of it: finish().
-  static void guard(ChipState& chip, const Operation& op, unsigned behind) {
-    for (unsigned look = behind; chip.guards && op.good_ && look != behind + 2; ++look) {
-      const std::uint8_t frame = static_cast<std::uint8_t>(op.made_ - 1U - look);
-      const unsigned from = mb4_plan_tx(&op.plan_, frame)[1];
-      const unsigned size = op.plan_.size[frame] - 2U;
-      if (from >= kImageFirst && from + size <= kImageFirst + kImageBytes &&
-          differs_at(chip, from, received(op, look) + 2, size, true) != kNowhere) {
-        chip.set_waits(ChipState::kForProof, true);
-      }
-    }
-  }
+  // Something that was read back differs. The write may have reached another register, among them
+  // the configuration, and a read whose opcode was disturbed is an instruction (0x03 and 0x07): no
+  // position is read until the operation has compared all and seen 0xF4, in finish().
+  static void doubt(ChipState& chip) { chip.set_waits(ChipState::kForProof, chip.checks_all()); }
   // The first of `size` registers that is not as it was written, of those that are compared while a
   // control communication is `running`.
   static constexpr unsigned kNowhere = 0x100;
@@ -367,7 +312,7 @@ struct Procedures {
   // The request at rest: a read of register 0. A disturbed byte of 0xF4 that starts an access then
   // does no harm (docs/choices.md).
   [[gnu::noinline]] static void add_rest(const ChipState& chip, Operation& op) {
-    add_request_bytes(chip, op, regs::kAddrRegadr, request_at_rest(chip), kRequestBytes);
+    add_write(chip, op, regs::kAddrRegadr, request_at_rest(chip), kRequestBytes);
   }
   static const std::uint8_t* request_at_rest(const ChipState& chip) {
     return &chip.image[regs::kAddrRegadr - kImageFirst];
@@ -382,11 +327,11 @@ struct Procedures {
   // transfer, control.armed stays, which makes the next call send it; until then nothing may start
   // what was asked for once more.
   [[gnu::noinline]] static bool rested(ChipState& chip, Operation& op) {
-    guard(chip, op, 0);
     const bool set = op.good_ && (!chip.checks_all() || rests(chip, op, 0));
     if (!set && op.good_ && ++op.bad_ < kBadLooks) {
       if (op.bad_ == 1) {
-        add_looks(chip, op, regs::kAddrRegadr, kRequestBytes);
+        doubt(chip);
+        add_read(op, regs::kAddrRegadr, kRequestBytes);
         return false;
       }
       if (op.cause_) {
@@ -459,12 +404,20 @@ struct Procedures {
     return true;
   }
 
-  // With SpiCheck::kFull: equals(). kTransport; kCorrupted.
-  [[gnu::noinline]] static Result<void> same(const ChipState& chip, const Operation& op) {
+  // With SpiCheck::kFull: equals(), and beside automatic frames written(). kTransport.
+  [[gnu::noinline]] static Result<void> same(ChipState& chip, const Operation& op) {
     if (!op.good_ || chip.checks_all()) {
-      return equals(op);
+      return chip.automatic ? written(chip, op) : equals(op);
     }
     return {};
+  }
+  // equals(), and with SpiCheck::kFull doubt() where it differs.
+  static Result<void> written(ChipState& chip, const Operation& op) {
+    const Result<void> result = equals(op);
+    if (result.error() == Error::kCorrupted) {
+      doubt(chip);
+    }
+    return result;
   }
   // The last two frames belong together: the second has read what the first has written or read.
   // kTransport; kCorrupted: it differs.
@@ -575,6 +528,7 @@ struct Procedures {
   static void add_other(Operation& op, std::uint32_t now_us);
   // ... and access.hpp.
   static void add_request(ChipState& chip, Operation& op);
+  static bool guarded(ChipState& chip, Operation& op);
   static std::uint8_t part(const Operation& op);
   static void add_take(ChipState& chip, Operation& op);
   static void begin_access(ChipState& chip, Operation& op, bool biss_b);
