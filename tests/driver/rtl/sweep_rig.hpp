@@ -654,6 +654,7 @@ class Rig {
       return;
     }
     bool done = false;
+    in_steps_ = true;
     for (unsigned i = 0; i < 2000 && !done; ++i) {
       if (op_.pause_us() != 0) simulator.advance(op_.pause_us() * sim::kPsPerUs);
       const bool transferred = op_.run(bus);
@@ -661,6 +662,7 @@ class Rig {
       // A read is kBusy between the steps of an actuator, which holds the bank.
       if (!done && device.automatic().running() && setup_.act != Act::kPlanActuator) read();
     }
+    in_steps_ = false;
     if (!done) raise(Verdict::kDead, "the operation does not end");
     ended(op_.result().error());
   }
@@ -965,6 +967,8 @@ class Rig {
   }
 
   void told(Error error) {
+    // Before an instruction, and while the configuration is compared.
+    if (error == Error::kBusy && in_steps_) return;
     no_word_ = no_word_ || error == Error::kNoWord;
     if (error != Error::kNoData || is_single(setup_.way)) {
       raise(Verdict::kTold, mb4::to_string(error));
@@ -1108,6 +1112,7 @@ class Rig {
   std::map<std::uint8_t, std::uint64_t> seen_;                 // frames sent before the last read
   unsigned good_ = 0;
   bool no_word_ = false;
+  bool in_steps_ = false;
   bool access_ = false;  // two registers are being written beside the reads
   bool counting_ = false;
   bool restarted_ = false;  // since the last good read
