@@ -47,21 +47,31 @@ TEST(DriverSsi, EveryLength_BinaryAndGray) {
   }
 }
 
-// configure() ends a frame that runs; the slave then waits for the rest of its timeout. A read that
-// follows at once must not take the rest of the word for a new one: SSI without CRC would not tell.
-TEST(DriverSsi, ConfigureInAFrame_NextWordIsWhole) {
+// configure(), stop() and BREAK in a frame that runs; the slave then waits for the rest of its
+// timeout, or the frame goes on. A read that follows at once must not take the rest of the word for
+// a new one: SSI without CRC would not tell.
+TEST(DriverSsi, EndsInAFrame_NextWordIsWhole) {
   constexpr std::uint64_t kWord = 0x5A5A5A5;
+  enum class How : std::uint8_t { kConfigure, kStop, kBreak };
   for (const char* host : {"", "[host]\ninterface = \"axi\"\n"}) {
-    for (unsigned phase = 0; phase < 60; ++phase) {
-      FaultyChip chip(host + on_channel(1) + device("ssi", 27, "timeout = 90\nflag_bits = 0\n"));
-      ASSERT_TRUE(chip.simulator.slave(1)->set_data(kWord));
-      ASSERT_TRUE(chip.device.configure(ssi_config(27, false)).ok());
-      ASSERT_TRUE(chip.device.automatic().start().ok());
-      chip.simulator.advance((150 + 3 * phase) * mb4::sim::kPsPerUs);
-      ASSERT_TRUE(chip.device.configure(ssi_config(27, false)).ok());
-      const mb4::Result<mb4::Reading> reading = chip.device.read_frame();
-      ASSERT_TRUE(reading.ok()) << mb4::to_string(reading.error());
-      EXPECT_EQ(reading->position, kWord) << host << phase;
+    for (const How how : {How::kConfigure, How::kStop, How::kBreak}) {
+      for (unsigned phase = 0; phase < 40; ++phase) {
+        FaultyChip chip(host + on_channel(1) + device("ssi", 27, "timeout = 90\nflag_bits = 0\n"));
+        ASSERT_TRUE(chip.simulator.slave(1)->set_data(kWord));
+        ASSERT_TRUE(chip.device.configure(ssi_config(27, false)).ok());
+        ASSERT_TRUE(chip.device.automatic().start().ok());
+        chip.simulator.advance((150 + 5 * phase) * mb4::sim::kPsPerUs);
+        if (how == How::kConfigure) {
+          ASSERT_TRUE(chip.device.configure(ssi_config(27, false)).ok());
+        } else if (how == How::kStop) {
+          ASSERT_TRUE(chip.device.automatic().stop().ok());
+        } else {
+          ASSERT_TRUE(chip.device.break_transmission().ok());
+        }
+        const mb4::Result<mb4::Reading> reading = chip.device.read_frame();
+        ASSERT_TRUE(reading.ok()) << mb4::to_string(reading.error());
+        EXPECT_EQ(reading->position, kWord) << host << static_cast<unsigned>(how) << phase;
+      }
     }
   }
 }
