@@ -1145,6 +1145,20 @@ TEST_F(Doubt, DataOfAWriteInTheConfiguration_IsSeen) {
   expect_reading();
 }
 
+TEST_F(Doubt, OperationOfAnotherDevice_IsWrongMode) {
+  StrictBus other_bus;
+  mb4::Device<StrictBus, FakeClock> other(other_bus, clock);
+  mb4test::expect_configure(other_bus);
+  ASSERT_TRUE(other.configure(mb4test::encoder26()).ok());
+  mb4::Operation of_other;
+  ASSERT_TRUE(other.plan_verify(of_other).ok());
+  to_comparison();
+  EXPECT_TRUE(device.finish(of_other, true, now_us));
+  EXPECT_EQ(of_other.result().error(), Error::kWrongMode);
+  expect_waiting();
+  EXPECT_TRUE(compares());
+}
+
 // The caller gives the operation up: verify() ends the waiting.
 TEST_F(Doubt, OperationGivenUp_VerifyEndsTheWaiting) {
   to_comparison();

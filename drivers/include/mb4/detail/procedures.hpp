@@ -63,7 +63,7 @@ struct Procedures {
     if (op.plan_.frames != 0) {
       return false;
     }
-    if (chip.in_doubt() && chip.configured && op.step_ != proof_step) {
+    if (chip.in_doubt() && chip.configured && op.chip_ == &chip && op.step_ != proof_step) {
       plan_proof(chip, op, result);
       return false;
     }
