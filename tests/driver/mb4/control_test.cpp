@@ -444,12 +444,9 @@ TEST_F(RegistersAgs, NextMeanwhile_AccessGoesOn) {
   EXPECT_TRUE(frame.one_frame);
   EXPECT_FALSE(*device.control().poll());  // what next() has seen
   // And so is the configuration compared.
-  const Bytes chip = mb4test::read_back();
-  for (const std::uint8_t from : {std::uint8_t{0xE4}, std::uint8_t{0xC0}, std::uint8_t{0xD2}}) {
-    const Bytes part(chip.begin() + from - 0xC0, chip.begin() + from - 0xC0 + 18);
-    bus.expect_read(join({{0x03, from}, zeros(18)}), join({zeros(2), part}));
+  for (const auto& one : mb4test::comparison(mb4test::read_back(), kRunsAgs)) {
+    bus.expect_read(one.mosi, one.miso);
   }
-  bus.expect_read(kReadStatus, kRunsAgs);
   EXPECT_TRUE(device.verify().ok());
   bus.expect_read(kReadStatus, kDoneAgs);
   bus.expect_write(kRest);
@@ -537,12 +534,9 @@ TEST_F(RegistersAgs, DisturbedFill_IsFollowedByARestart) {
   bus.expect_proven(kRest);  // the bytes may be there; the configuration is compared
   Bytes answer = mb4test::read_back();
   answer[0xE7 - 0xC0] = 0x00;
-  for (const int from : {0xE4, 0xC0, 0xD2}) {
-    const auto begin = answer.begin() + (from - 0xC0);
-    bus.expect_read(join({{0x03, static_cast<std::uint8_t>(from)}, zeros(18)}),
-                    join({zeros(2), Bytes(begin, begin + 18)}));
+  for (const auto& one : mb4test::comparison(answer, {0, 0xFB, 0, 0, 0, 0x01})) {
+    bus.expect_read(one.mosi, one.miso);
   }
-  bus.expect_read(kReadStatus, {0, 0xFB, 0, 0, 0, 0x01});
   EXPECT_EQ(device.control().write_registers({1, 0}, 0x60, data).error(), Error::kCorrupted);
   bus.expect_write({0x07, 0x80, 0x00}).fail_last();
   mb4::Frame frame;

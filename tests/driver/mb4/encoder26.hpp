@@ -8,6 +8,9 @@
 #ifndef TESTS_DRIVER_MB4_ENCODER26_HPP_
 #define TESTS_DRIVER_MB4_ENCODER26_HPP_
 
+#include <cstdint>
+#include <vector>
+
 #include "mb4/config.hpp"
 #include "tests/driver/mb4/strict_bus.hpp"
 
@@ -63,6 +66,19 @@ inline constexpr std::size_t kConfigureTransfers = 8;
 
 inline constexpr unsigned kAll = 0;
 
+// The transfers that compare the configuration: `answer`, 0xC0..0xF5, in three parts, and `end`, a
+// status. Opcode 0x03 (page 18): data follows the address without a dummy byte.
+inline std::vector<Transfer> comparison(const Bytes& answer, const Bytes& end) {
+  std::vector<Transfer> all;
+  for (const int from : {0x24, 0x00, 0x12}) {
+    const auto begin = answer.begin() + from;
+    all.push_back({join({{0x03, static_cast<std::uint8_t>(0xC0 + from)}, zeros(18)}),
+                   join({zeros(2), Bytes(begin, begin + 18)})});
+  }
+  all.push_back({{0x05, 0, 0, 0, 0, 0}, end});
+  return all;
+}
+
 // The transfers that write `image`, 0xC0..0xEF, and compare it with `answer`, 0xC0..0xF5, in three
 // parts each. They end with the part that holds the register at `last`, in the order of comparison.
 inline void expect_image(StrictBus& bus, const Bytes& image, const Bytes& answer,
@@ -78,14 +94,10 @@ inline void expect_image(StrictBus& bus, const Bytes& image, const Bytes& answer
   bus.expect_write(join({{0x02, 0xC0}, part(all, 0, 18)}));
   bus.expect_write(join({{0x02, 0xD2}, part(all, 18, 18)}));
   bus.expect_write(join({{0x02, 0xE4}, part(all, 36, 15)}));
-  // Opcode 0x03 (page 18): data follows the address without a dummy byte. Then a status.
-  for (const int from : {0x24, 0x00, 0x12}) {
-    bus.expect_read(join({{0x03, static_cast<std::uint8_t>(0xC0 + from)}, zeros(18)}),
-                    join({zeros(2), part(answer, from, 18)}));
-    const int offset = static_cast<int>(last) - 0xC0;
-    if (last != kAll && offset >= from && offset < from + 18) return;
+  for (const Transfer& one : comparison(answer, proof)) {
+    bus.expect_read(one.mosi, one.miso);
+    if (last != kAll && last >= one.mosi[1] && last < one.mosi[1] + 18U) return;
   }
-  bus.expect_read({0x05, 0, 0, 0, 0, 0}, proof);
 }
 
 // The transfers of configure(encoder26()), or of a configuration that differs from it in the

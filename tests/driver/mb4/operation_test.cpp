@@ -44,6 +44,7 @@ const Bytes kDone = status(0xFF, 0x00);
 const Bytes kRunsAgs = status(0xFB, 0x00, 0x09);
 const Bytes kDoneAgs = status(0xFF, 0x00, 0x01);
 const Bytes kClearNone{0x02, 0xF1, 0xFF, 0xFF};
+const Bytes kClearBoth{0x02, 0xF1, 0xF5, 0xFF};  // of slaves 1 and 2
 const Bytes kProven = status(0xFB, 0x00, 0x01);
 const Bytes kReadLines = join({{0x05}, zeros(9)});
 const Bytes kIdleLines{0, 0xFB, 0, 0, 0, 0, 0, 0, 0, 0x11};  // SL1, SL2 in 0xF8
@@ -81,7 +82,10 @@ class OperationTest : public testing::Test {
   void expect_start() {
     bus.expect_write(kAgs);
     if (full()) {
-      const Bytes clear = device.config().slaves[0].actuator ? kClearNone : kClearValid1;
+      const auto& slaves = device.config().slaves;
+      const Bytes clear = slaves[0].actuator  ? kClearNone
+                          : slaves[1].enabled ? kClearBoth
+                                              : kClearValid1;
       bus.expect_write(clear);
       bus.expect_write(clear);
       bus.expect_read(kReadStatus, kProven);
@@ -172,29 +176,22 @@ class OperationTest : public testing::Test {
   // At kFull, after something has read back differently: the operation compares the configuration,
   // which is encoder26() but for `other`; in a blocking call.
   using Others = std::vector<std::pair<std::uint8_t, std::uint8_t>>;
-  static std::vector<std::pair<Bytes, Bytes>> comparison(const Bytes& end, const Others& other) {
+  static std::vector<mb4test::Transfer> comparison(const Bytes& end, const Others& other) {
     Bytes answer = mb4test::read_back();
     answer[0xE7 - 0xC0] = 0x00;  // NOCRC = 0
     for (const auto& [address, value] : other) answer[address - 0xC0U] = value;
-    std::vector<std::pair<Bytes, Bytes>> all;
-    for (const int from : {0xE4, 0xC0, 0xD2}) {
-      const auto begin = answer.begin() + (from - 0xC0);
-      all.emplace_back(join({{0x03, static_cast<std::uint8_t>(from)}, zeros(18)}),
-                       join({zeros(2), Bytes(begin, begin + 18)}));
-    }
-    all.emplace_back(kReadStatus, end);
-    return all;
+    return mb4test::comparison(answer, end);
   }
   bool compared(const Bytes& end = kProven, const Others& other = {}) {
     bool ended = false;
-    for (const auto& [mosi, miso] : comparison(end, other)) {
+    for (const auto& one : comparison(end, other)) {
       EXPECT_FALSE(ended);
-      ended = step({mosi}, {miso});
+      ended = step({one.mosi}, {one.miso});
     }
     return ended;
   }
   void expect_compared(const Bytes& end) {
-    for (const auto& [mosi, miso] : comparison(end, {})) bus.expect_read(mosi, miso);
+    for (const auto& one : comparison(end, {})) bus.expect_read(one.mosi, one.miso);
   }
   // The request at rest is away: BREAK sends it before the frames start again.
   void restart_after_rest() {
@@ -351,16 +348,14 @@ TEST_F(Use, FinishWithoutOperation_ChangesNothing) {
 
 TEST_F(Use, FinishAfterVerify_KeepsTheConfiguration) {
   configure();
-  const Bytes chip = mb4test::read_back();
   ASSERT_TRUE(device.plan_verify(op).ok());
-  for (const int from : {0xE4, 0xC0, 0xD2}) {
+  bool ended = false;
+  for (const auto& one : mb4test::comparison(mb4test::read_back(), kOver)) {
+    EXPECT_FALSE(ended);
     ends_with(Error::kBusy);
-    const Bytes frame = join({{0x03, static_cast<std::uint8_t>(from)}, zeros(18)});
-    const Bytes answer =
-        join({zeros(2), Bytes(chip.begin() + from - 0xC0, chip.begin() + from - 0xC0 + 18)});
-    EXPECT_EQ(step({frame}, {answer}), false);
+    ended = step({one.mosi}, {one.miso});
   }
-  EXPECT_TRUE(step({kReadStatus}, {kOver}));
+  EXPECT_TRUE(ended);
   EXPECT_TRUE(device.finish(op, true, now_us));
   ends_with(Error::kNone);
   EXPECT_TRUE(device.configured());
@@ -1040,13 +1035,7 @@ class Doubt : public OperationTest {
     }
     mb4test::expect_image(bus, image, answer);
     EXPECT_TRUE(device.configure(config).ok());
-    expect_start();
-    EXPECT_TRUE(device.automatic().start().ok());
-  }
-  void expect_start() {
-    bus.expect_write(kAgs);
-    for (int i = 0; i < 2; ++i) bus.expect_write({0x02, 0xF1, 0xF5, 0xFF});
-    bus.expect_read(kReadStatus, kProven);
+    start();
   }
   void expect_waiting() {
     EXPECT_EQ(device.automatic().poll_slave(2).error(), Error::kBusy);
@@ -1064,10 +1053,10 @@ class Doubt : public OperationTest {
     Others other = kSecond;
     other.insert(other.end(), changed.begin(), changed.end());
     bool ended = false;
-    for (const auto& [mosi, miso] : comparison(end, other)) {
+    for (const auto& one : comparison(end, other)) {
       if (ended) break;
       expect_waiting();
-      ended = step({mosi}, {miso});
+      ended = step({one.mosi}, {one.miso});
     }
     return ended;
   }
@@ -1137,7 +1126,7 @@ TEST_F(Doubt, DataOfAWriteInTheConfiguration_IsSeen) {
     EXPECT_TRUE(compares());
     ends_with(Error::kCorrupted);
     bus.expect_write({0x07, 0x80, 0x00});
-    bus.expect_write({0x02, 0xF1, 0xF5, 0xFF});
+    bus.expect_write(kClearBoth);
     bus.expect_read(kReadStatus, status(0xFF, 0x00, 0x00));
     expect_start();
     EXPECT_TRUE(device.automatic().restart().ok());
@@ -1162,7 +1151,7 @@ TEST_F(Doubt, OperationOfAnotherDevice_IsWrongMode) {
 // The caller gives the operation up: verify() ends the waiting.
 TEST_F(Doubt, OperationGivenUp_VerifyEndsTheWaiting) {
   to_comparison();
-  for (const auto& [mosi, miso] : comparison(kProven, kSecond)) bus.expect_read(mosi, miso);
+  for (const auto& one : comparison(kProven, kSecond)) bus.expect_read(one.mosi, one.miso);
   ASSERT_TRUE(device.verify().ok());
   expect_reading();
 }
