@@ -138,9 +138,9 @@ class Device {
   }
 
   // Sends BREAK, then writes all registers of the configuration to their value after power-on
-  // (page 21: all 0) and compares them. Eight transfers, as configure(). The data memories keep
-  // their contents. kTransport, kNotDetected, kVerify (touched). After the call, with or without
-  // error, the Device counts as not configured.
+  // (page 21: all 0) and compares them. Eight transfers and a pause, as configure(). The data
+  // memories keep their contents. kTransport, kNotDetected, kVerify (touched). After the call, with
+  // or without error, the Device counts as not configured.
   Result<void> reset() {
     detail::Procedures::plan_reset(chip_, chip_.own);
     return detail::Blocking::run(chip_, chip_.own);
