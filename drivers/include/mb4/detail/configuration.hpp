@@ -27,8 +27,9 @@ inline constexpr std::size_t kComparesOnly = 0;
 inline constexpr std::size_t kConfigures = 1;
 inline constexpr std::size_t kResets = 2;
 
+// In doubt() it is the proof. One that has begun before is none: what it has read may be older.
 inline void Procedures::plan_verify(ChipState& chip, Operation& op) {
-  begin(chip, op, configuration_step);
+  begin(chip, op, chip.in_doubt() ? proof_step : configuration_step);
   op.count_ = kComparesOnly;
   op.bad_ = chip.request_is_away() ? 1 : 0;
   add_compared(op, kLastPart);
@@ -38,12 +39,14 @@ inline void Procedures::plan_verify(ChipState& chip, Operation& op) {
 // automatic frames run as they should.
 inline void Procedures::plan_proof(ChipState& chip, Operation& op, const Result<void>& cause) {
   plan_verify(chip, op);
-  op.step_ = proof_step;
   op.cause_ = cause.info();
 }
 
 // The operation has the result that it had, or that of the comparison.
 inline Result<void> Procedures::proof_step(ChipState& chip, Operation& op, std::uint32_t now_us) {
+  if (!chip.in_doubt()) {
+    return op.cause_;  // configure(), or another proof, has ended it meanwhile
+  }
   const Result<void> done = configuration_step(chip, op, now_us);
   if (op.plan_.frames != 0) {
     return done;
@@ -51,8 +54,10 @@ inline Result<void> Procedures::proof_step(ChipState& chip, Operation& op, std::
   if (!done) {
     chip.configured = false;
     chip.stopped();
+    chip.control.readable = 0;
     return done;
   }
+  chip.set_waits(ChipState::kForProof, false);
   chip.recover_first = true;
   if (chip.automatic && op.status_.get<regs::AGS>() == 0) {
     chip.restart = true;
@@ -60,7 +65,7 @@ inline Result<void> Procedures::proof_step(ChipState& chip, Operation& op, std::
     if (op.cause_) {
       op.cause_ = Error::kCorrupted;
     }
-  } else if (op.status_.instruction() != regs::AGS::kMask) {
+  } else {
     chip.watch.held = true;  // the next read drops the words that wait
   }
   return op.cause_;
@@ -116,9 +121,6 @@ inline Result<void> Procedures::configuration_step(ChipState& chip, Operation& o
     // Reads of a chip that is configured otherwise may bring the word of another slave.
     chip.configured = false;
     chip.stopped();
-  }
-  if (done && compares && op.plan_.frames == 0) {
-    chip.set_waits(ChipState::kForProof, false);
   }
   if (done && op.plan_.frames == 0 && op.count_ == kConfigures) {
     chip.configured = true;
