@@ -531,6 +531,8 @@ TEST_F(RegistersAgs, DisturbedFill_IsFollowedByARestart) {
   const std::array<std::uint8_t, 1> data{0x12};
   bus.expect_write({0x02, 0x80, 0x12});
   bus.expect_read({0x03, 0x80, 0x00}, {0, 0, 0x02});
+  bus.expect_read({0x03, 0xC0, 0x00}, {0, 0, 0x5B});
+  bus.expect_read(mb4test::kReadWitness, {0, 0xFB, 0, 0, 0, 0x01, 0});
   bus.expect_proven(kRest);  // the bytes may be there; the configuration is compared
   Bytes answer = mb4test::read_back();
   answer[0xE7 - 0xC0] = 0x00;
@@ -874,7 +876,7 @@ TEST_F(HoldBesideControl, FlippedRegend_DoesNotEndTheAccess) {
   bus.expect_read(kReadStatus, {0, kEnded, 0, 0, 0, 0x01});
   bus.expect_read(kReadStatus, {0, kEnded, 0, 0, 0, 0x01});
   bus.expect_read({0x03, 0x80, 0x5A}, {0, 0, 0x77});  // RDATA1, which take() compares
-  bus.expect_read(kReadStatus, {0, kEnded, 0, 0, 0, 0x01});
+  bus.expect_read(mb4test::kReadWitness, {0, kEnded, 0, 0, 0, 0x01, 0});
   bus.expect_proven(kRest);
   EXPECT_TRUE(*device.control().poll());
 }

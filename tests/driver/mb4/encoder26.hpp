@@ -116,6 +116,11 @@ inline Bytes status(std::uint8_t f0, std::uint8_t f1, std::uint8_t f4 = 0x00) {
   return {0x00, f0, f1, 0x00, 0x00, f4};
 }
 inline const Bytes kReadStatus{0x05, 0x00, 0x00, 0x00, 0x00, 0x00};
+// The witness behind readings: 0xF0..0xF4, and 0xF5.
+inline const Bytes kReadWitness{0x05, 0x00, 0x00, 0x00, 0x00, 0x00, 0x00};
+inline Bytes witness(const Bytes& status, std::uint8_t interface_byte = 0x00) {
+  return join({status, {interface_byte}});
+}
 inline const Bytes kIdleStatus = status(0xFB, 0x00);     // EOT = 1, no error, REGEND = 0
 inline const Bytes kRunning = status(0xFA, 0x00, 0x04);  // EOT = 0, INSTR = 010 still there
 inline const Bytes kGoodFrame = status(0xFB, 0x02);      // EOT = 1, SVALID1 = 1 (bit 1 of 0xF1)

@@ -197,7 +197,7 @@ TEST(DriverCallErrors, FlippedRegisterBit_IsCorrupted) {
 // be hit. Every bit of address, count, channel and control byte.
 TEST(DriverCallErrors, FlippedBitOfARequest_WritesNothingElsewhere) {
   unsigned corrupted = 0;
-  for (std::size_t transfer = 0; transfer < 3; transfer += 2) {
+  for (const std::size_t transfer : {0U, 4U}) {  // each is followed by what reads it back
     for (std::size_t bit = 16; bit < 48; ++bit) {
       FaultyChip chip(kEncoder);
       prepare(chip, State::kConfigured);

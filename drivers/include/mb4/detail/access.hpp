@@ -183,6 +183,9 @@ inline Result<void> Procedures::activate_step(ChipState& chip, Operation& op,
   const Result<void> done = access_step(chip, op, now_us);
   const std::uint8_t channel = op.request_[4] != 0 ? 1 : 2;
   std::uint8_t& ids = op.request_[3U + channel];
+  if (done && chip.in_doubt()) {
+    return op.plan_.frames == 0 ? Error::kCorrupted : Error::kNone;  // no command before the proof
+  }
   if (done && op.plan_.frames == 0 && ids != 0) {
     Command command;
     command.channels = channel;
@@ -202,8 +205,9 @@ inline void Procedures::add_request(ChipState& chip, Operation& op) {
     op.stage_ = kFill;
     add_proven(op, static_cast<std::uint8_t>(regs::kAddrRdata + op.at_), op.data_ + op.at_,
                part(op));
-    if (chip.guards) {
+    if (chip.checks_all()) {
       add_read(op, static_cast<std::uint8_t>(kImageFirst + op.at_), part(op));
+      add_witness(op);
     }
     return;
   }
@@ -216,15 +220,17 @@ inline void Procedures::add_request(ChipState& chip, Operation& op) {
 }
 
 // RDATA may hold the bytes from before, and then reads back right although the write went to the
-// configuration: 0x80 and 0xC0 differ in one bit.
-inline bool Procedures::guarded(ChipState& chip, Operation& op) {
+// configuration: 0x80 and 0xC0 differ in one bit. The witness has looked at 0xF4 and 0xF5.
+inline Result<void> Procedures::guarded(ChipState& chip, Operation& op) {
+  Result<void> seen = witnessed(chip, op);
   const unsigned from = kImageFirst + static_cast<unsigned>(op.at_);
   const unsigned size = from + part(op) <= regs::kAddrStatus0 ? part(op) : 0U;
-  if (op.good_ && differs_at(chip, from, received(op) + 2, size, true) != kNowhere) {
+  if (seen && differs_at(chip, from, received(op) + 2, size, true) != kNowhere) {
     doubt(chip);
+    seen = Error::kCorrupted;
   }
   --op.made_;
-  return !chip.in_doubt();
+  return seen;
 }
 
 // Bytes of the next frame.
@@ -243,15 +249,14 @@ inline void Procedures::plan_take(ChipState& chip, Operation& op, std::uint8_t* 
   add_take(chip, op);
 }
 
-// With SpiCheck::kFull each part is read in two steps, the first one with a status: a line that is
-// stuck from here on makes both readings equal, but no status. A disturbed opcode that writes makes
-// them differ: it writes 0x5A while the chip answers 0.
+// With SpiCheck::kFull each part is read in two steps, each with a witness. A disturbed opcode that
+// writes makes them differ: it writes 0x5A while the chip answers 0.
 inline void Procedures::add_take(ChipState& chip, Operation& op) {
   op.stage_ = kTake;
   const bool full = chip.checks_all();
   add_read(op, static_cast<std::uint8_t>(regs::kAddrRdata + op.at_), part(op), full ? 0x5A : 0);
   if (full) {
-    mb4_cyclic_add_status(&op.plan_);
+    add_witness(op);
   }
 }
 
@@ -329,8 +334,10 @@ inline Result<void> Procedures::access(ChipState& chip, Operation& op, std::uint
   switch (op.stage_) {
     case kFill:
     case kSet: {
-      if (op.stage_ == kFill && chip.guards && !guarded(chip, op)) {
-        return Error::kCorrupted;
+      if (op.stage_ == kFill && chip.checks_all()) {
+        if (const Result<void> kept = guarded(chip, op); !kept) {
+          return kept;
+        }
       }
       if (const Result<void> set = written(chip, op); !set) {
         return set;
@@ -422,10 +429,9 @@ inline Result<void> Procedures::access(ChipState& chip, Operation& op, std::uint
         if (state.stray) {
           return not_taken(chip);  // a read since the end may have changed RDATA
         }
-        if (const Result<void> seen = look(op); !seen) {
-          return seen;
+        if (const Result<void> seen = witnessed(chip, op); !seen) {
+          return seen.error() == Error::kCorrupted ? not_taken(chip) : seen;
         }
-        --op.made_;
       }
       const std::uint8_t* from = received(op) + 2;
       std::uint8_t* to = op.out_ + op.at_;
@@ -434,31 +440,36 @@ inline Result<void> Procedures::access(ChipState& chip, Operation& op, std::uint
       }
       if (chip.checks_all()) {
         add_read(op, static_cast<std::uint8_t>(regs::kAddrRdata + op.at_), part(op));
+        add_witness(op);
         op.stage_ = kTakeAgain;
         return {};
       }
       return taken(chip, op);
     }
-    case kTakeAgain:
+    case kTakeAgain: {
+      const Result<void> seen = witnessed(chip, op);
+      if (seen.error() == Error::kNotDetected) {
+        return seen;
+      }
       // An access that a disturbed byte has started meanwhile has read register 0 into RDATA1.
-      if ((op.at_ != 0 || *op.out_ == state.first) &&
+      if (seen && (op.at_ != 0 || *op.out_ == state.first) &&
           equal(op.out_ + op.at_, received(op) + 2, part(op))) {
         return taken(chip, op);
       }
       doubt(chip);
       return not_taken(chip);
-    case kFirst:
-      if (!look(op) && ++op.bad_ != kBadLooks) {
+    }
+    case kFirst: {
+      const Result<void> seen = witnessed(chip, op);
+      if (!seen && seen.error() != Error::kCorrupted && ++op.bad_ != kBadLooks) {
         add_first(op);
         return {};
       }
-      if (chip.automatic && op.status_.get<regs::AGS>() == 0) {
-        doubt(chip);  // the opcode was disturbed: 0x07 is an instruction
-      }
       op.bad_ = 0;
-      state.first = received(op, 1)[2];
+      state.first = seen ? received(op)[2] : std::uint8_t{0};
       add_end(chip, op);
       return {};
+    }
     case kRest:
       if (!op.good_ && ++op.bad_ != kBadLooks) {
         add_end(chip, op);
@@ -633,7 +644,7 @@ inline Result<void> Procedures::conclude(ChipState& chip, Operation& op) {
 inline void Procedures::add_first(Operation& op) {
   op.stage_ = kFirst;
   add_read(op, regs::kAddrRdata, 1, 0x5A);
-  mb4_cyclic_add_status(&op.plan_);
+  add_witness(op);
 }
 
 // Without AGS the frames of the access have set SVALID, and the next single frame needs SVALID = 0,

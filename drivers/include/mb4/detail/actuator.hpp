@@ -62,6 +62,9 @@ inline Result<void> Procedures::plan_actuator(ChipState& chip, Operation& op, st
 inline void Procedures::add_word(ChipState& chip, Operation& op, std::uint32_t stage) {
   op.stage_ = stage;
   add_write(chip, op, static_cast<std::uint8_t>(op.at_), op.request_.data(), op.count_);
+  if (chip.checks_all()) {
+    add_witness(op);
+  }
 }
 
 // 0xF4; with SpiCheck::kFull it is read back.

@@ -78,8 +78,8 @@ struct Blocking {
     }
     CyclicRead read;
     Procedures::plan_frame(chip, chip.own, read, chip.word_of(slave), 1);
-    static_cast<void>(run(chip, chip.own));
-    return read.single();
+    const Result<void> done = run(chip, chip.own);
+    return chip.configured ? read.single() : Result<Reading>(done.failure());
   }
 
   [[gnu::noinline]] static Result<void> read_all(ChipState& chip, Frame& frame) {
@@ -88,8 +88,8 @@ struct Blocking {
     }
     FrameRead read;
     Procedures::plan_frame(chip, chip.own, read, chip.words.data(), chip.count);
-    static_cast<void>(run(chip, chip.own));
-    return read.result(frame);
+    const Result<void> done = run(chip, chip.own);
+    return chip.configured ? read.result(frame) : done;
   }
 
   template <std::uint8_t With>

@@ -81,9 +81,6 @@ struct ChipState {
   std::uint16_t sensor_flags = 0;  // flag_of() of `sensors`
   std::uint8_t sensors = 0;        // slaves of `config` that deliver data; bit 0 is slave 1
   std::uint8_t actuators = 0;      // slaves of `config` that take words; bit 0 is slave 1
-  // SpiCheck::kFull with several slaves on a channel: if a disturbed write switches one of them
-  // off, the others get the words of their neighbours, with a right CRC.
-  bool guards = false;
   ControlState control{};
   std::uint32_t frame_us = 0;             // frame_timeout_us(), worked out once
   std::uint32_t busy_us = 0;              // register_busy_us()
@@ -135,14 +132,7 @@ struct ChipState {
     needs = (sensors & (sensors - 1U)) != 0 ? MB4_WITH_SEVERAL : 0;
     set_counts(watch.counts);
     count = 0;
-    std::uint8_t before = 0;  // channel of the slave before
-    guards = false;
     for (std::uint8_t slave = 1; slave <= kSlaves; ++slave) {
-      if (from.slaves[slave - 1U].enabled) {
-        const std::uint8_t channel = channel_of(from, slave);
-        guards = guards || (checks_all() && channel == before);
-        before = channel;
-      }
       if (is_in(sensors, slave)) {
         set_word(from, slave, words[count++]);
         needs = static_cast<std::uint8_t>(needs | needed(from, slave));

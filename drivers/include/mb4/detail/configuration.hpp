@@ -73,10 +73,12 @@ inline Result<void> Procedures::proof_step(ChipState& chip, Operation& op, std::
 
 // `config` is valid.
 inline void Procedures::plan_configure(ChipState& chip, Operation& op, const Config& config) {
+  const std::uint32_t before_us = chip.recovery_us();  // frames of these slaves may run
   chip.forget();
   chip.take(config);
   begin(chip, op, configuration_step);
   op.count_ = kConfigures;
+  op.limit_.timeout_us = before_us > chip.recovery_us() ? before_us : chip.recovery_us();
   if (needs_revision_y(config)) {
     op.stage_ = kDelays;
     add_read(op, regs::kAddrRevision, 2);
@@ -151,7 +153,7 @@ inline Result<void> Procedures::configure(ChipState& chip, Operation& op) {
   if (op.stage_ == kFill) {
     constexpr std::size_t kBefore = kLastPart - kImageFirst;
     // BREAK may have cut a frame; the next one comes after the slaves' timeout.
-    op.plan_.pause_us = chip.recovery_us();
+    op.plan_.pause_us = op.count_ == kConfigures ? op.limit_.timeout_us : 0;
     add_bytes(op, kLastPart, chip.image.data() + kBefore, kImageBytes - kBefore);
     add_compared(op, kLastPart);
     return {};

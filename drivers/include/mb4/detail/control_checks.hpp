@@ -35,7 +35,7 @@ namespace mb4::detail {
   if (!chip.configured) {
     return Error::kNotConfigured;
   }
-  return chip.control_runs() ? Error::kBusy : Error::kNone;
+  return chip.control_runs() || chip.in_doubt() ? Error::kBusy : Error::kNone;
 }
 
 [[nodiscard, gnu::always_inline]] inline Result<void> check_free(const ChipState& chip) {

@@ -273,6 +273,13 @@ struct Procedures {
     add_bytes(op, address, data, size);
     add_read(op, address, size);
   }
+  // The witness: status and 0xF5, behind readings whose right answer may be 0. A read whose opcode
+  // was disturbed is an instruction (0x03 and 0x07), and reads 0: its address has reached 0xF4, its
+  // filler 0xF5. A line that is stuck looks like no status.
+  static constexpr std::uint8_t kWitnessBytes = 2 + Status::kBytes;
+  static void add_witness(Operation& op) {
+    mb4_plan_add(&op.plan_, kWitnessBytes, MB4_CYCLIC_STATUS, 0, 0);
+  }
   // Something that was read back differs. The write may have reached another register, among them
   // the configuration, and a read whose opcode was disturbed is an instruction (0x03 and 0x07): no
   // position is read until the operation has compared all and seen 0xF4, in finish().
@@ -404,12 +411,31 @@ struct Procedures {
     return true;
   }
 
-  // With SpiCheck::kFull: equals(), and beside automatic frames written(). kTransport.
-  [[gnu::noinline]] static Result<void> same(ChipState& chip, const Operation& op) {
-    if (!op.good_ || chip.checks_all()) {
-      return chip.automatic ? written(chip, op) : equals(op);
+  // What was read, with a witness behind it, has come from the chip, and nothing but a read has
+  // gone there. The frame of the witness is taken away. kNotDetected; kCorrupted, with doubt().
+  [[gnu::noinline]] static Result<void> witnessed(ChipState& chip, Operation& op) {
+    const Result<void> seen = look(op);
+    if (!seen) {
+      return seen;
     }
-    return {};
+    const unsigned instruction = op.status_.instruction();
+    const bool other = chip.automatic ? (instruction & regs::AGS::kMask) == 0
+                                      : (instruction & ~unsigned{regs::SWBANK::kMask}) != 0;
+    const bool changed = other || received(op)[kWitnessBytes - 1] != chip.interface_byte;
+    --op.made_;
+    if (changed) {
+      doubt(chip);
+    }
+    return changed ? Error::kCorrupted : Error::kNone;
+  }
+
+  // With SpiCheck::kFull: witnessed() and equals(), beside automatic frames written(). kTransport.
+  [[gnu::noinline]] static Result<void> same(ChipState& chip, Operation& op) {
+    if (!op.good_ || !chip.checks_all()) {
+      return op.good_ ? Error::kNone : Error::kTransport;
+    }
+    const Result<void> seen = witnessed(chip, op);
+    return !seen ? seen : chip.automatic ? written(chip, op) : equals(op);
   }
   // equals(), and with SpiCheck::kFull doubt() where it differs.
   static Result<void> written(ChipState& chip, const Operation& op) {
@@ -477,6 +503,7 @@ struct Procedures {
       return seen;
     }
     if (op.made_ == 1 || other) {
+      doubt(chip);
       return Error::kCorrupted;
     }
     mb4_cyclic_add_status(&op.plan_);
@@ -528,7 +555,7 @@ struct Procedures {
   static void add_other(Operation& op, std::uint32_t now_us);
   // ... and access.hpp.
   static void add_request(ChipState& chip, Operation& op);
-  static bool guarded(ChipState& chip, Operation& op);
+  static Result<void> guarded(ChipState& chip, Operation& op);
   static std::uint8_t part(const Operation& op);
   static void add_take(ChipState& chip, Operation& op);
   static void begin_access(ChipState& chip, Operation& op, bool biss_b);
