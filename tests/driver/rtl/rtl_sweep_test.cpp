@@ -44,7 +44,7 @@ struct Case {
     for (const unsigned part :
          {static_cast<unsigned>(setup.way), static_cast<unsigned>(setup.bus),
           static_cast<unsigned>(setup.before), static_cast<unsigned>(setup.check),
-          setup.omits ? 1U : 0U, static_cast<unsigned>(setup.act),
+          (setup.omits ? 1U : 0U) + (setup.zeros ? 2U : 0U), static_cast<unsigned>(setup.act),
           static_cast<unsigned>(fault.kind), fault.transfer, fault.place}) {
       text += (text.empty() ? "" : ".") + std::to_string(part);
     }
@@ -63,7 +63,8 @@ struct Case {
       code = *end == '.' ? end + 1 : end;
     }
     return {{static_cast<Way>(parts[0]), static_cast<Bus>(parts[1]), static_cast<Before>(parts[2]),
-             static_cast<SpiCheck>(parts[3]), parts[4] != 0, static_cast<Act>(parts[5])},
+             static_cast<SpiCheck>(parts[3]), (parts[4] & 1U) != 0, static_cast<Act>(parts[5]),
+             (parts[4] & 2U) != 0},
             {static_cast<MeanKind>(parts[6]), parts[7], parts[8]}};
   }
 };
@@ -215,7 +216,7 @@ bool is_forbidden(Verdict verdict, SpiCheck check) {
 
 bool asks(Act act) {
   return (act >= Act::kReadRegisters && act <= Act::kBeginCommand) ||
-         (act >= Act::kPlanRead && act <= Act::kPlanCommand);
+         (act >= Act::kPlanRead && act <= Act::kPlanCommand) || act >= Act::kReadBesideVerify;
 }
 
 std::vector<Setup> control_setups() {
@@ -245,6 +246,10 @@ std::vector<Setup> control_setups() {
             if (asks(act) && eight) {
               all.push_back(setup);
               all.back().bus = Bus::kEight;
+            }
+            if ((asks(act) || actuator) && setup.check >= SpiCheck::kFull) {
+              all.push_back(setup);
+              all.back().zeros = true;
             }
           }
         }

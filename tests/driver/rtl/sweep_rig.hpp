@@ -132,6 +132,8 @@ enum class Act : std::uint8_t {
   kPlanWrite,
   kPlanCommand,
   kPlanActuator,
+  kReadBesideVerify,  // plan_verify() begins before the access, and goes on beside it
+  kWriteBesideVerify,
   kCount,
 };
 inline const char* to_string(Act act) {
@@ -160,7 +162,9 @@ inline const char* to_string(Act act) {
                                     "plan_read",
                                     "plan_write",
                                     "plan_command",
-                                    "plan_actuator"};
+                                    "plan_actuator",
+                                    "plan_read beside plan_verify",
+                                    "plan_write beside plan_verify"};
   return kNames[static_cast<unsigned>(act)];
 }
 
@@ -171,12 +175,14 @@ struct Setup {
   SpiCheck check = SpiCheck::kFull;
   bool omits = false;    // AGSERR_ON_HOLDBANK
   Act act = Act::kNone;  // the disturbed call; kNone: a read of positions
+  // What is read and written is 0, which is what the chip answers where it is not asked.
+  bool zeros = false;
 
   [[nodiscard]] std::string text() const {
     return (act != Act::kNone ? std::string(mb4test::to_string(act)) + ", " : std::string()) +
            std::string(mb4test::to_string(way)) + ", " + mb4test::to_string(bus) + ", " +
            mb4test::to_string(before) + ", " + mb4test::to_string(check) +
-           (omits ? ", omits" : ", overwrites");
+           (omits ? ", omits" : ", overwrites") + (zeros ? ", zeros" : "");
   }
 };
 
@@ -255,7 +261,9 @@ inline std::string scenario_of(const Setup& setup) {
            "\nstep = " + std::to_string(step) +
            "\ndata_bits = " + std::to_string(bits_of(setup.bus)) +
            "\ncrc = " + std::to_string(crc_of(setup.bus)) +
-           (is_biss_c(setup.bus) ? "\nregisters = { 0x44 = [0x6E, 0xD9, 0x01, 0x32] }\n" : "\n");
+           (!is_biss_c(setup.bus) ? "\n"
+            : setup.zeros         ? "\nregisters = { 0x44 = [0, 0, 0, 0], 0x60 = [0xFF, 0xFF] }\n"
+                          : "\nregisters = { 0x44 = [0x6E, 0xD9, 0x01, 0x32], 0x60 = [0, 0] }\n");
   };
   std::string text = std::string("[chip.quirks]\nAGSERR_ON_HOLDBANK = ") +
                      (setup.omits ? "true" : "false") + "\n[host]\nsclk_hz = 10_000_000\n" +
@@ -381,8 +389,6 @@ class Rig {
  public:
   static constexpr std::uint8_t kNamed = 0x60;  // the first register that a call writes
   static constexpr std::uint8_t kNamedCount = 2;
-  static constexpr std::array<std::uint8_t, kNamedCount> kValues{0x5C, 0xA3};
-  static constexpr std::uint64_t kActuatorWord = 0x12345678;
   static constexpr unsigned kKept = 1000;  // frames of which a word may be, at most
 
   virtual ~Rig() = default;
@@ -393,6 +399,7 @@ class Rig {
         clock(simulator),
         device(bus, clock),
         sensors_(sensors_of(setup.bus)) {
+    if (setup.zeros) values_ = {};
     configure();
     if (!is_single(setup.way)) start();
     prepare();
@@ -431,7 +438,7 @@ class Rig {
     if (setup_.act == Act::kStart || setup_.act == Act::kPlanStart) {
       call_stack().run(bus, [this] { EXPECT_TRUE(device.automatic().stop().ok()); });
     }
-    if (writes(setup_.act)) named_ = kValues;
+    if (writes(setup_.act)) named_ = values_;
     command_ = setup_.act == Act::kSend || setup_.act == Act::kBeginCommand ||
                setup_.act == Act::kPlanCommand;
     bus.plan(fault);
@@ -621,7 +628,8 @@ class Rig {
   }
 
   static bool writes(Act act) {
-    return act == Act::kWriteRegisters || act == Act::kBeginWrite || act == Act::kPlanWrite;
+    return act == Act::kWriteRegisters || act == Act::kBeginWrite || act == Act::kPlanWrite ||
+           act == Act::kWriteBesideVerify;
   }
   // ID of the first encoder: the slave next to SL has the highest one.
   [[nodiscard]] std::uint8_t id() const {
@@ -656,6 +664,7 @@ class Rig {
     bool done = false;
     in_steps_ = true;
     for (unsigned i = 0; i < 2000 && !done; ++i) {
+      verify_step();
       if (op_.pause_us() != 0) simulator.advance(op_.pause_us() * sim::kPsPerUs);
       const bool transferred = op_.run(bus);
       done = device.finish(op_, transferred, clock.now_us());
@@ -663,8 +672,18 @@ class Rig {
       if (!done && device.automatic().running() && setup_.act != Act::kPlanActuator) read();
     }
     in_steps_ = false;
+    for (unsigned i = 0; i < 20; ++i) verify_step();
     if (!done) raise(Verdict::kDead, "the operation does not end");
     ended(op_.result().error());
+  }
+  void begin_verify() {
+    if (setup_.act != Act::kReadBesideVerify && setup_.act != Act::kWriteBesideVerify) return;
+    static_cast<void>(device.plan_verify(verify_));
+  }
+  void verify_step() {
+    if (verify_.result().error() != Error::kBusy) return;
+    const bool transferred = verify_.run(bus);
+    static_cast<void>(device.finish(verify_, transferred, clock.now_us()));
   }
   void until_ended() {
     bool ends = act_error_ != Error::kNone;
@@ -687,7 +706,8 @@ class Rig {
     auto automatic = device.automatic();
     auto control = device.control();
     const mb4::SlaveAddress slave{1, id()};
-    const mb4::Span<const std::uint8_t> values(kValues.data(), kValues.size());
+    const mb4::Span<const std::uint8_t> values(values_.data(), values_.size());
+    const std::uint64_t word = setup_.zeros ? 0 : 0x12345678;
     switch (setup_.act) {
       case Act::kStart:
         perform([&] { return automatic.start(); });
@@ -738,10 +758,10 @@ class Rig {
         until_ended();
         break;
       case Act::kWriteActuator:
-        perform([&] { return device.write_actuator(1, kActuatorWord); });
+        perform([&] { return device.write_actuator(1, word); });
         break;
       case Act::kWriteNextActuator:
-        perform([&] { return automatic.write_actuator(1, kActuatorWord); });
+        perform([&] { return automatic.write_actuator(1, word); });
         break;
       case Act::kPlanStart:
         steps(automatic.plan_start(op_));
@@ -760,17 +780,21 @@ class Rig {
       case Act::kPlanInitialize:
         steps(device.plan_initialize(op_));
         break;
+      case Act::kReadBesideVerify:
       case Act::kPlanRead:
+        begin_verify();
         steps(control.plan_read(op_, slave, 0x44, back_));
         break;
+      case Act::kWriteBesideVerify:
       case Act::kPlanWrite:
+        begin_verify();
         steps(control.plan_write(op_, slave, kNamed, values));
         break;
       case Act::kPlanCommand:
         steps(control.plan_command(op_, addressed()));
         break;
       case Act::kPlanActuator:
-        steps(device.plan_actuator(op_, 1, kActuatorWord));
+        steps(device.plan_actuator(op_, 1, word));
         break;
       default:
         break;
@@ -783,13 +807,13 @@ class Rig {
     if (act_error_ != Error::kNone) return;
     const sim::Slave& slave = *simulator.slave(sensors_[0]);
     const bool reads = setup_.act == Act::kReadRegisters || setup_.act == Act::kBeginRead ||
-                       setup_.act == Act::kPlanRead;
+                       setup_.act == Act::kPlanRead || setup_.act == Act::kReadBesideVerify;
     for (unsigned i = 0; i < kNamedCount; ++i) {
       if (reads && back_[i] != slave.reg_read(static_cast<std::uint8_t>(0x44 + i))) {
         raise(Verdict::kUntrue, "another value was read");
       }
       if (writes(setup_.act) &&
-          slave.reg_read(static_cast<std::uint8_t>(kNamed + i)) != kValues[i]) {
+          slave.reg_read(static_cast<std::uint8_t>(kNamed + i)) != values_[i]) {
         raise(Verdict::kUntrue, "nothing was written");
       }
     }
@@ -1099,6 +1123,8 @@ class Rig {
 
   std::vector<std::uint8_t> sensors_;
   mb4::Operation op_;
+  mb4::Operation verify_;                                     // beside it
+  std::array<std::uint8_t, kNamedCount> values_{0x5C, 0xA3};  // that a call writes
   mb4::FrameRead all_;
   mb4::CyclicRead one_;
   C99Read c99_;
