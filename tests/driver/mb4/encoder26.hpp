@@ -67,15 +67,16 @@ inline constexpr std::size_t kConfigureTransfers = 8;
 inline constexpr unsigned kAll = 0;
 
 // The transfers that compare the configuration: `answer`, 0xC0..0xF5, in three parts, and `end`, a
-// status. Opcode 0x03 (page 18): data follows the address without a dummy byte.
+// status, with 0xF5. Opcode 0x03 (page 18): data follows the address without a dummy byte.
 inline std::vector<Transfer> comparison(const Bytes& answer, const Bytes& end) {
   std::vector<Transfer> all;
-  for (const int from : {0x24, 0x00, 0x12}) {
+  for (const auto& [from, size] : {std::pair{0x22, 18}, {0x00, 16}, {0x10, 18}}) {
     const auto begin = answer.begin() + from;
-    all.push_back({join({{0x03, static_cast<std::uint8_t>(0xC0 + from)}, zeros(18)}),
-                   join({zeros(2), Bytes(begin, begin + 18)})});
+    all.push_back({join({{0x03, static_cast<std::uint8_t>(0xC0 + from)},
+                         zeros(static_cast<std::size_t>(size))}),
+                   join({zeros(2), Bytes(begin, begin + size)})});
   }
-  all.push_back({{0x05, 0, 0, 0, 0, 0}, end});
+  all.push_back({{0x05, 0, 0, 0, 0, 0, 0}, join({end, {answer.back()}})});
   return all;
 }
 
@@ -91,12 +92,12 @@ inline void expect_image(StrictBus& bus, const Bytes& image, const Bytes& answer
   bus.expect_write({0x07, 0x80, interface_byte});
   // Opcode 0x02 (page 18): 0xC0..0xEF, then 0xF0 (read-only) and SVALID 1 to 8 cleared (table 61).
   const Bytes all = join({image, {0x00, 0x00, 0x00}});
-  bus.expect_write(join({{0x02, 0xC0}, part(all, 0, 18)}));
-  bus.expect_write(join({{0x02, 0xD2}, part(all, 18, 18)}));
-  bus.expect_write(join({{0x02, 0xE4}, part(all, 36, 15)}));
+  bus.expect_write(join({{0x02, 0xC0}, part(all, 0, 16)}));
+  bus.expect_write(join({{0x02, 0xD0}, part(all, 16, 18)}));
+  bus.expect_write(join({{0x02, 0xE2}, part(all, 34, 17)}));
   for (const Transfer& one : comparison(answer, proof)) {
     bus.expect_read(one.mosi, one.miso);
-    if (last != kAll && last >= one.mosi[1] && last < one.mosi[1] + 18U) return;
+    if (last != kAll && last >= one.mosi[1] && last + 2U < one.mosi[1] + one.mosi.size()) return;
   }
 }
 

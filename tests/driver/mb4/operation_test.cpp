@@ -295,7 +295,7 @@ TEST_F(Restart, NotAllowed_TouchesNothing) {
   mb4_counts counts{};
   device.automatic().count(&counts);
   ASSERT_TRUE(device.plan_verify(op).ok());
-  EXPECT_TRUE(step({join({{0x03, 0xE4}, zeros(18)})}, {}));
+  EXPECT_TRUE(step({join({{0x03, 0xE2}, zeros(18)})}, {}));
   EXPECT_FALSE(device.configured());
   EXPECT_EQ(device.automatic().plan_restart(op).error(), Error::kNotConfigured);
   EXPECT_EQ(device.automatic().restart().error(), Error::kNotConfigured);
@@ -440,11 +440,11 @@ TEST_F(Use, VerifyWithoutConfiguration_IsWrongMode) {
   bus.expect_write(kBreak);
   EXPECT_TRUE(device.control().abort().ok());
   const Bytes chip = mb4test::read_back();
-  EXPECT_FALSE(step({join({{0x03, 0xE4}, zeros(18)})},
-                    {join({zeros(2), Bytes(chip.begin() + 0x24, chip.begin() + 0x36)})}));
+  EXPECT_FALSE(step({join({{0x03, 0xE2}, zeros(18)})},
+                    {join({zeros(2), Bytes(chip.begin() + 0x22, chip.begin() + 0x34)})}));
   bus.expect_write({0x07, 0x80, 0x00}).fail_last();
   EXPECT_EQ(device.reset().error(), Error::kTransport);
-  EXPECT_TRUE(step({join({{0x03, 0xC0}, zeros(18)})}, {zeros(20)}));
+  EXPECT_TRUE(step({join({{0x03, 0xC0}, zeros(16)})}, {zeros(18)}));
   ends_with(Error::kWrongMode);
 }
 
@@ -452,9 +452,13 @@ TEST_F(Use, VerifyWithoutConfiguration_IsWrongMode) {
 
 class VerifySteps : public OperationTest {
  protected:
-  static std::vector<Bytes> part(std::uint8_t from) { return {join({{0x03, from}, zeros(18)})}; }
+  static std::size_t size(int from) { return from == 0xC0 ? 16 : 18; }
+  static std::vector<Bytes> part(std::uint8_t from) {
+    return {join({{0x03, from}, zeros(size(from))})};
+  }
   std::vector<Bytes> answer(int from) const {
-    return {join({zeros(2), Bytes(chip.begin() + from - 0xC0, chip.begin() + from - 0xC0 + 18)})};
+    const auto begin = chip.begin() + from - 0xC0;
+    return {join({zeros(2), Bytes(begin, begin + static_cast<int>(size(from)))})};
   }
   Bytes chip = mb4test::read_back();
 };
@@ -465,10 +469,10 @@ TEST_F(VerifySteps, Good_IsThreePartsAndAStatus) {
   ASSERT_TRUE(device.plan_verify(op).ok());
   // Status and instruction are not compared; nor reserved registers.
   for (const int address : {0xE0, 0xE1, 0xEE, 0xF0, 0xF4}) chip[address - 0xC0] ^= 0xFF;
-  EXPECT_FALSE(step(part(0xE4), answer(0xE4)));
+  EXPECT_FALSE(step(part(0xE2), answer(0xE2)));
   EXPECT_FALSE(step(part(0xC0), answer(0xC0)));
-  EXPECT_FALSE(step(part(0xD2), answer(0xD2)));
-  EXPECT_TRUE(step({kReadStatus}, {kOver}));
+  EXPECT_FALSE(step(part(0xD0), answer(0xD0)));
+  EXPECT_TRUE(step({kReadWitness}, {witness(kOver)}));
   ends_with(Error::kNone);
   EXPECT_TRUE(device.configured());
 }
@@ -479,9 +483,10 @@ TEST_F(VerifySteps, EachWrongRegister_IsNamed) {
     chip = mb4test::read_back();
     chip[address - 0xC0] ^= 0x04;
     ASSERT_TRUE(device.plan_verify(op).ok());
-    bool ended = step(part(0xE4), answer(0xE4));
+    bool ended = step(part(0xE2), answer(0xE2));
     if (!ended) ended = step(part(0xC0), answer(0xC0));
-    if (!ended) ended = step(part(0xD2), answer(0xD2));
+    if (!ended) ended = step(part(0xD0), answer(0xD0));
+    if (!ended) ended = step({kReadWitness}, {witness(kOver, chip.back())});
     EXPECT_TRUE(ended);
     EXPECT_EQ(op.result().error(), Error::kVerify) << address;
     EXPECT_EQ(op.result().info().address(), address);
@@ -492,20 +497,20 @@ TEST_F(VerifySteps, EachWrongRegister_IsNamed) {
 TEST_F(VerifySteps, NoChipOrFailure_IsReported) {
   configure();
   ASSERT_TRUE(device.plan_verify(op).ok());
-  EXPECT_TRUE(step(part(0xE4), {}, false));
+  EXPECT_TRUE(step(part(0xE2), {}, false));
   ends_with(Error::kTransport);
   EXPECT_TRUE(device.configured());
   // A bus that stores nothing: nothing of the last answer is taken again.
   ASSERT_TRUE(device.plan_verify(op).ok());
-  EXPECT_FALSE(step(part(0xE4), answer(0xE4)));
+  EXPECT_FALSE(step(part(0xE2), answer(0xE2)));
   EXPECT_TRUE(step(part(0xC0), {}, false));
   ASSERT_TRUE(device.plan_verify(op).ok());
-  EXPECT_TRUE(step(part(0xE4), {}));
+  EXPECT_TRUE(step(part(0xE2), {}));
   ends_with(Error::kNotDetected);
   EXPECT_FALSE(device.configured());
 }
 
-// MISO is stuck from some frame on. 0xD2..0xE3 are all 0 in this configuration, so a MISO at 0
+// MISO is stuck from some frame on. 0xD0..0xE1 are all 0 in this configuration, so a MISO at 0
 // reads what was written; no status is all 0, or all 1.
 TEST_F(VerifySteps, MisoStuckFromAnyFrameOn_IsNotDetected) {
   for (const std::uint8_t level : {std::uint8_t{0x00}, std::uint8_t{0xFF}}) {
@@ -514,13 +519,13 @@ TEST_F(VerifySteps, MisoStuckFromAnyFrameOn_IsNotDetected) {
       ASSERT_TRUE(device.plan_verify(op).ok());
       int frame = 0;
       bool ended = false;
-      for (const std::uint8_t from : {std::uint8_t{0xE4}, std::uint8_t{0xC0}, std::uint8_t{0xD2}}) {
+      for (const std::uint8_t from : {std::uint8_t{0xE2}, std::uint8_t{0xC0}, std::uint8_t{0xD0}}) {
         if (ended) break;
         std::vector<Bytes> answers = answer(from);
         if (frame++ >= good) answers[0].assign(answers[0].size(), level);
         ended = step(part(from), answers);
       }
-      if (!ended) ended = step({kReadStatus}, {Bytes(6, level)});
+      if (!ended) ended = step({kReadWitness}, {Bytes(7, level)});
       EXPECT_TRUE(ended);
       // After VERSION was read a part that differs says so.
       const Error error = op.result().error();

@@ -399,6 +399,11 @@ inline Result<void> Procedures::access(ChipState& chip, Operation& op, std::uint
           chip.watch.held = true;
           stuck = false;
         }
+        // AGS = 0 in what was written has made one frame, now, and the next read would begin
+        // others. An error of the line ends AGS too.
+        if (seen && op.status_.get<regs::AGS>() == 0 && !op.status_.start_error()) {
+          return Error::kCorrupted;
+        }
         if (!seen || lost || stuck) {
           if (op.made_ != 1) {
             mb4_cyclic_add_status(&op.plan_);

@@ -15,12 +15,18 @@
 namespace mb4::detail {
 
 // What is written and compared goes in three parts. The last one is compared first, because VERSION
-// is in it: without a chip every register differs, and kVerify would say less. A status comes last,
-// because a MISO that is stuck from some part on may look like the right registers, but like no
-// status.
+// is in it: without a chip every register differs, and kVerify would say less. No other part
+// reaches the request of an access that begins meanwhile: a reading whose opcode was disturbed
+// writes there, and the parts before may be all 0. A witness comes last, because a MISO that is
+// stuck from some part on may look like the right registers, but like no status.
 inline constexpr std::uint8_t kPartBytes = Operation::kMaxFrameBytes - 2;
-inline constexpr std::uint8_t kLastPart = kImageFirst + 2 * kPartBytes;
-static_assert(kLastPart + kPartBytes == regs::kAddrIface + 1);
+inline constexpr std::uint8_t kLastPart = regs::kAddrRegadr;
+inline constexpr std::uint8_t kMiddlePart = kLastPart - kPartBytes;
+static_assert(kMiddlePart - kImageFirst <= kPartBytes);
+static_assert(kLastPart + kPartBytes >= kImageFirst + kImageBytes);
+[[nodiscard]] constexpr std::uint8_t part_bytes(std::uint32_t address) {
+  return address == kImageFirst ? kMiddlePart - kImageFirst : kPartBytes;
+}
 
 // Purpose of the operation: Operation::count_.
 inline constexpr std::size_t kComparesOnly = 0;
@@ -101,14 +107,15 @@ inline void Procedures::plan_reset(ChipState& chip, Operation& op) {
 inline void Procedures::add_image(ChipState& chip, Operation& op) {
   op.stage_ = kFill;
   mb4_plan_add(&op.plan_, 3, MB4_CYCLIC_INSTRUCT, regs::BREAK::encode<1>(), chip.interface_byte);
-  add_bytes(op, kImageFirst, chip.image.data(), kPartBytes);
-  add_bytes(op, kImageFirst + kPartBytes, chip.image.data() + kPartBytes, kPartBytes);
+  for (const std::uint8_t part : {std::uint8_t{kImageFirst}, kMiddlePart}) {
+    add_bytes(op, part, &chip.image[part - kImageFirst], part_bytes(part));
+  }
 }
 
 inline void Procedures::add_compared(Operation& op, std::uint8_t address) {
   op.stage_ = kStart;
   op.at_ = address;
-  add_read(op, address, kPartBytes);
+  add_read(op, address, part_bytes(address));
   if (address == kLastPart) {  // a bus that stores nothing is no chip
     mb4_plan_rx(&op.plan_, static_cast<std::uint8_t>(op.plan_.frames -
                                                      1))[2 + regs::kAddrVersion - kLastPart] = 0;
@@ -160,6 +167,9 @@ inline Result<void> Procedures::configure(ChipState& chip, Operation& op) {
   }
   if (op.stage_ == kProof) {
     const Result<void> seen = look(op);
+    if (seen && received(op)[kWitnessBytes - 1] != chip.interface_byte) {
+      return ErrorInfo::at_register(Error::kVerify, regs::kAddrIface);
+    }
     return seen && op.count_ == kConfigures ? at_rest(chip, op.status_) : seen;
   }
   const bool identity = op.stage_ == kDelays;
@@ -176,18 +186,15 @@ inline Result<void> Procedures::configure(ChipState& chip, Operation& op) {
     }
     return old;
   }
-  if (const unsigned at = differs_at(chip, op.at_, is, kPartBytes, op.bad_ != 0); at != kNowhere) {
+  if (const unsigned at = differs_at(chip, op.at_, is, part_bytes(op.at_), op.bad_ != 0);
+      at != kNowhere) {
     return ErrorInfo::at_register(Error::kVerify, static_cast<std::uint8_t>(at));
   }
-  if (last && is[kPartBytes - 1] != chip.interface_byte) {
-    return ErrorInfo::at_register(Error::kVerify, regs::kAddrIface);
-  }
-  const std::uint32_t next = last ? std::uint32_t{kImageFirst} : op.at_ + kPartBytes;
-  if (next != kLastPart) {
-    add_compared(op, static_cast<std::uint8_t>(next));
-  } else {
-    add_poll(op);
+  if (op.at_ == kMiddlePart) {
+    add_witness(op);
     op.stage_ = kProof;
+  } else {
+    add_compared(op, last ? std::uint8_t{kImageFirst} : kMiddlePart);
   }
   return {};
 }
