@@ -176,8 +176,10 @@ class Automatic {
   // either. The datasheet asks for restart() when SVALID is 0 although a frame must have ended
   // (table 69). This call does not restart; next() does.
   //
-  // Errors: kWrongMode (automatic frames do not run; not touched), kBusy (between the steps of
-  // plan_actuator() with SpiCheck::kFull; not touched), kTransport, kNotDetected, kBankSwitched;
+  // Errors: kWrongMode (automatic frames do not run; not touched), kBusy (not touched: between the
+  // steps of plan_actuator() with SpiCheck::kFull; while an operation compares the configuration;
+  // without SpiCheck::kFull between a request and its instruction), kTransport, kNotDetected,
+  // kBankSwitched;
   // kCorrupted (HOLDBANK is not in the chip). On error `frame` holds no Reading.
   // kTimeout, kLineError (SL is 0): frames stay away for more than two periods and the step of
   // the clock (enc::clock_step_us), if the chip has left frames out, otherwise for 16 periods. With
@@ -286,7 +288,7 @@ class Automatic {
   }
 
   // Device::write_actuator() for a control loop that writes a word for each frame. Never waits;
-  // three transfers, five with SpiCheck::kFull, six or seven with kFullAndRelease. `word` has at
+  // three transfers, six with SpiCheck::kFull, seven or eight with kFullAndRelease. `word` has at
   // most data_bits bits. The chip sends the word with the frame after the one that runs. Only one
   // of the two banks gets the word: if the caller writes no other word before the frame after that,
   // that frame sends the previous word.

@@ -65,6 +65,8 @@ class Control : public ControlSteps<Bus, Clock> {
   // makes about 70 frames, or 100 with two channels; they send the words of actuators too. In a
   // chain a slave that was off on purpose shifts the words of the others when it is on.
   //
+  // With SpiCheck::kFull also kVerify (not configured any more; control_steps.hpp).
+  //
   // Not touched: kNotConfigured, kBusy; kUnsupported (kChannelProtocol): no channel is BiSS C, or
   // not the one that an ID was given for. kTransport, kNotDetected, kCorrupted, kTimeout as of
   // begin_command() and poll(). kCommand: not all have acknowledged; those that did are on.
@@ -80,7 +82,8 @@ class Control : public ControlSteps<Bus, Clock> {
   //
   // Not touched, nothing has begun: kNotConfigured, kInvalidArgument, kBusy, kUnsupported,
   // kWrongMode as of the begin calls. operation.result(): kTransport, kNotDetected, kCorrupted as
-  // of begin_read() and take(), kTimeout, kRegister, kRegisterDelay as of poll(). After kTransport
+  // of begin_read() and take(), kTimeout, kRegister, kRegisterDelay as of poll(), kVerify with
+  // SpiCheck::kFull: the Device is not configured any more (control_steps.hpp). After kTransport
   // and kNotDetected the last step was BREAK, if an access ran. The time limit is that of poll(),
   // by `now_us` of finish(); after it the status is read once more.
   Result<void> plan_read(Operation& operation, SlaveAddress slave, std::uint8_t address,
@@ -91,7 +94,8 @@ class Control : public ControlSteps<Bus, Clock> {
 
   // As plan_read(), but writes data.size() (1..64) registers. `data` must stay until the end.
   // Not touched: kNotConfigured, kInvalidArgument, kBusy, kUnsupported, kWrongMode.
-  // operation.result(): kTransport, kNotDetected, kCorrupted, kTimeout, kRegister, kRegisterDelay.
+  // operation.result(): kTransport, kNotDetected, kCorrupted, kTimeout, kRegister, kRegisterDelay,
+  // kVerify.
   Result<void> plan_write(Operation& operation, SlaveAddress slave, std::uint8_t address,
                           Span<const std::uint8_t> data) {
     return detail::Procedures::plan_access(Steps::chip_, operation, slave, address, data.data(),
@@ -104,13 +108,14 @@ class Control : public ControlSteps<Bus, Clock> {
   }
 
   // As plan_read(), but sends a command. Not touched: kNotConfigured, kInvalidArgument, kBusy,
-  // kUnsupported. operation.result(): kTransport, kNotDetected, kCorrupted, kTimeout, kCommand.
+  // kUnsupported. operation.result(): kTransport, kNotDetected, kCorrupted, kTimeout, kCommand,
+  // kVerify.
   Result<void> plan_command(Operation& operation, const Command& command) {
     return detail::Procedures::plan_command(Steps::chip_, operation, command);
   }
 
   // As plan_command(), but for activate(). Not touched: kNotConfigured, kBusy, kUnsupported.
-  // operation.result(): kTransport, kNotDetected, kCorrupted, kTimeout, kCommand.
+  // operation.result(): kTransport, kNotDetected, kCorrupted, kTimeout, kCommand, kVerify.
   Result<void> plan_activate(Operation& operation, std::uint8_t ids = 0, std::uint8_t ids_2 = 0) {
     return detail::Procedures::plan_activate(Steps::chip_, operation, ids, ids_2);
   }

@@ -67,10 +67,11 @@ namespace mb4 {
 // the whole configuration as Device::verify() does, and looks whether automatic frames run;
 // meanwhile reads of positions are kBusy. It ends with the error that it had, or with kCorrupted
 // and needs a restart; if the configuration differs, or cannot be read, with the error of verify()
-// (kVerify, kNotDetected, kTransport), and the Device counts as not configured. With several slaves
-// on a channel each write of RDATA also reads the registers that one wrong bit of its address would
-// have changed. Without SpiCheck::kFull reads of positions are kBusy from the request to its
-// instruction.
+// (kVerify, kNotDetected, kTransport), and the Device counts as not configured. This takes four
+// transfers more. Behind each reading of data, whose right answer may be 0, a witness follows: the
+// status and 0xF5, which show a read that was an instruction. Each write of RDATA also reads the
+// registers that one wrong bit of its address would have changed. Without SpiCheck::kFull reads of
+// positions are kBusy from the request to its instruction.
 //
 // Registers go in parts of eight, each in a transfer of its own. After a failed call BREAK comes
 // first, before anything of the access is written: two transfers and 100 us more, three with
@@ -88,13 +89,15 @@ class ControlSteps {
   }
 
   // Begins to write data.size() (1..64) registers from `address`; address + size <= 128. The data
-  // is in the chip when the call returns. Two transfers more for each eight registers.
+  // is in the chip when the call returns. Two transfers more for each eight registers, four with
+  // SpiCheck::kFull.
   Result<void> begin_write(SlaveAddress slave, std::uint8_t address,
                            Span<const std::uint8_t> data) {
     return begin_access(slave, address, data.data(), data.size());
   }
 
-  // Begins a command; see Command for the ranges of its members. Five transfers.
+  // Begins a command; see Command for the ranges of its members. Five transfers; seven with
+  // SpiCheck::kFull.
   Result<void> begin_command(const Command& command) {
     return detail::Blocking::until_poll(
         chip_, detail::Procedures::plan_command(chip_, chip_.own, command));
@@ -131,7 +134,7 @@ class ControlSteps {
   Result<bool> poll() { return detail::Blocking::poll_access(chip_); }
 
   // Copies the registers that the last read has fetched: out.size() is 1 up to their number. One
-  // transfer for each eight, three with SpiCheck::kFull; the chip is only read.
+  // transfer for each eight, four with SpiCheck::kFull; the chip is only read.
   // kInvalidArgument (not touched): out.size() is out of range, the last access was no successful
   // read, or another access has begun since. kTransport, kNotDetected. kCorrupted: the second
   // reading (SpiCheck::kFull) differs from the first, or the first register from what the end of

@@ -109,10 +109,12 @@ class Device {
   }
 
   // Reads the configuration back and compares it as configure() does. It finds a configuration that
-  // a disturbed transfer or a supply dip has changed. Four transfers, three of 20 bytes (0x03
-  // from 0xE4, 0xC0 and 0xD2) and a status; it changes nothing in the chip. The request of a
-  // control communication that runs is not compared. kNotConfigured (not touched), kTransport.
-  // kNotDetected, kVerify: the Device then counts as not configured; call configure() again.
+  // a disturbed transfer or a supply dip has changed. Four transfers, three of 18 to 20 bytes (0x03
+  // from 0xE2, 0xC0 and 0xD0) and a status with 0xF5; it changes nothing in the chip. The request
+  // of a control communication that runs is not compared. kNotConfigured (not touched), kTransport.
+  // kNotDetected, kVerify: the Device then counts as not configured; call configure() again. Where
+  // reads are kBusy because an operation with SpiCheck::kFull was given up, it ends this; then
+  // kTransport means not configured too, and kCorrupted that automatic frames have stopped.
   Result<void> verify() { return detail::Blocking::verify(chip_); }
 
   // Begins verify() without a transfer: the caller makes the frames of `operation` and calls
@@ -138,9 +140,9 @@ class Device {
   }
 
   // Sends BREAK, then writes all registers of the configuration to their value after power-on
-  // (page 21: all 0) and compares them. Eight transfers and a pause, as configure(). The data
-  // memories keep their contents. kTransport, kNotDetected, kVerify (touched). After the call, with
-  // or without error, the Device counts as not configured.
+  // (page 21: all 0) and compares them. Eight transfers, as configure(), without its pause. The
+  // data memories keep their contents. kTransport, kNotDetected, kVerify (touched). After the call,
+  // with or without error, the Device counts as not configured.
   Result<void> reset() {
     detail::Procedures::plan_reset(chip_, chip_.own);
     return detail::Blocking::run(chip_, chip_.own);

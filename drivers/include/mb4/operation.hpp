@@ -41,9 +41,11 @@ struct Procedures;
 // The driver makes no transfer and does not ask for the time meanwhile. The frames of a step have
 // at most kMaxFrameBytes. Between two steps the caller may do other work of any length, which
 // includes whole reads of positions (Automatic::plan_slave(), plan(), poll(), poll_slave()) if
-// automatic frames run; kBusy while an actuator holds the bank, between the steps of its operation
-// with SpiCheck::kFull. A plan_verify() of another object is allowed then too. No other call on the
-// Device may come between the plan call and the end.
+// automatic frames run. They are kBusy while an actuator holds the bank, between the steps of its
+// operation with SpiCheck::kFull; while an operation compares the configuration, because something
+// has read back differently; and without SpiCheck::kFull between the request of an access and its
+// instruction. A plan_verify() of another object is allowed then too. No other call on the Device
+// may come between the plan call and the end.
 //
 // Wrong use has an answer, and no frame is made for it:
 //  * finish() of an object without an operation (never begun, or ended: a late interrupt) returns
@@ -54,8 +56,9 @@ struct Procedures;
 //    plan_verify() after reset() or a failed configure().
 //
 // The object may be used again and again. To give an operation up, call finish() with transferred =
-// false. While it returns false, a BREAK that stops a control communication remains to be made:
-// make the frames, then call finish() with what became of them, until it returns true.
+// false. While it returns false, a BREAK that stops a control communication remains to be made, or
+// the comparison: make the frames, then call finish() with what became of them, until it returns
+// true. If the comparison is given up too, the Device counts as not configured.
 class Operation : public Steps {
  public:
   constexpr Operation() = default;

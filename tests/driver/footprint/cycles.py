@@ -157,7 +157,7 @@ def measure_longest(target, what, includes):
     result = 0
     for name, (cycles, steps) in sorted(found.items()):
         value = cycles if unit == "cycles" else steps
-        limit = limits["guarded" if "guarded" in name else what]
+        limit = limits[what]
         print(f"{target} {optimize}, {name[9:]}: at most {value} {unit}")
         if value > limit:
             print(f"  more than the budget of {limit}")

@@ -51,11 +51,11 @@ void write(unsigned address, std::uint8_t byte) {
   return device.finish(op, true, 100);
 }
 // The same with several slaves on a line, where writes guard the configuration.
-[[gnu::noinline]] bool measured_guarded_plan(BoardDevice& device, mb4::Operation& op,
+[[gnu::noinline]] bool measured_write_plan(BoardDevice& device, mb4::Operation& op,
                                              mb4::Span<std::uint8_t> bytes) {
   return device.control().plan_write(op, {1, 0}, 0x10, bytes).ok();
 }
-[[gnu::noinline]] bool measured_guarded_finish(BoardDevice& device, mb4::Operation& op) {
+[[gnu::noinline]] bool measured_write_finish(BoardDevice& device, mb4::Operation& op) {
   asm volatile("");  // another function than measured_finish()
   return device.finish(op, true, 100);
 }
@@ -89,7 +89,7 @@ mb4::Config config_of(mb4::SpiCheck check, std::size_t second_slave) {
   return config;
 }
 
-bool run_guarded() {
+bool run_writes() {
   static std::uint8_t bytes[64];
   BoardBus bus;
   BoardClock clock;
@@ -98,10 +98,10 @@ bool run_guarded() {
   bool good = device.configure(config_of(mb4::SpiCheck::kFull, 1)).ok();
   for (const bool automatic : {false, true}) {
     good = good && (!automatic || device.automatic().start());
-    good = good && measured_guarded_plan(device, op, {bytes, sizeof bytes});
+    good = good && measured_write_plan(device, op, {bytes, sizeof bytes});
     do {
       good = good && op.run(bus);
-    } while (good && !measured_guarded_finish(device, op));
+    } while (good && !measured_write_finish(device, op));
     good = good && op.result();
   }
   return good;
@@ -172,7 +172,7 @@ std::uint32_t board_now_us() {
        {mb4::SpiCheck::kOff, mb4::SpiCheck::kFull, mb4::SpiCheck::kCrc}) {
     good = run_all(check) && good;
   }
-  good = run_guarded() && good;
+  good = run_writes() && good;
   register std::uint32_t operation asm("r0") = 0x18;
   register std::uint32_t reason asm("r1") = good ? 0x20026 : 0x20023;
   asm volatile("bkpt 0xAB" : : "r"(operation), "r"(reason));
