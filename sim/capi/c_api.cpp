@@ -134,6 +134,30 @@ int word_access(mb4sim* sim, uint32_t address, Call call) {
   });
 }
 
+// The words that `n` bytes from `address` on touch, upwards, until one does not answer well:
+// call(host, address of the word, index of its first byte, position of this byte in the word, count
+// of bytes) returns the answer of the bus.
+template <typename Call>
+int memory_access(mb4sim* sim, uint32_t address, size_t n, Call call) {
+  constexpr uint32_t kWord = 4;
+  return guarded(sim, [&](Simulator& simulator) {
+    WordHost* const host = simulator.word_bus();
+    if (host == nullptr) return int{MB4SIM_ERROR_HOST};
+    const uint64_t end = uint64_t{host->last_address()} / kWord * kWord + kWord;
+    if (address > end || n > end - address) return int{MB4SIM_ERROR_VALUE};
+    int result = 0;
+    for (size_t i = 0; i < n && result == 0;) {
+      const uint32_t byte = address + static_cast<uint32_t>(i);
+      const uint32_t offset = byte % kWord;
+      const size_t count = std::min(n - i, size_t{kWord - offset});
+      const std::optional<std::uint8_t> answer = call(*host, byte - offset, i, offset, count);
+      result = !answer ? int{MB4SIM_ERROR_SILENT} : *answer == 0 ? 0 : 1;
+      i += count;
+    }
+    return result;
+  });
+}
+
 // A pin by its name; nothing for null pointers and other names.
 std::optional<mb4::sim::Pin> find_pin(const mb4sim* sim, const char* name) {
   if (sim == nullptr || name == nullptr) return std::nullopt;
@@ -351,6 +375,35 @@ int mb4sim_axi_read(mb4sim* sim, uint32_t address, uint32_t* data) {
     if (answer) *data = value;
     return answer;
   });
+}
+
+int mb4sim_mem_write(mb4sim* sim, uint32_t address, const uint8_t* bytes, size_t n) {
+  if (bytes == nullptr && n != 0) return MB4SIM_ERROR_UNKNOWN;
+  return memory_access(
+      sim, address, n,
+      [bytes](WordHost& host, uint32_t word, size_t first, uint32_t offset, size_t count) {
+        std::uint32_t data = 0;
+        std::uint32_t strobe = 0;
+        for (size_t i = 0; i < count; ++i) {
+          data |= std::uint32_t{bytes[first + i]} << (8 * (offset + i));
+          strobe |= 1U << (offset + i);
+        }
+        return host.write(word, data, static_cast<std::uint8_t>(strobe));
+      });
+}
+
+int mb4sim_mem_read(mb4sim* sim, uint32_t address, uint8_t* bytes, size_t n) {
+  if (bytes == nullptr && n != 0) return MB4SIM_ERROR_UNKNOWN;
+  return memory_access(
+      sim, address, n,
+      [bytes](WordHost& host, uint32_t word, size_t first, uint32_t offset, size_t count) {
+        std::uint32_t data = 0;
+        const std::optional<std::uint8_t> answer = host.read(word, data);
+        for (size_t i = 0; answer && i < count; ++i) {
+          bytes[first + i] = static_cast<std::uint8_t>(data >> (8 * (offset + i)));
+        }
+        return answer;
+      });
 }
 
 int mb4sim_stream_read(mb4sim* sim, uint32_t* words, size_t n, uint32_t* user) {

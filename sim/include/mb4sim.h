@@ -141,6 +141,17 @@ MB4SIM_API int mb4sim_bus_read(mb4sim *sim, uint8_t address, uint8_t *data);
 MB4SIM_API int mb4sim_axi_write(mb4sim *sim, uint32_t address, uint32_t data, uint8_t strobe);
 MB4SIM_API int mb4sim_axi_read(mb4sim *sim, uint32_t address, uint32_t *data);
 
+/* `n` bytes from any byte address on over the same bus: one access for each word that they touch,
+ * upwards, with strobes for a part of a word; byte 0 of a word is its bits 7..0. n = 0 accesses
+ * nothing. Simulated time advances by the duration of the accesses.
+ *
+ * Returns 0, or as mb4sim_axi_*: MB4SIM_ERROR_VALUE if a byte is outside of the master's range, and
+ * nothing has been accessed; otherwise what the first access has returned that was not 0. It was
+ * the last one. A read has then written the bytes of the words before it, and of its own word with
+ * the answer 1. */
+MB4SIM_API int mb4sim_mem_write(mb4sim *sim, uint32_t address, const uint8_t *bytes, size_t n);
+MB4SIM_API int mb4sim_mem_read(mb4sim *sim, uint32_t address, uint8_t *bytes, size_t n);
+
 /* The next beat of the stream beside that bus (biss_axi: s_axis, taken at once by a sink that keeps
  * 65,536 beats). At most n words are written; words may be NULL with n = 0. `user`, which may be
  * NULL, receives the side band (biss_axi: bit c: the word of channel c is of this frame and good).

@@ -66,6 +66,17 @@ def test_wrong_accesses_are_told(chip, address, strobe):
     assert error.value.code == "MB4SIM_ERROR_VALUE"
 
 
+def test_bytes_are_parts_of_words(chip):
+    before = chip.mem_read(0x10, 4)
+    chip.mem_write(0x11, b"\xFF")
+    assert chip.mem_read(0x10, 4)[1:2] == chip.axi_read(0x10).to_bytes(4, "little")[1:2]
+    assert chip.mem_read(0x10, 1) == before[:1]
+    assert chip.mem_read(0x0E, 5) == chip.mem_read(0x0C, 8)[2:7]
+    with pytest.raises(openmb4.Error) as error:
+        chip.mem_read(0xFE, 3)
+    assert error.value.code == "MB4SIM_ERROR_VALUE"
+
+
 def test_other_masters_have_no_such_bus():
     with openmb4.Simulator("") as chip, pytest.raises(openmb4.Error) as error:
         chip.axi_read(0)

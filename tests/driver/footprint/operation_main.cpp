@@ -52,7 +52,7 @@ void write(unsigned address, std::uint8_t byte) {
 }
 // The same with several slaves on a line, where writes guard the configuration.
 [[gnu::noinline]] bool measured_write_plan(BoardDevice& device, mb4::Operation& op,
-                                             mb4::Span<std::uint8_t> bytes) {
+                                           mb4::Span<std::uint8_t> bytes) {
   return device.control().plan_write(op, {1, 0}, 0x10, bytes).ok();
 }
 [[gnu::noinline]] bool measured_write_finish(BoardDevice& device, mb4::Operation& op) {

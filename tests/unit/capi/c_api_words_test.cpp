@@ -5,6 +5,8 @@
 // page (docs/buses.md), and the datasheet for the byte map.
 #include <gtest/gtest.h>
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <string>
 
@@ -66,6 +68,49 @@ TEST_P(CApiWords, ByteMapAndPage_AreReadAndWritten) {
   std::uint32_t data = 0;
   EXPECT_EQ(mb4sim_axi_read(sim, 0x1000, &data), MB4SIM_ERROR_VALUE);
   EXPECT_EQ(mb4sim_axi_read(sim, 0x101, &data), MB4SIM_ERROR_VALUE);
+}
+
+// Each start and length in three words, against the words themselves. The other bytes stay.
+TEST_P(CApiWords, Bytes_ArePartsOfWords) {
+  constexpr std::uint32_t kAt = 0x80;
+  for (std::uint32_t first = 0; first < 12; ++first) {
+    for (std::size_t n = 0; n + first <= 12; ++n) {
+      for (const std::uint32_t word : {0U, 4U, 8U}) write(kAt + word, 0xE0E1E2E3U + word);
+      std::array<std::uint8_t, 12> bytes{};
+      for (std::size_t i = 0; i < bytes.size(); ++i) bytes[i] = static_cast<std::uint8_t>(i + 1);
+      ASSERT_EQ(mb4sim_mem_write(sim, kAt + first, bytes.data(), n), 0);
+      std::array<std::uint8_t, 14> back{};
+      back.fill(0x77);
+      ASSERT_EQ(mb4sim_mem_read(sim, kAt + first, back.data(), n), 0);
+      for (std::uint32_t at = 0; at < 12; ++at) {
+        const bool written = at >= first && at < first + n;
+        const std::uint32_t word = at / 4 * 4;
+        const std::uint32_t before = ((0xE0E1E2E3U + word) >> (8 * (at % 4))) & 0xFF;
+        const std::uint32_t is = (read(kAt + word) >> (8 * (at % 4))) & 0xFF;
+        EXPECT_EQ(is, written ? at - first + 1 : before) << first << " " << n << " " << at;
+        EXPECT_TRUE(!written || back[at - first] == is);
+      }
+      EXPECT_EQ(back[n], 0x77);
+    }
+  }
+}
+
+TEST_P(CApiWords, BytesOutsideOfTheRange_TouchNothing) {
+  std::array<std::uint8_t, 8> bytes{};
+  bytes.fill(0x77);
+  const std::uint64_t before = mb4sim_time_ns(sim);
+  EXPECT_EQ(mb4sim_mem_read(sim, 0xFFC, bytes.data(), 5), MB4SIM_ERROR_VALUE);
+  EXPECT_EQ(mb4sim_mem_write(sim, 0xFFC, bytes.data(), 5), MB4SIM_ERROR_VALUE);
+  EXPECT_EQ(mb4sim_mem_read(sim, 0xFFFF'FFFF, bytes.data(), 8), MB4SIM_ERROR_VALUE);
+  EXPECT_EQ(mb4sim_mem_read(sim, 0, bytes.data(), SIZE_MAX), MB4SIM_ERROR_VALUE);
+  EXPECT_EQ(mb4sim_mem_read(sim, 0, nullptr, 1), MB4SIM_ERROR_UNKNOWN);
+  EXPECT_EQ(mb4sim_mem_write(nullptr, 0, bytes.data(), 1), MB4SIM_ERROR_UNKNOWN);
+  EXPECT_EQ(mb4sim_mem_read(sim, 0x1000, nullptr, 0), 0);
+  EXPECT_EQ(mb4sim_time_ns(sim), before);
+  EXPECT_EQ(bytes[0], 0x77);
+  EXPECT_EQ(mb4sim_mem_read(sim, 0xFFC, bytes.data(), 4), 0);
+  EXPECT_EQ(bytes[3], 0);
+  EXPECT_EQ(bytes[4], 0x77);
 }
 
 TEST_P(CApiWords, Frame_BringsWordTimeAndInterrupt) {

@@ -6,6 +6,7 @@
 // needs no change for it.
 #include <gtest/gtest.h>
 
+#include <array>
 #include <memory>
 #include <optional>
 #include <string>
@@ -232,6 +233,11 @@ TEST(SecondMaster, WordBusOfTheCInterface_IsThatOfItsHost) {
   EXPECT_EQ(mb4sim_axi_read(sim, MemoryHost::kSilent, &data), MB4SIM_ERROR_SILENT);
   EXPECT_EQ(mb4sim_axi_read(sim, MemoryHost::kSilent + 4, &data), MB4SIM_ERROR_VALUE);
   EXPECT_EQ(data, 77U);
+  // Bytes: the first word that does not answer well is the last one.
+  std::array<std::uint8_t, 8> bytes{1, 2, 3, 4, 5, 6, 7, 8};
+  EXPECT_EQ(mb4sim_mem_write(sim, MemoryHost::kRefused, bytes.data(), 8), 1);
+  EXPECT_EQ(mb4sim_mem_read(sim, MemoryHost::kSilent, bytes.data(), 4), MB4SIM_ERROR_SILENT);
+  EXPECT_EQ(bytes[0], 1);
   mb4sim_close(sim);
 }
 

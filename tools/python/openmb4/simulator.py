@@ -155,6 +155,19 @@ class Simulator:
             raise Error(f"axi_read 0x{address:02X}: the bus answered with an error")
         return value[0]
 
+    def mem_write(self, address: int, data: bytes) -> None:
+        """Writes bytes from any address of the bus of words on, one access a word."""
+        what = f"mem_write 0x{address:02X}"
+        if self._do(what, lib.mb4sim_mem_write, address, bytes(data), len(data)):
+            raise Error(f"{what}: the bus answered with an error")
+
+    def mem_read(self, address: int, count: int) -> bytes:
+        """Reads `count` bytes from any address of the bus of words on, one access a word."""
+        what, data = f"mem_read 0x{address:02X}", ffi.new("uint8_t[]", count)
+        if self._do(what, lib.mb4sim_mem_read, address, data, count):
+            raise Error(f"{what}: the bus answered with an error")
+        return bytes(ffi.buffer(data))
+
     def stream_read(self) -> Optional[Tuple[List[int], int]]:
         """The next beat of the stream of a master on AXI, (words, user); None if none waits."""
         words, user = ffi.new("uint32_t[]", STREAM_WORDS), ffi.new("uint32_t *")
