@@ -74,11 +74,18 @@ class ControlTest : public testing::Test {
     }
   }
   void expect_filled(const Bytes& registers) {
-    for (std::size_t at = 0; at < registers.size(); at += 8) {
-      const std::size_t end = at + 8 < registers.size() ? at + 8 : registers.size();
-      bus.expect_proven(join({{0x02, static_cast<std::uint8_t>(0x80 + at)},
-                              Bytes(registers.begin() + static_cast<int>(at),
-                                    registers.begin() + static_cast<int>(end))}));
+    for (const bool back : {false, true}) {
+      for (std::size_t at = 0; at < registers.size(); at += 8) {
+        const std::size_t end = at + 8 < registers.size() ? at + 8 : registers.size();
+        const Bytes part(registers.begin() + static_cast<int>(at),
+                         registers.begin() + static_cast<int>(end));
+        const std::uint8_t address = static_cast<std::uint8_t>(0x80 + at);
+        if (back) {
+          bus.expect_read(join({{0x03, address}, zeros(part.size())}), join({zeros(2), part}));
+        } else {
+          bus.expect_write(join({{0x02, address}, part}));
+        }
+      }
     }
   }
   // Two more frames, then the end.

@@ -84,6 +84,7 @@ inline void Procedures::begin_access(ChipState& chip, Operation& op, bool biss_b
   chip.recover_first = true;
   chip.control.readable = 0;
   chip.control.waits = false;
+  chip.control.suspect = false;
   chip.control.biss_b = biss_b;
   chip.control.owner = &op;
 }
@@ -203,12 +204,8 @@ inline void Procedures::add_request(ChipState& chip, Operation& op) {
   ControlState& state = chip.control;
   if (state.kind != ControlState::Kind::kRead && op.at_ < op.count_) {
     op.stage_ = kFill;
-    add_proven(op, static_cast<std::uint8_t>(regs::kAddrRdata + op.at_), op.data_ + op.at_,
-               part(op));
-    if (chip.checks_all()) {
-      add_read(op, static_cast<std::uint8_t>(kImageFirst + op.at_), part(op));
-      add_witness(op);
-    }
+    add_bytes(op, static_cast<std::uint8_t>(regs::kAddrRdata + op.at_), op.data_ + op.at_,
+              part(op));
     return;
   }
   // A command leaves 0xE2 and 0xE3 as they are.
@@ -217,6 +214,17 @@ inline void Procedures::add_request(ChipState& chip, Operation& op) {
   state.armed = true;
   add_proven(op, static_cast<std::uint8_t>(regs::kAddrRegadr + from), &op.request_[from],
              kRequestBytes - from);
+}
+
+// All parts are read back when all are written: a disturbed address may have put one into another
+// one's place (0x88 and 0x80).
+inline void Procedures::add_back(ChipState& chip, Operation& op) {
+  op.stage_ = kCompare;
+  add_read(op, static_cast<std::uint8_t>(regs::kAddrRdata + op.at_), part(op));
+  if (chip.checks_all()) {
+    add_read(op, static_cast<std::uint8_t>(kImageFirst + op.at_), part(op));
+    add_witness(op);
+  }
 }
 
 // RDATA may hold the bytes from before, and then reads back right although the write went to the
@@ -315,7 +323,8 @@ inline Result<void> Procedures::access_step(ChipState& chip, Operation& op, std:
     chip.control.kind = ControlState::Kind::kNone;
     chip.restart = chip.automatic || chip.restart;
     chip.control.stray = chip.control.stray || chip.checks_all();
-    chip.control.armed = chip.control.armed || (chip.checks_all() && op.stage_ == kFill);
+    const bool fills = op.stage_ == kFill || op.stage_ == kCompare;
+    chip.control.armed = chip.control.armed || (chip.checks_all() && fills);
     return not_begun(chip, op, done);
   }
   clear_plan(op);
@@ -333,24 +342,42 @@ inline Result<void> Procedures::access(ChipState& chip, Operation& op, std::uint
   }
   switch (op.stage_) {
     case kFill:
+      op.at_ += part(op);
+      if (op.at_ < op.count_) {
+        add_request(chip, op);
+      } else {
+        op.at_ = 0;
+        add_back(chip, op);
+      }
+      return {};
+    case kCompare:
     case kSet: {
-      if (op.stage_ == kFill && chip.checks_all()) {
-        if (const Result<void> kept = guarded(chip, op); !kept) {
-          return kept;
+      Result<void> set;
+      if (op.stage_ == kSet) {
+        set = written(chip, op);
+      } else {
+        set = chip.checks_all() ? guarded(chip, op) : Result<void>();
+        if (set && !equal(op.data_ + op.at_, received(op) + 2, part(op))) {
+          doubt(chip);
+          set = Error::kCorrupted;
         }
       }
-      if (const Result<void> set = written(chip, op); !set) {
+      if (!set) {
         return set;
       }
       if (state.stray && chip.checks_all()) {
         return Error::kCorrupted;  // it may take these bytes; the next access begins with BREAK
       }
-      if (op.stage_ != kSet) {
-        op.at_ += op.stage_ == kFill ? part(op) : 0U;
-        add_request(chip, op);
+      if (op.stage_ == kSet) {
+        add_access(chip, op);
         return {};
       }
-      add_access(chip, op);
+      op.at_ += part(op);
+      if (op.at_ < op.count_) {
+        add_back(chip, op);
+      } else {
+        add_request(chip, op);
+      }
       return {};
     }
     case kRecover: {
@@ -390,6 +417,7 @@ inline Result<void> Procedures::access(ChipState& chip, Operation& op, std::uint
         // instruction was lost and the access before would count as this one; or this access has
         // failed at once (nREGERR = 0). One disturbed status must not hide an access that runs.
         const Result<void> seen = look(op);
+        state.suspect = state.suspect || (!seen && op.good_);
         const bool lost = seen && op.status_.control_ended() && !op.status_.control_error();
         // A disturbed SWBANK or HOLDBANK: the next read drops the words that wait. Where reads
         // write no 0xF4 beside an access, none can.
@@ -483,6 +511,9 @@ inline Result<void> Procedures::access(ChipState& chip, Operation& op, std::uint
       if (!rested(chip, op)) {
         return {};
       }
+      if (state.suspect) {
+        doubt(chip);
+      }
       if (state.armed) {
         return op.cause_;
       }
@@ -535,6 +566,7 @@ inline Result<void> Procedures::poll(ChipState& chip, Operation& op, std::uint32
   ControlState& state = chip.control;
   const Status before = op.status_;
   if (const Result<void> seen = look(op); !seen) {
+    state.suspect = state.suspect || op.good_;
     if (++op.bad_ >= kBadLooks) {
       return seen;
     }

@@ -177,10 +177,14 @@ inline Result<void> Procedures::held_step(ChipState& chip, Operation& op, std::u
       if (!done) {
         return done;
       }
-      if (!equal(is, op.request_.data(), static_cast<unsigned>(op.count_))) {
+      const bool differs = !equal(is, op.request_.data(), static_cast<unsigned>(op.count_));
+      // One disturbed reading is not the other bank.
+      const bool again = differs && chip.checks_all() && op.bad_ == 1;
+      if (differs && !again) {
         op.bad_ = 0;
         add_held(chip, op);
-      } else if (!op.limit_.over) {
+      } else if (again || !op.limit_.over) {
+        op.bad_ = differs ? 2 : 1;
         add_other(op, now_us);
       }  // otherwise both banks hold the word
       return {};

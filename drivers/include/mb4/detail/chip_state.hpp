@@ -43,6 +43,7 @@ struct ControlState {
   bool seen_running = false;     // a read of positions has seen REGEND = 0 since the last poll
   bool first_frame = false;      // REGEND may belong to the access before; BiSS B: not ended yet
   bool stray = false;            // an access that nobody asked for may run
+  bool suspect = false;          // a status could not be read: 0x07 for 0x05 writes 0xF4 and 0xF5
   bool no_hand_over = false;     // BiSS B: no slave has entered register mode
   bool agserr_at_start = false;  // BiSS B: the chip sets nAGSERR = 0 at each write of 0xF4
   std::uint32_t access_us = 0;   // start of the access

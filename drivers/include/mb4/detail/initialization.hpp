@@ -96,6 +96,11 @@ inline Result<void> Procedures::initialize_step(ChipState& chip, Operation& op,
       if (op.bad_ != 0 && !measures(chip) && any_channel_is(chip.config, Protocol::kBissB)) {
         return Error::kCorrupted;
       }
+      // Another bit has come with it: a frame would follow INIT and switch the banks.
+      if (chip.checks_all() && op.status_.plausible() &&
+          (op.status_.instruction() & ~unsigned{regs::INIT::kMask}) != 0) {
+        return Error::kCorrupted;
+      }
       op.limit_.begin(now_us, initialization_us(chip));
       add_poll(op);
       return {};

@@ -36,6 +36,7 @@ struct Procedures {
     kPollAgain,  // an access: is the end true?
     kLines,      // read the lines until SL is 1
     kFill,       // an access: RDATA or IDS; an actuator: its word; all registers
+    kCompare,    // an access: RDATA or IDS is read back
     kSet,        // an access: 0xE2..0xE5; an actuator: 0xF4
     kNextFrame,  // an access: the next frame
     kDelays,     // INIT: what it has measured; a configuration: REVISION, VERSION
@@ -416,6 +417,10 @@ struct Procedures {
   [[gnu::noinline]] static Result<void> witnessed(ChipState& chip, Operation& op) {
     const Result<void> seen = look(op);
     if (!seen) {
+      // 0x05 may have become 0x07, which writes 0 to 0xF4 and 0xF5.
+      if (op.good_) {
+        doubt(chip);
+      }
       return seen;
     }
     const unsigned instruction = op.status_.instruction();
@@ -555,6 +560,7 @@ struct Procedures {
   static void add_other(Operation& op, std::uint32_t now_us);
   // ... and access.hpp.
   static void add_request(ChipState& chip, Operation& op);
+  static void add_back(ChipState& chip, Operation& op);
   static Result<void> guarded(ChipState& chip, Operation& op);
   static std::uint8_t part(const Operation& op);
   static void add_take(ChipState& chip, Operation& op);
