@@ -8,6 +8,7 @@
 #include "sim/core/random.hpp"
 #include "sim/core/trace_error.hpp"
 #include "sim/faults/fault_target.hpp"
+#include "sim/lines/line_kind.hpp"
 #include "sim/masters/master.hpp"
 #include "sim/scenario/injection.hpp"
 
@@ -31,10 +32,6 @@ std::unique_ptr<Slave> make_slave(const SlaveConfig& config, std::uint64_t seed)
   return slave;
 }
 
-[[noreturn]] void stop_for_pulse(unsigned index, const std::string& violation) {
-  throw ModelStopped("MA" + std::to_string(index + 1) + ": " + violation);
-}
-
 }  // namespace
 
 // What faults can reach.
@@ -43,6 +40,9 @@ class SimulatorFaults final : public FaultTarget {
   explicit SimulatorFaults(Simulator& simulator) : simulator_(simulator) {}
   Line& line(unsigned channel) override { return *simulator_.line(channel); }
   Slave& slave(unsigned number) override { return *simulator_.slave(number); }
+  unsigned wires() const override {
+    return static_cast<unsigned>(simulator_.scenario().master->line->wires.size());
+  }
   void abort_transfer(std::uint64_t bits) override { simulator_.master_->abort_transfer(bits); }
   void set_clock(Time now, std::optional<std::uint64_t> hz) override {
     simulator_.model_->set_clock(now, hz.value_or(simulator_.scenario().chip.f_clk_hz));
@@ -57,24 +57,24 @@ Simulator::Simulator(const Scenario& scenario, const SimulatorOptions& options)
       seed_(options.seed.value_or(scenario.seed)),
       lines_(scenario.master->channels),
       trace_{options.trace_path.value_or(""), options.trace_from, options.trace_to} {
-  for (unsigned index = 0; index < lines_.size(); ++index) {
-    lines_[index].simulator = this;
-    lines_[index].index = index;
-  }
+  const LineKind& kind = *scenario_.master->line;
   Outputs connected = 0;
   for (const ChannelConfig& channel : scenario_.channels) {
     const unsigned index = channel.number - 1;
-    auto line = std::make_unique<Line>(queue_, channel.delay, &Simulator::on_sl, &lines_[index],
-                                       channel.cable, derive_seed(seed_, line_seed(index)));
+    auto line = kind.make({queue_, *channel.cable, channel.protocol(),
+                           derive_seed(seed_, line_seed(index)), *this, index});
     unsigned number = scenario_.master->first_slave(channel.number);
     for (const SlaveConfig& slave : channel.slaves) {
-      line->chain().add(make_slave(slave, derive_seed(seed_, slave_seed(number))));
+      kind.add(*line, make_slave(slave, derive_seed(seed_, slave_seed(number))));
       ++number;
     }
-    if (!channel.protocol().start_bit) line->faults().set_no_start_bit();
-    for (const auto& [frame, bits] : channel.flips) line->faults().flip_frame(frame, bits);
-    lines_[index].line = std::move(line);
-    connected |= MasterModel::ma_of(index);
+    for (const auto& [frame, bits] : channel.cable->flips) line->flip(frame, bits);
+    lines_[index].line = line.get();
+    lines_[index].end = std::move(line);
+    connected |= MasterModel::of_line(index, MasterModel::kLevels);
+  }
+  for (unsigned index = 0; index < lines_.size(); ++index) {
+    if (lines_[index].end == nullptr) lines_[index].end = kind.make_open(*this, index);
   }
   master_ = scenario_.master->make(
       {scenario_.chip, scenario_.host, connected, *this, derive_seed(seed_, kMasterSeed),
@@ -85,8 +85,10 @@ Simulator::Simulator(const Scenario& scenario, const SimulatorOptions& options)
   fault_target_ = std::make_unique<SimulatorFaults>(*this);
   injector_ = std::make_unique<FaultInjector>(*fault_target_, queue_, scenario_.faults,
                                               derive_seed(seed_, kFaultSeed));
-  // For the lines MA rests at 1 and MO at 0. Any other level of the master is now a change.
-  for (unsigned index = 0; index < lines_.size(); ++index) seen_ |= MasterModel::ma_of(index);
+  // The lines are at rest. Any other level of the master is now a change.
+  for (unsigned index = 0; index < lines_.size(); ++index) {
+    seen_ |= MasterModel::of_line(index, kind.rest);
+  }
   settle();
   master_->power_on();
   run_until(kReady);
@@ -147,28 +149,18 @@ bool Simulator::run_while_waiting(const std::function<bool()>& done, Time limit)
 std::uint64_t Simulator::clk_cycles() const { return model_->cycles(); }
 std::uint64_t Simulator::clk_cycles_left_out() const { return model_->left_out(); }
 
-inline void Simulator::check_ma(LineEnd& end, bool level) {
-  // A pin that follows another one has no pulses of its own.
-  if (end.follows) {
-    end.ma_check.restart(level);
-    return;
-  }
-  const std::string* violation = end.ma_check.edge(
-      now_, level, model_->cycles(), model_->half_clocks(end.index), model_->min_clock());
-  const bool cut = model_->take_cut(MasterModel::ma_of(end.index));
-  if (violation == nullptr) return;
-  if (!cut) stop_for_pulse(end.index, *violation);
-  end.ma_check.count_cut();
+PulseLimits Simulator::take_pulse_limits(unsigned line, unsigned pin) {
+  return {model_->cycles(), model_->half_clocks(line), model_->min_clock(),
+          model_->take_cut(MasterModel::of_line(line, pin))};
 }
 
-// Tells each line whose MA or MO has changed, the first line first.
+void Simulator::stop(const std::string& reason) { throw ModelStopped(reason); }
+
+// Tells each line whose outputs have changed, the first line first.
 inline void Simulator::lines_changed(Outputs changed, Outputs levels) {
-  constexpr Outputs kMa = MasterModel::ma_of(0);
-  constexpr Outputs kMo = MasterModel::mo_of(0);
-  for (LineEnd* end = lines_.data(); changed != 0; ++end) {
-    if ((changed & kMa) != 0) check_ma(*end, (levels & kMa) != 0);
-    if ((changed & (kMa | kMo)) != 0 && end->line != nullptr) {
-      end->line->drive(now_, (levels & kMa) != 0, (levels & kMo) != 0);
+  for (const Place* place = lines_.data(); changed != 0; ++place) {
+    if ((changed & MasterModel::kLevels) != 0) {
+      place->end->drive(now_, static_cast<unsigned>(levels & MasterModel::kLevels));
     }
     changed >>= MasterModel::kBitsOfLine;
     levels >>= MasterModel::kBitsOfLine;
@@ -193,32 +185,38 @@ void Simulator::settle() {
   }
 }
 
-void Simulator::on_sl(Time /*now*/, void* receiver, bool level) {
-  const auto* end = static_cast<LineEnd*>(receiver);
-  end->simulator->model_->set_sl(end->simulator->now_, end->index, level);
-  end->simulator->settle();
+void Simulator::set_inputs(Time /*now*/, unsigned line, unsigned levels) {
+  model_->set_inputs(now_, line, levels);
+  settle();
 }
 
+// What is not there is 1.
 void Simulator::on_probe(Time now, void* receiver) {
   auto* simulator = static_cast<Simulator*>(receiver);
-  std::uint64_t ma = 0;
-  std::uint64_t slo = 0;
-  std::uint64_t idle = 0;
-  for (const LineEnd& end : simulator->lines_) {
-    if (end.line == nullptr || end.line->chain().ma()) ma |= std::uint64_t{1} << end.index;
+  const Master& master = *simulator->scenario_.master;
+  const auto all = [](std::size_t bits) { return ~std::uint64_t{0} >> (64 - bits); };
+  const auto clear = [](std::uint64_t& word, std::size_t bit, bool level) {
+    if (!level) word &= ~(std::uint64_t{1} << bit);
+  };
+  std::uint64_t arrived = all(simulator->lines_.size());
+  std::uint64_t sent = all(master.slaves);
+  std::uint64_t ready = sent;
+  for (std::size_t index = 0; index < simulator->lines_.size(); ++index) {
+    const Line* line = simulator->lines_[index].line;
+    if (line == nullptr) continue;
+    clear(arrived, index, line->arrived());
+    const unsigned first = master.first_slave(static_cast<unsigned>(index) + 1) - 1;
+    for (std::size_t i = 0; i < line->size(); ++i) {
+      clear(sent, first + i, line->sent(i));
+      clear(ready, first + i, line->ready(i));
+    }
   }
-  for (unsigned number = 1; number <= simulator->scenario_.master->slaves; ++number) {
-    const Slave* slave = simulator->slave(number);
-    const std::uint64_t bit = std::uint64_t{1} << (number - 1);
-    if (slave == nullptr || slave->slo()) slo |= bit;
-    if (slave == nullptr || slave->idle()) idle |= bit;
-  }
-  simulator->model_->set_probes(now, ma, slo, idle);
+  simulator->model_->set_probes(now, arrived, sent, ready);
 }
 
 void Simulator::set_probes(Line::Probe probe) {
-  for (const LineEnd& end : lines_) {
-    if (end.line != nullptr) end.line->set_probe(probe, this);
+  for (const Place& place : lines_) {
+    if (place.line != nullptr) place.line->set_probe(probe, this);
   }
   if (probe != nullptr) probe(now_, this);
 }
@@ -233,12 +231,9 @@ bool Simulator::pin(Pin pin) const { return master_->pin(pin); }
 
 void Simulator::change_followers() {
   followers_ = model_->followers();
-  for (LineEnd& end : lines_) {
-    const Outputs ma = MasterModel::ma_of(end.index);
-    const bool follows = (followers_ & ma) != 0;
-    if (end.follows == follows) continue;
-    end.follows = follows;
-    end.ma_check.restart((model_->outputs() & ma) != 0);
+  for (unsigned index = 0; index < lines_.size(); ++index) {
+    const bool follows = (followers_ & MasterModel::of_line(index, MasterModel::kLevels)) != 0;
+    lines_[index].end->follow(follows, outputs(index + 1));
   }
 }
 
@@ -257,15 +252,15 @@ void Simulator::set_pin(Pin pin, bool level) {
 }
 
 Line* Simulator::line(unsigned channel) {
-  return channel >= 1 && channel <= lines_.size() ? lines_[channel - 1].line.get() : nullptr;
+  return channel >= 1 && channel <= lines_.size() ? lines_[channel - 1].line : nullptr;
 }
 
 const Slave* Simulator::slave(unsigned number) const {
   if (number == 0) return nullptr;
   const unsigned channel = scenario_.channel_of(number);
-  const Line* line = lines_[channel - 1].line.get();
+  const Line* line = lines_[channel - 1].line;
   const unsigned index = number - scenario_.master->first_slave(channel);
-  return line != nullptr && index < line->chain().size() ? &line->chain().slave(index) : nullptr;
+  return line != nullptr && index < line->size() ? &line->slave(index) : nullptr;
 }
 
 Slave* Simulator::slave(unsigned number) {
@@ -274,8 +269,8 @@ Slave* Simulator::slave(unsigned number) {
 
 void Simulator::refresh_lines() {
   check_alive();
-  for (const LineEnd& end : lines_) {
-    if (end.line != nullptr) end.line->refresh(now_);
+  for (const Place& place : lines_) {
+    if (place.line != nullptr) place.line->refresh(now_);
   }
 }
 
@@ -286,7 +281,7 @@ void Simulator::inject(std::string_view text) {
   injector_->add_new();
   for (const Injection::Event& each : injection.events) {
     Line* const place = line(each.channel);
-    const CableEvent::Action action = each.event.action;
+    const LineAction action = each.event.action;
     at(each.event.time, [this, place, action] { place->act(now_, action); });
   }
   run_until(now_);  // what begins now has begun when this returns

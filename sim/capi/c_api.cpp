@@ -430,11 +430,11 @@ int mb4sim_on_frame(mb4sim* sim, mb4sim_frame_callback callback, void* context) 
       mb4sim_frame frame{};
       frame.size = sizeof frame;
       frame.channel = seen.channel;
-      frame.number = seen.number;
-      frame.start_ns = seen.ma.start / mb4::sim::kPsPerNs;
-      frame.end_ns = seen.ma.last_edge / mb4::sim::kPsPerNs;
-      frame.ma_edges = static_cast<unsigned>(seen.ma.rising + seen.ma.falling);
-      if (!seen.ma.rest_level) frame.flags |= MB4SIM_FRAME_MA_LOW;
+      frame.number = seen.frame.number;
+      frame.start_ns = seen.frame.start / mb4::sim::kPsPerNs;
+      frame.end_ns = seen.frame.end / mb4::sim::kPsPerNs;
+      frame.ma_edges = static_cast<unsigned>(seen.frame.edges);
+      if (seen.frame.rests_low) frame.flags |= MB4SIM_FRAME_MA_LOW;
       if (seen.fault) frame.flags |= MB4SIM_FRAME_FAULT;
       callback(context, &frame);
     });
@@ -448,10 +448,10 @@ int mb4sim_on_edge(mb4sim* sim, mb4sim_edge_callback callback, void* context) {
       if (sim->frames != nullptr) sim->frames->set_edges({});
       return 0;
     }
-    sim->watch().set_edges([callback, context](unsigned channel, mb4::sim::EdgePlace place,
-                                               mb4::sim::Time now, bool level) {
-      callback(context, channel, static_cast<unsigned>(place), now, level ? 1 : 0);
-    });
+    sim->watch().set_edges(
+        [callback, context](unsigned channel, unsigned place, mb4::sim::Time now, bool level) {
+          callback(context, channel, place, now, level ? 1 : 0);
+        });
     return 0;
   });
 }

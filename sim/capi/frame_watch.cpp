@@ -9,13 +9,9 @@ FrameWatch::FrameWatch(Simulator& simulator)
       ner_(simulator.pin_by_name("NER")),
       eot_(simulator.pin_by_name("EOT")) {
   for (const ChannelConfig& channel : simulator.scenario().channels) {
-    Line* const line = simulator.line(channel.number);
-    channels_.push_back(std::make_unique<Channel>(Channel{this, channel.number, line}));
-    Channel& last = *channels_.back();
-    last.begun = line->monitor().frames();
-    last.told = last.begun - (line->monitor().running(simulator.now()) ? 1 : 0);
-    line->set_tap(&FrameWatch::on_edge, &last);
-    plan(last);
+    channels_.push_back(
+        std::make_unique<Channel>(*this, channel.number, *simulator.line(channel.number)));
+    channels_.back()->line.observe(simulator.now(), channels_.back().get(), false);
   }
   simulator.set_observer(this);
 }
@@ -42,70 +38,19 @@ const std::vector<FaultStory>& FrameWatch::stories() {
 void FrameWatch::set_edges(EdgeCallback callback) {
   edges_ = std::move(callback);
   for (const auto& channel : channels_) {
-    channel->line->set_probe(edges_ ? &FrameWatch::on_probe : nullptr, channel.get());
-    if (!edges_) continue;
-    const Time now = simulator_.now();
-    channel->levels = {simulator_.ma(channel->number), simulator_.mo(channel->number),
-                       channel->line->sl(), channel->line->chain().slo()};
-    for (std::size_t place = 0; place < kEdgePlaces; ++place)
-      edges_(channel->number, static_cast<EdgePlace>(place), now, channel->levels[place]);
+    channel->line.observe(simulator_.now(), channel.get(), static_cast<bool>(edges_));
   }
 }
 
-void FrameWatch::tell(Channel& channel, EdgePlace place, Time now, bool level) {
-  bool& told = channel.levels[static_cast<std::size_t>(place)];
-  if (told == level) return;
-  told = level;
-  edges_(channel.number, place, now, level);
-}
-
-void FrameWatch::on_probe(Time now, void* receiver) {
-  auto& channel = *static_cast<Channel*>(receiver);
-  channel.watch->tell(channel, EdgePlace::kSlo, now, channel.line->chain().slo());
-}
-
-// The monitor has seen the edge before.
-void FrameWatch::on_edge(Time now, void* receiver, Line::Signal signal, bool level) {
-  auto& channel = *static_cast<Channel*>(receiver);
-  if (channel.watch->edges_) {
-    constexpr EdgePlace kPlaces[] = {EdgePlace::kMa, EdgePlace::kMo, EdgePlace::kSl};
-    channel.watch->tell(channel, kPlaces[static_cast<std::size_t>(signal)], now, level);
-  }
-  if (signal != Line::Signal::kMa) return;
-  const std::uint64_t frames = channel.line->monitor().frames();
-  if (frames != channel.begun) channel.watch->take_ner();
-  channel.begun = frames;
-  channel.watch->plan(channel);
-}
-
-// Plans a look at the time when the running frame may be over. An edge of MA moves this time later,
-// and the look notices it. Only the second rising edge, which measures the period, moves it nearer.
-void FrameWatch::plan(Channel& channel) {
-  const Time end = channel.line->monitor().ends_at();
-  if (!channel.line->monitor().running(simulator_.now()) || end >= channel.due) return;
-  channel.due = end;
-  simulator_.at(end, [this, &channel, end] {
-    if (channel.due == end) look(channel);
-  });
-}
-
-void FrameWatch::look(Channel& channel) {
-  const Time now = simulator_.now();
-  const MaMonitor& monitor = channel.line->monitor();
-  channel.due = kNever;
-  const std::uint64_t over = monitor.frames() - (monitor.running(now) ? 1 : 0);
-  if (over > channel.told) {
-    channel.told = over;
-    SeenFrame frame{channel.number, over, monitor.last(now), false};
-    frame.fault = touched(channel, frame.ma);
-    if (eot_ && simulator_.pin(*eot_)) take_ner();
-    if (callback_) callback_(frame);
-  }
-  plan(channel);
+void FrameWatch::frame_over(Channel& channel, const LineFrame& frame) {
+  SeenFrame seen{channel.number, frame, false};
+  seen.fault = touched(channel, frame);
+  if (eot_ && simulator_.pin(*eot_)) take_ner();
+  if (callback_) callback_(seen);
 }
 
 // Finds and counts the faults of this frame. A fault of the host touches no line.
-bool FrameWatch::touched(Channel& channel, const MaFrame& frame) {
+bool FrameWatch::touched(Channel& channel, const LineFrame& frame) {
   const std::vector<FaultRecord>& records = simulator_.faults();
   stories_.resize(records.size());
   bool any = false;
@@ -119,7 +64,7 @@ bool FrameWatch::touched(Channel& channel, const MaFrame& frame) {
     if (all_ended && ended) ++channel.settled;
     all_ended = all_ended && ended;
     if (!here || ended) continue;
-    if (waits && channel.line->faults().frames() < record.frame) continue;
+    if (waits && channel.line.flip_frames() < record.frame) continue;
     any = true;
     ++stories_[i].frames;
     waiting_.push_back(i);

@@ -2,13 +2,12 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Tells the end of every frame on the lines of a simulator, and if asked every edge; counts for
-// each fault the frames that it touched. A frame is over when MA has rested for 1.5 periods
-// (MaMonitor). The master tells its errors later: at EOT = 1, or when the next frame starts. The
-// watch takes the tap of each line, the simulator's observer, and for edges the probe of each line.
+// each fault the frames that it touched. The line says what a frame is. The master tells its errors
+// later: at its end of transmission, or when the next frame starts. The watch is the observer of
+// each line and of the simulator.
 #ifndef MB4SIM_FRAME_WATCH_HPP_
 #define MB4SIM_FRAME_WATCH_HPP_
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -25,8 +24,7 @@ namespace mb4::sim {
 // A frame that is over.
 struct SeenFrame {
   unsigned channel = 0;
-  std::uint64_t number = 0;  // on its channel, from 1 on
-  MaFrame ma;
+  LineFrame frame;
   bool fault = false;  // an injected fault lasted in it
 };
 
@@ -36,15 +34,10 @@ struct FaultStory {
   std::uint64_t ner_low = 0;  // of these, with pin NER low after their end
 };
 
-// Where an edge is: at a pin of the master, or SLO of the slave next to SL, at its end of the
-// cable.
-enum class EdgePlace : unsigned { kMa, kMo, kSl, kSlo };
-constexpr std::size_t kEdgePlaces = 4;
-
 class FrameWatch final : private PinObserver {
  public:
   using Callback = std::function<void(const SeenFrame& frame)>;
-  using EdgeCallback = std::function<void(unsigned channel, EdgePlace place, Time now, bool level)>;
+  using EdgeCallback = std::function<void(unsigned channel, unsigned place, Time now, bool level)>;
 
   // The simulator must outlive the watch, and must not run any more when the watch has gone.
   explicit FrameWatch(Simulator& simulator);
@@ -61,25 +54,25 @@ class FrameWatch final : private PinObserver {
   const std::vector<FaultStory>& stories();
 
  private:
-  struct Channel {
-    FrameWatch* watch;
+  struct Channel final : LineObserver {
+    Channel(FrameWatch& its_watch, unsigned its_number, Line& its_line)
+        : watch(its_watch), number(its_number), line(its_line) {}
+    void frame_begun() override { watch.take_ner(); }
+    void frame_over(const LineFrame& frame) override { watch.frame_over(*this, frame); }
+    void edge(Time now, unsigned place, bool level) override {
+      watch.edges_(number, place, now, level);
+    }
+
+    FrameWatch& watch;
     unsigned number;
-    Line* line;
-    std::uint64_t told = 0;   // frames that are over and told
-    std::uint64_t begun = 0;  // frames that have begun
-    Time due = kNever;        // the next look
+    Line& line;
     std::size_t settled = 0;  // all faults before this one have ended before the running frame
-    std::array<bool, kEdgePlaces> levels{};  // that have been told
   };
 
   void pin_changed(Pin pin, bool level) override;
   void take_ner();
-  static void on_edge(Time now, void* receiver, Line::Signal signal, bool level);
-  static void on_probe(Time now, void* receiver);
-  void tell(Channel& channel, EdgePlace place, Time now, bool level);
-  void plan(Channel& channel);
-  void look(Channel& channel);
-  bool touched(Channel& channel, const MaFrame& frame);
+  void frame_over(Channel& channel, const LineFrame& frame);
+  bool touched(Channel& channel, const LineFrame& frame);
 
   Simulator& simulator_;
   std::optional<Pin> ner_;

@@ -11,10 +11,10 @@
 #include <cstdint>
 #include <optional>
 
-#include "sim/core/cable.hpp"
 #include "sim/core/event_queue.hpp"
 #include "sim/core/random.hpp"
 #include "sim/core/time.hpp"
+#include "sim/core/wire_faults.hpp"
 
 namespace mb4::sim {
 

@@ -42,12 +42,14 @@ struct FaultType {
 struct FaultConfig {
   const FaultType* kind = nullptr;  // of fault_types(); must be set
   unsigned channel = 0;             // from 1 on, also for a slave's fault; 0: host and clock
-  unsigned slave = 0;               // from 1 on, as in SCDATAx; 0: none
-  bool on_ma = false;    // glitch, stuck, jitter: MA at the slaves instead of SL at the chip
+  unsigned slave = 0;               // from 1 on; 0: none
+  unsigned wire = 0;                // glitch, stuck, jitter: of the wires of the line
+  std::string_view wire_title;
   bool level = false;    // stuck
   Time width = 0;        // glitch, jitter, ps
   std::uint64_t hz = 0;  // clock-frequency
-  // bit-flip: bits of the frame as in SlFaults. abort: one number of SCLK clocks. Empty: random.
+  // bit-flip: bits of the frame as in Line::flip(). abort: one number of SCLK clocks. Empty:
+  // random.
   std::vector<unsigned> bits;
   unsigned frame_bits = 1;  // a random bit of bit-flip is below this number
 
@@ -65,9 +67,10 @@ struct FaultRecord {
   std::size_t config = 0;  // index into Scenario::faults
   Time begin = 0;
   Time end = kNever;  // of a fault with a duration: kNever until it is over
-  // Not 0: the fault waits for this frame and hits it alone; frames count as in SlFaults::frames().
+  // Not 0: the fault waits for this frame and hits it alone; frames count as in
+  // Line::flip_frames().
   std::uint64_t frame = 0;
-  std::string what;  // "glitch of 10 ns on SL of channel 1"
+  std::string what;  // "channel 1: ..."
 };
 
 }  // namespace mb4::sim

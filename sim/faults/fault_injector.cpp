@@ -26,20 +26,20 @@ void FaultInjector::remember_cable(Source& source) {
         fault.channel != channel) {
       continue;
     }
-    source.ma_was = before->ma_was;
-    source.sl_was = before->sl_was;
+    source.was = before->was;
     return;
   }
   const Line& line = target_.line(channel);
-  source.ma_was = line.ma_faults();
-  source.sl_was = line.sl_faults();
+  for (unsigned wire = 0; wire < target_.wires(); ++wire) {
+    source.was.push_back(line.wire_faults(wire));
+  }
 }
 
 void FaultInjector::add_new() {
   for (std::size_t i = sources_.size(); i < faults_.size(); ++i) {
     const FaultConfig& fault = faults_[i];
     sources_.push_back(
-        std::make_unique<Source>(Source{this, i, Random(derive_seed(seed_, i)), {}, {}, {}}));
+        std::make_unique<Source>(Source{this, i, Random(derive_seed(seed_, i)), {}, {}}));
     Source& source = *sources_.back();
     if (fault.kind->place == FaultPlace::kLine) remember_cable(source);
     for (const Time at : fault.at) queue_.post(at, &FaultInjector::begin, &source);
@@ -56,8 +56,7 @@ void FaultInjector::post_random(Source& source, Time after) {
 }
 
 FaultScene FaultInjector::scene(Time now, Source& source, FaultRecord& record) const {
-  return {faults_[source.config], target_, source.random, source.ma_was,
-          source.sl_was,          now,     record};
+  return {faults_[source.config], target_, source.random, source.was, now, record};
 }
 
 void FaultInjector::begin(Time now, void* receiver, std::uint64_t /*word*/) {

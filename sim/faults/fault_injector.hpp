@@ -11,10 +11,10 @@
 #include <memory>
 #include <vector>
 
-#include "sim/core/cable.hpp"
 #include "sim/core/event_queue.hpp"
 #include "sim/core/random.hpp"
 #include "sim/core/time.hpp"
+#include "sim/core/wire_faults.hpp"
 #include "sim/faults/fault.hpp"
 
 namespace mb4::sim {
@@ -43,8 +43,7 @@ class FaultInjector {
     std::size_t config;
     Random random;
     std::vector<std::size_t> lasting;  // records that are not over
-    WireFaults ma_was;                 // line: faults of the cable without this one
-    WireFaults sl_was;
+    std::vector<WireFaults> was;       // line: faults of each wire without this one
   };
 
   static void begin(Time now, void* receiver, std::uint64_t word);

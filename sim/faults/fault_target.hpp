@@ -20,6 +20,8 @@ class FaultTarget {
   // Line and slave exist: a scenario cannot ask for a fault elsewhere.
   virtual Line& line(unsigned channel) = 0;
   virtual Slave& slave(unsigned number) = 0;
+  // Number of wires of each line.
+  virtual unsigned wires() const = 0;
   // The next transfer of the host ends after `bits` (1 or more) clocks.
   virtual void abort_transfer(std::uint64_t bits) = 0;
   // Frequency of the master's clock from `now` on; 0: it stops; nothing: as the scenario says.

@@ -21,20 +21,23 @@ constexpr std::int64_t kMaxBit = 4095;
 constexpr std::uint64_t kMaxAbortBits = 80;  // of a random abort: the driver's frames are short
 
 using Scene = const FaultScene&;
-using Action = CableEvent::Action;
+using What = LineAction::What;
 
 Line& line_of(Scene scene) { return scene.target.line(scene.config.channel); }
 
 std::string on_wire(const FaultConfig& fault) {
-  return std::string(fault.on_ma ? "MA" : "SL") + " of channel " + std::to_string(fault.channel);
+  return std::string(fault.wire_title) + " of channel " + std::to_string(fault.channel);
 }
 
 std::string who(const FaultConfig& fault) { return "slave " + std::to_string(fault.slave); }
 
 void read_nothing(TomlReader& /*reader*/, const FaultLimits& /*limits*/, FaultConfig& /*fault*/) {}
 
-void read_wire(TomlReader& reader, FaultConfig& fault) {
-  fault.on_ma = reader.choice("on", {"sl", "ma"}).value_or(0) == 1;
+void read_wire(TomlReader& reader, const FaultLimits& limits, FaultConfig& fault) {
+  std::vector<std::string_view> keys;
+  for (const WireName& wire : limits.wires) keys.push_back(wire.key);
+  fault.wire = static_cast<unsigned>(reader.choice("on", keys).value_or(0));
+  fault.wire_title = limits.wires[fault.wire].title;
 }
 
 void read_width(TomlReader& reader, const char* key, FaultConfig& fault) {
@@ -61,7 +64,7 @@ void read_bit_flip(TomlReader& reader, const FaultLimits& /*limits*/, FaultConfi
 }
 
 std::string begin_bit_flip(Scene scene) {
-  SlFaults& line = line_of(scene).faults();
+  Line& line = line_of(scene);
   std::vector<unsigned> bits = scene.config.bits;
   if (bits.empty()) {
     bits.push_back(static_cast<unsigned>(scene.random.up_to(scene.config.frame_bits - 1)));
@@ -69,30 +72,26 @@ std::string begin_bit_flip(Scene scene) {
   std::string list;
   for (const unsigned bit : bits) list += (list.empty() ? "" : ", ") + std::to_string(bit);
   // The running frame may be past these bits, so they are inverted in the next one.
-  const std::uint64_t frame = line.frames() + 1;
-  line.flip_frame(frame, bits);
+  const std::uint64_t frame = line.flip_frames() + 1;
+  line.flip(frame, bits);
   scene.record.frame = frame;
   return "bit " + list + " of frame " + std::to_string(frame) + " inverted, channel " +
          std::to_string(scene.config.channel);
 }
 
-void read_glitch(TomlReader& reader, const FaultLimits& /*limits*/, FaultConfig& fault) {
-  read_wire(reader, fault);
+void read_glitch(TomlReader& reader, const FaultLimits& limits, FaultConfig& fault) {
+  read_wire(reader, limits, fault);
   read_width(reader, "width_ns", fault);
 }
 
 std::string begin_glitch(Scene scene) {
   const FaultConfig& fault = scene.config;
-  if (fault.on_ma) {
-    line_of(scene).glitch_ma(scene.now, fault.width);
-  } else {
-    line_of(scene).glitch_sl(scene.now, fault.width);
-  }
+  line_of(scene).glitch(scene.now, fault.wire, fault.width);
   return "glitch of " + plain(to_ns(fault.width)) + " ns on " + on_wire(fault);
 }
 
-void read_stuck(TomlReader& reader, const FaultLimits& /*limits*/, FaultConfig& fault) {
-  read_wire(reader, fault);
+void read_stuck(TomlReader& reader, const FaultLimits& limits, FaultConfig& fault) {
+  read_wire(reader, limits, fault);
   const auto level = reader.integer("level", 0, 1);
   if (!level) reader.missing("level");
   fault.level = level == 1;
@@ -100,42 +99,38 @@ void read_stuck(TomlReader& reader, const FaultLimits& /*limits*/, FaultConfig& 
 
 std::string begin_stuck(Scene scene) {
   const FaultConfig& fault = scene.config;
-  line_of(scene).act(scene.now, fault.on_ma ? (fault.level ? Action::kMaHigh : Action::kMaLow)
-                                            : (fault.level ? Action::kSlHigh : Action::kSlLow));
+  line_of(scene).act(scene.now, {fault.level ? What::kHigh : What::kLow, fault.wire});
   return on_wire(fault) + " stuck at " + (fault.level ? "1" : "0");
 }
 
-void end_stuck(Scene scene) {
-  line_of(scene).act(scene.now, scene.config.on_ma ? Action::kMaFree : Action::kSlFree);
-}
+void end_stuck(Scene scene) { line_of(scene).act(scene.now, {What::kFree, scene.config.wire}); }
 
-void read_jitter(TomlReader& reader, const FaultLimits& /*limits*/, FaultConfig& fault) {
-  read_wire(reader, fault);
+void read_jitter(TomlReader& reader, const FaultLimits& limits, FaultConfig& fault) {
+  read_wire(reader, limits, fault);
   read_width(reader, "jitter_ns", fault);
 }
 
-void set_jitter(Scene scene, Time ma_jitter, Time sl_jitter) {
+void set_jitter(Scene scene, Time jitter) {
   Line& line = line_of(scene);
-  WireFaults ma = line.ma_faults();
-  WireFaults sl = line.sl_faults();
-  (scene.config.on_ma ? ma : sl).jitter = scene.config.on_ma ? ma_jitter : sl_jitter;
-  line.set_faults(ma, sl);
+  WireFaults faults = line.wire_faults(scene.config.wire);
+  faults.jitter = jitter;
+  line.set_wire_faults(scene.config.wire, faults);
 }
 
 std::string begin_jitter(Scene scene) {
   const Time width = scene.config.width;
-  set_jitter(scene, width, width);
+  set_jitter(scene, width);
   return "jitter of " + plain(to_ns(width)) + " ns on " + on_wire(scene.config);
 }
 
-void end_jitter(Scene scene) { set_jitter(scene, scene.ma_was.jitter, scene.sl_was.jitter); }
+void end_jitter(Scene scene) { set_jitter(scene, scene.was[scene.config.wire].jitter); }
 
 // --- slave ---------------------------------------------------------------------------------
 
 void set_slave(Scene scene, bool on) {
   const SlaveFault& fault = *scene.config.kind->of_slave;
   scene.target.slave(scene.config.slave).set_fault(fault, on);
-  if (fault == slave_fault::kSilent) line_of(scene).chain().refresh(scene.now);
+  if (fault == slave_fault::kSilent) line_of(scene).slave_changed(scene.now);
 }
 
 std::string begin_slave(Scene scene) {
@@ -151,12 +146,11 @@ void plug(Scene scene, bool in) {
   Line& line = line_of(scene);
   const Slave& slave = scene.target.slave(scene.config.slave);
   std::size_t index = 0;
-  while (&line.chain().slave(index) != &slave) ++index;
+  while (&line.slave(index) != &slave) ++index;
   if (index == 0) {
-    line.act(scene.now, in ? Action::kPlug : Action::kUnplug);
+    line.act(scene.now, {in ? What::kPlug : What::kUnplug, 0});
   } else {
-    line.chain().detach(scene.now,
-                        in ? line.chain().size() : std::min(index, line.chain().attached()));
+    line.detach(scene.now, in ? line.size() : std::min(index, line.attached()));
   }
 }
 

@@ -8,12 +8,14 @@
 
 #include <cstdint>
 #include <span>
+#include <vector>
 
-#include "sim/core/cable.hpp"
 #include "sim/core/random.hpp"
 #include "sim/core/time.hpp"
+#include "sim/core/wire_faults.hpp"
 #include "sim/faults/fault.hpp"
 #include "sim/faults/fault_target.hpp"
+#include "sim/lines/line.hpp"
 
 namespace mb4::sim {
 
@@ -21,9 +23,9 @@ namespace mb4::sim {
 struct FaultScene {
   const FaultConfig& config;
   FaultTarget& target;
-  Random& random;            // of this table
-  const WireFaults& ma_was;  // faults of the cable without those of any table
-  const WireFaults& sl_was;
+  Random& random;  // of this table
+  // Faults of each wire of the line without those of any table.
+  const std::vector<WireFaults>& was;
   Time now;
   FaultRecord& record;  // of the fault that begins or ends
 };
@@ -32,6 +34,7 @@ struct FaultScene {
 struct FaultLimits {
   std::int64_t min_clk_hz;
   std::int64_t max_clk_hz;
+  std::span<const WireName> wires;  // of its lines
 };
 
 // In the order in which they are listed to the user. A pointer into it holds for ever.

@@ -7,13 +7,12 @@
 #ifndef MB4SIM_DEVICE_HPP_
 #define MB4SIM_DEVICE_HPP_
 
-#include <concepts>
 #include <cstdint>
 #include <memory>
 #include <string>
 #include <string_view>
-#include <utility>
 
+#include "sim/core/copied.hpp"
 #include "sim/core/crc.hpp"
 #include "sim/core/time.hpp"
 #include "sim/lines/slave.hpp"
@@ -69,47 +68,7 @@ struct DeviceConfig {
 };
 
 // Holds a DeviceConfig of any kind by value.
-class Device {
- public:
-  Device() = default;
-  template <std::derived_from<DeviceConfig> Config>
-  Device(Config config)  // NOLINT(google-explicit-constructor): a device is such a configuration
-      : config_(std::make_unique<Config>(std::move(config))), copy_(&copy_of<Config>) {}
-  Device(const Device& other)
-      : config_(other.copy_ == nullptr ? nullptr : other.copy_(*other.config_)),
-        copy_(other.copy_) {}
-  Device(Device&&) = default;
-  Device& operator=(Device other) {
-    config_ = std::move(other.config_);
-    copy_ = other.copy_;
-    return *this;
-  }
-  ~Device() = default;
-
-  DeviceConfig& operator*() { return *config_; }
-  const DeviceConfig& operator*() const { return *config_; }
-  DeviceConfig* operator->() { return config_.get(); }
-  const DeviceConfig* operator->() const { return config_.get(); }
-  // For a program that knows the protocol. Throws std::bad_cast if it is wrong.
-  template <typename Config>
-  Config& as() {
-    return dynamic_cast<Config&>(*config_);
-  }
-  template <typename Config>
-  const Config& as() const {
-    return dynamic_cast<const Config&>(*config_);
-  }
-
- private:
-  using Copy = std::unique_ptr<DeviceConfig> (*)(const DeviceConfig& config);
-  template <typename Config>
-  static std::unique_ptr<DeviceConfig> copy_of(const DeviceConfig& config) {
-    return std::make_unique<Config>(static_cast<const Config&>(config));
-  }
-
-  std::unique_ptr<DeviceConfig> config_;
-  Copy copy_ = nullptr;
-};
+using Device = Copied<DeviceConfig>;
 
 }  // namespace mb4::sim
 

@@ -1,145 +1,171 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// One physical channel outside the chip: the cable out (MA, MO), the slaves and the cable back
-// (SL). It has a monitor at the chip's MA pin and the faults of the line.
+// One line of a master, outside of it: the cable and the devices at its far end, whatever kind of
+// line it is. The rest of the simulator knows only what stands here. A kind of line (line_kind.hpp)
+// has a room of its own.
 #ifndef MB4SIM_LINE_HPP_
 #define MB4SIM_LINE_HPP_
 
+#include <cstddef>
 #include <cstdint>
-#include <utility>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
 #include <vector>
 
-#include "sim/core/cable.hpp"
-#include "sim/core/event_queue.hpp"
 #include "sim/core/time.hpp"
-#include "sim/core/wire.hpp"
-#include "sim/lines/ma_monitor.hpp"
-#include "sim/lines/sl_faults.hpp"
-#include "sim/lines/slave_chain.hpp"
+#include "sim/core/wire_faults.hpp"
+#include "sim/lines/slave.hpp"
 
 namespace mb4::sim {
 
-class Line {
+// A wire of the cable that can be shorted, and that has jitter and glitches of its own.
+struct WireName {
+  std::string_view key;    // value of `on` in a fault; with "-low" and so on an action
+  std::string_view title;  // for the user
+};
+
+// Something that happens to the cable: it is unplugged at the devices' end or plugged in, or one of
+// its wires is shorted to a level or released.
+struct LineAction {
+  enum class What { kUnplug, kPlug, kLow, kHigh, kFree };
+  What what = What::kUnplug;
+  unsigned wire = 0;  // of LineKind::wires; not for the first two
+
+  bool operator==(const LineAction&) const = default;
+};
+
+struct LineEvent {
+  Time time = 0;  // since power-on, ps
+  LineAction action;
+};
+
+// A cable as a scenario describes it. Each kind of line derives its own.
+struct LineConfig {
+  Time delay = 0;  // round trip with transceivers, ps
+  std::vector<LineEvent> events;
+  // The inverted bits of each frame by its number, as Line::flip() takes them.
+  std::map<std::uint64_t, std::vector<unsigned>> flips;
+
+  virtual ~LineConfig() = default;
+
+ protected:
+  LineConfig() = default;
+  LineConfig(const LineConfig&) = default;
+  LineConfig& operator=(const LineConfig&) = default;
+};
+
+// What a guard of the master's pulses compares with.
+struct PulseLimits {
+  std::uint64_t cycles = 0;  // rising edges of the master's clock so far
+  unsigned half_clocks = 0;  // configured half period of the line's clock, in clocks
+  Time min_clock = 0;        // shortest period that the clock may have, ps; 0: not known
+  bool cut = false;          // a reset that may cut pulses short has made the edge
+};
+
+// What a line can reach of the simulation.
+class LineMaster {
  public:
-  // Called when the level of the chip's SL pin changes.
-  using Output = void (*)(Time now, void* receiver, bool sl);
+  // The bits that the master takes from the line have changed.
+  virtual void set_inputs(Time now, unsigned line, unsigned levels) = 0;
+  // For the edge that the master has just made at `pin`, a bit of LineEnd::drive(). Call it once
+  // for each such edge: it takes the mark `cut` away.
+  virtual PulseLimits take_pulse_limits(unsigned line, unsigned pin) = 0;
+  // Ends the simulation: the master has broken a rule of the line.
+  [[noreturn]] virtual void stop(const std::string& reason) = 0;
 
-  // Called with the level of a pin of the chip on this line.
-  enum class Signal { kMa, kMo, kSl };
-  using Tap = void (*)(Time now, void* receiver, Signal signal, bool level);
+ protected:
+  ~LineMaster() = default;
+};
 
-  // Called after any change at the slaves' end of the cable.
+// The master's end of a line. A channel that the scenario does not have is such an end with nothing
+// behind it.
+class LineEnd {
+ public:
+  LineEnd() = default;
+  LineEnd(const LineEnd&) = delete;
+  LineEnd& operator=(const LineEnd&) = delete;
+  virtual ~LineEnd() = default;
+
+  // The bits that the master drives; at least one of them has changed.
+  virtual void drive(Time now, unsigned levels) = 0;
+  // From now on the master's outputs only follow those of another line, or are its own again. Their
+  // levels now may have changed for this reason.
+  virtual void follow(bool /*follows*/, unsigned /*levels*/) {}
+};
+
+// A frame that is over. Each kind of line says what a frame is.
+struct LineFrame {
+  std::uint64_t number = 0;  // on its line, from 1 on
+  Time start = 0;            // ps
+  Time end = 0;
+  std::uint64_t edges = 0;  // what mb4sim_frame counts
+  bool rests_low = false;   // the master's clock is 0 after it
+};
+
+// Is told of the frames and edges of a line.
+class LineObserver {
+ public:
+  // A frame has begun.
+  virtual void frame_begun() = 0;
+  virtual void frame_over(const LineFrame& frame) = 0;
+  // `place`: MB4SIM_EDGE_... of mb4sim.h.
+  virtual void edge(Time now, unsigned place, bool level) = 0;
+
+ protected:
+  ~LineObserver() = default;
+};
+
+class Line : public LineEnd {
+ public:
+  // --- devices, the nearest to the master first --------------------------------------------------
+  virtual std::size_t size() const = 0;
+  virtual Slave& slave(std::size_t index) = 0;
+  const Slave& slave(std::size_t index) const { return const_cast<Line*>(this)->slave(index); }
+  // The number of devices that are plugged in.
+  virtual std::size_t attached() const = 0;
+  // Unplugs the device `index` and those behind it; size(): all of them are plugged in.
+  virtual void detach(Time now, std::size_t index) = 0;
+  // Applies a changed SlaveFault.
+  virtual void slave_changed(Time now) = 0;
+
+  // --- the cable; changes are valid for edges that leave from now on -----------------------------
+  virtual Time round_trip() const = 0;
+  // Round trip in ps, as LineConfig::delay.
+  virtual void set_round_trip(Time round_trip) = 0;
+  // Faults of a wire, by its place in LineKind::wires. The rate of glitches keeps its constructed
+  // value.
+  virtual WireFaults wire_faults(unsigned wire) const = 0;
+  virtual void set_wire_faults(unsigned wire, const WireFaults& faults) = 0;
+  // One glitch of `width` ps at the far end of a wire.
+  virtual void glitch(Time now, unsigned wire, Time width) = 0;
+  virtual void act(Time now, LineAction action) = 0;
+  virtual bool plugged() const = 0;
+  // Applies faults that were set without a time.
+  virtual void refresh(Time now) = 0;
+
+  // --- frames ------------------------------------------------------------------------------------
+  // Inverts these bits of frame number `frame`, which must not have come yet. Frames count from 1.
+  virtual void flip(std::uint64_t frame, std::vector<unsigned> bits) = 0;
+  // Number of frames that flip() has counted.
+  virtual std::uint64_t flip_frames() const = 0;
+  // At most one observer is told of the frames and, with `edges`, of the present levels and of
+  // every edge.
+  virtual void observe(Time now, LineObserver* observer, bool edges) = 0;
+
+  // --- for a waveform ----------------------------------------------------------------------------
+  // Called after any change at the devices' end of the cable. Each receiver has at most one probe,
+  // and a null pointer takes it away.
   using Probe = void (*)(Time now, void* receiver);
-
-  // `round_trip` is the delay in ps from pin MA to the slaves and back to pin SL. Each way takes
-  // half of it, and an odd picosecond is added on the way back. `cable` holds the faults of the
-  // cable; `seed` is the seed of their random values. The events of `cable` are posted at once.
-  Line(EventQueue& queue, Time round_trip, Output output, void* receiver,
-       const CableConfig& cable = {}, std::uint64_t seed = 0);
-  Line(const Line&) = delete;
-  Line& operator=(const Line&) = delete;
-
-  // Sets the levels of the chip's MA and MO pins. MO has an effect only in a bus connection.
-  void drive(Time now, bool ma, bool mo) {
-    monitor_.edge(now, ma);
-    const unsigned levels = (ma ? kMa : 0U) | (mo && mo_wired_ ? kMo : 0U);
-    if (lane_ && shifts(levels)) {
-      out_.pass(levels);
-      shift(now, levels);
-    } else {
-      drive_all(now, ma, mo, levels);
-    }
-  }
-  // Applies a changed SlFaults::stick().
-  void refresh(Time now) { set_pin(now, received_); }
-
-  // --- the cable; changes are valid for edges that leave from now on --------------------------
-  Time round_trip() const { return out_.delay() + back_.delay(); }
-  // Round trip in ps, as in the constructor.
-  void set_round_trip(Time round_trip);
-  // Jitter and skew of both directions. The rate of glitches keeps its constructed value.
-  void set_faults(const WireFaults& ma, const WireFaults& sl);
-  const WireFaults& ma_faults() const { return out_.faults(); }
-  const WireFaults& sl_faults() const { return back_.faults(); }
-  // One glitch of `width` ps at the slaves' MA or at the chip's SL.
-  void glitch_ma(Time now, Time width) {
-    lane_ = false;
-    out_.glitch(now, width);
-  }
-  void glitch_sl(Time now, Time width) { back_.glitch(now, width); }
-  // Makes one cable event happen now.
-  void act(Time now, CableEvent::Action action);
-  bool plugged() const { return plugged_; }
-
-  // Probes are for waveforms and recordings. Each receiver has at most one, and a null pointer
-  // takes it away.
-  void set_probe(Probe probe, void* receiver);
-
-  // The tap is for recordings. There is at most one. It is called when SL changes, and for MA and
-  // MO when either of them may have changed.
-  void set_tap(Tap tap, void* receiver) {
-    lane_ = false;
-    tap_ = tap;
-    tap_receiver_ = receiver;
-  }
-
-  // Level of the chip's SL pin.
-  bool sl() const { return pin_; }
-  SlaveChain& chain() { return chain_; }
-  const SlaveChain& chain() const { return chain_; }
-  MaMonitor& monitor() { return monitor_; }
-  SlFaults& faults() { return faults_; }
-
- private:
-  static constexpr unsigned kMa = 1;
-  static constexpr unsigned kMo = 2;
-
-  static void at_slaves(Time now, void* receiver, unsigned levels);
-  static void mo_at_slaves(Time now, void* receiver, unsigned levels);
-  static void slo_changed(Time now, void* receiver, bool slo);
-  static void at_master(Time now, void* receiver, unsigned levels);
-  static void on_event(Time now, void* receiver, std::uint64_t action);
-  void drive_all(Time now, bool ma, bool mo, unsigned levels);
-  // True if an edge of MA arrives in the data of a frame and nothing disturbs the slaves.
-  bool shifts(unsigned levels) const {
-    return chain_.shifting() && faults_.only_counts() &&
-           levels == ((ma_arrived_ ? 0U : kMa) | (mo_leaving_ ? kMo : 0U));
-  }
-  void shift(Time now, unsigned levels) {
-    ma_arrived_ = (levels & kMa) != 0;
-    if (ma_arrived_) faults_.count_bit();
-    const bool slo = chain_.shift(now, ma_arrived_, mo_arrived_);
-    if (slo == sent_) return;
-    sent_ = slo;
-    back_.drive(now, slo ? 1U : 0U);
-  }
-  void to_slaves(Time now);
-  void send_back(Time now);
-  void set_pin(Time now, bool level);
-
-  Wire out_;      // bit 0 is MA; MO is another bit, so that no fault lets it overtake MA
-  Wire mo_late_;  // the extra delay of MO
-  Wire back_;
-  SlaveChain chain_;
-  MaMonitor monitor_;
-  SlFaults faults_;
-  Output output_;
-  void* receiver_;
-  std::vector<std::pair<Probe, void*>> probes_;  // with their receivers
-  Tap tap_ = nullptr;
-  void* tap_receiver_ = nullptr;
-  bool open_level_;
-  bool mo_wired_;
-  bool plugged_ = true;
-  bool ma_arrived_ = true;  // levels at the slaves' end of the cable
-  bool mo_arrived_ = false;
-  bool mo_leaving_ = false;  // level of MO put into mo_late_
-  bool driving_ = false;     // inside SlaveChain::drive(): SLO is sent after it has settled
-  bool lane_ = false;        // nothing watches an edge of MA on its way to the slaves
-  bool sent_ = true;         // level sent into the way back
-  bool received_ = true;     // level that has come out of it
-  bool pin_ = true;
+  virtual void set_probe(Probe probe, void* receiver) = 0;
+  // Level that has arrived at the devices.
+  virtual bool arrived() const = 0;
+  // What a device drives, and whether it waits for a frame.
+  virtual bool sent(std::size_t index) const = 0;
+  virtual bool ready(std::size_t index) const = 0;
 };
 
 }  // namespace mb4::sim

@@ -11,11 +11,20 @@
 
 namespace mb4::sim {
 
-std::span<const Protocol* const> protocols() {
-  static constexpr const Protocol* kAll[] = {&kBissCProtocol, &kReplayProtocol, &kBissBProtocol,
-                                             &kSsiProtocol};
-  return kAll;
+namespace {
+
+// The protocols of this library, and those that the program has added.
+std::vector<const Protocol*>& list() {
+  static std::vector<const Protocol*> all{&kBissCProtocol, &kReplayProtocol, &kBissBProtocol,
+                                          &kSsiProtocol};
+  return all;
 }
+
+}  // namespace
+
+std::span<const Protocol* const> protocols() { return list(); }
+
+void add_protocol(const Protocol& protocol) { list().push_back(&protocol); }
 
 std::span<const Preset> presets() {
   static const std::vector<Preset> list = [] {

@@ -13,12 +13,14 @@
 
 #include "sim/core/toml_reader.hpp"
 #include "sim/lines/device.hpp"
+#include "sim/lines/line_kind.hpp"
 #include "sim/lines/presets.hpp"
 
 namespace mb4::sim {
 
 struct Protocol {
   std::string_view key;  // value of `protocol` in the scenario
+  const LineKind* line;  // of its channels
   // Names every key that read() may ask for to TomlReader::know().
   void (*know_keys)(TomlReader& reader);
   // A device without a preset.
@@ -35,6 +37,9 @@ struct Protocol {
 
 // In the order in which they are listed to the user.
 std::span<const Protocol* const> protocols();
+
+// A program adds a protocol of its own before it reads a scenario. `protocol` must live on.
+void add_protocol(const Protocol& protocol);
 
 }  // namespace mb4::sim
 

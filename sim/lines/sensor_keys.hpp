@@ -10,8 +10,8 @@
 
 #include "sim/core/crc.hpp"
 #include "sim/core/toml_reader.hpp"
+#include "sim/lines/clocked/slave_timeout.hpp"
 #include "sim/lines/sensor_config.hpp"
-#include "sim/lines/slave_timeout.hpp"
 
 namespace mb4::sim {
 

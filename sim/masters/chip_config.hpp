@@ -14,10 +14,9 @@ namespace mb4::sim {
 struct ChipConfig {
   std::uint64_t f_clk_hz = 20'000'000;  // pin CLK; 0 = not connected, the pin stays 0
   std::uint64_t f_osc_hz = 20'000'000;  // internal oscillator
-  // Port quirks_i of the iC-MB4 or switches_i of biss_axi. The package of the RTL names the bits.
+  // The parameters of the master. The package of its RTL names the bits.
   unsigned quirks = 0;
-  // [chip] features, in bits of the master. 0 is the default: all of the iC-MB4, the document's
-  // features of biss_axi.
+  // [chip] features, in bits of the master. 0 is its default.
   std::uint32_t features = 0;
   TableSource source;
 

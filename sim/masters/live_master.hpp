@@ -23,7 +23,7 @@ namespace mb4::sim {
 struct MasterSetup {
   const ChipConfig& chip;
   const HostConfig& host;
-  // ma_of() of the lines that the scenario has.
+  // All bits of the lines that the scenario has.
   MasterModel::Outputs lines;
   // Time and pins for its hosts. Must not be used before power_on().
   HostPins& outside;

@@ -22,14 +22,16 @@ class LiveMaster;
 class TomlReader;
 struct MasterSetup;
 struct WaveGroup;
+struct LineKind;
 
 struct Master {
   std::string_view type;                      // value of `type` in [master]
   std::span<const HostInterface> interfaces;  // the first is the default
+  const LineKind* line;                       // of all its channels
   unsigned channels;
-  unsigned slaves;         // of all channels together
-  unsigned slaves_shared;  // of each channel if another channel than the first is in use
-  unsigned chain = 0;      // of a single channel that is in use; 0: as many as `slaves`
+  unsigned slaves;             // of all channels together
+  unsigned slaves_shared;      // of each channel if another channel than the first is in use
+  unsigned slaves_single = 0;  // of a single channel that is in use; 0: as many as `slaves`
   // Limits of f_clk_hz (but 0) and f_osc_hz.
   std::int64_t min_clk_hz;
   std::int64_t max_clk_hz;

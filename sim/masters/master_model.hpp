@@ -17,13 +17,15 @@ namespace mb4::sim {
 // A line is a channel of the scenario. Its index is the number of the channel - 1.
 class MasterModel {
  public:
-  // The outputs that others wait for: MA and MO of each line, and up to 16 bits of the master's
-  // own.
+  // The outputs that others wait for: the bits of each line, which its kind gives a meaning
+  // (LineEnd::drive()), and up to 16 bits of the master's own.
   using Outputs = std::uint64_t;
   static constexpr unsigned kMaxLines = 24;
-  static constexpr unsigned kBitsOfLine = 2;
-  static constexpr Outputs ma_of(unsigned line) { return Outputs{1} << (kBitsOfLine * line); }
-  static constexpr Outputs mo_of(unsigned line) { return Outputs{2} << (kBitsOfLine * line); }
+  static constexpr unsigned kBitsOfLine = 2;  // at most
+  static constexpr Outputs of_line(unsigned line, unsigned levels) {
+    return Outputs{levels} << (kBitsOfLine * line);
+  }
+  static constexpr unsigned kLevels = (1U << kBitsOfLine) - 1;
   static constexpr Outputs own(unsigned bit) {
     return Outputs{1} << (kBitsOfLine * kMaxLines + bit);
   }
@@ -37,36 +39,37 @@ class MasterModel {
   // outputs(). Returns the time of that edge, or kNever if outputs() has not changed.
   virtual Time run_clocks(Time limit) = 0;
   Outputs outputs() const { return outputs_; }
-  // SL of a line changes. The simulator looks at outputs() afterwards.
-  virtual void set_sl(Time now, unsigned line, bool level) = 0;
+  // The bits that the master takes from a line change. The simulator looks at outputs() afterwards.
+  virtual void set_inputs(Time now, unsigned line, unsigned levels) = 0;
   // Changes the frequency of the clock from `now` on; with 0 it stands still. Does nothing if the
   // scenario has no clock.
   virtual void set_clock(Time now, std::uint64_t hz) = 0;
 
-  // --- what the guard of MA's pulses needs (MaPulseCheck) ----------------------------------------
+  // --- what a guard of a line's clock needs (PulseLimits) ----------------------------------------
   // Number of rising edges of the system clock so far.
   std::uint64_t cycles() const { return cycles_; }
   // Shortest period that the system clock can have had so far, ps; 0 = unknown.
   Time min_clock() const { return min_clock_; }
-  // Half a period of MA in system clocks, as the running or last frame of this line has it.
+  // Half a period of the line's clock in system clocks, as the running or last frame of this line
+  // has it.
   virtual unsigned half_clocks(unsigned line) const = 0;
-  // ma_of() of the lines whose MA only follows another pin, and so has no pulses of its own.
+  // Bits of the lines whose outputs only follow other pins, and so have no pulses of their own.
   Outputs followers() const { return followers_; }
 
-  // True once for each edge of MA that is none of a pulse: a reset that may cut pulses short has
-  // made it. `ma` is ma_of() of the line.
-  bool take_cut(Outputs ma) {
-    const bool cut = (cut_ & ma) != 0;
-    cut_ &= ~ma;
+  // True once for each edge of an output that is none of a pulse: a reset that may cut pulses short
+  // has made it. `output` is of_line() of its line.
+  bool take_cut(Outputs output) {
+    const bool cut = (cut_ & output) != 0;
+    cut_ &= ~output;
     return cut;
   }
 
   // Number of clocks that were left out because the master was at rest.
   virtual std::uint64_t left_out() const { return 0; }
-  // Levels at the slaves, for the waveform: MA (bit n = line n), SLO and idle (bit n = slave n +
-  // 1).
-  virtual void set_probes(Time /*now*/, std::uint64_t /*ma*/, std::uint64_t /*slo*/,
-                          std::uint64_t /*idle*/) {}
+  // Levels at the devices, for the waveform: what has arrived (bit n = line n), what each sends,
+  // and whether it waits for a frame (bit n = slave n + 1).
+  virtual void set_probes(Time /*now*/, std::uint64_t /*arrived*/, std::uint64_t /*sent*/,
+                          std::uint64_t /*ready*/) {}
   // Writes the rest of the waveform to its file.
   virtual void finish_trace() {}
 
@@ -78,7 +81,7 @@ class MasterModel {
     if (hz != 0 && min_clock_ != 0) min_clock_ = std::min(min_clock_, period_of(hz));
   }
 
-  // These are read at every edge of MA, so they are not virtual.
+  // These are read at every edge of a line, so they are not virtual.
   Outputs outputs_ = 0;
   Outputs followers_ = 0;
   Outputs cut_ = 0;

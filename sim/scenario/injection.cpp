@@ -3,6 +3,7 @@
 #include "sim/scenario/injection.hpp"
 
 #include "sim/core/toml_reader.hpp"
+#include "sim/lines/line_keys.hpp"
 #include "sim/scenario/scenario_channel.hpp"
 #include "sim/scenario/scenario_fault.hpp"
 
@@ -15,7 +16,9 @@ void read_channel_events(const toml::table& table, TomlFile& file, const Scenari
   const auto number = reader.integer("number", 1, scenario.master->channels);
   if (!number) reader.missing("number");
   const auto channel = static_cast<unsigned>(number.value_or(0));
-  for (const CableEvent& event : read_events(reader)) injection.events.push_back({channel, event});
+  for (const LineEvent& event : read_events(reader, scenario.master->line->wires)) {
+    injection.events.push_back({channel, event});
+  }
   reader.finish();
   if (number && scenario.channel(channel) == nullptr) {
     reader.fail("number", "the scenario has no channel " + std::to_string(channel));

@@ -10,9 +10,9 @@
 #include <string_view>
 #include <vector>
 
-#include "sim/core/cable.hpp"
 #include "sim/core/time.hpp"
 #include "sim/faults/fault.hpp"
+#include "sim/lines/line.hpp"
 #include "sim/scenario/scenario.hpp"
 
 namespace mb4::sim {
@@ -20,7 +20,7 @@ namespace mb4::sim {
 struct Injection {
   struct Event {
     unsigned channel;
-    CableEvent event;
+    LineEvent event;
   };
   std::vector<FaultConfig> faults;
   std::vector<Event> events;

@@ -12,12 +12,13 @@
 #include <string_view>
 #include <vector>
 
-#include "sim/core/cable.hpp"
+#include "sim/core/copied.hpp"
 #include "sim/core/scenario_error.hpp"
 #include "sim/core/time.hpp"
 #include "sim/faults/fault.hpp"
 #include "sim/hosts/host_config.hpp"
 #include "sim/lines/device.hpp"
+#include "sim/lines/line.hpp"
 #include "sim/masters/chip_config.hpp"
 #include "sim/masters/master.hpp"
 
@@ -34,17 +35,14 @@ struct SlaveConfig {
   unsigned flag_bits() const { return device->flag_bits; }
   const Crc& crc() const { return device->crc; }
   DeviceTraits traits() const { return device->traits(); }
-  // A replay of a BiSS C frame counts as BiSS C.
+  // A replay counts as what was recorded.
   LineProtocol protocol() const { return traits().protocol; }
 };
 
 struct ChannelConfig {
-  unsigned number = 1;  // from 1 on
-  Time delay = 0;       // round trip with transceivers, ps
-  CableConfig cable;
-  std::vector<SlaveConfig> slaves;  // the first slave is next to SL
-  // The inverted bits of each frame by its number, as SlFaults::flip_frame() takes them.
-  std::map<std::uint64_t, std::vector<unsigned>> flips;
+  unsigned number = 1;              // from 1 on
+  Copied<LineConfig> cable;         // of the master's kind of line
+  std::vector<SlaveConfig> slaves;  // the first slave is next to the master
   TableSource source;
 
   // Protocol of all its slaves. Without slaves it is the first one of protocols().

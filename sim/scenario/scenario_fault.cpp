@@ -10,6 +10,7 @@
 #include "sim/core/number_text.hpp"
 #include "sim/core/toml_reader.hpp"
 #include "sim/faults/fault_types.hpp"
+#include "sim/lines/line_kind.hpp"
 
 namespace mb4::sim {
 namespace {
@@ -150,7 +151,10 @@ FaultConfig read_fault(const toml::table& table, const Scenario& scenario, TomlF
   const FaultType& type = fault_types()[*kind];
   fault.kind = &type;
   read_place(reader, scenario, fault);
-  type.read(reader, {scenario.master->min_clk_hz, scenario.master->max_clk_hz}, fault);
+  type.read(
+      reader,
+      {scenario.master->min_clk_hz, scenario.master->max_clk_hz, scenario.master->line->wires},
+      fault);
   read_when(reader, fault);
   reader.finish();
   fault.scenario_line = reader.source().table.line;

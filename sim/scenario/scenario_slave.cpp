@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "sim/core/toml_reader.hpp"
+#include "sim/lines/line_kind.hpp"
 #include "sim/lines/presets.hpp"
 #include "sim/lines/protocols.hpp"
 #include "sim/lines/registers/register_keys.hpp"
@@ -47,7 +48,7 @@ Device read_preset(TomlReader& reader, const Protocol& protocol,
 
 }  // namespace
 
-SlaveConfig read_slave(const toml::table& table, TomlFile& file) {
+SlaveConfig read_slave(const toml::table& table, TomlFile& file, const LineKind& line) {
   TomlReader reader(table, file);
   SlaveConfig slave;
   std::vector<std::string_view> names;
@@ -62,6 +63,11 @@ SlaveConfig read_slave(const toml::table& table, TomlFile& file) {
     return slave;
   }
   const Protocol& protocol = *protocols()[*which];
+  if (protocol.line != &line) {
+    reader.fail("protocol", "'" + std::string(protocol.key) + "' needs a line of the kind '" +
+                                std::string(protocol.line->key) + "', the master's are '" +
+                                std::string(line.key) + "'");
+  }
   slave.device = read_preset(reader, protocol, slave.registers);
   protocol.read(reader, *slave.device, slave.file);
   read_registers(reader, slave.registers);

@@ -12,8 +12,8 @@
 
 namespace mb4::sim {
 
-// Reads one slave. Throws ScenarioError.
-SlaveConfig read_slave(const toml::table& table, TomlFile& file);
+// Reads one slave, of a channel with this kind of line. Throws ScenarioError.
+SlaveConfig read_slave(const toml::table& table, TomlFile& file, const LineKind& line);
 
 }  // namespace mb4::sim
 

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "sim/lines/clocked/clocked_line.hpp"
 #include "tests/support/chip_fixture.hpp"
 
 namespace mb4test {
@@ -48,7 +49,7 @@ class ControlHost {
   unsigned run_single(unsigned limit, std::uint8_t instruction = reg::kInstrControl,
                       unsigned line = 1) {
     cdm_.clear();
-    const sim::Slave& near = *chip_.simulator.slave(line == 1 ? 1 : 5);
+    const sim::ClockedSlave& near = *clocked(chip_.simulator.slave(line == 1 ? 1 : 5));
     for (unsigned frame = 1; frame <= limit; ++frame) {
       chip_.instruct(instruction);
       if (!chip_.wait_eot(200000)) return 0;
@@ -56,7 +57,8 @@ class ControlHost {
       // Past the slaves' timeout: the level of MA after the frame is the inverted CDM.
       chip_.simulator.run_while_waiting([&] { return near.idle(); },
                                         chip_.simulator.now() + 100 * sim::kPsPerUs);
-      cdm_.push_back(!chip_.simulator.line(line)->monitor().last(chip_.simulator.now()).rest_level);
+      cdm_.push_back(
+          !clocked(chip_.simulator.line(line))->monitor().last(chip_.simulator.now()).rest_level);
       if ((status & reg::REGEND::kMask) != 0) return frame;
     }
     return 0;

@@ -12,6 +12,7 @@
 #include <variant>
 #include <vector>
 
+#include "sim/lines/clocked/clocked_line.hpp"
 #include "tests/support/chip_fixture.hpp"
 #include "tests/support/control_host.hpp"
 
@@ -126,7 +127,8 @@ class ProtocolChip : public Chip {
     record();
     for (const unsigned line : {1U, 2U}) {
       if (simulator.line(line) == nullptr) continue;
-      if (!simulator.line(line)->chain().idle() || !simulator.line(line)->sl()) return false;
+      if (!clocked(simulator.line(line))->chain().idle() || !clocked(simulator.line(line))->sl())
+        return false;
     }
     return true;
   }

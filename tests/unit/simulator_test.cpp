@@ -11,6 +11,7 @@
 
 #include "mb4_regs.hpp"
 #include "sim/lines/biss/biss_c_slave.hpp"
+#include "sim/lines/clocked/clocked_line.hpp"
 #include "sim/masters/mb4/pins.hpp"
 
 namespace mb4test {
@@ -116,9 +117,9 @@ TEST(Simulator, SameSeed_GivesTheSameRun) {
     Time end = 0;
     for (int i = 0; i < 5; ++i) {
       exchange(simulator, {reg::kSpiOpcodeWriteInstruction, reg::kInstrCdm0});
-      simulator.run_while_waiting([&] { return !simulator.slave(1)->idle(); },
+      simulator.run_while_waiting([&] { return !clocked(simulator.slave(1))->idle(); },
                                   simulator.now() + 100 * kPsPerUs);
-      simulator.run_while_waiting([&] { return simulator.slave(1)->idle(); },
+      simulator.run_while_waiting([&] { return clocked(simulator.slave(1))->idle(); },
                                   simulator.now() + 100 * kPsPerUs);
       end = end * 31 + simulator.now();
     }
@@ -205,12 +206,12 @@ TEST(Simulator, DrivenPins_CannotBeSet) {
 // Datasheet BiSS C chapter: N + 5 rising edges, 50 % duty (I302, I303) and CDM = 0: MA rests high.
 TEST(Simulator, OneFrame_MonitorSeesTheChipsClock) {
   Scenario scenario = load("/resolute-26.toml");
-  scenario.channels[0].delay = 0;
+  scenario.channels[0].cable->delay = 0;
   Simulator simulator(scenario);
   configure_resolute(simulator);
   exchange(simulator, {reg::kSpiOpcodeWriteInstruction, reg::kInstrCdm0});
   simulator.advance(50 * kPsPerUs);
-  const MaFrame frame = simulator.line(1)->monitor().last(simulator.now());
+  const MaFrame frame = clocked(simulator.line(1))->monitor().last(simulator.now());
   EXPECT_EQ(frame.rising, 28U + 6 + 5);
   EXPECT_EQ(frame.min_low, 50'000U);
   EXPECT_EQ(frame.max_low, 50'000U);
@@ -218,7 +219,7 @@ TEST(Simulator, OneFrame_MonitorSeesTheChipsClock) {
   EXPECT_EQ(frame.max_high, 50'000U);
   EXPECT_TRUE(frame.rest_level);
   EXPECT_EQ(simulator.slave(1)->frames(), 1U);
-  EXPECT_FALSE(simulator.slave(1)->last_cdm());
+  EXPECT_FALSE(clocked(simulator.slave(1))->last_cdm());
   const auto rx = exchange(simulator, {reg::kSpiOpcodeReadRegisters0, 0, 0, 0, 0});
   EXPECT_EQ(rx[1], 0xEF);
   EXPECT_EQ(rx[4], 0x02);
@@ -232,13 +233,13 @@ TEST(Simulator, InjectedJitterWithinAnother_LeavesTheCableAsItWas) {
                      "for_us = " + for_us + "\n");
     simulator.advance(50 * kPsPerUs);
   };
-  ASSERT_EQ(simulator.line(1)->sl_faults().jitter, 0U);
+  ASSERT_EQ(clocked(simulator.line(1))->sl_faults().jitter, 0U);
   inject("100.0");
-  EXPECT_EQ(simulator.line(1)->sl_faults().jitter, 20'000U);
+  EXPECT_EQ(clocked(simulator.line(1))->sl_faults().jitter, 20'000U);
   inject("300.0");
-  EXPECT_EQ(simulator.line(1)->sl_faults().jitter, 20'000U);
+  EXPECT_EQ(clocked(simulator.line(1))->sl_faults().jitter, 20'000U);
   simulator.advance(400 * kPsPerUs);
-  EXPECT_EQ(simulator.line(1)->sl_faults().jitter, 0U);
+  EXPECT_EQ(clocked(simulator.line(1))->sl_faults().jitter, 0U);
   EXPECT_EQ(simulator.faults().size(), 2U);
 }
 

@@ -8,6 +8,8 @@
 #include <string_view>
 #include <vector>
 
+#include "sim/lines/clocked/clocked_line.hpp"
+
 namespace mb4::tool {
 namespace {
 
@@ -27,8 +29,8 @@ std::uint32_t frame_timeout(const sim::Scenario& scenario) {
       periods += traits.busy_periods;
       slave_us = std::max(slave_us, sim::to_us(traits.timeout));
     }
-    longest_us =
-        std::max(longest_us, periods * period_us + 2 * slave_us + 2 * sim::to_us(channel.delay));
+    longest_us = std::max(
+        longest_us, periods * period_us + 2 * slave_us + 2 * sim::to_us(channel.cable->delay));
   }
   return static_cast<std::uint32_t>(
       std::min<double>(longest_us + kFrameMarginUs, kMaxFrameTimeoutUs));
@@ -119,7 +121,7 @@ Config make_config(const sim::Scenario& scenario) {
   config.frame_timeout_us = frame_timeout(scenario);
   for (const sim::ChannelConfig& channel : scenario.channels) {
     config.channels[channel.number - 1].protocol = protocol_of(channel.protocol());
-    config.mo = config.mo || channel.cable.mo;
+    config.mo = config.mo || clocked(*channel.cable).mo;
   }
   for (const ConnectedSlave& connected : connected_slaves(scenario)) {
     const sim::SlaveConfig& slave = *connected.config;

@@ -26,7 +26,6 @@
 #include "sim/hosts/spi_host.hpp"
 #include "sim/hosts/word_host.hpp"
 #include "sim/lines/line.hpp"
-#include "sim/lines/ma_pulse_check.hpp"
 #include "sim/lines/slave.hpp"
 #include "sim/masters/live_master.hpp"
 #include "sim/scenario/scenario.hpp"
@@ -46,7 +45,7 @@ struct SimulatorOptions {
   bool plain_evaluation = false;
 };
 
-class Simulator final : public HostPins {
+class Simulator final : public HostPins, private LineMaster {
  public:
   // Builds everything, resets the master and returns at time kReady.
   // Throws TraceError if the trace file cannot be written.
@@ -64,8 +63,8 @@ class Simulator final : public HostPins {
   // inside a callback.
   //
   // Every call that lets time pass or moves a pin throws ModelStopped when an assertion in the RTL
-  // fails or a pulse at an MA pin is too short (MaPulseCheck). Every later such call throws it
-  // again.
+  // fails or the master breaks a rule of a line (LineMaster::stop()). Every later such call throws
+  // it again.
   void run_until(Time time) override;
   // Lets `duration` ps pass, but not beyond kEndOfTime.
   void advance(Time duration);
@@ -124,17 +123,15 @@ class Simulator final : public HostPins {
   // counts from 1, channel 2 from 5. Null if there is no such slave.
   Slave* slave(unsigned number);
   const Slave* slave(unsigned number) const;
-  // Guard of pin MA of a channel of the master. It exists also for a channel that the scenario does
-  // not have.
-  MaPulseCheck& ma_check(unsigned channel) { return lines_.at(channel - 1).ma_check; }
-  // Levels of the master's pins MA and MO of a channel, 1 to the number of the master's channels.
-  bool ma(unsigned channel) const {
-    return (model_->outputs() & MasterModel::ma_of(channel - 1)) != 0;
+  // The master's end of a channel, 1 to the number of the master's channels. It exists also for a
+  // channel that the scenario does not have.
+  LineEnd& line_end(unsigned channel) { return *lines_.at(channel - 1).end; }
+  // What the master drives on a channel: the bits of its kind of line.
+  unsigned outputs(unsigned channel) const {
+    return static_cast<unsigned>(model_->outputs() >> MasterModel::kBitsOfLine * (channel - 1)) &
+           MasterModel::kLevels;
   }
-  bool mo(unsigned channel) const {
-    return (model_->outputs() & MasterModel::mo_of(channel - 1)) != 0;
-  }
-  // Applies changed line faults (SlFaults::stick) to the SL pins at once.
+  // Applies at once the faults of lines that were set without a time.
   void refresh_lines();
 
   // Faults of the scenario that have happened so far.
@@ -158,29 +155,27 @@ class Simulator final : public HostPins {
 
  private:
   friend class SimulatorFaults;
-  // The master's end of a line.
-  struct LineEnd {
-    Simulator* simulator = nullptr;
-    unsigned index = 0;
-    bool follows = false;        // MA only follows another pin
-    std::unique_ptr<Line> line;  // null if the scenario does not have this channel
-    MaPulseCheck ma_check;
+  // A channel of the master.
+  struct Place {
+    std::unique_ptr<LineEnd> end;
+    Line* line = nullptr;  // the same; null if the scenario does not have this channel
   };
   static void on_probe(Time now, void* receiver);
   void set_probes(Line::Probe probe);
-  static void on_sl(Time now, void* receiver, bool level);
+  void set_inputs(Time now, unsigned line, unsigned levels) override;
+  PulseLimits take_pulse_limits(unsigned line, unsigned pin) override;
+  [[noreturn]] void stop(const std::string& reason) override;
 
   bool step(Time limit);
   void settle();
   void change_followers();
   void lines_changed(MasterModel::Outputs changed, MasterModel::Outputs levels);
-  void check_ma(LineEnd& end, bool level);
   void check_alive() const;
 
   Scenario scenario_;
   std::uint64_t seed_;
   EventQueue queue_;
-  std::vector<LineEnd> lines_;
+  std::vector<Place> lines_;
   TraceFile trace_;
   std::unique_ptr<LiveMaster> master_;
   MasterModel* model_ = nullptr;  // of master_

@@ -20,9 +20,9 @@
 #include <string_view>
 
 #include "sim/core/time.hpp"
-#include "sim/lines/actuator.hpp"
 #include "sim/lines/biss/biss_slave.hpp"
 #include "sim/lines/biss/biss_slave_config.hpp"
+#include "sim/lines/clocked/actuator.hpp"
 #include "sim/lines/registers/control_slave.hpp"
 #include "sim/lines/slave.hpp"
 

@@ -6,6 +6,7 @@
 #include "sim/lines/biss/biss_c_faults.hpp"
 #include "sim/lines/biss/biss_c_slave.hpp"
 #include "sim/lines/biss/biss_presets.hpp"
+#include "sim/lines/clocked/clocked_lines.hpp"
 #include "sim/lines/registers/register_keys.hpp"
 #include "sim/lines/sensor_keys.hpp"
 
@@ -109,9 +110,10 @@ void know_biss_b_keys(TomlReader& reader) {
 }  // namespace
 
 const Protocol kBissCProtocol{
-    "biss-c",       know_biss_c_keys, [] { return Device(BissCSlaveConfig()); },
-    biss_c_presets, read_biss_c,      slave_fault::kOfBissC};
-const Protocol kBissBProtocol{"biss-b", know_biss_b_keys, [] { return Device(BissBSlaveConfig()); },
-                              biss_b_presets, read_biss_b};
+    "biss-c",       &kClockedLines, know_biss_c_keys,     [] { return Device(BissCSlaveConfig()); },
+    biss_c_presets, read_biss_c,    slave_fault::kOfBissC};
+const Protocol kBissBProtocol{"biss-b",         &kClockedLines,
+                              know_biss_b_keys, [] { return Device(BissBSlaveConfig()); },
+                              biss_b_presets,   read_biss_b};
 
 }  // namespace mb4::sim

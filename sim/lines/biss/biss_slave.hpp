@@ -17,15 +17,15 @@
 
 #include "sim/core/time.hpp"
 #include "sim/lines/biss/biss_slave_config.hpp"
-#include "sim/lines/shift_register.hpp"
-#include "sim/lines/slave.hpp"
-#include "sim/lines/slave_timeout.hpp"
+#include "sim/lines/clocked/clocked_slave.hpp"
+#include "sim/lines/clocked/shift_register.hpp"
+#include "sim/lines/clocked/slave_timeout.hpp"
 
 namespace mb4::sim {
 
 // `Config` derives from BissSlaveConfig.
 template <typename Config>
-class BissSlave : public Slave {
+class BissSlave : public ClockedSlave {
  public:
   // `channel_bits`: length of the data channel on the line.
   BissSlave(const Config& config, unsigned channel_bits, std::uint64_t seed)

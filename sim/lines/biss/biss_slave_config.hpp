@@ -8,8 +8,8 @@
 #include <string_view>
 
 #include "sim/lines/biss/biss_c_faults.hpp"
+#include "sim/lines/clocked/slave_timeout.hpp"
 #include "sim/lines/sensor_config.hpp"
-#include "sim/lines/slave_timeout.hpp"
 
 namespace mb4::sim {
 

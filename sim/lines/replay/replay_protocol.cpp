@@ -3,6 +3,7 @@
 #include "sim/lines/replay/replay_protocol.hpp"
 
 #include "sim/core/text_file.hpp"
+#include "sim/lines/clocked/clocked_lines.hpp"
 #include "sim/lines/replay/replay_slave.hpp"
 #include "sim/lines/sensor_keys.hpp"
 
@@ -49,7 +50,8 @@ void know_replay_keys(TomlReader& reader) {
 
 }  // namespace
 
-const Protocol kReplayProtocol{"replay", know_replay_keys,
-                               [] { return Device(ReplaySlaveConfig()); }, nullptr, read_replay};
+const Protocol kReplayProtocol{"replay",         &kClockedLines,
+                               know_replay_keys, [] { return Device(ReplaySlaveConfig()); },
+                               nullptr,          read_replay};
 
 }  // namespace mb4::sim

@@ -13,10 +13,10 @@
 #include <vector>
 
 #include "sim/core/time.hpp"
+#include "sim/lines/clocked/clocked_slave.hpp"
+#include "sim/lines/clocked/slave_timeout.hpp"
 #include "sim/lines/device.hpp"
 #include "sim/lines/replay/replay_recording.hpp"
-#include "sim/lines/slave.hpp"
-#include "sim/lines/slave_timeout.hpp"
 
 namespace mb4::sim {
 
@@ -45,7 +45,7 @@ struct ReplaySlaveConfig : DeviceConfig {
   std::string_view refuses(const SlaveFault& fault) const override;
 };
 
-class ReplaySlave final : public Slave {
+class ReplaySlave final : public ClockedSlave {
  public:
   explicit ReplaySlave(const ReplaySlaveConfig& config);
 

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sim/lines/ssi/ssi_protocol.hpp"
 
+#include "sim/lines/clocked/clocked_lines.hpp"
 #include "sim/lines/registers/register_keys.hpp"
 #include "sim/lines/sensor_keys.hpp"
 #include "sim/lines/ssi/ssi_slave.hpp"
@@ -46,7 +47,8 @@ std::vector<Preset> ssi_presets() {
 
 }  // namespace
 
-const Protocol kSsiProtocol{"ssi", know_ssi_keys, [] { return Device(SsiSlaveConfig()); },
-                            ssi_presets, read_ssi};
+const Protocol kSsiProtocol{"ssi",         &kClockedLines,
+                            know_ssi_keys, [] { return Device(SsiSlaveConfig()); },
+                            ssi_presets,   read_ssi};
 
 }  // namespace mb4::sim

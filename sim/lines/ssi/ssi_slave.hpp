@@ -21,9 +21,9 @@
 #include <vector>
 
 #include "sim/core/time.hpp"
+#include "sim/lines/clocked/clocked_slave.hpp"
 #include "sim/lines/registers/control_slave.hpp"
 #include "sim/lines/sensor_config.hpp"
-#include "sim/lines/slave.hpp"
 
 namespace mb4::sim {
 
@@ -47,7 +47,7 @@ struct SsiSlaveConfig : SensorConfig {
   DeviceTraits traits() const override;
 };
 
-class SsiSlave final : public Slave {
+class SsiSlave final : public ClockedSlave {
  public:
   explicit SsiSlave(const SsiSlaveConfig& config);
 

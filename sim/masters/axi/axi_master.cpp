@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "sim/core/toml_reader.hpp"
+#include "sim/lines/clocked/clocked_lines.hpp"
 #include "sim/masters/axi/live_axi.hpp"
 #include "sim/masters/axi/wave_groups.hpp"
 
@@ -62,10 +63,11 @@ void read_host(TomlReader& reader, const ChipConfig& chip, HostConfig& host) {
 
 const Master kAxiMaster{.type = "axi",
                         .interfaces = kInterfaces,
+                        .line = &kClockedLines,
                         .channels = kAxiChannels,
                         .slaves = kAxiChannels,
                         .slaves_shared = 1,
-                        .chain = 1,
+                        .slaves_single = 1,
                         .min_clk_hz = 1'000,
                         .max_clk_hz = kMaxClkHz,
                         .min_osc_hz = 0,

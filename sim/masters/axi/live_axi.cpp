@@ -7,6 +7,8 @@
 #include <iterator>
 #include <utility>
 
+#include "sim/lines/clocked/clocked_end.hpp"
+
 namespace mb4::sim {
 namespace {
 
@@ -43,7 +45,7 @@ std::optional<unsigned> line_of(Pin pin, int first) {
 unsigned channels_of(MasterModel::Outputs lines) {
   unsigned channels = 1;
   for (unsigned line = 0; line < kAxiChannels; ++line) {
-    if ((lines & MasterModel::ma_of(line)) != 0) channels = line + 1;
+    if ((lines & MasterModel::of_line(line, kMaPin)) != 0) channels = line + 1;
   }
   return channels;
 }
@@ -106,7 +108,7 @@ void LiveAxi::power_on() {
 
 bool LiveAxi::can_set(Pin pin) const {
   if (const auto line = line_of(pin, kSlo0)) {
-    return *line < model_->channels() && (lines_ & MasterModel::ma_of(*line)) == 0;
+    return *line < model_->channels() && (lines_ & MasterModel::of_line(*line, kMaPin)) == 0;
   }
   return pin == kAresetn || pin == kPorN || pin == kExtSampleClk || pin == kSampleEn;
 }
@@ -124,13 +126,14 @@ void LiveAxi::set_pin(Time now, Pin pin, bool level) {
   } else if (pin == kSampleEn) {
     model_->set_sample_en(now, level);
   } else if (const auto line = line_of(pin, kSlo0)) {
-    model_->set_sl(now, *line, level);
+    model_->set_inputs(now, *line, level ? 1 : 0);
   }
 }
 
 bool LiveAxi::pin(Pin pin) const {
   const MasterModel::Outputs outputs = model_->outputs();
-  if (const auto line = line_of(pin, kMa0)) return (outputs & MasterModel::ma_of(*line)) != 0;
+  if (const auto line = line_of(pin, kMa0))
+    return (outputs & MasterModel::of_line(*line, kMaPin)) != 0;
   if (const auto line = line_of(pin, kSlo0)) {
     return *line < model_->channels() && model_->slo(*line);
   }

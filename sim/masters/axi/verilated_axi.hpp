@@ -19,6 +19,7 @@
 #include <vector>
 
 #include "sim/core/trace_error.hpp"
+#include "sim/lines/clocked/clocked_end.hpp"
 #include "sim/masters/axi/axi_model.hpp"
 #include "sim/masters/axi/axi_steps.hpp"
 #include "sim/model/clock_source.hpp"
@@ -75,10 +76,10 @@ class VerilatedAxi final : public AxiModel {
     return wave_ == nullptr ? run<false>(limit) : run<true>(limit);
   }
 
-  void set_sl(Time now, unsigned line, bool level) override {
+  void set_inputs(Time now, unsigned line, unsigned levels) override {
     if (line >= kChannels) return;
     const auto bit = static_cast<Slo>(1U << line);
-    model_->slo_i = static_cast<Slo>(level ? model_->slo_i | bit : model_->slo_i & ~bit);
+    model_->slo_i = static_cast<Slo>(levels != 0 ? model_->slo_i | bit : model_->slo_i & ~bit);
     steps_.slo(*model_);
     show(now);
   }
@@ -265,7 +266,7 @@ class VerilatedAxi final : public AxiModel {
     Outputs out = kAbsent | toggles_ | m.error_no * kError | m.warn_no * kWarn |
                   m.sample_clk_o * kSampleClk | m.irq_o * kIrq;
     for (unsigned line = 0; line < kChannels; ++line) {
-      out |= Outputs{(m.ma_o >> line) & 1U} * ma_of(line);
+      out |= Outputs{(m.ma_o >> line) & 1U} * of_line(line, kMaPin);
     }
     outputs_ = out;
   }
@@ -273,7 +274,7 @@ class VerilatedAxi final : public AxiModel {
   // MA of lines that the model does not have.
   static constexpr Outputs kAbsent = [] {
     Outputs out = 0;
-    for (unsigned line = kChannels; line < kAxiChannels; ++line) out |= ma_of(line);
+    for (unsigned line = kChannels; line < kAxiChannels; ++line) out |= of_line(line, kMaPin);
     return out;
   }();
 

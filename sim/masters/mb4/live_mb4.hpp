@@ -13,6 +13,7 @@
 
 #include "sim/hosts/parallel_host.hpp"
 #include "sim/hosts/spi_host.hpp"
+#include "sim/lines/clocked/clocked_end.hpp"
 #include "sim/masters/live_master.hpp"
 #include "sim/masters/mb4/mb4_host_check.hpp"
 #include "sim/masters/mb4/model/chip_model.hpp"
@@ -47,7 +48,7 @@ class LiveMb4 final : public LiveMaster {
   void abort_transfer(std::uint64_t bits) override { spi_.abort_next(bits); }
 
  private:
-  bool has_line(unsigned line) const { return (lines_ & MasterModel::ma_of(line)) != 0; }
+  bool has_line(unsigned line) const { return (lines_ & MasterModel::of_line(line, kMaPin)) != 0; }
   bool drives_pair() const { return chip_->paired() && has_line(0) && !has_line(1); }
   bool input(Pin pin) const;
   void drive(Time now, Pin pin, bool level);

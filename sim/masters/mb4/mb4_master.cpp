@@ -12,6 +12,7 @@
 
 #include "sim/core/toml_reader.hpp"
 #include "sim/hosts/host_keys.hpp"
+#include "sim/lines/clocked/clocked_lines.hpp"
 #include "sim/masters/mb4/live_mb4.hpp"
 #include "sim/masters/mb4/ma_frequency.hpp"
 #include "sim/masters/mb4/model/preset_chips.hpp"
@@ -106,6 +107,7 @@ std::unique_ptr<LiveMaster> make(const MasterSetup& setup) {
 // SCDATA1 to SCDATA8. With SLAVELOC5 the last four are those of channel 2.
 const Master kMb4Master{.type = "ic-mb4",
                         .interfaces = kInterfaces,
+                        .line = &kClockedLines,
                         .channels = 2,
                         .slaves = 8,
                         .slaves_shared = 4,

@@ -16,7 +16,7 @@
 #include <vector>
 
 #include "Vframe_top.h"
-#include "sim/lines/ma_pulse_check.hpp"
+#include "sim/lines/clocked/ma_pulse_check.hpp"
 #include "tests/support/model_context.hpp"
 
 namespace mb4test {

@@ -6,6 +6,7 @@
 #include "biss_axi/device.hpp"
 #include "biss_axi/page.hpp"
 #include "biss_c.h"
+#include "sim/lines/clocked/clocked_line.hpp"
 #include "tests/chip/axi/axi_bench.hpp"
 
 namespace mb4test {
@@ -366,7 +367,7 @@ TEST_F(AxiDriver, CallsOfTheManual_DoWhatItPrints) {
   EXPECT_EQ(bench.read(axireg::kAddrCrcCheck), 0U);
   ASSERT_EQ(BISS_C_IgnoreCRC(7, 0), 0);
   EXPECT_EQ(bench.read(axireg::kAddrCrcCheck), 1U);
-  bench.simulator.line(1)->faults().stick(true);
+  clocked(bench.simulator.line(1))->faults().stick(true);
   bench.simulator.refresh_lines();
   ASSERT_EQ(BISS_C_ReadSinglePoint(7, 0, &data, &valid), 0);
   EXPECT_FALSE(valid);

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "sim/core/random.hpp"
+#include "sim/lines/clocked/clocked_line.hpp"
 #include "sim/lines/registers/control_slave.hpp"
 #include "tests/chip/axi/axi_bench.hpp"
 
@@ -31,9 +32,9 @@ std::string without_crc(std::string text) {
 // First rising edge of MA of each frame, as the line sees it.
 struct Rises {
   std::vector<sim::Time> all;
-  static void tap(sim::Time now, void* receiver, sim::Line::Signal signal, bool level) {
+  static void tap(sim::Time now, void* receiver, sim::ClockedLine::Signal signal, bool level) {
     auto& list = static_cast<Rises*>(receiver)->all;
-    if (signal == sim::Line::Signal::kMa && level && (list.empty() || list.back() != now)) {
+    if (signal == sim::ClockedLine::Signal::kMa && level && (list.empty() || list.back() != now)) {
       list.push_back(now);
     }
   }
@@ -241,7 +242,7 @@ TEST(AxiExtras, SampleTime_IsTheFirstRisingEdge) {
   for (const unsigned divider : {5U, 1U, 50U, 5U}) {
     bench.write(axireg::kAddrMaDivider, divider);
     Rises rises;
-    bench.simulator.line(1)->set_tap(&Rises::tap, &rises);
+    clocked(bench.simulator.line(1))->set_tap(&Rises::tap, &rises);
     ASSERT_TRUE(bench.frame(150 * sim::kPsPerUs));
     ASSERT_FALSE(rises.all.empty());
     const std::uint64_t low = bench.read(axireg::kAddrSampleTimeLow);
@@ -353,7 +354,7 @@ TEST_P(AxiAlign, AlignLatch_MakesAllEncodersLatchTogether) {
     for (unsigned round = 0; round < 4; ++round) {
       std::array<Rises, 4> rises;
       for (unsigned c = 0; c < 4; ++c) {
-        bench.simulator.line(c + 1)->set_tap(&Rises::tap, &rises[c]);
+        clocked(bench.simulator.line(c + 1))->set_tap(&Rises::tap, &rises[c]);
         bench.simulator.slave(c + 1)->set_data(raw_word(1000 * round + c));
       }
       if (round == 3) bench.write(axireg::kAddrMaShift, 0xD);
@@ -392,7 +393,7 @@ TEST(AxiExtras, AlignLatchOfSixteenChannels_ActsAsOfFour) {
   ASSERT_TRUE(bench.frame());
   std::array<Rises, 16> rises;
   for (unsigned c = 0; c < 16; ++c) {
-    bench.simulator.line(c + 1)->set_tap(&Rises::tap, &rises[c]);
+    clocked(bench.simulator.line(c + 1))->set_tap(&Rises::tap, &rises[c]);
     bench.simulator.slave(c + 1)->set_data(raw_word(c));
   }
   const auto beat = bench.frame();
@@ -416,7 +417,7 @@ TEST(AxiExtras, AlignLatchOfOneChannel_ChangesNothing) {
     bench.set_up(26, 5);
     bench.write(axireg::kAddrMaShift, 1);
     Rises rises;
-    bench.simulator.line(1)->set_tap(&Rises::tap, &rises);
+    clocked(bench.simulator.line(1))->set_tap(&Rises::tap, &rises);
     for (int i = 0; i < 3; ++i) ASSERT_TRUE(bench.frame());
     edges[on ? 1 : 0] = rises.all;
   }
@@ -477,7 +478,7 @@ TEST(AxiExtras, RegisterAccess_ReadsAndWritesWhilePositionsFlow) {
     }
   }
   EXPECT_GT(beats, 2000U);
-  const auto& counters = bench.simulator.slave(1)->control()->counters();
+  const auto& counters = clocked(bench.simulator.slave(1))->control()->counters();
   EXPECT_EQ(counters.header_errors + counters.data_errors + counters.protocol_errors, 0U);
   EXPECT_EQ(access.run(0, false, 0x21), 0U);
 }

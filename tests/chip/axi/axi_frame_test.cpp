@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "sim/core/random.hpp"
+#include "sim/lines/clocked/clocked_line.hpp"
 #include "tests/chip/axi/axi_bench.hpp"
 
 namespace mb4test {
@@ -19,9 +20,9 @@ std::uint32_t position_of(unsigned bits, sim::Random& random) {
 // 16 cables of 0 to 100 m: 5 ns a metre, both ways. One edge of the sample clock starts all of them
 // at one instant.
 TEST(Axi, F3SixteenCablesUpTo100m_OneBeatWithAllWordsAndTheirDelays) {
-  const auto tap = [](sim::Time now, void* receiver, sim::Line::Signal signal, bool level) {
+  const auto tap = [](sim::Time now, void* receiver, sim::ClockedLine::Signal signal, bool level) {
     auto& first = *static_cast<sim::Time*>(receiver);
-    if (signal == sim::Line::Signal::kMa && !level && first == 0) first = now;
+    if (signal == sim::ClockedLine::Signal::kMa && !level && first == 0) first = now;
   };
   for (const unsigned divider : {50U, 10U, 5U}) {
     std::vector<AxiEncoder> encoders;
@@ -37,7 +38,7 @@ TEST(Axi, F3SixteenCablesUpTo100m_OneBeatWithAllWordsAndTheirDelays) {
       for (unsigned c = 0; c < 16; ++c) {
         sent.push_back(position_of(26, random));
         bench.simulator.slave(c + 1)->set_data(raw_word(sent.back()));
-        bench.simulator.line(c + 1)->set_tap(tap, &begun[c]);
+        clocked(bench.simulator.line(c + 1))->set_tap(tap, &begun[c]);
       }
       bench.set_pin("ext_sample_clk", true);
       bench.simulator.advance(50 * sim::kPsPerUs);

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "sim/core/random.hpp"
+#include "sim/lines/clocked/clocked_line.hpp"
 #include "tests/chip/axi/axi_bench.hpp"
 
 namespace mb4test {
@@ -69,9 +70,9 @@ TEST(Axi, F1EveryRegister_HasItsWidthResetAndStrobes) {
 TEST(Axi, F2DividersOf4And1000_GiveAnEighthAndATwoThousandth) {
   AxiBench bench(axi_scenario(encoders(1)));
   std::vector<sim::Time> rises;
-  const auto tap = [](sim::Time now, void* receiver, sim::Line::Signal signal, bool level) {
+  const auto tap = [](sim::Time now, void* receiver, sim::ClockedLine::Signal signal, bool level) {
     auto& list = *static_cast<std::vector<sim::Time>*>(receiver);
-    if (signal == sim::Line::Signal::kMa && level && (list.empty() || list.back() != now)) {
+    if (signal == sim::ClockedLine::Signal::kMa && level && (list.empty() || list.back() != now)) {
       list.push_back(now);
     }
   };
@@ -94,7 +95,7 @@ TEST(Axi, F2DividersOf4And1000_GiveAnEighthAndATwoThousandth) {
   EXPECT_EQ(samples[2] - samples[1], 2000 * bench.period);
   bench.write(axireg::kAddrMode, 1);
   bench.write(axireg::kAddrChannelEnable, 1);
-  bench.simulator.line(1)->set_tap(tap, &rises);
+  clocked(bench.simulator.line(1))->set_tap(tap, &rises);
   ASSERT_TRUE(bench.frame());
   // 5 edges, 26 + 2 + 6 bits (protocol: latch, acknowledge, start, CDS, end).
   ASSERT_EQ(rises.size(), 39U);
@@ -113,7 +114,7 @@ TEST(Axi, ZeroInDividersAndBits_ActsAsOneAndAs32) {
     const auto beat = bench.frame();
     ASSERT_TRUE(beat);
     EXPECT_EQ(beat->words[0], 0x9234'5679U);
-    EXPECT_EQ(bench.simulator.ma_check(1).shortest(), bench.period);
+    EXPECT_EQ(ma_check(bench.simulator.line_end(1)).shortest(), bench.period);
   }
   AxiBench bench(axi_scenario({{}}, 20'000'000));
   sim::Time rise[2] = {};

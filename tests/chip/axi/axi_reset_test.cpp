@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "sim/core/random.hpp"
+#include "sim/lines/clocked/clocked_line.hpp"
 #include "tests/chip/axi/axi_bench.hpp"
 
 namespace mb4test {
@@ -31,7 +32,7 @@ std::string quirk(bool por_pin) { return por_pin ? "POR_PIN = true\n" : ""; }
 std::uint64_t cuts(AxiBench& bench) {
   std::uint64_t all = 0;
   for (unsigned c = 1; c <= bench.simulator.scenario().channels.size(); ++c) {
-    all += bench.simulator.ma_check(c).cut();
+    all += ma_check(bench.simulator.line_end(c)).cut();
   }
   return all;
 }
@@ -187,18 +188,18 @@ TEST(AxiResetPins, LowPulseOfMa_IsCutOnlyWithoutPorPin) {
     bench.simulator.advance(300 * sim::kPsPerNs);
     bench.set_pin("axi_aresetn", false);
     EXPECT_EQ(bench.pin("ma0"), !por_pin);
-    EXPECT_EQ(bench.simulator.ma_check(1).cut(), por_pin ? 0U : 1U);
+    EXPECT_EQ(ma_check(bench.simulator.line_end(1)).cut(), por_pin ? 0U : 1U);
     bench.simulator.run_while_waiting([&] { return bench.pin("ma0"); },
                                       bench.simulator.now() + 10 * sim::kPsPerUs);
     EXPECT_EQ(bench.simulator.now() - fell, (por_pin ? 1000 : 300) * sim::kPsPerNs);
     // MA rests, during the reset and after it.
-    const std::uint64_t pulses = bench.simulator.ma_check(1).pulses();
+    const std::uint64_t pulses = ma_check(bench.simulator.line_end(1)).pulses();
     bench.simulator.advance(5 * sim::kPsPerUs);
     EXPECT_TRUE(bench.pin("ma0"));
     bench.set_pin("axi_aresetn", true);
     bench.simulator.advance(100 * sim::kPsPerUs);
     EXPECT_TRUE(bench.pin("ma0"));
-    EXPECT_EQ(bench.simulator.ma_check(1).pulses(), pulses);
+    EXPECT_EQ(ma_check(bench.simulator.line_end(1)).pulses(), pulses);
   }
 }
 
@@ -220,7 +221,7 @@ TEST(AxiResetPins, PorN_CountsOnlyWithPorPin) {
     bench.set_pin("por_n", true);
     bench.simulator.advance(100 * sim::kPsPerUs);
     EXPECT_EQ(bench.read(axireg::kAddrMaDivider), por_pin ? 0U : 100U);
-    EXPECT_EQ(bench.simulator.ma_check(1).cut(), por_pin ? 1U : 0U);
+    EXPECT_EQ(ma_check(bench.simulator.line_end(1)).cut(), por_pin ? 1U : 0U);
     if (por_pin) {
       EXPECT_FALSE(bench.host.next_beat());
     } else {

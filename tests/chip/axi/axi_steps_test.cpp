@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "sim/core/random.hpp"
+#include "sim/lines/clocked/clocked_line.hpp"
 #include "tests/chip/axi/axi_bench.hpp"
 
 namespace mb4test {
@@ -99,7 +100,8 @@ void expect_same(Side& left, Side& right, unsigned channels) {
   }
   for (unsigned c = 1; c <= channels; ++c) {
     ASSERT_EQ(left.simulator.slave(c)->frames(), right.simulator.slave(c)->frames());
-    ASSERT_EQ(left.simulator.ma_check(c).shortest(), right.simulator.ma_check(c).shortest());
+    ASSERT_EQ(ma_check(left.simulator.line_end(c)).shortest(),
+              ma_check(right.simulator.line_end(c)).shortest());
     left.host.write(axireg::kAddrChannelIndex, c - 1);
     right.host.write(axireg::kAddrChannelIndex, c - 1);
     for (unsigned address = 0; address <= axireg::kAddrLineDelay; address += 4) {

@@ -13,6 +13,7 @@
 #include <string>
 #include <vector>
 
+#include "sim/lines/clocked/clocked_line.hpp"
 #include "tests/chip/host/fast_host.hpp"
 #include "tests/support/random_case.hpp"
 
@@ -304,7 +305,7 @@ TEST_P(HostBanks, CdsBehindHoldbank_IsThatOfTheWord) {
       const std::string where = std::to_string(mhz) + " MHz, step " + std::to_string(step);
       chip.run_until((chip.now() / host.period + 20) * host.period);
       cds = !cds;
-      if (cds) chip.line(1)->faults().flip_next_frame({1});
+      if (cds) clocked(chip.line(1))->faults().flip_next_frame({1});
       host.start(0);
       chip.advance(110 * host.period + step * host.period / 8);
       host.write(reg::kAddrInstr, {kHold});

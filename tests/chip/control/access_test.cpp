@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "mb4/fields.hpp"
+#include "sim/lines/clocked/clocked_line.hpp"
 #include "sim/lines/registers/control_slave.hpp"
 #include "tests/reference/reference.hpp"
 #include "tests/support/bits.hpp"
@@ -68,7 +69,7 @@ std::string sl_low(Protocol protocol) {
          kSlave + "registers = { 0x20 = [0x5A] }\n";
 }
 void release_sl(Chip& chip) {
-  chip.simulator.line(1)->faults().stick(std::nullopt);
+  clocked(chip.simulator.line(1))->faults().stick(std::nullopt);
   chip.simulator.refresh_lines();
 }
 // Line 1 for a read of register 0x20.
@@ -390,7 +391,7 @@ TEST(ChipAccess, AskedAgainAndChangedWhileItWaits_Ends) {
     for (unsigned phase = 0; phase < 24; ++phase) {
       Chip chip("[chip]\nf_clk_hz = " + std::to_string(1000 * khz) + "\n" +
                 two_lines(Protocol::kBissB, Protocol::kBissC));
-      chip.simulator.line(1)->faults().stick(false);
+      clocked(chip.simulator.line(1))->faults().stick(false);
       chip.simulator.refresh_lines();
       chip.write(reg::kAddrRegadr,
                  {0x20, 0x00, kBothLines, kAccessB, 0x00, 0x00, reg::kFreqagsAgsMin});
@@ -456,7 +457,7 @@ TEST(ChipAccess, NextAccessInTheLastFrame_TakesTheNewSettings) {
     chip.write(reg::kAddrRegadr, {0x21});
     chip.instruct(reg::kInstrControlReduced | reg::kAgsOn);
     chip.advance_us(6000);
-    const auto starts = chip.simulator.slave(1)->control()->counters().starts;
+    const auto starts = clocked(chip.simulator.slave(1))->control()->counters().starts;
     ++seen.at(starts);
     EXPECT_EQ(chip.status() & (kNotRegErr | kRegEnd), kNotRegErr | kRegEnd) << phase;
     EXPECT_EQ(chip.read(reg::kAddrRdata), starts == 1 ? 0x5A : 0xC3) << phase;

@@ -8,6 +8,7 @@
 
 #include <string>
 
+#include "sim/lines/clocked/clocked_line.hpp"
 #include "sim/lines/registers/control_slave.hpp"
 #include "tests/support/control_host.hpp"
 
@@ -64,8 +65,8 @@ class ControlAbsent : public testing::TestWithParam<Mode> {
   // Lets the control communication that is set up run until its CDM of `slot` has been taken, and
   // the slave is idle again.
   void run_to_slot(unsigned slot) {
-    const sim::Slave& slave = *chip.simulator.slave(1);
-    const auto& counters = chip.simulator.slave(1)->control()->counters();
+    sim::ClockedSlave& slave = *clocked(chip.simulator.slave(1));
+    const auto& counters = slave.control()->counters();
     begin();
     const auto next = [&] {
       if (single()) chip.instruct(reg::kInstrControl);
@@ -79,9 +80,7 @@ class ControlAbsent : public testing::TestWithParam<Mode> {
     for (unsigned i = 0; i < slot; ++i) next();
     chip.simulator.advance(200 * sim::kPsPerNs);  // SL = 1 has come through
   }
-  void unplug() {
-    chip.simulator.line(1)->act(chip.simulator.now(), sim::CableEvent::Action::kUnplug);
-  }
+  void unplug() { chip.simulator.line(1)->act(chip.simulator.now(), sim::ClockedLine::kUnplug); }
   // While SL = 0 the chip leaves out frames, unless FREQAGS is AGSMIN (decision 3). So the host
   // asks again and again (decision 42).
   bool asks_again() const { return single() && GetParam().freqags != reg::kFreqagsAgsMin; }
@@ -122,7 +121,7 @@ class ControlAbsent : public testing::TestWithParam<Mode> {
   }
   // BREAK, and everything works again.
   void plug_and_check() {
-    chip.simulator.line(1)->act(chip.simulator.now(), sim::CableEvent::Action::kPlug);
+    chip.simulator.line(1)->act(chip.simulator.now(), sim::ClockedLine::kPlug);
     chip.simulator.slave(1)->reg_write(0x31, 0x77);
     chip.instruct(reg::kBreakAbort);
     chip.advance_us(50);
@@ -181,18 +180,18 @@ TEST_P(ControlAbsent, UnpluggedInTheData_IsNRegErr) {
 
 // The slave is on the line but does not answer any more.
 TEST_P(ControlAbsent, SilentSlave_IsNRegErrInTheSlotOfTheEcho) {
-  chip.simulator.slave(1)->control()->faults().set_silent(true);
+  clocked(chip.simulator.slave(1))->control()->faults().set_silent(true);
   host.set_read(0, 0x31, 1);
-  const auto before = chip.simulator.slave(1)->cdm_count();
+  const auto before = clocked(chip.simulator.slave(1))->cdm_count();
   if (single()) {
     EXPECT_EQ(host.run_single(60), 14U + 18U);
   } else {
     begin();
     EXPECT_NE(end_of_it() & reg::REGEND::kMask, 0);
-    EXPECT_LE(chip.simulator.slave(1)->cdm_count() - before, 14U + 18U + 2U);
+    EXPECT_LE(clocked(chip.simulator.slave(1))->cdm_count() - before, 14U + 18U + 2U);
   }
   EXPECT_EQ(host.status() & (reg::nREGERR::kMask | reg::nDELAYERR::kMask), reg::nDELAYERR::kMask);
-  chip.simulator.slave(1)->control()->faults().set_silent(false);
+  clocked(chip.simulator.slave(1))->control()->faults().set_silent(false);
   plug_and_check();
 }
 
@@ -253,7 +252,7 @@ TEST(ControlSingle, HostOfAnyPace_SeesNDelayErr) {
     ASSERT_EQ(status,
               (reg::kResetStatus0 | reg::kRegendDone) & ~reg::nDELAYERR::kMask & ~reg::nERR::kMask)
         << pause_us;
-    const std::uint64_t starts = chip.simulator.slave(1)->control()->counters().starts;
+    const std::uint64_t starts = clocked(chip.simulator.slave(1))->control()->counters().starts;
     EXPECT_EQ(starts, 1U) << "the access was begun again, pause " << pause_us;
   }
 }

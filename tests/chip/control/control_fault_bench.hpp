@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "sim/lines/clocked/clocked_line.hpp"
 #include "sim/lines/registers/control_slave.hpp"
 #include "tests/support/control_host.hpp"
 
@@ -111,7 +112,7 @@ class FaultBench {
     return one_slave(slave) + "[[channel.slave]]\nprotocol = \"biss-c\"\n" + slave;
   }
   mb4::sim::ControlSlave& control(unsigned number) {
-    return *chip.simulator.slave(number)->control();
+    return *clocked(chip.simulator.slave(number))->control();
   }
 };
 

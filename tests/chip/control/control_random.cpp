@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <sstream>
 
+#include "sim/lines/clocked/clocked_line.hpp"
 #include "sim/lines/registers/control_slave.hpp"
 #include "sim/lines/registers/control_slots.hpp"
 
@@ -26,7 +27,7 @@ ControlRun::ControlRun(std::uint64_t seed) : random_(seed) {
   host_ = std::make_unique<ControlHost>(*chip_);
   for (unsigned id = 0; id < count_; ++id) {
     const unsigned first = channel_ == 1 ? 1 : 5;
-    sim::Slave* const slave = chip_->simulator.slave(first + count_ - 1 - id);
+    sim::ClockedSlave* const slave = clocked(chip_->simulator.slave(first + count_ - 1 - id));
     RegisterModel model = models_[id];
     for (unsigned i = 0; i < RegisterModel::kSize; ++i) {
       model.bytes[i] = i == RegisterModel::kBankSelect ? 0 : static_cast<std::uint8_t>(below(256));
@@ -204,7 +205,7 @@ void ControlRun::apply(const ControlAccess& access, const ControlFault& fault) {
         device.slave->control()->faults().flip_cdm_of_frame(fault.slot);
       break;
     case Fault::Kind::kData:
-      chip_->simulator.line(channel_)->faults().flip_next_frame({2 + below(5)});
+      clocked(chip_->simulator.line(channel_))->faults().flip_next_frame({2 + below(5)});
       break;
     case Fault::Kind::kSilent:
       at_target().set_silent(true);

@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "sim/core/random.hpp"
+#include "sim/lines/clocked/clocked_slave.hpp"
 #include "tests/chip/control/register_model.hpp"
 #include "tests/support/control_host.hpp"
 
@@ -69,7 +70,7 @@ class ControlRun {
 
  private:
   struct Device {
-    sim::Slave* slave = nullptr;
+    sim::ClockedSlave* slave = nullptr;
     RegisterModel model;
   };
   struct Outcome {

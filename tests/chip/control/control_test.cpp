@@ -8,6 +8,7 @@
 #include <array>
 #include <random>
 
+#include "sim/lines/clocked/clocked_line.hpp"
 #include "sim/lines/registers/control_slave.hpp"
 #include "tests/support/control_host.hpp"
 
@@ -134,11 +135,13 @@ TEST(Control, Channel2_IsSelectedByChsel) {
   for (const unsigned chsel : {0U, 1U, 2U, 3U}) {
     host.select(static_cast<std::uint8_t>(chsel));
     host.set_read(0, 0x10, 1);
-    const auto starts = chip.simulator.slave(chsel == 2 ? 1 : 5)->control()->counters().starts;
+    const auto starts =
+        clocked(chip.simulator.slave(chsel == 2 ? 1 : 5))->control()->counters().starts;
     ASSERT_NE(host.run_single(60, reg::kInstrControl, chsel == 2 ? 2 : 1), 0U);
     EXPECT_EQ(host.status(), kAllGood);
     EXPECT_EQ(host.rdata(1)[0], chsel == 2 ? 0x55 : 0x11);
-    EXPECT_EQ(chip.simulator.slave(chsel == 2 ? 1 : 5)->control()->counters().starts, starts)
+    EXPECT_EQ(clocked(chip.simulator.slave(chsel == 2 ? 1 : 5))->control()->counters().starts,
+              starts)
         << "the other line sends CDM = 0";
   }
 }
@@ -344,7 +347,7 @@ TEST(Control, OtherInstrWithinAnAccessUnderAgs_CountsBehindIt) {
     chip.instruct(reg::kInstrControl | reg::kAgsOn);
     chip.advance_us(40);
     chip.instruct(cdm ? reg::kInstrCdm1 | reg::kAgsOn : reg::kInstrCdm0 | reg::kAgsOn);
-    sim::Slave& slave = *chip.simulator.slave(1);
+    sim::ClockedSlave& slave = *clocked(chip.simulator.slave(1));
     unsigned looks = 0;
     while ((host.status() & reg::REGEND::kMask) == 0) {
       ASSERT_LT(++looks, 300U);
@@ -371,7 +374,7 @@ TEST(Control, ErrorInTheSecondByte_TheOthersAreNotSent) {
     Chip chip(one_slave(kEncoder));
     configure(chip, 1, 0x00, 0x13);  // 20 us
     ControlHost host(chip);
-    sim::Slave& slave = *chip.simulator.slave(1);
+    sim::ClockedSlave& slave = *clocked(chip.simulator.slave(1));
     const std::vector<std::uint8_t> bytes{0x11, 0x22, 0x33, 0x44};
     const std::vector<std::uint8_t> before{0xE1, 0xE2, 0xE3, 0xE4};
     if (reading) {
@@ -490,8 +493,8 @@ TEST(Command, Broadcast_ReachesAllWithoutAcknowledge) {
   EXPECT_EQ(host.status() & ~reg::EOT::kMask,
             (reg::kResetStatus0 & ~reg::EOT::kMask) | reg::kRegendDone);
   for (unsigned n = 1; n <= 3; ++n) {
-    EXPECT_EQ(chip.simulator.slave(n)->control()->counters().commands, 1U);
-    EXPECT_EQ(chip.simulator.slave(n)->control()->last_command().code, 2);
+    EXPECT_EQ(clocked(chip.simulator.slave(n))->control()->counters().commands, 1U);
+    EXPECT_EQ(clocked(chip.simulator.slave(n))->control()->last_command().code, 2);
   }
 }
 
@@ -503,9 +506,9 @@ TEST(Command, Addressed_ReachesThoseAndIsAcknowledged) {
     host.set_command(0x80 | 0x20, 3, tested);  // IDs 0 and 2: slaves 3 and 1
     EXPECT_EQ(host.run_single(60), tested ? 14U + 26U : 14U + 25U);
     EXPECT_EQ(host.status(), kAllGood) << tested;
-    EXPECT_EQ(chip.simulator.slave(1)->control()->counters().commands, 1U);
-    EXPECT_EQ(chip.simulator.slave(2)->control()->counters().commands, 0U);
-    EXPECT_EQ(chip.simulator.slave(3)->control()->counters().commands, 1U);
+    EXPECT_EQ(clocked(chip.simulator.slave(1))->control()->counters().commands, 1U);
+    EXPECT_EQ(clocked(chip.simulator.slave(2))->control()->counters().commands, 0U);
+    EXPECT_EQ(clocked(chip.simulator.slave(3))->control()->counters().commands, 1U);
   }
 }
 
@@ -519,7 +522,7 @@ TEST(Command, MissingId_IsExecutedOnlyWithoutTheTest) {
     ASSERT_NE(host.run_single(60), 0U);
     EXPECT_EQ(host.status(),
               (reg::kResetStatus0 | reg::kRegendDone) & ~reg::nREGERR::kMask & ~reg::nERR::kMask);
-    EXPECT_EQ(chip.simulator.slave(2)->control()->counters().commands, tested ? 0U : 1U);
+    EXPECT_EQ(clocked(chip.simulator.slave(2))->control()->counters().commands, tested ? 0U : 1U);
   }
 }
 
@@ -534,12 +537,12 @@ TEST(Command, IdaTestInvertQuirk_SwapsThePolarity) {
       host.set_command(0x80, 3, ida_test);
       EXPECT_EQ(host.run_single(60), tested ? 14U + 26U : 14U + 25U) << invert << ida_test;
       EXPECT_EQ(host.status(), kAllGood);
-      EXPECT_EQ(chip.simulator.slave(1)->control()->counters().commands, 1U);
+      EXPECT_EQ(clocked(chip.simulator.slave(1))->control()->counters().commands, 1U);
       host.set_command(0x80 | 0x04, 3, ida_test);  // no slave has ID 5
       ASSERT_NE(host.run_single(60), 0U);
       EXPECT_EQ(host.status(),
                 (reg::kResetStatus0 | reg::kRegendDone) & ~reg::nREGERR::kMask & ~reg::nERR::kMask);
-      EXPECT_EQ(chip.simulator.slave(1)->control()->counters().commands, tested ? 1U : 2U);
+      EXPECT_EQ(clocked(chip.simulator.slave(1))->control()->counters().commands, tested ? 1U : 2U);
     }
   }
 }
@@ -555,16 +558,17 @@ TEST(Command, BothChannels_GetIt) {
     ASSERT_NE(host.run_single(60), 0U);
     EXPECT_EQ(host.status(), kAllGood);
     for (const unsigned slave : {1U, 5U}) {
-      EXPECT_EQ(chip.simulator.slave(slave)->control()->counters().commands, 1U) << slave;
-      EXPECT_EQ(chip.simulator.slave(slave)->control()->last_command().code, 3) << slave;
+      EXPECT_EQ(clocked(chip.simulator.slave(slave))->control()->counters().commands, 1U) << slave;
+      EXPECT_EQ(clocked(chip.simulator.slave(slave))->control()->last_command().code, 3) << slave;
     }
-    chip.simulator.slave(silent)->control()->faults().set_silent(true);
+    clocked(chip.simulator.slave(silent))->control()->faults().set_silent(true);
     ASSERT_NE(host.run_single(60), 0U);
     EXPECT_EQ(host.status(),
               (reg::kResetStatus0 | reg::kRegendDone) & ~reg::nREGERR::kMask & ~reg::nERR::kMask)
         << "silent: slave " << silent;
-    EXPECT_EQ(chip.simulator.slave(6 - silent)->control()->counters().commands, 2U) << silent;
-    EXPECT_EQ(chip.simulator.slave(silent)->control()->counters().commands, 1U) << silent;
+    EXPECT_EQ(clocked(chip.simulator.slave(6 - silent))->control()->counters().commands, 2U)
+        << silent;
+    EXPECT_EQ(clocked(chip.simulator.slave(silent))->control()->counters().commands, 1U) << silent;
   }
 }
 
@@ -589,8 +593,9 @@ TEST(Command, ReducedFrames_CarryItAndLeaveSensorData) {
     ASSERT_LT(looks, 200U) << "it never ends";
     const auto now = chip.read(reg::kAddrScdata, 8);
     const auto svalid = chip.read(reg::kAddrSvalidLo);
-    const auto rising = chip.simulator.line(1)->monitor().last(chip.simulator.now()).rising;
-    const auto commands = chip.simulator.slave(1)->control()->counters().commands;
+    const auto rising =
+        clocked(chip.simulator.line(1))->monitor().last(chip.simulator.now()).rising;
+    const auto commands = clocked(chip.simulator.slave(1))->control()->counters().commands;
     const bool regend = (host.status() & reg::REGEND::kMask) != 0;
     // While INSTR is 111, only reduced frames have run, so the values above must not have changed.
     if (chip.read(reg::kAddrInstr) != 0x0F) break;
@@ -608,9 +613,9 @@ TEST(Command, ReducedFrames_CarryItAndLeaveSensorData) {
   chip.instruct(0);
   chip.advance_us(50);
   EXPECT_EQ(host.status(), kAllGood);
-  EXPECT_EQ(chip.simulator.slave(1)->control()->counters().commands, 1U);
-  EXPECT_EQ(chip.simulator.slave(1)->control()->last_command().ids, 0x80);
-  EXPECT_EQ(chip.simulator.slave(1)->control()->last_command().code, 3);
+  EXPECT_EQ(clocked(chip.simulator.slave(1))->control()->counters().commands, 1U);
+  EXPECT_EQ(clocked(chip.simulator.slave(1))->control()->last_command().ids, 0x80);
+  EXPECT_EQ(clocked(chip.simulator.slave(1))->control()->last_command().code, 3);
 }
 
 TEST(Command, ReducedFramesWithoutAgs_LeaveBothBanks) {
@@ -637,7 +642,8 @@ TEST(Command, ReducedFramesWithoutAgs_LeaveBothBanks) {
     EXPECT_EQ(chip.read(reg::kAddrInstr), 0) << frame;
     EXPECT_EQ(host.status() & reg::REGEND::kMask, frame == 36 ? reg::REGEND::kMask : 0) << frame;
     chip.advance_us(10);
-    EXPECT_EQ(chip.simulator.line(1)->monitor().last(chip.simulator.now()).rising, 5U) << frame;
+    EXPECT_EQ(clocked(chip.simulator.line(1))->monitor().last(chip.simulator.now()).rising, 5U)
+        << frame;
     EXPECT_EQ(chip.read(reg::kAddrScdata, 8), before);
     EXPECT_EQ(chip.read(reg::kAddrSvalidLo), reg::SVALID<1>::kMask);
     // The lone slave locks ID 0 in slot 1 and acknowledges in slot 17.
@@ -645,11 +651,12 @@ TEST(Command, ReducedFramesWithoutAgs_LeaveBothBanks) {
               frame == 13 || frame == 29 ? reg::kCdsselHigh : 0)
         << frame;
     // Executed at once: EX is in slot 16, its stop bit in slot 17.
-    EXPECT_EQ(chip.simulator.slave(1)->control()->counters().commands, frame < 29 ? 0U : 1U);
+    EXPECT_EQ(clocked(chip.simulator.slave(1))->control()->counters().commands,
+              frame < 29 ? 0U : 1U);
   }
   EXPECT_EQ(host.status(), kAllGood);
-  EXPECT_EQ(chip.simulator.slave(1)->control()->last_command().ids, 0x80);
-  EXPECT_EQ(chip.simulator.slave(1)->control()->last_command().code, 3);
+  EXPECT_EQ(clocked(chip.simulator.slave(1))->control()->last_command().ids, 0x80);
+  EXPECT_EQ(clocked(chip.simulator.slave(1))->control()->last_command().code, 3);
   chip.instruct(reg::SWBANK::kMask);
   chip.advance_us(1);
   EXPECT_EQ(chip.read(reg::kAddrScdata, 8), other);
@@ -671,13 +678,13 @@ TEST(ControlByHand, CdmByCds_ComesRightAtAnyDelay) {
           chip.write(reg::kAddrCtrl, {reg::kRegversBissC |
                                       reg::kHoldcdmHold});  // HOLDCDM: the frame is not clocked out
         }
-        if (cds == 1) chip.simulator.line(1)->faults().flip_next_frame({1});
-        const auto count = chip.simulator.slave(1)->cdm_count();
+        if (cds == 1) clocked(chip.simulator.line(1))->faults().flip_next_frame({1});
+        const auto count = clocked(chip.simulator.slave(1))->cdm_count();
         chip.instruct(reg::kInstrCdmNotCdssel);
         ASSERT_TRUE(chip.wait_eot());
         chip.advance_us(40);
-        EXPECT_EQ(chip.simulator.slave(1)->cdm_count(), count + 1);
-        EXPECT_EQ(chip.simulator.slave(1)->last_cdm(), cds == 0) << delay << " " << sensor;
+        EXPECT_EQ(clocked(chip.simulator.slave(1))->cdm_count(), count + 1);
+        EXPECT_EQ(clocked(chip.simulator.slave(1))->last_cdm(), cds == 0) << delay << " " << sensor;
       }
     }
   }

@@ -8,6 +8,7 @@
 #include <array>
 #include <cstdio>
 
+#include "sim/lines/clocked/clocked_line.hpp"
 #include "sim/lines/registers/control_slave.hpp"
 #include "tests/support/control_host.hpp"
 
@@ -135,7 +136,7 @@ TEST(ControlByHand, ReadOfABusySlave_Works) {
   unsigned value = 0;
   for (int bit = 0; bit < 12; ++bit) value = value << 1U | (send(0x04) ? 1U : 0U);
   EXPECT_EQ(value, 0x5FU << 4U | 0xF) << "0x5F and its inverted CRC";
-  EXPECT_EQ(chip.simulator.slave(1)->control()->counters().protocol_errors, 0U);
+  EXPECT_EQ(clocked(chip.simulator.slave(1))->control()->counters().protocol_errors, 0U);
 }
 
 // The write row of Table 7 as it is printed: its header CRC is wrong, the slave says nothing and
@@ -153,7 +154,7 @@ TEST(ControlByHand, PrintedWriteRow_IsRejected) {
       const bool cds = exchange(chip, (frame >> (32 - slot)) & 1U ? 0x02 : 0x04);
       if (slot > 16) answers += cds ? 1 : 0;
     }
-    const auto& counters = chip.simulator.slave(1)->control()->counters();
+    const auto& counters = clocked(chip.simulator.slave(1))->control()->counters();
     EXPECT_EQ(counters.header_errors, right ? 0U : 1U);
     EXPECT_EQ(counters.writes, right ? 1U : 0U);
     EXPECT_EQ(chip.simulator.slave(1)->reg_read(0x60), right ? 0x06 : 0x0B);

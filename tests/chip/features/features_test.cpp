@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "sim/lines/clocked/clocked_line.hpp"
 #include "tests/chip/features/core.hpp"
 #include "tests/support/chip_fixture.hpp"
 
@@ -42,14 +43,21 @@ class ChipFeatures : public mb4test::CoreTest {
     const auto bytes = chip.read(reg::scdata_address(x), 4);
     return bytes[0] | bytes[1] << 8U | bytes[2] << 16U | static_cast<unsigned>(bytes[3]) << 24U;
   }
+  // Levels of the chip's pins MA and MO of a line.
+  static bool ma(const Chip& chip, unsigned line) {
+    return (chip.simulator.outputs(line) & sim::kMaPin) != 0;
+  }
+  static bool mo(const Chip& chip, unsigned line) {
+    return (chip.simulator.outputs(line) & sim::kMoPin) != 0;
+  }
   // Lets time pass; returns the edges of MA of a line meanwhile.
   static unsigned ma_edges(Chip& chip, unsigned line, unsigned us) {
     unsigned edges = 0;
-    bool level = chip.simulator.ma(line);
+    bool level = ma(chip, line);
     chip.simulator.run_while_waiting(
         [&] {
-          edges += chip.simulator.ma(line) != level ? 1U : 0U;
-          level = chip.simulator.ma(line);
+          edges += ma(chip, line) != level ? 1U : 0U;
+          level = ma(chip, line);
           return false;
         },
         chip.simulator.now() + us * sim::kPsPerUs);
@@ -57,7 +65,7 @@ class ChipFeatures : public mb4test::CoreTest {
   }
   static unsigned rising(Chip& chip, unsigned line) {
     return static_cast<unsigned>(
-        chip.simulator.line(line)->monitor().last(chip.simulator.now()).rising);
+        clocked(chip.simulator.line(line))->monitor().last(chip.simulator.now()).rising);
   }
   // What decision 37 says of an instruction that cannot run.
   static void expect_ends_at_once(Chip& chip, unsigned instruction, const char* what) {
@@ -298,8 +306,8 @@ TEST_P(ChipFeatures, ForceBits_ReadZeroAndForceNothingWithoutThem) {
   chip.write(reg::kAddrIface, {bits});
   EXPECT_EQ(chip.read(reg::kAddrIface), GetParam().force ? bits : 0U);
   chip.advance_us(5);
-  EXPECT_EQ(chip.simulator.ma(1), !GetParam().force);
-  EXPECT_EQ(chip.simulator.ma(2), !(GetParam().force && GetParam().lines == 2));
+  EXPECT_EQ(ma(chip, 1), !GetParam().force);
+  EXPECT_EQ(ma(chip, 2), !(GetParam().force && GetParam().lines == 2));
 }
 
 // "Without MO: pin MO = 0 whatever EN_MO says, MO_BUSY and ACTnSENSx read 0."
@@ -322,7 +330,7 @@ TEST_P(ChipFeatures, Mo_IsZeroAndHasNoRegistersWithoutIt) {
     chip.instruct(static_cast<std::uint8_t>(instruction));
     chip.simulator.run_while_waiting(
         [&] {
-          low = low && !chip.simulator.mo(1) && !chip.simulator.mo(2);
+          low = low && !mo(chip, 1) && !mo(chip, 2);
           return false;
         },
         chip.simulator.now() + 300 * sim::kPsPerUs);
@@ -347,7 +355,7 @@ TEST_P(ChipFeatures, ProtocolThatIsAbsent_ActsAsUnused) {
     chip.configure_slave1(28, reg::kScrclenCrc6, 0x03, 49);
     chip.write(reg::kAddrCfgch, {static_cast<std::uint8_t>(reg::kCfgch2Unused | choice.cfgch)});
     for (const bool sl : {true, false}) {
-      chip.simulator.line(1)->faults().stick(sl);
+      clocked(chip.simulator.line(1))->faults().stick(sl);
       chip.simulator.refresh_lines();
       for (const unsigned ags : {reg::kAgsOff, reg::kAgsOn}) {
         chip.instruct(static_cast<std::uint8_t>(reg::kInstrCdm0 | ags));
@@ -408,7 +416,7 @@ TEST_P(ChipFeatures, CdmByInstr_IsSentAndHeld) {
     ASSERT_TRUE(chip.wait_eot());
     chip.advance_us(60);
     // CDS of this encoder is 0, so not CDS is 1.
-    EXPECT_EQ(chip.simulator.ma(1), instruction == reg::kInstrCdm0) << instruction;
+    EXPECT_EQ(ma(chip, 1), instruction == reg::kInstrCdm0) << instruction;
   }
 }
 
@@ -533,7 +541,7 @@ TEST_P(ChipFeatures, OneLine_WorksWithAnySlaveloc5) {
     chip.write(reg::slave_cfg_address(5), {reg::kEnscdYes | 9, reg::kScrclenNone, 0, 0});
     chip.instruct(reg::kInstrCdm0);
     EXPECT_EQ(ma_edges(chip, 2, 100), 0U);
-    EXPECT_TRUE(chip.simulator.ma(2));
+    EXPECT_TRUE(ma(chip, 2));
     EXPECT_EQ(rising(chip, 1), 28U + 6U + 5U + (core.channel(5) && split == 0 ? 10U : 0U));
     EXPECT_EQ(word28(chip, 1), kEncoderWord);
     EXPECT_EQ(chip.status(), reg::kResetStatus0);

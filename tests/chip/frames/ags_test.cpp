@@ -4,6 +4,7 @@
 // Automatic frames: datasheet pages 30..32, Tables 37, 44.
 #include <gtest/gtest.h>
 
+#include "sim/lines/clocked/clocked_line.hpp"
 #include "tests/support/chip_fixture.hpp"
 
 namespace {
@@ -25,7 +26,7 @@ std::uint64_t ags_period(unsigned code) {
 // Start times of the next `count` frames on channel 1.
 std::vector<sim::Time> frame_starts(Chip& chip, unsigned count, sim::Time limit) {
   std::vector<sim::Time> starts;
-  auto& monitor = chip.simulator.line(1)->monitor();
+  auto& monitor = clocked(chip.simulator.line(1))->monitor();
   std::uint64_t seen = monitor.frames();
   const sim::Time end = chip.simulator.now() + limit;
   bool was_high = true;
@@ -86,11 +87,11 @@ TEST(ChipAgs, HundredThousandFrames_NoDrift) {
   chip.configure_slave1(1, 0, 0x00, 0x01);
   chip.instruct(reg::kAgsOn);
   const auto first = frame_starts(chip, 1, 100'000'000).at(0);
-  const auto frames = chip.simulator.line(1)->monitor().frames();
+  const auto frames = clocked(chip.simulator.line(1))->monitor().frames();
   chip.simulator.run_until(first + 100'000 * 40 * kClk - 10 * kClk);
   const auto last = frame_starts(chip, 1, 100'000'000).at(0);
   EXPECT_EQ(last - first, 100'000ULL * 40 * kClk);
-  EXPECT_EQ(chip.simulator.line(1)->monitor().frames(), frames + 100'000);
+  EXPECT_EQ(clocked(chip.simulator.line(1))->monitor().frames(), frames + 100'000);
   EXPECT_EQ(chip.status() & (reg::nERR::kMask | reg::nAGSERR::kMask | reg::nSCDERR::kMask),
             reg::kNerrGood | reg::kNagserrGood | reg::kNscderrGood);
 }
@@ -132,7 +133,7 @@ TEST(ChipAgs, BreakWhileFramesAreLeftOut_NoErrorStays) {
     Chip chip(one_slave(kEncoder26));
     chip.configure_slave1(28, reg::kScrclenCrc6, 0x00, 0x01);  // 2 us are 40 clocks
     if (sl_low) {
-      chip.simulator.line(1)->faults().stick(false);
+      clocked(chip.simulator.line(1))->faults().stick(false);
       chip.simulator.refresh_lines();
     }
     for (unsigned clock = 0; clock < 40; ++clock) {
@@ -239,7 +240,7 @@ TEST(ChipGetsens, PulseOfOneClock_MaFallsAfterTwoClocksAndHalfAPeriod) {
                           reg::kFreqagsAgsInfinite);
     chip.instruct(reg::kAgsOn);
     chip.advance_us(200);
-    EXPECT_EQ(chip.simulator.line(1)->monitor().frames(), 0U);
+    EXPECT_EQ(clocked(chip.simulator.line(1))->monitor().frames(), 0U);
     const sim::Time half = code < 0x10 ? code + 1 : 10 * (code - 15);
     std::uint64_t frames = 0;
     for (const sim::Time before : {1ULL, 1'000ULL, 12'500ULL, 25'000ULL, 37'500ULL, 49'999ULL}) {
@@ -308,7 +309,7 @@ TEST(ChipAgs, InstrUnderAgs_ChoosesCdmAndStays) {
   chip.configure_slave1(28, reg::kScrclenCrc6, 0x00, 0x31);  // 50 us
   const sim::Time period = 50 * sim::kPsPerUs;
   const sim::Time start = chip.simulator.now();
-  const sim::Slave& slave = *chip.simulator.slave(1);
+  const sim::ClockedSlave& slave = *clocked(chip.simulator.slave(1));
   unsigned periods = 0;
   // CDM with CDS = 0 and with CDS = 1; 011: NOT CDSSEL.
   struct Row {
@@ -319,7 +320,7 @@ TEST(ChipAgs, InstrUnderAgs_ChoosesCdmAndStays) {
                          Row{0x05, {false, false}}, Row{0x07, {true, false}}}) {
     chip.instruct(static_cast<std::uint8_t>(row.byte));
     for (const unsigned cds : {0U, 1U, 1U, 0U, 1U, 0U}) {
-      if (cds == 1) chip.simulator.line(1)->faults().flip_next_frame({1});
+      if (cds == 1) clocked(chip.simulator.line(1))->faults().flip_next_frame({1});
       chip.simulator.run_until(start + period / 2 + ++periods * period);  // between two frames
       EXPECT_EQ(slave.last_cdm(), row.cdm[cds]) << row.byte << " CDS " << cds;
       EXPECT_EQ(chip.read(reg::kAddrInstr), row.byte);
@@ -334,13 +335,13 @@ TEST(ChipAgs, InstrUnderAgs_ChoosesCdmAndStays) {
 TEST(ChipAgs, BreakWithAgs_RecoversFromASilentSensor) {
   Chip chip(one_slave(kEncoder26));
   chip.configure_slave1(28, reg::kScrclenCrc6, 0x00, 0x31);
-  chip.simulator.line(1)->faults().stick(true);
+  clocked(chip.simulator.line(1))->faults().stick(true);
   chip.simulator.refresh_lines();
   chip.instruct(reg::kAgsOn);
   chip.advance_us(500);
   EXPECT_EQ(chip.status() & (reg::nERR::kMask | reg::nAGSERR::kMask | reg::EOT::kMask), 0)
       << "missed frames raise nAGSERR (docs/choices.md: AGS with a rate)";
-  chip.simulator.line(1)->faults().stick(std::nullopt);
+  clocked(chip.simulator.line(1))->faults().stick(std::nullopt);
   chip.simulator.refresh_lines();
   chip.instruct(reg::kBreakAbort | reg::kAgsOn);
   EXPECT_EQ(chip.status() & (reg::nERR::kMask | reg::nAGSERR::kMask),

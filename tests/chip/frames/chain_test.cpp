@@ -11,6 +11,7 @@
 #include <variant>
 
 #include "sim/lines/biss/biss_c_slave.hpp"
+#include "sim/lines/clocked/clocked_line.hpp"
 #include "tests/support/bits.hpp"
 #include "tests/support/chip_fixture.hpp"
 
@@ -107,8 +108,8 @@ class ChainBench {
     for (const sim::ChannelConfig& channel : scenario_.channels) {
       unsigned bits = 0;
       unsigned x = channel.number == 1 ? 0 : 4;
-      const auto ma = simulator.line(channel.number)->monitor().last(simulator.now());
-      const sim::Time latched = ma.start + 50 * sim::kPsPerNs + channel.delay / 2;
+      const auto ma = clocked(simulator.line(channel.number))->monitor().last(simulator.now());
+      const sim::Time latched = ma.start + 50 * sim::kPsPerNs + channel.cable->delay / 2;
       for (const sim::SlaveConfig& slave : channel.slaves) {
         const sim::BissCSlaveConfig& config = config_of(slave);
         bits += config.data_bits + config.crc.width();
@@ -125,7 +126,7 @@ class ChainBench {
       // longer for its way than the word, the edges until it is recognised (decision 17), which
       // takes two periods (docs/timing.md).
       const unsigned busy = config_of(channel.slaves.back()).busy_periods;
-      const auto way = static_cast<unsigned>(channel.delay / (100 * sim::kPsPerNs));
+      const auto way = static_cast<unsigned>(channel.cable->delay / (100 * sim::kPsPerNs));
       if (way <= bits) {
         EXPECT_EQ(ma.rising, bits + 5 + busy) << "channel " << channel.number;
       } else {
@@ -163,7 +164,7 @@ TEST(ChipChain, UpToFourSlavesOnEachOfTwoLines_EveryWordIsRight) {
       sim::Scenario scenario = chain_of_eight();
       sim::ChannelConfig line2 = scenario.channels[0];
       line2.number = 2;
-      line2.delay = 700 * sim::kPsPerNs;
+      line2.cable->delay = 700 * sim::kPsPerNs;
       line2.slaves.erase(line2.slaves.begin(), line2.slaves.begin() + 4);
       line2.slaves.resize(second);
       scenario.channels[0].slaves.resize(first);
@@ -194,7 +195,7 @@ TEST(ChipChain, LargestConfiguration_OneLineAndTwo) {
     for (std::uint64_t frame = 0; frame < 4; ++frame) bench.check_frame(frame);
     // And a fault in the very last bit of each line is seen.
     for (const unsigned line : {1U, two ? 2U : 1U}) {
-      bench.simulator.line(line)->faults().flip_next_frame({two ? 321U : 641U});
+      clocked(bench.simulator.line(line))->faults().flip_next_frame({two ? 321U : 641U});
       bench.spi({reg::kSpiOpcodeWriteInstruction, reg::kInstrCdm0});
       bench.simulator.advance(200 * sim::kPsPerUs);
       const auto status = bench.spi({reg::kSpiOpcodeReadStatus, 0, 0, 0});
@@ -221,7 +222,9 @@ TEST(ChipChain, SmallestConfiguration_OneBit) {
       for (std::uint64_t frame = 0; frame < 4; ++frame) {
         bench.check_frame(frame);
         for (const unsigned line : {1U, two ? 2U : 1U}) {
-          EXPECT_EQ(bench.simulator.line(line)->monitor().last(bench.simulator.now()).rising, 6U);
+          EXPECT_EQ(
+              clocked(bench.simulator.line(line))->monitor().last(bench.simulator.now()).rising,
+              6U);
         }
       }
     }
@@ -234,7 +237,7 @@ TEST(ChipChain, NoSlaveloc5_Line2Rests) {
   bench.spi({reg::kSpiOpcodeWriteRegisters, reg::kAddrSlaveloc5, reg::kResetSlaveloc5,
              reg::kCfgch2BissC | reg::kCfgch1BissC});
   for (std::uint64_t frame = 0; frame < 4; ++frame) bench.check_frame(frame);
-  EXPECT_EQ(bench.simulator.ma_check(2).pulses(), 0U);
+  EXPECT_EQ(ma_check(bench.simulator.line_end(2)).pulses(), 0U);
   EXPECT_TRUE(bench.simulator.pin(sim::Pin::kMa2));
 }
 

@@ -7,6 +7,7 @@
 #include <fstream>
 #include <sstream>
 
+#include "sim/lines/clocked/clocked_line.hpp"
 #include "tests/support/chip_fixture.hpp"
 
 namespace {
@@ -53,7 +54,7 @@ TEST_P(ChipFrequency, Encoder26_PositionEdgesAndDutyAreRight) {
     EXPECT_EQ(reading.value().position, 0xAAF37BFU >> 2);
     EXPECT_FALSE(reading.value().slave_error);
     EXPECT_FALSE(reading.value().slave_warning);
-    const auto frame = chip.simulator.line(1)->monitor().last(chip.simulator.now());
+    const auto frame = clocked(chip.simulator.line(1))->monitor().last(chip.simulator.now());
     EXPECT_EQ(frame.rising, 34U + 5U);
     const sim::Time half = 1'000'000'000'000ULL / ma_hz / 2;
     EXPECT_EQ(frame.min_high, half);
@@ -80,7 +81,7 @@ TEST(ChipFrame, ProcessingTimeAndDelay_EdgesAreNPlus5PlusB) {
         const auto reading = chip.device.read_frame();
         ASSERT_TRUE(reading.ok()) << busy << " " << delay;
         EXPECT_EQ(reading.value().position, 0xAAF37BFU >> 2);
-        EXPECT_EQ(chip.simulator.line(1)->monitor().last(chip.simulator.now()).rising,
+        EXPECT_EQ(clocked(chip.simulator.line(1))->monitor().last(chip.simulator.now()).rising,
                   34U + 5U + busy)
             << busy << " " << delay;
       }
@@ -94,13 +95,13 @@ TEST(ChipFrame, EveryFlippedBit_IsAnErrorAndNeverAValue) {
   Chip chip(one_slave(kEncoder26));
   ASSERT_TRUE(chip.device.configure(config26(10'000'000)).ok());
   for (unsigned bit = 2; bit < 2 + 34; ++bit) {
-    chip.simulator.line(1)->faults().flip_next_frame({bit});
+    clocked(chip.simulator.line(1))->faults().flip_next_frame({bit});
     const auto reading = chip.device.read_frame();
     ASSERT_FALSE(reading.ok()) << bit;
     EXPECT_EQ(reading.error(), mb4::Error::kCrc) << bit;
     // Once more by hand: the flags as the chip shows them.
     chip.advance_us(10);
-    chip.simulator.line(1)->faults().flip_next_frame({bit});
+    clocked(chip.simulator.line(1))->faults().flip_next_frame({bit});
     chip.instruct(reg::kInstrCdm0);
     ASSERT_TRUE(chip.wait_eot());
     const auto status = chip.spi({reg::kSpiOpcodeReadStatus, 0, 0});
@@ -154,10 +155,10 @@ TEST(ChipInstr, CdmZeroAndOne_AreSentAndInstrClears) {
       chip.advance_us(5);
       EXPECT_EQ(chip.simulator.pin(sim::Pin::kMa1), cdm == 0);
       EXPECT_FALSE(chip.simulator.pin(sim::Pin::kSl1));
-      const auto count = chip.simulator.slave(1)->cdm_count();
+      const auto count = clocked(chip.simulator.slave(1))->cdm_count();
       chip.advance_us(40);
-      EXPECT_EQ(chip.simulator.slave(1)->cdm_count(), count + 1);
-      EXPECT_EQ(chip.simulator.slave(1)->last_cdm(), cdm == 1);
+      EXPECT_EQ(clocked(chip.simulator.slave(1))->cdm_count(), count + 1);
+      EXPECT_EQ(clocked(chip.simulator.slave(1))->last_cdm(), cdm == 1);
       EXPECT_TRUE(chip.simulator.pin(sim::Pin::kMa1)) << "HOLDCDM = 0: back to 1";
     }
   }
@@ -178,14 +179,15 @@ TEST(ChipInstr, HoldCdm_MaStaysLowUntilNextFrame) {
   EXPECT_EQ(chip.read(reg::kAddrSvalidLo) & reg::SVALID<1>::kMask, reg::SVALID<1>::kMask);
   chip.advance_us(100);
   EXPECT_TRUE(chip.simulator.pin(sim::Pin::kMa1));
-  EXPECT_TRUE(chip.simulator.slave(1)->cdm_count() == 2 && !chip.simulator.slave(1)->last_cdm());
+  EXPECT_TRUE(clocked(chip.simulator.slave(1))->cdm_count() == 2 &&
+              !clocked(chip.simulator.slave(1))->last_cdm());
 }
 
 // Decision 3 and Table 45's text: SL low at the start of a frame.
 TEST(ChipInstr, SlLowAtStart_NoFrameAndAgsError) {
   Chip chip(one_slave(kEncoder26));
   chip.configure_slave1(28, reg::kScrclenCrc6, 0x00, 0x00);
-  chip.simulator.line(1)->faults().stick(false);
+  clocked(chip.simulator.line(1))->faults().stick(false);
   chip.simulator.refresh_lines();
   chip.advance_us(1);
   chip.instruct(reg::kInstrCdm0);
@@ -194,7 +196,7 @@ TEST(ChipInstr, SlLowAtStart_NoFrameAndAgsError) {
             reg::kEotIdle)
       << "nERR = nAGSERR = 0, EOT = 1";
   EXPECT_EQ(chip.read(reg::kAddrInstr), 0);
-  EXPECT_EQ(chip.simulator.line(1)->monitor().frames(), 0U);
+  EXPECT_EQ(clocked(chip.simulator.line(1))->monitor().frames(), 0U);
   // BREAK returns the flags to 1 (decision 8).
   chip.instruct(reg::kBreakAbort);
   EXPECT_EQ(chip.status() & (reg::nERR::kMask | reg::nAGSERR::kMask | reg::EOT::kMask),
@@ -204,15 +206,15 @@ TEST(ChipInstr, SlLowAtStart_NoFrameAndAgsError) {
 TEST(ChipInstr, SlLowAtStartWithAgsMin_WaitsForOneWithoutError) {
   Chip chip(one_slave(kEncoder26));
   chip.configure_slave1(28, reg::kScrclenCrc6, 0x00, reg::kFreqagsAgsMin);
-  chip.simulator.line(1)->faults().stick(false);
+  clocked(chip.simulator.line(1))->faults().stick(false);
   chip.simulator.refresh_lines();
   chip.advance_us(1);
   chip.instruct(reg::kInstrCdm0);
   chip.advance_us(50);
   EXPECT_EQ(chip.status() & (reg::nERR::kMask | reg::nAGSERR::kMask | reg::EOT::kMask),
             reg::kNerrGood | reg::kNagserrGood);
-  EXPECT_EQ(chip.simulator.line(1)->monitor().frames(), 0U);
-  chip.simulator.line(1)->faults().stick(std::nullopt);
+  EXPECT_EQ(clocked(chip.simulator.line(1))->monitor().frames(), 0U);
+  clocked(chip.simulator.line(1))->faults().stick(std::nullopt);
   chip.simulator.refresh_lines();
   ASSERT_TRUE(chip.wait_eot());
   EXPECT_EQ(chip.read(reg::kAddrSvalidLo) & reg::SVALID<1>::kMask, reg::SVALID<1>::kMask);
@@ -222,22 +224,22 @@ TEST(ChipInstr, SlLowAtStartWithAgsMin_WaitsForOneWithoutError) {
 TEST(ChipBreak, SilentSensor_FrameRunsUntilBreak) {
   Chip chip(one_slave(kEncoder26));
   chip.configure_slave1(28, reg::kScrclenCrc6, 0x00);
-  chip.simulator.line(1)->faults().stick(true);
+  clocked(chip.simulator.line(1))->faults().stick(true);
   chip.simulator.refresh_lines();
   chip.instruct(reg::kInstrCdm0);
   chip.advance_us(2000);
   EXPECT_EQ(chip.status() & reg::EOT::kMask, 0);
-  EXPECT_GT(chip.simulator.line(1)->monitor().last(chip.simulator.now()).rising, 19000U);
+  EXPECT_GT(clocked(chip.simulator.line(1))->monitor().last(chip.simulator.now()).rising, 19000U);
   chip.instruct(reg::kBreakAbort);
   EXPECT_EQ(chip.status(), reg::kResetStatus0);
   EXPECT_EQ(chip.read(reg::kAddrInstr), 0);
   chip.advance_us(1);
   EXPECT_TRUE(chip.simulator.pin(sim::Pin::kMa1));
-  const auto rising = chip.simulator.line(1)->monitor().last(chip.simulator.now()).rising;
+  const auto rising = clocked(chip.simulator.line(1))->monitor().last(chip.simulator.now()).rising;
   chip.advance_us(100);
-  EXPECT_EQ(chip.simulator.line(1)->monitor().last(chip.simulator.now()).rising, rising);
+  EXPECT_EQ(clocked(chip.simulator.line(1))->monitor().last(chip.simulator.now()).rising, rising);
   // The next frame works.
-  chip.simulator.line(1)->faults().stick(std::nullopt);
+  clocked(chip.simulator.line(1))->faults().stick(std::nullopt);
   chip.simulator.refresh_lines();
   chip.advance_us(100);
   chip.instruct(reg::kInstrCdm0);
@@ -264,7 +266,7 @@ TEST(ChipBreak, AnyPhaseOfAFrame_AbortsAndRecovers) {
     EXPECT_EQ(chip.read(reg::kAddrScdata), 0x5A) << "no bank switch at step " << step;
     chip.advance_us(30);
     EXPECT_TRUE(chip.simulator.pin(sim::Pin::kMa1)) << step;
-    const auto frame = chip.simulator.line(1)->monitor().last(chip.simulator.now());
+    const auto frame = clocked(chip.simulator.line(1))->monitor().last(chip.simulator.now());
     EXPECT_GE(frame.min_low, 100 * sim::kPsPerNs) << step;
     const auto reading = chip.device.read_frame();
     ASSERT_TRUE(reading.ok()) << step;
@@ -276,17 +278,17 @@ TEST(ChipBreak, AnyPhaseOfAFrame_AbortsAndRecovers) {
 TEST(ChipDriver, SilentSensor_TimeoutAndNextReadWorks) {
   Chip chip(one_slave(kEncoder26));
   ASSERT_TRUE(chip.device.configure(config26(10'000'000)).ok());
-  chip.simulator.line(1)->faults().stick(true);
+  clocked(chip.simulator.line(1))->faults().stick(true);
   chip.simulator.refresh_lines();
   auto reading = chip.device.read_frame();
   ASSERT_FALSE(reading.ok());
   EXPECT_EQ(reading.error(), mb4::Error::kTimeout);
-  chip.simulator.line(1)->faults().stick(false);
+  clocked(chip.simulator.line(1))->faults().stick(false);
   chip.simulator.refresh_lines();
   reading = chip.device.read_frame();
   ASSERT_FALSE(reading.ok());
   EXPECT_EQ(reading.error(), mb4::Error::kLineError);
-  chip.simulator.line(1)->faults().stick(std::nullopt);
+  clocked(chip.simulator.line(1))->faults().stick(std::nullopt);
   chip.simulator.refresh_lines();
   chip.advance_us(100);
   reading = chip.device.read_frame();
@@ -425,7 +427,7 @@ TEST(ChipInit, LineDelay_IsMeasuredInQuarterPeriods) {
     EXPECT_EQ(chip.read(reg::kAddrInstr), 0);
     EXPECT_EQ(chip.status(), reg::kResetStatus0);
     EXPECT_EQ(chip.read(reg::kAddrScdata), quarters) << delay;
-    EXPECT_EQ(chip.simulator.line(1)->monitor().last(chip.simulator.now()).rising, 2U);
+    EXPECT_EQ(clocked(chip.simulator.line(1))->monitor().last(chip.simulator.now()).rising, 2U);
     chip.instruct(reg::kInstrCdm0);
     ASSERT_TRUE(chip.wait_eot());
     EXPECT_EQ(chip.read(reg::kAddrSvalidLo) & reg::SVALID<1>::kMask, reg::SVALID<1>::kMask);
@@ -446,8 +448,8 @@ TEST(ChipInit, WrittenAtAnyTime_RunsOnceAndLeavesTheFrameBeforeItWhole) {
       EXPECT_EQ(chip.status(), reg::kResetStatus0);
       EXPECT_EQ(chip.read(reg::kAddrScdata), 1) << step;
       EXPECT_EQ(chip.simulator.slave(1)->frames(), 1U) << step;
-      EXPECT_EQ(chip.simulator.line(1)->monitor().frames(), 2U) << step;
-      EXPECT_EQ(chip.simulator.line(1)->monitor().last(chip.simulator.now()).rising, 2U);
+      EXPECT_EQ(clocked(chip.simulator.line(1))->monitor().frames(), 2U) << step;
+      EXPECT_EQ(clocked(chip.simulator.line(1))->monitor().last(chip.simulator.now()).rising, 2U);
     }
   }
 }
@@ -457,11 +459,11 @@ TEST(ChipInit, TogetherWithBreakOnASilentLine_EndsAndTheNextMeasuresTheLine) {
   for (unsigned step = 0; step < 24; ++step) {
     Chip chip(one_slave(kEncoder26));
     chip.configure_slave1(28, reg::kScrclenCrc6, static_cast<std::uint8_t>(step % 12));
-    chip.simulator.line(1)->faults().stick(true);
+    clocked(chip.simulator.line(1))->faults().stick(true);
     chip.simulator.refresh_lines();
     chip.instruct(reg::kInstrCdm0);
     chip.simulator.advance(30 * sim::kPsPerUs + step * 31 * sim::kPsPerNs);
-    chip.simulator.line(1)->faults().stick(std::nullopt);
+    clocked(chip.simulator.line(1))->faults().stick(std::nullopt);
     chip.simulator.refresh_lines();
     chip.instruct(reg::kBreakAbort | reg::kInitStart);
     ASSERT_TRUE(chip.wait_eot()) << step;
@@ -484,7 +486,7 @@ TEST(ChipConfig, FreqsWrittenAtEot_TheRunningTailKeepsItsClock) {
     ASSERT_TRUE(chip.wait_eot());
     chip.write(reg::kAddrFreq, {static_cast<std::uint8_t>(reg::FREQR::of(5) | after)});
     chip.advance_us(100);
-    const auto frame = chip.simulator.line(1)->monitor().last(chip.simulator.now());
+    const auto frame = clocked(chip.simulator.line(1))->monitor().last(chip.simulator.now());
     const unsigned half_clocks = before < 0x10 ? before + 1 : 10 * (before - 15);
     EXPECT_EQ(frame.max_low, half_clocks * 50 * sim::kPsPerNs);
     EXPECT_EQ(frame.max_high, half_clocks * 50 * sim::kPsPerNs);
@@ -528,7 +530,7 @@ TEST(ChipInstr, NoLineInUse_InstrClearsWithoutAFrame) {
   chip.advance_us(2);
   EXPECT_EQ(chip.read(reg::kAddrInstr), 0);
   EXPECT_EQ(chip.status(), reg::kResetStatus0);
-  EXPECT_EQ(chip.simulator.line(1)->monitor().frames(), 0U);
+  EXPECT_EQ(clocked(chip.simulator.line(1))->monitor().frames(), 0U);
 }
 
 // Decision 19: the same INSTR written again during its frame (to set HOLDBANK, say) is no request.
@@ -550,7 +552,7 @@ TEST(ChipInstr, SameInstrWrittenDuringItsFrame_NoSecondFrame) {
   chip.instruct(reg::kInstrCdm1);
   chip.advance_us(200);
   EXPECT_EQ(chip.simulator.slave(1)->frames(), 3U);
-  EXPECT_TRUE(chip.simulator.slave(1)->last_cdm());
+  EXPECT_TRUE(clocked(chip.simulator.slave(1))->last_cdm());
 }
 
 TEST(ChipInit, NoAnswerIn255Quarters_AbortsWithAgsError) {
@@ -565,7 +567,7 @@ TEST(ChipInit, NoAnswerIn255Quarters_AbortsWithAgsError) {
 TEST(ChipInit, SlConstantlyLow_IsIgnored) {
   Chip chip(one_slave(kEncoder26));
   chip.configure_slave1(28, reg::kScrclenCrc6, 0x00);
-  chip.simulator.line(1)->faults().stick(false);
+  clocked(chip.simulator.line(1))->faults().stick(false);
   chip.simulator.refresh_lines();
   chip.instruct(reg::kInitStart);
   ASSERT_TRUE(chip.wait_eot());

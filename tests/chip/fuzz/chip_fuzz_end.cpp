@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "mb4_regs.hpp"
+#include "sim/lines/clocked/clocked_line.hpp"
 #include "sim/lines/registers/control_slave.hpp"
 #include "tests/chip/fuzz/chip_fuzz_run.hpp"
 #include "tests/support/bits.hpp"
@@ -362,8 +363,9 @@ void FuzzRun::check_read_back() {
 // Waits until the slaves' timeouts are over and, after INIT, SL is 1.
 void FuzzRun::wait_slaves(bool sl_high) {
   const auto idle = [&](unsigned line, Pin sl) {
-    return !chip_.lines[line].present || (host_.simulator().line(line + 1)->chain().idle() &&
-                                          (!sl_high || host_.simulator().pin(sl)));
+    return !chip_.lines[line].present ||
+           (clocked(host_.simulator().line(line + 1))->chain().idle() &&
+            (!sl_high || host_.simulator().pin(sl)));
   };
   if (!host_.session().wait_until([&] { return idle(0, Pin::kSl1) && idle(1, Pin::kSl2); },
                                   3'000'000, 1000)) {
@@ -398,7 +400,7 @@ void FuzzRun::recover() {
   std::vector<std::pair<const FuzzSlave*, unsigned>> there;
   for (unsigned line = 0; line < 2; ++line) {
     for (const FuzzSlave& slave : chip_.lines[line].slaves) {
-      sim::ControlSlave* const control = simulator.slave(slave.number)->control();
+      sim::ControlSlave* const control = clocked(simulator.slave(slave.number))->control();
       if (control != nullptr && !control->data_active()) {
         host_.write(reg::slave_cfg_address(slave.channel + 1), {0});
       } else if (!slave.actuator) {

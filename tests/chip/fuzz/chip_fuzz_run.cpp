@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "mb4_regs.hpp"
+#include "sim/lines/clocked/clocked_line.hpp"
 
 namespace mb4test {
 namespace {
@@ -60,12 +61,13 @@ FuzzRun::FuzzRun(const FuzzChip& chip, Random& random, const std::filesystem::pa
     : chip_(chip), random_(random), host_(chip, folder) {
   for (unsigned line = 0; line < 2; ++line) {
     if (!chip.lines[line].present) continue;
-    host_.simulator().line(line + 1)->set_tap(
-        [](sim::Time now, void* record, sim::Line::Signal signal, bool level) {
-          if (signal != sim::Line::Signal::kSl) return;
-          static_cast<LineRecord*>(record)->edges.emplace_back(now, level);
-        },
-        &records_[line]);
+    clocked(host_.simulator().line(line + 1))
+        ->set_tap(
+            [](sim::Time now, void* record, sim::ClockedLine::Signal signal, bool level) {
+              if (signal != sim::ClockedLine::Signal::kSl) return;
+              static_cast<LineRecord*>(record)->edges.emplace_back(now, level);
+            },
+            &records_[line]);
   }
 }
 

@@ -14,6 +14,7 @@
 #include <cstdlib>
 #include <random>
 
+#include "sim/lines/clocked/clocked_line.hpp"
 #include "sim/lines/registers/control_slave.hpp"
 #include "sim/lines/registers/control_slots.hpp"
 #include "tests/support/bits.hpp"
@@ -120,7 +121,7 @@ void operate(mb4test::Chip& chip, Reader& reader) {
     case 15:
       if (reader.next() % 4 == 0) {
         rest(simulator, kInterfaces[reader.next() % 4]);  // straps that move
-      } else if (chip.simulator.slave(1)->control() != nullptr && reader.next() % 2 == 0) {
+      } else if (clocked(chip.simulator.slave(1))->control() != nullptr && reader.next() % 2 == 0) {
         // Registers or a command, one line or two, in frames whole, reduced or of BiSS B.
         chip.configure_slave1(
             28, reg::kScrclenCrc6, static_cast<std::uint8_t>(reader.next() % 4),
@@ -182,7 +183,7 @@ void check_after_reset(mb4test::Chip& chip, sim::HostInterface interface) {
   ASSERT_EQ(chip.read(reg::rdata_address(6), 2), (Bytes{0x5A, 0xA5}));
   // A command of the fuzz may have switched off data or control communication of the encoder. A
   // reset of the chip does not switch them on again.
-  const auto* const control = chip.simulator.slave(1)->control();
+  const auto* const control = clocked(chip.simulator.slave(1))->control();
   if (control != nullptr && !control->data_active()) return;
   chip.instruct(reg::kInstrCdm0);
   ASSERT_TRUE(chip.wait_eot(500));
@@ -246,7 +247,7 @@ void run_case(const Bytes& bytes, std::uint64_t seed, FuzzCounts& counts, std::u
     ADD_FAILURE() << stopped.what();
   }
   counts.time += chip.simulator.now();
-  if (const auto* const control = chip.simulator.slave(1)->control()) {
+  if (const auto* const control = clocked(chip.simulator.slave(1))->control()) {
     counts.accesses += control->counters().starts;
     if (!control->data_active() || !control->control_active()) ++counts.switched_off;
   }

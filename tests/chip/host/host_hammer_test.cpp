@@ -10,6 +10,7 @@
 #include <cstdio>
 #include <random>
 
+#include "sim/lines/clocked/clocked_line.hpp"
 #include "sim/lines/registers/control_slave.hpp"
 #include "tests/support/bits.hpp"
 #include "tests/support/chip_fixture.hpp"
@@ -104,7 +105,7 @@ TEST_P(HostHammer, EveryAddressWhileFramesRun_NothingIsDisturbed) {
       simulator.advance(500'000);  // 5 T to the next access that may be to 0xF4
     }
   }
-  const auto& counters = simulator.slave(1)->control()->counters();
+  const auto& counters = clocked(simulator.slave(1))->control()->counters();
   EXPECT_EQ(counters.header_errors + counters.data_errors + counters.protocol_errors, 0U);
   EXPECT_EQ(counters.aborts, 0U);
   EXPECT_GT(accesses, wanted / 400);

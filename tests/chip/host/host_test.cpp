@@ -9,6 +9,7 @@
 #include <cstdio>
 #include <set>
 
+#include "sim/lines/clocked/clocked_line.hpp"
 #include "tests/chip/host/host_pins.hpp"
 #include "tests/support/chip_fixture.hpp"
 
@@ -572,7 +573,7 @@ TEST(ChipPinsPaired, CableOnThePair_FramesAndRegistersWork) {
   }
   EXPECT_EQ(chip.status(), reg::kResetStatus0 | reg::kRegendDone);
   EXPECT_EQ(chip.read(reg::kAddrRdata), 0x77);
-  chip.simulator.line(1)->faults().stick(false);
+  clocked(chip.simulator.line(1))->faults().stick(false);
   chip.simulator.refresh_lines();
   chip.advance_us(1);
   EXPECT_TRUE(chip.simulator.pin(Pin::kSl2));
@@ -659,7 +660,7 @@ TEST(ChipClockPin, ClkeniSelectsBetweenTwoLiveClocks_MaAndAgsFollow) {
     Chip chip(
         one_slave("data_bits = 28\ncrc = 0x43\ndata = 0xAAF37BF\ntimeout = 5.0", "", clocks.keys));
     chip.configure_slave1(28, reg::kScrclenCrc6, reg::FREQS::of(2), 0x31);  // 6 T, 1000 T
-    auto& monitor = chip.simulator.line(1)->monitor();
+    auto& monitor = clocked(chip.simulator.line(1))->monitor();
     for (const unsigned clkeni : {0U, 1U, 0U, 1U}) {
       const sim::Time period = clocks.period.at(clkeni);
       chip.write(reg::kAddrIface, {clkeni != 0 ? reg::kClkeniInternal : std::uint8_t{0}});

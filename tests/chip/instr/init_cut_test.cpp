@@ -8,6 +8,7 @@
 #include <array>
 #include <string>
 
+#include "sim/lines/clocked/clocked_line.hpp"
 #include "tests/support/chip_fixture.hpp"
 
 namespace {
@@ -41,7 +42,7 @@ struct CutChip : Chip {
     configure_slave1(28, reg::kScrclenCrc6, 0x00, freqags);
     advance_us(100);  // the reset is long ago
   }
-  const sim::MaMonitor& monitor() { return simulator.line(1)->monitor(); }
+  const sim::MaMonitor& monitor() { return clocked(simulator.line(1))->monitor(); }
   // INIT has ended, with the right line delay, without an error, and MA has rested before it.
   void expect_init(const std::string& what) {
     ASSERT_TRUE(wait_eot(1000)) << what;
@@ -121,7 +122,7 @@ TEST(ChipInitCut, SlStaysLow_InitComesAfter2048Clocks) {
   CutChip chip(38);
   chip.instruct(reg::kInstrCdm0);
   chip.advance_us(2);
-  chip.simulator.line(1)->faults().stick(false);
+  clocked(chip.simulator.line(1))->faults().stick(false);
   chip.instruct(reg::kBreakAbort | reg::kInitStart);
   const sim::Time start = chip.simulator.now();
   const auto frames = chip.monitor().frames();
@@ -134,7 +135,7 @@ TEST(ChipInitCut, SlStaysLow_InitComesAfter2048Clocks) {
 
 // Times from the write of INIT to the first edge of MA.
 sim::Time wait_of_init(Chip& chip, bool same_byte) {
-  auto& monitor = chip.simulator.line(1)->monitor();
+  auto& monitor = clocked(chip.simulator.line(1))->monitor();
   const auto frames = monitor.frames();
   if (!same_byte) chip.instruct(reg::kBreakAbort);
   chip.instruct(same_byte ? reg::kBreakAbort | reg::kInitStart : reg::kInitStart);

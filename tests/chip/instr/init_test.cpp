@@ -5,6 +5,7 @@
 // that are due (pages 32..34; decisions 3, 8, 19, 25).
 #include <gtest/gtest.h>
 
+#include "sim/lines/clocked/clocked_line.hpp"
 #include "tests/support/chip_fixture.hpp"
 
 namespace {
@@ -35,8 +36,8 @@ TEST(ChipInit, OtherWritesMeanwhile_DoNotEndIt) {
     EXPECT_EQ(chip.read(reg::kAddrInstr), byte);
     EXPECT_EQ(chip.status(), reg::kResetStatus0);
     EXPECT_EQ(chip.simulator.slave(1)->frames(), 1U);
-    EXPECT_EQ(chip.simulator.line(1)->monitor().frames(), 2U) << "the frame and the INIT";
-    EXPECT_EQ(chip.simulator.line(1)->monitor().last(chip.simulator.now()).rising, 2U);
+    EXPECT_EQ(clocked(chip.simulator.line(1))->monitor().frames(), 2U) << "the frame and the INIT";
+    EXPECT_EQ(clocked(chip.simulator.line(1))->monitor().last(chip.simulator.now()).rising, 2U);
     EXPECT_EQ(chip.read(reg::kAddrScdata), 9) << "1000 ns, a quarter of 500 ns";
   }
 }
@@ -111,7 +112,7 @@ TEST(ChipInit, SlStaysLowAfterAFrame_WaitsFor1024PeriodsOnly) {
         chip.simulator.advance(100 * sim::kPsPerNs);
       }
     };
-    until([&] { return chip.simulator.line(1)->monitor().frames() == 2U; });
+    until([&] { return clocked(chip.simulator.line(1))->monitor().frames() == 2U; });
     const double limit_us = later_us == 0 ? 102.4 : later_us;
     EXPECT_NEAR(static_cast<double>(chip.simulator.now() - end), limit_us * sim::kPsPerUs,
                 2.0 * sim::kPsPerUs);
@@ -131,7 +132,7 @@ TEST(ChipInit, SlStaysLowAfterAFrame_WaitsFor1024PeriodsOnly) {
 TEST(ChipInit, NoSlaveAnswers_TheLineIsFreeForWhatFollows) {
   Chip chip(one_slave(kAdaptive));
   chip.configure_slave1(28, reg::kScrclenCrc6, 0x00, reg::kFreqagsAgsMin);
-  auto& line = *chip.simulator.line(1);
+  auto& line = *clocked(chip.simulator.line(1));
   line.faults().stick(true);
   chip.instruct(reg::kInitStart);
   ASSERT_TRUE(chip.wait_eot(60)) << "SL is high: no timeout to wait for";
@@ -160,9 +161,9 @@ TEST(ChipInit, Break_EndsIt) {
     chip.advance_us(1);
     EXPECT_TRUE(chip.simulator.pin(sim::Pin::kEot)) << phase;
     EXPECT_EQ(chip.read(reg::kAddrInstr), 0) << phase;
-    const auto frames = chip.simulator.line(1)->monitor().frames();
+    const auto frames = clocked(chip.simulator.line(1))->monitor().frames();
     chip.advance_us(100);
-    EXPECT_EQ(chip.simulator.line(1)->monitor().frames(), frames) << phase;
+    EXPECT_EQ(clocked(chip.simulator.line(1))->monitor().frames(), frames) << phase;
     EXPECT_TRUE(chip.simulator.pin(sim::Pin::kMa1));
     EXPECT_EQ(chip.status(), reg::kResetStatus0);
   }
@@ -179,7 +180,7 @@ TEST(ChipInstr, AskedForInTheSlavesTimeout_NoFrameAndAgsError) {
   EXPECT_EQ(chip.status(), reg::kResetStatus0 & ~(reg::nERR::kMask | reg::nAGSERR::kMask))
       << "nERR = nAGSERR = 0";
   EXPECT_EQ(chip.read(reg::kAddrInstr), 0);
-  EXPECT_EQ(chip.simulator.line(1)->monitor().frames(), 1U);
+  EXPECT_EQ(clocked(chip.simulator.line(1))->monitor().frames(), 1U);
 }
 
 // Page 34: a frame that is due while INIT runs is left out, with nAGSERR = 0; it does not come
@@ -188,7 +189,7 @@ TEST(ChipAgs, DueDuringInit_IsOmittedAndTheNextIsInTime) {
   Chip chip(one_slave(kAdaptive, "delay_ns = 20000.0"));
   chip.configure_slave1(28, reg::kScrclenCrc6, 0x03, 0x63);  // T_MA 400 ns; 100 us
   chip.instruct(reg::kAgsOn);
-  auto& monitor = chip.simulator.line(1)->monitor();
+  auto& monitor = clocked(chip.simulator.line(1))->monitor();
   chip.advance_us(350);
   const sim::Time third = monitor.last(chip.simulator.now()).start;
   const sim::Time period = 100 * sim::kPsPerUs;

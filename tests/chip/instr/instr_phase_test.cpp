@@ -5,6 +5,7 @@
 // frame, its end, and the time at which a frame is due (pages 30, 32, Tables 37, 45; decision 19).
 #include <gtest/gtest.h>
 
+#include "sim/lines/clocked/clocked_line.hpp"
 #include "tests/support/chip_fixture.hpp"
 
 namespace {
@@ -33,7 +34,7 @@ TEST(ChipInstrPhase, ChangedUnderAgs_ShiftsNoFrame) {
   chip.simulator.spi().set_timing(sim::SpiTiming::for_frequency(50'000'000));
   chip.configure_slave1(28, reg::kScrclenCrc6, 0x00, 0x09);  // 10 us
   chip.instruct(reg::kAgsOn);
-  auto& monitor = chip.simulator.line(1)->monitor();
+  auto& monitor = clocked(chip.simulator.line(1))->monitor();
   chip.advance_us(35);
   const sim::Time period = 200 * kClk;
   const sim::Time first = monitor.last(chip.simulator.now()).start;
@@ -52,7 +53,7 @@ TEST(ChipInstrPhase, BreakWithAgs_NextFrameIsAPeriodLater) {
   Chip chip(one_slave(kEncoder26));
   chip.configure_slave1(28, reg::kScrclenCrc6, 0x00, 0x63);
   chip.instruct(reg::kAgsOn);
-  auto& monitor = chip.simulator.line(1)->monitor();
+  auto& monitor = clocked(chip.simulator.line(1))->monitor();
   chip.advance_us(350);
   const sim::Time before = monitor.last(chip.simulator.now()).start;
   instruct_at(chip, reg::kBreakAbort | reg::kAgsOn, before + 160 * sim::kPsPerUs);
@@ -127,13 +128,13 @@ TEST(ChipInstrPhase, SameCodeAtTheStartOfItsFrame_IsOneFrame) {
   chip.configure_slave1(28, reg::kScrclenCrc6, 0x00, reg::kFreqagsAgsMin);
   for (sim::Time phase = 0; phase < 12 * kClk; phase += kStep) {
     const auto frames = chip.simulator.slave(1)->frames();
-    chip.simulator.line(1)->faults().stick(false);
+    clocked(chip.simulator.line(1))->faults().stick(false);
     chip.simulator.refresh_lines();
     chip.advance_us(1);
     chip.instruct(reg::kInstrCdm0);
     const sim::Time release = chip.simulator.now() / kClk * kClk + 40 * kClk;
     chip.simulator.at(release, [&chip] {
-      chip.simulator.line(1)->faults().stick(std::nullopt);
+      clocked(chip.simulator.line(1))->faults().stick(std::nullopt);
       chip.simulator.refresh_lines();
     });
     instruct_at(chip, reg::kInstrCdm0, release - 8 * kClk + phase);
@@ -153,13 +154,13 @@ TEST(ChipInstrPhase, SameCodeDuringInit_IsAFrameAfterIt) {
   chip.instruct(reg::kInstrCdm0 | reg::kAgsOn);
   chip.instruct(reg::kInitStart | reg::kInstrCdm0 | reg::kAgsOn);  // INIT waits for the frame
   ASSERT_TRUE(chip.simulator.run_while_waiting(
-      [&] { return chip.simulator.line(1)->monitor().frames() == 2; }, sim::kPsPerSecond));
+      [&] { return clocked(chip.simulator.line(1))->monitor().frames() == 2; }, sim::kPsPerSecond));
   chip.instruct(reg::kInstrCdm0 | reg::kAgsOn);
   EXPECT_EQ(chip.read(reg::kAddrInstr), reg::kInitStart | reg::kInstrCdm0 | reg::kAgsOn);
   chip.advance_us(100);
   EXPECT_EQ(chip.read(reg::kAddrInstr), reg::kInstrCdm0 | reg::kAgsOn);
   EXPECT_EQ(chip.simulator.slave(1)->frames(), 2U) << "beside the INIT";
-  EXPECT_EQ(chip.simulator.line(1)->monitor().frames(), 3U);
+  EXPECT_EQ(clocked(chip.simulator.line(1))->monitor().frames(), 3U);
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 // polynomials of a channel (page 25, Table 15), as the host sees them.
 #include <gtest/gtest.h>
 
+#include "sim/lines/clocked/clocked_line.hpp"
 #include "tests/support/bits.hpp"
 #include "tests/support/chip_fixture.hpp"
 
@@ -37,7 +38,7 @@ TEST(ChipInstrTiming, LastSclkEdgeToMa_ThreeToFourClocksAndHalfAPeriod) {
       const sim::Time byte = chip.simulator.now() - timing.ncs_hold - timing.sclk_high;
       ASSERT_TRUE(chip.wait_eot());
       chip.advance_us(40);  // the monitor knows that the clock has ended
-      const auto frame = chip.simulator.line(1)->monitor().last(chip.simulator.now());
+      const auto frame = clocked(chip.simulator.line(1))->monitor().last(chip.simulator.now());
       const sim::Time way = frame.start - byte - half;
       least = std::min(least, way);
       most = std::max(most, way);
@@ -57,7 +58,7 @@ TEST(ChipInstr, NoAgs_NothingRunsByItself) {
     chip.simulator.set_pin(sim::Pin::kGetsens, true);
     chip.instruct(0);
     chip.advance_us(9000);
-    EXPECT_EQ(chip.simulator.line(1)->monitor().frames(), 0U) << freqags;
+    EXPECT_EQ(clocked(chip.simulator.line(1))->monitor().frames(), 0U) << freqags;
     EXPECT_EQ(chip.status(), reg::kResetStatus0);
   }
 }
@@ -72,10 +73,10 @@ TEST(ChipInstr, AgsCleared_TheRunningFrameEndsAndNoneFollows) {
       chip.simulator.advance(40 * sim::kPsPerUs + phase * 413 * sim::kPsPerNs);
       chip.instruct(0);
       ASSERT_TRUE(chip.wait_eot());
-      const auto frames = chip.simulator.line(1)->monitor().frames();
+      const auto frames = clocked(chip.simulator.line(1))->monitor().frames();
       EXPECT_EQ(chip.simulator.slave(1)->frames(), frames) << "each has got its start bit";
       chip.advance_us(100);
-      EXPECT_EQ(chip.simulator.line(1)->monitor().frames(), frames);
+      EXPECT_EQ(clocked(chip.simulator.line(1))->monitor().frames(), frames);
       EXPECT_EQ(chip.status(), reg::kResetStatus0);
       EXPECT_EQ(chip.read(reg::kAddrSvalidLo), reg::SVALID<1>::kMask);
       EXPECT_EQ(chip.read(reg::kAddrScdata, 4),
@@ -91,7 +92,7 @@ TEST(ChipInstr, CodesNotListed_ClearThemselvesWithoutAFrame) {
     for (const unsigned code : {0b101U, 0b110U}) {
       Chip ags(one_slave(kEncoder26));
       ags.configure_slave1(28, reg::kScrclenCrc6, 0x00, static_cast<std::uint8_t>(freqags));
-      const sim::Slave& slave = *ags.simulator.slave(1);
+      const sim::ClockedSlave& slave = *clocked(ags.simulator.slave(1));
       if (freqags != 0x7D) {
         ags.instruct(reg::kInstrCdm1 | reg::kAgsOn);
         ags.advance_us(120);
@@ -118,7 +119,7 @@ TEST(ChipInstr, CodesNotListed_ClearThemselvesWithoutAFrame) {
     chip.advance_us(20);
     EXPECT_EQ(chip.read(reg::kAddrInstr), 0) << code;
     EXPECT_EQ(chip.status(), reg::kResetStatus0);
-    EXPECT_EQ(chip.simulator.line(1)->monitor().frames(), 0U);
+    EXPECT_EQ(clocked(chip.simulator.line(1))->monitor().frames(), 0U);
   }
 }
 
@@ -133,11 +134,11 @@ TEST(ChipAgs, NoChannelEnabled_FramesRunAndEnscdCountsFromTheNext) {
   EXPECT_EQ(chip.status() & (reg::nERR::kMask | reg::nAGSERR::kMask | reg::nSCDERR::kMask),
             reg::kNerrGood | reg::kNagserrGood | reg::kNscderrGood);
   EXPECT_EQ(chip.simulator.slave(1)->frames(), 4U);
-  EXPECT_EQ(chip.simulator.line(1)->monitor().last(chip.simulator.now()).rising, 5U);
+  EXPECT_EQ(clocked(chip.simulator.line(1))->monitor().last(chip.simulator.now()).rising, 5U);
   EXPECT_EQ(chip.read(reg::kAddrSvalidLo), 0);
   chip.write(reg::slave_cfg_address(1), {reg::kEnscdYes | 27});
   chip.advance_us(50);
-  EXPECT_EQ(chip.simulator.line(1)->monitor().last(chip.simulator.now()).rising, 39U);
+  EXPECT_EQ(clocked(chip.simulator.line(1))->monitor().last(chip.simulator.now()).rising, 39U);
   EXPECT_EQ(chip.read(reg::kAddrSvalidLo), reg::SVALID<1>::kMask);
   EXPECT_EQ(chip.status() & (reg::nERR::kMask | reg::nAGSERR::kMask | reg::nSCDERR::kMask),
             reg::kNerrGood | reg::kNagserrGood | reg::kNscderrGood);
@@ -166,7 +167,7 @@ TEST(ChipBanks, ChannelNotEnabled_ItsDataStay) {
   for (unsigned i = 0; i < 64; ++i) {
     EXPECT_EQ(memory[i], i / 8 == 2 ? word[i % 8] : 0xC0 + i) << i;
   }
-  EXPECT_EQ(chip.simulator.line(1)->monitor().last(chip.simulator.now()).rising, 39U);
+  EXPECT_EQ(clocked(chip.simulator.line(1))->monitor().last(chip.simulator.now()).rising, 39U);
 }
 
 // Decision 8: BREAK never reads back 1, not even in the first read that can follow.
@@ -199,7 +200,8 @@ TEST(ChipInit, AgsWrittenDuringInit_FramesFollow) {
     EXPECT_EQ(chip.status() & (reg::nERR::kMask | reg::nAGSERR::kMask | reg::nSCDERR::kMask),
               reg::kNerrGood | reg::kNagserrGood | reg::kNscderrGood);
     EXPECT_GE(chip.simulator.slave(1)->frames(), 9U) << phase;
-    EXPECT_EQ(chip.simulator.line(1)->monitor().frames(), chip.simulator.slave(1)->frames() + 1)
+    EXPECT_EQ(clocked(chip.simulator.line(1))->monitor().frames(),
+              chip.simulator.slave(1)->frames() + 1)
         << "and the INIT";
   }
 }
@@ -317,7 +319,7 @@ TEST_P(Polynomial, GoodWordsAreValidAndEveryInvertedBitIsFound) {
   for (unsigned bit = 0; bit <= 9 + crc.width; ++bit) {
     const std::uint64_t word = (bit * 167 + 1) & 0x1FF;
     chip.simulator.slave(1)->set_data(word);
-    if (bit != 0) chip.simulator.line(1)->faults().flip_next_frame({1 + bit});
+    if (bit != 0) clocked(chip.simulator.line(1))->faults().flip_next_frame({1 + bit});
     chip.instruct(reg::kInstrCdm0);
     ASSERT_TRUE(chip.wait_eot());
     EXPECT_EQ(chip.read(reg::kAddrSvalidLo), bit == 0 ? reg::SVALID<1>::kMask : 0) << bit;

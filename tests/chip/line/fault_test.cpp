@@ -13,6 +13,7 @@
 #include <random>
 #include <sstream>
 
+#include "sim/lines/clocked/clocked_line.hpp"
 #include "tests/support/bits.hpp"
 #include "tests/support/chip_fixture.hpp"
 
@@ -180,7 +181,7 @@ class Campaign {
         probabilities[i] = std::pow(0.5, sensors_[i].crc.width);
       }
     }
-    chip.simulator.line(1)->faults().flip_next_frame(injected);
+    clocked(chip.simulator.line(1))->faults().flip_next_frame(injected);
     chip.instruct(reg::kInstrCdm0);
     ASSERT_TRUE(chip.wait_eot());
     std::vector<std::uint8_t> status = chip.spi({reg::kSpiOpcodeReadStatus, 0, 0, 0});

@@ -12,6 +12,7 @@
 #include <cstdio>
 
 #include "sim/core/random.hpp"
+#include "sim/lines/clocked/clocked_line.hpp"
 #include "tests/support/bits.hpp"
 #include "tests/support/chip_fixture.hpp"
 
@@ -85,7 +86,7 @@ Tally run(sim::Time jitter, std::uint64_t frames, std::uint64_t seed) {
   chip.configure_slave1(kDataBits, reg::kScrclenCrc6, 0x00);
   sim::WireFaults faults;
   faults.jitter = jitter;
-  chip.simulator.line(1)->set_faults({}, faults);
+  clocked(chip.simulator.line(1))->set_faults({}, faults);
   sim::Random random(sim::derive_seed(seed, 100));
   Tally tally;
   for (unsigned step = 0; step < kSteps; ++step) {

@@ -7,6 +7,7 @@
 
 #include <string>
 
+#include "sim/lines/clocked/clocked_line.hpp"
 #include "sim/masters/mb4/ma_frequency.hpp"
 #include "tests/support/chip_fixture.hpp"
 #include "tests/support/control_host.hpp"
@@ -54,11 +55,11 @@ TEST(ChipLine, DelayOf10To1000Periods_NormalFramesWork) {
         ASSERT_TRUE(good_frame(chip)) << code << " " << periods;
         // MA has stopped while edges are still on the line: it has made no more than the start bit
         // needed.
-        const auto frame = chip.simulator.line(1)->monitor().last(chip.simulator.now());
+        const auto frame = clocked(chip.simulator.line(1))->monitor().last(chip.simulator.now());
         EXPECT_GE(frame.rising, std::max(39U, periods)) << code << " " << periods;
         EXPECT_LE(frame.rising, std::max(39U, periods + 7U)) << code << " " << periods;
         chip.simulator.advance(3 * periods * period_of(code));
-        EXPECT_TRUE(chip.simulator.slave(1)->idle());
+        EXPECT_TRUE(clocked(chip.simulator.slave(1))->idle());
       }
     }
   }
@@ -76,8 +77,8 @@ TEST(ChipLine, LongLine_CdmOneSendsNoEdgeTooMany) {
       chip.simulator.line(1)->set_round_trip(50 * period_of(3) + eighths * period_of(3) / 8);
       ASSERT_TRUE(good_frame(chip, 5000, cdm == 0 ? 0x04 : 0x02));
       chip.simulator.advance(60 * period_of(3));
-      EXPECT_EQ(chip.simulator.slave(1)->last_cdm(), cdm == 1);
-      rising[cdm] = chip.simulator.line(1)->monitor().last(chip.simulator.now()).rising;
+      EXPECT_EQ(clocked(chip.simulator.slave(1))->last_cdm(), cdm == 1);
+      rising[cdm] = clocked(chip.simulator.line(1))->monitor().last(chip.simulator.now()).rising;
     }
     EXPECT_GE(rising[0], rising[1]);
     EXPECT_LE(rising[0], rising[1] + 1);
@@ -103,8 +104,9 @@ TEST(ChipLine, SlaveTimeoutOf55Percent_FramesAndCdmAreRight) {
           ASSERT_TRUE(good_frame(chip, 5000, static_cast<std::uint8_t>(instr)))
               << code << " " << percent << " " << hold << " " << instr;
           chip.simulator.advance(5 * period);
-          EXPECT_TRUE(chip.simulator.slave(1)->idle());
-          EXPECT_EQ(chip.simulator.slave(1)->last_cdm(), instr == 0x02) << code << " " << percent;
+          EXPECT_TRUE(clocked(chip.simulator.slave(1))->idle());
+          EXPECT_EQ(clocked(chip.simulator.slave(1))->last_cdm(), instr == 0x02)
+              << code << " " << percent;
           EXPECT_EQ(chip.simulator.pin(sim::Pin::kMa1), hold == 0 || instr == 0x04);
         }
       }
@@ -180,7 +182,7 @@ TEST(ChipLine, DeviationFromTheFirstMeasurement_25PercentLateAnd50EarlyAndNoMore
       const sim::WireFaults sl{0, -late, 0, 0};
       Chip chip(one_slave(kEncoder));
       chip.configure_slave1(28, reg::kScrclenCrc6, static_cast<std::uint8_t>(code));
-      chip.simulator.line(1)->set_faults({}, sl);
+      clocked(chip.simulator.line(1))->set_faults({}, sl);
       unsigned bad = 0;
       for (std::int64_t quarter = 0; quarter < 5; ++quarter) {
         for (const std::int64_t off :
@@ -228,7 +230,7 @@ TEST(ChipInit, EveryFreqsCode_MeasuresTheDelayToTheQuarter) {
             << code << " " << n;
         EXPECT_EQ(chip.read(reg::kAddrScdata), n + 1)
             << "FREQS " << code << ", delay " << delay << " ps";
-        EXPECT_EQ(chip.simulator.line(1)->monitor().last(chip.simulator.now()).rising, 2U);
+        EXPECT_EQ(clocked(chip.simulator.line(1))->monitor().last(chip.simulator.now()).rising, 2U);
       }
     }
     // 255 is the limit; beyond it the sequence is aborted.
@@ -255,7 +257,7 @@ TEST(ChipInit, AfterErrors_SetsTheFlagsAndResetsRegend) {
     EXPECT_EQ(chip.status(), reg::kResetStatus0) << unsigned{flag};
     EXPECT_TRUE(chip.simulator.pin(sim::Pin::kNer));
   };
-  chip.simulator.line(1)->faults().flip_next_frame({5});
+  clocked(chip.simulator.line(1))->faults().flip_next_frame({5});
   chip.instruct(reg::kInstrCdm0);
   ASSERT_TRUE(chip.wait_eot());
   expect_init_resets(0x10, false);  // nSCDERR

@@ -7,6 +7,7 @@
 
 #include <string>
 
+#include "sim/lines/clocked/clocked_line.hpp"
 #include "tests/support/chip_fixture.hpp"
 
 namespace {
@@ -79,7 +80,7 @@ TEST(MaForce, FasterThanThePeriod_CutsNothingShort) {
     chip.write(reg::kAddrIface, {0});
     chip.advance_us(50);
     EXPECT_TRUE(chip.simulator.pin(sim::Pin::kMa1));
-    EXPECT_GT(chip.simulator.ma_check(1).pulses(), 2U);
+    EXPECT_GT(ma_check(chip.simulator.line_end(1)).pulses(), 2U);
   }
 }
 

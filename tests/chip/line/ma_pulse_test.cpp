@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "sim/core/random.hpp"
+#include "sim/lines/clocked/clocked_line.hpp"
 #include "tests/support/chip_fixture.hpp"
 
 namespace {
@@ -69,7 +70,7 @@ class MaPulse : public testing::TestWithParam<Cut> {
       if (testing::Test::HasFatalFailure()) return;
       EXPECT_TRUE(chip.simulator.pin(sim::Pin::kMa1)) << what;
       ASSERT_NO_THROW(expect_good_frame(chip, freqs, what)) << what;
-      EXPECT_GE(chip.simulator.ma_check(1).pulses(), 2U * (28U + 6U + 4U));
+      EXPECT_GE(ma_check(chip.simulator.line_end(1)).pulses(), 2U * (28U + 6U + 4U));
     }
   }
 };
@@ -224,8 +225,9 @@ TEST(MaPulseTwoLines, LastHalfPeriodOfALineOutOfUse_EndsInItsTime) {
       Chip chip(two_lines());
       const unsigned old_line = way.by_slaveloc5 ? 2 : 1;
       // 1 ns for clock edges that are rounded to picoseconds.
-      chip.simulator.ma_check(old_line).require(8'000 * sim::kPsPerNs - sim::kPsPerNs);
-      chip.simulator.ma_check(3 - old_line).require(way.half * sim::kPsPerNs - sim::kPsPerNs);
+      ma_check(chip.simulator.line_end(old_line)).require(8'000 * sim::kPsPerNs - sim::kPsPerNs);
+      ma_check(chip.simulator.line_end(3 - old_line))
+          .require(way.half * sim::kPsPerNs - sim::kPsPerNs);
       chip.write(reg::slave_cfg_address(1), {reg::kEnscdYes | 25, reg::kScrclenCrc6, 0x00, 0x00});
       chip.write(reg::slave_cfg_address(5), {reg::kEnscdYes | 25, reg::kScrclenCrc6, 0x00, 0x00});
       chip.write(reg::kAddrCtrl, {reg::kRegversBissC, reg::FREQS::of(31), 0, reg::kFreqagsAgsMin});
@@ -246,7 +248,8 @@ TEST(MaPulseTwoLines, LastHalfPeriodOfALineOutOfUse_EndsInItsTime) {
         chip.instruct(way.break_first ? reg::kInstrCdm0 : reg::kBreakAbort | reg::kInstrCdm0);
         chip.advance_us(90);
       }) << what;
-      EXPECT_GE(chip.simulator.ma_check(3 - old_line).pulses(), 2U * (26U + 6U + 4U)) << what;
+      EXPECT_GE(ma_check(chip.simulator.line_end(3 - old_line)).pulses(), 2U * (26U + 6U + 4U))
+          << what;
     }
   }
 }
@@ -262,7 +265,7 @@ TEST(MaPulseTwoLines, LineOutOfUseWithSlLow_StartsTheOther) {
     chip.write(reg::kAddrSlaveloc5, {reg::kSlaveloc5Split, reg::kCfgch2BissC | reg::kCfgch1BissC});
     chip.instruct(instr);
     chip.advance_us(5);
-    chip.simulator.line(1)->faults().stick(false);
+    clocked(chip.simulator.line(1))->faults().stick(false);
     chip.simulator.refresh_lines();
     ASSERT_TRUE(chip.wait_eot());
     chip.advance_us(40);
@@ -305,7 +308,7 @@ TEST(MaPulseTwoLines, ForcedLineOtherFreqs_CutsNothingShort) {
       }) << "way "
          << way << ", D " << d << " ns";
       EXPECT_TRUE(chip.simulator.pin(sim::Pin::kMa2));
-      pulses += chip.simulator.ma_check(2).pulses();
+      pulses += ma_check(chip.simulator.line_end(2)).pulses();
     }
     EXPECT_GE(pulses, 20U) << "way " << way;
   }

@@ -4,7 +4,8 @@
 // The bus connection on the whole chip: pages 15, 25 (Tables 17, 18), 31 (Tables 39, 40).
 #include <gtest/gtest.h>
 
-#include "sim/lines/actuator.hpp"
+#include "sim/lines/clocked/actuator.hpp"
+#include "sim/lines/clocked/clocked_line.hpp"
 #include "tests/support/bits.hpp"
 #include "tests/support/protocol_chip.hpp"
 
@@ -82,8 +83,8 @@ TEST(ChipMo, Waveform_IsAcknowledgeBusyStartCdsWords) {
     }
     EXPECT_EQ(chip.scdata(2, 9), 0x155U);
     EXPECT_EQ(chip.svalid(), valid({2}));
-    EXPECT_EQ(chip.simulator.slave(1)->actuator()->word(), 0xA5CU);
-    EXPECT_EQ(chip.simulator.slave(3)->actuator()->word(), 0xE7U);
+    EXPECT_EQ(clocked(chip.simulator.slave(1))->actuator()->word(), 0xA5CU);
+    EXPECT_EQ(clocked(chip.simulator.slave(3))->actuator()->word(), 0xE7U);
   }
 }
 
@@ -139,7 +140,8 @@ TEST(ChipMo, EnMoOff_HoldsMoLow) {
   EXPECT_FALSE(chip.simulator.pin(sim::Pin::kMo1));
   EXPECT_FALSE(chip.simulator.pin(sim::Pin::kMo2));
   EXPECT_EQ(chip.scdata(1, 12), 0xA5CU);
-  EXPECT_EQ(chip.simulator.line(1)->monitor().last(chip.simulator.now()).rising, 12U + 6 + 5);
+  EXPECT_EQ(clocked(chip.simulator.line(1))->monitor().last(chip.simulator.now()).rising,
+            12U + 6 + 5);
 }
 
 // Every position in chains of 1 to 8, beside sensors and among actuators, without and with a cable
@@ -163,7 +165,7 @@ TEST_P(MoChains, EveryPosition_GetsExactlyWhatTheHostWrote) {
       ASSERT_TRUE(chip.frame());
       unsigned valid = 0;
       for (unsigned i = 0; i < length; ++i) {
-        const auto* received = chip.simulator.slave(i + 1)->actuator();
+        const auto* received = clocked(chip.simulator.slave(i + 1))->actuator();
         if (received != nullptr) {
           const unsigned bits = 3 + 7 * i;
           EXPECT_EQ(received->word(), (seed + i * frame) & ((1ULL << bits) - 1)) << position;
@@ -202,8 +204,10 @@ TEST(ChipMo, EveryLengthAndCrc_ArrivesWithTheRightCrc) {
     const std::uint64_t word = 0xA5C396F05A3C69E1ULL >> (64 - bits);
     write_both_banks(chip, 1, word);
     ASSERT_TRUE(chip.frame());
-    EXPECT_EQ(chip.simulator.slave(1)->actuator()->word(), word) << bits << " " << polynomial;
-    EXPECT_EQ(chip.simulator.slave(1)->actuator()->words(), 1U) << bits << " " << polynomial;
+    EXPECT_EQ(clocked(chip.simulator.slave(1))->actuator()->word(), word)
+        << bits << " " << polynomial;
+    EXPECT_EQ(clocked(chip.simulator.slave(1))->actuator()->words(), 1U)
+        << bits << " " << polynomial;
   }
 }
 
@@ -217,12 +221,12 @@ TEST(ChipMo, BothChannelsWithDifferentLengths_AndBothCdm) {
       write_both_banks(chip, 1, 0x30 + frame);
       write_both_banks(chip, 6, 0xA1B2C3D4E5F6ULL * frame);
       ASSERT_TRUE(chip.frame(cdm ? reg::kInstrCdm1 : reg::kInstrCdm0));
-      EXPECT_EQ(chip.simulator.slave(1)->actuator()->word(), 0x30U + frame);
-      EXPECT_EQ(chip.simulator.slave(6)->actuator()->word(),
+      EXPECT_EQ(clocked(chip.simulator.slave(1))->actuator()->word(), 0x30U + frame);
+      EXPECT_EQ(clocked(chip.simulator.slave(6))->actuator()->word(),
                 (0xA1B2C3D4E5F6ULL * frame) & 0xFFFFFFFFFFFFULL);
       EXPECT_EQ(chip.scdata(2, 24), 0xC0FFEEU);
       EXPECT_EQ(chip.scdata(5, 40), 0x123456789AULL);
-      EXPECT_EQ(chip.simulator.slave(1)->last_cdm(), cdm);
+      EXPECT_EQ(clocked(chip.simulator.slave(1))->last_cdm(), cdm);
       EXPECT_EQ(chip.status(), reg::kResetStatus0);
     }
   }
@@ -238,7 +242,7 @@ TEST(ChipMo, HostWritesItsBank_TheNextSwitchHandsItOver) {
     if (x == 15) text += channel(2) + actuator(16);
     ProtocolChip chip(text, {.freqs = 3, .en_mo = true});
     const unsigned channel_number = x == 15 ? 5 : x;
-    const auto* received = chip.simulator.slave(channel_number)->actuator();
+    const auto* received = clocked(chip.simulator.slave(channel_number))->actuator();
     chip.write_scdata(channel_number, 0x1111);
     ASSERT_TRUE(chip.frame());
     EXPECT_EQ(received->word(), 0U) << x;
@@ -262,10 +266,10 @@ TEST(ChipMo, CableLongerThanTheFrame_WordArrives) {
                       {.freqs = 0, .en_mo = true});
     write_both_banks(chip, 2, 0xC3);
     ASSERT_TRUE(chip.frame());
-    EXPECT_EQ(chip.simulator.slave(2)->actuator()->word(), 0xC3U) << delay_ns;
-    EXPECT_EQ(chip.simulator.slave(2)->actuator()->words(), 1U) << delay_ns;
+    EXPECT_EQ(clocked(chip.simulator.slave(2))->actuator()->word(), 0xC3U) << delay_ns;
+    EXPECT_EQ(clocked(chip.simulator.slave(2))->actuator()->words(), 1U) << delay_ns;
     EXPECT_EQ(chip.scdata(1, 8), 0x5AU) << delay_ns;
-    EXPECT_EQ(chip.simulator.line(1)->monitor().last(chip.simulator.now()).rising,
+    EXPECT_EQ(clocked(chip.simulator.line(1))->monitor().last(chip.simulator.now()).rising,
               8U + 6 + 1 + 8 + 6 + 5)
         << delay_ns;
   }
@@ -293,9 +297,9 @@ TEST(ChipMo, SensorsThatAnswerLate_SeeNoHighLevelAfterTheirSlots) {
         EXPECT_EQ(chip.scdata(1, 8), 0x5AU) << delay_ns;
         EXPECT_EQ(chip.scdata(2, 5), 0x15U) << delay_ns;
         EXPECT_EQ(chip.status(), reg::kResetStatus0) << delay_ns;
-        EXPECT_EQ(chip.simulator.slave(1)->last_cdm(), cdm) << delay_ns;
-        EXPECT_EQ(chip.simulator.slave(2)->last_cdm(), cdm) << delay_ns;
-        EXPECT_EQ(chip.simulator.slave(1)->cdm_count(), frame) << delay_ns;
+        EXPECT_EQ(clocked(chip.simulator.slave(1))->last_cdm(), cdm) << delay_ns;
+        EXPECT_EQ(clocked(chip.simulator.slave(2))->last_cdm(), cdm) << delay_ns;
+        EXPECT_EQ(clocked(chip.simulator.slave(1))->cdm_count(), frame) << delay_ns;
         // 0 with the acknowledge, the start bit, 0 up to the last rising edge at least.
         ASSERT_EQ(chip.mo[0].size(), 4U) << delay_ns;
         const auto& ma = chip.ma[0];
@@ -493,7 +497,7 @@ TEST(ChipMo, EnMoClearedInAFrame_WordArrives) {
   write_both_banks(chip, 1, kWord);
   const std::uint8_t ctrl = chip.read(reg::kAddrCtrl);
   for (unsigned phase = 40; phase < 300; ++phase) {
-    const auto words = chip.simulator.slave(1)->actuator()->words();
+    const auto words = clocked(chip.simulator.slave(1))->actuator()->words();
     chip.write(reg::kAddrCtrl, {ctrl});
     chip.advance_us(40);
     chip.instruct(reg::kInstrCdm0);
@@ -501,8 +505,8 @@ TEST(ChipMo, EnMoClearedInAFrame_WordArrives) {
     chip.write(reg::kAddrCtrl, {static_cast<std::uint8_t>(ctrl & ~reg::kEnMoData)});
     ASSERT_TRUE(chip.wait_eot()) << phase;
     chip.advance_us(40);  // the actuator takes the word in its timeout
-    EXPECT_EQ(chip.simulator.slave(1)->actuator()->words(), words + 1) << phase;
-    EXPECT_EQ(chip.simulator.slave(1)->actuator()->word(), kWord) << phase;
+    EXPECT_EQ(clocked(chip.simulator.slave(1))->actuator()->words(), words + 1) << phase;
+    EXPECT_EQ(clocked(chip.simulator.slave(1))->actuator()->word(), kWord) << phase;
   }
 }
 
@@ -549,7 +553,7 @@ TEST(ChipMo, FramesWithBothKindsOfAcknowledge) {
       for (unsigned frame = 1; frame <= 3; ++frame) {
         write_both_banks(chip, 2, 0x30 + frame);
         ASSERT_TRUE(chip.frame()) << kinds << " " << step;
-        EXPECT_EQ(chip.simulator.slave(2)->actuator()->word(), 0x30U + frame);
+        EXPECT_EQ(clocked(chip.simulator.slave(2))->actuator()->word(), 0x30U + frame);
         EXPECT_EQ(chip.scdata(1, 9), 0x155U) << kinds << " " << step;
         EXPECT_EQ(chip.scdata(3, 12), 0xABCU) << kinds << " " << step;
         EXPECT_EQ(chip.svalid(), valid({1, 3})) << kinds << " " << step;

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "sim/lines/biss/biss_b_slave.hpp"
+#include "sim/lines/clocked/clocked_line.hpp"
 #include "tests/support/protocol_chip.hpp"
 
 namespace {
@@ -42,10 +43,10 @@ bool access_ends(ProtocolChip& chip) {
 
 // SL has this level for this time, whatever the slave sends.
 void hold_sl(ProtocolChip& chip, bool level, sim::Time time) {
-  chip.simulator.line(1)->faults().stick(level);
+  clocked(chip.simulator.line(1))->faults().stick(level);
   chip.simulator.refresh_lines();
   chip.simulator.advance(time);
-  chip.simulator.line(1)->faults().stick(std::nullopt);
+  clocked(chip.simulator.line(1))->faults().stick(std::nullopt);
   chip.simulator.refresh_lines();
 }
 
@@ -71,7 +72,7 @@ TEST_P(BissBUnderAgsmin, FramesGoOnBehindTheRegisterTimeout) {
       chip.instruct(reg::kAgsOn | reg::kInstrControl);
       ASSERT_TRUE(chip.simulator.run_while_waiting(
           [&] {
-            return !slave(chip).in_register_mode() && chip.simulator.line(1)->sl() &&
+            return !slave(chip).in_register_mode() && clocked(chip.simulator.line(1))->sl() &&
                    (write ? counters.writes : counters.reads) == value + 1;
           },
           chip.simulator.now() + 2000 * sim::kPsPerUs))
@@ -111,7 +112,7 @@ TEST(ChipBissBAgs, AccessWithAnError_FramesGoOnBehindTheRegisterTimeout) {
         ASSERT_TRUE(chip.simulator.run_while_waiting([&] { return slave(chip).in_register_mode(); },
                                                      chip.simulator.now() + 100 * sim::kPsPerUs));
         chip.simulator.advance((20 + value / 2) * chip.t_mar);
-        hold_sl(chip, !chip.simulator.line(1)->sl(), chip.t_mar);
+        hold_sl(chip, !clocked(chip.simulator.line(1))->sl(), chip.t_mar);
       }
       ASSERT_TRUE(access_ends(chip));
       EXPECT_EQ(chip.status() & (reg::nREGERR::kMask | reg::REGEND::kMask), reg::kRegendDone)
@@ -160,7 +161,7 @@ TEST(ChipBissBAgs, SlInTheStopBitOfAWrite_IsNotLookedAt) {
   // The stop bit of the first byte comes back in the next cell, the first of the second byte.
   ASSERT_TRUE(ma_rises(chip, kAddressCells + kByteCells + 1));
   chip.simulator.advance(chip.t_mar / 2);
-  ASSERT_FALSE(chip.simulator.line(1)->sl());
+  ASSERT_FALSE(clocked(chip.simulator.line(1))->sl());
   hold_sl(chip, true, chip.t_mar);
   ASSERT_TRUE(access_ends(chip));
   EXPECT_EQ(chip.status(), reg::kResetStatus0 | reg::kRegendDone);

@@ -7,6 +7,7 @@
 #include <algorithm>
 
 #include "sim/lines/biss/biss_b_slave.hpp"
+#include "sim/lines/clocked/clocked_line.hpp"
 #include "tests/support/bits.hpp"
 #include "tests/support/protocol_chip.hpp"
 
@@ -297,13 +298,13 @@ TEST(ChipBissB, WrongCrcAndSilentSlave_AreReported) {
 // No hand-over: nAGSERR = 0 (decision 7); BREAK and the next frame work.
 TEST(ChipBissB, NoHandOver_IsAnAgsError) {
   ProtocolChip chip(channel() + slave(0, 0), {.freqs = 0, .freqr = 0, .biss_c_registers = false});
-  chip.simulator.line(1)->faults().stick(true);
+  clocked(chip.simulator.line(1))->faults().stick(true);
   chip.set_access(0, 0x10, 1, false);
   ASSERT_TRUE(chip.run(reg::kInstrControl, 10'000));
   EXPECT_EQ(chip.status() & (reg::nAGSERR::kMask | reg::nDELAYERR::kMask | reg::nREGERR::kMask |
                              reg::REGEND::kMask | reg::EOT::kMask),
             unsigned{reg::kNdelayerrGood | reg::kNregerrGood | reg::kRegendDone | reg::kEotIdle});
-  chip.simulator.line(1)->faults().stick(std::nullopt);
+  clocked(chip.simulator.line(1))->faults().stick(std::nullopt);
   chip.simulator.refresh_lines();
   chip.instruct(reg::kBreakAbort);
   chip.advance_us(100);

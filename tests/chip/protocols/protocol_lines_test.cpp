@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "sim/lines/biss/biss_b_slave.hpp"
+#include "sim/lines/clocked/clocked_line.hpp"
 #include "tests/support/protocol_chip.hpp"
 
 namespace {
@@ -140,7 +141,7 @@ TEST(ProtocolLines, BissBInit_WaitsForBothLinesAndGivesUp) {
     EXPECT_LE(chip.ma[line][1].time - chip.ma[line][0].time, 42 * sim::kPsPerUs);
   }
   for (const unsigned stuck : {1U, 2U}) {
-    chip.simulator.line(stuck)->faults().stick(true);
+    clocked(chip.simulator.line(stuck))->faults().stick(true);
     ASSERT_TRUE(chip.run(reg::kInitStart, 10'000)) << stuck;
     EXPECT_EQ(chip.status(), reg::kResetStatus0 & ~(reg::nERR::kMask | reg::nAGSERR::kMask))
         << stuck;  // nAGSERR and nERR
@@ -149,7 +150,7 @@ TEST(ProtocolLines, BissBInit_WaitsForBothLinesAndGivesUp) {
     const sim::Time low = chip.ma[0][1].time - chip.ma[0][0].time;
     EXPECT_GE(low, 4096 * chip.t_mar) << stuck;
     EXPECT_LE(low, 4098 * chip.t_mar) << stuck;
-    chip.simulator.line(stuck)->faults().stick(std::nullopt);
+    clocked(chip.simulator.line(stuck))->faults().stick(std::nullopt);
     chip.simulator.refresh_lines();
     chip.advance_us(2000);
   }
@@ -166,7 +167,7 @@ TEST(ProtocolLines, InitOfSsi_MovesNoLine) {
   EXPECT_EQ(mixed.ma[1].size(), 4U);
   EXPECT_EQ(mixed.status(), reg::kResetStatus0);
   ProtocolChip alone(channel(1, "ssi"), {.freqs = 4, .freqags = 0x00});
-  alone.simulator.line(1)->faults().stick(false);
+  clocked(alone.simulator.line(1))->faults().stick(false);
   alone.simulator.refresh_lines();
   alone.instruct(reg::kInstrCdm0);
   alone.advance_us(10);

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 
+#include "sim/lines/clocked/clocked_line.hpp"
 #include "sim/lines/registers/control_slave.hpp"
 #include "tests/support/bits.hpp"
 #include "tests/support/protocol_chip.hpp"
@@ -66,7 +67,7 @@ TEST_P(SsiFrames, EveryDelay_WordIsRightAndMaIsLPlusOne) {
       EXPECT_EQ(chip.scdata(1, bits), expected) << delay.response << " " << delay.cable;
       EXPECT_EQ(chip.svalid(), 2U);
       EXPECT_EQ(chip.status(), reg::kResetStatus0);
-      const auto ma = chip.simulator.line(1)->monitor().last(chip.simulator.now());
+      const auto ma = clocked(chip.simulator.line(1))->monitor().last(chip.simulator.now());
       EXPECT_EQ(ma.rising, bits + 1);
     }
   }
@@ -145,7 +146,7 @@ TEST(ChipSsi, WithCrc_IsChecked) {
   EXPECT_EQ(chip.scdata(1, 24), 0xC0FFEEU);
   EXPECT_EQ(chip.status(), reg::kResetStatus0);
   for (const unsigned bit : {0U, 11U, 23U, 24U, 29U}) {
-    chip.simulator.line(1)->faults().flip_next_frame({bit});
+    clocked(chip.simulator.line(1))->faults().flip_next_frame({bit});
     ASSERT_TRUE(chip.frame());
     EXPECT_EQ(chip.status() & (reg::nERR::kMask | reg::nSCDERR::kMask), 0U) << bit;
     EXPECT_EQ(chip.svalid(), 0U) << bit;
@@ -188,8 +189,8 @@ TEST(ChipSsi, ExtendedSsi_SendsCdmBehindTheFrame) {
   unsigned count = 0;
   for (const bool cdm : {true, false, true, true, false}) {
     ASSERT_TRUE(chip.frame(cdm ? reg::kInstrCdm1 : reg::kInstrCdm0));
-    EXPECT_EQ(chip.simulator.slave(1)->last_cdm(), cdm);
-    EXPECT_EQ(chip.simulator.slave(1)->cdm_count(), ++count);
+    EXPECT_EQ(clocked(chip.simulator.slave(1))->last_cdm(), cdm);
+    EXPECT_EQ(clocked(chip.simulator.slave(1))->cdm_count(), ++count);
     EXPECT_EQ(chip.scdata(1, 13), 0x1234U);
     EXPECT_TRUE(chip.simulator.pin(sim::Pin::kMa1));
   }
@@ -207,7 +208,7 @@ TEST(ChipSsi, ExtendedSsi_WritesRegistersBlind) {
     for (unsigned i = 0; i < count; ++i) {
       EXPECT_EQ(chip.simulator.slave(1)->reg_read(static_cast<std::uint8_t>(0x30 + i)), bytes[i]);
     }
-    const auto& counters = chip.simulator.slave(1)->control()->counters();
+    const auto& counters = clocked(chip.simulator.slave(1))->control()->counters();
     EXPECT_EQ(counters.writes, count);
     EXPECT_EQ(counters.header_errors + counters.data_errors + counters.protocol_errors, 0U);
     EXPECT_EQ(host.status() & (reg::nAGSERR::kMask | reg::nDELAYERR::kMask | reg::nSCDERR::kMask |
@@ -236,7 +237,7 @@ TEST(ChipSsi, ExtendedSsi_CannotRead) {
 // Page 30: a line that is low is not ready.
 TEST(ChipSsi, SlLow_GivesAgsErrorUnlessAgsmin) {
   ProtocolChip chip(encoder(13, "data = 0x1234"), {.freqs = 9, .freqags = 0x00});
-  chip.simulator.line(1)->faults().stick(false);
+  clocked(chip.simulator.line(1))->faults().stick(false);
   chip.simulator.refresh_lines();
   chip.instruct(reg::kInstrCdm0);
   chip.advance_us(100);

@@ -4,7 +4,8 @@
 
 #include <algorithm>
 
-#include "sim/lines/actuator.hpp"
+#include "sim/lines/clocked/actuator.hpp"
+#include "sim/lines/clocked/clocked_line.hpp"
 #include "tests/support/bits.hpp"
 
 namespace mb4test {
@@ -32,7 +33,8 @@ void RandomRun::wait_idle() {
   auto& simulator = session_.simulator();
   // SL alone may still show the last data bit.
   const auto ended = [&](unsigned line, sim::Pin sl) {
-    return !case_.used[line - 1] || (simulator.line(line)->chain().idle() && simulator.pin(sl));
+    return !case_.used[line - 1] ||
+           (clocked(simulator.line(line))->chain().idle() && simulator.pin(sl));
   };
   const bool idle = session_.wait_until(
       [&] {
@@ -90,7 +92,8 @@ void RandomRun::check_actuators() {
       const std::size_t slot = at;
       at += sensor.slot_bits();
       if (!sensor.actuator || !case_.used[line] || applied_ == 0) continue;
-      const sim::Actuator& actuator = *session_.simulator().slave(sensor.slave)->actuator();
+      const sim::Actuator& actuator =
+          *clocked(session_.simulator().slave(sensor.slave))->actuator();
       const std::uint64_t word =
           from_bits(mo_[line].substr(slot + (sensor.stop_bit ? 1 : 0), sensor.bits));
       const std::string which = "actuator " + std::to_string(sensor.slave) + ": ";
@@ -194,7 +197,8 @@ void RandomRun::instr_frame(unsigned hold) {
     // BiSS B has no CDM.
     if (!case_.used[line] || case_.protocol(line) == mb4test::Protocol::kBissB) continue;
     const bool cdm = instr != 2 && ((lines >> line) & 1U) != 0;
-    expect(session_.simulator().slave(line == 0 ? 1 : 5)->last_cdm() == cdm, "CDM of the frame");
+    expect(clocked(session_.simulator().slave(line == 0 ? 1 : 5))->last_cdm() == cdm,
+           "CDM of the frame");
   }
   const unsigned held = swbank_ | hold;
   expect(session_.read(reg::kAddrInstr, 1)[0] == held, "0xF4 after the frame");

@@ -9,6 +9,7 @@
 
 #include <string>
 
+#include "sim/lines/clocked/clocked_line.hpp"
 #include "sim/lines/registers/control_slave.hpp"
 #include "tests/support/control_host.hpp"
 
@@ -295,7 +296,7 @@ TEST(ConfigChange, FieldsOfAnAccess_CountAsItWasStarted) {
         if (ags) {
           chip.instruct(reg::kInstrControl | reg::kAgsOn);
           chip.simulator.run_while_waiting(
-              [&] { return chip.simulator.slave(1)->cdm_count() >= frame; },
+              [&] { return clocked(chip.simulator.slave(1))->cdm_count() >= frame; },
               chip.simulator.now() + 1000 * sim::kPsPerUs);
           ASSERT_NO_THROW(chip.write(change.address, {change.value})) << what;
           for (unsigned look = 0; look < 200 && !ended; ++look) {
@@ -312,8 +313,8 @@ TEST(ConfigChange, FieldsOfAnAccess_CountAsItWasStarted) {
                   (reg::kResetStatus0 & ~reg::EOT::kMask) | reg::kRegendDone)
             << what;
         EXPECT_EQ(host.rdata(3), (std::vector<std::uint8_t>{0x11, 0x12, 0xE3})) << what;
-        EXPECT_EQ(chip.simulator.slave(1)->control()->counters().starts, 1U) << what;
-        EXPECT_EQ(chip.simulator.slave(5)->control()->counters().starts, 0U) << what;
+        EXPECT_EQ(clocked(chip.simulator.slave(1))->control()->counters().starts, 1U) << what;
+        EXPECT_EQ(clocked(chip.simulator.slave(5))->control()->counters().starts, 0U) << what;
         if (testing::Test::HasFailure()) return;
       }
     }
@@ -340,11 +341,11 @@ TEST(ConfigChange, FieldsOfACommand_CountAsItWasStarted) {
         ASSERT_NO_THROW(frames = host.run_single(100)) << what;
         EXPECT_EQ(frame + frames, 14U + (tested ? 26U : 25U)) << what;
         EXPECT_EQ(host.status(), kAllGood) << what;
-        const auto& control = *chip.simulator.slave(1)->control();
+        const auto& control = *clocked(chip.simulator.slave(1))->control();
         EXPECT_EQ(control.counters().commands, 1U) << what;
         EXPECT_EQ(control.last_command().ids, 0x80) << what;
         EXPECT_EQ(control.last_command().code, 2) << what;
-        EXPECT_EQ(chip.simulator.slave(5)->control()->counters().commands, 0U) << what;
+        EXPECT_EQ(clocked(chip.simulator.slave(5))->control()->counters().commands, 0U) << what;
         if (testing::Test::HasFailure()) return;
       }
     }

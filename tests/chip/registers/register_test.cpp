@@ -4,6 +4,7 @@
 // Register map through SPI: datasheet pages 21, 22 (Table 6) and the tables of each register.
 #include <gtest/gtest.h>
 
+#include "sim/lines/clocked/clocked_line.hpp"
 #include "tests/support/chip_fixture.hpp"
 
 namespace {
@@ -126,8 +127,9 @@ TEST(ChipRegisters, Entest_ReadsBackAndChangesNothing) {
     }
     EXPECT_EQ(chip.read(reg::kAddrScdata, 4), (std::vector<std::uint8_t>{0x67, 0x45, 0x23, 0x01}));
     EXPECT_EQ(chip.read(reg::kAddrSvalidLo), reg::SVALID<1>::kMask);
-    EXPECT_EQ(chip.simulator.line(1)->monitor().last(chip.simulator.now()).rising, 28U + 6 + 5);
-    EXPECT_TRUE(chip.simulator.slave(1)->last_cdm());
+    EXPECT_EQ(clocked(chip.simulator.line(1))->monitor().last(chip.simulator.now()).rising,
+              28U + 6 + 5);
+    EXPECT_TRUE(clocked(chip.simulator.slave(1))->last_cdm());
     EXPECT_EQ(chip.read(reg::kAddrIface), entest);
   }
 }
@@ -412,7 +414,7 @@ TEST(ChipBanks, TwoLines_UnequalLengthsEndTogether) {
   chip.write(reg::kAddrSlaveloc5, {reg::kResetSlaveloc5, reg::kCfgch2BissC | reg::kCfgch1BissC});
   chip.instruct(reg::kInstrCdm0);
   ASSERT_TRUE(chip.wait_eot());
-  EXPECT_EQ(chip.simulator.line(2)->monitor().frames(), 0U);
+  EXPECT_EQ(clocked(chip.simulator.line(2))->monitor().frames(), 0U);
   EXPECT_EQ(chip.read(reg::kAddrSvalidLo), reg::SVALID<1>::kMask);
   chip.write(reg::slave_cfg_address(5), {reg::kEnscdYes | 49});
   chip.write(reg::kAddrSlaveloc5, {reg::kResetSlaveloc5 | reg::kSlaveloc5Split,
@@ -423,7 +425,7 @@ TEST(ChipBanks, TwoLines_UnequalLengthsEndTogether) {
   }
   EXPECT_EQ(chip.read(reg::kAddrSvalidLo, 2),
             (std::vector<std::uint8_t>{reg::SVALID<1>::kMask, 0}));
-  EXPECT_EQ(chip.simulator.line(2)->monitor().frames(), 0U);
+  EXPECT_EQ(clocked(chip.simulator.line(2))->monitor().frames(), 0U);
   chip.write(reg::kAddrCfgch, {reg::kCfgch2BissC | reg::kCfgch1BissC});
   chip.instruct(reg::kInstrCdm0);
   ASSERT_TRUE(chip.wait_eot());
@@ -448,7 +450,7 @@ TEST(ChipBanks, Slaveloc5_SaysWhichLineChannels5To8AreOn) {
                {static_cast<std::uint8_t>(second_line ? reg::kResetSlaveloc5 | reg::kSlaveloc5Split
                                                       : reg::kResetSlaveloc5),
                 reg::kCfgch2BissC | reg::kCfgch1BissC});
-    const auto frames = chip.simulator.line(2)->monitor().frames();
+    const auto frames = clocked(chip.simulator.line(2))->monitor().frames();
     chip.instruct(reg::kInstrCdm0);
     ASSERT_TRUE(chip.wait_eot());
     chip.advance_us(50);
@@ -458,8 +460,8 @@ TEST(ChipBanks, Slaveloc5_SaysWhichLineChannels5To8AreOn) {
     EXPECT_EQ(chip.read(reg::scdata_address(5), 3),
               second_line ? (std::vector<std::uint8_t>{0xB5, 0xB5, 0x05})
                           : (std::vector<std::uint8_t>{0x5A, 0x5A, 0x0A}));
-    EXPECT_EQ(chip.simulator.line(2)->monitor().frames(), frames + (second_line ? 1 : 0));
-    EXPECT_EQ(chip.simulator.line(1)->monitor().last(chip.simulator.now()).rising,
+    EXPECT_EQ(clocked(chip.simulator.line(2))->monitor().frames(), frames + (second_line ? 1 : 0));
+    EXPECT_EQ(clocked(chip.simulator.line(1))->monitor().last(chip.simulator.now()).rising,
               second_line ? 28U + 6 + 5 : 28U + 6 + 20 + 5 + 5);
     EXPECT_EQ(chip.status(), reg::kResetStatus0);
   }
@@ -484,7 +486,8 @@ TEST(ChipBanks, LineNotUsed_KeepsQuietAndTheOtherWorks) {
       chip.write(static_cast<std::uint8_t>(x), {0xE0, 0xE1, 0xE2, 0xE3});
     }
     for (const unsigned line : {1U, 2U}) {
-      if (((unused >> (line - 1)) & 1U) != 0) chip.simulator.line(line)->faults().stick(false);
+      if (((unused >> (line - 1)) & 1U) != 0)
+        clocked(chip.simulator.line(line))->faults().stick(false);
     }
     chip.simulator.refresh_lines();
     for (const unsigned instruction : {reg::kInstrCdm0, reg::kInstrCdm1, reg::kInitStart}) {
@@ -505,7 +508,7 @@ TEST(ChipBanks, LineNotUsed_KeepsQuietAndTheOtherWorks) {
       chip.advance_us(50);
     }
     for (const unsigned line : {1U, 2U}) {
-      EXPECT_EQ(chip.simulator.line(line)->monitor().frames(),
+      EXPECT_EQ(clocked(chip.simulator.line(line))->monitor().frames(),
                 ((unused >> (line - 1)) & 1U) != 0 ? 0U : 3U)
           << unused;
     }
@@ -632,8 +635,8 @@ TEST(ChipReset, OnlyLengthWritten_TheFrameHasNoCrc) {
   chip.write(reg::kAddrCfgch, {reg::kCfgch2Unused | reg::kCfgch1BissC});
   chip.instruct(reg::kInitStart);  // INIT
   ASSERT_TRUE(chip.wait_eot());
-  EXPECT_EQ(chip.simulator.line(1)->monitor().frames(), 1U);
-  EXPECT_EQ(chip.simulator.line(1)->monitor().last(chip.simulator.now()).rising, 2U);
+  EXPECT_EQ(clocked(chip.simulator.line(1))->monitor().frames(), 1U);
+  EXPECT_EQ(clocked(chip.simulator.line(1))->monitor().last(chip.simulator.now()).rising, 2U);
   EXPECT_EQ(chip.read(reg::kAddrScdata), 1) << "the line delay";
   chip.advance_us(40);
   chip.instruct(reg::kInstrCdm1);

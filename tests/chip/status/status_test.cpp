@@ -6,6 +6,7 @@
 // control communication have tests of their own.
 #include <gtest/gtest.h>
 
+#include "sim/lines/clocked/clocked_line.hpp"
 #include "tests/support/chip_fixture.hpp"
 
 namespace {
@@ -23,11 +24,11 @@ void frame(Chip& chip, std::uint8_t instruction = reg::kInstrCdm0) {
 }
 // Bit 1 on the wire is CDS: a slave of this version sends 0.
 void frame_with_cds(Chip& chip, unsigned line, std::uint8_t instruction = reg::kInstrCdm0) {
-  chip.simulator.line(line)->faults().flip_next_frame({1});
+  clocked(chip.simulator.line(line))->faults().flip_next_frame({1});
   frame(chip, instruction);
 }
 void frame_with_wrong_crc(Chip& chip) {
-  chip.simulator.line(1)->faults().flip_next_frame({7});
+  clocked(chip.simulator.line(1))->faults().flip_next_frame({7});
   frame(chip);
 }
 // Two lines with a sensor of 28 bits each: data channels 1 and 5.
@@ -105,14 +106,14 @@ TEST(ChipStatus, Nagserr_MissedFrameSetsItInitAndBreakClearIt) {
   Chip chip(one_slave(kEncoder26));
   chip.configure_slave1(28, reg::kScrclenCrc6, 0x00, 0x00);
   for (const unsigned clear : {reg::kInitStart, reg::kBreakAbort}) {
-    chip.simulator.line(1)->faults().stick(false);
+    clocked(chip.simulator.line(1))->faults().stick(false);
     chip.simulator.refresh_lines();
     chip.advance_us(1);
     frame(chip);
     EXPECT_EQ(chip.status(), reg::kResetStatus0 & ~(reg::nERR::kMask | reg::nAGSERR::kMask))
         << "nERR = nAGSERR = 0";
     EXPECT_FALSE(chip.simulator.pin(sim::Pin::kNer));
-    chip.simulator.line(1)->faults().stick(std::nullopt);
+    clocked(chip.simulator.line(1))->faults().stick(std::nullopt);
     chip.simulator.refresh_lines();
     chip.advance_us(1);
     frame(chip);
@@ -175,7 +176,7 @@ TEST(ChipStatus, EverySvalid_HasItsOwnBit) {
     };
     frame(chip);
     EXPECT_EQ(flags(), 0xAAAA);
-    chip.simulator.line(1)->faults().flip_next_frame({2 + 10 * x + 5});
+    clocked(chip.simulator.line(1))->faults().flip_next_frame({2 + 10 * x + 5});
     frame(chip);
     EXPECT_EQ(flags(), 0xAAAA & ~bit) << "wrong CRC of slave " << x + 1;
     frame(chip);
@@ -197,7 +198,7 @@ TEST(ChipStatus, CdsBits_FollowTheirLineAndChsel) {
     for (unsigned pattern = 0; pattern < 4; ++pattern) {
       for (const unsigned line : {1U, 2U}) {
         if (((pattern >> (line - 1)) & 1U) != 0) {
-          chip.simulator.line(line)->faults().flip_next_frame({1});
+          clocked(chip.simulator.line(line))->faults().flip_next_frame({1});
         }
       }
       frame(chip);
@@ -254,7 +255,7 @@ TEST(ChipStatus, CdsUnderSwbank_SwitchesWithTheBank) {
     // The host has the bank of CDS = 0. After the inversion in the frame it has that of CDS = 1;
     // the frame ends in the other one, and the switch at its end shows its CDS.
     for (const bool high : {true, false}) {
-      if (high) chip.simulator.line(line)->faults().flip_next_frame({1});
+      if (high) clocked(chip.simulator.line(line))->faults().flip_next_frame({1});
       chip.instruct(swbank | reg::kInstrCdm0);
       chip.advance_us(2);
       swbank ^= reg::SWBANK::kMask;
@@ -323,8 +324,9 @@ TEST(ChipInstr, CdmNotCdssel_IsTheInverseOfTheCdsOfTheFrame) {
       EXPECT_EQ((chip.read(reg::kAddrStatus3) & reg::CDSSEL::kMask) != 0, cds) << "CDSSEL";
       chip.advance_us(10);
       EXPECT_EQ(chip.simulator.slave(1)->frames(), frames + 1);
-      EXPECT_EQ(chip.simulator.slave(1)->last_cdm(), chsel != 2 && !cds) << chsel;
-      EXPECT_EQ(chip.simulator.slave(5)->last_cdm(), chsel == 3 || (chsel == 2 && !cds)) << chsel;
+      EXPECT_EQ(clocked(chip.simulator.slave(1))->last_cdm(), chsel != 2 && !cds) << chsel;
+      EXPECT_EQ(clocked(chip.simulator.slave(5))->last_cdm(), chsel == 3 || (chsel == 2 && !cds))
+          << chsel;
     }
   }
 }

@@ -9,6 +9,7 @@
 #include <optional>
 #include <string>
 
+#include "sim/lines/clocked/clocked_line.hpp"
 #include "tests/support/chip_fixture.hpp"
 
 namespace {
@@ -89,7 +90,7 @@ TEST(DriverFrame, EightSlaves_AllReadInOneFrame) {
 TEST(DriverFrame, OneSlaveBad_OthersAreGood) {
   Chip chip(kThree);
   ASSERT_TRUE(chip.device.configure(three(2'500'000)).ok());
-  chip.simulator.line(1)->faults().flip_next_frame({40});  // in the word of slave 2
+  clocked(chip.simulator.line(1))->faults().flip_next_frame({40});  // in the word of slave 2
   Frame frame;
   ASSERT_TRUE(chip.device.read_all(frame).ok());
   EXPECT_TRUE(frame[1].ok());
@@ -213,10 +214,10 @@ TEST(DriverAutomaticNext, LineStuckLow_LineErrorThenRecovers) {
   ASSERT_TRUE(chip.device.automatic().start().ok());
   Frame frame;
   ASSERT_TRUE(chip.device.automatic().next(frame).ok());
-  chip.simulator.line(1)->faults().stick(false);
+  clocked(chip.simulator.line(1))->faults().stick(false);
   chip.simulator.refresh_lines();
   EXPECT_EQ(chip.device.automatic().next(frame).error(), Error::kLineError);
-  chip.simulator.line(1)->faults().stick(std::nullopt);
+  clocked(chip.simulator.line(1))->faults().stick(std::nullopt);
   chip.simulator.refresh_lines();
   ASSERT_TRUE(chip.device.automatic().next(frame).ok());
   EXPECT_TRUE(frame[1].ok());
@@ -239,7 +240,7 @@ TEST(DriverAutomaticNext, BadFrame_IsCrcAndTheNextIsGood) {
       ++bad;
     }
     // The slowest rate of reading still meets every fourth bad frame or so: mark many.
-    if (i < 5) chip.simulator.line(1)->faults().flip_next_frame({9});
+    if (i < 5) clocked(chip.simulator.line(1))->faults().flip_next_frame({9});
   }
   EXPECT_LE(bad, 5U);
 }

@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <string>
 
+#include "sim/lines/clocked/clocked_line.hpp"
 #include "sim/lines/registers/control_slave.hpp"
 #include "tests/driver/rtl/fault_bus.hpp"
 #include "tests/support/chip_fixture.hpp"
@@ -41,9 +42,11 @@ Config bus_config() {
 
 class DriverActivate : public testing::TestWithParam<SpiCheck> {
  protected:
-  bool on(unsigned number) { return chip.simulator.slave(number)->control()->data_active(); }
+  bool on(unsigned number) {
+    return clocked(chip.simulator.slave(number))->control()->data_active();
+  }
   bool listens(unsigned number) {
-    return chip.simulator.slave(number)->control()->control_active();
+    return clocked(chip.simulator.slave(number))->control()->control_active();
   }
   // All slaves have their data off, and slave 2 no longer takes part in control communication.
   void switch_off() {

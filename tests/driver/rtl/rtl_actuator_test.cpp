@@ -8,7 +8,8 @@
 #include <cstdint>
 #include <string>
 
-#include "sim/lines/actuator.hpp"
+#include "sim/lines/clocked/actuator.hpp"
+#include "sim/lines/clocked/clocked_line.hpp"
 #include "tests/driver/rtl/protocol_bus.hpp"
 
 namespace {
@@ -64,7 +65,7 @@ TEST_P(DriverActuator, EveryPosition_TakesTheWordAndKeepsIt) {
     }
     FaultyChip chip(scenario);
     ASSERT_TRUE(chip.device.configure(config).ok());
-    auto* actuator = chip.simulator.slave(position)->actuator();
+    auto* actuator = clocked(chip.simulator.slave(position))->actuator();
     for (const std::uint64_t seed : {0x9E3779B97F4A7C15ULL, 0x6A09E667F3BCC908ULL}) {
       const std::uint64_t word = low_bits(seed, bits);
       const mb4::Result<void> written =
@@ -102,7 +103,7 @@ TEST(DriverActuatorLoop, AutomaticFrames_CarryWholeWords) {
   config.frame_start = mb4::FrameStart::kPeriodic;
   config.frame_period_clk = 2000;  // 100 us
   ASSERT_TRUE(chip.device.configure(config).ok());
-  auto* actuator = chip.simulator.slave(1)->actuator();
+  auto* actuator = clocked(chip.simulator.slave(1))->actuator();
   ASSERT_TRUE(chip.device.write_actuator(1, 0).ok());
   ASSERT_TRUE(chip.device.automatic().start().ok());
   std::uint64_t last = 0;
@@ -152,8 +153,8 @@ TEST(DriverActuatorLoop, BothChannels_TakeTheirOwnWords) {
     ASSERT_TRUE(reading.ok());
     EXPECT_EQ(reading->position, 0x2ABCDEFU);
     chip.simulator.advance(50 * mb4::sim::kPsPerUs);
-    EXPECT_EQ(chip.simulator.slave(1)->actuator()->word(), 0x5AU);
-    EXPECT_EQ(chip.simulator.slave(5)->actuator()->word(), 0xFEDCBA9876U);
+    EXPECT_EQ(clocked(chip.simulator.slave(1))->actuator()->word(), 0x5AU);
+    EXPECT_EQ(clocked(chip.simulator.slave(5))->actuator()->word(), 0xFEDCBA9876U);
   }
   // Registers of an actuator, as of any slave.
   const std::array<std::uint8_t, 2> bytes{1, 2};
@@ -171,10 +172,10 @@ TEST(DriverActuatorLoop, OnlyActuators_FramesRunAndErrorsShow) {
   Frame frame;
   ASSERT_TRUE(chip.device.read_all(frame).ok());
   chip.simulator.advance(50 * mb4::sim::kPsPerUs);
-  EXPECT_EQ(chip.simulator.slave(1)->actuator()->word(), 0xBEEFU);
+  EXPECT_EQ(clocked(chip.simulator.slave(1))->actuator()->word(), 0xBEEFU);
   config.frame_start = mb4::FrameStart::kRequireIdleLine;
   ASSERT_TRUE(chip.device.configure(config).ok());
-  chip.simulator.line(1)->faults().stick(false);
+  clocked(chip.simulator.line(1))->faults().stick(false);
   chip.simulator.refresh_lines();
   EXPECT_EQ(chip.device.read_all(frame).error(), Error::kLineError);
 }
@@ -254,7 +255,7 @@ TEST(DriverActuatorErrors, EachTransferDisturbed_IsAnErrorOrTheWordArrives) {
             automatic ? one.chip.device.automatic().next(frame) : one.chip.device.read_all(frame);
         EXPECT_TRUE(read.ok() && frame[2].ok());
         one.chip.simulator.advance(200 * mb4::sim::kPsPerUs);
-        EXPECT_EQ(one.chip.simulator.slave(1)->actuator()->word(), 0x123U);
+        EXPECT_EQ(clocked(one.chip.simulator.slave(1))->actuator()->word(), 0x123U);
       }
     }
   }
@@ -292,7 +293,7 @@ TEST(DriverActuatorErrors, EachTransferLost_SuccessMeansThatItArrives) {
       Frame frame;
       ASSERT_TRUE(one.chip.device.read_all(frame).ok());
       one.chip.simulator.advance(60 * mb4::sim::kPsPerUs);
-      EXPECT_EQ(one.chip.simulator.slave(1)->actuator()->word(), 0x5A5U) << index;
+      EXPECT_EQ(clocked(one.chip.simulator.slave(1))->actuator()->word(), 0x5A5U) << index;
     }
   }
 }

@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "sim/lines/clocked/clocked_line.hpp"
 #include "sim/lines/registers/control_slave.hpp"
 #include "tests/driver/rtl/fault_bus.hpp"
 #include "tests/support/chip_fixture.hpp"
@@ -111,7 +112,7 @@ class DriverAtRest : public testing::TestWithParam<Case> {
     return chip.device.automatic().poll_slave(1);
   }
   static const mb4::sim::ControlSlave& slave(FaultyChip& chip) {
-    return *chip.simulator.slave(1)->control();
+    return *clocked(chip.simulator.slave(1))->control();
   }
 };
 

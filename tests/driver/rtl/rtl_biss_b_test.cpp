@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "sim/lines/clocked/clocked_line.hpp"
 #include "tests/driver/rtl/protocol_bus.hpp"
 
 namespace {
@@ -135,12 +136,12 @@ TEST_P(DriverBissB, LineStuck_IsAnErrorAndComesBack) {
   FaultyChip chip(biss_b_bus(GetParam(), "registers = { 0x30 = 7 }"));
   configure(chip);
   std::array<std::uint8_t, 1> byte{};
-  chip.simulator.line(1)->faults().stick(true);
+  clocked(chip.simulator.line(1))->faults().stick(true);
   chip.simulator.refresh_lines();
   const Error read = chip.device.control().read_registers(slave(), 0x30, byte).error();
   EXPECT_TRUE(read == Error::kRegister || read == Error::kRegisterDelay) << static_cast<int>(read);
   EXPECT_EQ(chip.device.control().write_registers(slave(), 0x30, byte).error(), Error::kRegister);
-  chip.simulator.line(1)->faults().stick(std::nullopt);
+  clocked(chip.simulator.line(1))->faults().stick(std::nullopt);
   chip.simulator.refresh_lines();
   ASSERT_TRUE(chip.device.control().read_registers(slave(), 0x30, byte).ok());
   EXPECT_EQ(byte[0], 7);
@@ -238,11 +239,11 @@ TEST_P(DriverBissBInit, LineStuck_IsLineErrorAndComesBack) {
   FaultyChip chip(biss_b_bus(GetParam()));
   configure(chip);
   for (const bool level : {false, true}) {
-    chip.simulator.line(1)->faults().stick(level);
+    clocked(chip.simulator.line(1))->faults().stick(level);
     chip.simulator.refresh_lines();
     EXPECT_EQ(chip.device.initialize().error(), Error::kLineError) << level;
   }
-  chip.simulator.line(1)->faults().stick(std::nullopt);
+  clocked(chip.simulator.line(1))->faults().stick(std::nullopt);
   chip.simulator.refresh_lines();
   EXPECT_TRUE(chip.device.initialize().ok());
   EXPECT_TRUE(chip.device.read_frame().ok());

@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <optional>
 
+#include "sim/lines/clocked/clocked_line.hpp"
 #include "tests/driver/rtl/fault_bus.hpp"
 #include "tests/driver/rtl/rtl_calls.hpp"
 #include "tests/support/chip_fixture.hpp"
@@ -95,7 +96,7 @@ TEST(DriverCallErrors, FrameEndsBesideControl_IsBankSwitched) {
 TEST(DriverCallErrors, NoSlave_NextIsTimeout) {
   FaultyChip chip(kEncoder);
   prepare(chip, State::kAutomatic);
-  chip.simulator.line(1)->faults().stick(true);
+  clocked(chip.simulator.line(1))->faults().stick(true);
   chip.simulator.refresh_lines();
   Frame frame;
   mb4::Result<void> done = chip.device.automatic().next(frame);

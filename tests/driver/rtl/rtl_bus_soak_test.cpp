@@ -22,14 +22,13 @@
 #include <tuple>
 #include <vector>
 
-#include "sim/core/cable.hpp"
+#include "sim/lines/clocked/clocked_line.hpp"
 #include "sim/lines/line.hpp"
 #include "tests/driver/rtl/sweep_rig.hpp"
 
 namespace {
 
 using namespace mb4test;  // NOLINT: the rig
-using Action = sim::CableEvent::Action;
 
 std::uint64_t number(const char* name, std::uint64_t otherwise) {
   const char* text = std::getenv(name);
@@ -45,7 +44,7 @@ class Recorder {
   };
 
   explicit Recorder(sim::Simulator& simulator) : simulator_(simulator) {
-    simulator.line(1)->set_tap(&Recorder::tap, this);
+    clocked(simulator.line(1))->set_tap(&Recorder::tap, this);
   }
   void plug_moves() {
     if (frames_.empty() || simulator_.now() - last_edge_ > kGap) return;
@@ -76,12 +75,12 @@ class Recorder {
  private:
   static constexpr sim::Time kGap = 2 * sim::kPsPerUs;
 
-  static void tap(sim::Time now, void* self, sim::Line::Signal signal, bool level) {
+  static void tap(sim::Time now, void* self, sim::ClockedLine::Signal signal, bool level) {
     static_cast<Recorder*>(self)->take(now, signal, level);
   }
-  void take(sim::Time now, sim::Line::Signal signal, bool level) {
-    if (signal == sim::Line::Signal::kSl) sl_ = level;
-    if (signal != sim::Line::Signal::kMa || level == ma_) return;
+  void take(sim::Time now, sim::ClockedLine::Signal signal, bool level) {
+    if (signal == sim::ClockedLine::Signal::kSl) sl_ = level;
+    if (signal != sim::ClockedLine::Signal::kMa || level == ma_) return;
     ma_ = level;
     if (!level) return;
     if (frames_.empty() || now - last_edge_ > kGap) {
@@ -120,7 +119,7 @@ class SoakRig : public Rig {
     }
     bus.at_random(nullptr, 1000);
     bus.plan({});
-    move_plug(Action::kPlug);
+    move_plug(sim::ClockedLine::kPlug);
     simulator.advance(200 * sim::kPsPerUs);
     check();
     restart();
@@ -145,7 +144,7 @@ class SoakRig : public Rig {
  private:
   std::uint64_t below(std::uint64_t limit) { return random_() % limit; }
 
-  void move_plug(Action action) {
+  void move_plug(sim::LineAction action) {
     recorder_.plug_moves();
     simulator.line(1)->act(simulator.now(), action);
     simulator.refresh_lines();
@@ -155,15 +154,17 @@ class SoakRig : public Rig {
     if (pulled_ != 0 && --pulled_ == 0) {
       at_some_time(back_action_);
     } else if (pulled_ == 0 && below(300) == 0) {
-      constexpr std::array kWays{Action::kUnplug, Action::kSlLow, Action::kSlHigh};
-      const Action way = kWays[below(kWays.size())];
-      back_action_ = way == Action::kUnplug ? Action::kPlug : Action::kSlFree;
+      constexpr std::array kWays{sim::ClockedLine::kUnplug, sim::ClockedLine::kSlLow,
+                                 sim::ClockedLine::kSlHigh};
+      const sim::LineAction way = kWays[below(kWays.size())];
+      back_action_ =
+          way == sim::ClockedLine::kUnplug ? sim::ClockedLine::kPlug : sim::ClockedLine::kSlFree;
       pulled_ = 2 + below(30);
       ++unplugged;
       at_some_time(way);
     }
   }
-  void at_some_time(Action action) {
+  void at_some_time(sim::LineAction action) {
     const sim::Time period = period_time();
     // The loop ticks a third of a period after the start of a frame.
     const sim::Time from = below(4) == 0 ? below(period) : period * 2 / 3 + below(period / 10);
@@ -242,7 +243,7 @@ class SoakRig : public Rig {
   Recorder recorder_;
   std::mt19937_64 random_;
   std::uint64_t pulled_ = 0;  // ticks until the plug is put back
-  Action back_action_ = Action::kPlug;
+  sim::LineAction back_action_ = sim::ClockedLine::kPlug;
   mb4::Operation step_;
   bool running_ = false;
   bool writes_ = true;

@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <string>
 
+#include "sim/lines/clocked/clocked_line.hpp"
 #include "sim/lines/registers/control_slave.hpp"
 #include "tests/support/chip_fixture.hpp"
 
@@ -44,7 +45,7 @@ class DriverControlAbsent : public testing::TestWithParam<Mode> {
   }
   // The cable is connected again: the next access works, and so do positions.
   void TearDown() override {
-    act(sim::CableEvent::Action::kPlug);
+    act(sim::ClockedLine::kPlug);
     if (GetParam().ags) {
       ASSERT_TRUE(chip.device.automatic().restart().ok());
     }
@@ -59,12 +60,10 @@ class DriverControlAbsent : public testing::TestWithParam<Mode> {
     EXPECT_TRUE(read.ok()) << mb4::to_string(read.error());
     EXPECT_TRUE(frame.good(1));
   }
-  void act(sim::CableEvent::Action action) {
-    chip.simulator.line(1)->act(chip.simulator.now(), action);
-  }
+  void act(sim::LineAction action) { chip.simulator.line(1)->act(chip.simulator.now(), action); }
   // Unplugs when the slave has taken the CDM of `slot`.
   void unplug_in_slot(unsigned slot) {
-    sim::Slave& slave = *chip.simulator.slave(1);
+    sim::ClockedSlave& slave = *sim::clocked(chip.simulator.slave(1));
     const auto starts = slave.control()->counters().starts;
     watch(slave, starts, slot);
   }
@@ -93,14 +92,14 @@ class DriverControlAbsent : public testing::TestWithParam<Mode> {
   std::array<std::uint8_t, 4> bytes{};
 
  private:
-  void watch(sim::Slave& slave, std::uint64_t starts, unsigned slot) {
+  void watch(sim::ClockedSlave& slave, std::uint64_t starts, unsigned slot) {
     const auto now = chip.simulator.now();
     if (slave.control()->counters().starts != starts && slave.idle()) {
       if (first_ == 0) {
         first_ = slave.cdm_count();
       }
       if (slave.cdm_count() >= first_ + slot) {
-        return act(sim::CableEvent::Action::kUnplug);
+        return act(sim::ClockedLine::kUnplug);
       }
     }
     chip.simulator.at(now + sim::kPsPerUs / 4,
@@ -110,7 +109,7 @@ class DriverControlAbsent : public testing::TestWithParam<Mode> {
 };
 
 TEST_P(DriverControlAbsent, NobodyThere_ReadAndWriteFail) {
-  act(sim::CableEvent::Action::kUnplug);
+  act(sim::ClockedLine::kUnplug);
   expect_error(fails_in_time(4,
                              [&] {
                                return chip.device.control().read_registers({1, 0}, 0x60, bytes);
@@ -124,7 +123,7 @@ TEST_P(DriverControlAbsent, NobodyThere_ReadAndWriteFail) {
 }
 
 TEST_P(DriverControlAbsent, NobodyThere_CommandFails) {
-  act(sim::CableEvent::Action::kUnplug);
+  act(sim::ClockedLine::kUnplug);
   mb4::Command command;
   command.code = 2;
   expect_error(fails_in_time(1, [&] { return chip.device.control().send(command); }),
@@ -132,7 +131,7 @@ TEST_P(DriverControlAbsent, NobodyThere_CommandFails) {
 }
 
 TEST_P(DriverControlAbsent, NobodyThere_ScanFindsNobody) {
-  act(sim::CableEvent::Action::kUnplug);
+  act(sim::ClockedLine::kUnplug);
   const mb4::Result<std::uint8_t> count =
       mb4::scan_bus(chip.device, 1, mb4::Span<mb4::SlaveIdentity>());
   if (GetParam().ags) {
@@ -171,12 +170,12 @@ TEST_P(DriverControlAbsent, UnpluggedInTheData_Fails) {
 }
 
 TEST_P(DriverControlAbsent, SilentSlave_IsRegisterError) {
-  chip.simulator.slave(1)->control()->faults().set_silent(true);
+  clocked(chip.simulator.slave(1))->control()->faults().set_silent(true);
   const ErrorInfo info = fails_in_time(4, [&] {
     return chip.device.control().read_registers({1, 0}, 0x60, bytes);
   });
   EXPECT_EQ(info.code, Error::kRegister);
-  chip.simulator.slave(1)->control()->faults().set_silent(false);
+  clocked(chip.simulator.slave(1))->control()->faults().set_silent(false);
 }
 
 INSTANTIATE_TEST_SUITE_P(Modes, DriverControlAbsent,

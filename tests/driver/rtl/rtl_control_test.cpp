@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <string>
 
+#include "sim/lines/clocked/clocked_line.hpp"
 #include "sim/lines/registers/control_slave.hpp"
 #include "tests/support/chip_fixture.hpp"
 
@@ -59,13 +60,14 @@ class DriverControl : public testing::TestWithParam<bool> {
     EXPECT_TRUE(read.ok()) << mb4::to_string(read.error());
     EXPECT_TRUE(frame.good(0x13));
     for (const unsigned number : {1U, 2U, 5U}) {
-      const sim::ControlCounters& seen = chip.simulator.slave(number)->control()->counters();
+      const sim::ControlCounters& seen =
+          clocked(chip.simulator.slave(number))->control()->counters();
       // Giving up on a register that a slave does not have is a protocol error to that slave.
       EXPECT_EQ(seen.header_errors + seen.data_errors, 0U) << number;
     }
   }
   const sim::ControlCounters& counters(unsigned number) {
-    return chip.simulator.slave(number)->control()->counters();
+    return clocked(chip.simulator.slave(number))->control()->counters();
   }
 
   Chip chip{kBus};
@@ -139,7 +141,7 @@ TEST_P(DriverControl, Commands_ReachWhomTheyAddress) {
   ASSERT_TRUE(chip.device.control().send(command).ok());
   EXPECT_EQ(counters(2).commands, 1U);
   EXPECT_EQ(counters(1).commands, 0U);
-  EXPECT_EQ(chip.simulator.slave(2)->control()->last_command().code, 3);
+  EXPECT_EQ(clocked(chip.simulator.slave(2))->control()->last_command().code, 3);
   command.ids = 0x08;  // ID 3: no slave
   EXPECT_EQ(chip.device.control().send(command).error(), Error::kCommand);
   command.ids = 0;  // all slaves of both channels
@@ -280,7 +282,7 @@ TEST_P(DriverControlBeside, AutomaticFrames_ArePolledWholeAndInOrder) {
     }
     EXPECT_EQ(chip.simulator.slave(1)->reg_read(0x50), access);
   }
-  EXPECT_EQ(chip.simulator.slave(1)->control()->counters().starts, 60U);
+  EXPECT_EQ(clocked(chip.simulator.slave(1))->control()->counters().starts, 60U);
   EXPECT_GT(fresh, 500U);
   // With HOLDBANK it cannot happen; without it the case must have come up.
   EXPECT_EQ(switched == 0, GetParam()) << switched;

@@ -11,6 +11,7 @@
 #include <optional>
 #include <string>
 
+#include "sim/lines/clocked/clocked_line.hpp"
 #include "tests/driver/rtl/fault_bus.hpp"
 #include "tests/driver/rtl/rtl_calls.hpp"
 #include "tests/support/chip_fixture.hpp"
@@ -221,13 +222,13 @@ TEST(DriverInitialize, NoClock_IsAnError) {
 TEST(DriverInitialize, LineStuck_IsAnError) {
   FaultyChip chip(kEncoder);
   prepare(chip, State::kConfigured);
-  chip.simulator.line(1)->faults().stick(false);
+  clocked(chip.simulator.line(1))->faults().stick(false);
   chip.simulator.refresh_lines();
   EXPECT_EQ(chip.device.initialize().error(), Error::kLineError);
-  chip.simulator.line(1)->faults().stick(true);
+  clocked(chip.simulator.line(1))->faults().stick(true);
   chip.simulator.refresh_lines();
   EXPECT_EQ(chip.device.initialize().error(), Error::kLineDelay);
-  chip.simulator.line(1)->faults().stick(std::nullopt);
+  clocked(chip.simulator.line(1))->faults().stick(std::nullopt);
   chip.simulator.refresh_lines();
   EXPECT_TRUE(chip.device.initialize().ok());
 }
@@ -236,7 +237,7 @@ TEST(DriverInitialize, BusyChip_IsTimeout) {
   FaultyChip chip(kEncoder);
   prepare(chip, State::kConfigured);
   // An instruction that another host has left: a frame without end on a line that stays high.
-  chip.simulator.line(1)->faults().stick(true);
+  clocked(chip.simulator.line(1))->faults().stick(true);
   chip.simulator.refresh_lines();
   const std::array<std::uint8_t, 1> frame{0x04};
   ASSERT_TRUE(chip.device.opcodes().write_instruction(frame).ok());
@@ -275,14 +276,14 @@ TEST(DriverInitialize, FlippedBitInTheDelay_IsCorrupted) {
 TEST(DriverCallErrors, BrokenFrames_EachCallTellsWhatIsWrong) {
   FaultyChip chip(kEncoder);
   prepare(chip, State::kConfigured);
-  chip.simulator.line(1)->faults().flip_next_frame({10});
+  clocked(chip.simulator.line(1))->faults().flip_next_frame({10});
   EXPECT_EQ(chip.device.read_frame().error(), Error::kCrc);
-  chip.simulator.line(1)->faults().stick(false);
+  clocked(chip.simulator.line(1))->faults().stick(false);
   chip.simulator.refresh_lines();
   EXPECT_EQ(chip.device.read_frame().error(), Error::kLineError);
   Frame frame;
   EXPECT_EQ(chip.device.read_all(frame).error(), Error::kLineError);
-  chip.simulator.line(1)->faults().stick(true);
+  clocked(chip.simulator.line(1))->faults().stick(true);
   chip.simulator.refresh_lines();
   EXPECT_EQ(chip.device.read_frame().error(), Error::kTimeout);
   EXPECT_EQ(chip.device.read_all(frame).error(), Error::kTimeout);
@@ -299,7 +300,7 @@ TEST(DriverCallErrors, BrokenAutomaticFrames_EachCallTellsWhatIsWrong) {
   // A bad frame may end while the bank is held, and the next one then overwrites it.
   Error error = Error::kNone;
   for (int i = 0; i < 100 && error != Error::kCrc; ++i) {
-    if (error == Error::kNone) chip.simulator.line(1)->faults().flip_next_frame({10});
+    if (error == Error::kNone) clocked(chip.simulator.line(1))->faults().flip_next_frame({10});
     chip.simulator.advance(10 * mb4::sim::kPsPerUs);
     error = chip.device.automatic().poll_slave(1).error();
   }
@@ -312,13 +313,13 @@ TEST(DriverCallErrors, BrokenAutomaticFrames_EachCallTellsWhatIsWrong) {
   ASSERT_TRUE(frame[1].ok());
   error = Error::kNone;
   for (int i = 0; i < 100 && error != Error::kCrc; ++i) {
-    if (error == Error::kNone) chip.simulator.line(1)->faults().flip_next_frame({10});
+    if (error == Error::kNone) clocked(chip.simulator.line(1))->faults().flip_next_frame({10});
     chip.simulator.advance(10 * mb4::sim::kPsPerUs);
     ASSERT_TRUE(chip.device.automatic().poll(frame).ok());
     error = frame[1].error();
   }
   EXPECT_EQ(error, Error::kCrc);
-  chip.simulator.line(1)->faults().stick(false);
+  clocked(chip.simulator.line(1))->faults().stick(false);
   chip.simulator.refresh_lines();
   while (chip.device.automatic().next(frame).ok()) {
   }

@@ -16,6 +16,7 @@
 #include <string>
 #include <vector>
 
+#include "sim/lines/clocked/clocked_line.hpp"
 #include "tests/driver/rtl/fault_bus.hpp"
 #include "tests/support/chip_fixture.hpp"
 
@@ -207,10 +208,10 @@ TEST_P(DriverFault, EveryFault_NeverAWrongOrOldPosition) {
       run.read();
     }
     run.chip.bus.plan({});
-    run.chip.simulator.line(1)->faults().stick(false);
+    clocked(run.chip.simulator.line(1))->faults().stick(false);
     run.chip.simulator.refresh_lines();
     run.read();
-    run.chip.simulator.line(1)->faults().stick(std::nullopt);
+    clocked(run.chip.simulator.line(1))->faults().stick(std::nullopt);
     run.chip.simulator.refresh_lines();
     run.read();
     bool good = run.read().has_value();

@@ -11,6 +11,7 @@
 #include <optional>
 #include <string>
 
+#include "sim/lines/clocked/clocked_line.hpp"
 #include "tests/support/chip_fixture.hpp"
 
 namespace {
@@ -56,7 +57,7 @@ class DriverHealth : public testing::TestWithParam<Case> {
     EXPECT_TRUE(chip.device.automatic().start().ok());
   }
   void stick(unsigned channel, std::optional<bool> level) {
-    chip.simulator.line(channel)->faults().stick(level);
+    clocked(chip.simulator.line(channel))->faults().stick(level);
     chip.simulator.refresh_lines();
   }
 
@@ -68,7 +69,7 @@ TEST_P(DriverHealth, OtherSlaveBad_HealthyOneIsNotBlamed) {
   unsigned good = 0;
   unsigned none = 0;
   for (int i = 0; i < 400; ++i) {
-    chip.simulator.line(2)->faults().flip_next_frame({9});
+    clocked(chip.simulator.line(2))->faults().flip_next_frame({9});
     chip.simulator.advance(31 * sim::kPsPerUs);
     const mb4::Result<mb4::Reading> reading = chip.device.automatic().poll_slave(1);
     good += reading.ok() ? 1 : 0;
@@ -79,7 +80,7 @@ TEST_P(DriverHealth, OtherSlaveBad_HealthyOneIsNotBlamed) {
   EXPECT_GT(none, 100U);
   // All slaves at once.
   for (int i = 0; i < 40; ++i) {
-    chip.simulator.line(2)->faults().flip_next_frame({9});
+    clocked(chip.simulator.line(2))->faults().flip_next_frame({9});
     chip.simulator.advance(31 * sim::kPsPerUs);
     Frame frame;
     ASSERT_TRUE(chip.device.automatic().poll(frame).ok());
@@ -111,7 +112,7 @@ TEST_P(DriverHealth, BadFrame_CountsOnce) {
       EXPECT_NE(frame[5].error(), Error::kCrc) << i;
     }
     if (ended && i / 40 == bad && i % 40 >= 20) {
-      chip.simulator.line(1)->faults().flip_next_frame({9});
+      clocked(chip.simulator.line(1))->faults().flip_next_frame({9});
       ++bad;
     }
   }
@@ -126,7 +127,7 @@ TEST_P(DriverHealth, OneSlaveAlwaysBad_IsCrcAndNotNoData) {
   unsigned told = 0;
   unsigned told_all = 0;
   for (int i = 0; i < 60; ++i) {
-    chip.simulator.line(1)->faults().flip_next_frame({9});
+    clocked(chip.simulator.line(1))->faults().flip_next_frame({9});
     chip.simulator.advance(100 * sim::kPsPerUs);
     Frame frame;
     if (i < 30) {
@@ -146,7 +147,7 @@ TEST_P(DriverHealth, OneSlaveAlwaysBad_IsCrcAndNotNoData) {
 // word of slave 5 of the frame before is no reason to blame slave 1.
 TEST_P(DriverHealth, PollAfterPollSlave_DoesNotBlameTheGoodSlave) {
   for (int i = 0; i < 100; ++i) {
-    if (i % 2 == 1) chip.simulator.line(2)->faults().flip_next_frame({9});
+    if (i % 2 == 1) clocked(chip.simulator.line(2))->faults().flip_next_frame({9});
     chip.simulator.advance((90 + i % 20) * sim::kPsPerUs);
     static_cast<void>(chip.device.automatic().poll_slave(1));
     Frame frame;
@@ -161,7 +162,7 @@ TEST_P(DriverHealth, EveryFrameBad_EachCounts) {
   const std::uint64_t before = chip.simulator.slave(1)->frames();
   unsigned told = 0;
   for (int i = 0; i < 400; ++i) {
-    chip.simulator.line(1)->faults().flip_next_frame({9});
+    clocked(chip.simulator.line(1))->faults().flip_next_frame({9});
     chip.simulator.advance(17 * sim::kPsPerUs);
     told += chip.device.automatic().poll_slave(1).error() == Error::kCrc ? 1 : 0;
   }
@@ -217,7 +218,7 @@ TEST_P(DriverHealth, DeadLineAfterABadFrame_IsTimeout) {
       chip.simulator.advance(250 * sim::kPsPerUs);
       ASSERT_TRUE(chip.device.automatic().poll_slave(1).ok());
       const std::uint64_t before = chip.simulator.slave(1)->frames();
-      chip.simulator.line(1)->faults().flip_next_frame({9});
+      clocked(chip.simulator.line(1))->faults().flip_next_frame({9});
       for (int i = 0; i < 200 && chip.simulator.slave(1)->frames() == before; ++i) {
         chip.simulator.advance(sim::kPsPerUs);
       }
@@ -346,7 +347,7 @@ TEST(DriverWatch, FastFramesAndFineClock_AlarmIsTheThirdTick) {
   sim::Time tick = chip.simulator.now() + 100 * sim::kPsPerUs;
   chip.simulator.run_until(tick);
   ASSERT_TRUE(device.automatic().poll_slave(1).ok());
-  chip.simulator.line(1)->faults().stick(true);
+  clocked(chip.simulator.line(1))->faults().stick(true);
   chip.simulator.refresh_lines();
   unsigned silent = 0;
   Error error = Error::kNone;

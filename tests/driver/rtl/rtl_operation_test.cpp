@@ -13,7 +13,8 @@
 #include <utility>
 #include <vector>
 
-#include "sim/lines/actuator.hpp"
+#include "sim/lines/clocked/actuator.hpp"
+#include "sim/lines/clocked/clocked_line.hpp"
 #include "tests/driver/rtl/protocol_bus.hpp"
 #include "tests/driver/rtl/rtl_calls.hpp"
 
@@ -50,7 +51,7 @@ Result<void> complete(FaultyChip& chip, Operation& op) {
 }
 
 void stick(FaultyChip& chip, std::optional<bool> level) {
-  chip.simulator.line(1)->faults().stick(level);
+  clocked(chip.simulator.line(1))->faults().stick(level);
   chip.simulator.refresh_lines();
 }
 
@@ -369,7 +370,7 @@ TEST_P(DriverOperation, Actuator_WordIsSent) {
           ASSERT_TRUE(complete(chip, op).ok());
         }
         chip.simulator.advance(automatic && i == 0 ? 250 * sim::kPsPerUs : 100 * sim::kPsPerUs);
-        EXPECT_EQ(chip.simulator.slave(1)->actuator()->word(), word) << i;
+        EXPECT_EQ(clocked(chip.simulator.slave(1))->actuator()->word(), word) << i;
       }
     }
     if (!automatic) continue;
@@ -378,7 +379,7 @@ TEST_P(DriverOperation, Actuator_WordIsSent) {
       ASSERT_TRUE(chip.device.automatic().plan_actuator(op, 1, word).ok());
       ASSERT_TRUE(complete(chip, op).ok());
       chip.simulator.advance(100 * sim::kPsPerUs);
-      const std::uint64_t sent = chip.simulator.slave(1)->actuator()->word();
+      const std::uint64_t sent = clocked(chip.simulator.slave(1))->actuator()->word();
       // The frame after the one that runs sends it. The loop is longer than a period.
       EXPECT_TRUE(word < 3 || (sent <= word && sent + 2 >= word)) << sent << " for " << word;
     }
@@ -421,7 +422,7 @@ TEST(DriverOperationActuator, FaultOfTheBus_IsToldAndTheBankIsFree) {
           EXPECT_TRUE(complete(chip, op).ok());
           if (automatic) {
             chip.simulator.advance(350 * sim::kPsPerUs);
-            EXPECT_EQ(chip.simulator.slave(1)->actuator()->word(), 0x4321U);
+            EXPECT_EQ(clocked(chip.simulator.slave(1))->actuator()->word(), 0x4321U);
           }
         }
       }

@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <string>
 
+#include "sim/lines/clocked/clocked_line.hpp"
 #include "sim/lines/registers/control_slave.hpp"
 #include "tests/support/chip_fixture.hpp"
 
@@ -89,7 +90,7 @@ Seen run(const Loop& loop, unsigned phase) {
   std::array<std::uint8_t, 15> bytes{};
   EXPECT_TRUE(chip.device.control().take(bytes).ok()) << "phase " << phase;
   EXPECT_EQ(bytes[1], 0xD9);
-  EXPECT_EQ(chip.simulator.slave(1)->control()->counters().reads, 15U);
+  EXPECT_EQ(clocked(chip.simulator.slave(1))->control()->counters().reads, 15U);
   return seen;
 }
 

@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "sim/lines/clocked/clocked_line.hpp"
 #include "tests/driver/rtl/fault_bus.hpp"
 #include "tests/support/chip_fixture.hpp"
 
@@ -77,7 +78,7 @@ class DriverProven : public testing::TestWithParam<Before> {
     chip.simulator.advance(150 * sim::kPsPerUs);
   }
   static void unplug(FaultyChip& chip) {
-    chip.simulator.line(1)->faults().stick(false);
+    clocked(chip.simulator.line(1))->faults().stick(false);
     chip.simulator.refresh_lines();
   }
   static mb4::Result<mb4::Reading> read(FaultyChip& chip) { return chip.device.read_frame(); }

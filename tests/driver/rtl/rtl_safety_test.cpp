@@ -17,6 +17,7 @@
 
 #include "mb4/safety.hpp"
 #include "sim/lines/biss/biss_c_faults.hpp"
+#include "sim/lines/clocked/clocked_line.hpp"
 #include "tests/support/chip_fixture.hpp"
 
 namespace {
@@ -116,7 +117,7 @@ struct Drive {
     return verdict;
   }
   SafetyVerdict next_with(const std::vector<unsigned>& bits) {
-    chip.simulator.line(1)->faults().flip_next_frame(bits);
+    clocked(chip.simulator.line(1))->faults().flip_next_frame(bits);
     return next();
   }
   bool is_what_was_sent(const SafetyVerdict& verdict) {

@@ -23,6 +23,7 @@
 #include <string>
 #include <tuple>
 
+#include "sim/lines/clocked/clocked_line.hpp"
 #include "tests/driver/rtl/rtl_calls.hpp"
 
 namespace {
@@ -90,7 +91,7 @@ class Drive {
   std::uint64_t below(std::uint64_t limit) { return random_() % limit; }
 
   void stick(std::optional<bool> level) {
-    chip.simulator.line(1)->faults().stick(level);
+    clocked(chip.simulator.line(1))->faults().stick(level);
     chip.simulator.refresh_lines();
   }
 
@@ -104,7 +105,7 @@ class Drive {
       // 0 and 1 are start bit and CDS, which no CRC protects.
       std::vector<unsigned> bits{static_cast<unsigned>(2 + below(34))};
       if (below(2) == 0) bits.push_back(static_cast<unsigned>(2 + (bits[0] - 1 + below(32)) % 34));
-      chip.simulator.line(1)->faults().flip_next_frame(bits);
+      clocked(chip.simulator.line(1))->faults().flip_next_frame(bits);
       ++flipped_frames;
     }
     Fault fault;

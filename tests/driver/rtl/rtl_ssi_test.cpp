@@ -11,6 +11,7 @@
 #include <optional>
 #include <string>
 
+#include "sim/lines/clocked/clocked_line.hpp"
 #include "sim/lines/registers/control_slave.hpp"
 #include "tests/driver/rtl/protocol_bus.hpp"
 
@@ -125,7 +126,7 @@ TEST(DriverSsi, AutomaticFrames_AreNewEachTime) {
 TEST(DriverSsi, LineLow_IsLineError) {
   FaultyChip chip(on_channel(1) + device("ssi", 13, ""));
   ASSERT_TRUE(chip.device.configure(ssi_config(13, false)).ok());
-  chip.simulator.line(1)->faults().stick(false);
+  clocked(chip.simulator.line(1))->faults().stick(false);
   chip.simulator.refresh_lines();
   EXPECT_EQ(chip.device.read_frame().error(), Error::kLineError);
 }
@@ -185,7 +186,7 @@ TEST_P(DriverExtendedSsi, Commands_AreBroadcastsOnly) {
   EXPECT_TRUE(chip.device.control().send(command).ok());
   // A fast bus sees the end before the slave has seen its last CDM bit, at the end of the frame.
   chip.simulator.advance(20 * mb4::sim::kPsPerUs);
-  EXPECT_EQ(chip.simulator.slave(1)->control()->counters().commands, 1U);
+  EXPECT_EQ(clocked(chip.simulator.slave(1))->control()->counters().commands, 1U);
   command.ids = 1;
   command.test_acknowledge = true;
   EXPECT_EQ(chip.device.control().send(command).error(), Error::kCommand);

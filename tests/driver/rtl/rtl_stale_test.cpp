@@ -11,6 +11,7 @@
 #include <optional>
 #include <string>
 
+#include "sim/lines/clocked/clocked_line.hpp"
 #include "tests/driver/rtl/fault_bus.hpp"
 #include "tests/support/chip_fixture.hpp"
 
@@ -224,7 +225,7 @@ TEST_P(DriverNoWord, PositionZero_IsAPosition) {
   ASSERT_TRUE(chip.device.configure(config).ok());
   ASSERT_TRUE(chip.device.read_frame().ok());
   EXPECT_EQ(chip.device.read_frame()->raw, 0U);
-  chip.simulator.line(1)->faults().flip_next_frame({20});
+  clocked(chip.simulator.line(1))->faults().flip_next_frame({20});
   EXPECT_EQ(chip.device.read_frame().error(), Error::kCrc);
   EXPECT_EQ(chip.device.read_frame()->raw, 0U);
 }
@@ -268,7 +269,7 @@ TEST_P(DriverOnPin, Unplugged_IsAnAlarm) {
       return error;
     };
     for (int i = 0; i < 100; ++i) EXPECT_EQ(tick(), Error::kNone) << i;
-    chip.simulator.line(1)->faults().stick(GetParam());
+    clocked(chip.simulator.line(1))->faults().stick(GetParam());
     chip.simulator.refresh_lines();
     unsigned alarms = 0;
     unsigned first = 0;
@@ -285,7 +286,7 @@ TEST_P(DriverOnPin, Unplugged_IsAnAlarm) {
     }
     EXPECT_LE(first, 17U);
     EXPECT_EQ(alarms, 2000 - first + 1);
-    chip.simulator.line(1)->faults().stick(std::nullopt);
+    clocked(chip.simulator.line(1))->faults().stick(std::nullopt);
     chip.simulator.refresh_lines();
     ASSERT_TRUE(chip.device.automatic().restart().ok());
     due = chip.simulator.now();

@@ -8,7 +8,8 @@
 #include <cstdint>
 #include <string>
 
-#include "sim/lines/actuator.hpp"
+#include "sim/lines/clocked/actuator.hpp"
+#include "sim/lines/clocked/clocked_line.hpp"
 #include "tests/support/chip_fixture.hpp"
 
 namespace {
@@ -93,7 +94,7 @@ TEST(DriverTime, BusCyclesOf110Ns_ActuatorWordIsInBothBanks) {
     ASSERT_TRUE(chip.device.write_actuator(1, word).ok());
     chip.simulator.advance(2'000 * sim::kPsPerUs);
     for (int i = 0; i < 4; ++i) {
-      EXPECT_EQ(chip.simulator.slave(1)->actuator()->word(), word) << i;
+      EXPECT_EQ(clocked(chip.simulator.slave(1))->actuator()->word(), word) << i;
       chip.simulator.advance(1'000 * sim::kPsPerUs);
     }
   }
@@ -120,7 +121,7 @@ TEST(DriverTime, NoSlave_TimesOutWithinTheLimitAndTwoSteps) {
     mb4::Config config = config26(1'000'000);
     config.frame_timeout_us = 500;
     ASSERT_TRUE(chip.device.configure(config).ok());
-    chip.simulator.line(1)->faults().stick(true);
+    clocked(chip.simulator.line(1))->faults().stick(true);
     chip.simulator.refresh_lines();
     const sim::Time begin = chip.simulator.now();
     EXPECT_EQ(chip.device.read_frame().error(), Error::kTimeout);

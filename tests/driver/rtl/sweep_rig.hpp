@@ -23,7 +23,8 @@
 
 #include "mb4/mb4.hpp"
 #include "mb4sim/simulator.hpp"
-#include "sim/lines/actuator.hpp"
+#include "sim/lines/clocked/actuator.hpp"
+#include "sim/lines/clocked/clocked_line.hpp"
 #include "sim/lines/registers/control_slave.hpp"
 #include "sim/scenario/scenario.hpp"
 #include "tests/driver/rtl/mean_bus.hpp"
@@ -411,7 +412,8 @@ class Rig {
       for (const unsigned channel : {1U, 2U}) {
         // A bit of the first word; 0 is the start bit.
         // The word of the second encoder begins 34 bits later, where there is one.
-        if (sim::Line* line = simulator.line(channel)) line->faults().flip_next_frame({9, 43});
+        if (sim::Line* line = simulator.line(channel))
+          clocked(line)->faults().flip_next_frame({9, 43});
       }
     }
     if (setup.before == Before::kBadBefore) {
@@ -562,7 +564,7 @@ class Rig {
         bytes[i] = simulator.slave(slave)->reg_read(static_cast<std::uint8_t>(i));
       }
       registers_.push_back(bytes);
-      sim::ControlSlave* control = simulator.slave(slave)->control();
+      sim::ControlSlave* control = clocked(simulator.slave(slave))->control();
       commands_.push_back(control != nullptr ? control->counters().commands : 0);
     }
     starts_ = access_starts();
@@ -575,7 +577,8 @@ class Rig {
   [[nodiscard]] std::uint64_t access_starts() const {
     std::uint64_t sum = 0;
     for (const std::uint8_t slave : sensors_) {
-      sim::ControlSlave* control = const_cast<sim::Simulator&>(simulator).slave(slave)->control();
+      sim::ControlSlave* control =
+          clocked(const_cast<sim::Simulator&>(simulator).slave(slave))->control();
       if (control != nullptr) sum += control->counters().starts;
     }
     return sum;
@@ -1094,7 +1097,7 @@ class Rig {
                                         std::to_string(sensors_[s]) + " is " + number(now));
         }
       }
-      sim::ControlSlave* control = slave.control();
+      sim::ControlSlave* control = clocked(&slave)->control();
       if (control == nullptr) continue;
       if (!control->data_active() && !no_word_) {
         raise(Verdict::kOff, "slave " + std::to_string(sensors_[s]));

@@ -11,6 +11,7 @@
 #include <string>
 
 #include "plot/line_recording.hpp"
+#include "sim/lines/clocked/clocked_line.hpp"
 #include "tests/support/protocol_chip.hpp"
 
 namespace mb4test {
@@ -82,7 +83,7 @@ TEST_P(FrameDecode, RandomEncoders_AreReadAsTheyAreSent) {
     const Case one = make_case(GetParam(), seed);
     SCOPED_TRACE(one.scenario);
     ProtocolChip chip(one.scenario, plan());
-    LineRecording recording(*chip.simulator.line(1));
+    LineRecording recording(*clocked(chip.simulator.line(1)));
     ASSERT_TRUE(chip.frame());
     chip.simulator.advance(5 * sim::kPsPerUs);
     const DecodedFrame frame = last_frame(chip, recording);
@@ -112,7 +113,7 @@ INSTANTIATE_TEST_SUITE_P(Protocols, FrameDecode, testing::Values("biss-c", "biss
 
 TEST(FrameDecodeCdm, LevelBehindTheFrame_IsCdmInverted) {
   ProtocolChip chip(make_case("biss-c", 1).scenario, plan());
-  LineRecording recording(*chip.simulator.line(1));
+  LineRecording recording(*clocked(chip.simulator.line(1)));
   for (const bool cdm : {true, false, true}) {
     chip.frame(cdm ? 0x02 : 0x04);
     chip.simulator.advance(5 * sim::kPsPerUs);
@@ -126,7 +127,7 @@ TEST(FrameDecodeErrors, InvertedBit_IsAWrongCrc) {
       "[[channel]]\nnumber = 1\nflips = [[1, 7], [3, 31]]\n[[channel.slave]]\n"
       "protocol = \"biss-c\"\npreset = \"resolute-26\"\ndata = 0xAAF37BF\n",
       plan());
-  LineRecording recording(*chip.simulator.line(1));
+  LineRecording recording(*clocked(chip.simulator.line(1)));
   for (const bool good : {false, true, false, true}) {
     chip.frame();
     chip.simulator.advance(5 * sim::kPsPerUs);
@@ -141,7 +142,7 @@ TEST(FrameDecodeErrors, SilentEncoder_HasNoFields) {
       "[[channel]]\nnumber = 1\n[[channel.event]]\nat_us = 1\naction = \"sl-high\"\n"
       "[[channel.slave]]\nprotocol = \"biss-c\"\npreset = \"resolute-26\"\n",
       plan());
-  LineRecording recording(*chip.simulator.line(1));
+  LineRecording recording(*clocked(chip.simulator.line(1)));
   EXPECT_FALSE(chip.run(0x04, 100));
   chip.instruct(0x80);
   chip.simulator.advance(100 * sim::kPsPerUs);

@@ -145,7 +145,7 @@ TEST_F(CApiFirmware, InjectedBitFlip_IsCountedForTheFrameItHits) {
   EXPECT_NE(report().find("\"frames\": 1, \"ner_low\": 1"), std::string::npos) << report();
 }
 
-TEST_F(CApiFirmware, InjectedCableEvents_CountFromNow) {
+TEST_F(CApiFirmware, InjectedLineEvents_CountFromNow) {
   mb4sim_advance_ns(sim, 1'000'000);
   ASSERT_EQ(mb4sim_inject(sim,
                           "[[channel]]\nnumber = 1\n"

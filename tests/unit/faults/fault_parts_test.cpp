@@ -19,7 +19,7 @@
 #include "sim/faults/fault_types.hpp"
 #include "sim/hosts/spi_host.hpp"
 #include "sim/lines/biss/biss_c_slave.hpp"
-#include "sim/lines/slave_chain.hpp"
+#include "sim/lines/clocked/slave_chain.hpp"
 #include "sim/masters/mb4/pins.hpp"
 #include "tests/unit/core/arrivals.hpp"
 

@@ -18,6 +18,9 @@
 #include "sim/core/scenario_error.hpp"
 #include "sim/core/toml_reader.hpp"
 #include "sim/hosts/word_host.hpp"
+#include "sim/lines/clocked/clocked_end.hpp"
+#include "sim/lines/clocked/clocked_line.hpp"
+#include "sim/lines/clocked/clocked_lines.hpp"
 #include "sim/masters/live_master.hpp"
 #include "sim/masters/master.hpp"
 #include "sim/scenario/scenario.hpp"
@@ -37,7 +40,7 @@ class FrameMaker final : public MasterModel {
  public:
   explicit FrameMaker(std::uint64_t hz) : period_(kPsPerSecond / hz) {
     min_clock_ = period_;
-    outputs_ = ma_of(0);
+    outputs_ = of_line(0, kMaPin);
   }
 
   void start(Time now) {
@@ -58,13 +61,13 @@ class FrameMaker final : public MasterModel {
     const Time now = next_;
     next_ += period_;
     ++cycles_;
-    outputs_ ^= ma_of(0);
-    if ((outputs_ & ma_of(0)) != 0) take_bit();
+    outputs_ ^= of_line(0, kMaPin);
+    if ((outputs_ & of_line(0, kMaPin)) != 0) take_bit();
     return now;
   }
-  void set_sl(Time /*now*/, unsigned /*line*/, bool level) override {
-    sl_ = level;
-    if (!level && cycles_ == 0) throw ModelStopped(kSlLowTooEarly);
+  void set_inputs(Time /*now*/, unsigned /*line*/, unsigned levels) override {
+    sl_ = levels != 0;
+    if (!sl_ && cycles_ == 0) throw ModelStopped(kSlLowTooEarly);
   }
   void set_clock(Time /*now*/, std::uint64_t hz) override {
     if (hz != 0) period_ = kPsPerSecond / hz;
@@ -146,6 +149,7 @@ constexpr HostInterface kInterfaces[] = {{"memory", false, "a memory is never ab
 const Master kOneLine{
     .type = "one-line",
     .interfaces = kInterfaces,
+    .line = &kClockedLines,
     .channels = 1,
     .slaves = 1,
     .slaves_shared = 1,
@@ -200,7 +204,7 @@ TEST(SecondMaster, EachWrite_IsAFrameWithTheWordOfTheSlave) {
     EXPECT_EQ(frame(simulator), word);
     EXPECT_EQ(simulator.slave(1)->frames(), frames + 1);
   }
-  EXPECT_EQ(simulator.ma_check(1).shortest(), 50 * kPsPerNs);  // f_clk_hz is 20 MHz
+  EXPECT_EQ(ma_check(simulator.line_end(1)).shortest(), 50 * kPsPerNs);  // f_clk_hz is 20 MHz
   EXPECT_GT(simulator.clk_cycles(), 0U);
 }
 

@@ -9,6 +9,7 @@
 
 #include "sim/lines/biss/biss_b_slave.hpp"
 #include "sim/lines/biss/biss_c_slave.hpp"
+#include "sim/lines/clocked/clocked_line.hpp"
 #include "sim/lines/presets.hpp"
 #include "sim/lines/ssi/ssi_slave.hpp"
 #include "sim/scenario/scenario.hpp"
@@ -97,8 +98,9 @@ TEST(ScenarioProtocols, ActuatorAndMo_AreReadCompletely) {
                     "acknowledge = \"passed-on\"") +
                   slave("biss-c", "actuator = true\ndata_bits = 8\nacknowledge = \"latched\"")),
       "s");
-  EXPECT_TRUE(scenario.channels[0].cable.mo);
-  EXPECT_EQ(scenario.channels[0].cable.mo_late, from_ns(30));  // 80 ns less half the round trip
+  EXPECT_TRUE(clocked(*scenario.channels[0].cable).mo);
+  EXPECT_EQ(clocked(*scenario.channels[0].cable).mo_late,
+            from_ns(30));  // 80 ns less half the round trip
   const auto& near = config_of<BissCSlaveConfig>(scenario);
   EXPECT_TRUE(near.actuator);
   EXPECT_FALSE(near.stop_bit);

@@ -148,14 +148,14 @@ TEST(Scenario, HostInterfaces_AreReadWithTheirKeys) {
 
 TEST(Scenario, CableLength_Is5Point3NanosecondsPerMetreEachWay) {
   const Scenario scenario = parse_scenario("[[channel]]\nnumber = 1\ncable_m = 10.0\n", "s");
-  EXPECT_EQ(scenario.channels[0].delay, 106'000U);
+  EXPECT_EQ(scenario.channels[0].cable->delay, 106'000U);
 }
 
 TEST(Scenario, Flips_AreListedByFrame) {
   const Scenario scenario =
       parse_scenario("[[channel]]\nnumber = 1\nflips = [[3, 2, 9], [5, 0], [3, 4]]\n", "s");
   const std::map<std::uint64_t, std::vector<unsigned>> expected{{3, {2, 9, 4}}, {5, {0}}};
-  EXPECT_EQ(scenario.channels[0].flips, expected);
+  EXPECT_EQ(scenario.channels[0].cable->flips, expected);
 }
 
 TEST(Scenario, Quirks_SetTheirBits) {

@@ -18,6 +18,7 @@
 #include "report/output_file.hpp"
 #include "report/trace_file.hpp"
 #include "session.hpp"
+#include "sim/lines/clocked/clocked_line.hpp"
 #include "sim/scenario/scenario.hpp"
 
 namespace mb4::tool {
@@ -103,7 +104,7 @@ ControlRequest request_of(const PlotOptions& options) {
 // --- doing it ------------------------------------------------------------------------------------
 
 // Lets the last frame end: its slaves are idle again.
-void finish(sim::Simulator& simulator, sim::Line& line) {
+void finish(sim::Simulator& simulator, sim::ClockedLine& line) {
   simulator.run_while_waiting([&] { return line.chain().idle() && line.sl(); },
                               simulator.now() + kLongestEnd);
   simulator.advance(10 * sim::kPsPerUs);
@@ -198,7 +199,7 @@ int plot_command(const PlotOptions& options) {
   std::vector<std::unique_ptr<LineRecording>> recordings(scenario.master->channels);
   for (const sim::ChannelConfig& channel : scenario.channels) {
     recordings[channel.number - 1] =
-        std::make_unique<LineRecording>(*simulator.line(channel.number));
+        std::make_unique<LineRecording>(*clocked(simulator.line(channel.number)));
   }
   std::string error = session->configure();
   if (error.empty() && is_control(options)) {
@@ -209,7 +210,7 @@ int plot_command(const PlotOptions& options) {
   } else {
     for (unsigned i = 1; error.empty() && i <= options.frame; ++i) error = session->read(i).error;
   }
-  finish(simulator, *simulator.line(options.channel));
+  finish(simulator, *clocked(simulator.line(options.channel)));
 
   const LineRecording& recording = *recordings[options.channel - 1];
   const sim::ChannelConfig& channel = *scenario.channel(options.channel);

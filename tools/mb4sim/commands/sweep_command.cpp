@@ -17,6 +17,7 @@
 #include "session.hpp"
 #include "sim/core/one_line.hpp"
 #include "sim/core/random.hpp"
+#include "sim/lines/clocked/clocked_line.hpp"
 #include "sim/scenario/scenario.hpp"
 
 namespace mb4::tool {
@@ -90,8 +91,8 @@ SweepPlane sweep_plane(sim::Scenario scenario, unsigned code, const Sweep& sweep
     std::vector<SweepPoint> row;
     for (const long long jitter : sweep.jitters_mpercent) {
       for (sim::ChannelConfig& channel : scenario.channels) {
-        channel.delay = static_cast<sim::Time>(delay);
-        channel.cable.sl.jitter =
+        channel.cable->delay = static_cast<sim::Time>(delay);
+        channel.cable.as<sim::ClockedConfig>().sl.jitter =
             static_cast<sim::Time>(period_ps * static_cast<double>(jitter) / 100'000);
       }
       row.push_back(measure(scenario, sweep.frames, sim::derive_seed(sweep.seed, ++part)));

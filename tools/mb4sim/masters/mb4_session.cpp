@@ -12,7 +12,8 @@
 #include "mb4/position.hpp"
 #include "mb4/scan.hpp"
 #include "mb4_regs_table.hpp"
-#include "sim/lines/actuator.hpp"
+#include "sim/lines/clocked/actuator.hpp"
+#include "sim/lines/clocked/clocked_line.hpp"
 #include "sim/masters/mb4/ma_frequency.hpp"
 #include "sim_bus.hpp"
 
@@ -120,7 +121,7 @@ SessionFrame Mb4Session::read(std::uint64_t number) {
 
 const sim::Actuator* Mb4Session::actuator(const ConnectedSlave& slave) const {
   const sim::Slave* device = simulator_.slave(slave.number);
-  return device != nullptr ? device->actuator() : nullptr;
+  return device != nullptr ? clocked(device)->actuator() : nullptr;
 }
 
 // Each actuator counts up from its first word.
@@ -143,8 +144,9 @@ Result<void> Mb4Session::write_actuators() {
 void Mb4Session::wait_for_actuators() {
   for (const ConnectedSlave& slave : slaves_) {
     if (actuator(slave) == nullptr) continue;
-    simulator_.run_while_waiting([&] { return simulator_.line(slave.channel)->chain().idle(); },
-                                 simulator_.now() + sim::kPsPerSecond);
+    simulator_.run_while_waiting(
+        [&] { return clocked(simulator_.line(slave.channel))->chain().idle(); },
+        simulator_.now() + sim::kPsPerSecond);
   }
 }
 

@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sim/lines/clocked/clocked_line.hpp"
+
 namespace mb4::tool {
 namespace {
 
@@ -148,7 +150,7 @@ void add_ticks(const DecodedFrame& frame, const Axis& axis, Diagram& diagram) {
 Diagram frame_diagram(const LineRecording& recording, const DecodedFrame& frame,
                       const sim::ChannelConfig& channel, const std::string& title) {
   std::vector<const Wave*> waves{&recording.ma(), &recording.sl()};
-  if (channel.cable.mo) waves.push_back(&recording.mo());
+  if (clocked(*channel.cable).mo) waves.push_back(&recording.mo());
   const Axis axis(frame, waves);
   Diagram diagram;
   diagram.title = title;
@@ -163,7 +165,8 @@ Diagram frame_diagram(const LineRecording& recording, const DecodedFrame& frame,
   diagram.rows.push_back(edge_numbers(frame, axis));
   diagram.rows.push_back(wave_row("MA", recording.ma(), frame, axis));
   if (!frame.ma.empty()) diagram.rows.push_back(field_row(frame.ma, axis));
-  if (channel.cable.mo) diagram.rows.push_back(wave_row("MO", recording.mo(), frame, axis));
+  if (clocked(*channel.cable).mo)
+    diagram.rows.push_back(wave_row("MO", recording.mo(), frame, axis));
   diagram.rows.push_back(wave_row("SL", recording.sl(), frame, axis));
   diagram.rows.push_back(bit_row(recording.sl(), frame, axis));
   diagram.rows.push_back(field_row(frame.sl, axis));

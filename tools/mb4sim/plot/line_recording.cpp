@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "sim/lines/clocked/clocked_line.hpp"
+
 namespace mb4::tool {
 
 void Wave::edge(sim::Time time, bool level) {
@@ -30,7 +32,7 @@ Wave Wave::between(sim::Time from, sim::Time to) const {
   return part;
 }
 
-LineRecording::LineRecording(sim::Line& line) {
+LineRecording::LineRecording(sim::ClockedLine& line) {
   sl_.idle = line.sl();
   line.set_tap(&LineRecording::on_edge, this);
 }
@@ -39,14 +41,15 @@ void LineRecording::clear() {
   for (Wave* wave : {&ma_, &mo_, &sl_}) *wave = Wave{wave->last(), {}};
 }
 
-void LineRecording::on_edge(sim::Time now, void* receiver, sim::Line::Signal signal, bool level) {
+void LineRecording::on_edge(sim::Time now, void* receiver, sim::ClockedLine::Signal signal,
+                            bool level) {
   auto* self = static_cast<LineRecording*>(receiver);
   switch (signal) {
-    case sim::Line::Signal::kMa:
+    case sim::ClockedLine::Signal::kMa:
       return self->ma_.edge(now, level);
-    case sim::Line::Signal::kMo:
+    case sim::ClockedLine::Signal::kMo:
       return self->mo_.edge(now, level);
-    case sim::Line::Signal::kSl:
+    case sim::ClockedLine::Signal::kSl:
       return self->sl_.edge(now, level);
   }
 }

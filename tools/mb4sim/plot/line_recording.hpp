@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "sim/core/time.hpp"
-#include "sim/lines/line.hpp"
+#include "sim/lines/clocked/clocked_line.hpp"
 
 namespace mb4::tool {
 
@@ -43,7 +43,7 @@ struct FrameTrace {
 class LineRecording {
  public:
   // Records `line` from now on. Neither of the two may be moved.
-  explicit LineRecording(sim::Line& line);
+  explicit LineRecording(sim::ClockedLine& line);
   LineRecording(const LineRecording&) = delete;
   LineRecording& operator=(const LineRecording&) = delete;
 
@@ -56,7 +56,7 @@ class LineRecording {
   std::vector<FrameTrace> frames(sim::Time now) const;
 
  private:
-  static void on_edge(sim::Time now, void* receiver, sim::Line::Signal signal, bool level);
+  static void on_edge(sim::Time now, void* receiver, sim::ClockedLine::Signal signal, bool level);
 
   Wave ma_;
   Wave mo_{false, {}};

@@ -11,6 +11,7 @@
 
 #include "sim/core/time.hpp"
 #include "sim/core/trace_file.hpp"
+#include "sim/lines/clocked/clocked_end.hpp"
 #include "sim/masters/chip_config.hpp"
 #include "sim/masters/master_model.hpp"
 #include "sim/masters/mb4/pins.hpp"
@@ -33,10 +34,10 @@ struct RunningChip {
 
 class ChipModel : public MasterModel {
  public:
-  static constexpr Outputs kMa1 = ma_of(0);
-  static constexpr Outputs kMa2 = ma_of(1);
-  static constexpr Outputs kMo1 = mo_of(0);
-  static constexpr Outputs kMo2 = mo_of(1);
+  static constexpr Outputs kMa1 = of_line(0, kMaPin);
+  static constexpr Outputs kMa2 = of_line(1, kMaPin);
+  static constexpr Outputs kMo1 = of_line(0, kMoPin);
+  static constexpr Outputs kMo2 = of_line(1, kMoPin);
   static constexpr Outputs kEot = own(0);
   static constexpr Outputs kNerLow = own(1);
 
@@ -51,7 +52,7 @@ class ChipModel : public MasterModel {
   virtual unsigned db_enable() const = 0;
   // True if CFGIF makes the pins of line 2 the inverse of those of line 1.
   bool paired() const { return followers_ != 0; }
-  // From now on set_sl() of line 1 also drives SL2 with the inverse.
+  // From now on set_inputs() of line 1 also drives SL2 with the inverse.
   void drive_pair(bool on) { drives_pair_ = on; }
   // Nothing for a model whose state cannot be taken over.
   virtual std::optional<RunningChip> running() const { return std::nullopt; }

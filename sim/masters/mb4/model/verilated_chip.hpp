@@ -238,10 +238,11 @@ class VerilatedChip final : public ChipModel {
     follow_oscillator(now);
   }
 
-  void set_sl(Time now, unsigned line, bool level) override {
+  void set_inputs(Time now, unsigned line, unsigned levels) override {
     Verilated::threadContextp(context_.get());
-    change_sl(now, line, level);
-    if (drives_pair_ && line == 0) change_sl(now, 1, !level);
+    const bool sl = levels != 0;
+    change_sl(now, line, sl);
+    if (drives_pair_ && line == 0) change_sl(now, 1, !sl);
   }
 
   void set_clock(Time now, std::uint64_t hz) override {

@@ -67,10 +67,10 @@ void WatchedChip::set_input(Time now, Pin pin, bool level) {
   change([&](ChipModel& chip) { chip.set_input(now, pin, level); });
 }
 
-void WatchedChip::set_sl(Time now, unsigned line, bool level) {
+void WatchedChip::set_inputs(Time now, unsigned line, unsigned levels) {
   change([&](ChipModel& chip) {
     chip.drive_pair(drives_pair_);
-    chip.set_sl(now, line, level);
+    chip.set_inputs(now, line, levels);
   });
 }
 

@@ -23,7 +23,7 @@ class WatchedChip final : public ChipModel {
   std::unique_ptr<ChipModel> release();
 
   Time run_clocks(Time limit) override;
-  void set_sl(Time now, unsigned line, bool level) override;
+  void set_inputs(Time now, unsigned line, unsigned levels) override;
   void set_clock(Time now, std::uint64_t hz) override;
   unsigned half_clocks(unsigned line) const override { return chip_->half_clocks(line); }
   std::uint64_t left_out() const override { return chip_->left_out(); }

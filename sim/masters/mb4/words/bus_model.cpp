@@ -11,6 +11,7 @@
 #include <algorithm>
 
 #include "bus_managers.hpp"
+#include "sim/lines/clocked/clocked_end.hpp"
 #include "sim/masters/mb4/ma_frequency.hpp"
 #include "sim/model/clock_source.hpp"
 #include "sim/model/verilated_context.hpp"
@@ -94,9 +95,9 @@ class VerilatedBus final : public BusModel {
     }
   }
 
-  void set_sl(Time /*now*/, unsigned line, bool level) override {
+  void set_inputs(Time /*now*/, unsigned line, unsigned levels) override {
     // No output depends on SL before a clock edge.
-    (line == 0 ? model_->sl1_i : model_->sl2_i) = level;
+    (line == 0 ? model_->sl1_i : model_->sl2_i) = levels != 0;
   }
   void set_clock(Time now, std::uint64_t hz) override {
     core_.retune(hz, now);
@@ -157,8 +158,9 @@ class VerilatedBus final : public BusModel {
 
   Outputs pack() const {
     const Model& m = *model_;
-    return m.ma1_o * ma_of(0) | m.mo1_o * mo_of(0) | m.ma2_o * ma_of(1) | m.mo2_o * mo_of(1) |
-           m.eot_o * kEot | m.ner_low_o * kNerLow | m.irq_o * kIrq | m.clkeni_o * kClkeni |
+    return m.ma1_o * of_line(0, kMaPin) | m.mo1_o * of_line(0, kMoPin) |
+           m.ma2_o * of_line(1, kMaPin) | m.mo2_o * of_line(1, kMoPin) | m.eot_o * kEot |
+           m.ner_low_o * kNerLow | m.irq_o * kIrq | m.clkeni_o * kClkeni |
            static_cast<unsigned>(answered_) * kAnswered;
   }
 

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sim/masters/mb4/words/live_words.hpp"
 
+#include "sim/lines/clocked/clocked_end.hpp"
+
 namespace mb4::sim {
 namespace {
 
@@ -52,7 +54,7 @@ void LiveWords::set_pin(Time now, Pin pin, bool level) {
     ner_pulled_ = !level;
     model_->set_ner(now, this->pin(Pin::kNer));
   } else {
-    model_->set_sl(now, pin == Pin::kSl1 ? 0 : 1, level);
+    model_->set_inputs(now, pin == Pin::kSl1 ? 0 : 1, level ? 1 : 0);
   }
 }
 
@@ -78,13 +80,13 @@ bool LiveWords::pin(Pin pin) const {
     case Pin::kEot:
       return output(BusModel::kEot);
     case Pin::kMa1:
-      return output(MasterModel::ma_of(0));
+      return output(MasterModel::of_line(0, kMaPin));
     case Pin::kMa2:
-      return output(MasterModel::ma_of(1));
+      return output(MasterModel::of_line(1, kMaPin));
     case Pin::kMo1:
-      return output(MasterModel::mo_of(0));
+      return output(MasterModel::of_line(0, kMoPin));
     case Pin::kMo2:
-      return output(MasterModel::mo_of(1));
+      return output(MasterModel::of_line(1, kMoPin));
     case Pin::kIrq:
       return output(BusModel::kIrq);
     case Pin::kClkeni:

@@ -13,6 +13,7 @@
 #include <string_view>
 
 #include "sim/hosts/word_access.hpp"
+#include "sim/lines/clocked/clocked_end.hpp"
 #include "sim/masters/live_master.hpp"
 #include "sim/masters/mb4/pins.hpp"
 #include "sim/masters/mb4/words/bus_model.hpp"
@@ -36,7 +37,7 @@ class LiveWords final : public LiveMaster {
   HostModel* host(std::string_view name) override { return name == interface_ ? &host_ : nullptr; }
 
  private:
-  bool has_line(unsigned line) const { return (lines_ & MasterModel::ma_of(line)) != 0; }
+  bool has_line(unsigned line) const { return (lines_ & MasterModel::of_line(line, kMaPin)) != 0; }
 
   HostPins& outside_;
   std::string_view interface_;

@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/unit/lines/chain_bench.hpp"
+#include "tests/unit/lines/clocked/chain_bench.hpp"
 
 namespace mb4test {
 

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "tests/unit/lines/chain_bench.hpp"
+#include "tests/unit/lines/clocked/chain_bench.hpp"
 
 namespace mb4test {
 

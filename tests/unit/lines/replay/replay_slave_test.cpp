@@ -8,7 +8,7 @@
 #include <ostream>
 #include <sstream>
 
-#include "tests/unit/lines/chain_bench.hpp"
+#include "tests/unit/lines/clocked/chain_bench.hpp"
 
 namespace mb4test {
 

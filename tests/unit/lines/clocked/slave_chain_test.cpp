@@ -3,12 +3,12 @@
 //
 // Chains (datasheet page 15; docs/choices.md, 10): slave 1, next to the master, comes first; each
 // slave is a shift register of its own length.
-#include "sim/lines/slave_chain.hpp"
+#include "sim/lines/clocked/slave_chain.hpp"
 
 #include <gtest/gtest.h>
 
 #include "sim/lines/biss/biss_b_slave.hpp"
-#include "tests/unit/lines/chain_bench.hpp"
+#include "tests/unit/lines/clocked/chain_bench.hpp"
 
 namespace mb4test {
 

@@ -4,12 +4,12 @@
 // A bus with MO (datasheet pages 15, 25, 31; docs/theory.md, MO and actuators): the master acts as
 // one more slave at the far end. It acknowledges with rising edge 2, sends its start bit MO_BUSY
 // periods later than a slave could, then CDS = 0, then the words (slave 1 first), then 1.
-#include "sim/lines/actuator.hpp"
+#include "sim/lines/clocked/actuator.hpp"
 
 #include <gtest/gtest.h>
 
-#include "sim/lines/line.hpp"
-#include "tests/unit/lines/chain_bench.hpp"
+#include "sim/lines/clocked/clocked_line.hpp"
+#include "tests/unit/lines/clocked/chain_bench.hpp"
 
 namespace mb4test {
 
@@ -38,13 +38,13 @@ class BusBench {
  public:
   explicit BusBench(Time round_trip = 0, Time mo_late = 0)
       : line(
-            queue, round_trip, [](Time, void*, bool) {}, nullptr, cable(mo_late)) {
+            queue, cable(round_trip, mo_late), [](Time, void*, bool) {}, nullptr) {
     line.drive(0, true, true);
   }
   BissCSlave& add(const BissCSlaveConfig& config) {
     auto slave = std::make_unique<BissCSlave>(config, 1);
     BissCSlave& reference = *slave;
-    line.chain().add(std::move(slave));
+    line.add(std::move(slave));
     return reference;
   }
   void run_until(Time time) {
@@ -77,15 +77,16 @@ class BusBench {
     return sl;
   }
 
-  static CableConfig cable(Time mo_late) {
-    CableConfig config;
+  static ClockedConfig cable(Time round_trip, Time mo_late) {
+    ClockedConfig config;
+    config.delay = round_trip;
     config.mo = true;
     config.mo_late = mo_late;
     return config;
   }
 
   EventQueue queue;
-  Line line;
+  ClockedLine line;
   Time now = 0;
   Time sample_after = kPeriod - 1;
 };
@@ -205,8 +206,8 @@ TEST(Actuator, CdmOnABus_IsTaken) {
 // Without a bus connection SLI of the last slave is 0 for any level of pin MO.
 TEST(Actuator, MoNotConnected_LeavesSliAtZero) {
   EventQueue queue;
-  Line line(
-      queue, 0, [](Time, void*, bool) {}, nullptr);
+  ClockedLine line(
+      queue, ClockedConfig(), [](Time, void*, bool) {}, nullptr);
   line.drive(0, true, true);
   EXPECT_FALSE(line.chain().mo());
   BusBench bus;

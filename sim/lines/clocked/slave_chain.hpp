@@ -14,8 +14,8 @@
 
 #include "sim/core/event_queue.hpp"
 #include "sim/core/time.hpp"
-#include "sim/lines/bit_row.hpp"
-#include "sim/lines/slave.hpp"
+#include "sim/lines/clocked/bit_row.hpp"
+#include "sim/lines/clocked/clocked_slave.hpp"
 
 namespace mb4::sim {
 
@@ -30,7 +30,7 @@ class SlaveChain {
   SlaveChain& operator=(const SlaveChain&) = delete;
 
   // Appends a slave at the end away from the master. Must not be called while a frame runs.
-  void add(std::unique_ptr<Slave> slave);
+  void add(std::unique_ptr<ClockedSlave> slave);
 
   // Sets the levels of MA and MO as they arrive at the slaves. Both change at once.
   void drive(Time now, bool ma, bool mo);
@@ -60,8 +60,8 @@ class SlaveChain {
   // Number of slaves that are plugged in.
   std::size_t attached() const { return attached_; }
   // `index` 0 is slave 1.
-  Slave& slave(std::size_t index) { return *slaves_[index]; }
-  const Slave& slave(std::size_t index) const { return *slaves_[index]; }
+  ClockedSlave& slave(std::size_t index) { return *slaves_[index]; }
+  const ClockedSlave& slave(std::size_t index) const { return *slaves_[index]; }
   // Level of SLO of slave 1. Without slaves it is 1, from the pull-up.
   bool slo() const {
     if (shifting_) return reported_;
@@ -86,7 +86,7 @@ class SlaveChain {
     Time deadline = kNever;  // the earliest
     bool idle = true;
     bool shifting = true;
-    void add(const Slave& slave) {
+    void add(const ClockedSlave& slave) {
       deadline = slave.deadline() < deadline ? slave.deadline() : deadline;
       idle = idle && slave.idle();
       shifting = shifting && slave.shifting() != nullptr;
@@ -107,7 +107,7 @@ class SlaveChain {
   EventQueue& queue_;
   Output output_;
   void* receiver_;
-  std::vector<std::unique_ptr<Slave>> slaves_;
+  std::vector<std::unique_ptr<ClockedSlave>> slaves_;
   std::size_t attached_ = 0;  // slaves from this index on are unplugged
   bool ma_ = true;
   bool mo_ = false;

@@ -1,13 +1,13 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
-#include "sim/lines/slave_chain.hpp"
+#include "sim/lines/clocked/slave_chain.hpp"
 
 #include <algorithm>
 #include <utility>
 
 namespace mb4::sim {
 
-void SlaveChain::add(std::unique_ptr<Slave> slave) {
+void SlaveChain::add(std::unique_ptr<ClockedSlave> slave) {
   if (attached_ == slaves_.size()) ++attached_;
   slaves_.push_back(std::move(slave));
 }
@@ -39,7 +39,7 @@ SlaveChain::Standing SlaveChain::drive_slaves(Time now, bool ma, bool mo) {
   mo_ = mo;
   for (std::size_t i = slaves_.size(); i-- > attached_;) standing.add(*slaves_[i]);
   for (std::size_t i = attached_; i-- > 0;) {
-    Slave& slave = *slaves_[i];
+    ClockedSlave& slave = *slaves_[i];
     const bool slo_before = slo_of(i);
     slave.ma_edge(now, ma, sli_before, sli);
     sli_before = slo_before;
@@ -54,8 +54,8 @@ SlaveChain::Standing SlaveChain::drive_slaves(Time now, bool ma, bool mo) {
 // behind leave first. Slaves of different length then have another border than the master expects.
 void SlaveChain::swap_words() {
   for (std::size_t i = 0; i + 1 < attached_; ++i) {
-    Slave& near = *slaves_[i];
-    Slave& far = *slaves_[i + 1];
+    ClockedSlave& near = *slaves_[i];
+    ClockedSlave& far = *slaves_[i + 1];
     if (!near.swapped_words() || near.shifting() == nullptr || far.shifting() == nullptr ||
         !near.shifting()->loaded() || !far.shifting()->loaded()) {
       continue;

@@ -11,7 +11,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "sim/lines/shift_register.hpp"
+#include "sim/lines/clocked/shift_register.hpp"
 
 namespace mb4::sim {
 

@@ -2,14 +2,14 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Cables of a scenario: keys, events at given times, and one seed for all random choices.
-#include "sim/core/cable.hpp"
-
 #include <gtest/gtest.h>
 
 #include <string>
 #include <vector>
 
 #include "mb4sim/simulator.hpp"
+#include "sim/core/wire_faults.hpp"
+#include "sim/lines/clocked/clocked_line.hpp"
 #include "sim/masters/mb4/pins.hpp"
 #include "sim/scenario/scenario.hpp"
 
@@ -24,8 +24,8 @@ std::string channel(const std::string& keys) {
          "\n[[channel.slave]]\nprotocol = \"biss-c\"\ndata_bits = 8\n";
 }
 
-ChannelConfig parse(const std::string& keys) {
-  return parse_scenario(channel(keys), "s.toml").channels.front();
+ClockedConfig parse(const std::string& keys) {
+  return clocked(*parse_scenario(channel(keys), "s.toml").channels.front().cable);
 }
 
 TEST(CableKeys, LengthAndTransceivers_AddUpToTheRoundTrip) {
@@ -37,13 +37,11 @@ TEST(CableKeys, LengthAndTransceivers_AddUpToTheRoundTrip) {
 }
 
 TEST(CableKeys, AllFaults_AreReadWithTheirUnits) {
-  const CableConfig cable =
-      parse(
-          "jitter_ns = 1.5\nma_jitter_ns = 2\nskew_ns = -3\nma_skew_ns = 0.25\n"
-          "glitches_per_s = 100\nma_glitches_per_s = 200\nglitch_ns = 7\nopen_level = 0\n"
-          "[[channel.event]]\nat_us = 1.5\naction = \"unplug\"\n"
-          "[[channel.event]]\nat_us = 2\naction = \"ma-free\"\n")
-          .cable;
+  const ClockedConfig cable = parse(
+      "jitter_ns = 1.5\nma_jitter_ns = 2\nskew_ns = -3\nma_skew_ns = 0.25\n"
+      "glitches_per_s = 100\nma_glitches_per_s = 200\nglitch_ns = 7\nopen_level = 0\n"
+      "[[channel.event]]\nat_us = 1.5\naction = \"unplug\"\n"
+      "[[channel.event]]\nat_us = 2\naction = \"ma-free\"\n");
   EXPECT_EQ(cable.sl.jitter, 1500U);
   EXPECT_EQ(cable.ma.jitter, 2000U);
   EXPECT_EQ(cable.sl.skew, -3000);
@@ -55,9 +53,9 @@ TEST(CableKeys, AllFaults_AreReadWithTheirUnits) {
   EXPECT_FALSE(cable.open_level);
   ASSERT_EQ(cable.events.size(), 2U);
   EXPECT_EQ(cable.events[0].time, 1'500'000U);
-  EXPECT_EQ(cable.events[0].action, CableEvent::Action::kUnplug);
-  EXPECT_EQ(cable.events[1].action, CableEvent::Action::kMaFree);
-  const CableConfig none = parse("").cable;
+  EXPECT_EQ(cable.events[0].action, ClockedLine::kUnplug);
+  EXPECT_EQ(cable.events[1].action, ClockedLine::kMaFree);
+  const ClockedConfig none = parse("");
   EXPECT_FALSE(none.sl.any() || none.ma.any());
   EXPECT_TRUE(none.open_level);
 }
@@ -137,7 +135,7 @@ struct CableBench {
   Simulator sim;
 };
 
-TEST(CableEvents, StuckSl_FollowsTheEventsOfTheScenario) {
+TEST(LineEvents, StuckSl_FollowsTheEventsOfTheScenario) {
   CableBench bench(
       "[[channel.event]]\nat_us = 100\naction = \"sl-low\"\n"
       "[[channel.event]]\nat_us = 200\naction = \"sl-free\"\n");
@@ -150,21 +148,21 @@ TEST(CableEvents, StuckSl_FollowsTheEventsOfTheScenario) {
 }
 
 // Unplugged in the middle of a frame: no answer; BREAK, plug, and the next frame is good.
-TEST(CableEvents, UnpluggedAndPlugged_AtEveryPhaseOfAFrame_NextFrameIsGood) {
+TEST(LineEvents, UnpluggedAndPlugged_AtEveryPhaseOfAFrame_NextFrameIsGood) {
   for (unsigned phase = 0; phase < 40; ++phase) {
     CableBench bench("delay_ns = 70");
     ASSERT_EQ(bench.frame() & 0x11, 0x11);
     bench.transfer({0x07, 0x04});
     bench.sim.advance(phase * 130 * kPsPerNs);
-    bench.sim.line(1)->act(bench.sim.now(), CableEvent::Action::kUnplug);
+    bench.sim.line(1)->act(bench.sim.now(), ClockedLine::kUnplug);
     EXPECT_FALSE(bench.sim.line(1)->plugged());
     bench.sim.advance(50 * kPsPerUs);
-    EXPECT_TRUE(bench.sim.slave(1)->idle()) << phase;
+    EXPECT_TRUE(clocked(bench.sim.slave(1))->idle()) << phase;
     const auto frames = bench.sim.slave(1)->frames();
     if ((bench.transfer({0x05, 0x00}) & 0x01) == 0) bench.transfer({0x07, 0x80});
     EXPECT_EQ(bench.frame() & 0x01, 0x00) << "no slave: MA runs on until BREAK";
     EXPECT_EQ(bench.sim.slave(1)->frames(), frames);
-    bench.sim.line(1)->act(bench.sim.now(), CableEvent::Action::kPlug);
+    bench.sim.line(1)->act(bench.sim.now(), ClockedLine::kPlug);
     bench.sim.advance(10 * kPsPerUs);
     bench.transfer({0x07, 0x80});
     bench.sim.advance(50 * kPsPerUs);
@@ -172,7 +170,7 @@ TEST(CableEvents, UnpluggedAndPlugged_AtEveryPhaseOfAFrame_NextFrameIsGood) {
   }
 }
 
-TEST(CableEvents, OpenPair_ShowsItsOpenLevel) {
+TEST(LineEvents, OpenPair_ShowsItsOpenLevel) {
   for (const bool level : {false, true}) {
     CableBench bench("open_level = " + std::to_string(level) +
                      "\n[[channel.event]]\nat_us = 100\naction = \"unplug\"\n");
@@ -181,14 +179,14 @@ TEST(CableEvents, OpenPair_ShowsItsOpenLevel) {
   }
 }
 
-TEST(CableEvents, BrokenMa_SlaveSeesNoFrame) {
+TEST(LineEvents, BrokenMa_SlaveSeesNoFrame) {
   CableBench bench("[[channel.event]]\nat_us = 50\naction = \"ma-high\"\n");
   bench.sim.run_until(from_us(60));
   bench.frame();
   EXPECT_EQ(bench.sim.slave(1)->frames(), 0U);
   bench.transfer({0x07, 0x80});
   bench.sim.advance(10 * kPsPerUs);
-  bench.sim.line(1)->act(bench.sim.now(), CableEvent::Action::kMaFree);
+  bench.sim.line(1)->act(bench.sim.now(), ClockedLine::kMaFree);
   EXPECT_EQ(bench.frame() & 0x11, 0x11);
   EXPECT_EQ(bench.sim.slave(1)->frames(), 1U);
 }
@@ -221,10 +219,10 @@ TEST(CableSeed, JitterAndGlitches_RepeatWithTheSeed) {
 TEST(MaGuard, ShortenedMa_EndsTheSimulation) {
   CableBench bench("");
   bench.frame();
-  EXPECT_EQ(bench.sim.ma_check(1).shortest(), 100 * kPsPerNs);
-  EXPECT_GT(bench.sim.ma_check(1).pulses(), 30U);
-  EXPECT_EQ(bench.sim.ma_check(2).pulses(), 0U);
-  bench.sim.ma_check(1).require(100 * kPsPerNs);
+  EXPECT_EQ(ma_check(bench.sim.line_end(1)).shortest(), 100 * kPsPerNs);
+  EXPECT_GT(ma_check(bench.sim.line_end(1)).pulses(), 30U);
+  EXPECT_EQ(ma_check(bench.sim.line_end(2)).pulses(), 0U);
+  ma_check(bench.sim.line_end(1)).require(100 * kPsPerNs);
   EXPECT_EQ(bench.frame() & 0x11, 0x11);
   bench.transfer({0x02, 0xE6, 0xA0});  // MA at 10 MHz: half of it
   try {

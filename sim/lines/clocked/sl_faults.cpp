@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
-#include "sim/lines/sl_faults.hpp"
+#include "sim/lines/clocked/sl_faults.hpp"
 
 #include <algorithm>
 #include <utility>

@@ -12,7 +12,7 @@
 
 #include "sim/core/event_queue.hpp"
 #include "sim/lines/biss/biss_c_slave.hpp"
-#include "sim/lines/slave_chain.hpp"
+#include "sim/lines/clocked/slave_chain.hpp"
 
 namespace mb4test {
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
-#include "sim/lines/ma_pulse_check.hpp"
+#include "sim/lines/clocked/ma_pulse_check.hpp"
 
 namespace mb4::sim {
 

@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
-#include "sim/lines/line.hpp"
+#include "sim/lines/clocked/clocked_line.hpp"
 
 #include <gtest/gtest.h>
 
-#include "tests/unit/lines/chain_bench.hpp"
+#include "tests/unit/lines/clocked/chain_bench.hpp"
 
 namespace mb4test {
 
@@ -19,7 +19,7 @@ constexpr Time kStart = 1000 * kPsPerNs;
 struct LineBench {
   explicit LineBench(Time round_trip)
       : line(
-            queue, round_trip,
+            queue, config(round_trip),
             [](Time now, void* receiver, bool level) {
               static_cast<ChainBench::Edges*>(receiver)->emplace_back(now, level);
             },
@@ -49,9 +49,15 @@ struct LineBench {
     return bits;
   }
 
+  static ClockedConfig config(Time round_trip) {
+    ClockedConfig config;
+    config.delay = round_trip;
+    return config;
+  }
+
   EventQueue queue;
   ChainBench::Edges sl;
-  Line line;
+  ClockedLine line;
 };
 
 TEST(Line, RoundTripDelay_AppearsOnceBetweenMaAndSl) {

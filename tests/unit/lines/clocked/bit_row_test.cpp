@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // A row of bits does what the shift registers do one behind the other.
-#include "sim/lines/bit_row.hpp"
+#include "sim/lines/clocked/bit_row.hpp"
 
 #include <gtest/gtest.h>
 
