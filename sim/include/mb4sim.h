@@ -197,11 +197,16 @@ enum {
   MB4SIM_EDGE_MA = 0, /* pins of the chip */
   MB4SIM_EDGE_MO = 1,
   MB4SIM_EDGE_SL = 2,
-  MB4SIM_EDGE_SLO = 3 /* output of the slave next to SL, at its end of the cable */
+  MB4SIM_EDGE_SLO = 3, /* output of the slave next to SL, at its end of the cable */
+  /* of a line with one wire that both ends drive */
+  MB4SIM_EDGE_OUT = 4,    /* level that the master sends */
+  MB4SIM_EDGE_EN = 5,     /* enable of its driver */
+  MB4SIM_EDGE_IN = 6,     /* level that the master sees */
+  MB4SIM_EDGE_ENCODER = 7 /* level that the encoder sends, 1 while its driver is off, at its end */
 };
 
-/* A line has a new level, 0 or 1, since `time_ps` picoseconds after power-on. `channel` is 1 or 2,
- * `place` is MB4SIM_EDGE_... */
+/* A line has a new level, 0 or 1, since `time_ps` picoseconds after power-on. `channel` is from 1
+ * on, `place` is MB4SIM_EDGE_... */
 typedef void (*mb4sim_edge_callback)(void *context, unsigned channel, unsigned place,
                                      uint64_t time_ps, int level);
 

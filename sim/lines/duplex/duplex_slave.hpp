@@ -1,0 +1,66 @@
+// SPDX-FileCopyrightText: 2026 The openmb4 authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// A device on a duplex line: a Slave with a transceiver on the one wire. It alone knows what a
+// frame is, because such a line need never rest.
+#ifndef MB4SIM_DUPLEX_SLAVE_HPP_
+#define MB4SIM_DUPLEX_SLAVE_HPP_
+
+#include <cstdint>
+#include <map>
+#include <utility>
+#include <vector>
+
+#include "sim/core/time.hpp"
+#include "sim/lines/slave.hpp"
+
+namespace mb4::sim {
+
+class DuplexLine;
+
+// What the transceiver of one end drives. While the driver is off the level has no meaning.
+struct DuplexDrive {
+  bool level = true;
+  bool enable = false;
+
+  bool operator==(const DuplexDrive&) const = default;
+};
+
+class DuplexSlave : public Slave {
+ public:
+  // The level that the receiver at this end sees has changed. It also sees what this end drives.
+  virtual void line_changed(Time now, bool level) = 0;
+  // The time of call_at() has come.
+  virtual void timer(Time /*now*/, std::uint64_t /*word*/) {}
+  // True while the device waits for a frame.
+  virtual bool idle() const = 0;
+
+  DuplexDrive drive() const { return drive_; }
+  // The inverted bits of frame `frame` of this device; an earlier call for it is replaced. The
+  // device says what the bits count.
+  void flip(std::uint64_t frame, std::vector<unsigned> bits) { flips_[frame] = std::move(bits); }
+  // Number of frames that have begun.
+  std::uint64_t begun() const { return begun_; }
+
+ protected:
+  // Its transceiver: the level goes out as long as the driver is on.
+  void set_drive(Time now, DuplexDrive drive);
+  // A call of timer() at `time`, with this word. The device must be on a line.
+  void call_at(Time time, std::uint64_t word);
+  // A frame begins, with the bits that are to be inverted in it; it is over. A frame that begins
+  // before the last one is over has ended it.
+  std::vector<unsigned> begin_frame(Time now);
+  void end_frame(Time now);
+
+ private:
+  friend class DuplexLine;
+
+  DuplexLine* line_ = nullptr;
+  DuplexDrive drive_;
+  std::uint64_t begun_ = 0;
+  std::map<std::uint64_t, std::vector<unsigned>> flips_;
+};
+
+}  // namespace mb4::sim
+
+#endif  // MB4SIM_DUPLEX_SLAVE_HPP_
