@@ -6,8 +6,8 @@ namespace mb4::sim {
 
 FrameWatch::FrameWatch(Simulator& simulator)
     : simulator_(simulator),
-      ner_(simulator.pin_by_name("NER")),
-      eot_(simulator.pin_by_name("EOT")) {
+      error_(simulator.pin_by_name(simulator.scenario().master->error_pin)),
+      end_(simulator.pin_by_name(simulator.scenario().master->end_pin)) {
   for (const ChannelConfig& channel : simulator.scenario().channels) {
     channels_.push_back(
         std::make_unique<Channel>(*this, channel.number, *simulator.line(channel.number)));
@@ -18,16 +18,16 @@ FrameWatch::FrameWatch(Simulator& simulator)
 
 FrameWatch::~FrameWatch() { simulator_.set_observer(nullptr); }
 
-// Now the pins show the errors of the earlier frames.
-void FrameWatch::take_ner() {
-  if (!waiting_.empty() && ner_ && !simulator_.pin(*ner_)) {
-    for (const std::size_t fault : waiting_) ++stories_[fault].ner_low;
+// Now the pin shows the errors of the earlier frames.
+void FrameWatch::take_error() {
+  if (!waiting_.empty() && error_ && !simulator_.pin(*error_)) {
+    for (const std::size_t fault : waiting_) ++stories_[fault].error_low;
   }
   waiting_.clear();
 }
 
 void FrameWatch::pin_changed(Pin pin, bool level) {
-  if (pin == eot_ && level) take_ner();
+  if (pin == end_ && level) take_error();
 }
 
 const std::vector<FaultStory>& FrameWatch::stories() {
@@ -45,7 +45,7 @@ void FrameWatch::set_edges(EdgeCallback callback) {
 void FrameWatch::frame_over(Channel& channel, const LineFrame& frame) {
   SeenFrame seen{channel.number, frame, false};
   seen.fault = touched(channel, frame);
-  if (eot_ && simulator_.pin(*eot_)) take_ner();
+  if (end_ && simulator_.pin(*end_)) take_error();
   if (callback_) callback_(seen);
 }
 

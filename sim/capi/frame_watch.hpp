@@ -31,7 +31,7 @@ struct SeenFrame {
 // Frames that a fault touched.
 struct FaultStory {
   std::uint64_t frames = 0;
-  std::uint64_t ner_low = 0;  // of these, with pin NER low after their end
+  std::uint64_t error_low = 0;  // of these, with the pin for errors low after their end
 };
 
 class FrameWatch final : private PinObserver {
@@ -57,7 +57,7 @@ class FrameWatch final : private PinObserver {
   struct Channel final : LineObserver {
     Channel(FrameWatch& its_watch, unsigned its_number, Line& its_line)
         : watch(its_watch), number(its_number), line(its_line) {}
-    void frame_begun() override { watch.take_ner(); }
+    void frame_begun() override { watch.take_error(); }
     void frame_over(const LineFrame& frame) override { watch.frame_over(*this, frame); }
     void edge(Time now, unsigned place, bool level) override {
       watch.edges_(number, place, now, level);
@@ -70,18 +70,19 @@ class FrameWatch final : private PinObserver {
   };
 
   void pin_changed(Pin pin, bool level) override;
-  void take_ner();
+  void take_error();
   void frame_over(Channel& channel, const LineFrame& frame);
   bool touched(Channel& channel, const LineFrame& frame);
 
   Simulator& simulator_;
-  std::optional<Pin> ner_;
-  std::optional<Pin> eot_;
+  std::optional<Pin> error_;  // Master::error_pin, end_pin
+  std::optional<Pin> end_;
   Callback callback_;
   EdgeCallback edges_;
   std::vector<std::unique_ptr<Channel>> channels_;
   std::vector<FaultStory> stories_;
-  std::vector<std::size_t> waiting_;  // faults of frames after which NER has not been read
+  std::vector<std::size_t>
+      waiting_;  // faults of frames after which the pin for errors has not been read
 };
 
 }  // namespace mb4::sim

@@ -16,7 +16,7 @@ std::string fault_json(const FaultConfig& fault, const FaultRecord& record,
          ", \"begin_ns\": " + ns_text(record.begin) +
          ", \"end_ns\": " + (record.end == kNever ? "null" : ns_text(record.end)) +
          ", \"frames\": " + std::to_string(story.frames) +
-         ", \"ner_low\": " + std::to_string(story.ner_low) + "}";
+         ", \"ner_low\": " + std::to_string(story.error_low) + "}";
 }
 
 }  // namespace

@@ -13,8 +13,8 @@
 #include <string_view>
 
 #include "sim/core/copied.hpp"
-#include "sim/core/crc.hpp"
 #include "sim/core/time.hpp"
+#include "sim/lines/crc.hpp"
 #include "sim/lines/slave.hpp"
 
 namespace mb4::sim {

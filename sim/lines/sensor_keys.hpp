@@ -8,9 +8,9 @@
 #include <string>
 #include <string_view>
 
-#include "sim/core/crc.hpp"
 #include "sim/core/toml_reader.hpp"
 #include "sim/lines/clocked/slave_timeout.hpp"
+#include "sim/lines/crc.hpp"
 #include "sim/lines/sensor_config.hpp"
 
 namespace mb4::sim {

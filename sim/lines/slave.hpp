@@ -11,7 +11,7 @@
 #include <optional>
 #include <vector>
 
-#include "sim/lines/registers/register_file.hpp"
+#include "sim/lines/register_file.hpp"
 #include "sim/lines/slave_fault.hpp"
 
 namespace mb4::sim {

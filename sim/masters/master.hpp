@@ -50,6 +50,10 @@ struct Master {
   // The groups of the waveform view (sim/model/wave_view.hpp). Null if it has no waveform; none if
   // it has no waveform with this host.
   std::vector<WaveGroup> (*wave_groups)(const HostConfig& host);
+  // Pins that most masters do not have: one is low after a frame with an error, the other one rises
+  // at the end of a frame, before it shows the error.
+  std::string_view error_pin{};
+  std::string_view end_pin{};
 
   // Number of the first slave of a channel, from 1 on.
   constexpr unsigned first_slave(unsigned channel) const {

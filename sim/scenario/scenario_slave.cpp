@@ -12,7 +12,7 @@
 #include "sim/lines/line_kind.hpp"
 #include "sim/lines/presets.hpp"
 #include "sim/lines/protocols.hpp"
-#include "sim/lines/registers/register_keys.hpp"
+#include "sim/lines/register_bytes.hpp"
 
 namespace mb4::sim {
 namespace {

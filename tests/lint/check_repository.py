@@ -8,6 +8,8 @@
   check_repository.py verilator   every call of Verilator goes through tools/cmake/mb4.cmake or
                                   carries -fno-const-bit-op-tree
   check_repository.py merged      no marks of an unfinished merge
+  check_repository.py lines       no kind of line and no master in the rooms of the simulator that
+                                  all share
   check_repository.py runnable    scripts with "#!" have their run bit, nothing else has it
   check_repository.py version     the version stands in project() of CMakeLists.txt; the files that must
                                   repeat it say the same, no other file does
@@ -201,6 +203,40 @@ def master_findings(files):
     return findings
 
 
+SHARED_ROOMS = ("sim/core/", "sim/scenario/", "sim/faults/", "sim/capi/", "sim/include/", "sim/simulator.cpp")
+C_HEADER = "sim/include/mb4sim.h"
+WORDS_OF_ONE = {"ma", "mo", "sl", "cdm", "eot", "chain", "biss", "mb4"}
+NAMES_OF_ALL = re.compile(r"\bnamespace mb4(?:::sim)?\b|\bmb4::|\bopenmb4|\bmb4sim\w*|\bMB4SIM_\w*")
+
+
+def words_of(identifier):
+    """The identifier and its parts, between underscores or capitals, in small letters."""
+    words = {identifier, *identifier.split("_")}
+    words.update(re.findall(r"[A-Z]+(?![a-z])|[A-Z]?[a-z]+", identifier))
+    return {word.lower() for word in words}
+
+
+def line_findings(files):
+    """A shared room knows no kind of line and no master: it includes nothing of their rooms, and none
+    of their words is there. Exempt: the C interface with its names."""
+    contract = set(re.findall(r"\w+", files.get(C_HEADER) or ""))
+    findings = []
+    for name, text in files.items():
+        shared = name.startswith(SHARED_ROOMS) or re.fullmatch(r"sim/masters/\w+\.hpp", name)
+        if not shared or text is None or name == C_HEADER or not name.endswith((".hpp", ".cpp", ".h")):
+            continue
+        for number, line in enumerate(text.splitlines(), 1):
+            if re.match(r'\s*#\s*include "sim/lines/\w+/', line):
+                findings.append(f"{name}:{number}: includes a file of one kind of line: {line.strip()}")
+            for identifier in re.findall(r"[A-Za-z_]\w*", NAMES_OF_ALL.sub(" ", line)):
+                if name.startswith("sim/capi/") and identifier in contract:
+                    continue
+                if words := words_of(identifier) & WORDS_OF_ONE:
+                    findings.append(f"{name}:{number}: {identifier} has the word '{min(words)}' "
+                                    "of one kind of line or master")
+    return findings
+
+
 def self_test():
     findings = []
 
@@ -255,6 +291,18 @@ def self_test():
         expect(count, master_findings({"sim/core/a.hpp": text}), f"master: {text}")
     expect(0, master_findings({"sim/masters/axi/a.hpp": "AxiHost", "sim/core/b": None}), "its own room")
 
+    for text, count in (("kMaWire", 1), ("ma_check", 1), ("MA is low", 1), ("on SL or MO", 2), ("slow map", 0),
+                        ("EOT", 1), ("#include \"sim/lines/biss/x.hpp\"", 2), ("clockedChain", 1),
+                        ("#include \"sim/lines/crc.hpp\"", 0), ("namespace mb4::sim {", 0),
+                        ("#ifndef MB4SIM_MA_HPP_", 0), ("iC-MB4", 1), ("openmb4", 0)):
+        for name in ("sim/core/a.hpp", "sim/masters/a.hpp", "sim/simulator.cpp"):
+            expect(count, line_findings({name: text}), f"line: {text}")
+    expect(0, line_findings({"sim/masters/mb4/a.hpp": "MA", "sim/lines/biss/a.hpp": "MA", C_HEADER: "MA"}),
+           "their own rooms")
+    expect(0, line_findings({C_HEADER: "unsigned ma_edges;", "sim/capi/a.cpp": "frame.ma_edges = 1;"}),
+           "a name of the C interface")
+    expect(1, line_findings({C_HEADER: "", "sim/capi/a.cpp": "frame.ma_edges = 1;"}), "no such name")
+
     choices = {CHOICES: "| no. | x |\n|---|---|\n| 1 | a |\n| 3 | b |\n| 4 | c |\n| 4 | d |\n| | e |\n"}
     for text, count in (("decision 1", 0), ("Decisions 1, 3 and 4, page 2", 0), ("decision 2", 1),
                         ("decisions 3..5", 1), ("decision\n// 2", 1), ("decisions 1,\n  # 2, 5", 2),
@@ -281,7 +329,8 @@ def main():
     check = {"licences": licence_findings, "paths": path_findings, "merged": merge_findings,
              "runnable": runnable_findings,
              "verilator": verilator_findings, "version": version_findings,
-             "rooms": room_findings, "masters": master_findings, "decisions": decision_findings}[sys.argv[1]]
+             "rooms": room_findings, "masters": master_findings, "lines": line_findings,
+             "decisions": decision_findings}[sys.argv[1]]
     files = tracked()
     project.finish(check(files), f"{len(files)} tracked files")
 

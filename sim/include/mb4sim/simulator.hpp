@@ -73,27 +73,26 @@ class Simulator final : public HostPins, private LineMaster {
   bool run_while_waiting(const std::function<bool()>& done, Time limit);
   // Calls `callback` at `time`, which must not be before now().
   void at(Time time, std::function<void()> callback) { queue_.post(time, std::move(callback)); }
-  // Number of rising edges of the master's system clock. That of the iC-MB4 is pin CLK or, with
-  // CLKENI = 1, the oscillator.
+  // Number of rising edges of the master's system clock, whatever its source is.
   std::uint64_t clk_cycles() const;
   // Number of those edges that were not simulated one by one because the master was at rest.
   std::uint64_t clk_cycles_left_out() const;
 
   // --- pins ----------------------------------------------------------------------------------
-  // Each master has pins of its own; sim/masters/mb4/ has those of the iC-MB4.
+  // Each master has pins of its own (Master::pin_by_name).
   std::optional<Pin> pin_by_name(std::string_view name) const;
   // Drives a pin from outside. The pin keeps this level until the next call. The call has no effect
-  // on pins that something else drives, for example SL of a channel that the scenario has.
+  // on pins that something else drives, for example the input from a line of the scenario.
   void set_pin(Pin pin, bool level) override;
   // Level of any pin as a voltmeter would show it.
   bool pin(Pin pin) const override;
-  // True if the pins of a line are the inverse of those of another one (iC-MB4: CFGIF). Then
+  // True if the pins of a line are the inverse of those of another one, a differential pair. Then
   // nothing of that channel is connected.
   bool paired() const { return followers_ != 0; }
   // False for pins that set_pin() ignores.
   bool can_set(Pin pin) const;
-  // Tells the observer the levels of all pins that set_pin() drives and of EOT, at once and then at
-  // every change. Null: no observer. The observer must live as long as it is set.
+  // Tells the observer the levels of all pins that set_pin() drives and of Master::end_pin, at once
+  // and then at every change. Null: no observer. The observer must live as long as it is set.
   void set_observer(PinObserver* observer);
 
   // --- hosts, lines, slaves ------------------------------------------------------------------
@@ -119,8 +118,8 @@ class Simulator final : public HostPins, private LineMaster {
   HostCheck& host_check() { return master_->host_check(); }
   // The line of a channel, from 1 on. Null if the scenario does not have this channel.
   Line* line(unsigned channel);
-  // A slave by its number from 1 on. For the iC-MB4 this is the number of its SCDATAx: channel 1
-  // counts from 1, channel 2 from 5. Null if there is no such slave.
+  // A slave by its number from 1 on: Master::first_slave() says where a channel begins. Null if
+  // there is no such slave.
   Slave* slave(unsigned number);
   const Slave* slave(unsigned number) const;
   // The master's end of a channel, 1 to the number of the master's channels. It exists also for a

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sim/lines/biss/biss_b_registers.hpp"
 
-#include "sim/core/crc.hpp"
+#include "sim/lines/crc.hpp"
 
 namespace mb4::sim {
 namespace {

@@ -22,7 +22,7 @@
 #include "sim/core/time.hpp"
 #include "sim/lines/registers/busy_time.hpp"
 #include "sim/lines/registers/control_slave.hpp"
-#include "sim/lines/registers/register_file.hpp"
+#include "sim/lines/register_file.hpp"
 
 namespace mb4::sim {
 

@@ -10,7 +10,7 @@
 
 #include <cstdint>
 
-#include "sim/core/crc.hpp"
+#include "sim/lines/crc.hpp"
 #include "sim/lines/clocked/shift_register.hpp"
 
 namespace mb4::sim {

@@ -10,7 +10,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "sim/core/crc.hpp"
+#include "sim/lines/crc.hpp"
 
 namespace mb4::sim {
 

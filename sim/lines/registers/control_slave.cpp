@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sim/lines/registers/control_slave.hpp"
 
-#include "sim/core/crc.hpp"
+#include "sim/lines/crc.hpp"
 #include "sim/lines/registers/control_slots.hpp"
 
 namespace mb4::sim {

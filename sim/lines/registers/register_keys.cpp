@@ -2,15 +2,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sim/lines/registers/register_keys.hpp"
 
-#include <algorithm>
 #include <initializer_list>
 #include <set>
 #include <string>
 #include <string_view>
-#include <utility>
-#include <vector>
 
 #include "sim/core/number_text.hpp"
+#include "sim/lines/register_bytes.hpp"
 
 namespace mb4::sim {
 namespace {
@@ -20,54 +18,6 @@ constexpr std::uint64_t kLastBank = 0xFF;
 constexpr std::int64_t kMaxIds = 8;
 constexpr std::int64_t kMaxBusyFrames = 1'000'000;
 constexpr double kMaxBusyUs = 1e6;
-
-std::string hex_byte(std::uint64_t value) {
-  constexpr std::string_view kDigits = "0123456789ABCDEF";
-  return std::string("0x") + kDigits[(value >> 4U) & 0xFU] + kDigits[value & 0xFU];
-}
-
-// Returns the entries from top to bottom, as the user reads them. The table is sorted by name.
-std::vector<std::pair<const toml::key*, const toml::node*>> in_order(const toml::table& table) {
-  std::vector<std::pair<const toml::key*, const toml::node*>> entries;
-  for (auto&& [key, node] : table) entries.emplace_back(&key, &node);
-  std::sort(entries.begin(), entries.end(), [](const auto& a, const auto& b) {
-    return a.first->source().begin < b.first->source().begin;
-  });
-  return entries;
-}
-
-// Reads a byte or a list of bytes for each address, 0 to `last`. Calls put(address, value) for each
-// byte.
-template <typename Put>
-void read_bytes(const TomlReader& reader, const toml::table& table, std::uint64_t last, Put put) {
-  std::set<std::uint64_t> given;
-  for (const auto& [key_entry, node_entry] : in_order(table)) {
-    const toml::key& key = *key_entry;
-    const auto address = parse_word(key.str());
-    if (!address || *address > last) {
-      reader.fail_at(key.source(), key.str(),
-                     "expected a register address of 0x00 to " + hex_byte(last));
-    }
-    std::uint64_t at = *address;
-    const auto put_byte = [&](const toml::node& value) {
-      const auto* integer = value.as_integer();
-      if (integer == nullptr || integer->get() < 0 || integer->get() > 0xFF) {
-        reader.fail_at(value.source(), key.str(), "expected bytes of 0 to 255");
-      }
-      if (at > last)
-        reader.fail_at(value.source(), key.str(), "runs past register " + hex_byte(last));
-      if (!given.insert(at).second) {
-        reader.fail_at(value.source(), key.str(), "register " + hex_byte(at) + " is given twice");
-      }
-      put(static_cast<std::uint8_t>(at++), static_cast<std::uint8_t>(integer->get()));
-    };
-    if (const auto* list = node_entry->as_array()) {
-      for (const auto& value : *list) put_byte(value);
-    } else {
-      put_byte(*node_entry);
-    }
-  }
-}
 
 void read_banks(TomlReader& reader, RegisterFile::Banks& banks) {
   const toml::table* table = reader.table("banks");
@@ -128,13 +78,6 @@ void read_marks(TomlReader& reader, std::string_view key, RegisterFile::Marks& m
 }
 
 }  // namespace
-
-void read_registers(TomlReader& reader, std::map<std::uint8_t, std::uint8_t>& registers) {
-  const toml::table* table = reader.table("registers");
-  if (table == nullptr) return;
-  read_bytes(reader, *table, kLastRegister,
-             [&](std::uint8_t address, std::uint8_t value) { registers[address] = value; });
-}
 
 void read_layout(TomlReader& reader, RegisterFile::Layout& layout) {
   read_banks(reader, layout.banks);

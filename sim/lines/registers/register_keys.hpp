@@ -1,25 +1,21 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Reads the keys of a scenario's slave for registers and control communication. All functions throw
+// Reads the keys of a scenario's slave for control communication. All functions throw
 // ScenarioError. On entry the targets hold the values of the preset.
 #ifndef MB4SIM_REGISTER_KEYS_HPP_
 #define MB4SIM_REGISTER_KEYS_HPP_
 
 #include <cstdint>
 #include <initializer_list>
-#include <map>
 #include <string_view>
 
 #include "sim/core/toml_reader.hpp"
+#include "sim/lines/register_file.hpp"
 #include "sim/lines/registers/busy_time.hpp"
 #include "sim/lines/registers/control_slave.hpp"
-#include "sim/lines/registers/register_file.hpp"
 
 namespace mb4::sim {
-
-// Reads the key `registers`.
-void read_registers(TomlReader& reader, std::map<std::uint8_t, std::uint8_t>& registers);
 
 // Reads the key `control`. If the device has no registers that a master can reach, none of `keys`
 // may be given. Returns `present`.
@@ -35,7 +31,7 @@ void read_busy(TomlReader& reader, std::string_view frames_key, std::string_view
 // Reads a busy time that has a key in microseconds only.
 void read_busy_us(TomlReader& reader, std::string_view us_key, BusyTime& busy);
 
-// Reads the keys of control communication: all of the above but `registers`.
+// Reads the keys of control communication: all of the above.
 void read_control(TomlReader& reader, ControlConfig& control);
 void know_control_keys(TomlReader& reader);
 

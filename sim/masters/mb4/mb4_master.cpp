@@ -120,6 +120,8 @@ const Master kMb4Master{.type = "ic-mb4",
                         .read_host = read_host,
                         .pin_by_name = pin_by_name,
                         .make = make,
-                        .wave_groups = mb4_wave_groups};
+                        .wave_groups = mb4_wave_groups,
+                        .error_pin = "NER",
+                        .end_pin = "EOT"};
 
 }  // namespace mb4::sim

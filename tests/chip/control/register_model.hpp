@@ -11,7 +11,7 @@
 #include <cstdint>
 #include <map>
 
-#include "sim/lines/registers/register_file.hpp"
+#include "sim/lines/register_file.hpp"
 
 namespace mb4test {
 

@@ -6,7 +6,7 @@
 
 #include <optional>
 
-#include "sim/core/crc.hpp"
+#include "sim/lines/crc.hpp"
 
 namespace mb4::tool {
 namespace {

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
-#include "sim/lines/registers/register_file.hpp"
+#include "sim/lines/register_file.hpp"
 
 namespace mb4::sim {
 

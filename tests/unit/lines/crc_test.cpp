@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
-#include "sim/core/crc.hpp"
+#include "sim/lines/crc.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Cyclic redundancy check of a BiSS data channel. Bits go in MSB first. The start value is loaded
-// directly: it is the datasheet's 16-bit register, of which the low bits count. The line carries
-// the inverted CRC.
+// Cyclic redundancy check of a BiSS data channel, which the other protocols use too. Bits go in MSB
+// first. The start value is loaded directly: it is the datasheet's 16-bit register, of which the
+// low bits count. The line carries the inverted CRC.
 #ifndef MB4SIM_CRC_HPP_
 #define MB4SIM_CRC_HPP_
 
