@@ -326,7 +326,7 @@ class Automatic {
     if (!chip_.automatic) {
       return Error::kWrongMode;
     }
-    return chip_.control_runs() ? Error::kBusy : Error::kNone;
+    return chip_.control_runs() || chip_.in_doubt() ? Error::kBusy : Error::kNone;
   }
   Result<void> plan_word(Operation& operation, std::uint8_t slave, std::uint64_t word,
                          const Result<void>& allowed) {

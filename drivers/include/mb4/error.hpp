@@ -71,9 +71,10 @@ enum class Error : std::uint8_t {
   kCommand = 15,
   // A control communication is running; poll or abort it first. A read of positions: an actuator
   // holds the bank between the steps of its operation, or, below SpiCheck::kFull, a request is in
-  // the chip and has not begun. Any call but verify(), configure(), reset() and restart() of frames
-  // that run: an operation with SpiCheck::kFull compares the configuration, or was given up before
-  // it could. Not touched.
+  // the chip and has not begun. Any call but verify(), configure(), reset() and those that only
+  // stop:
+  // an operation with SpiCheck::kFull compares the configuration, or was given up before it could.
+  // Not touched.
   kBusy = 16,
   // The call needs automatic frames and they do not run, or they run and the call forbids them; or
   // ControlSteps::poll() finds nothing that was begun. Not touched.
