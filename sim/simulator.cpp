@@ -79,7 +79,7 @@ Simulator::Simulator(const Scenario& scenario, const SimulatorOptions& options)
   master_ = scenario_.master->make(
       {scenario_.chip, scenario_.host, connected, *this, derive_seed(seed_, kMasterSeed),
        options.trace_path ? &trace_ : nullptr, options.plain_evaluation});
-  model_ = &master_->model();
+  use_model();
   tracing_ = options.trace_path.has_value();
   if (tracing_) set_probes(&Simulator::on_probe);
   fault_target_ = std::make_unique<SimulatorFaults>(*this);
@@ -149,9 +149,9 @@ bool Simulator::run_while_waiting(const std::function<bool()>& done, Time limit)
 std::uint64_t Simulator::clk_cycles() const { return model_->cycles(); }
 std::uint64_t Simulator::clk_cycles_left_out() const { return model_->left_out(); }
 
-PulseLimits Simulator::take_pulse_limits(unsigned line, unsigned pin) {
-  return {model_->cycles(), model_->half_clocks(line), model_->min_clock(),
-          model_->take_cut(MasterModel::of_line(line, pin))};
+void Simulator::use_model() {
+  model_ = &master_->model();
+  clock_ = model_;
 }
 
 void Simulator::stop(const std::string& reason) { throw ModelStopped(reason); }
@@ -293,7 +293,7 @@ void Simulator::start_trace(const std::string& path) {
   check_alive();
   if (tracing_) throw TraceError(path + ": a waveform is being written already");
   master_->start_trace({path, now_, kNever});
-  model_ = &master_->model();
+  use_model();
   tracing_ = part_ = true;
   set_probes(&Simulator::on_probe);
 }
@@ -303,7 +303,7 @@ bool Simulator::stop_trace() {
   tracing_ = part_ = false;
   set_probes(nullptr);
   master_->stop_trace();
-  model_ = &master_->model();
+  use_model();
   return true;
 }
 

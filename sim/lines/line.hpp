@@ -16,6 +16,7 @@
 #include <string_view>
 #include <vector>
 
+#include "sim/core/master_clock.hpp"
 #include "sim/core/time.hpp"
 #include "sim/core/wire_faults.hpp"
 #include "sim/lines/slave.hpp"
@@ -58,27 +59,20 @@ struct LineConfig {
   LineConfig& operator=(const LineConfig&) = default;
 };
 
-// What a guard of the master's pulses compares with.
-struct PulseLimits {
-  std::uint64_t cycles = 0;  // rising edges of the master's clock so far
-  unsigned half_clocks = 0;  // configured half period of the line's clock, in clocks
-  Time min_clock = 0;        // shortest period that the clock may have, ps; 0: not known
-  bool cut = false;          // a reset that may cut pulses short has made the edge
-};
-
 // What a line can reach of the simulation.
 class LineMaster {
  public:
   // The bits that the master takes from the line have changed.
   virtual void set_inputs(Time now, unsigned line, unsigned levels) = 0;
-  // For the edge that the master has just made at `pin`, a bit of LineEnd::drive(). Call it once
-  // for each such edge: it takes the mark `cut` away.
-  virtual PulseLimits take_pulse_limits(unsigned line, unsigned pin) = 0;
+  // The clock of the master, which is there when it drives a line.
+  MasterClock& clock() { return *clock_; }
   // Ends the simulation: the master has broken a rule of the line.
   [[noreturn]] virtual void stop(const std::string& reason) = 0;
 
  protected:
   ~LineMaster() = default;
+
+  MasterClock* clock_ = nullptr;
 };
 
 // The master's end of a line. A channel that the scenario does not have is such an end with nothing

@@ -10,18 +10,18 @@
 #include <algorithm>
 #include <cstdint>
 
+#include "sim/core/master_clock.hpp"
 #include "sim/core/time.hpp"
 
 namespace mb4::sim {
 
 // A line is a channel of the scenario. Its index is the number of the channel - 1.
-class MasterModel {
+class MasterModel : public MasterClock {
  public:
   // The outputs that others wait for: the bits of each line, which its kind gives a meaning
   // (LineEnd::drive()), and up to 16 bits of the master's own.
   using Outputs = std::uint64_t;
   static constexpr unsigned kMaxLines = 24;
-  static constexpr unsigned kBitsOfLine = 2;  // at most
   static constexpr Outputs of_line(unsigned line, unsigned levels) {
     return Outputs{levels} << (kBitsOfLine * line);
   }
@@ -45,24 +45,8 @@ class MasterModel {
   // scenario has no clock.
   virtual void set_clock(Time now, std::uint64_t hz) = 0;
 
-  // --- what a guard of a line's clock needs (PulseLimits) ----------------------------------------
-  // Number of rising edges of the system clock so far.
-  std::uint64_t cycles() const { return cycles_; }
-  // Shortest period that the system clock can have had so far, ps; 0 = unknown.
-  Time min_clock() const { return min_clock_; }
-  // Half a period of the line's clock in system clocks, as the running or last frame of this line
-  // has it.
-  virtual unsigned half_clocks(unsigned line) const = 0;
   // Bits of the lines whose outputs only follow other pins, and so have no pulses of their own.
   Outputs followers() const { return followers_; }
-
-  // True once for each edge of an output that is none of a pulse: a reset that may cut pulses short
-  // has made it. `output` is of_line() of its line.
-  bool take_cut(Outputs output) {
-    const bool cut = (cut_ & output) != 0;
-    cut_ &= ~output;
-    return cut;
-  }
 
   // Number of clocks that were left out because the master was at rest.
   virtual std::uint64_t left_out() const { return 0; }
@@ -84,9 +68,6 @@ class MasterModel {
   // These are read at every edge of a line, so they are not virtual.
   Outputs outputs_ = 0;
   Outputs followers_ = 0;
-  Outputs cut_ = 0;
-  std::uint64_t cycles_ = 0;
-  Time min_clock_ = 0;
 };
 
 }  // namespace mb4::sim

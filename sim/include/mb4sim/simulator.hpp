@@ -162,11 +162,11 @@ class Simulator final : public HostPins, private LineMaster {
   static void on_probe(Time now, void* receiver);
   void set_probes(Line::Probe probe);
   void set_inputs(Time now, unsigned line, unsigned levels) override;
-  PulseLimits take_pulse_limits(unsigned line, unsigned pin) override;
   [[noreturn]] void stop(const std::string& reason) override;
 
   bool step(Time limit);
   void settle();
+  void use_model();
   void change_followers();
   void lines_changed(MasterModel::Outputs changed, MasterModel::Outputs levels);
   void check_alive() const;

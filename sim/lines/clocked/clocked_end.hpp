@@ -24,7 +24,7 @@ class MaGuard {
     master_ = &master;
     index_ = index;
   }
-  void drive(Time now, unsigned levels) {
+  [[gnu::always_inline]] void drive(Time now, unsigned levels) {
     const bool ma = (levels & kMaPin) != 0;
     if (ma == ma_) return;
     ma_ = ma;
@@ -34,14 +34,11 @@ class MaGuard {
       check_.restart(ma);
       return;
     }
-    const PulseLimits limits = master_->take_pulse_limits(index_, kMaPin);
+    MasterClock& clock = master_->clock();
     const std::string* violation =
-        check_.edge(now, ma, limits.cycles, limits.half_clocks, limits.min_clock);
-    if (violation == nullptr) return;
-    if (!limits.cut) {
-      master_->stop("MA" + std::to_string(index_ + 1) + ": " + *violation);
-    }
-    check_.count_cut();
+        check_.edge(now, ma, clock.cycles(), clock.half_clocks(index_), clock.min_clock());
+    const bool cut = clock.take_cut(index_, kMaPin);
+    if (violation != nullptr) broken(*violation, cut);
   }
   void follow(bool follows, unsigned levels) {
     if (follows == follows_) return;
@@ -51,6 +48,11 @@ class MaGuard {
   MaPulseCheck& check() { return check_; }
 
  private:
+  [[gnu::noinline]] void broken(const std::string& violation, bool cut) {
+    if (!cut) master_->stop("MA" + std::to_string(index_ + 1) + ": " + violation);
+    check_.count_cut();
+  }
+
   LineMaster* master_ = nullptr;
   unsigned index_ = 0;
   bool ma_ = true;

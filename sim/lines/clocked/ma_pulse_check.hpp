@@ -4,7 +4,7 @@
 // Guards one MA pin of the chip in every simulation. No level may be shorter than half of the
 // configured period of MA. It does not matter what shortens it: BREAK, a reset, a change of FREQS
 // or of the clock. The simulator calls the guard at every edge and ends the run at a violation. It
-// only counts a pulse that a reset cut if the master is built so (PulseLimits::cut).
+// only counts a pulse that a reset cut if the master is built so (MasterClock::take_cut()).
 //
 // Source: iC-MB4 Rev D2, I302, I303.
 #ifndef MB4SIM_MA_PULSE_CHECK_HPP_

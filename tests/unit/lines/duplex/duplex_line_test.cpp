@@ -42,7 +42,6 @@ struct Master final : LineMaster {
     EXPECT_EQ(line, 3U);
     seen.emplace_back(now, levels != 0);
   }
-  PulseLimits take_pulse_limits(unsigned /*line*/, unsigned /*pin*/) override { return {}; }
   [[noreturn]] void stop(const std::string& reason) override { throw std::runtime_error(reason); }
 
   Edges seen;
