@@ -20,9 +20,9 @@
 #include <cstdint>
 
 #include "sim/core/time.hpp"
+#include "sim/lines/register_file.hpp"
 #include "sim/lines/registers/busy_time.hpp"
 #include "sim/lines/registers/control_slave.hpp"
-#include "sim/lines/register_file.hpp"
 
 namespace mb4::sim {
 

@@ -10,8 +10,8 @@
 
 #include <cstdint>
 
-#include "sim/lines/crc.hpp"
 #include "sim/lines/clocked/shift_register.hpp"
+#include "sim/lines/crc.hpp"
 
 namespace mb4::sim {
 

@@ -115,7 +115,7 @@ class EchoSlave final : public DuplexSlave {
   bool level_ = true;
   bool answering_ = false;
   unsigned seen_ = 0xF;  // the last four bits; a line at rest is 1
-  unsigned left_ = 0;  // bits of the request
+  unsigned left_ = 0;    // bits of the request
   std::uint64_t request_ = 0;
   std::uint64_t answer_ = 0;
   unsigned place_ = 0;
@@ -353,7 +353,8 @@ TEST(DuplexToy, CInterface_TellsFramesAndEdges) {
   EXPECT_EQ(told.frames.size(), 3U);
   // From the middle of the bit that begins the request, over eight bits, half a bit, the turn-round
   // and ten bits of the answer.
-  for (const std::uint64_t length : told.frames) EXPECT_EQ(length * kPsPerNs, 8 * kBit + kBit / 2 + 11 * kBit);
+  for (const std::uint64_t length : told.frames)
+    EXPECT_EQ(length * kPsPerNs, 8 * kBit + kBit / 2 + 11 * kBit);
   EXPECT_GT(told.edges.size(), 90U);
   mb4sim_close(sim);
 }
