@@ -1946,13 +1946,17 @@ TEST(Activate, FramesThatDoNotWait_ComeAfterAPause) {
   mb4::Operation op;
   ASSERT_TRUE(device.control().plan_activate(op).ok());
   unsigned frames = 0;
+  Bytes written;
   while (frames < 4) {
     EXPECT_EQ(op.pause_us() >= 100, op.tx(0)[0] == 0x07 && frames != 0) << frames;
     frames += op.tx(0)[0] == 0x07 ? 1 : 0;
     for (std::size_t i = 0; i < op.frames(); ++i) {
-      if (op.rx(i).empty()) continue;
+      if (op.rx(i).empty()) {
+        written.assign(op.tx(i).begin(), op.tx(i).end());
+        continue;
+      }
       if (op.tx(i)[0] == 0x03) {  // what was written before
-        for (std::size_t k = 2; k < op.tx(i).size(); ++k) op.rx(i)[k] = op.tx(i - 1)[k];
+        for (std::size_t k = 2; k < op.tx(i).size(); ++k) op.rx(i)[k] = written.at(k);
       } else {
         for (std::size_t k = 0; k < 6; ++k) op.rx(i)[k] = kOver[k];
       }
