@@ -65,7 +65,7 @@ class Control : public ControlSteps<Bus, Clock> {
   // makes about 70 frames, or 100 with two channels; they send the words of actuators too. In a
   // chain a slave that was off on purpose shifts the words of the others when it is on.
   //
-  // With SpiCheck::kFull also kVerify (not configured any more; control_steps.hpp).
+  // With SpiCheck::kFull also the errors of a comparison (control_steps.hpp).
   //
   // Not touched: kNotConfigured, kBusy; kUnsupported (kChannelProtocol): no channel is BiSS C, or
   // not the one that an ID was given for. kTransport, kNotDetected, kCorrupted, kTimeout as of
@@ -109,13 +109,14 @@ class Control : public ControlSteps<Bus, Clock> {
 
   // As plan_read(), but sends a command. Not touched: kNotConfigured, kInvalidArgument, kBusy,
   // kUnsupported. operation.result(): kTransport, kNotDetected, kCorrupted, kTimeout, kCommand,
-  // kVerify.
+  // and those of a comparison (control_steps.hpp).
   Result<void> plan_command(Operation& operation, const Command& command) {
     return detail::Procedures::plan_command(Steps::chip_, operation, command);
   }
 
   // As plan_command(), but for activate(). Not touched: kNotConfigured, kBusy, kUnsupported.
-  // operation.result(): kTransport, kNotDetected, kCorrupted, kTimeout, kCommand, kVerify.
+  // operation.result(): kTransport, kNotDetected, kCorrupted, kTimeout, kCommand, and
+  // those of a comparison (control_steps.hpp).
   Result<void> plan_activate(Operation& operation, std::uint8_t ids = 0, std::uint8_t ids_2 = 0) {
     return detail::Procedures::plan_activate(Steps::chip_, operation, ids, ids_2);
   }
