@@ -40,6 +40,9 @@ class ScenarioError : public std::runtime_error {
                 const std::string& message);
 };
 
+// The message for something that the CMake variable has left out of this build.
+std::string left_out(std::string_view name, std::string_view variable);
+
 }  // namespace mb4::sim
 
 #endif  // MB4SIM_SCENARIO_ERROR_HPP_

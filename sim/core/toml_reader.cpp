@@ -2,42 +2,89 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sim/core/toml_reader.hpp"
 
+#include <toml++/toml.h>
+
 #include <algorithm>
-#include <cmath>
+#include <utility>
 
 #include "sim/core/number_text.hpp"
 
 namespace mb4::sim {
 namespace {
 
-std::string type_name(const toml::node& node) {
-  switch (node.type()) {
-    case toml::node_type::table:
+using Kind = TomlValue::Kind;
+
+std::string type_name(const TomlValue& value) {
+  switch (value.kind) {
+    case Kind::kTable:
       return "a table";
-    case toml::node_type::array:
+    case Kind::kArray:
       return "an array";
-    case toml::node_type::string:
+    case Kind::kText:
       return "a string";
-    case toml::node_type::integer:
+    case Kind::kInteger:
       return "an integer";
-    case toml::node_type::floating_point:
+    case Kind::kNumber:
       return "a floating-point number";
-    case toml::node_type::boolean:
+    case Kind::kBoolean:
       return "a boolean";
-    default:
-      return "a date or time";
+    case Kind::kDate:
+      break;
   }
+  return "a date or time";
 }
 
 SourcePos position(const toml::source_region& where) {
   return {where.begin.line, where.begin.column};
 }
 
+bool before(SourcePos a, SourcePos b) {
+  return std::pair(a.line, a.column) < std::pair(b.line, b.column);
+}
+
+TomlValue copied(const toml::node& node) {
+  TomlValue value;
+  value.where = position(node.source());
+  if (const auto* table = node.as_table()) {
+    for (auto&& [key, entry] : *table) {
+      value.entries.push_back({std::string(key.str()), position(key.source()), copied(entry)});
+    }
+    // toml++ sorts by name, but the user reads from top to bottom.
+    std::stable_sort(value.entries.begin(), value.entries.end(),
+                     [](const auto& a, const auto& b) { return before(a.where, b.where); });
+  } else if (const auto* list = node.as_array()) {
+    value.kind = Kind::kArray;
+    for (const auto& item : *list) value.items.push_back(copied(item));
+  } else if (const auto* text = node.as_string()) {
+    value.kind = Kind::kText;
+    value.text = text->get();
+  } else if (const auto* integer = node.as_integer()) {
+    value.kind = Kind::kInteger;
+    value.integer = integer->get();
+    value.number = static_cast<double>(integer->get());
+  } else if (const auto* number = node.as_floating_point()) {
+    value.kind = Kind::kNumber;
+    value.number = number->get();
+  } else if (const auto* boolean = node.as_boolean()) {
+    value.kind = Kind::kBoolean;
+    value.boolean = boolean->get();
+  } else {
+    value.kind = Kind::kDate;
+  }
+  return value;
+}
+
 }  // namespace
 
-toml::table parse_toml(std::string_view text, const std::string& name) {
+const TomlValue* TomlValue::find(std::string_view key) const {
+  const auto entry = std::find_if(entries.begin(), entries.end(),
+                                  [&](const TomlEntry& each) { return each.key == key; });
+  return entry == entries.end() ? nullptr : &entry->value;
+}
+
+TomlValue parse_toml(std::string_view text, const std::string& name) {
   try {
-    return toml::parse(text, name);
+    return copied(toml::parse(text, name));
   } catch (const toml::parse_error& error) {
     const auto where = error.source().begin;
     std::string description(error.description());
@@ -50,87 +97,80 @@ toml::table parse_toml(std::string_view text, const std::string& name) {
 void TomlReader::missing(std::string_view key, const std::string& message) {
   known_.emplace(key);
   if (file_.missing) return;
-  file_.missing.emplace(file_.name, position(table_.source()), key, message);
+  file_.missing.emplace(file_.name, table_.where, key, message);
 }
 
 void TomlReader::throw_missing(const TomlFile& file) {
   if (file.missing) throw ScenarioError(*file.missing);
 }
 
-void TomlReader::fail_at(const toml::source_region& where, std::string_view key,
-                         const std::string& message) const {
+void TomlReader::fail_at(SourcePos where, std::string_view key, const std::string& message) const {
   throw_missing(file_);
-  throw ScenarioError(file_.name, position(where), key, message);
+  throw ScenarioError(file_.name, where, key, message);
 }
 
 void TomlReader::fail(std::string_view key, const std::string& message) const {
-  const toml::node* found = table_.get(key);
-  fail_at(found != nullptr ? found->source() : table_.source(), key, message);
+  const TomlValue* found = table_.find(key);
+  fail_at(found != nullptr ? found->where : table_.where, key, message);
 }
 
-const toml::node* TomlReader::node(std::string_view key) {
+const TomlValue* TomlReader::value(std::string_view key) {
   known_.emplace(key);
-  return table_.get(key);
+  return table_.find(key);
 }
 
 std::optional<std::int64_t> TomlReader::integer(std::string_view key, std::int64_t minimum,
                                                 std::int64_t maximum) {
-  const toml::node* found = node(key);
+  const TomlValue* found = value(key);
   if (found == nullptr) return std::nullopt;
-  if (!found->is_integer()) fail(key, "expected an integer, found " + type_name(*found));
-  const std::int64_t value = found->as_integer()->get();
-  if (value < minimum || value > maximum) {
-    fail(key, std::to_string(value) + " is outside " + std::to_string(minimum) + " to " +
+  if (!found->is(Kind::kInteger)) fail(key, "expected an integer, found " + type_name(*found));
+  if (!found->within(minimum, maximum)) {
+    fail(key, std::to_string(found->integer) + " is outside " + std::to_string(minimum) + " to " +
                   std::to_string(maximum));
   }
-  return value;
+  return found->integer;
 }
 
 std::optional<std::uint64_t> TomlReader::word(std::string_view key) {
-  const toml::node* found = node(key);
+  const TomlValue* found = value(key);
   if (found == nullptr) return std::nullopt;
-  if (const auto* text = found->as_string()) {
-    const auto value = parse_word(text->get());
-    if (!value) fail(key, "'" + text->get() + "' is no 64-bit number");
-    return value;
+  if (found->is(Kind::kText)) {
+    const auto word = parse_word(found->text);
+    if (!word) fail(key, "'" + found->text + "' is no 64-bit number");
+    return word;
   }
-  if (!found->is_integer()) {
+  if (!found->is(Kind::kInteger)) {
     fail(key, "expected an integer or a string with one, found " + type_name(*found));
   }
-  const std::int64_t value = found->as_integer()->get();
-  if (value < 0) fail(key, std::to_string(value) + " is negative");
-  return static_cast<std::uint64_t>(value);
+  if (found->integer < 0) fail(key, std::to_string(found->integer) + " is negative");
+  return static_cast<std::uint64_t>(found->integer);
 }
 
 std::optional<double> TomlReader::number(std::string_view key, double minimum, double maximum) {
-  const toml::node* found = node(key);
+  const TomlValue* found = value(key);
   if (found == nullptr) return std::nullopt;
-  if (!found->is_number()) fail(key, "expected a number, found " + type_name(*found));
-  // toml++ gives no double for an integer that a double cannot hold.
-  const auto* whole = found->as_integer();
-  const double value =
-      whole != nullptr ? static_cast<double>(whole->get()) : found->as_floating_point()->get();
-  if (!(value >= minimum && value <= maximum)) {
-    fail(key, plain(value) + " is outside " + plain(minimum) + " to " + plain(maximum));
+  if (!found->is(Kind::kInteger) && !found->is(Kind::kNumber)) {
+    fail(key, "expected a number, found " + type_name(*found));
   }
-  return value;
+  if (!(found->number >= minimum && found->number <= maximum)) {
+    fail(key, plain(found->number) + " is outside " + plain(minimum) + " to " + plain(maximum));
+  }
+  return found->number;
 }
 
 std::optional<bool> TomlReader::boolean(std::string_view key) {
-  const toml::node* found = node(key);
+  const TomlValue* found = value(key);
   if (found == nullptr) return std::nullopt;
-  if (const auto* value = found->as_boolean()) return value->get();
-  if (const auto* value = found->as_integer(); value != nullptr) {
-    if (value->get() == 0 || value->get() == 1) return value->get() == 1;
-  }
+  if (found->is(Kind::kBoolean)) return found->boolean;
+  if (found->within(0, 1)) return found->integer == 1;
   fail(key, "expected true or false, found " + type_name(*found));
 }
 
 std::optional<std::string> TomlReader::text(std::string_view key) {
-  const toml::node* found = node(key);
+  const TomlValue* found = value(key);
   if (found == nullptr) return std::nullopt;
-  if (!found->is_string()) fail(key, "expected a string, found " + type_name(*found));
-  return found->as_string()->get();
+  if (!found->is(Kind::kText)) fail(key, "expected a string, found " + type_name(*found));
+  return found->text;
 }
 
 std::optional<std::string> TomlReader::file_name(std::string_view key) {
@@ -143,10 +183,8 @@ std::optional<std::string> TomlReader::file_name(std::string_view key) {
 
 TableSource TomlReader::source() const {
   TableSource source;
-  source.table = position(table_.source());
-  for (auto&& [key, value] : table_) {
-    source.keys.emplace(std::string(key.str()), position(value.source()));
-  }
+  source.table = table_.where;
+  for (const TomlEntry& entry : table_.entries) source.keys.emplace(entry.key, entry.value.where);
   return source;
 }
 
@@ -164,31 +202,30 @@ std::optional<std::size_t> TomlReader::choice(std::string_view key,
   fail(key, "unknown value '" + *value + "', expected one of: " + list);
 }
 
-const toml::table* TomlReader::table(std::string_view key) {
-  const toml::node* found = node(key);
+const TomlValue* TomlReader::table(std::string_view key) {
+  const TomlValue* found = value(key);
   if (found == nullptr) return nullptr;
-  if (!found->is_table()) fail(key, "expected a table, found " + type_name(*found));
-  return found->as_table();
+  if (!found->is(Kind::kTable)) fail(key, "expected a table, found " + type_name(*found));
+  return found;
 }
 
-const toml::array* TomlReader::tables(std::string_view key) {
-  const toml::node* found = node(key);
+const std::vector<TomlValue>* TomlReader::tables(std::string_view key) {
+  const TomlValue* found = value(key);
   if (found == nullptr) return nullptr;
-  if (!found->is_array_of_tables()) {
+  const bool fits = !found->items.empty() &&
+                    std::all_of(found->items.begin(), found->items.end(),
+                                [](const TomlValue& item) { return item.is(Kind::kTable); });
+  if (!fits) {
     fail(key, "expected tables in double brackets, found " + type_name(*found));
   }
-  return found->as_array();
+  return &found->items;
 }
 
 void TomlReader::finish() const {
-  const toml::key* first = nullptr;
-  for (auto&& [key, value] : table_) {
-    if (known_.contains(key.str())) continue;
-    // The table is sorted by name, but the user reads from top to bottom.
-    if (first == nullptr || key.source().begin < first->source().begin) first = &key;
+  for (const TomlEntry& entry : table_.entries) {
+    if (known_.contains(entry.key)) continue;
+    throw ScenarioError(file_.name, entry.where, entry.key, "unknown key");
   }
-  if (first == nullptr) return;
-  throw ScenarioError(file_.name, position(first->source()), first->str(), "unknown key");
 }
 
 }  // namespace mb4::sim

@@ -7,8 +7,6 @@
 #ifndef MB4SIM_TOML_READER_HPP_
 #define MB4SIM_TOML_READER_HPP_
 
-#include <toml++/toml.h>
-
 #include <cstdint>
 #include <initializer_list>
 #include <optional>
@@ -16,10 +14,41 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "sim/core/scenario_error.hpp"
 
 namespace mb4::sim {
+
+struct TomlEntry;
+
+// A value of a TOML file, and where it stands.
+struct TomlValue {
+  enum class Kind { kTable, kArray, kText, kInteger, kNumber, kBoolean, kDate };
+
+  Kind kind = Kind::kTable;
+  SourcePos where;
+  std::int64_t integer = 0;        // kInteger
+  double number = 0;               // kNumber, and kInteger as near as a double comes
+  bool boolean = false;            // kBoolean
+  std::string text;                // kText
+  std::vector<TomlValue> items;    // kArray
+  std::vector<TomlEntry> entries;  // kTable, from top to bottom
+
+  bool is(Kind other) const { return kind == other; }
+  // Whether it is an integer of minimum to maximum.
+  bool within(std::int64_t minimum, std::int64_t maximum) const {
+    return kind == Kind::kInteger && integer >= minimum && integer <= maximum;
+  }
+  // The value of a key, or null.
+  const TomlValue* find(std::string_view key) const;
+};
+
+struct TomlEntry {
+  std::string key;
+  SourcePos where;  // of the key
+  TomlValue value;
+};
 
 // State that the readers of one file share.
 struct TomlFile {
@@ -27,12 +56,13 @@ struct TomlFile {
   std::optional<ScenarioError> missing;  // the first key that is not there
 };
 
-// Parses TOML. Throws ScenarioError with the place of a mistake, which begins with `name`.
-toml::table parse_toml(std::string_view text, const std::string& name);
+// Parses TOML and returns the table of the whole file. Throws ScenarioError with the place of a
+// mistake, which begins with `name`.
+TomlValue parse_toml(std::string_view text, const std::string& name);
 
 class TomlReader {
  public:
-  TomlReader(const toml::table& table, TomlFile& file) : table_(table), file_(file) {}
+  TomlReader(const TomlValue& table, TomlFile& file) : table_(table), file_(file) {}
 
   // Records that a required key is not there. The caller continues with any value, so that finish()
   // can find an unknown key, which is probably this one misspelt, and report it instead. Any other
@@ -48,10 +78,10 @@ class TomlReader {
   // Throws "file:line:column: key 'key': message". The place is that of the key's value if it is
   // there, else that of the table.
   [[noreturn]] void fail(std::string_view key, const std::string& message) const;
-  [[noreturn]] void fail_at(const toml::source_region& where, std::string_view key,
+  [[noreturn]] void fail_at(SourcePos where, std::string_view key,
                             const std::string& message) const;
 
-  bool has(std::string_view key) const { return table_.contains(key); }
+  bool has(std::string_view key) const { return table_.find(key) != nullptr; }
 
   // The next calls return nothing if the key is absent. They throw if the value is wrong.
   std::optional<std::int64_t> integer(std::string_view key, std::int64_t minimum,
@@ -70,20 +100,19 @@ class TomlReader {
   }
   // The name of a file: text without a NUL character.
   std::optional<std::string> file_name(std::string_view key);
-  const toml::node* node(std::string_view key);
-  const toml::table* table(std::string_view key);
+  const TomlValue* value(std::string_view key);
+  const TomlValue* table(std::string_view key);
   // An array of tables ([[key]]); null if it is absent.
-  const toml::array* tables(std::string_view key);
+  const std::vector<TomlValue>* tables(std::string_view key);
 
   // Throws for the first key of the table that has not been asked for.
   void finish() const;
 
   TableSource source() const;
-  const toml::table& raw() const { return table_; }
   TomlFile& file() const { return file_; }
 
  private:
-  const toml::table& table_;
+  const TomlValue& table_;
   TomlFile& file_;
   std::set<std::string, std::less<>> known_;
 };

@@ -49,17 +49,13 @@ void read_width(TomlReader& reader, const char* key, FaultConfig& fault) {
 // --- line ----------------------------------------------------------------------------------
 
 void read_bit_flip(TomlReader& reader, const FaultLimits& /*limits*/, FaultConfig& fault) {
-  const toml::node* node = reader.node("bits");
-  if (node == nullptr) return;
+  const TomlValue* list = reader.value("bits");
+  if (list == nullptr) return;
   const std::string wanted = "expected a list of 0 to 4095";
-  const toml::array* list = node->as_array();
-  if (list == nullptr || list->empty()) reader.fail("bits", wanted);
-  for (const toml::node& item : *list) {
-    const auto* number = item.as_integer();
-    if (number == nullptr || number->get() < 0 || number->get() > kMaxBit) {
-      reader.fail_at(item.source(), "bits", wanted);
-    }
-    fault.bits.push_back(static_cast<unsigned>(number->get()));
+  if (list->items.empty()) reader.fail("bits", wanted);
+  for (const TomlValue& item : list->items) {
+    if (!item.within(0, kMaxBit)) reader.fail_at(item.where, "bits", wanted);
+    fault.bits.push_back(static_cast<unsigned>(item.integer));
   }
 }
 

@@ -22,6 +22,9 @@ void read_interface(TomlReader& reader, std::span<const HostInterface> accepted,
   std::vector<std::string_view> names;
   for (const HostInterface& each : accepted) names.push_back(each.key);
   host.interface = accepted[reader.choice("interface", names).value_or(0)];
+  if (!host.interface.left_out.empty()) {
+    reader.fail("interface", left_out(host.interface.key, host.interface.left_out));
+  }
 }
 
 void read_spi_keys(TomlReader& reader, HostConfig& host) {

@@ -37,7 +37,7 @@ LineAction action_of(unsigned place) {
   return {kOfWire[(place - 2) % 3], (place - 2) / 3};
 }
 
-LineEvent read_event(const toml::table& table, TomlFile& file,
+LineEvent read_event(const TomlValue& table, TomlFile& file,
                      const std::vector<std::string_view>& names) {
   TomlReader reader(table, file);
   LineEvent event;
@@ -100,27 +100,19 @@ void read_glitch_width(TomlReader& reader, WireFaults& plain, WireFaults& prefix
 
 std::map<std::uint64_t, std::vector<unsigned>> read_flips(TomlReader& reader) {
   std::map<std::uint64_t, std::vector<unsigned>> flips;
-  const toml::node* node = reader.node("flips");
-  if (node == nullptr) return flips;
+  const TomlValue* frames = reader.value("flips");
+  if (frames == nullptr) return flips;
   const std::string wanted = "expected lists of a frame from 1 on and bits of 0 to 4095";
-  const toml::array* frames = node->as_array();
-  if (frames == nullptr) reader.fail("flips", wanted);
-  for (const toml::node& each : *frames) {
-    const toml::array* list = each.as_array();
-    if (list == nullptr || list->size() < 2) reader.fail_at(each.source(), "flips", wanted);
-    std::vector<std::int64_t> numbers;
-    for (const toml::node& item : *list) {
-      const auto* number = item.as_integer();
-      const bool is_frame = numbers.empty();
-      if (number == nullptr || number->get() < (is_frame ? 1 : 0) ||
-          (!is_frame && number->get() > kMaxFlipBit)) {
-        reader.fail_at(item.source(), "flips", wanted);
-      }
-      numbers.push_back(number->get());
-    }
-    auto& bits = flips[static_cast<std::uint64_t>(numbers[0])];
+  if (!frames->is(TomlValue::Kind::kArray)) reader.fail("flips", wanted);
+  for (const TomlValue& each : frames->items) {
+    const std::vector<TomlValue>& numbers = each.items;
+    if (numbers.size() < 2) reader.fail_at(each.where, "flips", wanted);
+    if (!numbers[0].within(1, std::numeric_limits<std::int64_t>::max()))
+      reader.fail_at(numbers[0].where, "flips", wanted);
+    auto& bits = flips[static_cast<std::uint64_t>(numbers[0].integer)];
     for (std::size_t i = 1; i < numbers.size(); ++i) {
-      bits.push_back(static_cast<unsigned>(numbers[i]));
+      if (!numbers[i].within(0, kMaxFlipBit)) reader.fail_at(numbers[i].where, "flips", wanted);
+      bits.push_back(static_cast<unsigned>(numbers[i].integer));
     }
   }
   return flips;
@@ -131,7 +123,7 @@ std::vector<LineEvent> read_events(TomlReader& reader, std::span<const WireName>
   const std::vector<std::string> names = action_names(wires);
   if (const auto* tables = reader.tables("event")) {
     for (const auto& node : *tables) {
-      events.push_back(read_event(*node.as_table(), reader.file(), {names.begin(), names.end()}));
+      events.push_back(read_event(node, reader.file(), {names.begin(), names.end()}));
     }
   }
   return events;

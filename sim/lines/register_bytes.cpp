@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sim/lines/register_bytes.hpp"
 
-#include <algorithm>
 #include <set>
 #include <string>
 #include <string_view>
@@ -12,8 +11,6 @@
 namespace mb4::sim {
 namespace {
 
-constexpr std::uint64_t kLastRegister = 0xFF;
-
 std::string hex_byte(std::uint64_t value) {
   constexpr std::string_view kDigits = "0123456789ABCDEF";
   return std::string("0x") + kDigits[(value >> 4U) & 0xFU] + kDigits[value & 0xFU];
@@ -21,48 +18,33 @@ std::string hex_byte(std::uint64_t value) {
 
 }  // namespace
 
-std::vector<std::pair<const toml::key*, const toml::node*>> in_order(const toml::table& table) {
-  std::vector<std::pair<const toml::key*, const toml::node*>> entries;
-  for (auto&& [key, node] : table) entries.emplace_back(&key, &node);
-  std::sort(entries.begin(), entries.end(), [](const auto& a, const auto& b) {
-    return a.first->source().begin < b.first->source().begin;
-  });
-  return entries;
-}
-
-void read_bytes(const TomlReader& reader, const toml::table& table, std::uint64_t last,
+void read_bytes(const TomlReader& reader, const TomlValue& table, std::uint64_t last,
                 const std::function<void(std::uint8_t, std::uint8_t)>& put) {
   std::set<std::uint64_t> given;
-  for (const auto& [key_entry, node_entry] : in_order(table)) {
-    const toml::key& key = *key_entry;
-    const auto address = parse_word(key.str());
+  for (const auto& [key, where, given_value] : table.entries) {
+    const auto address = parse_word(key);
     if (!address || *address > last) {
-      reader.fail_at(key.source(), key.str(),
-                     "expected a register address of 0x00 to " + hex_byte(last));
+      reader.fail_at(where, key, "expected a register address of 0x00 to " + hex_byte(last));
     }
     std::uint64_t at = *address;
-    const auto put_byte = [&](const toml::node& value) {
-      const auto* integer = value.as_integer();
-      if (integer == nullptr || integer->get() < 0 || integer->get() > 0xFF) {
-        reader.fail_at(value.source(), key.str(), "expected bytes of 0 to 255");
-      }
-      if (at > last)
-        reader.fail_at(value.source(), key.str(), "runs past register " + hex_byte(last));
+    const auto put_byte = [&, &name = key](const TomlValue& value) {
+      if (!value.within(0, 0xFF)) reader.fail_at(value.where, name, "expected bytes of 0 to 255");
+      if (at > last) reader.fail_at(value.where, name, "runs past register " + hex_byte(last));
       if (!given.insert(at).second) {
-        reader.fail_at(value.source(), key.str(), "register " + hex_byte(at) + " is given twice");
+        reader.fail_at(value.where, name, "register " + hex_byte(at) + " is given twice");
       }
-      put(static_cast<std::uint8_t>(at++), static_cast<std::uint8_t>(integer->get()));
+      put(static_cast<std::uint8_t>(at++), static_cast<std::uint8_t>(value.integer));
     };
-    if (const auto* list = node_entry->as_array()) {
-      for (const auto& value : *list) put_byte(value);
+    if (given_value.is(TomlValue::Kind::kArray)) {
+      for (const TomlValue& value : given_value.items) put_byte(value);
     } else {
-      put_byte(*node_entry);
+      put_byte(given_value);
     }
   }
 }
 
 void read_registers(TomlReader& reader, std::map<std::uint8_t, std::uint8_t>& registers) {
-  const toml::table* table = reader.table("registers");
+  const TomlValue* table = reader.table("registers");
   if (table == nullptr) return;
   read_bytes(reader, *table, kLastRegister,
              [&](std::uint8_t address, std::uint8_t value) { registers[address] = value; });

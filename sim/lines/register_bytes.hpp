@@ -8,21 +8,20 @@
 #include <cstdint>
 #include <functional>
 #include <map>
-#include <utility>
-#include <vector>
 
 #include "sim/core/toml_reader.hpp"
 
 namespace mb4::sim {
 
+// The registers of a slave are 0x00 to this.
+inline constexpr std::uint64_t kLastRegister = 0xFF;
+
 // Reads the key `registers` of a slave. On entry the target holds those of the preset.
 void read_registers(TomlReader& reader, std::map<std::uint8_t, std::uint8_t>& registers);
 
-// Returns the entries from top to bottom, as the user reads them. The table is sorted by name.
-std::vector<std::pair<const toml::key*, const toml::node*>> in_order(const toml::table& table);
 // Reads a byte or a list of bytes for each address, 0 to `last`. Calls put(address, value) for each
 // byte.
-void read_bytes(const TomlReader& reader, const toml::table& table, std::uint64_t last,
+void read_bytes(const TomlReader& reader, const TomlValue& table, std::uint64_t last,
                 const std::function<void(std::uint8_t, std::uint8_t)>& put);
 
 }  // namespace mb4::sim

@@ -111,9 +111,9 @@ void read_timeout_us(TomlReader& reader, std::string_view name, Time& value) {
 }
 
 void read_timeout(TomlReader& reader, SlaveTimeout& timeout) {
-  const toml::node* node = reader.node("timeout");
-  if (node != nullptr && node->is_string()) {
-    if (node->as_string()->get() != "adaptive") {
+  const TomlValue* value = reader.value("timeout");
+  if (value != nullptr && value->is(TomlValue::Kind::kText)) {
+    if (value->text != "adaptive") {
       reader.fail("timeout", "expected \"adaptive\" or a number of microseconds");
     }
     timeout.fixed = 0;

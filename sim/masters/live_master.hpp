@@ -18,6 +18,9 @@
 
 namespace mb4::sim {
 
+// The time that a model is in reset before it starts.
+inline constexpr Time kResetLow = 500 * kPsPerNs;
+
 // What a master is made from. `outside`, the scenario's parts and the file live as long as the
 // master.
 struct MasterSetup {

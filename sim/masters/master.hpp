@@ -63,6 +63,12 @@ struct Master {
 
 // In the order in which they are listed to the user. The first is the default.
 std::span<const Master* const> masters();
+// Those that this build has not, and the CMake variable that leaves each out.
+struct LeftOut {
+  std::string_view type;
+  std::string_view variable;
+};
+std::span<const LeftOut> masters_left_out();
 
 // A program adds a master of its own before it reads a scenario. `master` must live on.
 void add_master(const Master& master);

@@ -17,6 +17,12 @@ constexpr const Master* kMasters[] = {
 #endif
 };
 
+#if MB4SIM_WITH_AXI
+constexpr std::span<const LeftOut> kLeftOut;
+#else
+constexpr LeftOut kLeftOut[] = {{"axi", "MB4_AXI"}};
+#endif
+
 // Those of the list, and those that the program has added.
 std::vector<const Master*>& list() {
   static std::vector<const Master*> all(std::begin(kMasters), std::end(kMasters));
@@ -26,6 +32,8 @@ std::vector<const Master*>& list() {
 }  // namespace
 
 std::span<const Master* const> masters() { return list(); }
+
+std::span<const LeftOut> masters_left_out() { return kLeftOut; }
 
 void add_master(const Master& master) { list().push_back(&master); }
 

@@ -10,7 +10,7 @@
 namespace mb4::sim {
 namespace {
 
-void read_channel_events(const toml::table& table, TomlFile& file, const Scenario& scenario,
+void read_channel_events(const TomlValue& table, TomlFile& file, const Scenario& scenario,
                          Injection& injection) {
   TomlReader reader(table, file);
   const auto number = reader.integer("number", 1, scenario.master->channels);
@@ -34,7 +34,7 @@ void shift(Time& time, Time now) {
 
 Injection parse_injection(std::string_view text, const std::string& name, const Scenario& scenario,
                           Time now) {
-  const toml::table root = parse_toml(text, name);
+  const TomlValue root = parse_toml(text, name);
   TomlFile file{name, std::nullopt};
   TomlReader reader(root, file);
   const auto* channels = reader.tables("channel");
@@ -43,12 +43,12 @@ Injection parse_injection(std::string_view text, const std::string& name, const 
   Injection injection;
   if (channels != nullptr) {
     for (const auto& node : *channels) {
-      read_channel_events(*node.as_table(), file, scenario, injection);
+      read_channel_events(node, file, scenario, injection);
     }
   }
   if (faults != nullptr) {
     for (const auto& node : *faults) {
-      injection.faults.push_back(read_fault(*node.as_table(), scenario, file));
+      injection.faults.push_back(read_fault(node, scenario, file));
     }
   }
   TomlReader::throw_missing(file);

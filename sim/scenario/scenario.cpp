@@ -18,16 +18,20 @@
 namespace mb4::sim {
 namespace {
 
-const Master& read_master(const toml::table& table, TomlFile& file) {
+const Master& read_master(const TomlValue& table, TomlFile& file) {
   TomlReader reader(table, file);
   std::vector<std::string_view> types;
   for (const Master* each : masters()) types.push_back(each->type);
+  const auto asked = reader.text("type");
+  for (const LeftOut& each : masters_left_out()) {
+    if (asked == each.type) reader.fail("type", left_out(each.type, each.variable));
+  }
   const Master& master = *masters()[reader.choice("type", types).value_or(0)];
   reader.finish();
   return master;
 }
 
-ChipConfig read_chip(const toml::table& table, TomlFile& file, const Master& master) {
+ChipConfig read_chip(const TomlValue& table, TomlFile& file, const Master& master) {
   TomlReader reader(table, file);
   ChipConfig chip;
   chip.quirks = master.quirks;
@@ -52,7 +56,7 @@ ChipConfig read_chip(const toml::table& table, TomlFile& file, const Master& mas
   return chip;
 }
 
-HostConfig read_host(const toml::table& table, TomlFile& file, const Master& master,
+HostConfig read_host(const TomlValue& table, TomlFile& file, const Master& master,
                      const ChipConfig& chip) {
   TomlReader reader(table, file);
   HostConfig host;
@@ -63,9 +67,8 @@ HostConfig read_host(const toml::table& table, TomlFile& file, const Master& mas
   return host;
 }
 
-void read_channels(const toml::array& channels, TomlFile& file, Scenario& scenario) {
-  for (const auto& node : channels) {
-    const toml::table& table = *node.as_table();
+void read_channels(const std::vector<TomlValue>& channels, TomlFile& file, Scenario& scenario) {
+  for (const TomlValue& table : channels) {
     const Master& master = *scenario.master;
     ChannelConfig channel = read_channel(table, file, master);
     const TomlReader reader(table, file);
@@ -121,7 +124,7 @@ const SlaveConfig* Scenario::slave(unsigned number) const {
 Scenario parse_scenario(std::string_view text, const std::string& name) {
   Scenario scenario;
   scenario.name = name;
-  const toml::table root = parse_toml(text, name);
+  const TomlValue root = parse_toml(text, name);
   TomlFile file{name, std::nullopt};
   TomlReader reader(root, file);
   const auto* master = reader.table("master");
@@ -134,7 +137,7 @@ Scenario parse_scenario(std::string_view text, const std::string& name) {
   if (master != nullptr) scenario.master = &read_master(*master, file);
   scenario.chip.quirks = scenario.master->quirks;
   if (chip != nullptr) scenario.chip = read_chip(*chip, file, *scenario.master);
-  const toml::table none;
+  const TomlValue none;
   scenario.host = read_host(host != nullptr ? *host : none, file, *scenario.master, scenario.chip);
   if (sim != nullptr) {
     TomlReader sim_reader(*sim, file);
@@ -144,7 +147,7 @@ Scenario parse_scenario(std::string_view text, const std::string& name) {
   if (channels != nullptr) read_channels(*channels, file, scenario);
   if (faults != nullptr) {
     for (const auto& node : *faults) {
-      scenario.faults.push_back(read_fault(*node.as_table(), scenario, file));
+      scenario.faults.push_back(read_fault(node, scenario, file));
     }
   }
   TomlReader::throw_missing(file);

@@ -13,7 +13,7 @@ namespace {
 
 // Checks whether the newest slave of a channel fits the others.
 void check_slave(const TomlReader& reader, const ChannelConfig& channel, const LineKind& line,
-                 const toml::source_region& where) {
+                 SourcePos where) {
   const DeviceTraits newest = channel.slaves.back().traits();
   if (channel.slaves.size() > 1) {
     const DeviceTraits first = channel.slaves.front().traits();
@@ -40,7 +40,7 @@ void set_ids(ChannelConfig& channel) {
 
 }  // namespace
 
-ChannelConfig read_channel(const toml::table& table, TomlFile& file, const Master& master) {
+ChannelConfig read_channel(const TomlValue& table, TomlFile& file, const Master& master) {
   TomlReader reader(table, file);
   ChannelConfig channel;
   const auto number = reader.integer("number", 1, master.channels);
@@ -51,12 +51,12 @@ ChannelConfig read_channel(const toml::table& table, TomlFile& file, const Maste
     for (const auto& node : *slaves) {
       const unsigned most = master.slaves_single == 0 ? master.slaves : master.slaves_single;
       if (channel.slaves.size() == most) {
-        reader.fail_at(node.source(), "slave",
+        reader.fail_at(node.where, "slave",
                        "more than " + std::to_string(most) + (most == 1 ? " slave" : " slaves") +
                            " on a channel");
       }
-      channel.slaves.push_back(read_slave(*node.as_table(), file, *master.line));
-      check_slave(reader, channel, *master.line, node.source());
+      channel.slaves.push_back(read_slave(node, file, *master.line));
+      check_slave(reader, channel, *master.line, node.where);
     }
   }
   set_ids(channel);

@@ -6,15 +6,13 @@
 #ifndef MB4SIM_SCENARIO_CHANNEL_HPP_
 #define MB4SIM_SCENARIO_CHANNEL_HPP_
 
-#include <toml++/toml.h>
-
 #include "sim/core/toml_reader.hpp"
 #include "sim/scenario/scenario.hpp"
 
 namespace mb4::sim {
 
 // Reads one channel of this master. Throws ScenarioError.
-ChannelConfig read_channel(const toml::table& table, TomlFile& file, const Master& master);
+ChannelConfig read_channel(const TomlValue& table, TomlFile& file, const Master& master);
 
 }  // namespace mb4::sim
 

@@ -87,21 +87,20 @@ void read_place(TomlReader& reader, const Scenario& scenario, FaultConfig& fault
 
 // Reads a time or a list of times.
 void read_at(TomlReader& reader, FaultConfig& fault) {
-  const toml::node* node = reader.node("at_us");
-  const auto add = [&](const toml::node& item) {
-    // Nothing for an integer that a double cannot hold.
-    const auto value = item.value<double>();
-    if (!item.is_number() || !value || !(*value >= 0 && *value <= kMaxTimeUs)) {
-      reader.fail_at(item.source(), "at_us",
+  const TomlValue* value = reader.value("at_us");
+  const auto add = [&](const TomlValue& item) {
+    const bool number = item.is(TomlValue::Kind::kInteger) || item.is(TomlValue::Kind::kNumber);
+    if (!number || !(item.number >= 0 && item.number <= kMaxTimeUs)) {
+      reader.fail_at(item.where, "at_us",
                      "expected microseconds of 0 to " + plain(kMaxTimeUs) + ", or a list of them");
     }
-    fault.at.push_back(from_us(*value));
+    fault.at.push_back(from_us(item.number));
   };
-  if (const toml::array* list = node->as_array()) {
-    if (list->empty()) reader.fail("at_us", "the list is empty");
-    for (const toml::node& item : *list) add(item);
+  if (value->is(TomlValue::Kind::kArray)) {
+    if (value->items.empty()) reader.fail("at_us", "the list is empty");
+    for (const TomlValue& item : value->items) add(item);
   } else {
-    add(*node);
+    add(*value);
   }
 }
 
@@ -135,7 +134,7 @@ void read_when(TomlReader& reader, FaultConfig& fault) {
 
 }  // namespace
 
-FaultConfig read_fault(const toml::table& table, const Scenario& scenario, TomlFile& file) {
+FaultConfig read_fault(const TomlValue& table, const Scenario& scenario, TomlFile& file) {
   TomlReader reader(table, file);
   FaultConfig fault;
   std::vector<std::string_view> names;

@@ -5,8 +5,6 @@
 #ifndef MB4SIM_SCENARIO_FAULT_HPP_
 #define MB4SIM_SCENARIO_FAULT_HPP_
 
-#include <toml++/toml.h>
-
 #include "sim/core/toml_reader.hpp"
 #include "sim/faults/fault.hpp"
 #include "sim/scenario/scenario.hpp"
@@ -14,7 +12,7 @@
 namespace mb4::sim {
 
 // Reads one fault. `scenario` must be complete except for its faults. Throws ScenarioError.
-FaultConfig read_fault(const toml::table& table, const Scenario& scenario, TomlFile& file);
+FaultConfig read_fault(const TomlValue& table, const Scenario& scenario, TomlFile& file);
 
 }  // namespace mb4::sim
 

@@ -48,7 +48,7 @@ Device read_preset(TomlReader& reader, const Protocol& protocol,
 
 }  // namespace
 
-SlaveConfig read_slave(const toml::table& table, TomlFile& file, const LineKind& line) {
+SlaveConfig read_slave(const TomlValue& table, TomlFile& file, const LineKind& line) {
   TomlReader reader(table, file);
   SlaveConfig slave;
   std::vector<std::string_view> names;

@@ -5,15 +5,13 @@
 #ifndef MB4SIM_SCENARIO_SLAVE_HPP_
 #define MB4SIM_SCENARIO_SLAVE_HPP_
 
-#include <toml++/toml.h>
-
 #include "sim/core/toml_reader.hpp"
 #include "sim/scenario/scenario.hpp"
 
 namespace mb4::sim {
 
 // Reads one slave, of a channel with this kind of line. Throws ScenarioError.
-SlaveConfig read_slave(const toml::table& table, TomlFile& file, const LineKind& line);
+SlaveConfig read_slave(const TomlValue& table, TomlFile& file, const LineKind& line);
 
 }  // namespace mb4::sim
 

@@ -228,9 +228,9 @@ TEST(Simulator, OneFrame_MonitorSeesTheChipsClock) {
 // The jitter of the first fault lasts when the second is added; afterwards the cable is as it was.
 TEST(Simulator, InjectedJitterWithinAnother_LeavesTheCableAsItWas) {
   Simulator simulator(load("/resolute-26.toml"));
-  const auto inject = [&](const char* for_us) {
-    simulator.inject(std::string("[[fault]]\nkind = \"jitter\"\njitter_ns = 20\nat_us = 1.0\n") +
-                     "for_us = " + for_us + "\n");
+  const auto inject = [&](const std::string& for_us) {
+    simulator.inject("[[fault]]\nkind = \"jitter\"\njitter_ns = 20\nat_us = 1.0\nfor_us = " +
+                     for_us);
     simulator.advance(50 * kPsPerUs);
   };
   ASSERT_EQ(clocked(simulator.line(1))->sl_faults().jitter, 0U);

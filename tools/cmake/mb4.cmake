@@ -9,7 +9,9 @@ get_filename_component(MB4_ROOT "${CMAKE_CURRENT_LIST_DIR}/../.." ABSOLUTE)
 find_program(MB4_CCACHE ccache)
 if(MB4_CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
   # With paths relative to the build tree, what is the same in two trees is compiled once.
-  set(CMAKE_CXX_COMPILER_LAUNCHER ${CMAKE_COMMAND} -E env CCACHE_BASEDIR=${MB4_ROOT} CCACHE_NOHASHDIR=1 ${MB4_CCACHE})
+  # The sloppiness is what it needs for precompiled headers.
+  set(CMAKE_CXX_COMPILER_LAUNCHER ${CMAKE_COMMAND} -E env CCACHE_BASEDIR=${MB4_ROOT} CCACHE_NOHASHDIR=1
+    CCACHE_SLOPPINESS=pch_defines,time_macros,include_file_mtime,include_file_ctime ${MB4_CCACHE})
   set(CMAKE_C_COMPILER_LAUNCHER ${CMAKE_CXX_COMPILER_LAUNCHER})
 endif()
 
@@ -27,14 +29,19 @@ function(mb4_warnings target)
     $<$<BOOL:${MB4_WERROR}>:-Werror>)
 endfunction()
 
-# mb4_add_test(NAME LABELS label... SOURCES file... [LIBS lib...] [ENV "VAR=value"...])
-# One GoogleTest program; every TEST becomes a CTest entry of the same name.
+# mb4_add_test(NAME LABELS label... SOURCES file... [LIBS lib...] [ENV "VAR=value"...]
+#              [HEADERS header...])
+# One GoogleTest program; every TEST becomes a CTest entry of the same name. HEADERS: what most of
+# its many files include, read once.
 function(mb4_add_test name)
-  cmake_parse_arguments(ARG "" "" "LABELS;SOURCES;LIBS;ENV" ${ARGN})
+  cmake_parse_arguments(ARG "" "" "LABELS;SOURCES;LIBS;ENV;HEADERS" ${ARGN})
   add_executable(${name} ${ARG_SOURCES})
   target_compile_features(${name} PRIVATE cxx_std_20)
   target_link_libraries(${name} PRIVATE ${ARG_LIBS} GTest::gtest GTest::gtest_main)
   mb4_warnings(${name})
+  if(ARG_HEADERS)
+    target_precompile_headers(${name} PRIVATE <gtest/gtest.h> ${ARG_HEADERS})
+  endif()
   # The libraries take the time at run time, so the tests' own code has -O1. With -O1 the compiler
   # does not see that an optional has been set.
   target_compile_options(${name} PRIVATE -O1 -Wno-maybe-uninitialized)
@@ -76,15 +83,16 @@ function(mb4_rtl_sources out)
   set(${out} ${files} PARENT_SCOPE)
 endfunction()
 
-# mb4_verilate(TARGET TOP module [PREFIX class] [TRACE] [LIST file.f] [SOURCES extra...]
+# mb4_verilate(TARGET TOP module [PREFIX class] [TRACE] [QUICK] [LIST file.f] [SOURCES extra...]
 #              [ARGS arg...])
 # Adds the Verilated model of one RTL module to a library. LIST names the RTL, by default
-# rtl/mb4/mb4.f.
+# rtl/mb4/mb4.f. The model is compiled as one unit, because most of the time goes into Verilator's
+# headers. QUICK: with -O1, which takes half of the time, for a model whose speed does not count.
 #
 # -fno-const-bit-op-tree is not an optimisation choice: without it Verilator 5.006 computes wrong
 # values for XOR trees with inversions (tests/canary shows it).
 function(mb4_verilate target)
-  cmake_parse_arguments(ARG "TRACE" "TOP;PREFIX;LIST" "SOURCES;ARGS" ${ARGN})
+  cmake_parse_arguments(ARG "TRACE;QUICK" "TOP;PREFIX;LIST" "SOURCES;ARGS" ${ARGN})
   if(NOT ARG_PREFIX)
     set(ARG_PREFIX V${ARG_TOP})
   endif()
@@ -101,12 +109,33 @@ function(mb4_verilate target)
   if(ARG_TRACE)
     set(trace TRACE_FST)
   endif()
+  set(VERILATOR_BIN ${MB4_VERILATOR})
   verilate(${target} ${trace}
     TOP_MODULE ${ARG_TOP} PREFIX ${ARG_PREFIX}
     SOURCES ${MB4_ROOT}/rtl/waivers.vlt ${sources} ${ARG_SOURCES}
     INCLUDE_DIRS ${folders}
     VERILATOR_ARGS -Wall --assert --x-assign unique --x-initial unique -fno-const-bit-op-tree
                    --no-timing ${ARG_ARGS})
+
+  set(folder ${CMAKE_CURRENT_BINARY_DIR}/CMakeFiles/${target}.dir/${ARG_PREFIX}.dir)
+  get_target_property(written ${target} SOURCES)
+  # Of Verilator's runtime only the writer of waveforms does work while a model runs.
+  set(runtime ${written})
+  list(FILTER runtime INCLUDE REGEX "/verilated(_[a-z]+)?[.]cpp$")
+  list(FILTER runtime EXCLUDE REGEX "_fst")
+  set_source_files_properties(${runtime} PROPERTIES COMPILE_OPTIONS -O1)
+  list(FILTER written INCLUDE REGEX "/${ARG_PREFIX}[.]dir/.*[.]cpp$")
+  list(REMOVE_ITEM written ${folder}/${ARG_PREFIX}__lines.cpp)
+  set_source_files_properties(${written} PROPERTIES HEADER_FILE_ONLY ON)
+  set(unit ${folder}/unit/${ARG_PREFIX}_unit.cpp)
+  list(SORT written)
+  list(TRANSFORM written REPLACE ".*/(.*)" "#include \"../\\1\"\n")
+  list(JOIN written "" text)
+  file(CONFIGURE OUTPUT ${unit} CONTENT "${text}" @ONLY)
+  target_sources(${target} PRIVATE ${unit})
+  if(ARG_QUICK)
+    set_source_files_properties(${unit} PROPERTIES COMPILE_OPTIONS -O1)
+  endif()
 endfunction()
 
 # mb4_verilated_library(TARGET): an empty static library to which mb4_verilate() adds models.
@@ -125,7 +154,7 @@ function(mb4_verilated_library target)
 endfunction()
 
 set(MB4_TRACE ON)  # the simulator can write waveform files
-set(MB4_AXI ON)    # the simulator has what is on AXI or Wishbone
+option(MB4_AXI "The simulator has what is on AXI or Wishbone" ON)
 # Chips with fewer features that the simulator has beside the full one: drive, single, reader.
 set(MB4_PRESETS single CACHE STRING "Smaller chips of the simulator")
 if(EMSCRIPTEN)
@@ -140,3 +169,9 @@ if(VERILATOR_ROOT AND NOT EXISTS ${VERILATOR_ROOT}/verilator-config.cmake)
 else()
   find_package(verilator 5.006 REQUIRED HINTS ${VERILATOR_ROOT})
 endif()
+# What Verilator writes goes through a script, see there.
+set(MB4_VERILATOR ${CMAKE_BINARY_DIR}/verilator)
+find_package(Python3 REQUIRED COMPONENTS Interpreter)
+file(CONFIGURE OUTPUT ${MB4_VERILATOR} CONTENT
+  "#!/bin/sh\nexec \"${Python3_EXECUTABLE}\" -B \"${MB4_ROOT}/tools/cmake/steady_model.py\" \"${VERILATOR_BIN}\" \"$@\"\n" @ONLY)
+file(CHMOD ${MB4_VERILATOR} PERMISSIONS OWNER_READ OWNER_WRITE OWNER_EXECUTE)

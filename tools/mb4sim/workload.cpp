@@ -305,10 +305,12 @@ constexpr WorkloadInfo kWorkloads[] = {
      []() -> std::unique_ptr<Workload> { return std::make_unique<Firmware>(kReadAutomatic); }},
     {'G', "start-up: a new simulator, configuration, first frame",
      []() -> std::unique_ptr<Workload> { return std::make_unique<StartUp>(); }},
+#if MB4SIM_WITH_AXI
     {'H', "biss_axi: 1 encoder, frames back to back, 100 MHz",
      []() -> std::unique_ptr<Workload> { return make_axi_workload(1); }},
     {'I', "biss_axi: 4 encoders, frames back to back, 100 MHz",
      []() -> std::unique_ptr<Workload> { return make_axi_workload(4); }},
+#endif
 };
 
 }  // namespace

@@ -88,9 +88,9 @@ void read_biss_b(TomlReader& reader, DeviceConfig& device, std::string& file) {
   auto& config = static_cast<BissBSlaveConfig&>(device);
   read_sensor(reader, config, kFlagsOfEncoders, file);
   read_timeout(reader, config.timeout);
-  const toml::node* node = reader.node("register_timeout");
-  if (node != nullptr && node->is_string()) {
-    if (node->as_string()->get() != "adaptive") {
+  const TomlValue* value = reader.value("register_timeout");
+  if (value != nullptr && value->is(TomlValue::Kind::kText)) {
+    if (value->text != "adaptive") {
       reader.fail("register_timeout", "expected \"adaptive\" or a number of microseconds");
     }
     config.register_timeout = 0;

@@ -13,33 +13,31 @@
 namespace mb4::sim {
 namespace {
 
-constexpr std::uint64_t kLastRegister = 0xFF;
 constexpr std::uint64_t kLastBank = 0xFF;
 constexpr std::int64_t kMaxIds = 8;
 constexpr std::int64_t kMaxBusyFrames = 1'000'000;
 constexpr double kMaxBusyUs = 1e6;
 
 void read_banks(TomlReader& reader, RegisterFile::Banks& banks) {
-  const toml::table* table = reader.table("banks");
+  const TomlValue* table = reader.table("banks");
   if (table == nullptr) return;
   std::set<std::uint64_t> given;
-  for (const auto& [key, node] : in_order(*table)) {
-    const auto number = parse_word(key->str());
+  for (const auto& [key, where, bytes] : table->entries) {
+    const auto number = parse_word(key);
     if (!number || *number > kLastBank) {
-      reader.fail_at(key->source(), key->str(), "expected a bank of 1 to 255");
+      reader.fail_at(where, key, "expected a bank of 1 to 255");
     }
     if (*number == 0) {
-      reader.fail_at(key->source(), key->str(), "bank 0 is registers 0x00 to 0x3F");
+      reader.fail_at(where, key, "bank 0 is registers 0x00 to 0x3F");
     }
     if (!given.insert(*number).second) {
-      reader.fail_at(key->source(), key->str(),
-                     "bank " + std::to_string(*number) + " is given twice");
+      reader.fail_at(where, key, "bank " + std::to_string(*number) + " is given twice");
     }
-    if (!node->is_table()) {
-      reader.fail_at(node->source(), key->str(), "expected a table of bytes by address");
+    if (!bytes.is(TomlValue::Kind::kTable)) {
+      reader.fail_at(bytes.where, key, "expected a table of bytes by address");
     }
     RegisterFile::Bank& bank = banks[static_cast<std::uint8_t>(*number)];
-    read_bytes(reader, *node->as_table(), RegisterFile::kBankSize - 1,
+    read_bytes(reader, bytes, RegisterFile::kBankSize - 1,
                [&bank](std::uint8_t address, std::uint8_t value) { bank[address] = value; });
   }
 }
@@ -55,23 +53,15 @@ bool mark_text(std::string_view text, RegisterFile::Marks& marks) {
 }
 
 void read_marks(TomlReader& reader, std::string_view key, RegisterFile::Marks& marks) {
-  const toml::node* node = reader.node(key);
-  if (node == nullptr) return;
-  const auto* list = node->as_array();
-  if (list == nullptr) reader.fail(key, "expected a list of register addresses");
+  const TomlValue* list = reader.value(key);
+  if (list == nullptr) return;
+  if (!list->is(TomlValue::Kind::kArray)) reader.fail(key, "expected a list of register addresses");
   marks.reset();
-  for (const auto& entry : *list) {
-    const auto* integer = entry.as_integer();
-    const auto* text = entry.as_string();
-    bool good = false;
-    if (integer != nullptr && integer->get() >= 0) {
-      good = static_cast<std::uint64_t>(integer->get()) <= kLastRegister;
-      if (good) marks.set(static_cast<std::size_t>(integer->get()));
-    } else if (text != nullptr) {
-      good = mark_text(text->get(), marks);
-    }
-    if (!good) {
-      reader.fail_at(entry.source(), key,
+  for (const TomlValue& entry : list->items) {
+    const bool one = entry.within(0, kLastRegister);
+    if (one) marks.set(static_cast<std::size_t>(entry.integer));
+    if (!one && !(entry.is(TomlValue::Kind::kText) && mark_text(entry.text, marks))) {
+      reader.fail_at(entry.where, key,
                      "expected an address of 0x00 to 0xFF or a range such as \"0x44-0x47\"");
     }
   }
@@ -96,9 +86,9 @@ bool read_present(TomlReader& reader, bool& present, std::initializer_list<std::
 
 void read_busy(TomlReader& reader, std::string_view frames_key, std::string_view us_key,
                BusyTime& busy) {
-  const toml::node* node = reader.node(frames_key);
-  if (node != nullptr && node->is_string()) {
-    if (node->as_string()->get() != "forever") {
+  const TomlValue* value = reader.value(frames_key);
+  if (value != nullptr && value->is(TomlValue::Kind::kText)) {
+    if (value->text != "forever") {
       reader.fail(frames_key, "expected \"forever\" or a number of frames");
     }
     busy = {BusyTime::kForever, 0};
@@ -106,7 +96,7 @@ void read_busy(TomlReader& reader, std::string_view frames_key, std::string_view
     busy = {static_cast<std::uint32_t>(*frames), 0};
   }
   if (const auto us = reader.number(us_key, 0, kMaxBusyUs)) {
-    if (node != nullptr) {
+    if (value != nullptr) {
       reader.fail(us_key, "cannot be given together with " + std::string(frames_key));
     }
     busy = {0, from_us(*us)};

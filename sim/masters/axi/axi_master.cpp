@@ -17,7 +17,7 @@ namespace {
 
 constexpr HostInterface kInterfaces[] = {{"axi", false, "an AXI access is never aborted", true}};
 constexpr std::int64_t kMaxClkHz = 500'000'000;
-constexpr std::uint64_t kMaxMaHz = 10'000'000;
+constexpr std::uint64_t kAxiMaxMaHz = 10'000'000;
 constexpr std::uint64_t kLongestHalf = 255;  // clocks of half an MA period
 
 constexpr std::pair<const char*, unsigned> kSwitches[] = {
@@ -46,8 +46,8 @@ void read_quirks(TomlReader& reader, ChipConfig& chip) {
 // MA is the clock divided by twice 1 to 255.
 void read_host(TomlReader& reader, const ChipConfig& chip, HostConfig& host) {
   const std::uint64_t clk = chip.f_clk_hz;
-  const std::uint64_t half = (clk + 2 * kMaxMaHz - 1) / (2 * kMaxMaHz);
-  host.ma_hz = clk == 0 ? kMaxMaHz : clk / (2 * (half == 0 ? 1 : half));
+  const std::uint64_t half = (clk + 2 * kAxiMaxMaHz - 1) / (2 * kAxiMaxMaHz);
+  host.ma_hz = clk == 0 ? kAxiMaxMaHz : clk / (2 * (half == 0 ? 1 : half));
   const auto hz = reader.integer("ma_hz", 1, kMaxClkHz);
   if (!hz) return;
   host.ma_hz = static_cast<std::uint64_t>(*hz);

@@ -12,7 +12,6 @@
 namespace mb4::sim {
 namespace {
 
-constexpr Time kResetLow = 500 * kPsPerNs;
 constexpr unsigned kLongestAccess = 1000;  // clocks
 
 constexpr Pin kAresetn{0};

@@ -11,8 +11,6 @@
 namespace mb4::sim {
 namespace {
 
-constexpr Time kResetLow = 500 * kPsPerNs;
-
 constexpr std::size_t index_of(Pin pin) { return static_cast<std::size_t>(pin); }
 
 std::unique_ptr<ChipModel> make_chip(const MasterSetup& setup) {

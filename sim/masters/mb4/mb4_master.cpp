@@ -23,15 +23,14 @@
 namespace mb4::sim {
 namespace {
 
+constexpr std::string_view kWordsLeftOut = MB4SIM_WITH_AXI ? "" : "MB4_AXI";
 constexpr HostInterface kInterfaces[] = {
     HostInterface::kSpi,
     HostInterface::kSpi2,
     HostInterface::kIntel,
     HostInterface::kMotorola,
-#if MB4SIM_WITH_AXI
-    {"axi", false, "an AXI access is never aborted", true},
-    {"wb", false, "a Wishbone cycle is never aborted", true},
-#endif
+    {"axi", false, "an AXI access is never aborted", true, kWordsLeftOut},
+    {"wb", false, "a Wishbone cycle is never aborted", true, kWordsLeftOut},
 };
 constexpr std::int64_t kMaxClkHz = 200'000'000;
 
@@ -50,8 +49,7 @@ void read_chip(TomlReader& reader, ChipConfig& chip) {
   if (!found) return;
   const ChipPreset& preset = chip_presets()[*found];
   if (!preset.built) {
-    reader.fail("features", "this build has no \"" + std::string(preset.name) +
-                                "\"; the CMake variable MB4_PRESETS names what it has");
+    reader.fail("features", left_out(preset.name, "MB4_PRESETS"));
   }
   chip.features = preset.features;
 }

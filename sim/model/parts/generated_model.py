@@ -17,7 +17,7 @@ NAME = re.compile(r"vlSelf->([A-Za-z_]\w*)|(?<![\w>.])([A-Za-z_]\w*)")
 # These functions change no variable. Their result depends on their arguments (up to 64 bits) alone.
 PURE = re.compile(r"VL_(?:WRITEF|STOP_MT|UNLIKELY|LIKELY|TIME_UNITED_Q|REDXOR_\w+|"
                   r"(?:ONEHOT0?|COUNTONES|SHIFT\w+|[GL]TE?S?|EXTENDS?)_[IQ]+)$|"
-                  r"\w+__ConstPool__\w+$")
+                  r"\w+__(?:ConstPool__\w+|lines)$")
 COMPARED = re.compile(r"\((0x[0-9a-f]+|\d+)U\s*[!=]=\s*"
                       r"(?:\(IData\)\(vlSelf->(\w+)\)|vlSelf->(\w+))\)")
 KNOWN = {"if", "else", "U", "IData", "QData", "CData", "SData", "vlSelf", "vlSymsp", "Verilated"}
@@ -75,7 +75,7 @@ def in_words(body):
 
 def constants(folder, prefix):
     """Declarations of the model's tables."""
-    pattern = re.compile(r"^extern const [^;]*__ConstPool__\w+;$", re.M)
+    pattern = re.compile(r"^extern const [^;]*__(?:ConstPool__\w+|lines\[\]);$", re.M)
     return sorted({line for path in sources(folder, prefix)
                    for line in pattern.findall(path.read_text(encoding="utf-8"))})
 

@@ -105,7 +105,7 @@ std::vector<std::uint8_t> BridgeSession::feed(std::span<const std::uint8_t> byte
     const std::size_t length = number(rest.subspan(1, 2));
     if (rest.size() < kHeader + length) break;
     std::vector<std::uint8_t> answer;
-    Status status = Status::kGood;
+    Status status = Status::kDone;
     std::string complaint;
     try {
       if (chip_.stopped()) throw sim::ModelStopped(*chip_.stopped());
@@ -122,7 +122,7 @@ std::vector<std::uint8_t> BridgeSession::feed(std::span<const std::uint8_t> byte
       status = Status::kStopped;
       complaint = error.what();
     }
-    if (status != Status::kGood) {
+    if (status != Status::kDone) {
       answer.assign(complaint.begin(), complaint.end());
       answer.resize(std::min(answer.size(), kMaxPayload));
     }

@@ -63,7 +63,7 @@ class BridgeChip {
 class BridgeSession {
  public:
   enum class Status : std::uint8_t {
-    kGood = 0,
+    kDone = 0,
     kMalformed = 1,  // unknown request or wrong length
     kRefused = 2,    // a value that is not possible
     kStopped = 3,    // an assertion in the RTL has ended the simulation

@@ -104,10 +104,10 @@ std::vector<const WorkloadInfo*> chosen(const std::string& letters) {
   return list;
 }
 
-constexpr const char* kRow = "{:<1}  {:<58}  {:>9}  {:>15}  {:>7}  {:>9}\n";
+constexpr const char* kBenchRow = "{:<1}  {:<58}  {:>9}  {:>15}  {:>7}  {:>9}\n";
 
 void print_row(const Rate& rate) {
-  fmt::print(kRow, rate.workload->letter, rate.workload->description,
+  fmt::print(kBenchRow, rate.workload->letter, rate.workload->description,
              fmt::format("{:.2f} M", rate.median / 1e6),
              fmt::format("{:.2f}..{:.2f}", rate.slowest / 1e6, rate.fastest / 1e6),
              fmt::format("{:.1f}", 1e9 / rate.median), fmt::format("{:.2f} x", rate.real_time));
@@ -141,7 +141,7 @@ int bench_command(const BenchOptions& options) {
                build::kFlags, build::kVerilator);
     fmt::print("clk/s     system clocks simulated in a second of processor time on one core, ");
     fmt::print("median of {}, each {} ms or more\n\n", options.repeats, options.milliseconds);
-    fmt::print(kRow, "", "workload", "clk/s", "range, M", "ns/clk", "real time");
+    fmt::print(kBenchRow, "", "workload", "clk/s", "range, M", "ns/clk", "real time");
   }
   for (const WorkloadInfo* info : list) {
     const Rate rate = measure(*info, options);

@@ -38,13 +38,13 @@ Cells cells(const sim::Preset& preset) {
   return out;
 }
 
-constexpr const char* kRow = "{:<20}  {:<8}  {:>4}  {:>5}  {:>5}  {:<9}  {:<9}  {}\n";
+constexpr const char* kPresetsRow = "{:<20}  {:<8}  {:>4}  {:>5}  {:>5}  {:<9}  {:<9}  {}\n";
 
 void print_table() {
-  fmt::print(kRow, "preset", "protocol", "bits", "flags", "CRC", "timeout", "registers", "encoder");
+  fmt::print(kPresetsRow, "preset", "protocol", "bits", "flags", "CRC", "timeout", "registers", "encoder");
   for (const sim::Preset& preset : sim::presets()) {
     const Cells c = cells(preset);
-    fmt::print(kRow, preset.name, c.protocol, c.data_bits, c.flag_bits, c.crc, c.timeout,
+    fmt::print(kPresetsRow, preset.name, c.protocol, c.data_bits, c.flag_bits, c.crc, c.timeout,
                c.control ? "yes" : "no", preset.description);
   }
 }

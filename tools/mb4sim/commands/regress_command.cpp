@@ -28,7 +28,7 @@
 namespace mb4::tool {
 namespace {
 
-constexpr const char* kRow = "{:<44}  {:>20}  {:>8}  {:>6}  {:>6}  {:>6}  {}\n";
+constexpr const char* kRegressRow = "{:<44}  {:>20}  {:>8}  {:>6}  {:>6}  {:>6}  {}\n";
 constexpr std::uint64_t kMaxRuns = 1'000'000;
 constexpr std::string_view kFormat = "mb4sim-regress-1";  // first word of a shard
 constexpr std::string_view kEnd = "end";                  // its last line
@@ -154,11 +154,11 @@ class Table {
     }
   }
   void head() const {
-    fmt::print(kRow, "scenario", "seed", "good", "bad", "faults", "missed", "state");
+    fmt::print(kRegressRow, "scenario", "seed", "good", "bad", "faults", "missed", "state");
     std::fflush(stdout);
   }
   void print(const Row& row) const {
-    fmt::print(kRow, row.scenario, row.seed, row.good, row.bad, row.faults, row.missed, row.state);
+    fmt::print(kRegressRow, row.scenario, row.seed, row.good, row.bad, row.faults, row.missed, row.state);
   }
   void count(const Row& row) {
     status_ = std::max(status_, row.status);

@@ -95,7 +95,7 @@ Result<std::vector<Found>> scan(const sim::Scenario& scenario, unsigned channel,
   return list;
 }
 
-constexpr const char* kRow = "{:>7}  {:>2}  {:<17}  {:<6}  {:<12}  {}\n";
+constexpr const char* kScanRow = "{:>7}  {:>2}  {:<17}  {:<6}  {:<12}  {}\n";
 
 // Offsets of the common page as BiSS EDS defines them; times are shown as they are stored.
 void print_eds(const Found& found) {
@@ -115,15 +115,15 @@ void print_eds(const Found& found) {
 }
 
 void print_text(const std::vector<Found>& list, const ScanOptions& options) {
-  fmt::print(kRow, "channel", "ID", "device ID", "", "manufacturer", "EDS");
+  fmt::print(kScanRow, "channel", "ID", "device ID", "", "manufacturer", "EDS");
   for (const Found& found : list) {
     const SlaveIdentity& identity = found.identity;
     if (!identity.has_identity) {
-      fmt::print(kRow, found.channel, found.id, "no ID registers", "", "", "");
+      fmt::print(kScanRow, found.channel, found.id, "no ID registers", "", "", "");
       continue;
     }
     const std::string eds = identity.has_eds ? fmt::format("bank {}", identity.eds_bank) : "none";
-    fmt::print(kRow, found.channel, found.id, hex(identity.device_id), ascii(identity.device_id),
+    fmt::print(kScanRow, found.channel, found.id, hex(identity.device_id), ascii(identity.device_id),
                fmt::format("{}  {}", hex(identity.manufacturer), ascii(identity.manufacturer)),
                eds);
     if (options.eds && identity.has_eds) print_eds(found);

@@ -182,17 +182,17 @@ std::string Mb4Session::access(const ControlRequest& request) {
 std::string data_text(const Dump& dump) {
   std::string out =
       fmt::format("{:<4}  {:<18}  {}\n", "addr", "data", "bytes, lowest address first");
-  constexpr std::size_t kRow = 8;
+  constexpr std::size_t kBytesInRow = 8;
   const auto data_row = [&](std::size_t address, const std::string& name) {
     out += fmt::format("0x{:02X}  {:<18} ", address, name);
-    for (std::size_t i = 0; i < kRow; ++i) out += fmt::format(" {:02X}", dump[address + i]);
+    for (std::size_t i = 0; i < kBytesInRow; ++i) out += fmt::format(" {:02X}", dump[address + i]);
     out += '\n';
   };
   for (std::size_t slave = 1; slave <= 8; ++slave) {
-    data_row((slave - 1) * kRow, fmt::format("SCDATA{}", slave));
+    data_row((slave - 1) * kBytesInRow, fmt::format("SCDATA{}", slave));
   }
-  for (std::size_t i = 0; i < 64; i += kRow) {
-    data_row(0x80 + i, fmt::format("RDATA{} to {}", i + 1, i + kRow));
+  for (std::size_t i = 0; i < 64; i += kBytesInRow) {
+    data_row(0x80 + i, fmt::format("RDATA{} to {}", i + 1, i + kBytesInRow));
   }
   return out + '\n';
 }

@@ -10,7 +10,12 @@ namespace mb4::tool {
 namespace {
 
 // The only list of the masters that the commands know.
-constexpr const MasterSupport* kAll[] = {&kMb4Support, &kAxiSupport};
+constexpr const MasterSupport* kAll[] = {
+    &kMb4Support,
+#if MB4SIM_WITH_AXI
+    &kAxiSupport,
+#endif
+};
 
 }  // namespace
 

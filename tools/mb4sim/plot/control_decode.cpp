@@ -17,9 +17,9 @@ constexpr std::size_t kHeaderEnd = 16;
 constexpr unsigned kCrcBits = 4;
 constexpr sim::Crc kControlCrc{0x13, 0};
 
-class Decoder {
+class ControlDecoder {
  public:
-  Decoder(const std::vector<ControlBits>& bits, std::size_t start) : bits_(bits) {
+  ControlDecoder(const std::vector<ControlBits>& bits, std::size_t start) : bits_(bits) {
     frame_.start = start;
   }
 
@@ -42,10 +42,10 @@ class Decoder {
     return value;
   }
   unsigned cdm_number(std::size_t slot, unsigned bits) const {
-    return number(&Decoder::cdm, slot, bits);
+    return number(&ControlDecoder::cdm, slot, bits);
   }
   unsigned cds_number(std::size_t slot, unsigned bits) const {
-    return number(&Decoder::cds, slot, bits);
+    return number(&ControlDecoder::cds, slot, bits);
   }
 
   void reach(std::size_t to) { frame_.slots = std::max(frame_.slots, to); }
@@ -204,7 +204,7 @@ ControlFrame decode_control(const std::vector<ControlBits>& bits, std::size_t fr
       ++zeros;
       continue;
     }
-    if (zeros >= kZerosBefore) return Decoder(bits, i).run();
+    if (zeros >= kZerosBefore) return ControlDecoder(bits, i).run();
     zeros = 0;
   }
   return {};

@@ -9,8 +9,8 @@
 namespace mb4::tool {
 namespace {
 
-constexpr std::size_t kBefore = 4;  // cells before S: the last zeros
-constexpr std::size_t kBehind = 1;
+constexpr std::size_t kCellsBefore = 4;  // cells before S: the last zeros
+constexpr std::size_t kCellsBehind = 1;
 
 DiagramRow row(DiagramRow::Type type, std::string name = "") {
   DiagramRow result;
@@ -23,11 +23,11 @@ DiagramRow field_row(const std::vector<SlotField>& fields, bool zeros) {
   DiagramRow result = row(DiagramRow::Type::kFields);
   if (zeros) {
     result.fields.push_back(
-        {{0, static_cast<double>(kBefore)}, FieldKind::kRest, {"14 or more times 0"}, false});
+        {{0, static_cast<double>(kCellsBefore)}, FieldKind::kRest, {"14 or more times 0"}, false});
   }
   for (const SlotField& field : fields) {
     result.fields.push_back(
-        {{static_cast<double>(field.from + kBefore), static_cast<double>(field.to + kBefore)},
+        {{static_cast<double>(field.from + kCellsBefore), static_cast<double>(field.to + kCellsBefore)},
          field.kind,
          field.labels,
          field.bad});
@@ -52,9 +52,9 @@ Diagram control_diagram(const std::vector<ControlBits>& bits, const ControlFrame
   DiagramRow cdm_bits = row(DiagramRow::Type::kDigits);
   DiagramRow cds_bits = row(DiagramRow::Type::kDigits);
   cdm.idle = cds.idle = false;
-  const std::size_t cells = kBefore + frame.slots + kBehind;
+  const std::size_t cells = kCellsBefore + frame.slots + kCellsBehind;
   for (std::size_t cell = 0; cell < cells; ++cell) {
-    const std::size_t index = frame.start + cell - kBefore;
+    const std::size_t index = frame.start + cell - kCellsBefore;
     if (index >= bits.size()) break;
     const auto at = static_cast<double>(cell);
     const ControlBits& bit = bits[index];
@@ -62,7 +62,7 @@ Diagram control_diagram(const std::vector<ControlBits>& bits, const ControlFrame
     cds.levels.push_back({at, bit.cds});
     cdm_bits.digits.push_back({at + 0.5, bit.cdm ? "1" : "0"});
     cds_bits.digits.push_back({at + 0.5, bit.cds ? "1" : "0"});
-    const long slot = static_cast<long>(cell) - static_cast<long>(kBefore);
+    const long slot = static_cast<long>(cell) - static_cast<long>(kCellsBefore);
     diagram.ticks.push_back({at + 0.5, fmt::format("{}", slot)});
     diagram.length = at + 1;
   }

@@ -7,9 +7,9 @@
 namespace mb4::tool {
 namespace {
 
-class Decoder {
+class FrameDecoder {
  public:
-  Decoder(const LineRecording& recording, const FrameTrace& trace,
+  FrameDecoder(const LineRecording& recording, const FrameTrace& trace,
           const sim::ChannelConfig& channel)
       : sl_(recording.sl()), channel_(channel) {
     frame_.trace = trace;
@@ -185,7 +185,7 @@ std::vector<std::string> wrong_crc(std::uint32_t got, std::uint32_t right, unsig
 
 DecodedFrame decode_frame(const LineRecording& recording, const FrameTrace& trace,
                           const sim::ChannelConfig& channel) {
-  return Decoder(recording, trace, channel).run();
+  return FrameDecoder(recording, trace, channel).run();
 }
 
 }  // namespace mb4::tool

@@ -7,7 +7,6 @@
 namespace mb4::sim {
 namespace {
 
-constexpr Time kResetLow = 500 * kPsPerNs;
 constexpr std::uint32_t kLastAddress = 0xFFF;
 // Clocks of the bus. With the slowest core that counts as running, 1 / 128 of the bus clock, a
 // snapshot takes 140 clocks of the core and the queue 128 bytes of at most 4 clocks each.

@@ -326,7 +326,7 @@ TEST_F(DuplexLineTest, Events_OfAScenario) {
 }
 
 DuplexConfig read(const std::string& text) {
-  const toml::table table = parse_toml(text, "line.toml");
+  const TomlValue table = parse_toml(text, "line.toml");
   TomlFile file{"line.toml", {}};
   TomlReader reader(table, file);
   const Copied<LineConfig> config = kDuplexLines.read(reader);

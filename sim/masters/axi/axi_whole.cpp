@@ -1,0 +1,52 @@
+// SPDX-FileCopyrightText: 2026 The openmb4 authors
+// SPDX-License-Identifier: Apache-2.0
+#include <Vaxi_1.h>
+#include <Vaxi_16.h>
+#include <Vaxi_4.h>
+#include <Vaxi_align_16.h>
+#include <Vaxi_align_4.h>
+#include <Vaxi_full_1.h>
+#include <Vaxi_full_16.h>
+#include <Vaxi_full_4.h>
+#include <verilated.h>
+
+// Made by sim/model/signal_list.py; with PREFIX___024root.h.
+#include <Vaxi_16_wave.hpp>
+#include <Vaxi_1_wave.hpp>
+#include <Vaxi_4_wave.hpp>
+#include <Vaxi_align_16_wave.hpp>
+#include <Vaxi_align_4_wave.hpp>
+#include <Vaxi_full_16_wave.hpp>
+#include <Vaxi_full_1_wave.hpp>
+#include <Vaxi_full_4_wave.hpp>
+
+#include "sim/masters/axi/axi_makers.hpp"
+
+namespace mb4::sim {
+namespace {
+
+template <typename Model, unsigned kChannels>
+std::unique_ptr<AxiModel> make(const ChipConfig& chip, std::uint64_t seed) {
+  return std::make_unique<VerilatedAxi<Model, kChannels, AxiWholeSteps<Model>, InsideAxi>>(chip,
+                                                                                           seed);
+}
+
+}  // namespace
+
+std::unique_ptr<AxiModel> make_axi_whole(const ChipConfig& chip, unsigned channels,
+                                         std::uint64_t seed) {
+  if (chip.features == kAxiFull) {
+    if (channels <= 1) return make<Vaxi_full_1, 1>(chip, seed);
+    if (channels <= 4) return make<Vaxi_full_4, 4>(chip, seed);
+    return make<Vaxi_full_16, kAxiChannels>(chip, seed);
+  }
+  if (channels <= 1) return make<Vaxi_1, 1>(chip, seed);
+  if ((chip.quirks & kAxiAlignLatch) != 0) {
+    if (channels <= 4) return make<Vaxi_align_4, 4>(chip, seed);
+    return make<Vaxi_align_16, kAxiChannels>(chip, seed);
+  }
+  if (channels <= 4) return make<Vaxi_4, 4>(chip, seed);
+  return make<Vaxi_16, kAxiChannels>(chip, seed);
+}
+
+}  // namespace mb4::sim
