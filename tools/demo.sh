@@ -26,8 +26,12 @@ step() {
 tools/setup.sh demo
 mkdir -p build
 : >"$log"
-step "configuring" cmake --preset default
-step "building (the first time takes a minute or two)" cmake --build build --target mb4sim
+if [ -f build/CMakeCache.txt ]; then
+  step "configuring" cmake build
+else
+  step "configuring" cmake --preset first
+fi
+step "building (the first time about two minutes on two cores)" cmake --build build --target mb4sim
 
 for example in resolute-26 ramp-sensor ti-tidm-1010; do
   printf '\n$ build/bin/mb4sim run examples/%s.toml --frames 5\n' "$example"

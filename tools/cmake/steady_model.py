@@ -85,9 +85,16 @@ def main():
     (folder / f"{table}.cpp").write_text(
         f"extern const int {table}[] = {{{', '.join(lines or ['0'])}}};\n", encoding="utf-8")
     add_to_list(folder, prefix, str(folder / f"{table}.cpp"))
-    for path, (content, times) in before.items():
-        if path.is_file() and path.read_bytes() == content:
-            os.utime(path, ns=(times.st_atime_ns, times.st_mtime_ns))
+    same = {path for path, (content, _) in before.items()
+            if path.is_file() and path.read_bytes() == content}
+    # The main file is the one that rules of the build name: its time says that any file is new.
+    main_file = folder / f"{prefix}.cpp"
+    code = {path for path in folder.glob("*") if path.suffix in (".cpp", ".h")}
+    if not code - {folder / f"{table}.cpp"} <= same:
+        same.discard(main_file)
+    for path in same:
+        times = before[path][1]
+        os.utime(path, ns=(times.st_atime_ns, times.st_mtime_ns))
     stamp.write_text(state(folder, prefix), encoding="utf-8")
     return 0
 
