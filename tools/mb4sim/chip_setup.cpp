@@ -36,10 +36,14 @@ std::uint32_t frame_timeout(const sim::Scenario& scenario) {
       std::min<double>(longest_us + kFrameMarginUs, kMaxFrameTimeoutUs));
 }
 
-Protocol protocol_of(const sim::LineProtocol& protocol) {
-  return protocol.key == "biss-b" ? Protocol::kBissB
-         : protocol.key == "ssi"  ? Protocol::kSsi
-                                  : Protocol::kBissC;
+// Throws for a protocol that the chip does not speak.
+Protocol protocol_of(const sim::Scenario& scenario, const sim::ChannelConfig& channel) {
+  const std::string_view key = channel.protocol().key;
+  if (key == "biss-c") return Protocol::kBissC;
+  if (key == "biss-b") return Protocol::kBissB;
+  if (key == "ssi") return Protocol::kSsi;
+  fail_at(scenario, channel.slaves.front().source, "protocol",
+          fmt::format("the chip speaks BiSS C, BiSS B and SSI, not \"{}\"", key));
 }
 
 // Sets the members that depend on the slave's protocol.
@@ -120,7 +124,7 @@ Config make_config(const sim::Scenario& scenario) {
   config.spi_check = SpiCheck::kCrc;
   config.frame_timeout_us = frame_timeout(scenario);
   for (const sim::ChannelConfig& channel : scenario.channels) {
-    config.channels[channel.number - 1].protocol = protocol_of(channel.protocol());
+    config.channels[channel.number - 1].protocol = protocol_of(scenario, channel);
     config.mo = config.mo || clocked(*channel.cable).mo;
   }
   for (const ConnectedSlave& connected : connected_slaves(scenario)) {

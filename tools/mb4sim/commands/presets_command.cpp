@@ -41,7 +41,8 @@ Cells cells(const sim::Preset& preset) {
 constexpr const char* kPresetsRow = "{:<20}  {:<8}  {:>4}  {:>5}  {:>5}  {:<9}  {:<9}  {}\n";
 
 void print_table() {
-  fmt::print(kPresetsRow, "preset", "protocol", "bits", "flags", "CRC", "timeout", "registers", "encoder");
+  fmt::print(kPresetsRow, "preset", "protocol", "bits", "flags", "CRC", "timeout", "registers",
+             "encoder");
   for (const sim::Preset& preset : sim::presets()) {
     const Cells c = cells(preset);
     fmt::print(kPresetsRow, preset.name, c.protocol, c.data_bits, c.flag_bits, c.crc, c.timeout,

@@ -158,7 +158,8 @@ class Table {
     std::fflush(stdout);
   }
   void print(const Row& row) const {
-    fmt::print(kRegressRow, row.scenario, row.seed, row.good, row.bad, row.faults, row.missed, row.state);
+    fmt::print(kRegressRow, row.scenario, row.seed, row.good, row.bad, row.faults, row.missed,
+               row.state);
   }
   void count(const Row& row) {
     status_ = std::max(status_, row.status);

@@ -123,9 +123,9 @@ void print_text(const std::vector<Found>& list, const ScanOptions& options) {
       continue;
     }
     const std::string eds = identity.has_eds ? fmt::format("bank {}", identity.eds_bank) : "none";
-    fmt::print(kScanRow, found.channel, found.id, hex(identity.device_id), ascii(identity.device_id),
-               fmt::format("{}  {}", hex(identity.manufacturer), ascii(identity.manufacturer)),
-               eds);
+    fmt::print(
+        kScanRow, found.channel, found.id, hex(identity.device_id), ascii(identity.device_id),
+        fmt::format("{}  {}", hex(identity.manufacturer), ascii(identity.manufacturer)), eds);
     if (options.eds && identity.has_eds) print_eds(found);
   }
 }

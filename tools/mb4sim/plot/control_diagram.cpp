@@ -26,11 +26,11 @@ DiagramRow field_row(const std::vector<SlotField>& fields, bool zeros) {
         {{0, static_cast<double>(kCellsBefore)}, FieldKind::kRest, {"14 or more times 0"}, false});
   }
   for (const SlotField& field : fields) {
-    result.fields.push_back(
-        {{static_cast<double>(field.from + kCellsBefore), static_cast<double>(field.to + kCellsBefore)},
-         field.kind,
-         field.labels,
-         field.bad});
+    result.fields.push_back({{static_cast<double>(field.from + kCellsBefore),
+                              static_cast<double>(field.to + kCellsBefore)},
+                             field.kind,
+                             field.labels,
+                             field.bad});
   }
   return result;
 }

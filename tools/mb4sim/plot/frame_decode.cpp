@@ -10,7 +10,7 @@ namespace {
 class FrameDecoder {
  public:
   FrameDecoder(const LineRecording& recording, const FrameTrace& trace,
-          const sim::ChannelConfig& channel)
+               const sim::ChannelConfig& channel)
       : sl_(recording.sl()), channel_(channel) {
     frame_.trace = trace;
     period_ = trace.period();

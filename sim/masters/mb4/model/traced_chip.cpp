@@ -4,7 +4,7 @@
 #include <Vmb4_chip_trace.h>
 #include <Vmb4_chip_trace__Syms.h>
 
-#include <chip_state.hpp>
+#include <traced_state.hpp>
 #include <fstream>
 #include <memory>
 #include <optional>
@@ -37,7 +37,7 @@ using Chip = VerilatedChip<Vmb4_chip_trace, FstTrace, Inside, PlainSteps<Vmb4_ch
 
 // Writes these signals into the model. Its next eval() computes all others, as the first one does.
 void copy(const Vmb4_chip___024root& signals, Vmb4_chip_trace& model) {
-  copy_chip_state(signals, *model.rootp);
+  copy_state(signals, *model.rootp);
   model.rootp->vlSymsp->__Vm_didInit = false;
 }
 

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Makes a C++ header that copies the state of the model without tracing into the model with it.
 
-Usage: chip_state.py PLAIN_HEADER TRACED_HEADER OUTPUT
+Usage: traced_state.py PLAIN_HEADER TRACED_HEADER OUTPUT
 PLAIN_HEADER and TRACED_HEADER are PREFIX___024root.h of the two Verilated models. A variable of the
 traced model has the same name in the plain one, without the name of the traced model's top. What
 has no partner there is a value that the model computes from others. Flops (their names end in _q)
@@ -40,19 +40,19 @@ def pairs(plain, traced):
         if plain.get(name) == kind:
             found.append((name, other))
         elif STATE.search(name):
-            raise SystemExit(f"chip_state.py: '{other}' has no partner in the plain model")
+            raise SystemExit(f"traced_state.py: '{other}' has no partner in the plain model")
     return found
 
 
 def main(plain_path, traced_path, output):
     rows = pairs(variables(plain_path), variables(traced_path))
     if sum(1 for name, _ in rows if STATE.search(name)) < 100:
-        raise SystemExit(f"chip_state.py: '{plain_path}' is written in an unknown form")
+        raise SystemExit(f"traced_state.py: '{plain_path}' is written in an unknown form")
     body = "".join(f"  to.{other} = from.{name};\n" for name, other in rows)
     Path(output).write_text(
-        "// Made by chip_state.py.\n"
+        "// Made by traced_state.py.\n"
         f"#include <{prefix(plain_path)}___024root.h>\n#include <{prefix(traced_path)}___024root.h>\n\n"
-        f"inline void copy_chip_state(const {prefix(plain_path)}___024root& from,\n"
+        f"inline void copy_state(const {prefix(plain_path)}___024root& from,\n"
         f"                            {prefix(traced_path)}___024root& to) {{\n{body}}}\n",
         encoding="utf-8")
 
