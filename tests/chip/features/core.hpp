@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The cores of the tests in this folder, and a test that runs once for each of them.
+// The cores of the tests in this folder, and for which of them a test runs.
 #ifndef TESTS_CHIP_FEATURES_CORE_HPP_
 #define TESTS_CHIP_FEATURES_CORE_HPP_
 
@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <ostream>
 #include <string>
+#include <vector>
 
 #include "sim/masters/mb4/model/preset_chips.hpp"
 
@@ -43,17 +44,18 @@ inline constexpr Core kCores[] = {
     {"one-line", 1, 5, true, true, true, false, true, true, true, 2, 0xBB},
 };
 
-// Skipped for a core that this program does not have (MB4_PRESETS).
-class CoreTest : public testing::TestWithParam<Core> {
- protected:
-  void SetUp() override {
+// The cores that this program has (MB4_PRESETS) and that fit.
+inline std::vector<Core> built_cores(bool (*fits)(const Core&) = [](const Core&) { return true; }) {
+  std::vector<Core> found;
+  for (const Core& core : kCores) {
     const auto presets = mb4::sim::chip_presets();
-    const bool built = std::any_of(presets.begin(), presets.end(), [](const auto& each) {
-      return each.name == GetParam().name && each.built;
+    const bool built = std::any_of(presets.begin(), presets.end(), [&core](const auto& each) {
+      return each.name == core.name && each.built;
     });
-    if (!built) GTEST_SKIP() << "this program has no chip \"" << GetParam().name << "\"";
+    if (built && fits(core)) found.push_back(core);
   }
-};
+  return found;
+}
 
 // For INSTANTIATE_TEST_SUITE_P: the name of the core as that of a test.
 inline std::string core_name(const testing::TestParamInfo<Core>& entry) {

@@ -24,7 +24,7 @@ namespace sim = mb4::sim;
 const char kEncoder[] = "data_bits = 28\ncrc = 0x43\ndata = 0xAAF37BF\ntimeout = \"adaptive\"";
 constexpr unsigned kEncoderWord = 0xAAF37BF;
 
-class ChipFeatures : public mb4test::CoreTest {
+class ChipFeatures : public testing::TestWithParam<Core> {
  protected:
   static std::string key() { return std::string("features = \"") + GetParam().name + "\""; }
   // One BiSS C encoder on channel 1.
@@ -94,6 +94,12 @@ class ChipFeatures : public mb4test::CoreTest {
     EXPECT_EQ(chip.status() | reg::EOT::kMask, 0xFFU);
   }
 };
+
+// Of the cores that have it.
+class ChipFeaturesControl : public ChipFeatures {};
+class ChipFeaturesSsi : public ChipFeatures {};
+class ChipFeaturesTwoLines : public ChipFeatures {};
+class ChipFeaturesOneLine : public ChipFeatures {};
 
 TEST_P(ChipFeatures, Byte7F_TellsWhatTheCoreHas) {
   Chip chip(scenario());
@@ -421,8 +427,7 @@ TEST_P(ChipFeatures, CdmByInstr_IsSentAndHeld) {
 }
 
 // Control communication of the cores that have it.
-TEST_P(ChipFeatures, RegisterOfTheSlave_IsReadAndWritten) {
-  if (!GetParam().control) GTEST_SKIP() << "a core without control";
+TEST_P(ChipFeaturesControl, RegisterOfTheSlave_IsReadAndWritten) {
   Chip chip(scenario(std::string(kEncoder) + "\nregisters = { 0x44 = [0x12, 0xD9] }"));
   chip.configure_slave1(28, reg::kScrclenCrc6, 0x00, reg::kFreqagsAgsMin);
   const auto access = [&](std::uint8_t regadr) {
@@ -467,8 +472,7 @@ TEST_P(ChipFeatures, CrcThatIsAbsent_MakesTheWordBadWithItsLength) {
 
 // "A word with GRAYSx = 1 on an SSI line without Gray ... keeps SVALID = 0, and its frame ends with
 // nSCDERR = 0." With any CRC, and without one.
-TEST_P(ChipFeatures, GrayCodeThatIsAbsent_MakesTheWordBad) {
-  if (!GetParam().ssi) GTEST_SKIP() << "a core without SSI";
+TEST_P(ChipFeaturesSsi, GrayCodeThatIsAbsent_MakesTheWordBad) {
   for (const bool crc : {false, true}) {
     for (const bool gray : {false, true}) {
       Chip chip("[chip]\n" + key() + "\n[host]\n[[channel]]\nnumber = 1\n[[channel.slave]]\n" +
@@ -493,8 +497,7 @@ TEST_P(ChipFeatures, GrayCodeThatIsAbsent_MakesTheWordBad) {
 }
 
 // "Two lines with n = 1..4: SCDATA1..n on line 1, SCDATA5..4+n on line 2 with SLAVELOC5 = 1."
-TEST_P(ChipFeatures, SecondLine_HasChannel5) {
-  if (GetParam().lines == 1) GTEST_SKIP() << "a core with one line";
+TEST_P(ChipFeaturesTwoLines, SecondLine_HasChannel5) {
   Chip chip(two_lines());
   chip.configure_slave1(28, reg::kScrclenCrc6, 0x03, reg::kFreqagsAgsMin);
   chip.write(reg::slave_cfg_address(5), {reg::kEnscdYes | 27, reg::kScrclenCrc6, 0, 0});
@@ -514,9 +517,8 @@ TEST_P(ChipFeatures, SecondLine_HasChannel5) {
 }
 
 // "... with SLAVELOC5 = 0 line 2 is unused and line 1 has SCDATA1..n only."
-TEST_P(ChipFeatures, SecondLineWithoutSlaveloc5_IsUnused) {
+TEST_P(ChipFeaturesTwoLines, SecondLineWithoutSlaveloc5_IsUnused) {
   const Core& core = GetParam();
-  if (core.lines == 1) GTEST_SKIP() << "a core with one line";
   Chip chip(two_lines());
   chip.configure_slave1(28, reg::kScrclenCrc6, 0x03, reg::kFreqagsAgsMin);
   chip.write(reg::slave_cfg_address(5), {reg::kEnscdYes | 27, reg::kScrclenCrc6, 0, 0});
@@ -529,9 +531,8 @@ TEST_P(ChipFeatures, SecondLineWithoutSlaveloc5_IsUnused) {
 }
 
 // "One line: SCDATA1..n, with SLAVELOC5 = 1 only those up to 4." A second line is not looked at.
-TEST_P(ChipFeatures, OneLine_WorksWithAnySlaveloc5) {
+TEST_P(ChipFeaturesOneLine, OneLine_WorksWithAnySlaveloc5) {
   const Core& core = GetParam();
-  if (core.lines != 1) GTEST_SKIP() << "a core with two lines";
   Chip chip(scenario());
   chip.configure_slave1(28, reg::kScrclenCrc6, 0x03, reg::kFreqagsAgsMin);
   chip.simulator.set_pin(sim::Pin::kSl2, false);
@@ -552,9 +553,8 @@ TEST_P(ChipFeatures, OneLine_WorksWithAnySlaveloc5) {
 }
 
 // "One line": codes of a line that is left out ask for no frame, so no bank is switched.
-TEST_P(ChipFeatures, OneLine_LeftOutLineTakesPartInNothing) {
+TEST_P(ChipFeaturesOneLine, OneLine_LeftOutLineTakesPartInNothing) {
   const Core& core = GetParam();
-  if (core.lines != 1) GTEST_SKIP() << "a core with two lines";
   Chip chip(scenario());
   chip.configure_slave1(28, reg::kScrclenCrc6, 0x03, reg::kFreqagsAgsMin);
   chip.instruct(reg::kInstrCdm0);
@@ -610,7 +610,27 @@ TEST_P(ChipFeatures, OneBank_ShowsTheNewestWordWhateverIsHeldOrSwapped) {
   EXPECT_EQ(chip.status(), reg::kResetStatus0);
 }
 
-INSTANTIATE_TEST_SUITE_P(Cores, ChipFeatures, testing::ValuesIn(mb4test::kCores),
+INSTANTIATE_TEST_SUITE_P(Cores, ChipFeatures, testing::ValuesIn(mb4test::built_cores()),
+                         mb4test::core_name);
+INSTANTIATE_TEST_SUITE_P(Cores, ChipFeaturesControl,
+                         testing::ValuesIn(mb4test::built_cores([](const Core& core) {
+                           return core.control;
+                         })),
+                         mb4test::core_name);
+INSTANTIATE_TEST_SUITE_P(Cores, ChipFeaturesSsi,
+                         testing::ValuesIn(mb4test::built_cores([](const Core& core) {
+                           return core.ssi;
+                         })),
+                         mb4test::core_name);
+INSTANTIATE_TEST_SUITE_P(Cores, ChipFeaturesTwoLines,
+                         testing::ValuesIn(mb4test::built_cores([](const Core& core) {
+                           return core.lines == 2;
+                         })),
+                         mb4test::core_name);
+INSTANTIATE_TEST_SUITE_P(Cores, ChipFeaturesOneLine,
+                         testing::ValuesIn(mb4test::built_cores([](const Core& core) {
+                           return core.lines == 1;
+                         })),
                          mb4test::core_name);
 
 // A preset that a build does not have, and one that is none.
