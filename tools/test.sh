@@ -4,12 +4,20 @@
 #
 # Installs missing packages, builds everything, runs every test through CTest.
 # Usage: tools/test.sh [--sanitize] [--nightly] [CTEST-ARGUMENT...]
+#        tools/test.sh --changed [--since REVISION] [--all]
 #   --sanitize   the same with AddressSanitizer and UBSan, in build-sanitize/
 #   --nightly    instead of the normal suite the long runs (label nightly) with their figures
+#   --changed    builds and runs what the change in the working tree can touch, up to the first failure
 # JUnit report: build/junit.xml (build-sanitize/junit.xml); time of each part: times.txt beside it.
 # MB4_DATASHEET=FILE names the datasheet's text for the register map comparison.
 set -euo pipefail
 cd "$(dirname "$0")/.."
+
+if [ "${1:-}" = --changed ]; then
+  shift
+  cmake --preset default >/dev/null
+  exec tools/changed_tests.py build "$@"
+fi
 
 preset=default
 build=build
