@@ -95,6 +95,11 @@ MAY_USE = {
     # The only place of the commands that names masters: session.hpp is what the others use.
     "tools/mb4sim/masters/": ("tools/", "sim/", *DRIVER, "drivers/include/biss_axi/", "regmap/"),
     "tools/mb4sim/workload.cpp": ("tools/", "tools/mb4sim/masters/", "sim/", *DRIVER, "regmap/"),
+    # What only the iC-MB4 has.
+    **{place: ("tools/", "tools/mb4sim/masters/", "tools/mb4sim/bridge/", "sim/", *DRIVER, "regmap/")
+       for place in ("tools/mb4sim/bridge/", "tools/mb4sim/commands/bridge_command.cpp",
+                     "tools/mb4sim/commands/scan_command.cpp", "tools/mb4sim/commands/spi_command.cpp",
+                     "tools/mb4sim/commands/spidev_command.cpp", "tools/python/native/")},
     "examples/": ("sim/", *DRIVER),
     "rtl/common/": (),
     "rtl/biss/": ("rtl/common/",),

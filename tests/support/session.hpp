@@ -13,10 +13,10 @@
 #include <string>
 #include <vector>
 
+#include "masters/mb4/sim_bus.hpp"
 #include "mb4sim/simulator.hpp"
 #include "sim/masters/mb4/pins.hpp"
 #include "sim/scenario/scenario.hpp"
-#include "sim_bus.hpp"
 #include "tests/support/test_host.hpp"
 
 namespace mb4test {

@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <array>
 
+#include "masters/mb4/sim_bus.hpp"
 #include "mb4/device.hpp"
 #include "mb4/line_delay.hpp"
 #include "sim/core/random.hpp"
-#include "sim_bus.hpp"
 #include "tests/chip/axi/axi_bench.hpp"
 #include "tests/support/chip_fixture.hpp"
 

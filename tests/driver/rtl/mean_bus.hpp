@@ -17,9 +17,9 @@
 #include <type_traits>
 #include <vector>
 
+#include "masters/mb4/sim_bus.hpp"
 #include "mb4/span.hpp"
 #include "mb4sim/simulator.hpp"
-#include "sim_bus.hpp"
 
 namespace mb4test {
 

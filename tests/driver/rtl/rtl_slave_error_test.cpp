@@ -14,10 +14,10 @@
 #include <vector>
 
 #include "enc/trace.hpp"
+#include "masters/mb4/sim_bus.hpp"
 #include "mb4/mb4.hpp"
 #include "mb4sim/simulator.hpp"
 #include "sim/scenario/scenario.hpp"
-#include "sim_bus.hpp"
 #include "tests/support/test_host.hpp"
 
 namespace {

@@ -7,7 +7,7 @@
 
 #include <string>
 
-#include "chip_setup.hpp"
+#include "masters/mb4/chip_setup.hpp"
 #include "sim/core/scenario_error.hpp"
 #include "sim/core/toml_reader.hpp"
 #include "sim/lines/clocked/clocked_lines.hpp"

@@ -15,9 +15,9 @@
 #include <vector>
 
 #include "bridge/spi_port.hpp"
+#include "masters/mb4/sim_bus.hpp"
 #include "mb4sim/simulator.hpp"
 #include "report/pair_warning.hpp"
-#include "sim_bus.hpp"
 
 namespace mb4::tool {
 

@@ -8,8 +8,9 @@
 #include <string>
 #include <vector>
 
-#include "chip_setup.hpp"
 #include "commands/commands.hpp"
+#include "masters/mb4/chip_setup.hpp"
+#include "masters/mb4/sim_bus.hpp"
 #include "mb4/device.hpp"
 #include "mb4/scan.hpp"
 #include "mb4sim/simulator.hpp"
@@ -17,7 +18,6 @@
 #include "report/fault_report.hpp"
 #include "report/messages.hpp"
 #include "sim/scenario/scenario.hpp"
-#include "sim_bus.hpp"
 
 namespace mb4::tool {
 namespace {

@@ -8,14 +8,14 @@
 #include <string_view>
 #include <vector>
 
-#include "chip_setup.hpp"
 #include "commands/commands.hpp"
+#include "masters/mb4/chip_setup.hpp"
+#include "masters/mb4/sim_bus.hpp"
 #include "mb4sim/simulator.hpp"
 #include "report/exit_status.hpp"
 #include "report/fault_report.hpp"
 #include "report/pair_warning.hpp"
 #include "sim/scenario/scenario.hpp"
-#include "sim_bus.hpp"
 
 namespace mb4::tool {
 namespace {

@@ -18,8 +18,8 @@
 
 #include "bridge/bridge_server.hpp"
 #include "bridge/file_descriptor.hpp"
-#include "chip_setup.hpp"
 #include "commands/commands.hpp"
+#include "masters/mb4/chip_setup.hpp"
 #include "mb4sim/simulator.hpp"
 #include "report/exit_status.hpp"
 #include "report/trace_file.hpp"

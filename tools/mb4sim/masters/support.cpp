@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/core.h>
 
-#include "masters/axi_session.hpp"
-#include "masters/mb4_session.hpp"
+#include "masters/axi/axi_session.hpp"
+#include "masters/mb4/mb4_session.hpp"
 #include "sim/masters/master.hpp"
 
 namespace mb4::tool {

@@ -8,7 +8,7 @@
 #include <exception>
 #include <iterator>
 
-#include "chip_setup.hpp"
+#include "masters/mb4/chip_setup.hpp"
 #include "sim/scenario/scenario.hpp"
 
 namespace {

@@ -4,10 +4,10 @@
 #include <Vmb4_chip_trace.h>
 #include <Vmb4_chip_trace__Syms.h>
 
-#include <traced_state.hpp>
 #include <fstream>
 #include <memory>
 #include <optional>
+#include <traced_state.hpp>
 
 #include "plain_steps.hpp"
 #include "sim/model/fst_trace.hpp"

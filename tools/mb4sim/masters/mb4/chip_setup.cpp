@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
-#include "chip_setup.hpp"
+#include "masters/mb4/chip_setup.hpp"
 
 #include <fmt/core.h>
 

@@ -1,13 +1,14 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
-#include "masters/mb4_session.hpp"
+#include "masters/mb4/mb4_session.hpp"
 
 #include <fmt/core.h>
 
 #include <algorithm>
 #include <array>
 
-#include "chip_setup.hpp"
+#include "masters/mb4/chip_setup.hpp"
+#include "masters/mb4/sim_bus.hpp"
 #include "mb4/device.hpp"
 #include "mb4/position.hpp"
 #include "mb4/scan.hpp"
@@ -15,7 +16,6 @@
 #include "sim/lines/clocked/actuator.hpp"
 #include "sim/lines/clocked/clocked_line.hpp"
 #include "sim/masters/mb4/ma_frequency.hpp"
-#include "sim_bus.hpp"
 
 namespace mb4::tool {
 namespace {

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
-#include "masters/axi_session.hpp"
+#include "masters/axi/axi_session.hpp"
 
 #include <fmt/core.h>
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
-#include "masters/axi_workload.hpp"
+#include "masters/axi/axi_workload.hpp"
 
 #include <fmt/core.h>
 
@@ -60,10 +60,15 @@ class AxiFrames final : public Workload {
   sim::Simulator simulator_;
 };
 
+constexpr WorkloadInfo kWorkloads[] = {
+    {'H', "biss_axi: 1 encoder, frames back to back, 100 MHz",
+     []() -> std::unique_ptr<Workload> { return std::make_unique<AxiFrames>(1); }},
+    {'I', "biss_axi: 4 encoders, frames back to back, 100 MHz",
+     []() -> std::unique_ptr<Workload> { return std::make_unique<AxiFrames>(4); }},
+};
+
 }  // namespace
 
-std::unique_ptr<Workload> make_axi_workload(unsigned channels) {
-  return std::make_unique<AxiFrames>(channels);
-}
+std::span<const WorkloadInfo> axi_workloads() { return kWorkloads; }
 
 }  // namespace mb4::tool
