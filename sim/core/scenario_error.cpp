@@ -17,9 +17,9 @@ ScenarioError::ScenarioError(const std::string& file, SourcePos where, std::stri
                          : std::to_string(where.line) + ":" + std::to_string(where.column) + ":") +
                     " key '" + std::string(key) + "': " + message) {}
 
-std::string left_out(std::string_view name, std::string_view variable) {
-  return "this build has no \"" + std::string(name) + "\", as its CMake variable " +
-         std::string(variable) + " says; `cmake --preset default` and a new build bring it";
+std::string left_out(std::string_view name, std::string_view option) {
+  return "this build has no \"" + std::string(name) + "\"; `cmake --preset default " +
+         std::string(option) + "` and a new build bring it";
 }
 
 }  // namespace mb4::sim

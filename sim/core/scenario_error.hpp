@@ -40,8 +40,8 @@ class ScenarioError : public std::runtime_error {
                 const std::string& message);
 };
 
-// The message for something that the CMake variable has left out of this build.
-std::string left_out(std::string_view name, std::string_view variable);
+// The message for something that this build has not. `option` brings it, given to CMake.
+std::string left_out(std::string_view name, std::string_view option);
 
 }  // namespace mb4::sim
 

@@ -19,7 +19,7 @@ struct HostInterface {
   bool parallel = false;
   std::string_view refuses_abort = "";  // why the host cannot abort a transfer; empty: it can
   bool words = false;                   // a bus of 32-bit words (word_host.hpp)
-  std::string_view left_out = "";       // the CMake variable that leaves it out of this build
+  std::string_view left_out = "";       // not in this build: the option of CMake that brings it
 
   constexpr bool operator==(const HostInterface& other) const { return key == other.key; }
 

@@ -63,10 +63,10 @@ struct Master {
 
 // In the order in which they are listed to the user. The first is the default.
 std::span<const Master* const> masters();
-// Those that this build has not, and the CMake variable that leaves each out.
+// Those that this build has not, and the option of CMake that brings each.
 struct LeftOut {
   std::string_view type;
-  std::string_view variable;
+  std::string_view option;
 };
 std::span<const LeftOut> masters_left_out();
 

@@ -20,7 +20,7 @@ constexpr const Master* kMasters[] = {
 #if MB4SIM_WITH_AXI
 constexpr std::span<const LeftOut> kLeftOut;
 #else
-constexpr LeftOut kLeftOut[] = {{"axi", "MB4_AXI"}};
+constexpr LeftOut kLeftOut[] = {{"axi", "-DMB4_AXI=ON"}};
 #endif
 
 // Those of the list, and those that the program has added.

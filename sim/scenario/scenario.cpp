@@ -24,7 +24,7 @@ const Master& read_master(const TomlValue& table, TomlFile& file) {
   for (const Master* each : masters()) types.push_back(each->type);
   const auto asked = reader.text("type");
   for (const LeftOut& each : masters_left_out()) {
-    if (asked == each.type) reader.fail("type", left_out(each.type, each.variable));
+    if (asked == each.type) reader.fail("type", left_out(each.type, each.option));
   }
   const Master& master = *masters()[reader.choice("type", types).value_or(0)];
   reader.finish();

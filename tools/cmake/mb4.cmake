@@ -104,6 +104,23 @@ function(mb4_rtl_sources out)
   set(${out} ${files} PARENT_SCOPE)
 endfunction()
 
+# mb4_forget_old_model(LIST): removes a list of Verilator that names a source which has gone, so that
+# verilate() runs Verilator now.
+function(mb4_forget_old_model list)
+  if(NOT EXISTS ${list})
+    return()
+  endif()
+  file(STRINGS ${list} read REGEX "_DEPS ")
+  string(REGEX MATCHALL "\"[^\"]+\"" read "${read}")
+  foreach(source IN LISTS read)
+    string(REPLACE "\"" "" source "${source}")
+    if(NOT EXISTS ${source})
+      file(REMOVE ${list})
+      return()
+    endif()
+  endforeach()
+endfunction()
+
 # mb4_verilate(TARGET TOP module [PREFIX class] [TRACE] [QUICK] [WHOLE_LIST] [LIST file.f]
 #              [SOURCES extra...] [ARGS arg...])
 # Adds the Verilated model of one RTL module to a library. LIST names the RTL, by default
@@ -137,6 +154,8 @@ function(mb4_verilate target)
   if(ARG_TRACE)
     set(trace TRACE_FST)
   endif()
+  set(folder ${CMAKE_CURRENT_BINARY_DIR}/CMakeFiles/${target}.dir/${ARG_PREFIX}.dir)
+  mb4_forget_old_model(${folder}/${ARG_PREFIX}_copy.cmake)
   set(VERILATOR_BIN ${MB4_VERILATOR})
   verilate(${target} ${trace}
     TOP_MODULE ${ARG_TOP} PREFIX ${ARG_PREFIX}
@@ -145,7 +164,6 @@ function(mb4_verilate target)
     VERILATOR_ARGS -Wall --assert --x-assign unique --x-initial unique -fno-const-bit-op-tree
                    --no-timing ${ARG_ARGS})
 
-  set(folder ${CMAKE_CURRENT_BINARY_DIR}/CMakeFiles/${target}.dir/${ARG_PREFIX}.dir)
   get_target_property(written ${target} SOURCES)
   # Verilator's runtime does little while a model runs; most of a waveform's time is zlib's.
   set(runtime ${written})
@@ -182,8 +200,13 @@ endfunction()
 
 set(MB4_TRACE ON)  # the simulator can write waveform files
 option(MB4_AXI "The simulator has what is on AXI or Wishbone" ON)
+option(MB4_FIRST "The shortest build: no AXI, no Wishbone, no smaller chips" OFF)
 # Chips with fewer features that the simulator has beside the full one: drive, single, reader.
 set(MB4_PRESETS single CACHE STRING "Smaller chips of the simulator")
+if(MB4_FIRST)
+  set(MB4_AXI OFF)
+  set(MB4_PRESETS "")
+endif()
 if(EMSCRIPTEN)
   include(${CMAKE_CURRENT_LIST_DIR}/emscripten.cmake)
 endif()
@@ -198,7 +221,10 @@ else()
 endif()
 # What Verilator writes goes through a script, see there.
 set(MB4_VERILATOR ${CMAKE_BINARY_DIR}/verilator)
+set(steady ${MB4_ROOT}/tools/cmake/steady_model.py)
+file(SHA256 ${steady} steady_hash)  # with another script each model is made anew
+set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${steady})
 find_package(Python3 REQUIRED COMPONENTS Interpreter)
 file(CONFIGURE OUTPUT ${MB4_VERILATOR} CONTENT
-  "#!/bin/sh\nexec \"${Python3_EXECUTABLE}\" -B \"${MB4_ROOT}/tools/cmake/steady_model.py\" \"${VERILATOR_BIN}\" \"$@\"\n" @ONLY)
+  "#!/bin/sh\nexec \"${Python3_EXECUTABLE}\" -B \"${steady}\" \"${VERILATOR_BIN}\" \"$@\"\n# ${steady_hash}\n" @ONLY)
 file(CHMOD ${MB4_VERILATOR} PERMISSIONS OWNER_READ OWNER_WRITE OWNER_EXECUTE)

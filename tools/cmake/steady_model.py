@@ -54,22 +54,27 @@ def add_to_list(folder, prefix, name):
 
 
 def state(folder, prefix):
-    """What the output depends on: arguments, this script, the files that Verilator has read."""
+    """Arguments, this script, the files that Verilator has read, and what has come out of them; empty
+    if that cannot be told."""
     depends = folder / f"{prefix}__ver.d"
     if not depends.is_file():
         return ""
-    read = depends.read_text(encoding="utf-8").partition(":")[2].split()
+    read = [Path(name) for name in depends.read_text(encoding="utf-8").partition(":")[2].split()]
+    if not all(path.is_file() for path in read):  # a name with a space, or a file that has gone
+        return ""
+    written = sorted(path for path in folder.glob("*") if path.suffix in (".cpp", ".h", ".cmake", ".json"))
     digest = hashlib.sha256("\n".join(sys.argv[1:]).encode())
-    for name in [__file__, *(path for path in read if Path(path).is_file())]:
-        digest.update(Path(name).read_bytes())
+    for path in [Path(__file__), *read, *(path for path in written if not path.stem.endswith("_copy"))]:
+        digest.update(str(path).encode() + b"\0" + path.read_bytes())
     return digest.hexdigest()
 
 
 def main():
     folder, prefix = Path(argument("--Mdir")), argument("--prefix")
     stamp = folder / f"{prefix}__steady.txt"
-    if stamp.is_file() and stamp.read_text(encoding="utf-8") == state(folder, prefix):
+    if stamp.is_file() and stamp.read_text(encoding="utf-8") == state(folder, prefix) != "":
         return 0
+    stamp.unlink(missing_ok=True)
     before = {path: (path.read_bytes(), path.stat()) for path in folder.glob("*") if path.is_file()}
     # Otherwise Verilator does nothing where it finds its own last output.
     (folder / f"{prefix}__verFiles.dat").unlink(missing_ok=True)

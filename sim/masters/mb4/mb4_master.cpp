@@ -23,7 +23,7 @@
 namespace mb4::sim {
 namespace {
 
-constexpr std::string_view kWordsLeftOut = MB4SIM_WITH_AXI ? "" : "MB4_AXI";
+constexpr std::string_view kWordsLeftOut = MB4SIM_WITH_AXI ? "" : "-DMB4_AXI=ON";
 constexpr HostInterface kInterfaces[] = {
     HostInterface::kSpi,
     HostInterface::kSpi2,
@@ -49,7 +49,10 @@ void read_chip(TomlReader& reader, ChipConfig& chip) {
   if (!found) return;
   const ChipPreset& preset = chip_presets()[*found];
   if (!preset.built) {
-    reader.fail("features", left_out(preset.name, "MB4_PRESETS"));
+    const std::string name(preset.name);
+    reader.fail("features",
+                left_out(name, name == "single" ? "-DMB4_PRESETS=single"
+                                                : "-DMB4_PRESETS='single;" + name + "'"));
   }
   chip.features = preset.features;
 }

@@ -46,7 +46,7 @@ TEST(ChipSetup, ProtocolThatTheChipDoesNotSpeak_IsRefused) {
     FAIL() << "the chip was set up";
   } catch (const ScenarioError& error) {
     EXPECT_STREQ(error.what(),
-                 "foreign.toml:3:1: key 'protocol': the chip speaks BiSS C, BiSS B and SSI, not "
+                 "foreign.toml:4:12: key 'protocol': the chip speaks BiSS C, BiSS B and SSI, not "
                  "\"foreign\"");
   }
 }
