@@ -31,7 +31,7 @@ if [ -f build/CMakeCache.txt ]; then
 else
   step "configuring" cmake --preset first
 fi
-step "building (the first time about two minutes on two cores)" cmake --build build --target mb4sim
+step "building (the first time two to three minutes on two cores)" cmake --build build --target mb4sim
 
 for example in resolute-26 ramp-sensor ti-tidm-1010; do
   printf '\n$ build/bin/mb4sim run examples/%s.toml --frames 5\n' "$example"
