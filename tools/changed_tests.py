@@ -3,14 +3,13 @@
 # SPDX-License-Identifier: Apache-2.0
 """Builds, and runs the tests of which something has changed since they last passed here.
 
-  changed_tests.py BUILD [--all] [--passed]
+  changed_tests.py BUILD [--all]
 
-A test is left alone only if everything is as it was when it passed in this tree: its program after
+A test is left alone only if everything is as it was before this script saw it pass: its program after
 the build, its script with the files beside it, the files and folders that its command names, and
 what programs read (examples, data of the tests). BUILD/Testing/passed.json keeps that. The program
 that tests the parts of a changed room comes first, before the rest is built. The first failure
-ends the run; --all goes on. --passed: writes down that all tests have passed (tools/test.sh).
-Suites that run for minutes are left out, and named.
+ends the run; --all goes on. Suites that run for minutes are left out, and named.
 """
 
 import argparse
@@ -37,6 +36,10 @@ def output(*command):
     return done.stdout
 
 
+def git(*arguments):
+    return output("git", "-c", f"safe.directory={ROOT}", "-C", ROOT, *arguments)
+
+
 def build_targets(build, *targets):
     return subprocess.run(["cmake", "--build", build, "--", "--quiet", *targets], check=False).returncode == 0
 
@@ -45,7 +48,7 @@ class Digests:
     """Of files and folders below ROOT as they are now, each computed once."""
 
     def __init__(self):
-        names = output("git", "-C", ROOT, "ls-files", "--cached", "--others", "--exclude-standard", "-z")
+        names = git("ls-files", "--cached", "--others", "--exclude-standard", "-z")
         self.sources = sorted(ROOT / name for name in names.split("\0") if name)
         self.known = {}
 
@@ -82,6 +85,11 @@ def digest_of(job, build, digests, data):
     return hashlib.sha256("\n".join(parts).encode()).hexdigest()
 
 
+def program_job(program):
+    """All tests of a GoogleTest program."""
+    return {"command": [str(program), "--gtest_brief=1"]}
+
+
 def jobs_of(build):
     """Jobs: a GoogleTest program with all its tests, or a single test. And the suites left out."""
     listed = json.loads(output("ctest", "--test-dir", build, "--show-only=json-v1"))["tests"]
@@ -94,7 +102,7 @@ def jobs_of(build):
         elif command is None:
             sys.exit(f"changed_tests.py: {name}: its program is not built")
         elif f"--gtest_filter={name}" in command:
-            jobs.setdefault(Path(command[0]).name, {"command": [command[0], "--gtest_brief=1"]})
+            jobs.setdefault(Path(command[0]).name, program_job(command[0]))
         else:
             jobs[name] = {"command": command, "ctest": True}
     return jobs, left
@@ -114,7 +122,6 @@ def main():
     parser = argparse.ArgumentParser(prog="changed_tests.py")
     parser.add_argument("build", type=Path)
     parser.add_argument("--all", action="store_true")
-    parser.add_argument("--passed", action="store_true")
     wanted = parser.parse_args()
     build = wanted.build.resolve()
     if not (build / "build.ninja").is_file():
@@ -124,46 +131,34 @@ def main():
     digests = Digests()
     data = data_of_programs(digests)
 
-    def remember(name, job):
-        passed[name] = digest_of(job, build, digests, data)
+    failed, ran = [], 0
+
+    def attempt(name, job):
+        """Runs a job unless it has failed in this run or passed as it is."""
+        nonlocal ran
+        digest = digest_of(job, build, digests, data)  # before it runs: a change meanwhile counts
+        if name in failed or passed.get(name) == digest or failed and not wanted.all:
+            return
+        print(f"changed: {name}", flush=True)
+        ran += 1
+        if not run(name, job, build):
+            failed.append(name)
+            return
+        passed[name] = digest
         record.parent.mkdir(exist_ok=True)
         record.write_text(json.dumps(passed, indent=1, sort_keys=True), encoding="utf-8")
 
-    if wanted.passed:
-        for name, job in jobs_of(build)[0].items():
-            passed[name] = digest_of(job, build, digests, data)
-        record.write_text(json.dumps(passed, indent=1, sort_keys=True), encoding="utf-8")
-        return 0
-
-    changed = output("git", "-C", ROOT, "status", "--porcelain").splitlines()
-    rooms = {line[3:].split("/")[0] for line in changed}
-    failed, ran = [], 0
+    rooms = {line[3:].split("/")[0] for line in git("status", "--porcelain").splitlines()}
     for program in sorted({NEAREST[room] for room in rooms if room in NEAREST}):
         if not build_targets(build, program):
             return 1
-        job = {"command": [str(build / "bin" / program), "--gtest_brief=1"]}
-        if passed.get(program) != digest_of(job, build, digests, data):
-            print(f"changed: {program}", flush=True)
-            ran += 1
-            if run(program, job, build):
-                remember(program, job)
-            else:
-                failed.append(program)
+        attempt(program, program_job(build / "bin" / program))
     if not failed or wanted.all:
         if not build_targets(build):
             return 1
         jobs, left = jobs_of(build)
         for name, job in jobs.items():
-            if failed and not wanted.all:
-                break
-            if name in failed or passed.get(name) == digest_of(job, build, digests, data):
-                continue
-            print(f"changed: {name}", flush=True)
-            ran += 1
-            if run(name, job, build):
-                remember(name, job)
-            else:
-                failed.append(name)
+            attempt(name, job)
         print("changed: left out: " + ", ".join(f"{suite} {count}" for suite, count in sorted(left.items())))
     print(f"changed: {ran} programs and single tests run, {len(failed)} failed")
     for name in failed:

@@ -7,7 +7,7 @@
 #        tools/test.sh --changed [--all]
 #   --sanitize   the same with AddressSanitizer and UBSan, in build-sanitize/
 #   --nightly    instead of the normal suite the long runs (label nightly) with their figures
-#   --changed    builds, and runs what has changed since it last passed here, up to the first failure
+#   --changed    builds, and runs what has changed since it passed by --changed, up to the first failure
 # JUnit report: build/junit.xml (build-sanitize/junit.xml); time of each part: times.txt beside it.
 # MB4_DATASHEET=FILE names the datasheet's text for the register map comparison.
 set -euo pipefail
@@ -87,9 +87,6 @@ else
       "$build/ctest.log"
   fi
   sed -n '/tests passed/,$p' "$build/ctest.log"
-fi
-if [ "$status" -eq 0 ] && [ "$preset" = default ] && [ $# -eq 0 ]; then
-  tools/changed_tests.py build --passed
 fi
 if [ "$status" -ne 0 ]; then
   # "  12 - Name (Failed)", but not the skipped ones.

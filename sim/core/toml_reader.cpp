@@ -149,9 +149,7 @@ std::optional<std::uint64_t> TomlReader::word(std::string_view key) {
 std::optional<double> TomlReader::number(std::string_view key, double minimum, double maximum) {
   const TomlValue* found = value(key);
   if (found == nullptr) return std::nullopt;
-  if (!found->is(Kind::kInteger) && !found->is(Kind::kNumber)) {
-    fail(key, "expected a number, found " + type_name(*found));
-  }
+  if (!found->is_number()) fail(key, "expected a number, found " + type_name(*found));
   if (!(found->number >= minimum && found->number <= maximum)) {
     fail(key, plain(found->number) + " is outside " + plain(minimum) + " to " + plain(maximum));
   }

@@ -36,6 +36,7 @@ struct TomlValue {
   std::vector<TomlEntry> entries;  // kTable, from top to bottom
 
   bool is(Kind other) const { return kind == other; }
+  bool is_number() const { return kind == Kind::kInteger || kind == Kind::kNumber; }
   // Whether it is an integer of minimum to maximum.
   bool within(std::int64_t minimum, std::int64_t maximum) const {
     return kind == Kind::kInteger && integer >= minimum && integer <= maximum;

@@ -89,8 +89,7 @@ void read_place(TomlReader& reader, const Scenario& scenario, FaultConfig& fault
 void read_at(TomlReader& reader, FaultConfig& fault) {
   const TomlValue* value = reader.value("at_us");
   const auto add = [&](const TomlValue& item) {
-    const bool number = item.is(TomlValue::Kind::kInteger) || item.is(TomlValue::Kind::kNumber);
-    if (!number || !(item.number >= 0 && item.number <= kMaxTimeUs)) {
+    if (!item.is_number() || !(item.number >= 0 && item.number <= kMaxTimeUs)) {
       reader.fail_at(item.where, "at_us",
                      "expected microseconds of 0 to " + plain(kMaxTimeUs) + ", or a list of them");
     }
