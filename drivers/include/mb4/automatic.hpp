@@ -87,9 +87,10 @@ class Automatic {
     return allowed;
   }
 
-  // Sets AGS = 0: the running frame ends normally and no other frame follows. One transfer. The
-  // call is allowed when no frames run. kBusy (not touched); kTransport (touched, AGS may be on or
-  // off).
+  // Sets AGS = 0: the running frame ends normally and no other frame follows. One transfer; with
+  // SpiCheck::kFull a status proves it, and it is sent once more where 0xF4 is not 0. The call is
+  // allowed when no frames run. kBusy (not touched); touched, AGS may be on or off: kTransport;
+  // with SpiCheck::kFull kNotDetected, kCorrupted.
   Result<void> stop() {
     if (chip_.control_runs()) {
       return Error::kBusy;
@@ -98,8 +99,9 @@ class Automatic {
     return detail::Blocking::run(chip_, chip_.own);
   }
 
-  // Begins stop() without a transfer, as plan_start(): one step of one frame. kBusy (not touched);
-  // operation.result(): kTransport.
+  // Begins stop() without a transfer, as plan_start(): one step of one frame, with SpiCheck::kFull
+  // of two, and once more where the first has not come. kBusy (not touched); operation.result():
+  // kTransport, kNotDetected, kCorrupted.
   Result<void> plan_stop(Operation& operation) {
     const Result<void> allowed =
         detail::Procedures::possible(operation, chip_.control_runs() ? Error::kBusy : Error::kNone);

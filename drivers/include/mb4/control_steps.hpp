@@ -146,7 +146,8 @@ class ControlSteps {
 
   // Sends BREAK: the access ends at once. Registers of the slave may be changed already. Automatic
   // frames stop as well; Automatic::next() or restart() starts them again. One transfer,
-  // and the request at rest if an access ran. kTransport; kCorrupted as of poll(), for the request.
+  // and the request at rest if an access ran; proven and told as Device::break_transmission().
+  // kTransport, kNotDetected, kCorrupted.
   Result<void> abort() {
     detail::Procedures::plan_stop(chip_, chip_.own, regs::BREAK::encode<1>(),
                                   chip_.automatic || chip_.restart);

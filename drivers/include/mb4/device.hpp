@@ -269,16 +269,19 @@ class Device {
 
   // Writes BREAK (page 33): it aborts a frame, a control communication and AGS at once; MA and the
   // error flags return to 1. The configuration stays. One transfer; one or two more if it ends a
-  // control communication. kTransport; kCorrupted as of Control::poll(), for the request at rest.
+  // control communication. With SpiCheck::kFull a status proves it, and all is sent once more where
+  // 0xF4 is not 0. kTransport; kCorrupted as of Control::poll(), for the request at rest; with
+  // SpiCheck::kFull kNotDetected, and kCorrupted: the second one has not come either.
   // The next read first waits 100 us for the slaves' timeout.
   Result<void> break_transmission() {
     detail::Procedures::plan_stop(chip_, chip_.own, regs::BREAK::encode<1>(), false);
     return detail::Blocking::run(chip_, chip_.own);
   }
 
-  // Begins break_transmission() without a transfer: one step of one frame, or up to three. It ends
+  // Begins break_transmission() without a transfer: one step of one frame, or up to four. It ends
   // an access of another Operation, whose finish() then says so (operation.hpp). kBusy: the
-  // operation of this object has not ended. operation.result(): kTransport, kCorrupted.
+  // operation of this object has not ended. operation.result(): kTransport, kNotDetected,
+  // kCorrupted.
   Result<void> plan_break(Operation& operation) {
     const Result<void> allowed = detail::Procedures::possible(operation, Error::kNone);
     if (allowed) {

@@ -537,6 +537,7 @@ TEST_F(RegistersAgs, DisturbedFill_IsFollowedByARestart) {
   ASSERT_TRUE(device.automatic().start().ok());
   const std::array<std::uint8_t, 1> data{0x12};
   bus.expect_write({0x02, 0x80, 0x12});
+  bus.expect_read({0x03, 0x00, 0x01}, {0, 0, 0x34});
   bus.expect_read({0x03, 0x80, 0x00}, {0, 0, 0x02});
   bus.expect_read({0x03, 0xC0, 0x00}, {0, 0, 0x5B});
   bus.expect_read(mb4test::kReadWitness, {0, 0xFB, 0, 0, 0, 0x01, 0});

@@ -1091,6 +1091,7 @@ TEST_F(Full, ReleaseProven_IsGood) {
     EXPECT_TRUE(step({kReadStatus}, {proven}));
     EXPECT_EQ(read.result().error(), Error::kNoData);
     bus.expect_write({0x07, 0x00});
+    bus.expect_read(kReadStatus, {0, 0xFA, 0, 0, 0, 0});
     ASSERT_TRUE(device.automatic().stop().ok());
   }
 }
@@ -1151,6 +1152,7 @@ TEST_F(Full, ReleaseUnproven_NextReadBeginsWithIt) {
 TEST_F(Full, StartUnproven_IsCorrupted) {
   start(mb4::SpiCheck::kFullAndRelease);
   bus.expect_write({0x07, 0x00});
+  bus.expect_read(kReadStatus, {0, 0xFA, 0, 0, 0, 0});
   ASSERT_TRUE(device.automatic().stop().ok());
   bus.expect_write({0x07, 0x80, 0x00});
   bus.expect_write(kClearValid1);

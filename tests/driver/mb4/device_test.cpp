@@ -186,6 +186,7 @@ TEST(Trace, EachFrame_IsSeen) {
 // Table 47: BREAK is bit 7 of 0xF4; nothing else is set.
 TEST_F(Break, Call_WritesBreakOnly) {
   bus.expect_write({0x07, 0x80});
+  bus.expect_read({0x05, 0, 0, 0, 0, 0}, {0, 0xFB, 0, 0, 0, 0});
   EXPECT_TRUE(device.break_transmission().ok());
 }
 

@@ -326,6 +326,36 @@ TEST_F(Restart, Failed_NextTriesAgain) {
   }
 }
 
+// ---- Stop ---------------------------------------------------------------------------------------
+
+using StopUse = OperationTest;
+
+// With SpiCheck::kFull a status follows: 0xF4 is 0. Otherwise all is sent once more.
+TEST_F(StopUse, InstructionLost_IsSentAgain) {
+  const Bytes runs = status(0xFB, 0x00, 0x01);
+  const Bytes no_chip(6, 0x00);
+  for (const bool by_break : {false, true}) {
+    for (const auto& [first, second, error] :
+         {std::tuple{runs, kOver, Error::kNone}, std::tuple{no_chip, kOver, Error::kNone},
+          std::tuple{runs, runs, Error::kCorrupted},
+          std::tuple{runs, no_chip, Error::kNotDetected}}) {
+      configure(mb4::SpiCheck::kFull);
+      start();
+      const Bytes instruction{0x07, by_break ? std::uint8_t{0x80} : std::uint8_t{0x00}};
+      ASSERT_TRUE((by_break ? device.plan_break(op) : device.automatic().plan_stop(op)).ok());
+      EXPECT_FALSE(step({instruction, kReadStatus}, {first}));
+      EXPECT_TRUE(step({instruction, kReadStatus}, {second}));
+      ends_with(error);
+      EXPECT_FALSE(device.automatic().running());
+    }
+  }
+  configure(mb4::SpiCheck::kCrc);
+  start();
+  ASSERT_TRUE(device.automatic().plan_stop(op).ok());
+  EXPECT_TRUE(step({{0x07, 0x00}}, {}));
+  ends_with(Error::kNone);
+}
+
 // ---- Wrong use ----------------------------------------------------------------------------------
 
 class Use : public OperationTest {
@@ -951,7 +981,9 @@ TEST_F(Access, Write64_GoesInParts) {
   // All are written before the first one is read back: one wrong bit of an address leads into
   // another part.
   for (std::size_t at = 0; at < 64; at += 8) {
-    EXPECT_FALSE(step({join({{0x02, static_cast<std::uint8_t>(0x80 + at)}, part(at)})}, {}));
+    EXPECT_FALSE(step({join({{0x02, static_cast<std::uint8_t>(0x80 + at)}, part(at)}),
+                       join({{0x03, static_cast<std::uint8_t>(at)}, Bytes(8, 0x01)})},
+                      {zeros(10)}));
   }
   Bytes chip = join({mb4test::read_back(), zeros(10)});
   chip[0xE7 - 0xC0] = 0x00;  // NOCRC = 0
@@ -1090,7 +1122,8 @@ class Doubt : public OperationTest {
   bool write(std::uint8_t data, std::uint8_t slave, const Bytes& behind) {
     data_ = data;
     EXPECT_TRUE(device.control().plan_write(op, {1, 0}, 0x50, {&data_, 1}).ok());
-    EXPECT_FALSE(step({{0x02, 0x80, data}}, {}));
+    const std::uint8_t word = data == 0 ? 0x34 : 0x00;  // in SCDATA1
+    EXPECT_FALSE(step({{0x02, 0x80, data}, {0x03, 0x00, 0x01}}, {{0, 0, word}}));
     return step({{0x03, 0x80, 0x00}, {0x03, 0xC0, 0x00}, kReadWitness},
                 {{0, 0, data}, {0, 0, slave}, behind});
   }
@@ -1278,8 +1311,12 @@ TEST_F(Doubt, PartOfAWriteInAnotherOne_IsSeen) {
   std::array<std::uint8_t, 16> data{};
   for (std::size_t i = 0; i < data.size(); ++i) data[i] = static_cast<std::uint8_t>(i + 1);
   ASSERT_TRUE(device.control().plan_write(op, {1, 0}, 0x40, data).ok());
-  EXPECT_FALSE(step({join({{0x02, 0x80}, Bytes(data.begin(), data.begin() + 8)})}, {}));
-  EXPECT_FALSE(step({join({{0x02, 0x88}, Bytes(data.begin() + 8, data.end())})}, {}));
+  EXPECT_FALSE(step({join({{0x02, 0x80}, Bytes(data.begin(), data.begin() + 8)}),
+                     join({{0x03, 0x00}, Bytes(8, 0x01)})},
+                    {zeros(10)}));
+  EXPECT_FALSE(step({join({{0x02, 0x88}, Bytes(data.begin() + 8, data.end())}),
+                     join({{0x03, 0x08}, Bytes(8, 0x01)})},
+                    {zeros(10)}));
   EXPECT_FALSE(
       step({join({{0x03, 0x80}, zeros(8)}), join({{0x03, 0xC0}, zeros(8)}), kReadWitness},
            {join({zeros(2), Bytes(data.begin() + 8, data.end())}),
@@ -1330,6 +1367,7 @@ TEST_F(Access, RequestAtRestLost_IsCorrupted) {
     bus.expect_write({0x07, 0x80});
     bus.expect_write(kRest);
     bus.expect_read(kReadRequest, kAsked[0]);
+    bus.expect_read(kReadStatus, kOver);
     bus.expect_read(kReadRequest, kAsked[0]);
     bus.expect_proven(kRest);
     expect_compared(kOver);
@@ -1483,6 +1521,7 @@ TEST_F(Access, RecoveryUnproven_IsTold) {
     configure(mb4::SpiCheck::kFull);
     start();
     bus.expect_write({0x07, 0x00});
+    bus.expect_read(kReadStatus, kOver);
     ASSERT_TRUE(device.automatic().stop().ok());
     bus.expect_write({0x07, 0x80, 0x00});
     bus.expect_write(kClearValid1);
@@ -1562,6 +1601,7 @@ TEST_F(Access, BreakInTheLastSteps_EndsIt) {
     }
     bus.expect_write({0x07, 0x80});
     if (at < 2) bus.expect_proven(kRest);
+    bus.expect_read(kReadStatus, kOver);
     EXPECT_TRUE(device.control().abort().ok());
     EXPECT_TRUE(device.finish(op, true, now_us)) << at;
     ends_with(Error::kWrongMode);
@@ -1766,6 +1806,7 @@ TEST_F(Access, BankSwitchedByTheInstruction_IsReleasedOrEnds) {
     if (!hold) ends_with(Error::kCorrupted);
     bus.expect_write(kBreak);
     if (hold) bus.expect_proven(kRest);
+    bus.expect_read(kReadStatus, kOver);
     ASSERT_TRUE(device.break_transmission().ok());
     EXPECT_TRUE(device.finish(op, false, now_us));
   }

@@ -134,4 +134,91 @@ INSTANTIATE_TEST_SUITE_P(Calls, DriverProven,
                                          Before::kFailedRead),
                          name_of);
 
+// Bytes for registers of the encoder, on their way to RDATA (0x80), reach SCDATA1 (0x00) by one bit
+// of the address, while a word waits there. Zeros are a word whose CRC fits, and RDATA is 0
+// already, so that it reads back right.
+TEST(DriverProvenWrite, ZerosThatReachAWord_AreNoPosition) {
+  FaultyChip chip(
+      "[host]\nsclk_hz = 10_000_000\n[[channel]]\nnumber = 1\n[[channel.slave]]\nprotocol = "
+      "\"biss-c\"\ncontrol = true\ndata_bits = 28\nflag_bits = 0\nsource = \"ramp\"\nstart = "
+      "0x12345\nstep = 4\n");
+  Config config = mb4test::config26(10'000'000);
+  config.slaves[0].flags = mb4::Flags::kNone;
+  config.frame_start = FrameStart::kPeriodic;
+  config.frame_period_clk = 20 * 100;
+  ASSERT_TRUE(chip.device.configure(config).ok());
+  ASSERT_TRUE(chip.device.automatic().start().ok());
+  chip.simulator.advance(150 * sim::kPsPerUs);
+  ASSERT_TRUE(chip.device.automatic().poll_slave(1).ok());
+  chip.simulator.advance(150 * sim::kPsPerUs);  // a word waits
+  const std::array<std::uint8_t, 8> zeros{};
+  mb4::Operation op;
+  ASSERT_TRUE(
+      chip.device.control()
+          .plan_write(op, {1, 0}, 0x60, mb4::Span<const std::uint8_t>(zeros.data(), zeros.size()))
+          .ok());
+  chip.bus.plan({FaultKind::kFlipMosi, 0, 0, 8});
+  bool over = chip.device.finish(op, op.run(chip.bus), chip.clock.now_us());
+  ASSERT_FALSE(over);
+  for (int i = 0; i < 4; ++i) {
+    const mb4::Result<mb4::Reading> reading = chip.device.automatic().poll_slave(1);
+    EXPECT_TRUE(!reading.ok() || reading->position != 0) << i;
+    EXPECT_EQ(reading.ok(), i != 0) << i << " " << mb4::to_string(reading.error());
+    chip.simulator.advance(150 * sim::kPsPerUs);
+  }
+  while (!over) over = chip.device.finish(op, op.run(chip.bus), chip.clock.now_us());
+}
+
+// The instruction that ends all is lost, or comes as another one, or its proof does: it is sent
+// again. Without SpiCheck::kFull it is not.
+TEST(DriverProvenStop, OneFault_ChipStopsNevertheless) {
+  for (const unsigned kind : {0U, 1U, 2U}) {
+    const auto begin = [kind](FaultyChip& chip) {
+      Config config = mb4test::config26(10'000'000);
+      config.frame_start = FrameStart::kPeriodic;
+      config.frame_period_clk = 20 * 100;
+      ASSERT_TRUE(chip.device.configure(config).ok());
+      ASSERT_TRUE(chip.device.automatic().start().ok());
+      if (kind == 2) {
+        ASSERT_TRUE(chip.device.control().begin_read({1, 0}, 0x60, 1).ok());
+      }
+      chip.simulator.advance(150 * sim::kPsPerUs);
+    };
+    const auto call = [kind](FaultyChip& chip) {
+      return kind == 0   ? chip.device.automatic().stop()
+             : kind == 1 ? chip.device.break_transmission()
+                         : chip.device.control().abort();
+    };
+    std::vector<Fault> faults;
+    {
+      FaultyChip chip(kEncoder);
+      begin(chip);
+      chip.bus.plan({});
+      ASSERT_TRUE(call(chip).ok());
+      faults = mb4test::all_faults(chip.bus.bits(), 1);
+    }
+    ASSERT_GE(faults.size(), 40U);
+    for (const Fault& fault : faults) {
+      if (fault.last == mb4test::kForEver) continue;
+      FaultyChip chip(kEncoder);
+      begin(chip);
+      chip.bus.plan(fault);
+      const mb4::Result<void> done = call(chip);
+      const bool told = fault.kind == FaultKind::kRefused || fault.kind == FaultKind::kFailedAfter;
+      // The request at rest may reach the configuration.
+      const bool verify = kind == 2 && done.error() == Error::kVerify;
+      EXPECT_TRUE(done.ok() || told || verify || done.error() == Error::kCorrupted)
+          << kind << " " << fault.text() << " " << mb4::to_string(done.error());
+      chip.bus.plan({});
+      if (done.ok()) {
+        // A frame that the disturbed byte has begun ends by itself.
+        chip.simulator.advance(150 * sim::kPsPerUs);
+        const mb4::Result<mb4::Status> status = chip.device.read_status();
+        ASSERT_TRUE(status.ok());
+        EXPECT_EQ(status->instruction(), 0U) << kind << " " << fault.text();
+      }
+    }
+  }
+}
+
 }  // namespace

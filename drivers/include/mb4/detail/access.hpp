@@ -206,6 +206,9 @@ inline void Procedures::add_request(ChipState& chip, Operation& op) {
     op.stage_ = kFill;
     add_bytes(op, static_cast<std::uint8_t>(regs::kAddrRdata + op.at_), op.data_ + op.at_,
               part(op));
+    if (chip.automatic && chip.checks_all()) {
+      add_read(op, static_cast<std::uint8_t>(regs::kAddrScdata + op.at_), part(op), 1);
+    }
     return;
   }
   // A command leaves 0xE2 and 0xE3 as they are.
@@ -342,6 +345,12 @@ inline Result<void> Procedures::access(ChipState& chip, Operation& op, std::uint
   }
   switch (op.stage_) {
     case kFill:
+      // 0x80 and 0x00 differ in one bit. If the bytes are in SCDATAx, a word that waits may be no
+      // word of the encoder, although its CRC fits (all 0): the next read drops it.
+      if (chip.automatic && chip.checks_all() &&
+          equal(op.data_ + op.at_, received(op) + 2, part(op))) {
+        chip.watch.held = true;
+      }
       op.at_ += part(op);
       if (op.at_ < op.count_) {
         add_request(chip, op);

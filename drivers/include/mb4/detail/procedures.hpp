@@ -115,10 +115,20 @@ struct Procedures {
     chip.stopped();
     chip.restart = restart;
     chip.recover_first = true;
+    op.request_[0] = instruction;
+    add_stopping(chip, op);
+  }
+  // BREAK also ends what the request has begun. With SpiCheck::kFull the status follows: 0xF4 is 0.
+  static void add_stopping(const ChipState& chip, Operation& op) {
+    const std::uint8_t instruction = op.request_[0];
+    op.stage_ = kStopped;
     add_instruction(op, instruction);
     if (instruction != 0 && chip.control.armed) {
-      op.stage_ = kStopped;
       add_rest(chip, op);
+    }
+    if (chip.checks_all()) {
+      op.stage_ = kProof;
+      mb4_cyclic_add_status(&op.plan_);
     }
   }
 
@@ -515,11 +525,26 @@ struct Procedures {
     return {};
   }
 
+  // An instruction that has not come, or come as another one, is sent once more.
   static Result<void> stop_step(ChipState& chip, Operation& op, std::uint32_t /*now_us*/) {
-    if (op.stage_ != kStopped) {
-      return op.good_ ? Error::kNone : Error::kTransport;
+    const bool rests = op.request_[0] != 0 && chip.control.armed;
+    if (op.stage_ == kProof && op.good_) {
+      const Result<void> seen = look(op);
+      if (!seen || op.status_.instruction() != 0) {
+        if (op.at_ != 0) {
+          return seen ? Error::kCorrupted : seen;
+        }
+        op.at_ = 1;
+        add_stopping(chip, op);
+        return {};
+      }
+      --op.made_;
+      op.stage_ = kStopped;
     }
-    return rested(chip, op) ? op.cause_ : Result<void>();
+    if (rests) {
+      return rested(chip, op) ? op.cause_ : Result<void>();
+    }
+    return op.good_ ? Error::kNone : Error::kTransport;
   }
 
   static Result<void> configuration_step(ChipState& chip, Operation& op, std::uint32_t now_us);
