@@ -144,10 +144,11 @@ class ControlSteps {
     return detail::Blocking::take(chip_, out.data(), out.size());
   }
 
-  // Sends BREAK: the access ends at once. Registers of the slave may be changed already. Automatic
-  // frames stop as well; Automatic::next() or restart() starts them again. One transfer,
-  // and the request at rest if an access ran; proven and told as Device::break_transmission().
-  // kTransport, kNotDetected, kCorrupted.
+  // Sends BREAK: the access ends at once. Registers of the slave may be changed already; the one
+  // whose byte is cut may get a value that nobody has named: its first bits, and zeros
+  // (docs/choices.md). Automatic frames stop as well; Automatic::next() or restart() starts them
+  // again. One transfer, and the request at rest if an access ran; proven and told as
+  // Device::break_transmission(). kTransport, kNotDetected, kCorrupted.
   Result<void> abort() {
     detail::Procedures::plan_stop(chip_, chip_.own, regs::BREAK::encode<1>(),
                                   chip_.automatic || chip_.restart);

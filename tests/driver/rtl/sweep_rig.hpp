@@ -594,6 +594,7 @@ class Rig {
   Verdict verdict = Verdict::kRight;
   std::array<std::uint64_t, kVerdicts> seen{};  // how often each
   std::uint64_t line_limits = 0;  // words that the plug has cut and whose CRC fits all the same
+  std::uint64_t cut_writes = 0;   // bytes of a write, the same
   bool telling = false;
   std::string story;
 
@@ -615,6 +616,9 @@ class Rig {
   };
   // Did the line itself, cut by the plug, carry this word with the CRC that fits it?
   [[nodiscard]] virtual bool cut_on_the_line(const Word& /*word*/) const { return false; }
+  [[nodiscard]] virtual bool cut_write(std::uint8_t /*now*/, std::uint8_t /*named*/) const {
+    return false;
+  }
 
   [[nodiscard]] sim::Time period_time() const {
     const Config config = config_of(setup_);
@@ -1019,6 +1023,12 @@ class Rig {
       // After a restart the loop has another phase, so the periods between are no whole number.
       const bool good = restarted_ ? counted + 1 >= frame - counted_frame_
                                    : counted >= frame - counted_frame_ && counted == ticks;
+      // A read that begins with a release takes longer, and may bring the word of the frame after.
+      // The reads behind it show whether a sample is missing in the end.
+      const auto near = [counted](std::uint64_t number) {
+        return counted + 1 >= number && number + 1 >= counted;
+      };
+      if (!good && near(ticks) && near(frame - counted_frame_) && unsettled_++ < 3) return;
       if (!good) {
         raise(Verdict::kUncounted, std::to_string(counted) + " counted, " + std::to_string(ticks) +
                                        " ticks, " + std::to_string(frame - counted_frame_) +
@@ -1028,6 +1038,7 @@ class Rig {
     if (words_[0].code != Error::kNone) return;
     counting_ = true;
     restarted_ = false;
+    unsettled_ = 0;
     counted_sequence_ = counts.sequence;
     counted_tick_ = tick_number_;
     counted_frame_ = frame;
@@ -1090,12 +1101,16 @@ class Rig {
       sim::Slave& slave = *simulator.slave(sensors_[s]);
       for (unsigned i = 0; i < registers_[s].size(); ++i) {
         const std::uint8_t now = slave.reg_read(static_cast<std::uint8_t>(i));
-        const bool named = s == 0 && named_ && i >= kNamed && i < kNamed + kNamedCount &&
-                           now == (*named_)[i - kNamed];
-        if (now != registers_[s][i] && !named) {
-          raise(Verdict::kRegister, "register " + number(i) + " of slave " +
-                                        std::to_string(sensors_[s]) + " is " + number(now));
+        const bool names = s == 0 && named_ && i >= kNamed && i < kNamed + kNamedCount;
+        const std::uint8_t named = names ? (*named_)[i - kNamed] : registers_[s][i];
+        if (now == registers_[s][i] || now == named) continue;
+        if (names && cut_write(now, named)) {
+          ++cut_writes;
+          registers_[s][i] = now;
+          continue;
         }
+        raise(Verdict::kRegister, "register " + number(i) + " of slave " +
+                                      std::to_string(sensors_[s]) + " is " + number(now));
       }
       sim::ControlSlave* control = clocked(&slave)->control();
       if (control == nullptr) continue;
@@ -1146,6 +1161,7 @@ class Rig {
   bool counting_ = false;
   bool restarted_ = false;  // since the last good read
   bool first_read_ = true;  // since the start of frames
+  unsigned unsettled_ = 0;  // good reads since the counts have agreed
   std::uint32_t counted_sequence_ = 0;
   std::uint64_t counted_tick_ = 0;
   std::uint64_t counted_frame_ = 0;
