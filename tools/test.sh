@@ -71,12 +71,6 @@ status=0
 ctest --test-dir "$build" --output-on-failure --no-tests=error -j "$(nproc)" \
   --output-junit junit.xml "$@" >"$build/ctest.log" 2>&1 || status=$?
 part_done tests
-# The suites that took longest, one after the other.
-sed -nE 's/^ *[0-9]+\/[0-9]+ Test +#[0-9]+: ([^ ]+)[.][^. ]+ .* ([0-9.]+) sec.*/\1 \2/p' \
-  "$build/ctest.log" |
-  awk -v build="$build" '{ sum[$1] += $2 }
-    END { for (suite in sum) printf "%-15s   %-40s %5d s\n", build, suite, sum[suite] }' |
-  sort -k3,3nr | sed -n 1,12p >>"$times"
 # Most tests pass: show only the failed ones with their output, and the summary.
 if [ "$status" -ne 0 ]; then
   grep -v -e ' Passed ' -e '^ *Start ' "$build/ctest.log" || true
