@@ -148,9 +148,14 @@ class OperationTest : public testing::Test {
     EXPECT_FALSE(step({{0x07, 0x80, 0x00}, kClearValid1, kReadStatus}, {status(0xFF, 0x00, 0x00)}));
     EXPECT_FALSE(step({kAgs, kClearValid1, kClearValid1, kReadStatus}, {kProven}, true, kPause));
   }
+  // The request of an access at kFull beside automatic frames, behind one that has ended: none
+  // runs.
+  bool asks_again(const Bytes& behind = kDoneAgs) {
+    return step({kRequest, kReadRequest, kReadWitness}, {kAsked[0], witness(behind)});
+  }
   // An access at kFull beside automatic frames, up to the two looks at its end.
-  void access_ends() {
-    EXPECT_FALSE(step(kAsk, kAsked));
+  void access_ends(bool again = false) {
+    EXPECT_FALSE(again ? asks_again() : step(kAsk, kAsked));
     EXPECT_FALSE(step({kFrameAgs, kReadStatus}, {kRunsAgs}));
     EXPECT_FALSE(step({kReadStatus}, {kDoneAgs}));
     EXPECT_FALSE(step({kReadStatus}, {kDoneAgs}));
@@ -1033,7 +1038,7 @@ TEST_F(Access, DisturbedRequest_IsCorruptedAndBeginsNothing) {
   ends_with(Error::kCorrupted);
   // MISO is stuck from here on.
   read();
-  access_ends();
+  access_ends(true);
   EXPECT_FALSE(step(kEnd, kEnded));
   EXPECT_FALSE(step(kAtRest, {kRestBack}));
   EXPECT_FALSE(step(kTakeFirst, {zeros(4), zeros(7)}));
@@ -1049,7 +1054,7 @@ TEST_F(Access, EndOfARead_IsRepeatedAndCompared) {
   start();
   for (const bool other : {false, true}) {
     read();
-    access_ends();
+    access_ends(other);
     EXPECT_FALSE(step(kEnd, {}, false));
     EXPECT_FALSE(step(kEnd, kEnded));
     EXPECT_FALSE(step(kAtRest, {kAsked[0]}));
@@ -1063,7 +1068,7 @@ TEST_F(Access, EndOfARead_IsRepeatedAndCompared) {
   }
   // A transfer that fails is made again, twice.
   read();
-  access_ends();
+  access_ends(true);
   EXPECT_FALSE(step(kEnd, kEnded));
   EXPECT_FALSE(step(kAtRest, {}, false));
   EXPECT_FALSE(step(kAtRest, {}, false));
@@ -1425,7 +1430,7 @@ TEST_F(Access, DisturbedEnd_IsReadAgain) {
   }
   // No two agree.
   read();
-  EXPECT_FALSE(step(kAsk, kAsked));
+  EXPECT_FALSE(asks_again());
   EXPECT_FALSE(step({kFrameAgs, kReadStatus}, {kRunsAgs}));
   for (const Bytes& look : {kDoneAgs, failed, kDoneAgs, failed}) {
     EXPECT_FALSE(step({kReadStatus}, {look}));
@@ -1685,6 +1690,25 @@ TEST_F(Access, Failures_EndWithBreak) {
   start();
 }
 
+// REGEND was 1 behind the access before and is 0 now: a disturbed byte has begun another one, whose
+// end would count. BREAK ends it before the next one.
+TEST_F(Access, AnotherOneRuns_NothingBegins) {
+  configure(mb4::SpiCheck::kFull);
+  start();
+  read();
+  access_ends();
+  EXPECT_FALSE(step(kEnd, kEnded));
+  EXPECT_FALSE(step(kAtRest, {kRestBack}));
+  EXPECT_FALSE(step(kTakeFirst, {{0, 0, 1, 2}, witness(kDoneAgs)}));
+  EXPECT_TRUE(step(kTakeAgain, {{0, 0, 1, 2}, witness(kDoneAgs)}));
+  read();
+  EXPECT_FALSE(asks_again(kRunsAgs));
+  EXPECT_TRUE(step(kAtRest, {kRestBack}));
+  ends_with(Error::kCorrupted);
+  read();
+  begins_with_break();
+}
+
 // Two looks that fail, one after the other, stop neither the access nor the automatic frames.
 TEST_F(Access, DisturbedStatus_StopsNothing) {
   configure(mb4::SpiCheck::kFull);
@@ -1710,7 +1734,7 @@ TEST_F(Access, DisturbedStatus_StopsNothing) {
   EXPECT_TRUE(device.automatic().running());
   // Twice where only the status tells that the access has begun.
   read();
-  EXPECT_FALSE(step(kAsk, kAsked));
+  EXPECT_FALSE(asks_again());
   EXPECT_FALSE(step({kFrameAgs, kReadStatus}, {zeros(6)}));
   EXPECT_FALSE(step({kReadStatus}, {zeros(6)}));
   EXPECT_TRUE(step({kBreak, kRest, kReadRequest}, {kRestBack}));

@@ -221,4 +221,32 @@ TEST(DriverProvenStop, OneFault_ChipStopsNevertheless) {
   }
 }
 
+// One bit more in the release of a read, 0x09 for 0x01, begins the access at rest, and no later
+// transfer of the read shows it. Its end is not that of the access behind it.
+TEST(DriverProvenAccess, ReleaseThatBeginsAnother_EndIsNotTakenForItsOwn) {
+  FaultyChip chip(kEncoder);
+  Config config = mb4test::config26(10'000'000);
+  config.frame_start = FrameStart::kPeriodic;
+  config.frame_period_clk = 20 * 100;
+  ASSERT_TRUE(chip.device.configure(config).ok());
+  ASSERT_TRUE(chip.device.automatic().start().ok());
+  std::array<std::uint8_t, 2> bytes{};
+  ASSERT_TRUE(chip.device.control().read_registers({1, 0}, 0x60, bytes).ok());
+  ASSERT_TRUE(chip.device.automatic().poll_slave(1).ok());
+  chip.simulator.advance(150 * sim::kPsPerUs);
+  chip.bus.plan({FaultKind::kFlipMosi, 6, 6, 12});
+  ASSERT_TRUE(chip.device.automatic().poll_slave(1).ok());
+  ASSERT_EQ(chip.bus.count(), 7U);
+  chip.bus.plan({});
+  chip.simulator.advance(500 * sim::kPsPerUs);  // its first frames
+  bytes = {0x5C, 0xA3};
+  const mb4::Result<void> written = chip.device.control().write_registers({1, 0}, 0x60, bytes);
+  const sim::Slave& slave = *chip.simulator.slave(1);
+  EXPECT_TRUE(!written.ok() || slave.reg_read(0x60) == 0x5C);
+  EXPECT_EQ(written.error(), Error::kCorrupted);
+  ASSERT_TRUE(chip.device.automatic().restart().ok());
+  EXPECT_TRUE(chip.device.control().write_registers({1, 0}, 0x60, bytes).ok());
+  EXPECT_EQ(slave.reg_read(0x61), 0xA3);
+}
+
 }  // namespace

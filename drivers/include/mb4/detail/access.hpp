@@ -217,6 +217,15 @@ inline void Procedures::add_request(ChipState& chip, Operation& op) {
   state.armed = true;
   add_proven(op, static_cast<std::uint8_t>(regs::kAddrRegadr + from), &op.request_[from],
              kRequestBytes - from);
+  if (looks_for_strays(chip)) {
+    add_witness(op);
+  }
+}
+
+// A disturbed byte of a read that has ended well may have begun an access (0x01 and 0x09, INSTR =
+// 100): its end would count as that of this one. REGEND = 1 says that none runs.
+inline bool Procedures::looks_for_strays(const ChipState& chip) {
+  return chip.automatic && chip.checks_all() && chip.control.ended;
 }
 
 // All parts are read back when all are written: a disturbed address may have put one into another
@@ -286,6 +295,7 @@ inline void Procedures::add_abort(ChipState& chip, Operation& op, const Result<v
 
 inline void Procedures::add_access(ChipState& chip, Operation& op) {
   ControlState& state = chip.control;
+  state.ended = false;
   state.seen_running = false;
   state.first_frame = true;
   state.frames = 1;
@@ -363,7 +373,12 @@ inline Result<void> Procedures::access(ChipState& chip, Operation& op, std::uint
     case kSet: {
       Result<void> set;
       if (op.stage_ == kSet) {
-        set = written(chip, op);
+        const bool looks = looks_for_strays(chip);
+        set = looks ? witnessed(chip, op) : Result<void>();
+        set = set ? written(chip, op) : set;
+        if (set && looks && !op.status_.control_ended()) {
+          state.stray = true;
+        }
       } else {
         set = chip.checks_all() ? guarded(chip, op) : Result<void>();
         if (set && !equal(op.data_ + op.at_, received(op) + 2, part(op))) {
@@ -676,6 +691,7 @@ inline Result<void> Procedures::conclude(ChipState& chip, Operation& op) {
                        : std::uint8_t{0};
   state.waits = state.readable != 0;
   state.kind = ControlState::Kind::kNone;
+  state.ended = true;
   op.bad_ = 0;
   if (chip.checks_all() && state.readable != 0) {
     add_first(op);

@@ -40,6 +40,7 @@ struct ControlState {
   bool waits = false;            // ... and take() has not fetched them
   bool armed = false;            // 0xE2..0xE5 may hold another request than the one at rest
   bool biss_b = false;           // one instruction runs the whole access, without frames
+  bool ended = false;            // REGEND = 1: an access has ended, and nothing has begun since
   bool seen_running = false;     // a read of positions has seen REGEND = 0 since the last poll
   bool first_frame = false;      // REGEND may belong to the access before; BiSS B: not ended yet
   bool stray = false;            // an access that nobody asked for may run
@@ -234,6 +235,7 @@ struct ChipState {
     control.kind = ControlState::Kind::kNone;
     control.owner = nullptr;
     control.waits = false;
+    control.ended = false;
   }
 };
 

@@ -79,6 +79,7 @@ inline Result<void> Procedures::initialize_step(ChipState& chip, Operation& op,
           op.stage_ == kFill && chip.checks_all() ? written(chip, op) : Result<void>();
       if (set) {
         add_instruction(op, regs::INIT::encode<1>());
+        chip.control.ended = false;
         op.stage_ = kStart;
         if (chip.checks_all()) {
           mb4_cyclic_add_status(&op.plan_);

@@ -585,6 +585,7 @@ struct Procedures {
   static void add_other(Operation& op, std::uint32_t now_us);
   // ... and access.hpp.
   static void add_request(ChipState& chip, Operation& op);
+  static bool looks_for_strays(const ChipState& chip);
   static void add_back(ChipState& chip, Operation& op);
   static Result<void> guarded(ChipState& chip, Operation& op);
   static std::uint8_t part(const Operation& op);
