@@ -265,9 +265,12 @@ def self_test():
                              ("x\n", False, 0), (None, True, 1)):
         expect(count, runnable_findings({"a": text}, lambda _, bit=bit: bit), f"run bit of {text}")
 
-    core, axi_core, header, ipxact, changelog = *VERSION_COPIES, "any" + IPXACT[0], *RELEASE
+    *cores, header = VERSION_COPIES
+    core, axi_core, *others = cores
+    ipxact, changelog = "any" + IPXACT[0], *RELEASE
     good = {VERSION_FILE: "project(openmb4 VERSION 1.2.3 LANGUAGES C)\n",
             core: "name: openmb4:ip:mb4:1.2.3\n", axi_core: "name: openmb4:ip:biss_axi:1.2.3\n",
+            **dict.fromkeys(others, "name: openmb4:ip:other:1.2.3\n"),
             header: "kVersionMajor = 1;\nint kVersionMinor = 2;\nint kVersionPatch = 3;\n",
             ipxact: "<ipxact:version>1.2.3</ipxact:version>\n",
             changelog: "## [Unreleased]\n\n## [1.2.3] - 2026-01-01\n\n## [1.2.2] - 2025-01-01\n",

@@ -65,6 +65,15 @@ def files_of(module):
     raise SystemExit(f"{module}: no list of {masters.FILE} has this module")
 
 
+def rtl_lists():
+    """The lists of all masters, and the lower ones on their lines -F."""
+    found = [master.list for master in MASTERS.values() if master.list]
+    for path in found:  # grows
+        below = re.findall(r"(?m)^-F +(\S+)", path.read_text(encoding="utf-8"))
+        found += [lower for lower in ((path.parent / name).resolve() for name in below) if lower not in found]
+    return found
+
+
 def tops(key):
     """{name: top} of all masters that have the key: those with plain = true, with clocks, ..."""
     return {name: top for master in MASTERS.values() for name, top in master.tops.items() if getattr(top, key)}
