@@ -6,6 +6,7 @@
   masters.py                 prints what each check has of each master, one line for each
   masters.py --master NAME   the same of one master
   masters.py --cmake         the commands that tell it to CMake
+  masters.py --measured DESIGN   programs and tests of a design for coverage and mutants, a line each
   masters.py --file FILE     reads another file; the paths of its entries are looked for beside it
 
 A fault in the file ends the program with one line that names the file, the master and the key.
@@ -294,7 +295,12 @@ def cmake(masters):
                   put(f"{own}_TOPS", *master.tops),
                   put(f"{own}_ICE40", *[name for name, top in master.tops.items() if top.ice40]),
                   put(f"{own}_GATES", *master.gates), put(f"{own}_MEASURED", *master.measured)]
+        # What a model is made from: it is made again when this changes.
+        for gate in master.gates.values():
+            lines.append(put(f"MB4_GATE_{gate.name}_SAYS", gate.top, gate.parameters, gate.probes))
         for design in master.measured.values():
+            models = [(model.name, model.top, model.parameters) for model in design.models.values()]
+            lines += [put(f"MB4_MEASURED_{design.name}_SAYS", models, design.only)]
             lines += [put(f"MB4_MEASURED_{design.name}_PROGRAMS", *design.programs),
                       put(f"MB4_MEASURED_{design.name}_MAKER", design.maker),
                       put(f"MB4_MEASURED_{design.name}_PUBLIC", *([design.public] if design.public else [])),
@@ -329,6 +335,7 @@ def main():
                                      formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--master", metavar="NAME")
     parser.add_argument("--cmake", action="store_true")
+    parser.add_argument("--measured", metavar="DESIGN")
     parser.add_argument("--file", type=Path, default=ROOT / FILE)
     options = parser.parse_args()
     try:
@@ -338,6 +345,13 @@ def main():
     except Fault as fault:
         print(fault, file=sys.stderr)
         return 1
+    if options.measured:
+        design = {name: one for master in masters.values() for name, one in master.measured.items()}.get(options.measured)
+        if design is None:
+            print(f"{options.file.name}: no design '{options.measured}' in `measured` of a master", file=sys.stderr)
+            return 1
+        print(" ".join(design.programs), design.tests or "-", sep="\n")
+        return 0
     if options.cmake:
         print(cmake(masters), end="")
         return 0

@@ -6,6 +6,7 @@
   check_verilator.py lint        every module as top with the project's flags, smaller instances of
                                  some (SMALLER), each parameter of the features alone, and each
                                  preset: no message
+  check_verilator.py list        the names of these modules
   check_verilator.py waivers     each waiver of rtl/waivers.vlt stands under its reason, none is idle,
                                  none names UNOPTFLAT; no lint_off inside the RTL
   check_verilator.py self-test   planted faults are reported
@@ -101,12 +102,16 @@ def idle(files, tops, text):
     return findings
 
 
+def left_out(files):
+    """RTL that no master has."""
+    left = {path for pattern in ("*.sv", "*.f") for path in project.RTL.rglob(pattern)} - {*files, *project.rtl_lists()}
+    return [f"{path.relative_to(project.ROOT)}: no master of masters.toml has it" for path in sorted(left)]
+
+
 def check_lint():
     files = project.all_rtl_files()
     modules = [path.stem for path in files if not path.stem.endswith("_pkg")]
-    left = {path for pattern in ("*.sv", "*.f") for path in project.RTL.rglob(pattern)} - {*files, *project.rtl_lists()}
-    findings = [f"{path.relative_to(project.ROOT)}: no master of masters.toml has it" for path in sorted(left)
-                if "vhdl" not in path.parts]
+    findings = left_out(files)
     findings += [line for top in modules for line in lint(top, files, [project.WAIVERS])]
     smaller = [(top, values) for top, all_values in SMALLER.items()
                for values in [*([value] for value in all_values), all_values]]
@@ -122,6 +127,12 @@ def check_lint():
             findings.append(f"mb4_core {value}: no error")
     project.finish(findings, f"{len(modules)} modules as top and {len(smaller)} smaller instances: no message; "
                              f"{len(WRONG)} wrong numbers: an error each")
+
+
+def list_modules():
+    """The modules that lint reads, or RTL that no master has."""
+    findings = left_out(project.all_rtl_files())
+    project.finish(findings, "\n".join(project.rtl_modules()))
 
 
 def check_waivers():
@@ -166,4 +177,4 @@ def self_test():
 
 
 project.tool("verilator")
-{"lint": check_lint, "waivers": check_waivers, "self-test": self_test}[sys.argv[1]]()
+{"lint": check_lint, "list": list_modules, "waivers": check_waivers, "self-test": self_test}[sys.argv[1]]()

@@ -117,5 +117,97 @@ def faults():
     project.finish(findings, f"{len(WRONG)} wrong files, each refused with its key, and {len(RIGHT)} right ones")
 
 
+def run(folder, *command):
+    done = subprocess.run([str(word) for word in command], cwd=folder, capture_output=True, text=True, check=False,
+                          env={**os.environ, "PYTHONDONTWRITEBYTECODE": "1"})
+    return done.returncode, done.stdout + done.stderr
+
+
+# Prints what the checks that import this know of the toy; run in the copy.
+LISTS = """
+import sys
+sys.path[:0] = ["tools", "tools/synth", "tests/lint"]
+sys.argv = ["x", "--self-test"]
+import project, plain_verilog, ipxact, constraints, vhdl, set_version
+modules = project.rtl_modules()
+def tell(what, known):
+    print(what, "has the toy" if known else "LACKS THE TOY")
+tell("netlist, every module", "toy_bus" in modules)
+tell("port widths", any(path.stem == "toy_regs_pkg" for path in project.rtl_packages()))
+tell("proofs", any("toy_bus" == path.stem for path in project.all_rtl_files()))
+tell("gates", "toy_gates" in project.all_of("gates"))
+tell("plain Verilog", "toy_bus" in plain_verilog.TOPS)
+tell("IP-XACT", "toy_bus" in ipxact.TOPS)
+tell("constraints", ("full", "toy_bus") in [core[:2] for core in constraints.cores()])
+tell("VHDL", any(path.name == "toy_bus_example.vhd" for path in vhdl.plain_texts(project.MASTERS["toy"])))
+tell("set_version", "openmb4-toy.core" in set_version.VERSION_COPIES)
+sys.path.insert(0, "tests/mutation")
+import mutate
+codes = {module: mutate.blank_comments(path.read_text()) for module, path in modules.items()}
+design = project.all_of("measured")["toy_run"]
+tell("mutants", {row[0] for row in mutate.pool_of(design, codes)} == {"toy_bus"})
+tell("coverage", design.counts(modules["toy_bus"]))
+"""
+# The CMake files of the rooms that ask for masters, with their functions replaced: what they would make.
+CMAKE = """
+cmake_minimum_required(VERSION 3.25)
+get_filename_component(MB4_ROOT "${CMAKE_CURRENT_LIST_DIR}" ABSOLUTE)
+execute_process(COMMAND python3 -B tools/masters.py --cmake OUTPUT_VARIABLE masters RESULT_VARIABLE status)
+cmake_language(EVAL CODE "${masters}")
+foreach(master IN LISTS MB4_MASTERS)
+  foreach(key LIST SWITCH TOPS ICE40 GATES MEASURED)
+    message("${master} ${key} ${MB4_MASTER_${master}_${key}}")
+  endforeach()
+endforeach()
+"""
+
+
+def toy():
+    findings = []
+    with tempfile.TemporaryDirectory() as temporary:
+        folder = Path(temporary)
+        for name in project.tracked():
+            if (ROOT / name).is_file() and not name.startswith(("docs/pictures", "tests/unit", "tools/web")):
+                (folder / name).parent.mkdir(parents=True, exist_ok=True)
+                shutil.copy(ROOT / name, folder / name)
+        version = ".".join(re.search(r"project\(openmb4 VERSION (\d+)\.(\d+)\.(\d+)", (ROOT / "CMakeLists.txt").read_text()).groups())
+        for name, text in FILES.items():
+            (folder / name).parent.mkdir(parents=True, exist_ok=True)
+            (folder / name).write_text(text.replace("VERSION", version), encoding="utf-8")
+        # Without the entry, the lint names the files that no master has.
+        lint = [sys.executable, "-B", "tests/lint/check_verilator.py", "list"]
+        status, text = run(folder, *lint)
+        if status == 0 or "rtl/toy/toy_bus.sv: no master" not in text:
+            findings.append(f"RTL of no master is not named: {text[-300:]}")
+
+        with (folder / "masters.toml").open("a", encoding="utf-8") as file:
+            file.write(TOY)
+        wanted = {
+            (sys.executable, "-B", "-c", LISTS): r"\A(?:(?!LACKS)[\s\S])*set_version has the toy(?:(?!LACKS)[\s\S])*\Z",
+            tuple(lint): r"(?m)^toy_bus$",
+            (sys.executable, "-B", "tools/masters.py", "--master", "toy"): r"toy: gates: toy_gates\n",
+            (sys.executable, "-B", "tests/package/check_core.py", "names"): r"openmb4-toy.core: toy\n",
+            ("cmake", "-P", "toy.cmake"): r"toy SWITCH MB4_TOY\ntoy TOPS toy_bus\ntoy ICE40 toy_bus\ntoy GATES toy_gates\n"
+                                          r"toy MEASURED toy_run\n",
+            (sys.executable, "-B", "tests/mutation/run_mutants.py", "--master", "toy"): r"mutant_toy_run_toy_test is missing",
+        }
+        (folder / "toy.cmake").write_text(CMAKE, encoding="utf-8")
+        for command, pattern in wanted.items():
+            _, text = run(folder, *command)
+            if not re.search(pattern, text):
+                findings.append(f"{' '.join(command)[:80]}: the toy is not there: {text[-600:]}")
+
+        # Its rooms have their directions: no other master, and no other kind of line.
+        for name, line in (("rtl/toy/toy_x.sv", "  axi_core u_core (\n"), ("sim/masters/toy/a.cpp", '#include "sim/masters/axi/axi_model.hpp"\n'),
+                           ("drivers/include/toy/a.hpp", '#include "mb4/device.hpp"\n')):
+            (folder / name).parent.mkdir(parents=True, exist_ok=True)
+            (folder / name).write_text(line, encoding="utf-8")
+            _, text = run(folder, sys.executable, "-B", "tests/lint/check_directions.py")
+            if f"{name} uses" not in text:
+                findings.append(f"{name}: a use of another master is not reported: {text[-300:]}")
+            (folder / name).unlink()
+    project.finish(findings, "a master of one entry is in each check")
+
+
 if __name__ == "__main__":
-    {"faults": faults}[sys.argv[1]]()
+    {"faults": faults, "toy": toy}[sys.argv[1]]()

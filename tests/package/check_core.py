@@ -3,6 +3,7 @@
 """The FuseSoC core files.
 
   check_core.py lists   the core file of each master (masters.toml) names the files of its list in their order
+  check_core.py names   prints the core files and their masters
   check_core.py run     runs their targets, none of which may give a warning; skipped without fusesoc (PyPI)
 """
 import re
@@ -65,4 +66,9 @@ def run():
             print(f"{ip}, {target}: good", flush=True)
 
 
-{"lists": lists, "run": run}[sys.argv[1]]()
+def names():
+    for name, master in CORES.items():
+        print(f"{name}: {master}")
+
+
+{"lists": lists, "names": names, "run": run}[sys.argv[1]]()
