@@ -5,7 +5,8 @@
 
   masters.py                 prints what each check has of each master, one line for each
   masters.py --master NAME   the same of one master
-  masters.py --cmake         the commands that tell it to CMake
+  masters.py --cmake         the commands that tell it to CMake; of the files that entries name it asks for the lists of
+                             RTL only, as the Python package has no others
   masters.py --measured DESIGN   programs and tests of a design for coverage and mutants, a line each
   masters.py --file FILE     reads another file; the paths of its entries are looked for beside it
 
@@ -183,8 +184,8 @@ class Measured:
 class Master:
     """An entry; what it does not have is None or empty."""
 
-    def __init__(self, name, entry, root):
-        self.name, self.root = name, root
+    def __init__(self, name, entry, root, whole):
+        self.name, self.root, self.whole = name, root, whole
         self.what = entry.need("what", str)
         self.line = entry.take("line", str)
         if self.line is not None and self.line not in LINES:
@@ -212,7 +213,7 @@ class Master:
 
     def path(self, entry, key, name):
         """The file of a key that names one."""
-        if name is not None and not (self.root / name).exists():
+        if name is not None and (self.whole or key == "list") and not (self.root / name).exists():
             entry.wrong(key, f"'{name}' does not exist")
         return self.root / name if name is not None else None
 
@@ -249,8 +250,9 @@ def listed(path):
     return files
 
 
-def read(path=ROOT / FILE):
-    """{name: Master} in the order of the file. Throws Fault."""
+def read(path=ROOT / FILE, whole=True):
+    """{name: Master} in the order of the file. Throws Fault. In a tree that is not whole, such as that of the Python
+    package, only the lists of RTL have to be there."""
     try:
         values = tomllib.loads(path.read_text(encoding="utf-8"))
     except OSError as error:
@@ -262,7 +264,7 @@ def read(path=ROOT / FILE):
         where = f"{path.name}: {name}"
         if not re.fullmatch(r"[a-z]\w*(-\w+)*", name):
             raise Fault(f"{where}: a name has small letters, digits and '-'")
-        found[name] = Master(name, Entry(where, table), path.resolve().parent)
+        found[name] = Master(name, Entry(where, table), path.resolve().parent, whole)
     for key in ("tops", "gates", "measured"):
         owner = {}
         for master in found.values():
@@ -339,7 +341,7 @@ def main():
     parser.add_argument("--file", type=Path, default=ROOT / FILE)
     options = parser.parse_args()
     try:
-        masters = read(options.file)
+        masters = read(options.file, whole=not options.cmake)
         if options.master is not None and options.master not in masters:
             raise Fault(f"{options.file.name}: no master '{options.master}'; there are {', '.join(masters)}")
     except Fault as fault:

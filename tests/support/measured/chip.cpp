@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
-// The model of mb4_chip that coverage or mutants run: takes the place of sim/masters/mb4/model/fast_chip.cpp.
+// The model of mb4_chip that coverage or mutants run: takes the place of
+// sim/masters/mb4/model/fast_chip.cpp.
 #include <Vmeasured_chip.h>
 #include <Vmeasured_chip___024root.h>
 
