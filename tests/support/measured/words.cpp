@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
-// The models of mb4_axil and mb4_wb that coverage or mutants run: the simulator's own source on other
-// classes takes the place of sim/masters/mb4/words/bus_model.cpp.
+// The models of mb4_axil and mb4_wb that coverage or mutants run: the simulator's own source on
+// other classes takes the place of sim/masters/mb4/words/bus_model.cpp.
 #include <Vmb4_axil.h>
 #include <Vmb4_axil___024root.h>
 #include <Vmb4_wb.h>
