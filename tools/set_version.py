@@ -17,14 +17,16 @@ import sys
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[1]
+sys.path.insert(0, str(ROOT / "tools"))
+
+import masters  # noqa: E402
 
 VERSION_FILE = "CMakeLists.txt"
 VERSION_LINE = r"(?m)^project\(openmb4 VERSION (\d+)\.(\d+)\.(\d+)\b"
 # Files that cannot take the version from the line: FuseSoC reads the core files as they stand, and the
 # driver works as a copied folder. The register maps' files are checked in; their generator takes it.
 VERSION_COPIES = {
-    "openmb4.core": r"(?m)^name: openmb4:ip:mb4:(\d+)\.(\d+)\.(\d+)$",
-    "openmb4-axi.core": r"(?m)^name: openmb4:ip:biss_axi:(\d+)\.(\d+)\.(\d+)$",
+    **{master.core: r"(?m)^name: openmb4:ip:\w+:(\d+)\.(\d+)\.(\d+)$" for master in masters.load().values() if master.core},
     "drivers/include/mb4/version.hpp":
         r"VersionMajor = (\d+);[^;]*VersionMinor = (\d+);[^;]*VersionPatch = (\d+);",
 }

@@ -45,6 +45,12 @@ DRIVER = tuple(name for layer in DRIVER_HEADERS for name in layer if "/detail/" 
 # What a master may know of its kind of line: that it is the one, and its pins.
 MASTER_CLOCKED = ("sim/lines/clocked/clocked_end", "sim/lines/clocked/clocked_lines")
 CLOCKED = ("sim/lines/clocked/", *MASTER_CLOCKED)
+LINES = {None: (), "clocked": MASTER_CLOCKED, "duplex": ("sim/lines/duplex/",)}
+
+# Rooms of the masters of masters.toml. The iC-MB4 has finer ones below.
+MASTERS = project.MASTERS.values()
+MASTER_ROOMS = tuple(f"sim/masters/{master.name}/" for master in MASTERS)
+OTHER_DRIVERS = tuple(master.driver for master in MASTERS if master.driver and master.name != "mb4")
 
 # Room: the rooms that it may use besides itself. The longest name that a file begins with is its
 # room. A name that is no room, "sim/", stands for all rooms that begin with it. Tests may use
@@ -54,7 +60,6 @@ MAY_USE = {
     "drivers/c/": (*DRIVER, "regmap/"),
     "drivers/arduino/": (*DRIVER, "regmap/"),
     "drivers/zephyr/": (*DRIVER, "regmap/"),
-    "drivers/include/biss_axi/": ("drivers/include/enc/", "regmap/"),
     "drivers/include/biss_c.h": (),
     "drivers/c/biss_c": ("drivers/include/biss_axi/", "drivers/include/biss_c.h", "regmap/"),
     "sim/core/": (),
@@ -70,6 +75,10 @@ MAY_USE = {
     "sim/lines/protocols.cpp": ("sim/lines/", "sim/lines/biss/", "sim/lines/ssi/", "sim/lines/replay/"),
     "sim/hosts/": ("sim/core/",),
     "sim/masters/": ("sim/core/", "sim/hosts/"),
+    **{f"sim/masters/{master.name}/": ("sim/core/", "sim/hosts/", "sim/masters/", "sim/model/", *LINES[master.line])
+       for master in MASTERS},
+    **{master.room: (*master.uses, *(["regmap/"] if master.maps else [])) for master in MASTERS if master.list},
+    **{name: ("drivers/include/enc/", "regmap/") for name in OTHER_DRIVERS},
     "sim/masters/mb4/": ("sim/core/", "sim/hosts/", "sim/masters/", "sim/model/", "sim/masters/mb4/model/",
                          "sim/masters/mb4/words/", "sim/masters/mb4/pins", "sim/masters/mb4/ma_frequency",
                          *MASTER_CLOCKED, "regmap/"),
@@ -80,8 +89,7 @@ MAY_USE = {
     "sim/masters/mb4/words/": ("sim/core/", "sim/hosts/", "sim/masters/", "sim/masters/mb4/pins",
                                "sim/masters/mb4/ma_frequency", "sim/model/", *MASTER_CLOCKED),
     "sim/masters/mb4/model/busy_chip.cpp": ("sim/scenario/", "sim/include/"),
-    "sim/masters/axi/": ("sim/core/", "sim/hosts/", "sim/masters/", "sim/model/", *MASTER_CLOCKED),
-    "sim/masters/masters.cpp": ("sim/masters/", "sim/masters/mb4/", "sim/masters/axi/"),
+    "sim/masters/masters.cpp": ("sim/masters/", *MASTER_ROOMS),
     "sim/model/": ("sim/core/", "sim/include/"),
     "sim/faults/": ("sim/core/", "sim/lines/"),
     "sim/scenario/": ("sim/core/", "sim/lines/", "sim/lines/registers/", "sim/hosts/", "sim/masters/",
@@ -93,7 +101,7 @@ MAY_USE = {
     "sim/capi/": ("sim/core/", "sim/include/"),
     "tools/": ("sim/", *DRIVER, "regmap/"),
     # The only place of the commands that names masters: session.hpp is what the others use.
-    "tools/mb4sim/masters/": ("tools/", "sim/", *DRIVER, "drivers/include/biss_axi/", "regmap/"),
+    "tools/mb4sim/masters/": ("tools/", "sim/", *DRIVER, *OTHER_DRIVERS, "regmap/"),
     "tools/mb4sim/workload.cpp": ("tools/", "tools/mb4sim/masters/", "sim/", *DRIVER, "regmap/"),
     # What only the iC-MB4 has.
     **{place: ("tools/", "tools/mb4sim/masters/", "tools/mb4sim/bridge/", "sim/", *DRIVER, "regmap/")
@@ -103,7 +111,6 @@ MAY_USE = {
     "examples/": ("sim/", *DRIVER),
     "rtl/common/": (),
     "rtl/biss/": ("rtl/common/",),
-    "rtl/axi/": ("rtl/common/", "rtl/biss/", "regmap/"),
     "rtl/mb4/mb4_pkg": (),
     "rtl/mb4/host/": ("rtl/common/", "rtl/mb4/mb4_pkg", "regmap/"),
     "rtl/mb4/regs/": ("rtl/common/", "rtl/biss/", "rtl/mb4/mb4_pkg", "regmap/"),
@@ -121,8 +128,8 @@ STILL = {
         "read_timeout() is for clocked slaves only",
 }
 # Folders in which an include in quotes or angle brackets is looked for, after the file's own.
-INCLUDE_FOLDERS = ("sim/include/", "drivers/include/", "regmap/generated/mb4/", "regmap/generated/mb4_page/",
-                   "regmap/generated/axi/", "sim/model/",
+INCLUDE_FOLDERS = ("sim/include/", "drivers/include/",
+                   *(f"regmap/generated/{name}/" for master in MASTERS for name in master.maps), "sim/model/",
                    "tools/mb4sim/", "drivers/c/", "")
 CPP = (".cpp", ".hpp", ".c", ".h")
 

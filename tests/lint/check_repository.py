@@ -16,8 +16,8 @@
   check_repository.py rooms       README.md names every folder of rtl/, tests/ and tools/, docs/README.md
                                   every page of docs/
   check_repository.py decisions   docs/choices.md has a row for every "decision N"
-  check_repository.py masters     the simulator's rooms below the masters name no master on AXI: a master
-                                  registers what it accepts
+  check_repository.py masters     the simulator's rooms below the masters name no master of masters.toml beside the
+                                  iC-MB4: a master registers what it accepts
   check_repository.py self-test   planted faults are reported
 """
 
@@ -191,14 +191,23 @@ def decision_findings(files):
     return findings
 
 
+def name_of_master():
+    """A pattern for the names of the masters. A line may have the name of its master (sim/lines/NAME/)."""
+    names = [name.split("-")[0] for name in project.MASTERS
+             if name != "mb4" and not (project.ROOT / "sim" / "lines" / name.split("-")[0]).is_dir()]
+    words = "|".join(form for name in names for form in (name, name.upper(), name.capitalize()))
+    return re.compile(rf"(?<![A-Za-z])(?:{words})(?![a-z])|_(?:{'|'.join(names)})(?![a-z])")
+
+
 def master_findings(files):
     rooms = ("sim/core/", "sim/lines/", "sim/scenario/", "sim/faults/")
     findings = []
+    pattern = name_of_master()
     for name, text in files.items():
         if not name.startswith(rooms) or text is None:
             continue
         for number, line in enumerate(text.splitlines(), 1):
-            if re.search(r"(?<![A-Za-z])(?:axi|AXI|Axi)(?![a-z])|_axi(?![a-z])", line):
+            if pattern.search(line):
                 findings.append(f"{name}:{number}: names a master: {line.strip()}")
     return findings
 
@@ -265,9 +274,12 @@ def self_test():
                              ("x\n", False, 0), (None, True, 1)):
         expect(count, runnable_findings({"a": text}, lambda _, bit=bit: bit), f"run bit of {text}")
 
-    core, axi_core, header, ipxact, changelog = *VERSION_COPIES, "any" + IPXACT[0], *RELEASE
+    *cores, header = VERSION_COPIES
+    core, axi_core, *others = cores
+    ipxact, changelog = "any" + IPXACT[0], *RELEASE
     good = {VERSION_FILE: "project(openmb4 VERSION 1.2.3 LANGUAGES C)\n",
             core: "name: openmb4:ip:mb4:1.2.3\n", axi_core: "name: openmb4:ip:biss_axi:1.2.3\n",
+            **dict.fromkeys(others, "name: openmb4:ip:other:1.2.3\n"),
             header: "kVersionMajor = 1;\nint kVersionMinor = 2;\nint kVersionPatch = 3;\n",
             ipxact: "<ipxact:version>1.2.3</ipxact:version>\n",
             changelog: "## [Unreleased]\n\n## [1.2.3] - 2026-01-01\n\n## [1.2.2] - 2025-01-01\n",

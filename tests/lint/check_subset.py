@@ -452,7 +452,7 @@ def main():
         self_test()
     paths = [Path(name).resolve() for name in sys.argv[1:]]
     if not paths:
-        paths = sorted(set(project.RTL.rglob("*.sv")) | set(project.rtl_files()))
+        paths = sorted(set(project.RTL.rglob("*.sv")) | set(project.all_rtl_files()))
     findings = []
     for path in paths:
         generated = "generated" in path.parts

@@ -6,6 +6,7 @@
   check_verilator.py lint        every module as top with the project's flags, smaller instances of
                                  some (SMALLER), each parameter of the features alone, and each
                                  preset: no message
+  check_verilator.py list        the names of these modules
   check_verilator.py waivers     each waiver of rtl/waivers.vlt stands under its reason, none is idle,
                                  none names UNOPTFLAT; no lint_off inside the RTL
   check_verilator.py self-test   planted faults are reported
@@ -22,19 +23,17 @@ sys.path.insert(0, str(HERE.parents[1] / "tools" / "synth"))
 import project  # noqa: E402
 
 # The generated packages are lists of constants, of which a design uses a part: one pair for each.
-INLINE_ALLOWED = {("axi_regs_pkg.sv", "UNUSEDPARAM"): 1, ("mb4_regs_pkg.sv", "UNUSEDPARAM"): 1,
-                  ("mb4_page_regs_pkg.sv", "UNUSEDPARAM"): 1}
+INLINE_ALLOWED = {(path.name, "UNUSEDPARAM"): 1 for path in project.rtl_packages() if "generated" in path.parts}
 
 
 # Parameters that are smaller than in the chip, or other choices: each alone, and all together.
 SMALLER = {"biss_line": ["BissB=0", "Ssi=0", "Mo=0", "FreeCrc=0", "Gray=0", "Slaves=1", "DataBits=32", "DelayW=6"],
-           "biss_axi": ["BISS_CHANNEL_WIDTH=5", "STREAM_MODE=1", "STREAM_WIDTH=64", "POR_PIN=1'b1", "ENABLE_ACTIVE_LOW=1'b1",
-                        "EXTRAS=255", "ALIGN_LATCH=1'b1"]}
+           **{name: top.smaller for name, top in project.tops("smaller").items()}}
 
 # Features of the tops (decision 44), each alone. Wrong numbers end the elaboration.
 FEATURES = ["Lines=1", "Slaves=1", "Slaves=2", "Slaves=3", "Slaves=4", "BissB=0", "Ssi=0", "Mo=0",
             "Control=0", "Gray=0", "Force=0", "FreeCrc=0", "Banks=1"]
-TOPS = ["mb4_core", "mb4_engine", "mb4_chip", "mb4_axil", "mb4_wb"]
+TOPS = list(project.MASTERS["mb4"].tops)
 WRONG = ["Lines=0", "Lines=3", "Slaves=0", "Slaves=5", "Slaves=7", "Slaves=9", "Banks=0", "Banks=3"]
 
 
@@ -97,16 +96,23 @@ def idle(files, tops, text):
             rest.write_text("\n".join(lines[:number] + lines[number + 1:]) + "\n", encoding="utf-8")
             named = set(re.findall(r"\w+(?=\.sv\b)", lines[number])) & stems
             named = {name for name in named if not name.endswith("_pkg")}
-            if not any(lint(top, files, [rest]) for top in [*tops, *sorted(named - set(tops))]):
+            if not any(lint(top, files, [rest]) for top in [*sorted(named), *(top for top in tops if top not in named)]):
                 findings.append(f"waivers.vlt:{number + 1}: nothing needs this waiver any more: "
                                 f"{lines[number]}")
     return findings
 
 
+def left_out(files):
+    """RTL that no master has."""
+    left = {path for pattern in ("*.sv", "*.f") for path in project.RTL.rglob(pattern)} - {*files, *project.rtl_lists()}
+    return [f"{path.relative_to(project.ROOT)}: no master of masters.toml has it" for path in sorted(left)]
+
+
 def check_lint():
     files = project.all_rtl_files()
     modules = [path.stem for path in files if not path.stem.endswith("_pkg")]
-    findings = [line for top in modules for line in lint(top, files, [project.WAIVERS])]
+    findings = left_out(files)
+    findings += [line for top in modules for line in lint(top, files, [project.WAIVERS])]
     smaller = [(top, values) for top, all_values in SMALLER.items()
                for values in [*([value] for value in all_values), all_values]]
     # mb4_axil has the engine with all its ports. The tops pass the features on as one number.
@@ -123,13 +129,19 @@ def check_lint():
                              f"{len(WRONG)} wrong numbers: an error each")
 
 
+def list_modules():
+    """The modules that lint reads, or RTL that no master has."""
+    findings = left_out(project.all_rtl_files())
+    project.finish(findings, "\n".join(project.rtl_modules()))
+
+
 def check_waivers():
     waivers = (project.WAIVERS).read_text(encoding="utf-8")
     findings = unreasoned("waivers.vlt", waivers)
     texts = {*project.RTL.rglob("*.sv"), *project.RTL.rglob("*.svh"), *project.all_rtl_files()}
     for path in sorted(texts):
         findings += inline(path, path.read_text(encoding="utf-8"))
-    findings += idle(project.all_rtl_files(), ["mb4_chip", "mb4_core", "biss_axi", "axi_regs"], waivers)
+    findings += idle(project.all_rtl_files(), [name for master in project.MASTERS.values() for name in master.tops], waivers)
     project.finish(findings, f"{len(waiver_lines(waivers))} waivers, each with a reason and needed")
 
 
@@ -165,4 +177,4 @@ def self_test():
 
 
 project.tool("verilator")
-{"lint": check_lint, "waivers": check_waivers, "self-test": self_test}[sys.argv[1]]()
+{"lint": check_lint, "list": list_modules, "waivers": check_waivers, "self-test": self_test}[sys.argv[1]]()

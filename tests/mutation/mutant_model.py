@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
 # SPDX-FileCopyrightText: 2026 The openmb4 authors
 # SPDX-License-Identifier: Apache-2.0
-"""Makes the Verilated chip with faults (mutate.py): FOLDER/Vmb4_mutant__ALL.a.
+"""Makes the Verilated models of a design with faults (mutate.py): FOLDER/MODEL/Vmeasured_MODEL__ALL.a.
 
-  mutant_model.py FOLDER [--count N] [--seed S]
+  mutant_model.py FOLDER DESIGN [--count N] [--seed S]   DESIGN is one of those in masters.toml, `measured`
 """
 
 import sys
@@ -12,29 +12,23 @@ from pathlib import Path
 HERE = Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE.parents[1] / "tools" / "synth"))
 
+import measured  # noqa: E402
 import project  # noqa: E402
 
 
 def main():
-    folder = Path(sys.argv[1]).resolve()
-    status, text = project.run([sys.executable, "-B", HERE / "mutate.py", folder / "rtl",
-                                *sys.argv[2:]])
+    folder, name = Path(sys.argv[1]).resolve(), sys.argv[2]
+    design = project.all_of("measured")[name]
+    status, text = project.run([sys.executable, "-B", HERE / "mutate.py", folder / "rtl", "--design", name, *sys.argv[3:]])
     print(text.strip())
-    if status == 0:
-        # A fault makes a signal idle, a constant wider than what it replaces, or an enum 0 or 1.
-        status, text = project.run(
-            [project.tool("verilator"), "--cc", "--build", "-j", "2", "-fno-const-bit-op-tree",
-             *project.verilator_flags(), "-Wno-fatal", "-Wno-lint", "-Wno-style",
-             "-Wno-ENUMVALUE",
-             f"-I{project.INCLUDE}",
-             "-MAKEFLAGS", "OPT_FAST=-O3",
-             "-CFLAGS", f"-std=c++20 -DVL_USER_STOP -include {HERE / 'mutant.h'} -include "
-             f"{project.ROOT / 'sim' / 'model' / 'verilated_hooks.h'}",
-             "--top-module", "mb4_chip", "--prefix", "Vmb4_mutant", "--Mdir", folder,
-             project.ROOT / "sim/masters/mb4/model/public.vlt",
-             *[folder / "rtl" / path.name for path in project.rtl_files()]], cwd=folder)
     if status != 0:
-        raise SystemExit(text)
+        raise SystemExit(status)
+    files = [folder / "rtl" / path.name for path in project.listed(design.master.list)]
+    for model in design.models.values():
+        # A fault makes a signal idle, a constant wider than what it replaces, or an enum 0 or 1.
+        measured.verilate(design, model, folder, files, [
+            "-Wno-fatal", "-Wno-lint", "-Wno-style", "-Wno-ENUMVALUE", "-CFLAGS", f"-include {HERE / 'mutant.h'}"])
+        measured.compile_model(model, folder)
 
 
 main()

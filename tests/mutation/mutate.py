@@ -2,10 +2,12 @@
 # SPDX-FileCopyrightText: 2026 The openmb4 authors
 # SPDX-License-Identifier: Apache-2.0
 """Random faults in the RTL, all in one model: each is asleep until its number is chosen.
-Only modules of mb4_chip get faults: its tests are those that meet them.
+Only modules below the tops of a design (masters.toml, `measured`) get faults, and those of them that count
+there: its tests are those that meet them.
 
-  mutate.py FOLDER [--count N] [--seed S]   writes the changed RTL and mutants.txt to FOLDER
-                                            (120 faults by default)
+  mutate.py FOLDER [--design NAME] [--count N] [--seed S]
+                                            writes the changed RTL and mutants.txt to FOLDER
+                                            (120 faults in the design "chip" by default)
   mutate.py --rows FILE                     each row of FILE (equivalent.txt) is a fault that the RTL can have
 
 Kinds: constant (a literal is another one), operator (== is !=, ! is nothing, one side of && or ||
@@ -138,6 +140,13 @@ def reasons(file):
     return rows
 
 
+def pool_of(design, codes):
+    """(module, site) of every fault that a design can have."""
+    files = project.rtl_modules()
+    modules = set().union(*(below(model.top, codes) for model in design.models.values()))
+    return [(module, *site) for module in sorted(modules) if design.counts(files[module]) for site in sites(codes[module])]
+
+
 def check_rows(file, pool):
     texts = {module: path.read_text(encoding="utf-8") for module, path in project.rtl_modules().items()}
     known = {f"{module}: {told(texts[module], site)[1]}" for module, *site in pool}
@@ -153,10 +162,12 @@ def main():
     chance = random.Random(seed)
     codes = {module: blank_comments(path.read_text(encoding="utf-8"))
              for module, path in project.rtl_modules().items()}
-    pool = [(module, *site) for module in sorted(below("mb4_chip", codes)) for site in sites(codes[module])]
+    designs = project.all_of("measured")
     if sys.argv[1] == "--rows":
-        check_rows(Path(sys.argv[2]), pool)
+        check_rows(Path(sys.argv[2]), [row for design in designs.values() for row in pool_of(design, codes)])
         return
+    design = designs[options.get("--design", "chip")]
+    pool = pool_of(design, codes)
     chance.shuffle(pool)
     chosen = []
     for site in pool:
@@ -167,7 +178,7 @@ def main():
             chosen.append(site)
     folder.mkdir(parents=True, exist_ok=True)
     listing = []
-    for path in project.rtl_files():
+    for path in project.listed(design.master.list):
         code = path.read_text(encoding="utf-8")
         mine = [(number, c) for number, c in enumerate(chosen, 1) if c[0] == path.stem]
         whole = code

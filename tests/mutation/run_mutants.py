@@ -3,8 +3,12 @@
 # SPDX-License-Identifier: Apache-2.0
 """Wakes one fault after the other and runs tests until one fails.
 
-  run_mutants.py MUTANTS_TXT GOAL [--jobs N] [--log FILE] PROGRAM...
+  run_mutants.py MUTANTS_TXT GOAL [--jobs N] [--log FILE] [--tests FILTER] PROGRAM...
+  run_mutants.py --design NAME|--master NAME [--build BUILD] [--jobs N] [--log FILE] [--only N,M...]
      GOAL  share in percent that must be caught, of the faults that are not in equivalent.txt
+     NAME  a design of masters.toml, or a master: its first design. BUILD (default build) has its programs
+           (target mutants_DESIGN); goal and tests are those of the entry
+     N,M   numbers of faults: a sample
      FILE  takes what has been found; a run that was ended goes on from there. For one mutants.txt only
 
 First all tests run without a fault: they must pass, and what takes long is known then. All
@@ -97,17 +101,44 @@ def caught(batch, number):
     return any(start(program, tests, number, seconds) for program, tests, seconds in batch)
 
 
+def of_design(options):
+    """([mutants.txt, goal, programs...], tests) of a design, or of the first one of a master."""
+    designs = project.all_of("measured")
+    name = options.get("--design")
+    if name is None:
+        master = project.MASTERS.get(options["--master"])
+        if master is None or not master.measured:
+            names = [one.name for one in project.MASTERS.values() if one.measured]
+            raise SystemExit(f"run_mutants.py: no master '{options['--master']}' with measured designs; there are {', '.join(names)}")
+        name = next(iter(master.measured))
+    if name not in designs:
+        raise SystemExit(f"run_mutants.py: no design '{name}'; there are {', '.join(designs)}")
+    design, build = designs[name], Path(options.get("--build", "build")).resolve()
+    programs = [str(build / "bin" / f"mutant_{name}_{program}") for program in design.programs]
+    missing = [path for path in programs if not Path(path).exists()]
+    if missing:
+        raise SystemExit(f"run_mutants.py: {missing[0]} is missing; build the target mutants_{name}")
+    return [str(build / "tests/mutation" / name / "rtl/mutants.txt"), design.goals.get("mutants", 0), *programs], \
+        design.tests or LEFT_OUT
+
+
 def main():
     arguments = sys.argv[1:]
     options = {}
-    for name in ("--jobs", "--log"):
+    for name in ("--jobs", "--log", "--tests", "--design", "--master", "--build", "--only"):
         if name in arguments:
             at = arguments.index(name)
             options[name] = arguments[at + 1]
             del arguments[at:at + 2]
+    if "--design" in options or "--master" in options:
+        arguments, tests = of_design(options)
+        options.setdefault("--tests", tests)
     head, *listing = Path(arguments[0]).read_text(encoding="utf-8").splitlines()
     print(head, flush=True)
     goal, programs = float(arguments[1]), arguments[2:]
+    chosen = options.get("--tests", LEFT_OUT)
+    if "--only" in options:
+        listing = [line for line in listing if line.split(" ", 1)[0] in options["--only"].split(",")]
     jobs = int(options.get("--jobs", 1))
     log = Path(options.get("--log", os.devnull))
     kept = [line.split(": ", 1) for line in
@@ -125,12 +156,12 @@ def main():
     if batches:
         known = {(program, name) for batch in batches for program, tests, _ in batch
                  for name in tests.split(":")}
-        added = {program: [name for name in report(program, LEFT_OUT, "--gtest_list_tests")
+        added = {program: [name for name in report(program, chosen, "--gtest_list_tests")
                            if (program, name) not in known]
                  for program in programs}
         filters = {program: ":".join(names) for program, names in added.items() if names}
     else:
-        filters = dict.fromkeys(programs, LEFT_OUT)
+        filters = dict.fromkeys(programs, chosen)
     old = len(batches)
     if filters:
         batches += in_batches(filters, jobs)
@@ -160,7 +191,7 @@ def main():
             print(f"  batch {place} of {len(batches)}: {len(done)} of {len(faults)} caught",
                   flush=True)
     places = {module: str(path.parent.relative_to(project.RTL))
-              for module, path in project.rtl_modules().items()}
+              for module, path in project.rtl_modules().items() if project.RTL in path.parents}
     rooms = {room: [0, 0] for room in sorted({*places.values(), "all"})}
     for number, text in faults.items():
         for room in ("all", places[text.split(":")[0]]):
@@ -175,7 +206,7 @@ def main():
     for room, (found, of) in rooms.items():
         if of:
             print(f"in {room}: {found} of {of} faults caught, {100 * found / of:.1f} %")
-    share = 100 * len(done) / (len(faults) - len(argued))
+    share = 100 * len(done) / max(len(faults) - len(argued), 1)
     print(f"{len(done)} of {len(faults)} faults caught, {len(argued)} change nothing: "
           f"{share:.1f} %")
     sys.exit(0 if share >= goal and not wrong else 1)

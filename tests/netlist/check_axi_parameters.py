@@ -57,7 +57,7 @@ RIGHT = [
 
 def said(parameters, folder):
     """{tool: (passed, text)}"""
-    files = project.listed(project.RTL / "axi" / "axi.f")
+    files = project.rtl_files("axi")
     status, text = project.run(
         [project.tool("verilator"), "--lint-only",
          *project.verilator_flags(),  # -fno-const-bit-op-tree among them

@@ -45,7 +45,7 @@ def unlisted(text, patterns):
 
 def every(folder):
     modules = list(project.rtl_modules())
-    commands = yosys.read() + ["design -save rtl"]
+    commands = yosys.read(project.all_rtl_files()) + ["design -save rtl"]
     for module in modules:
         commands += yosys.check_as_top(module)
     commands += yosys.synthesise() + ["write_json all.json"]
@@ -61,13 +61,13 @@ def every(folder):
     # One file, one module: what the list names is all there is.
     known = {re.sub(r"^\\", "", m["attributes"].get("hdlname", name))
              for name, m in netlist["modules"].items()}
-    missing += [f"{m}: module outside rtl/mb4/mb4.f" for m in sorted(known - set(modules))]
+    missing += [f"{m}: module outside the lists of masters.toml" for m in sorted(known - set(modules))]
     project.finish(missing, f"{len(modules)} modules, each as its own top and synthesised; "
                             f"no latch, no loop, no double driver")
 
 
 def ice40(folder, module):
-    commands = yosys.read() + [
+    commands = yosys.read(project.files_of(module)) + [
         f"synth_ice40 -top {module}",
         "select -assert-none t:$dlatch t:$sr t:$_DLATCH_* t:$_SR_*",
         "check -assert",

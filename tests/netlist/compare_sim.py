@@ -46,9 +46,8 @@ def make_steps(module, inputs, seed):
 
 
 def synthesise(module, folder):
-    files = project.rtl_files()
-    if module_file(module) not in files:
-        files.append(module_file(module))
+    known = module in project.rtl_modules()
+    files = project.files_of(module) if known else [*project.rtl_files(), module_file(module)]
     commands = yosys.read(files) + [f"synth -flatten -top {module}", "check -assert",
                                     "write_verilog -noattr netlist.v"]
     status, text = yosys.execute(commands, folder, "netlist")

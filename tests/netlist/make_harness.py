@@ -21,7 +21,7 @@ def module_file(module):
 def sources_digest():
     """Tells whether a model was built from the sources as they are now."""
     digest = hashlib.sha256()
-    for path in [*project.rtl_files(), *sorted((HERE / "rtl").glob("*.sv"))]:
+    for path in [*project.all_rtl_files(), *sorted((HERE / "rtl").glob("*.sv"))]:
         digest.update(path.read_bytes())
     return digest.hexdigest()
 

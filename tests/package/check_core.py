@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """The FuseSoC core files.
 
-  check_core.py lists   openmb4.core and openmb4-axi.core name the files of rtl/mb4/mb4.f and
-                        rtl/axi/axi.f in their order
+  check_core.py lists   the core file of each master (masters.toml) names the files of its list in their order
+  check_core.py names   prints the core files and their masters
   check_core.py run     runs their targets, none of which may give a warning; skipped without fusesoc (PyPI)
 """
 import re
@@ -21,17 +21,17 @@ import project  # noqa: E402
 SKIPPED = 77
 
 
-CORES = {"openmb4.core": "mb4/mb4.f", "openmb4-axi.core": "axi/axi.f"}
+CORES = {master.core: master.name for master in project.MASTERS.values() if master.core}
 # docs/integration.md, "Features"
 BYTES = {"sim": 0x00, "sim_drive": 0xC7, "sim_single": 0x85, "sim_reader": 0x80}
 
 
 def lists():
-    for name, rtl in CORES.items():
+    for name, master in CORES.items():
         core = (ROOT / name).read_text()
         assert core.startswith("CAPI=2:"), f"{name}: a core file begins with CAPI=2:"
         named = re.findall(r"(?m)^ +- (\S+\.sv)$", core)
-        listed = [path.relative_to(ROOT).as_posix() for path in project.listed(project.RTL / rtl)]
+        listed = [path.relative_to(ROOT).as_posix() for path in project.rtl_files(master)]
         assert named == listed, f"{name}: {sorted(set(named) ^ set(listed)) or 'another order'}"
         for file in re.findall(r"(?m)^ +- ([\w./]+)", core):
             assert (ROOT / file).is_file(), file
@@ -66,4 +66,9 @@ def run():
             print(f"{ip}, {target}: good", flush=True)
 
 
-{"lists": lists, "run": run}[sys.argv[1]]()
+def names():
+    for name, master in CORES.items():
+        print(f"{name}: {master}")
+
+
+{"lists": lists, "names": names, "run": run}[sys.argv[1]]()

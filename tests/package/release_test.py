@@ -15,6 +15,10 @@ from pathlib import Path
 import programs
 from programs import ROOT
 
+sys.path.insert(0, str(ROOT / "tools" / "synth"))
+
+import project  # noqa: E402
+
 SKIPPED = 77
 
 
@@ -72,10 +76,12 @@ def main():
         with tarfile.open(archive) as tar:
             packed = {member.name for member in tar.getmembers() if not member.isdir()}
             plain = tar.extractfile(f"openmb4-{version}/verilog/mb4_chip.v").read().decode()
-        tracked |= {f"verilog/{top}.v" for top in ("mb4_core", "mb4_engine", "mb4_chip", "mb4_axil",
-                                               "mb4_wb")}
-        tracked |= {"ipxact/biss_axi.xml", "ipxact/mb4_axil.xml", "ipxact/mb4_wb.xml",
-                    "ipxact/vivado/component.xml", "ipxact/vivado/xgui/biss_axi.tcl"}
+        tracked |= {f"verilog/{top}.v" for top in project.tops("plain")}
+        tracked |= {f"ipxact/{top}.xml" for top in project.tops("buses")}
+        for place, top in enumerate(project.tops("generics")):
+            vivado = f"ipxact/vivado{f'-{top}' if place else ''}"
+            tracked |= {f"{vivado}/component.xml", f"{vivado}/xgui/{top}.tcl"}
+        assert {"verilog/mb4_core.v", "ipxact/biss_axi.xml", "ipxact/vivado/component.xml"} <= tracked
         assert packed == {f"openmb4-{version}/{name}" for name in tracked}, "other files"
         sdists = [Path(folder, out, "python", archive.name).read_bytes() for out in ("a", "b")]
         assert sdists[0] == sdists[1], "two sdists of one commit differ"

@@ -21,6 +21,7 @@ import plain_verilog  # noqa: E402
 import project  # noqa: E402
 import vhdl  # noqa: E402
 
+BISS_AXI = project.tops("generics")["biss_axi"]
 PACKAGE = {"ghdl": "ghdl", "iverilog": "iverilog", "yosys": "yosys"}
 
 
@@ -32,7 +33,8 @@ def run(command, folder):
 
 def instance(top, folder):
     """The example of a top as Verilog, without the empty module that GHDL puts before it."""
-    sources = [vhdl.FOLDER / f"{vhdl.PACKAGE}.vhd", vhdl.FOLDER / f"{top}_example.vhd"]
+    master = plain_verilog.TOPS[top].master.list.parent
+    sources = [master / "vhdl" / f"{master.name}_components.vhd", master / "vhdl" / f"{top}_example.vhd"]
     for command in ([project.tool("ghdl"), "-a", "--std=08", *sources],
                     [project.tool("ghdl"), "--synth", "--std=08", "--out=verilog",
                      f"{top}_example"]):
@@ -69,7 +71,7 @@ def instance_of_the_manual(widths):
     """A design around the instance of docs/axi.md: a signal for each name that it uses."""
     text = (ROOT / "docs/axi.md").read_text(encoding="utf-8")
     instance = re.search(r"```vhdl\n(.*?)```", text, re.S).group(1)
-    vectors = vhdl.sv_widths.parameter_vectors(vhdl.AXI_SOURCE)
+    vectors = vhdl.sv_widths.parameter_vectors(BISS_AXI.source)
     declared = []
     for port, name in re.findall(r"(\w+)(?:\(0\))? => (\w+)\b", instance.split("port map", 1)[1]):
         if name not in ("open",) and not name.isdigit():
@@ -83,13 +85,12 @@ def instance_of_the_manual(widths):
 
 def axi_findings(folder):
     """GHDL's findings about biss_axi; a wrong port name and a wrong width must be among others."""
-    component, example = (vhdl.AXI_FOLDER / f"biss_axi_{name}.vhd" for name in ("component", "example"))
+    component, example = (BISS_AXI.source.parent / "vhdl" / f"biss_axi_{name}.vhd" for name in ("component", "example"))
     stub = folder / "biss_axi_entity.vhd"
     stub.write_text(entity(component), encoding="utf-8")
     manual = folder / "biss_axi_manual.vhd"
     manual.write_text(instance_of_the_manual(
-        {name: width for name, (_, width) in vhdl.axi_ports(
-            {"S_AXIS_TDATA_WIDTH": 32, "S_AXIS_TUSER_WIDTH": 1}).items()}), encoding="utf-8")
+        {name: width for name, (_, width) in vhdl.generic_ports(BISS_AXI).items()}), encoding="utf-8")
 
     def ghdl(path, unit):
         for command in (["-a", "--std=08", component, stub, path], ["-e", "--std=08", unit]):

@@ -35,7 +35,7 @@ def main():
     out = Path(folder)
     out.mkdir(parents=True, exist_ok=True)
     if top == "biss_axi":
-        files = plain_verilog.project.listed(ROOT / "rtl/axi/axi.f")
+        files = plain_verilog.project.rtl_files("axi")
         good = plain_verilog.write(top, out, files, PARAMETERS)
     else:
         good = plain_verilog.write(top, out)

@@ -6,6 +6,16 @@
 
 get_filename_component(MB4_ROOT "${CMAKE_CURRENT_LIST_DIR}/../.." ABSOLUTE)
 
+# The masters (masters.toml): MB4_MASTERS, and of each MB4_MASTER_NAME_LIST and so on (cmake() in tools/masters.py).
+find_package(Python3 REQUIRED COMPONENTS Interpreter)
+set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${MB4_ROOT}/masters.toml ${MB4_ROOT}/tools/masters.py)
+execute_process(COMMAND ${Python3_EXECUTABLE} -B ${MB4_ROOT}/tools/masters.py --cmake
+  RESULT_VARIABLE status OUTPUT_VARIABLE masters ERROR_VARIABLE wrong)
+if(NOT status EQUAL 0)
+  message(FATAL_ERROR "${wrong}")
+endif()
+cmake_language(EVAL CODE "${masters}")
+
 find_program(MB4_CCACHE ccache)
 if(MB4_CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
   # With paths relative to the build tree, what is the same in two trees is compiled once.
@@ -81,7 +91,7 @@ endfunction()
 # mb4_rtl_sources(OUT [LIST]): the absolute paths that a list of files names, by default
 # rtl/mb4/mb4.f. Its line -F LIST stands for the files of another list.
 function(mb4_rtl_sources out)
-  set(list ${MB4_ROOT}/rtl/mb4/mb4.f)
+  set(list ${MB4_MASTER_mb4_LIST})
   if(ARGC GREATER 1)
     set(list ${ARGV1})
   endif()
@@ -101,6 +111,19 @@ function(mb4_rtl_sources out)
       list(APPEND files ${line})
     endif()
   endforeach()
+  set(${out} ${files} PARENT_SCOPE)
+endfunction()
+
+# mb4_all_rtl_sources(OUT): those of the lists of all masters, each once.
+function(mb4_all_rtl_sources out)
+  set(files)
+  foreach(master IN LISTS MB4_MASTERS)
+    if(MB4_MASTER_${master}_LIST)
+      mb4_rtl_sources(more ${MB4_MASTER_${master}_LIST})
+      list(APPEND files ${more})
+    endif()
+  endforeach()
+  list(REMOVE_DUPLICATES files)
   set(${out} ${files} PARENT_SCOPE)
 endfunction()
 
@@ -199,12 +222,32 @@ function(mb4_verilated_library target)
 endfunction()
 
 set(MB4_TRACE ON)  # the simulator can write waveform files
-option(MB4_AXI "The simulator has what is on AXI or Wishbone" ON)
+foreach(master IN LISTS MB4_MASTERS)
+  if(MB4_MASTER_${master}_SWITCH)
+    option(${MB4_MASTER_${master}_SWITCH} "${MB4_MASTER_${master}_SWITCH_TEXT}" ON)
+  endif()
+endforeach()
+# mb4_has_master(OUT NAME): 1 if this build has the master, else 0.
+function(mb4_has_master out master)
+  set(has 1)
+  if(MB4_MASTER_${master}_SWITCH AND NOT ${MB4_MASTER_${master}_SWITCH})
+    set(has 0)
+  endif()
+  set(${out} ${has} PARENT_SCOPE)
+endfunction()
+# mb4_leave_out(): leaves out every master that has a switch.
+macro(mb4_leave_out)
+  foreach(master IN LISTS MB4_MASTERS)
+    if(MB4_MASTER_${master}_SWITCH)
+      set(${MB4_MASTER_${master}_SWITCH} OFF)
+    endif()
+  endforeach()
+endmacro()
 option(MB4_FIRST "The shortest build: no AXI, no Wishbone, no smaller chips" OFF)
 # Chips with fewer features that the simulator has beside the full one: drive, single, reader.
 set(MB4_PRESETS single CACHE STRING "Smaller chips of the simulator")
 if(MB4_FIRST)
-  set(MB4_AXI OFF)
+  mb4_leave_out()
   set(MB4_PRESETS "")
 endif()
 if(EMSCRIPTEN)
@@ -224,7 +267,6 @@ set(MB4_VERILATOR ${CMAKE_BINARY_DIR}/verilator)
 set(steady ${MB4_ROOT}/tools/cmake/steady_model.py)
 file(SHA256 ${steady} steady_hash)  # with another script each model is made anew
 set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${steady})
-find_package(Python3 REQUIRED COMPONENTS Interpreter)
 file(CONFIGURE OUTPUT ${MB4_VERILATOR} CONTENT
   "#!/bin/sh\nexec \"${Python3_EXECUTABLE}\" -B \"${steady}\" \"${VERILATOR_BIN}\" \"$@\"\n# ${steady_hash}\n" @ONLY)
 file(CHMOD ${MB4_VERILATOR} PERMISSIONS OWNER_READ OWNER_WRITE OWNER_EXECUTE)

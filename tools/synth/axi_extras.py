@@ -28,7 +28,7 @@ EXTRAS = {
 
 def size(extras, channels, folder, align=0):
     """LUT4 and flops."""
-    files = project.listed(project.RTL / "axi" / "axi.f")
+    files = project.rtl_files("axi")
     status, text = yosys.execute(
         yosys.read(files) + yosys.choose("biss_axi", {"EXTRAS": extras, "BISS_CHANNEL_WIDTH": channels,
                                                       "ALIGN_LATCH": align}) +

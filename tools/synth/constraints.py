@@ -1,12 +1,11 @@
 #!/usr/bin/env python3
 # SPDX-FileCopyrightText: 2026 The openmb4 authors
 # SPDX-License-Identifier: Apache-2.0
-"""Timing constraints of mb4_core, mb4_axil and mb4_wb, with each preset, and of biss_axi, for Vivado, Quartus and
-Diamond.
+"""Timing constraints of the tops with clocks in masters.toml, with each preset, for Vivado, Quartus and Diamond.
 
-  constraints.py FOLDER             writes rtl/ROOM/constraints/TOP.xdc, TOP_quartus.sdc, TOP_diamond.sdc for the full
-                                    chip and for biss_axi, and PRESET/TOP.xdc ... for the other presets of the chip,
-                                    from crossings.toml there
+  constraints.py FOLDER             writes rtl/ROOM/constraints/TOP.xdc, TOP_quartus.sdc, TOP_diamond.sdc, and
+                                    PRESET/TOP.xdc ... for the other presets of a master that has them, from
+                                    crossings.toml there
   constraints.py FOLDER --check     the files are what it would write; each register and port that a file names exists
                                     in the netlist of its preset; each path between two clocks, and from an
                                     asynchronous port, has exactly one line there; the tables have each row of
@@ -29,16 +28,14 @@ import project  # noqa: E402
 import yosys  # noqa: E402
 
 PAGE = project.ROOT / "docs" / "crossings.md"
-# Top: {domain: (clock port, default period in ns)}
-TOPS = {"mb4_core": {"core": ("clk_i", 50), "host": ("sclk_i", 20)},
-        "mb4_axil": {"core": ("clk_i", 50), "host": ("s_axi_aclk", 10)},
-        "mb4_wb": {"core": ("clk_i", 50), "host": ("wb_clk_i", 10)}}
-AXI_TOPS = {"biss_axi": {"host": ("axi_aclk", 10)}}
-# Room in rtl/: its tops.
-ROOMS = {"mb4": TOPS, "axi": AXI_TOPS}
-CLOCKS = {**TOPS, **AXI_TOPS}
-# With these biss_axi has a path from each asynchronous port. Other values take paths away only.
-AXI_PARAMETERS = {"BISS_CHANNEL_WIDTH": 2, "EXTRAS": 0x1FF, "ALIGN_LATCH": 1, "POR_PIN": 1}
+# The tops with clocks of masters.toml. Those of a master with presets have files for each preset.
+CLOCKED = project.tops("clocks")
+CLOCKS = {name: top.clocks for name, top in CLOCKED.items()}
+TOPS = {name: top.clocks for name, top in CLOCKED.items() if top.master.presets}
+# Folder of a master's RTL: its tops.
+ROOMS = {}
+for clocked in CLOCKED.values():
+    ROOMS.setdefault(clocked.master.list.parent, []).append(clocked.name)
 FILES = {"Vivado": "{}.xdc", "Quartus": "{}_quartus.sdc", "Diamond": "{}_diamond.sdc"}
 PREFIX = re.compile(r"^(u_bus\.)?(u_engine\.)?")
 CONSTANTS = {"port:quirks_i"}
@@ -52,7 +49,7 @@ HEAD = """# SPDX-FileCopyrightText: 2026 The openmb4 authors
 
 
 def folder_of(room):
-    return project.RTL / room / "constraints"
+    return room / "constraints"
 
 
 def room_of(top):
@@ -66,9 +63,9 @@ def tables():
 
 
 def cores():
-    """(preset, top, parameters) of each netlist. biss_axi has no presets and is "full"."""
+    """(preset, top, parameters) of each netlist. One without presets is "full"."""
     return [(preset, top, {"Features": features}) for preset, features in project.presets().items() for top in TOPS] + \
-        [("full", top, AXI_PARAMETERS) for top in AXI_TOPS]
+        [("full", name, top.parameters) for name, top in CLOCKED.items() if name not in TOPS]
 
 
 def lines_of(top, table):
@@ -89,9 +86,8 @@ def matches(names, register):
 
 def netlist(top, parameters, folder):
     folder.mkdir(parents=True, exist_ok=True)
-    room = room_of(top)
     status, text = yosys.execute(
-        yosys.read(project.listed(project.RTL / room / f"{room}.f")) + yosys.choose(top, parameters) + [f"hierarchy -check -top {top}", "proc", "flatten",
+        yosys.read(project.listed(CLOCKED[top].master.list)) + yosys.choose(top, parameters) + [f"hierarchy -check -top {top}", "proc", "flatten",
                         "opt_expr", "opt_clean", "memory -nomap", "opt_clean", f"rename -top {top}",
                         f"write_json {top}.json"], folder, top)
     if status != 0:

@@ -1,14 +1,13 @@
 #!/usr/bin/env python3
 # SPDX-FileCopyrightText: 2026 The openmb4 authors
 # SPDX-License-Identifier: Apache-2.0
-"""The iCE40 netlist of mb4_chip or of biss_axi for simulation, with the vendor's cells.
+"""The iCE40 netlist of a design of masters.toml for simulation, with the vendor's cells.
 
   gate_netlist.py FOLDER [DESIGN [PRESET]]   writes gates.v (single-bit nets: Verilator 5.006 is
                                      wrong about vectors of which bits depend on others) and
                                      DESIGN_gate_top.sv (the ports of the RTL around it, and what the
-                                     simulator looks at). DESIGN is mb4 (the default; it has presets),
-                                     axi_4 or axi_full_4: the master with four channels as its
-                                     document, or with all extras
+                                     simulator looks at: the probes there). DESIGN is mb4 by default; PRESET is
+                                     for a master that has them
 """
 
 import json
@@ -23,22 +22,7 @@ import project  # noqa: E402
 import yosys  # noqa: E402
 
 
-
-class Design:
-    """Top, list of files, parameters; what the simulator looks at, and its name at the gate top."""
-
-    def __init__(self, top, files, parameters, probes):
-        self.top, self.files, self.parameters, self.probes = top, files, parameters, probes
-
-
-AXI_PROBES = {"u_start.frame_q": "frame_q"}
-DESIGNS = {
-    "mb4": Design("mb4_chip", "mb4/mb4.f", {}, {
-        "clkeni": "clkeni", "clk": "clk", "paired": "paired",
-        "u_engine.u_lines.u_timebase.len_q": "len_q"}),
-    "axi_4": Design("axi_core", "axi/axi.f", {"Channels": 4}, AXI_PROBES),
-    "axi_full_4": Design("axi_core", "axi/axi.f", {"Channels": 4, "Extras": 0x1FF}, AXI_PROBES),
-}
+DESIGNS = project.all_of("gates")
 
 
 def main():
@@ -51,10 +35,10 @@ def main():
     design = DESIGNS[name]
     top, parameters = design.top, dict(design.parameters)
     if arguments.preset != "full":
-        if name != "mb4":
+        if not design.master.presets:
             parser.error(f"{name} has no presets")
         parameters["Features"] = project.presets()[arguments.preset]
-    commands = yosys.read(project.listed(project.RTL / design.files)) + yosys.choose(top, parameters) + [
+    commands = yosys.read(project.listed(design.master.list)) + yosys.choose(top, parameters) + [
         f"hierarchy -check -top {top}", f"rename -top {top}", "proc", "flatten",
         f"expose {' '.join(f'{top}/w:{probe}' for probe in design.probes)}",
         f"synth_ice40 -top {top}", "check -assert",

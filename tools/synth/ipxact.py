@@ -43,43 +43,37 @@ WISHBONE_NAMES = ("CLK_I", "RST_I", "CYC_I", "STB_I", "WE_I", "ADR_I", "DAT_I", 
                   "ACK_O", "ERR_O", "STALL_O")
 
 
-def axi(name, clock, reset, ports):
-    return Bus(name, "slave", ("amba.com", "AMBA4", "AXI4-Lite", "r0p0_0"), "AXI4-Lite_rtl",
-               {"ACLK": clock, "ARESETn": reset, **ports})
+# Kind of a bus in masters.toml: the role of the interface, its definition, the abstraction, the logical names.
+BUSES = {"axi4-lite": ("slave", ("amba.com", "AMBA4", "AXI4-Lite", "r0p0_0"), "AXI4-Lite_rtl", AXI_NAMES),
+         "axi4-stream": ("master", ("amba.com", "AMBA4", "AXI4Stream", "r0p0_1"), "AXI4Stream_rtl", STREAM_NAMES),
+         "wishbone": ("slave", ("opencores.org", "interface", "wishbone", "B4"), "wishbone_rtl", WISHBONE_NAMES)}
+# A port of its own: role, logical name. The definitions are those that Vivado has for clocks, resets, interrupts.
+SIGNALS = {"clock": ("slave", "CLK"), "reset": ("slave", "RST"), "interrupt": ("master", "INTERRUPT")}
 
 
-def signal(name, role, kind, logical, **parameters):
-    """A port of its own. The definitions are those that Vivado has for clocks, resets, interrupts."""
-    return Bus(name, role, ("xilinx.com", "signal", kind, "1.0"), f"{kind}_rtl", {logical: name},
-               parameters)
+def bus_of(bus):
+    """A Bus of an interface of masters.toml."""
+    if bus.kind in SIGNALS:
+        role, logical = SIGNALS[bus.kind]
+        return Bus(bus.name, role, ("xilinx.com", "signal", bus.kind, "1.0"), f"{bus.kind}_rtl", {logical: bus.name}, bus.values)
+    role, kind, abstraction, logical = BUSES[bus.kind]
+    clocks = {"ACLK": bus.clock, "ARESETn": bus.reset} if bus.clock else {}
+    # The names of a port are as large as its prefix.
+    ports = {name: bus.prefix + (name if bus.prefix.isupper() else name.lower()) for name in logical}
+    return Bus(bus.name, role, kind, abstraction, {**clocks, **ports}, bus.values)
 
 
 class Top:
-    """A module, its folder below rtl/, its list of files, its register maps with their first bytes,
-    its bus interfaces."""
+    """A module: its source, its list of files, its register maps with their first bytes (the second is the page), its bus
+    interfaces, and whether its parameters are those of the component."""
 
-    def __init__(self, folder, files, maps, buses):
-        self.folder, self.files, self.maps, self.buses = folder, files, maps, buses
+    def __init__(self, top):
+        self.source, self.list, self.generics = top.source, top.master.list, top.generics is not None
+        self.maps = tuple(zip(top.master.maps, (0, PAGE)[:len(top.master.maps)], strict=True))
+        self.buses = tuple(bus_of(bus) for bus in top.buses)
 
 
-MB4_MAPS = (("mb4", 0), ("mb4_page", PAGE))
-TOPS = {
-    "mb4_axil": Top("mb4", "mb4.f", MB4_MAPS, (
-        axi("bus", "s_axi_aclk", "s_axi_aresetn", {name: f"s_axi_{name.lower()}" for name in AXI_NAMES}),)),
-    "mb4_wb": Top("mb4", "mb4.f", MB4_MAPS, (
-        Bus("bus", "slave", ("opencores.org", "interface", "wishbone", "B4"), "wishbone_rtl",
-            {name: f"wb_{name.lower()}" for name in WISHBONE_NAMES}),)),
-    "biss_axi": Top("axi", "axi.f", (("axi", 0),), (
-        axi("S_AXI", "axi_aclk", "axi_aresetn", {name: f"S_AXI_{name}" for name in AXI_NAMES}),
-        Bus("s_axis", "master", ("amba.com", "AMBA4", "AXI4Stream", "r0p0_1"), "AXI4Stream_rtl",
-            {"ACLK": "axi_aclk", "ARESETn": "axi_aresetn",
-             **{name: f"s_axis_{name.lower()}" for name in STREAM_NAMES}}),
-        signal("axi_aclk", "slave", "clock", "CLK", ASSOCIATED_BUSIF="S_AXI:s_axis",
-               ASSOCIATED_RESET="axi_aresetn"),
-        signal("axi_aresetn", "slave", "reset", "RST", POLARITY="ACTIVE_LOW"),
-        signal("por_n", "slave", "reset", "RST", POLARITY="ACTIVE_LOW"),
-        signal("irq", "master", "interrupt", "INTERRUPT", SENSITIVITY="LEVEL_HIGH"))),
-}
+TOPS = {name: Top(top) for name, top in project.tops("buses").items()}
 
 
 def add(parent, name, text=None, **attributes):
@@ -195,7 +189,7 @@ def model(component, top, ports, parameters, vectors):
 def files(component, top):
     place = add(add(component, "fileSets"), "fileSet")
     add(place, "name", "rtl")
-    for path in (*sorted(project.INCLUDE.glob("*.svh")), *project.listed(project.RTL / TOPS[top].folder / TOPS[top].files)):
+    for path in (*sorted(project.INCLUDE.glob("*.svh")), *project.listed(TOPS[top].list)):
         file = add(place, "file")
         add(file, "name", f"../{path.relative_to(project.ROOT).as_posix()}")
         add(file, "fileType", "systemVerilogSource")
@@ -207,8 +201,8 @@ def text(top):
     component = ElementTree.Element(f"{{{NAMESPACE}}}component")
     heads = ElementTree.Element("later")
     version = memory_map(heads, top)
-    source = project.RTL / TOPS[top].folder / f"{top}.sv"
-    parameters = sv_widths.module_parameters(source) if top == "biss_axi" else {}
+    source = TOPS[top].source
+    parameters = sv_widths.module_parameters(source) if TOPS[top].generics else {}
     vectors = sv_widths.parameter_vectors(source) if parameters else {}
     names(component, "openmb4", "ip", top, version)
     bus_interfaces(component, top)

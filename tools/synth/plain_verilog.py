@@ -15,12 +15,12 @@ sys.path.insert(0, str(Path(__file__).resolve().parent))
 import project  # noqa: E402
 import yosys  # noqa: E402
 
-TOPS = ("mb4_core", "mb4_engine", "mb4_chip", "mb4_axil", "mb4_wb")
+TOPS = project.tops("plain")
 HEAD = """// SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 //
 // {top} as plain Verilog (2005), {features}one module, made from the RTL by tools/synth/plain_verilog.py:
-// do not edit. Ports: rtl/mb4/{top}.sv; how to use it: docs/integration.md.
+// do not edit. Ports: {source}; how to use it: docs/integration.md.
 `timescale 1ns/1ps
 
 """
@@ -36,12 +36,12 @@ def write(top, folder, files=None, parameters=None, preset="full"):
         features = f"preset {preset}, "
     named = [f"rename -top {top}"] if values else []
     status, text = yosys.execute(
-        yosys.read(files) + yosys.choose(top, values) + [f"hierarchy -check -top {top}", "proc",
+        yosys.read(project.files_of(top) if files is None else files) + yosys.choose(top, values) + [f"hierarchy -check -top {top}", "proc",
                              "flatten", "opt_expr", "opt_clean", "check -assert",
                              *named, f"write_verilog -noattr {path}"], folder, top)
     if status != 0:
         raise SystemExit(f"{top}: {text}")
-    path.write_text(HEAD.format(top=top, features=features) + path.read_text(encoding="utf-8"), encoding="utf-8")
+    path.write_text(HEAD.format(top=top, features=features, source=TOPS[top].source.relative_to(project.ROOT)) + path.read_text(encoding="utf-8"), encoding="utf-8")
     (folder / f"{top}.ys").unlink()
     return path
 
@@ -52,6 +52,8 @@ def main():
     parser.add_argument("preset", nargs="?", default="full", choices=project.presets())
     arguments = parser.parse_args()
     for top in TOPS:
+        if arguments.preset != "full" and not TOPS[top].master.presets:
+            continue
         print(write(top, arguments.folder, preset=arguments.preset))
 
 

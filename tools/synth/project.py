@@ -14,6 +14,12 @@ import sys
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(ROOT / "tools"))
+
+import masters  # noqa: E402
+
+listed = masters.listed
+MASTERS = masters.load()
 RTL = ROOT / "rtl"
 INCLUDE = RTL / "common"          # enc_check.svh
 WAIVERS = RTL / "waivers.vlt"     # of Verilator's lint
@@ -37,34 +43,56 @@ class Arguments(argparse.ArgumentParser):
         return path
 
 
-def rtl_files():
-    """The files that rtl/mb4/mb4.f names, itself or by the lists of lower rooms, as absolute paths."""
-    return listed(RTL / "mb4" / "mb4.f")
+def rtl_files(master="mb4"):
+    """The files that the list of a master names, itself or by the lists of lower rooms, as absolute paths."""
+    return listed(MASTERS[master].list)
 
 
 def all_rtl_files():
     """The files of all masters, each once."""
-    files = rtl_files()
-    for path in sorted(RTL.glob("*/*.f")):
-        files += [other for other in listed(path) if other not in files]
-    return files
-
-
-def listed(path):
-    """The files that a list names. Its line -F LIST stands for those of another list."""
     files = []
-    for line in path.read_text(encoding="utf-8").splitlines():
-        line = line.strip()
-        if line.startswith("-F "):
-            files += listed((path.parent / line[3:].strip()).resolve())
-        elif line and not line.startswith("//"):
-            files.append((path.parent / line).resolve())
+    for master in MASTERS.values():
+        files += [path for path in (listed(master.list) if master.list else ()) if path not in files]
     return files
+
+
+def files_of(module):
+    """The files of the first master whose list has a module."""
+    for master in MASTERS.values():
+        files = listed(master.list) if master.list else []
+        if any(path.stem == module for path in files):
+            return files
+    raise SystemExit(f"{module}: no list of {masters.FILE} has this module")
+
+
+def rtl_lists():
+    """The lists of all masters, and the lower ones on their lines -F."""
+    found = [master.list for master in MASTERS.values() if master.list]
+    for path in found:  # grows
+        below = re.findall(r"(?m)^-F +(\S+)", path.read_text(encoding="utf-8"))
+        found += [lower for lower in ((path.parent / name).resolve() for name in below) if lower not in found]
+    return found
+
+
+def tops(key):
+    """{name: top} of all masters that have the key: those with plain = true, with clocks, ..."""
+    return {name: top for master in MASTERS.values() for name, top in master.tops.items() if getattr(top, key)}
+
+
+def all_of(key):
+    """{name: design} of all masters: gates, measured."""
+    return {name: design for master in MASTERS.values() for name, design in getattr(master, key).items()}
+
+
+def master_argument(parser, has="list"):
+    """Adds --master NAME to a parser; NAME is one that has RTL, or what `has` says."""
+    names = [name for name, master in MASTERS.items() if getattr(master, has)]
+    parser.add_argument("--master", choices=names, metavar="NAME", help=f"of masters.toml: {', '.join(names)}")
 
 
 def rtl_modules():
-    """Module name to file, in the order of rtl/mb4/mb4.f, without the packages."""
-    return {path.stem: path for path in rtl_files() if not path.stem.endswith("_pkg")}
+    """Module name to file, of all masters, without the packages."""
+    return {path.stem: path for path in all_rtl_files() if not path.stem.endswith("_pkg")}
 
 
 def instances(code, modules):
@@ -73,12 +101,12 @@ def instances(code, modules):
 
 
 def rtl_packages():
-    return [path for path in rtl_files() if path.stem.endswith("_pkg")]
+    return [path for path in all_rtl_files() if path.stem.endswith("_pkg")]
 
 
-def presets():
-    """Preset name to its value of the parameter Features, as regmap/mb4_page.rdl has them."""
-    text = (ROOT / "regmap" / "mb4_page.rdl").read_text(encoding="utf-8")
+def presets(master="mb4"):
+    """Preset name to its value of the parameter Features, as the register map of the master's presets has them."""
+    text = MASTERS[master].presets.read_text(encoding="utf-8")
     return {name.lower(): int(value, 16) for name, value in
             re.findall(r'"FEATURES_(\w+)", value: (0x[0-9A-F]{4})', text)}
 

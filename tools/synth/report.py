@@ -42,7 +42,7 @@ AXI_LARGE = 16  # takes long: one seed, and iCE40 only
 
 def files(top):
     if top.startswith("biss_axi"):
-        return project.listed(project.RTL / "axi" / "axi.f") + [HERE / "tops" / "biss_axi_narrow.sv"]
+        return project.rtl_files("axi") + [HERE / "tops" / "biss_axi_narrow.sv"]
     return project.rtl_files() + [HERE / "tops" / "mb4_parallel.sv"]
 
 

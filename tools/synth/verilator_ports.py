@@ -4,7 +4,7 @@
 
 import xml.etree.ElementTree as ElementTree
 
-from project import INCLUDE, WAIVERS, rtl_files, run, tool, verilator_flags
+from project import INCLUDE, WAIVERS, files_of, run, tool, verilator_flags
 
 
 def data_width(table, number):
@@ -25,13 +25,13 @@ def data_width(table, number):
 
 
 def module_ports(top, folder, files=None):
-    """{port: (direction, width)} of one module as top, with its default parameters."""
+    """{port: (direction, width)} of one module as top, with its default parameters; by default of the RTL."""
     folder.mkdir(parents=True, exist_ok=True)
     output = folder / f"{top}.xml"
     # verilator_flags() holds -fno-const-bit-op-tree.
     status, text = run([tool("verilator"), "--xml-only", "--xml-output", output, *verilator_flags(),
                         "-Wno-fatal", f"-I{INCLUDE}", "--top-module", top, WAIVERS,
-                        *(rtl_files() if files is None else files)], cwd=folder)
+                        *(files_of(top) if files is None else files)], cwd=folder)
     if status != 0:
         raise SystemExit(f"{top}: {text}")
     tree = ElementTree.parse(output).getroot()

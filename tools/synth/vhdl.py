@@ -3,8 +3,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """VHDL for each top: a component and an instance, from the ports of the RTL.
 
-  vhdl.py           writes rtl/mb4/vhdl/mb4_components.vhd and rtl/mb4/vhdl/TOP_example.vhd, and the same
-                    of biss_axi with its parameters as generics in rtl/axi/vhdl
+  vhdl.py           of a master's tops with plain = true in masters.toml: rtl/ROOM/vhdl/ROOM_components.vhd and
+                    TOP_example.vhd; of a top with generics: TOP_component.vhd and TOP_example.vhd
   vhdl.py --check   they are what it would write
 """
 
@@ -20,20 +20,18 @@ import project  # noqa: E402
 import sv_widths  # noqa: E402
 import verilator_ports  # noqa: E402
 
-FOLDER = project.RTL / "mb4" / "vhdl"
-PACKAGE = "mb4_components"
 HEAD = """-- SPDX-FileCopyrightText: 2026 The openmb4 authors
 -- SPDX-License-Identifier: Apache-2.0
 --
 """
-COMPONENTS = HEAD + """-- The tops of rtl/mb4 as VHDL components, made by tools/synth/vhdl.py: do not edit. The module
+COMPONENTS = HEAD + """-- The tops of rtl/{room} as VHDL components, made by tools/synth/vhdl.py: do not edit. The module
 -- behind a component is the plain Verilog of the release (verilog/TOP.v), or the SystemVerilog of
--- rtl/ with its default parameters. Clocks, resets and misuse: the header of rtl/mb4/TOP.sv.
+-- rtl/ with its default parameters. Clocks, resets and misuse: the header of rtl/{room}/TOP.sv.
 
 library ieee;
 use ieee.std_logic_1164.all;
 
-package mb4_components is
+package {room}_components is
 {components}
 end package;
 """
@@ -42,7 +40,7 @@ EXAMPLE = HEAD + """-- An instance of {top} to copy, made by tools/synth/vhdl.py
 
 library ieee;
 use ieee.std_logic_1164.all;
-use work.mb4_components.all;
+use work.{room}_components.all;
 
 entity {top}_example is
   port (
@@ -59,20 +57,21 @@ begin
 end architecture;
 """
 
-AXI_FOLDER = project.RTL / "axi" / "vhdl"
-AXI_SOURCE = project.RTL / "axi" / "biss_axi.sv"
-AXI_COMPONENT = HEAD + """-- biss_axi as a VHDL component, made by tools/synth/vhdl.py: do not edit. The module behind it is
--- rtl/axi/biss_axi.sv, for tools that read both languages. A default cannot follow another generic
--- here: with other parameters set S_AXIS_TDATA_WIDTH and S_AXIS_TUSER_WIDTH too, to what the formula
+# The values of the example of a top with generics; without a row all have their defaults.
+EXAMPLES = {"biss_axi": {"BISS_CHANNEL_WIDTH": 4, "S_AXIS_TDATA_WIDTH": 128, "S_AXIS_TUSER_WIDTH": 4}}
+WITH = {"biss_axi": " with four channels"}
+GENERIC_COMPONENT = HEAD + """-- {top} as a VHDL component, made by tools/synth/vhdl.py: do not edit. The module behind it is
+-- {source}, for tools that read both languages. A default cannot follow another generic
+-- here: with other parameters set {derived} too, to what the formula
 -- beside each of them gives. Another width stops the elaboration, and the error names the right one.
--- Clock, reset and misuse: the header of rtl/axi/biss_axi.sv.
+-- Clock, reset and misuse: the header of {source}.
 
 library ieee;
 use ieee.std_logic_1164.all;
 
-package biss_axi_component is
+package {top}_component is
 
-  component biss_axi
+  component {top}
     generic (
 {generics}
     );
@@ -83,28 +82,23 @@ package biss_axi_component is
 
 end package;
 """
-AXI_EXAMPLE = HEAD + """-- An instance of biss_axi with four channels to copy, made by tools/synth/vhdl.py: do not edit. The
+GENERIC_EXAMPLE = HEAD + """-- An instance of {top}{what} to copy, made by tools/synth/vhdl.py: do not edit. The
 -- entity only passes the ports on.
 
 library ieee;
 use ieee.std_logic_1164.all;
-use work.biss_axi_component.all;
+use work.{top}_component.all;
 
-entity biss_axi_example is
+entity {top}_example is
   port (
 {ports}
   );
 end entity;
 
-architecture rtl of biss_axi_example is
+architecture rtl of {top}_example is
 begin
-  u_biss_axi : biss_axi
-    generic map (
-      BISS_CHANNEL_WIDTH => 4,
-      S_AXIS_TDATA_WIDTH => 128,
-      S_AXIS_TUSER_WIDTH => 4
-    )
-    port map (
+  u_{top} : {top}
+{generics}    port map (
 {connections}
     );
 end architecture;
@@ -113,7 +107,7 @@ end architecture;
 
 def comments(top):
     """{port: what its line in the RTL says behind //}"""
-    text = (project.RTL / "mb4" / f"{top}.sv").read_text(encoding="utf-8")
+    text = plain_verilog.TOPS[top].source.read_text(encoding="utf-8")
     return dict(re.findall(r"^ +(?:input|output)\b.*?(\w+),? *// (.*)$", text, re.M))
 
 
@@ -131,53 +125,70 @@ def lines(ports, said, indent):
     return "\n".join(result)
 
 
-def axi_ports(values):
-    """{port: (direction, width)} of biss_axi with these parameters."""
+def generic_ports(top, values=None):
+    """{port: (direction, width)} of a top with generics with these parameters, by default with its defaults."""
     packages = [path for path in project.all_rtl_files() if path.stem.endswith("_pkg")]
-    return sv_widths.module_ports(AXI_SOURCE, sv_widths.read_packages(packages), values)
+    return sv_widths.module_ports(top.source, sv_widths.read_packages(packages),
+                                  top.generics.defaults if values is None else values)
 
 
-def axi_texts():
-    """Component and example of biss_axi. Ports follow the generics."""
-    parameters = sv_widths.module_parameters(AXI_SOURCE)
-    vectors = sv_widths.parameter_vectors(AXI_SOURCE)
+def generic_texts(top):
+    """Component and example of a top with generics. Ports follow the generics."""
+    parameters = sv_widths.module_parameters(top.source)
+    vectors = sv_widths.parameter_vectors(top.source)
     rows = []
-    longest = max(map(len, parameters))
-    derived = {"S_AXIS_TDATA_WIDTH": "32", "S_AXIS_TUSER_WIDTH": "1"}
+    longest = max(map(len, parameters), default=0)
+    derived = top.generics.defaults
     for number, (name, (kind, value, said)) in enumerate(parameters.items(), 1):
         if name in derived:
             said = value  # the formula
-        value = derived.get(name, value.replace("1'b", ""))
+        value = str(derived.get(name, value.replace("1'b", "")))
         limits = "natural range 0 to 1" if kind == "bit" else "natural"
         comment = f"  -- {said}" if said else ""
         rows.append(f"      {name:<{longest}} : {limits} := {value}"
                     f"{';' if number < len(parameters) else ''}{comment}")
-    fixed = axi_ports({name: 2 for name in parameters})
+    fixed = generic_ports(top, {name: 2 for name in parameters})
     names = {name: (way, vectors.get(name, width)) for name, (way, width) in fixed.items()}
-    four = axi_ports({"BISS_CHANNEL_WIDTH": 4, "S_AXIS_TDATA_WIDTH": 128, "S_AXIS_TUSER_WIDTH": 4})
+    values = EXAMPLES.get(top.name, {})
     longest = max(map(len, names))
     connections = ",\n".join(f"      {name:<{longest}} => {name}" for name in names)
-    return {AXI_FOLDER / "biss_axi_component.vhd": AXI_COMPONENT.format(
+    chosen = ",\n".join(f"      {name} => {value}" for name, value in values.items())
+    folder = top.source.parent / "vhdl"
+    return {folder / f"{top.name}_component.vhd": GENERIC_COMPONENT.format(
+                top=top.name, source=top.source.relative_to(project.ROOT), derived=" and ".join(derived),
                 generics="\n".join(rows), ports=lines(names, {}, " " * 6)),
-            AXI_FOLDER / "biss_axi_example.vhd": AXI_EXAMPLE.format(
-                ports=lines(four, {}, " " * 4), connections=connections)}
+            folder / f"{top.name}_example.vhd": GENERIC_EXAMPLE.format(
+                top=top.name, what=WITH.get(top.name, ""), generics=f"    generic map (\n{chosen}\n    )\n" if chosen else "",
+                ports=lines(generic_ports(top, {**derived, **values}), {}, " " * 4), connections=connections)}
 
 
-def texts():
-    """{path: what stands in it}"""
-    found = axi_texts()
-    components = []
-    with tempfile.TemporaryDirectory() as folder:
-        for top in plain_verilog.TOPS:
-            ports = verilator_ports.module_ports(top, Path(folder) / top)
+def plain_texts(master):
+    """The components of a master's plain tops in a package, and an example of each."""
+    found, components = {}, []
+    folder = master.list.parent / "vhdl"
+    room = master.list.parent.name
+    with tempfile.TemporaryDirectory() as place:
+        for top in (top for top, one in master.tops.items() if one.plain):
+            ports = verilator_ports.module_ports(top, Path(place) / top)
             said = comments(top)
             components.append(f"\n  component {top}\n    port (\n{lines(ports, said, ' ' * 6)}\n"
                               f"    );\n  end component;")
             longest = max(map(len, ports))
             connections = ",\n".join(f"      {name:<{longest}} => {name}" for name in ports)
-            found[FOLDER / f"{top}_example.vhd"] = EXAMPLE.format(
-                top=top, ports=lines(ports, said, " " * 4), connections=connections)
-    found[FOLDER / f"{PACKAGE}.vhd"] = COMPONENTS.format(components="\n".join(components))
+            found[folder / f"{top}_example.vhd"] = EXAMPLE.format(
+                room=room, top=top, ports=lines(ports, said, " " * 4), connections=connections)
+    if components:
+        found[folder / f"{room}_components.vhd"] = COMPONENTS.format(room=room, components="\n".join(components))
+    return found
+
+
+def texts():
+    """{path: what stands in it}"""
+    found = {}
+    for top in project.tops("generics").values():
+        found.update(generic_texts(top))
+    for master in project.MASTERS.values():
+        found.update(plain_texts(master))
     return found
 
 

@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
 # SPDX-FileCopyrightText: 2026 The openmb4 authors
 # SPDX-License-Identifier: Apache-2.0
-"""biss_axi as an IP for the catalogue of Vivado: component.xml (IEEE 1685-2009 with Vivado's bus
+"""A top with generics (masters.toml) as an IP for the catalogue of Vivado: component.xml (IEEE 1685-2009 with Vivado's bus
 definitions and views), and the Tcl that passes its parameters on.
 
-  vivado_ip.py FOLDER   writes FOLDER/component.xml and FOLDER/xgui/biss_axi.tcl. A release has them in its
-                        folder ipxact/vivado/: files are named from there
+  vivado_ip.py FOLDER   writes FOLDER/component.xml and FOLDER/xgui/TOP.tcl of the first such top, and the same of others
+                        in FOLDER-TOP. A release has them in its folders ipxact/vivado/...: files are named from there
 """
 
 import re
@@ -20,25 +20,14 @@ import project  # noqa: E402
 import sv_widths  # noqa: E402
 import vhdl  # noqa: E402
 
-TOP = "biss_axi"
 NAMESPACE = "http://www.spiritconsortium.org/XMLSchema/SPIRIT/1685-2009"
 HEAD = """<?xml version="1.0" encoding="UTF-8"?>
 <!-- Made by tools/synth/vivado_ip.py: do not edit. -->
 <!-- SPDX-FileCopyrightText: 2026 The openmb4 authors -->
 <!-- SPDX-License-Identifier: Apache-2.0 -->
 """
-# Interfaces of ipxact.TOPS: Vivado's definitions for those that have others there.
-KINDS = {"S_AXI": ("interface", "aximm"), "s_axis": ("interface", "axis")}
-# Model parameters that follow others, in XPath.
-DERIVED = {
-    "S_AXIS_TDATA_WIDTH": "(number({STREAM_MODE} = 1) * {STREAM_WIDTH} + number({STREAM_MODE} = 0) * "
-                          "(floor({EXTRAS} div 2) mod 2 + 1) * 32 * {BISS_CHANNEL_WIDTH})",
-    "S_AXIS_TUSER_WIDTH": "(number({STREAM_MODE} = 1) * 16 + number({STREAM_MODE} = 0) * "
-                          "{BISS_CHANNEL_WIDTH})",
-}
-LIMITS = {"BISS_CHANNEL_WIDTH": (1, 16), "STREAM_MODE": (0, 1), "STREAM_WIDTH": (32, 64),
-          "STREAM_DEPTH": (2, 4096), "START_LIMIT": (1, 4095), "TIMEOUT_LIMIT": (1, 1048575),
-          "EXTRAS": (0, 511)}
+# Vivado's definitions of the buses that have others in ipxact.BUSES.
+KINDS = {"axi4-lite": ("interface", "aximm"), "axi4-stream": ("interface", "axis")}
 
 
 def add(parent, element_name, text=None, /, **attributes):
@@ -56,20 +45,20 @@ def dependency(text):
     return re.sub(r"\{(\w+)\}", lambda found: model_value(found[1]), text)
 
 
-def interfaces(component):
+def interfaces(component, top):
     place = add(component, "busInterfaces")
-    for bus in ipxact.TOPS[TOP].buses:
+    for told, bus in zip(top.buses, ipxact.TOPS[top.name].buses):
         interface = add(place, "busInterface")
         add(interface, "name", bus.name)
-        library, name = KINDS.get(bus.name, ("signal", bus.kind[2]))
+        library, name = KINDS.get(told.kind, ("signal", bus.kind[2]))
         for kind, definition in (("busType", name), ("abstractionType", f"{name}_rtl")):
             add(interface, kind, vendor="xilinx.com", library=library, name=definition, version="1.0")
         role = add(interface, bus.role)
-        if bus.name == "S_AXI":
+        if told.kind == "axi4-lite":
             add(role, "memoryMapRef", memoryMapRef="registers")
         maps = add(interface, "portMaps")
         for logical, physical in bus.ports.items():
-            if bus.name in KINDS and physical in ("axi_aclk", "axi_aresetn"):
+            if told.kind in KINDS and physical in (told.clock, told.reset):
                 continue  # interfaces of their own here
             entry = add(maps, "portMap")
             add(add(entry, "logicalPort"), "name", logical)
@@ -91,7 +80,7 @@ def memory_map(component):
         add(block, name, value)
 
 
-def model(component, parameters):
+def model(component, top, parameters):
     place = add(component, "model")
     views = add(place, "views")
     for name, environment, files in (
@@ -103,10 +92,10 @@ def model(component, parameters):
         add(view, "envIdentifier", f":vivado.xilinx.com:{environment}")
         if files == "rtl":
             add(view, "language", "SystemVerilog")
-            add(view, "modelName", TOP)
+            add(view, "modelName", top.name)
         add(add(view, "fileSetRef"), "localName", files)
-    vectors = sv_widths.parameter_vectors(vhdl.AXI_SOURCE)
-    default = vhdl.axi_ports({"S_AXIS_TDATA_WIDTH": 32, "S_AXIS_TUSER_WIDTH": 1})
+    vectors = sv_widths.parameter_vectors(top.source)
+    default = vhdl.generic_ports(top)
     ports = add(place, "ports")
     for name, (direction, width) in default.items():
         port = add(ports, "port")
@@ -126,21 +115,20 @@ def model(component, parameters):
     for name, (_, value, _) in parameters.items():
         parameter = add(values, "modelParameter", dataType="integer")
         add(parameter, "name", name)
-        if name in DERIVED:
-            add(parameter, "value", {"S_AXIS_TDATA_WIDTH": 32}.get(name, 1), format="long",
-                resolve="dependent", dependency=dependency(DERIVED[name]), id=f"MODELPARAM_VALUE.{name}")
+        if name in top.generics.formulas:
+            add(parameter, "value", top.generics.defaults[name], format="long",
+                resolve="dependent", dependency=dependency(top.generics.formulas[name]), id=f"MODELPARAM_VALUE.{name}")
         else:
             add(parameter, "value", value.replace("1'b", ""), format="long", resolve="generated",
                 id=f"MODELPARAM_VALUE.{name}")
 
 
-def files(component):
+def files(component, top):
     sets = add(component, "fileSets")
     rtl = add(sets, "fileSet")
     add(rtl, "name", "rtl")
-    top = ipxact.TOPS[TOP]
     for path in (*sorted(project.INCLUDE.glob("*.svh")),
-                 *project.listed(project.RTL / top.folder / top.files)):
+                 *project.listed(top.master.list)):
         file = add(rtl, "file")
         add(file, "name", f"../../{path.relative_to(project.ROOT).as_posix()}")
         add(file, "fileType", "systemVerilogSource")
@@ -149,25 +137,25 @@ def files(component):
     gui = add(sets, "fileSet")
     add(gui, "name", "xgui")
     file = add(gui, "file")
-    add(file, "name", f"xgui/{TOP}.tcl")
+    add(file, "name", f"xgui/{top.name}.tcl")
     add(file, "fileType", "tclSource")
 
 
-def component_text(version):
-    parameters = sv_widths.module_parameters(vhdl.AXI_SOURCE)
+def component_text(top, version):
+    parameters = sv_widths.module_parameters(top.source)
     component = ElementTree.Element(f"{{{NAMESPACE}}}component")
-    for name, text in (("vendor", "openmb4"), ("library", "ip"), ("name", TOP), ("version", version)):
+    for name, text in (("vendor", "openmb4"), ("library", "ip"), ("name", top.name), ("version", version)):
         add(component, name, text)
-    interfaces(component)
+    interfaces(component, top)
     memory_map(component)
-    model(component, parameters)
-    files(component)
-    add(component, "description", "BiSS C master with 1 to 16 channels on AXI4-Lite and AXI4-Stream")
+    model(component, top, parameters)
+    files(component, top)
+    add(component, "description", top.master.what)
     values = add(component, "parameters")
     for name, (kind, value, said) in parameters.items():
-        if name in DERIVED:
+        if name in top.generics.formulas:
             continue
-        low, high = (0, 1) if kind == "bit" else LIMITS[name]
+        low, high = (0, 1) if kind == "bit" else top.generics.limits[name]
         parameter = add(values, "parameter")
         add(parameter, "name", name)
         if said:
@@ -179,8 +167,8 @@ def component_text(version):
     return HEAD + ElementTree.tostring(component, encoding="unicode") + "\n"
 
 
-def gui_text():
-    names = [name for name in sv_widths.module_parameters(vhdl.AXI_SOURCE) if name not in DERIVED]
+def gui_text(top):
+    names = [name for name in sv_widths.module_parameters(top.source) if name not in top.generics.formulas]
     lines = ["# SPDX-FileCopyrightText: 2026 The openmb4 authors", "# SPDX-License-Identifier: Apache-2.0",
              "#", "# Made by tools/synth/vivado_ip.py: do not edit.", "", "proc init_gui { IPINST } {",
              '  ipgui::add_param $IPINST -name "Component_Name"',
@@ -195,18 +183,24 @@ def gui_text():
     return "\n".join(lines) + "\n"
 
 
+def write(top, folder):
+    (folder / "xgui").mkdir(parents=True, exist_ok=True)
+    name = top.master.maps[0]
+    source = project.ROOT / "regmap" / "generated" / name / f"{name}.ipxact.xml"
+    # Vivado counts a version as MAJOR.MINOR.
+    version = ".".join(ipxact.find(ElementTree.parse(source).getroot(), "version").text.split(".")[:2])
+    for path, text in ((folder / "component.xml", component_text(top, version)),
+                       (folder / "xgui" / f"{top.name}.tcl", gui_text(top))):
+        path.write_text(text, encoding="utf-8")
+        print(path)
+
+
 def main():
     parser = project.Arguments(__doc__)
     parser.add_argument("folder", type=parser.folder)
     folder = parser.parse_args().folder
-    (folder / "xgui").mkdir(parents=True, exist_ok=True)
-    source = project.ROOT / "regmap" / "generated" / "axi" / "axi.ipxact.xml"
-    # Vivado counts a version as MAJOR.MINOR.
-    version = ".".join(ipxact.find(ElementTree.parse(source).getroot(), "version").text.split(".")[:2])
-    for path, text in ((folder / "component.xml", component_text(version)),
-                       (folder / "xgui" / f"{TOP}.tcl", gui_text())):
-        path.write_text(text, encoding="utf-8")
-        print(path)
+    for place, top in enumerate(project.tops("generics").values()):
+        write(top, folder if place == 0 else folder.with_name(f"{folder.name}-{top.name}"))
 
 
 if __name__ == "__main__":

@@ -1,0 +1,213 @@
+#!/usr/bin/env python3
+# SPDX-FileCopyrightText: 2026 The openmb4 authors
+# SPDX-License-Identifier: Apache-2.0
+"""masters.toml: what tools/masters.py reads, what it refuses, and a master that is added by one entry.
+
+  masters_test.py faults   wrong entries, each refused in one line with file, master and key
+  masters_test.py toy      a copy of the tree with one more entry: each check lists the master
+"""
+
+import os
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(ROOT / "tools"))
+sys.path.insert(0, str(ROOT / "tools" / "synth"))
+
+import masters  # noqa: E402
+import project  # noqa: E402
+
+# (text of the file, what is said after the file's name)
+WRONG = (
+    ('[toy]\n', "toy: the key 'what' is missing"),
+    ('[toy]\nwhat = 1\n', "toy: what: is not a text"),
+    ('[toy]\nwhat = "a"\ntopps = 1\n', "toy: topps: no such key; there are what, line, list"),
+    ('[toy]\nwhat = "a"\nline = "bus"\n', "toy: line: 'bus' is none of clocked, duplex"),
+    ('[toy]\nwhat = "a"\nlist = "toy.x"\n', "toy: list: 'toy.x' does not exist"),
+    ('[toy]\nwhat = "a"\nmaps = ["none"]\n', "toy: maps: 'regmap/generated/none' does not exist"),
+    ('[toy]\nwhat = "a"\nmaps = [1]\n', "toy: maps: is not a list of texts"),
+    ('[toy]\nwhat = "a"\ndriver = "toy.f"\n', "toy: driver: 'toy.f' is no folder with / at its end"),
+    ('[toy]\nwhat = "a"\ncore = "none.core"\n', "toy: core: 'none.core' does not exist"),
+    ('[toy]\nwhat = "a"\nuses = ["rtl/common/"]\n', "toy: uses: the master has no list"),
+    ('[toy]\nwhat = "a"\nswitch = {A = "a", B = "b"}\n', "toy: switch: has more than one option"),
+    ('[toy]\nwhat = "a"\nlist = "toy.f"\ntops.none = {}\n', "toy: tops.none: the list has no such module"),
+    ('[toy]\nwhat = "a"\nlist = "toy.f"\ntops.toy = {plain = 1}\n', "toy: tops.toy: plain: is not true or false"),
+    ('[toy]\nwhat = "a"\nlist = "toy.f"\ntops.toy = {clocks = {core = ["clk_i"]}}\n',
+     "toy: tops.toy: clocks.core: is not [port, number]"),
+    ('[toy]\nwhat = "a"\nlist = "toy.f"\ntops.toy = {parameters = {A = "1"}}\n', "toy: tops.toy: parameters.A: is not a number"),
+    ('[toy]\nwhat = "a"\nlist = "toy.f"\ntops.toy = {buses = [{name = "a", kind = "can"}]}\n',
+     "toy: tops.toy.buses[0]: kind: 'can' is none of axi4-lite"),
+    ('[toy]\nwhat = "a"\nlist = "toy.f"\ntops.toy = {buses = [{name = "a", kind = "wishbone"}]}\n',
+     "toy: tops.toy.buses[0]: the key 'prefix' is missing"),
+    ('[toy]\nwhat = "a"\nlist = "toy.f"\ntops.toy = {plain = true, generics = {}}\n',
+     "toy: tops.toy: generics: a top with plain = true has none"),
+    ('[toy]\nwhat = "a"\nlist = "toy.f"\ngates.one = {top = "none"}\n', "toy: gates.one.top: the list has no module none"),
+    ('[toy]\nwhat = "a"\nlist = "toy.f"\nmeasured.one = {maker = "toy.f", programs = []}\n',
+     "toy: measured.one: programs: names no program"),
+    ('[toy]\nwhat = "a"\nlist = "toy.f"\nmeasured.one = {maker = "toy.f", programs = ["a"], models.a = {top = "none"}}\n',
+     "toy: measured.one.models.a.top: the list has no module none"),
+    ('[toy]\nwhat = "a"\nlist = "toy.f"\nmeasured.one = {maker = "toy.f", programs = ["a"], goals = {toggle = 1}}\n',
+     "toy: measured.one: goals.toggle: is none of line, branch, mutants"),
+    ('[toy]\nwhat = "a"\nlist = "toy.f"\ntops.toy = {}\n[other]\nwhat = "a"\nlist = "toy.f"\ntops.toy = {}\n',
+     "other: tops.toy: toy has one of this name"),
+    ('[Toy]\nwhat = "a"\n', "Toy: a name has small letters, digits and '-'"),
+    ('toy = 1\n', "toy: is no table"),
+    ('[toy]\nwhat = \n', "Invalid value (at line 2, column 8)"),
+)
+# A model without RTL, as small as an entry can be, and a master with all that a check reads.
+RIGHT = ('[dsl-model]\nwhat = "a"\nline = "duplex"\n',
+         '[toy]\nwhat = "a"\nlist = "toy.f"\ntops.toy = {}\n')
+
+TOY = """
+[toy]
+what = "a toy"
+line = "duplex"
+list = "rtl/toy/toy.f"
+uses = ["rtl/common/"]
+maps = ["toy"]
+driver = "drivers/include/toy/"
+core = "openmb4-toy.core"
+switch = {MB4_TOY = "The simulator has the toy"}
+
+[toy.tops.toy_bus]
+ice40 = true
+plain = true
+clocks = {host = ["clk_i", 10]}
+buses = [{name = "bus", kind = "wishbone", prefix = "wb_"}]
+
+[toy.gates.toy_gates]
+top = "toy_bus"
+
+[toy.measured.toy_run]
+maker = "rtl/toy/toy.f"
+programs = ["toy_test"]
+models = {toy = {top = "toy_bus"}}
+"""
+FILES = {
+    "rtl/toy/toy.f": "-F ../common/common.f\n../../regmap/generated/toy/toy_regs_pkg.sv\ntoy_bus.sv\n",
+    "rtl/toy/toy_bus.sv": "module toy_bus (\n  input  logic clk_i,\n  output logic y_o\n);\n  assign y_o = clk_i;\nendmodule\n",
+    "regmap/generated/toy/toy_regs_pkg.sv": "package toy_regs_pkg;\nendpackage\n",
+    "drivers/include/toy/toy.hpp": "",
+    "openmb4-toy.core": "CAPI=2:\nname: openmb4:ip:toy:VERSION\n",
+}
+
+
+def faults():
+    findings = []
+    with tempfile.TemporaryDirectory() as folder:
+        file = Path(folder) / "masters.toml"
+        (Path(folder) / "toy.f").write_text("toy.sv\n", encoding="utf-8")
+        for text, wanted in WRONG:
+            file.write_text(text, encoding="utf-8")
+            done = subprocess.run([sys.executable, "-B", ROOT / "tools/masters.py", "--file", file],
+                                  capture_output=True, text=True, check=False)
+            if done.returncode != 1 or not done.stderr.startswith(f"masters.toml: {wanted}") or done.stderr.count("\n") != 1:
+                findings.append(f"expected '{wanted}', got {done.returncode}: {done.stderr or done.stdout}\n{text}")
+        for text in RIGHT:
+            file.write_text(text, encoding="utf-8")
+            try:
+                masters.read(file)
+            except masters.Fault as fault:
+                findings.append(f"refused: {fault}\n{text}")
+    project.finish(findings, f"{len(WRONG)} wrong files, each refused with its key, and {len(RIGHT)} right ones")
+
+
+def run(folder, *command):
+    done = subprocess.run([str(word) for word in command], cwd=folder, capture_output=True, text=True, check=False,
+                          env={**os.environ, "PYTHONDONTWRITEBYTECODE": "1"})
+    return done.returncode, done.stdout + done.stderr
+
+
+# Prints what the checks that import this know of the toy; run in the copy.
+LISTS = """
+import sys
+sys.path[:0] = ["tools", "tools/synth", "tests/lint"]
+sys.argv = ["x", "--self-test"]
+import project, plain_verilog, ipxact, constraints, vhdl, set_version
+modules = project.rtl_modules()
+def tell(what, known):
+    print(what, "has the toy" if known else "LACKS THE TOY")
+tell("netlist, every module", "toy_bus" in modules)
+tell("port widths", any(path.stem == "toy_regs_pkg" for path in project.rtl_packages()))
+tell("proofs", any("toy_bus" == path.stem for path in project.all_rtl_files()))
+tell("gates", "toy_gates" in project.all_of("gates"))
+tell("plain Verilog", "toy_bus" in plain_verilog.TOPS)
+tell("IP-XACT", "toy_bus" in ipxact.TOPS)
+tell("constraints", ("full", "toy_bus") in [core[:2] for core in constraints.cores()])
+tell("VHDL", any(path.name == "toy_bus_example.vhd" for path in vhdl.plain_texts(project.MASTERS["toy"])))
+tell("set_version", "openmb4-toy.core" in set_version.VERSION_COPIES)
+sys.path.insert(0, "tests/mutation")
+import mutate
+codes = {module: mutate.blank_comments(path.read_text()) for module, path in modules.items()}
+design = project.all_of("measured")["toy_run"]
+tell("mutants", {row[0] for row in mutate.pool_of(design, codes)} == {"toy_bus"})
+tell("coverage", design.counts(modules["toy_bus"]))
+"""
+# The CMake files of the rooms that ask for masters, with their functions replaced: what they would make.
+CMAKE = """
+cmake_minimum_required(VERSION 3.25)
+get_filename_component(MB4_ROOT "${CMAKE_CURRENT_LIST_DIR}" ABSOLUTE)
+execute_process(COMMAND python3 -B tools/masters.py --cmake OUTPUT_VARIABLE masters RESULT_VARIABLE status)
+cmake_language(EVAL CODE "${masters}")
+foreach(master IN LISTS MB4_MASTERS)
+  foreach(key LIST SWITCH TOPS ICE40 GATES MEASURED)
+    message("${master} ${key} ${MB4_MASTER_${master}_${key}}")
+  endforeach()
+endforeach()
+"""
+
+
+def toy():
+    findings = []
+    with tempfile.TemporaryDirectory() as temporary:
+        folder = Path(temporary)
+        for name in project.tracked():
+            if (ROOT / name).is_file() and not name.startswith(("docs/pictures", "tests/unit", "tools/web")):
+                (folder / name).parent.mkdir(parents=True, exist_ok=True)
+                shutil.copy(ROOT / name, folder / name)
+        version = ".".join(re.search(r"project\(openmb4 VERSION (\d+)\.(\d+)\.(\d+)", (ROOT / "CMakeLists.txt").read_text()).groups())
+        for name, text in FILES.items():
+            (folder / name).parent.mkdir(parents=True, exist_ok=True)
+            (folder / name).write_text(text.replace("VERSION", version), encoding="utf-8")
+        # Without the entry, the lint names the files that no master has.
+        lint = [sys.executable, "-B", "tests/lint/check_verilator.py", "list"]
+        status, text = run(folder, *lint)
+        if status == 0 or "rtl/toy/toy_bus.sv: no master" not in text:
+            findings.append(f"RTL of no master is not named: {text[-300:]}")
+
+        with (folder / "masters.toml").open("a", encoding="utf-8") as file:
+            file.write(TOY)
+        wanted = {
+            (sys.executable, "-B", "-c", LISTS): r"\A(?:(?!LACKS)[\s\S])*set_version has the toy(?:(?!LACKS)[\s\S])*\Z",
+            tuple(lint): r"(?m)^toy_bus$",
+            (sys.executable, "-B", "tools/masters.py", "--master", "toy"): r"toy: gates: toy_gates\n",
+            (sys.executable, "-B", "tests/package/check_core.py", "names"): r"openmb4-toy.core: toy\n",
+            ("cmake", "-P", "toy.cmake"): r"toy SWITCH MB4_TOY\ntoy TOPS toy_bus\ntoy ICE40 toy_bus\ntoy GATES toy_gates\n"
+                                          r"toy MEASURED toy_run\n",
+            (sys.executable, "-B", "tests/mutation/run_mutants.py", "--master", "toy"): r"mutant_toy_run_toy_test is missing",
+        }
+        (folder / "toy.cmake").write_text(CMAKE, encoding="utf-8")
+        for command, pattern in wanted.items():
+            _, text = run(folder, *command)
+            if not re.search(pattern, text):
+                findings.append(f"{' '.join(command)[:80]}: the toy is not there: {text[-600:]}")
+
+        # Its rooms have their directions: no other master, and no other kind of line.
+        for name, line in (("rtl/toy/toy_x.sv", "  axi_core u_core (\n"), ("sim/masters/toy/a.cpp", '#include "sim/masters/axi/axi_model.hpp"\n'),
+                           ("drivers/include/toy/a.hpp", '#include "mb4/device.hpp"\n')):
+            (folder / name).parent.mkdir(parents=True, exist_ok=True)
+            (folder / name).write_text(line, encoding="utf-8")
+            _, text = run(folder, sys.executable, "-B", "tests/lint/check_directions.py")
+            if f"{name} uses" not in text:
+                findings.append(f"{name}: a use of another master is not reported: {text[-300:]}")
+            (folder / name).unlink()
+    project.finish(findings, "a master of one entry is in each check")
+
+
+if __name__ == "__main__":
+    {"faults": faults, "toy": toy}[sys.argv[1]]()

@@ -1,0 +1,42 @@
+// SPDX-FileCopyrightText: 2026 The openmb4 authors
+// SPDX-License-Identifier: Apache-2.0
+// The models of biss_axi with up to four channels that coverage or mutants run: takes the place of
+// sim/masters/axi/axi_model.cpp.
+#include <Vmeasured_axi_4.h>
+#include <Vmeasured_axi_4___024root.h>
+#include <Vmeasured_axi_full_4.h>
+#include <Vmeasured_axi_full_4___024root.h>
+
+#include <stdexcept>
+
+#include "sim/masters/axi/verilated_axi.hpp"
+
+namespace mb4::sim {
+namespace {
+
+struct Inside {
+  template <typename Model>
+  static unsigned frame(const Model& model) {
+    return model.rootp->axi_core__DOT__u_start__DOT__frame_q;
+  }
+  template <typename Model>
+  static std::vector<WaveSignal> signals(const Model& /*model*/) {
+    return {};
+  }
+};
+
+template <typename Model>
+std::unique_ptr<AxiModel> make(const ChipConfig& chip, std::uint64_t seed) {
+  return std::make_unique<VerilatedAxi<Model, 4, AxiWholeSteps<Model>, Inside>>(chip, seed);
+}
+
+}  // namespace
+
+std::unique_ptr<AxiModel> make_axi_model(const ChipConfig& chip, unsigned channels,
+                                         std::uint64_t seed, bool /*plain*/) {
+  if (channels > 4) throw std::runtime_error("the measured models have four channels");
+  return chip.features == kAxiFull ? make<Vmeasured_axi_full_4>(chip, seed)
+                                   : make<Vmeasured_axi_4>(chip, seed);
+}
+
+}  // namespace mb4::sim
