@@ -53,13 +53,6 @@ std::string Session::access(const ControlRequest& /*request*/) {
   return "the master cannot access registers of slaves";
 }
 
-void Session::report(const SessionFrame& frame, FaultReport& faults) {
-  faults.frame(frame.number, frame.begin, frame.outcomes(slaves_));
-  if (const unsigned slave = faults.unchecked_id(); slave != 0) {
-    faults.id_checked(slave, check_id(slave));
-  }
-}
-
 RunSummary Session::summary() const {
   return {simulator_.now(), simulator_.clk_cycles(), simulator_.seed()};
 }

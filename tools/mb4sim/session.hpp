@@ -17,7 +17,6 @@
 
 #include "connected_slaves.hpp"
 #include "mb4sim/simulator.hpp"
-#include "report/fault_report.hpp"
 #include "sim/scenario/scenario.hpp"
 
 namespace mb4::tool {
@@ -35,6 +34,15 @@ struct Word {
 struct SlaveResult {
   std::optional<Word> word;
   std::string error;  // why there is no word: "CRC error", ...
+};
+
+// The result of a frame for one slave.
+struct SlaveOutcome {
+  enum class Kind { kRight, kFlagged, kWrong };  // kWrong: as good, but not the word sent
+  unsigned slave = 1;
+  unsigned channel = 1;
+  Kind kind = Kind::kRight;
+  std::string state;  // "CRC error", ...
 };
 
 struct SessionFrame {
@@ -113,8 +121,8 @@ class Session {
   // For masters with MasterSupport::control. Returns why this failed, or empty.
   virtual std::string access(const ControlRequest& request);
 
-  // Adds a frame to the report, and makes the register access that a fault of an ID needs.
-  void report(const SessionFrame& frame, FaultReport& faults);
+  // Compares the ID that a slave tells with its own. Returns the error, or empty.
+  virtual std::string check_id(unsigned /*slave*/) { return ""; }
 
   const std::vector<ConnectedSlave>& slaves() const { return slaves_; }
   sim::Simulator& simulator() { return simulator_; }
@@ -125,8 +133,6 @@ class Session {
  protected:
   // Null unless the bus is to be logged.
   std::string* log() { return logged_ ? &bus_log_ : nullptr; }
-  // Compares the ID that a slave tells with its own. Returns the error, or empty.
-  virtual std::string check_id(unsigned /*slave*/) { return ""; }
 
   sim::Simulator simulator_;
   std::vector<ConnectedSlave> slaves_;  // that are read

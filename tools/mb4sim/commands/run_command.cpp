@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "commands/commands.hpp"
+#include "commands/run_outputs.hpp"
 #include "interrupts.hpp"
 #include "mb4sim/simulator.hpp"
 #include "report/exit_status.hpp"
@@ -19,7 +20,6 @@
 #include "report/messages.hpp"
 #include "report/output_file.hpp"
 #include "report/progress.hpp"
-#include "report/run_outputs.hpp"
 #include "session.hpp"
 #include "sim/scenario/scenario.hpp"
 
@@ -43,7 +43,7 @@ class RunPrinter {
   }
 
   void frame(const SessionFrame& frame, Session& session) {
-    session.report(frame, *faults_);
+    faults_->add(frame, session);
     progress_.clear();
     if (!options_.json) fmt::print("{}", faults_->new_lines());
     for (std::size_t i = 0; i < session.slaves().size(); ++i) {
@@ -107,7 +107,7 @@ void trace_around(const RunOptions& options, const sim::Scenario& scenario,
   FaultReport faults(session->simulator().scenario(), session->simulator().faults());
   for (std::uint64_t number = 1; number < bad.number; ++number) {
     interrupts.check();
-    session->report(session->read(number), faults);
+    faults.add(session->read(number), *session);
   }
   session->read(bad.number);
   session->simulator().run_until(around.simulator.trace_to);
