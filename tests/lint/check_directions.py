@@ -101,7 +101,7 @@ MAY_USE = {
     # What only the iC-MB4 has.
     **{place: ("tools/", "tools/mb4sim/masters/", "tools/mb4sim/bridge/", "sim/", *DRIVER, "regmap/")
        for place in ("tools/mb4sim/bridge/", "tools/mb4sim/commands/bridge_command.cpp",
-                     "tools/mb4sim/commands/scan_command.cpp", "tools/mb4sim/commands/spi_command.cpp",
+                     "tools/mb4sim/commands/spi_command.cpp",
                      "tools/mb4sim/commands/spidev_command.cpp", "tools/python/native/")},
     "examples/": ("sim/", *DRIVER),
     "rtl/common/": (),

@@ -29,8 +29,11 @@ namespace {
 // Prints and writes what a session delivers.
 class RunPrinter {
  public:
-  RunPrinter(const RunOptions& options, const sim::Scenario& scenario, RunOutputs& outputs)
-      : options_(options), outputs_(outputs), frames_(scenario), progress_(options.frames) {}
+  RunPrinter(const RunOptions& options, Session& session, RunOutputs& outputs)
+      : options_(options),
+        outputs_(outputs),
+        frames_(session.simulator().scenario(), session.columns()),
+        progress_(options.frames) {}
 
   void begin(Session& session) {
     faults_.emplace(session.simulator().scenario(), session.simulator().faults());
@@ -155,12 +158,12 @@ int run_command(const RunOptions& options) {
       outputs.csv.reset();
       outputs.bus_log.reset();
       if (options.json) {
-        RunPrinter printer(options, scenario, outputs);
+        RunPrinter printer(options, *session, outputs);
         printer.begin(*session);
         printer.end(*session, error);
       }
     } else {
-      RunPrinter printer(options, scenario, outputs);
+      RunPrinter printer(options, *session, outputs);
       first_bad = read_frames(options, interrupts, *session, printer, good);
     }
   } catch (const sim::ModelStopped&) {
