@@ -1,12 +1,15 @@
 #!/usr/bin/env python3
 # SPDX-FileCopyrightText: 2026 The openmb4 authors
 # SPDX-License-Identifier: Apache-2.0
-"""Which room may use which: the directions of includes and of module instances, in one table.
+"""Which room may use which: the directions of includes and of module instances, in one table. No
+circles: of includes among rooms, and of imports among Python files.
 
-  check_directions.py              every include of C++ and C, every instance and package of the RTL
+  check_directions.py              every include of C++ and C, every instance and package of the RTL,
+                                   every import of Python
   check_directions.py --self-test  planted faults are reported
 """
 
+import ast
 import re
 import sys
 from pathlib import Path
@@ -106,7 +109,7 @@ MAY_USE = {
     # What only the iC-MB4 has.
     **{place: ("tools/", "tools/mb4sim/masters/", "tools/mb4sim/bridge/", "sim/", *DRIVER, "regmap/")
        for place in ("tools/mb4sim/bridge/", "tools/mb4sim/commands/bridge_command.cpp",
-                     "tools/mb4sim/commands/scan_command.cpp", "tools/mb4sim/commands/spi_command.cpp",
+                     "tools/mb4sim/commands/spi_command.cpp",
                      "tools/mb4sim/commands/spidev_command.cpp", "tools/python/native/")},
     "examples/": ("sim/", *DRIVER),
     "rtl/common/": (),
@@ -200,11 +203,78 @@ def findings_of(files, still):
     return findings
 
 
+def imports(name, text, names):
+    """The files beside it, and in packages beside it, that a Python file imports, for its types
+    too."""
+    here = name.rpartition("/")[0]
+
+    def file_of(folder, module):
+        path = "/".join(filter(None, (folder, *module.split("."))))
+        return next((file for file in (f"{path}.py", f"{path}/__init__.py") if file in names), None)
+
+    for node in ast.walk(ast.parse(text)):
+        if isinstance(node, ast.Import):
+            yield from (file_of(here, alias.name) for alias in node.names)
+        elif isinstance(node, ast.ImportFrom):
+            folder = "/".join(here.split("/")[:len(here.split("/")) - max(node.level - 1, 0)])
+            for alias in node.names:  # a module of the package, or something inside it
+                inner = file_of(folder, f"{node.module}.{alias.name}" if node.module else alias.name)
+                yield inner or file_of(folder, node.module or "__init__")
+
+
+def circle_of(graph):
+    """A circle of {node: {node: why}}, the first node again at its end; none: []."""
+    done, path = set(), []
+
+    def walk(node):
+        if node in path:
+            return [*path[path.index(node):], node]
+        if node in done:
+            return []
+        path.append(node)
+        found = next(filter(None, (walk(other) for other in sorted(graph.get(node, ())))), [])
+        path.pop()
+        done.add(node)
+        return found
+
+    return next(filter(None, (walk(node) for node in sorted(graph))), [])
+
+
+def circles(files):
+    """A folder without folders is one knot, each file of any other folder and of a header library
+    too. So a list of what stands in the folders below, as masters.cpp, is no circle."""
+    names = set(files)
+    above = {folder.rpartition("/")[0] for folder in {name.rpartition("/")[0] for name in names}}
+
+    def knot(name):
+        folder = name.rpartition("/")[0]
+        alone = name.endswith(".py") or folder in above or folder.startswith("drivers/include/")
+        return name if alone else f"{folder}/"
+
+    graph = {}
+    for name, text in files.items():
+        if name.endswith(CPP):
+            used = includes(name, text, names)
+        elif name.endswith(".py"):
+            used = filter(None, imports(name, text, names))
+        else:
+            continue
+        for other in used:
+            if name.startswith("tests/") == other.startswith("tests/") and knot(name) != knot(other):
+                graph.setdefault(knot(name), {}).setdefault(knot(other), f"{name} uses {other}")
+    findings = []
+    while circle := circle_of(graph):
+        steps = list(zip(circle, circle[1:]))
+        findings.append("circle: " + "; ".join(graph[here][there] for here, there in steps))
+        del graph[steps[-1][0]][steps[-1][1]]
+    return findings
+
+
 def project_files():
     files = {}
     for folder in ("regmap", "drivers", "sim", "tools", "examples", "rtl", "tests"):
         for path in sorted((project.ROOT / folder).rglob("*")):
-            if path.suffix in (*CPP, ".sv"):
+            if path.suffix in (*CPP, ".sv", ".py"):
                 files[str(path.relative_to(project.ROOT))] = path.read_text(encoding="utf-8")
     return files
 
@@ -258,7 +328,31 @@ def self_test():
             findings.append(f"{name}, {text!r}: expected {expected} finding(s), got {found}")
     if len(findings_of(files, {("rtl/biss/biss_frame.sv", "rtl/mb4/regs/mb4_bank.sv"): ""})) != 1:
         findings.append("an exception that is not needed: no finding")
-    return findings
+    return findings + circles_self_test()
+
+
+def circles_self_test():
+    cases = (
+        # Through a third room, and of two files of a folder that has folders.
+        ({"sim/a/a.hpp": '#include "sim/b/b.hpp"\n', "sim/b/b.hpp": '#include "sim/c/c.hpp"\n',
+          "sim/c/d.cpp": '#include "sim/a/a.hpp"\n', "sim/c/c.hpp": ""}, 1),
+        ({"sim/a.hpp": '#include "sim/b.hpp"\n', "sim/b.hpp": '#include "sim/a.hpp"\n',
+          "sim/a/a.hpp": ""}, 1),
+        # Inside a room; the list of the rooms below.
+        ({"sim/a/a.hpp": '#include "b.hpp"\n', "sim/a/b.hpp": '#include "a.hpp"\n'}, 0),
+        ({"sim/a.hpp": "", "sim/a.cpp": '#include "sim/a.hpp"\n#include "sim/b/b.hpp"\n',
+          "sim/b/b.hpp": '#include "sim/a.hpp"\n'}, 0),
+        # Two circles with an edge in common.
+        ({"sim/a/a.hpp": '#include "sim/b/b.hpp"\n', "sim/b/b.hpp": '#include "sim/a/a.hpp"\n'
+          '#include "sim/c/c.hpp"\n', "sim/c/c.hpp": '#include "sim/a/a.hpp"\n'}, 2),
+        ({"p/a.py": "from . import b\n", "p/b.py": "from .a import A\n"}, 1),
+        ({"p/a.py": "from .b import B\n", "p/b.py": "if TYPE_CHECKING:\n    from .a import A\n"}, 1),
+        ({"p/a.py": "import b\n", "p/b.py": "def f():\n    import a\n"}, 1),
+        ({"p/q/a.py": "from ..b import B\n", "p/b.py": "from .q.a import A\n"}, 1),
+        ({"p/__init__.py": "from .a import A\n", "p/a.py": "from .b import B\n", "p/b.py": ""}, 0),
+    )
+    return [f"{files}: expected {expected} circle(s), got {circles(files)}"
+            for files, expected in cases if len(circles(files)) != expected]
 
 
 def main():
@@ -269,7 +363,8 @@ def main():
     files = project_files()
     if len(list(uses(files))) < 300:
         project.finish(["fewer uses than there must be: is the tree whole?"], "")
-    project.finish(findings_of(files, STILL), "every include and instance follows the directions")
+    project.finish(findings_of(files, STILL) + circles(files),
+                   "every include and instance follows the directions, and none goes in a circle")
 
 
 main()

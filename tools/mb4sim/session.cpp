@@ -36,6 +36,30 @@ std::vector<SlaveOutcome> SessionFrame::outcomes(const std::vector<ConnectedSlav
   return list;
 }
 
+std::span<const WordColumn> all_word_columns() {
+  static constexpr WordColumn kColumns[] = {
+      {"raw", "raw", 18, false,
+       [](const Word& word) {
+         return fmt::format("0x{:0{}X}", word.bits, (word.data_bits + 3) / 4);
+       }},
+      {"position", "position", 20, true,
+       [](const Word& word) {
+         return fmt::format("{}", word.flag_bits >= 64 ? 0 : word.bits >> word.flag_bits);
+       }},
+      {"nE", "nE", 2, true,
+       [](const Word& word) {
+         return word.n_error ? fmt::format("{:d}", *word.n_error) : std::string();
+       }},
+      {"nW", "nW", 2, true,
+       [](const Word& word) {
+         return word.n_warning ? fmt::format("{:d}", *word.n_warning) : std::string();
+       }},
+      {"crc", "CRC", 6, false, [](const Word& word) {
+         return word.crc ? fmt::format("0x{:02X}", *word.crc) : std::string();
+       }}};
+  return kColumns;
+}
+
 std::uint32_t RegisterMap::Field::value() const {
   return static_cast<std::uint32_t>(word >> lsb & ((std::uint64_t{1} << width) - 1U));
 }
@@ -51,13 +75,6 @@ Session::Session(const sim::Scenario& scenario, const SessionOptions& options)
 
 std::string Session::access(const ControlRequest& /*request*/) {
   return "the master cannot access registers of slaves";
-}
-
-void Session::report(const SessionFrame& frame, FaultReport& faults) {
-  faults.frame(frame.number, frame.begin, frame.outcomes(slaves_));
-  if (const unsigned slave = faults.unchecked_id(); slave != 0) {
-    faults.id_checked(slave, check_id(slave));
-  }
 }
 
 RunSummary Session::summary() const {

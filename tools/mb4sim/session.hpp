@@ -8,8 +8,10 @@
 #define MB4SIM_TOOL_SESSION_HPP_
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -17,7 +19,6 @@
 
 #include "connected_slaves.hpp"
 #include "mb4sim/simulator.hpp"
-#include "report/fault_report.hpp"
 #include "sim/scenario/scenario.hpp"
 
 namespace mb4::tool {
@@ -32,9 +33,31 @@ struct Word {
   std::optional<unsigned> crc;  // not inverted, where the master tells it
 };
 
+// What a table, CSV or JSON shows of a word.
+struct WordColumn {
+  std::string_view key;    // in CSV; JSON
+  std::string_view title;  // of the table
+  unsigned width;          // of the table
+  bool number;             // a number of JSON, else a string
+  // Empty where the word does not have it.
+  std::string (*text)(const Word& word);
+};
+
+// Word, position, nE, nW and CRC.
+std::span<const WordColumn> all_word_columns();
+
 struct SlaveResult {
   std::optional<Word> word;
   std::string error;  // why there is no word: "CRC error", ...
+};
+
+// The result of a frame for one slave.
+struct SlaveOutcome {
+  enum class Kind { kRight, kFlagged, kWrong };  // kWrong: as good, but not the word sent
+  unsigned slave = 1;
+  unsigned channel = 1;
+  Kind kind = Kind::kRight;
+  std::string state;  // "CRC error", ...
 };
 
 struct SessionFrame {
@@ -109,12 +132,14 @@ class Session {
   virtual std::string configure() = 0;
   // The next frame of all channels.
   virtual SessionFrame read(std::uint64_t number) = 0;
+  // What is shown of each word.
+  virtual std::span<const WordColumn> columns() const { return all_word_columns(); }
   virtual RegisterMap registers() = 0;
   // For masters with MasterSupport::control. Returns why this failed, or empty.
   virtual std::string access(const ControlRequest& request);
 
-  // Adds a frame to the report, and makes the register access that a fault of an ID needs.
-  void report(const SessionFrame& frame, FaultReport& faults);
+  // Compares the ID that a slave tells with its own. Returns the error, or empty.
+  virtual std::string check_id(unsigned /*slave*/) { return ""; }
 
   const std::vector<ConnectedSlave>& slaves() const { return slaves_; }
   sim::Simulator& simulator() { return simulator_; }
@@ -125,8 +150,6 @@ class Session {
  protected:
   // Null unless the bus is to be logged.
   std::string* log() { return logged_ ? &bus_log_ : nullptr; }
-  // Compares the ID that a slave tells with its own. Returns the error, or empty.
-  virtual std::string check_id(unsigned /*slave*/) { return ""; }
 
   sim::Simulator simulator_;
   std::vector<ConnectedSlave> slaves_;  // that are read
@@ -136,13 +159,36 @@ class Session {
   bool logged_;
 };
 
-// The codes of the MA frequency in the registers.
+// The codes of the frequency of the line's clock in the registers.
 struct MaCodes {
-  std::string_view name;     // of the field
-  unsigned most;             // the highest code
-  std::string_view refuses;  // "... code 16"
-  // Clocks in a period of MA; 0 if master or driver cannot make it.
-  unsigned (*divider)(std::uint64_t clk_hz, unsigned code);
+  std::string_view name{};     // of the field
+  unsigned most = 0;           // the highest code
+  std::string_view refuses{};  // "... code 16"
+  // Clocks in a period of MA; 0 if master or driver cannot make it. Null: there are no codes.
+  unsigned (*divider)(std::uint64_t clk_hz, unsigned code) = nullptr;
+};
+
+// A slave that has answered to a scan.
+struct ScannedSlave {
+  unsigned channel = 1;
+  unsigned id = 0;
+  bool has_identity = false;  // else the next two are empty
+  std::vector<std::uint8_t> device_id;
+  std::vector<std::uint8_t> manufacturer;
+  std::optional<unsigned> eds_bank;              // of the first page of its electronic data sheet
+  std::optional<std::vector<std::uint8_t>> eds;  // its common page, if it was asked for
+};
+
+struct ScanRequest {
+  unsigned channel = 1;
+  bool eds = false;
+  // Called when the slaves have been asked, before their data sheets are read.
+  std::function<void(const sim::Simulator&)> asked;
+};
+
+struct ScanResult {
+  std::vector<ScannedSlave> slaves;
+  std::string error;  // why there are none; empty: nobody else has answered
 };
 
 // What the commands know of a master.
@@ -151,10 +197,13 @@ struct MasterSupport {
   // Throws sim::ScenarioError with the scenario's key that master or driver does not support.
   void (*check)(const sim::Scenario& scenario);
   std::unique_ptr<Session> (*open)(const sim::Scenario& scenario, const SessionOptions& options);
-  MaCodes ma;
-  std::string_view jitter_item;  // where it is written that jitter up to 25 % is allowed
-  bool control;                  // Session::access()
-  bool coverage;                 // sim::FunctionalCoverage knows it
+  // --- what a master may leave out ---
+  MaCodes ma{};                    // for `sweep`
+  std::string_view jitter_item{};  // where it is written that jitter up to 25 % is allowed
+  bool control = false;            // Session::access()
+  bool coverage = false;           // sim::FunctionalCoverage knows it
+  // Asks the slaves of a channel, of which nothing is known, who they are. Null: it cannot.
+  ScanResult (*scan)(const sim::Scenario& scenario, const ScanRequest& request) = nullptr;
 };
 
 // Throws sim::ScenarioError if the commands do not know the scenario's master.

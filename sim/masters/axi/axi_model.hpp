@@ -11,6 +11,7 @@
 
 #include "sim/core/time.hpp"
 #include "sim/core/trace_file.hpp"
+#include "sim/hosts/word_access.hpp"
 #include "sim/hosts/word_host.hpp"
 #include "sim/masters/chip_config.hpp"
 #include "sim/masters/master_model.hpp"
@@ -29,16 +30,6 @@ inline constexpr unsigned kAxiCrcBitIgnores = 4;
 inline constexpr unsigned kAxiEnableActiveLow = 8;
 inline constexpr unsigned kAxiSwitches = 15;
 inline constexpr unsigned kAxiPorPin = 16;
-
-// An AXI4-Lite access that runs or has ended.
-struct AxiAccess {
-  bool write = false;
-  std::uint8_t address = 0;
-  std::uint32_t data = 0;   // written, or read
-  std::uint8_t strobe = 0;  // write
-  std::uint8_t answer = 0;  // BRESP or RRESP
-  bool done = true;
-};
 
 class AxiModel : public MasterModel {
  public:
@@ -69,12 +60,12 @@ class AxiModel : public MasterModel {
 
   // Begins an access: the valids rise after the next rising edge of the clock. Only one access runs
   // at a time.
-  void begin(const AxiAccess& access) {
+  void begin(const WordAccess& access) {
     access_ = access;
     access_.done = false;
     fresh_ = true;
   }
-  const AxiAccess& access() const { return access_; }
+  const WordAccess& access() const { return access_; }
   // Ends an access that has no answer: takes the valids back. If the master has taken it, its late
   // answer is dropped.
   virtual void give_up() = 0;
@@ -88,7 +79,7 @@ class AxiModel : public MasterModel {
  protected:
   static constexpr std::size_t kMostBeats = 65'536;
 
-  AxiAccess access_;
+  WordAccess access_;
   bool fresh_ = false;  // the access has not been put on the pins
   std::deque<StreamBeat> beats_;
   std::uint64_t beats_dropped_ = 0;

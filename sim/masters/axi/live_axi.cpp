@@ -51,7 +51,7 @@ unsigned channels_of(MasterModel::Outputs lines) {
 
 }  // namespace
 
-std::optional<std::uint8_t> AxiHost::run(const AxiAccess& access) {
+std::optional<std::uint8_t> AxiHost::run(const WordAccess& access) {
   model_.begin(access);
   for (unsigned clock = 0; clock < kLongestAccess && !model_.access().done; ++clock) {
     outside_.run_until(outside_.now() + period_);

@@ -42,7 +42,7 @@ class AxiHost final : public WordHost, public StreamSink {
   std::size_t beats_waiting() const { return model_.beats().size(); }
 
  private:
-  std::optional<std::uint8_t> run(const AxiAccess& access);
+  std::optional<std::uint8_t> run(const WordAccess& access);
 
   HostPins& outside_;
   AxiModel& model_;

@@ -22,6 +22,7 @@
 #include "sim/lines/clocked/clocked_end.hpp"
 #include "sim/masters/axi/axi_model.hpp"
 #include "sim/masters/axi/axi_steps.hpp"
+#include "sim/model/axi_lite_manager.hpp"
 #include "sim/model/clock_source.hpp"
 #include "sim/model/signal_wave.hpp"
 #include "sim/model/verilated_context.hpp"
@@ -45,8 +46,7 @@ class VerilatedAxi final : public AxiModel {
     model_ = std::make_unique<Model>(context_.get(), "biss_axi");
     Model& m = *model_;
     m.switches_i = static_cast<CData>(chip.quirks & kAxiSwitches);
-    m.s_axi_awvalid = m.s_axi_wvalid = m.s_axi_arvalid = 0;
-    m.s_axi_bready = m.s_axi_rready = 1;
+    manager_.rest(m);
     m.s_axis_tready = 1;
     m.slo_i = static_cast<Slo>((1U << kChannels) - 1);
     m.ext_sample_clk_i = 0;
@@ -112,11 +112,9 @@ class VerilatedAxi final : public AxiModel {
     show(now);
   }
   void give_up() override {
-    Model& m = *model_;
-    m.s_axi_awvalid = m.s_axi_wvalid = m.s_axi_arvalid = 0;
+    manager_.drop(*model_);
     moved_ = true;
-    if (taken_) ++late_;
-    taken_ = handed_ = fresh_ = false;
+    fresh_ = false;
     access_.done = true;
   }
   bool ext_sample_clk() const override { return model_->ext_sample_clk_i != 0; }
@@ -173,8 +171,11 @@ class VerilatedAxi final : public AxiModel {
       const Outputs before = outputs_;
       const bool valid = m.s_axis_tvalid != 0;
       if (valid && m.rst_ni != 0) take_beat(now);
-      const bool moves = !access_.done || late_ != 0;
-      if (moves) look_at_answer();
+      const bool moves = !access_.done || manager_.owed();
+      if (moves && manager_.before(m, access_)) {
+        access_.done = true;
+        toggles_ ^= kDone;
+      }
       steps_.rise(m);
       if (moves && m.rst_ni != 0) drive();
       if constexpr (kWave) wave_->show(now);
@@ -194,10 +195,7 @@ class VerilatedAxi final : public AxiModel {
     const bool rises = m.rst_ni != 0;
     m.rst_ni = reset_ || (por_pin_ && power_on_reset_) ? 0 : 1;
     m.por_ni = (por_pin_ ? power_on_reset_ : reset_) ? 0 : 1;
-    if (rises && m.rst_ni == 0) {
-      late_ = 0;
-      taken_ = false;
-    }
+    if (rises && m.rst_ni == 0) manager_.forget();
     const Outputs before = outputs_;
     steps_.inputs(m);
     pack();
@@ -225,38 +223,12 @@ class VerilatedAxi final : public AxiModel {
     toggles_ ^= kBeat;
   }
 
-  // Looks, before an edge, at what the edge takes. BREADY and RREADY are always 1.
-  void look_at_answer() {
-    const Model& m = *model_;
-    handed_ = (m.s_axi_awvalid != 0 && m.s_axi_awready != 0) ||
-              (m.s_axi_arvalid != 0 && m.s_axi_arready != 0);
-    taken_ = taken_ || handed_;
-    if (m.s_axi_bvalid == 0 && m.s_axi_rvalid == 0) return;
-    if (late_ != 0) {
-      --late_;
-      return;
-    }
-    taken_ = false;
-    access_.answer = m.s_axi_bvalid != 0 ? m.s_axi_bresp : m.s_axi_rresp;
-    if (!access_.write) access_.data = m.s_axi_rdata;
-    access_.done = true;
-    toggles_ ^= kDone;
-  }
-
   // Drives the manager's pins after an edge.
   void drive() {
-    Model& m = *model_;
-    if (fresh_) {
-      m.s_axi_awaddr = m.s_axi_araddr = access_.address;
-      m.s_axi_wdata = access_.data;
-      m.s_axi_wstrb = access_.strobe;
-      m.s_axi_awvalid = m.s_axi_wvalid = access_.write ? 1 : 0;
-      m.s_axi_arvalid = access_.write ? 0 : 1;
-      fresh_ = false;
+    if (std::exchange(fresh_, false)) {
+      manager_.begin(*model_, access_);
       moved_ = true;
-    } else if (handed_) {
-      m.s_axi_awvalid = m.s_axi_wvalid = m.s_axi_arvalid = 0;
-      handed_ = false;
+    } else if (manager_.after(*model_)) {
       moved_ = true;
     }
   }
@@ -281,14 +253,12 @@ class VerilatedAxi final : public AxiModel {
   std::unique_ptr<VerilatedContext> context_;
   std::unique_ptr<Model> model_;
   Steps steps_;
+  AxiLiteManager<Model> manager_;
   ClockSource clock_;
   bool por_pin_;
   bool reset_ = true;           // axi_aresetn is 0
   bool power_on_reset_ = true;  // por_n is 0
   bool moved_ = false;          // inputs have changed since the last edge, beside SLO
-  bool handed_ = false;         // the edge that is about to come takes address and data
-  bool taken_ = false;          // the running access has been taken
-  unsigned late_ = 0;           // answers of accesses that have been given up
   Outputs toggles_ = 0;         // kDone, kBeat
   // Levels at the encoders, bit n = channel n, for the waveform.
   std::uint64_t encoders_ma_ = ~std::uint64_t{0};

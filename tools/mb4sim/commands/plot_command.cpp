@@ -4,29 +4,25 @@
 
 #include <charconv>
 #include <cstdio>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "commands/commands.hpp"
-#include "plot/control_diagram.hpp"
-#include "plot/frame_diagram.hpp"
-#include "plot/line_recording.hpp"
+#include "plot/pictures.hpp"
 #include "plot/vcd_writer.hpp"
 #include "report/exit_status.hpp"
 #include "report/output_file.hpp"
 #include "report/trace_file.hpp"
 #include "session.hpp"
-#include "sim/lines/clocked/clocked_line.hpp"
 #include "sim/scenario/scenario.hpp"
 
 namespace mb4::tool {
 namespace {
 
-constexpr std::size_t kMaxEdges = 1000;  // of a frame that can be drawn
-constexpr unsigned kFramesBehind = 15;   // a control frame
-constexpr sim::Time kLongestEnd = sim::kPsPerSecond;
+constexpr unsigned kFramesBehind = 15;  // a control frame
 
 // --- what is asked for -------------------------------------------------------------------------
 
@@ -103,55 +99,6 @@ ControlRequest request_of(const PlotOptions& options) {
 
 // --- doing it ------------------------------------------------------------------------------------
 
-// Lets the last frame end: its slaves are idle again.
-void finish(sim::Simulator& simulator, sim::ClockedLine& line) {
-  simulator.run_while_waiting([&] { return line.chain().idle() && line.sl(); },
-                              simulator.now() + kLongestEnd);
-  simulator.advance(10 * sim::kPsPerUs);
-}
-
-struct Picture {
-  std::string svg;
-  bool good = false;
-};
-
-Picture frame_picture(const PlotOptions& options, const LineRecording& recording,
-                      const sim::ChannelConfig& channel, sim::Time now) {
-  const std::vector<FrameTrace> frames = recording.frames(now);
-  if (frames.size() < options.frame) {
-    throw UseError(fmt::format("{}: only {} frame(s) on channel {} have ended", options.scenario,
-                               frames.size(), options.channel));
-  }
-  const FrameTrace& trace = frames[options.frame - 1];
-  if (trace.rising.size() > kMaxEdges) {
-    throw UseError(fmt::format("frame {} has {} clocks, more than {} are not drawn", options.frame,
-                               trace.rising.size(), kMaxEdges));
-  }
-  const DecodedFrame decoded = decode_frame(recording, trace, channel);
-  const std::string title =
-      options.title.empty() ? fmt::format("Frame {} of channel {}", options.frame, options.channel)
-                            : options.title;
-  return {timing_svg(frame_diagram(recording, decoded, channel, title)), decoded.good};
-}
-
-Picture control_picture(const PlotOptions& options, const LineRecording& recording,
-                        const sim::ChannelConfig& channel, sim::Time now) {
-  std::vector<ControlBits> bits;
-  for (const FrameTrace& trace : recording.frames(now)) {
-    const DecodedFrame decoded = decode_frame(recording, trace, channel);
-    bits.push_back({decoded.cdm, decoded.cds});
-  }
-  const ControlFrame frame = decode_control(bits);
-  if (frame.slots == 0) {
-    throw UseError(fmt::format("{}: there was no control frame on channel {}", options.scenario,
-                               options.channel));
-  }
-  const std::string title = options.title.empty()
-                                ? fmt::format("Control frame of channel {}", options.channel)
-                                : options.title;
-  return {timing_svg(control_diagram(bits, frame, title)), frame.good};
-}
-
 void check(const PlotOptions& options, const sim::Scenario& scenario) {
   const unsigned asked = (options.read.empty() ? 0U : 1U) + (options.write.empty() ? 0U : 1U) +
                          (options.command.empty() ? 0U : 1U);
@@ -160,6 +107,10 @@ void check(const PlotOptions& options, const sim::Scenario& scenario) {
   if (channel == nullptr || channel->slaves.empty()) {
     throw UseError(
         fmt::format("{}: there is no slave on channel {}", options.scenario, options.channel));
+  }
+  if (picture_of(scenario, *channel) == nullptr) {
+    throw UseError(fmt::format("{}: there is no picture of \"{}\"", options.scenario,
+                               channel->protocol().title));
   }
   if (is_control(options) && !channel->protocol().control) {
     throw UseError("control frames are drawn of BiSS C only");
@@ -196,10 +147,10 @@ int plot_command(const PlotOptions& options) {
   session_options.actuators = false;
   const std::unique_ptr<Session> session = support.open(scenario, session_options);
   sim::Simulator& simulator = session->simulator();
-  std::vector<std::unique_ptr<LineRecording>> recordings(scenario.master->channels);
+  std::map<unsigned, std::unique_ptr<LinePicture>> pictures;  // by channel
   for (const sim::ChannelConfig& channel : scenario.channels) {
-    recordings[channel.number - 1] =
-        std::make_unique<LineRecording>(*clocked(simulator.line(channel.number)));
+    const PictureDecoder* const decoder = picture_of(scenario, channel);
+    if (decoder != nullptr) pictures[channel.number] = decoder->record(simulator, channel);
   }
   std::string error = session->configure();
   if (error.empty() && is_control(options)) {
@@ -210,15 +161,12 @@ int plot_command(const PlotOptions& options) {
   } else {
     for (unsigned i = 1; error.empty() && i <= options.frame; ++i) error = session->read(i).error;
   }
-  finish(simulator, *clocked(simulator.line(options.channel)));
-
-  const LineRecording& recording = *recordings[options.channel - 1];
-  const sim::ChannelConfig& channel = *scenario.channel(options.channel);
-  const Picture picture = is_control(options)
-                              ? control_picture(options, recording, channel, simulator.now())
-                              : frame_picture(options, recording, channel, simulator.now());
+  LinePicture& line = *pictures.at(options.channel);
+  line.finish(simulator);
+  const Picture picture = line.draw(
+      {options.frame, is_control(options), options.scenario, options.title}, simulator.now());
   if (!error.empty()) fmt::print(stderr, "mb4sim: {}\n", error);
-  if (vcd != nullptr) vcd->commit(lines_vcd(recordings, simulator.now()));
+  if (vcd != nullptr) vcd->commit(lines_vcd(pictures, simulator.now()));
   if (svg != nullptr) {
     svg->commit(picture.svg);
   } else if (vcd == nullptr) {

@@ -124,7 +124,7 @@ Row run_one(const std::string& path, const sim::Scenario& scenario, std::uint64_
       for (std::size_t i = 0; i < session->slaves().size(); ++i) {
         report.add(frame, session->slaves()[i].number, i);
       }
-      session->report(frame, fault_report);
+      fault_report.add(frame, *session);
     }
     fault_report.finish();
     row.faults = session->simulator().faults().size();

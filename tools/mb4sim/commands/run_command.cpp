@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "commands/commands.hpp"
+#include "commands/run_outputs.hpp"
 #include "interrupts.hpp"
 #include "mb4sim/simulator.hpp"
 #include "report/exit_status.hpp"
@@ -19,7 +20,6 @@
 #include "report/messages.hpp"
 #include "report/output_file.hpp"
 #include "report/progress.hpp"
-#include "report/run_outputs.hpp"
 #include "session.hpp"
 #include "sim/scenario/scenario.hpp"
 
@@ -29,8 +29,11 @@ namespace {
 // Prints and writes what a session delivers.
 class RunPrinter {
  public:
-  RunPrinter(const RunOptions& options, const sim::Scenario& scenario, RunOutputs& outputs)
-      : options_(options), outputs_(outputs), frames_(scenario), progress_(options.frames) {}
+  RunPrinter(const RunOptions& options, Session& session, RunOutputs& outputs)
+      : options_(options),
+        outputs_(outputs),
+        frames_(session.simulator().scenario(), session.columns()),
+        progress_(options.frames) {}
 
   void begin(Session& session) {
     faults_.emplace(session.simulator().scenario(), session.simulator().faults());
@@ -43,7 +46,7 @@ class RunPrinter {
   }
 
   void frame(const SessionFrame& frame, Session& session) {
-    session.report(frame, *faults_);
+    faults_->add(frame, session);
     progress_.clear();
     if (!options_.json) fmt::print("{}", faults_->new_lines());
     for (std::size_t i = 0; i < session.slaves().size(); ++i) {
@@ -107,7 +110,7 @@ void trace_around(const RunOptions& options, const sim::Scenario& scenario,
   FaultReport faults(session->simulator().scenario(), session->simulator().faults());
   for (std::uint64_t number = 1; number < bad.number; ++number) {
     interrupts.check();
-    session->report(session->read(number), faults);
+    faults.add(session->read(number), *session);
   }
   session->read(bad.number);
   session->simulator().run_until(around.simulator.trace_to);
@@ -155,12 +158,12 @@ int run_command(const RunOptions& options) {
       outputs.csv.reset();
       outputs.bus_log.reset();
       if (options.json) {
-        RunPrinter printer(options, scenario, outputs);
+        RunPrinter printer(options, *session, outputs);
         printer.begin(*session);
         printer.end(*session, error);
       }
     } else {
-      RunPrinter printer(options, scenario, outputs);
+      RunPrinter printer(options, *session, outputs);
       first_bad = read_frames(options, interrupts, *session, printer, good);
     }
   } catch (const sim::ModelStopped&) {

@@ -107,6 +107,10 @@ SweepPlane sweep_plane(sim::Scenario scenario, unsigned code, const Sweep& sweep
 int sweep_command(const SweepOptions& options) {
   const sim::Scenario scenario = sim::load_scenario(options.scenario);
   const MasterSupport& support = support_of(scenario);
+  if (support.ma.divider == nullptr) {
+    throw UseError(fmt::format("{}: the master \"{}\" has no codes of a frequency to sweep",
+                               sim::one_line(options.scenario), scenario.master->type));
+  }
   Sweep sweep;
   sweep.code_name = support.ma.name;
   sweep.jitter_item = support.jitter_item;

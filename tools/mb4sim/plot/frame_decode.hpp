@@ -10,22 +10,12 @@
 #include <string>
 #include <vector>
 
+#include "plot/field.hpp"
 #include "plot/line_recording.hpp"
 #include "sim/core/time.hpp"
 #include "sim/scenario/scenario.hpp"
 
 namespace mb4::tool {
-
-enum class FieldKind { kFraming, kControl, kData, kFlag, kCrc, kRest };
-
-// A stretch of a signal with a meaning.
-struct Field {
-  sim::Time from = 0;
-  sim::Time to = 0;
-  FieldKind kind = FieldKind::kFraming;
-  std::vector<std::string> labels;  // the same thing in more and in fewer words
-  bool bad = false;                 // the check has failed
-};
 
 // Labels for a wrong CRC: the received value and the right one, in more and in fewer words.
 std::vector<std::string> wrong_crc(std::uint32_t got, std::uint32_t right, unsigned bits);

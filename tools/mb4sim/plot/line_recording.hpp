@@ -1,32 +1,17 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Records the pins of a line edge by edge, and finds where its frames begin and end.
+// Records the pins of a clocked line edge by edge, and finds where its frames begin and end.
 #ifndef MB4SIM_TOOL_LINE_RECORDING_HPP_
 #define MB4SIM_TOOL_LINE_RECORDING_HPP_
 
 #include <vector>
 
+#include "plot/wave.hpp"
 #include "sim/core/time.hpp"
 #include "sim/lines/clocked/clocked_line.hpp"
 
 namespace mb4::tool {
-
-struct Edge {
-  sim::Time time;
-  bool level;
-};
-
-// One signal: its level before the first edge and its edges.
-struct Wave {
-  bool idle = true;
-  std::vector<Edge> edges;
-
-  void edge(sim::Time time, bool level);
-  bool at(sim::Time time) const;  // an edge counts from its own time on
-  bool last() const { return edges.empty() ? idle : edges.back().level; }
-  Wave between(sim::Time from, sim::Time to) const;
-};
 
 // The edges of one frame on the line, not decoded.
 struct FrameTrace {

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "plot/frame_decode.hpp"
+#include "plot/field.hpp"
 
 namespace mb4::tool {
 

@@ -8,7 +8,8 @@
 
 namespace mb4::tool {
 
-std::string lines_vcd(const std::vector<std::unique_ptr<LineRecording>>& lines, sim::Time end) {
+std::string lines_vcd(const std::map<unsigned, std::unique_ptr<LinePicture>>& lines,
+                      sim::Time end) {
   struct Change {
     sim::Time time;
     char code;
@@ -18,12 +19,9 @@ std::string lines_vcd(const std::vector<std::unique_ptr<LineRecording>>& lines, 
   std::string values;
   std::vector<Change> changes;
   char code = '!';
-  for (std::size_t i = 0; i < lines.size(); ++i) {
-    if (lines[i] == nullptr) continue;
-    const std::pair<const char*, const Wave*> signals[] = {
-        {"MA", &lines[i]->ma()}, {"MO", &lines[i]->mo()}, {"SL", &lines[i]->sl()}};
-    for (const auto& [name, wave] : signals) {
-      out += fmt::format("$var wire 1 {} {}{} $end\n", code, name, i + 1);
+  for (const auto& [channel, line] : lines) {
+    for (const auto& [name, wave] : line->signals()) {
+      out += fmt::format("$var wire 1 {} {}{} $end\n", code, name, channel);
       values += fmt::format("{}{}\n", wave->idle ? 1 : 0, code);
       for (const Edge& edge : wave->edges) changes.push_back({edge.time, code, edge.level});
       ++code;

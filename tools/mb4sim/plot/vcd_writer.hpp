@@ -5,16 +5,16 @@
 #ifndef MB4SIM_TOOL_VCD_WRITER_HPP_
 #define MB4SIM_TOOL_VCD_WRITER_HPP_
 
+#include <map>
 #include <memory>
 #include <string>
-#include <vector>
 
-#include "plot/line_recording.hpp"
+#include "plot/pictures.hpp"
 
 namespace mb4::tool {
 
-// Signals MA, MO and SL of each line that is there (by channel, from 1), up to `end`.
-std::string lines_vcd(const std::vector<std::unique_ptr<LineRecording>>& lines, sim::Time end);
+// The signals of each line by its channel, up to `end`.
+std::string lines_vcd(const std::map<unsigned, std::unique_ptr<LinePicture>>& lines, sim::Time end);
 
 }  // namespace mb4::tool
 

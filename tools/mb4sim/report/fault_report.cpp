@@ -76,6 +76,11 @@ FaultReport::FaultReport(const sim::Scenario& scenario,
 
 void FaultReport::add_new() { entries_.resize(records_.size()); }
 
+void FaultReport::add(const SessionFrame& frame, Session& session) {
+  this->frame(frame.number, frame.begin, frame.outcomes(session.slaves()));
+  if (const unsigned slave = unchecked_id(); slave != 0) id_checked(slave, session.check_id(slave));
+}
+
 void FaultReport::frame(std::uint64_t number, sim::Time begin,
                         const std::vector<SlaveOutcome>& outcomes) {
   add_new();

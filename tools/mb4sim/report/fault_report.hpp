@@ -9,20 +9,12 @@
 #include <string>
 #include <vector>
 
+#include "session.hpp"
 #include "sim/core/time.hpp"
 #include "sim/faults/fault.hpp"
 #include "sim/scenario/scenario.hpp"
 
 namespace mb4::tool {
-
-// The result of a frame for one slave.
-struct SlaveOutcome {
-  enum class Kind { kRight, kFlagged, kWrong };  // kWrong: as good, but not the word sent
-  unsigned slave = 1;
-  unsigned channel = 1;
-  Kind kind = Kind::kRight;
-  std::string state;  // "CRC error", ...
-};
 
 // One line for each record from number `from` (0 = first) on: "  fault 3 at 250.000 us: glitch
 // ...".
@@ -49,12 +41,8 @@ class FaultReport {
   // Both outlive the report.
   FaultReport(const sim::Scenario& scenario, const std::vector<sim::FaultRecord>& records);
 
-  // A frame that the host requested at `begin`.
-  void frame(std::uint64_t number, sim::Time begin, const std::vector<SlaveOutcome>& outcomes);
-  // The slave of a wrong-id fault that no register access has checked yet, or 0.
-  unsigned unchecked_id() const;
-  // Takes the result of a register access to this slave: an error, or empty.
-  void id_checked(unsigned slave, const std::string& error);
+  // A frame that the session has read. Makes the register access that a fault of an ID needs.
+  void add(const SessionFrame& frame, Session& session);
   // True if no register access was refused or answered by the wrong slave.
   bool ids_good() const { return ids_good_; }
   std::uint64_t count(Fate fate) const;
@@ -72,6 +60,12 @@ class FaultReport {
 
  private:
   void add_new();
+  // A frame that the host requested at `begin`.
+  void frame(std::uint64_t number, sim::Time begin, const std::vector<SlaveOutcome>& outcomes);
+  // The slave of a wrong-id fault that no register access has checked yet, or 0.
+  unsigned unchecked_id() const;
+  // Takes the result of a register access to this slave: an error, or empty.
+  void id_checked(unsigned slave, const std::string& error);
 
   const sim::Scenario& scenario_;
   const std::vector<sim::FaultRecord>& records_;

@@ -11,7 +11,9 @@
 namespace mb4::tool {
 namespace {
 
-constexpr const char* kTableRow = "{:>5}  {:>12}  {:>5}  {:>{}}  {:>{}}  {:>2}  {:>2}  {:>6}  {}\n";
+constexpr const char* kFirstCells = "{:>5}  {:>12}  {:>5}";
+constexpr const char* kCell = "  {:>{}}";
+constexpr const char* kLastCell = "  {}\n";
 
 constexpr const char* kWrongData = "wrong data, not what the slave sent";
 
@@ -27,28 +29,8 @@ std::string state_of(const SlaveResult& result) {
 
 }  // namespace
 
-// The values of one row as text; a missing value is empty.
-struct FrameReport::Cells {
-  std::string raw;
-  std::string position;
-  std::string error;    // nE
-  std::string warning;  // nW
-  std::string crc;
-};
-
-FrameReport::Cells FrameReport::cells(const FrameRow& row) {
-  Cells cells;
-  if (!row.word) return cells;
-  const Word& word = *row.word;
-  cells.raw = fmt::format("0x{:0{}X}", word.bits, (word.data_bits + 3) / 4);
-  cells.position = fmt::format("{}", word.flag_bits >= 64 ? 0 : word.bits >> word.flag_bits);
-  if (word.n_error) cells.error = fmt::format("{:d}", *word.n_error);
-  if (word.n_warning) cells.warning = fmt::format("{:d}", *word.n_warning);
-  if (word.crc) cells.crc = fmt::format("0x{:02X}", *word.crc);
-  return cells;
-}
-
-FrameReport::FrameReport(const sim::Scenario& scenario) {
+FrameReport::FrameReport(const sim::Scenario& scenario, std::span<const WordColumn> columns)
+    : columns_(columns) {
   for (const ConnectedSlave& one : connected_slaves(scenario))
     counts_.push_back({one.number, 0, 0});
 }
@@ -84,17 +66,26 @@ std::string FrameReport::worst_error() const {
   return worst == errors_.end() ? "" : worst->first;
 }
 
+std::string FrameReport::cell(const WordColumn& column) const {
+  return row_.word ? column.text(*row_.word) : "";
+}
+
 std::string FrameReport::table_header() const {
-  return fmt::format(kTableRow, "frame", "time/us", "slave", "raw", 18, "position", 20, "nE", "nW",
-                     "CRC", "state");
+  std::string out = fmt::format(kFirstCells, "frame", "time/us", "slave");
+  for (const WordColumn& column : columns_) {
+    out += fmt::format(kCell, column.title, column.width);
+  }
+  return out + fmt::format(kLastCell, "state");
 }
 
 std::string FrameReport::table_row() const {
-  const Cells c = cells(row_);
-  const auto dash = [](const std::string& text) { return text.empty() ? std::string("-") : text; };
-  return fmt::format(kTableRow, row_.frame, fmt::format("{:.3f}", sim::to_us(row_.time)),
-                     row_.slave, dash(c.raw), 18, dash(c.position), 20, dash(c.error),
-                     dash(c.warning), dash(c.crc), row_.state);
+  std::string out = fmt::format(kFirstCells, row_.frame,
+                                fmt::format("{:.3f}", sim::to_us(row_.time)), row_.slave);
+  for (const WordColumn& column : columns_) {
+    const std::string text = cell(column);
+    out += fmt::format(kCell, text.empty() ? "-" : text, column.width);
+  }
+  return out + fmt::format(kLastCell, row_.state);
 }
 
 std::string FrameReport::table_summary(const RunSummary& summary) const {
@@ -118,15 +109,16 @@ std::string FrameReport::table_summary(const RunSummary& summary) const {
 }
 
 std::string FrameReport::csv_header() const {
-  return "frame,time_us,slave,raw,position,nE,nW,crc,state\n";
+  std::string out = "frame,time_us,slave,";
+  for (const WordColumn& column : columns_) out += fmt::format("{},", column.key);
+  return out + "state\n";
 }
 
 std::string FrameReport::csv_row() const {
-  const Cells c = cells(row_);
-  std::string state = row_.state;
-  if (state.find(',') != std::string::npos) state = fmt::format("\"{}\"", state);
-  return fmt::format("{},{:.3f},{},{},{},{},{},{},{}\n", row_.frame, sim::to_us(row_.time),
-                     row_.slave, c.raw, c.position, c.error, c.warning, c.crc, state);
+  std::string out = fmt::format("{},{:.3f},{},", row_.frame, sim::to_us(row_.time), row_.slave);
+  for (const WordColumn& column : columns_) out += cell(column) + ',';
+  const bool quoted = row_.state.find(',') != std::string::npos;
+  return out + fmt::format("{0}{1}{0}\n", quoted ? "\"" : "", row_.state);
 }
 
 std::string FrameReport::json_header(const std::string& scenario, std::uint64_t seed) const {
@@ -134,18 +126,17 @@ std::string FrameReport::json_header(const std::string& scenario, std::uint64_t 
 }
 
 std::string FrameReport::json_row() const {
-  const auto number = [](const std::string& text) {
-    return text.empty() ? std::string("null") : text;
-  };
-  const auto quoted = [](const std::string& text) {
-    return text.empty() ? std::string("null") : json_text(text);
-  };
-  const Cells c = cells(row_);
-  return fmt::format(
-      "{}\n  {{\"frame\": {}, \"time_us\": {:.3f}, \"slave\": {}, \"good\": {}, \"raw\": {}, "
-      "\"position\": {}, \"nE\": {}, \"nW\": {}, \"crc\": {}, \"state\": {}}}",
-      any_ ? "," : "", row_.frame, sim::to_us(row_.time), row_.slave, row_.good(), quoted(c.raw),
-      number(c.position), number(c.error), number(c.warning), quoted(c.crc), json_text(row_.state));
+  std::string out =
+      fmt::format("{}\n  {{\"frame\": {}, \"time_us\": {:.3f}, \"slave\": {}, \"good\": {}, ",
+                  any_ ? "," : "", row_.frame, sim::to_us(row_.time), row_.slave, row_.good());
+  for (const WordColumn& column : columns_) {
+    const std::string text = cell(column);
+    out += fmt::format("\"{}\": {}, ", column.key,
+                       text.empty()    ? "null"
+                       : column.number ? text
+                                       : json_text(text));
+  }
+  return out + fmt::format("\"state\": {}}}", json_text(row_.state));
 }
 
 std::string FrameReport::json_summary(const RunSummary& summary, const std::string& more) const {

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <map>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -39,7 +40,8 @@ struct SlaveCount {
 
 class FrameReport {
  public:
-  explicit FrameReport(const sim::Scenario& scenario);
+  // `columns`: Session::columns(); without rows none are needed.
+  explicit FrameReport(const sim::Scenario& scenario, std::span<const WordColumn> columns = {});
 
   // `index`: of the slave in this frame.
   const FrameRow& add(const SessionFrame& frame, unsigned slave, std::size_t index);
@@ -63,9 +65,10 @@ class FrameReport {
   std::string json_row() const;
 
  private:
-  struct Cells;
-  static Cells cells(const FrameRow& row);
+  // Of the row; empty where the word does not have it.
+  std::string cell(const WordColumn& column) const;
 
+  std::span<const WordColumn> columns_;
   std::vector<SlaveCount> counts_;               // by slave
   std::map<std::string, std::uint64_t> errors_;  // bad results by what was wrong
   FrameRow row_;                                 // added last

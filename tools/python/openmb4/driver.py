@@ -2,14 +2,12 @@
 # SPDX-License-Identifier: Apache-2.0
 """The driver of drivers/ on a simulated chip, through its C binding."""
 
-from typing import TYPE_CHECKING, Any, Callable, List, NamedTuple, Tuple
+from typing import Any, Callable, List, NamedTuple, Tuple
 
 import numpy as np
 
 from ._library import Error, driver_error, ffi, lib, simulator_error
-
-if TYPE_CHECKING:
-    from .simulator import Simulator
+from ._opened import Opened
 
 # mb4_config of mb4.h: its members are read and assigned by their C names.
 Config = Any
@@ -65,7 +63,7 @@ class Driver:
     """The calls of mb4.h by their names. Each raises Error with the driver's words. The transfers
     are SPI: with a parallel host they fail."""
 
-    def __init__(self, simulator: "Simulator"):
+    def __init__(self, simulator: Opened):
         self._simulator = simulator
         self._session = ffi.new("openmb4_session *")
         lib.openmb4_begin(self._session, simulator._sim)

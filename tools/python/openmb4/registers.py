@@ -4,12 +4,10 @@
 
 import json
 import re
-from typing import TYPE_CHECKING, Any, Dict, List, Protocol, Union
+from typing import Any, Dict, List, Protocol, Union
 
 from ._library import HERE, Error
-
-if TYPE_CHECKING:
-    from .simulator import Simulator
+from ._opened import Opened
 
 READ, WRITE = 0x03, 0x02  # SPI opcodes
 
@@ -18,7 +16,7 @@ class Bus(Protocol):
     """How the registers of a master are reached. Both calls take simulated time."""
 
     bits: int  # of a register
-    simulator: "Simulator"
+    simulator: Opened
 
     def read(self, address: int) -> int: ...
 
@@ -30,7 +28,7 @@ class ChipBus:
 
     bits = 8
 
-    def __init__(self, simulator: "Simulator"):
+    def __init__(self, simulator: Opened):
         self.simulator = simulator
 
     def read(self, address: int) -> int:
@@ -55,7 +53,7 @@ class AxiBus:
 
     bits = 32
 
-    def __init__(self, simulator: "Simulator"):
+    def __init__(self, simulator: Opened):
         self.simulator = simulator
 
     def read(self, address: int) -> int:

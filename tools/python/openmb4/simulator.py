@@ -5,36 +5,14 @@
 import contextlib
 import json
 import os
-import threading
-from numbers import Integral
-from typing import Any, Callable, Dict, Iterator, List, Mapping, NamedTuple, Optional, Sequence, Tuple, Union
+from typing import Any, Callable, Dict, Iterator, Mapping, NamedTuple, Optional, Sequence, Tuple, Union
 
 import numpy as np
 
-from . import driver, registers
 from ._library import Error, ffi, lib, simulator_error
-
-ERROR_BYTES = 1000
-STREAM_WORDS = 64  # more than any master has in a beat
-
-
-def to_toml(value: Any) -> str:
-    """A value of a scenario in TOML; tables inside tables stand in one line. Keys may be numbers, as
-    register addresses are."""
-    if isinstance(value, Mapping):
-        pairs = (f"{json.dumps(str(k))} = {to_toml(v)}" for k, v in value.items())
-        return f"{{ {', '.join(pairs)} }}"
-    if isinstance(value, (list, tuple)):
-        return f"[{', '.join(map(to_toml, value))}]"
-    if isinstance(value, bool):
-        return str(value).lower()
-    if isinstance(value, Integral):
-        return str(int(value)) if value < 1 << 63 else f'"0x{int(value):X}"'
-    return json.dumps(value, ensure_ascii=False) if isinstance(value, str) else repr(float(value))
-
-
-def document(tables: Mapping[str, Any]) -> str:
-    return "".join(f"{key} = {to_toml(value)}\n" for key, value in tables.items())
+from ._opened import ERROR_BYTES, Opened, document
+from .driver import Driver
+from .registers import AxiBus, ChipBus, Registers
 
 
 class Frame(NamedTuple):
@@ -58,7 +36,7 @@ class Edges(NamedTuple):
     pins: Dict[str, Tuple[np.ndarray, np.ndarray]]
 
 
-class Simulator:
+class Simulator(Opened):
     """Opens a scenario: TOML text (str), the path of a file (os.PathLike) or a dict of its tables.
     Time then stands at 1 us. Raises Error with the line that names the mistake.
 
@@ -68,111 +46,16 @@ class Simulator:
     """
 
     def __init__(self, scenario: Union[str, os.PathLike, Mapping[str, Any]], /):
-        self._lock = threading.RLock()
-        self._running = False
-        self._raised: Optional[BaseException] = None
-        self._callback: Any = ffi.NULL
-        self._sim: Any = None
-        self._is_path = isinstance(scenario, os.PathLike)
-        self._scenario = (os.fsencode(scenario) if self._is_path else
-                          (scenario if isinstance(scenario, str) else document(scenario)).encode())
-        if b"\0" in self._scenario:
-            raise Error("scenario: holds a character of code 0")
-        error = ffi.new("char[]", ERROR_BYTES)
-        opened = lib.mb4sim_open_file if self._is_path else lib.mb4sim_open
-        sim = opened(self._scenario, error, ERROR_BYTES)
-        if sim == ffi.NULL:
-            raise Error(ffi.string(error).decode(errors="replace"))
-        self._sim = ffi.gc(sim, lib.mb4sim_close)
-        self.driver = driver.Driver(self)
-        self.regs = registers.Registers(registers.ChipBus(self), "mb4")
-        self.axi_regs = registers.Registers(registers.AxiBus(self), "axi")
-
-    def close(self) -> None:
-        """Ends the simulator; a second call does nothing."""
-        with self._lock:
-            if self._running:
-                raise simulator_error(lib.MB4SIM_ERROR_CALLBACK, "close")
-            if self._sim is not None:
-                ffi.release(self._sim)
-                self._sim = None
+        super().__init__(scenario)
+        self.driver = Driver(self)
+        self.regs = Registers(ChipBus(self), "mb4")
+        self.axi_regs = Registers(AxiBus(self), "axi")
 
     def __enter__(self) -> "Simulator":
         return self
 
     def __exit__(self, *_: Any) -> None:
         self.close()
-
-    def _call(self, function: Callable[..., Any], *arguments: Any) -> Any:
-        """Calls C with the other threads released. An exception of a callback comes out here."""
-        with self._lock:
-            if self._sim is None:
-                raise Error("the simulator is closed")
-            outer, self._running = self._running, True
-            try:
-                result = function(*arguments)
-            finally:
-                self._running = outer
-            if self._raised is not None and not outer:
-                raised, self._raised = self._raised, None
-                raise raised
-            return result
-
-    def _do(self, what: str, function: Callable[..., int], *arguments: Any) -> int:
-        with self._lock:
-            result = self._call(function, self._sim, *arguments)
-            if result < 0:
-                raise simulator_error(result, what)
-            return result
-
-    # --- host ---
-
-    def spi(self, data: bytes) -> bytes:
-        """One SPI frame: NCS low, these bytes, NCS high. Returns the chip's bytes."""
-        received = ffi.new("uint8_t[]", len(data))
-        self._do("spi", lib.mb4sim_spi_transfer, bytes(data), received, len(data))
-        return bytes(ffi.buffer(received))
-
-    def bus_write(self, address: int, value: int) -> None:
-        """One write cycle of the parallel bus."""
-        self._do("bus_write", lib.mb4sim_bus_write, address, value)
-
-    def bus_read(self, address: int) -> int:
-        """One read cycle of the parallel bus."""
-        value = ffi.new("uint8_t *")
-        self._do("bus_read", lib.mb4sim_bus_read, address, value)
-        return value[0]
-
-    def axi_write(self, address: int, value: int, strobe: int = 0xF) -> None:
-        """One write of a bus of 32-bit words (AXI4-Lite); bit b of strobe lets byte b be written."""
-        if self._do(f"axi_write 0x{address:02X}", lib.mb4sim_axi_write, address, value, strobe):
-            raise Error(f"axi_write 0x{address:02X}: the bus answered with an error")
-
-    def axi_read(self, address: int) -> int:
-        """One read of a bus of 32-bit words (AXI4-Lite)."""
-        value = ffi.new("uint32_t *")
-        if self._do(f"axi_read 0x{address:02X}", lib.mb4sim_axi_read, address, value):
-            raise Error(f"axi_read 0x{address:02X}: the bus answered with an error")
-        return value[0]
-
-    def mem_write(self, address: int, data: bytes) -> None:
-        """Writes bytes from any address of the bus of words on, one access a word."""
-        what = f"mem_write 0x{address:02X}"
-        if self._do(what, lib.mb4sim_mem_write, address, bytes(data), len(data)):
-            raise Error(f"{what}: the bus answered with an error")
-
-    def mem_read(self, address: int, count: int) -> bytes:
-        """Reads `count` bytes from any address of the bus of words on, one access a word."""
-        what, data = f"mem_read 0x{address:02X}", ffi.new("uint8_t[]", count)
-        if self._do(what, lib.mb4sim_mem_read, address, data, count):
-            raise Error(f"{what}: the bus answered with an error")
-        return bytes(ffi.buffer(data))
-
-    def stream_read(self) -> Optional[Tuple[List[int], int]]:
-        """The next beat of the stream of a master on AXI, (words, user); None if none waits."""
-        words, user = ffi.new("uint32_t[]", STREAM_WORDS), ffi.new("uint32_t *")
-        count = self._do("stream_read", lib.mb4sim_stream_read, words, STREAM_WORDS, user)
-        return (list(words[0:count]), user[0]) if count else None
 
     # --- time ---
 

@@ -18,60 +18,18 @@
 #include <utility>
 
 #include "sim/hosts/word_access.hpp"
+#include "sim/model/axi_lite_manager.hpp"
 
 namespace mb4::sim {
 
-// Address and data of a write come together. BREADY and RREADY are always 1.
 template <typename Model>
-class AxiManager {
+class AxiManager : public AxiLiteManager<Model> {
  public:
-  void rest(Model& m) {
-    m.s_axi_awvalid = m.s_axi_wvalid = m.s_axi_arvalid = 0;
-    m.s_axi_bready = m.s_axi_rready = 1;
-  }
   void clock(Model& m, bool level) { m.s_axi_aclk = level; }
   void reset(Model& m, bool active) {
     m.s_axi_aresetn = !active;
-    taken_ = handed_ = false;
-    late_ = 0;
+    this->forget();
   }
-  void begin(Model& m, const WordAccess& access) {
-    m.s_axi_awaddr = m.s_axi_araddr = static_cast<std::uint16_t>(access.address);
-    m.s_axi_wdata = access.data;
-    m.s_axi_wstrb = access.strobe;
-    m.s_axi_awvalid = m.s_axi_wvalid = access.write;
-    m.s_axi_arvalid = !access.write;
-  }
-  bool before(const Model& m, WordAccess& access) {
-    handed_ = (m.s_axi_awvalid && m.s_axi_awready) || (m.s_axi_arvalid && m.s_axi_arready);
-    taken_ = taken_ || handed_;
-    if (!m.s_axi_bvalid && !m.s_axi_rvalid) return false;
-    if (late_ != 0) {
-      --late_;
-      return false;
-    }
-    access.answer = m.s_axi_bvalid ? m.s_axi_bresp : m.s_axi_rresp;
-    if (!access.write) access.data = m.s_axi_rdata;
-    taken_ = false;
-    return true;
-  }
-  void after(Model& m) {
-    if (std::exchange(handed_, false)) {
-      m.s_axi_awvalid = m.s_axi_wvalid = m.s_axi_arvalid = 0;
-    }
-  }
-  void drop(Model& m) {
-    m.s_axi_awvalid = m.s_axi_wvalid = m.s_axi_arvalid = 0;
-    if (taken_) ++late_;
-    taken_ = handed_ = false;
-  }
-  // An answer is still to come.
-  bool owed() const { return late_ != 0; }
-
- private:
-  bool handed_ = false;  // the edge that is about to come takes address and data
-  bool taken_ = false;   // the running access has been taken
-  unsigned late_ = 0;    // answers of accesses that have been given up
 };
 
 template <typename Model>

@@ -3,11 +3,15 @@
 //
 // A half-duplex toy on a duplex line: a master that asks and a device that answers after a
 // turn-round. The line never rests: between two frames the master sends 0101... No shared room
-// knows either of them. Bits last 100 ns. A request is 1, 1, 1, 0 and eight bits; the answer is 0,
-// the eight bits of the device XOR those of the request, and a parity bit, the lowest bit first.
+// knows either of them, and `mb4sim plot` draws its frames. Bits last 100 ns. A request is 1, 1, 1,
+// 0 and eight bits; the answer is 0, the eight bits of the device XOR those of the request, and a
+// parity bit, the lowest bit first.
 #include <gtest/gtest.h>
 
 #include <cstdint>
+#include <cstdio>
+#include <fstream>
+#include <iterator>
 #include <memory>
 #include <optional>
 #include <string>
@@ -15,8 +19,13 @@
 #include <utility>
 #include <vector>
 
+#include "commands/commands.hpp"
 #include "mb4sim.h"
 #include "mb4sim/simulator.hpp"
+#include "plot/pictures.hpp"
+#include "plot/timing_svg.hpp"
+#include "report/exit_status.hpp"
+#include "session.hpp"
 #include "sim/core/scenario_error.hpp"
 #include "sim/core/toml_reader.hpp"
 #include "sim/lines/duplex/duplex_line.hpp"
@@ -244,12 +253,123 @@ const Master kAsking{
     },
     .wave_groups = nullptr};
 
+// ---- The picture --------------------------------------------------------------------------------
+
+// Where the driver of the master is on, what the master sees, and the fields of a frame.
+class EchoPicture final : public tool::LinePicture, private LineObserver {
+ public:
+  EchoPicture(Simulator& simulator, const ChannelConfig& channel)
+      : line_(*simulator.line(channel.number)),
+        turn_(dynamic_cast<const EchoConfig&>(*channel.slaves.front().device).turn) {
+    line_.observe(simulator.now(), this, true);
+  }
+  ~EchoPicture() override { line_.observe(0, nullptr, false); }
+
+  void finish(Simulator& simulator) override { simulator.advance(kBit); }
+  tool::Picture draw(const tool::PictureRequest& request, Time /*now*/) const override;
+  std::vector<tool::Signal> signals() const override { return {{"EN", &enable_}, {"IN", &seen_}}; }
+
+ private:
+  void frame_begun() override {}
+  void frame_over(const LineFrame& frame) override { frames_.push_back(frame); }
+  void edge(Time now, unsigned place, bool level) override {
+    if (place == MB4SIM_EDGE_EN) enable_.edge(now, level);
+    if (place == MB4SIM_EDGE_IN) seen_.edge(now, level);
+  }
+  // The bits from `at` on, the lowest first.
+  std::uint64_t bits(Time at, unsigned count) const {
+    std::uint64_t value = 0;
+    for (unsigned i = 0; i < count; ++i) {
+      value |= std::uint64_t{seen_.at(at + i * kBit + kBit / 2) ? 1U : 0U} << i;
+    }
+    return value;
+  }
+
+  Line& line_;
+  Time turn_;
+  tool::Wave enable_;
+  tool::Wave seen_;
+  std::vector<LineFrame> frames_;
+};
+
+tool::Picture EchoPicture::draw(const tool::PictureRequest& request, Time /*now*/) const {
+  if (request.frame > frames_.size()) throw tool::UseError(request.scenario + ": no such frame");
+  // The device finds the frame in the middle of the last bit in front of the request.
+  const Time asks = frames_[request.frame - 1].start + kBit / 2;
+  const Time answers = asks + kWordBits * kBit + turn_;
+  const Time begin = asks - 4 * kBit;
+  const auto cell = [&](Time time) {
+    return (static_cast<double>(time) - static_cast<double>(begin)) / static_cast<double>(kBit);
+  };
+  const std::uint64_t asked = bits(asks, kWordBits);
+  const std::uint64_t answer = bits(answers, kAnswerBits);
+  const std::uint64_t word = answer >> 1U & 0xFFU;
+  const bool right = parity(word) == (answer >> (1 + kWordBits) != 0);
+
+  tool::Diagram diagram;
+  diagram.title = request.title.empty() ? "Echo" : request.title;
+  diagram.axis = "bits";
+  diagram.length = cell(answers + (kAnswerBits + 1) * kBit);
+  for (const tool::Signal& signal : signals()) {
+    tool::DiagramRow row;
+    row.name = signal.name;
+    const tool::Wave part = signal.wave->between(begin, answers + (kAnswerBits + 1) * kBit);
+    row.idle = part.idle;
+    for (const tool::Edge& edge : part.edges) row.levels.push_back({cell(edge.time), edge.level});
+    diagram.rows.push_back(row);
+  }
+  tool::DiagramRow fields;
+  fields.type = tool::DiagramRow::Type::kFields;
+  const auto field = [&](Time from, unsigned count, tool::FieldKind kind, const char* name,
+                         std::uint64_t value, bool bad) {
+    char label[40];
+    std::snprintf(label, sizeof label, "%s 0x%02X", name, static_cast<unsigned>(value));
+    fields.fields.push_back({{cell(from), cell(from + count * kBit)}, kind, {label, ""}, bad});
+  };
+  field(asks, kWordBits, tool::FieldKind::kControl, "asks", asked, false);
+  field(answers + kBit, kWordBits, tool::FieldKind::kData, "data", word ^ asked, false);
+  field(answers + (1 + kWordBits) * kBit, 1, tool::FieldKind::kCrc, "P", right ? 1 : 0, !right);
+  diagram.rows.push_back(fields);
+  return {tool::timing_svg(diagram), (answer & 1U) == 0 && right};
+}
+
+const tool::PictureDecoder kEchoPicture{
+    "echo", &kDuplexLines,
+    [](Simulator& simulator, const ChannelConfig& channel) -> std::unique_ptr<tool::LinePicture> {
+      return std::make_unique<EchoPicture>(simulator, channel);
+    }};
+
+// What `mb4sim plot` needs to let frames come.
+class AskingSession final : public tool::Session {
+ public:
+  using Session::Session;
+  std::string configure() override { return ""; }
+  tool::SessionFrame read(std::uint64_t number) override {
+    asking->request = 0xA5;
+    simulator_.run_until(kPsPerUs + number * kFrame);
+    return {};
+  }
+  tool::RegisterMap registers() override { return {}; }
+
+ private:
+  static constexpr Time kFrame = AskingModel::kFrameBits * kBit;
+};
+
+const tool::MasterSupport kAskingSupport{
+    .type = "asking",
+    .check = [](const Scenario& /*scenario*/) {},
+    .open = [](const Scenario& scenario,
+               const tool::SessionOptions& options) -> std::unique_ptr<tool::Session> {
+      return std::make_unique<AskingSession>(scenario, options);
+    }};
+
 // ---- The tests ----------------------------------------------------------------------------------
 
 std::string text(const std::string& rest) {
   [[maybe_unused]] static const bool added = [] {
     add_master(kAsking);
     add_protocol(kEchoProtocol);
+    tool::add_picture(kEchoPicture);
     return true;
   }();
   return "[master]\ntype = \"asking\"\n[[channel]]\nnumber = 1\n" + rest;
@@ -359,5 +479,47 @@ TEST(DuplexToy, CInterface_TellsFramesAndEdges) {
   mb4sim_close(sim);
 }
 
+std::string content(const std::string& path) {
+  std::ifstream file(path);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+// `mb4sim plot` of the second frame. Returns its exit status.
+int plot(const std::string& rest, std::string& svg, std::string& vcd) {
+  tool::PlotOptions options;
+  options.scenario = testing::TempDir() + "toy.toml";
+  options.frame = 2;
+  options.svg = testing::TempDir() + "toy.svg";
+  options.vcd = testing::TempDir() + "toy.vcd";
+  std::ofstream(options.scenario) << text(rest);
+  const int status = tool::plot_command(options);
+  svg = content(options.svg);
+  vcd = content(options.vcd);
+  return status;
+}
+
+TEST(DuplexToy, Picture_ShowsQuestionAndAnswer) {
+  std::string svg, vcd;
+  EXPECT_EQ(plot(kDevice, svg, vcd), tool::kGood);
+  EXPECT_NE(svg.find("asks 0xA5"), std::string::npos) << svg;
+  EXPECT_NE(svg.find("data 0x5C"), std::string::npos);
+  EXPECT_NE(vcd.find("$var wire 1 ! EN1 $end\n$var wire 1 \" IN1 $end\n"), std::string::npos)
+      << vcd;
+  // Another turn-round moves the answer, and nothing else.
+  std::string late;
+  EXPECT_EQ(plot(std::string(kDevice) + "turn_ns = 300\n", late, vcd), tool::kGood);
+  EXPECT_NE(late.find("data 0x5C"), std::string::npos);
+  EXPECT_NE(late, svg);
+  // The second frame begins at 5 us.
+  EXPECT_EQ(plot(std::string(kDevice) + "[[fault]]\nkind = \"wrong-crc\"\nslave = 1\nat_us = 5\n"
+                                        "for_us = 4\n",
+                 svg, vcd),
+            tool::kBad);
+}
+
 }  // namespace
 }  // namespace mb4::sim
+
+namespace mb4::tool {
+const MasterSupport& support_of(const sim::Scenario& /*scenario*/) { return sim::kAskingSupport; }
+}  // namespace mb4::tool

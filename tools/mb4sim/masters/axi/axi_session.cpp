@@ -254,9 +254,6 @@ const MasterSupport kAxiSupport{
     .ma = {.name = "MA_DIVIDER",
            .most = regs::MA_DIVIDER::kMax,
            .refuses = "MA is the clock divided by twice MA_DIVIDER, exactly; not",
-           .divider = ma_divider},
-    .jitter_item = "",
-    .control = false,
-    .coverage = false};
+           .divider = ma_divider}};
 
 }  // namespace mb4::tool

@@ -8,6 +8,7 @@
 #include <array>
 
 #include "masters/mb4/chip_setup.hpp"
+#include "masters/mb4/mb4_scan.hpp"
 #include "masters/mb4/sim_bus.hpp"
 #include "mb4/device.hpp"
 #include "mb4/position.hpp"
@@ -230,6 +231,7 @@ const MasterSupport kMb4Support{
                          unsigned code) { return sim::ma_divider(code); }},
     .jitter_item = "I305",
     .control = true,
-    .coverage = true};
+    .coverage = true,
+    .scan = scan_mb4};
 
 }  // namespace mb4::tool

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
-#include "report/run_outputs.hpp"
+#include "commands/run_outputs.hpp"
 
 #include <string>
 #include <utility>
