@@ -104,6 +104,7 @@ MAY_USE = {
     "rtl/common/": (),
     "rtl/biss/": ("rtl/common/",),
     "rtl/axi/": ("rtl/common/", "rtl/biss/", "regmap/"),
+    "rtl/clb/": ("rtl/common/", "regmap/"),
     "rtl/mb4/mb4_pkg": (),
     "rtl/mb4/host/": ("rtl/common/", "rtl/mb4/mb4_pkg", "regmap/"),
     "rtl/mb4/regs/": ("rtl/common/", "rtl/biss/", "rtl/mb4/mb4_pkg", "regmap/"),
