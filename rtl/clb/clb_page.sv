@@ -6,7 +6,7 @@
 // Clock domain: core. An access never waits. Words of other modules read 0. Reading TIME_LOW copies
 // the high word. An event is in IRQ_STATUS at most 6 clocks later.
 //
-// Misuse: none.
+// Misuse: a write of WATCHDOG without the strobes of both of its bytes has no effect.
 // Source: regmap/clb.rdl; docs/clb.md.
 
 module clb_page #(
@@ -55,7 +55,8 @@ module clb_page #(
     .irq_o
   );
 
-  assign wr_watchdog = bus_i.wr && bus_i.addr == clb_regs_pkg::ADDR_WATCHDOG;
+  assign wr_watchdog = bus_i.wr && bus_i.be[1:0] == 2'b11 &&
+                       bus_i.addr == clb_regs_pkg::ADDR_WATCHDOG;
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
@@ -63,8 +64,7 @@ module clb_page #(
       watchdog_q <= 16'(Watchdog);
     end else begin
       if (bus_i.rd && bus_i.addr == clb_regs_pkg::ADDR_TIME_LOW) high_q <= now[63:32];
-      if (wr_watchdog && bus_i.be[0]) watchdog_q[7:0]  <= bus_i.data[7:0];
-      if (wr_watchdog && bus_i.be[1]) watchdog_q[15:8] <= bus_i.data[15:8];
+      if (wr_watchdog) watchdog_q <= bus_i.data[15:0];
     end
   end
 

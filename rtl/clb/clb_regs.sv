@@ -3,8 +3,10 @@
 //
 // Registers of both tiles and of the SPI.
 //
-// Clock domain: core. An access never waits. A byte without its strobe keeps its value. What acts
-// at once goes out in act_o with the clock of the access; its data are those of the bus.
+// Clock domain: core. An access never waits. What acts at once goes out in act_o one clock after the
+// access; its data are those of the bus, which stay for this clock.
+// A byte without its strobe keeps its value. A number of two bytes is written as a whole: with only
+// one of their strobes it keeps its value.
 //
 // Misuse: addresses without a register read 0 and ignore writes.
 // Source: regmap/clb.rdl; TIDM-1010 and the parts' manuals by docs/clb.md.
@@ -22,6 +24,8 @@ module clb_regs (
 );
 
   clb_pkg::cfg_t cfg_q;
+  clb_pkg::act_t act;
+  clb_pkg::act_t act_q;
   logic        start_q;     // START_OPERATION of the FSM tile
   logic        wr0, wr1;    // the write reaches bits 7..0, 15..8
   logic        whole;
@@ -50,25 +54,26 @@ module clb_regs (
       cfg_q.fifo_level     <= '0;
       start_q              <= 1'b0;
     end else begin
+      if (whole) begin
+        unique case (bus_i.addr)
+          clb_regs_pkg::ADDR_CLK_COUNTER_0_MATCH1: cfg_q.ma.match1      <= bus_i.data[11:0];
+          clb_regs_pkg::ADDR_CLK_COUNTER_0_MATCH2: cfg_q.ma.match2      <= bus_i.data[11:0];
+          clb_regs_pkg::ADDR_CLK_COUNTER_1_MATCH1: cfg_q.receive.match1 <= bus_i.data[11:0];
+          clb_regs_pkg::ADDR_CLK_COUNTER_1_MATCH2: cfg_q.receive.match2 <= bus_i.data[11:0];
+          default:;
+        endcase
+      end
       if (wr0) begin
         unique case (bus_i.addr)
-          clb_regs_pkg::ADDR_CLK_COUNTER_0_MATCH1: cfg_q.ma.match1[7:0]      <= bus_i.data[7:0];
-          clb_regs_pkg::ADDR_CLK_COUNTER_0_MATCH2: cfg_q.ma.match2[7:0]      <= bus_i.data[7:0];
-          clb_regs_pkg::ADDR_CLK_COUNTER_1_MATCH1: cfg_q.receive.match1[7:0] <= bus_i.data[7:0];
-          clb_regs_pkg::ADDR_CLK_COUNTER_1_MATCH2: cfg_q.receive.match2[7:0] <= bus_i.data[7:0];
-          clb_regs_pkg::ADDR_CLK_GPREG:            cfg_q.clock_run           <= bus_i.data[0];
-          clb_regs_pkg::ADDR_CLK_LOAD_EN:          cfg_q.clock_enable        <= bus_i.data[0];
-          clb_regs_pkg::ADDR_FSM_COUNTER_2_MATCH1: cfg_q.spi_match           <= bus_i.data[7:0];
-          clb_regs_pkg::ADDR_FSM_HLC_R0:           cfg_q.r0                  <= bus_i.data[7:0];
+          clb_regs_pkg::ADDR_CLK_GPREG:            cfg_q.clock_run      <= bus_i.data[0];
+          clb_regs_pkg::ADDR_CLK_LOAD_EN:          cfg_q.clock_enable   <= bus_i.data[0];
+          clb_regs_pkg::ADDR_FSM_COUNTER_2_MATCH1: cfg_q.spi_match      <= bus_i.data[7:0];
+          clb_regs_pkg::ADDR_FSM_HLC_R0:           cfg_q.r0             <= bus_i.data[7:0];
           clb_regs_pkg::ADDR_FSM_GPREG: begin
             cfg_q.end_level <= bus_i.data[7];
             start_q         <= bus_i.data[0];
           end
-          clb_regs_pkg::ADDR_FSM_LOAD_EN:          cfg_q.fsm_enable          <= bus_i.data[0];
-          clb_regs_pkg::ADDR_SPICCR: begin
-            cfg_q.char_last  <= bus_i.data[3:0];
-            cfg_q.spi_enable <= bus_i.data[7];
-          end
+          clb_regs_pkg::ADDR_FSM_LOAD_EN:          cfg_q.fsm_enable     <= bus_i.data[0];
           clb_regs_pkg::ADDR_SPIFFRX: begin
             cfg_q.fifo_irq   <= bus_i.data[5];
             cfg_q.fifo_level <= bus_i.data[4:0];
@@ -76,32 +81,32 @@ module clb_regs (
           default:;
         endcase
       end
-      if (wr1) begin
-        unique case (bus_i.addr)
-          clb_regs_pkg::ADDR_CLK_COUNTER_0_MATCH1: cfg_q.ma.match1[11:8]      <= bus_i.data[11:8];
-          clb_regs_pkg::ADDR_CLK_COUNTER_0_MATCH2: cfg_q.ma.match2[11:8]      <= bus_i.data[11:8];
-          clb_regs_pkg::ADDR_CLK_COUNTER_1_MATCH1: cfg_q.receive.match1[11:8] <= bus_i.data[11:8];
-          clb_regs_pkg::ADDR_CLK_COUNTER_1_MATCH2: cfg_q.receive.match2[11:8] <= bus_i.data[11:8];
-          clb_regs_pkg::ADDR_SPIFFRX:              cfg_q.fifo_enable          <= bus_i.data[13];
-          default:;
-        endcase
+      if (wr1 && bus_i.addr == clb_regs_pkg::ADDR_SPIFFRX) cfg_q.fifo_enable <= bus_i.data[13];
+      // The width of a word changes in the clock in which the part word is dropped.
+      if (act_q.char_write) begin
+        cfg_q.char_last  <= bus_i.data[3:0];
+        cfg_q.spi_enable <= bus_i.data[7];
       end
     end
   end
 
-  // What a counter takes is written as a whole, both bytes or none.
   always_comb begin
-    act_o.ma_load        = whole && bus_i.addr == clb_regs_pkg::ADDR_CLK_COUNTER_0_LOAD;
-    act_o.receive_load   = whole && bus_i.addr == clb_regs_pkg::ADDR_CLK_COUNTER_1_LOAD;
-    act_o.start          = wr0 && bus_i.addr == clb_regs_pkg::ADDR_FSM_GPREG && bus_i.data[0] &&
+    act.ma_load        = whole && bus_i.addr == clb_regs_pkg::ADDR_CLK_COUNTER_0_LOAD;
+    act.receive_load   = whole && bus_i.addr == clb_regs_pkg::ADDR_CLK_COUNTER_1_LOAD;
+    act.start          = wr0 && bus_i.addr == clb_regs_pkg::ADDR_FSM_GPREG && bus_i.data[0] &&
                            !start_q;
-    act_o.count_load     = whole && bus_i.addr == clb_regs_pkg::ADDR_FSM_COUNTER_1_LOAD;
-    act_o.count_match    = whole && bus_i.addr == clb_regs_pkg::ADDR_FSM_COUNTER_1_MATCH1;
-    act_o.spi_load       = wr0 && bus_i.addr == clb_regs_pkg::ADDR_FSM_COUNTER_2_LOAD;
-    act_o.char_write     = wr0 && bus_i.addr == clb_regs_pkg::ADDR_SPICCR;
-    act_o.int_clear      = wr0 && bus_i.addr == clb_regs_pkg::ADDR_SPIFFRX && bus_i.data[6];
-    act_o.overflow_clear = wr1 && bus_i.addr == clb_regs_pkg::ADDR_SPIFFRX && bus_i.data[14];
-    act_o.fifo_read      = bus_i.rd && bus_i.addr == clb_regs_pkg::ADDR_SPIRXBUF;
+    act.count_load     = whole && bus_i.addr == clb_regs_pkg::ADDR_FSM_COUNTER_1_LOAD;
+    act.count_match    = whole && bus_i.addr == clb_regs_pkg::ADDR_FSM_COUNTER_1_MATCH1;
+    act.spi_load       = wr0 && bus_i.addr == clb_regs_pkg::ADDR_FSM_COUNTER_2_LOAD;
+    act.char_write     = wr0 && bus_i.addr == clb_regs_pkg::ADDR_SPICCR;
+    act.int_clear      = wr0 && bus_i.addr == clb_regs_pkg::ADDR_SPIFFRX && bus_i.data[6];
+    act.overflow_clear = wr1 && bus_i.addr == clb_regs_pkg::ADDR_SPIFFRX && bus_i.data[14];
+    act.fifo_read      = bus_i.rd && bus_i.addr == clb_regs_pkg::ADDR_SPIRXBUF;
+  end
+
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) act_q <= '0;
+    else         act_q <= act;
   end
 
   always_comb begin
@@ -147,6 +152,7 @@ module clb_regs (
   end
 
   assign cfg_o  = cfg_q;
+  assign act_o  = act_q;
   assign unused = (^bus_i.data[31:16]) ^ bus_i.data[15] ^ bus_i.data[12] ^ (^bus_i.be[3:2]) ^
                   (^frame_i.ma_count[15:8]);
 

@@ -431,14 +431,18 @@ TEST_F(Clb, EveryAddress_ReadsAsTheMapSays) {
 }
 
 TEST_F(Clb, BytesWithoutTheirStrobe_KeepTheirValue) {
-  bench.write(reg::kAddrClkCounter0Match1, 0xFFF, 0x1);
-  EXPECT_EQ(bench.read(reg::kAddrClkCounter0Match1), 0x0FFU);
-  bench.write(reg::kAddrClkCounter0Match1, 0xA00, 0xE);
-  EXPECT_EQ(bench.read(reg::kAddrClkCounter0Match1), 0xAFFU);
-  bench.write(reg::kAddrWatchdog, 0x1234, 0x2);
-  EXPECT_EQ(bench.read(reg::kAddrWatchdog), 0x1200U);
-  bench.write(reg::kAddrWatchdog, 0x1234, 0xC);
-  EXPECT_EQ(bench.read(reg::kAddrWatchdog), 0x1200U);
+  for (const unsigned strobes : {0x0U, 0x1U, 0x2U, 0xCU, 0xDU, 0xEU}) {
+    bench.write(reg::kAddrClkCounter0Match1, 0xFFF, strobes);
+    EXPECT_EQ(bench.read(reg::kAddrClkCounter0Match1), 9U) << strobes;
+    bench.write(reg::kAddrWatchdog, 0xFFFF, strobes);
+    EXPECT_EQ(bench.read(reg::kAddrWatchdog), 4096U) << strobes;
+    bench.write(reg::kAddrFsmHlcR0, 0xFF, strobes & ~1U);
+    EXPECT_EQ(bench.read(reg::kAddrFsmHlcR0), 23U) << strobes;
+  }
+  bench.write(reg::kAddrClkCounter0Match1, 0xABC, 0x3);
+  EXPECT_EQ(bench.read(reg::kAddrClkCounter0Match1), 0xABCU);
+  bench.write(reg::kAddrFsmHlcR0, 0xFF, 0x1);
+  EXPECT_EQ(bench.read(reg::kAddrFsmHlcR0), 0xFFU);
   bench.write(reg::kAddrSpiffrx, 0xFFFF, 0x1);
   EXPECT_EQ(bench.read(reg::kAddrSpiffrx), 0x203FU);
   bench.write(reg::kAddrSpiffrx, 0, 0x2);
