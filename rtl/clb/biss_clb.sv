@@ -173,7 +173,7 @@ module biss_clb #(
     .push_i           (push),
     .word_i           (word),
     .pop_i            (act.fifo_read),
-    .int_clear_i      (act.int_clear),
+    .int_clear_i      (act.fifo_write && bus.data[6]),
     .overflow_clear_i (act.overflow_clear),
     .lost_o           (lost),
     .fifo_o           (fifo)

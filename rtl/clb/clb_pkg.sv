@@ -45,7 +45,7 @@ package clb_pkg;
     logic        count_match;
     logic        spi_load;
     logic        char_write;
-    logic        int_clear;
+    logic        fifo_write;     // bits 7..0 of SPIFFRX
     logic        overflow_clear;
     logic        fifo_read;
   } act_t;

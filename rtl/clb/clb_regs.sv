@@ -3,8 +3,8 @@
 //
 // Registers of both tiles and of the SPI.
 //
-// Clock domain: core. An access never waits. What acts at once goes out in act_o one clock after the
-// access; its data are those of the bus, which stay for this clock.
+// Clock domain: core. An access never waits. What acts at once goes out in act_o one clock after
+// the access; its data are those of the bus, which stay for this clock.
 // A byte without its strobe keeps its value. A number of two bytes is written as a whole: with only
 // one of their strobes it keeps its value.
 //
@@ -74,10 +74,6 @@ module clb_regs (
             start_q         <= bus_i.data[0];
           end
           clb_regs_pkg::ADDR_FSM_LOAD_EN:          cfg_q.fsm_enable     <= bus_i.data[0];
-          clb_regs_pkg::ADDR_SPIFFRX: begin
-            cfg_q.fifo_irq   <= bus_i.data[5];
-            cfg_q.fifo_level <= bus_i.data[4:0];
-          end
           default:;
         endcase
       end
@@ -86,6 +82,11 @@ module clb_regs (
       if (act_q.char_write) begin
         cfg_q.char_last  <= bus_i.data[3:0];
         cfg_q.spi_enable <= bus_i.data[7];
+      end
+      // The flag is cleared in the same clock, so that it does not interrupt.
+      if (act_q.fifo_write) begin
+        cfg_q.fifo_irq   <= bus_i.data[5];
+        cfg_q.fifo_level <= bus_i.data[4:0];
       end
     end
   end
@@ -99,7 +100,7 @@ module clb_regs (
     act.count_match    = whole && bus_i.addr == clb_regs_pkg::ADDR_FSM_COUNTER_1_MATCH1;
     act.spi_load       = wr0 && bus_i.addr == clb_regs_pkg::ADDR_FSM_COUNTER_2_LOAD;
     act.char_write     = wr0 && bus_i.addr == clb_regs_pkg::ADDR_SPICCR;
-    act.int_clear      = wr0 && bus_i.addr == clb_regs_pkg::ADDR_SPIFFRX && bus_i.data[6];
+    act.fifo_write     = wr0 && bus_i.addr == clb_regs_pkg::ADDR_SPIFFRX;
     act.overflow_clear = wr1 && bus_i.addr == clb_regs_pkg::ADDR_SPIFFRX && bus_i.data[14];
     act.fifo_read      = bus_i.rd && bus_i.addr == clb_regs_pkg::ADDR_SPIRXBUF;
   end
