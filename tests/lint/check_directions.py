@@ -56,6 +56,8 @@ MAY_USE = {
     "drivers/zephyr/": (*DRIVER, "regmap/"),
     "drivers/include/biss_axi/": ("drivers/include/enc/", "regmap/"),
     "drivers/include/biss_c.h": (),
+    "drivers/include/pm_bissc_include.h": (),
+    "drivers/c/pm_bissc": ("drivers/include/pm_bissc_include.h", "regmap/"),
     "drivers/c/biss_c": ("drivers/include/biss_axi/", "drivers/include/biss_c.h", "regmap/"),
     "sim/core/": (),
     "sim/lines/registers/": ("sim/core/", "sim/lines/"),
@@ -123,7 +125,7 @@ STILL = {
 }
 # Folders in which an include in quotes or angle brackets is looked for, after the file's own.
 INCLUDE_FOLDERS = ("sim/include/", "drivers/include/", "regmap/generated/mb4/", "regmap/generated/mb4_page/",
-                   "regmap/generated/axi/", "sim/model/",
+                   "regmap/generated/axi/", "regmap/generated/clb/", "sim/model/",
                    "tools/mb4sim/", "drivers/c/", "")
 CPP = (".cpp", ".hpp", ".c", ".h")
 
