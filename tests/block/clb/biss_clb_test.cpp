@@ -201,8 +201,8 @@ TEST_F(Clb, SamplingInstant_IsHalfABitBehindStartPlusWholeBits) {
     bench.drive_sl = nullptr;
     rest();
   }
-  ASSERT_EQ(taken.size(), 1U);
-  EXPECT_LE(std::abs(taken[0]), 1);
+  // The law allows one clock more or less.
+  EXPECT_EQ(taken, std::vector<int>{0});
 }
 
 // ---- Level of MA at the end -----------------------------------------------------------------
@@ -361,6 +361,7 @@ TEST_F(Clb, R0Of0_EndsWithTheNextRisingEdge) {
   bench.set_word(0x0E08, 13);
   for (unsigned delay = 0; delay < 22; ++delay) {
     bench.delay = delay;
+    bench.write(reg::kAddrFsmCounter1Match1, 200);
     bench.start(0, 2, true);
     rest(600);
     EXPECT_EQ(bench.state(), 3U);
