@@ -25,6 +25,7 @@ VERSION_LINE = r"(?m)^project\(openmb4 VERSION (\d+)\.(\d+)\.(\d+)\b"
 VERSION_COPIES = {
     "openmb4.core": r"(?m)^name: openmb4:ip:mb4:(\d+)\.(\d+)\.(\d+)$",
     "openmb4-axi.core": r"(?m)^name: openmb4:ip:biss_axi:(\d+)\.(\d+)\.(\d+)$",
+    "openmb4-clb.core": r"(?m)^name: openmb4:ip:biss_clb:(\d+)\.(\d+)\.(\d+)$",
     "drivers/include/mb4/version.hpp":
         r"VersionMajor = (\d+);[^;]*VersionMinor = (\d+);[^;]*VersionPatch = (\d+);",
 }

@@ -265,9 +265,10 @@ def self_test():
                              ("x\n", False, 0), (None, True, 1)):
         expect(count, runnable_findings({"a": text}, lambda _, bit=bit: bit), f"run bit of {text}")
 
-    core, axi_core, header, ipxact, changelog = *VERSION_COPIES, "any" + IPXACT[0], *RELEASE
+    core, axi_core, clb_core, header, ipxact, changelog = *VERSION_COPIES, "any" + IPXACT[0], *RELEASE
     good = {VERSION_FILE: "project(openmb4 VERSION 1.2.3 LANGUAGES C)\n",
             core: "name: openmb4:ip:mb4:1.2.3\n", axi_core: "name: openmb4:ip:biss_axi:1.2.3\n",
+            clb_core: "name: openmb4:ip:biss_clb:1.2.3\n",
             header: "kVersionMajor = 1;\nint kVersionMinor = 2;\nint kVersionPatch = 3;\n",
             ipxact: "<ipxact:version>1.2.3</ipxact:version>\n",
             changelog: "## [Unreleased]\n\n## [1.2.3] - 2026-01-01\n\n## [1.2.2] - 2025-01-01\n",
@@ -277,7 +278,7 @@ def self_test():
     for name, text in ((VERSION_FILE, "project(openmb4)"), (core, ""), (header, ""), (ipxact, ""),
                        ("a.txt", "Version 1.2.3."), ("a.h", '"1.2.3"'),
                        *((name, good[name].replace("3", "4", 1))
-                         for name in (core, axi_core, header, ipxact, changelog))):
+                         for name in (core, axi_core, clb_core, header, ipxact, changelog))):
         expect(1, version_findings({**good, name: text}), f"version in {name}: {text}")
 
     rooms = {"README.md": "`unit/`", "docs/README.md": "[speed](speed.md)", "tests/unit/a.py": "",

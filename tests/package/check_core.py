@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """The FuseSoC core files.
 
-  check_core.py lists   openmb4.core and openmb4-axi.core name the files of rtl/mb4/mb4.f and
-                        rtl/axi/axi.f in their order
+  check_core.py lists   openmb4.core, openmb4-axi.core and openmb4-clb.core name the files of
+                        rtl/mb4/mb4.f, rtl/axi/axi.f and rtl/clb/clb.f in their order
   check_core.py run     runs their targets, none of which may give a warning; skipped without fusesoc (PyPI)
 """
 import re
@@ -21,7 +21,8 @@ import project  # noqa: E402
 SKIPPED = 77
 
 
-CORES = {"openmb4.core": "mb4/mb4.f", "openmb4-axi.core": "axi/axi.f"}
+CORES = {"openmb4.core": "mb4/mb4.f", "openmb4-axi.core": "axi/axi.f",
+         "openmb4-clb.core": "clb/clb.f"}
 # docs/integration.md, "Features"
 BYTES = {"sim": 0x00, "sim_drive": 0xC7, "sim_single": 0x85, "sim_reader": 0x80}
 
