@@ -191,6 +191,23 @@ TEST_F(PmBissc, FrameWithoutStart_EndsByTheWatchdog) {
   EXPECT_EQ(PM_bissc_receivePosition(&scd, &cd, &encoder), PM_BISSC_DATA_INVALID) << "once";
 }
 
+TEST_F(PmBissc, HaltOperation_ClearsBothTiles) {
+  program_begin(0, 18, 6, 3, 0, kHalf);
+  position(0x12345, 18);
+  PM_bissc_setupSCDTransaction(&scd);
+  PM_bissc_startOperation(&scd, kHalf);
+  bench.clocks(100);
+  EXPECT_NE(bench.state(), 0U);
+  PM_bissc_haltOperation();
+  EXPECT_EQ(bench.state(), 0U);
+  EXPECT_EQ(bench.m.ma_o, 1);
+  for (const unsigned address : {0x40U, 0x44U, 0xC4U}) EXPECT_EQ(bench.read(address), 0U);
+  EXPECT_EQ(bench.read(0xC0), 0x80U) << "CDM = 0";
+  bench.clocks(1000);
+  EXPECT_FALSE(scd.dataReady);
+  EXPECT_EQ(program_frame(kHalf), PM_BISSC_PASS);
+}
+
 // No pause between frames: the calls wait for the encoder.
 TEST_F(PmBissc, FramesBackToBack_WaitForTheTimeout) {
   program_begin(12, 20, 6, 3, 0, kHalf);
