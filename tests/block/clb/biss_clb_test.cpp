@@ -182,6 +182,22 @@ TEST_F(Clb, EdgeOfSlInEveryClockOf2Periods_GivesEveryBit) {
   }
 }
 
+// 10 ns a metre for both ways (C-8), 200 MHz: 2 clocks a metre; 10, 5, 2 and 1 MHz.
+TEST_F(Clb, CableOf0To100MetresAtEachRate_GivesEveryBit) {
+  mb4test::Dice dice;
+  for (const unsigned half : {10U, 20U, 50U, 100U}) {
+    bench.set_half(half);
+    timeout(60 * half);
+    for (unsigned metres = 0; metres <= 100; metres += 10) {
+      bench.delay = 2 * metres;
+      bench.slave.busy = dice.below(5);
+      bench.set_word(dice.below(0x10000) << 16U | dice.below(0x10000), 32);
+      EXPECT_EQ(frame(32).substr(0, 42), sent()) << half << ' ' << metres;
+      rest(70 * half);
+    }
+  }
+}
+
 // SL is 1 for one clock only, in each place around the instant at which bit 5 should be taken.
 TEST_F(Clb, SamplingInstant_IsHalfABitBehindStartPlusWholeBits) {
   constexpr unsigned kHalf = 10, kBit = 5;
