@@ -5,6 +5,7 @@
 // frames (protocol facts 3.1 and 3.2), and that can alter chosen bits of an answer.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <deque>
@@ -235,6 +236,25 @@ TEST_F(PmBissc, Register40_ReturnsWhatWasWrittenAndTheWordsAreOnTheLine) {
   const std::vector<std::uint32_t> wanted{0xC4016038, 0xC401A000, 0xC4016074,
                                           0xC401A000, 0xC40160A0, 0xC401A000};
   EXPECT_EQ(registers.words, wanted);
+}
+
+// To the encoder a fall of MA at rest would be the begin of a frame. A low level that is no half
+// period is that of CDM = 1, and follows a half period.
+TEST_F(PmBissc, ControlBits_LetMaFallInFramesOnly) {
+  program_begin(0, 18, 6, 3, 0, kHalf);
+  position(0x12345, 18);
+  bench.rises.clear();
+  bench.falls.clear();
+  ASSERT_EQ(program_access(PM_BISSC_REGISTER_WRITE, 0x40, 0xA5, kHalf), PM_BISSC_CD_WRITE_PASS);
+  ASSERT_GT(bench.rises.size(), 1000U);
+  unsigned long_ones = 0;
+  for (std::size_t i = 1; i < bench.rises.size(); ++i) {
+    if (bench.rises[i] - bench.falls[i] == kHalf) continue;
+    EXPECT_EQ(bench.falls[i] - bench.rises[i - 1], kHalf) << i;
+    ++long_ones;
+  }
+  EXPECT_EQ(long_ones,
+            static_cast<unsigned>(std::count(registers.all.begin(), registers.all.end(), true)));
 }
 
 TEST_F(PmBissc, EveryAddressAndByte_GoesThereAndBack) {
