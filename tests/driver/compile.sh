@@ -5,6 +5,7 @@
 # Compiles driver code the way drive firmware does.
 #
 #   compile.sh accept COMPILER FILE FLAGS...           FILE must compile without a warning
+#   compile.sh as_cpp COMPILER FILE FLAGS...           FILE in C must compile as C++ without a warning
 #   compile.sh reject COMPILER FILE MESSAGE FLAGS...   FILE must fail and print MESSAGE
 #   compile.sh readme COMPILER FILE FLAGS...           cpp blocks of a Markdown file must build
 #
@@ -35,6 +36,9 @@ case $mode in
     printf '#include "%s"\n#include "%s"\n' "$file" "$file" > "$work/unit.cpp"
     case $file in *.c) cp "$file" "$work/unit.cpp" ;; esac
     "$compiler" $freestanding $strict "$@" -c "$work/unit.cpp" -o "$work/unit.o"
+    ;;
+  as_cpp)
+    "$compiler" -x c++ -std=c++17 -ffreestanding $strict "$@" -c "$file" -o "$work/unit.o"
     ;;
   reject)
     message=$1

@@ -28,6 +28,10 @@ INSTEAD = {
     "axi_word": "through axi_channel",
     "axi_core": "test tests/chip/axi/axi_frame_test.cpp",          # pins error and warn
     "biss_frame": "through biss_line",
+    "clb_counter": "through clb_frame",
+    "clb_frame": "through biss_clb",
+    "clb_page": "through biss_clb",
+    "clb_regs": "through biss_clb",
     "biss_sl_capture": "through biss_sl_sampler",
     "enc_axil": "proof axil",
     "enc_axis_fifo": "proof axis",

@@ -64,6 +64,8 @@ MAY_USE = {
     "drivers/arduino/": (*DRIVER, "regmap/"),
     "drivers/zephyr/": (*DRIVER, "regmap/"),
     "drivers/include/biss_c.h": (),
+    "drivers/include/pm_bissc_include.h": (),
+    "drivers/c/pm_bissc": ("drivers/include/pm_bissc_include.h", "regmap/"),
     "drivers/c/biss_c": ("drivers/include/biss_axi/", "drivers/include/biss_c.h", "regmap/"),
     "sim/core/": (),
     "sim/lines/registers/": ("sim/core/", "sim/lines/"),

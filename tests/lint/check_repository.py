@@ -289,7 +289,7 @@ def self_test():
     for name, text in ((VERSION_FILE, "project(openmb4)"), (core, ""), (header, ""), (ipxact, ""),
                        ("a.txt", "Version 1.2.3."), ("a.h", '"1.2.3"'),
                        *((name, good[name].replace("3", "4", 1))
-                         for name in (core, axi_core, header, ipxact, changelog))):
+                         for name in (*cores, header, ipxact, changelog))):
         expect(1, version_findings({**good, name: text}), f"version in {name}: {text}")
 
     rooms = {"README.md": "`unit/`", "docs/README.md": "[speed](speed.md)", "tests/unit/a.py": "",
