@@ -6,6 +6,7 @@
 # The page uses neither waveforms nor the master on AXI. They would take half of the build time.
 set(MB4_TRACE OFF)
 set(MB4_AXI OFF)
+set(MB4_DSL OFF)
 set(MB4_PRESETS "")
 
 add_compile_options(-fwasm-exceptions)

@@ -200,11 +200,13 @@ endfunction()
 
 set(MB4_TRACE ON)  # the simulator can write waveform files
 option(MB4_AXI "The simulator has what is on AXI or Wishbone" ON)
-option(MB4_FIRST "The shortest build: no AXI, no Wishbone, no smaller chips" OFF)
+option(MB4_DSL "The simulator has HIPERFACE DSL" ON)
+option(MB4_FIRST "The shortest build: no AXI, no Wishbone, no smaller chips, no HIPERFACE DSL" OFF)
 # Chips with fewer features that the simulator has beside the full one: drive, single, reader.
 set(MB4_PRESETS single CACHE STRING "Smaller chips of the simulator")
 if(MB4_FIRST)
   set(MB4_AXI OFF)
+  set(MB4_DSL OFF)
   set(MB4_PRESETS "")
 endif()
 if(EMSCRIPTEN)
