@@ -18,8 +18,8 @@ constexpr unsigned kEdgeToWindow = 19;  // up to the end of SWITCH
 constexpr unsigned kToEnd = 100;        // from the edge to the end of the trailer
 constexpr unsigned kLongestRun = 60;
 constexpr std::uint64_t kTestPattern = 0x4CC8115DFB33499;  // 60 bits, without the direction bit
-constexpr std::uint8_t kMarkerOfFast = 0xFD;
-constexpr std::uint8_t kMarkerOfSafe2 = 0xFB;
+constexpr std::uint8_t kMarker1 = 0xFD;
+constexpr std::uint8_t kMarker2 = 0xFB;
 constexpr std::uint8_t kVsync = 0x80;
 constexpr std::uint8_t kIdleSymbol = 0x10;
 constexpr std::uint8_t kInitSymbol = 0x1F;
@@ -334,19 +334,23 @@ void DslSlave::fill_channels() {
       config_.is_signed ? static_cast<std::uint64_t>(low_signed(before_, width)) : before_;
   const unsigned width2 = config_.safe2_bits == 0 ? width : std::min(config_.safe2_bits, width);
   const std::uint64_t second = ~(before_ >> (width - width2));
-  const auto fill = [](Channel& channel, std::uint8_t status, std::uint64_t value) {
+  const auto fill = [](Channel& channel, std::uint8_t status, std::uint64_t value,
+                       std::optional<std::uint8_t> marker) {
     channel.bytes[0] = status;
     for (unsigned i = 1; i <= 5; ++i) {
       channel.bytes[i] = static_cast<std::uint8_t>(value >> 8U * (5 - i));
     }
+    channel.marked = marker.has_value();
+    if (marker) channel.bytes[1] = *marker;
     const auto& b = channel.bytes;
     const std::uint16_t crc = dsl::check_safe({b[0], b[1], b[2], b[3], b[4], b[5]});
     channel.bytes[6] = static_cast<std::uint8_t>(crc >> 8U);
     channel.bytes[7] = static_cast<std::uint8_t>(crc);
   };
   toggle2_ = !toggle2_;
-  fill(safe1_, config_.summary, position);
-  fill(safe2_, static_cast<std::uint8_t>(kStatus2 | (toggle2_ ? kToggle2 : 0U)), second);
+  fill(safe1_, config_.summary, position, safe_marker_ ? std::optional(kMarker1) : std::nullopt);
+  fill(safe2_, static_cast<std::uint8_t>(kStatus2 | (toggle2_ ? kToggle2 : 0U)), second,
+       safe2_marker_ ? std::optional(kMarker2) : std::nullopt);
   if (wrong_crc()) safe1_.bytes[7] ^= 1U;
   if (wrong_crc2_) safe2_.bytes[7] ^= 1U;
 }
@@ -364,9 +368,9 @@ std::uint64_t DslSlave::data_frame() {
   const bool fits = acceleration_ >= -limit && acceleration_ < limit;
   overflowed_ |= !fits;
   dsl::Coder coder(config_.positive);
-  const bool marked1 = safe_marker_ && place_ == 1;
-  const bool marked2 = safe2_marker_ && place_ == 1;
-  const unsigned a = marked1 ? coder.special(kMarkerOfFast) : coder.data(safe1_.bytes[place_]);
+  const bool marked1 = safe1_.marked && place_ == 1;
+  const bool marked2 = safe2_.marked && place_ == 1;
+  const unsigned a = marked1 ? coder.special(kMarker1) : coder.data(safe1_.bytes[place_]);
   const auto s_par = static_cast<std::uint8_t>((vsync ? kVsync : 0U) | config_.s_par_bits << 5U |
                                                (running ? kIdleSymbol : kInitSymbol));
   const unsigned b = coder.data(s_par);
@@ -378,13 +382,13 @@ std::uint64_t DslSlave::data_frame() {
     d = coder.data(static_cast<std::uint8_t>(word >> 8U));
     e = coder.data(static_cast<std::uint8_t>(word));
   } else {
-    d = coder.special(kMarkerOfFast);
-    e = coder.special(kMarkerOfFast);
+    d = coder.special(kMarker1);
+    e = coder.special(kMarker1);
   }
   const std::uint64_t five = join({a, b, c, d, e});
   const std::uint8_t second = safe2_.bytes[place_];
   const bool special2 = place_ == 0 && config_.status2_k28;
-  const unsigned f = marked2    ? coder.special(kMarkerOfSafe2)
+  const unsigned f = marked2    ? coder.special(kMarker2)
                      : special2 ? coder.special(second)
                                 : coder.data(second);
   std::uint64_t word = with_direction(five, config_.direction, f);

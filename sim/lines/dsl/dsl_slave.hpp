@@ -97,8 +97,7 @@ class DslSlave final : public DuplexSlave {
   }
   // A second difference did not fit.
   bool overflowed() const { return overflowed_; }
-  // Bits of running answers that were inverted, by what means ever; of the last one, its first is
-  // bit 60.
+  // Bits of the last answer with data that were inverted, by what means ever; its first is bit 60.
   std::uint64_t inverted() const { return inverted_; }
 
  private:
@@ -111,6 +110,7 @@ class DslSlave final : public DuplexSlave {
   };
   struct Channel {
     std::array<std::uint8_t, kVertical> bytes{};
+    bool marked = false;  // the first byte of the position is a special character
   };
 
   Time bits(double count) const { return static_cast<Time>(count * bit_ + 0.5); }

@@ -6,6 +6,9 @@
 #ifndef MB4_TESTS_UNIT_DSL_BENCH_HPP_
 #define MB4_TESTS_UNIT_DSL_BENCH_HPP_
 
+#include <gtest/gtest.h>
+
+#include <algorithm>
 #include <cstdint>
 #include <cstdlib>
 #include <functional>
@@ -69,6 +72,18 @@ class Bench final : public LineMaster, public dsl_model::LinkListener {
     line_.add(std::move(encoder));
     model_.link().set_listener(this);
   }
+
+  // Two drivers are never on for longer than one needs to come on, whatever a test does. A cable on
+  // which answers end too late is `too_long`.
+  ~Bench() {
+    const DuplexContention& both = line_.contention();
+    if (!too_long) {
+      EXPECT_LE(both.total, both.times * cable_.enable);
+    }
+  }
+  Bench(const Bench&) = delete;
+  Bench& operator=(const Bench&) = delete;
+  bool too_long = false;
 
   Link& link() { return model_.link(); }
   LinkModel& model() { return model_; }
