@@ -68,8 +68,8 @@ bool Receiver::learn() {
   learning_ = true;
   const auto zero = first_zero();
   if (!zero) return false;
+  // This edge may have come late: all of them say whether the answer fits.
   place_ = *zero << kFraction;
-  if (!fits()) return false;
   track(false);
   return fits();
 }
