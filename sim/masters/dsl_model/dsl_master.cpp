@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "sim/core/toml_reader.hpp"
+#include "sim/core/trace_error.hpp"
 #include "sim/lines/duplex/duplex_lines.hpp"
 #include "sim/masters/live_master.hpp"
 
@@ -23,15 +24,15 @@ struct Field {
   unsigned lsb;
   unsigned width;
 };
-constexpr Field kSample{0, 2};
+constexpr Field kQuirkSample{0, 2};
 constexpr Field kQuirkCheck{2, 1};
-constexpr Field kRules{3, 2};
-constexpr Field kTable{5, 1};
-constexpr Field kRecover{6, 1};
-constexpr Field kRxStart{7, 4};
-constexpr Field kBlocks{11, 5};
-constexpr Field kVsync{16, 8};
-constexpr Field kStale{24, 2};
+constexpr Field kQuirkRules{3, 2};
+constexpr Field kQuirkTable{5, 1};
+constexpr Field kQuirkRecover{6, 1};
+constexpr Field kQuirkRxStart{7, 4};
+constexpr Field kQuirkBlocks{11, 5};
+constexpr Field kQuirkVsync{16, 8};
+constexpr Field kQuirkStale{24, 2};
 
 constexpr unsigned get(unsigned quirks, Field field) {
   return quirks >> field.lsb & ((1U << field.width) - 1);
@@ -42,15 +43,15 @@ constexpr void put(unsigned& quirks, Field field, unsigned value) {
 
 constexpr unsigned packed(const LinkRules& rules) {
   unsigned quirks = 0;
-  put(quirks, kSample, static_cast<unsigned>(rules.sample));
+  put(quirks, kQuirkSample, static_cast<unsigned>(rules.sample));
   put(quirks, kQuirkCheck, rules.check == CodeCheck::kStrict ? 1 : 0);
-  put(quirks, kRules, static_cast<unsigned>(rules.quality));
-  put(quirks, kTable, rules.rssi_table ? 1 : 0);
-  put(quirks, kRecover, rules.recover ? 1 : 0);
-  put(quirks, kRxStart, rules.rx_start);
-  put(quirks, kBlocks, rules.start_blocks);
-  put(quirks, kVsync, rules.vsync_limit);
-  put(quirks, kStale, rules.stale_limit);
+  put(quirks, kQuirkRules, static_cast<unsigned>(rules.quality));
+  put(quirks, kQuirkTable, rules.rssi_table ? 1 : 0);
+  put(quirks, kQuirkRecover, rules.recover ? 1 : 0);
+  put(quirks, kQuirkRxStart, rules.rx_start);
+  put(quirks, kQuirkBlocks, rules.start_blocks);
+  put(quirks, kQuirkVsync, rules.vsync_limit);
+  put(quirks, kQuirkStale, rules.stale_limit);
   return quirks;
 }
 
@@ -63,17 +64,17 @@ void read_quirks(TomlReader& reader, ChipConfig& chip) {
       put(chip.quirks, field, static_cast<unsigned>(*value));
     }
   };
-  flag("RECOVER", kRecover);
+  flag("RECOVER", kQuirkRecover);
   flag("STRICT_CODE", kQuirkCheck);
-  flag("RSSI_TABLE", kTable);
-  number("SAMPLE", kSample, 2);
+  flag("RSSI_TABLE", kQuirkTable);
+  number("SAMPLE", kQuirkSample, 2);
   if (const auto rules = reader.choice("RULES", {"document", "sick", "firmware"})) {
-    put(chip.quirks, kRules, static_cast<unsigned>(*rules));
+    put(chip.quirks, kQuirkRules, static_cast<unsigned>(*rules));
   }
-  number("RX_START", kRxStart, 15);
-  number("START_BLOCKS", kBlocks, kMaxBlocks);
-  number("VSYNC_LIMIT", kVsync, 255);
-  number("STALE_LIMIT", kStale, 3);
+  number("RX_START", kQuirkRxStart, 15);
+  number("START_BLOCKS", kQuirkBlocks, kMaxBlocks);
+  number("VSYNC_LIMIT", kQuirkVsync, 255);
+  number("STALE_LIMIT", kQuirkStale, 3);
 }
 
 void read_host(TomlReader& reader, const ChipConfig& /*chip*/, HostConfig& host) {
@@ -85,7 +86,11 @@ void read_host(TomlReader& reader, const ChipConfig& /*chip*/, HostConfig& host)
 class LiveLink final : public LiveMaster {
  public:
   explicit LiveLink(const MasterSetup& setup)
-      : model_(rules_of(setup.chip), setup.chip.f_clk_hz, kResetLow), host_(model_) {}
+      : model_(rules_of(setup.chip), setup.chip.f_clk_hz, kResetLow), host_(model_) {
+    if (setup.trace != nullptr) {
+      throw TraceError(setup.trace->path + ": this master writes no waveform");
+    }
+  }
   MasterModel& model() override { return model_; }
   void power_on() override {}
   HostModel* host(std::string_view name) override {
@@ -102,15 +107,15 @@ class LiveLink final : public LiveMaster {
 LinkRules rules_of(const ChipConfig& chip) {
   const unsigned quirks = chip.quirks;
   LinkRules rules;
-  rules.sample = static_cast<SampleRule>(get(quirks, kSample));
+  rules.sample = static_cast<SampleRule>(get(quirks, kQuirkSample));
   rules.check = get(quirks, kQuirkCheck) != 0 ? CodeCheck::kStrict : CodeCheck::kPublished;
-  rules.quality = static_cast<QualityRules>(get(quirks, kRules));
-  rules.rssi_table = get(quirks, kTable) != 0;
-  rules.recover = get(quirks, kRecover) != 0;
-  rules.rx_start = get(quirks, kRxStart);
-  rules.start_blocks = get(quirks, kBlocks);
-  rules.vsync_limit = get(quirks, kVsync);
-  rules.stale_limit = get(quirks, kStale);
+  rules.quality = static_cast<QualityRules>(get(quirks, kQuirkRules));
+  rules.rssi_table = get(quirks, kQuirkTable) != 0;
+  rules.recover = get(quirks, kQuirkRecover) != 0;
+  rules.rx_start = get(quirks, kQuirkRxStart);
+  rules.start_blocks = get(quirks, kQuirkBlocks);
+  rules.vsync_limit = get(quirks, kQuirkVsync);
+  rules.stale_limit = get(quirks, kQuirkStale);
   return rules;
 }
 

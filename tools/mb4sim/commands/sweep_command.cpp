@@ -107,6 +107,7 @@ SweepPlane sweep_plane(sim::Scenario scenario, unsigned code, const Sweep& sweep
 int sweep_command(const SweepOptions& options) {
   const sim::Scenario scenario = sim::load_scenario(options.scenario);
   const MasterSupport& support = support_of(scenario);
+  require_clocked(scenario, "sweep");
   Sweep sweep;
   sweep.code_name = support.ma.name;
   sweep.jitter_item = support.jitter_item;
