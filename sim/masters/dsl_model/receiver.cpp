@@ -68,8 +68,10 @@ bool Receiver::learn() {
   learning_ = true;
   const auto zero = first_zero();
   if (!zero) return false;
-  // This edge may have come late: all of them say whether the answer fits.
+  // This edge may have come early or late. If it is half a bit away from others, these count to the
+  // wrong bit; so the same edges are measured again from the place that they have given.
   place_ = *zero << kFraction;
+  track(false);
   track(false);
   return fits();
 }
