@@ -180,6 +180,30 @@ TEST(DslScenario, Motor_IsFollowed) {
   EXPECT_THROW(simulator.start_trace("no.fst"), TraceError);
 }
 
+// A bit-flip of a named frame: the running frames count.
+TEST(DslScenario, BitFlip_HitsItsFrame) {
+  const std::string flip = "[[fault]]\nkind = \"bit-flip\"\nchannel = 1\nanswer_bit = 33\n";
+  Simulator simulator(
+      parse_scenario(std::string(kMaster) + kMotor + flip + "frame = 200\n", "motor.toml"));
+  auto& host = simulator.host<LinkHost>("none");
+  std::vector<std::uint64_t> bad;
+  simulator.run_until(5000 * kPsPerUs);
+  while (const auto frame = host.take()) {
+    if (frame->number != 0 && !frame->acceleration_good) bad.push_back(frame->number);
+  }
+  EXPECT_EQ(bad, std::vector<std::uint64_t>{200});
+  for (const char* other : {"at_us = 1\n", "per_s = 1\n"}) {
+    EXPECT_NE(error_of(std::string(kMaster) + kMotor + flip + "frame = 200\n" + other)
+                  .find("cannot be given together with frame"),
+              std::string::npos);
+  }
+  EXPECT_NE(error_of(std::string(kMaster) + kMotor + flip + "frame = 0\n").find("'frame'"),
+            std::string::npos);
+  EXPECT_NE(
+      error_of(std::string(kMaster) + kMotor + flip + "frame = 2\nbits = [1]\n").find("answer_bit"),
+      std::string::npos);
+}
+
 // Faults of a slave and of the line; the link comes back after each.
 TEST(DslScenario, Faults_BeginAndEnd) {
   for (const char* kind : {"silent", "unplug", "wrong-crc", "wrong-crc2", "fast-marker",
