@@ -176,15 +176,21 @@ void DslSlave::take_parameter(Time now) {
     miss();
     return finish(now);
   }
+  // Symbols of the training are whole bytes, so that one wrong bit of a running frame makes none.
   const unsigned byte = parameter().value_or(kMasterIdle | kFirstBit | (msync_ ? kMsyncBit : 0U));
-  const unsigned symbol = byte & kSymbol;
+  const unsigned symbol = byte >= kMasterSync && byte <= kMasterReset ? byte
+                          : (byte & kSymbol) == kMasterInit           ? kMasterInit
+                                                                      : kMasterIdle;
   if (symbol == kMasterReset || symbol == kMasterSync) {
     syncs_ = symbol == kMasterReset ? 0 : syncs_ + 1;
     training_ = 0;
     started_ = false;
     return finish(now);
   }
-  if (syncs_ < config_.sync_frames) return finish(now);
+  // Up to the first START the line is the master's.
+  if (syncs_ < config_.sync_frames || (training_ == 0 && symbol != kMasterStart)) {
+    return finish(now);
+  }
   const bool changes = msync_seen_ && ((byte & kMsyncBit) != 0) != msync_;
   msync_ = (byte & kMsyncBit) != 0;
   msync_seen_ = started_;

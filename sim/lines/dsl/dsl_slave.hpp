@@ -8,7 +8,8 @@
 //   else from there. In RESET and SYNC frames it is silent.
 // - START, LEARN and CHECK get the test pattern, an ID request its identity, all else a frame of
 //   data: a byte of each safe channel, S_PAR, the pipeline, the second difference of the position.
-// - A symbol that is none is answered as IDLE. A frame whose SYNC is not there gets no answer, and
+// - It is silent up to the first START. Then a symbol that is none is answered as IDLE. A frame
+// whose SYNC is not there gets no answer, and
 //   the count of its vertical frame goes on.
 // - A second difference that does not fit is the error marker K29.7; the position stays the true
 // one.

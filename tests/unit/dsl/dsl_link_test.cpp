@@ -83,7 +83,7 @@ void no_link(BenchSetup setup, LineAction action, const std::string& what) {
   for (const SampleRule rule : kRules) {
     setup.rules.sample = rule;
     Bench bench(setup);
-    bench.too_long = true;
+    bench.may_collide = true;
     bench.line().act(0, action);
     bench.on_frame = [&](const LinkFrame& frame) {
       ASSERT_FALSE(frame.linked) << what;

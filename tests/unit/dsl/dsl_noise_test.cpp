@@ -53,6 +53,7 @@ Counts run(double errors, CodeCheck check, bool recover, std::uint64_t frames,
   setup.metres(40);
   setup.seed = 2026;
   Bench bench(setup);
+  bench.may_collide = master;
   RandomMotion motion(bench.encoder(), 99);
   Counts counts;
   std::uint64_t row = 0;
