@@ -51,6 +51,7 @@ struct FaultConfig {
   // bit-flip: bits of the frame as in Line::flip(). abort: one number of SCLK clocks. Empty:
   // random.
   std::vector<unsigned> bits;
+  std::uint64_t frame = 0;  // bit-flip: this frame is hit, by Line::flip_frames(); 0: the next one
   unsigned frame_bits = 1;  // a random bit of bit-flip is below this number
 
   std::vector<Time> at;    // times since power-on, ps; empty: random times

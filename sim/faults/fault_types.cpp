@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <iterator>
+#include <limits>
 #include <vector>
 
 #include "sim/core/number_text.hpp"
@@ -49,6 +50,13 @@ void read_width(TomlReader& reader, const char* key, FaultConfig& fault) {
 // --- line ----------------------------------------------------------------------------------
 
 void read_bit_flip(TomlReader& reader, const FaultLimits& /*limits*/, FaultConfig& fault) {
+  if (const auto frame = reader.integer("frame", 1, std::numeric_limits<std::int64_t>::max())) {
+    fault.frame = static_cast<std::uint64_t>(*frame);
+  }
+  if (const auto bit = reader.integer("answer_bit", 0, kMaxBit)) {
+    if (reader.has("bits")) reader.fail("answer_bit", "cannot be given together with bits");
+    fault.bits.push_back(static_cast<unsigned>(*bit));
+  }
   const TomlValue* list = reader.value("bits");
   if (list == nullptr) return;
   const std::string wanted = "expected a list of 0 to 4095";
@@ -68,7 +76,7 @@ std::string begin_bit_flip(Scene scene) {
   std::string list;
   for (const unsigned bit : bits) list += (list.empty() ? "" : ", ") + std::to_string(bit);
   // The running frame may be past these bits, so they are inverted in the next one.
-  const std::uint64_t frame = line.flip_frames() + 1;
+  const std::uint64_t frame = scene.config.frame != 0 ? scene.config.frame : line.flip_frames() + 1;
   line.flip(frame, bits);
   scene.record.frame = frame;
   return "bit " + list + " of frame " + std::to_string(frame) + " inverted, channel " +

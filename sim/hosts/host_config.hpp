@@ -47,6 +47,8 @@ struct HostConfig {
   bool serial() const { return !interface.parallel && !interface.words; }
   // MA frequency that `mb4sim run` sets up. The master can always make it.
   std::uint64_t ma_hz = 10'000'000;
+  // For a line that has to be trained: how long the host waits for it, ps.
+  Time link_wait = 100'000 * kPsPerUs;
   TableSource source;
 };
 

@@ -6,6 +6,9 @@
 #include <iterator>
 
 #include "sim/lines/biss/biss_protocols.hpp"
+#if MB4SIM_WITH_DSL_MODEL
+#include "sim/lines/dsl/dsl_protocol.hpp"
+#endif
 #include "sim/lines/replay/replay_protocol.hpp"
 #include "sim/lines/ssi/ssi_protocol.hpp"
 
@@ -15,8 +18,12 @@ namespace {
 
 // The protocols of this library, and those that the program has added.
 std::vector<const Protocol*>& list() {
-  static std::vector<const Protocol*> all{&kBissCProtocol, &kReplayProtocol, &kBissBProtocol,
-                                          &kSsiProtocol};
+  static std::vector<const Protocol*> all {
+    &kBissCProtocol, &kReplayProtocol, &kBissBProtocol, &kSsiProtocol,
+#if MB4SIM_WITH_DSL_MODEL
+        &kDslProtocol,
+#endif
+  };
   return all;
 }
 

@@ -55,6 +55,8 @@ std::string read_words(TomlReader& reader, unsigned data_bits, DataSource& sourc
   return path;
 }
 
+}  // namespace
+
 void read_source(TomlReader& reader, SensorConfig& config, std::string& file) {
   DataSource& source = config.source;
   const auto kind = reader.choice("source", {"ramp", "sine", "file"});
@@ -91,8 +93,6 @@ void read_source(TomlReader& reader, SensorConfig& config, std::string& file) {
     file = read_words(reader, config.data_bits, source);
   }
 }
-
-}  // namespace
 
 void read_crc(TomlReader& reader, Crc& crc) {
   if (const auto polynomial = reader.integer("crc", 0, kMaxPolynomial)) {
@@ -166,9 +166,14 @@ void read_sensor(TomlReader& reader, SensorConfig& config, unsigned default_flag
   read_source(reader, config, file);
 }
 
+void know_source_keys(TomlReader& reader) {
+  reader.know(
+      {"data", "source", "start", "step", "amplitude", "period_us", "offset", "file", "repeat"});
+}
+
 void know_sensor_keys(TomlReader& reader) {
-  reader.know({"data_bits", "flag_bits", "flags", "crc", "crc_start", "data", "source", "start",
-               "step", "amplitude", "period_us", "offset", "file", "repeat"});
+  reader.know({"data_bits", "flag_bits", "flags", "crc", "crc_start"});
+  know_source_keys(reader);
 }
 
 }  // namespace mb4::sim

@@ -29,6 +29,9 @@ void read_timeout_us(TomlReader& reader, std::string_view name, Time& value);
 // preset. `file` becomes the path of the file of words, if there is one.
 void read_sensor(TomlReader& reader, SensorConfig& config, unsigned default_flags,
                  std::string& file);
+// Reads the source of a sensor whose lengths and flags are known, and names its keys.
+void read_source(TomlReader& reader, SensorConfig& config, std::string& file);
+void know_source_keys(TomlReader& reader);
 // Names the keys of read_sensor() to TomlReader::know().
 void know_sensor_keys(TomlReader& reader);
 

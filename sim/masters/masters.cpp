@@ -4,6 +4,9 @@
 #include <vector>
 
 #include "sim/masters/axi/axi_master.hpp"
+#if MB4SIM_WITH_DSL_MODEL
+#include "sim/masters/dsl_model/dsl_master.hpp"
+#endif
 #include "sim/masters/mb4/mb4_master.hpp"
 
 namespace mb4::sim {
@@ -15,13 +18,10 @@ constexpr const Master* kMasters[] = {
 #if MB4SIM_WITH_AXI
     &kAxiMaster,
 #endif
-};
-
-#if MB4SIM_WITH_AXI
-constexpr std::span<const LeftOut> kLeftOut;
-#else
-constexpr LeftOut kLeftOut[] = {{"axi", "-DMB4_AXI=ON"}};
+#if MB4SIM_WITH_DSL_MODEL
+    &kDslModelMaster,
 #endif
+};
 
 // Those of the list, and those that the program has added.
 std::vector<const Master*>& list() {
@@ -33,7 +33,15 @@ std::vector<const Master*>& list() {
 
 std::span<const Master* const> masters() { return list(); }
 
-std::span<const LeftOut> masters_left_out() { return kLeftOut; }
+std::span<const LeftOut> masters_left_out() {
+  static const std::vector<LeftOut> all = [] {
+    std::vector<LeftOut> missing;
+    if (!MB4SIM_WITH_AXI) missing.push_back({"axi", "-DMB4_AXI=ON"});
+    if (!MB4SIM_WITH_DSL_MODEL) missing.push_back({"dsl-model", "-DMB4_DSL=ON"});
+    return missing;
+  }();
+  return all;
+}
 
 void add_master(const Master& master) { list().push_back(&master); }
 

@@ -35,6 +35,7 @@ ChipConfig read_chip(const TomlValue& table, TomlFile& file, const Master& maste
   TomlReader reader(table, file);
   ChipConfig chip;
   chip.quirks = master.quirks;
+  chip.f_clk_hz = master.clk_hz;
   if (const auto hz = reader.integer("f_clk_hz", 0, master.max_clk_hz)) {
     if (*hz != 0 && *hz < master.min_clk_hz) {
       reader.fail("f_clk_hz", std::to_string(*hz) + " is below " +
@@ -136,6 +137,7 @@ Scenario parse_scenario(std::string_view text, const std::string& name) {
   reader.finish();
   if (master != nullptr) scenario.master = &read_master(*master, file);
   scenario.chip.quirks = scenario.master->quirks;
+  scenario.chip.f_clk_hz = scenario.master->clk_hz;
   if (chip != nullptr) scenario.chip = read_chip(*chip, file, *scenario.master);
   const TomlValue none;
   scenario.host = read_host(host != nullptr ? *host : none, file, *scenario.master, scenario.chip);

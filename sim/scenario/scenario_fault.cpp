@@ -104,6 +104,13 @@ void read_at(TomlReader& reader, FaultConfig& fault) {
 }
 
 void read_when(TomlReader& reader, FaultConfig& fault) {
+  if (fault.frame != 0) {
+    for (const char* key : {"at_us", "per_s", "from_us", "to_us", "for_us"}) {
+      if (reader.has(key)) reader.fail(key, "cannot be given together with frame");
+    }
+    fault.at.push_back(0);
+    return;
+  }
   const char* const one = "one of at_us (fixed times) and per_s (random) is needed";
   if (reader.has("at_us") && reader.has("per_s")) reader.fail("at_us", one);
   if (!reader.has("at_us") && !reader.has("per_s")) {
@@ -142,7 +149,7 @@ FaultConfig read_fault(const TomlValue& table, const Scenario& scenario, TomlFil
   if (!kind) {
     reader.missing("kind");
     reader.know({"channel", "bits", "on", "level", "width_ns", "jitter_ns", "slave", "after_clocks",
-                 "hz", "at_us", "per_s", "from_us", "to_us", "for_us"});
+                 "hz", "frame", "answer_bit", "at_us", "per_s", "from_us", "to_us", "for_us"});
     reader.finish();
     return fault;
   }

@@ -56,8 +56,12 @@ SlaveConfig read_slave(const TomlValue& table, TomlFile& file, const LineKind& l
   const auto which = reader.choice("protocol", names);
   if (!which) {
     reader.missing("protocol");
-    reader.know({"preset", "registers"});
-    for (const Protocol* each : protocols()) each->know_keys(reader);
+    reader.know({"registers"});
+    for (const Protocol* each : protocols()) {
+      if (each->line != &line) continue;
+      if (each->presets != nullptr) reader.know({"preset"});
+      each->know_keys(reader);
+    }
     reader.finish();
     slave.device = protocols().front()->blank();
     return slave;

@@ -48,7 +48,7 @@ DRIVER = tuple(name for layer in DRIVER_HEADERS for name in layer if "/detail/" 
 # What a master may know of its kind of line: that it is the one, and its pins.
 MASTER_CLOCKED = ("sim/lines/clocked/clocked_end", "sim/lines/clocked/clocked_lines")
 CLOCKED = ("sim/lines/clocked/", *MASTER_CLOCKED)
-LINES = {None: (), "clocked": MASTER_CLOCKED, "duplex": ("sim/lines/duplex/",)}
+LINES = {None: (), "clocked": MASTER_CLOCKED, "duplex": ("sim/lines/duplex/", "sim/lines/duplex/duplex_lines")}
 
 # Rooms of the masters of masters.toml. The iC-MB4 has finer ones below.
 MASTERS = project.MASTERS.values()
@@ -76,8 +76,11 @@ MAY_USE = {
     "sim/lines/biss/": ("sim/core/", "sim/lines/registers/", "sim/lines/", *CLOCKED),
     "sim/lines/ssi/": ("sim/core/", "sim/lines/registers/", "sim/lines/", *CLOCKED),
     "sim/lines/replay/": ("sim/core/", "sim/lines/registers/", "sim/lines/", *CLOCKED),
-    "sim/lines/duplex/": ("sim/core/", "sim/lines/"),
-    "sim/lines/protocols.cpp": ("sim/lines/", "sim/lines/biss/", "sim/lines/ssi/", "sim/lines/replay/"),
+    "sim/lines/duplex/": ("sim/core/", "sim/lines/", "sim/lines/duplex/duplex_lines"),
+    "sim/lines/duplex/duplex_lines": ("sim/core/", "sim/lines/", "sim/lines/duplex/"),
+    "sim/lines/dsl/": ("sim/core/", "sim/lines/", "sim/lines/duplex/", "sim/lines/duplex/duplex_lines"),
+    "sim/lines/protocols.cpp": ("sim/lines/", "sim/lines/biss/", "sim/lines/ssi/", "sim/lines/replay/",
+                                "sim/lines/dsl/"),
     "sim/hosts/": ("sim/core/",),
     "sim/masters/": ("sim/core/", "sim/hosts/"),
     **{f"sim/masters/{master.name}/": ("sim/core/", "sim/hosts/", "sim/masters/", "sim/model/", *LINES[master.line])

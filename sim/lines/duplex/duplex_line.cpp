@@ -12,6 +12,8 @@ namespace {
 
 constexpr std::uint64_t kOutPart = 1;  // part numbers of derive_seed()
 constexpr std::uint64_t kInPart = 2;
+constexpr std::uint64_t kAnswerPart = 3;
+constexpr std::uint64_t kMasterPart = 4;
 constexpr unsigned kLevel = 1;  // bits of a Wire
 constexpr unsigned kDriven = 2;
 constexpr unsigned kFirstPlace = 4;  // MB4SIM_EDGE_OUT
@@ -29,16 +31,28 @@ void DuplexSlave::call_at(Time time, std::uint64_t word) {
   line_->queue_.post(time, &DuplexLine::on_timer, line_, word);
 }
 
-std::vector<unsigned> DuplexSlave::begin_frame(Time now) {
+void DuplexSlave::announce_frame(Time start) {
   ++begun_;
-  if (line_ != nullptr) line_->frame_begins(now);
-  const auto found = flips_.extract(begun_);
+  if (line_ != nullptr) line_->frame_begins(start);
+}
+
+std::vector<unsigned> DuplexSlave::take_flips(std::uint64_t frame) {
+  if (flips_.empty()) return {};
+  const auto found = flips_.extract(frame);
   return found.empty() ? std::vector<unsigned>{} : found.mapped();
 }
 
-void DuplexSlave::end_frame(Time now) {
-  if (line_ != nullptr) line_->frame_ends(now);
+std::vector<unsigned> DuplexSlave::begin_frame(Time now) {
+  announce_frame(now);
+  return take_flips(begun_);
 }
+
+void DuplexSlave::end_frame(Time now, std::optional<std::uint64_t> edges) {
+  if (line_ != nullptr) line_->frame_ends(now, edges);
+}
+
+Time DuplexSlave::enable_time() const { return line_ == nullptr ? 0 : line_->enable_; }
+Time DuplexSlave::disable_time() const { return line_ == nullptr ? 0 : line_->disable_; }
 
 // ---- The line -----------------------------------------------------------------------------------
 
@@ -50,6 +64,8 @@ DuplexLine::DuplexLine(const LineSetup& setup)
           derive_seed(setup.seed, kInPart), kLevel, &DuplexLine::at_master, this),
       enable_(duplex(setup.config).enable),
       disable_(duplex(setup.config).disable),
+      answer_errors_(duplex(setup.config).answer_errors, derive_seed(setup.seed, kAnswerPart)),
+      master_errors_(duplex(setup.config).master_errors, derive_seed(setup.seed, kMasterPart)),
       master_(setup.master),
       index_(setup.index),
       events_(setup.config.events) {
@@ -64,6 +80,8 @@ void DuplexLine::add(std::unique_ptr<DuplexSlave> slave) {
   assert(slave_ == nullptr);
   slave_ = std::move(slave);
   slave_->line_ = this;
+  slave_->errors_.answer = answer_errors_;
+  slave_->errors_.master = master_errors_;
 }
 
 void DuplexLine::drive(Time now, unsigned levels) {
@@ -218,9 +236,10 @@ void DuplexLine::frame_begins(Time now) {
   if (observer_ != nullptr) observer_->frame_begun();
 }
 
-void DuplexLine::frame_ends(Time now) {
+void DuplexLine::frame_ends(Time now, std::optional<std::uint64_t> edges) {
   if (!frame_) return;
   frame_->end = now;
+  frame_->edges = edges.value_or(frame_->edges);
   const LineFrame over = *std::exchange(frame_, std::nullopt);
   if (observer_ != nullptr) observer_->frame_over(over);
 }

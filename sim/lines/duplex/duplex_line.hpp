@@ -32,10 +32,12 @@ inline constexpr unsigned kOutPin = 1;     // level to send
 inline constexpr unsigned kEnablePin = 2;  // its driver is on
 
 struct DuplexConfig : LineConfig {
-  WireFaults out;    // master to device
-  WireFaults in;     // device to master
-  Time enable = 0;   // from the pin to a driver that is on, both ends, ps
-  Time disable = 0;  // ... that is off
+  WireFaults out;            // master to device
+  WireFaults in;             // device to master
+  Time enable = 0;           // from the pin to a driver that is on, both ends, ps
+  Time disable = 0;          // ... that is off
+  double answer_errors = 0;  // chance that a bit of the device's is wrong when it sends it
+  double master_errors = 0;  // ... that one of the master's is when the device takes it
 };
 
 // Times when both ends have driven, as a receiver at one of the ends sees it.
@@ -81,7 +83,7 @@ class DuplexLine final : public Line {
 
   // --- frames: the device knows them -------------------------------------------------------------
   void flip(std::uint64_t frame, std::vector<unsigned> bits) override;
-  std::uint64_t flip_frames() const override { return size() == 0 ? 0 : slave_->begun(); }
+  std::uint64_t flip_frames() const override { return size() == 0 ? 0 : slave_->flip_frames(); }
   void observe(Time now, LineObserver* observer, bool edges) override;
 
   // --- for a waveform ----------------------------------------------------------------------------
@@ -128,7 +130,7 @@ class DuplexLine final : public Line {
   std::array<bool, 4> levels() const;
   void tell_edges(Time now);
   void frame_begins(Time now);
-  void frame_ends(Time now);
+  void frame_ends(Time now, std::optional<std::uint64_t> edges = std::nullopt);
 
   EventQueue& queue_;
   Wire out_;  // bit 0 is the level, bit 1 the driver
@@ -136,6 +138,8 @@ class DuplexLine final : public Line {
   std::array<End, 2> ends_{};
   Time enable_;
   Time disable_;
+  BitErrors answer_errors_;
+  BitErrors master_errors_;
   LineMaster& master_;
   unsigned index_;
   std::vector<LineEvent> events_;

@@ -15,14 +15,21 @@ namespace {
 constexpr WireName kWires[] = {
     {"line", "the line"}, {"in", "the way to the master"}, {"out", "the way to the device"}};
 
+// Of usual transceivers.
+constexpr Time kEnable = 30 * kPsPerNs;
+constexpr Time kDisable = 40 * kPsPerNs;
+constexpr double kMaxErrors = 0.1;
+
 Copied<LineConfig> read(TomlReader& reader) {
   DuplexConfig config;
   config.delay = read_delay(reader);
   config.in = read_wire_faults(reader, "");
   config.out = read_wire_faults(reader, "out_");
   read_glitch_width(reader, config.in, config.out, "out_");
-  config.enable = read_delay(reader, "enable_ns").value_or(0);
-  config.disable = read_delay(reader, "disable_ns").value_or(0);
+  config.enable = read_delay(reader, "enable_ns").value_or(kEnable);
+  config.disable = read_delay(reader, "disable_ns").value_or(kDisable);
+  config.answer_errors = reader.number("answer_errors", 0, kMaxErrors).value_or(0);
+  config.master_errors = reader.number("master_errors", 0, kMaxErrors).value_or(0);
   config.events = read_events(reader, kWires);
   config.flips = read_flips(reader);
   return config;

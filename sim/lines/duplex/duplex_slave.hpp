@@ -8,9 +8,11 @@
 
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <utility>
 #include <vector>
 
+#include "sim/core/random.hpp"
 #include "sim/core/time.hpp"
 #include "sim/lines/slave.hpp"
 
@@ -24,6 +26,19 @@ struct DuplexDrive {
   bool enable = false;
 
   bool operator==(const DuplexDrive&) const = default;
+};
+
+// Bits that are wrong at random, each with the same chance.
+class BitErrors {
+ public:
+  BitErrors() = default;
+  BitErrors(double chance, std::uint64_t seed)
+      : random_(seed), limit_(static_cast<std::uint64_t>(chance * 0x1p64)) {}
+  bool next_is_wrong() { return limit_ != 0 && random_.next() < limit_; }
+
+ private:
+  Random random_{0};
+  std::uint64_t limit_ = 0;  // of 2^64
 };
 
 class DuplexSlave : public Slave {
@@ -41,6 +56,8 @@ class DuplexSlave : public Slave {
   void flip(std::uint64_t frame, std::vector<unsigned> bits) { flips_[frame] = std::move(bits); }
   // Number of frames that have begun.
   std::uint64_t begun() const { return begun_; }
+  // Number of frames that flip() has counted: all of them, unless a device counts its own way.
+  virtual std::uint64_t flip_frames() const { return begun_; }
 
  protected:
   // Its transceiver: the level goes out as long as the driver is on.
@@ -50,7 +67,20 @@ class DuplexSlave : public Slave {
   // A frame begins, with the bits that are to be inverted in it; it is over. A frame that begins
   // before the last one is over has ended it.
   std::vector<unsigned> begin_frame(Time now);
-  void end_frame(Time now);
+  // `edges`: what mb4sim_frame counts, if not the edges at the device.
+  void end_frame(Time now, std::optional<std::uint64_t> edges = std::nullopt);
+  // The same two steps for a device that recognises a frame late: `start` may lie in the past, and
+  // the bits to invert are asked for by the number that the device gives the frame.
+  void announce_frame(Time start);
+  std::vector<unsigned> take_flips(std::uint64_t frame);
+
+  // Of the transceiver at this end: from the pin to a driver that is on, and off.
+  Time enable_time() const;
+  Time disable_time() const;
+  // Draws whether a bit is wrong, as the scenario wants it: one that this end sends, one that it
+  // takes. Each bit is drawn once.
+  bool wrong_answer_bit() { return errors_.answer.next_is_wrong(); }
+  bool wrong_master_bit() { return errors_.master.next_is_wrong(); }
 
  private:
   friend class DuplexLine;
@@ -59,6 +89,10 @@ class DuplexSlave : public Slave {
   DuplexDrive drive_;
   std::uint64_t begun_ = 0;
   std::map<std::uint64_t, std::vector<unsigned>> flips_;
+  struct {
+    BitErrors answer;
+    BitErrors master;
+  } errors_;
 };
 
 }  // namespace mb4::sim

@@ -35,9 +35,12 @@ TEST(FaultParts, Kinds_AreListedOnce) {
   std::vector<std::string_view> names;
   for (const FaultType& type : fault_types()) names.push_back(type.name);
   const std::vector<std::string_view> expected = {
-      "bit-flip",  "glitch",   "stuck",           "jitter",        "silent",       "busy",
-      "wrong-crc", "wrong-id", "stuck-word",      "stuck-counter", "skipped-word", "swapped-words",
-      "unplug",    "abort",    "clock-frequency", "clock-stop"};
+      "bit-flip",        "glitch",        "stuck",        "jitter",
+      "silent",          "busy",          "wrong-crc",    "wrong-id",
+      "stuck-word",      "stuck-counter", "skipped-word", "swapped-words",
+      "wrong-crc2",      "fast-marker",   "safe-marker",  "safe2-marker",
+      "no-vsync",        "early-vsync",   "unplug",       "abort",
+      "clock-frequency", "clock-stop"};
   EXPECT_EQ(names, expected);
 }
 

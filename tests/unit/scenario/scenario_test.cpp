@@ -96,6 +96,11 @@ TEST(Scenario, KeysOfAnyKind_AreKnownWithoutTheKind) {
                        "\"ssi\"", "\"ssi\"\ncontrol = true\ndata_bits = 8", "\"replay\"",
                        "\"replay\"\nplay = \"clock\"\ndata_bits = 8"}),
               39},
+        Table{"[master]\ntype = \"dsl-model\"\n" + channel,
+              "protocol",
+              {"\"dsl\"", "\"dsl\"\nsource = \"ramp\"", "\"dsl\"\nsource = \"sine\"",
+               "\"dsl\"\nsource = \"file\""},
+              30},
         Table{fault,
               "kind",
               {"\"bit-flip\"", "\"glitch\"", "\"stuck\"", "\"jitter\"", "\"silent\"", "\"abort\"",
@@ -241,7 +246,8 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(
         BadScenario{"UnknownTable", "[chips]\n", "s.toml:1:2: key 'chips': unknown key"},
         BadScenario{"Master", "[master]\ntype = \"ic-mb9\"\n",
-                    "s.toml:2:8: key 'type': unknown value 'ic-mb9', expected one of: ic-mb4, axi"},
+                    "s.toml:2:8: key 'type': unknown value 'ic-mb9', expected one of: ic-mb4, axi, "
+                    "dsl-model"},
         BadScenario{"MasterKey", "[master]\nname = \"ic-mb4\"\n",
                     "s.toml:2:1: key 'name': unknown key"},
         BadScenario{"UnknownKey", "[chip]\nf_clk_hz = 20_000_000\nf_clk = 3\n",

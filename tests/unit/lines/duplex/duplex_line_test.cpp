@@ -30,9 +30,15 @@ class Hand final : public DuplexSlave {
   bool set_data(std::uint64_t /*raw*/) override { return false; }
   void line_changed(Time now, bool level) override { seen.emplace_back(now, level); }
   bool idle() const override { return true; }
+  using DuplexSlave::announce_frame;
   using DuplexSlave::begin_frame;
+  using DuplexSlave::disable_time;
+  using DuplexSlave::enable_time;
   using DuplexSlave::end_frame;
   using DuplexSlave::set_drive;
+  using DuplexSlave::take_flips;
+  using DuplexSlave::wrong_answer_bit;
+  using DuplexSlave::wrong_master_bit;
 
   Edges seen;
 };
@@ -325,6 +331,44 @@ TEST_F(DuplexLineTest, Events_OfAScenario) {
   EXPECT_EQ(master.seen, ns({{1000, false}, {2000, true}}));
 }
 
+// A device that finds a frame late, counts its bits, and gives it a number of its own.
+TEST_F(DuplexLineTest, FrameFoundLate_BeginsInThePast) {
+  make();
+  Watcher watcher;
+  line->observe(0, &watcher, false);
+  line->flip(40, {1, 2});
+  hand->announce_frame(1000 * kNs);
+  EXPECT_EQ(hand->take_flips(1), std::vector<unsigned>{});
+  EXPECT_EQ(hand->take_flips(40), (std::vector<unsigned>{1, 2}));
+  EXPECT_EQ(hand->take_flips(40), std::vector<unsigned>{});
+  out(1500, false, true);
+  end();
+  hand->end_frame(3000 * kNs, 108);
+  ASSERT_EQ(watcher.frames.size(), 1U);
+  EXPECT_EQ(watcher.frames[0].number, 1U);
+  EXPECT_EQ(watcher.frames[0].start, 1000 * kNs);
+  EXPECT_EQ(watcher.frames[0].end, 3000 * kNs);
+  EXPECT_EQ(watcher.frames[0].edges, 108U);
+}
+
+// The chance of each direction by itself: 10,000 bits at 1 in 10 within five deviations.
+TEST_F(DuplexLineTest, WrongBits_HaveTheirChance) {
+  config.answer_errors = 0.1;
+  config.enable = 3;
+  config.disable = 4;
+  make();
+  EXPECT_EQ(hand->enable_time(), 3U);
+  EXPECT_EQ(hand->disable_time(), 4U);
+  int answers = 0;
+  int masters = 0;
+  for (int i = 0; i < 10'000; ++i) {
+    answers += hand->wrong_answer_bit() ? 1 : 0;
+    masters += hand->wrong_master_bit() ? 1 : 0;
+  }
+  EXPECT_NEAR(answers, 1000, 150);
+  EXPECT_EQ(masters, 0);
+}
+
 DuplexConfig read(const std::string& text) {
   const TomlValue table = parse_toml(text, "line.toml");
   TomlFile file{"line.toml", {}};
@@ -350,6 +394,17 @@ TEST(DuplexKeys, AreRead) {
   ASSERT_EQ(config.events.size(), 2U);
   EXPECT_EQ(config.events[0].action, (LineAction{What::kLow, DuplexLine::kOut}));
   EXPECT_EQ(config.events[1].action, (LineAction{What::kFree, DuplexLine::kBoth}));
+}
+
+TEST(DuplexKeys, Defaults_AreThoseOfUsualTransceivers) {
+  const DuplexConfig config = read("");
+  EXPECT_EQ(config.enable, 30 * kNs);
+  EXPECT_EQ(config.disable, 40 * kNs);
+  EXPECT_EQ(config.answer_errors, 0);
+  EXPECT_EQ(config.master_errors, 0);
+  EXPECT_EQ(read("master_errors = 0.1\n").master_errors, 0.1);
+  EXPECT_EQ(read("answer_errors = 1e-4\n").answer_errors, 1e-4);
+  EXPECT_THROW(read("answer_errors = 0.11\n"), ScenarioError);
 }
 
 TEST(DuplexKeys, OfOtherLines_AreRefused) {

@@ -403,7 +403,7 @@ TEST(DuplexToy, AsksAndIsAnswered_FrameByFrame) {
 
 TEST(DuplexToy, AnswerThatComesEarly_IsContention) {
   Simulator simulator(
-      parse_scenario(text(std::string("disable_ns = 150\n") + kDevice), "toy.toml"));
+      parse_scenario(text(std::string("enable_ns = 0\ndisable_ns = 150\n") + kDevice), "toy.toml"));
   simulator.run_until(kPsPerUs + 3 * kFrame);
   // The master's driver is off 150 ns after the request, the answer begins after 100 ns; it is off
   // 150 ns after its end, where the master's has been on for 50 ns.

@@ -1,0 +1,89 @@
+// SPDX-FileCopyrightText: 2026 The openmb4 authors
+// SPDX-License-Identifier: Apache-2.0
+#include "sim/lines/dsl/dsl_protocol.hpp"
+
+#include "sim/lines/dsl/dsl_faults.hpp"
+#include "sim/lines/dsl/dsl_slave.hpp"
+#include "sim/lines/duplex/duplex_lines.hpp"
+#include "sim/lines/sensor_keys.hpp"
+
+namespace mb4::sim {
+namespace {
+
+constexpr unsigned kLeastPosition = 12;
+constexpr unsigned kMostPosition = 40;
+constexpr double kMaxLatencyNs = 1e4;
+constexpr double kMaxPpm = 1000;
+constexpr std::string_view kFollows[] = {"ignore", "follow"};
+
+void know_keys(TomlReader& reader) {
+  know_source_keys(reader);
+  reader.know({"position_bits",   "acceleration_bits", "index",         "signed",
+               "summary",         "safe2_bits",        "pipeline",      "s_par_bits",
+               "sync_frames",     "vsync_after",       "msync",         "first",
+               "vsync_phase",     "start_disparity",   "direction_bit", "lead_ns",
+               "lead_level",      "status2_k28",       "latency_ns",    "clock_ppm",
+               "broken_identity", "wrong_pattern"});
+}
+
+void read_number(TomlReader& reader, const char* key, unsigned least, unsigned most,
+                 unsigned& value) {
+  if (const auto number = reader.integer(key, least, most)) value = static_cast<unsigned>(*number);
+}
+
+void read_byte(TomlReader& reader, const char* key, std::uint8_t& value) {
+  if (const auto number = reader.integer(key, 0, 255)) value = static_cast<std::uint8_t>(*number);
+}
+
+void read(TomlReader& reader, DeviceConfig& device, std::string& file) {
+  auto& config = static_cast<DslSlaveConfig&>(device);
+  config.data_bits = 32;
+  config.flag_bits = 0;
+  config.flags = 0;
+  read_number(reader, "position_bits", kLeastPosition, kMostPosition, config.data_bits);
+  read_source(reader, config, file);
+  read_number(reader, "acceleration_bits", 8, 11, config.acceleration_bits);
+  read_number(reader, "index", 0, 15, config.index);
+  config.is_signed = reader.boolean("signed").value_or(false);
+  read_byte(reader, "summary", config.summary);
+  read_number(reader, "safe2_bits", 1, config.data_bits, config.safe2_bits);
+  read_byte(reader, "pipeline", config.pipeline);
+  read_number(reader, "s_par_bits", 0, 3, config.s_par_bits);
+  read_number(reader, "sync_frames", 0, 100, config.sync_frames);
+  read_number(reader, "vsync_after", 1, 1000, config.vsync_after);
+  const auto follow = [&](const char* key) {
+    return reader.choice(key, kFollows).value_or(0) == 1 ? DslFollow::kFollow : DslFollow::kIgnore;
+  };
+  config.msync = follow("msync");
+  config.first = follow("first");
+  if (reader.has("vsync_phase") && config.msync == DslFollow::kIgnore) {
+    reader.fail("vsync_phase", "only together with msync = \"follow\"");
+  }
+  read_number(reader, "vsync_phase", 0, 7, config.vsync_phase);
+  if (const auto disparity = reader.integer("start_disparity", -1, 1)) {
+    if (*disparity == 0) reader.fail("start_disparity", "expected -1 or 1");
+    config.positive = *disparity > 0;
+  }
+  if (const TomlValue* value = reader.value("direction_bit")) {
+    const bool text = value->is(TomlValue::Kind::kText);
+    if (text ? value->text != "opposite" : !value->within(0, 1)) {
+      reader.fail("direction_bit", "expected \"opposite\", 0 or 1");
+    }
+    if (!text) config.direction = value->integer == 1;
+  }
+  if (const auto ns = reader.number("lead_ns", 0, 1000)) config.lead = from_ns(*ns);
+  config.lead_level = reader.integer("lead_level", 0, 1).value_or(1) == 1;
+  config.status2_k28 = reader.boolean("status2_k28").value_or(true);
+  if (const auto ns = reader.number("latency_ns", 0, kMaxLatencyNs)) config.latency = from_ns(*ns);
+  config.clock_ppm = reader.number("clock_ppm", -kMaxPpm, kMaxPpm).value_or(0);
+  config.broken_identity = reader.boolean("broken_identity").value_or(false);
+  read_number(reader, "wrong_pattern", 0, 34, config.wrong_pattern);
+}
+
+}  // namespace
+
+const Protocol kDslProtocol{
+    "dsl",   &kDuplexLines, know_keys,          [] { return Device(DslSlaveConfig()); },
+    nullptr, read,          slave_fault::kOfDsl};
+
+}  // namespace mb4::sim

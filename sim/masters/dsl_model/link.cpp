@@ -1,0 +1,334 @@
+// SPDX-FileCopyrightText: 2026 The openmb4 authors
+// SPDX-License-Identifier: Apache-2.0
+#include "sim/masters/dsl_model/link.hpp"
+
+#include <span>
+
+namespace mb4::sim::dsl_model {
+namespace {
+
+constexpr unsigned kResetFrames = 2;
+constexpr unsigned kSyncFrames = 16;
+constexpr unsigned kStartFrames = 9;
+constexpr unsigned kLearnFrames = 9;
+constexpr unsigned kCheckFrames = 16;
+constexpr unsigned kVertical = 8;
+constexpr unsigned kLowRssi = 2;
+constexpr std::uint8_t kVsync = 0x80;  // in S_PAR
+constexpr std::uint8_t kTest2 = 0x40;  // in STATUS2
+constexpr unsigned kMaxPositionBits = 40;
+constexpr unsigned kMaxAccelerationBits = 11;
+
+std::uint64_t position_in(const std::array<std::uint8_t, 8>& bytes) {
+  std::uint64_t position = 0;
+  for (unsigned i = 1; i <= 5; ++i) position = position << 8U | bytes[i];
+  return position;
+}
+
+std::uint16_t crc_in(const std::array<std::uint8_t, 8>& bytes) {
+  return static_cast<std::uint16_t>(bytes[6] << 8U | bytes[7]);
+}
+
+// A special character where only `allowed` may stand. K28.x is accepted as a byte.
+bool unexpected(const Word& word, std::uint8_t allowed) {
+  return word.special && !word.error && word.byte != allowed;
+}
+
+}  // namespace
+
+const char* name_of(LinkState state) {
+  constexpr const char* kNames[] = {"gap",   "RESET",  "SYNC",       "START",  "LEARN",
+                                    "CHECK", "ID REQ", "WAIT VSYNC", "running"};
+  return kNames[static_cast<unsigned>(state)];
+}
+
+const char* name_of(Restart reason) {
+  constexpr const char* kNames[] = {"none",
+                                    "no answer was found",
+                                    "another pattern in LEARN",
+                                    "another pattern in CHECK",
+                                    "the encoder's identity is broken",
+                                    "no VSYNC",
+                                    "the quality is too low",
+                                    "too many accelerations are missing"};
+  return kNames[static_cast<unsigned>(reason)];
+}
+
+AnswerWords words_of(Answer answer, CodeCheck check) {
+  const auto word = [&](unsigned lowest, Channel channel = Channel::kPlain) {
+    return decode(static_cast<unsigned>(answer >> lowest), check, channel);
+  };
+  return {.vertical = word(51),
+          .parameter = word(41),
+          .pipeline = word(31),
+          .acceleration_high = word(21, Channel::kAcceleration),
+          .acceleration_low = word(11, Channel::kAcceleration),
+          .secondary = word(0, Channel::kSecond),
+          .direction = (answer >> 10U & 1U) != 0};
+}
+
+Link::Link(const LinkRules& rules)
+    : rules_(rules),
+      receiver_(rules.sample, rules.rssi_table),
+      motion_({.recover = rules.recover, .stale_limit = rules.stale_limit}),
+      quality_(rules.quality) {
+  restarting_ = true;
+}
+
+// ---- Frames -------------------------------------------------------------------------------------
+
+void Link::enter(LinkState state, unsigned frames) {
+  state_ = state;
+  left_ = frames;
+}
+
+// The state of the next frame. Those with an answer are left by judge().
+void Link::step() {
+  if (restarting_) {
+    restarting_ = false;
+    receiver_.forget();
+    disparity_ = 0;
+    vertical_ = false;
+    return enter(LinkState::kGap, 1);
+  }
+  if (left_ != 0) return;
+  switch (state_) {
+    case LinkState::kGap:
+      return enter(LinkState::kReset, kResetFrames);
+    case LinkState::kReset:
+      return enter(LinkState::kSync, kSyncFrames);
+    case LinkState::kSync:
+      return enter(LinkState::kStart, kStartFrames);
+    case LinkState::kStart:
+      return enter(LinkState::kLearn, kLearnFrames);
+    case LinkState::kLearn:
+      return enter(LinkState::kCheck, kCheckFrames);
+    case LinkState::kCheck:
+      return enter(LinkState::kIdRequest, 1);
+    case LinkState::kIdRequest:
+      waited_ = 0;
+      return enter(LinkState::kWaitVsync, 1);
+    case LinkState::kWaitVsync:
+    case LinkState::kRun:
+      left_ = 1;
+      return;
+  }
+}
+
+void Link::next_frame() {
+  step();
+  --left_;
+  tick_ = 0;
+  began_ = ticks_;
+  receiving_ = false;
+  if (state_ == LinkState::kGap) {
+    plan_.make_gap();
+    end_ = plan_.bits() * kTicksPerBit;
+    return;
+  }
+  unsigned parameter = 0;
+  FrameShape shape;
+  bool answer = true;
+  switch (state_) {
+    case LinkState::kReset:
+      parameter = kReset;
+      answer = false;
+      break;
+    case LinkState::kSync:
+      parameter = kSync;
+      answer = false;
+      break;
+    case LinkState::kStart:
+      parameter = kStart;
+      shape.blocks = rules_.start_blocks;
+      break;
+    case LinkState::kLearn:
+      parameter = kLearn;
+      break;
+    case LinkState::kCheck:
+      parameter = kCheck;
+      break;
+    case LinkState::kIdRequest:
+      parameter = kIdRequest;
+      break;
+    case LinkState::kWaitVsync:
+      parameter = kInit | kFirstBit;
+      break;
+    default:
+      parameter = kIdle | kFirstBit | (vertical_ ? kVerticalBit : 0U);
+  }
+  plan_.make(parameter, answer, shape, disparity_);
+  end_ = plan_.bits() * kTicksPerBit;
+  receiving_ = answer;
+  first_sample_ = plan_.switch_bit() * kTicksPerBit + rules_.rx_start;
+  receiver_.begin();
+}
+
+// The frame is finished with its trailer.
+void Link::restart(Restart reason) {
+  restarting_ = true;
+  ++restarts_;
+  last_restart_ = reason;
+  plan_.drop_stuffing();
+  end_ = plan_.bits() * kTicksPerBit;
+  frame_.linked = false;
+  frame_.lost = true;
+  frame_.restart = reason;
+}
+
+// ---- Answers ------------------------------------------------------------------------------------
+
+// The window is over.
+void Link::judge() {
+  receiving_ = false;
+  frame_.number = 0;
+  frame_.sampled = began_ + plan_.sample_tick();
+  frame_.state = state_;
+  frame_.safe_new = false;
+  frame_.restart = Restart::kNone;
+  switch (state_) {
+    case LinkState::kStart:
+      if (!receiver_.learn()) restart(Restart::kNotFound);
+      break;
+    case LinkState::kLearn:
+      if (!receiver_.matches()) restart(Restart::kLearn);
+      break;
+    case LinkState::kCheck:
+      if (!receiver_.matches()) restart(Restart::kCheck);
+      break;
+    default:
+      frame_.answer = receiver_.answer();
+      frame_.rssi = receiver_.rssi();
+      frame_.words = words_of(frame_.answer, rules_.check);
+      if (state_ == LinkState::kIdRequest) take_identity();
+      if (state_ == LinkState::kWaitVsync) {
+        wait_for_vsync();
+      } else if (state_ == LinkState::kRun) {
+        run();
+      }
+  }
+  frame_.delay = receiver_.delay();
+  frame_.sample_place = receiver_.delay() * 8 + receiver_.eighth();
+  if (listener_ != nullptr) listener_->answered(frame_);
+}
+
+// Errors of the code are not looked at: the bytes stand there twice.
+void Link::take_identity() {
+  const AnswerWords& words = frame_.words;
+  const unsigned high = words.pipeline.byte & 0xFU;
+  identity_ = high << 16U | unsigned{words.parameter.byte} << 8U | words.vertical.byte;
+  const unsigned acceleration_bits = (identity_ & 0xFU) + 8;
+  position_bits_ = (identity_ >> 4U & 0x3FU) + acceleration_bits;
+  const bool twice = words.vertical.byte == words.acceleration_low.byte &&
+                     words.parameter.byte == words.acceleration_high.byte &&
+                     words.pipeline.byte >> 4U == high;
+  if (!twice || acceleration_bits > kMaxAccelerationBits || position_bits_ > kMaxPositionBits) {
+    return restart(Restart::kIdentity);
+  }
+  frame_.linked = true;
+  frame_.lost = true;
+  frame_.safe1 = frame_.safe2 = {};
+  quality_.start();
+  frame_.quality = quality_.value();
+  motion_.start(position_bits_);
+}
+
+void Link::wait_for_vsync() {
+  const Word& parameter = frame_.words.parameter;
+  if (!parameter.error && (parameter.byte & kVsync) != 0) {
+    place_ = 0;
+    bytes1_ = bytes2_ = {};
+    enter(LinkState::kRun, 0);
+    return;
+  }
+  if (++waited_ == rules_.vsync_limit) restart(Restart::kVsync);
+}
+
+void Link::run() {
+  const AnswerWords& words = frame_.words;
+  frame_.number = ++running_;
+  frame_.place = place_;
+  for (const Word* word : {&words.vertical, &words.parameter, &words.pipeline,
+                           &words.acceleration_high, &words.acceleration_low, &words.secondary}) {
+    if (word->only_strict) ++illegal_;
+  }
+
+  QualityEvents events;
+  if (!words.parameter.error) {
+    const bool vsync = (words.parameter.byte & kVsync) != 0;
+    const bool last = place_ + 1 == kVertical;
+    events.vsync_early = vsync && !last;
+    events.vsync_missing = !vsync && last;
+    events.vsync_good = vsync && last;
+  }
+  events.rssi_low = frame_.rssi < kLowRssi;
+  events.parameter_error = words.parameter.error;
+  events.pipeline_error = words.pipeline.error;
+  const Word& high = words.acceleration_high;
+  const Word& low = words.acceleration_low;
+  events.acceleration_error = high.error || low.error;
+  for (const Word* word : {&words.vertical, &high, &low}) {
+    if (unexpected(*word, kMarker1)) ++events.specials;
+  }
+  if (words.parameter.special && !words.parameter.error) ++events.specials;
+  if (unexpected(words.secondary, kMarker2) && !words.secondary.is_k28()) ++events.specials;
+
+  const auto plain = [](const Word& word) {
+    return !word.error && (!word.special || word.is_k28());
+  };
+  const auto word = static_cast<std::uint16_t>(high.byte << 8U | low.byte);
+  frame_.acceleration_good = plain(high) && plain(low) && acceleration_is_good(word);
+  motion_.frame(frame_.acceleration_good ? std::optional(acceleration_of(word)) : std::nullopt);
+  take_safe(events);
+
+  frame_.position = motion_.position();
+  frame_.speed = motion_.speed();
+  frame_.lost = motion_.lost();
+  const bool good = quality_.frame(events);
+  frame_.quality = quality_.value();
+  place_ = (place_ + 1) % kVertical;
+  if (!good) {
+    restart(Restart::kQuality);
+  } else if (motion_.missing() >= rules_.acceleration_limit) {
+    restart(Restart::kAcceleration);
+  }
+}
+
+// Both safe channels bring a byte with each frame.
+void Link::take_safe(QualityEvents& events) {
+  const auto take = [this](Bytes& channel, const Word& word) {
+    channel.bytes[place_] = word.byte;
+    const bool first_error = word.error && !channel.code_error;
+    channel.code_error |= word.error;
+    channel.marked |= word.special && !word.error && !word.is_k28();
+    return first_error;
+  };
+  events.safe1_error = take(bytes1_, frame_.words.vertical);
+  events.safe2_error = take(bytes2_, frame_.words.secondary);
+  const bool firmware = rules_.quality == QualityRules::kFirmware;
+  if (firmware && place_ == 0 && (bytes2_.bytes[0] & kTest2) != 0) events.safe2_error = true;
+  if (place_ + 1 != kVertical) return;
+
+  frame_.safe_new = true;
+  const auto judge_channel = [](const Bytes& channel, SafeChannel& safe) {
+    const std::span<const std::uint8_t> covered(channel.bytes.data(), 6);
+    const bool crc = crc16(covered) == crc_in(channel.bytes);
+    safe.error = channel.code_error || !crc;
+    safe.valid = !safe.error && !channel.marked;
+    if (!safe.valid) return crc;
+    safe.position = position_in(channel.bytes);
+    safe.crc = crc_in(channel.bytes);
+    safe.summary = channel.bytes[0];
+    return crc;
+  };
+  const bool crc1 = judge_channel(bytes1_, frame_.safe1);
+  const bool crc2 = judge_channel(bytes2_, frame_.safe2);
+  // A vertical frame counts once.
+  if (!bytes1_.code_error) (crc1 ? events.safe1_good : events.safe1_error) = true;
+  if (!bytes2_.code_error && !crc2 && !firmware) events.safe2_error = true;
+  motion_.vertical_end(frame_.safe1.valid ? std::optional(frame_.safe1.position) : std::nullopt);
+  bytes1_ = bytes2_ = {};
+  vertical_ = !vertical_;
+}
+
+}  // namespace mb4::sim::dsl_model

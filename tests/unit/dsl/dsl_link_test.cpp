@@ -1,0 +1,407 @@
+// SPDX-FileCopyrightText: 2026 The openmb4 authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// The start of a link: cables from 0 m on, broken answers in the training, the encoder's identity,
+// and the frames on the line.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "sim/lines/dsl/dsl_faults.hpp"
+#include "tests/unit/dsl/dsl_bench.hpp"
+
+namespace {
+
+using namespace mb4::sim;
+using namespace mb4::sim::dsl_test;
+using dsl_model::SampleRule;
+
+constexpr SampleRule kRules[] = {SampleRule::kPublished, SampleRule::kFirstZero,
+                                 SampleRule::kTracking};
+
+// Number of the sample that first sees the answer, from the begin of slot 0: five ticks behind the
+// driver's end. The encoder counts 19 nominal bits from the edge of SAMPLE to the end of SWITCH;
+// the master counts 18 of its own to the begin of SWITCH.
+unsigned first_sample(const BenchSetup& setup) {
+  const double tick = 1e12 / static_cast<double>(setup.hz);
+  const double edge = static_cast<double>(setup.cable.delay) + 19 * 320'000.0 / 3 +
+                      static_cast<double>(setup.encoder.latency);
+  return static_cast<unsigned>(std::ceil(edge / tick - 1e-6)) - 18 * 8 - 5;
+}
+
+// DELAY of a rule that places the edge at this sample: whole slots before the first sampled bit.
+unsigned delay_of(SampleRule rule, unsigned sample) {
+  if (rule == SampleRule::kPublished && sample / 8 == 10) return 10;  // no wrap into the next slot
+  return (sample + 4) / 8;
+}
+
+// 0 to 100 m, three clocks, both forms of STATUS2: the first start succeeds, QM reaches 15, DELAY
+// is that of the round trip, RSSI is 12.
+void link_up(SampleRule rule) {
+  for (int metres = 0; metres <= 100; ++metres) {
+    for (const int ppm : {-100, 0, 100}) {
+      for (const bool k28 : {false, true}) {
+        BenchSetup setup;
+        setup.rules.sample = rule;
+        setup.metres(metres);
+        setup.hz = static_cast<std::uint64_t>(75'000'000 + 75 * ppm);
+        setup.encoder.status2_k28 = k28;
+        Bench bench(setup);
+        bench.on_frame = [&](const LinkFrame& frame) {
+          if (frame.number != 0) {
+            ASSERT_EQ(frame.rssi, 12U) << metres;
+          }
+          if (frame.number >= 32) {
+            ASSERT_FALSE(frame.lost) << metres;
+          }
+        };
+        ASSERT_TRUE(bench.run_frames(40, 2000 * kPsPerUs)) << metres << " m " << ppm << " ppm";
+        const LinkFrame& frame = bench.link().frame();
+        EXPECT_EQ(bench.link().restarts(), 0U) << metres << " m " << ppm << " ppm";
+        EXPECT_TRUE(frame.linked);
+        EXPECT_EQ(frame.quality, 15U) << metres << " m " << ppm << " ppm";
+        const unsigned sample = first_sample(setup);
+        if (rule == SampleRule::kTracking) {
+          // The mean of all edges may lie a sample beside the first.
+          EXPECT_NEAR(frame.sample_place, sample + 4, 1) << metres << " m " << ppm << " ppm";
+        } else {
+          EXPECT_EQ(frame.delay, delay_of(rule, sample)) << metres << " m " << ppm << " ppm";
+        }
+      }
+    }
+  }
+}
+
+TEST(DslLink, From0To100Metres_LinksAtOnce_Published) { link_up(SampleRule::kPublished); }
+TEST(DslLink, From0To100Metres_LinksAtOnce_FirstZero) { link_up(SampleRule::kFirstZero); }
+TEST(DslLink, From0To100Metres_LinksAtOnce_Tracking) { link_up(SampleRule::kTracking); }
+
+// Restarts without end, and nothing that a user could take for a position.
+void no_link(BenchSetup setup, LineAction action, const std::string& what) {
+  for (const SampleRule rule : kRules) {
+    setup.rules.sample = rule;
+    Bench bench(setup);
+    bench.may_collide = true;
+    bench.line().act(0, action);
+    bench.on_frame = [&](const LinkFrame& frame) {
+      ASSERT_FALSE(frame.linked) << what;
+      ASSERT_TRUE(frame.lost) << what;
+      ASSERT_EQ(frame.number, 0U) << what;
+    };
+    bench.run_until(10'000 * kPsPerUs);
+    const std::uint64_t first = bench.link().restarts();
+    EXPECT_GT(first, 20U) << what;
+    bench.run_until(20'000 * kPsPerUs);
+    EXPECT_GT(bench.link().restarts(), first + 20) << what;
+    EXPECT_EQ(bench.running(), 0U) << what;
+  }
+}
+
+TEST(DslLink, LongOpenAndShortedLines_RestartWithoutEnd) {
+  using What = LineAction::What;
+  constexpr LineAction kNothing{What::kPlug, 0};
+  for (const double metres : {115.0, 120.0, 150.0, 200.0}) {
+    no_link(BenchSetup().metres(metres), kNothing, std::to_string(metres) + " m");
+  }
+  no_link(BenchSetup(), {What::kUnplug, 0}, "open");
+  no_link(BenchSetup(), {What::kLow, DuplexLine::kBoth}, "low");
+  no_link(BenchSetup(), {What::kHigh, DuplexLine::kBoth}, "high");
+}
+
+// A line that is plugged in later links then.
+TEST(DslLink, LineThatComesBack_LinksAgain) {
+  Bench bench(BenchSetup().metres(30));
+  ASSERT_TRUE(bench.link_up(2000 * kPsPerUs));
+  bench.line().act(bench.now(), {LineAction::What::kUnplug, 0});
+  bench.run_until(bench.now() + 1000 * kPsPerUs);
+  EXPECT_FALSE(bench.link().linked());
+  EXPECT_TRUE(bench.link().frame().lost);
+  bench.line().act(bench.now(), {LineAction::What::kPlug, 0});
+  EXPECT_TRUE(bench.link_up(bench.now() + 3000 * kPsPerUs));
+}
+
+// D-4: each bit of each training frame, wrong once, is a restart; with tracking the first START
+// frame only measures.
+void wrong_training_bit(SampleRule rule, unsigned first) {
+  unsigned tried = 0;
+  for (unsigned training = first; training <= 34; ++training) {
+    for (unsigned bit = 0; bit < 61; ++bit, ++tried) {
+      BenchSetup setup;
+      setup.rules.sample = rule;
+      setup.metres(20);
+      Bench bench(setup);
+      bench.encoder().flip_training(training, bit);
+      unsigned seen = 0;
+      bench.on_frame = [&](const LinkFrame& frame) {
+        if (++seen == training) {
+          EXPECT_NE(frame.restart, Restart::kNone) << training << " " << bit;
+        } else {
+          EXPECT_EQ(frame.restart, Restart::kNone) << training << " " << bit;
+        }
+      };
+      while (seen < training && bench.next_frame()) {
+      }
+      ASSERT_EQ(bench.link().restarts(), 1U) << training << " " << bit;
+    }
+  }
+  EXPECT_EQ(tried, (35 - first) * 61);
+}
+
+TEST(DslLink, WrongBitInTraining_Restarts_Published) {
+  wrong_training_bit(SampleRule::kPublished, 1);
+}
+TEST(DslLink, WrongBitInTraining_Restarts_FirstZero) {
+  wrong_training_bit(SampleRule::kFirstZero, 1);
+}
+TEST(DslLink, WrongBitInTraining_Restarts_Tracking) {
+  wrong_training_bit(SampleRule::kTracking, 2);
+}
+
+// The start after a restart: the frame ends with its trailer, 16 bits nobody drives, 16 zeros.
+TEST(DslLink, Restart_FinishesItsFrame) {
+  BenchSetup setup;
+  Bench bench(setup);
+  bench.encoder().flip_training(3, 7);
+  std::uint64_t begin = 0;
+  std::uint64_t first = 0;
+  bench.on_frame = [&](const LinkFrame& frame) {
+    if (frame.restart != Restart::kNone) begin = frame.sampled - 64;
+    if (begin != 0 && frame.restart == Restart::kNone && first == 0) first = frame.sampled - 64;
+  };
+  while (first == 0) ASSERT_TRUE(bench.next_frame());
+  // Frame, gap, 18 frames of RESET and SYNC.
+  EXPECT_EQ(first - begin, (108 + 32 + 18 * 108) * 8U);
+}
+
+// D-5: widths from the identity, and a broken one.
+TEST(DslLink, Identity_GivesWidths) {
+  struct {
+    unsigned position;
+    unsigned acceleration;
+    unsigned index;
+    bool is_signed;
+    unsigned id;
+  } constexpr kEncoders[] = {{40, 11, 0, false, 0x1D3},
+                             {32, 11, 0, false, 0x153},
+                             {35, 11, 0, false, 0x183},
+                             {32, 11, 0, true, 0x553},
+                             {30, 8, 9, false, 0x9160}};
+  for (const auto& each : kEncoders) {
+    BenchSetup setup;
+    setup.encoder.data_bits = each.position;
+    setup.encoder.acceleration_bits = each.acceleration;
+    setup.encoder.index = each.index;
+    setup.encoder.is_signed = each.is_signed;
+    Bench bench(setup);
+    ASSERT_TRUE(bench.link_up(2000 * kPsPerUs));
+    EXPECT_EQ(bench.link().identity(), each.id);
+    EXPECT_EQ(bench.link().position_bits(), each.position);
+  }
+}
+
+TEST(DslLink, IdentityOf32And11_IsTheGoldenAnswer) {
+  Bench bench{BenchSetup()};
+  std::vector<unsigned> bytes;
+  bench.on_frame = [&](const LinkFrame& frame) {
+    if (frame.state != LinkState::kIdRequest) return;
+    const auto& words = frame.words;
+    bytes = {words.vertical.byte, words.parameter.byte, words.pipeline.byte,
+             words.acceleration_high.byte, words.acceleration_low.byte};
+  };
+  ASSERT_TRUE(bench.link_up(2000 * kPsPerUs));
+  EXPECT_EQ(bytes, (std::vector<unsigned>{0x53, 0x01, 0x00, 0x01, 0x53}));
+}
+
+TEST(DslLink, BrokenIdentity_Restarts) {
+  BenchSetup setup;
+  setup.encoder.broken_identity = true;
+  Bench bench(setup);
+  bench.run_until(5000 * kPsPerUs);
+  EXPECT_GT(bench.link().restarts(), 3U);
+  EXPECT_EQ(bench.link().last_restart(), Restart::kIdentity);
+  EXPECT_FALSE(bench.link().linked());
+}
+
+// The limit of the wait for VSYNC, and none.
+TEST(DslLink, NoVsync_RestartsAfterItsLimit) {
+  for (const unsigned after : {3U, 11U, 64U, 65U}) {
+    BenchSetup setup;
+    setup.encoder.vsync_after = after;
+    Bench bench(setup);
+    bench.run_until(4000 * kPsPerUs);
+    EXPECT_EQ(bench.link().linked() && !bench.link().frame().lost, after <= 64) << after;
+    if (after > 64) {
+      EXPECT_EQ(bench.link().last_restart(), Restart::kVsync);
+    }
+    setup.rules.vsync_limit = 0;
+    Bench patient(setup);
+    EXPECT_TRUE(patient.link_up(4000 * kPsPerUs)) << after;
+  }
+}
+
+// What nobody knows of real encoders makes no difference to the master.
+TEST(DslLink, EncodersFreedoms_AllLink) {
+  std::vector<DslSlaveConfig> encoders(1);
+  const auto add = [&](auto change) {
+    encoders.emplace_back();
+    change(encoders.back());
+  };
+  add([](auto& e) { e.msync = e.first = DslFollow::kFollow; });
+  add([](auto& e) { e.sync_frames = 16; });
+  add([](auto& e) { e.positive = true; });
+  add([](auto& e) { e.s_par_bits = 3; });
+  add([](auto& e) { e.lead = 100 * kPsPerNs; });
+  add([](auto& e) { e.pipeline = 0xA5; });
+  add([](auto& e) { e.summary = 0x81; });
+  add([](auto& e) { e.safe2_bits = 20; });
+  add([](auto& e) { e.clock_ppm = 100; });
+  add([](auto& e) { e.clock_ppm = -100; });
+  for (const DslSlaveConfig& encoder : encoders) {
+    BenchSetup setup;
+    setup.encoder = encoder;
+    setup.metres(25);
+    Bench bench(setup);
+    RandomMotion motion(bench.encoder(), 3);
+    unsigned wrong = 0;
+    bench.on_frame = [&](const LinkFrame& frame) {
+      if (frame.number >= 41 && frame.lost) ++wrong;
+      if (!frame.lost && frame.position != bench.encoder().sent_word()) ++wrong;
+    };
+    const std::size_t number = static_cast<std::size_t>(&encoder - encoders.data());
+    ASSERT_TRUE(bench.run_frames(200, 10'000 * kPsPerUs)) << number;
+    EXPECT_EQ(wrong, 0U) << number;
+    EXPECT_EQ(bench.link().restarts(), 0U) << number;
+  }
+  // Without enough SYNC frames it never answers.
+  BenchSetup setup;
+  setup.encoder.sync_frames = 17;
+  Bench bench(setup);
+  bench.run_until(3000 * kPsPerUs);
+  EXPECT_EQ(bench.link().last_restart(), Restart::kNotFound);
+}
+
+// An encoder that wants its vertical frames elsewhere than this master begins them: its VSYNC comes
+// early, the link begins again, and no wrong position is called certain.
+TEST(DslLink, EncoderWithAnotherVsyncPhase_LosesTheLink) {
+  for (unsigned phase = 1; phase < 8; ++phase) {
+    BenchSetup setup;
+    setup.encoder.msync = DslFollow::kFollow;
+    setup.encoder.vsync_phase = phase;
+    Bench bench(setup);
+    RandomMotion motion(bench.encoder(), 3);
+    bench.on_frame = [&](const LinkFrame& frame) {
+      if (!frame.lost) {
+        EXPECT_EQ(frame.position, bench.encoder().sent_word()) << phase;
+      }
+    };
+    bench.run_until(20'000 * kPsPerUs);
+    EXPECT_GT(bench.link().restarts(), 2U) << phase;
+  }
+}
+
+// ---- D-1: the frame on the line -----------------------------------------------------------------
+
+struct Recorder final : LineObserver {
+  void frame_begun() override {}
+  void frame_over(const LineFrame& frame) override { frames.push_back(frame); }
+  void edge(Time now, unsigned place, bool level) override {
+    if (place == 4) out.emplace_back(now, level);
+    if (place == 5) enable.emplace_back(now, level);
+  }
+  static bool at(const std::vector<std::pair<Time, bool>>& edges, Time time) {
+    bool level = false;
+    for (const auto& [when, value] : edges) {
+      if (when > time) break;
+      level = value;
+    }
+    return level;
+  }
+
+  std::vector<LineFrame> frames;
+  std::vector<std::pair<Time, bool>> out;
+  std::vector<std::pair<Time, bool>> enable;
+};
+
+TEST(DslLine, Frame_Has108BitsFieldByField) {
+  Bench bench{BenchSetup()};
+  ASSERT_TRUE(bench.link_up(2000 * kPsPerUs));
+  Recorder recorder;
+  bench.line().observe(bench.now(), &recorder, true);
+  std::vector<Time> begins;
+  bench.on_frame = [&](const LinkFrame& frame) {
+    begins.push_back(bench.model().time_of(frame.sampled) - 8 * 320'000 / 3);
+  };
+  bench.run_frames(4);
+  bench.line().observe(bench.now(), nullptr, false);
+  ASSERT_EQ(begins.size(), 4U);
+  // First and last bit of each field; the answer is the encoder's.
+  const std::string expected =
+      "001011"
+      "110"
+      "110"
+      "0000";
+  const std::string trailer = "00000011";
+  for (unsigned i = 1; i < 3; ++i) {
+    EXPECT_NEAR(static_cast<double>(begins[i + 1] - begins[i]), 11.52e6, 20'000);
+    std::string bits;
+    std::string drives;
+    for (unsigned bit = 0; bit < 108; ++bit) {
+      const Time middle = begins[i] + static_cast<Time>((bit + 0.5) * 320'000 / 3);
+      bits += Recorder::at(recorder.out, middle) ? '1' : '0';
+      drives += Recorder::at(recorder.enable, middle) ? '1' : '0';
+    }
+    EXPECT_EQ(bits.substr(0, 16), expected);
+    EXPECT_EQ(bits.substr(100), trailer);
+    // IDLE with first, and msync in every other vertical frame.
+    EXPECT_TRUE(bits.substr(16, 10) == "1001001101" || bits.substr(16, 10) == "1001000110") << bits;
+    EXPECT_EQ(drives, std::string(26, '1') + std::string(74, '0') + std::string(8, '1'));
+  }
+  // A frame of the line: its bits, from SYNC to the trailer.
+  ASSERT_GE(recorder.frames.size(), 2U);
+  for (const LineFrame& frame : recorder.frames) {
+    EXPECT_EQ(frame.edges, 108U);
+    EXPECT_NEAR(static_cast<double>(frame.end - frame.start), 11.52e6, 1000);
+  }
+}
+
+// RESET and SYNC fill the window with 0101..., START frames carry four blocks of stuffing.
+TEST(DslLine, Training_IsAsPublished) {
+  BenchSetup setup;
+  Bench bench(setup);
+  Recorder recorder;
+  bench.line().observe(0, &recorder, true);
+  bench.run_until(600 * kPsPerUs);
+  bench.line().observe(bench.now(), nullptr, false);
+  // The first driven level, then 16 zeros, then frames.
+  Time begin = 0;
+  for (const auto& [when, on] : recorder.enable) {
+    if (on && begin == 0) begin = when;
+  }
+  const auto bits = [&](Time from, unsigned count) {
+    std::string text;
+    for (unsigned bit = 0; bit < count; ++bit) {
+      text += Recorder::at(recorder.out, from + static_cast<Time>((bit + 0.5) * 320'000 / 3)) ? '1'
+                                                                                              : '0';
+    }
+    return text;
+  };
+  const auto after = [&](unsigned count) {
+    return begin + static_cast<Time>(count * 320'000.0 / 3);
+  };
+  EXPECT_EQ(bits(begin, 16), std::string(16, '0'));
+  std::string window;
+  for (unsigned i = 0; i < 37; ++i) window += "01";
+  const std::string head = "001011110110";
+  const char* const equal[] = {"0000", "1101", "1101", "0000"};
+  const char* const words[] = {"0101001011", "0101001011", "1001100100", "1001100100"};
+  for (unsigned i = 0; i < 4; ++i) {
+    EXPECT_EQ(bits(after(16 + 108 * i), 108), head + equal[i] + words[i] + window + "00000011");
+  }
+  const std::string start = bits(after(16 + 108 * 18), 132);
+  EXPECT_EQ(start.substr(0, 26), head + "0000" + "0101100100");
+  EXPECT_EQ(start.substr(100), "00000011001011001011001011001011");
+}
+
+}  // namespace

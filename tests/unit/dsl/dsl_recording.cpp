@@ -1,0 +1,81 @@
+// SPDX-FileCopyrightText: 2026 The openmb4 authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Runs the model of the master and the encoder with faults, and prints what a decoder of the line
+// is judged by: each edge of a wire, `WIRE PICOSECONDS LEVEL` with the wire as in mb4sim_on_edge()
+// (4 _OUT, 5 _EN, 6 _IN, 7 _ENCODER), and each answer as the master has taken it, `F SAMPLED STATE
+// RESTART ANSWER GOOD POSITION SAFE`: time of the edge in SAMPLE, 1 if the link ends with it, 61
+// bits, 1 if the second difference is good, the safe position of a good vertical frame or -.
+//
+//   dsl_recording FRAMES
+#include <bitset>
+#include <cstdio>
+#include <cstdlib>
+#include <string>
+
+#include "sim/lines/dsl/dsl_faults.hpp"
+#include "tests/unit/dsl/dsl_bench.hpp"
+
+namespace {
+
+using namespace mb4::sim;
+using namespace mb4::sim::dsl_test;
+
+struct Printer final : LineObserver {
+  void frame_begun() override {}
+  void frame_over(const LineFrame& /*frame*/) override {}
+  void edge(Time now, unsigned place, bool level) override {
+    std::printf("%u %llu %d\n", place, static_cast<unsigned long long>(now), level ? 1 : 0);
+  }
+};
+
+void print(const LinkFrame& frame, LinkModel& model) {
+  const bool training = frame.state == LinkState::kStart || frame.state == LinkState::kLearn ||
+                        frame.state == LinkState::kCheck;
+  const bool safe = frame.safe_new && frame.safe1.valid;
+  std::string state = name_of(frame.state);
+  for (char& c : state) c = c == ' ' ? '_' : c;
+  std::printf("F %llu %s %d %s %d %llu %s\n",
+              static_cast<unsigned long long>(model.time_of(frame.sampled)), state.c_str(),
+              frame.restart == Restart::kNone ? 0 : 1,
+              training ? "-" : std::bitset<61>(frame.answer).to_string().c_str(),
+              frame.acceleration_good ? 1 : 0, static_cast<unsigned long long>(frame.position),
+              safe ? std::to_string(frame.safe1.position).c_str() : "-");
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  const std::uint64_t frames = argc > 1 ? std::strtoull(argv[1], nullptr, 10) : 10'000;
+  BenchSetup setup;
+  setup.metres(35);
+  setup.cable.in.jitter = 8 * kPsPerNs;
+  setup.cable.answer_errors = 1e-4;
+  Bench bench(setup);
+  RandomMotion motion(bench.encoder(), 42);
+  Printer printer;
+  bench.line().observe(0, &printer, true);
+  bench.on_frame = [&](const LinkFrame& frame) {
+    print(frame, bench.model());
+    // Faults that last a few frames, in turn.
+    constexpr const SlaveFault* kFaults[] = {&slave_fault::kSilent,      &slave_fault::kFastMarker,
+                                             &slave_fault::kWrongCrc,    &slave_fault::kSafeMarker,
+                                             &slave_fault::kSafe2Marker, &slave_fault::kNoVsync};
+    if (frame.number == 0) return;
+    const SlaveFault& fault = *kFaults[frame.number / 500 % std::size(kFaults)];
+    const std::uint64_t place = frame.number % 500;
+    if (place == 100 || place == 112) {
+      bench.encoder().set_fault(fault, place == 100);
+      bench.line().slave_changed(bench.now());
+    } else if (place == 0) {
+      for (const SlaveFault* each : kFaults) bench.encoder().set_fault(*each, false);
+      bench.line().slave_changed(bench.now());
+    }
+    // A silent encoder loses the link, whose frames begin again.
+    if (frame.restart != Restart::kNone) {
+      for (const SlaveFault* each : kFaults) bench.encoder().set_fault(*each, false);
+    }
+  };
+  bench.run_frames(frames);
+  return 0;
+}

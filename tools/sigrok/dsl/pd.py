@@ -1,0 +1,144 @@
+# SPDX-FileCopyrightText: 2026 The openmb4 authors
+# SPDX-License-Identifier: Apache-2.0
+
+import sigrokdecode as srd
+
+from .frame import ANSWER, BITS, FIELDS, PARAMETER, SWITCH, Line
+
+'''
+OUTPUT_PYTHON format: packets [type, values]
+ - 'FRAME': dict with symbol, answer (61 bits as text, or None), acceleration (or None), pattern (of a
+   training frame: whether it is the right one)
+ - 'SAFE': dict with channel (1 or 2), status, position, good
+'''
+
+BIT_RATE = 9375000
+LEAST_RATE = 4 * BIT_RATE
+MASTER, STATE, WORD, MOTION, SAFE, WARNING = range(6)
+
+
+class SamplerateError(Exception):
+    pass
+
+
+class ChannelError(Exception):
+    pass
+
+
+class Decoder(srd.Decoder):
+    api_version = 3
+    id = 'dsl'
+    name = 'DSL'
+    longname = 'HIPERFACE DSL motor feedback'
+    desc = 'Frames between a drive and the encoder of its motor.'
+    license = 'apache-2.0'
+    inputs = ['logic']
+    outputs = ['dsl']
+    tags = ['Sensor', 'Embedded/industrial']
+    channels = ({'id': 'line', 'name': 'LINE', 'desc': 'The line, near the master'},)
+    options = ({'id': 'invert', 'desc': 'Inverted line', 'default': 'no', 'values': ('no', 'yes')},)
+    annotations = (
+        ('master', 'Field of the master'),
+        ('state', 'State of the link'),
+        ('word', 'Word of the answer'),
+        ('motion', 'Second difference'),
+        ('safe', 'Safe position'),
+        ('warning', 'Warning'),
+    )
+    annotation_rows = (
+        ('fields', 'Fields', (MASTER, WORD)),
+        ('states', 'Link', (STATE,)),
+        ('motions', 'Motion', (MOTION,)),
+        ('safes', 'Safe channels', (SAFE,)),
+        ('warnings', 'Warnings', (WARNING,)),
+    )
+
+    def __init__(self):
+        self.reset()
+
+    def reset(self):
+        self.samplerate = None
+        self.vertical_begin = None
+
+    def metadata(self, key, value):
+        if key == srd.SRD_CONF_SAMPLERATE:
+            self.samplerate = value
+
+    def start(self):
+        self.out_ann = self.register(srd.OUTPUT_ANN)
+        self.out_python = self.register(srd.OUTPUT_PYTHON)
+
+    # --- output ------------------------------------------------------------------------------
+
+    def annotate(self, begin, end, kind, texts):
+        begin = max(round(begin), 0)
+        self.put(begin, max(round(end), begin + 1), self.out_ann, [kind, texts])
+
+    def show(self, frame):
+        end = frame.at(BITS)
+        for first, last, text in ((0, 6, 'SYNC'), (6, 9, 'SAMPLE'), (9, 12, 'CYCLE RESET'),
+                                  (12, PARAMETER, 'EQ'), (PARAMETER, SWITCH, 'M_PAR'),
+                                  (100, BITS, 'TRAILER')):
+            self.annotate(frame.at(first), frame.at(last), MASTER, [text, text[0]])
+        self.annotate(frame.begin, end, STATE, [frame.symbol, frame.symbol[:2]])
+        if frame.byte is None:
+            self.warn(frame.at(PARAMETER), frame.at(SWITCH), 'M_PAR is no word')
+        if frame.answer is not None:
+            self.show_answer(frame)
+        self.put(max(round(frame.begin), 0), round(end), self.out_python,
+                 ['FRAME', dict(symbol=frame.symbol, answer=frame.answer,
+                                acceleration=frame.acceleration, pattern=frame.pattern)])
+
+    def warn(self, begin, end, text):
+        self.annotate(begin, end, WARNING, [text])
+
+    def show_answer(self, frame):
+        def at(bit):
+            return frame.answer_at + bit * frame.bit
+        if frame.pattern is not None:
+            self.annotate(at(0), at(ANSWER), WORD, ['Test pattern', 'T'])
+            if not frame.pattern:
+                self.warn(at(0), at(ANSWER), 'Wrong test pattern')
+            return
+        for name, first, specials in FIELDS:
+            byte, special = frame.words[name]
+            text = '?' if byte is None else ('K ' if special else '') + f'{byte:02X}'
+            self.annotate(at(first), at(first + 10), WORD, [f'{name}: {text}', text])
+            if byte is None:
+                self.warn(at(first), at(first + 10), 'No word of the code')
+            elif special and byte not in specials and not (name == 'secondary' and byte & 31 == 28):
+                self.warn(at(first), at(first + 10), 'Unexpected special character')
+        if frame.symbol == 'ID REQ':
+            return
+        if frame.acceleration is None:
+            self.warn(at(30), at(50), 'No second difference')
+        else:
+            self.annotate(at(30), at(50), MOTION, [f'{frame.acceleration:+d}'])
+        if frame.vertical is not None:
+            self.show_safe(frame, 1, *frame.vertical)
+            self.show_safe(frame, 2, *frame.secondary)
+
+    def show_safe(self, frame, channel, data, good):
+        position = None if None in data[1:6] else int.from_bytes(bytes(data[1:6]), 'big')
+        begin, end = frame.at(-7 * BITS), frame.at(BITS)
+        text = '?' if position is None else f'{position:010X}'
+        self.annotate(begin, end, SAFE, [f'Safe position {channel}: {text}', text])
+        if not good:
+            self.warn(begin, end, f'Safe channel {channel}: no good vertical frame')
+        self.put(max(round(begin), 0), round(end), self.out_python,
+                 ['SAFE', dict(channel=channel, status=data[0], position=position, good=good)])
+
+    # --- input -------------------------------------------------------------------------------
+
+    def decode(self):
+        if not self.samplerate or self.samplerate < LEAST_RATE:
+            raise SamplerateError(f'At least {LEAST_RATE} samples a second are needed.')
+        if not self.has_channel(0):
+            raise ChannelError('LINE is needed.')
+        invert = int(self.options['invert'] == 'yes')
+        line = Line(self.samplerate / BIT_RATE)
+        while True:
+            level, = self.wait({0: 'e'})
+            frame = line.edge(self.samplenum, level ^ invert)
+            if frame is not None:
+                self.show(frame)
