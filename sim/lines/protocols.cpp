@@ -6,7 +6,7 @@
 #include <iterator>
 
 #include "sim/lines/biss/biss_protocols.hpp"
-#if MB4SIM_WITH_DSL_MODEL
+#ifdef MB4SIM_LINES_DSL
 #include "sim/lines/dsl/dsl_protocol.hpp"
 #endif
 #include "sim/lines/replay/replay_protocol.hpp"
@@ -20,7 +20,7 @@ namespace {
 std::vector<const Protocol*>& list() {
   static std::vector<const Protocol*> all {
     &kBissCProtocol, &kReplayProtocol, &kBissBProtocol, &kSsiProtocol,
-#if MB4SIM_WITH_DSL_MODEL
+#ifdef MB4SIM_LINES_DSL
         &kDslProtocol,
 #endif
   };

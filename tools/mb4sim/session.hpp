@@ -208,9 +208,6 @@ struct MasterSupport {
 
 // Throws sim::ScenarioError if the commands do not know the scenario's master.
 const MasterSupport& support_of(const sim::Scenario& scenario);
-// Throws UseError if the lines of the scenario's master are not those that `command` knows: MA and
-// SL.
-void require_clocked(const sim::Scenario& scenario, std::string_view command);
 
 }  // namespace mb4::tool
 

@@ -3,7 +3,7 @@
 //
 // The line code and the check sums of HIPERFACE DSL as an encoder needs them: it sends the standard
 // 8b/10b code with a running disparity, and reads M_PAR. The model of the master has a code of its
-// own (sim/masters/dsl_model/), so that one judges the other.
+// own, so that one judges the other.
 #ifndef MB4SIM_DSL_CODE_HPP_
 #define MB4SIM_DSL_CODE_HPP_
 

@@ -128,7 +128,6 @@ void check(const PlotOptions& options, const sim::Scenario& scenario) {
 int plot_command(const PlotOptions& options) {
   const sim::Scenario scenario = sim::load_scenario(options.scenario);
   const MasterSupport& support = support_of(scenario);
-  require_clocked(scenario, "plot");
   support.check(scenario);
   check(options, scenario);
   std::vector<Output> outputs;

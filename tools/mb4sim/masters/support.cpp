@@ -7,8 +7,6 @@
 #include "masters/dsl_model/dsl_session.hpp"
 #endif
 #include "masters/mb4/mb4_session.hpp"
-#include "report/exit_status.hpp"
-#include "sim/lines/clocked/clocked_lines.hpp"
 #include "sim/masters/master.hpp"
 
 namespace mb4::tool {
@@ -33,13 +31,6 @@ const MasterSupport& support_of(const sim::Scenario& scenario) {
   }
   throw sim::ScenarioError(scenario.name, {}, "type",
                            fmt::format("mb4sim cannot configure \"{}\"", scenario.master->type));
-}
-
-void require_clocked(const sim::Scenario& scenario, std::string_view command) {
-  if (scenario.master->line == &sim::kClockedLines) return;
-  throw UseError(fmt::format(
-      "{}: {} knows lines of the kind \"{}\" only, those of \"{}\" are \"{}\"", scenario.name,
-      command, sim::kClockedLines.key, scenario.master->type, scenario.master->line->key));
 }
 
 }  // namespace mb4::tool
