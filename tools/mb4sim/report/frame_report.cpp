@@ -5,6 +5,8 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <iterator>
+#include <string_view>
 
 #include "report/messages.hpp"
 
@@ -14,6 +16,7 @@ namespace {
 constexpr const char* kFirstCells = "{:>5}  {:>12}  {:>5}";
 constexpr const char* kCell = "  {:>{}}";
 constexpr const char* kLastCell = "  {}\n";
+constexpr std::size_t kRowLength = 120;  // of most masters
 
 constexpr const char* kWrongData = "wrong data, not what the slave sent";
 
@@ -79,13 +82,21 @@ std::string FrameReport::table_header() const {
 }
 
 std::string FrameReport::table_row() const {
-  std::string out = fmt::format(kFirstCells, row_.frame,
-                                fmt::format("{:.3f}", sim::to_us(row_.time)), row_.slave);
+  std::string out;
+  out.reserve(kRowLength);
+  const auto end = std::back_inserter(out);
+  fmt::format_to(end, kFirstCells, row_.frame, fmt::format("{:.3f}", sim::to_us(row_.time)),
+                 row_.slave);
   for (const WordColumn& column : columns_) {
     const std::string text = cell(column);
-    out += fmt::format(kCell, text.empty() ? "-" : text, column.width);
+    const std::string_view shown = text.empty() ? std::string_view("-") : text;
+    out.append(2 + (column.width > shown.size() ? column.width - shown.size() : 0), ' ');
+    out += shown;
   }
-  return out + fmt::format(kLastCell, row_.state);
+  out += "  ";
+  out += row_.state;
+  out += '\n';
+  return out;
 }
 
 std::string FrameReport::table_summary(const RunSummary& summary) const {
