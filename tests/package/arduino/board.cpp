@@ -46,7 +46,9 @@ void digitalWrite(uint8_t pin, uint8_t level) {
   mb4sim_spi_select(simulator, selected ? 1 : 0);
 }
 void pinMode(uint8_t, uint8_t) {}
-void delay(unsigned long ms) { mb4sim_advance_ns(simulator, 1'000'000ULL * ms); }
+// The sketches wait up to a second between two reads. The chip needs no more than a few
+// milliseconds of it.
+void delay(unsigned long ms) { mb4sim_advance_ns(simulator, 1'000'000ULL * (ms < 20 ? ms : 20)); }
 unsigned long micros() { return static_cast<unsigned long>(mb4sim_time_ns(simulator) / 1000); }
 
 void SerialPort::begin(unsigned long) {}
