@@ -188,7 +188,8 @@ def texts():
     for top in project.tops("generics").values():
         found.update(generic_texts(top))
     for master in project.MASTERS.values():
-        found.update(plain_texts(master))
+        if any(top.plain for top in master.tops.values()):
+            found.update(plain_texts(master))
     return found
 
 
