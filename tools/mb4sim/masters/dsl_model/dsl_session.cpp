@@ -143,13 +143,6 @@ const MasterSupport kDslModelSupport{
                const SessionOptions& options) -> std::unique_ptr<Session> {
       if (options.bus_log) throw UseError("--bus-log: a master of type dsl-model has no bus");
       return std::make_unique<DslSession>(scenario, options);
-    },
-    .ma = {.name = "",
-           .most = 0,
-           .refuses = "",
-           .divider = [](std::uint64_t, unsigned) { return 0U; }},
-    .jitter_item = "",
-    .control = false,
-    .coverage = false};
+    }};
 
 }  // namespace mb4::tool
