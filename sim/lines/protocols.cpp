@@ -18,10 +18,10 @@ namespace {
 
 // The protocols of this library, and those that the program has added.
 std::vector<const Protocol*>& list() {
-  static std::vector<const Protocol*> all {
-    &kBissCProtocol, &kReplayProtocol, &kBissBProtocol, &kSsiProtocol,
+  static std::vector<const Protocol*> all{
+      &kBissCProtocol, &kReplayProtocol, &kBissBProtocol, &kSsiProtocol,
 #ifdef MB4SIM_LINES_DSL
-        &kDslProtocol,
+      &kDslProtocol,
 #endif
   };
   return all;

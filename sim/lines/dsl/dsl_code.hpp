@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The line code and the check sums of HIPERFACE DSL as an encoder needs them: it sends the standard
+// The line code and the check sums of DSL as an encoder needs them: it sends the standard
 // 8b/10b code with a running disparity, and reads M_PAR. The model of the master has a code of its
 // own, so that one judges the other.
 #ifndef MB4SIM_DSL_CODE_HPP_

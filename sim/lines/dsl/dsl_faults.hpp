@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Faults that only an encoder with HIPERFACE DSL can have. "wrong-crc" is that of safe channel 1.
+// Faults that only an encoder with DSL can have. "wrong-crc" is that of safe channel 1.
 #ifndef MB4SIM_DSL_FAULTS_HPP_
 #define MB4SIM_DSL_FAULTS_HPP_
 

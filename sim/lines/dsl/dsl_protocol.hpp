@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Encoders with HIPERFACE DSL in a scenario: protocol = "dsl".
+// Encoders with DSL in a scenario: protocol = "dsl".
 #ifndef MB4SIM_DSL_PROTOCOL_HPP_
 #define MB4SIM_DSL_PROTOCOL_HPP_
 

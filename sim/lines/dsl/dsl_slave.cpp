@@ -57,8 +57,8 @@ std::unique_ptr<Slave> DslSlaveConfig::make_slave(std::uint64_t /*seed*/) const 
 }
 
 DeviceTraits DslSlaveConfig::traits() const {
-  return {.protocol = {.key = "dsl", .title = "HIPERFACE DSL", .start_bit = false},
-          .alone = "an encoder with HIPERFACE DSL"};
+  return {.protocol = {.key = "dsl", .title = "DSL", .start_bit = false},
+          .alone = "an encoder with DSL"};
 }
 
 std::string_view DslSlaveConfig::refuses(const SlaveFault& fault) const {

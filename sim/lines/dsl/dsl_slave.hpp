@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// An encoder with HIPERFACE DSL: a peer that sends every bit that a master looks at. What nobody
+// An encoder with DSL: a peer that sends every bit that a master looks at. What nobody
 // outside knows of real encoders is a key of its configuration.
 //
 // - It finds a frame by SYNC and the edge of SAMPLE, where it takes its position, and counts all
@@ -16,8 +16,6 @@
 //
 // A frame of the line is an H-frame, from the first bit of SYNC on. Frames that flip() counts are
 // the running ones, those after the first VSYNC.
-//
-// The mark HIPERFACE DSL belongs to SICK.
 #ifndef MB4SIM_DSL_SLAVE_HPP_
 #define MB4SIM_DSL_SLAVE_HPP_
 

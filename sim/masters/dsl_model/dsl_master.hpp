@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// [master] type = "dsl-model": a master of HIPERFACE DSL for simulation only, without RTL,
+// [master] type = "dsl-model": a master of DSL for simulation only, without RTL,
 // registers or a bus. A program gets at it as a host of the name "none".
 #ifndef MB4SIM_DSL_MODEL_DSL_MASTER_HPP_
 #define MB4SIM_DSL_MODEL_DSL_MASTER_HPP_

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The line code and the check sums of HIPERFACE DSL as the master needs them: what it sends in
+// The line code and the check sums of DSL as the master needs them: what it sends in
 // M_PAR, what it makes of a received word, CRC16 and CRC5. The encoder has a line code of its own
 // (sim/lines/dsl/), so that one judges the other.
 //

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// A whole master of HIPERFACE DSL for one line, as a model of the published facts: it trains the
+// A whole master of DSL for one line, as a model of the published facts: it trains the
 // line, takes the answer of each frame, and keeps position, safe positions and quality. It has no
 // time of its own: tick() is one edge of a clock of 75 MHz, eight of which are a bit.
 //

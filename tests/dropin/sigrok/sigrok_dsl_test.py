@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-FileCopyrightText: 2026 The openmb4 authors
 # SPDX-License-Identifier: Apache-2.0
-"""The decoder of HIPERFACE DSL on the recorded line of a simulated motor with faults: without help it must
+"""The decoder of DSL on the recorded line of a simulated motor with faults: without help it must
 find each answer as the master has taken it, the errors in it, and the restarts of the link.
 
   sigrok_dsl_test.py RECORDING ROOT [FRAMES]

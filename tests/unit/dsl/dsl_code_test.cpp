@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Line code, check sums, equaliser and signal strength of HIPERFACE DSL against the golden vectors
+// Line code, check sums, equaliser and signal strength of DSL against the golden vectors
 // and counts of the published facts (D-10), and the encoder's code against the master's.
 #include "sim/lines/dsl/dsl_code.hpp"
 

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 The openmb4 authors
 # SPDX-License-Identifier: Apache-2.0
-'''The line code of HIPERFACE DSL and its check sums, from the rules of 8b/10b. A word has ten bits, its
+'''The line code of DSL and its check sums, from the rules of 8b/10b. A word has ten bits, its
 first one is the highest.'''
 
 # The blocks that a negative disparity takes.

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 The openmb4 authors
 # SPDX-License-Identifier: Apache-2.0
-'''Frames of HIPERFACE DSL from the edges of the line. The line is the sum of both directions, as a probe
+'''Frames of DSL from the edges of the line. The line is the sum of both directions, as a probe
 sees it near the master: the frame's bits are the master's, and the answer comes some bits late.
 
 Times are in any unit; the bit time is found from the edges of SYNC.'''

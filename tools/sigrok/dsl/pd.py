@@ -29,7 +29,7 @@ class Decoder(srd.Decoder):
     api_version = 3
     id = 'dsl'
     name = 'DSL'
-    longname = 'HIPERFACE DSL motor feedback'
+    longname = 'DSL motor feedback'
     desc = 'Frames between a drive and the encoder of its motor.'
     license = 'apache-2.0'
     inputs = ['logic']
