@@ -46,6 +46,8 @@ class Scope:
         """An integer constant expression."""
         source = text.strip()
         source = re.sub(r"(?:\d+\s*)?'s?([hdbo])\s*([0-9a-f_]+)", literal, source, flags=re.I)
+        source = re.sub(r"'([01])\b", r"\1", source)
+        source = re.sub(r"\b(\w+(?:::\w+)?)\[([^]]+)\]", r"((\1 >> (\2)) & 1)", source)  # one bit
         choice = re.fullmatch(r"([^?]+)\?([^:]+):(.+)", re.sub(r"::", "\0", source), re.S)
         if choice:
             test, yes, no = (part.replace("\0", "::") for part in choice.groups())

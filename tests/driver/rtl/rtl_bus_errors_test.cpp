@@ -168,7 +168,7 @@ TEST(DriverCallErrors, LostInstructionBesideFrames_IsCorrupted) {
   FaultyChip chip(kEncoder);
   prepare(chip, State::kAutomatic);
   ASSERT_TRUE(chip.device.control().read_registers({1, 0}, 0x44, buffer).ok());
-  chip.bus.plan({FaultKind::kLost, 2, 2, 0});
+  chip.bus.plan({FaultKind::kLost, 3, 3, 0});  // request, reading, witness, instruction
   EXPECT_EQ(chip.device.control().begin_read({1, 0}, 0x46, 1).error(), Error::kCorrupted);
   EXPECT_EQ(chip.device.control().poll().error(), Error::kWrongMode);
   // A status that is disturbed once does not hide the access.
