@@ -148,10 +148,11 @@ void bissc_spiRxISR(void) {
   if ((fifo & CLB_RXFFINT_MASK) != 0U) {
     for (uint32_t i = 0; i < (uint32_t)kWords && i < scd->spiFIFOLevel; ++i)
       scdRxData[i] = pm_bissc_port_read(CLB_ADDR_SPIRXBUF) & scd->spiFIFOMask;
-  } else if ((pm_bissc_port_read(CLB_ADDR_FSM_STATE) & CLB_WATCHDOG_ENDED_MASK) != 0U) {
-    scdRxData[0] = 0; /* no start bit */
   } else {
-    return;
+    /* Before the look: an end that comes in between interrupts again. After a halt it is no frame's. */
+    pm_bissc_port_write(CLB_ADDR_IRQ_STATUS, CLB_ERROR_MASK);
+    if ((pm_bissc_port_read(CLB_ADDR_FSM_STATE) & CLB_WATCHDOG_ENDED_MASK) == 0U) return;
+    scdRxData[0] = 0; /* no start bit */
   }
   /* The level may interrupt again with the next frame only. */
   pm_bissc_port_write(CLB_ADDR_SPIFFRX,

@@ -209,6 +209,26 @@ TEST_F(PmBissc, HaltOperation_ClearsBothTiles) {
   EXPECT_EQ(program_frame(kHalf), PM_BISSC_PASS);
 }
 
+// The watchdog has ended a frame while interrupts were off, and a halt follows: the event is no
+// frame's any more, and a level interrupt must not come for ever.
+TEST_F(PmBissc, HaltWithAnEventThatWaits_InterruptGoesAway) {
+  program_begin(0, 18, 6, 3, 0, kHalf);
+  position(0x12345, 18);
+  bench.drive_sl = [] { return true; };
+  bench.write(biss_clb::regs::kAddrWatchdog, 100);
+  PM_bissc_setupSCDTransaction(&scd);
+  PM_bissc_startOperation(&scd, kHalf);
+  bench.clocks(200 * 2 * kHalf);
+  ASSERT_EQ(bench.m.irq_o, 1);
+  PM_bissc_haltOperation();
+  bissc_spiRxISR();
+  EXPECT_EQ(bench.m.irq_o, 0);
+  EXPECT_FALSE(scd.dataReady);
+  bench.drive_sl = nullptr;
+  bench.clocks(1000);
+  EXPECT_EQ(program_frame(kHalf), PM_BISSC_PASS);
+}
+
 // No pause between frames: the calls wait for the encoder.
 TEST_F(PmBissc, FramesBackToBack_WaitForTheTimeout) {
   program_begin(12, 20, 6, 3, 0, kHalf);
