@@ -141,7 +141,9 @@ def check_waivers():
     texts = {*project.RTL.rglob("*.sv"), *project.RTL.rglob("*.svh"), *project.all_rtl_files()}
     for path in sorted(texts):
         findings += inline(path, path.read_text(encoding="utf-8"))
-    findings += idle(project.all_rtl_files(), [name for master in project.MASTERS.values() for name in master.tops], waivers)
+    # The registers of biss_axi alone use a part of its package.
+    tops = [*(name for master in project.MASTERS.values() for name in master.tops), "axi_regs"]
+    findings += idle(project.all_rtl_files(), tops, waivers)
     project.finish(findings, f"{len(waiver_lines(waivers))} waivers, each with a reason and needed")
 
 
