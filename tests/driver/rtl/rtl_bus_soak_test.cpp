@@ -25,6 +25,7 @@
 #include "sim/lines/clocked/clocked_line.hpp"
 #include "sim/lines/line.hpp"
 #include "tests/driver/rtl/sweep_rig.hpp"
+#include "tests/support/bits.hpp"
 
 namespace {
 
@@ -143,11 +144,9 @@ class SoakRig : public Rig {
   // A write that has ended in the middle of a byte: the frames behind bring zeros, as CDM rests,
   // and the encoder takes them as the rest of the byte, and as its CRC. It fits for one byte in 16.
   [[nodiscard]] bool cut_write(std::uint8_t now, std::uint8_t named) const override {
-    unsigned crc = 0;  // x^4 + x + 1, inverted on the line (BiSS C, control communication)
-    for (unsigned bit = 8; bit-- > 0;) {
-      crc = (crc << 1U ^ (((crc >> 3U ^ now >> bit) & 1U) != 0 ? 0x3U : 0U)) & 0xFU;
-    }
-    for (unsigned bits = 0; bits < 8 && failed_write_ && crc == 0xFU; ++bits) {
+    const std::string word = mb4test::word_on_line(now, 8, mb4test::crc_choice(0x04), 0);
+    const bool fits = word.substr(8) == "0000";
+    for (unsigned bits = 0; bits < 8 && failed_write_ && fits; ++bits) {
       if (now == (named & (0xFF00U >> bits & 0xFFU))) return true;
     }
     return false;

@@ -30,6 +30,15 @@ const std::string kEncoder =
     "[host]\nsclk_hz = 10_000_000\n[[channel]]\nnumber = 1\n[[channel.slave]]\nprotocol = "
     "\"biss-c\"\ncontrol = true\ndata_bits = 28\nsource = \"ramp\"\nstep = 4\n";
 
+// A frame each 100 us.
+Config config() {
+  Config config = mb4test::config26(10'000'000);
+  config.spi_check = mb4::SpiCheck::kFull;
+  config.frame_start = FrameStart::kPeriodic;
+  config.frame_period_clk = 20 * 100;
+  return config;
+}
+
 enum class Before : std::uint8_t { kStop, kActivate, kConfigure, kFailedRead };
 
 std::string name_of(const testing::TestParamInfo<Before>& test) {
@@ -39,13 +48,6 @@ std::string name_of(const testing::TestParamInfo<Before>& test) {
 
 class DriverProven : public testing::TestWithParam<Before> {
  protected:
-  static Config config() {
-    Config config = mb4test::config26(10'000'000);
-    config.spi_check = mb4::SpiCheck::kFull;
-    config.frame_start = FrameStart::kPeriodic;
-    config.frame_period_clk = 20 * 100;
-    return config;
-  }
   // Frames of both banks have set SVALID, and nobody has read them.
   static void prepare(FaultyChip& chip) {
     ASSERT_TRUE(chip.device.configure(config()).ok());
@@ -142,11 +144,9 @@ TEST(DriverProvenWrite, ZerosThatReachAWord_AreNoPosition) {
       "[host]\nsclk_hz = 10_000_000\n[[channel]]\nnumber = 1\n[[channel.slave]]\nprotocol = "
       "\"biss-c\"\ncontrol = true\ndata_bits = 28\nflag_bits = 0\nsource = \"ramp\"\nstart = "
       "0x12345\nstep = 4\n");
-  Config config = mb4test::config26(10'000'000);
-  config.slaves[0].flags = mb4::Flags::kNone;
-  config.frame_start = FrameStart::kPeriodic;
-  config.frame_period_clk = 20 * 100;
-  ASSERT_TRUE(chip.device.configure(config).ok());
+  Config without_flags = config();
+  without_flags.slaves[0].flags = mb4::Flags::kNone;
+  ASSERT_TRUE(chip.device.configure(without_flags).ok());
   ASSERT_TRUE(chip.device.automatic().start().ok());
   chip.simulator.advance(150 * sim::kPsPerUs);
   ASSERT_TRUE(chip.device.automatic().poll_slave(1).ok());
@@ -174,10 +174,7 @@ TEST(DriverProvenWrite, ZerosThatReachAWord_AreNoPosition) {
 TEST(DriverProvenStop, OneFault_ChipStopsNevertheless) {
   for (const unsigned kind : {0U, 1U, 2U}) {
     const auto begin = [kind](FaultyChip& chip) {
-      Config config = mb4test::config26(10'000'000);
-      config.frame_start = FrameStart::kPeriodic;
-      config.frame_period_clk = 20 * 100;
-      ASSERT_TRUE(chip.device.configure(config).ok());
+      ASSERT_TRUE(chip.device.configure(config()).ok());
       ASSERT_TRUE(chip.device.automatic().start().ok());
       if (kind == 2) {
         ASSERT_TRUE(chip.device.control().begin_read({1, 0}, 0x60, 1).ok());
@@ -225,10 +222,7 @@ TEST(DriverProvenStop, OneFault_ChipStopsNevertheless) {
 // transfer of the read shows it. Its end is not that of the access behind it.
 TEST(DriverProvenAccess, ReleaseThatBeginsAnother_EndIsNotTakenForItsOwn) {
   FaultyChip chip(kEncoder);
-  Config config = mb4test::config26(10'000'000);
-  config.frame_start = FrameStart::kPeriodic;
-  config.frame_period_clk = 20 * 100;
-  ASSERT_TRUE(chip.device.configure(config).ok());
+  ASSERT_TRUE(chip.device.configure(config()).ok());
   ASSERT_TRUE(chip.device.automatic().start().ok());
   std::array<std::uint8_t, 2> bytes{};
   ASSERT_TRUE(chip.device.control().read_registers({1, 0}, 0x60, bytes).ok());
