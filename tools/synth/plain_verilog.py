@@ -27,8 +27,8 @@ HEAD = """// SPDX-FileCopyrightText: 2026 The openmb4 authors
 
 
 def write(top, folder, files=None, parameters=None, preset="full"):
-    """FOLDER/TOP.v of the RTL, or of other files with the same modules; `parameters` of the top are
-    integers."""
+    """FOLDER/TOP.v of the RTL (a top, or a module below one), or of other files with the same modules; its
+    `parameters` are integers."""
     path = folder / f"{top}.v"
     values, features = dict(parameters or {}), ""
     if preset != "full":
@@ -41,7 +41,8 @@ def write(top, folder, files=None, parameters=None, preset="full"):
                              *named, f"write_verilog -noattr {path}"], folder, top)
     if status != 0:
         raise SystemExit(f"{top}: {text}")
-    path.write_text(HEAD.format(top=top, features=features, source=TOPS[top].source.relative_to(project.ROOT)) + path.read_text(encoding="utf-8"), encoding="utf-8")
+    head = HEAD.format(top=top, features=features, source=project.rtl_modules()[top].relative_to(project.ROOT))
+    path.write_text(head + path.read_text(encoding="utf-8"), encoding="utf-8")
     (folder / f"{top}.ys").unlink()
     return path
 
