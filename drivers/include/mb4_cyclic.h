@@ -335,8 +335,8 @@ typedef struct {
   uint8_t lines;      /* bits of 0xF8 that are 1 while the lines are idle: SL1, SL2 */
   bool several;       /* more than one slave delivers data */
   bool held;          /* a read has ended without the release of the bank: the next one begins with
-                         it; when frames are started clear it, with MB4_SPI_CHECK_FULL_AND_RELEASE
-                         set it */
+                         it, and drops the words that wait; set it when frames are started, because
+                         words may wait from before */
   uint8_t taken;      /* slaves (bit 0 is slave 1) of which a read of one has taken a new word */
   uint32_t good_us[MB4_SLAVES]; /* when; set them when frames are started */
   mb4_counts *counts;           /* for MB4_WITH_COUNTS; may be null */

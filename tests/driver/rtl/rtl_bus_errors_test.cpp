@@ -114,7 +114,7 @@ TEST(DriverCallErrors, StartDisturbed_IsToldFromFullOn) {
       config.spi_check = number < 2 ? mb4::SpiCheck::kFull : mb4::SpiCheck::kFullAndRelease;
       ASSERT_TRUE(chip.device.configure(config).ok());
       const std::size_t ags = again ? 3 : 0;
-      const std::size_t status = again ? 6 : 3;
+      const std::size_t status = again ? 7 : 4;
       chip.bus.plan(error == Error::kCorrupted ? Fault{FaultKind::kFlipMosi, ags, ags, 10}
                                                : Fault{FaultKind::kMisoLow, status, status, 0});
       const auto start = [&] {

@@ -278,14 +278,16 @@ TEST_P(DriverBusSoak, OneFaultACall_NoWrongPositionAndEachLossCounted) {
   std::printf(
       "%llu frames, MB4_SEED=%llu, %s: %llu faults, unplugged %llu times, %llu restarts, %llu "
       "configured, %llu "
-      "accesses and %llu failed; cut on the line with a CRC that fits %llu and %llu bytes",
+      "accesses and %llu failed, counts wrong by a period and doubtful %llu; cut on the line with "
+      "a CRC that fits %llu "
+      "and %llu bytes",
       static_cast<unsigned long long>(ticks), static_cast<unsigned long long>(seed),
       setup.text().c_str(), static_cast<unsigned long long>(rig.bus.faults()),
       static_cast<unsigned long long>(rig.unplugged), static_cast<unsigned long long>(rig.restarts),
       static_cast<unsigned long long>(rig.configured),
       static_cast<unsigned long long>(rig.accesses),
       static_cast<unsigned long long>(rig.failed_accesses),
-      static_cast<unsigned long long>(rig.line_limits),
+      static_cast<unsigned long long>(rig.slips), static_cast<unsigned long long>(rig.line_limits),
       static_cast<unsigned long long>(rig.cut_writes));
   for (unsigned i = 1; i < kVerdicts; ++i) {
     if (rig.seen[i] == 0) continue;
@@ -297,6 +299,7 @@ TEST_P(DriverBusSoak, OneFaultACall_NoWrongPositionAndEachLossCounted) {
         << to_string(what) << " " << rig.seen[i] << " times";
   }
   std::printf("\n");
+  EXPECT_LE(rig.slips, 2 + ticks / 10'000) << "wrong counts, and only `doubtful` says so";
 }
 
 INSTANTIATE_TEST_SUITE_P(Checks, DriverBusSoak,

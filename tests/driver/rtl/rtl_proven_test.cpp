@@ -218,6 +218,55 @@ TEST(DriverProvenStop, OneFault_ChipStopsNevertheless) {
   }
 }
 
+// A start writes the request at rest where it is already, and clears SVALID twice. One bit of an
+// address makes them reach the rate of the frames (0xE2 and 0xE6), or the request (0xF1 and 0xE1),
+// and what they have missed looks as it should.
+TEST(DriverProvenStart, OneFlippedBit_NoOtherRegisterIsWrittenUnseen) {
+  // An access was planned, and given up before its first frame.
+  const auto begin = [](FaultyChip& chip, bool restarts) {
+    ASSERT_TRUE(chip.device.configure(config()).ok());
+    if (!restarts) return;
+    ASSERT_TRUE(chip.device.automatic().start().ok());
+    chip.simulator.advance(150 * sim::kPsPerUs);
+    mb4::Operation op;
+    std::array<std::uint8_t, 1> byte{};
+    ASSERT_TRUE(chip.device.control().plan_read(op, {1, 0}, 0x44, byte).ok());
+    while (!chip.device.finish(op, false, chip.clock.now_us())) {
+    }
+  };
+  const auto call = [](FaultyChip& chip, bool restarts) {
+    return restarts ? chip.device.automatic().restart() : chip.device.automatic().start();
+  };
+  for (const bool restarts : {false, true}) {
+    std::vector<Fault> faults;
+    {
+      FaultyChip chip(kEncoder);
+      begin(chip, restarts);
+      chip.bus.plan({});
+      ASSERT_TRUE(call(chip, restarts).ok());
+      faults = mb4test::all_faults(chip.bus.bits(), 1);
+    }
+    ASSERT_GE(faults.size(), 100U);
+    unsigned told = 0;
+    for (const Fault& fault : faults) {
+      if (fault.last == mb4test::kForEver || fault.kind != FaultKind::kFlipMosi) continue;
+      FaultyChip chip(kEncoder);
+      begin(chip, restarts);
+      chip.bus.plan(fault);
+      const mb4::Result<void> done = call(chip, restarts);
+      chip.bus.plan({});
+      told += done.ok() ? 0 : 1;
+      const mb4::Result<void> same = chip.device.verify();
+      // The word of another slave comes with a wrong CRC then.
+      const bool of_a_slave = same.error() == Error::kVerify && same.info().detail < 0xE0;
+      EXPECT_TRUE(!done.ok() || same.ok() || of_a_slave)
+          << restarts << " " << fault.text() << " " << mb4::to_string(same.error()) << " at 0x"
+          << std::hex << unsigned{same.info().detail};
+    }
+    EXPECT_GT(told, 0U);
+  }
+}
+
 // One bit more in the release of a read, 0x09 for 0x01, begins the access at rest, and no later
 // transfer of the read shows it. Its end is not that of the access behind it.
 TEST(DriverProvenAccess, ReleaseThatBeginsAnother_EndIsNotTakenForItsOwn) {

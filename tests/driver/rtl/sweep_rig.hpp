@@ -595,6 +595,7 @@ class Rig {
   std::array<std::uint64_t, kVerdicts> seen{};  // how often each
   std::uint64_t line_limits = 0;  // words that the plug has cut and whose CRC fits all the same
   std::uint64_t cut_writes = 0;   // bytes of a write, the same
+  std::uint64_t slips = 0;        // counts that are wrong, and `doubtful` says so
   bool telling = false;
   std::string story;
 
@@ -1021,8 +1022,16 @@ class Rig {
       const std::uint64_t counted = counts.sequence - counted_sequence_;
       const std::uint64_t ticks = tick_number_ - counted_tick_;
       // After a restart the loop has another phase, so the periods between are no whole number.
-      const bool good = restarted_ ? counted + 1 >= frame - counted_frame_
-                                   : counted >= frame - counted_frame_ && counted == ticks;
+      bool good = restarted_ ? counted + 1 >= frame - counted_frame_
+                             : counted >= frame - counted_frame_ && counted == ticks;
+      // By so much the counts say that they may be wrong: a read that takes long beside one that
+      // takes short has slipped by a period.
+      const std::uint64_t doubts = counts.doubtful - counted_doubts_;
+      if (!good && doubts != 0 && counted + doubts >= frame - counted_frame_ &&
+          (restarted_ || (counted + doubts >= ticks && counted <= ticks + doubts))) {
+        good = true;
+        ++slips;
+      }
       // A read that begins with a release takes longer, and may bring the word of the frame after.
       // The reads behind it show whether a sample is missing in the end.
       const auto near = [counted](std::uint64_t number) {
@@ -1040,6 +1049,7 @@ class Rig {
     restarted_ = false;
     unsettled_ = 0;
     counted_sequence_ = counts.sequence;
+    counted_doubts_ = counts.doubtful;
     counted_tick_ = tick_number_;
     counted_frame_ = frame;
   }
@@ -1163,6 +1173,7 @@ class Rig {
   bool first_read_ = true;  // since the start of frames
   unsigned unsettled_ = 0;  // good reads since the counts have agreed
   std::uint32_t counted_sequence_ = 0;
+  std::uint32_t counted_doubts_ = 0;
   std::uint64_t counted_tick_ = 0;
   std::uint64_t counted_frame_ = 0;
   std::vector<std::array<std::uint8_t, 128>> registers_;

@@ -27,7 +27,8 @@ void encoder_begin(encoder_transfer transfer, uint32_t now_us) {
   frame(stop, 0, sizeof stop); /* internal oscillator, 20 MHz */
   write_register(MB4_SCDLEN_ADDR(1), MB4_ENSCD_MASK(1) | (28 - 1));
   write_register(MB4_SCRCLEN_ADDR(1), 6);
-  write_register(MB4_REGVERS_ADDR, MB4_REGVERS_MASK); /* BiSS C (table 26) */
+  /* BiSS C (table 26), and CTS = 1: the request at rest is a read, no command. */
+  write_register(MB4_REGVERS_ADDR, MB4_REGVERS_MASK | MB4_CTS_MASK);
   write_register(MB4_FREQS_ADDR, 3);          /* MA: 20 MHz / 2 / (3 + 1) = 2.5 MHz (table 35) */
   write_register(MB4_FREQAGS_ADDR, 127 + 32); /* 20 MHz / 625 / 32 = 1 kHz (table 37) */
   write_register(MB4_CFGCH_ADDR(1), 0x0D);    /* line 1 BiSS C, line 2 unused (table 8) */
@@ -36,6 +37,7 @@ void encoder_begin(encoder_transfer transfer, uint32_t now_us) {
   watch.omitted_us = 3000;
   watch.silent_us = 16000;
   watch.lines = 1;
+  watch.held = true; /* the first read drops words from before */
   cyclic.words = &word;
   cyclic.slots = &slot;
   cyclic.count = 1;

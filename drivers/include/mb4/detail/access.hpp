@@ -300,7 +300,8 @@ inline void Procedures::add_access(ChipState& chip, Operation& op) {
   state.first_frame = true;
   state.frames = 1;
   op.stage_ = kStart;
-  chip.set_waits(ChipState::kForRequest, chip.automatic && !chip.checks_all());
+  // The 0x02 of a read with one wrong bit (0xF1 and 0xE1) would make another request of it.
+  chip.set_waits(ChipState::kForRequest, chip.automatic);
   add_instruction(op, static_cast<std::uint8_t>(
                           chip.automatic ? kControlFrame | regs::AGS::encode<1>() : kControlFrame));
   if (state.biss_b || (chip.automatic && chip.checks_all())) {
@@ -337,7 +338,7 @@ inline Result<void> Procedures::access_step(ChipState& chip, Operation& op, std:
     chip.restart = chip.automatic || chip.restart;
     chip.control.stray = chip.control.stray || chip.checks_all();
     const bool fills = op.stage_ == kFill || op.stage_ == kCompare;
-    chip.control.armed = chip.control.armed || (chip.checks_all() && fills);
+    chip.control.armed = chip.control.armed || fills;
     return not_begun(chip, op, done);
   }
   clear_plan(op);
@@ -422,7 +423,7 @@ inline Result<void> Procedures::access(ChipState& chip, Operation& op, std::uint
       return {};
     }
     case kRestarted:
-      if (const Result<void> done = confirmed(chip, op, regs::AGS::encode<1>()); !done) {
+      if (const Result<void> done = confirmed_start(chip, op); !done) {
         return done;
       }
       chip.started(now_us);

@@ -167,7 +167,7 @@ inline Result<void> Procedures::configure(ChipState& chip, Operation& op) {
   }
   if (op.stage_ == kProof) {
     const Result<void> seen = look(op);
-    if (seen && received(op)[kWitnessBytes - 1] != chip.interface_byte) {
+    if (seen && interface_changed(chip, op)) {
       return ErrorInfo::at_register(Error::kVerify, regs::kAddrIface);
     }
     return seen && op.count_ == kConfigures ? at_rest(chip, op.status_) : seen;

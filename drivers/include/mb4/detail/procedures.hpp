@@ -189,7 +189,7 @@ struct Procedures {
 
   // BREAK, at kRecover. With SpiCheck::kFull it also writes 0xF5, the register after 0xF4: the
   // failed transfer may have been a read of the status that reached the chip as a write; then
-  // SVALID = 0, and the status follows. Afterwards recovered().
+  // SVALID = 0, and a witness follows. Afterwards recovered().
   [[gnu::noinline]] static void add_recovery(ChipState& chip, Operation& op) {
     op.stage_ = kRecover;
     chip.stopped();
@@ -203,14 +203,14 @@ struct Procedures {
       add_rest(chip, op);
     }
     if (full) {
-      mb4_cyclic_add_status(&op.plan_);
+      add_witness(op);
     }
   }
   // The frames that follow come after the slaves' timeout. Without SpiCheck::kFull the first one
   // clears the flags of frames that ran. Success with frames of stage kRecover: one more look.
-  // kTransport; with SpiCheck::kFull kNotDetected; kCorrupted: 0xF4 or SVALID is not 0, or the
-  // request at rest reads back differently (the next call sends it again); kTimeout: EOT = 0, a
-  // frame still runs, or there is no system clock.
+  // kTransport; with SpiCheck::kFull kNotDetected; kCorrupted: 0xF4 or SVALID is not 0, 0xF5 is
+  // not as it was written, or the request at rest does not stand (the next call sends it again);
+  // kTimeout: EOT = 0, a frame still runs, or there is no system clock.
   [[gnu::noinline]] static Result<void> recovered(ChipState& chip, Operation& op) {
     if (chip.checks_all()) {
       const Result<void> seen = look(op);
@@ -222,7 +222,7 @@ struct Procedures {
         doubt(chip);
         return Error::kCorrupted;
       }
-      if (op.status_.instruction() != 0) {
+      if (op.status_.instruction() != 0 || (first && interface_changed(chip, op))) {
         return Error::kCorrupted;
       }
       const bool valid = (op.status_.valid_flags() & chip.sensor_flags) != 0;
@@ -254,14 +254,28 @@ struct Procedures {
   }
 
   // AGS = 1. With SpiCheck::kFull the words of both banks are dropped, because a disturbed byte
-  // before may have switched them, and the status follows: confirmed().
+  // before may have switched them. What drops them may reach the request, or 0xF5, by one bit of
+  // its address: both are read back, with a witness: confirmed_start().
   static void add_start(const ChipState& chip, Operation& op) {
     add_instruction(op, regs::AGS::encode<1>());
     if (chip.checks_all()) {
       mb4_cyclic_add_clear(&op.plan_, chip.sensor_flags, 4);
       mb4_cyclic_add_clear(&op.plan_, chip.sensor_flags, 4); /* one may be lost */
-      mb4_cyclic_add_status(&op.plan_);
+      add_read(op, regs::kAddrRegadr, kRestBytes);
+      add_witness(op);
     }
+  }
+  // add_start() was made. kTransport, kNotDetected; kCorrupted: the frames do not run, or the
+  // clears have changed something else; then the next call begins with BREAK and the request at
+  // rest.
+  [[gnu::noinline]] static Result<void> confirmed_start(ChipState& chip, Operation& op) {
+    const Result<void> done = confirmed(chip, op, regs::AGS::encode<1>());
+    if (done && chip.checks_all() && (interface_changed(chip, op) || !rests(chip, op, 1))) {
+      doubt(chip);
+      chip.control.armed = true;
+      return Error::kCorrupted;
+    }
+    return done;
   }
   // Reads `size` registers. A bus that stores nothing must not turn an old answer into a new one:
   // the first byte is 0, and no longer that of the answer before.
@@ -290,6 +304,10 @@ struct Procedures {
   static constexpr std::uint8_t kWitnessBytes = 2 + Status::kBytes;
   static void add_witness(Operation& op) {
     mb4_plan_add(&op.plan_, kWitnessBytes, MB4_CYCLIC_STATUS, 0, 0);
+  }
+  // The last frame was a witness: 0xF5 is not as configure() has written it.
+  static bool interface_changed(const ChipState& chip, const Operation& op) {
+    return received(op)[kWitnessBytes - 1] != chip.interface_byte;
   }
   // Something that was read back differs. The write may have reached another register, among them
   // the configuration, and a read whose opcode was disturbed is an instruction (0x03 and 0x07): no
@@ -328,16 +346,24 @@ struct Procedures {
     }
   }
   // The request at rest: a read of register 0. A disturbed byte of 0xF4 that starts an access then
-  // does no harm (docs/choices.md).
+  // does no harm (docs/choices.md). It may stand there already, so that a write which has missed it
+  // looks as if it had not: with SpiCheck::kFull the registers behind it that one bit of the
+  // address reaches, the rate of the frames among them, are read back too.
+  static constexpr std::uint8_t kRestBytes = regs::kAddrStatus0 - regs::kAddrRegadr;
   [[gnu::noinline]] static void add_rest(const ChipState& chip, Operation& op) {
-    add_write(chip, op, regs::kAddrRegadr, request_at_rest(chip), kRequestBytes);
+    add_bytes(op, regs::kAddrRegadr, request_at_rest(chip), kRequestBytes);
+    if (chip.checks_all()) {
+      add_read(op, regs::kAddrRegadr, kRestBytes);
+    }
   }
   static const std::uint8_t* request_at_rest(const ChipState& chip) {
     return &chip.image[regs::kAddrRegadr - kImageFirst];
   }
-  // The frame that was made with `behind` frames after it has read the request at rest.
+  // The frame that was made with `behind` frames after it has read the request at rest, and the
+  // registers behind it as they were written.
   [[gnu::noinline]] static bool rests(const ChipState& chip, const Operation& op, unsigned behind) {
-    return equal(request_at_rest(chip), received(op, behind) + 2, kRequestBytes);
+    return differs_at(chip, regs::kAddrRegadr, received(op, behind) + 2, kRestBytes, false) ==
+           kNowhere;
   }
   // add_rest() was made. False: frames are still to be made. With SpiCheck::kFull a request that
   // differs is read again. If it differs once more the write has failed, and may have reached
@@ -349,7 +375,7 @@ struct Procedures {
     if (!set && op.good_ && ++op.bad_ < kBadLooks) {
       if (op.bad_ == 1) {
         doubt(chip);
-        add_read(op, regs::kAddrRegadr, kRequestBytes);
+        add_read(op, regs::kAddrRegadr, kRestBytes);
         return false;
       }
       if (op.cause_) {
@@ -436,7 +462,7 @@ struct Procedures {
     const unsigned instruction = op.status_.instruction();
     const bool other = chip.automatic ? (instruction & regs::AGS::kMask) == 0
                                       : (instruction & ~unsigned{regs::SWBANK::kMask}) != 0;
-    const bool changed = other || received(op)[kWitnessBytes - 1] != chip.interface_byte;
+    const bool changed = other || interface_changed(chip, op);
     --op.made_;
     if (changed) {
       doubt(chip);
@@ -495,8 +521,7 @@ struct Procedures {
 
   static Result<void> start_step(ChipState& chip, Operation& op, std::uint32_t now_us) {
     const bool breaks = op.stage_ == kRecover;
-    const Result<void> done =
-        breaks ? recovered(chip, op) : confirmed(chip, op, regs::AGS::encode<1>());
+    const Result<void> done = breaks ? recovered(chip, op) : confirmed_start(chip, op);
     if (breaks && has_recovered(done, op)) {
       add_start(chip, op);
     } else if (done && !breaks) {
