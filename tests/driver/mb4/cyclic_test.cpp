@@ -72,11 +72,10 @@ class CyclicTest : public testing::Test {
     if (slaves > 1) config.slaves[1] = config.slaves[0];
     mb4test::expect_image(bus, image, answer);
     ASSERT_TRUE(device.configure(config).ok());
-    bus.expect_write(kAgs);
     if (check >= mb4::SpiCheck::kFull) {
-      bus.expect_write(kClearValid1);
-      bus.expect_write(kClearValid1);
-      bus.expect_read(kReadStatus, kProven);
+      mb4test::expect_start_at_full(bus, kClearValid1, answer);
+    } else {
+      bus.expect_write(kAgs);
     }
     clock.time_us = 1000;
     clock.step_us = 0;
@@ -1156,11 +1155,12 @@ TEST_F(Full, StartUnproven_IsCorrupted) {
   ASSERT_TRUE(device.automatic().stop().ok());
   bus.expect_write({0x07, 0x80, 0x00});
   bus.expect_write(kClearValid1);
-  bus.expect_read(kReadStatus, {0, 0xFB, 0, 0, 0, 0x00});
+  bus.expect_read(mb4test::kReadWitness, {0, 0xFB, 0, 0, 0, 0x00, 0});
   bus.expect_write(kAgs);
   bus.expect_write(kClearValid1);
   bus.expect_write(kClearValid1);
-  bus.expect_read(kReadStatus, {0, 0xFA, 0, 0, 0, 0x21});
+  bus.expect_read(mb4test::kReadRest, mb4test::kRestBack);
+  bus.expect_read(mb4test::kReadWitness, {0, 0xFA, 0, 0, 0, 0x21, 0});
   EXPECT_EQ(device.automatic().start().error(), Error::kCorrupted);
   EXPECT_FALSE(device.automatic().running());
 }

@@ -122,6 +122,20 @@ inline const Bytes kReadWitness{0x05, 0x00, 0x00, 0x00, 0x00, 0x00, 0x00};
 inline Bytes witness(const Bytes& status, std::uint8_t interface_byte = 0x00) {
   return join({status, {interface_byte}});
 }
+// The request at rest, a read of register 0. SpiCheck::kFull reads it back with the registers
+// behind it, up to 0xEF: those of encoder26(), whose NOCRC (0xE7) is 0 there.
+inline const Bytes kRest{0x02, 0xE2, 0x00, 0x00, 0x00, 0xC0};
+inline const Bytes kReadRest = join({{0x03, 0xE2}, zeros(14)});
+// `answer` holds 0xC0..0xF5, or more, as they read back.
+inline Bytes rest_back(const Bytes& answer) {
+  return join({zeros(2), Bytes(answer.begin() + 0x22, answer.begin() + 0x30)});
+}
+inline Bytes answer_at_full() {
+  Bytes answer = read_back();
+  answer[0xE7 - 0xC0] = 0x00;
+  return answer;
+}
+inline const Bytes kRestBack = rest_back(answer_at_full());
 inline const Bytes kIdleStatus = status(0xFB, 0x00);     // EOT = 1, no error, REGEND = 0
 inline const Bytes kRunning = status(0xFA, 0x00, 0x04);  // EOT = 0, INSTR = 010 still there
 inline const Bytes kGoodFrame = status(0xFB, 0x02);      // EOT = 1, SVALID1 = 1 (bit 1 of 0xF1)
@@ -132,6 +146,16 @@ inline const Bytes kClearValid1{0x02, 0xF1, 0xFD, 0xFF};  // only SVALID1, bit 1
 inline const Bytes kClearValid1AndRelease{0x02, 0xF1, 0xFD, 0xFF, 0xFF, 0x01};
 inline const Bytes kReadData4{0x09, 0x00, 0x00, 0x00, 0x00};
 inline const Bytes kData4{0x00, 0xBF, 0x37, 0xAF, 0x0A};  // 0x0AAF37BF, low byte first (table 20)
+
+// AGS = 1 at SpiCheck::kFull: what drops the words of both banks, and the proof that it has changed
+// nothing else.
+inline void expect_start_at_full(StrictBus& bus, const Bytes& clear, const Bytes& answer) {
+  bus.expect_write({0x07, 0x01});
+  bus.expect_write(clear);
+  bus.expect_write(clear);
+  bus.expect_read(kReadRest, rest_back(answer));
+  bus.expect_read(kReadWitness, witness(status(0xFB, 0x00, 0x01)));
+}
 
 }  // namespace mb4test
 

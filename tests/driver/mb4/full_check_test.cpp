@@ -77,24 +77,18 @@ class FullCheck : public testing::Test {
     EXPECT_TRUE(device.configure(config).ok());
   }
   void start() {
-    bus.expect_write(kAgs);
-    bus.expect_write(kClearValid1);
-    bus.expect_write(kClearValid1);
-    bus.expect_read(kReadStatus, status(0xFB, 0x00, 0x01));
+    mb4test::expect_start_at_full(bus, kClearValid1, answer);
     ASSERT_TRUE(device.automatic().start().ok());
   }
   void start_two() {
-    bus.expect_write(kAgs);
-    bus.expect_write(kClearBoth);
-    bus.expect_write(kClearBoth);
-    bus.expect_read(kReadStatus, status(0xFB, 0x00, 0x01));
+    mb4test::expect_start_at_full(bus, kClearBoth, answer);
     ASSERT_TRUE(device.automatic().start().ok());
   }
   // The next single frame begins with this.
   void expect_recovery() {
     bus.expect_write(kBreakAndInterface);
     bus.expect_write(kClearValid1);
-    bus.expect_read(kReadStatus, status(0xFF, 0x00));
+    bus.expect_read(mb4test::kReadWitness, mb4test::witness(status(0xFF, 0x00)));
   }
   void expect_good_frame() {
     bus.expect_write(kStartFrame);
@@ -252,7 +246,7 @@ TEST_F(FullCheck, BadWordBesideAnAccess_IsNotMarked) {
   bus.expect_read(kReadStatus, done);
   bus.expect_read({0x03, 0x80, 0x5A}, {0, 0, 0x77});
   bus.expect_read(mb4test::kReadWitness, mb4test::witness(done));
-  bus.expect_proven({0x02, 0xE2, 0x00, 0x00, 0x00, 0xC0});
+  bus.expect_write(mb4test::kRest).expect_read(mb4test::kReadRest, mb4test::rest_back(answer));
   ASSERT_TRUE(*device.control().poll());
   poll(false);
   for (const bool again : {false, true}) {
@@ -356,7 +350,7 @@ TEST_F(FullCheck, WordByAddress_IsReadTwice) {
   // Automatic frames.
   bus.expect_write(kBreakAndInterface);
   bus.expect_write(clear);
-  bus.expect_read(kReadStatus, status(0xFB, 0x00));
+  bus.expect_read(mb4test::kReadWitness, mb4test::witness(status(0xFB, 0x00)));
   start_two();
   for (const bool same : {true, false}) {
     bus.expect_write(kHold);

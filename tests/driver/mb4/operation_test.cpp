@@ -29,8 +29,11 @@ using mb4test::hex;
 using mb4test::join;
 using mb4test::kBreak;
 using mb4test::kClearValid1;
+using mb4test::kReadRest;
 using mb4test::kReadStatus;
 using mb4test::kReadWitness;
+using mb4test::kRest;
+using mb4test::kRestBack;
 using mb4test::status;
 using mb4test::StrictBus;
 using mb4test::witness;
@@ -55,15 +58,18 @@ const Bytes kReadRequest{0x03, 0xE2, 0, 0, 0, 0};
 const std::vector<Bytes> kAsk{kRequest, kReadRequest};
 const std::vector<Bytes> kAsked{{0, 0, 0x44, 0x01, 0x01, 0xC0}};
 // The request at rest: a read of register 0. SpiCheck::kFull reads it back.
-const Bytes kRest{0x02, 0xE2, 0x00, 0x00, 0x00, 0xC0};
-const Bytes kRestBack{0, 0, 0x00, 0x00, 0x00, 0xC0};
-const std::vector<Bytes> kAtRest{kRest, kReadRequest};
+const std::vector<Bytes> kAtRest{kRest, kReadRest};
+// The request of an access where that at rest is looked for.
+const Bytes kAskedBack = join({kAsked[0], Bytes(kRestBack.begin() + 6, kRestBack.end())});
 // The end of a read: RDATA1, with which the registers are compared. Then the request at rest.
 const std::vector<Bytes> kEnd{{0x03, 0x80, 0x5A}, kReadWitness};
 const std::vector<Bytes> kEnded{{0, 0, 1}, witness(kDoneAgs)};
 // SpiCheck::kFull: with a status, which no stuck line makes; and again.
 const std::vector<Bytes> kTakeFirst{{0x03, 0x80, 0x5A, 0x5A}, kReadWitness};
 const std::vector<Bytes> kTakeAgain{{0x03, 0x80, 0, 0}, kReadWitness};
+
+// AGS = 1 at SpiCheck::kFull: no word waits, and nothing else has changed.
+const std::vector<Bytes> kStarts{kAgs, kClearValid1, kClearValid1, kReadRest, kReadWitness};
 
 // The slaves' timeout, and the step of the coarsest clock.
 constexpr std::uint32_t kPause = 100 + 33;
@@ -79,22 +85,21 @@ class OperationTest : public testing::Test {
   void expect_break() {
     bus.expect_write({0x07, 0x80, 0x00});
     bus.expect_write(kClearValid1);
-    bus.expect_read(kReadStatus, status(0xFF, 0x00, 0x00));
+    bus.expect_read(kReadWitness, witness(status(0xFF, 0x00, 0x00)));
   }
-  void expect_start() {
-    bus.expect_write(kAgs);
-    if (full()) {
-      const auto& slaves = device.config().slaves;
-      const Bytes clear = slaves[0].actuator  ? kClearNone
-                          : slaves[1].enabled ? kClearBoth
-                                              : kClearValid1;
-      bus.expect_write(clear);
-      bus.expect_write(clear);
-      bus.expect_read(kReadStatus, kProven);
+  void expect_start(const Bytes& answer = mb4test::answer_at_full()) {
+    if (!full()) {
+      bus.expect_write(kAgs);
+      return;
     }
+    const auto& slaves = device.config().slaves;
+    const Bytes clear = slaves[0].actuator  ? kClearNone
+                        : slaves[1].enabled ? kClearBoth
+                                            : kClearValid1;
+    mb4test::expect_start_at_full(bus, clear, answer);
   }
-  void start() {
-    expect_start();
+  void start(const Bytes& answer = mb4test::answer_at_full()) {
+    expect_start(answer);
     ASSERT_TRUE(device.automatic().start().ok());
   }
   bool full() const { return device.config().spi_check >= mb4::SpiCheck::kFull; }
@@ -145,8 +150,9 @@ class OperationTest : public testing::Test {
   }
   // BREAK and a new start before the request.
   void begins_with_break() {
-    EXPECT_FALSE(step({{0x07, 0x80, 0x00}, kClearValid1, kReadStatus}, {status(0xFF, 0x00, 0x00)}));
-    EXPECT_FALSE(step({kAgs, kClearValid1, kClearValid1, kReadStatus}, {kProven}, true, kPause));
+    EXPECT_FALSE(step({{0x07, 0x80, 0x00}, kClearValid1, kReadWitness},
+                      {witness(status(0xFF, 0x00, 0x00))}));
+    EXPECT_FALSE(step(kStarts, {kRestBack, witness(kProven)}, true, kPause));
   }
   // The request of an access at kFull beside automatic frames, behind one that has ended: none
   // runs.
@@ -205,8 +211,8 @@ class OperationTest : public testing::Test {
   void restart_after_rest() {
     bus.expect_write({0x07, 0x80, 0x00});
     bus.expect_write(kClearValid1);
-    bus.expect_proven(kRest);
-    bus.expect_read(kReadStatus, status(0xFF, 0x00, 0x00));
+    bus.expect_write(kRest).expect_read(kReadRest, kRestBack);
+    bus.expect_read(kReadWitness, witness(status(0xFF, 0x00, 0x00)));
     expect_start();
     EXPECT_TRUE(device.automatic().restart().ok());
   }
@@ -269,10 +275,11 @@ TEST_F(Restart, Counted_WithCountsOnly) {
   EXPECT_EQ(counts.restarts, 0U);
   EXPECT_EQ(device.automatic().plan_restart(op).error(), Error::kBusy);
   EXPECT_EQ(counts.restarts, 0U);
-  EXPECT_TRUE(step({{0x07, 0x80, 0x00}, kClearValid1, kReadStatus}, {}, false));
+  EXPECT_TRUE(step({{0x07, 0x80, 0x00}, kClearValid1, kReadWitness}, {}, false));
   ASSERT_TRUE(device.automatic().plan_restart(op).ok());
-  EXPECT_FALSE(step({{0x07, 0x80, 0x00}, kClearValid1, kReadStatus}, {status(0xFF, 0x00, 0x00)}));
-  EXPECT_TRUE(step({kAgs, kClearValid1, kClearValid1, kReadStatus}, {kProven}, true, kPause));
+  EXPECT_FALSE(
+      step({{0x07, 0x80, 0x00}, kClearValid1, kReadWitness}, {witness(status(0xFF, 0x00, 0x00))}));
+  EXPECT_TRUE(step(kStarts, {kRestBack, witness(kProven)}, true, kPause));
   EXPECT_EQ(counts.restarts, 1U);
   expect_break();
   expect_start();
@@ -607,7 +614,7 @@ TEST_F(Initialize, Full_ReadsTwice) {
   for (const int fault : {0, 1, 2}) {
     ASSERT_TRUE(device.plan_initialize(op).ok());
     if (fault == 2) {  // after a failed one
-      EXPECT_FALSE(step({{0x07, 0x80, 0x00}, kClearValid1, kReadStatus}, {kOver}));
+      EXPECT_FALSE(step({{0x07, 0x80, 0x00}, kClearValid1, kReadWitness}, {witness(kOver)}));
       EXPECT_FALSE(step({kZero1, kZero5}, {}, true, kPause));
     } else {
       EXPECT_FALSE(step({kZero1, kZero5}, {}));
@@ -796,7 +803,7 @@ TEST_F(Initialize, Lost_IsCorrupted) {
   for (const bool disturbed : {false, true}) {
     ASSERT_TRUE(device.plan_initialize(op).ok());
     if (disturbed) {
-      EXPECT_FALSE(step({{0x07, 0x80, 0x00}, kClearValid1, kReadStatus}, {kOver}));
+      EXPECT_FALSE(step({{0x07, 0x80, 0x00}, kClearValid1, kReadWitness}, {witness(kOver)}));
       EXPECT_FALSE(step({kZero1, kZero5}, {}, true, kPause));
     } else {
       EXPECT_FALSE(step({kZero1, kZero5}, {}));
@@ -939,10 +946,12 @@ TEST_F(Access, AfterAWriteThatFails_NothingIsTaken) {
     EXPECT_TRUE(device.control().take(two).ok());
     if (kind == 0) {
       ASSERT_TRUE(device.control().plan_write(op, {1, 0}, 0x50, two).ok());
-      EXPECT_TRUE(step({{0x02, 0x80, 1, 2}}, {}, false));
+      EXPECT_FALSE(step({{0x02, 0x80, 1, 2}}, {}, false));
+      EXPECT_TRUE(step({kRest}, {}));
     } else if (kind == 1) {
       ASSERT_TRUE(device.control().plan_command(op, command).ok());
-      EXPECT_TRUE(step({{0x02, 0x80, 0x80}}, {}, false));
+      EXPECT_FALSE(step({{0x02, 0x80, 0x80}}, {}, false));
+      EXPECT_TRUE(step({kRest}, {}));
     }
     EXPECT_EQ(device.control().take(two).error(), Error::kInvalidArgument) << kind;
   }
@@ -1057,8 +1066,8 @@ TEST_F(Access, EndOfARead_IsRepeatedAndCompared) {
     access_ends(other);
     EXPECT_FALSE(step(kEnd, {}, false));
     EXPECT_FALSE(step(kEnd, kEnded));
-    EXPECT_FALSE(step(kAtRest, {kAsked[0]}));
-    EXPECT_FALSE(step({kReadRequest}, {kRestBack}));  // only its reading was disturbed
+    EXPECT_FALSE(step(kAtRest, {kAskedBack}));
+    EXPECT_FALSE(step({kReadRest}, {kRestBack}));  // only its reading was disturbed
     // A disturbed byte has started the request at rest meanwhile: register 0 is in RDATA1.
     const Bytes taken{0, 0, static_cast<std::uint8_t>(other ? 9 : 1), 2};
     EXPECT_FALSE(step(kTakeFirst, {taken, witness(kDoneAgs)}));
@@ -1119,7 +1128,7 @@ class Doubt : public OperationTest {
   void restart() {
     bus.expect_write({0x07, 0x80, 0x00});
     bus.expect_write(kClearBoth);
-    bus.expect_read(kReadStatus, status(0xFF, 0x00, 0x00));
+    bus.expect_read(kReadWitness, witness(status(0xFF, 0x00, 0x00)));
     expect_start();
     EXPECT_TRUE(device.automatic().restart().ok());
   }
@@ -1147,7 +1156,7 @@ class Doubt : public OperationTest {
   // The request is not what was written.
   void to_comparison() {
     read();
-    EXPECT_FALSE(step(kAsk, {kRestBack}));
+    EXPECT_FALSE(step(kAsk, {Bytes(kRestBack.begin(), kRestBack.begin() + 6)}));
     expect_waiting();
     EXPECT_FALSE(step(kAtRest, {kRestBack}));
   }
@@ -1336,8 +1345,8 @@ TEST_F(Doubt, ConfigurationChanged_LeavesNothingToTake) {
   read();
   access_ends();
   EXPECT_FALSE(step(kEnd, kEnded));
-  EXPECT_FALSE(step(kAtRest, {kAsked[0]}));
-  EXPECT_FALSE(step({kReadRequest}, {kRestBack}));
+  EXPECT_FALSE(step(kAtRest, {kAskedBack}));
+  EXPECT_FALSE(step({kReadRest}, {kRestBack}));
   EXPECT_FALSE(step(kTakeFirst, {{0, 0, 1, 2}, witness(kDoneAgs)}));
   EXPECT_FALSE(step(kTakeAgain, {{0, 0, 1, 2}, witness(kDoneAgs)}));
   EXPECT_TRUE(compares({{0xE6, 0x00}}));
@@ -1355,9 +1364,9 @@ TEST_F(Access, RequestAtRestLost_IsCorrupted) {
     read();
     access_ends();
     EXPECT_FALSE(step(kEnd, kEnded));
-    EXPECT_FALSE(step(kAtRest, {kAsked[0]}));
-    EXPECT_FALSE(step({kReadRequest}, {kAsked[0]}));
-    EXPECT_FALSE(step(kAtRest, {once ? kRestBack : kAsked[0]}));
+    EXPECT_FALSE(step(kAtRest, {kAskedBack}));
+    EXPECT_FALSE(step({kReadRest}, {kAskedBack}));
+    EXPECT_FALSE(step(kAtRest, {once ? kRestBack : kAskedBack}));
     EXPECT_TRUE(compared());
     ends_with(Error::kCorrupted);
     EXPECT_EQ(device.automatic().running(), once);
@@ -1371,10 +1380,10 @@ TEST_F(Access, RequestAtRestLost_IsCorrupted) {
     EXPECT_FALSE(step(kAsk, kAsked));
     bus.expect_write({0x07, 0x80});
     bus.expect_write(kRest);
-    bus.expect_read(kReadRequest, kAsked[0]);
+    bus.expect_read(kReadRest, kAskedBack);
     bus.expect_read(kReadStatus, kOver);
-    bus.expect_read(kReadRequest, kAsked[0]);
-    bus.expect_proven(kRest);
+    bus.expect_read(kReadRest, kAskedBack);
+    bus.expect_write(kRest).expect_read(kReadRest, kRestBack);
     expect_compared(kOver);
     EXPECT_EQ(abort ? device.control().abort().error() : device.break_transmission().error(),
               Error::kCorrupted);
@@ -1395,8 +1404,8 @@ TEST_F(Access, RequestAtRestLostBehindBreak_IsCorrupted) {
     bus.expect_write({0x07, 0x80, 0x00});
     bus.expect_write(kClearValid1);
     bus.expect_write(kRest);
-    bus.expect_read(kReadRequest, kAsked[0]);
-    bus.expect_read(kReadStatus, status(0xFF, 0x00, 0x00));
+    bus.expect_read(kReadRest, kAskedBack);
+    bus.expect_read(kReadWitness, witness(status(0xFF, 0x00, 0x00)));
     expect_compared(kOver);
     EXPECT_EQ(automatic ? device.automatic().restart().error() : device.read_frame().error(),
               Error::kCorrupted);
@@ -1435,7 +1444,7 @@ TEST_F(Access, DisturbedEnd_IsReadAgain) {
   for (const Bytes& look : {kDoneAgs, failed, kDoneAgs, failed}) {
     EXPECT_FALSE(step({kReadStatus}, {look}));
   }
-  EXPECT_TRUE(step({kBreak, kRest, kReadRequest}, {kRestBack}));
+  EXPECT_TRUE(step({kBreak, kRest, kReadRest}, {kRestBack}));
   ends_with(Error::kCorrupted);
 }
 
@@ -1448,7 +1457,7 @@ TEST_F(Access, AutomaticFramesThatNobodyStarted_AreCorrupted) {
   to_second_frame();
   EXPECT_FALSE(step({kReadStatus}, {with_ags}));
   EXPECT_FALSE(step({kReadStatus}, {with_ags}));
-  EXPECT_TRUE(step({kBreak, kRest, kReadRequest}, {kRestBack}));
+  EXPECT_TRUE(step({kBreak, kRest, kReadRest}, {kRestBack}));
   ends_with(Error::kCorrupted);
   // The frame at the end of initialize().
   configure(mb4::SpiCheck::kFull);
@@ -1530,7 +1539,7 @@ TEST_F(Access, RecoveryUnproven_IsTold) {
     ASSERT_TRUE(device.automatic().stop().ok());
     bus.expect_write({0x07, 0x80, 0x00});
     bus.expect_write(kClearValid1);
-    bus.expect_read(kReadStatus, first);
+    bus.expect_read(kReadWitness, witness(first));
     if (!second.empty()) bus.expect_read(kReadStatus, second);
     if (error == Error::kNone) bus.expect_write(mb4test::kStartFrame).fail_last();
     EXPECT_EQ(device.read_frame().error(), error == Error::kNone ? Error::kTransport : error);
@@ -1605,7 +1614,7 @@ TEST_F(Access, BreakInTheLastSteps_EndsIt) {
       EXPECT_FALSE(step(kTakeFirst, {{0, 0, 1, 2}, witness(kDoneAgs)}));
     }
     bus.expect_write({0x07, 0x80});
-    if (at < 2) bus.expect_proven(kRest);
+    if (at < 2) bus.expect_write(kRest).expect_read(kReadRest, kRestBack);
     bus.expect_read(kReadStatus, kOver);
     EXPECT_TRUE(device.control().abort().ok());
     EXPECT_TRUE(device.finish(op, true, now_us)) << at;
@@ -1737,7 +1746,7 @@ TEST_F(Access, DisturbedStatus_StopsNothing) {
   EXPECT_FALSE(asks_again());
   EXPECT_FALSE(step({kFrameAgs, kReadStatus}, {zeros(6)}));
   EXPECT_FALSE(step({kReadStatus}, {zeros(6)}));
-  EXPECT_TRUE(step({kBreak, kRest, kReadRequest}, {kRestBack}));
+  EXPECT_TRUE(step({kBreak, kRest, kReadRest}, {kRestBack}));
   ends_with(Error::kNotDetected);
 }
 
@@ -1750,9 +1759,9 @@ TEST_F(Access, AfterACorruptedRead_BeginsWithBreakAndANewStart) {
   for (const bool lost : {true, false}) {
     read();
     EXPECT_EQ(device.automatic().poll_slave(1).error(), Error::kWrongMode);
-    EXPECT_EQ(
-        step({{0x07, 0x80, 0x00}, kClearValid1, kReadStatus}, {status(0xFF, 0x00, 0x00)}, !lost),
-        lost);
+    EXPECT_EQ(step({{0x07, 0x80, 0x00}, kClearValid1, kReadWitness},
+                   {witness(status(0xFF, 0x00, 0x00))}, !lost),
+              lost);
     if (!lost) continue;
     ends_with(Error::kTransport);  // nothing has begun
     expect_break();
@@ -1760,7 +1769,7 @@ TEST_F(Access, AfterACorruptedRead_BeginsWithBreakAndANewStart) {
     ASSERT_TRUE(device.automatic().restart().ok());
     read_sees_stray();
   }
-  EXPECT_FALSE(step({kAgs, kClearValid1, kClearValid1, kReadStatus}, {kProven}, true, kPause));
+  EXPECT_FALSE(step(kStarts, {kRestBack, witness(kProven)}, true, kPause));
   EXPECT_FALSE(step(kAsk, kAsked));
   EXPECT_TRUE(device.automatic().running());
   EXPECT_FALSE(step({kFrameAgs, kReadStatus}, {kRunsAgs}));
@@ -1784,22 +1793,33 @@ TEST_F(Access, CorruptedReadBetweenSteps_BeginsNothing) {
   ends_with(Error::kCorrupted);
   EXPECT_TRUE(device.automatic().running());
   read();
-  EXPECT_FALSE(step({{0x07, 0x80, 0x00}, kClearValid1, kReadStatus}, {status(0xFF, 0x00, 0x00)}));
+  EXPECT_FALSE(
+      step({{0x07, 0x80, 0x00}, kClearValid1, kReadWitness}, {witness(status(0xFF, 0x00, 0x00))}));
 }
 
-// The read may have changed the request, which stood in the chip. BREAK ends the access before a
-// slave has taken it.
-TEST_F(Access, CorruptedReadBeforeTheInstruction_IsFollowedByBreak) {
-  configure(mb4::SpiCheck::kFull);
+// A read of a position may change the request, which stands in the chip: it waits for the
+// instruction.
+class ReadBeforeTheInstruction : public Access,
+                                 public testing::WithParamInterface<mb4::SpiCheck> {};
+
+TEST_P(ReadBeforeTheInstruction, IsBusy) {
+  configure(GetParam());
   start();
   read();
   EXPECT_FALSE(step(kAsk, kAsked));
-  read_sees_stray();
-  EXPECT_FALSE(step({kFrameAgs, kReadStatus}, {kRunsAgs}));
-  EXPECT_TRUE(step({kBreak, kRest, kReadRequest}, {kRestBack}));
-  ends_with(Error::kCorrupted);
-  EXPECT_FALSE(device.automatic().running());
+  EXPECT_EQ(device.automatic().poll_slave(1).error(), Error::kBusy);
+  mb4::Frame frame;
+  EXPECT_EQ(device.automatic().poll(frame).error(), Error::kBusy);
+  const std::vector<Bytes> instruction =
+      full() ? std::vector<Bytes>{kFrameAgs, kReadStatus} : std::vector<Bytes>{kFrameAgs};
+  EXPECT_FALSE(step(instruction, {kRunsAgs}));
+  bus.expect_write({0x07, 0x41}).fail_last();
+  bus.expect_write(kAgs);
+  EXPECT_EQ(device.automatic().poll_slave(1).error(), Error::kTransport);
 }
+
+INSTANTIATE_TEST_SUITE_P(Checks, ReadBeforeTheInstruction,
+                         testing::Values(mb4::SpiCheck::kOff, mb4::SpiCheck::kFull));
 
 // SWBANK = 1 in the instruction of an access: the next read drops what waits. Where a chip allows
 // no HOLDBANK beside an access no read can, and BREAK ends the access.
@@ -1826,10 +1846,10 @@ TEST_F(Access, BankSwitchedByTheInstruction_IsReleasedOrEnds) {
       EXPECT_EQ(device.automatic().poll_slave(1).error(), Error::kNoData);
     }
     EXPECT_TRUE(hold ? !step({kReadStatus}, {kRunsAgs})
-                     : step({kBreak, kRest, kReadRequest}, {kRestBack}));
+                     : step({kBreak, kRest, kReadRest}, {kRestBack}));
     if (!hold) ends_with(Error::kCorrupted);
     bus.expect_write(kBreak);
-    if (hold) bus.expect_proven(kRest);
+    if (hold) bus.expect_write(kRest).expect_read(kReadRest, kRestBack);
     bus.expect_read(kReadStatus, kOver);
     ASSERT_TRUE(device.break_transmission().ok());
     EXPECT_TRUE(device.finish(op, false, now_us));
@@ -1849,16 +1869,18 @@ TEST_F(Access, ReleaseProven_NewStartToo) {
     bus.expect_read(kReadStatus, status(0xFB, 0x00, 0x09));
     EXPECT_EQ(device.automatic().poll_slave(1).error(), Error::kCorrupted);
     read();
-    EXPECT_TRUE(step({{0x07, 0x80, 0x00}, kClearValid1, kReadStatus}, {status(0xFB, 0x00, 0x08)}));
+    EXPECT_TRUE(step({{0x07, 0x80, 0x00}, kClearValid1, kReadWitness},
+                     {witness(status(0xFB, 0x00, 0x08))}));
     ends_with(Error::kCorrupted);
     EXPECT_FALSE(device.automatic().running());
     expect_break();
     start();
     read_sees_stray();
     read();
-    EXPECT_FALSE(step({{0x07, 0x80, 0x00}, kClearValid1, kReadStatus}, {status(0xFF, 0x00, 0x00)}));
-    EXPECT_NE(step({kAgs, kClearValid1, kClearValid1, kReadStatus},
-                   {proven ? kProven : status(0xFB, 0x00, 0x21)}, true, kPause),
+    EXPECT_FALSE(step({{0x07, 0x80, 0x00}, kClearValid1, kReadWitness},
+                      {witness(status(0xFF, 0x00, 0x00))}));
+    EXPECT_NE(step(kStarts, {kRestBack, witness(proven ? kProven : status(0xFB, 0x00, 0x21))}, true,
+                   kPause),
               proven);
     if (proven) {
       EXPECT_FALSE(step(kAsk, kAsked));
@@ -2093,7 +2115,7 @@ TEST_F(Access, ActuatorsRelease_IsProven) {
   }
   mb4test::expect_image(bus, image, answer);
   ASSERT_TRUE(device.configure(config).ok());
-  start();
+  start(answer);
   const Bytes held = status(0xFB, 0x00, 0x41);
   const std::vector<Bytes> word{
       {0x02, 0x00, 0xBF, 0x37, 0xAF, 0x0A}, {0x03, 0x00, 0, 0, 0, 0}, kReadWitness};
@@ -2124,7 +2146,7 @@ TEST_F(Access, OtherBank_IsSeenTwice) {
   }
   mb4test::expect_image(bus, image, answer);
   ASSERT_TRUE(device.configure(config).ok());
-  start();
+  start(answer);
   const Bytes held = status(0xFB, 0x00, 0x41);
   const Bytes same{0, 0, 0xBF, 0x37, 0xAF, 0x0A};
   const Bytes other{0, 0, 0xBE, 0x37, 0xAF, 0x0A};
