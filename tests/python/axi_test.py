@@ -97,12 +97,44 @@ def test_stream_of_other_masters_is_none(chip):
     assert error.value.code == "MB4SIM_ERROR_HOST"
 
 
+def run_example(folder):
+    path = os.pathsep.join(sys.path)
+    return subprocess.run([sys.executable, folder / "external_clock.py"], capture_output=True,
+                          text=True, check=True, env={**os.environ, "PYTHONPATH": path})
+
+
+@pytest.mark.parametrize("slave", [0, 1])
+def test_example_calls_no_position_good_whose_ne_is_0(tmp_path, slave):
+    folder = ROOT / "examples" / "axi"
+    (tmp_path / "external_clock.py").write_bytes((folder / "external_clock.py").read_bytes())
+    parts = (folder / "external-clock.toml").read_text().split("start = ")
+    parts[slave] += "flags = 0b01\n"  # nE = 0, nW = 1
+    (tmp_path / "external-clock.toml").write_text("start = ".join(parts))
+    lines = run_example(tmp_path).stdout.splitlines()
+    assert len(lines) == 4
+    assert all(line.endswith("good 00") for line in lines)
+
+
+def page_code():
+    """The Python of docs/axi.md."""
+    page = (ROOT / "docs" / "axi.md").read_text(encoding="utf-8")
+    return page.split("```python\n")[1].split("```")[0]
+
+
+@pytest.mark.parametrize("flags, printed", [(0b11, "1000000\n"), (0b01, "")])
+def test_example_of_the_page_prints_a_position_whose_ne_is_1(tmp_path, flags, printed):
+    scenario = (ROOT / "examples" / "axi" / "one-encoder.toml").read_text()
+    (tmp_path / "examples" / "axi").mkdir(parents=True)
+    (tmp_path / "examples" / "axi" / "one-encoder.toml").write_text(f"{scenario}flags = {flags}\n")
+    done = subprocess.run([sys.executable, "-c", page_code()], cwd=tmp_path, capture_output=True,
+                          text=True, check=True,
+                          env={**os.environ, "PYTHONPATH": os.pathsep.join(sys.path)})
+    assert done.stdout == printed
+
+
 def test_example_prints_what_the_page_shows():
     """The encoders count by 1 and by 5 from their start; the line delays do not matter."""
-    path = os.pathsep.join(sys.path)
-    done = subprocess.run([sys.executable, ROOT / "examples" / "axi" / "external_clock.py"],
-                          capture_output=True, text=True, check=True,
-                          env={**os.environ, "PYTHONPATH": path})
+    done = run_example(ROOT / "examples" / "axi")
     for n, line in enumerate(done.stdout.splitlines()):
         assert f"positions [{1000 + n}, {2000 + 5 * n}], good 11" in line
     assert f"```text\n{done.stdout}```" in (ROOT / "docs" / "axi.md").read_text(encoding="utf-8")

@@ -77,6 +77,12 @@ class MeanBus {
     random_ = random;
     one_in_ = one_in;
   }
+  // The fault of this plan(), and the transfer that it has hit; null: none yet.
+  [[nodiscard]] const MeanFault* struck(Transfer& hit) const {
+    if (fault_.kind == MeanKind::kNone || made_.size() <= fault_.transfer) return nullptr;
+    hit = made_[fault_.transfer];
+    return &fault_;
+  }
   // Faults of at_random() so far.
   [[nodiscard]] std::uint64_t faults() const { return faults_; }
   [[nodiscard]] const std::vector<Transfer>& made() const { return made_; }

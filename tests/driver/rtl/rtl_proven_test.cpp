@@ -267,6 +267,37 @@ TEST(DriverProvenStart, OneFlippedBit_NoOtherRegisterIsWrittenUnseen) {
   }
 }
 
+// Bytes for RDATA reach the request by one bit of their address: 0xA0 and 0xE0. Whatever the call
+// says, the request at rest stands behind it.
+TEST(DriverProvenRest, FlippedAddressOfALongWrite_RequestAtRestStands) {
+  for (const mb4::SpiCheck check :
+       {mb4::SpiCheck::kOff, mb4::SpiCheck::kCrc, mb4::SpiCheck::kFull}) {
+    Config of_check = config();
+    of_check.spi_check = check;
+    std::array<std::uint8_t, 40> bytes{};
+    bytes.fill(0x3C);
+    unsigned told = 0;
+    for (std::size_t transfer = 0; transfer < 5; ++transfer) {
+      for (std::size_t bit = 8; bit < 16; ++bit) {
+        FaultyChip chip(kEncoder);
+        ASSERT_TRUE(chip.device.configure(of_check).ok());
+        ASSERT_TRUE(chip.device.automatic().start().ok());
+        chip.bus.plan({FaultKind::kFlipMosi, transfer, transfer, bit});
+        const mb4::Result<void> done = chip.device.control().write_registers({1, 0}, 0x10, bytes);
+        chip.bus.plan({});
+        told += done.ok() ? 0 : 1;
+        const std::array<std::uint8_t, 6> tx{0x03, 0xE2};
+        std::array<std::uint8_t, 6> rx{};
+        ASSERT_TRUE(chip.bus.transfer({tx.data(), tx.size()}, {rx.data(), rx.size()}));
+        const std::array<std::uint8_t, 6> rest{0, 0, 0x00, 0x00, 0x00, 0xC0};
+        EXPECT_EQ(rx, rest) << static_cast<unsigned>(check) << ", transfer " << transfer << ", bit "
+                            << bit << ": " << mb4::to_string(done.error());
+      }
+    }
+    EXPECT_GE(told, 20U);
+  }
+}
+
 // One bit more in the release of a read, 0x09 for 0x01, begins the access at rest, and no later
 // transfer of the read shows it. Its end is not that of the access behind it.
 TEST(DriverProvenAccess, ReleaseThatBeginsAnother_EndIsNotTakenForItsOwn) {
