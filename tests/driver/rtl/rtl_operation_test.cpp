@@ -474,8 +474,8 @@ TEST(DriverOperationActuator, ReadBetweenItsSteps_IsBusy) {
 }
 
 // A loop that ticks with the frames: in each tick a chain for the position, then one step of the
-// access. At least 99 % of the ticks bring a position, at each of 25 phases, but one: without kFull
-// a read waits between the request and its instruction.
+// access. At least 99 % of the ticks bring a position, at each of 25 phases, but one: a read waits
+// between the request and its instruction.
 TEST_P(DriverOperation, ReadBesideEveryPhase_PositionsGoOn) {
   for (unsigned phase = 0; phase < 25; ++phase) {
     FaultyChip chip(
