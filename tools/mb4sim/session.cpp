@@ -73,6 +73,8 @@ Session::Session(const sim::Scenario& scenario, const SessionOptions& options)
                 [](const ConnectedSlave& slave) { return slave.config->traits().actuator; });
 }
 
+RegisterMap Session::registers() { return {}; }
+
 std::string Session::access(const ControlRequest& /*request*/) {
   return "the master cannot access registers of slaves";
 }

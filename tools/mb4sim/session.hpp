@@ -33,13 +33,13 @@ struct Word {
   std::optional<unsigned> crc;  // not inverted, where the master tells it
 };
 
-// What a table, CSV or JSON shows of a word.
+// What a table, CSV or JSON shows of a frame.
 struct WordColumn {
   std::string_view key;    // in CSV; JSON
   std::string_view title;  // of the table
   unsigned width;          // of the table
   bool number;             // a number of JSON, else a string
-  // Empty where the word does not have it.
+  // Of a word; empty where it does not have it. Null: the next one of SlaveResult::told.
   std::string (*text)(const Word& word);
 };
 
@@ -49,6 +49,9 @@ std::span<const WordColumn> all_word_columns();
 struct SlaveResult {
   std::optional<Word> word;
   std::string error;  // why there is no word: "CRC error", ...
+  // What the master tells of the frame even if it has no word, for the columns without a text of
+  // the word, in their order; empty: nothing.
+  std::vector<std::string> told{};
 };
 
 // The result of a frame for one slave.
@@ -134,9 +137,16 @@ class Session {
   virtual SessionFrame read(std::uint64_t number) = 0;
   // What is shown of each word.
   virtual std::span<const WordColumn> columns() const { return all_word_columns(); }
-  virtual RegisterMap registers() = 0;
+  // Only if the master has MasterSupport::registers.
+  virtual RegisterMap registers();
   // For masters with MasterSupport::control. Returns why this failed, or empty.
   virtual std::string access(const ControlRequest& request);
+
+  // How often the master had to begin anew before configure() was over.
+  virtual std::uint64_t failed_starts() const { return 0; }
+
+  // Frames after a fault in which the master may still tell of it.
+  virtual unsigned late_frames() const { return 0; }
 
   // Compares the ID that a slave tells with its own. Returns the error, or empty.
   virtual std::string check_id(unsigned /*slave*/) { return ""; }
@@ -159,13 +169,25 @@ class Session {
   bool logged_;
 };
 
-// The codes of the frequency of the line's clock in the registers.
-struct MaCodes {
+// What `sweep` tries beside delay and jitter: the codes of the frequency of the line's clock in the
+// registers, or those of another rule of the master.
+struct SweepCodes {
   std::string_view name{};     // of the field
   unsigned most = 0;           // the highest code
   std::string_view refuses{};  // "... code 16"
-  // Clocks in a period of MA; 0 if master or driver cannot make it. Null: there are no codes.
+  // Clocks in a period of MA, or in a bit; 0 if master or driver cannot make it. Null: there are no
+  // codes.
   unsigned (*divider)(std::uint64_t clk_hz, unsigned code) = nullptr;
+  std::string_view jitter_item{};    // where it is written what jitter is allowed
+  std::string_view period = "T_MA";  // what a jitter is a part of
+  // Jitter up to which every word must be good, in thousandths of a percent. Null: 25 %.
+  long long (*allowed)(unsigned code) = nullptr;
+  // --- codes that are no frequencies ---
+  unsigned (*present)(const sim::Scenario& scenario) = nullptr;  // what the scenario says
+  void (*set)(sim::Scenario& scenario, unsigned code) = nullptr;
+  std::string (*title)(unsigned code) = nullptr;
+  // --- lines that are not clocked ---
+  void (*set_jitter)(sim::LineConfig& cable, sim::Time jitter) = nullptr;
 };
 
 // A slave that has answered to a scan.
@@ -198,10 +220,12 @@ struct MasterSupport {
   void (*check)(const sim::Scenario& scenario);
   std::unique_ptr<Session> (*open)(const sim::Scenario& scenario, const SessionOptions& options);
   // --- what a master may leave out ---
-  MaCodes ma{};                    // for `sweep`
-  std::string_view jitter_item{};  // where it is written that jitter up to 25 % is allowed
-  bool control = false;            // Session::access()
-  bool coverage = false;           // sim::FunctionalCoverage knows it
+  std::string_view not_begun = "cannot configure the chip";  // before what configure() returns
+  bool registers = true;                                     // Session::registers()
+  bool trains = false;  // it learns its line first, which a bad line does not allow
+  SweepCodes sweep{};
+  bool control = false;   // Session::access()
+  bool coverage = false;  // sim::FunctionalCoverage knows it
   // Asks the slaves of a channel, of which nothing is known, who they are. Null: it cannot.
   ScanResult (*scan)(const sim::Scenario& scenario, const ScanRequest& request) = nullptr;
 };

@@ -263,8 +263,9 @@ void DslSlave::miss() {
 // ---- Answers ------------------------------------------------------------------------------------
 
 std::uint64_t DslSlave::answer(unsigned symbol) {
-  if (symbol >= kMasterStart && symbol <= kMasterCheck) return pattern();
-  if (symbol == kMasterIdRequest) return identity();
+  inverted_ = noise();
+  if (symbol >= kMasterStart && symbol <= kMasterCheck) return pattern() ^ inverted_;
+  if (symbol == kMasterIdRequest) return identity() ^ inverted_;
   if (!started_) {
     started_ = true;
     inits_ = 0;
@@ -277,7 +278,17 @@ std::uint64_t DslSlave::answer(unsigned symbol) {
     ++inits_;
     vsync_sent_ = false;
   }
-  return data_frame();
+  const std::uint64_t word = data_frame();
+  return word ^ inverted_;
+}
+
+// The bits of an answer that are wrong at random.
+std::uint64_t DslSlave::noise() {
+  std::uint64_t wrong = 0;
+  for (unsigned i = 0; i < kAnswerBits; ++i) {
+    wrong |= std::uint64_t{wrong_answer_bit() ? 1U : 0U} << i;
+  }
+  return wrong;
 }
 
 std::uint64_t DslSlave::pattern() {
@@ -295,8 +306,6 @@ std::uint64_t DslSlave::pattern() {
     word ^= std::uint64_t{1} << (kAnswerBits - 1 - training_flip_.second);
     training_flip_ = {0, 0};
   }
-  for (unsigned i = 0; i < kAnswerBits; ++i)
-    word ^= std::uint64_t{wrong_answer_bit() ? 1U : 0U} << i;
   return word;
 }
 
@@ -397,12 +406,7 @@ std::uint64_t DslSlave::data_frame() {
   const unsigned f = marked2    ? coder.special(kMarker2)
                      : special2 ? coder.special(second)
                                 : coder.data(second);
-  std::uint64_t word = with_direction(five, config_.direction, f);
 
-  inverted_ = 0;
-  for (unsigned i = 0; i < kAnswerBits; ++i) {
-    inverted_ |= std::uint64_t{wrong_answer_bit() ? 1U : 0U} << i;
-  }
   if (running) {
     ++running_;
     count_frame();
@@ -410,7 +414,7 @@ std::uint64_t DslSlave::data_frame() {
       if (bit < kAnswerBits) inverted_ ^= std::uint64_t{1} << (kAnswerBits - 1 - bit);
     }
   }
-  return word ^ inverted_;
+  return with_direction(five, config_.direction, f);
 }
 
 }  // namespace mb4::sim

@@ -9,10 +9,9 @@
 // - START, LEARN and CHECK get the test pattern, an ID request its identity, all else a frame of
 //   data: a byte of each safe channel, S_PAR, the pipeline, the second difference of the position.
 // - It is silent up to the first START. Then a symbol that is none is answered as IDLE. A frame
-// whose SYNC is not there gets no answer, and
-//   the count of its vertical frame goes on.
+//   whose SYNC is not there gets no answer, and the count of its vertical frame goes on.
 // - A second difference that does not fit is the error marker K29.7; the position stays the true
-// one.
+//   one.
 //
 // A frame of the line is an H-frame, from the first bit of SYNC on. Frames that flip() counts are
 // the running ones, those after the first VSYNC.
@@ -96,7 +95,8 @@ class DslSlave final : public DuplexSlave {
   }
   // A second difference did not fit.
   bool overflowed() const { return overflowed_; }
-  // Bits of the last answer with data that were inverted, by what means ever; its first is bit 60.
+  // Bits of the last answer that were inverted by errors of the line or by flip(); the first bit of
+  // the answer is bit 60.
   std::uint64_t inverted() const { return inverted_; }
 
  private:
@@ -123,7 +123,9 @@ class DslSlave final : public DuplexSlave {
   std::uint64_t answer(unsigned symbol);
   std::uint64_t pattern();
   std::uint64_t identity() const;
+  // What a running frame carries. Named bits that are to be wrong go into inverted_.
   std::uint64_t data_frame();
+  std::uint64_t noise();
   void fill_channels();
   void send(Time now);
   void finish(Time now);

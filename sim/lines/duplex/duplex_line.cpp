@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sim/lines/duplex/duplex_line.hpp"
 
+#include <algorithm>
 #include <cassert>
 
 #include "sim/core/random.hpp"
@@ -165,6 +166,7 @@ void DuplexLine::watch_contention(Time now) {
   both_ = both;
   if (!both) {
     contention_.total += now - both_since_;
+    contention_.longest = std::max(contention_.longest, now - both_since_);
     return;
   }
   both_since_ = now;

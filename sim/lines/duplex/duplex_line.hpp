@@ -43,8 +43,9 @@ struct DuplexConfig : LineConfig {
 // Times when both ends have driven, as a receiver at one of the ends sees it.
 struct DuplexContention {
   std::uint64_t times = 0;
-  Time total = 0;  // of those that are over, ps
-  Time first = 0;  // when the first one began
+  Time total = 0;    // of those that are over, ps
+  Time longest = 0;  // ...
+  Time first = 0;    // when the first one began
 };
 
 class DuplexLine final : public Line {

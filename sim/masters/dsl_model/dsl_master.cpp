@@ -119,6 +119,10 @@ LinkRules rules_of(const ChipConfig& chip) {
   return rules;
 }
 
+void set_sample(ChipConfig& chip, SampleRule rule) {
+  put(chip.quirks, kQuirkSample, static_cast<unsigned>(rule));
+}
+
 std::optional<LinkFrame> LinkHost::take() {
   if (frames_.empty()) return std::nullopt;
   const LinkFrame frame = frames_.front();

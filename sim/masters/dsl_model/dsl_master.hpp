@@ -22,6 +22,8 @@ namespace dsl_model {
 
 // The rules that [chip.quirks] has asked for.
 LinkRules rules_of(const ChipConfig& chip);
+// Another rule of the sample than [chip.quirks] has asked for.
+void set_sample(ChipConfig& chip, SampleRule rule);
 
 // Keeps the frames of the master until the program takes them, oldest first.
 class LinkHost final : public HostModel, public LinkListener {

@@ -73,6 +73,24 @@ TEST(SessionColumns, OwnColumns_AreThoseOfEveryOutput) {
             "\"turns\": null, \"mark\": null, \"state\": \"no answer\"}");
 }
 
+// Columns of what the master tells beside the word are filled without one too.
+TEST(SessionColumns, ToldWithoutAWord_IsShown) {
+  constexpr WordColumn kColumns[] = {
+      {"speed", "speed", 5, true, nullptr},
+      {"bits", "bits", 4, true, [](const Word& word) { return std::to_string(word.bits); }},
+      {"mood", "mood", 4, false, nullptr}};
+  FrameReport report(sim::parse_scenario(kScenario, "plain.toml"), kColumns);
+  SessionFrame frame;
+  frame.results = {{std::nullopt, "lost", {"-3", "odd"}}};
+  frame.sent = {std::nullopt};
+  report.add(frame, 1, 0);
+  EXPECT_EQ(report.csv_row(), "1,0.000,1,-3,,odd,lost\n");
+  EXPECT_EQ(report.table_row(), "    1         0.000      1     -3     -   odd  lost\n");
+  EXPECT_EQ(report.json_row(),
+            "\n  {\"frame\": 1, \"time_us\": 0.000, \"slave\": 1, \"good\": false, \"speed\": -3, "
+            "\"bits\": null, \"mood\": \"odd\", \"state\": \"lost\"}");
+}
+
 template <typename Error, typename Function>
 std::string error_of(Function function) {
   try {

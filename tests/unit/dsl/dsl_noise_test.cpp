@@ -118,7 +118,8 @@ TEST(DslNoise, OneErrorIn10000Bits_ShowsNothingWrong) {
   const Counts counts = run(1e-4, CodeCheck::kStrict, true, long_run());
   EXPECT_EQ(counts.wrong_safe, 0U);
   EXPECT_GT(counts.safe, counts.frames / 10);
-  EXPECT_LE(counts.lost_percent(), 3.0);
+  // A short run has about 40 losses of 8 to 15 frames, so their number alone is worth 0.4 %.
+  EXPECT_LE(counts.lost_percent(), counts.frames < 1'000'000 ? 3.5 : 3.0);
   EXPECT_GT(counts.lost_percent(), 1.0);  // the noise is there
   EXPECT_EQ(counts.unexplained, 0U);
 }
@@ -145,6 +146,27 @@ TEST(DslNoise, PublishedChecks_AreCounted) {
   // Four phases after each loss: about 13 % of the time.
   const Counts phases = run(1e-4, CodeCheck::kPublished, false, long_run());
   EXPECT_NEAR(phases.lost_percent(), 13, 2.5);
+}
+
+// Each answer is noisy, that to the ID request too. The link never gets past the wait for VSYNC.
+TEST(DslNoise, WrongBitsOfTheIdentity_RestartTheLink) {
+  BenchSetup setup;
+  setup.rules.vsync_limit = 1;
+  setup.cable.answer_errors = 1e-3;
+  Bench bench(setup);
+  std::uint64_t asked = 0;
+  std::uint64_t broken = 0;
+  bench.on_frame = [&](const LinkFrame& frame) {
+    if (frame.state != LinkState::kIdRequest) return;
+    ++asked;
+    if (frame.restart == Restart::kIdentity) ++broken;
+  };
+  while (asked < 500) ASSERT_TRUE(bench.next_frame());
+  // 40 of the 61 bits stand twice, a nibble more in the pipeline; not each wrong word is another
+  // byte.
+  const double chance = 100.0 * static_cast<double>(broken) / static_cast<double>(asked);
+  EXPECT_GT(chance, 2.5);
+  EXPECT_LT(chance, 7.5);
 }
 
 // Wrong bits on the way to the encoder: frames without an answer, and symbols that are none.

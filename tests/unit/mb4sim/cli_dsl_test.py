@@ -81,15 +81,93 @@ class Dsl(unittest.TestCase):
                                             r"\d\d restarts, the last one: no answer was found\n\Z")
 
     def test_what_the_master_has_not_is_refused_in_one_line(self):
-        scenario = self.path(motor())
-        for arguments in (("regs", scenario), ("sweep", scenario), ("plot", scenario),
+        scenario = self.path("[host]\nlink_ms = 1\n" + motor("cable_m = 200\n"))  # no link either
+        for arguments in (("regs", scenario), ("regs", scenario, "--json"), ("spi", scenario), ("scan", scenario),
+                          ("bridge", scenario, "--unix", str(self.folder / "x")),
                           ("run", scenario, "--trace", str(self.folder / "x.fst")),
                           ("run", scenario, "--bus-log", str(self.folder / "x.log"))):
             result = run(*arguments)
             self.assertEqual(result.returncode, 2, arguments)
-            self.assertRegex(result.stderr, r"\Amb4sim: .*\n\Z", arguments)
-            self.assertIn("no picture" if "plot" in arguments else "dsl-model", result.stderr)
+            self.assertEqual(result.stdout, "", arguments)
+            self.assertEqual(len(result.stderr.splitlines()), 1, (arguments, result.stderr))
+            self.assertIn("dsl-model", result.stderr)
         self.assertEqual([path.name for path in self.folder.iterdir()], ["motor.toml"])
+
+    def test_each_row_tells_speed_safe_position_quality_and_delay(self):
+        source = 'source = "ramp"\nstart = -1000\nstep = 3\nsigned = true\nposition_bits = 30\n'
+        scenario = self.path(motor("cable_m = 60\n", source))
+        csv = self.folder / "rows.csv"
+        result = run("run", scenario, "--frames", "20", "--csv", str(csv))
+        self.assertEqual(result.returncode, 0, result.stderr)
+        header = "frame,time_us,slave,position,speed,safe_position,quality,delay,state".split(",")
+        self.assertEqual(csv.read_text(encoding="utf-8").splitlines()[0].split(","), header)
+        self.assertEqual(result.stdout.split("\n")[0].split(),
+                         "frame time/us slave position speed safe position QM delay state".split())
+        rows = self.rows(scenario, 20)[1]
+        # The first certain frame is the 32nd running one, the end of a vertical frame.
+        self.assertEqual([row["frame"] for row in rows if row["safe_position"] is not None], [1, 9, 17])
+        for row in rows:
+            self.assertEqual((row["speed"], row["quality"], row["slave"]), (3, 15, 1))
+            # 60 m there and back are 636 ns, 95 ns of the encoder, from the end of SWITCH; the first
+            # slot begins 40 ns before: 7 whole bits.
+            self.assertEqual(row["delay"], round((636 + 95 + 40) / 106.67))
+        # The safe position is that of the sample before its vertical frame.
+        safe = [row["safe_position"] for row in rows if row["safe_position"] is not None]
+        self.assertEqual(safe[1:], [rows[0]["position"], rows[8]["position"]])
+        self.assertLess(rows[0]["position"], 0)
+
+    def test_rows_without_a_position_tell_the_quality(self):
+        fault = '[[fault]]\nkind = "bit-flip"\nchannel = 1\nframe = 33\nanswer_bit = 33\n'
+        _, rows = self.rows(self.path(motor(slave="data = 5\n") + fault), 3)
+        self.assertEqual([row["position"] for row in rows], [5, None, None])
+        # The block 100111 of a 0 becomes 100011, which is legal, so only CRC5 refuses the word.
+        self.assertEqual([row["quality"] for row in rows], [15, 15, 15])
+        self.assertEqual([row["delay"] for row in rows], [rows[0]["delay"]] * 3)
+
+    def test_faults_find_the_row_that_tells_of_them(self):
+        result = run("run", str(Path(EXAMPLES) / "dsl" / "faults.toml"), "--frames", "600", "--json")
+        told = {fault["kind"]: fault for fault in json.loads(result.stdout)["faults"]}
+        self.assertEqual({kind: fault["fate"] for kind, fault in told.items()},
+                         {kind: "detected" for kind in ("bit-flip", "fast-marker", "wrong-crc", "unplug")})
+        self.assertIn("safe position: CRC error", told["wrong-crc"]["by"])
+        # The first row is running frame 32.
+        self.assertEqual(told["bit-flip"]["by"], f"frame {280 - 31}, slave 1: position not certain")
+
+    def test_link_that_does_not_come_back_is_told_in_each_row(self):
+        event = '[[channel.event]]\nat_us = 1100\naction = "unplug"\n'
+        text = motor().replace("[[channel.slave]]", event + "[[channel.slave]]")
+        status, rows = self.rows(self.path("[host]\nlink_ms = 3\n" + text), 12)
+        states = [row["state"] for row in rows if row["state"] != "ok"]
+        self.assertEqual(status, 1)
+        after = [state.startswith("restart: ") for state in states].index(True) + 1
+        self.assertGreaterEqual(len(states[after:]), 2)
+        for state in states[after:]:
+            self.assertRegex(state, "^no link within 3 ms: state .*, [0-9]+ restarts, the last one: no answer")
+
+    def test_sweep_counts_starts_and_frames(self):
+        scenario, csv, svg = self.path(motor()), self.folder / "eye.csv", self.folder / "eye.svg"
+        result = run("sweep", scenario, "--delays", "0,1060,1300", "--jitters", "0,12,90", "--freqs", "all", "--frames",
+                     "5", "--csv", str(csv), "--svg", str(svg))
+        self.assertEqual(result.returncode, 1, result.stderr)  # no link on 123 m
+        lines = [line.split(",") for line in csv.read_text(encoding="utf-8").splitlines()]
+        self.assertEqual(lines[0][0], "sample")
+        bad = {(int(code), int(delay), int(jitter)): (int(words), int(flagged), int(wrong))
+               for code, _, delay, jitter, words, flagged, wrong in lines[1:]}
+        for code in range(3):
+            self.assertEqual(bad[code, 0, 0], (5, 0, 0))
+            self.assertEqual(bad[code, 0, 12], (5, 0, 0))
+            self.assertEqual(bad[code, 1060, 0], (5, 0, 0))
+            self.assertEqual(bad[code, 1300, 0], (5, 5, 0))
+        self.assertNotEqual(bad[0, 0, 90][1], 0)
+        picture = svg.read_text(encoding="utf-8")
+        for name in ("published", "first zero", "tracking", "% of a bit"):
+            self.assertIn(name, picture)
+        # Without --freqs the rule is the scenario's.
+        quirk = self.path(motor().replace("[[channel]]", "[chip.quirks]\nSAMPLE = 1\n[[channel]]", 1))
+        result = run("sweep", quirk, "--delays", "0", "--jitters", "0,30")
+        self.assertEqual(result.returncode, 0, result.stdout)
+        self.assertIn("SAMPLE 1: first zero", result.stdout)
+        self.assertNotIn("SAMPLE 2", result.stdout)
 
 
 if __name__ == "__main__":

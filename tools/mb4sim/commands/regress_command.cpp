@@ -115,7 +115,7 @@ Row run_one(const std::string& path, const sim::Scenario& scenario, std::uint64_
     const std::unique_ptr<Session> session = support_of(scenario).open(scenario, options);
     if (cover) session->simulator().set_observer(&coverage);
     if (const std::string why = session->configure(); !why.empty()) {
-      row.state = "cannot configure the chip: " + why;
+      row.state = fmt::format("{}: {}", support_of(scenario).not_begun, why);
       row.status = kBad;
     }
     FaultReport fault_report(session->simulator().scenario(), session->simulator().faults());

@@ -10,6 +10,7 @@
 #include "report/fault_report.hpp"
 #include "report/messages.hpp"
 #include "session.hpp"
+#include "sim/core/one_line.hpp"
 #include "sim/scenario/scenario.hpp"
 
 namespace mb4::tool {
@@ -72,13 +73,18 @@ std::string error_of(const SessionFrame& frame) {
 
 int regs_command(const RegsOptions& options) {
   const sim::Scenario scenario = sim::load_scenario(options.scenario);
+  const MasterSupport& support = support_of(scenario);
+  if (!support.registers) {
+    throw UseError(fmt::format("{}: the master \"{}\" has no registers",
+                               sim::one_line(options.scenario), scenario.master->type));
+  }
   SessionOptions sensors;
   sensors.actuators = false;
-  const std::unique_ptr<Session> session = support_of(scenario).open(scenario, sensors);
+  const std::unique_ptr<Session> session = support.open(scenario, sensors);
   bool good = true;
   if (!options.reset) {
     if (const std::string why = session->configure(); !why.empty()) {
-      print_error(options.json, "cannot configure the chip: " + why, kBad);
+      print_error(options.json, fmt::format("{}: {}", support.not_begun, why), kBad);
       good = false;
     }
     for (std::uint64_t frame = 1; good && frame <= options.frames; ++frame) {

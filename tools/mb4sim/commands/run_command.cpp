@@ -152,7 +152,7 @@ int run_command(const RunOptions& options) {
     const std::unique_ptr<Session> session =
         support.open(scenario, session_options(options, outputs));
     if (const std::string why = session->configure(); !why.empty()) {
-      const std::string error = "cannot configure the chip: " + why;
+      const std::string error = fmt::format("{}: {}", support.not_begun, why);
       print_error(options.json, error, kBad);
       if (traced) session->simulator().flush_trace();
       outputs.csv.reset();

@@ -26,46 +26,65 @@ namespace {
 constexpr double kMaxDelayNs = 1e6;
 constexpr double kMaxJitterPercent = 1000;
 constexpr std::uint64_t kMaxPoints = 1'000'000;
-std::vector<unsigned> all_codes(const MaCodes& ma, std::uint64_t clk_hz) {
+std::vector<unsigned> all_codes(const SweepCodes& all, std::uint64_t clk_hz) {
   std::vector<unsigned> codes;
-  for (unsigned code = 0; code <= ma.most; ++code) {
-    if (ma.divider(clk_hz, code) != 0) codes.push_back(code);
+  for (unsigned code = 0; code <= all.most; ++code) {
+    if (all.divider(clk_hz, code) != 0) codes.push_back(code);
   }
   return codes;
 }
 
 std::vector<unsigned> codes_of(const std::string& text, const sim::Scenario& scenario) {
-  const MaCodes& ma = support_of(scenario).ma;
+  const SweepCodes& all = support_of(scenario).sweep;
   const std::uint64_t clk_hz = scenario.chip.system_hz();
-  if (text == "all") return all_codes(ma, clk_hz);
+  if (text == "all") return all_codes(all, clk_hz);
   if (text.empty()) {
-    for (const unsigned code : all_codes(ma, clk_hz)) {
-      if (clk_hz / ma.divider(clk_hz, code) == scenario.host.ma_hz) return {code};
+    if (all.present != nullptr) return {all.present(scenario)};
+    for (const unsigned code : all_codes(all, clk_hz)) {
+      if (clk_hz / all.divider(clk_hz, code) == scenario.host.ma_hz) return {code};
     }
-    throw UseError(fmt::format("no {} gives the scenario's {} Hz; name codes with --freqs", ma.name,
-                               scenario.host.ma_hz));
+    throw UseError(fmt::format("no {} gives the scenario's {} Hz; name codes with --freqs",
+                               all.name, scenario.host.ma_hz));
   }
   std::vector<unsigned> codes;
   for (const long long value :
-       number_list(text, {"--freqs", 0, static_cast<double>(ma.most), true})) {
+       number_list(text, {"--freqs", 0, static_cast<double>(all.most), true})) {
     const auto code = static_cast<unsigned>(value / 1000);
-    if (ma.divider(clk_hz, code) == 0) {
-      throw UseError(fmt::format("--freqs: {} {}", ma.refuses, code));
+    if (all.divider(clk_hz, code) == 0) {
+      throw UseError(fmt::format("--freqs: {} {}", all.refuses, code));
     }
     codes.push_back(code);
   }
   return codes;
 }
 
+void set_code(sim::Scenario& scenario, unsigned code) {
+  const SweepCodes& all = support_of(scenario).sweep;
+  const std::uint64_t clk_hz = scenario.chip.system_hz();
+  if (all.set != nullptr) {
+    all.set(scenario, code);
+  } else {
+    scenario.host.ma_hz = clk_hz / all.divider(clk_hz, code);
+  }
+}
+
 SweepPoint measure(const sim::Scenario& scenario, std::uint64_t frames, std::uint64_t seed) {
   SessionOptions options;
   options.actuators = false;
   options.simulator.seed = seed;
-  const std::unique_ptr<Session> session = support_of(scenario).open(scenario, options);
-  if (const std::string why = session->configure(); !why.empty()) {
-    throw UseError("cannot configure the chip: " + why);
+  const MasterSupport& support = support_of(scenario);
+  const std::unique_ptr<Session> session = support.open(scenario, options);
+  const std::string why = session->configure();
+  // A master that trains its line cannot do so at every point.
+  if (!why.empty() && !support.trains) {
+    throw UseError(fmt::format("{}: {}", support.not_begun, why));
   }
   SweepPoint point;
+  point.words = point.flagged = session->failed_starts();
+  if (!why.empty()) {
+    point.words = point.flagged = frames * session->slaves().size();
+    return point;
+  }
   for (std::uint64_t number = 1; number <= frames; ++number) {
     const SessionFrame frame = session->read(number);
     for (std::size_t i = 0; i < frame.results.size(); ++i) {
@@ -80,11 +99,14 @@ SweepPoint measure(const sim::Scenario& scenario, std::uint64_t frames, std::uin
 // Each point has a chip and random choices of its own.
 SweepPlane sweep_plane(sim::Scenario scenario, unsigned code, const Sweep& sweep) {
   const std::uint64_t clk_hz = scenario.chip.system_hz();
-  const unsigned divider = support_of(scenario).ma.divider(clk_hz, code);
+  const SweepCodes& all = support_of(scenario).sweep;
+  const unsigned divider = all.divider(clk_hz, code);
   SweepPlane plane;
   plane.code = code;
   plane.ma_hz = clk_hz / divider;
-  scenario.host.ma_hz = plane.ma_hz;
+  if (all.allowed != nullptr) plane.allowed_mpercent = all.allowed(code);
+  if (all.title != nullptr) plane.title = all.title(code);
+  set_code(scenario, code);
   const double period_ps = 1e12 * divider / static_cast<double>(clk_hz);
   std::uint64_t part = std::uint64_t{code} << 32U;
   for (const long long delay : sweep.delays_ps) {
@@ -92,8 +114,12 @@ SweepPlane sweep_plane(sim::Scenario scenario, unsigned code, const Sweep& sweep
     for (const long long jitter : sweep.jitters_mpercent) {
       for (sim::ChannelConfig& channel : scenario.channels) {
         channel.cable->delay = static_cast<sim::Time>(delay);
-        channel.cable.as<sim::ClockedConfig>().sl.jitter =
-            static_cast<sim::Time>(period_ps * static_cast<double>(jitter) / 100'000);
+        const auto time = static_cast<sim::Time>(period_ps * static_cast<double>(jitter) / 100'000);
+        if (all.set_jitter != nullptr) {
+          all.set_jitter(*channel.cable, time);
+        } else {
+          channel.cable.as<sim::ClockedConfig>().sl.jitter = time;
+        }
       }
       row.push_back(measure(scenario, sweep.frames, sim::derive_seed(sweep.seed, ++part)));
     }
@@ -107,13 +133,14 @@ SweepPlane sweep_plane(sim::Scenario scenario, unsigned code, const Sweep& sweep
 int sweep_command(const SweepOptions& options) {
   const sim::Scenario scenario = sim::load_scenario(options.scenario);
   const MasterSupport& support = support_of(scenario);
-  if (support.ma.divider == nullptr) {
+  if (support.sweep.divider == nullptr) {
     throw UseError(fmt::format("{}: the master \"{}\" has no codes of a frequency to sweep",
                                sim::one_line(options.scenario), scenario.master->type));
   }
   Sweep sweep;
-  sweep.code_name = support.ma.name;
-  sweep.jitter_item = support.jitter_item;
+  sweep.code_name = support.sweep.name;
+  sweep.jitter_item = support.sweep.jitter_item;
+  sweep.period = support.sweep.period;
   sweep.scenario = sim::one_line(options.scenario);
   sweep.seed = options.seed.value_or(scenario.seed);
   sweep.frames = options.frames;
@@ -127,8 +154,7 @@ int sweep_command(const SweepOptions& options) {
   }
   for (const unsigned code : codes) {
     sim::Scenario each = scenario;
-    const unsigned divider = support.ma.divider(scenario.chip.system_hz(), code);
-    if (divider != 0) each.host.ma_hz = scenario.chip.system_hz() / divider;
+    set_code(each, code);
     support.check(each);
   }
   std::vector<Output> outputs;
@@ -147,7 +173,7 @@ int sweep_command(const SweepOptions& options) {
   fmt::print("{}", sweep_text(sweep));
   if (csv != nullptr) csv->commit(sweep_csv(sweep));
   if (svg != nullptr) svg->commit(sweep_svg(sweep));
-  return sweep.within_i305() ? kGood : kBad;
+  return sweep.within_allowed() ? kGood : kBad;
 }
 
 }  // namespace mb4::tool

@@ -117,14 +117,15 @@ std::string panel(const Sweep& sweep, const SweepPlane& plane, double top) {
   out += fmt::format(
       "<rect x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\" fill=\"none\" stroke=\"#333\"/>\n", kLeft,
       top, kPlotWidth, kPlotHeight);
-  const auto i305 = static_cast<double>(kI305);
-  if (i305 >= rows.front() && i305 <= rows.back()) {
+  const auto allowed = static_cast<double>(plane.allowed_mpercent);
+  if (allowed >= rows.front() && allowed <= rows.back()) {
     out += fmt::format(
         "<line x1=\"{}\" y1=\"{:.2f}\" x2=\"{}\" y2=\"{:.2f}\" stroke=\"#000\" "
         "stroke-dasharray=\"6 4\"/>\n",
-        kLeft, y(i305), kLeft + kPlotWidth, y(i305));
-    out += text(kLeft + kPlotWidth + 4, y(i305) + 4, "small",
-                sweep.jitter_item.empty() ? "25 %" : sweep.jitter_item);
+        kLeft, y(allowed), kLeft + kPlotWidth, y(allowed));
+    out += text(
+        kLeft + kPlotWidth + 4, y(allowed) + 4, "small",
+        sweep.jitter_item.empty() ? thousandths(plane.allowed_mpercent) + " %" : sweep.jitter_item);
   }
   for (const long long delay : ticks(delays)) {
     out += text(x(static_cast<double>(delay)), top + kPlotHeight + 16, "mid", thousandths(delay));
@@ -135,8 +136,8 @@ std::string panel(const Sweep& sweep, const SweepPlane& plane, double top) {
   out += text(kLeft + kPlotWidth / 2, top + kPlotHeight + 36, "mid", "round-trip delay / ns");
   out += fmt::format(
       "<text class=\"mid\" transform=\"translate({:.1f},{:.1f}) rotate(-90)\">jitter peak to peak "
-      "/ % of T_MA</text>\n",
-      kLeft - 60, top + kPlotHeight / 2);
+      "/ % of {}</text>\n",
+      kLeft - 60, top + kPlotHeight / 2, svg::escaped(sweep.period));
   return out;
 }
 

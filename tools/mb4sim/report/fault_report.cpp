@@ -77,12 +77,12 @@ FaultReport::FaultReport(const sim::Scenario& scenario,
 void FaultReport::add_new() { entries_.resize(records_.size()); }
 
 void FaultReport::add(const SessionFrame& frame, Session& session) {
-  this->frame(frame.number, frame.begin, frame.outcomes(session.slaves()));
+  this->frame(frame, session);
   if (const unsigned slave = unchecked_id(); slave != 0) id_checked(slave, session.check_id(slave));
 }
 
-void FaultReport::frame(std::uint64_t number, sim::Time begin,
-                        const std::vector<SlaveOutcome>& outcomes) {
+void FaultReport::frame(const SessionFrame& frame, Session& session) {
+  const std::vector<SlaveOutcome> outcomes = frame.outcomes(session.slaves());
   add_new();
   for (std::size_t i = first_open_; i < entries_.size(); ++i) {
     Entry& entry = entries_[i];
@@ -90,6 +90,8 @@ void FaultReport::frame(std::uint64_t number, sim::Time begin,
     const sim::FaultRecord& record = records_[i];
     const sim::FaultConfig& fault = scenario_.faults[record.config];
     if (in_accesses(fault)) continue;
+    const bool named = fault.frame != 0;
+    if (named && session.simulator().line(fault.channel)->flip_frames() < fault.frame) continue;
     const SlaveOutcome* worst = nullptr;
     for (const SlaveOutcome& outcome : outcomes) {
       if (outcome.kind == SlaveOutcome::Kind::kRight) continue;
@@ -99,8 +101,8 @@ void FaultReport::frame(std::uint64_t number, sim::Time begin,
     if (worst != nullptr) {
       entry.fate = worst->kind == SlaveOutcome::Kind::kWrong ? Fate::kMissed : Fate::kDetected;
       entry.error = worst->state;
-      entry.by = fmt::format("frame {}, slave {}: {}", number, worst->slave, worst->state);
-    } else if (record.end <= begin) {
+      entry.by = fmt::format("frame {}, slave {}: {}", frame.number, worst->slave, worst->state);
+    } else if ((named || record.end <= frame.begin) && entry.late++ == session.late_frames()) {
       entry.fate = Fate::kNoEffect;
     }
   }

@@ -26,7 +26,8 @@ void print_faults(bool json, const std::vector<sim::FaultRecord>& records, std::
 // The frames of a fault are those that end after the fault begins, up to the first frame that
 // begins after the fault ends. The first of them with a bad result on the fault's channel decides;
 // for faults of host and clock any channel counts. If this frame delivered a wrong word as good,
-// the fault was missed; else it was detected. If there is no such frame, the fault had no effect.
+// the fault was missed; else it was detected. If there is no such frame, the fault had no effect. A
+// fault of a named frame waits for it, and Session::late_frames() more frames may tell of a fault.
 // A wrong-id fault is detected by a register access.
 class FaultReport {
  public:
@@ -36,6 +37,7 @@ class FaultReport {
     std::string by;           // "frame 3, slave 1: CRC error"; empty: not detected
     std::string error;        // "CRC error"
     bool id_checked = false;  // wrong-id: a register access has been tried
+    unsigned late = 0;        // frames since it was over
   };
 
   // Both outlive the report.
@@ -60,8 +62,7 @@ class FaultReport {
 
  private:
   void add_new();
-  // A frame that the host requested at `begin`.
-  void frame(std::uint64_t number, sim::Time begin, const std::vector<SlaveOutcome>& outcomes);
+  void frame(const SessionFrame& frame, Session& session);
   // The slave of a wrong-id fault that no register access has checked yet, or 0.
   unsigned unchecked_id() const;
   // Takes the result of a register access to this slave: an error, or empty.

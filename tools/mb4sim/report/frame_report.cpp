@@ -53,7 +53,7 @@ std::uint64_t FrameReport::bad() const {
 const FrameRow& FrameReport::add(const SessionFrame& frame, unsigned slave, std::size_t index) {
   const SlaveResult& result = frame.results[index];
   any_ = any_ || row_.frame != 0;
-  row_ = {frame.number, frame.end, slave, result.word, false, state_of(result)};
+  row_ = {frame.number, frame.end, slave, result.word, false, state_of(result), result.told};
   row_.wrong = frame.kind(index) == SlaveOutcome::Kind::kWrong;
   if (row_.wrong) row_.state = kWrongData;
   for (SlaveCount& count : counts_) {
@@ -69,8 +69,19 @@ std::string FrameReport::worst_error() const {
   return worst == errors_.end() ? "" : worst->first;
 }
 
-std::string FrameReport::cell(const WordColumn& column) const {
-  return row_.word ? column.text(*row_.word) : "";
+std::vector<std::string> FrameReport::cells() const {
+  std::vector<std::string> texts;
+  texts.reserve(columns_.size());
+  std::size_t told = 0;
+  for (const WordColumn& column : columns_) {
+    if (column.text == nullptr) {
+      texts.push_back(told < row_.told.size() ? row_.told[told] : "");
+      ++told;
+    } else {
+      texts.push_back(row_.word ? column.text(*row_.word) : "");
+    }
+  }
+  return texts;
 }
 
 std::string FrameReport::table_header() const {
@@ -87,10 +98,11 @@ std::string FrameReport::table_row() const {
   const auto end = std::back_inserter(out);
   fmt::format_to(end, kFirstCells, row_.frame, fmt::format("{:.3f}", sim::to_us(row_.time)),
                  row_.slave);
-  for (const WordColumn& column : columns_) {
-    const std::string text = cell(column);
-    const std::string_view shown = text.empty() ? std::string_view("-") : text;
-    out.append(2 + (column.width > shown.size() ? column.width - shown.size() : 0), ' ');
+  const std::vector<std::string> texts = cells();
+  for (std::size_t i = 0; i < columns_.size(); ++i) {
+    const std::string_view shown = texts[i].empty() ? std::string_view("-") : texts[i];
+    const unsigned width = columns_[i].width;
+    out.append(2 + (width > shown.size() ? width - shown.size() : 0), ' ');
     out += shown;
   }
   out += "  ";
@@ -127,7 +139,7 @@ std::string FrameReport::csv_header() const {
 
 std::string FrameReport::csv_row() const {
   std::string out = fmt::format("{},{:.3f},{},", row_.frame, sim::to_us(row_.time), row_.slave);
-  for (const WordColumn& column : columns_) out += cell(column) + ',';
+  for (const std::string& text : cells()) out += text + ',';
   const bool quoted = row_.state.find(',') != std::string::npos;
   return out + fmt::format("{0}{1}{0}\n", quoted ? "\"" : "", row_.state);
 }
@@ -140,12 +152,13 @@ std::string FrameReport::json_row() const {
   std::string out =
       fmt::format("{}\n  {{\"frame\": {}, \"time_us\": {:.3f}, \"slave\": {}, \"good\": {}, ",
                   any_ ? "," : "", row_.frame, sim::to_us(row_.time), row_.slave, row_.good());
-  for (const WordColumn& column : columns_) {
-    const std::string text = cell(column);
-    out += fmt::format("\"{}\": {}, ", column.key,
-                       text.empty()    ? "null"
-                       : column.number ? text
-                                       : json_text(text));
+  const std::vector<std::string> texts = cells();
+  for (std::size_t i = 0; i < columns_.size(); ++i) {
+    const std::string& text = texts[i];
+    out += fmt::format("\"{}\": {}, ", columns_[i].key,
+                       text.empty()         ? "null"
+                       : columns_[i].number ? text
+                                            : json_text(text));
   }
   return out + fmt::format("\"state\": {}}}", json_text(row_.state));
 }

@@ -26,7 +26,8 @@ struct FrameRow {
   std::optional<Word> word;  // absent: bad frame
   // Delivered as good, but not the word that the slave has sent.
   bool wrong = false;
-  std::string state;  // "ok", "encoder error", "CRC error", ...
+  std::string state;                // "ok", "encoder error", "CRC error", ...
+  std::vector<std::string> told{};  // SlaveResult::told
 
   bool good() const { return word.has_value() && !wrong; }
 };
@@ -65,8 +66,8 @@ class FrameReport {
   std::string json_row() const;
 
  private:
-  // Of the row; empty where the word does not have it.
-  std::string cell(const WordColumn& column) const;
+  // The texts of the row, by column; empty where there is none.
+  std::vector<std::string> cells() const;
 
   std::span<const WordColumn> columns_;
   std::vector<SlaveCount> counts_;               // by slave

@@ -52,6 +52,7 @@ std::string thousandths(long long value) {
 }
 
 std::string plane_title(const Sweep& sweep, const SweepPlane& plane) {
+  if (!plane.title.empty()) return plane.title;
   return fmt::format("{} 0x{:02X}: MA {} kHz, T_MA {} ns", sweep.code_name, plane.code,
                      thousandths(static_cast<long long>(plane.ma_hz)),
                      thousandths(std::llround(1e12 / static_cast<double>(plane.ma_hz))));
@@ -61,20 +62,35 @@ std::string frames_text(const Sweep& sweep) {
   return fmt::format("{} frame{} at each point", sweep.frames, sweep.frames == 1 ? "" : "s");
 }
 
-bool Sweep::within_i305() const {
+bool Sweep::within_allowed() const {
   for (const SweepPlane& plane : planes) {
     for (const auto& row : plane.points) {
       for (std::size_t j = 0; j < row.size(); ++j) {
-        if (jitters_mpercent[j] <= kI305 && row[j].bad() != 0) return false;
+        if (jitters_mpercent[j] <= plane.allowed_mpercent && row[j].bad() != 0) return false;
       }
     }
   }
   return true;
 }
 
+bool Sweep::any_allowed() const {
+  const long long least = *std::min_element(jitters_mpercent.begin(), jitters_mpercent.end());
+  return std::any_of(planes.begin(), planes.end(),
+                     [&](const SweepPlane& plane) { return least <= plane.allowed_mpercent; });
+}
+
+std::string Sweep::allowed_text() const {
+  std::vector<long long> limits;
+  for (const SweepPlane& plane : planes) limits.push_back(plane.allowed_mpercent);
+  limits.erase(std::unique(limits.begin(), limits.end()), limits.end());
+  std::string text;
+  for (const long long limit : limits) text += (text.empty() ? "" : ", ") + thousandths(limit);
+  return text + " %";
+}
+
 std::string sweep_text(const Sweep& sweep) {
-  std::string out =
-      fmt::format("{}: {}, jitter peak to peak in % of T_MA\n", sweep.scenario, frames_text(sweep));
+  std::string out = fmt::format("{}: {}, jitter peak to peak in % of {}\n", sweep.scenario,
+                                frames_text(sweep), sweep.period);
   SweepPoint sum;
   for (const SweepPlane& plane : sweep.planes) {
     out += plane_text(sweep, plane);
@@ -86,16 +102,14 @@ std::string sweep_text(const Sweep& sweep) {
       }
     }
   }
-  const bool any =
-      *std::min_element(sweep.jitters_mpercent.begin(), sweep.jitters_mpercent.end()) <= kI305;
   out += fmt::format(
       "\n. = all good, ! = wrong words delivered as good (CRC aliases) among them\n"
-      "words {}, flagged {}, wrong but delivered {}; jitter up to 25 %{}: {}; seed {}\n",
-      sum.words, sum.flagged, sum.wrong,
+      "words {}, flagged {}, wrong but delivered {}; jitter up to {}{}: {}; seed {}\n",
+      sum.words, sum.flagged, sum.wrong, sweep.allowed_text(),
       sweep.jitter_item.empty() ? "" : fmt::format(" ({})", sweep.jitter_item),
-      !any                  ? "not tried"
-      : sweep.within_i305() ? "all good"
-                            : "BAD",
+      !sweep.any_allowed()     ? "not tried"
+      : sweep.within_allowed() ? "all good"
+                               : "BAD",
       sweep.seed);
   return out;
 }

@@ -22,10 +22,15 @@ struct SweepPoint {
   std::uint64_t bad() const { return flagged + wrong; }
 };
 
-// One code of the MA frequency; points[delay][jitter].
+// Item I305 in the unit of Sweep::jitters_mpercent.
+inline constexpr long long kI305 = 25'000;
+
+// One code of the MA frequency, or of another rule; points[delay][jitter].
 struct SweepPlane {
   unsigned code = 0;
-  std::uint64_t ma_hz = 0;
+  std::uint64_t ma_hz = 0;             // bits a second, for codes that are no frequencies
+  long long allowed_mpercent = kI305;  // jitter up to which every word must be good
+  std::string title;                   // empty: of the frequency
   std::vector<std::vector<SweepPoint>> points;
 };
 
@@ -36,16 +41,18 @@ struct Sweep {
   std::uint64_t seed = 0;
   std::uint64_t frames = 0;          // per point
   std::vector<long long> delays_ps;  // round trip
-  // Peak to peak, thousandths of a percent of T_MA.
+  std::string period = "T_MA";       // what a jitter is a part of
+  // Peak to peak, thousandths of a percent of it.
   std::vector<long long> jitters_mpercent;
   std::vector<SweepPlane> planes;
 
-  // Every word was good wherever the jitter is at most 25 % of T_MA (item I305).
-  bool within_i305() const;
+  // Every word was good wherever the jitter is allowed.
+  bool within_allowed() const;
+  // A point has allowed jitter.
+  bool any_allowed() const;
+  // "25 %"; "12, 35 %" if they differ.
+  std::string allowed_text() const;
 };
-
-// Item I305 in the unit of Sweep::jitters_mpercent.
-inline constexpr long long kI305 = 25'000;
 
 // A table of bad words for each plane, and a summary.
 std::string sweep_text(const Sweep& sweep);

@@ -251,9 +251,9 @@ const MasterSupport kAxiSupport{
     .check = [](const sim::Scenario& scenario) { make_config(scenario); },
     .open = [](const sim::Scenario& scenario, const SessionOptions& options)
         -> std::unique_ptr<Session> { return std::make_unique<AxiSession>(scenario, options); },
-    .ma = {.name = "MA_DIVIDER",
-           .most = regs::MA_DIVIDER::kMax,
-           .refuses = "MA is the clock divided by twice MA_DIVIDER, exactly; not",
-           .divider = ma_divider}};
+    .sweep = {.name = "MA_DIVIDER",
+              .most = regs::MA_DIVIDER::kMax,
+              .refuses = "MA is the clock divided by twice MA_DIVIDER, exactly; not",
+              .divider = ma_divider}};
 
 }  // namespace mb4::tool

@@ -224,12 +224,12 @@ const MasterSupport kMb4Support{
     .check = [](const sim::Scenario& scenario) { make_config(scenario); },
     .open = [](const sim::Scenario& scenario, const SessionOptions& options)
         -> std::unique_ptr<Session> { return std::make_unique<Mb4Session>(scenario, options); },
-    .ma = {.name = "FREQS",
-           .most = 31,
-           .refuses = "Table 35 does not permit code",
-           .divider = [](std::uint64_t /*clk_hz*/,
-                         unsigned code) { return sim::ma_divider(code); }},
-    .jitter_item = "I305",
+    .sweep = {.name = "FREQS",
+              .most = 31,
+              .refuses = "Table 35 does not permit code",
+              .divider = [](std::uint64_t /*clk_hz*/,
+                            unsigned code) { return sim::ma_divider(code); },
+              .jitter_item = "I305"},
     .control = true,
     .coverage = true,
     .scan = scan_mb4};
