@@ -6,6 +6,7 @@
 """
 
 import json
+import re
 import sys
 import tempfile
 import unittest
@@ -84,13 +85,14 @@ class Dsl(unittest.TestCase):
         scenario = self.path("[host]\nlink_ms = 1\n" + motor("cable_m = 200\n"))  # no link either
         for arguments in (("regs", scenario), ("regs", scenario, "--json"), ("spi", scenario), ("scan", scenario),
                           ("bridge", scenario, "--unix", str(self.folder / "x")),
+                          ("plot", scenario, "--read", "0x40"),
                           ("run", scenario, "--trace", str(self.folder / "x.fst")),
                           ("run", scenario, "--bus-log", str(self.folder / "x.log"))):
             result = run(*arguments)
             self.assertEqual(result.returncode, 2, arguments)
             self.assertEqual(result.stdout, "", arguments)
             self.assertEqual(len(result.stderr.splitlines()), 1, (arguments, result.stderr))
-            self.assertIn("dsl-model", result.stderr)
+            self.assertIn("BiSS C only" if "plot" in arguments else "dsl-model", result.stderr)
         self.assertEqual([path.name for path in self.folder.iterdir()], ["motor.toml"])
 
     def test_each_row_tells_speed_safe_position_quality_and_delay(self):
@@ -143,6 +145,69 @@ class Dsl(unittest.TestCase):
         self.assertGreaterEqual(len(states[after:]), 2)
         for state in states[after:]:
             self.assertRegex(state, "^no link within 3 ms: state .*, [0-9]+ restarts, the last one: no answer")
+
+    def picture(self, status, scenario, *arguments):
+        svg = self.folder / "frame.svg"
+        result = run("plot", scenario, "--svg", str(svg), *arguments)
+        self.assertEqual(result.returncode, status, result.stderr)
+        picture = svg.read_text(encoding="utf-8")
+        texts = re.findall(r'<text [^>]*class="(\w+)">([^<]*)</text>', picture)
+        self.assertNotIn("?", [text for kind, text in texts if kind != "note"])
+        return ([text for kind, text in texts if kind in ("field", "tight")],
+                "".join(text for kind, text in texts if kind == "digit" and text in "01" and len(text) == 1),
+                " ".join(text for kind, text in texts if kind == "note"), picture)
+
+    def test_plot_shows_the_bytes_that_the_encoder_sends(self):
+        keys = "pipeline = 0xA5\nsummary = 0x81\ns_par_bits = 2\ndata = 0x12345678\nstart_disparity = 1\n"
+        for metres, rule in ((0, 0), (37, 1), (100, 2)):
+            scenario = self.path(f"[chip.quirks]\nSAMPLE = {rule}\n" + motor(f"cable_m = {metres}\n", keys))
+            # Frame 1 is RX7 of a vertical frame: VSYNC, and the low byte of the CRC16.
+            vertical = [0x81, 0x00, 0x12, 0x34, 0x56, 0x78]
+            rest = 0
+            for byte in vertical:
+                rest ^= byte << 8
+                for _ in range(8):
+                    rest = (rest << 1 ^ (0x90D9 if rest & 0x8000 else 0)) & 0xFFFF
+            vertical += [(rest ^ 0xFF) >> 8, (rest ^ 0xFF) & 0xFF]
+            for frame in range(1, 10):
+                place = (frame + 6) % 8
+                fields, _, note, _ = self.picture(0, scenario, "--frame", str(frame))
+                for name in ("SYNC", "SAMPLE", "CYCLE RESET", "EQUALISATION 0000", "SW.", "TRAILER",
+                             f"vertical {vertical[place]:02X}", "pipeline A5", "acceleration 00", "acceleration, CRC5 1F",
+                             f"S_PAR {'D0' if place == 7 else '50'}"):
+                    self.assertIn(name, fields, (metres, frame))
+                # The bit before the last word is the inverse of the one before it.
+                self.assertIn(f"RX{place} of", note)
+                self.assertIn("Second difference +0, position 305419896, speed 0, QM 15", note)
+                self.assertIn(f"{(95 + 10.6 * metres) / 106.67:.2f}", note)
+
+    def test_plot_has_the_bits_where_the_master_samples(self):
+        scenario = self.path(motor("cable_m = 12\n", "data = 5\n"))
+        _, bits, _, _ = self.picture(0, scenario, "--frame", "1")
+        self.assertEqual(len(bits), 26 + 61 + 8 + 1)  # with the 0 of the axis
+        self.assertEqual(bits[:16], "0010111101100000")
+
+    def test_plot_marks_what_is_wrong(self):
+        fault = '[[fault]]\nkind = "bit-flip"\nchannel = 1\nframe = 34\nanswer_bit = 33\n'
+        scenario = self.path(motor(slave="data = 5\n") + fault)
+        fields, _, note, _ = self.picture(0, scenario, "--frame", "2")
+        self.assertIn("acceleration 00", fields)
+        fields, _, note, picture = self.picture(1, scenario, "--frame", "3")
+        self.assertNotIn("acceleration 00", fields)
+        self.assertIn("acceleration: CRC5 wrong", note)
+        self.assertIn("Second difference missing", note)
+        self.assertIn("#f6b9b4", picture)
+        # Without a link the last frame that asks for an answer.
+        text = "[host]\nlink_ms = 2\n" + motor("cable_m = 140\n")
+        fields, _, note, picture = self.picture(1, self.path(text))
+        self.assertIn("M_PAR 1A: START", fields)
+        self.assertNotIn("STUFFING", fields)  # a restart ends its frame with the trailer
+
+    def test_plot_writes_the_four_levels(self):
+        vcd = self.folder / "line.vcd"
+        self.assertEqual(run("plot", self.path(motor("cable_m = 12\n")), "--vcd", str(vcd)).returncode, 0)
+        names = re.findall(r"\$var wire 1 . (\w+) ", vcd.read_text(encoding="ascii"))
+        self.assertEqual(names, ["OUT1", "EN1", "IN1", "ENCODER1"])
 
     def test_sweep_counts_starts_and_frames(self):
         scenario, csv, svg = self.path(motor()), self.folder / "eye.csv", self.folder / "eye.svg"

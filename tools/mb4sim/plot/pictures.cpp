@@ -3,6 +3,9 @@
 #include "plot/pictures.hpp"
 
 #include "plot/clocked_picture.hpp"
+#if MB4SIM_WITH_DSL_MODEL
+#include "plot/dsl_picture.hpp"
+#endif
 #include "sim/masters/master.hpp"
 
 namespace mb4::tool {
@@ -12,6 +15,9 @@ std::vector<const PictureDecoder*>& list() {
   static std::vector<const PictureDecoder*> all = [] {
     std::vector<const PictureDecoder*> own;
     for (const PictureDecoder& each : clocked_pictures()) own.push_back(&each);
+#if MB4SIM_WITH_DSL_MODEL
+    own.push_back(&kDslPicture);
+#endif
     return own;
   }();
   return all;

@@ -1,0 +1,254 @@
+// SPDX-FileCopyrightText: 2026 The openmb4 authors
+// SPDX-License-Identifier: Apache-2.0
+#include "plot/dsl_decode.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string_view>
+
+#include "sim/lines/dsl/dsl_code.hpp"
+#include "sim/masters/dsl_model/frame_plan.hpp"
+
+namespace mb4::tool {
+namespace {
+
+using namespace sim::dsl_model;
+
+// Bits of a frame in a free run.
+constexpr unsigned kDslEdge = 8;  // of SAMPLE
+constexpr unsigned kEqualise = 12;
+constexpr unsigned kParameter = 16;
+constexpr unsigned kLatestBits = 12;  // bits that an answer may be late
+
+unsigned symbol_of(std::uint8_t parameter) { return parameter & 0x1FU; }
+
+unsigned bits_at(const Wave& line, const DslFrame& frame, unsigned first, unsigned count) {
+  unsigned bits = 0;
+  for (unsigned i = 0; i < count; ++i) {
+    bits = bits << 1U | (line.at(frame.at(first + i + 0.5)) ? 1U : 0U);
+  }
+  return bits;
+}
+
+// The falling edges of SAMPLE up to a time: 00 1 0 11 and the ones of SAMPLE stand before it. The
+// same in an answer does not count.
+std::vector<sim::Time> sample_edges(const Wave& line, sim::Time until, double bit) {
+  std::vector<sim::Time> found;
+  std::array<unsigned, 4> runs{};  // lengths, the latest first
+  sim::Time last = 0;
+  for (const Edge& edge : line.edges) {
+    if (edge.time > until) break;
+    std::move_backward(runs.begin(), runs.end() - 1, runs.end());
+    constexpr double kLongest = 1000;
+    runs[0] = static_cast<unsigned>(
+        std::min(static_cast<double>(edge.time - last) / bit + 0.5, kLongest));
+    last = edge.time;
+    if (edge.level || runs[0] < 4 || runs[1] != 1 || runs[2] != 1 || runs[3] < 2) continue;
+    const auto apart = static_cast<sim::Time>((kFrameBits - kDslEdge - 2) * bit);
+    if (found.empty() || edge.time > found.back() + apart) found.push_back(edge.time);
+  }
+  return found;
+}
+
+// A frame up to M_PAR.
+DslFrame begun(const Wave& line, sim::Time edge, double bit) {
+  DslFrame frame;
+  frame.bit = bit;
+  const auto ahead = static_cast<sim::Time>(kDslEdge * bit + 0.5);
+  frame.begin = edge - std::min(edge, ahead);
+  frame.parameter = sim::dsl::parameter_of(bits_at(line, frame, kParameter, 10));
+  frame.bits = kFrameBits;
+  while (frame.bits < kFrameBits + kMaxBlocks * kBlockBits &&
+         bits_at(line, frame, frame.bits, 9) != 0b001011110 &&
+         bits_at(line, frame, frame.bits, kBlockBits) == 0b001011) {
+    frame.bits += kBlockBits;
+  }
+  return frame;
+}
+
+// How late the answer of a training frame begins: its pattern begins with 0. All its edges count.
+std::optional<double> measure(const Wave& line, const DslFrame& frame) {
+  std::optional<sim::Time> first;
+  double away = 0;
+  unsigned count = 0;
+  for (const Edge& edge : line.edges) {
+    if (edge.time < frame.at(kDslSwitch + 0.5)) continue;
+    if (!first) {
+      if (edge.time > frame.at(kDslSwitch + 1 + kLatestBits)) break;
+      if (edge.level) continue;
+      first = edge.time;
+    }
+    const double bits = static_cast<double>(edge.time - *first) / frame.bit;
+    if (bits > kAnswerBits - 0.5) break;
+    away += bits - std::round(bits);
+    ++count;
+  }
+  if (!first) return std::nullopt;
+  return static_cast<double>(*first - frame.at(kDslSwitch + 1)) / frame.bit + away / count;
+}
+
+Field field(const DslFrame& frame, double from, double to, FieldKind kind,
+            std::vector<std::string> labels, bool bad = false) {
+  return {frame.at(from), frame.at(to), kind, std::move(labels), bad};
+}
+
+void add_sent(const Wave& line, DslFrame& frame) {
+  const bool sync = bits_at(line, frame, 0, kEqualise) == 0b001011'110'110;
+  const bool trailer = bits_at(line, frame, kDslTrailer, 8) == 0b00000011;
+  const unsigned equal = bits_at(line, frame, kEqualise, 4);
+  const auto add = [&](double from, double to, FieldKind kind, std::vector<std::string> labels,
+                       bool bad = false) {
+    frame.sent.push_back(field(frame, from, to, kind, std::move(labels), bad));
+  };
+  add(0, 6, FieldKind::kFraming, {"SYNC"}, !sync);
+  add(6, 9, FieldKind::kFraming, {"SAMPLE"}, !sync);
+  add(9, kEqualise, FieldKind::kFraming, {"CYCLE RESET", "CYCLE R."}, !sync);
+  add(kEqualise, kParameter, FieldKind::kFlag,
+      {fmt::format("EQUALISATION {:04b}", equal), "EQUAL."});
+  const std::string text = parameter_text(frame.parameter);
+  const std::string byte = frame.parameter ? fmt::format(" {:02X}", *frame.parameter) : "";
+  add(kParameter, kDslSwitch, FieldKind::kControl,
+      {fmt::format("M_PAR{}: {}", byte, text), "M_PAR: " + text, "M_PAR"}, !frame.parameter);
+  if (frame.has_answer()) {
+    add(kDslSwitch, kDslSwitch + 1, FieldKind::kRest, {"SWITCH", "SW."});
+    add(kDslSwitch + 1, kDslTrailer, FieldKind::kRest, {"its driver is off"});
+  } else {
+    add(kDslSwitch, kDslTrailer, FieldKind::kFraming, {"0101... for the encoder's clock"});
+  }
+  add(kDslTrailer, kFrameBits, FieldKind::kFraming, {"TRAILER"}, !trailer);
+  if (frame.bits > kFrameBits) {
+    add(kFrameBits, frame.bits, FieldKind::kRest, {"STUFFING", "STUFF."});
+  }
+  if (!sync) frame.mistakes = "no SYNC";
+  if (!trailer) frame.mistakes = "no TRAILER";
+  if (!frame.parameter) frame.mistakes = "M_PAR is no word";
+}
+
+std::string byte_text(const Word& word) {
+  if (word.error) return "?";
+  return fmt::format("{}{:02X}", word.special ? "K " : "", word.byte);
+}
+
+void add_answered(DslFrame& frame) {
+  const auto add = [&](double from, double to, FieldKind kind, std::vector<std::string> labels,
+                       bool bad = false) {
+    frame.answered.push_back(
+        {frame.answer_at(from), frame.answer_at(to), kind, std::move(labels), bad});
+  };
+  frame.answered.push_back(
+      {frame.at(kDslSwitch + 1),
+       frame.answer_at(0),
+       FieldKind::kRest,
+       {fmt::format("{:.2f} bits late", *frame.late), fmt::format("{:.2f} late", *frame.late),
+        fmt::format("{:.1f}", *frame.late)},
+       false});
+  if (frame.training()) {
+    const bool bad = frame.answer != kTestPattern;
+    add(0, kAnswerBits, FieldKind::kFlag, {bad ? "wrong test pattern" : "test pattern"}, bad);
+    if (bad) frame.mistakes = "wrong test pattern";
+    return;
+  }
+  frame.words = words_of(frame.answer, CodeCheck::kStrict);
+  const AnswerWords& words = frame.words;
+  const auto word = [&](unsigned from, FieldKind kind, std::string_view name, const Word& read,
+                        bool bad = false) {
+    const std::string text = byte_text(read);
+    add(from, from + 10, kind, {fmt::format("{} {}", name, text), text}, read.error || bad);
+    if (read.error) frame.mistakes = fmt::format("{}: no word of the code", name);
+  };
+  const bool identity = frame.parameter && symbol_of(*frame.parameter) == kIdRequest;
+  const bool crc5 =
+      identity || acceleration_is_good(static_cast<std::uint16_t>(
+                      words.acceleration_high.byte << 8U | words.acceleration_low.byte));
+  if (!crc5) frame.mistakes = "acceleration: CRC5 wrong";
+  if (words.acceleration_high.is(kMarker1) && words.acceleration_low.is(kMarker1)) {
+    frame.mistakes = "the encoder has no second difference";
+  }
+  word(0, FieldKind::kData, "vertical", words.vertical);
+  word(10, FieldKind::kControl, "S_PAR", words.parameter);
+  word(20, FieldKind::kRest, "pipeline", words.pipeline);
+  word(30, FieldKind::kData, "acceleration", words.acceleration_high);
+  word(40, FieldKind::kCrc, "acceleration, CRC5", words.acceleration_low, !crc5);
+  add(50, 51, FieldKind::kFlag, {words.direction ? "1" : "0"});
+  word(51, FieldKind::kData, "secondary", words.secondary);
+}
+
+}  // namespace
+
+bool DslFrame::training() const {
+  if (!parameter) return false;
+  const unsigned symbol = symbol_of(*parameter);
+  return symbol >= kStart && symbol <= kCheck;
+}
+
+bool DslFrame::has_answer() const {
+  return !parameter || (symbol_of(*parameter) != kReset && symbol_of(*parameter) != kSync);
+}
+
+sim::Time DslFrame::answer_at(double place) const {
+  return at(kDslSwitch + 1 + late.value_or(0) + place);
+}
+
+std::string parameter_text(std::optional<std::uint8_t> parameter) {
+  if (!parameter) return "?";
+  std::string text;
+  switch (symbol_of(*parameter)) {
+    case kIdle:
+      text = "IDLE";
+      break;
+    case kSync:
+      text = "SYNC";
+      break;
+    case kStart:
+      text = "START";
+      break;
+    case kLearn:
+      text = "LEARN";
+      break;
+    case kCheck:
+      text = "CHECK";
+      break;
+    case kIdRequest:
+      text = "ID REQ";
+      break;
+    case kInit:
+      text = "INIT";
+      break;
+    case kReset:
+      text = "RESET";
+      break;
+    default:
+      text = fmt::format("nibble {:X}", *parameter & 0xFU);
+  }
+  if ((*parameter & kFirstBit) != 0) text += ", first";
+  if ((*parameter & kVerticalBit) != 0) text += ", msync";
+  return text;
+}
+
+std::optional<DslFrame> decode_dsl(const Wave& line, sim::Time sampled, double bit) {
+  const auto near = static_cast<sim::Time>(2 * bit);
+  const std::vector<sim::Time> edges = sample_edges(line, sampled + near, bit);
+  if (edges.empty() || edges.back() + near < sampled) return std::nullopt;
+  DslFrame frame = begun(line, edges.back(), bit);
+  add_sent(line, frame);
+  if (!frame.has_answer()) return frame;
+  for (auto edge = edges.rbegin(); edge != edges.rend() && !frame.late; ++edge) {
+    const DslFrame before = begun(line, *edge, bit);
+    if (before.training()) frame.late = measure(line, before);
+    if (!before.has_answer()) break;  // an earlier training counts no more
+  }
+  if (!frame.late) {
+    frame.mistakes = "no answer";
+    return frame;
+  }
+  for (unsigned i = 0; i < kAnswerBits; ++i) {
+    frame.answer = frame.answer << 1U | (line.at(frame.answer_at(i + 0.5)) ? 1U : 0U);
+  }
+  add_answered(frame);
+  return frame;
+}
+
+}  // namespace mb4::tool
