@@ -34,9 +34,10 @@ class Master:
     """What the master has taken."""
 
     def __init__(self, words):
-        self.sampled, self.state, restart, self.answer, good, position, safe = words
+        self.sampled, self.state, restart, self.answer, good, errors, position, *safe = words
         self.sampled, self.restart, self.good = int(self.sampled), restart == "1", good == "1"
-        self.position, self.safe = int(position), None if safe == "-" else int(safe)
+        self.errors, self.position = int(errors), int(position)
+        self.safe = [None if one == "-" else int(one) for one in safe]  # of both channels
 
 
 def read(text):
@@ -50,15 +51,22 @@ def read(text):
     return edges, frames
 
 
-def decode(module, edges):
+def decode(module, edges, drives=()):
+    """With `drives`, the edges of the master's driver."""
     line = module.Line(BIT)
-    found = [line.edge(time, level) for time, level in edges]
+    found = []
+    for time, driver, level in sorted([(time, False, level) for time, level in edges] +
+                                      [(time, True, level) for time, level in drives]):
+        if driver:
+            line.driver(time, level)
+        else:
+            found.append(line.edge(time, level))
     return [frame for frame in found if frame is not None]
 
 
 def differences(decoded, frames):
     """What differs, frame by frame; and how many frames, errors and restarts were compared."""
-    found, counts = [], {"frames": 0, "words": 0, "bad": 0, "safe": 0, "restarts": 0}
+    found, counts = [], {"frames": 0, "words": 0, "errors": 0, "bad": 0, "safe": 0, "restarts": 0}
     by_time = {round((frame.begin + 8 * BIT) / BIT): frame for frame in decoded}
     for number, frame in enumerate(frames[:-1]):
         place = round(frame.sampled / BIT)
@@ -83,13 +91,18 @@ def differences(decoded, frames):
         counts["bad"] += not frame.good
         if (other.acceleration is not None) != frame.good:
             found.append(f"frame {number}: acceleration {other.acceleration}, good {frame.good}")
-        if frame.safe is not None:
-            counts["safe"] += 1
-            data, good = other.vertical or (None, False)
-            if not good or int.from_bytes(bytes(data[1:6]), "big") != frame.safe:
-                found.append(f"frame {number}: safe position {data} {good} instead of {frame.safe}")
-        elif other.vertical and other.vertical[1]:
-            found.append(f"frame {number}: a good safe position that the master did not take")
+        errors = sum(byte is None for byte, _ in other.words.values())
+        counts["errors"] += errors
+        if errors != frame.errors:
+            found.append(f"frame {number}: {errors} words are none instead of {frame.errors}")
+        for safe, channel in zip(frame.safe, (other.vertical, other.secondary)):
+            if safe is not None:
+                counts["safe"] += 1
+                data, good = channel or (None, False)
+                if not good or int.from_bytes(bytes(data[1:6]), "big") != safe:
+                    found.append(f"frame {number}: safe position {data} {good} instead of {safe}")
+            elif channel and channel[1]:
+                found.append(f"frame {number}: a good safe position that the master did not take")
     symbols = [frame.symbol for frame in decoded]
     seen = sum(a != "RESET" and b == "RESET" for a, b in zip(symbols, symbols[1:]))
     if abs(seen - counts["restarts"]) > 0:
@@ -116,19 +129,75 @@ def check_wires(edges):
     return wrong
 
 
-def by_sigrok(root, edges, decoded):
+def check_encoder(edges):
+    """While the master's driver is off, _IN is what _ENCODER was a cable earlier."""
+    one_way, jitter, off = 35 * 5300, 8000, 60000
+    sent = edges[ENCODER]
+    level, since, place, wrong, compared = 0, 0, 0, 0, 0
+    changes = sorted([(time, 0, value) for time, value in edges[ENABLE]] +
+                     [(time, 1, value) for time, value in edges[IN]])
+    for time, wire, value in changes:
+        if wire == 0:
+            level, since = value, time
+        elif not level and time - since > off:
+            while place < len(sent) and sent[place][0] < time - one_way - jitter - 1:
+                place += 1
+            compared += 1
+            wrong += not any(before <= time - one_way + 1 and there == value
+                             for before, there in sent[place:place + 3])
+    return wrong, compared
+
+
+def check_driver(module, edges):
+    """EN shows the window of each frame; a window that is moved by a bit is told."""
+    shown = decode(module, edges[IN], edges[ENABLE])
+    plain = decode(module, edges[IN])
+    if [frame.answer for frame in shown] != [frame.answer for frame in plain]:
+        print("EN changes what is decoded")
+        return False
+    told = [frame.driver_mistake() for frame in shown if frame.symbol not in ("RESET", "SYNC")]
+    known = sum(frame.off is not None for frame in shown)
+    moved = decode(module, edges[IN], [(time + round(BIT), level) for time, level in edges[ENABLE]])
+    told_moved = [frame.driver_mistake() for frame in moved if frame.symbol not in ("RESET", "SYNC")]
+    print(f"EN: {known} windows, {len(told) - told.count(None)} are elsewhere; "
+          f"{told_moved.count(None)} of {len(told_moved)} if moved by a bit")
+    return known > 9000 and told.count(None) == len(told) and told_moved.count(None) == 0
+
+
+def check_without_training(module, edges, decoded):
+    """From the middle of a link the decoder finds the same answers, at each of some begins."""
+    running = [frame for frame in decoded if frame.symbol == "IDLE"]
+    answers = {frame.begin: frame.answer for frame in decoded}
+    for number in range(200, len(running) - 60, 531):
+        begin, end = running[number].at(3), running[number + 30].begin
+        found = decode(module, [edge for edge in edges[IN] if begin < edge[0] < end])
+        if any(frame.symbol != "IDLE" for frame in found):
+            continue  # a restart
+        with_answer = [frame for frame in found if frame.answer is not None]
+        wrong = [frame for frame in with_answer if answers.get(frame.begin) != frame.answer]
+        if len(with_answer) < 20 or wrong:
+            print(f"from frame {number} on: {len(with_answer)} answers, {len(wrong)} wrong")
+            return False
+    return True
+
+
+def by_sigrok(root, edges, decoded, drives=()):
     """The states and safe positions that sigrok prints are those of the plain decoder. False: not."""
     with tempfile.TemporaryDirectory() as name:
         path = Path(name) / "line.vcd"
-        lines = ["$timescale 1 ps $end", "$var wire 1 L LINE $end", "$enddefinitions $end"]
-        lines += [f"#{time}\n{level}L" for time, level in edges]
+        lines = ["$timescale 1 ps $end", "$var wire 1 L LINE $end", "$var wire 1 E EN $end",
+                 "$enddefinitions $end"]
+        lines += [f"#{time}\n{level}{wire}" for time, level, wire in
+                  sorted([(*edge, "L") for edge in edges] + [(*edge, "E") for edge in drives])]
         path.write_text("\n".join(lines) + "\n", encoding="ascii")
         text = subprocess.run(
-            ["sigrok-cli", "-I", f"vcd:downsample={DOWNSAMPLE}", "-i", path, "-P", "dsl:line=LINE", "-A",
-             "dsl=states:safes"], check=True, capture_output=True, text=True,
+            ["sigrok-cli", "-I", f"vcd:downsample={DOWNSAMPLE}", "-i", path, "-P",
+             f"dsl:line=LINE{':en=EN' * bool(drives)}", "-A", "dsl=states:safes:drivers"], check=True, capture_output=True, text=True,
             env={**os.environ, "SIGROKDECODE_DIR": str(Path(root).resolve() / "tools" / "sigrok")}).stdout
     printed = sorted(line.removeprefix("dsl-1: ") for line in text.splitlines())
     expected = [frame.symbol for frame in decoded]
+    if drives:
+        expected += ["Master", "Encoder", "Master"] * sum(frame.off is not None for frame in decoded)
     for frame in decoded:
         for channel, safe in ((1, frame.vertical), (2, frame.secondary)):
             if safe is not None:
@@ -138,7 +207,7 @@ def by_sigrok(root, edges, decoded):
     if printed != sorted(expected):
         print(f"sigrok prints {len(printed)} lines, {len(expected)} were expected")
         return False
-    print(f"sigrok prints the same {len(printed)} states and safe positions")
+    print(f"sigrok prints the same {len(printed)} states, safe positions and drivers")
     return True
 
 
@@ -155,9 +224,18 @@ def main():
     print(f"{len(decoded)} frames decoded, {counts}, {len(found)} differences")
     if found or check_wires(edges):
         return 1
-    some = [edge for edge in edges[IN] if edge[0] < 5_000_000_000]  # 5 ms
-    if shutil.which("sigrok-cli") and not by_sigrok(root, some, decode(module, some)):
+    wrong, compared = check_encoder(edges)
+    print(f"_IN against _ENCODER: {compared} edges, {wrong} differ")
+    if wrong or compared < 100000:
         return 1
+    if not check_driver(module, edges) or not check_without_training(module, edges, decoded):
+        return 1
+    some, drives = ([edge for edge in edges[wire] if edge[0] < 5_000_000_000] for wire in (IN, ENABLE))  # 5 ms
+    if shutil.which("sigrok-cli"):
+        if not by_sigrok(root, some, decode(module, some)):
+            return 1
+        if not by_sigrok(root, some, decode(module, some, drives), drives):
+            return 1
     if counts["restarts"] < 2 or counts["bad"] < 20 or counts["safe"] < 100:
         print("too few faults to say anything")
         return 1

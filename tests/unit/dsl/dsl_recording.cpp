@@ -4,8 +4,9 @@
 // Runs the model of the master and the encoder with faults, and prints what a decoder of the line
 // is judged by: each edge of a wire, `WIRE PICOSECONDS LEVEL` with the wire as in mb4sim_on_edge()
 // (4 _OUT, 5 _EN, 6 _IN, 7 _ENCODER), and each answer as the master has taken it, `F SAMPLED STATE
-// RESTART ANSWER GOOD POSITION SAFE`: time of the edge in SAMPLE, 1 if the link ends with it, 61
-// bits, 1 if the second difference is good, the safe position of a good vertical frame or -.
+// RESTART ANSWER GOOD ERRORS POSITION SAFE SAFE2`: time of the edge in SAMPLE, 1 if the link ends
+// with it, 61 bits, 1 if the second difference is good, the number of words that are none, and the
+// safe positions of a good vertical frame or -.
 //
 //   dsl_recording FRAMES
 #include <bitset>
@@ -32,15 +33,24 @@ struct Printer final : LineObserver {
 void print(const LinkFrame& frame, LinkModel& model) {
   const bool training = frame.state == LinkState::kStart || frame.state == LinkState::kLearn ||
                         frame.state == LinkState::kCheck;
-  const bool safe = frame.safe_new && frame.safe1.valid;
+  const auto safe = [&](const dsl_model::SafeChannel& channel) {
+    return frame.safe_new && channel.valid ? std::to_string(channel.position) : std::string("-");
+  };
+  const dsl_model::AnswerWords& words = frame.words;
+  int errors = 0;
+  for (const auto* word : {&words.vertical, &words.parameter, &words.pipeline,
+                           &words.acceleration_high, &words.acceleration_low, &words.secondary}) {
+    errors += word->error ? 1 : 0;
+  }
   std::string state = name_of(frame.state);
   for (char& c : state) c = c == ' ' ? '_' : c;
-  std::printf("F %llu %s %d %s %d %llu %s\n",
+  std::printf("F %llu %s %d %s %d %d %llu %s %s\n",
               static_cast<unsigned long long>(model.time_of(frame.sampled)), state.c_str(),
               frame.restart == Restart::kNone ? 0 : 1,
               training ? "-" : std::bitset<61>(frame.answer).to_string().c_str(),
-              frame.acceleration_good ? 1 : 0, static_cast<unsigned long long>(frame.position),
-              safe ? std::to_string(frame.safe1.position).c_str() : "-");
+              frame.acceleration_good ? 1 : 0, errors,
+              static_cast<unsigned long long>(frame.position), safe(frame.safe1).c_str(),
+              safe(frame.safe2).c_str());
 }
 
 }  // namespace
@@ -60,7 +70,8 @@ int main(int argc, char** argv) {
     // Faults that last a few frames, in turn.
     constexpr const SlaveFault* kFaults[] = {&slave_fault::kSilent,      &slave_fault::kFastMarker,
                                              &slave_fault::kWrongCrc,    &slave_fault::kSafeMarker,
-                                             &slave_fault::kSafe2Marker, &slave_fault::kNoVsync};
+                                             &slave_fault::kWrongCrc2,   &slave_fault::kNoVsync,
+                                             &slave_fault::kSafe2Marker, &slave_fault::kEarlyVsync};
     if (frame.number == 0) return;
     const SlaveFault& fault = *kFaults[frame.number / 500 % std::size(kFaults)];
     const std::uint64_t place = frame.number % 500;

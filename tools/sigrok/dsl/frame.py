@@ -3,7 +3,10 @@
 '''Frames of DSL from the edges of the line. The line is the sum of both directions, as a probe
 sees it near the master: the frame's bits are the master's, and the answer comes some bits late.
 
-Times are in any unit; the bit time is found from the edges of SYNC.'''
+Times are in any unit. The training shows where the answers begin; where a recording has none, it is
+where two frames in a row have legal words and a right CRC5.'''
+
+import cmath
 
 from .code import WORDS, crc16, crc5, parameter
 
@@ -11,11 +14,14 @@ BITS = 108
 EDGE = 8             # bit where SAMPLE falls
 PARAMETER = 16       # first bit of M_PAR
 SWITCH = 26
+TRAILER = 100
 ANSWER = 61
+NEAR = 0.75          # bits that a driver may be away from its place
 LATEST = 11          # bits that an answer can be late
 PATTERN = '0100110011' '0010000001' '0001010111' '0111111011' '0011001101' '0' '0010011001'
 SYMBOLS = {0x10: 'IDLE', 0x19: 'SYNC', 0x1A: 'START', 0x1B: 'LEARN', 0x1C: 'CHECK', 0x1D: 'ID REQ',
            0x1E: 'INIT', 0x1F: 'RESET'}
+SIX_K28_NEGATIVE = '110000'
 TRAINING = ('START', 'LEARN', 'CHECK')
 # Fields of an answer: name, first bit, special characters that may stand there.
 FIELDS = (('vertical', 0, (0xFD,)), ('s_par', 10, ()), ('pipeline', 20, ()),
@@ -35,15 +41,32 @@ class Frame:
         self.words = {}
         self.acceleration = None   # None: there is none
         self.pattern = None        # of a training frame: as it has to be
+        self.off = self.on = None  # times of the master's driver, if they are known
         self.vertical = None       # the frame ends a vertical frame: bytes, good
         self.secondary = None
 
     def at(self, bit):
         return self.begin + bit * self.bit
 
-    @property
-    def running(self):
-        return self.byte is None or not self.byte & 0x10 or self.byte & 0x1F in (0x10, 0x1E)
+    def driver_mistake(self):
+        '''What is wrong with the master's driver, if its times are known; else None.'''
+        if self.off is None and self.on is None:
+            return None
+        if self.symbol in ('RESET', 'SYNC'):
+            return 'The master does not fill the window'
+        for time, bit in ((self.off, SWITCH), (self.on, TRAILER)):
+            if time is None or abs(time - self.at(bit)) > NEAR * self.bit:
+                return 'The window is not where it should be'
+        return None
+
+    def is_legal(self):
+        return self.acceleration is not None and all(byte is not None for byte, _ in self.words.values())
+
+
+def as_data(word, byte):
+    '''K28.1, K28.2, K28.5 and K28.6 after 110000 as a table of data reads them: a single wrong bit of
+    D7 makes such a word, and CRC5 would not see it.'''
+    return byte ^ 0xE0 if word.startswith(SIX_K28_NEGATIVE) and byte >> 5 in (1, 2, 5, 6) else byte
 
 
 def read_words(frame):
@@ -55,6 +78,7 @@ def read_words(frame):
     for byte, special in ((high, special_high), (low, special_low)):
         if byte is None or special and byte & 0x1F != 28:
             return
+    high, low = (as_data(frame.answer[first:first + 10], byte) for first, byte in ((30, high), (40, low)))
     word = high << 8 | low
     if crc5(word >> 5) == word & 0x1F:
         frame.acceleration = (word >> 5) - (2048 if word >> 15 else 0)
@@ -67,11 +91,13 @@ class Line:
 
     def __init__(self, nominal):
         self.nominal = nominal
-        self.edges = []       # of the running frame, from its begin on
+        self.edges = []       # of the running frame, from its edge in SAMPLE on
+        self.drives = []      # the same of the master's driver
         self.runs = []        # lengths of the last runs
         self.last = None
         self.sample = None    # time of the edge in SAMPLE of the running frame
-        self.delay = None     # of the answer, from the end of SWITCH, as the training has shown it
+        self.delay = None     # of the answer, from the end of SWITCH
+        self.guess = None     # ... as the last frame would have it
         self.place = None     # in the vertical frame
         self.bytes = [[], []]
 
@@ -86,10 +112,14 @@ class Line:
                 self.sample is None or time > self.sample + (BITS - EDGE - 2) * self.nominal):
             done = self.flush(time)
             self.sample = time
-            self.edges = []
+            self.edges, self.drives = [], []
         self.last = time
         self.edges.append((time, level))
         return done
+
+    def driver(self, time, level):
+        '''An edge of the master's driver, for a recording that has it.'''
+        self.drives.append((time, level))
 
     def is_sync(self):
         return len(self.runs) == 4 and self.runs[0] >= 2 and self.runs[1] == 1 == self.runs[2] \
@@ -113,10 +143,14 @@ class Line:
         begin = self.sample - EDGE * bit
         word = self.levels(begin + (PARAMETER + i + 0.5) * bit for i in range(10))
         frame = Frame(begin, bit, parameter(int(word, 2)))
+        frame.off = next((time for time, level in self.drives if not level), None)
+        frame.on = next((time for time, level in self.drives if level), None)
         if frame.symbol in ('RESET', 'SYNC'):
-            self.delay = self.place = None
+            self.delay = self.guess = self.place = None
             return frame
         self.find_answer(frame)
+        if self.delay is None and frame.symbol not in TRAINING and frame.symbol != 'ID REQ':
+            self.search(frame)
         if frame.answer is None:
             return frame
         if frame.symbol in TRAINING:
@@ -143,6 +177,29 @@ class Line:
             return
         frame.answer_at = begin + self.delay
         frame.answer = self.levels(frame.answer_at + (i + 0.5) * frame.bit for i in range(ANSWER))
+
+    def search(self, frame):
+        '''The answer's place without a training: all edges but the first have one phase.'''
+        window = [time for time, _ in self.edges if frame.at(SWITCH + 1) <= time < frame.at(TRAILER - 0.5)]
+        if len(window) < 8:
+            self.guess = None
+            return
+        turns = sum(cmath.exp(2j * cmath.pi * (time - frame.begin) / frame.bit) for time in window)
+        phase = cmath.phase(turns) / (2 * cmath.pi) % 1
+        fits = []
+        for late in range(LATEST + 1):
+            trial = Frame(frame.begin, frame.bit, frame.byte)
+            trial.answer_at = frame.at(SWITCH + 1 + late + phase)
+            trial.answer = self.levels(trial.answer_at + (i + 0.5) * frame.bit for i in range(ANSWER))
+            read_words(trial)
+            if trial.is_legal():
+                fits.append(trial)
+        guess, self.guess = self.guess, None
+        if len(fits) == 1:
+            self.guess = fits[0].answer_at - frame.at(SWITCH + 1)
+        if guess is not None and self.guess is not None and abs(guess - self.guess) < frame.bit / 4:
+            self.delay = self.guess
+            frame.answer_at, frame.answer = fits[0].answer_at, fits[0].answer
 
     def take_bytes(self, frame):
         '''VSYNC stands in the last frame of a vertical frame.'''

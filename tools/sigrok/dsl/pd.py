@@ -3,7 +3,7 @@
 
 import sigrokdecode as srd
 
-from .frame import ANSWER, BITS, FIELDS, PARAMETER, SWITCH, Line
+from .frame import ANSWER, BITS, FIELDS, PARAMETER, SWITCH, TRAILER, Line
 
 '''
 OUTPUT_PYTHON format: packets [type, values]
@@ -14,7 +14,7 @@ OUTPUT_PYTHON format: packets [type, values]
 
 BIT_RATE = 9375000
 LEAST_RATE = 4 * BIT_RATE
-MASTER, STATE, WORD, MOTION, SAFE, WARNING = range(6)
+MASTER, STATE, WORD, MOTION, SAFE, WARNING, DRIVER = range(7)
 
 
 class SamplerateError(Exception):
@@ -36,6 +36,7 @@ class Decoder(srd.Decoder):
     outputs = ['dsl']
     tags = ['Sensor', 'Embedded/industrial']
     channels = ({'id': 'line', 'name': 'LINE', 'desc': 'The line, near the master'},)
+    optional_channels = ({'id': 'en', 'name': 'EN', 'desc': '1 while the master drives'},)
     options = ({'id': 'invert', 'desc': 'Inverted line', 'default': 'no', 'values': ('no', 'yes')},)
     annotations = (
         ('master', 'Field of the master'),
@@ -44,9 +45,11 @@ class Decoder(srd.Decoder):
         ('motion', 'Second difference'),
         ('safe', 'Safe position'),
         ('warning', 'Warning'),
+        ('driver', 'Who drives'),
     )
     annotation_rows = (
         ('fields', 'Fields', (MASTER, WORD)),
+        ('drivers', 'Driver', (DRIVER,)),
         ('states', 'Link', (STATE,)),
         ('motions', 'Motion', (MOTION,)),
         ('safes', 'Safe channels', (SAFE,)),
@@ -78,16 +81,28 @@ class Decoder(srd.Decoder):
         end = frame.at(BITS)
         for first, last, text in ((0, 6, 'SYNC'), (6, 9, 'SAMPLE'), (9, 12, 'CYCLE RESET'),
                                   (12, PARAMETER, 'EQ'), (PARAMETER, SWITCH, 'M_PAR'),
-                                  (100, BITS, 'TRAILER')):
+                                  (TRAILER, BITS, 'TRAILER')):
             self.annotate(frame.at(first), frame.at(last), MASTER, [text, text[0]])
         self.annotate(frame.begin, end, STATE, [frame.symbol, frame.symbol[:2]])
         if frame.byte is None:
             self.warn(frame.at(PARAMETER), frame.at(SWITCH), 'M_PAR is no word')
+        self.show_driver(frame)
         if frame.answer is not None:
             self.show_answer(frame)
         self.put(max(round(frame.begin), 0), round(end), self.out_python,
                  ['FRAME', dict(symbol=frame.symbol, answer=frame.answer,
                                 acceleration=frame.acceleration, pattern=frame.pattern)])
+
+    def show_driver(self, frame):
+        '''Only a recording with EN knows it.'''
+        if frame.off is not None:
+            self.annotate(frame.begin, frame.off, DRIVER, ['Master', 'M'])
+            self.annotate(frame.off, frame.on or frame.at(TRAILER), DRIVER, ['Encoder', 'E'])
+        if frame.on is not None:
+            self.annotate(frame.on, frame.at(BITS), DRIVER, ['Master', 'M'])
+        mistake = frame.driver_mistake()
+        if mistake:
+            self.warn(frame.at(SWITCH), frame.at(TRAILER), mistake)
 
     def warn(self, begin, end, text):
         self.annotate(begin, end, WARNING, [text])
@@ -137,8 +152,12 @@ class Decoder(srd.Decoder):
             raise ChannelError('LINE is needed.')
         invert = int(self.options['invert'] == 'yes')
         line = Line(self.samplerate / BIT_RATE)
+        edges = [{0: 'e'}, {1: 'e'}] if self.has_channel(1) else [{0: 'e'}]
         while True:
-            level, = self.wait({0: 'e'})
-            frame = line.edge(self.samplenum, level ^ invert)
-            if frame is not None:
-                self.show(frame)
+            level, driver = self.wait(edges)
+            if self.matched[0]:
+                frame = line.edge(self.samplenum, level ^ invert)
+                if frame is not None:
+                    self.show(frame)
+            if len(edges) > 1 and self.matched[1]:
+                line.driver(self.samplenum, driver)
