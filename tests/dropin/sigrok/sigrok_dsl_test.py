@@ -192,7 +192,8 @@ def by_sigrok(root, edges, decoded, drives=()):
         path.write_text("\n".join(lines) + "\n", encoding="ascii")
         text = subprocess.run(
             ["sigrok-cli", "-I", f"vcd:downsample={DOWNSAMPLE}", "-i", path, "-P",
-             f"dsl:line=LINE{':en=EN' * bool(drives)}", "-A", "dsl=states:safes:drivers"], check=True, capture_output=True, text=True,
+             f"dsl:line=LINE{':en=EN' * bool(drives)}", "-A", "dsl=states:safes:drivers"],
+            check=True, capture_output=True, text=True,
             env={**os.environ, "SIGROKDECODE_DIR": str(Path(root).resolve() / "tools" / "sigrok")}).stdout
     printed = sorted(line.removeprefix("dsl-1: ") for line in text.splitlines())
     expected = [frame.symbol for frame in decoded]

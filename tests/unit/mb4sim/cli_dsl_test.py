@@ -173,7 +173,8 @@ class Dsl(unittest.TestCase):
                 place = (frame + 6) % 8
                 fields, _, note, _ = self.picture(0, scenario, "--frame", str(frame))
                 for name in ("SYNC", "SAMPLE", "CYCLE RESET", "EQUALISATION 0000", "SW.", "TRAILER",
-                             f"vertical {vertical[place]:02X}", "pipeline A5", "acceleration 00", "acceleration, CRC5 1F",
+                             f"vertical {vertical[place]:02X}", "pipeline A5",
+                             "acceleration 00", "acceleration, CRC5 1F",
                              f"S_PAR {'D0' if place == 7 else '50'}"):
                     self.assertIn(name, fields, (metres, frame))
                 # The bit before the last word is the inverse of the one before it.
