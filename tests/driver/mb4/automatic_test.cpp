@@ -16,6 +16,7 @@
 #include "tests/driver/mb4/three_slaves.hpp"
 
 namespace {
+namespace automatic_test {
 
 using mb4::Error;
 using mb4::Frame;
@@ -346,4 +347,5 @@ TEST_F(Next, NoFrameInTimeAndBreakFails_IsTransport) {
   EXPECT_FALSE(device.automatic().running());
 }
 
+}  // namespace automatic_test
 }  // namespace

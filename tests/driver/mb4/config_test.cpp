@@ -19,6 +19,7 @@
 #include "tests/driver/mb4/strict_bus.hpp"
 
 namespace {
+namespace config_test {
 
 using mb4::Config;
 using mb4::ConfigField;
@@ -688,4 +689,5 @@ TEST(Revision, ConfigureOnAnOldChip_IsRefusedBeforeAnyWrite) {
   EXPECT_EQ(device.configure(config).error(), Error::kTransport);
 }
 
+}  // namespace config_test
 }  // namespace

@@ -18,6 +18,7 @@
 #include "tests/driver/mb4/three_slaves.hpp"
 
 namespace {
+namespace control_test {
 
 using mb4::Error;
 using mb4::ErrorInfo;
@@ -955,4 +956,5 @@ static_assert(mb4::slave_address(mb4test::three_slaves(), 5).id == 0);
 static_assert(mb4::slave_address(mb4test::three_slaves(), 5).channel == 2);
 static_assert(mb4::slave_address(encoder26(), 1).id == 0);
 
+}  // namespace control_test
 }  // namespace

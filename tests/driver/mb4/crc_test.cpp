@@ -14,6 +14,7 @@
 #include "mb4_cyclic.h"
 
 namespace {
+namespace crc_test {
 
 struct Golden {
   std::uint32_t polynomial;
@@ -134,4 +135,5 @@ TEST(EncodeCrc, EverythingElse_IsNotValid) {
   }
 }
 
+}  // namespace crc_test
 }  // namespace

@@ -17,6 +17,7 @@
 #include "mb4_cyclic.h"
 
 namespace {
+namespace cyclic_check_test {
 
 // Two slaves on one line, all right.
 struct Parts {
@@ -277,4 +278,5 @@ TEST(Counts, PeriodWrong_IsDoubtful) {
   }
 }
 
+}  // namespace cyclic_check_test
 }  // namespace

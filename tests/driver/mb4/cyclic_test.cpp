@@ -23,6 +23,7 @@
 #include "tests/driver/mb4/strict_bus.hpp"
 
 namespace {
+namespace cyclic_test {
 
 using mb4::Error;
 using mb4test::Bytes;
@@ -1165,4 +1166,5 @@ TEST_F(Full, StartUnproven_IsCorrupted) {
   EXPECT_FALSE(device.automatic().running());
 }
 
+}  // namespace cyclic_test
 }  // namespace

@@ -18,6 +18,7 @@
 #include "tests/driver/mb4/strict_bus.hpp"
 
 namespace {
+namespace device_test {
 
 using mb4::Error;
 using mb4test::Bytes;
@@ -267,4 +268,5 @@ TEST_P(StuckMiso, EveryCall_IsNotDetected) {
 INSTANTIATE_TEST_SUITE_P(Levels, StuckMiso, testing::Values(0x00U, 0xFFU),
                          [](const auto& test) { return test.param == 0 ? "Low" : "High"; });
 
+}  // namespace device_test
 }  // namespace

@@ -11,6 +11,7 @@
 #include "tests/driver/mb4/encoder26.hpp"
 
 namespace {
+namespace features_test {
 
 using mb4::Config;
 using mb4::ConfigField;
@@ -127,4 +128,5 @@ TEST(Features, ByteOfAPreset_TellsWhatThePresetHas) {
   EXPECT_EQ(mb4::features_of(0x80 | page::SLAVES_ON_LINE::kMask).slaves, 8U);
 }
 
+}  // namespace features_test
 }  // namespace

@@ -10,6 +10,7 @@
 #include "tests/driver/mb4/strict_bus.hpp"
 
 namespace {
+namespace fields_test {
 
 using mb4::Error;
 using mb4test::StrictBus;
@@ -63,4 +64,5 @@ TEST(Fields, TransportFailure_IsReportedFromEachTransfer) {
   EXPECT_EQ(fields_of(bus).get<mb4::regs::SL1>().error(), Error::kTransport);
 }
 
+}  // namespace fields_test
 }  // namespace

@@ -14,6 +14,7 @@
 #include "tests/driver/mb4/encoder26.hpp"
 
 namespace {
+namespace frequency_test {
 
 using mb4::Config;
 using mb4test::encoder26;
@@ -84,4 +85,5 @@ TEST(Freqags, FrameStart_SelectsMinAndInfinite) {
 // 5 + 28 + 6 = 39 periods of 10 clocks, and 0.55 of one for the timeout (I306): 395.5 clocks.
 TEST(FramePeriod, JustLongEnough_IsValid) { EXPECT_TRUE(mb4::validate(periodic(400)).ok()); }
 
+}  // namespace frequency_test
 }  // namespace

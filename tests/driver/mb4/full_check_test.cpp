@@ -15,6 +15,7 @@
 #include "tests/driver/mb4/strict_bus.hpp"
 
 namespace {
+namespace full_check_test {
 
 using mb4::Error;
 using mb4test::Bytes;
@@ -450,4 +451,5 @@ TEST_F(FullCheck, RecoveryFails_IsTransport) {
   fails_first([this] { return device.control().begin_read({1, 0}, 0x44, 1); });
 }
 
+}  // namespace full_check_test
 }  // namespace

@@ -19,6 +19,7 @@
 #include "tests/driver/mb4/three_slaves.hpp"
 
 namespace {
+namespace multi_slave_test {
 
 using mb4::Config;
 using mb4::Error;
@@ -335,4 +336,5 @@ TEST(ReadData, NeighboursWithSmallGap_ShareOneBurst) {
   EXPECT_EQ(bursts(48, 8, true, mb4::flag_of(1) | mb4::flag_of(8)), all(two));
 }
 
+}  // namespace multi_slave_test
 }  // namespace

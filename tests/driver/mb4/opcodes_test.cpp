@@ -13,6 +13,7 @@
 #include "tests/driver/mb4/strict_bus.hpp"
 
 namespace {
+namespace opcodes_test {
 
 using mb4::Error;
 using mb4test::Bytes;
@@ -172,4 +173,5 @@ TEST(FunctionClock, Call_ReachesTheFunction) {
   EXPECT_EQ(clock.now_us(), 42U);
 }
 
+}  // namespace opcodes_test
 }  // namespace

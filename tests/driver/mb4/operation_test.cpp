@@ -21,6 +21,7 @@
 #include "tests/driver/mb4/three_slaves.hpp"
 
 namespace {
+namespace operation_test {
 
 using mb4::Error;
 using mb4test::Bytes;
@@ -2167,4 +2168,5 @@ TEST_F(Access, OtherBank_IsSeenTwice) {
   ends_with(Error::kNone);
 }
 
+}  // namespace operation_test
 }  // namespace

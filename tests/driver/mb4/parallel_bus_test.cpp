@@ -15,6 +15,7 @@
 #include "tests/driver/mb4/strict_bus.hpp"
 
 namespace {
+namespace parallel_bus_test {
 
 using mb4test::Bytes;
 using mb4test::hex;
@@ -100,4 +101,5 @@ TEST(ParallelBus, FailedCycleBelowTheDriver_IsTransport) {
   EXPECT_EQ(opcodes.read_status({&byte, 1}).error(), mb4::Error::kTransport);
 }
 
+}  // namespace parallel_bus_test
 }  // namespace

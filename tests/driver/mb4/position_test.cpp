@@ -11,6 +11,7 @@
 #include <limits>
 
 namespace {
+namespace position_test {
 
 using mb4::Error;
 using mb4::PositionTracker;
@@ -105,4 +106,5 @@ TEST(Tracker, SixtyFourBits_StopAtTheEndOfTheTotal) {
 static_assert(mb4::to_signed(0x80, 8) == -128);
 static_assert(mb4::split_turns(0x35, 4, 4)->multi == 3);
 
+}  // namespace position_test
 }  // namespace

@@ -15,6 +15,7 @@
 #include "tests/driver/mb4/strict_bus.hpp"
 
 namespace {
+namespace read_frame_test {
 
 using mb4::Error;
 using mb4::Reading;
@@ -576,4 +577,5 @@ TEST_F(ReadFrame, BreakAfterTimeoutFailsInTransport_NextReadBreaksAgain) {
   EXPECT_TRUE(device.read_frame().ok());
 }
 
+}  // namespace read_frame_test
 }  // namespace

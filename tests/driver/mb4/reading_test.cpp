@@ -14,6 +14,7 @@
 #include "tests/driver/mb4/encoder26.hpp"
 
 namespace {
+namespace reading_test {
 
 using mb4::Config;
 using mb4::Error;
@@ -172,4 +173,5 @@ TEST(Result, ValueOfAnError_StopsTheProgram) {
   EXPECT_DEATH({ [[maybe_unused]] const int value = failed.value(); }, "");
 }
 
+}  // namespace reading_test
 }  // namespace

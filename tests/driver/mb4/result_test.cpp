@@ -15,6 +15,7 @@
 #include "mb4/reading.hpp"
 
 namespace {
+namespace result_test {
 
 using mb4::ConfigField;
 using mb4::Error;
@@ -110,4 +111,5 @@ TEST(Result, ValueOfAnError_Traps) {
   EXPECT_TRUE(traps([&] { static_cast<void>(result.value()); }));
 }
 
+}  // namespace result_test
 }  // namespace

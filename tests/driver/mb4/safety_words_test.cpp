@@ -11,6 +11,7 @@
 #include "tests/driver/mb4/encoder26.hpp"
 
 namespace {
+namespace safety_words_test {
 
 using mb4::Error;
 using State = mb4::SafetyWordRead::State;
@@ -60,4 +61,5 @@ TEST(SafetyFits, FlagsElsewhere_AreUnsupported) {
   EXPECT_TRUE(mb4::safety_fits(config, 1, 2, words).ok());
 }
 
+}  // namespace safety_words_test
 }  // namespace

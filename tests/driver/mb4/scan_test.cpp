@@ -17,6 +17,7 @@
 #include "tests/driver/mb4/strict_bus.hpp"
 
 namespace {
+namespace scan_test {
 
 using mb4::Error;
 using mb4::ErrorInfo;
@@ -109,4 +110,5 @@ TEST(Scan, NoSuchChannel_IsInvalidArgumentWithoutTransfer) {
   }
 }
 
+}  // namespace scan_test
 }  // namespace

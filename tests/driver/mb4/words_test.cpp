@@ -21,6 +21,7 @@
 #include "tests/driver/mb4/strict_bus.hpp"
 
 namespace {
+namespace words_test {
 
 using mb4::Error;
 using mb4test::Bytes;
@@ -361,4 +362,5 @@ TEST(MappedPort, EveryStrobe_WritesItsBytes) {
   EXPECT_EQ(value, 0x08070605U);
 }
 
+}  // namespace words_test
 }  // namespace
