@@ -51,8 +51,9 @@ struct FaultConfig {
   // bit-flip: bits of the frame as in Line::flip(). abort: one number of SCLK clocks. Empty:
   // random.
   std::vector<unsigned> bits;
-  std::uint64_t frame = 0;  // bit-flip: this frame is hit, by Line::flip_frames(); 0: the next one
-  unsigned frame_bits = 1;  // a random bit of bit-flip is below this number
+  std::uint64_t frame = 0;   // bit-flip: this frame is hit, by Line::flip_frames(); 0: the next one
+  unsigned frame_bits = 1;   // a random bit of bit-flip is below this number
+  unsigned answer_bits = 0;  // ... and so is each named one; 0: no such limit is known
 
   std::vector<Time> at;    // times since power-on, ps; empty: random times
   double per_s = 0;        // random: average number in a second

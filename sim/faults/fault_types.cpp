@@ -53,16 +53,17 @@ void read_bit_flip(TomlReader& reader, const FaultLimits& /*limits*/, FaultConfi
   if (const auto frame = reader.integer("frame", 1, std::numeric_limits<std::int64_t>::max())) {
     fault.frame = static_cast<std::uint64_t>(*frame);
   }
-  if (const auto bit = reader.integer("answer_bit", 0, kMaxBit)) {
+  const std::int64_t most = fault.answer_bits != 0 ? fault.answer_bits - 1 : kMaxBit;
+  if (const auto bit = reader.integer("answer_bit", 0, most)) {
     if (reader.has("bits")) reader.fail("answer_bit", "cannot be given together with bits");
     fault.bits.push_back(static_cast<unsigned>(*bit));
   }
   const TomlValue* list = reader.value("bits");
   if (list == nullptr) return;
-  const std::string wanted = "expected a list of 0 to 4095";
+  const std::string wanted = "expected a list of 0 to " + std::to_string(most);
   if (list->items.empty()) reader.fail("bits", wanted);
   for (const TomlValue& item : list->items) {
-    if (!item.within(0, kMaxBit)) reader.fail_at(item.where, "bits", wanted);
+    if (!item.within(0, most)) reader.fail_at(item.where, "bits", wanted);
     fault.bits.push_back(static_cast<unsigned>(item.integer));
   }
 }

@@ -25,6 +25,8 @@ struct LineProtocol {
   std::string_view title;  // for the user: "BiSS C"
   bool start_bit = true;   // slaves acknowledge and send a start bit before their data
   bool control = false;    // CDS follows the start bit: a master can ask which slaves are there
+  // Bits of an answer, where a bit-flip counts them; 0: it counts those of the whole frame.
+  unsigned answer_bits = 0;
 
   // Bits of a frame before the data.
   unsigned leading_bits() const { return (start_bit ? 1U : 0U) + (control ? 1U : 0U); }

@@ -20,8 +20,9 @@ constexpr double kMinPerS = 1e-6;
 constexpr double kMaxPerS = 1e7;
 
 // Number of bits of a frame that a random bit-flip may hit: start bit, CDS, data and CRC of all
-// slaves.
+// slaves, or those of an answer.
 unsigned frame_bits(const ChannelConfig& channel) {
+  if (channel.protocol().answer_bits != 0) return channel.protocol().answer_bits;
   unsigned bits = channel.protocol().leading_bits();
   for (const SlaveConfig& slave : channel.slaves) bits += slave.data_bits() + slave.crc().width();
   return std::max(bits, 1U);
@@ -47,6 +48,7 @@ void read_line(TomlReader& reader, const Scenario& scenario, FaultConfig& fault)
     reader.fail("channel", "the scenario has no channel " + std::to_string(fault.channel));
   }
   fault.frame_bits = frame_bits(*channel);
+  fault.answer_bits = channel->protocol().answer_bits;
 }
 
 void read_slave_fault(TomlReader& reader, const Scenario& scenario, FaultConfig& fault) {

@@ -57,7 +57,7 @@ std::unique_ptr<Slave> DslSlaveConfig::make_slave(std::uint64_t /*seed*/) const 
 }
 
 DeviceTraits DslSlaveConfig::traits() const {
-  return {.protocol = {.key = "dsl", .title = "DSL", .start_bit = false},
+  return {.protocol = {.key = "dsl", .title = "DSL", .start_bit = false, .answer_bits = 61},
           .alone = "an encoder with DSL"};
 }
 

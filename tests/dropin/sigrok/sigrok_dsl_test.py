@@ -231,6 +231,10 @@ def main():
         return 1
     if not check_driver(module, edges) or not check_without_training(module, edges, decoded):
         return 1
+    identities = {frame.identity() for frame in decoded if frame.symbol == "ID REQ"}
+    if identities != {"position 32 bits, unsigned, second difference 11 bits, index 0"}:
+        print(identities)
+        return 1
     some, drives = ([edge for edge in edges[wire] if edge[0] < 5_000_000_000] for wire in (IN, ENABLE))  # 5 ms
     if shutil.which("sigrok-cli"):
         if not by_sigrok(root, some, decode(module, some)):

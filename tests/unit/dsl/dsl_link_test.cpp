@@ -274,6 +274,13 @@ TEST(DslLink, EncodersFreedoms_AllLink) {
     EXPECT_EQ(wrong, 0U) << number;
     EXPECT_EQ(bench.link().restarts(), 0U) << number;
   }
+  // The bit before safe channel 2 is no bit of data, but in the training it has to be 0.
+  for (const bool direction : {false, true}) {
+    BenchSetup setup;
+    setup.encoder.direction = direction;
+    Bench bench(setup);
+    EXPECT_EQ(bench.link_up(5000 * kPsPerUs), !direction);
+  }
   // Without enough SYNC frames it never answers.
   BenchSetup setup;
   setup.encoder.sync_frames = 17;

@@ -177,6 +177,7 @@ TEST(DslScenario, Motor_IsFollowed) {
   EXPECT_EQ(wrong, 0U);
   EXPECT_EQ(host.model().link().restarts(), 0U);
   EXPECT_FALSE(encoder->overflowed());
+  EXPECT_LE(duplex(simulator.line(1))->contention().longest, 30 * kPsPerNs);
   EXPECT_THROW(simulator.start_trace("no.fst"), TraceError);
 }
 
@@ -197,6 +198,16 @@ TEST(DslScenario, BitFlip_HitsItsFrame) {
                   .find("cannot be given together with frame"),
               std::string::npos);
   }
+  // An answer has 61 bits, and a random one is one of them.
+  const std::string past =
+      "[[fault]]\nkind = \"bit-flip\"\nchannel = 1\nframe = 2\nanswer_bit = 61\n";
+  EXPECT_NE(error_of(std::string(kMaster) + kMotor + past).find("'answer_bit'"), std::string::npos);
+  const std::string list = "[[fault]]\nkind = \"bit-flip\"\nchannel = 1\nat_us = 2\nbits = [61]\n";
+  EXPECT_NE(error_of(std::string(kMaster) + kMotor + list).find("'bits'"), std::string::npos);
+  const Scenario random = parse_scenario(
+      std::string(kMaster) + kMotor + "[[fault]]\nkind = \"bit-flip\"\nchannel = 1\nat_us = 2\n",
+      "motor.toml");
+  EXPECT_EQ(random.faults.front().frame_bits, 61U);
   EXPECT_NE(error_of(std::string(kMaster) + kMotor + flip + "frame = 0\n").find("'frame'"),
             std::string::npos);
   EXPECT_NE(

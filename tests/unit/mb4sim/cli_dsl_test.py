@@ -177,7 +177,6 @@ class Dsl(unittest.TestCase):
                              "acceleration 00", "acceleration, CRC5 1F",
                              f"S_PAR {'D0' if place == 7 else '50'}"):
                     self.assertIn(name, fields, (metres, frame))
-                # The bit before the last word is the inverse of the one before it.
                 self.assertIn(f"RX{place} of", note)
                 self.assertIn("Second difference +0, position 305419896, speed 0, QM 15", note)
                 self.assertIn(f"{(95 + 10.6 * metres) / 106.67:.2f}", note)

@@ -59,6 +59,17 @@ class Frame:
                 return 'The window is not where it should be'
         return None
 
+    def identity(self):
+        '''What the answer to ID REQ says, as text; None if its two copies differ.'''
+        vertical, s_par, pipeline, high, low = (self.words[name][0] for name, _, _ in FIELDS[:5])
+        if None in (vertical, s_par, pipeline, high, low) or (vertical, s_par) != (low, high) or \
+                pipeline >> 4 != pipeline & 15:
+            return None
+        acceleration = 8 + (vertical & 15)
+        position = acceleration + ((s_par << 8 | vertical) >> 4 & 0x3F)
+        return f'position {position} bits, {"signed" if s_par & 4 else "unsigned"}, ' \
+            f'second difference {acceleration} bits, index {s_par >> 4}'
+
     def is_legal(self):
         return self.acceleration is not None and all(byte is not None for byte, _ in self.words.values())
 

@@ -42,7 +42,7 @@ class Decoder(srd.Decoder):
         ('master', 'Field of the master'),
         ('state', 'State of the link'),
         ('word', 'Word of the answer'),
-        ('motion', 'Second difference'),
+        ('motion', 'Identity, second difference'),
         ('safe', 'Safe position'),
         ('warning', 'Warning'),
         ('driver', 'Who drives'),
@@ -79,8 +79,9 @@ class Decoder(srd.Decoder):
 
     def show(self, frame):
         end = frame.at(BITS)
+        m_par = 'M_PAR: ?' if frame.byte is None else f'M_PAR: {frame.byte:02X}'
         for first, last, text in ((0, 6, 'SYNC'), (6, 9, 'SAMPLE'), (9, 12, 'CYCLE RESET'),
-                                  (12, PARAMETER, 'EQ'), (PARAMETER, SWITCH, 'M_PAR'),
+                                  (12, PARAMETER, 'EQ'), (PARAMETER, SWITCH, m_par),
                                   (TRAILER, BITS, 'TRAILER')):
             self.annotate(frame.at(first), frame.at(last), MASTER, [text, text[0]])
         self.annotate(frame.begin, end, STATE, [frame.symbol, frame.symbol[:2]])
@@ -124,6 +125,11 @@ class Decoder(srd.Decoder):
             elif special and byte not in specials and not (name == 'secondary' and byte & 31 == 28):
                 self.warn(at(first), at(first + 10), 'Unexpected special character')
         if frame.symbol == 'ID REQ':
+            identity = frame.identity()
+            if identity is None:
+                self.warn(at(0), at(ANSWER), 'The identity is broken')
+            else:
+                self.annotate(at(0), at(50), MOTION, [f'Identity: {identity}', identity])
             return
         if frame.acceleration is None:
             self.warn(at(30), at(50), 'No second difference')
