@@ -69,19 +69,17 @@ std::string FrameReport::worst_error() const {
   return worst == errors_.end() ? "" : worst->first;
 }
 
-std::vector<std::string> FrameReport::cells() const {
-  std::vector<std::string> texts;
-  texts.reserve(columns_.size());
+template <typename Use>
+void FrameReport::each_cell(Use use) const {
   std::size_t told = 0;
   for (const WordColumn& column : columns_) {
-    if (column.text == nullptr) {
-      texts.push_back(told < row_.told.size() ? row_.told[told] : "");
-      ++told;
+    if (column.text != nullptr) {
+      use(column, row_.word ? column.text(*row_.word) : std::string());
     } else {
-      texts.push_back(row_.word ? column.text(*row_.word) : "");
+      use(column, told < row_.told.size() ? row_.told[told] : std::string());
+      ++told;
     }
   }
-  return texts;
 }
 
 std::string FrameReport::table_header() const {
@@ -98,13 +96,11 @@ std::string FrameReport::table_row() const {
   const auto end = std::back_inserter(out);
   fmt::format_to(end, kFirstCells, row_.frame, fmt::format("{:.3f}", sim::to_us(row_.time)),
                  row_.slave);
-  const std::vector<std::string> texts = cells();
-  for (std::size_t i = 0; i < columns_.size(); ++i) {
-    const std::string_view shown = texts[i].empty() ? std::string_view("-") : texts[i];
-    const unsigned width = columns_[i].width;
-    out.append(2 + (width > shown.size() ? width - shown.size() : 0), ' ');
+  each_cell([&out](const WordColumn& column, const std::string& text) {
+    const std::string_view shown = text.empty() ? std::string_view("-") : text;
+    out.append(2 + (column.width > shown.size() ? column.width - shown.size() : 0), ' ');
     out += shown;
-  }
+  });
   out += "  ";
   out += row_.state;
   out += '\n';
@@ -139,7 +135,7 @@ std::string FrameReport::csv_header() const {
 
 std::string FrameReport::csv_row() const {
   std::string out = fmt::format("{},{:.3f},{},", row_.frame, sim::to_us(row_.time), row_.slave);
-  for (const std::string& text : cells()) out += text + ',';
+  each_cell([&out](const WordColumn& /*column*/, const std::string& text) { out += text + ','; });
   const bool quoted = row_.state.find(',') != std::string::npos;
   return out + fmt::format("{0}{1}{0}\n", quoted ? "\"" : "", row_.state);
 }
@@ -152,14 +148,12 @@ std::string FrameReport::json_row() const {
   std::string out =
       fmt::format("{}\n  {{\"frame\": {}, \"time_us\": {:.3f}, \"slave\": {}, \"good\": {}, ",
                   any_ ? "," : "", row_.frame, sim::to_us(row_.time), row_.slave, row_.good());
-  const std::vector<std::string> texts = cells();
-  for (std::size_t i = 0; i < columns_.size(); ++i) {
-    const std::string& text = texts[i];
-    out += fmt::format("\"{}\": {}, ", columns_[i].key,
-                       text.empty()         ? "null"
-                       : columns_[i].number ? text
-                                            : json_text(text));
-  }
+  each_cell([&out](const WordColumn& column, const std::string& text) {
+    out += fmt::format("\"{}\": {}, ", column.key,
+                       text.empty()    ? "null"
+                       : column.number ? text
+                                       : json_text(text));
+  });
   return out + fmt::format("\"state\": {}}}", json_text(row_.state));
 }
 

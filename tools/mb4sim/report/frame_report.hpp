@@ -66,8 +66,9 @@ class FrameReport {
   std::string json_row() const;
 
  private:
-  // The texts of the row, by column; empty where there is none.
-  std::vector<std::string> cells() const;
+  // Calls use(column, text) for each cell of the row; the text is empty where there is none.
+  template <typename Use>
+  void each_cell(Use use) const;
 
   std::span<const WordColumn> columns_;
   std::vector<SlaveCount> counts_;               // by slave
