@@ -164,6 +164,23 @@ def check_driver(module, edges):
     return known > 9000 and told.count(None) == len(told) and told_moved.count(None) == 0
 
 
+def check_samples(module, edges, decoded):
+    """A logic analyser with few samples: what it takes is the level at its own times."""
+    some = [edge for edge in edges[IN] if edge[0] < 20_000_000_000]  # 20 ms
+    for rate in (37_500_000, 100_000_000):
+        step = 1e12 / rate
+        taken = {}
+        for time, level in some:
+            taken[int(-(-time // step))] = level
+        line = module.Line(rate / 9_375_000)
+        found = [frame for frame in (line.edge(*edge) for edge in taken.items()) if frame is not None]
+        expected = [(frame.symbol, frame.answer) for frame in decoded[:len(found)]]
+        if len(found) < 1500 or [(frame.symbol, frame.answer) for frame in found] != expected:
+            print(f"{rate / 1e6} million samples a second: another result")
+            return False
+    return True
+
+
 def check_without_training(module, edges, decoded):
     """From the middle of a link the decoder finds the same answers, at each of some begins."""
     running = [frame for frame in decoded if frame.symbol == "IDLE"]
@@ -228,6 +245,8 @@ def main():
     wrong, compared = check_encoder(edges)
     print(f"_IN against _ENCODER: {compared} edges, {wrong} differ")
     if wrong or compared < 100000:
+        return 1
+    if not check_samples(module, edges, decoded):
         return 1
     if not check_driver(module, edges) or not check_without_training(module, edges, decoded):
         return 1
