@@ -159,6 +159,44 @@ TEST(DslLink, WrongBitInTraining_Restarts_Tracking) {
   wrong_training_bit(SampleRule::kTracking, 2);
 }
 
+// An encoder whose test pattern is wrong once, in each of the 34 training frames: one restart, in
+// this frame, and then a link.
+TEST(DslLink, WrongPatternOfTheEncoder_RestartsOnce) {
+  for (unsigned training = 1; training <= 34; ++training) {
+    BenchSetup setup;
+    setup.rules.sample = SampleRule::kFirstZero;
+    setup.encoder.wrong_pattern = training;
+    Bench bench(setup);
+    unsigned seen = 0;
+    unsigned restarted = 0;
+    bench.on_frame = [&](const LinkFrame& frame) {
+      ++seen;
+      if (frame.restart != Restart::kNone) restarted = seen;
+    };
+    ASSERT_TRUE(bench.link_up(3000 * kPsPerUs)) << training;
+    EXPECT_EQ(bench.link().restarts(), 1U) << training;
+    EXPECT_EQ(restarted, training);
+  }
+}
+
+// QM reads 8 when LINK rises, with the identity, and POS is set until the position is aligned.
+TEST(DslLink, LinkRises_WithQualityEightAndPos) {
+  Bench bench{BenchSetup()};
+  unsigned rises = 0;
+  bool before = false;
+  bench.on_frame = [&](const LinkFrame& frame) {
+    if (frame.linked && !before) {
+      ++rises;
+      EXPECT_EQ(frame.state, LinkState::kIdRequest);
+      EXPECT_EQ(frame.quality, 8U);
+    }
+    EXPECT_EQ(frame.lost, frame.number < 32) << frame.number;
+    before = frame.linked;
+  };
+  ASSERT_TRUE(bench.run_frames(50));
+  EXPECT_EQ(rises, 1U);
+}
+
 // The start after a restart: the frame ends with its trailer, 16 bits nobody drives, 16 zeros.
 TEST(DslLink, Restart_FinishesItsFrame) {
   BenchSetup setup;
