@@ -148,7 +148,7 @@ endfunction()
 #              [SOURCES extra...] [ARGS arg...])
 # Adds the Verilated model of one RTL module to a library. LIST names the RTL, by default
 # rtl/mb4/mb4.f. The model is compiled as one unit, because most of the time goes into Verilator's
-# headers. QUICK: with -O1, which takes half of the time, for a model whose speed does not count.
+# headers. QUICK: with MB4_QUICK, which takes half of the time, for a model whose speed does not count.
 # WHOLE_LIST: Verilator reads every file of the list, whose order has an influence on how it sorts
 # the model (up to 7 % of its instructions).
 #
@@ -191,7 +191,7 @@ function(mb4_verilate target)
   # Verilator's runtime does little while a model runs; most of a waveform's time is zlib's.
   set(runtime ${written})
   list(FILTER runtime INCLUDE REGEX "/verilated(_[a-z_]+)?[.]cpp$")
-  set_source_files_properties(${runtime} PROPERTIES COMPILE_OPTIONS -O1)
+  set_source_files_properties(${runtime} PROPERTIES COMPILE_OPTIONS ${MB4_QUICK})
   list(FILTER written INCLUDE REGEX "/${ARG_PREFIX}[.]dir/.*[.]cpp$")
   list(REMOVE_ITEM written ${folder}/${ARG_PREFIX}__lines.cpp)
   set_source_files_properties(${written} PROPERTIES HEADER_FILE_ONLY ON)
@@ -202,7 +202,7 @@ function(mb4_verilate target)
   file(CONFIGURE OUTPUT ${unit} CONTENT "${text}" @ONLY)
   target_sources(${target} PRIVATE ${unit})
   if(ARG_QUICK)
-    set_source_files_properties(${unit} PROPERTIES COMPILE_OPTIONS -O1)
+    set_source_files_properties(${unit} PROPERTIES COMPILE_OPTIONS ${MB4_QUICK})
   endif()
 endfunction()
 
@@ -243,12 +243,15 @@ macro(mb4_leave_out)
     endif()
   endforeach()
 endmacro()
-option(MB4_FIRST "The shortest build: no AXI, no Wishbone, no smaller chips" OFF)
+option(MB4_FIRST "The shortest build: no AXI, no Wishbone, no smaller chips; waveforms are written slowly" OFF)
 # Chips with fewer features that the simulator has beside the full one: drive, single, reader.
 set(MB4_PRESETS single CACHE STRING "Smaller chips of the simulator")
+# For what needs no speed.
+set(MB4_QUICK -O1)
 if(MB4_FIRST)
   mb4_leave_out()
   set(MB4_PRESETS "")
+  set(MB4_QUICK -O0)
 endif()
 if(EMSCRIPTEN)
   include(${CMAKE_CURRENT_LIST_DIR}/emscripten.cmake)
