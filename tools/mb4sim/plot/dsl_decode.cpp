@@ -8,6 +8,7 @@
 #include <array>
 #include <cmath>
 #include <string_view>
+#include <utility>
 
 #include "sim/lines/dsl/dsl_code.hpp"
 #include "sim/masters/dsl_model/frame_plan.hpp"
@@ -24,6 +25,11 @@ constexpr unsigned kParameter = 16;
 constexpr unsigned kLatestBits = 12;  // bits that an answer may be late
 
 unsigned symbol_of(std::uint8_t parameter) { return parameter & 0x1FU; }
+
+// The first mistake counts.
+void blame(DslFrame& frame, std::string mistake) {
+  if (frame.mistakes.empty()) frame.mistakes = std::move(mistake);
+}
 
 unsigned bits_at(const Wave& line, const DslFrame& frame, unsigned first, unsigned count) {
   unsigned bits = 0;
@@ -122,9 +128,9 @@ void add_sent(const Wave& line, DslFrame& frame) {
   if (frame.bits > kFrameBits) {
     add(kFrameBits, frame.bits, FieldKind::kRest, {"STUFFING", "STUFF."});
   }
-  if (!sync) frame.mistakes = "no SYNC";
-  if (!trailer) frame.mistakes = "no TRAILER";
-  if (!frame.parameter) frame.mistakes = "M_PAR is no word";
+  if (!sync) blame(frame, "no SYNC");
+  if (!frame.parameter) blame(frame, "M_PAR is no word");
+  if (!trailer) blame(frame, "no TRAILER");
 }
 
 std::string byte_text(const Word& word) {
@@ -148,7 +154,7 @@ void add_answered(DslFrame& frame) {
   if (frame.training()) {
     const bool bad = frame.answer != kTestPattern;
     add(0, kAnswerBits, FieldKind::kFlag, {bad ? "wrong test pattern" : "test pattern"}, bad);
-    if (bad) frame.mistakes = "wrong test pattern";
+    if (bad) blame(frame, "wrong test pattern");
     return;
   }
   frame.words = words_of(frame.answer, CodeCheck::kStrict);
@@ -157,15 +163,15 @@ void add_answered(DslFrame& frame) {
                         bool bad = false) {
     const std::string text = byte_text(read);
     add(from, from + 10, kind, {fmt::format("{} {}", name, text), text}, read.error || bad);
-    if (read.error) frame.mistakes = fmt::format("{}: no word of the code", name);
+    if (read.error) blame(frame, fmt::format("{}: no word of the code", name));
   };
   const bool identity = frame.parameter && symbol_of(*frame.parameter) == kIdRequest;
   const bool crc5 =
       identity || acceleration_is_good(static_cast<std::uint16_t>(
                       words.acceleration_high.byte << 8U | words.acceleration_low.byte));
-  if (!crc5) frame.mistakes = "acceleration: CRC5 wrong";
+  if (!crc5) blame(frame, "acceleration: CRC5 wrong");
   if (words.acceleration_high.is(kMarker1) && words.acceleration_low.is(kMarker1)) {
-    frame.mistakes = "the encoder has no second difference";
+    blame(frame, "the encoder has no second difference");
   }
   word(0, FieldKind::kData, "vertical", words.vertical);
   word(10, FieldKind::kControl, "S_PAR", words.parameter);
@@ -228,10 +234,10 @@ std::string parameter_text(std::optional<std::uint8_t> parameter) {
   return text;
 }
 
-std::optional<DslFrame> decode_dsl(const Wave& line, sim::Time sampled, double bit) {
+DslFrame decode_dsl(const Wave& line, sim::Time sampled, double bit) {
   const auto near = static_cast<sim::Time>(2 * bit);
-  const std::vector<sim::Time> edges = sample_edges(line, sampled + near, bit);
-  if (edges.empty() || edges.back() + near < sampled) return std::nullopt;
+  std::vector<sim::Time> edges = sample_edges(line, sampled + near, bit);
+  if (edges.empty() || edges.back() + near < sampled) edges.push_back(sampled);
   DslFrame frame = begun(line, edges.back(), bit);
   add_sent(line, frame);
   if (!frame.has_answer()) return frame;
@@ -241,7 +247,7 @@ std::optional<DslFrame> decode_dsl(const Wave& line, sim::Time sampled, double b
     if (!before.has_answer()) break;  // an earlier training counts no more
   }
   if (!frame.late) {
-    frame.mistakes = "no answer";
+    blame(frame, "no answer");
     return frame;
   }
   for (unsigned i = 0; i < kAnswerBits; ++i) {

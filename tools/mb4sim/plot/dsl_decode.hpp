@@ -44,9 +44,9 @@ struct DslFrame {
 // "IDLE, first, msync".
 std::string parameter_text(std::optional<std::uint8_t> parameter);
 
-// The frame whose edge in SAMPLE is at this time, give or take two bits. `bit`: its length, ps. The
-// recording has to go on to the end of the frame. Nothing: there is no frame.
-std::optional<DslFrame> decode_dsl(const Wave& line, sim::Time sampled, double bit);
+// The frame whose edge in SAMPLE is at this time, give or take two bits; without such an edge what
+// the line shows there. `bit`: its length, ps. The recording has to go on to the end of the frame.
+DslFrame decode_dsl(const Wave& line, sim::Time sampled, double bit);
 
 }  // namespace mb4::tool
 

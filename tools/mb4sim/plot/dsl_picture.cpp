@@ -162,15 +162,15 @@ Diagram DslPicture::diagram(const DslFrame& frame) const {
 }
 
 Picture DslPicture::draw(const PictureRequest& request, sim::Time /*now*/) const {
-  const auto frame = decode_dsl(seen(), sampled_, kTicksPerBit * tick_);
-  if (!frame) throw UseError(fmt::format("{}: there was no frame to draw", request.scenario));
-  Diagram all = diagram(*frame);
+  if (sampled_ == 0) throw UseError(fmt::format("{}: there was no frame", request.scenario));
+  const DslFrame frame = decode_dsl(seen(), sampled_, kTicksPerBit * tick_);
+  Diagram all = diagram(frame);
   all.title = request.title.empty()
                   ? fmt::format("Frame {} of channel {}", request.frame, channel_.number)
                   : request.title;
   // The master has seen the same.
-  const bool same = frame->training() || (frame->late && frame->answer == frame_.answer);
-  return {timing_svg(all), frame->mistakes.empty() && same && frame_.restart == Restart::kNone};
+  const bool same = frame.training() || (frame.late && frame.answer == frame_.answer);
+  return {timing_svg(all), frame.mistakes.empty() && same && frame_.restart == Restart::kNone};
 }
 
 std::unique_ptr<LinePicture> record_dsl(sim::Simulator& simulator,
