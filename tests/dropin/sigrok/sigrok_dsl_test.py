@@ -164,6 +164,29 @@ def check_driver(module, edges):
     return known > 9000 and told.count(None) == len(told) and told_moved.count(None) == 0
 
 
+def check_extra(module):
+    """A drive in sync mode: whole ones and eighths in SAMPLE, stuffing behind the trailer."""
+    words = {"IDLE": "1001001101", "START": "0101100100"}
+    bits, expected = [], []
+    for number in range(40):
+        symbol, extra, blocks = ("IDLE", "START")[number % 2], (0, 4, 5.125, 9.875)[number % 4], number % 5
+        level = "0" * 8 + "0" * 8 + "1" * 8 + "0" * 8 + "1" * 32 + "1" * round(8 * extra)
+        for bit in "0110" + "0000" + words[symbol] + "1" * 74 + "00000011" + blocks * "001011":
+            level += 8 * bit
+        bits.append(level)
+        expected.append((symbol, extra))
+    line, found, last = module.Line(BIT), [], "1"
+    for place, level in enumerate("".join(bits)):
+        if level != last:
+            found.append(line.edge(1e6 + place * BIT / 8, int(level)))
+        last = level
+    found = [(frame.symbol, frame.extra) for frame in found if frame is not None]
+    if found != expected[:-1]:
+        print(f"sync mode: {found}")
+        return False
+    return True
+
+
 def check_samples(module, edges, decoded):
     """A logic analyser with few samples: what it takes is the level at its own times."""
     some = [edge for edge in edges[IN] if edge[0] < 20_000_000_000]  # 20 ms
@@ -246,7 +269,7 @@ def main():
     print(f"_IN against _ENCODER: {compared} edges, {wrong} differ")
     if wrong or compared < 100000:
         return 1
-    if not check_samples(module, edges, decoded):
+    if not check_extra(module) or not check_samples(module, edges, decoded):
         return 1
     if not check_driver(module, edges) or not check_without_training(module, edges, decoded):
         return 1

@@ -12,6 +12,7 @@ from .code import WORDS, crc16, crc5, parameter
 
 BITS = 108
 EDGE = 8             # bit where SAMPLE falls
+SAMPLE_ONES = 4      # before it, the last two of SYNC and those of SAMPLE
 PARAMETER = 16       # first bit of M_PAR
 SWITCH = 26
 TRAILER = 100
@@ -33,8 +34,11 @@ class Frame:
     '''What is known of a frame: its begin, the length of a bit, the symbol of the master, and of the
     answer its begin, its bits, and its words as (byte, special); byte is None if a word is illegal.'''
 
-    def __init__(self, begin, bit, byte):
+    def __init__(self, begin, bit, byte, extra=0):
         self.begin, self.bit, self.byte = begin, bit, byte
+        # Ones more in SAMPLE, of a drive that sends as many frames as its own cycle needs. `begin` is where
+        # the frame would begin without them; so at() is right from SAMPLE's edge on.
+        self.extra = extra
         self.symbol = 'illegal' if byte is None else SYMBOLS.get(byte & 0x1F, f'nibble {byte & 15:X}')
         self.answer_at = None
         self.answer = None
@@ -107,6 +111,7 @@ class Line:
         self.runs = []        # lengths of the last runs
         self.last = None
         self.sample = None    # time of the edge in SAMPLE of the running frame
+        self.extra = 0        # Frame.extra of it
         self.delay = None     # of the answer, from the end of SWITCH
         self.guess = None     # ... as the last frame would have it
         self.place = None     # in the vertical frame
@@ -123,6 +128,7 @@ class Line:
                 self.sample is None or time > self.sample + (BITS - EDGE - 2) * self.nominal):
             done = self.flush(time)
             self.sample = time
+            self.extra = max(round(8 * bits) / 8 - SAMPLE_ONES, 0) if bits >= SAMPLE_ONES + 0.5 else 0
             self.edges, self.drives = [], []
         self.last = time
         self.edges.append((time, level))
@@ -153,7 +159,7 @@ class Line:
         bit = self.nominal
         begin = self.sample - EDGE * bit
         word = self.levels(begin + (PARAMETER + i + 0.5) * bit for i in range(10))
-        frame = Frame(begin, bit, parameter(int(word, 2)))
+        frame = Frame(begin, bit, parameter(int(word, 2)), self.extra)
         frame.off = next((time for time, level in self.drives if not level), None)
         frame.on = next((time for time, level in self.drives if level), None)
         if frame.symbol in ('RESET', 'SYNC'):

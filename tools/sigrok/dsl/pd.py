@@ -80,11 +80,12 @@ class Decoder(srd.Decoder):
     def show(self, frame):
         end = frame.at(BITS)
         m_par = 'M_PAR: ?' if frame.byte is None else f'M_PAR: {frame.byte:02X}'
-        for first, last, text in ((0, 6, 'SYNC'), (6, 9, 'SAMPLE'), (9, 12, 'CYCLE RESET'),
+        extra = frame.extra
+        for first, last, text in ((-extra, 6 - extra, 'SYNC'), (6 - extra, 9, 'SAMPLE'), (9, 12, 'CYCLE RESET'),
                                   (12, PARAMETER, 'EQ'), (PARAMETER, SWITCH, m_par),
                                   (TRAILER, BITS, 'TRAILER')):
             self.annotate(frame.at(first), frame.at(last), MASTER, [text, text[0]])
-        self.annotate(frame.begin, end, STATE, [frame.symbol, frame.symbol[:2]])
+        self.annotate(frame.at(-extra), end, STATE, [frame.symbol, frame.symbol[:2]])
         if frame.byte is None:
             self.warn(frame.at(PARAMETER), frame.at(SWITCH), 'M_PAR is no word')
         self.show_driver(frame)
