@@ -32,7 +32,7 @@ DEFAULT_SEED = 20260101
 def make_steps(module, inputs, seed):
     """The stimulus as lines of hexadecimal digits, and the first step that is compared."""
     steps = stimulus.Steps(random.Random(f"{seed} {module}"), inputs)
-    stimulus.MODULES[module](steps)
+    {**stimulus.MODULES, **stimulus.PLANTED}[module](steps)
     digits = (sum(inputs.values()) + 3) // 4
     lines = []
     for step in steps.steps:
