@@ -107,6 +107,7 @@ class Bus:
 class Generics:
     def __init__(self, entry):
         self.limits = entry.pairs("limits", int)
+        self.example = entry.table("example", int)
         self.defaults, self.formulas = {}, {}   # of the parameters that follow others
         for name, one in entry.tables("derived").items():
             self.defaults[name] = one.need("default", int)
@@ -219,7 +220,10 @@ class Master:
 
     def check_modules(self, entry):
         """What needs RTL has it."""
-        modules = {path.stem for path in listed(self.list)} if self.list else set()
+        try:
+            modules = {path.stem: path for path in (listed(self.list) if self.list else ())}
+        except OSError as error:
+            entry.wrong("list", f"{self.list.name} names '{Path(error.filename).name}': {error.strerror}")
         for key in ("uses", "core"):
             if getattr(self, key) and not self.list:
                 entry.wrong(key, "the master has no list")
@@ -231,11 +235,65 @@ class Master:
         for name, model in {**{f"gates.{name}": gate for name, gate in self.gates.items()}, **models}.items():
             if model.top not in modules:
                 entry.wrong(f"{name}.top", f"the list has no module {model.top}")
+        if self.whole:
+            for path in modules.values():
+                if not path.exists():
+                    entry.wrong("list", f"{self.list.name} names '{path.name}', which does not exist")
+            for name, top in self.tops.items():
+                self.check_top(top, modules[name], lambda key, what, name=name: entry.wrong(f"tops.{name}.{key}", what))
+            for name, model in {**{f"gates.{name}": gate for name, gate in self.gates.items()}, **models}.items():
+                self.check_parameters(modules[model.top], model.parameters,
+                                      lambda key, what, name=name: entry.wrong(f"{name}.parameters.{key}", what))
+
+    @staticmethod
+    def check_parameters(path, names, wrong):
+        known = widths().parameter_names(path)
+        for name in names:
+            if name not in known:
+                wrong(name, f"{path.name} has no such parameter")
+
+    def check_top(self, top, path, wrong):
+        """What a top's keys need of its module, of the register maps and of other files."""
+        ports = widths().port_names(path)
+        for domain, (port, _) in top.clocks.items():
+            if port not in ports:
+                wrong(f"clocks.{domain}", f"{path.name} has no port {port}")
+        crossings = path.parent / "constraints" / "crossings.toml"
+        if top.clocks and not crossings.exists():
+            wrong("clocks", f"'{crossings.relative_to(self.root).as_posix()}' does not exist")
+        self.check_parameters(path, top.parameters, lambda name, what: wrong(f"parameters.{name}", what))
+        if top.buses:
+            if not 1 <= len(self.maps) <= 2:
+                wrong("buses", f"needs one or two maps, there are {len(self.maps)}")
+            for name in self.maps:
+                file = f"regmap/generated/{name}/{name}.ipxact.xml"
+                if not (self.root / file).exists():
+                    wrong("buses", f"'{file}' does not exist")
+        if top.generics is not None:
+            self.check_generics(top, path, wrong)
+
+    def check_generics(self, top, path, wrong):
+        if not top.buses:
+            wrong("generics", "needs buses")
+        generics = top.generics
+        for key, names in (("limits", generics.limits), ("example", generics.example), ("derived", generics.formulas)):
+            self.check_parameters(path, names, lambda name, what, key=key: wrong(f"generics.{key}.{name}", what))
+        for name, (kind, *_) in widths().module_parameters(path).items():
+            if kind == "int unsigned" and name not in generics.limits and name not in generics.formulas:
+                wrong(f"generics.limits.{name}", "is missing: each int unsigned parameter has limits, or follows others")
 
     @property
     def room(self):
         """Folder of its RTL with / at the end, or None."""
         return f"{self.list.parent.relative_to(self.root).as_posix()}/" if self.list else None
+
+
+def widths():
+    """The reader of module headers. The Python package, which has no other files than the lists of RTL, has it not."""
+    sys.path.insert(0, str(ROOT / "tools" / "synth"))
+    import sv_widths
+    sys.path.pop(0)
+    return sv_widths
 
 
 def listed(path):
@@ -263,7 +321,7 @@ def read(path=ROOT / FILE, whole=True):
     for name, table in values.items():
         where = f"{path.name}: {name}"
         if not re.fullmatch(r"[a-z]\w*(-\w+)*", name):
-            raise Fault(f"{where}: a name has small letters, digits and '-'")
+            raise Fault(f"{where}: a name begins with a small letter, and has letters, digits, '_' and '-'")
         found[name] = Master(name, Entry(where, table), path.resolve().parent, whole)
     for key in ("tops", "gates", "measured"):
         owner = {}
@@ -303,7 +361,8 @@ def cmake(masters):
         for design in master.measured.values():
             models = [(model.name, model.top, model.parameters) for model in design.models.values()]
             lines += [put(f"MB4_MEASURED_{design.name}_SAYS", models, design.only)]
-            lines += [put(f"MB4_MEASURED_{design.name}_PROGRAMS", *design.programs),
+            lines += [put(f"MB4_MEASURED_{design.name}_MASTER", master.name),
+                      put(f"MB4_MEASURED_{design.name}_PROGRAMS", *design.programs),
                       put(f"MB4_MEASURED_{design.name}_MAKER", design.maker),
                       put(f"MB4_MEASURED_{design.name}_PUBLIC", *([design.public] if design.public else [])),
                       put(f"MB4_MEASURED_{design.name}_MODELS", *design.models)]

@@ -77,7 +77,7 @@ def share_counters(model, folder):
 
 def main():
     folder, name = Path(sys.argv[1]).resolve(), sys.argv[2]
-    design = project.all_of("measured")[name]
+    design = project.design(name)
     for model in design.models.values():
         measured.verilate(design, model, folder, [project.WAIVERS, *project.listed(design.master.list)],
                           ["-Wno-fatal", "--coverage-line", "--coverage-toggle"])  # a number of masters.toml has no width

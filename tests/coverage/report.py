@@ -59,7 +59,7 @@ def exclusions():
 
 
 def main():
-    design, page, data = project.all_of("measured")[sys.argv[1]], Path(sys.argv[2]), [Path(name) for name in sys.argv[3:]]
+    design, page, data = project.design(sys.argv[1]), Path(sys.argv[2]), [Path(name) for name in sys.argv[3:]]
     counts, spans = points(design, data)
     sources = {file: file.read_text(encoding="utf-8").splitlines()
                for file in {key[0] for key in counts}}

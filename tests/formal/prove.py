@@ -49,6 +49,9 @@ class Proof:
         self.name = name
         self.preset = preset
         self.path = HERE / f"{name}.sv"
+        if not self.path.exists():
+            there = ", ".join(sorted(path.stem for path in HERE.glob("*.sv")))
+            raise SystemExit(f"prove.py: {name}: tests/formal/{name}.sv does not exist; there are {there}")
         self.values = {}
         head = self.path.read_text(encoding="utf-8").split("\nmodule ")[0]
         head = re.sub(r"\n//   ", " ", head)

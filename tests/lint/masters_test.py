@@ -55,13 +55,47 @@ WRONG = (
      "toy: measured.one: goals.toggle: is none of line, branch, mutants"),
     ('[toy]\nwhat = "a"\nlist = "toy.f"\ntops.toy = {}\n[other]\nwhat = "a"\nlist = "toy.f"\ntops.toy = {}\n',
      "other: tops.toy: toy has one of this name"),
-    ('[Toy]\nwhat = "a"\n', "Toy: a name has small letters, digits and '-'"),
+    ('[toy]\nwhat = "a"\nlist = "gone.f"\n',
+     "toy: list: gone.f names 'none.sv', which does not exist"),
+    ('[toy]\nwhat = "a"\nlist = "lower.f"\n',
+     "toy: list: lower.f names 'none.f': No such file or directory"),
+    ('[toy]\nwhat = "a"\nlist = "toy.f"\ntops.toy = {clocks = {core = ["clk", 10]}}\n',
+     "toy: tops.toy.clocks.core: toy.sv has no port clk"),
+    ('[toy]\nwhat = "a"\nlist = "toy.f"\ntops.toy = {clocks = {core = ["clk_i", 10]}}\n',
+     "toy: tops.toy.clocks: 'constraints/crossings.toml' does not exist"),
+    ('[toy]\nwhat = "a"\nlist = "toy.f"\ntops.toy = {parameters = {NONE = 1}}\n',
+     "toy: tops.toy.parameters.NONE: toy.sv has no such parameter"),
+    ('[toy]\nwhat = "a"\nlist = "toy.f"\ngates.one = {top = "toy", parameters = {NONE = 1}}\n',
+     "toy: gates.one.parameters.NONE: toy.sv has no such parameter"),
+    ('[toy]\nwhat = "a"\nlist = "toy.f"\ntops.toy = {buses = [{name = "bus", kind = "wishbone", prefix = "wb_"}]}\n',
+     "toy: tops.toy.buses: needs one or two maps, there are 0"),
+    ('[toy]\nwhat = "a"\nlist = "toy.f"\nmaps = ["a", "b", "c"]\ntops.toy = {buses = [{name = "bus", kind = "wishbone", prefix = "wb_"}]}\n',
+     "toy: tops.toy.buses: needs one or two maps, there are 3"),
+    ('[toy]\nwhat = "a"\nlist = "toy.f"\nmaps = ["b"]\ntops.toy = {buses = [{name = "bus", kind = "wishbone", prefix = "wb_"}]}\n',
+     "toy: tops.toy.buses: 'regmap/generated/b/b.ipxact.xml' does not exist"),
+    ('[toy]\nwhat = "a"\nlist = "toy.f"\ntops.toy = {generics = {limits = {WIDTH = [1, 8]}}}\n',
+     "toy: tops.toy.generics: needs buses"),
+    ('[toy]\nwhat = "a"\nlist = "toy.f"\nmaps = ["a"]\ntops.toy = {buses = [{name = "bus", kind = "wishbone", prefix = "wb_"}], generics = {}}\n',
+     "toy: tops.toy.generics.limits.WIDTH: is missing: each int unsigned parameter has limits"),
+    ('[toy]\nwhat = "a"\nlist = "toy.f"\nmaps = ["a"]\ntops.toy = {buses = [{name = "bus", kind = "wishbone", prefix = "wb_"}], generics = {limits = {NONE = [1, 8]}}}\n',
+     "toy: tops.toy.generics.limits.NONE: toy.sv has no such parameter"),
+    ('[toy]\nwhat = "a"\nlist = "toy.f"\nmaps = ["a"]\ntops.toy = {buses = [{name = "bus", kind = "wishbone", prefix = "wb_"}], generics = {limits = {WIDTH = [1, 8]}, example = {NONE = 1}}}\n',
+     "toy: tops.toy.generics.example.NONE: toy.sv has no such parameter"),
+    ('[Toy]\nwhat = "a"\n', "Toy: a name begins with a small letter"),
     ('toy = 1\n', "toy: is no table"),
     ('[toy]\nwhat = \n', "Invalid value (at line 2, column 8)"),
 )
 # A model without RTL, as small as an entry can be, and a master with all that a check reads.
 RIGHT = ('[dsl-model]\nwhat = "a"\nline = "duplex"\n',
-         '[toy]\nwhat = "a"\nlist = "toy.f"\ntops.toy = {}\n')
+         '[toy]\nwhat = "a"\nlist = "toy.f"\ntops.toy = {}\n',
+         '[toy]\nwhat = "a"\nlist = "toy.f"\nmaps = ["a"]\n[toy.tops.toy]\ngenerics = {limits = {WIDTH = [1, 8]}}\n'
+         'buses = [{name = "bus", kind = "wishbone", prefix = "wb_"}]\n')
+# What these files name.
+PLACES = {
+    "toy.f": "toy.sv\n", "gone.f": "none.sv\n", "lower.f": "-F none.f\n",
+    "toy.sv": "module toy #(\n  parameter int unsigned WIDTH = 1  // bits\n) (\n  input logic clk_i\n);\nendmodule\n",
+    "regmap/generated/a/a.ipxact.xml": "", "regmap/generated/b/b_regs_pkg.sv": "", "regmap/generated/c/c_regs_pkg.sv": "",
+}
 
 TOY = """
 [toy]
@@ -101,7 +135,9 @@ def faults():
     findings = []
     with tempfile.TemporaryDirectory() as folder:
         file = Path(folder) / "masters.toml"
-        (Path(folder) / "toy.f").write_text("toy.sv\n", encoding="utf-8")
+        for name, text in PLACES.items():
+            (Path(folder) / name).parent.mkdir(parents=True, exist_ok=True)
+            (Path(folder) / name).write_text(text, encoding="utf-8")
         for text, wanted in WRONG:
             file.write_text(text, encoding="utf-8")
             done = subprocess.run([sys.executable, "-B", ROOT / "tools/masters.py", "--file", file],

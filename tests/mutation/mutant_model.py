@@ -18,7 +18,7 @@ import project  # noqa: E402
 
 def main():
     folder, name = Path(sys.argv[1]).resolve(), sys.argv[2]
-    design = project.all_of("measured")[name]
+    design = project.design(name)
     status, text = project.run([sys.executable, "-B", HERE / "mutate.py", folder / "rtl", "--design", name, *sys.argv[3:]])
     print(text.strip())
     if status != 0:

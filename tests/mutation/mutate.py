@@ -162,11 +162,11 @@ def main():
     chance = random.Random(seed)
     codes = {module: blank_comments(path.read_text(encoding="utf-8"))
              for module, path in project.rtl_modules().items()}
-    designs = project.all_of("measured")
     if sys.argv[1] == "--rows":
-        check_rows(Path(sys.argv[2]), [row for design in designs.values() for row in pool_of(design, codes)])
+        designs = project.all_of("measured").values()
+        check_rows(Path(sys.argv[2]), [row for design in designs for row in pool_of(design, codes)])
         return
-    design = designs[options.get("--design", "chip")]
+    design = project.design(options.get("--design", "chip"))
     pool = pool_of(design, codes)
     chance.shuffle(pool)
     chosen = []

@@ -103,7 +103,6 @@ def caught(batch, number):
 
 def of_design(options):
     """([mutants.txt, goal, programs...], tests) of a design, or of the first one of a master."""
-    designs = project.all_of("measured")
     name = options.get("--design")
     if name is None:
         master = project.MASTERS.get(options["--master"])
@@ -111,9 +110,7 @@ def of_design(options):
             names = [one.name for one in project.MASTERS.values() if one.measured]
             raise SystemExit(f"run_mutants.py: no master '{options['--master']}' with measured designs; there are {', '.join(names)}")
         name = next(iter(master.measured))
-    if name not in designs:
-        raise SystemExit(f"run_mutants.py: no design '{name}'; there are {', '.join(designs)}")
-    design, build = designs[name], Path(options.get("--build", "build")).resolve()
+    design, build = project.design(name), Path(options.get("--build", "build")).resolve()
     programs = [str(build / "bin" / f"mutant_{name}_{program}") for program in design.programs]
     missing = [path for path in programs if not Path(path).exists()]
     if missing:

@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-FileCopyrightText: 2026 The openmb4 authors
 # SPDX-License-Identifier: Apache-2.0
-"""The VHDL of rtl/axi/vhdl is analysed and elaborated by GHDL, as is the instance in docs/axi.md. The VHDL
-of rtl/mb4/vhdl around the plain Verilog of the release: GHDL turns each example into Verilog,
+"""The VHDL of each top with generics (masters.toml) is analysed and elaborated by GHDL, as is an instance of it in a page
+of docs/. The VHDL of each plain top around the plain Verilog of the release: GHDL turns each example into Verilog,
 Icarus and Yosys elaborate it with the module itself in place of GHDL's empty one.
 
   vhdl_test.py FOLDER    FOLDER is for what the tools leave
@@ -21,7 +21,7 @@ import plain_verilog  # noqa: E402
 import project  # noqa: E402
 import vhdl  # noqa: E402
 
-BISS_AXI = project.tops("generics")["biss_axi"]
+GENERIC = project.tops("generics")
 PACKAGE = {"ghdl": "ghdl", "iverilog": "iverilog", "yosys": "yosys"}
 
 
@@ -59,19 +59,25 @@ def elaborate(top, files, folder):
             "Yosys": run([project.tool("yosys"), "-p", script], folder)}
 
 
-def entity(component):
+def entity(top, component):
     """An entity with an empty architecture, with the generics and ports of the component."""
     text = component.read_text(encoding="utf-8")
-    body = re.search(r"  component biss_axi\n(.*?)  end component;", text, re.S).group(1)
-    return ("library ieee;\nuse ieee.std_logic_1164.all;\nentity biss_axi is\n" + body +
-            "end entity;\narchitecture empty of biss_axi is\nbegin\nend architecture;\n")
+    body = re.search(rf"  component {top.name}\n(.*?)  end component;", text, re.S).group(1)
+    return (f"library ieee;\nuse ieee.std_logic_1164.all;\nentity {top.name} is\n" + body +
+            f"end entity;\narchitecture empty of {top.name} is\nbegin\nend architecture;\n")
 
 
-def instance_of_the_manual(widths):
-    """A design around the instance of docs/axi.md: a signal for each name that it uses."""
-    text = (ROOT / "docs/axi.md").read_text(encoding="utf-8")
-    instance = re.search(r"```vhdl\n(.*?)```", text, re.S).group(1)
-    vectors = vhdl.sv_widths.parameter_vectors(BISS_AXI.source)
+def instances_of_manuals(top):
+    """The instances of a top in the pages of docs/."""
+    texts = [path.read_text(encoding="utf-8") for path in sorted((ROOT / "docs").glob("*.md"))]
+    return [instance for text in texts for instance in re.findall(r"```vhdl\n(.*?)```", text, re.S)
+            if re.search(rf"entity work\.{top.name}\b", instance)]
+
+
+def around(instance, top):
+    """A design around an instance: a signal for each name that it uses."""
+    widths = {name: width for name, (_, width) in vhdl.generic_ports(top).items()}
+    vectors = vhdl.sv_widths.parameter_vectors(top.source)
     declared = []
     for port, name in re.findall(r"(\w+)(?:\(0\))? => (\w+)\b", instance.split("port map", 1)[1]):
         if name not in ("open",) and not name.isdigit():
@@ -83,14 +89,28 @@ def instance_of_the_manual(widths):
             "end architecture;\n")
 
 
-def axi_findings(folder):
-    """GHDL's findings about biss_axi; a wrong port name and a wrong width must be among others."""
-    component, example = (BISS_AXI.source.parent / "vhdl" / f"biss_axi_{name}.vhd" for name in ("component", "example"))
-    stub = folder / "biss_axi_entity.vhd"
-    stub.write_text(entity(component), encoding="utf-8")
-    manual = folder / "biss_axi_manual.vhd"
-    manual.write_text(instance_of_the_manual(
-        {name: width for name, (_, width) in vhdl.generic_ports(BISS_AXI).items()}), encoding="utf-8")
+def other_ports(text):
+    """(what, the text with this fault): the last connection with another name, a vector with a bit less."""
+    port = re.findall(r"^ +(\w+) +=>|(\w+) => ", text, re.M)[-1]
+    name = port[0] or port[1]
+    place = text.rindex(f"{name} ")
+    yield f"another name than {name}", f"{text[:place]}x_{text[place:]}"
+    vector = re.search(r"std_logic_vector\((\d+) downto 0\)", text)
+    if vector:
+        yield f"a bit less than {vector[0]}", (f"{text[:vector.start()]}std_logic_vector({int(vector[1]) - 1} downto 0)"
+                                               f"{text[vector.end():]}")
+
+
+def generic_findings(top, folder):
+    """GHDL's findings about a top with generics; a wrong port name and a wrong width must be among others."""
+    component, example = (top.source.parent / "vhdl" / f"{top.name}_{name}.vhd" for name in ("component", "example"))
+    stub = folder / f"{top.name}_entity.vhd"
+    stub.write_text(entity(top, component), encoding="utf-8")
+    units = [(example, f"{top.name}_example")]
+    for number, instance in enumerate(instances_of_manuals(top)):
+        manual = folder / f"{top.name}_manual{number}.vhd"
+        manual.write_text(around(instance, top), encoding="utf-8")
+        units.append((manual, "manual"))
 
     def ghdl(path, unit):
         for command in (["-a", "--std=08", component, stub, path], ["-e", "--std=08", unit]):
@@ -100,19 +120,25 @@ def axi_findings(folder):
         return ""
 
     findings = []
-    for path, unit in ((example, "biss_axi_example"), (manual, "manual")):
+    for path, unit in units:
         said = ghdl(path, unit)
         if said:
-            findings.append(f"{unit}: {said}")
-        for old, new in (("s_axis_tuser", "s_axis_user"), ("S_AXI_WSTRB ", "S_AXI_WSTRBS "),
-                         ("std_logic_vector(7 downto 0)", "std_logic_vector(6 downto 0)")):
-            wrong = folder / f"wrong_{unit}.vhd"
-            text = path.read_text(encoding="utf-8")
-            place = text.rindex(old) if "std_logic" not in old else text.index(old)
-            wrong.write_text(text[:place] + new + text[place + len(old):], encoding="utf-8")
+            findings.append(f"{path.name}: {said}")
+        for what, text in other_ports(path.read_text(encoding="utf-8")):
+            wrong = folder / f"wrong_{path.name}"
+            wrong.write_text(text, encoding="utf-8")
             if not ghdl(wrong, unit):
-                findings.append(f"{unit}: {old} as {new} is not noticed")
+                findings.append(f"{path.name}: {what} is not noticed")
     return findings
+
+
+def wrong_modules(text):
+    """(what, plain Verilog with this fault): an input with another name, and one of another width."""
+    inputs = re.findall(r"^  input (\[\d+:0\] )?(\w+);$", text, re.M)
+    vector, name = next((port for port in inputs if port[0]), inputs[0])
+    wider = f"[{int(vector[1:vector.index(':')]) + 1 if vector else 1}:0] "
+    yield "name", re.sub(rf"\b{name}\b", f"x_{name}", text)
+    yield "width", re.sub(rf"^(  (?:input|wire) ){re.escape(vector)}({name};)$", rf"\g<1>{wider}\2", text, flags=re.M)
 
 
 def main():
@@ -124,7 +150,9 @@ def main():
     if missing:
         print(f"skipped: {', '.join(missing)} not installed (tools/setup.sh test installs it)")
         sys.exit(project.SKIPPED)
-    findings = vhdl.stale() + axi_findings(folder)
+    findings = vhdl.stale()
+    for top in GENERIC.values():
+        findings += generic_findings(top, folder)
     for top in plain_verilog.TOPS:
         example = instance(top, folder)
         module = plain_verilog.write(top, folder)
@@ -132,19 +160,16 @@ def main():
             if text:
                 findings.append(f"{top}, {tool}: {text}")
         # A port with another name must be found, and one of another width.
-        for what, new in (("name", "quirk_i"), ("width", "[6:0]")):
+        good = module.read_text(encoding="utf-8")
+        for what, text in wrong_modules(good):
             wrong = folder / f"{top}_{what}.v"
-            text = module.read_text(encoding="utf-8")
-            changed = [re.sub(r"\bquirks_i\b", new, line) if what == "name" else
-                       re.sub(r"^(  (?:input|wire) )\[5:0\] (quirks_i;)$", rf"\1{new} \2", line)
-                       for line in text.splitlines()]
-            if changed == text.splitlines():
-                findings.append(f"{top}: no port quirks_i to change")
-            wrong.write_text("\n".join(changed) + "\n", encoding="utf-8")
+            if text == good:
+                findings.append(f"{top}: there is no other {what} to plant")
+            wrong.write_text(text, encoding="utf-8")
             for tool, said in elaborate(top, [example, wrong], folder).items():
                 if not said:
                     findings.append(f"{top}: {tool} does not notice the other {what} of a port")
-    project.finish(findings, f"{len(plain_verilog.TOPS)} tops and biss_axi fit, wrong ports are noticed")
+    project.finish(findings, f"{', '.join([*plain_verilog.TOPS, *GENERIC])} fit, wrong ports are noticed")
 
 
 if __name__ == "__main__":

@@ -173,6 +173,7 @@ def model(component, top, ports, parameters, vectors):
             add(parameter, "name", name)
             add(parameter, "value", name)
     add(add(instance, "fileSetRef"), "localName", "rtl")
+    lowest = sv_widths.lowest_bits(TOPS[top].source)
     list_ = add(place, "ports")
     for name, (direction, width) in ports.items():
         port = add(list_, "port")
@@ -181,7 +182,7 @@ def model(component, top, ports, parameters, vectors):
         add(wire, "direction", {"input": "in", "output": "out"}[direction])
         if width > 1 or name in vectors:
             vector = add(add(wire, "vectors"), "vector")
-            low = 2 if name == "wb_adr_i" else 0  # words
+            low = lowest.get(name, 0)
             add(vector, "left", vectors.get(name, width - 1 + low))
             add(vector, "right", low)
 

@@ -84,6 +84,14 @@ def all_of(key):
     return {name: design for master in MASTERS.values() for name, design in getattr(master, key).items()}
 
 
+def design(name):
+    """The measured design of this name; ends the script if there is none."""
+    designs = all_of("measured")
+    if name not in designs:
+        raise SystemExit(f"{masters.FILE}: no design '{name}' in `measured` of a master; there are {', '.join(designs)}")
+    return designs[name]
+
+
 def master_argument(parser, has="list"):
     """Adds --master NAME to a parser; NAME is one that has RTL, or what `has` says."""
     names = [name for name, master in MASTERS.items() if getattr(master, has)]

@@ -161,16 +161,32 @@ def split_commas(text):
     return [part for part in parts if part.strip()]
 
 
-def module_ports(path, packages, parameters=None):
-    """{port: (direction, width)} of the module in a file, with the given parameter values."""
+def module_header(path):
+    """Texts of the parameters and of the ports of the module in a file."""
     text = strip_comments(path.read_text(encoding="utf-8"))
     header = re.search(r"\bmodule\s+(\w+)\s*(?:#\s*\((.*?)\)\s*)?\(([^;]*)\)\s*;", text, re.S)
     if not header:
         raise WidthError(f"{path.name}: module header not understood")
+    return header.group(2) or "", header.group(3)
+
+
+def parameter_names(path):
+    """The parameters of the module in a file."""
+    return [re.search(r"(\w+)\s*=", part)[1] for part in split_commas(module_header(path)[0])
+            if part.split()[0] == "parameter"]
+
+
+def port_names(path):
+    return [part.split()[-1] for part in split_commas(module_header(path)[1])]
+
+
+def module_ports(path, packages, parameters=None):
+    """{port: (direction, width)} of the module in a file, with the given parameter values."""
+    given, listed = module_header(path)
     scope = Scope()
     scope.values = dict(packages.values)
     scope.types = dict(packages.types)
-    for part in split_commas(header.group(2) or ""):
+    for part in split_commas(given):
         words = part.strip()
         local = words.startswith("localparam")
         try:
@@ -179,7 +195,7 @@ def module_ports(path, packages, parameters=None):
         except WidthError:
             pass  # a port whose width needs this one is an error
     ports = {}
-    for part in split_commas(header.group(3)):
+    for part in split_commas(listed):
         port = re.fullmatch(r"\s*(input|output|inout)\b(.*?)\b(\w+)\s*", part, re.S)
         if not port:
             raise WidthError(f"{path.name}: port not understood: {part.strip()}")
@@ -199,3 +215,9 @@ def parameter_vectors(path):
     return {name: left for left, name in re.findall(
         r"^  (?:input|output) +logic \[(\w*[A-Z]\w*-1):0\] *(\w+)", path.read_text(encoding="utf-8"),
         re.M)}
+
+
+def lowest_bits(path):
+    """{port: its lowest bit} of the ports that do not begin with bit 0."""
+    return {name: int(low) for low, name in re.findall(
+        r"^  (?:input|output) +logic \[[^]:]+:([1-9]\d*)\] *(\w+)", path.read_text(encoding="utf-8"), re.M)}

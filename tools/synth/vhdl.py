@@ -57,9 +57,6 @@ begin
 end architecture;
 """
 
-# The values of the example of a top with generics; without a row all have their defaults.
-EXAMPLES = {"biss_axi": {"BISS_CHANNEL_WIDTH": 4, "S_AXIS_TDATA_WIDTH": 128, "S_AXIS_TUSER_WIDTH": 4}}
-WITH = {"biss_axi": " with four channels"}
 GENERIC_COMPONENT = HEAD + """-- {top} as a VHDL component, made by tools/synth/vhdl.py: do not edit. The module behind it is
 -- {source}, for tools that read both languages. A default cannot follow another generic
 -- here: with other parameters set {derived} too, to what the formula
@@ -82,8 +79,8 @@ package {top}_component is
 
 end package;
 """
-GENERIC_EXAMPLE = HEAD + """-- An instance of {top}{what} to copy, made by tools/synth/vhdl.py: do not edit. The
--- entity only passes the ports on.
+GENERIC_EXAMPLE = HEAD + """-- An instance of {top} to copy, made by tools/synth/vhdl.py: do not edit. The entity only
+-- passes the ports on.
 
 library ieee;
 use ieee.std_logic_1164.all;
@@ -149,7 +146,7 @@ def generic_texts(top):
                     f"{';' if number < len(parameters) else ''}{comment}")
     fixed = generic_ports(top, {name: 2 for name in parameters})
     names = {name: (way, vectors.get(name, width)) for name, (way, width) in fixed.items()}
-    values = EXAMPLES.get(top.name, {})
+    values = top.generics.example
     longest = max(map(len, names))
     connections = ",\n".join(f"      {name:<{longest}} => {name}" for name in names)
     chosen = ",\n".join(f"      {name} => {value}" for name, value in values.items())
@@ -158,7 +155,7 @@ def generic_texts(top):
                 top=top.name, source=top.source.relative_to(project.ROOT), derived=" and ".join(derived),
                 generics="\n".join(rows), ports=lines(names, {}, " " * 6)),
             folder / f"{top.name}_example.vhd": GENERIC_EXAMPLE.format(
-                top=top.name, what=WITH.get(top.name, ""), generics=f"    generic map (\n{chosen}\n    )\n" if chosen else "",
+                top=top.name, generics=f"    generic map (\n{chosen}\n    )\n" if chosen else "",
                 ports=lines(generic_ports(top, {**derived, **values}), {}, " " * 4), connections=connections)}
 
 

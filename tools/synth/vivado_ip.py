@@ -195,12 +195,17 @@ def write(top, folder):
         print(path)
 
 
+def place_of(folder, place, top):
+    """The folder of a top, the first or a later one."""
+    return folder if place == 0 else folder.with_name(f"{folder.name}-{top.name}")
+
+
 def main():
     parser = project.Arguments(__doc__)
     parser.add_argument("folder", type=parser.folder)
     folder = parser.parse_args().folder
     for place, top in enumerate(project.tops("generics").values()):
-        write(top, folder if place == 0 else folder.with_name(f"{folder.name}-{top.name}"))
+        write(top, place_of(folder, place, top))
 
 
 if __name__ == "__main__":

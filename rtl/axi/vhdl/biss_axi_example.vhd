@@ -1,8 +1,8 @@
 -- SPDX-FileCopyrightText: 2026 The openmb4 authors
 -- SPDX-License-Identifier: Apache-2.0
 --
--- An instance of biss_axi with four channels to copy, made by tools/synth/vhdl.py: do not edit. The
--- entity only passes the ports on.
+-- An instance of biss_axi to copy, made by tools/synth/vhdl.py: do not edit. The entity only
+-- passes the ports on.
 
 library ieee;
 use ieee.std_logic_1164.all;
