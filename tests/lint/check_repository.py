@@ -192,10 +192,10 @@ def decision_findings(files):
 
 
 def name_of_master():
-    """A pattern for the names of the masters. A line may have the name of its master (sim/lines/NAME/)."""
-    names = [name.split("-")[0] for name in project.MASTERS
-             if name != "mb4" and not (project.ROOT / "sim" / "lines" / name.split("-")[0]).is_dir()]
-    words = "|".join(form for name in names for form in (name, name.upper(), name.capitalize()))
+    """A pattern for the names of the masters, whole ones: a kind of line has the first word of its master's (sim/lines/dsl/)."""
+    names = [name.replace("-", "_") for name in project.MASTERS if name != "mb4"]
+    words = "|".join(form for name in names for form in (
+        name, name.upper(), name.replace("_", "-"), "".join(part.capitalize() for part in name.split("_"))))
     return re.compile(rf"(?<![A-Za-z])(?:{words})(?![a-z])|_(?:{'|'.join(names)})(?![a-z])")
 
 
@@ -299,7 +299,7 @@ def self_test():
     expect(1, room_findings({**rooms, "docs/new.md": ""}), "a new page")
 
     for text, count in (("maximum axis", 0), ("class AxiHost", 1), ("AXI4-Lite", 1),
-                        ('"axi"', 1), ("biss_axi", 1)):
+                        ('"axi"', 1), ("biss_axi", 1), ("class DslModel", 1), ('"dsl-model"', 1), ("kind dsl", 0)):
         expect(count, master_findings({"sim/core/a.hpp": text}), f"master: {text}")
     expect(0, master_findings({"sim/masters/axi/a.hpp": "AxiHost", "sim/core/b": None}), "its own room")
 

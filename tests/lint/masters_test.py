@@ -111,8 +111,12 @@ switch = {MB4_TOY = "The simulator has the toy"}
 [toy.tops.toy_bus]
 ice40 = true
 plain = true
-clocks = {host = ["clk_i", 10]}
+clocks = {host = ["wb_clk_i", 10]}
 buses = [{name = "bus", kind = "wishbone", prefix = "wb_"}]
+
+[toy.tops.toy_ip]
+generics = {limits = {WIDTH = [1, 32]}, example = {WIDTH = 4}}
+buses = [{name = "bus", kind = "wishbone", prefix = "wb_"}, {name = "sense_i", kind = "interrupt"}]
 
 [toy.gates.toy_gates]
 top = "toy_bus"
@@ -122,10 +126,42 @@ maker = "rtl/toy/toy.f"
 programs = ["toy_test"]
 models = {toy = {top = "toy_bus"}}
 """
+WISHBONE = """  input  logic wb_clk_i,
+  input  logic wb_rst_i,
+  input  logic wb_cyc_i,
+  input  logic wb_stb_i,
+  input  logic wb_we_i,
+  input  logic [7:2] wb_adr_i,
+  input  logic [31:0] wb_dat_i,
+  input  logic [3:0] wb_sel_i,
+  output logic [31:0] wb_dat_o,
+  output logic wb_ack_o,
+  output logic wb_err_o,
+  output logic wb_stall_o,
+"""
+INSIDE = """
+  assign {wb_stall_o, wb_err_o} = 2'b00;
+  always_ff @(posedge wb_clk_i) begin
+    wb_ack_o <= wb_cyc_i && wb_stb_i && !wb_rst_i;
+    wb_dat_o <= wb_dat_i ^ {32{wb_we_i ^ sense_i ^ (^wb_adr_i) ^ (^wb_sel_i)}};
+  end
+"""
 FILES = {
-    "rtl/toy/toy.f": "-F ../common/common.f\n../../regmap/generated/toy/toy_regs_pkg.sv\ntoy_bus.sv\n",
-    "rtl/toy/toy_bus.sv": "module toy_bus (\n  input  logic clk_i,\n  output logic y_o\n);\n  assign y_o = clk_i;\nendmodule\n",
-    "regmap/generated/toy/toy_regs_pkg.sv": "package toy_regs_pkg;\nendpackage\n",
+    "rtl/toy/toy.f": "-F ../common/common.f\n../../regmap/generated/toy/toy_regs_pkg.sv\ntoy_bus.sv\ntoy_ip.sv\n",
+    "rtl/toy/toy_bus.sv": f"module toy_bus (\n{WISHBONE}  input  logic sense_i\n);\n{INSIDE}endmodule\n",
+    "rtl/toy/toy_ip.sv": "module toy_ip #(\n  parameter int unsigned WIDTH = 1  // bits\n) (\n"
+                         f"{WISHBONE}  output logic sense_i,\n  output logic [WIDTH-1:0] value_o\n);\n"
+                         f"{INSIDE}  assign sense_i = 1'b0;\n  assign value_o = WIDTH'(wb_dat_o);\nendmodule\n",
+    "rtl/toy/constraints/crossings.toml":
+        '[[line]]\nrow = "sense"\nfrom = ["port:sense_i"]\nto = "host"\nrule = "stable"\n',
+    "regmap/generated/toy/toy_regs_pkg.sv": "package toy_regs_pkg;\n  localparam logic [7:0] ADDR_ID = 8'h04;\nendpackage\n",
+    "regmap/generated/toy/toy.ipxact.xml":
+        '<ipxact:component xmlns:ipxact="http://www.accellera.org/XMLSchema/IPXACT/1685-2014">'
+        "<ipxact:version>VERSION</ipxact:version><ipxact:memoryMaps><ipxact:memoryMap><ipxact:addressBlock>"
+        "<ipxact:name>toy</ipxact:name><ipxact:baseAddress>'h0</ipxact:baseAddress><ipxact:range>'h100</ipxact:range>"
+        "<ipxact:width>32</ipxact:width><ipxact:register><ipxact:name>ID</ipxact:name>"
+        "<ipxact:addressOffset>'h4</ipxact:addressOffset><ipxact:size>32</ipxact:size></ipxact:register>"
+        "</ipxact:addressBlock></ipxact:memoryMap></ipxact:memoryMaps></ipxact:component>",
     "drivers/include/toy/toy.hpp": "",
     "openmb4-toy.core": "CAPI=2:\nname: openmb4:ip:toy:VERSION\n",
 }
@@ -159,30 +195,64 @@ def run(folder, *command):
     return done.returncode, done.stdout + done.stderr
 
 
-# Prints what the checks that import this know of the toy; run in the copy.
+# Prints what the checks that import this know of the toy, and what they say of it; run in the copy.
 LISTS = """
-import sys
-sys.path[:0] = ["tools", "tools/synth", "tests/lint"]
+import shutil, sys
+from pathlib import Path
+sys.path[:0] = ["tools", "tools/synth", "tests/lint", "tests/package", "tests/mutation"]
 sys.argv = ["x", "--self-test"]
-import project, plain_verilog, ipxact, constraints, vhdl, set_version
+import project, plain_verilog, ipxact, constraints, vhdl, vivado_ip, set_version, mutate, ipxact_test, vhdl_test
 modules = project.rtl_modules()
 def tell(what, known):
     print(what, "has the toy" if known else "LACKS THE TOY")
+def right(what, findings):
+    print(what, f"LACKS THE TOY: {findings}" if findings else "has the toy")
 tell("netlist, every module", "toy_bus" in modules)
 tell("port widths", any(path.stem == "toy_regs_pkg" for path in project.rtl_packages()))
 tell("proofs", any("toy_bus" == path.stem for path in project.all_rtl_files()))
 tell("gates", "toy_gates" in project.all_of("gates"))
-tell("plain Verilog", "toy_bus" in plain_verilog.TOPS)
-tell("IP-XACT", "toy_bus" in ipxact.TOPS)
-tell("constraints", ("full", "toy_bus") in [core[:2] for core in constraints.cores()])
-tell("VHDL", any(path.name == "toy_bus_example.vhd" for path in vhdl.plain_texts(project.MASTERS["toy"])))
 tell("set_version", "openmb4-toy.core" in set_version.VERSION_COPIES)
-sys.path.insert(0, "tests/mutation")
-import mutate
 codes = {module: mutate.blank_comments(path.read_text()) for module, path in modules.items()}
-design = project.all_of("measured")["toy_run"]
-tell("mutants", {row[0] for row in mutate.pool_of(design, codes)} == {"toy_bus"})
+design = project.design("toy_run")
+tell("mutants", {row[0] for row in mutate.pool_of(design, codes)} <= {"toy_bus", "toy_ip"})
 tell("coverage", design.counts(modules["toy_bus"]))
+
+out = Path("made")
+out.mkdir()
+bus, ip = (project.tops("buses")[name] for name in ("toy_bus", "toy_ip"))
+for path, text in {**vhdl.plain_texts(project.MASTERS["toy"]), **vhdl.generic_texts(ip)}.items():
+    path.parent.mkdir(exist_ok=True)
+    path.write_text(text, encoding="utf-8")
+tell("VHDL", Path("rtl/toy/vhdl/toy_bus_example.vhd").exists() and Path("rtl/toy/vhdl/toy_ip_component.vhd").exists())
+for top in (bus, ip):
+    (out / f"{top.name}.xml").write_text(ipxact.text(top.name), encoding="utf-8")
+    right(f"IP-XACT of {top.name}", ipxact_test.ipxact_wrong(top, out, None))
+vivado_ip.write(ip, out / "vivado")
+right("Vivado", ipxact_test.vivado_wrong(ip, out / "vivado", None, out))
+for name in ("ghdl", "iverilog", "yosys"):
+    if shutil.which(name) is None:
+        print(f"left out: VHDL and constraints of the toy: {name} is not installed")
+        break
+else:
+    right("plain Verilog", vhdl_test.plain_findings("toy_bus", out.resolve()))
+    right("VHDL with generics", vhdl_test.generic_findings(ip, out.resolve()))
+    table = constraints.tables()
+    netlists = {core[:2]: constraints.Netlist("toy_bus", constraints.netlist("toy_bus", core[2], out.resolve() / "netlist"))
+                for core in constraints.cores() if core[1] == "toy_bus"}
+    made = constraints.files(table, netlists)
+    tell("constraints", len(made) == 3)
+    right("crossings", constraints.table_findings(table, netlists["full", "toy_bus"]) + [
+        finding for path, (tool, netlist, text) in made.items()
+        for finding in constraints.file_findings(path, tool, text, netlist, table)])
+    tell("a crossing without its line", all(
+        constraints.file_findings(path, tool, text.replace("set_false_path", "#"), netlist, table)
+        for path, (tool, netlist, text) in made.items()))
+# A bus whose ports the module does not have.
+bus.buses[0].prefix = "bus_"
+wrong = ipxact_test.findings(bus, ipxact.text("toy_bus").replace(">wb_", ">bus_"), Path("ipxact").resolve(),
+                             ipxact_test.ports_outside(bus, out))
+tell("a port that does not exist", any("the module has no port bus_clk_i" in one for one in wrong))
+print("all asked")
 """
 # The CMake files of the rooms that ask for masters, with their functions replaced: what they would make.
 CMAKE = """
@@ -219,11 +289,12 @@ def toy():
         with (folder / "masters.toml").open("a", encoding="utf-8") as file:
             file.write(TOY)
         wanted = {
-            (sys.executable, "-B", "-c", LISTS): r"\A(?:(?!LACKS)[\s\S])*set_version has the toy(?:(?!LACKS)[\s\S])*\Z",
+            (sys.executable, "-B", "-c", LISTS): r"\A(?:(?!LACKS)[\s\S])*set_version has the toy(?:(?!LACKS)[\s\S])*all asked\n\Z",
             tuple(lint): r"(?m)^toy_bus$",
+            (sys.executable, "-B", "tests/lint/check_masters.py"): r"(?m)^toy: block: .*\[\[block\]\] with room = \"toy\"$",
             (sys.executable, "-B", "tools/masters.py", "--master", "toy"): r"toy: gates: toy_gates\n",
             (sys.executable, "-B", "tests/package/check_core.py", "names"): r"openmb4-toy.core: toy\n",
-            ("cmake", "-P", "toy.cmake"): r"toy SWITCH MB4_TOY\ntoy TOPS toy_bus\ntoy ICE40 toy_bus\ntoy GATES toy_gates\n"
+            ("cmake", "-P", "toy.cmake"): r"toy SWITCH MB4_TOY\ntoy TOPS toy_bus;toy_ip\ntoy ICE40 toy_bus\ntoy GATES toy_gates\n"
                                           r"toy MEASURED toy_run\n",
             (sys.executable, "-B", "tests/mutation/run_mutants.py", "--master", "toy"): r"mutant_toy_run_toy_test is missing",
         }

@@ -141,6 +141,23 @@ def wrong_modules(text):
     yield "width", re.sub(rf"^(  (?:input|wire) ){re.escape(vector)}({name};)$", rf"\g<1>{wider}\2", text, flags=re.M)
 
 
+def plain_findings(top, folder):
+    """What is wrong with the VHDL of a plain top, and with its planted faults."""
+    example = instance(top, folder)
+    module = plain_verilog.write(top, folder)
+    findings = [f"{top}, {tool}: {text}" for tool, text in elaborate(top, [example, module], folder).items() if text]
+    # A port with another name must be found, and one of another width.
+    good = module.read_text(encoding="utf-8")
+    for what, text in wrong_modules(good):
+        wrong = folder / f"{top}_{what}.v"
+        if text == good:
+            findings.append(f"{top}: there is no other {what} to plant")
+        wrong.write_text(text, encoding="utf-8")
+        findings += [f"{top}: {tool} does not notice the other {what} of a port"
+                     for tool, said in elaborate(top, [example, wrong], folder).items() if not said]
+    return findings
+
+
 def main():
     parser = project.Arguments(__doc__)
     parser.add_argument("folder", type=parser.folder)
@@ -154,21 +171,7 @@ def main():
     for top in GENERIC.values():
         findings += generic_findings(top, folder)
     for top in plain_verilog.TOPS:
-        example = instance(top, folder)
-        module = plain_verilog.write(top, folder)
-        for tool, text in elaborate(top, [example, module], folder).items():
-            if text:
-                findings.append(f"{top}, {tool}: {text}")
-        # A port with another name must be found, and one of another width.
-        good = module.read_text(encoding="utf-8")
-        for what, text in wrong_modules(good):
-            wrong = folder / f"{top}_{what}.v"
-            if text == good:
-                findings.append(f"{top}: there is no other {what} to plant")
-            wrong.write_text(text, encoding="utf-8")
-            for tool, said in elaborate(top, [example, wrong], folder).items():
-                if not said:
-                    findings.append(f"{top}: {tool} does not notice the other {what} of a port")
+        findings += plain_findings(top, folder)
     project.finish(findings, f"{', '.join([*plain_verilog.TOPS, *GENERIC])} fit, wrong ports are noticed")
 
 

@@ -170,8 +170,9 @@ class Netlist:
                 yield source, clock, receiver
 
 
-def asynchronous_ports(table):
-    return {name for line in table if "none" not in line for name in line["from"] if name.startswith("port:")}
+def asynchronous_ports(top, table):
+    """Those of a top: a port of this name at another top may be one of its host's interface."""
+    return {name for line in lines_of(top, table) for name in line["from"] if name.startswith("port:")}
 
 
 def present(line, netlist):
@@ -258,7 +259,7 @@ def file_findings(name, tool, text, netlist, table):
                     findings.append(f"{name}: there is no register {pattern}")
         if re.match(r"set_(false_path|max_delay) ", command) and " -hold " not in command:
             lines.append(things)
-    for source, clock, receiver in netlist.crossings(asynchronous_ports(table)):
+    for source, clock, receiver in netlist.crossings(asynchronous_ports(netlist.top, table)):
         number = sum(fits(tool, start, None, source) and fits(tool, end, clock, receiver) for start, end in lines)
         if number != 1:
             findings.append(f"{name}: {source} to {receiver} ({clock}) has {number} lines")

@@ -58,9 +58,7 @@ end architecture;
 """
 
 GENERIC_COMPONENT = HEAD + """-- {top} as a VHDL component, made by tools/synth/vhdl.py: do not edit. The module behind it is
--- {source}, for tools that read both languages. A default cannot follow another generic
--- here: with other parameters set {derived} too, to what the formula
--- beside each of them gives. Another width stops the elaboration, and the error names the right one.
+-- {source}, for tools that read both languages.{derived}
 -- Clock, reset and misuse: the header of {source}.
 
 library ieee;
@@ -79,6 +77,9 @@ package {top}_component is
 
 end package;
 """
+DERIVED = """ A default cannot follow another generic
+-- here: with other parameters set {names} too, to what the formula
+-- beside each of them gives. Another width stops the elaboration, and the error names the right one."""
 GENERIC_EXAMPLE = HEAD + """-- An instance of {top} to copy, made by tools/synth/vhdl.py: do not edit. The entity only
 -- passes the ports on.
 
@@ -152,7 +153,7 @@ def generic_texts(top):
     chosen = ",\n".join(f"      {name} => {value}" for name, value in values.items())
     folder = top.source.parent / "vhdl"
     return {folder / f"{top.name}_component.vhd": GENERIC_COMPONENT.format(
-                top=top.name, source=top.source.relative_to(project.ROOT), derived=" and ".join(derived),
+                top=top.name, source=top.source.relative_to(project.ROOT), derived=DERIVED.format(names=" and ".join(derived)) if derived else "",
                 generics="\n".join(rows), ports=lines(names, {}, " " * 6)),
             folder / f"{top.name}_example.vhd": GENERIC_EXAMPLE.format(
                 top=top.name, generics=f"    generic map (\n{chosen}\n    )\n" if chosen else "",
