@@ -78,6 +78,28 @@ TEST(DslLink, From0To100Metres_LinksAtOnce_Published) { link_up(SampleRule::kPub
 TEST(DslLink, From0To100Metres_LinksAtOnce_FirstZero) { link_up(SampleRule::kFirstZero); }
 TEST(DslLink, From0To100Metres_LinksAtOnce_Tracking) { link_up(SampleRule::kTracking); }
 
+// F7: cables that the published receiver links, by the latency of the encoder; without a gap.
+TEST(DslLink, PublishedReceiver_LinksTheKnownLengths) {
+  struct {
+    double latency_ns;
+    int from, to;  // m
+  } constexpr kRanges[] = {{95, 0, 101}, {0, 1, 110}, {2 * 320.0 / 3, 0, 90}};
+  for (const auto& [latency, from, to] : kRanges) {
+    for (int metres = 0; metres <= 112; ++metres) {
+      // Without any delay the first edge falls on an edge of the clock: either is right.
+      if (latency == 0 && metres == 0) continue;
+      BenchSetup setup;
+      setup.rules.sample = SampleRule::kPublished;
+      setup.encoder.latency = from_ns(latency);
+      setup.metres(metres);
+      Bench bench(setup);
+      bench.may_collide = metres > to;
+      const bool links = bench.run_frames(1, 1500 * kPsPerUs) && bench.link().restarts() == 0;
+      EXPECT_EQ(links, metres >= from && metres <= to) << latency << " ns " << metres << " m";
+    }
+  }
+}
+
 // Restarts without end, and nothing that a user could take for a position.
 void no_link(BenchSetup setup, LineAction action, const std::string& what) {
   for (const SampleRule rule : kRules) {
