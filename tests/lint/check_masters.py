@@ -1,9 +1,10 @@
 #!/usr/bin/env python3
 # SPDX-FileCopyrightText: 2026 The openmb4 authors
 # SPDX-License-Identifier: Apache-2.0
-"""Each master of masters.toml that has RTL also has what its entry alone cannot give: a block on the sign-off page, a netlist
-that is compared with the RTL, measured tests, and the keys that its tops call for. The page asks for the nightly runs of
-each measured design and for each proof. A row says what a master lacks, and why.
+"""Each master of masters.toml also has what its entry alone cannot give. One with RTL: a block on the sign-off page, a
+netlist that is compared with the RTL, measured tests, and the keys that its tops call for. The page asks for the nightly
+runs of each measured design and for each proof. One that the simulator has: its lines in the lists of masters. A row says
+what a master lacks, and why.
 
   check_masters.py               the masters, tools/signoff/items.toml, tests/formal/, tests/netlist/stimulus.py
   check_masters.py --self-test   planted faults are reported
@@ -11,6 +12,7 @@ each measured design and for each proof. A row says what a master lacks, and why
 
 import copy
 import fnmatch
+import re
 import sys
 import tomllib
 from pathlib import Path
@@ -25,6 +27,7 @@ import stimulus  # noqa: E402
 import sv_widths  # noqa: E402
 
 ITEMS = "tools/signoff/items.toml"
+SIMULATOR, COMMANDS = "sim/masters/masters.cpp", "tools/mb4sim/masters/support.cpp"
 # (master, what it lacks): why. A row that is not needed is a finding.
 WAIVED = {
     ("clb", "block"): "its items and goals are not written yet",
@@ -45,6 +48,23 @@ def bus_of(top):
     packages = sv_widths.read_packages(project.rtl_packages())
     ports = sv_widths.module_ports(top.source, packages, {name: 2 for name in sv_widths.module_parameters(top.source)})
     return next((port for port in ports if port.lower().endswith(("awvalid", "_cyc_i"))), None)
+
+
+def lists():
+    """{list of masters in C++: its text}"""
+    return {name: (ROOT / name).read_text(encoding="utf-8") for name in (SIMULATOR, COMMANDS)}
+
+
+def simulated(master, texts):
+    """The finding about a master of the simulator that a list of masters does not have, or None."""
+    folder = f"sim/masters/{master.name}/"
+    if not (ROOT / folder).is_dir():
+        return None
+    wanted = [(SIMULATOR, f'#include "{folder}'), (COMMANDS, f'#include "masters/{master.name}/')]
+    if master.switch:
+        guard = f"MB4SIM_WITH_{re.sub('[^A-Za-z0-9]', '_', master.name).upper()}"
+        wanted += [(SIMULATOR, guard), (SIMULATOR, f"-D{master.switch}=ON"), (COMMANDS, guard)]
+    return next((f"{name} has no {text}" for name, text in wanted if text not in texts[name]), None)
 
 
 def unasked(items, names):
@@ -87,11 +107,14 @@ def lacks(master, table, compared, proofs):
     return found
 
 
-def findings(masters, table, compared, proofs, waived):
-    """`proofs` is {proof: modules in it}."""
+def findings(masters, table, compared, proofs, waived, texts):
+    """`proofs` is {proof: modules in it}, `texts` is that of lists()."""
     found, needed = [], set()
     for name, master in masters.items():
-        for what, text in (lacks(master, table, compared, proofs) if master.list else {}).items():
+        missing = lacks(master, table, compared, proofs) if master.list else {}
+        if simulated(master, texts):
+            missing["simulated"] = simulated(master, texts)
+        for what, text in missing.items():
             needed.add((name, what))
             if (name, what) not in waived:
                 found.append(f"{name}: {what}: {text}")
@@ -106,8 +129,8 @@ def self_test(masters, table, compared, proofs):
     """The planted faults that make no finding."""
     missed = []
 
-    def expect(text, masters=masters, table=table, proofs=proofs, waived=WAIVED):
-        said = findings(masters, table, compared, proofs, waived)
+    def expect(text, masters=masters, table=table, proofs=proofs, waived=WAIVED, texts=lists()):
+        said = findings(masters, table, compared, proofs, waived, texts)
         if not any(text in one for one in said):
             missed.append(f"not reported: {text}: {said}")
 
@@ -124,6 +147,9 @@ def self_test(masters, table, compared, proofs):
     bare["axi"].tops["biss_axi"].buses, bare["axi"].tops["biss_axi"].generics = [], None
     for what in ("netlist", "measured", "buses", "release"):
         expect(f"axi: {what}: ", masters=bare)
+    for file, text in ((SIMULATOR, '#include "sim/masters/axi/'), (SIMULATOR, "-DMB4_AXI=ON"),
+                       (COMMANDS, '#include "masters/axi/'), (COMMANDS, "MB4SIM_WITH_AXI")):
+        expect(f"axi: simulated: {file} has no {text}", texts={**lists(), file: lists()[file].replace(text, "x")})
     expect("mb4: block: is there", waived={**WAIVED, ("mb4", "block"): "planted"})
     return missed
 
@@ -138,8 +164,8 @@ def main():
         project.finish(self_test(masters, table, stimulus.MODULES, proofs), "each planted fault is reported")
     for (master, what), why in WAIVED.items():
         print(f"left out: {master}: {what}: {why}")
-    project.finish(findings(masters, table, stimulus.MODULES, proofs, WAIVED),
-                   f"{sum(master.list is not None for master in masters.values())} masters with RTL, {len(proofs)} proofs, "
+    project.finish(findings(masters, table, stimulus.MODULES, proofs, WAIVED, lists()),
+                   f"{len(masters)} masters, {sum(master.list is not None for master in masters.values())} with RTL, {len(proofs)} proofs, "
                    f"{len(WAIVED)} rows")
 
 
