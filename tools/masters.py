@@ -278,6 +278,9 @@ class Master:
         generics = top.generics
         for key, names in (("limits", generics.limits), ("example", generics.example), ("derived", generics.formulas)):
             self.check_parameters(path, names, lambda name, what, key=key: wrong(f"generics.{key}.{name}", what))
+        for follower, formula in generics.formulas.items():
+            self.check_parameters(path, re.findall(r"\{(\w+)\}", formula), lambda name, what, follower=follower: wrong(
+                f"generics.derived.{follower}.xpath", f"{{{name}}}: {what}"))
         for name, (kind, *_) in widths().module_parameters(path).items():
             if kind == "int unsigned" and name not in generics.limits and name not in generics.formulas:
                 wrong(f"generics.limits.{name}", "is missing: each int unsigned parameter has limits, or follows others")

@@ -81,6 +81,9 @@ WRONG = (
      "toy: tops.toy.generics.limits.NONE: toy.sv has no such parameter"),
     ('[toy]\nwhat = "a"\nlist = "toy.f"\nmaps = ["a"]\ntops.toy = {buses = [{name = "bus", kind = "wishbone", prefix = "wb_"}], generics = {limits = {WIDTH = [1, 8]}, example = {NONE = 1}}}\n',
      "toy: tops.toy.generics.example.NONE: toy.sv has no such parameter"),
+    ('[toy]\nwhat = "a"\nlist = "toy.f"\nmaps = ["a"]\n[toy.tops.toy]\nbuses = [{name = "bus", kind = "wishbone", prefix = "wb_"}]\n'
+     '[toy.tops.toy.generics.derived.WIDTH]\ndefault = 1\nxpath = "{NONE} + 1"\n',
+     "toy: tops.toy.generics.derived.WIDTH.xpath: {NONE}: toy.sv has no such parameter"),
     ('[Toy]\nwhat = "a"\n', "Toy: a name begins with a small letter"),
     ('toy = 1\n', "toy: is no table"),
     ('[toy]\nwhat = \n', "Invalid value (at line 2, column 8)"),
