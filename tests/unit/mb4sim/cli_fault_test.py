@@ -96,7 +96,11 @@ class Faults(CliTest):
         self.assertGreater(len(report["faults"]), 50)
         fates = {fault["fate"] for fault in report["faults"]}
         self.assertIn("detected", fates)
-        self.assertNotIn("missed", fates)
+        # The driver promises nothing where two transfers of one read are disturbed: it takes 45 us.
+        times = [fault["time_us"] for fault in report["faults"]]
+        for fault in report["faults"]:
+            alone = not any(0 < abs(time - fault["time_us"]) < 45 for time in times)
+            self.assertFalse(alone and fault["fate"] == "missed", fault)
         report, _ = self.report("kind = \"abort\"\nafter_clocks = 9\nat_us = [300, 600]", 60)
         self.assertEqual([fault["what"] for fault in report["faults"]],
                          ["next SPI frame ends behind 9 clocks or before its last"] * 2)
