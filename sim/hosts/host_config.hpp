@@ -47,6 +47,9 @@ struct HostConfig {
   bool serial() const { return !interface.parallel && !interface.words; }
   // MA frequency that `mb4sim run` sets up. The master can always make it.
   std::uint64_t ma_hz = 10'000'000;
+  // Time from the begin of a frame to that of the next one in `mb4sim run`, ps. 0: the next one
+  // begins when the host has read the one before.
+  Time frame = 0;
   // For a line that has to be trained: how long the host waits for it, ps.
   Time link_wait = 100'000 * kPsPerUs;
   TableSource source;

@@ -15,6 +15,7 @@ constexpr std::int64_t kMinCycleNs = 60;         // 15 + 15 + 15 + 15 ns of a wr
 constexpr std::int64_t kMaxCycleNs = 1'000'000;
 constexpr std::int64_t kMinBusHz = 1'000;
 constexpr std::int64_t kMaxBusHz = 500'000'000;
+constexpr double kMaxFrameUs = 1e6;
 
 }  // namespace
 
@@ -47,6 +48,10 @@ void read_word_keys(TomlReader& reader, std::uint64_t clk_hz, HostConfig& host) 
   if (const auto hz = reader.integer("bus_hz", kMinBusHz, kMaxBusHz)) {
     host.bus_hz = static_cast<std::uint64_t>(*hz);
   }
+}
+
+void read_frame_key(TomlReader& reader, HostConfig& host) {
+  if (const auto us = reader.number("frame_us", 0.001, kMaxFrameUs)) host.frame = from_us(*us);
 }
 
 }  // namespace mb4::sim

@@ -22,6 +22,8 @@ void read_spi_keys(TomlReader& reader, HostConfig& host);
 void read_parallel_keys(TomlReader& reader, HostConfig& host);
 // Those of a bus of words, whose clock is `clk_hz` without a key.
 void read_word_keys(TomlReader& reader, std::uint64_t clk_hz, HostConfig& host);
+// frame_us, for a master whose frames the host starts one by one.
+void read_frame_key(TomlReader& reader, HostConfig& host);
 
 }  // namespace mb4::sim
 

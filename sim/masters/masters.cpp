@@ -4,6 +4,9 @@
 #include <vector>
 
 #include "sim/masters/axi/axi_master.hpp"
+#if MB4SIM_WITH_CLB
+#include "sim/masters/clb/clb_master.hpp"
+#endif
 #if MB4SIM_WITH_DSL_MODEL
 #include "sim/masters/dsl_model/dsl_master.hpp"
 #endif
@@ -17,6 +20,9 @@ constexpr const Master* kMasters[] = {
     &kMb4Master,
 #if MB4SIM_WITH_AXI
     &kAxiMaster,
+#endif
+#if MB4SIM_WITH_CLB
+    &kClbMaster,
 #endif
 #if MB4SIM_WITH_DSL_MODEL
     &kDslModelMaster,
@@ -37,6 +43,7 @@ std::span<const LeftOut> masters_left_out() {
   static const std::vector<LeftOut> all = [] {
     std::vector<LeftOut> missing;
     if (!MB4SIM_WITH_AXI) missing.push_back({"axi", "-DMB4_AXI=ON"});
+    if (!MB4SIM_WITH_CLB) missing.push_back({"clb", "-DMB4_CLB=ON"});
     if (!MB4SIM_WITH_DSL_MODEL) missing.push_back({"dsl-model", "-DMB4_DSL=ON"});
     return missing;
   }();

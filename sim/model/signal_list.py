@@ -39,6 +39,12 @@ def variables(header):
     return found
 
 
+def literal(text):
+    """The value of 3'd5 or 2'b10, or None."""
+    match = re.fullmatch(r"\s*(?:\d+'([bd]))?(\d+)\s*", text)
+    return int(match[2], 2 if match[1] == "b" else 10) if match else None
+
+
 class Sources:
     """Instances, enums and packed structs of the RTL."""
 
@@ -51,15 +57,17 @@ class Sources:
             text = plain(Path(path).read_text(encoding="utf-8"))
             name = Path(path).stem
             for body, kind in re.findall(r"typedef struct packed \{([^}]*)\}\s*(\w+);", text):
-                members = [(member, 1 + int(high or 0)) for high, member in
-                           re.findall(r"logic\s*(?:\[(\d+):0\])?\s*(\w+);", body)]
-                if len(members) == body.count(";"):
+                members, whole = [], 0
+                for high, inner, member in re.findall(r"(?:logic\s*(?:\[(\d+):0\])?|(\w+_t))\s*(\w+);", body):
+                    parts = self.structs.get(f"{name}::{inner}", []) if inner else [("", 1 + int(high or 0))]
+                    members += [(f"{member}.{part}" if part else member, width) for part, width in parts]
+                    whole += bool(parts)
+                if whole == body.count(";"):
                     self.structs[f"{name}::{kind}"] = members
             for body, kind in re.findall(r"typedef enum logic[^{]*\{([^}]*)\}\s*(\w+);", text):
                 items = [item.split("=") for item in body.split(",")]
                 # Values in order from 0 on, or written as such.
-                if all(len(item) == 1 or re.sub(r"\d+'d", "", item[1]).strip() == str(number)
-                       for number, item in enumerate(items)):
+                if all(len(item) == 1 or literal(item[1]) == number for number, item in enumerate(items)):
                     self.enums[name, kind] = [item[0].strip() for item in items]
             for kind, instance in re.findall(
                     r"\b(\w+)\s+(?:#\s*\((?:[^()]|\((?:[^()]|\([^()]*\))*\))*\)\s*)?(u_\w+)\s*\(",

@@ -3,7 +3,9 @@
 // The models of biss_axi, made of iCE40 netlists with four channels: takes the place of
 // sim/masters/axi/axi_model.cpp.
 #include <Vaxi_4_gate.h>
+#include <Vaxi_4_gate___024root.h>
 #include <Vaxi_full_4_gate.h>
+#include <Vaxi_full_4_gate___024root.h>
 
 #include <stdexcept>
 
@@ -13,6 +15,7 @@ namespace mb4::sim {
 namespace {
 
 struct Inside {
+  using Counts = NoCounts;
   template <typename Model>
   static unsigned frame(const Model& model) {
     return model.frame_q;
@@ -25,7 +28,7 @@ struct Inside {
 
 template <typename Model>
 std::unique_ptr<AxiModel> make(const ChipConfig& chip, std::uint64_t seed) {
-  return std::make_unique<VerilatedAxi<Model, 4, AxiWholeSteps<Model>, Inside>>(chip, seed);
+  return std::make_unique<VerilatedAxi<Model, 4, AxiWholeSteps<Model>, Inside>>(chip, seed, true);
 }
 
 }  // namespace

@@ -117,6 +117,7 @@ MAY_USE = {
                      "tools/mb4sim/commands/spi_command.cpp",
                      "tools/mb4sim/commands/spidev_command.cpp", "tools/python/native/")},
     "examples/": ("sim/", *DRIVER),
+    "examples/clb/": ("sim/", "drivers/include/pm_bissc_include.h"),
     "rtl/common/": (),
     "rtl/biss/": ("rtl/common/",),
     "rtl/mb4/mb4_pkg": (),

@@ -79,6 +79,13 @@ std::string Session::access(const ControlRequest& /*request*/) {
   return "the master cannot access registers of slaves";
 }
 
+void Session::wait_for_begin() {
+  const sim::Time frame = simulator_.scenario().host.frame;
+  if (frame == 0) return;
+  if (next_begin_ > simulator_.now()) simulator_.run_until(next_begin_);
+  next_begin_ = simulator_.now() + frame;
+}
+
 RunSummary Session::summary() const {
   return {simulator_.now(), simulator_.clk_cycles(), simulator_.seed()};
 }

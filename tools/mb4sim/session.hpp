@@ -158,6 +158,9 @@ class Session {
   std::string take_bus_log() { return std::exchange(bus_log_, {}); }
 
  protected:
+  // Lets time pass up to the begin of the next frame, as [host] frame_us asks. A frame that was
+  // longer is followed at once.
+  void wait_for_begin();
   // Null unless the bus is to be logged.
   std::string* log() { return logged_ ? &bus_log_ : nullptr; }
 
@@ -167,6 +170,7 @@ class Session {
  private:
   std::string bus_log_;
   bool logged_;
+  sim::Time next_begin_ = 0;
 };
 
 // What `sweep` tries beside delay and jitter: the codes of the frequency of the line's clock in the

@@ -3,11 +3,11 @@
 # SPDX-License-Identifier: Apache-2.0
 """Synthesis for iCE40 (placed, routed, packed), ECP5 and Xilinx 7 (area): docs/resources.md.
 
-  report.py FOLDER [--check|--mb4|--axi|--presets]
+  report.py FOLDER [--check|--mb4|--axi|--clb|--presets]
                                writes docs/resources.md; FOLDER is for what the tools leave.
                                --check: no file, but fails if mb4_core does not reach MIN_MHZ on
-                               the HX8K with one seed. --axi: only the part about biss_axi anew;
-                               --mb4: all but that part; --presets: only the part about presets
+                               the HX8K with one seed. --axi, --clb: only the part about that master anew;
+                               --mb4: all but these parts; --presets: only the part about presets
 """
 
 import json
@@ -43,6 +43,8 @@ AXI_LARGE = 16  # takes long: one seed, and iCE40 only
 def files(top):
     if top.startswith("biss_axi"):
         return project.rtl_files("axi") + [HERE / "tops" / "biss_axi_narrow.sv"]
+    if top == "biss_clb":
+        return project.rtl_files("clb")
     return project.rtl_files() + [HERE / "tops" / "mb4_parallel.sv"]
 
 
@@ -187,7 +189,30 @@ def axi(folder):
     return lines
 
 
-def page(folder, axi_lines):
+CLB_HEAD = "## biss_clb"
+
+
+def clb(folder):
+    """The part of the page about biss_clb."""
+    lines = [CLB_HEAD, "", "[`biss_clb`](clb.md) with its page of identity, interrupt and time.", "",
+             "| LUT4 | flops | block RAM | HX8K clk_i / MHz | ECP5 LUT | ECP5 flops | Xilinx 7 LUT | Xilinx 7 flops |",
+             "|---|---|---|---|---|---|---|---|"]
+    place = folder / "clb"
+    stat = synthesise("synth_ice40", "biss_clb", place / "ice40", "-json top.json")
+    cells = stat["design"]["num_cells_by_type"]
+    row = [cells.get("SB_LUT4", 0), count(cells, "^SB_DFF"), count(cells, "^SB_RAM40"),
+           mhz([route("biss_clb", place / "ice40", "HX8K", seed) for seed in SEEDS], "core")]
+    for family, (command, lut, flop, _, _) in FAMILIES.items():
+        stat = synthesise(command, "biss_clb", place / family.replace(" ", "_"), "-flatten" if "xilinx" in command else "")
+        cells = stat["design"]["num_cells_by_type"]
+        row += [count(cells, lut), count(cells, flop)]
+    lines.append("| " + " | ".join(map(str, row)) + " |")
+    print(lines[-1], flush=True)
+    return lines
+
+
+def page(folder, siblings):
+    """`siblings`: the parts about the other masters."""
     lines = ["<!--", "SPDX-FileCopyrightText: 2026 The openmb4 authors",
              "SPDX-License-Identifier: Apache-2.0", "-->", "", "# Resources", "",
              "For FPGA engineers. After this page you know how much of a device each top takes, and "
@@ -218,7 +243,7 @@ def page(folder, axi_lines):
             lines.append(f"| `{top}` | {family} | {count(cells, lut)} | {count(cells, flop)} | "
                          f"{count(cells, ram)} | {cells.get(carry, 0)} |")
             print(lines[-1], flush=True)
-    lines += ["", *axi_lines, "", "## What takes the space", "",
+    lines += ["", *siblings, "", "## What takes the space", "",
               "`mb4_core` on iCE40, by the names of the cells after optimisation: a LUT that serves "
               "two modules counts for the one that names it.", "",
               "| instance | LUT4 | flops | block RAM |", "|---|---|---|---|"]
@@ -240,6 +265,7 @@ def main():
     parser.add_argument("folder", type=parser.folder)
     parser.add_argument("--check", action="store_true")
     parser.add_argument("--axi", action="store_true")
+    parser.add_argument("--clb", action="store_true")
     parser.add_argument("--mb4", action="store_true")
     parser.add_argument("--presets", action="store_true")
     arguments = parser.parse_args()
@@ -259,11 +285,13 @@ def main():
         text = with_part(text, presets(folder))
     elif arguments.axi:
         text = with_part(text, axi(folder))
+    elif arguments.clb:
+        text = with_part(text, clb(folder))
     elif arguments.mb4:
         after = text.partition(f"{AXI_HEAD}\n")[2]
-        text = page(folder, [AXI_HEAD, *after[:after.index("\n## ")].splitlines()])
+        text = page(folder, [AXI_HEAD, *after[:after.index("\n## What takes")].splitlines()])
     else:
-        text = page(folder, axi(folder))
+        text = page(folder, [*axi(folder), "", *clb(folder)])
     path.write_text(text, encoding="utf-8")
 
 

@@ -332,7 +332,7 @@ class Device {
     const std::uint32_t sample =
         config.start == Start::kInternalClock
             ? divider(config.f_clk_hz, config.sample_hz, regs::SAMPLE_DIVIDER::kMax)
-            : 0;
+            : regs::SAMPLE_DIVIDER::kMax;  // it starts nothing, and changes its pin seldom
     const std::uint32_t ma = divider(config.f_clk_hz, config.ma_hz, regs::MA_DIVIDER::kMax);
     const bool done =
         write(regs::kAddrSoftReset, 1) && write(regs::kAddrMode, 1) &&

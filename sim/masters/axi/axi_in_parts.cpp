@@ -36,6 +36,7 @@ struct Edge1 {
     axi_1::follow_slo(root, kept);
     axi_1::slo_has_changed(kept);
   }
+  static void time(Kept& kept) { axi_1::time_has_changed(kept); }
 };
 using Steps1 = AxiPartSteps<Vaxi_1, Edge1>;
 #else
@@ -50,6 +51,7 @@ struct Edge4 {
     axi_4::follow_slo(root, kept);
     axi_4::slo_has_changed(kept);
   }
+  static void time(Kept& kept) { axi_4::time_has_changed(kept); }
 };
 using Steps4 = AxiPartSteps<Vaxi_4, Edge4>;
 #else
@@ -61,9 +63,9 @@ using Steps4 = AxiWholeSteps<Vaxi_4>;
 std::unique_ptr<AxiModel> make_axi_in_parts(const ChipConfig& chip, unsigned channels,
                                             std::uint64_t seed) {
   if (channels <= 1) {
-    return std::make_unique<VerilatedAxi<Vaxi_1, 1, Steps1, InsideAxi>>(chip, seed);
+    return std::make_unique<VerilatedAxi<Vaxi_1, 1, Steps1, InsideAxi>>(chip, seed, false);
   }
-  return std::make_unique<VerilatedAxi<Vaxi_4, 4, Steps4, InsideAxi>>(chip, seed);
+  return std::make_unique<VerilatedAxi<Vaxi_4, 4, Steps4, InsideAxi>>(chip, seed, false);
 }
 
 }  // namespace mb4::sim

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "sim/core/toml_reader.hpp"
+#include "sim/hosts/host_keys.hpp"
 #include "sim/lines/clocked/clocked_lines.hpp"
 #include "sim/masters/axi/live_axi.hpp"
 #include "sim/masters/axi/wave_groups.hpp"
@@ -48,6 +49,7 @@ void read_host(TomlReader& reader, const ChipConfig& chip, HostConfig& host) {
   const std::uint64_t clk = chip.f_clk_hz;
   const std::uint64_t half = (clk + 2 * kAxiMaxMaHz - 1) / (2 * kAxiMaxMaHz);
   host.ma_hz = clk == 0 ? kAxiMaxMaHz : clk / (2 * (half == 0 ? 1 : half));
+  read_frame_key(reader, host);
   const auto hz = reader.integer("ma_hz", 1, kMaxClkHz);
   if (!hz) return;
   host.ma_hz = static_cast<std::uint64_t>(*hz);

@@ -64,6 +64,7 @@ class AxiModel : public MasterModel {
     access_ = access;
     access_.done = false;
     fresh_ = true;
+    begun();
   }
   const WordAccess& access() const { return access_; }
   // Ends an access that has no answer: takes the valids back. If the master has taken it, its late
@@ -77,6 +78,9 @@ class AxiModel : public MasterModel {
   std::uint64_t beats_dropped() const { return beats_dropped_; }
 
  protected:
+  // An access waits for the next edge.
+  virtual void begun() = 0;
+
   static constexpr std::size_t kMostBeats = 65'536;
 
   WordAccess access_;

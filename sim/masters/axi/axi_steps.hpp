@@ -18,6 +18,8 @@ class AxiWholeSteps {
   void inputs(Model& model) { model.eval(); }
   // SLO has changed, and no other input.
   void slo(Model& /*model*/) {}
+  // The count of the sample clock has been set forward.
+  void time_passed() {}
   void rise(Model& model) {
     model.clk_i = 1;
     model.eval();
@@ -38,6 +40,7 @@ class AxiPartSteps {
     kept_.all(*model.rootp);
   }
   void slo(Model& model) { Edge::slo(model.rootp, kept_); }
+  void time_passed() { Edge::time(kept_); }
   void rise(Model& model) {
     model.clk_i = 1;
     Edge::rise(model.rootp, kept_);

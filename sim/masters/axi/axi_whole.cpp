@@ -26,27 +26,27 @@ namespace mb4::sim {
 namespace {
 
 template <typename Model, unsigned kChannels>
-std::unique_ptr<AxiModel> make(const ChipConfig& chip, std::uint64_t seed) {
-  return std::make_unique<VerilatedAxi<Model, kChannels, AxiWholeSteps<Model>, InsideAxi>>(chip,
-                                                                                           seed);
+std::unique_ptr<AxiModel> make(const ChipConfig& chip, std::uint64_t seed, bool plain) {
+  return std::make_unique<VerilatedAxi<Model, kChannels, AxiWholeSteps<Model>, InsideAxi>>(
+      chip, seed, plain);
 }
 
 }  // namespace
 
 std::unique_ptr<AxiModel> make_axi_whole(const ChipConfig& chip, unsigned channels,
-                                         std::uint64_t seed) {
+                                         std::uint64_t seed, bool plain) {
   if (chip.features == kAxiFull) {
-    if (channels <= 1) return make<Vaxi_full_1, 1>(chip, seed);
-    if (channels <= 4) return make<Vaxi_full_4, 4>(chip, seed);
-    return make<Vaxi_full_16, kAxiChannels>(chip, seed);
+    if (channels <= 1) return make<Vaxi_full_1, 1>(chip, seed, plain);
+    if (channels <= 4) return make<Vaxi_full_4, 4>(chip, seed, plain);
+    return make<Vaxi_full_16, kAxiChannels>(chip, seed, plain);
   }
-  if (channels <= 1) return make<Vaxi_1, 1>(chip, seed);
+  if (channels <= 1) return make<Vaxi_1, 1>(chip, seed, plain);
   if ((chip.quirks & kAxiAlignLatch) != 0) {
-    if (channels <= 4) return make<Vaxi_align_4, 4>(chip, seed);
-    return make<Vaxi_align_16, kAxiChannels>(chip, seed);
+    if (channels <= 4) return make<Vaxi_align_4, 4>(chip, seed, plain);
+    return make<Vaxi_align_16, kAxiChannels>(chip, seed, plain);
   }
-  if (channels <= 4) return make<Vaxi_4, 4>(chip, seed);
-  return make<Vaxi_16, kAxiChannels>(chip, seed);
+  if (channels <= 4) return make<Vaxi_4, 4>(chip, seed, plain);
+  return make<Vaxi_16, kAxiChannels>(chip, seed, plain);
 }
 
 }  // namespace mb4::sim

@@ -24,23 +24,26 @@
 #include "sim/masters/axi/axi_steps.hpp"
 #include "sim/model/axi_lite_manager.hpp"
 #include "sim/model/clock_source.hpp"
+#include "sim/model/model_rest.hpp"
 #include "sim/model/signal_wave.hpp"
 #include "sim/model/verilated_context.hpp"
 
 namespace mb4::sim {
 
-// `Steps` evaluates the model (axi_steps.hpp). `Inside` reads frame_q of axi_start, and lists pins
-// and registers for a waveform, none if the model cannot write one.
+inline constexpr unsigned kAxiHalfLastLsb = 16;  // place of half_last in axi_pkg::frame_t
+
+// `Steps` evaluates the model (axi_steps.hpp). `Inside` reads frame_q of axi_start, lists pins and
+// registers for a waveform, none if the model cannot write one, and has the counts that move while
+// the model is at rest (ModelRest). `plain`: no clock is left out.
 template <typename Model, unsigned kChannels, typename Steps, typename Inside>
 class VerilatedAxi final : public AxiModel {
-  // Place of half_last in axi_pkg::frame_t.
-  static constexpr unsigned kHalfLastLsb = 16;
   using Slo = std::conditional_t<(kChannels > 8), SData, CData>;
 
  public:
-  VerilatedAxi(const ChipConfig& chip, std::uint64_t seed)
+  VerilatedAxi(const ChipConfig& chip, std::uint64_t seed, bool plain)
       : context_(make_verilated_context(seed)),
         clock_(chip.f_clk_hz),
+        rest_(plain),
         por_pin_((chip.quirks & kAxiPorPin) != 0) {
     min_clock_ = period_of(chip.f_clk_hz);
     model_ = std::make_unique<Model>(context_.get(), "biss_axi");
@@ -81,15 +84,17 @@ class VerilatedAxi final : public AxiModel {
     const auto bit = static_cast<Slo>(1U << line);
     model_->slo_i = static_cast<Slo>(levels != 0 ? model_->slo_i | bit : model_->slo_i & ~bit);
     steps_.slo(*model_);
+    rest_.stirred();
     show(now);
   }
   void set_clock(Time now, std::uint64_t hz) override {
     if (min_clock_ == 0) return;
+    rest_.stirred();
     clock_.retune(hz, now);
     may_run_at(hz);
   }
   unsigned half_clocks(unsigned /*line*/) const override {
-    return ((Inside::frame(*model_) >> kHalfLastLsb) & 0xFFU) + 1;
+    return ((Inside::frame(*model_) >> kAxiHalfLastLsb) & 0xFFU) + 1;
   }
 
   unsigned channels() const override { return kChannels; }
@@ -103,17 +108,17 @@ class VerilatedAxi final : public AxiModel {
   }
   void set_ext_sample_clk(Time now, bool level) override {
     model_->ext_sample_clk_i = level ? 1 : 0;
-    moved_ = true;
+    move();
     show(now);
   }
   void set_sample_en(Time now, bool level) override {
     model_->sample_en_i = level ? 1 : 0;
-    moved_ = true;
+    move();
     show(now);
   }
   void give_up() override {
     manager_.drop(*model_);
-    moved_ = true;
+    move();
     fresh_ = false;
     access_.done = true;
   }
@@ -121,7 +126,10 @@ class VerilatedAxi final : public AxiModel {
   bool sample_en() const override { return model_->sample_en_i != 0; }
   bool slo(unsigned line) const override { return ((model_->slo_i >> line) & 1U) != 0; }
 
+  std::uint64_t left_out() const override { return rest_.left_out(); }
+
   void start_wave(const TraceFile& file) override {
+    rest_.stirred();
     std::vector<WaveSignal> signals = Inside::signals(*model_);
     if (signals.empty()) throw TraceError(file.path + ": this model writes no waveform");
     // Between the pins and the registers.
@@ -162,7 +170,11 @@ class VerilatedAxi final : public AxiModel {
       const Time now = clock_.next();
       if (!clock_.edge()) {
         steps_.fall(m);
-        if constexpr (kWave) wave_->show(now);
+        if constexpr (kWave) {
+          wave_->show(now);
+        } else {
+          leave_out(limit);
+        }
         continue;
       }
       if (std::exchange(moved_, false)) steps_.inputs(m);
@@ -180,9 +192,18 @@ class VerilatedAxi final : public AxiModel {
       if (moves && m.rst_ni != 0) drive();
       if constexpr (kWave) wave_->show(now);
       pack();
-      if (outputs_ != before) return now;
+      if (outputs_ != before) {
+        rest_.stirred();
+        return now;
+      }
     }
     return kNever;
+  }
+  void leave_out(Time limit) {
+    const std::uint64_t clocks = rest_.falls(*model_->rootp, clock_, limit);
+    if (clocks == 0) return;
+    cycles_ += clocks;
+    steps_.time_passed();
   }
   void show(Time now) {
     if (wave_ != nullptr) wave_->show(now);
@@ -200,6 +221,7 @@ class VerilatedAxi final : public AxiModel {
     steps_.inputs(m);
     pack();
     cut_ |= outputs_ & ~before;
+    rest_.stirred();
     show(now);
   }
 
@@ -227,11 +249,17 @@ class VerilatedAxi final : public AxiModel {
   void drive() {
     if (std::exchange(fresh_, false)) {
       manager_.begin(*model_, access_);
-      moved_ = true;
-    } else if (manager_.after(*model_)) {
-      moved_ = true;
+    } else if (!manager_.after(*model_)) {
+      return;
     }
+    move();
   }
+  // Inputs have changed, and the next edge sees it.
+  void move() {
+    moved_ = true;
+    rest_.stirred();
+  }
+  void begun() override { rest_.stirred(); }
 
   void pack() {
     const Model& m = *model_;
@@ -255,6 +283,7 @@ class VerilatedAxi final : public AxiModel {
   Steps steps_;
   AxiLiteManager<Model> manager_;
   ClockSource clock_;
+  ModelRest<std::remove_pointer_t<decltype(Model::rootp)>, typename Inside::Counts> rest_;
   bool por_pin_;
   bool reset_ = true;           // axi_aresetn is 0
   bool power_on_reset_ = true;  // por_n is 0

@@ -15,6 +15,7 @@ namespace mb4::sim {
 namespace {
 
 struct Inside {
+  using Counts = NoCounts;
   template <typename Model>
   static unsigned frame(const Model& model) {
     return model.rootp->axi_core__DOT__u_start__DOT__frame_q;
@@ -27,7 +28,7 @@ struct Inside {
 
 template <typename Model>
 std::unique_ptr<AxiModel> make(const ChipConfig& chip, std::uint64_t seed) {
-  return std::make_unique<VerilatedAxi<Model, 4, AxiWholeSteps<Model>, Inside>>(chip, seed);
+  return std::make_unique<VerilatedAxi<Model, 4, AxiWholeSteps<Model>, Inside>>(chip, seed, true);
 }
 
 }  // namespace

@@ -3,6 +3,9 @@
 #include <fmt/core.h>
 
 #include "masters/axi/axi_session.hpp"
+#if MB4SIM_WITH_CLB
+#include "masters/clb/clb_session.hpp"
+#endif
 #if MB4SIM_WITH_DSL_MODEL
 #include "masters/dsl_model/dsl_session.hpp"
 #endif
@@ -17,6 +20,9 @@ constexpr const MasterSupport* kAll[] = {
     &kMb4Support,
 #if MB4SIM_WITH_AXI
     &kAxiSupport,
+#endif
+#if MB4SIM_WITH_CLB
+    &kClbSupport,
 #endif
 #if MB4SIM_WITH_DSL_MODEL
     &kDslModelSupport,

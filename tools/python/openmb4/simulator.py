@@ -50,6 +50,7 @@ class Simulator(Opened):
         self.driver = Driver(self)
         self.regs = Registers(ChipBus(self), "mb4")
         self.axi_regs = Registers(AxiBus(self), "axi")
+        self.clb_regs = Registers(AxiBus(self), "clb")
 
     def __enter__(self) -> "Simulator":
         return self

@@ -28,12 +28,11 @@
 
 #include <Vmb4_chip_edge.hpp>
 #include <algorithm>
-#include <cstddef>
 #include <cstdint>
-#include <cstring>
 #include <limits>
 #include <utility>
-#include <vector>
+
+#include "sim/model/model_rest.hpp"
 
 namespace mb4::sim {
 
@@ -87,8 +86,7 @@ class DirectSteps {
   void mark(Vmb4_chip& model) {
     // The edge is taken ahead only if CLK is the system clock. Otherwise eval() must see the edge.
     if (on_clk(*model.rootp)) set_clock(*model.rootp, true);
-    before_.resize(sizeof(Root));
-    std::memcpy(before_.data(), bytes(*model.rootp), sizeof(Root));
+    before_.set(*model.rootp);
   }
   // Called after this edge. Returns true if it has changed nothing except the time to the next
   // frame, and if the falling edge will change nothing. This stays true for rest_left() clocks, up
@@ -96,10 +94,10 @@ class DirectSteps {
   bool at_rest(const Vmb4_chip& model) {
     const Root& root = *model.rootp;
     if (!on_clk(root) || fall_matters(root)) return false;
-    counting_ = moved(root, root.*kPre) || moved(root, root.*kStep);
-    ignore(root, root.*kPre);
-    ignore(root, root.*kStep);
-    if (std::memcmp(before_.data(), bytes(root), sizeof(Root)) != 0) return false;
+    counting_ = before_.moved(root, root.*kPre) || before_.moved(root, root.*kStep);
+    before_.ignore(root, root.*kPre);
+    before_.ignore(root, root.*kStep);
+    if (!before_.same(root)) return false;
     // After a change of the rate the count may be past its new end; then it runs to its very end.
     return !counting_ || (root.*kPre < step_clocks(root) && root.*kStep <= last_step(root));
   }
@@ -184,26 +182,10 @@ class DirectSteps {
   }
   static std::uint64_t elapsed(const Root& r) { return r.*kStep * step_clocks(r) + r.*kPre; }
 
-  static const std::byte* bytes(const Root& root) {
-    return reinterpret_cast<const std::byte*>(&root);
-  }
-  template <typename Member>
-  std::byte* then(const Root& root, const Member& member) {
-    return before_.data() + (reinterpret_cast<const std::byte*>(&member) - bytes(root));
-  }
-  template <typename Member>
-  bool moved(const Root& root, const Member& member) {
-    return std::memcmp(then(root, member), &member, sizeof member) != 0;
-  }
-  template <typename Member>
-  void ignore(const Root& root, const Member& member) {
-    std::memcpy(then(root, member), &member, sizeof member);
-  }
-
   edge::Kept kept_;
   bool late_ = false;  // SL has changed
   bool counting_ = false;
-  std::vector<std::byte> before_;
+  StateMark<Root> before_;  // a rising edge of CLK
 };
 
 }  // namespace mb4::sim

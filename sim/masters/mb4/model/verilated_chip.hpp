@@ -9,7 +9,6 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <iterator>
 #include <memory>
 #include <optional>
 #include <string>
@@ -18,6 +17,7 @@
 #include "chip_model.hpp"
 #include "sim/masters/mb4/ma_frequency.hpp"
 #include "sim/model/clock_source.hpp"
+#include "sim/model/model_rest.hpp"
 #include "sim/model/verilated_context.hpp"
 
 namespace mb4::sim {
@@ -138,27 +138,24 @@ class VerilatedChip final : public ChipModel {
       const Time now = pin_clock_.next();
       const bool level = pin_clock_.edge();
       if (level) ++cycles_;
-      if (resting_) resting_ = steps_.rests(model, level);
-      if (resting_) {
+      if (rest_.resting()) rest_.set_resting(steps_.rests(model, level));
+      if (rest_.resting()) {
         if (!level) leave_out_rest(limit);
         continue;
       }
       if (!level && steps_.falls_idly(model)) continue;
       context_->time(now);
       // After some clocks without a change at any pin, is the chip at rest?
-      const bool look = level && ++quiet_ == kLooks[looks_];
+      const bool look = level && rest_.due();
       if (look) steps_.mark(model);
       steps_.clk(model, level);
       trace_.dump(now);
       if (const Outputs outputs = pack(); outputs != outputs_) {
         outputs_ = outputs;
-        stirred();
+        rest_.stirred();
         return now;
       }
-      if (!look) continue;
-      quiet_ = 0;
-      resting_ = steps_.at_rest(model);
-      looks_ = resting_ ? 0 : std::min(looks_ + 1, std::size(kLooks) - 1);
+      if (look) rest_.found(steps_.at_rest(model));
     }
     return kNever;
   }
@@ -228,7 +225,7 @@ class VerilatedChip final : public ChipModel {
       const bool seen = steps_.host(*model_);
       trace_.dump(now);
       if (!seen) return;
-      stirred();
+      rest_.stirred();
     } else {
       evaluate(now);
     }
@@ -247,7 +244,7 @@ class VerilatedChip final : public ChipModel {
 
   void set_clock(Time now, std::uint64_t hz) override {
     if (!pin_clock_connected_) return;
-    stirred();
+    rest_.stirred();
     pin_clock_.retune(hz, now);
     may_run_at(hz);
   }
@@ -255,7 +252,7 @@ class VerilatedChip final : public ChipModel {
   bool sl(unsigned line) const override { return (line == 0 ? model_->sl1_i : model_->sl2_i) != 0; }
   unsigned db_out() const override { return model_->db_o; }
   unsigned db_enable() const override { return model_->db_oe_o; }
-  std::uint64_t left_out() const override { return left_out_; }
+  std::uint64_t left_out() const override { return rest_.left_out(); }
   unsigned half_clocks(unsigned /*line*/) const override {
     return half_ma_clocks(Inside::freqs(*model_));
   }
@@ -278,30 +275,22 @@ class VerilatedChip final : public ChipModel {
   // synchroniser, too.
   static constexpr unsigned kConditioningEdges = 32;
   static constexpr CData kNcs2 = 0x10;  // DB4
-  // Number of clocks without a change at a pin, or since the last check, after which a check for
-  // rest is worth its cost. The first check comes soon after the end of a frame. If the chip is not
-  // at rest (MA of a low frequency), the checks become less frequent.
-  static constexpr unsigned kLooks[] = {4, 2, 8, 16, 32, 64};
 
   // Called after a falling edge of CLK while the chip is at rest: leaves out all periods up to
   // `limit`.
   void leave_out_rest(Time limit) {
     const std::uint64_t left = steps_.rest_left(*model_);
-    resting_ = left != 0;
+    rest_.set_resting(left != 0);
     const std::uint64_t clocks = std::min(left, pin_clock_.whole_periods(limit));
     if (clocks == 0) return;
     const std::uint64_t passed = steps_.leave_out(*model_, clocks);
     pin_clock_.skip(passed);
     cycles_ += passed;
-    left_out_ += passed;
-  }
-  void stirred() {
-    quiet_ = 0;
-    resting_ = false;
+    rest_.passed(passed);
   }
 
   void evaluate(Time now) {
-    stirred();
+    rest_.stirred();
     context_->time(now);
     steps_.inputs(*model_);
     trace_.dump(now);
@@ -310,7 +299,7 @@ class VerilatedChip final : public ChipModel {
   // No output depends on SL before a clock edge.
   void change_sl(Time now, unsigned line, bool level) {
     (line == 0 ? model_->sl1_i : model_->sl2_i) = level ? 1 : 0;
-    stirred();
+    rest_.stirred();
     context_->time(now);
     steps_.sl(*model_);
     trace_.dump(now);
@@ -374,10 +363,7 @@ class VerilatedChip final : public ChipModel {
   bool osc_selected_ = false;
   bool osc_running_ = false;
   unsigned osc_tail_ = 0;
-  unsigned quiet_ = 0;     // clocks since a pin changed, or since the last check
-  std::size_t looks_ = 0;  // checks in a row that found no rest
-  bool resting_ = false;   // only the time to the next frame moves, and no input has changed
-  std::uint64_t left_out_ = 0;
+  RestWatch rest_;  // only the time to the next frame moves, and no input has changed
 };
 
 }  // namespace mb4::sim

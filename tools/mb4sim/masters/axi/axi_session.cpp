@@ -186,6 +186,7 @@ SlaveResult AxiSession::result_of(unsigned channel, bool good) {
 }
 
 SessionFrame AxiSession::read(std::uint64_t number) {
+  wait_for_begin();
   SessionFrame out;
   out.number = number;
   out.begin = simulator_.now();
