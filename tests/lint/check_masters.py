@@ -31,8 +31,6 @@ SIMULATOR, COMMANDS = "sim/masters/masters.cpp", "tools/mb4sim/masters/support.c
 # (master, what it lacks): why. A row that is not needed is a finding.
 WAIVED = {
     ("clb", "netlist"): "no gates of it, and no inputs for its modules in stimulus.py",
-    ("clb", "release"): "neither plain Verilog nor an IP of it",
-    ("clb", "buses"): "no IP-XACT of its AXI4-Lite",
 }
 
 
