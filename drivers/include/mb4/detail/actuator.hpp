@@ -86,12 +86,6 @@ inline Result<void> Procedures::confirmed(ChipState& chip, Operation& op, std::u
   return seen && (op.status_.instruction() | ended) != want ? Error::kCorrupted : seen;
 }
 
-// With SpiCheck::kFullAndRelease: what the status behind `want` for 0xF4 says.
-inline Result<void> Procedures::instruction_proven(ChipState& chip, Operation& op,
-                                                   std::uint8_t want) {
-  return chip.proves_release() ? confirmed(chip, op, want) : Result<void>();
-}
-
 // ---- Without automatic frames: two words, SWBANK inverted after each ----
 
 inline Result<void> Procedures::switched_step(ChipState& chip, Operation& op,
@@ -152,7 +146,7 @@ inline void Procedures::add_release(ChipState& chip, Operation& op, const Result
   if (chip.watch.held) {
     mb4_cyclic_add_clear(&op.plan_, chip.sensor_flags, 4);
   }
-  if (chip.proves_release()) {
+  if (chip.checks_all()) {
     mb4_cyclic_add_status(&op.plan_);
   }
 }
@@ -198,7 +192,7 @@ inline Result<void> Procedures::held_step(ChipState& chip, Operation& op, std::u
     default:  // kStopped: the release
       chip.set_waits(ChipState::kForActuator, false);
       if (done) {
-        done = instruction_proven(chip, op, regs::AGS::encode<1>());
+        done = confirmed(chip, op, regs::AGS::encode<1>());
       }
       if (op.cause_) {
         op.cause_ = done;
@@ -212,7 +206,7 @@ inline Result<void> Procedures::held_step(ChipState& chip, Operation& op, std::u
   }
   // Words that have waited since a failed proof were dropped by one 0x02; the next read does it
   // twice.
-  chip.watch.held = !done || (chip.watch.held && chip.proves_release());
+  chip.watch.held = !done || (chip.watch.held && chip.checks_all());
   done = op.cause_;
   if (done && op.bad_ != 0) {
     op.limit_.begin(now_us, chip.frame_us + chip.pitch_us);

@@ -606,7 +606,6 @@ struct Procedures {
   static Result<void> confirmed(ChipState& chip, Operation& op, std::uint8_t want);
   static void add_held(ChipState& chip, Operation& op);
   static void add_release(ChipState& chip, Operation& op, const Result<void>& cause);
-  static Result<void> instruction_proven(ChipState& chip, Operation& op, std::uint8_t want);
   static void add_other(Operation& op, std::uint32_t now_us);
   // ... and access.hpp.
   static void add_request(ChipState& chip, Operation& op);
