@@ -31,7 +31,7 @@ inline constexpr unsigned kAxiEnableActiveLow = 8;
 inline constexpr unsigned kAxiSwitches = 15;
 inline constexpr unsigned kAxiPorPin = 16;
 
-class AxiModel : public MasterModel {
+class AxiModel : public MasterModel, public WordManager {
  public:
   // Bits of outputs() beside MA.
   static constexpr Outputs kError = own(0);      // pin error is 1
@@ -58,19 +58,6 @@ class AxiModel : public MasterModel {
   virtual void start_wave(const TraceFile& file) = 0;
   virtual void stop_wave() = 0;
 
-  // Begins an access: the valids rise after the next rising edge of the clock. Only one access runs
-  // at a time.
-  void begin(const WordAccess& access) {
-    access_ = access;
-    access_.done = false;
-    fresh_ = true;
-    begun();
-  }
-  const WordAccess& access() const { return access_; }
-  // Ends an access that has no answer: takes the valids back. If the master has taken it, its late
-  // answer is dropped.
-  virtual void give_up() = 0;
-
   // Beats of the stream in mode 0 that the sink has taken: a word for each channel of the model
   // (with all extras two, the lower first), and in `user` bit c: the word of channel c is of this
   // frame and good. The oldest ones are dropped when there are too many.
@@ -78,13 +65,8 @@ class AxiModel : public MasterModel {
   std::uint64_t beats_dropped() const { return beats_dropped_; }
 
  protected:
-  // An access waits for the next edge.
-  virtual void begun() = 0;
-
   static constexpr std::size_t kMostBeats = 65'536;
 
-  WordAccess access_;
-  bool fresh_ = false;  // the access has not been put on the pins
   std::deque<StreamBeat> beats_;
   std::uint64_t beats_dropped_ = 0;
 };

@@ -7,26 +7,18 @@
 
 #include <verilated.h>
 
-#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <iterator>
-#include <memory>
 #include <string>
-#include <string_view>
 #include <type_traits>
 #include <utility>
 #include <vector>
 
-#include "sim/core/trace_error.hpp"
 #include "sim/lines/clocked/clocked_end.hpp"
 #include "sim/masters/axi/axi_model.hpp"
 #include "sim/masters/axi/axi_steps.hpp"
-#include "sim/model/axi_lite_manager.hpp"
-#include "sim/model/clock_source.hpp"
-#include "sim/model/model_rest.hpp"
-#include "sim/model/signal_wave.hpp"
-#include "sim/model/verilated_context.hpp"
+#include "sim/model/one_clock_master.hpp"
 
 namespace mb4::sim {
 
@@ -36,47 +28,26 @@ inline constexpr unsigned kAxiHalfLastLsb = 16;  // place of half_last in axi_pk
 // registers for a waveform, none if the model cannot write one, and has the counts that move while
 // the model is at rest (ModelRest). `plain`: no clock is left out.
 template <typename Model, unsigned kChannels, typename Steps, typename Inside>
-class VerilatedAxi final : public AxiModel {
+class VerilatedAxi final : public OneClockMaster<VerilatedAxi<Model, kChannels, Steps, Inside>,
+                                                 AxiModel, Model, typename Inside::Counts> {
+  using Base = OneClockMaster<VerilatedAxi<Model, kChannels, Steps, Inside>, AxiModel, Model,
+                              typename Inside::Counts>;
+  friend Base;
+  using Base::model_;
+  using Base::outputs_;
+  using Outputs = MasterModel::Outputs;
   using Slo = std::conditional_t<(kChannels > 8), SData, CData>;
 
  public:
   VerilatedAxi(const ChipConfig& chip, std::uint64_t seed, bool plain)
-      : context_(make_verilated_context(seed)),
-        clock_(chip.f_clk_hz),
-        rest_(plain),
-        por_pin_((chip.quirks & kAxiPorPin) != 0) {
-    min_clock_ = period_of(chip.f_clk_hz);
-    model_ = std::make_unique<Model>(context_.get(), "biss_axi");
+      : Base(chip, seed, plain, "biss_axi"), por_pin_((chip.quirks & kAxiPorPin) != 0) {
     Model& m = *model_;
     m.switches_i = static_cast<CData>(chip.quirks & kAxiSwitches);
-    manager_.rest(m);
     m.s_axis_tready = 1;
     m.slo_i = static_cast<Slo>((1U << kChannels) - 1);
     m.ext_sample_clk_i = 0;
     m.sample_en_i = 1;
-    // Only an edge resets the flops of a Verilated model, and the synchronisers must be released
-    // before it.
-    context_->assertOn(false);
-    m.rst_ni = m.por_ni = 1;
-    for (const unsigned level : {0U, 1U, 0U, 1U, 0U}) {
-      m.clk_i = static_cast<CData>(level);
-      m.eval();
-    }
-    m.rst_ni = m.por_ni = 0;
-    steps_.inputs(m);
-    context_->assertOn(true);
-    pack();
-  }
-
-  ~VerilatedAxi() override {
-    // The model's destructor uses the context of the thread, not the model's own one.
-    Verilated::threadContextp(context_.get());
-    model_->final();
-  }
-
-  Time run_clocks(Time limit) override {
-    Verilated::threadContextp(context_.get());
-    return wave_ == nullptr ? run<false>(limit) : run<true>(limit);
+    this->reset_by_edges([&m](bool active) { m.rst_ni = m.por_ni = active ? 0 : 1; });
   }
 
   void set_inputs(Time now, unsigned line, unsigned levels) override {
@@ -84,14 +55,8 @@ class VerilatedAxi final : public AxiModel {
     const auto bit = static_cast<Slo>(1U << line);
     model_->slo_i = static_cast<Slo>(levels != 0 ? model_->slo_i | bit : model_->slo_i & ~bit);
     steps_.slo(*model_);
-    rest_.stirred();
-    show(now);
-  }
-  void set_clock(Time now, std::uint64_t hz) override {
-    if (min_clock_ == 0) return;
-    rest_.stirred();
-    clock_.retune(hz, now);
-    may_run_at(hz);
+    this->rest_.stirred();
+    this->show(now);
   }
   unsigned half_clocks(unsigned /*line*/) const override {
     return ((Inside::frame(*model_) >> kAxiHalfLastLsb) & 0xFFU) + 1;
@@ -108,34 +73,19 @@ class VerilatedAxi final : public AxiModel {
   }
   void set_ext_sample_clk(Time now, bool level) override {
     model_->ext_sample_clk_i = level ? 1 : 0;
-    move();
-    show(now);
+    this->move();
+    this->show(now);
   }
   void set_sample_en(Time now, bool level) override {
     model_->sample_en_i = level ? 1 : 0;
-    move();
-    show(now);
-  }
-  void give_up() override {
-    manager_.drop(*model_);
-    move();
-    fresh_ = false;
-    access_.done = true;
+    this->move();
+    this->show(now);
   }
   bool ext_sample_clk() const override { return model_->ext_sample_clk_i != 0; }
   bool sample_en() const override { return model_->sample_en_i != 0; }
   bool slo(unsigned line) const override { return ((model_->slo_i >> line) & 1U) != 0; }
 
-  std::uint64_t left_out() const override { return rest_.left_out(); }
-
   void start_wave(const TraceFile& file) override {
-    rest_.stirred();
-    std::vector<WaveSignal> signals = Inside::signals(*model_);
-    if (signals.empty()) throw TraceError(file.path + ": this model writes no waveform");
-    // Between the pins and the registers.
-    const auto registers = std::find_if(signals.begin(), signals.end(), [](const WaveSignal& one) {
-      return one.path.ends_with("_q") || one.path.find('.') != std::string_view::npos;
-    });
     std::vector<WaveSignal> encoders;
     std::vector<std::string> names;
     names.reserve(3 * std::size_t{kChannels});
@@ -147,90 +97,46 @@ class VerilatedAxi final : public AxiModel {
         encoders.push_back({names.back(), levels, sizeof *levels, line, 1});
       }
     }
-    signals.insert(registers, encoders.begin(), encoders.end());
-    wave_ = std::make_unique<SignalWave>(file, "mb4sim.biss_axi", signals);
-    wave_->show(file.from);
+    this->begin_wave(file, "mb4sim.biss_axi", Inside::signals(*model_), encoders);
   }
-  void stop_wave() override { wave_.reset(); }
   void set_probes(Time now, std::uint64_t ma, std::uint64_t slo, std::uint64_t idle) override {
     encoders_ma_ = ma;
     encoders_slo_ = slo;
     encoders_ready_ = idle;
-    show(now);
-  }
-  void finish_trace() override {
-    if (wave_ != nullptr) wave_->flush();
+    this->show(now);
   }
 
  private:
-  template <bool kWave>
-  Time run(Time limit) {
-    Model& m = *model_;
-    while (clock_.next() <= limit) {
-      const Time now = clock_.next();
-      if (!clock_.edge()) {
-        steps_.fall(m);
-        if constexpr (kWave) {
-          wave_->show(now);
-        } else {
-          leave_out(limit);
-        }
-        continue;
-      }
-      if (std::exchange(moved_, false)) steps_.inputs(m);
-      ++cycles_;
-      // An edge transfers the levels that the pins have before it.
-      const Outputs before = outputs_;
-      const bool valid = m.s_axis_tvalid != 0;
-      if (valid && m.rst_ni != 0) take_beat(now);
-      const bool moves = !access_.done || manager_.owed();
-      if (moves && manager_.before(m, access_)) {
-        access_.done = true;
-        toggles_ ^= kDone;
-      }
-      steps_.rise(m);
-      if (moves && m.rst_ni != 0) drive();
-      if constexpr (kWave) wave_->show(now);
-      pack();
-      if (outputs_ != before) {
-        rest_.stirred();
-        return now;
-      }
-    }
-    return kNever;
+  // What OneClockMaster asks for.
+  void before(Time now) {
+    if (std::exchange(moved_, false)) evaluate();
+    if (model_->s_axis_tvalid != 0 && model_->rst_ni != 0) take_beat(now);
   }
-  void leave_out(Time limit) {
-    const std::uint64_t clocks = rest_.falls(*model_->rootp, clock_, limit);
-    if (clocks == 0) return;
-    cycles_ += clocks;
-    steps_.time_passed();
-  }
-  void show(Time now) {
-    if (wave_ != nullptr) wave_->show(now);
-  }
+  void rise() { steps_.rise(*model_); }
+  void fall() { steps_.fall(*model_); }
+  void evaluate() { steps_.inputs(*model_); }
+  void passed() { steps_.time_passed(); }
+  void moved() { moved_ = true; }
+  void answered() { toggles_ ^= AxiModel::kDone; }
+  void changed(Outputs /*before*/) {}
 
   // As biss_axi makes the resets of axi_core from its pins.
   void reset_changes(Time now) {
-    Verilated::threadContextp(context_.get());
-    Model& m = *model_;
-    const bool rises = m.rst_ni != 0;
-    m.rst_ni = reset_ || (por_pin_ && power_on_reset_) ? 0 : 1;
-    m.por_ni = (por_pin_ ? power_on_reset_ : reset_) ? 0 : 1;
-    if (rises && m.rst_ni == 0) manager_.forget();
-    const Outputs before = outputs_;
-    steps_.inputs(m);
-    pack();
-    cut_ |= outputs_ & ~before;
-    rest_.stirred();
-    show(now);
+    this->change_at_once(now, [this] {
+      Model& m = *model_;
+      const bool rises = m.rst_ni != 0;
+      m.rst_ni = reset_ || (por_pin_ && power_on_reset_) ? 0 : 1;
+      m.por_ni = (por_pin_ ? power_on_reset_ : reset_) ? 0 : 1;
+      if (rises && m.rst_ni == 0) this->manager_.forget();
+    });
   }
 
   void take_beat(Time now) {
-    if (beats_.size() == kMostBeats) {
-      beats_.pop_front();
-      ++beats_dropped_;
+    if (this->beats_.size() == AxiModel::kMostBeats) {
+      this->beats_.pop_front();
+      ++this->beats_dropped_;
     }
-    StreamBeat& beat = beats_.emplace_back();
+    StreamBeat& beat = this->beats_.emplace_back();
     beat.time = now;
     const auto& data = model_->s_axis_tdata;
     if constexpr (std::is_same_v<std::decay_t<decltype(data)>, IData>) {
@@ -242,31 +148,15 @@ class VerilatedAxi final : public AxiModel {
     }
     beat.user = model_->s_axis_tuser;
     beat.last = model_->s_axis_tlast != 0;
-    toggles_ ^= kBeat;
+    toggles_ ^= AxiModel::kBeat;
   }
-
-  // Drives the manager's pins after an edge.
-  void drive() {
-    if (std::exchange(fresh_, false)) {
-      manager_.begin(*model_, access_);
-    } else if (!manager_.after(*model_)) {
-      return;
-    }
-    move();
-  }
-  // Inputs have changed, and the next edge sees it.
-  void move() {
-    moved_ = true;
-    rest_.stirred();
-  }
-  void begun() override { rest_.stirred(); }
 
   void pack() {
     const Model& m = *model_;
-    Outputs out = kAbsent | toggles_ | m.error_no * kError | m.warn_no * kWarn |
-                  m.sample_clk_o * kSampleClk | m.irq_o * kIrq;
+    Outputs out = kAbsent | toggles_ | m.error_no * AxiModel::kError | m.warn_no * AxiModel::kWarn |
+                  m.sample_clk_o * AxiModel::kSampleClk | m.irq_o * AxiModel::kIrq;
     for (unsigned line = 0; line < kChannels; ++line) {
-      out |= Outputs{(m.ma_o >> line) & 1U} * of_line(line, kMaPin);
+      out |= Outputs{(m.ma_o >> line) & 1U} * MasterModel::of_line(line, kMaPin);
     }
     outputs_ = out;
   }
@@ -274,16 +164,12 @@ class VerilatedAxi final : public AxiModel {
   // MA of lines that the model does not have.
   static constexpr Outputs kAbsent = [] {
     Outputs out = 0;
-    for (unsigned line = kChannels; line < kAxiChannels; ++line) out |= of_line(line, kMaPin);
+    for (unsigned line = kChannels; line < kAxiChannels; ++line)
+      out |= MasterModel::of_line(line, kMaPin);
     return out;
   }();
 
-  std::unique_ptr<VerilatedContext> context_;
-  std::unique_ptr<Model> model_;
   Steps steps_;
-  AxiLiteManager<Model> manager_;
-  ClockSource clock_;
-  ModelRest<std::remove_pointer_t<decltype(Model::rootp)>, typename Inside::Counts> rest_;
   bool por_pin_;
   bool reset_ = true;           // axi_aresetn is 0
   bool power_on_reset_ = true;  // por_n is 0
@@ -293,7 +179,6 @@ class VerilatedAxi final : public AxiModel {
   std::uint64_t encoders_ma_ = ~std::uint64_t{0};
   std::uint64_t encoders_slo_ = ~std::uint64_t{0};
   std::uint64_t encoders_ready_ = ~std::uint64_t{0};
-  std::unique_ptr<SignalWave> wave_;
 };
 
 }  // namespace mb4::sim

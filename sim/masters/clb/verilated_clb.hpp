@@ -9,20 +9,11 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <memory>
-#include <string_view>
-#include <type_traits>
 #include <utility>
-#include <vector>
 
-#include "sim/core/trace_error.hpp"
 #include "sim/lines/clocked/clocked_end.hpp"
 #include "sim/masters/clb/clb_model.hpp"
-#include "sim/model/axi_lite_manager.hpp"
-#include "sim/model/clock_source.hpp"
-#include "sim/model/model_rest.hpp"
-#include "sim/model/signal_wave.hpp"
-#include "sim/model/verilated_context.hpp"
+#include "sim/model/one_clock_master.hpp"
 
 namespace mb4::sim {
 
@@ -35,51 +26,28 @@ inline std::pair<unsigned, unsigned> clb_period(unsigned period) {
 // `Inside` reads the period of the MA counter, lists pins and registers for a waveform, none if the
 // model cannot write one, and has the counts that move while the model is at rest (ModelRest).
 template <typename Model, typename Inside>
-class VerilatedClb final : public ClbModel {
+class VerilatedClb final
+    : public OneClockMaster<VerilatedClb<Model, Inside>, ClbModel, Model, typename Inside::Counts> {
+  using Base =
+      OneClockMaster<VerilatedClb<Model, Inside>, ClbModel, Model, typename Inside::Counts>;
+  friend Base;
+  using Base::cut_;
+  using Base::model_;
+  using Base::outputs_;
+  using Outputs = MasterModel::Outputs;
+
  public:
   VerilatedClb(const ChipConfig& chip, std::uint64_t seed, bool plain)
-      : context_(make_verilated_context(seed)), clock_(chip.f_clk_hz), rest_(plain) {
-    min_clock_ = period_of(chip.f_clk_hz);
-    model_ = std::make_unique<Model>(context_.get(), "biss_clb");
-    Model& m = *model_;
-    manager_.rest(m);
-    m.sl_i = 1;
-    // Only an edge resets the flops of a Verilated model, and the synchroniser must be released
-    // before it.
-    context_->assertOn(false);
-    m.rst_ni = 1;
-    for (const unsigned level : {0U, 1U, 0U, 1U, 0U}) {
-      m.clk_i = static_cast<CData>(level);
-      m.eval();
-    }
-    m.rst_ni = 0;
-    m.eval();
-    context_->assertOn(true);
-    pack();
-  }
-
-  ~VerilatedClb() override {
-    // The model's destructor uses the context of the thread, not the model's own one.
-    Verilated::threadContextp(context_.get());
-    model_->final();
-  }
-
-  Time run_clocks(Time limit) override {
-    Verilated::threadContextp(context_.get());
-    return wave_ == nullptr ? run<false>(limit) : run<true>(limit);
+      : Base(chip, seed, plain, "biss_clb") {
+    model_->sl_i = 1;
+    this->reset_by_edges([this](bool active) { model_->rst_ni = active ? 0 : 1; });
   }
 
   // No output depends on SL before a clock edge.
   void set_inputs(Time now, unsigned /*line*/, unsigned levels) override {
     model_->sl_i = levels != 0 ? 1 : 0;
-    rest_.stirred();
-    show(now);
-  }
-  void set_clock(Time now, std::uint64_t hz) override {
-    if (min_clock_ == 0) return;
-    rest_.stirred();
-    clock_.retune(hz, now);
-    may_run_at(hz);
+    this->rest_.stirred();
+    this->show(now);
   }
   unsigned half_clocks(unsigned /*line*/) const override {
     const auto [match1, match2] = Inside::ma_period(*model_);
@@ -87,143 +55,65 @@ class VerilatedClb final : public ClbModel {
   }
 
   void set_reset(Time now, bool active) override {
-    Verilated::threadContextp(context_.get());
-    const Outputs before = outputs_;
-    model_->rst_ni = active ? 0 : 1;
-    if (active) manager_.forget();
-    model_->eval();
-    pack();
-    cut_ |= outputs_ & ~before;
-    rest_.stirred();
-    show(now);
+    this->change_at_once(now, [this, active] {
+      model_->rst_ni = active ? 0 : 1;
+      if (active) this->manager_.forget();
+    });
   }
   bool sl() const override { return model_->sl_i != 0; }
 
-  void begin(const WordAccess& access) override {
-    access_ = access;
-    fresh_ = true;
-    rest_.stirred();
-  }
-  const WordAccess& access() const override { return access_; }
-  void give_up() override {
-    manager_.drop(*model_);
-    rest_.stirred();
-    fresh_ = false;
-    access_.done = true;
-  }
-
-  std::uint64_t left_out() const override { return rest_.left_out(); }
-
   void start_wave(const TraceFile& file) override {
-    rest_.stirred();
-    std::vector<WaveSignal> signals = Inside::signals(*model_);
-    if (signals.empty()) throw TraceError(file.path + ": this model writes no waveform");
-    // Between the pins and the registers.
-    const auto registers = std::find_if(signals.begin(), signals.end(), [](const WaveSignal& one) {
-      return one.path.ends_with("_q") || one.path.find('.') != std::string_view::npos;
-    });
-    const WaveSignal encoder[] = {{"encoder_ma", &encoder_ma_, sizeof encoder_ma_, 0, 1},
-                                  {"encoder_slo", &encoder_slo_, sizeof encoder_slo_, 0, 1},
-                                  {"encoder_ready", &encoder_ready_, sizeof encoder_ready_, 0, 1}};
-    signals.insert(registers, std::begin(encoder), std::end(encoder));
-    wave_ = std::make_unique<SignalWave>(file, "mb4sim.biss_clb", signals);
-    wave_->show(file.from);
+    this->begin_wave(file, "mb4sim.biss_clb", Inside::signals(*model_),
+                     {{"encoder_ma", &encoder_ma_, sizeof encoder_ma_, 0, 1},
+                      {"encoder_slo", &encoder_slo_, sizeof encoder_slo_, 0, 1},
+                      {"encoder_ready", &encoder_ready_, sizeof encoder_ready_, 0, 1}});
   }
-  void stop_wave() override { wave_.reset(); }
   void set_probes(Time now, std::uint64_t ma, std::uint64_t slo, std::uint64_t ready) override {
     encoder_ma_ = ma;
     encoder_slo_ = slo;
     encoder_ready_ = ready;
-    show(now);
-  }
-  void finish_trace() override {
-    if (wave_ != nullptr) wave_->flush();
+    this->show(now);
   }
 
  private:
-  template <bool kWave>
-  Time run(Time limit) {
-    Model& m = *model_;
-    while (clock_.next() <= limit) {
-      const Time now = clock_.next();
-      if (!clock_.edge()) {
-        m.clk_i = 0;
-        m.eval();
-        if constexpr (kWave) {
-          wave_->show(now);
-        } else {
-          cycles_ += rest_.falls(*m.rootp, clock_, limit);
-        }
-        continue;
-      }
-      ++cycles_;
-      const Outputs before = outputs_;
-      // An edge transfers the levels that the pins have before it.
-      const bool moves = !access_.done || manager_.owed();
-      if (moves && access_.write) guarded_ = 0;
-      if (moves && manager_.before(m, access_)) {
-        access_.done = true;
-        answered_ ^= kAnswered;
-      }
-      m.clk_i = 1;
-      m.eval();
-      if (moves && m.rst_ni != 0) drive();
-      if constexpr (kWave) wave_->show(now);
-      pack();
-      if (outputs_ != before) {
-        rest_.stirred();
-        guard((outputs_ ^ before) & of_line(0, kMaPin));
-        return now;
-      }
-    }
-    return kNever;
+  // What OneClockMaster asks for.
+  void before(Time /*now*/) {
+    if (this->busy() && this->access().write) guarded_ = 0;
   }
-  void show(Time now) {
-    if (wave_ != nullptr) wave_->show(now);
+  void rise() {
+    model_->clk_i = 1;
+    model_->eval();
   }
-
-  // Drives the manager's pins after an edge.
-  void drive() {
-    if (std::exchange(fresh_, false)) {
-      manager_.begin(*model_, access_);
-    } else if (!manager_.after(*model_)) {
-      return;
-    }
-    rest_.stirred();
+  void fall() {
+    model_->clk_i = 0;
+    model_->eval();
   }
-
+  void evaluate() { model_->eval(); }
+  void passed() {}
+  void moved() {}
+  void answered() { answered_ ^= ClbModel::kAnswered; }
   // A write may cut a pulse of MA short, or give it another length: as the published master does.
   // So a pulse counts as one only if no write has come since the edge before it.
-  void guard(Outputs ma) {
-    if (ma == 0) return;
-    if (guarded_ < kGuardedFrom) {
-      ++guarded_;
-      cut_ |= ma;
-    }
+  void changed(Outputs before) {
+    const Outputs ma = (outputs_ ^ before) & MasterModel::of_line(0, kMaPin);
+    if (ma == 0 || guarded_ == kGuardedFrom) return;
+    ++guarded_;
+    cut_ |= ma;
   }
-
   void pack() {
     const Model& m = *model_;
-    outputs_ = answered_ | m.ma_o * of_line(0, kMaPin) | m.irq_o * kIrq | m.spi_clk_o * kSpiClk |
-               m.txen_o * kTxen;
+    outputs_ = answered_ | m.ma_o * MasterModel::of_line(0, kMaPin) | m.irq_o * ClbModel::kIrq |
+               m.spi_clk_o * ClbModel::kSpiClk | m.txen_o * ClbModel::kTxen;
   }
 
   static constexpr unsigned kGuardedFrom = 2;  // edges of MA after a write
 
-  std::unique_ptr<VerilatedContext> context_;
-  std::unique_ptr<Model> model_;
-  AxiLiteManager<Model> manager_;
-  ClockSource clock_;
-  ModelRest<std::remove_pointer_t<decltype(Model::rootp)>, typename Inside::Counts> rest_;
-  WordAccess access_;
-  bool fresh_ = false;  // the access has not been put on the pins
   Outputs answered_ = 0;
   unsigned guarded_ = 0;  // edges of MA since the last write
   // Levels at the encoder, for the waveform.
   std::uint64_t encoder_ma_ = 1;
   std::uint64_t encoder_slo_ = 1;
   std::uint64_t encoder_ready_ = 1;
-  std::unique_ptr<SignalWave> wave_;
 };
 
 }  // namespace mb4::sim

@@ -13,9 +13,11 @@
 #include <optional>
 #include <string>
 #include <type_traits>
+#include <utility>
 
 #include "chip_model.hpp"
 #include "sim/masters/mb4/ma_frequency.hpp"
+#include "sim/model/clock_loop.hpp"
 #include "sim/model/clock_source.hpp"
 #include "sim/model/model_rest.hpp"
 #include "sim/model/verilated_context.hpp"
@@ -133,17 +135,15 @@ class VerilatedChip final : public ChipModel {
   Time run_clocks(Time limit) override {
     Verilated::threadContextp(context_.get());
     if (osc_running_) return run_two_clocks(limit);
-    Model& model = *model_;
-    while (pin_clock_.next() <= limit) {
-      const Time now = pin_clock_.next();
-      const bool level = pin_clock_.edge();
+    return run_edges(pin_clock_, limit, [this, limit](Time now, bool level) {
+      Model& model = *model_;
       if (level) ++cycles_;
       if (rest_.resting()) rest_.set_resting(steps_.rests(model, level));
       if (rest_.resting()) {
         if (!level) leave_out_rest(limit);
-        continue;
+        return false;
       }
-      if (!level && steps_.falls_idly(model)) continue;
+      if (!level && steps_.falls_idly(model)) return false;
       context_->time(now);
       // After some clocks without a change at any pin, is the chip at rest?
       const bool look = level && rest_.due();
@@ -153,11 +153,11 @@ class VerilatedChip final : public ChipModel {
       if (const Outputs outputs = pack(); outputs != outputs_) {
         outputs_ = outputs;
         rest_.stirred();
-        return now;
+        return true;
       }
       if (look) rest_.found(steps_.at_rest(model));
-    }
-    return kNever;
+      return false;
+    });
   }
 
   Time next_edge() const override {
@@ -327,13 +327,9 @@ class VerilatedChip final : public ChipModel {
   }
 
   Time run_two_clocks(Time limit) {
-    while (next_edge() <= limit) {
-      const Time now = next_edge();
-      if (pin_clock_.next() == now) {
-        const bool level = pin_clock_.edge();
-        model_->clk_i = level;
-      }
-      if (osc_running_ && oscillator_.next() == now) {
+    const auto edge = [this](Time now, bool of_pin, bool of_oscillator) {
+      if (of_pin) model_->clk_i = pin_clock_.edge();
+      if (of_oscillator) {
         const bool level = oscillator_.edge();
         model_->osc_i = level;
         if (!osc_selected_ && !level && --osc_tail_ == 0) osc_running_ = false;
@@ -342,13 +338,12 @@ class VerilatedChip final : public ChipModel {
       const bool before = Inside::clk(*model_);
       evaluate(now);
       cycles_ += Inside::clk(*model_) && !before ? 1U : 0U;
-      if (const Outputs outputs = pack(); outputs != outputs_) {
-        outputs_ = outputs;
-        return now;
-      }
-      if (!osc_running_) return run_clocks(limit);
-    }
-    return kNever;
+      const Outputs shown = std::exchange(outputs_, pack());
+      return outputs_ != shown || !osc_running_;
+    };
+    const Outputs before = outputs_;
+    const Time now = run_edges(pin_clock_, oscillator_, limit, edge);
+    return outputs_ != before || osc_running_ ? now : run_clocks(limit);
   }
 
   std::unique_ptr<VerilatedContext> context_;  // outlives the model

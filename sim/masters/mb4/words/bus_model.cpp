@@ -8,11 +8,12 @@
 #include <Vmb4_wb___024root.h>
 #include <verilated.h>
 
-#include <algorithm>
+#include <utility>
 
 #include "bus_managers.hpp"
 #include "sim/lines/clocked/clocked_end.hpp"
 #include "sim/masters/mb4/ma_frequency.hpp"
+#include "sim/model/clock_loop.hpp"
 #include "sim/model/clock_source.hpp"
 #include "sim/model/verilated_context.hpp"
 
@@ -70,29 +71,24 @@ class VerilatedBus final : public BusModel {
 
   Time run_clocks(Time limit) override {
     Verilated::threadContextp(context_.get());
-    Model& m = *model_;
-    while (true) {
-      const Time now = std::min(core_.next(), bus_.next());
-      if (now > limit) return kNever;
-      const bool bus_edge = bus_.next() == now;
+    return run_edges(core_, bus_, limit, [this](Time now, bool of_core, bool of_bus) {
+      Model& m = *model_;
       bool rises = false;
-      if (bus_edge) {
+      if (of_bus) {
         rises = bus_.edge();
         manager_.clock(m, rises);
         if (rises && (!access_.done || manager_.owed())) take_answer();
       }
-      if (core_.next() == now) {
+      if (of_core) {
         m.clk_i = core_.edge();
         cycles_ += m.clk_i;
       }
       context_->time(now);
       m.eval();
       if (rises) drive();
-      if (const Outputs outputs = pack(); outputs != outputs_) {
-        outputs_ = outputs;
-        return now;
-      }
-    }
+      const Outputs before = std::exchange(outputs_, pack());
+      return outputs_ != before;
+    });
   }
 
   void set_inputs(Time /*now*/, unsigned line, unsigned levels) override {
