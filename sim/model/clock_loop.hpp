@@ -16,7 +16,7 @@ namespace mb4::sim {
 // Runs the edges of `clock` up to and including `limit`. `edge(now, rises)` computes one; if it
 // returns true the loop ends. Returns the time of that edge, or kNever.
 template <typename Edge>
-inline Time run_edges(ClockSource& clock, Time limit, Edge edge) {
+[[gnu::always_inline]] inline Time run_edges(ClockSource& clock, Time limit, Edge edge) {
   while (clock.next() <= limit) {
     const Time now = clock.next();
     if (edge(now, clock.edge())) return now;

@@ -135,7 +135,7 @@ class VerilatedChip final : public ChipModel {
   Time run_clocks(Time limit) override {
     Verilated::threadContextp(context_.get());
     if (osc_running_) return run_two_clocks(limit);
-    return run_edges(pin_clock_, limit, [this, limit](Time now, bool level) {
+    return run_edges(pin_clock_, limit, [this, limit](Time now, bool level) __attribute__((always_inline)) {
       Model& model = *model_;
       if (level) ++cycles_;
       if (rest_.resting()) rest_.set_resting(steps_.rests(model, level));
