@@ -13,6 +13,9 @@
 
 namespace mb4::sim {
 
+// One clock is the hot path, so its `edge` is inlined too: a lambda with
+// __attribute__((always_inline)). Without it the iC-MB4 takes 2 to 3 % more instructions.
+
 // Runs the edges of `clock` up to and including `limit`. `edge(now, rises)` computes one; if it
 // returns true the loop ends. Returns the time of that edge, or kNever.
 template <typename Edge>

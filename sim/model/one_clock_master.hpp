@@ -149,11 +149,12 @@ class OneClockMaster : public Interface {
 
   template <bool kWave>
   Time run(Time limit) {
-    return run_edges(clock_, limit, [this, limit](Time now, bool rises) __attribute__((always_inline)) {
-      const bool changes = rises ? rise(now) : fall(limit, kWave);
-      if constexpr (kWave) wave_->show(now);
-      return changes;
-    });
+    return run_edges(
+        clock_, limit, [ this, limit ](Time now, bool rises) __attribute__((always_inline)) {
+          const bool changes = rises ? rise(now) : fall(limit, kWave);
+          if constexpr (kWave) wave_->show(now);
+          return changes;
+        });
   }
   // True: an output has changed.
   bool rise(Time now) {

@@ -135,29 +135,30 @@ class VerilatedChip final : public ChipModel {
   Time run_clocks(Time limit) override {
     Verilated::threadContextp(context_.get());
     if (osc_running_) return run_two_clocks(limit);
-    return run_edges(pin_clock_, limit, [this, limit](Time now, bool level) __attribute__((always_inline)) {
-      Model& model = *model_;
-      if (level) ++cycles_;
-      if (rest_.resting()) rest_.set_resting(steps_.rests(model, level));
-      if (rest_.resting()) {
-        if (!level) leave_out_rest(limit);
-        return false;
-      }
-      if (!level && steps_.falls_idly(model)) return false;
-      context_->time(now);
-      // After some clocks without a change at any pin, is the chip at rest?
-      const bool look = level && rest_.due();
-      if (look) steps_.mark(model);
-      steps_.clk(model, level);
-      trace_.dump(now);
-      if (const Outputs outputs = pack(); outputs != outputs_) {
-        outputs_ = outputs;
-        rest_.stirred();
-        return true;
-      }
-      if (look) rest_.found(steps_.at_rest(model));
-      return false;
-    });
+    return run_edges(
+        pin_clock_, limit, [ this, limit ](Time now, bool level) __attribute__((always_inline)) {
+          Model& model = *model_;
+          if (level) ++cycles_;
+          if (rest_.resting()) rest_.set_resting(steps_.rests(model, level));
+          if (rest_.resting()) {
+            if (!level) leave_out_rest(limit);
+            return false;
+          }
+          if (!level && steps_.falls_idly(model)) return false;
+          context_->time(now);
+          // After some clocks without a change at any pin, is the chip at rest?
+          const bool look = level && rest_.due();
+          if (look) steps_.mark(model);
+          steps_.clk(model, level);
+          trace_.dump(now);
+          if (const Outputs outputs = pack(); outputs != outputs_) {
+            outputs_ = outputs;
+            rest_.stirred();
+            return true;
+          }
+          if (look) rest_.found(steps_.at_rest(model));
+          return false;
+        });
   }
 
   Time next_edge() const override {
