@@ -246,8 +246,9 @@ class Device {
   // Transfers; SpiCheck::kFull reads back each write by one more:
   //   without automatic frames  0x02, 0x07, 0x02, 0x07; with single_bank only 0x02
   //   with automatic frames     0x07, 0x02, 0x07 for one bank; 0x03 and 0x05 until the end of a
-  //                             frame has switched the banks, at most frame_timeout_us() plus one
-  //                             frame period; 0x07, 0x02, 0x07 for the other bank
+  //                             frame has switched the banks; 0x07, 0x02, 0x07 for the other bank;
+  //                             0x03 and 0x05 until no bank has shown another word for
+  //                             frame_timeout_us() and one frame period
   //
   // Not touched: kNotConfigured, kBusy, kInvalidArgument (`slave` is no actuator, or the word has
   // too many bits). Touched: kTransport, kNotDetected, kCorrupted; the chip may send the word or

@@ -161,7 +161,7 @@ TEST_P(DriverAutomatic, PollAtEveryPhase_NeverTornNeverOld) {
         ++fresh;
       }
       // Frames run on while the bank is held (decision 15): at 1 MHz few polls see 200 frames pass.
-      EXPECT_GT(fresh, ratio.sclk_hz > 1'000'000 ? 30U : 4U) << period;
+      EXPECT_GE(fresh, ratio.sclk_hz > 1'000'000 ? 31U : 4U) << period;
     }
   }
 }

@@ -101,7 +101,7 @@ class DriverBesideAccess : public testing::TestWithParam<Loop> {};
 TEST_P(DriverBesideAccess, EveryPhase_PositionsGoOn) {
   for (unsigned phase = 0; phase < kPhases; ++phase) {
     const Seen seen = run(GetParam(), phase);
-    EXPECT_GE(seen.ticks, 240U);
+    EXPECT_GE(seen.ticks, 235U);
     EXPECT_GE(seen.positions * 100, seen.ticks * (GetParam().hold ? 99 : 50))
         << "phase " << phase << ": " << seen.positions << " of " << seen.ticks << ", "
         << mb4::to_string(seen.last);

@@ -14,6 +14,12 @@
 
 namespace mb4::detail {
 
+// Of bad_: the word is for both banks; the last reading has differed; words for other banks so far.
+inline constexpr std::uint32_t kBothBanks = 1;
+inline constexpr std::uint32_t kDiffers = 2;
+inline constexpr std::uint32_t kOneWord = 4;
+inline constexpr std::uint32_t kMostWords = 8;
+
 // A switch of the banks takes some system clocks, each at most 1 us.
 inline constexpr std::uint32_t kSwitchUs = 10 + kClockStepUs;
 
@@ -47,7 +53,7 @@ inline Result<void> Procedures::plan_actuator(ChipState& chip, Operation& op, st
   op.request_ = bytes;
   op.count_ = data_bytes(config);
   op.at_ = regs::scdata_address(slave);
-  op.bad_ = both_banks ? 1 : 0;
+  op.bad_ = both_banks ? kBothBanks : 0;
   if (chip.automatic) {
     add_held(chip, op);
   } else if (chip.recover_first) {
@@ -173,12 +179,16 @@ inline Result<void> Procedures::held_step(ChipState& chip, Operation& op, std::u
       }
       const bool differs = !equal(is, op.request_.data(), static_cast<unsigned>(op.count_));
       // One disturbed reading is not the other bank.
-      const bool again = differs && chip.checks_all() && op.bad_ == 1;
+      const bool again = differs && chip.checks_all() && (op.bad_ & kDiffers) == 0;
+      op.bad_ &= ~kDiffers;
       if (differs && !again) {
-        op.bad_ = 0;
+        if (op.bad_ >= kMostWords * kOneWord) {
+          return Error::kCorrupted;
+        }
+        op.bad_ += kOneWord;
         add_held(chip, op);
       } else if (again || !op.limit_.over) {
-        op.bad_ = differs ? 2 : 1;
+        op.bad_ |= differs ? kDiffers : 0;
         add_other(op, now_us);
       }  // otherwise both banks hold the word
       return {};
@@ -206,7 +216,7 @@ inline Result<void> Procedures::held_step(ChipState& chip, Operation& op, std::u
   }
   // Words that have waited since a failed proof were dropped by one 0x02; the next read does it
   // twice.
-  chip.watch.held = !done || (chip.watch.held && chip.checks_all());
+  chip.watch.held = !done || (chip.watch.held && chip.proves_release());
   done = op.cause_;
   if (done && op.bad_ != 0) {
     op.limit_.begin(now_us, chip.frame_us + chip.pitch_us);
@@ -215,8 +225,10 @@ inline Result<void> Procedures::held_step(ChipState& chip, Operation& op, std::u
   return done;
 }
 
-// Reads until the word differs, which shows the other bank. If no reading differs, both banks hold
-// the word. The status makes the two frames as long as the count of polls expects.
+// Reads until the word differs, which shows the other bank, also behind the word for that one: a
+// frame may have ended between the reading and HOLDBANK, and the word is in the first bank again.
+// If no reading differs, both banks hold the word. The status makes the two frames as long as the
+// count of polls expects.
 inline void Procedures::add_other(Operation& op, std::uint32_t now_us) {
   op.limit_.note(now_us);
   op.stage_ = kPoll;
