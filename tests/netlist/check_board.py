@@ -46,9 +46,8 @@ def main():
         raise SystemExit("docs/integration.md: no command that programs the board")
     folder.mkdir(parents=True, exist_ok=True)
     (folder / bitstream).unlink(missing_ok=True)
-    # Copies: nextpnr as WebAssembly follows no link out of the folder.
-    for name in ("rtl", "regmap", "tools/synth"):
-        shutil.copytree(project.ROOT / name, folder / name, dirs_exist_ok=True)
+    # A copy: nextpnr as WebAssembly follows no link out of the folder.
+    shutil.copytree(project.ROOT, folder, dirs_exist_ok=True, ignore=shutil.ignore_patterns("build*", ".*"))
     status, text = project.run(["bash", "-euc", commands], cwd=folder)
     if status != 0:
         project.finish([text[-4000:]], "")
