@@ -25,9 +25,6 @@
 
 #include "sim/core/trace_error.hpp"
 #include "sim/core/trace_file.hpp"
-#include "sim/hosts/word_access.hpp"
-#include "sim/masters/chip_config.hpp"
-#include "sim/masters/master_model.hpp"
 #include "sim/model/axi_lite_manager.hpp"
 #include "sim/model/clock_loop.hpp"
 #include "sim/model/clock_source.hpp"
@@ -39,6 +36,9 @@ namespace mb4::sim {
 
 template <typename Self, typename Interface, typename Model, typename Counts>
 class OneClockMaster : public Interface {
+  using Outputs = typename Interface::Outputs;
+  using Access = std::remove_cvref_t<decltype(std::declval<const Interface&>().access())>;
+
  public:
   Time run_clocks(Time limit) override {
     Verilated::threadContextp(context_.get());
@@ -52,13 +52,13 @@ class OneClockMaster : public Interface {
   }
   std::uint64_t left_out() const override { return rest_.left_out(); }
 
-  void begin(const WordAccess& access) override {
+  void begin(const Access& access) override {
     access_ = access;
     access_.done = false;
     fresh_ = true;
     rest_.stirred();
   }
-  const WordAccess& access() const override { return access_; }
+  const Access& access() const override { return access_; }
   void give_up() override {
     manager_.drop(*model_);
     move();
@@ -73,12 +73,12 @@ class OneClockMaster : public Interface {
 
  protected:
   // `plain`: no clock is left out.
-  OneClockMaster(const ChipConfig& chip, std::uint64_t seed, bool plain, const char* name)
+  OneClockMaster(std::uint64_t f_clk_hz, std::uint64_t seed, bool plain, const char* name)
       : context_(make_verilated_context(seed)),
         model_(std::make_unique<Model>(context_.get(), name)),
-        clock_(chip.f_clk_hz),
+        clock_(f_clk_hz),
         rest_(plain) {
-    this->min_clock_ = MasterModel::period_of(chip.f_clk_hz);
+    this->min_clock_ = Interface::period_of(f_clk_hz);
     manager_.rest(*model_);
   }
   ~OneClockMaster() override {
@@ -107,7 +107,7 @@ class OneClockMaster : public Interface {
   template <typename Change>
   void change_at_once(Time now, Change change) {
     Verilated::threadContextp(context_.get());
-    const MasterModel::Outputs before = this->outputs_;
+    const Outputs before = this->outputs_;
     change();
     self().evaluate();
     self().pack();
@@ -160,7 +160,7 @@ class OneClockMaster : public Interface {
   bool rise(Time now) {
     Model& m = *model_;
     // An edge transfers the levels that the pins have before it.
-    const MasterModel::Outputs before = this->outputs_;
+    const Outputs before = this->outputs_;
     self().before(now);
     ++this->cycles_;
     const bool moves = busy();
@@ -196,7 +196,7 @@ class OneClockMaster : public Interface {
     move();
   }
 
-  WordAccess access_;
+  Access access_;
   bool fresh_ = false;  // the access has not been put on the pins
   std::unique_ptr<SignalWave> wave_;
 };

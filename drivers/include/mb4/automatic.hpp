@@ -290,10 +290,10 @@ class Automatic {
   }
 
   // Device::write_actuator() for a control loop that writes a word for each frame. Never waits;
-  // three transfers, seven or eight with SpiCheck::kFull. `word` has at most data_bits bits. The chip
-  // sends the word with the frame after the one that runs. Only one of the two banks gets the word:
-  // if the caller writes no other word before the frame after that, that frame sends the previous
-  // word.
+  // three transfers, seven or eight with SpiCheck::kFull. `word` has at most data_bits bits. The
+  // chip sends the word with the frame after the one that runs. Only one of the two banks gets the
+  // word: if the caller writes no other word before the frame after that, that frame sends the
+  // previous word.
   //
   // Not touched: kWrongMode (automatic frames do not run), kBusy, kInvalidArgument. kTransport,
   // kNotDetected, kCorrupted as for Device::write_actuator().

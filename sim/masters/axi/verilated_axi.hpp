@@ -40,7 +40,7 @@ class VerilatedAxi final : public OneClockMaster<VerilatedAxi<Model, kChannels, 
 
  public:
   VerilatedAxi(const ChipConfig& chip, std::uint64_t seed, bool plain)
-      : Base(chip, seed, plain, "biss_axi"), por_pin_((chip.quirks & kAxiPorPin) != 0) {
+      : Base(chip.f_clk_hz, seed, plain, "biss_axi"), por_pin_((chip.quirks & kAxiPorPin) != 0) {
     Model& m = *model_;
     m.switches_i = static_cast<CData>(chip.quirks & kAxiSwitches);
     m.s_axis_tready = 1;

@@ -38,7 +38,7 @@ class VerilatedClb final
 
  public:
   VerilatedClb(const ChipConfig& chip, std::uint64_t seed, bool plain)
-      : Base(chip, seed, plain, "biss_clb") {
+      : Base(chip.f_clk_hz, seed, plain, "biss_clb") {
     model_->sl_i = 1;
     this->reset_by_edges([this](bool active) { model_->rst_ni = active ? 0 : 1; });
   }
