@@ -6,6 +6,9 @@
 #ifndef MB4SIM_HOST_PINS_HPP_
 #define MB4SIM_HOST_PINS_HPP_
 
+#include <optional>
+#include <string_view>
+
 #include "sim/core/time.hpp"
 
 namespace mb4::sim {
@@ -13,6 +16,15 @@ namespace mb4::sim {
 // A pin of a master, by a number of the master's own. The master names its pins;
 // masters/mb4/pins.hpp has the names of the iC-MB4.
 enum class Pin : int;
+
+// The pin of this name in a table of pairs, name and pin.
+template <typename Names>
+constexpr std::optional<Pin> find_pin(const Names& names, std::string_view name) {
+  for (const auto& [text, pin] : names) {
+    if (text == name) return pin;
+  }
+  return std::nullopt;
+}
 
 class HostPins {
  public:

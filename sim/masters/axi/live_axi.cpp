@@ -2,17 +2,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sim/masters/axi/live_axi.hpp"
 
-#include <algorithm>
 #include <charconv>
-#include <iterator>
 #include <utility>
 
 #include "sim/lines/clocked/clocked_end.hpp"
 
 namespace mb4::sim {
 namespace {
-
-constexpr unsigned kLongestAccess = 1000;  // clocks
 
 constexpr Pin kAresetn{0};
 constexpr Pin kExtSampleClk{1};
@@ -50,32 +46,6 @@ unsigned channels_of(MasterModel::Outputs lines) {
 }
 
 }  // namespace
-
-std::optional<std::uint8_t> AxiHost::run(const WordAccess& access) {
-  model_.begin(access);
-  for (unsigned clock = 0; clock < kLongestAccess && !model_.access().done; ++clock) {
-    outside_.run_until(outside_.now() + period_);
-  }
-  if (!model_.access().done) {
-    model_.give_up();
-    return std::nullopt;
-  }
-  return model_.access().answer;
-}
-
-std::optional<std::uint8_t> AxiHost::write(std::uint32_t address, std::uint32_t data,
-                                           std::uint8_t strobe) {
-  return run({.write = true,
-              .address = static_cast<std::uint8_t>(address),
-              .data = data,
-              .strobe = strobe});
-}
-
-std::optional<std::uint8_t> AxiHost::read(std::uint32_t address, std::uint32_t& data) {
-  const auto answer = run({.write = false, .address = static_cast<std::uint8_t>(address)});
-  data = answer ? model_.access().data : 0;
-  return answer;
-}
 
 std::uint32_t AxiHost::read(std::uint32_t address) {
   std::uint32_t data = 0;
@@ -147,9 +117,7 @@ bool LiveAxi::pin(Pin pin) const {
 }
 
 std::optional<Pin> axi_pin_by_name(std::string_view name) {
-  const auto* found = std::find_if(std::begin(kPins), std::end(kPins),
-                                   [&](const auto& entry) { return entry.first == name; });
-  if (found != std::end(kPins)) return found->second;
+  if (const auto pin = find_pin(kPins, name)) return pin;
   for (const auto& [begin, first] :
        {std::pair<std::string_view, int>{"ma", kMa0}, {"slo", kSlo0}}) {
     if (name.substr(0, begin.size()) != begin) continue;

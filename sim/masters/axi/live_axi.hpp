@@ -11,24 +11,22 @@
 #include <string_view>
 
 #include "sim/hosts/host_pins.hpp"
+#include "sim/hosts/word_access.hpp"
 #include "sim/hosts/word_host.hpp"
 #include "sim/masters/axi/axi_model.hpp"
 #include "sim/masters/live_master.hpp"
 
 namespace mb4::sim {
 
-// A manager of AXI4-Lite and the sink of the stream. An access lets time pass until it has its
-// answer.
-class AxiHost final : public WordHost, public StreamSink {
+// A manager of AXI4-Lite and the sink of the stream.
+class AxiHost final : public PollingWordHost, public StreamSink {
  public:
+  // No answer within 1000 clocks of `period` is none.
   AxiHost(HostPins& outside, AxiModel& model, Time period)
-      : outside_(outside), model_(model), period_(period) {}
+      : PollingWordHost(outside, model, period, 1000, 0xFF), model_(model) {}
 
-  // Return BRESP and RRESP, or nothing if there is no answer within 1000 clocks.
-  std::optional<std::uint8_t> write(std::uint32_t address, std::uint32_t data,
-                                    std::uint8_t strobe) override;
-  std::optional<std::uint8_t> read(std::uint32_t address, std::uint32_t& data) override;
-  std::uint32_t last_address() const override { return 0xFF; }
+  using PollingWordHost::read;
+  using PollingWordHost::write;
   // Writes all four bytes.
   std::optional<std::uint8_t> write(std::uint32_t address, std::uint32_t data) {
     return write(address, data, 0xF);
@@ -42,11 +40,7 @@ class AxiHost final : public WordHost, public StreamSink {
   std::size_t beats_waiting() const { return model_.beats().size(); }
 
  private:
-  std::optional<std::uint8_t> run(const WordAccess& access);
-
-  HostPins& outside_;
   AxiModel& model_;
-  Time period_;
 };
 
 class LiveAxi final : public LiveMaster {

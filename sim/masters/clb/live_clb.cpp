@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sim/masters/clb/live_clb.hpp"
 
-#include <algorithm>
-#include <iterator>
 #include <utility>
 
 #include "sim/lines/clocked/clocked_end.hpp"
@@ -64,11 +62,6 @@ bool LiveClb::pin(Pin pin) const {
   return (outputs & ClbModel::kTxen) != 0;
 }
 
-std::optional<Pin> clb_pin_by_name(std::string_view name) {
-  const auto* found = std::find_if(std::begin(kClbPins), std::end(kClbPins),
-                                   [&](const auto& entry) { return entry.first == name; });
-  if (found == std::end(kClbPins)) return std::nullopt;
-  return found->second;
-}
+std::optional<Pin> clb_pin_by_name(std::string_view name) { return find_pin(kClbPins, name); }
 
 }  // namespace mb4::sim

@@ -21,10 +21,7 @@ std::optional<Pin> pin_by_name(std::string_view name) {
       {"MISO", Pin::kDb1},      {"SL2", Pin::kSl2},          {"MA2", Pin::kMa2},
       {"MO2", Pin::kMo2},       {"IRQ", Pin::kIrq},          {"CLKENI", Pin::kClkeni},
   }};
-  for (const auto& [text, pin] : kNames) {
-    if (text == name) return pin;
-  }
-  return std::nullopt;
+  return find_pin(kNames, name);
 }
 
 }  // namespace mb4::sim

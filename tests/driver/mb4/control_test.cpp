@@ -540,9 +540,7 @@ TEST_F(RegistersAgs, DisturbedFill_IsFollowedByARestart) {
   bus.expect_read({0x03, 0x80, 0x00}, {0, 0, 0x02});
   bus.expect_read({0x03, 0xC0, 0x00}, {0, 0, 0x5B});
   bus.expect_read(mb4test::kReadWitness, {0, 0xFB, 0, 0, 0, 0x01, 0});
-  bus.expect_write(kRest).expect_read(
-      mb4test::kReadRest,
-      mb4test::kRestBack);  // the bytes may be there; the configuration is compared
+  mb4test::expect_rest_at_full(bus);  // the bytes may be there; the configuration is compared
   for (const auto& one : mb4test::comparison(answer, {0, 0xFB, 0, 0, 0, 0x01})) {
     bus.expect_read(one.mosi, one.miso);
   }
@@ -880,7 +878,7 @@ TEST_F(HoldBesideControl, FlippedRegend_DoesNotEndTheAccess) {
   bus.expect_read(kReadStatus, {0, kEnded, 0, 0, 0, 0x01});
   bus.expect_read({0x03, 0x80, 0x5A}, {0, 0, 0x77});  // RDATA1, which take() compares
   bus.expect_read(mb4test::kReadWitness, {0, kEnded, 0, 0, 0, 0x01, 0});
-  bus.expect_write(kRest).expect_read(mb4test::kReadRest, mb4test::kRestBack);
+  mb4test::expect_rest_at_full(bus);
   EXPECT_TRUE(*device.control().poll());
 }
 

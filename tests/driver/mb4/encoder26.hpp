@@ -136,6 +136,9 @@ inline Bytes answer_at_full() {
   return answer;
 }
 inline const Bytes kRestBack = rest_back(answer_at_full());
+inline void expect_rest_at_full(StrictBus& bus, const Bytes& back = kRestBack) {
+  bus.expect_write(kRest).expect_read(kReadRest, back);
+}
 inline const Bytes kIdleStatus = status(0xFB, 0x00);     // EOT = 1, no error, REGEND = 0
 inline const Bytes kRunning = status(0xFA, 0x00, 0x04);  // EOT = 0, INSTR = 010 still there
 inline const Bytes kGoodFrame = status(0xFB, 0x02);      // EOT = 1, SVALID1 = 1 (bit 1 of 0xF1)

@@ -247,7 +247,7 @@ TEST_F(FullCheck, BadWordBesideAnAccess_IsNotMarked) {
   bus.expect_read(kReadStatus, done);
   bus.expect_read({0x03, 0x80, 0x5A}, {0, 0, 0x77});
   bus.expect_read(mb4test::kReadWitness, mb4test::witness(done));
-  bus.expect_write(mb4test::kRest).expect_read(mb4test::kReadRest, mb4test::rest_back(answer));
+  mb4test::expect_rest_at_full(bus, mb4test::rest_back(answer));
   ASSERT_TRUE(*device.control().poll());
   poll(false);
   for (const bool again : {false, true}) {

@@ -111,10 +111,10 @@ class OperationTest : public testing::Test {
     Bytes image = mb4test::configuration();
     Bytes answer = mb4test::read_back();
     for (Bytes* bytes : {&image, &answer}) {
-      (*bytes)[0] = 0xDB;            // LSTOP1 = 1 (table 18)
-      (*bytes)[0xE5 - 0xC0] = 0xC2;  // EN_MO (table 39)
-      (*bytes)[0xE7 - 0xC0] = 0x00;  // NOCRC = 0 (table 21)
-      (*bytes)[0xEF - 0xC0] = 0x01;  // ACTnSENS1 (table 17)
+      (*bytes)[0] = 0xDB;                                              // LSTOP1 = 1 (table 18)
+      (*bytes)[0xE5 - 0xC0] = 0xC2;                                    // EN_MO (table 39)
+      if (check != mb4::SpiCheck::kOff) (*bytes)[0xE7 - 0xC0] = 0x00;  // NOCRC = 0 (table 21)
+      (*bytes)[0xEF - 0xC0] = 0x01;                                    // ACTnSENS1 (table 17)
     }
     mb4test::expect_image(bus, image, answer);
     ASSERT_TRUE(device.configure(config).ok());
@@ -229,7 +229,7 @@ class OperationTest : public testing::Test {
   void restart_after_rest() {
     bus.expect_write({0x07, 0x80, 0x00});
     bus.expect_write(kClearValid1);
-    bus.expect_write(kRest).expect_read(kReadRest, kRestBack);
+    mb4test::expect_rest_at_full(bus);
     bus.expect_read(kReadWitness, witness(status(0xFF, 0x00, 0x00)));
     expect_start();
     EXPECT_TRUE(device.automatic().restart().ok());
@@ -1401,7 +1401,7 @@ TEST_F(Access, RequestAtRestLost_IsCorrupted) {
     bus.expect_read(kReadRest, kAskedBack);
     bus.expect_read(kReadStatus, kOver);
     bus.expect_read(kReadRest, kAskedBack);
-    bus.expect_write(kRest).expect_read(kReadRest, kRestBack);
+    mb4test::expect_rest_at_full(bus);
     expect_compared(kOver);
     EXPECT_EQ(abort ? device.control().abort().error() : device.break_transmission().error(),
               Error::kCorrupted);
@@ -1632,7 +1632,7 @@ TEST_F(Access, BreakInTheLastSteps_EndsIt) {
       EXPECT_FALSE(step(kTakeFirst, {{0, 0, 1, 2}, witness(kDoneAgs)}));
     }
     bus.expect_write({0x07, 0x80});
-    if (at < 2) bus.expect_write(kRest).expect_read(kReadRest, kRestBack);
+    if (at < 2) mb4test::expect_rest_at_full(bus);
     bus.expect_read(kReadStatus, kOver);
     EXPECT_TRUE(device.control().abort().ok());
     EXPECT_TRUE(device.finish(op, true, now_us)) << at;
@@ -1867,7 +1867,7 @@ TEST_F(Access, BankSwitchedByTheInstruction_IsReleasedOrEnds) {
                      : step({kBreak, kRest, kReadRest}, {kRestBack}));
     if (!hold) ends_with(Error::kCorrupted);
     bus.expect_write(kBreak);
-    if (hold) bus.expect_write(kRest).expect_read(kReadRest, kRestBack);
+    if (hold) mb4test::expect_rest_at_full(bus);
     bus.expect_read(kReadStatus, kOver);
     ASSERT_TRUE(device.break_transmission().ok());
     EXPECT_TRUE(device.finish(op, false, now_us));
@@ -2089,18 +2089,7 @@ TEST_F(Access, WrongArguments_PlanNothing) {
 // Beside automatic frames the word goes to both banks; the status behind each look at the other one
 // must be a status.
 TEST_F(Access, ActuatorWithoutStatus_IsReported) {
-  mb4::Config config = mb4test::encoder26();
-  config.mo = config.slaves[0].actuator = true;
-  Bytes image = mb4test::configuration();
-  Bytes answer = mb4test::read_back();
-  for (Bytes* bytes : {&image, &answer}) {
-    (*bytes)[0] = 0xDB;            // LSTOP1 = 1 (table 18)
-    (*bytes)[0xE5 - 0xC0] = 0xC2;  // EN_MO (table 39)
-    (*bytes)[0xEF - 0xC0] = 0x01;  // ACTnSENS1 (table 17)
-  }
-  mb4test::expect_image(bus, image, answer);
-  ASSERT_TRUE(device.configure(config).ok());
-  start();
+  start_actuator(mb4::SpiCheck::kOff);
   const std::vector<Bytes> hold{{0x07, 0x41}, {0x02, 0x00, 0xBF, 0x37, 0xAF, 0x0A}, kAgs};
   const std::vector<Bytes> look{{0x03, 0x00, 0, 0, 0, 0}, kReadStatus};
   const Bytes same{0, 0, 0xBF, 0x37, 0xAF, 0x0A};
@@ -2139,56 +2128,57 @@ TEST_F(Access, ActuatorsRelease_IsProven) {
   }
 }
 
+// An actuator's word for both banks, at SpiCheck::kFull.
+class BothBanks : public Access {
+ protected:
+  void begin() {
+    start_actuator(mb4::SpiCheck::kFull);
+    ASSERT_TRUE(device.plan_actuator(op, 1, mb4test::kRaw).ok());
+  }
+  // The word, under HOLDBANK, into the bank that is there.
+  void write_word() {
+    const Bytes held = status(0xFB, 0x00, 0x41);
+    EXPECT_FALSE(step({{0x07, 0x41}, kReadStatus}, {held}));
+    EXPECT_FALSE(
+        step({{0x02, 0x00, 0xBF, 0x37, 0xAF, 0x0A}, {0x03, 0x00, 0, 0, 0, 0}, kReadWitness},
+             {same, witness(held)}));
+    EXPECT_FALSE(step({kAgs, kReadStatus}, {kProven}));
+  }
+  // A look at the bank that is there.
+  bool look(const Bytes& is) {
+    return step({{0x03, 0x00, 0, 0, 0, 0}, kReadStatus}, {is, kProven});
+  }
+  const Bytes same{0, 0, 0xBF, 0x37, 0xAF, 0x0A};
+  const Bytes other{0, 0, 0xBE, 0x37, 0xAF, 0x0A};
+};
+
 // With SpiCheck::kFull one reading that differs is not the other bank: it is read once more. A
 // frame may end between the reading and HOLDBANK: then the first bank has got the word again, and
 // the other one is looked for once more.
-TEST_F(Access, OtherBank_IsSeenTwice) {
-  start_actuator(mb4::SpiCheck::kFull);
-  const Bytes held = status(0xFB, 0x00, 0x41);
-  const Bytes same{0, 0, 0xBF, 0x37, 0xAF, 0x0A};
-  const Bytes other{0, 0, 0xBE, 0x37, 0xAF, 0x0A};
-  const std::vector<Bytes> word{
-      {0x02, 0x00, 0xBF, 0x37, 0xAF, 0x0A}, {0x03, 0x00, 0, 0, 0, 0}, kReadWitness};
-  const std::vector<Bytes> look{{0x03, 0x00, 0, 0, 0, 0}, kReadStatus};
-  ASSERT_TRUE(device.plan_actuator(op, 1, mb4test::kRaw).ok());
-  EXPECT_FALSE(step({{0x07, 0x41}, kReadStatus}, {held}));
-  EXPECT_FALSE(step(word, {same, witness(held)}));
-  EXPECT_FALSE(step({kAgs, kReadStatus}, {kProven}));
-  EXPECT_FALSE(step(look, {other, kProven}));  // one bit was disturbed
-  EXPECT_FALSE(step(look, {same, kProven}));
-  EXPECT_FALSE(step(look, {other, kProven}));
-  EXPECT_FALSE(step(look, {other, kProven}));
-  for (int words = 0; words < 2; ++words) {
-    EXPECT_FALSE(step({{0x07, 0x41}, kReadStatus}, {held}));
-    EXPECT_FALSE(step(word, {same, witness(held)}));
-    EXPECT_FALSE(step({kAgs, kReadStatus}, {kProven}));
-    if (words == 0) {
-      EXPECT_FALSE(step(look, {other, kProven}));
-      EXPECT_FALSE(step(look, {other, kProven}));
-    }
-  }
+TEST_F(BothBanks, OtherBank_IsSeenTwice) {
+  begin();
+  write_word();
+  EXPECT_FALSE(look(other));  // one bit was disturbed
+  EXPECT_FALSE(look(same));
+  EXPECT_FALSE(look(other));
+  EXPECT_FALSE(look(other));
+  write_word();
+  EXPECT_FALSE(look(other));
+  EXPECT_FALSE(look(other));
+  write_word();
   now_us += 10'000;
-  EXPECT_FALSE(step(look, {same, kProven}));
-  EXPECT_TRUE(step(look, {same, kProven}));
+  EXPECT_FALSE(look(same));
+  EXPECT_TRUE(look(same));
   ends_with(Error::kNone);
 }
 
 // A bank that never holds the word.
-TEST_F(Access, OtherBankNeverHoldsTheWord_IsCorrupted) {
-  start_actuator(mb4::SpiCheck::kFull);
-  const Bytes held = status(0xFB, 0x00, 0x41);
-  const Bytes same{0, 0, 0xBF, 0x37, 0xAF, 0x0A};
-  const Bytes other{0, 0, 0xBE, 0x37, 0xAF, 0x0A};
-  const std::vector<Bytes> word{
-      {0x02, 0x00, 0xBF, 0x37, 0xAF, 0x0A}, {0x03, 0x00, 0, 0, 0, 0}, kReadWitness};
-  const std::vector<Bytes> look{{0x03, 0x00, 0, 0, 0, 0}, kReadStatus};
-  ASSERT_TRUE(device.plan_actuator(op, 1, mb4test::kRaw).ok());
+TEST_F(BothBanks, OneNeverHoldsTheWord_IsCorrupted) {
+  begin();
   for (int words = 0; words < 9; ++words) {
-    EXPECT_FALSE(step({{0x07, 0x41}, kReadStatus}, {held}));
-    EXPECT_FALSE(step(word, {same, witness(held)}));
-    EXPECT_FALSE(step({kAgs, kReadStatus}, {kProven}));
-    EXPECT_FALSE(step(look, {other, kProven}));
-    EXPECT_EQ(step(look, {other, kProven}), words == 8);
+    write_word();
+    EXPECT_FALSE(look(other));
+    EXPECT_EQ(look(other), words == 8);
   }
   ends_with(Error::kCorrupted);
 }

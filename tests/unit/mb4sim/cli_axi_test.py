@@ -8,11 +8,10 @@
 import json
 import re
 import sys
-import tempfile
 import unittest
 from pathlib import Path
 
-from cli import run
+from cli import MasterTest, run
 
 HEAD = '[master]\ntype = "axi"\n[chip]\nf_clk_hz = 100_000_000\n'
 
@@ -26,21 +25,9 @@ def ramp(start, step=1):
     return f'source = "ramp"\nstart = {start}\nstep = {step}\n'
 
 
-class Axi(unittest.TestCase):
-    def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = Path(folder.name)
-
-    def path(self, text):
-        path = self.folder / "axi.toml"
-        path.write_text(HEAD + text, encoding="utf-8")
-        return str(path)
-
-    def frames(self, scenario, *options):
-        result = run("run", scenario, "--json", *options)
-        self.assertEqual(result.stderr, "")
-        return result.returncode, json.loads(result.stdout)
+class Axi(MasterTest):
+    HEAD = HEAD
+    NAME = "axi.toml"
 
     def test_run_reads_all_channels_with_their_cables(self):
         scenario = self.path("".join(

@@ -8,11 +8,10 @@
 import json
 import re
 import sys
-import tempfile
 import unittest
 from pathlib import Path
 
-from cli import run
+from cli import MasterTest, run
 
 HEAD = '[master]\ntype = "clb"\n'
 EXAMPLES = Path(sys.argv[2]) / "clb"
@@ -37,21 +36,9 @@ def remainder(word, bits, polynomial, start=0):
     return rest
 
 
-class Clb(unittest.TestCase):
-    def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = Path(folder.name)
-
-    def path(self, text):
-        path = self.folder / "clb.toml"
-        path.write_text(HEAD + text, encoding="utf-8")
-        return str(path)
-
-    def frames(self, scenario, *options):
-        result = run("run", scenario, "--json", *options)
-        self.assertEqual(result.stderr, "")
-        return result.returncode, json.loads(result.stdout)
+class Clb(MasterTest):
+    HEAD = HEAD
+    NAME = "clb.toml"
 
     def test_run_reads_any_length_and_crc(self):
         for bits, polynomial, start in ((3, 0x43, 0), (14, 0x43, 5), (34, 0x25, 3), (64, 0x190D9, 0x1234)):

@@ -8,11 +8,10 @@
 import json
 import re
 import sys
-import tempfile
 import unittest
 from pathlib import Path
 
-from cli import EXAMPLES, run
+from cli import EXAMPLES, MasterTest, run
 
 HEAD = '[master]\ntype = "dsl-model"\n'
 FRAME_US = 11.52
@@ -22,21 +21,13 @@ def motor(keys="", slave=""):
     return f'[[channel]]\nnumber = 1\n{keys}[[channel.slave]]\nprotocol = "dsl"\n{slave}'
 
 
-class Dsl(unittest.TestCase):
-    def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = Path(folder.name)
-
-    def path(self, text):
-        path = self.folder / "motor.toml"
-        path.write_text(HEAD + text, encoding="utf-8")
-        return str(path)
+class Dsl(MasterTest):
+    HEAD = HEAD
+    NAME = "motor.toml"
 
     def rows(self, scenario, frames):
-        result = run("run", scenario, "--json", "--frames", str(frames))
-        self.assertEqual(result.stderr, "")
-        return result.returncode, json.loads(result.stdout)["frames"]
+        status, got = self.frames(scenario, "--frames", str(frames))
+        return status, got["frames"]
 
     def test_every_example_has_50_good_frames(self):
         examples = sorted((Path(EXAMPLES) / "dsl").glob("*.toml"))
