@@ -352,4 +352,53 @@ TEST(PruJudgeFrame, RandomFrames_AreReadRight) {
   }
 }
 
+// Bad words of frames `from` to `to` (exclusive) at a rate, over 121 delays in 12 periods, with
+// jitter of SL in percent of a period, peak to peak.
+unsigned bad_words(const JudgeSetup& setup, unsigned mhz, unsigned percent, unsigned from,
+                   unsigned to) {
+  std::mt19937_64 random(percent);
+  const Time period = kUs / mhz;
+  const Time jitter = period * percent / 100;
+  unsigned bad = 0;
+  for (Time step = 0; step < 121; ++step) {
+    Bench bench(setup);
+    bench.start(12, 8, mhz);
+    if (mhz != 1) bench.frame({0, false, word(0, 12)});
+    bench.delay = period + period * step / 10 - jitter / 2;
+    bench.jitter = [&] { return static_cast<Time>(random() % static_cast<unsigned>(jitter)); };
+    for (unsigned i = 0; i < to; ++i) {
+      const std::uint64_t position = random() >> 52;
+      const FrameReport report = bench.frame({0, false, word(position, 12)});
+      EXPECT_EQ(report.settings.averages, mhz != 10 && i >= 4);
+      if (i >= from && (!report.good || bench.judge.position() != position)) ++bad;
+    }
+  }
+  return bad;
+}
+
+// The jitter that the rulings promise; above it the ones count fails, FIRST_LOW does not (R-P12a).
+TEST(PruJudgeFrame, Jitter_IsStoodAsTheRulingsSay) {
+  for (const JudgeSetup& clock : {JudgeSetup{}, at_80_mhz()}) {
+    JudgeSetup first_low = clock;
+    first_low.first_low = true;
+    for (const unsigned mhz : {1U, 2U, 5U, 10U}) {
+      const bool averages = mhz != 10;
+      EXPECT_EQ(bad_words(clock, mhz, 12, 0, averages ? 4 : 12), 0U) << mhz;
+      if (averages) {
+        EXPECT_EQ(bad_words(clock, mhz, 20, 4, 16), 0U) << mhz;
+      }
+      EXPECT_EQ(bad_words(first_low, mhz, 30, 0, 16), 0U) << mhz;
+    }
+    EXPECT_GT(bad_words(clock, 10, 35, 0, 16), 0U);
+  }
+}
+
+// R-P12: the published average reads wrong bits where SP goes from 0 to 7, at 10 % of jitter.
+TEST(PruJudgeFrame, PublishedAverage_FailsWhereThePointWraps) {
+  JudgeSetup setup;
+  setup.sma_wrap = true;
+  EXPECT_GT(bad_words(setup, 1, 10, 4, 16), 0U);
+  EXPECT_EQ(bad_words(JudgeSetup{}, 1, 10, 4, 16), 0U);
+}
+
 }  // namespace
