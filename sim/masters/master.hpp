@@ -37,6 +37,7 @@ struct Master {
   std::int64_t max_clk_hz;
   std::int64_t min_osc_hz;
   std::int64_t max_osc_hz;
+  bool clk_needed = false;            // f_clk_hz cannot be 0 either
   std::uint64_t clk_hz = 20'000'000;  // without the key f_clk_hz
   unsigned quirks = 0;                // ChipConfig::quirks without [chip.quirks]
   // Reads the keys of [chip] that other masters do not have. Null: none.

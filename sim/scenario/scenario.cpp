@@ -36,7 +36,8 @@ ChipConfig read_chip(const TomlValue& table, TomlFile& file, const Master& maste
   ChipConfig chip;
   chip.quirks = master.quirks;
   chip.f_clk_hz = master.clk_hz;
-  if (const auto hz = reader.integer("f_clk_hz", 0, master.max_clk_hz)) {
+  const std::int64_t least = master.clk_needed ? master.min_clk_hz : 0;
+  if (const auto hz = reader.integer("f_clk_hz", least, master.max_clk_hz)) {
     if (*hz != 0 && *hz < master.min_clk_hz) {
       reader.fail("f_clk_hz", std::to_string(*hz) + " is below " +
                                   std::to_string(master.min_clk_hz) + " (0 = not connected)");
