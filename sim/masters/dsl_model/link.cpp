@@ -67,6 +67,17 @@ AnswerWords words_of(Answer answer, CodeCheck check) {
           .direction = (answer >> 10U & 1U) != 0};
 }
 
+std::optional<int> acceleration_in(const AnswerWords& words, CodeCheck check) {
+  const auto plain = [check](const Word& word) {
+    return !word.error && (check == CodeCheck::kPublished || !word.special || word.is_k28());
+  };
+  const Word& high = words.acceleration_high;
+  const Word& low = words.acceleration_low;
+  const auto word = static_cast<std::uint16_t>(high.byte << 8U | low.byte);
+  if (!plain(high) || !plain(low) || !acceleration_is_good(word)) return std::nullopt;
+  return acceleration_of(word);
+}
+
 Link::Link(const LinkRules& rules)
     : rules_(rules),
       receiver_(rules.sample, rules.rssi_table),
@@ -273,12 +284,9 @@ void Link::run() {
   if (words.parameter.special && !words.parameter.error) ++events.specials;
   if (unexpected(words.secondary, kMarker2) && !words.secondary.is_k28()) ++events.specials;
 
-  const auto plain = [](const Word& word) {
-    return !word.error && (!word.special || word.is_k28());
-  };
-  const auto word = static_cast<std::uint16_t>(high.byte << 8U | low.byte);
-  frame_.acceleration_good = plain(high) && plain(low) && acceleration_is_good(word);
-  motion_.frame(frame_.acceleration_good ? std::optional(acceleration_of(word)) : std::nullopt);
+  const std::optional<int> acceleration = acceleration_in(words, rules_.check);
+  frame_.acceleration_good = acceleration.has_value();
+  motion_.frame(acceleration);
   take_safe(events);
 
   frame_.position = motion_.position();

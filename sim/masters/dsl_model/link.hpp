@@ -11,6 +11,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 
 #include "sim/masters/dsl_model/frame_plan.hpp"
 #include "sim/masters/dsl_model/line_code.hpp"
@@ -60,6 +61,9 @@ struct AnswerWords {
   bool direction = false;
 };
 AnswerWords words_of(Answer answer, CodeCheck check);
+// The second difference of an answer; nothing if a word is wrong. The strict check refuses special
+// characters but K28.x, the published one looks at code errors and CRC5 alone.
+std::optional<int> acceleration_in(const AnswerWords& words, CodeCheck check);
 
 // A safe channel: what came with the last good vertical frame.
 struct SafeChannel {

@@ -47,6 +47,10 @@ Time LinkModel::run_clocks(Time limit) {
 
 void LinkModel::set_clock(Time now, std::uint64_t hz) {
   may_run_at(hz);
+  if (hz == 0 && hz_ != 0) {
+    stopped_next_ = next_;
+    stopped_hz_ = hz_;
+  }
   hz_ = hz;
   rest_ = 0;
   next_ = hz == 0 ? kNever : now + kPsPerSecond / hz;
@@ -54,7 +58,8 @@ void LinkModel::set_clock(Time now, std::uint64_t hz) {
 
 Time LinkModel::time_of(std::uint64_t tick) const {
   const std::uint64_t ago = link_.ticks() - tick;
-  return hz_ == 0 ? next_ : next_ - ago * kPsPerSecond / hz_;
+  if (hz_ != 0) return next_ - ago * kPsPerSecond / hz_;
+  return stopped_hz_ == 0 ? next_ : stopped_next_ - ago * kPsPerSecond / stopped_hz_;
 }
 
 }  // namespace mb4::sim::dsl_model

@@ -33,7 +33,8 @@ class LinkModel final : public MasterModel {
   unsigned half_clocks(unsigned /*line*/) const override { return kTicksPerBit / 2; }
 
   Link& link() { return link_; }
-  // Of an edge that has been, as LinkFrame::sampled counts them, at the present frequency.
+  // Of an edge that has been, as LinkFrame::sampled counts them, at the present frequency, or at
+  // that before the clock stopped.
   Time time_of(std::uint64_t tick) const;
 
  private:
@@ -42,6 +43,9 @@ class LinkModel final : public MasterModel {
   Link link_;
   std::uint64_t hz_;
   Time next_;  // edge
+  // What time_of() counts from while the clock stands.
+  Time stopped_next_ = 0;
+  std::uint64_t stopped_hz_ = 0;
   // A period is no whole number of ps: what is left of it, in parts of 1 / hz.
   std::uint64_t rest_ = 0;
   bool in_ = true;
