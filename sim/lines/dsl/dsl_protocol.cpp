@@ -2,6 +2,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sim/lines/dsl/dsl_protocol.hpp"
 
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <numbers>
+#include <string>
+#include <vector>
+
 #include "sim/lines/dsl/dsl_faults.hpp"
 #include "sim/lines/dsl/dsl_slave.hpp"
 #include "sim/lines/duplex/duplex_lines.hpp"
@@ -35,6 +42,74 @@ void read_byte(TomlReader& reader, const char* key, std::uint8_t& value) {
   if (const auto number = reader.integer(key, 0, 255)) value = static_cast<std::uint8_t>(*number);
 }
 
+// ---- Speed --------------------------------------------------------------------------------------
+//
+// A master finds its speed by two safe positions eight frames apart. It takes their difference for
+// a signed number of the position's width, and keeps its speed in 24 bits. A higher speed would
+// pass its check at the end of each eight frames and give wrong positions between them.
+
+constexpr unsigned kApartBits = 3;  // eight frames
+constexpr unsigned kSpeedBits = 24;
+constexpr double kLongestFrameUs = 11.52 * 1.001;  // the slowest clock of a master
+
+std::int64_t too_fast(unsigned position_bits) {
+  return std::int64_t{1} << (std::min(position_bits - kApartBits, kSpeedBits) - 1);
+}
+
+// A step of the position: it wraps.
+std::int64_t step_of(std::uint64_t difference, unsigned bits) {
+  const unsigned above = 64 - bits;
+  return static_cast<std::int64_t>(difference << above) >> above;
+}
+
+// The highest speed that words of a list hold. One that a step is too large to lead to is marked by
+// the encoder, and none.
+std::int64_t top_speed(const std::vector<std::uint64_t>& words, const DslSlaveConfig& config) {
+  const std::int64_t most = std::int64_t{1} << (config.acceleration_bits - 1);
+  const std::size_t count = words.size();
+  const auto speed_to = [&](std::size_t i) {
+    if (i == 0 && !config.source.repeat) return std::int64_t{0};
+    return step_of(words[i] - words[(i + count - 1) % count], config.data_bits);
+  };
+  std::int64_t top = 0;
+  std::int64_t before = speed_to(config.source.repeat ? count - 1 : 0);
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::int64_t speed = speed_to(i);
+    if (speed - before >= -most && speed - before < most) top = std::max(top, std::abs(speed));
+    before = speed;
+  }
+  return top;
+}
+
+void check_speed(TomlReader& reader, const DslSlaveConfig& config) {
+  const DataSource& source = config.source;
+  const char* key = "file";
+  double speed = 0;
+  switch (source.kind) {
+    case DataSource::Kind::kConstant:
+      return;
+    case DataSource::Kind::kRamp:
+      key = "step";
+      speed = std::abs(
+          static_cast<double>(step_of(static_cast<std::uint64_t>(source.step), config.data_bits)));
+      break;
+    case DataSource::Kind::kSine: {
+      key = "amplitude";
+      const double turns = kLongestFrameUs / to_us(source.period);
+      speed = 2 * source.amplitude * (turns < 0.5 ? std::sin(std::numbers::pi * turns) : 1) + 1;
+      break;
+    }
+    case DataSource::Kind::kList:
+      speed = static_cast<double>(top_speed(source.words, config));
+      break;
+  }
+  const std::int64_t limit = too_fast(config.data_bits);
+  if (speed < static_cast<double>(limit)) return;
+  reader.fail(key, "too fast for a position of " + std::to_string(config.data_bits) +
+                       " bits: its speed must stay below " + std::to_string(limit) +
+                       " steps a frame");
+}
+
 void read(TomlReader& reader, DeviceConfig& device, std::string& file) {
   auto& config = static_cast<DslSlaveConfig&>(device);
   config.data_bits = 32;
@@ -43,6 +118,7 @@ void read(TomlReader& reader, DeviceConfig& device, std::string& file) {
   read_number(reader, "position_bits", kLeastPosition, kMostPosition, config.data_bits);
   read_source(reader, config, file);
   read_number(reader, "acceleration_bits", 8, 11, config.acceleration_bits);
+  check_speed(reader, config);
   read_number(reader, "index", 0, 15, config.index);
   config.is_signed = reader.boolean("signed").value_or(false);
   read_byte(reader, "summary", config.summary);

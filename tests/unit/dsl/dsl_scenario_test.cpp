@@ -128,6 +128,9 @@ TEST(DslScenario, WrongKeys_NameFileLineAndKey) {
     const char* in_error;
   } kCases[] = {
       {std::string(kMaster) + "[host]\ninterface = \"spi\"\n", "interface"},
+      {std::string(kMaster) + "[chip]\nf_clk_hz = 0\n", "f_clk_hz"},
+      {std::string(kMaster) + "[chip]\nf_clk_hz = 74_924_999\n", "f_clk_hz"},
+      {std::string(kMaster) + "[chip]\nf_clk_hz = 75_075_001\n", "f_clk_hz"},
       {std::string(kMaster) + "[chip]\nf_clk_hz = 74_000_000\n", "f_clk_hz"},
       {std::string(kMaster) + "[chip]\nf_clk_hz = 76_000_000\n", "f_clk_hz"},
       {std::string(kMaster) + "[chip.quirks]\nSDK_MAP = true\n", "SDK_MAP"},
@@ -150,6 +153,81 @@ TEST(DslScenario, WrongKeys_NameFileLineAndKey) {
     const std::string error = error_of(text);
     EXPECT_NE(error.find("motor.toml:"), std::string::npos) << text << error;
     EXPECT_NE(error.find("'" + std::string(in_error) + "'"), std::string::npos) << text << error;
+  }
+}
+
+TEST(DslScenario, ClockOfNoOrOtherFrequency_NamesTheLimits) {
+  EXPECT_EQ(error_of(std::string(kMaster) + "[chip]\nf_clk_hz = 0\n"),
+            "motor.toml:4:12: key 'f_clk_hz': 0 is outside 74925000 to 75075000");
+  EXPECT_EQ(error_of(std::string(kMaster) + "[chip]\nf_clk_hz = 74_925_000\n"), "");
+  EXPECT_EQ(error_of(std::string(kMaster) + "[chip]\nf_clk_hz = 75_075_000\n"), "");
+}
+
+// The master finds its speed by a difference of eight frames: 8 x speed must fit into a signed
+// number of the position's width, and into 24 bits of speed. The limit itself is refused, one less
+// is not.
+TEST(DslScenario, SpeedThatCannotBeTold_IsRefused) {
+  struct {
+    unsigned bits;
+    long long limit;
+  } constexpr kLimits[] = {{12, 256},      {16, 4096},     {20, 65'536},
+                           {24, 1 << 20U}, {27, 1 << 23U}, {40, 1 << 23U}};
+  const auto scenario = [](unsigned bits, const std::string& source) {
+    return std::string(kMaster) + kMotor + "position_bits = " + std::to_string(bits) + "\n" +
+           source;
+  };
+  for (const auto& [bits, limit] : kLimits) {
+    for (const int sign : {-1, 1}) {
+      const auto ramp = [&](long long step) {
+        return scenario(bits, "source = \"ramp\"\nstep = " + std::to_string(sign * step) + "\n");
+      };
+      EXPECT_EQ(error_of(ramp(limit - 1)), "") << bits;
+      const std::string error = error_of(ramp(limit));
+      EXPECT_NE(error.find("key 'step': too fast for a position of " + std::to_string(bits) +
+                           " bits: its speed must stay below " + std::to_string(limit) +
+                           " steps a frame"),
+                std::string::npos)
+          << error;
+    }
+    // The highest speed of a sine: amplitude x 2 pi x 11.52 us / period.
+    const auto sine = [&](double speed) {
+      return scenario(bits, "source = \"sine\"\nperiod_us = 100_000\namplitude = " +
+                                std::to_string(speed / (2 * 3.14159265 * 11.52 / 100'000)) + "\n");
+    };
+    EXPECT_EQ(error_of(sine(0.99 * static_cast<double>(limit))), "") << bits;
+    EXPECT_NE(error_of(sine(1.01 * static_cast<double>(limit))).find("'amplitude'"),
+              std::string::npos)
+        << bits;
+  }
+  // A step that wraps is a small one.
+  EXPECT_EQ(error_of(scenario(12, "source = \"ramp\"\nstep = 4095\n")), "");
+}
+
+// Just below the limit each certain position is right, at widths where a fast motor was called
+// certain with wrong positions.
+TEST(DslScenario, FastestSpeedOfEachWidth_IsFollowed) {
+  for (const unsigned bits : {12U, 16U, 20U, 24U}) {
+    const auto step = (1LL << (bits - 4)) - 1;
+    Simulator simulator(
+        parse_scenario(std::string(kMaster) + kMotor + "position_bits = " + std::to_string(bits) +
+                           "\nsource = \"ramp\"\nstep = " + std::to_string(step) + "\n",
+                       "motor.toml"));
+    auto& host = simulator.host<LinkHost>("none");
+    const auto* encoder = dynamic_cast<const DslSlave*>(simulator.slave(1));
+    unsigned certain = 0;
+    unsigned wrong = 0;
+    simulator.run_while_waiting(
+        [&] {
+          while (const auto frame = host.take()) {
+            if (frame->number == 0 || frame->lost) continue;
+            ++certain;
+            if (frame->position != encoder->sent_in(frame->number)) ++wrong;
+          }
+          return certain >= 200;
+        },
+        100'000 * kPsPerUs);
+    EXPECT_EQ(certain, 200U) << bits;
+    EXPECT_EQ(wrong, 0U) << bits;
   }
 }
 
@@ -177,7 +255,7 @@ TEST(DslScenario, Motor_IsFollowed) {
   EXPECT_EQ(wrong, 0U);
   EXPECT_EQ(host.model().link().restarts(), 0U);
   EXPECT_FALSE(encoder->overflowed());
-  EXPECT_LE(duplex(simulator.line(1))->contention().longest, 30 * kPsPerNs);
+  EXPECT_LE(duplex(simulator.line(1))->contention(simulator.now()).longest, 30 * kPsPerNs);
   EXPECT_THROW(simulator.start_trace("no.fst"), TraceError);
 }
 
@@ -213,6 +291,37 @@ TEST(DslScenario, BitFlip_HitsItsFrame) {
   EXPECT_NE(
       error_of(std::string(kMaster) + kMotor + flip + "frame = 2\nbits = [1]\n").find("answer_bit"),
       std::string::npos);
+}
+
+// It happens when its frame comes, and not before; one whose frame does not come does not happen.
+TEST(DslScenario, BitFlip_HappensWithItsFrame) {
+  const std::string flip = "[[fault]]\nkind = \"bit-flip\"\nchannel = 1\nanswer_bit = 33\nframe = ";
+  Simulator simulator(parse_scenario(
+      std::string(kMaster) + kMotor + flip + "100000\n" + flip + "20\n", "motor.toml"));
+  auto& host = simulator.host<LinkHost>("none");
+  EXPECT_TRUE(simulator.faults().empty());
+  Time sampled = 0;
+  simulator.run_while_waiting(
+      [&] {
+        while (const auto frame = host.take()) {
+          if (frame->number == 20) sampled = host.model().time_of(frame->sampled);
+        }
+        return sampled != 0;
+      },
+      100'000 * kPsPerUs);
+  ASSERT_EQ(simulator.faults().size(), 1U);
+  const FaultRecord& record = simulator.faults().front();
+  EXPECT_EQ(record.frame, 20U);
+  EXPECT_EQ(record.config, 1U);
+  EXPECT_GT(record.begin, sampled);
+  EXPECT_LT(record.begin, sampled + 2500 * kPsPerNs);  // the end of M_PAR, and the cable
+  EXPECT_EQ(record.end, record.begin);
+  simulator.run_until(5000 * kPsPerUs);
+  EXPECT_EQ(simulator.faults().size(), 1U);
+  EXPECT_NE(error_of(std::string(kMaster) + kMotor +
+                     "[[fault]]\nkind = \"bit-flip\"\nchannel = 1\nanswer_bit = 33\n")
+                .find("one of at_us (fixed times), per_s (random) and frame is needed"),
+            std::string::npos);
 }
 
 // Faults of a slave and of the line; the link comes back after each.
