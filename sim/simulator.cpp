@@ -38,6 +38,7 @@ std::unique_ptr<Slave> make_slave(const SlaveConfig& config, std::uint64_t seed)
 class SimulatorFaults final : public FaultTarget {
  public:
   explicit SimulatorFaults(Simulator& simulator) : simulator_(simulator) {}
+  Time now() const override { return simulator_.now(); }
   Line& line(unsigned channel) override { return *simulator_.line(channel); }
   Slave& slave(unsigned number) override { return *simulator_.slave(number); }
   unsigned wires() const override {

@@ -64,6 +64,7 @@ bool FrameWatch::touched(Channel& channel, const LineFrame& frame) {
     if (all_ended && ended) ++channel.settled;
     all_ended = all_ended && ended;
     if (!here || ended) continue;
+    if (record.begin > frame.end) continue;  // a line may tell of a frame late
     if (waits && channel.line.flip_frames() < record.frame) continue;
     any = true;
     ++stories_[i].frames;

@@ -37,6 +37,7 @@ struct FaultType {
   std::string (*begin)(const FaultScene& scene);
   // Makes the fault end. Null if it is momentary.
   void (*end)(const FaultScene& scene);
+  bool by_frame = false;  // a named frame can be its time
 };
 
 struct FaultConfig {
@@ -51,7 +52,9 @@ struct FaultConfig {
   // bit-flip: bits of the frame as in Line::flip(). abort: one number of SCLK clocks. Empty:
   // random.
   std::vector<unsigned> bits;
-  std::uint64_t frame = 0;   // bit-flip: this frame is hit, by Line::flip_frames(); 0: the next one
+  // bit-flip: this frame is hit, by Line::flip_frames(), and the fault happens when it comes; 0:
+  // the next one.
+  std::uint64_t frame = 0;
   unsigned frame_bits = 1;   // a random bit of bit-flip is below this number
   unsigned answer_bits = 0;  // ... and so is each named one; 0: no such limit is known
 

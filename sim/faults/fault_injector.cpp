@@ -39,7 +39,7 @@ void FaultInjector::add_new() {
   for (std::size_t i = sources_.size(); i < faults_.size(); ++i) {
     const FaultConfig& fault = faults_[i];
     sources_.push_back(
-        std::make_unique<Source>(Source{this, i, Random(derive_seed(seed_, i)), {}, {}}));
+        std::make_unique<Source>(Source{this, i, Random(derive_seed(seed_, i)), {}, {}, {}}));
     Source& source = *sources_.back();
     if (fault.kind->place == FaultPlace::kLine) remember_cable(source);
     for (const Time at : fault.at) queue_.post(at, &FaultInjector::begin, &source);
@@ -56,7 +56,8 @@ void FaultInjector::post_random(Source& source, Time after) {
 }
 
 FaultScene FaultInjector::scene(Time now, Source& source, FaultRecord& record) const {
-  return {faults_[source.config], target_, source.random, source.was, now, record};
+  return {faults_[source.config],        target_, source.random, source.was, now, record,
+          {&FaultInjector::hit, &source}};
 }
 
 void FaultInjector::begin(Time now, void* receiver, std::uint64_t /*word*/) {
@@ -69,6 +70,10 @@ void FaultInjector::begin(Time now, void* receiver, std::uint64_t /*word*/) {
   record.begin = now;
   record.end = type.momentary ? now + fault.width : kNever;
   record.what = type.begin(self.scene(now, source, record));
+  if (fault.frame != 0) {
+    source.waiting = std::move(record);
+    return;
+  }
   self.records_.push_back(std::move(record));
   if (!type.momentary) {
     source.lasting.push_back(self.records_.size() - 1);
@@ -78,6 +83,14 @@ void FaultInjector::begin(Time now, void* receiver, std::uint64_t /*word*/) {
     }
   }
   if (fault.at.empty()) self.post_random(source, now);
+}
+
+// The named frame has come.
+void FaultInjector::hit(void* receiver) {
+  auto& source = *static_cast<Source*>(receiver);
+  FaultInjector& self = *source.injector;
+  source.waiting.begin = source.waiting.end = self.target_.now();
+  self.records_.push_back(source.waiting);
 }
 
 // If several faults of one table overlap, the effect continues until the last of them is over.

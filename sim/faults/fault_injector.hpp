@@ -44,10 +44,12 @@ class FaultInjector {
     Random random;
     std::vector<std::size_t> lasting;  // records that are not over
     std::vector<WireFaults> was;       // line: faults of each wire without this one
+    FaultRecord waiting{};             // of a fault of a named frame that has not come
   };
 
   static void begin(Time now, void* receiver, std::uint64_t word);
   static void end(Time now, void* receiver, std::uint64_t record);
+  static void hit(void* receiver);
   void post_random(Source& source, Time after);
   FaultScene scene(Time now, Source& source, FaultRecord& record) const;
   void remember_cable(Source& source);

@@ -17,6 +17,7 @@ class Slave;
 
 class FaultTarget {
  public:
+  virtual Time now() const = 0;
   // Line and slave exist: a scenario cannot ask for a fault elsewhere.
   virtual Line& line(unsigned channel) = 0;
   virtual Slave& slave(unsigned number) = 0;

@@ -78,7 +78,7 @@ std::string begin_bit_flip(Scene scene) {
   for (const unsigned bit : bits) list += (list.empty() ? "" : ", ") + std::to_string(bit);
   // The running frame may be past these bits, so they are inverted in the next one.
   const std::uint64_t frame = scene.config.frame != 0 ? scene.config.frame : line.flip_frames() + 1;
-  line.flip(frame, bits);
+  line.flip(frame, bits, scene.config.frame != 0 ? scene.hit : FlipWatch{});
   scene.record.frame = frame;
   return "bit " + list + " of frame " + std::to_string(frame) + " inverted, channel " +
          std::to_string(scene.config.channel);
@@ -200,7 +200,7 @@ std::string begin_clock_stop(Scene scene) {
 void end_clock(Scene scene) { scene.target.set_clock(scene.now, std::nullopt); }
 
 constexpr FaultType kOfLine[] = {
-    {"bit-flip", FaultPlace::kLine, true, nullptr, read_bit_flip, begin_bit_flip, nullptr},
+    {"bit-flip", FaultPlace::kLine, true, nullptr, read_bit_flip, begin_bit_flip, nullptr, true},
     {"glitch", FaultPlace::kLine, true, nullptr, read_glitch, begin_glitch, nullptr},
     {"stuck", FaultPlace::kLine, false, nullptr, read_stuck, begin_stuck, end_stuck},
     {"jitter", FaultPlace::kLine, false, nullptr, read_jitter, begin_jitter, end_jitter},

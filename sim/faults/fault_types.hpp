@@ -28,6 +28,7 @@ struct FaultScene {
   const std::vector<WireFaults>& was;
   Time now;
   FaultRecord& record;  // of the fault that begins or ends
+  FlipWatch hit;        // to be told when a named frame has come
 };
 
 // What a fault may be at most, from the master.

@@ -14,11 +14,13 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "sim/core/master_clock.hpp"
 #include "sim/core/time.hpp"
 #include "sim/core/wire_faults.hpp"
+#include "sim/lines/flip_watch.hpp"
 #include "sim/lines/slave.hpp"
 
 namespace mb4::sim {
@@ -143,7 +145,9 @@ class Line : public LineEnd {
 
   // --- frames ------------------------------------------------------------------------------------
   // Inverts these bits of frame number `frame`, which must not have come yet. Frames count from 1.
-  virtual void flip(std::uint64_t frame, std::vector<unsigned> bits) = 0;
+  // Several calls for a frame add up. `watch` is told when the frame has come.
+  virtual void flip(std::uint64_t frame, std::vector<unsigned> bits, FlipWatch watch) = 0;
+  void flip(std::uint64_t frame, std::vector<unsigned> bits) { flip(frame, std::move(bits), {}); }
   // Number of frames that flip() has counted.
   virtual std::uint64_t flip_frames() const = 0;
   // At most one observer is told of the frames and, with `edges`, of the present levels and of

@@ -113,7 +113,9 @@ void read_when(TomlReader& reader, FaultConfig& fault) {
     fault.at.push_back(0);
     return;
   }
-  const char* const one = "one of at_us (fixed times) and per_s (random) is needed";
+  const char* const one = fault.kind->by_frame
+                              ? "one of at_us (fixed times), per_s (random) and frame is needed"
+                              : "one of at_us (fixed times) and per_s (random) is needed";
   if (reader.has("at_us") && reader.has("per_s")) reader.fail("at_us", one);
   if (!reader.has("at_us") && !reader.has("per_s")) {
     reader.missing("at_us", one);

@@ -114,8 +114,9 @@ class ClockedLine final : public Line {
   bool plugged() const override { return plugged_; }
 
   // --- frames ------------------------------------------------------------------------------------
-  void flip(std::uint64_t frame, std::vector<unsigned> bits) override {
-    faults_.flip_frame(frame, std::move(bits));
+  using Line::flip;
+  void flip(std::uint64_t frame, std::vector<unsigned> bits, FlipWatch watch) override {
+    faults_.flip_frame(frame, std::move(bits), watch);
   }
   std::uint64_t flip_frames() const override { return faults_.frames(); }
   void observe(Time now, LineObserver* observer, bool edges) override;

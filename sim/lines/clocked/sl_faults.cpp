@@ -11,9 +11,10 @@ void SlFaults::flip_next_frame(std::vector<unsigned> bits) {
   pending_.insert(pending_.end(), bits.begin(), bits.end());
 }
 
-void SlFaults::flip_frame(std::uint64_t frame, std::vector<unsigned> bits) {
-  std::vector<unsigned>& planned = planned_[frame];
-  planned.insert(planned.end(), bits.begin(), bits.end());
+void SlFaults::flip_frame(std::uint64_t frame, std::vector<unsigned> bits, FlipWatch watch) {
+  Planned& planned = planned_[frame];
+  planned.bits.insert(planned.bits.end(), bits.begin(), bits.end());
+  planned.watches.push_back(watch);
 }
 
 void SlFaults::end_frame() {
@@ -28,8 +29,10 @@ void SlFaults::begin_frame() {
   bit_ = 0;
   ++frames_;
   if (const auto found = planned_.find(frames_); found != planned_.end()) {
-    flip_next_frame(std::move(found->second));
+    const Planned planned = std::move(found->second);
     planned_.erase(found);
+    flip_next_frame(planned.bits);
+    for (const FlipWatch& watch : planned.watches) watch.tell();
   }
   update();
 }

@@ -12,10 +12,13 @@ namespace {
 constexpr double kBitPs = 320'000.0 / 3;  // 9.375 Mbit/s
 constexpr unsigned kFrameBits = 108;
 constexpr unsigned kBitsToEdge = 8;       // SYNC and the ones of SAMPLE
+constexpr unsigned kSampleOnes = 4;       // before the edge, with those of SYNC
 constexpr unsigned kEdgeToParameter = 8;  // CYCLE RESET with the 0 of SAMPLE, EQUALISATION
 constexpr unsigned kParameterBits = 10;
 constexpr unsigned kEdgeToWindow = 19;  // up to the end of SWITCH
 constexpr unsigned kToEnd = 100;        // from the edge to the end of the trailer
+constexpr unsigned kBlock = 6;          // bits of a block of stuffing
+constexpr unsigned kMostStuffing = 26 * kBlock;
 constexpr unsigned kLongestRun = 60;
 constexpr std::uint64_t kTestPattern = 0x4CC8115DFB33499;  // 60 bits, without the direction bit
 constexpr std::uint8_t kMarker1 = 0xFD;
@@ -93,10 +96,8 @@ void DslSlave::line_changed(Time now, bool level) {
   level_ = level;
   last_edge_ = now;
   if (!listening_) return;
-  if (in_frame_) {
-    edges_.push_back({now, level});
-    return;
-  }
+  if (in_frame_ || !told_) edges_.push_back({now, level});
+  if (in_frame_) return;
   std::move_backward(lengths_.begin(), lengths_.end() - 1, lengths_.end());
   lengths_[0] = static_cast<unsigned>(std::min(length / bit_ + 0.5, double{kLongestRun}));
   if (was && !level) look_for_sync(now);
@@ -127,6 +128,9 @@ void DslSlave::begin(Time now) {
   sampled_at_ = now;
   in_frame_ = true;
   edges_.clear();
+  told_ = false;
+  extra_ = lengths_[0] - kSampleOnes;
+  stuffing_ = 0;
   ++turn_;
   // Wrong bits up to the edge hide the frame.
   lost_sync_ = false;
@@ -135,11 +139,11 @@ void DslSlave::begin(Time now) {
   for (unsigned i = 0; i < kParameterBits; ++i) {
     wrong_parameter_ = wrong_parameter_ << 1U | (wrong_master_bit() ? 1U : 0U);
   }
-  const Time ahead = bits(kBitsToEdge);
+  const Time ahead = bits(kBitsToEdge + extra_);
   announce_frame(now > ahead ? now - ahead : 0);
   call_at(now + bits(kEdgeToParameter + kParameterBits - 0.25),
           turn_ << kTimerBits | kParameterTimer);
-  call_at(now + bits(kToEnd), turn_ << kTimerBits | kEndTimer);
+  call_at(now + bits(kToEnd + kBlock + 0.5), turn_ << kTimerBits | kEndTimer);
 }
 
 void DslSlave::timer(Time now, std::uint64_t word) {
@@ -154,19 +158,40 @@ void DslSlave::timer(Time now, std::uint64_t word) {
     case kDisableTimer:
       return set_drive(now, {drive().level, false});
     default:
-      return end_frame(now, kFrameBits);
+      return look_for_stuffing();
   }
 }
 
-// The bits of M_PAR, each in its middle.
-std::optional<std::uint8_t> DslSlave::parameter() {
-  unsigned bits_seen = 0;
-  std::size_t next = 0;
+// A block 001011 with a 0 behind it is stuffing; before a 1 it is the next SYNC.
+void DslSlave::look_for_stuffing() {
+  unsigned block = 0;
+  for (unsigned i = 0; i <= kBlock; ++i) {
+    block = block << 1U | (level_at(kToEnd + stuffing_ + i + 0.5) ? 1U : 0U);
+  }
+  if (block == 0b001011'0 && stuffing_ < kMostStuffing) {
+    stuffing_ += kBlock;
+    return call_at(sampled_at_ + bits(kToEnd + stuffing_ + kBlock + 0.5),
+                   turn_ << kTimerBits | kEndTimer);
+  }
+  told_ = true;
+  end_frame(sampled_at_ + bits(kToEnd + stuffing_), kFrameBits + extra_ + stuffing_);
+}
+
+bool DslSlave::level_at(double bits_behind_sample) const {
+  const Time at = sampled_at_ + bits(bits_behind_sample);
   bool level = false;
+  for (const Edge& edge : edges_) {
+    if (edge.at > at) break;
+    level = edge.level;
+  }
+  return level;
+}
+
+// The bits of M_PAR, each in its middle.
+std::optional<std::uint8_t> DslSlave::parameter() const {
+  unsigned bits_seen = 0;
   for (unsigned i = 0; i < kParameterBits; ++i) {
-    const Time middle = sampled_at_ + bits(kEdgeToParameter + i + 0.5);
-    while (next < edges_.size() && edges_[next].at <= middle) level = edges_[next++].level;
-    bits_seen = bits_seen << 1U | (level ? 1U : 0U);
+    bits_seen = bits_seen << 1U | (level_at(kEdgeToParameter + i + 0.5) ? 1U : 0U);
   }
   return dsl::parameter_of(bits_seen ^ wrong_parameter_);
 }
@@ -229,6 +254,7 @@ void DslSlave::send(Time now) {
 void DslSlave::finish(Time now) {
   in_frame_ = false;
   listening_ = true;
+  if (!told_) edges_.push_back({now, level_});  // the edges of its answer are not there
   last_edge_ = now;
   lengths_.fill(0);
 }
@@ -345,11 +371,11 @@ std::uint64_t DslSlave::identity() const {
 // The safe position is that of the sample before the vertical frame.
 void DslSlave::fill_channels() {
   const unsigned width = config_.data_bits;
-  const std::uint64_t position =
-      config_.is_signed ? static_cast<std::uint64_t>(low_signed(before_, width)) : before_;
+  const auto position =
+      config_.is_signed ? low_signed(before_, width) : static_cast<std::int64_t>(before_);
   const unsigned width2 = config_.safe2_bits == 0 ? width : std::min(config_.safe2_bits, width);
-  const std::uint64_t second = ~(before_ >> (width - width2));
-  const auto fill = [](Channel& channel, std::uint8_t status, std::uint64_t value,
+  const std::int64_t second = ~(position >> (width - width2));
+  const auto fill = [](Channel& channel, std::uint8_t status, std::int64_t value,
                        std::optional<std::uint8_t> marker) {
     channel.bytes[0] = status;
     for (unsigned i = 1; i <= 5; ++i) {
@@ -410,9 +436,11 @@ std::uint64_t DslSlave::data_frame() {
   if (running) {
     ++running_;
     count_frame();
+    std::uint64_t flips = 0;
     for (const unsigned bit : take_flips(running_)) {
-      if (bit < kAnswerBits) inverted_ ^= std::uint64_t{1} << (kAnswerBits - 1 - bit);
+      if (bit < kAnswerBits) flips |= std::uint64_t{1} << (kAnswerBits - 1 - bit);
     }
+    inverted_ ^= flips;
   }
   return with_direction(five, config_.direction, f);
 }

@@ -13,8 +13,9 @@
 // - A second difference that does not fit is the error marker K29.7; the position stays the true
 //   one.
 //
-// A frame of the line is an H-frame, from the first bit of SYNC on. Frames that flip() counts are
-// the running ones, those after the first VSYNC.
+// A frame of the line is an H-frame, from the first bit of SYNC to the end of its stuffing, which
+// shows 6.5 bits later. Frames that flip() counts are the running ones, those after the first
+// VSYNC. Eighths of a bit in SAMPLE (REST of a drive in step with its own cycle) are not looked at.
 #ifndef MB4SIM_DSL_SLAVE_HPP_
 #define MB4SIM_DSL_SLAVE_HPP_
 
@@ -119,7 +120,9 @@ class DslSlave final : public DuplexSlave {
   void go_on();
   void miss();
   void take_parameter(Time now);
-  std::optional<std::uint8_t> parameter();
+  std::optional<std::uint8_t> parameter() const;
+  void look_for_stuffing();
+  bool level_at(double bits_behind_sample) const;
   std::uint64_t answer(unsigned symbol);
   std::uint64_t pattern();
   std::uint64_t identity() const;
@@ -144,7 +147,10 @@ class DslSlave final : public DuplexSlave {
   Time sampled_at_ = 0;
   Time frame_time_ = 0;  // between the last two samples
   bool any_sample_ = false;
-  std::vector<Edge> edges_;  // since the sample
+  std::vector<Edge> edges_;  // since the sample, but those of its own answer
+  bool told_ = true;         // the end of the last frame
+  unsigned extra_ = 0;       // ones more in SAMPLE
+  unsigned stuffing_ = 0;    // bits
   bool lost_sync_ = false;   // in this frame, by a wrong bit
   unsigned wrong_parameter_ = 0;
   std::uint64_t turn_ = 0;  // number of the frame whose timers count

@@ -40,7 +40,9 @@ void DuplexSlave::announce_frame(Time start) {
 std::vector<unsigned> DuplexSlave::take_flips(std::uint64_t frame) {
   if (flips_.empty()) return {};
   const auto found = flips_.extract(frame);
-  return found.empty() ? std::vector<unsigned>{} : found.mapped();
+  if (found.empty()) return {};
+  for (const FlipWatch& watch : found.mapped().watches) watch.tell();
+  return found.mapped().bits;
 }
 
 std::vector<unsigned> DuplexSlave::begin_frame(Time now) {
@@ -48,8 +50,8 @@ std::vector<unsigned> DuplexSlave::begin_frame(Time now) {
   return take_flips(begun_);
 }
 
-void DuplexSlave::end_frame(Time now, std::optional<std::uint64_t> edges) {
-  if (line_ != nullptr) line_->frame_ends(now, edges);
+void DuplexSlave::end_frame(Time end, std::optional<std::uint64_t> edges) {
+  if (line_ != nullptr) line_->frame_ends(end, edges);
 }
 
 Time DuplexSlave::enable_time() const { return line_ == nullptr ? 0 : line_->enable_; }
@@ -173,6 +175,15 @@ void DuplexLine::watch_contention(Time now) {
   if (contention_.times++ == 0) contention_.first = now;
 }
 
+DuplexContention DuplexLine::contention(Time now) const {
+  DuplexContention all = contention_;
+  if (both_) {
+    all.total += now - both_since_;
+    all.longest = std::max(all.longest, now - both_since_);
+  }
+  return all;
+}
+
 // ---- The cable ----------------------------------------------------------------------------------
 
 void DuplexLine::detach(Time now, std::size_t index) {
@@ -228,8 +239,8 @@ void DuplexLine::act(Time now, LineAction action) {
 
 // ---- Frames and edges ---------------------------------------------------------------------------
 
-void DuplexLine::flip(std::uint64_t frame, std::vector<unsigned> bits) {
-  if (slave_ != nullptr) slave_->flip(frame, std::move(bits));
+void DuplexLine::flip(std::uint64_t frame, std::vector<unsigned> bits, FlipWatch watch) {
+  if (slave_ != nullptr) slave_->flip(frame, bits, watch);
 }
 
 void DuplexLine::frame_begins(Time now) {

@@ -40,12 +40,13 @@ struct DuplexConfig : LineConfig {
   double master_errors = 0;  // ... that one of the master's is when the device takes it
 };
 
-// Times when both ends have driven, as a receiver at one of the ends sees it.
+// Times when both ends have driven, as a receiver at one of the ends sees it. One that is not over
+// counts up to the present.
 struct DuplexContention {
   std::uint64_t times = 0;
-  Time total = 0;    // of those that are over, ps
-  Time longest = 0;  // ...
-  Time first = 0;    // when the first one began
+  Time total = 0;  // ps
+  Time longest = 0;
+  Time first = 0;  // when the first one began
 };
 
 class DuplexLine final : public Line {
@@ -83,7 +84,8 @@ class DuplexLine final : public Line {
   void refresh(Time /*now*/) override {}
 
   // --- frames: the device knows them -------------------------------------------------------------
-  void flip(std::uint64_t frame, std::vector<unsigned> bits) override;
+  using Line::flip;
+  void flip(std::uint64_t frame, std::vector<unsigned> bits, FlipWatch watch) override;
   std::uint64_t flip_frames() const override { return size() == 0 ? 0 : slave_->flip_frames(); }
   void observe(Time now, LineObserver* observer, bool edges) override;
 
@@ -93,7 +95,9 @@ class DuplexLine final : public Line {
   bool sent(std::size_t /*index*/) const override { return ends_[kDevice].sends(); }
   bool ready(std::size_t /*index*/) const override { return slave_->idle(); }
 
-  const DuplexContention& contention() const { return contention_; }
+  DuplexContention contention(Time now) const;
+  // From the pin to a driver that is on.
+  Time enable_time() const { return enable_; }
 
  private:
   friend class DuplexSlave;
@@ -149,7 +153,7 @@ class DuplexLine final : public Line {
   bool attached_ = true;
   bool both_ = false;  // drive now
   Time both_since_ = 0;
-  DuplexContention contention_;
+  DuplexContention contention_;     // of those that are over; the times of all
   std::optional<LineFrame> frame_;  // that runs
   LineObserver* observer_ = nullptr;
   bool edges_ = false;

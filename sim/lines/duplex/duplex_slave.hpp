@@ -14,6 +14,7 @@
 
 #include "sim/core/random.hpp"
 #include "sim/core/time.hpp"
+#include "sim/lines/flip_watch.hpp"
 #include "sim/lines/slave.hpp"
 
 namespace mb4::sim {
@@ -51,9 +52,13 @@ class DuplexSlave : public Slave {
   virtual bool idle() const = 0;
 
   DuplexDrive drive() const { return drive_; }
-  // The inverted bits of frame `frame` of this device; an earlier call for it is replaced. The
-  // device says what the bits count.
-  void flip(std::uint64_t frame, std::vector<unsigned> bits) { flips_[frame] = std::move(bits); }
+  // The inverted bits of frame `frame` of this device; several calls add up. The device says what
+  // the bits count. `watch` is told when it takes them.
+  void flip(std::uint64_t frame, const std::vector<unsigned>& bits, FlipWatch watch = {}) {
+    Flips& flips = flips_[frame];
+    flips.bits.insert(flips.bits.end(), bits.begin(), bits.end());
+    flips.watches.push_back(watch);
+  }
   // Number of frames that have begun.
   std::uint64_t begun() const { return begun_; }
   // Number of frames that flip() has counted: all of them, unless a device counts its own way.
@@ -67,8 +72,9 @@ class DuplexSlave : public Slave {
   // A frame begins, with the bits that are to be inverted in it; it is over. A frame that begins
   // before the last one is over has ended it.
   std::vector<unsigned> begin_frame(Time now);
-  // `edges`: what mb4sim_frame counts, if not the edges at the device.
-  void end_frame(Time now, std::optional<std::uint64_t> edges = std::nullopt);
+  // `edges`: what mb4sim_frame counts, if not the edges at the device. `end` may lie in the past
+  // for a device that sees the end late, but not before the last frame that it has told of.
+  void end_frame(Time end, std::optional<std::uint64_t> edges = std::nullopt);
   // The same two steps for a device that recognises a frame late: `start` may lie in the past, and
   // the bits to invert are asked for by the number that the device gives the frame.
   void announce_frame(Time start);
@@ -85,10 +91,16 @@ class DuplexSlave : public Slave {
  private:
   friend class DuplexLine;
 
+  // Of one frame.
+  struct Flips {
+    std::vector<unsigned> bits;
+    std::vector<FlipWatch> watches;
+  };
+
   DuplexLine* line_ = nullptr;
   DuplexDrive drive_;
   std::uint64_t begun_ = 0;
-  std::map<std::uint64_t, std::vector<unsigned>> flips_;
+  std::map<std::uint64_t, Flips> flips_;
   struct {
     BitErrors answer;
     BitErrors master;

@@ -5,7 +5,10 @@
 // and the frames on the line.
 #include <gtest/gtest.h>
 
+#include <bit>
 #include <cmath>
+#include <memory>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -93,7 +96,6 @@ TEST(DslLink, PublishedReceiver_LinksTheKnownLengths) {
       setup.encoder.latency = from_ns(latency);
       setup.metres(metres);
       Bench bench(setup);
-      bench.may_collide = metres > to;
       const bool links = bench.run_frames(1, 1500 * kPsPerUs) && bench.link().restarts() == 0;
       EXPECT_EQ(links, metres >= from && metres <= to) << latency << " ns " << metres << " m";
     }
@@ -105,7 +107,6 @@ void no_link(BenchSetup setup, LineAction action, const std::string& what) {
   for (const SampleRule rule : kRules) {
     setup.rules.sample = rule;
     Bench bench(setup);
-    bench.may_collide = true;
     bench.line().act(0, action);
     bench.on_frame = [&](const LinkFrame& frame) {
       ASSERT_FALSE(frame.linked) << what;
@@ -430,6 +431,137 @@ TEST(DslLine, Frame_Has108BitsFieldByField) {
   for (const LineFrame& frame : recorder.frames) {
     EXPECT_EQ(frame.edges, 108U);
     EXPECT_NEAR(static_cast<double>(frame.end - frame.start), 11.52e6, 1000);
+  }
+}
+
+// A frame of the line is as long as its stuffing makes it, and the next one begins where it ends. A
+// restart ends a START frame with its trailer.
+TEST(DslLine, StartFrames_CarryTheirStuffing) {
+  for (const unsigned blocks : {0U, 1U, 4U, 26U}) {
+    BenchSetup setup;
+    setup.rules.start_blocks = blocks;
+    setup.metres(30);
+    Bench bench(setup);
+    Recorder recorder;
+    bench.line().observe(0, &recorder, false);
+    ASSERT_TRUE(bench.run_frames(10)) << blocks;
+    bench.line().observe(bench.now(), nullptr, false);
+    EXPECT_EQ(bench.link().restarts(), 0U) << blocks;
+    ASSERT_GT(recorder.frames.size(), 40U);
+    for (std::size_t i = 0; i < recorder.frames.size(); ++i) {
+      const LineFrame& frame = recorder.frames[i];
+      const bool start = i >= 18 && i < 27;
+      const unsigned bits = 108 + (start ? 6 * blocks : 0);
+      EXPECT_EQ(frame.edges, bits) << blocks << " " << i;
+      EXPECT_NEAR(static_cast<double>(frame.end - frame.start), bits * 320'000.0 / 3, 1000) << i;
+      if (i + 1 == recorder.frames.size()) break;
+      EXPECT_NEAR(static_cast<double>(frame.end), static_cast<double>(recorder.frames[i + 1].start),
+                  1000)
+          << blocks << " " << i;
+    }
+  }
+  BenchSetup setup;
+  setup.encoder.sync_frames = 17;  // no answer: each first START frame is the last one
+  Bench bench(setup);
+  Recorder recorder;
+  bench.line().observe(0, &recorder, false);
+  bench.run_until(2000 * kPsPerUs);
+  bench.line().observe(bench.now(), nullptr, false);
+  EXPECT_GT(bench.link().restarts(), 4U);
+  for (const LineFrame& frame : recorder.frames) EXPECT_EQ(frame.edges, 108U);
+}
+
+// A drive in step with its own cycle sends more ones in SAMPLE: the encoder's frame begins with
+// SYNC all the same.
+TEST(DslLine, FrameWithMoreOnes_BeginsWithSync) {
+  for (unsigned extra = 0; extra <= 9; ++extra) {
+    EventQueue queue;
+    struct Nobody final : LineMaster {
+      void set_inputs(Time /*now*/, unsigned /*line*/, unsigned /*levels*/) override {}
+      [[noreturn]] void stop(const std::string& reason) override {
+        throw std::runtime_error(reason);
+      }
+    } master;
+    const DuplexConfig cable;
+    DuplexLine line({queue, cable, {}, 1, master, 0});
+    line.add(std::make_unique<DslSlave>(DslSlaveConfig()));
+    Recorder recorder;
+    line.observe(0, &recorder, false);
+    dsl_model::FramePlan plan;
+    int disparity = 0;
+    Time begin = 1000 * kPsPerNs;
+    std::vector<Time> begins;
+    for (unsigned frame = 0; frame < 4; ++frame) {
+      plan.make(dsl_model::kSync, false, {.extra = extra, .blocks = extra}, disparity,
+                static_cast<int>(extra));
+      begins.push_back(begin);
+      for (unsigned bit = 0; bit < plan.bits(); ++bit) {
+        const Time at = begin + kBits(bit);
+        while (queue.next_time() <= at) queue.run_next();
+        line.drive(at, (plan.level(bit, 0) ? kOutPin : 0U) | kEnablePin);
+      }
+      begin += kBits(plan.bits());
+    }
+    ASSERT_EQ(recorder.frames.size(), 3U) << extra;
+    for (std::size_t i = 0; i < recorder.frames.size(); ++i) {
+      EXPECT_NEAR(static_cast<double>(recorder.frames[i].start), static_cast<double>(begins[i]), 10)
+          << extra;
+      EXPECT_NEAR(static_cast<double>(recorder.frames[i].end), static_cast<double>(begins[i + 1]),
+                  10)
+          << extra;
+      EXPECT_EQ(recorder.frames[i].edges, plan.bits()) << extra;
+    }
+  }
+}
+
+// R5: slot 0 begins RX_START ticks behind the begin of SWITCH, so each tick more is one sample less
+// up to the answer. The sample of tick 0 is still the last bit of M_PAR, a 0: nothing is found
+// then.
+TEST(DslLink, RxStart_MovesTheSlots) {
+  unsigned links = 0;
+  for (const unsigned start : {1U, 2U, 3U, 4U, 5U, 8U, 12U, 15U}) {
+    for (const int metres : {30, 60, 95}) {
+      BenchSetup setup;
+      setup.rules.sample = SampleRule::kFirstZero;
+      setup.rules.rx_start = start;
+      setup.metres(metres);
+      Bench bench(setup);
+      ASSERT_TRUE(bench.run_frames(10, 2000 * kPsPerUs)) << start << " " << metres;
+      EXPECT_EQ(bench.link().restarts(), 0U) << start << " " << metres;
+      const unsigned sample = first_sample(setup) + 5 - start;
+      EXPECT_EQ(bench.link().frame().sample_place, sample + 4) << start << " " << metres;
+      EXPECT_EQ(bench.link().frame().delay, (sample + 4) / 8) << start << " " << metres;
+      ++links;
+    }
+  }
+  EXPECT_EQ(links, 24U);
+  BenchSetup setup;
+  setup.rules.rx_start = 0;
+  setup.metres(30);
+  Bench bench(setup);
+  bench.run_until(3000 * kPsPerUs);
+  EXPECT_EQ(bench.running(), 0U);
+  EXPECT_EQ(bench.link().last_restart(), Restart::kNotFound);
+}
+
+// EDGES: the neighbouring samples that differ, over the slots of LEARN and CHECK frames. A clean
+// line has its edges at one eighth alone, with jitter at its neighbours too.
+TEST(DslLink, Edges_AreThoseOfTheTraining) {
+  for (const SampleRule rule : kRules) {
+    for (int metres = 3; metres < 60; metres += 7) {
+      BenchSetup setup;
+      setup.rules.sample = rule;
+      setup.metres(metres);
+      Bench bench(setup);
+      ASSERT_TRUE(bench.run_frames(40, 2000 * kPsPerUs));
+      EXPECT_EQ(bench.link().edges(), 1U << first_sample(setup) % 8) << metres;
+      setup.cable.in.jitter = 13'333 * 2;  // two ticks peak to peak
+      Bench jittered(setup);
+      ASSERT_TRUE(jittered.run_frames(40, 2000 * kPsPerUs));
+      const unsigned edges = jittered.link().edges();
+      EXPECT_GE(std::popcount(edges), 2) << metres;
+      EXPECT_LE(std::popcount(edges), 4) << metres;
+    }
   }
 }
 

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "sim/lines/dsl/dsl_faults.hpp"
+#include "sim/masters/dsl_model/motion.hpp"
 #include "tests/unit/dsl/dsl_bench.hpp"
 
 namespace {
@@ -47,10 +48,14 @@ struct Watch {
     // The safe position is that of the sample before the vertical frame.
     if (frame.place == 0) safe_ = before_;
     if (frame.safe_new) {
-      const unsigned bits = bench_.encoder().data_bits();
+      // The whole field of 40 bits: the second safe position is the inverse of the first.
+      const DslSlaveConfig& encoder = bench_.encoder().config();
+      const unsigned above = 64 - encoder.data_bits;
+      const auto wide = static_cast<std::int64_t>(safe_ << above) >> above;
+      const std::uint64_t safe = encoder.is_signed ? static_cast<std::uint64_t>(wide) : safe_;
       if (!frame.safe1.valid || !frame.safe2.valid) ++errors;
-      if (low(frame.safe1.position, bits) != safe_) ++wrong_safe;
-      if (low(~frame.safe2.position, bits) != safe_) ++wrong_safe;
+      if (frame.safe1.position != low(safe, 40)) ++wrong_safe;
+      if (frame.safe2.position != low(~safe, 40)) ++wrong_safe;
     }
     before_ = truth;
   }
@@ -156,6 +161,75 @@ TEST(DslMotion, StepBeyondElevenBits_IsMarkedAndFound) {
     EXPECT_EQ(bench.link().frame().position, 1'000'000U);
     EXPECT_EQ(bench.link().restarts(), 0U);
   }
+}
+
+// A signed position below 0: bytes of both channels, and of a shorter second one.
+TEST(DslMotion, NegativeSafePosition_HasItsInverse) {
+  for (const unsigned second_bits : {0U, 20U}) {
+    BenchSetup setup;
+    setup.encoder.data_bits = 30;
+    setup.encoder.is_signed = true;
+    setup.encoder.safe2_bits = second_bits;
+    setup.encoder.source.constant = 0x3FFFFCBD;  // -835
+    Bench bench(setup);
+    ASSERT_TRUE(bench.run_frames(8 * 6));
+    const LinkFrame& frame = bench.link().frame();
+    ASSERT_TRUE(frame.safe1.valid && frame.safe2.valid);
+    EXPECT_EQ(frame.safe1.position, 0xFFFFFFFCBDU);
+    // -835 / 1024 is -1 when it is cut.
+    EXPECT_EQ(frame.safe2.position, second_bits == 0 ? 0x0000000342U : 0U);
+  }
+}
+
+// Why the encoder sends true second differences behind its marker: a recovery takes all words
+// behind a missing one for true ones. With the missing word in RX7 any difference of the position
+// up to 2047 passes for one of the speed. Words that only lead the sum back to the truth are no
+// such words.
+TEST(DslMotion, WordsThatCatchUp_WouldMakeAWrongPositionCertain) {
+  dsl_model::Motion motion{dsl_model::MotionRules{}};
+  motion.start(32);
+  unsigned place = 0;
+  const auto frame = [&](std::optional<int> word, std::uint64_t safe) {
+    motion.frame(word);
+    if (++place % 8 == 0) motion.vertical_end(safe);
+  };
+  for (unsigned i = 0; i < 8 * 5; ++i) frame(0, 0);
+  ASSERT_FALSE(motion.lost());
+  for (unsigned i = 0; i < 7; ++i) frame(0, 0);
+  // Up to here it stood at 0. In RX7 it begins to move by 1500 steps a frame, which does not fit.
+  frame(std::nullopt, 0);
+  EXPECT_TRUE(motion.lost());
+  std::uint64_t truth = 1500;
+  const std::uint64_t safe = truth;  // of the next vertical frame
+  // Legal words that bring the sum from 0 to the truth and to its speed within these eight frames.
+  constexpr int kWords[] = {1023, 1023, 0, 0, -207, -339, 0, 0};
+  int speed = 0;
+  std::uint64_t sum = 0;
+  for (const int word : kWords) {
+    speed += word;
+    sum += static_cast<std::uint64_t>(speed);
+    truth += 1500;
+    frame(word, safe);
+  }
+  EXPECT_EQ(speed, 1500);
+  EXPECT_EQ(sum, truth);
+  EXPECT_FALSE(motion.lost());
+  EXPECT_EQ(motion.position(), truth + 9 * 1500);  // the repair came on top
+  EXPECT_EQ(motion.speed(), 2 * 1500);
+
+  // The same with true words: nothing wrong is certain.
+  motion.start(32);
+  place = 0;
+  for (unsigned i = 0; i < 8 * 5 + 7; ++i) frame(0, 0);
+  frame(std::nullopt, 0);
+  truth = 1500;
+  for (unsigned i = 0; i < 8; ++i) {
+    truth += 1500;
+    frame(0, safe);
+  }
+  EXPECT_FALSE(motion.lost());
+  EXPECT_EQ(motion.position(), truth);
+  EXPECT_EQ(motion.speed(), 1500);
 }
 
 // ---- Loss ---------------------------------------------------------------------------------------

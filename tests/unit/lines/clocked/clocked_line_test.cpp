@@ -108,13 +108,17 @@ TEST(Line, BitsPlannedByFrame_AreInvertedInThatFrame) {
   bench.line.faults().flip_frame(3, {2});
   bench.line.faults().flip_frame(2, {9});
   bench.line.faults().flip_frame(2, {1});
-  bench.line.faults().flip_frame(4, {0});  // the start bit itself
+  unsigned told = 0;
+  const FlipWatch watch{[](void* count) { ++*static_cast<unsigned*>(count); }, &told};
+  bench.line.faults().flip_frame(4, {0}, watch);  // the start bit itself
+  bench.line.faults().flip_frame(400, {0}, watch);
   const char* const expected[] = {"1010101001010", "1011101001000", "1010001001010",
                                   "1000101001010", "1010101001010"};
   for (unsigned frame = 0; frame < 5; ++frame) {
     EXPECT_EQ(bench.frame(kStart + frame * 100 * kPeriod, 13, kPeriod / 2), expected[frame])
         << "frame " << frame + 1;
   }
+  EXPECT_EQ(told, 1U);
 }
 
 TEST(Line, StuckLow_ThenReleased_FollowsTheSlaveAgain) {

@@ -97,7 +97,7 @@ class DuplexLineTest : public testing::Test {
     for (const auto& [time, level] : edges) in_ps.emplace_back(time * kNs, level);
     return in_ps;
   }
-  const DuplexContention& contention() const { return duplex(line.get())->contention(); }
+  DuplexContention contention(Time now = 0) const { return duplex(line.get())->contention(now); }
 
   EventQueue queue;
   DuplexConfig config;
@@ -177,6 +177,31 @@ TEST_F(DuplexLineTest, BothDrive_ZeroWinsAndCounts) {
   // the request comes.
   EXPECT_EQ(contention().times, 2U);
   EXPECT_EQ(contention().total, 340 * kNs);
+}
+
+// One that is not over counts up to now.
+TEST_F(DuplexLineTest, BothDriveForEver_CountsUpToNow) {
+  make();
+  out(1000, true, true);
+  answer(1500, true, true);
+  run_until(4000 * kNs);
+  EXPECT_EQ(contention(4000 * kNs).times, 1U);
+  EXPECT_EQ(contention(4000 * kNs).longest, 2500 * kNs);
+  EXPECT_EQ(contention(4500 * kNs).total, 3000 * kNs);
+}
+
+// Several calls for a frame add up, and each caller is told when it comes.
+TEST_F(DuplexLineTest, FlipsOfOneFrame_AddUpAndAreTold) {
+  make();
+  unsigned told = 0;
+  const FlipWatch watch{[](void* count) { ++*static_cast<unsigned*>(count); }, &told};
+  line->flip(2, {3}, watch);
+  line->flip(2, {5}, watch);
+  line->flip(9, {1}, watch);
+  EXPECT_TRUE(hand->begin_frame(1000 * kNs).empty());
+  EXPECT_EQ(told, 0U);
+  EXPECT_EQ(hand->begin_frame(2000 * kNs), (std::vector<unsigned>{3, 5}));
+  EXPECT_EQ(told, 2U);
 }
 
 TEST_F(DuplexLineTest, Unplugged_TheEndsSeeOnlyThemselves) {

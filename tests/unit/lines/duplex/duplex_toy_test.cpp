@@ -398,7 +398,7 @@ TEST(DuplexToy, AsksAndIsAnswered_FrameByFrame) {
     EXPECT_EQ(simulator.slave(1)->frames(), before + 1);
     EXPECT_EQ(simulator.slave(1)->sent_in(before + 1), request * 3 & 0xFFU);
   }
-  EXPECT_EQ(duplex(simulator.line(1))->contention().times, 0U);
+  EXPECT_EQ(duplex(simulator.line(1))->contention(simulator.now()).times, 0U);
 }
 
 TEST(DuplexToy, AnswerThatComesEarly_IsContention) {
@@ -407,8 +407,8 @@ TEST(DuplexToy, AnswerThatComesEarly_IsContention) {
   simulator.run_until(kPsPerUs + 3 * kFrame);
   // The master's driver is off 150 ns after the request, the answer begins after 100 ns; it is off
   // 150 ns after its end, where the master's has been on for 50 ns.
-  EXPECT_EQ(duplex(simulator.line(1))->contention().times, 6U);
-  EXPECT_EQ(duplex(simulator.line(1))->contention().total, 6 * 50 * kPsPerNs);
+  EXPECT_EQ(duplex(simulator.line(1))->contention(simulator.now()).times, 6U);
+  EXPECT_EQ(duplex(simulator.line(1))->contention(simulator.now()).total, 6 * 50 * kPsPerNs);
 }
 
 TEST(DuplexToy, Faults_AreThoseOfTheScenario) {
