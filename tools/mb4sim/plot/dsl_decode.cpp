@@ -10,19 +10,31 @@
 #include <string_view>
 #include <utility>
 
-#include "sim/lines/dsl/dsl_code.hpp"
-#include "sim/masters/dsl_model/frame_plan.hpp"
-
 namespace mb4::tool {
 namespace {
 
-using namespace sim::dsl_model;
-
 // Bits of a frame in a free run.
+constexpr unsigned kFrameBits = 108;
+constexpr unsigned kBlockBits = 6;  // of stuffing
+constexpr unsigned kMaxBlocks = 26;
 constexpr unsigned kDslEdge = 8;  // of SAMPLE
 constexpr unsigned kEqualise = 12;
 constexpr unsigned kParameter = 16;
 constexpr unsigned kLatestBits = 12;  // bits that an answer may be late
+
+// M_PAR: the two highest bits, and the symbols.
+constexpr unsigned kFirstBit = 0x80;
+constexpr unsigned kVerticalBit = 0x40;
+enum DslSymbol : unsigned {
+  kIdle = 0x10,
+  kSync = 0x19,
+  kStart = 0x1A,
+  kLearn = 0x1B,
+  kCheck = 0x1C,
+  kIdRequest = 0x1D,
+  kInit = 0x1E,
+  kReset = 0x1F,
+};
 
 unsigned symbol_of(std::uint8_t parameter) { return parameter & 0x1FU; }
 
@@ -65,7 +77,7 @@ DslFrame begun(const Wave& line, sim::Time edge, double bit) {
   frame.bit = bit;
   const auto ahead = static_cast<sim::Time>(kDslEdge * bit + 0.5);
   frame.begin = edge - std::min(edge, ahead);
-  frame.parameter = sim::dsl::parameter_of(bits_at(line, frame, kParameter, 10));
+  frame.parameter = dsl_parameter(bits_at(line, frame, kParameter, 10));
   frame.bits = kFrameBits;
   while (frame.bits < kFrameBits + kMaxBlocks * kBlockBits &&
          bits_at(line, frame, frame.bits, 9) != 0b001011110 &&
@@ -88,7 +100,7 @@ std::optional<double> measure(const Wave& line, const DslFrame& frame) {
       first = edge.time;
     }
     const double bits = static_cast<double>(edge.time - *first) / frame.bit;
-    if (bits > kAnswerBits - 0.5) break;
+    if (bits > kDslAnswerBits - 0.5) break;
     away += bits - std::round(bits);
     ++count;
   }
@@ -133,7 +145,21 @@ void add_sent(const Wave& line, DslFrame& frame) {
   if (!trailer) blame(frame, "no TRAILER");
 }
 
-std::string byte_text(const Word& word) {
+DslWords words_of(std::uint64_t answer) {
+  const auto bits = [answer](unsigned first) {
+    return static_cast<unsigned>(answer >> (kDslAnswerBits - 10 - first)) & 0x3FFU;
+  };
+  return {.vertical = dsl_word(bits(0)),
+          .parameter = dsl_word(bits(10)),
+          .pipeline = dsl_word(bits(20)),
+          .acceleration_high = dsl_word(bits(30)),
+          .acceleration_low = dsl_word(bits(40)),
+          .secondary = dsl_word(bits(51)),
+          .direction = (answer >> 10U & 1U) != 0,
+          .second_difference = dsl_second_difference(bits(30), bits(40))};
+}
+
+std::string byte_text(const DslWord& word) {
   if (word.error) return "?";
   return fmt::format("{}{:02X}", word.special ? "K " : "", word.byte);
 }
@@ -152,25 +178,24 @@ void add_answered(DslFrame& frame) {
         fmt::format("{:.1f}", *frame.late)},
        false});
   if (frame.training()) {
-    const bool bad = frame.answer != kTestPattern;
-    add(0, kAnswerBits, FieldKind::kFlag, {bad ? "wrong test pattern" : "test pattern"}, bad);
+    const bool bad = frame.answer != kDslPattern;
+    add(0, kDslAnswerBits, FieldKind::kFlag, {bad ? "wrong test pattern" : "test pattern"}, bad);
     if (bad) blame(frame, "wrong test pattern");
     return;
   }
-  frame.words = words_of(frame.answer, CodeCheck::kStrict);
-  const AnswerWords& words = frame.words;
-  const auto word = [&](unsigned from, FieldKind kind, std::string_view name, const Word& read,
+  frame.words = words_of(frame.answer);
+  const DslWords& words = frame.words;
+  const auto word = [&](unsigned from, FieldKind kind, std::string_view name, const DslWord& read,
                         bool bad = false) {
     const std::string text = byte_text(read);
     add(from, from + 10, kind, {fmt::format("{} {}", name, text), text}, read.error || bad);
     if (read.error) blame(frame, fmt::format("{}: no word of the code", name));
   };
   const bool identity = frame.parameter && symbol_of(*frame.parameter) == kIdRequest;
-  const bool crc5 =
-      identity || acceleration_is_good(static_cast<std::uint16_t>(
-                      words.acceleration_high.byte << 8U | words.acceleration_low.byte));
+  const bool crc5 = identity || words.second_difference.has_value();
   if (!crc5) blame(frame, "acceleration: CRC5 wrong");
-  if (words.acceleration_high.is(kMarker1) && words.acceleration_low.is(kMarker1)) {
+  const auto marks = [](const DslWord& read) { return read.special && read.byte == kDslMarker; };
+  if (marks(words.acceleration_high) && marks(words.acceleration_low)) {
     blame(frame, "the encoder has no second difference");
   }
   word(0, FieldKind::kData, "vertical", words.vertical);
@@ -250,7 +275,7 @@ DslFrame decode_dsl(const Wave& line, sim::Time sampled, double bit) {
     blame(frame, "no answer");
     return frame;
   }
-  for (unsigned i = 0; i < kAnswerBits; ++i) {
+  for (unsigned i = 0; i < kDslAnswerBits; ++i) {
     frame.answer = frame.answer << 1U | (line.at(frame.answer_at(i + 0.5)) ? 1U : 0U);
   }
   add_answered(frame);

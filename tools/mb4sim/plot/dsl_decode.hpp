@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // H-frames of DSL from the recorded level of the line at the master, where both ends are seen. The
-// place of the answers is learned from the training frames of the recording, as the master does it
-// with its samples.
+// place of the answers is learned from the training frames of the recording. Nothing here knows the
+// code of the master or of the encoder.
 #ifndef MB4SIM_TOOL_DSL_DECODE_HPP_
 #define MB4SIM_TOOL_DSL_DECODE_HPP_
 
@@ -12,15 +12,27 @@
 #include <string>
 #include <vector>
 
+#include "plot/dsl_words.hpp"
 #include "plot/field.hpp"
 #include "plot/wave.hpp"
-#include "sim/masters/dsl_model/link.hpp"
 
 namespace mb4::tool {
 
 // Bits of a frame in a free run.
 inline constexpr unsigned kDslSwitch = 26;
 inline constexpr unsigned kDslTrailer = 100;
+
+// The words of an answer.
+struct DslWords {
+  DslWord vertical;
+  DslWord parameter;
+  DslWord pipeline;
+  DslWord acceleration_high;
+  DslWord acceleration_low;
+  DslWord secondary;
+  bool direction = false;
+  std::optional<int> second_difference;  // nothing: a word or CRC5 is wrong
+};
 
 struct DslFrame {
   sim::Time begin = 0;  // of the first bit of SYNC
@@ -29,9 +41,9 @@ struct DslFrame {
   std::optional<std::uint8_t> parameter;
   unsigned bits = 0;           // up to the end of its stuffing
   std::optional<double> late;  // bits from the end of SWITCH to the answer; nothing: not learned
-  sim::dsl_model::Answer answer = 0;
-  sim::dsl_model::AnswerWords words;  // not in the training
-  std::vector<Field> sent;            // by the master
+  std::uint64_t answer = 0;    // its first bit is bit 60
+  DslWords words;              // not in the training
+  std::vector<Field> sent;     // by the master
   std::vector<Field> answered;
   std::string mistakes;  // of the line; empty: none
 

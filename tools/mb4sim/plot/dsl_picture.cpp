@@ -44,6 +44,7 @@ class DslPicture final : public LinePicture, private sim::LineObserver {
   // The frame that was read last is drawn.
   void finish(sim::Simulator& simulator) override {
     frame_ = model_.link().frame();
+    if (frame_.sampled == 0) return;  // there has been none with an answer
     sampled_ = model_.time_of(frame_.sampled);
     const double rest = 102 + 6.0 * rules_.start_blocks;  // bits
     simulator.run_until(sampled_ + static_cast<sim::Time>(rest * kTicksPerBit * tick_));
@@ -119,11 +120,8 @@ std::vector<std::string> DslPicture::notes(const DslFrame& frame) const {
   if (frame_.number == 0) return notes;
   notes.push_back(fmt::format(
       "Second difference {}, position {}{}, speed {}, QM {}",
-      frame_.acceleration_good
-          ? fmt::format("{:+d}", sim::dsl_model::acceleration_of(static_cast<std::uint16_t>(
-                                     frame.words.acceleration_high.byte << 8U |
-                                     frame.words.acceleration_low.byte)))
-          : std::string("missing"),
+      frame.words.second_difference ? fmt::format("{:+d}", *frame.words.second_difference)
+                                    : std::string("missing"),
       frame_.position, frame_.lost ? " (not certain)" : "", frame_.speed, frame_.quality));
   return notes;
 }
@@ -162,7 +160,7 @@ Diagram DslPicture::diagram(const DslFrame& frame) const {
 }
 
 Picture DslPicture::draw(const PictureRequest& request, sim::Time /*now*/) const {
-  if (sampled_ == 0) throw UseError(fmt::format("{}: there was no frame", request.scenario));
+  if (frame_.sampled == 0) throw UseError(fmt::format("{}: there was no frame", request.scenario));
   const DslFrame frame = decode_dsl(seen(), sampled_, kTicksPerBit * tick_);
   Diagram all = diagram(frame);
   all.title = request.title.empty()
