@@ -81,6 +81,7 @@ struct RunSummary {
   sim::Time time = 0;
   std::uint64_t clocks = 0;
   std::uint64_t seed = 0;
+  std::string note{};  // what else a user must know of the run; empty: nothing
 };
 
 // The registers as the host reads them.
@@ -147,13 +148,16 @@ class Session {
 
   // Frames after a fault in which the master may still tell of it.
   virtual unsigned late_frames() const { return 0; }
+  // What the master has told of a frame of the line that was no frame of the session, as
+  // Line::flip_frames() counts them; empty: nothing bad, or it was one.
+  virtual std::string told_between(std::uint64_t /*frame*/) const { return ""; }
 
   // Compares the ID that a slave tells with its own. Returns the error, or empty.
   virtual std::string check_id(unsigned /*slave*/) { return ""; }
 
   const std::vector<ConnectedSlave>& slaves() const { return slaves_; }
   sim::Simulator& simulator() { return simulator_; }
-  RunSummary summary() const;
+  virtual RunSummary summary() const;
   // What the driver has sent and received since the last call.
   std::string take_bus_log() { return std::exchange(bus_log_, {}); }
 

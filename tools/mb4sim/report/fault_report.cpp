@@ -48,6 +48,11 @@ std::uint64_t of(const KindCount& kind, Fate fate) {
   return kind.fates[static_cast<std::size_t>(fate)];
 }
 
+std::string not_reached_text(const sim::FaultConfig& fault) {
+  return fmt::format("did not happen: frame {} of channel {} has not come", fault.frame,
+                     fault.channel);
+}
+
 std::string fault_text(const std::vector<sim::FaultRecord>& records, std::size_t index) {
   return fmt::format("fault {} at {:.3f} us: {}", index + 1, sim::to_us(records[index].begin),
                      records[index].what);
@@ -91,7 +96,12 @@ void FaultReport::frame(const SessionFrame& frame, Session& session) {
     const sim::FaultConfig& fault = scenario_.faults[record.config];
     if (in_accesses(fault)) continue;
     const bool named = fault.frame != 0;
-    if (named && session.simulator().line(fault.channel)->flip_frames() < fault.frame) continue;
+    if (const std::string told = named ? session.told_between(fault.frame) : ""; !told.empty()) {
+      entry.fate = Fate::kDetected;
+      entry.error = told;
+      entry.by = fmt::format("before frame {}: {}", frame.number, told);
+      continue;
+    }
     const SlaveOutcome* worst = nullptr;
     for (const SlaveOutcome& outcome : outcomes) {
       if (outcome.kind == SlaveOutcome::Kind::kRight) continue;
@@ -147,6 +157,18 @@ void FaultReport::finish() {
   }
 }
 
+std::vector<const sim::FaultConfig*> FaultReport::not_reached() const {
+  std::vector<const sim::FaultConfig*> list;
+  for (std::size_t i = 0; i < scenario_.faults.size(); ++i) {
+    const sim::FaultConfig& fault = scenario_.faults[i];
+    const bool came =
+        std::any_of(records_.begin(), records_.end(),
+                    [i](const sim::FaultRecord& record) { return record.config == i; });
+    if (fault.frame != 0 && !came) list.push_back(&fault);
+  }
+  return list;
+}
+
 std::string FaultReport::new_lines() {
   std::string out = fault_lines(records_, printed_);
   printed_ = records_.size();
@@ -174,6 +196,9 @@ std::string FaultReport::summary() const {
     for (const auto& [error, number] : counts.detected_by) {
       out += fmt::format("  {:<15}    detected by: {} ({})\n", "", error, number);
     }
+    for (const sim::FaultConfig* fault : not_reached()) {
+      if (fault->kind == kind) out += fmt::format("  {:<15}    {}\n", "", not_reached_text(*fault));
+    }
   }
   return out;
 }
@@ -191,6 +216,13 @@ std::string FaultReport::json() const {
         record.end == sim::kNever ? "null" : fmt::format("{:.6f}", sim::to_us(record.end)),
         json_text(record.what), to_string(entry.fate),
         entry.by.empty() ? "null" : json_text(entry.by));
+  }
+  for (const sim::FaultConfig* fault : not_reached()) {
+    out += fmt::format(
+        "{}\n  {{\"fault\": null, \"line\": {}, \"kind\": \"{}\", \"time_us\": null, \"end_us\": "
+        "null, \"what\": {}, \"fate\": \"not reached\", \"by\": null}}",
+        out.size() == 1 ? "" : ",", fault->scenario_line, fault->kind->name,
+        json_text(not_reached_text(*fault)));
   }
   return out + "]";
 }

@@ -27,8 +27,9 @@ void print_faults(bool json, const std::vector<sim::FaultRecord>& records, std::
 // begins after the fault ends. The first of them with a bad result on the fault's channel decides;
 // for faults of host and clock any channel counts. If this frame delivered a wrong word as good,
 // the fault was missed; else it was detected. If there is no such frame, the fault had no effect. A
-// fault of a named frame waits for it, and Session::late_frames() more frames may tell of a fault.
-// A wrong-id fault is detected by a register access.
+// fault of a named frame happens when this comes; one whose frame never comes is told as that. What
+// Session::told_between() knows of a named frame has detected it, and Session::late_frames() more
+// frames may tell of a fault. A wrong-id fault is detected by a register access.
 class FaultReport {
  public:
   enum class Fate { kOpen, kNoEffect, kDetected, kMissed };
@@ -56,12 +57,14 @@ class FaultReport {
   // The counts and, for each kind of fault, the errors that detected it. Empty without faults in
   // the scenario.
   std::string summary() const;
-  // A JSON array.
+  // A JSON array; a fault whose frame has not come has no number.
   std::string json() const;
   bool any() const { return !scenario_.faults.empty(); }
 
  private:
   void add_new();
+  // Faults of a named frame that has not come.
+  std::vector<const sim::FaultConfig*> not_reached() const;
   void frame(const SessionFrame& frame, Session& session);
   // The slave of a wrong-id fault that no register access has checked yet, or 0.
   unsigned unchecked_id() const;

@@ -121,6 +121,7 @@ std::string FrameReport::table_summary(const RunSummary& summary) const {
       out += fmt::format("slave {}: good {}, bad {}\n", count.slave, count.good, count.bad);
     }
   }
+  if (!summary.note.empty()) out += summary.note + '\n';
   return out + fmt::format(
                    "frames good {}, bad {}; simulated time {:.3f} us, simulated clocks {}; seed "
                    "{}\n",
@@ -172,7 +173,9 @@ std::string FrameReport::json_summary(const RunSummary& summary, const std::stri
     out += fmt::format("{}{}: {}", separator, json_text(error), number);
     separator = ", ";
   }
-  return out + "}}" + more + "}\n";
+  out += '}';
+  if (!summary.note.empty()) out += ", \"note\": " + json_text(summary.note);
+  return out + '}' + more + "}\n";
 }
 
 }  // namespace mb4::tool

@@ -10,9 +10,11 @@
 
 #include <algorithm>
 #include <iterator>
+#include <map>
 #include <optional>
 
 #include "report/exit_status.hpp"
+#include "sim/lines/dsl/dsl_slave.hpp"
 #include "sim/lines/duplex/duplex_line.hpp"
 #include "sim/masters/dsl_model/dsl_master.hpp"
 
@@ -35,10 +37,31 @@ std::string number_text(std::uint64_t value, unsigned bits, bool is_signed) {
                    : fmt::format("{}", high >> above);
 }
 
+// Both safe positions of 40 bits, of an encoder at `position`: the first as wide as the field, the
+// second the inverse of its higher bits.
+struct SafePositions {
+  std::uint64_t first;
+  std::uint64_t second;
+};
+SafePositions safe_positions(const sim::DslSlaveConfig& encoder, std::uint64_t position) {
+  constexpr std::uint64_t kField = (std::uint64_t{1} << 40U) - 1;
+  const unsigned above = 64 - encoder.data_bits;
+  const unsigned narrower =
+      encoder.safe2_bits == 0 ? 0
+                              : encoder.data_bits - std::min(encoder.safe2_bits, encoder.data_bits);
+  const auto wide = static_cast<std::int64_t>(position << above) >> above;
+  const std::int64_t whole = encoder.is_signed ? wide : static_cast<std::int64_t>(position);
+  return {static_cast<std::uint64_t>(whole) & kField,
+          static_cast<std::uint64_t>(~(whole >> narrower)) & kField};
+}
+
 class DslSession final : public Session {
  public:
   DslSession(const sim::Scenario& scenario, const SessionOptions& options)
-      : Session(scenario, options), host_(simulator_.host<LinkHost>("none")) {}
+      : Session(scenario, options),
+        host_(simulator_.host<LinkHost>("none")),
+        line_(*sim::duplex(simulator_.line(slaves_.front().channel))),
+        encoder_(dynamic_cast<const sim::DslSlave&>(*simulator_.slave(slaves_.front().number))) {}
 
   std::string configure() override;
   SessionFrame read(std::uint64_t number) override;
@@ -46,20 +69,31 @@ class DslSession final : public Session {
   std::uint64_t failed_starts() const override { return failed_starts_; }
   // A vertical frame is judged at its end.
   unsigned late_frames() const override { return 8; }
+  std::string told_between(std::uint64_t frame) const override;
+  RunSummary summary() const override;
 
  private:
   bool next();
   bool find_link();
+  void keep_mistakes();
   std::string no_link() const;
+  std::string no_link_and_why() const;
   std::string judge() const;
+  std::string judge_safe() const;
   void keep_truth();
   std::vector<std::string> told() const;
+  sim::Time sampled() const;
 
   LinkHost& host_;
+  const sim::DuplexLine& line_;
+  const sim::DslSlave& encoder_;
   LinkFrame frame_;
   bool first_ = false;  // frame_ has not been read yet
   bool lost_ = false;   // the link, and its restart has been told
   std::uint64_t failed_starts_ = 0;
+  // What was wrong with running frames that are no rows, by their numbers.
+  std::map<std::uint64_t, std::string> between_;
+  std::uint64_t begun_ = 0;  // frames that the encoder has seen
   // The position of the encoder's last sample, of the one before, and that of the sample before the
   // vertical frame.
   std::optional<std::uint64_t> truth_;
@@ -77,10 +111,28 @@ bool DslSession::next() {
   return true;
 }
 
-// The encoder cannot have taken its next position yet.
+// The encoder cannot have taken its next position yet. It has none of a frame that it has not seen.
 void DslSession::keep_truth() {
   if (frame_.number != 0 && frame_.place == 0) safe_truth_ = truth_;
-  truth_ = slaves_.empty() ? std::nullopt : simulator_.slave(slaves_.front().number)->sent_word();
+  const std::uint64_t begun = encoder_.begun();
+  truth_ = begun == begun_ + 1 ? encoder_.sent_word() : std::nullopt;
+  begun_ = begun;
+}
+
+// A running frame that is no row. A safe position belongs to the eight frames that have brought it.
+void DslSession::keep_mistakes() {
+  if (frame_.number == 0) return;
+  if (!frame_.acceleration_good) between_[frame_.number] = "second difference missing";
+  const std::string safe = frame_.safe_new ? judge_safe() : "";
+  if (safe.empty()) return;
+  for (unsigned i = 0; i <= frame_.place; ++i) {
+    if (i < frame_.number) between_.try_emplace(frame_.number - i, safe);
+  }
+}
+
+std::string DslSession::told_between(std::uint64_t frame) const {
+  const auto found = between_.find(frame);
+  return found == between_.end() ? "" : found->second;
 }
 
 // Runs to the first frame with a certain position.
@@ -89,20 +141,25 @@ bool DslSession::find_link() {
   while (simulator_.now() < limit) {
     if (!next()) return false;
     if (frame_.number != 0 && !frame_.lost) return true;
+    keep_mistakes();
   }
   return false;
 }
 
 std::string DslSession::no_link() const {
+  return fmt::format("no link within {} ms",
+                     sim::to_us(simulator_.scenario().host.link_wait) / 1000);
+}
+
+std::string DslSession::no_link_and_why() const {
   const Link& link = host_.model().link();
-  return fmt::format("no link within {} ms: state {}, {} restarts, the last one: {}",
-                     sim::to_us(simulator_.scenario().host.link_wait) / 1000,
+  return fmt::format("{}: state {}, {} restarts, the last one: {}", no_link(),
                      sim::dsl_model::name_of(link.state()), link.restarts(),
                      sim::dsl_model::name_of(link.last_restart()));
 }
 
 std::string DslSession::configure() {
-  if (!find_link()) return no_link();
+  if (!find_link()) return no_link_and_why();
   first_ = true;
   failed_starts_ = host_.model().link().restarts();
   return "";
@@ -134,13 +191,38 @@ std::vector<std::string> DslSession::told() const {
 // What is wrong with a frame that has a position; empty: nothing.
 std::string DslSession::judge() const {
   if (frame_.lost) return "position not certain";
-  if (!frame_.safe_new) return "";
-  if (!frame_.safe1.valid)
-    return frame_.safe1.error ? "safe position: CRC error" : "no safe position";
-  const unsigned bits = host_.model().link().position_bits();
-  const std::uint64_t safe = frame_.safe1.position & (~std::uint64_t{0} >> (64 - bits));
-  if (safe_truth_ && safe != *safe_truth_) return "wrong safe position";
+  return frame_.safe_new ? judge_safe() : "";
+}
+
+// The same of the safe positions of a vertical frame. Channel 2 is judged by itself.
+std::string DslSession::judge_safe() const {
+  const auto told_bad = [](const sim::dsl_model::SafeChannel& safe, const char* error,
+                           const char* none) {
+    return safe.valid ? "" : safe.error ? error : none;
+  };
+  std::string bad = told_bad(frame_.safe1, "safe position: CRC error", "no safe position");
+  if (bad.empty()) {
+    bad = told_bad(frame_.safe2, "second safe position: CRC error", "no second safe position");
+  }
+  if (!bad.empty() || !safe_truth_) return bad;
+  const SafePositions right = safe_positions(encoder_.config(), *safe_truth_);
+  if (frame_.safe1.position != right.first) return "wrong safe position";
+  if (frame_.safe2.position != right.second) return "wrong second safe position";
   return "";
+}
+
+// The edge in SAMPLE of the last answer.
+sim::Time DslSession::sampled() const { return host_.model().time_of(frame_.sampled); }
+
+RunSummary DslSession::summary() const {
+  RunSummary summary = Session::summary();
+  const sim::DuplexContention both = line_.contention(simulator_.now());
+  if (both.longest > line_.enable_time()) {
+    summary.note = fmt::format(
+        "two drivers at once: {} times, at most {:.3f} us, {:.3f} us in all, first at {:.3f} us",
+        both.times, sim::to_us(both.longest), sim::to_us(both.total), sim::to_us(both.first));
+  }
+  return summary;
 }
 
 SessionFrame DslSession::read(std::uint64_t number) {
@@ -148,16 +230,17 @@ SessionFrame DslSession::read(std::uint64_t number) {
   out.number = number;
   out.begin = simulator_.now();
   std::string error;
-  bool any = true;  // a frame has come
+  bool any = true;         // a frame has come
+  bool link_there = true;  // ... even if the link ends with it
   if (lost_) {
     lost_ = !find_link();
-    any = !lost_;
+    any = link_there = !lost_;
     if (lost_) error = no_link();
   } else if (first_) {
     first_ = false;
   } else if (!next()) {
     error = no_link();
-    any = false;
+    any = link_there = false;
   }
   if (error.empty() && frame_.restart != Restart::kNone) {
     error = fmt::format("restart: {}", sim::dsl_model::name_of(frame_.restart));
@@ -175,7 +258,9 @@ SessionFrame DslSession::read(std::uint64_t number) {
   }
   out.results.push_back(result);
   out.sent.push_back(truth_);
-  out.end = simulator_.now();
+  if (!link_there) out.error = error;
+  out.end = link_there ? sampled() : simulator_.now();
+  out.begin = std::min(out.begin, out.end);
   return out;
 }
 
