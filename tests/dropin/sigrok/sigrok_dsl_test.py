@@ -221,8 +221,12 @@ def check_without_training(module, edges, decoded):
     return True
 
 
-def by_sigrok(root, edges, decoded, drives=()):
-    """The states and safe positions that sigrok prints are those of the plain decoder. False: not."""
+def by_sigrok(root, edges, decoded, drives=(), inverted=False):
+    """The states and safe positions that sigrok prints are those of the plain decoder. False: not.
+
+    `inverted`: the probe is on the other wire of the pair."""
+    if inverted:
+        edges = [(time, 1 - level) for time, level in edges]
     with tempfile.TemporaryDirectory() as name:
         path = Path(name) / "line.vcd"
         lines = ["$timescale 1 ps $end", "$var wire 1 L LINE $end", "$var wire 1 E EN $end",
@@ -232,7 +236,7 @@ def by_sigrok(root, edges, decoded, drives=()):
         path.write_text("\n".join(lines) + "\n", encoding="ascii")
         text = subprocess.run(
             ["sigrok-cli", "-I", f"vcd:downsample={DOWNSAMPLE}", "-i", path, "-P",
-             f"dsl:line=LINE{':en=EN' * bool(drives)}", "-A", "dsl=states:safes:drivers"],
+             f"dsl:line=LINE{':en=EN' * bool(drives)}{':invert=yes' * inverted}", "-A", "dsl=states:safes:drivers"],
             check=True, capture_output=True, text=True,
             env={**os.environ, "SIGROKDECODE_DIR": str(Path(root).resolve() / "tools" / "sigrok")}).stdout
     printed = sorted(line.removeprefix("dsl-1: ") for line in text.splitlines())
@@ -282,6 +286,8 @@ def main():
         if not by_sigrok(root, some, decode(module, some)):
             return 1
         if not by_sigrok(root, some, decode(module, some, drives), drives):
+            return 1
+        if not by_sigrok(root, some, decode(module, some), inverted=True):
             return 1
     if counts["restarts"] < 2 or counts["bad"] < 20 or counts["safe"] < 100:
         print("too few faults to say anything")
