@@ -67,6 +67,7 @@ std::int64_t step_of(std::uint64_t difference, unsigned bits) {
 std::int64_t top_speed(const std::vector<std::uint64_t>& words, const DslSlaveConfig& config) {
   const std::int64_t most = std::int64_t{1} << (config.acceleration_bits - 1);
   const std::size_t count = words.size();
+  if (count == 0) return 0;  // the file is missing, which has been said
   const auto speed_to = [&](std::size_t i) {
     if (i == 0 && !config.source.repeat) return std::int64_t{0};
     return step_of(words[i] - words[(i + count - 1) % count], config.data_bits);

@@ -136,6 +136,7 @@ TEST(DslScenario, WrongKeys_NameFileLineAndKey) {
       {std::string(kMaster) + "[chip.quirks]\nSDK_MAP = true\n", "SDK_MAP"},
       {std::string(kMaster) + "[chip.quirks]\nSAMPLE = 3\n", "SAMPLE"},
       {std::string(kMaster) + "[[channel]]\nnumber = 2\n", "number"},
+      {std::string(kMaster) + kMotor + "source = \"file\"\n", "file"},
       {std::string(kMaster) + kMotor + "position_bits = 41\n", "position_bits"},
       {std::string(kMaster) + kMotor + "data_bits = 32\n", "data_bits"},
       {std::string(kMaster) + kMotor + "acceleration_bits = 7\n", "acceleration_bits"},
