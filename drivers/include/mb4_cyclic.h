@@ -54,6 +54,8 @@ enum {
   MB4_CYCLIC_INSTRUCT = mb4::regs::kSpiOpcodeWriteInstruction,
   MB4_CYCLIC_SL1 = mb4::regs::SL1::kMask,
   MB4_CYCLIC_SL2 = mb4::regs::SL2::kMask,
+  MB4_CYCLIC_IFACE = mb4::regs::MAFS::kAddress - mb4::regs::kAddrStatus0 + 1,
+  MB4_CYCLIC_FORCED = mb4::regs::MAFS::kMask | mb4::regs::MAFO::kMask,
   MB4_CYCLIC_LINES = mb4::regs::SL1::kAddress - mb4::regs::kAddrStatus0 + 1,
   MB4_CYCLIC_BANKS = mb4::regs::SWBANKFAIL::kAddress - mb4::regs::kAddrStatus0 + 1,
   MB4_CYCLIC_BANKFAIL = mb4::regs::SWBANKFAIL::kMask
@@ -77,6 +79,8 @@ enum {
   MB4_CYCLIC_INSTRUCT = MB4_SPI_OPCODE_WRITE_INSTRUCTION,
   MB4_CYCLIC_SL1 = MB4_SL_MASK(1U),
   MB4_CYCLIC_SL2 = MB4_SL_MASK(2U),
+  MB4_CYCLIC_IFACE = MB4_MAFS_ADDR - MB4_ADDR_STATUS0 + 1,
+  MB4_CYCLIC_FORCED = MB4_MAFS_MASK | MB4_MAFO_MASK,
   MB4_CYCLIC_LINES = MB4_SL_ADDR(1U) - MB4_ADDR_STATUS0 + 1,
   MB4_CYCLIC_BANKS = MB4_SWBANKFAIL_ADDR - MB4_ADDR_STATUS0 + 1,
   MB4_CYCLIC_BANKFAIL = MB4_SWBANKFAIL_MASK
@@ -341,6 +345,7 @@ typedef struct {
   uint32_t good_us[MB4_SLAVES]; /* when; set them when frames are started */
   mb4_counts *counts;           /* for MB4_WITH_COUNTS; may be null */
   uint16_t told[MB4_SLAVES];    /* private: low bits of the last bad word that was told */
+  bool astray; /* private, FULL: SVALID = 0 was not seen; the write may have forced MA in 0xF5 */
 } mb4_watch;
 
 /* mb4_watch.silent_us: no alarm when frames stay away. */
@@ -483,6 +488,19 @@ MB4_APART void mb4_cyclic_add_status(mb4_plan *plan) {
   (void)mb4_plan_add(plan, 1 + MB4_STATUS_BYTES, MB4_CYCLIC_STATUS, 0, 0);
 }
 
+/* A status, with `more` up to 0xF5. */
+static inline void mb4_cyclic_add_proof(mb4_plan *plan, bool more) {
+  const uint8_t last = more ? (uint8_t)MB4_CYCLIC_IFACE : (uint8_t)MB4_STATUS_BYTES;
+  (void)mb4_plan_add(plan, (uint8_t)(1 + last), MB4_CYCLIC_STATUS, 0, 0);
+}
+
+/* 0xF5 was asked for, and an MA line is forced: the write of SVALID = 0 has gone there. A frame
+ * that has run meanwhile is none of the encoder, and no CRC need tell. */
+static inline bool mb4_cyclic_forced(const mb4_plan *plan) {
+  return plan->size[0] > 1 + MB4_STATUS_BYTES &&
+         (mb4_plan_rx(plan, 0)[MB4_CYCLIC_IFACE] & MB4_CYCLIC_FORCED) != 0;
+}
+
 /* Clears SVALID of the slaves of this try. With `size` 6 it also writes 0xF4, HOLDBANK = 0; 0xF3
  * between them is read-only. */
 static inline void mb4_cyclic_add_clear(mb4_plan *plan, uint16_t flags, uint8_t size) {
@@ -513,12 +531,13 @@ MB4_APART uint8_t mb4_cyclic_release(mb4_cyclic *read, mb4_plan *plan, uint8_t c
   return MB4_MORE;
 }
 
-/* A status shows whether the bank is free; until then it counts as held. */
+/* A status shows whether the bank is free; until then it counts as held. It goes on to 0xF5 where
+ * that has to be seen. */
 static inline uint8_t mb4_cyclic_prove(mb4_cyclic *read, mb4_plan *plan, uint8_t stage,
                                        uint8_t code) {
   read->watch->held = true;
   (void)mb4_cyclic_next(read, plan, stage, code);
-  mb4_cyclic_add_status(plan);
+  mb4_cyclic_add_proof(plan, read->watch->astray);
   return MB4_MORE;
 }
 
@@ -530,7 +549,7 @@ MB4_APART uint8_t mb4_cyclic_try(mb4_cyclic *read, mb4_plan *plan, uint8_t with)
   if (!unheld) {
     mb4_cyclic_add_instruction(plan, MB4_CYCLIC_HOLD);
   } else if (full) {
-    mb4_cyclic_add_status(plan);
+    mb4_cyclic_add_proof(plan, read->again); /* SVALID = 0 of the first try was not seen */
   }
   if (read->stage == MB4_STAGE_DATA) {
     mb4_cyclic_add_data(read, plan, read->flags, with);
@@ -710,14 +729,18 @@ static inline uint8_t mb4_cyclic_take_status(mb4_cyclic *read, const mb4_plan *p
 
 /* The status behind a release. 0xF4 must be AGS alone: the bank is not held, SWBANK has not
  * switched it, no access was started. AGS may have ended by an error. BREAK reads 0, so it is not
- * seen: frames stay away then. Returns the result of the read so far, or what is wrong. */
+ * seen: frames stay away then. Unheld, INSTR is that of the access. Returns the result of the read
+ * so far, or what is wrong. */
 static inline uint8_t mb4_cyclic_take_proof(const mb4_cyclic *read, const mb4_plan *plan) {
   const uint8_t *rx = mb4_plan_rx(plan, 0);
   uint8_t code = MB4_CORRUPTED;
   if (!mb4_status_constant(rx)) {
     code = MB4_NOT_DETECTED;
-  } else if ((rx[5] | MB4_CYCLIC_AGS) == MB4_CYCLIC_AGS) {
+  } else if ((read->unheld ? rx[5] & MB4_CYCLIC_NO_INSTR
+                           : (rx[5] | MB4_CYCLIC_AGS) ^ MB4_CYCLIC_AGS) == 0 &&
+             !mb4_cyclic_forced(plan)) {
     read->watch->held = false;
+    read->watch->astray = false;
     code = MB4_OK;
   }
   return read->code == MB4_OK ? code : read->code;
@@ -1108,6 +1131,11 @@ static inline uint8_t mb4_cyclic_take_look(mb4_cyclic *read, mb4_plan *plan, uin
     read->fresh = (uint16_t)(read->fresh & mb4_cyclic_valid(read));
   }
   if (unheld) {
+    if (code == MB4_OK && mb4_cyclic_forced(plan)) {
+      read->watch->held = true;
+      read->watch->astray = true;
+      code = MB4_CORRUPTED;
+    }
     if (code != MB4_OK) {
       return code;
     }
@@ -1142,6 +1170,7 @@ static inline uint8_t mb4_cyclic_take_clear(mb4_cyclic *read, mb4_plan *plan, ui
       return MB4_MORE;
     }
     code = MB4_CORRUPTED;
+    read->watch->astray = true;
   }
   return mb4_cyclic_release(read, plan, code);
 }
@@ -1304,7 +1333,8 @@ static inline uint8_t mb4_cyclic_step(mb4_cyclic *read, mb4_plan *plan, bool tra
   if (stage == MB4_STAGE_FREE) {
     read->watch->held = !transferred;
     read->watch->news_us = now_us; /* no bank was switched meanwhile */
-    if (transferred && !read->unheld && mb4_cyclic_proves(read, with)) {
+    if (transferred && (with & MB4_WITH_FULL) != 0 &&
+        (read->watch->astray || (!read->unheld && mb4_cyclic_proves(read, with)))) {
       return mb4_cyclic_prove(read, plan, MB4_STAGE_PROVE_FREE, code);
     }
     return transferred ? mb4_cyclic_try(read, plan, with) : code;
@@ -1317,7 +1347,7 @@ static inline uint8_t mb4_cyclic_step(mb4_cyclic *read, mb4_plan *plan, bool tra
     if (transferred && mb4_cyclic_proves(read, with)) {
       return mb4_cyclic_prove(read, plan, MB4_STAGE_PROVE_END, code);
     }
-    read->watch->held = !transferred;
+    read->watch->held = !transferred || ((with & MB4_WITH_FULL) != 0 && read->watch->astray);
   } else if ((with & MB4_WITH_FULL) != 0 && stage >= MB4_STAGE_PROVE_END) {
     code = transferred ? mb4_cyclic_take_proof(read, plan) : code;
     if (stage == MB4_STAGE_PROVE_FREE && code == MB4_OK) {

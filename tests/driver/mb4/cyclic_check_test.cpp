@@ -151,7 +151,7 @@ TEST(CyclicCheck, EachSlip_HasItsCode) {
       {"omitted_us forgotten", MB4_INVALID_CONFIG, [](Parts& s) { s.watch.omitted_us = 0; }},
       {"period above 1 s", MB4_INVALID_CONFIG,
        [](Parts& s) {
-         s.watch = {0, MB4_NEVER, MB4_NEVER, 1, true, false, 0, {}, &s.counts, {}};
+         s.watch = {0, MB4_NEVER, MB4_NEVER, 1, true, false, 0, {}, &s.counts, {}, false};
          s.counts.period_ns = 1'000'000'001;
        }},
       {"limits in periods", MB4_INVALID_CONFIG,

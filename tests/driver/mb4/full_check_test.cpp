@@ -309,7 +309,9 @@ TEST_F(FullCheck, BankSwitchedBetweenTwoReadings_SecondTryIsGood) {
   const Bytes still = status(0xFB, 0x00, 0x09);
   for (const bool one : {false, true}) {
     for (const bool second : {false, true}) {
-      bus.expect_read(kReadStatus, fresh);
+      // The second try looks whether the write of SVALID has forced MA in 0xF5.
+      bus.expect_read(second ? join({kReadStatus, {0}}) : kReadStatus,
+                      second ? join({fresh, {0}}) : fresh);
       bus.expect_read(kReadStatus, fresh);
       bus.expect_write(kClearValid1);
       if (!second) {
@@ -327,6 +329,46 @@ TEST_F(FullCheck, BankSwitchedBetweenTwoReadings_SecondTryIsGood) {
       EXPECT_EQ(frame[1].error(), Error::kNone);
     }
   }
+}
+
+// A write of SVALID = 0 that is not seen may have gone to 0xF5 and forced MA: the reads behind it
+// look there, and are kCorrupted until no line is forced. The words that have waited are dropped.
+TEST_F(FullCheck, ClearThatIsNotSeen_ReadsWaitForAnUnforcedLine) {
+  mb4::Config config = mb4test::encoder26();
+  config.spi_check = mb4::SpiCheck::kFull;
+  configure(config);
+  start();
+  const Bytes fresh = status(0xFB, 0x02, 0x41);
+  const Bytes free_bank{0x07, 0x01};
+  bus.expect_write(kHold);
+  bus.expect_read(kReadStatus, fresh);
+  bus.expect_read(kReadAll, kAllOf);
+  bus.expect_read(kReadStatus, fresh);
+  bus.expect_write(kClearValid1);
+  bus.expect_read(kReadStatus, fresh);
+  bus.expect_read(kReadStatus, fresh);
+  bus.expect_write(free_bank);
+  EXPECT_EQ(device.automatic().poll_slave(1).error(), Error::kCorrupted);
+  // 0xFF is what a bus leaves that stores too little.
+  for (const unsigned forced : {0xFDU, 0x50U, 0xFFU}) {
+    bus.expect_write(free_bank);
+    bus.expect_write({0x02, 0xF1, 0x55, 0x55});
+    bus.expect_read(join({kReadStatus, {0}}),
+                    join({status(0xFB, 0x00, 0x01), {static_cast<std::uint8_t>(forced)}}));
+    EXPECT_EQ(device.automatic().poll_slave(1).error(), Error::kCorrupted);
+  }
+  bus.expect_write(free_bank);
+  bus.expect_write({0x02, 0xF1, 0x55, 0x55});
+  bus.expect_read(join({kReadStatus, {0}}), join({status(0xFB, 0x00, 0x01), {0x01}}));
+  bus.expect_write(kHold);
+  bus.expect_read(kReadStatus, status(0xFB, 0x00, 0x41));
+  bus.expect_write(free_bank);
+  EXPECT_EQ(device.automatic().poll_slave(1).error(), Error::kNoData);
+  // Then as ever.
+  bus.expect_write(kHold);
+  bus.expect_read(kReadStatus, status(0xFB, 0x00, 0x41));
+  bus.expect_write(free_bank);
+  EXPECT_EQ(device.automatic().poll_slave(1).error(), Error::kNoData);
 }
 
 // Opcode 0x03 sends an address. One wrong bit of it reads the word of another slave, whose CRC

@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <string>
@@ -321,6 +322,47 @@ TEST(DriverProvenAccess, ReleaseThatBeginsAnother_EndIsNotTakenForItsOwn) {
   ASSERT_TRUE(chip.device.automatic().restart().ok());
   EXPECT_TRUE(chip.device.control().write_registers({1, 0}, 0x60, bytes).ok());
   EXPECT_EQ(slave.reg_read(0x61), 0xA3);
+}
+
+// SVALID = 0 goes to 0xF1. By one bit of its address it reaches 0xF5 and forces MA while a frame
+// runs: its word is none of the encoder, and without a CRC nothing in it tells.
+TEST(DriverProvenClear, FlippedAddressForcesMa_NoWordOfThatFrameIsGood) {
+  Config of_check = config();
+  of_check.slaves[0].crc_polynomial = 0;
+  unsigned told = 0;
+  for (unsigned phase = 0; phase < 160; ++phase) {
+    FaultyChip chip(kEncoder + "crc = 0\n");
+    ASSERT_TRUE(chip.device.configure(of_check).ok());
+    ASSERT_TRUE(chip.device.automatic().start().ok());
+    chip.simulator.advance(250 * sim::kPsPerUs);
+    chip.bus.plan({});
+    ASSERT_TRUE(chip.device.automatic().poll_slave(1).ok());
+    const std::vector<std::uint8_t>& opcodes = chip.bus.opcodes();
+    const std::size_t clear = static_cast<std::size_t>(
+        std::find(opcodes.begin(), opcodes.end(), std::uint8_t{0x02}) - opcodes.begin());
+    ASSERT_LT(clear, opcodes.size());
+    // The write meets each place of a frame, and the time around it.
+    chip.simulator.advance(70 * sim::kPsPerUs + phase * 250 * sim::kPsPerNs);
+    chip.bus.plan({FaultKind::kFlipMosi, clear, clear, 13});
+    const Error first = chip.device.automatic().poll_slave(1).error();
+    chip.bus.plan({});
+    if (first != Error::kCorrupted) continue;  // no frame was new, and nothing was cleared
+    ++told;
+    for (unsigned i = 0; i < 30; ++i) {
+      const auto reading = chip.device.automatic().poll_slave(1);
+      if (reading.ok()) {
+        const std::uint64_t position = reading.value().position;
+        EXPECT_TRUE(position < 60 && position % 4 == 0)
+            << position << " in phase " << phase << ", poll " << i;
+      }
+      chip.simulator.advance(5 * sim::kPsPerUs);
+    }
+    EXPECT_FALSE(chip.device.automatic().poll_slave(1).ok());
+    ASSERT_TRUE(chip.device.automatic().restart().ok());
+    chip.simulator.advance(250 * sim::kPsPerUs);
+    EXPECT_TRUE(chip.device.automatic().poll_slave(1).ok()) << "phase " << phase;
+  }
+  EXPECT_GE(told, 30U);
 }
 
 }  // namespace

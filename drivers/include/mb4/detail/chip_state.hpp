@@ -172,6 +172,7 @@ struct ChipState {
     watch.news_us = now_us;
     watch.taken = 0;
     watch.held = false;
+    watch.astray = false;
     control.stray = false;  // BREAK has ended it
     for (std::uint32_t& good_us : watch.good_us) {
       good_us = now_us;
