@@ -111,8 +111,8 @@ void Judge::write(std::uint32_t address, std::uint32_t data, unsigned strobes) {
       std::uint32_t word = value(address, 4);
       change(word, address == kDataLength ? 0x00FFFFFF : 0xFFFFFFFF);
       put(address, 4, word);
-      // R-P17: the byte with CTS arms the word.
-      if (address == kCtrlWord && (strobes & 8U)) control_armed_ = true;
+      // R-P17: the byte with CTS arms the word, one of 0 arms nothing.
+      if (address == kCtrlWord && (strobes & 8U)) control_armed_ = word != 0;
       break;
     }
     case kIrqStatus:

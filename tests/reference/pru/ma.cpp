@@ -3,6 +3,8 @@
 
 #include "tests/reference/pru/ma.hpp"
 
+#include <algorithm>
+
 namespace pru_judge {
 namespace {
 
@@ -30,8 +32,10 @@ MaEdges ma_edges(const FrameSettings& settings, const FrameReading& reading, boo
     case FrameKind::kSlLow:
       return {};
     case FrameKind::kNoAcknowledge: {
+      // Byte n ends with the last edge: with CDM = 1 no master can know that it has to leave it
+      // out.
       const unsigned all = 2 + settings.search_periods();
-      return of_all(all, all, cdm);
+      return of_all(all, all + (cdm ? 1 : 0), cdm);
     }
     case FrameKind::kDropped:
       return {clocked_to(settings, reading, reading.last_sample),
@@ -39,11 +43,11 @@ MaEdges ma_edges(const FrameSettings& settings, const FrameReading& reading, boo
     case FrameKind::kRead:
       break;
   }
-  // R-P13. The edge behind the last one comes before START where the line delay is as long as the
-  // frame: then no master can know that it is one too many.
-  const unsigned all = 2 + 3 + settings.bits() + reading.zeros;
-  const Time next = reading.rising_edge_1 + all * settings.rate.period_ps();
-  return of_all(all, all + (reading.start_bit + decision > next ? 1 : 0), cdm);
+  // R-P13. Edges behind the last one come before START where the line delay is as long as the
+  // frame: then no master can know that they are too many.
+  const unsigned least = 2 + 3 + settings.bits() + reading.zeros - (cdm ? 1 : 0);
+  return {least, std::max(least, clocked_to(settings, reading, reading.start_bit + decision)),
+          !cdm};
 }
 
 std::vector<std::string> check_ma(const FrameSettings& settings, const FrameReading& reading,

@@ -1,0 +1,248 @@
+// SPDX-FileCopyrightText: 2026 The openmb4 authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// pru_core against the judge of tests/reference/pru: frames at random on disturbed lines. After
+// each frame all bytes of the memory, SIGNALS, FRAME_COUNT and LATCH_TIME are those of the judge,
+// and MA has the edges that the judge expects.
+#include <gtest/gtest.h>
+
+#include <cstdint>
+#include <cstdio>
+#include <cstdlib>
+#include <string>
+#include <vector>
+
+#include "tests/block/pru/pru_bench.hpp"
+
+namespace {
+
+using mb4test::Dice;
+using pru_judge::Judge;
+using pru_judge::JudgeSetup;
+using pru_judge::Time;
+namespace reg = biss_pru::regs;
+
+unsigned frames_of(unsigned usual) {
+  const char* text = std::getenv("MB4_PRU_FRAMES");
+  return text != nullptr ? static_cast<unsigned>(std::atoi(text)) : usual;
+}
+
+std::string binary(std::uint64_t value, unsigned bits) {
+  std::string text;
+  for (unsigned i = bits; i-- != 0;) text += (value >> i & 1U) != 0 ? '1' : '0';
+  return text;
+}
+
+// 6 bits behind the bits of a word: x^6 + x + 1, inverted, by long division.
+std::string crc6(std::string bits) {
+  const std::size_t size = bits.size();
+  bits += "000000";
+  for (std::size_t i = 0; i < size; ++i) {
+    if (bits[i] != '1') continue;
+    for (const unsigned place : {0U, 5U, 6U}) bits[i + place] ^= 1;
+  }
+  for (char& bit : bits) bit ^= 1;
+  return bits.substr(size);
+}
+
+JudgeSetup setup_of(std::uint32_t hz, unsigned quirks) {
+  JudgeSetup setup;
+  setup.clock_hz = hz;
+  setup.sma_wrap = (quirks & 4U) != 0;
+  setup.first_low = (quirks & 2U) != 0;
+  setup.extra_10 = (quirks & 1U) != 0;
+  // Four clocks at least, and six more to pin irq_o, which tells the test.
+  setup.update_clocks = 10;
+  return setup;
+}
+
+// A master with its judge. What the host writes goes to both.
+template <typename Bench>
+class Judged {
+ public:
+  explicit Judged(unsigned quirks) : bench(quirks), judge(setup_of(Bench::kHz, quirks)) {}
+
+  void write(std::uint32_t address, std::uint32_t data, unsigned strobes = 0xF) {
+    bench.write(address, data, strobes);
+    judge.write(address, data, strobes);
+  }
+  // RUN, and its frame at 1 MHz.
+  void run() {
+    write(reg::kAddrIrqEnable, 1);
+    write(reg::kAddrTriggerPeriod, 0);
+    write(reg::kAddrIrqStatus, 0x1F);
+    bench.write(reg::kAddrRun, 0);
+    judge.write(reg::kAddrRun, 0);
+    bench.clocks(3000);
+    const Time before = bench.now;
+    write(reg::kAddrRun, 1);
+    frame(before + 40'000'000);
+    write(reg::kAddrIrqStatus, 0x1F);
+  }
+  // A frame by the pin.
+  void trigger() {
+    bench.m.trigger_i = 1;
+    bench.clocks(3);  // two flops, and one that keeps the trigger
+    const Time start = bench.now;
+    frame(start);
+    bench.m.trigger_i = 0;
+    judge.trigger(false);
+    bench.clocks(4);
+    ended = judge.picture().irq_status;
+    EXPECT_EQ(bench.read(reg::kAddrIrqStatus), ended);
+    write(reg::kAddrIrqStatus, 0x1F);
+  }
+
+  Bench bench;
+  Judge judge;
+  pru_judge::FrameReport last;
+  unsigned frames = 0;
+  std::uint32_t ended = 0;  // IRQ_STATUS behind the last frame
+
+ private:
+  void frame(Time start) {
+    const std::uint64_t most = 120'000;
+    std::uint64_t i = 0;
+    while (bench.m.irq_o == 0 && i < most) {
+      bench.clock();
+      ++i;
+    }
+    ASSERT_LT(i, most) << "no end of a frame";
+    const Time updated = bench.now;
+    pru_judge::Picture seen = judge.picture();
+    for (std::uint32_t address = 0; address < pru_judge::kMemoryEnd; address += 4) {
+      const std::uint32_t word = bench.read(address);
+      for (unsigned byte = 0; byte < 4; ++byte)
+        seen.memory.at(address + byte) = static_cast<std::uint8_t>(word >> 8 * byte);
+    }
+    seen.signals = bench.read(reg::kAddrSignals);
+    seen.frame_count = bench.read(reg::kAddrFrameCount);
+    seen.latch_time = bench.read(reg::kAddrLatchTime);
+    bench.clocks(2 * Bench::kHz /
+                 1'000'000);  // the last edge of MA may come behind the last sample
+    last = judge.frame({start, bench.now, bench.ma, bench.sl, updated});
+    ++frames;
+    // What the clock counted when it began is another matter; see LatchTime_* below.
+    pru_judge::Picture expected = judge.picture();
+    seen.irq_status = expected.irq_status;
+    if (!zero_known_ && last.reading.kind != pru_judge::FrameKind::kSlLow) {
+      zero_ = expected.latch_time - seen.latch_time;
+      zero_known_ = true;
+    }
+    if (seen.latch_time != 0 || zero_known_) seen.latch_time += zero_;
+    if (!zero_known_) seen.latch_time = expected.latch_time;
+    for (const std::string& line : last.complaints) ADD_FAILURE() << line;
+    for (const std::string& line : differences(expected, seen)) ADD_FAILURE() << line;
+    bench.ma.forget(bench.now);
+    bench.sl.forget(bench.now - 20 * Bench::kClock);
+  }
+
+  std::uint32_t zero_ = 0;
+  bool zero_known_ = false;
+};
+
+// Frames at random: lengths, rates, line, encoder, control words, quirks.
+template <typename Bench>
+void judge_frames(unsigned frames) {
+  Dice dice;
+  unsigned done = 0;
+  unsigned kinds[4] = {};
+  unsigned averaged = 0;
+  unsigned controls = 0;  // control frames that ended
+  while (done < frames) {
+    const unsigned quirks = dice.below(8);
+    Judged<Bench> judged(quirks);
+    auto& bench = judged.bench;
+    auto& encoder = bench.encoder;
+    const unsigned bits = 1 + dice.below(55);
+    const unsigned tail = dice.below(4) != 0 ? 8 : dice.below(dice.below(4) == 0 ? 40 : 9);
+    const unsigned rates[] = {1, 2, 5, 10};
+    unsigned mhz = rates[dice.below(4)];
+    judged.write(reg::kAddrLengths, bits | tail << 8U | mhz << 16U);
+    const unsigned most = dice.below(3) == 0 ? 0 : 1 + dice.below(30);
+    judged.write(reg::kAddrProcTimeMax, most);
+    judged.write(reg::kAddrOverhead, dice.below(8) == 0 ? dice.below(6) : 100 + dice.below(2000));
+    const double jitter = dice.below(3) == 0 ? 0 : dice.below(36) / 100.0;
+    const auto line = [&](unsigned rate) {
+      const Time period = 1'000'000 / rate;
+      bench.delay = static_cast<Time>(dice.below(12'001)) * period / 1000;
+      bench.skew = dice.below(3) == 0 ? dice.below(15) * period / 100 : 0;
+      bench.jitter = [&dice, period, jitter]() -> Time {
+        return static_cast<Time>(jitter * static_cast<double>(period) * dice.below(1000) / 1000);
+      };
+      encoder.timeout = period * 3 / 2 + dice.below(1000) * period / 1000;
+    };
+    const auto answer = [&] {
+      const unsigned limit = most != 0 ? most : 40 * judged.judge.mhz();
+      const std::string word =
+          binary(static_cast<std::uint64_t>(dice.below(1U << 31)) << 32U | dice.below(1U << 31),
+                 bits) +
+          (tail >= 8 ? binary(dice.below(4), 2) : std::string());
+      encoder.bits = tail >= 6 ? word + crc6(word) : word;
+      while (encoder.bits.size() < bits + tail) encoder.bits += dice.below(2) != 0 ? '1' : '0';
+      if (dice.below(20) == 0)
+        encoder.bits[dice.below(static_cast<unsigned>(encoder.bits.size()))] ^= 1;
+      encoder.cds = dice.below(2) != 0;
+      encoder.busy = dice.below(8) == 0 ? limit - 1 + dice.below(3) : dice.below(3);
+      encoder.silent = dice.below(40) == 0;
+    };
+    SCOPED_TRACE("bits " + std::to_string(bits) + ", tail " + std::to_string(tail) + ", " +
+                 std::to_string(mhz) + " MHz, quirks " + std::to_string(quirks) + ", frame " +
+                 std::to_string(done));
+    line(1);
+    answer();
+    judged.run();
+    // A control frame has 46 frames.
+    const unsigned count = 10 + dice.below(dice.below(3) == 0 ? 150 : 40);
+    for (unsigned i = 0; i < count && !testing::Test::HasFailure(); ++i) {
+      if (i == 0 || dice.below(10) == 0) line(judged.judge.mhz());
+      if (dice.below(12) == 0) {
+        mhz = dice.below(4) == 0 ? dice.below(256) : rates[dice.below(4)];
+        judged.write(reg::kAddrLengths, mhz << 16U, 4);
+      }
+      if (dice.below(10) == 0) {
+        judged.write(reg::kAddrCtrl, dice.below(1U << 31) << 1U | dice.below(2),
+                     1 + dice.below(15));
+      }
+      if (dice.below(25) == 0) {
+        bench.stuck = dice.below(2) != 0;
+      } else if (dice.below(3) != 0) {
+        bench.stuck.reset();
+      }
+      answer();
+      if (dice.below(6) == 0) {
+        const Time at =
+            bench.now + static_cast<Time>(dice.below(1'000'000)) * (20 / judged.judge.mhz() + 1);
+        bench.glitch(at, 1000 + dice.below(200'000));
+      }
+      // Mostly the encoder has ended its timeout.
+      if (dice.below(10) != 0) {
+        for (int k = 0; k < 20'000 && (encoder.in_frame() || k < 300); ++k) bench.clock();
+        bench.clocks(static_cast<std::uint64_t>(bench.delay / Bench::kClock) + 300);
+      }
+      judged.trigger();
+      ++kinds[static_cast<unsigned>(judged.last.reading.kind)];
+      averaged += judged.last.settings.averages ? 1 : 0;
+      controls += (judged.ended & pru_judge::kIrqControl) != 0 ? 1 : 0;
+    }
+    done += judged.frames;
+    if (testing::Test::HasFailure()) return;
+  }
+  std::printf(
+      "%u frames: %u without MA, %u without acknowledge, %u dropped, %u read; %u with the "
+      "average, %u control frames: 0 differences\n",
+      done, kinds[0], kinds[1], kinds[2], kinds[3], averaged, controls);
+  for (const unsigned kind : kinds) EXPECT_GT(kind, frames / 200);
+  EXPECT_GT(controls, frames / 500);
+  EXPECT_GT(averaged, frames / 10);
+}
+
+TEST(Pru, FramesAtRandom200MHz_MemoryIsThatOfTheJudge) {
+  judge_frames<mb4test::PruBench200>(frames_of(1000));
+}
+
+TEST(Pru, FramesAtRandom80MHz_MemoryIsThatOfTheJudge) {
+  judge_frames<mb4test::PruBench80>(frames_of(1000));
+}
+
+}  // namespace
