@@ -216,8 +216,11 @@ def main():
     if sys.argv[1] == "table":
         text = table()
         if len(sys.argv) > 2:
-            held = text in Path(sys.argv[3]).read_text(encoding="utf-8")
-            findings = [] if held else [f"{sys.argv[3]} does not hold this table:\n{text}"]
+            held = Path(sys.argv[3]).read_text(encoding="utf-8")
+            lost = [row for row in text.splitlines() if row not in held.splitlines()]
+            findings = [f"{sys.argv[3]} has no such row; `prove.py table` prints the table: {row}" for row in lost]
+            if not lost and text not in held:
+                findings = [f"{sys.argv[3]} has the rows in another order, or more; `prove.py table` prints the table"]
             sources = read_rtl()
             for path in sorted(HERE.glob("*.sv")):
                 proof = Proof(path.stem)

@@ -192,18 +192,23 @@ def uses(files):
 def findings_of(files, still):
     findings = []
     needed = set()
+    homeless = set()
     for name, other in uses(files):
         here, there = room(name), room(other)
         if here is None:
             if not name.startswith("tests/"):
-                findings.append(f"{name} is in no room of MAY_USE")
+                homeless.add(name)
             continue
         if not may_use(here, there):
             if (name, other) in still:
                 needed.add((name, other))
             else:
+                entry = " (`uses` of its entry in masters.toml)" if here.startswith("rtl/") else ""
                 findings.append(f"{name} uses {other}: {here} may use "
-                                f"{', '.join(MAY_USE[here]) or 'nothing'}")
+                                f"{', '.join(MAY_USE[here]) or 'nothing'}{entry}")
+    findings += [f"{name}: no room of MAY_USE in {Path(__file__).name}" +
+                 ("; RTL of a master needs its `list` in masters.toml" if name.startswith("rtl/") else "")
+                 for name in sorted(homeless)]
     findings += [f"{name} uses {other}: no longer so, take it out of STILL in {Path(__file__).name}"
                  for name, other in still if (name, other) not in needed]
     return findings

@@ -89,6 +89,11 @@ def lacks(master, table, compared, proofs):
         found["block"] = f"{ITEMS} has no [[block]] with room = \"{room}\""
     if not master.gates and not own & set(compared):
         found["netlist"] = f"masters.toml has no gates, and tests/netlist/stimulus.py no module of {master.room}"
+    if not master.core:
+        found["core"] = "masters.toml has no core: no FuseSoC core file, and set_version does not change it"
+    pages = (ROOT / "docs" / "README.md").read_text(encoding="utf-8")
+    if not any(link in pages for link in (f"({master.name}.md)", f"generated/{master.name}/registers.md)")):
+        found["page"] = f"docs/README.md has no link to {master.name}.md"
     if not master.measured:
         found["measured"] = "masters.toml has no measured: no coverage, no planted faults"
     if not any(top.plain or top.generics for top in master.tops.values()):
@@ -140,10 +145,13 @@ def self_test(masters, table, compared, proofs):
     expect("axi: proofs: no item of tools/signoff/items.toml asks for Formal.none", proofs={**proofs, "none": {"axi_core"}})
     expect("no item of tools/signoff/items.toml asks for Formal.none", proofs={**proofs, "none": {"enc_crc"}})
     bare = copy.deepcopy(masters)
-    bare["axi"].gates, bare["axi"].measured = {}, {}
+    bare["axi"].gates, bare["axi"].measured, bare["axi"].core = {}, {}, None
     bare["axi"].tops["biss_axi"].buses, bare["axi"].tops["biss_axi"].generics = [], None
-    for what in ("netlist", "measured", "buses", "release"):
+    for what in ("netlist", "measured", "buses", "release", "core"):
         expect(f"axi: {what}: ", masters=bare)
+    unread = copy.deepcopy(masters)
+    unread["axi"].name = "nopage"
+    expect("axi: page: docs/README.md has no link to nopage.md", masters=unread)
     for file, text in ((SIMULATOR, '#include "sim/masters/axi/'), (SIMULATOR, "-DMB4_AXI=ON"),
                        (COMMANDS, '#include "masters/axi/'), (COMMANDS, "MB4SIM_WITH_AXI")):
         expect(f"axi: simulated: {file} has no {text}", texts={**lists(), file: lists()[file].replace(text, "x")})

@@ -47,6 +47,10 @@ def known_tests(build_dir):
 
 def findings(plan, tests):
     rows = plan.get("row", [])
+    unbuilt = [test for test in tests if test.endswith("_NOT_BUILT")]
+    if unbuilt:
+        yield f"build first: {len(unbuilt)} test programs are not built"
+        return
     if not rows:
         yield "the plan has no rows"
     for number in tables_without_row(rows):

@@ -45,6 +45,8 @@ def vhdl_component(top):
     path = folder / (f"{top.name}_component.vhd" if top.generics else f"{room}_components.vhd")
     if not top.generics and not top.plain:
         return None
+    if not path.exists():
+        raise SystemExit(f"{path.relative_to(project.ROOT)} is missing; tools/synth/vhdl.py makes it")
     return re.search(rf"component {top.name}\n(.*?)end component", path.read_text(encoding="utf-8"), re.S).group(1)
 
 

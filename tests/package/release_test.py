@@ -82,7 +82,9 @@ def main():
             vivado = f"ipxact/vivado{f'-{top}' if place else ''}"
             tracked |= {f"{vivado}/component.xml", f"{vivado}/xgui/{top}.tcl"}
         assert {"verilog/mb4_core.v", "ipxact/biss_axi.xml", "ipxact/vivado/component.xml"} <= tracked
-        assert packed == {f"openmb4-{version}/{name}" for name in tracked}, "other files"
+        assert packed == {f"openmb4-{version}/{name}" for name in tracked}, (
+            f"other files, {sorted(packed ^ {f'openmb4-{version}/{name}' for name in tracked})[:5]}: the archive is of the "
+            "last commit, masters.toml of the working tree")
         sdists = [Path(folder, out, "python", archive.name).read_bytes() for out in ("a", "b")]
         assert sdists[0] == sdists[1], "two sdists of one commit differ"
         check_sdist(Path(folder), version)

@@ -35,6 +35,9 @@ def instance(top, folder):
     """The example of a top as Verilog, without the empty module that GHDL puts before it."""
     master = plain_verilog.TOPS[top].master.list.parent
     sources = [master / "vhdl" / f"{master.name}_components.vhd", master / "vhdl" / f"{top}_example.vhd"]
+    for path in sources:
+        if not path.exists():
+            raise SystemExit(f"{path.relative_to(project.ROOT)} is missing; tools/synth/vhdl.py makes it")
     for command in ([project.tool("ghdl"), "-a", "--std=08", *sources],
                     [project.tool("ghdl"), "--synth", "--std=08", "--out=verilog",
                      f"{top}_example"]):
