@@ -126,8 +126,8 @@ void PM_bissc_setupSCDTransaction(PM_bissc_scdStruct_Handle scd) {
   pm_bissc_port_write(CLB_ADDR_FSM_COUNTER_2_MATCH1, (uint32_t)scd->spiFIFOLevel * kWordBits);
   pm_bissc_port_write(CLB_ADDR_FSM_HLC_R0, scd->numDataClocks);
   pm_bissc_running = scd;
-  pm_bissc_port_write(CLB_ADDR_CLK_LOAD_EN, 1);
-  pm_bissc_port_write(CLB_ADDR_FSM_LOAD_EN, 1);
+  pm_bissc_port_write(CLB_ADDR_CLK_LOAD_EN, CLB_CLK_GLOBAL_EN_MASK);
+  pm_bissc_port_write(CLB_ADDR_FSM_LOAD_EN, CLB_FSM_GLOBAL_EN_MASK);
 }
 
 void PM_bissc_startOperation(PM_bissc_scdStruct_Handle scd, uint32_t div) {

@@ -1,11 +1,14 @@
 # SPDX-FileCopyrightText: 2026 The openmb4 authors
 # SPDX-License-Identifier: Apache-2.0
-"""The iC-MB4-compatible master as a LiteX module, on Wishbone or AXI4-Lite (docs/buses.md).
+"""Masters as LiteX modules: the iC-MB4-compatible one on Wishbone or AXI4-Lite (docs/buses.md), and biss_clb
+(docs/clb.md).
 
     self.mb4 = Mb4(platform, platform.request("encoder"), features="single")
     self.bus.add_slave("mb4", self.mb4.bus, SoCRegion(size=Mb4.SIZE, cached=False))
     if self.irq.enabled:
         self.irq.add("mb4")
+
+BissClb goes into a SoC in the same way.
 """
 
 import sys
@@ -20,6 +23,34 @@ ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "tools" / "synth"))
 
 import project  # noqa: E402
+
+
+def add_rtl(platform, files):
+    platform.add_verilog_include_path(str(project.INCLUDE))
+    for path in files:
+        platform.add_source(str(path), language="systemverilog")
+
+
+def axi_lite_ports(bus):
+    """The ports s_axi_... of a module that is the bus's slave."""
+    ports = {}
+    for name, channel, sent, received in (
+            ("aw", bus.aw, ("addr",), ()), ("w", bus.w, ("data", "strb"), ()), ("b", bus.b, (), ("resp",)),
+            ("ar", bus.ar, ("addr",), ()), ("r", bus.r, (), ("data", "resp"))):
+        ours = "o" if received else "i"   # the side that says valid
+        ports[f"{ours}_s_axi_{name}valid"] = channel.valid
+        ports[f"{'i' if received else 'o'}_s_axi_{name}ready"] = channel.ready
+        ports.update({f"{ours}_s_axi_{name}{field}": getattr(channel, field) for field in sent + received})
+    return ports
+
+
+def interrupt_of(irq):
+    """The event manager of a master's irq_o."""
+    events = EventManager()
+    events.interrupt = EventSourceLevel(description="irq_o: IRQ_STATUS tells what, and is cleared there")
+    events.finalize()
+    events.comb += events.interrupt.trigger.eq(irq)
+    return events
 
 
 class Mb4(LiteXModule):
@@ -52,17 +83,12 @@ class Mb4(LiteXModule):
         ports.update(self._wishbone() if top == "mb4_wb" else self._axi_lite())
         if verilog is None:
             ports["p_Features"] = project.presets()[features]
-            platform.add_verilog_include_path(str(project.INCLUDE))
-            for path in project.rtl_files():
-                platform.add_source(str(path), language="systemverilog")
+            add_rtl(platform, project.rtl_files())
         else:
             platform.add_source(str(verilog), language="verilog")
         self.specials += Instance(top, **ports)
 
-        self.ev = EventManager()
-        self.ev.interrupt = EventSourceLevel(description="irq_o: IRQ_STATUS tells what, and is cleared there")
-        self.ev.finalize()
-        self.comb += self.ev.interrupt.trigger.eq(self.irq)
+        self.ev = interrupt_of(self.irq)
 
     def _wishbone(self):
         self.bus = bus = wishbone.Interface(data_width=32, adr_width=10, addressing="word")
@@ -76,12 +102,29 @@ class Mb4(LiteXModule):
 
     def _axi_lite(self):
         self.bus = bus = axi.AXILiteInterface(data_width=32, address_width=12)
-        ports = {"i_s_axi_aclk": ClockSignal("sys"), "i_s_axi_aresetn": ~ResetSignal("sys")}
-        for name, channel, sent, received in (
-                ("aw", bus.aw, ("addr",), ()), ("w", bus.w, ("data", "strb"), ()), ("b", bus.b, (), ("resp",)),
-                ("ar", bus.ar, ("addr",), ()), ("r", bus.r, (), ("data", "resp"))):
-            ours = "o" if received else "i"   # the side that says valid
-            ports[f"{ours}_s_axi_{name}valid"] = channel.valid
-            ports[f"{'i' if received else 'o'}_s_axi_{name}ready"] = channel.ready
-            ports.update({f"{ours}_s_axi_{name}{field}": getattr(channel, field) for field in sent + received})
-        return ports
+        return {"i_s_axi_aclk": ClockSignal("sys"), "i_s_axi_aresetn": ~ResetSignal("sys"), **axi_lite_ports(bus)}
+
+
+class BissClb(LiteXModule):
+    """biss_clb, in the clock domain "sys". pads: ma, sl; if they are there txen, spi_clk.
+
+    watchdog       MA clocks after which a frame without a start bit ends
+    verilog        plain Verilog of the top (tools/synth/plain_verilog.py), for tools that do not read SystemVerilog; the
+                   watchdog then is that of the file. None: the RTL of this repository
+    """
+
+    SIZE = 0x1000
+
+    def __init__(self, platform, pads, watchdog=4096, verilog=None):
+        self.irq = Signal()
+        self.bus = axi.AXILiteInterface(data_width=32, address_width=12)
+        ports = {"i_clk_i": ClockSignal("sys"), "i_rst_ni": ~ResetSignal("sys"), "o_irq_o": self.irq, "o_ma_o": pads.ma,
+                 "i_sl_i": pads.sl, "o_txen_o": getattr(pads, "txen", Signal()),
+                 "o_spi_clk_o": getattr(pads, "spi_clk", Signal()), **axi_lite_ports(self.bus)}
+        if verilog is None:
+            ports["p_Watchdog"] = watchdog
+            add_rtl(platform, project.listed(project.MASTERS["clb"].list))
+        else:
+            platform.add_source(str(verilog), language="verilog")
+        self.specials += Instance("biss_clb", **ports)
+        self.ev = interrupt_of(self.irq)

@@ -66,14 +66,14 @@ module clb_regs (
       if (wr0) begin
         unique case (bus_i.addr)
           clb_regs_pkg::ADDR_CLK_GPREG:            cfg_q.clock_run      <= bus_i.data[0];
-          clb_regs_pkg::ADDR_CLK_LOAD_EN:          cfg_q.clock_enable   <= bus_i.data[0];
+          clb_regs_pkg::ADDR_CLK_LOAD_EN:          cfg_q.clock_enable   <= bus_i.data[1];
           clb_regs_pkg::ADDR_FSM_COUNTER_2_MATCH1: cfg_q.spi_match      <= bus_i.data[7:0];
           clb_regs_pkg::ADDR_FSM_HLC_R0:           cfg_q.r0             <= bus_i.data[7:0];
           clb_regs_pkg::ADDR_FSM_GPREG: begin
             cfg_q.end_level <= bus_i.data[7];
             start_q         <= bus_i.data[0];
           end
-          clb_regs_pkg::ADDR_FSM_LOAD_EN:          cfg_q.fsm_enable     <= bus_i.data[0];
+          clb_regs_pkg::ADDR_FSM_LOAD_EN:          cfg_q.fsm_enable     <= bus_i.data[1];
           default:;
         endcase
       end
@@ -118,7 +118,7 @@ module clb_regs (
       clb_regs_pkg::ADDR_CLK_COUNTER_1_MATCH1: data_o[11:0] = cfg_q.receive.match1;
       clb_regs_pkg::ADDR_CLK_COUNTER_1_MATCH2: data_o[11:0] = cfg_q.receive.match2;
       clb_regs_pkg::ADDR_CLK_GPREG:            data_o[0]    = cfg_q.clock_run;
-      clb_regs_pkg::ADDR_CLK_LOAD_EN:          data_o[0]    = cfg_q.clock_enable;
+      clb_regs_pkg::ADDR_CLK_LOAD_EN:          data_o[1]    = cfg_q.clock_enable;
       clb_regs_pkg::ADDR_FSM_COUNTER_1_MATCH1: data_o[15:0] = frame_i.count_match;
       clb_regs_pkg::ADDR_FSM_COUNTER_2_MATCH1: data_o[7:0]  = cfg_q.spi_match;
       clb_regs_pkg::ADDR_FSM_HLC_R0:           data_o[7:0]  = cfg_q.r0;
@@ -126,7 +126,7 @@ module clb_regs (
         data_o[7] = cfg_q.end_level;
         data_o[0] = start_q;
       end
-      clb_regs_pkg::ADDR_FSM_LOAD_EN:          data_o[0]    = cfg_q.fsm_enable;
+      clb_regs_pkg::ADDR_FSM_LOAD_EN:          data_o[1]    = cfg_q.fsm_enable;
       clb_regs_pkg::ADDR_FSM_STATE: begin
         data_o[24]    = frame_i.watchdog;
         data_o[23:16] = frame_i.spi_count;

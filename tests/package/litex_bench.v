@@ -7,101 +7,21 @@
 
 module litex_bench;
   parameter [31:0] Origin = 0, EvStatus = 0, Identity = 0, Features = 0;
-  localparam integer BIT = 200, HALF_CLK = 20;  // ns
-
-  reg clk = 0, rx = 1, sl1 = 1;
-  wire tx, ma1, mo1, ma2, mo2;
-  always #HALF_CLK clk = ~clk;
+  wire mo1, ma2, mo2;
+`include "litex_serial.vh"
 
   soc u_soc (
     .clk         (clk),
     .rst         (1'b0),
     .serial_tx   (tx),
     .serial_rx   (rx),
-    .encoder_ma1 (ma1),
-    .encoder_sl1 (sl1),
+    .encoder_ma1 (ma),
+    .encoder_sl1 (sl),
     .encoder_mo1 (mo1),
     .encoder_ma2 (ma2),
     .encoder_sl2 (1'b1),
     .encoder_mo2 (mo2)
   );
-
-  // Bytes from the SoC.
-  reg [31:0] answer = 0;
-  integer    got = 0;
-  integer    i;
-  initial forever begin
-    @(negedge tx);
-    #(BIT / 2);
-    for (i = 0; i < 8; i = i + 1) begin
-      #BIT answer[31:0] = i == 0 ? {answer[23:0], tx, 7'd0} :
-                          {answer[31:8], tx, answer[7:1]};
-    end
-    #BIT got = got + 1;
-  end
-
-  // A BiSS C encoder: acknowledge with the second rising edge, start bit, then zeros up to its timeout.
-  integer edges = 0, rises = 0;
-  time    last = 0;
-  always @(ma1) begin
-    edges = edges + 1;
-    last = $time;
-    if (ma1) begin
-      rises = rises + 1;
-      sl1 = rises == 1 || rises == 3;
-    end
-  end
-  always #1000 if (rises > 0 && $time - last > 5000) begin
-    rises = 0;
-    sl1 = 1;
-  end
-
-  task send(input [7:0] data);
-    integer k;
-    begin
-      rx = 0;
-      #BIT;
-      for (k = 0; k < 8; k = k + 1) begin
-        rx = data[k];
-        #BIT;
-      end
-      rx = 1;
-      #BIT;
-    end
-  endtask
-
-  task send_word(input [31:0] data);
-    begin
-      send(data[31:24]);
-      send(data[23:16]);
-      send(data[15:8]);
-      send(data[7:0]);
-    end
-  endtask
-
-  task write(input [31:0] address, input [31:0] data);
-    begin
-      send(8'h01);
-      send(8'h01);
-      send_word(address >> 2);
-      send_word(data);
-      #(20 * BIT);
-    end
-  endtask
-
-  task expect_word(input [31:0] address, input [31:0] mask, input [31:0] data);
-    begin
-      got = 0;
-      send(8'h02);
-      send(8'h01);
-      send_word(address >> 2);
-      #(60 * BIT);
-      if (got != 4 || (answer & mask) != data) begin
-        $display("%h: %0d bytes, %h, expected %h under %h", address, got, answer, data, mask);
-        $finish;
-      end
-    end
-  endtask
 
   initial begin
     #10000;
@@ -114,10 +34,10 @@ module litex_bench;
     expect_word(Origin + 32'h0E8, 32'h000000FF, 32'h0000007C);
     // SL1 is bit 0 of 0xF8.
     expect_word(Origin + 32'h0F8, 32'h00000001, 32'h00000001);
-    sl1 = 0;
+    sl = 0;
     #2000;
     expect_word(Origin + 32'h0F8, 32'h00000001, 32'h00000000);
-    sl1 = 1;
+    sl = 1;
     // A frame of 8 bits on line 1: its end is an interrupt, and the word is good.
     expect_word(EvStatus, 32'h00000001, 32'h00000000);
     write(Origin + 32'h110, 32'h00000001);

@@ -20,8 +20,8 @@ def test_frame_by_registers_brings_the_position():
         chip.axi_write(0x100, 0x8B)                  # 12 bits, not held
         chip.axi_write(0x104, 0x2000 | 0x20 | WORDS)
         chip.axi_write(0x210, 1)
-        chip.axi_write(0x44, 1)
-        chip.axi_write(0xC4, 1)
+        chip.axi_write(0x44, 2)
+        chip.axi_write(0xC4, 2)
         chip.axi_write(0x00, HALF - 1)
         chip.axi_write(0xC0, 0x81)
         chip.axi_write(0x40, 1)

@@ -5,14 +5,9 @@
 #ifndef TESTS_SUPPORT_MODEL_CONTEXT_HPP_
 #define TESTS_SUPPORT_MODEL_CONTEXT_HPP_
 
-#include <gtest/gtest.h>
-
-#include <cstdint>
-#include <cstdlib>
 #include <memory>
-#include <string>
 
-#include "sim/core/random.hpp"
+#include "tests/support/dice.hpp"
 #include "verilated.h"
 
 namespace mb4test {
@@ -82,21 +77,6 @@ class Block {
   }
   Owned<Model> owner;
   Model& model = *owner;
-};
-
-// Random numbers, the same on every machine. Failures name the seed; MB4_SEED sets another one.
-class Dice {
- public:
-  // 0 to limit - 1.
-  unsigned below(unsigned limit) { return static_cast<unsigned>(random_.up_to(limit - 1)); }
-
- private:
-  static std::uint64_t seed() {
-    const char* text = std::getenv("MB4_SEED");
-    return text != nullptr ? std::strtoull(text, nullptr, 0) : 1;
-  }
-  mb4::sim::Random random_{seed()};
-  testing::ScopedTrace trace_{__FILE__, __LINE__, "MB4_SEED=" + std::to_string(seed())};
 };
 
 }  // namespace mb4test

@@ -68,7 +68,7 @@ inline constexpr std::uint32_t kResetClkGpreg = 0x00000000;
 inline constexpr std::uint32_t kWmaskClkGpreg = 0x00000001;
 inline constexpr std::uint32_t kConstClkGpreg = 0x00000000;
 inline constexpr std::uint32_t kResetClkLoadEn = 0x00000000;
-inline constexpr std::uint32_t kWmaskClkLoadEn = 0x00000001;
+inline constexpr std::uint32_t kWmaskClkLoadEn = 0x00000002;
 inline constexpr std::uint32_t kConstClkLoadEn = 0x00000000;
 inline constexpr std::uint32_t kResetFsmCounter1Load = 0x00000000;
 inline constexpr std::uint32_t kWmaskFsmCounter1Load = 0x0000FFFF;
@@ -89,7 +89,7 @@ inline constexpr std::uint32_t kResetFsmGpreg = 0x00000000;
 inline constexpr std::uint32_t kWmaskFsmGpreg = 0x00000081;
 inline constexpr std::uint32_t kConstFsmGpreg = 0x00000000;
 inline constexpr std::uint32_t kResetFsmLoadEn = 0x00000000;
-inline constexpr std::uint32_t kWmaskFsmLoadEn = 0x00000001;
+inline constexpr std::uint32_t kWmaskFsmLoadEn = 0x00000002;
 inline constexpr std::uint32_t kConstFsmLoadEn = 0x00000000;
 inline constexpr std::uint32_t kResetFsmState = 0x00000000;
 inline constexpr std::uint32_t kWmaskFsmState = 0x00000000;
@@ -199,7 +199,7 @@ using RECEIVE_MATCH2 = Field<0x024, 0, 12, Access::kReadWrite, 19>;
 // 1: both counters run.
 using CLK_START_OPERATION = Field<0x040, 0, 1, Access::kReadWrite, 0>;
 // 0 resets the tile.
-using CLK_GLOBAL_EN = Field<0x044, 0, 1, Access::kReadWrite, 0>;
+using CLK_GLOBAL_EN = Field<0x044, 1, 1, Access::kReadWrite, 0>;
 // New value of the count of MA clocks.
 using MA_COUNT_LOAD = Field<0x084, 0, 16, Access::kWriteOnly, 0>;
 // New value of the count of SPI clocks.
@@ -215,7 +215,7 @@ using END_LEVEL = Field<0x0C0, 7, 1, Access::kReadWrite, 0>;
 // A change from 0 to 1 starts a frame.
 using FSM_START_OPERATION = Field<0x0C0, 0, 1, Access::kReadWrite, 0>;
 // 0 resets the tile: idle, counts 0, MA 1.
-using FSM_GLOBAL_EN = Field<0x0C4, 0, 1, Access::kReadWrite, 0>;
+using FSM_GLOBAL_EN = Field<0x0C4, 1, 1, Access::kReadWrite, 0>;
 // The watchdog has ended the frame.
 using WATCHDOG_ENDED = Field<0x0C8, 24, 1, Access::kReadOnly, 0>;
 // SPI clocks of the frame so far.

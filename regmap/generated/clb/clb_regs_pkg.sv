@@ -72,7 +72,7 @@ package clb_regs_pkg;
   localparam logic [31:0] WMASK_CLK_GPREG = 32'h00000001;
   localparam logic [31:0] CONST_CLK_GPREG = 32'h00000000;
   localparam logic [31:0] RESET_CLK_LOAD_EN = 32'h00000000;
-  localparam logic [31:0] WMASK_CLK_LOAD_EN = 32'h00000001;
+  localparam logic [31:0] WMASK_CLK_LOAD_EN = 32'h00000002;
   localparam logic [31:0] CONST_CLK_LOAD_EN = 32'h00000000;
   localparam logic [31:0] RESET_FSM_COUNTER_1_LOAD = 32'h00000000;
   localparam logic [31:0] WMASK_FSM_COUNTER_1_LOAD = 32'h0000FFFF;
@@ -93,7 +93,7 @@ package clb_regs_pkg;
   localparam logic [31:0] WMASK_FSM_GPREG = 32'h00000081;
   localparam logic [31:0] CONST_FSM_GPREG = 32'h00000000;
   localparam logic [31:0] RESET_FSM_LOAD_EN = 32'h00000000;
-  localparam logic [31:0] WMASK_FSM_LOAD_EN = 32'h00000001;
+  localparam logic [31:0] WMASK_FSM_LOAD_EN = 32'h00000002;
   localparam logic [31:0] CONST_FSM_LOAD_EN = 32'h00000000;
   localparam logic [31:0] RESET_FSM_STATE = 32'h00000000;
   localparam logic [31:0] WMASK_FSM_STATE = 32'h00000000;
@@ -185,9 +185,9 @@ package clb_regs_pkg;
 
   // 0 resets the tile.
   localparam logic [11:0] CLK_GLOBAL_EN_ADDR = 12'h044;
-  localparam logic [31:0] CLK_GLOBAL_EN_LSB = 32'd0;
+  localparam logic [31:0] CLK_GLOBAL_EN_LSB = 32'd1;
   localparam logic [31:0] CLK_GLOBAL_EN_W = 32'd1;
-  localparam logic [31:0] CLK_GLOBAL_EN_MASK = 32'h00000001;
+  localparam logic [31:0] CLK_GLOBAL_EN_MASK = 32'h00000002;
   localparam logic [0:0] CLK_GLOBAL_EN_RESET = 1'd0;
 
   // New value of the count of MA clocks.
@@ -241,9 +241,9 @@ package clb_regs_pkg;
 
   // 0 resets the tile: idle, counts 0, MA 1.
   localparam logic [11:0] FSM_GLOBAL_EN_ADDR = 12'h0C4;
-  localparam logic [31:0] FSM_GLOBAL_EN_LSB = 32'd0;
+  localparam logic [31:0] FSM_GLOBAL_EN_LSB = 32'd1;
   localparam logic [31:0] FSM_GLOBAL_EN_W = 32'd1;
-  localparam logic [31:0] FSM_GLOBAL_EN_MASK = 32'h00000001;
+  localparam logic [31:0] FSM_GLOBAL_EN_MASK = 32'h00000002;
   localparam logic [0:0] FSM_GLOBAL_EN_RESET = 1'd0;
 
   // The watchdog has ended the frame.

@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Drives frame_top (one line without registers) and acts as a BiSS C slave behind a line delay.
-// This slave has its own few lines, written from the edge table of the protocol, so that the test
-// of biss_frame does not depend on the simulator's slave model.
 #ifndef TESTS_BLOCK_BISS_FRAME_BENCH_HPP_
 #define TESTS_BLOCK_BISS_FRAME_BENCH_HPP_
 
@@ -17,78 +15,10 @@
 
 #include "Vframe_top.h"
 #include "sim/lines/clocked/ma_pulse_check.hpp"
+#include "tests/block/biss/edge_slave.hpp"
 #include "tests/support/model_context.hpp"
 
 namespace mb4test {
-
-// CRC of a bit string, most significant bit first; `polynomial` with its highest power.
-inline std::uint32_t crc_of(const std::string& bits, std::uint32_t polynomial,
-                            std::uint32_t start = 0) {
-  unsigned width = 0;
-  while ((polynomial >> (width + 1)) != 0) ++width;
-  const std::uint32_t mask = (1U << width) - 1U;
-  std::uint32_t remainder = start & mask;
-  for (const char bit : bits) {
-    const bool top = ((remainder >> (width - 1)) & 1U) != 0;
-    remainder = (remainder << 1) & mask;
-    if (top != (bit == '1')) remainder ^= polynomial & mask;
-  }
-  return remainder;
-}
-
-inline std::string bits_of(std::uint64_t value, unsigned width) {
-  std::string text;
-  for (unsigned i = width; i-- > 0;) text += ((value >> i) & 1U) != 0 ? '1' : '0';
-  return text;
-}
-
-// The word of one slave as it appears on the line: data, then the inverted CRC.
-inline std::string line_word(std::uint64_t data, unsigned data_bits, std::uint32_t polynomial,
-                             std::uint32_t start = 0) {
-  std::string text = bits_of(data, data_bits);
-  if (polynomial == 0) return text;
-  unsigned width = 0;
-  while ((polynomial >> (width + 1)) != 0) ++width;
-  return text + bits_of(~crc_of(text, polynomial, start) & ((1U << width) - 1U), width);
-}
-
-// A slave that answers rising edge after rising edge (BiSS C frame, edge by edge).
-struct Slave {
-  std::string payload;        // CDS, then all data and CRC bits
-  unsigned busy = 0;          // processing clocks
-  std::uint64_t timeout = 0;  // in sixteenths of a clock
-  unsigned rises = 0;
-  bool in_frame = false;
-  bool out = true;
-  std::uint64_t last_edge = 0;
-  int cdm_level = -1;  // MA when the timeout ended, -1: not yet
-
-  void edge(bool ma, std::uint64_t now) {
-    last_edge = now;
-    if (!in_frame) {
-      if (!ma) {
-        in_frame = true;
-        rises = 0;
-      }
-      return;
-    }
-    if (!ma) return;
-    ++rises;
-    if (rises == 2) out = false;
-    if (rises == 3 + busy) out = true;
-    if (rises > 3 + busy) {
-      const std::size_t index = rises - 4 - busy;
-      out = index < payload.size() && payload[index] == '1';
-    }
-  }
-  void step(bool ma, std::uint64_t now) {
-    if (in_frame && now - last_edge >= timeout) {
-      in_frame = false;
-      out = true;
-      cdm_level = ma ? 1 : 0;
-    }
-  }
-};
 
 // Model: frame_top, or a smaller instance of it.
 template <typename Model>

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The openmb4 authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The top biss_clb, by its pins only: AXI4-Lite, MA, SL, with an encoder behind a line delay.
+// The top biss_clb, by its pins only: AXI4-Lite, MA, SL, with an encoder behind a line delay. Its
+// model is the simulator's, or what takes its place there: planted faults, coverage, a netlist.
 #ifndef TESTS_BLOCK_CLB_BISS_CLB_BENCH_HPP_
 #define TESTS_BLOCK_CLB_BISS_CLB_BENCH_HPP_
 
@@ -10,46 +11,41 @@
 #include <cstdint>
 #include <deque>
 #include <functional>
+#include <memory>
 #include <string>
 #include <vector>
 
-#include "Vbiss_clb.h"
 #include "clb_regs.hpp"
-#include "tests/block/biss/frame_bench.hpp"
-#include "tests/support/model_context.hpp"
+#include "sim/core/time.hpp"
+#include "sim/lines/clocked/clocked_end.hpp"
+#include "sim/masters/clb/clb_model.hpp"
+#include "tests/block/biss/edge_slave.hpp"
 
 namespace mb4test {
 
-class ClbBench {
+namespace sim = mb4::sim;
+
+class ClbPins {
  public:
-  ClbBench() {
-    m.clk_i = m.rst_ni = 0;
-    m.s_axi_awvalid = m.s_axi_wvalid = m.s_axi_arvalid = 0;
-    m.s_axi_bready = m.s_axi_rready = 1;
-    m.s_axi_wstrb = 0xF;
-    m.sl_i = 1;
-    m.eval();  // what the first call finds is no edge
-    for (int i = 0; i < 3; ++i) clock();
-    m.rst_ni = 1;
-    for (int i = 0; i < 5; ++i) clock();
+  ClbPins() {
+    clocks(3);
+    model_->set_reset(time_, false);
+    clocks(5);
     now = 0;
   }
 
   void clock() {
-    m.sl_i = level() ? 1 : 0;
-    m.eval();
-    m.clk_i = 1;
-    m.eval();
-    m.clk_i = 0;
-    m.eval();
-    ++now;
-    const bool ma = m.ma_o != 0;
-    if (ma != ma_before) {
-      (ma ? rises : falls).push_back(now);
-      slave.edge(ma, now);
+    model_->set_inputs(time_, 0, level() ? 1 : 0);
+    time_ += kClock;
+    while (model_->run_clocks(time_) != sim::kNever) {
     }
-    ma_before = ma;
-    slave.step(ma, now);
+    ++now;
+    if (ma() != ma_before_) {
+      (ma() ? rises : falls).push_back(now);
+      slave.edge(ma(), now);
+    }
+    ma_before_ = ma();
+    slave.step(ma(), now);
     if (slave.cdm_level >= 0) {
       // MA at the end of the timeout is the inverse of CDM.
       const bool cdm = slave.cdm_level == 0;
@@ -57,49 +53,34 @@ class ClbBench {
       cdms.push_back(cdm);
       if (after_frame) after_frame(cdm);
     }
-    history.push_front(slave.out);
-    while (history.size() > delay + 1) history.pop_back();
-    const bool spi_clock = m.spi_clk_o != 0;
-    if (spi_clock && !spi_before) spi_rises.push_back(now);
-    spi_before = spi_clock;
-    EXPECT_EQ(m.txen_o, 0);
+    history_.push_front(slave.out);
+    while (history_.size() > delay + 1) history_.pop_back();
+    const bool spi_clock = output(sim::ClbModel::kSpiClk);
+    if (spi_clock && !spi_before_) spi_rises.push_back(now);
+    spi_before_ = spi_clock;
+    EXPECT_FALSE(output(sim::ClbModel::kTxen));
   }
   void clocks(std::uint64_t count) {
     for (std::uint64_t i = 0; i < count; ++i) clock();
   }
   void write(unsigned address, std::uint32_t data, unsigned strobes = 0xF) {
-    m.s_axi_awaddr = static_cast<std::uint16_t>(address);
-    m.s_axi_wdata = data;
-    m.s_axi_wstrb = static_cast<std::uint8_t>(strobes);
-    m.s_axi_awvalid = m.s_axi_wvalid = 1;
-    bool taken = false;
-    for (int i = 0; i < 20 && !taken; ++i) {
-      m.eval();
-      taken = m.s_axi_awready != 0 && m.s_axi_wready != 0;
-      clock();
-    }
-    m.s_axi_awvalid = m.s_axi_wvalid = 0;
-    for (int i = 0; i < 20 && m.s_axi_bvalid == 0; ++i) clock();
-    ASSERT_EQ(m.s_axi_bvalid, 1);
-    ASSERT_EQ(m.s_axi_bresp, 0);
-    clock();
+    access({.write = true,
+            .address = address,
+            .data = data,
+            .strobe = static_cast<std::uint8_t>(strobes),
+            .done = false});
   }
   std::uint32_t read(unsigned address) {
-    m.s_axi_araddr = static_cast<std::uint16_t>(address);
-    m.s_axi_arvalid = 1;
-    bool taken = false;
-    for (int i = 0; i < 20 && !taken; ++i) {
-      m.eval();
-      taken = m.s_axi_arready != 0;
-      clock();
-    }
-    m.s_axi_arvalid = 0;
-    for (int i = 0; i < 20 && m.s_axi_rvalid == 0; ++i) clock();
-    EXPECT_EQ(m.s_axi_rvalid, 1);
-    EXPECT_EQ(m.s_axi_rresp, 0);
-    const std::uint32_t data = m.s_axi_rdata;
-    clock();
-    return data;
+    access({.address = address, .done = false});
+    return model_->access().data;
+  }
+  bool ma() const { return output(sim::MasterModel::of_line(0, sim::kMaPin)); }
+  bool irq() const { return output(sim::ClbModel::kIrq); }
+  // rst_ni is low for so many clocks.
+  void reset(unsigned low) {
+    model_->set_reset(time_, true);
+    clocks(low);
+    model_->set_reset(time_, false);
   }
 
   // What the encoder sends from now on: CDS, position, nE and nW, inverted CRC.
@@ -135,8 +116,8 @@ class ClbBench {
     write(reg::kAddrSpiccr, 1U << 7U | 11U);
     write(reg::kAddrFsmCounter2Match1, 12 * words);
     write(reg::kAddrFsmHlcR0, after_start);
-    write(reg::kAddrClkLoadEn, 1);
-    write(reg::kAddrFsmLoadEn, 1);
+    write(reg::kAddrClkLoadEn, reg::CLK_GLOBAL_EN::kMask);
+    write(reg::kAddrFsmLoadEn, reg::FSM_GLOBAL_EN::kMask);
     rises.clear();
     falls.clear();
     spi_rises.clear();
@@ -164,8 +145,6 @@ class ClbBench {
   }
   unsigned state() { return read(biss_clb::regs::kAddrFsmState) & 3U; }
 
-  Owned<Vbiss_clb> owner;
-  Vbiss_clb& m = *owner;
   Slave slave;
   unsigned delay = 0;              // clocks, round trip
   std::function<bool()> drive_sl;  // instead of the encoder
@@ -176,10 +155,29 @@ class ClbBench {
   unsigned load = 9;
 
  private:
-  bool level() { return drive_sl ? drive_sl() : history.back(); }
-  std::deque<bool> history{true};
-  bool ma_before = true;
-  bool spi_before = false;
+  static constexpr std::uint64_t kHz = 200'000'000;
+  static constexpr sim::Time kClock = sim::kPsPerSecond / kHz;
+
+  // The model evaluates every clock.
+  static std::unique_ptr<sim::ClbModel> make_model() {
+    sim::ChipConfig chip;
+    chip.f_clk_hz = kHz;
+    return sim::make_clb_model(chip, 1, true);
+  }
+  bool level() { return drive_sl ? drive_sl() : history_.back(); }
+  bool output(sim::MasterModel::Outputs bits) const { return (model_->outputs() & bits) != 0; }
+  void access(const sim::WordAccess& wanted) {
+    model_->begin(wanted);
+    for (int i = 0; i < 20 && !model_->access().done; ++i) clock();
+    ASSERT_TRUE(model_->access().done);
+    ASSERT_EQ(model_->access().answer, 0);
+  }
+
+  std::unique_ptr<sim::ClbModel> model_ = make_model();
+  sim::Time time_ = 0;  // of the last falling edge of the clock
+  std::deque<bool> history_{true};
+  bool ma_before_ = true;
+  bool spi_before_ = false;
 };
 
 }  // namespace mb4test

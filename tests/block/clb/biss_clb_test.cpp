@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "tests/block/clb/biss_clb_bench.hpp"
+#include "tests/support/dice.hpp"
 
 namespace {
 
@@ -36,7 +37,7 @@ class Clb : public testing::Test {
   void timeout(unsigned clocks) { bench.slave.timeout = clocks; }
   void rest(unsigned clocks = 2000) { bench.clocks(clocks); }
 
-  mb4test::ClbBench bench;
+  mb4test::ClbPins bench;
 };
 
 // ---- Reference frame ------------------------------------------------------------------------
@@ -136,7 +137,7 @@ TEST_P(ClbHalf, HalfPeriods_AreExactFromTheFirstOneOn) {
         bench.write(reg::kAddrSpiffrx, 2);
         bench.write(reg::kAddrSpiffrx, 0x2002);
         bench.write(reg::kAddrFsmGpreg, 0x80);
-        bench.write(reg::kAddrFsmLoadEn, 1);
+        bench.write(reg::kAddrFsmLoadEn, reg::FSM_GLOBAL_EN::kMask);
         bench.rises.clear();
         bench.falls.clear();
         bench.write(reg::kAddrFsmGpreg, 0x81);
@@ -231,12 +232,12 @@ TEST_F(Clb, LevelAtTheEnd_IsGpregBit7AndCdmForTheEncoder) {
   for (const bool cdm : wanted) {
     frame(13, cdm);
     rest();
-    EXPECT_EQ(bench.m.ma_o, cdm ? 0 : 1);
+    EXPECT_EQ(bench.ma(), !cdm);
     EXPECT_EQ(bench.state(), 3U);
   }
   EXPECT_EQ(bench.cdms, wanted);
   bench.write(reg::kAddrFsmLoadEn, 0);
-  EXPECT_EQ(bench.m.ma_o, 1) << "the reset of the tile";
+  EXPECT_TRUE(bench.ma()) << "the reset of the tile";
   EXPECT_EQ(bench.state(), 0U);
   EXPECT_EQ(bench.read(reg::kAddrFsmState) & ~4U, 8U);
 }
@@ -249,20 +250,20 @@ TEST_F(Clb, Interrupt_ComesWithTheLastWordAndWithStart) {
   timeout(300);
   bench.write(reg::kAddrIrqEnable, 1);
   bench.start(23, 2);
-  while (bench.m.irq_o == 0 && bench.now < 100'000) bench.clock();
+  while (!bench.irq() && bench.now < 100'000) bench.clock();
   EXPECT_EQ(bench.spi_rises.size(), 24U);
   EXPECT_LE(bench.now - bench.spi_rises.back(), 12U);
   EXPECT_EQ(bench.read(reg::kAddrIrqStatus), 9U) << "RXFFINT and START";
   EXPECT_EQ(bench.read(reg::kAddrSpiffrx) >> 7U & 0x3FU, 5U) << "two words, RXFFINT";
   bench.write(reg::kAddrIrqStatus, 1);
-  EXPECT_EQ(bench.m.irq_o, 0);
+  EXPECT_FALSE(bench.irq());
   EXPECT_EQ(bench.read(reg::kAddrIrqStatus), 8U);
   bench.write(reg::kAddrIrqStatus, 0xFF);
   EXPECT_EQ(bench.read(reg::kAddrIrqStatus), 0U);
   rest();
   bench.write(reg::kAddrIrqEnable, 8);
   bench.start(23, 2);
-  while (bench.m.irq_o == 0 && bench.now < 200'000) bench.clock();
+  while (!bench.irq() && bench.now < 200'000) bench.clock();
   EXPECT_TRUE(bench.spi_rises.empty()) << "the start bit, before it is taken";
   rest();
   // RXFFINT that is not enabled interrupts nothing.
@@ -323,7 +324,7 @@ TEST_F(Clb, FrameWithoutStart_IsEndedByTheWatchdog) {
     bench.start(23, 2, true);
     bench.clocks(8 * limit + 200);
     EXPECT_EQ(bench.rises.size(), limit);
-    EXPECT_EQ(bench.m.ma_o, 1) << "whatever GPREG says";
+    EXPECT_TRUE(bench.ma()) << "whatever GPREG says";
     const std::uint32_t state = bench.read(reg::kAddrFsmState);
     EXPECT_EQ(state >> 24U, 1U);
     EXPECT_EQ(state & 3U, 3U);
@@ -349,7 +350,7 @@ TEST_F(Clb, Watchdog0_RunsWithoutEndUntilTheTileIsReset) {
     ASSERT_EQ(bench.rises[i] - bench.rises[i - 1], 8U) << "also at the published limit of 200";
   bench.write(reg::kAddrFsmLoadEn, 0);
   EXPECT_EQ(bench.state(), 0U);
-  EXPECT_EQ(bench.m.ma_o, 1);
+  EXPECT_TRUE(bench.ma());
 }
 
 // ---- Wrong use ------------------------------------------------------------------------------
@@ -384,7 +385,7 @@ TEST_F(Clb, R0Of0_EndsWithTheNextRisingEdge) {
     const std::uint32_t state = bench.read(reg::kAddrFsmState);
     EXPECT_EQ(state >> 8U & 0xFFU, bench.rises.size()) << delay;
     EXPECT_EQ(bench.read(reg::kAddrFsmCounter1Match1), bench.rises.size());
-    EXPECT_EQ(bench.m.ma_o, 0);
+    EXPECT_FALSE(bench.ma());
   }
 }
 
@@ -412,9 +413,9 @@ struct Row {
 const Row kRows[] = {
     {0x000, 0, 0},     {0x004, 0, 0},          {0x010, 9, 0xFFF},
     {0x014, 9, 0xFFF}, {0x020, 19, 0xFFF},     {0x024, 19, 0xFFF},
-    {0x040, 0, 1},     {0x044, 0, 1},          {0x084, 0, 0},
+    {0x040, 0, 1},     {0x044, 0, 2},          {0x084, 0, 0},
     {0x088, 0, 0},     {0x094, 200, 0xFFFF},   {0x098, 24, 0xFF},
-    {0x0B0, 23, 0xFF}, {0x0C0, 0, 0x81},       {0x0C4, 0, 1},
+    {0x0B0, 23, 0xFF}, {0x0C0, 0, 0x81},       {0x0C4, 0, 2},
     {0x0C8, 0xC, 0},   {0x100, 0x0B, 0x8F},    {0x104, 0x2000, 0x203F},
     {0x108, 0, 0},     {0x200, 0x454E4304, 0}, {0x204, reg::kResetVersion, 0},
     {0x208, 1, 0},     {0x20C, 0, 0},          {0x210, 0, 0xB},
@@ -467,7 +468,7 @@ TEST_F(Clb, BytesWithoutTheirStrobe_KeepTheirValue) {
 }
 
 TEST_F(Clb, Load_SetsTheCountersAtOnce) {
-  bench.write(reg::kAddrFsmLoadEn, 1);
+  bench.write(reg::kAddrFsmLoadEn, reg::FSM_GLOBAL_EN::kMask);
   bench.write(reg::kAddrFsmCounter1Load, 0x1AB);
   bench.write(reg::kAddrFsmCounter2Load, 0xCD);
   EXPECT_EQ(bench.read(reg::kAddrFsmState), 0x00CD'AB0CU);

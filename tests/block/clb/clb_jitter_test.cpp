@@ -13,6 +13,7 @@
 #include <string>
 
 #include "tests/block/clb/biss_clb_bench.hpp"
+#include "tests/support/dice.hpp"
 
 namespace {
 
@@ -41,7 +42,7 @@ class ClbJitter : public testing::Test {
     bench.write(reg::kAddrFsmGpreg, 0x80);
     bench.write(reg::kAddrSpiffrx, kWords);
     bench.write(reg::kAddrSpiffrx, 0x2040U | kWords);
-    bench.write(reg::kAddrFsmLoadEn, 1);
+    bench.write(reg::kAddrFsmLoadEn, reg::FSM_GLOBAL_EN::kMask);
     bench.rises.clear();
     bench.falls.clear();
     bench.spi_rises.clear();
@@ -75,7 +76,7 @@ class ClbJitter : public testing::Test {
     return count;
   }
 
-  mb4test::ClbBench bench;
+  mb4test::ClbPins bench;
   double jitter = 0, delay = 0;
 
  private:

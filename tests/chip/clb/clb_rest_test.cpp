@@ -50,8 +50,8 @@ struct Side {
     write(clbreg::kAddrSpiffrx, clbreg::RXFIFORESET::kMask | clbreg::RXFFIENA::kMask | 2U);
     write(clbreg::kAddrIrqEnable, 0xFF);
     write(clbreg::kAddrFsmHlcR0, 22);
-    write(clbreg::kAddrClkLoadEn, 1);
-    write(clbreg::kAddrFsmLoadEn, 1);
+    write(clbreg::kAddrClkLoadEn, clbreg::CLK_GLOBAL_EN::kMask);
+    write(clbreg::kAddrFsmLoadEn, clbreg::FSM_GLOBAL_EN::kMask);
     write(clbreg::kAddrFsmGpreg, 0x80);
     write(clbreg::kAddrFsmGpreg, 0x81);
     write(clbreg::kAddrClkGpreg, 1);

@@ -15,6 +15,7 @@
 
 #include "pm_bissc_program.h"
 #include "tests/block/clb/biss_clb_bench.hpp"
+#include "tests/support/dice.hpp"
 
 namespace {
 
@@ -78,7 +79,7 @@ class Registers {
   unsigned zeros_ = 0, before_ = 0;
 };
 
-mb4test::ClbBench* bench_now = nullptr;
+mb4test::ClbPins* bench_now = nullptr;
 
 class PmBissc : public testing::Test {
  protected:
@@ -106,7 +107,7 @@ class PmBissc : public testing::Test {
 
   std::uint32_t polynomial = 0x43, start = 0;
   Registers registers;
-  mb4test::ClbBench bench;
+  mb4test::ClbPins bench;
 
  private:
   std::uint64_t value_ = 0;
@@ -201,7 +202,7 @@ TEST_F(PmBissc, HaltOperation_ClearsBothTiles) {
   EXPECT_NE(bench.state(), 0U);
   PM_bissc_haltOperation();
   EXPECT_EQ(bench.state(), 0U);
-  EXPECT_EQ(bench.m.ma_o, 1);
+  EXPECT_TRUE(bench.ma());
   for (const unsigned address : {0x40U, 0x44U, 0xC4U}) EXPECT_EQ(bench.read(address), 0U);
   EXPECT_EQ(bench.read(0xC0), 0x80U) << "CDM = 0";
   bench.clocks(1000);
@@ -219,10 +220,10 @@ TEST_F(PmBissc, HaltWithAnEventThatWaits_InterruptGoesAway) {
   PM_bissc_setupSCDTransaction(&scd);
   PM_bissc_startOperation(&scd, kHalf);
   bench.clocks(200 * 2 * kHalf);
-  ASSERT_EQ(bench.m.irq_o, 1);
+  ASSERT_TRUE(bench.irq());
   PM_bissc_haltOperation();
   bissc_spiRxISR();
-  EXPECT_EQ(bench.m.irq_o, 0);
+  EXPECT_FALSE(bench.irq());
   EXPECT_FALSE(scd.dataReady);
   bench.drive_sl = nullptr;
   bench.clocks(1000);
@@ -394,6 +395,6 @@ uint32_t pm_bissc_port_read(uint32_t offset) { return bench_now->read(offset); }
 uint32_t pm_bissc_port_now_us(void) { return static_cast<uint32_t>(bench_now->now / 200); }
 void pm_bissc_program_wait(void) {
   bench_now->clock();
-  if (bench_now->m.irq_o != 0) bissc_spiRxISR();
+  if (bench_now->irq()) bissc_spiRxISR();
 }
 }

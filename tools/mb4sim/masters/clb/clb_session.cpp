@@ -134,8 +134,9 @@ bool ClbSession::setup() {
          write(regs::kAddrIrqStatus,
                regs::RECEIVED::kMask | regs::ERROR::kMask | regs::START_SEEN::kMask) &&
          write(regs::kAddrFsmCounter2Match1, shape_.words() * kWordBits) &&
-         write(regs::kAddrFsmHlcR0, shape_.clocks()) && write(regs::kAddrClkLoadEn, 1) &&
-         write(regs::kAddrFsmLoadEn, 1);
+         write(regs::kAddrFsmHlcR0, shape_.clocks()) &&
+         write(regs::kAddrClkLoadEn, regs::CLK_GLOBAL_EN::kMask) &&
+         write(regs::kAddrFsmLoadEn, regs::FSM_GLOBAL_EN::kMask);
 }
 
 // startOperation.
