@@ -6,7 +6,7 @@
   check_blocks.py               every module of rtl/ with an always_ff, or an always_comb with a case
   check_blocks.py --self-test   planted faults are reported
 
-The test of rtl/ROOM/MODULE.sv is tests/block/ROOM/MODULE_test.cpp, and block_test has it.
+The test of rtl/ROOM/MODULE.sv is tests/block/ROOM/MODULE_test.cpp, and a program of tests/block has it.
 """
 
 import re

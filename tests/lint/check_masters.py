@@ -32,7 +32,6 @@ SIMULATOR, COMMANDS = "sim/masters/masters.cpp", "tools/mb4sim/masters/support.c
 WAIVED = {
     ("pru", "netlist"): "no gates of it, and no inputs for its modules in stimulus.py",
     ("pru", "measured"): "it is not simulated yet",
-    ("clb", "netlist"): "no gates of it, and no inputs for its modules in stimulus.py",
 }
 
 
