@@ -55,9 +55,8 @@ class ClbPins {
     }
     history_.push_front(slave.out);
     while (history_.size() > delay + 1) history_.pop_back();
-    const bool spi_clock = output(sim::ClbModel::kSpiClk);
-    if (spi_clock && !spi_before_) spi_rises.push_back(now);
-    spi_before_ = spi_clock;
+    if (spi_clock() && !spi_before_) spi_rises.push_back(now);
+    spi_before_ = spi_clock();
     EXPECT_FALSE(output(sim::ClbModel::kTxen));
   }
   void clocks(std::uint64_t count) {
@@ -76,12 +75,8 @@ class ClbPins {
   }
   bool ma() const { return output(sim::MasterModel::of_line(0, sim::kMaPin)); }
   bool irq() const { return output(sim::ClbModel::kIrq); }
-  // rst_ni is low for so many clocks.
-  void reset(unsigned low) {
-    model_->set_reset(time_, true);
-    clocks(low);
-    model_->set_reset(time_, false);
-  }
+  bool spi_clock() const { return output(sim::ClbModel::kSpiClk); }
+  void reset(bool active) { model_->set_reset(time_, active); }
 
   // What the encoder sends from now on: CDS, position, nE and nW, inverted CRC.
   void set_word(std::uint64_t position, unsigned bits, unsigned flags = 3, bool cds = false,

@@ -292,6 +292,44 @@ TEST_F(Clb, Overflow_DropsTheNewWordAndInterrupts) {
   EXPECT_EQ(words[1], 0x1DCU);
   for (std::size_t i = 2; i < 16; ++i) EXPECT_EQ(words[i], 0U) << "the encoder's timeout";
   EXPECT_EQ(bench.read(reg::kAddrSpirxbuf), 0U);
+  constexpr std::uint32_t kOverflow = reg::RXFFOVF::kMask;
+  bench.write(reg::kAddrSpiffrx, reg::RXFIFORESET::kMask);
+  EXPECT_EQ(bench.read(reg::kAddrSpiffrx) & kOverflow, kOverflow) << "stays";
+  bench.write(reg::kAddrSpiffrx, reg::RXFIFORESET::kMask | reg::RXFFOVFCLR::kMask);
+  EXPECT_EQ(bench.read(reg::kAddrSpiffrx) & kOverflow, 0U);
+}
+
+TEST_F(Clb, SixteenWords_AreNoOverflow) {
+  bench.set_half(4);
+  timeout(20'000);
+  bench.start(23, 16);
+  rest(16 * 12 * 8 + 1000);
+  EXPECT_EQ(bench.spi_rises.size(), 16U * 12U);
+  EXPECT_EQ(bench.read(reg::kAddrSpiffrx) >> 7U, 0x61U) << "16 words, RXFFINT";
+  EXPECT_EQ(bench.read(reg::kAddrIrqStatus), 9U);
+}
+
+TEST_F(Clb, WriteOfSpirxbuf_TakesNoWordOut) {
+  bench.set_half(10);
+  bench.set_word(0x0E08, 13);
+  timeout(300);
+  bench.start(23, 2);
+  rest();
+  bench.write(reg::kAddrSpirxbuf, 0);
+  EXPECT_EQ(bench.words(2), (Words{0x9C1, 0x1DC}));
+}
+
+// RXFFINT waits until it may interrupt.
+TEST_F(Clb, Rxffiena_LetsAnInterruptThatWaitsThrough) {
+  bench.set_half(10);
+  timeout(300);
+  bench.start(23, 2);
+  bench.write(reg::kAddrSpiffrx, reg::RXFIFORESET::kMask | 2U);
+  rest();
+  EXPECT_EQ(bench.read(reg::kAddrIrqStatus), reg::START_SEEN::kMask);
+  bench.write(reg::kAddrSpiffrx, reg::RXFIFORESET::kMask | reg::RXFFIENA::kMask | 2U);
+  rest(20);
+  EXPECT_EQ(bench.read(reg::kAddrIrqStatus), reg::START_SEEN::kMask | reg::RECEIVED::kMask);
 }
 
 TEST_F(Clb, OtherWordWidths_TakeTheSameBits) {
@@ -336,6 +374,32 @@ TEST_F(Clb, FrameWithoutStart_IsEndedByTheWatchdog) {
   timeout(300);
   EXPECT_EQ(frame(13).substr(0, 23), sent()) << "the next frame is good";
   EXPECT_EQ(bench.read(reg::kAddrFsmState) >> 24U, 0U);
+}
+
+// The start bit comes in each clock around the one in which the watchdog ends the frame: one of the
+// two has the frame, and the other leaves no trace.
+TEST_F(Clb, StartInAnyClockAroundTheWatchdog_HasTheFrameOrNone) {
+  constexpr unsigned kLimit = 5, kHalf = 4;
+  bench.set_half(kHalf);
+  bench.write(reg::kAddrWatchdog, kLimit);
+  unsigned ended = 0, began = 0;
+  for (unsigned place = 0; place < 4 * kHalf; ++place) {
+    std::optional<std::uint64_t> from;
+    bench.drive_sl = [&] {
+      if (bench.rises.size() == kLimit - 1 && !from) from = bench.now;
+      return from && bench.now >= *from + place;
+    };
+    bench.write(reg::kAddrIrqStatus, 0xFF);
+    bench.start(23, 2);
+    rest(600);
+    const bool watchdog = bench.read(reg::kAddrFsmState) >> 24U != 0;
+    EXPECT_EQ(bench.read(reg::kAddrIrqStatus), watchdog ? 2U : 9U) << place;
+    EXPECT_EQ(bench.words(2, 100), watchdog ? Words{} : (Words{0xFFF, 0xFFF})) << place;
+    ++(watchdog ? ended : began);
+    EXPECT_TRUE(watchdog || ended == 0) << place;
+  }
+  EXPECT_GT(ended, 0U);
+  EXPECT_GT(began, 0U);
 }
 
 TEST_F(Clb, Watchdog0_RunsWithoutEndUntilTheTileIsReset) {
@@ -465,6 +529,142 @@ TEST_F(Clb, BytesWithoutTheirStrobe_KeepTheirValue) {
   EXPECT_EQ(bench.read(reg::kAddrSpiffrx), 0x203FU);
   bench.write(reg::kAddrSpiffrx, 0, 0x2);
   EXPECT_EQ(bench.read(reg::kAddrSpiffrx), 0x003FU);
+}
+
+// What one register is written with changes no other one.
+TEST_F(Clb, WriteOfOneRegister_LeavesTheOthers) {
+  const auto skip = [](unsigned address) {
+    return address == reg::kAddrTimeLow || address == reg::kAddrFsmState;  // these move
+  };
+  for (const Row& written : kRows) {
+    bench.reset(true);
+    rest(3);
+    bench.reset(false);
+    rest(5);
+    // No frame: without the clock tile's START_OPERATION no clock runs.
+    bench.write(written.address, written.address == reg::kAddrClkGpreg ? 0 : 0xFFFF'FFFF);
+    for (const Row& row : kRows) {
+      if (&row == &written || skip(row.address)) continue;
+      EXPECT_EQ(bench.read(row.address), row.reset)
+          << std::hex << written.address << ' ' << row.address;
+    }
+  }
+}
+
+// A period of MA begins with its low half, and the first one does so when the count is 0.
+TEST_F(Clb, LoadOfTheMaCounter_SaysWhenMaFalls) {
+  constexpr unsigned kHalf = 50;
+  bench.set_half(kHalf);
+  std::vector<std::uint64_t> first;
+  for (const unsigned load : {kHalf - 1, kHalf - 11, 0U}) {
+    bench.load = load;
+    bench.start(23, 2);
+    const std::uint64_t begin = bench.now;
+    while (bench.falls.empty() && bench.now < begin + 1000) bench.clock();
+    ASSERT_EQ(bench.falls.size(), 1U);
+    first.push_back(bench.falls[0] - begin);
+    rest(kHalf);
+  }
+  EXPECT_EQ(first[1] - first[0], 10U);
+  EXPECT_EQ(first[2] - first[0], kHalf - 1U);
+}
+
+// In state 10 the next bit is taken as many clocks later as the count is lower. A write of another
+// register moves no bit.
+TEST_F(Clb, LoadOfTheReceiveCounter_SaysWhenTheNextBitIsTaken) {
+  constexpr unsigned kHalf = 100;
+  bench.set_half(kHalf);
+  timeout(100 * kHalf);
+  std::vector<std::uint64_t> taken;
+  for (const unsigned load : {90U, 60U, 0U}) {
+    bench.start(23, 2);
+    while (bench.spi_rises.size() < 3) bench.clock();
+    rest(20);
+    bench.write(reg::kAddrFsmHlcR0, 23);
+    bench.write(reg::kAddrClkCounter1Match1, kHalf - 1);
+    while (bench.spi_rises.size() < 4) bench.clock();
+    EXPECT_EQ(bench.spi_rises[3] - bench.spi_rises[2], 2 * kHalf);
+    rest(20);
+    bench.write(reg::kAddrClkCounter1Load, load);
+    const std::uint64_t written = bench.now;
+    while (bench.spi_rises.size() < 5) bench.clock();
+    taken.push_back(bench.spi_rises[4] - written);
+    rest(150 * kHalf);
+  }
+  EXPECT_EQ(taken[1] - taken[0], 30U);
+  EXPECT_EQ(taken[2] - taken[0], 90U);
+}
+
+// START_OPERATION of the clock tile is a level: without it nothing moves, and then all goes on.
+TEST_F(Clb, StartOperationOfTheClockTile_IsALevel) {
+  bench.set_half(10);
+  bench.set_word(0x0E08, 13);
+  timeout(5000);
+  bench.start(23, 2);
+  while (bench.spi_rises.size() < 5) bench.clock();
+  for (int stop = 0; stop < 40; ++stop) {
+    rest(3);
+    bench.write(reg::kAddrClkGpreg, 0);
+    const std::size_t edges = bench.rises.size() + bench.falls.size();
+    const std::size_t bits = bench.spi_rises.size();
+    rest(100);
+    EXPECT_EQ(bench.rises.size() + bench.falls.size(), edges);
+    EXPECT_EQ(bench.spi_rises.size(), bits);
+    bench.write(reg::kAddrClkGpreg, 1);
+  }
+  EXPECT_EQ(bench.words(2), (Words{0x9C1, 0x1DC}));
+}
+
+// START_OPERATION of the FSM tile is an edge: a 1 that is written again begins and ends nothing.
+TEST_F(Clb, StartOperationOfTheFsmTile_IsAnEdge) {
+  bench.set_half(10);
+  bench.set_word(0x0E08, 13);
+  timeout(300);
+  bench.start(23, 2);
+  for (int again = 0; again < 40; ++again) {
+    bench.write(reg::kAddrFsmGpreg, reg::END_LEVEL::kMask | reg::FSM_START_OPERATION::kMask);
+    rest(3);
+  }
+  EXPECT_EQ(bench.words(2), (Words{0x9C1, 0x1DC}));
+  EXPECT_EQ(bench.rises.size(), 26U + 1U) << "3 before START";
+}
+
+// GLOBAL_EN = 0 of either tile sets MA to 1, also in its low half.
+TEST_F(Clb, GlobalEn0OfATile_SetsMaTo1) {
+  bench.set_half(100);
+  for (const unsigned address : {reg::kAddrClkLoadEn, reg::kAddrFsmLoadEn}) {
+    bench.start(23, 2);
+    while (bench.falls.size() < 3) bench.clock();
+    rest(20);
+    EXPECT_FALSE(bench.ma());
+    bench.write(address, 0);
+    EXPECT_TRUE(bench.ma()) << address;
+    rest(1000);
+    EXPECT_TRUE(bench.ma()) << address;
+    EXPECT_EQ(bench.falls.size(), 3U) << address;
+    rest(4000);
+  }
+}
+
+// In each clock of a frame: MA, interrupt and receive clock have their levels at once.
+TEST_F(Clb, ResetInAFrame_SetsThePinsAtOnce) {
+  bench.set_half(10);
+  timeout(300);
+  for (unsigned clocks = 60; clocks < 120; ++clocks) {
+    bench.set_half(10);
+    bench.write(reg::kAddrIrqEnable, 8);
+    bench.start(23, 2);
+    rest(clocks);
+    bench.reset(true);
+    EXPECT_TRUE(bench.ma());
+    EXPECT_FALSE(bench.irq());
+    EXPECT_FALSE(bench.spi_clock());
+    rest(3);
+    bench.reset(false);
+    rest(600);
+    EXPECT_TRUE(bench.ma());
+    EXPECT_EQ(bench.state(), 0U);
+  }
 }
 
 TEST_F(Clb, Load_SetsTheCountersAtOnce) {
