@@ -685,10 +685,12 @@ static inline void mb4_cyclic_plan(mb4_cyclic *read, mb4_plan *plan, uint8_t wit
     if ((with & MB4_WITH_UNHELD) == 0 || !read->unheld) {
       mb4_cyclic_add_instruction(plan, MB4_CYCLIC_AGS);
     }
-    mb4_cyclic_add_clear(plan, 0xAAAAU, 4); /* SVALID1 to 8: of the other slaves too */
-    if (mb4_cyclic_proves(read, with)) {
-      mb4_cyclic_add_clear(plan, 0xAAAAU, 4); /* no status shows that one was lost */
-    }
+    if ((with & MB4_WITH_FULL) == 0 || !read->watch->astray || read->unheld) {
+      mb4_cyclic_add_clear(plan, 0xAAAAU, 4); /* SVALID1 to 8: of the other slaves too */
+      if (mb4_cyclic_proves(read, with)) {
+        mb4_cyclic_add_clear(plan, 0xAAAAU, 4); /* no status shows that one was lost */
+      }
+    } /* else the bank is free, and what waits is good if no line is forced */
   } else if (read->built == plan) {
     read->stage = MB4_STAGE_DATA;
     read->code = MB4_OK;
