@@ -181,7 +181,7 @@ module axi_delays #(
           wait_q  <= 1'b0;
         end else begin
           if (second_q && place_q == INDEX_W'(i)) shift_q <= known ? behind[9:1] : 9'd0;
-          left_q <= start_i ? shift_q - 9'd1 : left_q - 9'd1;
+          if (start_i || wait_q) left_q <= start_i ? shift_q - 9'd1 : left_q - 9'd1;
           wait_q <= !clear_i && enabled_i[i] &&
                     ((start_i && later) || (wait_q && left_q != 9'd0));
         end

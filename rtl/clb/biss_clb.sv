@@ -129,6 +129,7 @@ module biss_clb #(
     .clk_i,
     .rst_ni       (rst_n),
     .bus_i        (bus),
+    .read_addr_i  ({s_axi_araddr[11:2], 2'b00}),
     .data_o       (page_data),
     .watchdog_o   (watchdog),
     .received_i   (received),

@@ -61,6 +61,8 @@ module clb_frame (
   logic [15:0] count_q;
   logic [15:0] match_q;
   logic        begun_q;         // first clock of state 10
+  logic        second_q;        // second clock of state 10
+  logic        equal_q;         // the count was the match in the clock before
   logic        count_step;
   logic [15:0] count_next;
   logic [15:0] match_sum;
@@ -131,7 +133,9 @@ module clb_frame (
   assign level    = (level_q && !(ma_wrap && half_q)) || ma_match;
   assign high     = level || hold_q;
   assign rise     = sends && high && !ma_q;
-  assign count_is_match = begun_q ? cfg_i.r0 == 8'd0 : count_q == match_q;
+  // MA rises in every second clock at most. So at a rise the count has been there for a clock, and
+  // no edge of state 10 has been sent before its third clock if one is sent in its second.
+  assign count_is_match = (begun_q || second_q) ? cfg_i.r0 == 8'd0 : equal_q;
   assign count_step = rise && !complete;
   assign count_next = count_q + 16'd1;
   assign match_sum  = count_q + 16'(cfg_i.r0);
@@ -146,6 +150,7 @@ module clb_frame (
       level_q    <= 1'b1;
       hold_q     <= 1'b1;
       begun_q    <= 1'b0;
+      second_q   <= 1'b0;
       watchdog_q <= 1'b0;
       ma_q       <= 1'b1;
     end else begin
@@ -154,6 +159,7 @@ module clb_frame (
       level_q    <= level || !cfg_i.clock_enable;
       hold_q     <= !sends || (hold_q && !level);
       begun_q    <= !clear && state == clb_pkg::TRANSMIT && sl_rise;
+      second_q   <= begun_q;
       watchdog_q <= !clear && (watchdog_q || expired);
       unique case (state_next)
         clb_pkg::IDLE:    ma_q <= 1'b1;
@@ -167,7 +173,9 @@ module clb_frame (
     if (!rst_ni) begin
       count_q <= '0;
       match_q <= 16'(clb_regs_pkg::RESET_FSM_COUNTER_1_MATCH1);
+      equal_q <= 1'b0;
     end else begin
+      equal_q <= count_q == match_q;
       if (clear || count_step || act_i.count_load)
         count_q <= (count_next & {16{!clear && !act_i.count_load}}) |
                    (data_i & {16{!clear && act_i.count_load}});

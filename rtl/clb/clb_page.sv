@@ -4,9 +4,10 @@
 // The page of biss_clb: identity, interrupt, time, watchdog.
 //
 // Clock domain: core. An access never waits. Words of other modules read 0. Reading TIME_LOW copies
-// the high word. An event is in IRQ_STATUS at most 6 clocks later.
+// the high word. An event is in IRQ_STATUS at most 6 clocks later. The copy takes its address from
+// the clock before the access, so that it is no long path.
 //
-// Misuse: a write of WATCHDOG without the strobes of both of its bytes has no effect.
+// Misuse: a read whose address was another one in the clock before copies by that one. A write of WATCHDOG without the strobes of both of its bytes has no effect.
 // Source: regmap/clb.rdl; docs/clb.md.
 
 module clb_page #(
@@ -15,6 +16,7 @@ module clb_page #(
   input  logic        clk_i,
   input  logic        rst_ni,
   input  clb_pkg::bus_t bus_i,
+  input  logic [11:0] read_addr_i,     // of the bus's read channel; it stands one clock before bus_i.rd
   output logic [31:0] data_o,
   output logic [15:0] watchdog_o,
   // events, each high for one clock
@@ -26,6 +28,7 @@ module clb_page #(
 
   logic [63:0] now;
   logic [31:0] high_q;
+  logic        at_low_q;        // a read in this clock is one of TIME_LOW
   logic [15:0] watchdog_q;
   logic        wr_watchdog;
   logic        irq_byte;
@@ -61,9 +64,11 @@ module clb_page #(
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
       high_q     <= '0;
+      at_low_q   <= 1'b0;
       watchdog_q <= 16'(Watchdog);
     end else begin
-      if (bus_i.rd && bus_i.addr == clb_regs_pkg::ADDR_TIME_LOW) high_q <= now[63:32];
+      at_low_q <= read_addr_i == clb_regs_pkg::ADDR_TIME_LOW;
+      if (bus_i.rd && at_low_q) high_q <= now[63:32];
       if (wr_watchdog) watchdog_q <= bus_i.data[15:0];
     end
   end

@@ -5,11 +5,14 @@
 // its waveform. `Interface` is the master's own: a MasterModel and a WordManager. `Counts`: what
 // moves while it is at rest (ModelRest). `Self`, the class that is made of it, evaluates the model:
 //
-//   void before(Time now)        before a rising edge: inputs that wait, and what the edge
-//   transfers void rise(), void fall()     an edge void passed()                clocks were left
-//   out void answered()              the access has ended void moved()                 pins of the
-//   bus have changed, and the next edge sees it void pack()                  sets outputs_ void
-//   changed(Outputs before) an edge has changed outputs_
+//   void before(Time now)   before a rising edge: inputs that wait, and what the edge transfers
+//   void rise()             an edge
+//   void fall()             an edge
+//   void passed()           clocks were left out
+//   void answered()         the access has ended
+//   void moved()            pins of the bus have changed, and the next edge sees it
+//   void pack()             sets outputs_
+//   void changed(Outputs)   an edge has changed outputs_, from these
 #ifndef MB4SIM_MODEL_ONE_CLOCK_MASTER_HPP_
 #define MB4SIM_MODEL_ONE_CLOCK_MASTER_HPP_
 
