@@ -55,7 +55,7 @@ class ClbPins {
     }
     history_.push_front(slave.out);
     while (history_.size() > delay + 1) history_.pop_back();
-    if (spi_clock() && !spi_before_) spi_rises.push_back(now);
+    if (spi_clock() != spi_before_) (spi_clock() ? spi_rises : spi_falls).push_back(now);
     spi_before_ = spi_clock();
     EXPECT_FALSE(output(sim::ClbModel::kTxen));
   }
@@ -116,6 +116,7 @@ class ClbPins {
     rises.clear();
     falls.clear();
     spi_rises.clear();
+    spi_falls.clear();
     write(reg::kAddrClkCounter0Load, load);
     write(reg::kAddrFsmGpreg, end | 1U);
     write(reg::kAddrClkGpreg, 1);
@@ -145,7 +146,7 @@ class ClbPins {
   std::function<bool()> drive_sl;  // instead of the encoder
   std::function<void(bool cdm)> after_frame;
   std::vector<bool> cdms;
-  std::vector<std::uint64_t> rises, falls, spi_rises;
+  std::vector<std::uint64_t> rises, falls, spi_rises, spi_falls;
   std::uint64_t now = 0;
   unsigned load = 9;
 

@@ -178,6 +178,9 @@ TEST_F(Clb, EdgeOfSlInEveryClockOf2Periods_GivesEveryBit) {
       ASSERT_EQ(bench.spi_rises.size(), 36U);
       for (std::size_t i = 1; i < bench.spi_rises.size(); ++i)
         EXPECT_EQ(bench.spi_rises[i] - bench.spi_rises[i - 1], 2 * half);
+      // The receive clock falls at 0.
+      ASSERT_GE(bench.spi_falls.size(), 35U);
+      for (std::size_t i = 0; i < 35; ++i) EXPECT_EQ(bench.spi_falls[i] - bench.spi_rises[i], half);
       rest(70 * half);
     }
   }
@@ -317,6 +320,45 @@ TEST_F(Clb, WriteOfSpirxbuf_TakesNoWordOut) {
   rest();
   bench.write(reg::kAddrSpirxbuf, 0);
   EXPECT_EQ(bench.words(2), (Words{0x9C1, 0x1DC}));
+}
+
+TEST_F(Clb, Rxffint_StaysUntilItIsClearedBelowItsLevel) {
+  const auto raised = [this] { return reg::RXFFINT::get(bench.read(reg::kAddrSpiffrx)) != 0; };
+  const std::uint32_t clear = reg::RXFIFORESET::kMask | reg::RXFFINTCLR::kMask | 2U;
+  bench.set_half(10);
+  timeout(300);
+  bench.start(23, 2);
+  rest();
+  EXPECT_TRUE(raised());
+  bench.write(reg::kAddrSpiffrx, clear);
+  EXPECT_TRUE(raised()) << "two words wait";
+  bench.read(reg::kAddrSpirxbuf);
+  EXPECT_TRUE(raised()) << "below the level";
+  bench.write(reg::kAddrSpiffrx, clear);
+  EXPECT_FALSE(raised());
+}
+
+// A write of SPICCR drops a part word: in each clock around the last bit of a word it leaves this
+// word whole, or nothing of it. The next word begins with the next bit.
+TEST_F(Clb, SpiccrInAnyClockAroundTheLastBit_LeavesAWordOrNone) {
+  bench.set_half(10);
+  bench.drive_sl = [this] { return bench.rises.size() != 2; };
+  bool kept = false, dropped = false;
+  for (unsigned place = 0; place < 24; ++place) {
+    bench.start(40, 3);
+    while (bench.spi_rises.size() < 11) bench.clock();
+    rest(place);
+    bench.write(reg::kAddrSpiccr, reg::SPISWRESET::kMask | 11U);
+    rest(1500);
+    EXPECT_EQ(bench.spi_rises.size(), 36U);
+    const Words words = bench.words(3, 100);
+    // Of 36 bits: three words, or two behind 11 or 12 that are dropped.
+    ASSERT_TRUE(words.size() == 3 || words.size() == 2) << place;
+    for (const unsigned word : words) EXPECT_EQ(word, 0xFFFU) << place;
+    (words.size() == 3 ? kept : dropped) = true;
+  }
+  EXPECT_TRUE(kept);
+  EXPECT_TRUE(dropped);
 }
 
 // RXFFINT waits until it may interrupt.
@@ -615,8 +657,12 @@ TEST_F(Clb, StartOperationOfTheClockTile_IsALevel) {
   EXPECT_EQ(bench.words(2), (Words{0x9C1, 0x1DC}));
 }
 
-// START_OPERATION of the FSM tile is an edge: a 1 that is written again begins and ends nothing.
+// START_OPERATION of the FSM tile is an edge: a 0 begins nothing, and neither does a 1 that is
+// written again, nor does it end anything.
 TEST_F(Clb, StartOperationOfTheFsmTile_IsAnEdge) {
+  bench.write(reg::kAddrFsmLoadEn, reg::FSM_GLOBAL_EN::kMask);
+  bench.write(reg::kAddrFsmGpreg, reg::END_LEVEL::kMask);
+  EXPECT_EQ(bench.state(), 0U);
   bench.set_half(10);
   bench.set_word(0x0E08, 13);
   timeout(300);
