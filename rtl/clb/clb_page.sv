@@ -7,7 +7,8 @@
 // the high word. An event is in IRQ_STATUS at most 6 clocks later. The copy takes its address from
 // the clock before the access, so that it is no long path.
 //
-// Misuse: a read whose address was another one in the clock before copies by that one. A write of WATCHDOG without the strobes of both of its bytes has no effect.
+// Misuse: a read whose address was another one in the clock before copies by that one. A write of
+// WATCHDOG without the strobes of both of its bytes has no effect.
 // Source: regmap/clb.rdl; docs/clb.md.
 
 module clb_page #(
@@ -16,7 +17,7 @@ module clb_page #(
   input  logic        clk_i,
   input  logic        rst_ni,
   input  clb_pkg::bus_t bus_i,
-  input  logic [11:0] read_addr_i,     // of the bus's read channel; it stands one clock before bus_i.rd
+  input  logic [11:0] read_addr_i,     // of the read channel; it is there a clock before bus_i.rd
   output logic [31:0] data_o,
   output logic [15:0] watchdog_o,
   // events, each high for one clock
