@@ -531,11 +531,11 @@ MB4_APART uint8_t mb4_cyclic_release(mb4_cyclic *read, mb4_plan *plan, uint8_t c
   return MB4_MORE;
 }
 
-/* A status shows whether the bank is free; until then it counts as held. It goes on to 0xF5 where
- * that has to be seen. */
+/* A status shows whether the bank is free; FULL_AND_RELEASE: until then it counts as held. It goes
+ * on to 0xF5 where that has to be seen. */
 static inline uint8_t mb4_cyclic_prove(mb4_cyclic *read, mb4_plan *plan, uint8_t stage,
-                                       uint8_t code) {
-  read->watch->held = true;
+                                       uint8_t code, uint8_t with) {
+  read->watch->held = read->watch->held || mb4_cyclic_proves(read, with);
   (void)mb4_cyclic_next(read, plan, stage, code);
   mb4_cyclic_add_proof(plan, read->watch->astray);
   return MB4_MORE;
@@ -549,7 +549,7 @@ MB4_APART uint8_t mb4_cyclic_try(mb4_cyclic *read, mb4_plan *plan, uint8_t with)
   if (!unheld) {
     mb4_cyclic_add_instruction(plan, MB4_CYCLIC_HOLD);
   } else if (full) {
-    mb4_cyclic_add_proof(plan, read->again); /* SVALID = 0 of the first try was not seen */
+    mb4_cyclic_add_proof(plan, read->watch->astray);
   }
   if (read->stage == MB4_STAGE_DATA) {
     mb4_cyclic_add_data(read, plan, read->flags, with);
@@ -559,6 +559,11 @@ MB4_APART uint8_t mb4_cyclic_try(mb4_cyclic *read, mb4_plan *plan, uint8_t with)
     mb4_cyclic_add_clear(plan, read->flags, 6);
   }
   return MB4_MORE;
+}
+
+/* FULL: the read begins with a look at 0xF5. Unheld the first status of each try has it. */
+static inline bool mb4_cyclic_looks(const mb4_cyclic *read, uint8_t with) {
+  return (with & MB4_WITH_FULL) != 0 && read->watch->astray && !read->unheld;
 }
 
 /* mb4_cyclic.parts */
@@ -678,14 +683,14 @@ static inline void mb4_cyclic_plan(mb4_cyclic *read, mb4_plan *plan, uint8_t wit
     read->one_frame = true;
   }
   mb4_cyclic_all(read, with);
-  if (read->watch->held) {
+  if (read->watch->held || mb4_cyclic_looks(read, with)) {
     /* Words that have waited in a held bank, or behind it, are old. INSTR = 000 beside an access is
      * for chips that allow it; the access itself has begun with HOLDBANK = 0. */
     (void)mb4_cyclic_next(read, plan, MB4_STAGE_FREE, MB4_OK);
     if ((with & MB4_WITH_UNHELD) == 0 || !read->unheld) {
       mb4_cyclic_add_instruction(plan, MB4_CYCLIC_AGS);
     }
-    if ((with & MB4_WITH_FULL) == 0 || !read->watch->astray || read->unheld) {
+    if (read->watch->held) {
       mb4_cyclic_add_clear(plan, 0xAAAAU, 4); /* SVALID1 to 8: of the other slaves too */
       if (mb4_cyclic_proves(read, with)) {
         mb4_cyclic_add_clear(plan, 0xAAAAU, 4); /* no status shows that one was lost */
@@ -1105,6 +1110,7 @@ static inline uint8_t mb4_cyclic_take_unheld(mb4_cyclic *read, mb4_plan *plan, u
     return code;
   }
   if (mb4_cyclic_valid(read) != 0 || mb4_cyclic_frame_bad(read)) {
+    read->watch->astray = (with & MB4_WITH_FULL) != 0; /* or a frame has ended */
     mb4_cyclic_all(read, with);
     return mb4_cyclic_unheld(read, plan, MB4_BANK_SWITCHED, with);
   }
@@ -1134,13 +1140,12 @@ static inline uint8_t mb4_cyclic_take_look(mb4_cyclic *read, mb4_plan *plan, uin
   }
   if (unheld) {
     if (code == MB4_OK && mb4_cyclic_forced(plan)) {
-      read->watch->held = true;
-      read->watch->astray = true;
       code = MB4_CORRUPTED;
     }
     if (code != MB4_OK) {
       return code;
     }
+    read->watch->astray = false;
     if (read->fresh == 0) {
       return mb4_cyclic_unheld(read, plan, MB4_OK, with);
     }
@@ -1333,11 +1338,11 @@ static inline uint8_t mb4_cyclic_step(mb4_cyclic *read, mb4_plan *plan, bool tra
                : mb4_cyclic_watch(read, plan, MB4_OK, now_us, with);
   }
   if (stage == MB4_STAGE_FREE) {
-    read->watch->held = !transferred;
+    read->watch->held = !transferred && read->watch->held;
     read->watch->news_us = now_us; /* no bank was switched meanwhile */
     if (transferred && (with & MB4_WITH_FULL) != 0 &&
         (read->watch->astray || (!read->unheld && mb4_cyclic_proves(read, with)))) {
-      return mb4_cyclic_prove(read, plan, MB4_STAGE_PROVE_FREE, code);
+      return mb4_cyclic_prove(read, plan, MB4_STAGE_PROVE_FREE, code, with);
     }
     return transferred ? mb4_cyclic_try(read, plan, with) : code;
   }
@@ -1347,9 +1352,9 @@ static inline uint8_t mb4_cyclic_step(mb4_cyclic *read, mb4_plan *plan, bool tra
       return mb4_cyclic_release(read, plan, code);
     }
     if (transferred && mb4_cyclic_proves(read, with)) {
-      return mb4_cyclic_prove(read, plan, MB4_STAGE_PROVE_END, code);
+      return mb4_cyclic_prove(read, plan, MB4_STAGE_PROVE_END, code, with);
     }
-    read->watch->held = !transferred || ((with & MB4_WITH_FULL) != 0 && read->watch->astray);
+    read->watch->held = !transferred;
   } else if ((with & MB4_WITH_FULL) != 0 && stage >= MB4_STAGE_PROVE_END) {
     code = transferred ? mb4_cyclic_take_proof(read, plan) : code;
     if (stage == MB4_STAGE_PROVE_FREE && code == MB4_OK) {
