@@ -19,7 +19,7 @@ import report  # noqa: E402
 import yosys  # noqa: E402
 
 # top: room, parameters, most LUT4, least MHz
-LIMITS = {"biss_clb": ("clb", {}, 650, 100), "biss_pru": ("pru", {"ClockHz": 80_000_000}, 1100, 80)}
+LIMITS = {"biss_clb": ("clb", {}, 650, 100), "biss_pru": ("pru", {"ClockHz": 80_000_000}, 1120, 80)}
 
 
 def size(top, folder):
